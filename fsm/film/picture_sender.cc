@@ -2,38 +2,19 @@
 
 #include <poll.h>
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <cassert>
 #include <cerrno>
-#include <system_error>
 
 #include "fsm/image/image_codec.h"
+#include "vm_protocol/runtime/unix_socket.h"
 
 namespace fsm {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{
     50};  // how often a thread that waits for the receiver looks whether to end
-
-/// A socket connected to `path`, or -1 and errno.
-int Open(const std::string& path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.empty() || path.size() >= sizeof address.sun_path) {
-    errno = ENAMETOOLONG;
-    return -1;
-  }
-  path.copy(address.sun_path, path.size());
-  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (fd < 0 || connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
-    return fd;
-  const int why = errno;
-  close(fd);
-  errno = why;
-  return -1;
-}
 
 /// Head and picture; empty if it cannot be compressed.
 std::vector<std::uint8_t> Record(vm::Time at, const Image& picture) {
@@ -49,12 +30,11 @@ std::vector<std::uint8_t> Record(vm::Time at, const Image& picture) {
 
 vm::Result<std::unique_ptr<PictureSender>> PictureSender::Connect(const std::string& path,
                                                                   std::chrono::milliseconds stall) {
-  const int fd = Open(path);
-  if (fd < 0) {
-    return vm::Fail(vm::Errc::kUnavailable, "nobody takes pictures at '" + path +
-                                                "': " + std::generic_category().message(errno));
+  const auto fd = vm::ConnectUnix(path);
+  if (!fd) {
+    return vm::Fail(fd.error().code, "nobody takes pictures at '" + path + "': " + fd.error().text);
   }
-  return std::unique_ptr<PictureSender>(new PictureSender(fd, stall));
+  return std::unique_ptr<PictureSender>(new PictureSender(*fd, stall));
 }
 
 PictureSender::~PictureSender() {

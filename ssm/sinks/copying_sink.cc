@@ -1,14 +1,14 @@
 #include "ssm/sinks/copying_sink.h"
 
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <span>
 #include <utility>
+
+#include "vm_protocol/runtime/unix_socket.h"
 
 namespace ssm {
 namespace {
@@ -27,24 +27,6 @@ std::string SoundRecord(vm::Time at, std::span<const std::int16_t> samples) {
   return record;
 }
 
-/// A socket connected to `path`, or -1 and errno.
-int Connect(const std::string& path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.empty() || path.size() >= sizeof address.sun_path) {
-    errno = ENAMETOOLONG;
-    return -1;
-  }
-  path.copy(address.sun_path, path.size());
-  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (fd < 0 || connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
-    return fd;
-  const int why = errno;
-  close(fd);
-  errno = why;
-  return -1;
-}
-
 }  // namespace
 
 CopyingSink::CopyingSink(vm::Scheduler& scheduler, std::unique_ptr<AudioSink> sink)
@@ -59,11 +41,10 @@ vm::Result<void> CopyingSink::SendTo(const std::string& to) {
   if (!to.starts_with(kUnix)) {
     return vm::Fail(vm::Errc::kBadValue, "found '" + to + "', expected NONE or unix:PATH");
   }
-  fd_ = Connect(to.substr(kUnix.size()));
-  if (fd_ < 0) {
-    return vm::Fail(vm::Errc::kUnavailable,
-                    "nobody takes sound at '" + to + "': " + std::strerror(errno));
-  }
+  const auto fd = vm::ConnectUnix(to.substr(kUnix.size()));
+  if (!fd)
+    return vm::Fail(fd.error().code, "nobody takes sound at '" + to + "': " + fd.error().text);
+  fd_ = *fd;
   to_ = to;
   last_taken_ = scheduler_.Now();
   if (samples_) copied_ = Where().frames;
