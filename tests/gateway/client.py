@@ -5,12 +5,13 @@ Over a WebSocket a step is
     sound:FILE[:BYTES]   the file's bytes as binary messages of so many bytes (3200)
     text:TEXT            a text message
     until:TYPE           prints what comes until a message of that type, which is printed, too
-    flood:BYTES          so many bytes of sound, without reading anything
+    flood:BYTES          so many bytes of sound, without reading anything; `cut off` is printed if the other end closes meanwhile
     end                  prints what comes until the connection ends
 A status other than 101 is printed as `status CODE` and ends it. Over HTTP the body is posted: `status CODE TYPE` is printed, then
 the answer (its length where it is no text).
 """
 import base64
+import contextlib
 import json
 import os
 import socket
@@ -21,6 +22,7 @@ import urllib.parse
 import urllib.request
 
 LIMIT_S = 60
+CUT_OFF = (ConnectionResetError, BrokenPipeError)
 
 
 class WebSocket:
@@ -75,7 +77,7 @@ class WebSocket:
                 elif length == 127:
                     length = struct.unpack(">Q", self.take(8))[0]
                 payload = self.take(length)
-            except (EOFError, ConnectionResetError):
+            except (EOFError, *CUT_OFF):
                 return None
             if first & 15 == 8:
                 return None
@@ -95,7 +97,7 @@ def follow(url, steps):
         if kind == "sound":
             name, _, size = rest.partition(":")
             size = int(size or 3200)
-            with open(name, "rb") as file:
+            with open(name, "rb") as file, contextlib.suppress(*CUT_OFF):
                 while piece := file.read(size):
                     web.send(2, piece)
         elif kind == "text":
@@ -104,7 +106,7 @@ def follow(url, steps):
             try:
                 for _ in range(int(rest) // 65536):
                     web.send(2, bytes(65536))
-            except (ConnectionResetError, BrokenPipeError):
+            except CUT_OFF:
                 print("cut off")
         else:
             while (text := web.read()) is not None:
