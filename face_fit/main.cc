@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
@@ -72,31 +70,27 @@ void FindPointsOfHead(const Options& options) {
   const auto points = facefit::FindHeadPoints(networks, file, options.head, options.base);
   progress.Say("points found");
   const std::string path = options.out.empty() ? options.head + ".points" : options.out;
-  std::ofstream out(path);
-  if (!(out << fsm::FormatHeadPoints(points)).flush()) {
-    throw std::runtime_error("cannot write '" + path + "'");
-  }
+  vm::OrThrow(vm::WriteTextFile(path, fsm::FormatHeadPoints(points)));
   std::cout << "face_fit: wrote " << path << "\n";
 }
 
 /// The face asked for, found by the networks; `faces`: how many there are.
 facefit::FoundFace FindFace(const Options& options, facefit::FaceNetworks& networks,
                             const fsm::Image& photo, int& faces) {
-  const auto boxes = facefit::FindFaces(networks, photo);
+  const auto found = facefit::FindFaces(networks, photo);
   const char* by_hand = "; --points FILE with a few points set by hand helps (docs/photo.md)";
-  if (boxes.empty()) {
+  if (found.empty()) {
     throw std::runtime_error(
         "no face found in '" + options.photo +
         "': it should look into the camera, be lit and fill a tenth of the picture or more" +
         by_hand);
   }
-  faces = static_cast<int>(boxes.size());
+  faces = static_cast<int>(found.size());
   if (options.face < 1 || options.face > faces) {
     throw std::runtime_error("--face " + std::to_string(options.face) + ": there are " +
                              std::to_string(faces) + ", counted from the largest");
   }
-  facefit::FoundFace face =
-      facefit::FindPoints(networks, photo, boxes[static_cast<std::size_t>(options.face - 1)]);
+  const facefit::FoundFace& face = found[static_cast<std::size_t>(options.face - 1)];
   if (face.certainty < facefit::kCertainFace) {
     throw std::runtime_error("what looked like a face in '" + options.photo +
                              "' has no eyes, nose and mouth that can be told apart" + by_hand);
@@ -176,25 +170,13 @@ void CheckOptions(const Options& options) {
   }
 }
 
-void WriteFolder(const std::string& folder, const fsm::Image& picture, const fsm::PhotoHead& head,
-                 const std::string& report) {
-  std::filesystem::create_directories(folder);
-  vm::OrThrow(fsm::WriteImage(picture, folder + "/photo.png"));
-  for (const auto& [name, text] :
-       {std::pair("/report.txt", report), {"/face.txt", fsm::WritePhotoHead(head)}}) {
-    std::ofstream file(folder + name);
-    if (!(file << text).flush()) throw std::runtime_error("cannot write " + folder + name);
-  }
-}
-
 void Run(const Options& options) {
   using namespace facefit;
   if (!options.head.empty()) return FindPointsOfHead(options);
   CheckOptions(options);
   Progress progress(options.quiet);
-  const std::string folder =
-      (options.out.empty() ? fsm::FacesFolder() : options.out) + "/" + options.name;
-  const auto units = fsm::UnitsIn(fsm::UnitsFolder(folder, options.tables));
+  const std::string folder = options.out.empty() ? fsm::FacesFolder() : options.out;
+  const auto units = fsm::UnitsIn(fsm::UnitsFolder(folder + "/" + options.name, options.tables));
   std::optional<OriginalFace> original;
   if (!options.galatea.empty()) original = ReadOriginal(options);
   fsm::Image finest =
@@ -231,9 +213,9 @@ void Run(const Options& options) {
   const std::string report =
       PlaceInPhoto(found, photo) + Report(face, fit, near, bake.coverage, faces, head.glasses,
                                           DetectOcclusion(networks, base, face, near));
-  WriteFolder(folder, bake.picture, head, report);
+  const std::string place = vm::OrThrow(fsm::WriteFace(head, report, folder, options.name));
   progress.Say("written");
-  std::cout << report << "face_fit: wrote " << folder << "\n";
+  std::cout << report << "face_fit: wrote " << place << "\n";
 }
 
 }  // namespace

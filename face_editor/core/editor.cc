@@ -8,6 +8,7 @@
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/fit/side_view.h"
 #include "fsm/base/table_reader.h"
+#include "fsm/head/face_folder.h"
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/motion/motion_errors.h"
 #include "vm_protocol/core/text_file.h"
@@ -72,7 +73,7 @@ vm::Result<void> Editor::LoadPoints(const std::string& path) {
 
 vm::Result<void> Editor::SavePoints(const std::string& path) {
   if (!work_) return Fail(Errc::kBadValue, "there are no points: open a photo first");
-  if (auto done = WriteWhole(path, WritePoints(state().points)); !done) return done;
+  if (auto done = vm::WriteTextFile(path, WritePoints(state().points)); !done) return done;
   MarkSaved(Part::kPoints);
   return {};
 }
@@ -98,7 +99,7 @@ vm::Result<std::string> Editor::BuildFace(const std::string& name, const std::st
   if (!work_->base) return Fail(Errc::kUnavailable, work_->notice);
   const auto built = editor::BuildFace(*work_, state().points, sight_.get(), sides_);
   if (!built) return std::unexpected(built.error());
-  auto place = WriteFace(**built, folder, name);
+  auto place = fsm::WriteFace((*built)->photo_head, (*built)->report, folder, name);
   if (place && !(*built)->left_out.empty()) *place += "; left out: " + (*built)->left_out;
   return place;
 }

@@ -12,6 +12,7 @@
 #include "fsm/base/table_reader.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/head/make_head.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace editor {
 
@@ -87,7 +88,7 @@ vm::Result<std::string> Editor::SaveIdentity(const std::string& name, const std:
   }
   std::filesystem::create_directories(*place, code);
   const std::string text = WriteOwnFace({state().base, state().sliders, identity_other_});
-  if (auto done = WriteWhole(*place + "/identity.txt", text); !done) {
+  if (auto done = vm::WriteTextFile(*place + "/identity.txt", text); !done) {
     return std::unexpected(done.error());
   }
   MarkSaved(Part::kIdentity);

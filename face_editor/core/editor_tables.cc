@@ -16,6 +16,7 @@
 #include "fsm/base/table_reader.h"
 #include "fsm/motion/motion_errors.h"
 #include "fsm/motion/motion_reader.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace editor {
 
@@ -168,7 +169,7 @@ vm::Result<void> Editor::Save(Part part, const std::string& path, bool bilingual
   } else {
     return Fail(Errc::kBadValue, "this part has no table of its own");
   }
-  if (auto done = WriteWhole(path, text); !done) return done;
+  if (auto done = vm::WriteTextFile(path, text); !done) return done;
   const std::string& other = bilingual ? shapes14_text_ : shapes28_text_;
   // The other set of mouth shapes is a file of its own.
   if (part == Part::kMouth && WriteVisemes(other, shapes(!bilingual)) != other) return {};
@@ -201,7 +202,7 @@ vm::Result<int> Editor::SaveTables(const std::string& folder) {
   for (const File& file : files) {
     const std::string path = folder + "/" + file.name;
     if (file.text == file.built_in && !std::filesystem::exists(path, code)) continue;
-    if (auto done = WriteWhole(path, file.text); !done) return std::unexpected(done.error());
+    if (auto done = vm::WriteTextFile(path, file.text); !done) return std::unexpected(done.error());
     ++written;
   }
   for (const Part part : {Part::kEmotions, Part::kMouth, Part::kMotions, Part::kUnits}) {

@@ -25,6 +25,7 @@ facefit::FoundFace FoundFrom(const PointMap& points) {
   facefit::FoundFace face;
   face.certainty = 1;
   for (const auto& [i, at] : points) face.points.push_back(at);
+  face.crop = facefit::CropAround(face.points);
   return face;
 }
 
@@ -90,26 +91,25 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
     }
     work->base = sight->base;
     work->mirror = sight->mirror;
-    const auto boxes = facefit::FindFaces(sight->networks, work->photo);
-    work->faces = static_cast<int>(boxes.size());
+    const auto faces = facefit::FindFaces(sight->networks, work->photo);
+    work->faces = static_cast<int>(faces.size());
     if (face < 1 || (face > work->faces && face != 1)) {
       return vm::Fail(vm::Errc::kBadValue, "face " + std::to_string(face) + ": there are " +
                                                std::to_string(work->faces) +
                                                ", counted from the largest");
     }
-    if (boxes.empty()) {
+    if (faces.empty()) {
       work->notice = "No face was found: drag the points to where eyes, nose, mouth and chin are";
       by_hand();
     } else {
-      const facefit::FoundFace found = facefit::FindPoints(
-          sight->networks, work->photo, boxes[static_cast<std::size_t>(face - 1)]);
+      const facefit::FoundFace& found = faces[static_cast<std::size_t>(face - 1)];
       work->found = PointsOf(found);
       work->cover = facefit::DetectOcclusion(sight->networks, *work->base, found, work->photo);
     }
     const facefit::FoundFace seen = FoundFrom(work->found);
     work->figure = facefit::CutOut(
         work->photo,
-        facefit::FindFigure(sight->networks, work->photo, boxes.empty() ? nullptr : &seen));
+        facefit::FindFigure(sight->networks, work->photo, faces.empty() ? nullptr : &seen));
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue, path + ": " + error.what());
   }
@@ -155,37 +155,12 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
     built->photo_head = std::move(bake.head);
     built->report = facefit::Report(face, built->fit, work.photo, bake.coverage, work.faces,
                                     built->photo_head.glasses, work.cover);
-    built->picture = std::move(bake.picture);
-    built->photo_head.photo = std::make_shared<fsm::Image>(
-        fsm::Image{built->picture.width, built->picture.height, built->picture.rgba});
     built->head = fsm::MakeHead(built->photo_head);
     return built;
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue,
                     std::string("these points do not make a face: ") + error.what());
   }
-}
-
-vm::Result<std::string> WriteFace(const BuiltFace& face, const std::string& folder,
-                                  const std::string& name) {
-  if (!fsm::IsFaceName(name)) {
-    return vm::Fail(vm::Errc::kBadValue, "'" + name.substr(0, 70) +
-                                             "' cannot be a face's name: letters, digits, - and _ "
-                                             "expected, as anna");
-  }
-  const std::string place = (folder.empty() ? fsm::FacesFolder() : folder) + "/" + name;
-  std::error_code code;
-  std::filesystem::create_directories(place, code);
-  if (auto done = fsm::WriteImage(face.picture, place + "/photo.png"); !done) {
-    return std::unexpected(done.error());
-  }
-  if (auto done = WriteWhole(place + "/report.txt", face.report); !done) {
-    return std::unexpected(done.error());
-  }
-  if (auto done = WriteWhole(place + "/face.txt", fsm::WritePhotoHead(face.photo_head)); !done) {
-    return std::unexpected(done.error());
-  }
-  return place;
 }
 
 }  // namespace editor

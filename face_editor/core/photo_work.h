@@ -63,8 +63,7 @@ PointMap AllPoints(const PhotoWork& work, const PointMap& known);
 /// The head of the person, fitted to points on the photo.
 struct BuiltFace {
   facefit::Fit fit;
-  fsm::PhotoHead photo_head;  ///< its picture included
-  fsm::Image picture;
+  fsm::PhotoHead photo_head;
   std::string report;
   std::shared_ptr<const fsm::Head> head;
   std::string left_out;  ///< photos from the side that did not help, and why; may be empty
@@ -76,9 +75,4 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
                                                        const PointMap& points,
                                                        FaceSight* sight = nullptr,
                                                        const SidePhotos& sides = {});
-/// Writes the folder NAME that fsm --mask wears, into `folder` ("" = where fsm looks), and says
-/// where. Errors: kBadValue for a name, kUnavailable.
-vm::Result<std::string> WriteFace(const BuiltFace& face, const std::string& folder,
-                                  const std::string& name);
-
 }  // namespace editor

@@ -226,16 +226,4 @@ std::string WriteCurves(std::string_view text, const HeadCurves& curves) {
   return Joined(rows);
 }
 
-vm::Result<void> WriteWhole(const std::string& path, std::string_view text) {
-  const std::string beside = path + ".part";
-  std::ofstream file(beside, std::ios::binary);
-  const bool written = static_cast<bool>((file << text).flush());
-  file.close();
-  if (!written || std::rename(beside.c_str(), path.c_str()) != 0) {
-    std::remove(beside.c_str());
-    return vm::Fail(vm::Errc::kUnavailable, "cannot write '" + path + "'");
-  }
-  return {};
-}
-
 }  // namespace editor

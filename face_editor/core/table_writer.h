@@ -20,7 +20,4 @@ std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotio
 /// The movements of the head in motions.txt; its other lines are not touched.
 std::string WriteCurves(std::string_view text, const HeadCurves& curves);
 
-/// Puts a whole file in place of what is there, or leaves that as it is. Error: kUnavailable.
-vm::Result<void> WriteWhole(const std::string& path, std::string_view text);
-
 }  // namespace editor

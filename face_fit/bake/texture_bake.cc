@@ -208,8 +208,8 @@ TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& 
   }
   bake.coverage = Coverage(texels, map.seen);
   const SkinLook skin = FinishMap(base, fitted, texels, open, map);
-  bake.picture = SideBySide(map.image, BehindFace(base, fitted, figure), figure.opacity,
-                            fitted.pose.PixelsPerMm());
+  fsm::Image picture = SideBySide(map.image, BehindFace(base, fitted, figure), figure.opacity,
+                                  fitted.pose.PixelsPerMm());
   const auto eyes = EyesAtRest(base, fitted);
   const EyeColours eye_colours = SampleEyes(face, fit.irises, photo);
   const MouthColours mouth = SampleMouth(face, photo);
@@ -226,7 +226,7 @@ TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& 
                .teeth = mouth.teeth,
                .glasses = BarOnNose(face, photo) > kGlasses,
                .lip_colour = mouth.lip,
-               .eye_pictures = PaintEyes(base, face, fit, eyes, photo, bake.picture),
+               .eye_pictures = PaintEyes(base, face, fit, eyes, photo, picture),
                .saturation = skin.saturation,
                .lined = skin.lined,
                .skin_low = {kHalf, 1},
@@ -236,7 +236,7 @@ TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& 
                .skin_bottom_y = billboard.skin_bottom_y,
                .sheet = std::move(billboard.sheet),
                .sheet_triangles = std::move(billboard.triangles),
-               .photo = nullptr};
+               .photo = std::make_shared<fsm::Image>(std::move(picture))};
   return bake;
 }
 

@@ -5,13 +5,12 @@
 
 namespace facefit {
 
-/// A head made from a photo, and its texture. Left half: the skin, laid out by the head's texture
+/// A head made from a photo. Left half of its `photo`: the skin, laid out by the head's texture
 /// coordinates, alpha = how much is skin. Right half: the figure with hair, neck and clothes, and
 /// its opacity.
 struct TextureBake {
-  fsm::Image picture;
-  fsm::PhotoHead head;  ///< but for its `photo`, which is the picture
-  float coverage = 0;   ///< part of the face's map that the photo shows
+  fsm::PhotoHead head;
+  float coverage = 0;  ///< part of the face's map that the photo shows
 };
 
 inline constexpr int kMapSide = 1024;  ///< of each half

@@ -61,9 +61,9 @@ bool NoteBias(FaceNetworks& networks, const BaseHead& base, const FittedHead& fi
       fsm::Normals(base.head->topology().indices, turned.position, turned.position.size());
   const PortraitView portrait(kSide);
   const fsm::Image picture = portrait.Draw(*base.head, turned, {});
-  const auto boxes = FindFaces(networks, picture);
-  if (boxes.empty()) return false;
-  const FoundFace seen = FindPoints(networks, picture, boxes.front());
+  const auto faces = FindFaces(networks, picture);
+  if (faces.empty()) return false;
+  const FoundFace& seen = faces.front();
   for (Mark& mark : marks) {
     const MeshPoint& on_head = base.points[mark.point];
     mark.bias = (seen.At(mark.point) - portrait.Pixel(on_head.On(turned.position))) *
@@ -103,9 +103,9 @@ CameraPose FindPose(const BaseHead& base, const FittedHead& fitted, const FoundF
 
 vm::Result<PoseFit> FitSideView(FaceNetworks& networks, const BaseHead& base,
                                 const FittedHead& fitted, const fsm::Image& photo) {
-  const auto boxes = FindFaces(networks, photo);
-  if (boxes.empty()) return vm::Fail(vm::Errc::kBadValue, "no face is found in it");
-  const FoundFace face = FindPoints(networks, photo, boxes.front());
+  const auto faces = FindFaces(networks, photo);
+  if (faces.empty()) return vm::Fail(vm::Errc::kBadValue, "no face is found in it");
+  const FoundFace& face = faces.front();
   if (face.certainty < kLeastCertainty) {
     return vm::Fail(vm::Errc::kBadValue,
                     "no eyes, nose and mouth can be told apart in it; turned by 20 to 60 degrees "

@@ -22,10 +22,9 @@ glm::vec2 Turned(glm::vec2 p, float angle) {
 }  // namespace
 
 bool FaceWatch::Find(const fsm::Image& picture) {
-  const auto boxes = FindFaces(networks_, picture);
-  if (boxes.empty()) return false;
-  const FoundFace face = FindPoints(networks_, picture, boxes.front());
-  if (face.certainty < kCertainFace) return false;
+  const auto faces = FindFaces(networks_, picture);
+  if (faces.empty() || faces.front().certainty < kCertainFace) return false;
+  const FoundFace& face = faces.front();
   const EyeLine eyes = EyesOf(face);
   eyes_to_middle_ = Turned(face.crop.centre - eyes.middle, -eyes.angle);
   side_ = face.crop.side;

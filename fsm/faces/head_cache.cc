@@ -16,6 +16,8 @@
 #include "fsm/asset/asset_writer.h"
 #include "fsm/base/random.h"
 #include "fsm/faces/head_of_file.h"
+#include "vm_protocol/core/or_throw.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
@@ -77,14 +79,6 @@ std::string ReadAll(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Whole or not at all, also while others read it.
-void WriteWhole(const std::string& path, const std::string& bytes) {
-  const std::string unfinished = path + "." + std::to_string(getpid());
-  if (!(std::ofstream(unfinished, std::ios::binary) << bytes).flush())
-    throw std::runtime_error("cannot write '" + unfinished + "'");
-  fs::rename(unfinished, path);
-}
-
 void Tell(const std::string& what) { std::cerr << "fsm: notice: " << what << "\n"; }
 
 }  // namespace
@@ -125,8 +119,8 @@ void HeadCache::Keep(const std::string& entry, const std::string& made_from,
   try {
     fs::create_directories(folder_);
     DropOldest();
-    WriteWhole(entry + ".glb", WriteAsset(head, {}));
-    WriteWhole(entry + ".txt", made_from);
+    vm::OrThrow(vm::WriteTextFile(entry + ".glb", WriteAsset(head, {})));
+    vm::OrThrow(vm::WriteTextFile(entry + ".txt", made_from));
   } catch (const std::exception& error) {
     Tell(std::string("the head is not kept: ") + error.what());
   }

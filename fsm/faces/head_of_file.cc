@@ -212,12 +212,7 @@ std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string&
 }
 
 vm::Result<void> ExportHead(const Head& head, const MotionTables& tables, const std::string& path) {
-  std::ofstream file(path, std::ios::binary);
-  const auto shapes = ArkitShapes(tables);
-  if (!(file << WriteAsset(head, shapes)).flush()) {
-    return vm::Fail(vm::Errc::kUnavailable, "cannot write '" + path + "'");
-  }
-  return {};
+  return vm::WriteTextFile(path, WriteAsset(head, ArkitShapes(tables)));
 }
 
 }  // namespace fsm

@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <system_error>
 
+#include "fsm/image/image_file.h"
+#include "vm_protocol/core/text_file.h"
+
 namespace fsm {
 
 std::string FacesFolder() {
@@ -39,6 +42,23 @@ std::vector<std::string> FacesIn(const std::string& folder) {
   }
   std::ranges::sort(names);
   return names;
+}
+
+vm::Result<std::string> WriteFace(const PhotoHead& head, std::string_view report,
+                                  const std::string& folder, const std::string& name) {
+  if (!IsFaceName(name)) {
+    return vm::Fail(vm::Errc::kBadValue, "'" + name.substr(0, 70) +
+                                             "' cannot be a face's name: letters, digits, - and _ "
+                                             "expected, as anna");
+  }
+  const std::string place = (folder.empty() ? FacesFolder() : folder) + "/" + name;
+  std::error_code code;
+  std::filesystem::create_directories(place, code);
+  auto done = WriteImage(*head.photo, place + "/photo.png");
+  if (done) done = vm::WriteTextFile(place + "/report.txt", report);
+  if (done) done = vm::WriteTextFile(place + "/face.txt", WritePhotoHead(head));
+  if (!done) return std::unexpected(done.error());
+  return place;
 }
 
 }  // namespace fsm

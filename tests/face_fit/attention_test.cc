@@ -189,8 +189,7 @@ class AttentionTest : public AttentionNetworkTest {
   AttentiveFace See(const fsm::Image& picture) {
     const auto faces = FindFaces(*networks_, picture);
     if (faces.empty()) throw std::runtime_error("no face is seen");
-    return FindAttentivePoints(*attention_, picture,
-                               FindPoints(*networks_, picture, faces.front()).crop);
+    return FindAttentivePoints(*attention_, picture, faces.front().crop);
   }
 };
 

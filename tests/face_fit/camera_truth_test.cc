@@ -330,9 +330,9 @@ TEST_P(CameraTruthTest, ExactPointsAreFollowedWhateverTheCamera) {
 TEST_P(CameraTruthTest, WhatTheNetworkFindsIsFollowedWhateverTheCamera) {
   for (const TrueCamera& camera : kCameras) {
     const fsm::Image photo = camera.Photo(truth());
-    const auto boxes = FindFaces(*networks_, photo);
-    ASSERT_EQ(boxes.size(), 1U);
-    const FoundFace face = FindPoints(*networks_, photo, boxes[0]);
+    const auto faces = FindFaces(*networks_, photo);
+    ASSERT_EQ(faces.size(), 1U);
+    const FoundFace& face = faces[0];
     const FitError error = ErrorOf(camera, FitFace(Galatea(), face, &photo));
     Tell(camera, "network", error);
     // Missed: the fit follows the network's points, which are up to 2 % off on a face from the

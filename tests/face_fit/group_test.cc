@@ -66,8 +66,8 @@ TEST_F(GroupTest, PeopleBesideTheLargestAreFoundThoughSmallerAndTurned) {
     const auto side = static_cast<float>(person.side);
     EXPECT_EQ(std::ranges::count_if(
                   faces,
-                  [&](const FaceBox& face) {
-                    const glm::vec2 at = face.centre - glm::vec2(person.x, person.y);
+                  [&](const FoundFace& face) {
+                    const glm::vec2 at = face.crop.centre - glm::vec2(person.x, person.y);
                     return std::min(at.x, at.y) > 0.2F * side && std::max(at.x, at.y) < 0.8F * side;
                   }),
               1)

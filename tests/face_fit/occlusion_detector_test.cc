@@ -50,9 +50,9 @@ class OcclusionDetectorTest : public NetworkTest {
   }
 
   static FoundFace Find(const fsm::Image& photo) {
-    const auto boxes = FindFaces(*networks_, photo);
-    EXPECT_FALSE(boxes.empty());
-    return boxes.empty() ? FoundFace{} : FindPoints(*networks_, photo, boxes[0]);
+    const auto faces = FindFaces(*networks_, photo);
+    EXPECT_FALSE(faces.empty());
+    return faces.empty() ? FoundFace{} : faces[0];
   }
 
   static Occlusion Look(const std::string& name, const Drawing& drawing = {}) {

@@ -19,12 +19,10 @@ namespace {
 /// The head that the program makes of a photo of one person.
 std::unique_ptr<fsm::Head> WornBy(FaceNetworks& networks, const BaseHead& base,
                                   const fsm::Image& photo) {
-  const auto boxes = FindFaces(networks, photo);
-  const auto [near, face] = CutToFace(photo, photo, FindPoints(networks, photo, boxes.at(0)));
+  const auto [near, face] = CutToFace(photo, photo, FindFaces(networks, photo).at(0));
   const Fit fit = FitFace(base, face, &near);
-  TextureBake bake =
+  const TextureBake bake =
       BakeTexture(base, face, fit, near, CutOut(near, FindFigure(networks, near, &face)), {});
-  bake.head.photo = std::make_shared<fsm::Image>(std::move(bake.picture));
   return fsm::MakeHead(bake.head);
 }
 

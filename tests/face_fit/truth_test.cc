@@ -120,10 +120,10 @@ class TruthTest : public NetworkTest, public testing::WithParamInterface<const c
     auto& front = fronts_[{GetParam(), strength}];
     if (front) return *front;
     fsm::Image photo = photo_of();
-    const auto boxes = FindFaces(*networks_, photo);
-    const FoundFace face = FindPoints(*networks_, photo, boxes.at(0));
+    const auto faces = FindFaces(*networks_, photo);
+    const FoundFace& face = faces.at(0);
     Fit fit = FitFace(Galatea(), face, &photo);
-    return front.emplace(Front{std::move(photo), boxes.size(), face, std::move(fit)});
+    return front.emplace(Front{std::move(photo), faces.size(), face, std::move(fit)});
   }
 
   static inline std::map<std::string, std::unique_ptr<fsm::Head>> truths_;

@@ -145,17 +145,7 @@ vm::Result<void> SpeakerStore::Keep(const std::string& name, const Speaker& spea
     here_[name] = speaker;
     return {};
   }
-  // Under another name until it is whole.
-  const std::string partial = PathOf(name) + ".part";
-  std::ofstream file(partial);
-  file << FormatSpeaker(speaker);
-  file.close();
-  std::error_code error;
-  if (file) std::filesystem::rename(partial, PathOf(name), error);
-  if (!file || error) {
-    return vm::Fail(vm::Errc::kUnavailable, "cannot write '" + PathOf(name) + "'");
-  }
-  return {};
+  return vm::WriteTextFile(PathOf(name), FormatSpeaker(speaker));
 }
 
 }  // namespace vdm

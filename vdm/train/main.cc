@@ -15,6 +15,7 @@
 #include "vdm/train/training.h"
 #include "vdm/train/triphone_training.h"
 #include "vdm/train/truth.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace {
 
@@ -75,10 +76,7 @@ void ShowScore(const char* who, const vdm::Score& score) {
 }
 
 void Write(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error("cannot write '" + path + "'");
+  OrThrow(vm::WriteTextFile(path, text));
   std::cerr << "vdm_train: wrote " << path << std::endl;
 }
 

@@ -6,7 +6,9 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <fstream>
 
 #include "vm_protocol/core/file_kind.h"
 
@@ -46,6 +48,18 @@ Result<std::string> ReadTextFile(const std::string& path, std::size_t max_bytes)
       return std::unexpected(FileTooLong(path, max_bytes));
     }
   }
+}
+
+Result<void> WriteTextFile(const std::string& path, std::string_view text) {
+  if (auto fit = CheckWritable(path); !fit) return fit;
+  const bool to_null = path == "/dev/null";
+  const std::string partial = to_null ? path : path + "." + std::to_string(getpid());
+  std::ofstream file(partial, std::ios::binary);
+  file << text;
+  file.close();
+  if (file && (to_null || std::rename(partial.c_str(), path.c_str()) == 0)) return {};
+  if (!to_null) std::remove(partial.c_str());
+  return Fail(Errc::kUnavailable, "cannot write '" + path + "'");
 }
 
 }  // namespace vm

@@ -143,14 +143,12 @@ FoundFace FaceFromHand(const BaseHead& base, const HandPoints& points) {
   const fsm::Warp warp(bends, 0.5F);
   FoundFace face;
   face.certainty = 1;
-  Box2 box;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
     const glm::vec3 p = base.AtRest(i);
     const glm::vec2 at = to_photo(glm::vec2(p)) + to_photo.scale() * glm::vec2(warp.Motion(p));
     face.points.emplace_back(at, to_photo.scale() * base.seen_z[i]);
-    box.Add(at);
   }
-  face.crop = {box.Middle(), 1.5F * std::max(box.Size().x, box.Size().y), to_photo.angle_rad()};
+  face.crop = CropAround(face.points);
   return face;
 }
 

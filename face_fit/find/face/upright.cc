@@ -17,14 +17,13 @@ struct Seen {
 
 Seen Look(FaceNetworks& networks, const fsm::Image& photo) {
   Seen seen;
-  for (const FaceBox& box : FindFaces(networks, photo)) {
-    const FoundFace face = FindPoints(networks, photo, box);
+  for (const FoundFace& face : FindFaces(networks, photo)) {
     const glm::vec2 eyes = face.At(point::kEyeOuterLeft) - face.At(point::kEyeOuterRight);
     const float tilt = std::atan2(eyes.y, eyes.x);
     seen.faces += 1;
     const float upright = face.certainty * std::max(std::cos(tilt), 0.0F);
     seen.upright += upright;
-    seen.clear += box.score * upright;
+    seen.clear += face.score * upright;
   }
   return seen;
 }

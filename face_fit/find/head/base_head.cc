@@ -110,11 +110,11 @@ vm::Result<BaseHead> BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::
   base.head->Evaluate(state, base.rest);
   const PortraitView portrait(kSide);
   fsm::Image picture = portrait.Draw(*base.head, base.rest, state);
-  const auto boxes = FindFaces(networks, picture);
-  if (boxes.empty()) {
+  const auto faces = FindFaces(networks, picture);
+  if (faces.empty()) {
     return vm::Fail(vm::Errc::kBadValue, "no face is seen on the head '" + name + "'");
   }
-  const FoundFace face = FindPoints(networks, picture, boxes.front());
+  const FoundFace& face = faces.front();
 
   std::vector<glm::vec3> screen;
   for (const glm::vec3& p : base.rest.position) screen.emplace_back(portrait.Pixel(p), p.z);

@@ -5,6 +5,8 @@
 namespace facefit {
 namespace {
 
+// Which points of the face the network sees again, in the order of its outputs
+// (mediapipe/modules/face_landmark/tensors_to_face_landmarks_with_attention.pbtxt).
 constexpr PointIndex kLips[] = {
     // outer border: the lower lip with both corners, the upper without
     61, 146, 91, 181, 84, 17, 314, 405, 321, 375, 291, 185, 40, 39, 37, 0, 267, 269, 270, 409,
@@ -33,20 +35,17 @@ constexpr PointIndex kLeftEye[] = {
 
 AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image, const Crop& crop) {
   attention.Run(crop.Sample(image, kPointsPixels, 0, 1));
-  const auto place = [&crop](std::span<const float> xy, std::size_t i, std::size_t each) {
-    return crop.ToPicture(glm::vec2(xy[each * i], xy[each * i + 1]) / float{kPointsPixels});
+  const auto place = [&](AttentionOutput output, std::size_t i) {
+    const auto xy = attention.output(output);
+    return crop.ToPicture(glm::vec2(xy[2 * i], xy[2 * i + 1]) / float{kPointsPixels});
   };
   AttentiveFace found;
   found.face.crop = crop;
   found.face.certainty = 1 / (1 + std::exp(-attention.output(kAttentionFlag)[0]));
-  const auto mesh = attention.output(kAttentionMesh);
-  for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-    found.face.points.emplace_back(place(mesh, i, 3),
-                                   -mesh[3 * i + 2] / float{kPointsPixels} * crop.side);
-  }
-  const auto refine = [&](std::size_t output, std::span<const PointIndex> points) {
+  found.face.points = PointsInPicture(attention.output(kAttentionMesh), crop);
+  const auto refine = [&](AttentionOutput output, std::span<const PointIndex> points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const glm::vec2 at = place(attention.output(output), i, 2);
+      const glm::vec2 at = place(output, i);
       found.face.points[points[i]].x = at.x;
       found.face.points[points[i]].y = at.y;
     }
@@ -55,15 +54,10 @@ AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image, c
   refine(kAttentionRightEye, kRightEye);
   refine(kAttentionLeftEye, kLeftEye);
   for (std::size_t i = 0; i < 5; ++i) {
-    found.iris[0][i] = place(attention.output(kAttentionRightIris), i, 2);
-    found.iris[1][i] = place(attention.output(kAttentionLeftIris), i, 2);
+    found.iris[0][i] = place(kAttentionRightIris, i);
+    found.iris[1][i] = place(kAttentionLeftIris, i);
   }
   return found;
-}
-
-std::span<const PointIndex> AttentiveLips() { return kLips; }
-std::span<const PointIndex> AttentiveEye(std::size_t side) {
-  return side == 0 ? std::span<const PointIndex>(kRightEye) : kLeftEye;
 }
 
 }  // namespace facefit

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <glm/vec2.hpp>
-#include <span>
 
 #include "face_fit/find/network/face_finder.h"
 
@@ -20,10 +19,5 @@ struct AttentiveFace {
 
 /// `attention`: what LoadAttentionLandmarks gave. Looks once, at `crop`.
 AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image, const Crop& crop);
-
-/// Which points of the face the network sees again: 80 of the lips, 71 of each eye. In the order of
-/// its outputs (mediapipe/modules/face_landmark/tensors_to_face_landmarks_with_attention.pbtxt).
-std::span<const PointIndex> AttentiveLips();
-std::span<const PointIndex> AttentiveEye(std::size_t side);  ///< 0 = the person's right
 
 }  // namespace facefit

@@ -1,6 +1,7 @@
 #include "face_fit/find/network/face_finder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <glm/common.hpp>
@@ -15,6 +16,15 @@ constexpr int kDetectorSide = 128;
 constexpr float kLeastScore = 0.5F;
 /// How much larger than a face's box the picture is which the landmark network was trained on.
 constexpr float kRoom = 1.5F;
+
+/// A face the detector sees.
+struct FaceBox {
+  glm::vec2 centre;
+  glm::vec2 size;
+  float score = 0;
+  std::array<glm::vec2, 2> eyes;  ///< the person's right and left
+  float Area() const { return size.x * size.y; }
+};
 
 /// Middles of the detector's cells: 16 x 16 with two boxes each, then 8 x 8 with six.
 std::vector<glm::vec2> Anchors() {
@@ -38,7 +48,7 @@ float Common(const FaceBox& a, const FaceBox& b) {
 
 float Overlap(const FaceBox& a, const FaceBox& b) {
   const float both = Common(a, b);
-  return both / (a.size.x * a.size.y + b.size.x * b.size.y - both);
+  return both / (a.Area() + b.Area() - both);
 }
 
 void Detect(FaceNetworks& networks, const fsm::Image& image, const Crop& crop,
@@ -65,7 +75,7 @@ void Detect(FaceNetworks& networks, const fsm::Image& image, const Crop& crop,
 /// How much of the smaller of two boxes lies within the other.
 float Within(const FaceBox& a, const FaceBox& b) {
   const float both = Common(a, b);
-  return both / std::max(std::min(a.size.x * a.size.y, b.size.x * b.size.y), 1e-6F);
+  return both / std::max(std::min(a.Area(), b.Area()), 1e-6F);
 }
 
 /// Each pixel the mean of four; an odd last row or column is left out.
@@ -116,10 +126,29 @@ class Scan {
   std::vector<fsm::Image> copies_;
 };
 
-/// Keeps one box of each face, that of the highest rank; where there are several faces, only those
-/// with eyes, nose and mouth.
-std::vector<FaceBox> Apart(FaceNetworks& networks, const fsm::Image& image,
-                           std::vector<Sighting> found) {
+float EyeAngle(std::span<const glm::vec3> points) {
+  const glm::vec2 eyes(points[point::kEyeOuterLeft] - points[point::kEyeOuterRight]);
+  return std::atan2(eyes.y, eyes.x);
+}
+
+FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const FaceBox& box) {
+  const glm::vec2 eyes = box.eyes[1] - box.eyes[0];
+  FoundFace face{
+      .points = {},
+      .score = box.score,
+      .crop = {box.centre, kRoom * std::max(box.size.x, box.size.y), std::atan2(eyes.y, eyes.x)}};
+  // The first look says where the face is; the others see it upright and as large as in training.
+  for (int look = 0; look < 3; ++look) {
+    if (look > 0) face.crop = CropAround(face.points, face.crop.angle);
+    networks.landmarks.Run(face.crop.Sample(image, kPointsPixels, 0, 1));
+    face.certainty = 1 / (1 + std::exp(-networks.landmarks.output(1)[0]));
+    face.points = PointsInPicture(networks.landmarks.output(0), face.crop);
+  }
+  return face;
+}
+
+/// One of each face, that of the highest rank.
+std::vector<FaceBox> Apart(std::vector<Sighting> found) {
   std::ranges::sort(found, std::greater<>(), &Sighting::rank);
   std::vector<FaceBox> apart;
   for (const auto& [face, rank] : found) {
@@ -129,22 +158,12 @@ std::vector<FaceBox> Apart(FaceNetworks& networks, const fsm::Image& image,
       apart.push_back(face);
     }
   }
-  if (apart.size() > 1) {
-    std::vector<FaceBox> faces;
-    for (const FaceBox& face : apart) {
-      if (FindPoints(networks, image, face).certainty >= kCertainFace) faces.push_back(face);
-    }
-    if (!faces.empty()) apart = std::move(faces);
-  }
-  std::ranges::sort(apart, [](const FaceBox& a, const FaceBox& b) {
-    return a.size.x * a.size.y > b.size.x * b.size.y;
-  });
   return apart;
 }
 
 }  // namespace
 
-std::vector<FaceBox> FindFaces(FaceNetworks& networks, const fsm::Image& image) {
+std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image) {
   const glm::vec2 size(image.width, image.height);
   const float longer = std::max(size.x, size.y);
   Scan scan(networks, image);
@@ -168,35 +187,35 @@ std::vector<FaceBox> FindFaces(FaceNetworks& networks, const fsm::Image& image) 
       }
     }
   }
-  return Apart(networks, image, std::move(scan.found));
+  auto boxes = Apart(std::move(scan.found));
+  std::ranges::sort(boxes, std::greater<>(), &FaceBox::Area);
+  std::vector<FoundFace> faces;
+  for (const FaceBox& box : boxes) faces.push_back(FindPoints(networks, image, box));
+  const auto certain = [](const FoundFace& face) { return face.certainty >= kCertainFace; };
+  if (faces.size() > 1 && std::ranges::any_of(faces, certain)) {
+    std::erase_if(faces, std::not_fn(certain));
+  }
+  return faces;
 }
 
-FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const FaceBox& box) {
-  FoundFace face;
-  const glm::vec2 line = box.eyes[1] - box.eyes[0];
-  face.crop = {box.centre, kRoom * std::max(box.size.x, box.size.y), std::atan2(line.y, line.x)};
-  // The first look says where the face is, the second sees it upright and as large as in training.
-  for (int look = 0; look < 3; ++look) {
-    networks.landmarks.Run(face.crop.Sample(image, kPointsPixels, 0, 1));
-    const auto raw = networks.landmarks.output(0);
-    const float logit = networks.landmarks.output(1)[0];
-    face.certainty = 1 / (1 + std::exp(-logit));
-    face.points.clear();
-    Box2 seen;
-    for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-      const glm::vec2 at =
-          glm::vec2(raw[3 * i], raw[3 * i + 1]) / static_cast<float>(kPointsPixels);
-      const glm::vec2 p = face.crop.ToPicture(at);
-      seen.Add(at);
-      face.points.emplace_back(p, -raw[3 * i + 2] / kPointsPixels * face.crop.side);
-    }
-    if (look == 2) break;
-    const glm::vec2 eyes = face.At(point::kEyeOuterLeft) - face.At(point::kEyeOuterRight);
-    const glm::vec2 extent = seen.Size() * face.crop.side;
-    face.crop = {face.crop.ToPicture(seen.Middle()), kRoom * std::max(extent.x, extent.y),
-                 std::atan2(eyes.y, eyes.x)};
+std::vector<glm::vec3> PointsInPicture(std::span<const float> raw, const Crop& crop) {
+  std::vector<glm::vec3> points;
+  for (std::size_t i = 0; i < kNetworkPoints; ++i) {
+    const glm::vec3 at =
+        glm::vec3(raw[3 * i], raw[3 * i + 1], -raw[3 * i + 2]) / float{kPointsPixels};
+    points.emplace_back(crop.ToPicture(glm::vec2(at)), at.z * crop.side);
   }
-  return face;
+  return points;
 }
+
+Crop CropAround(std::span<const glm::vec3> points, float axes) {
+  const Crop turned{glm::vec2(0), 1, axes};
+  Box2 box;
+  for (const glm::vec3& p : points) box.Add(turned.FromPicture(glm::vec2(p)));
+  return {turned.ToPicture(box.Middle()), kRoom * std::max(box.Size().x, box.Size().y),
+          EyeAngle(points)};
+}
+
+Crop CropAround(std::span<const glm::vec3> points) { return CropAround(points, EyeAngle(points)); }
 
 }  // namespace facefit

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "face_fit/find/network/crop.h"
@@ -11,22 +11,15 @@
 
 namespace facefit {
 
-/// A face the detector sees.
-struct FaceBox {
-  glm::vec2 centre;
-  glm::vec2 size;
-  float score = 0;
-  std::array<glm::vec2, 2> eyes;  ///< the person's right and left
-};
-
 inline constexpr int kPointsPixels = 192;  ///< the side of what the landmark network is shown
 
 /// A face with its points: x and y in pixels of the picture, y down, z in the same unit towards
 /// the viewer, 0 about the middle of the head.
 struct FoundFace {
   std::vector<glm::vec3> points;  ///< kNetworkPoints
-  float certainty = 0;            ///< 0..1 that there is a face
-  Crop crop;                      ///< what the network saw last
+  float certainty = 0;            ///< 0..1 that the points lie on a face
+  float score = 1;                ///< 0..1 the detector's, which sees no face upside down
+  Crop crop;                      ///< around the points
   glm::vec2 At(PointIndex i) const { return glm::vec2(points[i]); }
 };
 
@@ -34,10 +27,17 @@ struct FoundFace {
 /// drawn heads hardly less than 0.9.
 inline constexpr float kCertainFace = 0.75F;
 
-/// All faces, largest first. Looks at the whole picture, and if nothing is found at its parts.
-std::vector<FaceBox> FindFaces(FaceNetworks& networks, const fsm::Image& image);
+/// All faces, largest first. Looks at the whole picture, and at its parts unless a large face was
+/// seen. Where there are several, each is certain, if any is.
+std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image);
 
-/// The points of one face.
-FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const FaceBox& box);
+/// What a landmark network says of the crop it was shown (x, y, z of each point, in pixels of
+/// kPointsPixels), as FoundFace has it.
+std::vector<glm::vec3> PointsInPicture(std::span<const float> raw, const Crop& crop);
+
+/// The square around a face's points, upright as its eyes are, as the landmark network is shown it.
+/// `axes`: radians, of the box the points are measured with.
+Crop CropAround(std::span<const glm::vec3> points, float axes);
+Crop CropAround(std::span<const glm::vec3> points);  ///< measured along the eyes
 
 }  // namespace facefit
