@@ -17,6 +17,18 @@ class BadModel : public std::runtime_error {
 
 using Bytes = std::span<const std::uint8_t>;
 
+/// A number of the machine's own format in a file; throws BadModel beyond its end.
+template <typename T>
+T Read(Bytes file, std::size_t at) {
+  static_assert(std::endian::native == std::endian::little);
+  if (at > file.size() || file.size() - at < sizeof(T)) {
+    throw BadModel("the file ends too early");
+  }
+  T value;
+  std::memcpy(&value, file.data() + at, sizeof value);
+  return value;
+}
+
 /// A table of a FlatBuffer (google/flatbuffers, "Internals"): fields are found through a table of
 /// offsets before them. Every access is checked against the file's end; throws BadModel.
 class FlatTable {
@@ -77,17 +89,6 @@ class FlatTable {
   }
 
  private:
-  template <typename T>
-  static T Read(Bytes file, std::size_t at) {
-    static_assert(std::endian::native == std::endian::little);
-    if (at > file.size() || file.size() - at < sizeof(T)) {
-      throw BadModel("the file ends too early");
-    }
-    T value;
-    std::memcpy(&value, file.data() + at, sizeof value);
-    return value;
-  }
-
   std::size_t Place(std::size_t field) const {
     const std::size_t slot = 4 + 2 * field;
     if (slot + 2 > field_bytes_) return 0;

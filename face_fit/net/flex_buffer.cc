@@ -11,41 +11,22 @@ enum : unsigned { kInt = 1, kUint = 2, kFloat = 3, kMap = 9, kVectorInt = 11, kV
 unsigned Kind(unsigned packed) { return packed >> 2; }
 std::size_t TargetWidth(unsigned packed) { return std::size_t{1} << (packed & 3U); }
 
-template <typename T>
-T Read(Bytes bytes, std::size_t at) {
-  if (at > bytes.size() || bytes.size() - at < sizeof(T)) {
-    throw BadModel("an operator's options end too early");
-  }
-  T value;
-  std::memcpy(&value, bytes.data() + at, sizeof value);
-  return value;
-}
-
-std::uint64_t ReadUnsigned(Bytes bytes, std::size_t at, std::size_t width) {
+/// A whole number of `width` bytes: 1, 2, 4 or 8.
+template <typename Result, typename One, typename Two, typename Four>
+Result ReadWhole(Bytes bytes, std::size_t at, std::size_t width) {
   switch (width) {
     case 1:
-      return Read<std::uint8_t>(bytes, at);
+      return Read<One>(bytes, at);
     case 2:
-      return Read<std::uint16_t>(bytes, at);
+      return Read<Two>(bytes, at);
     case 4:
-      return Read<std::uint32_t>(bytes, at);
+      return Read<Four>(bytes, at);
     default:
-      return Read<std::uint64_t>(bytes, at);
+      return Read<Result>(bytes, at);
   }
 }
-
-std::int64_t ReadSigned(Bytes bytes, std::size_t at, std::size_t width) {
-  switch (width) {
-    case 1:
-      return Read<std::int8_t>(bytes, at);
-    case 2:
-      return Read<std::int16_t>(bytes, at);
-    case 4:
-      return Read<std::int32_t>(bytes, at);
-    default:
-      return Read<std::int64_t>(bytes, at);
-  }
-}
+constexpr auto ReadUnsigned = ReadWhole<std::uint64_t, std::uint8_t, std::uint16_t, std::uint32_t>;
+constexpr auto ReadSigned = ReadWhole<std::int64_t, std::int8_t, std::int16_t, std::int32_t>;
 
 /// What an offset at `at` points to: offsets count backwards.
 std::size_t Behind(Bytes bytes, std::size_t at, std::size_t width) {

@@ -1,8 +1,8 @@
 #include "face_fit/net/kernels.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace facefit {
 namespace {
@@ -13,41 +13,7 @@ std::size_t At(const Shape& s, int row, int column) {
          static_cast<std::size_t>(s.channels());
 }
 
-/// Four numbers side by side; an operation on them is one of the processor's.
-using Four = float __attribute__((vector_size(16)));
-
-Four Load(const float* from) {
-  Four four;
-  std::memcpy(&four, from, sizeof four);
-  return four;
-}
-
-/// Sums `kFours` x 4 outputs, which stay in registers from the first input to the last.
-template <std::size_t kFours>
-void MultiplyBlock(const float* in, std::size_t channels, const float* turned, std::size_t outs,
-                   float* sums) {
-  Four sum[kFours];
-  for (std::size_t k = 0; k < kFours; ++k) sum[k] = Load(sums + 4 * k);
-  for (std::size_t i = 0; i < channels; ++i) {
-    for (std::size_t k = 0; k < kFours; ++k) sum[k] += in[i] * Load(turned + i * outs + 4 * k);
-  }
-  for (std::size_t k = 0; k < kFours; ++k) std::memcpy(sums + 4 * k, &sum[k], sizeof sum[k]);
-}
-
-/// sums[o] += sum over i of in[i] * weights[o][i], for `pixels` pixels that lie side by side.
-void Multiply(const float* in, std::size_t pixels, std::size_t channels, const float* turned,
-              std::size_t outs, float* sums) {
-  for (std::size_t p = 0; p < pixels; ++p) {
-    float* to = sums + p * outs;
-    const float* from = in + p * channels;
-    std::size_t o = 0;
-    for (; o + 32 <= outs; o += 32) MultiplyBlock<8>(from, channels, turned + o, outs, to + o);
-    for (; o + 8 <= outs; o += 8) MultiplyBlock<2>(from, channels, turned + o, outs, to + o);
-    for (; o < outs; ++o) {
-      for (std::size_t i = 0; i < channels; ++i) to[o] += from[i] * turned[i * outs + o];
-    }
-  }
-}
+using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 void FillWithBias(const float* bias, Tensor& out) {
   const auto channels = static_cast<std::size_t>(out.shape.channels());
@@ -56,22 +22,23 @@ void FillWithBias(const float* bias, Tensor& out) {
   }
 }
 
-/// Calls f(to, from, row, column) for every pixel of the output and every tap (row and column) of
-/// the filter that lies within the input: where the channels of both pixels begin.
+/// Calls f(pixel, from, row, column) for pixels first to end - 1 of the output, counted row by row,
+/// and every tap (row and column) of the filter that lies within the input, where the channels of
+/// what it sees begin at `from`.
 template <typename F>
 void ForEachTap(const op::Window& window, const Shape& in, const Shape& out, const Shape& filter,
-                F f) {
+                Eigen::Index first, Eigen::Index end, F f) {
   const Padding pad = PaddingOf(window, in, out, filter.rows(), filter.columns());
-  for (int y = 0; y < out.rows(); ++y) {
-    for (int x = 0; x < out.columns(); ++x) {
-      for (int r = 0; r < filter.rows(); ++r) {
-        const int in_y = y * window.stride_rows + r - pad.rows;
-        if (in_y < 0 || in_y >= in.rows()) continue;
-        for (int c = 0; c < filter.columns(); ++c) {
-          const int in_x = x * window.stride_columns + c - pad.columns;
-          if (in_x < 0 || in_x >= in.columns()) continue;
-          f(At(out, y, x), At(in, in_y, in_x), r, c);
-        }
+  for (Eigen::Index pixel = first; pixel < end; ++pixel) {
+    const int y = static_cast<int>(pixel / out.columns());
+    const int x = static_cast<int>(pixel % out.columns());
+    for (int r = 0; r < filter.rows(); ++r) {
+      const int in_y = y * window.stride_rows + r - pad.rows;
+      if (in_y < 0 || in_y >= in.rows()) continue;
+      for (int c = 0; c < filter.columns(); ++c) {
+        const int in_x = x * window.stride_columns + c - pad.columns;
+        if (in_x < 0 || in_x >= in.columns()) continue;
+        f(pixel, At(in, in_y, in_x), r, c);
       }
     }
   }
@@ -91,38 +58,42 @@ Padding PaddingOf(const op::Window& window, const Shape& in, const Shape& out, i
 
 void Convolve(const op::Window& window, const Tensor& in, const Tensor& filter, const float* bias,
               Tensor& out) {
-  const auto outs = static_cast<std::size_t>(out.shape.channels());
-  const auto channels = static_cast<std::size_t>(in.shape.channels());
-  // Weights come output by output; here they are wanted tap by tap, input by input.
-  const std::size_t weights = filter.values.size() / outs;
-  std::vector<float> turned(filter.values.size());
-  for (std::size_t o = 0; o < outs; ++o) {
-    for (std::size_t k = 0; k < weights; ++k) turned[k * outs + o] = filter.values[o * weights + k];
-  }
+  constexpr Eigen::Index kMostNumbers = 1 << 20;  // of what several pixels see, side by side
+  const Eigen::Index outs = out.shape.channels(), channels = in.shape.channels();
+  const auto pixels = static_cast<Eigen::Index>(out.values.size()) / outs;
+  const auto weights = static_cast<Eigen::Index>(filter.values.size()) / outs;
+  const Eigen::Map<const Rows> by(filter.values.data(), outs, weights);
+  Eigen::Map<Rows> to(out.values.data(), pixels, outs);
   FillWithBias(bias, out);
   if (weights == channels && window.stride_rows == 1 && window.stride_columns == 1) {
-    Multiply(in.values.data(), in.values.size() / channels, channels, turned.data(), outs,
-             out.values.data());
+    to.noalias() += Eigen::Map<const Rows>(in.values.data(), pixels, channels) * by.transpose();
     return;
   }
-  ForEachTap(window, in.shape, out.shape, filter.shape,
-             [&](std::size_t to, std::size_t from, int row, int column) {
-               const auto tap = static_cast<std::size_t>(row * filter.shape.columns() + column);
-               Multiply(&in.values[from], 1, channels, &turned[tap * channels * outs], outs,
-                        &out.values[to]);
-             });
+  const Eigen::Index together = std::clamp<Eigen::Index>(kMostNumbers / weights, 1, pixels);
+  Rows seen(together, weights);
+  for (Eigen::Index first = 0; first < pixels; first += together) {
+    const Eigen::Index count = std::min(together, pixels - first);
+    seen.setZero();
+    ForEachTap(window, in.shape, out.shape, filter.shape, first, first + count,
+               [&](Eigen::Index pixel, std::size_t from, int row, int column) {
+                 const Eigen::Index tap = row * filter.shape.columns() + column;
+                 std::copy_n(&in.values[from], channels, &seen(pixel - first, tap * channels));
+               });
+    to.middleRows(first, count).noalias() += seen.topRows(count) * by.transpose();
+  }
 }
 
 void DepthwiseConv(const op::Window& window, const Tensor& in, const Tensor& filter,
                    const float* bias, Tensor& out) {
   const auto channels = static_cast<std::size_t>(in.shape.channels());
   FillWithBias(bias, out);
-  ForEachTap(window, in.shape, out.shape, filter.shape,
-             [&](std::size_t to, std::size_t from, int row, int column) {
-               float* sum = &out.values[to];
-               const float* pixel = &in.values[from];
+  ForEachTap(window, in.shape, out.shape, filter.shape, 0,
+             static_cast<Eigen::Index>(out.values.size() / channels),
+             [&](Eigen::Index pixel, std::size_t from, int row, int column) {
+               float* sum = &out.values[static_cast<std::size_t>(pixel) * channels];
+               const float* seen = &in.values[from];
                const float* w = &filter.values[At(filter.shape, row, column)];
-               for (std::size_t k = 0; k < channels; ++k) sum[k] += pixel[k] * w[k];
+               for (std::size_t k = 0; k < channels; ++k) sum[k] += seen[k] * w[k];
              });
 }
 

@@ -1,7 +1,9 @@
 #include "face_fit/net/model.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <optional>
@@ -19,18 +21,6 @@ std::vector<std::int32_t> Numbers(const FlatTable& table, std::size_t field) {
   std::vector<std::int32_t> numbers(count);
   if (count > 0) std::memcpy(numbers.data(), bytes.data(), bytes.size());
   return numbers;
-}
-
-float Half(std::uint16_t h) {
-  const std::uint32_t sign = static_cast<std::uint32_t>(h & 0x8000U) << 16;
-  const std::uint32_t exponent = (h >> 10) & 31U;
-  const std::uint32_t fraction = h & 1023U;
-  if (exponent == 0) {
-    const float tiny = static_cast<float>(fraction) * 0x1p-24F;
-    return sign ? -tiny : tiny;
-  }
-  if (exponent == 31) throw BadModel("a weight is not a number");
-  return std::bit_cast<float>(sign | (exponent + 112) << 23 | fraction << 13);
 }
 
 Shape ReadShape(const FlatTable& table) {
@@ -72,8 +62,10 @@ Tensor ReadTensor(const FlatTable& model, const FlatTable& table) {
     expect(2);
     tensor.values.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-      tensor.values[i] = Half(
-          static_cast<std::uint16_t>(data[2 * i] | static_cast<unsigned>(data[2 * i + 1]) << 8));
+      const auto bits =
+          static_cast<std::uint16_t>(data[2 * i] | static_cast<unsigned>(data[2 * i + 1]) << 8);
+      tensor.values[i] = static_cast<float>(std::bit_cast<Eigen::half>(bits));
+      if (!std::isfinite(tensor.values[i])) throw BadModel("a weight is not a number");
     }
   } else if (type == kInt32) {
     expect(4);
