@@ -7,25 +7,13 @@
 #include <filesystem>
 #include <system_error>
 
+#include "vm_protocol/core/user_folder.h"
 #include "vm_protocol/runtime/credentials.h"
 
 namespace am {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Empty without a home.
-fs::path StateFolder() {
-  const auto named = [](const char* name) {
-    const char* const value = std::getenv(name);
-    return std::string(value == nullptr ? "" : value);
-  };
-  if (const auto state = named("XDG_STATE_HOME"); !state.empty())
-    return fs::path(state) / "galatea";
-  if (const auto home = named("HOME"); !home.empty())
-    return fs::path(home) / ".local/state/galatea";
-  return {};
-}
 
 /// Writes beside `path` and renames, so that no reader meets half a token.
 void Write(const fs::path& path, const std::string& token) {
@@ -42,7 +30,7 @@ void Write(const fs::path& path, const std::string& token) {
 }  // namespace
 
 std::string KeptToken(unsigned short port) {
-  const fs::path folder = StateFolder();
+  const fs::path folder = vm::UserFolder("XDG_STATE_HOME", ".local/state");
   if (folder.empty()) return vm::MakeNonce();
   std::error_code failed;
   fs::create_directories(folder, failed);

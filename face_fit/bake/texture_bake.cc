@@ -116,7 +116,7 @@ void DrawMouthLine(const SkinTexels& texels, float saturation, fsm::Image& map) 
   }
 }
 
-/// The same, 0 where no face is but the sides and the back of the head.
+/// `seen`, but 0 where no face is but the sides and the back of the head.
 FloatImage OnFace(const SkinTexels& texels, FloatImage seen) {
   for (std::size_t i = 0; i < seen.at.size(); ++i) {
     if (!OnFront(texels, i)) seen.at[i] = 0;

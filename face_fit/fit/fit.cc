@@ -41,7 +41,7 @@ std::vector<double> ResidualsOf(const Sight& sight, const Parameters& parameters
   std::vector<double> out;
   std::vector<float> depth;
   float mean = 0;
-  for (const PointIndex k : FitPoints()) {
+  for (const PointIndex k : PointsForFit()) {
     const glm::vec3 q = pose.ToCamera(sight.base.points[k].On(vertices.position));
     const glm::vec2 miss = (pose.Project(q) - sight.face.At(k)) * mm_per_pixel;
     out.push_back(static_cast<double>(miss.x));
@@ -123,10 +123,10 @@ std::vector<LandmarkConstraint> ConstraintsOf(const Sight& sight, const CameraPo
   std::vector<LandmarkConstraint> constraints;
   std::vector<float> lacks;
   float mean = 0;
-  for (const PointIndex k : FitPoints()) {
+  for (const PointIndex k : PointsForFit()) {
     const glm::vec3 q = pose.ToCamera(sight.base.points[k].On(now));
     lacks.push_back(sight.face.points[k].z * mm_per_pixel + sight.depth_bias[k] - q.z);
-    mean += lacks.back() / static_cast<float>(FitPoints().size());
+    mean += lacks.back() / static_cast<float>(PointsForFit().size());
     constraints.push_back({k, sight.base.points[k], sight.face.At(k), q.z});
   }
   for (std::size_t i = 0; i < lacks.size(); ++i) {
@@ -138,11 +138,11 @@ std::vector<LandmarkConstraint> ConstraintsOf(const Sight& sight, const CameraPo
 /// Mean distance of the network's points from those of the fitted head, millimetres.
 float ResidualMm(const BaseHead& base, const FoundFace& face, const FittedHead& fitted) {
   float sum = 0;
-  for (const PointIndex k : FitPoints()) {
+  for (const PointIndex k : PointsForFit()) {
     const glm::vec3 q = fitted.pose.ToCamera(base.points[k].On(fitted.posed_vertices));
     sum += glm::distance(fitted.pose.Project(q), face.At(k));
   }
-  return sum / fitted.pose.PixelsPerMm() / static_cast<float>(FitPoints().size());
+  return sum / fitted.pose.PixelsPerMm() / static_cast<float>(PointsForFit().size());
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ struct Mark {
 
 std::vector<Mark> MarksOf(const BaseHead& base, const FittedHead& fitted) {
   std::vector<Mark> marks;
-  for (const PointIndex i : FitPoints()) {
+  for (const PointIndex i : PointsForFit()) {
     marks.push_back({i, base.points[i].On(fitted.posed_vertices)});
   }
   return marks;

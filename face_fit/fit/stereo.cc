@@ -37,7 +37,7 @@ Seen LookAt(const BaseHead& base, const FittedHead& fitted, const fsm::Image& fr
   Seen seen;
   seen.step = kCell * fitted.pose.PixelsPerMm();
   Box2 box;
-  for (const PointIndex i : FitPoints()) {
+  for (const PointIndex i : PointsForFit()) {
     box.Add(fitted.pose.Project(fitted.pose.ToCamera(base.points[i].On(fitted.posed_vertices))));
   }
   seen.origin = box.low;

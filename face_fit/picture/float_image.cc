@@ -4,14 +4,16 @@
 
 namespace facefit {
 
-float FloatImage::Between(float x, float y) const {
+FourPixels::FourPixels(int width, int height, float x, float y) {
   const float px = std::clamp(x - 0.5F, 0.0F, static_cast<float>(width - 1));
   const float py = std::clamp(y - 0.5F, 0.0F, static_cast<float>(height - 1));
-  const int x0 = static_cast<int>(px), y0 = static_cast<int>(py);
-  const int x1 = std::min(x0 + 1, width - 1), y1 = std::min(y0 + 1, height - 1);
+  const auto x0 = static_cast<std::size_t>(px), y0 = static_cast<std::size_t>(py);
   const float u = px - static_cast<float>(x0), v = py - static_cast<float>(y0);
-  return (at[Index(x0, y0)] * (1 - u) + at[Index(x1, y0)] * u) * (1 - v) +
-         (at[Index(x0, y1)] * (1 - u) + at[Index(x1, y1)] * u) * v;
+  const auto across = static_cast<std::size_t>(width), down = static_cast<std::size_t>(height);
+  const std::size_t right = x0 + 1 < across ? 1 : 0, below = y0 + 1 < down ? across : 0;
+  const std::size_t first = y0 * across + x0;
+  index = {first, first + right, first + below, first + below + right};
+  weight = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
 }
 
 }  // namespace facefit

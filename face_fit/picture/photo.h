@@ -20,7 +20,7 @@ inline constexpr int kWorkingSide = 1600, kFineSide = 4800;
 vm::Result<fsm::Image> ReadPhoto(const std::string& path, int most_side = kWorkingSide);
 vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes,
                                    int most_side = kWorkingSide);
-/// The same at most kWorkingSide on a side.
+/// The photo scaled down to kWorkingSide, if it is larger.
 fsm::Image AtWorkingSide(const fsm::Image& photo);
 
 /// The orientation 1..8 in an EXIF block ("Exif\0\0" and a TIFF file); 1 if it says nothing or is

@@ -45,17 +45,9 @@ Value Around(int width, int height, glm::vec2 at, Weights weights, Get get) {
 }  // namespace
 
 glm::vec3 ColourAt(const fsm::Image& image, glm::vec2 at) {
-  const float x = std::clamp(at.x - 0.5F, 0.0F, static_cast<float>(image.width - 1));
-  const float y = std::clamp(at.y - 0.5F, 0.0F, static_cast<float>(image.height - 1));
-  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-  const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
-  const float u = x - static_cast<float>(x0), v = y - static_cast<float>(y0);
-  const auto pixel = [&image](int px, int py) {
-    return Rgb(image, static_cast<std::size_t>(py) * static_cast<std::size_t>(image.width) +
-                          static_cast<std::size_t>(px));
-  };
-  return (pixel(x0, y0) * (1 - u) + pixel(x1, y0) * u) * (1 - v) +
-         (pixel(x0, y1) * (1 - u) + pixel(x1, y1) * u) * v;
+  return FourPixels(image.width, image.height, at.x, at.y).Mean([&](std::size_t i) {
+    return Rgb(image, i);
+  });
 }
 
 glm::vec3 SharpColourAt(const fsm::Image& image, glm::vec2 at) {

@@ -39,17 +39,17 @@ glm::vec3 AnglesOf(const glm::mat3& turn) {
 }
 
 /// Where both irises look: from the middle between the corners of their eyes.
-std::array<float, 2> GazeOf(const AttentiveFace& found) {
+glm::vec2 GazeOf(const AttentiveFace& found) {
   glm::vec2 sum(0);
   for (const fsm::Side side : fsm::kSides) {
     const glm::vec2 a = found.face.At(EyeOutline(side)[kOuterCorner]),
                     b = found.face.At(EyeOutline(side)[kInnerCorner]);
     const glm::vec2 across = side == fsm::Side::kRight ? b - a : a - b;
-    const glm::vec2 iris = found.iris[static_cast<std::size_t>(side)][0];
+    const glm::vec2 iris = found.iris[side][0];
     const glm::vec2 off = (iris - 0.5F * (a + b)) / glm::dot(across, across);
     sum += glm::vec2(glm::dot(off, across), off.x * across.y - off.y * across.x);
   }
-  return {0.5F * sum.x, 0.5F * sum.y};
+  return 0.5F * sum;
 }
 
 }  // namespace
@@ -75,13 +75,12 @@ FaceMeasures FaceMeasurer::Measure(const AttentiveFace& found) {
   const float eyes = 0.25F * (points[point::kEyeOuterRight].y + points[point::kEyeInnerRight].y +
                               points[point::kEyeInnerLeft].y + points[point::kEyeOuterLeft].y);
   constexpr fsm::Sided<PointIndex> kCorner{point::kMouthRight, point::kMouthLeft};
-  for (const fsm::Side of : fsm::kSides) {
-    const auto side = static_cast<std::size_t>(of);
-    const auto lids = EyeOutline(of).begin();
-    measures.corner_up[side] = points[kCorner[of]].y - points[point::kNoseBottom].y;
+  for (const fsm::Side side : fsm::kSides) {
+    const auto lids = EyeOutline(side).begin();
+    measures.corner_up[side] = points[kCorner[side]].y - points[point::kNoseBottom].y;
     measures.eye[side] = MeanGap(points, lids + kUpperMiddle, lids + kLowerMiddle, -1);
-    measures.brow_inner[side] = Middle(points, point::kBrowInner[of]).y - eyes;
-    measures.brow_outer[side] = Middle(points, point::kBrowOuter[of]).y - eyes;
+    measures.brow_inner[side] = Middle(points, point::kBrowInner[side]).y - eyes;
+    measures.brow_outer[side] = Middle(points, point::kBrowOuter[side]).y - eyes;
   }
   measures.turn_deg = AnglesOf(glm::transpose(back.turn));
   measures.gaze = GazeOf(found);

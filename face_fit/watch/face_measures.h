@@ -1,8 +1,7 @@
 #pragma once
 
-#include <array>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
 #include "face_fit/find/network/attention_points.h"
@@ -13,17 +12,17 @@ namespace facefit {
 /// mm apart (Farkas 1994: 91.2 and 87.8 for men and women), turned back to how it is held in the
 /// first picture. `right` and `left` are the person's.
 struct FaceMeasures {
-  float certainty = 0;                ///< 0..1 that there is a face
-  float gap = 0;                      ///< between the inner edges of the lips, mean of three places
-  float width = 0;                    ///< from corner to corner of the lips
-  float jaw = 0;                      ///< from below the nose to the chin
-  std::array<float, 2> corner_up{};   ///< corners of the lips above the point below the nose
-  std::array<float, 2> eye{};         ///< between the edges of the lids, mean of three places
-  std::array<float, 2> brow_inner{};  ///< above the line through the corners of both eyes
-  std::array<float, 2> brow_outer{};
+  float certainty = 0;             ///< 0..1 that there is a face
+  float gap = 0;                   ///< between the inner edges of the lips, mean of three places
+  float width = 0;                 ///< from corner to corner of the lips
+  float jaw = 0;                   ///< from below the nose to the chin
+  fsm::Sided<float> corner_up{};   ///< corners of the lips above the point below the nose
+  fsm::Sided<float> eye{};         ///< between the edges of the lids, mean of three places
+  fsm::Sided<float> brow_inner{};  ///< above the line through the corners of both eyes
+  fsm::Sided<float> brow_outer{};
   glm::vec3 turn_deg{0};  ///< since the first picture: down, to its left, towards its left shoulder
-  std::array<float, 2> gaze{};  ///< iris from the middle of the eye, parts of the eye's width:
-                                ///< towards the viewer's right, up; mean of both eyes
+  glm::vec2 gaze{0};      ///< iris from the middle of the eye, parts of the eye's width:
+                          ///< towards the viewer's right, up; mean of both eyes
 };
 
 /// Measures faces one after the other. Not for several threads.

@@ -40,10 +40,10 @@ void PrintRow(long number, double rate, const std::optional<facefit::FaceMeasure
   }
   std::cout << fmt::format(",{:.3f}", seen->certainty);
   for (const float value :
-       {seen->gap, seen->width, seen->jaw, seen->corner_up[0], seen->corner_up[1], seen->eye[0],
-        seen->eye[1], seen->brow_inner[0], seen->brow_inner[1], seen->brow_outer[0],
-        seen->brow_outer[1], seen->turn_deg.x, seen->turn_deg.y, seen->turn_deg.z, seen->gaze[0],
-        seen->gaze[1]}) {
+       {seen->gap, seen->width, seen->jaw, seen->corner_up.right, seen->corner_up.left,
+        seen->eye.right, seen->eye.left, seen->brow_inner.right, seen->brow_inner.left,
+        seen->brow_outer.right, seen->brow_outer.left, seen->turn_deg.x, seen->turn_deg.y,
+        seen->turn_deg.z, seen->gaze.x, seen->gaze.y}) {
     std::cout << fmt::format(",{:.3f}", value);
   }
   std::cout << "\n";
@@ -57,7 +57,7 @@ void PrintPoints(const std::optional<facefit::AttentiveFace>& face) {
   };
   if (face) {
     for (const glm::vec3& p : face->face.points) add(p.x, p.y);
-    for (const auto& iris : face->iris) {
+    for (const auto& iris : face->iris.InOrder()) {
       for (const glm::vec2& p : iris) add(p.x, p.y);
     }
   }

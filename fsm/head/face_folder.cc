@@ -1,23 +1,18 @@
 #include "fsm/head/face_folder.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 
 #include "fsm/image/image_file.h"
 #include "vm_protocol/core/text_file.h"
+#include "vm_protocol/core/user_folder.h"
 
 namespace fsm {
 
 std::string FacesFolder() {
-  const auto named = [](const char* name) {
-    const char* value = std::getenv(name);
-    return std::string(value ? value : "");
-  };
-  if (const auto own = named("GALATEA_FACES"); !own.empty()) return own;
-  if (const auto data = named("XDG_DATA_HOME"); !data.empty()) return data + "/galatea/faces";
-  return named("HOME") + "/.local/share/galatea/faces";
+  const std::string own = vm::Environment("GALATEA_FACES");
+  return own.empty() ? vm::UserFolder("XDG_DATA_HOME", ".local/share") + "/faces" : own;
 }
 
 bool IsFaceName(std::string_view name) {

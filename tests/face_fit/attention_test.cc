@@ -200,13 +200,13 @@ TEST_F(AttentionTest, IrisesOfPhotosLieOnTheIrises) {
     const auto photo = ReadPhoto(photos / name);
     ASSERT_TRUE(photo) << photo.error().text;
     const AttentiveFace seen = See(*photo);
-    for (std::size_t side = 0; side < 2; ++side) {
+    for (const fsm::Side side : fsm::kSides) {
       const auto& iris = seen.iris[side];
       float radius = 0;
       for (std::size_t k = 1; k < 5; ++k) radius += 0.25F * glm::distance(iris[0], iris[k]);
       // An iris is 11.5 to 12 mm wide where outer corners of eyes are 88 to 91 mm apart.
       const float eyes = glm::distance(seen.face.At(33), seen.face.At(263));
-      EXPECT_NEAR(2 * radius / eyes, 11.7F / 90, 0.03F) << name << " " << side;
+      EXPECT_NEAR(2 * radius / eyes, 11.7F / 90, 0.03F) << name << " " << fsm::SignOf(side);
       // The disc is darker than what lies beside it on either side, within the eye; but for
       // Lincoln, whose left eye is pale in the shade.
       if (std::string_view(name).starts_with("lincoln")) continue;
@@ -219,7 +219,7 @@ TEST_F(AttentionTest, IrisesOfPhotosLieOnTheIrises) {
       for (const float at : {-0.6F, -0.3F, 0.0F, 0.3F, 0.6F})
         within += bright(iris[0] + at * radius * across) / 5;
       for (const float at : {-1.35F, 1.35F}) beside += bright(iris[0] + at * radius * across) / 2;
-      EXPECT_LT(within, 0.9F * beside) << name << " " << side;
+      EXPECT_LT(within, 0.9F * beside) << name << " " << fsm::SignOf(side);
     }
   }
 }

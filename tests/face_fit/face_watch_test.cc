@@ -60,13 +60,13 @@ TEST_F(FaceWatchTest, ShutEyesAreSeen) {
   fsm::FaceState state;
   state.blink.left = state.blink.right = 1;
   const FaceMeasures shut = See(state);
-  for (const std::size_t side : {0U, 1U}) {
+  for (const fsm::Side side : fsm::kSides) {
     EXPECT_GT(rest_.eye[side], 8);
     EXPECT_LT(shut.eye[side], 0.4F * rest_.eye[side]);
   }
-  state.blink.left = 0;  // side 0 is the person's right
+  state.blink.left = 0;
   const FaceMeasures wink = See(state);
-  EXPECT_LT(wink.eye[0], 0.6F * wink.eye[1]);
+  EXPECT_LT(wink.eye.right, 0.6F * wink.eye.left);
 }
 
 TEST_F(FaceWatchTest, TurnsOfTheHeadHaveTheirSignsAndSizes) {
@@ -89,12 +89,12 @@ TEST_F(FaceWatchTest, BrowsAndCornersMoveAsUnitsSay) {
   for (const std::size_t unit : {1U, 2U}) brows.au.left[unit] = brows.au.right[unit] = 1;
   smile.au.left[12] = 1;
   const FaceMeasures raised = See(brows), smiling = See(smile);
-  for (const std::size_t side : {0U, 1U}) {
-    EXPECT_GT(raised.brow_inner[side], rest_.brow_inner[side] + 2) << side;
-    EXPECT_GT(raised.brow_outer[side], rest_.brow_outer[side] + 2) << side;
+  for (const fsm::Side side : fsm::kSides) {
+    EXPECT_GT(raised.brow_inner[side], rest_.brow_inner[side] + 2) << fsm::SignOf(side);
+    EXPECT_GT(raised.brow_outer[side], rest_.brow_outer[side] + 2) << fsm::SignOf(side);
   }
-  EXPECT_GT(smiling.corner_up[1], rest_.corner_up[1] + 3);
-  EXPECT_LT(smiling.corner_up[0], rest_.corner_up[0] + 2);
+  EXPECT_GT(smiling.corner_up.left, rest_.corner_up.left + 3);
+  EXPECT_LT(smiling.corner_up.right, rest_.corner_up.right + 2);
 }
 
 TEST_F(FaceWatchTest, AFaceThatGoesAndComesBackIsFoundAgain) {

@@ -12,8 +12,8 @@
 namespace facefit {
 namespace {
 
-/// The same, looked for so many millimetres to the left of the middle and turned by so many
-/// radians.
+/// How much a bar across the bridge of the nose stands out, as BarOnNose, looked for `aside`
+/// millimetres to the left of the middle and turned by `turn` radians.
 float BarAcross(const FoundFace& face, const fsm::Image& photo, float aside, float turn) {
   // Between the inner corners of the eyes, which lie some 32 mm apart.
   const glm::vec2 right = face.At(point::kEyeInnerRight), left = face.At(point::kEyeInnerLeft),

@@ -57,7 +57,7 @@ constexpr float kSure = 14;
 class OntoBase {
  public:
   OntoBase(const FoundFace& face, const BaseHead& base) {
-    for (const PointIndex i : FitPoints()) {
+    for (const PointIndex i : PointsForFit()) {
       pairs_.push_back({face.crop.FromPicture(face.At(i)) * float{kSide}, base.seen[i]});
     }
   }

@@ -19,7 +19,8 @@ FloatImage RunFigure(FaceNetworks& networks, const std::vector<float>& input) {
   std::ranges::copy(networks.figure.output(0), out.at.begin());
   return out;
 }
-/// The same at a place of its square, 0..1 on both axes.
+
+/// How much a place of the network's square, 0..1 on both axes, belongs to a person.
 float PersonAt(const FloatImage& figure, glm::vec2 place) {
   return figure.Between(place.x * kFigureSide, place.y * kFigureSide);
 }

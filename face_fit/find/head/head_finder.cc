@@ -124,7 +124,7 @@ class HeadPairer {
       OntoSeam(*seam, theirs);
     }
     std::vector<fsm::PointPair> found;
-    for (const PointIndex i : FitPoints()) {
+    for (const PointIndex i : PointsForFit()) {
       // Where both lips meet a point of the network may come to lie on either.
       const bool corner = i == point::kMouthRight || i == point::kMouthLeft;
       if (inner_lips_.contains(i) ? !both : both && corner) continue;

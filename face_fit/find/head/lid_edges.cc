@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/find/head/front_view.h"
+#include "fsm/mesh/transferred_rig.h"
 
 namespace facefit {
 namespace {
@@ -127,15 +128,7 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
 
 std::vector<bool> EyeVertices(const fsm::HeadTopology& topology, std::size_t count) {
   std::vector<bool> eye(count, false);
-  for (const auto& part : topology.parts) {
-    if (part.material != fsm::Material::kSclera && part.material != fsm::Material::kIris &&
-        part.material != fsm::Material::kPupil) {
-      continue;
-    }
-    for (std::uint32_t k = 0; k < part.index_count; ++k) {
-      eye[topology.indices[part.first_index + k]] = true;
-    }
-  }
+  for (const std::uint32_t v : fsm::EyeballTriangles(topology)) eye[v] = true;
   return eye;
 }
 

@@ -60,10 +60,9 @@ void LeaveOutStrays(std::vector<fsm::PointPair>& pairs) {
     const auto off = [&to_ours](const fsm::PointPair& pair) {
       return glm::distance(to_ours(pair.to), pair.from);
     };
-    std::vector<float> sorted;
-    for (const auto& pair : pairs) sorted.push_back(off(pair));
-    std::ranges::sort(sorted);
-    const float limit = std::max(kLeast, kTimes * sorted[sorted.size() / 2]);
+    std::vector<float> distances;
+    for (const auto& pair : pairs) distances.push_back(off(pair));
+    const float limit = std::max(kLeast, kTimes * Median(std::move(distances)));
     kept.clear();
     std::ranges::copy_if(pairs, std::back_inserter(kept),
                          [&](const auto& pair) { return off(pair) <= limit; });

@@ -54,8 +54,8 @@ AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image, c
   refine(kAttentionRightEye, kRightEye);
   refine(kAttentionLeftEye, kLeftEye);
   for (std::size_t i = 0; i < 5; ++i) {
-    found.iris[0][i] = place(kAttentionRightIris, i);
-    found.iris[1][i] = place(kAttentionLeftIris, i);
+    found.iris.right[i] = place(kAttentionRightIris, i);
+    found.iris.left[i] = place(kAttentionLeftIris, i);
   }
   return found;
 }

@@ -14,7 +14,7 @@ struct AttentiveFace {
   FoundFace face;
   /// Of the person's right and left eye: the iris' middle, then four places on its edge, a quarter
   /// of a turn apart. Pixels of the picture.
-  std::array<std::array<glm::vec2, 5>, 2> iris;
+  fsm::Sided<std::array<glm::vec2, 5>> iris;
 };
 
 /// `attention`: what LoadAttentionLandmarks gave. Looks once, at `crop`.

@@ -1,6 +1,5 @@
 #include "face_fit/find/network/face_networks.h"
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -8,6 +7,7 @@
 #include "face_fit/find/network/network_points.h"
 #include "fsm/image/byte_order.h"
 #include "vm_protocol/core/text_file.h"
+#include "vm_protocol/core/user_folder.h"
 
 namespace facefit {
 namespace {
@@ -70,15 +70,8 @@ Network Expect(Network network, std::size_t input, std::initializer_list<std::si
 }  // namespace
 
 std::string NetworksFolder() {
-  const auto named = [](const char* name) {
-    const char* value = std::getenv(name);
-    return std::string(value ? value : "");
-  };
-  if (const auto own = named("GALATEA_NETWORKS"); !own.empty()) return own;
-  if (const auto cache = named("XDG_CACHE_HOME"); !cache.empty()) {
-    return cache + "/galatea/networks";
-  }
-  return named("HOME") + "/.cache/galatea/networks";
+  const std::string own = vm::Environment("GALATEA_NETWORKS");
+  return own.empty() ? vm::UserFolder("XDG_CACHE_HOME", ".cache") + "/networks" : own;
 }
 
 vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {

@@ -31,7 +31,7 @@ constexpr PointIndex kFit[] = {
 
 }  // namespace
 
-std::span<const PointIndex> FitPoints() { return kFit; }
+std::span<const PointIndex> PointsForFit() { return kFit; }
 std::span<const PointIndex> UpperOuterLip() { return kUpperOuter; }
 std::span<const PointIndex> LowerOuterLip() { return kLowerOuter; }
 std::span<const PointIndex> UpperInnerLip() { return kUpperInner; }

@@ -45,7 +45,7 @@ inline constexpr Group<20> kStill{168, 6,   197, 195, 33,  133, 362, 263, 127, 3
                                   234, 454, 162, 389, 139, 368, 34,  264, 143, 372};
 }  // namespace point
 
-std::span<const PointIndex> FitPoints();      ///< those the fit uses
+std::span<const PointIndex> PointsForFit();   ///< those the fit uses
 std::span<const PointIndex> UpperOuterLip();  ///< from the person's right to left, without corners
 std::span<const PointIndex> LowerOuterLip();  ///< likewise
 std::span<const PointIndex> UpperInnerLip();  ///< likewise, corners included
