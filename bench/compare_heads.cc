@@ -58,7 +58,7 @@ struct Row {
 
 std::vector<Row> Rows(const std::filesystem::path& folder, const std::string& face) {
   std::vector<Row> rows;
-  rows.push_back({"OURS", face.empty() ? fsm::MakeGenericHead() : fsm::MakeHead(face)});
+  rows.push_back({"OURS", face.empty() ? fsm::MakeHead("galatea") : fsm::MakeHead(face)});
   const auto& eyes = rows.front().head->topology().eyes;
   const glm::vec3 middle = (eyes.right.centre + eyes.left.centre) / 2.0F;
   for (const auto& source : Sources(folder)) {

@@ -244,7 +244,7 @@ void MeasureAll(char** argv, const Options& options) {
   std::printf("%s\n", fsm::DescribeOffScreen(options.context).c_str());
   auto context = fsm::RenderContext::MakeHeadless(options.width, options.height, options.context);
   auto renderer = fsm::Renderer::Make(*context, 8, fsm::Appearance::BuiltIn(), options.rig);
-  const auto head = fsm::MakeGenericHead();
+  const auto head = fsm::MakeHead("galatea");
   fsm::HeadVertices vertices;
   fsm::Image image;
   const fsm::Scene scene;
@@ -284,7 +284,7 @@ void MeasureAll(char** argv, const Options& options) {
 void DrawFirstFrame(const Options& options) {
   auto context = fsm::RenderContext::MakeHeadless(options.width, options.height);
   auto renderer = fsm::Renderer::Make(*context);
-  const auto head = fsm::MakeGenericHead();
+  const auto head = fsm::MakeHead("galatea");
   fsm::HeadVertices vertices;
   fsm::Image image;
   head->Evaluate({}, vertices);

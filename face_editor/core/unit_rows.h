@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/rig/action_units.h"
+#include "fsm/rig/unit_table.h"
 #include "vm_protocol/core/result.h"
 
 namespace editor {

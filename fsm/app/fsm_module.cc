@@ -360,7 +360,8 @@ void FsmModule::OnFrame() {
   if (core_.backend.has_window()) {
     if (auto drawn = core_.DrawAt(now); !drawn) {
       core_.slots.ReportError("", drawn.error());
-      exit_requested_ = failed_ = true;
+      exit_requested_ = true;
+      options_.on_failure();
       return;
     }
     core_.backend.Show();

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +25,8 @@ struct FsmOptions {
   std::string life;              ///< profile of Life at the start, "" = OFF
   OriginalConfig config;         ///< path "" = none
   bool announce_config = false;  ///< greet as the original does: tell detected: -C flag: FILE
+  /// Called when the window cannot be drawn any more, which ends the module.
+  std::function<void()> on_failure = [] {};
 };
 
 /// The face synthesis module: all its slots over FaceMotion and a Backend.
@@ -43,8 +45,6 @@ class FsmModule final : public vm::Module {
   bool Busy() const override;
   bool ExitRequested() const override { return exit_requested_; }
   void Shutdown() override;
-  /// The window could not be drawn, which ended the module: its program has failed.
-  bool failed() const { return failed_; }
   const FaceMotion& motion() const { return *core_.motion; }
 
  private:
@@ -86,7 +86,6 @@ class FsmModule final : public vm::Module {
   vm::TimerId end_timer_ = 0;
   vm::Time end_due_{0};
   bool exit_requested_ = false;
-  bool failed_ = false;
 };
 
 }  // namespace fsm

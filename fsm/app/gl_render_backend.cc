@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <future>
-#include <iostream>
 
+#include "fsm/base/notice.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/image/image_file.h"
@@ -18,7 +18,7 @@ GlRenderBackend::GlRenderBackend(const Options& options)
     if (options_.position) context_->Move(options_.position->first, options_.position->second);
   } catch (const std::exception& error) {
     if (options_.where == Options::Where::kWindow) throw;
-    std::cerr << "fsm: notice: no window (" << error.what() << "), drawing headless\n";
+    Notice("no window (" + std::string(error.what()) + "), drawing headless");
     options_.where = Options::Where::kHeadless;
   }
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include "fsm/app/fsm_module.h"
 #include "fsm/app/gl_render_backend.h"
 #include "fsm/asset/describe.h"
+#include "fsm/base/notice.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/head_cache.h"
 #include "fsm/faces/head_of_file.h"
@@ -44,29 +46,6 @@ struct Options {
   std::string out;
   bool no_labels = false;
   fsm::FsmOptions module;
-  bool failed = false;  // told by the module at its end
-};
-
-/// A module that owns its backend, which has to outlive it. Says in `failed`, which outlives both,
-/// whether it ended because its window could not be drawn.
-class Fsm final : public vm::Module {
- public:
-  Fsm(vm::Scheduler& clock, const fsm::GlRenderBackend::Options& backend, fsm::FsmOptions options,
-      bool& failed)
-      : backend_(backend), module_(clock, backend_, std::move(options)), failed_(failed) {}
-  ~Fsm() override { failed_ = module_.failed(); }
-  Fsm(const Fsm&) = delete;
-  Fsm& operator=(const Fsm&) = delete;
-  vm::SlotMachine& slots() override { return module_.slots(); }
-  std::vector<vm::Message> Greeting() override { return module_.Greeting(); }
-  bool Busy() const override { return module_.Busy(); }
-  bool ExitRequested() const override { return module_.ExitRequested(); }
-  void Shutdown() override { module_.Shutdown(); }
-
- private:
-  fsm::GlRenderBackend backend_;
-  fsm::FsmModule module_;
-  bool& failed_;
 };
 
 /// A whole number, as atoi of the original takes it.
@@ -243,7 +222,7 @@ fsm::GlRenderBackend::Options RenderBackendOptions(const Options& options) {
 /// Tells what is odd about the folder of --tables.
 void CheckTablesGiven(const Options& options) {
   for (const std::string& notice : vm::OrThrow(fsm::CheckTables(options.module.tables))) {
-    std::cerr << "fsm: notice: " << notice << "\n";
+    fsm::Notice(notice);
   }
 }
 
@@ -286,6 +265,9 @@ int RunOnce(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
+  bool failed = false;
+  options.module.on_failure = [&failed] { failed = true; };
+  std::optional<fsm::GlRenderBackend> backend;  // outlives the module
   std::string position = "--position";
   std::vector<char*> words = WithPlaceNamed(argc, argv, position);
   const int code = vm::RunModule(
@@ -298,16 +280,16 @@ int main(int argc, char** argv) {
        .add_options = [&options](CLI::App& app) { AddOptions(app, options); },
        .before_start = [&options] { return RunOnce(options); },
        .needs_real_clock = [&options] { return WindowWanted(options); },
-       .make = [&options](vm::Scheduler& clock,
-                          boost::asio::io_context&) -> std::unique_ptr<vm::Module> {
+       .make = [&options, &backend](vm::Scheduler& clock,
+                                    boost::asio::io_context&) -> std::unique_ptr<vm::Module> {
          if (!options.config.empty()) {
            auto config = vm::OrThrow(fsm::OriginalConfig::Read(options.config));
            config.expressions = fsm::LooksOfExpressions(config.shared);
            options.module.config = std::move(config);
            options.module.announce_config = true;
          }
-         return std::make_unique<Fsm>(clock, RenderBackendOptions(options), options.module,
-                                      options.failed);
+         backend.emplace(RenderBackendOptions(options));
+         return std::make_unique<fsm::FsmModule>(clock, *backend, options.module);
        }});
-  return code == 0 && options.failed ? 1 : code;
+  return code == 0 && failed ? 1 : code;
 }

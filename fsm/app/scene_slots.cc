@@ -4,9 +4,10 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <iostream>
+#include <glm/trigonometric.hpp>
 #include <optional>
 
+#include "fsm/base/notice.h"
 #include "fsm/image/color_space.h"
 
 namespace fsm {
@@ -54,8 +55,8 @@ SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::st
   if (!backgrounds_.empty()) {
     // A picture that is gone is no reason to have no face.
     if (auto set = SetBackground(backgrounds_.front().first); !set) {
-      std::cerr << "fsm: notice: background " << backgrounds_.front().first << ": "
-                << set.error().text << "; the plain one is shown\n";
+      Notice("background " + backgrounds_.front().first + ": " + set.error().text +
+             "; the plain one is shown");
       core_.slots.Store("Background", kPlain);
     } else {
       core_.slots.Store("NowBackground", backgrounds_.front().first);
@@ -204,12 +205,11 @@ void SceneSlots::DeclareLight(const std::string& name, const std::string& what,
                ": its strength (1 = as usual), where it stands (degrees to the viewer's right, "
                "degrees up; left out = as usual), and its colour, #rrggbb (left out = as usual).",
        .action = [this, lamp](const vm::SetValue& value) -> vm::Result<void> {
-         constexpr float kRadians = 3.14159265f / 180;
          DirectionalLight set;
          set.strength = static_cast<float>(value.number(0));
          if (value.size() >= 3) {
-           const float side = static_cast<float>(value.number(1)) * kRadians;
-           const float up = static_cast<float>(value.number(2)) * kRadians;
+           const float side = glm::radians(static_cast<float>(value.number(1)));
+           const float up = glm::radians(static_cast<float>(value.number(2)));
            set.direction = glm::vec3(std::sin(side) * std::cos(up), std::sin(up),
                                      std::cos(side) * std::cos(up));
          }

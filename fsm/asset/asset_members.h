@@ -83,7 +83,7 @@ void Members(V& v, Like<EyeGeometry> auto& eye) {
 
 template <typename V>
 void Members(V& v, Like<MouthSlit> auto& mouth) {
-  v("lips", mouth.lips);
+  v("lips", mouth.seam);
   v("corner_right", mouth.corner_right);
   v("corner_left", mouth.corner_left);
   v("upper_incisor", mouth.upper_incisor);
@@ -123,12 +123,6 @@ void Members(V& v, Like<SkinWeights> auto& weights) {
   v("jaw", weights.jaw);
   v("neck", weights.neck);
   v("free", weights.free);
-  v("eye", weights.eye);
-  v("lid_upper", weights.lid_upper);
-  v("lid_lower", weights.lid_lower);
-  v("lip_column", weights.lip_column);
-  v("by_teeth", weights.by_teeth);
-  v("lip_weight", weights.lip_weight);
 }
 
 template <typename V>

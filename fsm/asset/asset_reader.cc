@@ -210,7 +210,7 @@ class Reader {
 };
 
 HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
-  if (WholeOf(from, "version") != 1) throw Fault("version: 1 expected");
+  if (JsonInteger(from, "version") != 1) throw Fault("version: 1 expected");
   Reader reader(gltf);
   HeadAsset asset;
   const auto read = [&](const char* name, auto& part) {
@@ -222,7 +222,7 @@ HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
   read("rig", asset.rig);
   read("landmarks", asset.landmarks);
   read("view", asset.view);
-  asset.rig.units = UnitTable(Table("rig.units", TextOf(from["rig"], "units")));
+  asset.rig.units = UnitTable(Table("rig.units", JsonText(from["rig"], "units")));
   if (asset.rig.person) asset.rig.units.MakeAsymmetric(*asset.rig.person);
   if (const auto checked = CheckAsset(asset); !checked) throw Fault(checked.error().text);
   return asset;
@@ -238,7 +238,7 @@ bool IsAsset(std::string_view bytes) {
 vm::Result<HeadAsset> ParseAsset(const std::string& name, std::string_view bytes) {
   const auto gltf = GltfDocument::Parse(name, bytes, nullptr);
   if (!gltf) return std::unexpected(gltf.error());
-  const json& extension = PartOf(PartOf(gltf->root(), "extensions"), kAssetExtension);
+  const json& extension = JsonMember(JsonMember(gltf->root(), "extensions"), kAssetExtension);
   try {
     return ReadAsset(*gltf, extension);
   } catch (const std::runtime_error& fault) {

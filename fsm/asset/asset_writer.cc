@@ -1,5 +1,6 @@
 #include "fsm/asset/asset_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
@@ -237,11 +238,9 @@ class ForeignView {
   /// Whether a part shows the photo, in most of its vertices.
   bool ShowsPhoto(const HeadTopology::Part& part) const {
     if (!topology_.worn.image) return false;
-    std::uint32_t shown = 0;
-    for (std::uint32_t k = 0; k < part.index_count; ++k) {
-      const std::uint32_t vertex = topology_.indices[part.first_index + k];
-      if (topology_.worn.weight[vertex] > 0.5F) ++shown;
-    }
+    const auto shown = std::ranges::count_if(topology_.Corners(part), [this](std::uint32_t vertex) {
+      return topology_.worn.weight[vertex] > 0.5F;
+    });
     return 2 * shown > part.index_count;
   }
 

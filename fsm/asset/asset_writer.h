@@ -17,8 +17,8 @@ struct ExportedShape {
 /// (the node scales our millimetres to metres), with one primitive for each part, colours of the
 /// vertices or the photo as texture, and each of `shapes` as a morph target named in
 /// extras.targetNames. We read back from the extension exactly the head that was written; it refers
-/// to the same accessors, and numbers of every array are in the unit of the member of that name
-/// (head_asset.h, rig_data.h); null stands for a limit that there is not.
+/// to the same accessors, and numbers of every array are in the unit of the member that
+/// asset_members.h gives that name; null stands for a limit that there is not.
 std::string WriteAsset(const Head& head, std::span<const ExportedShape> shapes);
 
 }  // namespace fsm

@@ -78,9 +78,9 @@ class Checker {
     VerticesOf(topology.portrait.shut_lids, "topology.shut_lids");
     PerVertex(topology.portrait.relit, "topology.relit", true);
     const MouthSlit& mouth = topology.mouth;
-    for (std::size_t i = 0; i < mouth.lips.size(); ++i) {
-      Vertex(mouth.lips[i].first, Place("topology.mouth.lips", i));
-      Vertex(mouth.lips[i].second, Place("topology.mouth.lips", i));
+    for (std::size_t i = 0; i < mouth.seam.size(); ++i) {
+      Vertex(mouth.seam[i].first, Place("topology.mouth.lips", i));
+      Vertex(mouth.seam[i].second, Place("topology.mouth.lips", i));
     }
     for (const auto vertex : {mouth.corner_right, mouth.corner_left, mouth.upper_incisor,
                               mouth.lower_incisor, mouth.upper_root}) {

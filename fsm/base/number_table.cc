@@ -8,8 +8,8 @@ namespace {
 
 constexpr float kMost = 1000;
 
-/// Words before the first that could be a number.
-std::size_t WordsOf(const TableRow& row) {
+/// Number of the words before the first that could be a number.
+std::size_t NameWordsOf(const TableRow& row) {
   constexpr std::string_view kNumberBegins = "+-.0123456789";
   std::size_t words = 1;
   while (words < row.size() && kNumberBegins.find(row.Word(words)[0]) == std::string_view::npos)
@@ -21,7 +21,7 @@ std::size_t WordsOf(const TableRow& row) {
 
 std::string NumberTable::NameOf(const TableRow& row) {
   std::string name = row.key();
-  for (std::size_t i = 1; i < WordsOf(row); ++i) name += " " + row.Word(i);
+  for (std::size_t i = 1; i < NameWordsOf(row); ++i) name += " " + row.Word(i);
   return name;
 }
 
@@ -30,7 +30,7 @@ NumberTable::NumberTable(const std::string& file, std::string_view text,
     : table_(file, text) {
   for (const TableRow& row : table_.rows()) {
     const std::string name = NameOf(row);
-    std::vector<float> numbers = row.Numbers(WordsOf(row));
+    std::vector<float> numbers = row.Numbers(NameWordsOf(row));
     if (built_in != nullptr) {
       const auto like = built_in->numbers_.find(name);
       if (like == built_in->numbers_.end()) row.Fail("'" + name + "' is not known");

@@ -7,24 +7,12 @@
 #include <iterator>
 
 #include "fsm/base/parse_number.h"
+#include "fsm/base/words.h"
 #include "vm_protocol/core/text_file.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace fsm {
 namespace {
-
-constexpr std::string_view kBlank = " \t\r";
-
-std::vector<std::string> WordsOf(std::string_view line) {
-  std::vector<std::string> words;
-  std::size_t at = line.find_first_not_of(kBlank);
-  while (at != std::string_view::npos && line[at] != '#') {
-    const std::size_t stop = line.find_first_of(kBlank, at);
-    words.emplace_back(line.substr(at, stop - at));
-    at = line.find_first_not_of(kBlank, stop);
-  }
-  return words;
-}
 
 std::string Shown(const std::string& text) {
   constexpr std::size_t kShown = 400;
@@ -115,10 +103,11 @@ void TableRow::EndsAt(std::size_t count) const {
 
 Table::Table(std::string name, std::string_view text) : name_(std::move(name)) {
   for (int line = 1; !text.empty(); ++line) {
-    const std::size_t end = text.find('\n');
-    auto words = WordsOf(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (!words.empty()) rows_.emplace_back(name_, line, std::move(words));
+    const auto words = WordsOf(TakeUntil("\n", text));
+    const auto comment =
+        std::ranges::find_if(words, [](std::string_view word) { return word[0] == '#'; });
+    if (comment == words.begin()) continue;
+    rows_.emplace_back(name_, line, std::vector<std::string>(words.begin(), comment));
   }
 }
 

@@ -6,8 +6,8 @@
 
 #include "fsm/head/features.h"
 #include "fsm/render/appearance.h"
-#include "fsm/rig/action_units.h"
 #include "fsm/rig/head.h"
+#include "fsm/rig/unit_table.h"
 
 namespace fsm {
 

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
@@ -14,6 +13,7 @@
 
 #include "fsm/asset/asset_reader.h"
 #include "fsm/asset/asset_writer.h"
+#include "fsm/base/notice.h"
 #include "fsm/base/random.h"
 #include "fsm/faces/head_of_file.h"
 #include "vm_protocol/core/or_throw.h"
@@ -79,8 +79,6 @@ std::string ReadAll(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void Tell(const std::string& what) { std::cerr << "fsm: notice: " << what << "\n"; }
-
 }  // namespace
 
 std::unique_ptr<Head> HeadCache::HeadOfFile(const std::string& path,
@@ -91,7 +89,7 @@ std::unique_ptr<Head> HeadCache::HeadOfFile(const std::string& path,
   if (auto kept = Find(entry, sources)) return kept;
   HeadTelling telling;
   auto head = MakeHeadOfFile(path, tables, &telling);
-  if (!telling.notice.empty()) Tell(telling.notice);
+  if (!telling.notice.empty()) Notice(telling.notice);
   std::string made_from = sources;
   for (const std::string& beside : telling.beside) made_from += LineOf(beside);
   Keep(entry, made_from + std::string(kNoticesFollow) + telling.notice, *head);
@@ -106,11 +104,11 @@ std::unique_ptr<Head> HeadCache::Find(const std::string& entry, const std::strin
     return nullptr;
   auto asset = ParseAsset(entry + ".glb", ReadAll(entry + ".glb"));
   if (!asset) {
-    Tell("the head is baked anew, " + asset.error().text);
+    Notice("the head is baked anew, " + asset.error().text);
     return nullptr;
   }
   const std::string notice = made_from.substr(notices + kNoticesFollow.size());
-  if (!notice.empty()) Tell(notice);
+  if (!notice.empty()) Notice(notice);
   return std::make_unique<Head>(std::move(*asset));
 }
 
@@ -122,7 +120,7 @@ void HeadCache::Keep(const std::string& entry, const std::string& made_from,
     vm::OrThrow(vm::WriteTextFile(entry + ".glb", WriteAsset(head, {})));
     vm::OrThrow(vm::WriteTextFile(entry + ".txt", made_from));
   } catch (const std::exception& error) {
-    Tell(std::string("the head is not kept: ") + error.what());
+    Notice(std::string("the head is not kept: ") + error.what());
   }
 }
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
-#include <iostream>
 
 #include "fsm/asset/asset_reader.h"
+#include "fsm/base/notice.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/table_folder.h"
 #include "fsm/head/anatomy.h"
@@ -205,7 +205,7 @@ std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string&
   if (telling) {
     *telling = told;
   } else if (!told.notice.empty()) {
-    std::cerr << "fsm: notice: " << told.notice << "\n";
+    Notice(told.notice);
   }
   if (!skin) return moved(MakeMeshHead(std::move(model)));
   return MakeMeshHead(std::move(model), std::move(*skin));

@@ -2,9 +2,9 @@
 
 #include <chrono>
 #include <filesystem>
-#include <iostream>
 #include <stdexcept>
 
+#include "fsm/base/notice.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/original_expressions.h"
@@ -16,8 +16,6 @@
 
 namespace fsm {
 namespace {
-
-void Notice(const std::string& text) { std::cerr << "fsm: notice: " << text << "\n"; }
 
 /// What each Mouth.N asks of its parameter.
 MouthUnitSizes UnitSizes(const MotionTables& tables) {

@@ -119,8 +119,6 @@ class FfmpegMovieWriter : public MovieWriter {
     return sounded;
   }
 
-  int frames() const override { return frames_; }
-
  private:
   /// Replaces the draft by one with sound; on failure the silent one stays.
   vm::Result<void> AddSound(const std::string& sound) {
@@ -184,7 +182,6 @@ class RawMovieWriter : public MovieWriter {
     return vm::Fail(vm::Errc::kUnavailable,
                     "raw frames carry no sound; '" + path_ + "' is without '" + sound_wav + "'");
   }
-  int frames() const override { return frames_; }
   bool is_live() const override { return is_pipe_; }
 
  private:

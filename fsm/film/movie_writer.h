@@ -26,7 +26,6 @@ class MovieWriter {
   /// moved to the path only when complete. Errors: kUnavailable; when only the sound is at fault
   /// the silent film is at the path and the text says so. Takes as long as the encoder needs.
   virtual vm::Result<void> Finish(const std::string& sound_wav) = 0;
-  virtual int frames() const = 0;
   /// Whether somebody watches the frames as they come, so that none should wait for later ones.
   virtual bool is_live() const { return false; }
 };

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <vector>
 
 #include "fsm/base/spline.h"
 #include "fsm/base/table_reader.h"

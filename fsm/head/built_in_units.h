@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fsm/rig/action_units.h"
+#include "fsm/rig/unit_table.h"
 
 namespace fsm {
 

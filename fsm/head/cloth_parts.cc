@@ -44,7 +44,7 @@ void BuildCloth(const Features& features, const Palette& palette, HeadMesh& mesh
   const SplineBasis around(around_at);
   const SplineBasis down(down_at);
   std::vector<float> wa(around_at.size()), wd(down_at.size());
-  SkinWeights weights;
+  BakeWeights weights;
   weights.free = weights.neck = weights.jaw = 0;
   const float uneven = features("shirt_uneven");
   const auto first = static_cast<std::uint32_t>(mesh.position.size());

@@ -120,7 +120,7 @@ namespace {
 /// One ear as rings of vertices from its middle to the rim and round its back into the head.
 class EarBuilder {
  public:
-  EarBuilder(const Features& features, const Palette& palette, int side, HeadMesh& mesh)
+  EarBuilder(const Features& features, const Palette& palette, Side side, HeadMesh& mesh)
       : features_(features),
         blush_(palette.blush * features["ear_blush"][1]),
         colour_(glm::mix(palette.skin, palette.blush, features["ear_blush"][0])),
@@ -177,18 +177,19 @@ class EarBuilder {
     }
   }
   std::uint32_t Add(glm::vec3 p, float open) {
-    p.x *= static_cast<float>(side_);
+    p.x *= SignOf(side_);
     const auto& light = features_["ear_light"];
     return mesh_.Add(p, glm::mix(blush_, colour_, open), light[0] + light[1] * open, Bone::kSkull);
   }
   void Face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    side_ > 0 ? mesh_.Triangle(Material::kSkin, a, b, c) : mesh_.Triangle(Material::kSkin, a, c, b);
+    side_ == Side::kLeft ? mesh_.Triangle(Material::kSkin, a, b, c)
+                         : mesh_.Triangle(Material::kSkin, a, c, b);
   }
 
   const Features& features_;
   glm::vec3 blush_, colour_;
   Ear ear_;
-  int side_;
+  Side side_;
   HeadMesh& mesh_;
   std::vector<Ring> rings_;
 };
@@ -196,7 +197,7 @@ class EarBuilder {
 }  // namespace
 
 void BuildEars(const Features& features, const Palette& palette, HeadMesh& mesh) {
-  for (const int side : {-1, 1}) EarBuilder(features, palette, side, mesh).Build();
+  for (const Side side : kSides) EarBuilder(features, palette, side, mesh).Build();
 }
 
 }  // namespace fsm

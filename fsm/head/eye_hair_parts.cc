@@ -18,16 +18,16 @@ constexpr float kPi = std::numbers::pi_v<float>;
 
 class LashBuilder {
  public:
-  LashBuilder(const EyeAnatomy& eye, const Identity& identity, bool of_photo, int side,
+  LashBuilder(const EyeAnatomy& eye, const Identity& identity, bool of_photo, Side side,
               HeadMesh& mesh)
       : eye_(eye),
         features_(identity.Look()),
         palette_(identity.palette),
         size_(identity.lashes),
         of_photo_(of_photo),
-        side_(static_cast<float>(side)),
+        side_(SignOf(side)),
         mesh_(mesh) {
-    weights_.eye = static_cast<std::int8_t>(side);
+    weights_.eye = side;
     weights_.free = 0;
   }
 
@@ -143,14 +143,14 @@ class LashBuilder {
   bool of_photo_;
   float side_;
   HeadMesh& mesh_;
-  SkinWeights weights_;
+  BakeWeights weights_;
   bool upper_ = true;
 };
 
 }  // namespace
 
 void BuildLashes(const EyeAnatomy& eye, const Identity& identity, bool of_photo, HeadMesh& mesh) {
-  for (const int side : {-1, 1}) {
+  for (const Side side : kSides) {
     LashBuilder builder(eye, identity, of_photo, side, mesh);
     builder.Row(true);
     if (!of_photo) builder.Row(false);
@@ -196,13 +196,13 @@ std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& ey
   const Curve height = features.CurveOf("lid_fold_height");
   std::vector<SkinHair> folds;
   folds.reserve(2 * widths.size() * kSteps);
-  for (const float side : {-1.0f, 1.0f}) {
+  for (const Side side : kSides) {
     const auto at = [&](float part) {
       const float along = std::clamp(part, 0.0f, 1.0f);
       const float x = glm::mix(eye.inner_x() + 0.5f, eye.outer_x() + 1.0f, along);
       glm::vec3 normal;
       glm::vec3 p = front.PointAt({x, eye.UpperY(x) + height(along)}, normal);
-      p.x *= side;
+      p.x *= SignOf(side);
       return Unroll(p);
     };
     for (std::size_t stroke = 0; stroke < widths.size(); ++stroke) {
@@ -233,9 +233,9 @@ class BrowBuilder {
   std::vector<SkinHair> Build() {
     const auto& count = features_["brow_hairs"];
     const int columns = static_cast<int>(count[0]), rows = static_cast<int>(count[1]);
-    for (const int side : {-1, 1}) {
+    for (const Side side : kSides) {
       for (int i = 0; i < columns * rows; ++i) {
-        const int seed = 2 * i + (side > 0 ? 1 : 0);
+        const int seed = 2 * i + (side == Side::kLeft ? 1 : 0);
         const float column = static_cast<float>(i / rows) + 0.5f + 0.9f * NoiseAt(seed, 21);
         const auto& across = features_["brow_width"];
         const float x = across[0] + across[1] * column / static_cast<float>(columns);
@@ -248,7 +248,7 @@ class BrowBuilder {
 
  private:
   /// `level` as BrowPlace::Y.
-  void AddHair(int side, float x, float level, int seed) {
+  void AddHair(Side side, float x, float level, int seed) {
     const float ends = SmoothStep(7, 20, x) * SmoothStep(59, 47, x);
     // Sparse where it begins.
     if (0.5f + 0.5f * NoiseAt(seed, 26) > 0.35f + 0.65f * ends) return;
@@ -272,10 +272,10 @@ class BrowBuilder {
          .tint = tint[0] * palette_.brow / palette_.skin * (1 + tint[1] * NoiseAt(seed, 25))});
   }
 
-  glm::vec2 OnSkin(glm::vec2 at, int side) const {
+  glm::vec2 OnSkin(glm::vec2 at, Side side) const {
     glm::vec3 normal;
     glm::vec3 p = front_.PointAt(at, normal);
-    p.x *= static_cast<float>(side);
+    p.x *= SignOf(side);
     return Unroll(p);
   }
 

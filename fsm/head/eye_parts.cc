@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "fsm/base/random.h"
@@ -53,10 +52,9 @@ void BuildEyes(const EyeAnatomy& eye, const Features& features, const Palette& p
   constexpr int kSegments = 22;
   const auto rings = Rings(eye, features, palette);
   const float fibres = features("iris_fibres");
-  for (const int side : {-1, 1}) {
-    const Bone bone = side < 0 ? Bone::kEyeRight : Bone::kEyeLeft;
-    glm::vec3 centre = eye.centre();
-    centre.x *= static_cast<float>(side);
+  for (const Side side : kSides) {
+    const Bone bone = BoneOf(side);
+    const glm::vec3 centre = eye.centre() * glm::vec3(SignOf(side), 1, 1);
     const auto point = [&](float angle, float around) {
       // The cornea: a smaller sphere through the iris's edge, whose pole stands out of the ball.
       const float c = eye.CorneaCentre();
@@ -77,7 +75,8 @@ void BuildEyes(const EyeAnatomy& eye, const Features& features, const Palette& p
         const float around = 2 * kPi * static_cast<float>(s) / kSegments;
         glm::vec3 colour = rings[k].colour;
         // Fibres of the iris: light and dark rays.
-        if (k >= 2 && k <= 4) colour *= 1 + fibres * NoiseAt(s * side, static_cast<int>(k / 2));
+        if (k >= 2 && k <= 4)
+          colour *= 1 + fibres * NoiseAt(side == Side::kRight ? -s : s, static_cast<int>(k / 2));
         now[static_cast<std::size_t>(s)] =
             mesh.Add(point(rings[k].angle, around), colour, 0.95f, bone);
       }

@@ -7,7 +7,7 @@
 namespace fsm {
 
 std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
-                                   std::span<const SkinWeights> weights) {
+                                   std::span<const BakeWeights> weights) {
   std::vector<Channel> channels;
   for (std::uint16_t parameter = 0; parameter < kMouthParameters; ++parameter) {
     Channel& channel = channels.emplace_back();
@@ -19,7 +19,7 @@ std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
     channels[parameter].moves.push_back({static_cast<std::uint32_t>(i), by});
   };
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const SkinWeights& f = weights[i];
+    const BakeWeights& f = weights[i];
     const float a = std::abs(f.domain.x);
     const float line = mouth.LineY(std::min(a, corner_x));
     if (f.free <= 0 || a > 56 || f.domain.y > -14 || f.domain.y < -84) continue;
@@ -55,7 +55,7 @@ std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
 }
 
 LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
-                std::span<const glm::vec3> rest, std::span<const SkinWeights> weights) {
+                std::span<const glm::vec3> rest, std::span<const BakeWeights> weights) {
   constexpr float kOnBall = 12.05f;  // nearer than that lies the fold behind the lids
   LidRig rig;
   rig.eyes = eyes;
@@ -68,12 +68,12 @@ LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
     widest = std::max(widest, eye.UpperY(x) - eye.LowerY(x));
   }
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const SkinWeights& f = weights[i];
-    if (f.eye == 0) continue;
+    const BakeWeights& f = weights[i];
+    if (!f.eye) continue;
     const float x = std::clamp(std::abs(f.domain.x), eye.inner_x(), eye.outer_x());
     const float upper = eye.UpperAngle(x);
     const float lower = eye.LowerAngle(x);
-    const Side side = f.eye > 0 ? Side::kLeft : Side::kRight;
+    const Side side = *f.eye;
     const EyeTransform& transform = eyes[side];
     const EyeTransform back{.turn = -transform.turn, .size = 1 / transform.size};
     const glm::vec3 from_ball = back.Turned(rest[i] - rig.ball[side]);
@@ -94,7 +94,7 @@ LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
 }
 
 TeethRig BakeTeeth(const ToothArch& upper, const ToothArch& lower, std::span<const glm::vec3> rest,
-                   std::span<const SkinWeights> weights) {
+                   std::span<const BakeWeights> weights) {
   constexpr float kLeast = 1.3f;  // the crowns bulge out of the parabola by about 0.9
   TeethRig rig{.upper = upper, .lower = lower, .contacts = {}};
   for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -106,17 +106,17 @@ TeethRig BakeTeeth(const ToothArch& upper, const ToothArch& lower, std::span<con
   return rig;
 }
 
-LipRig BakeLips(const MouthSeam& skin, std::span<const SkinWeights> weights) {
+LipRig BakeLips(const MouthSlit& mouth, std::span<const BakeWeights> weights) {
   LipRig rig;
-  rig.seam = skin.seam;
+  rig.seam = mouth.seam;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const SkinWeights& f = weights[i];
+    const BakeWeights& f = weights[i];
     if (f.lip_column < 0 || f.lip_weight == 0) continue;
     rig.followers.push_back(
         {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(f.lip_column), f.lip_weight});
   }
-  const auto [upper, lower] = skin.seam[skin.mid_column];
-  rig.measured = {upper, lower, skin.corner_left, skin.corner_right};
+  const auto [upper, lower] = mouth.seam[mouth.seam.size() / 2];
+  rig.measured = {upper, lower, mouth.corner_left, mouth.corner_right};
   return rig;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -15,13 +14,13 @@ namespace fsm {
 // with the skin of a head and what is moved as skin.
 
 /// What each of the 17 mouth parameters displaces.
-std::vector<Channel> MouthChannels(const MouthAnatomy& mouth, std::span<const SkinWeights> weights);
+std::vector<Channel> MouthChannels(const MouthAnatomy& mouth, std::span<const BakeWeights> weights);
 /// `eyes`: where the right and the left eye sit.
 LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
-                std::span<const glm::vec3> rest, std::span<const SkinWeights> weights);
+                std::span<const glm::vec3> rest, std::span<const BakeWeights> weights);
 /// Arches where the head has them.
 TeethRig BakeTeeth(const ToothArch& upper, const ToothArch& lower, std::span<const glm::vec3> rest,
-                   std::span<const SkinWeights> weights);
-LipRig BakeLips(const MouthSeam& skin, std::span<const SkinWeights> weights);
+                   std::span<const BakeWeights> weights);
+LipRig BakeLips(const MouthSlit& mouth, std::span<const BakeWeights> weights);
 
 }  // namespace fsm

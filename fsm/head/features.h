@@ -1,7 +1,6 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "fsm/head/hair_long.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -5,18 +5,14 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
+#include <glm/trigonometric.hpp>
 
 #include "fsm/base/random.h"
 #include "fsm/base/spline.h"
 #include "fsm/head/landmarks.h"
 
 namespace fsm {
-namespace {
-
-constexpr float kRadians = std::numbers::pi_v<float> / 180;
-
-}  // namespace
+namespace {}  // namespace
 
 Scalp::Scalp(const HeadMesh& mesh) {
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
@@ -47,8 +43,8 @@ glm::vec3 Scalp::Over(glm::vec3 direction, float lift) const {
 }
 
 glm::vec3 HairDirection(float azimuth, float elevation) {
-  const float a = azimuth * kRadians;
-  const float e = elevation * kRadians;
+  const float a = glm::radians(azimuth);
+  const float e = glm::radians(elevation);
   return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
 }
 

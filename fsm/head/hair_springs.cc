@@ -1,11 +1,9 @@
 #include "fsm/head/hair_springs.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <utility>
 #include <vector>
 

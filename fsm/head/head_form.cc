@@ -78,12 +78,11 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& m
         break;
       }
       case Bone::kSkin: {
-        const SkinWeights& weights = mesh.weights[i];
+        const BakeWeights& weights = mesh.weights[i];
         glm::vec3 by = Motion(p);
-        if (weights.eye != 0) {
+        if (weights.eye) {
           const float hold = SmoothStep(0, 0.8f, weights.lid_upper + weights.lid_lower);
-          const Side side = weights.eye > 0 ? Side::kLeft : Side::kRight;
-          by = glm::mix(by, PlaceInFace(eye_, eye_transforms_, side, p) - p, hold);
+          by = glm::mix(by, PlaceInFace(eye_, eye_transforms_, *weights.eye, p) - p, hold);
         }
         p += by;
         break;

@@ -8,7 +8,7 @@
 namespace fsm {
 
 std::uint32_t HeadMesh::Add(glm::vec3 p, glm::vec3 colour, float open, Bone b,
-                            const SkinWeights& f) {
+                            const BakeWeights& f) {
   position.push_back(p);
   albedo.push_back(colour);
   occlusion.push_back(open);
@@ -21,13 +21,16 @@ std::uint32_t HeadMesh::Add(glm::vec3 p, glm::vec3 colour, float open, Bone b,
 
 void HeadMesh::Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   if (a == b || b == c || c == a) return;
-  for (Batch& batch : batches) {
-    if (batch.material == material) {
-      batch.indices.insert(batch.indices.end(), {a, b, c});
-      return;
-    }
-  }
-  batches.push_back({.material = material, .indices = {a, b, c}});
+  auto& indices = BatchOf(material).indices;
+  indices.insert(indices.end(), {a, b, c});
+}
+
+HeadMesh::Batch& HeadMesh::BatchOf(Material material, int pbr, bool two_sided) {
+  const auto found = std::ranges::find_if(batches, [&](const Batch& batch) {
+    return batch.material == material && batch.pbr == pbr && batch.two_sided == two_sided;
+  });
+  if (found != batches.end()) return *found;
+  return batches.emplace_back(Batch{material, {}, pbr, two_sided});
 }
 
 void HeadMesh::Quad(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c,
@@ -49,8 +52,17 @@ void HeadMesh::Grid(Material material, std::uint32_t first, int rows, int column
   }
 }
 
-SkinWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y) {
-  SkinWeights f;
+void SetParts(std::span<const HeadMesh::Batch> batches, HeadTopology& topology) {
+  for (const HeadMesh::Batch& batch : batches) {
+    topology.parts.push_back({batch.material, static_cast<std::uint32_t>(topology.indices.size()),
+                              static_cast<std::uint32_t>(batch.indices.size()), batch.pbr,
+                              batch.two_sided});
+    topology.indices.insert(topology.indices.end(), batch.indices.begin(), batch.indices.end());
+  }
+}
+
+BakeWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y) {
+  BakeWeights f;
   f.domain = domain;
   const float a = std::abs(domain.x);
   const float below = mouth_line_y - domain.y;  // millimetres below the line of the mouth

@@ -123,14 +123,14 @@ Shaper::Shaper(const Table& table, const std::vector<std::pair<std::string, floa
 glm::vec3 Shaper::Motion(glm::vec3 p) const {
   glm::vec3 sum(0);
   for (const Field& field : fields_) {
-    for (const float side : {1.0f, -1.0f}) {
-      if (side < 0 && field.at.x == 0) continue;
-      const glm::vec3 d = (glm::vec3(side * p.x, p.y, p.z) - field.at) / field.radius;
+    // Its mirror image acts, too; a sideways part turns over at the median.
+    for (const float image : {1.0f, -1.0f}) {
+      if (image < 0 && field.at.x == 0) continue;
+      const glm::vec3 d = (glm::vec3(image * p.x, p.y, p.z) - field.at) / field.radius;
       const float weight = std::exp(-0.5f * glm::dot(d, d));
-      sum += weight * glm::vec3(side * field.by.x, field.by.y, field.by.z);
+      sum += weight * glm::vec3(image * field.by.x, field.by.y, field.by.z);
     }
   }
-  // Fields of the median with a sideways part turn over there.
   return sum;
 }
 

@@ -1,12 +1,8 @@
 #pragma once
 
-#include <array>
-#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <map>
 #include <span>
-#include <string>
 
 #include "fsm/head/anatomy.h"
 #include "fsm/head/cage.h"

@@ -70,7 +70,7 @@ struct Ingredients {
 struct BaseSkin {
   Cage cage;
   FineSkin fine;
-  MouthSeam seam;
+  MouthSlit mouth;
   HeadMesh mesh;
 };
 
@@ -79,7 +79,7 @@ BaseSkin MakeSkin(const Ingredients& of) {
   skin.cage = ReadCage(Table("tables/curves.txt", embedded::curves()),
                        Table("tables/patches.txt", embedded::patches()), of.eye, of.mouth);
   skin.fine = Subdivide(skin.cage);
-  skin.seam = BuildSkin(skin.fine, of.eye, of.mouth, of.identity, skin.mesh);
+  skin.mouth = BuildSkin(skin.fine, of.eye, of.mouth, of.identity, skin.mesh);
   return skin;
 }
 
@@ -170,15 +170,9 @@ FormedHead TakeForm(const Ingredients& of, const BaseSkin& skin, const BaseParts
 HeadTopology TopologyOf(const Ingredients& of, const BaseSkin& skin, const BaseParts& parts,
                         const FormedHead& head) {
   HeadTopology topology;
-  for (const HeadMesh::Batch& batch : head.mesh.batches) {
-    topology.parts.push_back({batch.material, static_cast<std::uint32_t>(topology.indices.size()),
-                              static_cast<std::uint32_t>(batch.indices.size())});
-    topology.indices.insert(topology.indices.end(), batch.indices.begin(), batch.indices.end());
-  }
+  SetParts(head.mesh.batches, topology);
   topology.skin_hairs = parts.skin_hairs;
-  topology.mouth.lips = skin.seam.seam;
-  topology.mouth.corner_right = skin.seam.corner_right;
-  topology.mouth.corner_left = skin.seam.corner_left;
+  topology.mouth = skin.mouth;
   topology.albedo = head.mesh.albedo;
   for (glm::vec3& colour : topology.albedo) colour = glm::clamp(colour, 0.0f, 1.0f);
   topology.occlusion = head.mesh.occlusion;
@@ -213,7 +207,7 @@ RigData RigOf(const Ingredients& of, const BaseSkin& skin, const BaseParts& part
       .LightAsOne(std::span(rig.rest).subspan(head.hair_first),
                   std::span(rig.rest_normal).subspan(head.hair_first));
   rig.bone = head.mesh.bone;
-  rig.weights = head.mesh.weights;
+  rig.weights.assign(head.mesh.weights.begin(), head.mesh.weights.end());
   rig.units = BuiltInUnits();
   if (!of.alike) {
     rig.person = static_cast<int>(identity.index);
@@ -221,11 +215,11 @@ RigData RigOf(const Ingredients& of, const BaseSkin& skin, const BaseParts& part
   }
   rig.units_by_place = true;
   rig.creases = {.at_rest = identity.creases, .depth = of.photo ? of.photo->lined : 1};
-  const auto soft = std::span<const SkinWeights>(rig.weights).first(parts.soft_end);
+  const auto soft = std::span(head.mesh.weights).first(parts.soft_end);
   rig.channels = UnitChannels(rig.units, rig.bone, rig.weights);
   std::ranges::move(MouthChannels(of.mouth, soft), std::back_inserter(rig.channels));
   rig.lids = BakeLids(of.eye, head.eyes, rig.rest, soft);
-  rig.lips = BakeLips(skin.seam, soft);
+  rig.lips = BakeLips(skin.mouth, soft);
   rig.teeth = BakeTeeth(of.mouth.UpperTeeth().Moved(head.teeth),
                         of.mouth.LowerTeeth().Moved(head.teeth), rig.rest, soft);
   for (const Side side : kSides) {
@@ -244,7 +238,7 @@ RigData RigOf(const Ingredients& of, const BaseSkin& skin, const BaseParts& part
 }
 
 /// What is seen of the photo where, with lids at rest and shut.
-void Wear(const Ingredients& of, const BaseSkin& skin, HeadAsset& asset) {
+void Wear(const Ingredients& of, const BaseSkin& skin, const FormedHead& formed, HeadAsset& asset) {
   const std::size_t count = skin.mesh.position.size();
   const Rig rig(asset.rig);
   HeadVertices open, shut;
@@ -255,7 +249,7 @@ void Wear(const Ingredients& of, const BaseSkin& skin, HeadAsset& asset) {
   const auto pose = [count](const HeadVertices& v) {
     return SkinPose{std::span(v.position).first(count), std::span(v.normal).first(count)};
   };
-  const PhotoSkin worn{std::span(asset.rig.weights).first(count), skin.fine.tag, pose(open),
+  const PhotoSkin worn{std::span(formed.mesh.weights).first(count), skin.fine.tag, pose(open),
                        pose(shut)};
   WearPhoto(*of.photo, worn, of.identity.palette.lip_inside, asset.topology);
 }
@@ -268,7 +262,7 @@ std::unique_ptr<Head> Bake(const Ingredients& of) {
   asset.topology = TopologyOf(of, skin, parts, formed);
   asset.rig = RigOf(of, skin, parts, formed, asset.topology);
   FindIncisors(asset.rig.rest, asset.rig.bone, asset.topology);
-  if (of.photo) Wear(of, skin, asset);
+  if (of.photo) Wear(of, skin, formed, asset);
   asset.landmarks =
       NameLandmarks(skin.cage, skin.fine, asset.rig.rest, of.eye, formed.eyes, of.identity.Look());
   return std::make_unique<Head>(std::move(asset));
@@ -283,8 +277,6 @@ std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric) {
 std::unique_ptr<Head> MakeHead(Identity identity, bool asymmetric) {
   return Bake(Ingredients(std::move(identity), !asymmetric));
 }
-
-std::unique_ptr<Head> MakeGenericHead() { return MakeHead(Identities().front().name); }
 
 std::unique_ptr<Head> MakeHead(const PhotoHead& head) {
   if (!head.photo) throw std::runtime_error("a head of a photo without its photo");

@@ -16,8 +16,6 @@ struct PhotoHead;
 std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric = true);
 /// Likewise of an identity of one's own. Throws std::runtime_error for an unknown slider.
 std::unique_ptr<Head> MakeHead(Identity identity, bool asymmetric = true);
-/// The first of Identities().
-std::unique_ptr<Head> MakeGenericHead();
 /// A head made from a photo: its base face, warped and wearing the photo. Throws as the first, and
 /// std::runtime_error if `head` does not fit together.
 std::unique_ptr<Head> MakeHead(const PhotoHead& head);

@@ -211,7 +211,7 @@ void BuildTongue(const MouthAnatomy& mouth, const Features& features, const Pale
       const float shown = std::max(SmoothStep(0, 1, up), 0.8f * SmoothStep(0.55f, 0.9f, part));
       const float lit = SmoothStep(-0.2f, 1.0f, part) * shown *
                         SmoothStep(0.8f, 0.2f, std::abs(std::cos(around)));
-      SkinWeights weights;
+      BakeWeights weights;
       weights.free = part;  // the tip bends, the root stays
       // Its outline is lost in the dark of the mouth.
       const glm::vec3 colour = glm::mix(palette.mouth, palette.tongue, SmoothStep(0, 0.5f, lit));
@@ -233,8 +233,7 @@ void FindIncisors(std::span<const glm::vec3> rest, std::span<const Bone> bone,
   };
   for (const auto& part : topology.parts) {
     if (part.material != Material::kTeeth) continue;
-    for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
-      const std::uint32_t i = topology.indices[k];
+    for (const std::uint32_t i : topology.Corners(part)) {
       const glm::vec3 p = rest[i];
       if (std::abs(p.x) > kMiddle) continue;
       if (bone[i] == Bone::kJaw) {

@@ -16,7 +16,7 @@ SkinPainter::SkinPainter(const Features& features, const EyeAnatomy& eye, const 
   }
 }
 
-void SkinPainter::AddSpots(glm::vec2 at, Paint& paint) const {
+void SkinPainter::AddSpots(glm::vec2 at, PaintedSkin& paint) const {
   for (const Spot& spot : spots_) {
     const glm::vec2 d = (at - spot.at) / spot.size;
     const float weight = std::exp(-0.5f * (d.x * d.x + d.y * d.y));
@@ -26,7 +26,7 @@ void SkinPainter::AddSpots(glm::vec2 at, Paint& paint) const {
 }
 
 /// On upper lip, chin, jaw up to before the ear, and some of the throat.
-void SkinPainter::AddBeard(glm::vec2 at, float z, Paint& paint) const {
+void SkinPainter::AddBeard(glm::vec2 at, float z, PaintedSkin& paint) const {
   const auto& line = features_["beard_line"];
   const auto& thin = features_["beard_thin_cheek"];
   const float jaw_line = glm::mix(line[0], line[1], SmoothStep(30, 62, at.x));
@@ -40,7 +40,7 @@ void SkinPainter::AddBeard(glm::vec2 at, float z, Paint& paint) const {
 }
 
 /// The upper lid is a little darker and warmer, most in its fold and at its lashes.
-void SkinPainter::AddLid(glm::vec2 at, Paint& paint) const {
+void SkinPainter::AddLid(glm::vec2 at, PaintedSkin& paint) const {
   if (at.x <= eye_.inner_x() - 4 || at.x >= eye_.outer_x() + 5) return;
   const float above = at.y - eye_.UpperY(at.x);
   const float ends = SmoothStep(eye_.inner_x() - 4, eye_.inner_x() + 3, at.x) *
@@ -52,9 +52,9 @@ void SkinPainter::AddLid(glm::vec2 at, Paint& paint) const {
   paint.open *= 1 - features_("lid_fold_shade") * fold;
 }
 
-Paint SkinPainter::At(glm::vec3 place) const {
+PaintedSkin SkinPainter::At(glm::vec3 place) const {
   const glm::vec2 half(std::abs(place.x), place.y);
-  Paint paint{palette_.skin, 1.0f};
+  PaintedSkin paint{palette_.skin, 1.0f};
   const bool front = place.z > 40;
   if (front) AddSpots(half, paint);
   if (palette_.beard > 0) AddBeard(half, place.z, paint);

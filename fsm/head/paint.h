@@ -29,7 +29,7 @@ struct Palette {
   float beard = 0;  ///< how far a shaved beard shows, 0..1
 };
 
-struct Paint {
+struct PaintedSkin {
   glm::vec3 albedo;
   float open;  ///< occlusion: 1 = open to the light
 };
@@ -38,16 +38,16 @@ struct Paint {
 class SkinPainter {
  public:
   SkinPainter(const Features& features, const EyeAnatomy& eye, const Palette& palette);
-  Paint At(glm::vec3 place) const;
+  PaintedSkin At(glm::vec3 place) const;
 
  private:
   struct Spot {
     glm::vec2 at, size;
     float blush, shade;
   };
-  void AddSpots(glm::vec2 at, Paint& paint) const;
-  void AddBeard(glm::vec2 at, float z, Paint& paint) const;
-  void AddLid(glm::vec2 at, Paint& paint) const;
+  void AddSpots(glm::vec2 at, PaintedSkin& paint) const;
+  void AddBeard(glm::vec2 at, float z, PaintedSkin& paint) const;
+  void AddLid(glm::vec2 at, PaintedSkin& paint) const;
 
   const Features& features_;
   const EyeAnatomy& eye_;

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 #include <map>
-#include <numbers>
 
 #include "fsm/base/table_reader.h"
 
@@ -27,8 +27,6 @@ void Finite(const TableRow& row, std::size_t first) {
   }
 }
 
-constexpr float kRadians = std::numbers::pi_v<float> / 180;
-
 Side SideOf(const TableRow& row) {
   const std::string& side = row.Word(1);
   if (side != "right" && side != "left") row.Fail("'right' or 'left' expected");
@@ -38,7 +36,7 @@ Side SideOf(const TableRow& row) {
 /// eye SIDE DX DY DZ TURN SIZE UPPER LOWER
 void ReadEye(const TableRow& row, PhotoHead& head) {
   const EyeTransform eye{.shift = row.Vector(2),
-                         .turn = row.Number(5) * kRadians,
+                         .turn = glm::radians(row.Number(5)),
                          .size = row.Number(6),
                          .upper_mm = row.Number(7),
                          .lower_mm = row.Number(8)};
@@ -162,8 +160,9 @@ std::string WriteEyes(const PhotoHead& head) {
   for (const Side side : kSides) {
     if (!head.eyes) continue;
     const EyeTransform& eye = (*head.eyes)[side];
-    out += fmt::format("eye {} {:.3f}  {:.2f} {:.4f}  {:.3f} {:.3f}\n", kNames[side],
-                       Words(eye.shift), eye.turn / kRadians, eye.size, eye.upper_mm, eye.lower_mm);
+    out +=
+        fmt::format("eye {} {:.3f}  {:.2f} {:.4f}  {:.3f} {:.3f}\n", kNames[side], Words(eye.shift),
+                    glm::degrees(eye.turn), eye.size, eye.upper_mm, eye.lower_mm);
   }
   for (const Side side : kSides) {
     if (!head.eye_pictures) continue;

@@ -16,7 +16,7 @@ namespace fsm {
 namespace {
 
 /// Skin near an eye: what the photo shows of it.
-struct PhotoSkin {
+struct PhotoSpot {
   glm::vec2 at;        ///< on the face, millimetres
   glm::vec2 texcoord;  ///< in the photo
   glm::vec3 screen;
@@ -24,10 +24,10 @@ struct PhotoSkin {
 };
 
 /// Means with weights that fall off with the distance from `at`, millimetres.
-PhotoSkin Around(std::span<const PhotoSkin> places, glm::vec2 at, float reach) {
-  PhotoSkin mean{at, glm::vec2(0), glm::vec3(0), 0};
+PhotoSpot Around(std::span<const PhotoSpot> places, glm::vec2 at, float reach) {
+  PhotoSpot mean{at, glm::vec2(0), glm::vec3(0), 0};
   float weight = 1e-9f;
-  for (const PhotoSkin& l : places) {
+  for (const PhotoSpot& l : places) {
     const glm::vec2 off = (l.at - at) / reach;
     const float w = std::exp(-glm::dot(off, off)) + 1e-8f;
     mean.texcoord += w * l.texcoord;
@@ -69,14 +69,14 @@ struct PhotoPlane {
   glm::vec2 operator()(glm::vec2 p) const { return texcoord + slope * (p - at); }
 };
 
-PhotoPlane PhotoByFace(std::span<const PhotoSkin> all) {
-  PhotoSkin mean{glm::vec2(0), glm::vec2(0), glm::vec3(0), 0};
-  for (const PhotoSkin& l : all) {
+PhotoPlane PhotoByFace(std::span<const PhotoSpot> all) {
+  PhotoSpot mean{glm::vec2(0), glm::vec2(0), glm::vec3(0), 0};
+  for (const PhotoSpot& l : all) {
     mean.at += l.at / static_cast<float>(all.size());
     mean.texcoord += l.texcoord / static_cast<float>(all.size());
   }
   glm::mat2 spread(1e-6f), both(0);
-  for (const PhotoSkin& l : all) {
+  for (const PhotoSpot& l : all) {
     spread += glm::outerProduct(l.at - mean.at, l.at - mean.at);
     both += glm::outerProduct(l.texcoord - mean.texcoord, l.at - mean.at);
   }
@@ -86,13 +86,13 @@ PhotoPlane PhotoByFace(std::span<const PhotoSkin> all) {
 /// The lids of one eye.
 class LidPainter {
  public:
-  LidPainter(const PhotoFace& face, const FaceLight& light, int side)
+  LidPainter(const PhotoFace& face, const FaceLight& light, Side side)
       : face_(face), features_(face.features), light_(light), side_(side) {
     // How far a place goes with a lid: 1 at the rim, a third where the lid ends, 0 at the socket's.
     std::vector<SkinSample> samples;
     std::vector<glm::vec2> rims;
     for (std::size_t i = 0; i < face.skin.size(); ++i) {
-      const SkinWeights& f = face.skin[i];
+      const BakeWeights& f = face.skin[i];
       if (f.eye != side) continue;
       const glm::vec2 at(face.open.position[i]);
       const glm::vec3 screen = PhotoColour(face.sight.photo, face.sight.texcoord[i]);
@@ -111,7 +111,7 @@ class LidPainter {
     photo_by_face_ = PhotoByFace(around_);
     below_ = around_;
     std::erase_if(below_,
-                  [&](const PhotoSkin& l) { return l.at.y > HeightAt(lower_rim_, l.at.x) - 0.5f; });
+                  [&](const PhotoSpot& l) { return l.at.y > HeightAt(lower_rim_, l.at.x) - 0.5f; });
     if (!below_.empty()) grain_by_face_ = PhotoByFace(below_);
     for (SkinSample& s : samples) {
       // Along the rims the photo shows lashes.
@@ -134,7 +134,7 @@ class LidPainter {
 
   void Paint(std::vector<ShutLid>& lids) const {
     for (std::uint32_t i = 0; i < face_.skin.size(); ++i) {
-      const SkinWeights& f = face_.skin[i];
+      const BakeWeights& f = face_.skin[i];
       if (f.eye == side_) lids.push_back(f.lid_upper > 0 ? Upper(i) : Lower(i));
     }
   }
@@ -145,9 +145,7 @@ class LidPainter {
     return (2 * at.x - rim_from_ - rim_to_) / std::max(rim_to_ - rim_from_, 1.0f);
   }
   /// Lashes are densest and longest outward.
-  float Outward(glm::vec2 at) const {
-    return SmoothStep(-0.8f, 0.7f, Along(at) * static_cast<float>(side_));
-  }
+  float Outward(glm::vec2 at) const { return SmoothStep(-0.8f, 0.7f, Along(at) * SignOf(side_)); }
 
   /// Skin under lashes that take `dark` of its light, 0..1: they are brown where there is colour.
   glm::vec3 Lashed(glm::vec3 skin, float dark) const {
@@ -196,7 +194,7 @@ class LidPainter {
   }
 
   static glm::vec3 Linear(glm::vec3 screen) { return screen * screen; }
-  static float LightOf(const PhotoSkin& skin) {
+  static float LightOf(const PhotoSpot& skin) {
     return std::max(ScreenBrightness(skin.screen), 0.02f);
   }
 
@@ -236,7 +234,7 @@ class LidPainter {
     const float down = face_.glasses ? Folded(height) : std::abs(kHighest - height);
     const glm::vec2 source(at.x, lowest_ - 1.5f - down);
     // Near a rim of glasses skin darkens within millimetres: that is no grain.
-    const PhotoSkin wide = Around(below_, source, face_.glasses ? 1.2f : 4.0f);
+    const PhotoSpot wide = Around(below_, source, face_.glasses ? 1.2f : 4.0f);
     return {.vertex = i,
             .colour = Linear(glm::clamp(Lashed(skin, lashes), 0.0f, 1.0f)),
             .weight = Part(at, rim, skin) * SmoothStep(0.02f, 0.2f, held),
@@ -261,8 +259,8 @@ class LidPainter {
   const PhotoFace& face_;
   const Features& features_;
   const FaceLight& light_;
-  int side_;
-  std::vector<PhotoSkin> around_, below_;
+  Side side_;
+  std::vector<PhotoSpot> around_, below_;
   std::vector<glm::vec2> upper_rim_, lower_rim_;
   float rim_from_ = 0, rim_to_ = 0, lowest_ = 0;
   PhotoPlane photo_by_face_, grain_by_face_;
@@ -294,7 +292,7 @@ FaceLight LightOf(const PhotoSight& sight, const SkinPose& open) {
 
 std::vector<ShutLid> PaintLids(const PhotoFace& face, const FaceLight& light) {
   std::vector<ShutLid> lids;
-  for (const int side : {-1, 1}) {
+  for (const Side side : kSides) {
     const LidPainter painter(face, light, side);
     if (painter.HasLids()) painter.Paint(lids);
   }

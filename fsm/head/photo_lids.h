@@ -32,7 +32,7 @@ glm::vec3 PhotoColour(const Image& photo, glm::vec2 place);
 /// length.
 struct PhotoFace {
   const PhotoSight& sight;
-  std::span<const SkinWeights> skin;
+  std::span<const BakeWeights> skin;
   SkinPose open, shut;
   bool glasses;              ///< nothing above the eye is taken for lashes
   const Features& features;  ///< says how lids look

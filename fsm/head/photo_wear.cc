@@ -74,9 +74,9 @@ std::vector<float> RelitParts(const PhotoSkin& skin) {
   constexpr float kNone = 14, kAll = 26;  // millimetres from the middle of an eye
   Sided<glm::vec3> eye;                   // sums and number
   for (std::size_t i = 0; i < skin.weights.size(); ++i) {
-    const SkinWeights& f = skin.weights[i];
-    if (f.eye == 0 || f.lid_upper + f.lid_lower < 0.95f) continue;
-    eye[f.eye > 0 ? Side::kLeft : Side::kRight] += glm::vec3(glm::vec2(skin.open.position[i]), 1);
+    const BakeWeights& f = skin.weights[i];
+    if (!f.eye || f.lid_upper + f.lid_lower < 0.95f) continue;
+    eye[*f.eye] += glm::vec3(glm::vec2(skin.open.position[i]), 1);
   }
   std::vector<float> parts(skin.weights.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -97,8 +97,8 @@ void ThinLashes(const PhotoHead& head, HeadTopology& topology) {
       glm::mix(glm::vec3(0.02f), glm::vec3(0.03f, 0.018f, 0.012f), head.saturation);
   for (const auto& part : topology.parts) {
     if (part.material != Material::kShutLash) continue;
-    const auto first = topology.indices.begin() + part.first_index;
-    for (const std::uint32_t v : std::set<std::uint32_t>(first, first + part.index_count)) {
+    const auto corners = topology.Corners(part);
+    for (const std::uint32_t v : std::set<std::uint32_t>(corners.begin(), corners.end())) {
       topology.opacity[v] *= 1 - kLost * head.lined;
       topology.albedo[v] = colour;
     }
@@ -143,8 +143,8 @@ void TakeColours(const PhotoHead& head, Palette& palette) {
     palette.lip_inside = *head.lip_colour / kOpen;
     palette.mouth = 0.9f * Wetter(palette.lip_inside, 0.5f * head.saturation);
   }
-  // A photographer's light comes from the front and reaches into the mouth.
-  // Teeth stand in the light whose hue the whites of the eyes show.
+  // Teeth stand in the light whose hue the whites of the eyes show. A photographer's comes from
+  // the front and reaches into the mouth.
   const glm::vec3 white = head.white_colour;
   palette.tooth *=
       0.67f * head.teeth *
@@ -161,7 +161,7 @@ glm::vec3 Wetter(glm::vec3 lip, float saturation) {
 void AddSheet(const PhotoHead& head, HeadMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (const auto& vertex : head.sheet) {
-    SkinWeights weights;
+    BakeWeights weights;
     weights.free = 0;
     weights.domain = vertex.position;
     weights.neck = SmoothStep(-166, -98, vertex.position.y);
@@ -178,7 +178,7 @@ void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh) {
   // How far a large lens with its rim reaches from the eye, millimetres.
   constexpr float kAside = 37, kUp = 19, kDown = 29;
   for (std::size_t i = 0; i < skin_count; ++i) {
-    SkinWeights& f = mesh.weights[i];
+    BakeWeights& f = mesh.weights[i];
     const float up = f.domain.y - eye.y;
     const glm::vec2 off((std::abs(f.domain.x) - eye.x) / kAside, up / (up > 0 ? kUp : kDown));
     f.free *= SmoothStep(1, 1.35f, glm::length(off));
@@ -222,9 +222,7 @@ void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_insid
   // The photo ends at the lips: what lies within the mouth is painted.
   for (const auto& part : topology.parts) {
     if (part.material != Material::kMouthInside) continue;
-    for (std::uint32_t k = 0; k < part.index_count; ++k) {
-      topology.worn.weight[topology.indices[part.first_index + k]] = 0;
-    }
+    for (const std::uint32_t v : topology.Corners(part)) topology.worn.weight[v] = 0;
   }
   // Where paint begins it goes over from the photo's colour.
   for (std::size_t i = 0; i < skin_count; ++i) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -40,7 +39,7 @@ glm::vec3 Wetter(glm::vec3 lip, float saturation);
 
 /// The vertices of the skin, which come first: all of one length.
 struct PhotoSkin {
-  std::span<const SkinWeights> weights;
+  std::span<const BakeWeights> weights;
   std::span<const CageTag> tags;
   SkinPose open, shut;  ///< with lids at rest and shut
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "fsm/head/hair_parts.h"
 #include "fsm/head/paint.h"
@@ -20,7 +21,7 @@ int FineColumn(const CageTag& tag, float x) {
 
 constexpr int kLastColumn = 2 * kLipColumns - 1;
 
-SkinWeights MakeSkinWeights(const CageTag& tag, glm::vec3 p, const MouthAnatomy& mouth) {
+BakeWeights MakeSkinWeights(const CageTag& tag, glm::vec3 p, const MouthAnatomy& mouth) {
   const float a = std::abs(p.x);
   const float corner_x = mouth.corner().x;
   const bool lips = tag.lip_hold > 0 || tag.deep > 0;
@@ -29,11 +30,11 @@ SkinWeights MakeSkinWeights(const CageTag& tag, glm::vec3 p, const MouthAnatomy&
   const float round = a + 0.9f * std::max(0.0f, 45 - p.z);
   glm::vec2 domain(p.x < 0 ? -round : round, p.y);
   if (tag.deep > 0) domain.y = mouth.LineY(std::min(a, corner_x));
-  SkinWeights weights = SkinWeightsAt(domain, side, mouth.LineY(std::min(a, corner_x)));
+  BakeWeights weights = SkinWeightsAt(domain, side, mouth.LineY(std::min(a, corner_x)));
   weights.free = SmoothStep(-5, 25, p.z);
   weights.neck = SmoothStep(-166, -98, p.y - 0.35f * std::max(0.0f, -p.z - 25));
   if (tag.eye > 0) {
-    weights.eye = p.x < 0 ? std::int8_t{-1} : std::int8_t{1};
+    weights.eye = p.x < 0 ? Side::kRight : Side::kLeft;
     weights.lid_upper = tag.lid_upper;
     weights.lid_lower = tag.lid_lower;
     weights.free = std::max(0.0f, 1 - 1.1f * tag.eye);
@@ -55,9 +56,9 @@ SkinWeights MakeSkinWeights(const CageTag& tag, glm::vec3 p, const MouthAnatomy&
   return weights;
 }
 
-Paint MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const SkinPainter& painter,
-                const Palette& palette) {
-  Paint paint = painter.At(p);
+PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const SkinPainter& painter,
+                      const Palette& palette) {
+  PaintedSkin paint = painter.At(p);
   if (tag.deep > 0) {
     paint.albedo = glm::mix(palette.lip_inside, palette.mouth, SmoothStep(0.15f, 0.8f, tag.deep));
     const float out = 1 - tag.deep;
@@ -89,14 +90,14 @@ Paint MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const SkinPainte
 /// Scalp that no head of hair lets be seen.
 bool HairCovers(const HairLook& hair, glm::vec3 p) {
   const glm::vec3 d = p - kHairCentre;
-  const float azimuth = std::atan2(std::abs(d.x), d.z) * 57.29578f;
-  const float elevation = std::asin(d.y / glm::length(d)) * 57.29578f;
+  const float azimuth = glm::degrees(std::atan2(std::abs(d.x), d.z));
+  const float elevation = glm::degrees(std::asin(d.y / glm::length(d)));
   return elevation > hair.HairlineElevation(azimuth) + 16;
 }
 
 }  // namespace
 
-MouthSeam BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
+MouthSlit BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
                     const Identity& identity, HeadMesh& mesh) {
   const SkinPainter painter(identity.Look(), eye, identity.palette);
   const HairLook hair(identity.Look(), identity.palette);
@@ -104,20 +105,19 @@ MouthSeam BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnat
   for (const FineSkin::Triangle& t : skin.triangles) {
     for (const std::uint32_t v : t.corner) kind[v] = std::max(kind[v], t.kind);
   }
-  MouthSeam map;
-  map.seam.resize(2 * kLastColumn + 1);
-  map.mid_column = kLastColumn;
+  MouthSlit slit;
+  slit.seam.resize(2 * kLastColumn + 1);
   for (std::uint32_t v = 0; v < skin.position.size(); ++v) {
     const glm::vec3 p = skin.position[v];
     const CageTag& tag = skin.tag[v];
-    const Paint paint = MakePaint(tag, p, kind[v], painter, identity.palette);
+    const PaintedSkin paint = MakePaint(tag, p, kind[v], painter, identity.palette);
     mesh.Add(p, paint.albedo, paint.open, Bone::kSkin, MakeSkinWeights(tag, p, mouth));
     if (tag.seam < 1) continue;
     const int column = FineColumn(tag, p.x);
     if (std::abs(column) > kLastColumn) {
-      (p.x > 0 ? map.corner_left : map.corner_right) = v;
+      (p.x > 0 ? slit.corner_left : slit.corner_right) = v;
     } else {
-      auto& pair = map.seam[static_cast<std::size_t>(column + kLastColumn)];
+      auto& pair = slit.seam[static_cast<std::size_t>(column + kLastColumn)];
       (tag.lip_side > 0 ? pair.first : pair.second) = v;
     }
   }
@@ -129,7 +129,7 @@ MouthSeam BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnat
                                                             : Material::kSkin;
     mesh.Triangle(material, t.corner[0], t.corner[1], t.corner[2]);
   }
-  return map;
+  return slit;
 }
 
 std::size_t SkinFront::Cell(float mm) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "fsm/head/anatomy.h"
@@ -11,18 +10,10 @@
 
 namespace fsm {
 
-/// Where the lips part, in vertices of the skin.
-struct MouthSeam {
-  /// Seam vertices, upper and lower, of every column of the mouth's slit, from the viewer's left to
-  /// right, corners excluded.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;
-  std::uint32_t corner_left = 0, corner_right = 0;  ///< the agent's
-  std::uint32_t mid_column = 0;                     ///< index into `seam` of the median
-};
-
 /// Adds the subdivided skin to an empty mesh with paint and rig; vertex i of the skin becomes
-/// vertex i of the mesh.
-MouthSeam BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
+/// vertex i of the mesh. Returns where the lips part: the median is the middle of the seam. The
+/// teeth are still to be found (FindIncisors).
+MouthSlit BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
                     const Identity& identity, HeadMesh& mesh);
 
 /// The skin's front as seen from the viewer, for what is laid on it.

@@ -10,9 +10,9 @@
 
 namespace fsm {
 
-/// The formats of image_file.cc, each between bytes in memory and an Image. All decoders take
-/// hostile bytes: an empty result means the file is damaged, too large or of a kind we do not read,
-/// and `why` then says so in a clause.
+/// Formats of pictures (png_file.cc, bmp_file.cc, ...), each between bytes in memory and an Image.
+/// All decoders take hostile bytes: an empty result means the file is damaged, too large or of a
+/// kind we do not read, and `why` then says so in a clause.
 
 std::vector<std::uint8_t> EncodePng(const Image& image);
 std::vector<std::uint8_t> EncodeBmp(const Image& image);  ///< 24 bit, opacity dropped

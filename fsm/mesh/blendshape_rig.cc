@@ -42,9 +42,9 @@ class ShapeSolver {
 
   /// The next shape looks as the source does in this state.
   void Add(const FaceState& meaning) {
-    Look look = LookOf(source_, meaning);
-    opens_mm_.push_back(OpensOnlyMouth(look.moves) ? look.gap_mm : 0.0f);
-    keys_.push_back(std::move(look.moves));
+    ProbeMotion motion = MotionOf(source_, meaning);
+    opens_mm_.push_back(OpensOnlyMouth(motion.moves) ? motion.gap_mm : 0.0f);
+    keys_.push_back(std::move(motion.moves));
     mix_.reset();
   }
   std::size_t count() const { return keys_.size(); }
@@ -53,15 +53,15 @@ class ShapeSolver {
 
   std::vector<float> Solve(const FaceState& state) {
     if (!mix_) mix_.emplace(keys_);
-    const Look look = LookOf(moved_, state);
-    std::vector<float> weights = mix_->TakeApart(look.moves).weights;
-    HoldShut(look.gap_mm, weights);
+    const ProbeMotion motion = MotionOf(moved_, state);
+    std::vector<float> weights = mix_->TakeApart(motion.moves).weights;
+    HoldShut(motion.gap_mm, weights);
     return weights;
   }
   /// Which part of a state's movement the shapes can show together, 0..1 of its squares.
   float PartShown(const FaceState& state) {
     if (!mix_) mix_.emplace(keys_);
-    const NnlsSolver::Row moves = LookOf(moved_, state).moves;
+    const NnlsSolver::Row moves = MotionOf(moved_, state).moves;
     const NnlsSolver::Row rest = mix_->TakeApart(moves).rest;
     const float all = std::inner_product(moves.begin(), moves.end(), moves.begin(), 0.0f);
     const float left = std::inner_product(rest.begin(), rest.end(), rest.begin(), 0.0f);
@@ -69,7 +69,7 @@ class ShapeSolver {
   }
 
  private:
-  struct Look {
+  struct ProbeMotion {
     NnlsSolver::Row moves;  ///< of the probes
     float gap_mm;           ///< between the lips
   };
@@ -87,18 +87,19 @@ class ShapeSolver {
     }
   }
 
-  Look LookOf(const Rig& face, const FaceState& state) {
+  ProbeMotion MotionOf(const Rig& face, const FaceState& state) {
     face.Evaluate(state, vertices_);
-    Look look{.moves = {}, .gap_mm = 0};
-    look.moves.reserve(3 * probes_.size());
+    ProbeMotion motion{.moves = {}, .gap_mm = 0};
+    motion.moves.reserve(3 * probes_.size());
     for (const std::uint32_t v : probes_) {
-      for (int c = 0; c < 3; ++c) look.moves.push_back(vertices_.position[v][c] - rest_[v][c]);
+      for (int c = 0; c < 3; ++c) motion.moves.push_back(vertices_.position[v][c] - rest_[v][c]);
     }
     if (const auto& lips = face.data().lips.measured) {
-      look.gap_mm =
-          std::max(vertices_.position[(*lips)[0]].y - vertices_.position[(*lips)[1]].y, 0.0f);
+      motion.gap_mm = std::max(vertices_.position[(*lips)[LipRig::kUpperLip]].y -
+                                   vertices_.position[(*lips)[LipRig::kLowerLip]].y,
+                               0.0f);
     }
-    return look;
+    return motion;
   }
 
   /// Whether what a look moves lies below the nose.
@@ -288,16 +289,16 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
 void AddLooks(const KnownShapes& known, const LookRanges& ranges, std::vector<Channel>& channels) {
   using enum Drive::Kind;
   using enum Drive::Half;
-  struct Look {
+  struct GazeShape {
     const char* name;
     Drive::Kind kind;
     Drive::Half half;
     LookRange range;
   };
-  for (const Look& look : {Look{kLooks[0], kGazeRight, kPositive, ranges.outer},
-                           Look{kLooks[1], kGazeRight, kNegative, ranges.outer},
-                           Look{kLooks[2], kGazeUp, kPositive, ranges.up},
-                           Look{kLooks[3], kGazeUp, kNegative, ranges.down}}) {
+  for (const GazeShape& look : {GazeShape{kLooks[0], kGazeRight, kPositive, ranges.outer},
+                                GazeShape{kLooks[1], kGazeRight, kNegative, ranges.outer},
+                                GazeShape{kLooks[2], kGazeUp, kPositive, ranges.up},
+                                GazeShape{kLooks[3], kGazeUp, kNegative, ranges.down}}) {
     const auto found = known.looks.find(look.name);
     if (found == known.looks.end()) continue;
     Channel& channel = channels.emplace_back();

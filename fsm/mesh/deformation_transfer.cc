@@ -174,45 +174,45 @@ DeformationTransfer::DeformationTransfer(const TransferSurface& from, const Tran
 
 std::vector<DeformationTransfer::BarycentricBinding> DeformationTransfer::Bind(
     const WeldedSurface& rest, const WeldedSurface& drawn, const WeldedSurface& target) {
-  constexpr float kTieReach = 20;
-  const SurfaceIndex own(drawn, kTieReach);
+  constexpr float kReach = 20;
+  const SurfaceIndex own(drawn, kReach);
   std::vector<BarycentricBinding> bindings(target.at.size());
   std::vector<std::uint32_t> open;
-  std::vector<bool> tied(target.at.size(), false);
+  std::vector<bool> bound(target.at.size(), false);
   for (std::uint32_t w = 0; w < target.at.size(); ++w) {
     const auto hit = own.Find(target, w);
     if (!hit) continue;
     const auto& t = drawn.triangles[hit->triangle];
     bindings[w] = {{rest.first[t[0]], rest.first[t[1]], rest.first[t[2]]}, hit->part};
-    tied[w] = true;
+    bound[w] = true;
     open.push_back(w);
   }
   // What lies over no place of the first face, as the lining of a mouth, goes with its neighbours.
   for (std::size_t k = 0; k < open.size(); ++k) {
     for (const std::uint32_t w : target.next[open[k]]) {
-      if (tied[w]) continue;
+      if (bound[w]) continue;
       bindings[w] = bindings[open[k]];
-      tied[w] = true;
+      bound[w] = true;
       open.push_back(w);
     }
   }
   for (std::size_t w = 0; w < bindings.size(); ++w) {
-    if (!tied[w]) bindings[w].part = glm::vec3(0);
+    if (!bound[w]) bindings[w].part = glm::vec3(0);
   }
   return bindings;
 }
 
 void DeformationTransfer::MakeRows(std::span<const BarycentricBinding> bindings,
                                    const WeldedSurface& target) {
-  // Neighbours may be tied to places that lie apart: each takes a share of its neighbours' mean.
+  // Neighbours may be bound to places that lie apart: each takes a share of its neighbours' mean.
   // That evens out what is smaller than a few millimetres; those of a coarse mesh lie farther.
   constexpr float kMost = 0.25f, kNear = 2.5f;
   rows_.resize(target.of.size());
   std::map<std::uint32_t, float> row;
-  const auto add = [&](const BarycentricBinding& tie, float share) {
+  const auto add = [&](const BarycentricBinding& binding, float share) {
     for (int c = 0; c < 3; ++c) {
-      const float part = share * tie.part[c];
-      if (part != 0) row[tie.corner[static_cast<std::size_t>(c)]] += part;
+      const float part = share * binding.part[c];
+      if (part != 0) row[binding.corner[static_cast<std::size_t>(c)]] += part;
     }
   };
   for (std::size_t v = 0; v < target.of.size(); ++v) {

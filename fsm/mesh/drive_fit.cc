@@ -79,7 +79,7 @@ void MouthFit::AddParameters(const std::function<Weights(const FaceState&)>& wei
 }
 
 void MouthFit::AddViseme(const std::array<float, kMouthParameters>& mouth, Weights weights) {
-  visemes_.push_back({mouth, std::move(weights)});
+  known_.push_back({mouth, std::move(weights)});
 }
 
 /// The normal equations of the gains' change: `square` times it is `wanted`, by half and target.
@@ -87,7 +87,7 @@ struct MouthFit::Equations {
   std::vector<std::vector<double>> square, wanted;
 };
 
-void MouthFit::Demand(const Viseme& viseme, double importance, Equations& equations) const {
+void MouthFit::Demand(const KnownMouth& viseme, double importance, Equations& equations) const {
   const Halves halves = Split(viseme.mouth);
   for (std::size_t i = 0; i < kHalves; ++i) {
     if (halves[i] == 0) continue;
@@ -109,15 +109,15 @@ void MouthFit::AddTo(DriveFit& fit, Drive::Kind kind) const {
   Equations equations{.square{kHalves, std::vector<double>(kHalves, 0)},
                       .wanted{kHalves, std::vector<double>(gain_.size(), 0)}};
   for (std::size_t i = 0; i < kHalves; ++i) equations.square[i][i] = kDamping;
-  for (std::size_t i = 0; i < visemes_.size(); ++i) {
-    Demand(visemes_[i], 1, equations);
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    Demand(known_[i], 1, equations);
     for (std::size_t j = 0; j < i; ++j) {
-      Viseme mean = visemes_[i];
+      KnownMouth mean = known_[i];
       for (std::size_t p = 0; p < kMouthParameters; ++p) {
-        mean.mouth[p] = 0.5f * (mean.mouth[p] + visemes_[j].mouth[p]);
+        mean.mouth[p] = 0.5f * (mean.mouth[p] + known_[j].mouth[p]);
       }
       for (std::size_t k = 0; k < gain_.size(); ++k) {
-        mean.weights[k] = 0.5f * (mean.weights[k] + visemes_[j].weights[k]);
+        mean.weights[k] = 0.5f * (mean.weights[k] + known_[j].weights[k]);
       }
       Demand(mean, kBetween, equations);
     }

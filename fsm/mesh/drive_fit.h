@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "fsm/rig/face_state.h"
@@ -55,15 +54,15 @@ class MouthFit {
   using Halves = std::array<double, kHalves>;  // raised, then lowered, in parts of full strength
   static Halves Split(const std::array<float, kMouthParameters>& mouth);
 
-  struct Viseme {
+  struct KnownMouth {
     std::array<float, kMouthParameters> mouth;
     Weights weights;
   };
   struct Equations;
-  void Demand(const Viseme& viseme, double importance, Equations& equations) const;
+  void Demand(const KnownMouth& viseme, double importance, Equations& equations) const;
 
   std::vector<Halves> gain_;  // by target, as each parameter asks by itself
-  std::vector<Viseme> visemes_;
+  std::vector<KnownMouth> known_;
 };
 
 }  // namespace fsm

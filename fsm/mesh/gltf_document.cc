@@ -73,33 +73,33 @@ int WidthOf(const std::string& type) {
 
 }  // namespace
 
-std::int64_t WholeOf(const json& object, const char* key, std::int64_t otherwise) {
+std::int64_t JsonInteger(const json& object, const char* key, std::int64_t otherwise) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   return found != object.end() && found->is_number_integer() ? found->get<std::int64_t>()
                                                              : otherwise;
 }
-double RealOf(const json& object, const char* key, double otherwise) {
+double JsonNumber(const json& object, const char* key, double otherwise) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   return found != object.end() && found->is_number() ? found->get<double>() : otherwise;
 }
-std::string TextOf(const json& object, const char* key) {
+std::string JsonText(const json& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
-const json& PartOf(const json& object, const char* key) {
+const json& JsonMember(const json& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   return found != object.end() && found->is_structured() ? *found : kNothing;
 }
 
-std::vector<std::int64_t> WholesOf(const json& object, const char* key) {
+std::vector<std::int64_t> JsonIntegers(const json& object, const char* key) {
   std::vector<std::int64_t> wholes;
-  for (const json& element : PartOf(object, key)) {
+  for (const json& element : JsonMember(object, key)) {
     if (element.is_number_integer()) wholes.push_back(element.get<std::int64_t>());
   }
   return wholes;
 }
-void RealsOf(const json& object, const char* key, std::span<float> out) {
-  const json& list = PartOf(object, key);
+void JsonNumbers(const json& object, const char* key, std::span<float> out) {
+  const json& list = JsonMember(object, key);
   for (std::size_t i = 0; list.is_array() && i < std::min(list.size(), out.size()); ++i) {
     if (list[i].is_number()) out[i] = list[i].get<float>();
   }
@@ -151,10 +151,10 @@ vm::Result<void> GltfDocument::ParseJson(std::string_view text) {
     return Wrong("no glTF: JSON with an \"asset\" expected");
   }
   json_ = std::make_unique<json>(std::move(parsed));
-  if (!TextOf(PartOf(root(), "asset"), "version").starts_with("2")) {
+  if (!JsonText(JsonMember(root(), "asset"), "version").starts_with("2")) {
     return Wrong("asset: version 2 expected");
   }
-  for (const json& needed : PartOf(root(), "extensionsRequired")) {
+  for (const json& needed : JsonMember(root(), "extensionsRequired")) {
     for (const char* packed :
          {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}) {
       if (needed == json(packed)) {
@@ -169,7 +169,7 @@ vm::Result<void> GltfDocument::ReadBuffers(std::optional<std::string_view> own) 
   std::size_t total = 0;
   for (std::size_t i = 0; i < Count("buffers"); ++i) {
     const json& buffer = At("buffers", static_cast<std::int64_t>(i));
-    const std::string uri = TextOf(buffer, "uri"), place = "buffers[" + std::to_string(i) + "]: ";
+    const std::string uri = JsonText(buffer, "uri"), place = "buffers[" + std::to_string(i) + "]: ";
     if (uri.empty() && i == 0 && own) {
       buffers_.emplace_back(*own);
     } else {
@@ -182,7 +182,7 @@ vm::Result<void> GltfDocument::ReadBuffers(std::optional<std::string_view> own) 
       return vm::Fail(vm::Errc::kLimit, name_ + ": its buffers hold more than " +
                                             std::to_string(kMaxMeshBytes) + " bytes");
     }
-    if (WholeOf(buffer, "byteLength", 0) > static_cast<std::int64_t>(size)) {
+    if (JsonInteger(buffer, "byteLength", 0) > static_cast<std::int64_t>(size)) {
       return Wrong(place + "it is shorter than its byteLength");
     }
   }
@@ -206,7 +206,7 @@ vm::Result<GltfDocument> GltfDocument::Parse(
 }
 
 const json& GltfDocument::At(const char* key, std::int64_t index) const {
-  const json& list = PartOf(*json_, key);
+  const json& list = JsonMember(*json_, key);
   if (!list.is_array() || index < 0 || static_cast<std::size_t>(index) >= list.size()) {
     return kNothing;
   }
@@ -214,7 +214,7 @@ const json& GltfDocument::At(const char* key, std::int64_t index) const {
 }
 
 std::size_t GltfDocument::Count(const char* key) const {
-  const json& list = PartOf(*json_, key);
+  const json& list = JsonMember(*json_, key);
   return list.is_array() ? list.size() : 0;
 }
 
@@ -235,11 +235,12 @@ vm::Result<std::string> GltfDocument::Resolve(const std::string& uri) const {
   return std::move(*bytes);
 }
 
-vm::Result<GltfDocument::View> GltfDocument::ViewOf(std::int64_t index) const {
+vm::Result<GltfDocument::BufferView> GltfDocument::ViewOf(std::int64_t index) const {
   const json& view = At("bufferViews", index);
-  const std::int64_t buffer = WholeOf(view, "buffer"), offset = WholeOf(view, "byteOffset", 0),
-                     length = WholeOf(view, "byteLength", -1),
-                     stride = WholeOf(view, "byteStride", 0);
+  const std::int64_t buffer = JsonInteger(view, "buffer"),
+                     offset = JsonInteger(view, "byteOffset", 0),
+                     length = JsonInteger(view, "byteLength", -1),
+                     stride = JsonInteger(view, "byteStride", 0);
   if (buffer < 0 || static_cast<std::size_t>(buffer) >= buffers_.size() || offset < 0 ||
       length < 0 || stride < 0 || stride > 65536) {
     return Wrong("bufferViews[" + std::to_string(index) + "]: it points nowhere");
@@ -252,15 +253,15 @@ vm::Result<GltfDocument::View> GltfDocument::ViewOf(std::int64_t index) const {
                  " are not in its buffer of " + std::to_string(size));
   }
   const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data()) + offset;
-  return View{{first, static_cast<std::size_t>(length)}, static_cast<std::size_t>(stride)};
+  return BufferView{{first, static_cast<std::size_t>(length)}, static_cast<std::size_t>(stride)};
 }
 
 vm::Result<void> GltfDocument::ReadElements(const Elements& elements, const std::string& place,
                                             const Take& take) const {
   const json& where = elements.where;
-  const auto view = ViewOf(WholeOf(where, "bufferView"));
+  const auto view = ViewOf(JsonInteger(where, "bufferView"));
   if (!view) return std::unexpected(view.error());
-  const std::int64_t offset = WholeOf(where, "byteOffset", 0);
+  const std::int64_t offset = JsonInteger(where, "byteOffset", 0);
   const auto kind = KindOf(elements.component);
   const std::size_t tight = kind->bytes * elements.width;
   const std::size_t stride = view->stride == 0 ? tight : view->stride;
@@ -282,9 +283,9 @@ vm::Result<void> GltfDocument::ReadElements(const Elements& elements, const std:
 vm::Result<std::vector<double>> GltfDocument::Values(std::int64_t index, int width) const {
   const json& accessor = At("accessors", index);
   const std::string place = "accessors[" + std::to_string(index) + "]";
-  const std::int64_t count = WholeOf(accessor, "count", -1);
-  const std::int64_t component = WholeOf(accessor, "componentType");
-  const int own_width = WidthOf(TextOf(accessor, "type"));
+  const std::int64_t count = JsonInteger(accessor, "count", -1);
+  const std::int64_t component = JsonInteger(accessor, "componentType");
+  const int own_width = WidthOf(JsonText(accessor, "type"));
   if (count < 0 || !KindOf(component) || own_width == 0 || own_width != width) {
     return Wrong(place + ": " + std::to_string(width) + " numbers of a known kind expected");
   }
@@ -307,11 +308,11 @@ vm::Result<std::vector<double>> GltfDocument::Values(std::int64_t index, int wid
 
 vm::Result<void> GltfDocument::FillSparse(const Elements& own, const std::string& place,
                                           std::vector<double>& out) const {
-  const json& sparse = PartOf(own.where, "sparse");
+  const json& sparse = JsonMember(own.where, "sparse");
   if (sparse.empty()) return {};
-  const std::int64_t changed = WholeOf(sparse, "count", -1);
-  const json& indices = PartOf(sparse, "indices");
-  const std::int64_t index_type = WholeOf(indices, "componentType");
+  const std::int64_t changed = JsonInteger(sparse, "count", -1);
+  const json& indices = JsonMember(sparse, "indices");
+  const std::int64_t index_type = JsonInteger(indices, "componentType");
   if (changed < 0 || static_cast<std::size_t>(changed) > own.count || !KindOf(index_type)) {
     return Wrong(place + ": sparse: a damaged list");
   }
@@ -325,8 +326,8 @@ vm::Result<void> GltfDocument::FillSparse(const Elements& own, const std::string
   if (!done) return done;
   if (!inside) return Wrong(place + ": sparse: an index beyond its elements");
   return ReadElements(
-      {PartOf(sparse, "values"), own.component, vertex.size(), own.width, own.normalised}, place,
-      [&](std::size_t i, std::size_t k, double v) { out[vertex[i] * own.width + k] = v; });
+      {JsonMember(sparse, "values"), own.component, vertex.size(), own.width, own.normalised},
+      place, [&](std::size_t i, std::size_t k, double v) { out[vertex[i] * own.width + k] = v; });
 }
 
 vm::Result<std::vector<float>> GltfDocument::Numbers(std::int64_t accessor, int width) const {
@@ -347,11 +348,11 @@ vm::Result<std::vector<std::uint32_t>> GltfDocument::Indices(std::int64_t access
 vm::Result<std::string> GltfDocument::ImageBytes(std::int64_t index) const {
   const json& image = At("images", index);
   if (image.contains("bufferView")) {
-    const auto view = ViewOf(WholeOf(image, "bufferView"));
+    const auto view = ViewOf(JsonInteger(image, "bufferView"));
     if (!view) return std::unexpected(view.error());
     return std::string(view->bytes.begin(), view->bytes.end());
   }
-  auto bytes = Resolve(TextOf(image, "uri"));
+  auto bytes = Resolve(JsonText(image, "uri"));
   if (!bytes) return Wrong("images[" + std::to_string(index) + "]: " + bytes.error().text);
   return bytes;
 }

@@ -45,7 +45,7 @@ class GltfDocument {
   std::unexpected<vm::Error> Wrong(const std::string& text) const;
 
  private:
-  struct View {
+  struct BufferView {
     std::span<const std::uint8_t> bytes;
     std::size_t stride = 0;  // 0 = tight
   };
@@ -74,7 +74,7 @@ class GltfDocument {
   /// Puts the sparse numbers of an accessor in place.
   vm::Result<void> FillSparse(const Elements& own, const std::string& place,
                               std::vector<double>& out) const;
-  vm::Result<View> ViewOf(std::int64_t view) const;
+  vm::Result<BufferView> ViewOf(std::int64_t view) const;
   vm::Result<std::string> Resolve(const std::string& uri) const;
 
   std::string name_;
@@ -88,14 +88,15 @@ inline constexpr const char* kPackedMesh =
     "its geometry is compressed (Draco or meshopt), which is not read; export it uncompressed";
 
 /// An integer member, or `otherwise` if it is missing or no integer.
-std::int64_t WholeOf(const nlohmann::json& object, const char* key, std::int64_t otherwise = -1);
-double RealOf(const nlohmann::json& object, const char* key, double otherwise);
-std::string TextOf(const nlohmann::json& object, const char* key);
+std::int64_t JsonInteger(const nlohmann::json& object, const char* key,
+                         std::int64_t otherwise = -1);
+double JsonNumber(const nlohmann::json& object, const char* key, double otherwise);
+std::string JsonText(const nlohmann::json& object, const char* key);
 /// A member that is an array or object, else an empty one.
-const nlohmann::json& PartOf(const nlohmann::json& object, const char* key);
+const nlohmann::json& JsonMember(const nlohmann::json& object, const char* key);
 /// The integers of a list.
-std::vector<std::int64_t> WholesOf(const nlohmann::json& object, const char* key);
+std::vector<std::int64_t> JsonIntegers(const nlohmann::json& object, const char* key);
 /// Puts a list's numbers into `out`, place by place; what is no number leaves its place as it was.
-void RealsOf(const nlohmann::json& object, const char* key, std::span<float> out);
+void JsonNumbers(const nlohmann::json& object, const char* key, std::span<float> out);
 
 }  // namespace fsm

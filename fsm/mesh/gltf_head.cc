@@ -74,21 +74,21 @@ class GltfReader {
  private:
   void Mesh(std::int64_t node) {
     const json& of = document_.At("nodes", node);
-    const std::int64_t index = WholeOf(of, "mesh"), skin = WholeOf(of, "skin");
+    const std::int64_t index = JsonInteger(of, "mesh"), skin = JsonInteger(of, "skin");
     if (index < 0) return;
     if (skin >= 0 && !skins_.contains(skin)) {
       skins_.emplace(skin, OrRefuse(GltfSkin::Read(document_, nodes_, skin)));
     }
     const json& mesh = document_.At("meshes", index);
     std::vector<std::string> names;
-    for (const json& name : PartOf(PartOf(mesh, "extras"), "targetNames")) {
+    for (const json& name : JsonMember(JsonMember(mesh, "extras"), "targetNames")) {
       names.push_back(name.is_string() ? name.get<std::string>() : "");
     }
-    for (const json& primitive : PartOf(mesh, "primitives")) {
-      if (WholeOf(primitive, "mode", 4) != 4) continue;
+    for (const json& primitive : JsonMember(mesh, "primitives")) {
+      if (JsonInteger(primitive, "mode", 4) != 4) continue;
       const Place place{.mesh = index, .node = node, .skin = skin};
-      Primitive(primitive, place, vm::LowerCase(TextOf(of, "name") + " " + TextOf(mesh, "name")),
-                names);
+      Primitive(primitive, place,
+                vm::LowerCase(JsonText(of, "name") + " " + JsonText(mesh, "name")), names);
     }
   }
 
@@ -98,10 +98,10 @@ class GltfReader {
 
   void Primitive(const json& primitive, const Place& place, const std::string& name,
                  const std::vector<std::string>& names) {
-    const json& attributes = PartOf(primitive, "attributes");
-    const std::int64_t position = WholeOf(attributes, "POSITION");
+    const json& attributes = JsonMember(primitive, "attributes");
+    const std::int64_t position = JsonInteger(attributes, "POSITION");
     // Without a fallback the accessors of packed geometry are there, but point to nothing.
-    if (PartOf(primitive, "extensions").contains("KHR_draco_mesh_compression") &&
+    if (JsonMember(primitive, "extensions").contains("KHR_draco_mesh_compression") &&
         !document_.At("accessors", position).contains("bufferView")) {
       Refuse("meshes[" + std::to_string(place.mesh) + "]: " + kPackedMesh);
     }
@@ -115,7 +115,7 @@ class GltfReader {
     part.name = name;
     part.indices = TrianglesOf(primitive, place, first, count);
     if (triangles_ += part.indices.size() / 3; triangles_ > kMaxMeshTriangles) RefuseSize();
-    paint_.ApplyMaterial(WholeOf(primitive, "material"), part);
+    paint_.ApplyMaterial(JsonInteger(primitive, "material"), part);
     if (!part.indices.empty()) head_.parts.push_back(std::move(part));
   }
 
@@ -125,7 +125,7 @@ class GltfReader {
     std::vector<std::uint32_t> indices(count);
     std::iota(indices.begin(), indices.end(), 0u);
     if (primitive.contains("indices")) {
-      indices = OrRefuse(document_.Indices(WholeOf(primitive, "indices")));
+      indices = OrRefuse(document_.Indices(JsonInteger(primitive, "indices")));
     }
     for (std::uint32_t& i : indices) {
       if (i >= count) {
@@ -142,40 +142,40 @@ class GltfReader {
   }
 
   void Vertices(const json& primitive, const Place& place, const std::vector<std::string>& names) {
-    const json& attributes = PartOf(primitive, "attributes");
-    const std::int64_t position = WholeOf(attributes, "POSITION");
+    const json& attributes = JsonMember(primitive, "attributes");
+    const std::int64_t position = JsonInteger(attributes, "POSITION");
     const std::size_t first = head_.position.size();
     const auto numbers = OrRefuse(document_.Numbers(position, 3));
     const std::size_t count = numbers.size() / 3;
     if (first + count > kMaxMeshVertices) RefuseSize();
     count_of_[{place.node, position}] = count;
-    std::vector<glm::mat4> stands(count, nodes_.World(place.node));
-    std::vector<GltfSkin::Held::Hold> watched;
+    std::vector<glm::mat4> transforms(count, nodes_.World(place.node));
+    std::vector<GltfSkin::Skinned::Influence> watched;
     head_.eye.resize(first);
     if (place.skin >= 0) {
-      GltfSkin::Held held =
+      GltfSkin::Skinned skinned =
           OrRefuse(skins_.at(place.skin)
-                       .Hold(document_, attributes, count, nodes_.World(place.node),
-                             [this](std::int64_t bone) { return springs_->Has(bone); }));
-      stands = std::move(held.transform);
-      watched = std::move(held.watched);
-      std::ranges::transform(held.main, std::back_inserter(head_.eye),
+                       .Apply(document_, attributes, count, nodes_.World(place.node),
+                              [this](std::int64_t bone) { return springs_->Has(bone); }));
+      transforms = std::move(skinned.transform);
+      watched = std::move(skinned.watched);
+      std::ranges::transform(skinned.main, std::back_inserter(head_.eye),
                              [this](std::int64_t bone) { return EyeOf(bone); });
     }
     for (std::size_t i = 0; i < count; ++i) {
       const glm::vec4 p(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2], 1);
-      head_.position.push_back(glm::vec3(stands[i] * p));
+      head_.position.push_back(glm::vec3(transforms[i] * p));
       if (!WithinReach(head_.position.back())) RefuseReach(place, i, "");
     }
     for (const auto& [vertex, node, weight] : watched) {
       springs_->Bind(static_cast<std::uint32_t>(first + vertex), head_.position[first + vertex],
                      node, weight, head_.swing.weights);
     }
-    mirrored_[first] = count > 0 && glm::determinant(glm::mat3(stands[0])) < 0;
-    const GltfUv uv = paint_.UvOfMaterial(WholeOf(primitive, "material"));
+    mirrored_[first] = count > 0 && glm::determinant(glm::mat3(transforms[0])) < 0;
+    const GltfUv uv = paint_.UvOfMaterial(JsonInteger(primitive, "material"));
     ReadTexcoords(attributes, uv, first);
-    if (attributes.contains("COLOR_0")) Tints(WholeOf(attributes, "COLOR_0"), first, count);
-    Targets(primitive, place, stands, first, names);
+    if (attributes.contains("COLOR_0")) Tints(JsonInteger(attributes, "COLOR_0"), first, count);
+    Targets(primitive, place, transforms, first, names);
   }
 
   /// As HeadFile::eye.
@@ -189,7 +189,7 @@ class GltfReader {
   void ReadTexcoords(const json& attributes, const GltfUv& to, std::size_t first) {
     const std::string set = "TEXCOORD_" + std::to_string(to.set);
     if (!attributes.contains(set)) return;
-    const auto uv = OrRefuse(document_.Numbers(WholeOf(attributes, set.c_str()), 2));
+    const auto uv = OrRefuse(document_.Numbers(JsonInteger(attributes, set.c_str()), 2));
     head_.texcoord.resize(head_.position.size(), glm::vec2(0));
     for (std::size_t i = 0; i < std::min(head_.position.size() - first, uv.size() / 2); ++i) {
       head_.texcoord[first + i] = to({uv[2 * i], uv[2 * i + 1]});
@@ -197,7 +197,8 @@ class GltfReader {
   }
 
   void Tints(std::int64_t accessor, std::size_t begin, std::size_t count) {
-    const std::size_t width = TextOf(document_.At("accessors", accessor), "type") == "VEC4" ? 4 : 3;
+    const std::size_t width =
+        JsonText(document_.At("accessors", accessor), "type") == "VEC4" ? 4 : 3;
     const auto colours = OrRefuse(document_.Numbers(accessor, static_cast<int>(width)));
     head_.tint.resize(head_.position.size(), glm::vec3(1));
     for (std::size_t i = 0; i < std::min(count, colours.size() / width); ++i) {
@@ -207,13 +208,13 @@ class GltfReader {
     }
   }
 
-  void Targets(const json& primitive, const Place& place, const std::vector<glm::mat4>& stands,
+  void Targets(const json& primitive, const Place& place, const std::vector<glm::mat4>& transforms,
                std::size_t first, const std::vector<std::string>& names) {
-    const json& targets = PartOf(primitive, "targets");
+    const json& targets = JsonMember(primitive, "targets");
     for (std::size_t t = 0; t < targets.size(); ++t) {
       if (!targets.is_array() || !targets[t].contains("POSITION")) continue;
-      const auto by = OrRefuse(document_.Numbers(WholeOf(targets[t], "POSITION"), 3));
-      if (by.size() < 3 * stands.size()) {
+      const auto by = OrRefuse(document_.Numbers(JsonInteger(targets[t], "POSITION"), 3));
+      if (by.size() < 3 * transforms.size()) {
         Refuse("meshes[" + std::to_string(place.mesh) + "]: target " + std::to_string(t) +
                " has fewer vertices than the mesh");
       }
@@ -226,12 +227,12 @@ class GltfReader {
       targets_[{place.mesh, t}].push_back({.shape = known->second,
                                            .node = place.node,
                                            .first = first,
-                                           .end = first + stands.size()});
+                                           .end = first + transforms.size()});
       auto& deltas = head_.shapes[known->second].deltas;
-      for (std::size_t i = 0; i < stands.size(); ++i) {
+      for (std::size_t i = 0; i < transforms.size(); ++i) {
         const glm::vec3 d(by[3 * i], by[3 * i + 1], by[3 * i + 2]);
         if (d == glm::vec3(0)) continue;
-        const glm::vec3 moved(stands[i] * glm::vec4(d, 0));
+        const glm::vec3 moved(transforms[i] * glm::vec4(d, 0));
         if (!WithinReach(moved)) {
           RefuseReach(place, i, " is moved by target " + std::to_string(t) + " and");
         }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/mat4x4.hpp>
@@ -25,11 +24,11 @@ class GltfNodes {
   std::span<const std::int64_t> shown() const { return shown_; }
 
  private:
-  vm::Result<void> Stand(const GltfDocument& document, std::int64_t node, const glm::mat4& above,
+  vm::Result<void> Place(const GltfDocument& document, std::int64_t node, const glm::mat4& above,
                          int depth);
   void Show(const GltfDocument& document, std::int64_t node, std::vector<bool>& seen);
   std::vector<glm::mat4> world_;
-  std::vector<bool> stands_;
+  std::vector<bool> placed_;
   std::vector<std::int64_t> shown_;
 };
 
@@ -40,24 +39,24 @@ class GltfSkin {
   /// Errors: as GltfDocument's, of the inverse bind matrices.
   static vm::Result<GltfSkin> Read(const GltfDocument& document, const GltfNodes& nodes,
                                    std::int64_t skin);
-  /// The matrix of every vertex of a primitive; those without weights stand by `transform`. `main`:
+  /// The matrix of every vertex of a primitive; those without weights go by `transform`. `main`:
   /// the node of the bone with the largest part, -1 for none.
-  struct Held {
-    struct Hold {
+  struct Skinned {
+    struct Influence {
       std::size_t vertex;
       std::int64_t node;
       float weight;
     };
     std::vector<glm::mat4> transform;
     std::vector<std::int64_t> main;
-    std::vector<Hold> watched;  ///< all holds of the nodes that were asked for
+    std::vector<Influence> watched;  ///< all influences of the nodes that were asked for
   };
-  vm::Result<Held> Hold(const GltfDocument& document, const nlohmann::json& attributes,
-                        std::size_t count, const glm::mat4& transform,
-                        const std::function<bool(std::int64_t node)>& watched) const;
+  vm::Result<Skinned> Apply(const GltfDocument& document, const nlohmann::json& attributes,
+                            std::size_t count, const glm::mat4& transform,
+                            const std::function<bool(std::int64_t node)>& watched) const;
 
  private:
-  std::vector<glm::mat4> takes_;
+  std::vector<glm::mat4> joint_transform_;
   std::vector<std::int64_t> node_;
 };
 

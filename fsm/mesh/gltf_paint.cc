@@ -24,12 +24,13 @@ constexpr int kOpaque = -1, kSmooth = 256;
 
 glm::vec4 FactorOf(const json& material) {
   glm::vec4 factor(1);
-  RealsOf(PartOf(material, "pbrMetallicRoughness"), "baseColorFactor", std::span(&factor.x, 4));
+  JsonNumbers(JsonMember(material, "pbrMetallicRoughness"), "baseColorFactor",
+              std::span(&factor.x, 4));
   return glm::clamp(factor, 0.0f, 1.0f);
 }
 
 const json& TextureOf(const json& material) {
-  return PartOf(PartOf(material, "pbrMetallicRoughness"), "baseColorTexture");
+  return JsonMember(JsonMember(material, "pbrMetallicRoughness"), "baseColorTexture");
 }
 
 /// A picture's byte times a factor of light.
@@ -43,7 +44,7 @@ std::array<std::uint8_t, 256> Dimmed(float factor) {
   return table;
 }
 
-void Paint(Image& picture, glm::vec4 factor, int cut) {
+void Dim(Image& picture, glm::vec4 factor, int cut) {
   const std::array<std::array<std::uint8_t, 256>, 3> dim{Dimmed(factor.r), Dimmed(factor.g),
                                                          Dimmed(factor.b)};
   for (std::size_t i = 0; i + 3 < picture.rgba.size(); i += 4) {
@@ -58,12 +59,12 @@ void Paint(Image& picture, glm::vec4 factor, int cut) {
 
 GltfUv UvOf(const json& texture) {
   GltfUv uv;
-  uv.set = WholeOf(texture, "texCoord", 0);
-  const json& by = PartOf(PartOf(texture, "extensions"), "KHR_texture_transform");
-  uv.set = WholeOf(by, "texCoord", uv.set);
-  RealsOf(by, "offset", std::span(&uv.move.x, 2));
-  RealsOf(by, "scale", std::span(&uv.size.x, 2));
-  uv.turn_rad = static_cast<float>(RealOf(by, "rotation", 0));
+  uv.set = JsonInteger(texture, "texCoord", 0);
+  const json& by = JsonMember(JsonMember(texture, "extensions"), "KHR_texture_transform");
+  uv.set = JsonInteger(by, "texCoord", uv.set);
+  JsonNumbers(by, "offset", std::span(&uv.move.x, 2));
+  JsonNumbers(by, "scale", std::span(&uv.size.x, 2));
+  uv.turn_rad = static_cast<float>(JsonNumber(by, "rotation", 0));
   return uv;
 }
 
@@ -113,9 +114,10 @@ GltfUv GltfPaint::UvOfMaterial(std::int64_t material) const {
 
 std::int64_t GltfPaint::ImageOf(std::int64_t texture) {
   const json& given = document_.At("textures", texture);
-  if (const std::int64_t own = WholeOf(given, "source"); own >= 0) return own;
+  if (const std::int64_t own = JsonInteger(given, "source"); own >= 0) return own;
   for (const char* kind : {"EXT_texture_webp", "KHR_texture_basisu", "EXT_texture_avif"}) {
-    const std::int64_t other = WholeOf(PartOf(PartOf(given, "extensions"), kind), "source");
+    const std::int64_t other =
+        JsonInteger(JsonMember(JsonMember(given, "extensions"), kind), "source");
     if (other >= 0) return other;
   }
   return -1;
@@ -123,10 +125,10 @@ std::int64_t GltfPaint::ImageOf(std::int64_t texture) {
 
 void GltfPaint::ApplyMaterial(std::int64_t index, HeadFile::Part& part) {
   const json& material = document_.At("materials", index);
-  part.name += " " + vm::LowerCase(TextOf(material, "name"));
+  part.name += " " + vm::LowerCase(JsonText(material, "name"));
   const glm::vec4 factor = FactorOf(material);
   if (index >= 0) part.colour = glm::vec3(factor);
-  const std::string mode = TextOf(material, "alphaMode");
+  const std::string mode = JsonText(material, "alphaMode");
   part.cut_out = mode == "MASK" || mode == "BLEND";
   part.two_sided = material.contains("doubleSided") && material["doubleSided"] == json(true);
   const GltfMaterial given = ReadMaterial(document_, index);
@@ -136,11 +138,11 @@ void GltfPaint::ApplyMaterial(std::int64_t index, HeadFile::Part& part) {
     if (fresh) head_.pbr_materials.push_back(*given.pbr);
     part.pbr = known->second;
   }
-  const std::int64_t texture = WholeOf(TextureOf(material), "index");
+  const std::int64_t texture = JsonInteger(TextureOf(material), "index");
   const bool detailed = given.normal.index >= 0 || given.surface.index >= 0 ||
                         given.open.index >= 0 || given.glow.index >= 0;
   if (texture < 0 && !detailed) return;
-  const double cut_off = std::clamp(RealOf(material, "alphaCutoff", 0.5), 0.0, 1.0);
+  const double cut_off = std::clamp(JsonNumber(material, "alphaCutoff", 0.5), 0.0, 1.0);
   const int cut = mode == "MASK"    ? static_cast<int>(std::lround(255 * cut_off))
                   : mode == "BLEND" ? kSmooth
                                     : kOpaque;
@@ -230,7 +232,7 @@ int GltfPaint::Picture(const Key& key, glm::vec4 factor, HeadFile::Detail detail
     }
   }
   if (!picture) return known;
-  Paint(*picture, factor, std::get<2>(key));
+  Dim(*picture, factor, std::get<2>(key));
   known = static_cast<int>(head_.pictures.size());
   head_.pictures.push_back(std::move(*picture));
   if (!detail.normal_map.rgba.empty() || !detail.emissive_map.rgba.empty()) {

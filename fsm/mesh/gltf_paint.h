@@ -4,7 +4,6 @@
 #include <glm/vec4.hpp>
 #include <map>
 #include <optional>
-#include <string>
 #include <tuple>
 
 #include "fsm/mesh/gltf_document.h"

@@ -206,7 +206,7 @@ class HeadBuilder {
       model_.worn.texcoord[v] = atlas_.rect(static_cast<std::size_t>(part.picture)).At(within);
       model_.worn.weight[v] = 1;
     }
-    const int pbr = MaterialOf(kind, part, pictured);
+    const int pbr = PbrOf(kind, part, pictured);
     if (pbr >= 0) {
       for (const std::uint32_t v : part.indices) {
         // On a picture only the tint is left to say.
@@ -222,7 +222,7 @@ class HeadBuilder {
 
   /// The number in the model of how the part takes light. Without pictures skin and mouth are as
   /// ours, unless they are drawn in two colours.
-  int MaterialOf(Kind kind, const HeadFile::Part& part, bool pictured) {
+  int PbrOf(Kind kind, const HeadFile::Part& part, bool pictured) {
     if (part.pbr < 0) return -1;
     const PbrMaterial& pbr = file_.pbr_materials[static_cast<std::size_t>(part.pbr)];
     const bool own = kind == Kind::kHair || kind == Kind::kOther || model_.worn.image != nullptr;

@@ -20,12 +20,7 @@ namespace {
 
 HeadTopology TopologyOf(const MeshModel& model) {
   HeadTopology topology;
-  for (const auto& batch : model.batches) {
-    topology.parts.push_back({batch.material, static_cast<std::uint32_t>(topology.indices.size()),
-                              static_cast<std::uint32_t>(batch.indices.size()), batch.pbr,
-                              batch.two_sided});
-    topology.indices.insert(topology.indices.end(), batch.indices.begin(), batch.indices.end());
-  }
+  SetParts(model.batches, topology);
   if (topology.indices.empty()) throw std::runtime_error("the head has no triangles");
   topology.albedo = model.albedo;
   topology.occlusion.assign(model.position.size(), 1);
@@ -87,7 +82,7 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology, RigData rig)
   rig.bone = model.bone;
   rig.weights.resize(rig.rest.size());
   for (std::size_t i = 0; i < rig.rest.size(); ++i) {
-    rig.weights[i].neck = model.neck[i];
+    rig.weights[i].neck = model.weights[i].neck;
     if (rig.bone[i] == Bone::kTongue) rig.bone[i] = Bone::kJaw;
   }
   rig.normals.soft_triangles = topology.indices;
@@ -117,9 +112,9 @@ void FindMouth(const RigData& rig, HeadTopology& topology) {
     mouth = {};
     return;
   }
-  mouth.lips = rig.lips.seam;
-  mouth.corner_left = (*rig.lips.measured)[2];
-  mouth.corner_right = (*rig.lips.measured)[3];
+  mouth.seam = rig.lips.seam;
+  mouth.corner_left = (*rig.lips.measured)[LipRig::kCornerLeft];
+  mouth.corner_right = (*rig.lips.measured)[LipRig::kCornerRight];
   const auto& light = Features::BuiltIn()["teeth_light"];
   const glm::vec3 shade = Features::BuiltIn().Vector("lower_teeth_colour");
   const float middle = rig.rest[mouth.upper_incisor].x;
@@ -127,8 +122,7 @@ void FindMouth(const RigData& rig, HeadTopology& topology) {
   for (const HeadTopology::Part& part : topology.parts) {
     const bool teeth = part.material == Material::kTeeth;
     if (!teeth && part.material != Material::kGum && part.material != Material::kTongue) continue;
-    for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
-      const std::uint32_t i = topology.indices[k];
+    for (const std::uint32_t i : topology.Corners(part)) {
       if (taken[i]) continue;
       taken[i] = true;
       const bool lower = rig.bone[i] == Bone::kJaw;

@@ -10,27 +10,11 @@ namespace fsm {
 
 std::uint32_t MeshModel::Add(glm::vec3 p, Bone b, glm::vec3 colour, std::optional<glm::vec2> at,
                              float turn) {
-  position.push_back(p);
-  bone.push_back(b);
-  albedo.push_back(colour);
+  BakeWeights f;
+  f.neck = turn;
   worn.texcoord.push_back(at.value_or(glm::vec2(0)));
   worn.weight.push_back(at ? 1.0f : 0.0f);
-  neck.push_back(turn);
-  return static_cast<std::uint32_t>(position.size() - 1);
-}
-
-void MeshModel::Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  auto& indices = BatchOf(material, -1, false).indices;
-  indices.insert(indices.end(), {a, b, c});
-}
-
-HeadMesh::Batch& MeshModel::BatchOf(Material material, int pbr, bool two_sided) {
-  const auto same = [&](const HeadMesh::Batch& batch) {
-    return batch.material == material && batch.pbr == pbr && batch.two_sided == two_sided;
-  };
-  const auto found = std::ranges::find_if(batches, same);
-  if (found != batches.end()) return *found;
-  return batches.emplace_back(HeadMesh::Batch{material, {}, pbr, two_sided});
+  return HeadMesh::Add(p, colour, 1, b, f);
 }
 
 namespace {

@@ -1,12 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
-#include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -17,15 +13,11 @@
 namespace fsm {
 
 /// Somebody else's head at rest, in our frame and millimetres: what MakeMeshHead shows.
-struct MeshModel {
+/// Bone::kSkin moves as that is told; of the weights only `neck` is looked at.
+struct MeshModel : HeadMesh {
   std::string name;  ///< of its file, for messages; may be empty
-  std::vector<glm::vec3> position;
-  std::vector<Bone> bone;         ///< kSkin moves as MakeMeshHead is told
-  std::vector<float> neck;        ///< part of the head's turn each vertex makes
-  std::vector<glm::vec3> albedo;  ///< linear RGB
   WornPicture worn;
   std::vector<PbrMaterial> pbr_materials;
-  std::vector<HeadMesh::Batch> batches;
   Sided<EyeGeometry> eyes;  ///< meaningful where has_eyes
   bool has_eyes = false;
   std::optional<Sided<glm::vec3>> eye_pivot;  ///< what they turn about, if not the centres
@@ -40,12 +32,10 @@ struct MeshModel {
   /// right to left.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;
 
-  /// `at`: where in the photo it is shown; else it has its own colour.
+  /// `at`: where in the photo it is shown; else it has its own colour. `turn`: the part of the
+  /// head's turn it makes.
   std::uint32_t Add(glm::vec3 p, Bone b, glm::vec3 colour, std::optional<glm::vec2> at = {},
                     float turn = 1);
-  void Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c);
-  /// The triangles of that material which take light so.
-  HeadMesh::Batch& BatchOf(Material material, int pbr, bool two_sided);
   /// Every triangle of flesh, three corners each.
   std::vector<std::uint32_t> SkinTriangles() const;
   std::vector<std::uint32_t> EyeTriangles() const;  ///< those of the eyeballs

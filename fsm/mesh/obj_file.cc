@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fsm/base/parse_number.h"
+#include "fsm/base/words.h"
 #include "fsm/mesh/mesh_reach.h"
 #include "vm_protocol/core/text_file.h"
 
@@ -10,25 +11,6 @@ namespace fsm {
 namespace {
 
 constexpr std::size_t kMaxCorners = 64;
-
-/// The words of a line; false after the last line.
-bool NextLine(std::string_view text, std::size_t& at, std::vector<std::string_view>& words) {
-  words.clear();
-  if (at >= text.size()) return false;
-  std::size_t end = text.find('\n', at);
-  if (end == std::string_view::npos) end = text.size();
-  std::string_view line = text.substr(at, end - at);
-  at = end + 1;
-  std::size_t i = 0;
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (i < line.size() && words.size() < kMaxCorners + 2) {
-    while (i < line.size() && blank(line[i])) ++i;
-    const std::size_t begin = i;
-    while (i < line.size() && !blank(line[i])) ++i;
-    if (i > begin) words.push_back(line.substr(begin, i - begin));
-  }
-  return true;
-}
 
 bool Real(std::string_view word, float& out) {
   const auto number = ParseNumber<float>(word);
@@ -58,8 +40,8 @@ class ObjReader {
   ObjReader(const std::string& name, std::string_view text) : name_(name), text_(text) {}
 
   vm::Result<ObjFile> Read() {
-    std::vector<std::string_view> words;
-    for (std::size_t at = 0; NextLine(text_, at, words);) {
+    while (!text_.empty()) {
+      const auto words = WordsOf(TakeUntil("\n", text_), kMaxCorners + 2);
       ++line_;
       if (words.empty()) continue;
       if (auto read = Line(words); !read) return std::unexpected(read.error());
@@ -169,8 +151,8 @@ vm::Result<ObjFile> ReadObj(const std::string& path) {
 std::map<std::string, ObjMaterial> ParseMtl(std::string_view text) {
   std::map<std::string, ObjMaterial> all;
   ObjMaterial* open = nullptr;
-  std::vector<std::string_view> words;
-  for (std::size_t at = 0; NextLine(text, at, words);) {
+  while (!text.empty()) {
+    const auto words = WordsOf(TakeUntil("\n", text), kMaxCorners + 2);
     if (words.size() < 2) continue;
     if (words[0] == "newmtl") {
       if (all.size() >= 1000) break;

@@ -2,8 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <glm/vec3.hpp>
-#include <span>
 #include <string>
 #include <vector>
 

@@ -1,11 +1,12 @@
 #include "fsm/mesh/original_face.h"
 
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
 
+#include "fsm/base/parse_number.h"
+#include "fsm/base/words.h"
 #include "fsm/image/image_file.h"
 #include "fsm/mesh/original_expressions.h"
 #include "fsm/mesh/original_points.h"
@@ -138,16 +139,14 @@ vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes) 
 
 vm::Result<glm::vec3> ParseTeethDef(const std::string& name, std::string_view text) {
   glm::vec3 colour;
-  std::size_t at = 0;
-  for (int i = 0; i < 3; ++i) {
-    while (at < text.size() && (text[at] == ' ' || text[at] == '\t')) ++at;
-    const auto [end, code] =
-        std::from_chars(text.data() + at, text.data() + text.size(), colour[i]);
-    if (code != std::errc() || !(colour[i] >= 0 && colour[i] <= 1)) {
+  const auto words = WordsOf(TakeUntil("\n", text), 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto number = i < words.size() ? ParseNumber<float>(words[i]) : std::nullopt;
+    if (!number || !(*number >= 0 && *number <= 1)) {
       return vm::Fail(vm::Errc::kBadValue,
                       name + ":1: three numbers 0..1, the colour of the teeth, expected");
     }
-    at = static_cast<std::size_t>(end - text.data());
+    colour[static_cast<int>(i)] = *number;
   }
   return colour;
 }

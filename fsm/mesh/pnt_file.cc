@@ -4,6 +4,7 @@
 #include <span>
 
 #include "fsm/base/parse_number.h"
+#include "fsm/base/words.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace fsm {
@@ -20,17 +21,12 @@ class NumberLines {
   /// The words of the next line that has any; none at the end.
   std::vector<std::string_view> Next() {
     std::vector<std::string_view> words;
-    while (words.empty() && at_ < text_.size()) {
+    while (words.empty() && !text_.empty()) {
       ++line_;
-      while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') {
-        const std::size_t begin = at_;
-        while (at_ < text_.size() && !IsBlank(text_[at_])) ++at_;
-        if (at_ > begin) words.push_back(text_.substr(begin, at_ - begin));
-        if (words.size() > kMaxWords) return words;
-        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
-      }
-      if (text_.substr(at_, 2) == "\r\n") ++at_;
-      ++at_;
+      const char* const begin = text_.data();
+      words = WordsOf(TakeUntil("\r\n", text_), kMaxWords);
+      const bool ended_by_cr = text_.data() != begin && text_.data()[-1] == '\r';
+      if (ended_by_cr && text_.starts_with('\n')) text_.remove_prefix(1);
     }
     return words;
   }
@@ -71,12 +67,10 @@ class NumberLines {
   }
 
  private:
-  static constexpr std::size_t kMaxWords = 12;
-  static bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+  static constexpr std::size_t kMaxWords = 13;
 
   const std::string& name_;
   std::string_view text_;
-  std::size_t at_ = 0;
   int line_ = 0;
 };
 

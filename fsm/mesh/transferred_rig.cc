@@ -18,8 +18,8 @@ std::vector<std::uint32_t> TrianglesOf(const HeadTopology& topology,
   std::vector<std::uint32_t> out;
   for (const auto& part : topology.parts) {
     if (std::ranges::find(materials, part.material) == materials.end()) continue;
-    const auto first = topology.indices.begin() + part.first_index;
-    out.insert(out.end(), first, first + part.index_count);
+    const auto corners = topology.Corners(part);
+    out.insert(out.end(), corners.begin(), corners.end());
   }
   return out;
 }
@@ -255,7 +255,8 @@ void MoveLips(const LipRig& lips, const MeshModel& model, std::span<const PointP
     form[upper] = form[lower] = off(0.5f * (model.position[upper] + model.position[lower]));
   }
   if (!lips.measured) return;
-  for (const std::uint32_t corner : {(*lips.measured)[2], (*lips.measured)[3]}) {
+  for (const std::uint32_t corner :
+       {(*lips.measured)[LipRig::kCornerLeft], (*lips.measured)[LipRig::kCornerRight]}) {
     form[corner] = off(model.position[corner]);
   }
 }

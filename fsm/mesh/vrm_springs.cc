@@ -41,11 +41,11 @@ Spring SpringOf(glm::vec3 from, glm::vec3 tail, double stiffness, double gravity
 
 VrmSprings::VrmSprings(const GltfDocument& document, const GltfNodes& nodes)
     : document_(&document), nodes_(&nodes) {
-  const json& extensions = PartOf(document.root(), "extensions");
+  const json& extensions = JsonMember(document.root(), "extensions");
   if (extensions.contains("VRMC_springBone")) {
-    ReadNew(PartOf(extensions, "VRMC_springBone"));
+    ReadNew(JsonMember(extensions, "VRMC_springBone"));
   } else {
-    ReadOld(PartOf(PartOf(extensions, "VRM"), "secondaryAnimation"));
+    ReadOld(JsonMember(JsonMember(extensions, "VRM"), "secondaryAnimation"));
   }
   document_ = nullptr;
   nodes_ = nullptr;
@@ -64,43 +64,44 @@ VrmSprings::Joint VrmSprings::AddJoint(std::int64_t node, const Joint* above, gl
 }
 
 void VrmSprings::ReadNew(const json& extension) {
-  for (const json& chain : PartOf(extension, "springs")) {
-    const bool collides = !PartOf(chain, "colliderGroups").empty();
-    const json& joints = PartOf(chain, "joints");
+  for (const json& chain : JsonMember(extension, "springs")) {
+    const bool collides = !JsonMember(chain, "colliderGroups").empty();
+    const json& joints = JsonMember(chain, "joints");
     if (!joints.is_array()) continue;
     Joint above;
     for (std::size_t k = 0; k < joints.size(); ++k) {
-      const std::int64_t node = WholeOf(joints[k], "node");
+      const std::int64_t node = JsonInteger(joints[k], "node");
       if (!nodes_->Has(node) || joints_.contains(node) || springs_.size() >= kMostSprings) break;
       if (k + 1 == joints.size()) {  // the last one only says where the one before ends
         if (k > 0) joints_.emplace(node, Joint{.spring = above.spring, .before = above.spring});
         break;
       }
-      const std::int64_t next = WholeOf(joints[k + 1], "node");
+      const std::int64_t next = JsonInteger(joints[k + 1], "node");
       if (!nodes_->Has(next)) break;
       above = AddJoint(node, k > 0 ? &above : nullptr, PlaceOf(next),
-                       {.stiffness = RealOf(joints[k], "stiffness", 1),
-                        .gravity = RealOf(joints[k], "gravityPower", 0),
-                        .drag = RealOf(joints[k], "dragForce", 0.5),
+                       {.stiffness = JsonNumber(joints[k], "stiffness", 1),
+                        .gravity = JsonNumber(joints[k], "gravityPower", 0),
+                        .drag = JsonNumber(joints[k], "dragForce", 0.5),
                         .collides = collides});
     }
   }
 }
 
 void VrmSprings::ReadOld(const json& animation) {
-  for (const json& group : PartOf(animation, "boneGroups")) {
-    const Manner manner{.stiffness = RealOf(group, "stiffiness", 1),  // spelt so in the format
-                        .gravity = RealOf(group, "gravityPower", 0),
-                        .drag = RealOf(group, "dragForce", 0.4),
-                        .collides = !PartOf(group, "colliderGroups").empty()};
-    for (const std::int64_t bone : WholesOf(group, "bones")) AddBranch(bone, nullptr, manner, 0);
+  for (const json& group : JsonMember(animation, "boneGroups")) {
+    const Manner manner{.stiffness = JsonNumber(group, "stiffiness", 1),  // spelt so in the format
+                        .gravity = JsonNumber(group, "gravityPower", 0),
+                        .drag = JsonNumber(group, "dragForce", 0.4),
+                        .collides = !JsonMember(group, "colliderGroups").empty()};
+    for (const std::int64_t bone : JsonIntegers(group, "bones"))
+      AddBranch(bone, nullptr, manner, 0);
   }
 }
 
 void VrmSprings::AddBranch(std::int64_t node, const Joint* above, const Manner& manner, int depth) {
   if (!nodes_->Has(node) || joints_.contains(node)) return;
   if (depth > kMostJoints || springs_.size() >= kMostSprings) return;
-  const auto children = WholesOf(document_->At("nodes", node), "children");
+  const auto children = JsonIntegers(document_->At("nodes", node), "children");
   const glm::vec3 from = PlaceOf(node);
   glm::vec3 tail = from;
   if (!children.empty()) {

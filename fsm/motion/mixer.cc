@@ -20,7 +20,7 @@ class Mixer::Reader {
     for (const TableRow& row : table.rows()) ReadRow(row);
     for (std::size_t i = 0; i < kChannels; ++i) {
       if (seen_[i]) continue;
-      table.Fail(fmt::format("no row says how channel '{}' is mixed", kPartNames[i]));
+      table.Fail(fmt::format("no row says how channel '{}' is mixed", kWeighedNames[i]));
     }
     return std::move(out_);
   }
@@ -45,14 +45,15 @@ class Mixer::Reader {
   }
 
   void ReadChannel(const TableRow& row) {
-    const auto found = std::ranges::find(kPartNames, row.Word(1));
-    const auto index = static_cast<std::size_t>(found - kPartNames.begin());
+    const auto found = std::ranges::find(kWeighedNames, row.Word(1));
+    const auto index = static_cast<std::size_t>(found - kWeighedNames.begin());
     const std::string& how = row.Word(2);
     if (index >= kChannels || (how != "sum" && how != "greatest")) {
-      row.Fail(fmt::format("'{} {}' found; {} with sum or greatest expected", row.Word(1), how,
-                           fmt::join(kPartNames.begin(), kPartNames.begin() + kChannels, ", ")));
+      row.Fail(
+          fmt::format("'{} {}' found; {} with sum or greatest expected", row.Word(1), how,
+                      fmt::join(kWeighedNames.begin(), kWeighedNames.begin() + kChannels, ", ")));
     }
-    Channel& channel = out_.channels_[index];
+    ChannelRule& channel = out_.channels_[index];
     channel = {.greatest = how == "greatest"};
     seen_[index] = true;
     if (row.size() == 3) return;
@@ -89,11 +90,11 @@ class Mixer::Reader {
 
   void ReadWeight(const TableRow& row) {
     Rules& layer = row.Word(1) == "result" ? out_.result_ : LayerAt(row);
-    const auto part = std::ranges::find(kPartNames, row.Word(2));
-    if (part == kPartNames.end()) {
-      row.Fail(fmt::format("'{}' found; {} expected", row.Word(2), fmt::join(kPartNames, ", ")));
+    const auto found = std::ranges::find(kWeighedNames, row.Word(2));
+    if (found == kWeighedNames.end()) {
+      row.Fail(fmt::format("'{}' found; {} expected", row.Word(2), fmt::join(kWeighedNames, ", ")));
     }
-    layer.weights.push_back({static_cast<Part>(part - kPartNames.begin()), SignalAt(row, 3),
+    layer.weights.push_back({static_cast<Weighed>(found - kWeighedNames.begin()), SignalAt(row, 3),
                              row.Number(4, "a factor", 0, 10)});
   }
 
@@ -126,23 +127,23 @@ Mixer::Weights Mixer::WeightsOf(const Rules& rules, const MotionFrame& frame) {
   Weights weights;
   weights.fill(1);
   for (const Weight& rule : rules.weights) {
-    weights[rule.part] *= 1 - (1 - rule.factor) * frame.Signal(rule.signal);
+    weights[rule.weighed] *= 1 - (1 - rule.factor) * frame.Signal(rule.signal);
   }
   return weights;
 }
 
 double Mixer::OfUnit(const Weights& weights, const UnitList& units, std::size_t unit) {
-  constexpr std::array<Part, kRegions> kPartOf = {kEye, kBrow, kLips};
-  const double own = weights[kPartOf[static_cast<std::size_t>(units.RegionOf(unit))]];
+  constexpr std::array<Weighed, kRegions> kWeighedOf = {kEye, kBrow, kLips};
+  const double own = weights[kWeighedOf[static_cast<std::size_t>(units.RegionOf(unit))]];
   return weights[kUnits] * own * (units.Opens(unit) ? weights[kOpening] : 1);
 }
 
 void Mixer::Add(const MotionLayer& layer, const Rules& rules, const Weights& weights,
                 const UnitList& units, MotionLayer& total) const {
   const bool in_full = rules.weights.empty();
-  const auto join = [&](Part part, auto& sum, const auto& asked) {
+  const auto join = [&](Weighed weighed, auto& sum, const auto& asked) {
     for (std::size_t i = 0; i < sum.size(); ++i) {
-      channels_[part].Join(sum[i], weights[part] * asked[i]);
+      channels_[weighed].Join(sum[i], weights[weighed] * asked[i]);
     }
   };
   const auto join_units = [&](UnitValues& sum, const UnitValues& asked) {
@@ -193,11 +194,11 @@ void Mixer::Mix(const MotionFrame& frame, const UnitList& units, FaceState& stat
 
 void Mixer::Place(const MotionLayer& total, const Weights& weights, const UnitList& units,
                   FaceState& state) const {
-  const auto result = [&](Part part, float value) {
-    return static_cast<float>(weights[part] * channels_[part].Limited(value));
+  const auto result = [&](Weighed weighed, float value) {
+    return static_cast<float>(weights[weighed] * channels_[weighed].Limited(value));
   };
-  const auto place = [&](Part part, auto& to, const auto& values) {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] = result(part, values[i]);
+  const auto place = [&](Weighed weighed, auto& to, const auto& values) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] = result(weighed, values[i]);
   };
   const auto place_units = [&](UnitValues& to, const UnitValues& values) {
     std::size_t unit = 0;

@@ -28,13 +28,13 @@ class Mixer {
  private:
   class Reader;
   /// What can be weighed: the channels, then groups within the units.
-  enum Part { kUnits, kMouth, kHead, kGaze, kLids, kEye, kBrow, kLips, kOpening, kParts };
-  static constexpr std::array<std::string_view, kParts> kPartNames = {
+  enum Weighed { kUnits, kMouth, kHead, kGaze, kLids, kEye, kBrow, kLips, kOpening, kWeighedCount };
+  static constexpr std::array<std::string_view, kWeighedCount> kWeighedNames = {
       "units",     "mouth",      "head",        "gaze",         "lids",
       "eye_units", "brow_units", "mouth_units", "opening_units"};
   static constexpr std::size_t kChannels = kEye;
 
-  struct Channel {
+  struct ChannelRule {
     bool greatest = false;  // else the sum
     float lowest = -std::numeric_limits<float>::infinity();
     float highest = std::numeric_limits<float>::infinity();
@@ -46,7 +46,7 @@ class Mixer {
     float Limited(float total) const { return std::clamp(total, lowest, highest); }
   };
   struct Weight {
-    Part part;
+    Weighed weighed;
     std::string signal;
     double factor;
   };
@@ -58,7 +58,7 @@ class Mixer {
     std::vector<Weight> weights;
     std::optional<Steady> steady;
   };
-  using Weights = std::array<double, kParts>;
+  using Weights = std::array<double, kWeighedCount>;
 
   const Rules& RulesOf(std::string_view layer) const;
   static Weights WeightsOf(const Rules& rules, const MotionFrame& frame);
@@ -68,7 +68,7 @@ class Mixer {
   void Place(const MotionLayer& total, const Weights& weights, const UnitList& units,
              FaceState& state) const;
 
-  std::array<Channel, kChannels> channels_;
+  std::array<ChannelRule, kChannels> channels_;
   std::vector<std::pair<std::string, Rules>> layers_;
   Rules result_;
 };

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/motion/action_unit_table.h"
+#include "fsm/motion/action_units.h"
 #include "fsm/motion/track.h"
 
 namespace fsm {

@@ -65,33 +65,22 @@ std::optional<IdleKind> IdleKindNamed(std::string_view name) {
 }
 
 std::size_t MotionTable::Patterns(IdleKind kind) const {
-  switch (kind) {
-    case IdleKind::kBlink:
-      return auto_blinks.size();
-    case IdleKind::kMove:
-      return auto_move_files.empty() ? auto_moves.size() : auto_move_files.size();
-    case IdleKind::kUserdef:
-      return auto_userdef.size();
-    case IdleKind::kGaze:
-      return auto_gazes.size();
-    case IdleKind::kBreath:
-      return auto_breaths.size();
-    case IdleKind::kNods:
-      return auto_nods.size();
-    case IdleKind::kSpeech:
-      return auto_speeches.size();
-    case IdleKind::kAvert:
-      return auto_averts.size();
-    case IdleKind::kFace:
-      return auto_faces.size();
-    case IdleKind::kText:
-      return auto_texts.size();
-    case IdleKind::kGazeBlink:
-    case IdleKind::kEndBlink:
-    case IdleKind::kAsymmetry:
-      return 1;
-  }
-  return 0;
+  const std::size_t moves = auto_move_files.empty() ? auto_moves.size() : auto_move_files.size();
+  constexpr std::size_t kSwitch = 1;  // only on or off
+  const IdleProfile patterns{auto_blinks.size(),
+                             moves,
+                             auto_userdef.size(),
+                             auto_gazes.size(),
+                             auto_breaths.size(),
+                             auto_nods.size(),
+                             auto_speeches.size(),
+                             auto_averts.size(),
+                             auto_faces.size(),
+                             kSwitch,
+                             kSwitch,
+                             kSwitch,
+                             auto_texts.size()};
+  return patterns[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace fsm

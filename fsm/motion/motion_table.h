@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/motion/action_unit_table.h"
+#include "fsm/motion/action_units.h"
 #include "fsm/motion/motion_source.h"
 #include "vm_protocol/core/result.h"
 
@@ -34,10 +34,6 @@ class HeadCurve {
   std::vector<Key> keys_;       // the first is 0 0 0 at 0
   std::vector<Angles> slopes_;  // degrees a millisecond
 };
-
-/// Reads the original's motion file: `//` comments, the number of keys, then `ms x y z` a line.
-/// Errors: kBadValue "NAME:LINE: what was expected".
-vm::Result<HeadCurve> ReadMotionFile(const std::string& name, std::string_view text);
 
 struct BlinkPattern {
   double closing_ms = 90;
@@ -83,7 +79,8 @@ struct AutoText {
   double size = 1;  ///< of the looks of text_cues.txt
 };
 
-/// What the face does by itself; each is switched by name.
+/// What the face does by itself; each is switched by name. Names and MotionTable::Patterns have the
+/// same order.
 enum class IdleKind : std::size_t {
   kBlink,
   kMove,

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/motion/action_unit_table.h"
+#include "fsm/motion/action_units.h"
 #include "fsm/motion/emotion_table.h"
 #include "fsm/motion/mixer.h"
 #include "fsm/motion/motion_table.h"

@@ -32,7 +32,7 @@ vm::Result<void> MouthStream::Add(vm::Time now, vm::Time at, const MouthPose& po
 
 void MouthStream::Stop(vm::Time now) {
   const SpokenMouth mouth = MouthAt(now);
-  const Head head = HeadAt(now);
+  const HeadShare head = HeadAt(now);
   while (!frames_.empty() && frames_.back().at > now) frames_.pop_back();
   // Without this frame it would go back to the last one before holding there.
   if (!frames_.empty() && mouth.share == 1 && frames_.back().at < now) {
@@ -59,15 +59,15 @@ SpokenMouth MouthStream::MouthAt(vm::Time t) const {
   return mouth;
 }
 
-MouthStream::Head MouthStream::HeadAt(vm::Time t) const {
-  Head head;
+MouthStream::HeadShare MouthStream::HeadAt(vm::Time t) const {
+  HeadShare head;
   const auto next = std::ranges::upper_bound(frames_, t, {}, &Frame::at);
   if (next != frames_.begin()) {
     const Frame& last = *(next - 1);
     if (next != frames_.end() && next->run_start != next->at) {
       return Between(HeadOf(last), HeadOf(*next), Progress(t, last.at, next->at - last.at));
     }
-    head = Between(HeadOf(last), Head{}, SmoothStep(Progress(t, last.at, kHeadHome)));
+    head = Between(HeadOf(last), HeadShare{}, SmoothStep(Progress(t, last.at, kHeadHome)));
   }
   if (next != frames_.end()) {
     head = Between(head, HeadOf(*next), SmoothStep(Progress(t, next->at - kTakeOver, kTakeOver)));
@@ -77,7 +77,7 @@ MouthStream::Head MouthStream::HeadAt(vm::Time t) const {
 
 void MouthStream::Contribute(vm::Time t, MotionFrame& frame) const {
   if (frames_.empty()) return;
-  if (const Head head = HeadAt(t); head.share > 0) {
+  if (const HeadShare head = HeadAt(t); head.share > 0) {
     frame.Give("head_taken", head.share);
     MotionLayer& gestures = frame.Layer("stream_gestures");
     gestures.head = head.pose.angles;

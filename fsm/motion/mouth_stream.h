@@ -66,15 +66,15 @@ class MouthStream : public MotionSource {
     std::optional<StreamHead> head;
   };
   SpokenMouth MouthAt(vm::Time t) const;
-  struct Head {
+  struct HeadShare {
     double share = 0;  // how much it is said by frames, 0..1
     StreamHead pose;   // times the share already
   };
-  Head HeadAt(vm::Time t) const;
-  static Head HeadOf(const Frame& frame) {
+  HeadShare HeadAt(vm::Time t) const;
+  static HeadShare HeadOf(const Frame& frame) {
     return {frame.head ? 1.0 : 0.0, frame.head.value_or(StreamHead{})};
   }
-  static Head Between(const Head& a, const Head& b, double share_of_b) {
+  static HeadShare Between(const HeadShare& a, const HeadShare& b, double share_of_b) {
     return {a.share + (b.share - a.share) * share_of_b, fsm::Mix(a.pose, b.pose, share_of_b)};
   }
   static vm::Time GoneAt(const Frame& last);

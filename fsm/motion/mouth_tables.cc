@@ -106,7 +106,7 @@ PhonemeLook ReadLook(const TableRow& row, const Visemes& shapes) {
   }
   PhonemeLook look;
   for (std::size_t i = 1; i < row.size(); i += 2) {
-    look.parts.push_back({ShapeAt(row, i, shapes), row.Number(i + 1, "a strength", 0, 2)});
+    look.phases.push_back({ShapeAt(row, i, shapes), row.Number(i + 1, "a strength", 0, 2)});
   }
   return look;
 }

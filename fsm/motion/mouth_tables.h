@@ -61,11 +61,11 @@ const Viseme* FindShape(const Visemes& shapes, std::string_view name);
 /// What a phoneme looks like: one shape, or two for a diphthong.
 struct PhonemeLook {
   static constexpr int kNext = -1;  ///< takes the shape of what follows
-  struct Part {
+  struct Phase {
     int shape = 0;  ///< index into Visemes, or kNext
     double strength = 1;
   };
-  std::vector<Part> parts;  ///< one or two
+  std::vector<Phase> phases;  ///< one or two
 };
 /// By phoneme name; names differ in case (N is not n).
 using PhonemeTable = std::map<std::string, PhonemeLook, std::less<>>;

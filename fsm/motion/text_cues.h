@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/motion/action_unit_table.h"
+#include "fsm/motion/action_units.h"
 #include "fsm/motion/motion_source.h"
 
 namespace fsm {

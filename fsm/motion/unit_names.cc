@@ -10,6 +10,7 @@
 #include "embedded/action_unit_names.h"
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
+#include "fsm/base/words.h"
 #include "vm_protocol/core/lower_case.h"
 
 namespace fsm {
@@ -24,20 +25,16 @@ struct Word {
 };
 
 // Words between blanks; "12:0.7" is two of them, "gaze:6,0" one.
-std::vector<Word> WordsOf(std::string_view text) {
+std::vector<Word> UnitWordsOf(std::string_view text) {
   std::vector<Word> words;
-  std::size_t at = 0;
-  while ((at = text.find_first_not_of(" \t", at)) != std::string_view::npos) {
-    std::size_t end = std::min(text.find_first_of(" \t", at), text.size());
-    const std::string_view word = text.substr(at, end - at);
-    if (const auto colon = word.find(':'); colon != word.npos && !word.starts_with("gaze")) {
-      end = at + colon;
-      if (colon > 0) words.push_back({text.substr(at, colon), at + 1});
-      at = end + 1;
-      continue;
+  const auto add = [&](std::string_view word) {
+    if (!word.empty()) {
+      words.push_back({word, static_cast<std::size_t>(word.data() - text.data()) + 1});
     }
-    words.push_back({word, at + 1});
-    at = end;
+  };
+  for (std::string_view word : WordsOf(text)) {
+    while (!word.starts_with("gaze") && word.contains(':')) add(TakeUntil(":", word));
+    add(word);
   }
   return words;
 }
@@ -230,7 +227,7 @@ vm::Result<UnitName> ParseUnitName(std::string_view word, const UnitNames& names
 
 vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames& names,
                                          bool with_ms) {
-  const std::vector<Word> words = WordsOf(text);
+  const std::vector<Word> words = UnitWordsOf(text);
   UnitCommand out;
   bool lettered = false;  // the unit before the word has its strength written on it
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -295,7 +292,7 @@ std::string FormatLook(const ActionUnits& look, const UnitNames& names) {
 vm::Result<ActionUnits> ParseLook(std::string_view text, const UnitNames& names) {
   ActionUnits look;
   std::string units;
-  for (const Word& word : WordsOf(text)) {
+  for (const Word& word : UnitWordsOf(text)) {
     if (word.text.starts_with("gaze")) {
       const auto gaze = ReadTable("gaze", word.text, [&names](const Table& table) {
         return ReadUnits(table.rows().front(), 0, names);

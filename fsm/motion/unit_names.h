@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/motion/action_unit_table.h"
+#include "fsm/motion/action_units.h"
 
 namespace fsm {
 

@@ -22,31 +22,31 @@ MouthPose Scaled(const Viseme& shape, double strength, const LipStyle& style) {
   return pose;
 }
 
-struct Part {
+struct TimedPhase {
   double start_ms;
   double length_ms;
-  PhonemeLook::Part look;
+  PhonemeLook::Phase look;
   bool holds;
 };
 
 // "next" takes over what follows; at the end, or before a closure of the lips, there is only rest.
-void ResolveNext(std::vector<Part>& parts, const MouthSet& set) {
-  for (std::size_t i = parts.size(); i-- > 0;) {
-    PhonemeLook::Part& look = parts[i].look;
+void ResolveNext(std::vector<TimedPhase>& phases, const MouthSet& set) {
+  for (std::size_t i = phases.size(); i-- > 0;) {
+    PhonemeLook::Phase& look = phases[i].look;
     if (look.shape != PhonemeLook::kNext) continue;
-    const bool follows = i + 1 < parts.size();
-    look.shape = follows ? parts[i + 1].look.shape : static_cast<int>(set.rest);
+    const bool follows = i + 1 < phases.size();
+    look.shape = follows ? phases[i + 1].look.shape : static_cast<int>(set.rest);
     const bool closes = set.shapes[static_cast<std::size_t>(look.shape)].pose.seal > 0;
-    look.strength *= follows && !closes ? parts[i + 1].look.strength : 0;
+    look.strength *= follows && !closes ? phases[i + 1].look.strength : 0;
   }
 }
 
-/// The parts of all phonemes, a diphthong's two; also says how long they are together, and which
+/// The phases of all phonemes, a diphthong's two; also says how long they are together, and which
 /// phonemes are unknown.
-std::vector<Part> PartsOf(const vm::PhonemeList& phonemes, const PhonemeReader& reader,
-                          const MouthSet& set, VisemeTargets& out) {
+std::vector<TimedPhase> PhasesOf(const vm::PhonemeList& phonemes, const PhonemeReader& reader,
+                                 const MouthSet& set, VisemeTargets& out) {
   const PhonemeLook closed{{{static_cast<int>(set.rest), 1}}};
-  std::vector<Part> parts;
+  std::vector<TimedPhase> phases;
   for (const vm::Phoneme& phoneme : phonemes) {
     const double length = InMs(phoneme.duration);
     const PhonemeLook* look = reader.Look(phoneme.name);
@@ -56,26 +56,26 @@ std::vector<Part> PartsOf(const vm::PhonemeList& phonemes, const PhonemeReader& 
         out.unknown.push_back(phoneme.name);
       }
     }
-    const bool diphthong = look->parts.size() == 2;
+    const bool diphthong = look->phases.size() == 2;
     const double split = diphthong ? length * kFirstPartShare : length;
     const bool holds = length >= kLongMs;
-    parts.push_back({out.length_ms, split, look->parts[0], holds && !diphthong});
+    phases.push_back({out.length_ms, split, look->phases[0], holds && !diphthong});
     if (diphthong) {
-      parts.push_back({out.length_ms + split, length - split, look->parts[1], holds});
+      phases.push_back({out.length_ms + split, length - split, look->phases[1], holds});
     }
     out.length_ms += length;
   }
-  ResolveNext(parts, set);
-  return parts;
+  ResolveNext(phases, set);
+  return phases;
 }
 
 /// For how many ms the shape stands before it moves on.
-double HoldOf(const Part& part, double share, bool pause) {
-  if (part.holds) return part.length_ms - kApproachMs;
-  const double hold_ms = share * part.length_ms;
+double HoldOf(const TimedPhase& phase, double share, bool pause) {
+  if (phase.holds) return phase.length_ms - kApproachMs;
+  const double hold_ms = share * phase.length_ms;
   // A contact of the lips must be seen; a pause this short need not be.
   if (share <= 0 || pause) return hold_ms;
-  return std::max(hold_ms, std::min(kSeenMs, 0.85 * part.length_ms));
+  return std::max(hold_ms, std::min(kSeenMs, 0.85 * phase.length_ms));
 }
 
 }  // namespace
@@ -87,13 +87,14 @@ VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTab
   VisemeTargets out;
   out.english = reader.english();
   out.rest = set.shapes[set.rest].pose;
-  for (const Part& part : PartsOf(phonemes, reader, set, out)) {
-    if (part.length_ms <= 0) continue;
-    const auto index = static_cast<std::size_t>(part.look.shape);
+  for (const TimedPhase& phase : PhasesOf(phonemes, reader, set, out)) {
+    if (phase.length_ms <= 0) continue;
+    const auto index = static_cast<std::size_t>(phase.look.shape);
     const Viseme& shape = set.shapes[index];
     const bool pause = index == set.rest;
-    out.targets.push_back({part.start_ms, part.length_ms, Scaled(shape, part.look.strength, style),
-                           HoldOf(part, shape.hold, pause), shape.dominance, pause, part.holds});
+    out.targets.push_back({phase.start_ms, phase.length_ms,
+                           Scaled(shape, phase.look.strength, style),
+                           HoldOf(phase, shape.hold, pause), shape.dominance, pause, phase.holds});
   }
   return out;
 }

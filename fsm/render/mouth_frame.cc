@@ -7,14 +7,14 @@
 namespace fsm {
 
 MouthFinder::MouthFinder(const HeadTopology& topology) {
-  if (topology.mouth.lips.size() >= kColumns) slit_ = topology.mouth;
+  if (topology.mouth.seam.size() >= kColumns) slit_ = topology.mouth;
 }
 
 void MouthFinder::AppendVertices(std::vector<std::uint32_t>& out) const {
   if (!slit_) return;
   out.insert(out.end(), {slit_->corner_right, slit_->corner_left, slit_->upper_root,
                          slit_->upper_incisor, slit_->lower_incisor});
-  for (const auto& [upper, lower] : slit_->lips) out.insert(out.end(), {upper, lower});
+  for (const auto& [upper, lower] : slit_->seam) out.insert(out.end(), {upper, lower});
 }
 
 std::optional<MouthFinder::Opening> MouthFinder::Measure(const HeadVertices& vertices) const {
@@ -38,7 +38,7 @@ std::optional<MouthFinder::Opening> MouthFinder::Measure(const HeadVertices& ver
   };
   for (std::size_t k = 0; k < kColumns; ++k) {
     // The middles of equal parts of the row.
-    const auto [upper, lower] = slit_->lips[(2 * k + 1) * slit_->lips.size() / (2 * kColumns)];
+    const auto [upper, lower] = slit_->seam[(2 * k + 1) * slit_->seam.size() / (2 * kColumns)];
     opening.lips[k] = place(upper);
     opening.lips[k + kColumns] = place(lower);
   }

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "fsm/rig/action_units.h"
 #include "fsm/rig/face_state.h"
 #include "fsm/rig/skin_weights.h"
+#include "fsm/rig/unit_table.h"
 
 namespace fsm {
 

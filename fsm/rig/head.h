@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <utility>
 
 #include "fsm/rig/face_state.h"
 #include "fsm/rig/head_asset.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/vec2.hpp>
@@ -9,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -94,7 +94,7 @@ struct SkinHair {
 /// Where the lips part, by vertices: light comes into the mouth there. Teeth bound it further in.
 struct MouthSlit {
   /// Edges of the upper and the lower lip, from -x to +x, corners excluded; may be empty.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> lips;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;
   std::uint32_t corner_right = 0, corner_left = 0;     ///< the agent's
   std::uint32_t upper_incisor = 0, lower_incisor = 0;  ///< at their edges
   std::uint32_t upper_root = 0;                        ///< right above upper_incisor
@@ -136,6 +136,10 @@ struct HeadTopology {
   };
   std::vector<std::uint32_t> indices;  ///< triangles, counter-clockwise seen from outside
   std::vector<Part> parts;
+  /// The vertices of a part's triangles, three for each.
+  std::span<const std::uint32_t> Corners(const Part& part) const {
+    return std::span(indices).subspan(part.first_index, part.index_count);
+  }
   std::vector<glm::vec3> albedo;  ///< per vertex, linear RGB 0..1
   std::vector<float> occlusion;   ///< per vertex, 0 = fully shut off from light, 1 = open
   std::vector<float> opacity;     ///< per vertex, 0..1: how much it hides; empty: all

@@ -27,8 +27,8 @@ struct LipRig {
     return (f.part > 0 ? kUpperShare : 1 - kUpperShare) * f.part;
   }
   std::vector<Follower> followers;
-  /// Vertices that measure the mouth: upper and lower lip in the middle, the corners at the
-  /// agent's left and right.
+  /// Vertices that measure the mouth: the lips in the middle, and the agent's corners.
+  enum Measured : std::size_t { kUpperLip, kLowerLip, kCornerLeft, kCornerRight };
   std::optional<std::array<std::uint32_t, 4>> measured;
 };
 

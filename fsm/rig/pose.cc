@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
-#include <numbers>
 
 namespace fsm {
 namespace {
-
-constexpr float kRadians = std::numbers::pi_v<float> / 180;
 
 glm::mat3 TurnX(float angle) {
   const float c = std::cos(angle);
@@ -41,9 +38,9 @@ float Bound(float value, float least, float most) {
 }
 
 glm::mat3 HeadTurn(const FaceState& state) {
-  return TurnY(Bound(state.head_rotation[kToRight], -80, 80) * kRadians) *
-         TurnX(Bound(state.head_rotation[kDown], -60, 60) * kRadians) *
-         TurnZ(-Bound(state.head_rotation[kTilted], -50, 50) * kRadians);
+  return TurnY(glm::radians(Bound(state.head_rotation[kToRight], -80, 80))) *
+         TurnX(glm::radians(Bound(state.head_rotation[kDown], -60, 60))) *
+         TurnZ(-glm::radians(Bound(state.head_rotation[kTilted], -50, 50)));
 }
 
 float HeadForward(const FaceState& state) { return Bound(state.head_forward, -30, 45); }
@@ -59,7 +56,7 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
   const float slide_mm = Bound(effects.jaw_slide_mm + Bound(state.mouth[kJawZ], -6, 10), -4, 12);
   pose.mouth[kJawY] = degrees - Bound(effects.jaw_degrees, 0, 28);
   pose.mouth[kJawZ] = slide_mm - Bound(effects.jaw_slide_mm, -4, 12);
-  pose.SetJaw({.open_rad = degrees * kRadians,
+  pose.SetJaw({.open_rad = glm::radians(degrees),
                .slide_mm = slide_mm,
                .sway_mm = Bound(effects.jaw_sway_mm, -10, 10)});
   pose.seal = Bound(std::max(effects.seal, Bound(state.lip_seal, 0, 1)), 0, 1);
@@ -69,7 +66,7 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
   for (const Side s : kSides) {
     const float down = Bound(state.gaze[s][kDown], -35, 35);
     const float right = Bound(state.gaze[s][kToRight], -45, 45);
-    pose.eye[s] = TurnY(right * kRadians) * TurnX(down * kRadians);
+    pose.eye[s] = EyeTo({down, right});
     pose.lids[s] = effects.lids[s];
     FollowGaze(down, pose.lids[s]);
     pose.lids[s].upper_mm = std::clamp(pose.lids[s].upper_mm, -11.0f, 4.0f);
@@ -122,10 +119,8 @@ EyeAngles GazeOf(const glm::mat3& eye) {
 }
 
 glm::mat3 EyeTo(const EyeAngles& gaze) {
-  const float right = glm::radians(gaze[kToRight]), up = glm::radians(-gaze[kDown]);
-  const float cr = std::cos(right), sr = std::sin(right), cu = std::cos(up), su = std::sin(up);
   // Up first, then to the side: the third column is where the eye looks.
-  return {{cr, 0, -sr}, {-sr * su, cu, -cr * su}, {sr * cu, su, cr * cu}};
+  return TurnY(glm::radians(gaze[kToRight])) * TurnX(glm::radians(gaze[kDown]));
 }
 
 }  // namespace fsm

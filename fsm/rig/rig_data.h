@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "fsm/rig/action_units.h"
 #include "fsm/rig/channel.h"
 #include "fsm/rig/lid_rig.h"
 #include "fsm/rig/lip_rig.h"
@@ -15,6 +14,7 @@
 #include "fsm/rig/skin_weights.h"
 #include "fsm/rig/spring.h"
 #include "fsm/rig/teeth_rig.h"
+#include "fsm/rig/unit_table.h"
 
 namespace fsm {
 

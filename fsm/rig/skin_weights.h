@@ -25,14 +25,10 @@ struct SkinWeights {
   glm::vec2 domain{};        ///< where on the face: nearly (x, y) at rest
   float above_mouth = 0.5f;  ///< 1 = moves with the upper lip's side, 0 = with the lower's
   float jaw = 0;
-  float neck = 1;       ///< part of the head's turn it makes
-  float free = 1;       ///< part of the action units' motion it takes (lid rims take none)
-  std::int8_t eye = 0;  ///< whose lids are near: SignOf its side; 0 none
-  float lid_upper = 0;
-  float lid_lower = 0;
-  std::int16_t lip_column = -1;  ///< index of the pair of seam vertices that corrects it
-  bool by_teeth = false;         ///< may touch the teeth: held off them
-  float lip_weight = 0;          ///< > 0 upper lip, < 0 lower lip
+  float neck = 1;  ///< part of the head's turn it makes
+  /// How free it is of what holds it: the part of the action units' motion that skin takes (lid
+  /// rims take none), and of the tongue's bending (its root takes none).
+  float free = 1;
 };
 
 }  // namespace fsm

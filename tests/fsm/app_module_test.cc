@@ -330,13 +330,16 @@ TEST(FsmModuleTest, SimulationCanBeSwitchedOff) {
 }
 
 TEST(FsmModuleTest, AWindowThatCannotBeDrawnIsAFailure) {
-  FsmStage fsm({}, true);
+  bool failed = false;
+  FsmOptions options;
+  options.on_failure = [&failed] { failed = true; };
+  FsmStage fsm(options, true);
   fsm.Until(300);
-  EXPECT_FALSE(fsm.module.failed());
+  EXPECT_FALSE(failed);
   fsm.backend.no_drawing = "cannot draw: face 'man01': there is none";
   fsm.Until(1000);
   EXPECT_TRUE(fsm.module.ExitRequested());
-  EXPECT_TRUE(fsm.module.failed());
+  EXPECT_TRUE(failed);
   EXPECT_EQ(fsm.errors, std::vector<std::string>{"UNAVAILABLE " + fsm.backend.no_drawing});
 }
 

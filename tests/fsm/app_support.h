@@ -118,7 +118,6 @@ class FakeMovieWriter final : public MovieWriter {
     film_.finished = true;
     return {};
   }
-  int frames() const override { return static_cast<int>(film_.jaws.size()); }
 
  private:
   FakeRenderBackend::FakeFilm& film_;

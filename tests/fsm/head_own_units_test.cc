@@ -4,7 +4,7 @@
 
 #include "fsm/head/built_in_units.h"
 #include "fsm/head/make_head.h"
-#include "fsm/rig/action_units.h"
+#include "fsm/rig/unit_table.h"
 #include "tests/fsm/head_fixture.h"
 
 namespace fsm {

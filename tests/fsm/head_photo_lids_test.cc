@@ -14,7 +14,7 @@ constexpr glm::vec3 kSkin(0.8f, 0.6f, 0.5f);
 /// The agent's left eye, 30 mm wide: 20 rows of an upper lid from its socket (0) to its rim (1) in
 /// the upper half of a picture, as many of a lower lid in the other half.
 struct Eye {
-  std::vector<SkinWeights> skin;
+  std::vector<BakeWeights> skin;
   std::vector<glm::vec2> places;
   std::vector<glm::vec3> open, shut;
   std::vector<glm::vec3> open_normal, shut_normal;  // all to the front
@@ -24,8 +24,8 @@ struct Eye {
   Eye() {
     for (int row = 0; row < 40; ++row) {
       for (int column = 0; column < 30; ++column) {
-        SkinWeights f;
-        f.eye = 1;
+        BakeWeights f;
+        f.eye = Side::kLeft;
         const float way = 15 * static_cast<float>(row < 20 ? row : 39 - row) / 19;
         open.emplace_back(15.0f + static_cast<float>(column), row < 20 ? 20 - way : way - 20, 70);
         shut.push_back(open.back());
@@ -117,7 +117,7 @@ TEST(PhotoLidsTest, EachEndOfTheLidIsAsBrightAsTheSkinBesideIt) {
   for (int row = 0; row < 40; ++row) eye.Paint(row, 30, 60, 0.6f * kSkin);
   float inner = 0, outer = 0;
   for (const ShutLid& lid : eye.Lids()) {
-    const SkinWeights& f = eye.skin[lid.vertex];
+    const BakeWeights& f = eye.skin[lid.vertex];
     if (std::abs(f.lid_upper - 0.8f) > 0.05f) continue;
     if (eye.open[lid.vertex].x < 18) inner = std::sqrt(lid.colour.g);
     if (eye.open[lid.vertex].x > 41) outer = std::sqrt(lid.colour.g);
@@ -129,7 +129,7 @@ TEST(PhotoLidsTest, LidsGoOverIntoTheSocketAndEndInDarkLashes) {
   const Eye eye;
   int rims = 0;
   for (const ShutLid& lid : eye.Lids()) {
-    const SkinWeights& f = eye.skin[lid.vertex];
+    const BakeWeights& f = eye.skin[lid.vertex];
     if (std::max(f.lid_upper, f.lid_lower) < 0.12f) {
       EXPECT_LT(lid.weight, 0.1f) << "the socket keeps the photo";
     }
@@ -264,7 +264,7 @@ TEST(PhotoLidsTest, AGreyShineAboveTheEyeDoesNotMakeTheLidGrey) {
 
 TEST(PhotoLidsTest, AHeadWithoutLidsHasNone) {
   Eye eye;
-  eye.skin.assign(eye.skin.size(), SkinWeights{});
+  eye.skin.assign(eye.skin.size(), BakeWeights{});
   EXPECT_TRUE(eye.Lids().empty());
 }
 

@@ -13,7 +13,7 @@
 #include "fsm/head/identity.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/own_identity.h"
-#include "fsm/rig/action_units.h"
+#include "fsm/rig/unit_table.h"
 
 namespace fsm {
 namespace {

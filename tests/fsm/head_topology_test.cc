@@ -175,7 +175,7 @@ TEST(HeadTopologyTest, ProportionsAreThoseOfAWoman) {
 }
 
 TEST(HeadTopologyTest, TwoHeadsAreTheSame) {
-  const auto other = MakeGenericHead();
+  const auto other = MakeHead("galatea");
   HeadVertices a;
   other->Evaluate({}, a);
   const HeadVertices b = Vertices({});

@@ -13,7 +13,7 @@
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/head_model.h"
 #include "fsm/mesh/mesh_head.h"
-#include "fsm/rig/action_units.h"
+#include "fsm/rig/unit_table.h"
 #include "tests/fsm/ball_head.h"
 
 namespace fsm {

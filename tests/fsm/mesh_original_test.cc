@@ -82,7 +82,7 @@ TEST(SmallOriginalFaceTest, TheWindowShowsOneUnitOfTheWireframeToEitherSide) {
   ASSERT_TRUE(window);
   EXPECT_LT(glm::distance(window->centre, frame.ToMm(glm::vec3(0))), 1e-3F);
   EXPECT_NEAR(window->half_mm, frame.mm(), 1e-3F);
-  EXPECT_FALSE(MakeGenericHead()->view());
+  EXPECT_FALSE(MakeHead("galatea")->view());
 }
 
 TEST(SmallOriginalFaceTest, OnlyTheGroupsTheOriginalDrawsAreShown) {

@@ -266,19 +266,19 @@ TEST_F(DeformationTransferTest, AHeadWithoutPicturesHasRedLipsAndSaysWhereTheyPa
   const HeadTopology& topology = head->topology();
   EXPECT_EQ(topology.mouth.upper_incisor, known.mouth.upper_incisor);
   EXPECT_EQ(topology.mouth.lower_incisor, known.mouth.lower_incisor);
-  ASSERT_EQ(topology.mouth.lips.size(), known.mouth.lips.size());
+  ASSERT_EQ(topology.mouth.seam.size(), known.mouth.seam.size());
   HeadVertices rest;
   head->Evaluate({}, rest);
   float off = 0;
-  for (std::size_t k = 0; k < known.mouth.lips.size(); ++k) {
-    off += glm::distance(rest.position[topology.mouth.lips[k].first],
-                         to_rest_.position[known.mouth.lips[k].first]);
+  for (std::size_t k = 0; k < known.mouth.seam.size(); ++k) {
+    off += glm::distance(rest.position[topology.mouth.seam[k].first],
+                         to_rest_.position[known.mouth.seam[k].first]);
   }
-  EXPECT_LT(off / static_cast<float>(known.mouth.lips.size()), 0.9F) << "on the head's own lips";
+  EXPECT_LT(off / static_cast<float>(known.mouth.seam.size()), 0.9F) << "on the head's own lips";
   const auto greenness = [&](std::uint32_t v) {
     return topology.albedo[v].g / topology.albedo[v].r;
   };
-  EXPECT_LT(greenness(known.mouth.lips[known.mouth.lips.size() / 2].first), 0.7F) << "the lip";
+  EXPECT_LT(greenness(known.mouth.seam[known.mouth.seam.size() / 2].first), 0.7F) << "the lip";
   EXPECT_NEAR(greenness(to_->rig().data().normals.soft_triangles.front()), 1, 0.3F) << "elsewhere";
 }
 

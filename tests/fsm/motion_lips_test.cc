@@ -180,17 +180,17 @@ TEST(PhonemeTablesTest, BothSetsKnowTheSamePhonemes) {
 TEST(PhonemeTablesTest, JapaneseConsonantsAreSixtyPerCentOfTheEnglishShape) {
   for (const char* name : {"t", "n", "k", "s", "sh", "w", "m"}) {
     const PhonemeLook& look = Tables().set28.japanese.at(name);
-    EXPECT_DOUBLE_EQ(look.parts[0].strength, 0.6) << name;
-    EXPECT_EQ(look.parts[0].shape, Tables().set28.english.at(name).parts[0].shape) << name;
+    EXPECT_DOUBLE_EQ(look.phases[0].strength, 0.6) << name;
+    EXPECT_EQ(look.phases[0].shape, Tables().set28.english.at(name).phases[0].shape) << name;
   }
-  EXPECT_DOUBLE_EQ(Tables().set28.japanese.at("U").parts[0].strength, 0.6);
-  EXPECT_EQ(Tables().set28.japanese.at("h").parts[0].shape, PhonemeLook::kNext);
+  EXPECT_DOUBLE_EQ(Tables().set28.japanese.at("U").phases[0].strength, 0.6);
+  EXPECT_EQ(Tables().set28.japanese.at("h").phases[0].shape, PhonemeLook::kNext);
 }
 
 // ---- on the head
 
 const Head& TheHead() {
-  static const auto head = MakeGenericHead();
+  static const auto head = MakeHead("galatea");
   return *head;
 }
 

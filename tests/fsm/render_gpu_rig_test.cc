@@ -106,7 +106,7 @@ TEST_F(GpuRigTest, HeadsOfOtherKindsDoToo) {
 
 /// A head on which every step finds something to do.
 RigData WithAllSteps() {
-  RigData data = MakeGenericHead()->rig().data();
+  RigData data = MakeHead("galatea")->rig().data();
   data.steps.clear();
   for (int step = 0; step <= static_cast<int>(RigStep::kNormals); ++step)
     data.steps.push_back(static_cast<RigStep>(step));
@@ -158,11 +158,11 @@ TEST_F(GpuRigTest, EveryStepIsThatOfTheProcessor) {
 }
 
 TEST_F(GpuRigTest, ManyFacesOfAHeadAreMovedInOneCall) {
-  ExpectEqual(MakeGenericHead()->rig(), Wilds(60));
+  ExpectEqual(MakeHead("galatea")->rig(), Wilds(60));
 }
 
 TEST_F(GpuRigTest, APictureOfAHeadMovedOnTheCardIsThatOfTheProcessor) {
-  const auto head = MakeGenericHead();
+  const auto head = MakeHead("galatea");
   const auto context = RenderContext::MakeHeadless(200, 240);
   const auto picture = [&](RigOn rig) {
     const auto renderer = Renderer::Make(*context, 2, Appearance::BuiltIn(), rig);
@@ -190,7 +190,7 @@ TEST_F(GpuRigTest, APictureOfAHeadMovedOnTheCardIsThatOfTheProcessor) {
 }
 
 TEST_F(GpuRigTest, AFaceThatIsAskedForAgainIsTheSame) {
-  const auto head = MakeGenericHead();
+  const auto head = MakeHead("galatea");
   GpuRig on_card(gl_, programs_, head->rig());
   const FaceState wild = Wild(3), rest;
   HeadVertices first, again;
@@ -203,7 +203,7 @@ TEST_F(GpuRigTest, AFaceThatIsAskedForAgainIsTheSame) {
 }
 
 TEST(PartialRigTest, SomeVerticesMoveAsWithAllOthers) {
-  const auto head = MakeGenericHead();
+  const auto head = MakeHead("galatea");
   const auto last = static_cast<std::uint32_t>(head->rig().data().rest.size() - 1);
   const std::vector<std::uint32_t> some{40, 7, last / 2, 7, last};
   const PartialRig partial(head->rig(), some);

@@ -21,7 +21,7 @@ TEST(ManyHeadsTest, DrawnInTurnsTheyLookAsAlone) {
   const auto context = RenderContext::MakeHeadless(160, 160);
   // More of them than are kept; one wears a photo. Another size wants skin in other detail.
   std::vector<std::unique_ptr<Head>> heads;
-  heads.push_back(MakeGenericHead());
+  heads.push_back(MakeHead("galatea"));
   heads.push_back(std::make_unique<BallHead>());
   heads.push_back(WearingPhoto());
   heads.push_back(MakeHead(Identities().back().name));
@@ -71,7 +71,7 @@ void Draw(Renderer& renderer, const Frame& frame) {
 TEST(FrameReaderTest, FramesReadWhileOthersAreDrawnAreThoseReadAtOnce) {
   const auto context = RenderContext::MakeHeadless(96, 96);
   const auto renderer = Renderer::Make(*context);
-  const auto plain = MakeGenericHead();
+  const auto plain = MakeHead("galatea");
   const auto photo = WearingPhoto();
   const Frame frames[] = {{*plain, 96, false, 0.0F}, {*photo, 96, false, 0.5F},
                           {*plain, 96, true, 0.5F},  {*plain, 63, false, 1.0F},

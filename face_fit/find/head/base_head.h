@@ -11,8 +11,8 @@
 #include "face_fit/find/head/mesh_point.h"
 #include "face_fit/find/network/face_finder.h"
 #include "face_fit/find/network/network_points.h"
-#include "fsm/rig/action_units.h"
 #include "fsm/rig/head.h"
+#include "fsm/rig/unit_table.h"
 #include "vm_protocol/core/result.h"
 
 namespace facefit {

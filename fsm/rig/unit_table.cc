@@ -1,4 +1,4 @@
-#include "fsm/rig/action_units.h"
+#include "fsm/rig/unit_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,13 +31,13 @@ UnitTable::Field ReadField(const TableRow& row) {
   field.radius = {row.Within(4, -kFace, kFace), row.Within(5, -kFace, kFace)};
   if (field.radius.x <= 0 || field.radius.y <= 0) row.Fail("a radius must be positive");
   const std::string& part = row.Word(6);
-  using Part = UnitTable::Field::Part;
+  using Lip = UnitTable::Field::Lip;
   if (part == "above") {
-    field.part = Part::kAbove;
+    field.lip = Lip::kUpper;
   } else if (part == "below") {
-    field.part = Part::kBelow;
+    field.lip = Lip::kLower;
   } else if (part == "both") {
-    field.part = Part::kBoth;
+    field.lip = Lip::kBoth;
   } else {
     row.Fail("'" + part + "' found where above, below or both was expected");
   }
@@ -115,7 +115,7 @@ std::string UnitTable::Text() const {
   for (const Field& field : fields_) {
     static constexpr std::array<const char*, 3> kParts{" above", " below", " both"};
     row("field", {number(field.unit), field.at.x, field.at.y, field.radius.x, field.radius.y});
-    text += kParts[static_cast<std::size_t>(field.part)];
+    text += kParts[static_cast<std::size_t>(field.lip)];
     for (int k = 0; k < 3; ++k) text += Digits(field.by[k]);
   }
   for (const Effect& effect : effects_) {
@@ -233,9 +233,9 @@ glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& weights, Side
     const float d2 = dx * dx + dy * dy;
     if (d2 < 1) weight = std::max(weight, (1 - d2) * (1 - d2));
   }
-  using Part = Field::Part;
-  if (field.part == Part::kAbove) weight *= weights.above_mouth;
-  if (field.part == Part::kBelow) weight *= 1 - weights.above_mouth;
+  using Lip = Field::Lip;
+  if (field.lip == Lip::kUpper) weight *= weights.above_mouth;
+  if (field.lip == Lip::kLower) weight *= 1 - weights.above_mouth;
   weight *= own_side * weights.free;
   glm::vec3 by = field.by;
   // The sideways part turns over smoothly at the median instead of tearing it.

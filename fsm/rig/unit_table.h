@@ -29,7 +29,7 @@ class UnitTable {
   struct Field {
     int unit;
     glm::vec2 at, radius;
-    enum class Part { kAbove, kBelow, kBoth } part;
+    enum class Lip { kUpper, kLower, kBoth } lip;  ///< whose side of the mouth moves
     glm::vec3 by;
   };
 

@@ -1,4 +1,4 @@
-#include "fsm/motion/action_unit_table.h"
+#include "fsm/motion/action_units.h"
 
 #include <fmt/format.h>
 
