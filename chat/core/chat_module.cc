@@ -15,6 +15,8 @@ using vm::Errc;
 constexpr vm::Time kHubLimit = milliseconds(1000);
 /// A sentence that seems complete is spoken after that, though nothing has followed yet.
 constexpr vm::Time kCutPause = milliseconds(150);
+/// Of silence before the first sound of a reply: enough for lips to open, and nobody waits longer.
+constexpr int kLeadMs = 60;
 constexpr vm::Time kNodPause = milliseconds(2000);
 constexpr std::size_t kMaxShown = 32 << 10;  // bytes of a reply in one line
 constexpr std::size_t kMaxWaiting = 8;
@@ -112,9 +114,7 @@ void ChatModule::OnHubAnswer(const vm::Result<std::string>& answer) {
   hub_state_ = alone ? HubState::kAlone : HubState::kThere;
   speaker_.set_voiceless(alone);
   if (!alone) {
-    hub_.Say(vm::To(
-        options_.voice,
-        {{}, "", vm::Command::kProp, "", "Speak.mark", vm::Relation::kAssign, "AutoOutput"}));
+    PrepareVoice();
     hub_.Ask(vm::To(options_.face, vm::Inq("Life")), milliseconds(5000),
              [this](const vm::Result<std::string>& life) {
                life_ = life.value_or("");
@@ -124,6 +124,13 @@ void ChatModule::OnHubAnswer(const vm::Result<std::string>& answer) {
     StartEar();
   }
   TakeWaiting();
+}
+
+void ChatModule::PrepareVoice() {
+  hub_.Say(
+      vm::To(options_.voice,
+             {{}, "", vm::Command::kProp, "", "Speak.mark", vm::Relation::kAssign, "AutoOutput"}));
+  hub_.Say(vm::To(options_.voice, vm::Set("Text.lead", std::to_string(kLeadMs))));
 }
 
 void ChatModule::StartEar() {
@@ -138,11 +145,7 @@ void ChatModule::OnHeard(const vm::Message& message) {
   // One that was started anew has forgotten what it was told.
   const bool anew = message.slot == "Run" && message.value == "LIVE";
   if (message.from == options_.voice) {
-    if (anew) {
-      hub_.Say(vm::To(
-          options_.voice,
-          {{}, "", vm::Command::kProp, "", "Speak.mark", vm::Relation::kAssign, "AutoOutput"}));
-    }
+    if (anew) PrepareVoice();
     speaker_.OnVoice(message);
   }
   if (message.from != options_.ear) return;

@@ -93,6 +93,7 @@ class ChatModule final : public vm::Module {
   // Meeting the hub.
   void MeetHub();
   void OnHubAnswer(const vm::Result<std::string>& answer);
+  void PrepareVoice();
   void StartEar();
   void OnHeard(const vm::Message& message);
   void OnEar(const vm::Message& message);
