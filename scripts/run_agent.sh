@@ -14,7 +14,8 @@ usage: scripts/run_agent.sh [options]     (installed: galatea-agent [options])
                      With --out a film is made of it, with the user's part from --script FILE, a line a turn
   --web [PORT]       talk with the agent in a browser, with its voice there: opens the page, and prints its address
                      (docs/configuration.md, The page). With --dialog the dialogue is held there. Port 8080 without one
-  --model-url URL    with --chat: a language model answers, asked at URL (any OpenAI-compatible endpoint)
+  --model-url URL    with --chat, --web, or a dialogue that hands over to conversation: a language model answers, asked
+                     at URL (any OpenAI-compatible endpoint)
   --model NAME       its name there
   --key-file FILE    its key: the first line of a file only you can read
   --dialog DOC.vxml  run a VoiceXML dialogue (docs/dialogs.md); what you type is what you say
@@ -114,7 +115,10 @@ done
 [ -z "$dialog" ] || [ -z "$say" ] || fail "--dialog and --say exclude each other"
 [ -n "$say$dialog$heard$out" ] || chat=1
 [ -z "$chat" ] || [ -z "$say$dialog$heard" ] || fail "--chat excludes --say, --dialog and --voice"
-[ -z "$model_url" ] || [ -n "$chat" ] || fail "--model-url needs --chat"
+# A dialogue that lends its user to the module that converses.
+lends=""
+[ -z "$dialog" ] || ! grep -q 'builtin:chat' "$dialog" || lends=1
+[ -z "$model_url" ] || [ -n "$chat$lends" ] || fail "--model-url needs --chat, or a dialogue with <object classid=\"builtin:chat\">"
 [ -z "$model_url" ] || [ -z "$config" ] || fail "--model-url and --config exclude each other: put it into the configuration"
 [ -z "$model$key_file" ] || [ -n "$model_url" ] || fail "--model and --key-file need --model-url"
 [ -z "$model_url" ] || [ -n "$model" ] || fail "--model-url needs --model"
@@ -268,6 +272,9 @@ if [ -z "$config" ]; then
     if echo "set Listen = START" | timeout 30 "$bin/srm" --strict >/dev/null 2>&1; then
       sed -i -e 's#\["srm_stub"#["srm", "--live"#' "$config"
     fi
+  fi
+  if [ -n "$lends" ]; then
+    sed -i -e 's#{"name": "FSM"#{"name": "CHAT", "command": ["chat", "--no-listen"], "after": ["SSM", "SRM"]},\n    &#' "$config"
   fi
   if [ -n "$model_url" ]; then
     python3 -c 'import json, sys; json.dump(dict(zip(sys.argv[1::2], sys.argv[2::2])), sys.stdout)' \

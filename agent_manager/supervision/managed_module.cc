@@ -60,7 +60,7 @@ vm::Result<void> ManagedModule::Start(bool watch_health) {
   ending_ = started.error().text;
   events_.on_notice(ending_);
   if (started.error().code == Errc::kBusy) {
-    RestartByPolicy(ending_, true);
+    RestartByPolicy(ending_, true, {});
   } else {
     GiveUp(State::kFailed, ending_);  // it will not be there later either
   }
@@ -100,25 +100,30 @@ void ManagedModule::OnEnded(const ModuleRun::Ending& ending) {
   const bool at_start = state_ == State::kStarting && is_process;
   failed_starts_ = at_start ? failed_starts_ + 1 : 0;
   ending_ = ending.how;
+  // A program that fails says why in its last line, whether or not that line calls itself an error.
+  const std::string reason =
+      ending.failed && !ending.last_output.empty() ? ": " + ending.last_output : "";
+  if (!reason.empty()) output_.BlameLast(ending.last_output);
   if (is_process && (state_ != State::kStopping || ending.failed)) {
-    const bool tell = at_start && !ending.last_output.empty();
-    Notice(" " + ending.how + (at_start ? " before it was ready" : "") +
-           (tell ? ": " + ending.last_output : ""));
+    const std::string what =
+        " " + ending.how + (at_start ? " before it was ready" + reason : std::string());
+    ending.failed ? Error(what) : Notice(what);
   }
   if (state_ == State::kStopping || !restarts_) return Stopped();
-  RestartByPolicy("@" + config_.name + " " + ending.how, ending.failed);
+  RestartByPolicy("@" + config_.name + " " + ending.how, ending.failed, reason);
 }
 
-void ManagedModule::RestartByPolicy(const std::string& how, bool failed) {
+void ManagedModule::RestartByPolicy(const std::string& how, bool failed,
+                                    const std::string& reason) {
   if (failed_starts_ >= kFailedStarts) {
-    Notice(" has failed to start " + std::to_string(failed_starts_) +
-           " times, it is not started again");
+    Error(" has failed to start " + std::to_string(failed_starts_) +
+          " times, it is not started again" + reason);
     return GiveUp(State::kFailed, how);
   }
   const auto delay = history_.NextDelay(config_.restart, failed, SteadyClock::now());
   if (!delay && history_.gave_up()) {
-    Notice(" ended " + std::to_string(history_.recent()) + " times within " +
-           vm::FormatMs(config_.restart.within) + " ms, it is not started again");
+    Error(" ended " + std::to_string(history_.recent()) + " times within " +
+          vm::FormatMs(config_.restart.within) + " ms, it is not started again" + reason);
     return GiveUp(State::kFailed, how);
   }
   if (!delay) return GiveUp(State::kEnded, how);

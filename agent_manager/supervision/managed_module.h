@@ -92,7 +92,9 @@ class ManagedModule : public std::enable_shared_from_this<ManagedModule> {
   void OnReady();
   void OnEnded(const ModuleRun::Ending& ending);
   void Notice(const std::string& text) { events_.on_notice("@" + config_.name + text); }
-  void RestartByPolicy(const std::string& how, bool failed);
+  void Error(const std::string& text) { events_.on_notice("error: @" + config_.name + text); }
+  /// `reason`: what its last line said, after a colon; may be empty.
+  void RestartByPolicy(const std::string& how, bool failed, const std::string& reason);
   void GiveUp(State state, const std::string& why);
   void Stopped();
 

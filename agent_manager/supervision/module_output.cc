@@ -16,7 +16,10 @@ OutputLine ParseOutputLine(std::string text) {
     return at != std::string::npos &&
            (at == 0 || std::isalpha(static_cast<unsigned char>(start[at - 1])) == 0);
   };
-  const bool error = says("error") || says("fatal") || says("critical") || says("sanitizer");
+  const std::string_view first_word = std::string_view(start).substr(0, start.find(' '));
+  const bool exception = first_word.ends_with("error:") || first_word.ends_with("exception:");
+  const bool error =
+      exception || says("error") || says("fatal") || says("critical") || says("sanitizer");
   return {error ? "ERROR" : says("warn") ? "WARNING" : "INFO", std::move(text)};
 }
 

@@ -12,8 +12,8 @@ struct OutputLine {
   std::string text;
 };
 
-/// Tells the level from the first words: "fsm: error: no display" is an ERROR; a line without such
-/// a word is INFO.
+/// Tells the level from the first words: "fsm: error: no display" is an ERROR, as is the name of an
+/// exception, "ValueError: ..."; a line without such a word is INFO.
 OutputLine ParseOutputLine(std::string text);
 
 /// The last kMaxOutputLines lines of one module's stderr, oldest first.
@@ -23,6 +23,10 @@ class ModuleOutput {
   void Add(OutputLine line) {
     lines_.push_back(std::move(line));
     if (lines_.size() > kMaxOutputLines) lines_.pop_front();
+  }
+  /// The program has failed, and `text` is the last it said: its line becomes an ERROR.
+  void BlameLast(const std::string& text) {
+    if (!lines_.empty() && lines_.back().text == text) lines_.back().level = "ERROR";
   }
   const std::deque<OutputLine>& lines() const { return lines_; }
 

@@ -62,6 +62,7 @@ chat::ChatModule::Options OptionsOf(const chat::Settings& settings) {
       .model = settings.model,
       .prompt = ReadOr(settings.prompt_file, chat::tables::Prompt(), kMaxPromptBytes),
       .persona = settings.persona,
+      .talk = std::string(chat::tables::Talk()),
       .agent = settings.agent.empty() ? "Galatea" : settings.agent,
       .listens = settings.listen,
       .tags = Table(settings.tags_file, "tags.txt", chat::tables::Tags(), chat::TagTable::Parse),

@@ -15,6 +15,8 @@ using vm::Errc;
 constexpr vm::Time kHubLimit = milliseconds(1000);
 /// A sentence that seems complete is spoken after that, though nothing has followed yet.
 constexpr vm::Time kCutPause = milliseconds(150);
+/// Of silence before the first sound of a reply: enough for lips to open, and nobody waits longer.
+constexpr int kLeadMs = 60;
 constexpr vm::Time kNodPause = milliseconds(2000);
 constexpr std::size_t kMaxShown = 32 << 10;  // bytes of a reply in one line
 constexpr std::size_t kMaxWaiting = 8;
@@ -31,9 +33,10 @@ bool IsJapanese(std::string_view text) {
   });
 }
 
-std::string WithAgent(std::string text, const std::string& agent) {
-  for (std::size_t at = text.find("$agent"); at != std::string::npos; at = text.find("$agent", at))
-    text.replace(at, 6, agent);
+std::string With(std::string text, std::string_view name, const std::string& value) {
+  for (std::size_t at = text.find(name); at != std::string::npos;
+       at = text.find(name, at + value.size()))
+    text.replace(at, name.size(), value);
   return text;
 }
 
@@ -111,9 +114,7 @@ void ChatModule::OnHubAnswer(const vm::Result<std::string>& answer) {
   hub_state_ = alone ? HubState::kAlone : HubState::kThere;
   speaker_.set_voiceless(alone);
   if (!alone) {
-    hub_.Say(vm::To(
-        options_.voice,
-        {{}, "", vm::Command::kProp, "", "Speak.mark", vm::Relation::kAssign, "AutoOutput"}));
+    PrepareVoice();
     hub_.Ask(vm::To(options_.face, vm::Inq("Life")), milliseconds(5000),
              [this](const vm::Result<std::string>& life) {
                life_ = life.value_or("");
@@ -123,6 +124,13 @@ void ChatModule::OnHubAnswer(const vm::Result<std::string>& answer) {
     StartEar();
   }
   TakeWaiting();
+}
+
+void ChatModule::PrepareVoice() {
+  hub_.Say(
+      vm::To(options_.voice,
+             {{}, "", vm::Command::kProp, "", "Speak.mark", vm::Relation::kAssign, "AutoOutput"}));
+  hub_.Say(vm::To(options_.voice, vm::Set("Text.lead", std::to_string(kLeadMs))));
 }
 
 void ChatModule::StartEar() {
@@ -137,11 +145,7 @@ void ChatModule::OnHeard(const vm::Message& message) {
   // One that was started anew has forgotten what it was told.
   const bool anew = message.slot == "Run" && message.value == "LIVE";
   if (message.from == options_.voice) {
-    if (anew) {
-      hub_.Say(vm::To(
-          options_.voice,
-          {{}, "", vm::Command::kProp, "", "Speak.mark", vm::Relation::kAssign, "AutoOutput"}));
-    }
+    if (anew) PrepareVoice();
     speaker_.OnVoice(message);
   }
   if (message.from != options_.ear) return;
@@ -214,6 +218,10 @@ void ChatModule::Begin(Input input) {
     talk_->last = turn_->input.text;
   }
   SetBusy("THINKING");
+  if (talk_ && talk_->end_phrases.FoundIn(talk_->last)) {
+    talk_->ending = "ENDED";
+    return speaker_.NoMore();
+  }
   Think();
 }
 
@@ -224,9 +232,12 @@ std::string ChatModule::LanguageOf(const std::string& text) const {
 }
 
 Thinker::Settings ChatModule::ThinkerSettings() const {
-  std::string system = WithAgent(options_.prompt, options_.agent);
-  if (const std::string persona = slots_.Value("Persona"); !persona.empty())
-    system += (system.empty() ? "" : "\n") + persona;
+  std::string system = With(options_.prompt, "$agent", options_.agent);
+  const auto add = [&system](const std::string& text) {
+    if (!text.empty()) system += (system.empty() ? "" : "\n") + text;
+  };
+  add(slots_.Value("Persona"));
+  if (talk_ && !talk_->goal.empty()) add(With(options_.talk, "$goal", talk_->goal));
   return {.model = slots_.Value("Model"),
           .system = std::move(system),
           .limits = {.whole = std::chrono::seconds(Number("Model.seconds")),
@@ -334,6 +345,7 @@ void ChatModule::EndTurn() {
     turn.input.reply.Fail({Errc::kStopped, "stopped after: " + heard, 0});
   } else if (turn.error) {
     turn.input.reply.Fail(*turn.error);
+    if (talk_) FailTalk(*turn.error);
   } else {
     turn.input.reply.Ok(heard);
   }
@@ -369,18 +381,24 @@ void ChatModule::Perform(const Cue& cue) {
 // --- a conversation lent to a dialogue
 
 void ChatModule::StartTalk(const vm::SetValue& value, const vm::Reply& reply) {
-  if (value.word(0) == "STOP") {
-    reply.Ok("STOP");
+  const std::string& first = value.word(0);
+  if (first == "STOP" || first == "END") {
+    reply.Ok(value.text);
     if (!talk_) return;
-    talk_->ending = true;
-    if (!turn_) EndTalk("STOPPED");
+    if (first == "END" && value.size() > 1 && value.word(1) != "-")
+      slots_.Report("Talk.result", value.word(1));
+    talk_->ending = first == "END" ? "ENDED" : "STOPPED";
+    if (!turn_) EndTalk(talk_->ending);
     return;
   }
   if (talk_) return reply.Fail({Errc::kBusy, "a conversation is lent already; Talk = STOP", 0});
   talk_.emplace(
       Talk{.reply = reply,
            .most = static_cast<int>(value.number(0)),
-           .silence = milliseconds(value.size() > 1 ? static_cast<long>(value.number(1)) : 0)});
+           .silence = milliseconds(value.size() > 1 ? static_cast<long>(value.number(1)) : 0),
+           .goal = slots_.Value("Talk.goal"),
+           .end_phrases = EndPhrases(slots_.Value("Talk.end"))});
+  slots_.Report("Talk.result", "");
   StartEar();
   WaitForTalk();
 }
@@ -389,7 +407,7 @@ void ChatModule::StartTalk(const vm::SetValue& value, const vm::Reply& reply) {
 void ChatModule::WaitForTalk() {
   clock_.Cancel(std::exchange(talk_timer_, 0));
   if (!talk_ || turn_ || !waiting_.empty()) return;
-  if (talk_->ending) return EndTalk("STOPPED");
+  if (!talk_->ending.empty()) return EndTalk(talk_->ending);
   if (talk_->turns >= talk_->most) return EndTalk("TURNS");
   if (talk_->silence.count() == 0) return;
   talk_timer_ = clock_.After(talk_->silence, [this] {
@@ -398,10 +416,19 @@ void ChatModule::WaitForTalk() {
   });
 }
 
-void ChatModule::EndTalk(const std::string& reason) {
-  const Talk talk = std::move(*talk_);
+/// The borrower takes over, and what was arranged with it is forgotten.
+ChatModule::Talk ChatModule::TakeBack() {
+  Talk talk = std::move(*talk_);
   talk_.reset();
   clock_.Cancel(std::exchange(talk_timer_, 0));
+  for (const char* const slot : {"Talk.goal", "Talk.end"}) slots_.Report(slot, "");
+  return talk;
+}
+
+void ChatModule::FailTalk(const vm::Error& error) { TakeBack().reply.Fail(error); }
+
+void ChatModule::EndTalk(std::string reason) {
+  const Talk talk = TakeBack();
   talk.reply.Ok(reason + " " + std::to_string(talk.turns) + (talk.last.empty() ? "" : " ") +
                 talk.last);
 }

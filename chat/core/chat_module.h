@@ -13,6 +13,7 @@
 #include "chat/core/thinker.h"
 #include "chat/rules/rules.h"
 #include "chat/text/apologies.h"
+#include "chat/text/end_phrases.h"
 #include "chat/text/sentence_cutter.h"
 #include "chat/text/tag_reader.h"
 #include "vm_protocol/core/module.h"
@@ -34,6 +35,7 @@ class ChatModule final : public vm::Module {
     std::string model{};
     std::string prompt{};  ///< of the system; $agent is the agent's name
     std::string persona{};
+    std::string talk{};  ///< told to the model of a conversation that is lent; $goal is its goal
     std::string agent = "Galatea";
     bool listens = true;
     TagTable tags{};
@@ -75,7 +77,9 @@ class ChatModule final : public vm::Module {
     int turns = 0, most = 0;
     vm::Time silence{0};
     std::string last{};
-    bool ending = false;
+    std::string goal{};
+    EndPhrases end_phrases{};
+    std::string ending{};  ///< the reason, once it is known
   };
 
   // chat_slots.cc
@@ -89,6 +93,7 @@ class ChatModule final : public vm::Module {
   // Meeting the hub.
   void MeetHub();
   void OnHubAnswer(const vm::Result<std::string>& answer);
+  void PrepareVoice();
   void StartEar();
   void OnHeard(const vm::Message& message);
   void OnEar(const vm::Message& message);
@@ -115,7 +120,9 @@ class ChatModule final : public vm::Module {
 
   // A conversation lent to a dialogue.
   void StartTalk(const vm::SetValue& value, const vm::Reply& reply);
-  void EndTalk(const std::string& reason);
+  Talk TakeBack();
+  void FailTalk(const vm::Error& error);
+  void EndTalk(std::string reason);
   void WaitForTalk();
 
   vm::Scheduler& clock_;

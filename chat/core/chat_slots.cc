@@ -1,4 +1,5 @@
-// What the module can be told and asked. The order of declaration is that of docs/reference/slots.md.
+// What the module can be told and asked. The order of declaration is that of
+// docs/reference/slots.md.
 
 #include "chat/core/chat_module.h"
 
@@ -148,16 +149,32 @@ void ChatModule::DeclareReports() {
 void ChatModule::DeclareTalk() {
   slots_.Declare(
       {.name = "Talk",
-       .grammar = "STOP | <int 1..1000> [ <ms> ]",
+       .grammar = "STOP | END [ <word> ] | <int 1..1000> [ <ms> ]",
        .access = vm::Access::kWriteOnly,
        .help =
            "A conversation lent to somebody: so many turns, or until nobody has spoken for so many "
-           "ms (0: no limit), STOP is said, or a reply has the tag [end]. Answered at its end with "
-           "its reason, TURNS, SILENCE or STOPPED, the number of turns, and what the user said "
-           "last. Meanwhile the ear is listened to, whatever Listen says.",
+           "ms (0: no limit), STOP is said, the user says a phrase of Talk.end, or a reply has the "
+           "tag [end], with which the model may give a result. Answered at its end with its "
+           "reason, TURNS, SILENCE, ENDED or STOPPED, the number of turns, and what the user said "
+           "last; as an error if the model does not answer. Meanwhile the ear is listened to, "
+           "whatever Listen says.",
        .on_set_later = [this](const vm::SetValue& value,
                               const vm::Reply& reply) { StartTalk(value, reply); },
        .saved = false});
+  slots_.Declare({.name = "Talk.goal",
+                  .grammar = "<text>",
+                  .help = "What the next conversation lent is for; told to the model behind the "
+                          "persona, and forgotten at its end. Rules do not read it.",
+                  .saved = false});
+  slots_.Declare({.name = "Talk.end",
+                  .grammar = "<text>",
+                  .help = "Phrases by which the user ends the next conversation lent, with | "
+                          "between; forgotten at its end.",
+                  .saved = false});
+  slots_.Declare({.name = "Talk.result",
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .help = "The word that the tag [end WORD] of the last conversation lent had."});
 }
 
 }  // namespace chat

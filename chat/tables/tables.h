@@ -11,5 +11,6 @@ std::string_view Prompt();
 std::string_view RulesEnglish();
 std::string_view RulesJapanese();
 std::string_view Tags();
+std::string_view Talk();
 
 }  // namespace chat::tables

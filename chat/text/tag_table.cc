@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -14,6 +15,7 @@ namespace {
 using vm::Errc;
 using vm::Fail;
 
+constexpr std::size_t kMaxWordBytes = 64;
 constexpr std::array<std::string_view, 4> kStates = {"WAITS", "HEARS", "THINKS", "SPEAKS"};
 
 std::optional<double> NumberOf(std::string_view text) {
@@ -35,6 +37,14 @@ void ReplaceAll(std::string& text, const std::string& from, const std::string& t
   }
 }
 
+/// A word without any sign that means something in a line.
+bool IsPlainWord(std::string_view word) {
+  return !word.empty() && word.size() <= kMaxWordBytes &&
+         std::ranges::all_of(word, [](unsigned char c) {
+           return c >= 0x80 || std::isalnum(c) != 0 || c == '-' || c == '_';
+         });
+}
+
 }  // namespace
 
 vm::Result<TagTable::Parameter> TagTable::ParseParameter(std::string_view text) {
@@ -43,7 +53,7 @@ vm::Result<TagTable::Parameter> TagTable::ParseParameter(std::string_view text) 
   if (colon == 0 || colon == std::string_view::npos) {
     return Fail(Errc::kSyntax,
                 "found '" + std::string(text) +
-                    "', expected NAME:WORD,WORD or NAME:LOW..HIGH, =USUAL behind it");
+                    "', expected NAME:WORD,WORD, NAME:LOW..HIGH or NAME:*, =USUAL behind it");
   }
   parameter.name = vm::LowerCase(text.substr(0, colon));
   std::string_view values = text.substr(colon + 1);
@@ -51,7 +61,9 @@ vm::Result<TagTable::Parameter> TagTable::ParseParameter(std::string_view text) 
     parameter.usual = values.substr(equals + 1);
     values = values.substr(0, equals);
   }
-  if (const std::size_t dots = values.find(".."); dots != std::string_view::npos) {
+  if (values == "*") {
+    parameter.any_word = true;
+  } else if (const std::size_t dots = values.find(".."); dots != std::string_view::npos) {
     const auto low = NumberOf(values.substr(0, dots));
     const auto high = NumberOf(values.substr(dots + 2));
     if (!low || !high || *low > *high) {
@@ -133,13 +145,14 @@ bool TagTable::IsSilent(std::string_view tag) const {
   return std::ranges::find(silent_, tag) != silent_.end();
 }
 
-/// The value as it goes into a command; none if it does not fit. Only words of the table and
-/// numbers get through, so nothing a text says can become a part of a command.
+/// The value as it goes into a command; none if it does not fit. Only words of the table, numbers
+/// and plain words get through, so nothing a text says can become a part of a command.
 std::optional<std::string> TagTable::Fitting(const Parameter& parameter, const std::string& value) {
   if (!parameter.words.empty()) {
     const auto found = std::ranges::find(parameter.words, UpperCase(value));
     return found == parameter.words.end() ? std::nullopt : std::optional(*found);
   }
+  if (parameter.any_word) return IsPlainWord(value) ? std::optional(value) : std::nullopt;
   std::string_view digits = value;
   if (digits.ends_with('%')) digits.remove_suffix(1);
   if (digits.starts_with('+')) digits.remove_prefix(1);

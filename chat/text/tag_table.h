@@ -43,7 +43,8 @@ class TagTable {
  private:
   struct Parameter {
     std::string name;
-    std::vector<std::string> words;  ///< those allowed, upper case; empty: a number
+    std::vector<std::string> words;  ///< those allowed, upper case; empty: a number, or any word
+    bool any_word = false;
     double low = 0, high = 0;
     std::string usual;  ///< empty: it must be given
   };

@@ -20,7 +20,7 @@ struct Sheet {
 };
 
 /// `kind`: aus (every unit and code at full strength), emotions (neutral and the six, pattern 1),
-/// visemes (the 28 mouth shapes, then the 14), identities (every face: front, three-quarter,
+/// visemes (the 28 mouth shapes, then the 14), identities (each of `faces`: front, three-quarter,
 /// profile, smiling). Error: kBadValue listing the kinds.
 vm::Result<Sheet> MakeSheet(const std::string& kind, const MotionTables& tables,
                             const std::vector<std::string>& faces, const std::string& face);

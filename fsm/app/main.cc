@@ -138,10 +138,11 @@ void AddOptions(CLI::App& app, Options& options) {
                "Tells what the face named by --mask or --head is made of, and ends");
   app.add_option("--life", options.module.life,
                  "What the face does by itself from the start: OFF (default), CALM, LIVELY, ...");
-  app.add_option("--sheet", options.sheet,
-                 "Draws a contact sheet (aus, emotions, visemes or identities) to --out and ends");
-  app.add_option("--out", options.out, "The sheet's file, .png or .bmp");
-  app.add_flag("--no-labels", options.no_labels, "Draws the sheet without names");
+  auto* const sheet = app.add_option(
+      "--sheet", options.sheet,
+      "Draws a contact sheet (aus, emotions, visemes or identities) to --out and ends");
+  app.add_option("--out", options.out, "The sheet's file, .png or .bmp")->needs(sheet);
+  app.add_flag("--no-labels", options.no_labels, "Draws the sheet without names")->needs(sheet);
   app.add_option("--seed", options.module.seed, "Of what the face does by itself (default 1)");
 }
 
@@ -226,19 +227,32 @@ void CheckTablesGiven(const Options& options) {
   }
 }
 
+/// The faces of a sheet of identities: the one asked for, else the built-in ones and those of the
+/// command line. Faces kept in the user's folder are private, and may be damaged.
+std::vector<std::string> FacesShown(const std::string& asked,
+                                    const std::vector<fsm::NamedFace>& more) {
+  if (!asked.empty()) return {asked};
+  std::vector<std::string> names;
+  for (const fsm::NamedFace& face : more) names.push_back(face.name);
+  for (const fsm::IdentityInfo& face : fsm::Identities()) names.emplace_back(face.name);
+  return names;
+}
+
 /// For a run that only draws a sheet.
 void DrawSheet(const Options& options) {
   if (options.out.empty()) throw std::runtime_error("--sheet needs --out FILE.png");
   const auto tables = vm::OrThrow(fsm::MotionTables::Load(options.module.tables));
   fsm::OriginalConfig config;
   if (!options.config.empty()) config = vm::OrThrow(fsm::OriginalConfig::Read(options.config));
+  const auto more = MoreFaces(options, config);
   fsm::GlRenderBackend backend({.width = fsm::kCellWidth,
                                 .height = fsm::kCellHeight,
-                                .more_faces = MoreFaces(options, config),
+                                .more_faces = more,
                                 .tables = options.module.tables});
   const std::string& face = options.module.mask;
   if (!face.empty()) vm::OrThrow(backend.Wear(face));
-  const auto sheet = vm::OrThrow(fsm::MakeSheet(options.sheet, tables, backend.Faces(), face));
+  const auto sheet =
+      vm::OrThrow(fsm::MakeSheet(options.sheet, tables, FacesShown(face, more), face));
   const auto picture = vm::OrThrow(fsm::DrawSheet(backend, sheet, !options.no_labels));
   vm::OrThrow(backend.WritePicture(picture, options.out));
 }

@@ -47,7 +47,8 @@ inline double Limited(double value) {
 /// Thread: one writer (Append, Finish), any number of readers; Cancel from anywhere.
 class SampleBuffer {
  public:
-  explicit SampleBuffer(std::size_t frames) : samples_(frames) {}
+  /// The first `skip` frames that are written are left out: nobody is to hear them.
+  explicit SampleBuffer(std::size_t frames, std::size_t skip = 0) : samples_(frames), skip_(skip) {}
 
   std::size_t size() const { return samples_.size(); }
   /// What may be read: everything written so far. Stays valid as long as the buffer.
@@ -58,12 +59,14 @@ class SampleBuffer {
 
   /// What does not fit is dropped.
   void Append(std::span<const std::int16_t> more) {
+    more = more.subspan(Skipped(more.size()));
     const std::size_t at = ready_.load(std::memory_order_relaxed);
     const std::size_t count = std::min(more.size(), samples_.size() - at);
     std::copy_n(more.begin(), count, samples_.begin() + static_cast<std::ptrdiff_t>(at));
     ready_.store(at + count, std::memory_order_release);
   }
   void AppendSilence(std::size_t frames) {
+    frames -= Skipped(frames);
     const std::size_t at = ready_.load(std::memory_order_relaxed);
     ready_.store(at + std::min(frames, samples_.size() - at), std::memory_order_release);
   }
@@ -75,7 +78,15 @@ class SampleBuffer {
   bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
 
  private:
+  /// How many of the frames now written are among those left out.
+  std::size_t Skipped(std::size_t frames) {
+    const std::size_t skipped = std::min(skip_, frames);
+    skip_ -= skipped;
+    return skipped;
+  }
+
   std::vector<std::int16_t> samples_;
+  std::size_t skip_;  // the writer's
   std::atomic<std::size_t> ready_{0};
   std::atomic<bool> cancelled_{false};
 };

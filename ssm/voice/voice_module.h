@@ -112,6 +112,7 @@ class VoiceModule final : public vm::Module {
   vm::Result<TaggedText> ReadText(const std::string& text);
   const VoiceInfo& SpeakerOf(const SpeechSpan& span);
   std::vector<SpeechSpan> Manners(std::vector<SpeechSpan> spans);
+  Millis LeadToCut(const Preparation& preparation, SpeechPlan& plan) const;
   void OnPlanned(const std::shared_ptr<Preparation>& preparation);
   void OnRendered(const std::shared_ptr<Utterance>& utterance, const vm::Result<void>& result);
   void ReportPhonemes();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ssm/voice/lead.h"
 #include "ssm/voice/prosody.h"
 #include "ssm/voice/ssml.h"
 #include "ssm/voice/voice_module.h"
@@ -178,7 +179,9 @@ void VoiceModule::OnPlanned(const std::shared_ptr<Preparation>& preparation) {
     return TakeTurns();
   }
   utterance->plan = std::move(*preparation->plan);
-  utterance->samples = std::make_shared<SampleBuffer>(ToFrames(utterance->duration()));
+  const Millis cut = LeadToCut(*preparation, utterance->plan);
+  utterance->samples =
+      std::make_shared<SampleBuffer>(ToFrames(utterance->duration()), ToFrames(cut));
   utterance_ = utterance;
   ReportPhonemes();
   if (utterance->plan.unspoken.empty() && IsBlank(preparation->spans)) {
@@ -199,6 +202,18 @@ void VoiceModule::OnPlanned(const std::shared_ptr<Preparation>& preparation) {
     return TakeTurns();
   }
   MakeReady(reply, utterance->text);
+}
+
+/// Cuts the silence before the first sound as Text.lead says, but neither a pause that was asked
+/// for nor that between two texts.
+Millis VoiceModule::LeadToCut(const Preparation& preparation, SpeechPlan& plan) const {
+  const std::string lead = slots_.Value("Text.lead");
+  const bool asked_for =
+      !preparation.spans.empty() && (preparation.spans.front().pause_before > Millis(0) ||
+                                     !preparation.spans.front().audio.empty());
+  const bool follows = !preparation.wanted.empty();
+  if (lead == "NATURAL" || asked_for || follows || preparation.prosody) return Millis(0);
+  return CutLead(plan, Millis(std::stol(lead)));
 }
 
 vm::Result<void> VoiceModule::Render(const Preparation& preparation) {

@@ -33,6 +33,12 @@ void VoiceModule::DeclareTextSlots() {
                   .on_set_later = [this](const vm::SetValue& value,
                                          vm::Reply reply) { SetNext(value.text, reply); },
                   .saved = false});
+  slots_.Declare({.name = "Text.lead",
+                  .grammar = "NATURAL | <int 0..2000>",
+                  .initial = "NATURAL",
+                  .help = "How many ms the silence before the first sound of a Text lasts at most; "
+                          "NATURAL: as the voice has it, some 200. A text that follows another "
+                          "(Text.next) and pauses that were asked for keep theirs."});
   const auto told = [this](std::string name, std::string help, std::string initial = "") {
     slots_.Declare({.name = std::move(name),
                     .grammar = "<text>",

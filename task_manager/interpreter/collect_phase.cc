@@ -4,6 +4,7 @@
 
 #include "task_manager/document/schema.h"
 #include "task_manager/document/values.h"
+#include "task_manager/interpreter/talk_object.h"
 
 namespace vxml {
 
@@ -49,12 +50,30 @@ void CollectPhase::VisitInput(FormItem& item) {
 }
 
 void CollectPhase::VisitObject(FormItem& item) {
-  // This platform has no objects; the event's name is fixed by VoiceXML 2.0 section 2.3.5.
-  ThrowEvent("error.unsupported.objectname", "no object '" + item.node->Get("classid") + "'");
+  // The event's name is fixed by VoiceXML 2.0 section 2.3.5.
+  static constexpr const char* kUnsupported = "error.unsupported.objectname";
+  const std::string classid = item.node->Get("classid");
+  if (classid != "builtin:chat") ThrowEvent(kUnsupported, "no object '" + classid + "'");
+  rt_.connection.RequireOpen();
+  const TalkRequest request = MakeTalkRequest(item);
+  recognition_.Forget();
+  const TalkResult result = rt_.platform.Talk(queue_.Take(), request);
+  rt_.budget.Renew();
+  switch (result.kind) {
+    case TalkResult::Kind::kHangup:
+      rt_.connection.HangUp();
+    case TalkResult::Kind::kUnsupported:
+      ThrowEvent(kUnsupported, "object '" + classid + "': " + result.reason);
+    case TalkResult::Kind::kBusy:
+      ThrowEvent("error.noresource", "object '" + classid + "': " + result.reason);
+    case TalkResult::Kind::kFailed:
+      ThrowEvent("error.badfetch", "object '" + classid + "': " + result.reason);
+    case TalkResult::Kind::kOver:
+      return process_.FillPlain(item, ResultOfTalk(rt_.engine, result));
+  }
 }
 
-void CollectPhase::VisitSubdialog(FormItem& item) {
-  const vm::xml::Node& node = *item.node;
+NamedValues CollectPhase::ParametersOf(const vm::xml::Node& node) {
   NamedValues parameters;
   for (const auto& child : node.children) {
     if (!child->IsElement("param")) continue;
@@ -63,6 +82,21 @@ void CollectPhase::VisitSubdialog(FormItem& item) {
                                                     ? rt_.scopes.Evaluate(*child, *expression)
                                                     : rt_.engine.String(child->Get("value")));
   }
+  return parameters;
+}
+
+TalkRequest CollectPhase::MakeTalkRequest(const FormItem& item) {
+  TalkRequest request;
+  for (const auto& [name, value] : ParametersOf(*item.node)) {
+    const std::string fault = SetTalkParameter(name, rt_.engine.ToString(value), request);
+    if (!fault.empty()) rt_.position.ThrowSemantic(*item.node, "object builtin:chat: " + fault);
+  }
+  return request;
+}
+
+void CollectPhase::VisitSubdialog(FormItem& item) {
+  const vm::xml::Node& node = *item.node;
+  NamedValues parameters = ParametersOf(node);
   Submission submission{documents_.FieldsOf(node, node.Get("namelist")),
                         node.Get("method") == "post", node.Get("enctype") == "multipart/form-data"};
   Transition start = documents_.Submit(node, rt_.scopes.Text(node, "src", "srcexpr"),

@@ -40,6 +40,9 @@ class CollectPhase {
   std::vector<ActiveGrammar> GrammarsOf(const FormItem& item, bool modal) {
     return ActiveGrammars(rt_, grammars_).Of(item, modal);
   }
+  /// The values of its <param> elements.
+  NamedValues ParametersOf(const vm::xml::Node& node);
+  TalkRequest MakeTalkRequest(const FormItem& item);
   RecordRequest MakeRecordRequest(const FormItem& item, const std::vector<ActiveGrammar>& active);
   TransferRequest MakeTransferRequest(const FormItem& item);
   /// Sets the shadow variable; the recording is returned.

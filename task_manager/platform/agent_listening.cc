@@ -29,8 +29,10 @@ bool AgentPlatform::OnTyped(const std::string& line) {
     auto message = vm::ParseMessage("to @" + options_.ear + " set Input.text = " + line);
     if (!message) return false;
     ++typed_waiting_;
+    if (talk_) talk_->Said();
     hub_.client().Request(*message, [this](const vm::Result<std::string>& taken) {
       --typed_waiting_;
+      if (!taken && talk_) talk_->NotTaken();
       if (!taken) hub_.LetCutIn(HubLink::CutIn::kNext);
     });
     return true;
@@ -115,6 +117,7 @@ std::optional<Command> AgentPlatform::Next() {
 }
 
 void AgentPlatform::Hear(Input::Kind kind, std::vector<Hypothesis> hypotheses) {
+  if (talk_ && kind == Input::Kind::kSpeech) return;  // @CHAT hears it, too
   Input input;
   input.kind = kind;
   input.hypotheses = std::move(hypotheses);

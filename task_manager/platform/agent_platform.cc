@@ -72,6 +72,11 @@ AgentPlatform::AgentPlatform(HubLink& hub, Options options)
   hub_.client().On("Listen.stat", [this](const vm::Message& m) {
     if (m.from == options_.ear) hearing_ = m.value == "SPEECH";
   });
+  for (const char* const slot : {"Busy", "Heard", "Reply.sentence", "Reply"}) {
+    hub_.client().On(slot, [this](const vm::Message& m) {
+      if (talk_ && m.from == options_.chat) talk_->OnReport(m);
+    });
+  }
   hub_.client().On("Result.sound", [this](const vm::Message& m) {
     if (m.from == options_.ear) OnSound(m.value);
   });
@@ -91,7 +96,10 @@ AgentPlatform::AgentPlatform(HubLink& hub, Options options)
   hub_.client().On("Speak.stat", [this](const vm::Message& m) {
     if (m.from != options_.voice) return;
     if (m.value == "SPEAKING" && !spoken_from_) spoken_from_ = Now();
-    if (m.value == "IDLE") spoken_to_ = Now();
+    if (m.value == "IDLE") {
+      spoken_to_ = Now();
+      if (talk_) ReportSentence();
+    }
   });
   hub_.on_typed = [this](const std::string& line) { return OnTyped(line); };
   static_cast<void>(

@@ -11,6 +11,7 @@
 
 #include "task_manager/platform/hub_link.h"
 #include "task_manager/platform/input_script.h"
+#include "task_manager/platform/lent_conversation.h"
 #include "task_manager/platform/platform.h"
 #include "task_manager/platform/sound_keeper.h"
 
@@ -31,6 +32,7 @@ class AgentPlatform final : public Platform {
     std::string voice = "SSM";
     std::string ear = "SRM";
     std::string face = "FSM";
+    std::string chat = "CHAT";
     std::string name = "DM";  ///< of this dialogue at the hub: its grammar in the ear is named so
     std::function<void(const std::string& line)> write{};
   };
@@ -42,6 +44,7 @@ class AgentPlatform final : public Platform {
   RecordResult Record(const std::vector<Prompt>& prompts, const RecordRequest& request) override;
   TransferResult Transfer(const std::vector<Prompt>& prompts,
                           const TransferRequest& request) override;
+  TalkResult Talk(const std::vector<Prompt>& prompts, const TalkRequest& request) override;
   vm::Result<std::string> Recording(const std::string& uri) const override;
   void Disconnect() override {}
   void Native(const std::string& line) override;
@@ -82,6 +85,13 @@ class AgentPlatform final : public Platform {
   void Attend();
   void SetLife(const std::string& life);
   bool Speaks(const std::vector<Prompt>& prompts, bool listening);
+  // agent_talk.cc
+  bool HungUp() const;
+  void HandOverHeard();
+  void AwaitTalk(Millis left);
+  void TalkFromScript();
+  void ReportTalk(bool user, const std::string& text);
+  void ReportSentence();
   // agent_recording.cc
   bool KeepSounds(bool keep);
   void OnSound(const std::string& told);
@@ -134,6 +144,9 @@ class AgentPlatform final : public Platform {
   std::size_t typed_waiting_ = 0;  ///< typed lines the ear has not answered
   bool hearing_ = false;           ///< somebody speaks
   bool ran_out_ = false;
+  std::optional<LentConversation> talk_;  ///< while the user is lent
+  Millis talk_silence_{0};
+  std::optional<std::string> sentence_;  ///< of @CHAT, not reported yet
   std::string mark_;
   Millis mark_at_{0};
   /// With a script a prompt is reported when it was said, before what came meanwhile (held_).

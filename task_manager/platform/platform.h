@@ -123,6 +123,28 @@ struct TransferResult {
   bool ended_by_input = false;
 };
 
+/// A conversation that is no dialogue of the document's (<object classid="builtin:chat">).
+struct TalkRequest {
+  std::string goal;         ///< what it is for, in words
+  std::string end_phrases;  ///< by which the user ends it, with | between
+  int turns = 10;           ///< of the user's, at most
+  Millis silence{10'000};   ///< nobody speaks so long: it is over
+  Millis max_time{600'000};
+};
+struct TalkResult {
+  enum class Kind { kOver, kHangup, kUnsupported, kBusy, kFailed };
+  Kind kind = Kind::kOver;
+  std::string reason{};  ///< kOver: turns, silence, ended, stopped, maxtime; else what is wrong
+  int turns = 0;
+  std::string last{};    ///< what the user said last
+  std::string result{};  ///< a word of the model's
+  struct Words {
+    bool user = false;
+    std::string text;
+  };
+  std::vector<Words> words{};  ///< what both said, in turns
+};
+
 /// Where a dialogue meets people. Calls block; time is the platform's own (virtual in tests).
 /// Thread: the session's.
 class Platform {
@@ -135,6 +157,12 @@ class Platform {
   virtual RecordResult Record(const std::vector<Prompt>& prompts, const RecordRequest& request) = 0;
   virtual TransferResult Transfer(const std::vector<Prompt>& prompts,
                                   const TransferRequest& request) = 0;
+  /// Plays the prompts and lends the user to whoever converses, until that is over.
+  virtual TalkResult Talk(const std::vector<Prompt>& prompts, const TalkRequest& request) {
+    Play(prompts);
+    static_cast<void>(request);
+    return {.kind = TalkResult::Kind::kUnsupported, .reason = "it needs a hub with voice and ear"};
+  }
   virtual void Disconnect() = 0;
   /// The bytes of a recording by its URI. Errors: kUnavailable (there is none such, any more).
   virtual vm::Result<std::string> Recording(const std::string& uri) const {

@@ -243,12 +243,23 @@ TEST_F(HubFaultsTest, AModuleThatFailsToStartIsAnErrorWithItsReasonAndIsGivenUp)
   Process& hub = Start(
       "{\"name\": \"BAD\", \"command\": \"echo 'fsm: no display' >&2; exit 1\", "
       "\"restart\": {\"when\": \"always\", \"first_ms\": 1}}");
-  EXPECT_TRUE(hub.ExpectError("@BAD ended with code 1 before it was ready: fsm: no display"))
+  EXPECT_TRUE(hub.ExpectError("error: @BAD ended with code 1 before it was ready: fsm: no display"))
       << hub.ErrorText();
-  EXPECT_TRUE(hub.ExpectError("@BAD has failed to start 3 times, it is not started again"))
+  EXPECT_TRUE(hub.ExpectError(
+      "error: @BAD has failed to start 3 times, it is not started again: fsm: no display"))
       << hub.ErrorText();
   hub.WriteLine("inq#1 Module.BAD.state");
   EXPECT_TRUE(hub.Expect("rep#1 Module.BAD.state = FAILED"));
+  hub.WriteLine("inq#2 Module.BAD.log");
+  const std::string reason = "ERROR fsm: no display";
+  EXPECT_TRUE(hub.Expect("rep#2 Module.BAD.log = " + reason + " | " + reason + " | " + reason))
+      << hub.Seen();
+}
+
+TEST_F(HubFaultsTest, TheNameOfAnExceptionIsAnError) {
+  Process& hub = Start("{\"name\": \"PY\", \"command\": [\"python3\", \"-c\", \"import nope\"]}");
+  EXPECT_TRUE(hub.ExpectError("PY ERROR: ModuleNotFoundError: No module named 'nope'"))
+      << hub.ErrorText();
 }
 
 TEST_F(HubFaultsTest, AFloodOfQuestionsEndsNoModuleAndIsAnsweredWhole) {

@@ -89,7 +89,9 @@ TEST_F(SupervisionTest, AModuleThatAlwaysDiesIsGivenUp) {
   Configure(Shell("DIES", "echo 'dies: error: no luck' >&2; exit 3",
                   ", \"restart\": {\"when\": \"always\", \"first_ms\": 1, \"tries\": 3}"));
   Process hub({kHub, "--config", path_});
-  EXPECT_TRUE(hub.ExpectError("@DIES ended 4 times within 60000 ms, it is not started again"))
+  EXPECT_TRUE(
+      hub.ExpectError("error: @DIES ended 4 times within 60000 ms, it is not started again: "
+                      "dies: error: no luck"))
       << hub.ErrorText();
   EXPECT_EQ(Ask(hub, "Module.DIES.state"), "FAILED");
   EXPECT_EQ(Ask(hub, "Module.DIES.ending"), "ended with code 3");

@@ -302,6 +302,67 @@ TEST(ChatModuleTest, AConversationIsLentForSoManyTurns) {
   EXPECT_TRUE(world.Lines("rep#v").at(0).ends_with("Talk = STOPPED 0"));
 }
 
+TEST(ChatModuleTest, ALentConversationHasAGoalAndTheModelSaysWithWhichResultItEnds) {
+  ChatWorld world(Stub());
+  world.Tell("set Talk.goal = Find out where to go.");
+  world.Tell("set#t Talk = 9 0");
+  world.Ear("Result = To Kyoto");
+  const json body = json::parse(world.net.last().request.body);
+  EXPECT_EQ(body["messages"][0]["content"], "You are Galatea.\nFor this: Find out where to go.");
+  world.net.Head(200);
+  world.net.Words("Kyoto it is. [end kyoto]");
+  world.net.Done();
+  world.UntilIdle();
+  ASSERT_EQ(world.Lines("to @CHAT set Talk = END kyoto").size(), 1u);
+  world.Tell("set Talk = END kyoto");  // the hub brings it back
+  EXPECT_TRUE(world.Lines("rep#t").at(0).ends_with("Talk = ENDED 1 To Kyoto"));
+  EXPECT_EQ(world.Value("Talk.result"), "kyoto");
+  EXPECT_EQ(world.Value("Talk.goal"), "");
+  world.Tell("set#u Talk = 1 0");
+  EXPECT_EQ(world.Value("Talk.result"), "") << "that of a conversation before";
+  world.Ear("Result = Hi");
+  EXPECT_EQ(json::parse(world.net.last().request.body)["messages"][0]["content"],
+            "You are Galatea.");
+}
+
+TEST(ChatModuleTest, APhraseEndsALentConversationWithoutAnAnswer) {
+  ChatWorld world;
+  world.Tell("set Talk.end = that is all | back to the menu | もういい");
+  world.Tell("set#t Talk = 9 0");
+  world.Ear("Result = Is that all you know?");
+  world.UntilIdle();
+  EXPECT_TRUE(world.Lines("rep#t").empty());
+  const std::size_t spoken = world.Lines("set#").size();
+  world.Ear("Result = Well, THAT is - all. Thanks");
+  world.UntilIdle();
+  EXPECT_EQ(world.Lines("set#").size(), spoken) << "the borrower goes on";
+  EXPECT_TRUE(world.Lines("rep#t").at(0).ends_with("ENDED 2 Well, THAT is - all. Thanks"));
+  EXPECT_EQ(world.Value("Busy"), "IDLE");
+}
+
+TEST(EndPhrasesTest, WordsCountAndSignsDoNot) {
+  const chat::EndPhrases phrases("stop it|もういい|  |!");
+  EXPECT_TRUE(phrases.FoundIn("Please, stop it!"));
+  EXPECT_TRUE(phrases.FoundIn("いや、もういいです"));
+  EXPECT_FALSE(phrases.FoundIn("do not nonstop it"));
+  EXPECT_FALSE(phrases.FoundIn("stop"));
+  EXPECT_FALSE(phrases.FoundIn(""));
+  EXPECT_FALSE(chat::EndPhrases("").FoundIn("anything"));
+}
+
+TEST(ChatModuleTest, AModelThatDoesNotAnswerEndsALentConversationAsAnError) {
+  ChatWorld world(Stub());
+  world.Tell("set#t Talk = 9 0");
+  world.Ear("Result = Hello");
+  world.net.Head(500);
+  world.net.End();
+  world.UntilIdle();
+  EXPECT_TRUE(world.Lines("rep#t").at(0).contains("Talk.error = UNAVAILABLE"))
+      << world.Lines("rep#t").at(0);
+  world.Tell("set#u Talk = 9 0");
+  EXPECT_TRUE(world.Lines("rep#u").empty()) << "it can be lent again";
+}
+
 TEST(ChatModuleTest, ALongReplyFitsIntoItsLines) {
   ChatWorld world(Stub());
   world.Tell("set Model.bytes = 65536");

@@ -27,6 +27,7 @@ class ChatWorld {
         .endpoint = std::move(endpoint),
         .model = "stub",
         .prompt = "You are $agent.",
+        .talk = "For this: $goal",
         .tags = *chat::TagTable::Parse("tags.txt", chat::tables::Tags()),
         .abbreviations = chat::ParseAbbreviations(chat::tables::Abbreviations()),
         .apologies = *chat::Apologies::Parse("apologies.txt", chat::tables::Apologies()),

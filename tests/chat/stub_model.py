@@ -6,6 +6,7 @@
 Prints its port, then a line for each request: `POST PATH Authorization MODEL LAST-WORDS`. Streams what the model's name asks for:
 
     echo          "You said: WORDS." and a second sentence, at once
+    say TEXT      TEXT
     slow          the same, a word each 50 ms
     long          sentences without end, one each 20 ms
     stall         one sentence, then nothing more
@@ -91,6 +92,11 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.begin()
         for word in self.answer().split(" "):
             self.say(word + " ")
+        self.end()
+
+    def do_say(self, *words):
+        self.begin()
+        self.say(" ".join(words))
         self.end()
 
     def do_slow(self):

@@ -215,6 +215,22 @@ TEST_F(FsmProcessTest, AFacesOwnUnitsGoBeforeThoseOfTheTables) {
   EXPECT_NE(out.find("rep Frame = 0 0 pau 17.00 "), std::string::npos) << out;
 }
 
+TEST_F(FsmProcessTest, ASheetOfIdentitiesDoesNotShowWhatTheUserHasKept) {
+  std::filesystem::create_directories(folder / "faces/damaged");
+  std::ofstream(folder / "faces/damaged/identity.txt") << "junk\n";
+  ASSERT_EQ(::setenv("GALATEA_FACES", (folder / "faces").c_str(), 1), 0);
+  EXPECT_EQ(Run("--sheet identities --out all.png", ""), 0) << err;
+  EXPECT_EQ(Run("--sheet identities --mask damaged --out one.png", ""), 1);
+  ::unsetenv("GALATEA_FACES");
+  EXPECT_NE(err.find("damaged/identity.txt:1: "), std::string::npos) << err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "all.png"));
+}
+
+TEST_F(FsmProcessTest, AnOutputWithoutASheetIsRefused) {
+  EXPECT_NE(Run("--headless --out film.mp4", "inq Run\n"), 0);
+  EXPECT_NE(err.find("--out requires --sheet"), std::string::npos) << err;
+}
+
 TEST_F(FsmProcessTest, StrictTurnsRefusalsIntoTheExitCode) {
   EXPECT_EQ(Run("--headless", "set FaceExp = BORED 1 100 0\n"), 0);
   EXPECT_NE(err.find("'BORED' is no expression"), std::string::npos);
