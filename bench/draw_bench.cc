@@ -2,11 +2,13 @@
 //
 //   draw_bench [--frames N] [--runs R] [--size WxH] [--face NAME] [--config FILE]
 //              [--context osmesa|egl] [--rig best|processor|card] [--faces N] [--only WORDS]
+//              [--form-error PIXELS]
 //
 // --face: another head, one made from a photo for example, measured beside the built-in one;
 // --config: a configuration of the original (config.txt), whose first face is measured, too;
 // --context and --rig: as of fsm; --faces: how many are drawn in one picture at 256 x 256 each,
-// default 16; --only: just the figures whose names contain WORDS.
+// default 16; --only: just the figures whose names contain WORDS; --form-error: in place of that of
+// appearance.txt, 0 draws all triangles.
 //
 // Every figure is the best of R runs (default 5) of N frames (default 120), because other work on
 // the machine only ever adds to it. "moving" frames change expression, mouth, lids, gaze and head
@@ -55,6 +57,7 @@ struct Options {
   int width = 640;
   int height = 480;
   int faces = 16;
+  float form_error = -1;  // pixels; less than 0: as the table has it
   fsm::OffScreen context = fsm::OffScreen::kOsMesa;
   fsm::RigOn rig = fsm::RigOn::kBest;
   std::string face, config, only;
@@ -166,6 +169,8 @@ bool ReadOptions(int argc, char** argv, Options& options, bool& first_frame) {
       options.config = value;
     } else if (word == "--only") {
       options.only = value;
+    } else if (word == "--form-error") {
+      options.form_error = std::strtof(value, nullptr);
     } else if (word == "--faces") {
       options.faces = std::atoi(value);
     } else if (word == "--context") {
@@ -240,10 +245,17 @@ void PrintOthers(const Options& options, fsm::Renderer& renderer) {
   PrintFilm("portrait at 512 x 512 in a film", options, 512, 512, renderer, *faces.front().make());
 }
 
+/// As the program draws, or the option.
+float FormError(const Options& options) {
+  return options.form_error >= 0 ? options.form_error
+                                 : fsm::Appearance::BuiltIn().Number("form_error");
+}
+
 void MeasureAll(char** argv, const Options& options) {
   std::printf("%s\n", fsm::DescribeOffScreen(options.context).c_str());
   auto context = fsm::RenderContext::MakeHeadless(options.width, options.height, options.context);
   auto renderer = fsm::Renderer::Make(*context, 8, fsm::Appearance::BuiltIn(), options.rig);
+  renderer->SetFormError(FormError(options));
   const auto head = fsm::MakeHead("galatea");
   fsm::HeadVertices vertices;
   fsm::Image image;
@@ -284,6 +296,7 @@ void MeasureAll(char** argv, const Options& options) {
 void DrawFirstFrame(const Options& options) {
   auto context = fsm::RenderContext::MakeHeadless(options.width, options.height);
   auto renderer = fsm::Renderer::Make(*context);
+  renderer->SetFormError(FormError(options));
   const auto head = fsm::MakeHead("galatea");
   fsm::HeadVertices vertices;
   fsm::Image image;
@@ -304,7 +317,7 @@ int main(int argc, char** argv) {
         stderr,
         "usage: draw_bench [--frames N] [--runs R] [--size WxH] [--face NAME] [--config FILE]\n"
         "                  [--context osmesa|egl] [--rig best|processor|card] [--faces N]\n"
-        "                  [--only WORDS]\n");
+        "                  [--only WORDS] [--form-error PIXELS]\n");
     return 2;
   }
   try {

@@ -48,8 +48,9 @@ void GlRenderBackend::MakeRenderer() {
   }
   context_->MakeCurrent();
   if (!renderer_) {
-    renderer_ = Renderer::Make(*context_, 1, appearance_ ? *appearance_ : Appearance::BuiltIn(),
-                               options_.rig);
+    const Appearance& appearance = appearance_ ? *appearance_ : Appearance::BuiltIn();
+    renderer_ = Renderer::Make(*context_, 1, appearance, options_.rig);
+    renderer_->SetFormError(appearance.Number("form_error"));
   }
 }
 

@@ -82,7 +82,8 @@ View FramePortrait(const Figure& placed, const Camera& camera, int width, int he
   for (const int axis : {2, 1, 0}) figure = Turned(figure, placed, axis);
   figure = glm::scale(figure, glm::vec3(ScaleOf(placed)));
   view.figure_to_world = glm::translate(figure, -kPivot);
-  view.samples_per_mm = 2 * static_cast<float>(height) / framed_height * ScaleOf(placed);
+  view.samples_per_mm =
+      2 * static_cast<float>(height) / (framed_height * DistanceOf(camera)) * ScaleOf(placed);
   return view;
 }
 

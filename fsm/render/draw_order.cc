@@ -33,9 +33,9 @@ bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> trian
 
 }  // namespace
 
-DrawOrder::DrawOrder(const HeadTopology& topology, const HeadVertices& rest,
-                     const std::vector<Worn>& worn)
-    : topology_(topology), worn_(worn) {
+DrawOrder::DrawOrder(const HeadTopology& topology, const HeadTriangles& triangles,
+                     std::span<const glm::vec3> rest, const std::vector<Worn>& worn)
+    : topology_(topology), triangles_(triangles), worn_(worn) {
   std::size_t before_ears = 0;
   const std::vector<std::uint32_t> hair = SortedHair(rest, before_ears);
   const HeadTopology::Part locks{.material = Material::kHair, .first_index = 0, .index_count = 0};
@@ -44,14 +44,14 @@ DrawOrder::DrawOrder(const HeadTopology& topology, const HeadVertices& rest,
   AddFace(sheet, skin);
   Add(sheet.part, sheet.corners, true);
   Add(skin.part, skin.corners, true);
-  for (const auto& part : topology.parts) {
+  for (const auto& part : triangles.parts) {
     if (part.material == Material::kShutLash) Add(part, CornersOf(part), true);
   }
   Add(locks, Corners(hair).subspan(before_ears));
 }
 
 DrawOrder::Corners DrawOrder::CornersOf(const HeadTopology::Part& part) const {
-  return Corners(topology_.indices).subspan(part.first_index, part.index_count);
+  return Corners(triangles_.indices).subspan(part.first_index, part.index_count);
 }
 
 void DrawOrder::Add(HeadTopology::Part part, Corners corners, bool soft, Worn worn) {
@@ -80,12 +80,12 @@ void DrawOrder::AddWorn(const HeadTopology::Part& part, Corners corners) {
 /// Corners of the triangles of hair; `before_ears`: how many of them come first. Locks lie on the
 /// shell of the hair and come before it; of equals those with the lower corners, so that the order
 /// is the same everywhere.
-std::vector<std::uint32_t> DrawOrder::SortedHair(const HeadVertices& rest,
+std::vector<std::uint32_t> DrawOrder::SortedHair(std::span<const glm::vec3> rest,
                                                  std::size_t& before_ears) const {
   constexpr float kBehind = 0.0F;  // the plane of the ears
   using Triangle = std::array<std::uint32_t, 3>;
   std::vector<Triangle> hair;
-  for (const auto& part : topology_.parts) {
+  for (const auto& part : triangles_.parts) {
     if (part.material != Material::kHair) continue;
     const Corners corners = CornersOf(part);
     for (std::size_t k = 0; k < corners.size(); k += 3) {
@@ -93,7 +93,7 @@ std::vector<std::uint32_t> DrawOrder::SortedHair(const HeadVertices& rest,
     }
   }
   const auto depth = [&rest](const Triangle& t) {
-    return rest.position[t[0]].z + rest.position[t[1]].z + rest.position[t[2]].z;
+    return rest[t[0]].z + rest[t[1]].z + rest[t[2]].z;
   };
   const auto is_shell = [this](const Triangle& t) {
     return std::ranges::all_of(t, [this](std::uint32_t i) {
@@ -114,7 +114,7 @@ std::vector<std::uint32_t> DrawOrder::SortedHair(const HeadVertices& rest,
 
 /// All parts but hair and lashes, without what is mixed with what lies behind it: those layers.
 void DrawOrder::AddFace(Layer& sheet, Layer& skin) {
-  for (const auto& part : topology_.parts) {
+  for (const auto& part : triangles_.parts) {
     if (part.material == Material::kHair || part.material == Material::kShutLash) continue;
     const Corners corners = CornersOf(part);
     const bool of_skin = part.material == Material::kSkin;

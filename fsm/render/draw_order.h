@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "fsm/render/coarse_mesh.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
@@ -29,8 +30,10 @@ struct DrawnPart {
 /// that.
 class DrawOrder {
  public:
-  /// `worn`: of every vertex, what DrawnPart says of parts.
-  DrawOrder(const HeadTopology& topology, const HeadVertices& rest, const std::vector<Worn>& worn);
+  /// `triangles`: all of the topology or fewer; `worn`: of every vertex, what DrawnPart says of
+  /// parts.
+  DrawOrder(const HeadTopology& topology, const HeadTriangles& triangles,
+            std::span<const glm::vec3> rest, const std::vector<Worn>& worn);
 
   std::vector<DrawnPart> parts;
   std::vector<std::uint32_t> indices;
@@ -51,9 +54,11 @@ class DrawOrder {
     std::vector<std::uint32_t> corners;
   };
   void AddFace(Layer& sheet, Layer& skin);
-  std::vector<std::uint32_t> SortedHair(const HeadVertices& rest, std::size_t& before_ears) const;
+  std::vector<std::uint32_t> SortedHair(std::span<const glm::vec3> rest,
+                                        std::size_t& before_ears) const;
 
   const HeadTopology& topology_;
+  const HeadTriangles& triangles_;
   const std::vector<Worn>& worn_;
 };
 

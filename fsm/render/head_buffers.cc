@@ -20,8 +20,8 @@ struct Detail {
   std::vector<glm::vec4> right, left;
 };
 
-Detail DetailOf(const HeadTopology& topology, CreaseWeights creases, std::size_t count) {
-  Detail detail{topology.uv, std::move(creases.right), std::move(creases.left)};
+Detail DetailOf(const HeadTopology& topology, const CreaseWeights& creases, std::size_t count) {
+  Detail detail{topology.uv, creases.right, creases.left};
   detail.place.resize(count);
   detail.right.resize(count);
   detail.left.resize(count);
@@ -161,15 +161,14 @@ void HeadBuffers::UploadTopology(const Head& head) {
   CopyTopology(topology);
   photo_texels_per_mm_ = TexelsPerMm(topology, rest);
   const auto marks = FaceMarks::Of(head);
-  CreaseWeights creases;
   chin_y_ = marks ? marks->gnathion.y : kNoChin;
   if (marks && topology.uv.size() == vertex_count_) {
-    creases = WeighCreases(rest, *marks);
+    creases_ = WeighCreases(rest, *marks);
     painting_ = std::async(std::launch::async, [topology, rest, marks = *marks] {
       return PaintSkin(topology, rest, marks);
     });
   }
-  const Detail detail = DetailOf(topology, std::move(creases), vertex_count_);
+  const Detail detail = DetailOf(topology, creases_, vertex_count_);
   const Paint paint = PaintOf(topology);
   // As long as the light on it changes.
   std::vector<glm::vec3> rest_normal = rest.normal;
@@ -190,15 +189,41 @@ void HeadBuffers::UploadTopology(const Head& head) {
   upload(8, paint.grain);
   upload(9, paint.opacity);
   upload(10, rest_normal);
-  const DrawOrder order(topology, rest, WornBy(paint, detail));
-  parts_ = order.parts;
-  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
-                 static_cast<GLsizeiptr>(order.indices.size() * sizeof(std::uint32_t)),
-                 order.indices.data(), GL_STATIC_DRAW);
+  worn_ = WornBy(paint, detail);
+  AddLevel(kFinest, topology, {topology.parts, topology.indices}, rest.position);
   eyes_ = EyeFinder(topology, rest);
   if (eyes_.found()) resting_eyes_ = eyes_.Measure(rest);
   shadows_ = ShadowFinder(topology, rest);
   mouth_ = MouthFinder(topology);
+}
+
+void HeadBuffers::AddLevel(int level, const HeadTopology& topology, const HeadTriangles& triangles,
+                           std::span<const glm::vec3> rest) {
+  const DrawOrder order(topology, triangles, rest, worn_);
+  auto& parts = levels_[level];
+  for (DrawnPart drawn : order.parts) {
+    drawn.part.first_index += static_cast<std::uint32_t>(indices_.size());
+    parts.push_back(drawn);
+  }
+  indices_.insert(indices_.end(), order.indices.begin(), order.indices.end());
+  gl_.BindVertexArray(array_);
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(indices_.size() * sizeof(std::uint32_t)), indices_.data(),
+                 GL_STATIC_DRAW);
+}
+
+const std::vector<DrawnPart>& HeadBuffers::Parts(const Head& head, float error_mm) {
+  // Finer than the first nothing is left out; coarser than the last skin comes through short hair.
+  constexpr int kFirst = -6, kLast = -1;
+  const auto error_of = [](int level) { return std::exp2(0.5F * static_cast<float>(level)); };
+  if (error_mm < error_of(kFirst)) return parts();
+  int level = kFirst;
+  while (level < kLast && error_of(level + 1) <= error_mm) ++level;
+  if (!levels_.contains(level)) {
+    AddLevel(level, head.topology(), CoarseTriangles(head, creases_, error_of(level)),
+             head.rig().data().rest);
+  }
+  return levels_.at(level);
 }
 
 void HeadBuffers::CopyTopology(const HeadTopology& topology) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <future>
 #include <glm/vec3.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -33,8 +34,12 @@ class HeadBuffers {
   void Use(GLuint positions, GLuint normals);
   /// Those at which eyes(), shadows() and mouth() look.
   std::vector<std::uint32_t> MeasuredVertices() const;
-  /// The head's parts in the order to draw them, what hides most first.
-  const std::vector<DrawnPart>& parts() const { return parts_; }
+  /// The head's parts in the order to draw them, what hides most first. `error_mm`: by how much
+  /// at most it may be coarser than it is (CoarseTriangles); each step of the root of 2 is made
+  /// when it is first asked for, and kept. `head` is that of the constructor.
+  const std::vector<DrawnPart>& Parts(const Head& head, float error_mm);
+  /// All of its triangles.
+  const std::vector<DrawnPart>& parts() const { return levels_.at(kFinest); }
   const EyeFinder& eyes() const { return eyes_; }
   const ShadowFinder& shadows() const { return shadows_; }
   const MouthFinder& mouth() const { return mouth_; }
@@ -68,8 +73,11 @@ class HeadBuffers {
 
  private:
   static constexpr float kNoChin = -1e4F;
+  static constexpr int kFinest = -100;
 
   void UploadTopology(const Head& head);
+  void AddLevel(int level, const HeadTopology& topology, const HeadTriangles& triangles,
+                std::span<const glm::vec3> rest);
   void CopyTopology(const HeadTopology& topology);
 
   const GlFunctions& gl_;
@@ -82,7 +90,10 @@ class HeadBuffers {
   GLuint buffers_[kAttributes + 1] = {};
   std::array<GLuint, 2> used_{};  // for the first two of them
   std::size_t vertex_count_ = 0;
-  std::vector<DrawnPart> parts_;
+  std::map<int, std::vector<DrawnPart>> levels_;  // by the error, as a power of the root of 2
+  std::vector<std::uint32_t> indices_;            // of all levels
+  CreaseWeights creases_;
+  std::vector<Worn> worn_;
   EyeFinder eyes_;
   ShadowFinder shadows_;
   MouthFinder mouth_;

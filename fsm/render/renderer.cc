@@ -93,6 +93,7 @@ class GlRenderer : public Renderer {
   }
 
   void SetViewport(const Viewport& viewport) override { viewport_ = viewport; }
+  void SetFormError(float pixels) override { form_error_ = pixels; }
 
   void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
             const Scene& scene) override {
@@ -203,9 +204,11 @@ class GlRenderer : public Renderer {
     gl_.Enable(GL_DEPTH_TEST);
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
     materials_.BeginFrame(view, buffers, on_card.textures, vertices, scene);
-    if (buffers.painting()) WarmUp(buffers.parts());
+    const bool lines = scene.view_mode != ViewMode::kTexture;
+    const float error_mm = form_error_ * kSamplesAlong / view.samples_per_mm;
+    const auto& parts = buffers.Parts(head, lines ? 0 : error_mm);
+    if (buffers.painting()) WarmUp(parts);
     on_card.textures.Wear(buffers, view.samples_per_mm);
-    const auto& parts = buffers.parts();
     if (scene.view_mode != ViewMode::kWireframe) {
       if (scene.view_mode == ViewMode::kTextureWithWireframe) {
         gl_.Enable(GL_POLYGON_OFFSET_FILL);
@@ -227,7 +230,7 @@ class GlRenderer : public Renderer {
       gl_.Disable(GL_CULL_FACE);
       gl_.Disable(GL_POLYGON_OFFSET_FILL);
     }
-    if (scene.view_mode != ViewMode::kTexture) DrawLines(parts, scene);
+    if (lines) DrawLines(parts, scene);
     gl_.Disable(GL_BLEND);
     gl_.Disable(GL_DEPTH_TEST);
   }
@@ -277,6 +280,7 @@ class GlRenderer : public Renderer {
   RenderContext& context_;
   const std::size_t most_heads_;
   Viewport viewport_;
+  float form_error_ = 0;  // pixels
   GlFunctions gl_;
   const glm::vec4 line_over_texture_;
   Materials materials_;

@@ -85,6 +85,9 @@ class Renderer {
   virtual ~Renderer() = default;
   /// Where the next frames go; at first everywhere.
   virtual void SetViewport(const Viewport& viewport) = 0;
+  /// By how many pixels a face may be off at most, so that small ones are drawn with fewer
+  /// triangles (CoarseTriangles); at first 0: all are drawn, which pictures to be measured need.
+  virtual void SetFormError(float pixels) = 0;
   /// `vertices` belong to `head` (Evaluate of `state`).
   virtual void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
                     const Scene& scene) = 0;

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fsm/render/skin_texture.h"
+#include "fsm/rig/head.h"
+
+namespace fsm {
+
+/// The triangles of a head, part by part, of all or of some of its vertices.
+struct HeadTriangles {
+  std::vector<HeadTopology::Part> parts;
+  std::vector<std::uint32_t> indices;
+};
+
+/// The triangles of a head without vertices that are not missed: at none of them, in none of some
+/// far-reaching states of the face, is the coarser surface more than `error_mm` away, nor does what
+/// it shows there (normal, colour, place in textures) differ by more than is worth as much
+/// (vertex_features.cc). Only hair and lashes change at their borders, so nothing comes apart.
+/// `creases`: of the head, or empty. Always the same for the same head.
+HeadTriangles CoarseTriangles(const Head& head, const CreaseWeights& creases, float error_mm);
+
+}  // namespace fsm

@@ -1,0 +1,100 @@
+#include "fsm/render/vertex_features.h"
+
+#include <initializer_list>
+#include <utility>
+
+namespace fsm {
+namespace {
+
+// How many millimetres of error differences of what a vertex shows are worth.
+constexpr float kNormalMm = 3;      // of a radian
+constexpr float kColourMm = 6;      // from black to white
+constexpr float kOpenMm = 4;        // from shut off from light to open, from transparent to opaque
+constexpr float kUnrolledMm = 150;  // once across the skin's texture, which is some 310 mm wide
+constexpr float kCreaseMm = 2;      // from no crease to a whole one
+constexpr float kStrandMm = 2;      // from none to dense hair, from a lock's middle to its side
+constexpr float kTileMm = 0.5F;     // of a millimetre along or across the hairs
+constexpr float kPhotoMm = 0.5F;    // of a millimetre in the photo
+constexpr float kPhotoWidth = 300;  // millimetres across a photo, about
+/// What a blink moves so far is a lid, whose error counts so many times.
+constexpr float kLidMoves = 1, kLidCare = 3;
+
+/// States that move the face far, each in another way.
+std::vector<FaceState> FarStates() {
+  std::vector<FaceState> states(1);  // at rest
+  const auto add = [&states](std::initializer_list<std::size_t> units, float jaw, float blink) {
+    FaceState state;
+    for (const std::size_t unit : units) state.au.left[unit] = state.au.right[unit] = 1;
+    state.mouth[kJawY] = jaw;
+    state.blink.left = state.blink.right = blink;
+    states.push_back(state);
+  };
+  add({1, 2, 5, 25}, 20, 0);  // surprise
+  add({6, 12, 25}, 6, 0.5F);  // a laugh
+  add({4, 9, 10, 17}, 0, 1);  // disgust, eyes shut
+  add({18, 22}, 4, 0);        // lips forward
+  add({15, 20, 24}, 0, 0);    // lips stretched and pressed
+  return states;
+}
+
+}  // namespace
+
+VertexFeatures::VertexFeatures(const Head& head, const CreaseWeights& creases) {
+  const HeadTopology& topology = head.topology();
+  // Lids lie close to the eyes, which must not come through them.
+  FaceState shut;
+  shut.blink.left = shut.blink.right = 1;
+  HeadVertices asleep;
+  head.Evaluate(shut, asleep);
+  for (std::size_t i = 0; i < asleep.position.size(); ++i) {
+    const bool lid = glm::distance(asleep.position[i], head.rig().data().rest[i]) > kLidMoves;
+    care_.push_back(lid ? kLidCare : 1);
+  }
+  std::vector<std::vector<glm::vec3>> columns;
+  for (const FaceState& state : FarStates()) {
+    HeadVertices vertices;
+    head.Evaluate(state, vertices);
+    columns.push_back(std::move(vertices.position));
+    for (glm::vec3& normal : vertices.normal) normal *= kNormalMm;
+    columns.push_back(std::move(vertices.normal));
+  }
+  const std::size_t vertices = columns.front().size();
+  const auto add = [&](bool there, const auto& value) {
+    if (!there) return;
+    auto& column = columns.emplace_back(vertices);
+    for (std::size_t i = 0; i < vertices; ++i) column[i] = value(i);
+  };
+  add(true, [&](std::size_t i) { return kColourMm * topology.albedo[i]; });
+  add(true, [&](std::size_t i) {
+    return kOpenMm * glm::vec3(topology.occlusion[i],
+                               topology.opacity.empty() ? 1 : topology.opacity[i],
+                               topology.portrait.relit.empty() ? 0 : topology.portrait.relit[i]);
+  });
+  add(topology.uv.size() == vertices,
+      [&](std::size_t i) { return kUnrolledMm * glm::vec3(topology.uv[i], 0); });
+  const WornPicture& worn = topology.worn;
+  if (worn.image && worn.texcoord.size() == vertices) {
+    const glm::vec3 worth(kPhotoMm * kPhotoWidth, kPhotoMm * kPhotoWidth, kOpenMm);
+    add(true, [&](std::size_t i) { return worth * glm::vec3(worn.texcoord[i], worn.weight[i]); });
+  }
+  add(topology.strands.size() == vertices, [&](std::size_t i) {
+    const Strand& strand = topology.strands[i];
+    return glm::vec3(kTileMm * strand.tile_mm, kStrandMm * strand.across);
+  });
+  add(topology.strands.size() == vertices,
+      [&](std::size_t i) { return glm::vec3(kStrandMm * topology.strands[i].density, 0, 0); });
+  for (const Side side : kSides) {
+    add(creases[side].size() == vertices,
+        [&](std::size_t i) { return kCreaseMm * glm::vec3(creases[side][i]); });
+  }
+  add(creases.right.size() == vertices, [&](std::size_t i) {
+    return kCreaseMm * glm::vec3(creases.right[i].w, creases.left[i].w, 0);
+  });
+  count_ = columns.size();
+  values_.resize(vertices * count_);
+  for (std::size_t k = 0; k < count_; ++k) {
+    for (std::size_t i = 0; i < vertices; ++i) values_[i * count_ + k] = columns[k][i];
+  }
+}
+
+}  // namespace fsm

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "fsm/render/skin_texture.h"
+#include "fsm/rig/head.h"
+
+namespace fsm {
+
+/// What there is to be seen at the vertices of a head, as vectors whose differences are worth
+/// millimetres: place and normal in far-reaching states of the face, colour, openness to light,
+/// places in textures, creases, hairs.
+class VertexFeatures {
+ public:
+  /// `creases`: of the head, or empty.
+  VertexFeatures(const Head& head, const CreaseWeights& creases);
+  const glm::vec3& RestOf(std::uint32_t vertex) const { return Of(vertex)[0]; }
+  /// The square of how far a vertex is from what is shown between three others. Stops counting
+  /// beyond `most`.
+  float Difference(std::uint32_t vertex, const std::array<std::uint32_t, 3>& corners,
+                   glm::vec3 weights, float most) const {
+    const glm::vec3* own = Of(vertex);
+    const std::array between{Of(corners[0]), Of(corners[1]), Of(corners[2])};
+    const float weight = care_[vertex] * care_[vertex];
+    float worst = 0;
+    for (std::size_t k = 0; k < count_ && worst <= most; ++k) {
+      const glm::vec3 off = own[k] - weights.x * between[0][k] - weights.y * between[1][k] -
+                            weights.z * between[2][k];
+      worst = std::max(worst, weight * glm::dot(off, off));
+    }
+    return worst;
+  }
+
+ private:
+  const glm::vec3* Of(std::uint32_t vertex) const { return values_.data() + vertex * count_; }
+  std::size_t count_ = 0;  // of each vertex
+  std::vector<glm::vec3> values_;
+  std::vector<float> care_;  // of each vertex: how much more than others it counts
+};
+
+}  // namespace fsm
