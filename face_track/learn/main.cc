@@ -14,7 +14,9 @@
 #include <stdexcept>
 
 #include "face_fit/fit/least_squares.h"
-#include "face_track/learn/head_painter.h"
+#include "face_track/learn/judge.h"
+#include "face_track/learn/sitter.h"
+#include "fsm/faces/face_of_name.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/own_identity.h"
 #include "fsm/mesh/head_points.h"
@@ -49,129 +51,6 @@ std::vector<Channel> Channels() {
   }
   return channels;
 }
-
-fsm::FaceState StateOf(const Channel& channel, float dose) {
-  fsm::FaceState state;
-  state.asymmetry = 0;
-  for (const fsm::Side side : fsm::kSides) {
-    if (channel.side == (side == fsm::Side::kLeft ? "R" : "L")) continue;
-    if (channel.kind == Channel::Kind::kUnit) {
-      state.au[side][static_cast<std::size_t>(channel.unit)] = dose;
-    } else {
-      state.gaze[side][channel.kind == Channel::Kind::kGazeDown ? 0 : 1] = dose;
-    }
-  }
-  return state;
-}
-
-/// A face of nobody: a built-in one with its sliders moved by chance.
-std::unique_ptr<fsm::Head> SomeHead(std::size_t number) {
-  constexpr const char* kBases[] = {"galatea", "pygmalion"};
-  if (number < 2) return fsm::MakeHead(kBases[number], false);
-  std::mt19937 chance(static_cast<unsigned>(number));
-  const auto between = [&chance](float low, float high) {
-    return low + (high - low) * static_cast<float>(chance() % 10001) / 10000;
-  };
-  fsm::Identity identity = fsm::BuiltInIdentity(kBases[number % 2]);
-  for (const std::string& name : fsm::SliderNames()) {
-    identity.sliders.emplace_back(name, between(-1.2F, 1.2F));
-  }
-  identity.palette.skin *= between(0.35F, 1.1F);
-  return fsm::MakeHead(std::move(identity), false);
-}
-
-/// One head before the network.
-class Sitter {
- public:
-  Sitter(std::size_t number, facefit::FaceNetworks& networks, facefit::Network& attention,
-         HeadPainter& painter)
-      : attention_(attention),
-        painter_(painter),
-        base_(vm::OrThrow(BaseHead::See(networks, SomeHead(number), "head", true))) {
-    scale_ = 1;
-    for (int round = 0; round < 3; ++round) {
-      const Sight sight = Look({});
-      rest_.clear();
-      for (std::size_t i = 0; i < kPoints; ++i) {
-        rest_.push_back(sight.pose.Inverse(painter_.lens().Unproject(
-            sight.places[i], scale_ * DepthOf(i, base_.rest) + sight.pose.place.z)));
-      }
-      scale_ *= SeenFace::kEyesApart / glm::distance(rest_[33], rest_[263]);
-      depth_ = sight.depth;
-    }
-  }
-
-  struct Sight {
-    Pose pose;  ///< of a head whose eyes are as far apart as in tables
-    std::vector<glm::vec2> places;
-    std::vector<float> depth;  ///< as the network gives it, mm
-    fsm::HeadVertices vertices;
-  };
-  Sight Look(const fsm::FaceState& state) {
-    Sight sight;
-    base_.head->Evaluate(state, sight.vertices);
-    std::vector<fsm::PointPair> pairs;
-    if (state.head_rotation != fsm::Angles{}) {
-      for (const facefit::PointIndex i : facefit::point::kStill) {
-        pairs.push_back({base_.points[i].On(sight.vertices.position), base_.AtRest(i)});
-      }
-    }
-    const fsm::Similarity moved = pairs.empty() ? fsm::Similarity{} : fsm::FitSimilarity(pairs);
-    const Pose rest = painter_.rest();
-    sight.pose = {.turn = rest.turn * moved.turn, .place = scale_ * (rest(moved.move))};
-    const facefit::Crop crop = CropOf(painter_.lens(), sight.pose);
-    const auto found =
-        facefit::FindAttentivePoints(attention_, painter_.Draw(*base_.head, state), crop);
-    if (found.face.certainty < facefit::kCertainFace) throw std::runtime_error("a face is lost");
-    sight.places = PlacesOf(found);
-    for (const glm::vec3& p : found.face.points) sight.depth.push_back(p.z * 245 / crop.side);
-    return sight;
-  }
-
-  const Points& rest() const { return rest_; }
-  const std::vector<float>& depth() const { return depth_; }
-
-  /// How far from where they are the points are seen on the turned head, mm of the view.
-  std::vector<glm::vec2> Slides(float down, float right) {
-    fsm::FaceState state;
-    state.asymmetry = 0;
-    state.head_rotation = {down, right, 0};
-    const Sight sight = Look(state);
-    std::vector<glm::vec2> slides;
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      const glm::vec3 q = sight.pose(rest_[i]);
-      slides.push_back(glm::vec2(painter_.lens().Unproject(sight.places[i], q.z) - q));
-    }
-    return slides;
-  }
-
-  Points Motion(const Channel& channel, float dose) {
-    const Sight sight = Look(StateOf(channel, dose));
-    Points motion;
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      const float z = sight.pose(rest_[i]).z +
-                      scale_ * (DepthOf(i, sight.vertices) - DepthOf(i, base_.rest));
-      motion.push_back(
-          sight.pose.Inverse(painter_.lens().Unproject(sight.places[i], z)) - rest_[i]);
-    }
-    return motion;
-  }
-
- private:
-  float DepthOf(std::size_t point, const fsm::HeadVertices& vertices) const {
-    if (point < kIris) return base_.points[point].On(vertices.position).z;
-    const fsm::Side side = point == kIris ? fsm::Side::kRight : fsm::Side::kLeft;
-    constexpr float kIrisBefore = 10;  // mm, of the middle of the eyeball
-    return base_.head->topology().eyes[side].centre.z + kIrisBefore;
-  }
-
-  facefit::Network& attention_;
-  HeadPainter& painter_;
-  BaseHead base_;
-  float scale_ = 1;
-  Points rest_;
-  std::vector<float> depth_;
-};
 
 constexpr float kDown[] = {-28, -20, -12, -5, 5, 12, 20, 28, 0};
 constexpr float kRight[] = {-45, -36, -28, -20, -12, -5, 5, 12, 20, 28, 36, 45, 0};
@@ -304,7 +183,7 @@ void Learn(const std::string& out, std::size_t heads, const std::string& folder)
   sums.face.channels = Channels();
   for (std::size_t number = 0; number < heads; ++number) {
     std::cerr << fmt::format("face_track_learn: head {} of {}\n", number + 1, heads);
-    Sitter sitter(number, networks, attention, painter);
+    Sitter sitter(SomeHead(number), networks, attention, painter);
     sums.Add(sitter);
   }
   SeenFace face = sums.Mean();
@@ -314,19 +193,34 @@ void Learn(const std::string& out, std::size_t heads, const std::string& folder)
   if (!file.flush()) throw std::runtime_error("cannot write '" + out + "'");
 }
 
+void JudgeFaces(const std::vector<std::string>& names, const std::string& folder) {
+  facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(folder));
+  facefit::Network attention = vm::OrThrow(facefit::LoadAttentionLandmarks(folder));
+  HeadPainter painter;
+  for (const std::string& name : names) {
+    fmt::print("{}\n", name);
+    Sitter sitter(fsm::MakeHeadOfName(name), networks, attention, painter);
+    Judge(SeenFace::Shipped(), sitter);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::string out, networks;
+  std::vector<std::string> judged;
   std::size_t heads = 8;
   CLI::App app("Draws our heads and writes what the landmark network sees of them (docs/tracking.md)");
-  app.add_option("out", out, "The table to write: face_track/tables/seen_face.txt")->required();
+  auto* table = app.add_option("out", out, "The table to write: face_track/tables/seen_face.txt");
   app.add_option("--heads", heads, "How many heads; from the third on they are made by chance")
       ->check(CLI::Range(1, 100));
+  app.add_option("--judge", judged, "Learns nothing, and prints how these faces' turns are found")
+      ->excludes(table);
   app.add_option("--networks", networks, "Where scripts/face_networks.sh put the networks");
   CLI11_PARSE(app, argc, argv);
   try {
-    Learn(out, heads, networks);
+    if (!judged.empty()) JudgeFaces(judged, networks);
+    else Learn(out, heads, networks);
   } catch (const std::exception& error) {
     std::cerr << "face_track_learn: " << error.what() << std::endl;
     return 1;
