@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "face_track/model/eigen_glm.h"
+
 namespace facetrack {
 namespace {
 
@@ -18,22 +20,15 @@ constexpr float kRidge = 1, kLean = 1.5F;
 constexpr int kRounds = 6;
 constexpr float kShut = 0.5F;  // dose of unit 43 from which on an iris is not seen
 
-Eigen::Vector3f Of(glm::vec3 v) { return {v.x, v.y, v.z}; }
-Eigen::Matrix3f Of(const glm::mat3& m) {
-  Eigen::Matrix3f out;
-  for (int c = 0; c < 3; ++c) out.col(c) = Of(m[c]);
-  return out;
-}
-glm::mat3 Back(const Eigen::Matrix3f& m) {
-  glm::mat3 out;
-  for (int c = 0; c < 3; ++c) out[c] = {m(0, c), m(1, c), m(2, c)};
-  return out;
-}
-
 /// The size of a dose that is nothing unusual.
 float Usual(const Channel& channel) { return channel.kind == Channel::Kind::kUnit ? 1 : 20; }
 
-/// The points with doses, millimetres.
+bool EyeIsShut(const SeenFace& face, const std::vector<float>& doses, std::size_t iris) {
+  return doses[face.Find(iris == kIris ? "43R" : "43L")] > kShut;
+}
+
+}  // namespace
+
 Points Moved(const SeenFace& face, const Points& rest, const std::vector<float>& doses) {
   Points moved = rest;
   for (std::size_t c = 0; c < doses.size(); ++c) {
@@ -42,12 +37,6 @@ Points Moved(const SeenFace& face, const Points& rest, const std::vector<float>&
   }
   return moved;
 }
-
-bool EyeIsShut(const SeenFace& face, const std::vector<float>& doses, std::size_t iris) {
-  return doses[face.Find(iris == kIris ? "43R" : "43L")] > kShut;
-}
-
-}  // namespace
 
 Doing FrameFit::Guess(std::span<const glm::vec2> places) const {
   using namespace facefit::point;
@@ -64,7 +53,8 @@ Doing FrameFit::Guess(std::span<const glm::vec2> places) const {
 }
 
 Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, const Doing& start,
-                      bool units) const {
+                      What what) const {
+  const bool units = what != What::kPose;
   const auto channels = static_cast<int>(face_.channels.size());
   const int unknowns = kPose + (units ? channels : 0);
   Doing doing = start;
@@ -107,7 +97,14 @@ Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, con
     }
     Matrix normal = slopes.transpose() * slopes;
     Vector down = slopes.transpose() * miss;
+    const auto hold = [&](int k) {
+      normal.row(k).setZero();
+      normal.col(k).setZero();
+      normal(k, k) = 1;
+      down[k] = 0;
+    };
     for (int k = 0; k < kPose; ++k) normal(k, k) += 1e-3F;
+    for (int k = 0; k < 3 && what == What::kDoses; ++k) hold(k);
     for (int c = 0; c < unknowns - kPose; ++c) {
       const Channel& channel = face_.channels[static_cast<std::size_t>(c)];
       const float dose = doing.doses[static_cast<std::size_t>(c)], usual = Usual(channel);
@@ -116,11 +113,7 @@ Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, con
       down[k] -= kRidge * dose / (usual * usual);
       if (channel.kind == Channel::Kind::kUnit) down[k] -= kLean;
       const bool held = down[k] < 0 ? dose <= channel.lowest() : dose >= channel.highest();
-      if (!held) continue;
-      normal.row(k).setZero();
-      normal.col(k).setZero();
-      normal(k, k) = 1;
-      down[k] = 0;
+      if (held) hold(k);
     }
     const Vector by = normal.ldlt().solve(down);
     const Eigen::Vector3f axis = by.head<3>();

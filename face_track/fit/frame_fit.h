@@ -15,6 +15,9 @@ struct Doing {
   float miss = 0;            ///< mm by which the points lie elsewhere, their median
 };
 
+/// The points with doses, millimetres.
+Points Moved(const SeenFace& face, const Points& rest, const std::vector<float>& doses);
+
 /// Finds pose and doses that show a person's points where the network sees them: least squares with
 /// bounds, all unknowns at once, by Gauss's and Newton's method. Points count by how surely they are
 /// seen, and by their distance, not its square, where they are far off (Huber). Doses are drawn to
@@ -24,9 +27,10 @@ class FrameFit {
  public:
   FrameFit(const SeenFace& face, const Lens& lens) : face_(face), lens_(lens) {}
 
-  /// From `start`, whose doses are all there. `units`: whether doses are found, too.
+  enum class What { kPose, kPoseAndDoses, kDoses };  ///< kDoses: the turn stays as it is
+  /// From `start`, whose doses are all there.
   Doing Solve(const Points& rest, std::span<const glm::vec2> places, const Doing& start,
-              bool units) const;
+              What what) const;
   /// A first guess, by the eyes' outer corners alone.
   Doing Guess(std::span<const glm::vec2> places) const;
   /// Where the points lie on the face in the head's frame, at the depth they have there by `doing`.

@@ -36,7 +36,7 @@ Person Meet(const FrameFit& fit, const std::vector<Sighting>& pictures) {
     std::vector<Points> seen;
     for (const Sighting& picture : pictures) {
       const Doing doing =
-          fit.Solve(person.rest, picture.places, fit.Guess(picture.places), false);
+          fit.Solve(person.rest, picture.places, fit.Guess(picture.places), FrameFit::What::kPose);
       seen.push_back(fit.OnFace(person.rest, picture.places, doing));
     }
     std::vector<float> values(seen.size());
@@ -51,7 +51,7 @@ Person Meet(const FrameFit& fit, const std::vector<Sighting>& pictures) {
   std::vector<float> misses;
   for (const Sighting& picture : pictures) {
     misses.push_back(
-        fit.Solve(person.rest, picture.places, fit.Guess(picture.places), false).miss);
+        fit.Solve(person.rest, picture.places, fit.Guess(picture.places), FrameFit::What::kPose).miss);
   }
   person.miss = MedianOf(misses);
   return person;

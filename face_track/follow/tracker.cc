@@ -55,60 +55,91 @@ bool Tracker::IsCut(const fsm::Image& picture) {
   return off > kCut * kCells * kCells;
 }
 
-std::optional<facefit::AttentiveFace> Tracker::Find(const fsm::Image& picture) {
-  const auto boxes = facefit::FindFaces(networks_, picture);
-  if (boxes.empty()) return std::nullopt;
-  const auto face = facefit::FindPoints(networks_, picture, boxes.front());
-  if (face.certainty < facefit::kCertainFace) return std::nullopt;
-  return facefit::FindAttentivePoints(attention_, picture, face.crop);
+std::optional<Tracker::Candidate> Tracker::LookAt(const fsm::Image& picture,
+                                                  facefit::AttentiveFace found, const Doing* start,
+                                                  const Points& rest, FrameFit::What what) {
+  constexpr int kLooks = 3;  // each nearer to how the table was made
+  Doing doing = start ? *start : fit_->Guess(PlacesOf(found));
+  for (int look = 0;; ++look) {
+    if (found.face.certainty < facefit::kCertainFace) return std::nullopt;
+    doing = fit_->Solve(rest, PlacesOf(found), doing, what);
+    const facefit::Crop crop = CropOf(fit_->lens(), doing.pose);
+    const bool moved = glm::distance(crop.centre, found.face.crop.centre) > 0.03F * crop.side ||
+                       std::abs(crop.angle - found.face.crop.angle) > 0.05F ||
+                       std::abs(crop.side / found.face.crop.side - 1) > 0.05F;
+    if (!moved || look + 1 == kLooks) break;
+    found = facefit::FindAttentivePoints(attention_, picture, crop);
+  }
+  if (doing.miss > kNoFace) return std::nullopt;
+  return Candidate{std::move(found), std::move(doing)};
+}
+
+std::optional<Tracker::Candidate> Tracker::Find(const fsm::Image& picture) {
+  constexpr std::size_t kMostFaces = 10;
+  std::vector<facefit::AttentiveFace> faces;  // largest first
+  for (const auto& box : facefit::FindFaces(networks_, picture)) {
+    if (faces.size() == kMostFaces) break;
+    const auto face = facefit::FindPoints(networks_, picture, box);
+    if (face.certainty < facefit::kCertainFace) continue;
+    faces.push_back(facefit::FindAttentivePoints(attention_, picture, face.crop));
+  }
+  std::optional<Candidate> nearest;
+  float most_like = -1;
+  for (std::size_t i = 0; person_ && i < faces.size(); ++i) {
+    auto candidate =
+        LookAt(picture, faces[i], nullptr, person_->rest, FrameFit::What::kPoseAndDoses);
+    if (!candidate) continue;
+    const FaceLook look(picture, CropOf(fit_->lens(), candidate->doing.pose));
+    const float like = image_fit_->Solve(person_->rest, look, candidate->doing).like;
+    if (like < ImageFit::kAlike && candidate->doing.miss > person_->miss + kStranger) continue;
+    if (like > most_like) nearest = std::move(candidate), most_like = like;
+  }
+  if (nearest || faces.size() < settings_.which) return nearest;
+  auto stranger = LookAt(picture, faces[settings_.which - 1], nullptr, face_.rest,
+                         FrameFit::What::kPose);
+  if (stranger) Forget();
+  return stranger;
+}
+
+void Tracker::Forget() {
+  person_.reset();
+  image_fit_.reset();
+  unlike_ = 0;
 }
 
 std::optional<Tracker::Waiting> Tracker::See(const fsm::Image& picture, double ms, bool cut) {
-  constexpr int kLookEvery = 3;
-  const bool met = person_.has_value();
-  const Points& rest = met ? person_->rest : face_.rest;
-  std::optional<facefit::AttentiveFace> found;
-  if (last_ && !cut) {
-    found = facefit::FindAttentivePoints(attention_, picture, CropOf(fit_->lens(), last_->pose));
-    if (found->face.certainty < facefit::kCertainFace) found.reset();
+  constexpr int kLookEvery = 3, kMostUnlike = 5;
+  std::optional<Candidate> seen;
+  if (last_ && !cut && unlike_ < kMostUnlike) {
+    seen = LookAt(picture,
+                  facefit::FindAttentivePoints(attention_, picture,
+                                               CropOf(fit_->lens(), last_->pose)),
+                  &*last_, person_ ? person_->rest : face_.rest,
+                  person_ ? FrameFit::What::kPoseAndDoses : FrameFit::What::kPose);
   }
-  bool anew = false;
-  if (!found) {
+  if (!seen) {
     last_.reset();
-    if (!cut && unseen_++ % kLookEvery != 0) return std::nullopt;
-    found = Find(picture);
-    if (!found) return std::nullopt;
-    anew = true;
-  }
-  Doing doing = last_ ? *last_ : fit_->Guess(PlacesOf(*found));
-  // The network is shown the same part of a head as when the table was made; where the head has
-  // moved on since the last picture, or was just found, it looks once more.
-  for (int look = 0;; ++look) {
-    doing = fit_->Solve(rest, PlacesOf(*found), doing, met);
-    const facefit::Crop crop = CropOf(fit_->lens(), doing.pose);
-    const bool moved =
-        glm::distance(crop.centre, found->face.crop.centre) > 0.03F * crop.side ||
-        std::abs(crop.angle - found->face.crop.angle) > 0.05F ||
-        std::abs(crop.side / found->face.crop.side - 1) > 0.05F;
-    if (!moved || look == 2) break;
-    found = facefit::FindAttentivePoints(attention_, picture, crop);
-  }
-  if (found->face.certainty < facefit::kCertainFace || doing.miss > kNoFace) {
-    last_.reset();
-    return std::nullopt;
-  }
-  if (anew && met && doing.miss > person_->miss + kStranger) {
-    person_.reset();
-    doing = fit_->Solve(face_.rest, PlacesOf(*found), fit_->Guess(PlacesOf(*found)), false);
+    unlike_ = 0;
+    if (cut) unseen_ = 0;
+    if (unseen_++ % kLookEvery == 0) seen = Find(picture);
+    if (!seen) return std::nullopt;
   }
   unseen_ = 0;
-  last_ = std::move(doing);
-  Waiting waiting{.ms = ms,
-                  .certainty = found->face.certainty,
-                  .seen = SightingOf(*found, fit_->lens(), last_->pose),
-                  .doing = {}};
-  if (person_) waiting.doing = last_;
-  return waiting;
+  return Waiting{.ms = ms,
+                 .certainty = seen->face.face.certainty,
+                 .seen = SightingOf(seen->face, fit_->lens(), seen->doing.pose),
+                 .look = FaceLook(picture, CropOf(fit_->lens(), seen->doing.pose)),
+                 .doing = std::move(seen->doing)};
+}
+
+Doing Tracker::Follow(const Sighting& seen, const FaceLook& look, const Doing& start) {
+  const auto [pose, like] = image_fit_->Solve(person_->rest, look, start);
+  const bool alike = like >= ImageFit::kAlike;
+  unlike_ = alike || start.miss <= person_->miss + kStranger ? 0 : unlike_ + 1;
+  if (!alike) return start;
+  Doing doing = start;
+  doing.pose = pose;
+  return fit_->Solve(person_->rest, seen.places, doing, FrameFit::What::kDoses);
 }
 
 std::vector<FaceLine> Tracker::Look(const fsm::Image& picture, double ms) {
@@ -119,14 +150,22 @@ std::vector<FaceLine> Tracker::Look(const fsm::Image& picture, double ms) {
   auto seen = See(picture, ms, cut);
   const bool over = !seen || waiting_.size() >= kMostWaiting ||
                     (!waiting_.empty() && ms - waiting_.front().ms >= settings_.settle_ms);
-  if (over && !waiting_.empty()) lines = Finish();
+  if (over && !waiting_.empty()) {
+    lines = Finish();
+    if (seen) {  // now that the person is known
+      seen->doing = fit_->Solve(person_->rest, seen->seen.places, seen->doing,
+                                FrameFit::What::kPoseAndDoses);
+    }
+  }
   if (!seen) {
     lines.push_back({.ms = ms, .units = std::vector<float>(face_.channels.size(), 0), .points = {}});
     last_.reset();
     filters_.clear();
   } else if (person_) {
-    lines.push_back(LineOf(*seen));
+    last_ = Follow(seen->seen, seen->look, seen->doing);
+    lines.push_back(LineOf(*seen, *last_));
   } else {
+    last_ = seen->doing;
     waiting_.push_back(std::move(*seen));
   }
   return lines;
@@ -136,28 +175,38 @@ std::vector<FaceLine> Tracker::Finish() {
   std::vector<FaceLine> lines;
   if (waiting_.empty()) return lines;
   std::vector<Sighting> pictures;
-  for (const Waiting& w : waiting_) pictures.push_back(*w.seen);
+  for (const Waiting& w : waiting_) pictures.push_back(w.seen);
   person_ = Meet(*fit_, pictures);
   ++people_;
   filters_.clear();
-  last_.reset();
-  for (const Waiting& w : std::exchange(waiting_, {})) lines.push_back(LineOf(w));
+  std::vector<Doing> doings;
+  for (const Waiting& w : waiting_) {
+    doings.push_back(fit_->Solve(person_->rest, w.seen.places, w.doing, FrameFit::What::kPose));
+  }
+  // The template is the picture that is most like what was taken for the rest.
+  const auto usual = std::ranges::min_element(doings, {}, &Doing::miss) - doings.begin();
+  image_fit_.emplace(face_, fit_->lens(), person_->rest,
+                     waiting_[static_cast<std::size_t>(usual)].look,
+                     doings[static_cast<std::size_t>(usual)]);
+  for (const Waiting& w : waiting_) {
+    last_ = Follow(w.seen, w.look,
+                   fit_->Solve(person_->rest, w.seen.places, w.doing,
+                               FrameFit::What::kPoseAndDoses));
+    lines.push_back(LineOf(w, *last_));
+  }
+  waiting_.clear();
   return lines;
 }
 
-FaceLine Tracker::LineOf(const Waiting& waiting) {
-  const auto& places = waiting.seen->places;
-  last_ = waiting.doing ? *waiting.doing
-                        : fit_->Solve(person_->rest, places,
-                                      last_ ? *last_ : fit_->Guess(places), true);
+FaceLine Tracker::LineOf(const Waiting& waiting, const Doing& doing) {
   FaceLine line{.ms = waiting.ms,
                 .person = people_,
                 .certainty = waiting.certainty,
-                .miss = last_->miss,
-                .head = AnglesOf(last_->pose.turn),
-                .place = last_->pose.place,
-                .units = last_->doses,
-                .points = fit_->OnFace(person_->rest, places, *last_)};
+                .miss = doing.miss,
+                .head = AnglesOf(doing.pose.turn),
+                .place = doing.pose.place,
+                .units = doing.doses,
+                .points = fit_->OnFace(person_->rest, waiting.seen.places, doing)};
   for (const fsm::Side side : fsm::kSides) {
     line.lid[static_cast<std::size_t>(side)] = std::clamp(
         LidGap(line.points, side) / std::max(LidGap(person_->rest, side), 1.0F), 0.0F, 2.0F);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "face_track/fit/image_fit.h"
 #include "face_track/fit/person.h"
 
 namespace facetrack {
@@ -24,19 +25,33 @@ void Judge(const SeenFace& face, Sitter& sitter) {
   const Person met = Meet(fit, {{.places = at_rest.places, .depth = at_rest.depth}});
   const Person own{.rest = sitter.rest(), .miss = 0};
   float squares[4] = {};
+  const auto template_of = [&](const Person& person) {
+    const Doing doing = fit.Solve(person.rest, at_rest.places, fit.Guess(at_rest.places), FrameFit::What::kPose);
+    const FaceLook look(at_rest.picture, CropOf(fit.lens(), doing.pose));
+    return ImageFit(face, fit.lens(), person.rest, look, doing);
+  };
+  ImageFit by_own = template_of(own), by_met = template_of(met);
+  const glm::mat3 still = glm::transpose(fit.Solve(met.rest, at_rest.places, fit.Guess(at_rest.places), FrameFit::What::kPose).pose.turn) * at_rest.pose.turn;
+  for (int pass = 0; pass < 2; ++pass) {
+  std::fill(squares, squares + 4, 0.0F);
   for (const Turn& turn : kTurns) {
     fsm::FaceState state;
     state.asymmetry = 0;
     state.head_rotation = {turn.down, turn.right, turn.tilt};
     const auto sight = sitter.Look(state);
     const fsm::Angles truth = AnglesOf(sight.pose.turn);
-    fmt::print("  {:>3} {:>3} {:>3}:", turn.down, turn.right, turn.tilt);
+    fmt::print("  {:>3} {:>3} {:>3} ({:.2f} {:.2f} {:.2f}):", turn.down, turn.right, turn.tilt, truth[0], truth[1], truth[2]);
     int way = 0;
     for (const Person* person : {&own, &met}) {
       for (const bool units : {false, true}) {
-        const Doing doing =
-            fit.Solve(person->rest, sight.places, fit.Guess(sight.places), units);
-        const fsm::Angles angles = AnglesOf(doing.pose.turn);
+        Doing doing = fit.Solve(person->rest, sight.places, fit.Guess(sight.places), FrameFit::What::kPose);
+        if (units) {
+          const FaceLook look(sight.picture, CropOf(fit.lens(), doing.pose));
+          const auto [pose, like] =
+              (person == &own ? by_own : by_met).Solve(person->rest, look, doing);
+          if (like >= ImageFit::kAlike) doing.pose = pose;
+        }
+        const fsm::Angles angles = AnglesOf(doing.pose.turn * (person == &own ? glm::mat3(1) : still));
         for (std::size_t k = 0; k < 3; ++k) {
           fmt::print(" {:+.2f}", angles[k] - truth[k]);
           squares[way] += (angles[k] - truth[k]) * (angles[k] - truth[k]);
@@ -47,9 +62,10 @@ void Judge(const SeenFace& face, Sitter& sitter) {
     }
     fmt::print("\n");
   }
-  fmt::print("  rms: own {:.2f}, with units {:.2f}; met {:.2f}, with units {:.2f}\n",
+    fmt::print("  rms: own {:.2f}, with units {:.2f}; met {:.2f}, with units {:.2f}\n",
              std::sqrt(squares[0] / 39), std::sqrt(squares[1] / 39), std::sqrt(squares[2] / 39),
              std::sqrt(squares[3] / 39));
+  }
 }
 
 }  // namespace facetrack

@@ -58,8 +58,8 @@ Sitter::Sight Sitter::Look(const fsm::FaceState& state) {
   const Pose rest = painter_.rest();
   sight.pose = {.turn = rest.turn * moved.turn, .place = scale_ * (rest(moved.move))};
   const facefit::Crop crop = CropOf(painter_.lens(), sight.pose);
-  const auto found =
-      facefit::FindAttentivePoints(attention_, painter_.Draw(*base_.head, state), crop);
+  sight.picture = painter_.Draw(*base_.head, state);
+  const auto found = facefit::FindAttentivePoints(attention_, sight.picture, crop);
   if (found.face.certainty < facefit::kCertainFace) throw std::runtime_error("a face is lost");
   sight.places = PlacesOf(found);
   for (const glm::vec3& p : found.face.points) sight.depth.push_back(p.z * 245 / crop.side);

@@ -23,6 +23,7 @@ class Sitter {
     std::vector<glm::vec2> places;
     std::vector<float> depth;  ///< as the network gives it, mm
     fsm::HeadVertices vertices;
+    fsm::Image picture;
   };
   Sight Look(const fsm::FaceState& state);
 
