@@ -14,9 +14,10 @@ using Matrix = Eigen::MatrixXf;
 using Vector = Eigen::VectorXf;
 
 constexpr int kPose = 6;         // turn, place
-constexpr float kUnsure = 0.5F;  // mm by which any point may be off
 constexpr float kHuber = 2;      // in parts of that and its spread
-constexpr float kRidge = 1, kLean = 1.5F;
+constexpr float kRidge = 1, kLean = 5;
+constexpr float kUnsure = 0.3F;  // mm by which any point may be off
+constexpr float kFarTurn = 20;   // degrees at which points are off by all of their spread
 constexpr int kRounds = 6;
 constexpr float kShut = 0.5F;  // dose of unit 43 from which on an iris is not seen
 
@@ -63,6 +64,10 @@ Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, con
     const Points moved = Moved(face_, rest, doing.doses);
     const Eigen::Matrix3f turn = Of(doing.pose.turn);
     const float away = -doing.pose.place.z;
+    // Beside the person's rest, what the network sees of a face turned alike is off alike.
+    const float off_by_turn = what == What::kDoses
+                                  ? std::min(glm::length(SeenTurn(doing.pose)) / kFarTurn, 1.5F)
+                                  : 1;
     Matrix slopes(2 * kPoints, unknowns);
     Vector miss(2 * kPoints);
     for (std::size_t i = 0; i < kPoints; ++i) {
@@ -71,7 +76,7 @@ Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, con
       const glm::vec2 by = (places[i] - SeenAt(face_, lens_, doing.pose, i, moved[i])) *
                            (away / lens_.focal);
       misses[i] = glm::length(by);
-      const float sure = 1 / std::hypot(kUnsure, face_.spread[i]);
+      const float sure = 1 / std::hypot(kUnsure, off_by_turn * face_.spread[i]);
       const bool hidden = i >= kIris && EyeIsShut(face_, doing.doses, i);
       const float off = misses[i] * sure;
       const float weight =
@@ -86,11 +91,11 @@ Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, con
       slopes.block<2, 3>(row, 0) = seen * cross;
       slopes.block<2, 3>(row, 3) = seen;
       if (units) {
-        const Eigen::Matrix<float, 2, 3> turned = seen * turn;
+        const Eigen::Matrix<float, 2, 3> by_place = seen * turn;
         for (int c = 0; c < channels; ++c) {
           const auto k = static_cast<std::size_t>(c);
           slopes.block<2, 1>(row, kPose + c) =
-              turned * Of(face_.channels[k].Slope(i, doing.doses[k]));
+              by_place * Of(face_.channels[k].Slope(i, doing.doses[k]));
         }
       }
       miss.segment<2>(row) = weight * Eigen::Vector2f(by.x, by.y);

@@ -133,12 +133,16 @@ std::optional<Tracker::Waiting> Tracker::See(const fsm::Image& picture, double m
 }
 
 Doing Tracker::Follow(const Sighting& seen, const FaceLook& look, const Doing& start) {
-  const auto [pose, like] = image_fit_->Solve(person_->rest, look, start);
+  // Doses found together with a turn take part of it, so the turn comes first and by itself.
+  Doing doing = start;
+  std::ranges::fill(doing.doses, 0.0F);
+  doing = fit_->Solve(person_->rest, seen.places, doing, FrameFit::What::kPose);
+  const auto [pose, like] = image_fit_->Solve(person_->rest, look, doing);
   const bool alike = like >= ImageFit::kAlike;
   unlike_ = alike || start.miss <= person_->miss + kStranger ? 0 : unlike_ + 1;
   if (!alike) return start;
-  Doing doing = start;
   doing.pose = pose;
+  doing.doses = start.doses;
   return fit_->Solve(person_->rest, seen.places, doing, FrameFit::What::kDoses);
 }
 

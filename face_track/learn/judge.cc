@@ -17,6 +17,37 @@ constexpr Turn kTurns[] = {{0, -30, 0}, {0, -20, 0}, {0, -10, 0}, {0, 10, 0}, {0
                            {0, 30, 0},  {-20, 0, 0}, {-10, 0, 0}, {10, 0, 0}, {20, 0, 0},
                            {0, 0, 15},  {8, 12, 5},  {-12, 20, -8}};
 
+constexpr float kDose = 0.7F;
+
+/// How large the doses of single units are found on a head that looks straight ahead.
+void JudgeDoses(const FrameFit& fit, const Person& met, Sitter& sitter, const Doing& at_rest) {
+  double off = 0, wrong = 0;
+  int judged = 0;
+  for (const Channel& channel : fit.face().channels) {
+    if (channel.kind != Channel::Kind::kUnit || channel.side == "L") continue;
+    fsm::FaceState state = StateOf(channel, kDose);
+    const bool pair = channel.side == "R";
+    if (pair) state.au[fsm::Side::kLeft][static_cast<std::size_t>(channel.unit)] = kDose;
+    const auto sight = sitter.Look(state);
+    const Doing doing = fit.Solve(met.rest, sight.places, at_rest, FrameFit::What::kDoses);
+    const std::size_t own = fit.face().Find(channel.Name());
+    float found = doing.doses[own], others = 0;
+    if (pair) found = 0.5F * (found + doing.doses[fit.face().Find(std::to_string(channel.unit) + "L")]);
+    std::string which;
+    for (std::size_t c = 0; c < doing.doses.size(); ++c) {
+      const Channel& other = fit.face().channels[c];
+      if (other.kind != Channel::Kind::kUnit || other.unit == channel.unit) continue;
+      others += doing.doses[c];
+      if (doing.doses[c] > 0.15F) which += " " + other.Name();
+    }
+    fmt::print(" {}:{:.2f}/{:.2f}({})", channel.unit, found, others, which);
+    off += std::abs(found - kDose) / kDose;
+    wrong += others;
+    ++judged;
+  }
+  fmt::print("\n  doses: off by {:.2f} of theirs, other units {:.2f}\n", off / judged, wrong / judged);
+}
+
 }  // namespace
 
 void Judge(const SeenFace& face, Sitter& sitter) {
@@ -32,6 +63,7 @@ void Judge(const SeenFace& face, Sitter& sitter) {
   };
   ImageFit by_own = template_of(own), by_met = template_of(met);
   const glm::mat3 still = glm::transpose(fit.Solve(met.rest, at_rest.places, fit.Guess(at_rest.places), FrameFit::What::kPose).pose.turn) * at_rest.pose.turn;
+  JudgeDoses(fit, met, sitter, fit.Solve(met.rest, at_rest.places, fit.Guess(at_rest.places), FrameFit::What::kPose));
   for (int pass = 0; pass < 2; ++pass) {
   std::fill(squares, squares + 4, 0.0F);
   for (const Turn& turn : kTurns) {
