@@ -78,9 +78,10 @@ int main(int argc, char** argv) {
   return vm::RunModule(
       argc, argv,
       {.name = "face_track",
-       .description = "Film in, face out: follows a face and tells how the head is held, units of\n"
-                      "FACS, lids, gaze and jaw; as a module it moves the agent (docs/tracking.md).\n"
-                      "  face_track film.mp4 --out track.csv",
+       .description =
+           "Film in, face out: follows a face and tells how the head is held, units of\n"
+           "FACS, lids, gaze and jaw; as a module it moves the agent (docs/tracking.md).\n"
+           "  face_track film.mp4 --out track.csv",
        .module_name = "TRACK",
        .add_options = [&](CLI::App& app) { AddOptions(app, wanted); },
        .before_start =
@@ -97,9 +98,9 @@ int main(int argc, char** argv) {
                  TrackModule::Options{
                      .module_version = "Galatea face_track " GALATEA_VERSION,
                      .tracker = wanted.tracker,
-                     .open = [&io, &wanted, stdin_free](
-                                 const std::string& name, const Tracker::Settings& settings,
-                                 LiveTracker::Events events) {
+                     .open = [&io, &wanted, stdin_free](const std::string& name,
+                                                        const Tracker::Settings& settings,
+                                                        LiveTracker::Events events) {
                        return Open(io, wanted, stdin_free, name, settings, std::move(events));
                      }});
            }});

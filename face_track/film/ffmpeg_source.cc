@@ -70,7 +70,8 @@ vm::Result<std::unique_ptr<PictureSource>> FfmpegSource::Open(
   }
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  if (!from_stdin) posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  if (!from_stdin)
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, output[1], STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, errors[1], STDERR_FILENO);
   pid_t pid = 0;
@@ -175,7 +176,9 @@ vm::Result<bool> FfmpegSource::Next(TimedPicture& out) {
     const bool failed = waitid(P_PID, static_cast<id_t>(pid_), &end, WEXITED | WNOWAIT) == 0 &&
                         (end.si_code != CLD_EXITED || end.si_status != 0);
     if (pictures_ == 0) return Failed(vm::Errc::kBadValue, "is no film with a picture");
-    if (failed) return Failed(vm::Errc::kUnavailable, fmt::format("ended early, after {} pictures", pictures_));
+    if (failed)
+      return Failed(vm::Errc::kUnavailable,
+                    fmt::format("ended early, after {} pictures", pictures_));
     return false;
   }
   if (width_ < 16 || height_ < 16) return Failed(vm::Errc::kBadValue, "is smaller than 16 x 16");

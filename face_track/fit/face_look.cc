@@ -10,8 +10,8 @@ namespace facetrack {
 namespace {
 
 constexpr int kAround = 4;       // pixels to either side that a place is compared with
-constexpr float kNoise = 2;       // of 255: what deviates less is no feature
-constexpr int kBlur[] = {2, 1};   // of the levels
+constexpr float kNoise = 2;      // of 255: what deviates less is no feature
+constexpr int kBlur[] = {2, 1};  // of the levels
 
 facefit::FloatImage Normalised(const facefit::FloatImage& grey, int blur) {
   facefit::FloatImage look = facefit::Blurred(facefit::Blurred(grey, blur), blur);

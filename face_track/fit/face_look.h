@@ -13,8 +13,8 @@ namespace facetrack {
 /// Pure; thread: any.
 class FaceLook {
  public:
-  static constexpr int kSide = 224;            ///< pixels; about 1.1 mm each
-  static constexpr std::size_t kLevels = 2;    ///< from blurred to sharp
+  static constexpr int kSide = 224;          ///< pixels; about 1.1 mm each
+  static constexpr std::size_t kLevels = 2;  ///< from blurred to sharp
 
   FaceLook(const fsm::Image& picture, const facefit::Crop& crop);
   const facefit::Crop& crop() const { return crop_; }

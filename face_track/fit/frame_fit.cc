@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "face_track/fit/bounded_solve.h"
 #include "face_track/model/eigen_glm.h"
 
 namespace facetrack {
@@ -13,9 +14,10 @@ namespace {
 using Matrix = Eigen::MatrixXf;
 using Vector = Eigen::VectorXf;
 
-constexpr int kPose = 6;         // turn, place
-constexpr float kHuber = 2;      // in parts of that and its spread
-constexpr float kRidge = 1, kLean = 5;
+constexpr int kPose = 6;     // turn, place
+constexpr float kHuber = 2;  // in parts of that and its spread
+// Doses are drawn to 0 by their square and by their size, and to that of the other side.
+constexpr float kRidge = 1, kLean = 5, kTogether = 100, kEyesTogether = 200;
 constexpr float kUnsure = 0.3F;  // mm by which any point may be off
 constexpr float kFarTurn = 20;   // degrees at which points are off by all of their spread
 constexpr int kRounds = 6;
@@ -39,6 +41,17 @@ Points Moved(const SeenFace& face, const Points& rest, const std::vector<float>&
   return moved;
 }
 
+FrameFit::FrameFit(const SeenFace& face, const Lens& lens) : face_(face), lens_(lens) {
+  for (const Channel& channel : face.channels) {
+    Channel name;
+    name.kind = channel.kind, name.unit = channel.unit, name.side = channel.side;
+    name.side = name.side == "L" ? "R" : name.side == "R" ? "L" : "none";
+    const auto at = std::ranges::find(face.channels, name.Name(), &Channel::Name);
+    opposite_.push_back(
+        at == face.channels.end() ? kNone : static_cast<std::size_t>(at - face.channels.begin()));
+  }
+}
+
 Doing FrameFit::Guess(std::span<const glm::vec2> places) const {
   using namespace facefit::point;
   const glm::vec2 right = places[kEyeOuterRight], left = places[kEyeOuterLeft];
@@ -48,8 +61,7 @@ Doing FrameFit::Guess(std::span<const glm::vec2> places) const {
   doing.doses.assign(face_.channels.size(), 0);
   doing.pose.turn = TurnOf({0, 0, glm::degrees(std::atan2(across.y, across.x))});
   const glm::vec3 eyes = 0.5F * (face_.rest[kEyeOuterRight] + face_.rest[kEyeOuterLeft]);
-  doing.pose.place =
-      lens_.Unproject(0.5F * (right + left), -away) - doing.pose.turn * eyes;
+  doing.pose.place = lens_.Unproject(0.5F * (right + left), -away) - doing.pose.turn * eyes;
   return doing;
 }
 
@@ -65,22 +77,20 @@ Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, con
     const Eigen::Matrix3f turn = Of(doing.pose.turn);
     const float away = -doing.pose.place.z;
     // Beside the person's rest, what the network sees of a face turned alike is off alike.
-    const float off_by_turn = what == What::kDoses
-                                  ? std::min(glm::length(SeenTurn(doing.pose)) / kFarTurn, 1.5F)
-                                  : 1;
+    const float off_by_turn =
+        what == What::kDoses ? std::min(glm::length(SeenTurn(doing.pose)) / kFarTurn, 1.5F) : 1;
     Matrix slopes(2 * kPoints, unknowns);
     Vector miss(2 * kPoints);
     for (std::size_t i = 0; i < kPoints; ++i) {
       const glm::vec3 q = doing.pose(moved[i]);
       const float depth = -q.z;
-      const glm::vec2 by = (places[i] - SeenAt(face_, lens_, doing.pose, i, moved[i])) *
-                           (away / lens_.focal);
+      const glm::vec2 by =
+          (places[i] - SeenAt(face_, lens_, doing.pose, i, moved[i])) * (away / lens_.focal);
       misses[i] = glm::length(by);
       const float sure = 1 / std::hypot(kUnsure, off_by_turn * face_.spread[i]);
       const bool hidden = i >= kIris && EyeIsShut(face_, doing.doses, i);
       const float off = misses[i] * sure;
-      const float weight =
-          hidden ? 0 : sure * (off > kHuber ? std::sqrt(kHuber / off) : 1.0F);
+      const float weight = hidden ? 0 : sure * (off > kHuber ? std::sqrt(kHuber / off) : 1.0F);
       Eigen::Matrix<float, 2, 3> seen;
       seen << 1, 0, q.x / depth, 0, -1, -q.y / depth;
       seen *= weight * away / depth;
@@ -102,14 +112,10 @@ Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, con
     }
     Matrix normal = slopes.transpose() * slopes;
     Vector down = slopes.transpose() * miss;
-    const auto hold = [&](int k) {
-      normal.row(k).setZero();
-      normal.col(k).setZero();
-      normal(k, k) = 1;
-      down[k] = 0;
-    };
+    constexpr float kAny = 1e6F;
+    Vector low = Vector::Constant(unknowns, -kAny), high = Vector::Constant(unknowns, kAny);
     for (int k = 0; k < kPose; ++k) normal(k, k) += 1e-3F;
-    for (int k = 0; k < 3 && what == What::kDoses; ++k) hold(k);
+    if (what == What::kDoses) low.head<3>().setZero(), high.head<3>().setZero();
     for (int c = 0; c < unknowns - kPose; ++c) {
       const Channel& channel = face_.channels[static_cast<std::size_t>(c)];
       const float dose = doing.doses[static_cast<std::size_t>(c)], usual = Usual(channel);
@@ -117,10 +123,18 @@ Doing FrameFit::Solve(const Points& rest, std::span<const glm::vec2> places, con
       normal(k, k) += kRidge / (usual * usual);
       down[k] -= kRidge * dose / (usual * usual);
       if (channel.kind == Channel::Kind::kUnit) down[k] -= kLean;
-      const bool held = down[k] < 0 ? dose <= channel.lowest() : dose >= channel.highest();
-      if (held) hold(k);
+      const std::size_t other = opposite_[static_cast<std::size_t>(c)];
+      if (other != kNone) {
+        const float together =
+            (channel.kind == Channel::Kind::kUnit ? kTogether : kEyesTogether) / (usual * usual);
+        normal(k, k) += together;
+        normal(k, kPose + static_cast<int>(other)) -= together;
+        down[k] -= together * (dose - doing.doses[other]);
+      }
+      low[k] = channel.lowest() - dose;
+      high[k] = channel.highest() - dose;
     }
-    const Vector by = normal.ldlt().solve(down);
+    const Vector by = BoundedSolve(normal, down, low, high);
     const Eigen::Vector3f axis = by.head<3>();
     if (axis.norm() > 0) {
       doing.pose.turn =
@@ -149,8 +163,7 @@ Points FrameFit::OnFace(const Points& rest, std::span<const glm::vec2> places,
   for (std::size_t i = 0; i < kPoints; ++i) {
     const glm::vec3 q = doing.pose(moved[i]);
     // The slide is where the network errs: it is taken off in the picture.
-    const glm::vec2 slid =
-        SeenAt(face_, lens_, doing.pose, i, moved[i]) - lens_.Project(q);
+    const glm::vec2 slid = SeenAt(face_, lens_, doing.pose, i, moved[i]) - lens_.Project(q);
     found.push_back(doing.pose.Inverse(lens_.Unproject(places[i] - slid, q.z)));
   }
   return found;

@@ -19,13 +19,13 @@ struct Doing {
 Points Moved(const SeenFace& face, const Points& rest, const std::vector<float>& doses);
 
 /// Finds pose and doses that show a person's points where the network sees them: least squares with
-/// bounds, all unknowns at once, by Gauss's and Newton's method. Points count by how surely they are
-/// seen, and by their distance, not its square, where they are far off (Huber). Doses are drawn to
-/// 0 a little, so that of channels that look alike one is taken and not all.
-/// Pure; thread: any.
+/// bounds, all unknowns at once, by Gauss's and Newton's method. Points count by how surely they
+/// are seen, and by their distance, not its square, where they are far off (Huber). Doses are drawn
+/// to 0 a little, so that of channels that look alike one is taken and not all, and both sides' to
+/// each other. Pure; thread: any.
 class FrameFit {
  public:
-  FrameFit(const SeenFace& face, const Lens& lens) : face_(face), lens_(lens) {}
+  FrameFit(const SeenFace& face, const Lens& lens);
 
   enum class What { kPose, kPoseAndDoses, kDoses };  ///< kDoses: the turn stays as it is
   /// From `start`, whose doses are all there.
@@ -40,8 +40,10 @@ class FrameFit {
   const Lens& lens() const { return lens_; }
 
  private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   const SeenFace& face_;
   Lens lens_;
+  std::vector<std::size_t> opposite_;  ///< of each channel that of the other side; kNone
 };
 
 }  // namespace facetrack

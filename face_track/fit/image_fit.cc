@@ -15,9 +15,9 @@ using Vector = Eigen::Matrix<float, kAll, 1>;
 using FormMatrix = Eigen::Matrix<float, kForm, kForm, Eigen::RowMajor>;
 using FormVector = Eigen::Matrix<float, kForm, 1>;
 
-constexpr float kStep = 2;        // mm between samples
+constexpr float kStep = 2;           // mm between samples
 constexpr float kMostAside = 0.35F;  // cosine of the angle up to which skin is seen well enough
-constexpr float kHuber = 0.12F;    // in deviations of the look
+constexpr float kHuber = 0.12F;      // in deviations of the look
 constexpr int kRounds[] = {6, 6};
 // How far off the usual depth is taken to be, and how much a picture tells of it that those before
 // it did not.
@@ -47,7 +47,8 @@ struct Place {
 Place PlaceAt(const Points& points, glm::vec2 p) {
   std::array<std::pair<float, std::size_t>, 8> nearest;
   std::vector<std::pair<float, std::size_t>> all;
-  for (std::size_t i = 0; i < kIris; ++i) all.emplace_back(glm::distance(glm::vec2(points[i]), p), i);
+  for (std::size_t i = 0; i < kIris; ++i)
+    all.emplace_back(glm::distance(glm::vec2(points[i]), p), i);
   std::partial_sort_copy(all.begin(), all.end(), nearest.begin(), nearest.end());
   Place place{};
   Eigen::Matrix3f normal = Eigen::Matrix3f::Identity() * 1e-3F;
@@ -124,7 +125,8 @@ ImageFit::ImageFit(const SeenFace& face, const Lens& lens, const Points& rest, c
       samples_.push_back(sample);
     }
   }
-  for (std::size_t k = 0; k < kForms; ++k) sure_[k * (kForms + 1)] = 1 / (kFormOff[k] * kFormOff[k]);
+  for (std::size_t k = 0; k < kForms; ++k)
+    sure_[k * (kForms + 1)] = 1 / (kFormOff[k] * kFormOff[k]);
 }
 
 ImageFit::Found ImageFit::Solve(const Points& rest, const FaceLook& look, const Doing& start) {
@@ -154,7 +156,8 @@ ImageFit::Found ImageFit::Solve(const Points& rest, const FaceLook& look, const 
       const Eigen::Matrix3f turn = Of(pose.turn);
       for (std::size_t i = 0; i < at.size(); ++i) {
         float deeper = 0;
-        for (int k = 0; k < kForm; ++k) deeper += form[k] * samples_[i].form[static_cast<std::size_t>(k)];
+        for (int k = 0; k < kForm; ++k)
+          deeper += form[k] * samples_[i].form[static_cast<std::size_t>(k)];
         const glm::vec3 p = at[i] + deeper * samples_[i].ray;
         const glm::vec3 q = pose(p);
         const float facing = glm::dot(pose.turn * samples_[i].normal, -glm::normalize(q));
@@ -167,8 +170,8 @@ ImageFit::Found ImageFit::Solve(const Points& rest, const FaceLook& look, const 
         products += wanted * seen.x;
         own += wanted * wanted;
         others += seen.x * seen.x;
-        const float weight =
-            facing * (std::abs(miss) > kHuber ? kHuber / std::abs(miss) : 1) / (kLookOff * kLookOff);
+        const float weight = facing * (std::abs(miss) > kHuber ? kHuber / std::abs(miss) : 1) /
+                             (kLookOff * kLookOff);
         Eigen::Matrix<float, 2, 3> by_place;
         by_place << 1, 0, q.x / depth, 0, -1, -q.y / depth;
         const Eigen::Matrix<float, 1, 3> slope =

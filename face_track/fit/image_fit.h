@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "face_track/fit/face_look.h"
@@ -21,7 +22,8 @@ class ImageFit {
     Pose pose;
     float like = 0;  ///< correlation with the template; 0 where too little of it is in view
   };
-  /// Of at least that likeness a picture shows this face, and the pose is better than the network's.
+  /// Of at least that likeness a picture shows this face, and the pose is better than the
+  /// network's.
   static constexpr float kAlike = 0.5F;
   Found Solve(const Points& rest, const FaceLook& look, const Doing& start);
 

@@ -51,7 +51,8 @@ Person Meet(const FrameFit& fit, const std::vector<Sighting>& pictures) {
   std::vector<float> misses;
   for (const Sighting& picture : pictures) {
     misses.push_back(
-        fit.Solve(person.rest, picture.places, fit.Guess(picture.places), FrameFit::What::kPose).miss);
+        fit.Solve(person.rest, picture.places, fit.Guess(picture.places), FrameFit::What::kPose)
+            .miss);
   }
   person.miss = MedianOf(misses);
   return person;

@@ -8,9 +8,9 @@
 namespace facetrack {
 namespace {
 
-constexpr float kStranger = 3;    // mm by which a face misses more than its own when it is another's
-constexpr float kNoFace = 8;      // mm: what fits so badly is no face
-constexpr float kJawDegrees = 12; // of unit 26 (fsm/head/tables/action_units.txt)
+constexpr float kStranger = 3;  // mm by which a face misses more than its own when it is another's
+constexpr float kNoFace = 8;    // mm: what fits so badly is no face
+constexpr float kJawDegrees = 12;  // of unit 26 (fsm/head/tables/action_units.txt)
 
 Sighting SightingOf(const facefit::AttentiveFace& found, const Lens& lens, const Pose& pose) {
   Sighting sighting{.places = PlacesOf(found), .depth = {}};
@@ -42,11 +42,14 @@ bool Tracker::IsCut(const fsm::Image& picture) {
   std::vector<float> thumbnail(kCells * kCells, 0);
   for (int y = 0; y < kCells * kStep; ++y) {
     for (int x = 0; x < kCells * kStep; ++x) {
-      const int px = x * picture.width / (kCells * kStep), py = y * picture.height / (kCells * kStep);
+      const int px = x * picture.width / (kCells * kStep),
+                py = y * picture.height / (kCells * kStep);
       const auto at = 4 * (static_cast<std::size_t>(py) * static_cast<std::size_t>(picture.width) +
                            static_cast<std::size_t>(px));
-      const float sum = static_cast<float>(picture.rgba[at] + picture.rgba[at + 1] + picture.rgba[at + 2]);
-      thumbnail[static_cast<std::size_t>(y / kStep * kCells + x / kStep)] += sum / (3 * kStep * kStep);
+      const float sum =
+          static_cast<float>(picture.rgba[at] + picture.rgba[at + 1] + picture.rgba[at + 2]);
+      thumbnail[static_cast<std::size_t>(y / kStep * kCells + x / kStep)] +=
+          sum / (3 * kStep * kStep);
     }
   }
   float off = 0;
@@ -95,8 +98,8 @@ std::optional<Tracker::Candidate> Tracker::Find(const fsm::Image& picture) {
     if (like > most_like) nearest = std::move(candidate), most_like = like;
   }
   if (nearest || faces.size() < settings_.which) return nearest;
-  auto stranger = LookAt(picture, faces[settings_.which - 1], nullptr, face_.rest,
-                         FrameFit::What::kPose);
+  auto stranger =
+      LookAt(picture, faces[settings_.which - 1], nullptr, face_.rest, FrameFit::What::kPose);
   if (stranger) Forget();
   return stranger;
 }
@@ -111,11 +114,11 @@ std::optional<Tracker::Waiting> Tracker::See(const fsm::Image& picture, double m
   constexpr int kLookEvery = 3, kMostUnlike = 5;
   std::optional<Candidate> seen;
   if (last_ && !cut && unlike_ < kMostUnlike) {
-    seen = LookAt(picture,
-                  facefit::FindAttentivePoints(attention_, picture,
-                                               CropOf(fit_->lens(), last_->pose)),
-                  &*last_, person_ ? person_->rest : face_.rest,
-                  person_ ? FrameFit::What::kPoseAndDoses : FrameFit::What::kPose);
+    seen =
+        LookAt(picture,
+               facefit::FindAttentivePoints(attention_, picture, CropOf(fit_->lens(), last_->pose)),
+               &*last_, person_ ? person_->rest : face_.rest,
+               person_ ? FrameFit::What::kPoseAndDoses : FrameFit::What::kPose);
   }
   if (!seen) {
     last_.reset();
@@ -157,12 +160,13 @@ std::vector<FaceLine> Tracker::Look(const fsm::Image& picture, double ms) {
   if (over && !waiting_.empty()) {
     lines = Finish();
     if (seen) {  // now that the person is known
-      seen->doing = fit_->Solve(person_->rest, seen->seen.places, seen->doing,
-                                FrameFit::What::kPoseAndDoses);
+      seen->doing =
+          fit_->Solve(person_->rest, seen->seen.places, seen->doing, FrameFit::What::kPoseAndDoses);
     }
   }
   if (!seen) {
-    lines.push_back({.ms = ms, .units = std::vector<float>(face_.channels.size(), 0), .points = {}});
+    lines.push_back(
+        {.ms = ms, .units = std::vector<float>(face_.channels.size(), 0), .points = {}});
     last_.reset();
     filters_.clear();
   } else if (person_) {
@@ -193,9 +197,9 @@ std::vector<FaceLine> Tracker::Finish() {
                      waiting_[static_cast<std::size_t>(usual)].look,
                      doings[static_cast<std::size_t>(usual)]);
   for (const Waiting& w : waiting_) {
-    last_ = Follow(w.seen, w.look,
-                   fit_->Solve(person_->rest, w.seen.places, w.doing,
-                               FrameFit::What::kPoseAndDoses));
+    last_ =
+        Follow(w.seen, w.look,
+               fit_->Solve(person_->rest, w.seen.places, w.doing, FrameFit::What::kPoseAndDoses));
     lines.push_back(LineOf(w, *last_));
   }
   waiting_.clear();

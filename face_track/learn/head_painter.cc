@@ -1,6 +1,5 @@
 #include "face_track/learn/head_painter.h"
 
-
 namespace facetrack {
 
 HeadPainter::HeadPainter()

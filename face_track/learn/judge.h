@@ -5,8 +5,8 @@
 
 namespace facetrack {
 
-/// Prints how far off the angles of a turned head are found whose truth is known: with its own
-/// points known, and met in one picture as a stranger.
+/// Prints how turns and units of a head are found that is met in one picture as a stranger: how far
+/// off the angles are, each counted from the rest, and the doses.
 void Judge(const SeenFace& face, Sitter& sitter);
 
 }  // namespace facetrack

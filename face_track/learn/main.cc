@@ -8,24 +8,18 @@
 #include <cmath>
 #include <exception>
 #include <fstream>
-#include <functional>
 #include <iostream>
-#include <random>
 #include <stdexcept>
 
 #include "face_fit/fit/least_squares.h"
 #include "face_track/learn/judge.h"
 #include "face_track/learn/sitter.h"
 #include "fsm/faces/face_of_name.h"
-#include "fsm/head/make_head.h"
-#include "fsm/head/own_identity.h"
-#include "fsm/mesh/head_points.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace {
 
 using namespace facetrack;
-using facefit::BaseHead;
 
 /// Channels without their motions. Units whose two sides go together in people, and which the
 /// network hardly sees of one alone, are of both.
@@ -43,7 +37,8 @@ std::vector<Channel> Channels() {
   for (const int unit : {1, 2, 4, 5, 6, 7, 9, 10, 12, 14, 15, 20, 43}) {
     for (const char* side : {"L", "R"}) add(Channel::Kind::kUnit, unit, side, usual);
   }
-  for (const int unit : {16, 17, 18, 22, 23, 24, 25, 28}) add(Channel::Kind::kUnit, unit, "", usual);
+  for (const int unit : {16, 17, 18, 22, 23, 24, 25, 28})
+    add(Channel::Kind::kUnit, unit, "", usual);
   add(Channel::Kind::kUnit, 26, "", {0.33F, 0.67F, 1, 1.5F, 2});
   for (const char* side : {"L", "R"}) {
     add(Channel::Kind::kGazeDown, 0, side, {-20, -10, 10, 20});
@@ -111,7 +106,8 @@ struct Sums {
         facefit::LinearLeastSquares equations;
         for (const Look& look : looks) {
           const auto t = SeenFace::SlideTerms(look.down, look.right);
-          equations.Add({t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8]}, look.slides[i][axis]);
+          equations.Add({t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8]},
+                        look.slides[i][axis]);
         }
         const auto solved = equations.Solve(0.1);
         for (std::size_t k = 0; k < SeenFace::kSlides; ++k) {
@@ -210,17 +206,21 @@ int main(int argc, char** argv) {
   std::string out, networks;
   std::vector<std::string> judged;
   std::size_t heads = 8;
-  CLI::App app("Draws our heads and writes what the landmark network sees of them (docs/tracking.md)");
+  CLI::App app(
+      "Draws our heads and writes what the landmark network sees of them (docs/tracking.md)");
   auto* table = app.add_option("out", out, "The table to write: face_track/tables/seen_face.txt");
   app.add_option("--heads", heads, "How many heads; from the third on they are made by chance")
       ->check(CLI::Range(1, 100));
-  app.add_option("--judge", judged, "Learns nothing, and prints how these faces' turns are found")
+  app.add_option("--judge", judged,
+                 "Learns nothing, and prints how turns and units of these faces are found")
       ->excludes(table);
   app.add_option("--networks", networks, "Where scripts/face_networks.sh put the networks");
   CLI11_PARSE(app, argc, argv);
   try {
-    if (!judged.empty()) JudgeFaces(judged, networks);
-    else Learn(out, heads, networks);
+    if (!judged.empty())
+      JudgeFaces(judged, networks);
+    else
+      Learn(out, heads, networks);
   } catch (const std::exception& error) {
     std::cerr << "face_track_learn: " << error.what() << std::endl;
     return 1;

@@ -83,10 +83,9 @@ Points Sitter::Motion(const Channel& channel, float dose) {
   const Sight sight = Look(StateOf(channel, dose));
   Points motion;
   for (std::size_t i = 0; i < kPoints; ++i) {
-    const float z = sight.pose(rest_[i]).z +
-                    scale_ * (DepthOf(i, sight.vertices) - DepthOf(i, base_.rest));
-    motion.push_back(
-        sight.pose.Inverse(painter_.lens().Unproject(sight.places[i], z)) - rest_[i]);
+    const float z =
+        sight.pose(rest_[i]).z + scale_ * (DepthOf(i, sight.vertices) - DepthOf(i, base_.rest));
+    motion.push_back(sight.pose.Inverse(painter_.lens().Unproject(sight.places[i], z)) - rest_[i]);
   }
   return motion;
 }

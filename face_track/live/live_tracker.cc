@@ -60,8 +60,7 @@ void LiveTracker::LookAtAll() {
     const Arrived arrived = *std::exchange(newest_, std::nullopt);
     lock.unlock();
     Moment moment{.lines = tracker.Look(arrived.picture.picture, arrived.picture.ms)};
-    moment.taken =
-        std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - arrived.at);
+    moment.taken = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - arrived.at);
     Tell([moment = std::move(moment)](const Events& events) { events.moment(moment); });
   }
   Moment last{.lines = tracker.Finish()};

@@ -15,10 +15,10 @@
 namespace facetrack {
 
 /// Follows a face while its pictures come: a camera's as they come, a film's or folder's at its own
-/// pace. Always the newest picture is looked at, and those that came meanwhile are left out, so that
-/// a slow machine shows the face less often and not later.
-/// Thread: owns two, one that reads and one that looks, joined by the destructor; events come on the
-/// io_context's, and none after the destructor.
+/// pace. Always the newest picture is looked at, and those that came meanwhile are left out, so
+/// that a slow machine shows the face less often and not later. Thread: owns two, one that reads
+/// and one that looks, joined by the destructor; events come on the io_context's, and none after
+/// the destructor.
 class LiveTracker {
  public:
   struct Moment {

@@ -129,8 +129,8 @@ void TrackModule::DeclareTold() {
   declare("ProtocolVersion", "Galatea protocol 1.0", "The version of the protocol it speaks.",
           false);
   declare("Track", "", "Each picture's line as a JSON object (docs/tracking.md).", false);
-  declare("Track.stat", "OFF", "OFF, LOOKING (for a face, or at one for the first time) or FOLLOWING.",
-          true);
+  declare("Track.stat", "OFF",
+          "OFF, LOOKING (for a face, or at one for the first time) or FOLLOWING.", true);
   declare("Track.speed", "0 0",
           "Each second: how many pictures were looked at in it, and how many ms after it was there "
           "what one shows was told.",
@@ -139,16 +139,16 @@ void TrackModule::DeclareTold() {
 
 vm::Result<void> TrackModule::Start() {
   if (!on_ || tracker_ || input_ == "NONE") return {};
-  auto tracker = options_.open(
-      input_, options_.tracker,
-      {.moment = [this](const LiveTracker::Moment& moment) { OnMoment(moment); },
-       .over =
-           [this](const std::optional<vm::Error>& error) {
-             if (error) slots_.ReportError("Input", *error);
-             Stop();
-             input_ = "NONE";
-             slots_.Report("Input", input_);
-           }});
+  auto tracker =
+      options_.open(input_, options_.tracker,
+                    {.moment = [this](const LiveTracker::Moment& moment) { OnMoment(moment); },
+                     .over =
+                         [this](const std::optional<vm::Error>& error) {
+                           if (error) slots_.ReportError("Input", *error);
+                           Stop();
+                           input_ = "NONE";
+                           slots_.Report("Input", input_);
+                         }});
   if (!tracker) return std::unexpected(tracker.error());
   tracker_ = std::move(*tracker);
   second_ = scheduler_.Now();

@@ -15,9 +15,7 @@ struct Lens {
   glm::vec2 middle;  ///< pixel on the axis
 
   static Lens Of(int width, int height, float field_degrees);  ///< seen from below to above
-  glm::vec2 Project(glm::vec3 q) const {
-    return middle + focal / -q.z * glm::vec2(q.x, -q.y);
-  }
+  glm::vec2 Project(glm::vec3 q) const { return middle + focal / -q.z * glm::vec2(q.x, -q.y); }
   glm::vec3 Unproject(glm::vec2 pixel, float z) const {
     const glm::vec2 d = (pixel - middle) * (-z / focal);
     return {d.x, -d.y, z};

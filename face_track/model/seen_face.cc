@@ -194,9 +194,9 @@ std::string SeenFace::Print() const {
   }
   for (const Channel& channel : channels) {
     for (std::size_t k = 0; k < channel.doses.size(); ++k) {
-      text += fmt::format("\n{} {} {} {:g}", kKinds[static_cast<std::size_t>(channel.kind)],
-                          channel.unit, channel.side.empty() ? "-" : channel.side,
-                          channel.doses[k]);
+      text +=
+          fmt::format("\n{} {} {} {:g}", kKinds[static_cast<std::size_t>(channel.kind)],
+                      channel.unit, channel.side.empty() ? "-" : channel.side, channel.doses[k]);
       Add(text, channel.motion[k]);
     }
   }

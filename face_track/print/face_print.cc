@@ -81,13 +81,15 @@ std::string FacePrint::Line(const FaceLine& line) const {
   const auto columns = Columns(line);
   const bool json = format_ == Format::kJsonLines;
   const std::string certainty = Number(line.certainty);
-  std::string text =
-      json ? fmt::format(R"({{"ms":{:.1f},"person":{},"certainty":{})", line.ms, line.person, certainty)
-           : fmt::format("{:.1f},{},{}", line.ms, line.person, certainty);
+  std::string text = json ? fmt::format(R"({{"ms":{:.1f},"person":{},"certainty":{})", line.ms,
+                                        line.person, certainty)
+                          : fmt::format("{:.1f},{},{}", line.ms, line.person, certainty);
   for (const Column& column : columns) {
     if (json && line.person == 0) break;
-    if (json) text += ",\"" + column.name + "\":";
-    else text += ",";
+    if (json)
+      text += ",\"" + column.name + "\":";
+    else
+      text += ",";
     if (line.person != 0) text += Number(column.value);
   }
   if (points_ && (!json || line.person != 0)) {

@@ -13,7 +13,7 @@ constexpr double kWide = 1200, kTall = 170, kLeft = 70, kGap = 30;
 struct Curve {
   const char *name, *colour;
 };
-constexpr Curve kCurves[6] = {{"down", "#c0392b"}, {"right", "#2464b4"}, {"tilt", "#2e8b57"},
+constexpr Curve kCurves[6] = {{"down", "#c0392b"},  {"right", "#2464b4"}, {"tilt", "#2e8b57"},
                               {"lid R", "#2464b4"}, {"lid L", "#c0392b"}, {"jaw", "#2464b4"}};
 struct Panel {
   const char* title;
