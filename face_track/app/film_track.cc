@@ -1,0 +1,90 @@
+#include "face_track/app/film_track.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <iostream>
+#include <stdexcept>
+
+#include "face_track/app/progress.h"
+#include "face_track/film/picture_source.h"
+#include "face_track/print/track_plot.h"
+#include "vm_protocol/core/or_throw.h"
+
+namespace facetrack {
+namespace {
+
+/// Where lines go: a file, made with the first of them, or standard output.
+class Out {
+ public:
+  Out(std::string path, bool at_once) : path_(std::move(path)), at_once_(at_once) {}
+  ~Out() { Close(); }
+  Out(const Out&) = delete;
+  void Write(const std::string& text) {
+    if (!file_) file_ = path_.empty() ? stdout : std::fopen(path_.c_str(), "w");
+    if (!file_ || std::fwrite(text.data(), 1, text.size(), file_) != text.size() ||
+        (at_once_ && std::fflush(file_) != 0)) {
+      Fail();
+    }
+  }
+  void Finish() {
+    if (file_ && !Close()) Fail();
+  }
+
+ private:
+  bool Close() {
+    std::FILE* file = std::exchange(file_, nullptr);
+    return !file || (file == stdout ? std::fflush(file) : std::fclose(file)) == 0;
+  }
+  [[noreturn]] void Fail() const {
+    throw std::runtime_error("the track cannot be written to " +
+                             (path_.empty() ? "standard output" : "'" + path_ + "'"));
+  }
+  const std::string path_;
+  const bool at_once_;
+  std::FILE* file_ = nullptr;
+};
+
+}  // namespace
+
+void PrintFilmTrack(const FilmTrack& wanted) {
+  auto networks = vm::OrThrow(facefit::FaceNetworks::Load(wanted.networks));
+  auto attention = vm::OrThrow(facefit::LoadAttentionLandmarks(wanted.networks));
+  const SeenFace& face = SeenFace::Shipped();
+  Tracker tracker(networks, attention, face, wanted.tracker);
+  const FacePrint print(wanted.format, wanted.points, face);
+  const auto source = vm::OrThrow(OpenPictures(wanted.film, wanted.rate));
+  TrackPlot plot;
+  Out out(wanted.out, IsLive(wanted.film));
+  std::size_t pictures = 0, faces = 0;
+  const auto write = [&](const std::vector<FaceLine>& lines) {
+    for (const FaceLine& line : lines) {
+      faces += line.person != 0 ? 1 : 0;
+      out.Write(print.Line(line));
+      if (!wanted.plot.empty()) plot.Add(line);
+    }
+  };
+  TimedPicture picture;
+  vm::Result<bool> more = false;
+  {
+    Progress progress(wanted.quiet, source->length_ms());
+    while ((more = source->Next(picture)) && *more) {
+      if (pictures == 0) out.Write(print.Header());
+      write(tracker.Look(picture.picture, picture.ms));
+      progress.At(++pictures, picture.ms);
+    }
+  }
+  write(tracker.Finish());
+  out.Finish();
+  if (!wanted.plot.empty() && faces > 0) vm::OrThrow(plot.Write(wanted.plot));
+  if (!more) throw std::runtime_error(more.error().text);
+  if (faces == 0) {
+    throw std::runtime_error(
+        fmt::format("'{}': no face is seen in any of its {} pictures", wanted.film, pictures));
+  }
+  if (!wanted.quiet) {
+    std::cerr << fmt::format("face_track: a face in {} of {} pictures\n", faces, pictures);
+  }
+}
+
+}  // namespace facetrack

@@ -1,0 +1,112 @@
+#include "face_track/film/picture_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <vector>
+
+#include "face_fit/picture/photo.h"
+#include "face_track/film/ffmpeg_source.h"
+
+namespace facetrack {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsPhoto(const fs::path& path) {
+  std::string end = path.extension().string();
+  std::ranges::transform(end, end.begin(), [](unsigned char c) { return std::tolower(c); });
+  return end == ".png" || end == ".jpg" || end == ".jpeg";
+}
+
+class FolderSource : public PictureSource {
+ public:
+  FolderSource(std::vector<std::string> files, double rate)
+      : files_(std::move(files)), rate_(rate) {}
+  vm::Result<bool> Next(TimedPicture& out) override {
+    if (at_ == files_.size()) return false;
+    auto photo = facefit::ReadPhoto(files_[at_], kMostSide);
+    if (!photo) return std::unexpected(photo.error());
+    if (at_ > 0 && (photo->width != width_ || photo->height != height_)) {
+      return vm::Fail(vm::Errc::kBadValue,
+                      fmt::format("'{}' is {} x {}, the pictures before it {} x {}: all of a "
+                                  "folder are of one size",
+                                  files_[at_], photo->width, photo->height, width_, height_));
+    }
+    width_ = photo->width;
+    height_ = photo->height;
+    out.picture = std::move(*photo);
+    out.ms = 1000 * static_cast<double>(at_++) / rate_;
+    return true;
+  }
+  std::optional<double> length_ms() const override {
+    return 1000 * static_cast<double>(files_.size()) / rate_;
+  }
+
+ private:
+  const std::vector<std::string> files_;
+  const double rate_;
+  std::size_t at_ = 0;
+  int width_ = 0, height_ = 0;
+};
+
+vm::Result<std::unique_ptr<PictureSource>> OpenFolder(const std::string& name, double rate) {
+  constexpr std::size_t kMostPictures = 1'000'000;
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::directory_iterator at(name, error), end; !error && at != end; at.increment(error)) {
+    if (!IsPhoto(at->path())) continue;
+    if (files.size() == kMostPictures) {
+      return vm::Fail(vm::Errc::kLimit, "'" + name + "' holds more than a million pictures");
+    }
+    files.push_back(at->path());
+  }
+  if (error) return vm::Fail(vm::Errc::kUnavailable, "'" + name + "': " + error.message());
+  if (files.empty()) {
+    return vm::Fail(vm::Errc::kBadValue, "'" + name + "' holds no .png and no .jpg");
+  }
+  std::ranges::sort(files);
+  return std::make_unique<FolderSource>(std::move(files), rate);
+}
+
+std::vector<std::string> Words(const std::string& text) {
+  std::vector<std::string> words;
+  std::size_t at = 0;
+  while ((at = text.find_first_not_of(' ', at)) != std::string::npos) {
+    const auto end = std::min(text.find(' ', at), text.size());
+    words.push_back(text.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+}  // namespace
+
+bool IsLive(const std::string& name) {
+  return name == "camera" || name.starts_with("v4l2:") || name.starts_with("ffmpeg:");
+}
+
+vm::Result<std::unique_ptr<PictureSource>> OpenPictures(const std::string& name, double rate) {
+  const std::vector<std::string> at_once{"-fflags", "nobuffer", "-flags", "low_delay"};
+  const auto camera = [&](const std::string& device) {
+    auto words = at_once;
+    words.insert(words.end(), {"-f", "v4l2", "-i", device});
+    return FfmpegSource::Open(name, words);
+  };
+  if (name == "camera") return camera("/dev/video0");
+  if (name.starts_with("v4l2:")) return camera(name.substr(5));
+  if (name.starts_with("ffmpeg:")) return FfmpegSource::Open(name, Words(name.substr(7)));
+  if (name == "-") return FfmpegSource::Open(name, {"-i", "pipe:0"});
+  std::error_code error;
+  const auto status = fs::status(name, error);
+  if (!fs::exists(status)) {
+    return vm::Fail(vm::Errc::kUnavailable, "there is no '" + name + "'");
+  }
+  if (fs::is_directory(status)) return OpenFolder(name, rate);
+  // "file:" keeps ffmpeg from taking names with a colon for addresses.
+  return FfmpegSource::Open(name, {"-i", "file:" + name});
+}
+
+}  // namespace facetrack

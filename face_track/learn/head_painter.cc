@@ -1,0 +1,26 @@
+#include "face_track/learn/head_painter.h"
+
+namespace facetrack {
+
+HeadPainter::HeadPainter()
+    : context_(fsm::RenderContext::MakeHeadless(kSide, kSide)),
+      renderer_(fsm::Renderer::Make(*context_)),
+      view_(fsm::FramePortrait({}, scene_.camera, kSide, kSide)),
+      lens_(Lens::Of(kSide, kSide, kField)) {}
+
+fsm::Image HeadPainter::Draw(const fsm::Head& head, const fsm::FaceState& state) {
+  fsm::HeadVertices vertices;
+  head.Evaluate(state, vertices);
+  context_->MakeCurrent();
+  renderer_->Draw(head, vertices, state, scene_);
+  fsm::Image picture;
+  renderer_->Read(picture);
+  return picture;
+}
+
+Pose HeadPainter::rest() const {
+  const glm::vec4 origin = view_.figure_to_world * glm::vec4(0, 0, 0, 1);
+  return {.turn = glm::mat3(view_.figure_to_world), .place = glm::vec3(origin) - view_.eye};
+}
+
+}  // namespace facetrack

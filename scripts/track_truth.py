@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Films built-in heads that turn and move as told, follows them with face_track, and prints how far off it is.
+
+usage: scripts/track_truth.py [HEAD]...     baucis, from which nothing was learned, without one
+
+Needs the networks (scripts/face_networks.sh), ffmpeg and the built programs; ends with 77 without networks. Angles and
+doses are medians of the last 400 ms of each second they are held.
+"""
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+
+BIN = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "build", "bin")
+TURNS = [(0, y, 0) for y in (-30, -20, -10, 10, 20, 30)] + [(x, 0, 0) for x in (-20, -10, 10, 20)] + [(0, 0, 15), (8, 12, 5)]
+UNITS = ["1", "2", "4", "5", "6", "7", "9", "10", "12", "14", "15", "16", "17", "18", "20", "22", "23", "24", "25", "26", "28", "43"]
+BOTH = {"16", "17", "18", "22", "23", "24", "25", "26", "28"}
+DOSE = 0.7
+
+
+def median(values):
+    return sorted(values)[len(values) // 2]
+
+
+def follow(head, folder):
+    film = os.path.join(folder, head + ".mp4")
+    lines = ["set Record.fps = 25", f"set Record = {film}", "set Wait = 1500"]
+    for turn in TURNS:
+        lines += ["set HeadRotAbs.1 = {} {} {}".format(*turn), "set Wait = 1000"]
+    lines += ["set HeadRotAbs.1 = 0 0 0", "set Wait = 1000"]
+    for unit in UNITS:
+        lines += [f"set AU = {unit} {DOSE} 60", "set Wait = 1000", f"set AU = {unit} 0 60", "set Wait = 500"]
+    lines += ["set Record = STOP", "set Wait = IDLE", ""]
+    subprocess.run([f"{BIN}/fsm", "--headless", "--clock", "virtual", "--size", "640x480", "--mask", head],
+                   input="\n".join(lines), text=True, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    done = subprocess.run([f"{BIN}/face_track", film, "--field", "25", "--quiet"], text=True, capture_output=True)
+    if done.returncode != 0:
+        print(done.stderr.strip(), file=sys.stderr)
+        sys.exit(77 if "face_networks.sh" in done.stderr else 1)
+    return list(csv.DictReader(done.stdout.splitlines()))
+
+
+def main():
+    worst = 0
+    for head in sys.argv[1:] or ["baucis"]:
+        with tempfile.TemporaryDirectory() as folder:
+            rows = follow(head, folder)
+
+        def at(end_ms, name):
+            values = [float(r[name]) for r in rows if end_ms - 400 < float(r["ms"]) < end_ms - 20 and r[name]]
+            return median(values) if values else float("nan")
+        names = ("down", "right", "tilt")
+        rest = [at(1400, name) for name in names]
+        print(f"{head}: at rest {rest[0]:+.2f} {rest[1]:+.2f} {rest[2]:+.2f} degrees; "
+              f"a face in {sum(r['person'] != '0' for r in rows)} of {len(rows)} pictures")
+        end = 1500
+        for turn in TURNS:
+            end += 1000
+            off = [at(end, name) - told - still for name, told, still in zip(names, turn, rest)]
+            worst = max(worst, *(abs(v) for v in off))
+            print(f"  told {turn}: off {off[0]:+.2f} {off[1]:+.2f} {off[2]:+.2f} from rest")
+        end += 1000
+        for unit in UNITS:
+            end += 1000
+            seen = [at(end, f"au{unit}{side}") for side in ([""] if unit in BOTH else "RL")]
+            print(f"  AU {unit} at {DOSE}: " + " ".join(f"{v:.2f}" for v in seen))
+            end += 500
+    print(f"worst angle: {worst:.2f} degrees")
+
+
+if __name__ == "__main__":
+    main()
