@@ -19,15 +19,18 @@ std::string Shown(const std::string& text) {
   std::string shown = text.size() <= kShown ? text
                                             : text.substr(0, kShown / 2) + "..." +
                                                   text.substr(text.size() - kShown / 2);
-  for (char& c : shown) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  // Shortening may cut a character of several bytes.
-  while (const auto bad = vm::FirstBadUtf8(shown)) shown[*bad] = '?';
-  return shown;
+  return Printable(std::move(shown));  // shortening may cut a character of several bytes
 }
 
 }  // namespace
+
+std::string Printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  while (const auto bad = vm::FirstBadUtf8(text)) text[*bad] = '?';
+  return text;
+}
 
 TableError::TableError(const std::string& place, const std::string& text)
     : std::runtime_error(place + ": " + Shown(text)) {}

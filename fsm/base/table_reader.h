@@ -12,6 +12,9 @@
 
 namespace fsm {
 
+/// The text with '?' in place of control characters and of what is not UTF-8.
+std::string Printable(std::string text);
+
 /// Why a table is not used: "NAME:LINE: text", or "NAME: text" of the table as a whole. What is
 /// quoted from a damaged table is shortened, well-formed UTF-8 and without control characters.
 class TableError : public std::runtime_error {

@@ -31,16 +31,14 @@ std::optional<UnitTable> UnitsIn(const std::string& folder) {
 }
 
 std::optional<Appearance> AppearanceIn(const std::string& folder) {
-  constexpr const char* kFile = "appearance.txt";
-  const auto text = TableIn(folder, kFile);
+  const auto text = TableIn(folder, kAppearanceFile);
   if (!text) return std::nullopt;
-  return Appearance(folder + "/" + kFile, *text);
+  return Appearance(folder + "/" + kAppearanceFile, *text);
 }
 
 std::shared_ptr<const Features> FeaturesIn(const std::string& folder) {
-  constexpr const char* kFile = "features.txt";
-  const auto text = TableIn(folder, kFile);
-  return text ? std::make_shared<Features>(folder + "/" + kFile, *text) : nullptr;
+  const auto text = TableIn(folder, kFeaturesFile);
+  return text ? std::make_shared<Features>(folder + "/" + kFeaturesFile, *text) : nullptr;
 }
 
 std::unique_ptr<Head> MovedAsIn(const std::string& tables, std::unique_ptr<Head> head) {

@@ -16,6 +16,8 @@ namespace fsm {
 /// std::runtime_error naming file and line.
 std::optional<UnitTable> UnitsIn(const std::string& folder);
 inline constexpr const char* kUnitsFile = "action_units.txt";
+inline constexpr const char* kAppearanceFile = "appearance.txt";
+inline constexpr const char* kFeaturesFile = "features.txt";
 /// How things look, in place of fsm/render/tables/appearance.txt: the file of that name in a folder
 /// of tables; nothing if there is none. Throws as UnitsIn.
 std::optional<Appearance> AppearanceIn(const std::string& folder);

@@ -56,7 +56,7 @@ std::string SourcesOf(const std::string& path, const std::string& tables) {
 }
 
 /// Whether all files of these lines are as they were.
-bool Stand(std::string_view lines) {
+bool Unchanged(std::string_view lines) {
   while (!lines.empty()) {
     const std::string line(lines.substr(0, lines.find('\n') + 1));
     lines.remove_prefix(line.size());
@@ -100,7 +100,7 @@ std::unique_ptr<Head> HeadCache::Find(const std::string& entry, const std::strin
   const std::string made_from = ReadAll(entry + ".txt");
   const std::size_t notices = made_from.find(kNoticesFollow);
   if (!made_from.starts_with(sources) || notices == std::string::npos ||
-      !Stand(std::string_view(made_from).substr(sources.size(), notices - sources.size())))
+      !Unchanged(std::string_view(made_from).substr(sources.size(), notices - sources.size())))
     return nullptr;
   auto asset = ParseAsset(entry + ".glb", ReadAll(entry + ".glb"));
   if (!asset) {

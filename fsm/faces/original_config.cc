@@ -53,14 +53,14 @@ class ConfigReader {
   }
 
   OriginalConfig Read(const Table& table) {
-    for (const TableRow& row : table.rows()) Take(row);
+    for (const TableRow& row : table.rows()) ReadRow(row);
     std::erase_if(config_.masks, [](const auto& mask) { return mask.wireframe.empty(); });
     config_.shared.offsets = std::filesystem::path(config_.shared.standard).parent_path().string();
     return std::move(config_);
   }
 
  private:
-  void Take(const TableRow& row) {
+  void ReadRow(const TableRow& row) {
     const std::string& key = row.key();
     if (const auto known = kNumbers.find(key); known != kNumbers.end()) {
       known->second.take(config_, Number(row, 1, known->second.lowest, known->second.highest));

@@ -10,46 +10,32 @@
 #include "fsm/base/table_reader.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/head/built_in_units.h"
-#include "fsm/motion/unit_names.h"
+#include "fsm/motion/motion_tables.h"
 #include "vm_protocol/core/or_throw.h"
-#include "vm_protocol/core/utf8.h"
 
 namespace fsm {
 namespace {
 
 constexpr const char* kNamesFile = "action_unit_names.txt";
 
-/// What MotionTables::Load, UnitsIn, AppearanceIn and FeaturesIn read of a folder.
-constexpr std::string_view kKnownTables[] = {"action_unit_list.txt",
-                                             "action_unit_names.txt",
-                                             "action_units.txt",
-                                             "appearance.txt",
-                                             "arkit.txt",
-                                             "dominance.txt",
-                                             "emotions.txt",
-                                             "features.txt",
-                                             "mixing.txt",
-                                             "motions.txt",
-                                             "mouth_shapes.txt",
-                                             "mouth_shapes_28.txt",
-                                             "phoneme_names.txt",
-                                             "phonemes28_en.txt",
-                                             "phonemes28_ja.txt",
-                                             "phonemes_en.txt",
-                                             "phonemes_ja.txt",
-                                             "text_cues.txt"};
+/// The names of all tables there are.
+std::vector<std::string> TableNames() {
+  std::vector<std::string> names{kUnitsFile, kAppearanceFile, kFeaturesFile};
+  static_cast<void>(MotionTables::Load("", &names));
+  std::ranges::sort(names);
+  return names;
+}
 
 /// Files that nobody reads; hidden ones are left alone.
-std::vector<std::string> UnknownFiles(const std::string& folder) {
+std::vector<std::string> UnknownFiles(const std::string& folder,
+                                      const std::vector<std::string>& known) {
   std::vector<std::string> unknown;
   std::error_code code;
   for (std::filesystem::directory_iterator at(folder, code), end; !code && at != end;
        at.increment(code)) {
     std::string name = at->path().filename().string();
     if (name.starts_with('.') || !at->is_regular_file(code)) continue;
-    if (std::ranges::find(kKnownTables, name) == std::end(kKnownTables)) {
-      unknown.push_back(std::move(name));
-    }
+    if (!std::ranges::binary_search(known, name)) unknown.push_back(std::move(name));
   }
   std::ranges::sort(unknown);
   return unknown;
@@ -81,11 +67,7 @@ std::string Listed(const std::vector<std::string>& words) {
     text += (i > 0 ? ", " : "") + words[i].substr(0, 60);
   }
   if (words.size() > kMostListed) text += fmt::format(" and {} more", words.size() - kMostListed);
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  while (const auto bad = vm::FirstBadUtf8(text)) text[*bad] = '?';
-  return text;
+  return Printable(std::move(text));
 }
 
 std::optional<std::string> TableIn(const std::string& folder, const std::string& file) {
@@ -99,11 +81,12 @@ vm::Result<std::vector<std::string>> CheckTables(const std::string& folder) try 
   std::vector<std::string> notices;
   std::error_code code;
   if (folder.empty() || !std::filesystem::is_directory(folder, code)) return notices;
-  if (const auto unknown = UnknownFiles(folder); !unknown.empty()) {
+  const std::vector<std::string> known = TableNames();
+  if (const auto unknown = UnknownFiles(folder, known); !unknown.empty()) {
     notices.push_back(
         fmt::format("'{}' has files that are not read, for no table has their name: "
                     "{}; there are {}",
-                    folder, Listed(unknown), fmt::join(kKnownTables, ", ")));
+                    folder, Listed(unknown), fmt::join(known, ", ")));
   }
   const auto own_names = TableIn(folder, kNamesFile);
   const UnitNames names = own_names

@@ -12,7 +12,6 @@
 #include "fsm/head/landmarks.h"
 
 namespace fsm {
-namespace {}  // namespace
 
 Scalp::Scalp(const HeadMesh& mesh) {
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {

@@ -45,8 +45,8 @@ namespace {
 
 /// What a head is made of: an identity, or the built-in face that a person's photo is warped from.
 struct Ingredients {
-  Ingredients(Identity of, bool both_alike)
-      : identity(std::move(of)),
+  Ingredients(Identity own, bool both_alike)
+      : identity(std::move(own)),
         shaper(Table("tables/sliders.txt", embedded::sliders()), identity.sliders),
         alike(both_alike) {}
   explicit Ingredients(const PhotoHead& head) : Ingredients(BuiltInIdentity(head.base), false) {
@@ -74,12 +74,12 @@ struct BaseSkin {
   HeadMesh mesh;
 };
 
-BaseSkin MakeSkin(const Ingredients& of) {
+BaseSkin MakeSkin(const Ingredients& from) {
   BaseSkin skin;
   skin.cage = ReadCage(Table("tables/curves.txt", embedded::curves()),
-                       Table("tables/patches.txt", embedded::patches()), of.eye, of.mouth);
+                       Table("tables/patches.txt", embedded::patches()), from.eye, from.mouth);
   skin.fine = Subdivide(skin.cage);
-  skin.mouth = BuildSkin(skin.fine, of.eye, of.mouth, of.identity, skin.mesh);
+  skin.mouth = BuildSkin(skin.fine, from.eye, from.mouth, from.identity, skin.mesh);
   return skin;
 }
 
@@ -102,31 +102,31 @@ std::vector<SkinHair> HairlineOf(const Identity& identity, HeadMesh& mesh) {
                        : LongHairline(identity.long_hair, look, identity.palette, mesh);
 }
 
-BaseParts LayParts(const Ingredients& of, const BaseSkin& skin) {
-  const Features& look = of.identity.Look();
-  const Palette& palette = of.identity.palette;
+BaseParts LayParts(const Ingredients& from, const BaseSkin& skin) {
+  const Features& look = from.identity.Look();
+  const Palette& palette = from.identity.palette;
   BaseParts parts = OnlySkin(skin);
   HeadMesh& mesh = parts.mesh;
-  if (of.photo) {
-    AddSheet(*of.photo, mesh);
+  if (from.photo) {
+    AddSheet(*from.photo, mesh);
   } else {
     BuildCloth(look, palette, mesh);
   }
   parts.figure_end = mesh.position.size();
   const SkinFront front(skin.fine);
-  parts.skin_hairs = BuildBrows(front, of.identity, mesh);
-  std::ranges::move(BuildLidFolds(front, of.eye, look), std::back_inserter(parts.skin_hairs));
-  if (!of.photo) {
-    std::ranges::move(HairlineOf(of.identity, mesh), std::back_inserter(parts.skin_hairs));
+  parts.skin_hairs = BuildBrows(front, from.identity, mesh);
+  std::ranges::move(BuildLidFolds(front, from.eye, look), std::back_inserter(parts.skin_hairs));
+  if (!from.photo) {
+    std::ranges::move(HairlineOf(from.identity, mesh), std::back_inserter(parts.skin_hairs));
   }
   // A photo shows the lashes of open eyes: only those of shut lids are added.
-  BuildLashes(of.eye, of.identity, of.photo != nullptr, mesh);
+  BuildLashes(from.eye, from.identity, from.photo != nullptr, mesh);
   parts.soft_end = mesh.position.size();
-  BuildEyes(of.eye, look, palette, mesh);
-  BuildTeeth(of.mouth, look, palette, mesh);
-  BuildTongue(of.mouth, look, palette, mesh);
+  BuildEyes(from.eye, look, palette, mesh);
+  BuildTeeth(from.mouth, look, palette, mesh);
+  BuildTongue(from.mouth, look, palette, mesh);
   // Long hair covers ears; a photo shows them.
-  if (of.identity.crop && !of.photo) BuildEars(look, palette, mesh);
+  if (from.identity.crop && !from.photo) BuildEars(look, palette, mesh);
   return parts;
 }
 
@@ -139,12 +139,12 @@ struct FormedHead {
   TeethTransform teeth;  ///< from the base head's
 };
 
-void AddHair(const Ingredients& of, const BaseSkin& skin, HeadMesh& mesh) {
-  const Identity& identity = of.identity;
-  if (of.photo) {
-    LeaveOutUnseen(*of.photo, skin.fine.tag, mesh);
-    if (!of.photo->glasses) return;
-    HoldBehindGlasses(glm::vec2(of.eye.centre()), skin.mesh.position.size(), mesh);
+void AddHair(const Ingredients& from, const BaseSkin& skin, HeadMesh& mesh) {
+  const Identity& identity = from.identity;
+  if (from.photo) {
+    LeaveOutUnseen(*from.photo, skin.fine.tag, mesh);
+    if (!from.photo->glasses) return;
+    HoldBehindGlasses(glm::vec2(from.eye.centre()), skin.mesh.position.size(), mesh);
   } else if (identity.crop) {
     BuildCroppedHair(*identity.crop, identity.Look(), identity.palette, mesh);
   } else {
@@ -152,22 +152,22 @@ void AddHair(const Ingredients& of, const BaseSkin& skin, HeadMesh& mesh) {
   }
 }
 
-FormedHead TakeForm(const Ingredients& of, const BaseSkin& skin, const BaseParts& parts) {
-  const HeadForm form(of.eye, of.mouth, of.shaper, of.warp ? &*of.warp : nullptr,
-                      of.photo ? of.photo->eyes : std::nullopt, parts.mesh,
-                      of.photo ? EyeTransform{} : of.identity.eyes);
+FormedHead TakeForm(const Ingredients& from, const BaseSkin& skin, const BaseParts& parts) {
+  const HeadForm form(from.eye, from.mouth, from.shaper, from.warp ? &*from.warp : nullptr,
+                      from.photo ? from.photo->eyes : std::nullopt, parts.mesh,
+                      from.photo ? EyeTransform{} : from.identity.eyes);
   FormedHead head{parts.mesh, parts.mesh.position, parts.mesh.position.size(),
                   form.eye_transforms(), form.teeth()};
   // The sheet of a photo is where it belongs already.
-  form.Shape(parts.skin_end, of.photo ? parts.figure_end : parts.skin_end, head.mesh);
-  AddHair(of, skin, head.mesh);
+  form.Shape(parts.skin_end, from.photo ? parts.figure_end : parts.skin_end, head.mesh);
+  AddHair(from, skin, head.mesh);
   head.base.insert(head.base.end(),
                    head.mesh.position.begin() + static_cast<std::ptrdiff_t>(head.hair_first),
                    head.mesh.position.end());
   return head;
 }
 
-HeadTopology TopologyOf(const Ingredients& of, const BaseSkin& skin, const BaseParts& parts,
+HeadTopology TopologyOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& parts,
                         const FormedHead& head) {
   HeadTopology topology;
   SetParts(head.mesh.batches, topology);
@@ -183,21 +183,21 @@ HeadTopology TopologyOf(const Ingredients& of, const BaseSkin& skin, const BaseP
   for (const glm::vec3 p : head.base) topology.uv.push_back(Unroll(p));
   for (const Side side : kSides) {
     const float size = head.eyes[side].size;
-    topology.eyes[side] = {.centre = PlaceInFace(of.eye, head.eyes, side,
-                                                 of.eye.centre() * glm::vec3(SignOf(side), 1, 1)),
-                           .ball_radius = size * of.eye.radius(),
-                           .iris_radius = size * of.eye.iris_radius(),
-                           .pupil_radius = size * of.eye.pupil_radius(),
-                           .iris_colour = of.identity.palette.iris,
-                           .white_colour = of.identity.palette.sclera};
+    topology.eyes[side] = {.centre = PlaceInFace(from.eye, head.eyes, side,
+                                                 from.eye.centre() * glm::vec3(SignOf(side), 1, 1)),
+                           .ball_radius = size * from.eye.radius(),
+                           .iris_radius = size * from.eye.iris_radius(),
+                           .pupil_radius = size * from.eye.pupil_radius(),
+                           .iris_colour = from.identity.palette.iris,
+                           .white_colour = from.identity.palette.sclera};
   }
   return topology;
 }
 
-RigData RigOf(const Ingredients& of, const BaseSkin& skin, const BaseParts& parts,
+RigData RigOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& parts,
               const FormedHead& head, const HeadTopology& topology) {
   using enum RigStep;
-  const Identity& identity = of.identity;
+  const Identity& identity = from.identity;
   RigData rig;
   rig.steps = {kChannels, kLids,  kJaw,  kTeeth,   kLips,   kTeeth,
                kTongue,   kBones, kNeck, kSprings, kNormals};
@@ -209,19 +209,19 @@ RigData RigOf(const Ingredients& of, const BaseSkin& skin, const BaseParts& part
   rig.bone = head.mesh.bone;
   rig.weights.assign(head.mesh.weights.begin(), head.mesh.weights.end());
   rig.units = BuiltInUnits();
-  if (!of.alike) {
+  if (!from.alike) {
     rig.person = static_cast<int>(identity.index);
     rig.units.MakeAsymmetric(*rig.person);
   }
   rig.units_by_place = true;
-  rig.creases = {.at_rest = identity.creases, .depth = of.photo ? of.photo->lined : 1};
+  rig.creases = {.at_rest = identity.creases, .depth = from.photo ? from.photo->lined : 1};
   const auto soft = std::span(head.mesh.weights).first(parts.soft_end);
   rig.channels = UnitChannels(rig.units, rig.bone, rig.weights);
-  std::ranges::move(MouthChannels(of.mouth, soft), std::back_inserter(rig.channels));
-  rig.lids = BakeLids(of.eye, head.eyes, rig.rest, soft);
+  std::ranges::move(MouthChannels(from.mouth, soft), std::back_inserter(rig.channels));
+  rig.lids = BakeLids(from.eye, head.eyes, rig.rest, soft);
   rig.lips = BakeLips(skin.mouth, soft);
-  rig.teeth = BakeTeeth(of.mouth.UpperTeeth().Moved(head.teeth),
-                        of.mouth.LowerTeeth().Moved(head.teeth), rig.rest, soft);
+  rig.teeth = BakeTeeth(from.mouth.UpperTeeth().Moved(head.teeth),
+                        from.mouth.LowerTeeth().Moved(head.teeth), rig.rest, soft);
   for (const Side side : kSides) {
     rig.eyes.pivot[side] = rig.ball_lids.centre[side] = topology.eyes[side].centre;
   }
@@ -238,7 +238,8 @@ RigData RigOf(const Ingredients& of, const BaseSkin& skin, const BaseParts& part
 }
 
 /// What is seen of the photo where, with lids at rest and shut.
-void Wear(const Ingredients& of, const BaseSkin& skin, const FormedHead& formed, HeadAsset& asset) {
+void Wear(const Ingredients& from, const BaseSkin& skin, const FormedHead& formed,
+          HeadAsset& asset) {
   const std::size_t count = skin.mesh.position.size();
   const Rig rig(asset.rig);
   HeadVertices open, shut;
@@ -251,20 +252,20 @@ void Wear(const Ingredients& of, const BaseSkin& skin, const FormedHead& formed,
   };
   const PhotoSkin worn{std::span(formed.mesh.weights).first(count), skin.fine.tag, pose(open),
                        pose(shut)};
-  WearPhoto(*of.photo, worn, of.identity.palette.lip_inside, asset.topology);
+  WearPhoto(*from.photo, worn, from.identity.palette.lip_inside, asset.topology);
 }
 
-std::unique_ptr<Head> Bake(const Ingredients& of) {
-  const BaseSkin skin = MakeSkin(of);
-  const BaseParts parts = LayParts(of, skin);
-  const FormedHead formed = TakeForm(of, skin, parts);
+std::unique_ptr<Head> Bake(const Ingredients& from) {
+  const BaseSkin skin = MakeSkin(from);
+  const BaseParts parts = LayParts(from, skin);
+  const FormedHead formed = TakeForm(from, skin, parts);
   HeadAsset asset;
-  asset.topology = TopologyOf(of, skin, parts, formed);
-  asset.rig = RigOf(of, skin, parts, formed, asset.topology);
+  asset.topology = TopologyOf(from, skin, parts, formed);
+  asset.rig = RigOf(from, skin, parts, formed, asset.topology);
   FindIncisors(asset.rig.rest, asset.rig.bone, asset.topology);
-  if (of.photo) Wear(of, skin, formed, asset);
-  asset.landmarks =
-      NameLandmarks(skin.cage, skin.fine, asset.rig.rest, of.eye, formed.eyes, of.identity.Look());
+  if (from.photo) Wear(from, skin, formed, asset);
+  asset.landmarks = NameLandmarks(skin.cage, skin.fine, asset.rig.rest, from.eye, formed.eyes,
+                                  from.identity.Look());
   return std::make_unique<Head>(std::move(asset));
 }
 
@@ -284,11 +285,11 @@ std::unique_ptr<Head> MakeHead(const PhotoHead& head) {
 }
 
 Rig MakeSkinRig(const PhotoHead& head) {
-  const Ingredients of(head);
-  const BaseSkin skin = MakeSkin(of);
+  const Ingredients from(head);
+  const BaseSkin skin = MakeSkin(from);
   const BaseParts alone = OnlySkin(skin);
-  const FormedHead formed = TakeForm(of, skin, alone);
-  return Rig(RigOf(of, skin, alone, formed, TopologyOf(of, skin, alone, formed)));
+  const FormedHead formed = TakeForm(from, skin, alone);
+  return Rig(RigOf(from, skin, alone, formed, TopologyOf(from, skin, alone, formed)));
 }
 
 }  // namespace fsm

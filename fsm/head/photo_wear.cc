@@ -143,8 +143,8 @@ void TakeColours(const PhotoHead& head, Palette& palette) {
     palette.lip_inside = *head.lip_colour / kOpen;
     palette.mouth = 0.9f * Wetter(palette.lip_inside, 0.5f * head.saturation);
   }
-  // Teeth stand in the light whose hue the whites of the eyes show. A photographer's comes from
-  // the front and reaches into the mouth.
+  // Teeth stand in the light whose hue the whites of the eyes show. It comes from the front, where
+  // the photographer's lamp is, and reaches into the mouth.
   const glm::vec3 white = head.white_colour;
   palette.tooth *=
       0.67f * head.teeth *

@@ -281,7 +281,7 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
     mouth.AddViseme(state.mouth, solve(state));
   }
   mouth.AddTo(fit, Drive::Kind::kMouth);
-  return fit.Take();
+  return fit.TakeDrivers();
 }
 
 /// Eyes that turn by shapes: both go with one, half by either; the agent's left is to the viewer's

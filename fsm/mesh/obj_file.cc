@@ -1,6 +1,7 @@
 #include "fsm/mesh/obj_file.h"
 
 #include <cmath>
+#include <span>
 
 #include "fsm/base/parse_number.h"
 #include "fsm/base/words.h"
@@ -12,16 +13,13 @@ namespace {
 
 constexpr std::size_t kMaxCorners = 64;
 
-bool Real(std::string_view word, float& out) {
-  const auto number = ParseNumber<float>(word);
-  out = number.value_or(0);
-  return number && std::abs(out) <= kMaxMeshReach;
-}
-
-bool Reals(const std::vector<std::string_view>& words, int count, float* out) {
-  if (words.size() < static_cast<std::size_t>(count) + 1) return false;
-  for (int i = 0; i < count; ++i) {
-    if (!Real(words[static_cast<std::size_t>(i) + 1], out[i])) return false;
+/// The numbers after a line's first word.
+bool ReadReals(const std::vector<std::string_view>& words, std::span<float> out) {
+  if (words.size() <= out.size()) return false;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto number = ParseNumber<float>(words[i + 1]);
+    if (!number || std::abs(*number) > kMaxMeshReach) return false;
+    out[i] = *number;
   }
   return true;
 }
@@ -62,12 +60,12 @@ class ObjReader {
     const std::string_view key = words[0];
     if (key == "v") {
       glm::vec3 p;
-      if (!Reals(words, 3, &p.x)) return Wrong("v X Y Z expected");
+      if (!ReadReals(words, std::span(&p.x, 3))) return Wrong("v X Y Z expected");
       file_.positions.push_back(p);
       if (file_.positions.size() > kMaxMeshVertices) return TooMany();
     } else if (key == "vt" || key == "tv") {
       glm::vec2 p;
-      if (!Reals(words, 2, &p.x)) return Wrong("vt U V expected");
+      if (!ReadReals(words, std::span(&p.x, 2))) return Wrong("vt U V expected");
       file_.texcoords.push_back(p);
       if (file_.texcoords.size() > kMaxMeshVertices) return TooMany();
     } else if (key == "f") {
@@ -159,7 +157,7 @@ std::map<std::string, ObjMaterial> ParseMtl(std::string_view text) {
       open = &all[std::string(words[1])];
     } else if (open && words[0] == "Kd") {
       glm::vec3 colour;
-      if (Reals(words, 3, &colour.x)) open->colour = colour;
+      if (ReadReals(words, std::span(&colour.x, 3))) open->colour = colour;
     } else if (open && words[0] == "map_Kd") {
       open->picture = std::string(words.back());
     }

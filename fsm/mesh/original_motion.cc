@@ -122,7 +122,7 @@ class OriginalRigBaker {
     }
     DriveFit fit(count);
     mouth.AddTo(fit, Drive::Kind::kSpokenMouth);
-    const auto drivers = fit.Take();
+    const auto drivers = fit.TakeDrivers();
     for (std::size_t k = 0; k < count; ++k) {
       Channel& channel = Add(Moves(face_.visemes[k], glm::vec3(own_.mm())), drivers[k]);
       channel.least = 0;

@@ -1,5 +1,6 @@
 #include "fsm/mesh/pnt_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -18,8 +19,44 @@ class NumberLines {
  public:
   NumberLines(const std::string& name, std::string_view text) : name_(name), text_(text) {}
 
+  /// Reads the header, `#N` with N one more than there are records, and calls `read` with the
+  /// words of each record, a line; `what` says what they are. Ends at the first error.
+  template <typename Read>
+  vm::Result<void> ReadRecords(const std::string& what, const Read& read) {
+    const auto words = Next();
+    const auto header = words.size() == 1 && words[0].front() == '#'
+                            ? ParseNumber<int>(words[0].substr(1))
+                            : std::nullopt;
+    if (!header || *header < 1) {
+      line_ = std::max(line_, 1);
+      return Wrong("#N expected, one more than the number of " + what);
+    }
+    const auto count = static_cast<std::size_t>(*header - 1);
+    if (count >= kMaxWireframe) {
+      return vm::Fail(vm::Errc::kLimit, name_ + ": at most " + std::to_string(kMaxWireframe) + " " +
+                                            what + " are read");
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto record = Next();
+      if (record.empty()) {
+        return Wrong("it ends after " + std::to_string(i) + " of " + std::to_string(count) + " " +
+                     what);
+      }
+      if (vm::Result<void> done = read(record); !done) return done;
+    }
+    if (Next().empty()) return {};
+    return Wrong("the header announces " + std::to_string(count) + " " + what +
+                 ", but more follow");
+  }
+
+  std::unexpected<vm::Error> Wrong(const std::string& text) const {
+    return vm::Fail(vm::Errc::kBadValue, name_ + ":" + std::to_string(line_) + ": " + text);
+  }
+
+ private:
   /// The words of the next line that has any; none at the end.
   std::vector<std::string_view> Next() {
+    constexpr std::size_t kMaxWords = 13;
     std::vector<std::string_view> words;
     while (words.empty() && !text_.empty()) {
       ++line_;
@@ -31,48 +68,24 @@ class NumberLines {
     return words;
   }
 
-  std::unexpected<vm::Error> Wrong(const std::string& text) const {
-    return vm::Fail(vm::Errc::kBadValue, name_ + ":" + std::to_string(line_) + ": " + text);
-  }
-
-  /// `#N` of the first line: one more than there are records.
-  vm::Result<std::size_t> Header(const char* what) {
-    const auto words = Next();
-    int count = 0;
-    if (words.size() != 1 || words[0].front() != '#' || !Whole(words[0].substr(1), count) ||
-        count < 1) {
-      if (line_ == 0) line_ = 1;
-      return Wrong(std::string("#N expected, one more than the number of ") + what);
-    }
-    if (static_cast<std::size_t>(count) > kMaxWireframe) {
-      return vm::Fail(vm::Errc::kLimit, name_ + ": at most " + std::to_string(kMaxWireframe) + " " +
-                                            what + " are read");
-    }
-    return static_cast<std::size_t>(count - 1);
-  }
-
-  static bool Whole(std::string_view word, int& out) {
-    const auto number = ParseNumber<int>(word);
-    out = number.value_or(0);
-    return number.has_value();
-  }
-  static bool Real(std::string_view word, float& out) {
-    const auto number = ParseNumber<float>(word);
-    out = number.value_or(0);
-    return number && std::abs(out) < 1e6F;
-  }
-  static bool Name(std::string_view group, std::string_view number, PointName& out) {
-    return Whole(group, out.first) && Whole(number, out.second) && out.first > 0 &&
-           out.second > 0 && out.first <= kMaxName && out.second <= kMaxName;
-  }
-
- private:
-  static constexpr std::size_t kMaxWords = 13;
-
   const std::string& name_;
   std::string_view text_;
   int line_ = 0;
 };
+
+bool IsWhole(std::string_view word) { return ParseNumber<int>(word).has_value(); }
+
+bool ReadReal(std::string_view word, float& out) {
+  const auto number = ParseNumber<float>(word);
+  out = number.value_or(0);
+  return number && std::abs(out) < 1e6F;
+}
+
+bool ReadName(std::string_view group, std::string_view number, PointName& out) {
+  const auto first = ParseNumber<int>(group), second = ParseNumber<int>(number);
+  out = {first.value_or(0), second.value_or(0)};
+  return out.first > 0 && out.second > 0 && out.first <= kMaxName && out.second <= kMaxName;
+}
 
 std::string Shown(std::span<const std::string_view> words) {
   std::string line;
@@ -92,21 +105,12 @@ std::string InWords(const PointName& point) {
 
 vm::Result<PntFile> ParsePnt(const std::string& name, std::string_view text) {
   NumberLines lines(name, text);
-  const auto count = lines.Header("points");
-  if (!count) return std::unexpected(count.error());
   PntFile file;
-  for (std::size_t i = 0; i < *count; ++i) {
-    const auto words = lines.Next();
-    if (words.empty()) {
-      return lines.Wrong("it ends after " + std::to_string(i) + " of " + std::to_string(*count) +
-                         " points");
-    }
+  const auto read = lines.ReadRecords("points", [&](const auto& words) -> vm::Result<void> {
     PointName point;
     glm::vec3 at;
-    int index = 0;
-    if (words.size() != 6 || !NumberLines::Whole(words[0], index) ||
-        !NumberLines::Name(words[1], words[2], point) || !NumberLines::Real(words[3], at.x) ||
-        !NumberLines::Real(words[4], at.y) || !NumberLines::Real(words[5], at.z)) {
+    if (words.size() != 6 || !IsWhole(words[0]) || !ReadName(words[1], words[2], point) ||
+        !ReadReal(words[3], at.x) || !ReadReal(words[4], at.y) || !ReadReal(words[5], at.z)) {
       return lines.Wrong("INDEX GROUP NUMBER X Y Z expected, not " + Shown(words));
     }
     if (!file.index.emplace(point, file.at.size()).second) {
@@ -114,32 +118,21 @@ vm::Result<PntFile> ParsePnt(const std::string& name, std::string_view text) {
     }
     file.names.push_back(point);
     file.at.push_back(at);
-  }
-  if (const auto more = lines.Next(); !more.empty()) {
-    return lines.Wrong("the header announces " + std::to_string(*count) +
-                       " points, but more follow");
-  }
+    return {};
+  });
+  if (!read) return std::unexpected(read.error());
   return file;
 }
 
 vm::Result<LnkFile> ParseLnk(const std::string& name, std::string_view text) {
   NumberLines lines(name, text);
-  const auto count = lines.Header("triangles");
-  if (!count) return std::unexpected(count.error());
   LnkFile file;
-  for (std::size_t i = 0; i < *count; ++i) {
-    const auto words = lines.Next();
-    if (words.empty()) {
-      return lines.Wrong("it ends after " + std::to_string(i) + " of " + std::to_string(*count) +
-                         " triangles");
-    }
+  const auto read = lines.ReadRecords("triangles", [&](const auto& words) -> vm::Result<void> {
     LnkFile::Triangle triangle{};
     PointName own;
-    int index = 0;
-    bool good = words.size() == 9 && NumberLines::Whole(words[0], index) &&
-                NumberLines::Name(words[1], words[2], own);
+    bool good = words.size() == 9 && IsWhole(words[0]) && ReadName(words[1], words[2], own);
     for (std::size_t k = 0; good && k < 3; ++k) {
-      good = NumberLines::Name(words[3 + 2 * k], words[4 + 2 * k], triangle.corner[k]);
+      good = ReadName(words[3 + 2 * k], words[4 + 2 * k], triangle.corner[k]);
     }
     if (!good) {
       return lines.Wrong("INDEX GROUP NUMBER and three corners GROUP NUMBER expected, not " +
@@ -147,11 +140,9 @@ vm::Result<LnkFile> ParseLnk(const std::string& name, std::string_view text) {
     }
     triangle.group = own.first;
     file.triangles.push_back(triangle);
-  }
-  if (const auto more = lines.Next(); !more.empty()) {
-    return lines.Wrong("the header announces " + std::to_string(*count) +
-                       " triangles, but more follow");
-  }
+    return {};
+  });
+  if (!read) return std::unexpected(read.error());
   return file;
 }
 

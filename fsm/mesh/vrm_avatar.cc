@@ -10,7 +10,7 @@ namespace {
 using nlohmann::json;
 
 /// Degrees; what is no angle of an eye is left as it was.
-void Take(const json& range, const char* from, const char* to, LookRange& out) {
+void ReadRange(const json& range, const char* from, const char* to, LookRange& out) {
   const double gaze = JsonNumber(range, from, -1), turn = JsonNumber(range, to, -1);
   if (gaze <= 0 || gaze > 360 || turn < 0 || turn > 360) return;
   out = {static_cast<float>(gaze), static_cast<float>(turn)};
@@ -30,7 +30,7 @@ void ReadOld(const json& vrm, VrmAvatar& avatar) {
                                    {"lookAtHorizontalOuter", &avatar.look.outer},
                                    {"lookAtVerticalDown", &avatar.look.down},
                                    {"lookAtVerticalUp", &avatar.look.up}}) {
-    Take(JsonMember(person, key), "xRange", "yRange", *range);
+    ReadRange(JsonMember(person, key), "xRange", "yRange", *range);
   }
   for (const json& group : JsonMember(JsonMember(vrm, "blendShapeMaster"), "blendShapeGroups")) {
     VrmAvatar::Expression expression{JsonText(group, "presetName"), {}};
@@ -56,7 +56,7 @@ void ReadNew(const GltfDocument& document, const json& vrm, VrmAvatar& avatar) {
                                    {"rangeMapHorizontalOuter", &avatar.look.outer},
                                    {"rangeMapVerticalDown", &avatar.look.down},
                                    {"rangeMapVerticalUp", &avatar.look.up}}) {
-    Take(JsonMember(look, key), "inputMaxValue", "outputScale", *range);
+    ReadRange(JsonMember(look, key), "inputMaxValue", "outputScale", *range);
   }
   for (const char* kind : {"preset", "custom"}) {
     const json& given = JsonMember(JsonMember(vrm, "expressions"), kind);

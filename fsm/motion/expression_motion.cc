@@ -142,7 +142,7 @@ void ExpressionMotion::Forget(std::string_view name) {
 
 void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   Sided<std::array<ActionUnits, kRegions>> now;
-  frame.Give("expression", shown_.At(t));
+  frame.AddSignal("expression", shown_.At(t));
   ActionUnits& out = frame.Layer("expression").units;
   for (const Side side : kSides) {
     std::size_t size = 0;
@@ -160,7 +160,7 @@ void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   for (std::size_t i = 0; i < emotions_.size(); ++i) {
     const float weight = emotions_[i].At(t);
     if (weight == 0) continue;
-    frame.Give("expression", std::min(1.0F, weight));
+    frame.AddSignal("expression", std::min(1.0F, weight));
     const auto found = tables_.emotions.find(tables_.units.emotions[i]);
     if (found == tables_.emotions.end()) continue;
     AddTo(frame.Layer("emotions").units, found->second.patterns[0], weight);

@@ -137,7 +137,7 @@ void EyeMotion::Contribute(vm::Time t, MotionFrame& frame) const {
     layer.head[i] = head[i];
   }
   layer.lids_shut = static_cast<float>(LidsShutAt(t));
-  frame.Give("at_user", on_user_.At(t));
+  frame.AddSignal("at_user", on_user_.At(t));
 }
 
 vm::Time EyeMotion::BlinksEnd(vm::Time t) const {

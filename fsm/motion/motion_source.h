@@ -39,7 +39,9 @@ class MotionFrame {
     return found != layers_.end() ? found->second
                                   : layers_.emplace_back(name, MotionLayer{}).second;
   }
-  void Give(std::string_view signal, double value01) { signals_.emplace_back(signal, value01); }
+  void AddSignal(std::string_view signal, double value01) {
+    signals_.emplace_back(signal, value01);
+  }
 
   using NamedLayer = std::pair<std::string_view, MotionLayer>;
   const std::vector<NamedLayer>& layers() const { return layers_; }

@@ -27,7 +27,8 @@ namespace {
 /// Reads one table after the other and remembers the first thing that went wrong.
 class Loader {
  public:
-  explicit Loader(std::string folder) : folder_(std::move(folder)) {
+  Loader(std::string folder, std::vector<std::string>* files)
+      : folder_(std::move(folder)), files_(files) {
     std::error_code code;
     if (!folder_.empty() && !std::filesystem::is_directory(folder_, code)) {
       error_ = vm::Error{vm::Errc::kUnavailable, "'" + folder_ + "' is not a folder of tables"};
@@ -38,6 +39,7 @@ class Loader {
   template <typename T, typename Read, typename... Others>
   void Get(T& out, const std::string& file, std::string_view built_in, const Read& read,
            Others&... others) {
+    if (files_ != nullptr) files_->push_back(file);
     if (error_) return;
     const std::string path = folder_.empty() ? file : folder_ + "/" + file;
     std::string text(built_in);
@@ -61,6 +63,7 @@ class Loader {
 
  private:
   std::string folder_;
+  std::vector<std::string>* files_;
   std::optional<vm::Error> error_;
 };
 
@@ -89,9 +92,10 @@ void LoadMouth(Loader& loader, MotionTables& out) {
 
 }  // namespace
 
-vm::Result<MotionTables> MotionTables::Load(const std::string& folder) {
+vm::Result<MotionTables> MotionTables::Load(const std::string& folder,
+                                            std::vector<std::string>* files) {
   MotionTables out;
-  Loader loader(folder);
+  Loader loader(folder, files);
   LoadMouth(loader, out);
   loader.Get(out.unit_names, "action_unit_names.txt", embedded::action_unit_names(), ReadUnitNames);
   const UnitNames& names = out.unit_names;

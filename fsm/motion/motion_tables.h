@@ -30,7 +30,9 @@ struct MotionTables {
 
   /// The tables the program carries; with a `folder`, each file found there replaces its own.
   /// Errors: kBadValue with file and line; kUnavailable if the folder or a file cannot be read.
-  static vm::Result<MotionTables> Load(const std::string& folder = "");
+  /// `files`: gets the names of what is looked for.
+  static vm::Result<MotionTables> Load(const std::string& folder = "",
+                                       std::vector<std::string>* files = nullptr);
 };
 
 }  // namespace fsm

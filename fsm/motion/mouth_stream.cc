@@ -78,7 +78,7 @@ MouthStream::HeadShare MouthStream::HeadAt(vm::Time t) const {
 void MouthStream::Contribute(vm::Time t, MotionFrame& frame) const {
   if (frames_.empty()) return;
   if (const HeadShare head = HeadAt(t); head.share > 0) {
-    frame.Give("head_taken", head.share);
+    frame.AddSignal("head_taken", head.share);
     MotionLayer& gestures = frame.Layer("stream_gestures");
     gestures.head = head.pose.angles;
     for (const Side side : kSides) {
@@ -88,8 +88,8 @@ void MouthStream::Contribute(vm::Time t, MotionFrame& frame) const {
   }
   const SpokenMouth mouth = MouthAt(t);
   if (mouth.share <= 0) return;
-  frame.Give("speaking", mouth.share);
-  frame.Give("stream_taken", mouth.share);
+  frame.AddSignal("speaking", mouth.share);
+  frame.AddSignal("stream_taken", mouth.share);
   mouth.Contribute(mouth_scale_.At(t), "mouth_stream", frame);
 }
 

@@ -183,7 +183,7 @@ double SpeechMotion::LidsShutAt(vm::Time t) const {
 
 void SpeechMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   const Mouth mouth = MouthAt(t);
-  frame.Give("speaking", mouth.over_emotion);
+  frame.AddSignal("speaking", mouth.over_emotion);
   mouth.Contribute(mouth_scale_.At(t), "speech", frame);
   MotionLayer& gestures = frame.Layer("gestures");
   MoveHeadAndBrows(t, gestures);

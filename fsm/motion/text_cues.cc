@@ -83,7 +83,7 @@ bool IsLetter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80;
 }
 
-bool Holds(std::string_view sentence, std::string_view phrase) {
+bool ContainsPhrase(std::string_view sentence, std::string_view phrase) {
   const bool words = IsLetter(phrase.front()) && static_cast<unsigned char>(phrase.front()) < 0x80;
   for (std::size_t at = sentence.find(phrase); at != std::string_view::npos;
        at = sentence.find(phrase, at + 1)) {
@@ -182,7 +182,7 @@ std::vector<TimedLook> LooksOf(const TextCues& cues, std::string_view text,
     std::vector<bool> seen(cues.looks.size());
     for (const TextCues::Cue& cue : cues.cues) {
       const bool here = std::ranges::any_of(
-          cue.phrases, [&](const std::string& phrase) { return Holds(sentence, phrase); });
+          cue.phrases, [&](const std::string& phrase) { return ContainsPhrase(sentence, phrase); });
       if (!here || seen[cue.look]) continue;
       seen[cue.look] = true;
       const TextLook& look = cues.looks[cue.look];

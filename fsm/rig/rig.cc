@@ -53,7 +53,7 @@ struct Rig::Frame {
 struct Rig::StepEntry {
   RigStep step;
   std::string_view name;
-  void (*take)(const Rig&, Frame&);
+  void (*run)(const Rig&, Frame&);
 };
 
 constexpr Rig::StepEntry Rig::kSteps[] = {
@@ -116,7 +116,7 @@ void Rig::Evaluate(const FaceState& state, HeadVertices& out,
   out.position = data_.Start();
   out.normal = data_.rest_normal;
   Frame frame{state, PoseOf(state), out.position, out.normal, swings};
-  for (const RigStep step : data_.steps) EntryOf(step).take(*this, frame);
+  for (const RigStep step : data_.steps) EntryOf(step).run(*this, frame);
   FindMarks(frame.pose, out);
 }
 
@@ -144,7 +144,7 @@ MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
   Frame frame{state, PoseOf(state), position, {}};
   for (const RigStep step : data_.steps) {
     if (step == RigStep::kTongue || step == RigStep::kBones) break;
-    EntryOf(step).take(*this, frame);
+    EntryOf(step).run(*this, frame);
   }
   const auto [upper, lower, left, right] = *data_.lips.measured;
   return {.gap_mm = std::max(0.0f, position[upper].y - position[lower].y),

@@ -90,7 +90,7 @@ TEST(MixerTest, ALayerIsWeighedBySignalsAndLimitedByItsChannel) {
   EXPECT_FLOAT_EQ(quiet.blink.left, 0.7f) << "the greatest";
   EXPECT_FLOAT_EQ(quiet.au.left[12], 2) << "the limit";
   EXPECT_FLOAT_EQ(quiet.au.left[1], 1);
-  frame.Give("loud", 1);
+  frame.AddSignal("loud", 1);
   mixer->Mix(frame, units, loud);
   EXPECT_FLOAT_EQ(loud.head_rotation[0], 3);
   EXPECT_FLOAT_EQ(loud.au.left[1], 0);
