@@ -25,7 +25,8 @@ usage: scripts/run_agent.sh [options]     (installed: galatea-agent [options])
                      moves with it (docs/vdm.md):
                      a film, agent.mp4 without --out
   --voice mic        it speaks with the microphone, until end of input (^D)
-  --out FILE.mp4     make a film with sound instead of opening a window
+  --out FILE.mp4     make a film with sound instead of opening a window; FILE.mov (ProRes) and FILE.webm (VP9) are
+                     transparent beside the agent
   --subtitles        with --dialog and --out: show what both say in the film; FILE.srt and FILE.vtt
                      lie beside it in any case
   --photo PHOTO      wear the face of the person in PHOTO (docs/photo.md)
@@ -95,7 +96,8 @@ while [ $# -gt 0 ]; do
   esac
 done
 case $say in *$'\n'*) say=${say//$'\n'/ } ;; esac
-case $out in "" | *.mp4) ;; *) fail "--out '$out': expected a name that ends in .mp4" ;; esac
+case $out in "" | *.mp4 | *.mov | *.webm) ;; *) fail "--out '$out': expected a name that ends in .mp4, .mov or .webm" ;; esac
+case $subtitles$out in 1*.mov | 1*.webm) fail "--subtitles are put into .mp4 only; FILE.srt lies beside the film" ;; esac
 [ -z "$out" ] || [ -d "$(dirname "$out")" ] || fail "--out: there is no folder '$(dirname "$out")'"
 [ -z "$out" ] || [ -w "$(dirname "$out")" ] || fail "--out: the folder '$(dirname "$out")' cannot be written to"
 [ -z "$photo" ] || [ -r "$photo" ] || fail "--photo: cannot read '$photo'"
@@ -198,6 +200,9 @@ cleanup() {
   rm -rf "$work"
 }
 trap cleanup EXIT
+
+# Beside the agent such films show nothing.
+clear_background() { case $out in *.mov | *.webm) echo "to @FSM set Background = transparent" ;; esac; }
 
 # Runs the hub on a script until the film is there, and tells a terminal meanwhile how long it has taken.
 draw() {
@@ -312,6 +317,7 @@ if [ -n "$heard" ]; then
   # time with the mouth. Lips that are 40 ms ahead of the sound look natural, as with a text.
   ffmpeg -loglevel error -y -i "$heard" -af "adelay=500:all=1" "$work/sound.wav" </dev/null || fail "--voice: '$heard' is no sound ffmpeg reads"
   {
+    clear_background
     echo "to @VDM set Head.auto = ON"
     echo "to @VDM set Delay = 160"
     echo "to @VDM set#input Input = wav:$heard"
@@ -338,6 +344,7 @@ fi
 if [ -n "$say" ]; then
   # One script for both ways: the film is made on the virtual clock, the window lives on the real one.
   {
+    clear_background
     [ -z "$film" ] || echo "to @AM-MCL set Record = $out"
     echo "to @FSM set FaceExp.onset = NATURAL"
     [ -z "$film" ] && echo "set Wait = 600" || echo "set Wait = 300"
@@ -364,6 +371,7 @@ fi
 if [ -n "$chat" ] && [ -n "$film" ]; then
   # A film of a conversation: on the virtual clock, each line of the user's when the one before has been answered.
   {
+    clear_background
     echo "to @AM-MCL set Record = $out"
     echo "to @FSM set FaceExp.onset = NATURAL"
     echo "to @SRM set Input.wordtime = 250"
@@ -389,6 +397,7 @@ fi
 # A conversation or a dialogue: the hub in the background, what the user types at as one of its clients.
 printf '%s' "$(sed -e "0,/{/s#{#{\"listen\": [{\"at\": \"unix:$work/hub\", \"role\": \"owner\"}],#" "$config")" >"$work/dialogue.json"
 {
+  clear_background
   echo "to @FSM set FaceExp.onset = NATURAL"
   [ -z "$chat" ] || [ -z "$language" ] || echo "to @CHAT set Language = $language"
 } >"$work/first"
