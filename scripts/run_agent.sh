@@ -18,6 +18,8 @@ usage: scripts/run_agent.sh [options]     (installed: galatea-agent [options])
                      at URL (any OpenAI-compatible endpoint)
   --model NAME       its name there
   --key-file FILE    its key: the first line of a file only you can read
+  --gateway [PORT]   beside the conversation or dialogue, serve the agent's voice and mouth to other programs: POST
+                     /v1/audio/speech as OpenAI's API has it, lips over a WebSocket (docs/gateway.md). Port 8090 without one
   --dialog DOC.vxml  run a VoiceXML dialogue (docs/dialogs.md); what you type is what you say
   --script FILE      with --dialog or --chat: take the user's part from FILE instead of the keyboard; by default
                      DOC.txt beside DOC.vxml where a film is made
@@ -51,7 +53,7 @@ else
   installed="" bin=$root/build/bin data=$root
 fi
 photo="" say="" emotion="" out="" config="" voice=ssm dialog="" script="" subtitles="" heard="" chat="" web="" model_url="" model="" key_file=""
-mask="" keep_face="" size="" speaker="" language=""
+gateway="" mask="" keep_face="" size="" speaker="" language=""
 started_in=$PWD
 fail() {
   echo "run_agent: $1" >&2
@@ -87,6 +89,11 @@ while [ $# -gt 0 ]; do
     --web)
       web=8080
       if [[ ${2:-} =~ ^[0-9]+$ ]]; then web=$2; shift; fi
+      shift
+      ;;
+    --gateway)
+      gateway=8090
+      if [[ ${2:-} =~ ^[0-9]+$ ]]; then gateway=$2; shift; fi
       shift
       ;;
     --stub) voice=ssm_stub; shift ;;
@@ -127,6 +134,8 @@ lends=""
 [ -z "$script" ] || [ -n "$dialog$chat" ] || fail "--script needs --dialog or --chat"
 [ -z "$chat" ] || [ -n "$script" ] || [ -z "$out" ] || fail "--out with --chat needs the user's part: --script FILE"
 [ -z "$web" ] || [ -z "$say$heard$out$script" ] || fail "--web excludes --say, --voice, --out and --script"
+[ -z "$gateway" ] || [ -z "$say$heard$out" ] || fail "--gateway excludes --say, --voice and --out"
+[ -z "$gateway" ] || [ "$gateway" -le 65535 ] || fail "--gateway '$gateway': expected a port, up to 65535"
 [ -z "$web" ] || [ "$web" -le 65535 ] || fail "--web '$web': expected a port, up to 65535"
 if [ -n "$subtitles" ] && { [ -z "$dialog" ] || [ -z "$out" ]; }; then fail "--subtitles needs --dialog and --out"; fi
 [ -z "$heard" ] || [ -z "$say$dialog" ] || fail "--voice excludes --say and --dialog"
@@ -194,9 +203,12 @@ else
 fi
 
 work=$(mktemp -d)
-hub=""
+hub="" gateway_program=""
 cleanup() {
-  if [ -n "$hub" ]; then kill "$hub" 2>/dev/null || true; wait "$hub" 2>/dev/null || true; fi
+  for program in $hub $gateway_program; do
+    kill "$program" 2>/dev/null || true
+    wait "$program" 2>/dev/null || true
+  done
   rm -rf "$work"
 }
 trap cleanup EXIT
@@ -405,6 +417,18 @@ printf '%s' "$(sed -e "0,/{/s#{#{\"listen\": [{\"at\": \"unix:$work/hub\", \"rol
 hub=$!
 for _ in $(seq 100); do [ -S "$work/hub" ] && break; sleep 0.05; done
 [ -S "$work/hub" ] || { cat "$work/hub.log" >&2; fail "the hub did not start"; }
+if [ -n "$gateway" ]; then
+  # A voice of its own, so that what other programs have it say is not heard here.
+  "$bin/gateway" --at "tcp:127.0.0.1:$gateway" \
+    --voice "$bin/$voice" --sink null --clock virtual ${speaker:+--speaker "$speaker"} >"$work/gateway" &
+  gateway_program=$!
+  for _ in $(seq 100); do [ -s "$work/gateway" ] && break; sleep 0.05; done
+  [ -s "$work/gateway" ] || fail "the gateway did not start"
+  address=$(cat "$work/gateway")
+  echo "run_agent: lips at $address"
+  address=${address/#ws:/http:}
+  echo "run_agent: speech at ${address/v1\/mouth/v1/audio/speech}"
+fi
 if [ -n "$web" ]; then
   address=$(grep -o 'http://[^ ]*' "$work/hub.log" | head -n 1)
   echo "run_agent: talk with it at $address"
