@@ -1,11 +1,14 @@
 // The gateway: options, the network, a voice of its own, and the server over them.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <boost/asio/signal_set.hpp>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 
 #include "agent_manager/web/page_token.h"
 #include "gateway/web/gateway_server.h"
@@ -97,7 +100,13 @@ int main(int argc, char** argv) {
   app.add_flag("--no-voice", options.no_voice, "Without /v1/audio/speech");
   app.add_option("--speech-seconds", options.limit_s, "How long a text may take (60)")
       ->check(CLI::Range(1, 600));
-  CLI11_PARSE(app, argc, argv);
+  // The words behind --voice are the module's, also those that look like options of ours.
+  const auto words = std::span(argv, static_cast<std::size_t>(argc));
+  const auto voice = std::ranges::find_if(
+      words, [](const char* word) { return word == std::string_view("--voice"); });
+  if (words.end() - voice > 1) options.voice.assign(voice + 1, words.end());
+  CLI11_PARSE(app, static_cast<int>((options.voice.empty() ? words.end() : voice) - words.begin()),
+              argv);
   try {
     Serve(options);
     return 0;

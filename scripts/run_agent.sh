@@ -18,6 +18,8 @@ usage: scripts/run_agent.sh [options]     (installed: galatea-agent [options])
                      at URL (any OpenAI-compatible endpoint)
   --model NAME       its name there
   --key-file FILE    its key: the first line of a file only you can read
+  --gateway [PORT]   beside the conversation or dialogue, serve the agent's voice and mouth to other programs: POST
+                     /v1/audio/speech as OpenAI's API has it, lips over a WebSocket (docs/gateway.md). Port 8090 without one
   --dialog DOC.vxml  run a VoiceXML dialogue (docs/dialogs.md); what you type is what you say
   --script FILE      with --dialog or --chat: take the user's part from FILE instead of the keyboard; by default
                      DOC.txt beside DOC.vxml where a film is made
@@ -25,7 +27,8 @@ usage: scripts/run_agent.sh [options]     (installed: galatea-agent [options])
                      moves with it (docs/vdm.md):
                      a film, agent.mp4 without --out
   --voice mic        it speaks with the microphone, until end of input (^D)
-  --out FILE.mp4     make a film with sound instead of opening a window
+  --out FILE.mp4     make a film with sound instead of opening a window; FILE.mov (ProRes) and FILE.webm (VP9) are
+                     transparent beside the agent
   --subtitles        with --dialog and --out: show what both say in the film; FILE.srt and FILE.vtt
                      lie beside it in any case
   --photo PHOTO      wear the face of the person in PHOTO (docs/photo.md)
@@ -50,7 +53,7 @@ else
   installed="" bin=$root/build/bin data=$root
 fi
 photo="" say="" emotion="" out="" config="" voice=ssm dialog="" script="" subtitles="" heard="" chat="" web="" model_url="" model="" key_file=""
-mask="" keep_face="" size="" speaker="" language=""
+gateway="" mask="" keep_face="" size="" speaker="" language=""
 started_in=$PWD
 fail() {
   echo "run_agent: $1" >&2
@@ -88,6 +91,11 @@ while [ $# -gt 0 ]; do
       if [[ ${2:-} =~ ^[0-9]+$ ]]; then web=$2; shift; fi
       shift
       ;;
+    --gateway)
+      gateway=8090
+      if [[ ${2:-} =~ ^[0-9]+$ ]]; then gateway=$2; shift; fi
+      shift
+      ;;
     --stub) voice=ssm_stub; shift ;;
     --subtitles) subtitles=1; shift ;;
     --help | -h) usage; exit 0 ;;
@@ -95,7 +103,8 @@ while [ $# -gt 0 ]; do
   esac
 done
 case $say in *$'\n'*) say=${say//$'\n'/ } ;; esac
-case $out in "" | *.mp4) ;; *) fail "--out '$out': expected a name that ends in .mp4" ;; esac
+case $out in "" | *.mp4 | *.mov | *.webm) ;; *) fail "--out '$out': expected a name that ends in .mp4, .mov or .webm" ;; esac
+case $subtitles$out in 1*.mov | 1*.webm) fail "--subtitles are put into .mp4 only; FILE.srt lies beside the film" ;; esac
 [ -z "$out" ] || [ -d "$(dirname "$out")" ] || fail "--out: there is no folder '$(dirname "$out")'"
 [ -z "$out" ] || [ -w "$(dirname "$out")" ] || fail "--out: the folder '$(dirname "$out")' cannot be written to"
 [ -z "$photo" ] || [ -r "$photo" ] || fail "--photo: cannot read '$photo'"
@@ -125,6 +134,8 @@ lends=""
 [ -z "$script" ] || [ -n "$dialog$chat" ] || fail "--script needs --dialog or --chat"
 [ -z "$chat" ] || [ -n "$script" ] || [ -z "$out" ] || fail "--out with --chat needs the user's part: --script FILE"
 [ -z "$web" ] || [ -z "$say$heard$out$script" ] || fail "--web excludes --say, --voice, --out and --script"
+[ -z "$gateway" ] || [ -z "$say$heard$out" ] || fail "--gateway excludes --say, --voice and --out"
+[ -z "$gateway" ] || [ "$gateway" -le 65535 ] || fail "--gateway '$gateway': expected a port, up to 65535"
 [ -z "$web" ] || [ "$web" -le 65535 ] || fail "--web '$web': expected a port, up to 65535"
 if [ -n "$subtitles" ] && { [ -z "$dialog" ] || [ -z "$out" ]; }; then fail "--subtitles needs --dialog and --out"; fi
 [ -z "$heard" ] || [ -z "$say$dialog" ] || fail "--voice excludes --say and --dialog"
@@ -192,12 +203,18 @@ else
 fi
 
 work=$(mktemp -d)
-hub=""
+hub="" gateway_program=""
 cleanup() {
-  if [ -n "$hub" ]; then kill "$hub" 2>/dev/null || true; wait "$hub" 2>/dev/null || true; fi
+  for program in $hub $gateway_program; do
+    kill "$program" 2>/dev/null || true
+    wait "$program" 2>/dev/null || true
+  done
   rm -rf "$work"
 }
 trap cleanup EXIT
+
+# Beside the agent such films show nothing.
+clear_background() { case $out in *.mov | *.webm) echo "to @FSM set Background = transparent" ;; esac; }
 
 # Runs the hub on a script until the film is there, and tells a terminal meanwhile how long it has taken.
 draw() {
@@ -312,6 +329,7 @@ if [ -n "$heard" ]; then
   # time with the mouth. Lips that are 40 ms ahead of the sound look natural, as with a text.
   ffmpeg -loglevel error -y -i "$heard" -af "adelay=500:all=1" "$work/sound.wav" </dev/null || fail "--voice: '$heard' is no sound ffmpeg reads"
   {
+    clear_background
     echo "to @VDM set Head.auto = ON"
     echo "to @VDM set Delay = 160"
     echo "to @VDM set#input Input = wav:$heard"
@@ -338,6 +356,7 @@ fi
 if [ -n "$say" ]; then
   # One script for both ways: the film is made on the virtual clock, the window lives on the real one.
   {
+    clear_background
     [ -z "$film" ] || echo "to @AM-MCL set Record = $out"
     echo "to @FSM set FaceExp.onset = NATURAL"
     [ -z "$film" ] && echo "set Wait = 600" || echo "set Wait = 300"
@@ -364,6 +383,7 @@ fi
 if [ -n "$chat" ] && [ -n "$film" ]; then
   # A film of a conversation: on the virtual clock, each line of the user's when the one before has been answered.
   {
+    clear_background
     echo "to @AM-MCL set Record = $out"
     echo "to @FSM set FaceExp.onset = NATURAL"
     echo "to @SRM set Input.wordtime = 250"
@@ -389,6 +409,7 @@ fi
 # A conversation or a dialogue: the hub in the background, what the user types at as one of its clients.
 printf '%s' "$(sed -e "0,/{/s#{#{\"listen\": [{\"at\": \"unix:$work/hub\", \"role\": \"owner\"}],#" "$config")" >"$work/dialogue.json"
 {
+  clear_background
   echo "to @FSM set FaceExp.onset = NATURAL"
   [ -z "$chat" ] || [ -z "$language" ] || echo "to @CHAT set Language = $language"
 } >"$work/first"
@@ -396,6 +417,18 @@ printf '%s' "$(sed -e "0,/{/s#{#{\"listen\": [{\"at\": \"unix:$work/hub\", \"rol
 hub=$!
 for _ in $(seq 100); do [ -S "$work/hub" ] && break; sleep 0.05; done
 [ -S "$work/hub" ] || { cat "$work/hub.log" >&2; fail "the hub did not start"; }
+if [ -n "$gateway" ]; then
+  # A voice of its own, so that what other programs have it say is not heard here.
+  "$bin/gateway" --at "tcp:127.0.0.1:$gateway" \
+    --voice "$bin/$voice" --sink null --clock virtual ${speaker:+--speaker "$speaker"} >"$work/gateway" &
+  gateway_program=$!
+  for _ in $(seq 100); do [ -s "$work/gateway" ] && break; sleep 0.05; done
+  [ -s "$work/gateway" ] || fail "the gateway did not start"
+  address=$(cat "$work/gateway")
+  echo "run_agent: lips at $address"
+  address=${address/#ws:/http:}
+  echo "run_agent: speech at ${address/v1\/mouth/v1/audio/speech}"
+fi
 if [ -n "$web" ]; then
   address=$(grep -o 'http://[^ ]*' "$work/hub.log" | head -n 1)
   echo "run_agent: talk with it at $address"

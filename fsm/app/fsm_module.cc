@@ -171,8 +171,9 @@ void FsmModule::DeclareRecording() {
        .grammar = "STOP | <file>",
        .initial = "STOP",
        .help =
-           "Records a film from now on, .mp4, or .rgba: width * height * 4 bytes a frame, into a "
-           "file or a named pipe that is being read. STOP ends it, and answers when it is there.",
+           "Records a film from now on: .mp4; .mov or .webm, which keep what is transparent; or "
+           ".rgba, width * height * 4 bytes a frame, into a file or a named pipe that is being "
+           "read. STOP ends it, and answers when it is there.",
        .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
          if (value.word(0) == "STOP") return StopFilm();
          const int rate = std::stoi(core_.slots.Value("Record.fps"));

@@ -38,42 +38,91 @@ void Append(Words& words, std::initializer_list<std::string> more) {
 /// Quiet, asking nothing, and telling nothing about itself in the file.
 Words Opening() { return {"-hide_banner", "-nostdin", "-loglevel", "error", "-y"}; }
 
-void AppendOutput(Words& words, const std::string& path) {
-  Append(words, {"-map_metadata", "-1", "-fflags", "+bitexact", "-movflags", "+faststart", "-f",
-                 "mp4", FileUrl(path)});
+/// A kind of film, told by its name's ending.
+struct FilmKind {
+  std::string_view ending;
+  bool has_alpha;  ///< its pictures keep what is transparent
+  const char* muxer;
+  const char* pixels;    ///< ffmpeg's name of their form
+  Words encoder, sound;  ///< of pictures and of sound
+};
+
+const FilmKind* KindOf(std::string_view path) {
+  static const std::vector<FilmKind> kinds = {
+      {".mp4",
+       false,
+       "mp4",
+       "yuv420p",
+       {"libx264", "-preset", "superfast", "-crf", "18"},
+       {"aac", "-b:a", "160k"}},
+      {".mov", true, "mov", "yuva444p10le", {"prores_ks", "-profile:v", "4444"}, {"pcm_s16le"}},
+      // Frames that VP9 shows later than it codes them would lose their transparency.
+      {".webm",
+       true,
+       "webm",
+       "yuva420p",
+       {"libvpx-vp9", "-deadline", "realtime", "-cpu-used", "6", "-crf", "20", "-b:v", "0",
+        "-auto-alt-ref", "0"},
+       {"libopus", "-b:a", "96k"}},
+  };
+  const auto found = std::ranges::find_if(kinds, [path](const FilmKind& kind) {
+    return path.size() > kind.ending.size() && path.ends_with(kind.ending);
+  });
+  return found == kinds.end() ? nullptr : &*found;
 }
 
-Words EncodeWords(int width, int height, int frames_per_second, const std::string& path) {
+void AppendOutput(Words& words, const FilmKind& kind, const std::string& path) {
+  Append(words, {"-map_metadata", "-1", "-fflags", "+bitexact"});
+  if (std::string_view(kind.muxer) != "webm") Append(words, {"-movflags", "+faststart"});
+  Append(words, {"-f", kind.muxer, FileUrl(path)});
+}
+
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+Words EncodeWords(const FilmKind& kind, int width, int height, int frames_per_second,
+                  const std::string& path) {
   Words words = Opening();
-  // Sides made even, as YuvPlanes packs them.
-  Append(words, {"-f", "rawvideo", "-pixel_format", "yuv420p", "-video_size",
-                 std::to_string(width + width % 2) + "x" + std::to_string(height + height % 2),
-                 "-framerate", std::to_string(frames_per_second), "-i", "pipe:0"});
+  Append(words, {"-f", "rawvideo", "-pixel_format", kind.has_alpha ? "rgba" : "yuv420p"});
+  // Sides are made even: by YuvPlanes, or, where the pictures go as they are, by ffmpeg.
+  Append(words, {"-video_size", kind.has_alpha ? SizeText(width, height)
+                                               : SizeText(width + width % 2, height + height % 2)});
+  Append(words, {"-framerate", std::to_string(frames_per_second), "-i", "pipe:0"});
+  if (kind.has_alpha) {
+    Append(words, {"-vf",
+                   "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=black@0,"
+                   "scale=out_color_matrix=bt709:out_range=tv,format=" +
+                       std::string(kind.pixels)});
+  }
   // The numbers of the HD standard are named in the file; players guess differently where they are
   // left out, and skin turns orange or green.
   Append(words, {"-an", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
-                 "-color_range", "tv"});
-  Append(words,
-         {"-c:v", "libx264", "-preset", "superfast", "-crf", "18", "-pix_fmt", "yuv420p", "-g",
-          std::to_string(frames_per_second * 2), "-threads", "1", "-flags:v", "+bitexact"});
-  AppendOutput(words, path);
+                 "-color_range", "tv", "-c:v"});
+  words.insert(words.end(), kind.encoder.begin(), kind.encoder.end());
+  Append(words, {"-pix_fmt", kind.pixels, "-g", std::to_string(frames_per_second * 2), "-threads",
+                 "1", "-flags:v", "+bitexact"});
+  AppendOutput(words, kind, path);
   return words;
 }
 
-Words SoundWords(const std::string& film, const std::string& sound, const std::string& path) {
+Words SoundWords(const FilmKind& kind, const std::string& film, const std::string& sound,
+                 const std::string& path) {
   Words words = Opening();
-  Append(words,
-         {"-i", FileUrl(film), "-i", FileUrl(sound), "-map", "0:v:0", "-map", "1:a:0", "-c:v",
-          "copy", "-c:a", "aac", "-b:a", "160k", "-threads", "1", "-flags:a", "+bitexact"});
-  AppendOutput(words, path);
+  Append(words, {"-i", FileUrl(film), "-i", FileUrl(sound), "-map", "0:v:0", "-map", "1:a:0",
+                 "-c:v", "copy", "-c:a"});
+  words.insert(words.end(), kind.sound.begin(), kind.sound.end());
+  Append(words, {"-threads", "1", "-flags:a", "+bitexact"});
+  AppendOutput(words, kind, path);
   return words;
 }
 
 class FfmpegMovieWriter : public MovieWriter {
  public:
-  FfmpegMovieWriter(std::string path, std::string draft, int width, int height,
-                    std::unique_ptr<FfmpegProcess> ffmpeg)
-      : path_(std::move(path)),
+  FfmpegMovieWriter(const FilmKind& kind, std::string path, std::string draft, int width,
+                    int height, std::unique_ptr<FfmpegProcess> ffmpeg)
+      : kind_(kind),
+        path_(std::move(path)),
         draft_(std::move(draft)),
         width_(width),
         height_(height),
@@ -92,9 +141,13 @@ class FfmpegMovieWriter : public MovieWriter {
     assert(frame.rgba.size() ==
            static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
     if (!ffmpeg_) return vm::Fail(vm::Errc::kUnavailable, "the film '" + path_ + "' has ended");
-    auto planes = feeder_->TakeSpare();
-    YuvPlanes(frame, planes);
-    if (auto added = feeder_->Add(std::move(planes)); !added) {
+    auto bytes = feeder_->TakeSpare();
+    if (kind_.has_alpha) {
+      bytes.assign(frame.rgba.begin(), frame.rgba.end());
+    } else {
+      YuvPlanes(frame, bytes);
+    }
+    if (auto added = feeder_->Add(std::move(bytes)); !added) {
       return Fault(std::move(added.error()));
     }
     ++frames_;
@@ -126,7 +179,7 @@ class FfmpegMovieWriter : public MovieWriter {
     vm::Result<void> done = vm::CheckReadable(sound);
     if (done) done = vm::CheckWritable(with_sound);
     if (done) {
-      auto ffmpeg = FfmpegProcess::Start(SoundWords(draft_, sound, with_sound));
+      auto ffmpeg = FfmpegProcess::Start(SoundWords(kind_, draft_, sound, with_sound));
       done = ffmpeg ? (*ffmpeg)->Finish() : std::unexpected(ffmpeg.error());
     }
     if (done && rename(with_sound.c_str(), draft_.c_str()) == 0) return {};
@@ -143,6 +196,7 @@ class FfmpegMovieWriter : public MovieWriter {
     return std::unexpected(std::move(error));
   }
 
+  const FilmKind& kind_;  // of a table that stays
   std::string path_;
   std::string draft_;  // empty once moved to the path
   int width_;
@@ -234,18 +288,18 @@ vm::Result<std::string> MakeDraft(const std::string& path) {
   }
 }
 
-bool EndsIn(const std::string& path, std::string_view ending) {
-  return path.size() > ending.size() && path.ends_with(ending);
-}
-
 }  // namespace
 
 vm::Result<std::unique_ptr<MovieWriter>> MovieWriter::Open(const std::string& path, int width,
                                                            int height, int frames_per_second) {
-  const bool raw = EndsIn(path, ".rgba");
-  if (!raw && !EndsIn(path, ".mp4")) {
+  constexpr std::string_view kRaw = ".rgba";
+  const bool raw = path.size() > kRaw.size() && path.ends_with(kRaw);
+  const FilmKind* const kind = KindOf(path);
+  if (!raw && kind == nullptr) {
     return vm::Fail(vm::Errc::kBadValue,
-                    "'" + path + "' is no film's name: it must end in .mp4 (or .rgba, raw frames)");
+                    "'" + path +
+                        "' is no film's name: it must end in .mp4, or, to keep what is "
+                        "transparent, .mov or .webm (or .rgba, raw frames)");
   }
   if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide ||
       frames_per_second < 1 || frames_per_second > kMaxFramesPerSecond) {
@@ -257,14 +311,13 @@ vm::Result<std::unique_ptr<MovieWriter>> MovieWriter::Open(const std::string& pa
   if (auto fit = vm::CheckWritable(path); !fit) return std::unexpected(std::move(fit.error()));
   auto draft = MakeDraft(path);
   if (!draft) return std::unexpected(std::move(draft.error()));
-  auto ffmpeg = FfmpegProcess::Start(
-      EncodeWords(width + width % 2, height + height % 2, frames_per_second, *draft));
+  auto ffmpeg = FfmpegProcess::Start(EncodeWords(*kind, width, height, frames_per_second, *draft));
   if (!ffmpeg) {
     unlink(draft->c_str());
     return vm::Fail(vm::Errc::kUnavailable,
                     "cannot make the film '" + path + "': " + ffmpeg.error().text);
   }
-  return std::make_unique<FfmpegMovieWriter>(path, *std::move(draft), width, height,
+  return std::make_unique<FfmpegMovieWriter>(*kind, path, *std::move(draft), width, height,
                                              *std::move(ffmpeg));
 }
 

@@ -13,7 +13,8 @@ namespace fsm {
 /// Deterministic: the same frames give the same bytes (no time stamps, one encoder thread).
 class MovieWriter {
  public:
-  /// .mp4 (H.264, yuv420p), or .rgba: every frame's width * height * 4 bytes one after the other,
+  /// .mp4 (H.264, yuv420p); .mov (ProRes 4444) or .webm (VP9), which keep what is transparent; or
+  /// .rgba: every frame's width * height * 4 bytes one after the other,
   /// into a file or a named pipe that somebody reads (SIGPIPE must be ignored). Error: kUnavailable
   /// if ffmpeg is missing or refuses, with its last line.
   static vm::Result<std::unique_ptr<MovieWriter>> Open(const std::string& path, int width,

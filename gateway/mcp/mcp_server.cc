@@ -43,6 +43,11 @@ std::optional<std::string> ValueText(const json& value) {
 
 }  // namespace
 
+struct McpServer::Question {
+  json id;
+  Say say;
+};
+
 struct McpServer::Discovery {
   std::size_t open = 0;   // questions
   std::size_t slots = 0;  // asked about
@@ -68,42 +73,52 @@ vm::Result<McpServer::Allowed> ParseAllowed(std::string_view text) {
 McpServer::McpServer(std::vector<Allowed> allowed, Hooks hooks)
     : allowed_(std::move(allowed)), hooks_(std::move(hooks)) {}
 
-void McpServer::Handle(std::string_view text) {
+bool McpServer::Speaks(std::string_view revision) {
+  return std::ranges::find(kRevisions, revision) != std::end(kRevisions);
+}
+
+bool McpServer::Handle(std::string_view text, Say say) {
+  const auto refuse = [&say](int code, const std::string& why) {
+    Error(std::make_shared<Question>(Question{nullptr, std::move(say)}), code, why);
+    return true;
+  };
   const auto message = vm::ParseAnswer(text);
-  if (!message) return Error(nullptr, kParseError, "no JSON, or nested too deep");
+  if (!message) return refuse(kParseError, "no JSON, or nested too deep");
   const auto id = message->is_object() ? message->find("id") : message->end();
   const bool asks = message->is_object() && id != message->end();
   if (!message->is_object() || vm::TextAt(*message, "jsonrpc") != "2.0" ||
       (asks && !id->is_string() && !id->is_number_integer())) {
-    return Error(nullptr, kInvalidRequest,
-                 "expected one object {\"jsonrpc\": \"2.0\", \"id\", \"method\", \"params\"}");
+    return refuse(kInvalidRequest,
+                  "expected one object {\"jsonrpc\": \"2.0\", \"id\", \"method\", \"params\"}");
   }
-  if (!message->contains("method")) return;  // an answer; we ask nothing
-  const std::string method = vm::TextAt(*message, "method");
-  if (!asks) return;  // notifications: initialized, cancelled
+  // An answer, though we ask nothing; or a notification: initialized, cancelled.
+  if (!message->contains("method") || !asks) return false;
   const auto params = message->find("params");
-  Request(*id, method, params != message->end() && params->is_object() ? *params : json::object());
+  Request(std::make_shared<Question>(Question{*id, std::move(say)}), vm::TextAt(*message, "method"),
+          params != message->end() && params->is_object() ? *params : json::object());
+  return true;
 }
 
-void McpServer::Request(const json& id, const std::string& method, const json& params) {
-  if (method == "initialize") return Initialize(id, params);
-  if (method == "ping") return Result(id, json::object());
+void McpServer::Request(const QuestionPtr& question, const std::string& method,
+                        const json& params) {
+  if (method == "initialize") return Initialize(question, params);
+  if (method == "ping") return Result(question, json::object());
   if (method == "tools/list") {
-    return Discover([this, id] { List(id); });
+    return Discover([this, question] { List(question); });
   }
   if (method == "tools/call") {
     if (calls_ >= kMaxRunning) {
-      return Error(id, kBusy, std::to_string(kMaxRunning) + " calls are running already");
+      return Error(question, kBusy, std::to_string(kMaxRunning) + " calls are running already");
     }
-    return Call(id, params);
+    return Call(question, params);
   }
-  Error(id, kNoMethod, "there is no method '" + vm::ShownAnswer(method) + "'");
+  Error(question, kNoMethod, "there is no method '" + vm::ShownAnswer(method) + "'");
 }
 
-void McpServer::Initialize(const json& id, const json& params) {
+void McpServer::Initialize(const QuestionPtr& question, const json& params) {
   const std::string wanted = vm::TextAt(params, "protocolVersion");
-  const bool known = std::ranges::find(kRevisions, wanted) != std::end(kRevisions);
-  Result(id,
+  const bool known = Speaks(wanted);
+  Result(question,
          {{"protocolVersion", known ? wanted : kRevisions[0]},
           {"capabilities", {{"tools", json::object()}}},
           {"serverInfo", {{"name", "galatea"}, {"title", "Galatea"}, {"version", GALATEA_VERSION}}},
@@ -112,47 +127,49 @@ void McpServer::Initialize(const json& id, const json& params) {
            "description, in the words of the module that has it."}});
 }
 
-void McpServer::List(const json& id) {
+void McpServer::List(const QuestionPtr& question) {
   json tools = json::array();
   for (const auto& [name, tool] : tools_) tools.push_back(tool.Description());
-  Result(id, {{"tools", std::move(tools)}});
+  Result(question, {{"tools", std::move(tools)}});
 }
 
-void McpServer::Call(const json& id, const json& params) {
+void McpServer::Call(const QuestionPtr& question, const json& params) {
   const std::string name = vm::TextAt(params, "name");
   if (const auto found = tools_.find(name); found != tools_.end()) {
-    return CallTool(id, found->second, params);
+    return CallTool(question, found->second, params);
   }
   // A client may call what an earlier run of ours has listed.
-  Discover([this, id, name, params] {
+  Discover([this, question, name, params] {
     const auto found = tools_.find(name);
-    if (found != tools_.end()) return CallTool(id, found->second, params);
-    Error(id, kInvalidParams, "there is no tool '" + vm::ShownAnswer(name) + "'");
+    if (found != tools_.end()) return CallTool(question, found->second, params);
+    Error(question, kInvalidParams, "there is no tool '" + vm::ShownAnswer(name) + "'");
   });
 }
 
-void McpServer::CallTool(const json& id, const SlotTool& tool, const json& params) {
+void McpServer::CallTool(const QuestionPtr& question, const SlotTool& tool, const json& params) {
   const auto arguments = params.find("arguments");
   const bool given = arguments != params.end() && arguments->is_object();
   std::optional<std::string> value;
   if (given && arguments->contains("value")) {
     value = ValueText((*arguments)["value"]);
-    if (!value) return Error(id, kInvalidParams, "value: expected a text or a number");
+    if (!value) return Error(question, kInvalidParams, "value: expected a text or a number");
   }
-  if (!value && !tool.readable) return Error(id, kInvalidParams, "value: expected, it is missing");
+  if (!value && !tool.readable)
+    return Error(question, kInvalidParams, "value: expected, it is missing");
   if (value && !tool.writable) {
-    return Error(id, kInvalidParams, "value: found, but the slot can only be asked");
+    return Error(question, kInvalidParams, "value: found, but the slot can only be asked");
   }
   vm::Message message = value ? vm::Set(tool.slot, *value) : vm::Inq(tool.slot);
   message.to = {tool.module};
   if (!vm::IsValid(message)) {
-    return Error(id, kInvalidParams, "value: expected one line of at most 60 KiB");
+    return Error(question, kInvalidParams, "value: expected one line of at most 60 KiB");
   }
   ++calls_;
-  Ask(std::move(message), [this, id](vm::Result<std::string> answer) {
+  Ask(std::move(message), [this, question](vm::Result<std::string> answer) {
     --calls_;
     // What a module refuses is for the model to read and mend, not an error of the protocol.
-    Result(id, answer ? ToolText(*answer, false) : ToolText(vm::FormatError(answer.error()), true));
+    Result(question,
+           answer ? ToolText(*answer, false) : ToolText(vm::FormatError(answer.error()), true));
   });
 }
 
@@ -219,15 +236,15 @@ void McpServer::Answered(const std::shared_ptr<Discovery>& discovery) {
   for (const auto& next : discovery->next) next();
 }
 
-void McpServer::Result(const json& id, json result) {
-  hooks_.say(json{{"jsonrpc", "2.0"}, {"id", id}, {"result", std::move(result)}}.dump(
+void McpServer::Result(const QuestionPtr& question, json result) {
+  question->say(json{{"jsonrpc", "2.0"}, {"id", question->id}, {"result", std::move(result)}}.dump(
       -1, ' ', false, json::error_handler_t::replace));
 }
 
-void McpServer::Error(const json& id, int code, const std::string& text) {
-  hooks_.say(
-      json{{"jsonrpc", "2.0"}, {"id", id}, {"error", {{"code", code}, {"message", text}}}}.dump(
-          -1, ' ', false, json::error_handler_t::replace));
+void McpServer::Error(const QuestionPtr& question, int code, const std::string& text) {
+  question->say(
+      json{{"jsonrpc", "2.0"}, {"id", question->id}, {"error", {{"code", code}, {"message", text}}}}
+          .dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 }  // namespace gateway

@@ -25,11 +25,11 @@ class McpServer {
   static constexpr std::size_t kMaxTools = 256;
   static constexpr std::size_t kMaxRunning = 32;
   using OnAnswer = std::function<void(vm::Result<std::string> value)>;
+  /// Takes one message for the client.
+  using Say = std::function<void(const std::string& message)>;
   struct Hooks {
     /// Asks a module; answered once, later, within a time limit of the caller's.
     std::function<void(vm::Message message, OnAnswer on_answer)> ask;
-    /// Says one message to the client.
-    std::function<void(const std::string& message)> say;
   };
   struct Allowed {
     std::string module, slot;  ///< the module's name is no pattern
@@ -38,20 +38,26 @@ class McpServer {
   ~McpServer() { *alive_ = false; }
   McpServer(const McpServer&) = delete;
 
-  /// One message of the client's. Whatever it is, it is answered, if it asks for an answer.
-  void Handle(std::string_view message);
+  /// Whether that revision of the protocol is spoken.
+  static bool Speaks(std::string_view revision);
+  /// One message of a client's. True: it asks for an answer, which `say` gets once, now or later.
+  bool Handle(std::string_view message, Say say);
   /// Calls and questions that are not answered yet.
   std::size_t running() const { return running_; }
 
  private:
   struct Discovery;
-  void Request(const nlohmann::json& id, const std::string& method, const nlohmann::json& params);
-  void Initialize(const nlohmann::json& id, const nlohmann::json& params);
-  void List(const nlohmann::json& id);
-  void Call(const nlohmann::json& id, const nlohmann::json& params);
-  void CallTool(const nlohmann::json& id, const SlotTool& tool, const nlohmann::json& params);
-  void Result(const nlohmann::json& id, nlohmann::json result);
-  void Error(const nlohmann::json& id, int code, const std::string& text);
+  /// A message that asks: its id, and where its answer goes.
+  struct Question;
+  using QuestionPtr = std::shared_ptr<const Question>;
+  void Request(const QuestionPtr& question, const std::string& method,
+               const nlohmann::json& params);
+  static void Initialize(const QuestionPtr& question, const nlohmann::json& params);
+  void List(const QuestionPtr& question);
+  void Call(const QuestionPtr& question, const nlohmann::json& params);
+  void CallTool(const QuestionPtr& question, const SlotTool& tool, const nlohmann::json& params);
+  static void Result(const QuestionPtr& question, nlohmann::json result);
+  static void Error(const QuestionPtr& question, int code, const std::string& text);
   /// Calls `next` once all modules have told of their slots, or have not.
   void Discover(std::function<void()> next);
   void AskModule(const std::shared_ptr<Discovery>& discovery, const std::string& module);

@@ -71,6 +71,20 @@ void VmcModule::Declare() {
          AskFace();
          return value.word(0);
        }});
+  slots_.Declare({.name = "Protocol",
+                  .grammar = "VMC | LIVELINK",
+                  .initial = "VMC",
+                  .help = "LIVELINK: frames are told as the app Live Link Face tells them, to "
+                          "Unreal, which listens at 11111; Names means nothing then.",
+                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                    live_link_ = value.word(0) == "LIVELINK";
+                    Send();
+                    return value.word(0);
+                  }});
+  slots_.Declare({.name = "Subject",
+                  .grammar = "<word>",
+                  .initial = "Galatea",
+                  .help = "The name under which Unreal shows the face (Protocol = LIVELINK)."});
   slots_.Declare(
       {.name = "Names",
        .grammar = "VRM0 | VRM1 | PERFECTSYNC",
@@ -117,7 +131,12 @@ void VmcModule::Declare() {
 
 void VmcModule::Send() {
   if (!last_ || !sending_) return;
-  options_.send(VmcBundle(*last_, FaceWeights::Built(), bundle_));
+  const FaceWeights& weights = FaceWeights::Built();
+  options_.send(live_link_ ? LiveLinkPacket(*last_, weights,
+                                            {.id = options_.id,
+                                             .subject = slots_.Value("Subject"),
+                                             .angles = bundle_.bones})
+                           : VmcBundle(*last_, weights, bundle_));
   ++sent_;
   if (again_timer_ != 0) scheduler_.Cancel(std::exchange(again_timer_, 0));
   if (!options_.real()) return;

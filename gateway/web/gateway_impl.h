@@ -1,30 +1,26 @@
 #pragma once
 
-#include <boost/beast/core/tcp_stream.hpp>
-#include <boost/beast/http.hpp>
-#include <optional>
-
 #include "gateway/face/live_face.h"
 #include "gateway/web/gateway_server.h"
-#include "vm_protocol/runtime/web_door.h"
+#include "gateway/web/http_session.h"
 
 /// What the files of the server share; not for other folders.
 namespace gateway {
 
-struct GatewayServer::Impl {
+struct GatewayServer::Impl : HttpSite {
   Impl(boost::asio::io_context& context, GatewayOptions the_options, const vdm::MouthNet& the_net,
        VoiceWorker* the_voice)
-      : options(std::move(the_options)), net(the_net), voice(the_voice), io(context) {}
+      : HttpSite({the_options.token, the_options.origins}, the_options.on_refusal),
+        options(std::move(the_options)),
+        net(the_net),
+        voice(the_voice),
+        io(context) {}
   const GatewayOptions options;
   const vdm::MouthNet& net;
   VoiceWorker* const voice;
   boost::asio::io_context& io;
-  std::optional<vm::WebDoor> door;
   std::size_t clients = 0;
-  bool closed = false;
 };
-
-using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 
 /// Takes over a connection whose request has shown the token: sound in, weights out, until either
 /// side ends.

@@ -226,6 +226,28 @@ TEST_F(FsmProcessTest, ASheetOfIdentitiesDoesNotShowWhatTheUserHasKept) {
   EXPECT_TRUE(std::filesystem::exists(folder / "all.png"));
 }
 
+TEST_F(FsmProcessTest, AFilmWithoutBackgroundIsTransparentBesideTheHead) {
+  EXPECT_EQ(Run("--headless --size 160x120",
+                "set Background = transparent\nset Record = film.mov\nset Wait = 200\n"
+                "set Record = STOP\n"),
+            0)
+      << err;
+  const std::string command = "ffmpeg -v error -i " + (folder / "film.mov").string() +
+                              " -frames:v 1 -f rawvideo -pix_fmt rgba " +
+                              (folder / "frame.rgba").string();
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string pixels = ReadAll(folder / "frame.rgba");
+  ASSERT_EQ(pixels.size(), 160U * 120 * 4);
+  const auto alpha = [&](std::size_t x, std::size_t y) {
+    return static_cast<unsigned char>(pixels[(y * 160 + x) * 4 + 3]);
+  };
+  for (std::size_t y = 0; y < 120; ++y) {
+    EXPECT_EQ(alpha(2, y), 0) << y;
+    EXPECT_EQ(alpha(157, y), 0) << y;
+  }
+  EXPECT_GE(alpha(80, 60), 254) << "the nose";
+}
+
 TEST_F(FsmProcessTest, AnOutputWithoutASheetIsRefused) {
   EXPECT_NE(Run("--headless --out film.mp4", "inq Run\n"), 0);
   EXPECT_NE(err.find("--out requires --sheet"), std::string::npos) << err;

@@ -133,6 +133,55 @@ TEST_F(MovieTest, ColoursSurvive) {
   }
 }
 
+/// The left half opaque skin, the right half clear.
+Image HalfClear(int width, int height) {
+  Image image{width, height, {}};
+  for (int i = 0; i < width * height; ++i) {
+    const bool clear = i % width >= width / 2;
+    const std::array<std::uint8_t, 4> pixel = clear
+                                                  ? std::array<std::uint8_t, 4>{0, 0, 0, 0}
+                                                  : std::array<std::uint8_t, 4>{224, 172, 140, 255};
+    image.rgba.insert(image.rgba.end(), pixel.begin(), pixel.end());
+  }
+  return image;
+}
+
+TEST_F(MovieTest, MovAndWebmKeepWhatIsTransparent) {
+  const std::string sound = folder_ / "sound.wav";
+  WriteWav(sound, 0.5, 0.1, 0.3);
+  struct Kind {
+    const char* file;
+    const char* decoder;
+    const char* video;
+    const char* audio;
+  };
+  for (const Kind& kind : {Kind{"clear.mov", "prores", "prores,64,48,5", "pcm_s16le"},
+                           // ffmpeg's own decoder of VP9 passes over the transparency.
+                           Kind{"clear.webm", "libvpx-vp9", "vp9,64,48,5", "opus"}}) {
+    const std::string film = folder_ / kind.file;
+    auto movie = MovieWriter::Open(film, 63, 47, kFps);
+    ASSERT_TRUE(movie) << movie.error().text;
+    for (int i = 0; i < 5; ++i) ASSERT_TRUE((*movie)->Add(HalfClear(63, 47)));
+    const auto finished = (*movie)->Finish(sound);
+    ASSERT_TRUE(finished) << finished.error().text;
+    EXPECT_EQ(Probe(film, "v", "codec_name,width,height,nb_read_packets"), kind.video);
+    EXPECT_EQ(Probe(film, "a", "codec_name"), kind.audio);
+    const std::string pixels = OutputOf(
+        "ffmpeg -v error -c:v " + std::string(kind.decoder) + " -i '" + film +
+        "' -f rawvideo -pix_fmt rgba - | tail -c " + std::to_string(64 * 48 * 4) + "; echo .");
+    ASSERT_EQ(pixels.size(), 64U * 48 * 4 + 1) << film;
+    const auto at = [&](int x, int y, int channel) {
+      return static_cast<unsigned char>(
+          pixels[static_cast<std::size_t>((y * 64 + x) * 4 + channel)]);
+    };
+    EXPECT_NEAR(at(8, 20, 0), 224, 6) << film;
+    EXPECT_NEAR(at(8, 20, 2), 140, 6) << film;
+    EXPECT_GE(at(8, 20, 3), 253) << film;
+    EXPECT_LE(at(50, 20, 3), 2) << film;
+    EXPECT_LE(at(63, 47, 3), 2) << film << ": what is added to an odd size";
+  }
+}
+
 TEST_F(MovieTest, SoundStartsWithTheFirstPicture) {
   const std::string sound = folder_ / "sound.wav";
   WriteWav(sound, 1.0, 0.4, 0.6);

@@ -36,6 +36,28 @@ TEST_F(McpProgramTest, AClientOfEitherRevisionHoldsAConversation) {
   }
 }
 
+TEST_F(McpProgramTest, OverHttpTheSameConversationIsHeldAndStrangersAreRefused) {
+  Process mcp({GALATEA_BIN_DIR "/mcp", "--connect", "unix:" + (folder_ / "hub"), "--allow",
+               "@SSM Rate", "--allow", "@SSM Text*", "--http", "tcp:127.0.0.1:0"});
+  const std::string url = mcp.ReadLine().value_or("");
+  ASSERT_TRUE(url.starts_with("http://127.0.0.1:")) << mcp.ErrorText();
+  for (const char* revision : {"2025-11-25", "2025-06-18"}) {
+    Process client({"python3", GALATEA_SOURCE_DIR "/tests/gateway/mcp_client.py", revision, url});
+    client.CloseInput();
+    EXPECT_TRUE(client.Expect("ok")) << client.Seen() << client.ErrorText();
+    EXPECT_EQ(client.Wait(), 0);
+  }
+  mcp.Terminate();
+  EXPECT_EQ(mcp.Wait(), 0) << mcp.ErrorText();
+}
+
+TEST_F(McpProgramTest, HttpForOtherMachinesNeedsATokenOfItsOwn) {
+  Process mcp({GALATEA_BIN_DIR "/mcp", "--connect", "unix:" + (folder_ / "hub"), "--allow",
+               "@SSM Rate", "--http", "tcp:0.0.0.0:0"});
+  EXPECT_EQ(mcp.Wait(), 1);
+  EXPECT_TRUE(mcp.ErrorText().starts_with("mcp: --http: ")) << mcp.ErrorText();
+}
+
 TEST_F(McpProgramTest, WithoutItsHubItEndsWithOneSentence) {
   Process mcp(
       {GALATEA_BIN_DIR "/mcp", "--connect", "unix:" + (folder_ / "hub"), "--allow", "@SSM Rate"});

@@ -83,7 +83,7 @@ class McpServerTest : public testing::Test {
   json Say(const json& message) { return SayText(message.dump()); }
   json SayText(const std::string& text) {
     said_.clear();
-    server_.Handle(text);
+    server_.Handle(text, [this](const std::string& answer) { said_.push_back(answer); });
     return said_.empty() ? json() : json::parse(said_.back());
   }
   json Request(const std::string& method, json params = json::object()) {
@@ -97,9 +97,9 @@ class McpServerTest : public testing::Test {
   bool hold_ = false;
   std::vector<McpServer::OnAnswer> held_;
   McpServer server_{{{"SSM", "Rate"}, {"SSM", "Text*"}},
-                    {.ask = [this](const vm::Message& message,
-                                   const auto& on_answer) { Ask(message, on_answer); },
-                     .say = [this](const std::string& text) { said_.push_back(text); }}};
+                    {.ask = [this](const vm::Message& message, const auto& on_answer) {
+                      Ask(message, on_answer);
+                    }}};
 };
 
 TEST_F(McpServerTest, BothRevisionsAreSpokenAndAnyOtherGetsTheNewest) {
@@ -176,11 +176,12 @@ TEST_F(McpServerTest, MoreCallsThanAllowedAtATimeAreRefused) {
 
 TEST_F(McpServerTest, AModuleThatDidNotAnswerIsAskedAgain) {
   McpServer server({{"NONE", "*"}},
-                   {.ask = [this](const vm::Message& message,
-                                  const auto& on_answer) { Ask(message, on_answer); },
-                    .say = [this](const std::string& text) { said_.push_back(text); }});
+                   {.ask = [this](const vm::Message& message, const auto& on_answer) {
+                     Ask(message, on_answer);
+                   }});
   for (int i = 0; i < 2; ++i) {
-    server.Handle(R"({"jsonrpc": "2.0", "id": 1, "method": "tools/list"})");
+    server.Handle(R"({"jsonrpc": "2.0", "id": 1, "method": "tools/list"})",
+                  [this](const std::string& answer) { said_.push_back(answer); });
     EXPECT_EQ(json::parse(said_.back())["result"]["tools"], json::array());
   }
   EXPECT_EQ(asked_, (Lines{"to @NONE inq Slots", "to @NONE inq Slots"}));

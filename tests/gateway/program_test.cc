@@ -230,6 +230,18 @@ TEST_F(GatewayTest, MistakesAreToldAsOpenAIsApiTellsThem) {
   EXPECT_EQ(Post(R"({"input": "Hello.", "response_format": "wav"})").first, "status 200 audio/wav");
 }
 
+TEST_F(GatewayTest, OptionsBehindVoiceAreTheVoices) {
+  Start({"--voice", GALATEA_BIN_DIR "/ssm", "--sink", "null", "--clock", "virtual", "--speaker",
+         "rms"});
+  const auto ask = [this](const std::string& voice) {
+    return Post(R"({"input": "Good morning.", "response_format": "wav")" + voice + "}");
+  };
+  const auto unnamed = ask("");
+  EXPECT_TRUE(unnamed.first.starts_with("status 200")) << unnamed.first;
+  EXPECT_EQ(unnamed.second, ask(R"(, "voice": "rms")").second);
+  EXPECT_NE(unnamed.second, ask(R"(, "voice": "slt")").second);
+}
+
 TEST_F(GatewayTest, AVoiceThatCannotBeHadIsOneErrorEachTime) {
   Start({"--voice", "/nowhere/ssm"});
   for (int i = 0; i < 2; ++i) {

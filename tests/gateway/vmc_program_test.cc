@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "tests/support/mosquitto.h"
 #include "tests/support/process.h"
@@ -74,6 +75,44 @@ TEST(VmcProgramTest, AnAvatarIsToldWhatTheFaceDoes) {
             7)
       << bones["Head"];
   EXPECT_NEAR(b, -std::sin(5 * 3.14159265 / 180), 0.01) << "half of 20 degrees, and half an angle";
+}
+
+TEST(VmcProgramTest, UnrealIsToldTheSameByLiveLink) {
+  support::TempDir folder;
+  Process listener(
+      {"python3", GALATEA_SOURCE_DIR "/tests/gateway/live_link_listener.py", "--packets", "12"});
+  const std::string port = listener.ReadLine().value_or("");
+  std::ofstream(folder / "c.json")
+      << R"({"clock": "virtual", "modules": [{"name": "FSM", "command": [")" GALATEA_BIN_DIR
+         R"(/fsm", "--headless"]}, {"name": "VMC", "after": ["FSM"], "command": [")" GALATEA_BIN_DIR
+         R"(/vmc", "--to", "127.0.0.1:)"
+      << port << "\"]}]}";
+  Process hub({GALATEA_BIN_DIR "/agent_manager", "--config", folder / "c.json"});
+  hub.WriteLine("to @VMC set Protocol = LIVELINK");
+  hub.WriteLine("to @VMC set Subject = Lady");
+  hub.WriteLine("set Wait = 100");
+  hub.WriteLine("to @FSM set AU = 27 1 1");
+  hub.WriteLine("to @FSM set HeadRotAbs.1 = 0 18 0");
+  hub.WriteLine("to @FSM set LipSync.pho = pau 100 m 100 aa 300 pau 100");
+  hub.WriteLine("to @FSM set Speak = NOW");
+  hub.WriteLine("set Wait = 1500");
+  nlohmann::json last;
+  double most = 0;
+  for (int i = 0; i < 12; ++i) {
+    const auto line = listener.ReadLine();
+    ASSERT_TRUE(line) << "after " << i << " packets: " << listener.ErrorText();
+    const auto packet = nlohmann::json::parse(*line);
+    if (!last.is_null()) {
+      EXPECT_GE(packet["seconds"], last["seconds"]);
+    }
+    most = std::max(most, packet["values"][17].get<double>());
+    last = packet;
+  }
+  EXPECT_EQ(listener.Wait(), 0) << listener.ErrorText();
+  EXPECT_EQ(last["subject"], "Lady");
+  EXPECT_GT(most, 0.3) << "jawOpen is the eighteenth";
+  EXPECT_NEAR(last["values"][52].get<double>(), 0.1, 0.001) << "18 degrees to the viewer's right";
+  EXPECT_NEAR(last["values"][53].get<double>(), 0, 0.01);
 }
 
 }  // namespace

@@ -52,6 +52,28 @@ TEST(FaceFrameTest, AnythingElseIsNamed) {
   EXPECT_EQ(error("0" + kRest + " 12L:"), "'12L:' found, UNIT:STRENGTH as 12L:0.7 expected");
 }
 
+TEST(LiveLinkTest, APacketHasThePublishedForm) {
+  const FaceFrame frame = Frame("1025 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 0 9 -18 36 0 0 0 0 1 0");
+  const std::string packet = LiveLinkPacket(
+      frame, FaceWeights::Built(), {.id = "01234567-89ab-cdef-0123-456789abcdef", .subject = "Me"});
+  const std::string head(
+      "\x06\0\0\0\x24"
+      "01234567-89ab-cdef-0123-456789abcdef\0\0\0\x02Me"
+      "\0\0\0\x3d\x3f\0\0\0\0\0\0\x3c\0\0\0\x01\x3d",
+      64);
+  ASSERT_EQ(packet.size(), 64U + 61 * 4);
+  EXPECT_EQ(packet.substr(0, 64), head) << "frame 61 and a half, of 60 a second";
+  const auto value = [&packet](std::size_t i) { return packet.substr(64 + 4 * i, 4); };
+  EXPECT_EQ(value(0), std::string("\x3f\x80\0\0", 4)) << "eyeBlinkLeft 1";
+  EXPECT_EQ(value(7), std::string(4, '\0')) << "eyeBlinkRight 0";
+  EXPECT_EQ(value(52), std::string("\xbd\xcc\xcc\xcd", 4)) << "yaw -0.1: to the agent's right";
+  EXPECT_EQ(value(53), std::string("\xbd\x4c\xcc\xcd", 4)) << "pitch -0.05: down";
+  EXPECT_EQ(value(54), std::string("\x3e\x4c\xcc\xcd", 4)) << "roll 0.2";
+  EXPECT_EQ(LiveLinkPacket(frame, FaceWeights::Built(), {.id = "", .subject = "", .angles = false})
+                .substr(26 + 52 * 4),
+            std::string(36, '\0'));
+}
+
 TEST(FaceWeightsTest, ARestingFaceMovesNothing) {
   for (const VmcNames names : {VmcNames::kVrm0, VmcNames::kVrm1, VmcNames::kPerfectSync}) {
     for (const float weight : FaceWeights::Built().Of(Frame("0" + kRest), names)) {

@@ -1,0 +1,157 @@
+#include "gateway/mcp/mcp_http.h"
+
+#include <algorithm>
+#include <list>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "gateway/web/http_session.h"
+#include "vm_protocol/http/answer.h"
+#include "vm_protocol/runtime/credentials.h"
+
+namespace gateway {
+namespace {
+
+namespace asio = boost::asio;
+namespace http = boost::beast::http;
+
+constexpr const char* kJson = "application/json";
+constexpr const char* kSession = "Mcp-Session-Id";
+constexpr const char* kRevision = "MCP-Protocol-Version";
+
+/// "application/json; charset=utf-8" is "application/json".
+bool IsType(const std::string& header, std::string_view type) {
+  std::string name = header.substr(0, header.find(';'));
+  while (name.ends_with(' ')) name.pop_back();
+  std::ranges::transform(name, name.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  });
+  return name == type;
+}
+
+/// Whether somebody who accepts that takes JSON.
+bool TakesJson(const std::string& accept) {
+  for (std::string_view rest = accept; !rest.empty();) {
+    const std::string one(rest.substr(0, rest.find(',')));
+    rest.remove_prefix(std::min(one.size() + 1, rest.size()));
+    const std::string type = one.substr(std::min(one.find_first_not_of(' '), one.size()));
+    if (IsType(type, kJson) || IsType(type, "application/*") || IsType(type, "*/*")) return true;
+  }
+  return accept.empty();
+}
+
+}  // namespace
+
+struct McpHttp::Site : HttpSite {
+  Site(Options options, McpServer& the_server)
+      : HttpSite({std::move(options.token), std::move(options.origins)},
+                 std::move(options.on_refusal)),
+        server(the_server) {
+    methods = "POST, DELETE";
+    headers = "authorization, content-type, mcp-session-id, mcp-protocol-version";
+  }
+  /// A new session's name.
+  std::string Open() {
+    if (sessions.size() >= kMaxSessions) sessions.pop_front();
+    return sessions.emplace_back(vm::MakeNonce());
+  }
+  /// Whether there is that session; it counts as the last that spoke.
+  bool Use(const std::string& name) {
+    const auto found = std::ranges::find(sessions, name);
+    if (found == sessions.end()) return false;
+    sessions.splice(sessions.end(), sessions, found);
+    return true;
+  }
+  McpServer& server;
+  std::list<std::string> sessions;  // silent longest first
+};
+
+namespace {
+
+/// `Site` is private to McpHttp.
+template <typename Site>
+class McpSession final : public HttpSession {
+ public:
+  McpSession(std::shared_ptr<Site> site, asio::ip::tcp::socket socket)
+      : HttpSession(site, std::move(socket)), site_(std::move(site)) {}
+
+ private:
+  void Route() override {
+    if (Path() != "/mcp")
+      return Refuse(Status::not_found,
+                    "a request for '" + Path().substr(0, 100) + "'; there is /mcp");
+    const std::string revision = Header(kRevision);
+    if (!revision.empty() && !McpServer::Speaks(revision))
+      return Refuse(Status::bad_request,
+                    "revision '" + revision.substr(0, 40) + "' in " + kRevision);
+    if (request().method() == http::verb::post) return Post();
+    if (request().method() == http::verb::delete_) return Delete();
+    Refuse(Status::method_not_allowed, "a method that is neither POST nor DELETE");
+  }
+
+  void Post() {
+    if (!IsType(Header("Content-Type"), kJson))
+      return Refuse(Status::unsupported_media_type, "a body that is not application/json");
+    if (!TakesJson(Header("Accept")))
+      return Refuse(Status::not_acceptable, "a client that does not accept application/json");
+    const auto message = vm::ParseAnswer(request().body());
+    const bool begins = message && message->is_object() &&
+                        vm::TextAt(*message, "method") == "initialize" && message->contains("id");
+    // What is no message at all is answered as such.
+    if (message && !begins && !MayGoOn()) return;
+    WaitForAnswer();
+    const auto say = [this, begins, self = shared_from_this()](const std::string& answer) {
+      if (closed()) return;
+      Headers more;
+      if (begins) more[kSession] = site_->Open();
+      Reply(Status::ok, kJson, answer, more);
+    };
+    if (!site_->server.Handle(request().body(), say)) Reply(Status::accepted, kJson, "");
+  }
+
+  void Delete() {
+    if (!MayGoOn()) return;
+    site_->sessions.remove(Header(kSession));
+    Reply(Status::no_content, kJson, "");
+  }
+
+  /// False: the request names no session that there is, and has been refused.
+  bool MayGoOn() {
+    const std::string name = Header(kSession);
+    if (name.empty()) {
+      Refuse(Status::bad_request, std::string("a request without ") + kSession);
+    } else if (!site_->Use(name)) {
+      Refuse(Status::not_found, "a session that has ended; initialize begins another");
+    } else {
+      return true;
+    }
+    return false;
+  }
+
+  std::string ErrorBody(Status, const std::string& what) const override {
+    const nlohmann::json body{{"jsonrpc", "2.0"},
+                              {"id", nullptr},
+                              {"error", {{"code", -32000}, {"message", "refused: " + what}}}};
+    return body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  }
+
+  const std::shared_ptr<Site> site_;
+};
+
+}  // namespace
+
+McpHttp::McpHttp(asio::io_context& io, Options options, McpServer& server)
+    : site_(std::make_shared<Site>(options, server)) {
+  OpenDoor(io, options.at, site_, [site = std::weak_ptr(site_)](auto socket) {
+    return std::make_shared<McpSession<Site>>(site.lock(), std::move(socket));
+  });
+}
+
+McpHttp::~McpHttp() {
+  site_->closed = true;
+  site_->door->Close();
+}
+
+std::string McpHttp::host() const { return site_->door->host(); }
+
+}  // namespace gateway
