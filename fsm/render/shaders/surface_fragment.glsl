@@ -1,3 +1,4 @@
+// kRelief, which stands before this text: whether fine slopes and creases are seen.
 in vec2 place;
 in vec3 light;
 in vec4 slopes;
@@ -12,8 +13,11 @@ out vec4 color;
 
 void main() {
   vec4 t = texture(tint, place);
-  vec4 r = texture(relief, place) - 0.5;
-  vec2 slope = r.xy * finish.w + r.zw * shine.y;
+  vec2 slope = vec2(0.0);
+  if (kRelief) {
+    vec4 r = texture(relief, place) - 0.5;
+    slope = r.xy * finish.w + r.zw * shine.y;
+  }
   // Highlights fall with the distance of the half vector from the normal, both as slopes; the lobes are
   // powers 20, 64 and 144 of its cosine, as products (pow costs as much as a lamp in software).
   vec2 h = slopes.zw + slope;
