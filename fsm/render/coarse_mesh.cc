@@ -138,12 +138,6 @@ bool ShrinkingPart::Settle(std::uint32_t vertex, float error, std::size_t& where
 bool ShrinkingPart::Fits(std::uint32_t v, std::uint32_t to, const Ring& ring, float error) {
   const bool on_border = !ring.ends.empty();
   if (on_border && !Has(ring.ends, to)) return false;
-  // More common neighbours than triangles at the edge: the surface would be pinched.
-  const Ring other = RingOf(to);
-  std::size_t common = 0;
-  for (const auto w : other.around) common += Has(ring.around, w) ? 1U : 0U;
-  if (common != (on_border ? 1U : 2U)) return false;
-
   after_.clear();
   moved_.clear();
   for (const auto t : vertices_[v].triangles) {
@@ -165,6 +159,11 @@ bool ShrinkingPart::Fits(std::uint32_t v, std::uint32_t to, const Ring& ring, fl
     return true;
   };
   if (!settle(vertices_[v].number)) return false;
+  // More common neighbours than triangles at the edge: the surface would be pinched.
+  const Ring other = RingOf(to);
+  const auto common =
+      std::ranges::count_if(other.around, [&ring](std::uint32_t w) { return Has(ring.around, w); });
+  if (common != (on_border ? 1 : 2)) return false;
   return std::ranges::all_of(vertices_[v].triangles, [&](std::uint32_t t) {
     return std::ranges::all_of(left_out_[t], settle);
   });

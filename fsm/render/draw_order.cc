@@ -129,8 +129,7 @@ void DrawOrder::AddFace(Layer& sheet, Layer& skin) {
         list.insert(list.end(), t.begin(), t.end());
       }
       AddWorn(part, whole);
-    } else if (topology_.worn.image && part.pbr < 0 &&
-               (of_skin || part.material == Material::kLip)) {
+    } else if (part.pbr < 0 && (of_skin || part.material == Material::kLip)) {
       AddWorn(part, corners);
     } else {
       Add(part, corners);

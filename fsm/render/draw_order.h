@@ -9,7 +9,8 @@
 
 namespace fsm {
 
-/// How much of what wears a photo is more than the photo: each costs a good part of a pixel.
+/// How much of skin is more than its colour, or of what wears a photo more than the photo: each
+/// costs a good part of a pixel.
 enum class Worn : std::uint8_t {
   kPlain,    ///< nothing
   kCreased,  ///< skin that creases with an expression

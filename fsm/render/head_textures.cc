@@ -27,6 +27,26 @@ std::vector<std::uint8_t> Halve(const std::uint8_t* rgba, int side) {
   return half;
 }
 
+/// An RGBA picture at twice its size, as a linear filter would show it.
+Image Doubled(const Image& image) {
+  Image out{2 * image.width, 2 * image.height, {}};
+  out.rgba.reserve(4 * out.Index(0, out.height));
+  for (int y = 0; y < out.height; ++y) {
+    const int near_y = y / 2, far_y = std::clamp(near_y + (y % 2) * 2 - 1, 0, image.height - 1);
+    for (int x = 0; x < out.width; ++x) {
+      const int near_x = x / 2, far_x = std::clamp(near_x + (x % 2) * 2 - 1, 0, image.width - 1);
+      const std::uint8_t* near_row = image.rgba.data() + 4 * image.Index(0, near_y);
+      const std::uint8_t* far_row = image.rgba.data() + 4 * image.Index(0, far_y);
+      for (int c = 0; c < 4; ++c) {
+        const int near = 3 * near_row[4 * near_x + c] + near_row[4 * far_x + c];
+        const int far = 3 * far_row[4 * near_x + c] + far_row[4 * far_x + c];
+        out.rgba.push_back(static_cast<std::uint8_t>((3 * near + far + 8) / 16));
+      }
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 void FillTexture(const GlFunctions& gl, GLuint texture, int width, int height,
@@ -85,18 +105,27 @@ void HeadTextures::WearSkin(HeadBuffers& head, float samples_per_mm) {
   }
 }
 
+HeadTextures::Fit HeadTextures::FitOf(const Image& photo, float texels_per_sample) {
+  // A photo has edges: with fewer texels to a sample those are seen to be cut out.
+  constexpr float kFewest = 0.9F;
+  constexpr int kMostDoubled = 1 << 21;  // texels
+  const int level =
+      static_cast<int>(std::floor(std::log2(std::max(texels_per_sample, 0.01F) / kFewest)));
+  if (level >= 0) return {level, GL_NEAREST};
+  // To double it costs memory, to filter it nearly as much time as everything else of a pixel.
+  if (level == -1 && 4 * photo.width * photo.height <= kMostDoubled) return {level, GL_NEAREST};
+  return {0, GL_LINEAR};
+}
+
 void HeadTextures::WearPhoto(const HeadBuffers& head, float samples_per_mm) {
   const Image& photo = *head.photo();
-  // A photo has edges: with less than a texel to a sample those are seen to be cut out.
-  const float texels_per_sample = head.photo_texels_per_mm() / samples_per_mm;
-  const Fit fit = texels_per_sample < 1
-                      ? Fit{0, GL_LINEAR}
-                      : Fit{static_cast<int>(std::log2(texels_per_sample)), GL_NEAREST};
+  const Fit fit = FitOf(photo, head.photo_texels_per_mm() / samples_per_mm);
   if (photo_ == fit) return;
   photo_ = fit;
   const auto halved = [&fit](int side) { return std::max(side >> fit.level, 1); };
-  const Image scaled =
-      fit.level == 0 ? Image{} : Shrunk(photo, halved(photo.width), halved(photo.height));
+  const Image scaled = fit.level == 0  ? Image{}
+                       : fit.level < 0 ? Doubled(photo)
+                                       : Shrunk(photo, halved(photo.width), halved(photo.height));
   const Image& worn = fit.level == 0 ? photo : scaled;
   FillTexture(gl_, textures_[kPhoto], worn.width, worn.height, worn.rgba.data(), fit.filter);
 }

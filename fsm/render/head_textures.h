@@ -31,13 +31,14 @@ class HeadTextures {
  private:
   enum Texture { kTint, kSkinRelief, kPhoto, kNormal, kEmissive, kTextures };
 
-  /// How a picture is worn: halved so often, and filtered or not.
+  /// How a picture is worn: halved so often (-1: doubled), and filtered or not.
   struct Fit {
     int level;
     GLint filter;
     bool operator==(const Fit&) const = default;
   };
   void WearSkin(HeadBuffers& head, float samples_per_mm);
+  static Fit FitOf(const Image& photo, float texels_per_sample);
   void WearPhoto(const HeadBuffers& head, float samples_per_mm);
 
   const GlFunctions& gl_;

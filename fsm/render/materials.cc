@@ -65,6 +65,11 @@ SideDepths DepthsOf(const HeadVertices& vertices) {
   return depths;
 }
 
+/// Of a shader.
+std::string Constant(const char* name, bool value) {
+  return std::string("const bool ") + name + (value ? " = true;\n" : " = false;\n");
+}
+
 constexpr bool IsOfMouth(Material material) {
   return material == Material::kTeeth || material == Material::kGum ||
          material == Material::kTongue || material == Material::kMouthInside;
@@ -75,8 +80,12 @@ constexpr bool IsOfMouth(Material material) {
 Materials::Materials(const GlFunctions& gl, const Appearance& appearance)
     : gl_(gl),
       appearance_(appearance),
-      surface_(Compile("surface", embedded::surface_vertex(), embedded::surface_fragment())),
-      mouth_(Compile("mouth", embedded::mouth_vertex(), embedded::surface_fragment())),
+      surface_(Compile("surface", embedded::surface_vertex(), embedded::surface_fragment(),
+                       Constant("kRelief", true))),
+      smooth_(Compile("smooth", embedded::surface_vertex(), embedded::surface_fragment(),
+                      Constant("kRelief", false))),
+      mouth_(Compile("mouth", embedded::mouth_vertex(), embedded::surface_fragment(),
+                     Constant("kRelief", true))),
       eye_(Compile("eye", embedded::eye_vertex(), embedded::eye_fragment())),
       hair_(Compile("hair", embedded::hair_vertex(), embedded::hair_fragment())),
       line_(Compile("line", embedded::eye_vertex(), embedded::line_fragment())) {
@@ -131,6 +140,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   }
   const SideDepths depths = DepthsOf(vertices);
   creases_ = depths != SideDepths{};
+  pores_ = view.samples_per_mm >= appearance_.Number("pores_from");
   const float brightness = PhotoBrightness(lamps);
   SetSurface(glm::normalize(rest_to_world[1]), depths);
   SetPbr(brightness);
@@ -163,13 +173,13 @@ void Materials::SetLight(const GlProgram& program, const Lamps& lamps,
 }
 
 void Materials::SetSurface(glm::vec3 head_up, const SideDepths& depths) {
-  for (const GlProgram* program : {&mouth_, &surface_}) {
+  for (const GlProgram* program : {&mouth_, &surface_, &smooth_}) {
     gl_.UseProgram(program->id());
     gl_.Uniform1i(program->Uniform("tint"), 1);
     gl_.Uniform1i(program->Uniform("relief"), 2);
     gl_.Uniform3fv(program->Uniform("head_up"), 1, glm::value_ptr(head_up));
+    gl_.Uniform4fv(program->Uniform("crease_depths"), 2, glm::value_ptr(depths.InOrder()[0]));
   }
-  gl_.Uniform4fv(surface_.Uniform("crease_depths"), 2, glm::value_ptr(depths.InOrder()[0]));
 }
 
 void Materials::SetPbr(float brightness) {
@@ -188,16 +198,13 @@ float Materials::PhotoBrightness(const Lamps& lamps) const {
 }
 
 std::vector<const GlProgram*> Materials::ProgramsOf(const HeadBuffers& head) {
-  std::vector<const GlProgram*> programs{&surface_, &mouth_, &eye_, &hair_, &line_};
+  std::vector<const GlProgram*> programs{&surface_, &smooth_, &mouth_, &eye_, &hair_, &line_};
   for (const DrawnPart& part : head.parts()) {
     auto& photo = photo_[static_cast<std::size_t>(part.worn)];
     if (photo || !WearsPhoto(part.part.material)) continue;
-    const auto constant = [](const char* name, bool value) {
-      return std::string("const bool ") + name + (value ? " = true;\n" : " = false;\n");
-    };
     photo.reset(new GlProgram(Compile("photo", embedded::photo_vertex(), embedded::photo_fragment(),
-                                      constant("kCreased", part.worn != Worn::kPlain) +
-                                          constant("kDetailed", part.worn == Worn::kDetailed))));
+                                      Constant("kCreased", part.worn != Worn::kPlain) +
+                                          Constant("kDetailed", part.worn == Worn::kDetailed))));
   }
   if (!head.pbr_materials().empty() && !pbr_) {
     pbr_.reset(new GlProgram(Compile("pbr", embedded::pbr_vertex(), embedded::pbr_fragment())));
@@ -248,7 +255,7 @@ void Materials::Use(Material material, Worn worn) {
   }
   const Appearance::Surface& surface = appearance_.surface(material);
   const bool inside = has_mouth_ && IsOfMouth(material);
-  const GlProgram& program = inside ? mouth_ : surface_;
+  const GlProgram& program = inside ? mouth_ : HasRelief(surface, worn) ? surface_ : smooth_;
   gl_.UseProgram(program.id());
   gl_.Uniform3fv(program.Uniform("wrap"), 1, glm::value_ptr(surface.wrap));
   const glm::vec3 lobes = 2.0F * surface.lobes;  // of a texture in which one half stands for 1
@@ -278,6 +285,11 @@ void Materials::Use(const DrawnPart& drawn) {
   const auto& part = drawn.part;
   if (part.pbr < 0) return Use(part.material, drawn.worn);
   UsePbr(head_->pbr_materials()[static_cast<std::size_t>(part.pbr)]);
+}
+
+bool Materials::HasRelief(const Appearance::Surface& surface, Worn worn) const {
+  const bool threads = surface.planar > 0;
+  return threads ? surface.bump > 0 : pores_ || (creases_ && worn != Worn::kPlain);
 }
 
 void Materials::UsePbr(const PbrMaterial& pbr) {

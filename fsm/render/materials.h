@@ -43,6 +43,9 @@ class Materials {
   /// shut.
   bool IsHidden(const DrawnPart& part) const;
   void Use(const DrawnPart& part);
+  /// Whether skin creases; as BeginFrame found, or as is set until the next.
+  bool creased() const { return creases_; }
+  void SetCreased(bool creased) { creases_ = creased; }
   /// A plain colour, for lines and for passes whose colour is not kept.
   void UseLine(const glm::vec4& color);
 
@@ -75,6 +78,7 @@ class Materials {
   /// How much brighter than by default the lamps are: a photo's own light stands for the default.
   float PhotoBrightness(const Lamps& lamps) const;
   void Use(Material material, Worn worn);
+  bool HasRelief(const Appearance::Surface& surface, Worn worn) const;
   bool WearsPhoto(Material material) const;
   void UsePhoto(Material material, Worn worn);
   void UsePbr(const PbrMaterial& pbr);
@@ -83,6 +87,7 @@ class Materials {
   const GlFunctions& gl_;
   const Appearance& appearance_;
   GlProgram surface_;
+  GlProgram smooth_;  // the same without relief
   GlProgram mouth_;
   GlProgram eye_;
   GlProgram hair_;
@@ -94,6 +99,7 @@ class Materials {
   const HeadBuffers* head_ = nullptr;  // of the last BeginFrame
   const HeadTextures* head_textures_ = nullptr;
   bool creases_ = false;    // any skin, in the last BeginFrame
+  bool pores_ = false;      // are seen
   bool lips_shut_ = false;  // all along
   bool has_mouth_ = false;  // of which is known how light comes in
 };

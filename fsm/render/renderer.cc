@@ -236,15 +236,19 @@ class GlRenderer : public Renderer {
   }
 
   /// A software driver compiles a shader when it first draws with it, which takes far longer than a
-  /// frame. So that is done while the skin is being painted: one triangle of each part, unseen.
+  /// frame. So that is done while the skin is being painted: one triangle of each part, unseen, with
+  /// creases and without.
   void WarmUp(const std::vector<DrawnPart>& parts) {
     gl_.Viewport(0, 0, 0, 0);
     gl_.CullFace(GL_BACK);
-    for (auto part : parts) {
-      part.part.index_count = 3;
-      (IsSheet(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
-      materials_.Use(part);
-      DrawPart(part.part);
+    for (int twice = 0; twice < 2; ++twice) {
+      materials_.SetCreased(!materials_.creased());
+      for (auto part : parts) {
+        part.part.index_count = 3;
+        (IsSheet(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+        materials_.Use(part);
+        DrawPart(part.part);
+      }
     }
     gl_.Disable(GL_CULL_FACE);
     target_->Bind();

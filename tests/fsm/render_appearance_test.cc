@@ -6,9 +6,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "fsm/head/make_head.h"
 #include "fsm/render/appearance.h"
 #include "fsm/render/renderer.h"
 #include "tests/fsm/ball_head.h"
+#include "tests/fsm/golden_picture.h"
 #include "tests/fsm/render_support.h"
 
 namespace fsm {
@@ -99,6 +101,30 @@ TEST(AppearanceTest, ATableOfOnesOwnChangesThePicture) {
   EXPECT_LT(brightness(dark), usual);
   const Appearance unlit("unlit", Changed("2.72 2.50 2.36", "0 0 0"));
   EXPECT_LT(brightness(unlit), usual);
+}
+
+TEST(AppearanceTest, PoresAreLeftOutOnlyWhereTheyAreNotSeen) {
+  const auto head = MakeHead("galatea");
+  const auto context = RenderContext::MakeHeadless(256, 256);
+  const Appearance always("always", Changed("\npores_from          2.0", "\npores_from 0"));
+  const Appearance never("never", Changed("\npores_from          2.0", "\npores_from 10"));
+  Scene scene;
+  const auto drawn = [&](const Appearance& appearance) {
+    const auto renderer = Renderer::Make(*context, 1, appearance);
+    renderer->Draw(*head, FaceState{}, {}, scene);
+    Image image;
+    renderer->Read(image);
+    return image;
+  };
+  const auto missed = [&](const Appearance& appearance) {
+    return CompareFigures(drawn(always), drawn(appearance), scene.background).mean;
+  };
+  const double far = missed(Appearance::BuiltIn());
+  EXPECT_GT(far, 0);
+  EXPECT_LT(far, GoldenLimits{}.mean);
+  scene.camera.distance = 0.5F;
+  EXPECT_EQ(missed(Appearance::BuiltIn()), 0);
+  EXPECT_GT(missed(never), GoldenLimits{}.mean);
 }
 
 }  // namespace

@@ -3,9 +3,8 @@ in vec2 fray;
 in vec3 light;
 in vec3 key_light;
 in vec3 tilt;
+flat in vec4 gleam;
 
-uniform float streaks;   // how strongly strands differ, 0 for lashes
-uniform float shine;
 uniform sampler2D strands;  // locks in b, hairs in a
 
 out vec4 color;
@@ -18,7 +17,7 @@ void main() {
   vec2 odd = mod(floor(gl_FragCoord.xy), 2.0);
   float asks = 0.35 * (0.5 * odd.x + 0.25 * odd.y - odd.x * odd.y);
   if (density < 0.5 - fine.a + asks) discard;
-  float streak = (hair_differs * fine.a + lock_differs * fine.b) * streaks;
+  float streak = (hair_differs * fine.a + lock_differs * fine.b) * gleam.a;
   // Highlights lie across the strands. Two of them, shifted along the strand: light mirrored by the
   // surface towards the root, light that went through and took its colour towards the tip.
   float a = tilt.x + tilt.y * (hair_mirrored.x + 0.25 * streak);
@@ -28,6 +27,6 @@ void main() {
   lobe *= lobe;
   lobe.x *= lobe.x;
   vec3 seen = light * (1.0 + streaks_seen * streak) +
-              shine * (key_light * (hair_through_part * lobe.y) + lamp_colors[0] * (tilt.z * lobe.x));
+              key_light * lobe.y + gleam.rgb * (tilt.z * lobe.x);
   color = vec4(ToScreen(max(seen, 0.0)), 1.0);
 }

@@ -4,12 +4,15 @@ layout(location = 5) in vec4 along_and_density;   // direction at rest, 1 = dens
 layout(location = 6) in float across_lock;      // -1..1
 
 uniform mat3 rest_to_world;  // how the head is turned
+uniform float streaks;       // how strongly strands differ, 0 for lashes
+uniform float shine;
 
 out vec2 streak_place;
 out vec2 fray;      // density, place across the lock
 out vec3 light;     // scattered, with the hair's colour
-out vec3 key_light; // of the key lamp alone, with the hair's colour
-out vec3 tilt;      // of the half vector along the strand and along the normal; light gone through
+out vec3 key_light; // of the key lamp, gone through hair
+out vec3 tilt;      // of the half vector along the strand and along the normal; how much is mirrored
+flat out vec4 gleam;  // light that is mirrored; how strongly strands differ
 
 void main() {
   vec3 world = TransformVertex();
@@ -37,8 +40,10 @@ void main() {
   vec3 sheen = min(vec3(hair_rim_sheen), albedo) * away * away;
   soft += lamp_colors[2] * occlusion * rim * (albedo * hair_rim + sheen);
   float n_dot_l = dot(n, lamp_directions[0]);
-  key_light = lamp_colors[0] * shadow * albedo * max((n_dot_l + 0.35) / 1.82, 0.0) * across;
-  light = soft + key_light;
+  vec3 key = lamp_colors[0] * shadow * albedo * max((n_dot_l + 0.35) / 1.82, 0.0) * across;
+  light = soft + key;
+  key_light = shine * hair_through_part * key;
+  gleam = vec4(shine * lamp_colors[0], streaks);
   vec3 h = normalize(lamp_directions[0] + v);
   tilt = vec3(dot(strand, h), dot(n, h), hair_mirrored_part * shadow * clamp(n_dot_l * 1.7 + 0.3, 0.0, 1.0));
 }

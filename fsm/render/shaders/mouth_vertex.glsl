@@ -8,6 +8,9 @@ const int kRing = 2 * kColumns + 2;
 
 uniform vec3 wrap;
 uniform float saturation;
+uniform vec3 lobes;          // strengths of a broad, a middle and a tight highlight
+uniform float bump;          // depth of pores or threads
+uniform float chroma;        // of the colour on the screen, less than 1 beside a faded photo
 uniform float planar;
 uniform float lining;                // 1: of the walls, which are seen from within
 uniform vec3 head_up;
@@ -23,6 +26,8 @@ out vec2 place;
 out vec3 light;
 out vec4 slopes;
 out vec3 shine;
+flat out vec4 finish;
+flat out vec4 gleam;
 
 const float kBehindTeeth = 9.0;  // behind the lips
 
@@ -125,6 +130,8 @@ void main() {
   vec3 h = normalize(mouth_to_world * mouth_key + v);
   slopes.zw = vec2(dot(right, h), dot(up, h));
   shine.x = Fresnel(dot(h, v)) * occlusion * occlusion * shadow * smoothstep(0.0, 0.3, dot(n_world, h));
+  finish = vec4(lobes, bump);
+  gleam = vec4(lamp_colors[0], chroma);
   shine.y = 0.0;
   shine.z = 0.0;
   place = rest_position.xz * planar;

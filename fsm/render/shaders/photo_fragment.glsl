@@ -7,10 +7,8 @@ in vec4 grain_from;
 in float crease;
 in float shadow;
 in float covering;
+flat in vec3 settings;  // brightness, ragged, blends
 
-uniform float brightness;
-uniform float ragged;     // 1: what is transparent in the photo is left out
-uniform float blends;     // 1: in part, over what is drawn already; 0: sample by sample
 uniform sampler2D photo;
 uniform sampler2D relief;
 
@@ -18,12 +16,12 @@ out vec4 color;
 
 void main() {
   vec4 p = texture(photo, texcoord.xy);
-  float opacity = kDetailed ? covering * mix(1.0, p.a, ragged) : 1.0;
+  float opacity = kDetailed ? covering * mix(1.0, p.a, settings.y) : 1.0;
   if (kDetailed && opacity < 0.98) {
     // Four samples make a pixel, so four steps of opacity come out as the share of those kept.
     ivec2 s = ivec2(gl_FragCoord.xy) & 1;
     float step = (float(s.x ^ s.y) * 2.0 + float(s.y) + 0.5) / 4.0;
-    if (1.0 - opacity > mix(step, 0.99, blends)) discard;
+    if (1.0 - opacity > mix(step, 0.99, settings.z)) discard;
   }
   float shade = 1.0;
   if (kCreased) {
@@ -42,5 +40,5 @@ void main() {
   // Light that reaches skin in the shade has gone through skin.
   float skin = photo_shade_redness * clamp(1.0 - seen.b / max(seen.r, 0.05), 0.0, 1.0);
   vec3 shaded = vec3(shadow) + skin * shadow * (1.0 - shadow) * vec3(1.0, 0.0, -0.4);
-  color = vec4(seen * shade * shaded * brightness, mix(1.0, opacity, blends));
+  color = vec4(seen * shade * shaded * settings.x, mix(1.0, opacity, settings.z));
 }

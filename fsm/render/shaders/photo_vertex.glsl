@@ -11,7 +11,9 @@ uniform vec4 crease_depths[2];
 uniform float lids_shut[2];  // right, left
 uniform float chin_y;         // of its lowest point at rest, millimetres
 uniform float chin_drop;      // how far it is below that
-uniform float ragged;         // 1: the sheet
+uniform float ragged;         // 1: the sheet, of which what is transparent in the photo is left out
+uniform float brightness;
+uniform float blends;         // 1: in part, over what is drawn already; 0: sample by sample
 uniform vec4 photo_light;     // in the head's frame: on a normal, and from all sides
 uniform mat3 rest_to_world;   // how the head is turned, with the figure's scale
 uniform float lips_apart;    // 0: closed, where the photo shows them so; 1: as they are without it
@@ -25,6 +27,7 @@ out vec4 grain_from;  // place, whether there is one, how bright it is round it
 out float crease;
 out float shadow;
 out float covering;
+flat out vec3 settings;  // brightness, ragged, blends: in software a uniform costs a pixel more
 
 void main() {
   vec3 world = TransformVertex();
@@ -32,6 +35,7 @@ void main() {
     vec4 farther = world_to_clip * vec4(world + yields * normalize(world - eye), 1.0);
     gl_Position.z = farther.z / farther.w * gl_Position.w;
   }
+  settings = vec3(brightness, ragged, blends);
   place = unrolled;
   float lid = photo_texcoord.w;
   float closed = rest_position.x < 0.0 ? lids_shut[0] : lids_shut[1];

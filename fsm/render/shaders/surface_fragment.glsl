@@ -1,11 +1,11 @@
+// kRelief, which stands before this text: whether fine slopes and creases are seen.
 in vec2 place;
 in vec3 light;
 in vec4 slopes;
 in vec3 shine;
+flat in vec4 finish;
+flat in vec4 gleam;
 
-uniform float chroma;     // of the colour on the screen, less than 1 beside a faded photo
-uniform float bump;       // of pores or threads
-uniform vec3 lobes;       // strengths of a broad, a middle and a tight highlight
 uniform sampler2D tint;   // on the colour in rgb, on highlights in a; both about half
 uniform sampler2D relief; // slopes to the right and up of fine detail in rg, of creases in ba
 
@@ -13,8 +13,11 @@ out vec4 color;
 
 void main() {
   vec4 t = texture(tint, place);
-  vec4 r = texture(relief, place) - 0.5;
-  vec2 slope = r.xy * bump + r.zw * shine.y;
+  vec2 slope = vec2(0.0);
+  if (kRelief) {
+    vec4 r = texture(relief, place) - 0.5;
+    slope = r.xy * finish.w + r.zw * shine.y;
+  }
   // Highlights fall with the distance of the half vector from the normal, both as slopes; the lobes are
   // powers 20, 64 and 144 of its cosine, as products (pow costs as much as a lamp in software).
   vec2 h = slopes.zw + slope;
@@ -22,8 +25,8 @@ void main() {
   vec3 lobe = max(1.0 - d * vec3(2.5, 8.0, 18.0), 0.0);
   lobe *= lobe;
   lobe *= lobe;
-  float highlight = shine.x * t.a * dot(lobe, lobes) + shine.z;
+  float highlight = shine.x * t.a * dot(lobe, finish.xyz) + shine.z;
   vec3 seen = ToScreen(t.rgb * (light * (2.0 + 2.0 * dot(slope, slopes.xy))) +
-                       lamp_colors[0] * highlight);
-  color = vec4(mix(vec3(dot(seen, vec3(0.3, 0.6, 0.1))), seen, chroma), 1.0);
+                       gleam.rgb * highlight);
+  color = vec4(mix(vec3(dot(seen, vec3(0.3, 0.6, 0.1))), seen, gleam.a), 1.0);
 }

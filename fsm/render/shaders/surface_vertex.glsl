@@ -9,6 +9,9 @@ uniform vec3 wrap;           // how far light goes round, per channel
 uniform float key_through;   // how much of the key light reaches occluded places all the same
 uniform float sheen;         // down that catches light at the edges
 uniform float saturation;
+uniform vec3 lobes;          // strengths of a broad, a middle and a tight highlight
+uniform float bump;          // depth of pores or threads
+uniform float chroma;        // of the colour on the screen, less than 1 beside a faded photo
 uniform float planar;        // 0: detail by the unrolled place; else repeats per millimetre
 uniform vec3 head_up;        // unit, the direction of growing v on the skin
 uniform vec4 crease_depths[2];  // right, left: forehead, glabella, crow's feet, nasolabial
@@ -17,6 +20,9 @@ out vec2 place;   // in the detail textures
 out vec3 light;   // all that is scattered, with the surface's colour
 out vec4 slopes;  // what a slope to the right and up adds to light; the half vector's slopes
 out vec3 shine;   // strength of highlights, depth of creases, light at the edge
+// In software a uniform costs a pixel more than what its triangle brings along.
+flat out vec4 finish;  // strengths of the highlights, depth of detail
+flat out vec4 gleam;   // light that gleams; chroma
 
 void main() {
   vec3 world = TransformVertex();
@@ -62,6 +68,8 @@ void main() {
              (lamp_colors[2].g * down_rim + Ambient(n).g * down_room) * away * away * away) *
             occlusion * occlusion * sheen;
 
+  finish = vec4(lobes, bump);
+  gleam = vec4(lamp_colors[0], chroma);
   light = albedo * total * (1.0 - crease_darkens * crease);
   place = planar > 0.0 ? rest_position.xy * planar : unrolled;
 }
