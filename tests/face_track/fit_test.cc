@@ -1,0 +1,90 @@
+// The parts that need no networks: bounds, turns, what the agent is told, the plot.
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "face_track/fit/bounded_solve.h"
+#include "face_track/live/face_command.h"
+#include "face_track/model/seen_face.h"
+#include "face_track/print/track_plot.h"
+
+namespace facetrack {
+namespace {
+
+TEST(SeenFaceTest, AnglesComeBackFromTurns) {
+  const fsm::Angles told{12, -25, 7};
+  const fsm::Angles back = AnglesOf(TurnOf(told));
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back[k], told[k], 1e-3);
+}
+
+TEST(BoundedSolveTest, NoStepWithinTheBoundsIsBetter) {
+  std::mt19937 chance(7);
+  std::normal_distribution<float> normal;
+  for (int round = 0; round < 50; ++round) {
+    constexpr int kCount = 12;
+    Eigen::MatrixXf rows(20, kCount);
+    for (float& v : rows.reshaped()) v = normal(chance);
+    rows.col(1) = rows.col(0) + 0.01F * rows.col(1);  // nearly alike
+    const Eigen::MatrixXf a = rows.transpose() * rows + 0.1F * Eigen::MatrixXf::Identity(kCount, kCount);
+    Eigen::VectorXf b(kCount);
+    for (float& v : b) v = 20 * normal(chance);
+    const Eigen::VectorXf low = Eigen::VectorXf::Constant(kCount, -0.2F),
+                          high = Eigen::VectorXf::Constant(kCount, 1);
+    const Eigen::VectorXf x = BoundedSolve(a, b, low, high);
+    const auto cost = [&](const Eigen::VectorXf& v) { return 0.5F * v.dot(a * v) - b.dot(v); };
+    for (int k = 0; k < kCount; ++k) {
+      EXPECT_GE(x[k], low[k] - 1e-5F);
+      EXPECT_LE(x[k], high[k] + 1e-5F);
+      for (const float step : {-0.05F, 0.05F}) {
+        Eigen::VectorXf other = x;
+        other[k] = std::clamp(x[k] + step, low[k], high[k]);
+        EXPECT_GE(cost(other), cost(x) - 1e-2F) << round << ' ' << k;
+      }
+    }
+  }
+}
+
+FaceLine SomeLine() {
+  FaceLine line;
+  line.person = 1;
+  line.units.assign(SeenFace::Shipped().channels.size(), 0);
+  line.units[SeenFace::Shipped().Find("12L")] = 0.7F;
+  line.head = {0, 15, 0};
+  return line;
+}
+
+TEST(FaceCommandTest, InAMirrorLeftAndRightChangePlaces) {
+  FaceCommand mirror(SeenFace::Shipped()), facing(SeenFace::Shipped());
+  EXPECT_EQ(mirror.Next(SomeLine(), true, 40), "12R 0.70 52 0.50 40");
+  EXPECT_EQ(facing.Next(SomeLine(), false, 40), "12L 0.70 51 0.50 40");
+}
+
+TEST(FaceCommandTest, OnlyWhatHasChangedIsSaidAndAllOfItGoesHome) {
+  FaceCommand command(SeenFace::Shipped());
+  FaceLine line = SomeLine();
+  command.Next(line, true, 40);
+  EXPECT_EQ(command.Next(line, true, 40), "");
+  line.head[fsm::kToRight] = -15;
+  EXPECT_EQ(command.Next(line, true, 33), "51 0.50 52 0.00 33");
+  EXPECT_EQ(command.Rest(500), "12R 0.00 51 0.00 500");
+  EXPECT_EQ(command.Rest(500), "");
+}
+
+TEST(TrackPlotTest, ALongTrackIsThinnedOut) {
+  TrackPlot plot;
+  FaceLine line;
+  line.person = 1;
+  for (int i = 0; i < 50'000; ++i) {
+    line.ms = 40 * i;
+    line.head = {0, i == 49'152 ? 25.0F : 0.0F, 0};
+    plot.Add(line);
+  }
+  const std::string svg = plot.Svg();
+  EXPECT_LT(svg.size(), 500'000U);
+  EXPECT_NE(svg.find(">25<"), std::string::npos);
+  EXPECT_NE(TrackPlot().Svg().find("</svg>"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace facetrack
