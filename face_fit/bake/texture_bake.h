@@ -1,5 +1,6 @@
 #pragma once
 
+#include "face_fit/bake/complete_figure.h"
 #include "face_fit/fit/side_view.h"
 #include "fsm/head/photo_head.h"
 
@@ -12,6 +13,7 @@ struct TextureBake {
   fsm::Image picture;
   fsm::PhotoHead head;  ///< but for its `photo`, which is the picture
   float coverage = 0;   ///< part of the face's map that the photo shows
+  Completed completed;  ///< what of the figure it does not
 };
 
 inline constexpr int kMapSide = 1024;  ///< of each half
