@@ -11,9 +11,11 @@
 namespace facefit {
 namespace {
 
-/// A number 0..1 that varies from strand to strand; `at`: strands along an edge.
+/// A number 0..1 that varies from strand to strand, without a period; `at`: millimetres along an
+/// edge.
 float Strand(float at) {
-  return 0.5F + 0.25F * (std::sin(at * 2.1F) + std::sin(at * 0.77F + 1.3F));
+  return 0.5F + 0.17F * (std::sin(at * 1.31F) + std::sin(at * 0.43F + 1.3F) +
+                         std::sin(at * 0.171F + 0.4F));
 }
 
 /// An arc over -1..1: 1 in its middle, 0 beyond its ends.
@@ -118,8 +120,8 @@ Paint HairPaint::Falling(glm::vec2 place, float below) const {
       bearded_
           ? glm::mix(PhotoLook()("hair_beard_falls"), PhotoLook()("hair_falls"), Ramp(beard, aside))
           : PhotoLook()("hair_falls") * Ramp(PhotoLook().Pair("hair_aside"), aside);
-  const float end = falls * (0.6F + 0.4F * Strand(place.x / canvas_.per_mm));
-  return {glm::vec3(hair), mm < end ? hair.w * glm::smoothstep(end, 0.5F * end, mm) : 0.0F};
+  const float end = falls * (0.5F + 0.5F * Strand(place.x / canvas_.per_mm));
+  return {glm::vec3(hair), mm < end ? hair.w * glm::smoothstep(end, 0.35F * end, mm) : 0.0F};
 }
 
 Paint HairPaint::At(glm::vec2 place) const {
