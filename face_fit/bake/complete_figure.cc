@@ -10,6 +10,7 @@
 #include "face_fit/bake/hair_paint.h"
 #include "face_fit/bake/photo_edges.h"
 #include "face_fit/find/head/rasterizer.h"
+#include "face_fit/picture/inpaint.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/tables/photo_look.h"
 
@@ -43,22 +44,13 @@ Canvas CanvasFor(const Figure& figure, const FittedHead& fitted, glm::vec2 chin,
           .chin = chin};
 }
 
-/// Takes away what the lower edge of a photo that ends above the shoulders shows of clothes beside
-/// the neck: tips of a collar, which would float beside the one that is drawn.
-Figure WithoutTips(const PhotoEdges& edges, const Canvas& canvas, Figure figure) {
-  const auto& look = PhotoLook();
-  const int height = canvas.photo_size.y;
-  if ((static_cast<float>(height) - canvas.chin.y) / canvas.per_mm > look("edge_above_shoulders")) {
-    return figure;
-  }
-  for (int x = 0; x < canvas.photo_size.x; ++x) {
-    const float aside = std::abs(static_cast<float>(x) + 0.5F - canvas.chin.x) / canvas.per_mm;
-    if (edges.bottom()[static_cast<std::size_t>(x)].stuff == Stuff::kHair ||
-        aside < look("edge_beside_neck")) {
-      continue;
-    }
-    const int highest = height - static_cast<int>(look("edge_hangs") * canvas.per_mm);
-    for (int y = height - 1; y >= std::max(highest, 0); --y) {
+/// Takes away the tips of a collar, which would float beside the neck that is drawn.
+Figure WithoutTips(const PhotoEdges& edges, float per_mm, Figure figure) {
+  const int height = figure.opacity.height;
+  const int highest = std::max(height - static_cast<int>(PhotoLook()("edge_hangs") * per_mm), 0);
+  for (int x = 0; x < figure.opacity.width; ++x) {
+    if (edges.bottom()[static_cast<std::size_t>(x)].stuff != Stuff::kTip) continue;
+    for (int y = height - 1; y >= highest; --y) {
       float& opacity = figure.opacity.at[figure.opacity.Index(x, y)];
       if (opacity <= 0) break;
       opacity = 0;
@@ -76,7 +68,7 @@ CompletedFigure CompleteFigure(const BaseHead& base, const FittedHead& fitted, c
       CanvasFor(seen, fitted, fitted.pose.Project(fitted.pose.ToCamera(chin)), crown);
   const fsm::FaceLight light = LightOnFace(base, fitted, seen);
   const PhotoEdges edges(base, fitted, seen, 255.0F * light.skin());
-  const Figure figure = WithoutTips(edges, canvas, seen);
+  const Figure figure = WithoutTips(edges, canvas.per_mm, seen);
   FittedHead on_canvas = fitted;
   on_canvas.pose.centre += glm::vec2(canvas.photo);
   const BodyPaint body(canvas, edges, figure.opacity, light,
@@ -88,7 +80,7 @@ CompletedFigure CompleteFigure(const BaseHead& base, const FittedHead& fitted, c
       {}};
   FloatImage& opacity = out.figure.opacity;
   const int seam = std::max(static_cast<int>(PhotoLook()("edge_band") * canvas.per_mm), 1);
-  FloatImage known(canvas.size.x, canvas.size.y), drawn = known;
+  FloatImage known(canvas.size.x, canvas.size.y), drawn = known, coloured = known;
   for (int y = 0; y < canvas.size.y; ++y) {
     for (int x = 0; x < canvas.size.x; ++x) {
       const std::size_t i = opacity.Index(x, y);
@@ -97,6 +89,7 @@ CompletedFigure CompleteFigure(const BaseHead& base, const FittedHead& fitted, c
         const std::size_t from = figure.opacity.Index(at.x, at.y);
         SetRgb(out.figure.colours, i, Rgb(figure.colours, from));
         opacity.at[i] = known.at[i] = figure.opacity.at[from];
+        coloured.at[i] = figure.opacity.at[from] == seen.opacity.at[from] ? 1 : 0;
         // The matte is in doubt at the very edge: where the body goes on below, the figure does.
         if (at.y >= canvas.photo_size.y - seam && canvas.photo_size.y > 2 * seam) {
           const float above =
@@ -111,8 +104,11 @@ CompletedFigure CompleteFigure(const BaseHead& base, const FittedHead& fitted, c
       SetRgb(out.figure.colours, i, glm::mix(under.colour, over.colour, over.cover));
       opacity.at[i] = over.cover + (1 - over.cover) * under.cover;
       drawn.at[i] = opacity.at[i];
+      coloured.at[i] = opacity.at[i] > 0 ? 1 : 0;
     }
   }
+  // Colours go on beyond the outline, where they are mixed into it.
+  PushPullInpaint(out.figure.colours, coloured);
   const int grain = std::max(static_cast<int>(PhotoLook()("hole_grain") * canvas.per_mm), 2);
   AddGrain(known, drawn, grain, out.figure.colours);
   const float neck = canvas.chin.y + PhotoLook()("completed_neck") * canvas.per_mm;

@@ -119,20 +119,11 @@ PhotoEdges::PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Fig
     top_.push_back(Look(figure, stuffs, {x, 0}, {1, down}));
     bottom_.push_back(Look(figure, stuffs, {x, height - down}, {1, down}));
     Stuff& stuff = bottom_.back().stuff;
-    if (stuff == Stuff::kNothing) continue;
-    // By colour alone brown hair is skin in warm light. Above the shoulders only hair hangs beside
-    // the neck.
-    const float aside = std::abs(static_cast<float>(x) + 0.5F - chin.x) / per_mm;
-    const float below = (static_cast<float>(height) - chin.y) / per_mm;
-    const float hangs_from = static_cast<float>(height) - look("edge_hangs") * per_mm;
-    if (below < look("edge_above_shoulders") && aside > look("edge_beside_neck")) {
-      stuff = HangsDown(figure, nullptr, x, hangs_from) ? Stuff::kHair : Stuff::kCloth;
-    } else if (stuff == Stuff::kHair && !HangsDown(figure, &stuffs, x, chin.y)) {
-      stuff = Stuff::kCloth;
-    }
+    const float from = std::min(chin.y, static_cast<float>(height) - look("edge_hangs") * per_mm);
+    if (stuff == Stuff::kHair && !HangsDown(figure, &stuffs, x, from)) stuff = Stuff::kCloth;
   }
   if ((static_cast<float>(height) - chin.y) / per_mm < look("edge_above_shoulders")) {
-    NeckIsOfOneStuff(chin.x, look("edge_beside_neck") * per_mm);
+    TellNeck(figure, chin, per_mm);
   }
   for (int side = 0; side < kPhotoSides; ++side) {
     for (int y = 0; y < height; ++y) {
@@ -149,15 +140,45 @@ PhotoEdges::PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Fig
   }
 }
 
-void PhotoEdges::NeckIsOfOneStuff(float middle, float half) {
-  // A neck is bare or in a collar: what looks like cloth on a bare one is shade or beard.
-  const auto first = bottom_.begin();
-  const int from = std::clamp(static_cast<int>(middle - half), 0, width() - 1);
-  const int to = std::clamp(static_cast<int>(middle + half), from, width() - 1);
-  const auto is_cloth = [](const Seen& seen) { return seen.stuff == Stuff::kCloth; };
-  if (2 * std::count_if(first + from, first + to, is_cloth) > to - from) return;
-  for (auto seen = first + from; seen != first + to; ++seen) {
-    if (is_cloth(*seen)) seen->stuff = Stuff::kSkin;
+void PhotoEdges::TellNeck(const Figure& figure, glm::vec2 chin, float per_mm) {
+  // By colour alone brown hair is skin in warm light, and the shade on a neck is cloth. Above the
+  // shoulders only hair hangs beside the neck, and tips of a collar stand there; the neck itself is
+  // bare or in a collar.
+  const auto& look = PhotoLook();
+  const auto aside = [&](std::size_t x) {
+    return std::abs(static_cast<float>(x) + 0.5F - chin.x) / per_mm;
+  };
+  const float end = static_cast<float>(height()), below = (end - chin.y) / per_mm;
+  const float neck = look("edge_neck");
+  int cloth = 0, all = 0;
+  for (std::size_t x = 0; x < bottom_.size(); ++x) {
+    if (aside(x) > neck) continue;
+    cloth += bottom_[x].stuff == Stuff::kCloth;
+    ++all;
+  }
+  const bool collar = below > look("edge_at_chin") && 2 * cloth > all;
+  const bool at_jaw = below < look("edge_at_jaw");
+  const auto beside_neck = [&](std::size_t x) {
+    // Lower down skin beside the neck may be a raised shoulder.
+    if (!at_jaw && bottom_[x].stuff == Stuff::kSkin) return false;
+    return aside(x) > look("edge_beside_neck") + (at_jaw ? look("edge_jaw") : 0);
+  };
+  for (std::size_t x = 0; x < bottom_.size(); ++x) {
+    Stuff& stuff = bottom_[x].stuff;
+    if (stuff == Stuff::kCloth && !collar && !beside_neck(x)) {
+      stuff = aside(x) > neck ? Stuff::kTip : Stuff::kSkin;
+    }
+    if (stuff == Stuff::kNothing || !beside_neck(x)) continue;
+    // A lock hangs down in some of its columns at least.
+    std::size_t last = x;
+    bool hangs = false;
+    const float from = end - look("edge_hangs") * per_mm;
+    for (; last < bottom_.size() && bottom_[last].stuff != Stuff::kNothing && beside_neck(last);
+         ++last) {
+      hangs = hangs || HangsDown(figure, nullptr, static_cast<int>(last), from);
+    }
+    for (; x < last; ++x) bottom_[x].stuff = hangs ? Stuff::kHair : Stuff::kTip;
+    --x;
   }
 }
 

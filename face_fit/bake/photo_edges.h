@@ -17,8 +17,8 @@ inline constexpr int kPhotoSides = 2;  ///< 0 left, 1 right
 /// The light that falls on the skin of a face, and the usual colour of that skin.
 fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const Figure& figure);
 
-/// What the edge of a photo cuts.
-enum class Stuff { kNothing, kSkin, kHair, kCloth };
+/// What the edge of a photo cuts; a tip is one of a collar, beside a neck.
+enum class Stuff { kNothing, kSkin, kHair, kCloth, kTip };
 
 /// What the edges of a photo show of its figure, column by column and row by row.
 class PhotoEdges {
@@ -38,7 +38,7 @@ class PhotoEdges {
   const std::vector<Seen>& aside(int side) const { return aside_[side]; }  ///< for each row
 
  private:
-  void NeckIsOfOneStuff(float middle, float half);
+  void TellNeck(const Figure& figure, glm::vec2 chin, float per_mm);
 
   std::vector<Seen> bottom_, top_;
   std::array<std::vector<Seen>, kPhotoSides> aside_;
