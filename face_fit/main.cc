@@ -211,8 +211,8 @@ void Run(const Options& options) {
   if (!options.glasses.empty()) head.glasses = options.glasses == "yes";
   progress.Say("photo put on");
   const std::string report =
-      PlaceInPhoto(found, photo) + Report(face, fit, near, bake.coverage, faces, head.glasses,
-                                          DetectOcclusion(networks, base, face, near));
+      PlaceInPhoto(found, photo) +
+      Report(face, fit, near, bake, faces, DetectOcclusion(networks, base, face, near));
   const std::string place = vm::OrThrow(fsm::WriteFace(head, report, folder, options.name));
   progress.Say("written");
   std::cout << report << "face_fit: wrote " << place << "\n";

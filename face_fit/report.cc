@@ -85,10 +85,27 @@ std::string WarnOfOcclusion(const Occlusion& occlusion) {
                    "; what is before the face becomes part of it\n";
 }
 
+/// What the photo cuts off is the toolkit's own.
+std::string WarnOfCompletion(const Completed& completed) {
+  std::string parts;
+  const auto add = [&parts](const char* part) {
+    parts += (parts.empty() ? "" : "; ") + std::string(part);
+  };
+  if (completed.neck) {
+    add("neck, shoulders and clothes below it");
+  } else if (completed.shoulders) {
+    add("shoulders beside it");
+  }
+  if (completed.hair) add("hair above or beside it");
+  if (parts.empty()) return "";
+  return "warning: the photo cuts the figure; drawn in its colours and light: " + parts +
+         "; a photo with more room round the head shows the person's own\n";
+}
+
 }  // namespace
 
-std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo, float coverage,
-                   int faces, bool glasses, const Occlusion& occlusion) {
+std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
+                   const TextureBake& bake, int faces, const Occlusion& occlusion) {
   std::string out;
   std::array<char, 200> line;
   const auto put = [&](const char* format, auto... values) {
@@ -111,8 +128,8 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
   put("irises      %.2f and %.2f clear (below %.2f not seen)\n", d(fit.irises.rings.right.contrast),
       d(fit.irises.rings.left.contrast), d(kClearRing));
   put("residual    %.2f mm\n", d(fit.residual_mm));
-  put("coverage    %.0f %% of the face's map\n", d(100 * coverage));
-  put("glasses     %s\n", glasses ? "yes" : "no");
+  put("coverage    %.0f %% of the face's map\n", d(100 * bake.coverage));
+  put("glasses     %s\n", bake.head.glasses ? "yes" : "no");
   if (!occlusion.where.empty()) {
     put("covered     %.2f (from 1 on something is before the face), most at %s\n",
         d(occlusion.measure), occlusion.where.c_str());
@@ -125,12 +142,12 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
   if (shown.smile > kPosing || shown.jaw + shown.parted > kPosing) {
     out += "warning: not a neutral face; some folds of the expression stay in the skin\n";
   }
-  if (glasses) {
+  if (bake.head.glasses) {
     out +=
         "warning: glasses stay as they are, and so does the skin round the eyes; --glasses no if "
         "there are none\n";
   }
-  out += WarnOfOcclusion(occlusion);
+  out += WarnOfCompletion(bake.completed) + WarnOfOcclusion(occlusion);
   if (faces > 1) out += "warning: several faces; --face N takes another\n";
   return out;
 }

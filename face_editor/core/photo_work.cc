@@ -152,9 +152,8 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
     }
     facefit::TextureBake bake =
         facefit::BakeTexture(*work.base, face, built->fit, work.photo, *work.figure, seen);
+    built->report = facefit::Report(face, built->fit, work.photo, bake, work.faces, work.cover);
     built->photo_head = std::move(bake.head);
-    built->report = facefit::Report(face, built->fit, work.photo, bake.coverage, work.faces,
-                                    built->photo_head.glasses, work.cover);
     built->head = fsm::MakeHead(built->photo_head);
     return built;
   } catch (const std::exception& error) {

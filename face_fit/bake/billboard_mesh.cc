@@ -118,86 +118,14 @@ class OpeningsOfHead {
   std::array<Oval, 3> ovals_{};
 };
 
-/// The figure with what goes on beyond the photo's edges: clothes are mirrored there to and fro,
-/// and pulled down as the shoulders fall. Hair that the photo cuts off ends softly.
-class ExtendedFigure {
- public:
-  /// `chin`: its pixel.
-  ExtendedFigure(const Figure& figure, glm::vec2 chin, float pixels_per_mm)
-      : opacity_(figure.opacity),
-        width_(static_cast<float>(opacity_.width)),
-        height_(static_cast<float>(opacity_.height)),
-        chin_(chin),
-        pixels_per_mm_(pixels_per_mm) {
-    const float half_head = PhotoLook()("half_head");
-    const glm::vec3 mirrored = PhotoLook().Vector("mirrored_strip");
-    for (const int side : {0, 1}) {
-      fall_[side] = Fall(side);
-      const float aside = side == 0 ? chin.x : width_ - chin.x;
-      strip_[side] =
-          std::max(mirrored.x * (aside - half_head * pixels_per_mm), mirrored.z * width_);
-    }
-    lower_ = std::max(mirrored.y * (height_ - chin.y), mirrored.z * height_);
-  }
-  /// The pixel shown at a place in the photo's plane.
-  glm::vec2 Pixel(glm::vec2 p) const {
-    const int side = p.x < 0 ? 0 : 1;
-    if (const float out = Out(p); out > 0) {
-      const float in = ToAndFro(out, strip_[side]);
-      // A shoulder bends down into the arm.
-      const float round_mm = PhotoLook()("shoulder_round");
-      p.y -= fall_[side] * (out + in) + out * out / (2 * round_mm * pixels_per_mm_);
-      p.x = side == 0 ? in : width_ - in;
-    }
-    if (p.y > height_) p.y = height_ - ToAndFro(p.y - height_, lower_);
-    return glm::clamp(p, glm::vec2(0), glm::vec2(width_, height_));
-  }
-  float Opacity(glm::vec2 p) const {
-    const glm::vec2 at = Pixel(p);
-    const float shown = opacity_.Between(at.x, at.y);
-    return p.y < chin_.y && Out(p) > 4 * pixels_per_mm_ ? 0 : shown;
-  }
-
- private:
-  float Out(glm::vec2 p) const { return std::max({-p.x, p.x - width_, 0.0F}); }
-  static float ToAndFro(float way, float length) {
-    const float rest = std::fmod(way, 2 * length);
-    return std::min(rest, 2 * length - rest);
-  }
-  /// How many pixels the outline falls for each that it comes nearer to the edge.
-  float Fall(int side) const {
-    const auto top = [&](int inward) {
-      const int x = side == 0 ? inward : opacity_.width - 1 - inward;
-      int y = 0;
-      while (y < opacity_.height && opacity_.at[opacity_.Index(x, y)] < 0.5F) ++y;
-      return y;
-    };
-    const int inward = std::max(opacity_.width / 16, 1);
-    const int edge = top(0), within = top(inward);
-    const glm::vec2 limit = PhotoLook().Pair("shoulder_fall");
-    if (edge >= opacity_.height || within >= opacity_.height) return limit.x;
-    return std::clamp(static_cast<float>(edge - within) / static_cast<float>(inward), limit.x,
-                      limit.y);
-  }
-  const FloatImage& opacity_;
-  float width_, height_;
-  glm::vec2 chin_;
-  float pixels_per_mm_;
-  float fall_[2] = {}, strip_[2] = {}, lower_ = 1;
-};
-
-/// The grid of the sheet: the photo with what goes on beside and below it.
+/// The grid of the sheet, over the whole figure.
 PhotoGrid GridOver(const Figure& figure, float pixels_per_mm) {
-  const float beyond = PhotoLook()("beyond_photo");
   constexpr float kLeastCell = 4.5F, kMostPoints = 14000;  // millimetres; count
-  const glm::vec2 size(figure.colours.width, figure.colours.height);
-  const glm::vec2 extent = size + glm::vec2(2 * beyond, beyond) * pixels_per_mm;
+  const glm::vec2 extent(figure.colours.width, figure.colours.height);
   const float cell =
       std::max(kLeastCell * pixels_per_mm, std::sqrt(extent.x * extent.y / kMostPoints));
-  return {{-beyond * pixels_per_mm, 0},
-          cell,
-          static_cast<int>(extent.x / cell) + 2,
-          static_cast<int>(extent.y / cell) + 2};
+  return {
+      {0, 0}, cell, static_cast<int>(extent.x / cell) + 2, static_cast<int>(extent.y / cell) + 2};
 }
 
 /// The skin on the sheet's grid.
@@ -275,8 +203,7 @@ FloatImage SheetDepth(const FittedHead& fitted, const PhotoGrid& grid, const Chi
 /// Corners of the cells of the sheet that are drawn, counter-clockwise.
 using Quads = std::vector<std::array<std::uint32_t, 4>>;
 Quads DrawnCells(const BaseHead& base, const FittedHead& fitted, const PhotoGrid& grid,
-                 const ExtendedFigure& figure, FloatImage covered, int rim,
-                 const FloatImage& depth) {
+                 const FloatImage& shown, FloatImage covered, int rim, const FloatImage& depth) {
   FillHoles(covered);
   // Nothing behind the middle of the face: there are the mouth and the eyes.
   const FloatImage within = Blurred(covered, rim);
@@ -295,7 +222,7 @@ Quads DrawnCells(const BaseHead& base, const FittedHead& fitted, const PhotoGrid
     return corners >= 2;
   };
   const auto opacity = [&](int x, int y) {
-    return figure.Opacity(grid.Pixel(std::max(x, 0), std::max(y, 0)));
+    return shown.at[shown.Index(std::max(x, 0), std::max(y, 0))];
   };
   Quads quads;
   for (int y = 0; y + 1 < grid.rows; ++y) {
@@ -365,8 +292,6 @@ Billboard MakeBillboard(const BaseHead& base, const FittedHead& fitted, const Fi
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const Chin chin(base, fitted);
   const PhotoGrid grid = GridOver(figure, pixels_per_mm);
-  const ExtendedFigure extended(figure, fitted.pose.Project(fitted.pose.ToCamera(chin.at())),
-                                pixels_per_mm);
   SkinRaster raster =
       RasterizeSkin(base, fitted, fitted.pose, grid, chin.SkinBottom(), MotionToRest(base, fitted));
   const GridSkin skin(
@@ -378,7 +303,8 @@ Billboard MakeBillboard(const BaseHead& base, const FittedHead& fitted, const Fi
   FloatImage shown(grid.columns, grid.rows);
   for (int y = 0; y < grid.rows; ++y) {
     for (int x = 0; x < grid.columns; ++x) {
-      shown.at[shown.Index(x, y)] = extended.Opacity(grid.Pixel(x, y));
+      const glm::vec2 pixel = grid.Pixel(x, y);
+      shown.at[shown.Index(x, y)] = figure.opacity.Between(pixel.x, pixel.y);
     }
   }
   const FloatImage depth = SheetDepth(fitted, grid, chin, skin, Blurred(shown, 2));
@@ -388,15 +314,14 @@ Billboard MakeBillboard(const BaseHead& base, const FittedHead& fitted, const Fi
     for (int x = 0; x < grid.columns; ++x) {
       const glm::vec2 pixel = grid.Pixel(x, y);
       const std::size_t i = depth.Index(x, y);
-      const glm::vec2 at =
-          glm::clamp(extended.Pixel(pixel) / size, 0.5F / kMapSide, 1 - 0.5F / kMapSide);
+      const glm::vec2 at = glm::clamp(pixel / size, 0.5F / kMapSide, 1 - 0.5F / kMapSide);
       const glm::vec3 by(raster.motion[0].at[i], raster.motion[1].at[i], raster.motion[2].at[i]);
       const glm::vec3 place =
           fitted.pose.FromCamera(fitted.pose.Unproject(pixel, std::min(depth.at[i], 60.0F)));
       out.sheet.push_back({place + by, {0.5F + 0.5F * at.x, at.y}});
     }
   }
-  Quads quads = DrawnCells(base, fitted, grid, extended, skin.covered, skin.rim, depth);
+  Quads quads = DrawnCells(base, fitted, grid, shown, skin.covered, skin.rim, depth);
   // From back to front: soft edges show what lies behind them.
   std::ranges::sort(quads, {}, [&](const auto& quad) {
     return std::pair(out.sheet[quad[0]].position.z + out.sheet[quad[2]].position.z, quad);

@@ -208,12 +208,16 @@ TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& 
   }
   bake.coverage = Coverage(texels, map.seen);
   const SkinLook skin = FinishMap(base, fitted, texels, open, map);
-  fsm::Image picture = SideBySide(map.image, BehindFace(base, fitted, figure), figure.opacity,
-                                  fitted.pose.PixelsPerMm());
+  const CompletedFigure whole = CompleteFigure(base, fitted, figure);
+  bake.completed = whole.completed;
+  FittedHead on_canvas = fitted;
+  on_canvas.pose.centre += whole.photo;
+  fsm::Image picture = SideBySide(map.image, BehindFace(base, on_canvas, whole.figure),
+                                  whole.figure.opacity, fitted.pose.PixelsPerMm());
   const auto eyes = EyesAtRest(base, fitted);
   const EyeColours eye_colours = SampleEyes(face, fit.irises, photo);
   const MouthColours mouth = SampleMouth(face, photo);
-  Billboard billboard = MakeBillboard(base, fitted, figure);
+  Billboard billboard = MakeBillboard(base, on_canvas, whole.figure);
   // Half a texel within, so that the halves do not run into each other.
   constexpr float kHalf = 0.25F / kMapSide;
   bake.head = {.base = base.name,

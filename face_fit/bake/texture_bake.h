@@ -1,5 +1,6 @@
 #pragma once
 
+#include "face_fit/bake/complete_figure.h"
 #include "face_fit/fit/side_view.h"
 #include "fsm/head/photo_head.h"
 
@@ -10,7 +11,8 @@ namespace facefit {
 /// its opacity.
 struct TextureBake {
   fsm::PhotoHead head;
-  float coverage = 0;  ///< part of the face's map that the photo shows
+  float coverage = 0;   ///< part of the face's map that the photo shows
+  Completed completed;  ///< what of the figure it does not
 };
 
 inline constexpr int kMapSide = 1024;  ///< of each half

@@ -1,6 +1,7 @@
 #include "face_fit/picture/filters.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <opencv2/imgproc.hpp>
 #include <span>
 
@@ -60,6 +61,21 @@ void FillHoles(FloatImage& image) {
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       image.at[image.Index(x, y)] = covered.at<std::uint8_t>(y + 1, x + 1) == kOutside ? 0.F : 1.F;
+    }
+  }
+}
+
+void KeepConnected(glm::ivec2 to, FloatImage& image) {
+  StayOnThisThread();
+  constexpr float kLeast = 0.1F;
+  const glm::ivec2 seed = glm::clamp(to, glm::ivec2(0), glm::ivec2(image.width, image.height) - 1);
+  if (image.at[image.Index(seed.x, seed.y)] < kLeast) return;
+  cv::Mat present = View(image) >= kLeast;  // 255 where it is
+  constexpr int kKept = 128;
+  cv::floodFill(present, {seed.x, seed.y}, cv::Scalar(kKept), nullptr, {}, {}, 8);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (present.at<std::uint8_t>(y, x) != kKept) image.at[image.Index(x, y)] = 0;
     }
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "face_fit/picture/float_image.h"
@@ -21,6 +22,10 @@ FloatImage Closed(const FloatImage& image, int reach);
 /// Sets to 1 what is greater than 0 and every hole in it, that is every 0 that is not connected to
 /// the picture's edge by its four neighbours; the rest becomes 0.
 void FillHoles(FloatImage& image);
+
+/// Sets to 0 what is not connected to a pixel by its eight neighbours through pixels of at least
+/// 0.1; nothing if that pixel is less. A pixel outside counts as the nearest one within.
+void KeepConnected(glm::ivec2 to, FloatImage& image);
 
 /// For each pixel the index of the nearest one that is at least `threshold`, its own included.
 /// Distances are right to about 2 %, so of two at nearly the same distance either is returned.

@@ -80,9 +80,8 @@ std::optional<Tracker::Candidate> Tracker::LookAt(const fsm::Image& picture,
 std::optional<Tracker::Candidate> Tracker::Find(const fsm::Image& picture) {
   constexpr std::size_t kMostFaces = 10;
   std::vector<facefit::AttentiveFace> faces;  // largest first
-  for (const auto& box : facefit::FindFaces(networks_, picture)) {
+  for (const auto& face : facefit::FindFaces(networks_, picture)) {
     if (faces.size() == kMostFaces) break;
-    const auto face = facefit::FindPoints(networks_, picture, box);
     if (face.certainty < facefit::kCertainFace) continue;
     faces.push_back(facefit::FindAttentivePoints(attention_, picture, face.crop));
   }

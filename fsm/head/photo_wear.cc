@@ -164,7 +164,9 @@ void AddSheet(const PhotoHead& head, HeadMesh& mesh) {
     BakeWeights weights;
     weights.free = 0;
     weights.domain = vertex.position;
-    weights.neck = SmoothStep(-166, -98, vertex.position.y);
+    // Shoulders follow a turning head a little.
+    constexpr float kFollows = 0.15f;
+    weights.neck = glm::mix(kFollows, 1.0f, SmoothStep(-166, -98, vertex.position.y));
     weights.jaw = JawPart(vertex.position, head.skin_bottom_y);
     mesh.Add(vertex.position, glm::vec3(0.3f), 1, Bone::kSkin, weights);
   }

@@ -63,6 +63,19 @@ TEST(CutToFaceTest, AtTheEdgeOfAPhotoLessIsCut) {
   EXPECT_LT(glm::distance(glm::vec2(there.points[1]), glm::vec2(100, 150)), 1.5F);
 }
 
+TEST(CutToFaceTest, AFaceAtTheEdgeIsCutWhateverTheScalesRoundTo) {
+  // 1600 times 1920 / 1600, and other such products, come out a little above the width.
+  for (const int wide : {1920, 1937, 2048, 2500, 3001}) {
+    for (const int high : {1350, 1398, 1537, 1999}) {
+      const fsm::Image finest = Map(wide, high), photo = Map(1600, 1600 * high / wide);
+      const auto [near, there] =
+          CutToFace(photo, finest, FaceAt({1560, static_cast<float>(photo.height) - 40}, 45));
+      EXPECT_GT(near.width, 100) << wide << " " << high;
+      EXPECT_LT(near.width, wide) << wide << " " << high;
+    }
+  }
+}
+
 TEST(CutToFaceTest, APortraitStaysAsItIs) {
   const fsm::Image photo = Map(300, 400);
   const FoundFace face = FaceAt({150, 180}, 60);

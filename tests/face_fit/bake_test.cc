@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "face_fit/bake/billboard_mesh.h"
+#include "face_fit/bake/complete_figure.h"
 #include "face_fit/bake/grain.h"
 #include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/find/figure/matte.h"
@@ -385,25 +386,25 @@ class BillboardTest : public NetworkTest {
 };
 
 TEST_F(BillboardTest, ShouldersFallBeyondThePhotosSides) {
-  const Billboard set = Sheet();
-  int above = 0, below = 0;
-  for (const auto& vertex : set.sheet) {
-    const glm::vec2 p = Over(vertex);
-    const float out = std::max(-p.x, p.x - kPhoto);
-    if (out < 8 || p.y > kPhoto - 4) continue;
-    const glm::vec2 shown = glm::vec2(2 * vertex.texcoord.x - 1, vertex.texcoord.y) * float{kPhoto};
-    const bool cloth = figure_.opacity.Between(shown.x, shown.y) > 0.5F;
-    const float outline = Shoulder(kPhoto / 2) + 0.3F * out;
-    if (p.y < outline - 2) {
-      ++above;
-      EXPECT_FALSE(cloth) << p.x << " " << p.y;
-    } else if (p.y > outline + 2 + out * out / 60) {
-      ++below;
-      EXPECT_TRUE(cloth) << p.x << " " << p.y;
+  const CompletedFigure whole = CompleteFigure(Galatea(), fitted_, figure_);
+  EXPECT_TRUE(whole.completed.shoulders);
+  const FloatImage& opacity = whole.figure.opacity;
+  int beside = 0;
+  for (int y = 0; y < opacity.height; ++y) {
+    for (int x = 0; x < opacity.width; ++x) {
+      const glm::vec2 p = glm::vec2(x, y) + 0.5F - whole.photo;
+      const float out = std::max(-p.x, p.x - kPhoto);
+      if (out < 8 || p.y > kPhoto - 4) continue;
+      const float outline = Shoulder(kPhoto / 2) + 0.3F * out;
+      if (p.y < outline - 2) {
+        EXPECT_LT(opacity.at[opacity.Index(x, y)], 0.1F) << p.x << " " << p.y;
+      }
+      if (p.y < outline + 2 + out * out / 60) continue;
+      ++beside;
+      EXPECT_GT(opacity.at[opacity.Index(x, y)], 0.9F) << p.x << " " << p.y;
     }
   }
-  EXPECT_GT(above, 50);
-  EXPECT_GT(below, 5);
+  EXPECT_GT(beside, 50);
 }
 
 TEST_F(BillboardTest, IsWrittenFromBackToFront) {

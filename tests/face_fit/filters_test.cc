@@ -63,5 +63,24 @@ TEST(FiltersTest, OrientationsOfExifAreSetUpright) {
   EXPECT_EQ(reds(8), (std::vector<int>{3, 6, 2, 5, 1, 4}));
 }
 
+TEST(KeepConnectedTest, OnlyWhatHangsTogetherWithThePlaceStays) {
+  FloatImage image(9, 7);
+  const auto at = [&image](int x, int y) -> float& { return image.at[image.Index(x, y)]; };
+  for (int x = 0; x < 4; ++x) at(x, 3) = 0.6F;
+  at(4, 4) = 0.3F;  // joined by a corner
+  at(7, 1) = 1;
+  at(2, 6) = 0.05F;  // as good as nothing
+  KeepConnected({1, 3}, image);
+  EXPECT_EQ(at(3, 3), 0.6F);
+  EXPECT_EQ(at(4, 4), 0.3F);
+  EXPECT_EQ(at(7, 1), 0);
+  EXPECT_EQ(at(2, 6), 0);
+  FloatImage same = image;
+  KeepConnected({8, 0}, same);
+  EXPECT_EQ(same.at, image.at) << "nothing is there to be connected to";
+  KeepConnected({-5, 3}, image);
+  EXPECT_EQ(at(3, 3), 0.6F) << "the nearest pixel counts";
+}
+
 }  // namespace
 }  // namespace facefit

@@ -19,12 +19,13 @@ struct ReportTest : testing::Test {
     photo.rgba.assign(200 * 200 * 4, 128);
   }
   bool Says(const std::string& what) const {
-    return Report(face, fit, photo, 0.6F, 1, false, occlusion).find(what) != std::string::npos;
+    return Report(face, fit, photo, bake, 1, occlusion).find(what) != std::string::npos;
   }
 
   FoundFace face;
   Fit fit;
   fsm::Image photo{.width = 200, .height = 200, .rgba = {}};
+  TextureBake bake;
   Occlusion occlusion{0.5F, "the nose"};
 };
 
@@ -52,6 +53,14 @@ TEST_F(ReportTest, WhatMayBeBeforeAFaceIsToldApartFromWhatSurelyIs) {
   EXPECT_FALSE(Says("covered by"));
   occlusion.measure = 1.6F;
   EXPECT_TRUE(Says("covered by something that is no face: the nose"));
+}
+
+TEST_F(ReportTest, WhatThePhotoCutsOffAndWasDrawnIsNamed) {
+  EXPECT_FALSE(Says("cuts the figure"));
+  bake.completed = {.neck = true, .shoulders = true, .hair = false};
+  EXPECT_TRUE(Says("light: neck, shoulders and clothes below it; a photo"));
+  bake.completed = {.neck = false, .shoulders = true, .hair = true};
+  EXPECT_TRUE(Says("light: shoulders beside it; hair above or beside it; a photo"));
 }
 
 }  // namespace

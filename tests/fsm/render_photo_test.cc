@@ -200,6 +200,32 @@ TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
   EXPECT_LT(cover(MakeHead(set)->topology()), 0.6F * cover(topology)) << "old people's are thin";
 }
 
+TEST(PhotoTest, ShouldersFollowATurningHeadALittle) {
+  PhotoHead set = RedFaceAndGreenSheet(255, {});
+  const auto first = static_cast<std::uint32_t>(set.sheet.size());
+  // A shoulder, and hair beside the face as far from the middle.
+  for (const float y : {-220.0f, -219.0f, 0.0f}) set.sheet.push_back({{120, y, 0}, {0.75f, 0.5f}});
+  set.sheet_triangles.insert(set.sheet_triangles.end(), {first, first + 1, first + 2});
+  const auto head = MakeHead(set);
+  FaceState turned;
+  turned.head_rotation[1] = 20;
+  HeadVertices rest, after;
+  head->Evaluate({}, rest);
+  head->Evaluate(turned, after);
+  std::uint32_t shoulder = 0, hair = 0;
+  for (const auto& part : head->topology().parts) {
+    if (part.material != Material::kPhoto) continue;
+    const auto end = head->topology().indices.begin() + part.first_index + part.index_count;
+    shoulder = end[-3];
+    hair = end[-1];
+  }
+  const auto way = [&](std::uint32_t i) {
+    return glm::distance(rest.position[i], after.position[i]);
+  };
+  EXPECT_GT(way(shoulder), 0.08f * way(hair));
+  EXPECT_LT(way(shoulder), 0.3f * way(hair));
+}
+
 TEST(PhotoTest, TheNeckGoesWithTheJawAndClothesAndHairStay) {
   PhotoHead set = RedFaceAndGreenSheet(255, {});
   const glm::vec3 chin = MakeHead("galatea")->Landmark("gnathion");

@@ -32,7 +32,9 @@ AroundFace CutToFace(const fsm::Image& photo, const fsm::Image& finest, const Fo
       glm::clamp(nose - pixels_per_mm * glm::vec2(kAside, kAbove), glm::vec2(0), size);
   const glm::vec2 high =
       glm::clamp(nose + pixels_per_mm * glm::vec2(kAside, kBelow), glm::vec2(0), size);
-  const glm::ivec2 from = glm::floor(low * finer), to = glm::ceil(high * finer);
+  // Scaled to the finest photo and rounded up, its edge may come to lie beyond it.
+  const glm::ivec2 from = glm::floor(low * finer);
+  const glm::ivec2 to = glm::min(glm::ceil(high * finer), all);
   const glm::ivec2 part = to - from;
   const glm::vec2 share = glm::vec2(part) / all;
   const bool whole = std::min(share.x, share.y) > 0.95F;

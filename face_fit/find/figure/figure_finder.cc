@@ -4,8 +4,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
@@ -25,6 +27,32 @@ float PersonAt(const FloatImage& figure, glm::vec2 place) {
   return figure.Between(place.x * kFigureSide, place.y * kFigureSide);
 }
 
+/// A rectangle of a picture, or beyond it.
+struct Window {
+  glm::vec2 corner, size;
+};
+
+/// The whole picture, and more around a face that fills it: the network knows figures with
+/// shoulders, and in pictures of little more than a face takes the wall for one.
+Window WholeFor(glm::vec2 picture, const Box2& face) {
+  const glm::vec2 larger = glm::max(picture, face.Size() / PhotoLook()("figure_face"));
+  return {(picture - larger) * glm::vec2(0.5F, PhotoLook()("figure_above")), larger};
+}
+
+Box2 BoxOf(const FoundFace& face) {
+  Box2 box;
+  for (const glm::vec3& p : face.points) box.Add(p);
+  return box;
+}
+
+/// How nearly a face looks into the camera, 0..1: then its cheeks are as far from its middle.
+float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
+  const float right = std::abs(glm::dot(face.At(point::kCheekRight) - middle, across));
+  const float left = std::abs(glm::dot(face.At(point::kCheekLeft) - middle, across));
+  return Ramp(PhotoLook().Pair("figure_frontal"),
+              std::min(right, left) / std::max({right, left, 1.0F}));
+}
+
 }  // namespace
 
 FloatImage DoubtOneSided(const FoundFace& face, const fsm::Image& image, const FloatImage& seen) {
@@ -32,7 +60,10 @@ FloatImage DoubtOneSided(const FoundFace& face, const fsm::Image& image, const F
   const glm::vec2 top = face.At(point::kForehead), chin = face.At(point::kChin);
   if (glm::distance(top, chin) < 1) return seen;
   const glm::vec2 down = glm::normalize(chin - top), across(-down.y, down.x);
-  const float near = 0.03F * glm::distance(top, chin);
+  const float tall = glm::distance(top, chin), near = 0.03F * tall;
+  // Ears and hats, not what stands behind a shoulder.
+  const glm::vec2 aside = PhotoLook().Pair("figure_mirrored") * tall;
+  const float frontal = Frontal(face, chin, across);
   const auto unlike = [&](glm::vec2 p, glm::vec2 q) {
     float least = 1;
     for (int k = 0; k < 9; ++k) {
@@ -46,8 +77,10 @@ FloatImage DoubtOneSided(const FoundFace& face, const fsm::Image& image, const F
     for (int x = 0; x < width; ++x) {
       const glm::vec2 p = glm::vec2(x, y) + 0.5F;
       if (glm::dot(p - chin, down) > 0) continue;
-      const glm::vec2 q = p - 2 * glm::dot(p - chin, across) * across;
-      if (q.x < 0 || q.y < 0 || q.x >= static_cast<float>(width) ||
+      const float off = glm::dot(p - chin, across);
+      const float part = frontal * Ramp(aside, std::abs(off));
+      const glm::vec2 q = p - 2 * off * across;
+      if (part <= 0 || q.x < 0 || q.y < 0 || q.x >= static_cast<float>(width) ||
           q.y >= static_cast<float>(height)) {
         continue;
       }
@@ -57,7 +90,7 @@ FloatImage DoubtOneSided(const FoundFace& face, const fsm::Image& image, const F
       const float here = seen.at[at(p)], there = seen.at[at(q)];
       if (here > 0.8F * there) continue;
       const float alike = glm::smoothstep(0.3F, 0.05F, unlike(p, q));
-      person.at[at(p)] = std::max(here, glm::mix(0.5F, 0.85F, alike) * there);
+      person.at[at(p)] = std::max(here, part * glm::mix(0.5F, 0.85F, alike) * there);
     }
   }
   return person;
@@ -65,14 +98,15 @@ FloatImage DoubtOneSided(const FoundFace& face, const fsm::Image& image, const F
 
 FloatImage FindFigure(FaceNetworks& networks, const fsm::Image& image, const FoundFace* face) {
   const glm::vec2 size(image.width, image.height);
-  // The network takes the whole picture, stretched to a square.
+  // The network takes a rectangle stretched to a square.
+  const Window all = face ? WholeFor(size, BoxOf(*face)) : Window{{0, 0}, size};
   const FloatImage whole = RunFigure(
-      networks, Resampled(image, {0, 0}, glm::mat2(size.x, 0, 0, size.y), kFigureSide, 0, 1));
+      networks,
+      Resampled(image, all.corner, glm::mat2(all.size.x, 0, 0, all.size.y), kFigureSide, 0, 1));
   FloatImage near(0, 0);
   Crop head;
   if (face) {
-    Box2 box;
-    for (const glm::vec3& p : face->points) box.Add(p);
+    const Box2 box = BoxOf(*face);
     const float face_side = std::max(box.Size().x, box.Size().y);
     head.side = std::min({2.3F * face_side, size.x, size.y});
     head.centre = glm::clamp(box.Middle() - glm::vec2(0, 0.1F * face_side),
@@ -83,7 +117,7 @@ FloatImage FindFigure(FaceNetworks& networks, const fsm::Image& image, const Fou
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const glm::vec2 p = glm::vec2(x, y) + 0.5F;
-      float person = PersonAt(whole, p / size);
+      float person = PersonAt(whole, (p - all.corner) / all.size);
       if (face) {
         // The mean where both see well: what one of them doubts is looked at by its colours.
         const glm::vec2 at = head.FromPicture(p);
@@ -94,7 +128,9 @@ FloatImage FindFigure(FaceNetworks& networks, const fsm::Image& image, const Fou
       out.at[out.Index(x, y)] = person;
     }
   }
-  return face ? DoubtOneSided(*face, image, out) : out;
+  if (!face) return out;
+  KeepConnected(glm::ivec2(face->At(point::kNoseTip)), out);
+  return DoubtOneSided(*face, image, out);
 }
 
 }  // namespace facefit

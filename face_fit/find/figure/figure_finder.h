@@ -11,10 +11,11 @@ namespace facefit {
 FloatImage FindFigure(FaceNetworks& networks, const fsm::Image& image,
                       const FoundFace* face = nullptr);
 
-/// Heads are nearly symmetric: where one side of the face belongs to the person and its mirror
-/// image does not, as with an ear or half a hat, the network may have missed the latter. Returns
-/// `seen`, where pixels belong to a person, with such pixels set to doubt, 0.5, or to 0.85 of the
-/// other side where both have one colour.
+/// Heads are nearly symmetric: where one side of a face that looks into the camera belongs to the
+/// person and its mirror image does not, as with an ear or half a hat, the network may have missed
+/// the latter. Returns `seen`, where pixels belong to a person, with such pixels set to doubt, 0.5,
+/// or to 0.85 of the other side where both have one colour. Only near the head: what stands behind
+/// it is of one colour with it often enough.
 FloatImage DoubtOneSided(const FoundFace& face, const fsm::Image& image, const FloatImage& seen);
 
 }  // namespace facefit

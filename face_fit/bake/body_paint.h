@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "face_fit/bake/bust.h"
+#include "face_fit/bake/canvas.h"
+#include "face_fit/bake/photo_edges.h"
+
+namespace facefit {
+
+/// Neck, shoulders and clothes below a photo and beside it: the bust, made as wide as the figure is
+/// where the photo ends, in the colours found along that edge and lit by the photo's light.
+class BodyPaint {
+ public:
+  /// `opacity`: of the figure in the photo; `bust`: drawn on the canvas. All others outlive it.
+  BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const FloatImage& opacity,
+            const fsm::FaceLight& light, Bust bust);
+  /// Whether a side of the photo cuts the shoulder.
+  bool CutsShoulder() const { return joint_[0].cut || joint_[1].cut; }
+  /// REQUIRES: beyond the photo, or at its lower edge.
+  Paint At(glm::vec2 place) const;
+
+ private:
+  struct Sample {
+    float cover = 0, cloth = 0, open = 1;
+    glm::vec3 normal{0, 0, 1};
+  };
+  /// Where one half of the figure and that of the bust are made to meet.
+  struct Joint {
+    float row = 0, wider = 1;  ///< the figure's half width there by the bust's
+    float lasts = 1;           ///< over how many millimetres downward that fades
+    bool cut = false;          ///< by the photo's side
+    float falls = 0;           ///< if it is: how steeply the outline falls there
+  };
+  /// Of one edge, for skin and for cloth: by how much the photo differs from what is drawn there.
+  using Differences = std::array<EdgeMeans, 2>;
+
+  float Axis() const { return bust_.axis - static_cast<float>(canvas_.photo.x); }
+  Joint Join(int side) const;
+  float Falls(int side, float row) const;
+  glm::vec3 FindCloth() const;
+  glm::vec2 FindNeckline() const;
+  void Compare(const PhotoEdges::Seen& seen, glm::vec2 place, Differences& to) const;
+  Sample SampleAt(glm::vec2 place) const;
+  glm::vec3 Plain(const Sample& body, int cloth) const;
+  float ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) const;
+  glm::vec3 Difference(glm::vec2 place, const Beyond& beyond, int cloth) const;
+
+  const Canvas& canvas_;
+  const PhotoEdges& edges_;
+  const FloatImage& opacity_;
+  const fsm::FaceLight& light_;
+  Bust bust_;
+  std::array<Joint, kPhotoSides> joint_;
+  glm::vec3 cloth_;     ///< its usual colour, 0..255
+  glm::vec2 neckline_;  ///< middle and half width of the skin that the lower edge cuts, pixels
+  Differences below_;
+  std::array<Differences, kPhotoSides> aside_;
+};
+
+}  // namespace facefit

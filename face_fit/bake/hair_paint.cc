@@ -1,0 +1,150 @@
+#include "face_fit/bake/hair_paint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "face_fit/picture/resample.h"
+#include "face_fit/tables/photo_look.h"
+
+namespace facefit {
+namespace {
+
+/// A number 0..1 that varies from strand to strand, without a period; `at`: millimetres along an
+/// edge.
+float Strand(float at) {
+  return 0.5F + 0.17F * (std::sin(at * 1.31F) + std::sin(at * 0.43F + 1.3F) +
+                         std::sin(at * 0.171F + 0.4F));
+}
+
+/// An arc over -1..1: 1 in its middle, 0 beyond its ends.
+float Arc(float part) { return std::sqrt(std::max(1 - part * part, 0.0F)); }
+
+}  // namespace
+
+HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure& figure,
+                     float crown)
+    : canvas_(canvas),
+      edges_(edges),
+      figure_(figure),
+      top_(TopRun()),
+      sides_{SideRun(0), SideRun(1)} {
+  const auto& look = PhotoLook();
+  const float most = look("hair_beside") * canvas.per_mm;
+  for (int side = 0; side < kPhotoSides; ++side) {
+    bulge_[side] = std::min(look("hair_bulge") * sides_[side].Length(), most);
+    // What touches a corner goes on above it.
+    if (bulge_[side] <= 0 || sides_[side].from > 1 || top_.Length() <= 0) continue;
+    if (side == 0 && top_.from < 1) top_.from -= bulge_[side];
+    if (side == 1 && top_.to > static_cast<float>(canvas.photo_size.x) - 1) {
+      top_.to += bulge_[side];
+    }
+  }
+  const glm::vec2 rounded = look.Pair("hair_dome");
+  if (top_.Length() > 0)
+    dome_ = std::clamp(-crown, rounded.x * top_.Length(), rounded.y * top_.Length());
+  cut_ = dome_ > 0 || bulge_[0] + bulge_[1] > 0;
+  for (const PhotoEdges::Seen& seen : edges.bottom()) {
+    below_.Add(seen.colour, seen.stuff == Stuff::kHair ? 1 : 0);
+  }
+  // Single dark columns below the chin are wrinkles.
+  const float chin = look("hair_beard_half") * canvas.per_mm;
+  bearded_ = below_.Around(canvas.chin.x, chin).w > look("hair_beard_least");
+}
+
+HairPaint::Run HairPaint::TopRun() const {
+  // The longest part of the upper edge that the figure touches.
+  Run longest, run;
+  for (int x = 0; x < edges_.width(); ++x) {
+    if (edges_.top()[static_cast<std::size_t>(x)].stuff == Stuff::kNothing) {
+      run.from = static_cast<float>(x) + 1;
+    } else {
+      run.to = static_cast<float>(x) + 1;
+      if (run.to - run.from > longest.Length()) longest = run;
+    }
+  }
+  return longest;
+}
+
+HairPaint::Run HairPaint::SideRun(int side) const {
+  // Beside the head all that is cut is taken for hair or hat, whatever its colour; farther down
+  // only what looks like hair.
+  Run longest, run;
+  for (int y = 0; y < edges_.height(); ++y) {
+    const Stuff stuff = edges_.aside(side)[static_cast<std::size_t>(y)].stuff;
+    const bool head = static_cast<float>(y) < canvas_.chin.y;
+    if (stuff == Stuff::kHair || (head && stuff != Stuff::kNothing)) {
+      run.to = static_cast<float>(y) + 1;
+      if (run.to - run.from > longest.Length()) longest = run;
+    } else {
+      run.from = static_cast<float>(y) + 1;
+    }
+  }
+  return longest.from < canvas_.chin.y ? longest : Run{};
+}
+
+float HairPaint::Above(float x) const {
+  if (dome_ <= 0) return 0;
+  return dome_ * Arc((x - 0.5F * (top_.from + top_.to)) / (0.5F * top_.Length()));
+}
+
+float HairPaint::Aside(int side, float y) const {
+  const Run& run = sides_[side];
+  const float bulge = bulge_[side];
+  if (bulge <= 0) return 0;
+  // The photo's corners are no ends.
+  const float from = run.from < 1 ? -dome_ : run.from;
+  const bool goes_on = run.to > static_cast<float>(canvas_.photo_size.y) - 1;
+  const float to = goes_on ? run.to + PhotoLook()("hair_falls") * canvas_.per_mm : run.to;
+  return bulge * Arc((2 * y - from - to) / (to - from));
+}
+
+Paint HairPaint::Mirrored(glm::vec2 place) const {
+  const glm::vec2 size(canvas_.photo_size);
+  glm::vec2 at = glm::abs(place);
+  if (place.x > size.x) at.x = 2 * size.x - place.x;
+  at = glm::clamp(at, glm::vec2(0.5F), size - 0.5F);
+  return {ColourAt(figure_.colours, at), figure_.opacity.Between(at.x, at.y)};
+}
+
+Paint HairPaint::Falling(glm::vec2 place, float below) const {
+  const glm::vec2 size(canvas_.photo_size);
+  const float mm = below / canvas_.per_mm;
+  const float x = place.x < 0 ? -place.x : place.x > size.x ? 2 * size.x - place.x : place.x;
+  const glm::vec4 hair = below_.Around(x, 0.5F + 0.1F * below);
+  // Below a bearded chin it is the beard, which ends at once.
+  const glm::vec2 beard = PhotoLook().Pair("hair_beard");
+  const float aside = std::abs(x - canvas_.chin.x) / canvas_.per_mm;
+  const float falls =
+      bearded_
+          ? glm::mix(PhotoLook()("hair_beard_falls"), PhotoLook()("hair_falls"), Ramp(beard, aside))
+          : PhotoLook()("hair_falls") * Ramp(PhotoLook().Pair("hair_aside"), aside);
+  const float end = falls * (0.5F + 0.5F * Strand(place.x / canvas_.per_mm));
+  return {glm::vec3(hair), mm < end ? hair.w * glm::smoothstep(end, 0.35F * end, mm) : 0.0F};
+}
+
+Paint HairPaint::At(glm::vec2 place) const {
+  const Beyond beyond = canvas_.BeyondPhoto(place);
+  if (beyond.below > 0) {
+    Paint hair = Falling(place, beyond.below);
+    if (beyond.aside > 0) {
+      const float reach = Aside(beyond.side, place.y);
+      hair.cover *= glm::smoothstep(reach, 0.8F * reach, beyond.aside) * (reach > 0 ? 1.0F : 0.0F);
+    }
+    return hair;
+  }
+  const float up = Above(place.x), out = Aside(beyond.side, place.y);
+  const float soft = PhotoLook()("hair_soft") * canvas_.per_mm *
+                     (0.5F + Strand((place.x + place.y) / canvas_.per_mm));
+  float within = 1;
+  if (beyond.above > 0) within = std::min(within, (up - beyond.above) / soft);
+  if (beyond.aside > 0 && beyond.above <= 0) within = std::min(within, (out - beyond.aside) / soft);
+  if (within <= 0) return {};
+  Paint hair = Mirrored(place);
+  // Nothing thins out the figure at the very edge of the photo but the matte's doubt.
+  hair.cover = std::min(within, 1.0F);
+  return hair;
+}
+
+}  // namespace facefit

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "face_fit/bake/canvas.h"
+#include "face_fit/bake/photo_edges.h"
+
+namespace facefit {
+
+/// Hair (or a hat) beyond a photo that cuts it: above the head it is rounded off, beside the head
+/// it goes on a little, both as a mirror image of the hair within; what the lower edge cuts falls
+/// on in the colours of that edge and ends in strands.
+class HairPaint {
+ public:
+  /// `colours`: of the figure. `crown`: the row of the top of the skull with its hair. All outlive
+  /// it.
+  HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure& figure, float crown);
+  /// Whether the photo cuts hair above or aside.
+  bool Cut() const { return cut_; }
+  /// REQUIRES: beyond the photo.
+  Paint At(glm::vec2 place) const;
+
+ private:
+  float Above(float x) const;
+  float Aside(int side, float y) const;
+  Paint Mirrored(glm::vec2 place) const;
+  Paint Falling(glm::vec2 place, float below) const;
+
+  /// A part of an edge that cuts the hair, pixels.
+  struct Run {
+    float from = 0, to = 0;
+    float Length() const { return to - from; }
+  };
+  Run TopRun() const;
+  Run SideRun(int side) const;
+
+  const Canvas& canvas_;
+  const PhotoEdges& edges_;
+  const Figure& figure_;
+  Run top_;
+  std::array<Run, kPhotoSides> sides_;
+  float dome_ = 0;                          ///< how high the top is rounded off, pixels
+  std::array<float, kPhotoSides> bulge_{};  ///< how far it goes on beside, pixels
+  EdgeMeans below_;                         ///< the hair along the lower edge
+  bool bearded_ = false, cut_ = false;
+};
+
+}  // namespace facefit

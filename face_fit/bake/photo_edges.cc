@@ -1,0 +1,185 @@
+#include "face_fit/bake/photo_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "face_fit/find/head/rasterizer.h"
+#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/resample.h"
+#include "face_fit/tables/photo_look.h"
+#include "fsm/rig/normals.h"
+
+namespace facefit {
+namespace {
+
+/// Tells hair and clothes from skin by their colours.
+class Stuffs {
+ public:
+  /// `brows`: the row above which a figure is head, hair or hat. `skin`: 0..255.
+  Stuffs(const Figure& figure, float brows, glm::vec3 skin) : skin_(skin) {
+    glm::vec3 sum(0);
+    float count = 0;
+    for (int y = 0; y < std::min(figure.opacity.height, static_cast<int>(brows)); ++y) {
+      for (int x = 0; x < figure.opacity.width; ++x) {
+        const std::size_t i = figure.opacity.Index(x, y);
+        const glm::vec3 colour = Rgb(figure.colours, i);
+        if (figure.opacity.at[i] < 0.9F || IsSkin(colour)) continue;
+        sum += colour;
+        ++count;
+      }
+    }
+    constexpr float kEnough = 20;
+    if (count > kEnough) hair_ = sum / count;
+  }
+  Stuff Of(glm::vec3 colour) const {
+    const float from_hair = glm::distance(colour, hair_);
+    if (IsSkin(colour) && glm::distance(colour, skin_) < from_hair) return Stuff::kSkin;
+    return from_hair < PhotoLook()("edge_hair_colour") ? Stuff::kHair : Stuff::kCloth;
+  }
+
+ private:
+  bool IsSkin(glm::vec3 colour) const {
+    const glm::vec2 bright = PhotoLook().Pair("edge_skin_bright");
+    const float part = Brightness(colour) / std::max(Brightness(skin_), 1.0F);
+    return glm::distance(Hue(colour), Hue(skin_)) < PhotoLook()("edge_skin_hue") &&
+           part > bright.x && part < bright.y;
+  }
+  /// Colour without brightness; of the dark, where it is noise, grey.
+  static glm::vec3 Hue(glm::vec3 colour) { return (colour + 8.0F) / (Brightness(colour) + 8); }
+
+  glm::vec3 skin_, hair_{-1e3F};
+};
+
+PhotoEdges::Seen Look(const Figure& figure, const Stuffs& stuffs, glm::ivec2 from,
+                      glm::ivec2 size) {
+  PhotoEdges::Seen seen;
+  const float part = 1 / static_cast<float>(size.x * size.y);
+  for (int y = from.y; y < from.y + size.y; ++y) {
+    for (int x = from.x; x < from.x + size.x; ++x) {
+      const std::size_t i = figure.opacity.Index(x, y);
+      seen.colour += part * Rgb(figure.colours, i);
+      seen.cover += part * figure.opacity.at[i];
+    }
+  }
+  if (seen.cover > 0.5F) seen.stuff = stuffs.Of(seen.colour);
+  return seen;
+}
+
+}  // namespace
+
+fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const Figure& figure) {
+  const auto& position = fitted.posed_vertices;
+  std::vector<std::uint32_t> corners;
+  ForSkinTriangles(base.head->topology(),
+                   [&](const std::uint32_t* t) { corners.insert(corners.end(), t, t + 3); });
+  const auto normal = fsm::Normals(corners, position, position.size());
+  constexpr float kSquarely = 0.3F, kFront = 45;  // cosine; millimetres: neither neck nor ears
+  const Box2 photo{{0, 0}, glm::vec2(figure.colours.width, figure.colours.height)};
+  std::vector<fsm::FaceLight::Patch> patches;
+  for (std::size_t v = 0; v < position.size(); ++v) {
+    if (normal[v].z < kSquarely || position[v].z < kFront) continue;
+    const glm::vec2 at = fitted.pose.Project(fitted.pose.ToCamera(position[v]));
+    if (at != glm::clamp(at, photo.low, photo.high)) continue;
+    patches.push_back({normal[v], ColourAt(figure.colours, at) / 255.0F});
+  }
+  return fsm::FaceLight(patches);
+}
+
+namespace {
+
+/// Whether most of a column from a row down to the photo's lower edge belongs to the figure, and if
+/// `hair` is given is hair by its colour: what hangs from the head, no collar.
+bool HangsDown(const Figure& figure, const Stuffs* hair, int x, float from) {
+  int hanging = 0, rows = 0;
+  for (int y = std::max(static_cast<int>(from), 0); y < figure.opacity.height; ++y, ++rows) {
+    const std::size_t i = figure.opacity.Index(x, y);
+    hanging +=
+        figure.opacity.at[i] > 0.5F && (!hair || hair->Of(Rgb(figure.colours, i)) == Stuff::kHair);
+  }
+  constexpr int kMost = 10, kOf = 8;  // eight of ten
+  return kMost * hanging >= kOf * rows;
+}
+
+}  // namespace
+
+PhotoEdges::PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Figure& figure,
+                       glm::vec3 skin) {
+  const int width = figure.opacity.width, height = figure.opacity.height;
+  const glm::vec3 forehead = base.points[point::kForehead].On(fitted.posed_vertices);
+  const Stuffs stuffs(figure, fitted.pose.Project(fitted.pose.ToCamera(forehead)).y, skin);
+  const glm::vec2 chin = fitted.pose.Project(
+      fitted.pose.ToCamera(base.points[point::kChin].On(fitted.posed_vertices)));
+  const auto& look = PhotoLook();
+  const float per_mm = fitted.pose.PixelsPerMm();
+  const int wanted = static_cast<int>(look("edge_band") * per_mm);
+  const int down = std::clamp(wanted, 1, height), across = std::clamp(wanted, 1, width);
+  for (int x = 0; x < width; ++x) {
+    top_.push_back(Look(figure, stuffs, {x, 0}, {1, down}));
+    bottom_.push_back(Look(figure, stuffs, {x, height - down}, {1, down}));
+    Stuff& stuff = bottom_.back().stuff;
+    const float from = std::min(chin.y, static_cast<float>(height) - look("edge_hangs") * per_mm);
+    if (stuff == Stuff::kHair && !HangsDown(figure, &stuffs, x, from)) stuff = Stuff::kCloth;
+  }
+  if ((static_cast<float>(height) - chin.y) / per_mm < look("edge_above_shoulders")) {
+    TellNeck(figure, chin, per_mm);
+  }
+  for (int side = 0; side < kPhotoSides; ++side) {
+    for (int y = 0; y < height; ++y) {
+      aside_[side].push_back(
+          Look(figure, stuffs, {side == 0 ? 0 : width - across, y}, {across, 1}));
+    }
+    // Hair hangs down from the head: dark cloth below a gap is none.
+    bool gap = false;
+    for (int y = std::max(static_cast<int>(chin.y), 0); y < height; ++y) {
+      Stuff& stuff = aside_[side][static_cast<std::size_t>(y)].stuff;
+      gap = gap || stuff == Stuff::kNothing;
+      if (gap && stuff == Stuff::kHair) stuff = Stuff::kCloth;
+    }
+  }
+}
+
+void PhotoEdges::TellNeck(const Figure& figure, glm::vec2 chin, float per_mm) {
+  // By colour alone brown hair is skin in warm light, and the shade on a neck is cloth. Above the
+  // shoulders only hair hangs beside the neck, and tips of a collar stand there; the neck itself is
+  // bare or in a collar.
+  const auto& look = PhotoLook();
+  const auto aside = [&](std::size_t x) {
+    return std::abs(static_cast<float>(x) + 0.5F - chin.x) / per_mm;
+  };
+  const float end = static_cast<float>(height()), below = (end - chin.y) / per_mm;
+  const float neck = look("edge_neck");
+  int cloth = 0, all = 0;
+  for (std::size_t x = 0; x < bottom_.size(); ++x) {
+    if (aside(x) > neck) continue;
+    cloth += bottom_[x].stuff == Stuff::kCloth;
+    ++all;
+  }
+  const bool collar = below > look("edge_at_chin") && 2 * cloth > all;
+  const bool at_jaw = below < look("edge_at_jaw");
+  const auto beside_neck = [&](std::size_t x) {
+    // Lower down skin beside the neck may be a raised shoulder.
+    if (!at_jaw && bottom_[x].stuff == Stuff::kSkin) return false;
+    return aside(x) > look("edge_beside_neck") + (at_jaw ? look("edge_jaw") : 0);
+  };
+  for (std::size_t x = 0; x < bottom_.size(); ++x) {
+    Stuff& stuff = bottom_[x].stuff;
+    if (stuff == Stuff::kCloth && !collar && !beside_neck(x)) {
+      stuff = aside(x) > neck ? Stuff::kTip : Stuff::kSkin;
+    }
+    if (stuff == Stuff::kNothing || !beside_neck(x)) continue;
+    // A lock hangs down in some of its columns at least.
+    std::size_t last = x;
+    bool hangs = false;
+    const float from = end - look("edge_hangs") * per_mm;
+    for (; last < bottom_.size() && bottom_[last].stuff != Stuff::kNothing && beside_neck(last);
+         ++last) {
+      hangs = hangs || HangsDown(figure, nullptr, static_cast<int>(last), from);
+    }
+    for (; x < last; ++x) bottom_[x].stuff = hangs ? Stuff::kHair : Stuff::kTip;
+    --x;
+  }
+}
+
+}  // namespace facefit
