@@ -56,7 +56,7 @@ const FilmKind* KindOf(std::string_view path) {
        {"libx264", "-preset", "superfast", "-crf", "18"},
        {"aac", "-b:a", "160k"}},
       {".mov", true, "mov", "yuva444p10le", {"prores_ks", "-profile:v", "4444"}, {"pcm_s16le"}},
-      // Frames that VP9 shows later than it codes them would lose their transparency.
+      // The encoder has no alternate reference frames beside transparency.
       {".webm",
        true,
        "webm",

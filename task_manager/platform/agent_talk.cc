@@ -68,10 +68,10 @@ void AgentPlatform::TalkFromScript() {
   } while (true);
   next_ = command;
   const std::string macro = Macro("Talk");
-  if (!hub_.Ask("to @AM-MCL def " + macro + " = " + JsonText(steps), kAnswer) ||
-      !hub_.Ask("to @AM-MCL set " + macro + " = NOW", kLongestTurn)) {
-    Hear(Input::Kind::kHangup, {});
-  }
+  const bool said = hub_.Ask("to @AM-MCL def " + macro + " = " + JsonText(steps), kAnswer) &&
+                    hub_.Ask("to @AM-MCL set " + macro + " = NOW", kLongestTurn);
+  // An interruption finds no answer where the conversation has ended before.
+  if (!said && !talk_->over()) Hear(Input::Kind::kHangup, {});
 }
 
 /// Words that cut off the prompts are the first of the conversation.
@@ -87,7 +87,8 @@ void AgentPlatform::HandOverHeard() {
 /// Until something has changed for the conversation, at most kLook.
 void AgentPlatform::AwaitTalk(Millis left) {
   const auto waits = [this] { return talk_->WaitsForUser() && !hearing_ && typed_waiting_ == 0; };
-  // What a reply says of the end comes back to @CHAT by way of the hub: after an answer it is there.
+  // What a reply says of the end comes back to @CHAT by way of the hub: after an answer it is
+  // there.
   if (waits()) static_cast<void>(hub_.Ask("to @" + options_.chat + " inq Busy", kAnswer));
   if (waits()) {
     if (options_.script) return TalkFromScript();
@@ -102,12 +103,14 @@ void AgentPlatform::AwaitTalk(Millis left) {
 
 TalkResult AgentPlatform::Talk(const std::vector<Prompt>& prompts, const TalkRequest& request) {
   mark_.clear();
+  // @CHAT listens without a grammar, and so are the words heard that cut off the prompts.
+  static_cast<void>(hub_.Ask("to @" + options_.ear + " set Grammar = NONE", kAnswer));
+  in_ear_.clear();
   hub_.LetCutIn(HubLink::CutIn::kNext);
   if (!Speaks(prompts, true)) return {.kind = TalkResult::Kind::kHangup};
   static_cast<void>(hub_.Ask(
       "to @AM set Subscribe = " + options_.ear + " " + options_.voice + " AM-MCL " + options_.chat,
       kAnswer));
-  in_ear_.clear();  // @CHAT takes the ear, without a grammar
   attends_ = false;
   talk_silence_ = request.silence;
   talk_.emplace(hub_, options_.chat,

@@ -39,6 +39,15 @@ void ExpectRead(const std::string& text, const std::string& expected) {
     EXPECT_EQ(Read(text, piece), expected) << text << " in pieces of " << piece;
 }
 
+TEST(TagReaderTest, OfAnyWordOnlyPlainOnesGetIntoACommand) {
+  ExpectRead("Good. [end kyoto]", "Good. {to @CHAT set Talk = END kyoto}");
+  ExpectRead("Good. [end 京都]", "Good. {to @CHAT set Talk = END 京都}");
+  ExpectRead("Good. [end]", "Good. {to @CHAT set Talk = END -}");
+  ExpectRead("Good. <end result=\"a b\"/>", "Good. ");
+  ExpectRead("Good. [end a|b]", "Good. ");
+  ExpectRead("Good. [end " + std::string(65, 'x') + "]", "Good. ");
+}
+
 TEST(TagReaderTest, TagsBecomeCommandsHoweverTheStreamIsCut) {
   ExpectRead("[happy] Hi", "{to @AM-MCL set Emotion = HAPPY 80} Hi");
   ExpectRead("a <emotion name=\"SAD\" strength='30'/> b", "a {to @AM-MCL set Emotion = SAD 30} b");
