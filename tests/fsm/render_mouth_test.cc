@@ -59,7 +59,7 @@ class MouthPicture {
   /// The upper or the lower lip's edge at one x.
   glm::vec3 Lip(bool upper, float x) const {
     glm::vec3 best(1e6F);
-    for (const auto& [above, below] : mouth().lips) {
+    for (const auto& [above, below] : mouth().seam) {
       const glm::vec3 p = Vertex(upper ? above : below);
       if (std::abs(p.x - x) < std::abs(best.x - x)) best = p;
     }
@@ -280,7 +280,7 @@ TEST(MouthFinderTest, LipsAreShutWhereNothingIsSeenBetweenThem) {
   for (const glm::vec3 apart :
        {glm::vec3(0, 0.5F, 0), glm::vec3(0, 0, 0.5F), glm::vec3(0, 0, -0.5F)}) {
     HeadVertices open = vertices;
-    for (const auto& pair : head->topology().mouth.lips) open.position[pair.first] += apart;
+    for (const auto& pair : head->topology().mouth.seam) open.position[pair.first] += apart;
     EXPECT_FALSE(finder.Measure(open)->IsShut()) << apart.y << " " << apart.z;
   }
   FaceState state;
