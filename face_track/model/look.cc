@@ -40,7 +40,7 @@ facefit::Crop CropOf(const Lens& lens, const Pose& pose) {
 std::vector<glm::vec2> PlacesOf(const facefit::AttentiveFace& face) {
   std::vector<glm::vec2> places;
   for (const glm::vec3& p : face.face.points) places.emplace_back(p);
-  for (const auto& iris : face.iris) places.push_back(iris[0]);
+  for (const auto& iris : face.iris.InOrder()) places.push_back(iris[0]);
   return places;
 }
 
