@@ -10,7 +10,8 @@
 namespace facefit {
 
 /// Hair (or a hat) beyond a photo that cuts it: above the head it is rounded off, beside the head
-/// it goes on a little, both as a mirror image of the hair within; what the lower edge cuts falls
+/// it goes on a little, both as a mirror image of the hair within, or where
+/// skin reaches the edge in the hair's usual colour; what the lower edge cuts falls
 /// on in the colours of that edge and ends in strands.
 class HairPaint {
  public:
@@ -25,7 +26,7 @@ class HairPaint {
  private:
   float Above(float x) const;
   float Aside(int side, float y) const;
-  Paint Mirrored(glm::vec2 place) const;
+  glm::vec3 Colour(glm::vec2 place) const;
   Paint Falling(glm::vec2 place, float below) const;
 
   /// A part of an edge that cuts the hair, pixels.
