@@ -105,7 +105,8 @@ float BodyPaint::Falls(int side, float row) const {
 glm::vec3 BodyPaint::FindCloth() const {
   glm::vec4 sum(0);
   const auto add = [&sum](const PhotoEdges::Seen& seen) {
-    if (seen.stuff == Stuff::kCloth) sum += glm::vec4(seen.colour, 1);
+    const bool cloth = seen.stuff == Stuff::kCloth || seen.stuff == Stuff::kTip;
+    if (cloth) sum += glm::vec4(seen.colour, 1);
   };
   std::ranges::for_each(edges_.bottom(), add);
   for (int side = 0; side < kPhotoSides; ++side) {
