@@ -38,7 +38,7 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
       sides_{SideRun(0), SideRun(1)} {
   const auto& look = PhotoLook();
   const float most = look("hair_beside") * canvas.per_mm;
-  for (int side = 0; side < kPhotoSides; ++side) {
+  for (std::size_t side = 0; side < kPhotoSides; ++side) {
     bulge_[side] = std::min(look("hair_bulge") * sides_[side].Length(), most);
     // What touches a corner goes on above it.
     if (bulge_[side] <= 0 || sides_[side].from > 1 || top_.Length() <= 0) continue;
@@ -73,7 +73,7 @@ HairPaint::Run HairPaint::TopRun() const {
   return longest;
 }
 
-HairPaint::Run HairPaint::SideRun(int side) const {
+HairPaint::Run HairPaint::SideRun(std::size_t side) const {
   // Beside the head all that is cut is taken for hair or hat, whatever its colour; farther down
   // only what looks like hair.
   Run longest, run;
@@ -95,7 +95,7 @@ float HairPaint::Above(float x) const {
   return dome_ * Arc((x - 0.5F * (top_.from + top_.to)) / (0.5F * top_.Length()));
 }
 
-float HairPaint::Aside(int side, float y) const {
+float HairPaint::Aside(std::size_t side, float y) const {
   const Run& run = sides_[side];
   const float bulge = bulge_[side];
   if (bulge <= 0) return 0;

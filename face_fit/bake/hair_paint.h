@@ -25,7 +25,7 @@ class HairPaint {
 
  private:
   float Above(float x) const;
-  float Aside(int side, float y) const;
+  float Aside(std::size_t side, float y) const;
   glm::vec3 Colour(glm::vec2 place) const;
   Paint Falling(glm::vec2 place, float below) const;
 
@@ -35,7 +35,7 @@ class HairPaint {
     float Length() const { return to - from; }
   };
   Run TopRun() const;
-  Run SideRun(int side) const;
+  Run SideRun(std::size_t side) const;
 
   const Canvas& canvas_;
   const PhotoEdges& edges_;

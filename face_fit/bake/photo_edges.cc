@@ -81,6 +81,19 @@ int HairFrom(const Figure& figure, const Stuffs& stuffs, glm::ivec2 from, glm::i
   return count;
 }
 
+/// Whether most of a column from a row down to the photo's lower edge belongs to the figure, and if
+/// `hair` is given is hair by its colour: what hangs from the head, no collar.
+bool HangsDown(const Figure& figure, const Stuffs* hair, int x, float from) {
+  int hanging = 0, rows = 0;
+  for (int y = std::max(static_cast<int>(from), 0); y < figure.opacity.height; ++y, ++rows) {
+    const std::size_t i = figure.opacity.Index(x, y);
+    hanging +=
+        figure.opacity.at[i] > 0.5F && (!hair || hair->Of(Rgb(figure.colours, i)) == Stuff::kHair);
+  }
+  constexpr int kMost = 10, kOf = 8;  // eight of ten
+  return kMost * hanging >= kOf * rows;
+}
+
 }  // namespace
 
 fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const Figure& figure) {
@@ -100,23 +113,6 @@ fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const
   }
   return fsm::FaceLight(patches);
 }
-
-namespace {
-
-/// Whether most of a column from a row down to the photo's lower edge belongs to the figure, and if
-/// `hair` is given is hair by its colour: what hangs from the head, no collar.
-bool HangsDown(const Figure& figure, const Stuffs* hair, int x, float from) {
-  int hanging = 0, rows = 0;
-  for (int y = std::max(static_cast<int>(from), 0); y < figure.opacity.height; ++y, ++rows) {
-    const std::size_t i = figure.opacity.Index(x, y);
-    hanging +=
-        figure.opacity.at[i] > 0.5F && (!hair || hair->Of(Rgb(figure.colours, i)) == Stuff::kHair);
-  }
-  constexpr int kMost = 10, kOf = 8;  // eight of ten
-  return kMost * hanging >= kOf * rows;
-}
-
-}  // namespace
 
 PhotoEdges::PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Figure& figure,
                        glm::vec3 skin) {
@@ -140,7 +136,7 @@ PhotoEdges::PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Fig
   if ((static_cast<float>(height) - chin.y) / per_mm < look("edge_above_shoulders")) {
     TellNeck(figure, chin, per_mm);
   }
-  for (int side = 0; side < kPhotoSides; ++side) {
+  for (std::size_t side = 0; side < kPhotoSides; ++side) {
     for (int y = 0; y < height; ++y) {
       aside_[side].push_back(
           Look(figure, stuffs, {side == 0 ? 0 : width - across, y}, {across, 1}));
