@@ -50,7 +50,7 @@ BodyPaint::BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const FloatI
     Compare(edges.bottom()[static_cast<std::size_t>(x)], {static_cast<float>(x) + 0.5F, size.y},
             below_);
   }
-  for (int side = 0; side < kPhotoSides; ++side) {
+  for (std::size_t side = 0; side < kPhotoSides; ++side) {
     for (int y = 0; y < edges.height(); ++y) {
       const glm::vec2 place(side == 0 ? 0 : size.x, static_cast<float>(y) + 0.5F);
       const bool body = joint_[side].cut && place.y > joint_[side].row;
@@ -60,7 +60,7 @@ BodyPaint::BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const FloatI
   }
 }
 
-BodyPaint::Joint BodyPaint::Join(int side) const {
+BodyPaint::Joint BodyPaint::Join(std::size_t side) const {
   const float end = static_cast<float>(canvas_.photo_size.y);
   Joint joint{.row = end, .wider = 1, .cut = false};
   // Up along the photo's side as far as that cuts the body.
@@ -92,7 +92,7 @@ BodyPaint::Joint BodyPaint::Join(int side) const {
   return joint;
 }
 
-float BodyPaint::Falls(int side, float row) const {
+float BodyPaint::Falls(std::size_t side, float row) const {
   // How far the outline falls towards the edge, over the last part of the photo.
   const int inward = std::max(canvas_.photo_size.x / 16, 1);
   const int x = side == 0 ? inward : canvas_.photo_size.x - 1 - inward;
@@ -105,10 +105,11 @@ float BodyPaint::Falls(int side, float row) const {
 glm::vec3 BodyPaint::FindCloth() const {
   glm::vec4 sum(0);
   const auto add = [&sum](const PhotoEdges::Seen& seen) {
-    if (seen.stuff == Stuff::kCloth) sum += glm::vec4(seen.colour, 1);
+    const bool cloth = seen.stuff == Stuff::kCloth || seen.stuff == Stuff::kTip;
+    if (cloth) sum += glm::vec4(seen.colour, 1);
   };
   std::ranges::for_each(edges_.bottom(), add);
-  for (int side = 0; side < kPhotoSides; ++side) {
+  for (std::size_t side = 0; side < kPhotoSides; ++side) {
     if (!joint_[side].cut) continue;
     std::ranges::for_each(
         std::span(edges_.aside(side)).subspan(static_cast<std::size_t>(joint_[side].row)), add);

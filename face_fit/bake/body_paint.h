@@ -38,8 +38,8 @@ class BodyPaint {
   using Differences = std::array<EdgeMeans, 2>;
 
   float Axis() const { return bust_.axis - static_cast<float>(canvas_.photo.x); }
-  Joint Join(int side) const;
-  float Falls(int side, float row) const;
+  Joint Join(std::size_t side) const;
+  float Falls(std::size_t side, float row) const;
   glm::vec3 FindCloth() const;
   glm::vec2 FindNeckline() const;
   void Compare(const PhotoEdges::Seen& seen, glm::vec2 place, Differences& to) const;

@@ -10,7 +10,7 @@
 
 namespace facefit {
 
-float Bust::HalfWidth(int side, float row) const {
+float Bust::HalfWidth(std::size_t side, float row) const {
   const int y = std::clamp(static_cast<int>(row), 0, cover.height - 1);
   const int step = side == 0 ? -1 : 1;
   int x = std::clamp(static_cast<int>(axis), 0, cover.width - 1);

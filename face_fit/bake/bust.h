@@ -19,7 +19,7 @@ struct Bust {
   float axis;                        ///< pixels from the left: the middle of the body
 
   /// How far it reaches from its axis in a row, pixels; `side`: 0 to the left, 1 to the right.
-  float HalfWidth(int side, float row) const;
+  float HalfWidth(std::size_t side, float row) const;
 };
 
 Bust DrawBust(const BaseHead& base, const FittedHead& fitted, int width, int height);

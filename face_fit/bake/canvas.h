@@ -19,7 +19,7 @@ struct Paint {
 /// A place beyond a photo: how far below or above it and how far aside, pixels, not negative.
 struct Beyond {
   float below, above, aside;
-  int side;  ///< 0 left, 1 right
+  std::size_t side;  ///< 0 left, 1 right
 };
 
 /// A photo on a larger canvas. Places are in the photo's pixels, also beyond it.
@@ -33,7 +33,7 @@ struct Canvas {
   Beyond BeyondPhoto(glm::vec2 p) const {
     const glm::vec2 end(photo_size);
     return {std::max(p.y - end.y, 0.0F), std::max(-p.y, 0.0F), std::max({-p.x, p.x - end.x, 0.0F}),
-            p.x < 0 ? 0 : 1};
+            p.x < 0 ? 0U : 1U};
   }
 };
 

@@ -44,17 +44,20 @@ Canvas CanvasFor(const Figure& figure, const FittedHead& fitted, glm::vec2 chin,
           .chin = chin};
 }
 
-/// Takes away the tips of a collar, which would float beside the neck that is drawn.
+/// Takes away the tips of a collar, which would float beside the neck that is drawn: where the
+/// background begins a little above the edge, or it would leave a hole.
 Figure WithoutTips(const PhotoEdges& edges, float per_mm, Figure figure) {
   const int height = figure.opacity.height;
   const int highest = std::max(height - static_cast<int>(PhotoLook()("edge_hangs") * per_mm), 0);
+  constexpr float kBackground = 0.3F;  // the matte is in doubt beside such tips
   for (int x = 0; x < figure.opacity.width; ++x) {
     if (edges.bottom()[static_cast<std::size_t>(x)].stuff != Stuff::kTip) continue;
-    for (int y = height - 1; y >= highest; --y) {
-      float& opacity = figure.opacity.at[figure.opacity.Index(x, y)];
-      if (opacity <= 0) break;
-      opacity = 0;
+    int gap = height - 1;
+    while (gap >= highest && figure.opacity.at[figure.opacity.Index(x, gap)] > kBackground) {
+      --gap;
     }
+    if (gap < highest) continue;
+    for (int y = gap; y < height; ++y) figure.opacity.at[figure.opacity.Index(x, y)] = 0;
   }
   return figure;
 }

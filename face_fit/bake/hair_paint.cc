@@ -18,6 +18,12 @@ float Strand(float at) {
                          std::sin(at * 0.171F + 0.4F));
 }
 
+float ToAndFro(float way, float length) {
+  if (length <= 0) return 0;
+  const float rest = std::fmod(way, 2 * length);
+  return std::min(rest, 2 * length - rest);
+}
+
 /// An arc over -1..1: 1 in its middle, 0 beyond its ends.
 float Arc(float part) { return std::sqrt(std::max(1 - part * part, 0.0F)); }
 
@@ -32,7 +38,7 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
       sides_{SideRun(0), SideRun(1)} {
   const auto& look = PhotoLook();
   const float most = look("hair_beside") * canvas.per_mm;
-  for (int side = 0; side < kPhotoSides; ++side) {
+  for (std::size_t side = 0; side < kPhotoSides; ++side) {
     bulge_[side] = std::min(look("hair_bulge") * sides_[side].Length(), most);
     // What touches a corner goes on above it.
     if (bulge_[side] <= 0 || sides_[side].from > 1 || top_.Length() <= 0) continue;
@@ -67,7 +73,7 @@ HairPaint::Run HairPaint::TopRun() const {
   return longest;
 }
 
-HairPaint::Run HairPaint::SideRun(int side) const {
+HairPaint::Run HairPaint::SideRun(std::size_t side) const {
   // Beside the head all that is cut is taken for hair or hat, whatever its colour; farther down
   // only what looks like hair.
   Run longest, run;
@@ -89,7 +95,7 @@ float HairPaint::Above(float x) const {
   return dome_ * Arc((x - 0.5F * (top_.from + top_.to)) / (0.5F * top_.Length()));
 }
 
-float HairPaint::Aside(int side, float y) const {
+float HairPaint::Aside(std::size_t side, float y) const {
   const Run& run = sides_[side];
   const float bulge = bulge_[side];
   if (bulge <= 0) return 0;
@@ -100,12 +106,23 @@ float HairPaint::Aside(int side, float y) const {
   return bulge * Arc((2 * y - from - to) / (to - from));
 }
 
-Paint HairPaint::Mirrored(glm::vec2 place) const {
+glm::vec3 HairPaint::Colour(glm::vec2 place) const {
   const glm::vec2 size(canvas_.photo_size);
-  glm::vec2 at = glm::abs(place);
-  if (place.x > size.x) at.x = 2 * size.x - place.x;
-  at = glm::clamp(at, glm::vec2(0.5F), size - 0.5F);
-  return {ColourAt(figure_.colours, at), figure_.opacity.Between(at.x, at.y)};
+  const Beyond beyond = canvas_.BeyondPhoto(place);
+  glm::vec2 at = glm::clamp(place, glm::vec2(0.5F), size - 0.5F);
+  const auto row = static_cast<std::size_t>(at.y), column = static_cast<std::size_t>(at.x);
+  const bool above = beyond.above > 0;
+  const int depth = above ? edges_.hair_below_top()[column] : edges_.hair_beside(beyond.side)[row];
+  // To and fro within what is hair: no skin below it is mirrored.
+  const float away = ToAndFro(above ? beyond.above : beyond.aside, static_cast<float>(depth));
+  if (above) {
+    at.y = std::clamp(away, 0.5F, size.y - 0.5F);
+  } else {
+    at.x = std::clamp(beyond.side == 0 ? away : size.x - away, 0.5F, size.x - 0.5F);
+  }
+  const float enough = PhotoLook()("hair_enough") * canvas_.per_mm;
+  const float own = glm::smoothstep(0.0F, enough, static_cast<float>(depth));
+  return glm::mix(edges_.hair(), ColourAt(figure_.colours, at), own);
 }
 
 Paint HairPaint::Falling(glm::vec2 place, float below) const {
@@ -141,10 +158,7 @@ Paint HairPaint::At(glm::vec2 place) const {
   if (beyond.above > 0) within = std::min(within, (up - beyond.above) / soft);
   if (beyond.aside > 0 && beyond.above <= 0) within = std::min(within, (out - beyond.aside) / soft);
   if (within <= 0) return {};
-  Paint hair = Mirrored(place);
-  // Nothing thins out the figure at the very edge of the photo but the matte's doubt.
-  hair.cover = std::min(within, 1.0F);
-  return hair;
+  return {Colour(place), std::min(within, 1.0F)};
 }
 
 }  // namespace facefit

@@ -10,7 +10,8 @@
 namespace facefit {
 
 /// Hair (or a hat) beyond a photo that cuts it: above the head it is rounded off, beside the head
-/// it goes on a little, both as a mirror image of the hair within; what the lower edge cuts falls
+/// it goes on a little, both as a mirror image of the hair within, or where
+/// skin reaches the edge in the hair's usual colour; what the lower edge cuts falls
 /// on in the colours of that edge and ends in strands.
 class HairPaint {
  public:
@@ -24,8 +25,8 @@ class HairPaint {
 
  private:
   float Above(float x) const;
-  float Aside(int side, float y) const;
-  Paint Mirrored(glm::vec2 place) const;
+  float Aside(std::size_t side, float y) const;
+  glm::vec3 Colour(glm::vec2 place) const;
   Paint Falling(glm::vec2 place, float below) const;
 
   /// A part of an edge that cuts the hair, pixels.
@@ -34,7 +35,7 @@ class HairPaint {
     float Length() const { return to - from; }
   };
   Run TopRun() const;
-  Run SideRun(int side) const;
+  Run SideRun(std::size_t side) const;
 
   const Canvas& canvas_;
   const PhotoEdges& edges_;

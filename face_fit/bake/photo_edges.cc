@@ -33,6 +33,8 @@ class Stuffs {
     constexpr float kEnough = 20;
     if (count > kEnough) hair_ = sum / count;
   }
+  /// The mean of hair or hat; negative where none is seen.
+  glm::vec3 hair() const { return hair_; }
   Stuff Of(glm::vec3 colour) const {
     const float from_hair = glm::distance(colour, hair_);
     if (IsSkin(colour) && glm::distance(colour, skin_) < from_hair) return Stuff::kSkin;
@@ -67,6 +69,31 @@ PhotoEdges::Seen Look(const Figure& figure, const Stuffs& stuffs, glm::ivec2 fro
   return seen;
 }
 
+/// How many pixels, at most `most`, follow each other from one on that are the figure's but no
+/// skin.
+int HairFrom(const Figure& figure, const Stuffs& stuffs, glm::ivec2 from, glm::ivec2 step,
+             int most) {
+  int count = 0;
+  for (glm::ivec2 p = from; count < most; p += step, ++count) {
+    const std::size_t i = figure.opacity.Index(p.x, p.y);
+    if (figure.opacity.at[i] < 0.5F || stuffs.Of(Rgb(figure.colours, i)) == Stuff::kSkin) break;
+  }
+  return count;
+}
+
+/// Whether most of a column from a row down to the photo's lower edge belongs to the figure, and if
+/// `hair` is given is hair by its colour: what hangs from the head, no collar.
+bool HangsDown(const Figure& figure, const Stuffs* hair, int x, float from) {
+  int hanging = 0, rows = 0;
+  for (int y = std::max(static_cast<int>(from), 0); y < figure.opacity.height; ++y, ++rows) {
+    const std::size_t i = figure.opacity.Index(x, y);
+    hanging +=
+        figure.opacity.at[i] > 0.5F && (!hair || hair->Of(Rgb(figure.colours, i)) == Stuff::kHair);
+  }
+  constexpr int kMost = 10, kOf = 8;  // eight of ten
+  return kMost * hanging >= kOf * rows;
+}
+
 }  // namespace
 
 fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const Figure& figure) {
@@ -87,23 +114,6 @@ fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const
   return fsm::FaceLight(patches);
 }
 
-namespace {
-
-/// Whether most of a column from a row down to the photo's lower edge belongs to the figure, and if
-/// `hair` is given is hair by its colour: what hangs from the head, no collar.
-bool HangsDown(const Figure& figure, const Stuffs* hair, int x, float from) {
-  int hanging = 0, rows = 0;
-  for (int y = std::max(static_cast<int>(from), 0); y < figure.opacity.height; ++y, ++rows) {
-    const std::size_t i = figure.opacity.Index(x, y);
-    hanging +=
-        figure.opacity.at[i] > 0.5F && (!hair || hair->Of(Rgb(figure.colours, i)) == Stuff::kHair);
-  }
-  constexpr int kMost = 10, kOf = 8;  // eight of ten
-  return kMost * hanging >= kOf * rows;
-}
-
-}  // namespace
-
 PhotoEdges::PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Figure& figure,
                        glm::vec3 skin) {
   const int width = figure.opacity.width, height = figure.opacity.height;
@@ -117,6 +127,7 @@ PhotoEdges::PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Fig
   const int down = std::clamp(wanted, 1, height), across = std::clamp(wanted, 1, width);
   for (int x = 0; x < width; ++x) {
     top_.push_back(Look(figure, stuffs, {x, 0}, {1, down}));
+    top_depth_.push_back(HairFrom(figure, stuffs, {x, 0}, {0, 1}, height));
     bottom_.push_back(Look(figure, stuffs, {x, height - down}, {1, down}));
     Stuff& stuff = bottom_.back().stuff;
     const float from = std::min(chin.y, static_cast<float>(height) - look("edge_hangs") * per_mm);
@@ -125,10 +136,14 @@ PhotoEdges::PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Fig
   if ((static_cast<float>(height) - chin.y) / per_mm < look("edge_above_shoulders")) {
     TellNeck(figure, chin, per_mm);
   }
-  for (int side = 0; side < kPhotoSides; ++side) {
+  for (std::size_t side = 0; side < kPhotoSides; ++side) {
     for (int y = 0; y < height; ++y) {
       aside_[side].push_back(
           Look(figure, stuffs, {side == 0 ? 0 : width - across, y}, {across, 1}));
+    }
+    for (int y = 0; y < height; ++y) {
+      aside_depth_[side].push_back(
+          HairFrom(figure, stuffs, {side == 0 ? 0 : width - 1, y}, {side == 0 ? 1 : -1, 0}, width));
     }
     // Hair hangs down from the head: dark cloth below a gap is none.
     bool gap = false;
@@ -138,6 +153,19 @@ PhotoEdges::PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Fig
       if (gap && stuff == Stuff::kHair) stuff = Stuff::kCloth;
     }
   }
+  hair_ = stuffs.hair().r < 0 ? HairBeside(chin.y, skin) : stuffs.hair();
+}
+
+glm::vec3 PhotoEdges::HairBeside(float chin, glm::vec3 skin) const {
+  // Hair of the skin's brightness and hue, as grey and blond hair, is told from it by its place.
+  glm::vec4 sum(0);
+  for (const auto& side : aside_) {
+    for (std::size_t y = 0; y < side.size() && static_cast<float>(y) < chin; ++y) {
+      if (side[y].stuff != Stuff::kNothing) sum += glm::vec4(side[y].colour, 1);
+    }
+  }
+  constexpr float kDarker = 0.3F;
+  return sum.w > 0 ? glm::vec3(sum) / sum.w : kDarker * skin;
 }
 
 void PhotoEdges::TellNeck(const Figure& figure, glm::vec2 chin, float per_mm) {

@@ -12,7 +12,7 @@
 
 namespace facefit {
 
-inline constexpr int kPhotoSides = 2;  ///< 0 left, 1 right
+inline constexpr std::size_t kPhotoSides = 2;  ///< 0 left, 1 right
 
 /// The light that falls on the skin of a face, and the usual colour of that skin.
 fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const Figure& figure);
@@ -35,13 +35,22 @@ class PhotoEdges {
   int height() const { return static_cast<int>(aside_[0].size()); }
   const std::vector<Seen>& bottom() const { return bottom_; }  ///< a value for each column
   const std::vector<Seen>& top() const { return top_; }
-  const std::vector<Seen>& aside(int side) const { return aside_[side]; }  ///< for each row
+  const std::vector<Seen>& aside(std::size_t side) const { return aside_[side]; }  ///< for each row
+  /// How many pixels no skin is seen inward from the upper edge, and from a side.
+  const std::vector<int>& hair_below_top() const { return top_depth_; }
+  const std::vector<int>& hair_beside(std::size_t side) const { return aside_depth_[side]; }
+  /// The mean colour of what is head, but no skin: hair or a hat.
+  glm::vec3 hair() const { return hair_; }
 
  private:
+  glm::vec3 HairBeside(float chin, glm::vec3 skin) const;
   void TellNeck(const Figure& figure, glm::vec2 chin, float per_mm);
 
   std::vector<Seen> bottom_, top_;
   std::array<std::vector<Seen>, kPhotoSides> aside_;
+  std::vector<int> top_depth_;
+  std::array<std::vector<int>, kPhotoSides> aside_depth_;
+  glm::vec3 hair_{0};
 };
 
 }  // namespace facefit
