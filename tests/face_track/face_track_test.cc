@@ -222,6 +222,19 @@ TEST_F(FaceTrackTest, ABrokenFilmIsFollowedAsFarAsItGoes) {
   EXPECT_NE(torn.error.find("is no film with a picture"), std::string::npos) << torn.error;
 }
 
+TEST_F(FaceTrackTest, WordsForFfmpegCannotMakeItWriteFiles) {
+  const Ran lavfi = Track({"ffmpeg:-f lavfi -t 1 -i testsrc=r=4"});
+  EXPECT_NE(lavfi.error.find("no face is seen in any of its 4"), std::string::npos) << lavfi.error;
+  const std::string film = Path("baucis.mp4"), out = Path("written.mp4");
+  for (const std::string& words : {"-i " + film + " " + out, "-re " + out + " -i " + film,
+                                   "-i " + film + " -f " + out, std::string("-f lavfi")}) {
+    const Ran ran = Track({"ffmpeg:" + words});
+    EXPECT_EQ(ran.code, 1) << words;
+    EXPECT_NE(ran.error.find("expected"), std::string::npos) << ran.error;
+  }
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST_F(FaceTrackTest, WhatIsNoFilmOfAFaceIsOneErrorThatNamesIt) {
   std::ofstream(Path("text.mp4")) << "no film\n";
   std::filesystem::create_directory(Path("empty"));
