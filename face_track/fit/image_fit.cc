@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "face_track/model/eigen_glm.h"
 
@@ -23,7 +24,7 @@ constexpr int kRounds[] = {6, 6};
 // it did not.
 constexpr float kFormOff[] = {0.03F, 0.08F, 0.08F, 0.03F, 0.03F};
 constexpr float kNews = 0.1F;
-constexpr float kOtherTurn = 0.05F;
+constexpr float kOtherTurn = 0.05F;  // radians from the picture that told of it last
 // How far off the network's pose is taken to be, and the look of a place.
 constexpr float kTurnOff = 0.035F, kAsideOff = 3, kAwayOff = 20, kLookOff = 0.4F;
 
