@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Films heads that turn, blink and move as told, follows them with face_track, and prints how far off it is.
 
-usage: scripts/track_truth.py [--spoil noise|blur|dark|squeezed] [HEAD]...     baucis, from which nothing was learned
+usage: scripts/track_truth.py [--spoil noise|blur|dark|squeezed] [HEAD]...     baucis, from which the table learned nothing
 
 Needs the networks (scripts/face_networks.sh), ffmpeg and the built programs; ends with 77 without networks. Angles and
 doses are medians of the last 400 ms of each second they are held; lids are counted in each picture that is not within

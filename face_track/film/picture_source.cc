@@ -82,6 +82,42 @@ std::vector<std::string> Words(const std::string& text) {
   return words;
 }
 
+/// Only options of inputs that take a value: any other word could be a file that ffmpeg writes.
+constexpr std::string_view kInputOptions[] = {"-f",
+                                              "-i",
+                                              "-framerate",
+                                              "-video_size",
+                                              "-pixel_format",
+                                              "-input_format",
+                                              "-ss",
+                                              "-t",
+                                              "-r",
+                                              "-stream_loop",
+                                              "-rtsp_transport",
+                                              "-rtbufsize",
+                                              "-re",
+                                              "-thread_queue_size"};
+
+vm::Result<std::vector<std::string>> InputWords(const std::string& text) {
+  std::vector<std::string> words = Words(text);
+  std::size_t inputs = 0;
+  for (std::size_t i = 0; i < words.size(); i += words[i] == "-re" ? 1 : 2) {
+    if (std::ranges::find(kInputOptions, words[i]) == std::end(kInputOptions) ||
+        (words[i] != "-re" && i + 1 == words.size()) || inputs > 0) {
+      return vm::Fail(
+          vm::Errc::kBadValue,
+          fmt::format("'ffmpeg:{}': '{}' found, options of one input expected, '-i NAME' "
+                      "last; known are {}",
+                      text, words[i], fmt::join(kInputOptions, " ")));
+    }
+    inputs += words[i] == "-i" ? 1 : 0;
+  }
+  if (inputs == 0) {
+    return vm::Fail(vm::Errc::kBadValue, "'ffmpeg:" + text + "': '-i NAME' expected at the end");
+  }
+  return words;
+}
+
 }  // namespace
 
 bool IsLive(const std::string& name) {
@@ -97,7 +133,10 @@ vm::Result<std::unique_ptr<PictureSource>> OpenPictures(const std::string& name,
   };
   if (name == "camera") return camera("/dev/video0");
   if (name.starts_with("v4l2:")) return camera(name.substr(5));
-  if (name.starts_with("ffmpeg:")) return FfmpegSource::Open(name, Words(name.substr(7)));
+  if (name.starts_with("ffmpeg:")) {
+    const auto words = InputWords(name.substr(7));
+    return words ? FfmpegSource::Open(name, *words) : std::unexpected(words.error());
+  }
   if (name == "-") return FfmpegSource::Open(name, {"-i", "pipe:0"});
   std::error_code error;
   const auto status = fs::status(name, error);

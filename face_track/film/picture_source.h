@@ -39,7 +39,8 @@ inline constexpr int kStallSeconds = 30;
 ///   FOLDER           its .png, .jpg and .jpeg, by name, `rate` a second
 ///   camera           the first camera, /dev/video0
 ///   v4l2:DEVICE      another one
-///   ffmpeg:WORDS     any input of ffmpeg, as its command line has it: ffmpeg:-f lavfi -i testsrc
+///   ffmpeg:WORDS     any input of ffmpeg, as its command line has it: ffmpeg:-f lavfi -i testsrc;
+///                    only options of inputs, since other words could make it write files
 /// Errors: kUnavailable, kBadValue.
 vm::Result<std::unique_ptr<PictureSource>> OpenPictures(const std::string& name, double rate);
 /// Whether a source of that name goes on by itself, at its own pace.

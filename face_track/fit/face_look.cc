@@ -10,7 +10,7 @@ namespace facetrack {
 namespace {
 
 constexpr int kAround = 4;       // pixels to either side that a place is compared with
-constexpr float kNoise = 2;      // of 255: what deviates less is no feature
+constexpr float kNoise = 4;      // of 255: what deviates less is no feature
 constexpr int kBlur[] = {2, 1};  // of the levels
 
 facefit::FloatImage Normalised(const facefit::FloatImage& grey, int blur) {

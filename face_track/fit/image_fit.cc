@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "face_track/model/eigen_glm.h"
 
@@ -23,6 +24,7 @@ constexpr int kRounds[] = {6, 6};
 // it did not.
 constexpr float kFormOff[] = {0.03F, 0.08F, 0.08F, 0.03F, 0.03F};
 constexpr float kNews = 0.1F;
+constexpr float kOtherTurn = 0.05F;  // radians from the picture that told of it last
 // How far off the network's pose is taken to be, and the look of a place.
 constexpr float kTurnOff = 0.035F, kAsideOff = 3, kAwayOff = 20, kLookOff = 0.4F;
 
@@ -78,7 +80,7 @@ Place PlaceAt(const Points& points, glm::vec2 p) {
 
 ImageFit::ImageFit(const SeenFace& face, const Lens& lens, const Points& rest, const FaceLook& look,
                    const Doing& doing)
-    : face_(face), lens_(lens) {
+    : face_(face), lens_(lens), learned_(doing.pose.turn) {
   const float top = rest[facefit::point::kForehead].y, low = rest[facefit::point::kNoseBottom].y;
   const float wide = rest[facefit::point::kCheekLeft].x;
   const glm::vec3 root = rest[facefit::point::kNasion];
@@ -216,8 +218,12 @@ ImageFit::Found ImageFit::Solve(const Points& rest, const FaceLook& look, const 
   }
   if (seen_samples < samples_.size() / 3) like = 0;
   if (like < kAlike) return {start.pose, like};
-  form_ = {form[0], form[1], form[2], form[3], form[4]};
-  sure += kNews * news;
+  // A face that stays as it is tells nothing new.
+  if (Eigen::AngleAxisf(Of(pose.turn) * Of(learned_).transpose()).angle() > kOtherTurn) {
+    form_ = {form[0], form[1], form[2], form[3], form[4]};
+    sure += kNews * news;
+    learned_ = pose.turn;
+  }
   return {pose, like};
 }
 

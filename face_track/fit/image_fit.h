@@ -45,6 +45,7 @@ class ImageFit {
   // What is known of the depth: the numbers, and the inverse of their covariance, by rows.
   std::array<float, kForms> form_{};
   std::array<float, kForms * kForms> sure_{};
+  glm::mat3 learned_;  // the turn of the picture that told of it last
 };
 
 }  // namespace facetrack

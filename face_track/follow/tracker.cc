@@ -8,6 +8,7 @@
 namespace facetrack {
 namespace {
 
+constexpr float kSameAfterCut = 0.75F;  // likeness: another head has reached 0.71
 constexpr float kStranger = 3;  // mm by which a face misses more than its own when it is another's
 constexpr float kNoFace = 8;    // mm: what fits so badly is no face
 constexpr float kJawDegrees = 12;  // of unit 26 (fsm/head/tables/action_units.txt)
@@ -38,7 +39,7 @@ Tracker::Tracker(facefit::FaceNetworks& networks, facefit::Network& attention, c
 
 bool Tracker::IsCut(const fsm::Image& picture) {
   constexpr int kCells = 24, kStep = 3;
-  constexpr float kCut = 36;  // of 255, between pictures that follow each other
+  constexpr float kCut = 10;  // of 255, between pictures that follow each other
   std::vector<float> thumbnail(kCells * kCells, 0);
   for (int y = 0; y < kCells * kStep; ++y) {
     for (int x = 0; x < kCells * kStep; ++x) {
@@ -77,7 +78,7 @@ std::optional<Tracker::Candidate> Tracker::LookAt(const fsm::Image& picture,
   return Candidate{std::move(found), std::move(doing)};
 }
 
-std::optional<Tracker::Candidate> Tracker::Find(const fsm::Image& picture) {
+std::optional<Tracker::Candidate> Tracker::Find(const fsm::Image& picture, bool cut) {
   constexpr std::size_t kMostFaces = 10;
   std::vector<facefit::AttentiveFace> faces;  // largest first
   for (const auto& face : facefit::FindFaces(networks_, picture)) {
@@ -93,7 +94,10 @@ std::optional<Tracker::Candidate> Tracker::Find(const fsm::Image& picture) {
     if (!candidate) continue;
     const FaceLook look(picture, CropOf(fit_->lens(), candidate->doing.pose));
     const float like = image_fit_->Solve(person_->rest, look, candidate->doing).like;
-    if (like < ImageFit::kAlike && candidate->doing.miss > person_->miss + kStranger) continue;
+    const bool stranger =
+        cut ? like < kSameAfterCut
+            : like < ImageFit::kAlike && candidate->doing.miss > person_->miss + kStranger;
+    if (stranger) continue;
     if (like > most_like) nearest = std::move(candidate), most_like = like;
   }
   if (nearest || faces.size() < settings_.which) return nearest;
@@ -123,7 +127,7 @@ std::optional<Tracker::Waiting> Tracker::See(const fsm::Image& picture, double m
     last_.reset();
     unlike_ = 0;
     if (cut) unseen_ = 0;
-    if (unseen_++ % kLookEvery == 0) seen = Find(picture);
+    if (unseen_++ % kLookEvery == 0) seen = Find(picture, cut);
     if (!seen) return std::nullopt;
   }
   unseen_ = 0;

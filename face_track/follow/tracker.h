@@ -55,7 +55,8 @@ class Tracker {
   std::optional<Candidate> LookAt(const fsm::Image& picture, facefit::AttentiveFace found,
                                   const Doing* start, const Points& rest, FrameFit::What what);
   /// The face to follow from now on, where none was: the person that was met, else another one.
-  std::optional<Candidate> Find(const fsm::Image& picture);
+  /// After a cut it has to look like that person.
+  std::optional<Candidate> Find(const fsm::Image& picture, bool cut);
   /// What a person that was met does, by points and picture.
   Doing Follow(const Sighting& seen, const FaceLook& look, const Doing& start);
   void Forget();

@@ -13,15 +13,14 @@ constexpr float kStep = 0.01F;  // smaller changes nobody sees
 /// A pair of codes of fsm/motion/tables/action_unit_names.txt, for an angle and its opposite.
 struct Code {
   const char *more, *less;
-  float degrees;  ///< of `more` at full strength
-  float degrees_less;
+  float degrees;  ///< of either at full strength
 };
-constexpr Code kHeadDown{"54", "53", 20, 20}, kHeadRight{"51", "52", 30, 30},
-    kHeadTilted{"55", "56", 15, 15}, kEyesDown{"64", "63", 25, 25}, kEyesRight{"61", "62", 30, 30};
+constexpr Code kHeadDown{"54", "53", 20}, kHeadRight{"51", "52", 30}, kHeadTilted{"55", "56", 15},
+    kEyesDown{"64", "63", 25}, kEyesRight{"61", "62", 30};
 
 void Put(std::map<std::string, float>& wanted, const Code& code, float degrees) {
   wanted[code.more] = std::max(degrees / code.degrees, 0.0F);
-  wanted[code.less] = std::max(-degrees / code.degrees_less, 0.0F);
+  wanted[code.less] = std::max(-degrees / code.degrees, 0.0F);
 }
 
 }  // namespace

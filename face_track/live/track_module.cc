@@ -51,7 +51,7 @@ void TrackModule::DeclareRun() {
                   .saved = false});
   slots_.Declare(
       {.name = "Input",
-       .grammar = "NONE | <text>",
+       .grammar = "NONE | <file>",
        .initial = "NONE",
        .auto_output = true,
        .help = "Where pictures come from: NONE, camera (/dev/video0), v4l2:DEVICE, ffmpeg:WORDS "

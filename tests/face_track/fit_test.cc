@@ -26,7 +26,8 @@ TEST(BoundedSolveTest, NoStepWithinTheBoundsIsBetter) {
     Eigen::MatrixXf rows(20, kCount);
     for (float& v : rows.reshaped()) v = normal(chance);
     rows.col(1) = rows.col(0) + 0.01F * rows.col(1);  // nearly alike
-    const Eigen::MatrixXf a = rows.transpose() * rows + 0.1F * Eigen::MatrixXf::Identity(kCount, kCount);
+    const Eigen::MatrixXf a =
+        rows.transpose() * rows + 0.1F * Eigen::MatrixXf::Identity(kCount, kCount);
     Eigen::VectorXf b(kCount);
     for (float& v : b) v = 20 * normal(chance);
     const Eigen::VectorXf low = Eigen::VectorXf::Constant(kCount, -0.2F),

@@ -20,8 +20,9 @@ TEST(MirrorTest, AFilmBeforeTheCameraMovesTheAgentAsAMirrorWould) {
   fsm.ReadAll(support::Millis{60000});
   ASSERT_EQ(fsm.Wait(), 0) << fsm.ErrorText();
 
-  stack::Stack stack("real", {{"TRACK", {GALATEA_BIN_DIR "/face_track", "--settle", "300", "--field", "25"}, ""},
-                              stack::Face()});
+  stack::Stack stack(
+      "real", {{"TRACK", {GALATEA_BIN_DIR "/face_track", "--settle", "300", "--field", "25"}, ""},
+               stack::Face()});
   stack.Say("to @FSM set SaveImage = " + stack / "before.bmp");
   stack.Say("to @TRACK prop Track = AutoOutput");
   stack.Say("to @TRACK set Input = " + film);
