@@ -69,7 +69,7 @@ fsm::Head SmallHead() {
   asset.topology.worn.texcoord.resize(kVertices);
   asset.topology.worn.weight.resize(kVertices);
   asset.topology.portrait.eyes.emplace();
-  asset.topology.mouth.lips = {{2, 3}};
+  asset.topology.mouth.seam = {{2, 3}};
   asset.landmarks["nasion"] = {0, 20, 90};
   asset.view.emplace();
   return fsm::Head(std::move(asset));
