@@ -13,8 +13,8 @@ namespace {
 constexpr int kPose = 6, kForm = 5, kAll = kPose + kForm;
 using Matrix = Eigen::Matrix<float, kAll, kAll>;
 using Vector = Eigen::Matrix<float, kAll, 1>;
-using FormMatrix = Eigen::Matrix<float, kForm, kForm, Eigen::RowMajor>;
 using FormVector = Eigen::Matrix<float, kForm, 1>;
+using FormMatrix = Eigen::Matrix<float, kForm, kForm, Eigen::RowMajor>;
 
 constexpr float kStep = 2;           // mm between samples
 constexpr float kMostAside = 0.35F;  // cosine of the angle up to which skin is seen well enough
@@ -76,6 +76,36 @@ Place PlaceAt(const Points& points, glm::vec2 p) {
   return place;
 }
 
+/// Adds what the network said of the pose, as far as it can be relied upon.
+void TrustNetwork(const Pose& said, const Pose& pose, Matrix& normal, Vector& down) {
+  const Eigen::AngleAxisf off(Of(said.turn) * Of(pose.turn).transpose());
+  const Eigen::Vector3f turned = off.angle() * off.axis();
+  const glm::vec3 moved = said.place - pose.place;
+  const float offs[] = {kTurnOff, kTurnOff, kTurnOff, kAsideOff, kAsideOff, kAwayOff};
+  for (int k = 0; k < kPose; ++k) {
+    const float trust = 1 / (offs[k] * offs[k]);
+    normal(k, k) += trust;
+    down[k] += trust * (k < 3 ? turned[k] : moved[k - 3]);
+  }
+}
+
+/// What a picture tells of the depth, whatever the pose (the Schur complement).
+FormMatrix AboutForm(const Matrix& normal) {
+  return normal.bottomRightCorner<kForm, kForm>() -
+         normal.bottomLeftCorner<kForm, kPose>() * normal.topLeftCorner<kPose, kPose>().inverse() *
+             normal.topRightCorner<kPose, kForm>();
+}
+
+/// Turns by an axis times its angle and shifts.
+void Move(Pose& pose, const Eigen::Matrix<float, kPose, 1>& by) {
+  const Eigen::Vector3f axis = by.head<3>();
+  if (axis.norm() > 0) {
+    const Eigen::AngleAxisf turn(axis.norm(), axis.normalized());
+    pose.turn = Back(turn.toRotationMatrix() * Of(pose.turn));
+  }
+  pose.place += glm::vec3(by[3], by[4], by[5]);
+}
+
 }  // namespace
 
 ImageFit::ImageFit(const SeenFace& face, const Lens& lens, const Points& rest, const FaceLook& look,
@@ -131,6 +161,62 @@ ImageFit::ImageFit(const SeenFace& face, const Lens& lens, const Points& rest, c
     sure_[k * (kForms + 1)] = 1 / (kFormOff[k] * kFormOff[k]);
 }
 
+/// A pose and the numbers of the depth.
+struct ImageFit::Guess {
+  Pose pose;
+  FormVector form;
+};
+
+struct ImageFit::Comparison {
+  Matrix normal = Matrix::Zero();
+  Vector down = Vector::Zero();
+  float like = 0;
+  std::size_t seen = 0;  // samples in view
+};
+
+/// How a posed face lies on a picture: the least squares of what each sample looks like, by the
+/// pose's turn and place and the depth's numbers. `at`: of each sample, moved by the doses.
+ImageFit::Comparison ImageFit::Compare(const std::vector<glm::vec3>& at, const FaceLook& look,
+                                       std::size_t level, const Guess& guess) const {
+  const auto& [pose, form] = guess;
+  const glm::mat2 scale = look.Scale();
+  Eigen::Matrix2f to_look;
+  to_look << scale[0][0], scale[1][0], scale[0][1], scale[1][1];
+  Comparison out;
+  float products = 0, own = 0, others = 0;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const Sample& sample = samples_[i];
+    const Eigen::Map<const FormVector> by_form(sample.form.data());
+    const glm::vec3 p = at[i] + form.dot(by_form) * sample.ray;
+    const glm::vec3 q = pose(p);
+    const float facing = glm::dot(pose.turn * sample.normal, -glm::normalize(q));
+    if (facing < kMostAside) continue;
+    ++out.seen;
+    const float depth = -q.z;
+    const glm::vec3 seen = look.At(level, lens_.Project(q));
+    const float wanted = sample.look[level];
+    const float miss = wanted - seen.x;
+    products += wanted * seen.x;
+    own += wanted * wanted;
+    others += seen.x * seen.x;
+    const float weight =
+        facing * (std::abs(miss) > kHuber ? kHuber / std::abs(miss) : 1) / (kLookOff * kLookOff);
+    Eigen::Matrix<float, 2, 3> by_place;
+    by_place << 1, 0, q.x / depth, 0, -1, -q.y / depth;
+    const Eigen::Matrix<float, 1, 3> slope =
+        Eigen::RowVector2f(seen.y, seen.z) * to_look * by_place * (lens_.focal / depth);
+    const glm::vec3 force(slope[0], slope[1], slope[2]);
+    const glm::vec3 torque = glm::cross(pose.turn * p, force);
+    Vector slopes;
+    slopes.head<kPose>() << torque.x, torque.y, torque.z, force.x, force.y, force.z;
+    slopes.tail<kForm>() = glm::dot(force, pose.turn * sample.ray) * by_form;
+    out.normal += weight * slopes * slopes.transpose();
+    out.down += weight * miss * slopes;
+  }
+  out.like = products / std::max(std::sqrt(own * others), 1e-6F);
+  return out;
+}
+
 ImageFit::Found ImageFit::Solve(const Points& rest, const FaceLook& look, const Doing& start) {
   const Points moved = Moved(face_, rest, start.doses);
   std::vector<glm::vec3> at;
@@ -139,92 +225,32 @@ ImageFit::Found ImageFit::Solve(const Points& rest, const FaceLook& look, const 
     for (std::size_t k = 0; k < 3; ++k) p += sample.part[k] * moved[sample.near[k]];
     at.push_back(p);
   }
-  const glm::mat2 scale = look.Scale();
-  Eigen::Matrix2f to_look;
-  to_look << scale[0][0], scale[1][0], scale[0][1], scale[1][1];
-  Pose pose = start.pose;
   const Eigen::Map<FormVector> known(form_.data());
   Eigen::Map<FormMatrix> sure(sure_.data());
-  FormVector form = known;
+  Guess guess{start.pose, known};
   FormMatrix news = FormMatrix::Zero();
-  float like = 0;
-  std::size_t seen_samples = 0;
+  Comparison now;
   for (std::size_t level = 0; level < FaceLook::kLevels; ++level) {
     for (int round = 0; round < kRounds[level]; ++round) {
-      Matrix normal = Matrix::Zero();
-      Vector down = Vector::Zero();
-      float products = 0, own = 0, others = 0;
-      seen_samples = 0;
-      const Eigen::Matrix3f turn = Of(pose.turn);
-      for (std::size_t i = 0; i < at.size(); ++i) {
-        float deeper = 0;
-        for (int k = 0; k < kForm; ++k)
-          deeper += form[k] * samples_[i].form[static_cast<std::size_t>(k)];
-        const glm::vec3 p = at[i] + deeper * samples_[i].ray;
-        const glm::vec3 q = pose(p);
-        const float facing = glm::dot(pose.turn * samples_[i].normal, -glm::normalize(q));
-        if (facing < kMostAside) continue;
-        ++seen_samples;
-        const float depth = -q.z;
-        const glm::vec3 seen = look.At(level, lens_.Project(q));
-        const float wanted = samples_[i].look[level];
-        const float miss = wanted - seen.x;
-        products += wanted * seen.x;
-        own += wanted * wanted;
-        others += seen.x * seen.x;
-        const float weight = facing * (std::abs(miss) > kHuber ? kHuber / std::abs(miss) : 1) /
-                             (kLookOff * kLookOff);
-        Eigen::Matrix<float, 2, 3> by_place;
-        by_place << 1, 0, q.x / depth, 0, -1, -q.y / depth;
-        const Eigen::Matrix<float, 1, 3> slope =
-            Eigen::RowVector2f(seen.y, seen.z) * to_look * by_place * (lens_.focal / depth);
-        const glm::vec3 force(slope[0], slope[1], slope[2]);
-        const glm::vec3 torque = glm::cross(pose.turn * p, force);
-        Vector slopes;
-        slopes.head<kPose>() << torque.x, torque.y, torque.z, force.x, force.y, force.z;
-        const float by_depth = glm::dot(force, pose.turn * samples_[i].ray);
-        for (int k = 0; k < kForm; ++k) {
-          slopes[kPose + k] = by_depth * samples_[i].form[static_cast<std::size_t>(k)];
-        }
-        normal += weight * slopes * slopes.transpose();
-        down += weight * miss * slopes;
-      }
-      like = products / std::max(std::sqrt(own * others), 1e-6F);
-      // What the network said, as far as it can be relied upon.
-      const Eigen::AngleAxisf off(Of(start.pose.turn) * turn.transpose());
-      const Eigen::Vector3f turned = off.angle() * off.axis();
-      const glm::vec3 moved_by = start.pose.place - pose.place;
-      const float offs[] = {kTurnOff, kTurnOff, kTurnOff, kAsideOff, kAsideOff, kAwayOff};
-      for (int k = 0; k < 6; ++k) {
-        const float trust = 1 / (offs[k] * offs[k]);
-        normal(k, k) += trust;
-        down[k] += trust * (k < 3 ? turned[k] : moved_by[k - 3]);
-      }
-      news = normal.bottomRightCorner<kForm, kForm>() -
-             normal.bottomLeftCorner<kForm, kPose>() *
-                 normal.topLeftCorner<kPose, kPose>().inverse() *
-                 normal.topRightCorner<kPose, kForm>();
-      normal.bottomRightCorner<kForm, kForm>() += sure;
-      down.tail<kForm>() += sure * (known - form);
-      const Vector by = normal.ldlt().solve(down);
-      form += by.tail<kForm>();
-      const Eigen::Vector3f axis = by.head<3>();
-      if (axis.norm() > 0) {
-        pose.turn =
-            Back(Eigen::AngleAxisf(axis.norm(), axis.normalized()).toRotationMatrix() * turn);
-      }
-      pose.place += glm::vec3(by[3], by[4], by[5]);
+      now = Compare(at, look, level, guess);
+      TrustNetwork(start.pose, guess.pose, now.normal, now.down);
+      news = AboutForm(now.normal);
+      now.normal.bottomRightCorner<kForm, kForm>() += sure;
+      now.down.tail<kForm>() += sure * (known - guess.form);
+      const Vector by = now.normal.ldlt().solve(now.down);
+      guess.form += by.tail<kForm>();
+      Move(guess.pose, by.head<kPose>());
     }
   }
-  if (seen_samples < samples_.size() / 3) like = 0;
+  const float like = now.seen < samples_.size() / 3 ? 0 : now.like;
   if (like < kAlike) return {start.pose, like};
   // A face that stays as it is tells nothing new.
-  if (Eigen::AngleAxisf(Of(pose.turn) * Of(learned_).transpose()).angle() > kOtherTurn) {
-    form_ = {form[0], form[1], form[2], form[3], form[4]};
+  if (Eigen::AngleAxisf(Of(guess.pose.turn) * Of(learned_).transpose()).angle() > kOtherTurn) {
+    Eigen::Map<FormVector>(form_.data()) = guess.form;
     sure += kNews * news;
-    learned_ = pose.turn;
+    learned_ = guess.pose.turn;
   }
-  return {pose, like};
+  return {guess.pose, like};
 }
 
 }  // namespace facetrack

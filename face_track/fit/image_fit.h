@@ -39,6 +39,11 @@ class ImageFit {
     std::array<float, kForms> form;  ///< how much each number of the depth moves it along the ray
     std::array<float, FaceLook::kLevels> look;
   };
+  struct Guess;
+  struct Comparison;
+  Comparison Compare(const std::vector<glm::vec3>& at, const FaceLook& look, std::size_t level,
+                     const Guess& guess) const;
+
   const SeenFace& face_;
   Lens lens_;
   std::vector<Sample> samples_;
