@@ -204,7 +204,7 @@ void Run(const Options& options) {
   progress.Say("head fitted");
   const auto sides = LookFromTheSide(options, networks, base, near, fit);
   if (!sides.empty()) progress.Say("seen from the side, too");
-  const Figure figure = CutOut(near, FindFigure(networks, near, &face));
+  const Cutout figure = CutOut(near, FindPerson(networks, near, &face));
   progress.Say("figure cut out");
   TextureBake bake = BakeTexture(base, face, fit, near, figure, sides);
   fsm::PhotoHead& head = bake.head;

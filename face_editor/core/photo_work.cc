@@ -109,7 +109,7 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
     const facefit::FoundFace seen = FoundFrom(work->found);
     work->figure = facefit::CutOut(
         work->photo,
-        facefit::FindFigure(sight->networks, work->photo, faces.empty() ? nullptr : &seen));
+        facefit::FindPerson(sight->networks, work->photo, faces.empty() ? nullptr : &seen));
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue, path + ": " + error.what());
   }

@@ -36,7 +36,7 @@ struct PhotoWork {
   Mirror mirror;
   // Not there without the networks: then points can be set, but no face be made of them.
   std::shared_ptr<const facefit::BaseHead> base;
-  std::optional<facefit::Figure> figure;
+  std::optional<facefit::Cutout> figure;
   facefit::Occlusion cover;  ///< of the face that was found
 };
 /// `sight` may be nullptr; `face` counts from 1, the largest. Errors: as facefit::ReadPhoto;

@@ -119,7 +119,7 @@ class OpeningsOfHead {
 };
 
 /// The grid of the sheet, over the whole figure.
-PhotoGrid GridOver(const Figure& figure, float pixels_per_mm) {
+PhotoGrid GridOver(const Cutout& figure, float pixels_per_mm) {
   constexpr float kLeastCell = 4.5F, kMostPoints = 14000;  // millimetres; count
   const glm::vec2 extent(figure.colours.width, figure.colours.height);
   const float cell =
@@ -244,7 +244,7 @@ Quads DrawnCells(const BaseHead& base, const FittedHead& fitted, const PhotoGrid
 
 }  // namespace
 
-fsm::Image BehindFace(const BaseHead& base, const FittedHead& fitted, const Figure& figure) {
+fsm::Image BehindFace(const BaseHead& base, const FittedHead& fitted, const Cutout& figure) {
   const int width = figure.colours.width, height = figure.colours.height;
   const Chin chin(base, fitted);
   FloatImage face = RasterizeSkin(base, fitted, fitted.pose, {glm::vec2(0.5F), 1, width, height},
@@ -288,7 +288,7 @@ fsm::Image BehindFace(const BaseHead& base, const FittedHead& fitted, const Figu
   return out;
 }
 
-Billboard MakeBillboard(const BaseHead& base, const FittedHead& fitted, const Figure& figure) {
+Billboard MakeBillboard(const BaseHead& base, const FittedHead& fitted, const Cutout& figure) {
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const Chin chin(base, fitted);
   const PhotoGrid grid = GridOver(figure, pixels_per_mm);

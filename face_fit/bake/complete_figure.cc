@@ -28,7 +28,7 @@ float CrownRow(const BaseHead& base, const FittedHead& fitted) {
 }
 
 /// Room for the photo, for head and shoulders below its chin, and for hair above it.
-Canvas CanvasFor(const Figure& figure, const FittedHead& fitted, glm::vec2 chin, float crown) {
+Canvas CanvasFor(const Cutout& figure, const FittedHead& fitted, glm::vec2 chin, float crown) {
   const float per_mm = fitted.pose.PixelsPerMm();
   const glm::vec2 size(figure.opacity.width, figure.opacity.height);
   const glm::vec2 reach = PhotoLook().Pair("canvas_from_chin") * per_mm;
@@ -46,7 +46,7 @@ Canvas CanvasFor(const Figure& figure, const FittedHead& fitted, glm::vec2 chin,
 
 /// Takes away the tips of a collar, which would float beside the neck that is drawn: where the
 /// background begins a little above the edge, or it would leave a hole.
-Figure WithoutTips(const PhotoEdges& edges, float per_mm, Figure figure) {
+Cutout WithoutTips(const PhotoEdges& edges, float per_mm, Cutout figure) {
   const int height = figure.opacity.height;
   const int highest = std::max(height - static_cast<int>(PhotoLook()("edge_hangs") * per_mm), 0);
   constexpr float kBackground = 0.3F;  // the matte is in doubt beside such tips
@@ -64,14 +64,14 @@ Figure WithoutTips(const PhotoEdges& edges, float per_mm, Figure figure) {
 
 }  // namespace
 
-CompletedFigure CompleteFigure(const BaseHead& base, const FittedHead& fitted, const Figure& seen) {
+CompletedFigure CompleteFigure(const BaseHead& base, const FittedHead& fitted, const Cutout& seen) {
   const glm::vec3 chin = base.points[point::kChin].On(fitted.posed_vertices);
   const float crown = CrownRow(base, fitted);
   const Canvas canvas =
       CanvasFor(seen, fitted, fitted.pose.Project(fitted.pose.ToCamera(chin)), crown);
   const fsm::FaceLight light = LightOnFace(base, fitted, seen);
   const PhotoEdges edges(base, fitted, seen, 255.0F * light.skin());
-  const Figure figure = WithoutTips(edges, canvas.per_mm, seen);
+  const Cutout figure = WithoutTips(edges, canvas.per_mm, seen);
   FittedHead on_canvas = fitted;
   on_canvas.pose.centre += glm::vec2(canvas.photo);
   const BodyPaint body(canvas, edges, figure.opacity, light,

@@ -17,7 +17,7 @@ struct Completed {
 
 /// A figure on a canvas that is large enough for head and shoulders.
 struct CompletedFigure {
-  Figure figure;
+  Cutout figure;
   glm::vec2 photo;  ///< the pixel of the canvas that shows the photo's first
   Completed completed;
 };
@@ -27,6 +27,6 @@ struct CompletedFigure {
 /// light; above and beside the head hair. Strands that the lower edge cuts fall on and end softly.
 /// Within the photo nothing changes.
 CompletedFigure CompleteFigure(const BaseHead& base, const FittedHead& fitted,
-                               const Figure& figure);
+                               const Cutout& figure);
 
 }  // namespace facefit

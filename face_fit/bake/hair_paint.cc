@@ -29,7 +29,7 @@ float Arc(float part) { return std::sqrt(std::max(1 - part * part, 0.0F)); }
 
 }  // namespace
 
-HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure& figure,
+HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Cutout& figure,
                      float crown)
     : canvas_(canvas),
       edges_(edges),

@@ -17,7 +17,7 @@ class HairPaint {
  public:
   /// `colours`: of the figure. `crown`: the row of the top of the skull with its hair. All outlive
   /// it.
-  HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure& figure, float crown);
+  HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Cutout& figure, float crown);
   /// Whether the photo cuts hair above or aside.
   bool Cut() const { return cut_; }
   /// REQUIRES: beyond the photo.
@@ -39,7 +39,7 @@ class HairPaint {
 
   const Canvas& canvas_;
   const PhotoEdges& edges_;
-  const Figure& figure_;
+  const Cutout& figure_;
   Run top_;
   std::array<Run, kPhotoSides> sides_;
   float dome_ = 0;                          ///< how high the top is rounded off, pixels

@@ -11,7 +11,7 @@
 namespace facefit {
 namespace {
 
-float Redness(glm::vec3 c) { return std::log((c.r + 4) / (c.g + 4)); }
+float LogRedness(glm::vec3 c) { return std::log((c.r + 4) / (c.g + 4)); }
 
 /// The mean of some texels: those whose redness is `from` to `to` of the way from the least to the
 /// most.
@@ -22,13 +22,13 @@ struct Kind {
 
 Kind MeanOf(std::vector<glm::vec3>& texels, float from, float to) {
   Kind kind;
-  std::ranges::sort(texels, {}, Redness);
+  std::ranges::sort(texels, {}, LogRedness);
   const auto at = [&](float part) {
     return static_cast<std::size_t>(part * static_cast<float>(texels.size() - 1));
   };
   for (std::size_t i = at(from); i <= at(to); ++i) kind.colour += texels[i];
   kind.colour /= static_cast<float>(at(to) - at(from) + 1);
-  kind.redness = Redness(kind.colour);
+  kind.redness = LogRedness(kind.colour);
   kind.brightness = Brightness(kind.colour);
   return kind;
 }
@@ -55,7 +55,7 @@ void RedLips(const std::vector<float>& within, fsm::Image& map) {
     const glm::vec3 c = Rgb(map, i);
     const float bright = Brightness(c);
     const float lacks =
-        glm::clamp((lip.redness - Redness(c)) / (lip.redness - skin.redness), 0.0F, 1.0F);
+        glm::clamp((lip.redness - LogRedness(c)) / (lip.redness - skin.redness), 0.0F, 1.0F);
     // What shines, and what is dark between the lips, has a colour of its own.
     const float part = most * lacks * glm::smoothstep(0.0F, soft, within[i]) *
                        glm::smoothstep(1.2F, 1.05F, bright / skin.brightness) *

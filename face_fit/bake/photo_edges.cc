@@ -18,7 +18,7 @@ namespace {
 class Stuffs {
  public:
   /// `brows`: the row above which a figure is head, hair or hat. `skin`: 0..255.
-  Stuffs(const Figure& figure, float brows, glm::vec3 skin) : skin_(skin) {
+  Stuffs(const Cutout& figure, float brows, glm::vec3 skin) : skin_(skin) {
     glm::vec3 sum(0);
     float count = 0;
     for (int y = 0; y < std::min(figure.opacity.height, static_cast<int>(brows)); ++y) {
@@ -54,7 +54,7 @@ class Stuffs {
   glm::vec3 skin_, hair_{-1e3F};
 };
 
-PhotoEdges::Seen Look(const Figure& figure, const Stuffs& stuffs, glm::ivec2 from,
+PhotoEdges::Seen Look(const Cutout& figure, const Stuffs& stuffs, glm::ivec2 from,
                       glm::ivec2 size) {
   PhotoEdges::Seen seen;
   const float part = 1 / static_cast<float>(size.x * size.y);
@@ -71,7 +71,7 @@ PhotoEdges::Seen Look(const Figure& figure, const Stuffs& stuffs, glm::ivec2 fro
 
 /// How many pixels, at most `most`, follow each other from one on that are the figure's but no
 /// skin.
-int HairFrom(const Figure& figure, const Stuffs& stuffs, glm::ivec2 from, glm::ivec2 step,
+int HairFrom(const Cutout& figure, const Stuffs& stuffs, glm::ivec2 from, glm::ivec2 step,
              int most) {
   int count = 0;
   for (glm::ivec2 p = from; count < most; p += step, ++count) {
@@ -83,7 +83,7 @@ int HairFrom(const Figure& figure, const Stuffs& stuffs, glm::ivec2 from, glm::i
 
 /// Whether most of a column from a row down to the photo's lower edge belongs to the figure, and if
 /// `hair` is given is hair by its colour: what hangs from the head, no collar.
-bool HangsDown(const Figure& figure, const Stuffs* hair, int x, float from) {
+bool HangsDown(const Cutout& figure, const Stuffs* hair, int x, float from) {
   int hanging = 0, rows = 0;
   for (int y = std::max(static_cast<int>(from), 0); y < figure.opacity.height; ++y, ++rows) {
     const std::size_t i = figure.opacity.Index(x, y);
@@ -96,7 +96,7 @@ bool HangsDown(const Figure& figure, const Stuffs* hair, int x, float from) {
 
 }  // namespace
 
-fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const Figure& figure) {
+fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const Cutout& figure) {
   const auto& position = fitted.posed_vertices;
   std::vector<std::uint32_t> corners;
   ForSkinTriangles(base.head->topology(),
@@ -114,7 +114,7 @@ fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const
   return fsm::FaceLight(patches);
 }
 
-PhotoEdges::PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Figure& figure,
+PhotoEdges::PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Cutout& figure,
                        glm::vec3 skin) {
   const int width = figure.opacity.width, height = figure.opacity.height;
   const glm::vec3 forehead = base.points[point::kForehead].On(fitted.posed_vertices);
@@ -168,7 +168,7 @@ glm::vec3 PhotoEdges::HairBeside(float chin, glm::vec3 skin) const {
   return sum.w > 0 ? glm::vec3(sum) / sum.w : kDarker * skin;
 }
 
-void PhotoEdges::TellNeck(const Figure& figure, glm::vec2 chin, float per_mm) {
+void PhotoEdges::TellNeck(const Cutout& figure, glm::vec2 chin, float per_mm) {
   // By colour alone brown hair is skin in warm light, and the shade on a neck is cloth. Above the
   // shoulders only hair hangs beside the neck, and tips of a collar stand there; the neck itself is
   // bare or in a collar.

@@ -15,7 +15,7 @@ namespace facefit {
 inline constexpr std::size_t kPhotoSides = 2;  ///< 0 left, 1 right
 
 /// The light that falls on the skin of a face, and the usual colour of that skin.
-fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const Figure& figure);
+fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const Cutout& figure);
 
 /// What the edge of a photo cuts; a tip is one of a collar, beside a neck.
 enum class Stuff { kNothing, kSkin, kHair, kCloth, kTip };
@@ -29,7 +29,7 @@ class PhotoEdges {
     Stuff stuff = Stuff::kNothing;
   };
   /// `skin`: 0..255. REQUIRES: `figure` has a pixel.
-  PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Figure& figure, glm::vec3 skin);
+  PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Cutout& figure, glm::vec3 skin);
 
   int width() const { return static_cast<int>(bottom_.size()); }
   int height() const { return static_cast<int>(aside_[0].size()); }
@@ -44,7 +44,7 @@ class PhotoEdges {
 
  private:
   glm::vec3 HairBeside(float chin, glm::vec3 skin) const;
-  void TellNeck(const Figure& figure, glm::vec2 chin, float per_mm);
+  void TellNeck(const Cutout& figure, glm::vec2 chin, float per_mm);
 
   std::vector<Seen> bottom_, top_;
   std::array<std::vector<Seen>, kPhotoSides> aside_;

@@ -9,10 +9,10 @@ namespace facefit {
 
 namespace {
 
-float Redness(glm::vec3 c) { return c.r / std::max(0.5F * (c.g + c.b), 1.0F); }
+float RedShare(glm::vec3 c) { return c.r / std::max(0.5F * (c.g + c.b), 1.0F); }
 float Blueness(glm::vec3 c) { return c.b / std::max(c.g, 1.0F); }
 float Redder(glm::vec3 colour, glm::vec3 skin) {
-  return Redness(colour) / std::max(Redness(skin), 0.1F);
+  return RedShare(colour) / std::max(RedShare(skin), 0.1F);
 }
 
 }  // namespace

@@ -148,7 +148,7 @@ SkinTexels ProjectSkin(const BaseHead& base, const FittedHead& fitted, const Cam
       out.across[i] = rest.x;
       out.up[i] = rest.y - brows;
       out.off_seam[i] = lips.OffSeam(rest);
-      out.red[i] = lips.Within(rest);
+      out.within_lips_mm[i] = lips.Within(rest);
       out.aside[i] = std::max(Ramp(across, std::abs(rest.x)), Ramp(above_chin, rest.y - chin));
       out.facing[i] =
           hides && (*hides)(q) ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q));

@@ -21,8 +21,8 @@ struct SkinTexels {
   std::vector<float> across;    ///< millimetres to the person's left of the middle
   std::vector<float> up;        ///< millimetres above the brows
   std::vector<float> off_seam;  ///< millimetres from where the lips meet
-  std::vector<float> red;       ///< millimetres within the border of the lips, negative outside
-  std::vector<float> aside;     ///< 1 on the sides of the head and below the chin, 0 on the face
+  std::vector<float> within_lips_mm;  ///< of the border of the lips, negative outside
+  std::vector<float> aside;  ///< 1 on the sides of the head and below the chin, 0 on the face
   SkinTexels()
       : pixel(static_cast<std::size_t>(kMapSide) * kMapSide),
         facing(pixel.size(), -1),
@@ -30,7 +30,7 @@ struct SkinTexels {
         across(pixel.size(), 0),
         up(pixel.size(), -1),
         off_seam(pixel.size(), 1e9F),
-        red(pixel.size(), -1e9F),
+        within_lips_mm(pixel.size(), -1e9F),
         aside(pixel.size(), 0) {}
 };
 

@@ -28,12 +28,12 @@ class Cheeks {
            glm::smoothstep(58.0F, 44.0F, x) *
            std::max(glm::smoothstep(wing_ + 1, wing_ + 7, x),
                     0.7F * glm::smoothstep(nose_ - 3, nose_ - 7, y)) *
-           glm::smoothstep(-1.5F, -4.0F, texels.red[i]);
+           glm::smoothstep(-1.5F, -4.0F, texels.within_lips_mm[i]);
   }
   /// Whether it is skin that can stand for the cheeks: no lips, no nose.
   bool Skin(const SkinTexels& texels, std::size_t i) const {
     const float y = Y(texels, i), x = std::abs(texels.across[i]);
-    return texels.red[i] < -2 && y < eyes_ - 8 && (x > wing_ || y < nose_ - 2);
+    return texels.within_lips_mm[i] < -2 && y < eyes_ - 8 && (x > wing_ || y < nose_ - 2);
   }
 
  private:

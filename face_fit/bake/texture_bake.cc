@@ -153,7 +153,7 @@ SkinLook FinishMap(const BaseHead& base, const FittedHead& fitted, const SkinTex
   aside.at = texels.aside;
   AddGrain(map.seen, aside, kMapSide / 170, map.image);
   if (open) {
-    RedLips(texels.red, map.image);
+    RedLips(texels.within_lips_mm, map.image);
     DrawMouthLine(texels, saturation, map.image);
   }
   const FloatImage face_seen = OnFace(texels, map.seen);
@@ -193,7 +193,7 @@ fsm::Image SideBySide(const fsm::Image& map, const fsm::Image& back, const Float
 }  // namespace
 
 TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& fit,
-                        const fsm::Image& photo, const Figure& figure,
+                        const fsm::Image& photo, const Cutout& figure,
                         std::span<const SideView> sides) {
   const FittedHead& fitted = fit.head;
   TextureBake bake;

@@ -22,13 +22,13 @@ vm::Result<SideView> LookFromSide(FaceNetworks& networks, const BaseHead& base,
   auto view = FitSideView(networks, base, fit.head, side);
   if (!view) {
     // In full profile the network finds no face, or places its points at will.
-    Figure figure = CutOut(side, FindFigure(networks, side));
+    Cutout figure = CutOut(side, FindPerson(networks, side));
     auto profile = RefineDepthByProfile(base, figure.opacity, fit);
     if (!profile) return std::unexpected(view.error());
     return SideView{*profile, std::move(figure), true};
   }
   RefineDepthBySide(base, front, side, view->pose, fit);
-  return SideView{*view, CutOut(side, FindFigure(networks, side))};
+  return SideView{*view, CutOut(side, FindPerson(networks, side))};
 }
 
 }  // namespace facefit

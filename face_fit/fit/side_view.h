@@ -12,7 +12,7 @@ namespace facefit {
 /// A photo of the person from the side.
 struct SideView {
   PoseFit fit;
-  Figure figure;
+  Cutout figure;
   /// A full profile: only its outline is used. Front and profile show too little of the same skin
   /// to bring both photos into one light.
   bool outline_only = false;

@@ -382,7 +382,7 @@ class BillboardTest : public NetworkTest {
   }
 
   FittedHead fitted_;
-  Figure figure_{{.width = kPhoto, .height = kPhoto, .rgba = {}}, FloatImage(kPhoto, kPhoto)};
+  Cutout figure_{{.width = kPhoto, .height = kPhoto, .rgba = {}}, FloatImage(kPhoto, kPhoto)};
 };
 
 TEST_F(BillboardTest, ShouldersFallBeyondThePhotosSides) {

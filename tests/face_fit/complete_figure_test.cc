@@ -38,7 +38,7 @@ class CompleteFigureTest : public NetworkTest {
  protected:
   struct Made {
     fsm::Image photo;
-    Figure figure;
+    Cutout figure;
     CompletedFigure whole;
     glm::vec2 chin;  ///< pixel of the canvas
     float per_mm;
@@ -61,7 +61,7 @@ class CompleteFigureTest : public NetworkTest {
     const auto faces = FindFaces(*networks_, photo);
     const FoundFace& face = faces.at(0);
     const Fit fit = FitFace(Galatea(), face, &photo);
-    Figure figure = CutOut(photo, FindFigure(*networks_, photo, &face));
+    Cutout figure = CutOut(photo, FindPerson(*networks_, photo, &face));
     CompletedFigure whole = CompleteFigure(Galatea(), fit.head, figure);
     const glm::vec3 chin = Galatea().points[point::kChin].On(fit.head.posed_vertices);
     const glm::vec2 pixel = fit.head.pose.Project(fit.head.pose.ToCamera(chin)) + whole.photo;

@@ -22,7 +22,7 @@ std::unique_ptr<fsm::Head> WornBy(FaceNetworks& networks, const BaseHead& base,
   const auto [near, face] = CutToFace(photo, photo, FindFaces(networks, photo).at(0));
   const Fit fit = FitFace(base, face, &near);
   const TextureBake bake =
-      BakeTexture(base, face, fit, near, CutOut(near, FindFigure(networks, near, &face)), {});
+      BakeTexture(base, face, fit, near, CutOut(near, FindPerson(networks, near, &face)), {});
   return fsm::MakeHead(bake.head);
 }
 

@@ -99,7 +99,7 @@ TEST_F(SmileShadeTest, ForeheadEyesNoseAndLipsStayAsTheyAre) {
   EvenSmileShade(Galatea(), *placed_, seen_, 1, map_);
   for (std::size_t i = 0; i < placed_->up.size(); ++i) {
     const bool nose = std::abs(placed_->across[i]) < 10 && Height(i) > Place(2).y;
-    const bool other = Height(i) > Place(145).y - 8 || nose || placed_->red[i] > -1;
+    const bool other = Height(i) > Place(145).y - 8 || nose || placed_->within_lips_mm[i] > -1;
     if (other) {
       ASSERT_EQ(map_.rgba[4 * i], before.rgba[4 * i]) << i;
     }

@@ -96,7 +96,7 @@ FloatImage DoubtOneSided(const FoundFace& face, const fsm::Image& image, const F
   return person;
 }
 
-FloatImage FindFigure(FaceNetworks& networks, const fsm::Image& image, const FoundFace* face) {
+FloatImage FindPerson(FaceNetworks& networks, const fsm::Image& image, const FoundFace* face) {
   const glm::vec2 size(image.width, image.height);
   // The network takes a rectangle stretched to a square.
   const Window all = face ? WholeFor(size, BoxOf(*face)) : Window{{0, 0}, size};

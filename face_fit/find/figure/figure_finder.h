@@ -8,7 +8,7 @@ namespace facefit {
 /// How much each pixel belongs to a person, 0..1, as fine as the network's 256 x 256. If `face` is
 /// given, the surroundings of the head are looked at a second
 /// time from nearer, and DoubtOneSided corrects the result.
-FloatImage FindFigure(FaceNetworks& networks, const fsm::Image& image,
+FloatImage FindPerson(FaceNetworks& networks, const fsm::Image& image,
                       const FoundFace* face = nullptr);
 
 /// Heads are nearly symmetric: where one side of a face that looks into the camera belongs to the

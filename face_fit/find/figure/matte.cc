@@ -281,7 +281,7 @@ fsm::Image WithoutBackground(const fsm::Image& photo, const FloatImage& opacity)
   return out;
 }
 
-Figure CutOut(const fsm::Image& photo, const FloatImage& person) {
+Cutout CutOut(const fsm::Image& photo, const FloatImage& person) {
   FloatImage opacity = Matte(photo, person);
   fsm::Image colours = WithoutBackground(photo, opacity);
   return {std::move(colours), std::move(opacity)};

@@ -14,11 +14,11 @@ FloatImage Matte(const fsm::Image& photo, const FloatImage& person);
 fsm::Image WithoutBackground(const fsm::Image& photo, const FloatImage& opacity);
 
 /// A figure cut out of a photo: its colours, continued beyond its outline, and its opacity, 0..1.
-struct Figure {
+struct Cutout {
   fsm::Image colours;
   FloatImage opacity;
 };
 /// `person`: as of Matte.
-Figure CutOut(const fsm::Image& photo, const FloatImage& person);
+Cutout CutOut(const fsm::Image& photo, const FloatImage& person);
 
 }  // namespace facefit
