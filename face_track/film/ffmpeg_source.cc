@@ -15,12 +15,15 @@
 #include <system_error>
 #include <utility>
 
+#include "vm_protocol/core/file_kind.h"
+
 extern "C" char** environ;
 
 namespace facetrack {
 namespace {
 
 constexpr std::size_t kMaxLine = 2000;
+constexpr const char* kOnStdin = "file:/dev/fd/0";  // unlike a pipe it can be sought in
 constexpr std::size_t kMostTimes = 100'000;  // told before their pictures: ffmpeg's queues hold few
 
 std::unexpected<vm::Error> CannotStart(int error) {
@@ -42,11 +45,28 @@ std::optional<double> After(const std::string& line, std::string_view key) {
 
 }  // namespace
 
-vm::Result<std::unique_ptr<PictureSource>> FfmpegSource::Open(
-    const std::string& name, const std::vector<std::string>& input) {
+vm::Result<std::unique_ptr<PictureSource>> FfmpegSource::OpenFilm(const std::string& name) {
+  // ffmpeg's names of formats that hold all they show.
+  constexpr const char* kFormats =
+      "mov,matroska,avi,mpegts,mpeg,mpegvideo,ogg,flv,asf,mxf,nut,ivf,wtv,rm,dv,gif,apng,mjpeg,"
+      "h264,hevc,m4v,yuv4mpegpipe,png_pipe,jpeg_pipe,bmp_pipe,webp_pipe,wav,mp3,flac,aac";
+  std::vector<std::string> words{"-format_whitelist", kFormats, "-protocol_whitelist", "file,pipe",
+                                 "-i"};
+  if (name == "-") {
+    words.emplace_back("pipe:0");
+    return Open(name, words, "");
+  }
+  if (auto fit = vm::CheckReadable(name); !fit) return std::unexpected(fit.error());
+  // ffmpeg is not told the name, which could mean more to it than a file.
+  words.emplace_back(kOnStdin);
+  return Open(name, words, name);
+}
+
+vm::Result<std::unique_ptr<PictureSource>> FfmpegSource::Open(const std::string& name,
+                                                              const std::vector<std::string>& input,
+                                                              const std::string& stdin_file) {
   std::vector<std::string> words{"ffmpeg", "-hide_banner", "-nostats", "-loglevel", "level+info"};
-  const bool from_stdin = name == "-";
-  if (!from_stdin) words.push_back("-nostdin");
+  if (!stdin_file.empty()) words.push_back("-nostdin");
   words.insert(words.end(), input.begin(), input.end());
   const std::string filters = fmt::format(
       "scale=w='trunc(iw*sar)':h=ih,setsar=1,"
@@ -70,8 +90,8 @@ vm::Result<std::unique_ptr<PictureSource>> FfmpegSource::Open(
   }
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  if (!from_stdin)
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  if (!stdin_file.empty())
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, stdin_file.c_str(), O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, output[1], STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, errors[1], STDERR_FILENO);
   pid_t pid = 0;
@@ -99,7 +119,8 @@ FfmpegSource::~FfmpegSource() {
 }
 
 void FfmpegSource::TakeLine(const std::string& line) {
-  if (line.find("showinfo") != std::string::npos) {
+  // What a film says of itself stands in other lines.
+  if (line.starts_with("[Parsed_showinfo_")) {
     const auto seconds = After(line, "pts_time:");
     const auto size = line.find(" s:");
     if (size == std::string::npos) return;
@@ -122,7 +143,10 @@ void FfmpegSource::TakeLine(const std::string& line) {
   }
   for (const std::string_view level : {"[error] ", "[fatal] ", "[panic] "}) {
     const auto at = line.find(level);
-    if (at != std::string::npos) complaint_ = line.substr(at + level.size());
+    if (at == std::string::npos) continue;
+    complaint_ = line.substr(at + level.size());
+    const std::string file = std::string(kOnStdin) + ": ";
+    if (complaint_.starts_with(file)) complaint_.erase(0, file.size());
   }
 }
 
@@ -182,6 +206,9 @@ vm::Result<bool> FfmpegSource::Next(TimedPicture& out) {
     return false;
   }
   if (width_ < 16 || height_ < 16) return Failed(vm::Errc::kBadValue, "is smaller than 16 x 16");
+  if (width_ > kMostSide || height_ > kMostSide) {
+    return Failed(vm::Errc::kBadValue, fmt::format("is larger than {0} x {0}", kMostSide));
+  }
   out.picture.width = width_;
   out.picture.height = height_;
   out.picture.rgba.resize(4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));

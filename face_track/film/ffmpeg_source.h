@@ -16,8 +16,13 @@ namespace facetrack {
 class FfmpegSource final : public PictureSource {
  public:
   /// `input`: words of its command line up to "-i" and what follows it. No shell is involved.
-  static vm::Result<std::unique_ptr<PictureSource>> Open(const std::string& name,
-                                                         const std::vector<std::string>& input);
+  /// `stdin_file`: what ffmpeg has as its standard input; empty: this program's.
+  static vm::Result<std::unique_ptr<PictureSource>> Open(
+      const std::string& name, const std::vector<std::string>& input,
+      const std::string& stdin_file = "/dev/null");
+  /// A film that names no other file: formats that do, as playlists, are refused. "-": the
+  /// program's standard input. Errors: also those of vm::CheckReadable.
+  static vm::Result<std::unique_ptr<PictureSource>> OpenFilm(const std::string& name);
   ~FfmpegSource() override;
   vm::Result<bool> Next(TimedPicture& out) override;
   std::optional<double> length_ms() const override { return length_ms_; }

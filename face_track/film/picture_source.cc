@@ -115,6 +115,12 @@ vm::Result<std::vector<std::string>> InputWords(const std::string& text) {
   if (inputs == 0) {
     return vm::Fail(vm::Errc::kBadValue, "'ffmpeg:" + text + "': '-i NAME' expected at the end");
   }
+  // Filters write files, too (metadata, signature), a source of its own does not.
+  if (std::ranges::find(words, "lavfi") != words.end() &&
+      words.back().find_first_of(",;[") != std::string::npos) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    "'ffmpeg:" + text + "': one source of lavfi without filters expected");
+  }
   return words;
 }
 
@@ -137,15 +143,14 @@ vm::Result<std::unique_ptr<PictureSource>> OpenPictures(const std::string& name,
     const auto words = InputWords(name.substr(7));
     return words ? FfmpegSource::Open(name, *words) : std::unexpected(words.error());
   }
-  if (name == "-") return FfmpegSource::Open(name, {"-i", "pipe:0"});
+  if (name == "-") return FfmpegSource::OpenFilm(name);
   std::error_code error;
   const auto status = fs::status(name, error);
   if (!fs::exists(status)) {
     return vm::Fail(vm::Errc::kUnavailable, "there is no '" + name + "'");
   }
   if (fs::is_directory(status)) return OpenFolder(name, rate);
-  // "file:" keeps ffmpeg from taking names with a colon for addresses.
-  return FfmpegSource::Open(name, {"-i", "file:" + name});
+  return FfmpegSource::OpenFilm(name);
 }
 
 }  // namespace facetrack

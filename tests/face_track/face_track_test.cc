@@ -2,6 +2,7 @@
 // faces; and on what is no film.
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -226,13 +227,36 @@ TEST_F(FaceTrackTest, WordsForFfmpegCannotMakeItWriteFiles) {
   const Ran lavfi = Track({"ffmpeg:-f lavfi -t 1 -i testsrc=r=4"});
   EXPECT_NE(lavfi.error.find("no face is seen in any of its 4"), std::string::npos) << lavfi.error;
   const std::string film = Path("baucis.mp4"), out = Path("written.mp4");
-  for (const std::string& words : {"-i " + film + " " + out, "-re " + out + " -i " + film,
-                                   "-i " + film + " -f " + out, std::string("-f lavfi")}) {
+  for (const std::string& words :
+       {"-i " + film + " " + out, "-re " + out + " -i " + film, "-i " + film + " -f " + out,
+        std::string("-f lavfi"), "-f lavfi -i testsrc,metadata=mode=print:file=" + out}) {
     const Ran ran = Track({"ffmpeg:" + words});
     EXPECT_EQ(ran.code, 1) << words;
     EXPECT_NE(ran.error.find("expected"), std::string::npos) << ran.error;
   }
   EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(FaceTrackTest, AFilmReachesNoOtherFile) {
+  std::ofstream(Path("list.m3u8"))
+      << "#EXTM3U\n#EXT-X-TARGETDURATION:9\n#EXTINF:9,\nfile:" << Path("baucis.mp4")
+      << "\n#EXT-X-ENDLIST\n";
+  std::ofstream(Path("list.mp4")) << "ffconcat version 1.0\nfile baucis.mp4\n";
+  ASSERT_EQ(mkfifo(Path("pipe").c_str(), 0600), 0);
+  for (const auto& [name, error] : {std::pair("list.m3u8", "is no film with a picture"),
+                                    {"list.mp4", "is no film with a picture"},
+                                    {"pipe", "is not a regular file"}}) {
+    const Ran ran = Track({Path(name)});
+    EXPECT_EQ(ran.code, 1) << name;
+    EXPECT_NE(ran.error.find(error), std::string::npos) << ran.error;
+  }
+}
+
+TEST_F(FaceTrackTest, WhatAFilmSaysOfItselfIsNotTakenForAPicture) {
+  Made({"-f", "lavfi", "-i", "testsrc=r=5", "-t", "1", "-metadata",
+        "title=showinfo pts_time:1 s:2000000000x2000000000", "title.mp4"});
+  const Ran ran = Track({Path("title.mp4")});
+  EXPECT_NE(ran.error.find("no face is seen in any of its 5"), std::string::npos) << ran.error;
 }
 
 TEST_F(FaceTrackTest, WhatIsNoFilmOfAFaceIsOneErrorThatNamesIt) {
