@@ -483,9 +483,8 @@ TEST_F(WebPageTest, WhatHasGoneSaysSoAndWhatComesBackIsAsItWasChosen) {
        "wait:document.querySelector('#pick-voice').disabled", Tell("seen the voice go"),
        "wait:!document.querySelector('#pick-voice').disabled",
        "print:document.querySelector('#pick-face').value"});
-  ASSERT_TRUE(hub_->Expect("tell wears pygmalion")) << page->ErrorText();
-  ASSERT_TRUE(hub_->Expect("tell speaks as ben"));
-  ASSERT_TRUE(hub_->Expect("tell chosen"));
+  ASSERT_TRUE(hub_->ExpectAll({"tell wears pygmalion", "tell speaks as ben", "tell chosen"}))
+      << page->ErrorText();
   hub_->WriteLine("set Stop = FSM");
   ASSERT_TRUE(hub_->Expect("tell seen to go")) << page->ErrorText();
   hub_->WriteLine("set Start = FSM");

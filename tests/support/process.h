@@ -93,6 +93,18 @@ class LineStream {
     }
   }
 
+  /// Reads on until lines with all of these parts have come, in whatever order.
+  bool ExpectAll(std::vector<std::string> parts, Millis patience = kPatience) {
+    const auto deadline = std::chrono::steady_clock::now() + patience;
+    while (!parts.empty()) {
+      const auto left = std::chrono::ceil<Millis>(deadline - std::chrono::steady_clock::now());
+      const std::optional<std::string> line = ReadLine(std::max(left, Millis{0}));
+      if (!line) return false;
+      std::erase_if(parts, [&](const std::string& part) { return line->contains(part); });
+    }
+    return true;
+  }
+
   /// All further lines until the end of the stream or the time limit.
   std::vector<std::string> ReadAll(Millis patience = kPatience) {
     std::vector<std::string> all;
