@@ -38,19 +38,22 @@ class Stuffs {
   Stuff Of(glm::vec3 colour) const {
     const float from_hair = glm::distance(colour, hair_);
     if (IsSkin(colour) && glm::distance(colour, skin_) < from_hair) return Stuff::kSkin;
-    return from_hair < PhotoLook()("edge_hair_colour") ? Stuff::kHair : Stuff::kCloth;
+    return from_hair < hair_reach_ ? Stuff::kHair : Stuff::kCloth;
   }
 
  private:
   bool IsSkin(glm::vec3 colour) const {
-    const glm::vec2 bright = PhotoLook().Pair("edge_skin_bright");
     const float part = Brightness(colour) / std::max(Brightness(skin_), 1.0F);
-    return glm::distance(Hue(colour), Hue(skin_)) < PhotoLook()("edge_skin_hue") &&
-           part > bright.x && part < bright.y;
+    return glm::distance(Hue(colour), Hue(skin_)) < hue_reach_ && part > bright_.x &&
+           part < bright_.y;
   }
   /// Colour without brightness; of the dark, where it is noise, grey.
   static glm::vec3 Hue(glm::vec3 colour) { return (colour + 8.0F) / (Brightness(colour) + 8); }
 
+  // Numbers of the table that are asked for at each pixel.
+  const float hair_reach_ = PhotoLook()("edge_hair_colour");
+  const float hue_reach_ = PhotoLook()("edge_skin_hue");
+  const glm::vec2 bright_ = PhotoLook().Pair("edge_skin_bright");
   glm::vec3 skin_, hair_{-1e3F};
 };
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,8 +15,7 @@
 #include <utility>
 
 #include "vm_protocol/core/file_kind.h"
-
-extern "C" char** environ;
+#include "vm_protocol/core/spawn.h"
 
 namespace facetrack {
 namespace {
@@ -76,10 +74,6 @@ vm::Result<std::unique_ptr<PictureSource>> FfmpegSource::Open(const std::string&
                            "-pix_fmt", "rgba", "-f", "rawvideo", "pipe:1"}) {
     words.emplace_back(word);
   }
-  std::vector<char*> argv;
-  for (auto& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-
   int output[2], errors[2];
   if (pipe2(output, O_CLOEXEC) != 0) return CannotStart(errno);
   if (pipe2(errors, O_CLOEXEC) != 0) {
@@ -88,15 +82,12 @@ vm::Result<std::unique_ptr<PictureSource>> FfmpegSource::Open(const std::string&
     close(output[1]);
     return CannotStart(error);
   }
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  if (!stdin_file.empty())
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, stdin_file.c_str(), O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, output[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, errors[1], STDERR_FILENO);
+  vm::Spawn spawn;
+  if (!stdin_file.empty()) spawn.Open(stdin_file, O_RDONLY, STDIN_FILENO);
+  spawn.Give(output[1], STDOUT_FILENO);
+  spawn.Give(errors[1], STDERR_FILENO);
   pid_t pid = 0;
-  const int error = posix_spawnp(&pid, "ffmpeg", &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
+  const int error = spawn.Start(words, pid);
   close(output[1]);
   close(errors[1]);
   if (error != 0) {

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-extern "C" char** environ;
+#include "vm_protocol/core/spawn.h"
 
 namespace fsm {
 namespace {
@@ -27,43 +26,6 @@ std::unexpected<vm::Error> CannotStart(int error) {
   if (error == ENOENT) text += " (ffmpeg must be installed and found along PATH)";
   return vm::Fail(vm::Errc::kUnavailable, std::move(text));
 }
-
-/// The child's side of posix_spawn, freed with its scope.
-class SpawnSettings {
- public:
-  SpawnSettings(int input, int errors) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions_, errors, STDERR_FILENO);
-    // A fresh group, so that Ctrl-C at the terminal reaches us alone and we can end the film
-    // properly; signals as a new program expects them, whatever ours are set to.
-    posix_spawnattr_init(&attributes_);
-    sigset_t none;
-    sigset_t all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    posix_spawnattr_setsigmask(&attributes_, &none);
-    posix_spawnattr_setsigdefault(&attributes_, &all);
-    posix_spawnattr_setpgroup(&attributes_, 0);
-    posix_spawnattr_setflags(
-        &attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  }
-  ~SpawnSettings() {
-    posix_spawn_file_actions_destroy(&actions_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
-
-  int Spawn(pid_t& pid, std::vector<char*>& argv) {
-    return posix_spawnp(&pid, argv[0], &actions_, &attributes_, argv.data(), environ);
-  }
-
- private:
-  posix_spawn_file_actions_t actions_;
-  posix_spawnattr_t attributes_;
-};
 
 }  // namespace
 
@@ -80,14 +42,14 @@ vm::Result<std::unique_ptr<FfmpegProcess>> FfmpegProcess::Start(
     close(input[1]);
     return CannotStart(error);
   }
-  std::string name = "ffmpeg";
-  std::vector<std::string> words = arguments;
-  std::vector<char*> argv{name.data()};
-  for (auto& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-
+  std::vector<std::string> argv{"ffmpeg"};
+  argv.insert(argv.end(), arguments.begin(), arguments.end());
+  vm::Spawn spawn;
+  spawn.Give(input[1], STDIN_FILENO);
+  spawn.Open("/dev/null", O_WRONLY, STDOUT_FILENO);
+  spawn.Give(errors[1], STDERR_FILENO);
   pid_t pid = 0;
-  const int error = SpawnSettings(input[1], errors[1]).Spawn(pid, argv);
+  const int error = spawn.Start(argv, pid);
   close(input[1]);
   close(errors[1]);
   if (error != 0) {

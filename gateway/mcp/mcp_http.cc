@@ -40,10 +40,8 @@ bool TakesJson(const std::string& accept) {
   return accept.empty();
 }
 
-}  // namespace
-
-struct McpHttp::Site : HttpSite {
-  Site(Options options, McpServer& the_server)
+struct Site : HttpSite {
+  Site(McpHttp::Options options, McpServer& the_server)
       : HttpSite({std::move(options.token), std::move(options.origins)},
                  std::move(options.on_refusal)),
         server(the_server) {
@@ -52,7 +50,7 @@ struct McpHttp::Site : HttpSite {
   }
   /// A new session's name.
   std::string Open() {
-    if (sessions.size() >= kMaxSessions) sessions.pop_front();
+    if (sessions.size() >= McpHttp::kMaxSessions) sessions.pop_front();
     return sessions.emplace_back(vm::MakeNonce());
   }
   /// Whether there is that session; it counts as the last that spoke.
@@ -66,10 +64,6 @@ struct McpHttp::Site : HttpSite {
   std::list<std::string> sessions;  // silent longest first
 };
 
-namespace {
-
-/// `Site` is private to McpHttp.
-template <typename Site>
 class McpSession final : public HttpSession {
  public:
   McpSession(std::shared_ptr<Site> site, asio::ip::tcp::socket socket)
@@ -143,7 +137,8 @@ class McpSession final : public HttpSession {
 McpHttp::McpHttp(asio::io_context& io, Options options, McpServer& server)
     : site_(std::make_shared<Site>(options, server)) {
   OpenDoor(io, options.at, site_, [site = std::weak_ptr(site_)](auto socket) {
-    return std::make_shared<McpSession<Site>>(site.lock(), std::move(socket));
+    return std::make_shared<McpSession>(std::static_pointer_cast<Site>(site.lock()),
+                                        std::move(socket));
   });
 }
 

@@ -10,6 +10,8 @@
 
 namespace gateway {
 
+struct HttpSite;
+
 /// The Model Context Protocol over HTTP: the streamable transport of revision 2025-11-25 at /mcp, a
 /// JSON answer to each POST. There is nothing to say unasked, so GET, which would open a stream, is
 /// refused by 405. `initialize` begins a session (Mcp-Session-Id); DELETE ends it.
@@ -32,8 +34,7 @@ class McpHttp {
   std::string host() const;
 
  private:
-  struct Site;
-  const std::shared_ptr<Site> site_;
+  const std::shared_ptr<HttpSite> site_;
 };
 
 }  // namespace gateway

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,7 +11,7 @@
 #include <cstring>
 #include <utility>
 
-extern char** environ;
+#include "vm_protocol/core/spawn.h"
 
 namespace ssm {
 namespace {
@@ -46,29 +45,12 @@ void IgnoreBrokenPipes() {
   static_cast<void>(previous);
 }
 
-int Spawn(const std::vector<std::string>& argv, int in, int out, bool quiet, pid_t& pid) {
-  std::vector<char*> words;
-  for (const std::string& word : argv) words.push_back(const_cast<char*>(word.c_str()));
-  words.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-  if (quiet) {
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  }
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  sigset_t defaults;
-  sigemptyset(&defaults);
-  sigaddset(&defaults, SIGPIPE);
-  posix_spawnattr_setsigdefault(&attributes, &defaults);
-  const int error = posix_spawnp(&pid, words[0], &actions, &attributes, words.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  return error;
+int StartProgram(const std::vector<std::string>& argv, int in, int out, bool quiet, pid_t& pid) {
+  vm::Spawn spawn;
+  spawn.Give(in, STDIN_FILENO);
+  spawn.Give(out, STDOUT_FILENO);
+  if (quiet) spawn.Open("/dev/null", O_WRONLY, STDERR_FILENO);
+  return spawn.Start(argv, pid);
 }
 
 }  // namespace
@@ -79,7 +61,8 @@ vm::Result<std::unique_ptr<ChildProcess>> ChildProcess::Start(const std::vector<
   IgnoreBrokenPipes();
   Pipe in, out;
   pid_t pid = -1;
-  const int error = in.Open() && out.Open() ? Spawn(argv, in.read, out.write, quiet, pid) : errno;
+  const int error =
+      in.Open() && out.Open() ? StartProgram(argv, in.read, out.write, quiet, pid) : errno;
   if (error != 0) {
     in.Close();
     out.Close();

@@ -15,6 +15,16 @@ namespace {
 
 using support::Process;
 
+/// The configuration of a hub with the face and vmc, which sends to that port.
+std::string ConfigFor(const support::TempDir& folder, const std::string& port) {
+  std::ofstream(folder / "c.json")
+      << R"({"clock": "virtual", "modules": [{"name": "FSM", "command": [")" GALATEA_BIN_DIR
+         R"(/fsm", "--headless"]}, {"name": "VMC", "after": ["FSM"], "command": [")" GALATEA_BIN_DIR
+         R"(/vmc", "--to", "127.0.0.1:)"
+      << port << "\"]}]}";
+  return folder / "c.json";
+}
+
 TEST(VmcProgramTest, AnAvatarIsToldWhatTheFaceDoes) {
   if (std::system("command -v oscdump >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "needs oscdump (Debian: liblo-tools)";
@@ -27,12 +37,8 @@ TEST(VmcProgramTest, AnAvatarIsToldWhatTheFaceDoes) {
   const std::string wait =
       std::string("until grep -q '") + hex + "' /proc/net/udp; do sleep 0.05; done";
   ASSERT_EQ(std::system(("timeout 20 sh -c \"" + wait + "\"").c_str()), 0);
-  std::ofstream(folder / "c.json")
-      << R"({"clock": "virtual", "modules": [{"name": "FSM", "command": [")" GALATEA_BIN_DIR
-         R"(/fsm", "--headless"]}, {"name": "VMC", "after": ["FSM"], "command": [")" GALATEA_BIN_DIR
-         R"(/vmc", "--to", "127.0.0.1:)"
-      << port << "\"]}]}";
-  Process hub({GALATEA_BIN_DIR "/agent_manager", "--config", folder / "c.json"});
+  const std::string config = ConfigFor(folder, port);
+  Process hub({GALATEA_BIN_DIR "/agent_manager", "--config", config});
   hub.WriteLine("set Wait = 100");
   hub.WriteLine("to @FSM set AU = 12 1 1");
   hub.WriteLine("to @FSM set HeadRotAbs.1 = 0 20 0");
@@ -82,12 +88,8 @@ TEST(VmcProgramTest, UnrealIsToldTheSameByLiveLink) {
   Process listener(
       {"python3", GALATEA_SOURCE_DIR "/tests/gateway/live_link_listener.py", "--packets", "12"});
   const std::string port = listener.ReadLine().value_or("");
-  std::ofstream(folder / "c.json")
-      << R"({"clock": "virtual", "modules": [{"name": "FSM", "command": [")" GALATEA_BIN_DIR
-         R"(/fsm", "--headless"]}, {"name": "VMC", "after": ["FSM"], "command": [")" GALATEA_BIN_DIR
-         R"(/vmc", "--to", "127.0.0.1:)"
-      << port << "\"]}]}";
-  Process hub({GALATEA_BIN_DIR "/agent_manager", "--config", folder / "c.json"});
+  const std::string config = ConfigFor(folder, port);
+  Process hub({GALATEA_BIN_DIR "/agent_manager", "--config", config});
   hub.WriteLine("to @VMC set Protocol = LIVELINK");
   hub.WriteLine("to @VMC set Subject = Lady");
   hub.WriteLine("set Wait = 100");
