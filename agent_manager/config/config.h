@@ -83,7 +83,8 @@ struct ModuleConfig {
   std::chrono::milliseconds ready_within{60000};  ///< killed if it is not ready by then
   HealthCheck health;
   ResourceLimits limits;
-  std::chrono::milliseconds stop_within{4000};  ///< after `set Run = EXIT`, before SIGTERM
+  /// After `set Run = EXIT`, before SIGTERM; ParseConfig fills in what a file leaves out.
+  std::optional<std::chrono::milliseconds> stop_within;
   Dialect dialect = Dialect::kAuto;
   std::string framing = "lf";  ///< lf or mmi
   std::string encoding = "utf-8";

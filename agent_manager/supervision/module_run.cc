@@ -139,8 +139,8 @@ void ModuleRun::Stop() {
   }
   // The first waits until what was said before is done, the second does not.
   for (int i = 0; i < 2; ++i) stream_->Send("set Run = EXIT");
-  KillAfter(config_.stop_within, "did not exit within " + vm::FormatMs(config_.stop_within) + " ms",
-            SIGTERM);
+  const milliseconds within = config_.stop_within.value();
+  KillAfter(within, "did not exit within " + vm::FormatMs(within) + " ms", SIGTERM);
 }
 
 void ModuleRun::Kill(const std::string& why) {

@@ -32,6 +32,17 @@ TEST(ConfigTest, ReadsEveryKey) {
   EXPECT_TRUE(config->macros.contains("Wave"));
 }
 
+TEST(ConfigTest, AModuleMayTakeLongerToExitOnTheVirtualClockUnlessTheFileSaysHowLong) {
+  const std::string modules =
+      R"("modules": [{"name": "A", "command": "a"}, {"name": "B", "command": "b", "stop_within_ms": 50}])";
+  for (const auto& [clock, within] : {std::pair("real", 4000), std::pair("virtual", 60000)}) {
+    const auto config = Parse("{\"clock\": \"" + std::string(clock) + "\", " + modules + "}");
+    ASSERT_TRUE(config) << config.error().text;
+    EXPECT_EQ(config->modules[0].stop_within, std::chrono::milliseconds(within)) << clock;
+    EXPECT_EQ(config->modules[1].stop_within, std::chrono::milliseconds(50)) << clock;
+  }
+}
+
 TEST(ConfigTest, WhatIsNestedTooDeeplyIsRefused) {
   const std::string open(1'000'000, '['), close(1'000'000, ']');
   for (const std::string& text :
