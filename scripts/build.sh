@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Builds everything into build/ (or the folder given), with --programs all but the tests. Programs end
-# up in build/bin/.
-#   scripts/build.sh [--programs] [FOLDER] [cmake options...]
+# Builds everything into build/ (or the folder given), with --programs all but the tests, with --only what is named.
+# Programs end up in build/bin/.
+#   scripts/build.sh [--programs | --only "TARGET..."] [FOLDER] [cmake options...]
 set -euo pipefail
-target=all
-if [ "${1:-}" = --programs ]; then
-  target=programs
-  shift
-fi
+targets=(all)
+case ${1:-} in
+  --programs) targets=(programs); shift ;;
+  --only) read -ra targets <<<"${2:?--only needs the names of targets}"; shift 2 ;;
+esac
 root=$(cd "$(dirname "$0")/.." && pwd)
 folder=${1:-$root/build}
 [ $# -gt 0 ] && shift
@@ -21,4 +21,4 @@ fi
 jobs=$(nproc)
 memory_gib=$(awk '/MemAvailable/ {print int($2 / 1048576)}' /proc/meminfo)
 [ "$memory_gib" -lt "$jobs" ] && jobs=$((memory_gib > 1 ? memory_gib : 1))
-cmake --build "$folder" --target "$target" --parallel "$jobs"
+cmake --build "$folder" --target "${targets[@]}" --parallel "$jobs"

@@ -154,7 +154,23 @@ if [[ $emotion == *" "* ]] && { ! [[ ${emotion#* } =~ ^[0-9]{1,3}$ ]] || [ "${em
   fail "--emotion '$emotion': the strength is a number from 0 to 100"
 fi
 
-# Builds the programs. The first time that takes minutes, so it tells how far it is: at a terminal in one line that
+# The programs that this start needs; a configuration of the user's own may name any.
+needed() {
+  local example=agent
+  [ -z "$config" ] || { echo programs; return; }
+  [ -z "$chat" ] || example=chat
+  [ -z "$heard" ] || example=voice
+  echo agent_manager ssm_espeak
+  grep -o 'build/bin/[a-z_]*' "$data/examples/agents/$example.json" | cut -d/ -f3
+  [ "$voice" = ssm ] || echo "$voice"
+  [ -z "$web" ] || echo srm
+  [ -z "$dialog" ] || echo task_manager
+  [ -z "$lends" ] || echo chat
+  [ -z "$gateway" ] || echo gateway
+  [ -z "$photo" ] || echo face_fit
+}
+
+# Builds them. The first time that takes minutes, so it tells how far it is: at a terminal in one line that
 # changes, else in a line every half minute.
 build() {
   local log line done total seconds left shown=-30 lines="\n"
@@ -170,7 +186,7 @@ build() {
     [ "$seconds" -lt 10 ] || left=", about $((seconds * (total - done) / done / 60 + 1)) min left"
     [ ! -t 2 ] || lines="\r\033[K"
     printf "run_agent: building, %d of %d: %s%s$lines" "$done" "$total" "${line%%/CMakeFiles/*}" "$left" >&2
-  done < <(NINJA_STATUS='[%f/%t %e] ' "$root/scripts/build.sh" --programs </dev/null 2>&1 || echo "build.sh: failed")
+  done < <(NINJA_STATUS='[%f/%t %e] ' "$root/scripts/build.sh" --only "$(needed | tr '\n' ' ')" </dev/null 2>&1 || echo "build.sh: failed")
   [ ! -t 2 ] || [ "$shown" -lt 0 ] || printf '\r\033[K' >&2
   if [ "$(tail -n 1 "$log")" = "build.sh: failed" ]; then
     cat "$log" >&2
@@ -178,13 +194,15 @@ build() {
     fail "the build failed"
   fi
   rm -f "$log"
+  [ "$shown" -lt 0 ] || [ -x "$bin/face_track" ] ||
+    echo "run_agent: built what this needs; scripts/build.sh --programs builds the other programs" >&2
 }
 
 # What is typed meanwhile is for the agent: nothing before it reads it.
 if [ -z "$installed" ]; then
   cd "$root"
   [ -x "$bin/agent_manager" ] ||
-    echo "run_agent: the first start installs what is missing and compiles the programs: about 10 minutes on two cores, once" >&2
+    echo "run_agent: the first start installs what is missing and compiles what it needs: about 10 minutes on two cores, once" >&2
   "$root/scripts/setup.sh" </dev/null
   build
 fi
