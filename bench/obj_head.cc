@@ -13,8 +13,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "fsm/head/identity.h"
 #include "fsm/head/landmarks.h"
-#include "fsm/head/paint.h"
 
 namespace fsm::bench {
 namespace {
@@ -72,7 +72,7 @@ class ObjHeadMaker {
       ball->low += move;
       ball->high += move;
     }
-    topology_.albedo.assign(rest_.position.size(), Palette().skin);
+    topology_.albedo.assign(rest_.position.size(), BasePalette().skin);
     ReadLandmarks(source.folder / "landmarks68.txt");
     Assemble();
   }
@@ -178,16 +178,16 @@ class ObjHeadMaker {
       const glm::vec3& p = rest_.position[i];
       if (p.z < front - 30) continue;
       glm::vec3& colour = topology_.albedo[i];
-      if (p.z > front && Inside(p, lips)) colour = Palette().lip;
+      if (p.z > front && Inside(p, lips)) colour = BasePalette().lip;
       for (const auto& brow : brows) {
         const float hair = 1 - glm::smoothstep(2.0F, 5.0F, DistanceToChain(p, brow));
-        colour = glm::mix(colour, Palette().brow, 0.8F * hair);
+        colour = glm::mix(colour, BasePalette().brow, 0.8F * hair);
       }
     }
   }
 
   void Assemble() {
-    const Palette palette;
+    const Palette& palette = BasePalette();
     const std::map<Material, glm::vec3> colours = {{Material::kTeeth, palette.tooth},
                                                    {Material::kGum, palette.gum},
                                                    {Material::kTongue, palette.tongue},
@@ -235,7 +235,7 @@ class ObjHeadMaker {
         const glm::vec3 out(std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn),
                             std::cos(angle));
         rest_.position.push_back(centre + radii * out);
-        topology_.albedo.push_back(Palette().sclera);
+        topology_.albedo.push_back(BasePalette().sclera);
       }
     }
     for (int ring = 0; ring < kRings; ++ring) {
@@ -252,7 +252,7 @@ class ObjHeadMaker {
                             .ball_radius = radii.x,
                             .iris_radius = kIrisMm,
                             .pupil_radius = 2,
-                            .iris_colour = Palette().iris};
+                            .iris_colour = BasePalette().iris};
   }
 
   HeadTopology topology_;

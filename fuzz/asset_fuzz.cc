@@ -65,9 +65,9 @@ fsm::Head SmallHead() {
   asset.topology.portrait.shut_lids.resize(1);
   asset.topology.skin_hairs.resize(2);
   asset.topology.pbr_materials.resize(1);
-  asset.topology.worn.image = std::make_shared<fsm::Image>(fsm::Image{1, 1, {1, 2, 3, 4}});
-  asset.topology.worn.texcoord.resize(kVertices);
-  asset.topology.worn.weight.resize(kVertices);
+  asset.topology.textures.image = std::make_shared<fsm::Image>(fsm::Image{1, 1, {1, 2, 3, 4}});
+  asset.topology.textures.texcoord.resize(kVertices);
+  asset.topology.textures.weight.resize(kVertices);
   asset.topology.portrait.eyes.emplace();
   asset.topology.mouth.seam = {{2, 3}};
   asset.landmarks["nasion"] = {0, 20, 90};

@@ -43,13 +43,13 @@ vm::Result<MadeHead> OpenHead(const std::string& path, const std::string& face,
   try {
     if (path.ends_with(".txt")) return OpenOriginal(path, face, tables);
     MadeHead made;
-    fsm::HeadTelling telling;
+    fsm::HeadReport telling;
     made.head = fsm::MakeHeadOfFile(path, tables, &telling);
     made.notice = telling.notice;
     if (made.notice.empty()) made.notice = "Head of " + path;
     if (telling.by_shapes) {
       made.remake = [path, tables](const fsm::UnitTable& units) {
-        fsm::HeadTelling known;
+        fsm::HeadReport known;
         return fsm::MakeHeadOfFile(path, tables, &known, units);
       };
     }

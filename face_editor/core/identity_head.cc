@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <exception>
 
+#include "fsm/head/identity.h"
 #include "fsm/head/make_head.h"
-#include "fsm/head/own_identity.h"
 
 namespace editor {
 

@@ -3,8 +3,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "fsm/head/identity.h"
 #include "fsm/head/make_head.h"
-#include "fsm/head/own_identity.h"
 #include "fsm/mesh/head_points.h"
 #include "vm_protocol/core/or_throw.h"
 

@@ -49,7 +49,6 @@ class Capture {
   /// missing follow, then on_end is called. Nothing if none are being made.
   void End(vm::Time at);
   void Cancel();  ///< without a word; the pictures drawn until then are written
-  bool armed() const { return armed_; }
   bool running() const { return running_; }
 
  private:

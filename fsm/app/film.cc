@@ -50,7 +50,7 @@ void Film::Tick() {
 }
 
 vm::Result<void> Film::AddUpTo(vm::Time now, long most_repeats) {
-  // Those whose successor is due as well are too late to be drawn.
+  // A frame is too late to be drawn when the next one is due as well.
   const long first = next_;
   while (next_ > 0 && series_.TimeOf(next_ + 1) <= now) {
     if (next_ - first == most_repeats) break;

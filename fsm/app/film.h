@@ -44,7 +44,7 @@ class Film {
   void Arm();
   void Tick();
   vm::Result<void> AddUpTo(vm::Time now, long most_repeats);
-  /// To the writer.
+  /// Hands a frame to the writer.
   vm::Result<void> Write(const Image& frame, long times);
 
   vm::Scheduler& clock_;

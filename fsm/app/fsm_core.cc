@@ -3,7 +3,7 @@
 namespace fsm {
 namespace {
 
-/// Takes numbers beyond for the nearest within.
+/// Clamps the numbers of a value to the slot's limits.
 void Clamp(vm::SetValue& value, int least, int most) {
   value.text.clear();
   for (auto& item : value.items) {

@@ -26,7 +26,7 @@ struct FsmCore {
   std::unique_ptr<FaceMotion> motion{};
   Scene scene{};
   bool simulates = true;  ///< what hangs on springs swings
-  /// To be called after every command: something may move now, or look different.
+  /// Called after every command, because something may move now, or look different.
   std::function<void()> changed{};
   /// Every slot declared with Declare, with its value at start, for `Run = INIT`.
   std::vector<std::pair<std::string, std::string>> initial_values{};

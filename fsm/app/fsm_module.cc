@@ -42,7 +42,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions op
       core_, SpeechSlots::Listener{.begun = [this](vm::Time start) { capture_->Begin(start); },
                                    .ended =
                                        [this] {
-                                         // A busy machine hears of the end late.
+                                         // On a busy machine the end is noticed late.
                                          const vm::Time now = core_.Now();
                                          capture_->End(std::min(
                                              now, core_.motion->speech.End().value_or(now)));
@@ -379,8 +379,8 @@ vm::Time FsmModule::BusyUntil() const {
 }
 
 void FsmModule::ArmEnd() {
-  // Whoever waits for the end of what moves is woken then; on the virtual clock time needs it to go
-  // there at all.
+  // A timer stands at the end of what moves: whoever waits for it is woken then, and the virtual
+  // clock only goes to times at which there is a timer.
   const vm::Time end = BusyUntil();
   if (end_timer_ != 0 && end == end_due_) return;
   if (end_timer_ != 0) core_.clock.Cancel(end_timer_);
@@ -398,8 +398,8 @@ bool FsmModule::Busy() const {
 }
 
 void FsmModule::Shutdown() {
-  // Whoever runs us lets go of what is still due. Where drawing takes longer than the time between
-  // two pictures that would be one after another, without end.
+  // The runtime calls what is still due before it ends. Where drawing takes longer than the time
+  // between two pictures, a capture would always have a next one due.
   capture_->Cancel();
   static_cast<void>(pictures_->SendTo("NONE", 1));
   if (frame_timer_ != 0) core_.clock.Cancel(frame_timer_);

@@ -48,7 +48,7 @@ struct Options {
   fsm::FsmOptions module;
 };
 
-/// A whole number, as atoi of the original takes it.
+/// Whether a word is a whole number.
 bool IsNumber(std::string_view word) {
   if (word.starts_with('-')) word.remove_prefix(1);
   return !word.empty() && std::ranges::all_of(word, [](char c) { return c >= '0' && c <= '9'; });
@@ -173,7 +173,7 @@ std::unique_ptr<fsm::Head> HeadAsked(const Options& options) {
   return fsm::MakeHeadOfName(name.empty() ? std::string(fsm::Identities()[0].name) : name, tables);
 }
 
-/// For a run that only writes or describes a head.
+/// Writes or describes a head, for a run that does nothing else.
 void ExportOrDescribe(const Options& options) {
   const auto tables = vm::OrThrow(fsm::MotionTables::Load(options.module.tables));
   const auto head = HeadAsked(options);
@@ -209,7 +209,7 @@ fsm::GlRenderBackend::Options RenderBackendOptions(const Options& options) {
   if (!options.position.empty()) backend.position = {options.position[0], options.position[1]};
   backend.more_faces = MoreFaces(options, options.module.config);
   backend.tables = options.module.tables;
-  // Damaged ones are told before the start.
+  // They are read here only so that damaged ones end the start.
   static_cast<void>(fsm::UnitsIn(backend.tables));
   static_cast<void>(fsm::FeaturesIn(backend.tables));
   using Where = fsm::GlRenderBackend::Options::Where;
@@ -238,7 +238,7 @@ std::vector<std::string> FacesShown(const std::string& asked,
   return names;
 }
 
-/// For a run that only draws a sheet.
+/// Draws a contact sheet, for a run that does nothing else.
 void DrawSheet(const Options& options) {
   if (options.out.empty()) throw std::runtime_error("--sheet needs --out FILE.png");
   const auto tables = vm::OrThrow(fsm::MotionTables::Load(options.module.tables));
@@ -257,7 +257,7 @@ void DrawSheet(const Options& options) {
   vm::OrThrow(backend.WritePicture(picture, options.out));
 }
 
-/// Exit code of a run without lines; -1 if none is asked for.
+/// The exit code of a run that reads no lines; -1 if the options ask for none.
 int RunOnce(const Options& options) {
   try {
     CheckTablesGiven(options);

@@ -41,7 +41,7 @@ vm::Result<MouthPose> PoseOf(const vm::SetValue& value) {
   return pose;
 }
 
-/// Of a value that PoseOf takes; none where it does not say them.
+/// Head and brows of a value that PoseOf takes; nothing where the value ends before them.
 vm::Result<std::optional<StreamHead>> HeadOf(const vm::SetValue& value) {
   if (value.size() == kValues) return std::nullopt;
   StreamHead head;

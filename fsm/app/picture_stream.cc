@@ -51,7 +51,7 @@ void PictureStream::LetGo() {
 void PictureStream::Tick() {
   timer_ = 0;
   if (sender_->gone()) return LetGo();
-  // Those whose successor is due as well are too late.
+  // A picture is too late to be sent when the next one is due as well.
   const vm::Time now = clock_.Now();
   while (series_.TimeOf(next_ + 1) <= now) ++next_;
   const vm::Time at = series_.TimeOf(next_++);

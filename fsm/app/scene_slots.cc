@@ -53,7 +53,7 @@ SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::st
   DeclareLight("Light.rim", "The lamp behind, for the edge of hair and shoulder", &Scene::rim);
   DeclareSaveImage();
   if (!backgrounds_.empty()) {
-    // A picture that is gone is no reason to have no face.
+    // The face is shown all the same when the picture of its background is missing.
     if (auto set = SetBackground(backgrounds_.front().first); !set) {
       Notice("background " + backgrounds_.front().first + ": " + set.error().text +
              "; the plain one is shown");
@@ -258,7 +258,7 @@ vm::Result<void> SceneSlots::ResetSize() {
   if (fills_screen_) {
     if (auto done = FillScreen(false); !done) return done;
   }
-  // Another size costs a headless backend its context.
+  // A headless backend makes a new context for another size.
   if (core_.backend.width() == start_width_ && core_.backend.height() == start_height_) return {};
   return core_.backend.Resize(start_width_, start_height_);
 }

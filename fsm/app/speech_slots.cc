@@ -167,7 +167,7 @@ vm::Result<std::string> SpeechSlots::Prepare(const std::string& text) {
   core_.slots.Report("Speak.len", LengthOf(spoken_));
   SetStat(Stat::kProcessing);
   SetStat(Stat::kReady);
-  // As the original, a list with unknown phonemes is spoken all the same; but it is said.
+  // A list with unknown phonemes is reported and spoken all the same, as by the original.
   for (const std::string& name : core_.motion->speech.UnknownPhonemes(list_)) {
     core_.slots.ReportError("LipSync.pho", {vm::Errc::kBadValue,
                                             "the phoneme '" + name +

@@ -101,12 +101,12 @@ void Members(V& v, Like<HeadTopology> auto& topology) {
   v("uv", topology.uv);
   v("skin_hairs", topology.skin_hairs);
   v("strands", topology.strands);
-  v("photo", topology.worn.image);
+  v("photo", topology.textures.image);
   v("pbr_materials", topology.pbr_materials);
-  v("normal_map", topology.worn.normal_map);
-  v("emissive_map", topology.worn.emissive_map);
-  v("texcoord", topology.worn.texcoord);
-  v("texture_weight", topology.worn.weight);
+  v("normal_map", topology.textures.normal_map);
+  v("emissive_map", topology.textures.emissive_map);
+  v("texcoord", topology.textures.texcoord);
+  v("texture_weight", topology.textures.weight);
   v("shut_lids", topology.portrait.shut_lids);
   v("photo_light", topology.portrait.light);
   v("relit", topology.portrait.relit);

@@ -19,7 +19,7 @@ namespace {
 using nlohmann::json;
 
 constexpr float kMetres = 0.001F;
-constexpr float kLeastMm = 0.01F;  ///< what a shape moves by less does not move
+constexpr float kLeastMm = 0.01F;  ///< a shape leaves out vertices that it moves by less
 
 template <typename T>
 constexpr GltfType TypeOf() {
@@ -30,7 +30,7 @@ constexpr GltfType TypeOf() {
   return GltfType::kUint8;
 }
 
-/// How a number stands in a column, where that is not its own type.
+/// The glTF type of a column of numbers, where it is not that of the numbers.
 template <typename T>
 struct Stored {
   using Type = std::conditional_t<std::is_same_v<T, bool> || std::is_enum_v<T>, std::uint8_t,
@@ -176,7 +176,7 @@ class Writer {
   std::map<const Image*, std::size_t> images_;
 };
 
-/// What other programs draw.
+/// The part of the file that other programs draw.
 class ForeignView {
  public:
   ForeignView(GltfBuilder& gltf, const Head& head, const json& extension)
@@ -188,7 +188,7 @@ class ForeignView {
     MarkBounds(head_.rig().data().rest, gltf_.document["accessors"][position_]);
     normal_ = rig["rest_normal"];
     colour_ = topology["albedo"];
-    if (topology_.worn.image) WriteTexture(topology["photo"]);
+    if (topology_.textures.image) WriteTexture(topology["photo"]);
     json names = json::array(), targets = json::array();
     HeadVertices rest, moved;
     head_.Evaluate({}, rest);
@@ -230,16 +230,16 @@ class ForeignView {
   }
 
   void WriteTexture(const json& image) {
-    const std::span<const glm::vec2> places(topology_.worn.texcoord);
+    const std::span<const glm::vec2> places(topology_.textures.texcoord);
     texcoord_ = gltf_.AddAccessor(gltf_.AddView(places), places.size(), 2, GltfType::kFloat);
     gltf_.document["textures"] = json::array({{{"source", image}}});
   }
 
   /// Whether a part shows the photo, in most of its vertices.
   bool ShowsPhoto(const HeadTopology::Part& part) const {
-    if (!topology_.worn.image) return false;
+    if (!topology_.textures.image) return false;
     const auto shown = std::ranges::count_if(topology_.Corners(part), [this](std::uint32_t vertex) {
-      return topology_.worn.weight[vertex] > 0.5F;
+      return topology_.textures.weight[vertex] > 0.5F;
     });
     return 2 * shown > part.index_count;
   }

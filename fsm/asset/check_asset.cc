@@ -73,8 +73,8 @@ class Checker {
     PerVertex(topology.opacity, "topology.opacity", true);
     PerVertex(topology.uv, "topology.uv", true);
     PerVertex(topology.strands, "topology.strands", true);
-    PerVertex(topology.worn.texcoord, "topology.texcoord", !topology.worn.image);
-    PerVertex(topology.worn.weight, "topology.texture_weight", !topology.worn.image);
+    PerVertex(topology.textures.texcoord, "topology.texcoord", !topology.textures.image);
+    PerVertex(topology.textures.weight, "topology.texture_weight", !topology.textures.image);
     VerticesOf(topology.portrait.shut_lids, "topology.shut_lids");
     PerVertex(topology.portrait.relit, "topology.relit", true);
     const MouthSlit& mouth = topology.mouth;
@@ -112,7 +112,7 @@ class Checker {
 
   void CheckSprings(const RigData& rig) const {
     const auto within = [](float value, float least, float most) {
-      return value >= least && value <= most;  // false of what is not a number
+      return value >= least && value <= most;  // false for not-a-number
     };
     for (std::size_t i = 0; i < rig.swing.springs.size(); ++i) {
       const Spring& spring = rig.swing.springs[i];

@@ -11,7 +11,7 @@
 namespace fsm {
 namespace {
 
-/// Adds up what the arrays of a head take.
+/// Adds up the bytes of a head's arrays.
 class MemorySum {
  public:
   template <typename T>
@@ -78,9 +78,9 @@ class Description {
 
   void Pictures() {
     const std::pair<const char*, const std::shared_ptr<const Image>&> pictures[] = {
-        {"photo, sRGB", topology_.worn.image},
-        {"normal_map, linear", topology_.worn.normal_map},
-        {"emissive_map, sRGB", topology_.worn.emissive_map}};
+        {"photo, sRGB", topology_.textures.image},
+        {"normal_map, linear", topology_.textures.normal_map},
+        {"emissive_map, sRGB", topology_.textures.emissive_map}};
     for (const auto& [name, image] : pictures) {
       if (!image) continue;
       Line("texture", std::string(name) + ", " + std::to_string(image->width) + " x " +

@@ -14,14 +14,14 @@ inline constexpr std::array kSides{Side::kRight, Side::kLeft};
 /// The sign of x on that side.
 constexpr float SignOf(Side side) { return side == Side::kRight ? -1.0f : 1.0f; }
 
-/// One of something for each side.
+/// A value for each side.
 template <typename T>
 struct Sided {
   T right{}, left{};
 
   constexpr T& operator[](Side side) { return side == Side::kRight ? right : left; }
   constexpr const T& operator[](Side side) const { return side == Side::kRight ? right : left; }
-  /// As kSides has them.
+  /// In the order of kSides.
   constexpr std::array<T, 2> InOrder() const { return {right, left}; }
   friend bool operator==(const Sided&, const Sided&) = default;
 };

@@ -57,9 +57,4 @@ float Curve::operator()(float x) const {
   return sum;
 }
 
-float SmoothStep(float from, float to, float x) {
-  const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
-
 }  // namespace fsm

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,9 @@ class Curve {
 };
 
 /// 0 below `from`, 1 above `to`, smooth between; `from` may exceed `to`.
-float SmoothStep(float from, float to, float x);
+inline float SmoothStep(float from, float to, float x) {
+  const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
 
 }  // namespace fsm

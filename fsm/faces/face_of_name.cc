@@ -6,8 +6,8 @@
 
 #include "fsm/faces/table_folder.h"
 #include "fsm/head/face_folder.h"
+#include "fsm/head/identity.h"
 #include "fsm/head/make_head.h"
-#include "fsm/head/own_identity.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/image/image_file.h"
 #include "vm_protocol/core/or_throw.h"
@@ -41,7 +41,7 @@ std::shared_ptr<const Features> FeaturesIn(const std::string& folder) {
   return text ? std::make_shared<Features>(folder + "/" + kFeaturesFile, *text) : nullptr;
 }
 
-std::unique_ptr<Head> MovedAsIn(const std::string& tables, std::unique_ptr<Head> head) {
+std::unique_ptr<Head> WithUnitsOf(const std::string& tables, std::unique_ptr<Head> head) {
   const auto units = UnitsIn(tables);
   auto moved = units ? head->WithUnits(*units) : nullptr;
   return moved ? std::move(moved) : std::move(head);
@@ -58,19 +58,19 @@ std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const std::string&
     return MakeHead(std::move(identity));
   };
   if (std::ranges::find(Identities(), face, &IdentityInfo::name) != Identities().end()) {
-    return MovedAsIn(tables, make(BuiltInIdentity(face)));
+    return WithUnitsOf(tables, make(BuiltInIdentity(face)));
   }
   const std::string folder = FacesFolder() + "/" + face;
   const std::string units = UnitsFolder(folder, tables);
   const std::string own = folder + "/identity.txt";
   std::error_code error;
   if (std::filesystem::exists(own, error)) {
-    return MovedAsIn(units, make(ReadOwnIdentity(own, ReadText(own))));
+    return WithUnitsOf(units, make(ReadOwnIdentity(own, ReadText(own))));
   }
   PhotoHead head = ReadPhotoHead(folder + "/face.txt", ReadText(folder + "/face.txt"));
   head.features = FeaturesIn(tables);
   head.photo = std::make_shared<Image>(vm::OrThrow(ReadImage(folder + "/photo.png")));
-  return MovedAsIn(units, MakeHead(head));
+  return WithUnitsOf(units, MakeHead(head));
 }
 
 }  // namespace fsm

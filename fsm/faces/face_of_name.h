@@ -25,7 +25,7 @@ std::optional<Appearance> AppearanceIn(const std::string& folder);
 /// file of that name in a folder of tables; null if there is none. Throws as UnitsIn.
 std::shared_ptr<const Features> FeaturesIn(const std::string& folder);
 /// The same head, moved by the units of a folder of tables if that has any. Throws as UnitsIn.
-std::unique_ptr<Head> MovedAsIn(const std::string& tables, std::unique_ptr<Head> head);
+std::unique_ptr<Head> WithUnitsOf(const std::string& tables, std::unique_ptr<Head> head);
 
 /// Which folder's units move the face kept in `folder`: its own if it has any, else `tables`.
 std::string UnitsFolder(const std::string& folder, const std::string& tables);

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <string_view>
 #include <vector>
 
@@ -26,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostTables = 1000;  // files in a folder of tables
 constexpr std::string_view kNoticesFollow = "notices:\n";
-/// Ours are told by it from what else lies in the folder.
+/// Begins our files' names, so that whatever else lies in the folder is left alone.
 constexpr const char* kEntry = ".galatea_head";
 
 std::string LineOf(const fs::path& path) {
@@ -87,12 +86,12 @@ std::unique_ptr<Head> HeadCache::HeadOfFile(const std::string& path,
   if (sources.empty()) return MakeHeadOfFile(path, tables);
   const std::string entry = folder_ + "/" + NameOf(sources) + kEntry;
   if (auto kept = Find(entry, sources)) return kept;
-  HeadTelling telling;
-  auto head = MakeHeadOfFile(path, tables, &telling);
-  if (!telling.notice.empty()) Notice(telling.notice);
+  HeadReport report;
+  auto head = MakeHeadOfFile(path, tables, &report);
+  if (!report.notice.empty()) Notice(report.notice);
   std::string made_from = sources;
-  for (const std::string& beside : telling.beside) made_from += LineOf(beside);
-  Keep(entry, made_from + std::string(kNoticesFollow) + telling.notice, *head);
+  for (const std::string& beside : report.beside) made_from += LineOf(beside);
+  Keep(entry, made_from + std::string(kNoticesFollow) + report.notice, *head);
   return head;
 }
 

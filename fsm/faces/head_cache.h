@@ -20,7 +20,8 @@ class HeadCache {
   static constexpr std::size_t kMostHeads = 32;
   /// "": nothing is kept. The folder is made when something is.
   explicit HeadCache(std::string folder) : folder_(std::move(folder)) {}
-  /// As MakeHeadOfFile, which it falls back to: trouble with what is kept is a notice, on stderr.
+  /// The head of MakeHeadOfFile, kept or made by it. Trouble with what is kept is a notice on
+  /// stderr.
   std::unique_ptr<Head> HeadOfFile(const std::string& path, const std::string& tables) const;
 
  private:

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "fsm/asset/asset_reader.h"
@@ -159,14 +158,14 @@ std::vector<ExportedShape> ArkitShapes(const MotionTables& tables) {
 }
 
 std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables_folder,
-                                     HeadTelling* telling,
+                                     HeadReport* report,
                                      const std::optional<UnitTable>& given_units) {
   const std::optional<UnitTable> units = given_units ? given_units : UnitsIn(tables_folder);
   const auto moved = [&units](std::unique_ptr<Head> head) {
     return units ? head->WithUnits(*units) : std::move(head);
   };
   if (auto own = AssetOfFile(path)) return moved(std::move(own));
-  HeadTelling told;
+  HeadReport told;
   const auto tell = [&](const std::string& what) {
     told.notice += (told.notice.empty() ? "'" : "; '") + path + "': " + what;
   };
@@ -202,8 +201,8 @@ std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string&
          "' says where its eyes and mouth are (face_fit --head finds out): only head, eyes and jaw "
          "move");
   }
-  if (telling) {
-    *telling = told;
+  if (report) {
+    *report = told;
   } else if (!told.notice.empty()) {
     Notice(told.notice);
   }

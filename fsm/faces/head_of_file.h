@@ -11,8 +11,8 @@
 
 namespace fsm {
 
-/// What there is to say of a head that was made.
-struct HeadTelling {
+/// What MakeHeadOfFile found out about a head.
+struct HeadReport {
   std::string notice;               ///< what it lacks; or nothing
   std::vector<std::string> beside;  ///< HeadFile::beside
   bool by_shapes = false;           ///< moved by its own shapes: other units need it made anew
@@ -21,10 +21,10 @@ struct HeadTelling {
 /// A head out of .obj, .glb, .gltf or .vrm. One that ExportHead has written is what it was. Any
 /// other is moved by its own shapes where their names are ARKit's or VRM's, else by ours carried
 /// over with the points of `path`.points; without either only head, eyes and jaw move, and a notice
-/// says so: in `telling`, else on stderr. `units`: in place of those of `tables`. Throws
+/// says so: in `report`, else on stderr. `units`: in place of those of `tables`. Throws
 /// std::runtime_error.
 std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables,
-                                     HeadTelling* telling = nullptr,
+                                     HeadReport* report = nullptr,
                                      const std::optional<UnitTable>& units = {});
 
 /// Every ARKit shape of the tables as a state of the face.

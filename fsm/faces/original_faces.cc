@@ -40,10 +40,10 @@ std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
   for (const Viseme& viseme : motion.set14.shapes) mouths.push_back(viseme.pose.mouth);
   MeshModel model = ModelOf(*face);
   RigData skin = RigOf(*face, model, mouths, UnitSizes(motion));
-  return MovedAsIn(tables, MakeMeshHead(std::move(model), std::move(skin)));
+  return WithUnitsOf(tables, MakeMeshHead(std::move(model), std::move(skin)));
 }
 
-/// The first of the files that is not there; "" if all are.
+/// The first file that is missing; "" if none is.
 std::string Missing(const OriginalFaceFiles& files, const OriginalSharedFiles& shared) {
   std::error_code code;
   for (const std::string* file :

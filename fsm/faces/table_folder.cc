@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
-#include <string_view>
 
 #include "fsm/base/table_reader.h"
 #include "fsm/faces/face_of_name.h"
-#include "fsm/head/built_in_units.h"
+#include "fsm/head/face_channels.h"
 #include "fsm/motion/motion_tables.h"
 #include "vm_protocol/core/or_throw.h"
 

@@ -14,8 +14,9 @@
 
 namespace fsm {
 
-/// One ffmpeg process: bytes go to its standard input, its last words come back. No shell is
-/// involved, and a process that dies is an error to the caller, never a signal.
+/// One ffmpeg process: it takes bytes on its standard input, and the last line of its standard
+/// error is kept for messages. No shell is involved, and a process that dies is an error to the
+/// caller, never a signal.
 /// Lifetime: the destructor kills and reaps a process that has not ended. Thread: one.
 /// Limits:   kStallLimit without taking a byte, or between the last byte and the end; of its
 ///           standard error the last kMaxLineBytes of the last line are kept.

@@ -1,5 +1,7 @@
 #include "fsm/head/cage.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -11,13 +13,6 @@
 namespace fsm {
 namespace {
 
-std::string Quoted(std::string_view word) {
-  std::string quoted(1, '\'');
-  quoted += word;
-  quoted += '\'';
-  return quoted;
-}
-
 std::uint32_t AddPoint(Cage& cage, glm::vec3 p, const CageTag& tag = {}) {
   cage.position.push_back(p);
   cage.tag.push_back(tag);
@@ -26,14 +21,14 @@ std::uint32_t AddPoint(Cage& cage, glm::vec3 p, const CageTag& tag = {}) {
 
 float NumberIn(const TableRow& row, std::string_view word) {
   const auto number = ParseNumber<float>(word);
-  if (!number) row.Fail(Quoted(word) + " found where a number was expected");
+  if (!number) row.Fail(fmt::format("'{}' found where a number was expected", word));
   return *number;
 }
 
 const std::vector<std::uint32_t>& FindCurve(const Cage& cage, const TableRow& row,
                                             std::string_view name) {
   const auto found = cage.curves.find(name);
-  if (found == cage.curves.end()) row.Fail("there is no curve " + Quoted(name));
+  if (found == cage.curves.end()) row.Fail(fmt::format("there is no curve '{}'", name));
   return found->second;
 }
 
@@ -92,13 +87,13 @@ SkinKind ReadKind(const TableRow& row) {
   if (word == "rim") return SkinKind::kRim;
   if (word == "lip") return SkinKind::kLip;
   if (word == "inside") return SkinKind::kInside;
-  row.Fail(Quoted(word) + " found where skin, rim, lip or inside was expected");
+  row.Fail(fmt::format("'{}' found where skin, rim, lip or inside was expected", word));
 }
 
 bool ReadFine(const TableRow& row) {
   const std::string& word = row.Word(2);
   if (word != "fine" && word != "plain")
-    row.Fail(Quoted(word) + " found where fine or plain was expected");
+    row.Fail(fmt::format("'{}' found where fine or plain was expected", word));
   return word == "fine";
 }
 
@@ -180,7 +175,7 @@ void ReadPatchRow(const TableRow& row, Cage& cage) {
   } else if (key == "cap") {
     AddFace(cage, FindCurve(cage, row, row.Word(3)), kind, fine);
   } else {
-    row.Fail("unknown word " + Quoted(key));
+    row.Fail(fmt::format("unknown word '{}'", key));
   }
 }
 
@@ -255,12 +250,12 @@ void TieSkinToLips(Cage& cage, const Table& table) {
 std::uint32_t CagePoint(const Cage& cage, const TableRow& row, std::string_view word) {
   const std::size_t dot = word.find('.');
   if (dot == std::string_view::npos) {
-    row.Fail(Quoted(word) + " found where x,y,z, CURVE.i or ~ was expected");
+    row.Fail(fmt::format("'{}' found where x,y,z, CURVE.i or ~ was expected", word));
   }
   const auto& curve = FindCurve(cage, row, word.substr(0, dot));
   const float index = NumberIn(row, word.substr(dot + 1));
   if (index < 0 || index >= static_cast<float>(curve.size()) || index != std::floor(index)) {
-    row.Fail("there is no point " + Quoted(word));
+    row.Fail(fmt::format("there is no point '{}'", word));
   }
   return curve[static_cast<std::size_t>(index)];
 }
@@ -271,7 +266,7 @@ Cage ReadCage(const Table& curves, const Table& patches, const EyeAnatomy& eye,
   AddMouthCurves(mouth, cage);
   bool lids = false;
   for (const TableRow& row : curves.rows()) {
-    if (row.key() != "curve") row.Fail("unknown word " + Quoted(row.key()));
+    if (row.key() != "curve") row.Fail(fmt::format("unknown word '{}'", row.key()));
     // The outer rings of the lids lean on the orbit, so they are made once it is known.
     if (!lids && row.Word(1) != "orbit") {
       AddLidCurves(eye, cage);

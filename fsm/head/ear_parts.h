@@ -10,7 +10,7 @@
 
 namespace fsm {
 
-/// Both ears.
+/// Adds both ears.
 void BuildEars(const Features& features, const Palette& palette, HeadMesh& mesh);
 /// Highest, lowest, foremost and hindmost point of the base head's left ear in its own plane.
 std::array<std::pair<const char*, glm::vec3>, 4> EarLandmarks(const Features& features);

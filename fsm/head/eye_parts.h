@@ -7,7 +7,7 @@
 
 namespace fsm {
 
-/// Both eyeballs.
+/// Adds both eyeballs.
 void BuildEyes(const EyeAnatomy& eye, const Features& features, const Palette& palette,
                HeadMesh& mesh);
 

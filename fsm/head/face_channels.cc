@@ -4,7 +4,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "embedded/action_units.h"
+
 namespace fsm {
+
+const UnitTable& BuiltInUnits() {
+  static const UnitTable units(Table("tables/action_units.txt", embedded::action_units()));
+  return units;
+}
 
 std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
                                    std::span<const BakeWeights> weights) {

@@ -10,6 +10,9 @@
 
 namespace fsm {
 
+/// The units of tables/action_units.txt, both sides alike. Made at the first call; thread: any.
+const UnitTable& BuiltInUnits();
+
 // What the rig of a built-in head must know, from its anatomy. `weights`, and `rest` with it, begin
 // with the skin of a head and what is moved as skin.
 

@@ -17,7 +17,7 @@ struct CropStyle {
   float front_up;  ///< how far locks over the forehead stand up, 0..1
   float recede;    ///< degrees the hairline is drawn back at the temples
 };
-/// As LongHairline.
+/// Single hairs on the skin beside the edge of the hair; see LongHairline.
 std::vector<SkinHair> CroppedHairline(const CropStyle& style, const Features& features,
                                       const Palette& palette, HeadMesh& mesh);
 /// Short hair all round.

@@ -58,8 +58,8 @@ class HairLook {
   /// `strength`: 1 = as the others, less is shorter and paler.
   SkinHair OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
                   int seed) const;
-  /// Locks are flat cards, but take light as the head of hair they lie on: their own normals only
-  /// ruffle its. `place` and `normal` of one length.
+  /// Turns the normals of locks, which are flat cards, towards those of the head of hair they lie
+  /// on, so that they take light as it does. `place` and `normal` are of one length.
   void LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3> normal) const;
 
  private:

@@ -8,10 +8,10 @@
 
 namespace fsm {
 
-HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shaper& shaper,
+HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const SliderWarp& sliders,
                    const Warp* warp, const std::optional<Sided<EyeTransform>>& eye_transforms,
                    const HeadMesh& base, const EyeTransform& left_eye)
-    : eye_(eye), mouth_(mouth), shaper_(shaper), warp_(warp) {
+    : eye_(eye), mouth_(mouth), sliders_(sliders), warp_(warp) {
   if (eye_transforms) {
     eye_transforms_ = *eye_transforms;
   } else {
@@ -41,7 +41,7 @@ HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shape
 }
 
 glm::vec3 HeadForm::Motion(glm::vec3 p) const {
-  const glm::vec3 by = shaper_.Motion(p);
+  const glm::vec3 by = sliders_.Motion(p);
   return warp_ ? by + warp_->Motion(p + by) : by;
 }
 

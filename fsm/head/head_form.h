@@ -12,16 +12,16 @@
 
 namespace fsm {
 
-/// From the base head to the form of one identity or of a person in a photo. Eyes and what touches
-/// them, and teeth with tongue, move as wholes. Keeps references to what it is made of.
+/// Brings the base head into the form of one identity or of the person in a photo. Eyes with what
+/// touches them, and teeth with the tongue, move rigidly. What it is made of outlives it.
 class HeadForm {
  public:
   /// `warp`: of a face from a photo, or null. `eye_transforms`: of its right and left eye if they
   /// are known; otherwise eyes are like `left_eye` and go where the skin goes. `base`: the head
   /// before it takes this form.
-  HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shaper& shaper, const Warp* warp,
-           const std::optional<Sided<EyeTransform>>& eye_transforms, const HeadMesh& base,
-           const EyeTransform& left_eye = {});
+  HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const SliderWarp& sliders,
+           const Warp* warp, const std::optional<Sided<EyeTransform>>& eye_transforms,
+           const HeadMesh& base, const EyeTransform& left_eye = {});
 
   /// Moves all vertices but those from `fixed_first` to before `fixed_end`.
   void Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& mesh) const;
@@ -37,7 +37,7 @@ class HeadForm {
 
   const EyeAnatomy& eye_;
   const MouthAnatomy& mouth_;
-  const Shaper& shaper_;
+  const SliderWarp& sliders_;
   const Warp* warp_;
   Sided<EyeTransform> eye_transforms_;
   TeethTransform teeth_;

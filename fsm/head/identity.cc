@@ -1,10 +1,15 @@
 #include "fsm/head/identity.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
+
+#include "embedded/identities.h"
+#include "embedded/sliders.h"
 
 namespace fsm {
 namespace {
@@ -19,7 +24,7 @@ struct NamedColour {
   std::string_view name;
   glm::vec3 Palette::*colour;
 };
-constexpr std::array<NamedColour, 10> kColours = {{{"skin", &Palette::skin},
+constexpr std::array<NamedColour, 15> kColours = {{{"skin", &Palette::skin},
                                                    {"blush", &Palette::blush},
                                                    {"lip", &Palette::lip},
                                                    {"hair", &Palette::hair},
@@ -28,16 +33,40 @@ constexpr std::array<NamedColour, 10> kColours = {{{"skin", &Palette::skin},
                                                    {"iris", &Palette::iris},
                                                    {"cloth", &Palette::cloth},
                                                    {"tooth", &Palette::tooth},
-                                                   {"sclera", &Palette::sclera}}};
+                                                   {"sclera", &Palette::sclera},
+                                                   {"lip_inside", &Palette::lip_inside},
+                                                   {"lid_rim", &Palette::lid_rim},
+                                                   {"mouth", &Palette::mouth},
+                                                   {"tongue", &Palette::tongue},
+                                                   {"gum", &Palette::gum}}};
+
+void ReadColour(const TableRow& row, Palette& palette) {
+  const auto found = std::ranges::find(kColours, row.Word(1), &NamedColour::name);
+  if (found == kColours.end()) row.Fail("no part of a face is called " + row.Word(1));
+  palette.*found->colour = row.Vector(2);
+}
+
+Palette ReadBasePalette(const Table& table) {
+  Palette palette;
+  for (const TableRow& row : table.rows()) {
+    if (row.key() == "face") break;
+    ReadColour(row, palette);
+  }
+  return palette;
+}
 
 }  // namespace
+
+const Palette& BasePalette() {
+  static const Palette palette =
+      ReadBasePalette(Table("tables/identities.txt", embedded::identities()));
+  return palette;
+}
 
 void ReadIdentityRow(const TableRow& row, Identity& identity) {
   const std::string& key = row.key();
   if (key == "colour") {
-    const auto found = std::ranges::find(kColours, row.Word(1), &NamedColour::name);
-    if (found == kColours.end()) row.Fail("no part of a face is called " + row.Word(1));
-    identity.palette.*found->colour = row.Vector(2);
+    ReadColour(row, identity.palette);
   } else if (key == "slider") {
     std::erase_if(identity.sliders, [&](const auto& other) { return other.first == row.Word(1); });
     identity.sliders.emplace_back(row.Word(1), row.Number(2));
@@ -102,7 +131,54 @@ Identity ReadIdentity(const Table& table, std::string_view name) {
   return identity;
 }
 
-Shaper::Shaper(const Table& table, const std::vector<std::pair<std::string, float>>& values) {
+Identity BuiltInIdentity(std::string_view name) {
+  return ReadIdentity(Table("tables/identities.txt", embedded::identities()), name);
+}
+
+std::vector<std::string> SliderNames() {
+  const Table table("tables/sliders.txt", embedded::sliders());
+  std::vector<std::string> names;
+  for (const TableRow& row : table.rows()) {
+    if (std::ranges::find(names, row.Word(1)) == names.end()) names.push_back(row.Word(1));
+  }
+  return names;
+}
+
+Identity ReadOwnIdentity(const std::string& name, std::string_view text) {
+  const Table table(name, text);
+  const auto names = SliderNames();
+  std::optional<Identity> identity;
+  for (const TableRow& row : table.rows()) {
+    if (row.key() == "base") {
+      const auto known = std::ranges::find(Identities(), row.Word(1), &IdentityInfo::name);
+      if (known == Identities().end()) row.Fail("no built-in face is called " + row.Word(1));
+      if (identity) row.Fail("a second base");
+      identity = BuiltInIdentity(row.Word(1));
+      continue;
+    }
+    if (!identity) row.Fail("'base FACE' expected before it");
+    if (row.key() == "slider") {
+      if (std::ranges::find(names, row.Word(1)) == names.end()) {
+        row.Fail("no slider is called " + row.Word(1));
+      }
+      if (!(std::abs(row.Number(2)) <= kMostSlider)) row.Fail("-10 to 10 expected");
+    }
+    ReadIdentityRow(row, *identity);
+  }
+  if (!identity) table.Fail("no line 'base FACE'");
+  return *identity;
+}
+
+std::string WriteOwnIdentity(std::string_view base,
+                             const std::map<std::string, float, std::less<>>& sliders) {
+  std::string text =
+      "# A face made of a built-in one; docs/face_editor.md.\nbase " + std::string(base) + "\n";
+  for (const auto& [name, value] : sliders) text += fmt::format("slider {} {:.3g}\n", name, value);
+  return text;
+}
+
+SliderWarp::SliderWarp(const Table& table,
+                       const std::vector<std::pair<std::string, float>>& values) {
   for (const TableRow& row : table.rows()) {
     if (row.key() != "slider") row.Fail("unknown word '" + row.key() + "'");
     const Field field{row.Vector(2), row.Vector(5), row.Vector(8)};
@@ -120,7 +196,7 @@ Shaper::Shaper(const Table& table, const std::vector<std::pair<std::string, floa
   }
 }
 
-glm::vec3 Shaper::Motion(glm::vec3 p) const {
+glm::vec3 SliderWarp::Motion(glm::vec3 p) const {
   glm::vec3 sum(0);
   for (const Field& field : fields_) {
     // Its mirror image acts, too; a sideways part turns over at the median.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,10 +27,13 @@ struct IdentityInfo {
 /// All built-in heads, the default one first. Valid as long as the program runs.
 std::span<const IdentityInfo> Identities();
 
+/// The colours of the base head: the rows of tables/identities.txt that stand before any face.
+const Palette& BasePalette();
+
 /// What makes one face differ from the base head; a block of tables/identities.txt.
 struct Identity {
   std::size_t index = 0;  ///< in Identities()
-  Palette palette;
+  Palette palette = BasePalette();
   std::vector<std::pair<std::string, float>> sliders;
   std::optional<CropStyle> crop;  ///< long hair if empty
   LongStyle long_hair;
@@ -51,11 +55,25 @@ Identity ReadIdentity(const Table& table, std::string_view name);
 /// One line of a face's block; a slider takes the place of one of the same name.
 void ReadIdentityRow(const TableRow& row, Identity& identity);
 
+/// A built-in face as its table has it. Throws as ReadIdentity.
+Identity BuiltInIdentity(std::string_view name);
+/// The sliders there are, in the order of their table.
+std::vector<std::string> SliderNames();
+
+/// A face of one's own, the file identity.txt in its folder: `base FACE`, then lines as in
+/// tables/identities.txt that change it. `name` is for messages. Throws std::runtime_error naming
+/// file and line. Limit: kMostSlider either way.
+Identity ReadOwnIdentity(const std::string& name, std::string_view text);
+/// Such a file with sliders only.
+std::string WriteOwnIdentity(std::string_view base,
+                             const std::map<std::string, float, std::less<>>& sliders);
+inline constexpr float kMostSlider = 10;
+
 /// The sliders as a displacement of space.
-class Shaper {
+class SliderWarp {
  public:
   /// Throws std::runtime_error if a slider asked for is not in the table or a line is damaged.
-  Shaper(const Table& table, const std::vector<std::pair<std::string, float>>& values);
+  SliderWarp(const Table& table, const std::vector<std::pair<std::string, float>>& values);
   glm::vec3 Motion(glm::vec3 p) const;
 
  private:

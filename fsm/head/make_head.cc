@@ -15,7 +15,6 @@
 #include "embedded/patches.h"
 #include "embedded/sliders.h"
 #include "fsm/head/anatomy.h"
-#include "fsm/head/built_in_units.h"
 #include "fsm/head/cage.h"
 #include "fsm/head/cloth_parts.h"
 #include "fsm/head/ear_parts.h"
@@ -28,9 +27,9 @@
 #include "fsm/head/hair_springs.h"
 #include "fsm/head/head_form.h"
 #include "fsm/head/head_mesh.h"
+#include "fsm/head/identity.h"
 #include "fsm/head/landmarks.h"
 #include "fsm/head/mouth_parts.h"
-#include "fsm/head/own_identity.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/head/photo_wear.h"
 #include "fsm/head/skin_mesh.h"
@@ -47,7 +46,7 @@ namespace {
 struct Ingredients {
   Ingredients(Identity own, bool both_alike)
       : identity(std::move(own)),
-        shaper(Table("tables/sliders.txt", embedded::sliders()), identity.sliders),
+        sliders(Table("tables/sliders.txt", embedded::sliders()), identity.sliders),
         alike(both_alike) {}
   explicit Ingredients(const PhotoHead& head) : Ingredients(BuiltInIdentity(head.base), false) {
     identity.features = head.features;
@@ -60,7 +59,7 @@ struct Ingredients {
   Identity identity;
   EyeAnatomy eye = EyeAnatomy::BuiltIn();
   const MouthAnatomy& mouth = MouthAnatomy::BuiltIn();
-  Shaper shaper;
+  SliderWarp sliders;
   bool alike;                        ///< both sides move so
   const PhotoHead* photo = nullptr;  ///< worn, if there is one
   std::optional<Warp> warp;          ///< to the person in it
@@ -153,7 +152,7 @@ void AddHair(const Ingredients& from, const BaseSkin& skin, HeadMesh& mesh) {
 }
 
 FormedHead TakeForm(const Ingredients& from, const BaseSkin& skin, const BaseParts& parts) {
-  const HeadForm form(from.eye, from.mouth, from.shaper, from.warp ? &*from.warp : nullptr,
+  const HeadForm form(from.eye, from.mouth, from.sliders, from.warp ? &*from.warp : nullptr,
                       from.photo ? from.photo->eyes : std::nullopt, parts.mesh,
                       from.photo ? EyeTransform{} : from.identity.eyes);
   FormedHead head{parts.mesh, parts.mesh.position, parts.mesh.position.size(),

@@ -14,13 +14,13 @@ struct PhotoHead;
 /// for each identity, unless `asymmetric` is false. Deterministic. Throws std::invalid_argument
 /// listing the names if there is none of that name, std::runtime_error if a table is damaged.
 std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric = true);
-/// Likewise of an identity of one's own. Throws std::runtime_error for an unknown slider.
+/// The head of an identity of one's own. Throws std::runtime_error for an unknown slider.
 std::unique_ptr<Head> MakeHead(Identity identity, bool asymmetric = true);
 /// A head made from a photo: its base face, warped and wearing the photo. Throws as the first, and
 /// std::runtime_error if `head` does not fit together.
 std::unique_ptr<Head> MakeHead(const PhotoHead& head);
-/// How the skin of such a head moves: its vertices, which are the first of that head, alone. The
-/// photo is not needed.
+/// The rig of such a head's skin alone, whose vertices are the first of the head. The photo is not
+/// needed.
 Rig MakeSkinRig(const PhotoHead& head);
 
 }  // namespace fsm

@@ -207,7 +207,7 @@ void BuildTongue(const MouthAnatomy& mouth, const Features& features, const Pale
       const float groove = features("tongue_groove") * taper * std::pow(std::max(0.0f, up), 12.0f);
       const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * up - groove, z);
       // The sides lie in the shade of the teeth beside them, the root in that of the palate.
-      // Of a raised tip the underside is seen, too.
+      // The underside of a raised tip is seen, too.
       const float shown = std::max(SmoothStep(0, 1, up), 0.8f * SmoothStep(0.55f, 0.9f, part));
       const float lit = SmoothStep(-0.2f, 1.0f, part) * shown *
                         SmoothStep(0.8f, 0.2f, std::abs(std::cos(around)));

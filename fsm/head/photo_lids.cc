@@ -55,7 +55,8 @@ float HeightAt(std::span<const glm::vec2> line, float x) {
 
 constexpr float kHighest = 14;  // that a lid comes to lie above the rim of the lower, millimetres
 
-/// To and fro: there is only so much skin below an eye before a rim of glasses begins.
+/// A distance folded to and fro within the little skin there is between an eye and a rim of
+/// glasses.
 float Folded(float away) {
   constexpr float kThere = 5;  // millimetres
   const float part = std::fmod(away, 2 * kThere);
@@ -120,7 +121,7 @@ class LidPainter {
       s.near = away < (face.glasses ? 6.0f : 8.0f);
       s.known = s.above ? SmoothStep(1.0f, 3.0f, away) : SmoothStep(0.6f, 1.6f, away);
     }
-    // Nothing bright but skin is above an eye, unless glasses shine there.
+    // Only skin is bright above an eye, unless glasses shine there.
     DoubtOddSkin(samples, face.glasses ? 0.5f : 0.65f);
     // Below an eye skin is thin and bluish: half of the hue is the face's. Lenses have their own.
     skin_below_ = MeanBelow(samples);
@@ -161,8 +162,9 @@ class LidPainter {
     return skin * light * (1.0f + (1 - light) * chroma * features_.Vector("photo_lid_shade_hue"));
   }
 
-  /// A lid is of one skin with what lies below the eye; what it takes from above may be the shine
-  /// of glasses, a rim, or lashes. Skin in the shade is redder: light has gone through it.
+  /// `colour` with the hue of `skin`, that below the eye: a lid has the same, while what the photo
+  /// shows above the eye may be the shine of glasses, a rim, or lashes. Skin in the shade is
+  /// redder, because light has gone through it.
   glm::vec3 OfHue(glm::vec3 colour, glm::vec3 skin) const {
     const auto& hue = features_["photo_lid_hue"];
     const float dim = ScreenBrightness(colour) / ScreenBrightness(skin);
@@ -279,7 +281,7 @@ glm::vec3 PhotoColour(const Image& photo, glm::vec2 place) {
   return glm::vec3(p[0], p[1], p[2]) / 255.0f;
 }
 
-FaceLight LightOf(const PhotoSight& sight, const SkinPose& open) {
+FaceLight LightOf(const PhotoMapping& sight, const SkinPose& open) {
   constexpr float kSquarely = 0.3f, kFront = 45;  // millimetres: no neck, no ears
   std::vector<FaceLight::Patch> seen;
   for (std::size_t i = 0; i < open.normal.size(); ++i) {

@@ -18,8 +18,8 @@ struct SkinPose {
   std::span<const glm::vec3> normal;    ///< unit
 };
 
-/// A photo, and where it shows the skin: WornPicture::texcoord and weight.
-struct PhotoSight {
+/// A photo, and where it shows the skin: TextureMaps::texcoord and weight.
+struct PhotoMapping {
   const Image& photo;
   std::span<const glm::vec2> texcoord;
   std::span<const float> weight;
@@ -31,7 +31,7 @@ glm::vec3 PhotoColour(const Image& photo, glm::vec2 place);
 /// The skin of a face as a photo of open eyes shows it, with lids at rest and shut: all of one
 /// length.
 struct PhotoFace {
-  const PhotoSight& sight;
+  const PhotoMapping& sight;
   std::span<const BakeWeights> skin;
   SkinPose open, shut;
   bool glasses;              ///< nothing above the eye is taken for lashes
@@ -46,6 +46,6 @@ struct PhotoFace {
 std::vector<ShutLid> PaintLids(const PhotoFace& face, const FaceLight& light);
 
 /// The light of a photo, from the front of the face that wears it.
-FaceLight LightOf(const PhotoSight& sight, const SkinPose& open);
+FaceLight LightOf(const PhotoMapping& sight, const SkinPose& open);
 
 }  // namespace fsm

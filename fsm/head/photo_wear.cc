@@ -13,9 +13,9 @@
 namespace fsm {
 namespace {
 
-/// What a grey photo does not show must be grey too.
+/// Greys the colours of what a grey photo does not show.
 void Desaturate(Palette& palette, float saturation) {
-  for (glm::vec3* colour : {&palette.tooth, &palette.lip_inside, &palette.rim, &palette.mouth,
+  for (glm::vec3* colour : {&palette.tooth, &palette.lip_inside, &palette.lid_rim, &palette.mouth,
                             &palette.tongue, &palette.gum}) {
     *colour =
         glm::mix(glm::vec3(glm::dot(*colour, glm::vec3(0.3f, 0.6f, 0.1f))), *colour, saturation);
@@ -64,7 +64,7 @@ void RollLips(const PhotoHead& head, std::span<const CageTag> tags, glm::vec3 li
     const float inside = SmoothStep(0.5f, -4.0f, outward);
     topology.albedo[i] = Wetter(Wetter(dry, head.saturation), inside * head.saturation);
     topology.occlusion[i] = glm::mix(1.0f, 0.4f, inside);
-    topology.worn.weight[i] = 1 - wet;
+    topology.textures.weight[i] = 1 - wet;
   }
 }
 
@@ -209,33 +209,33 @@ void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, HeadMe
 void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
                HeadTopology& topology) {
   const std::size_t skin_count = skin.weights.size();
-  topology.worn.image = head.photo;
+  topology.textures.image = head.photo;
   topology.portrait.saturation = head.saturation;
   topology.portrait.eyes = head.eye_pictures;
-  topology.worn.texcoord.resize(topology.uv.size());
-  topology.worn.weight.resize(topology.uv.size());
+  topology.textures.texcoord.resize(topology.uv.size());
+  topology.textures.weight.resize(topology.uv.size());
   for (std::size_t i = 0; i < skin_count; ++i) {
-    topology.worn.texcoord[i] = glm::mix(head.skin_low, head.skin_high, topology.uv[i]);
+    topology.textures.texcoord[i] = glm::mix(head.skin_low, head.skin_high, topology.uv[i]);
   }
   for (std::size_t i = 0; i < head.sheet.size(); ++i) {
-    topology.worn.texcoord[skin_count + i] = head.sheet[i].texcoord;
+    topology.textures.texcoord[skin_count + i] = head.sheet[i].texcoord;
   }
-  std::fill_n(topology.worn.weight.begin(), skin_count + head.sheet.size(), 1.0f);
+  std::fill_n(topology.textures.weight.begin(), skin_count + head.sheet.size(), 1.0f);
   // The photo ends at the lips: what lies within the mouth is painted.
   for (const auto& part : topology.parts) {
     if (part.material != Material::kMouthInside) continue;
-    for (const std::uint32_t v : topology.Corners(part)) topology.worn.weight[v] = 0;
+    for (const std::uint32_t v : topology.Corners(part)) topology.textures.weight[v] = 0;
   }
   // Where paint begins it goes over from the photo's colour.
   for (std::size_t i = 0; i < skin_count; ++i) {
-    if (topology.worn.weight[i] <= 0) continue;
-    const glm::vec3 seen = PhotoColour(*head.photo, topology.worn.texcoord[i]);
+    if (topology.textures.weight[i] <= 0) continue;
+    const glm::vec3 seen = PhotoColour(*head.photo, topology.textures.texcoord[i]);
     topology.albedo[i] = seen * seen;
     topology.occlusion[i] = 1;
   }
   ThinLashes(head, topology);
   RollLips(head, skin.tags, lip_inside, topology);
-  const PhotoSight sight{*head.photo, topology.worn.texcoord, topology.worn.weight};
+  const PhotoMapping sight{*head.photo, topology.textures.texcoord, topology.textures.weight};
   const FaceLight light = LightOf(sight, skin.open);
   topology.portrait.light = light.coefficients();
   topology.portrait.relit = RelitParts(skin);
@@ -243,7 +243,7 @@ void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_insid
   topology.portrait.shut_lids = PaintLids({sight, skin.weights, skin.open, skin.shut, head.glasses,
                                            head.features ? *head.features : Features::BuiltIn()},
                                           light);
-  for (const ShutLid& lid : topology.portrait.shut_lids) topology.worn.weight[lid.vertex] = 1;
+  for (const ShutLid& lid : topology.portrait.shut_lids) topology.textures.weight[lid.vertex] = 1;
 }
 
 }  // namespace fsm

@@ -13,7 +13,7 @@
 
 namespace fsm {
 
-/// Sets the colours of what the photo does not show.
+/// Takes the colours of what the photo does not show from `head`.
 void TakeColours(const PhotoHead& head, Palette& palette);
 
 /// The sheet that carries hair, neck and clothes of a photo. It turns with the head as skin does.

@@ -57,37 +57,41 @@ BakeWeights MakeSkinWeights(const CageTag& tag, glm::vec3 p, const MouthAnatomy&
 }
 
 PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const SkinPainter& painter,
-                      const Palette& palette) {
+                      const Features& features, const Palette& palette) {
   PaintedSkin paint = painter.At(p);
   if (tag.deep > 0) {
+    const auto& light = features["mouth_light"];
     paint.albedo = glm::mix(palette.lip_inside, palette.mouth, SmoothStep(0.15f, 0.8f, tag.deep));
     const float out = 1 - tag.deep;
-    paint.open = 0.08f + 0.77f * out * out;
+    paint.open = light[0] + light[1] * out * out;
     return paint;
   }
   if (tag.red >= 0 && kind == SkinKind::kLip) {
-    // It pales towards the corners.
-    const float strength =
-        0.88f * SmoothStep(1.1f, 0.6f, tag.red) * (1 - 0.6f * SmoothStep(16, 26, std::abs(p.x)));
-    paint.albedo = glm::mix(paint.albedo, palette.lip, strength);
+    const float aside = std::abs(p.x);
+    const auto& red = features["lip_red"];
+    const float reddened =
+        red[0] * SmoothStep(1.1f, 0.6f, tag.red) * (1 - red[1] * SmoothStep(16, 26, aside));
+    paint.albedo = glm::mix(paint.albedo, palette.lip, reddened);
     // The edge of the red is soft, the middle of the lips wet.
-    const float wet =
-        SmoothStep(0.35f, 0, tag.red) * (1 - 0.7f * SmoothStep(12, 25, std::abs(p.x)));
-    paint.albedo = glm::mix(paint.albedo, palette.lip_inside, 0.8f * wet);
-    paint.open *= 1 - 0.25f * wet;
+    const auto& wets = features["lip_wet"];
+    const float wet = SmoothStep(0.35f, 0, tag.red) * (1 - wets[1] * SmoothStep(12, 25, aside));
+    paint.albedo = glm::mix(paint.albedo, palette.lip_inside, wets[0] * wet);
+    paint.open *= 1 - wets[2] * wet;
   }
   if (tag.hole > 0) {
-    paint.albedo = glm::mix(paint.albedo, glm::vec3(0.06f, 0.015f, 0.012f), 0.95f * tag.hole);
-    paint.open *= 1 - 0.93f * tag.hole;
+    const auto& dark = features["nostril_dark"];
+    paint.albedo = glm::mix(paint.albedo, features.Vector("nostril_colour"), dark[0] * tag.hole);
+    paint.open *= 1 - dark[1] * tag.hole;
   }
   if (tag.margin >= 0 && tag.margin < 0.2f) {
-    paint.albedo = glm::mix(paint.albedo, palette.rim, 0.75f);
-    paint.open *= 0.8f;
+    const auto& rim = features["lid_rim"];
+    paint.albedo = glm::mix(paint.albedo, palette.lid_rim, rim[0]);
+    paint.open *= rim[1];
   }
   return paint;
 }
 
-/// Scalp that no head of hair lets be seen.
+/// Whether the scalp at `p` is hidden by hair of any kind.
 bool HairCovers(const HairLook& hair, glm::vec3 p) {
   const glm::vec3 d = p - kHairCentre;
   const float azimuth = glm::degrees(std::atan2(std::abs(d.x), d.z));
@@ -110,7 +114,8 @@ MouthSlit BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnat
   for (std::uint32_t v = 0; v < skin.position.size(); ++v) {
     const glm::vec3 p = skin.position[v];
     const CageTag& tag = skin.tag[v];
-    const PaintedSkin paint = MakePaint(tag, p, kind[v], painter, identity.palette);
+    const PaintedSkin paint =
+        MakePaint(tag, p, kind[v], painter, identity.Look(), identity.palette);
     mesh.Add(p, paint.albedo, paint.open, Bone::kSkin, MakeSkinWeights(tag, p, mouth));
     if (tag.seam < 1) continue;
     const int column = FineColumn(tag, p.x);

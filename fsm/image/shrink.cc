@@ -60,4 +60,22 @@ Image Shrunk(const Image& image, int width, int height) {
   return out;
 }
 
+Image Halved(const Image& image) {
+  Image half{std::max(image.width / 2, 1), std::max(image.height / 2, 1), {}};
+  half.rgba.reserve(4 * half.Index(0, half.height));
+  for (int y = 0; y < half.height; ++y) {
+    const std::uint8_t* above = &image.rgba[4 * image.Index(0, 2 * y)];
+    const std::uint8_t* below =
+        &image.rgba[4 * image.Index(0, std::min(2 * y + 1, image.height - 1))];
+    for (int x = 0; x < half.width; ++x) {
+      const int left = 8 * x, right = 4 * std::min(2 * x + 1, image.width - 1);
+      for (int c = 0; c < 4; ++c) {
+        const int sum = above[left + c] + above[right + c] + below[left + c] + below[right + c];
+        half.rgba.push_back(static_cast<std::uint8_t>((sum + 2) / 4));
+      }
+    }
+  }
+  return half;
+}
+
 }  // namespace fsm

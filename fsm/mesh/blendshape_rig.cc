@@ -102,7 +102,7 @@ class ShapeSolver {
     return motion;
   }
 
-  /// Whether what a look moves lies below the nose.
+  /// Whether all that a state moves lies below the nose.
   bool OpensOnlyMouth(const NnlsSolver::Row& look) const {
     constexpr float kBelow = -10, kRest = 0.1f;
     float above = 0, all = 0;
@@ -168,7 +168,7 @@ class MeaningFinder {
       const std::string own = name.substr(3);
       return Given(own) ? std::nullopt : Of(own);
     }
-    // Halves of what has one name for both sides, unless the whole is there as well.
+    // The left or right half of a shape that ARKit has once, unless the file has the whole as well.
     for (const auto& [end, side] : {std::pair("left", Side::kLeft), {"right", Side::kRight}}) {
       if (!name.ends_with(end)) continue;
       const std::string whole = name.substr(0, name.size() - std::string_view(end).size());
@@ -231,7 +231,8 @@ void FreeWhatMoves(const HeadFile& file, const KnownShapes& known, MeshModel& mo
   }
 }
 
-/// The drivers of every shape, by the states in which one number alone is not 0, and by visemes.
+/// The drivers of every shape, found from states in which a single number is not 0, and from
+/// visemes.
 std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const UnitTable& units,
                                                      std::span<const FaceState> visemes) {
   // Shapes that show less of a unit than this only happen to move the same places.
@@ -246,7 +247,7 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
       state.au.left[number] = left ? 1 : 0;
       return state;
     };
-    // Both sides of the jaw's sway cancel, so each side is asked as well.
+    // The two sides of the jaw's sway cancel each other, so each side is tried alone as well.
     const float shown =
         std::max({solver.PartShown(state_of(true, true)), solver.PartShown(state_of(true, false)),
                   solver.PartShown(state_of(false, true))});
@@ -277,7 +278,7 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
   MouthFit mouth(solver.count());
   mouth.AddParameters(solve);
   for (FaceState state : visemes) {
-    state.lip_seal = 0;  // what seals does so by the channels' factors
+    state.lip_seal = 0;  // the channels' factors seal the lips
     mouth.AddViseme(state.mouth, solve(state));
   }
   mouth.AddTo(fit, Drive::Kind::kMouth);

@@ -15,7 +15,7 @@
 namespace fsm {
 namespace {
 
-/// Marks a surface's lips and lids by the ways from those of the pairs that lie on them.
+/// Marks a surface's lips and lids by the distances along it from the point pairs on them.
 void MarkParts(WeldedSurface& surface, std::span<const PointPair> pairs, bool from) {
   const auto seeds = [&](FacePart part) {
     std::vector<glm::vec3> places;
@@ -31,7 +31,7 @@ void MarkParts(WeldedSurface& surface, std::span<const PointPair> pairs, bool fr
     const auto up = surface.DistancesFrom(above, reach), down = surface.DistancesFrom(below, reach);
     for (std::size_t i = 0; i < out.size(); ++i) {
       const float here = std::clamp((down[i] - up[i]) / clear, -1.0f, 1.0f);
-      // Farther away both go over into what is neither.
+      // Farther from the opening a place counts as neither upper nor lower.
       out[i] = here * SmoothStep(reach, 0.5f * reach, std::min(up[i], down[i]));
     }
   };
@@ -39,7 +39,7 @@ void MarkParts(WeldedSurface& surface, std::span<const PointPair> pairs, bool fr
   mark(FacePart::kUpperLid, FacePart::kLowerLid, 20, 8, surface.lid);
 }
 
-/// Spreads values over a surface; those with no weight of their own take their neighbours'.
+/// Spreads values over a surface: vertices without a weight of their own take their neighbours'.
 template <typename T>
 void Spread(const WeldedSurface& surface, std::vector<T>& value, std::vector<float> weight,
             int rounds) {
@@ -74,9 +74,9 @@ void CheckVertices(std::span<const glm::vec3> at, const char* whose) {
                            " lies farther away than 10 km");
 }
 
-/// The edges of the lids are known better than other places (where flesh ends before the eyeball),
-/// and they are what closes an eye: what a warp left undone there is made up for, a few millimetres
-/// around.
+/// Moves the lids' edges, with a few millimetres around them, by what the warp has left undone.
+/// They are known better than other places (skin ends there before the eyeball), and an eye closes
+/// by them.
 class EdgePull {
  public:
   EdgePull(std::span<const PointPair> pairs, const Warp& warp) {
@@ -104,18 +104,18 @@ class EdgePull {
   std::vector<WarpPoint> left_;
 };
 
-/// The surface where the places that both faces have take it.
+/// The surface warped by the point pairs.
 WeldedSurface Carried(const WeldedSurface& rest, std::span<const PointPair> pairs) {
   std::vector<WarpPoint> points;
   for (const PointPair& pair : pairs) points.push_back({pair.from, pair.to - pair.from});
-  // Landmarks lie a millimetre or two off; a warp that goes through each of them tears lids and
-  // lips. What it leaves undone drawing does.
+  // Landmarks lie a millimetre or two off, and a warp through each of them tears lids and lips. So
+  // it goes near them, and DrawTowards does the rest.
   constexpr float kSmooth = 80;
   const Warp warp(points, kSmooth);
   const EdgePull edges(pairs, warp);
   WeldedSurface carried = rest;
   for (glm::vec3& p : carried.at) p = edges.Pulled(p + warp.Motion(p));
-  // Places that lie nearly in a plane say next to nothing about what lies beside it.
+  // Points nearly in one plane do not determine the warp away from it.
   CheckVertices(carried.at, "the face, where the places that both faces have take it,");
   carried.FindNormals();
   return carried;
@@ -123,7 +123,7 @@ WeldedSurface Carried(const WeldedSurface& rest, std::span<const PointPair> pair
 
 /// Draws a surface towards those places of `target` that are within `reach` millimetres, in pieces
 /// of about `rounds` triangles across. Returns how far they were on average.
-float Draw(WeldedSurface& drawn, const WeldedSurface& target, float reach, int rounds) {
+float DrawTowards(WeldedSurface& drawn, const WeldedSurface& target, float reach, int rounds) {
   const SurfaceIndex there(target, reach);
   std::vector<glm::vec3> by(drawn.at.size(), glm::vec3(0));
   std::vector<float> weight(drawn.at.size(), 0);
@@ -131,8 +131,8 @@ float Draw(WeldedSurface& drawn, const WeldedSurface& target, float reach, int r
   for (std::size_t i = 0; i < drawn.at.size(); ++i) {
     const auto hit = there.Find(drawn, i);
     if (!hit) continue;
-    // Along its own normal: where to, sideways, is what the landmarks said; the nearest place, as
-    // it falls on other triangles from round to round, would drift.
+    // Only along the normal: the landmarks have said where a place lies sideways, and the nearest
+    // place, which changes its triangle from round to round, would drift.
     by[i] = glm::dot(hit->at - drawn.at[i], drawn.normal[i]) * drawn.normal[i];
     weight[i] = SmoothStep(reach, 0.4f * reach, hit->far);
     sum += weight[i] * hit->far;
@@ -164,11 +164,11 @@ DeformationTransfer::DeformationTransfer(const TransferSurface& from, const Tran
   WeldedSurface target = prepared(to, false);
 
   WeldedSurface drawn = Carried(rest, pairs);
-  // Drawn onto the other surface in rounds, at first as a whole, in the end in detail. Necks and
-  // backs of heads, where no landmarks are, lie far apart at first.
+  // The surface is drawn onto the other in rounds, first as a whole, in the end in detail. Necks
+  // and backs of heads, which have no landmarks, lie far apart at first.
   constexpr std::pair<float, int> kRounds[] = {{30, 40}, {26, 24}, {22, 14},
                                                {18, 8},  {14, 5},  {14, 3}};
-  for (const auto& [reach, rounds] : kRounds) residual_ = Draw(drawn, target, reach, rounds);
+  for (const auto& [reach, rounds] : kRounds) residual_ = DrawTowards(drawn, target, reach, rounds);
   MakeRows(Bind(rest, drawn, target), target);
 }
 
@@ -187,7 +187,8 @@ std::vector<DeformationTransfer::BarycentricBinding> DeformationTransfer::Bind(
     bound[w] = true;
     open.push_back(w);
   }
-  // What lies over no place of the first face, as the lining of a mouth, goes with its neighbours.
+  // Vertices that match no place of the first face, as in a mouth's lining, go with their
+  // neighbours.
   for (std::size_t k = 0; k < open.size(); ++k) {
     for (const std::uint32_t w : target.next[open[k]]) {
       if (bound[w]) continue;

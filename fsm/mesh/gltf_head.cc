@@ -119,7 +119,7 @@ class GltfReader {
     if (!part.indices.empty()) head_.parts.push_back(std::move(part));
   }
 
-  /// Of the `count` vertices from `first` on, seen from outside.
+  /// Appends the triangles of the `count` vertices from `first` on, counter-clockwise from outside.
   std::vector<std::uint32_t> TrianglesOf(const json& primitive, const Place& place,
                                          std::size_t first, std::size_t count) {
     std::vector<std::uint32_t> indices(count);
@@ -178,7 +178,7 @@ class GltfReader {
     Targets(primitive, place, transforms, first, names);
   }
 
-  /// As HeadFile::eye.
+  /// Which eye a bone belongs to, as HeadFile::eye says it.
   std::optional<Side> EyeOf(std::int64_t bone) const {
     if (bone < 0) return std::nullopt;
     const auto is = [this, bone](Side side) { return bone == avatar_.eye_bone[side]; };

@@ -27,7 +27,7 @@ struct GltfUv {
 /// nothing but its picture; the pictures of light (GltfMaterial) are put together to two beside it.
 class GltfPaint {
  public:
-  /// Both outlive it.
+  /// `document` and `head` outlive it.
   GltfPaint(const GltfDocument& document, HeadFile& head) : document_(document), head_(head) {}
   void ApplyMaterial(std::int64_t material, HeadFile::Part& part);
   /// The settings of a material's picture.

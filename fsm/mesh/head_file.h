@@ -26,7 +26,7 @@ struct HeadFile {
     bool two_sided = false;
     int pbr = -1;  ///< index into pbr_materials; -1: shown as it is
   };
-  /// How the light on a picture differs from place to place: see WornPicture::normal_map.
+  /// How the light on a picture differs from place to place: see TextureMaps::normal_map.
   struct Detail {
     Image normal_map, emissive_map;  ///< either may be empty
   };

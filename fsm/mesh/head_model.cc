@@ -10,7 +10,7 @@
 #include <string>
 
 #include "fsm/base/spline.h"
-#include "fsm/head/paint.h"
+#include "fsm/head/identity.h"
 #include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/texture_atlas.h"
 
@@ -71,12 +71,12 @@ class HeadBuilder {
 
   MeshModel Build() {
     for (const Image& picture : file_.pictures) atlas_.Add(picture);
-    model_.worn.image = atlas_.Make();
-    if (model_.worn.image) LayDetails();
+    model_.textures.image = atlas_.Make();
+    if (model_.textures.image) LayDetails();
     model_.has_uv_seams = !file_.texcoord.empty();
     for (const glm::vec3& p : at_) {
       // The neck gives way below the chin, as ours does.
-      model_.Add(p, Bone::kSkin, Palette().skin, {}, NeckWeight(p));
+      model_.Add(p, Bone::kSkin, BasePalette().skin, {}, NeckWeight(p));
     }
     HangSprings();
     FindEyes();
@@ -103,8 +103,8 @@ class HeadBuilder {
       normal_maps.push_back(detail.normal_map);
       emissive_map.push_back(detail.emissive_map);
     }
-    model_.worn.normal_map = atlas_.MakeBeside(std::move(normal_maps), {128, 128, 255, 255});
-    model_.worn.emissive_map = atlas_.MakeBeside(std::move(emissive_map), {255, 255, 255, 255});
+    model_.textures.normal_map = atlas_.MakeBeside(std::move(normal_maps), {128, 128, 255, 255});
+    model_.textures.emissive_map = atlas_.MakeBeside(std::move(emissive_map), {255, 255, 255, 255});
   }
 
   static float NeckWeight(glm::vec3 p) { return SmoothStep(-168, -96, p.y); }
@@ -164,7 +164,7 @@ class HeadBuilder {
       eye.centre = box[side].centre();
       eye.centre.z = box[side].high.z - eye.ball_radius;
       eye.iris_radius = 0.5f * eye.ball_radius;
-      eye.iris_colour = Palette().iris;
+      eye.iris_colour = BasePalette().iris;
     }
     model_.has_eyes = std::ranges::all_of(
         kSides, [this](Side side) { return model_.eyes[side].ball_radius < 40; });
@@ -203,13 +203,13 @@ class HeadBuilder {
       if (!pictured) continue;
       const glm::vec2 uv = file_.texcoord[v];
       const glm::vec2 within(Wrapped(uv.x), Wrapped(uv.y));
-      model_.worn.texcoord[v] = atlas_.rect(static_cast<std::size_t>(part.picture)).At(within);
-      model_.worn.weight[v] = 1;
+      model_.textures.texcoord[v] = atlas_.rect(static_cast<std::size_t>(part.picture)).At(within);
+      model_.textures.weight[v] = 1;
     }
     const int pbr = PbrOf(kind, part, pictured);
     if (pbr >= 0) {
       for (const std::uint32_t v : part.indices) {
-        // On a picture only the tint is left to say.
+        // The picture has the colour, so only the tint is left.
         const glm::vec3 tint = file_.tint.empty() ? glm::vec3(1) : file_.tint[v];
         model_.albedo[v] = pictured ? tint : tint * part.colour;
       }
@@ -220,12 +220,13 @@ class HeadBuilder {
                    part.indices.begin() + static_cast<std::ptrdiff_t>(part.indices.size() / 3 * 3));
   }
 
-  /// The number in the model of how the part takes light. Without pictures skin and mouth are as
-  /// ours, unless they are drawn in two colours.
+  /// The index in the model of the part's PbrMaterial. Without pictures skin and mouth are lit as
+  /// ours, unless they are toon-shaded.
   int PbrOf(Kind kind, const HeadFile::Part& part, bool pictured) {
     if (part.pbr < 0) return -1;
     const PbrMaterial& pbr = file_.pbr_materials[static_cast<std::size_t>(part.pbr)];
-    const bool own = kind == Kind::kHair || kind == Kind::kOther || model_.worn.image != nullptr;
+    const bool own =
+        kind == Kind::kHair || kind == Kind::kOther || model_.textures.image != nullptr;
     if (!pictured && !own && pbr.kind == PbrMaterial::Kind::kLit) return -1;
     const auto [known, fresh] =
         pbr_index_.try_emplace(part.pbr, static_cast<int>(model_.pbr_materials.size()));
@@ -252,7 +253,7 @@ class HeadBuilder {
   }
 
   glm::vec3 ColourOf(Kind kind, const HeadFile::Part& part, std::uint32_t v) const {
-    const Palette palette;
+    const Palette& palette = BasePalette();
     if (!file_.tint.empty() && file_.tint[v] != glm::vec3(1)) return part.colour * file_.tint[v];
     switch (kind) {
       case Kind::kTeeth:
@@ -283,8 +284,8 @@ class HeadBuilder {
       case Kind::kLash:
         return Material::kMouthInside;
       default:
-        // Beside pictures skin would be drawn by them.
-        return model_.worn.image ? Material::kMouthInside : Material::kSkin;
+        // Material::kSkin would show the picture.
+        return model_.textures.image ? Material::kMouthInside : Material::kSkin;
     }
   }
 
@@ -304,7 +305,7 @@ class HeadBuilder {
   std::vector<glm::vec3> at_;
   std::vector<std::optional<Side>> eye_;  // by vertex
   TextureAtlas atlas_;
-  std::map<int, int> pbr_index_;  // of the file's the model's
+  std::map<int, int> pbr_index_;  // of a material in the model, by that in the file
   MeshModel model_;
   bool balls_ = false;
 };

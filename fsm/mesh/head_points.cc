@@ -70,7 +70,8 @@ std::string FormatHeadPoints(const HeadPoints& points) {
 
 namespace {
 
-/// Of a symmetric matrix, by squaring it: what is larger grows faster. Of unit length.
+/// The unit eigenvector of a symmetric matrix with its largest eigenvalue, found by squaring the
+/// matrix: larger eigenvalues grow faster.
 glm::dvec4 LargestEigenvector(const glm::dmat4& n) {
   double bound = 0;
   for (int c = 0; c < 4; ++c) {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "fsm/base/spline.h"
-#include "fsm/head/built_in_units.h"
+#include "fsm/head/face_channels.h"
 #include "fsm/head/landmarks.h"
 #include "fsm/head/mouth_parts.h"
 #include "fsm/rig/normals.h"
@@ -25,7 +25,7 @@ HeadTopology TopologyOf(const MeshModel& model) {
   topology.albedo = model.albedo;
   topology.occlusion.assign(model.position.size(), 1);
   for (const glm::vec3& p : model.position) topology.uv.push_back(Unroll(p));
-  topology.worn = model.worn;
+  topology.textures = model.textures;
   topology.pbr_materials = model.pbr_materials;
   topology.eyes = model.eyes;
   return topology;
@@ -144,7 +144,7 @@ RigData StillSkin() {
 std::unique_ptr<Head> MakeMeshHead(MeshModel model, RigData skin) {
   HeadAsset asset{.topology = TopologyOf(model), .rig = {}, .landmarks = {}, .view = model.view};
   asset.rig = RigOf(model, asset.topology, std::move(skin));
-  if (model.seam.empty() && !model.worn.image) FindMouth(asset.rig, asset.topology);
+  if (model.seam.empty() && !model.textures.image) FindMouth(asset.rig, asset.topology);
   asset.landmarks = std::move(model.landmarks);
   return std::make_unique<Head>(std::move(asset));
 }

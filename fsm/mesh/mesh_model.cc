@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fsm/head/paint.h"
+#include "fsm/head/identity.h"
 
 namespace fsm {
 
@@ -12,14 +12,14 @@ std::uint32_t MeshModel::Add(glm::vec3 p, Bone b, glm::vec3 colour, std::optiona
                              float turn) {
   BakeWeights f;
   f.neck = turn;
-  worn.texcoord.push_back(at.value_or(glm::vec2(0)));
-  worn.weight.push_back(at ? 1.0f : 0.0f);
+  textures.texcoord.push_back(at.value_or(glm::vec2(0)));
+  textures.weight.push_back(at ? 1.0f : 0.0f);
   return HeadMesh::Add(p, colour, 1, b, f);
 }
 
 namespace {
 
-/// The triangles whose corners all belong to a bone that `is` says.
+/// The triangles whose corners all belong to bones that `is` accepts.
 template <typename Is>
 std::vector<std::uint32_t> TrianglesOf(const MeshModel& model, Is is) {
   std::vector<std::uint32_t> out;
@@ -61,7 +61,7 @@ void MeshModel::AddBall(Side side) {
       const float turn = 2 * kPi * static_cast<float>(k) / kSegments;
       const glm::vec3 out(std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn),
                           std::cos(angle));
-      Add(eye.centre + eye.ball_radius * out, carrier, Palette().sclera);
+      Add(eye.centre + eye.ball_radius * out, carrier, BasePalette().sclera);
     }
   }
   for (int ring = 0; ring < kRings; ++ring) {

@@ -16,7 +16,7 @@ namespace fsm {
 /// Bone::kSkin moves as that is told; of the weights only `neck` is looked at.
 struct MeshModel : HeadMesh {
   std::string name;  ///< of its file, for messages; may be empty
-  WornPicture worn;
+  TextureMaps textures;
   std::vector<PbrMaterial> pbr_materials;
   Sided<EyeGeometry> eyes;  ///< meaningful where has_eyes
   bool has_eyes = false;

@@ -17,7 +17,7 @@ namespace fsm {
 namespace {
 
 constexpr std::size_t kMaxFileBytes = 4U << 20;
-/// A rest that moves no vertex so far is not worth a channel.
+/// An expression whose remainder moves no vertex so far gets no channel, millimetres.
 constexpr float kLeastRestMm = 0.4F;
 
 /// FaceExp's name, and how the files of its patterns begin and are numbered.

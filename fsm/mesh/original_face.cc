@@ -22,7 +22,7 @@ using Offsets = std::vector<std::vector<glm::vec3>>;
 
 // The readers below throw std::runtime_error with the text of what they cannot read.
 
-/// What the units leave of the expressions, brought to the face's vertices.
+/// The parts of the expressions that no units can show, brought to the face's vertices.
 Offsets ReadRests(const PntFile& wireframe, const OriginalSharedFiles& shared) {
   Offsets all;
   const auto read = vm::OrThrow(ReadOriginalExpressions(shared.offsets, shared.standard));

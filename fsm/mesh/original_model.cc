@@ -24,7 +24,7 @@ class OriginalBuilder {
     const std::size_t picture = atlas_.Add(face_.picture);
     std::size_t eye_picture = 0;
     if (face_.eye_picture) eye_picture = atlas_.Add(*face_.eye_picture);
-    model_.worn.image = atlas_.Make();
+    model_.textures.image = atlas_.Make();
     AddFace(picture);
     AddMouth();
     AddEyes(eye_picture);

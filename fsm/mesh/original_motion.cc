@@ -14,8 +14,8 @@
 namespace fsm {
 namespace {
 
-/// Of a viseme's offsets that the original shows for a full articulation: its MouthScale is 30 by
-/// default, which stands for three quarters here. All of them are shown at 100.
+/// The part of a viseme's offsets that full articulation shows. The original shows all of them at a
+/// MouthScale of 100; its default of 30 counts as three quarters of full articulation here.
 constexpr float kVisemePart = 0.4f;
 
 class OriginalRigBaker {

@@ -4,28 +4,10 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "fsm/image/shrink.h"
+
 namespace fsm {
 namespace {
-
-Image Halved(const Image& image) {
-  Image half;
-  half.width = std::max(image.width / 2, 1);
-  half.height = std::max(image.height / 2, 1);
-  for (int y = 0; y < half.height; ++y) {
-    for (int x = 0; x < half.width; ++x) {
-      for (int c = 0; c < 4; ++c) {
-        int sum = 0;
-        for (int k = 0; k < 4; ++k) {
-          const int px = std::min(2 * x + (k & 1), image.width - 1);
-          const int py = std::min(2 * y + (k >> 1), image.height - 1);
-          sum += image.rgba[static_cast<std::size_t>(4 * (py * image.width + px) + c)];
-        }
-        half.rgba.push_back(static_cast<std::uint8_t>((sum + 2) / 4));
-      }
-    }
-  }
-  return half;
-}
 
 /// Copies a picture to a place of the atlas, in the size given, its edge pixels repeated around it.
 void Lay(const Image& picture, glm::ivec2 at, glm::ivec2 size, int rim, Image& atlas) {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fsm/head/paint.h"
+#include "fsm/head/identity.h"
 
 namespace fsm {
 namespace {
@@ -52,7 +52,7 @@ class RigResampler {
     return weights;
   }
 
-  /// What the source says of a vertex, by the vertex; nothing for most.
+  /// By vertex of the source, the element that belongs to it; nothing for most.
   template <typename T>
   std::vector<const T*> ByVertex(const std::vector<T>& all) const {
     std::vector<const T*> by(source_.rest.size(), nullptr);
@@ -199,13 +199,13 @@ std::vector<Row> AddLips(const RigData& source, std::span<const Row> rows, MeshM
 
 /// A head without pictures has lips, and their inside, as red beside its skin as the source has.
 void RedLips(const Head& source, std::span<const Row> rows, MeshModel& model) {
-  if (model.worn.image) return;
+  if (model.textures.image) return;
   const HeadTopology& topology = source.topology();
   std::vector<bool> lip(topology.albedo.size(), false);
   for (const std::uint32_t v : TrianglesOf(topology, {Material::kLip, Material::kMouthInside})) {
     lip[v] = true;
   }
-  const glm::vec3 skin = Palette().skin;
+  const glm::vec3 skin = BasePalette().skin;
   for (std::size_t v = 0; v < rows.size(); ++v) {
     glm::vec3 red(0);
     float part = 0;
@@ -218,7 +218,7 @@ void RedLips(const Head& source, std::span<const Row> rows, MeshModel& model) {
   }
 }
 
-/// From where the rig leaves the vertices while nothing is asked to where they are.
+/// The offset of each vertex from where the rig leaves it at rest to where the file has it.
 std::vector<glm::vec3> OwnForm(const RigData& rig, const MeshModel& model,
                                std::span<const Row> rows) {
   RigData proxy = rig;

@@ -16,7 +16,7 @@ class BlendShapeMotion : public MotionSource {
 
   /// kBadValue with what there is.
   vm::Result<void> Check(std::string_view name) const;
-  /// As Check; and for a weight outside 0..2.
+  /// kBadValue as Check, and for a weight outside 0..2.
   vm::Result<void> Set(vm::Time now, std::string_view name, double weight, vm::Time move);
 
   void Contribute(vm::Time t, MotionFrame& frame) const override;

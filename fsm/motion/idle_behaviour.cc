@@ -35,7 +35,7 @@ void Add(Angles& out, const Angles& more, double weight) {
   for (std::size_t i = 0; i < 3; ++i) out[i] += static_cast<float>(weight * more[i]);
 }
 
-// From 0 at u = 0 to 1 in the middle and back to 0 at u = 1.
+// A wave that goes from 0 at u = 0 to 1 in the middle and back to 0 at u = 1.
 double Swing(double u) {
   return u <= 0 || u >= 1 ? 0 : (1 - std::cos(u * 2 * std::numbers::pi)) / 2;
 }
@@ -121,7 +121,7 @@ void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
   }
   const AutoMove& move = table_.auto_moves[own.pattern - 1];
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    // Two speeds together: one alone looks like a pendulum.
+    // Two frequencies are added, because one alone looks like a pendulum.
     const double slow = InMs(t) / move.period_ms + 0.37 * static_cast<double>(axis);
     const double way =
         0.75 * Wander(kHead + 2 * axis, slow) + 0.25 * Wander(kHead + 2 * axis + 1, slow * 2.3);

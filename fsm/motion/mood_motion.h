@@ -16,7 +16,7 @@ class MoodMotion : public MotionSource {
   static constexpr vm::Time kTakes{1'200'000};  ///< from one mood to another
 
   explicit MoodMotion(const MotionTable& table) : table_(table) {}
-  /// One of the table's, or NEUTRAL; `strength` 1 is full.
+  /// Shows a mood of the table, or NEUTRAL; `strength` 1 is full.
   vm::Result<void> Set(vm::Time now, std::string_view name, double strength);
   void Contribute(vm::Time t, MotionFrame& frame) const override;
 

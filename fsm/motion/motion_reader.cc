@@ -52,158 +52,139 @@ namespace {
 class MotionReader {
  public:
   MotionReader(const Table& table, const UnitNames& units) : rows_(table.rows()), units_(units) {}
-  MotionTable Read();
+
+  MotionTable Read() {
+    while (next_ < rows_.size()) ReadRow(rows_[next_++]);
+    return std::move(out_);
+  }
 
  private:
   using Numbers = std::vector<double>;
-  void ReadRow(const TableRow& row);
-  /// The key frames in the rows below this one, which are read with it.
-  void ReadCurve(const TableRow& row);
-  void ReadMood(const TableRow& row);
-  void ReadProfile(const TableRow& row);
-  /// The `count` numbers after the pattern's, which must be the next; from 0 on, the last at least
-  /// `least`.
+
+  void ReadRow(const TableRow& row) {
+    const std::string& kind = row.key();
+    if (kind == "NOD" || kind == "REFUSE" || kind == "LISTEN" || kind == "USERDEF") {
+      ReadCurve(row);
+    } else if (kind == "BLINK") {
+      ReadPattern(row, out_.blinks, "BLINK PATTERN CLOSING SHUT OPENING, ms,", 1,
+                  &BlinkPattern::closing_ms, &BlinkPattern::shut_ms, &BlinkPattern::opening_ms);
+    } else if (kind == "AUTOBLINK") {
+      ReadBlinks(row);
+    } else if (kind == "AUTOMOVE") {
+      ReadMove(row);
+    } else if (kind == "AUTOGAZE") {
+      ReadPattern(row, out_.auto_gazes, "AUTOGAZE PATTERN ANGLE INTERVAL, at least 200 ms,", 200,
+                  &AutoGaze::amplitude, &AutoGaze::interval_ms);
+    } else if (kind == "AUTOBREATH") {
+      ReadPattern(row, out_.auto_breaths, "AUTOBREATH PATTERN PITCH PERIOD, at least 500 ms,", 500,
+                  &AutoBreath::pitch, &AutoBreath::period_ms);
+    } else if (kind == "AUTONODS") {
+      ReadPattern(row, out_.auto_nods, "AUTONODS PATTERN ANGLE INTERVAL, at least 2000 ms,", 2000,
+                  &AutoNods::angle, &AutoNods::interval_ms);
+    } else if (kind == "AUTOSPEECH") {
+      ReadPattern(row, out_.auto_speeches, "AUTOSPEECH PATTERN NOD TURN TILT BROW", 0,
+                  &AutoSpeech::nod, &AutoSpeech::turn, &AutoSpeech::tilt, &AutoSpeech::brow);
+    } else if (kind == "AUTOAVERT") {
+      ReadPattern(row, out_.auto_averts, "AUTOAVERT PATTERN ANGLE SHORTEST", 0, &AutoAvert::angle,
+                  &AutoAvert::shortest_ms);
+    } else if (kind == "AUTOTEXT") {
+      ReadPattern(row, out_.auto_texts, "AUTOTEXT PATTERN SIZE", 0, &AutoText::size);
+    } else if (kind == "AUTOFACE") {
+      CheckPattern(row, out_.auto_faces.size());
+      out_.auto_faces.push_back(ReadUnits(row, 2, units_));
+    } else if (kind == "MOOD") {
+      ReadMood(row);
+    } else if (kind == "LIFE") {
+      ReadProfile(row);
+    } else {
+      row.Fail("'" + kind +
+               "' found; NOD, REFUSE, LISTEN, USERDEF, BLINK, MOOD, LIFE or an AUTO line (BLINK "
+               "MOVE GAZE BREATH NODS SPEECH AVERT FACE TEXT) expected");
+    }
+  }
+
+  static void CheckPattern(const TableRow& row, std::size_t have) {
+    const double pattern = row.Number(1, "a pattern number", 1, 10000);
+    if (pattern != static_cast<double>(have + 1)) {
+      row.Fail(fmt::format("pattern {:g} found, {} expected next", pattern, have + 1));
+    }
+  }
+
+  /// The `count` numbers behind the pattern's number, which must be the next one. None is below 0,
+  /// and the last is at least `least`.
   static Numbers ReadNumbers(const TableRow& row, std::size_t have, std::size_t count,
-                             const std::string& expected, double least = 0);
+                             const std::string& expected, double least = 0) {
+    CheckPattern(row, have);
+    if (row.size() != count + 2) row.Fail(expected + " expected");
+    Numbers numbers;
+    for (std::size_t i = 0; i < count; ++i) {
+      numbers.push_back(row.Number(2 + i, expected, i + 1 == count ? least : 0, 3600000));
+    }
+    return numbers;
+  }
+
   /// A pattern of which each number is one field.
   template <typename Pattern, typename... Fields>
   static void ReadPattern(const TableRow& row, std::vector<Pattern>& patterns,
-                          const std::string& expected, double least, Fields... fields);
-  void ReadBlinks(const TableRow& row);
-  void ReadMove(const TableRow& row);
-  static void CheckPattern(const TableRow& row, std::size_t have);
+                          const std::string& expected, double least, Fields... fields) {
+    const Numbers numbers = ReadNumbers(row, patterns.size(), sizeof...(fields), expected, least);
+    Pattern& pattern = patterns.emplace_back();
+    auto next = numbers.begin();
+    ((pattern.*fields = *next++), ...);
+  }
+
+  /// Reads the key frames in the rows below this one, too.
+  void ReadCurve(const TableRow& row) {
+    auto& curves = out_.head[row.key()];
+    CheckPattern(row, curves.size());
+    std::vector<HeadCurve::Key> keys;
+    while (next_ < rows_.size() && StartsWithNumber(rows_[next_])) AddKey(rows_[next_++], keys);
+    if (keys.empty()) row.Fail("key frames 'ms x y z' expected below");
+    curves.emplace_back(std::move(keys));
+  }
+
+  void ReadMood(const TableRow& row) {
+    if (row.size() < 3 || row.Word(1) == "NEUTRAL") {
+      row.Fail("MOOD NAME AU:WEIGHT ... expected, the name not NEUTRAL");
+    }
+    out_.moods[row.Word(1)] = ReadUnits(row, 2, units_);
+  }
+
+  void ReadProfile(const TableRow& row) {
+    if (row.size() < 2 || row.size() % 2 != 0) row.Fail("LIFE NAME KIND PATTERN ... expected");
+    IdleProfile profile{};
+    for (std::size_t i = 2; i < row.size(); i += 2) {
+      const auto kind = IdleKindNamed(row.Word(i));
+      if (!kind) row.Fail(fmt::format("'{}' found, a kind of Autonomous expected", row.Word(i)));
+      const auto patterns = static_cast<double>(out_.Patterns(*kind));
+      profile[static_cast<std::size_t>(*kind)] =
+          static_cast<std::size_t>(row.Number(i + 1, "a pattern given above", 0, patterns));
+    }
+    out_.profiles[row.Word(1)] = profile;
+  }
+
+  void ReadBlinks(const TableRow& row) {
+    const Numbers v =
+        ReadNumbers(row, out_.auto_blinks.size(), 2, "AUTOBLINK PATTERN INTERVAL BLINK");
+    if (v[0] < 500 || v[1] < 1 || v[1] > static_cast<double>(out_.blinks.size())) {
+      row.Fail("an interval of at least 500 ms and a blink above expected");
+    }
+    out_.auto_blinks.push_back({v[0], static_cast<std::size_t>(v[1]) - 1, true});
+  }
+
+  void ReadMove(const TableRow& row) {
+    const Numbers v = ReadNumbers(row, out_.auto_moves.size(), 4,
+                                  "AUTOMOVE PATTERN X Y Z PERIOD, at least 100 ms,", 100);
+    AutoMove move{.period_ms = v[3]};
+    for (std::size_t axis = 0; axis < 3; ++axis) move.amplitude[axis] = static_cast<float>(v[axis]);
+    out_.auto_moves.push_back(move);
+  }
 
   const std::vector<TableRow>& rows_;
   const UnitNames& units_;
   std::size_t next_ = 0;  // the row after the one in hand
   MotionTable out_;
 };
-
-MotionTable MotionReader::Read() {
-  while (next_ < rows_.size()) ReadRow(rows_[next_++]);
-  return std::move(out_);
-}
-
-void MotionReader::CheckPattern(const TableRow& row, std::size_t have) {
-  const double pattern = row.Number(1, "a pattern number", 1, 10000);
-  if (pattern != static_cast<double>(have + 1)) {
-    row.Fail(fmt::format("pattern {:g} found, {} expected next", pattern, have + 1));
-  }
-}
-
-MotionReader::Numbers MotionReader::ReadNumbers(const TableRow& row, std::size_t have,
-                                                std::size_t count, const std::string& expected,
-                                                double least) {
-  CheckPattern(row, have);
-  if (row.size() != count + 2) row.Fail(expected + " expected");
-  Numbers numbers;
-  for (std::size_t i = 0; i < count; ++i) {
-    numbers.push_back(row.Number(2 + i, expected, i + 1 == count ? least : 0, 3600000));
-  }
-  return numbers;
-}
-
-template <typename Pattern, typename... Fields>
-void MotionReader::ReadPattern(const TableRow& row, std::vector<Pattern>& patterns,
-                               const std::string& expected, double least, Fields... fields) {
-  const Numbers numbers = ReadNumbers(row, patterns.size(), sizeof...(fields), expected, least);
-  Pattern& pattern = patterns.emplace_back();
-  auto next = numbers.begin();
-  ((pattern.*fields = *next++), ...);
-}
-
-void MotionReader::ReadCurve(const TableRow& row) {
-  auto& curves = out_.head[row.key()];
-  CheckPattern(row, curves.size());
-  std::vector<HeadCurve::Key> keys;
-  while (next_ < rows_.size() && StartsWithNumber(rows_[next_])) AddKey(rows_[next_++], keys);
-  if (keys.empty()) row.Fail("key frames 'ms x y z' expected below");
-  curves.emplace_back(std::move(keys));
-}
-
-void MotionReader::ReadMood(const TableRow& row) {
-  if (row.size() < 3 || row.Word(1) == "NEUTRAL") {
-    row.Fail("MOOD NAME AU:WEIGHT ... expected, the name not NEUTRAL");
-  }
-  out_.moods[row.Word(1)] = ReadUnits(row, 2, units_);
-}
-
-void MotionReader::ReadProfile(const TableRow& row) {
-  if (row.size() < 2 || row.size() % 2 != 0) row.Fail("LIFE NAME KIND PATTERN ... expected");
-  IdleProfile profile{};
-  for (std::size_t i = 2; i < row.size(); i += 2) {
-    const auto kind = IdleKindNamed(row.Word(i));
-    if (!kind) row.Fail(fmt::format("'{}' found, a kind of Autonomous expected", row.Word(i)));
-    const auto patterns = static_cast<double>(out_.Patterns(*kind));
-    profile[static_cast<std::size_t>(*kind)] =
-        static_cast<std::size_t>(row.Number(i + 1, "a pattern given above", 0, patterns));
-  }
-  out_.profiles[row.Word(1)] = profile;
-}
-
-void MotionReader::ReadBlinks(const TableRow& row) {
-  const Numbers v =
-      ReadNumbers(row, out_.auto_blinks.size(), 2, "AUTOBLINK PATTERN INTERVAL BLINK");
-  if (v[0] < 500 || v[1] < 1 || v[1] > static_cast<double>(out_.blinks.size())) {
-    row.Fail("an interval of at least 500 ms and a blink above expected");
-  }
-  out_.auto_blinks.push_back({v[0], static_cast<std::size_t>(v[1]) - 1, true});
-}
-
-void MotionReader::ReadMove(const TableRow& row) {
-  const Numbers v = ReadNumbers(row, out_.auto_moves.size(), 4,
-                                "AUTOMOVE PATTERN X Y Z PERIOD, at least 100 ms,", 100);
-  AutoMove move{.period_ms = v[3]};
-  for (std::size_t axis = 0; axis < 3; ++axis) move.amplitude[axis] = static_cast<float>(v[axis]);
-  out_.auto_moves.push_back(move);
-}
-
-void MotionReader::ReadRow(const TableRow& row) {
-  const std::string& kind = row.key();
-  if (kind == "NOD" || kind == "REFUSE" || kind == "LISTEN" || kind == "USERDEF") {
-    return ReadCurve(row);
-  }
-  if (kind == "BLINK") {
-    return ReadPattern(row, out_.blinks, "BLINK PATTERN CLOSING SHUT OPENING, ms,", 1,
-                       &BlinkPattern::closing_ms, &BlinkPattern::shut_ms,
-                       &BlinkPattern::opening_ms);
-  }
-  if (kind == "AUTOBLINK") return ReadBlinks(row);
-  if (kind == "AUTOMOVE") return ReadMove(row);
-  if (kind == "AUTOGAZE") {
-    return ReadPattern(row, out_.auto_gazes, "AUTOGAZE PATTERN ANGLE INTERVAL, at least 200 ms,",
-                       200, &AutoGaze::amplitude, &AutoGaze::interval_ms);
-  }
-  if (kind == "AUTOBREATH") {
-    return ReadPattern(row, out_.auto_breaths, "AUTOBREATH PATTERN PITCH PERIOD, at least 500 ms,",
-                       500, &AutoBreath::pitch, &AutoBreath::period_ms);
-  }
-  if (kind == "AUTONODS") {
-    return ReadPattern(row, out_.auto_nods, "AUTONODS PATTERN ANGLE INTERVAL, at least 2000 ms,",
-                       2000, &AutoNods::angle, &AutoNods::interval_ms);
-  }
-  if (kind == "AUTOSPEECH") {
-    return ReadPattern(row, out_.auto_speeches, "AUTOSPEECH PATTERN NOD TURN TILT BROW", 0,
-                       &AutoSpeech::nod, &AutoSpeech::turn, &AutoSpeech::tilt, &AutoSpeech::brow);
-  }
-  if (kind == "AUTOAVERT") {
-    return ReadPattern(row, out_.auto_averts, "AUTOAVERT PATTERN ANGLE SHORTEST", 0,
-                       &AutoAvert::angle, &AutoAvert::shortest_ms);
-  }
-  if (kind == "AUTOTEXT") {
-    return ReadPattern(row, out_.auto_texts, "AUTOTEXT PATTERN SIZE", 0, &AutoText::size);
-  }
-  if (kind == "AUTOFACE") {
-    CheckPattern(row, out_.auto_faces.size());
-    out_.auto_faces.push_back(ReadUnits(row, 2, units_));
-    return;
-  }
-  if (kind == "MOOD") return ReadMood(row);
-  if (kind == "LIFE") return ReadProfile(row);
-  row.Fail("'" + kind +
-           "' found; NOD, REFUSE, LISTEN, USERDEF, BLINK, MOOD, LIFE or an AUTO line (BLINK MOVE "
-           "GAZE BREATH NODS SPEECH AVERT FACE TEXT) expected");
-}
 
 }  // namespace
 

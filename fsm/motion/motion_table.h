@@ -27,7 +27,7 @@ class HeadCurve {
   explicit HeadCurve(std::vector<Key> keys);
   Angles At(double ms) const;  ///< the last key's angles after the end
   double length_ms() const { return keys_.back().ms; }
-  /// As they were given.
+  /// The keys that the constructor was given.
   std::span<const Key> keys() const { return std::span(keys_).subspan(1); }
 
  private:

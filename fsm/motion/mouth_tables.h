@@ -49,7 +49,7 @@ inline constexpr std::size_t kBilingualShapes = 28;
 /// Error: kBadValue, and `shape` stays as it was.
 vm::Result<void> ReadShapeValues(const std::vector<std::string>& words, std::size_t first,
                                  Viseme& shape);
-/// As a row of the table has them, 20 numbers.
+/// The 20 numbers in the form of a row of the table.
 std::string FormatShapeValues(const Viseme& shape);
 /// Reads a table of exactly `count` shapes, one of them `rest`. This and the readers below:
 /// Errors: kBadValue "NAME:LINE: what was expected".

@@ -22,7 +22,8 @@ double SpeechClock::CorrectionAt(vm::Time t) const {
 double SpeechClock::PositionAt(vm::Time t) const { return InMs(t - start_) + CorrectionAt(t); }
 
 bool SpeechClock::IsJustLate(double difference_ms) {
-  // Two in a row may have come late; a third says that the voice is behind, by the least of them.
+  // Two reports in a row may only have come late. After a third the voice counts as behind, by the
+  // least of them.
   const double behind = to_ms_ - difference_ms;
   late_ = behind > 0 && behind < kLateReportMs ? late_ + 1 : 0;
   return late_ > 0 && late_ < kLateReports;

@@ -67,7 +67,7 @@ TextCues::Cue ReadCue(const TableRow& row, const TextCues& cues) {
 
 // ---- sentences
 
-/// Without what stands between < and >: marks of speech synthesis.
+/// The text without its markup for speech synthesis, which stands between < and >.
 std::string WithoutMarkup(std::string_view text) {
   std::string out;
   bool in_mark = false;
@@ -97,7 +97,7 @@ bool ContainsPhrase(std::string_view sentence, std::string_view phrase) {
   return false;
 }
 
-/// Each with its stop. A stop within a number or a word is none.
+/// The sentences of a text, each with its stop. A dot within a number or a word does not end one.
 std::vector<std::string_view> Sentences(std::string_view text) {
   std::vector<std::string_view> sentences;
   std::size_t begin = 0;
@@ -121,7 +121,7 @@ double Letters(std::string_view text) {
   return static_cast<double>(std::ranges::count_if(text, IsLetter));
 }
 
-/// When so great a share of what is spoken has been spoken, without pauses; at the beginning of a
+/// The time at which `share` of the speech, pauses left out, has been spoken; the beginning of a
 /// pause if one is near.
 double TimeOfShare(double share, const VisemeTargets& visemes) {
   if (share >= 1) return visemes.length_ms;

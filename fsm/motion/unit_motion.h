@@ -14,11 +14,11 @@ class UnitMotion : public MotionSource {
  public:
   explicit UnitMotion(const UnitNames& names) : names_(names) {}
 
-  /// One unit, `12L`; strength 0..2.
+  /// Sets one unit, `12L`; strength 0..2.
   vm::Result<void> Set(vm::Time now, std::string_view unit, double strength, vm::Time move);
-  /// One text of several, see ParseUnitCommand.
+  /// Sets the units that a text names, see ParseUnitCommand.
   vm::Result<void> Set(vm::Time now, std::string_view text);
-  /// As Face.N does: without a side, within 60 ms.
+  /// Sets a unit on both sides within 60 ms, as Face.N does.
   void Set(vm::Time now, int unit, double strength);
 
   void Contribute(vm::Time t, MotionFrame& frame) const override;

@@ -27,7 +27,7 @@ struct UnitNames {
   std::map<int, UnitCode> codes;
   std::set<int> one_sided;
 
-  /// Those of the table the program carries.
+  /// The names of the built-in table.
   static const UnitNames& BuiltIn();
   bool IsUnit(int number) const { return names.contains(number) && !codes.contains(number); }
   /// Units that are of one side by what they are: the jaw sideways (30), a wink (46). Asked for
@@ -46,7 +46,7 @@ struct UnitName {
 /// kBadValue for what is no unit; codes are none.
 vm::Result<UnitName> ParseUnitName(std::string_view word, const UnitNames& names);
 
-/// One unit or code to be set. Codes have no sides.
+/// A unit or code that a command sets. Codes have no sides.
 struct UnitSetting : UnitName {
   double strength = 1;  ///< 0..2
 };
@@ -63,9 +63,9 @@ struct UnitCommand {
 /// Error: kBadValue with the word at fault, its place and what was expected.
 vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames& names,
                                          bool with_ms);
-/// The same as one look (an expression): action units only, and `gaze:DOWN,RIGHT` in degrees.
+/// Parses the look of an expression: action units only, and `gaze:DOWN,RIGHT` in degrees.
 vm::Result<ActionUnits> ParseLook(std::string_view text, const UnitNames& names);
-/// As ParseLook reads it: `6:0.7 12L:0.8 gaze:6,0`.
+/// A look in the form that ParseLook reads: `6:0.7 12L:0.8 gaze:6,0`.
 std::string FormatLook(const ActionUnits& look, const UnitNames& names);
 
 }  // namespace fsm

@@ -69,7 +69,7 @@ std::vector<TimedPhase> PhasesOf(const vm::PhonemeList& phonemes, const PhonemeR
   return phases;
 }
 
-/// For how many ms the shape stands before it moves on.
+/// How many ms the shape stands before it moves on.
 double HoldOf(const TimedPhase& phase, double share, bool pause) {
   if (phase.holds) return phase.length_ms - kApproachMs;
   const double hold_ms = share * phase.length_ms;

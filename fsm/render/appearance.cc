@@ -42,12 +42,12 @@ Appearance::Appearance(NumberTable numbers) : numbers_(std::move(numbers)) {
     if (row.key() == "lamp") {
       if (n[0] == 0 && n[1] == 0 && n[2] == 0) row.Fail("a lamp that stands nowhere");
       lamps_[row.Word(1)] = {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
-    } else if (row.key() != "surface") {
-      constants_ += ConstantOf(row);
-    } else {
+    } else if (row.key() == "surface") {
       for (const auto& [word, material] : kSurfaces) {
         if (word == row.Word(1)) surfaces_[material] = SurfaceOf(n);
       }
+    } else if (row.key() != "skin") {
+      constants_ += ConstantOf(row);
     }
   }
 }
@@ -60,6 +60,10 @@ const Appearance& Appearance::BuiltIn() {
 float Appearance::Number(const std::string& name) const { return numbers_(name); }
 
 glm::vec3 Appearance::Color(const std::string& name) const { return numbers_.Vector(name); }
+
+const std::vector<float>& Appearance::Skin(std::string_view name) const {
+  return numbers_["skin " + std::string(name)];
+}
 
 glm::vec4 Appearance::ColorAndOpacity(const std::string& name) const {
   return {Color(name), numbers_[name].at(3)};

@@ -13,7 +13,7 @@
 namespace fsm {
 
 /// How things look: what tables/appearance.txt says, where each number is explained. Constant after
-/// construction.
+/// construction; thread: any.
 class Appearance {
  public:
   /// How a surface takes light; the names are those of the uniforms in surface_*.glsl.
@@ -38,6 +38,8 @@ class Appearance {
   float Number(const std::string& name) const;
   glm::vec3 Color(const std::string& name) const;
   glm::vec4 ColorAndOpacity(const std::string& name) const;
+  /// The numbers of the row "skin NAME".
+  const std::vector<float>& Skin(std::string_view name) const;
   /// What has numbers and no word in front of its name as constants of GLSL: "const vec3 sky_color
   /// = vec3(...);". A compiler folds them, so a number in the table costs no more than one in a
   /// shader.

@@ -81,11 +81,11 @@ void Backdrop::Veil(const Scene& scene, float opacity) {
 }
 
 void Backdrop::Cover(bool pictured, const glm::vec3& plain, float opacity) {
-  gl_.UseProgram(program_.id());
-  gl_.Uniform1i(program_.Uniform("picture"), 0);
-  gl_.Uniform1i(program_.Uniform("pictured"), pictured ? 1 : 0);
-  gl_.Uniform3f(program_.Uniform("plain"), plain.r, plain.g, plain.b);
-  gl_.Uniform1f(program_.Uniform("opacity"), opacity);
+  program_.Use();
+  program_.Set("picture", 0);
+  program_.Set("pictured", pictured ? 1 : 0);
+  program_.Set("plain", plain);
+  program_.Set("opacity", opacity);
   gl_.BindVertexArray(array_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fsm/render/renderer.h"
+#include "fsm/render/render_context.h"
 
 namespace fsm {
 
@@ -40,7 +40,7 @@ class SwitchedContext : public RenderContext {
   static inline thread_local SwitchedContext* current_ = nullptr;
 };
 
-/// One that shows nothing and keeps its size. Not copied.
+/// A context that shows nothing and keeps its size.
 class OffScreenContext : public SwitchedContext {
  public:
   OffScreenContext(int width, int height) : width_(width), height_(height) {}

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <tuple>
+#include <utility>
 
 namespace fsm {
 namespace {
@@ -14,11 +15,11 @@ bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> trian
   glm::vec2 low(1e9F), high(-1e9F);
   for (const std::uint32_t v : triangle) {
     if (topology.opacity[v] < 1) return false;
-    low = glm::min(low, topology.worn.texcoord[v]);
-    high = glm::max(high, topology.worn.texcoord[v]);
+    low = glm::min(low, topology.textures.texcoord[v]);
+    high = glm::max(high, topology.textures.texcoord[v]);
   }
   if (!cut_out) return true;
-  const Image& photo = *topology.worn.image;
+  const Image& photo = *topology.textures.image;
   const glm::ivec2 last(photo.width - 1, photo.height - 1);
   const glm::vec2 size(photo.width, photo.height);
   const auto from = glm::clamp(glm::ivec2(low * size) - 1, glm::ivec2(0), last);
@@ -31,110 +32,137 @@ bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> trian
   return true;
 }
 
+using Corners = std::span<const std::uint32_t>;
+
+class OrderMaker {
+ public:
+  OrderMaker(const HeadTopology& topology, const HeadTriangles& triangles,
+             std::span<const SkinDetail> detail)
+      : topology_(topology), triangles_(triangles), detail_(detail) {}
+
+  DrawOrder Make(std::span<const glm::vec3> rest) {
+    std::size_t before_ears = 0;
+    const std::vector<std::uint32_t> hair = SortedHair(rest, before_ears);
+    const HeadTopology::Part locks{.material = Material::kHair, .first_index = 0, .index_count = 0};
+    Add(locks, Corners(hair).first(before_ears));
+    Layer sheet, skin;
+    AddFace(sheet, skin);
+    Add(sheet.part, sheet.corners, true);
+    Add(skin.part, skin.corners, true);
+    for (const auto& part : triangles_.parts) {
+      if (part.material == Material::kShutLash) Add(part, CornersOf(part), true);
+    }
+    Add(locks, Corners(hair).subspan(before_ears));
+    return std::move(order_);
+  }
+
+ private:
+  /// Triangles that are mixed with what lies behind them.
+  struct Layer {
+    HeadTopology::Part part{};
+    std::vector<std::uint32_t> corners;
+  };
+
+  Corners CornersOf(const HeadTopology::Part& part) const {
+    return Corners(triangles_.indices).subspan(part.first_index, part.index_count);
+  }
+
+  void Add(HeadTopology::Part part, Corners corners, bool soft = false,
+           SkinDetail detail = SkinDetail::kDetailed) {
+    if (corners.empty()) return;
+    part.first_index = static_cast<std::uint32_t>(order_.indices.size());
+    part.index_count = static_cast<std::uint32_t>(corners.size());
+    order_.parts.push_back({part, soft, detail});
+    order_.indices.insert(order_.indices.end(), corners.begin(), corners.end());
+  }
+
+  void AddByDetail(const HeadTopology::Part& part, Corners corners) {
+    std::array<std::vector<std::uint32_t>, 3> lists;  // by SkinDetail
+    for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
+      const auto t = corners.subspan(k, 3);
+      SkinDetail detail = std::max({detail_[t[0]], detail_[t[1]], detail_[t[2]]});
+      // The sheet shows what is beside the face, and that does not crease.
+      if (detail == SkinDetail::kCreased && part.material == Material::kPhoto) {
+        detail = SkinDetail::kPlain;
+      }
+      auto& list = lists[static_cast<std::size_t>(detail)];
+      list.insert(list.end(), t.begin(), t.end());
+    }
+    for (std::size_t k = 0; k < lists.size(); ++k) {
+      Add(part, lists[k], false, static_cast<SkinDetail>(k));
+    }
+  }
+
+  /// All parts but hair and lashes. Fills the layers with what is mixed with what lies behind it.
+  void AddFace(Layer& sheet, Layer& skin) {
+    for (const auto& part : triangles_.parts) {
+      if (part.material == Material::kHair || part.material == Material::kShutLash) continue;
+      const Corners corners = CornersOf(part);
+      const bool of_skin = part.material == Material::kSkin;
+      const bool of_sheet = part.material == Material::kPhoto;
+      if (HasSoftLayers(topology_) && (of_skin || of_sheet)) {
+        Layer& layer = of_sheet ? sheet : skin;
+        layer.part = part;
+        std::vector<std::uint32_t> whole;
+        for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
+          const auto t = corners.subspan(k, 3);
+          auto& list = HidesAll(topology_, t, of_sheet) ? whole : layer.corners;
+          list.insert(list.end(), t.begin(), t.end());
+        }
+        AddByDetail(part, whole);
+      } else if (part.pbr < 0 && (of_skin || part.material == Material::kLip)) {
+        AddByDetail(part, corners);
+      } else {
+        Add(part, corners);
+      }
+    }
+  }
+
+  /// Corners of the triangles of hair; `before_ears`: how many of them come first. Locks lie on the
+  /// shell of the hair and come before it; equals are sorted by their corners, so that the order is
+  /// the same everywhere.
+  std::vector<std::uint32_t> SortedHair(std::span<const glm::vec3> rest,
+                                        std::size_t& before_ears) const {
+    constexpr float kBehind = 0.0F;  // the plane of the ears
+    using Triangle = std::array<std::uint32_t, 3>;
+    std::vector<Triangle> hair;
+    for (const auto& part : triangles_.parts) {
+      if (part.material != Material::kHair) continue;
+      const Corners corners = CornersOf(part);
+      for (std::size_t k = 0; k < corners.size(); k += 3) {
+        hair.push_back({corners[k], corners[k + 1], corners[k + 2]});
+      }
+    }
+    const auto depth = [&rest](const Triangle& t) {
+      return rest[t[0]].z + rest[t[1]].z + rest[t[2]].z;
+    };
+    const auto is_shell = [this](const Triangle& t) {
+      return std::ranges::all_of(t, [this](std::uint32_t i) {
+        return i >= topology_.strands.size() || topology_.strands[i].across == 0;
+      });
+    };
+    std::ranges::sort(hair, {}, [&](const Triangle& t) {
+      return std::tuple(depth(t) < kBehind, is_shell(t), -depth(t), t);
+    });
+    std::vector<std::uint32_t> corners;
+    for (const Triangle& t : hair) {
+      corners.insert(corners.end(), t.begin(), t.end());
+      if (depth(t) >= kBehind) before_ears = corners.size();
+    }
+    return corners;
+  }
+
+  const HeadTopology& topology_;
+  const HeadTriangles& triangles_;
+  const std::span<const SkinDetail> detail_;
+  DrawOrder order_;
+};
+
 }  // namespace
 
-DrawOrder::DrawOrder(const HeadTopology& topology, const HeadTriangles& triangles,
-                     std::span<const glm::vec3> rest, const std::vector<Worn>& worn)
-    : topology_(topology), triangles_(triangles), worn_(worn) {
-  std::size_t before_ears = 0;
-  const std::vector<std::uint32_t> hair = SortedHair(rest, before_ears);
-  const HeadTopology::Part locks{.material = Material::kHair, .first_index = 0, .index_count = 0};
-  Add(locks, Corners(hair).first(before_ears));
-  Layer sheet, skin;
-  AddFace(sheet, skin);
-  Add(sheet.part, sheet.corners, true);
-  Add(skin.part, skin.corners, true);
-  for (const auto& part : triangles.parts) {
-    if (part.material == Material::kShutLash) Add(part, CornersOf(part), true);
-  }
-  Add(locks, Corners(hair).subspan(before_ears));
-}
-
-DrawOrder::Corners DrawOrder::CornersOf(const HeadTopology::Part& part) const {
-  return Corners(triangles_.indices).subspan(part.first_index, part.index_count);
-}
-
-void DrawOrder::Add(HeadTopology::Part part, Corners corners, bool soft, Worn worn) {
-  if (corners.empty()) return;
-  part.first_index = static_cast<std::uint32_t>(indices.size());
-  part.index_count = static_cast<std::uint32_t>(corners.size());
-  parts.push_back({part, soft, worn});
-  indices.insert(indices.end(), corners.begin(), corners.end());
-}
-
-void DrawOrder::AddWorn(const HeadTopology::Part& part, Corners corners) {
-  std::array<std::vector<std::uint32_t>, 3> lists;  // by Worn
-  for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
-    const auto t = corners.subspan(k, 3);
-    Worn worn = std::max({worn_[t[0]], worn_[t[1]], worn_[t[2]]});
-    // The sheet shows what is beside the face, and that does not crease.
-    if (worn == Worn::kCreased && part.material == Material::kPhoto) worn = Worn::kPlain;
-    auto& list = lists[static_cast<std::size_t>(worn)];
-    list.insert(list.end(), t.begin(), t.end());
-  }
-  for (const Worn worn : {Worn::kPlain, Worn::kCreased, Worn::kDetailed}) {
-    Add(part, lists[static_cast<std::size_t>(worn)], false, worn);
-  }
-}
-
-/// Corners of the triangles of hair; `before_ears`: how many of them come first. Locks lie on the
-/// shell of the hair and come before it; of equals those with the lower corners, so that the order
-/// is the same everywhere.
-std::vector<std::uint32_t> DrawOrder::SortedHair(std::span<const glm::vec3> rest,
-                                                 std::size_t& before_ears) const {
-  constexpr float kBehind = 0.0F;  // the plane of the ears
-  using Triangle = std::array<std::uint32_t, 3>;
-  std::vector<Triangle> hair;
-  for (const auto& part : triangles_.parts) {
-    if (part.material != Material::kHair) continue;
-    const Corners corners = CornersOf(part);
-    for (std::size_t k = 0; k < corners.size(); k += 3) {
-      hair.push_back({corners[k], corners[k + 1], corners[k + 2]});
-    }
-  }
-  const auto depth = [&rest](const Triangle& t) {
-    return rest[t[0]].z + rest[t[1]].z + rest[t[2]].z;
-  };
-  const auto is_shell = [this](const Triangle& t) {
-    return std::ranges::all_of(t, [this](std::uint32_t i) {
-      return i >= topology_.strands.size() || topology_.strands[i].across == 0;
-    });
-  };
-  std::ranges::sort(hair, {}, [&](const Triangle& t) {
-    return std::tuple(depth(t) < kBehind, is_shell(t), -depth(t), t);
-  });
-  std::vector<std::uint32_t> corners;
-  before_ears = 0;
-  for (const Triangle& t : hair) {
-    corners.insert(corners.end(), t.begin(), t.end());
-    if (depth(t) >= kBehind) before_ears = corners.size();
-  }
-  return corners;
-}
-
-/// All parts but hair and lashes, without what is mixed with what lies behind it: those layers.
-void DrawOrder::AddFace(Layer& sheet, Layer& skin) {
-  for (const auto& part : triangles_.parts) {
-    if (part.material == Material::kHair || part.material == Material::kShutLash) continue;
-    const Corners corners = CornersOf(part);
-    const bool of_skin = part.material == Material::kSkin;
-    const bool of_sheet = part.material == Material::kPhoto;
-    if (Blends(topology_) && (of_skin || of_sheet)) {
-      Layer& layer = of_sheet ? sheet : skin;
-      layer.part = part;
-      std::vector<std::uint32_t> whole;
-      for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
-        const auto t = corners.subspan(k, 3);
-        auto& list = HidesAll(topology_, t, of_sheet) ? whole : layer.corners;
-        list.insert(list.end(), t.begin(), t.end());
-      }
-      AddWorn(part, whole);
-    } else if (part.pbr < 0 && (of_skin || part.material == Material::kLip)) {
-      AddWorn(part, corners);
-    } else {
-      Add(part, corners);
-    }
-  }
+DrawOrder OrderToDraw(const HeadTopology& topology, const HeadTriangles& triangles,
+                      std::span<const glm::vec3> rest, std::span<const SkinDetail> detail) {
+  return OrderMaker(topology, triangles, detail).Make(rest);
 }
 
 }  // namespace fsm

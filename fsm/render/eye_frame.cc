@@ -18,8 +18,8 @@ std::vector<std::uint32_t> VerticesOf(const HeadTopology& topology, Material mat
   std::vector<std::uint32_t> found;
   for (const auto& part : topology.parts) {
     if (part.material != material) continue;
-    const auto first = topology.indices.begin() + part.first_index;
-    found.insert(found.end(), first, first + part.index_count);
+    const auto corners = topology.Corners(part);
+    found.insert(found.end(), corners.begin(), corners.end());
   }
   std::ranges::sort(found);
   const auto rest = std::ranges::unique(found);
@@ -55,16 +55,13 @@ void FitSphere(std::span<const std::uint32_t> points, const HeadVertices& vertic
   out.radius = static_cast<float>(std::sqrt(std::max(solution.w + glm::dot(centre, centre), 1.0)));
 }
 
+/// The height of the lowest or the highest of the points; `otherwise` if there are none.
 float Extreme(std::span<const std::uint32_t> points, const HeadVertices& vertices, bool lowest,
               float otherwise) {
-  float found = otherwise;
-  bool first = true;
-  for (const auto i : points) {
-    const float y = vertices.position[i].y;
-    if (first || (lowest ? y < found : y > found)) found = y;
-    first = false;
-  }
-  return found;
+  if (points.empty()) return otherwise;
+  const auto height = [&](std::uint32_t i) { return vertices.position[i].y; };
+  const auto [low, high] = std::ranges::minmax(points, {}, height);
+  return height(lowest ? low : high);
 }
 
 }  // namespace

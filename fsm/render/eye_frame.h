@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 #include <vector>
 
 #include "fsm/rig/head.h"

@@ -5,12 +5,12 @@
 #include <string>
 #include <utility>
 
-#include "fsm/render/renderer.h"
+#include "fsm/render/render_context.h"
 
 namespace fsm {
 namespace {
 
-/// As "4.5 (Core Profile) Mesa 22.3.6".
+/// Whether the context's version, as "4.5 (Core Profile) Mesa 22.3.6", is that or a later one.
 bool IsAtLeast(const GlFunctions& gl, int major, int minor) {
   const auto* version = reinterpret_cast<const char*>(gl.GetString(GL_VERSION));
   int found_major = 0, found_minor = 0;

@@ -23,7 +23,6 @@ class RenderContext;
   X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)   \
   X(PFNGLCLEARPROC, Clear)                                     \
   X(PFNGLCLEARCOLORPROC, ClearColor)                           \
-  X(PFNGLCOLORMASKPROC, ColorMask)                             \
   X(PFNGLCOMPILESHADERPROC, CompileShader)                     \
   X(PFNGLCREATEPROGRAMPROC, CreateProgram)                     \
   X(PFNGLCREATESHADERPROC, CreateShader)                       \
@@ -36,7 +35,6 @@ class RenderContext;
   X(PFNGLDELETETEXTURESPROC, DeleteTextures)                   \
   X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)           \
   X(PFNGLDEPTHFUNCPROC, DepthFunc)                             \
-  X(PFNGLDEPTHMASKPROC, DepthMask)                             \
   X(PFNGLDISABLEPROC, Disable)                                 \
   X(PFNGLDRAWARRAYSPROC, DrawArrays)                           \
   X(PFNGLDRAWELEMENTSPROC, DrawElements)                       \
@@ -66,13 +64,10 @@ class RenderContext;
   X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)         \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                       \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                           \
-  X(PFNGLTEXIMAGE3DPROC, TexImage3D)                           \
   X(PFNGLTEXPARAMETERIPROC, TexParameteri)                     \
   X(PFNGLUNIFORM1FPROC, Uniform1f)                             \
   X(PFNGLUNIFORM1FVPROC, Uniform1fv)                           \
   X(PFNGLUNIFORM1IPROC, Uniform1i)                             \
-  X(PFNGLUNIFORM3FPROC, Uniform3f)                             \
-  X(PFNGLUNIFORM4FPROC, Uniform4f)                             \
   X(PFNGLUNIFORM3FVPROC, Uniform3fv)                           \
   X(PFNGLUNIFORM4FVPROC, Uniform4fv)                           \
   X(PFNGLUNIFORMMATRIX3FVPROC, UniformMatrix3fv)               \

@@ -1,9 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <initializer_list>
-#include <string>
+#include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fsm/render/gl_functions.h"
@@ -20,14 +25,38 @@ class GlProgram {
   /// Makes a program of a compute shader. REQUIRES: GlFunctions::has_compute.
   GlProgram(const GlFunctions& gl, const char* name, std::string_view compute);
   ~GlProgram() { gl_.DeleteProgram(id_); }
+  GlProgram(GlProgram&& other) noexcept : gl_(other.gl_), id_(std::exchange(other.id_, 0)) {}
   GlProgram(const GlProgram&) = delete;
   GlProgram& operator=(const GlProgram&) = delete;
 
-  GLuint id() const { return id_; }
-  /// -1, which GL ignores, for a uniform the program does not use.
-  GLint Uniform(const char* name) const { return gl_.GetUniformLocation(id_, name); }
+  void Use() const { gl_.UseProgram(id_); }
+  /// Sets a uniform, or an array of them; one that the program does not have is ignored.
+  /// REQUIRES of all: the program is in use.
+  void Set(const char* name, float value) const { gl_.Uniform1f(At(name), value); }
+  void Set(const char* name, GLint value) const { gl_.Uniform1i(At(name), value); }
+  void Set(const char* name, GLuint value) const { gl_.Uniform1ui(At(name), value); }
+  void Set(const char* name, const glm::vec3& value) const { Set(name, std::span(&value, 1)); }
+  void Set(const char* name, const glm::vec4& value) const { Set(name, std::span(&value, 1)); }
+  void Set(const char* name, const glm::mat3& value) const {
+    gl_.UniformMatrix3fv(At(name), 1, GL_FALSE, &value[0][0]);
+  }
+  void Set(const char* name, const glm::mat4& value) const { Set(name, std::span(&value, 1)); }
+  void Set(const char* name, std::span<const float> values) const {
+    gl_.Uniform1fv(At(name), static_cast<GLsizei>(values.size()), values.data());
+  }
+  void Set(const char* name, std::span<const glm::vec3> values) const {
+    gl_.Uniform3fv(At(name), static_cast<GLsizei>(values.size()), &values[0][0]);
+  }
+  void Set(const char* name, std::span<const glm::vec4> values) const {
+    gl_.Uniform4fv(At(name), static_cast<GLsizei>(values.size()), &values[0][0]);
+  }
+  void Set(const char* name, std::span<const glm::mat4> values) const {
+    gl_.UniformMatrix4fv(At(name), static_cast<GLsizei>(values.size()), GL_FALSE, &values[0][0][0]);
+  }
 
  private:
+  /// -1, which GL ignores, for a uniform the program does not use.
+  GLint At(const char* name) const { return gl_.GetUniformLocation(id_, name); }
   /// Links what has been attached and lets the shaders go.
   void Link(const char* name, std::initializer_list<GLuint> shaders);
 

@@ -23,14 +23,14 @@ void Put(Words& words, std::initializer_list<std::uint32_t> more) {
 }
 void Put(Words& words, glm::vec3 p) { Put(words, {Word(p.x), Word(p.y), Word(p.z)}); }
 
-/// What acts on vertices, several on one: records of a vertex and where its entries are, then
-/// these. Entries keep their order, so sums are taken in that of the processor.
-class Lists {
+/// VertexLists of what acts on each vertex. Entries keep their order, so that sums are taken in the
+/// same order as on the processor.
+class VertexLists {
  public:
-  explicit Lists(std::size_t vertices) : entries_(vertices) {}
+  explicit VertexLists(std::size_t vertices) : entries_(vertices) {}
   Words& operator[](std::uint32_t vertex) { return entries_[vertex]; }
   std::size_t count() const { return count_; }
-  /// As the shader reads it.
+  /// As the shader reads them: a record for each vertex with where its entries are, then these.
   Words Flat() {
     for (const Words& entry : entries_) count_ += entry.empty() ? 0 : 1;
     Words records, behind;
@@ -184,10 +184,10 @@ Words BoneItems(const RigData& data) {
 }
 
 /// A vertex gathers from all triangles about it, and about those it shares its normal with.
-Lists NormalLists(const RigData& data) {
+VertexLists NormalLists(const RigData& data) {
   const NormalRig& normals = data.normals;
   const Words& t = normals.soft_triangles;
-  Lists lists(data.rest.size());
+  VertexLists lists(data.rest.size());
   for (std::size_t k = 0; k + 2 < t.size(); k += 3) {
     for (std::size_t c = 0; c < 3; ++c)
       Put(lists[normals.Owner(t[k + c])], {t[k], t[k + 1], t[k + 2]});
@@ -238,11 +238,11 @@ void GpuRig::Add(const char* kernel, std::span<const std::uint32_t> items, std::
 }
 
 void GpuRig::AddStep(RigStep step, const RigData& data) {
-  const auto add_lists = [this](const char* kernel, Lists lists) {
+  const auto add_lists = [this](const char* kernel, VertexLists lists) {
     const Words items = lists.Flat();
     Add(kernel, items, lists.count());
   };
-  Lists lists(data.rest.size());
+  VertexLists lists(data.rest.size());
   Words items;
   switch (step) {
     case RigStep::kChannels:
@@ -306,7 +306,7 @@ void GpuRig::Evaluate(const Rig& rig, std::span<const Face> faces) {
   for (const Face& face : faces) {
     PoseBlock block(rig.data(), rig.InputsOf(*face.state));
     swings_at = block.numbers().size();
-    // Where nothing swings, and the gaps of the lips, which a step fills in.
+    // Zeros where nothing swings, and for the gaps of the lips, which a step fills in.
     poses.insert(poses.end(), block.numbers().begin(), block.numbers().end());
     assert(face.swings.empty() || face.swings.size() == spring_count_);
     for (std::size_t k = 0; k < spring_count_; ++k) {
@@ -334,12 +334,12 @@ void GpuRig::Evaluate(const Rig& rig, std::span<const Face> faces) {
     gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, which, buffers_[which]);
   const auto number = [](std::size_t n) { return static_cast<GLuint>(n); };
   for (const Kernel& kernel : kernels_) {
-    gl_.UseProgram(kernel.program->id());
-    gl_.Uniform1ui(kernel.program->Uniform("item_count"), kernel.count);
-    gl_.Uniform1ui(kernel.program->Uniform("vertex_count"), number(vertex_count_));
-    gl_.Uniform1ui(kernel.program->Uniform("pose_size"), number(poses.size() / faces.size()));
-    gl_.Uniform1ui(kernel.program->Uniform("swings_at"), number(swings_at));
-    gl_.Uniform1ui(kernel.program->Uniform("seam_at"), number(swings_at + 3 * spring_count_));
+    kernel.program->Use();
+    kernel.program->Set("item_count", number(kernel.count));
+    kernel.program->Set("vertex_count", number(vertex_count_));
+    kernel.program->Set("pose_size", number(poses.size() / faces.size()));
+    kernel.program->Set("swings_at", number(swings_at));
+    kernel.program->Set("seam_at", number(swings_at + 3 * spring_count_));
     gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, kBuffers, kernel.items);
     constexpr std::uint32_t kGroup = 64;  // local_size_x
     gl_.DispatchCompute((kernel.count + kGroup - 1) / kGroup, number(faces.size()), 1);

@@ -15,24 +15,26 @@
 #include "fsm/render/mouth_frame.h"
 #include "fsm/render/shadow_frame.h"
 #include "fsm/render/skin_texture.h"
+#include "fsm/render/vertex_attributes.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
 
-/// One head on the GL side: what never changes is uploaded at the beginning, vertices every frame.
+/// One head on the GL side: what never changes is uploaded when it is made, vertices every frame.
 /// Destroy while its context is current.
 class HeadBuffers {
  public:
-  HeadBuffers(const GlFunctions& gl, const Head& head);
+  /// `gl` and `appearance` outlive it.
+  HeadBuffers(const GlFunctions& gl, const Head& head, const Appearance& appearance);
   ~HeadBuffers();
   HeadBuffers(const HeadBuffers&) = delete;
   HeadBuffers& operator=(const HeadBuffers&) = delete;
 
   /// Binds the head's vertex array with these vertices, which are the head's, in it.
   void Upload(const HeadVertices& vertices);
-  /// The same with buffers of places and of normals that are on the card already.
+  /// The same with buffers of positions and of normals that are on the card already.
   void Use(GLuint positions, GLuint normals);
-  /// Those at which eyes(), shadows() and mouth() look.
+  /// The vertices at which eyes(), shadows() and mouth() look.
   std::vector<std::uint32_t> MeasuredVertices() const;
   /// The head's parts in the order to draw them, what hides most first. `error_mm`: by how much
   /// at most it may be coarser than it is (CoarseTriangles); each step of the root of 2 is made
@@ -48,67 +50,41 @@ class HeadBuffers {
   /// The detail of this head's skin; nothing if it does not say where its features are. Waits until
   /// it is painted.
   const SkinTexture* skin();
-  /// Sizes and colours of the eyes, which both share.
-  const EyeGeometry& eye_geometry() const { return eye_geometry_; }
-  /// WornPicture::image; null if the skin is painted.
-  const Image* photo() const { return photo_.get(); }
+  const HeadTopology& topology() const { return *topology_; }
+  /// TextureMaps::image; null if the skin is painted.
+  const Image* photo() const { return topology_->textures.image.get(); }
   /// How fine the photo lies on the head at rest, as seen from the front; 0 without one.
   float photo_texels_per_mm() const { return photo_texels_per_mm_; }
-  /// DrawOrder::Blends.
-  bool blends() const { return blends_; }
-  /// WornPicture::normal_map, emissive_map and HeadTopology::pbr_materials.
-  const Image* normal_map() const { return normal_map_.get(); }
-  const Image* emissive_map() const { return emissive_map_.get(); }
-  const std::vector<PbrMaterial>& pbr_materials() const { return pbr_materials_; }
-  /// Where the photo shows eyes: Portrait::eyes.
-  const std::optional<Sided<EyePicture>>& eye_pictures() const { return eye_pictures_; }
   /// The eyes as they are at rest. REQUIRES: eyes().found().
   const Sided<EyeFrame>& resting_eyes() const { return resting_eyes_; }
   /// Height of the chin's lowest point at rest, millimetres; of a head without landmarks far below.
   float chin_y() const { return chin_y_; }
-  /// Portrait::light.
-  glm::vec4 photo_light() const { return photo_light_; }
-  /// Portrait::saturation.
-  float saturation() const { return saturation_; }
 
  private:
   static constexpr float kNoChin = -1e4F;
   static constexpr int kFinest = -100;
 
-  void UploadTopology(const Head& head);
-  void AddLevel(int level, const HeadTopology& topology, const HeadTriangles& triangles,
-                std::span<const glm::vec3> rest);
-  void CopyTopology(const HeadTopology& topology);
+  void UploadAttributes(const HeadVertices& rest);
+  void AddLevel(int level, const HeadTriangles& triangles, std::span<const glm::vec3> rest);
 
   const GlFunctions& gl_;
+  const std::shared_ptr<const HeadTopology> topology_;
   GLuint array_ = 0;
-  // Position, normal, rest position, colour and occlusion; of skin its unrolled place, creases of
-  // the right and of the left side; of hair its place among hairs, direction and density,
-  // place across its lock; place in the photo with the photo's part in the colour and how much is
-  // lid, the lid's ShutLid::grain_at and slide, opacity, rest normal; indices.
-  static constexpr GLuint kAttributes = 11;
-  GLuint buffers_[kAttributes + 1] = {};
-  std::array<GLuint, 2> used_{};  // for the first two of them
-  std::size_t vertex_count_ = 0;
+  std::array<GLuint, VertexAttribute::kCount> buffers_{};
+  GLuint index_buffer_ = 0;
+  std::array<GLuint, 2> used_{};                  // positions and normals
   std::map<int, std::vector<DrawnPart>> levels_;  // by the error, as a power of the root of 2
   std::vector<std::uint32_t> indices_;            // of all levels
   CreaseWeights creases_;
-  std::vector<Worn> worn_;
+  std::vector<SkinDetail> skin_detail_;  // of every vertex
   EyeFinder eyes_;
   ShadowFinder shadows_;
   MouthFinder mouth_;
-  EyeGeometry eye_geometry_;
   std::optional<SkinTexture> skin_;
   std::future<SkinTexture> painting_;  // on a thread of its own, which the future joins
-  std::shared_ptr<const Image> photo_, normal_map_, emissive_map_;
-  std::vector<PbrMaterial> pbr_materials_;
-  std::optional<Sided<EyePicture>> eye_pictures_;
   Sided<EyeFrame> resting_eyes_;
   float photo_texels_per_mm_ = 0;
-  float saturation_ = 1;
-  glm::vec4 photo_light_{0, 0, 0, 1};
   float chin_y_ = kNoChin;
-  bool blends_ = false;
 };
 
 }  // namespace fsm

@@ -10,23 +10,6 @@
 namespace fsm {
 namespace {
 
-/// A square RGBA picture at half its size.
-std::vector<std::uint8_t> Halve(const std::uint8_t* rgba, int side) {
-  const auto row = static_cast<std::size_t>(side) * 4;
-  std::vector<std::uint8_t> half;
-  half.reserve(row * static_cast<std::size_t>(side) / 4);
-  for (std::size_t y = 0; y + 1 < static_cast<std::size_t>(side); y += 2) {
-    const std::uint8_t* a = rgba + y * row;
-    for (std::size_t x = 0; x + 7 < row; x += 8) {
-      for (std::size_t c = x; c < x + 4; ++c) {
-        half.push_back(
-            static_cast<std::uint8_t>((a[c] + a[c + 4] + a[c + row] + a[c + row + 4] + 2U) / 4U));
-      }
-    }
-  }
-  return half;
-}
-
 /// An RGBA picture at twice its size, as a linear filter would show it.
 Image Doubled(const Image& image) {
   Image out{2 * image.width, 2 * image.height, {}};
@@ -49,8 +32,7 @@ Image Doubled(const Image& image) {
 
 }  // namespace
 
-void FillTexture(const GlFunctions& gl, GLuint texture, int width, int height,
-                 const std::uint8_t* rgba, GLint filter) {
+void FillTexture(const GlFunctions& gl, GLuint texture, const Image& picture, GLint filter) {
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   gl.ActiveTexture(GL_TEXTURE6);  // which no shader reads: those of the frame stay bound
   gl.BindTexture(GL_TEXTURE_2D, texture);
@@ -59,75 +41,70 @@ void FillTexture(const GlFunctions& gl, GLuint texture, int width, int height,
   }
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture.width, picture.height, 0, GL_RGBA,
+                GL_UNSIGNED_BYTE, picture.rgba.data());
 }
 
-HeadTextures::HeadTextures(const GlFunctions& gl, const HeadBuffers& head) : gl_(gl) {
+HeadTextures::HeadTextures(const GlFunctions& gl, const HeadTopology& topology) : gl_(gl) {
   gl_.GenTextures(kTextures, textures_);
-  if (head.pbr_materials().empty()) return;
-  const auto wear = [this](Texture texture, const Image& picture) {
-    FillTexture(gl_, textures_[texture], picture.width, picture.height, picture.rgba.data(),
-                GL_LINEAR);
+  if (topology.pbr_materials.empty()) return;
+  const auto fill = [this](Texture texture, const Image* map, const Image& neutral) {
+    FillTexture(gl_, textures_[texture], map ? *map : neutral, GL_LINEAR);
   };
-  wear(kNormal, head.normal_map() ? *head.normal_map() : Image{1, 1, {128, 128, 255, 255}});
-  wear(kEmissive, head.emissive_map() ? *head.emissive_map() : Image{1, 1, {255, 255, 255, 255}});
+  fill(kNormal, topology.textures.normal_map.get(), {1, 1, {128, 128, 255, 255}});
+  fill(kEmissive, topology.textures.emissive_map.get(), {1, 1, {255, 255, 255, 255}});
 }
 
 HeadTextures::~HeadTextures() { gl_.DeleteTextures(kTextures, textures_); }
 
-// Pictures are worn with a texel about as large as a sample, of which the nearest is taken: with
-// four samples to a pixel that is smooth, and in software a filtered fetch costs as much as
-// everything else of a pixel. Of a face so near that texels show they are filtered.
-void HeadTextures::Wear(HeadBuffers& head, float samples_per_mm) {
-  WearSkin(head, std::max(samples_per_mm, 1e-3F));
-  if (head.photo()) WearPhoto(head, std::max(samples_per_mm, 1e-3F));
+// Pictures are scaled until a texel is about as large as a sample, and the nearest texel is taken:
+// with four samples to a pixel that is smooth, and in software a filtered fetch costs as much as
+// everything else of a pixel. They are filtered where a face is so near that texels would show.
+void HeadTextures::Load(HeadBuffers& head, float samples_per_mm) {
+  LoadSkin(head, std::max(samples_per_mm, 1e-3F));
+  if (head.photo()) LoadPhoto(head, std::max(samples_per_mm, 1e-3F));
 }
 
-void HeadTextures::WearSkin(HeadBuffers& head, float samples_per_mm) {
+void HeadTextures::LoadSkin(HeadBuffers& head, float samples_per_mm) {
   const SkinTexture* skin = head.skin();
   if (!skin) return;
   const float texels_per_sample = SkinTexture::kTexelsPerMm / samples_per_mm;
-  const Fit fit{std::clamp(static_cast<int>(std::lround(std::log2(texels_per_sample))), 0, 5),
-                texels_per_sample < 0.5F ? GL_LINEAR : GL_NEAREST};
-  if (skin_ == fit) return;
-  skin_ = fit;
+  const Sampling sampling{
+      std::clamp(static_cast<int>(std::lround(std::log2(texels_per_sample))), 0, 5),
+      texels_per_sample < 0.5F ? GL_LINEAR : GL_NEAREST};
+  if (skin_ == sampling) return;
+  skin_ = sampling;
   for (const auto& [texture, picture] :
        {std::pair(kTint, &skin->tint), std::pair(kSkinRelief, &skin->relief)}) {
-    int side = SkinTexture::kSide;
-    std::vector<std::uint8_t> halved;
-    const std::uint8_t* rgba = picture->data();
-    for (int k = 0; k < fit.level; ++k) {
-      halved = Halve(rgba, side);
-      side /= 2;
-      rgba = halved.data();
-    }
-    FillTexture(gl_, textures_[texture], side, side, rgba, fit.filter);
+    Image scaled;
+    for (int k = 0; k < sampling.level; ++k) scaled = Halved(k == 0 ? *picture : scaled);
+    FillTexture(gl_, textures_[texture], sampling.level > 0 ? scaled : *picture, sampling.filter);
   }
 }
 
-HeadTextures::Fit HeadTextures::FitOf(const Image& photo, float texels_per_sample) {
+HeadTextures::Sampling HeadTextures::SamplingOf(const Image& photo, float texels_per_sample) {
   // A photo has edges: with fewer texels to a sample those are seen to be cut out.
   constexpr float kFewest = 0.9F;
   constexpr int kMostDoubled = 1 << 21;  // texels
   const int level =
       static_cast<int>(std::floor(std::log2(std::max(texels_per_sample, 0.01F) / kFewest)));
   if (level >= 0) return {level, GL_NEAREST};
-  // To double it costs memory, to filter it nearly as much time as everything else of a pixel.
+  // A doubled photo costs memory, a filtered one nearly as much time as everything else of a pixel.
   if (level == -1 && 4 * photo.width * photo.height <= kMostDoubled) return {level, GL_NEAREST};
   return {0, GL_LINEAR};
 }
 
-void HeadTextures::WearPhoto(const HeadBuffers& head, float samples_per_mm) {
+void HeadTextures::LoadPhoto(const HeadBuffers& head, float samples_per_mm) {
   const Image& photo = *head.photo();
-  const Fit fit = FitOf(photo, head.photo_texels_per_mm() / samples_per_mm);
-  if (photo_ == fit) return;
-  photo_ = fit;
-  const auto halved = [&fit](int side) { return std::max(side >> fit.level, 1); };
-  const Image scaled = fit.level == 0  ? Image{}
-                       : fit.level < 0 ? Doubled(photo)
-                                       : Shrunk(photo, halved(photo.width), halved(photo.height));
-  const Image& worn = fit.level == 0 ? photo : scaled;
-  FillTexture(gl_, textures_[kPhoto], worn.width, worn.height, worn.rgba.data(), fit.filter);
+  const Sampling sampling = SamplingOf(photo, head.photo_texels_per_mm() / samples_per_mm);
+  if (photo_ == sampling) return;
+  photo_ = sampling;
+  const auto halved = [&sampling](int side) { return std::max(side >> sampling.level, 1); };
+  const Image scaled = sampling.level == 0 ? Image{}
+                       : sampling.level < 0
+                           ? Doubled(photo)
+                           : Shrunk(photo, halved(photo.width), halved(photo.height));
+  FillTexture(gl_, textures_[kPhoto], sampling.level == 0 ? photo : scaled, sampling.filter);
 }
 
 }  // namespace fsm

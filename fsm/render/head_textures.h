@@ -8,18 +8,18 @@
 
 namespace fsm {
 
-/// The textures of one head: its skin in the detail that the picture can show, and what it wears of
-/// pictures. Destroy while its context is current.
+/// The textures of one head: its skin and its pictures, as fine as the view can show them. Destroy
+/// while its context is current.
 class HeadTextures {
  public:
-  HeadTextures(const GlFunctions& gl, const HeadBuffers& head);
+  HeadTextures(const GlFunctions& gl, const HeadTopology& topology);
   ~HeadTextures();
   HeadTextures(const HeadTextures&) = delete;
   HeadTextures& operator=(const HeadTextures&) = delete;
 
-  /// Gives the head its skin, which is plain until then, if it has one, and its photo, both as fine
-  /// as samples are. Waits until the skin is painted.
-  void Wear(HeadBuffers& head, float samples_per_mm);
+  /// Fills the textures of the skin and of the photo, where the head has them, as fine as samples
+  /// are. Waits until the skin is painted, which is plain until then.
+  void Load(HeadBuffers& head, float samples_per_mm);
 
   /// GL names; 0 for what the head does not have.
   GLuint tint() const { return skin_ ? textures_[kTint] : 0; }
@@ -31,24 +31,23 @@ class HeadTextures {
  private:
   enum Texture { kTint, kSkinRelief, kPhoto, kNormal, kEmissive, kTextures };
 
-  /// How a picture is worn: halved so often (-1: doubled), and filtered or not.
-  struct Fit {
+  /// How a picture is loaded: halved so often (-1: doubled), and filtered or not.
+  struct Sampling {
     int level;
     GLint filter;
-    bool operator==(const Fit&) const = default;
+    bool operator==(const Sampling&) const = default;
   };
-  void WearSkin(HeadBuffers& head, float samples_per_mm);
-  static Fit FitOf(const Image& photo, float texels_per_sample);
-  void WearPhoto(const HeadBuffers& head, float samples_per_mm);
+  void LoadSkin(HeadBuffers& head, float samples_per_mm);
+  static Sampling SamplingOf(const Image& photo, float texels_per_sample);
+  void LoadPhoto(const HeadBuffers& head, float samples_per_mm);
 
   const GlFunctions& gl_;
   GLuint textures_[kTextures] = {};
-  std::optional<Fit> skin_, photo_;  // as they are worn
+  std::optional<Sampling> skin_, photo_;  // as they are loaded
 };
 
-/// Fills a texture with an RGBA picture that repeats, row 0 at v = 0. `filter`: GL_NEAREST or
+/// Fills a texture with a picture that repeats, its row 0 at v = 0. `filter`: GL_NEAREST or
 /// GL_LINEAR.
-void FillTexture(const GlFunctions& gl, GLuint texture, int width, int height,
-                 const std::uint8_t* rgba, GLint filter);
+void FillTexture(const GlFunctions& gl, GLuint texture, const Image& picture, GLint filter);
 
 }  // namespace fsm

@@ -1,9 +1,9 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "fsm/image/image.h"
 #include "fsm/render/gl_functions.h"
 #include "fsm/render/off_screen.h"
 

@@ -50,7 +50,7 @@ std::optional<MouthFinder::Opening> MouthFinder::Measure(const HeadVertices& ver
 bool MouthFinder::Opening::IsShut() const {
   constexpr float kShut = 0.02F;  // millimetres: less than a sample of any picture
   for (std::size_t k = 0; k < kColumns; ++k) {
-    // Of lips that meet, neither stands before the other.
+    // Lips that meet lie at the same depth.
     const glm::vec3 apart = lips[k] - lips[k + kColumns];
     if (apart.y > kShut || std::abs(apart.z) > kShut) return false;
   }

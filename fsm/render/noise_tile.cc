@@ -1,12 +1,15 @@
 #include "fsm/render/noise_tile.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
 #include "fsm/base/random.h"
 
 namespace fsm {
 namespace {
 
+constexpr int kNoiseCells = 256;  // a power of two
 constexpr int kMask = kNoiseCells - 1;
 
 std::size_t Cell(int x, int y) {
@@ -15,7 +18,7 @@ std::size_t Cell(int x, int y) {
 
 }  // namespace
 
-std::vector<std::uint8_t> MakeNoiseTile() {
+Image MakeNoiseTile() {
   const std::size_t count = static_cast<std::size_t>(kNoiseCells) * kNoiseCells;
   std::vector<int> own(count);
   for (std::size_t i = 0; i < count; ++i) own[i] = static_cast<int>(Scramble(i) >> 56);
@@ -28,27 +31,26 @@ std::vector<std::uint8_t> MakeNoiseTile() {
       smooth[Cell(x, y)] = std::clamp(128 + (sum - 9 * 128) / 4, 0, 255);
     }
   }
-  std::vector<std::uint8_t> tile;
-  tile.reserve(count * 4);
+  Image tile{kNoiseCells, kNoiseCells, {}};
   for (int y = 0; y < kNoiseCells; ++y) {
     for (int x = 0; x < kNoiseCells; ++x) {
       const int right = (smooth[Cell(x + 1, y)] - smooth[Cell(x - 1, y)]) / 2;
       const int up = (smooth[Cell(x, y + 1)] - smooth[Cell(x, y - 1)]) / 2;
       for (const int value : {128 + right, 128 + up, smooth[Cell(x, y)], own[Cell(x, y)]}) {
-        tile.push_back(static_cast<std::uint8_t>(value));
+        tile.rgba.push_back(static_cast<std::uint8_t>(value));
       }
     }
   }
   return tile;
 }
 
-std::vector<std::uint8_t> MakeStrandTile() {
+Image MakeStrandTile() {
+  constexpr int kStrandsAcross = 512, kStrandsAlong = 256;
   constexpr int kKnots = 16;  // along a strand, with straight lines between them
   constexpr int kApart = kStrandsAlong / kKnots;
   constexpr std::uint64_t kHair = 41;
   constexpr std::uint64_t kLock = 42;
-  std::vector<std::uint8_t> tile;
-  tile.reserve(static_cast<std::size_t>(kStrandsAcross) * kStrandsAlong * 4);
+  Image tile{kStrandsAcross, kStrandsAlong, {}};
   const auto value = [](std::uint64_t series, int strand, int y) {
     const auto knot = [&](int k) {
       return Chance(series, static_cast<std::uint64_t>(strand * kKnots + k % kKnots));
@@ -66,10 +68,8 @@ std::vector<std::uint8_t> MakeStrandTile() {
       const int lock = x / kHairs;
       const float locks =
           value(kLock, lock, y) * (1 - t) + value(kLock, (lock + 1) % kLocks, y) * t;
-      tile.push_back(128);
-      tile.push_back(128);
-      tile.push_back(static_cast<std::uint8_t>(255 * locks));
-      tile.push_back(static_cast<std::uint8_t>(255 * value(kHair, x, y)));
+      const auto byte = [](float light) { return static_cast<std::uint8_t>(255 * light); };
+      tile.rgba.insert(tile.rgba.end(), {128, 128, byte(locks), byte(value(kHair, x, y))});
     }
   }
   return tile;

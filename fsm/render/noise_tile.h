@@ -1,25 +1,18 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
+#include "fsm/image/image.h"
 
 namespace fsm {
 
-/// Cells along each side of the noise tile; a power of two.
-inline constexpr int kNoiseCells = 256;
+// Tileable pictures, always of the same bytes.
 
-/// A tileable picture of noise, kNoiseCells^2 RGBA bytes: every cell's own value in alpha, a mean
-/// over 3 x 3 cells, stretched to the same spread, in blue, and half the difference of that along x
-/// and y in red and green, both about 128. Always the same bytes.
-std::vector<std::uint8_t> MakeNoiseTile();
+/// Noise, 256 x 256: every cell's own value in alpha, a mean over 3 x 3 cells, stretched to the
+/// same spread, in blue, and half the difference of that along x and y in red and green, both about
+/// 128.
+Image MakeNoiseTile();
 
-/// Texels of the strand tile across and along the strands.
-inline constexpr int kStrandsAcross = 512;
-inline constexpr int kStrandsAlong = 256;
-
-/// A tileable picture of strands, kStrandsAcross x kStrandsAlong RGBA bytes about 128: how light
-/// each hair is in alpha, each lock of some 6 hairs in blue, both changing slowly along the strand;
-/// red and green are 128. Always the same bytes.
-std::vector<std::uint8_t> MakeStrandTile();
+/// Strands, 512 across and 256 along them: how light each hair is in alpha, each lock of some 6
+/// hairs in blue, both about 128 and changing slowly along the strand; red and green are 128.
+Image MakeStrandTile();
 
 }  // namespace fsm

@@ -1,10 +1,7 @@
 #include "fsm/render/renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <glm/gtc/type_ptr.hpp>
-#include <glm/mat4x4.hpp>
 #include <map>
 #include <optional>
 #include <span>
@@ -78,8 +75,8 @@ class GlRenderer : public Renderer {
   GlRenderer(RenderContext& context, std::size_t heads, const Appearance& appearance, RigOn rig)
       : context_(context),
         most_heads_(heads),
+        appearance_(appearance),
         gl_(GlFunctions::Load(context)),
-        line_over_texture_(appearance.ColorAndOpacity("line_over_texture")),
         materials_(gl_, appearance),
         backdrop_(gl_),
         reader_(gl_, !IsSoftware(gl_)),
@@ -121,8 +118,8 @@ class GlRenderer : public Renderer {
  private:
   /// What the card holds of a head.
   struct HeadOnCard {
-    HeadOnCard(const GlFunctions& gl, const Head& head)
-        : buffers(gl, head), textures(gl, buffers) {}
+    HeadOnCard(const GlFunctions& gl, const Head& head, const Appearance& appearance)
+        : buffers(gl, head, appearance), textures(gl, head.topology()) {}
     HeadBuffers buffers;
     HeadTextures textures;
     std::optional<CardRig> rig;
@@ -135,8 +132,8 @@ class GlRenderer : public Renderer {
     const int height = viewport_.width > 0 ? viewport_.height : context_.height();
     FindTarget(width, height);
     target_->Bind();
-    // Beside a photo's own softness hard edges are seen.
-    soft_ = DrawOrder::Blends(head.topology());
+    // A photo is soft, so hard edges beside it would be seen.
+    soft_ = HasSoftLayers(head.topology());
     transparent_ = !scene.show_background;
     const Scene behind = Behind(scene);
     backdrop_.Draw(behind, width, height);
@@ -173,7 +170,8 @@ class GlRenderer : public Renderer {
         heads_.erase(std::ranges::min_element(
             heads_, {}, [](const auto& entry) { return entry.second->drawn; }));
       }
-      found = heads_.emplace(head.serial(), std::make_unique<HeadOnCard>(gl_, head)).first;
+      found =
+          heads_.emplace(head.serial(), std::make_unique<HeadOnCard>(gl_, head, appearance_)).first;
     }
     found->second->drawn = ++frames_;
     return *found->second;
@@ -208,7 +206,7 @@ class GlRenderer : public Renderer {
     const float error_mm = form_error_ * kSamplesAlong / view.samples_per_mm;
     const auto& parts = buffers.Parts(head, lines ? 0 : error_mm);
     if (buffers.painting()) WarmUp(parts);
-    on_card.textures.Wear(buffers, view.samples_per_mm);
+    on_card.textures.Load(buffers, view.samples_per_mm);
     if (scene.view_mode != ViewMode::kWireframe) {
       if (scene.view_mode == ViewMode::kTextureWithWireframe) {
         gl_.Enable(GL_POLYGON_OFFSET_FILL);
@@ -236,8 +234,8 @@ class GlRenderer : public Renderer {
   }
 
   /// A software driver compiles a shader when it first draws with it, which takes far longer than a
-  /// frame. So that is done while the skin is being painted: one triangle of each part, unseen, with
-  /// creases and without.
+  /// frame. So that is done while the skin is being painted: one triangle of each part, unseen,
+  /// with creases and without.
   void WarmUp(const std::vector<DrawnPart>& parts) {
     gl_.Viewport(0, 0, 0, 0);
     gl_.CullFace(GL_BACK);
@@ -257,7 +255,8 @@ class GlRenderer : public Renderer {
 
   void DrawLines(const std::vector<DrawnPart>& parts, const Scene& scene) {
     const bool alone = scene.view_mode == ViewMode::kWireframe;
-    const glm::vec4 color = alone ? glm::vec4(scene.wire, 1.0F) : line_over_texture_;
+    const glm::vec4 color =
+        alone ? glm::vec4(scene.wire, 1.0F) : appearance_.ColorAndOpacity("line_over_texture");
     BeginBlending();
     gl_.DepthFunc(GL_LEQUAL);
     gl_.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
@@ -285,8 +284,8 @@ class GlRenderer : public Renderer {
   const std::size_t most_heads_;
   Viewport viewport_;
   float form_error_ = 0;  // pixels
+  const Appearance& appearance_;
   GlFunctions gl_;
-  const glm::vec4 line_over_texture_;
   Materials materials_;
   Backdrop backdrop_;
   std::map<std::uint64_t, std::unique_ptr<HeadOnCard>> heads_;  // by Head::serial

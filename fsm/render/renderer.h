@@ -4,9 +4,9 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
-#include <string>
 
 #include "fsm/image/image.h"
+#include "fsm/render/render_context.h"
 #include "fsm/render/scene.h"
 #include "fsm/rig/face_state.h"
 #include "fsm/rig/head.h"
@@ -14,46 +14,6 @@
 namespace fsm {
 
 class Appearance;
-
-/// What draws off screen. The order in which ways are tried stands in headless_context.cc.
-enum class OffScreen {
-  kOsMesa,  ///< Mesa's software: OSMesa, or its software device where a build has no OSMesa
-  kEgl,     ///< a graphics card by EGL; else what Mesa has, which may be software
-  kAny      ///< as kEgl; where EGL has nothing, OSMesa
-};
-
-/// A GL context and where its frames go. Thread: one, the one that made it; at most one is current,
-/// and a context is current when made. Destroying one leaves another current that was so.
-class RenderContext {
- public:
-  virtual ~RenderContext() = default;
-  /// Off screen; throws std::runtime_error with a sentence if it cannot be had.
-  static std::unique_ptr<RenderContext> MakeHeadless(int width, int height,
-                                                     OffScreen how = OffScreen::kOsMesa);
-  /// A window; throws if there is no display.
-  static std::unique_ptr<RenderContext> MakeWindow(int width, int height, const std::string& title);
-  /// Window: fills the screen it is on, or goes back to its size and place. Else nothing.
-  virtual void SetFullScreen(bool /*full*/) {}
-  /// Window: moves its upper left corner, where the window system lets it. Else nothing.
-  virtual void Move(int /*x*/, int /*y*/) {}
-  /// Window: asks for another size of its inside, which follows when the window system grants it.
-  virtual void Resize(int /*width*/, int /*height*/) {}
-  virtual void MakeCurrent() = 0;
-  virtual void* GetProcAddress(const char* name) = 0;
-  /// The way that led to it, as "OSMesa" or "EGL, device 0 (/dev/dri/card0), hardware".
-  virtual std::string reached_by() const { return "unknown means"; }
-  virtual int width() const = 0;  ///< of the drawable now (a window may be resized)
-  virtual int height() const = 0;
-  virtual bool is_window() const = 0;
-  /// Shows the frame drawn (window), and takes the window's events.
-  virtual void Present() = 0;
-  virtual bool close_requested() const = 0;
-};
-
-/// GL_RENDERER, GL_VERSION and the way of what would draw off screen, one line: "llvmpipe (LLVM
-/// 15.0.6, 256 bits), OpenGL 4.5 (...), by OSMesa"; "none: ..." with the reason if nothing would.
-/// Makes a context and destroys it.
-std::string DescribeOffScreen(OffScreen how);
 
 /// What moves the vertices of a head that is drawn by its state.
 enum class RigOn {
@@ -91,8 +51,8 @@ class Renderer {
   /// `vertices` belong to `head` (Evaluate of `state`).
   virtual void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
                     const Scene& scene) = 0;
-  /// The same of the vertices that the head's rig makes of `state` and `swings` (Rig::Evaluate),
-  /// which a card makes itself (GpuRig), and within what GpuRig says they are the same.
+  /// Draws the vertices that the head's rig makes of `state` and `swings` (Rig::Evaluate). A card
+  /// makes them itself (GpuRig), equal within what GpuRig says.
   virtual void Draw(const Head& head, const FaceState& state, std::span<const glm::vec3> swings,
                     const Scene& scene) = 0;
   /// The frame drawn last, of the viewport's size.

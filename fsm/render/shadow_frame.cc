@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
-#include <span>
 
 namespace fsm {
 namespace {
@@ -25,16 +24,12 @@ glm::mat4 ToUnitSphere(const glm::vec3& centre, const glm::vec3& radii) {
 }  // namespace
 
 ShadowFinder::ShadowFinder(const HeadTopology& topology, const HeadVertices& rest) {
-  Anchors found;
-  bool any = false;
   for (const auto& part : topology.parts) {
     if (part.material != Material::kSkin || part.index_count == 0) continue;
-    if (!any) {
-      const auto first = topology.indices[part.first_index];
-      found = {first, first, first};
-      any = true;
-    }
-    for (const auto i : std::span(topology.indices).subspan(part.first_index, part.index_count)) {
+    const auto first = topology.indices[part.first_index];
+    if (!anchors_) anchors_ = Anchors{first, first, first};
+    Anchors& found = *anchors_;
+    for (const auto i : topology.Corners(part)) {
       const auto& p = rest.position[i];
       if (p.z > rest.position[found.nose].z) found.nose = i;
       if (p.y < kLowestSide || p.y > kHighestSide) continue;
@@ -42,9 +37,7 @@ ShadowFinder::ShadowFinder(const HeadTopology& topology, const HeadVertices& res
       if (p.x > rest.position[found.right].x) found.right = i;
     }
   }
-  if (!any) return;
-  anchors_ = found;
-  rest_to_frame_ = glm::inverse(Frame(rest));
+  if (anchors_) rest_to_frame_ = glm::inverse(Frame(rest));
 }
 
 glm::mat4 ShadowFinder::Frame(const HeadVertices& vertices) const {

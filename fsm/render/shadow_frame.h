@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
 #include <optional>
 
 #include "fsm/rig/head.h"

@@ -7,99 +7,133 @@
 #include "fsm/render/skin_parts.h"
 
 namespace fsm {
-namespace {
 
-float Furrow(float off, float width) {
+CreaseRelief::CreaseRelief(const FaceLandmarks& landmarks, const Appearance& appearance)
+    : m_(landmarks),
+      swelling_(appearance.Skin("crease_swelling")[0]),
+      lines_(appearance.Skin("forehead_lines")),
+      depth_(appearance.Skin("forehead_depth")),
+      form_(appearance.Skin("forehead_form")),
+      reach_(appearance.Skin("forehead_reach")),
+      glabella_(appearance.Skin("glabella_lines")),
+      nasion_(appearance.Skin("nasion_line")),
+      bridge_(appearance.Skin("bridge_lines")),
+      crows_feet_(appearance.Skin("crows_feet")),
+      nasolabial_(appearance.Skin("nasolabial_fold")) {}
+
+/// A narrow furrow between two low swellings.
+float CreaseRelief::Furrow(float off, float width) const {
   if (std::abs(off) > 5.2F * width) return 0;
-  // A narrow furrow between two low swellings.
-  return -Bell(off, width) +
-         0.35F * (Bell(off - 2.2F * width, 1.5F * width) + Bell(off + 2.2F * width, 1.5F * width));
+  return -Bell(off, width) + swelling_ * (Bell(off - 2.2F * width, 1.5F * width) +
+                                          Bell(off + 2.2F * width, 1.5F * width));
 }
 
-}  // namespace
-
-float CreaseHeight(const glm::vec3& p, const FaceMarks& m) {
+float CreaseRelief::HeightAt(const glm::vec3& p) const {
   if (p.z < 0) return 0;
   const float side = std::abs(p.x);
   float height = 0;
-  // Forehead: lines that follow the brow, rising a little to the sides of the middle.
-  const float brow_y = m.nasion.y + 20;
-  if (p.y > brow_y - 2 && p.y < m.trichion.y) {
-    const float room = m.trichion.y - brow_y;
-    // Round in the middle, and no line quite like another.
-    const float bow = 2.5F * std::sin((std::sqrt(side * side + 49) - 7) * 0.055F);
-    for (const float part : {0.20F, 0.40F, 0.60F, 0.78F}) {
-      const float reach = (46 - 26 * std::abs(part - 0.45F)) * (part == 0.78F ? 0.7F : 1.0F);
-      const float sway = 0.9F * std::sin(p.x * (0.09F + 0.05F * part) + 11 * part) +
-                         0.4F * std::sin(p.x * 0.27F + 7 * part);
-      const float deep = 0.6F + 0.25F * std::sin(p.x * 0.075F + 23 * part) +
-                         0.15F * std::sin(p.x * 0.19F + 5 * part);
-      height += deep * Furrow(p.y - brow_y - room * part * 0.9F - bow - sway, 1.15F) *
-                Smooth(reach + 8, reach - 8, side);
-    }
-  }
-  // Glabella: two upright lines between the brows, one across the root of the nose.
-  const float between = Bell(p.y - (m.nasion.y + 10), 9);
-  height += 0.9F * Furrow(side - 6.5F - 0.10F * (p.y - m.nasion.y), 1.1F) * between;
-  height += 0.3F * Furrow(p.y - m.nasion.y + 1.5F - 0.035F * side * side, 1.7F) * Bell(side, 5);
-  // Beside the bridge of the nose: three short lines that slant down and outward.
-  if (side < 16 && p.y < m.nasion.y - 2) {
-    for (const float below : {7.0F, 11.5F, 16.0F}) {
-      const float off = p.y - (m.nasion.y - below) + 0.45F * (side - 6) - 0.02F * side * side;
-      height += 0.4F * Furrow(off, 1.0F) * Smooth(1.5F, 5, side) * Smooth(14, 9, side);
-    }
-  }
-  // Crow's feet: three lines fanning out from the outer corner of the eye.
-  const glm::vec2 out(side - m.exocanthion.left.x - 2, p.y - m.exocanthion.left.y + 0.5F);
-  if (out.x > -2) {
-    for (const float angle : {0.50F, 0.05F, -0.42F}) {
-      const glm::vec2 along(std::cos(angle), std::sin(angle));
-      const float far = glm::dot(out, along);
-      const float off = out.y * along.x - out.x * along.y;
-      height += 0.55F * Furrow(off + 0.02F * far * far * (angle > 0 ? -1.0F : 1.0F) * 0.5F, 0.8F) *
-                Smooth(1, 5, far) * Smooth(17, 9, far);
-    }
-  }
-  // Nasolabial fold: from above the wing of the nose past the corner of the mouth.
-  const glm::vec3 wing = m.alare.left;
-  const glm::vec3 corner = m.cheilion.left;
-  const float t = (wing.y + 4 - p.y) / (wing.y + 4 - corner.y);
-  const float fold_x = glm::mix(wing.x + 2, corner.x + 9, std::clamp(t, 0.0F, 1.3F)) +
-                       3.5F * std::sin(std::clamp(t, 0.0F, 1.0F) * 3.1416F);
-  height += 1.1F * Furrow((side - fold_x) * 0.8F, 1.7F) * Smooth(-0.12F, 0.12F, t) *
-            Smooth(1.35F, 0.85F, t);
+  AddForehead(p, side, height);
+  AddGlabella(p, side, height);
+  AddBridge(p, side, height);
+  AddCrowsFeet(p, side, height);
+  AddNasolabial(p, side, height);
   return height;
 }
 
-bool MayCrease(const glm::vec3& p, const FaceMarks& m) {
+/// Lines that follow the brow, rising a little to the sides of the middle; no line is quite like
+/// another.
+void CreaseRelief::AddForehead(const glm::vec3& p, float side, float& height) const {
+  const float brow_y = m_.nasion.y + 20;
+  if (p.y <= brow_y - 2 || p.y >= m_.trichion.y) return;
+  const float room = m_.trichion.y - brow_y;
+  const float bow = form_[0] * std::sin((std::sqrt(side * side + 49) - 7) * 0.055F);
+  for (const float& part : lines_) {
+    const float reach = (reach_[0] - reach_[1] * std::abs(part - reach_[2])) *
+                        (&part == &lines_.back() ? reach_[3] : 1.0F);
+    const float sway = form_[1] * std::sin(p.x * (0.09F + 0.05F * part) + 11 * part) +
+                       form_[2] * std::sin(p.x * 0.27F + 7 * part);
+    const float deep = depth_[0] + depth_[1] * std::sin(p.x * 0.075F + 23 * part) +
+                       depth_[2] * std::sin(p.x * 0.19F + 5 * part);
+    height += deep * Furrow(p.y - brow_y - room * part * 0.9F - bow - sway, depth_[3]) *
+              SmoothStep(reach + 8, reach - 8, side);
+  }
+}
+
+/// Two upright lines between the brows, one across the root of the nose.
+void CreaseRelief::AddGlabella(const glm::vec3& p, float side, float& height) const {
+  const float between = Bell(p.y - (m_.nasion.y + 10), 9);
+  height += glabella_[0] * Furrow(side - glabella_[2] - 0.10F * (p.y - m_.nasion.y), glabella_[1]) *
+            between;
+  height += nasion_[0] * Furrow(p.y - m_.nasion.y + 1.5F - 0.035F * side * side, nasion_[1]) *
+            Bell(side, nasion_[2]);
+}
+
+/// Short lines beside the bridge of the nose that slant down and outward.
+void CreaseRelief::AddBridge(const glm::vec3& p, float side, float& height) const {
+  if (side >= 16 || p.y >= m_.nasion.y - 2) return;
+  for (const std::size_t line : {2U, 3U, 4U}) {
+    const float off =
+        p.y - (m_.nasion.y - bridge_[line]) + 0.45F * (side - 6) - 0.02F * side * side;
+    height +=
+        bridge_[0] * Furrow(off, bridge_[1]) * SmoothStep(1.5F, 5, side) * SmoothStep(14, 9, side);
+  }
+}
+
+/// Lines that fan out from the outer corner of the eye.
+void CreaseRelief::AddCrowsFeet(const glm::vec3& p, float side, float& height) const {
+  const glm::vec2 out(side - m_.exocanthion.left.x - 2, p.y - m_.exocanthion.left.y + 0.5F);
+  if (out.x <= -2) return;
+  for (const std::size_t line : {2U, 3U, 4U}) {
+    const float angle = crows_feet_[line];
+    const glm::vec2 along(std::cos(angle), std::sin(angle));
+    const float far = glm::dot(out, along);
+    const float off = out.y * along.x - out.x * along.y;
+    const float bend = 0.02F * far * far * (angle > 0 ? -1.0F : 1.0F) * 0.5F;
+    height += crows_feet_[0] * Furrow(off + bend, crows_feet_[1]) * SmoothStep(1, 5, far) *
+              SmoothStep(17, 9, far);
+  }
+}
+
+/// The fold from above the wing of the nose past the corner of the mouth.
+void CreaseRelief::AddNasolabial(const glm::vec3& p, float side, float& height) const {
+  const glm::vec3 wing = m_.alare.left, corner = m_.cheilion.left;
+  const float t = (wing.y + 4 - p.y) / (wing.y + 4 - corner.y);
+  const float fold_x =
+      glm::mix(wing.x + nasolabial_[2], corner.x + nasolabial_[3], std::clamp(t, 0.0F, 1.3F)) +
+      nasolabial_[4] * std::sin(std::clamp(t, 0.0F, 1.0F) * 3.1416F);
+  height += nasolabial_[0] * Furrow((side - fold_x) * 0.8F, nasolabial_[1]) *
+            SmoothStep(-0.12F, 0.12F, t) * SmoothStep(1.35F, 0.85F, t);
+}
+
+bool CreaseRelief::MayCrease(const glm::vec3& p) const {
   const float side = std::abs(p.x);
-  const bool fold = p.y < m.alare.left.y + 12 && p.y > m.gnathion.y && side > m.alare.left.x - 6 &&
-                    side < m.cheilion.left.x + 22;
-  const bool feet = side > m.exocanthion.left.x - 4 && std::abs(p.y - m.exocanthion.left.y) < 16;
-  const bool glabella = side < 18 && p.y > m.nasion.y - 24 && p.y < m.nasion.y + 32;
-  const bool forehead = p.y > m.nasion.y + 14 && p.y < m.trichion.y + 2 && side < 58;
+  const bool fold = p.y < m_.alare.left.y + 12 && p.y > m_.gnathion.y &&
+                    side > m_.alare.left.x - 6 && side < m_.cheilion.left.x + 22;
+  const bool feet = side > m_.exocanthion.left.x - 4 && std::abs(p.y - m_.exocanthion.left.y) < 16;
+  const bool glabella = side < 18 && p.y > m_.nasion.y - 24 && p.y < m_.nasion.y + 32;
+  const bool forehead = p.y > m_.nasion.y + 14 && p.y < m_.trichion.y + 2 && side < 58;
   return p.z > 0 && (fold || feet || glabella || forehead);
 }
 
-CreaseWeights WeighCreases(const HeadVertices& rest, const FaceMarks& m) {
+CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& m) {
   CreaseWeights out;
   for (const glm::vec3& p : rest.position) {
     const float side = std::abs(p.x);
-    const float front = Smooth(0, 20, p.z);
-    const float left = Smooth(-5, 5, p.x);
+    const float front = SmoothStep(0, 20, p.z);
+    const float left = SmoothStep(-5, 5, p.x);
     const float brow_y = m.nasion.y + 14;
-    const float between = Smooth(19, 12, side);
+    const float between = SmoothStep(19, 12, side);
     const glm::vec4 weights =
-        front *
-        glm::vec4(Smooth(brow_y, brow_y + 8, p.y) * Smooth(60, 48, side) *
-                      (1 - between * Smooth(m.nasion.y + 24, m.nasion.y + 16, p.y)),
-                  between * Smooth(m.nasion.y - 26, m.nasion.y - 18, p.y) *
-                      Smooth(m.nasion.y + 24, m.nasion.y + 16, p.y),
-                  Smooth(m.exocanthion.left.x - 2, m.exocanthion.left.x + 2, side) *
-                      Bell(p.y - m.exocanthion.left.y, 14),
-                  Smooth(m.alare.left.y + 10, m.alare.left.y + 3, p.y) *
-                      Smooth(m.gnathion.y, 0.6F * m.cheilion.left.y + 0.4F * m.gnathion.y, p.y) *
-                      Smooth(m.alare.left.x - 4, m.alare.left.x + 1, side));
+        front * glm::vec4(SmoothStep(brow_y, brow_y + 8, p.y) * SmoothStep(60, 48, side) *
+                              (1 - between * SmoothStep(m.nasion.y + 24, m.nasion.y + 16, p.y)),
+                          between * SmoothStep(m.nasion.y - 26, m.nasion.y - 18, p.y) *
+                              SmoothStep(m.nasion.y + 24, m.nasion.y + 16, p.y),
+                          SmoothStep(m.exocanthion.left.x - 2, m.exocanthion.left.x + 2, side) *
+                              Bell(p.y - m.exocanthion.left.y, 14),
+                          SmoothStep(m.alare.left.y + 10, m.alare.left.y + 3, p.y) *
+                              SmoothStep(m.gnathion.y,
+                                         0.6F * m.cheilion.left.y + 0.4F * m.gnathion.y, p.y) *
+                              SmoothStep(m.alare.left.x - 4, m.alare.left.x + 1, side));
     out.left.push_back(weights * left);
     out.right.push_back(weights * (1 - left));
   }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
@@ -40,7 +39,7 @@ void PaintHair(const SkinHair& hair, SkinTexture& out) {
           std::clamp(wide + 0.5F - (root_half ? lower.x : upper.x), 0.0F, std::min(1.0F, 2 * wide));
       if (cover <= 0) continue;
       std::uint8_t* tint =
-          &out.tint[4 * (static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x))];
+          &out.tint.rgba[4 * (static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x))];
       for (int k = 0; k < 4; ++k) {
         // Hairs that lie on hairs do not make each other darker; all are duller than skin.
         const float own = 128 * (k < 3 ? std::min(hair.tint[k], 1.0F) : 0.4F);

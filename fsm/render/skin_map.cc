@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 namespace fsm {
@@ -74,7 +73,7 @@ glm::vec3 SkinMap::PlaceAt(float u, float v) const {
   const float s = x - static_cast<float>(cx);
   const float t = y - static_cast<float>(cy);
   const auto i = Index(cx, cy);
-  // Beside a hole the nearest cell counts alone.
+  // Beside a hole only the nearest cell counts.
   if (kind[i] == kNone || kind[i + 1] == kNone || kind[i + kCells] == kNone ||
       kind[i + kCells + 1] == kNone) {
     return place[Index(static_cast<int>(x + 0.5F), static_cast<int>(y + 0.5F))];

@@ -1,13 +1,8 @@
-#include "embedded/skin_regions.h"
-
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "fsm/base/number_table.h"
 #include "fsm/base/random.h"
-#include "fsm/render/noise_tile.h"
 #include "fsm/render/skin_parts.h"
 
 namespace fsm {
@@ -62,7 +57,8 @@ class NoiseRow {
 /// The regions of one head's face, by its landmarks.
 class RegionPainter {
  public:
-  explicit RegionPainter(const FaceMarks& marks) : m_(marks) {}
+  RegionPainter(const FaceLandmarks& landmarks, const Appearance& appearance)
+      : m_(landmarks), appearance_(appearance) {}
 
   /// `broad`, `fine`: of the patches there, about 0.
   SkinRegion At(SkinMap::Kind kind, const glm::vec3& p, float broad, float fine) const {
@@ -92,7 +88,7 @@ class RegionPainter {
     const float cheek_y = cheek_[1] * m_.nasion.y + cheek_[2] * m_.subnasale.y;
     const float cheek = Bell(side - cheek_x, cheek_[3]) * Bell(p.y - cheek_y, cheek_[3]);
     const float tip = Bell(side, nose_tip_[0]) * Bell(p.y - m_.pronasale.y, nose_tip_[1]) *
-                      Smooth(m_.subnasale.z, m_.pronasale.z, p.z);
+                      SmoothStep(m_.subnasale.z, m_.pronasale.z, p.z);
     const float chin = Bell(side, chin_[0]) *
                        Bell(p.y - chin_[2] * m_.gnathion.y - chin_[3] * m_.stomion.y, chin_[1]);
     const float flush = blood_[0] * cheek + blood_[1] * tip + blood_[2] * chin;
@@ -114,23 +110,21 @@ class RegionPainter {
 
   float Oil(const glm::vec3& p, float tip, float chin) const {
     const float side = std::abs(p.x);
-    const float forehead = Bell(side, 34) * Smooth(m_.nasion.y + 8, m_.nasion.y + 22, p.y);
-    const float bridge = Bell(side, 7) * Smooth(m_.subnasale.y, m_.nasion.y, p.y) *
-                         Smooth(m_.nasion.y + 6, m_.nasion.y - 4, p.y);
+    const float forehead = Bell(side, 34) * SmoothStep(m_.nasion.y + 8, m_.nasion.y + 22, p.y);
+    const float bridge = Bell(side, 7) * SmoothStep(m_.subnasale.y, m_.nasion.y, p.y) *
+                         SmoothStep(m_.nasion.y + 6, m_.nasion.y - 4, p.y);
     const float bow = Bell(side, 7) * Bell(p.y - 0.5F * (m_.subnasale.y + m_.stomion.y), 5);
     const float cheek_bone =
         Bell(side - 0.6F * m_.zygion.left.x, 12) * Bell(p.y - m_.pronasale.y - 14, 9);
-    const float jaw = Smooth(m_.pronasale.y, m_.stomion.y, p.y) * Smooth(20, 45, side);
+    const float jaw = SmoothStep(m_.pronasale.y, m_.stomion.y, p.y) * SmoothStep(20, 45, side);
     return oil_[0] + oil_[1] * forehead + oil_[2] * bridge + oil_[3] * tip + oil_[4] * bow +
            oil_[5] * cheek_bone + oil_[6] * chin - oil_[7] * jaw;
   }
 
-  static const Numbers& Look(const char* name) {
-    static const NumberTable look("tables/skin_regions.txt", embedded::skin_regions());
-    return look[name];
-  }
+  const Numbers& Look(const char* name) const { return appearance_.Skin(name); }
 
-  const FaceMarks& m_;
+  const FaceLandmarks& m_;
+  const Appearance& appearance_;
   const Numbers &patches_ = Look("patches"), &lip_ = Look("lip_highlights"),
                 &pores_ = Look("pores");
   const Numbers &cheek_ = Look("cheek"), &nose_tip_ = Look("nose_tip"), &chin_ = Look("chin");
@@ -141,8 +135,9 @@ class RegionPainter {
 
 }  // namespace
 
-std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceMarks& marks) {
-  const RegionPainter painter(marks);
+std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceLandmarks& landmarks,
+                                     const Appearance& appearance) {
+  const RegionPainter painter(landmarks, appearance);
   std::vector<SkinRegion> out(map.kind.size());
   NoiseRow broad(16, 1);  // patches of 20 and of 5 millimetres
   NoiseRow fine(4, 2);

@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "fsm/base/random.h"
-#include "fsm/render/noise_tile.h"
 #include "fsm/render/skin_map.h"
 #include "fsm/render/skin_parts.h"
 
@@ -39,21 +38,22 @@ std::size_t InTile(int x, int y) {
 }
 
 /// Pores a millimetre and a half apart, each a pit; upright lines of lips.
-std::vector<Fine> MakeFineTile() {
+std::vector<Fine> MakeFineTile(const Appearance& appearance) {
   constexpr int kApart = 4;
+  const auto& look = appearance.Skin("pore");
   std::vector<Fine> tile(static_cast<std::size_t>(kTile) * kTile);
   std::uint64_t n = 0;
   for (int y = 0; y < kTile; y += kApart) {
     for (int x = 0; x < kTile; x += kApart, ++n) {
       const float px = static_cast<float>(x) + kApart * Chance(11, n);
       const float py = static_cast<float>(y) + kApart * Chance(12, n);
-      const float deep = 0.35F + 0.65F * Chance(13, n);
-      const float radius = 1.7F + 0.7F * Chance(14, n);
+      const float deep = look[0] + look[1] * Chance(13, n);
+      const float radius = look[2] + look[3] * Chance(14, n);
       for (int ty = y - 2; ty <= y + kApart + 2; ++ty) {
         for (int tx = x - 2; tx <= x + kApart + 2; ++tx) {
           const float dx = static_cast<float>(tx) + 0.5F - px;
           const float dy = static_cast<float>(ty) + 0.5F - py;
-          const float w = std::max(1 - (dx * dx + dy * dy) / (radius * radius), 0.0F);
+          const float w = std::max(0.0F, 1 - (dx * dx + dy * dy) / (radius * radius));
           float& pore = tile[InTile(tx, ty)].pore;
           pore = std::max(pore, w * w * deep);
         }
@@ -74,6 +74,7 @@ std::vector<Fine> MakeFineTile() {
     }
   }
   const float between = 2 / SkinTexture::kTexelsPerMm;  // millimetres from neighbour to neighbour
+  const float crack_mm = appearance.Skin("lip_lines")[0];
   for (int y = 0; y < kTile; ++y) {
     for (int x = 0; x < kTile; ++x) {
       const Fine& l = tile[InTile(x - 1, y)];
@@ -81,8 +82,8 @@ std::vector<Fine> MakeFineTile() {
       const Fine& b = tile[InTile(x, y - 1)];
       const Fine& a = tile[InTile(x, y + 1)];
       Fine& f = tile[InTile(x, y)];
-      f.pore_slope = glm::vec2(r.pore - l.pore, a.pore - b.pore) * (-0.085F / between);
-      f.crack_slope = glm::vec2(r.crack - l.crack, a.crack - b.crack) * (0.03F / between);
+      f.pore_slope = glm::vec2(r.pore - l.pore, a.pore - b.pore) * (-look[4] / between);
+      f.crack_slope = glm::vec2(r.crack - l.crack, a.crack - b.crack) * (crack_mm / between);
     }
   }
   return tile;
@@ -93,11 +94,19 @@ SkinRegion Between(const SkinRegion& a, const SkinRegion& b, float t) {
           a.cracks + (b.cracks - a.cracks) * t};
 }
 
+/// Four of the numbers of a row, as a tint.
+glm::vec4 TintOf(const std::vector<float>& n, std::size_t first) {
+  return {n[first], n[first + 1], n[first + 2], n[first + 3]};
+}
+
 /// Rows of both pictures but for the creases.
-void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& tile, int first,
-               int last, SkinTexture& out) {
+void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& tile,
+               const Appearance& appearance, int first, int last, SkinTexture& out) {
   constexpr int kCells = SkinMap::kCells;
   constexpr int kStep = kSide / kCells;
+  const glm::vec4 pore_tint = TintOf(appearance.Skin("pore"), 5);
+  const glm::vec4 crack_tint = TintOf(appearance.Skin("lip_lines"), 1);
+  const glm::vec4 grain_tint = TintOf(appearance.Skin("grain"), 0);
   std::vector<SkinRegion> row(kCells + 1);
   for (int y = first; y < last; ++y) {
     // Cells count for their middles.
@@ -109,8 +118,8 @@ void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& 
           Between(regions[SkinMap::Index(x, cy)], regions[SkinMap::Index(x, cy + 1)], ty);
     }
     row[kCells] = row[kCells - 1];
-    std::uint8_t* tint = &out.tint[4 * Texel(0, y)];
-    std::uint8_t* relief = &out.relief[4 * Texel(0, y)];
+    std::uint8_t* tint = &out.tint.rgba[4 * Texel(0, y)];
+    std::uint8_t* relief = &out.relief.rgba[4 * Texel(0, y)];
     for (int x = 0; x < kSide; ++x, tint += 4, relief += 4) {
       const int shifted = std::max(x - kStep / 2, 0);
       const float tx = (static_cast<float>(shifted % kStep) + 0.5F) / kStep;
@@ -119,10 +128,8 @@ void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& 
       const Fine& f = tile[InTile(x, y)];
       const float pore = r.pores * f.pore;
       const float crack = r.cracks * f.crack;
-      const glm::vec4 c = 128.0F * r.tint *
-                          (1.0F - pore * glm::vec4(0.07F, 0.10F, 0.10F, 0.45F) +
-                           crack * glm::vec4(0.02F, 0.032F, 0.032F, 0.3F) +
-                           f.grain * glm::vec4(0.008F, 0.018F, 0.018F, 0.03F));
+      const glm::vec4 c =
+          128.0F * r.tint * (1.0F - pore * pore_tint + crack * crack_tint + f.grain * grain_tint);
       for (int k = 0; k < 4; ++k) tint[k] = Byte(c[k]);
       const glm::vec2 slope = 128.0F + 254.0F * (r.pores * f.pore_slope + r.cracks * f.crack_slope);
       relief[0] = Byte(slope.x);
@@ -135,22 +142,23 @@ void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& 
 // ---- creases
 
 /// Slopes of the creases, where there are any, by blocks of texels.
-void PaintCreases(const SkinMap& map, const FaceMarks& m, int first, int last, SkinTexture& out) {
+void PaintCreases(const SkinMap& map, const CreaseRelief& creases, int first, int last,
+                  SkinTexture& out) {
   constexpr int kBlock = 8;
   std::array<float, (kBlock + 1) * (kBlock + 1)> height;
   const auto uv = [](int texel) { return (static_cast<float>(texel) + 0.5F) / kSide; };
   for (int by = first; by < last; by += kBlock) {
     for (int bx = kSide / 8; bx < kSide * 7 / 8; bx += kBlock) {
       if (map.KindAt(uv(bx + kBlock / 2), uv(by + kBlock / 2)) != SkinMap::kSkin) continue;
-      if (!MayCrease(map.PlaceAt(uv(bx + kBlock / 2), uv(by + kBlock / 2)), m)) continue;
+      if (!creases.MayCrease(map.PlaceAt(uv(bx + kBlock / 2), uv(by + kBlock / 2)))) continue;
       for (int k = 0; k < (kBlock + 1) * (kBlock + 1); ++k) {
         height[static_cast<std::size_t>(k)] =
-            CreaseHeight(map.PlaceAt(uv(bx + k % (kBlock + 1)), uv(by + k / (kBlock + 1))), m);
+            creases.HeightAt(map.PlaceAt(uv(bx + k % (kBlock + 1)), uv(by + k / (kBlock + 1))));
       }
       for (int y = 0; y < kBlock; ++y) {
         for (int x = 0; x < kBlock; ++x) {
           const auto k = static_cast<std::size_t>(y * (kBlock + 1) + x);
-          std::uint8_t* relief = &out.relief[4 * Texel(bx + x, std::min(by + y, kSide - 1))];
+          std::uint8_t* relief = &out.relief.rgba[4 * Texel(bx + x, std::min(by + y, kSide - 1))];
           const float unit = 127 * SkinTexture::kTexelsPerMm;
           relief[2] = Byte(128 + unit * (height[k + 1] - height[k]));
           relief[3] = Byte(128 + unit * (height[k + kBlock + 1] - height[k]));
@@ -164,15 +172,17 @@ void PaintCreases(const SkinMap& map, const FaceMarks& m, int first, int last, S
 
 void Tint(SkinTexture& out, std::size_t texel, const glm::vec4& factor) {
   for (int k = 0; k < 4; ++k) {
-    auto& byte = out.tint[4 * texel + static_cast<std::size_t>(k)];
+    auto& byte = out.tint.rgba[4 * texel + static_cast<std::size_t>(k)];
     byte = Byte(static_cast<float>(byte) * factor[k]);
   }
 }
 
 /// Calls `paint(texel, weight)` for the texels of a round spot, its weight falling to 0 at
-/// `radius`.
+/// `radius`, at most kMostRadius.
 template <typename Paint>
 void Stamp(float x, float y, float radius, Paint paint) {
+  constexpr float kMostRadius = 16;
+  radius = std::min(radius, kMostRadius);
   const int reach = static_cast<int>(std::ceil(radius));
   const int cx = static_cast<int>(x);
   const int cy = static_cast<int>(y);
@@ -187,90 +197,98 @@ void Stamp(float x, float y, float radius, Paint paint) {
 }
 
 /// Faint brown freckles over nose and cheeks, a few darker moles.
-void PaintFreckles(const SkinMap& map, const FaceMarks& m, SkinTexture& out) {
-  for (std::uint64_t n = 0; n < 2600; ++n) {
+void PaintFreckles(const SkinMap& map, const FaceLandmarks& m, const Appearance& appearance,
+                   SkinTexture& out) {
+  const auto& look = appearance.Skin("freckles");
+  const auto& cheek = appearance.Skin("freckled_cheek");
+  const auto& freckle = appearance.Skin("freckle");
+  const auto& moles = appearance.Skin("moles");
+  const glm::vec4 tint = TintOf(freckle, 4);
+  for (std::uint64_t n = 0; static_cast<float>(n) < 100 * look[0]; ++n) {
     const float x = kSide * (0.18F + 0.64F * Chance(21, n));
     const float y = kSide * (0.25F + 0.6F * Chance(22, n));
     if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) continue;
     const glm::vec3 p = map.PlaceAt(x / kSide, y / kSide);
-    const float near_cheek = Bell(std::abs(p.x) - 22, 26) * Bell(p.y - m.pronasale.y - 10, 22);
-    if (Chance(23, n) > 0.10F + 0.9F * near_cheek) continue;
-    const bool mole = n % 331 == 7;
-    const float strength = mole ? 0.8F : 0.10F + 0.22F * Chance(24, n);
-    const float radius = mole ? 3.0F : 1.6F + 2.2F * Chance(25, n);
-    Stamp(x, y, radius, [&](std::size_t i, float w) {
-      Tint(out, i, 1.0F - w * strength * glm::vec4(0.28F, 0.50F, 0.60F, 0.1F));
-    });
+    const float near_cheek =
+        Bell(std::abs(p.x) - cheek[0], cheek[1]) * Bell(p.y - m.pronasale.y - cheek[2], cheek[3]);
+    if (Chance(23, n) > look[1] + look[2] * near_cheek) continue;
+    const bool mole = moles[0] >= 1 && n % static_cast<std::uint64_t>(moles[0]) == 7;
+    const float strength = mole ? moles[1] : freckle[0] + freckle[1] * Chance(24, n);
+    const float radius = mole ? moles[2] : freckle[2] + freckle[3] * Chance(25, n);
+    Stamp(x, y, radius, [&](std::size_t i, float w) { Tint(out, i, 1.0F - w * strength * tint); });
   }
 }
 
 /// Fine vessels beside the nose and on the cheeks: short walks that wander.
-void PaintVessels(const SkinMap& map, const FaceMarks& m, SkinTexture& out) {
-  for (std::uint64_t n = 0; n < 420; ++n) {
+void PaintVessels(const SkinMap& map, const FaceLandmarks& m, const Appearance& appearance,
+                  SkinTexture& out) {
+  const auto& look = appearance.Skin("vessels");
+  const auto& places = appearance.Skin("vessel_places");
+  const glm::vec4 tint = TintOf(appearance.Skin("vessel_tint"), 0);
+  for (std::uint64_t n = 0; static_cast<float>(n) < look[0]; ++n) {
     float x = kSide * (0.25F + 0.5F * Chance(31, n));
     float y = kSide * (0.42F + 0.22F * Chance(32, n));
     float turn = 6.2832F * Chance(33, n);
-    for (std::uint64_t step = 0; step < 26; ++step) {
-      turn += 1.1F * (Chance(34, n * 64 + step) - 0.5F);
+    for (std::uint64_t step = 0; static_cast<float>(step) < look[1]; ++step) {
+      turn += look[3] * (Chance(34, n * 64 + step) - 0.5F);
       x += std::cos(turn);
       y += std::sin(turn);
       if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) break;
       const glm::vec3 p = map.PlaceAt(x / kSide, y / kSide);
-      const float ala =
-          Bell(glm::length(glm::vec2(std::abs(p.x) - m.alare.left.x, p.y - m.alare.left.y)), 9);
-      const float cheek = Bell(std::abs(p.x) - 40, 14) * Bell(p.y - m.pronasale.y, 14);
-      const float strength = 0.055F * (ala + 0.6F * cheek);
+      const float ala = Bell(
+          glm::length(glm::vec2(std::abs(p.x) - m.alare.left.x, p.y - m.alare.left.y)), places[3]);
+      const float cheek =
+          Bell(std::abs(p.x) - places[2], places[4]) * Bell(p.y - m.pronasale.y, places[4]);
+      const float strength = places[0] * (ala + places[1] * cheek);
       if (strength < 0.01F) continue;
-      Stamp(x, y, 1.7F, [&](std::size_t i, float w) {
-        Tint(out, i, 1.0F - w * strength * glm::vec4(0.2F, 1.2F, 0.9F, 0));
-      });
+      Stamp(x, y, look[2],
+            [&](std::size_t i, float w) { Tint(out, i, 1.0F - w * strength * tint); });
     }
   }
 }
 
 }  // namespace
 
-std::optional<FaceMarks> FaceMarks::Of(const Head& head) {
+std::optional<FaceLandmarks> FaceLandmarks::Of(const Head& head) {
   try {
     const auto both = [&head](const std::string& name) {
       return Sided<glm::vec3>{head.Landmark(name + "_right"), head.Landmark(name + "_left")};
     };
-    return FaceMarks{.nasion = head.Landmark("nasion"),
-                     .pronasale = head.Landmark("pronasale"),
-                     .subnasale = head.Landmark("subnasale"),
-                     .stomion = head.Landmark("stomion"),
-                     .gnathion = head.Landmark("gnathion"),
-                     .trichion = head.Landmark("trichion"),
-                     .cheilion = both("cheilion"),
-                     .endocanthion = both("endocanthion"),
-                     .exocanthion = both("exocanthion"),
-                     .pupil = both("pupil"),
-                     .alare = both("alare"),
-                     .zygion = both("zygion")};
+    return FaceLandmarks{.nasion = head.Landmark("nasion"),
+                         .pronasale = head.Landmark("pronasale"),
+                         .subnasale = head.Landmark("subnasale"),
+                         .stomion = head.Landmark("stomion"),
+                         .gnathion = head.Landmark("gnathion"),
+                         .trichion = head.Landmark("trichion"),
+                         .cheilion = both("cheilion"),
+                         .endocanthion = both("endocanthion"),
+                         .exocanthion = both("exocanthion"),
+                         .pupil = both("pupil"),
+                         .alare = both("alare"),
+                         .zygion = both("zygion")};
   } catch (const std::out_of_range&) {
     return std::nullopt;
   }
 }
 
 SkinTexture PaintSkin(const HeadTopology& topology, const HeadVertices& rest,
-                      const FaceMarks& marks) {
+                      const FaceLandmarks& landmarks, const Appearance& appearance) {
   const SkinMap map(topology, rest);
-  const auto regions = PaintRegions(map, marks);
-  const auto tile = MakeFineTile();
-  SkinTexture out;
-  out.tint.resize(static_cast<std::size_t>(kSide) * kSide * 4);
-  out.relief.resize(out.tint.size());
+  const auto regions = PaintRegions(map, landmarks, appearance);
+  const auto tile = MakeFineTile(appearance);
+  const CreaseRelief creases(landmarks, appearance);
+  SkinTexture out{FilledImage(kSide, kSide), FilledImage(kSide, kSide)};
   const auto paint = [&](int first, int last) {
-    PaintRows(regions, tile, first, last, out);
-    PaintCreases(map, marks, first, last, out);
+    PaintRows(regions, tile, appearance, first, last, out);
+    PaintCreases(map, creases, first, last, out);
   };
   // The face lies in the upper two thirds.
   constexpr int kMiddle = kSide * 5 / 8;
   std::thread upper([&paint] { paint(kMiddle, kSide); });
   paint(0, kMiddle);
   upper.join();
-  PaintFreckles(map, marks, out);
-  PaintVessels(map, marks, out);
+  PaintFreckles(map, landmarks, appearance, out);
+  PaintVessels(map, landmarks, appearance, out);
   PaintHairs(topology.skin_hairs, out);
   return out;
 }

@@ -1,45 +1,47 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
 #include <vector>
 
+#include "fsm/image/image.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
 
+class Appearance;
+
 /// Where things are on a face, from the head's landmarks; millimetres at rest.
-struct FaceMarks {
+struct FaceLandmarks {
   glm::vec3 nasion, pronasale, subnasale, stomion, gnathion, trichion;
   Sided<glm::vec3> cheilion, endocanthion, exocanthion, pupil, alare, zygion;
 
   /// Nothing for a head that does not name all of them.
-  static std::optional<FaceMarks> Of(const Head& head);
+  static std::optional<FaceLandmarks> Of(const Head& head);
 };
 
-/// What skin looks like closer than a vertex: both pictures kSide x kSide RGBA bytes, the first row
-/// at v = 0, over HeadTopology::uv.
+/// What skin looks like closer than a vertex: two pictures of kSide x kSide, their first row at v =
+/// 0, over HeadTopology::uv.
 struct SkinTexture {
   static constexpr int kSide = 1024;
   static constexpr float kTexelsPerMm = 3.3F;  ///< about, on the front of the face
   /// Factors on the surface's colour (rgb) and on its highlights (a), 128 = 1.
-  std::vector<std::uint8_t> tint;
+  Image tint;
   /// Slopes to growing u and growing v about 128: of pores and lines (rg, 127 = 0.5), of the
   /// creases of expression (ba, 127 = 1).
-  std::vector<std::uint8_t> relief;
+  Image relief;
 };
 
 /// Paints the skin of a head: blotches, pores, freckles, vessels, shadows of the lids, lines of the
-/// lips, creases. The same head gives the same bytes. `rest` are the vertices of the neutral state.
-/// Takes a few tens of milliseconds, of two threads: the caller's and one that ends before it
-/// returns.
+/// lips, creases, all by the rows "skin" of the table. The same head and table give the same bytes.
+/// `rest` are the vertices of the neutral state. Takes a few tens of milliseconds, of two threads:
+/// the caller's and one that ends before it returns.
 SkinTexture PaintSkin(const HeadTopology& topology, const HeadVertices& rest,
-                      const FaceMarks& marks);
+                      const FaceLandmarks& landmarks, const Appearance& appearance);
 
 /// How much each crease shows at a vertex: forehead, glabella, crow's feet, nasolabial.
 using CreaseWeights = Sided<std::vector<glm::vec4>>;
-CreaseWeights WeighCreases(const HeadVertices& rest, const FaceMarks& marks);
+CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& landmarks);
 
 }  // namespace fsm

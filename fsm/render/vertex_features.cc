@@ -6,7 +6,7 @@
 namespace fsm {
 namespace {
 
-// How many millimetres of error differences of what a vertex shows are worth.
+// As how many millimetres of error a difference of what a vertex shows counts.
 constexpr float kNormalMm = 3;      // of a radian
 constexpr float kColourMm = 6;      // from black to white
 constexpr float kOpenMm = 4;        // from shut off from light to open, from transparent to opaque
@@ -72,10 +72,10 @@ VertexFeatures::VertexFeatures(const Head& head, const CreaseWeights& creases) {
   });
   add(topology.uv.size() == vertices,
       [&](std::size_t i) { return kUnrolledMm * glm::vec3(topology.uv[i], 0); });
-  const WornPicture& worn = topology.worn;
-  if (worn.image && worn.texcoord.size() == vertices) {
+  const TextureMaps& maps = topology.textures;
+  if (maps.image && maps.texcoord.size() == vertices) {
     const glm::vec3 worth(kPhotoMm * kPhotoWidth, kPhotoMm * kPhotoWidth, kOpenMm);
-    add(true, [&](std::size_t i) { return worth * glm::vec3(worn.texcoord[i], worn.weight[i]); });
+    add(true, [&](std::size_t i) { return worth * glm::vec3(maps.texcoord[i], maps.weight[i]); });
   }
   add(topology.strands.size() == vertices, [&](std::size_t i) {
     const Strand& strand = topology.strands[i];

@@ -13,9 +13,9 @@
 
 namespace fsm {
 
-/// What there is to be seen at the vertices of a head, as vectors whose differences are worth
-/// millimetres: place and normal in far-reaching states of the face, colour, openness to light,
-/// places in textures, creases, hairs.
+/// What is seen at the vertices of a head, as vectors whose differences count as millimetres of
+/// error: position and normal in far-reaching states of the face, colour, openness to light, places
+/// in textures, creases, hairs.
 class VertexFeatures {
  public:
   /// `creases`: of the head, or empty.
@@ -41,7 +41,7 @@ class VertexFeatures {
   const glm::vec3* Of(std::uint32_t vertex) const { return values_.data() + vertex * count_; }
   std::size_t count_ = 0;  // of each vertex
   std::vector<glm::vec3> values_;
-  std::vector<float> care_;  // of each vertex: how much more than others it counts
+  std::vector<float> care_;  // of each vertex: the factor on its differences
 };
 
 }  // namespace fsm

@@ -11,10 +11,14 @@ Head::Head(HeadAsset asset)
       view_(asset.view),
       rig_(std::move(asset.rig)) {}
 
+Head::Head(const Head& other, Rig rig)
+    : topology_(other.topology_),
+      landmarks_(other.landmarks_),
+      view_(other.view_),
+      rig_(std::move(rig)) {}
+
 std::unique_ptr<Head> Head::WithUnits(const UnitTable& units) const {
-  auto other = std::make_unique<Head>(*this);
-  other->rig_ = rig_.WithUnits(units);
-  return other;
+  return std::unique_ptr<Head>(new Head(*this, rig_.WithUnits(units)));
 }
 
 glm::vec3 Head::Landmark(std::string_view name) const {

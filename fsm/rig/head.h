@@ -21,8 +21,12 @@ class Head {
  public:
   /// REQUIRES: the arrays of `asset` fit together, as the bakers make them.
   explicit Head(HeadAsset asset);
+  Head(const Head&) = delete;
+  Head& operator=(const Head&) = delete;
 
   const HeadTopology& topology() const { return *topology_; }
+  /// The same, for what may outlive the head.
+  const std::shared_ptr<const HeadTopology>& shared_topology() const { return topology_; }
   const Rig& rig() const { return rig_; }
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
   /// `swings`: as of Rig::Evaluate.
@@ -42,24 +46,15 @@ class Head {
   const Landmarks& landmarks() const { return landmarks_; }
   /// HeadAsset::view.
   const std::optional<ParallelView>& view() const { return view_; }
-  /// A number that no other head of this process has or had, copies included. A head does not
-  /// change after its construction, so what is kept of it elsewhere, as on a graphics card, is that
-  /// of the same head as long as this number is the same. An address does not tell that: another
-  /// head may be made where one died.
-  std::uint64_t serial() const { return serial_.number; }
+  /// A number that no other head of this process has or had. What is kept of a head elsewhere, as
+  /// on a graphics card, goes by it and not by the address, where another head may be made later.
+  std::uint64_t serial() const { return serial_; }
 
  private:
-  struct Serial {
-    Serial() : number(++last) {}
-    Serial(const Serial&) : Serial() {}
-    Serial& operator=(const Serial&) {
-      number = ++last;
-      return *this;
-    }
-    std::uint64_t number;
-    static inline std::atomic<std::uint64_t> last{0};  // heads are made on several threads
-  };
-  Serial serial_;
+  Head(const Head& other, Rig rig);
+  static inline std::atomic<std::uint64_t> last_serial_{0};  // heads are made on several threads
+
+  const std::uint64_t serial_ = ++last_serial_;
   std::shared_ptr<const HeadTopology> topology_;
   Landmarks landmarks_;
   std::optional<ParallelView> view_;

@@ -33,7 +33,7 @@ enum class Material {
   kLash,
   kHair,
   kCloth,
-  kPhoto,    ///< a sheet that shows the photo worn and nothing else
+  kPhoto,    ///< a sheet that shows the photo and nothing else
   kShutLash  ///< of lids that wear a photo of open eyes: seen as they shut
 };
 
@@ -71,7 +71,7 @@ struct Strand {
 };
 
 /// What a vertex of a lid looks like when the lid is shut, on a head that wears a photo of open
-/// eyes: what the photo shows at WornPicture::texcoord gives way to it as the lid shuts.
+/// eyes: what the photo shows at TextureMaps::texcoord gives way to it as the lid shuts.
 struct ShutLid {
   std::uint32_t vertex;
   glm::vec3 colour;  ///< linear RGB
@@ -101,7 +101,7 @@ struct MouthSlit {
 };
 
 /// The picture on a head: the photo of a person, or what a file has.
-struct WornPicture {
+struct TextureMaps {
   std::shared_ptr<const Image> image;  ///< nothing: skin is painted and lit
   /// Laid out as the image; nothing where no material needs it. Of `normal_map` red and green are
   /// the normal's x and y (v up) about 128, blue and alpha factors of roughness and metal; of
@@ -150,7 +150,7 @@ struct HeadTopology {
   std::vector<SkinHair> skin_hairs;
   std::vector<Strand> strands;  ///< per vertex, meaningful where there is hair; may be empty
   std::vector<PbrMaterial> pbr_materials;
-  WornPicture worn;
+  TextureMaps textures;
   Portrait portrait;
   MouthSlit mouth;
   Sided<EyeGeometry> eyes;

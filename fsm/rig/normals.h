@@ -24,7 +24,7 @@ void FindNormals(const NormalRig& rig, std::span<const std::uint32_t> soft,
 /// Adds the normals of triangles, by their areas, to those of their corners, and makes them unit.
 void Accumulate(std::span<const std::uint32_t> triangles, std::span<const glm::vec3> position,
                 std::span<glm::vec3> normal);
-/// Likewise from nothing, of `count` vertices.
+/// The unit normals of `count` vertices, found by Accumulate.
 std::vector<glm::vec3> Normals(std::span<const std::uint32_t> triangles,
                                std::span<const glm::vec3> position, std::size_t count);
 

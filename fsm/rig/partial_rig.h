@@ -14,8 +14,8 @@ class PartialRig {
  public:
   /// `vertices`: indices of the head's, in any order, also twice.
   PartialRig(const Rig& whole, std::vector<std::uint32_t> vertices);
-  /// As Rig::Evaluate, but gives only those places of `out`, which has the whole head's size, and
-  /// no normal.
+  /// As Rig::Evaluate, but fills only the positions of those vertices in `out`, which has the whole
+  /// head's size, and no normals.
   void Evaluate(const FaceState& state, HeadVertices& out,
                 std::span<const glm::vec3> swings = {}) const;
 

@@ -41,7 +41,7 @@ void Swing(std::span<const SpringWeight> weights, std::span<const glm::vec3> swi
 
 }  // namespace
 
-/// One state on its way to vertices.
+/// A state while the steps make vertices of it.
 struct Rig::Frame {
   const FaceState& state;
   Pose pose;
@@ -117,10 +117,10 @@ void Rig::Evaluate(const FaceState& state, HeadVertices& out,
   out.normal = data_.rest_normal;
   Frame frame{state, PoseOf(state), out.position, out.normal, swings};
   for (const RigStep step : data_.steps) EntryOf(step).run(*this, frame);
-  FindMarks(frame.pose, out);
+  FindCreasesAndLids(frame.pose, out);
 }
 
-void Rig::FindMarks(const Pose& pose, HeadVertices& out) const {
+void Rig::FindCreasesAndLids(const Pose& pose, HeadVertices& out) const {
   out.creases = {};
   if (data_.creases.at_rest) {
     out.creases = CreaseDepths(pose.units, *data_.creases.at_rest);

@@ -51,7 +51,7 @@ class Rig {
                 std::span<const glm::vec3> swings = {}) const;
   RigInputs InputsOf(const FaceState& state) const;
   /// What HeadVertices says beside places and normals.
-  void FindMarks(const Pose& pose, HeadVertices& out) const;
+  void FindCreasesAndLids(const Pose& pose, HeadVertices& out) const;
   /// All 0 if the head does not say where its lips are.
   MouthMeasure MeasureMouth(const FaceState& state) const;
   /// The same rig whose units move as another table says.

@@ -106,10 +106,10 @@ struct RigData {
   const std::vector<glm::vec3>& Start() const { return proxy.rest.empty() ? rest : proxy.rest; }
 };
 
-/// The same for some of the vertices, numbered as in `vertices`, which holds those that steps look
+/// The rig of some of the vertices, in the order of `vertices`, which holds those that steps look
 /// at (StepVertices). Normals of soft triangles are left at rest.
 RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertices);
-/// Vertices on whose places the steps found those of others: where lips meet, the chin.
+/// The vertices by whose places the steps find those of others: where lips meet, the chin.
 std::vector<std::uint32_t> StepVertices(const RigData& data);
 
 /// The rig of vertices that stay where they are.

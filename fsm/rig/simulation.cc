@@ -20,7 +20,7 @@ std::int64_t StepAt(Simulation::Time t) {
 /// How the head carries things in one state.
 struct Carrier {
   explicit Carrier(const FaceState& state) : turn(HeadTurn(state)), by(HeadForward(state)) {
-    // Only the part of the turn that is about the vertical.
+    // `upright` is the part of the turn about the vertical axis.
     const glm::vec3 ahead = turn[2];
     const float length = std::hypot(ahead.x, ahead.z);
     const float c = length > 1e-3f ? ahead.z / length : 1,
@@ -104,7 +104,7 @@ void Simulation::FindOffsets(const FaceState& state, float ahead_s) {
     glm::vec3 offset = carrier.Hanging(spring) + away;
     const glm::vec3 outward = carrier.turn * spring.outward;
     offset -= std::min(glm::dot(offset, outward), 0.0f) * outward;
-    // Towards its limit it goes ever more slowly.
+    // The nearer to its limit, the less an offset grows.
     const float length = glm::length(offset);
     offsets_[i] = offset * (spring.most_mm / std::hypot(spring.most_mm, length));
   }

@@ -38,11 +38,11 @@ class Simulation {
   /// How far each spring is from where the head carries it, millimetres. None before the
   /// first RunTo.
   std::span<const glm::vec3> offsets() const { return offsets_; }
-  /// Nothing swings by more than is seen.
+  /// Whether nothing swings so far that it would be seen.
   bool Still() const;
 
  private:
-  /// One step of one spring: what it is away from its goal and its speed become
+  /// One step of one spring: its distance from the goal and its speed become
   /// {a * away + b * speed, c * away + d * speed}.
   struct Step {
     float a, b, c, d;

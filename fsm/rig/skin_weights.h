@@ -8,7 +8,7 @@
 
 namespace fsm {
 
-/// What carries a vertex. Flesh follows the action units, the mouth, the lids and the jaw; the
+/// What carries a vertex. Skin follows the action units, the mouth, the lids and the jaw; the
 /// others move as rigid bodies (the tongue bends a little).
 enum class Bone : std::uint8_t { kSkin, kSkull, kJaw, kTongue, kEyeLeft, kEyeRight };
 
@@ -20,7 +20,7 @@ constexpr std::optional<Side> EyeOf(Bone bone) {
 }
 constexpr Bone BoneOf(Side eye) { return eye == Side::kRight ? Bone::kEyeRight : Bone::kEyeLeft; }
 
-/// How a flesh vertex takes part in the motions; all weights 0..1.
+/// How a vertex of skin takes part in the motions; all weights 0..1.
 struct SkinWeights {
   glm::vec2 domain{};        ///< where on the face: nearly (x, y) at rest
   float above_mouth = 0.5f;  ///< 1 = moves with the upper lip's side, 0 = with the lower's

@@ -47,6 +47,23 @@ UnitTable::Field ReadField(const TableRow& row) {
   return field;
 }
 
+/// Rows of effects, by UnitTable::Effect::Kind: their first word, and how far the one or two
+/// numbers behind the unit may be from 0.
+struct EffectRow {
+  std::string_view key;
+  float most_first, most_second = 0;
+};
+constexpr std::array<EffectRow, 6> kEffectRows{
+    {{"lid", 20, 20}, {"close", 1}, {"jaw", 60, 30}, {"sway", 30}, {"seal", 1}, {"tongue", 1, 60}}};
+
+/// Rows of rules, by UnitTable::Rule::Kind: their first word, and whether a part stands behind the
+/// two units.
+struct RuleRow {
+  std::string_view key;
+  bool has_part = false;
+};
+constexpr std::array<RuleRow, 3> kRuleRows{{{"damp", true}, {"oppose"}, {"strongest"}}};
+
 std::string Digits(float number) {
   std::array<char, 32> digits;
   std::snprintf(digits.data(), digits.size(), " %.9g", static_cast<double>(number));
@@ -62,43 +79,25 @@ float Acting(float strength) {
 }  // namespace
 
 UnitTable::UnitTable(const Table& table) {
-  using enum Effect::Kind;
   for (const TableRow& row : table.rows()) {
     const std::string& key = row.key();
-    // What follows the unit: one number of -most to most, or two.
-    const auto effect = [&](Effect::Kind kind, float most, float most_second = 0) {
-      const bool two = most_second > 0;
-      effects_.push_back({kind, ReadUnit(row, 1), row.Within(2, -most, most),
-                          two ? row.Within(3, -most_second, most_second) : 0});
-      row.EndsAt(two ? 4 : 3);
-    };
-    const auto rule = [&](Rule::Kind kind, bool part) {
-      rules_.push_back({kind, ReadUnit(row, 1), ReadUnit(row, 2), part ? row.Within(3, 0, 1) : 0});
-      row.EndsAt(part ? 4 : 3);
-    };
     if (fields_.size() + effects_.size() + rules_.size() >= kMostRows) {
       row.Fail("more rows than are read (" + std::to_string(kMostRows) + ")");
     }
+    const auto effect = std::ranges::find(kEffectRows, key, &EffectRow::key);
+    const auto rule = std::ranges::find(kRuleRows, key, &RuleRow::key);
     if (key == "field") {
       fields_.push_back(ReadField(row));
-    } else if (key == "lid") {
-      effect(kLid, 20, 20);
-    } else if (key == "close") {
-      effect(kClose, 1);
-    } else if (key == "jaw") {
-      effect(kJaw, 60, 30);
-    } else if (key == "sway") {
-      effect(kSway, 30);
-    } else if (key == "seal") {
-      effect(kSeal, 1);
-    } else if (key == "tongue") {
-      effect(kTongue, 1, 60);
-    } else if (key == "damp") {
-      rule(Rule::Kind::kDamp, true);
-    } else if (key == "oppose") {
-      rule(Rule::Kind::kOppose, false);
-    } else if (key == "strongest") {
-      rule(Rule::Kind::kStrongest, false);
+    } else if (effect != kEffectRows.end()) {
+      const auto [unused, first, second] = *effect;
+      effects_.push_back({static_cast<Effect::Kind>(effect - kEffectRows.begin()), ReadUnit(row, 1),
+                          row.Within(2, -first, first),
+                          second > 0 ? row.Within(3, -second, second) : 0});
+      row.EndsAt(second > 0 ? 4 : 3);
+    } else if (rule != kRuleRows.end()) {
+      rules_.push_back({static_cast<Rule::Kind>(rule - kRuleRows.begin()), ReadUnit(row, 1),
+                        ReadUnit(row, 2), rule->has_part ? row.Within(3, 0, 1) : 0});
+      row.EndsAt(rule->has_part ? 4 : 3);
     } else {
       row.Fail("unknown word '" + key + "'");
     }
@@ -107,7 +106,7 @@ UnitTable::UnitTable(const Table& table) {
 
 std::string UnitTable::Text() const {
   std::string text;
-  const auto row = [&text](const char* key, std::initializer_list<float> numbers) {
+  const auto row = [&text](std::string_view key, std::initializer_list<float> numbers) {
     text += (text.empty() ? "" : "\n") + std::string(key);
     for (const float number : numbers) text += Digits(number);
   };
@@ -119,17 +118,14 @@ std::string UnitTable::Text() const {
     for (int k = 0; k < 3; ++k) text += Digits(field.by[k]);
   }
   for (const Effect& effect : effects_) {
-    static constexpr std::array<const char*, 6> kKeys{"lid",  "close", "jaw",
-                                                      "sway", "seal",  "tongue"};
-    using enum Effect::Kind;
-    const bool two = effect.kind == kLid || effect.kind == kJaw || effect.kind == kTongue;
-    row(kKeys[static_cast<std::size_t>(effect.kind)], {number(effect.unit), effect.first});
-    if (two) text += Digits(effect.second);
+    const EffectRow& kind = kEffectRows[static_cast<std::size_t>(effect.kind)];
+    row(kind.key, {number(effect.unit), effect.first});
+    if (kind.most_second > 0) text += Digits(effect.second);
   }
   for (const Rule& rule : rules_) {
-    static constexpr std::array<const char*, 3> kKeys{"damp", "oppose", "strongest"};
-    row(kKeys[static_cast<std::size_t>(rule.kind)], {number(rule.a), number(rule.b)});
-    if (rule.kind == Rule::Kind::kDamp) text += Digits(rule.part);
+    const RuleRow& kind = kRuleRows[static_cast<std::size_t>(rule.kind)];
+    row(kind.key, {number(rule.a), number(rule.b)});
+    if (kind.has_part) text += Digits(rule.part);
   }
   return text;
 }

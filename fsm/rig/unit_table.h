@@ -12,7 +12,7 @@
 
 namespace fsm {
 
-/// What units do beside moving skin, summed over all that act.
+/// What the active units do, in sum, beside moving skin.
 struct UnitEffects {
   struct Lids {
     float upper_mm = 0, lower_mm = 0, close = 0;
@@ -54,7 +54,7 @@ class UnitTable {
   /// stretching), and corrected for units that act together. Not-a-number counts as 0.
   Sided<UnitValues> Combine(const FaceState& state) const;
   UnitEffects Effects(const Sided<UnitValues>& units) const;
-  /// Motion of a field, which the table has for the left, at a flesh vertex of either half.
+  /// The motion of a field, which the table has for the left, at a vertex of either half.
   static glm::vec3 Motion(const Field& field, const SkinWeights& weights, Side side);
 
  private:
@@ -68,8 +68,8 @@ class UnitTable {
     int unit;
     float first, second;
   };
-  Sided<UnitValues>
-      lean_;  // by how much a unit is stronger on that side than the table says, as a part
+  /// By which part a unit is stronger on that side than the table says.
+  Sided<UnitValues> lean_;
   std::vector<Field> fields_;
   std::vector<Rule> rules_;
   std::vector<Effect> effects_;

@@ -1,3 +1,5 @@
+#include "fsm/head/identity.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -8,7 +10,6 @@
 #include "face_editor/core/editor.h"
 #include "face_editor/core/identity_head.h"
 #include "fsm/head/make_head.h"
-#include "fsm/head/own_identity.h"
 
 namespace editor {
 namespace {

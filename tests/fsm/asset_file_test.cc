@@ -82,8 +82,8 @@ TEST(AssetFileTest, AHeadThatWearsAPhotoComesBackAsItWas) {
   const auto head = MakeHead(OneColour());
   const Head read = ReadAgain(*head);
   ExpectSameHead(read, *head);
-  ASSERT_TRUE(read.topology().worn.image);
-  EXPECT_EQ(read.topology().worn.image->rgba, head->topology().worn.image->rgba);
+  ASSERT_TRUE(read.topology().textures.image);
+  EXPECT_EQ(read.topology().textures.image->rgba, head->topology().textures.image->rgba);
 }
 
 TEST(AssetFileTest, AParallelViewAndAMaterialComeBack) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fsm/head/built_in_units.h"
+#include "fsm/head/face_channels.h"
 #include "fsm/head/make_head.h"
 #include "fsm/rig/unit_table.h"
 #include "tests/fsm/head_fixture.h"

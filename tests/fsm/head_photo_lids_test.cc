@@ -52,7 +52,7 @@ struct Eye {
   std::vector<ShutLid> Lids() const {
     const SkinPose seen{open, open_normal};
     const std::vector<float> weight(places.size(), 1);
-    const PhotoSight sight{photo, places, weight};
+    const PhotoMapping sight{photo, places, weight};
     return PaintLids({sight, skin, seen, {shut, shut_normal}, glasses, Features::BuiltIn()},
                      LightOf(sight, seen));
   }

@@ -12,7 +12,6 @@
 #include "fsm/head/features.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/make_head.h"
-#include "fsm/head/own_identity.h"
 #include "fsm/rig/unit_table.h"
 
 namespace fsm {
@@ -146,12 +145,21 @@ TEST(HeadTablesTest, IdentitiesAndSlidersAreChecked) {
             "i.txt:2: no part of a face is called tail");
   EXPECT_EQ(Complaint([] { ReadIdentity(Table("i.txt", "face other\n"), "galatea"); }),
             "i.txt: no face 'galatea'");
-  EXPECT_EQ(Complaint([] { Shaper(Table("s.txt", "slider a 0 0 0 1 0 1 1 1 1\n"), {}); }),
+  EXPECT_EQ(Complaint([] { SliderWarp(Table("s.txt", "slider a 0 0 0 1 0 1 1 1 1\n"), {}); }),
             "s.txt:1: a radius must be positive");
   EXPECT_EQ(Complaint([] {
-              Shaper(Table("s.txt", "slider a 0 0 0 1 1 1 1 1 1\n"), {{"b", 1.0f}});
+              SliderWarp(Table("s.txt", "slider a 0 0 0 1 1 1 1 1 1\n"), {{"b", 1.0f}});
             }),
             "s.txt: no slider 'b'");
+}
+
+TEST(HeadTablesTest, FacesHaveTheColoursOfTheBaseHeadButForThoseTheyName) {
+  EXPECT_EQ(BasePalette().gum, glm::vec3(0.46f, 0.18f, 0.17f));
+  Identity identity = BuiltInIdentity("galatea");
+  EXPECT_EQ(identity.palette.gum, BasePalette().gum);
+  EXPECT_NE(identity.palette.hair, BasePalette().hair);
+  ReadIdentityRow(Table("i.txt", "colour gum 0.1 0.2 0.3\n").rows()[0], identity);
+  EXPECT_EQ(identity.palette.gum, glm::vec3(0.1f, 0.2f, 0.3f));
 }
 
 std::string FeaturesText() {

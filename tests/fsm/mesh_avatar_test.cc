@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/head/built_in_units.h"
+#include "fsm/head/face_channels.h"
 #include "fsm/head/make_head.h"
 #include "fsm/image/image_codec.h"
 #include "fsm/mesh/blendshape_rig.h"

@@ -141,12 +141,12 @@ glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0
     model.Add({50 * x, 50 * y, 80}, Bone::kSkull, glm::vec3(1),
               glm::vec2(0.5F + 0.5F * x, 0.5F - 0.5F * y));
   }
-  model.worn.image = std::make_shared<Image>(Image{1, 1, {188, 188, 188, 255}});
+  model.textures.image = std::make_shared<Image>(Image{1, 1, {188, 188, 188, 255}});
   if (!plate.normal_map.empty()) {
-    model.worn.normal_map = std::make_shared<Image>(Image{1, 1, plate.normal_map});
+    model.textures.normal_map = std::make_shared<Image>(Image{1, 1, plate.normal_map});
   }
   if (!plate.emissive_map.empty()) {
-    model.worn.emissive_map = std::make_shared<Image>(Image{1, 1, plate.emissive_map});
+    model.textures.emissive_map = std::make_shared<Image>(Image{1, 1, plate.emissive_map});
   }
   model.pbr_materials = {plate.pbr};
   auto& indices = model.BatchOf(Material::kSkin, 0, plate.two_sided).indices;

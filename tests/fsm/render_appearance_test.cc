@@ -9,6 +9,7 @@
 #include "fsm/head/make_head.h"
 #include "fsm/render/appearance.h"
 #include "fsm/render/renderer.h"
+#include "fsm/render/skin_texture.h"
 #include "tests/fsm/ball_head.h"
 #include "tests/fsm/golden_picture.h"
 #include "tests/fsm/render_support.h"
@@ -60,6 +61,8 @@ TEST(AppearanceTest, BadRowsAreRefusedWithFileAndLine) {
       {"\n" + skin, "\nsurface wood 1 2 3", "'surface wood' is not known"},
       {"\n" + skin, "\n" + skin.substr(0, 30), "'surface skin' needs 11 numbers"},
       {"\nlamp key   -0.75 0.64  1.10 ", "\nlamp key 0 0 0 ", "a lamp that stands nowhere"},
+      {"\nskin nose_tip         11 10", "\nskin nose_tip 11", "'skin nose_tip' needs 2 numbers"},
+      {"\nskin moles            331", "\nskin moles 100000", "a number beyond -1000 to 1000"},
   };
   for (const Case& one : cases) {
     const std::string refused = Refusal(Changed(one.row, one.instead));
@@ -101,6 +104,52 @@ TEST(AppearanceTest, ATableOfOnesOwnChangesThePicture) {
   EXPECT_LT(brightness(dark), usual);
   const Appearance unlit("unlit", Changed("2.72 2.50 2.36", "0 0 0"));
   EXPECT_LT(brightness(unlit), usual);
+}
+
+TEST(AppearanceTest, TheSkinIsPaintedAsItsRowsSay) {
+  const auto head = MakeHead("galatea");
+  HeadVertices rest;
+  head->Evaluate({}, rest);
+  const auto landmarks = FaceLandmarks::Of(*head);
+  ASSERT_TRUE(landmarks);
+  const auto painted = [&](const std::string& row, const std::string& instead) {
+    const Appearance mine("mine", row.empty() ? BuiltInText() : Changed(row, instead));
+    return PaintSkin(head->topology(), rest, *landmarks, mine);
+  };
+  const SkinTexture usual = painted("", "");
+  const auto differing = [](const Image& a, const Image& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i) count += a.rgba[i] != b.rgba[i] ? 1 : 0;
+    return count;
+  };
+  const SkinTexture plain = painted("\nskin freckles         26", "\nskin freckles 0");
+  EXPECT_GT(differing(plain.tint, usual.tint), 1000U);
+  EXPECT_EQ(plain.relief.rgba, usual.relief.rgba);
+  const SkinTexture smooth =
+      painted("\nskin forehead_depth   0.6 0.25 0.15", "\nskin forehead_depth 0 0 0");
+  EXPECT_EQ(smooth.tint.rgba, usual.tint.rgba);
+  EXPECT_GT(differing(smooth.relief, usual.relief), 1000U);
+}
+
+TEST(AppearanceTest, ASkinOfZerosAndOfExtremesIsPaintedAllTheSame) {
+  const auto head = MakeHead("galatea");
+  HeadVertices rest;
+  head->Evaluate({}, rest);
+  const auto landmarks = FaceLandmarks::Of(*head);
+  ASSERT_TRUE(landmarks);
+  const Table built_in("built-in", BuiltInText());
+  for (const char* number : {" 0", " -1000", " 0.001"}) {
+    std::string text;
+    for (const TableRow& row : built_in.rows()) {
+      const bool skin = row.key() == "skin";
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        text += i == 0 ? row.key() : skin && i >= 2 ? number : " " + row.Word(i);
+      }
+      text += "\n";
+    }
+    const Appearance mine("mine", text);
+    EXPECT_EQ(PaintSkin(head->topology(), rest, *landmarks, mine).tint.width, SkinTexture::kSide);
+  }
 }
 
 TEST(AppearanceTest, PoresAreLeftOutOnlyWhereTheyAreNotSeen) {

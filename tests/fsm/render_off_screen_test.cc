@@ -8,6 +8,7 @@
 #include <string>
 
 #include "fsm/render/off_screen.h"
+#include "fsm/render/renderer.h"
 #include "tests/fsm/ball_head.h"
 
 namespace fsm {

@@ -278,7 +278,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
   HeadVertices bare;
   plain->Evaluate({}, bare);
   for (std::size_t i = 0; i < bare.position.size(); ++i) {
-    const glm::vec2 place = plain->topology().worn.texcoord[i];
+    const glm::vec2 place = plain->topology().textures.texcoord[i];
     const float light = std::max(0.4F + 0.5F * bare.normal[i].y, 0.05F);
     for (int k = 0; k < (2 * kRound + 1) * (2 * kRound + 1); ++k) {
       const int x = static_cast<int>(place.x * kMap) + k % (2 * kRound + 1) - kRound;
@@ -312,7 +312,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
   std::vector<std::size_t> turned;
   for (std::size_t i = 0; i < rest.position.size(); ++i) {
     const glm::vec3 p = rest.position[i];
-    if (topology.worn.weight[i] != 1 || topology.portrait.relit[i] < 1) continue;
+    if (topology.textures.weight[i] != 1 || topology.portrait.relit[i] < 1) continue;
     const bool cheek = p.z > 50 && std::abs(p.x) > 18 && std::abs(p.x) < 45 && p.y < nasion - 25 &&
                        p.y > chin + 30;
     const float up = smiling.normal[i].y - rest.normal[i].y;

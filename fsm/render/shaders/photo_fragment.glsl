@@ -1,5 +1,5 @@
 // The photo brought its own light: it is shown as it is, but for creases that the face makes now.
-// kCreased and kDetailed, which stand before this text: as Worn says; what is detailed is creased, too.
+// kCreased and kDetailed, which stand before this text: as SkinDetail says; what is detailed is creased, too.
 in vec2 place;
 in vec3 texcoord;
 in vec3 paint;

@@ -1,0 +1,51 @@
+#include "fsm/render/mouth_material.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "embedded/mouth_vertex.h"
+#include "embedded/surface_fragment.h"
+
+namespace fsm {
+
+MouthMaterial::MouthMaterial(const GlFunctions& gl, const Appearance& appearance)
+    : appearance_(appearance),
+      program_(CompileLit(gl, appearance, "mouth", embedded::mouth_vertex(),
+                          embedded::surface_fragment(), ShaderConstant("kRelief", true))) {}
+
+float MouthMaterial::gap_mm() const {
+  constexpr std::size_t kMiddle = MouthFinder::kColumns / 2;
+  if (!opening_) return 0;
+  return opening_->lips[kMiddle].y - opening_->lips[kMiddle + MouthFinder::kColumns].y;
+}
+
+float MouthMaterial::jaw_drop_mm() const {
+  constexpr float kOverlap = 1.3F;  // at rest the lower incisors stand behind the upper ones
+  return opening_ ? std::max(opening_->teeth.x - opening_->teeth.y + kOverlap, 0.0F) : 0;
+}
+
+void MouthMaterial::Begin(const MaterialFrame& frame) {
+  opening_ = frame.head.mouth().Measure(frame.vertices);
+  if (!opening_) return;
+  const glm::mat3 turn(frame.view.figure_to_world);
+  const glm::mat3 to_world =
+      turn / glm::length(turn[0]) * glm::transpose(glm::mat3(opening_->to_mouth));
+  const auto number = [&](const char* of_photo, const char* of_paint) {
+    return appearance_.Number(frame.head.photo() ? of_photo : of_paint);
+  };
+  const glm::vec3 key =
+      glm::mix(glm::transpose(to_world) * frame.lamps.directions[0],
+               appearance_.Color("mouth_key_from"), number("photo_mouth_ahead", "mouth_key_ahead"));
+  program_.Use();
+  program_.Set("to_mouth", opening_->to_mouth);
+  program_.Set("mouth_to_world", to_world);
+  program_.Set("lips", opening_->lips);
+  program_.Set("mouth_edges", glm::vec4(opening_->corners, opening_->teeth));
+  program_.Set("front_gain", number("photo_mouth_front", "mouth_front"));
+  program_.Set("deep_gain", number("photo_mouth_deep", "mouth_deep"));
+  program_.Set("mouth_key", glm::normalize(key));
+}
+
+}  // namespace fsm

@@ -1,0 +1,57 @@
+#include "fsm/render/photo_material.h"
+
+#include <glm/common.hpp>
+
+#include "embedded/photo_fragment.h"
+#include "embedded/photo_vertex.h"
+
+namespace fsm {
+
+bool PhotoMaterial::Draws(Material material, const HeadBuffers& head) {
+  return material == Material::kPhoto || material == Material::kShutLash ||
+         (head.photo() && (material == Material::kSkin || material == Material::kLip));
+}
+
+void PhotoMaterial::Prepare(const HeadBuffers& head) {
+  for (const DrawnPart& part : head.parts()) {
+    auto& program = programs_[static_cast<std::size_t>(part.detail)];
+    if (program || !Draws(part.part.material, head)) continue;
+    const std::string constants = ShaderConstant("kCreased", part.detail != SkinDetail::kPlain) +
+                                  ShaderConstant("kDetailed", part.detail == SkinDetail::kDetailed);
+    program.emplace(CompileLit(gl_, appearance_, "photo", embedded::photo_vertex(),
+                               embedded::photo_fragment(), constants));
+  }
+}
+
+void PhotoMaterial::Begin(const MaterialFrame& frame, const MouthMaterial& mouth) const {
+  for (const auto& program : programs_) {
+    if (!program) continue;
+    program->Use();
+    program->Set("crease_depths", frame.creases.InOrder());
+    program->Set("lids_shut", frame.vertices.lids_shut.InOrder());
+    program->Set("photo", 1);
+    program->Set("relief", 2);
+    program->Set("blends", HasSoftLayers(frame.head.topology()) ? 1.0F : 0.0F);
+    program->Set("brightness", frame.photo_brightness);
+    program->Set("rest_to_world", frame.rest_to_world);
+    program->Set("photo_light", frame.head.topology().portrait.light);
+    program->Set("lips_apart", glm::smoothstep(0.4F, 2.5F, mouth.gap_mm()));
+    program->Set("chin_y", frame.head.chin_y());
+    program->Set("chin_drop", mouth.jaw_drop_mm());
+  }
+}
+
+void PhotoMaterial::Use(const DrawnPart& part, const HeadBuffers& head, bool creased) const {
+  // Skin that does not crease in this frame is the photo and nothing else.
+  const bool plain = part.detail == SkinDetail::kCreased && !creased && programs_[0];
+  const GlProgram& program = *programs_[plain ? 0 : static_cast<std::size_t>(part.detail)];
+  const bool ragged = part.part.material == Material::kPhoto;
+  // Where the sheet goes on from the skin the skin is seen, however coarse the sheet.
+  constexpr float kYieldsMm = 5;
+  program.Use();
+  program.Set("lashes", part.part.material == Material::kShutLash ? 1.0F : 0.0F);
+  program.Set("ragged", ragged ? 1.0F : 0.0F);
+  program.Set("yields", ragged && HasSoftLayers(head.topology()) ? kYieldsMm : 0.0F);
+}
+
+}  // namespace fsm
