@@ -13,17 +13,13 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/bake/texture_bake.h"
 #include "face_fit/find/face/around_face.h"
 #include "face_fit/find/face/hand_points.h"
-#include "face_fit/find/face/occlusion_detector.h"
 #include "face_fit/find/face/upright.h"
-#include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/find/head/head_finder.h"
-#include "face_fit/fit/side_view.h"
+#include "face_fit/make_face.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
-#include "face_fit/report.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/original_config.h"
 #include "fsm/head/face_folder.h"
@@ -34,21 +30,17 @@
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Tells on stderr what is being done and how long each step took.
 class Progress {
  public:
   explicit Progress(bool quiet) : quiet_(quiet) {}
   void Say(const char* what) {
-    const auto now = Clock::now();
-    if (!quiet_) {
-      std::fprintf(stderr, "face_fit: %5.2f s  %s\n",
-                   std::chrono::duration<double>(now - start_).count(), what);
-    }
+    const std::chrono::duration<double> since = Clock::now() - start_;
+    if (!quiet_) std::fprintf(stderr, "face_fit: %5.2f s  %s\n", since.count(), what);
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
   bool quiet_;
   Clock::time_point start_ = Clock::now();
 };
@@ -74,23 +66,16 @@ void FindPointsOfHead(const Options& options) {
   std::cout << "face_fit: wrote " << path << "\n";
 }
 
-/// The face asked for, found by the networks; `faces`: how many there are.
-facefit::FoundFace FindFace(const Options& options, facefit::FaceNetworks& networks,
-                            const fsm::Image& photo, int& faces) {
-  const auto found = facefit::FindFaces(networks, photo);
+/// The face asked for, of those the networks found.
+facefit::FoundFace AskedFor(const Options& options, const std::vector<facefit::FoundFace>& faces) {
   const char* by_hand = "; --points FILE with a few points set by hand helps (docs/photo.md)";
-  if (found.empty()) {
+  if (faces.empty()) {
     throw std::runtime_error(
         "no face found in '" + options.photo +
         "': it should look into the camera, be lit and fill a tenth of the picture or more" +
         by_hand);
   }
-  faces = static_cast<int>(found.size());
-  if (options.face < 1 || options.face > faces) {
-    throw std::runtime_error("--face " + std::to_string(options.face) + ": there are " +
-                             std::to_string(faces) + ", counted from the largest");
-  }
-  const facefit::FoundFace& face = found[static_cast<std::size_t>(options.face - 1)];
+  facefit::FoundFace face = vm::OrThrow(facefit::ChooseFace(faces, options.face));
   if (face.certainty < facefit::kCertainFace) {
     throw std::runtime_error("what looked like a face in '" + options.photo +
                              "' has no eyes, nose and mouth that can be told apart" + by_hand);
@@ -126,24 +111,22 @@ OriginalFace ReadOriginal(const Options& options) {
   return face;
 }
 
-/// The further photos that help; of the others it is said why they do not.
-std::vector<facefit::SideView> LookFromTheSide(const Options& options,
-                                               facefit::FaceNetworks& networks,
-                                               const facefit::BaseHead& base,
-                                               const fsm::Image& front, facefit::Fit& fit) {
-  using namespace facefit;
-  if (options.views.size() > kMostSideViews) {
-    throw std::runtime_error("--view: at most " + std::to_string(kMostSideViews) + " are used");
+void TellLeftOut(const std::string& path, const std::string& why) {
+  std::cerr << "face_fit: notice: '" << path << "' is left out: " << why << "\n";
+}
+
+/// The further photos that can be read.
+facefit::SidePhotos ReadSidePhotos(const Options& options, facefit::FaceNetworks& networks) {
+  if (options.views.size() > facefit::kMostSidePhotos) {
+    throw std::runtime_error("--view: at most " + std::to_string(facefit::kMostSidePhotos) +
+                             " are used");
   }
-  std::vector<SideView> sides;
+  facefit::SidePhotos sides;
   for (const std::string& path : options.views) {
-    const auto photo = ReadUpright(networks, path);
-    auto side = photo ? LookFromSide(networks, base, front, *photo, fit)
-                      : vm::Result<SideView>(std::unexpected(photo.error()));
-    if (side) {
+    if (auto side = facefit::ReadSidePhoto(networks, path)) {
       sides.push_back(std::move(*side));
     } else {
-      std::cerr << "face_fit: notice: '" << path << "' is left out: " << side.error().text << "\n";
+      TellLeftOut(path, side.error().text);
     }
   }
   return sides;
@@ -185,35 +168,32 @@ void Run(const Options& options) {
   const bool by_hand = original || !options.points.empty();
   FaceNetworks networks = vm::OrThrow(FaceNetworks::Load(options.networks));
   progress.Say("photo and networks read");
-  if (const int orientation = by_hand ? 1 : UprightOrientation(networks, photo); orientation != 1) {
-    photo = Turned(photo, orientation);
-    finest = Turned(finest, orientation);
+  UprightFaces seen;
+  if (!by_hand) seen = FindUprightFaces(networks, photo);
+  if (seen.orientation != 1) {
+    finest = Turned(finest, seen.orientation);
     std::cerr << "face_fit: notice: the photo lies on its side or head, whatever its file says; it "
                  "was set upright\n";
   }
+  progress.Say("faces and their points found");
   BaseHead base = vm::OrThrow(BaseHead::See(networks, options.base));
   if (units) base.MoveBy(*units);
   progress.Say("head looked at");
-  int faces = 1;
   const FoundFace found = original  ? FaceFromHand(base, original->points)
                           : by_hand ? FaceFromPoints(options, base)
-                                    : FindFace(options, networks, photo, faces);
-  progress.Say("face and its points found");
-  const auto [near, face] = original ? AroundFace{photo, found} : CutToFace(photo, finest, found);
-  Fit fit = FitFace(base, face, &near);
-  progress.Say("head fitted");
-  const auto sides = LookFromTheSide(options, networks, base, near, fit);
-  if (!sides.empty()) progress.Say("seen from the side, too");
-  const Cutout figure = CutOut(near, FindPerson(networks, near, &face));
+                                    : AskedFor(options, seen.faces);
+  auto [near, face] = original ? FaceCrop{photo, found} : CropToFace(photo, finest, found);
+  const FrontPhoto front = LookAtFront(networks, base, std::move(near), &face,
+                                       by_hand ? 1 : static_cast<int>(seen.faces.size()));
   progress.Say("figure cut out");
-  TextureBake bake = BakeTexture(base, face, fit, near, figure, sides);
-  fsm::PhotoHead& head = bake.head;
-  if (!options.glasses.empty()) head.glasses = options.glasses == "yes";
-  progress.Say("photo put on");
-  const std::string report =
-      PlaceInPhoto(found, photo) +
-      Report(face, fit, near, bake, faces, DetectOcclusion(networks, base, face, near));
-  const std::string place = vm::OrThrow(fsm::WriteFace(head, report, folder, options.name));
+  std::optional<bool> glasses;
+  if (!options.glasses.empty()) glasses = options.glasses == "yes";
+  const MadeFace made = MakeFace(base, front, face, &networks, ReadSidePhotos(options, networks),
+                                 glasses, [&](const char* step) { progress.Say(step); });
+  for (const auto& [path, why] : made.left_out) TellLeftOut(path, why);
+  const std::string report = PlaceInPhoto(found, photo) + made.report;
+  const std::string place =
+      vm::OrThrow(fsm::WriteFace(made.bake.head, report, folder, options.name));
   progress.Say("written");
   std::cout << report << "face_fit: wrote " << place << "\n";
 }

@@ -1,9 +1,9 @@
 #include "face_fit/report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -63,7 +63,7 @@ std::string WarnOfTurn(glm::vec3 turn) {
 
 std::string WarnOfEyes(const SeenIrises& irises) {
   const auto hidden = std::ranges::count_if(
-      irises.rings.InOrder(), [](const IrisRing& ring) { return ring.contrast < kClearRing; });
+      irises.circles.InOrder(), [](const IrisCircle& ring) { return ring.contrast < kClearIris; });
   if (hidden == 2) {
     return "warning: no iris is seen: the eyes are shut, look down or lie in the shade; they are "
            "drawn, and their lids keep what the photo shows on them\n";
@@ -106,37 +106,31 @@ std::string WarnOfCompletion(const Completed& completed) {
 
 std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
                    const TextureBake& bake, int faces, const Occlusion& occlusion) {
-  std::string out;
-  std::array<char, 200> line;
-  const auto put = [&](const char* format, auto... values) {
-    std::snprintf(line.data(), line.size(), format, values...);
-    out += line.data();
-  };
   const glm::vec3 turn = glm::degrees(fit.head.pose.turn);
   const float eyes = glm::distance(face.At(point::kEyeOuterRight), face.At(point::kEyeOuterLeft));
   const Expression& shown = fit.head.expression;
+  const auto& irises = fit.irises.circles;
   const float side = SideLight(face, photo);
-  const float sharp = Sharpness(face, photo);
-  const auto d = [](float v) { return static_cast<double>(v); };
-  put("photo       %d x %d pixels, eyes %.0f pixels apart at their outer corners\n", photo.width,
-      photo.height, d(eyes));
-  put("faces       %d\n", faces);
-  put("certainty   %.3f\n", d(face.certainty));
-  put("pose        nod %.1f, turn %.1f, tilt %.1f degrees\n", d(turn.x), d(turn.y), d(turn.z));
-  put("expression  smile %.2f, jaw %.2f, lips parted %.2f\n", d(shown.smile), d(shown.jaw),
-      d(shown.parted));
-  put("irises      %.2f and %.2f clear (below %.2f not seen)\n", d(fit.irises.rings.right.contrast),
-      d(fit.irises.rings.left.contrast), d(kClearRing));
-  put("residual    %.2f mm\n", d(fit.residual_mm));
-  put("coverage    %.0f %% of the face's map\n", d(100 * bake.coverage));
-  put("glasses     %s\n", bake.head.glasses ? "yes" : "no");
+  std::string out = fmt::format(
+      "photo       {} x {} pixels, eyes {:.0f} pixels apart at their outer corners\n"
+      "faces       {}\n"
+      "certainty   {:.3f}\n"
+      "pose        nod {:.1f}, turn {:.1f}, tilt {:.1f} degrees\n"
+      "expression  smile {:.2f}, jaw {:.2f}, lips parted {:.2f}\n"
+      "irises      {:.2f} and {:.2f} clear (below {:.2f} not seen)\n"
+      "residual    {:.2f} mm\n"
+      "coverage    {:.0f} % of the face's map\n"
+      "glasses     {}\n",
+      photo.width, photo.height, eyes, faces, face.certainty, turn.x, turn.y, turn.z, shown.smile,
+      shown.jaw, shown.parted, irises.right.contrast, irises.left.contrast, kClearIris,
+      fit.residual_mm, 100 * bake.coverage, bake.head.glasses ? "yes" : "no");
   if (!occlusion.where.empty()) {
-    put("covered     %.2f (from 1 on something is before the face), most at %s\n",
-        d(occlusion.measure), occlusion.where.c_str());
+    out += fmt::format("covered     {:.2f} (from 1 on something is before the face), most at {}\n",
+                       occlusion.measure, occlusion.where);
   }
   if (eyes < kSmallEyes) out += "warning: the face is small; details will be soft\n";
   out += WarnOfTurn(turn) + WarnOfEyes(fit.irises);
-  if (sharp < kBlurred) out += "warning: the photo is blurred\n";
+  if (Sharpness(face, photo) < kBlurred) out += "warning: the photo is blurred\n";
   if (side > kLitAside || side < kShadedAside)
     out += "warning: strong light from one side stays in the skin\n";
   if (shown.smile > kPosing || shown.jaw + shown.parted > kPosing) {

@@ -44,7 +44,7 @@ void Build(Ui& ui) {
   ImGui::SameLine();
   const std::size_t views = ui.editor.side_photos().size();
   const std::string label = fmt::format("From the side: {} ...###side", views);
-  if (Button(ui, label.c_str(), can && views < facefit::kMostSideViews,
+  if (Button(ui, label.c_str(), can && views < facefit::kMostSidePhotos,
              "Photos of the same person turned by 20 to 60 degrees: the face that is built gets "
              "their depth and their skin")) {
     Browse(ui, "A photo from the side", FileKind::kPhoto, ui.photo_path,

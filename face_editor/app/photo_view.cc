@@ -53,8 +53,7 @@ void FitView(Ui& ui) {
 void DrawMesh(Ui& ui, ImDrawList& list) {
   const auto& built = ui.stage.built();
   if (!built || !ui.view.mesh) return;
-  if (ui.view.lines_of != built)
-    ui.view.lines = MeshLines(*ui.editor.work()->base, built->fit.head);
+  if (ui.view.lines_of != built) ui.view.lines = MeshLines(built->made.fit.head);
   ui.view.lines_of = built;
   const ImDrawListFlags flags = list.Flags;
   list.Flags &= ~ImDrawListFlags_AntiAliasedLines;
@@ -173,7 +172,7 @@ void DrawPhoto(Ui& ui) {
     return;
   }
   if (view.shown != work) {
-    view.texture = ui.window.Upload(view.texture, work->photo);
+    view.texture = ui.window.Upload(view.texture, work->front.photo);
     view.shown = work;
     view.zoom = 0;
   }
@@ -181,7 +180,7 @@ void DrawPhoto(Ui& ui) {
   list.PushClipRect(view.low, view.high, true);
   list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(view.texture)),
                 Im(view.ToWindow({0, 0})),
-                Im(view.ToWindow({work->photo.width, work->photo.height})));
+                Im(view.ToWindow({work->front.photo.width, work->front.photo.height})));
   ImGui::InvisibleButton("photo", size);
   Gesture& gesture = view.gesture;
   const bool over = ImGui::IsItemHovered() || gesture.kind != Gesture::Kind::kNone;

@@ -124,8 +124,8 @@ void Stage::Draw(const fsm::Viewport& pane, const fsm::FaceState& state) {
   renderer_->Draw(*head_, vertices_, turned, scene);
 }
 
-std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::BaseHead& base,
-                                                       const facefit::FittedHead& fitted) {
+std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::FittedHead& fitted) {
+  const facefit::BaseHead& base = *fitted.base;
   const auto& topology = base.head->topology();
   std::vector<glm::vec3> camera;
   for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(fitted.pose.ToCamera(p));

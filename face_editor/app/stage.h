@@ -71,7 +71,6 @@ class Stage {
 };
 
 /// The lines of the fitted mesh over the photo, in its pixels: what faces the viewer.
-std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::BaseHead& base,
-                                                       const facefit::FittedHead& fitted);
+std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::FittedHead& fitted);
 
 }  // namespace editor

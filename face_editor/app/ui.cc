@@ -215,8 +215,8 @@ vm::Result<void> OpenFile(Ui& ui, const std::string& path, const std::string& fa
   ui.page = Page::kPoints;
   const auto& work = ui.editor.work();
   ui.Tell(!work->notice.empty() ? work->notice
-          : work->faces > 1
-              ? fmt::format("{} faces; the largest was taken", work->faces)
+          : work->front.faces > 1
+              ? fmt::format("{} faces; the largest was taken", work->front.faces)
               : "Opened " + path + ": drag points where they miss, then build the face");
   return {};
 }

@@ -99,17 +99,22 @@ vm::Result<std::string> Editor::BuildFace(const std::string& name, const std::st
   if (!work_->base) return Fail(Errc::kUnavailable, work_->notice);
   const auto built = editor::BuildFace(*work_, state().points, sight_.get(), sides_);
   if (!built) return std::unexpected(built.error());
-  auto place = fsm::WriteFace((*built)->photo_head, (*built)->report, folder, name);
-  if (place && !(*built)->left_out.empty()) *place += "; left out: " + (*built)->left_out;
+  const facefit::MadeFace& made = (*built)->made;
+  auto place = fsm::WriteFace(made.bake.head, made.report, folder, name);
+  if (!place) return place;
+  for (std::size_t i = 0; i < made.left_out.size(); ++i) {
+    *place +=
+        (i == 0 ? "; left out: " : "; ") + made.left_out[i].path + ": " + made.left_out[i].why;
+  }
   return place;
 }
 
 vm::Result<void> Editor::AddSidePhoto(const std::string& path) {
   if (!work_) return Fail(Errc::kBadValue, "open the photo from the front first");
   if (!work_->base || !sight_) return Fail(Errc::kUnavailable, work_->notice);
-  if (sides_.size() >= facefit::kMostSideViews) {
+  if (sides_.size() >= facefit::kMostSidePhotos) {
     return Fail(Errc::kLimit,
-                fmt::format("at most {} photos from the side are used", facefit::kMostSideViews));
+                fmt::format("at most {} photos from the side are used", facefit::kMostSidePhotos));
   }
   auto side = OpenSidePhoto(*sight_, *work_, state().points, path);
   if (!side) return std::unexpected(side.error());

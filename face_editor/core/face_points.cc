@@ -46,10 +46,11 @@ std::vector<PointGroup> MakeGroups() {
           {"right_brow_line", "Right brow", Joined({kRightBrow})},
           {"left_brow_line", "Left brow", Joined({kLeftBrow})},
           {"nose", "Nose", Joined({kNose})},
-          {"upper_lip", "Upper lip", Joined({UpperOuterLip(), UpperInnerLip()})},
-          {"lower_lip", "Lower lip", Joined({LowerOuterLip(), LowerInnerLip()})},
+          {"upper_lip", "Upper lip", Joined({point::kUpperOuterLip, point::kUpperInnerLip})},
+          {"lower_lip", "Lower lip", Joined({point::kLowerOuterLip, point::kLowerInnerLip})},
           {"mouth", "Mouth",
-           Joined({UpperOuterLip(), UpperInnerLip(), LowerOuterLip(), LowerInnerLip(), kCorners})},
+           Joined({point::kUpperOuterLip, point::kUpperInnerLip, point::kLowerOuterLip,
+                   point::kLowerInnerLip, kCorners})},
           {"jaw", "Jaw and chin", Joined({kJaw})},
           {"face", "Whole face", all}};
 }

@@ -7,12 +7,7 @@
 #include "face_editor/core/table_writer.h"
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/find/face/upright.h"
-#include "face_fit/find/figure/figure_finder.h"
-#include "face_fit/fit/side_fit.h"
-#include "face_fit/fit/side_view.h"
-#include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
-#include "face_fit/report.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/head/make_head.h"
@@ -70,63 +65,51 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
   if (!photo) return std::unexpected(photo.error());
   auto work = std::make_shared<PhotoWork>();
   work->path = path;
-  work->photo = std::move(*photo);
-  const auto by_hand = [&] {
-    work->found = PlainPoints(work->photo.width, work->photo.height);
-    if (work->base) work->found = AllPoints(*work, work->found);
-  };
+  work->found = PlainPoints(photo->width, photo->height);
   if (!sight) {
+    work->front.photo = std::move(*photo);
     work->mirror = MirrorByName();
     work->notice =
         "The networks that find faces are not installed (scripts/face_networks.sh): "
         "points can be set and saved, but no face be made of them";
-    by_hand();
     return work;
   }
   try {
-    if (const int orientation = facefit::UprightOrientation(sight->networks, work->photo);
-        orientation != 1) {
-      work->photo = facefit::Turned(work->photo, orientation);
-      work->notice = "The photo was lying; it was set upright";
-    }
+    const facefit::UprightFaces seen = facefit::FindUprightFaces(sight->networks, *photo);
+    if (seen.orientation != 1) work->notice = "The photo was lying; it was set upright";
     work->base = sight->base;
     work->mirror = sight->mirror;
-    const auto faces = facefit::FindFaces(sight->networks, work->photo);
-    work->faces = static_cast<int>(faces.size());
-    if (face < 1 || (face > work->faces && face != 1)) {
-      return vm::Fail(vm::Errc::kBadValue, "face " + std::to_string(face) + ": there are " +
-                                               std::to_string(work->faces) +
-                                               ", counted from the largest");
-    }
-    if (faces.empty()) {
+    std::optional<facefit::FoundFace> found;
+    if (seen.faces.empty() && face == 1) {
       work->notice = "No face was found: drag the points to where eyes, nose, mouth and chin are";
-      by_hand();
+      work->found = AllPoints(*work, PlainPoints(photo->width, photo->height));
     } else {
-      const facefit::FoundFace& found = faces[static_cast<std::size_t>(face - 1)];
-      work->found = PointsOf(found);
-      work->cover = facefit::DetectOcclusion(sight->networks, *work->base, found, work->photo);
+      auto chosen = facefit::ChooseFace(seen.faces, face);
+      if (!chosen) return std::unexpected(chosen.error());
+      found = std::move(*chosen);
+      work->found = PointsOf(*found);
     }
-    const facefit::FoundFace seen = FoundFrom(work->found);
-    work->figure = facefit::CutOut(
-        work->photo,
-        facefit::FindPerson(sight->networks, work->photo, faces.empty() ? nullptr : &seen));
+    work->front =
+        facefit::LookAtFront(sight->networks, *work->base, std::move(*photo),
+                             found ? &*found : nullptr, static_cast<int>(seen.faces.size()));
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue, path + ": " + error.what());
   }
   return work;
 }
 
-vm::Result<std::shared_ptr<const SidePhoto>> OpenSidePhoto(FaceSight& sight, const PhotoWork& work,
-                                                           const PointMap& points,
-                                                           const std::string& path) {
+vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& sight,
+                                                                    const PhotoWork& work,
+                                                                    const PointMap& points,
+                                                                    const std::string& path) {
   try {
-    auto photo = facefit::ReadUpright(sight.networks, path);
-    if (!photo) return std::unexpected(photo.error());
-    const auto fit = facefit::FitFace(*work.base, FoundFrom(points), &work.photo);
-    if (auto placed = facefit::FitSideView(sight.networks, *work.base, fit.head, *photo); !placed) {
+    auto side = facefit::ReadSidePhoto(sight.networks, path);
+    if (!side) return side;
+    const auto fit = facefit::FitFace(*work.base, FoundFrom(points), &work.front.photo);
+    if (auto placed = facefit::FitSideView(sight.networks, fit.head, **side); !placed) {
       return vm::Fail(placed.error().code, path + ": " + placed.error().text);
     }
-    return std::make_shared<const SidePhoto>(SidePhoto{path, std::move(*photo)});
+    return side;
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue, path + ": " + error.what());
   }
@@ -137,24 +120,10 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
                                                        const SidePhotos& sides) {
   try {
     auto built = std::make_shared<BuiltFace>();
-    const facefit::FoundFace face = FoundFrom(points);
-    built->fit = facefit::FitFace(*work.base, face, &work.photo);
-    std::vector<facefit::SideView> seen;
-    for (const auto& side : sides) {
-      auto view =
-          facefit::LookFromSide(sight->networks, *work.base, work.photo, side->photo, built->fit);
-      if (view) {
-        seen.push_back(std::move(*view));
-      } else {
-        built->left_out +=
-            (built->left_out.empty() ? "" : "; ") + side->path + ": " + view.error().text;
-      }
-    }
-    facefit::TextureBake bake =
-        facefit::BakeTexture(*work.base, face, built->fit, work.photo, *work.figure, seen);
-    built->report = facefit::Report(face, built->fit, work.photo, bake, work.faces, work.cover);
-    built->photo_head = std::move(bake.head);
-    built->head = fsm::MakeHead(built->photo_head);
+    built->base = work.base;
+    built->made = facefit::MakeFace(*work.base, work.front, FoundFrom(points),
+                                    sight ? &sight->networks : nullptr, sides);
+    built->head = fsm::MakeHead(built->made.bake.head);
     return built;
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue,

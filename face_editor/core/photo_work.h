@@ -6,11 +6,7 @@
 #include <vector>
 
 #include "face_editor/core/face_points.h"
-#include "face_fit/bake/texture_bake.h"
-#include "face_fit/find/face/occlusion_detector.h"
-#include "face_fit/find/network/face_networks.h"
-#include "face_fit/fit/fit.h"
-#include "fsm/head/photo_head.h"
+#include "face_fit/make_face.h"
 
 namespace editor {
 
@@ -29,32 +25,26 @@ vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder,
 /// A photo and what was found in it. Immutable; thread: any.
 struct PhotoWork {
   std::string path;
-  fsm::Image photo;    ///< upright, at most facefit::kWorkingSide
-  int faces = 0;       ///< found in it
+  /// Upright, at most facefit::kWorkingSide. Without the networks it is only the photo.
+  facefit::FrontPhoto front;
   PointMap found;      ///< of the face chosen, or as they may be set by hand
   std::string notice;  ///< what the user should know, a sentence; may be empty
   Mirror mirror;
   // Not there without the networks: then points can be set, but no face be made of them.
   std::shared_ptr<const facefit::BaseHead> base;
-  std::optional<facefit::Cutout> figure;
-  facefit::Occlusion cover;  ///< of the face that was found
 };
 /// `sight` may be nullptr; `face` counts from 1, the largest. Errors: as facefit::ReadPhoto;
 /// kBadValue if there are fewer faces.
 vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const std::string& path,
                                                        int face);
 
-/// Another photo of the person, from the side. Immutable; thread: any.
-struct SidePhoto {
-  std::string path;
-  fsm::Image photo;  ///< upright
-};
-using SidePhotos = std::vector<std::shared_ptr<const SidePhoto>>;
-/// Such a photo, if it shows the person whose face these points make. Error: kBadValue "PATH: why
-/// not". REQUIRES: work.base
-vm::Result<std::shared_ptr<const SidePhoto>> OpenSidePhoto(FaceSight& sight, const PhotoWork& work,
-                                                           const PointMap& points,
-                                                           const std::string& path);
+using facefit::SidePhotos;
+/// A photo from the side, if it shows the person whose face these points make. Error: kBadValue
+/// "PATH: why not". REQUIRES: work.base
+vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& sight,
+                                                                    const PhotoWork& work,
+                                                                    const PointMap& points,
+                                                                    const std::string& path);
 
 /// All 468 points of a face of which some are known. REQUIRES: work.base, eye corners, tip of the
 /// nose, mouth corners and chin.
@@ -62,11 +52,9 @@ PointMap AllPoints(const PhotoWork& work, const PointMap& known);
 
 /// The head of the person, fitted to points on the photo.
 struct BuiltFace {
-  facefit::Fit fit;
-  fsm::PhotoHead photo_head;
-  std::string report;
+  std::shared_ptr<const facefit::BaseHead> base;  ///< the fit refers to it
+  facefit::MadeFace made;
   std::shared_ptr<const fsm::Head> head;
-  std::string left_out;  ///< photos from the side that did not help, and why; may be empty
 };
 /// Takes most of a second, and about one more for each photo from the side; for those `sight` is
 /// looked with, which only one thread may do. Error: kBadValue if the points do not make a face.

@@ -8,22 +8,34 @@
 #include <utility>
 
 #include "face_fit/bake/grain.h"
-#include "face_fit/bake/skin_rasterizer.h"
+#include "face_fit/bake/skin_surface.h"
 #include "face_fit/bake/texture_bake.h"
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/picture/filters.h"
-#include "face_fit/picture/inpaint.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
 
+// Numbers of the sheet that are not to be tuned by eye; the others are in tables/appearance.txt.
+constexpr float kUsualDepth = 20;   // of what lies beside the face, camera's frame, millimetres
+constexpr float kMostDepth = 60;    // of the sheet: no point of it stands before the face
+constexpr float kLeastCell = 4.5F;  // millimetres between its points
+constexpr float kMostPoints = 14000;
+constexpr int kPoissonSteps = 400;
+constexpr float kShownLeast = 0.12F;  // opacity below which a point lies outside the figure
+constexpr float kDeepInside = 0.95F;  // of what is around: the skin there keeps its whole distance
+constexpr float kWholeWithin = 0.999F;  // of what is around: there the sheet is never seen
+constexpr float kToShoulders = 70;      // millimetres below the chin
+constexpr float kBehindOpening = 90;    // millimetres; farther back there is the hair at the nape
+// Over how much of what is around an edge fades.
+constexpr glm::vec2 kFadeMotion{0, 0.3F}, kFadeDepth{0, 0.25F};
+
 /// The chin of the fitted head, and what lies about it, in the head's frame.
 class Chin {
  public:
-  Chin(const BaseHead& base, const FittedHead& fitted)
-      : at_(base.points[point::kChin].On(fitted.posed_vertices)) {}
+  explicit Chin(const FittedHead& fitted) : at_(fitted.At(point::kChin)) {}
   glm::vec3 at() const { return at_; }
   /// Below it the neck of the photo takes over from the skin.
   float SkinBottom() const { return at_.y - PhotoLook()("skin_below_chin"); }
@@ -41,14 +53,14 @@ class Chin {
 /// as a skin of soap would span it, but a little rounder. By Gauss and Seidel, not to the end.
 void SolvePoisson(const FloatImage& fixed, FloatImage& depth) {
   const float round = PhotoLook()("sheet_round");
-  for (int step = 0; step < 400; ++step) {
+  for (int step = 0; step < kPoissonSteps; ++step) {
     for (int y = 0; y < depth.height; ++y) {
       for (int x = 0; x < depth.width; ++x) {
         const std::size_t i = depth.Index(x, y);
         if (fixed.at[i] > 0) continue;
         const auto next = [&](int dx, int dy) {
-          return depth.at[depth.Index(std::clamp(x + dx, 0, depth.width - 1),
-                                      std::clamp(y + dy, 0, depth.height - 1))];
+          return depth(std::clamp(x + dx, 0, depth.width - 1),
+                       std::clamp(y + dy, 0, depth.height - 1));
         };
         depth.at[i] = 0.25F * (next(1, 0) + next(-1, 0) + next(0, 1) + next(0, -1)) + round;
       }
@@ -57,17 +69,18 @@ void SolvePoisson(const FloatImage& fixed, FloatImage& depth) {
 }
 
 /// The mean of what is covered around each point, ever less beyond its edge.
-void Spread(const FloatImage& covered, int reach, FloatImage& field) {
+VectorImage Spread(const VectorImage& motion, const FloatImage& covered, int reach) {
   const FloatImage share = Blurred(covered, reach);
-  field = Blurred(field, reach);
-  for (std::size_t i = 0; i < field.at.size(); ++i) {
-    field.at[i] *= glm::smoothstep(0.0F, 0.3F, share.at[i]) / std::max(share.at[i], 1e-3F);
+  VectorImage out = Blurred(motion, reach);
+  for (std::size_t i = 0; i < out.at.size(); ++i) {
+    out.at[i] *= Ramp(kFadeMotion, share.at[i]) / std::max(share.at[i], 1e-3F);
   }
+  return out;
 }
 
 /// How the skin moves from the photo's expression to rest, at each vertex of the base head.
-std::vector<glm::vec3> MotionToRest(const BaseHead& base, const FittedHead& fitted) {
-  const std::vector<glm::vec3> rest = SkinWith(base, fitted, {});
+std::vector<glm::vec3> MotionToRest(const FittedHead& fitted) {
+  const std::vector<glm::vec3> rest = SkinWith(fitted, {});
   std::vector<glm::vec3> motion(fitted.posed_vertices.size(), glm::vec3(0));
   for (std::size_t i = 0; i < std::min(rest.size(), motion.size()); ++i) {
     motion[i] = rest[i] - fitted.posed_vertices[i];
@@ -75,24 +88,30 @@ std::vector<glm::vec3> MotionToRest(const BaseHead& base, const FittedHead& fitt
   return motion;
 }
 
+/// What moves each vertex, at the places of a surface; 0 where nothing is.
+VectorImage MotionOn(const VisibleSurface& surface, const std::vector<glm::vec3>& motion) {
+  return VectorImage::From(surface.grid().columns, surface.grid().rows, [&](int x, int y) {
+    return surface.Triangle(x, y) ? surface.Place(x, y).On(motion) : glm::vec3(0);
+  });
+}
+
 /// The eyes and the mouth, which open: no part of the sheet may lie behind them. Of a turned head
 /// one eye and one corner of the mouth are near the edge of what the photo shows, where the sheet
 /// goes on from just under the skin.
 class OpeningsOfHead {
  public:
-  OpeningsOfHead(const BaseHead& base, const FittedHead& fitted) {
-    const auto at = [&](PointIndex i) { return base.points[i].On(fitted.posed_vertices); };
+  explicit OpeningsOfHead(const FittedHead& fitted) {
     using namespace point;
     constexpr std::array<std::pair<PointIndex, PointIndex>, 2> kEyes = {
         std::pair(kEyeOuterRight, kEyeInnerRight), std::pair(kEyeInnerLeft, kEyeOuterLeft)};
     const glm::vec2 beyond = PhotoLook().Pair("opening_beyond_corner");
     const glm::vec2 mouth = PhotoLook().Pair("opening_mouth");
     for (std::size_t i = 0; i < kEyes.size(); ++i) {
-      const glm::vec3 right = at(kEyes[i].first), left = at(kEyes[i].second);
+      const glm::vec3 right = fitted.At(kEyes[i].first), left = fitted.At(kEyes[i].second);
       const float half = 0.5F * std::abs(left.x - right.x) + beyond.x;
       ovals_[i] = {0.5F * (left + right), half, half, half};
     }
-    const glm::vec3 right = at(kInnerMouthRight), left = at(kInnerMouthLeft);
+    const glm::vec3 right = fitted.At(kInnerMouthRight), left = fitted.At(kInnerMouthLeft);
     ovals_[2] = {0.5F * (left + right), 0.5F * std::abs(left.x - right.x) + beyond.y, mouth.x,
                  mouth.y};
   }
@@ -108,9 +127,7 @@ class OpeningsOfHead {
     float half = 1, above = 1, below = 1;
   };
   static bool Behind(const Oval& oval, glm::vec3 p) {
-    // Further back there is the hair at the nape.
-    constexpr float kBehind = 90;
-    if (p.z < oval.middle.z - kBehind) return false;
+    if (p.z < oval.middle.z - kBehindOpening) return false;
     const glm::vec2 off = glm::vec2(p - oval.middle);
     const glm::vec2 part = off / glm::vec2(oval.half, off.y > 0 ? oval.above : oval.below);
     return glm::dot(part, part) < 1;
@@ -119,8 +136,7 @@ class OpeningsOfHead {
 };
 
 /// The grid of the sheet, over the whole figure.
-PhotoGrid GridOver(const Cutout& figure, float pixels_per_mm) {
-  constexpr float kLeastCell = 4.5F, kMostPoints = 14000;  // millimetres; count
+SampleGrid GridOver(const Cutout& figure, float pixels_per_mm) {
   const glm::vec2 extent(figure.colours.width, figure.colours.height);
   const float cell =
       std::max(kLeastCell * pixels_per_mm, std::sqrt(extent.x * extent.y / kMostPoints));
@@ -137,7 +153,7 @@ struct GridSkin {
         inner(covered),
         within(covered) {
     for (std::size_t i = 0; i < depth.at.size(); ++i) {
-      covered.at[i] = depth.at[i] > SkinRaster::kNone ? 1.0F : 0.0F;
+      covered.at[i] = depth.at[i] > VisibleSurface::kNothing ? 1.0F : 0.0F;
     }
     within = Blurred(covered, rim);
     for (std::size_t i = 0; i < depth.at.size(); ++i) {
@@ -156,7 +172,7 @@ struct GridSkin {
 
 /// Depth of the sheet, millimetres towards the camera: just under the skin, from there gently back
 /// to the outline. `shown`: the figure's opacity, 0..1.
-FloatImage SheetDepth(const FittedHead& fitted, const PhotoGrid& grid, const Chin& chin,
+FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Chin& chin,
                       const GridSkin& skin, const FloatImage& shown) {
   const fsm::NumberTable& look = PhotoLook();
   const glm::vec2 under_skin = look.Pair("sheet_under_skin");
@@ -169,23 +185,24 @@ FloatImage SheetDepth(const FittedHead& fitted, const PhotoGrid& grid, const Chi
   for (int y = 0; y < grid.rows; ++y) {
     for (int x = 0; x < grid.columns; ++x) {
       const std::size_t i = depth.Index(x, y);
-      const glm::vec3 about = fitted.pose.FromCamera(fitted.pose.Unproject(grid.Pixel(x, y), 20));
+      const glm::vec3 about = fitted.pose.PlaceAt(grid.Point(x, y), kUsualDepth);
       if (skin.inner.at[i] > 0) {
         fixed.at[i] = 1;
         // At the skin's edge the sheet goes on from it, further in it keeps out of its way.
-        const float inward = glm::smoothstep(GridSkin::kEdge, 0.95F, skin.within.at[i]);
+        const float inward = glm::smoothstep(GridSkin::kEdge, kDeepInside, skin.within.at[i]);
         const float under = skin.depth.at[i] - glm::mix(under_skin.x, under_skin.y, inward);
         // Behind the lower face lies the neck; the jaw has room to open.
         depth.at[i] = glm::mix(under, std::min(under, before_neck.x), chin.BeforeNeck(about)) -
                       before_neck.y * chin.Below(about);
-      } else if (skin.covered.at[i] <= 0 && shown.at[i] < 0.12F) {
+      } else if (skin.covered.at[i] <= 0 && shown.at[i] < kShownLeast) {
         // Somewhat beyond the outline, which would waver as the grid's points lie within it or not.
         // Hair stands before the ears, shoulders lie in their plane. Beside the cheek the sheet
         // stays near the cheek's depth, or its last pixels would be drawn long.
-        const float far = glm::mix(look("hair_depth"), look("shoulder_depth"),
-                                   glm::smoothstep(chin.at().y, chin.at().y - 70, about.y));
+        const float far =
+            glm::mix(look("hair_depth"), look("shoulder_depth"),
+                     glm::smoothstep(chin.at().y, chin.at().y - kToShoulders, about.y));
         const float near = std::max(beside.at[i] / std::max(share.at[i], 1e-3F) - turns, far);
-        depth.at[i] = glm::mix(far, near, glm::smoothstep(0.0F, 0.25F, share.at[i]));
+        depth.at[i] = glm::mix(far, near, Ramp(kFadeDepth, share.at[i]));
         fixed.at[i] = 1;
       }
     }
@@ -202,18 +219,17 @@ FloatImage SheetDepth(const FittedHead& fitted, const PhotoGrid& grid, const Chi
 
 /// Corners of the cells of the sheet that are drawn, counter-clockwise.
 using Quads = std::vector<std::array<std::uint32_t, 4>>;
-Quads DrawnCells(const BaseHead& base, const FittedHead& fitted, const PhotoGrid& grid,
-                 const FloatImage& shown, FloatImage covered, int rim, const FloatImage& depth) {
+Quads DrawnCells(const FittedHead& fitted, const SampleGrid& grid, const FloatImage& shown,
+                 FloatImage covered, int rim, const FloatImage& depth) {
   FillHoles(covered);
   // Nothing behind the middle of the face: there are the mouth and the eyes.
   const FloatImage within = Blurred(covered, rim);
-  const OpeningsOfHead openings(base, fitted);
+  const OpeningsOfHead openings(fitted);
   const auto about = [&](int x, int y) {
-    return fitted.pose.FromCamera(
-        fitted.pose.Unproject(grid.Pixel(x, y), depth.at[depth.Index(x, y)]));
+    return fitted.pose.PlaceAt(grid.Point(x, y), depth(x, y));
   };
   const auto hidden = [&](int x, int y) {
-    return within.at[depth.Index(x, y)] > 0.999F || openings.Behind(about(x, y));
+    return within.at[depth.Index(x, y)] > kWholeWithin || openings.Behind(about(x, y));
   };
   // In a photo of few pixels a cell may be wider than what is left between lips and cheek.
   const auto in_mouth = [&](int x, int y) {
@@ -221,9 +237,7 @@ Quads DrawnCells(const BaseHead& base, const FittedHead& fitted, const PhotoGrid
     for (int k = 0; k < 4; ++k) corners += openings.BehindMouth(about(x + k % 2, y + k / 2));
     return corners >= 2;
   };
-  const auto opacity = [&](int x, int y) {
-    return shown.at[shown.Index(std::max(x, 0), std::max(y, 0))];
-  };
+  const auto opacity = [&](int x, int y) { return shown(std::max(x, 0), std::max(y, 0)); };
   Quads quads;
   for (int y = 0; y + 1 < grid.rows; ++y) {
     for (int x = 0; x + 1 < grid.columns; ++x) {
@@ -244,13 +258,12 @@ Quads DrawnCells(const BaseHead& base, const FittedHead& fitted, const PhotoGrid
 
 }  // namespace
 
-fsm::Image BehindFace(const BaseHead& base, const FittedHead& fitted, const Cutout& figure) {
+fsm::Image BehindFace(const FittedHead& fitted, const Cutout& figure) {
   const int width = figure.colours.width, height = figure.colours.height;
-  const Chin chin(base, fitted);
-  FloatImage face = RasterizeSkin(base, fitted, fitted.pose, {glm::vec2(0.5F), 1, width, height},
-                                  chin.SkinBottom())
-                        .depth;
-  for (float& v : face.at) v = v > SkinRaster::kNone ? 1.0F : 0.0F;
+  const Chin chin(fitted);
+  FloatImage face =
+      SeenSkin(fitted, fitted.pose, {glm::vec2(0.5F), 1, width, height}, chin.SkinBottom()).depth();
+  for (float& v : face.at) v = v > VisibleSurface::kNothing ? 1.0F : 0.0F;
   FillHoles(face);
   // Somewhat smaller than the skin, whose edge shows the same as the sheet's there. Forehead and
   // temples are mostly hair already, so the hole begins at the brows. Before the neck it is as
@@ -263,7 +276,7 @@ fsm::Image BehindFace(const BaseHead& base, const FittedHead& fitted, const Cuto
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
-      const glm::vec3 about = fitted.pose.FromCamera(fitted.pose.Unproject(pixel, 20));
+      const glm::vec3 about = fitted.pose.PlaceAt(pixel, kUsualDepth);
       const std::size_t i = keep.Index(x, y);
       const float most = glm::mix(face_hole, neck_hole, chin.BeforeNeck(about));
       keep.at[i] = glm::smoothstep(most + 0.08F, most - 0.12F, soft.at[i]);
@@ -288,40 +301,35 @@ fsm::Image BehindFace(const BaseHead& base, const FittedHead& fitted, const Cuto
   return out;
 }
 
-Billboard MakeBillboard(const BaseHead& base, const FittedHead& fitted, const Cutout& figure) {
+Billboard MakeBillboard(const FittedHead& fitted, const Cutout& figure) {
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
-  const Chin chin(base, fitted);
-  const PhotoGrid grid = GridOver(figure, pixels_per_mm);
-  SkinRaster raster =
-      RasterizeSkin(base, fitted, fitted.pose, grid, chin.SkinBottom(), MotionToRest(base, fitted));
+  const Chin chin(fitted);
+  const SampleGrid grid = GridOver(figure, pixels_per_mm);
+  const VisibleSurface surface = SeenSkin(fitted, fitted.pose, grid, chin.SkinBottom());
   const GridSkin skin(
-      raster.depth,
-      std::max(static_cast<int>(std::lround(PhotoLook()("sheet_rim") * pixels_per_mm / grid.cell)),
+      surface.depth(),
+      std::max(static_cast<int>(std::lround(PhotoLook()("sheet_rim") * pixels_per_mm / grid.step)),
                1));
   // Hair and neck beside the skin go with it.
-  for (FloatImage& axis : raster.motion) Spread(skin.covered, skin.rim, axis);
-  FloatImage shown(grid.columns, grid.rows);
-  for (int y = 0; y < grid.rows; ++y) {
-    for (int x = 0; x < grid.columns; ++x) {
-      const glm::vec2 pixel = grid.Pixel(x, y);
-      shown.at[shown.Index(x, y)] = figure.opacity.Between(pixel.x, pixel.y);
-    }
-  }
+  const VectorImage motion =
+      Spread(MotionOn(surface, MotionToRest(fitted)), skin.covered, skin.rim);
+  const auto shown = FloatImage::From(grid.columns, grid.rows, [&](int x, int y) {
+    const glm::vec2 pixel = grid.Point(x, y);
+    return figure.opacity.Between(pixel.x, pixel.y);
+  });
   const FloatImage depth = SheetDepth(fitted, grid, chin, skin, Blurred(shown, 2));
   const glm::vec2 size(figure.colours.width, figure.colours.height);
   Billboard out{.sheet = {}, .triangles = {}, .skin_bottom_y = chin.SkinBottom()};
   for (int y = 0; y < grid.rows; ++y) {
     for (int x = 0; x < grid.columns; ++x) {
-      const glm::vec2 pixel = grid.Pixel(x, y);
+      const glm::vec2 pixel = grid.Point(x, y);
       const std::size_t i = depth.Index(x, y);
       const glm::vec2 at = glm::clamp(pixel / size, 0.5F / kMapSide, 1 - 0.5F / kMapSide);
-      const glm::vec3 by(raster.motion[0].at[i], raster.motion[1].at[i], raster.motion[2].at[i]);
-      const glm::vec3 place =
-          fitted.pose.FromCamera(fitted.pose.Unproject(pixel, std::min(depth.at[i], 60.0F)));
-      out.sheet.push_back({place + by, {0.5F + 0.5F * at.x, at.y}});
+      const glm::vec3 place = fitted.pose.PlaceAt(pixel, std::min(depth.at[i], kMostDepth));
+      out.sheet.push_back({place + motion.at[i], {0.5F + 0.5F * at.x, at.y}});
     }
   }
-  Quads quads = DrawnCells(base, fitted, grid, shown, skin.covered, skin.rim, depth);
+  Quads quads = DrawnCells(fitted, grid, shown, skin.covered, skin.rim, depth);
   // From back to front: soft edges show what lies behind them.
   std::ranges::sort(quads, {}, [&](const auto& quad) {
     return std::pair(out.sheet[quad[0]].position.z + out.sheet[quad[2]].position.z, quad);

@@ -12,7 +12,7 @@ namespace facefit {
 
 /// The figure's colours with the face taken out and the gap filled from around it: this shows
 /// beside the face when the head turns.
-fsm::Image BehindFace(const BaseHead& base, const FittedHead& fitted, const Cutout& figure);
+fsm::Image BehindFace(const FittedHead& fitted, const Cutout& figure);
 
 /// The mesh that carries hair, neck and clothes.
 struct Billboard {
@@ -21,6 +21,6 @@ struct Billboard {
   float skin_bottom_y;                   ///< PhotoHead::skin_bottom_y
 };
 /// A sheet just behind the face, from there gently back to the outline.
-Billboard MakeBillboard(const BaseHead& base, const FittedHead& fitted, const Cutout& figure);
+Billboard MakeBillboard(const FittedHead& fitted, const Cutout& figure);
 
 }  // namespace facefit

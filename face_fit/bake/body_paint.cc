@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <span>
 #include <utility>
 
 #include "face_fit/picture/resample.h"
@@ -15,18 +14,18 @@ namespace {
 constexpr int kSkin = 0, kCloth = 1;  // of Differences
 
 bool IsBody(const PhotoEdges::Seen& seen) {
-  return seen.stuff == Stuff::kSkin || seen.stuff == Stuff::kCloth;
+  return seen.kind == EdgeKind::kSkin || seen.kind == EdgeKind::kCloth;
 }
 
 /// The table's numbers that are asked for at each pixel.
 struct BodyLook {
   float shade = PhotoLook()("body_shade");
-  float neckline = PhotoLook()("body_neckline"), falls = PhotoLook()("edge_falls");
+  float neckline = PhotoLook()("body_neckline"), slope = PhotoLook()("edge_falls");
   float known = PhotoLook()("edge_stuff_reach"), doubt = PhotoLook()("edge_doubt");
   float round = PhotoLook()("shoulder_round");
   glm::vec2 spread[2] = {PhotoLook().Pair("edge_spread_skin"),
                          PhotoLook().Pair("edge_spread_cloth")};
-  glm::vec2 lasts = PhotoLook().Pair("edge_lasts");
+  glm::vec2 fade_mm = PhotoLook().Pair("edge_lasts");
 };
 const BodyLook& Look() {
   static const BodyLook look;
@@ -43,29 +42,27 @@ BodyPaint::BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const FloatI
       light_(light),
       bust_(std::move(bust)),
       joint_{Join(0), Join(1)},
-      cloth_(FindCloth()),
+      cloth_(ClothColour()),
       neckline_(FindNeckline()) {
   const glm::vec2 size(canvas.photo_size);
   for (int x = 0; x < edges.width(); ++x) {
-    Compare(edges.bottom()[static_cast<std::size_t>(x)], {static_cast<float>(x) + 0.5F, size.y},
-            below_);
+    AddDifference(edges.bottom(x), {static_cast<float>(x) + 0.5F, size.y}, below_);
   }
   for (std::size_t side = 0; side < kPhotoSides; ++side) {
     for (int y = 0; y < edges.height(); ++y) {
       const glm::vec2 place(side == 0 ? 0 : size.x, static_cast<float>(y) + 0.5F);
       const bool body = joint_[side].cut && place.y > joint_[side].row;
-      Compare(body ? edges.aside(side)[static_cast<std::size_t>(y)] : PhotoEdges::Seen{}, place,
-              aside_[side]);
+      AddDifference(body ? edges.aside(side, y) : PhotoEdges::Seen{}, place, aside_[side]);
     }
   }
 }
 
 BodyPaint::Joint BodyPaint::Join(std::size_t side) const {
   const float end = static_cast<float>(canvas_.photo_size.y);
-  Joint joint{.row = end, .wider = 1, .cut = false};
+  Joint joint{.row = end, .width_ratio = 1, .cut = false};
   // Up along the photo's side as far as that cuts the body.
   while (joint.row > std::max(canvas_.chin.y, 0.0F) + 1 &&
-         IsBody(edges_.aside(side)[static_cast<std::size_t>(joint.row) - 1])) {
+         IsBody(edges_.aside(side, static_cast<int>(joint.row) - 1))) {
     --joint.row;
   }
   joint.cut = joint.row < end;
@@ -74,45 +71,47 @@ BodyPaint::Joint BodyPaint::Join(std::size_t side) const {
   if (!joint.cut) {
     // Else along the lower edge as far as the body goes; hair may hide more of it.
     int x = std::clamp(static_cast<int>(Axis()), 0, edges_.width() - 1);
-    const auto seen = [&] { return edges_.bottom()[static_cast<std::size_t>(x)]; };
+    const auto seen = [&] { return edges_.bottom(x); };
     while (x >= 0 && x < edges_.width() && IsBody(seen())) x += side == 0 ? -1 : 1;
-    hidden = x >= 0 && x < edges_.width() && seen().stuff == Stuff::kHair;
+    hidden = x >= 0 && x < edges_.width() && seen().kind == EdgeKind::kHair;
     half = std::abs(static_cast<float>(x) + 0.5F - Axis());
   }
   const float own = bust_.HalfWidth(side, joint.row + static_cast<float>(canvas_.photo.y) - 0.5F);
   glm::vec2 limit = PhotoLook().Pair("body_wider");
   // At the height of the jaw the figure is wider than its neck, but not for long; above the chin
   // the bust has a jaw of its own.
-  const glm::vec2 lasts = PhotoLook().Pair("body_joint");
+  const glm::vec2 fade_mm = PhotoLook().Pair("body_joint");
   const float below_chin = (joint.row - canvas_.chin.y) / canvas_.per_mm;
   if (below_chin < 0) limit.y = std::min(limit.y, PhotoLook()("body_jaw_wider"));
-  joint.lasts = glm::mix(lasts.x, lasts.y, Ramp(PhotoLook().Pair("body_neck_begins"), below_chin));
-  joint.wider = glm::clamp(half / own, hidden ? 1.0F : limit.x, limit.y);
-  if (joint.cut) joint.falls = Falls(side, joint.row);
+  joint.fade_mm =
+      glm::mix(fade_mm.x, fade_mm.y, Ramp(PhotoLook().Pair("body_neck_begins"), below_chin));
+  joint.width_ratio = glm::clamp(half / own, hidden ? 1.0F : limit.x, limit.y);
+  if (joint.cut) joint.slope = OutlineSlope(side, joint.row);
   return joint;
 }
 
-float BodyPaint::Falls(std::size_t side, float row) const {
+float BodyPaint::OutlineSlope(std::size_t side, float row) const {
   // How far the outline falls towards the edge, over the last part of the photo.
   const int inward = std::max(canvas_.photo_size.x / 16, 1);
   const int x = side == 0 ? inward : canvas_.photo_size.x - 1 - inward;
   const glm::vec2 limit = PhotoLook().Pair("shoulder_fall");
   int y = static_cast<int>(row);
-  while (y > 0 && opacity_.at[opacity_.Index(x, y - 1)] > 0.5F) --y;
+  while (y > 0 && opacity_(x, y - 1) > 0.5F) --y;
   return std::clamp((row - static_cast<float>(y)) / static_cast<float>(inward), limit.x, limit.y);
 }
 
-glm::vec3 BodyPaint::FindCloth() const {
+glm::vec3 BodyPaint::ClothColour() const {
   glm::vec4 sum(0);
   const auto add = [&sum](const PhotoEdges::Seen& seen) {
-    const bool cloth = seen.stuff == Stuff::kCloth || seen.stuff == Stuff::kTip;
+    const bool cloth = seen.kind == EdgeKind::kCloth || seen.kind == EdgeKind::kTip;
     if (cloth) sum += glm::vec4(seen.colour, 1);
   };
-  std::ranges::for_each(edges_.bottom(), add);
+  for (int x = 0; x < edges_.width(); ++x) add(edges_.bottom(x));
   for (std::size_t side = 0; side < kPhotoSides; ++side) {
     if (!joint_[side].cut) continue;
-    std::ranges::for_each(
-        std::span(edges_.aside(side)).subspan(static_cast<std::size_t>(joint_[side].row)), add);
+    for (int y = static_cast<int>(joint_[side].row); y < edges_.height(); ++y) {
+      add(edges_.aside(side, y));
+    }
   }
   if (sum.w >= PhotoLook()("body_cloth_seen") * canvas_.per_mm) return glm::vec3(sum) / sum.w;
   // Cloth of our own stands in the light that skin stands in: it is tinted like that, and grey in a
@@ -129,8 +128,7 @@ glm::vec3 BodyPaint::FindCloth() const {
 
 glm::vec2 BodyPaint::FindNeckline() const {
   const auto skin = [&](int x) {
-    return x >= 0 && x < edges_.width() &&
-           edges_.bottom()[static_cast<std::size_t>(x)].stuff == Stuff::kSkin;
+    return x >= 0 && x < edges_.width() && edges_.bottom(x).kind == EdgeKind::kSkin;
   };
   int from = std::clamp(static_cast<int>(Axis()), 0, edges_.width() - 1), to = from + 1;
   while (skin(from - 1)) --from;
@@ -142,29 +140,27 @@ BodyPaint::Sample BodyPaint::SampleAt(glm::vec2 place) const {
   const glm::vec2 on = place + glm::vec2(canvas_.photo);
   const Joint& joint = joint_[on.x < bust_.axis ? 0 : 1];
   const float down = std::max(place.y - joint.row, 0.0F) / canvas_.per_mm;
-  const float wider =
-      joint.cut ? joint.wider : glm::mix(1.0F, joint.wider, std::exp(-down / joint.lasts));
-  const float x = bust_.axis + (on.x - bust_.axis) / wider;
-  if (x < 0 || x > static_cast<float>(bust_.cover.width)) return {};
-  Sample sample{bust_.cover.Between(x, on.y), bust_.cloth.Between(x, on.y),
-                bust_.open.Between(x, on.y)};
-  for (int c = 0; c < 3; ++c) {
-    sample.normal[c] = bust_.normal[static_cast<std::size_t>(c)].Between(x, on.y);
-  }
-  return sample;
+  const float width_ratio =
+      joint.cut ? joint.width_ratio
+                : glm::mix(1.0F, joint.width_ratio, std::exp(-down / joint.fade_mm));
+  const float x = bust_.axis + (on.x - bust_.axis) / width_ratio;
+  if (x < 0 || x > static_cast<float>(bust_.opacity.width)) return {};
+  return {bust_.opacity.Between(x, on.y), bust_.cloth.Between(x, on.y), bust_.open.Between(x, on.y),
+          bust_.normal.Between(x, on.y)};
 }
 
-glm::vec3 BodyPaint::Plain(const Sample& body, int cloth) const {
+glm::vec3 BodyPaint::BustColour(const Sample& body, int cloth) const {
   const float shade = light_.On(body.normal) / light_.On({0, 0, 1});
   return shade * glm::mix(1.0F, body.open, Look().shade) *
          (cloth == kCloth ? cloth_ : 255.0F * light_.skin());
 }
 
-void BodyPaint::Compare(const PhotoEdges::Seen& seen, glm::vec2 place, Differences& to) const {
+void BodyPaint::AddDifference(const PhotoEdges::Seen& seen, glm::vec2 place,
+                              Differences& to) const {
   const Sample body = SampleAt(place);
   for (const int cloth : {kSkin, kCloth}) {
-    const bool is = seen.stuff == (cloth == kCloth ? Stuff::kCloth : Stuff::kSkin);
-    to[static_cast<std::size_t>(cloth)].Add(seen.colour - Plain(body, cloth), is ? 1 : 0);
+    const bool is = seen.kind == (cloth == kCloth ? EdgeKind::kCloth : EdgeKind::kSkin);
+    to[static_cast<std::size_t>(cloth)].Add(seen.colour - BustColour(body, cloth), is ? 1 : 0);
   }
 }
 
@@ -185,13 +181,13 @@ float BodyPaint::ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) c
       at_edge, on_bust * glm::smoothstep(deep - kHem, deep + kHem, beyond.below / canvas_.per_mm));
 }
 
-glm::vec3 BodyPaint::Difference(glm::vec2 place, const Beyond& beyond, int cloth) const {
+glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond, int cloth) const {
   const auto i = static_cast<std::size_t>(cloth);
   const glm::vec2 spread = Look().spread[cloth];
   const auto of = [&](const EdgeMeans& edge, float at, float away) {
     const float mm = away / canvas_.per_mm;
     const glm::vec4 near = edge.Around(at, (spread.x + spread.y * mm) * canvas_.per_mm);
-    return std::exp(-mm / Look().lasts[cloth]) *
+    return std::exp(-mm / Look().fade_mm[cloth]) *
            glm::mix(edge.All(), glm::vec3(near), near.w / (near.w + Look().doubt));
   };
   glm::vec3 sum(0);
@@ -199,7 +195,7 @@ glm::vec3 BodyPaint::Difference(glm::vec2 place, const Beyond& beyond, int cloth
   if (beyond.below > 0) sum += beyond.below / out * of(below_[i], place.x, beyond.below);
   if (beyond.aside > 0) {
     // A sleeve falls with its shoulder.
-    const float row = std::clamp(place.y - Look().falls * beyond.aside, joint_[beyond.side].row,
+    const float row = std::clamp(place.y - Look().slope * beyond.aside, joint_[beyond.side].row,
                                  static_cast<float>(canvas_.photo_size.y));
     sum += beyond.aside / out * of(aside_[beyond.side][i], row, beyond.aside);
   }
@@ -209,27 +205,27 @@ glm::vec3 BodyPaint::Difference(glm::vec2 place, const Beyond& beyond, int cloth
 Paint BodyPaint::At(glm::vec2 place) const {
   const Beyond beyond = canvas_.BeyondPhoto(place);
   const Sample body = SampleAt(place);
-  float cover = body.cover;
+  float opacity = body.opacity;
   if (beyond.aside <= 0) {
     // Below a shoulder that the photo's side cuts all is body.
     if (beyond.above > 0) return {};
-    if (joint_[place.x < Axis() ? 0 : 1].cut) cover = 1;
+    if (joint_[place.x < Axis() ? 0 : 1].cut) opacity = 1;
   } else {
     // A shoulder that the photo's side cuts goes on as it falls there and bends down into the arm.
     const Joint& joint = joint_[beyond.side];
     if (joint.cut) {
-      const float line = joint.row + joint.falls * beyond.aside +
+      const float line = joint.row + joint.slope * beyond.aside +
                          beyond.aside * beyond.aside / (2 * Look().round * canvas_.per_mm);
-      cover = glm::smoothstep(-1.0F, 1.0F, place.y - line);
+      opacity = glm::smoothstep(-1.0F, 1.0F, place.y - line);
     } else if (beyond.below <= 0) {
-      cover = 0;
+      opacity = 0;
     }
   }
-  if (cover <= 0) return {};
-  return {glm::mix(Plain(body, kSkin) + Difference(place, beyond, kSkin),
-                   Plain(body, kCloth) + Difference(place, beyond, kCloth),
+  if (opacity <= 0) return {};
+  return {glm::mix(BustColour(body, kSkin) + EdgeDifference(place, beyond, kSkin),
+                   BustColour(body, kCloth) + EdgeDifference(place, beyond, kCloth),
                    ClothAt(place, beyond, body.cloth)),
-          cover};
+          opacity};
 }
 
 }  // namespace facefit

@@ -24,29 +24,29 @@ class BodyPaint {
 
  private:
   struct Sample {
-    float cover = 0, cloth = 0, open = 1;
+    float opacity = 0, cloth = 0, open = 1;
     glm::vec3 normal{0, 0, 1};
   };
   /// Where one half of the figure and that of the bust are made to meet.
   struct Joint {
-    float row = 0, wider = 1;  ///< the figure's half width there by the bust's
-    float lasts = 1;           ///< over how many millimetres downward that fades
-    bool cut = false;          ///< by the photo's side
-    float falls = 0;           ///< if it is: how steeply the outline falls there
+    float row = 0, width_ratio = 1;  ///< the figure's half width there by the bust's
+    float fade_mm = 1;               ///< over how many millimetres downward that fades
+    bool cut = false;                ///< by the photo's side
+    float slope = 0;                 ///< if it is: how steeply the outline falls there
   };
   /// Of one edge, for skin and for cloth: by how much the photo differs from what is drawn there.
   using Differences = std::array<EdgeMeans, 2>;
 
   float Axis() const { return bust_.axis - static_cast<float>(canvas_.photo.x); }
   Joint Join(std::size_t side) const;
-  float Falls(std::size_t side, float row) const;
-  glm::vec3 FindCloth() const;
+  float OutlineSlope(std::size_t side, float row) const;
+  glm::vec3 ClothColour() const;
   glm::vec2 FindNeckline() const;
-  void Compare(const PhotoEdges::Seen& seen, glm::vec2 place, Differences& to) const;
+  void AddDifference(const PhotoEdges::Seen& seen, glm::vec2 place, Differences& to) const;
   Sample SampleAt(glm::vec2 place) const;
-  glm::vec3 Plain(const Sample& body, int cloth) const;
+  glm::vec3 BustColour(const Sample& body, int cloth) const;
   float ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) const;
-  glm::vec3 Difference(glm::vec2 place, const Beyond& beyond, int cloth) const;
+  glm::vec3 EdgeDifference(glm::vec2 place, const Beyond& beyond, int cloth) const;
 
   const Canvas& canvas_;
   const PhotoEdges& edges_;

@@ -5,57 +5,49 @@
 #include <glm/common.hpp>
 
 #include "face_fit/find/head/rasterizer.h"
+#include "face_fit/find/head/visible_surface.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
-
-float Bust::HalfWidth(std::size_t side, float row) const {
-  const int y = std::clamp(static_cast<int>(row), 0, cover.height - 1);
-  const int step = side == 0 ? -1 : 1;
-  int x = std::clamp(static_cast<int>(axis), 0, cover.width - 1);
-  while (x >= 0 && x < cover.width && cover.at[cover.Index(x, y)] > 0.5F) x += step;
-  return std::max(std::abs(static_cast<float>(x) + 0.5F - axis), 1.0F);
-}
-
 namespace {
 
 /// `pose`: as large as the pictures.
-Bust DrawWith(const BaseHead& base, const FittedHead& fitted, CameraPose pose, int width,
-              int height) {
+Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) {
+  const BaseHead& base = *fitted.base;
   // Upright below the fitted head, whose chin may be lower than the built-in one's.
   pose.turn = {};
-  const MeshPoint& chin = base.points[point::kChin];
-  const glm::vec3 chin_at_rest = chin.On(base.rest.position);
-  const float lower = chin_at_rest.y - chin.On(fitted.posed_vertices).y;
-  const float highest = chin_at_rest.y + PhotoLook()("bust_above_chin");
-  const FloatImage none(width, height);
-  Bust bust{none, none, none, {none, none, FloatImage(width, height, 1)}, pose.Project({}).x};
-  FloatImage depth(width, height, -1e9F);
+  const float chin = base.AtRest(point::kChin).y;
+  const glm::vec3 lower(0, chin - fitted.At(point::kChin).y, 0);
+  const float highest = chin + PhotoLook()("bust_above_chin");
   const fsm::HeadTopology& topology = base.head->topology();
+  std::vector<glm::vec3> place = base.rest.position;
+  for (glm::vec3& p : place) p -= lower;
+  const std::vector<glm::vec3> screen = pose.Screen(place);
+  VisibleSurface surface({glm::vec2(0.5F), 1, width, height}, screen);
   for (const auto& part : topology.parts) {
-    const bool cloth = part.material == fsm::Material::kCloth;
-    if (!cloth && part.material != fsm::Material::kSkin) continue;
+    if (part.material != fsm::Material::kCloth && part.material != fsm::Material::kSkin) continue;
     for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
       const std::uint32_t* t = &topology.indices[part.first_index + k];
-      std::array<glm::vec3, 3> q;
-      std::array<glm::vec2, 3> p;
-      for (std::size_t c = 0; c < 3; ++c) {
-        q[c] = base.rest.position[t[c]] - glm::vec3(0, lower, 0);
-        p[c] = pose.Project(q[c]) - 0.5F;
-      }
-      if (std::max({q[0].y, q[1].y, q[2].y}) + lower > highest) continue;
-      Rasterize({p[0], p[1], p[2]}, width, height, 0.01F, [&](int x, int y, glm::vec3 w) {
-        const glm::vec3 n = Interpolated(base.rest.normal, t, w);
-        const float z = w.x * q[0].z + w.y * q[1].z + w.z * q[2].z;
-        const std::size_t i = depth.Index(x, y);
-        if (n.z <= 0 || z <= depth.at[i]) return;
-        depth.at[i] = z;
-        bust.cover.at[i] = 1;
-        bust.cloth.at[i] = cloth ? 1 : 0;
-        bust.open.at[i] = Interpolated(topology.occlusion, t, w);
-        for (std::size_t c = 0; c < 3; ++c) bust.normal[c].at[i] = n[static_cast<int>(c)];
-      });
+      const bool above =
+          std::any_of(t, t + 3, [&](std::uint32_t v) { return base.rest.position[v].y > highest; });
+      const Triangle2 seen{screen[t[0]], screen[t[1]], screen[t[2]]};
+      if (!above && seen.SignedArea() < 0) surface.Draw(t);  // y runs down
+    }
+  }
+  const FloatImage none(width, height);
+  Bust bust{none, none, none, VectorImage(width, height, {0, 0, 1}), pose.Project({}).x};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const std::uint32_t* t = surface.Triangle(x, y);
+      if (!t) continue;
+      const MeshPoint at = surface.Place(x, y);
+      const glm::vec3 normal = at.On(base.rest.normal);
+      if (normal.z <= 0) continue;  // at the very outline the smooth normal may turn away
+      bust.opacity(x, y) = 1;
+      bust.cloth(x, y) = MaterialOf(topology, t) == fsm::Material::kCloth ? 1.0F : 0.0F;
+      bust.open(x, y) = at.On(topology.occlusion);
+      bust.normal(x, y) = normal;
     }
   }
   return bust;
@@ -63,7 +55,15 @@ Bust DrawWith(const BaseHead& base, const FittedHead& fitted, CameraPose pose, i
 
 }  // namespace
 
-Bust DrawBust(const BaseHead& base, const FittedHead& fitted, int width, int height) {
+float Bust::HalfWidth(std::size_t side, float row) const {
+  const int y = std::clamp(static_cast<int>(row), 0, opacity.height - 1);
+  const int step = side == 0 ? -1 : 1;
+  int x = std::clamp(static_cast<int>(axis), 0, opacity.width - 1);
+  while (x >= 0 && x < opacity.width && opacity(x, y) > 0.5F) x += step;
+  return std::max(std::abs(static_cast<float>(x) + 0.5F - axis), 1.0F);
+}
+
+Bust DrawBust(const FittedHead& fitted, int width, int height) {
   // Of a small photo a pixel is wide: several samples to each soften the outlines.
   constexpr float kSamplesPerMm = 3;
   const int finer =
@@ -71,12 +71,12 @@ Bust DrawBust(const BaseHead& base, const FittedHead& fitted, int width, int hei
   CameraPose pose = fitted.pose;
   pose.focal *= static_cast<float>(finer);
   pose.centre *= static_cast<float>(finer);
-  Bust bust = DrawWith(base, fitted, pose, finer * width, finer * height);
+  Bust bust = DrawWith(fitted, pose, finer * width, finer * height);
   bust.axis /= static_cast<float>(finer);
-  for (FloatImage* image :
-       {&bust.cover, &bust.cloth, &bust.open, &bust.normal[0], &bust.normal[1], &bust.normal[2]}) {
+  for (FloatImage* image : {&bust.opacity, &bust.cloth, &bust.open}) {
     *image = ScaledDown(*image, width, height);
   }
+  bust.normal = ScaledDown(bust.normal, width, height);
   return bust;
 }
 

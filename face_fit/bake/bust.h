@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 
 #include "face_fit/find/head/base_head.h"
@@ -12,16 +11,16 @@ namespace facefit {
 /// The toolkit's own neck, shoulders and clothes, as the photo's camera would see them below the
 /// head if the person stood upright. Each picture is as large as the one they are drawn for.
 struct Bust {
-  FloatImage cover;  ///< how much of a pixel it covers, 0..1
-  FloatImage cloth;  ///< how much of a pixel is cloth; the rest of what is covered is skin
-  FloatImage open;   ///< how much light from all around arrives, 0..1
-  std::array<FloatImage, 3> normal;  ///< unit; where nothing is, towards the camera
-  float axis;                        ///< pixels from the left: the middle of the body
+  FloatImage opacity;  ///< how much of a pixel it covers, 0..1
+  FloatImage cloth;    ///< how much of a pixel is cloth; the rest of what is covered is skin
+  FloatImage open;     ///< how much light from all around arrives, 0..1
+  VectorImage normal;  ///< unit; where nothing is, towards the camera
+  float axis;          ///< pixels from the left: the middle of the body
 
   /// How far it reaches from its axis in a row, pixels; `side`: 0 to the left, 1 to the right.
   float HalfWidth(std::size_t side, float row) const;
 };
 
-Bust DrawBust(const BaseHead& base, const FittedHead& fitted, int width, int height);
+Bust DrawBust(const FittedHead& fitted, int width, int height);
 
 }  // namespace facefit

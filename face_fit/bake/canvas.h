@@ -13,7 +13,7 @@ namespace facefit {
 /// A colour, 0..255, and how much it covers, 0..1.
 struct Paint {
   glm::vec3 colour{0};
-  float cover = 0;
+  float opacity = 0;
 };
 
 /// A place beyond a photo: how far below or above it and how far aside, pixels, not negative.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <utility>
 
 #include "face_fit/bake/body_paint.h"
 #include "face_fit/bake/canvas.h"
@@ -10,7 +11,7 @@
 #include "face_fit/bake/hair_paint.h"
 #include "face_fit/bake/photo_edges.h"
 #include "face_fit/find/head/rasterizer.h"
-#include "face_fit/picture/inpaint.h"
+#include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/tables/photo_look.h"
 
@@ -18,11 +19,10 @@ namespace facefit {
 namespace {
 
 /// The row of the top of the head with hair on it.
-float CrownRow(const BaseHead& base, const FittedHead& fitted) {
+float CrownRow(const FittedHead& fitted) {
   float highest = 1e9F;
-  ForSkinTriangles(base.head->topology(), [&](const std::uint32_t* t) {
-    const glm::vec3 at = fitted.pose.ToCamera(fitted.posed_vertices[*t]);
-    highest = std::min(highest, fitted.pose.Project(at).y);
+  ForSkinTriangles(fitted.base->head->topology(), [&](const std::uint32_t* t) {
+    highest = std::min(highest, fitted.pose.Pixel(fitted.posed_vertices[*t]).y);
   });
   return highest - PhotoLook()("hair_on_crown") * fitted.pose.PixelsPerMm();
 }
@@ -51,62 +51,59 @@ Cutout WithoutTips(const PhotoEdges& edges, float per_mm, Cutout figure) {
   const int highest = std::max(height - static_cast<int>(PhotoLook()("edge_hangs") * per_mm), 0);
   constexpr float kBackground = 0.3F;  // the matte is in doubt beside such tips
   for (int x = 0; x < figure.opacity.width; ++x) {
-    if (edges.bottom()[static_cast<std::size_t>(x)].stuff != Stuff::kTip) continue;
+    if (edges.bottom(x).kind != EdgeKind::kTip) continue;
     int gap = height - 1;
-    while (gap >= highest && figure.opacity.at[figure.opacity.Index(x, gap)] > kBackground) {
+    while (gap >= highest && figure.opacity(x, gap) > kBackground) {
       --gap;
     }
     if (gap < highest) continue;
-    for (int y = gap; y < height; ++y) figure.opacity.at[figure.opacity.Index(x, y)] = 0;
+    for (int y = gap; y < height; ++y) figure.opacity(x, y) = 0;
   }
   return figure;
 }
 
 }  // namespace
 
-CompletedFigure CompleteFigure(const BaseHead& base, const FittedHead& fitted, const Cutout& seen) {
-  const glm::vec3 chin = base.points[point::kChin].On(fitted.posed_vertices);
-  const float crown = CrownRow(base, fitted);
-  const Canvas canvas =
-      CanvasFor(seen, fitted, fitted.pose.Project(fitted.pose.ToCamera(chin)), crown);
-  const fsm::FaceLight light = LightOnFace(base, fitted, seen);
-  const PhotoEdges edges(base, fitted, seen, 255.0F * light.skin());
+CompletedFigure CompleteFigure(const FittedHead& fitted, const Cutout& seen) {
+  const glm::vec3 chin = fitted.At(point::kChin);
+  const float crown = CrownRow(fitted);
+  const Canvas canvas = CanvasFor(seen, fitted, fitted.pose.Pixel(chin), crown);
+  const fsm::FaceLight light = LightOnFace(fitted, seen);
+  const PhotoEdges edges(fitted, seen, 255.0F * light.skin());
   const Cutout figure = WithoutTips(edges, canvas.per_mm, seen);
   FittedHead on_canvas = fitted;
   on_canvas.pose.centre += glm::vec2(canvas.photo);
   const BodyPaint body(canvas, edges, figure.opacity, light,
-                       DrawBust(base, on_canvas, canvas.size.x, canvas.size.y));
+                       DrawBust(on_canvas, canvas.size.x, canvas.size.y));
   const HairPaint hair(canvas, edges, figure, crown);
+  const auto [width, height] = std::pair(canvas.size.x, canvas.size.y);
   CompletedFigure out{
-      {fsm::FilledImage(canvas.size.x, canvas.size.y), FloatImage(canvas.size.x, canvas.size.y)},
-      glm::vec2(canvas.photo),
-      {}};
+      {fsm::FilledImage(width, height), FloatImage(width, height)}, glm::vec2(canvas.photo), {}};
   FloatImage& opacity = out.figure.opacity;
   const int seam = std::max(static_cast<int>(PhotoLook()("edge_band") * canvas.per_mm), 1);
-  FloatImage known(canvas.size.x, canvas.size.y), drawn = known, coloured = known;
-  for (int y = 0; y < canvas.size.y; ++y) {
-    for (int x = 0; x < canvas.size.x; ++x) {
+  const int above_seam = canvas.photo_size.y - 1 - 2 * seam;
+  // Opacities that the photo tells and that are drawn; 1 where a colour is known.
+  FloatImage known(width, height), drawn = known, coloured = known;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
       const std::size_t i = opacity.Index(x, y);
       const glm::ivec2 at = glm::ivec2(x, y) - canvas.photo;
+      const glm::vec2 place = glm::vec2(at) + 0.5F;
       if (at == glm::clamp(at, glm::ivec2(0), canvas.photo_size - 1)) {
-        const std::size_t from = figure.opacity.Index(at.x, at.y);
+        const std::size_t from = seen.opacity.Index(at.x, at.y);
         SetRgb(out.figure.colours, i, Rgb(figure.colours, from));
         opacity.at[i] = known.at[i] = figure.opacity.at[from];
         coloured.at[i] = figure.opacity.at[from] == seen.opacity.at[from] ? 1 : 0;
         // The matte is in doubt at the very edge: where the body goes on below, the figure does.
-        if (at.y >= canvas.photo_size.y - seam && canvas.photo_size.y > 2 * seam) {
-          const float above =
-              figure.opacity.at[figure.opacity.Index(at.x, canvas.photo_size.y - 1 - 2 * seam)];
-          const float cover = body.At(glm::vec2(at) + 0.5F).cover;
-          opacity.at[i] = std::max(opacity.at[i], std::min(above, cover));
+        if (at.y >= canvas.photo_size.y - seam && above_seam >= 0) {
+          opacity.at[i] = std::max(
+              opacity.at[i], std::min(figure.opacity(at.x, above_seam), body.At(place).opacity));
         }
         continue;
       }
-      const glm::vec2 place = glm::vec2(at) + 0.5F;
       const Paint under = body.At(place), over = hair.At(place);
-      SetRgb(out.figure.colours, i, glm::mix(under.colour, over.colour, over.cover));
-      opacity.at[i] = over.cover + (1 - over.cover) * under.cover;
-      drawn.at[i] = opacity.at[i];
+      SetRgb(out.figure.colours, i, glm::mix(under.colour, over.colour, over.opacity));
+      opacity.at[i] = drawn.at[i] = over.opacity + (1 - over.opacity) * under.opacity;
       coloured.at[i] = opacity.at[i] > 0 ? 1 : 0;
     }
   }

@@ -26,7 +26,6 @@ struct CompletedFigure {
 /// wide as the figure where the photo ends, in the colours found there and lit by the photo's
 /// light; above and beside the head hair. Strands that the lower edge cuts fall on and end softly.
 /// Within the photo nothing changes.
-CompletedFigure CompleteFigure(const BaseHead& base, const FittedHead& fitted,
-                               const Cutout& figure);
+CompletedFigure CompleteFigure(const FittedHead& fitted, const Cutout& figure);
 
 }  // namespace facefit

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "face_fit/bake/red_eye.h"
+#include "face_fit/picture/filters.h"
 #include "face_fit/picture/float_image.h"
-#include "face_fit/picture/inpaint.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
 #include "face_fit/tables/photo_look.h"
@@ -33,8 +33,8 @@ struct Texel {
   float radius = 0;  ///< in radii of the iris
 };
 
-/// The usual colour at each distance from the middle, from where it is seen.
-std::array<glm::vec3, kRings> UsualByRing(const std::vector<Texel>& texels) {
+/// The median colour at each distance from the middle, from where it is seen.
+std::array<glm::vec3, kRings> MedianByRing(const std::vector<Texel>& texels) {
   std::array<std::vector<glm::vec3>, kRings> rings;
   const auto ring_of = [](float radius) {
     return std::min(static_cast<int>(radius / fsm::kIrisSpan * kRings), kRings - 1);
@@ -43,9 +43,9 @@ std::array<glm::vec3, kRings> UsualByRing(const std::vector<Texel>& texels) {
     if (t.seen > 0.9F) rings[static_cast<std::size_t>(ring_of(t.radius))].push_back(t.colour);
   }
   const auto light = [](glm::vec3 c) { return c.r + c.g + c.b; };
-  std::array<glm::vec3, kRings> usual;
+  std::array<glm::vec3, kRings> median;
   // Where all of an iris is hidden, the texel that is hidden least is the best there is.
-  usual.fill(std::ranges::max_element(texels, {}, &Texel::seen)->colour);
+  median.fill(std::ranges::max_element(texels, {}, &Texel::seen)->colour);
   int last = -1;
   for (int k = 0; k < kRings; ++k) {
     auto& ring = rings[static_cast<std::size_t>(k)];
@@ -54,16 +54,16 @@ std::array<glm::vec3, kRings> UsualByRing(const std::vector<Texel>& texels) {
     std::ranges::nth_element(ring, middle, {}, light);
     // Rings that are nowhere seen are as those within them, the innermost as those round them.
     for (int empty = last < 0 ? 0 : last + 1; empty < k; ++empty) {
-      usual[static_cast<std::size_t>(empty)] =
-          last < 0 ? *middle : usual[static_cast<std::size_t>(last)];
+      median[static_cast<std::size_t>(empty)] =
+          last < 0 ? *middle : median[static_cast<std::size_t>(last)];
     }
-    usual[static_cast<std::size_t>(k)] = *middle;
+    median[static_cast<std::size_t>(k)] = *middle;
     last = k;
   }
   for (int k = last + 1; k < kRings && last >= 0; ++k) {
-    usual[static_cast<std::size_t>(k)] = usual[static_cast<std::size_t>(last)];
+    median[static_cast<std::size_t>(k)] = median[static_cast<std::size_t>(last)];
   }
-  return usual;
+  return median;
 }
 
 /// A square of texels; (-1, 1) is its upper left corner.
@@ -93,7 +93,7 @@ glm::vec4 Insert(const fsm::Image& square, int left, fsm::Image& picture) {
 }
 
 struct SeenEye {
-  const IrisRing& ring;
+  const IrisCircle& ring;
   LidLines lids;        ///< in the photo
   glm::vec2 right, up;  ///< the head's axes there, unit
 };
@@ -117,12 +117,12 @@ fsm::Image IrisPicture(const SeenEye& eye, glm::vec3 skin, const fsm::Image& pho
   };
   std::vector<Texel> texels;
   Painted(kIrisSide, [&](glm::vec2 p) { return texels.emplace_back(texel_at(p)).colour; });
-  const auto usual = UsualByRing(texels);
+  const auto median = MedianByRing(texels);
   return Painted(kIrisSide, [&, next = texels.begin()](glm::vec2) mutable {
     const Texel& t = *next++;
     const float ring = std::clamp(t.radius / fsm::kIrisSpan * kRings - 0.5F, 0.0F, kRings - 1.001F);
     const auto k = static_cast<std::size_t>(ring);
-    return glm::mix(glm::mix(usual[k], usual[k + 1], ring - static_cast<float>(k)), t.colour,
+    return glm::mix(glm::mix(median[k], median[k + 1], ring - static_cast<float>(k)), t.colour,
                     t.seen);
   });
 }
@@ -173,9 +173,9 @@ std::optional<fsm::Sided<fsm::Side>> ShownEyes(const SeenIrises& irises) {
   // What stands for both is no half shut eye.
   constexpr float kForBoth = 0.1F;
   const auto seen = [&irises](fsm::Side k, float contrast) {
-    return irises.rings[k].contrast >= contrast && irises.rings[k].radius >= kLeastIris;
+    return irises.circles[k].contrast >= contrast && irises.circles[k].radius >= kLeastIris;
   };
-  if (seen(fsm::Side::kRight, kClearRing) && seen(fsm::Side::kLeft, kClearRing)) {
+  if (seen(fsm::Side::kRight, kClearIris) && seen(fsm::Side::kLeft, kClearIris)) {
     return {{fsm::Side::kRight, fsm::Side::kLeft}};
   }
   for (const fsm::Side k : fsm::kSides) {
@@ -208,10 +208,10 @@ fsm::Image Mirrored(const fsm::Image& square, glm::vec3 gain) {
 
 }  // namespace
 
-std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const BaseHead& base, const FoundFace& face,
-                                                     const Fit& fit,
+std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, const Fit& fit,
                                                      const fsm::Sided<fsm::EyeTransform>& at_rest,
                                                      const fsm::Image& photo, fsm::Image& picture) {
+  const BaseHead& base = *fit.head.base;
   const auto shown = ShownEyes(fit.irises);
   if (!shown) return std::nullopt;
   const glm::mat3 turned = fit.head.pose.Rotation();
@@ -236,7 +236,7 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const BaseHead& base, const
                                                  : transform.lower_mm;
       rest[i] = glm::vec2(transform.Turned(glm::vec3(rest[i].x, rest[i].y + open * raised, 0)));
     }
-    const SeenEye eye{fit.irises.rings[k], LidLines(seen), right, {right.y, -right.x}};
+    const SeenEye eye{fit.irises.circles[k], LidLines(seen), right, {right.y, -right.x}};
     squares[k] = {IrisPicture(eye, LightBeside(face, photo, k), photo),
                   BallPicture(eye, LidLines(rest), transform.size * ball.ball_radius, photo)};
   }

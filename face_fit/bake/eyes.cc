@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/bake/openings.h"
+#include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
 #include "face_fit/tables/photo_look.h"
 #include "fsm/image/color_space.h"
@@ -30,8 +31,9 @@ float SkinLight(const FoundFace& face, const fsm::Image& photo) {
 
 }  // namespace
 
-fsm::Sided<fsm::EyeTransform> EyesAtRest(const BaseHead& base, const FittedHead& fitted) {
+fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted) {
   const float kept = PhotoLook()("squint_kept");
+  const BaseHead& base = *fitted.base;
   fsm::HeadVertices posed;
   base.head->Evaluate(fitted.expression.State(), posed);
   fsm::Sided<fsm::EyeTransform> transforms = fitted.eyes;
@@ -53,13 +55,13 @@ EyeColours SampleEyes(const FoundFace& face, const SeenIrises& irises, const fsm
     const auto outline = EyeOutline(side);
     const glm::vec2 a = face.At(outline[kOuterCorner]), b = face.At(outline[kInnerCorner]);
     const float wide = glm::distance(a, b);
-    const IrisRing& ring = irises.rings[side];
+    const IrisCircle& ring = irises.circles[side];
     const float radius = ring.radius;
     const glm::vec2 centre = ring.centre;
     for (float y = -0.25F; y <= 0.25F; y += 0.02F) {
       for (float x = -0.5F; x <= 0.5F; x += 0.02F) {
         const glm::vec2 at = 0.5F * (a + b) + wide * glm::vec2(x, y);
-        if (Outside(face, outline, at) > -0.05F * wide) continue;
+        if (SignedDistance(face, outline, at) > -0.05F * wide) continue;
         const float far = glm::distance(at, centre) / radius;
         const glm::vec3 colour = ColourAt(photo, at);
         if (far > 0.45F && far < 0.85F) iris.push_back(colour);
@@ -97,7 +99,8 @@ MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
   constexpr std::size_t kFirst = 2, kLast = 6;
   glm::vec3 lip(0);
   for (std::size_t k = kFirst; k <= kLast; ++k) {
-    const glm::vec2 at = 0.5F * (face.At(LowerOuterLip()[k]) + face.At(LowerInnerLip()[k]));
+    const glm::vec2 at =
+        0.5F * (face.At(point::kLowerOuterLip[k]) + face.At(point::kLowerInnerLip[k]));
     lip += Linear(ColourAt(photo, at)) / float{kLast - kFirst + 1};
   }
   // Screen colours are squares of it there; the inner rim lies in shade.

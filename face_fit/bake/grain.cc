@@ -24,11 +24,11 @@ void AddGrain(const FloatImage& weight, const FloatImage& where, int reach, fsm:
   if (std::ranges::max(weight.at) < kKnown) return;
   const auto nearest = NearestAbove(weight, kKnown);
   const float farthest = 8 * static_cast<float>(reach);
-  struct Loan {
+  struct Transfer {
     std::size_t to, from;
-    float part;
+    float amount;
   };
-  std::vector<Loan> loans;
+  std::vector<Transfer> transfers;
   for (std::size_t i = 0; i < weight.at.size(); ++i) {
     if (weight.at[i] >= kKnown || where.at[i] <= 0) continue;
     const glm::ivec2 here = PlaceOf(weight, i), edge = PlaceOf(weight, nearest[i]);
@@ -38,17 +38,13 @@ void AddGrain(const FloatImage& weight, const FloatImage& where, int reach, fsm:
     }
     const std::size_t from = weight.Index(beyond.x, beyond.y);
     const float off = glm::length(glm::vec2(edge - here));
-    const float part = where.at[i] * weight.at[from] * (1 - weight.at[i]) *
-                       glm::smoothstep(farthest, 0.5F * farthest, off);
-    if (part > 0) loans.push_back({i, from, part});
+    const float amount = where.at[i] * weight.at[from] * (1 - weight.at[i]) *
+                         glm::smoothstep(farthest, 0.5F * farthest, off);
+    if (amount > 0) transfers.push_back({i, from, amount});
   }
-  for (std::size_t c = 0; c < 3; ++c) {
-    const FloatImage channel = Channel(image, c);
-    const FloatImage even = Blurred(channel, reach);
-    for (const Loan& loan : loans) {
-      const float grain = channel.at[loan.from] - even.at[loan.from];
-      image.rgba[4 * loan.to + c] = Byte(channel.at[loan.to] + loan.part * grain);
-    }
+  const VectorImage colours = Colours(image), even = Blurred(colours, reach);
+  for (const auto& [to, from, amount] : transfers) {
+    SetRgb(image, to, colours.at[to] + amount * (colours.at[from] - even.at[from]));
   }
 }
 

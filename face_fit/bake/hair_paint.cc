@@ -13,12 +13,12 @@ namespace {
 
 /// A number 0..1 that varies from strand to strand, without a period; `at`: millimetres along an
 /// edge.
-float Strand(float at) {
+float StrandNoise(float at) {
   return 0.5F + 0.17F * (std::sin(at * 1.31F) + std::sin(at * 0.43F + 1.3F) +
                          std::sin(at * 0.171F + 0.4F));
 }
 
-float ToAndFro(float way, float length) {
+float PingPong(float way, float length) {
   if (length <= 0) return 0;
   const float rest = std::fmod(way, 2 * length);
   return std::min(rest, 2 * length - rest);
@@ -34,8 +34,8 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Cutout
     : canvas_(canvas),
       edges_(edges),
       figure_(figure),
-      top_(TopRun()),
-      sides_{SideRun(0), SideRun(1)} {
+      top_(TopSpan()),
+      sides_{SideSpan(0), SideSpan(1)} {
   const auto& look = PhotoLook();
   const float most = look("hair_beside") * canvas.per_mm;
   for (std::size_t side = 0; side < kPhotoSides; ++side) {
@@ -51,58 +51,59 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Cutout
   if (top_.Length() > 0)
     dome_ = std::clamp(-crown, rounded.x * top_.Length(), rounded.y * top_.Length());
   cut_ = dome_ > 0 || bulge_[0] + bulge_[1] > 0;
-  for (const PhotoEdges::Seen& seen : edges.bottom()) {
-    below_.Add(seen.colour, seen.stuff == Stuff::kHair ? 1 : 0);
+  for (int x = 0; x < edges.width(); ++x) {
+    const PhotoEdges::Seen& seen = edges.bottom(x);
+    below_.Add(seen.colour, seen.kind == EdgeKind::kHair ? 1 : 0);
   }
   // Single dark columns below the chin are wrinkles.
   const float chin = look("hair_beard_half") * canvas.per_mm;
   bearded_ = below_.Around(canvas.chin.x, chin).w > look("hair_beard_least");
 }
 
-HairPaint::Run HairPaint::TopRun() const {
+HairPaint::EdgeSpan HairPaint::TopSpan() const {
   // The longest part of the upper edge that the figure touches.
-  Run longest, run;
+  EdgeSpan longest, span;
   for (int x = 0; x < edges_.width(); ++x) {
-    if (edges_.top()[static_cast<std::size_t>(x)].stuff == Stuff::kNothing) {
-      run.from = static_cast<float>(x) + 1;
+    if (edges_.top(x).kind == EdgeKind::kNothing) {
+      span.from = static_cast<float>(x) + 1;
     } else {
-      run.to = static_cast<float>(x) + 1;
-      if (run.to - run.from > longest.Length()) longest = run;
+      span.to = static_cast<float>(x) + 1;
+      if (span.to - span.from > longest.Length()) longest = span;
     }
   }
   return longest;
 }
 
-HairPaint::Run HairPaint::SideRun(std::size_t side) const {
+HairPaint::EdgeSpan HairPaint::SideSpan(std::size_t side) const {
   // Beside the head all that is cut is taken for hair or hat, whatever its colour; farther down
   // only what looks like hair.
-  Run longest, run;
+  EdgeSpan longest, span;
   for (int y = 0; y < edges_.height(); ++y) {
-    const Stuff stuff = edges_.aside(side)[static_cast<std::size_t>(y)].stuff;
+    const EdgeKind kind = edges_.aside(side, y).kind;
     const bool head = static_cast<float>(y) < canvas_.chin.y;
-    if (stuff == Stuff::kHair || (head && stuff != Stuff::kNothing)) {
-      run.to = static_cast<float>(y) + 1;
-      if (run.to - run.from > longest.Length()) longest = run;
+    if (kind == EdgeKind::kHair || (head && kind != EdgeKind::kNothing)) {
+      span.to = static_cast<float>(y) + 1;
+      if (span.to - span.from > longest.Length()) longest = span;
     } else {
-      run.from = static_cast<float>(y) + 1;
+      span.from = static_cast<float>(y) + 1;
     }
   }
-  return longest.from < canvas_.chin.y ? longest : Run{};
+  return longest.from < canvas_.chin.y ? longest : EdgeSpan{};
 }
 
-float HairPaint::Above(float x) const {
+float HairPaint::DomeHeight(float x) const {
   if (dome_ <= 0) return 0;
   return dome_ * Arc((x - 0.5F * (top_.from + top_.to)) / (0.5F * top_.Length()));
 }
 
-float HairPaint::Aside(std::size_t side, float y) const {
-  const Run& run = sides_[side];
+float HairPaint::BulgeWidth(std::size_t side, float y) const {
+  const EdgeSpan& span = sides_[side];
   const float bulge = bulge_[side];
   if (bulge <= 0) return 0;
   // The photo's corners are no ends.
-  const float from = run.from < 1 ? -dome_ : run.from;
-  const bool goes_on = run.to > static_cast<float>(canvas_.photo_size.y) - 1;
-  const float to = goes_on ? run.to + PhotoLook()("hair_falls") * canvas_.per_mm : run.to;
+  const float from = span.from < 1 ? -dome_ : span.from;
+  const bool goes_on = span.to > static_cast<float>(canvas_.photo_size.y) - 1;
+  const float to = goes_on ? span.to + PhotoLook()("hair_falls") * canvas_.per_mm : span.to;
   return bulge * Arc((2 * y - from - to) / (to - from));
 }
 
@@ -110,11 +111,11 @@ glm::vec3 HairPaint::Colour(glm::vec2 place) const {
   const glm::vec2 size(canvas_.photo_size);
   const Beyond beyond = canvas_.BeyondPhoto(place);
   glm::vec2 at = glm::clamp(place, glm::vec2(0.5F), size - 0.5F);
-  const auto row = static_cast<std::size_t>(at.y), column = static_cast<std::size_t>(at.x);
   const bool above = beyond.above > 0;
-  const int depth = above ? edges_.hair_below_top()[column] : edges_.hair_beside(beyond.side)[row];
-  // To and fro within what is hair: no skin below it is mirrored.
-  const float away = ToAndFro(above ? beyond.above : beyond.aside, static_cast<float>(depth));
+  const int depth = above ? edges_.top(static_cast<int>(at.x)).hair_depth
+                          : edges_.aside(beyond.side, static_cast<int>(at.y)).hair_depth;
+  // Back and forth within the hair: no skin below it is mirrored.
+  const float away = PingPong(above ? beyond.above : beyond.aside, static_cast<float>(depth));
   if (above) {
     at.y = std::clamp(away, 0.5F, size.y - 0.5F);
   } else {
@@ -125,7 +126,7 @@ glm::vec3 HairPaint::Colour(glm::vec2 place) const {
   return glm::mix(edges_.hair(), ColourAt(figure_.colours, at), own);
 }
 
-Paint HairPaint::Falling(glm::vec2 place, float below) const {
+Paint HairPaint::HairBelow(glm::vec2 place, float below) const {
   const glm::vec2 size(canvas_.photo_size);
   const float mm = below / canvas_.per_mm;
   const float x = place.x < 0 ? -place.x : place.x > size.x ? 2 * size.x - place.x : place.x;
@@ -137,23 +138,24 @@ Paint HairPaint::Falling(glm::vec2 place, float below) const {
       bearded_
           ? glm::mix(PhotoLook()("hair_beard_falls"), PhotoLook()("hair_falls"), Ramp(beard, aside))
           : PhotoLook()("hair_falls") * Ramp(PhotoLook().Pair("hair_aside"), aside);
-  const float end = falls * (0.5F + 0.5F * Strand(place.x / canvas_.per_mm));
+  const float end = falls * (0.5F + 0.5F * StrandNoise(place.x / canvas_.per_mm));
   return {glm::vec3(hair), mm < end ? hair.w * glm::smoothstep(end, 0.35F * end, mm) : 0.0F};
 }
 
 Paint HairPaint::At(glm::vec2 place) const {
   const Beyond beyond = canvas_.BeyondPhoto(place);
   if (beyond.below > 0) {
-    Paint hair = Falling(place, beyond.below);
+    Paint hair = HairBelow(place, beyond.below);
     if (beyond.aside > 0) {
-      const float reach = Aside(beyond.side, place.y);
-      hair.cover *= glm::smoothstep(reach, 0.8F * reach, beyond.aside) * (reach > 0 ? 1.0F : 0.0F);
+      const float reach = BulgeWidth(beyond.side, place.y);
+      hair.opacity *=
+          glm::smoothstep(reach, 0.8F * reach, beyond.aside) * (reach > 0 ? 1.0F : 0.0F);
     }
     return hair;
   }
-  const float up = Above(place.x), out = Aside(beyond.side, place.y);
+  const float up = DomeHeight(place.x), out = BulgeWidth(beyond.side, place.y);
   const float soft = PhotoLook()("hair_soft") * canvas_.per_mm *
-                     (0.5F + Strand((place.x + place.y) / canvas_.per_mm));
+                     (0.5F + StrandNoise((place.x + place.y) / canvas_.per_mm));
   float within = 1;
   if (beyond.above > 0) within = std::min(within, (up - beyond.above) / soft);
   if (beyond.aside > 0 && beyond.above <= 0) within = std::min(within, (out - beyond.aside) / soft);

@@ -24,24 +24,24 @@ class HairPaint {
   Paint At(glm::vec2 place) const;
 
  private:
-  float Above(float x) const;
-  float Aside(std::size_t side, float y) const;
+  float DomeHeight(float x) const;
+  float BulgeWidth(std::size_t side, float y) const;
   glm::vec3 Colour(glm::vec2 place) const;
-  Paint Falling(glm::vec2 place, float below) const;
+  Paint HairBelow(glm::vec2 place, float below) const;
 
   /// A part of an edge that cuts the hair, pixels.
-  struct Run {
+  struct EdgeSpan {
     float from = 0, to = 0;
     float Length() const { return to - from; }
   };
-  Run TopRun() const;
-  Run SideRun(std::size_t side) const;
+  EdgeSpan TopSpan() const;
+  EdgeSpan SideSpan(std::size_t side) const;
 
   const Canvas& canvas_;
   const PhotoEdges& edges_;
   const Cutout& figure_;
-  Run top_;
-  std::array<Run, kPhotoSides> sides_;
+  EdgeSpan top_;
+  std::array<EdgeSpan, kPhotoSides> sides_;
   float dome_ = 0;                          ///< how high the top is rounded off, pixels
   std::array<float, kPhotoSides> bulge_{};  ///< how far it goes on beside, pixels
   EdgeMeans below_;                         ///< the hair along the lower edge

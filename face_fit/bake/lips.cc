@@ -15,13 +15,13 @@ float LogRedness(glm::vec3 c) { return std::log((c.r + 4) / (c.g + 4)); }
 
 /// The mean of some texels: those whose redness is `from` to `to` of the way from the least to the
 /// most.
-struct Kind {
+struct ToneStatistics {
   glm::vec3 colour{0};
   float redness = 0, brightness = 0;
 };
 
-Kind MeanOf(std::vector<glm::vec3>& texels, float from, float to) {
-  Kind kind;
+ToneStatistics MeanOf(std::vector<glm::vec3>& texels, float from, float to) {
+  ToneStatistics kind;
   std::ranges::sort(texels, {}, LogRedness);
   const auto at = [&](float part) {
     return static_cast<std::size_t>(part * static_cast<float>(texels.size() - 1));
@@ -35,29 +35,30 @@ Kind MeanOf(std::vector<glm::vec3>& texels, float from, float to) {
 
 }  // namespace
 
-void RedLips(const std::vector<float>& within, fsm::Image& map) {
+void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
   const fsm::NumberTable& look = PhotoLook();
   const float sure = look("lip_inside"), soft = look("lip_soft"), most = look("lip_reddened");
   const glm::vec2 skin_from = look.Pair("lip_beside");
   constexpr float kLeast = 0.05F;  // between lips and skin, of redness
   std::vector<glm::vec3> lips, beside;
-  for (std::size_t i = 0; i < within.size(); ++i) {
-    if (within[i] > sure) lips.push_back(Rgb(map, i));
-    if (within[i] > skin_from.x && within[i] < skin_from.y) beside.push_back(Rgb(map, i));
+  for (std::size_t i = 0; i < texels.at.size(); ++i) {
+    if (texels.at[i].within_lips_mm > sure) lips.push_back(Rgb(map, i));
+    if (texels.at[i].within_lips_mm > skin_from.x && texels.at[i].within_lips_mm < skin_from.y)
+      beside.push_back(Rgb(map, i));
   }
   if (lips.empty() || beside.empty()) return;
-  const Kind lip = MeanOf(lips, 0.7F, 0.95F), skin = MeanOf(beside, 0.3F, 0.7F);
+  const ToneStatistics lip = MeanOf(lips, 0.7F, 0.95F), skin = MeanOf(beside, 0.3F, 0.7F);
   if (lip.redness - skin.redness < kLeast) return;
   const glm::vec3 hue = lip.colour / lip.brightness;
   const float darker = glm::clamp(lip.brightness / skin.brightness, 0.5F, 1.0F);
-  for (std::size_t i = 0; i < within.size(); ++i) {
-    if (within[i] <= 0) continue;
+  for (std::size_t i = 0; i < texels.at.size(); ++i) {
+    if (texels.at[i].within_lips_mm <= 0) continue;
     const glm::vec3 c = Rgb(map, i);
     const float bright = Brightness(c);
     const float lacks =
         glm::clamp((lip.redness - LogRedness(c)) / (lip.redness - skin.redness), 0.0F, 1.0F);
     // What shines, and what is dark between the lips, has a colour of its own.
-    const float part = most * lacks * glm::smoothstep(0.0F, soft, within[i]) *
+    const float part = most * lacks * glm::smoothstep(0.0F, soft, texels.at[i].within_lips_mm) *
                        glm::smoothstep(1.2F, 1.05F, bright / skin.brightness) *
                        glm::smoothstep(0.2F, 0.5F, bright / skin.brightness);
     SetRgb(map, i, glm::mix(c, hue * bright * darker, part));

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/find/network/network_points.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/plane.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
@@ -19,8 +19,8 @@ Openings::Openings(const FoundFace& face, float pixels_per_mm, bool lips_apart) 
     openings_.push_back({{outline.begin(), outline.end()}, -lash, -lash});
   }
   if (lips_apart) {
-    std::vector<PointIndex> mouth(UpperInnerLip().begin(), UpperInnerLip().end());
-    mouth.insert(mouth.end(), LowerInnerLip().rbegin(), LowerInnerLip().rend());
+    std::vector<PointIndex> mouth(point::kUpperInnerLip.begin(), point::kUpperInnerLip.end());
+    mouth.insert(mouth.end(), point::kLowerInnerLip.rbegin(), point::kLowerInnerLip.rend());
     // Teeth shine through the blurred edge of the lips, in a small photo over more of them.
     const glm::vec2 rim = glm::max(look.Pair("mouth_rim") * pixels_per_mm, glm::vec2(0.8F, 1));
     openings_.push_back({mouth, rim.x, rim.x + rim.y});
@@ -33,11 +33,11 @@ Openings::Openings(const FoundFace& face, float pixels_per_mm, bool lips_apart) 
   }
 }
 
-float Openings::Skin(glm::vec2 pixel) const {
+float Openings::SkinWeight(glm::vec2 pixel) const {
   float part = 1;
   for (const Opening& opening : openings_) {
     if (glm::distance(pixel, opening.middle) >= opening.radius) continue;
-    const float outside = Outside(face_, opening.outline, pixel);
+    const float outside = SignedDistance(face_, opening.outline, pixel);
     const float here = opening.all > opening.none
                            ? glm::smoothstep(opening.none, opening.all, outside)
                            : static_cast<float>(outside >= opening.none);
@@ -46,17 +46,16 @@ float Openings::Skin(glm::vec2 pixel) const {
   return part;
 }
 
-float Outside(const FoundFace& face, std::span<const PointIndex> outline, glm::vec2 pixel) {
+float SignedDistance(const FoundFace& face, std::span<const PointIndex> outline, glm::vec2 pixel) {
   bool inside = false;
   float nearest = 1e9F;
   const auto at = [&](std::size_t k) { return face.At(outline[k]); };
   for (std::size_t k = 0, j = outline.size() - 1; k < outline.size(); j = k++) {
-    const glm::vec2 a = at(k), b = at(j), way = b - a;
-    const float part =
-        glm::clamp(glm::dot(pixel - a, way) / std::max(glm::dot(way, way), 1e-6F), 0.0F, 1.0F);
-    nearest = std::min(nearest, glm::distance(pixel, a + part * way));
+    const glm::vec2 a = at(k), b = at(j);
+    nearest = std::min(nearest, DistanceToSegment(pixel, a, b));
+    // The ray to the right crosses the edge (even-odd rule).
     if ((a.y > pixel.y) == (b.y > pixel.y)) continue;
-    if (pixel.x < way.x * (pixel.y - a.y) / way.y + a.x) inside = !inside;
+    if (pixel.x < (b.x - a.x) * (pixel.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
   }
   return inside ? -nearest : nearest;
 }

@@ -15,7 +15,7 @@ class Openings {
   /// outlives this.
   Openings(const FoundFace& face, float pixels_per_mm, bool lips_apart);
   /// How much of what is seen at a pixel is skin, 0..1.
-  float Skin(glm::vec2 pixel) const;
+  float SkinWeight(glm::vec2 pixel) const;
 
  private:
   struct Opening {
@@ -29,6 +29,6 @@ class Openings {
 };
 
 /// How many pixels outside (negative: within) a closed line through points of the face `pixel` is.
-float Outside(const FoundFace& face, std::span<const PointIndex> outline, glm::vec2 pixel);
+float SignedDistance(const FoundFace& face, std::span<const PointIndex> outline, glm::vec2 pixel);
 
 }  // namespace facefit

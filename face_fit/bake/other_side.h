@@ -12,6 +12,6 @@ namespace facefit {
 /// of the jaw would shine in the light of the other cheek. `skin`: texels within neither eyes nor
 /// mouth, which differ too much from side to side. `seen`: how well each texel was seen, 0..1;
 /// grows where something was taken over.
-void TakeFromOtherSide(const std::vector<bool>& skin, fsm::Image& map, FloatImage& seen);
+void CompleteByMirroring(const std::vector<bool>& skin, fsm::Image& map, FloatImage& seen);
 
 }  // namespace facefit

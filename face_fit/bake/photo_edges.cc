@@ -7,6 +7,7 @@
 
 #include "face_fit/find/head/rasterizer.h"
 #include "face_fit/picture/pixels.h"
+#include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
 #include "face_fit/tables/photo_look.h"
 #include "fsm/rig/normals.h"
@@ -15,10 +16,10 @@ namespace facefit {
 namespace {
 
 /// Tells hair and clothes from skin by their colours.
-class Stuffs {
+class EdgeClassifier {
  public:
   /// `brows`: the row above which a figure is head, hair or hat. `skin`: 0..255.
-  Stuffs(const Cutout& figure, float brows, glm::vec3 skin) : skin_(skin) {
+  EdgeClassifier(const Cutout& figure, float brows, glm::vec3 skin) : skin_(skin) {
     glm::vec3 sum(0);
     float count = 0;
     for (int y = 0; y < std::min(figure.opacity.height, static_cast<int>(brows)); ++y) {
@@ -35,10 +36,10 @@ class Stuffs {
   }
   /// The mean of hair or hat; negative where none is seen.
   glm::vec3 hair() const { return hair_; }
-  Stuff Of(glm::vec3 colour) const {
+  EdgeKind Of(glm::vec3 colour) const {
     const float from_hair = glm::distance(colour, hair_);
-    if (IsSkin(colour) && glm::distance(colour, skin_) < from_hair) return Stuff::kSkin;
-    return from_hair < hair_reach_ ? Stuff::kHair : Stuff::kCloth;
+    if (IsSkin(colour) && glm::distance(colour, skin_) < from_hair) return EdgeKind::kSkin;
+    return from_hair < hair_reach_ ? EdgeKind::kHair : EdgeKind::kCloth;
   }
 
  private:
@@ -57,41 +58,42 @@ class Stuffs {
   glm::vec3 skin_, hair_{-1e3F};
 };
 
-PhotoEdges::Seen Look(const Cutout& figure, const Stuffs& stuffs, glm::ivec2 from,
-                      glm::ivec2 size) {
+PhotoEdges::Seen EdgeSample(const Cutout& figure, const EdgeClassifier& classifier, glm::ivec2 from,
+                            glm::ivec2 size) {
   PhotoEdges::Seen seen;
   const float part = 1 / static_cast<float>(size.x * size.y);
   for (int y = from.y; y < from.y + size.y; ++y) {
     for (int x = from.x; x < from.x + size.x; ++x) {
       const std::size_t i = figure.opacity.Index(x, y);
       seen.colour += part * Rgb(figure.colours, i);
-      seen.cover += part * figure.opacity.at[i];
+      seen.opacity += part * figure.opacity.at[i];
     }
   }
-  if (seen.cover > 0.5F) seen.stuff = stuffs.Of(seen.colour);
+  if (seen.opacity > 0.5F) seen.kind = classifier.Of(seen.colour);
   return seen;
 }
 
 /// How many pixels, at most `most`, follow each other from one on that are the figure's but no
 /// skin.
-int HairFrom(const Cutout& figure, const Stuffs& stuffs, glm::ivec2 from, glm::ivec2 step,
-             int most) {
+int HairDepth(const Cutout& figure, const EdgeClassifier& classifier, glm::ivec2 from,
+              glm::ivec2 step, int most) {
   int count = 0;
   for (glm::ivec2 p = from; count < most; p += step, ++count) {
     const std::size_t i = figure.opacity.Index(p.x, p.y);
-    if (figure.opacity.at[i] < 0.5F || stuffs.Of(Rgb(figure.colours, i)) == Stuff::kSkin) break;
+    if (figure.opacity.at[i] < 0.5F || classifier.Of(Rgb(figure.colours, i)) == EdgeKind::kSkin)
+      break;
   }
   return count;
 }
 
 /// Whether most of a column from a row down to the photo's lower edge belongs to the figure, and if
 /// `hair` is given is hair by its colour: what hangs from the head, no collar.
-bool HangsDown(const Cutout& figure, const Stuffs* hair, int x, float from) {
+bool HangsDown(const Cutout& figure, const EdgeClassifier* hair, int x, float from) {
   int hanging = 0, rows = 0;
   for (int y = std::max(static_cast<int>(from), 0); y < figure.opacity.height; ++y, ++rows) {
     const std::size_t i = figure.opacity.Index(x, y);
-    hanging +=
-        figure.opacity.at[i] > 0.5F && (!hair || hair->Of(Rgb(figure.colours, i)) == Stuff::kHair);
+    hanging += figure.opacity.at[i] > 0.5F &&
+               (!hair || hair->Of(Rgb(figure.colours, i)) == EdgeKind::kHair);
   }
   constexpr int kMost = 10, kOf = 8;  // eight of ten
   return kMost * hanging >= kOf * rows;
@@ -99,10 +101,10 @@ bool HangsDown(const Cutout& figure, const Stuffs* hair, int x, float from) {
 
 }  // namespace
 
-fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const Cutout& figure) {
+fsm::FaceLight LightOnFace(const FittedHead& fitted, const Cutout& figure) {
   const auto& position = fitted.posed_vertices;
   std::vector<std::uint32_t> corners;
-  ForSkinTriangles(base.head->topology(),
+  ForSkinTriangles(fitted.base->head->topology(),
                    [&](const std::uint32_t* t) { corners.insert(corners.end(), t, t + 3); });
   const auto normal = fsm::Normals(corners, position, position.size());
   constexpr float kSquarely = 0.3F, kFront = 45;  // cosine; millimetres: neither neck nor ears
@@ -110,53 +112,51 @@ fsm::FaceLight LightOnFace(const BaseHead& base, const FittedHead& fitted, const
   std::vector<fsm::FaceLight::Patch> patches;
   for (std::size_t v = 0; v < position.size(); ++v) {
     if (normal[v].z < kSquarely || position[v].z < kFront) continue;
-    const glm::vec2 at = fitted.pose.Project(fitted.pose.ToCamera(position[v]));
+    const glm::vec2 at = fitted.pose.Pixel(position[v]);
     if (at != glm::clamp(at, photo.low, photo.high)) continue;
     patches.push_back({normal[v], ColourAt(figure.colours, at) / 255.0F});
   }
   return fsm::FaceLight(patches);
 }
 
-PhotoEdges::PhotoEdges(const BaseHead& base, const FittedHead& fitted, const Cutout& figure,
-                       glm::vec3 skin) {
+PhotoEdges::PhotoEdges(const FittedHead& fitted, const Cutout& figure, glm::vec3 skin) {
   const int width = figure.opacity.width, height = figure.opacity.height;
-  const glm::vec3 forehead = base.points[point::kForehead].On(fitted.posed_vertices);
-  const Stuffs stuffs(figure, fitted.pose.Project(fitted.pose.ToCamera(forehead)).y, skin);
-  const glm::vec2 chin = fitted.pose.Project(
-      fitted.pose.ToCamera(base.points[point::kChin].On(fitted.posed_vertices)));
+  const glm::vec3 forehead = fitted.At(point::kForehead);
+  const EdgeClassifier classifier(figure, fitted.pose.Pixel(forehead).y, skin);
+  const glm::vec2 chin = fitted.pose.Pixel(fitted.At(point::kChin));
   const auto& look = PhotoLook();
   const float per_mm = fitted.pose.PixelsPerMm();
   const int wanted = static_cast<int>(look("edge_band") * per_mm);
   const int down = std::clamp(wanted, 1, height), across = std::clamp(wanted, 1, width);
   for (int x = 0; x < width; ++x) {
-    top_.push_back(Look(figure, stuffs, {x, 0}, {1, down}));
-    top_depth_.push_back(HairFrom(figure, stuffs, {x, 0}, {0, 1}, height));
-    bottom_.push_back(Look(figure, stuffs, {x, height - down}, {1, down}));
-    Stuff& stuff = bottom_.back().stuff;
+    top_.push_back(EdgeSample(figure, classifier, {x, 0}, {1, down}));
+    top_.back().hair_depth = HairDepth(figure, classifier, {x, 0}, {0, 1}, height);
+    bottom_.push_back(EdgeSample(figure, classifier, {x, height - down}, {1, down}));
+    EdgeKind& kind = bottom_.back().kind;
     const float from = std::min(chin.y, static_cast<float>(height) - look("edge_hangs") * per_mm);
-    if (stuff == Stuff::kHair && !HangsDown(figure, &stuffs, x, from)) stuff = Stuff::kCloth;
+    if (kind == EdgeKind::kHair && !HangsDown(figure, &classifier, x, from))
+      kind = EdgeKind::kCloth;
   }
   if ((static_cast<float>(height) - chin.y) / per_mm < look("edge_above_shoulders")) {
-    TellNeck(figure, chin, per_mm);
+    ClassifyNeck(figure, chin, per_mm);
   }
   for (std::size_t side = 0; side < kPhotoSides; ++side) {
+    const bool left = side == 0;
     for (int y = 0; y < height; ++y) {
       aside_[side].push_back(
-          Look(figure, stuffs, {side == 0 ? 0 : width - across, y}, {across, 1}));
-    }
-    for (int y = 0; y < height; ++y) {
-      aside_depth_[side].push_back(
-          HairFrom(figure, stuffs, {side == 0 ? 0 : width - 1, y}, {side == 0 ? 1 : -1, 0}, width));
+          EdgeSample(figure, classifier, {left ? 0 : width - across, y}, {across, 1}));
+      aside_[side].back().hair_depth =
+          HairDepth(figure, classifier, {left ? 0 : width - 1, y}, {left ? 1 : -1, 0}, width);
     }
     // Hair hangs down from the head: dark cloth below a gap is none.
     bool gap = false;
     for (int y = std::max(static_cast<int>(chin.y), 0); y < height; ++y) {
-      Stuff& stuff = aside_[side][static_cast<std::size_t>(y)].stuff;
-      gap = gap || stuff == Stuff::kNothing;
-      if (gap && stuff == Stuff::kHair) stuff = Stuff::kCloth;
+      EdgeKind& kind = aside_[side][static_cast<std::size_t>(y)].kind;
+      gap = gap || kind == EdgeKind::kNothing;
+      if (gap && kind == EdgeKind::kHair) kind = EdgeKind::kCloth;
     }
   }
-  hair_ = stuffs.hair().r < 0 ? HairBeside(chin.y, skin) : stuffs.hair();
+  hair_ = classifier.hair().r < 0 ? HairBeside(chin.y, skin) : classifier.hair();
 }
 
 glm::vec3 PhotoEdges::HairBeside(float chin, glm::vec3 skin) const {
@@ -164,14 +164,14 @@ glm::vec3 PhotoEdges::HairBeside(float chin, glm::vec3 skin) const {
   glm::vec4 sum(0);
   for (const auto& side : aside_) {
     for (std::size_t y = 0; y < side.size() && static_cast<float>(y) < chin; ++y) {
-      if (side[y].stuff != Stuff::kNothing) sum += glm::vec4(side[y].colour, 1);
+      if (side[y].kind != EdgeKind::kNothing) sum += glm::vec4(side[y].colour, 1);
     }
   }
   constexpr float kDarker = 0.3F;
   return sum.w > 0 ? glm::vec3(sum) / sum.w : kDarker * skin;
 }
 
-void PhotoEdges::TellNeck(const Cutout& figure, glm::vec2 chin, float per_mm) {
+void PhotoEdges::ClassifyNeck(const Cutout& figure, glm::vec2 chin, float per_mm) {
   // By colour alone brown hair is skin in warm light, and the shade on a neck is cloth. Above the
   // shoulders only hair hangs beside the neck, and tips of a collar stand there; the neck itself is
   // bare or in a collar.
@@ -184,31 +184,31 @@ void PhotoEdges::TellNeck(const Cutout& figure, glm::vec2 chin, float per_mm) {
   int cloth = 0, all = 0;
   for (std::size_t x = 0; x < bottom_.size(); ++x) {
     if (aside(x) > neck) continue;
-    cloth += bottom_[x].stuff == Stuff::kCloth;
+    cloth += bottom_[x].kind == EdgeKind::kCloth;
     ++all;
   }
   const bool collar = below > look("edge_at_chin") && 2 * cloth > all;
   const bool at_jaw = below < look("edge_at_jaw");
   const auto beside_neck = [&](std::size_t x) {
     // Lower down skin beside the neck may be a raised shoulder.
-    if (!at_jaw && bottom_[x].stuff == Stuff::kSkin) return false;
+    if (!at_jaw && bottom_[x].kind == EdgeKind::kSkin) return false;
     return aside(x) > look("edge_beside_neck") + (at_jaw ? look("edge_jaw") : 0);
   };
   for (std::size_t x = 0; x < bottom_.size(); ++x) {
-    Stuff& stuff = bottom_[x].stuff;
-    if (stuff == Stuff::kCloth && !collar && !beside_neck(x)) {
-      stuff = aside(x) > neck ? Stuff::kTip : Stuff::kSkin;
+    EdgeKind& kind = bottom_[x].kind;
+    if (kind == EdgeKind::kCloth && !collar && !beside_neck(x)) {
+      kind = aside(x) > neck ? EdgeKind::kTip : EdgeKind::kSkin;
     }
-    if (stuff == Stuff::kNothing || !beside_neck(x)) continue;
+    if (kind == EdgeKind::kNothing || !beside_neck(x)) continue;
     // A lock hangs down in some of its columns at least.
     std::size_t last = x;
     bool hangs = false;
     const float from = end - look("edge_hangs") * per_mm;
-    for (; last < bottom_.size() && bottom_[last].stuff != Stuff::kNothing && beside_neck(last);
+    for (; last < bottom_.size() && bottom_[last].kind != EdgeKind::kNothing && beside_neck(last);
          ++last) {
       hangs = hangs || HangsDown(figure, nullptr, static_cast<int>(last), from);
     }
-    for (; x < last; ++x) bottom_[x].stuff = hangs ? Stuff::kHair : Stuff::kTip;
+    for (; x < last; ++x) bottom_[x].kind = hangs ? EdgeKind::kHair : EdgeKind::kTip;
     --x;
   }
 }

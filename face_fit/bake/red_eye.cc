@@ -6,7 +6,6 @@
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
-
 namespace {
 
 float RedShare(glm::vec3 c) { return c.r / std::max(0.5F * (c.g + c.b), 1.0F); }

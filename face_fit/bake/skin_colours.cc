@@ -11,11 +11,8 @@
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
-namespace {
 
 constexpr float kSeen = 0.9F;
-
-}  // namespace
 
 float Saturation(const fsm::Image& map, const FloatImage& seen) {
   float sum = 0, light = 0;
@@ -69,7 +66,7 @@ float Roughness(const fsm::Image& map, const FloatImage& face_seen) {
   return steps.empty() ? 0 : Median(std::move(steps));
 }
 
-void EndAtHair(const std::vector<float>& up, FloatImage& likeness) {
+void CutAtHairline(const SkinTexels& texels, FloatImage& likeness) {
   // A line of the forehead is narrower than this, a fringe is not.
   const FloatImage wide = Blurred(likeness, likeness.width / 100);
   const glm::vec2 edge = PhotoLook().Pair("hair_edge");
@@ -77,9 +74,8 @@ void EndAtHair(const std::vector<float>& up, FloatImage& likeness) {
   for (int x = 0; x < likeness.width; ++x) {
     float least = 1;
     for (int y = likeness.height - 1; y >= 0; --y) {
-      const auto i = static_cast<std::size_t>(y * likeness.width + x);
-      if (up[i] > 0) least = std::min(least, Ramp(edge, wide.at[i]));
-      skin.at[i] = least;
+      if (texels(x, y).above_brows_mm > 0) least = std::min(least, Ramp(edge, wide(x, y)));
+      skin(x, y) = least;
     }
   }
   skin = Blurred(skin, likeness.width / 170);

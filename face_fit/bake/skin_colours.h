@@ -1,9 +1,6 @@
 #pragma once
 
-#include <vector>
-
-#include "face_fit/picture/float_image.h"
-#include "fsm/image/image.h"
+#include "face_fit/bake/skin_texels.h"
 
 namespace facefit {
 
@@ -16,8 +13,8 @@ float Saturation(const fsm::Image& map, const FloatImage& seen);
 FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_seen);
 
 /// Removes bright strands of a fringe: going up from the brows, `likeness` ends where the hair
-/// begins. `up`: for each texel, millimetres above the line from which on hair may begin.
-void EndAtHair(const std::vector<float>& up, FloatImage& likeness);
+/// begins.
+void CutAtHairline(const SkinTexels& texels, FloatImage& likeness);
 
 /// How wrinkled the skin is: the median of the steps of brightness within some millimetres,
 /// relative to the brightness; about 0.01 for smooth skin, 0.03 for old skin.

@@ -8,8 +8,9 @@
 #include <optional>
 #include <span>
 
-#include "face_fit/bake/skin_rasterizer.h"
+#include "face_fit/bake/skin_surface.h"
 #include "face_fit/find/head/rasterizer.h"
+#include "face_fit/picture/plane.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
@@ -18,20 +19,20 @@ namespace {
 /// Whether the head itself hides a place of its skin from the camera, as the jaw does the throat.
 class Hidden {
  public:
-  Hidden(const BaseHead& base, const FittedHead& fitted, const CameraPose& pose) : pose_(pose) {
+  Hidden(const FittedHead& fitted, const CameraPose& pose) : pose_(pose) {
     const glm::vec2 middle = pose.Project({0, 0, 0});
     const float reach = kReach * pose.PixelsPerMm();
     const float cell = 2 * reach / kCells;
     grid_ = {middle - reach, cell, kCells, kCells};
-    nearest_ = RasterizeSkin(base, fitted, pose, grid_, -1e9F).depth;
+    nearest_ = SeenSkin(fitted, pose, grid_, -1e9F).depth();
   }
   bool operator()(glm::vec3 camera) const {
-    const glm::vec2 at = (pose_.Project(camera) - grid_.origin) / grid_.cell + 0.5F;
+    const glm::vec2 at = (pose_.Project(camera) - grid_.origin) / grid_.step + 0.5F;
     const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
     if (x < 1 || y < 1 || x + 1 >= kCells || y + 1 >= kCells) return false;
     constexpr float kBehind = 5;  // millimetres
     for (int k = 0; k < 9; ++k) {
-      const float z = nearest_.at[nearest_.Index(x + k % 3 - 1, y + k / 3 - 1)];
+      const float z = nearest_(x + k % 3 - 1, y + k / 3 - 1);
       if (z < camera.z + kBehind) return false;
     }
     return true;
@@ -41,35 +42,27 @@ class Hidden {
   static constexpr int kCells = 256;
   static constexpr float kReach = 180;  // millimetres
   const CameraPose& pose_;
-  PhotoGrid grid_{};
-  FloatImage nearest_{0, 0};
+  SampleGrid grid_{};
+  FloatImage nearest_;
 };
-
-/// The height of a line from the person's right to left.
-float HeightAt(std::span<const glm::vec3> line, float x) {
-  std::size_t k = 1;
-  while (k + 1 < line.size() && line[k].x < x) ++k;
-  const float part = (x - line[k - 1].x) / std::max(line[k].x - line[k - 1].x, 1e-3F);
-  return glm::mix(line[k - 1].y, line[k].y, glm::clamp(part, 0.0F, 1.0F));
-}
 
 /// Where the lips of the base head at rest meet and end, in millimetres.
 class LipLines {
  public:
   explicit LipLines(const BaseHead& base)
-      : seam_(Line(base, UpperInnerLip(), {})),
-        upper_(Line(base, UpperOuterLip(), kCorners)),
-        lower_(Line(base, LowerOuterLip(), kCorners)) {}
+      : seam_(Line(base, point::kUpperInnerLip, {})),
+        upper_(Line(base, point::kUpperOuterLip, kCorners)),
+        lower_(Line(base, point::kLowerOuterLip, kCorners)) {}
   float OffSeam(glm::vec3 p) const {
     if (!Spans(seam_, p)) return 1e9F;
-    const float off = std::abs(p.y - HeightAt(seam_, p.x));
+    const float off = std::abs(p.y - HeightAt<glm::vec3>(seam_, p.x));
     // Towards its ends the line grows thin.
     const float to_end = std::min(p.x - seam_.front().x, seam_.back().x - p.x);
     return off + 0.2F * std::max(7 - to_end, 0.0F);
   }
   float Within(glm::vec3 p) const {
     if (!Spans(upper_, p)) return -1e9F;
-    return std::min(HeightAt(upper_, p.x) - p.y, p.y - HeightAt(lower_, p.x));
+    return std::min(HeightAt<glm::vec3>(upper_, p.x) - p.y, p.y - HeightAt<glm::vec3>(lower_, p.x));
   }
 
  private:
@@ -117,14 +110,14 @@ std::optional<Triangle2> OnMap(const fsm::HeadTopology& topology, const std::uin
 
 }  // namespace
 
-SkinTexels ProjectSkin(const BaseHead& base, const FittedHead& fitted, const CameraPose& pose,
-                       bool hidden) {
+SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, bool hidden) {
+  const BaseHead& base = *fitted.base;
   const glm::vec2 across = PhotoLook().Pair("aside_across");
   const glm::vec2 above_chin = PhotoLook().Pair("aside_above_chin");
   constexpr float kSlack = 0.02F;
   constexpr glm::vec3 kEye(0, 0, kCameraZ);
   std::optional<Hidden> hides;
-  if (hidden) hides.emplace(base, fitted, pose);
+  if (hidden) hides.emplace(fitted, pose);
   const auto& topology = base.head->topology();
   std::vector<glm::vec3> camera;
   for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(pose.ToCamera(p));
@@ -132,7 +125,7 @@ SkinTexels ProjectSkin(const BaseHead& base, const FittedHead& fitted, const Cam
   const float brows = base.head->Landmark("nasion").y + kBrowsEnd;
   const float chin = base.AtRest(point::kChin).y;
   const LipLines lips(base);
-  SkinTexels out;
+  SkinTexels out(kMapSide, kMapSide);
   ForSkinTriangles(topology, [&](const std::uint32_t* t) {
     const auto triangle = OnMap(topology, t);
     if (!triangle) return;
@@ -140,17 +133,17 @@ SkinTexels ProjectSkin(const BaseHead& base, const FittedHead& fitted, const Cam
       const glm::vec3 rest = Interpolated(base.rest.position, t, weights);
       const float outward = rest.x * rest.x + rest.z * rest.z;
       const std::size_t i = MapIndex(x, y);
-      if (outward <= out.outward[i]) return;
+      if (outward <= out.at[i].outward) return;
       const glm::vec3 q = Interpolated(camera, t, weights);
       const glm::vec3 n = Interpolated(normal, t, weights) + glm::vec3(0, 0, 1e-9F);
-      out.outward[i] = outward;
-      out.pixel[i] = pose.Project(q);
-      out.across[i] = rest.x;
-      out.up[i] = rest.y - brows;
-      out.off_seam[i] = lips.OffSeam(rest);
-      out.within_lips_mm[i] = lips.Within(rest);
-      out.aside[i] = std::max(Ramp(across, std::abs(rest.x)), Ramp(above_chin, rest.y - chin));
-      out.facing[i] =
+      out.at[i].outward = outward;
+      out.at[i].pixel = pose.Project(q);
+      out.at[i].x_mm = rest.x;
+      out.at[i].above_brows_mm = rest.y - brows;
+      out.at[i].off_seam_mm = lips.OffSeam(rest);
+      out.at[i].within_lips_mm = lips.Within(rest);
+      out.at[i].aside = std::max(Ramp(across, std::abs(rest.x)), Ramp(above_chin, rest.y - chin));
+      out.at[i].facing =
           hides && (*hides)(q) ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q));
     });
   });

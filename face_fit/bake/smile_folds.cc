@@ -10,33 +10,25 @@
 
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"
+#include "face_fit/picture/plane.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
 
-float ToLine(std::span<const glm::vec2> line, glm::vec2 p) {
+float DistanceToLine(glm::vec2 p, std::span<const glm::vec2> line) {
   float nearest = 1e9F;
   for (std::size_t k = 1; k < line.size(); ++k) {
-    const glm::vec2 way = line[k] - line[k - 1];
-    const float part = glm::dot(p - line[k - 1], way) / std::max(glm::dot(way, way), 1e-6F);
-    nearest = std::min(nearest, glm::distance(p, line[k - 1] + glm::clamp(part, 0.0F, 1.0F) * way));
+    nearest = std::min(nearest, DistanceToSegment(p, line[k - 1], line[k]));
   }
   return nearest;
 }
 
-/// How folds are filled.
-struct Filling {
-  float smile;  // 0..1
-  float pixels_per_mm;
-  float reach;  // millimetres beside the fold
-  int valley;   // half its width, pixels
-};
-
-/// `smooth` becomes how much of each pixel was filled, 0..1.
-void FillFold(std::span<const glm::vec2> line, const Filling& filling, fsm::Image& photo,
-              FloatImage& smooth) {
-  const auto& [smile, pixels_per_mm, reach, valley] = filling;
+/// Fills what is dark within `reach` (millimetres) of a line and narrower than twice `valley`
+/// (pixels) as much as `smile` says; `smooth` becomes how much of each pixel was filled, 0..1.
+void FillFold(std::span<const glm::vec2> line, float smile, float pixels_per_mm, int valley,
+              fsm::Image& photo, FloatImage& smooth) {
+  const float reach = PhotoLook()("fold_reach");
   Box2 box;
   for (const glm::vec2 at : line) box.Add(at);
   const float margin = reach * pixels_per_mm + 2 * static_cast<float>(valley);
@@ -44,31 +36,19 @@ void FillFold(std::span<const glm::vec2> line, const Filling& filling, fsm::Imag
   const glm::ivec2 last = glm::min(glm::ivec2(box.high + margin) + 1, {photo.width, photo.height});
   if (last.x <= first.x || last.y <= first.y) return;
   const glm::ivec2 size = last - first;
-  const auto value = [&](int x, int y, std::size_t channel) -> std::uint8_t& {
-    return photo.rgba[4 * photo.Index(first.x + x, first.y + y) + channel];
-  };
-  FloatImage part(size.x, size.y);
+  // Each colour for itself: folds are redder than the skin beside them.
+  const auto colours = VectorImage::From(size.x, size.y, [&](int x, int y) {
+    return Rgb(photo, photo.Index(first.x + x, first.y + y));
+  });
+  const VectorImage filled = Blurred(Closed(colours, valley), std::max(valley / 2, 1));
   for (int y = 0; y < size.y; ++y) {
     for (int x = 0; x < size.x; ++x) {
-      const float off = ToLine(line, glm::vec2(first + glm::ivec2(x, y)) + 0.5F) / pixels_per_mm;
-      part.at[part.Index(x, y)] = smile * glm::smoothstep(reach, 0.5F * reach, off);
-    }
-  }
-  // Each colour for itself: folds are redder than the skin beside them.
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    FloatImage light(size.x, size.y);
-    for (int y = 0; y < size.y; ++y) {
-      for (int x = 0; x < size.x; ++x) light.at[light.Index(x, y)] = value(x, y, channel);
-    }
-    const FloatImage filled = Blurred(Closed(light, valley), std::max(valley / 2, 1));
-    for (int y = 0; y < size.y; ++y) {
-      for (int x = 0; x < size.x; ++x) {
-        const std::size_t i = light.Index(x, y);
-        const float lit = std::max(filled.at[i], light.at[i]);
-        float& lost = smooth.at[smooth.Index(first.x + x, first.y + y)];
-        if (lit > light.at[i]) lost = std::max(lost, part.at[i]);
-        value(x, y, channel) = Byte(glm::mix(light.at[i], lit, part.at[i]));
-      }
+      const glm::ivec2 at = first + glm::ivec2(x, y);
+      const float off = DistanceToLine(glm::vec2(at) + 0.5F, line) / pixels_per_mm;
+      const float part = smile * glm::smoothstep(reach, 0.5F * reach, off);
+      const glm::vec3 lit = glm::max(filled(x, y), colours(x, y));
+      if (lit != colours(x, y)) smooth(at.x, at.y) = std::max(smooth(at.x, at.y), part);
+      SetRgb(photo, photo.Index(at.x, at.y), glm::mix(colours(x, y), lit, part));
     }
   }
 }
@@ -83,7 +63,7 @@ FloatImage FillSmileFolds(const FoundFace& face, float smile, float pixels_per_m
   for (const fsm::Side side : fsm::kSides) {
     std::vector<glm::vec2> line;
     for (const PointIndex i : point::kSmileFold[side]) line.push_back(face.At(i));
-    FillFold(line, {smile, pixels_per_mm, PhotoLook()("fold_reach"), valley}, photo, smooth);
+    FillFold(line, smile, pixels_per_mm, valley, photo, smooth);
   }
   return smooth;
 }

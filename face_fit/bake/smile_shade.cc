@@ -11,7 +11,14 @@
 namespace facefit {
 namespace {
 
-/// Where on the base face a smile shades the skin, 0..1.
+/// Where on the base face a smile shades the skin: from below the eyes to above the chin, beside
+/// the wings of the nose and, less, below it. Ranges in millimetres, from none to all.
+constexpr glm::vec2 kBelowEyes{-10, -22}, kAboveChin{8, 20}, kBesideMiddle{58, 44};
+constexpr glm::vec2 kBesideWings{1, 7}, kBelowNose{-3, -7}, kOutsideLips{-1.5F, -4};
+constexpr float kBelowNoseWeight = 0.7F;
+/// What stands for the cheeks: skin at least so far from lips, eyes and nose.
+constexpr float kFromLips = -2, kFromEyes = -8, kFromNose = -2;
+
 class Cheeks {
  public:
   explicit Cheeks(const BaseHead& base) : brows_(base.head->Landmark("nasion").y + kBrowsEnd) {
@@ -23,40 +30,46 @@ class Cheeks {
     chin_ = at(kChin).y;
   }
   float At(const SkinTexels& texels, std::size_t i) const {
-    const float y = Y(texels, i), x = std::abs(texels.across[i]);
-    return glm::smoothstep(eyes_ - 10, eyes_ - 22, y) * glm::smoothstep(chin_ + 8, chin_ + 20, y) *
-           glm::smoothstep(58.0F, 44.0F, x) *
-           std::max(glm::smoothstep(wing_ + 1, wing_ + 7, x),
-                    0.7F * glm::smoothstep(nose_ - 3, nose_ - 7, y)) *
-           glm::smoothstep(-1.5F, -4.0F, texels.within_lips_mm[i]);
+    const float y = Y(texels, i), x = std::abs(texels.at[i].x_mm);
+    return Ramp(eyes_ + kBelowEyes, y) * Ramp(chin_ + kAboveChin, y) * Ramp(kBesideMiddle, x) *
+           std::max(Ramp(wing_ + kBesideWings, x), kBelowNoseWeight * Ramp(nose_ + kBelowNose, y)) *
+           Ramp(kOutsideLips, texels.at[i].within_lips_mm);
   }
   /// Whether it is skin that can stand for the cheeks: no lips, no nose.
   bool Skin(const SkinTexels& texels, std::size_t i) const {
-    const float y = Y(texels, i), x = std::abs(texels.across[i]);
-    return texels.within_lips_mm[i] < -2 && y < eyes_ - 8 && (x > wing_ || y < nose_ - 2);
+    const float y = Y(texels, i), x = std::abs(texels.at[i].x_mm);
+    return texels.at[i].within_lips_mm < kFromLips && y < eyes_ + kFromEyes &&
+           (x > wing_ || y < nose_ + kFromNose);
   }
 
  private:
-  float Y(const SkinTexels& texels, std::size_t i) const { return texels.up[i] + brows_; }
+  float Y(const SkinTexels& texels, std::size_t i) const {
+    return texels.at[i].above_brows_mm + brows_;
+  }
   float brows_, eyes_ = 0, wing_ = 0, nose_ = 0, chin_ = 0;
 };
 
-/// Means of one channel over a width, of what has weight.
-class Means {
+/// Means of colours over a width, of what has weight.
+class WeightedMeans {
  public:
-  Means(const FloatImage& weight, int reach) : weight_(weight), reach_(reach), sum_(Soft(weight)) {}
+  WeightedMeans(const FloatImage& weight, int reach)
+      : weight_(weight), reach_(reach), sum_(Soft(weight)) {}
   /// How much there is to go by near a texel, 0..1.
   float Known(std::size_t i) const { return sum_.at[i]; }
-  FloatImage Of(const FloatImage& values) const {
-    FloatImage weighted = values;
-    for (std::size_t i = 0; i < weighted.at.size(); ++i) weighted.at[i] *= weight_.at[i];
-    FloatImage means = Soft(weighted);
-    for (std::size_t i = 0; i < means.at.size(); ++i) means.at[i] /= std::max(sum_.at[i], 1e-3F);
-    return means;
+  VectorImage Of(VectorImage colours) const {
+    for (std::size_t i = 0; i < colours.at.size(); ++i) colours.at[i] *= weight_.at[i];
+    colours = Soft(colours);
+    for (std::size_t i = 0; i < colours.at.size(); ++i) {
+      colours.at[i] /= std::max(sum_.at[i], 1e-3F);
+    }
+    return colours;
   }
 
  private:
-  FloatImage Soft(const FloatImage& field) const { return Blurred(Blurred(field, reach_), reach_); }
+  template <typename T>
+  Raster<T> Soft(const Raster<T>& image) const {
+    return Blurred(Blurred(image, reach_), reach_);
+  }
   const FloatImage& weight_;
   int reach_;
   FloatImage sum_;
@@ -64,8 +77,8 @@ class Means {
 
 }  // namespace
 
-void EvenSmileShade(const BaseHead& base, const SkinTexels& texels, const FloatImage& seen,
-                    float smile, fsm::Image& map) {
+void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const FloatImage& seen,
+                        float smile, fsm::Image& map) {
   if (smile <= 0) return;
   const glm::ivec2 reach(PhotoLook().Pair("shade_texels"));
   const Cheeks cheeks(base);
@@ -73,16 +86,13 @@ void EvenSmileShade(const BaseHead& base, const SkinTexels& texels, const FloatI
   for (std::size_t i = 0; i < weight.at.size(); ++i) {
     weight.at[i] = cheeks.Skin(texels, i) ? seen.at[i] * seen.at[i] : 0.0F;
   }
-  const Means fine(weight, reach.x), wide(weight, reach.y);
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    const FloatImage values = Channel(map, channel);
-    const FloatImage near = fine.Of(values), far = wide.Of(values);
-    for (std::size_t i = 0; i < values.at.size(); ++i) {
-      const float part = smile * cheeks.At(texels, i) * glm::smoothstep(0.1F, 0.5F, fine.Known(i));
-      if (part <= 0) continue;
-      const float even = (far.at[i] + 1) / (near.at[i] + 1);
-      map.rgba[4 * i + channel] = Byte(values.at[i] * glm::mix(1.0F, even, part));
-    }
+  const WeightedMeans fine(weight, reach.x), wide(weight, reach.y);
+  const VectorImage colours = Colours(map), near = fine.Of(colours), far = wide.Of(colours);
+  for (std::size_t i = 0; i < colours.at.size(); ++i) {
+    const float part = smile * cheeks.At(texels, i) * glm::smoothstep(0.1F, 0.5F, fine.Known(i));
+    if (part <= 0) continue;
+    const glm::vec3 even = (far.at[i] + 1.0F) / (near.at[i] + 1.0F);
+    SetRgb(map, i, colours.at[i] * glm::mix(glm::vec3(1), even, part));
   }
 }
 
@@ -91,18 +101,14 @@ void GrainFromCheeks(const FloatImage& smooth, fsm::Image& map) {
   constexpr int kUp = 48, kOut = 36;  // texels, some 12 and 9 millimetres
   constexpr int kGrain = 8;           // what varies over more is no grain
   constexpr float kMost = 0.12F;      // of the brightness: more is a line, not grain
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    const FloatImage values = Channel(map, channel);
-    const FloatImage means = Blurred(Blurred(values, kGrain), kGrain);
-    for (int y = kUp; y < kMapSide; ++y) {
-      for (int x = kOut; x < kMapSide - kOut; ++x) {
-        const std::size_t i = MapIndex(x, y);
-        if (smooth.at[i] <= 0) continue;
-        const std::size_t from = MapIndex(x < kMapSide / 2 ? x - kOut : x + kOut, y - kUp);
-        const float grain = (values.at[from] + 1) / (means.at[from] + 1) - 1;
-        map.rgba[4 * i + channel] =
-            Byte(values.at[i] * (1 + smooth.at[i] * glm::clamp(grain, -kMost, kMost)));
-      }
+  const VectorImage colours = Colours(map), means = Blurred(Blurred(colours, kGrain), kGrain);
+  for (int y = kUp; y < kMapSide; ++y) {
+    for (int x = kOut; x < kMapSide - kOut; ++x) {
+      const std::size_t i = MapIndex(x, y);
+      if (smooth.at[i] <= 0) continue;
+      const std::size_t from = MapIndex(x < kMapSide / 2 ? x - kOut : x + kOut, y - kUp);
+      const glm::vec3 grain = (colours.at[from] + 1.0F) / (means.at[from] + 1.0F) - 1.0F;
+      SetRgb(map, i, colours.at[i] * (1.0F + smooth.at[i] * glm::clamp(grain, -kMost, kMost)));
     }
   }
 }

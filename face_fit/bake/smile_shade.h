@@ -10,8 +10,8 @@ namespace facefit {
 /// beside the chin. Cheeks that bulge shine, and the skin below them lies in shade: brightness that
 /// varies over 2 to 10 mm is replaced by what varies over more. Pores and spots are finer and stay.
 /// `smile`: how much of it, 0..1. `seen`: of each texel, how well the photo shows it.
-void EvenSmileShade(const BaseHead& base, const SkinTexels& texels, const FloatImage& seen,
-                    float smile, fsm::Image& map);
+void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const FloatImage& seen,
+                        float smile, fsm::Image& map);
 
 /// Gives back to skin that was smoothed the grain that the cheek has above it and farther out.
 /// `smooth`: how much of its own each texel of the map lost, 0..1.

@@ -16,7 +16,7 @@
 #include "face_fit/bake/smile_shade.h"
 #include "face_fit/find/face/glasses.h"
 #include "face_fit/find/figure/matte.h"
-#include "face_fit/picture/inpaint.h"
+#include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
 #include "face_fit/tables/photo_look.h"
@@ -35,10 +35,10 @@ bool InPhoto(const fsm::Image& photo, glm::vec2 p) {
 }
 
 /// Lays a view from the side over what the first photo saw at a slant or not at all.
-void LayOver(const BaseHead& base, const FittedHead& fitted, const SideView& side,
-             const SkinTexels& front, fsm::Image& map, FloatImage& seen) {
+void BlendSideView(const FittedHead& fitted, const SideView& side, const SkinTexels& front,
+                   fsm::Image& map, FloatImage& seen) {
   const CameraPose& pose = side.fit.pose;
-  const SkinTexels texels = ProjectSkin(base, fitted, pose, false);
+  const SkinTexels texels = ProjectSkin(fitted, pose, false);
   // What it shows is of the side towards it: the other cheek lies behind the nose.
   const float towards = pose.TowardsCamera().x > 0 ? 1.0F : -1.0F;
   const fsm::Image& colours = side.figure.colours;
@@ -47,26 +47,26 @@ void LayOver(const BaseHead& base, const FittedHead& fitted, const SideView& sid
   constexpr float kWellSeen = 0.9F, kFront = 0.4F, kAside = 0.5F, kFromMiddle = 5;
   glm::vec3 here(1), there(1);
   for (std::size_t i = 0; i < seen.at.size(); ++i) {
-    if (seen.at[i] < kWellSeen || front.facing[i] < kFront || texels.facing[i] < kAside ||
-        towards * front.across[i] < kFromMiddle || !InPhoto(colours, texels.pixel[i])) {
+    if (seen.at[i] < kWellSeen || front.at[i].facing < kFront || texels.at[i].facing < kAside ||
+        towards * front.at[i].x_mm < kFromMiddle || !InPhoto(colours, texels.at[i].pixel)) {
       continue;
     }
     here += Rgb(map, i);
-    there += ColourAt(colours, texels.pixel[i]);
+    there += ColourAt(colours, texels.at[i].pixel);
   }
   const glm::vec2 limit = PhotoLook().Pair("light_gain");
   const glm::vec3 gain = glm::clamp(here / there, limit.x, limit.y);
   for (std::size_t i = 0; i < seen.at.size(); ++i) {
     // Too slanted a texel is drawn from a line of pixels.
     constexpr float kSlanted = 0.15F, kStraight = 0.45F;  // cosines
-    if (texels.facing[i] < kSlanted || !InPhoto(colours, texels.pixel[i])) continue;
-    const float can = glm::smoothstep(kSlanted, kStraight, texels.facing[i]) *
-                      glm::smoothstep(-4.0F, 12.0F, towards * front.across[i]);
-    const float known = seen.at[i] * glm::smoothstep(0.2F, 0.5F, front.facing[i]);
+    if (texels.at[i].facing < kSlanted || !InPhoto(colours, texels.at[i].pixel)) continue;
+    const float can = glm::smoothstep(kSlanted, kStraight, texels.at[i].facing) *
+                      glm::smoothstep(-4.0F, 12.0F, towards * front.at[i].x_mm);
+    const float known = seen.at[i] * glm::smoothstep(0.2F, 0.5F, front.at[i].facing);
     const float sum = known + (1 - known) * can;
     if (sum <= seen.at[i] * 0.01F || can <= 0) continue;
     const float part = (1 - known) * can / std::max(sum, 1e-4F);
-    const glm::vec3 colour = glm::min(gain * ColourAt(colours, texels.pixel[i]), 255.0F);
+    const glm::vec3 colour = glm::min(gain * ColourAt(colours, texels.at[i].pixel), 255.0F);
     SetRgb(map, i, glm::mix(Rgb(map, i), colour, part));
     seen.at[i] = std::max(seen.at[i], sum);
   }
@@ -91,14 +91,14 @@ SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTe
       FillSmileFolds(face, look("smile_folds_filled") * Smile(fitted), pixels_per_mm, colours);
   const Openings openings(face, pixels_per_mm, open);
   SkinMap map;
-  for (std::size_t i = 0; i < texels.facing.size(); ++i) {
-    const glm::vec2 p = texels.pixel[i];
+  for (std::size_t i = 0; i < texels.at.size(); ++i) {
+    const glm::vec2 p = texels.at[i].pixel;
     // Near the head's outline the photo shows more of what lies beside it than of its skin.
-    const float least = glm::mix(least_on_face, least_aside, texels.aside[i]);
-    if (!InPhoto(colours, p) || texels.facing[i] < least) continue;
-    const float part = openings.Skin(p);
+    const float least = glm::mix(least_on_face, least_aside, texels.at[i].aside);
+    if (!InPhoto(colours, p) || texels.at[i].facing < least) continue;
+    const float part = openings.SkinWeight(p);
     map.skin[i] = part >= 1;
-    map.seen.at[i] = part * glm::smoothstep(least, least + soft, texels.facing[i]);
+    map.seen.at[i] = part * glm::smoothstep(least, least + soft, texels.at[i].facing);
     map.smooth.at[i] = filled.Between(p.x, p.y);
     SetRgb(map.image, i, SharpColourAt(colours, p));
   }
@@ -110,8 +110,8 @@ void DrawMouthLine(const SkinTexels& texels, float saturation, fsm::Image& map) 
   const fsm::NumberTable& look = PhotoLook();
   const glm::vec3 dark =
       glm::mix(look.Vector("mouth_line_grey"), look.Vector("mouth_line_colour"), saturation);
-  for (std::size_t i = 0; i < texels.off_seam.size(); ++i) {
-    const float line = glm::smoothstep(1.0F, 0.1F, texels.off_seam[i]);
+  for (std::size_t i = 0; i < texels.at.size(); ++i) {
+    const float line = glm::smoothstep(1.0F, 0.1F, texels.at[i].off_seam_mm);
     if (line > 0) SetRgb(map, i, Rgb(map, i) * (1.0F - dark * line));
   }
 }
@@ -141,26 +141,26 @@ struct SkinLook {
 };
 
 /// Completes the map where the photo does not show it, and says in its alpha what is skin.
-SkinLook FinishMap(const BaseHead& base, const FittedHead& fitted, const SkinTexels& texels,
-                   bool open, SkinMap& map) {
+SkinLook FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool open, SkinMap& map) {
   const fsm::NumberTable& look = PhotoLook();
   const float saturation = Saturation(map.image, map.seen);
-  TakeFromOtherSide(map.skin, map.image, map.seen);
+  CompleteByMirroring(map.skin, map.image, map.seen);
   PushPullInpaint(map.image, map.seen);
-  EvenSmileShade(base, texels, map.seen, look("smile_shade_evened") * Smile(fitted), map.image);
+  RemoveSmileShading(*fitted.base, texels, map.seen, look("smile_shade_evened") * Smile(fitted),
+                     map.image);
   GrainFromCheeks(map.smooth, map.image);
-  FloatImage aside(kMapSide, kMapSide);
-  aside.at = texels.aside;
+  const auto aside =
+      FloatImage::From(kMapSide, kMapSide, [&](int x, int y) { return texels(x, y).aside; });
   AddGrain(map.seen, aside, kMapSide / 170, map.image);
   if (open) {
-    RedLips(texels.within_lips_mm, map.image);
+    RestoreLipColour(texels, map.image);
     DrawMouthLine(texels, saturation, map.image);
   }
   const FloatImage face_seen = OnFace(texels, map.seen);
   const glm::vec2 range = look.Pair("roughness");
   const float rough = (Roughness(map.image, face_seen) - range.x) / (range.y - range.x);
   FloatImage likeness = SkinLikeness(map.image, face_seen);
-  EndAtHair(texels.up, likeness);
+  CutAtHairline(texels, likeness);
   for (std::size_t i = 0; i < likeness.at.size(); ++i) {
     map.image.rgba[4 * i + 3] = Byte(255 * likeness.at[i]);
   }
@@ -192,35 +192,34 @@ fsm::Image SideBySide(const fsm::Image& map, const fsm::Image& back, const Float
 
 }  // namespace
 
-TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& fit,
-                        const fsm::Image& photo, const Cutout& figure,
-                        std::span<const SideView> sides) {
+TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
+                        const Cutout& figure, std::span<const SideView> sides) {
   const FittedHead& fitted = fit.head;
   TextureBake bake;
-  const SkinTexels texels = ProjectSkin(base, fitted, fitted.pose, true);
+  const SkinTexels texels = ProjectSkin(fitted, fitted.pose, true);
   const bool open = fitted.expression.jaw + fitted.expression.parted > kMouthOpen;
   SkinMap map = PaintPhoto(face, fitted, texels, open, figure.colours);
   std::vector<glm::vec3> also_seen;
   for (const SideView& side : sides) {
     if (side.outline_only) continue;
-    LayOver(base, fitted, side, texels, map.image, map.seen);
+    BlendSideView(fitted, side, texels, map.image, map.seen);
     also_seen.push_back(side.fit.pose.TowardsCamera());
   }
   bake.coverage = Coverage(texels, map.seen);
-  const SkinLook skin = FinishMap(base, fitted, texels, open, map);
-  const CompletedFigure whole = CompleteFigure(base, fitted, figure);
+  const SkinLook skin = FinishMap(fitted, texels, open, map);
+  const CompletedFigure whole = CompleteFigure(fitted, figure);
   bake.completed = whole.completed;
   FittedHead on_canvas = fitted;
   on_canvas.pose.centre += whole.photo;
-  fsm::Image picture = SideBySide(map.image, BehindFace(base, on_canvas, whole.figure),
+  fsm::Image picture = SideBySide(map.image, BehindFace(on_canvas, whole.figure),
                                   whole.figure.opacity, fitted.pose.PixelsPerMm());
-  const auto eyes = EyesAtRest(base, fitted);
+  const auto eyes = EyesAtRest(fitted);
   const EyeColours eye_colours = SampleEyes(face, fit.irises, photo);
   const MouthColours mouth = SampleMouth(face, photo);
-  Billboard billboard = MakeBillboard(base, on_canvas, whole.figure);
+  Billboard billboard = MakeBillboard(on_canvas, whole.figure);
   // Half a texel within, so that the halves do not run into each other.
   constexpr float kHalf = 0.25F / kMapSide;
-  bake.head = {.base = base.name,
+  bake.head = {.base = fitted.base->name,
                .points = fitted.points,
                .smooth = fitted.smooth,
                .eyes = eyes,
@@ -228,9 +227,9 @@ TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& 
                .white_colour = eye_colours.white,
                .iris_size = fit.irises.size,
                .teeth = mouth.teeth,
-               .glasses = BarOnNose(face, photo) > kGlasses,
+               .glasses = BridgeContrast(face, photo) > kGlassesContrast,
                .lip_colour = mouth.lip,
-               .eye_pictures = PaintEyes(base, face, fit, eyes, photo, picture),
+               .eye_pictures = PaintEyes(face, fit, eyes, photo, picture),
                .saturation = skin.saturation,
                .lined = skin.lined,
                .skin_low = {kHalf, 1},

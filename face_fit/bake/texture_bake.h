@@ -19,8 +19,7 @@ inline constexpr int kMapSide = 1024;  ///< of each half
 
 /// `figure`: of `photo`; `sides`: photos of the same person from the side, may be empty. Pure;
 /// thread: any.
-TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& fit,
-                        const fsm::Image& photo, const Cutout& figure,
-                        std::span<const SideView> sides);
+TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
+                        const Cutout& figure, std::span<const SideView> sides);
 
 }  // namespace facefit

@@ -4,11 +4,8 @@
 #include <glm/matrix.hpp>
 
 namespace facefit {
-namespace {
 
 constexpr glm::vec3 kMiddle{0, -10, 20};  ///< the head is turned about it
-
-}  // namespace
 
 glm::mat3 CameraPose::Rotation() const {
   const float cx = std::cos(turn.x), sx = std::sin(turn.x);
@@ -32,6 +29,14 @@ glm::vec2 CameraPose::Project(glm::vec3 q) const {
 glm::vec3 CameraPose::Unproject(glm::vec2 pixel, float z) const {
   const glm::vec2 d = (pixel - centre) * ((kCameraZ - z) / focal);
   return {d.x, -d.y, z};
+}
+std::vector<glm::vec3> CameraPose::Screen(std::span<const glm::vec3> places) const {
+  std::vector<glm::vec3> screen;
+  for (const glm::vec3& p : places) {
+    const glm::vec3 q = ToCamera(p);
+    screen.emplace_back(Project(q), q.z);
+  }
+  return screen;
 }
 float CameraPose::PixelsPerMm() const { return focal / (kCameraZ - kFaceZ); }
 

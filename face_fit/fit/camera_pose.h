@@ -3,6 +3,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
+#include <vector>
 
 namespace facefit {
 
@@ -26,7 +28,12 @@ struct CameraPose {
   glm::vec3 TowardsCamera() const;
   glm::vec2 Project(glm::vec3 q) const;                 ///< from the camera's frame to pixels
   glm::vec3 Unproject(glm::vec2 pixel, float z) const;  ///< to the place at that depth
-  float PixelsPerMm() const;                            ///< at the depth of the face
+  /// From the head's frame to pixels, and back to the place at depth `z` of the camera's frame.
+  glm::vec2 Pixel(glm::vec3 p) const { return Project(ToCamera(p)); }
+  /// Likewise of many: pixels, and depth in the camera's frame as the third coordinate.
+  std::vector<glm::vec3> Screen(std::span<const glm::vec3> places) const;
+  glm::vec3 PlaceAt(glm::vec2 pixel, float z) const { return FromCamera(Unproject(pixel, z)); }
+  float PixelsPerMm() const;  ///< at the depth of the face
 };
 
 }  // namespace facefit

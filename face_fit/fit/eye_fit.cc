@@ -11,6 +11,16 @@
 namespace facefit {
 namespace {
 
+// What people's eyes do; beyond it a point was misjudged. By the built-in eye, radians, and
+// millimetres that the lids are raised.
+constexpr glm::vec2 kSize{0.82F, 1.2F}, kTurn{-0.25F, 0.25F}, kUpperRaise{-6, 0.7F},
+    kLowerRaise{-2.5F, 3.5F}, kIrisSize{0.8F, 1.12F};
+/// How far an iris may lie above or below the middle between the lids, millimetres: so differently
+/// do eyes rest; and by how much the lids are moved at most.
+constexpr float kRestsFreely = 0.5F, kMostShift = 3;
+
+float Within(glm::vec2 range, float v) { return std::clamp(v, range.x, range.y); }
+
 fsm::EyeTransform FitEye(const BaseHead& base, const std::map<PointIndex, glm::vec3>& to,
                          fsm::Side side) {
   const auto outline = EyeOutline(side);
@@ -34,48 +44,33 @@ fsm::EyeTransform FitEye(const BaseHead& base, const std::map<PointIndex, glm::v
   const auto solved = sum.Solve(1e-6);
   const auto part = [&solved](std::size_t i) { return static_cast<float>(solved[i]); };
   fsm::EyeTransform transform;
-  // What people's eyes do; beyond it a point was misjudged.
-  transform.size = std::clamp(std::hypot(part(2), part(3)), 0.82F, 1.2F);
-  transform.turn = std::clamp(std::atan2(part(3), part(2)), -0.25F, 0.25F);
+  transform.size = Within(kSize, std::hypot(part(2), part(3)));
+  transform.turn = Within(kTurn, std::atan2(part(3), part(2)));
   transform.shift = {part(0), part(1), forward};
-  transform.upper_mm = std::clamp(part(4) / transform.size, -6.0F, 0.7F);
-  transform.lower_mm = std::clamp(part(5) / transform.size, -2.5F, 3.5F);
+  transform.upper_mm = Within(kUpperRaise, part(4) / transform.size);
+  transform.lower_mm = Within(kLowerRaise, part(5) / transform.size);
   return transform;
 }
 
-}  // namespace
-
-fsm::Sided<fsm::EyeTransform> FitEyes(const BaseHead& base,
-                                      const std::map<PointIndex, glm::vec3>& to) {
-  return {FitEye(base, to, fsm::Side::kRight), FitEye(base, to, fsm::Side::kLeft)};
-}
-
-namespace {
-
 /// An eye's outline in the photo: corners and the middle between the lids.
-struct Slit {
+struct LidSpan {
   glm::vec2 outer, inner, middle;
 };
 template <typename Place>
-Slit SlitOf(fsm::Side side, Place place) {
+LidSpan LidSpanOf(fsm::Side side, Place place) {
   const auto outline = EyeOutline(side);
   // The lids' middles lie as far from the corner on either side.
   return {place(outline[kOuterCorner]), place(outline[kInnerCorner]),
           0.5F * (place(outline[kUpperMiddle]) + place(outline[kLowerMiddle]))};
 }
-Slit SlitOfBase(const BaseHead& base, fsm::Side side) {
-  return SlitOf(side, [&base](PointIndex i) {
-    const glm::vec3 p = base.AtRest(i);
-    return glm::vec2(p.x, -p.y);
-  });
-}
 /// Where the iris is expected, and the photo's pixels by millimetre of the base head's eye.
-struct Expected {
+struct IrisPlacement {
   glm::vec2 centre;
   float scale;
 };
-Expected ExpectedIris(const BaseHead& base, const Slit& seen, fsm::Side side) {
-  const Slit own = SlitOfBase(base, side);
+IrisPlacement ExpectedIris(const BaseHead& base, const LidSpan& seen, fsm::Side side) {
+  const LidSpan own = LidSpanOf(
+      side, [&base](PointIndex i) { return glm::vec2(1, -1) * glm::vec2(base.AtRest(i)); });
   const glm::vec3 ball = base.head->topology().eyes[side].centre;
   const glm::vec2 from = own.inner - own.outer, to = seen.inner - seen.outer;
   const float scale = glm::length(to) / std::max(glm::length(from), 1e-3F);
@@ -87,46 +82,51 @@ Expected ExpectedIris(const BaseHead& base, const Slit& seen, fsm::Side side) {
 
 }  // namespace
 
-SeenIrises SeeIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo) {
+fsm::Sided<fsm::EyeTransform> FitEyes(const BaseHead& base,
+                                      const std::map<PointIndex, glm::vec3>& to) {
+  return {FitEye(base, to, fsm::Side::kRight), FitEye(base, to, fsm::Side::kLeft)};
+}
+
+SeenIrises FindSeenIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo) {
   SeenIrises irises;
   fsm::Sided<OpenEye> eyes;
   for (const fsm::Side side : fsm::kSides) {
     const auto place = [&face](PointIndex i) { return face.At(i); };
-    const Expected iris = ExpectedIris(base, SlitOf(side, place), side);
+    const IrisPlacement iris = ExpectedIris(base, LidSpanOf(side, place), side);
     std::ranges::transform(EyeOutline(side), eyes[side].lids.begin(), place);
     eyes[side].middle = iris.centre;
     eyes[side].expected = iris.scale * base.head->topology().eyes[side].iris_radius;
-    irises.rings[side] = {.centre = iris.centre, .radius = eyes[side].expected, .contrast = 0};
+    irises.circles[side] = {.centre = iris.centre, .radius = eyes[side].expected, .contrast = 0};
   }
   if (!photo) return irises;
   const auto rings = FindIrises(*photo, std::array{eyes.right, eyes.left});
   float size = 0, count = 0;
   for (const fsm::Side side : fsm::kSides) {
-    const IrisRing& ring = rings[static_cast<std::size_t>(side)];
-    if (ring.contrast < kClearRing) continue;
-    irises.rings[side] = ring;
+    const IrisCircle& ring = rings[static_cast<std::size_t>(side)];
+    if (ring.contrast < kClearIris) continue;
+    irises.circles[side] = ring;
     size += ring.radius / eyes[side].expected;
     count += 1;
   }
-  if (count > 0) irises.size = std::clamp(size / count, 0.8F, 1.12F);
+  if (count > 0) irises.size = Within(kIrisSize, size / count);
   return irises;
 }
 
-void CentreEyes(const BaseHead& base, const SeenIrises& irises,
-                std::vector<LandmarkConstraint>& constraints) {
+void ShiftLidsToIrises(const BaseHead& base, const SeenIrises& irises,
+                       std::vector<LandmarkConstraint>& constraints) {
   for (const fsm::Side side : fsm::kSides) {
-    const IrisRing& ring = irises.rings[side];
+    const IrisCircle& ring = irises.circles[side];
     if (ring.contrast <= 0) continue;
     const auto outline = EyeOutline(side);
-    const Slit slit = SlitOf(side, [&constraints](PointIndex i) {
+    const LidSpan span = LidSpanOf(side, [&constraints](PointIndex i) {
       return std::ranges::find(constraints, i, &LandmarkConstraint::point)->pixel;
     });
-    const Expected iris = ExpectedIris(base, slit, side);
-    const glm::vec2 axis = glm::normalize(slit.inner - slit.outer);
+    const IrisPlacement iris = ExpectedIris(base, span, side);
+    const glm::vec2 axis = glm::normalize(span.inner - span.outer);
     const glm::vec2 across(-axis.y, axis.x);
     const float off = glm::dot(ring.centre - iris.centre, across);
-    const float free = 0.5F * iris.scale;  // eyes rest that differently in their slits
-    const float by = std::clamp(off, -3 * iris.scale, 3 * iris.scale);
+    const float free = kRestsFreely * iris.scale, most = kMostShift * iris.scale;
+    const float by = std::clamp(off, -most, most);
     if (std::abs(by) <= free) continue;
     for (LandmarkConstraint& constraint : constraints) {
       if (std::ranges::find(outline, constraint.point) == outline.end()) continue;

@@ -15,9 +15,9 @@ fsm::Sided<fsm::EyeTransform> FitEyes(const BaseHead& base,
                                       const std::map<PointIndex, glm::vec3>& to);
 
 /// Without a photo irises lie where the eyes' outlines say, with a contrast of 0.
-SeenIrises SeeIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo);
+SeenIrises FindSeenIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo);
 /// Moves the outlines of eyes up or down where the irises show that the network misplaced them.
-void CentreEyes(const BaseHead& base, const SeenIrises& irises,
-                std::vector<LandmarkConstraint>& constraints);
+void ShiftLidsToIrises(const BaseHead& base, const SeenIrises& irises,
+                       std::vector<LandmarkConstraint>& constraints);
 
 }  // namespace facefit

@@ -26,27 +26,27 @@ Expression ExpressionOf(const Parameters& p) {
   return {.smile = strength(kSmile), .jaw = strength(kJaw), .parted = strength(kParted)};
 }
 
-struct Sight {
+struct FitProblem {
   const BaseHead& base;
   const FoundFace& face;
   std::vector<float> depth_bias;  ///< true minus seen, of the base head, mean removed
   bool lips_apart;
 };
 
-std::vector<double> ResidualsOf(const Sight& sight, const Parameters& parameters) {
+std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& parameters) {
   const CameraPose pose = PoseOf(parameters);
   fsm::HeadVertices vertices;
-  sight.base.head->Evaluate(ExpressionOf(parameters).State(), vertices);
+  problem.base.head->Evaluate(ExpressionOf(parameters).State(), vertices);
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<double> out;
   std::vector<float> depth;
   float mean = 0;
-  for (const PointIndex k : PointsForFit()) {
-    const glm::vec3 q = pose.ToCamera(sight.base.points[k].On(vertices.position));
-    const glm::vec2 miss = (pose.Project(q) - sight.face.At(k)) * mm_per_pixel;
-    out.push_back(static_cast<double>(miss.x));
-    out.push_back(static_cast<double>(miss.y));
-    depth.push_back(q.z - sight.face.points[k].z * mm_per_pixel - sight.depth_bias[k]);
+  for (const PointIndex k : point::kForFit) {
+    const glm::vec3 q = pose.ToCamera(problem.base.points[k].On(vertices.position));
+    const glm::vec2 offset = (pose.Project(q) - problem.face.At(k)) * mm_per_pixel;
+    out.push_back(static_cast<double>(offset.x));
+    out.push_back(static_cast<double>(offset.y));
+    depth.push_back(q.z - problem.face.points[k].z * mm_per_pixel - problem.depth_bias[k]);
     mean += depth.back();
   }
   mean /= static_cast<float>(depth.size());
@@ -57,14 +57,14 @@ std::vector<double> ResidualsOf(const Sight& sight, const Parameters& parameters
   // see a mouth's form is taken for the person's own rather than for a smile. Millimetres that a
   // unit at full strength counts as.
   constexpr double kApartMm = 6, kClosedSmileMm = 40, kClosedJawMm = 1e4;
-  out.push_back((sight.lips_apart ? kApartMm : kClosedSmileMm) * parameters[kSmile]);
+  out.push_back((problem.lips_apart ? kApartMm : kClosedSmileMm) * parameters[kSmile]);
   for (const FitParameter i : {kJaw, kParted}) {
-    out.push_back((sight.lips_apart ? kApartMm : kClosedJawMm) * parameters[i]);
+    out.push_back((problem.lips_apart ? kApartMm : kClosedJawMm) * parameters[i]);
   }
   return out;
 }
 
-Parameters Refine(const Sight& sight, const Parameters& start) {
+Parameters Refine(const FitProblem& problem, const Parameters& start) {
   std::vector<Unknown> unknowns;
   for (std::size_t i = kTurnX; i <= kLogFocal; ++i) {
     unknowns.push_back({.start = start[i], .step = 1e-3});
@@ -75,7 +75,7 @@ Parameters Refine(const Sight& sight, const Parameters& start) {
   for (std::size_t i = kSmile; i < kFitParameters; ++i) {
     unknowns.push_back({.start = start[i], .step = 0.05, .low = 0, .high = kMostExpression});
   }
-  return LevenbergMarquardt([&sight](const Parameters& p) { return ResidualsOf(sight, p); },
+  return LevenbergMarquardt([&problem](const Parameters& p) { return ResidualsOf(problem, p); },
                             unknowns, kRounds);
 }
 
@@ -92,7 +92,7 @@ std::vector<float> DepthBias(const BaseHead& base) {
 }
 
 /// Size, position and tilt by the outer corners of the eyes and the root of the nose.
-Parameters FirstGuess(const BaseHead& base, const FoundFace& face) {
+Parameters InitialParameters(const BaseHead& base, const FoundFace& face) {
   using namespace point;
   const glm::vec2 right = face.At(kEyeOuterRight), left = face.At(kEyeOuterLeft),
                   nose = face.At(kNoseBridge);
@@ -109,62 +109,63 @@ Parameters FirstGuess(const BaseHead& base, const FoundFace& face) {
 
 /// How mouths at rest differ from the built-in one looks like that much of a smile; taken away from
 /// a closed mouth it would leave a grim face.
-float SmileBeyondUsual(float smile, bool lips_apart) {
+float SmileBeyondRest(float smile, bool lips_apart) {
   constexpr float kUsualApart = 0.12F, kUsualClosed = 0.45F;
   if (lips_apart) return smile < kUsualApart ? 0 : smile;
   return std::max(smile - kUsualClosed, 0.0F);
 }
 
 /// Where the network sees the points of the face, their depth mostly as the head's own form has it.
-std::vector<LandmarkConstraint> ConstraintsOf(const Sight& sight, const CameraPose& pose,
+std::vector<LandmarkConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
                                               const std::vector<glm::vec3>& now) {
   constexpr float kTrustDepth = 0.3F, kMostDepth = 15;  // millimetres
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<LandmarkConstraint> constraints;
-  std::vector<float> lacks;
+  std::vector<float> depth_gaps;
   float mean = 0;
-  for (const PointIndex k : PointsForFit()) {
-    const glm::vec3 q = pose.ToCamera(sight.base.points[k].On(now));
-    lacks.push_back(sight.face.points[k].z * mm_per_pixel + sight.depth_bias[k] - q.z);
-    mean += lacks.back() / static_cast<float>(PointsForFit().size());
-    constraints.push_back({k, sight.base.points[k], sight.face.At(k), q.z});
+  for (const PointIndex k : point::kForFit) {
+    const glm::vec3 q = pose.ToCamera(problem.base.points[k].On(now));
+    depth_gaps.push_back(problem.face.points[k].z * mm_per_pixel + problem.depth_bias[k] - q.z);
+    mean += depth_gaps.back() / static_cast<float>(std::size(point::kForFit));
+    constraints.push_back({k, problem.base.points[k], problem.face.At(k), q.z});
   }
-  for (std::size_t i = 0; i < lacks.size(); ++i) {
-    constraints[i].z += kTrustDepth * std::clamp(lacks[i] - mean, -kMostDepth, kMostDepth);
+  for (std::size_t i = 0; i < depth_gaps.size(); ++i) {
+    constraints[i].z += kTrustDepth * std::clamp(depth_gaps[i] - mean, -kMostDepth, kMostDepth);
   }
   return constraints;
 }
 
 /// Mean distance of the network's points from those of the fitted head, millimetres.
-float ResidualMm(const BaseHead& base, const FoundFace& face, const FittedHead& fitted) {
+float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
   float sum = 0;
-  for (const PointIndex k : PointsForFit()) {
-    const glm::vec3 q = fitted.pose.ToCamera(base.points[k].On(fitted.posed_vertices));
+  for (const PointIndex k : point::kForFit) {
+    const glm::vec3 q = fitted.pose.ToCamera(fitted.At(k));
     sum += glm::distance(fitted.pose.Project(q), face.At(k));
   }
-  return sum / fitted.pose.PixelsPerMm() / static_cast<float>(PointsForFit().size());
+  return sum / fitted.pose.PixelsPerMm() / static_cast<float>(std::size(point::kForFit));
 }
 
 }  // namespace
 
 Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo) {
-  const Sight sight{base, face, DepthBias(base), LipsApart(face)};
-  const Parameters settled = Refine(sight, FirstGuess(base, face));
+  const FitProblem problem{base, face, DepthBias(base), LipsApart(face)};
+  const Parameters settled = Refine(problem, InitialParameters(base, face));
   Fit fit;
   FittedHead& fitted = fit.head;
+  fitted.base = &base;
   fitted.pose = PoseOf(settled);
   fitted.expression = ExpressionOf(settled);
-  fitted.expression.smile = SmileBeyondUsual(fitted.expression.smile, sight.lips_apart);
+  fitted.expression.smile = SmileBeyondRest(fitted.expression.smile, problem.lips_apart);
   fsm::HeadVertices now;
   base.head->Evaluate(fitted.expression.State(), now);
-  fit.targets = {ConstraintsOf(sight, fitted.pose, now.position), sight.lips_apart};
-  fit.irises = SeeIrises(base, face, photo);
-  CentreEyes(base, fit.irises, fit.targets.constraints);
-  if (photo && !sight.lips_apart) {
+  fit.targets = {ConstraintsOf(problem, fitted.pose, now.position), problem.lips_apart};
+  fit.irises = FindSeenIrises(base, face, photo);
+  ShiftLidsToIrises(base, fit.irises, fit.targets.constraints);
+  if (photo && !problem.lips_apart) {
     ConstrainToMouthLine(base, face, fitted.pose, now.position, *photo, fit.targets.constraints);
   }
-  WarpToLandmarks(base, fit.targets, fitted);
-  fit.residual_mm = ResidualMm(base, face, fitted);
+  WarpToLandmarks(fit.targets, fitted);
+  fit.residual_mm = ResidualMm(face, fitted);
   return fit;
 }
 

@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "face_fit/find/face/iris.h"
-#include "face_fit/find/head/mesh_point.h"
-#include "face_fit/find/network/network_points.h"
+#include "face_fit/find/head/base_head.h"
 #include "face_fit/fit/camera_pose.h"
 #include "fsm/head/warp.h"
 #include "fsm/rig/eye_transform.h"
@@ -47,12 +46,13 @@ struct PhotoTargets {
 
 /// The irises in the photo.
 struct SeenIrises {
-  fsm::Sided<IrisRing> rings;
+  fsm::Sided<IrisCircle> circles;
   float size = 1;  ///< of that of the built-in head, by the size of the eye
 };
 
 /// The base head brought into the form, pose and expression of the photo.
 struct FittedHead {
+  const BaseHead* base = nullptr;  ///< outlives this
   CameraPose pose;
   Expression expression;
   std::vector<fsm::WarpPoint> points;  ///< base face at rest -> person at rest
@@ -60,6 +60,8 @@ struct FittedHead {
   fsm::Sided<fsm::EyeTransform> eyes;
   /// Every vertex of the base as it lies in the photo, head's frame.
   std::vector<glm::vec3> posed_vertices;
+  /// Where a point of the network lies on it in the photo's expression, head's frame.
+  glm::vec3 At(PointIndex i) const { return base->points[i].On(posed_vertices); }
 };
 
 }  // namespace facefit

@@ -20,10 +20,10 @@ bool Among(std::span<const PointIndex> list, PointIndex i) {
   return std::ranges::find(list, i) != list.end();
 }
 bool OfInnerLips(const LandmarkConstraint& c) {
-  return Among(UpperInnerLip(), c.point) || Among(LowerInnerLip(), c.point);
+  return Among(point::kUpperInnerLip, c.point) || Among(point::kLowerInnerLip, c.point);
 }
 bool OfOuterLips(const LandmarkConstraint& c) {
-  return Among(UpperOuterLip(), c.point) || Among(LowerOuterLip(), c.point);
+  return Among(point::kUpperOuterLip, c.point) || Among(point::kLowerOuterLip, c.point);
 }
 /// Whose outline has the point; none if it is no eye's.
 std::optional<fsm::Side> EyeOf(const LandmarkConstraint& c) {
@@ -51,16 +51,49 @@ std::uint32_t NearestLip(const BaseHead& base, glm::vec3 p) {
 
 /// Replaces the base head's skin in `posed_vertices` by the fitted head's in the photo's
 /// expression.
-void PoseSkin(const BaseHead& base, FittedHead& fitted) {
-  const auto skin = SkinWith(base, fitted, fitted.expression.State());
+void PoseSkin(FittedHead& fitted) {
+  const auto skin = SkinWith(fitted, fitted.expression.State());
   std::ranges::copy(std::span(skin).first(std::min(skin.size(), fitted.posed_vertices.size())),
                     fitted.posed_vertices.begin());
 }
 
+/// Where the photo shows the point of a constraint.
+glm::vec3 Seen(const CameraPose& pose, const LandmarkConstraint& constraint) {
+  return pose.PlaceAt(constraint.pixel, constraint.z);
+}
+
+/// A point of the warp that goes where its constraint says, by their indices.
+struct Correctable {
+  std::size_t warp_point, constraint;
+};
+
+/// Sets the points of the warp by the constraints; `now`: the vertices with the expression.
+std::vector<Correctable> PlaceWarpPoints(const PhotoTargets& targets,
+                                         const std::vector<glm::vec3>& now, FittedHead& fitted) {
+  const BaseHead& base = *fitted.base;
+  std::vector<Correctable> correctable;
+  fitted.points.clear();
+  for (std::size_t i = 0; i < targets.constraints.size(); ++i) {
+    const LandmarkConstraint& constraint = targets.constraints[i];
+    // At rest both inner lips are one line, which cannot follow two that are apart in the photo.
+    if (targets.lips_apart && OfInnerLips(constraint)) continue;
+    const glm::vec3 rest = constraint.on_head.On(base.rest.position);
+    if (const auto side = EyeOf(constraint)) {
+      // Lids go with the eye: the skin around them must, too.
+      const glm::vec3 centre = base.head->topology().eyes[*side].centre;
+      fitted.points.push_back({rest, fitted.eyes[*side].Placed(centre, rest) - rest});
+    } else {
+      correctable.push_back({fitted.points.size(), i});
+      fitted.points.push_back({rest, Seen(fitted.pose, constraint) - constraint.on_head.On(now)});
+    }
+  }
+  return correctable;
+}
+
 }  // namespace
 
-std::vector<glm::vec3> SkinWith(const BaseHead& base, const FittedHead& fitted,
-                                const fsm::FaceState& state) {
+std::vector<glm::vec3> SkinWith(const FittedHead& fitted, const fsm::FaceState& state) {
+  const BaseHead& base = *fitted.base;
   fsm::PhotoHead head;
   head.base = base.name;
   head.points = fitted.points;
@@ -101,7 +134,7 @@ void ConstrainToMouthLine(const BaseHead& base, const FoundFace& face, const Cam
   const auto constrain = [&](const MeshPoint& p) {
     constraints.push_back({kNoPoint, p, on_line(along(p)), pose.ToCamera(p.On(now)).z});
   };
-  const auto upper = UpperInnerLip();
+  const std::span upper(point::kUpperInnerLip);
   for (const PointIndex i : upper.subspan(1, upper.size() - 2)) constrain(base.points[i]);
   for (const glm::vec3 corner : {right, left}) {
     const std::uint32_t v = NearestLip(base, corner);
@@ -109,43 +142,8 @@ void ConstrainToMouthLine(const BaseHead& base, const FoundFace& face, const Cam
   }
 }
 
-namespace {
-
-/// Where the photo shows the point of a constraint.
-glm::vec3 Seen(const CameraPose& pose, const LandmarkConstraint& constraint) {
-  return pose.FromCamera(pose.Unproject(constraint.pixel, constraint.z));
-}
-
-/// A point of the warp that goes where its constraint says, by their indices.
-struct Correctable {
-  std::size_t warp_point, constraint;
-};
-
-/// Sets the points of the warp by the constraints; `now`: the vertices with the expression.
-std::vector<Correctable> PlaceWarpPoints(const BaseHead& base, const PhotoTargets& targets,
-                                         const std::vector<glm::vec3>& now, FittedHead& fitted) {
-  std::vector<Correctable> correctable;
-  fitted.points.clear();
-  for (std::size_t i = 0; i < targets.constraints.size(); ++i) {
-    const LandmarkConstraint& constraint = targets.constraints[i];
-    // At rest both inner lips are one line, which cannot follow two that are apart in the photo.
-    if (targets.lips_apart && OfInnerLips(constraint)) continue;
-    const glm::vec3 rest = constraint.on_head.On(base.rest.position);
-    if (const auto side = EyeOf(constraint)) {
-      // Lids go with the eye: the skin around them must, too.
-      const glm::vec3 centre = base.head->topology().eyes[*side].centre;
-      fitted.points.push_back({rest, fitted.eyes[*side].Placed(centre, rest) - rest});
-    } else {
-      correctable.push_back({fitted.points.size(), i});
-      fitted.points.push_back({rest, Seen(fitted.pose, constraint) - constraint.on_head.On(now)});
-    }
-  }
-  return correctable;
-}
-
-}  // namespace
-
-void WarpToLandmarks(const BaseHead& base, const PhotoTargets& targets, FittedHead& fitted) {
+void WarpToLandmarks(const PhotoTargets& targets, FittedHead& fitted) {
+  const BaseHead& base = *fitted.base;
   const std::vector<LandmarkConstraint>& constraints = targets.constraints;
   fsm::HeadVertices posed;
   base.head->Evaluate(fitted.expression.State(), posed);
@@ -158,7 +156,7 @@ void WarpToLandmarks(const BaseHead& base, const PhotoTargets& targets, FittedHe
         (constraint.on_head.On(now) - constraint.on_head.On(base.rest.position));
   }
   fitted.eyes = FitEyes(base, eyes);
-  const std::vector<Correctable> correctable = PlaceWarpPoints(base, targets, now, fitted);
+  const std::vector<Correctable> correctable = PlaceWarpPoints(targets, now, fitted);
   const fsm::Warp warp(fitted.points, fitted.smooth);
   fitted.posed_vertices.clear();
   for (std::size_t i = 0; i < now.size(); ++i) {
@@ -166,15 +164,15 @@ void WarpToLandmarks(const BaseHead& base, const PhotoTargets& targets, FittedHe
   }
   // What the head then makes of its units, lids and lips moves points a little off; once more with
   // that taken into account.
-  PoseSkin(base, fitted);
+  PoseSkin(fitted);
   constexpr float kGain = 0.8F;
   for (const auto& [warp_point, of] : correctable) {
     const LandmarkConstraint& constraint = constraints[of];
     const glm::vec3 q = fitted.pose.ToCamera(constraint.on_head.On(fitted.posed_vertices));
-    const glm::vec3 should = fitted.pose.FromCamera(fitted.pose.Unproject(constraint.pixel, q.z));
+    const glm::vec3 should = fitted.pose.PlaceAt(constraint.pixel, q.z);
     fitted.points[warp_point].by += kGain * (should - fitted.pose.FromCamera(q));
   }
-  PoseSkin(base, fitted);
+  PoseSkin(fitted);
 }
 
 }  // namespace facefit

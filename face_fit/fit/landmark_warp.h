@@ -17,10 +17,9 @@ void ConstrainToMouthLine(const BaseHead& base, const FoundFace& face, const Cam
 
 /// Positions of the vertices of the fitted head's skin as fsm will show it in a state, millimetres.
 /// They are the first vertices of that head and have the numbers of those of the base head.
-std::vector<glm::vec3> SkinWith(const BaseHead& base, const FittedHead& fitted,
-                                const fsm::FaceState& state);
+std::vector<glm::vec3> SkinWith(const FittedHead& fitted, const fsm::FaceState& state);
 
-/// Fills points, eyes and posed_vertices of a head that has pose and expression.
-void WarpToLandmarks(const BaseHead& base, const PhotoTargets& targets, FittedHead& fitted);
+/// Fills points, eyes and posed_vertices of a head that has base, pose and expression.
+void WarpToLandmarks(const PhotoTargets& targets, FittedHead& fitted);
 
 }  // namespace facefit

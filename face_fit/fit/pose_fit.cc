@@ -9,8 +9,8 @@
 namespace facefit {
 namespace {
 
-glm::vec2 Off(const CameraPose& pose, const PoseMark& mark) {
-  return (pose.Project(pose.ToCamera(mark.at)) - mark.pixel) / pose.PixelsPerMm();
+glm::vec2 OffsetMm(const CameraPose& pose, const PointMatch& match) {
+  return (pose.Pixel(match.at) - match.pixel) / pose.PixelsPerMm();
 }
 
 }  // namespace
@@ -22,15 +22,15 @@ CameraPose PoseOf(std::span<const double> parameters) {
           .centre = {value(kCentreX), value(kCentreY)}};
 }
 
-CameraPose RefinePose(std::span<const PoseMark> marks, const CameraPose& start) {
+CameraPose RefinePose(std::span<const PointMatch> matches, const CameraPose& start) {
   const auto residuals = [&](const std::vector<double>& p) {
     const CameraPose pose = PoseOf(p);
     std::vector<double> out;
-    for (const PoseMark& mark : marks) {
-      const glm::vec2 by = Off(pose, mark);
+    for (const PointMatch& match : matches) {
+      const glm::vec2 by = OffsetMm(pose, match);
       constexpr float kPlain = 3;  // millimetres
       const float off = glm::length(by);
-      const float w = mark.weight * (off > kPlain ? std::sqrt(kPlain / off) : 1.0F);
+      const float w = match.weight * (off > kPlain ? std::sqrt(kPlain / off) : 1.0F);
       out.push_back(static_cast<double>(w * by.x));
       out.push_back(static_cast<double>(w * by.y));
     }
@@ -48,11 +48,11 @@ CameraPose RefinePose(std::span<const PoseMark> marks, const CameraPose& start) 
   return PoseOf(LevenbergMarquardt(residuals, unknowns, 20));
 }
 
-float MeanDistance(const CameraPose& pose, std::span<const PoseMark> marks) {
+float MeanDistanceMm(const CameraPose& pose, std::span<const PointMatch> matches) {
   float sum = 0, weight = 0;
-  for (const PoseMark& mark : marks) {
-    sum += mark.weight * glm::length(Off(pose, mark));
-    weight += mark.weight;
+  for (const PointMatch& match : matches) {
+    sum += match.weight * glm::length(OffsetMm(pose, match));
+    weight += match.weight;
   }
   return sum / std::max(weight, 1e-6F);
 }

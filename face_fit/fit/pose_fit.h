@@ -7,7 +7,7 @@
 namespace facefit {
 
 /// A point in the head's frame and where a photo shows it.
-struct PoseMark {
+struct PointMatch {
   glm::vec3 at;
   glm::vec2 pixel;
   float weight = 1;
@@ -27,15 +27,15 @@ enum PoseParameter : std::size_t {
 /// REQUIRES: kPoseParameters numbers or more.
 CameraPose PoseOf(std::span<const double> parameters);
 
-/// The pose that shows the marks nearest to where the photo shows them, starting from `start`.
+/// The pose that shows the matches nearest to where the photo shows them, starting from `start`.
 /// Marks more than 3 mm off count by their distance, not by its square.
-CameraPose RefinePose(std::span<const PoseMark> marks, const CameraPose& start);
+CameraPose RefinePose(std::span<const PointMatch> matches, const CameraPose& start);
 /// A pose, and the mean distance of what it was found by from what it shows of the head.
 struct PoseFit {
   CameraPose pose;
   float residual_mm = 0;
 };
-/// Mean distance of marks from where they are shown, millimetres.
-float MeanDistance(const CameraPose& pose, std::span<const PoseMark> marks);
+/// Mean distance of matches from where they are shown, millimetres.
+float MeanDistanceMm(const CameraPose& pose, std::span<const PointMatch> matches);
 
 }  // namespace facefit

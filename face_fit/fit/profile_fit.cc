@@ -16,27 +16,48 @@
 namespace facefit {
 namespace {
 
-constexpr float kBin = 2;           // millimetres of height between places of the line
-constexpr float kMiddle = 13;       // so far to its sides the middle of the face makes the outline
-constexpr float kThroat = 16;       // below the chin, where the outline goes back
-constexpr float kAboveNasion = 16;  // where hair may begin
-constexpr float kReach = 13;        // how far off the line is looked for, millimetres
-constexpr float kLeastAlike = 0.92F;  // of lines without their slopes
-constexpr float kMostOff = 4;  // a mean beyond it is no face's, or another one's, millimetres
+// The profile line of the head. Millimetres.
+constexpr float kBin = 2;           // between two places, in height
+constexpr float kHalfWidth = 13;    // of the middle of the face, which alone makes the outline
+constexpr float kThroat = 16;       // below the chin: there the outline goes back
+constexpr float kAboveNasion = 16;  // higher up there may be hair
+
+// Where it is looked for: the person reaches from above the head to the throat at least, to the
+// elbows at most. People lean a photo's camera no farther.
+constexpr float kLeastTall = 60;          // pixels; smaller figures show no profile
+constexpr std::size_t kLeastPlaces = 30;  // of the line, some 6 cm
+constexpr float kHeadMm = 180, kElbowsMm = 620;
+constexpr float kScaleStep = 1.05F;  // from one scale to the next
+constexpr float kRowStepMm = 1.5F;   // and from one row
+constexpr std::array kLeanDegrees = {-24.0F, -16.0F, -8.0F, 0.0F, 8.0F, 16.0F, 24.0F};
+
+// What counts as the same line.
+constexpr float kLeastConcordance = 0.92F;  // of both lines without their slopes
+constexpr float kMostOffMm = 4;             // mean distance: another person's face lies farther
+constexpr float kOutlierMm = 8;             // a place farther off than this counts as this
+constexpr float kScorePerMm = 0.05F;        // concordance that a millimetre of distance is worth
+
+// How depth is corrected. Millimetres.
+constexpr float kReach = 13;  // before and behind the line, where the outline is looked for
+constexpr float kReachStep = 0.5F;
+constexpr float kEven = 2.2F;         // height over which gaps are evened out (Gaussian sigma)
+constexpr float kWide = 24;           // from the middle of the face: there 1/e of the gap counts
+constexpr float kMostCorrection = 6;  // in one round
+constexpr int kRounds = 3;
 
 /// The profile of the fitted head from the chin up: heights in even steps, and how far forward.
-std::vector<glm::vec3> ProfileOf(const BaseHead& base, const FittedHead& fitted, float below_chin) {
-  const float low = base.points[point::kChin].On(fitted.posed_vertices).y - below_chin;
-  const float high = base.points[point::kNasion].On(fitted.posed_vertices).y + kAboveNasion;
+std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin) {
+  const float low = fitted.At(point::kChin).y - below_chin;
+  const float high = fitted.At(point::kNasion).y + kAboveNasion;
   const auto count = static_cast<std::size_t>(std::max(high - low, kBin) / kBin) + 1;
   std::vector<float> z(count, -1e9F);
-  ForSkinTriangles(base.head->topology(), [&](const std::uint32_t* t) {
+  ForSkinTriangles(fitted.base->head->topology(), [&](const std::uint32_t* t) {
     for (std::size_t c = 0; c < 3; ++c) {
       const glm::vec3 a = fitted.posed_vertices[t[c]], b = fitted.posed_vertices[t[(c + 1) % 3]];
       for (const float along : {0.0F, 0.25F, 0.5F, 0.75F}) {
         const glm::vec3 p = glm::mix(a, b, along);
         const float bin = (p.y - low) / kBin;
-        if (std::abs(p.x) > kMiddle || bin < 0) continue;
+        if (std::abs(p.x) > kHalfWidth || bin < 0) continue;
         const auto i = static_cast<std::size_t>(bin + 0.5F);
         if (i < count) z[i] = std::max(z[i], p.z);
       }
@@ -55,7 +76,7 @@ std::vector<float> Outline(const FloatImage& opacity, int direction) {
   for (int y = 0; y < opacity.height; ++y) {
     for (int k = 0; k < opacity.width; ++k) {
       const int x = direction > 0 ? opacity.width - 1 - k : k;
-      if (opacity.at[opacity.Index(x, y)] < 0.5F) continue;
+      if (opacity(x, y) < 0.5F) continue;
       columns[static_cast<std::size_t>(y)] = static_cast<float>(x) + 0.5F;
       break;
     }
@@ -64,12 +85,12 @@ std::vector<float> Outline(const FloatImage& opacity, int direction) {
 }
 
 /// Where the profile may lie: the place of its middle, pixels by millimetre, how it leans.
-struct Guess {
+struct ProfilePlacement {
   int direction = 1;
   float scale = 1, tilt = 0, row = 0, column = 0;
-  float off = 1e9F;  // mean distance, millimetres
-  float alike = -1;  // concordance of the lines without their slopes, -1..1
-  float Rating() const { return alike - 0.05F * off; }
+  float off = 1e9F;        // mean distance, millimetres
+  float concordance = -1;  // of both lines without their slopes, -1..1
+  float Score() const { return concordance - kScorePerMm * off; }
   glm::vec3 middle{0};
   glm::vec2 At(glm::vec3 p) const {
     const glm::vec2 v(static_cast<float>(direction) * (p.z - middle.z), middle.y - p.y);
@@ -105,85 +126,90 @@ float Concordance(std::vector<float> a, std::vector<float> b) {
   return 2 * ab / (aa + bb);
 }
 
-/// Fills column, off and alike of a guess that has the rest; false if it does not fit the picture.
-bool Rate(const std::vector<glm::vec3>& line, const std::vector<float>& columns, Guess& guess) {
-  guess.column = 0;
+/// Fills column, off and concordance of a placement that has the rest; false if it does not fit the
+/// picture.
+bool Compare(const std::vector<glm::vec3>& line, const std::vector<float>& columns,
+             ProfilePlacement& placement) {
+  placement.column = 0;
   std::vector<float> ours, beside;
   ours.reserve(line.size());
   beside.reserve(line.size());
   for (const glm::vec3& p : line) {
-    const glm::vec2 at = guess.At(p);
+    const glm::vec2 at = placement.At(p);
     if (at.y < 0 || at.y >= static_cast<float>(columns.size())) return false;
     const float column = columns[static_cast<std::size_t>(at.y)];
     if (column < 0) return false;
     ours.push_back(at.x);
     beside.push_back(column - at.x);
   }
-  guess.column = Median(beside);
-  guess.off = 0;
+  placement.column = Median(beside);
+  placement.off = 0;
   for (const float x : beside) {
-    guess.off +=
-        std::min(std::abs(x - guess.column) / guess.scale, 8.0F) / static_cast<float>(line.size());
+    placement.off += std::min(std::abs(x - placement.column) / placement.scale, kOutlierMm) /
+                     static_cast<float>(line.size());
   }
-  if (guess.off > kMostOff) return false;
+  if (placement.off > kMostOffMm) return false;
   for (std::size_t i = 0; i < ours.size(); ++i) beside[i] += ours[i];
-  guess.alike = Concordance(std::move(ours), std::move(beside));
+  placement.concordance = Concordance(std::move(ours), std::move(beside));
   return true;
 }
 
-/// Better and better in ever smaller steps of size, height and lean.
-Guess Refined(const std::vector<glm::vec3>& line, const std::vector<float>& columns, Guess guess) {
+/// Improves a placement in ever smaller steps of size, height and lean (pattern search).
+ProfilePlacement RefinedPlacement(const std::vector<glm::vec3>& line,
+                                  const std::vector<float>& columns, ProfilePlacement placement) {
+  constexpr float kFirstScale = 0.025F, kFirstDegrees = 3;
   for (float step = 1; step > 0.1F; step *= 0.6F) {
     for (int round = 0; round < 4; ++round) {
-      const Guess from = guess;
+      const ProfilePlacement from = placement;
       for (const glm::vec3 direction :
            {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, -1, 0),
             glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)}) {
-        Guess other = from;
-        other.scale *= 1 + 0.025F * step * direction.x;
-        other.row += 1.5F * other.scale * step * direction.y;
-        other.tilt += glm::radians(3 * step) * direction.z;
-        if (Rate(line, columns, other) && other.Rating() > guess.Rating()) guess = other;
+        ProfilePlacement other = from;
+        other.scale *= 1 + kFirstScale * step * direction.x;
+        other.row += kRowStepMm * other.scale * step * direction.y;
+        other.tilt += glm::radians(kFirstDegrees * step) * direction.z;
+        if (Compare(line, columns, other) && other.Score() > placement.Score()) placement = other;
       }
     }
   }
-  return guess;
+  return placement;
 }
 
-std::optional<Guess> Search(const std::vector<glm::vec3>& line, const FloatImage& opacity) {
+std::optional<ProfilePlacement> FindProfile(const std::vector<glm::vec3>& line,
+                                            const FloatImage& opacity) {
   int top = opacity.height, bottom = -1;
   for (int y = 0; y < opacity.height; ++y) {
     for (int x = 0; x < opacity.width; ++x) {
-      if (opacity.at[opacity.Index(x, y)] < 0.5F) continue;
+      if (opacity(x, y) < 0.5F) continue;
       top = std::min(top, y);
       bottom = std::max(bottom, y);
     }
   }
   const auto tall = static_cast<float>(bottom - top);
-  if (tall < 60 || line.size() < 30) return {};
+  if (tall < kLeastTall || line.size() < kLeastPlaces) return {};
   const glm::vec3 middle = line[line.size() / 2];
-  std::array<Guess, 2> found;
+  std::array<ProfilePlacement, 2> found;
   for (const int direction : {1, -1}) {
     const auto columns = Outline(opacity, direction);
-    Guess& best = found[direction > 0 ? 0 : 1];
-    // From the head alone, cut at the throat, to a figure down to the elbows.
-    for (float scale = tall / 620; scale < tall / 180; scale *= 1.05F) {
-      for (const float degrees : {-24.0F, -16.0F, -8.0F, 0.0F, 8.0F, 16.0F, 24.0F}) {
-        const float step = std::max(1.5F * scale, 1.0F);
+    ProfilePlacement& best = found[direction > 0 ? 0 : 1];
+    for (float scale = tall / kElbowsMm; scale < tall / kHeadMm; scale *= kScaleStep) {
+      for (const float degrees : kLeanDegrees) {
+        const float step = std::max(kRowStepMm * scale, 1.0F);
         for (auto row = static_cast<float>(top); row < static_cast<float>(bottom); row += step) {
-          Guess guess{.direction = direction,
-                      .scale = scale,
-                      .tilt = glm::radians(degrees),
-                      .row = row,
-                      .middle = middle};
-          if (Rate(line, columns, guess) && guess.Rating() > best.Rating()) best = guess;
+          ProfilePlacement placement{.direction = direction,
+                                     .scale = scale,
+                                     .tilt = glm::radians(degrees),
+                                     .row = row,
+                                     .middle = middle};
+          if (Compare(line, columns, placement) && placement.Score() > best.Score())
+            best = placement;
         }
       }
     }
-    if (best.off < kMostOff) best = Refined(line, columns, best);
+    if (best.off < kMostOffMm) best = RefinedPlacement(line, columns, best);
   }
   // A throat or the back of a head lies as near the line as another's nose; but it has no nose.
-  return found[0].Rating() > found[1].Rating() ? found[0] : found[1];
+  return found[0].Score() > found[1].Score() ? found[0] : found[1];
 }
 
 /// The pose that shows places nearest to pixels, with the turn as given.
@@ -195,7 +221,7 @@ CameraPose PoseWithTurn(const std::vector<glm::vec3>& places, const std::vector<
   pose.centre = {0, 0};
   LinearLeastSquares sum;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const glm::vec2 u = pose.Project(pose.ToCamera(places[i]));
+    const glm::vec2 u = pose.Pixel(places[i]);
     sum.Add({static_cast<double>(u.x), 1, 0}, static_cast<double>(pixels[i].x));
     sum.Add({static_cast<double>(u.y), 0, 1}, static_cast<double>(pixels[i].y));
   }
@@ -207,49 +233,49 @@ CameraPose PoseWithTurn(const std::vector<glm::vec3>& places, const std::vector<
 
 /// How far before (or behind) a place of the profile the outline lies, millimetres of depth;
 /// nothing beyond reach.
-std::optional<float> Forward(const FloatImage& opacity, const CameraPose& pose, glm::vec3 p) {
+std::optional<float> DepthGap(const FloatImage& opacity, const CameraPose& pose, glm::vec3 p) {
   const auto inside = [&](float by) {
-    const glm::vec2 at = pose.Project(pose.ToCamera(p + glm::vec3(0, 0, by)));
+    const glm::vec2 at = pose.Pixel(p + glm::vec3(0, 0, by));
     return opacity.Between(at.x, at.y) - 0.5F;
   };
-  constexpr float kStep = 0.5F;
   if (inside(kReach) > 0) return {};
-  for (float by = kReach - kStep; by >= -kReach; by -= kStep) {
+  for (float by = kReach - kReachStep; by >= -kReach; by -= kReachStep) {
     const float here = inside(by);
     if (here <= 0) continue;
-    const float beyond = inside(by + kStep);
-    return by + kStep * here / std::max(here - beyond, 1e-6F);
+    const float beyond = inside(by + kReachStep);
+    return by + kReachStep * here / std::max(here - beyond, 1e-6F);
   }
   return {};
 }
 
-float MeanForward(const FloatImage& opacity, const CameraPose& pose,
-                  const std::vector<glm::vec3>& line) {
+float MeanDepthGap(const FloatImage& opacity, const CameraPose& pose,
+                   const std::vector<glm::vec3>& line) {
   float sum = 0;
   for (const glm::vec3& p : line) {
-    sum += std::abs(Forward(opacity, pose, p).value_or(kReach)) / static_cast<float>(line.size());
+    sum += std::abs(DepthGap(opacity, pose, p).value_or(kReach)) / static_cast<float>(line.size());
   }
   return sum;
 }
 
 /// Scale, place and lean of the profile once more, from where the outline really is.
-CameraPose Refine(const FloatImage& opacity, CameraPose pose, const std::vector<glm::vec3>& line) {
+CameraPose RefinePose(const FloatImage& opacity, CameraPose pose,
+                      const std::vector<glm::vec3>& line) {
   for (int round = 0; round < 6; ++round) {
     std::vector<glm::vec3> places;
     std::vector<glm::vec2> pixels;
     for (const glm::vec3& p : line) {
-      const auto by = Forward(opacity, pose, p);
+      const auto by = DepthGap(opacity, pose, p);
       if (!by) continue;
       places.push_back(p);
-      pixels.push_back(pose.Project(pose.ToCamera(p + glm::vec3(0, 0, *by))));
+      pixels.push_back(pose.Pixel(p + glm::vec3(0, 0, *by)));
     }
     if (places.size() < line.size() / 2) return pose;
     CameraPose best = pose;
-    float off = MeanForward(opacity, pose, line);
+    float off = MeanDepthGap(opacity, pose, line);
     for (const float lean : {-2.0F, -1.0F, -0.4F, 0.0F, 0.4F, 1.0F, 2.0F}) {
       const CameraPose next =
           PoseWithTurn(places, pixels, pose.turn + glm::vec3(0, 0, glm::radians(lean)));
-      const float at = MeanForward(opacity, next, line);
+      const float at = MeanDepthGap(opacity, next, line);
       if (at >= off) continue;
       off = at;
       best = next;
@@ -260,59 +286,64 @@ CameraPose Refine(const FloatImage& opacity, CameraPose pose, const std::vector<
 }
 
 /// What depth lacks at heights along the profile, evened out.
-struct DepthGaps {
-  std::vector<float> y, by;
-  float At(float height) const {
-    constexpr float kEven = 2.2F;  // millimetres
-    float sum = 0, weight = 1e-3F;
-    for (std::size_t i = 0; i < y.size(); ++i) {
-      const float off = (y[i] - height) / kEven;
-      const float w = std::exp(-0.5F * off * off);
-      sum += w * by[i];
-      weight += w;
+class DepthGaps {
+ public:
+  DepthGaps(const FloatImage& opacity, const CameraPose& pose, const std::vector<glm::vec3>& line) {
+    for (const glm::vec3& p : line) {
+      if (const auto gap = DepthGap(opacity, pose, p)) gaps_.emplace_back(p.y, *gap);
     }
-    return sum / weight;
   }
+  float At(float height) const {
+    float sum = 0, weights = 1e-3F;
+    for (const auto& [y, gap] : gaps_) {
+      const float off = (y - height) / kEven;
+      const float weight = std::exp(-0.5F * off * off);
+      sum += weight * gap;
+      weights += weight;
+    }
+    return sum / weights;
+  }
+
+ private:
+  std::vector<std::pair<float, float>> gaps_;  // heights and depths, millimetres
 };
+
+/// Moves the targets of the fit forward or back by the gaps, the less the farther they lie beside
+/// the middle of the face, and warps the head again.
+void CorrectDepth(const DepthGaps& gaps, Fit& fit) {
+  for (LandmarkConstraint& constraint : fit.targets.constraints) {
+    const glm::vec3 p = constraint.on_head.On(fit.head.posed_vertices);
+    const float weight = std::exp(-p.x * p.x / (kWide * kWide));
+    constraint.z += weight * std::clamp(gaps.At(p.y), -kMostCorrection, kMostCorrection);
+  }
+  WarpToLandmarks(fit.targets, fit.head);
+}
 
 }  // namespace
 
-vm::Result<PoseFit> RefineDepthByProfile(const BaseHead& base, const FloatImage& opacity,
-                                         Fit& fit) {
-  const auto guess = Search(ProfileOf(base, fit.head, kThroat), opacity);
-  const auto line = ProfileOf(base, fit.head, 1);
+vm::Result<PoseFit> RefineDepthByProfile(const FloatImage& opacity, Fit& fit) {
+  const auto placement = FindProfile(ProfileOf(fit.head, kThroat), opacity);
+  const auto line = ProfileOf(fit.head, 1);
   const auto refused = [] {
     return vm::Fail(vm::Errc::kBadValue,
                     "no face is found in it, and no outline that could be the profile of the first "
                     "photo's");
   };
-  if (!guess || guess->off > kMostOff || guess->alike < kLeastAlike) return refused();
+  if (!placement || placement->off > kMostOffMm || placement->concordance < kLeastConcordance)
+    return refused();
   std::vector<glm::vec2> pixels;
-  for (const glm::vec3& p : line) pixels.push_back(guess->At(p));
+  for (const glm::vec3& p : line) pixels.push_back(placement->At(p));
   PoseFit view;
   view.pose = PoseWithTurn(
-      line, pixels, {0, glm::radians(90.0F) * static_cast<float>(guess->direction), -guess->tilt});
-  view.pose = Refine(opacity, view.pose, line);
-  view.residual_mm = MeanForward(opacity, view.pose, line);
-  if (view.residual_mm > kMostOff) return refused();
-  for (int round = 0; round < 3; ++round) {
-    const auto now = ProfileOf(base, fit.head, 1);
-    if (round > 0) view.pose = Refine(opacity, view.pose, now);
-    DepthGaps gaps;
-    for (const glm::vec3& p : now) {
-      const auto by = Forward(opacity, view.pose, p);
-      if (!by) continue;
-      gaps.y.push_back(p.y);
-      gaps.by.push_back(*by);
-    }
-    // Beside the middle the outline says less and less.
-    constexpr float kWide = 24, kMost = 6;
-    for (LandmarkConstraint& constraint : fit.targets.constraints) {
-      const glm::vec3 p = constraint.on_head.On(fit.head.posed_vertices);
-      const float part = std::exp(-p.x * p.x / (kWide * kWide));
-      constraint.z += part * std::clamp(gaps.At(p.y), -kMost, kMost);
-    }
-    WarpToLandmarks(base, fit.targets, fit.head);
+      line, pixels,
+      {0, glm::radians(90.0F) * static_cast<float>(placement->direction), -placement->tilt});
+  view.pose = RefinePose(opacity, view.pose, line);
+  view.residual_mm = MeanDepthGap(opacity, view.pose, line);
+  if (view.residual_mm > kMostOffMm) return refused();
+  for (int round = 0; round < kRounds; ++round) {
+    const auto now = ProfileOf(fit.head, 1);
+    if (round > 0) view.pose = RefinePose(opacity, view.pose, now);
+    CorrectDepth(DepthGaps(opacity, view.pose, now), fit);
   }
   return view;
 }

@@ -11,6 +11,6 @@ namespace facefit {
 /// (`opacity`: 1 = figure), corrects the depth of the fit's constraints near the middle of the face
 /// until both lines agree, and warps the head again. The residual is that before it was used.
 /// Errors (kBadValue, in words): no outline like it; then the fit is as it was.
-vm::Result<PoseFit> RefineDepthByProfile(const BaseHead& base, const FloatImage& opacity, Fit& fit);
+vm::Result<PoseFit> RefineDepthByProfile(const FloatImage& opacity, Fit& fit);
 
 }  // namespace facefit

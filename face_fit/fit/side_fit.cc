@@ -24,62 +24,61 @@ constexpr float kMostResidual = 2.6F;  // millimetres
 
 /// What can be compared: points of the network with the place of the posed head, and how far beside
 /// it the network sees them (millimetres to the right and down, as the camera has it).
-struct Mark {
+struct ComparedPoint {
   PointIndex point;
   glm::vec3 at;
   glm::vec2 bias{0};
   float weight = 1;
 };
 
-std::vector<Mark> MarksOf(const BaseHead& base, const FittedHead& fitted) {
-  std::vector<Mark> marks;
-  for (const PointIndex i : PointsForFit()) {
-    marks.push_back({i, base.points[i].On(fitted.posed_vertices)});
+std::vector<ComparedPoint> ComparedPoints(const FittedHead& fitted) {
+  std::vector<ComparedPoint> points;
+  for (const PointIndex i : point::kForFit) {
+    points.push_back({i, fitted.At(i)});
   }
-  return marks;
+  return points;
 }
 
-/// As marks of a pose: the bias belongs to what is seen.
-std::vector<PoseMark> Shown(const std::vector<Mark>& marks, const FoundFace& face,
-                            const CameraPose& pose) {
-  std::vector<PoseMark> shown;
-  for (const Mark& mark : marks) {
-    const glm::vec2 seen = face.At(mark.point);
-    shown.push_back({mark.at, seen - mark.bias * pose.PixelsPerMm(), mark.weight});
+/// As matches of a pose: the bias is that of what is seen.
+std::vector<PointMatch> MatchesOf(const std::vector<ComparedPoint>& points, const FoundFace& face,
+                                  const CameraPose& pose) {
+  std::vector<PointMatch> matches;
+  for (const ComparedPoint& point : points) {
+    const glm::vec2 seen = face.At(point.point);
+    matches.push_back({point.at, seen - point.bias * pose.PixelsPerMm(), point.weight});
   }
-  return shown;
+  return matches;
 }
 
-/// Draws the posed head turned as in the pose, lets the network look at it, and notes in the marks
+/// Draws the posed head turned as in the pose, lets the network look at it, and notes in the points
 /// how far beside their places it sees them, and which of them are turned away. False if it sees no
 /// face.
-bool NoteBias(FaceNetworks& networks, const BaseHead& base, const FittedHead& fitted,
-              const CameraPose& pose, std::vector<Mark>& marks) {
+bool MeasureBias(FaceNetworks& networks, const FittedHead& fitted, const CameraPose& pose,
+                 std::vector<ComparedPoint>& points) {
   fsm::HeadVertices turned;
   for (const glm::vec3& p : fitted.posed_vertices) turned.position.push_back(pose.ToCamera(p));
   turned.normal =
-      fsm::Normals(base.head->topology().indices, turned.position, turned.position.size());
+      fsm::Normals(fitted.base->head->topology().indices, turned.position, turned.position.size());
   const PortraitView portrait(kSide);
-  const fsm::Image picture = portrait.Draw(*base.head, turned, {});
+  const fsm::Image picture = portrait.Draw(*fitted.base->head, turned, {});
   const auto faces = FindFaces(networks, picture);
   if (faces.empty()) return false;
   const FoundFace& seen = faces.front();
-  for (Mark& mark : marks) {
-    const MeshPoint& on_head = base.points[mark.point];
-    mark.bias = (seen.At(mark.point) - portrait.Pixel(on_head.On(turned.position))) *
-                portrait.mm_per_pixel();
+  for (ComparedPoint& point : points) {
+    const MeshPoint& on_head = fitted.base->points[point.point];
+    point.bias = (seen.At(point.point) - portrait.Pixel(on_head.On(turned.position))) *
+                 portrait.mm_per_pixel();
     const float facing = on_head.On(turned.normal).z;
-    mark.weight = facing > 0.1F ? 1.0F : 0.15F;
+    point.weight = facing > 0.1F ? 1.0F : 0.15F;
   }
   return true;
 }
 
 /// Refined from several turns; the best.
-CameraPose FindPose(const BaseHead& base, const FittedHead& fitted, const FoundFace& face,
-                    const std::vector<Mark>& marks) {
+CameraPose FindPose(const FittedHead& fitted, const FoundFace& face,
+                    const std::vector<ComparedPoint>& points) {
   const glm::vec2 top = face.At(point::kNasion), chin = face.At(point::kChin);
-  const auto posed = [&](PointIndex point) { return base.points[point].On(fitted.posed_vertices); };
-  const float tall = glm::distance(posed(point::kNasion), posed(point::kChin));
+  const float tall = glm::distance(fitted.At(point::kNasion), fitted.At(point::kChin));
   CameraPose start = fitted.pose;
   start.focal = fitted.pose.focal / fitted.pose.PixelsPerMm() * glm::distance(top, chin) / tall;
   const glm::vec2 down = chin - top;
@@ -90,41 +89,39 @@ CameraPose FindPose(const BaseHead& base, const FittedHead& fitted, const FoundF
     CameraPose from = start;
     from.turn = {0, glm::radians(turn), start.turn.z};
     from.centre = {0, 0};
-    from.centre =
-        face.At(point::kNoseBridge) - from.Project(from.ToCamera(posed(point::kNoseBridge)));
-    const auto shown = Shown(marks, face, from);
-    const CameraPose pose = RefinePose(shown, from);
-    if (!best || MeanDistance(pose, shown) < MeanDistance(*best, shown)) best = pose;
+    from.centre = face.At(point::kNoseBridge) - from.Pixel(fitted.At(point::kNoseBridge));
+    const auto matches = MatchesOf(points, face, from);
+    const CameraPose pose = RefinePose(matches, from);
+    if (!best || MeanDistanceMm(pose, matches) < MeanDistanceMm(*best, matches)) best = pose;
   }
   return *best;
 }
 
 }  // namespace
 
-vm::Result<PoseFit> FitSideView(FaceNetworks& networks, const BaseHead& base,
-                                const FittedHead& fitted, const fsm::Image& photo) {
-  const auto faces = FindFaces(networks, photo);
-  if (faces.empty()) return vm::Fail(vm::Errc::kBadValue, "no face is found in it");
-  const FoundFace& face = faces.front();
+vm::Result<PoseFit> FitSideView(FaceNetworks& networks, const FittedHead& fitted,
+                                const SidePhoto& side) {
+  if (side.faces.empty()) return vm::Fail(vm::Errc::kBadValue, "no face is found in it");
+  const FoundFace& face = side.faces.front();
   if (face.certainty < kLeastCertainty) {
     return vm::Fail(vm::Errc::kBadValue,
                     "no eyes, nose and mouth can be told apart in it; turned by 20 to 60 degrees "
                     "they can");
   }
-  std::vector<Mark> marks = MarksOf(base, fitted);
-  PoseFit view{FindPose(base, fitted, face, marks)};
+  std::vector<ComparedPoint> points = ComparedPoints(fitted);
+  PoseFit view{FindPose(fitted, face, points)};
   const float turn = std::abs(glm::degrees(view.pose.turn.y - fitted.pose.turn.y));
   if (turn < kLeastTurn) {
     return vm::Fail(vm::Errc::kBadValue,
                     "it shows the face from the front like the first; 20 to 60 degrees help");
   }
-  if (turn > kMostTurn || !NoteBias(networks, base, fitted, view.pose, marks)) {
+  if (turn > kMostTurn || !MeasureBias(networks, fitted, view.pose, points)) {
     return vm::Fail(vm::Errc::kBadValue,
                     "the face is turned too far to be compared; 20 to 60 degrees can be");
   }
-  const auto shown = Shown(marks, face, view.pose);
-  view.pose = RefinePose(shown, view.pose);
-  view.residual_mm = MeanDistance(view.pose, shown);
+  const auto matches = MatchesOf(points, face, view.pose);
+  view.pose = RefinePose(matches, view.pose);
+  view.residual_mm = MeanDistanceMm(view.pose, matches);
   if (view.residual_mm > kMostResidual) {
     std::string mm = std::to_string(view.residual_mm);
     mm.resize(3);
@@ -134,15 +131,15 @@ vm::Result<PoseFit> FitSideView(FaceNetworks& networks, const BaseHead& base,
   return view;
 }
 
-void RefineDepthBySide(const BaseHead& base, const fsm::Image& front, const fsm::Image& side,
-                       CameraPose& pose, Fit& fit) {
+void RefineDepthBySide(const fsm::Image& front, const fsm::Image& side, CameraPose& pose,
+                       Fit& fit) {
   for (int round = 0; round < 2; ++round) {
-    const auto said = CompareDepth(base, fit.head, front, side, pose);
-    if (said.empty()) return;
+    const auto depths = CompareDepth(fit.head, front, side, pose);
+    if (depths.empty()) return;
     // What the far cheek hides is taken to be as the near one.
-    std::vector<fsm::WarpPoint> both = said;
+    std::vector<fsm::WarpPoint> both = depths;
     const glm::vec3 towards = pose.TowardsCamera();
-    for (const fsm::WarpPoint& point : said) {
+    for (const fsm::WarpPoint& point : depths) {
       if (point.at.x * towards.x > 0 && std::abs(point.at.x) > 12) {
         both.push_back({point.at * glm::vec3(-1, 1, 1), point.by});
       }
@@ -156,10 +153,10 @@ void RefineDepthBySide(const BaseHead& base, const fsm::Image& front, const fsm:
     if (both.size() < 20) return;
     const fsm::Warp depth(both, kEven);
     for (LandmarkConstraint& constraint : fit.targets.constraints) {
-      constraint.z +=
-          std::clamp(depth.Motion(constraint.on_head.On(base.rest.position)).z, -kMost, kMost);
+      constraint.z += std::clamp(
+          depth.Motion(constraint.on_head.On(fit.head.base->rest.position)).z, -kMost, kMost);
     }
-    WarpToLandmarks(base, fit.targets, fit.head);
+    WarpToLandmarks(fit.targets, fit.head);
   }
 }
 

@@ -3,32 +3,30 @@
 #include "face_fit/find/face/upright.h"
 #include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/fit/profile_fit.h"
-#include "face_fit/fit/side_fit.h"
-#include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
 
 namespace facefit {
 
-vm::Result<fsm::Image> ReadUpright(FaceNetworks& networks, const std::string& path) {
+vm::Result<std::shared_ptr<const SidePhoto>> ReadSidePhoto(FaceNetworks& networks,
+                                                           const std::string& path) {
   auto photo = ReadPhoto(path);
-  if (!photo) return photo;
-  if (const int orientation = UprightOrientation(networks, *photo); orientation != 1)
-    *photo = Turned(*photo, orientation);
-  return photo;
+  if (!photo) return std::unexpected(photo.error());
+  UprightFaces found = FindUprightFaces(networks, *photo);
+  return std::make_shared<const SidePhoto>(path, std::move(*photo), std::move(found.faces));
 }
 
-vm::Result<SideView> LookFromSide(FaceNetworks& networks, const BaseHead& base,
-                                  const fsm::Image& front, const fsm::Image& side, Fit& fit) {
-  auto view = FitSideView(networks, base, fit.head, side);
-  if (!view) {
+vm::Result<SideView> LookFromSide(FaceNetworks& networks, const fsm::Image& front,
+                                  const SidePhoto& side, Fit& fit) {
+  Cutout figure = CutOut(side.photo, SegmentPerson(networks, side.photo));
+  if (auto view = FitSideView(networks, fit.head, side)) {
+    RefineDepthBySide(front, side.photo, view->pose, fit);
+    return SideView{*view, std::move(figure)};
+  } else if (auto profile = RefineDepthByProfile(figure.opacity, fit)) {
     // In full profile the network finds no face, or places its points at will.
-    Cutout figure = CutOut(side, FindPerson(networks, side));
-    auto profile = RefineDepthByProfile(base, figure.opacity, fit);
-    if (!profile) return std::unexpected(view.error());
     return SideView{*profile, std::move(figure), true};
+  } else {
+    return std::unexpected(view.error());
   }
-  RefineDepthBySide(base, front, side, view->pose, fit);
-  return SideView{*view, CutOut(side, FindPerson(networks, side))};
 }
 
 }  // namespace facefit

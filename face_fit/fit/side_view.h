@@ -1,15 +1,22 @@
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "face_fit/find/figure/matte.h"
-#include "face_fit/find/network/face_networks.h"
-#include "face_fit/fit/fit.h"
-#include "face_fit/fit/pose_fit.h"
+#include "face_fit/fit/side_fit.h"
 
 namespace facefit {
 
-/// A photo of the person from the side.
+inline constexpr std::size_t kMostSidePhotos = 6;
+using SidePhotos = std::vector<std::shared_ptr<const SidePhoto>>;
+
+/// Reads a photo and sets it upright by what is seen in it. Errors: as ReadPhoto.
+vm::Result<std::shared_ptr<const SidePhoto>> ReadSidePhoto(FaceNetworks& networks,
+                                                           const std::string& path);
+
+/// A photo of the person from the side with what it tells of the head.
 struct SideView {
   PoseFit fit;
   Cutout figure;
@@ -17,15 +24,9 @@ struct SideView {
   /// to bring both photos into one light.
   bool outline_only = false;
 };
-
-inline constexpr std::size_t kMostSideViews = 6;
-
-/// A photo, set upright by what is seen in it. Errors: as ReadPhoto.
-vm::Result<fsm::Image> ReadUpright(FaceNetworks& networks, const std::string& path);
-
 /// Takes from a photo of the fitted person from the side what it tells of depth, and how it looks
-/// there. Errors: as FitSideView (side_fit.h); then the fit is as it was.
-vm::Result<SideView> LookFromSide(FaceNetworks& networks, const BaseHead& base,
-                                  const fsm::Image& front, const fsm::Image& side, Fit& fit);
+/// there. Errors: as FitSideView; then the fit is as it was.
+vm::Result<SideView> LookFromSide(FaceNetworks& networks, const fsm::Image& front,
+                                  const SidePhoto& side, Fit& fit);
 
 }  // namespace facefit

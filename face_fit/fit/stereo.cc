@@ -5,79 +5,70 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/find/head/rasterizer.h"
+#include "face_fit/find/head/visible_surface.h"
 #include "face_fit/fit/pose_fit.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
 
 namespace facefit {
 namespace {
 
-constexpr float kCell = 1.4F;   // millimetres between samples of the first photo
-constexpr int kPatch = 5;       // samples to each side of a patch's middle
-constexpr int kApart = 4;       // samples between the middles of patches
-constexpr float kAlike = 0.7F;  // correlation from which a patch counts as found
+constexpr float kCell = 1.4F;              // millimetres between samples of the first photo
+constexpr int kPatch = 5;                  // samples to each side of a patch's middle
+constexpr int kPatchStep = 4;              // samples between the middles of patches
+constexpr float kLeastCorrelation = 0.7F;  // correlation from which a patch counts as found
 constexpr std::size_t kFewest = 25;
+constexpr int kMostSamples = 400;  // to a side
+/// Of every sample of a patch: cosines of the slant to the cameras of both photos, and how far its
+/// depth may be from that of the middle, millimetres. Beyond them a patch looks too different in
+/// both photos, or lies on two parts of the face.
+constexpr float kLeastFacing = 0.25F, kLeastFacingSide = 0.2F, kMostDepth = 25;
 
-/// The fitted skin as the first photo shows it, on a grid.
-struct Seen {
-  int columns = 0, rows = 0;
-  glm::vec2 origin{0};                  // pixel of the first sample
-  float step = 1;                       // pixels
-  std::vector<glm::vec3> camera, rest;  // in the camera's frame; on the base head
-  std::vector<float> light, facing,
-      side;  // to the first camera, to the second; facing < 0: no skin
-  std::size_t Index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
-           static_cast<std::size_t>(x);
-  }
+/// A place of the fitted skin as the first photo shows it; without skin `facing` is negative.
+struct SkinSample {
+  glm::vec3 camera{0}, rest{0};  // in the camera's frame; on the base head
+  float light = 0;
+  float facing = -1, facing_side = -1;  // cosines of the slant to either camera
 };
+using SeenSkin = Raster<SkinSample>;
 
-Seen LookAt(const BaseHead& base, const FittedHead& fitted, const fsm::Image& front,
-            const CameraPose& side) {
-  Seen seen;
-  seen.step = kCell * fitted.pose.PixelsPerMm();
-  Box2 box;
-  for (const PointIndex i : PointsForFit()) {
-    box.Add(fitted.pose.Project(fitted.pose.ToCamera(base.points[i].On(fitted.posed_vertices))));
-  }
-  seen.origin = box.low;
-  seen.columns = std::clamp(static_cast<int>(box.Size().x / seen.step), 1, 400);
-  seen.rows = std::clamp(static_cast<int>(box.Size().y / seen.step), 1, 400);
-  const auto count = static_cast<std::size_t>(seen.columns) * static_cast<std::size_t>(seen.rows);
-  seen.camera.assign(count, glm::vec3(0, 0, -1e9F));
-  seen.rest.assign(count, glm::vec3(0));
-  seen.light.assign(count, 0);
-  seen.facing.assign(count, -1);
-  seen.side.assign(count, -1);
-  const glm::vec3 to_side = side.TowardsCamera();
-  const glm::mat3 rotation = fitted.pose.Rotation();
+/// What of the fitted skin the first photo shows.
+VisibleSurface SkinInFront(const FittedHead& fitted) {
   const auto& posed = fitted.posed_vertices;
-  std::vector<glm::vec3> camera;
-  for (const glm::vec3& p : posed) camera.push_back(fitted.pose.ToCamera(p));
-  ForSkinTriangles(base.head->topology(), [&](const std::uint32_t* t) {
-    const auto grid = [&](std::uint32_t v) {
-      return (fitted.pose.Project(camera[v]) - seen.origin) / seen.step;
-    };
-    const Triangle2 triangle{grid(t[0]), grid(t[1]), grid(t[2])};
-    if (triangle.SignedArea() > 0) return;  // seen from behind: y runs down
-    const glm::vec3 n =
-        glm::normalize(glm::cross(posed[t[1]] - posed[t[0]], posed[t[2]] - posed[t[0]]));
-    Rasterize(triangle, seen.columns, seen.rows, 1e-3F, [&](int x, int y, glm::vec3 weights) {
-      const glm::vec3 q = Interpolated(camera, t, weights);
-      const std::size_t i = seen.Index(x, y);
-      if (q.z <= seen.camera[i].z) return;
-      seen.camera[i] = q;
-      seen.rest[i] = Interpolated(base.rest.position, t, weights);
-      seen.facing[i] = (rotation * n).z;
-      seen.side[i] = glm::dot(n, to_side);
-      seen.light[i] = Brightness(ColourAt(front, seen.origin + glm::vec2(x, y) * seen.step));
-    });
+  Box2 box;
+  for (const PointIndex i : point::kForFit) box.Add(fitted.pose.Pixel(fitted.At(i)));
+  const float step = kCell * fitted.pose.PixelsPerMm();
+  const glm::ivec2 points = glm::clamp(glm::ivec2(box.Size() / step), 1, kMostSamples);
+  const std::vector<glm::vec3> screen = fitted.pose.Screen(posed);
+  VisibleSurface surface({box.low, step, points.x, points.y}, screen);
+  ForSkinTriangles(fitted.base->head->topology(), [&](const std::uint32_t* t) {
+    const Triangle2 seen{screen[t[0]], screen[t[1]], screen[t[2]]};
+    if (seen.SignedArea() < 0) surface.Draw(t);  // else it is seen from behind: y runs down
   });
-  return seen;
+  return surface;
+}
+
+SeenSkin SampleSkin(const FittedHead& fitted, const fsm::Image& front, const CameraPose& side) {
+  const VisibleSurface surface = SkinInFront(fitted);
+  const SampleGrid& grid = surface.grid();
+  const glm::vec3 to_front = fitted.pose.TowardsCamera(), to_side = side.TowardsCamera();
+  const auto& posed = fitted.posed_vertices;
+  return SeenSkin::From(grid.columns, grid.rows, [&](int x, int y) -> SkinSample {
+    const std::uint32_t* t = surface.Triangle(x, y);
+    if (!t) return {};
+    const MeshPoint place = surface.Place(x, y);
+    const glm::vec3 normal =
+        glm::normalize(glm::cross(posed[t[1]] - posed[t[0]], posed[t[2]] - posed[t[0]]));
+    return {.camera = fitted.pose.ToCamera(place.On(posed)),
+            .rest = place.On(fitted.base->rest.position),
+            .light = Brightness(ColourAt(front, grid.Point(x, y))),
+            .facing = glm::dot(normal, to_front),
+            .facing_side = glm::dot(normal, to_side)};
+  });
 }
 
 /// Takes mean and slopes off a patch: how light falls changes them when a head turns.
-void Flatten(std::vector<float>& patch) {
+void RemovePlane(std::vector<float>& patch) {
   float mean = 0, across = 0, down = 0, squares = 0;
   std::size_t i = 0;
   for (int y = -kPatch; y <= kPatch; ++y) {
@@ -116,23 +107,24 @@ struct Patch {
   std::vector<glm::vec3> camera;
 };
 
-std::vector<Patch> PatchesOf(const Seen& seen) {
+std::vector<Patch> PatchesOf(const SeenSkin& seen) {
   std::vector<Patch> patches;
-  for (int y = kPatch; y + kPatch < seen.rows; y += kApart) {
-    for (int x = kPatch; x + kPatch < seen.columns; x += kApart) {
+  for (int y = kPatch; y + kPatch < seen.height; y += kPatchStep) {
+    for (int x = kPatch; x + kPatch < seen.width; x += kPatchStep) {
       Patch patch{seen.Index(x, y), {}, {}};
       bool whole = true;
       for (int dy = -kPatch; dy <= kPatch && whole; ++dy) {
         for (int dx = -kPatch; dx <= kPatch && whole; ++dx) {
           const std::size_t i = seen.Index(x + dx, y + dy);
-          whole = seen.facing[i] > 0.25F && seen.side[i] > 0.2F &&
-                  std::abs(seen.camera[i].z - seen.camera[patch.middle].z) < 25;
-          patch.light.push_back(seen.light[i]);
-          patch.camera.push_back(seen.camera[i]);
+          const SkinSample& sample = seen.at[i];
+          whole = sample.facing > kLeastFacing && sample.facing_side > kLeastFacingSide &&
+                  std::abs(sample.camera.z - seen.at[patch.middle].camera.z) < kMostDepth;
+          patch.light.push_back(sample.light);
+          patch.camera.push_back(sample.camera);
         }
       }
       if (!whole) continue;
-      Flatten(patch.light);
+      RemovePlane(patch.light);
       patches.push_back(std::move(patch));
     }
   }
@@ -175,7 +167,7 @@ class SideMatcher {
     for (std::size_t i = 0; i < patch.camera.size(); ++i) {
       light_.push_back(Brightness(ColourAt(side_, pixel(i))));
     }
-    Flatten(light_);
+    RemovePlane(light_);
     return Correlation(patch.light, light_);
   }
 
@@ -185,66 +177,64 @@ class SideMatcher {
 };
 
 /// Where whole patches lie in the second photo, whatever their depth.
-std::vector<PoseMark> FindPatches(const Seen& seen, const CameraPose& front, const CameraPose& side,
-                                  SideMatcher& matcher) {
-  std::vector<PoseMark> marks;
+std::vector<PointMatch> FindPatches(const SeenSkin& seen, const CameraPose& front,
+                                    const CameraPose& side, SideMatcher& matcher) {
+  std::vector<PointMatch> matches;
   std::vector<glm::vec2> pixels;
   const float pixels_per_mm = side.PixelsPerMm();
-  const auto shown = [&](const glm::vec3& q) {
-    return side.Project(side.ToCamera(front.FromCamera(q)));
-  };
+  const auto shown = [&](const glm::vec3& q) { return side.Pixel(front.FromCamera(q)); };
   for (const Patch& patch : PatchesOf(seen)) {
     // Projected once: turning a head takes longer than looking up a pixel.
     pixels.clear();
     for (const glm::vec3& q : patch.camera) pixels.push_back(shown(q));
-    float best = kAlike;
+    float best = kLeastCorrelation;
     glm::vec2 by(0);
     for (int y = -4; y <= 4; ++y) {
       for (int x = -6; x <= 6; ++x) {
         const glm::vec2 off = glm::vec2(x, y) * pixels_per_mm;
-        const float alike = matcher.Match(patch, [&](std::size_t i) { return pixels[i] + off; });
-        if (alike <= best) continue;
-        best = alike;
+        const float correlation =
+            matcher.Match(patch, [&](std::size_t i) { return pixels[i] + off; });
+        if (correlation <= best) continue;
+        best = correlation;
         by = off;
       }
     }
-    if (best <= kAlike) continue;
-    const glm::vec3 q = seen.camera[patch.middle];
-    marks.push_back({front.FromCamera(q), shown(q) + by, 1});
+    if (best <= kLeastCorrelation) continue;
+    const glm::vec3 q = seen.at[patch.middle].camera;
+    matches.push_back({front.FromCamera(q), shown(q) + by, 1});
   }
-  return marks;
+  return matches;
 }
 
 }  // namespace
 
-std::vector<fsm::WarpPoint> CompareDepth(const BaseHead& base, const FittedHead& fitted,
-                                         const fsm::Image& front, const fsm::Image& side,
-                                         CameraPose& pose) {
+std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front,
+                                         const fsm::Image& side, CameraPose& pose) {
   SideMatcher matcher(side);
   for (int round = 0; round < 2; ++round) {
-    const auto marks = FindPatches(LookAt(base, fitted, front, pose), fitted.pose, pose, matcher);
-    if (marks.size() < kFewest) return {};
-    pose = RefinePose(marks, pose);
+    const auto matches = FindPatches(SampleSkin(fitted, front, pose), fitted.pose, pose, matcher);
+    if (matches.size() < kFewest) return {};
+    pose = RefinePose(matches, pose);
   }
   // Then along the line of sight of the first photo.
   constexpr float kStep = 0.75F;  // millimetres
   constexpr int kReach = 14;
-  const Seen seen = LookAt(base, fitted, front, pose);
-  std::vector<fsm::WarpPoint> said;
+  const SeenSkin seen = SampleSkin(fitted, front, pose);
+  std::vector<fsm::WarpPoint> depths;
   for (const Patch& patch : PatchesOf(seen)) {
     const Peak peak = FindPeak(kReach, [&](int k) {
       const float by = kStep * static_cast<float>(k);
-      const float alike = matcher.Match(patch, [&](std::size_t i) {
+      const float correlation = matcher.Match(patch, [&](std::size_t i) {
         const glm::vec3& q = patch.camera[i];
         const glm::vec3 moved = fitted.pose.Unproject(fitted.pose.Project(q), q.z + by);
-        return pose.Project(pose.ToCamera(fitted.pose.FromCamera(moved)));
+        return pose.Pixel(fitted.pose.FromCamera(moved));
       });
-      return alike - 0.0012F * by * by;  // of places as alike the nearest
+      return correlation - 0.0012F * by * by;  // of places that correlate alike the nearest
     });
-    if (peak.value < kAlike || std::abs(peak.at) > kReach - 1) continue;
-    said.push_back({seen.rest[patch.middle], glm::vec3(0, 0, kStep * peak.at)});
+    if (peak.value < kLeastCorrelation || std::abs(peak.at) > kReach - 1) continue;
+    depths.push_back({seen.at[patch.middle].rest, glm::vec3(0, 0, kStep * peak.at)});
   }
-  return said.size() < kFewest ? std::vector<fsm::WarpPoint>{} : said;
+  return depths.size() < kFewest ? std::vector<fsm::WarpPoint>{} : depths;
 }
 
 }  // namespace facefit

@@ -12,8 +12,7 @@ namespace facefit {
 /// stands forward. Refines `pose`, that of the second photo. Returns places of the base head at
 /// rest and by how many millimetres each lies nearer to the first photo's camera than the fit has
 /// it; empty if fewer than 25 patches are found.
-std::vector<fsm::WarpPoint> CompareDepth(const BaseHead& base, const FittedHead& fitted,
-                                         const fsm::Image& front, const fsm::Image& side,
-                                         CameraPose& pose);
+std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front,
+                                         const fsm::Image& side, CameraPose& pose);
 
 }  // namespace facefit

@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <glm/vec4.hpp>
 #include <opencv2/imgproc.hpp>
 #include <span>
 
+#include "face_fit/picture/pixels.h"
+
 namespace facefit {
 namespace {
-
-/// Views of our pictures, which outlive them; OpenCV does not write into those made from const.
-cv::Mat View(const FloatImage& image) {
-  return {image.height, image.width, CV_32F, const_cast<float*>(image.at.data())};
-}
-cv::Mat View(const fsm::Image& image) {
-  return {image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data())};
-}
 
 /// OpenCV would otherwise start threads of its own.
 void StayOnThisThread() {
@@ -22,11 +17,32 @@ void StayOnThisThread() {
   (void)done;
 }
 
+/// Views of our pictures, which outlive them, and through which all that is done here goes; OpenCV
+/// does not write into those made from const.
+template <typename T>
+cv::Mat View(const Raster<T>& image) {
+  StayOnThisThread();
+  constexpr int kChannels = sizeof(T) / sizeof(float);
+  return {image.height, image.width, CV_32FC(kChannels), const_cast<T*>(image.at.data())};
+}
+cv::Mat View(const fsm::Image& image) {
+  StayOnThisThread();
+  return {image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data())};
+}
+
+/// Each pixel of `out` is the mean of those it covers.
+template <typename Picture>
+Picture ScaledInto(Picture out, const Picture& image) {
+  cv::Mat scaled = View(out);
+  cv::resize(View(image), scaled, scaled.size(), 0, 0, cv::INTER_AREA);
+  return out;
+}
+
 }  // namespace
 
-FloatImage Blurred(const FloatImage& image, int reach) {
-  StayOnThisThread();
-  FloatImage out(image.width, image.height);
+template <typename T>
+Raster<T> Blurred(const Raster<T>& image, int reach) {
+  Raster<T> out(image.width, image.height);
   cv::Mat sums = View(out);
   const int side = 2 * reach + 1;
   cv::boxFilter(View(image), sums, CV_32F, {side, side}, {-1, -1}, false, cv::BORDER_CONSTANT);
@@ -34,16 +50,17 @@ FloatImage Blurred(const FloatImage& image, int reach) {
     return static_cast<float>(std::min(i + reach, size - 1) - std::max(i - reach, 0) + 1);
   };
   for (int y = 0; y < out.height; ++y) {
-    for (int x = 0; x < out.width; ++x) {
-      out.at[out.Index(x, y)] /= within(x, out.width) * within(y, out.height);
-    }
+    for (int x = 0; x < out.width; ++x) out(x, y) /= within(x, out.width) * within(y, out.height);
   }
   return out;
 }
+template FloatImage Blurred(const FloatImage& image, int reach);
+template VectorImage Blurred(const VectorImage& image, int reach);
+template Raster<glm::mat3> Blurred(const Raster<glm::mat3>& image, int reach);
 
-FloatImage Closed(const FloatImage& image, int reach) {
-  StayOnThisThread();
-  FloatImage out(image.width, image.height);
+template <typename T>
+Raster<T> Closed(const Raster<T>& image, int reach) {
+  Raster<T> out(image.width, image.height);
   cv::Mat closed = View(out);
   const int side = 2 * reach + 1;
   cv::morphologyEx(View(image), closed, cv::MORPH_CLOSE,
@@ -51,37 +68,69 @@ FloatImage Closed(const FloatImage& image, int reach) {
   return out;
 }
 
-void FillHoles(FloatImage& image) {
+template FloatImage Closed(const FloatImage& image, int reach);
+template VectorImage Closed(const VectorImage& image, int reach);
+
+void PushPullInpaint(fsm::Image& image, const FloatImage& weight) {
   StayOnThisThread();
+  using Pixel = cv::Vec4f;  // colour times weight, weight
+  std::vector<cv::Mat_<Pixel>> levels(1, cv::Mat_<Pixel>(image.height, image.width));
+  std::size_t i = 0;
+  for (Pixel& p : levels[0]) {
+    const glm::vec4 weighted = glm::vec4(Rgb(image, i), 1) * weight.at[i];
+    p = {weighted.r, weighted.g, weighted.b, weighted.w};
+    ++i;
+  }
+  // Push: each pixel the sum of four finer ones, brought down to a weight of 1.
+  while (levels.back().total() > 1) {
+    cv::Mat_<Pixel> even, coarse;
+    cv::copyMakeBorder(levels.back(), even, 0, levels.back().rows % 2, 0, levels.back().cols % 2,
+                       cv::BORDER_CONSTANT, cv::Scalar::all(0));
+    cv::resize(even, coarse, even.size() / 2, 0, 0, cv::INTER_AREA);
+    for (Pixel& mean : coarse) mean *= 1 / std::max(mean[3], 0.25F);
+    levels.push_back(coarse);
+  }
+  // Pull: what is lacking of a weight of 1 comes from the coarser level.
+  for (std::size_t l = levels.size() - 1; l-- > 0;) {
+    cv::Mat_<Pixel> from;
+    cv::resize(levels[l + 1], from, levels[l + 1].size() * 2, 0, 0, cv::INTER_LINEAR);
+    levels[l].forEach([&from](Pixel& here, const int* at) {
+      const Pixel& there = from(at[0], at[1]);
+      if (here[3] < 1 && there[3] > 0) here += there * ((1 - here[3]) / there[3]);
+    });
+  }
+  i = 0;
+  for (const Pixel& p : levels[0]) {
+    SetRgb(image, i++, glm::vec3(p[0], p[1], p[2]) / std::max(p[3], 1e-3F));
+  }
+}
+
+void FillHoles(FloatImage& image) {
   // With a border of one pixel all that is outside is connected.
   cv::Mat covered;
   cv::copyMakeBorder(View(image) > 0, covered, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   constexpr int kOutside = 128;
   cv::floodFill(covered, {0, 0}, cv::Scalar(kOutside));
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      image.at[image.Index(x, y)] = covered.at<std::uint8_t>(y + 1, x + 1) == kOutside ? 0.F : 1.F;
-    }
-  }
+  image = FloatImage::From(image.width, image.height, [&](int x, int y) {
+    return covered.at<std::uint8_t>(y + 1, x + 1) == kOutside ? 0.0F : 1.0F;
+  });
 }
 
 void KeepConnected(glm::ivec2 to, FloatImage& image) {
-  StayOnThisThread();
   constexpr float kLeast = 0.1F;
   const glm::ivec2 seed = glm::clamp(to, glm::ivec2(0), glm::ivec2(image.width, image.height) - 1);
-  if (image.at[image.Index(seed.x, seed.y)] < kLeast) return;
+  if (image(seed.x, seed.y) < kLeast) return;
   cv::Mat present = View(image) >= kLeast;  // 255 where it is
   constexpr int kKept = 128;
   cv::floodFill(present, {seed.x, seed.y}, cv::Scalar(kKept), nullptr, {}, {}, 8);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      if (present.at<std::uint8_t>(y, x) != kKept) image.at[image.Index(x, y)] = 0;
+      if (present.at<std::uint8_t>(y, x) != kKept) image(x, y) = 0;
     }
   }
 }
 
 std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold) {
-  StayOnThisThread();
   cv::Mat distance, label;
   const cv::Mat unknown = View(image) < threshold;
   cv::distanceTransform(unknown, distance, label, cv::DIST_L2, cv::DIST_MASK_5,
@@ -97,20 +146,15 @@ std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold) 
 }
 
 fsm::Image ScaledDown(const fsm::Image& image, int width, int height) {
-  StayOnThisThread();
-  fsm::Image out = fsm::FilledImage(width, height);
-  cv::Mat scaled = View(out);
-  cv::resize(View(image), scaled, scaled.size(), 0, 0, cv::INTER_AREA);
-  return out;
+  return ScaledInto(fsm::FilledImage(width, height), image);
 }
 
-FloatImage ScaledDown(const FloatImage& image, int width, int height) {
-  StayOnThisThread();
-  FloatImage out(width, height);
-  cv::Mat scaled = View(out);
-  cv::resize(View(image), scaled, scaled.size(), 0, 0, cv::INTER_AREA);
-  return out;
+template <typename T>
+Raster<T> ScaledDown(const Raster<T>& image, int width, int height) {
+  return ScaledInto(Raster<T>(width, height), image);
 }
+template FloatImage ScaledDown(const FloatImage& image, int width, int height);
+template VectorImage ScaledDown(const VectorImage& image, int width, int height);
 
 fsm::Image Cropped(const fsm::Image& image, int left, int top, int width, int height) {
   fsm::Image out = fsm::FilledImage(width, height);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <vector>
 
@@ -13,11 +14,20 @@ namespace facefit {
 // All are pure and run on the caller's thread. REQUIRES: pictures of at least one pixel.
 
 /// The mean over squares of `2 * reach + 1` pixels, at the edges over what lies in the picture.
-FloatImage Blurred(const FloatImage& image, int reach);
+/// For FloatImage, VectorImage and Raster<glm::mat3>.
+template <typename T>
+Raster<T> Blurred(const Raster<T>& image, int reach);
 
-/// A morphological closing by squares of `2 * reach + 1` pixels (Serra 1982): dark places that no
-/// such square fits into are filled.
-FloatImage Closed(const FloatImage& image, int reach);
+/// A morphological closing of each channel by squares of `2 * reach + 1` pixels (Serra 1982): dark
+/// places that no such square fits into are filled. For FloatImage and VectorImage.
+template <typename T>
+Raster<T> Closed(const Raster<T>& image, int reach);
+
+/// Fills what has no weight with the colours around it, which are the wider averages the farther
+/// away they are (push and pull through a pyramid of halved pictures; Gortler, Grzeszczuk, Szeliski
+/// and Cohen, The Lumigraph, 1996). Full weight stays as it is. `weight`: 0..1, as large as
+/// `image`.
+void PushPullInpaint(fsm::Image& image, const FloatImage& weight);
 
 /// Sets to 1 what is greater than 0 and every hole in it, that is every 0 that is not connected to
 /// the picture's edge by its four neighbours; the rest becomes 0.
@@ -34,7 +44,9 @@ std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold);
 
 /// Each pixel is the mean of those it covers. REQUIRES: 1 <= width <= image.width, likewise height.
 fsm::Image ScaledDown(const fsm::Image& image, int width, int height);
-FloatImage ScaledDown(const FloatImage& image, int width, int height);
+/// For FloatImage and VectorImage.
+template <typename T>
+Raster<T> ScaledDown(const Raster<T>& image, int width, int height);
 
 /// A copy of `width` x `height` pixels from (left, top). REQUIRES: they lie within the picture.
 fsm::Image Cropped(const fsm::Image& image, int left, int top, int width, int height);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <glm/vec3.hpp>
 #include <vector>
 
 namespace facefit {
@@ -19,20 +20,35 @@ struct FourPixels {
   }
 };
 
-/// A number for each pixel of a picture, row 0 at the top. Also used for grids of other things.
-struct FloatImage {
+/// A value for each pixel of a picture, row 0 at the top. Also used for grids of other things.
+template <typename T>
+struct Raster {
   int width = 0, height = 0;
-  std::vector<float> at;  ///< width * height
-  FloatImage(int w, int h, float value = 0)
+  std::vector<T> at;  ///< width * height
+  Raster() = default;
+  Raster(int w, int h, T value = {})
       : width(w), height(h), at(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value) {}
+  /// Of each pixel `value(x, y)`, row by row.
+  static Raster From(int w, int h, auto value) {
+    Raster out(w, h);
+    std::size_t i = 0;
+    for (int y = 0; y < h; ++y) {
+      for (int x = 0; x < w; ++x) out.at[i++] = value(x, y);
+    }
+    return out;
+  }
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
   }
+  T& operator()(int x, int y) { return at[Index(x, y)]; }
+  const T& operator()(int x, int y) const { return at[Index(x, y)]; }
   /// Bilinear interpolation, as FourPixels.
-  float Between(float x, float y) const {
+  T Between(float x, float y) const {
     return FourPixels(width, height, x, y).Mean([this](std::size_t i) { return at[i]; });
   }
 };
+using FloatImage = Raster<float>;
+using VectorImage = Raster<glm::vec3>;
 
 }  // namespace facefit

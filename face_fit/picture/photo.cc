@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "face_fit/picture/filters.h"
@@ -59,10 +58,10 @@ vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
   return std::move(*image);
 }
 
-/// Nothing if it is no larger.
-std::optional<fsm::Image> ScaledTo(int most_side, const fsm::Image& image) {
+/// The picture as it is, or scaled down if a side is longer.
+fsm::Image Limited(int most_side, fsm::Image image) {
   const int longer = std::max(image.width, image.height);
-  if (longer <= most_side) return std::nullopt;
+  if (longer <= most_side) return image;
   const auto scaled = [&](int side) {
     return std::max(static_cast<int>(std::lround(static_cast<double>(side) * most_side / longer)),
                     1);
@@ -72,10 +71,7 @@ std::optional<fsm::Image> ScaledTo(int most_side, const fsm::Image& image) {
 
 }  // namespace
 
-fsm::Image AtWorkingSide(const fsm::Image& photo) {
-  auto scaled = ScaledTo(kWorkingSide, photo);
-  return scaled ? std::move(*scaled) : photo;
-}
+fsm::Image AtWorkingSide(const fsm::Image& photo) { return Limited(kWorkingSide, photo); }
 
 vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most_side) {
   constexpr std::uint8_t kJpegStart[] = {0xff, 0xd8, 0xff};
@@ -93,7 +89,7 @@ vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most
                                              " pixels; at least " + std::to_string(kLeastSide) +
                                              " on each side are needed");
   }
-  if (auto scaled = ScaledTo(most_side, *image)) *image = std::move(*scaled);
+  *image = Limited(most_side, std::move(*image));
   if (orientation != 1) *image = Turned(*image, orientation);
   return image;
 }

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/common.hpp>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -13,7 +12,7 @@
 
 namespace facefit {
 
-// Pixels by their number, row by row from the top, and small sums over lists. Pure; thread: any.
+// Pixels by their number, row by row from the top. Pure; thread: any.
 
 inline glm::vec3 Rgb(const fsm::Image& image, std::size_t i) {
   const std::uint8_t* p = &image.rgba[4 * i];
@@ -28,10 +27,10 @@ inline void SetRgb(fsm::Image& image, std::size_t i, glm::vec3 colour) {
   for (int c = 0; c < 3; ++c) image.rgba[4 * i + static_cast<std::size_t>(c)] = Byte(colour[c]);
 }
 
-/// One channel, 0..2, as numbers of 0..255.
-inline FloatImage Channel(const fsm::Image& image, std::size_t channel) {
-  FloatImage out(image.width, image.height);
-  for (std::size_t i = 0; i < out.at.size(); ++i) out.at[i] = image.rgba[4 * i + channel];
+/// The colours of all pixels, 0..255.
+inline VectorImage Colours(const fsm::Image& image) {
+  VectorImage out(image.width, image.height);
+  for (std::size_t i = 0; i < out.at.size(); ++i) out.at[i] = Rgb(image, i);
   return out;
 }
 
@@ -41,16 +40,5 @@ inline float Median(std::vector<float> values) {
   std::ranges::nth_element(values, middle);
   return *middle;
 }
-
-/// The smallest rectangle around points; low > high as long as there is none.
-struct Box2 {
-  glm::vec2 low{1e9F}, high{-1e9F};
-  void Add(glm::vec2 p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  glm::vec2 Middle() const { return 0.5F * (low + high); }
-  glm::vec2 Size() const { return high - low; }
-};
 
 }  // namespace facefit

@@ -69,7 +69,7 @@ FaceMeasures FaceMeasurer::Measure(const AttentiveFace& found) {
   const auto middle = [](std::span<const PointIndex> list) {
     return list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2);
   };
-  measures.gap = MeanGap(points, middle(UpperInnerLip()), middle(LowerInnerLip()), 1);
+  measures.gap = MeanGap(points, middle(point::kUpperInnerLip), middle(point::kLowerInnerLip), 1);
   measures.width = glm::distance(points[point::kMouthRight], points[point::kMouthLeft]);
   measures.jaw = points[point::kNoseBottom].y - points[point::kChin].y;
   const float eyes = 0.25F * (points[point::kEyeOuterRight].y + points[point::kEyeInnerRight].y +

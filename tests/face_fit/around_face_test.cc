@@ -41,7 +41,7 @@ TEST(CutToFaceTest, OfASmallFaceWhatIsNearItIsCutFromTheFinestPhoto) {
   // Two pixels of the finest photo to one of that the face was found in, half a millimetre each.
   const fsm::Image photo = Map(1600, 1000), finest = Map(3200, 2000);
   const FoundFace face = FaceAt({500, 400}, 45);
-  const auto [near, there] = CutToFace(photo, finest, face);
+  const auto [near, there] = CropToFace(photo, finest, face);
   EXPECT_NEAR(near.width, 660, 2);
   EXPECT_NEAR(near.height, 730, 2);
   EXPECT_NEAR(there.points[263].x - there.points[33].x, 90, 0.01F);
@@ -57,7 +57,7 @@ TEST(CutToFaceTest, OfASmallFaceWhatIsNearItIsCutFromTheFinestPhoto) {
 
 TEST(CutToFaceTest, AtTheEdgeOfAPhotoLessIsCut) {
   const fsm::Image photo = Map(1600, 1000);
-  const auto [near, there] = CutToFace(photo, photo, FaceAt({100, 950}, 45));
+  const auto [near, there] = CropToFace(photo, photo, FaceAt({100, 950}, 45));
   EXPECT_NEAR(near.width, 100 + 165, 2);
   EXPECT_NEAR(near.height, 50 + 150, 2);
   EXPECT_LT(glm::distance(glm::vec2(there.points[1]), glm::vec2(100, 150)), 1.5F);
@@ -69,7 +69,7 @@ TEST(CutToFaceTest, AFaceAtTheEdgeIsCutWhateverTheScalesRoundTo) {
     for (const int high : {1350, 1398, 1537, 1999}) {
       const fsm::Image finest = Map(wide, high), photo = Map(1600, 1600 * high / wide);
       const auto [near, there] =
-          CutToFace(photo, finest, FaceAt({1560, static_cast<float>(photo.height) - 40}, 45));
+          CropToFace(photo, finest, FaceAt({1560, static_cast<float>(photo.height) - 40}, 45));
       EXPECT_GT(near.width, 100) << wide << " " << high;
       EXPECT_LT(near.width, wide) << wide << " " << high;
     }
@@ -79,14 +79,14 @@ TEST(CutToFaceTest, AFaceAtTheEdgeIsCutWhateverTheScalesRoundTo) {
 TEST(CutToFaceTest, APortraitStaysAsItIs) {
   const fsm::Image photo = Map(300, 400);
   const FoundFace face = FaceAt({150, 180}, 60);
-  const auto [near, there] = CutToFace(photo, photo, face);
+  const auto [near, there] = CropToFace(photo, photo, face);
   EXPECT_EQ(near.rgba, photo.rgba);
   EXPECT_EQ(there.points, face.points);
 }
 
 TEST(CutToFaceTest, NoMoreIsCutThanIsWorkedOn) {
   const fsm::Image photo = Map(1600, 1600), finest = Map(4000, 4000);
-  const auto [near, there] = CutToFace(photo, finest, FaceAt({800, 700}, 160));
+  const auto [near, there] = CropToFace(photo, finest, FaceAt({800, 700}, 160));
   EXPECT_LE(std::max(near.width, near.height), kWorkingSide);
   EXPECT_LT(glm::distance(ColourAt(near, there.points[33]), ColourAt(photo, {720, 700})), 1.5F);
 }

@@ -9,9 +9,9 @@
 
 #include "face_fit/find/head/portrait_view.h"
 #include "face_fit/find/network/attention_points.h"
-#include "face_fit/net/flex_buffer.h"
 #include "face_fit/picture/photo.h"
 #include "face_fit/picture/pixels.h"
+#include "face_fit/tflite/flex_buffer.h"
 #include "face_fit/watch/face_watch.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
@@ -246,8 +246,8 @@ TEST_F(AttentionTest, PointsOfTheLipsLieOnTheSeamOfAHead) {
     return most * portrait.mm_per_pixel();
   };
   // The places on the mesh are where lips touch, a little behind what is seen from the front.
-  EXPECT_LT(off_mm(UpperInnerLip()), 3);
-  EXPECT_LT(off_mm(LowerInnerLip()), 3.5F);
+  EXPECT_LT(off_mm(point::kUpperInnerLip), 3);
+  EXPECT_LT(off_mm(point::kLowerInnerLip), 3.5F);
 }
 
 }  // namespace

@@ -16,7 +16,6 @@
 #include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/find/figure/matte.h"
 #include "face_fit/picture/filters.h"
-#include "face_fit/picture/inpaint.h"
 #include "face_fit/picture/resample.h"
 #include "tests/face_fit/network_fixture.h"
 
@@ -43,7 +42,7 @@ template <typename F>
 FloatImage Of(F f) {
   FloatImage field(kSide, kSide);
   for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) field.at[field.Index(x, y)] = f(glm::vec2(x, y) + 0.5F);
+    for (int x = 0; x < kSide; ++x) field(x, y) = f(glm::vec2(x, y) + 0.5F);
   }
   return field;
 }
@@ -112,7 +111,7 @@ TEST(MatteTest, StrandsOfHairAreKeptAndTheSkyBetweenThemIsNot) {
       const glm::vec2 p = glm::vec2(x, y) + 0.5F;
       const float off = glm::distance(p, glm::vec2(kSide / 2));
       if (off < 51.5F || off > 53) continue;
-      (strand(p) > 0 ? hair : sky) += found.at[found.Index(x, y)];
+      (strand(p) > 0 ? hair : sky) += found(x, y);
       (strand(p) > 0 ? hairs : skies) += 1;
     }
   }
@@ -131,7 +130,7 @@ TEST(MatteTest, DoubtOverAWideAreaIsDecided) {
   const FloatImage found = Matte(photo, doubt);
   float least = 1;
   for (int x = 35; x < kSide / 2; ++x) {
-    least = std::min(least, found.at[found.Index(x, kSide / 2)]);
+    least = std::min(least, found(x, kSide / 2));
   }
   EXPECT_GT(least, 0.9F);
 }
@@ -147,12 +146,12 @@ TEST(MatteTest, ALargePhotoHasTheEdgeOfItsOwnPixels) {
       const auto v = static_cast<std::uint8_t>(200 - 170 * part(x) +
                                                10 * std::sin(static_cast<float>(y) / 30));
       photo.rgba.insert(photo.rgba.end(), {v, v, v, 255});
-      rough.at[rough.Index(x, y)] = glm::smoothstep(390.0F, 402.0F, static_cast<float>(x));
+      rough(x, y) = glm::smoothstep(390.0F, 402.0F, static_cast<float>(x));
     }
   }
   const FloatImage found = Matte(photo, rough);
   for (const int x : {390, 397, 399, 400, 402, 410}) {
-    EXPECT_NEAR(found.at[found.Index(x, 100)], part(x), 0.15F) << x;
+    EXPECT_NEAR(found(x, 100), part(x), 0.15F) << x;
   }
 }
 
@@ -160,7 +159,7 @@ TEST(MatteTest, TheEdgeLosesTheBackgroundsColour) {
   const FloatImage opacity = Of([](glm::vec2 p) { return Disc(p, 50, 6); });
   const fsm::Image photo =
       Painted([](glm::vec2 p) { return glm::mix(Sky(p), kHair, Disc(p, 50, 6)); });
-  const fsm::Image figure = WithoutBackground(photo, opacity);
+  const fsm::Image figure = ForegroundColours(photo, opacity);
   float most = 0;
   for (std::size_t i = 0; i < opacity.at.size(); ++i) {
     if (opacity.at[i] < 0.3F) continue;
@@ -185,11 +184,11 @@ TEST(FigureTest, WhatOnlyOneSideOfAHeadShowsIsDoubtedAndRatherThereIfItLooksAlik
     return ear(p) || off < 30 ? glm::vec3(220, 170, 140) : p.x < kSide / 2 ? kSky : kHair;
   });
   FloatImage person(kSide, kSide);
-  const auto at = [&person](int x, int y) -> float& { return person.at[person.Index(x, y)]; };
+  const auto at = [&person](int x, int y) -> float& { return person(x, y); };
   for (int y = 0; y < kSide; ++y) {
     for (int x = kSide / 2 - 30; x < kSide / 2 + 50; ++x) at(x, y) = 1;
   }
-  person = DoubtOneSided(face, photo, person);
+  person = DoubtAsymmetry(face, photo, person);
   EXPECT_GT(at(kSide / 2 - 40, 90), 0.75F) << "the ear";
   EXPECT_NEAR(at(kSide / 2 - 40, 60), 0.5F, 0.1F) << "no hair";
   EXPECT_EQ(at(kSide / 2 - 60, 90), 0) << "neither side";
@@ -199,7 +198,7 @@ TEST(FigureTest, WhatOnlyOneSideOfAHeadShowsIsDoubtedAndRatherThereIfItLooksAlik
 
 TEST(GrainTest, TheNearestKnownPointIsFound) {
   FloatImage weight(40, 30);
-  weight.at[weight.Index(3, 4)] = weight.at[weight.Index(30, 20)] = 1;
+  weight(3, 4) = weight(30, 20) = 1;
   const auto nearest = NearestAbove(weight, 0.95F);
   EXPECT_EQ(nearest[weight.Index(0, 0)], weight.Index(3, 4));
   EXPECT_EQ(nearest[weight.Index(39, 0)], weight.Index(30, 20));
@@ -311,7 +310,7 @@ TEST(GrainTest, WhatIsHalfKnownTakesHalfTheGrainAndGivesHalf) {
   for (int y = 0; y < kSide; ++y) {
     const float off = GrainGap::Off({0, static_cast<float>(y) + 0.5F});
     for (int x = 0; x < kSide; ++x) {
-      float& known = gap.weight.at[gap.weight.Index(x, y)];
+      float& known = gap.weight(x, y);
       if (off > 9 && off < 12) known = 0.5F;
       // A thin line is all that is known before more that is not.
       if (off > 14 && y < kSide / 2) known = 0;
@@ -358,6 +357,7 @@ class BillboardTest : public NetworkTest {
   void SetUp() override {
     NetworkTest::SetUp();
     if (IsSkipped()) return;
+    fitted_.base = &Galatea();
     fitted_.pose.focal = 760;
     fitted_.pose.centre = {kPhoto / 2, kPhoto / 2};
     fitted_.posed_vertices = Galatea().rest.position;
@@ -369,16 +369,16 @@ class BillboardTest : public NetworkTest {
         const float off = std::abs(static_cast<float>(x - kPhoto / 2));
         const bool head = glm::length(glm::vec2(off, y - kPhoto / 2 + 10)) < 100;
         const bool body = static_cast<float>(y) > Shoulder(off);
-        figure_.opacity.at[figure_.opacity.Index(x, y)] = head || body ? 1.0F : 0.0F;
+        figure_.opacity(x, y) = head || body ? 1.0F : 0.0F;
       }
     }
     figure_.colours.rgba.assign(static_cast<std::size_t>(4 * kPhoto * kPhoto), 200);
   }
   static float Shoulder(float off) { return 240 + 0.3F * std::max(off - 40, 0.0F); }
-  Billboard Sheet() { return MakeBillboard(Galatea(), fitted_, figure_); }
+  Billboard Sheet() { return MakeBillboard(fitted_, figure_); }
   /// The pixel over which a vertex lies.
   glm::vec2 Over(const fsm::PhotoHead::SheetVertex& vertex) const {
-    return fitted_.pose.Project(fitted_.pose.ToCamera(vertex.position));
+    return fitted_.pose.Pixel(vertex.position);
   }
 
   FittedHead fitted_;
@@ -386,7 +386,7 @@ class BillboardTest : public NetworkTest {
 };
 
 TEST_F(BillboardTest, ShouldersFallBeyondThePhotosSides) {
-  const CompletedFigure whole = CompleteFigure(Galatea(), fitted_, figure_);
+  const CompletedFigure whole = CompleteFigure(fitted_, figure_);
   EXPECT_TRUE(whole.completed.shoulders);
   const FloatImage& opacity = whole.figure.opacity;
   int beside = 0;
@@ -397,11 +397,11 @@ TEST_F(BillboardTest, ShouldersFallBeyondThePhotosSides) {
       if (out < 8 || p.y > kPhoto - 4) continue;
       const float outline = Shoulder(kPhoto / 2) + 0.3F * out;
       if (p.y < outline - 2) {
-        EXPECT_LT(opacity.at[opacity.Index(x, y)], 0.1F) << p.x << " " << p.y;
+        EXPECT_LT(opacity(x, y), 0.1F) << p.x << " " << p.y;
       }
       if (p.y < outline + 2 + out * out / 60) continue;
       ++beside;
-      EXPECT_GT(opacity.at[opacity.Index(x, y)], 0.9F) << p.x << " " << p.y;
+      EXPECT_GT(opacity(x, y), 0.9F) << p.x << " " << p.y;
     }
   }
   EXPECT_GT(beside, 50);
@@ -435,7 +435,7 @@ TEST_F(BillboardTest, GoesWithTheFaceFromItsExpressionToRest) {
       const glm::vec2 pixel =
           glm::vec2(2 * vertex.texcoord.x - 1, vertex.texcoord.y) * float{kPhoto};
       const glm::vec3 q = fitted_.pose.ToCamera(vertex.position);
-      by = vertex.position.y - fitted_.pose.FromCamera(fitted_.pose.Unproject(pixel, q.z)).y;
+      by = vertex.position.y - fitted_.pose.PlaceAt(pixel, q.z).y;
     }
     return by;
   };

@@ -198,14 +198,13 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     return face;
   }
   static FitError ErrorOf(const TrueCamera& camera, const Fit& fit) {
-    const BaseHead& base = Galatea();
     const auto& points = truth().points;
     const float eyes = glm::distance(camera.Pixel(points[33]), camera.Pixel(points[263]));
     FitError error;
     std::vector<fsm::PointPair> pairs;
     for (const NamedPoint& named : kNamed) {
-      const glm::vec3 fitted = base.points[named.point].On(fit.head.posed_vertices);
-      const glm::vec2 shown = fit.head.pose.Project(fit.head.pose.ToCamera(fitted));
+      const glm::vec3 fitted = fit.head.At(named.point);
+      const glm::vec2 shown = fit.head.pose.Pixel(fitted);
       error.shown += glm::distance(camera.Pixel(points[named.point]), shown) / eyes /
                      static_cast<float>(std::size(kNamed));
       pairs.push_back({points[named.point], fitted, fsm::FacePart::kPlain});
@@ -278,8 +277,10 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     if (!file) throw std::runtime_error(file.error().text);
     const auto found = FindHeadPoints(*networks_, *file, name, "galatea");
     const fsm::Similarity place = fsm::FitSimilarity(found.pairs);
+    fsm::MeshModel model = fsm::ModelOf(*file, place, -43);
+    BaseHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
     BaseHead seen = vm::OrThrow(
-        BaseHead::See(*networks_, fsm::MakeMeshHead(fsm::ModelOf(*file, place, -43)), name, false));
+        BaseHead::See(*networks_, fsm::MakeMeshHead(std::move(model)), name, std::move(surface)));
     TrueHead made;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
       // At the outline the network may miss the cheek and see an ear or the neck, centimetres

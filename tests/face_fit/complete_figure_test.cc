@@ -48,7 +48,7 @@ class CompleteFigureTest : public NetworkTest {
       const FloatImage& opacity = whole.figure.opacity;
       const int y = static_cast<int>(chin.y + mm * per_mm);
       float sum = 0;
-      for (int x = 0; x < opacity.width; ++x) sum += opacity.at[opacity.Index(x, y)];
+      for (int x = 0; x < opacity.width; ++x) sum += opacity(x, y);
       return sum / per_mm;
     }
   };
@@ -61,10 +61,10 @@ class CompleteFigureTest : public NetworkTest {
     const auto faces = FindFaces(*networks_, photo);
     const FoundFace& face = faces.at(0);
     const Fit fit = FitFace(Galatea(), face, &photo);
-    Cutout figure = CutOut(photo, FindPerson(*networks_, photo, &face));
-    CompletedFigure whole = CompleteFigure(Galatea(), fit.head, figure);
+    Cutout figure = CutOut(photo, SegmentPerson(*networks_, photo, &face));
+    CompletedFigure whole = CompleteFigure(fit.head, figure);
     const glm::vec3 chin = Galatea().points[point::kChin].On(fit.head.posed_vertices);
-    const glm::vec2 pixel = fit.head.pose.Project(fit.head.pose.ToCamera(chin)) + whole.photo;
+    const glm::vec2 pixel = fit.head.pose.Pixel(chin) + whole.photo;
     return std::make_unique<Made>(std::move(photo), std::move(figure), std::move(whole), pixel,
                                   fit.head.pose.PixelsPerMm());
   }
@@ -138,7 +138,7 @@ TEST_F(CompleteFigureTest, HairThatTheUpperEdgeCutsIsRoundedOff) {
   const auto width = [&](float mm) {
     float sum = 0;
     const int y = static_cast<int>(made->whole.photo.y - mm * made->per_mm);
-    for (int x = 0; x < opacity.width; ++x) sum += opacity.at[opacity.Index(x, y)];
+    for (int x = 0; x < opacity.width; ++x) sum += opacity(x, y);
     return sum / made->per_mm;
   };
   const float at_edge = width(-1), above = width(5);

@@ -21,8 +21,8 @@ class EdgesTest : public testing::Test {
 
   std::optional<LidEdges> Lids(const fsm::HeadVertices& at, fsm::Side side) const {
     const auto& topology = head_->topology();
-    return FindLidEdges(topology, at.position, EyeVertices(topology, at.position.size()),
-                        topology.eyes[side].centre, fsm::SignOf(side));
+    return FindLidEdges(topology, at.position, EyeVertices(topology), topology.eyes[side].centre,
+                        fsm::SignOf(side));
   }
   std::optional<LipSeam> Seam(const fsm::HeadVertices& at) const {
     // Skin above and below the lips, wherever it is now.
@@ -102,14 +102,17 @@ TEST_F(EdgesTest, SeamTellsTheLipsApart) {
   open.asymmetry = 0;
   open.au.left[27] = open.au.right[27] = 1;
   const auto moved = Shown(open);
-  for (std::size_t k = 0; k < LipSeam::kBetween; ++k) {
-    const glm::vec3 up = seam->upper[k].On(rest_.position), low = seam->lower[k].On(rest_.position);
-    EXPECT_LT(glm::distance(glm::vec2(up), glm::vec2(low)), 1) << "they meet";
-    EXPECT_GT(Fall(seam->lower[k], moved), Fall(seam->upper[k], moved) + 2) << k;
+  for (float along = 0.1F; along < 0.95F; along += 0.1F) {
+    const auto& [upper, lower] = seam->At(along);
+    EXPECT_LT(
+        glm::distance(glm::vec2(upper.On(rest_.position)), glm::vec2(lower.On(rest_.position))), 1)
+        << "they meet";
+    EXPECT_GT(Fall(lower, moved), Fall(upper, moved) + 2) << along;
   }
-  const std::size_t middle = LipSeam::kBetween / 2;
-  EXPECT_GT(Fall(seam->lower[middle], moved), Fall(seam->upper[middle], moved) + 20);
-  const glm::vec3 right = seam->right.On(rest_.position), left = seam->left.On(rest_.position);
+  const auto& [upper, lower] = seam->At(0.5F);
+  EXPECT_GT(Fall(lower, moved), Fall(upper, moved) + 20);
+  const glm::vec3 right = seam->At(0).upper.On(rest_.position),
+                  left = seam->At(1).upper.On(rest_.position);
   const float width = head_->MeasureMouth({}).width_mm;
   EXPECT_NEAR(left.x - right.x, width, 0.2F * width);
 }
@@ -121,9 +124,8 @@ TEST_F(EdgesTest, PartedLipsHaveTwoEdges) {
   const auto moved = Shown(open);
   const auto seam = Seam(moved);
   ASSERT_TRUE(seam);
-  const std::size_t middle = LipSeam::kBetween / 2;
-  const float gap =
-      seam->upper[middle].On(moved.position).y - seam->lower[middle].On(moved.position).y;
+  const auto& [upper, lower] = seam->At(0.5F);
+  const float gap = upper.On(moved.position).y - lower.On(moved.position).y;
   EXPECT_GT(gap, 3);
   EXPECT_NEAR(gap, head_->MeasureMouth(open).gap_mm, 3);
 }

@@ -65,7 +65,7 @@ TEST(FiltersTest, OrientationsOfExifAreSetUpright) {
 
 TEST(KeepConnectedTest, OnlyWhatHangsTogetherWithThePlaceStays) {
   FloatImage image(9, 7);
-  const auto at = [&image](int x, int y) -> float& { return image.at[image.Index(x, y)]; };
+  const auto at = [&image](int x, int y) -> float& { return image(x, y); };
   for (int x = 0; x < 4; ++x) at(x, 3) = 0.6F;
   at(4, 4) = 0.3F;  // joined by a corner
   at(7, 1) = 1;

@@ -50,10 +50,14 @@ TEST_F(FindTest, APhotoThatLiesIsSetUpright) {
   const std::string path = photos / "collins_nasa.png";
   const auto photo = ReadPhoto(path);
   ASSERT_TRUE(photo) << photo.error().text;
-  EXPECT_EQ(UprightOrientation(*networks_, *photo), 1);
-  EXPECT_EQ(UprightOrientation(*networks_, Turned(*photo, 6)), 8);
-  EXPECT_EQ(UprightOrientation(*networks_, Turned(*photo, 8)), 6);
-  EXPECT_EQ(UprightOrientation(*networks_, Turned(*photo, 3)), 3);
+  for (const auto& [lying, upright] : {std::pair(1, 1), {6, 8}, {8, 6}, {3, 3}}) {
+    fsm::Image turned = Turned(*photo, lying);
+    const UprightFaces found = FindUprightFaces(*networks_, turned);
+    EXPECT_EQ(found.orientation, upright) << lying;
+    EXPECT_EQ(turned.rgba, photo->rgba) << lying;
+    ASSERT_EQ(found.faces.size(), 1U) << lying;
+    EXPECT_LT(found.faces[0].At(point::kForehead).y, found.faces[0].At(point::kChin).y) << lying;
+  }
 }
 
 TEST_F(FindTest, InAGroupEveryFaceIsFound) {
@@ -95,7 +99,7 @@ FoundFace SeenOf(const std::vector<MeshPoint>& places, const std::vector<glm::ve
 
 /// The head as a network would see it whose depth is true.
 BaseHead Exact(const BaseHead& base) {
-  BaseHead exact{base.name, fsm::MakeHead("galatea", false), base.rest, base.points, {}};
+  BaseHead exact{base.name, fsm::MakeHead("galatea", false), {}, base.rest, base.points, {}};
   for (const MeshPoint& place : base.points) exact.seen_z.push_back(place.On(base.rest.position).z);
   return exact;
 }
@@ -103,7 +107,8 @@ BaseHead Exact(const BaseHead& base) {
 TEST_F(FindTest, TheBuiltInHeadFittedToItselfHardlyMoves) {
   const BaseHead& base = Galatea();
   const FoundFace face = SeenOf(base.points, base.rest.position);
-  const Fit fit = FitFace(Exact(base), face);
+  const BaseHead exact = Exact(base);
+  const Fit fit = FitFace(exact, face);
   EXPECT_LT(glm::distance(fit.head.pose.turn, SomePose().turn), 0.01F);
   EXPECT_NEAR(fit.head.pose.focal, SomePose().focal, 10);
   for (const auto& point : fit.head.points) EXPECT_LT(glm::length(point.by), 1.0F);
@@ -135,9 +140,7 @@ TEST_F(FindTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
   EXPECT_GT(most(FitFace(built_in, face)), 4) << "else this would say nothing";
   // The head as worn in the photo smiles by the same table.
   const std::size_t corner = 291;
-  EXPECT_LT(glm::distance(base.points[corner].On(fit.head.posed_vertices),
-                          base.points[corner].On(vertices.position)),
-            2);
+  EXPECT_LT(glm::distance(fit.head.At(corner), base.points[corner].On(vertices.position)), 2);
 }
 
 }  // namespace

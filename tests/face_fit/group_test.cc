@@ -80,8 +80,9 @@ TEST_F(GroupTest, AGroupWhoseLargestFaceLeansToOneSideStaysAsItIs) {
                                  {{"galatea", 0, 58, 600, 300, 500},
                                   {"pygmalion", 10, 0, 100, 200, 380},
                                   {"baucis", -10, -5, 1150, 200, 380}});
-  EXPECT_EQ(UprightOrientation(*networks_, photo), 1);
-  EXPECT_EQ(UprightOrientation(*networks_, Turned(photo, 6)), 8);
+  fsm::Image upright = photo, lying = Turned(photo, 6);
+  EXPECT_EQ(FindUprightFaces(*networks_, upright).orientation, 1);
+  EXPECT_EQ(FindUprightFaces(*networks_, lying).orientation, 8);
 }
 
 }  // namespace

@@ -83,16 +83,16 @@ TEST(MouthLineTest, TeethTellOpenLipsFromClosedOnes) {
 
 TEST(OpeningsTest, TeethBetweenOpenLipsAreNoSkinAndTheLipsBesideThemOnlyInPart) {
   FoundFace face = StraightMouth();
-  for (const std::size_t i : LowerInnerLip()) face.points[i].y += 12;
+  for (const std::size_t i : point::kLowerInnerLip) face.points[i].y += 12;
   const Openings open(face, 2, true);
-  EXPECT_EQ(open.Skin({100, 106}), 0);
-  EXPECT_EQ(open.Skin({100, 99}), 0) << "the blurred edge";
-  const float part = open.Skin({100, 97.6F});
+  EXPECT_EQ(open.SkinWeight({100, 106}), 0);
+  EXPECT_EQ(open.SkinWeight({100, 99}), 0) << "the blurred edge";
+  const float part = open.SkinWeight({100, 97.6F});
   EXPECT_GT(part, 0.1F);
   EXPECT_LT(part, 0.9F);
-  EXPECT_EQ(open.Skin({100, 90}), 1);
-  EXPECT_EQ(open.Skin({20, 20}), 1);
-  EXPECT_EQ(Openings(face, 2, false).Skin({100, 106}), 1) << "closed lips are all skin";
+  EXPECT_EQ(open.SkinWeight({100, 90}), 1);
+  EXPECT_EQ(open.SkinWeight({20, 20}), 1);
+  EXPECT_EQ(Openings(face, 2, false).SkinWeight({100, 106}), 1) << "closed lips are all skin";
 }
 
 TEST(SkinColoursTest, AFringeIsNoSkinAndABrightForeheadIs) {
@@ -101,7 +101,7 @@ TEST(SkinColoursTest, AFringeIsNoSkinAndABrightForeheadIs) {
     return p.y < 50 ? 200 : p.y < 100 ? 60 : p.y < 200 ? 240 : 160;
   });
   const FloatImage likeness = SkinLikeness(map, FloatImage(400, 400, 1));
-  const auto at = [&](int y) { return likeness.at[likeness.Index(200, y)]; };
+  const auto at = [&](int y) { return likeness(200, y); };
   EXPECT_EQ(at(75), 0);
   EXPECT_EQ(at(150), 1);
   EXPECT_EQ(at(300), 1);
@@ -111,17 +111,17 @@ TEST(SkinColoursTest, AFringeIsNoSkinAndABrightForeheadIs) {
 TEST(SkinColoursTest, BrightStrandsOfAFringeAreNoSkinAndLinesOfTheForeheadAre) {
   // From the top: bright strands, dark ones, forehead with a dark line, brows, cheek.
   FloatImage likeness(400, 400, 1);
-  std::vector<float> up(likeness.at.size());
+  SkinTexels texels(400, 400);
   for (int y = 0; y < 400; ++y) {
     for (int x = 0; x < 400; ++x) {
       const std::size_t i = likeness.Index(x, y);
-      up[i] = static_cast<float>(250 - y) / 5;
+      texels.at[i].above_brows_mm = static_cast<float>(250 - y) / 5;
       const bool dark = (y > 60 && y < 120) || y == 180 || (y > 255 && y < 270);
       if (dark) likeness.at[i] = 0;
     }
   }
-  EndAtHair(up, likeness);
-  const auto at = [&](int y) { return likeness.at[likeness.Index(200, y)]; };
+  CutAtHairline(texels, likeness);
+  const auto at = [&](int y) { return likeness(200, y); };
   EXPECT_LT(at(30), 0.05F) << "bright strands";
   EXPECT_EQ(at(90), 0) << "dark ones";
   EXPECT_GT(at(150), 0.95F) << "the forehead above its line";
@@ -173,23 +173,25 @@ TEST(GlassesTest, ABarAcrossTheNoseIsSeenAndAFoldIsNot) {
   face.points[362] = glm::vec3(200, 200, 0);
   // A nose that grows darker downwards.
   const auto nose = [](glm::vec2 p) { return 170 - 0.15F * (p.y - 150); };
-  const auto seen = [&](auto drawn) { return BarOnNose(face, Drawn(336, drawn)); };
+  const auto seen = [&](auto drawn) { return BridgeContrast(face, Drawn(336, drawn)); };
   EXPECT_LT(seen(nose), 0.03F);
-  EXPECT_GT(seen([&](glm::vec2 p) { return p.y > 196 && p.y < 204 ? 60 : nose(p); }), kGlasses);
-  EXPECT_GT(seen([&](glm::vec2 p) { return p.y > 192 && p.y < 204 ? 230 : nose(p); }), kGlasses)
+  EXPECT_GT(seen([&](glm::vec2 p) { return p.y > 196 && p.y < 204 ? 60 : nose(p); }),
+            kGlassesContrast);
+  EXPECT_GT(seen([&](glm::vec2 p) { return p.y > 192 && p.y < 204 ? 230 : nose(p); }),
+            kGlassesContrast)
       << "of clear plastic";
   EXPECT_LT(seen([&](glm::vec2 p) { return p.y > 199.5F && p.y < 200.5F ? 120 : nose(p); }),
-            kGlasses)
+            kGlassesContrast)
       << "a fold is thin";
-  EXPECT_LT(seen([&](glm::vec2 p) { return p.y < 185 ? 50 : nose(p); }), kGlasses)
+  EXPECT_LT(seen([&](glm::vec2 p) { return p.y < 185 ? 50 : nose(p); }), kGlassesContrast)
       << "brows that meet have forehead above them, but farther away";
   EXPECT_LT(seen([&](glm::vec2 p) { return p.y > 196 && p.y < 204 && p.x < 165 ? 60 : nose(p); }),
-            kGlasses)
+            kGlassesContrast)
       << "it has to go across";
   EXPECT_LT(seen([&](glm::vec2 p) {
               return p.y > 196 && p.y < 202 && std::abs(p.x - 168) < 10.5F ? 60 : nose(p);
             }),
-            kGlasses)
+            kGlassesContrast)
       << "a crease of the brow is deep but short";
 }
 
@@ -213,8 +215,8 @@ TEST(IrisTest, IsFoundBetweenLidsThatHideHalfOfIt) {
   });
   for (const bool mirrored : {false, true}) {
     const OpenEye eye = EyeAcross(mirrored);
-    const IrisRing ring = FindIrises(photo, std::span(&eye, 1)).at(0);
-    EXPECT_GT(ring.contrast, kClearRing);
+    const IrisCircle ring = FindIrises(photo, std::span(&eye, 1)).at(0);
+    EXPECT_GT(ring.contrast, kClearIris);
     EXPECT_LT(glm::distance(ring.centre, kCentre), 3.5F);
     EXPECT_NEAR(ring.radius, 13, 1.6F);
   }
@@ -229,7 +231,7 @@ TEST(IrisTest, IsFoundBesideACornerInDeepShade) {
     return far < 5 ? 15 : far < 12 ? 70 : p.x < 88 ? 85 : 180;
   });
   const OpenEye eye = EyeAcross(false);
-  const IrisRing ring = FindIrises(photo, std::span(&eye, 1)).at(0);
+  const IrisCircle ring = FindIrises(photo, std::span(&eye, 1)).at(0);
   EXPECT_LT(glm::distance(ring.centre, kCentre), 3.5F) << ring.centre.x;
 }
 
@@ -245,7 +247,7 @@ TEST(IrisTest, IsWhereItIsDarkWithinNotBetweenTheShadowsOfTwoLashes) {
       return std::abs(std::abs(p.x - 82) - 11) < 1.6F ? 70 : 170;
     });
     const OpenEye eye = EyeAcross(false);
-    const IrisRing ring = FindIrises(photo, std::span(&eye, 1)).at(0);
+    const IrisCircle ring = FindIrises(photo, std::span(&eye, 1)).at(0);
     EXPECT_LT(glm::distance(ring.centre, kCentre), 4) << pupil << ": " << ring.centre.x;
   }
 }
@@ -253,7 +255,7 @@ TEST(IrisTest, IsWhereItIsDarkWithinNotBetweenTheShadowsOfTwoLashes) {
 TEST(IrisTest, IsNotImaginedInAnEvenPatch) {
   const fsm::Image photo = Drawn(200, [](glm::vec2) { return 90; });
   const OpenEye eye = EyeAcross(false);
-  EXPECT_LT(FindIrises(photo, std::span(&eye, 1)).at(0).contrast, kClearRing);
+  EXPECT_LT(FindIrises(photo, std::span(&eye, 1)).at(0).contrast, kClearIris);
 }
 
 TEST(RedEyeTest, WhatAFlashThrowsBackIsDarkenedAndIrisesStay) {
@@ -288,12 +290,13 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   FoundFace face;
   face.points.assign(kNetworkPoints, glm::vec3(0));
   Fit fit;
+  fit.head.base = &base;
   std::vector<glm::vec2> centres;
   for (const fsm::Side side : fsm::kSides) {
     const glm::vec3 ball = base.head->topology().eyes[side].centre;
     const glm::vec2 centre(500 + 4 * ball.x, 300 - 4 * ball.y);
     centres.push_back(centre);
-    fit.irises.rings[side] = {.centre = centre, .radius = 24, .contrast = 0.4F};
+    fit.irises.circles[side] = {.centre = centre, .radius = 24, .contrast = 0.4F};
     for (std::size_t i = 0; i < 16; ++i) {
       const auto point = EyeOutline(side)[i];
       const float part = static_cast<float>(i <= 8 ? i : 16 - i) / 4 - 1;  // outer -1, inner 1
@@ -321,7 +324,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   });
   fsm::Image picture{.width = 1024, .height = 512, .rgba = {}};
   picture.rgba.assign(std::size_t{4} * 1024 * 512, 255);
-  const auto both = PaintEyes(base, face, fit, {}, photo, picture);
+  const auto both = PaintEyes(face, fit, {}, photo, picture);
   ASSERT_TRUE(both);
   for (const fsm::EyePicture& eye : both->InOrder()) {
     const auto shown = [&](const glm::vec4& square, glm::vec2 part) {
@@ -346,8 +349,8 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     const auto row = hidden.rgba.begin() + 4 * (y * 1000 + 500);
     std::fill(row, row + 4 * 500, std::uint8_t{130});
   }
-  fit.irises.rings.left.contrast = 0.01F;
-  const auto one_hidden = PaintEyes(base, face, fit, {}, hidden, picture);
+  fit.irises.circles.left.contrast = 0.01F;
+  const auto one_hidden = PaintEyes(face, fit, {}, hidden, picture);
   ASSERT_TRUE(one_hidden);
   const auto& [right, left] = *one_hidden;
   for (const glm::vec2 part : {glm::vec2(0.5F, 0.5F), {0.02F, 0.6F}, {0.2F, 0.8F}}) {
@@ -359,8 +362,8 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     EXPECT_NEAR(at(left.iris, part), at(right.iris, {1 - part.x, part.y}), 2) << part.x;
     EXPECT_NEAR(at(left.ball, part), at(right.ball, {1 - part.x, part.y}), 2) << part.x;
   }
-  fit.irises.rings.right.contrast = 0.08F;
-  EXPECT_FALSE(PaintEyes(base, face, fit, {}, hidden, picture))
+  fit.irises.circles.right.contrast = 0.08F;
+  EXPECT_FALSE(PaintEyes(face, fit, {}, hidden, picture))
       << "eyes that are not seen clearly are drawn";
 }
 

@@ -1,10 +1,10 @@
-#include "face_fit/net/model.h"
+#include "face_fit/tflite/model.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "face_fit/net/network.h"
+#include "face_fit/tflite/network.h"
 
 namespace facefit {
 namespace {

@@ -35,7 +35,7 @@ struct OtherSideTest : testing::Test {
     // A wing of the nose that the photo does not show, black until it is completed.
     for (int y = kLow; y < kHigh; ++y) {
       for (int x = kLow; x < kHigh; ++x) {
-        seen.at[seen.Index(x, y)] = 0;
+        seen(x, y) = 0;
         for (std::size_t c = 0; c < 3; ++c) map.rgba[4 * seen.Index(x, y) + c] = 0;
       }
     }
@@ -52,17 +52,17 @@ struct OtherSideTest : testing::Test {
 };
 
 TEST_F(OtherSideTest, WhatIsTakenFromTheOtherSideStandsInTheLightOfItsOwn) {
-  TakeFromOtherSide(skin, map, seen);
+  CompleteByMirroring(skin, map, seen);
   for (int y = kLow; y < kHigh; ++y) {
     for (int x = kLow; x < kHigh; ++x) {
       EXPECT_LT(glm::distance(At(x, y), Lit(x, y)), 8) << x << " " << y;
-      EXPECT_GT(seen.at[seen.Index(x, y)], 0);
+      EXPECT_GT(seen(x, y), 0);
     }
   }
 }
 
 TEST_F(OtherSideTest, WhatWasSeenStaysAsItIs) {
-  TakeFromOtherSide(skin, map, seen);
+  CompleteByMirroring(skin, map, seen);
   for (int x = 0; x < kSide; ++x) {
     EXPECT_LT(glm::distance(At(x, 100), glm::floor(Lit(x, 100))), 1.8F) << x;
   }
@@ -75,7 +75,7 @@ TEST_F(OtherSideTest, AHighlightOfTheOtherSideAloneIsNotTakenOver) {
       for (int c = 0; c < 3; ++c) p[c] = 255;
     }
   }
-  TakeFromOtherSide(skin, map, seen);
+  CompleteByMirroring(skin, map, seen);
   for (int y = kLow; y < kHigh; ++y) {
     for (int x = kLow; x < kHigh; ++x) {
       EXPECT_LT(At(x, y).r, 1.2F * Lit(200, 2).r) << x << " " << y;
@@ -85,7 +85,7 @@ TEST_F(OtherSideTest, AHighlightOfTheOtherSideAloneIsNotTakenOver) {
 
 TEST_F(OtherSideTest, NothingIsTakenWithinEyesAndMouth) {
   skin.assign(skin.size(), false);
-  TakeFromOtherSide(skin, map, seen);
+  CompleteByMirroring(skin, map, seen);
   EXPECT_EQ(At(160, 160), glm::vec3(0));
 }
 

@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "face_fit/bake/texture_bake.h"
 #include "face_fit/find/face/around_face.h"
-#include "face_fit/find/figure/figure_finder.h"
-#include "face_fit/fit/fit.h"
+#include "face_fit/make_face.h"
 #include "face_fit/picture/photo.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
@@ -19,11 +17,9 @@ namespace {
 /// The head that the program makes of a photo of one person.
 std::unique_ptr<fsm::Head> WornBy(FaceNetworks& networks, const BaseHead& base,
                                   const fsm::Image& photo) {
-  const auto [near, face] = CutToFace(photo, photo, FindFaces(networks, photo).at(0));
-  const Fit fit = FitFace(base, face, &near);
-  const TextureBake bake =
-      BakeTexture(base, face, fit, near, CutOut(near, FindPerson(networks, near, &face)), {});
-  return fsm::MakeHead(bake.head);
+  const auto [near, face] = CropToFace(photo, photo, FindFaces(networks, photo).at(0));
+  const FrontPhoto front = LookAtFront(networks, base, near, &face, 1);
+  return fsm::MakeHead(MakeFace(base, front, face, &networks, {}).bake.head);
 }
 
 fsm::Image Drawn(const fsm::Head& head, const fsm::FaceState& state, const fsm::Scene& scene,

@@ -15,7 +15,7 @@ struct ReportTest : testing::Test {
     face.points[33].x = 50;
     face.points[263].x = 150;
     face.crop = {glm::vec2(100), 150, 0};
-    fit.irises.rings = {{{80, 100}, 6, 0.3F}, {{120, 100}, 6, 0.3F}};
+    fit.irises.circles = {{{80, 100}, 6, 0.3F}, {{120, 100}, 6, 0.3F}};
     photo.rgba.assign(200 * 200 * 4, 128);
   }
   bool Says(const std::string& what) const {
@@ -40,9 +40,9 @@ TEST_F(ReportTest, AHeadTurnedFarIsToldApartFromOneTurnedALittle) {
 
 TEST_F(ReportTest, EyesThatAreShutOrInTheShadeAreSpokenOf) {
   EXPECT_FALSE(Says("iris is"));
-  fit.irises.rings.left.contrast = 0;
+  fit.irises.circles.left.contrast = 0;
   EXPECT_TRUE(Says("one iris is not seen clearly"));
-  fit.irises.rings.right.contrast = 0.01F;
+  fit.irises.circles.right.contrast = 0.01F;
   EXPECT_TRUE(Says("no iris is seen"));
 }
 

@@ -27,15 +27,16 @@ class SmileShadeTest : public NetworkTest {
     if (IsSkipped()) return;
     if (!placed_) {
       FittedHead fitted;
+      fitted.base = &Galatea();
       fitted.pose.focal = 760;
       fitted.pose.centre = {kPhoto / 2, kPhoto / 2};
       fitted.posed_vertices = Galatea().rest.position;
-      placed_.emplace(ProjectSkin(Galatea(), fitted, fitted.pose, true));
+      placed_.emplace(ProjectSkin(fitted, fitted.pose, true));
     }
     map_ = {.width = kMapSide, .height = kMapSide, .rgba = {}};
-    for (std::size_t i = 0; i < placed_->up.size(); ++i) {
+    for (std::size_t i = 0; i < placed_->at.size(); ++i) {
       const float y = Height(i);
-      const bool band = std::abs(y - middle()) < 5 || placed_->up[i] > 10;
+      const bool band = std::abs(y - middle()) < 5 || placed_->at[i].above_brows_mm > 10;
       const int grain = static_cast<int>(i * 7919 % 13) - 6;
       const auto c = static_cast<std::uint8_t>((band ? 190 : 150) + grain);
       map_.rgba.insert(map_.rgba.end(), {c, c, c, 255});
@@ -45,16 +46,16 @@ class SmileShadeTest : public NetworkTest {
     return Galatea().points[point].On(Galatea().rest.position);
   }
   float Height(std::size_t i) const {
-    return placed_->up[i] + Galatea().head->Landmark("nasion").y + kBrowsEnd;
+    return placed_->at[i].above_brows_mm + Galatea().head->Landmark("nasion").y + kBrowsEnd;
   }
   /// Between nose and mouth, on the cheeks.
   float middle() const { return 0.5F * (Place(2).y + Place(61).y); }
   /// The mean over cheeks at one height.
   float Mean(float y) const {
     float sum = 0, count = 0;
-    for (std::size_t i = 0; i < placed_->up.size(); ++i) {
-      const float x = std::abs(placed_->across[i]);
-      if (x < 30 || x > 42 || std::abs(Height(i) - y) > 1 || placed_->facing[i] < 0.2F) continue;
+    for (std::size_t i = 0; i < placed_->at.size(); ++i) {
+      const float x = std::abs(placed_->at[i].x_mm);
+      if (x < 30 || x > 42 || std::abs(Height(i) - y) > 1 || placed_->at[i].facing < 0.2F) continue;
       sum += map_.rgba[4 * i];
       ++count;
     }
@@ -68,25 +69,28 @@ class SmileShadeTest : public NetworkTest {
 
 TEST_F(SmileShadeTest, SkinIsHiddenAsThePoseGivenSeesItNotAsThatOfTheFit) {
   FittedHead fitted;
+  fitted.base = &Galatea();
   fitted.pose.focal = 760;
   fitted.pose.centre = {kPhoto / 2, kPhoto / 2};
   fitted.posed_vertices = Galatea().rest.position;
   CameraPose aside = fitted.pose;
   aside.turn.y = 0.9F;
-  const SkinTexels seen = ProjectSkin(Galatea(), fitted, aside, true);
+  const SkinTexels seen = ProjectSkin(fitted, aside, true);
   fitted.pose = aside;
-  EXPECT_EQ(seen.facing, ProjectSkin(Galatea(), fitted, aside, true).facing);
+  const SkinTexels fitted_so = ProjectSkin(fitted, aside, true);
+  EXPECT_TRUE(
+      std::ranges::equal(seen.at, fitted_so.at, {}, &SkinTexel::facing, &SkinTexel::facing));
 }
 
 TEST_F(SmileShadeTest, ABandOfShineIsEvenedOutAndGrainStays) {
   const fsm::Image before = map_;
   EXPECT_GT(Mean(middle()) - Mean(middle() - 9), 35);
-  EvenSmileShade(Galatea(), *placed_, seen_, 1, map_);
+  RemoveSmileShading(Galatea(), *placed_, seen_, 1, map_);
   EXPECT_LT(std::abs(Mean(middle()) - Mean(middle() - 9)), 16);
   // Neighbours differ as before.
   float rough = 0, was = 0;
-  for (std::size_t i = 1; i < placed_->up.size(); ++i) {
-    if (std::abs(std::abs(placed_->across[i]) - 36) > 6 || std::abs(Height(i) - middle()) > 1)
+  for (std::size_t i = 1; i < placed_->at.size(); ++i) {
+    if (std::abs(std::abs(placed_->at[i].x_mm) - 36) > 6 || std::abs(Height(i) - middle()) > 1)
       continue;
     rough += static_cast<float>(std::abs(map_.rgba[4 * i] - map_.rgba[4 * i - 4]));
     was += static_cast<float>(std::abs(before.rgba[4 * i] - before.rgba[4 * i - 4]));
@@ -96,10 +100,10 @@ TEST_F(SmileShadeTest, ABandOfShineIsEvenedOutAndGrainStays) {
 
 TEST_F(SmileShadeTest, ForeheadEyesNoseAndLipsStayAsTheyAre) {
   const fsm::Image before = map_;
-  EvenSmileShade(Galatea(), *placed_, seen_, 1, map_);
-  for (std::size_t i = 0; i < placed_->up.size(); ++i) {
-    const bool nose = std::abs(placed_->across[i]) < 10 && Height(i) > Place(2).y;
-    const bool other = Height(i) > Place(145).y - 8 || nose || placed_->within_lips_mm[i] > -1;
+  RemoveSmileShading(Galatea(), *placed_, seen_, 1, map_);
+  for (std::size_t i = 0; i < placed_->at.size(); ++i) {
+    const bool nose = std::abs(placed_->at[i].x_mm) < 10 && Height(i) > Place(2).y;
+    const bool other = Height(i) > Place(145).y - 8 || nose || placed_->at[i].within_lips_mm > -1;
     if (other) {
       ASSERT_EQ(map_.rgba[4 * i], before.rgba[4 * i]) << i;
     }
@@ -108,12 +112,13 @@ TEST_F(SmileShadeTest, ForeheadEyesNoseAndLipsStayAsTheyAre) {
 
 TEST_F(SmileShadeTest, WhatThePhotoDoesNotShowStays) {
   // The photo shows one cheek only; beyond is what was filled in.
-  for (std::size_t i = 0; i < placed_->up.size(); ++i) seen_.at[i] = placed_->across[i] < 0 ? 1 : 0;
+  for (std::size_t i = 0; i < placed_->at.size(); ++i)
+    seen_.at[i] = placed_->at[i].x_mm < 0 ? 1 : 0;
   const fsm::Image before = map_;
-  EvenSmileShade(Galatea(), *placed_, seen_, 1, map_);
+  RemoveSmileShading(Galatea(), *placed_, seen_, 1, map_);
   int changed = 0;
-  for (std::size_t i = 0; i < placed_->up.size(); ++i) {
-    if (placed_->across[i] > 6) {
+  for (std::size_t i = 0; i < placed_->at.size(); ++i) {
+    if (placed_->at[i].x_mm > 6) {
       ASSERT_EQ(map_.rgba[4 * i], before.rgba[4 * i]) << i;
     }
     changed += map_.rgba[4 * i] != before.rgba[4 * i];
@@ -125,10 +130,10 @@ TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
   fsm::Image flat = map_;
   FloatImage smooth(kMapSide, kMapSide);
   const auto spot = [&](std::size_t i) {
-    return std::abs(std::abs(placed_->across[i]) - 30) < 4 &&
+    return std::abs(std::abs(placed_->at[i].x_mm) - 30) < 4 &&
            std::abs(Height(i) - middle() + 12) < 3;
   };
-  for (std::size_t i = 0; i < placed_->up.size(); ++i) {
+  for (std::size_t i = 0; i < placed_->at.size(); ++i) {
     if (!spot(i)) continue;
     smooth.at[i] = 1;
     for (std::size_t c = 0; c < 3; ++c) flat.rgba[4 * i + c] = 150;
@@ -136,7 +141,7 @@ TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
   const fsm::Image before = flat;
   GrainFromCheeks(smooth, flat);
   float rough = 0, sum = 0, count = 0;
-  for (std::size_t i = 1; i < placed_->up.size(); ++i) {
+  for (std::size_t i = 1; i < placed_->at.size(); ++i) {
     if (!spot(i)) {
       ASSERT_EQ(flat.rgba[4 * i], before.rgba[4 * i]) << "nothing else changes";
       continue;
@@ -151,7 +156,7 @@ TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
 
 TEST_F(SmileShadeTest, WithoutASmileNothingChanges) {
   const fsm::Image before = map_;
-  EvenSmileShade(Galatea(), *placed_, seen_, 0, map_);
+  RemoveSmileShading(Galatea(), *placed_, seen_, 0, map_);
   EXPECT_EQ(map_.rgba, before.rgba);
 }
 

@@ -110,6 +110,9 @@ class TruthTest : public NetworkTest, public testing::WithParamInterface<const c
   static const Front& front() {
     return FrontOf(0, [] { return PhotoOf(truth(), 0); });
   }
+  static SidePhoto Seen(const fsm::Image& photo) {
+    return {"", photo, FindFaces(*networks_, photo)};
+  }
   static const Front& FrontOf(const Profile& truth, float strength) {
     return FrontOf(strength, [&truth] { return truth.Photo(0); });
   }
@@ -165,8 +168,7 @@ TEST_P(TruthTest, LandmarksAndDepthComeNearTheHeadThatWasDrawn) {
 TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemThoughTheNetworkSaysHigher) {
   const BaseHead& base = Galatea();
   const auto corners = [&](const Fit& fit) {
-    return std::pair(base.points[61].On(fit.head.posed_vertices).y,
-                     base.points[291].On(fit.head.posed_vertices).y);
+    return std::pair(fit.head.At(61).y, fit.head.At(291).y);
   };
   const auto said = corners(front().fit);
   FoundFace face = front().face;
@@ -197,7 +199,6 @@ float DepthError(const Profile& truth, const Fit& fit) {
 }
 
 TEST_P(TruthTest, ASecondPhotoFromTheSideBringsDepthNearer) {
-  const BaseHead& base = Galatea();
   float all_without = 0, all_with = 0, count = 0;
   for (const float strength : {1.0F, -1.0F}) {
     const Profile truth(this->truth(), strength);
@@ -206,9 +207,9 @@ TEST_P(TruthTest, ASecondPhotoFromTheSideBringsDepthNearer) {
     for (const float turn : {-40.0F, 25.0F, 40.0F, 55.0F}) {
       Fit fit = front;
       const fsm::Image side = truth.Photo(turn);
-      auto view = FitSideView(*networks_, base, fit.head, side);
+      auto view = FitSideView(*networks_, fit.head, Seen(side));
       ASSERT_TRUE(view) << turn << ": " << view.error().text;
-      RefineDepthBySide(base, photo, side, view->pose, fit);
+      RefineDepthBySide(photo, side, view->pose, fit);
       const float with = DepthError(truth, fit);
       std::printf("%-9s %+.0f turned %+.0f (found %+.0f): depth %.2f mm off, front alone %.2f\n",
                   GetParam(), static_cast<double>(strength), static_cast<double>(turn),
@@ -239,14 +240,13 @@ FloatImage FigureOf(const fsm::Image& photo) {
 }
 
 TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
-  const BaseHead& base = Galatea();
   for (const float strength : {1.0F, -1.0F}) {
     const Profile truth(this->truth(), strength);
     const auto& [photo, faces, face, front] = FrontOf(truth, strength);
     const float without = DepthError(truth, front);
     for (const float turn : {-90.0F, 90.0F}) {
       Fit fit = front;
-      const auto view = RefineDepthByProfile(base, FigureOf(truth.Photo(turn)), fit);
+      const auto view = RefineDepthByProfile(FigureOf(truth.Photo(turn)), fit);
       ASSERT_TRUE(view) << turn << ": " << view.error().text;
       EXPECT_EQ(view->pose.turn.y > 0, turn > 0);
       const float with = DepthError(truth, fit);
@@ -260,28 +260,26 @@ TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
 }
 
 TEST_P(TruthTest, AnOutlineThatIsNoProfileChangesNothing) {
-  const BaseHead& base = Galatea();
   const Fit& before = front().fit;
   FloatImage box(300, 400), round(300, 400);
   for (int y = 50; y < 350; ++y) {
     for (int x = 50; x < 250; ++x) {
-      box.at[box.Index(x, y)] = 1;
-      if (std::hypot(x - 150, (y - 200) * 0.7) < 95) round.at[round.Index(x, y)] = 1;
+      box(x, y) = 1;
+      if (std::hypot(x - 150, (y - 200) * 0.7) < 95) round(x, y) = 1;
     }
   }
   for (const FloatImage& figure :
        {box, round, FloatImage(300, 400), FloatImage(300, 400, 1), FloatImage(1, 1, 1)}) {
     Fit fit = before;
-    const auto view = RefineDepthByProfile(base, figure, fit);
+    const auto view = RefineDepthByProfile(figure, fit);
     EXPECT_FALSE(view) << view->residual_mm;
     EXPECT_EQ(fit.head.posed_vertices, before.head.posed_vertices);
   }
 }
 
 TEST_P(TruthTest, APhotoThatDoesNotHelpIsRefusedInWords) {
-  const BaseHead& base = Galatea();
   const auto refusal = [&](const fsm::Image& photo) {
-    const auto view = FitSideView(*networks_, base, front().fit.head, photo);
+    const auto view = FitSideView(*networks_, front().fit.head, Seen(photo));
     return view ? "points " + std::to_string(view->residual_mm) : view.error().text;
   };
   const fsm::Image grey{

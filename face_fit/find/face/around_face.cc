@@ -23,7 +23,7 @@ float PixelsPerMm(const FoundFace& face) {
 
 }  // namespace
 
-AroundFace CutToFace(const fsm::Image& photo, const fsm::Image& finest, const FoundFace& face) {
+FaceCrop CropToFace(const fsm::Image& photo, const fsm::Image& finest, const FoundFace& face) {
   const glm::vec2 size(photo.width, photo.height), all(finest.width, finest.height);
   const glm::vec2 finer = all / size;
   const float pixels_per_mm = PixelsPerMm(face);
@@ -39,7 +39,7 @@ AroundFace CutToFace(const fsm::Image& photo, const fsm::Image& finest, const Fo
   const glm::vec2 share = glm::vec2(part) / all;
   const bool whole = std::min(share.x, share.y) > 0.95F;
   if (whole || std::min(part.x, part.y) < 1) return {photo, face};
-  AroundFace out{Cropped(finest, from.x, from.y, part.x, part.y), face};
+  FaceCrop out{Cropped(finest, from.x, from.y, part.x, part.y), face};
   if (const int longer = std::max(part.x, part.y); longer > kWorkingSide) {
     const glm::vec2 scaled =
         glm::round(glm::vec2(part) * float{kWorkingSide} / static_cast<float>(longer));

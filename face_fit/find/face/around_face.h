@@ -6,7 +6,7 @@ namespace facefit {
 
 /// The part of a photo that a head made from one of its faces shows: the face, its hair, neck
 /// and shoulders.
-struct AroundFace {
+struct FaceCrop {
   fsm::Image photo;
   FoundFace face;  ///< in pixels of that part
 };
@@ -16,6 +16,6 @@ struct AroundFace {
 /// is as fine as the photo has it.
 /// `finest`: the same photo with all its pixels, or `photo` itself. Where nothing would be cut off
 /// and nothing gained it is `photo` as it is.
-AroundFace CutToFace(const fsm::Image& photo, const fsm::Image& finest, const FoundFace& face);
+FaceCrop CropToFace(const fsm::Image& photo, const fsm::Image& finest, const FoundFace& face);
 
 }  // namespace facefit

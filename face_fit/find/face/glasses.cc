@@ -12,7 +12,7 @@
 namespace facefit {
 namespace {
 
-/// How much a bar across the bridge of the nose stands out, as BarOnNose, looked for `aside`
+/// How much a bar across the bridge of the nose stands out, as BridgeContrast, looked for `aside`
 /// millimetres to the left of the middle and turned by `turn` radians.
 float BarAcross(const FoundFace& face, const fsm::Image& photo, float aside, float turn) {
   // Between the inner corners of the eyes, which lie some 32 mm apart.
@@ -61,7 +61,7 @@ float BarAcross(const FoundFace& face, const fsm::Image& photo, float aside, flo
 
 }  // namespace
 
-float BarOnNose(const FoundFace& face, const fsm::Image& photo) {
+float BridgeContrast(const FoundFace& face, const fsm::Image& photo) {
   // A bar is seen whichever way one looks across it, a crease only along its line; and a point that
   // lies a pixel elsewhere must not decide.
   std::vector<float> seen;

@@ -58,26 +58,12 @@ class ToPhoto {
     return {static_cast<float>(p.x()), static_cast<float>(p.y())};
   }
   float scale() const { return std::max(std::hypot(cosine(), sine()), 1e-6F); }
-  float angle_rad() const { return std::atan2(sine(), cosine()); }
 
  private:
   float cosine() const { return static_cast<float>(map_(0, 0)); }  // times the scale
   float sine() const { return static_cast<float>(map_(1, 0)); }
   Eigen::Matrix3d map_;
 };
-
-}  // namespace
-
-std::span<const HandPointName> HandPointList() { return kNames; }
-
-std::string HandPointNames() {
-  std::string names;
-  for (const HandPointName& named : kNames)
-    names += (names.empty() ? "" : " ") + std::string(named.name);
-  return names;
-}
-
-namespace {
 
 PointIndex PointAt(const fsm::TableRow& row) {
   const std::string& key = row.key();
@@ -92,6 +78,15 @@ PointIndex PointAt(const fsm::TableRow& row) {
 }
 
 }  // namespace
+
+std::span<const HandPointName> HandPointList() { return kNames; }
+
+std::string HandPointNames() {
+  std::string names;
+  for (const HandPointName& named : kNames)
+    names += (names.empty() ? "" : " ") + std::string(named.name);
+  return names;
+}
 
 vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view text) {
   return fsm::ReadTable(name, text, [](const fsm::Table& table) {

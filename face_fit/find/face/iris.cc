@@ -11,19 +11,37 @@
 namespace facefit {
 namespace {
 
-constexpr std::array<float, 9> kAngles = {-0.8F, -0.6F, -0.4F, -0.2F, 0, 0.2F, 0.4F, 0.6F, 0.8F};
+// What is tried. Radii are by the expected one, places by the width of the eye, angles in radians.
 constexpr std::array<float, 7> kSizes = {0.68F, 0.76F, 0.84F, 0.92F, 1.0F, 1.08F, 1.16F};
+constexpr float kUsualSize = 0.92F, kSizeSpread = 0.6F;  // irises of people are nearly of one size
+constexpr float kStepAlong = 0.02F, kStepDown = 0.015F;
+constexpr int kStepsAlong = 9, kStepsDown = 7;  // to either side of the expected place
+/// How fast a place counts less the farther it is from there, by the square of the distance: eyes
+/// mostly look into the camera.
+constexpr float kAwayAlong = 5, kAwayDown = 40;
+
+// The step from dark to bright at the circle's sides: where it is looked for, as angles from the
+// axis of the eye; radii within and outside, by that of the circle.
+constexpr std::array<float, 9> kAngles = {-0.8F, -0.6F, -0.4F, -0.2F, 0, 0.2F, 0.4F, 0.6F, 0.8F};
+constexpr float kWithin = 0.82F, kOutside = 1.18F;
+constexpr float kLeastSeen = 3;       // of the angles; with fewer there is no step
+constexpr float kBetterSide = 0.35F;  // weight of the side with the larger step, beside 1
+// What the parts of the circle's score weigh, beside the step.
+constexpr float kSeparationWeight = 1.5F, kPupilWeight = 0.7F;
+constexpr float kPupil = 0.3F;  // square of its radius by that of the iris, at most
+
+// Between the lids, by the distance between them: their rims' shade and lashes are left out.
+constexpr float kUpperRim = 0.22F, kLowerRim = 0.9F, kShadow = 0.15F;
 
 /// The part of a photo between the lids of an eye.
-class EyeOpening {
+class IrisSearch {
  public:
-  EyeOpening(const fsm::Image& photo, const OpenEye& eye)
+  IrisSearch(const fsm::Image& photo, const OpenEye& eye)
       : photo_(photo), eye_(eye), lids_(eye.lids) {
     std::vector<float> all;
     for (float x = 0.06F; x < 0.95F; x += 0.03F) {
       const auto [upper, lower] = lids_.At(x);
-      // The rims' shade and the lashes are left out.
-      for (float part = 0.22F; part < 0.9F; part += 0.095F) {
+      for (float part = kUpperRim; part < kLowerRim; part += 0.095F) {
         const glm::vec2 at = lids_.PointAt(x, glm::mix(upper, lower, part));
         samples_.push_back({at, Brightness(ColourAt(photo, at)) / 255, std::abs(lower - upper)});
         all.push_back(samples_.back().light);
@@ -36,21 +54,20 @@ class EyeOpening {
     for (Sample& s : samples_) s.light = std::min(s.light, brightest_);
   }
 
-  /// The ring of this size that fits best, and how well.
-  std::pair<IrisRing, float> Best(float radius) const {
-    IrisRing best{.centre = eye_.middle, .radius = radius, .contrast = 0};
+  /// The circle of this size that fits best, and how well.
+  std::pair<IrisCircle, float> BestCircle(float radius) const {
+    IrisCircle best{.centre = eye_.middle, .radius = radius, .contrast = 0};
     float most = 0;
-    for (int x = -9; x <= 9; ++x) {
-      for (int y = -7; y <= 7; ++y) {
-        const glm::vec2 off(static_cast<float>(x) * 0.02F, static_cast<float>(y) * 0.015F);
+    for (int x = -kStepsAlong; x <= kStepsAlong; ++x) {
+      for (int y = -kStepsDown; y <= kStepsDown; ++y) {
+        const glm::vec2 off(static_cast<float>(x) * kStepAlong, static_cast<float>(y) * kStepDown);
         const glm::vec2 at =
             eye_.middle + lids_.wide() * (off.x * lids_.along() + off.y * lids_.down());
-        const float edge = Edge(at, radius);
-        // Among equally clear rings the one of an eye that looks into the camera is preferred.
-        const float merit =
-            (edge + 1.5F * Apart(at, radius)) * (1 - 5 * off.x * off.x - 40 * off.y * off.y);
-        if (merit <= most) continue;
-        most = merit;
+        const float edge = EdgeContrast(at, radius);
+        const float score = (edge + kSeparationWeight * Separation(at, radius)) *
+                            (1 - kAwayAlong * off.x * off.x - kAwayDown * off.y * off.y);
+        if (score <= most) continue;
+        most = score;
         best = {.centre = at, .radius = radius, .contrast = edge};
       }
     }
@@ -63,9 +80,9 @@ class EyeOpening {
     float light, weight;
   };
 
-  /// The step at the ring's sides. The worse of both counts most, so that the shadow of a lid or a
-  /// brow is not taken for an iris.
-  float Edge(glm::vec2 centre, float radius) const {
+  /// The step at the circle's sides. The worse of both counts most, so that the shadow of a lid or
+  /// a brow is not taken for an iris.
+  float EdgeContrast(glm::vec2 centre, float radius) const {
     std::array<float, 2> step{};
     for (const std::size_t side : {0U, 1U}) {
       const glm::vec2 outward = side == 0 ? -lids_.along() : lids_.along();
@@ -75,29 +92,30 @@ class EyeOpening {
         const glm::vec2 rim = centre + radius * way;
         const auto [upper, lower] = lids_.At(lids_.Part(rim));
         const float y = lids_.Down(rim);
-        if (y < glm::mix(upper, lower, 0.15F) || y > lower) continue;
-        step[side] += Light(centre + 1.18F * radius * way) - Light(centre + 0.82F * radius * way);
+        if (y < glm::mix(upper, lower, kShadow) || y > lower) continue;
+        step[side] +=
+            Light(centre + kOutside * radius * way) - Light(centre + kWithin * radius * way);
         count += 1;
       }
-      if (count < 3) return 0;
+      if (count < kLeastSeen) return 0;
       step[side] /= count;
     }
-    return std::min(step[0], step[1]) + 0.35F * std::max(step[0], step[1]);
+    return std::min(step[0], step[1]) + kBetterSide * std::max(step[0], step[1]);
   }
 
   float Light(glm::vec2 at) const {
     return std::min(Brightness(ColourAt(photo_, at)) / 255, brightest_);
   }
 
-  /// How well the ring parts dark from bright: the deviation between the two (Otsu 1979), 0 where
+  /// How well the circle parts dark from bright: the deviation between the two (Otsu 1979), 0 where
   /// it is brighter within; and how much darker than all its inner half is, where the pupil lies.
-  float Apart(glm::vec2 centre, float radius) const {
+  float Separation(glm::vec2 centre, float radius) const {
     // Pupil, the rest of the iris, what is beside it.
     std::array<float, 3> sum{}, weight{1e-4F, 1e-4F, 1e-4F};
     for (const Sample& s : samples_) {
       const glm::vec2 off = s.at - centre;
       const float far = glm::dot(off, off) / (radius * radius);
-      const std::size_t zone = far > 1 ? 2 : far > 0.3F ? 1 : 0;
+      const std::size_t zone = far > 1 ? 2 : far > kPupil ? 1 : 0;
       sum[zone] += s.weight * s.light;
       weight[zone] += s.weight;
     }
@@ -106,7 +124,7 @@ class EyeOpening {
     const float step = sum[2] / weight[2] - iris / iris_weight;
     const float pupil = (iris + sum[2]) / all - sum[0] / weight[0];
     return std::max(step, 0.0F) * std::sqrt(iris_weight * weight[2]) / all +
-           0.7F * std::max(pupil, 0.0F);
+           kPupilWeight * std::max(pupil, 0.0F);
   }
 
   const fsm::Image& photo_;
@@ -118,24 +136,23 @@ class EyeOpening {
 
 }  // namespace
 
-std::vector<IrisRing> FindIrises(const fsm::Image& photo, std::span<const OpenEye> eyes) {
-  std::vector<EyeOpening> openings;
-  for (const OpenEye& eye : eyes) openings.emplace_back(photo, eye);
-  std::vector<IrisRing> best;
+std::vector<IrisCircle> FindIrises(const fsm::Image& photo, std::span<const OpenEye> eyes) {
+  std::vector<IrisSearch> searches;
+  for (const OpenEye& eye : eyes) searches.emplace_back(photo, eye);
+  std::vector<IrisCircle> best;
   float most = -1;
   for (const float size : kSizes) {
-    std::vector<IrisRing> rings;
-    float merit = 0;
+    std::vector<IrisCircle> circles;
+    float score = 0;
     for (std::size_t i = 0; i < eyes.size(); ++i) {
-      const auto [ring, own] = openings[i].Best(size * eyes[i].expected);
-      rings.push_back(ring);
-      // People's irises are nearly all of one size.
-      const float odd = (size - 0.92F) / 0.6F;
-      merit += own * std::exp(-odd * odd);
+      const auto [circle, own] = searches[i].BestCircle(size * eyes[i].expected);
+      circles.push_back(circle);
+      const float odd = (size - kUsualSize) / kSizeSpread;
+      score += own * std::exp(-odd * odd);
     }
-    if (merit <= most) continue;
-    most = merit;
-    best = std::move(rings);
+    if (score <= most) continue;
+    most = score;
+    best = std::move(circles);
   }
   return best;
 }

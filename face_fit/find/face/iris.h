@@ -10,12 +10,12 @@
 namespace facefit {
 
 /// The edge between an iris and the white, as seen in a photo.
-struct IrisRing {
+struct IrisCircle {
   glm::vec2 centre;
   float radius = 0;    ///< pixels
-  float contrast = 0;  ///< how much brighter the white is, 0..1; below kClearRing nothing was seen
+  float contrast = 0;  ///< how much brighter the white is, 0..1; below kClearIris nothing was seen
 };
-inline constexpr float kClearRing = 0.06F;
+inline constexpr float kClearIris = 0.06F;
 
 /// An open eye in a photo, pixels.
 struct OpenEye {
@@ -27,6 +27,6 @@ struct OpenEye {
 /// Finds the irises of the eyes given: the circle that best separates dark from bright between the
 /// lids, and whose left and right sides have the strongest edge. Irises of one person have one
 /// size, so all eyes are searched together. Returns a ring for each eye, in their order.
-std::vector<IrisRing> FindIrises(const fsm::Image& photo, std::span<const OpenEye> eyes);
+std::vector<IrisCircle> FindIrises(const fsm::Image& photo, std::span<const OpenEye> eyes);
 
 }  // namespace facefit

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
 
 namespace facefit {
@@ -20,36 +21,25 @@ constexpr float kReach = 0.08F;
 template <typename T>
 using Strip = std::array<std::array<T, kOffsets>, kMouthLinePoints>;
 
-/// How far below the straight line between the corners the network sees the lips meet, pixels.
-class ExpectedLine {
- public:
-  /// `begin`: the right corner; `along`, `down`: unit; `width`: of the mouth, pixels.
-  ExpectedLine(const FoundFace& face, glm::vec2 begin, glm::vec2 along, glm::vec2 down,
-               float width) {
-    knots_.front() = {0, 0};
-    knots_.back() = {1, 0};
-    for (std::size_t k = 0; k < kInnerPoints; ++k) {
-      const glm::vec2 upper = face.At(UpperInnerLip()[k + 1]), lower = face.At(LowerInnerLip()[k]);
-      const glm::vec2 middle = 0.5F * (upper + lower) - begin;
-      knots_[k + 1] = {glm::dot(middle, along) / width, glm::dot(middle, down)};
-    }
+/// Where the network sees the lips meet: x is the part of the way from the right to the left
+/// corner, y how far below the straight line between them, pixels. `begin`: the right corner;
+/// `along`, `down`: unit; `width`: of the mouth, pixels.
+std::array<glm::vec2, kInnerPoints + 2> ExpectedLine(const FoundFace& face, glm::vec2 begin,
+                                                     glm::vec2 along, glm::vec2 down, float width) {
+  std::array<glm::vec2, kInnerPoints + 2> line{};
+  line.back() = {1, 0};
+  for (std::size_t k = 0; k < kInnerPoints; ++k) {
+    const glm::vec2 upper = face.At(point::kUpperInnerLip[k + 1]),
+                    lower = face.At(point::kLowerInnerLip[k]);
+    const glm::vec2 middle = 0.5F * (upper + lower) - begin;
+    line[k + 1] = {glm::dot(middle, along) / width, glm::dot(middle, down)};
   }
-  /// `t`: of the way from the right to the left corner.
-  float At(float t) const {
-    std::size_t k = 1;
-    while (k + 1 < knots_.size() && knots_[k].first < t) ++k;
-    const float span = std::max(knots_[k].first - knots_[k - 1].first, 1e-3F);
-    const float part = glm::clamp((t - knots_[k - 1].first) / span, 0.0F, 1.0F);
-    return glm::mix(knots_[k - 1].second, knots_[k].second, part);
-  }
-
- private:
-  std::array<std::pair<float, float>, kInnerPoints + 2> knots_;
-};
+  return line;
+}
 
 /// Among all paths along a strip the one with the least sum, in which each step across costs by its
 /// square (dynamic programming): an offset for each place. `cost` is used up.
-std::array<int, kMouthLinePoints> CheapestWay(Strip<float>& cost) {
+std::array<int, kMouthLinePoints> CheapestPath(Strip<float>& cost) {
   constexpr int kMostStep = 3;
   constexpr float kBend = 0.03F;
   Strip<int> from{};
@@ -67,13 +57,13 @@ std::array<int, kMouthLinePoints> CheapestWay(Strip<float>& cost) {
       cost[i][k] += best;
     }
   }
-  std::array<int, kMouthLinePoints> way{};
+  std::array<int, kMouthLinePoints> path{};
   auto at = static_cast<int>(std::ranges::min_element(cost.back()) - cost.back().begin());
   for (std::size_t i = kMouthLinePoints; i-- > 0;) {
-    way[i] = at;
+    path[i] = at;
     at = from[i][static_cast<std::size_t>(at)];
   }
-  return way;
+  return path;
 }
 
 }  // namespace
@@ -96,11 +86,12 @@ std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& f
   const float width = glm::length(axis);
   const glm::vec2 along = axis / width;
   const glm::vec2 down(-along.y, along.x);
-  const ExpectedLine expected(face, begin, along, down, width);
+  const auto expected = ExpectedLine(face, begin, along, down, width);
   const float step = 2 * kReach * width / (kOffsets - 1);
   const auto place = [&](std::size_t i, int offset) {
     const float t = static_cast<float>(i) / (kMouthLinePoints - 1);
-    const float below = expected.At(t) + step * static_cast<float>(offset - kOffsets / 2);
+    const float below = HeightAt(std::span<const glm::vec2>(expected), t) +
+                        step * static_cast<float>(offset - kOffsets / 2);
     return begin + t * axis + below * down;
   };
   // The path from corner to corner that is dark, smooth and near to what was expected.
@@ -127,9 +118,9 @@ std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& f
       value = (value - least) / range + kStray * off * off;
     }
   }
-  const auto way = CheapestWay(cost);
+  const auto path = CheapestPath(cost);
   std::vector<glm::vec2> line;
-  for (std::size_t i = 0; i < kMouthLinePoints; ++i) line.push_back(place(i, way[i]));
+  for (std::size_t i = 0; i < kMouthLinePoints; ++i) line.push_back(place(i, path[i]));
   return line;
 }
 

@@ -18,21 +18,21 @@ namespace {
 constexpr int kSide = kPointsPixels;
 constexpr std::size_t kPixels = static_cast<std::size_t>(kSide) * kSide;
 
-struct Oval {
+struct Ellipse {
   glm::vec2 middle, radii;  // millimetres on the built-in face: x to its left, y up
 };
 
-/// A part of the face, and by how much surer the network may become (of a logit) where nothing is
+/// A patch of the face, and by how much surer the network may become (of a logit) where nothing is
 /// before it. The limits are 1.3 times the most seen on 57 pictures of three uncovered faces (1.45
 /// times round the mouth, where beards differ), left and right alike: as they are, in other light,
 /// colours and sharpness, with beards and glasses drawn on.
-struct Part {
+struct FacePatch {
   const char* name;
   float limit;
-  std::array<Oval, 3> ovals;
+  std::array<Ellipse, 3> ellipses;
 };
-constexpr Oval kNone{{0, 0}, {0, 0}};
-constexpr Part kParts[] = {
+constexpr Ellipse kNone{{0, 0}, {0, 0}};
+constexpr FacePatch kPatches[] = {
     // clang-format off
     {"the right eye",               2.1F, {{{{-31, 27}, {24, 19}}, kNone, kNone}}},
     {"the left eye",                2.1F, {{{{31, 27}, {24, 19}}, kNone, kNone}}},
@@ -54,10 +54,10 @@ constexpr float kSure = 14;
 /// Takes pixels of what the network sees of the photo to the picture of the built-in head: near
 /// each by the affine map that suits the points around it best (moving least squares; Schaefer,
 /// McPhail and Warren 2006).
-class OntoBase {
+class PhotoToBase {
  public:
-  OntoBase(const FoundFace& face, const BaseHead& base) {
-    for (const PointIndex i : PointsForFit()) {
+  PhotoToBase(const FoundFace& face, const BaseHead& base) {
+    for (const PointIndex i : point::kForFit) {
       pairs_.push_back({face.crop.FromPicture(face.At(i)) * float{kSide}, base.seen[i]});
     }
   }
@@ -89,21 +89,21 @@ class OntoBase {
 
  private:
   struct Pair {
-    glm::vec2 seen, there;
+    glm::vec2 seen, on_base;
   };
   std::vector<Pair> pairs_;
 };
 
 /// The built-in head as it would look in place of the face, a pixel each of what the network sees.
-struct Stand {
+struct WarpedHead {
   std::vector<glm::vec2> place;   // on the built-in face, millimetres
   std::vector<glm::vec3> colour;  // 0..1
 };
 
-Stand StandIn(const BaseHead& base, const FoundFace& face) {
+WarpedHead WarpBaseHead(const BaseHead& base, const FoundFace& face) {
   // Smooth as the way is, every fourth pixel will do.
   constexpr int kStep = 4, kCells = kSide / kStep + 1;
-  const OntoBase onto(face, base);
+  const PhotoToBase onto(face, base);
   std::vector<glm::vec2> coarse;
   for (int y = 0; y < kCells; ++y) {
     for (int x = 0; x < kCells; ++x) coarse.push_back(onto(float{kStep} * glm::vec2(x, y)));
@@ -113,50 +113,50 @@ Stand StandIn(const BaseHead& base, const FoundFace& face) {
   const float mm_per_pixel =
       glm::distance(on_face(point::kEyeOuterRight), on_face(point::kEyeOuterLeft)) /
       glm::distance(base.seen[point::kEyeOuterRight], base.seen[point::kEyeOuterLeft]);
-  Stand stand;
+  WarpedHead warped;
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
       const glm::vec2 at = (glm::vec2(x, y) + 0.5F) / float{kStep}, t = glm::fract(at);
       const auto k =
           static_cast<std::size_t>(static_cast<int>(at.y) * kCells + static_cast<int>(at.x));
-      const glm::vec2 there =
+      const glm::vec2 on_base =
           glm::mix(glm::mix(coarse[k], coarse[k + 1], t.x),
                    glm::mix(coarse[k + kCells], coarse[k + kCells + 1], t.x), t.y);
-      const glm::vec2 off = mm_per_pixel * (there - base.seen[point::kNasion]);
-      stand.place.push_back(on_face(point::kNasion) + glm::vec2(off.x, -off.y));
-      stand.colour.push_back(ColourAt(base.picture, there) / 255.0F);
+      const glm::vec2 off = mm_per_pixel * (on_base - base.seen[point::kNasion]);
+      warped.place.push_back(on_face(point::kNasion) + glm::vec2(off.x, -off.y));
+      warped.colour.push_back(ColourAt(base.picture, on_base) / 255.0F);
     }
   }
-  return stand;
+  return warped;
 }
 
 /// Makes the built-in head's skin as bright and coloured as the photo's, by the middle of what both
 /// show on cheeks, nose and forehead.
-void Tint(std::span<const float> seen, Stand& stand) {
+void MatchSkinColour(std::span<const float> seen, WarpedHead& warped) {
   for (int c = 0; c < 3; ++c) {
     std::vector<float> gain;
     for (std::size_t i = 0; i < kPixels; ++i) {
-      const glm::vec2 p = stand.place[i];
+      const glm::vec2 p = warped.place[i];
       const bool eye = std::abs(std::abs(p.x) - 31) < 18 && std::abs(p.y - 25) < 18;
       if (std::abs(p.x) > 45 || p.y < -20 || p.y > 60 || eye) continue;
       gain.push_back(seen[3 * i + static_cast<std::size_t>(c)] /
-                     std::max(stand.colour[i][c], 0.02F));
+                     std::max(warped.colour[i][c], 0.02F));
     }
     if (gain.empty()) return;
     const float middle = Median(std::move(gain));
-    for (glm::vec3& colour : stand.colour) colour[c] = std::min(middle * colour[c], 1.0F);
+    for (glm::vec3& colour : warped.colour) colour[c] = std::min(middle * colour[c], 1.0F);
   }
 }
 
-/// How much of a pixel is replaced: softly at the part's edge.
-float Share(const Part& part, glm::vec2 place) {
-  float share = 0;
-  for (const Oval& oval : part.ovals) {
-    if (oval.radii.x <= 0) continue;
-    const float far = glm::length((place - oval.middle) / oval.radii);
-    share = std::max(share, glm::clamp((1.15F - far) / 0.3F, 0.0F, 1.0F));
+/// How much of a pixel is replaced: softly at the patch's edge.
+float PatchWeight(const FacePatch& patch, glm::vec2 place) {
+  float weight = 0;
+  for (const Ellipse& ellipse : patch.ellipses) {
+    if (ellipse.radii.x <= 0) continue;
+    const float far = glm::length((place - ellipse.middle) / ellipse.radii);
+    weight = std::max(weight, glm::clamp((1.15F - far) / 0.3F, 0.0F, 1.0F));
   }
-  return share;
+  return weight;
 }
 
 }  // namespace
@@ -169,26 +169,26 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const BaseHead& base, const Fo
   };
   const std::vector<float> seen = face.crop.Sample(photo, kSide, 0, 1);
   const float before = sure(seen);
-  Stand stand = StandIn(base, face);
-  Tint(seen, stand);
+  WarpedHead warped = WarpBaseHead(base, face);
+  MatchSkinColour(seen, warped);
   Occlusion occlusion;
   float most = -1e9F;
-  for (const Part& part : kParts) {
+  for (const FacePatch& patch : kPatches) {
     std::vector<float> changed = seen;
     for (std::size_t i = 0; i < kPixels; ++i) {
-      const float share = Share(part, stand.place[i]);
-      for (std::size_t c = 0; c < 3 && share > 0; ++c) {
+      const float weight = PatchWeight(patch, warped.place[i]);
+      for (std::size_t c = 0; c < 3 && weight > 0; ++c) {
         changed[3 * i + c] =
-            glm::mix(changed[3 * i + c], stand.colour[i][static_cast<int>(c)], share);
+            glm::mix(changed[3 * i + c], warped.colour[i][static_cast<int>(c)], weight);
       }
     }
-    const float surer = sure(changed) - before, measure = surer / part.limit;
+    const float surer = sure(changed) - before, measure = surer / patch.limit;
     occlusion.measure = std::max(occlusion.measure, measure);
     // Among parts beyond their limits the one farthest beyond, else the one nearest to its limit.
-    const float merit = measure >= 1 ? surer - part.limit : measure - 1;
-    if (merit <= most) continue;
-    most = merit;
-    occlusion.where = part.name;
+    const float score = measure >= 1 ? surer - patch.limit : measure - 1;
+    if (score <= most) continue;
+    most = score;
+    occlusion.where = patch.name;
   }
   occlusion.measure = std::max(occlusion.measure, kSure / std::max(before, 1.0F));
   return occlusion;

@@ -1,51 +1,57 @@
 #include "face_fit/find/face/upright.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "face_fit/picture/filters.h"
 
 namespace facefit {
 namespace {
 
-/// How many faces there are, and how many of them are seen clearly and upright: each counts 0..1,
-/// upside down nothing. All are looked at: in a group the largest may lean far to one side.
-/// `clear`: the same, weighed by how sure the detector is; the landmark network alone draws an
-/// upright face onto one that stands on its head.
-struct Seen {
-  float faces = 0, upright = 0, clear = 0;
+/// How clearly faces are seen upright: each counts 0..1, upside down nothing. All are counted: in a
+/// group the largest may lean far to one side.
+struct Clearness {
+  float upright = 0;  ///< the sum of what each counts
+  /// The same, weighed by how sure the detector is; the landmark network alone draws an upright
+  /// face onto one that stands on its head.
+  float detected = 0;
 };
 
-Seen Look(FaceNetworks& networks, const fsm::Image& photo) {
-  Seen seen;
-  for (const FoundFace& face : FindFaces(networks, photo)) {
+Clearness ClearnessOf(std::span<const FoundFace> faces) {
+  Clearness clear;
+  for (const FoundFace& face : faces) {
     const glm::vec2 eyes = face.At(point::kEyeOuterLeft) - face.At(point::kEyeOuterRight);
-    const float tilt = std::atan2(eyes.y, eyes.x);
-    seen.faces += 1;
-    const float upright = face.certainty * std::max(std::cos(tilt), 0.0F);
-    seen.upright += upright;
-    seen.clear += face.score * upright;
+    const float upright = face.certainty * std::max(std::cos(std::atan2(eyes.y, eyes.x)), 0.0F);
+    clear.upright += upright;
+    clear.detected += face.score * upright;
   }
-  return seen;
+  return clear;
 }
+
+/// The part of the faces that must be clear for the photo to stand upright: some of several people
+/// may lean, but not all to the same side.
+constexpr float kUprightOne = 0.93F, kUprightGroup = 0.75F;
+/// By how much for each face another orientation must be clearer: a photo that lies is rare.
+constexpr float kClearer = 0.04F;
 
 }  // namespace
 
-int UprightOrientation(FaceNetworks& networks, const fsm::Image& photo) {
-  const Seen seen = Look(networks, photo);
-  // Some of several people may lean, but not all to the same side.
-  const float most = seen.faces > 1 ? 0.75F : 0.93F;
-  float best = seen.clear;
-  int orientation = 1;
-  if (seen.faces > 0 && seen.upright > most * seen.faces) return orientation;
-  for (const int other : {6, 8, 3}) {
-    // A photo that lies is rare, so another orientation must be clearly better.
-    const float clear = Look(networks, Turned(photo, other)).clear;
-    if (clear > best + 0.04F * std::max(seen.faces, 1.0F)) {
-      best = clear;
-      orientation = other;
-    }
+UprightFaces FindUprightFaces(FaceNetworks& networks, fsm::Image& photo) {
+  UprightFaces found{1, FindFaces(networks, photo)};
+  const auto count = static_cast<float>(found.faces.size());
+  const Clearness clear = ClearnessOf(found.faces);
+  if (clear.upright > count * (count > 1 ? kUprightGroup : kUprightOne)) return found;
+  float best = clear.detected;
+  for (const int orientation : {6, 8, 3}) {
+    auto faces = FindFaces(networks, Turned(photo, orientation));
+    const float detected = ClearnessOf(faces).detected;
+    if (detected <= best + kClearer * std::max(count, 1.0F)) continue;
+    best = detected;
+    found = {orientation, std::move(faces)};
   }
-  return orientation;
+  if (found.orientation != 1) photo = Turned(photo, found.orientation);
+  return found;
 }
 
 }  // namespace facefit

@@ -4,8 +4,14 @@
 
 namespace facefit {
 
-/// The EXIF orientation that sets the people in a photo upright, whatever its file says: 1 = as it
-/// is, 3, 6 or 8. Turned copies are looked at only if nobody is seen clearly and upright as it is.
-int UprightOrientation(FaceNetworks& networks, const fsm::Image& photo);
+/// How a photo was turned to stand upright, and the faces it shows then.
+struct UprightFaces {
+  int orientation = 1;  ///< EXIF's of the photo as it was: 1, 3, 6 or 8; 1 = it stood upright
+  std::vector<FoundFace> faces;  ///< as of FindFaces
+};
+
+/// Finds the faces of a photo and turns it until the people in it stand upright, whatever its file
+/// says. Turned copies are looked at only if nobody is seen clearly and upright as it is.
+UprightFaces FindUprightFaces(FaceNetworks& networks, fsm::Image& photo);
 
 }  // namespace facefit

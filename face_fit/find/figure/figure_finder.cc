@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
 #include "face_fit/tables/photo_look.h"
 
@@ -15,10 +15,10 @@ namespace {
 constexpr int kFigureSide = 256;
 
 /// What the network says of the picture it was given.
-FloatImage RunFigure(FaceNetworks& networks, const std::vector<float>& input) {
-  networks.figure.Run(input);
+FloatImage RunSegmentation(FaceNetworks& networks, const std::vector<float>& input) {
+  networks.segmentation.Run(input);
   FloatImage out(kFigureSide, kFigureSide);
-  std::ranges::copy(networks.figure.output(0), out.at.begin());
+  std::ranges::copy(networks.segmentation.output(0), out.at.begin());
   return out;
 }
 
@@ -55,7 +55,7 @@ float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
 
 }  // namespace
 
-FloatImage DoubtOneSided(const FoundFace& face, const fsm::Image& image, const FloatImage& seen) {
+FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image, const FloatImage& seen) {
   const int width = image.width, height = image.height;
   const glm::vec2 top = face.At(point::kForehead), chin = face.At(point::kChin);
   if (glm::distance(top, chin) < 1) return seen;
@@ -96,14 +96,14 @@ FloatImage DoubtOneSided(const FoundFace& face, const fsm::Image& image, const F
   return person;
 }
 
-FloatImage FindPerson(FaceNetworks& networks, const fsm::Image& image, const FoundFace* face) {
+FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundFace* face) {
   const glm::vec2 size(image.width, image.height);
   // The network takes a rectangle stretched to a square.
   const Window all = face ? WholeFor(size, BoxOf(*face)) : Window{{0, 0}, size};
-  const FloatImage whole = RunFigure(
+  const FloatImage whole = RunSegmentation(
       networks,
       Resampled(image, all.corner, glm::mat2(all.size.x, 0, 0, all.size.y), kFigureSide, 0, 1));
-  FloatImage near(0, 0);
+  FloatImage near;
   Crop head;
   if (face) {
     const Box2 box = BoxOf(*face);
@@ -111,7 +111,7 @@ FloatImage FindPerson(FaceNetworks& networks, const fsm::Image& image, const Fou
     head.side = std::min({2.3F * face_side, size.x, size.y});
     head.centre = glm::clamp(box.Middle() - glm::vec2(0, 0.1F * face_side),
                              glm::vec2(head.side / 2), size - head.side / 2);
-    near = RunFigure(networks, head.Sample(image, kFigureSide, 0, 1));
+    near = RunSegmentation(networks, head.Sample(image, kFigureSide, 0, 1));
   }
   FloatImage out(image.width, image.height);
   for (int y = 0; y < image.height; ++y) {
@@ -125,12 +125,12 @@ FloatImage FindPerson(FaceNetworks& networks, const fsm::Image& image, const Fou
         const float part = 0.5F * glm::smoothstep(0.48F, 0.38F, std::max(off.x, off.y));
         if (part > 0) person = glm::mix(person, PersonAt(near, at), part);
       }
-      out.at[out.Index(x, y)] = person;
+      out(x, y) = person;
     }
   }
   if (!face) return out;
   KeepConnected(glm::ivec2(face->At(point::kNoseTip)), out);
-  return DoubtOneSided(*face, image, out);
+  return DoubtAsymmetry(*face, image, out);
 }
 
 }  // namespace facefit

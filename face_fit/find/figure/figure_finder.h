@@ -7,15 +7,15 @@ namespace facefit {
 
 /// How much each pixel belongs to a person, 0..1, as fine as the network's 256 x 256. If `face` is
 /// given, the surroundings of the head are looked at a second
-/// time from nearer, and DoubtOneSided corrects the result.
-FloatImage FindPerson(FaceNetworks& networks, const fsm::Image& image,
-                      const FoundFace* face = nullptr);
+/// time from nearer, and DoubtAsymmetry corrects the result.
+FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image,
+                         const FoundFace* face = nullptr);
 
 /// Heads are nearly symmetric: where one side of a face that looks into the camera belongs to the
 /// person and its mirror image does not, as with an ear or half a hat, the network may have missed
 /// the latter. Returns `seen`, where pixels belong to a person, with such pixels set to doubt, 0.5,
 /// or to 0.85 of the other side where both have one colour. Only near the head: what stands behind
 /// it is of one colour with it often enough.
-FloatImage DoubtOneSided(const FoundFace& face, const fsm::Image& image, const FloatImage& seen);
+FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image, const FloatImage& seen);
 
 }  // namespace facefit

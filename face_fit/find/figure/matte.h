@@ -11,7 +11,7 @@ FloatImage Matte(const fsm::Image& photo, const FloatImage& person);
 
 /// The figure's own colours: light of the background is removed from its edge, and its colours are
 /// continued beyond the edge.
-fsm::Image WithoutBackground(const fsm::Image& photo, const FloatImage& opacity);
+fsm::Image ForegroundColours(const fsm::Image& photo, const FloatImage& opacity);
 
 /// A figure cut out of a photo: its colours, continued beyond its outline, and its opacity, 0..1.
 struct Cutout {

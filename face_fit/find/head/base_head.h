@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "face_fit/find/head/lip_seam.h"
 #include "face_fit/find/head/mesh_point.h"
 #include "face_fit/find/network/face_finder.h"
 #include "face_fit/find/network/network_points.h"
@@ -23,11 +24,18 @@ namespace facefit {
 struct BaseHead {
   std::string name;
   std::unique_ptr<fsm::Head> head;
+  struct Surface {
+    std::vector<std::uint32_t> skin_triangles;  ///< of skin, lips and mouth
+    bool has_uv_seams = false;                  ///< as for fsm::TransferSurface
+    std::vector<bool> is_eye;                   ///< for each vertex, whether it is an eyeball's
+  };
+  Surface surface = {};
   fsm::HeadVertices rest;
   std::vector<MeshPoint> points;             ///< where the network's points lie on it
   std::vector<float> seen_z;                 ///< the depth the network gave each, millimetres
   fsm::Image picture = {};                   ///< what the network was shown
   std::vector<glm::vec2> seen = {};          ///< where it found the points there, pixels
+  std::optional<LipSeam> seam = {};          ///< where its lips meet, if that is seen
   std::optional<fsm::UnitTable> units = {};  ///< of one's own, that move it
 
   /// Where a point of the network lies on the head at rest.
@@ -35,12 +43,14 @@ struct BaseHead {
   /// From now on moved by these units. Its points stay: they were seen at rest.
   void MoveBy(const fsm::UnitTable& own);
 
-  /// Error: kBadValue, no face is seen on it. Throws std::runtime_error if it cannot be drawn.
+  /// A built-in head; the points of its inner lips are moved onto the seam. Error: kBadValue, no
+  /// face is seen on it. Throws std::runtime_error if it cannot be drawn.
   static vm::Result<BaseHead> See(FaceNetworks& networks, const std::string& name);
-  /// Likewise of any head. `own_seam`: its lips meet in a seam that its own units open, onto which
-  /// the points of the inner lips are moved.
   static vm::Result<BaseHead> See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                                  const std::string& name, bool own_seam);
+                                  const std::string& name);
+  /// Likewise any head, whose points stay where they were seen.
+  static vm::Result<BaseHead> See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
+                                  const std::string& name, Surface surface);
 };
 
 }  // namespace facefit

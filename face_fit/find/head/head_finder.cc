@@ -12,7 +12,6 @@
 
 #include "face_fit/find/head/base_head.h"
 #include "face_fit/find/head/lid_edges.h"
-#include "face_fit/find/head/lip_seam.h"
 #include "face_fit/find/head/symmetry.h"
 #include "face_fit/picture/pixels.h"
 #include "fsm/mesh/head_model.h"
@@ -31,7 +30,7 @@ constexpr glm::mat3 kTurns[] = {{1, 0, 0, 0, 1, 0, 0, 0, 1},    // y up, towards
                                 {0, 0, -1, 0, 1, 0, 1, 0, 0}};  // towards -x
 
 /// The head as large as ours and in the middle of the picture, the upper part of a whole figure.
-fsm::Similarity Guess(const fsm::HeadFile& file, const glm::mat3& turn, float part) {
+fsm::Similarity InitialPlacement(const fsm::HeadFile& file, const glm::mat3& turn, float part) {
   glm::vec3 low(1e9F), high(-1e9F);
   for (const glm::vec3& p : file.position) {
     low = glm::min(low, turn * p);
@@ -51,8 +50,8 @@ fsm::FacePart PartOf(PointIndex i) {
     return std::ranges::find(list, i) != list.end();
   };
   // Not those of the inner lips: where both meet, the nearest vertex may be the other's.
-  if (among(UpperOuterLip())) return fsm::FacePart::kUpperLip;
-  if (among(LowerOuterLip())) return fsm::FacePart::kLowerLip;
+  if (among(point::kUpperOuterLip)) return fsm::FacePart::kUpperLip;
+  if (among(point::kLowerOuterLip)) return fsm::FacePart::kLowerLip;
   for (const fsm::Side side : fsm::kSides) {
     const auto outline = EyeOutline(side);
     if (among(outline.subspan(1, kInnerCorner - 1))) return fsm::FacePart::kUpperLid;
@@ -61,74 +60,48 @@ fsm::FacePart PartOf(PointIndex i) {
   return fsm::FacePart::kPlain;
 }
 
-/// A head with what its surface is made of.
-struct Surface {
-  const BaseHead& head;
-  std::vector<std::uint32_t> skin_triangles;
-  bool has_uv_seams;
-
-  std::optional<LipSeam> Seam() const {
-    const auto places = [this](std::span<const PointIndex> points) {
-      std::vector<glm::vec3> at;
-      for (const PointIndex i : points) at.push_back(head.AtRest(i));
-      return at;
-    };
-    return FindLipSeam(head.head->topology(), head.rest.position, skin_triangles, has_uv_seams,
-                       places(UpperOuterLip()), places(LowerOuterLip()));
-  }
-};
-
 /// Moves the points of the inner lips onto a seam.
 void OntoSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
-  points[point::kInnerMouthRight] = seam.right;
-  points[point::kInnerMouthLeft] = seam.left;
-  for (std::size_t k = 0; k < LipSeam::kBetween; ++k) {
-    points[UpperInnerLip()[k + 1]] = seam.upper[k];
-    points[LowerInnerLip()[k]] = seam.lower[k];
+  points[point::kInnerMouthRight] = seam.At(0).upper;
+  points[point::kInnerMouthLeft] = seam.At(1).upper;
+  const std::size_t count = point::kLowerInnerLip.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const LipSeam::Edges& edges =
+        seam.At(static_cast<float>(k + 1) / static_cast<float>(count + 1));
+    points[point::kUpperInnerLip[k + 1]] = edges.upper;
+    points[point::kLowerInnerLip[k]] = edges.lower;
   }
 }
 
-/// Somebody else's head, standing somehow, as the network sees it.
-struct SeenHead {
-  BaseHead head;
-  std::vector<bool> eye;
-  std::vector<std::uint32_t> skin_triangles;
-  bool has_uv_seams;
-};
-
 /// Looks at a head and pairs its places with those of the built-in one.
-class HeadPairer {
+class HeadMatcher {
  public:
-  HeadPairer(FaceNetworks& networks, const fsm::HeadFile& file, std::string name,
-             const std::string& face)
+  HeadMatcher(FaceNetworks& networks, const fsm::HeadFile& file, std::string name,
+              const std::string& face)
       : networks_(networks),
         file_(file),
         name_(std::move(name)),
         base_(vm::OrThrow(BaseHead::See(networks, face))),
-        own_seam_(Surface{base_, fsm::SkinTriangles(base_.head->topology()), false}.Seam()),
-        own_eyes_(EyeVertices(base_.head->topology(), base_.rest.position.size())),
-        inner_lips_(UpperInnerLip().begin(), UpperInnerLip().end()) {
-    inner_lips_.insert(LowerInnerLip().begin(), LowerInnerLip().end());
+        inner_lips_(point::kUpperInnerLip.begin(), point::kUpperInnerLip.end()) {
+    inner_lips_.insert(point::kLowerInnerLip.begin(), point::kLowerInnerLip.end());
   }
   /// None if no face is seen on the head as `to_ours` has it stand.
   std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_ours) {
-    const auto looked = See(to_ours);
-    if (!looked) return {};
-    const SeenHead& seen = *looked;
-    std::vector<MeshPoint> ours = base_.points, theirs = seen.head.points;
-    OntoLidEdges({base_, own_eyes_}, ours, {seen.head, seen.eye}, theirs);
-    const auto seam = Surface{seen.head, seen.skin_triangles, seen.has_uv_seams}.Seam();
-    const bool both = own_seam_ && seam;
+    const auto seen = See(to_ours);
+    if (!seen) return {};
+    std::vector<MeshPoint> ours = base_.points, theirs = seen->points;
+    OntoLidEdges(base_, ours, *seen, theirs);
+    const bool both = base_.seam && seen->seam;
     if (both) {
-      OntoSeam(*own_seam_, ours);
-      OntoSeam(*seam, theirs);
+      OntoSeam(*base_.seam, ours);
+      OntoSeam(*seen->seam, theirs);
     }
     std::vector<fsm::PointPair> found;
-    for (const PointIndex i : PointsForFit()) {
+    for (const PointIndex i : point::kForFit) {
       // Where both lips meet a point of the network may come to lie on either.
       const bool corner = i == point::kMouthRight || i == point::kMouthLeft;
       if (inner_lips_.contains(i) ? !both : both && corner) continue;
-      const glm::vec3 at = theirs[i].On(seen.head.rest.position);
+      const glm::vec3 at = theirs[i].On(seen->rest.position);
       const glm::vec3 raw = to_ours.Inverse(at);
       found.push_back({ours[i].On(base_.rest.position), raw, PartOf(i)});
     }
@@ -136,36 +109,31 @@ class HeadPairer {
   }
 
  private:
-  std::optional<SeenHead> See(const fsm::Similarity& to_ours) {
+  /// The head as the network sees it. Error: no face is seen.
+  vm::Result<BaseHead> See(const fsm::Similarity& to_ours) {
     fsm::MeshModel model = fsm::ModelOf(file_, to_ours, fsm::kUsualMouthY);
-    std::vector<std::uint32_t> skin_triangles = model.SkinTriangles();
-    const bool has_uv_seams = model.has_uv_seams;
-    std::vector<bool> eye;
+    BaseHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
     for (const fsm::Bone bone : model.bone) {
-      eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
+      surface.is_eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
-    auto head = BaseHead::See(networks_, fsm::MakeMeshHead(std::move(model)), name_, false);
-    if (!head) return std::nullopt;
-    return SeenHead{std::move(*head), std::move(eye), std::move(skin_triangles), has_uv_seams};
+    return BaseHead::See(networks_, fsm::MakeMeshHead(std::move(model)), name_, std::move(surface));
   }
 
   FaceNetworks& networks_;
   const fsm::HeadFile& file_;
   std::string name_;
   BaseHead base_;
-  std::optional<LipSeam> own_seam_;
-  std::vector<bool> own_eyes_;
   std::set<PointIndex> inner_lips_;
 };
 
 /// What was found on a head that stood one way.
-struct Look {
+struct HeadMatch {
   std::vector<fsm::PointPair> pairs;
   float off_mm;  ///< median distance of the pairs, once the head is laid over ours
 };
 
 /// The median distance of the pairs' places once `to_ours` has brought them together, millimetres.
-float MedianOff(const fsm::Similarity& to_ours, std::span<const fsm::PointPair> pairs) {
+float MedianDistanceMm(const fsm::Similarity& to_ours, std::span<const fsm::PointPair> pairs) {
   std::vector<float> off;
   for (const auto& pair : pairs) off.push_back(glm::distance(to_ours(pair.to), pair.from));
   return Median(off);
@@ -183,38 +151,39 @@ float DegreesBetween(const glm::mat3& a, const glm::mat3& b) {
 /// another way again. Measured on two heads, and on one of them made wider, taller, deeper and
 /// flatter: from the front the second look turns the head by at most 1 degree and leaves 3.7 to
 /// 7.4 mm, from elsewhere by 8 degrees or more, with 7.3 to 40 mm.
-std::optional<Look> LookFrom(HeadPairer& pairer, const fsm::Similarity& guess, bool& face_seen) {
+std::optional<HeadMatch> MatchFrom(HeadMatcher& matcher, const fsm::Similarity& guess,
+                                   bool& face_seen) {
   constexpr float kStraight = 5;  // degrees
   constexpr float kMostOff = 12;  // millimetres
-  auto first = pairer.PairsAt(guess);
+  auto first = matcher.PairsAt(guess);
   if (first.empty()) return std::nullopt;
   face_seen = true;
-  LeaveOutStrays(first);
+  RejectOutliers(first);
   const fsm::Similarity stood = fsm::FitSimilarity(first);
-  const std::vector<fsm::PointPair> pairs = pairer.PairsAt(stood);
+  const std::vector<fsm::PointPair> pairs = matcher.PairsAt(stood);
   if (pairs.empty()) return std::nullopt;
   std::vector<fsm::PointPair> kept = pairs;
-  LeaveOutStrays(kept);
+  RejectOutliers(kept);
   const fsm::Similarity fit = fsm::FitSimilarity(kept);
-  const float off_mm = MedianOff(fit, pairs);
+  const float off_mm = MedianDistanceMm(fit, pairs);
   if (DegreesBetween(fit.turn, stood.turn) > kStraight || off_mm > kMostOff) return std::nullopt;
-  return Look{std::move(kept), off_mm};
+  return HeadMatch{std::move(kept), off_mm};
 }
 
 }  // namespace
 
 fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file,
                                const std::string& name, const std::string& face) {
-  HeadPairer pairer(networks, file, name, face);
+  HeadMatcher matcher(networks, file, name, face);
   bool face_seen = false;
   for (const float part : {1.0F, 0.8F, 0.28F, 0.15F}) {
-    std::optional<Look> best;
+    std::optional<HeadMatch> best;
     for (const glm::mat3& turn : kTurns) {
-      auto look = LookFrom(pairer, Guess(file, turn, part), face_seen);
+      auto look = MatchFrom(matcher, InitialPlacement(file, turn, part), face_seen);
       if (look && (!best || look->off_mm < best->off_mm)) best = std::move(look);
     }
     if (!best) continue;
-    Balance(fsm::FitSimilarity(best->pairs), best->pairs);
+    Symmetrise(fsm::FitSimilarity(best->pairs), best->pairs);
     return {face, std::move(best->pairs)};
   }
   throw std::runtime_error(

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "face_fit/find/head/base_head.h"
@@ -26,18 +25,14 @@ struct LidEdges {
 /// agent's right, 1 for the left. The head looks to +z, millimetres. Nothing if no opening of
 /// 10 to 60 mm is there.
 std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
-                                     std::span<const glm::vec3> position,
+                                     const std::vector<glm::vec3>& position,
                                      const std::vector<bool>& eye, glm::vec3 centre, float outward);
 
-/// The vertices of a head's eyeballs by their material.
-std::vector<bool> EyeVertices(const fsm::HeadTopology& topology, std::size_t count);
+/// For each vertex of a head whether it is an eyeball's by its material.
+std::vector<bool> EyeVertices(const fsm::HeadTopology& topology);
 
 /// Moves the points of the eyes' outlines in both lists onto the edges, where both heads show them.
-struct EyeSurface {
-  const BaseHead& head;
-  std::vector<bool> eye;
-};
-void OntoLidEdges(const EyeSurface& ours, std::vector<MeshPoint>& our_places,
-                  const EyeSurface& theirs, std::vector<MeshPoint>& their_places);
+void OntoLidEdges(const BaseHead& ours, std::vector<MeshPoint>& our_points, const BaseHead& theirs,
+                  std::vector<MeshPoint>& their_points);
 
 }  // namespace facefit

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "face_fit/find/head/front_view.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/find/head/rasterizer.h"
+#include "face_fit/find/head/visible_surface.h"
+#include "face_fit/picture/plane.h"
 #include "fsm/mesh/surface_index.h"
 
 namespace facefit {
@@ -20,42 +21,35 @@ struct Crossing {
   float jump = 0;              ///< of the way from the upper lip, millimetres
 };
 
-/// Whether the triangle that begins at `index` lines the mouth.
-bool IsInside(const fsm::HeadTopology& topology, std::uint32_t index) {
-  return std::ranges::any_of(topology.parts, [index](const auto& part) {
-    return part.material == fsm::Material::kMouthInside && index >= part.first_index &&
-           index < part.first_index + part.index_count;
-  });
-}
-
 /// For each column of the view the row where the surface goes over from the upper to the lower lip.
-/// `up`, `down`: ways along the surface from both lips to each of its places, millimetres.
-std::vector<Crossing> FindCrossings(const fsm::HeadTopology& topology, const FrontView& view,
-                                    const fsm::WeldedSurface& surface, std::span<const float> up,
-                                    std::span<const float> down) {
-  // The distances of a cell's skin from both lips; nothing where teeth or the mouth's lining are.
-  const auto ways = [&](int column, int row) -> std::optional<glm::vec2> {
-    const std::uint32_t triangle = view.Triangle(column, row);
-    if (triangle == FrontView::kNone || IsInside(topology, triangle)) return std::nullopt;
+/// `from_upper`, `from_lower`: distances along the surface from both lips to each vertex.
+std::vector<Crossing> FindCrossings(const fsm::HeadTopology& topology, const VisibleSurface& view,
+                                    const fsm::WeldedSurface& surface,
+                                    std::span<const float> from_upper,
+                                    std::span<const float> from_lower) {
+  // Of what is seen at a point, if that is skin: neither teeth nor the mouth's lining.
+  const auto distances = [&](int column, int row) -> std::optional<glm::vec2> {
+    const std::uint32_t* t = view.Triangle(column, row);
+    if (!t || MaterialOf(topology, t) == fsm::Material::kMouthInside) return std::nullopt;
     const MeshPoint place = view.Place(column, row);
     glm::vec2 sum(0);
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t v = surface.of[place.corner[static_cast<std::size_t>(k)]];
       if (v == fsm::WeldedSurface::kNone) return std::nullopt;
-      sum += place.part[k] * glm::vec2(up[v], down[v]);
+      sum += place.weight[k] * glm::vec2(from_upper[v], from_lower[v]);
     }
     return sum;
   };
   std::vector<Crossing> crossings;
-  for (int column = 0; column < view.columns(); ++column) {
+  for (int column = 0; column < view.grid().columns; ++column) {
     Crossing crossing;
     std::optional<glm::vec2> before;
     int row_before = -1;
-    for (int row = view.rows(); row-- > 0;) {
-      const auto here = ways(column, row);
+    for (int row = view.grid().rows; row-- > 0;) {
+      const auto here = distances(column, row);
       if (!here) continue;
       if (before && before->x < before->y && here->x >= here->y) {
-        const float apart = FrontView::kCell * static_cast<float>(row_before - row);
+        const float apart = kFrontStepMm * static_cast<float>(row_before - row);
         const float jump = std::min(here->x - before->x, before->y - here->y) - apart;
         if (jump > crossing.jump) crossing = {row_before, row, jump};
       }
@@ -88,41 +82,32 @@ std::pair<int, int> MouthColumns(const std::vector<Crossing>& crossings) {
 }  // namespace
 
 std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
-                                   std::span<const glm::vec3> position,
+                                   const std::vector<glm::vec3>& position,
                                    const std::vector<std::uint32_t>& skin_triangles,
                                    bool has_uv_seams, std::span<const glm::vec3> upper,
                                    std::span<const glm::vec3> lower) {
-  if (upper.empty() || lower.empty()) return std::nullopt;
+  if (upper.empty() || lower.empty() || skin_triangles.empty()) return std::nullopt;
   const fsm::WeldedSurface surface(position, skin_triangles, has_uv_seams);
   Box2 lips;
   for (const auto& list : {upper, lower}) {
     for (const glm::vec3& p : list) lips.Add(p);
   }
   const glm::vec2 margin(15, 3);  // millimetres
-  const FrontView view(topology, position, lips.low - margin, lips.high + margin);
+  const VisibleSurface view =
+      SeenFromFront(topology, position, lips.low - margin, lips.high + margin);
   const auto crossings =
       FindCrossings(topology, view, surface, surface.DistancesFrom(upper, kReach),
                     surface.DistancesFrom(lower, kReach));
-  const std::pair<int, int> columns = MouthColumns(crossings);
-  const int first = columns.first, last = columns.second;
-  const float width = FrontView::kCell * static_cast<float>(last - first);
+  const auto [first, last] = MouthColumns(crossings);
+  const float width = kFrontStepMm * static_cast<float>(last - first);
   if (width < kLeastWidth || width > kMostWidth) return std::nullopt;
-  const auto crossing_at = [&](float part) {
-    int column = static_cast<int>(
-        std::lround(static_cast<float>(first) + part * static_cast<float>(last - first)));
-    while (column < last && crossings[static_cast<std::size_t>(column)].above < 0) ++column;
-    return std::pair(column, crossings[static_cast<std::size_t>(column)]);
-  };
   LipSeam seam;
-  const auto [c0, s0] = crossing_at(0);
-  const auto [c1, s1] = crossing_at(1);
-  seam.right = view.Place(c0, s0.above);
-  seam.left = view.Place(c1, s1.above);
-  for (std::size_t k = 0; k < LipSeam::kBetween; ++k) {
-    const auto [column, crossing] =
-        crossing_at(static_cast<float>(k + 1) / static_cast<float>(LipSeam::kBetween + 1));
-    seam.upper[k] = view.Place(column, crossing.above);
-    seam.lower[k] = view.Place(column, crossing.below);
+  for (int column = first; column <= last; ++column) {
+    // A column without a crossing has that of the next one.
+    int with = column;
+    while (crossings[static_cast<std::size_t>(with)].above < 0) ++with;
+    const Crossing& crossing = crossings[static_cast<std::size_t>(with)];
+    seam.columns.push_back({view.Place(with, crossing.above), view.Place(with, crossing.below)});
   }
   return seam;
 }

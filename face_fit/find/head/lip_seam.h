@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <cmath>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
@@ -14,17 +14,22 @@ namespace facefit {
 /// The line where closed lips meet, as it is seen from the front: two places side by side in the
 /// view that lie far apart along the surface. Parted lips have an upper and a lower edge.
 struct LipSeam {
-  static constexpr std::size_t kBetween = 9;
-  MeshPoint right, left;  ///< corners, the agent's
-  /// At equal parts of the way from the right to the left corner.
-  std::array<MeshPoint, kBetween> upper, lower;
+  struct Edges {
+    MeshPoint upper, lower;
+  };
+  std::vector<Edges> columns;  ///< at even steps from the agent's right corner to the left one
+  /// `along`: 0 at the right corner, 1 at the left one.
+  const Edges& At(float along) const {
+    return columns[static_cast<std::size_t>(
+        std::lround(along * static_cast<float>(columns.size() - 1)))];
+  }
 };
 
 /// `skin_triangles`: those of skin, lips and mouth; `has_uv_seams` as for fsm::TransferSurface;
 /// `upper`, `lower`: some places on the outer edges of both lips. The head looks to +z,
 /// millimetres. Nothing if no seam of 20 to 90 mm is there.
 std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
-                                   std::span<const glm::vec3> position,
+                                   const std::vector<glm::vec3>& position,
                                    const std::vector<std::uint32_t>& skin_triangles,
                                    bool has_uv_seams, std::span<const glm::vec3> upper,
                                    std::span<const glm::vec3> lower);

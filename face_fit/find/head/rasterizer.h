@@ -52,6 +52,15 @@ auto Interpolated(const Values& values, const std::uint32_t* t, glm::vec3 weight
   return values[t[0]] * weights.x + values[t[1]] * weights.y + values[t[2]] * weights.z;
 }
 
+/// The material of a triangle, which is part of `topology.indices`.
+inline fsm::Material MaterialOf(const fsm::HeadTopology& topology, const std::uint32_t* triangle) {
+  const auto index = static_cast<std::uint32_t>(triangle - topology.indices.data());
+  return std::ranges::find_if(
+             topology.parts,
+             [index](const auto& part) { return index - part.first_index < part.index_count; })
+      ->material;
+}
+
 /// Calls `f(indices)` with the three vertices of each triangle of skin and lips.
 template <typename F>
 void ForSkinTriangles(const fsm::HeadTopology& topology, F f) {

@@ -14,7 +14,8 @@ namespace {
 constexpr glm::vec3 kMirror(-1, 1, 1);
 
 /// The pair on the other side of our face, or none.
-const fsm::PointPair* Opposite(const fsm::PointPair& pair, std::span<const fsm::PointPair> pairs) {
+const fsm::PointPair* MirroredPair(const fsm::PointPair& pair,
+                                   std::span<const fsm::PointPair> pairs) {
   constexpr float kSame = 5;  // millimetres
   const auto nearest = std::ranges::min_element(pairs, {}, [&](const fsm::PointPair& other) {
     return other.part == pair.part ? glm::distance(kMirror * other.from, pair.from) : 1e9F;
@@ -30,11 +31,11 @@ struct MirrorPlane {
 
 /// Found from the medians of the directions from one side to the other and of their middles: a few
 /// points that are off do not change those.
-MirrorPlane FindMirror(std::span<const fsm::PointPair> pairs) {
+MirrorPlane FindMirrorPlane(std::span<const fsm::PointPair> pairs) {
   constexpr float kApart = 20;  // millimetres
   std::vector<float> up, ahead, middles;
   for (const auto& pair : pairs) {
-    const auto* other = Opposite(pair, pairs);
+    const auto* other = MirroredPair(pair, pairs);
     if (!other || pair.to.x - other->to.x < kApart) continue;
     const glm::vec3 across = pair.to - other->to;
     up.push_back(across.y / across.x);
@@ -43,7 +44,7 @@ MirrorPlane FindMirror(std::span<const fsm::PointPair> pairs) {
   if (up.empty()) return {glm::vec3(0), {1, 0, 0}};
   const glm::vec3 normal = glm::normalize(glm::vec3(1, Median(up), Median(ahead)));
   for (const auto& pair : pairs) {
-    const auto* other = Opposite(pair, pairs);
+    const auto* other = MirroredPair(pair, pairs);
     if (other) middles.push_back(0.5F * glm::dot(pair.to + other->to, normal));
   }
   return {Median(middles) * normal, normal};
@@ -51,7 +52,7 @@ MirrorPlane FindMirror(std::span<const fsm::PointPair> pairs) {
 
 }  // namespace
 
-void LeaveOutStrays(std::vector<fsm::PointPair>& pairs) {
+void RejectOutliers(std::vector<fsm::PointPair>& pairs) {
   constexpr float kLeast = 8, kTimes = 3;  // millimetres; of the middle of all distances
   constexpr int kRounds = 6;
   std::vector<fsm::PointPair> kept = pairs;
@@ -70,17 +71,17 @@ void LeaveOutStrays(std::vector<fsm::PointPair>& pairs) {
   pairs = std::move(kept);
 }
 
-void Balance(const fsm::Similarity& to_ours, std::vector<fsm::PointPair>& pairs) {
+void Symmetrise(const fsm::Similarity& to_ours, std::vector<fsm::PointPair>& pairs) {
   constexpr float kNear = 7;  // millimetres
   std::vector<fsm::PointPair> seen = pairs;
   for (auto& pair : seen) pair.to = to_ours(pair.to);
-  const MirrorPlane mirror = FindMirror(seen);
+  const MirrorPlane mirror = FindMirrorPlane(seen);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto* opposite = Opposite(seen[i], seen);
-    if (!opposite) continue;
-    const glm::vec3 there = mirror.Mirrored(opposite->to);
+    const auto* mirrored = MirroredPair(seen[i], seen);
+    if (!mirrored) continue;
+    const glm::vec3 there = mirror.Mirrored(mirrored->to);
     if (glm::distance(there, seen[i].to) > kNear) continue;
-    pairs[i].from = 0.5F * (seen[i].from + kMirror * opposite->from);
+    pairs[i].from = 0.5F * (seen[i].from + kMirror * mirrored->from);
     const glm::vec3 to = 0.5F * (seen[i].to + there);
     pairs[i].to = to_ours.Inverse(to);
   }

@@ -7,15 +7,28 @@
 #include <glm/common.hpp>
 
 #include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/plane.h"
 
 namespace facefit {
 namespace {
 
 constexpr int kDetectorSide = 128;
 constexpr float kLeastScore = 0.5F;
+constexpr float kLeastFace = 8;  // pixels; the landmark network sees nothing in smaller ones
+/// Two boxes are of one face if so much is common to both, by both together or by the smaller one.
+constexpr float kSameUnion = 0.3F, kSameSmaller = 0.6F;
+/// The detector was made for faces that fill at least a fifth of what it is shown. One seen so in
+/// the whole picture is believed rather than all seen in its parts, a smaller one a little.
+constexpr float kWellSeen = 0.2F, kWellSeenRank = 1, kWholeRank = 0.15F;
+/// A face too large for the detector is looked for with this much around the picture.
+constexpr float kZoomedOut = 1.6F;
+/// The picture is searched in so many parts on its longer side, which overlap, unless the largest
+/// face found fills this much of one: those of people beside it, further back or turned, are up to
+/// three times smaller.
+constexpr int kParts[] = {2, 4};
+constexpr float kPartOverlap = 1.4F, kFillsPart = 0.85F;
 /// How much larger than a face's box the picture is which the landmark network was trained on.
-constexpr float kRoom = 1.5F;
+constexpr float kCropMargin = 1.5F;
 
 /// A face the detector sees.
 struct FaceBox {
@@ -38,17 +51,14 @@ std::vector<glm::vec2> Anchors() {
   return anchors;
 }
 
-/// The area of both boxes.
-float Common(const FaceBox& a, const FaceBox& b) {
+/// Whether two boxes are of one face, by the area of their intersection.
+bool OfOneFace(const FaceBox& a, const FaceBox& b) {
   const glm::vec2 low = glm::max(a.centre - a.size * 0.5F, b.centre - b.size * 0.5F);
   const glm::vec2 high = glm::min(a.centre + a.size * 0.5F, b.centre + b.size * 0.5F);
-  const glm::vec2 common = glm::max(high - low, 0.0F);
-  return common.x * common.y;
-}
-
-float Overlap(const FaceBox& a, const FaceBox& b) {
-  const float both = Common(a, b);
-  return both / (a.Area() + b.Area() - both);
+  const glm::vec2 sides = glm::max(high - low, 0.0F);
+  const float both = sides.x * sides.y;
+  return both / (a.Area() + b.Area() - both) > kSameUnion ||
+         both / std::max(std::min(a.Area(), b.Area()), 1e-6F) > kSameSmaller;
 }
 
 void Detect(FaceNetworks& networks, const fsm::Image& image, const Crop& crop,
@@ -68,14 +78,8 @@ void Detect(FaceNetworks& networks, const fsm::Image& image, const Crop& crop,
                  .size = glm::abs(glm::vec2(box[2], box[3])) / 128.0F * crop.side,
                  .score = score,
                  .eyes = {place(4), place(6)}};
-    if (face.size.x >= 8 && face.size.y >= 8) found.push_back(face);
+    if (std::min(face.size.x, face.size.y) >= kLeastFace) found.push_back(face);
   }
-}
-
-/// How much of the smaller of two boxes lies within the other.
-float Within(const FaceBox& a, const FaceBox& b) {
-  const float both = Common(a, b);
-  return both / std::max(std::min(a.Area(), b.Area()), 1e-6F);
 }
 
 /// Each pixel the mean of four; an odd last row or column is left out.
@@ -85,16 +89,16 @@ fsm::Image Halved(const fsm::Image& image) {
 }
 
 /// What was taken for a face, and how much rather it is believed than another of the same face.
-struct Sighting {
+struct Detection {
   FaceBox face;
   float rank;
 };
 
 /// A picture that is looked at in squares of many sizes: each is cut from a copy that is hardly
 /// finer than the detector sees it, which takes a tenth of the time.
-class Scan {
+class ScaledDetector {
  public:
-  Scan(FaceNetworks& networks, const fsm::Image& image) : networks_(networks) {
+  ScaledDetector(FaceNetworks& networks, const fsm::Image& image) : networks_(networks) {
     copies_.push_back(image);
     while (std::max(copies_.back().width, copies_.back().height) > 2 * kDetectorSide) {
       copies_.push_back(Halved(copies_.back()));
@@ -115,11 +119,11 @@ class Scan {
       face.centre /= scale;
       face.size /= scale;
       for (glm::vec2& eye : face.eyes) eye /= scale;
-      if (std::min(face.size.x, face.size.y) >= 8) found.push_back({face, face.score});
+      if (std::min(face.size.x, face.size.y) >= kLeastFace) found.push_back({face, face.score});
     }
   }
 
-  std::vector<Sighting> found;
+  std::vector<Detection> found;
 
  private:
   FaceNetworks& networks_;
@@ -133,10 +137,10 @@ float EyeAngle(std::span<const glm::vec3> points) {
 
 FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const FaceBox& box) {
   const glm::vec2 eyes = box.eyes[1] - box.eyes[0];
-  FoundFace face{
-      .points = {},
-      .score = box.score,
-      .crop = {box.centre, kRoom * std::max(box.size.x, box.size.y), std::atan2(eyes.y, eyes.x)}};
+  FoundFace face{.points = {},
+                 .score = box.score,
+                 .crop = {box.centre, kCropMargin * std::max(box.size.x, box.size.y),
+                          std::atan2(eyes.y, eyes.x)}};
   // The first look says where the face is; the others see it upright and as large as in training.
   for (int look = 0; look < 3; ++look) {
     if (look > 0) face.crop = CropAround(face.points, face.crop.angle);
@@ -148,17 +152,15 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
 }
 
 /// One of each face, that of the highest rank.
-std::vector<FaceBox> Apart(std::vector<Sighting> found) {
-  std::ranges::sort(found, std::greater<>(), &Sighting::rank);
-  std::vector<FaceBox> apart;
+std::vector<FaceBox> SuppressNonMaxima(std::vector<Detection> found) {
+  std::ranges::sort(found, std::greater<>(), &Detection::rank);
+  std::vector<FaceBox> kept;
   for (const auto& [face, rank] : found) {
-    if (std::ranges::none_of(apart, [&](const FaceBox& other) {
-          return Overlap(other, face) > 0.3F || Within(other, face) > 0.6F;
-        })) {
-      apart.push_back(face);
+    if (std::ranges::none_of(kept, [&](const FaceBox& other) { return OfOneFace(other, face); })) {
+      kept.push_back(face);
     }
   }
-  return apart;
+  return kept;
 }
 
 }  // namespace
@@ -166,20 +168,18 @@ std::vector<FaceBox> Apart(std::vector<Sighting> found) {
 std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image) {
   const glm::vec2 size(image.width, image.height);
   const float longer = std::max(size.x, size.y);
-  Scan scan(networks, image);
+  ScaledDetector scan(networks, image);
   scan.Look(size * 0.5F, longer, true);
-  // A face is best seen with all that is around it; one that fills a fifth of the picture, for
-  // which the detector was made, could not be seen better.
-  for (Sighting& seen : scan.found) seen.rank += seen.face.size.x > 0.2F * longer ? 1.0F : 0.15F;
+  for (Detection& seen : scan.found) {
+    seen.rank += seen.face.size.x > kWellSeen * longer ? kWellSeenRank : kWholeRank;
+  }
   // A face that fills the picture is too large for the network, one in a crowd too small.
-  if (scan.found.empty()) scan.Look(size * 0.5F, longer * 1.6F, true);
+  if (scan.found.empty()) scan.Look(size * 0.5F, longer * kZoomedOut, true);
   float largest = 0;
-  for (const Sighting& seen : scan.found) largest = std::max(largest, seen.face.size.x);
-  for (const int parts : {2, 4}) {
-    // The detector sees faces well that fill a fifth of what it is shown. Those of people who
-    // stand beside the largest, further back or turned, are up to three times smaller.
-    if (largest > 0.85F * longer / static_cast<float>(parts)) break;
-    const float side = longer / static_cast<float>(parts) * 1.4F;
+  for (const Detection& seen : scan.found) largest = std::max(largest, seen.face.size.x);
+  for (const int parts : kParts) {
+    if (largest > kFillsPart * longer / static_cast<float>(parts)) break;
+    const float side = longer / static_cast<float>(parts) * kPartOverlap;
     for (int y = 0; y < 2 * parts; ++y) {
       for (int x = 0; x < 2 * parts; ++x) {
         const glm::vec2 centre = (glm::vec2(x, y) + 0.5F) * longer / static_cast<float>(2 * parts);
@@ -187,7 +187,7 @@ std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image
       }
     }
   }
-  auto boxes = Apart(std::move(scan.found));
+  auto boxes = SuppressNonMaxima(std::move(scan.found));
   std::ranges::sort(boxes, std::greater<>(), &FaceBox::Area);
   std::vector<FoundFace> faces;
   for (const FaceBox& box : boxes) faces.push_back(FindPoints(networks, image, box));
@@ -212,7 +212,7 @@ Crop CropAround(std::span<const glm::vec3> points, float axes) {
   const Crop turned{glm::vec2(0), 1, axes};
   Box2 box;
   for (const glm::vec3& p : points) box.Add(turned.FromPicture(glm::vec2(p)));
-  return {turned.ToPicture(box.Middle()), kRoom * std::max(box.Size().x, box.Size().y),
+  return {turned.ToPicture(box.Middle()), kCropMargin * std::max(box.Size().x, box.Size().y),
           EyeAngle(points)};
 }
 

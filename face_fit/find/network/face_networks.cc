@@ -81,12 +81,12 @@ vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
       vm::ReadTextFile(where + "/selfie_segmentation/selfie_segmentation.tflite", kMostBytes);
   if (!package || !figure) return NotThere(where);
   try {
-    return FaceNetworks{
-        .detector = Expect(package->Open("face_detection_short_range.tflite"), 128 * 128 * 3,
-                           {896 * 16, 896}),
-        .landmarks =
-            Expect(package->Open("face_landmark.tflite"), 192 * 192 * 3, {3 * kNetworkPoints, 1}),
-        .figure = Expect(Network(Model::Read(fsm::BytesOf(*figure))), 256 * 256 * 3, {256 * 256})};
+    return FaceNetworks{.detector = Expect(package->Open("face_detection_short_range.tflite"),
+                                           128 * 128 * 3, {896 * 16, 896}),
+                        .landmarks = Expect(package->Open("face_landmark.tflite"), 192 * 192 * 3,
+                                            {3 * kNetworkPoints, 1}),
+                        .segmentation = Expect(Network(Model::Read(fsm::BytesOf(*figure))),
+                                               256 * 256 * 3, {256 * 256})};
   } catch (const std::exception& error) {
     return NotUsable(where, error);
   }

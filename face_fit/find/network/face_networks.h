@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "face_fit/net/network.h"
+#include "face_fit/tflite/network.h"
 #include "vm_protocol/core/result.h"
 
 namespace facefit {
@@ -10,9 +10,9 @@ namespace facefit {
 /// The networks of the npm packages @mediapipe/face_mesh and @mediapipe/selfie_segmentation, read
 /// as they are unpacked (both Apache-2.0).
 struct FaceNetworks {
-  Network detector;   ///< 128 x 128 in -1..1 -> 896 boxes and their scores
-  Network landmarks;  ///< 192 x 192 in 0..1 -> 468 points in pixels, and whether there is a face
-  Network figure;     ///< 256 x 256 in 0..1 -> how much each pixel belongs to a person
+  Network detector;      ///< 128 x 128 in -1..1 -> 896 boxes and their scores
+  Network landmarks;     ///< 192 x 192 in 0..1 -> 468 points in pixels, and whether there is a face
+  Network segmentation;  ///< 256 x 256 in 0..1 -> how much each pixel belongs to a person
 
   /// From `folder`, "" = where scripts/face_networks.sh puts them. Errors: kUnavailable (says how
   /// to install them), kBadValue (the files are not what they should be).

@@ -43,17 +43,38 @@ inline constexpr Group<7> kBareSkin{50, 280, 205, 425, 151, 9, 199};
 /// eyes, temples, the sides of the face above the jaw.
 inline constexpr Group<20> kStill{168, 6,   197, 195, 33,  133, 362, 263, 127, 356,
                                   234, 454, 162, 389, 139, 368, 34,  264, 143, 372};
-}  // namespace point
-
-std::span<const PointIndex> PointsForFit();   ///< those the fit uses
-std::span<const PointIndex> UpperOuterLip();  ///< from the person's right to left, without corners
-std::span<const PointIndex> LowerOuterLip();  ///< likewise
-std::span<const PointIndex> UpperInnerLip();  ///< likewise, corners included
-std::span<const PointIndex> LowerInnerLip();  ///< likewise, without corners
-
+/// Borders of the lips from the person's right to left; of the four only the upper inner one has
+/// the corners.
+inline constexpr Group<9> kUpperOuterLip{185, 40, 39, 37, 0, 267, 269, 270, 409};
+inline constexpr Group<9> kLowerOuterLip{146, 91, 181, 84, 17, 314, 405, 321, 375};
+inline constexpr Group<11> kUpperInnerLip{78, 191, 80, 81, 82, 13, 312, 311, 310, 415, 308};
+inline constexpr Group<9> kLowerInnerLip{95, 88, 178, 87, 14, 317, 402, 318, 324};
 /// An eye's outline, closed: the outer corner, seven points of the upper lid, the inner corner, and
 /// seven points of the lower lid on the way back.
-std::span<const PointIndex> EyeOutline(fsm::Side side);
+inline constexpr fsm::Sided<Group<16>> kEyeOutline{
+    {33, 246, 161, 160, 159, 158, 157, 173, 133, 155, 154, 153, 145, 144, 163, 7},
+    {263, 466, 388, 387, 386, 385, 384, 398, 362, 382, 381, 380, 374, 373, 390, 249}};
+/// Those the fit uses.
+inline constexpr PointIndex kForFit[] = {
+    // outline from the forehead round by the person's left
+    10, 338, 297, 332, 284, 251, 389, 356, 454, 323, 361, 288, 397, 365, 379, 378, 400, 377, 152,
+    148, 176, 149, 150, 136, 172, 58, 132, 93, 234, 127, 162, 21, 54, 103, 67, 109,
+    // lips, outer and inner border
+    61, 185, 40, 39, 37, 0, 267, 269, 270, 409, 291, 146, 91, 181, 84, 17, 314, 405, 321, 375, 78,
+    191, 80, 81, 82, 13, 312, 311, 310, 415, 308, 95, 88, 178, 87, 14, 317, 402, 318, 324,
+    // eyes
+    33, 246, 161, 160, 159, 158, 157, 173, 133, 155, 154, 153, 145, 144, 163, 7, 263, 466, 388, 387,
+    386, 385, 384, 398, 362, 382, 381, 380, 374, 373, 390, 249,
+    // brows
+    70, 63, 105, 66, 107, 46, 53, 52, 65, 55, 300, 293, 334, 296, 336, 276, 283, 282, 295, 285,
+    // nose
+    168, 6, 197, 195, 5, 4, 1, 2, 129, 358, 98, 327, 64, 294, 48, 278, 115, 344,
+    // forehead, cheeks, chin
+    151, 9, 8, 108, 337, 104, 333, 50, 280, 205, 425, 116, 345, 187, 411, 207, 427, 199, 18, 200,
+    192, 416, 214, 434};
+}  // namespace point
+
+inline std::span<const PointIndex> EyeOutline(fsm::Side side) { return point::kEyeOutline[side]; }
 /// Places in that list: corners and the middles of the lids.
 inline constexpr std::size_t kOuterCorner = 0, kUpperMiddle = 4, kInnerCorner = 8,
                              kLowerMiddle = 12;

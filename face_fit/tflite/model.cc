@@ -1,4 +1,4 @@
-#include "face_fit/net/model.h"
+#include "face_fit/tflite/model.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <iterator>
 #include <optional>
 
-#include "face_fit/net/flex_buffer.h"
+#include "face_fit/tflite/flex_buffer.h"
 
 namespace facefit {
 namespace {

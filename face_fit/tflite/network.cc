@@ -1,11 +1,11 @@
-#include "face_fit/net/network.h"
+#include "face_fit/tflite/network.h"
 
 #include <algorithm>
 #include <cassert>
 #include <concepts>
 #include <cstdint>
 
-#include "face_fit/net/kernels.h"
+#include "face_fit/tflite/kernels.h"
 
 namespace facefit {
 namespace {

@@ -1,4 +1,4 @@
-#include "face_fit/net/flex_buffer.h"
+#include "face_fit/tflite/flex_buffer.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "face_fit/net/model.h"
+#include "face_fit/tflite/model.h"
 
 namespace facefit {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "face_fit/net/flat_buffer.h"
+#include "face_fit/tflite/flat_buffer.h"
 
 namespace facefit {
 

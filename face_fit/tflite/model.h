@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "face_fit/net/flat_buffer.h"
-#include "face_fit/net/operators.h"
+#include "face_fit/tflite/flat_buffer.h"
+#include "face_fit/tflite/operators.h"
 
 namespace facefit {
 

@@ -1,4 +1,4 @@
-#include "face_fit/net/kernels.h"
+#include "face_fit/tflite/kernels.h"
 
 #include <Eigen/Core>
 #include <algorithm>

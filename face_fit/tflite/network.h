@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "face_fit/net/model.h"
+#include "face_fit/tflite/model.h"
 
 namespace facefit {
 

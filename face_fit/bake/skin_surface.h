@@ -1,0 +1,14 @@
+#pragma once
+
+#include "face_fit/find/head/visible_surface.h"
+#include "face_fit/fit/fitted_head.h"
+
+namespace facefit {
+
+/// What of the skin of the fitted head a camera in `pose` sees on a grid of pixels: above `bottom`
+/// (height in the head's frame, millimetres), in front of ears and neck, and not too much at a
+/// slant.
+VisibleSurface SeenSkin(const FittedHead& fitted, const CameraPose& pose, const SampleGrid& grid,
+                        float bottom);
+
+}  // namespace facefit

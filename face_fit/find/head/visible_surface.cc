@@ -1,0 +1,58 @@
+#include "face_fit/find/head/visible_surface.h"
+
+#include <glm/common.hpp>
+#include <utility>
+
+#include "face_fit/find/head/rasterizer.h"
+
+namespace facefit {
+
+VisibleSurface::VisibleSurface(const SampleGrid& grid, std::vector<glm::vec3> screen)
+    : grid_(grid),
+      screen_(std::move(screen)),
+      depth_(grid.columns, grid.rows, kNothing),
+      samples_(depth_.at.size()) {}
+
+void VisibleSurface::Draw(const std::uint32_t* triangle) {
+  constexpr float kSlack = 0.01F;  // of a weight: no point between two triangles is lost
+  const auto on_grid = [&](int corner) {
+    return (glm::vec2(screen_[triangle[corner]]) - grid_.origin) / grid_.step;
+  };
+  Rasterize({on_grid(0), on_grid(1), on_grid(2)}, grid_.columns, grid_.rows, kSlack,
+            [&](int column, int row, glm::vec3 weights) {
+              const float z = Interpolated(screen_, triangle, weights).z;
+              const std::size_t i = depth_.Index(column, row);
+              if (z <= depth_.at[i]) return;
+              depth_.at[i] = z;
+              samples_[i] = {triangle, weights};
+            });
+}
+
+const std::uint32_t* VisibleSurface::Triangle(int column, int row) const {
+  if (column < 0 || row < 0 || column >= grid_.columns || row >= grid_.rows) return nullptr;
+  return samples_[depth_.Index(column, row)].triangle;
+}
+
+MeshPoint VisibleSurface::Place(int column, int row) const {
+  const auto& [t, weights] = samples_[depth_.Index(column, row)];
+  return {{t[0], t[1], t[2]}, weights};
+}
+
+VisibleSurface SeenFromFront(const fsm::HeadTopology& topology,
+                             const std::vector<glm::vec3>& position, glm::vec2 low,
+                             glm::vec2 high) {
+  constexpr float kMostSideMm = 200;
+  const glm::ivec2 points(glm::clamp(high - low, 1.0F, kMostSideMm) / kFrontStepMm);
+  VisibleSurface surface({low + 0.5F * kFrontStepMm, kFrontStepMm, points.x, points.y}, position);
+  for (const auto& part : topology.parts) {
+    if (IsHair(part.material) || part.material == fsm::Material::kShutLash) continue;
+    for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
+      const std::uint32_t* t = &topology.indices[part.first_index + k];
+      const Triangle2 seen{position[t[0]], position[t[1]], position[t[2]]};
+      if (seen.SignedArea() > 0) surface.Draw(t);
+    }
+  }
+  return surface;
+}
+
+}  // namespace facefit

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "face_fit/find/head/mesh_point.h"
+#include "face_fit/picture/float_image.h"
+#include "fsm/rig/head.h"
+
+namespace facefit {
+
+/// Points at even steps on a plane, in any unit.
+struct SampleGrid {
+  glm::vec2 origin;  ///< the first point
+  float step;
+  int columns, rows;
+  glm::vec2 Point(int column, int row) const { return origin + step * glm::vec2(column, row); }
+};
+
+/// A depth buffer over a mesh: at each point of a grid it keeps the foremost place of the triangles
+/// that were drawn. Triangles seen from behind must be left out by the caller.
+class VisibleSurface {
+ public:
+  static constexpr float kNothing = -1e9F;  ///< the depth where nothing was drawn
+  /// `screen`: of each vertex x and y in the plane of the grid, z towards the viewer.
+  VisibleSurface(const SampleGrid& grid, std::vector<glm::vec3> screen);
+  /// `triangle`: the numbers of its three vertices, which outlive this.
+  void Draw(const std::uint32_t* triangle);
+
+  const SampleGrid& grid() const { return grid_; }
+  const FloatImage& depth() const { return depth_; }
+  /// The triangle at a point as it was drawn; nullptr where there is none and outside the grid.
+  const std::uint32_t* Triangle(int column, int row) const;
+  /// REQUIRES: a triangle there.
+  MeshPoint Place(int column, int row) const;
+
+ private:
+  struct Sample {
+    const std::uint32_t* triangle = nullptr;
+    glm::vec3 weights{0};
+  };
+  SampleGrid grid_;
+  std::vector<glm::vec3> screen_;
+  FloatImage depth_;
+  std::vector<Sample> samples_;
+};
+
+/// What is seen in a window before a head that looks to +z, in steps of an eighth of a millimetre,
+/// rows upward. Hair and lashes are seen through. Millimetres; at most 200 to a side. `topology`
+/// outlives the result.
+inline constexpr float kFrontStepMm = 0.125F;
+VisibleSurface SeenFromFront(const fsm::HeadTopology& topology,
+                             const std::vector<glm::vec3>& position, glm::vec2 low, glm::vec2 high);
+
+}  // namespace facefit

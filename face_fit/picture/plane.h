@@ -1,0 +1,40 @@
+#pragma once
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <span>
+
+namespace facefit {
+
+// Geometry in a plane. Pure; thread: any.
+
+/// The smallest rectangle around points; low > high as long as there is none.
+struct Box2 {
+  glm::vec2 low{1e9F}, high{-1e9F};
+  void Add(glm::vec2 p) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  glm::vec2 Middle() const { return 0.5F * (low + high); }
+  glm::vec2 Size() const { return high - low; }
+};
+
+inline float DistanceToSegment(glm::vec2 p, glm::vec2 a, glm::vec2 b) {
+  const glm::vec2 along = b - a;
+  const float t = glm::dot(p - a, along) / std::max(glm::dot(along, along), 1e-6F);
+  return glm::distance(p, a + glm::clamp(t, 0.0F, 1.0F) * along);
+}
+
+/// The height at `x` of a line through points in the order of their x; beyond its ends that of the
+/// nearer end. REQUIRES: two points.
+template <typename Point>
+float HeightAt(std::span<const Point> line, float x) {
+  std::size_t k = 1;
+  while (k + 1 < line.size() && line[k].x < x) ++k;
+  const float t = (x - line[k - 1].x) / std::max(line[k].x - line[k - 1].x, 1e-3F);
+  return glm::mix(line[k - 1].y, line[k].y, glm::clamp(t, 0.0F, 1.0F));
+}
+
+}  // namespace facefit
