@@ -75,6 +75,8 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
         SmoothStep(0.35f, 0, tag.red) * (1 - 0.7f * SmoothStep(12, 25, std::abs(p.x)));
     paint.albedo = glm::mix(paint.albedo, palette.lip_inside, 0.8f * wet);
     paint.open *= 1 - 0.25f * wet;
+    // The lower lip rolls into the mouth: its edge is in its own shade.
+    if (tag.lip_side < 0) paint.open *= 1 - 0.3f * SmoothStep(0.3f, 0, tag.red);
   }
   if (tag.hole > 0) {
     paint.albedo = glm::mix(paint.albedo, glm::vec3(0.06f, 0.015f, 0.012f), 0.95f * tag.hole);
