@@ -41,7 +41,7 @@ EyeAnatomy::EyeAnatomy(const Table& table)
   iris_ = table.Only("iris").Number(1);
   pupil_ = table.Only("iris").Number(2);
   shear_ = table.Only("lid_shear").Number(1);
-  meet_ = table.Only("meet").Number(1);
+  meet_sag_ = table.Only("meet_sag").Number(1);
 }
 
 float EyeAnatomy::AngleOf(float x, float y) const {
@@ -62,7 +62,10 @@ float EyeAnatomy::InnerRadius(float x) const {
 }
 
 float EyeAnatomy::MeetAngle(float x) const {
-  return UpperAngle(x) + meet_ * (LowerAngle(x) - UpperAngle(x));
+  const float along = std::clamp((x - inner_x()) / (outer_x() - inner_x()), 0.0f, 1.0f);
+  const float straight = std::lerp(UpperY(inner_x()), UpperY(outer_x()), along);
+  const float y = straight - 4 * meet_sag_ * along * (1 - along);
+  return AngleOf(x, std::clamp(y, LowerY(x), UpperY(x)));
 }
 
 glm::vec3 EyeAnatomy::OnLid(float x, float angle, float radius) const {

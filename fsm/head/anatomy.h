@@ -25,6 +25,9 @@ class EyeAnatomy {
     pupil_ *= by;
   }
   float pupil_radius() const { return pupil_; }
+  /// Makes the skin between the upper lid and the brow fuller by so many millimetres.
+  void FillUpperLid(float mm) { upper_fill_ += mm; }
+  float upper_fill() const { return upper_fill_; }
   /// How far the cornea's centre lies before the ball's, so that they meet at the iris's edge.
   float CorneaCentre() const;
   float inner_x() const { return upper_.begin_x(); }
@@ -46,7 +49,7 @@ class EyeAnatomy {
  private:
   float AngleOf(float x, float y) const;
   glm::vec3 centre_{};
-  float radius_ = 0, iris_ = 0, pupil_ = 0, shear_ = 0, meet_ = 0;
+  float radius_ = 0, iris_ = 0, pupil_ = 0, shear_ = 0, meet_sag_ = 0, upper_fill_ = 0;
   Curve lid_radius_, upper_, lower_;
 };
 

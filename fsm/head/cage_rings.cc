@@ -39,14 +39,15 @@ LidPoint PointOnLid(const EyeAnatomy& eye, int i) {
 
 /// A curve around the eye: millimetres from the margin on each lid, part of the lid's turn that it
 /// shares, part of the way to the socket's edge, and millimetres that it is lifted, above and
-/// below: the socket of a young face is nearly filled.
+/// below: the socket of a young face is nearly filled. The last number is the part of
+/// EyeAnatomy::upper_fill that the upper lid has there.
 struct LidRing {
-  float upper_mm, lower_mm, upper_hold, lower_hold, to_orbit, upper_lift, lower_lift;
+  float upper_mm, lower_mm, upper_hold, lower_hold, to_orbit, upper_lift, lower_lift, fill;
 };
-constexpr std::array kLidRings = {LidRing{0.1f, 0.1f, 1, 1, 0, 0, 0},
-                                  LidRing{3.4f, 3.2f, 0.94f, 0.85f, 0, 0.1f, 0.1f},
-                                  LidRing{6.1f, 6.6f, 0.6f, 0.5f, 0.04f, 1.7f, 0.5f},
-                                  LidRing{8.2f, 10.0f, 0.28f, 0.22f, 0.50f, 2.6f, 1.0f}};
+constexpr std::array kLidRings = {LidRing{0.1f, 0.1f, 1, 1, 0, 0, 0, 0},
+                                  LidRing{3.4f, 3.2f, 0.94f, 0.85f, 0, 0.1f, 0.1f, 0.4f},
+                                  LidRing{6.1f, 6.6f, 0.6f, 0.5f, 0.04f, 1.7f, 0.5f, 1},
+                                  LidRing{8.2f, 10.0f, 0.28f, 0.22f, 0.50f, 2.6f, 1.0f, 0.8f}};
 
 /// `edge`: the point of the socket's edge there.
 glm::vec3 PointOfRing(const EyeAnatomy& eye, const LidPoint& at, const LidRing& ring,
@@ -63,7 +64,8 @@ glm::vec3 PointOfRing(const EyeAnatomy& eye, const LidPoint& at, const LidRing& 
   }
   p = glm::mix(p, edge, ring.to_orbit);
   const float along = (at.x - eye.inner_x()) / (eye.outer_x() - eye.inner_x());
-  p.z += (at.upper ? ring.upper_lift : ring.lower_lift) * SmoothStep(0.02f, 0.4f, along) *
+  const float upper_lift = ring.upper_lift + ring.fill * eye.upper_fill();
+  p.z += (at.upper ? upper_lift : ring.lower_lift) * SmoothStep(0.02f, 0.4f, along) *
          SmoothStep(1.0f, at.upper ? 0.8f : 0.6f, along);
   return p;
 }
@@ -101,9 +103,9 @@ struct BagRing {
   float height, back, widen, web, lip_hold;
 };
 constexpr std::array<BagRing, kSeamRing> kBagRings = {
-    BagRing{0, 62, 0.5f, 0, 0},         BagRing{12, 48, 1.08f, 0, 0},
-    BagRing{15, 26, 1.2f, 0, 0},        BagRing{11.5f, 11, 1.1f, 0.04f, 0.6f},
-    BagRing{4.6f, 5.2f, 1.0f, 0.1f, 1}, BagRing{1.2f, 2.4f, 1.0f, 0.07f, 1}};
+    BagRing{0, 62, 0.5f, 0, 0},          BagRing{12, 48, 1.08f, 0, 0},
+    BagRing{15, 26, 1.2f, 0, 0},         BagRing{11.5f, 11, 1.1f, 0.04f, 0.6f},
+    BagRing{3.8f, 5.4f, 1.0f, 0.17f, 1}, BagRing{0.4f, 2.6f, 1.0f, 0.14f, 1}};
 
 glm::vec3 PointOfBag(const MouthAnatomy& mouth, const LipPoint& at, const BagRing& bag) {
   const float open = std::sqrt(std::max(0.0f, 1 - at.x * at.x / (25.0f * 25.0f)));
@@ -144,6 +146,11 @@ void AddLidCurves(const EyeAnatomy& eye, Cage& cage) {
       CageTag lid = tag;
       lid.margin = at.upper ? ring.upper_mm : ring.lower_mm;
       lid.eye = at.upper ? ring.upper_hold : ring.lower_hold;
+      // Outward of the ball lids turn about an axis that is near: what lies farther off keeps
+      // still.
+      if (r >= 2 && !at.corner && at.x > eye.centre().x) {
+        lid.eye *= std::min(1.0f, eye.LidRadius(at.x) / 9);
+      }
       lid.lid_upper *= lid.eye;
       lid.lid_lower *= lid.eye;
       Add(cage, "eye" + std::to_string(r + 2), PointOfRing(eye, at, ring, edge), lid);

@@ -189,11 +189,15 @@ class BrowPlace {
 }  // namespace
 
 std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye,
-                                    const Features& features) {
+                                    const Identity& identity) {
   constexpr int kSteps = 26;
+  const Features& features = identity.Look();
   const auto& widths = features["lid_fold_widths"];
   const auto& tints = features["lid_fold_tints"];
-  const Curve height = features.CurveOf("lid_fold_height");
+  const Curve base_height = features.CurveOf("lid_fold_height");
+  const auto height = [&](float along) {
+    return base_height(along) + glm::mix(identity.fold.inner_mm, identity.fold.outer_mm, along);
+  };
   std::vector<SkinHair> folds;
   folds.reserve(2 * widths.size() * kSteps);
   for (const Side side : kSides) {
@@ -215,7 +219,7 @@ std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& ey
              .tip = at(part + 1.0f / kSteps),
              .width_mm = widths[stroke] * (0.35f + 0.65f * ends),
              .tint = glm::mix(glm::vec3(1), features.Vector("lid_fold_colour") * tints[stroke],
-                              0.25f + 0.75f * ends)});
+                              identity.fold.dark * (0.25f + 0.75f * ends))});
       }
     }
   }

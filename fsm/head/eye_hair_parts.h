@@ -14,7 +14,7 @@ namespace fsm {
 std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh);
 /// The furrow over each upper lid, as strokes painted on the skin.
 std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye,
-                                    const Features& features);
+                                    const Identity& identity);
 /// Lashes of both sides. They move as skin and must be added before the rigid parts, so that such
 /// vertices stay one run. `of_photo`: those of the upper lids alone, with how dark they are in
 /// HeadMesh::opacity.

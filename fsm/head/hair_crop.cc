@@ -42,8 +42,13 @@ class CroppedHair {
       const float off = NoiseAt(k, 92);
       const glm::vec3 root = Direction(azimuth, n[2] + n[3] * off * std::abs(off));
       if (scalp_.Over(root, 0).y < n[4]) continue;
-      hairs.push_back(look_.OnSkin(scalp_, root, Flow(root, Forehead(azimuth, 0.1f)),
-                                   std::min(1.0f, 1 + off), k));
+      SkinHair hair = look_.OnSkin(scalp_, root, Flow(root, Forehead(azimuth, 0.1f)),
+                                   std::min(1.0f, 1 + off), k);
+      // What is curled reaches less far.
+      const float reach = 1 - features_("crop_curl_shorter") * style_.curl;
+      hair.middle = glm::mix(hair.root, hair.middle, reach);
+      hair.tip = glm::mix(hair.root, hair.tip, reach);
+      hairs.push_back(hair);
     }
     return hairs;
   }
@@ -91,6 +96,16 @@ class CroppedHair {
     return glm::normalize(along + glm::vec3(0, -1e-3f, 0));
   }
 
+  /// Which way single hairs go, as long as they are sleek: curls mirror light every way.
+  glm::vec3 Along(glm::vec3 root, float forehead) const {
+    return Flow(root, forehead) * (1 - features_("crop_curl_dull") * style_.curl);
+  }
+  /// Millimetres across and along strands: those of curls are small and as long as wide.
+  glm::vec2 Curled(glm::vec2 mm) const {
+    const auto& smaller = features_["crop_curl_smaller"];
+    return mm * glm::mix(glm::vec2(1), glm::vec2(smaller[0], smaller[1]), style_.curl);
+  }
+
   float Depth(glm::vec3 d, float up) const {
     const float top = SmoothStep(0.2f, 0.85f, d.y);
     const float body = glm::mix(style_.side_mm, style_.top_mm, top);
@@ -121,9 +136,9 @@ class CroppedHair {
         const float thin = r == 0 ? edge_hair[0] : 1.0f;
         mesh_.Add(p, glm::mix(palette_.skin * edge_hair[1], colour, thin),
                   r < 3 ? light[0] : light[1], Bone::kSkull);
-        mesh_.strands.back() = {.along = Flow(d, Forehead(azimuth, kUp[r])),
+        mesh_.strands.back() = {.along = Along(d, Forehead(azimuth, kUp[r])),
                                 .density = r < 2 ? edge_density[r] : 1.0f,
-                                .tile_mm = {1.49f * azimuth, -140 * kUp[r]}};
+                                .tile_mm = Curled({1.49f * azimuth, -140 * kUp[r]})};
       }
     }
     mesh_.Grid(Material::kHair, first, static_cast<int>(kUp.size()), kAround + 1, true);

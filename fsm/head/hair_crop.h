@@ -16,6 +16,7 @@ struct CropStyle {
   float wave_mm;   ///< sideways swing of a lock
   float front_up;  ///< how far locks over the forehead stand up, 0..1
   float recede;    ///< degrees the hairline is drawn back at the temples
+  float curl = 0;  ///< 0: hairs lie along the head; 1: tight curls, which stand off it
 };
 /// Single hairs on the skin beside the edge of the hair; see LongHairline.
 std::vector<SkinHair> CroppedHairline(const CropStyle& style, const Features& features,

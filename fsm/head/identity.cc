@@ -18,6 +18,8 @@ constexpr std::array kIdentities = {
     IdentityInfo{"galatea", "a woman in her twenties, chestnut hair to the shoulders, brown eyes"},
     IdentityInfo{"pygmalion", "a man in his thirties, short dark hair, grey-blue eyes"},
     IdentityInfo{"baucis", "a woman of seventy, short grey hair, green eyes"},
+    IdentityInfo{"zhenzhen", "an East Asian woman in her twenties, straight black hair, dark eyes"},
+    IdentityInfo{"memnon", "a Black man in his thirties, cropped curly hair, dark brown eyes"},
 };
 
 struct NamedColour {
@@ -72,8 +74,10 @@ void ReadIdentityRow(const TableRow& row, Identity& identity) {
     identity.sliders.emplace_back(row.Word(1), row.Number(2));
   } else if (key == "hair") {
     if (row.Word(1) == "crop") {
-      identity.crop = CropStyle{row.Number(2), row.Number(3), row.Integer(4), row.Number(5),
-                                row.Number(6), row.Number(7), row.Number(8),  row.Number(9)};
+      identity.crop =
+          CropStyle{row.Number(2), row.Number(3), row.Integer(4),
+                    row.Number(5), row.Number(6), row.Number(7),
+                    row.Number(8), row.Number(9), row.size() > 10 ? row.Within(10, 0, 1) : 0.0f};
       if (identity.crop->locks < 0 || identity.crop->locks > 500) row.Fail("0 to 500 locks");
     } else if (row.Word(1) == "long") {
       identity.crop.reset();
@@ -88,6 +92,9 @@ void ReadIdentityRow(const TableRow& row, Identity& identity) {
     identity.eyes.turn = glm::radians(row.Within(2, -20, 20));
     identity.eyes.upper_mm = row.Within(3, -4, 3);
     identity.eyes.lower_mm = row.Within(4, -2, 4);
+  } else if (key == "fold") {
+    identity.fold = {row.Within(1, -4, 4), row.Within(2, -4, 4), row.Within(3, 0, 2),
+                     row.Within(4, -2, 5)};
   } else if (key == "beard") {
     identity.palette.beard = row.Number(1);
   } else if (key == "lashes") {

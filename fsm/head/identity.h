@@ -38,6 +38,13 @@ struct Identity {
   std::optional<CropStyle> crop;  ///< long hair if empty
   LongStyle long_hair;
   EyeTransform eyes;  ///< the left one; `shift` is what the sliders make it
+  /// The furrow over the upper lid: millimetres by which it lies higher than on the base head at
+  /// the inner and at the outer corner; how dark it is, as factor; by how many millimetres the skin
+  /// there and above is fuller.
+  struct LidFold {
+    float inner_mm = 0, outer_mm = 0, dark = 1, full_mm = 0;
+  };
+  LidFold fold;
   float lashes = 1;
   float brow_thickness = 1, brow_height = 0;
   std::array<float, 4> creases{};              ///< by Crease

@@ -47,7 +47,9 @@ struct Ingredients {
   Ingredients(Identity own, bool both_alike)
       : identity(std::move(own)),
         sliders(Table("tables/sliders.txt", embedded::sliders()), identity.sliders),
-        alike(both_alike) {}
+        alike(both_alike) {
+    eye.FillUpperLid(identity.fold.full_mm);
+  }
   explicit Ingredients(const PhotoHead& head) : Ingredients(BuiltInIdentity(head.base), false) {
     identity.features = head.features;
     TakeColours(head, identity.palette);
@@ -114,7 +116,8 @@ BaseParts LayParts(const Ingredients& from, const BaseSkin& skin) {
   parts.figure_end = mesh.position.size();
   const SkinFront front(skin.fine);
   parts.skin_hairs = BuildBrows(front, from.identity, mesh);
-  std::ranges::move(BuildLidFolds(front, from.eye, look), std::back_inserter(parts.skin_hairs));
+  std::ranges::move(BuildLidFolds(front, from.eye, from.identity),
+                    std::back_inserter(parts.skin_hairs));
   if (!from.photo) {
     std::ranges::move(HairlineOf(from.identity, mesh), std::back_inserter(parts.skin_hairs));
   }

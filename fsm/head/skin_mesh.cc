@@ -77,6 +77,8 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
     const float wet = SmoothStep(0.35f, 0, tag.red) * (1 - wets[1] * SmoothStep(12, 25, aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip_inside, wets[0] * wet);
     paint.open *= 1 - wets[2] * wet;
+    // The lower lip rolls into the mouth: its edge is in its own shade.
+    if (tag.lip_side < 0) paint.open *= 1 - wets[3] * SmoothStep(0.3f, 0, tag.red);
   }
   if (tag.hole > 0) {
     const auto& dark = features["nostril_dark"];

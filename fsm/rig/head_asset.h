@@ -64,7 +64,7 @@ inline constexpr float kBallSpan = 1.4f;
 
 /// How hairs run at a vertex of hair, brows or lashes.
 struct Strand {
-  glm::vec3 along{0, -1, 0};  ///< from root to tip at rest, unit
+  glm::vec3 along{0, -1, 0};  ///< from root to tip at rest; its length, 0..1: how sleek it is
   float density = 1;          ///< 1 = dense, 0 = none: hairs thin out where a lock ends
   float across = 0;           ///< -1..1 over the width of a lock whose sides fray, 0 elsewhere
   glm::vec2 tile_mm{};        ///< across and along the hairs: which of them are seen here

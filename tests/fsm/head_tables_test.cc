@@ -94,7 +94,7 @@ EyeAnatomy SomeEye() {
   return EyeAnatomy(Table("eye.txt",
                           "ball 30 22 63 12\niris 6 2\nlid_radius -18 0 18\nlid_value 2 13.7 2\n"
                           "lid_shear 0\nupper_lid_x 16 30 44\nupper_lid_y 20 27 22\n"
-                          "lower_lid_x 16 30 44\nlower_lid_y 20 17 22\nmeet 0.8\n"));
+                          "lower_lid_x 16 30 44\nlower_lid_y 20 17 22\nmeet_sag 3\n"));
 }
 
 MouthAnatomy SomeMouth() {
@@ -198,6 +198,27 @@ TEST(HeadTablesTest, EyesAreAsLargeAndTiltedAsTheirRowSays) {
             "i.txt:1: '2' found where 0.7 to 1.4 was expected");
 }
 
+TEST(HeadTablesTest, TheFurrowOverTheUpperLidLiesWhereItsRowSays) {
+  const auto strokes = [](const char* row) {
+    Identity identity = BuiltInIdentity("galatea");
+    ReadIdentityRow(Table("i.txt", row).rows()[0], identity);
+    return MakeHead(std::move(identity))->topology().skin_hairs;
+  };
+  const auto usual = strokes("fold 0 0 1 0"), higher = strokes("fold 1 1 0.5 0");
+  ASSERT_EQ(usual.size(), higher.size());
+  int moved = 0;
+  for (std::size_t i = 0; i < usual.size(); ++i) {
+    if (usual[i].root == higher[i].root) continue;
+    ++moved;
+    EXPECT_GT(higher[i].root.y, usual[i].root.y);
+    EXPECT_LT(higher[i].tint.r, 1);
+    EXPECT_GT(higher[i].tint.r, usual[i].tint.r) << "half as dark";
+  }
+  EXPECT_GT(moved, 100);
+  EXPECT_EQ(Complaint([&] { strokes("fold 0 9 1 0"); }),
+            "i.txt:1: '9' found where -4 to 4 was expected");
+}
+
 TEST(HeadTablesTest, HairBeginsWithSingleHairsOnTheSkin) {
   for (const char* face : {"galatea", "pygmalion"}) {
     const auto strokes = [face](const char* name, const char* row) {
@@ -212,6 +233,35 @@ TEST(HeadTablesTest, HairBeginsWithSingleHairsOnTheSkin) {
                            : strokes("long_hairline", "long_hairline 800 0.56 0 0.06 28 0.2");
     EXPECT_GT(many, few + 400) << face;
   }
+}
+
+TEST(HeadTablesTest, CurlsAreDullAndShort) {
+  const auto made = [](const char* row) {
+    Identity identity = BuiltInIdentity("memnon");
+    ReadIdentityRow(Table("i.txt", row).rows()[0], identity);
+    return MakeHead(std::move(identity));
+  };
+  const auto sleekest = [](const Head& head) {
+    float most = 0;
+    for (const auto& part : head.topology().parts) {
+      if (part.material != Material::kHair) continue;
+      for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
+        const Strand& strand = head.topology().strands[head.topology().indices[k]];
+        most = std::max(most, glm::length(strand.along));
+      }
+    }
+    return most;
+  };
+  const auto straight = made("hair crop 2 5 0 5 1 2 0 3"),
+             curled = made("hair crop 2 5 0 5 1 2 0 3 1");
+  EXPECT_NEAR(sleekest(*straight), 1, 1e-3);
+  EXPECT_LT(sleekest(*curled), 0.2);
+  const SkinHair& long_one = straight->topology().skin_hairs.back();
+  const SkinHair& short_one = curled->topology().skin_hairs.back();
+  EXPECT_LT(glm::length(short_one.tip - short_one.root),
+            0.5 * glm::length(long_one.tip - long_one.root));
+  EXPECT_EQ(Complaint([&] { made("hair crop 2 5 0 5 1 2 0 3 2"); }),
+            "i.txt:1: '2' found where 0 to 1 was expected");
 }
 
 TEST(HeadTablesTest, LongHairIsAsLongAsItsRowSays) {

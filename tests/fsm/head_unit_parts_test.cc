@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fsm/head/anatomy.h"
 #include "tests/fsm/contact_probe.h"
 #include "tests/fsm/head_fixture.h"
 
@@ -84,6 +85,20 @@ TEST(HeadUnitPartsTest, ClosingLidsMeetLow) {
     ExpectMeasured(lids.upper.y, -7.6F, name + " upper lid down");
     // Most of the way is the upper lid's.
     EXPECT_LT(lids.lower.y, -0.3F * lids.upper.y) << name;
+  }
+}
+
+TEST(HeadUnitPartsTest, ShutLidsMeetOnASoftCurveThatSags) {
+  const EyeAnatomy& eye = EyeAnatomy::BuiltIn();
+  const auto height = [&eye](float along) {
+    const float x = glm::mix(eye.inner_x(), eye.outer_x(), along);
+    return eye.OnLid(x, eye.MeetAngle(x), eye.LidRadius(x)).y;
+  };
+  EXPECT_NEAR(0.5F * (eye.UpperY(eye.inner_x()) + eye.UpperY(eye.outer_x())) - height(0.5F), 3.4F,
+              0.1F);
+  for (const float along : {0.2F, 0.3F, 0.4F, 0.5F, 0.6F, 0.7F, 0.8F}) {
+    const float bend = height(along - 0.1F) - 2 * height(along) + height(along + 0.1F);
+    EXPECT_NEAR(bend, 8 * 3.4F * 0.01F, 0.05F) << "flat or bent at " << along;
   }
 }
 

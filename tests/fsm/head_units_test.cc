@@ -94,5 +94,22 @@ INSTANTIATE_TEST_SUITE_P(HeadUnitsTest, UnitReference, ::testing::ValuesIn(kRefe
                            return "Unit" + std::to_string(test.param.unit) + "_" + test.param.point;
                          });
 
+/// The middle of an upper lip that is raised comes along, and its red keeps its height: else it
+/// takes two bows and swells.
+TEST(HeadUnitsTest, RaisersLiftTheUpperLipInOneArch) {
+  for (const std::size_t unit : {9U, 10U}) {
+    const FaceState state = WithUnit(unit, 1);
+    const float middle = MotionAt(0, -37, state).y, beside = MotionAt(11, -36, state).y;
+    EXPECT_GT(middle, 0.95F * beside) << "AU " << unit;
+    EXPECT_GT(MotionAt(0, -42, state).y, middle - 1) << "AU " << unit << ", the lip's red";
+    EXPECT_LT(MotionAt(22, -40, state).y, 0.8F * middle) << "AU " << unit << ", the corner";
+  }
+}
+
+/// Skin that slides up the nose stays on its back, which recedes upwards.
+TEST(HeadUnitsTest, TheNoseWrinklerMakesNoSnout) {
+  EXPECT_LT(MotionAt(2, 2, WithUnit(9, 1)).z, -2.5F);
+}
+
 }  // namespace
 }  // namespace fsm

@@ -1,6 +1,7 @@
 // Hair, brows and lashes.
 layout(location = 4) in vec2 among_hairs;       // millimetres across and along
-layout(location = 5) in vec4 along_and_density;   // direction at rest, 1 = dense .. 0 = none
+layout(location = 5) in vec4 along_and_density;   // direction at rest, as long as it is sleek, 0..1;
+                                                  // 1 = dense .. 0 = none
 layout(location = 6) in float across_lock;      // -1..1
 
 uniform mat3 rest_to_world;  // how the head is turned
@@ -24,6 +25,7 @@ void main() {
   float occlusion = albedo_occlusion.a;
 
   vec3 strand = rest_to_world * along_and_density.xyz;
+  float sleek = length(strand);
   strand = normalize(strand - n * dot(strand, n) + n * 1e-4);
   streak_place = among_hairs * vec2(1.0 / 268.0, 1.0 / 256.0);
   fray = vec2(along_and_density.w, across_lock);
@@ -42,8 +44,8 @@ void main() {
   float n_dot_l = dot(n, lamp_directions[0]);
   vec3 key = lamp_colors[0] * shadow * albedo * max((n_dot_l + 0.35) / 1.82, 0.0) * across;
   light = soft + key;
-  key_light = shine * hair_through_part * key;
-  gleam = vec4(shine * lamp_colors[0], streaks);
+  key_light = shine * sleek * hair_through_part * key;
+  gleam = vec4(shine * sleek * lamp_colors[0], streaks);
   vec3 h = normalize(lamp_directions[0] + v);
   tilt = vec3(dot(strand, h), dot(n, h), hair_mirrored_part * shadow * clamp(n_dot_l * 1.7 + 0.3, 0.0, 1.0));
 }
