@@ -23,7 +23,6 @@ constexpr double kRidge = 2e-2;
 constexpr double kGoodRms = 0.08, kGoodWorst = 0.3;  // mm; no more rows are needed
 constexpr double kLeastJaw = 1.5, kLeastSlide = 0.5, kLeastLid = 0.3;
 constexpr double kAlikeRms = 0.15;  // mm by which two sides may differ and still count as alike
-constexpr int kRounds = 0;  // more parts lips that touch: nearer at the markers, wrong to the eye
 
 Eigen::VectorXd PlacesOf(const std::vector<glm::vec3>& position,
                          const std::vector<std::uint32_t>& vertices) {
@@ -236,22 +235,9 @@ std::vector<RowFitter::Part> RowFitter::Pursue(const Eigen::Ref<const Eigen::Vec
   problem.effects = kept;
   problem.Solve(wanted);
 
-  // Lips, teeth and lids do something beside that no row says: what is missed in the end is asked
-  // for once more.
-  std::vector<Part> best = PartsOf(problem, sides_alike);
-  Eigen::VectorXd shown = Shown(best), asked = wanted;
-  double least = MissOf(shown - wanted).rms;
-  for (int round = 0; round < kRounds; ++round) {
-    asked += 0.7 * (wanted - shown);
-    problem.Solve(asked);
-    std::vector<Part> parts = PartsOf(problem, sides_alike);
-    shown = Shown(parts);
-    const double rms = MissOf(shown - wanted).rms;
-    if (rms >= least) continue;
-    least = rms;
-    best = std::move(parts);
-  }
-  return best;
+  // What lips, teeth and lids do beside is not asked for again: that comes nearer at the markers
+  // and parts lips that touch.
+  return PartsOf(problem, sides_alike);
 }
 
 std::vector<RowFitter::Part> RowFitter::PartsOf(const Problem& problem, bool sides_alike) {
