@@ -15,7 +15,9 @@ struct Name {
 };
 // "FaceExp.SMIRK" or "FaceExp.SMIRK.2"; none for other slots.
 std::optional<Name> NameOf(std::string_view slot) {
-  if (!slot.starts_with(kPrefix) || slot == "FaceExp.onset") return std::nullopt;
+  if (!slot.starts_with(kPrefix) || slot == "FaceExp.onset" || slot == "FaceExp.point") {
+    return std::nullopt;
+  }
   slot.remove_prefix(kPrefix.size());
   Name name;
   if (const std::size_t dot = slot.find('.'); dot != slot.npos) {

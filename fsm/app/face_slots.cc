@@ -103,6 +103,23 @@ void DeclareExpressions(FsmCore& core) {
        },
        .initial = "NEUTRAL"});
   core.Declare(
+      {.name = "FaceExp.point",
+       .grammar = "<number -2..2> <number -2..2> <number -2..2> [ <ms> ]",
+       .help = "An expression as a point of the emotion space, and the ms it takes to get there "
+               "(as FaceExp.onset says); 0 0 0 = at rest. +x happy, -x sad, +y surprised, -y "
+               "disgusted, +z angry, -z feared; 1 from the middle is full strength. What was set "
+               "last counts, this or FaceExp.",
+       .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
+         const auto number = [&value](std::size_t i) {
+           return static_cast<float>(value.number(i));
+         };
+         core.motion->expression.ShowPoint(
+             core.Now(), {number(0), number(1), number(2)},
+             value.size() > 3 ? std::optional(FromMs(value.number(3))) : std::nullopt);
+         return {};
+       },
+       .initial = "0 0 0"});
+  core.Declare(
       {.name = "Mood",
        .grammar = "NEUTRAL | <word> <number 0..100>",
        .help = "A slight look that stays until the next, and its strength in per cent: AROUSED or "

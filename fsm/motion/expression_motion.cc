@@ -1,6 +1,7 @@
 #include "fsm/motion/expression_motion.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "fsm/motion/motion_errors.h"
@@ -62,6 +63,16 @@ vm::Result<void> ExpressionMotion::Show(vm::Time now, std::string_view name, int
   Plan(now, look, settings_.onset == Onset::kElicited ? emotion.elicited : emotion.posed,
        OnsetOf(emotion), duration);
   return {};
+}
+
+void ExpressionMotion::ShowPoint(vm::Time now, const EmotionSpace::Point& point,
+                                 std::optional<vm::Time> move) {
+  // No emotion's lags: what lies between two emotions has none of its own.
+  Emotion::Timing timing;
+  if (move) timing.lag_ms = {};
+  const vm::Time onset = move.value_or(OnsetOf({}));
+  Plan(now, tables_.emotion_space.LookAt(point), timing, onset, vm::Time(0));
+  shown_.MoveTo(now, std::min(1.0F, std::hypot(point[0], point[1], point[2])), onset);
 }
 
 void ExpressionMotion::Plan(vm::Time now, const ActionUnits& look, const Emotion::Timing& timing,

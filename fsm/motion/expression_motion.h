@@ -30,6 +30,9 @@ class ExpressionMotion : public MotionSource {
   /// and offset take half of it each.
   vm::Result<void> Show(vm::Time now, std::string_view name, int pattern, double strength,
                         vm::Time duration);
+  /// The expression at a point of the tables' emotion space, there within `move` or, without it, as
+  /// long as expressions take.
+  void ShowPoint(vm::Time now, const EmotionSpace::Point& point, std::optional<vm::Time> move);
   void Neutral(vm::Time now);
   /// REQUIRES: the list of units has an emotion there, from 0.
   void SetEmotion(vm::Time now, std::size_t index, double strength);

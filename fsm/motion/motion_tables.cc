@@ -7,6 +7,7 @@
 #include "embedded/action_unit_names.h"
 #include "embedded/arkit.h"
 #include "embedded/dominance.h"
+#include "embedded/emotion_space.h"
 #include "embedded/emotions.h"
 #include "embedded/mixing.h"
 #include "embedded/motions.h"
@@ -100,6 +101,8 @@ vm::Result<MotionTables> MotionTables::Load(const std::string& folder,
   loader.Get(out.unit_names, "action_unit_names.txt", embedded::action_unit_names(), ReadUnitNames);
   const UnitNames& names = out.unit_names;
   loader.Get(out.emotions, "emotions.txt", embedded::emotions(), ReadEmotions, names);
+  loader.Get(out.emotion_space, "emotion_space.txt", embedded::emotion_space(), ReadEmotionSpace,
+             names);
   loader.Get(out.motions, "motions.txt", embedded::motions(), ReadMotions, names);
   loader.Get(out.units, "action_unit_list.txt", embedded::action_unit_list(), ReadUnitList, names);
   loader.Get(out.blend_shapes, "arkit.txt", embedded::arkit(), ReadBlendShapes, names);

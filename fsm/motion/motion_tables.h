@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fsm/motion/action_units.h"
+#include "fsm/motion/emotion_space.h"
 #include "fsm/motion/emotion_table.h"
 #include "fsm/motion/mixer.h"
 #include "fsm/motion/motion_table.h"
@@ -21,6 +22,7 @@ struct MotionTables {
   std::vector<EngineNames> engines;
   Reach reach;
   EmotionTable emotions;
+  EmotionSpace emotion_space;
   MotionTable motions;
   UnitList units;
   UnitNames unit_names;

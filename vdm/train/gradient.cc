@@ -50,7 +50,8 @@ const Eigen::MatrixXf& BackPropagation::Forward(const Eigen::MatrixXf& input) {
   return *below;
 }
 
-void BackPropagation::Backward(const Eigen::MatrixXf& slope, NetGradient& gradient) {
+void BackPropagation::Backward(const Eigen::MatrixXf& slope, NetGradient& gradient,
+                               Eigen::MatrixXf* input_slope) {
   Eigen::MatrixXf now = slope, gathered, below;
   for (std::size_t i = steps_.size(); i-- > 0;) {
     const TimeDelayLayer& layer = net_.layers[i];
@@ -59,7 +60,7 @@ void BackPropagation::Backward(const Eigen::MatrixXf& slope, NetGradient& gradie
     if (step.factors.size() > 0) now.array().colwise() *= step.factors.array();
     gradient.layers[i].weights.noalias() += now * step.gathered.transpose();
     gradient.layers[i].biases += now.rowwise().sum();
-    if (i == 0) return;
+    if (i == 0 && input_slope == nullptr) return;
     gathered.noalias() = layer.weights.transpose() * now;
     // Each column of the layer below was used once for every offset: the slopes come together.
     const auto rows = static_cast<Eigen::Index>(layer.inputs);
@@ -75,6 +76,7 @@ void BackPropagation::Backward(const Eigen::MatrixXf& slope, NetGradient& gradie
     }
     now.swap(below);
   }
+  *input_slope = std::move(now);
 }
 
 }  // namespace vdm

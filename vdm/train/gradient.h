@@ -34,8 +34,10 @@ class BackPropagation {
   void Disturb(double strength, Dice& dice);
   /// As net.Outputs(input).
   const Eigen::MatrixXf& Forward(const Eigen::MatrixXf& input);
-  /// `slope`: how the loss changes with each output of the last Forward. Adds to `gradient`.
-  void Backward(const Eigen::MatrixXf& slope, NetGradient& gradient);
+  /// `slope`: how the loss changes with each output of the last Forward. Adds to `gradient`; writes
+  /// how it changes with each input to `input_slope`, if there is one.
+  void Backward(const Eigen::MatrixXf& slope, NetGradient& gradient,
+                Eigen::MatrixXf* input_slope = nullptr);
 
  private:
   struct Step {
