@@ -7,7 +7,7 @@ include(CMakePackageConfigHelpers)
 
 set(programs "")
 # ssm finds ssm_espeak, and with --voices align, beside itself.
-foreach(program agent_manager galatea-log fsm face_fit face_editor face_space face_track face_watch ssm ssm_espeak ssm_stub srm srm_stub align
+foreach(program agent_manager galatea-log fsm face_fit face_editor face_space face_track face_watch hypermask ssm ssm_espeak ssm_stub srm srm_stub align
                 vdm chat gateway mcp vmc task_manager srgs_match)
   if(TARGET ${program})
     list(APPEND programs ${program})
@@ -22,7 +22,7 @@ foreach(page IN LISTS pages)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man${section} COMPONENT programs)
 endforeach()
 # The examples start programs of the build; installed ones are found by their names.
-foreach(agent agent chat film mirror voice voice_film)
+foreach(agent agent chat film hypermask mirror voice voice_film)
   file(READ ${CMAKE_SOURCE_DIR}/examples/agents/${agent}.json text)
   string(REPLACE "build/bin/" "" text "${text}")
   file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/installed/agents/${agent}.json CONTENT "${text}")
