@@ -20,7 +20,7 @@ namespace {
 struct Options {
   gateway::GatewayOptions server;
   std::string token_file;
-  std::string voices;
+  std::string voices, mask, head;
   std::vector<std::string> voice;
   bool no_voice = false;
   int limit_s = 60;
@@ -70,6 +70,12 @@ void Serve(Options& options) {
     voice = std::make_unique<gateway::VoiceWorker>(
         io, command, std::chrono::seconds(options.limit_s), BestNet());
   }
+  if (options.server.faces > 0) {
+    options.server.face_command = {Neighbour("fsm"), "--headless", "--life", "LIVELY"};
+    for (const auto& [name, value] : {std::pair("--mask", options.mask), {"--head", options.head}})
+      if (!value.empty())
+        options.server.face_command.insert(options.server.face_command.end(), {name, value});
+  }
   const gateway::GatewayServer server(io, options.server, BestNet(), voice.get());
   std::cout << "ws://" << server.host() << "/v1/mouth?token=" << options.server.token << std::endl;
   boost::asio::signal_set signals(io, SIGINT, SIGTERM);
@@ -91,6 +97,12 @@ int main(int argc, char** argv) {
                  "A site whose pages may come, https://example.org (may be repeated)");
   app.add_option("--clients", options.server.clients, "WebSockets at a time (16)")
       ->check(CLI::Range(1, 60));
+  app.add_option("--faces", options.server.faces,
+                 "WebSockets with pictures at a time, each a face program of its own; 0: none (2)")
+      ->check(CLI::Range(0, 16));
+  app.add_option("--mask", options.mask, "The face in the pictures (galatea)");
+  app.add_option("--head", options.head, "Another head in the pictures: .glb, .vrm, .obj, ...")
+      ->check(CLI::ExistingFile);
   app.add_option("--voices", options.voices,
                  "Voices beside flite's, for the voice (docs/speech.md)")
       ->check(CLI::ExistingFile);

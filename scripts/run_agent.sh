@@ -29,7 +29,7 @@ usage: scripts/run_agent.sh [options]     (installed: galatea-agent [options])
   --voice mic        it speaks with the microphone, until end of input (^D)
   --out FILE.mp4     make a film with sound instead of opening a window; FILE.mov (ProRes) and FILE.webm (VP9) are
                      transparent beside the agent
-  --subtitles        with --dialog and --out: show what both say in the film; FILE.srt and FILE.vtt
+  --subtitles        with --dialog or --chat, and --out: show what both say in the film; FILE.srt and FILE.vtt
                      lie beside it in any case
   --photo PHOTO      wear the face of the person in PHOTO (docs/photo.md)
   --keep-face NAME   with --photo: keep that face as NAME, for --mask NAME later
@@ -137,7 +137,7 @@ lends=""
 [ -z "$gateway" ] || [ -z "$say$heard$out" ] || fail "--gateway excludes --say, --voice and --out"
 [ -z "$gateway" ] || [ "$gateway" -le 65535 ] || fail "--gateway '$gateway': expected a port, up to 65535"
 [ -z "$web" ] || [ "$web" -le 65535 ] || fail "--web '$web': expected a port, up to 65535"
-if [ -n "$subtitles" ] && { [ -z "$dialog" ] || [ -z "$out" ]; }; then fail "--subtitles needs --dialog and --out"; fi
+if [ -n "$subtitles" ] && { [ -z "$dialog$chat" ] || [ -z "$out" ]; }; then fail "--subtitles needs --dialog or --chat, and --out"; fi
 [ -z "$heard" ] || [ -z "$say$dialog" ] || fail "--voice excludes --say and --dialog"
 [ -z "$heard" ] || [ "$heard" = mic ] || [ -r "$heard" ] || fail "--voice: cannot read '$heard'"
 [ "$heard" != mic ] || [ -z "$out" ] || fail "--voice mic lives in a window; --out needs --voice FILE.wav"
@@ -237,7 +237,7 @@ clear_background() { case $out in *.mov | *.webm) echo "to @FSM set Background =
 # Runs the hub on a script until the film is there, and tells a terminal meanwhile how long it has taken.
 draw() {
   local began=$SECONDS
-  "$hub_program" --config "$config" <"$work/script" >"$work/said" &
+  "$hub_program" --config "$config" --log "$work/log" <"$work/script" >"$work/said" &
   hub=$!
   while kill -0 "$hub" 2>/dev/null; do
     [ ! -t 2 ] || printf '\r\033[Krun_agent: drawing, %d s (a second of the film takes about one)' $((SECONDS - began)) >&2
@@ -248,6 +248,14 @@ draw() {
   wait "$hub" || failed=1
   hub=""
   [ "$failed" = 0 ] || { cat "$work/said" >&2; fail "the hub ended with an error"; }
+}
+
+# Puts FILM.srt into the film.
+show_subtitles() {
+  mv "$out" "$work/film.mp4"
+  cp "${out%.mp4}.srt" "$work/film.srt"
+  (cd "$work" && ffmpeg -v error -y -i film.mp4 -vf "subtitles=film.srt:force_style='Fontsize=16,MarginV=12'" \
+    -c:v libx264 -crf 16 -pix_fmt yuv420p -c:a copy -movflags +faststart "$out") </dev/null || fail "the subtitles could not be put into the film"
 }
 
 # What a module says to a question, without its quotes.
@@ -420,6 +428,8 @@ if [ -n "$chat" ] && [ -n "$film" ]; then
     fail "${error#*error = }"
   fi
   sed -n -e 's/^From @CHAT rep Heard = /You: /p' -e 's/^From @CHAT rep Reply.sentence = /Galatea: /p' "$work/said"
+  python3 "$data/scripts/subtitles.py" "$work/log" "$out"
+  [ -z "$subtitles" ] || show_subtitles
   echo "run_agent: wrote $out"
   exit 0
 fi
@@ -438,7 +448,7 @@ for _ in $(seq 100); do [ -S "$work/hub" ] && break; sleep 0.05; done
 if [ -n "$gateway" ]; then
   # A voice of its own, so that what other programs have it say is not heard here.
   "$bin/gateway" --at "tcp:127.0.0.1:$gateway" \
-    --voice "$bin/$voice" --sink null --clock virtual ${speaker:+--speaker "$speaker"} >"$work/gateway" &
+    ${mask:+--mask "$mask"} --voice "$bin/$voice" --sink null --clock virtual ${speaker:+--speaker "$speaker"} >"$work/gateway" &
   gateway_program=$!
   for _ in $(seq 100); do [ -s "$work/gateway" ] && break; sleep 0.05; done
   [ -s "$work/gateway" ] || fail "the gateway did not start"
@@ -465,12 +475,7 @@ if [ -n "$dialog" ]; then
   [ -z "$script" ] || options+=(--script "$script" --transcript text)
   [ -z "$out" ] || options+=(--out "$out")
   "$bin/task_manager" "$dialog" --connect "unix:$work/hub" "${options[@]}" || { cat "$work/hub.log" >&2; exit 1; }
-  if [ -n "$subtitles" ]; then
-    mv "$out" "$work/film.mp4"
-    cp "${out%.mp4}.srt" "$work/film.srt"
-    (cd "$work" && ffmpeg -v error -y -i film.mp4 -vf "subtitles=film.srt:force_style='Fontsize=16,MarginV=12'" \
-      -c:v libx264 -crf 16 -pix_fmt yuv420p -c:a copy -movflags +faststart "$out") </dev/null || fail "the subtitles could not be put into the film"
-  fi
+  [ -z "$subtitles" ] || show_subtitles
   [ -z "$out" ] || echo "run_agent: wrote $out"
   exit 0
 fi

@@ -1,25 +1,16 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <utility>
 
-#include "vm_protocol/core/scheduler.h"
+#include "vm_protocol/web/live_records.h"
 
 namespace am {
 
-/// A picture of the face or a piece of what the voice says, with the session's time: what /face and
-/// /voice send (docs/configuration.md, The page).
-struct LivePiece {
-  enum class Kind : std::uint8_t { kPicture = 1, kSound = 2, kSilence = 3 };
-  Kind kind = Kind::kPicture;
-  vm::Time at{0};             ///< of the picture or the first sample; from when on there is silence
-  std::uint32_t rate_hz = 0;  ///< of sound
-  std::string bytes;          ///< JPEG; samples, 16 bit little-endian, one channel; empty
-};
+using vm::LivePiece;  ///< with the session's time: what /face and /voice send
 
 /// Those who follow a stream of live pieces, by number. A member may come and go while the others
 /// are told. Thread: none of its own; one instance, one thread.

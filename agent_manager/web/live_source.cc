@@ -1,12 +1,7 @@
 #include "agent_manager/web/live_source.h"
 
-#include <algorithm>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
-#include <charconv>
-#include <cmath>
-#include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,55 +14,7 @@ namespace asio = boost::asio;
 using boost::system::error_code;
 
 constexpr const char* kNobody = "NONE";
-constexpr double kMaxMs = 1e12;  // as in all lines
-constexpr unsigned kMinRateHz = 8000, kMaxRateHz = 192000;
 constexpr std::size_t kReadBytes = 64u * 1024;
-
-template <typename Number>
-std::optional<Number> NumberOf(std::string_view text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
-std::string_view NextWord(std::string_view& text) {
-  const std::size_t end = std::min(text.find(' '), text.size());
-  const std::string_view word = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  return word;
-}
-
-struct Head {
-  LivePiece piece;        // its time is the module's
-  std::size_t bytes = 0;  // that follow
-};
-
-/// "picture MS BYTES", "sound MS RATE BYTES" or "end MS".
-std::optional<Head> ParseHead(std::string_view line, std::size_t max_bytes) {
-  Head head;
-  const std::string_view kind = NextWord(line);
-  const auto ms = NumberOf<double>(NextWord(line));
-  if (!ms || !std::isfinite(*ms) || std::abs(*ms) > kMaxMs) return std::nullopt;
-  head.piece.at = vm::Time(std::llround(*ms * 1000));
-  head.piece.kind = LivePiece::Kind::kSilence;
-  if (kind == "end" && line.empty()) return head;
-  if (kind == "sound") {
-    const auto rate = NumberOf<std::uint32_t>(NextWord(line));
-    if (!rate || *rate < kMinRateHz || *rate > kMaxRateHz) return std::nullopt;
-    head.piece.kind = LivePiece::Kind::kSound;
-    head.piece.rate_hz = *rate;
-  } else if (kind == "picture") {
-    head.piece.kind = LivePiece::Kind::kPicture;
-  } else {
-    return std::nullopt;
-  }
-  const auto bytes = NumberOf<std::size_t>(NextWord(line));
-  if (!bytes || *bytes > max_bytes || !line.empty()) return std::nullopt;
-  if (kind == "sound" && *bytes % 2 != 0) return std::nullopt;
-  head.bytes = *bytes;
-  return head;
-}
 
 }  // namespace
 
@@ -83,12 +30,16 @@ const LiveSource::Origin LiveSource::kVoice{.module = "SSM",
                                             .max_bytes = 64u * 1024};
 
 struct LiveSource::Connection {
-  explicit Connection(asio::io_context& io) : acceptor(io), socket(io), piece(kReadBytes) {}
-  PrivateFolder folder;  // of the socket
+  Connection(asio::io_context& io, const Origin& origin)
+      : acceptor(io),
+        socket(io),
+        piece(kReadBytes),
+        records(origin.who, origin.records, origin.max_bytes) {}
+  vm::PrivateFolder folder;  // of the socket
   asio::local::stream_protocol::acceptor acceptor;
   asio::local::stream_protocol::socket socket;
   std::vector<char> piece;
-  std::string come;    // and not yet taken
+  vm::LiveRecords records;
   bool asked = false;  // the module may be sending
 };
 
@@ -118,7 +69,7 @@ void LiveSource::Ask(const vm::Message& message, std::function<void(const std::s
 }
 
 void LiveSource::Begin() {
-  connection_ = std::make_shared<Connection>(io_);
+  connection_ = std::make_shared<Connection>(io_, origin_);
   Connection& here = *connection_;
   if (!here.folder.Make("live", "socket")) return End("no folder for a socket");
   error_code error;
@@ -145,7 +96,7 @@ void LiveSource::Read() {
         const auto here = weak.lock();
         if (!here) return;
         if (error) return End(std::string(origin_.who) + " sends no more");
-        here->come.append(here->piece.data(), size);
+        here->records.Add({here->piece.data(), size});
         if (const auto taken = TakeRecords(); !taken) return End(taken.error().text);
         if (connection_ == here) Read();  // who follows may have been the last one and left
       });
@@ -153,27 +104,13 @@ void LiveSource::Read() {
 
 vm::Result<void> LiveSource::TakeRecords() {
   const auto here = connection_;
-  std::string_view rest = here->come;
   while (connection_ == here) {
-    const std::size_t line = rest.substr(0, kMaxHeadBytes).find('\n');
-    if (line == std::string_view::npos) {
-      if (rest.size() < kMaxHeadBytes) break;
-      return vm::Fail(vm::Errc::kTooLong,
-                      std::string(origin_.who) + " sent a record whose head has no end");
-    }
-    auto head = ParseHead(rest.substr(0, line), origin_.max_bytes);
-    if (!head) {
-      return vm::Fail(vm::Errc::kSyntax, std::string(origin_.who) + " sent '" +
-                                             std::string(rest.substr(0, line)) + "', expected " +
-                                             origin_.records);
-    }
-    if (rest.size() - line - 1 < head->bytes) break;
-    head->piece.bytes = rest.substr(line + 1, head->bytes);
-    head->piece.at -= hub_.clocks().ClockOf(origin_.module).offset;
-    rest.remove_prefix(line + 1 + head->bytes);
-    members_.Tell(std::make_shared<const LivePiece>(std::move(head->piece)));
+    auto piece = here->records.Next();
+    if (!piece) return std::unexpected(piece.error());
+    if (!*piece) break;
+    (*piece)->at -= hub_.clocks().ClockOf(origin_.module).offset;
+    members_.Tell(std::make_shared<const LivePiece>(std::move(**piece)));
   }
-  here->come.erase(0, here->come.size() - rest.size());
   return {};
 }
 

@@ -7,7 +7,7 @@
 
 #include "agent_manager/routing/hub.h"
 #include "agent_manager/web/live_piece.h"
-#include "agent_manager/web/private_folder.h"
+#include "vm_protocol/runtime/private_folder.h"
 
 namespace am {
 
@@ -15,12 +15,11 @@ namespace am {
 /// module is asked to send to a socket of ours (`set SLOT = unix:PATH`; docs/face.md, Pictures for
 /// other programs; docs/speech.md, Sound for other programs), and no more once the last has left.
 /// Lifetime: `io` and `hub` outlive it. Thread: the context's.
-/// Limits: kMaxHeadBytes of a record's head, Origin::max_bytes of what follows it.
+/// Limits: those of vm::LiveRecords, with Origin::max_bytes.
 /// Errors end it with a sentence: no module, one without the slot or that sends elsewhere already,
 /// a record that is none.
 class LiveSource {
  public:
-  static constexpr std::size_t kMaxHeadBytes = 128;
   struct Origin {
     const char* module;
     const char* slot;

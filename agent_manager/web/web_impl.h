@@ -2,36 +2,31 @@
 
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
-#include <boost/beast/http.hpp>
 #include <functional>
-#include <optional>
 
 #include "agent_manager/web/live_source.h"
 #include "agent_manager/web/web_server.h"
-#include "vm_protocol/runtime/web_door.h"
+#include "vm_protocol/web/session.h"
 
 /// What the files of the web server share; not for other folders.
 namespace am {
 
 /// The state of the web server. Each connection shares it and stops when `closed` is set.
-struct WebServer::Impl {
-  Impl(boost::asio::io_context& context, Hub& the_hub) : io(context), hub(the_hub) {}
+struct WebServer::Impl : vm::WebSite {
+  Impl(boost::asio::io_context& context, Hub& the_hub, const std::string& token, OnRefusal tell)
+      : WebSite({token, {}}, std::move(tell)), io(context), hub(the_hub) {}
   boost::asio::io_context& io;
   Hub& hub;
-  std::optional<vm::WebDoor> door;
   Role role = Role::kGuest;  ///< of every peer that connects through the page
-  std::string token;
   std::function<std::string()> metrics;
-  OnRefusal on_refusal;
   std::unique_ptr<LiveSource> face;
   std::unique_ptr<LiveSource> voice;
-  bool closed = false;
   bool microphone = false;  ///< a browser streams its microphone
 };
 
 namespace web {
 
-using Request = boost::beast::http::request<boost::beast::http::empty_body>;
+using Request = vm::WebRequest;
 
 // Each takes over a connection whose request has shown the token.
 

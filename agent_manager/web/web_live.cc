@@ -2,11 +2,9 @@
 // message.
 
 #include <array>
-#include <bit>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
-#include <cstring>
 #include <deque>
 #include <utility>
 
@@ -24,19 +22,6 @@ using boost::system::error_code;
 constexpr std::size_t kMaxMessageBytes = 128;           // a browser has nothing to say here
 constexpr std::size_t kMaxWaitingBytes = 512u * 1024;   // of sound: 16 s
 constexpr auto kWriteLimit = std::chrono::seconds(10);  // for a browser to take one piece
-
-using Header = std::array<char, 16>;
-static_assert(std::endian::native == std::endian::little, "the wire is little-endian");
-
-/// Kind, three zeros, rate (32 bit), time in ms (64 bit float).
-Header HeaderOf(const LivePiece& piece) {
-  Header header{};
-  header[0] = static_cast<char>(piece.kind);
-  const double ms = static_cast<double>(piece.at.count()) / 1000;
-  std::memcpy(&header[4], &piece.rate_hz, sizeof piece.rate_hz);
-  std::memcpy(&header[8], &ms, sizeof ms);
-  return header;
-}
 
 /// One browser that watches the face or listens to the voice, until either side ends.
 /// Lifetime: kept alive by the stream it follows and its pending operations. Thread: the context's.
@@ -88,7 +73,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     writing_ = true;
     going_ = waiting_.front();
     waiting_.pop_front();
-    header_ = HeaderOf(*going_);
+    header_ = vm::LiveHeader(going_->kind, going_->rate_hz,
+                             static_cast<double>(going_->at.count()) / 1000);
     write_limit_.expires_after(kWriteLimit);
     write_limit_.async_wait([weak = weak_from_this()](const error_code& stopped) {
       const auto self = weak.lock();
@@ -146,7 +132,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   std::deque<Audience::Piece> waiting_;
   std::size_t waiting_bytes_ = 0;  // of sound, with what is being written
   Audience::Piece going_;
-  Header header_{};
+  std::string header_;
   std::string why_;
   unsigned number_ = 0;  // in the audience
   bool writing_ = false, over_ = false;

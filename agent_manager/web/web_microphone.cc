@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "agent_manager/routing/own_names.h"
-#include "agent_manager/web/private_folder.h"
 #include "agent_manager/web/web_impl.h"
 #include "vm_protocol/core/utf8.h"
+#include "vm_protocol/runtime/private_folder.h"
 
 namespace am::web {
 namespace {
@@ -78,7 +78,7 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
   }
 
   void Refuse(const std::string& why) {
-    server_->on_refusal("web page: no microphone: " + why);
+    server_->on_refusal("no microphone: " + why);
     // Beast takes at most 123 bytes of reason.
     socket_.async_close({websocket::close_code::try_again_later, vm::CutUtf8(why, 120)},
                         [self = shared_from_this()](const error_code&) { self->End(); });
@@ -127,7 +127,7 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
   websocket::stream<beast::tcp_stream> socket_;
   asio::local::stream_protocol::socket ear_;
   beast::flat_buffer buffer_;
-  PrivateFolder folder_;  // of the socket
+  vm::PrivateFolder folder_;  // of the socket
   std::string before_, waiting_, going_;
   bool connected_ = false, writing_ = false, ended_ = false;
 };

@@ -77,7 +77,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
     if (server_->closed) return;
     const auto key = server_->hub.Attach(std::make_unique<SocketLink>(shared_from_this()),
                                          PeerKind::kClient, server_->role, "", Dialect::kAuto);
-    if (!key) return server_->on_refusal("web page: " + key.error().text);
+    if (!key) return server_->on_refusal("" + key.error().text);
     peer_ = *key;
     Read();
   }
@@ -97,7 +97,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
       const PeerKey peer = std::exchange(peer_, 0);
       if (error == websocket::error::message_too_big) {
         const std::string why = "a message over " + std::to_string(vm::kMaxLineBytes) + " bytes";
-        server_->on_refusal("web page: refused " + why);
+        server_->on_refusal("refused " + why);
         return server_->hub.Leave(peer, why);
       }
       return server_->hub.Leave(

@@ -17,6 +17,8 @@ constexpr vm::Time kHubLimit = milliseconds(1000);
 constexpr vm::Time kCutPause = milliseconds(150);
 /// Of silence before the first sound of a reply: enough for lips to open, and nobody waits longer.
 constexpr int kLeadMs = 60;
+constexpr const char* kHubName = "AM";
+constexpr vm::Time kAnswer = milliseconds(5000);
 constexpr vm::Time kNodPause = milliseconds(2000);
 constexpr std::size_t kMaxShown = 32 << 10;  // bytes of a reply in one line
 constexpr std::size_t kMaxWaiting = 8;
@@ -104,8 +106,14 @@ void ChatModule::Shutdown() {
 // --- meeting the hub
 
 void ChatModule::MeetHub() {
-  hub_.Ask(vm::To("AM", vm::Set("Subscribe", options_.ear + " " + options_.voice)), kHubLimit,
+  hub_.Ask(vm::To(kHubName, vm::Set("Subscribe", Subscriptions())), kHubLimit,
            [this](const vm::Result<std::string>& answer) { OnHubAnswer(answer); });
+}
+
+/// The hub's own events tell who has gone.
+std::string ChatModule::Subscriptions() const {
+  const bool watches = talk_ && !talk_->borrower.empty();
+  return options_.ear + " " + options_.voice + (watches ? std::string(" ") + kHubName : "");
 }
 
 void ChatModule::OnHubAnswer(const vm::Result<std::string>& answer) {
@@ -136,11 +144,27 @@ void ChatModule::PrepareVoice() {
 void ChatModule::StartEar() {
   if (hub_state_ != HubState::kThere || !Listens()) return;
   hub_.Say(vm::To(options_.ear, vm::Set("Grammar", "NONE")));
+  AskForHaste(true);
   hub_.Say(vm::To(options_.ear, vm::Set("Run", "START")));
+}
+
+/// In conversation whole phrases are answered after a short silence. An ear that cannot tell them
+/// waits as ever.
+void ChatModule::AskForHaste(bool haste) {
+  hub_.Ask(vm::To(options_.ear, vm::Inq("Slots")), kAnswer,
+           [this, haste](const vm::Result<std::string>& known) {
+             if (!known || !(" " + *known + " ").contains(" Listen.complete ")) return;
+             const std::string ms = haste ? slots_.Value("Listen.pause") : "0";
+             hub_.Say(vm::To(options_.ear, vm::Set("Listen.complete", ms)));
+           });
 }
 
 void ChatModule::OnHeard(const vm::Message& message) {
   hub_.Hear(message);
+  if (message.command == vm::Command::kTell && message.from == kHubName && talk_ &&
+      message.value.starts_with("@" + talk_->borrower + " has gone")) {
+    return OnBorrowerGone();
+  }
   if (message.command != vm::Command::kRep || !message.tag.empty()) return;
   // One that was started anew has forgotten what it was told.
   const bool anew = message.slot == "Run" && message.value == "LIVE";
@@ -392,15 +416,41 @@ void ChatModule::StartTalk(const vm::SetValue& value, const vm::Reply& reply) {
     return;
   }
   if (talk_) return reply.Fail({Errc::kBusy, "a conversation is lent already; Talk = STOP", 0});
+  std::string borrower = value.size() > 2 ? value.word(2) : "";
+  if (borrower.starts_with('@')) borrower.erase(0, 1);
+  if (!borrower.empty() && !vm::IsModuleName(borrower))
+    return reply.Fail({Errc::kBadValue, "found '" + borrower + "', expected a module's name", 0});
   talk_.emplace(
       Talk{.reply = reply,
            .most = static_cast<int>(value.number(0)),
            .silence = milliseconds(value.size() > 1 ? static_cast<long>(value.number(1)) : 0),
+           .borrower = std::move(borrower),
            .goal = slots_.Value("Talk.goal"),
            .end_phrases = EndPhrases(slots_.Value("Talk.end"))});
   slots_.Report("Talk.result", "");
+  // Of whoever waits for no answer the hub sees at once that it has gone.
+  if (!talk_->borrower.empty()) reply.Ok("LENT");
+  WatchBorrower();
   StartEar();
   WaitForTalk();
+}
+
+/// A borrower that ends without having taken the user back must not keep the conversation. It may
+/// have gone before the hub tells us of such things, so the hub is asked, too.
+void ChatModule::WatchBorrower() {
+  if (talk_->borrower.empty() || hub_state_ != HubState::kThere) return;
+  hub_.Say(vm::To(kHubName, vm::Set("Subscribe", Subscriptions())));
+  hub_.Ask(vm::To(kHubName, vm::Inq("Modules")), kAnswer,
+           [this, name = talk_->borrower](const vm::Result<std::string>& there) {
+             if (!there || !talk_ || talk_->borrower != name) return;
+             if (!(" " + *there + " ").contains(" " + name + " ")) OnBorrowerGone();
+           });
+}
+
+void ChatModule::OnBorrowerGone() {
+  talk_->ending = "STOPPED";
+  Interrupt();
+  if (!turn_) EndTalk(talk_->ending);
 }
 
 /// The user's turn, in a conversation that is lent: it ends with the last turn, or in silence.
@@ -421,16 +471,25 @@ ChatModule::Talk ChatModule::TakeBack() {
   Talk talk = std::move(*talk_);
   talk_.reset();
   clock_.Cancel(std::exchange(talk_timer_, 0));
+  if (hub_state_ == HubState::kThere && !Listens()) AskForHaste(false);
   for (const char* const slot : {"Talk.goal", "Talk.end"}) slots_.Report(slot, "");
+  if (!talk.borrower.empty() && hub_state_ == HubState::kThere)
+    hub_.Say(vm::To(kHubName, vm::Set("Subscribe", Subscriptions())));
   return talk;
 }
 
-void ChatModule::FailTalk(const vm::Error& error) { TakeBack().reply.Fail(error); }
+void ChatModule::FailTalk(const vm::Error& error) {
+  const Talk talk = TakeBack();
+  slots_.Report("Talk.over", "FAILED " + vm::FormatError(error));
+  talk.reply.Fail(error);
+}
 
 void ChatModule::EndTalk(std::string reason) {
   const Talk talk = TakeBack();
-  talk.reply.Ok(reason + " " + std::to_string(talk.turns) + (talk.last.empty() ? "" : " ") +
-                talk.last);
+  const std::string end =
+      reason + " " + std::to_string(talk.turns) + (talk.last.empty() ? "" : " ") + talk.last;
+  slots_.Report("Talk.over", end);
+  talk.reply.Ok(end);
 }
 
 }  // namespace chat

@@ -77,6 +77,7 @@ class ChatModule final : public vm::Module {
     int turns = 0, most = 0;
     vm::Time silence{0};
     std::string last{};
+    std::string borrower{};  ///< its name at the hub; empty: not known
     std::string goal{};
     EndPhrases end_phrases{};
     std::string ending{};  ///< the reason, once it is known
@@ -92,9 +93,11 @@ class ChatModule final : public vm::Module {
 
   // Meeting the hub.
   void MeetHub();
+  std::string Subscriptions() const;
   void OnHubAnswer(const vm::Result<std::string>& answer);
   void PrepareVoice();
   void StartEar();
+  void AskForHaste(bool haste);
   void OnHeard(const vm::Message& message);
   void OnEar(const vm::Message& message);
 
@@ -120,6 +123,8 @@ class ChatModule final : public vm::Module {
 
   // A conversation lent to a dialogue.
   void StartTalk(const vm::SetValue& value, const vm::Reply& reply);
+  void WatchBorrower();
+  void OnBorrowerGone();
   Talk TakeBack();
   void FailTalk(const vm::Error& error);
   void EndTalk(std::string reason);

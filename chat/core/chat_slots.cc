@@ -50,9 +50,24 @@ void ChatModule::DeclareInput() {
                   .auto_output = true,
                   .help = "Whether what the ear hears is answered. OFF: only Input.text is.",
                   .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                    slots_.Store("Listen", value.word(0));
                     if (value.word(0) == "ON") StartEar();
+                    if (hub_state_ == HubState::kThere && !Listens()) AskForHaste(false);
                     return value.word(0);
                   }});
+  slots_.Declare(
+      {.name = "Listen.pause",
+       .grammar = "<int 0..5000>",
+       .initial = "250",
+       .help = "After so many ms of silence a whole phrase is answered (the ear's Listen.complete "
+               "while it listens for a conversation); what seems unfinished has the ear's "
+               "Listen.silence. 0: everything has.",
+       .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+         const std::string ms = std::to_string(static_cast<long>(value.number(0)));
+         slots_.Store("Listen.pause", ms);
+         if (hub_state_ == HubState::kThere && Listens()) AskForHaste(true);
+         return ms;
+       }});
   slots_.Declare({.name = "BargeIn",
                   .grammar = "ON | OFF",
                   .initial = "ON",
@@ -149,7 +164,7 @@ void ChatModule::DeclareReports() {
 void ChatModule::DeclareTalk() {
   slots_.Declare(
       {.name = "Talk",
-       .grammar = "STOP | END [ <word> ] | <int 1..1000> [ <ms> ]",
+       .grammar = "STOP | END [ <word> ] | <int 1..1000> [ <ms> [ <word> ] ]",
        .access = vm::Access::kWriteOnly,
        .help =
            "A conversation lent to somebody: so many turns, or until nobody has spoken for so many "
@@ -157,7 +172,10 @@ void ChatModule::DeclareTalk() {
            "tag [end], with which the model may give a result. Answered at its end with its "
            "reason, TURNS, SILENCE, ENDED or STOPPED, the number of turns, and what the user said "
            "last; as an error if the model does not answer. Meanwhile the ear is listened to, "
-           "whatever Listen says.",
+           "whatever Listen says. The word is the borrower's name at the hub: then the answer "
+           "is LENT, at once, the end is told by Talk.over, and when the borrower leaves the hub "
+           "it "
+           "is STOPPED.",
        .on_set_later = [this](const vm::SetValue& value,
                               const vm::Reply& reply) { StartTalk(value, reply); },
        .saved = false});
@@ -175,6 +193,9 @@ void ChatModule::DeclareTalk() {
                   .grammar = "<text>",
                   .access = vm::Access::kReadOnly,
                   .help = "The word that the tag [end WORD] of the last conversation lent had."});
+  Told("Talk.over",
+       "How the last conversation lent ended: reason, turns and last words as Talk is answered "
+       "with, or FAILED and the error.");
 }
 
 }  // namespace chat

@@ -25,12 +25,13 @@ vm::Result<Control> ReadControl(std::string_view text) {
                   "type '" + vm::ShownAnswer(type) + "' found, clear or end expected");
 }
 
-std::string ReadyText(const LiveFace& face) {
+std::string ReadyText(const LiveFace& face, const json& more) {
   const LiveFace::Settings& settings = face.settings();
-  return json{
+  json ready{
       {"type", "ready"},          {"set", settings.set->name()}, {"names", settings.set->names()},
-      {"rate", settings.rate_hz}, {"fps", settings.fps},         {"ahead", face.ahead_s()}}
-      .dump();
+      {"rate", settings.rate_hz}, {"fps", settings.fps},         {"ahead", face.ahead_s()}};
+  ready.update(more);
+  return ready.dump();
 }
 
 std::string FrameText(const WeightSet& set, const LiveFace::Moment& moment) {

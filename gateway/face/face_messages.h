@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
@@ -13,7 +14,8 @@ enum class Control { kClear, kEnd };
 /// {"type": "clear"} and {"type": "end"}. Errors: kSyntax, kBadValue.
 vm::Result<Control> ReadControl(std::string_view text);
 
-std::string ReadyText(const LiveFace& face);
+/// `more`: further members.
+std::string ReadyText(const LiveFace& face, const nlohmann::json& more);
 std::string FrameText(const WeightSet& set, const LiveFace::Moment& moment);
 std::string EndText(double at_s);
 std::string ClearedText();

@@ -1,5 +1,7 @@
 #include "gateway/face/live_face.h"
 
+#include "vm_protocol/core/utf8.h"
+
 namespace gateway {
 
 LiveFace::LiveFace(const vdm::MouthNet& net, const Settings& settings)
@@ -47,7 +49,8 @@ std::vector<LiveFace::Moment> LiveFace::Track(std::span<const std::int16_t> samp
   for (const auto& moment : tracker_->Add(samples)) {
     if (moment.sample % every != 0) continue;
     moments.push_back({.at_s = static_cast<double>(moment.sample) / vdm::kSampleRateHz,
-                       .weights = settings_.set->Of(moment.frame)});
+                       .weights = settings_.set->Of(moment.frame),
+                       .mouth = moment.frame});
   }
   return moments;
 }
@@ -60,17 +63,23 @@ std::vector<LiveFace::Moment> LiveFace::End() {
   return moments;
 }
 
-vm::Result<void> CheckLive(long rate_hz, long fps) {
-  if (rate_hz != 8000 && rate_hz != 16'000 && rate_hz != 24'000 && rate_hz != 44'100 &&
-      rate_hz != 48'000) {
-    return vm::Fail(vm::Errc::kBadValue, "rate " + std::to_string(rate_hz) +
-                                             " found, 8000, 16000, 24000, 44100 or 48000 expected");
-  }
-  if (fps != 20 && fps != 25 && fps != 50 && fps != 100) {
-    return vm::Fail(vm::Errc::kBadValue,
-                    "fps " + std::to_string(fps) + " found, 20, 25, 50 or 100 expected");
-  }
-  return {};
+vm::Result<LiveRates> ReadLive(std::string_view rate, std::string_view fps) {
+  const auto one_of = [](const char* name, std::string_view found,
+                         std::initializer_list<unsigned> known) -> vm::Result<unsigned> {
+    std::string expected;
+    for (const unsigned number : known) {
+      if (found == std::to_string(number)) return number;
+      expected += (expected.empty() ? "" : ", ") + std::to_string(number);
+    }
+    return vm::Fail(vm::Errc::kBadValue, std::string(name) + ": found '" +
+                                             vm::ShownUtf8(vm::CutUtf8(found, 40)) +
+                                             "', expected one of " + expected);
+  };
+  const auto rate_hz = one_of("rate", rate, {8000, 16'000, 24'000, 44'100, 48'000});
+  if (!rate_hz) return std::unexpected(rate_hz.error());
+  const auto frames = one_of("fps", fps, {20, 25, 50, 100});
+  if (!frames) return std::unexpected(frames.error());
+  return LiveRates{*rate_hz, *frames};
 }
 
 }  // namespace gateway

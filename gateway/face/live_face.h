@@ -25,6 +25,7 @@ class LiveFace {
   struct Moment {
     double at_s = 0;
     std::vector<float> weights;
+    vdm::MouthFrame mouth{};  ///< what they were made of
   };
   LiveFace(const vdm::MouthNet& net, const Settings& settings);
 
@@ -53,7 +54,10 @@ class LiveFace {
   std::uint64_t heard_ = 0;
 };
 
-/// Whether a client may ask for these. kBadValue names the number and what was expected.
-vm::Result<void> CheckLive(long rate_hz, long fps);
+struct LiveRates {
+  unsigned rate_hz = 0, fps = 0;
+};
+/// What a client asks for, in its words. kBadValue names what was found and expected.
+vm::Result<LiveRates> ReadLive(std::string_view rate, std::string_view fps);
 
 }  // namespace gateway

@@ -33,7 +33,7 @@ class Bridge {
         http_options_(std::move(http)),
         client_([this](std::string_view line) { hub_->Send(line); }),
         server_(std::move(allowed), {.ask = [this](vm::Message message, auto on_answer) {
-                  Ask(std::move(message), std::move(on_answer));
+                  return Ask(std::move(message), std::move(on_answer));
                 }}) {}
 
   /// Returns when the client at standard input says no more and everything is answered, or a signal
@@ -79,7 +79,7 @@ class Bridge {
         });
   }
 
-  void Ask(vm::Message message, gateway::McpServer::OnAnswer on_answer) {
+  gateway::McpServer::GiveUp Ask(vm::Message message, gateway::McpServer::OnAnswer on_answer) {
     const auto timer = timers_.emplace(timers_.end(), io_);
     const std::string tag = client_.Request(
         std::move(message),
@@ -94,6 +94,9 @@ class Bridge {
                             "no answer within " + std::to_string(limit_.count()) + " s", 0});
       EndIfDone();
     });
+    return [this, tag] {
+      client_.Abandon(tag, {vm::Errc::kStopped, "nobody waits for the answer", 0});
+    };
   }
 
   void EndIfDone() {

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "gateway/web/http_session.h"
 #include "vm_protocol/http/answer.h"
 #include "vm_protocol/runtime/credentials.h"
+#include "vm_protocol/web/session.h"
 
 namespace gateway {
 namespace {
@@ -40,10 +40,10 @@ bool TakesJson(const std::string& accept) {
   return accept.empty();
 }
 
-struct Site : HttpSite {
+struct Site : vm::WebSite {
   Site(McpHttp::Options options, McpServer& the_server)
-      : HttpSite({std::move(options.token), std::move(options.origins)},
-                 std::move(options.on_refusal)),
+      : vm::WebSite({std::move(options.token), std::move(options.origins)},
+                    std::move(options.on_refusal)),
         server(the_server) {
     methods = "POST, DELETE";
     headers = "authorization, content-type, mcp-session-id, mcp-protocol-version";
@@ -64,10 +64,10 @@ struct Site : HttpSite {
   std::list<std::string> sessions;  // silent longest first
 };
 
-class McpSession final : public HttpSession {
+class McpSession final : public vm::WebSession {
  public:
   McpSession(std::shared_ptr<Site> site, asio::ip::tcp::socket socket)
-      : HttpSession(site, std::move(socket)), site_(std::move(site)) {}
+      : vm::WebSession(site, std::move(socket)), site_(std::move(site)) {}
 
  private:
   void Route() override {
@@ -93,14 +93,20 @@ class McpSession final : public HttpSession {
                         vm::TextAt(*message, "method") == "initialize" && message->contains("id");
     // What is no message at all is answered as such.
     if (message && !begins && !MayGoOn()) return;
-    WaitForAnswer();
-    const auto say = [this, begins, self = shared_from_this()](const std::string& answer) {
+    const auto answered = std::make_shared<bool>(false);
+    const auto say = [this, begins, answered, self = shared_from_this()](const std::string& text) {
+      *answered = true;
       if (closed()) return;
       Headers more;
       if (begins) more[kSession] = site_->Open();
-      Reply(Status::ok, kJson, answer, more);
+      Reply(Status::ok, kJson, text, more);
     };
-    if (!site_->server.Handle(request().body(), say)) Reply(Status::accepted, kJson, "");
+    const auto question = site_->server.Handle(request().body(), say);
+    if (!question) return Reply(Status::accepted, kJson, "");
+    if (*answered) return;
+    WaitForAnswer([site = site_, weak = std::weak_ptr(question)] {
+      if (const auto asked = weak.lock()) site->server.Forget(asked);
+    });
   }
 
   void Delete() {
@@ -122,11 +128,11 @@ class McpSession final : public HttpSession {
     return false;
   }
 
-  std::string ErrorBody(Status, const std::string& what) const override {
+  std::pair<std::string, std::string> ErrorBody(Status, const std::string& what) const override {
     const nlohmann::json body{{"jsonrpc", "2.0"},
                               {"id", nullptr},
                               {"error", {{"code", -32000}, {"message", "refused: " + what}}}};
-    return body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return {kJson, body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
   }
 
   const std::shared_ptr<Site> site_;
@@ -136,7 +142,7 @@ class McpSession final : public HttpSession {
 
 McpHttp::McpHttp(asio::io_context& io, Options options, McpServer& server)
     : site_(std::make_shared<Site>(options, server)) {
-  OpenDoor(io, options.at, site_, [site = std::weak_ptr(site_)](auto socket) {
+  vm::OpenDoor(io, options.at, site_, [site = std::weak_ptr(site_)](auto socket) {
     return std::make_shared<McpSession>(std::static_pointer_cast<Site>(site.lock()),
                                         std::move(socket));
   });

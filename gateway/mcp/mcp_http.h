@@ -8,15 +8,17 @@
 
 #include "gateway/mcp/mcp_server.h"
 
-namespace gateway {
+namespace vm {
+struct WebSite;
+}
 
-struct HttpSite;
+namespace gateway {
 
 /// The Model Context Protocol over HTTP: the streamable transport of revision 2025-11-25 at /mcp, a
 /// JSON answer to each POST. There is nothing to say unasked, so GET, which would open a stream, is
 /// refused by 405. `initialize` begins a session (Mcp-Session-Id); DELETE ends it.
 /// Lifetime: context and server outlive it. Thread: the context's. Limits: those of vm::WebDoor and
-/// HttpSession; kMaxSessions, beyond which the one that was silent longest ends.
+/// vm::WebSession; kMaxSessions, beyond which the one that was silent longest ends.
 class McpHttp {
  public:
   static constexpr std::size_t kMaxSessions = 64;
@@ -34,7 +36,7 @@ class McpHttp {
   std::string host() const;
 
  private:
-  const std::shared_ptr<HttpSite> site_;
+  const std::shared_ptr<vm::WebSite> site_;
 };
 
 }  // namespace gateway

@@ -45,7 +45,9 @@ std::optional<std::string> ValueText(const json& value) {
 
 struct McpServer::Question {
   json id;
-  Say say;
+  Say say;  // empty once it is answered or forgotten
+  bool counted = false;
+  GiveUp give_up{};  // while a module is asked for it
 };
 
 struct McpServer::Discovery {
@@ -53,7 +55,7 @@ struct McpServer::Discovery {
   std::size_t slots = 0;  // asked about
   bool failed = false;
   std::map<std::string, SlotTool> tools;
-  std::vector<std::function<void()>> next;
+  std::vector<std::pair<QuestionPtr, std::function<void()>>> next;
 };
 
 vm::Result<McpServer::Allowed> ParseAllowed(std::string_view text) {
@@ -77,10 +79,11 @@ bool McpServer::Speaks(std::string_view revision) {
   return std::ranges::find(kRevisions, revision) != std::end(kRevisions);
 }
 
-bool McpServer::Handle(std::string_view text, Say say) {
-  const auto refuse = [&say](int code, const std::string& why) {
-    Error(std::make_shared<Question>(Question{nullptr, std::move(say)}), code, why);
-    return true;
+McpServer::QuestionPtr McpServer::Handle(std::string_view text, Say say) {
+  const auto question = std::make_shared<Question>(Question{nullptr, std::move(say)});
+  const auto refuse = [&](int code, const std::string& why) {
+    Error(question, code, why);
+    return question;
   };
   const auto message = vm::ParseAnswer(text);
   if (!message) return refuse(kParseError, "no JSON, or nested too deep");
@@ -92,27 +95,38 @@ bool McpServer::Handle(std::string_view text, Say say) {
                   "expected one object {\"jsonrpc\": \"2.0\", \"id\", \"method\", \"params\"}");
   }
   // An answer, though we ask nothing; or a notification: initialized, cancelled.
-  if (!message->contains("method") || !asks) return false;
+  if (!message->contains("method") || !asks) return nullptr;
+  question->id = *id;
   const auto params = message->find("params");
-  Request(std::make_shared<Question>(Question{*id, std::move(say)}), vm::TextAt(*message, "method"),
+  Request(question, vm::TextAt(*message, "method"),
           params != message->end() && params->is_object() ? *params : json::object());
-  return true;
+  return question;
+}
+
+void McpServer::Forget(const QuestionPtr& question) {
+  question->say = nullptr;
+  Leave(*question);
+  if (discovery_) {
+    std::erase_if(discovery_->next, [&](const auto& next) { return next.first == question; });
+  }
+  if (const GiveUp give_up = std::exchange(question->give_up, nullptr)) give_up();
 }
 
 void McpServer::Request(const QuestionPtr& question, const std::string& method,
                         const json& params) {
   if (method == "initialize") return Initialize(question, params);
   if (method == "ping") return Result(question, json::object());
-  if (method == "tools/list") {
-    return Discover([this, question] { List(question); });
+  if (method != "tools/list" && method != "tools/call") {
+    return Error(question, kNoMethod, "there is no method '" + vm::ShownAnswer(method) + "'");
   }
-  if (method == "tools/call") {
-    if (calls_ >= kMaxRunning) {
-      return Error(question, kBusy, std::to_string(kMaxRunning) + " calls are running already");
-    }
-    return Call(question, params);
+  if (running_ >= kMaxRunning) {
+    return Error(question, kBusy,
+                 std::to_string(kMaxRunning) + " calls and listings are running already");
   }
-  Error(question, kNoMethod, "there is no method '" + vm::ShownAnswer(method) + "'");
+  question->counted = true;
+  ++running_;
+  if (method == "tools/call") return Call(question, params);
+  Discover(question, [this, question] { List(question); });
 }
 
 void McpServer::Initialize(const QuestionPtr& question, const json& params) {
@@ -139,7 +153,7 @@ void McpServer::Call(const QuestionPtr& question, const json& params) {
     return CallTool(question, found->second, params);
   }
   // A client may call what an earlier run of ours has listed.
-  Discover([this, question, name, params] {
+  Discover(question, [this, question, name, params] {
     const auto found = tools_.find(name);
     if (found != tools_.end()) return CallTool(question, found->second, params);
     Error(question, kInvalidParams, "there is no tool '" + vm::ShownAnswer(name) + "'");
@@ -164,30 +178,29 @@ void McpServer::CallTool(const QuestionPtr& question, const SlotTool& tool, cons
   if (!vm::IsValid(message)) {
     return Error(question, kInvalidParams, "value: expected one line of at most 60 KiB");
   }
-  ++calls_;
-  Ask(std::move(message), [this, question](vm::Result<std::string> answer) {
-    --calls_;
+  auto give_up = Ask(std::move(message), [this, question](vm::Result<std::string> answer) {
     // What a module refuses is for the model to read and mend, not an error of the protocol.
     Result(question,
            answer ? ToolText(*answer, false) : ToolText(vm::FormatError(answer.error()), true));
   });
+  if (question->say) question->give_up = std::move(give_up);  // else it is answered already
 }
 
-void McpServer::Ask(vm::Message message, OnAnswer on_answer) {
-  ++running_;
-  hooks_.ask(std::move(message), [this, alive = alive_, on_answer = std::move(on_answer)](
-                                     vm::Result<std::string> answer) {
-    if (!*alive) return;
-    --running_;
-    on_answer(std::move(answer));
+McpServer::GiveUp McpServer::Ask(vm::Message message, OnAnswer on_answer) {
+  return hooks_.ask(std::move(message), [alive = alive_, on_answer = std::move(on_answer)](
+                                            vm::Result<std::string> answer) {
+    if (*alive) on_answer(std::move(answer));
   });
 }
 
-void McpServer::Discover(std::function<void()> next) {
+void McpServer::Discover(const QuestionPtr& question, std::function<void()> next) {
   if (complete_) return next();
-  if (discovery_) return discovery_->next.push_back(std::move(next));
+  if (discovery_) {
+    discovery_->next.emplace_back(question, std::move(next));
+    return;
+  }
   const auto discovery = discovery_ = std::make_shared<Discovery>();
-  discovery->next.push_back(std::move(next));
+  discovery->next.emplace_back(question, std::move(next));
   std::set<std::string> modules;
   for (const Allowed& allowed : allowed_) modules.insert(allowed.module);
   ++discovery->open;  // until all have been asked
@@ -233,18 +246,29 @@ void McpServer::Answered(const std::shared_ptr<Discovery>& discovery) {
   tools_ = std::move(discovery->tools);
   complete_ = !discovery->failed;
   discovery_.reset();
-  for (const auto& next : discovery->next) next();
+  for (const auto& [question, next] : discovery->next) next();
+}
+
+void McpServer::Leave(Question& question) {
+  if (std::exchange(question.counted, false)) --running_;
 }
 
 void McpServer::Result(const QuestionPtr& question, json result) {
-  question->say(json{{"jsonrpc", "2.0"}, {"id", question->id}, {"result", std::move(result)}}.dump(
-      -1, ' ', false, json::error_handler_t::replace));
+  Answer(question, {{"jsonrpc", "2.0"}, {"id", question->id}, {"result", std::move(result)}});
 }
 
 void McpServer::Error(const QuestionPtr& question, int code, const std::string& text) {
-  question->say(
-      json{{"jsonrpc", "2.0"}, {"id", question->id}, {"error", {{"code", code}, {"message", text}}}}
-          .dump(-1, ' ', false, json::error_handler_t::replace));
+  Answer(
+      question,
+      {{"jsonrpc", "2.0"}, {"id", question->id}, {"error", {{"code", code}, {"message", text}}}});
+}
+
+void McpServer::Answer(const QuestionPtr& question, json answer) {
+  Leave(*question);
+  question->give_up = nullptr;
+  if (const Say say = std::exchange(question->say, nullptr)) {
+    say(answer.dump(-1, ' ', false, json::error_handler_t::replace));
+  }
 }
 
 }  // namespace gateway

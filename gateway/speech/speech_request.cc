@@ -84,9 +84,9 @@ vm::Result<SpeechRequest> ReadSpeechRequest(std::string_view body) {
     request.set = *found;
   }
   if (const auto fps = json->find("fps"); fps != json->end()) {
-    const long number = fps->is_number_integer() ? fps->get<long>() : 0;
-    if (auto good = CheckLive(16'000, number); !good) return std::unexpected(good.error());
-    request.fps = static_cast<unsigned>(number);
+    const auto live = ReadLive("16000", fps->dump(-1, ' ', true));
+    if (!live) return std::unexpected(live.error());
+    request.fps = live->fps;
   }
   return request;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <utility>
 
@@ -29,14 +30,23 @@ VoiceWorker::~VoiceWorker() {
   thread_.join();
 }
 
-vm::Result<void> VoiceWorker::Speak(SpeechRequest request, Done done) {
+vm::Result<std::uint64_t> VoiceWorker::Speak(SpeechRequest request, Done done) {
   const std::lock_guard lock(mutex_);
   if (jobs_.size() >= kMostWaiting) {
     return vm::Fail(Errc::kLimit, std::to_string(kMostWaiting) + " texts wait for the voice");
   }
-  jobs_.push_back({std::move(request), std::move(done)});
+  jobs_.push_back({++last_number_, std::move(request), std::move(done)});
   wake_.notify_one();
-  return {};
+  return last_number_;
+}
+
+void VoiceWorker::Forget(std::uint64_t text) {
+  Job forgotten;  // its end must not meet the lock
+  const std::lock_guard lock(mutex_);
+  const auto found = std::ranges::find(jobs_, text, &Job::number);
+  if (found == jobs_.end()) return;
+  forgotten = std::move(*found);
+  jobs_.erase(found);
 }
 
 void VoiceWorker::Run() {

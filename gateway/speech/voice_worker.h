@@ -4,6 +4,7 @@
 #include <boost/asio/io_context.hpp>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -34,12 +35,16 @@ class VoiceWorker {
 
   /// Calls `done` once, later; not after the end of this object. Errors of `done`: the voice's own
   /// (kBadValue: there is no such voice), kUnavailable, kTimeout. At once: kLimit, so many wait.
-  vm::Result<void> Speak(SpeechRequest request, Done done);
+  /// Returns the text's number.
+  vm::Result<std::uint64_t> Speak(SpeechRequest request, Done done);
+  /// Nobody waits for that text any more: it is not spoken, unless it is just being.
+  void Forget(std::uint64_t text);
 
  private:
   struct Job {
-    SpeechRequest request;
-    Done done;
+    std::uint64_t number = 0;
+    SpeechRequest request{};
+    Done done{};
   };
   void Run();
   vm::Result<Spoken> Ask(const SpeechRequest& request);
@@ -62,6 +67,7 @@ class VoiceWorker {
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Job> jobs_;
+  std::uint64_t last_number_ = 0;
   bool stopping_ = false;
   std::atomic<bool> cancelled_ = false;
   std::thread thread_;

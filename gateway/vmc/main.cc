@@ -46,9 +46,10 @@ class Sender {
     place_ = place;
     return {};
   }
-  void Send(const std::string& bytes) {
-    boost::system::error_code ignored;
-    socket_.send_to(asio::buffer(bytes), place_, 0, ignored);
+  bool Send(const std::string& bytes) {
+    boost::system::error_code error;
+    socket_.send_to(asio::buffer(bytes), place_, 0, error);
+    return !error;
   }
 
  private:
@@ -66,7 +67,7 @@ class Program final : public vm::Module {
                         .to = to,
                         .real = [&clock] { return clock.real(); },
                         .aim = [this](const std::string& place) { return sender_.Aim(place); },
-                        .send = [this](const std::string& bytes) { sender_.Send(bytes); }}) {
+                        .send = [this](const std::string& bytes) { return sender_.Send(bytes); }}) {
     if (auto aimed = sender_.Aim(to); !aimed)
       throw std::runtime_error("--to: " + aimed.error().text);
   }

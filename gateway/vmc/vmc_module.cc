@@ -5,6 +5,8 @@
 namespace gateway {
 namespace {
 
+constexpr std::size_t kMostSubjectBytes = 64;
+
 struct NamesWord {
   const char* word;
   VmcNames names;
@@ -84,7 +86,15 @@ void VmcModule::Declare() {
   slots_.Declare({.name = "Subject",
                   .grammar = "<word>",
                   .initial = "Galatea",
-                  .help = "The name under which Unreal shows the face (Protocol = LIVELINK)."});
+                  .help = "The name under which Unreal shows the face (Protocol = LIVELINK), at "
+                          "most 64 bytes.",
+                  .on_set = [](const vm::SetValue& value) -> vm::Result<std::string> {
+                    if (value.word(0).size() <= kMostSubjectBytes) return value.word(0);
+                    return vm::Fail(vm::Errc::kTooLong, "found " +
+                                                            std::to_string(value.word(0).size()) +
+                                                            " bytes, expected at most " +
+                                                            std::to_string(kMostSubjectBytes));
+                  }});
   slots_.Declare(
       {.name = "Names",
        .grammar = "VRM0 | VRM1 | PERFECTSYNC",
@@ -125,19 +135,20 @@ void VmcModule::Declare() {
                   .grammar = "<int>",
                   .access = vm::Access::kReadOnly,
                   .initial = "0",
-                  .help = "How many bundles were sent.",
+                  .help = "How many bundles or packets the system took to send; whether they "
+                          "arrived UDP does not tell.",
                   .on_inq = [this] { return std::to_string(sent_); }});
 }
 
 void VmcModule::Send() {
   if (!last_ || !sending_) return;
   const FaceWeights& weights = FaceWeights::Built();
-  options_.send(live_link_ ? LiveLinkPacket(*last_, weights,
-                                            {.id = options_.id,
-                                             .subject = slots_.Value("Subject"),
-                                             .angles = bundle_.bones})
-                           : VmcBundle(*last_, weights, bundle_));
-  ++sent_;
+  const bool sent = options_.send(live_link_ ? LiveLinkPacket(*last_, weights,
+                                                              {.id = options_.id,
+                                                               .subject = slots_.Value("Subject"),
+                                                               .angles = bundle_.bones})
+                                             : VmcBundle(*last_, weights, bundle_));
+  if (sent) ++sent_;
   if (again_timer_ != 0) scheduler_.Cancel(std::exchange(again_timer_, 0));
   if (!options_.real()) return;
   again_timer_ = scheduler_.After(kAgain, [this] {

@@ -24,8 +24,8 @@ class VmcModule final : public vm::Module {
     std::function<bool()> real{};  ///< whether time passes by itself just now
     /// Where bundles go: checked when it is set. kBadValue says what was found and expected.
     std::function<vm::Result<void>(const std::string& to)> aim{};
-    /// Sends one there; what cannot be sent is lost.
-    std::function<void(const std::string& bundle)> send{};
+    /// Sends one there; what cannot be sent is lost. Returns whether the system took it.
+    std::function<bool(const std::string& bundle)> send{};
   };
   VmcModule(vm::Scheduler& scheduler, Options options);
   ~VmcModule() override { Shutdown(); }

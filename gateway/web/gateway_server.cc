@@ -1,7 +1,6 @@
 #include "gateway/web/gateway_server.h"
 
 #include <boost/beast/websocket/rfc6455.hpp>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -16,20 +15,20 @@ namespace beast = boost::beast;
 namespace http = boost::beast::http;
 using std::string_view;
 
-vm::Result<LiveFace::Settings> SettingsOf(string_view target) {
-  const auto number = [target](string_view name, long otherwise) {
-    const auto text = Parameter(target, name);
-    if (!text) return otherwise;
-    long value = -1;
-    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-    return error == std::errc() && end == text->data() + text->size() ? value : -1;
-  };
-  const auto set = WeightSets::Built().Find(Parameter(target, "set").value_or("visemes22"));
+vm::Result<MouthWish> WishOf(string_view target) {
+  const auto set = WeightSets::Built().Find(vm::WebParameter(target, "set").value_or("visemes22"));
   if (!set) return std::unexpected(set.error());
-  const long rate = number("rate", 16'000), fps = number("fps", 50);
-  if (auto good = CheckLive(rate, fps); !good) return std::unexpected(good.error());
-  return LiveFace::Settings{
-      .set = *set, .rate_hz = static_cast<unsigned>(rate), .fps = static_cast<unsigned>(fps)};
+  const auto live = ReadLive(vm::WebParameter(target, "rate").value_or("16000"),
+                             vm::WebParameter(target, "fps").value_or("50"));
+  if (!live) return std::unexpected(live.error());
+  MouthWish wish{.live = {.set = *set, .rate_hz = live->rate_hz, .fps = live->fps}};
+  if (const auto size = vm::WebParameter(target, "pictures")) {
+    const auto pictures =
+        ReadPictureSettings(*size, vm::WebParameter(target, "picture_fps").value_or("25"));
+    if (!pictures) return std::unexpected(pictures.error());
+    wish.pictures = *pictures;
+  }
+  return wish;
 }
 
 http::status StatusOf(vm::Errc code) {
@@ -51,10 +50,10 @@ http::status StatusOf(vm::Errc code) {
 }
 
 /// One connection: answers its requests, or hands it to a WebSocket.
-class GatewaySession final : public HttpSession {
+class GatewaySession final : public vm::WebSession {
  public:
   GatewaySession(std::shared_ptr<GatewayServer::Impl> server, asio::ip::tcp::socket socket)
-      : HttpSession(server, std::move(socket)), server_(std::move(server)) {}
+      : vm::WebSession(server, std::move(socket)), server_(std::move(server)) {}
 
  private:
   void Route() override {
@@ -68,14 +67,20 @@ class GatewaySession final : public HttpSession {
   void ToMouth() {
     if (!beast::websocket::is_upgrade(request()))
       return Refuse(Status::upgrade_required, "a request to /v1/mouth without a WebSocket");
-    const auto settings = SettingsOf(Target());
-    if (!settings) return Refuse(Status::bad_request, settings.error().text);
+    const auto wish = WishOf(Target());
+    if (!wish) return Refuse(Status::bad_request, wish.error().text);
+    const GatewayOptions& options = server_->options;
+    if (wish->pictures && (options.face_command.empty() || server_->faces >= options.faces)) {
+      return Refuse(Status::service_unavailable,
+                    options.face_command.empty()
+                        ? "pictures; there is no face"
+                        : "more than " + std::to_string(options.faces) + " faces");
+    }
     if (server_->clients >= server_->options.clients) {
       return Refuse(Status::service_unavailable,
                     "more than " + std::to_string(server_->options.clients) + " clients");
     }
-    WaitForAnswer();
-    ServeMouth(server_, TakeStream(), request(), *settings);
+    ServeMouth(server_, TakeStream(), request(), *wish);
   }
 
   void Speak() {
@@ -85,23 +90,25 @@ class GatewaySession final : public HttpSession {
       return Refuse(Status::not_found, "a request for speech; there is no voice");
     auto wanted = ReadSpeechRequest(request().body());
     if (!wanted) return Refuse(StatusOf(wanted.error().code), wanted.error().text);
-    WaitForAnswer();  // the voice has a limit of its own
     const auto done = [this, self = shared_from_this()](vm::Result<SpeechAnswer> answer) {
       if (closed()) return;
       if (!answer) return Refuse(StatusOf(answer.error().code), answer.error().text);
       Reply(Status::ok, answer->media_type, std::move(answer->body));
     };
-    if (auto sent = server_->voice->Speak(std::move(*wanted), done); !sent) {
-      Refuse(StatusOf(sent.error().code), sent.error().text);
-    }
+    const auto text = server_->voice->Speak(std::move(*wanted), done);
+    if (!text) return Refuse(StatusOf(text.error().code), text.error().text);
+    // The voice has a limit of its own.
+    WaitForAnswer([server = server_, text = *text] { server->voice->Forget(text); });
   }
 
   /// As OpenAI's API tells errors, so that its clients show them.
-  std::string ErrorBody(Status status, const std::string& what) const override {
+  std::pair<std::string, std::string> ErrorBody(Status status,
+                                                const std::string& what) const override {
     const bool ours = http::to_status_class(status) == http::status_class::server_error;
     const nlohmann::json body{
         {"error", {{"message", what}, {"type", ours ? "server_error" : "invalid_request_error"}}}};
-    return body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return {"application/json",
+            body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
   }
 
   const std::shared_ptr<GatewayServer::Impl> server_;
@@ -112,7 +119,7 @@ class GatewaySession final : public HttpSession {
 GatewayServer::GatewayServer(asio::io_context& io, GatewayOptions options, const vdm::MouthNet& net,
                              VoiceWorker* voice)
     : impl_(std::make_shared<Impl>(io, std::move(options), net, voice)) {
-  OpenDoor(io, impl_->options.at, impl_, [server = std::weak_ptr(impl_)](auto socket) {
+  vm::OpenDoor(io, impl_->options.at, impl_, [server = std::weak_ptr(impl_)](auto socket) {
     return std::make_shared<GatewaySession>(server.lock(), std::move(socket));
   });
 }

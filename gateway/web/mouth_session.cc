@@ -1,10 +1,11 @@
-// One client's WebSocket: sound in, weights out.
+// One client's WebSocket: sound in, weights and pictures out.
 
 #include <boost/asio/post.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket.hpp>
 #include <deque>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "gateway/face/face_messages.h"
@@ -29,29 +30,78 @@ constexpr auto kWriteLimit = std::chrono::seconds(10);
 class MouthSession : public std::enable_shared_from_this<MouthSession> {
  public:
   MouthSession(std::shared_ptr<GatewayServer::Impl> server, beast::tcp_stream stream,
-               const LiveFace::Settings& settings)
+               MouthWish wish)
       : server_(std::move(server)),
         socket_(std::move(stream)),
         write_timer_(server_->io),
-        face_(server_->net, settings) {
+        wish_(std::move(wish)),
+        face_(server_->net, wish_.live) {
     ++server_->clients;
+    if (wish_.pictures) ++server_->faces;
   }
-  ~MouthSession() { --server_->clients; }
+  ~MouthSession() {
+    --server_->clients;
+    if (wish_.pictures) --server_->faces;
+  }
   MouthSession(const MouthSession&) = delete;
 
-  void Start(const HttpRequest& request) {
+  void Start(const vm::WebRequest& request) {
     socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
     socket_.read_message_max(kMaxMessageBytes);
     socket_.async_accept(request, [self = shared_from_this()](const error_code& error) {
       if (error) return;
-      self->Send(ReadyText(self->face_));
+      self->Send(ReadyText(self->face_, self->PicturesReady()));
+      self->StartPictures();
       self->Read();
     });
   }
 
  private:
+  nlohmann::json PicturesReady() const {
+    if (!wish_.pictures) return nlohmann::json::object();
+    return {{"pictures",
+             {{"width", wish_.pictures->width},
+              {"height", wish_.pictures->height},
+              {"fps", wish_.pictures->fps}}}};
+  }
+
+  /// A face that fails is told once; the weights go on.
+  void StartPictures() {
+    if (!wish_.pictures) return;
+    const auto act = [weak = weak_from_this()](auto what) {
+      if (const auto self = weak.lock()) what(*self);
+    };
+    auto started = FacePictures::Start(
+        server_->io, server_->options.face_command, *wish_.pictures,
+        {.picture =
+             [act](std::uint32_t sound, double at_s, const std::string& jpeg) {
+               act([&](MouthSession& self) { self.SendPicture(sound, at_s, jpeg); });
+             },
+         .caught_up = [act] { act([](MouthSession& self) { self.Read(); }); },
+         .failed =
+             [act](const std::string& why) {
+               act([&](MouthSession& self) {
+                 self.Send(ErrorText(why));
+                 self.Read();
+               });
+             }});
+    if (!started) return Send(ErrorText(started.error().text));
+    pictures_ = std::move(*started);
+  }
+
+  /// A slow client gets fewer pictures.
+  void SendPicture(std::uint32_t sound, double at_s, const std::string& jpeg) {
+    if (backlog_ > kMaxBacklog / 4) return;
+    Send(vm::LiveHeader(vm::LivePiece::Kind::kPicture, sound, at_s * 1000) + jpeg, true);
+  }
+
   void Read() {
-    if (reading_ || ended_ || backlog_ > kMaxBacklog) return;
+    const auto held = std::exchange(held_, nullptr);
+    if (reading_ || ended_ || ending_ || backlog_ > kMaxBacklog) return;
+    if (pictures_ && pictures_->behind()) {
+      held_ = shared_from_this();
+      return;
+    }
     reading_ = true;
     socket_.async_read(buffer_, [self = shared_from_this()](const error_code& error, std::size_t) {
       if (error || self->server_->closed) return self->End();
@@ -84,26 +134,36 @@ class MouthSession : public std::enable_shared_from_this<MouthSession> {
     if (!control) return Send(ErrorText(control.error().text));
     if (*control == Control::kClear) {
       face_.Clear();
+      if (pictures_) pictures_->Clear();
       // What was said of the sound and has not gone yet is void, but for the message on its way.
       while (outgoing_.size() > (writing_ ? 1u : 0u)) {
-        backlog_ -= outgoing_.back().size();
+        backlog_ -= outgoing_.back().bytes.size();
         outgoing_.pop_back();
       }
       return Send(ClearedText());
     }
     const double heard_s = face_.heard_s();
     Tell(face_.End());
-    Send(EndText(heard_s));
+    if (!pictures_) return Send(EndText(heard_s));
+    ending_ = true;
+    pictures_->End([self = shared_from_this(), heard_s] {
+      self->ending_ = false;
+      self->Send(EndText(heard_s));
+      self->Read();
+    });
   }
 
   void Tell(const std::vector<LiveFace::Moment>& moments) {
-    for (const auto& moment : moments) Send(FrameText(*face_.settings().set, moment));
+    for (const auto& moment : moments) {
+      Send(FrameText(*face_.settings().set, moment));
+      if (pictures_) pictures_->Add(moment.at_s, moment.mouth);
+    }
   }
 
-  void Send(std::string text) {
+  void Send(std::string bytes, bool binary = false) {
     if (ended_) return;
-    backlog_ += text.size();
-    outgoing_.push_back(std::move(text));
+    backlog_ += bytes.size();
+    outgoing_.push_back({std::move(bytes), binary});
     if (!writing_) Write();
   }
 
@@ -114,11 +174,11 @@ class MouthSession : public std::enable_shared_from_this<MouthSession> {
       const auto self = weak.lock();
       if (!error && self) self->End();
     });
-    socket_.text(true);
-    socket_.async_write(asio::buffer(outgoing_.front()),
+    socket_.binary(outgoing_.front().binary);
+    socket_.async_write(asio::buffer(outgoing_.front().bytes),
                         [self = shared_from_this()](const error_code& error, std::size_t) {
                           self->write_timer_.cancel();
-                          self->backlog_ -= self->outgoing_.front().size();
+                          self->backlog_ -= self->outgoing_.front().bytes.size();
                           self->outgoing_.pop_front();
                           self->writing_ = false;
                           if (error) return self->End();
@@ -136,20 +196,28 @@ class MouthSession : public std::enable_shared_from_this<MouthSession> {
   const std::shared_ptr<GatewayServer::Impl> server_;
   websocket::stream<beast::tcp_stream> socket_;
   asio::steady_timer write_timer_;
+  const MouthWish wish_;
   LiveFace face_;
+  std::unique_ptr<FacePictures> pictures_;
   beast::flat_buffer buffer_;
   std::string message_;    // being worked on
   std::size_t taken_ = 0;  // bytes of it
-  std::deque<std::string> outgoing_;
+  struct Outgoing {
+    std::string bytes;
+    bool binary = false;
+  };
+  std::deque<Outgoing> outgoing_;
   std::size_t backlog_ = 0;  // bytes of it
   bool reading_ = false, writing_ = false, ended_ = false;
+  std::shared_ptr<MouthSession> held_;  // by itself, while pictures are drawn and nothing is read
+  bool ending_ = false;                 // the sound's last pictures are drawn
 };
 
 }  // namespace
 
 void ServeMouth(std::shared_ptr<GatewayServer::Impl> server, beast::tcp_stream stream,
-                const HttpRequest& request, const LiveFace::Settings& settings) {
-  std::make_shared<MouthSession>(std::move(server), std::move(stream), settings)->Start(request);
+                const vm::WebRequest& request, const MouthWish& wish) {
+  std::make_shared<MouthSession>(std::move(server), std::move(stream), wish)->Start(request);
 }
 
 }  // namespace gateway

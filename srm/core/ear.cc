@@ -13,7 +13,8 @@ Ear::Ear(std::unique_ptr<SpeechDecoder> decoder, std::unique_ptr<KeywordSpotter>
       endpointer_(settings,
                   {.begin = [this] { OnBegin(); },
                    .sound = [this](std::span<const std::int16_t> samples) { OnSound(samples); },
-                   .end = [this] { OnEnd(); }}) {}
+                   .end = [this] { OnEnd(); },
+                   .complete = [this] { return IsComplete(); }}) {}
 
 void Ear::Feed(std::span<const std::int16_t> samples) {
   if (spotter_) {
@@ -47,13 +48,26 @@ void Ear::OnSound(std::span<const std::int16_t> samples) {
         Millis(static_cast<std::int64_t>((fed_ - std::min(fed_, samples.size())) / kFramesPerMs));
   }
   utterance_.insert(utterance_.end(), samples.begin(), samples.end());
-  if (utterance_.size() - last_partial_ < kPartialSamples) return;
-  decoder_->Feed(std::span(utterance_).subspan(last_partial_));
+  if (utterance_.size() - last_partial_ >= kPartialSamples) Decode();
+}
+
+void Ear::Decode() {
+  if (last_partial_ < utterance_.size()) {
+    decoder_->Feed(std::span(utterance_).subspan(last_partial_));
+  }
   last_partial_ = utterance_.size();
   std::string text = decoder_->Partial();
   if (text.empty() || text == partial_) return;
   partial_ = std::move(text);
   events_.partial(partial_);
+}
+
+/// The words must not have changed in the last piece of silence.
+bool Ear::IsComplete() {
+  if (!decoding_ || !events_.whole) return false;
+  const std::string before = partial_;
+  Decode();
+  return decoding_ && !partial_.empty() && partial_ == before && events_.whole(partial_);
 }
 
 void Ear::OnEnd() {

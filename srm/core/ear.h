@@ -28,6 +28,8 @@ class Ear {
     std::function<void(const std::string& text)> partial;
     std::function<void(const Heard&)> ended;
     std::function<void(const std::string& phrase)> spotted;
+    /// Whether a text is a whole phrase (Endpointer::Settings::complete). May be empty.
+    std::function<bool(const std::string& text)> whole{};
   };
   /// `spotter` may be null. The grammar must be set by Use before sound comes.
   Ear(std::unique_ptr<SpeechDecoder> decoder, std::unique_ptr<KeywordSpotter> spotter,
@@ -56,6 +58,9 @@ class Ear {
   void OnBegin();
   void OnSound(std::span<const std::int16_t> samples);
   void OnEnd();
+  bool IsComplete();
+  /// Decodes what has come, and tells of other words than before.
+  void Decode();
 
   const std::unique_ptr<SpeechDecoder> decoder_;
   const std::unique_ptr<KeywordSpotter> spotter_;

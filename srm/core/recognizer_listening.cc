@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <sstream>
 #include <utility>
 
 #include "ear/result_report.h"
+#include "embedded/srm_unfinished.h"
 #include "srm/core/recognizer_module.h"
 
 namespace srm {
@@ -43,6 +46,21 @@ std::vector<std::string> HeardWords(const std::string& text) {
       for (std::string& one : ear::WordsOf(word)) words.push_back(std::move(one));
     }
   }
+  return words;
+}
+
+/// Of srm/tables/unfinished.txt.
+const std::set<std::string, std::less<>>& UnfinishedWords() {
+  static const auto words = [] {
+    std::set<std::string, std::less<>> read;
+    std::istringstream lines(std::string(embedded::srm_unfinished()));
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with('#')) continue;
+      std::istringstream row(line);
+      for (std::string word; row >> word;) read.insert(word);
+    }
+    return read;
+  }();
   return words;
 }
 
@@ -238,6 +256,12 @@ void RecognizerModule::Recognize(const std::string& text, const Ear::Heard* hear
   slots_.Report("Result.wordconfidence", heard == nullptr ? "" : WordConfidences(*heard));
   slots_.Report("Result.nbest", NBest(report));
   ear::TellResult(slots_, report, text);
+}
+
+bool RecognizerModule::IsWhole(const std::string& text) const {
+  if (!grammars_.active().empty()) return Understand(text, 1).has_value();
+  const std::vector<std::string> words = HeardWords(text);
+  return !words.empty() && !UnfinishedWords().contains(words.back());
 }
 
 /// What a text means to the first active grammar it fits; without grammars it stands as it is.

@@ -62,7 +62,8 @@ vm::Result<Ear*> RecognizerModule::NeedEar() {
           .began = [this] { OnBegan(); },
           .partial = [this](const std::string& text) { slots_.Report("Result.partial", text); },
           .ended = [this](const Ear::Heard& heard) { OnEnded(heard); },
-          .spotted = [this](const std::string& phrase) { slots_.Report("Spot.heard", phrase); }});
+          .spotted = [this](const std::string& phrase) { slots_.Report("Spot.heard", phrase); },
+          .whole = [this](const std::string& text) { return IsWhole(text); }});
   return ear_.get();
 }
 

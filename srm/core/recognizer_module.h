@@ -76,6 +76,8 @@ class RecognizerModule final : public vm::Module {
   void OnSourceOver();
   /// What was said, as text, until `end`; `heard` is null for typed text.
   void Recognize(const std::string& text, const Ear::Heard* heard, vm::Time end);
+  /// Whether more need not be waited for.
+  bool IsWhole(const std::string& text) const;
   std::optional<ear::Candidate> Understand(const std::string& text, double confidence) const;
   void SetAgentSpeaking(bool speaking);
 

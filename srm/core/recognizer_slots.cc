@@ -25,6 +25,14 @@ void RecognizerModule::DeclareListen() {
                  endpoints_.silence = std::max(ms, Millis{50});
                  if (ear_) ear_->settings().silence = endpoints_.silence;
                });
+  milliseconds("Listen.complete", endpoints_.complete,
+               "After so many ms of silence an utterance is over if its words are a whole phrase: "
+               "one of an active grammar, or, in dictation, one that does not end in a word behind "
+               "which more is said (and, the, my). 0: only Listen.silence counts.",
+               [this](Millis ms) {
+                 endpoints_.complete = ms.count() > 0 ? std::max(ms, Millis{50}) : Millis{0};
+                 if (ear_) ear_->settings().complete = endpoints_.complete;
+               });
   slots_.Declare({.name = "Listen.level",
                   .grammar = "<number 3..40>",
                   .initial = "9",

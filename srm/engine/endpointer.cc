@@ -58,7 +58,7 @@ void Endpointer::Frame(std::span<const std::int16_t> frame) {
     events_.sound(frame);
     length_ += kFrame;
     silence_ = speech ? Millis{0} : silence_ + kFrame;
-    if (silence_ >= settings_.silence || length_ >= settings_.longest) Finish();
+    if (silence_ >= settings_.silence || length_ >= settings_.longest || IsComplete()) Finish();
     return;
   }
   lead_.insert(lead_.end(), frame.begin(), frame.end());
@@ -73,6 +73,12 @@ void Endpointer::Frame(std::span<const std::int16_t> frame) {
   length_ = Millis(static_cast<std::int64_t>(lead.size() / kFramesPerMs));
   events_.begin();
   if (in_speech_) events_.sound(lead);
+}
+
+bool Endpointer::IsComplete() const {
+  const Millis after = silence_ - settings_.complete;
+  return settings_.complete.count() > 0 && events_.complete && after.count() >= 0 &&
+         after % kAskEach == Millis{0} && events_.complete();
 }
 
 void Endpointer::Finish() {

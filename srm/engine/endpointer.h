@@ -18,6 +18,7 @@ class Endpointer {
  public:
   struct Settings {
     Millis silence{500};     ///< after so much of it an utterance is over
+    Millis complete{0};      ///< after so much already if Events::complete says so; 0: never
     Millis onset{60};        ///< speech must last as long to begin one
     Millis lead{300};        ///< sound before the beginning that is handed over with it
     Millis longest{20'000};  ///< an utterance is ended after that
@@ -29,7 +30,11 @@ class Endpointer {
     /// Sound of the utterance, in order; not empty.
     std::function<void(std::span<const std::int16_t>)> sound;
     std::function<void()> end;
+    /// Whether what was said is whole: asked in silence, from Settings::complete on each
+    /// kAskEach. May be empty.
+    std::function<bool()> complete{};
   };
+  static constexpr Millis kAskEach{50};
 
   Endpointer(Settings settings, Events events);
   void Feed(std::span<const std::int16_t> samples);
@@ -44,6 +49,7 @@ class Endpointer {
  private:
   void Frame(std::span<const std::int16_t> frame);
   bool IsSpeech(double level_db);
+  bool IsComplete() const;
 
   Settings settings_;
   const Events events_;

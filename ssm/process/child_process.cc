@@ -80,7 +80,7 @@ ChildProcess::ChildProcess(std::string name, pid_t pid, int in, int out)
 
 ChildProcess::~ChildProcess() {
   CloseInput();
-  close(out_);
+  if (out_ >= 0) close(out_);
   if (reaped_) return;
   kill(-pid_, SIGKILL);
   while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {

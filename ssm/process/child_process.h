@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "vm_protocol/core/result.h"
@@ -45,6 +46,11 @@ class ChildProcess {
   /// Waits for its end; the exit status as a shell gives it (128 + N for signal N).
   vm::Result<int> WaitForEnd(const Wait& wait);
   pid_t pid() const { return pid_; }
+  /// Its output and its input, for somebody who does not wait: the caller closes them, and nothing
+  /// can be read or written here any more.
+  std::pair<int, int> TakeDescriptors() {
+    return {std::exchange(out_, -1), std::exchange(in_, -1)};
+  }
 
  private:
   ChildProcess(std::string name, pid_t pid, int in, int out);

@@ -8,9 +8,9 @@
 namespace vxml::fetch {
 namespace {
 
-std::string Header(const HttpResponse& response, const std::string& name) {
-  const auto found = response.headers.find(name);
-  return found == response.headers.end() ? "" : found->second;
+std::string Header(const vm::HttpAnswer& response, const std::string& name) {
+  const auto found = response.head.headers.find(name);
+  return found == response.head.headers.end() ? "" : found->second;
 }
 
 /// The directive's number in Cache-Control, or -1 where it stands without one.
@@ -42,7 +42,7 @@ long long Number(const std::string& text) {
   return value;
 }
 
-CacheEntry Describe(const HttpResponse& response, long long now) {
+CacheEntry Describe(const vm::HttpAnswer& response, long long now) {
   CacheEntry entry;
   entry.response = response;
   entry.stored_at = now;
@@ -91,7 +91,7 @@ const CacheEntry* HttpCache::Find(const std::string& uri) {
   return &found->second->entry;
 }
 
-void HttpCache::Store(const std::string& uri, const HttpResponse& response, long long now) {
+void HttpCache::Store(const std::string& uri, const vm::HttpAnswer& response, long long now) {
   Drop(uri);
   if (Directive(Header(response, "cache-control"), "no-store")) return;
   if (Header(response, "vary") == "*" || response.body.size() > max_bytes_) return;
@@ -101,13 +101,13 @@ void HttpCache::Store(const std::string& uri, const HttpResponse& response, long
   while (bytes_ > max_bytes_) Drop(std::string(items_.back().uri));
 }
 
-const CacheEntry* HttpCache::Refresh(const std::string& uri, const HttpResponse& not_modified,
+const CacheEntry* HttpCache::Refresh(const std::string& uri, const vm::HttpAnswer& not_modified,
                                      long long now) {
   const auto found = by_uri_.find(uri);
   if (found == by_uri_.end()) return nullptr;
-  HttpResponse merged = found->second->entry.response;
-  for (const auto& [name, value] : not_modified.headers) merged.headers[name] = value;
-  if (!not_modified.headers.contains("age")) merged.headers.erase("age");
+  vm::HttpAnswer merged = found->second->entry.response;
+  for (const auto& [name, value] : not_modified.head.headers) merged.head.headers[name] = value;
+  if (!not_modified.head.headers.contains("age")) merged.head.headers.erase("age");
   found->second->entry = Describe(merged, now);
   return &found->second->entry;
 }

@@ -5,13 +5,13 @@
 #include <optional>
 #include <string>
 
-#include "task_manager/fetch/http.h"
+#include "vm_protocol/http/http_caller.h"
 
 namespace vxml::fetch {
 
 /// A stored answer and what is known of its age (RFC 9111). Times are seconds since the epoch.
 struct CacheEntry {
-  HttpResponse response;
+  vm::HttpAnswer response;
   long long stored_at = 0;
   long long age_at_store = 0;
   long long lifetime = 0;  ///< how long it is fresh
@@ -26,9 +26,9 @@ class HttpCache {
   explicit HttpCache(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
   const CacheEntry* Find(const std::string& uri);
-  void Store(const std::string& uri, const HttpResponse& response, long long now);
+  void Store(const std::string& uri, const vm::HttpAnswer& response, long long now);
   /// A 304 came: the stored answer is fresh again.
-  const CacheEntry* Refresh(const std::string& uri, const HttpResponse& not_modified,
+  const CacheEntry* Refresh(const std::string& uri, const vm::HttpAnswer& not_modified,
                             long long now);
   void Drop(const std::string& uri);
 

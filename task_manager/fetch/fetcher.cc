@@ -1,14 +1,16 @@
 #include "task_manager/fetch/fetcher.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
 #include "task_manager/fetch/cache.h"
-#include "task_manager/fetch/http.h"
 #include "task_manager/fetch/uri.h"
+#include "vm_protocol/http/http_caller.h"
+#include "vm_protocol/http/multipart.h"
 #include "vm_protocol/runtime/base64.h"
 
 namespace vxml::fetch {
@@ -63,6 +65,18 @@ std::string TypeOfName(const std::string& path) {
   return found == kTypes.end() ? "" : found->second;
 }
 
+void SetBody(const Request& request, vm::HttpRequest& http) {
+  if (!request.multipart) {
+    http.body = FormEncode(request.fields);
+    http.headers.push_back("Content-Type: application/x-www-form-urlencoded");
+    return;
+  }
+  std::vector<vm::FormPart> parts;
+  for (const Field& field : request.fields)
+    parts.push_back({field.name, field.value, field.file_name, field.content_type});
+  vm::SetForm(parts, http);
+}
+
 }  // namespace
 
 struct Fetcher::Cache : HttpCache {
@@ -81,7 +95,7 @@ std::string FormEncode(const std::vector<Field>& fields) {
 Fetcher::Fetcher(Options options)
     : options_(std::move(options)),
       cache_(std::make_unique<Cache>(options_.cache_bytes)),
-      cookies_(std::make_unique<Cookies>()) {
+      http_(std::make_unique<vm::HttpCaller>("", true)) {
   if (!options_.now) {
     options_.now = [] {
       return std::chrono::duration_cast<std::chrono::seconds>(
@@ -184,31 +198,26 @@ std::expected<Response, Failure> Fetcher::FetchHttp(const Request& request) {
     if (!Allowed(uri)) {
       return Refuse(vm::Errc::kAccess, uri + ": outside of the places fetching is allowed from");
     }
-    HttpRequest http;
-    http.uri = uri;
-    http.post = post;
-    http.multipart = request.multipart;
-    if (post) http.fields = request.fields;
-    http.max_bytes = options_.max_bytes;
-    http.user_agent = options_.user_agent;
-    http.timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
+    vm::HttpRequest http{.url = uri, .max_bytes = options_.max_bytes, .unpacked = true};
+    if (post) SetBody(request, http);
+    http.limit = std::chrono::duration_cast<std::chrono::milliseconds>(
         deadline - std::chrono::steady_clock::now());
-    if (http.timeout.count() <= 0) return Refuse(vm::Errc::kTimeout, uri + ": timed out");
+    if (http.limit.count() <= 0) return Refuse(vm::Errc::kTimeout, uri + ": timed out");
     const CacheEntry* stored = post ? nullptr : cache_->Find(uri);
-    const auto answer = [&](const HttpResponse& from, bool cached) {
+    const auto answer = [&](const vm::HttpAnswer& from, bool cached) {
       Response response;
       response.body = from.body;
       response.uri = uri;
       response.from_cache = cached;
-      const auto type = from.headers.find("content-type");
-      if (type != from.headers.end()) SplitType(type->second, response);
+      const auto type = from.head.headers.find("content-type");
+      if (type != from.head.headers.end()) SplitType(type->second, response);
       return response;
     };
     if (stored && Usable(*stored, options_.now(), request.max_age, request.max_stale)) {
       return answer(stored->response, true);
     }
     if (stored) {
-      const auto& headers = stored->response.headers;
+      const auto& headers = stored->response.head.headers;
       if (const auto tag = headers.find("etag"); tag != headers.end()) {
         http.headers.push_back("If-None-Match: " + tag->second);
       }
@@ -216,24 +225,27 @@ std::expected<Response, Failure> Fetcher::FetchHttp(const Request& request) {
         http.headers.push_back("If-Modified-Since: " + date->second);
       }
     }
-    auto got = Exchange(http, *cookies_);
-    if (!got) return std::unexpected(got.error());
-    if (got->status == 304 && stored) {
+    static const std::atomic<bool> kNeverCancelled = false;
+    auto got = post ? http_->Post(http, http.limit, kNeverCancelled)
+                    : http_->Get(http, http.limit, kNeverCancelled);
+    if (!got) return Refuse(got.error().code, uri + ": " + got.error().text);
+    const int status = got->head.status;
+    if (status == 304 && stored) {
       return answer(cache_->Refresh(uri, *got, options_.now())->response, true);
     }
-    const auto location = got->headers.find("location");
-    if (got->status >= 300 && got->status < 400 && location != got->headers.end()) {
+    const auto location = got->head.headers.find("location");
+    if (status >= 300 && status < 400 && location != got->head.headers.end()) {
       uri = WithoutFragment(Resolve(uri, location->second));
       const std::string scheme = Scheme(uri);
       if (scheme != "http" && scheme != "https") {
         return Refuse(vm::Errc::kAccess, uri + ": a redirection out of http");
       }
-      if (got->status != 307 && got->status != 308) post = false;
+      if (status != 307 && status != 308) post = false;
       continue;
     }
-    if (got->status < 200 || got->status >= 300) {
-      return Refuse(vm::Errc::kUnavailable, uri + ": HTTP status " + std::to_string(got->status),
-                    got->status);
+    if (status < 200 || status >= 300) {
+      return Refuse(vm::Errc::kUnavailable, uri + ": HTTP status " + std::to_string(status),
+                    status);
     }
     if (!post) cache_->Store(uri, *got, options_.now());
     return answer(*got, false);

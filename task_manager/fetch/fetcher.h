@@ -11,9 +11,11 @@
 #include "task_manager/fetch/uri.h"
 #include "vm_protocol/core/result.h"
 
-namespace vxml::fetch {
+namespace vm {
+class HttpCaller;
+}
 
-class Cookies;
+namespace vxml::fetch {
 
 /// What the configuration allows and how much one fetch may cost.
 struct Options {
@@ -23,7 +25,6 @@ struct Options {
   std::size_t max_bytes = std::size_t{16} << 20;
   std::chrono::milliseconds default_timeout{10'000};
   std::size_t cache_bytes = std::size_t{64} << 20;
-  std::string user_agent = "Galatea/" GALATEA_VERSION;
   /// Seconds since the epoch, for the cache; the system's clock if empty.
   std::function<long long()> now{};
 };
@@ -86,7 +87,7 @@ class Fetcher {
   Options options_;
   std::vector<Place> roots_;
   std::unique_ptr<Cache> cache_;
-  std::unique_ptr<Cookies> cookies_;
+  std::unique_ptr<vm::HttpCaller> http_;
 };
 
 /// name=value&... in UTF-8 (application/x-www-form-urlencoded).

@@ -72,7 +72,7 @@ AgentPlatform::AgentPlatform(HubLink& hub, Options options)
   hub_.client().On("Listen.stat", [this](const vm::Message& m) {
     if (m.from == options_.ear) hearing_ = m.value == "SPEECH";
   });
-  for (const char* const slot : {"Busy", "Heard", "Reply.sentence", "Reply"}) {
+  for (const char* const slot : {"Busy", "Heard", "Reply.sentence", "Reply", "Talk.over"}) {
     hub_.client().On(slot, [this](const vm::Message& m) {
       if (talk_ && m.from == options_.chat) talk_->OnReport(m);
     });

@@ -56,7 +56,7 @@ struct HubLink::Channel {
 };
 
 HubLink::HubLink(const HubAddress& hub, const std::string& name, bool keyboard)
-    : keyboard_(keyboard), channel_(std::make_unique<Channel>(hub)) {
+    : name_(name), keyboard_(keyboard), channel_(std::make_unique<Channel>(hub)) {
   client_ =
       std::make_unique<vm::Client>([this](std::string_view line) { Send(std::string(line)); });
   channel_->stream->Start(

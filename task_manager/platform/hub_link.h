@@ -31,6 +31,8 @@ class HubLink {
   HubLink& operator=(const HubLink&) = delete;
 
   vm::Client& client() { return *client_; }
+  /// Ours at the hub.
+  const std::string& name() const { return name_; }
   void Send(const std::string& line);
   /// Hands over what was sent, before work that takes long.
   void Flush();
@@ -76,6 +78,7 @@ class HubLink {
   struct Channel;
   static constexpr std::size_t kMostTyped = 1000;
   static constexpr std::size_t kMostTypedBytes = std::size_t{64} << 10;  ///< of one line
+  const std::string name_;
   bool keyboard_;
   std::unique_ptr<Channel> channel_;
   bool keys_from_file_ = false;

@@ -31,7 +31,7 @@ TalkResult::Kind KindOf(vm::Errc code) {
   }
 }
 
-/// "SILENCE 3 see you" of slot Talk.
+/// "SILENCE 3 see you" of slot Talk.over.
 void ReadEnd(const std::string& value, TalkResult& result) {
   const std::size_t blank = value.find(' ');
   result.reason = Lower(value.substr(0, blank));
@@ -60,18 +60,25 @@ void LentConversation::Begin(const TalkRequest& request, Millis silence) {
     if (!set) return Fail(set.error());
   }
   auto message = vm::ParseMessage(to_chat + "Talk = " + std::to_string(request.turns) + " " +
-                                  std::to_string(silence.count()));
+                                  std::to_string(silence.count()) + " " + hub_.name());
   if (!message) return Fail(message.error());
   begun_ = true;
   hub_.client().Request(*message, [this, alive = alive_](const vm::Result<std::string>& answer) {
-    if (*alive) OnEnd(answer);
+    if (*alive) OnAnswer(answer);
   });
 }
 
-void LentConversation::OnEnd(const vm::Result<std::string>& answer) {
+void LentConversation::OnAnswer(const vm::Result<std::string>& answer) {
   if (!answer) return Fail(answer.error());
+  lent_ = true;  // what Talk.over tells before this is the end of another
+}
+
+void LentConversation::OnOver(const std::string& end) {
+  constexpr std::string_view kFailed = "FAILED ";
+  if (!lent_ || over_) return;
+  if (end.starts_with(kFailed)) return Fail(vm::ParseError(end.substr(kFailed.size())));
   over_ = true;
-  ReadEnd(*answer, result_);
+  ReadEnd(end, result_);
 }
 
 void LentConversation::Fail(const vm::Error& error) {
@@ -81,6 +88,7 @@ void LentConversation::Fail(const vm::Error& error) {
 }
 
 void LentConversation::OnReport(const vm::Message& message) {
+  if (message.slot == "Talk.over") return OnOver(message.value);
   const bool user = message.slot == "Heard";
   if (message.slot == "Busy") idle_ = message.value == "IDLE";
   if (user) ++heard_;

@@ -38,7 +38,8 @@ class LentConversation {
   TalkResult Take();
 
  private:
-  void OnEnd(const vm::Result<std::string>& answer);
+  void OnAnswer(const vm::Result<std::string>& answer);
+  void OnOver(const std::string& end);
   void Fail(const vm::Error& error);
 
   HubLink& hub_;
@@ -50,6 +51,7 @@ class LentConversation {
   bool idle_ = true;
   bool begun_ = false;
   bool over_ = false;
+  bool lent_ = false;
   /// Answers that come after the end of this object are nobody's.
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
 };

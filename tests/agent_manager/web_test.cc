@@ -86,6 +86,8 @@ TEST_F(WebTest, OnlyTheTokenOpensThePage) {
   EXPECT_EQ(StatusOf("/?token=wrong", Host()), "401");
   EXPECT_EQ(StatusOf("/", Host() + "Cookie: " + CookieName() + "=\r\n"), "401");
   EXPECT_EQ(StatusOf("/ws", Host() + Socket("http://" + host_)), "401");
+  EXPECT_EQ(StatusOf("/", Host() + "Authorization: bearer " + kToken + "\r\n"), "200");
+  EXPECT_EQ(StatusOf("/", "Host: LOCALHOST:" + std::to_string(port_) + "\r\n" + Cookie()), "200");
   EXPECT_TRUE(hub_->ExpectError("web page: refused a request without the token from 127.0.0.1"));
   const auto first = Open("/?token=" + kToken, Host());
   EXPECT_TRUE(first->Expect("303 See Other"));
@@ -109,7 +111,7 @@ TEST_F(WebTest, NoPathLeadsOutOfThePage) {
 TEST_F(WebTest, OtherSitesAndHostsAreRefused) {
   EXPECT_EQ(StatusOf("/", "Host: evil.example\r\n" + Cookie()), "421");
   EXPECT_EQ(StatusOf("/ws", Host() + Cookie() + Socket("http://evil.example")), "403");
-  EXPECT_TRUE(hub_->ExpectError("a WebSocket from the site http://evil.example"));
+  EXPECT_TRUE(hub_->ExpectError("a page of the site http://evil.example"));
   EXPECT_EQ(StatusOf("/ws", Host() + Cookie() + Socket("http://" + host_)), "101");
 }
 

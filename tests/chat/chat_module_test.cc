@@ -17,8 +17,22 @@ TEST(ChatModuleTest, ItMeetsTheHubAndStartsTheEar) {
   ChatWorld world;
   EXPECT_EQ(world.lines.at(0), "0 to @AM set#c1 Subscribe = SRM SSM");
   EXPECT_EQ(world.Lines("to @SRM"),
-            (Lines{"0 to @SRM set Grammar = NONE", "0 to @SRM set Run = START"}));
+            (Lines{"0 to @SRM set Grammar = NONE", "0 to @SRM inq#c3 Slots",
+                   "0 to @SRM set Run = START", "0 to @SRM set Listen.complete = 250"}));
   EXPECT_EQ(world.Lines("Gaze"), Lines{"0 to @FSM set Gaze = USER"});
+}
+
+TEST(ChatModuleTest, TheEarHurriesOnlyWhileItListensForAConversation) {
+  ChatWorld world;
+  const auto last = [&world] { return world.Lines("Listen.complete").back(); };
+  world.Tell("set Listen.pause = 300");
+  EXPECT_TRUE(last().ends_with("= 300"));
+  world.Tell("set Listen = OFF");
+  EXPECT_TRUE(last().ends_with("= 0"));
+  world.Tell("set#t Talk = 2 0");
+  EXPECT_TRUE(last().ends_with("= 300"));
+  world.Tell("set Talk = STOP");
+  EXPECT_TRUE(last().ends_with("= 0"));
 }
 
 TEST(ChatModuleTest, WithoutAHubItAnswersInWords) {
@@ -35,9 +49,9 @@ TEST(ChatModuleTest, RulesAnswerSentenceBySentenceToTheMillisecond) {
   world.Ear("Result = Hello!");
   world.UntilIdle();
   // "Hello!" lasts 6 x 50 ms, after 60 ms of preparation.
-  EXPECT_EQ(world.Lines("Speak ="), (Lines{"100 to @AM-MCL set#c3 Speak = Hello!",
-                                           "460 to @AM-MCL set#c4 Speak = I am Galatea.",
-                                           "1170 to @AM-MCL set#c5 Speak = How are you today?"}));
+  EXPECT_EQ(world.Lines("Speak ="), (Lines{"100 to @AM-MCL set#c4 Speak = Hello!",
+                                           "460 to @AM-MCL set#c5 Speak = I am Galatea.",
+                                           "1170 to @AM-MCL set#c6 Speak = How are you today?"}));
   EXPECT_EQ(world.Lines("Text.next"), (Lines{"160 to @SSM set Text.next = I am Galatea.",
                                              "520 to @SSM set Text.next = How are you today?"}));
   EXPECT_EQ(world.Lines("Emotion"), Lines{"100 to @AM-MCL set Emotion = HAPPY 90"});
@@ -65,7 +79,7 @@ TEST(ChatModuleTest, AModelsWordsAreSpokenWhileTheRestStillComes) {
   world.Until(300);
   world.net.Words("ere. [nod]My na");
   world.clock.RunReady();
-  EXPECT_EQ(world.Lines("Speak ="), Lines{"300 to @AM-MCL set#c3 Speak = Hello there."});
+  EXPECT_EQ(world.Lines("Speak ="), Lines{"300 to @AM-MCL set#c4 Speak = Hello there."});
   world.Until(400);
   world.net.Words("me is G.");
   world.net.Done();
@@ -85,7 +99,7 @@ TEST(ChatModuleTest, ASentenceIsNotHeldBackWhenTheModelStallsBehindIt) {
   world.Until(149);
   EXPECT_TRUE(world.Lines("Speak =").empty());
   world.Until(150);
-  EXPECT_EQ(world.Lines("Speak ="), Lines{"150 to @AM-MCL set#c3 Speak = Hello."});
+  EXPECT_EQ(world.Lines("Speak ="), Lines{"150 to @AM-MCL set#c4 Speak = Hello."});
 }
 
 TEST(ChatModuleTest, TagsWithinASentenceHappenWhereTheVoicePassesThem) {
@@ -93,7 +107,7 @@ TEST(ChatModuleTest, TagsWithinASentenceHappenWhereTheVoicePassesThem) {
   world.Tell("set Say = Good [nod] day.");
   world.UntilIdle();
   EXPECT_EQ(world.Lines("Speak ="),
-            Lines{"0 to @AM-MCL set#c3 Speak = Good <BOOKMARK MARK=\"chat1x0\"/>day."});
+            Lines{"0 to @AM-MCL set#c4 Speak = Good <BOOKMARK MARK=\"chat1x0\"/>day."});
   EXPECT_EQ(world.Lines("FaceMot"), Lines{"310 to @FSM set FaceMot = NOD 1"});
 }
 
@@ -361,6 +375,31 @@ TEST(ChatModuleTest, AModelThatDoesNotAnswerEndsALentConversationAsAnError) {
       << world.Lines("rep#t").at(0);
   world.Tell("set#u Talk = 9 0");
   EXPECT_TRUE(world.Lines("rep#u").empty()) << "it can be lent again";
+}
+
+TEST(ChatModuleTest, AConversationEndsWithWhoeverHasBorrowedIt) {
+  ChatWorld world;
+  world.modules = "SSM SRM DM CHAT";
+  const auto ends = [&world] { return world.Lines("rep Talk.over"); };
+  world.Tell("set Listen = OFF");
+  world.Tell("set#t Talk = 9 0 DM");
+  EXPECT_TRUE(world.Lines("rep#t").at(0).ends_with("Talk = LENT"));
+  EXPECT_EQ(world.Lines("set Subscribe = SRM SSM AM").size(), 1u);
+  world.Ear("Result = Hello!");
+  world.Tell("From @AM tell @DM2 has gone: end of input");
+  EXPECT_TRUE(ends().empty());
+  world.Tell("From @AM tell @DM has gone: end of input");
+  world.UntilIdle();
+  EXPECT_TRUE(ends().at(0).ends_with("= STOPPED 1 Hello!"));
+  EXPECT_TRUE(world.Lines("Subscribe").back().ends_with("set Subscribe = SRM SSM"));
+  world.Tell("set#u Talk = 9 0 NOBODY");
+  world.UntilIdle();
+  EXPECT_TRUE(ends().at(1).ends_with("= STOPPED 0")) << "it had gone before";
+  world.Tell("set#v Talk = 9 0 DM");
+  world.UntilIdle();
+  EXPECT_TRUE(world.Lines("rep#v").at(0).ends_with("= LENT")) << "it can be lent again";
+  EXPECT_EQ(ends().size(), 2u);
+  EXPECT_EQ(world.Lines("rep#t").size(), 1u) << "answered once";
 }
 
 TEST(ChatModuleTest, ALongReplyFitsIntoItsLines) {

@@ -73,7 +73,8 @@ class ChatWorld {
   std::unique_ptr<chat::ChatModule> module;
   std::vector<std::string> lines, errors;
   bool voice_is_there = true;
-  std::string refused_slots;  ///< answers to tools
+  std::string refused_slots;             ///< answers to tools
+  std::string modules = "SSM SRM CHAT";  ///< at the hub
 
  private:
   void Answer(const vm::Message& asked, const std::string& value) {
@@ -91,6 +92,8 @@ class ChatWorld {
   void OnHub(const vm::Message& message) {
     if (message.slot == "Speak" && message.to[0] == "AM-MCL") return OnSpeak(message);
     if (message.slot == "Speak.spoken") return Answer(message, spoken_words_);
+    if (message.slot == "Slots") return Answer(message, "Run Listen Listen.complete");
+    if (message.slot == "Modules") return Answer(message, modules);
     if (message.slot == "Life") return Answer(message, "LIVELY");
     if (message.to[0] == "LAMP") return Refuse(message, "BAD_VALUE no such light");
     if (message.command == vm::Command::kSet) Answer(message, message.value);

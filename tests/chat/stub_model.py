@@ -76,13 +76,15 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.wfile.write(text.encode() if isinstance(text, str) else text)
         self.wfile.flush()
 
-    def delta(self, delta):
-        self.raw("data: " + json.dumps({"choices": [{"index": 0, "delta": delta}]}) + "\n\n")
+    def delta(self, delta, reason=None):
+        self.raw("data: " + json.dumps({"object": "chat.completion.chunk",
+                                        "choices": [{"index": 0, "delta": delta, "finish_reason": reason}]}) + "\n\n")
 
     def say(self, text):
         self.delta({"content": text})
 
     def end(self):
+        self.delta({}, "stop")
         self.raw("data: [DONE]\n\n")
 
     def answer(self):

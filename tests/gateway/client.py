@@ -7,6 +7,7 @@ Over a WebSocket a step is
     until:TYPE           prints what comes until a message of that type, which is printed, too
     flood:BYTES          so many bytes of sound, without reading anything; `cut off` is printed if the other end closes meanwhile
     end                  prints what comes until the connection ends
+A picture is printed as {"type": "picture", "sound", "t", ...}, and kept as SOUND_MS.jpg in the folder that PICTURES names, if it does.
 A status other than 101 is printed as `status CODE` and ends it. Over HTTP the body is posted: `status CODE TYPE` is printed, then
 the answer (its length where it is no text).
 """
@@ -22,6 +23,7 @@ import urllib.parse
 import urllib.request
 
 LIMIT_S = 60
+FOLDER = os.environ.get("PICTURES")
 CUT_OFF = (ConnectionResetError, BrokenPipeError)
 
 
@@ -67,7 +69,8 @@ class WebSocket:
         return taken
 
     def read(self):
-        """The next text; None at the end."""
+        """The next message, a picture as text about it; None at the end."""
+        whole, kind = b"", 0
         while True:
             try:
                 first, second = self.take(2)
@@ -79,12 +82,26 @@ class WebSocket:
                 payload = self.take(length)
             except (EOFError, *CUT_OFF):
                 return None
-            if first & 15 == 8:
+            opcode = first & 15
+            if opcode == 8:
                 return None
-            if first & 15 == 9:
+            if opcode == 9:
                 self.send(10, payload)
-            elif first & 15 == 1:
+            if opcode > 2:
+                continue
+            whole, kind = whole + payload, opcode or kind  # 0 goes on with the message
+            if not first & 128:
+                continue
+            payload, whole = whole, b""
+            if kind == 1:
                 return payload.decode()
+            if kind == 2:
+                kind, sound, ms = struct.unpack("<B3xId", payload[:16])
+                if FOLDER:
+                    with open(f"{FOLDER}/{sound}_{round(ms):06}.jpg", "wb") as file:
+                        file.write(payload[16:])
+                return json.dumps({"type": "picture", "kind": kind, "sound": sound, "t": ms / 1000, "bytes": len(payload) - 16,
+                                   "jpeg": payload[16:19] == b"\xff\xd8\xff" and payload[-2:] == b"\xff\xd9"})
 
 
 def follow(url, steps):

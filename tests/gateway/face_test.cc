@@ -194,10 +194,18 @@ TEST(LiveFaceTest, ClearBeginsAnew) {
 }
 
 TEST(LiveFaceTest, OddRatesAndPacesAreRefused) {
-  EXPECT_TRUE(CheckLive(24'000, 50));
-  EXPECT_EQ(CheckLive(22'050, 50).error().text,
-            "rate 22050 found, 8000, 16000, 24000, 44100 or 48000 expected");
-  EXPECT_EQ(CheckLive(16'000, 30).error().text, "fps 30 found, 20, 25, 50 or 100 expected");
+  const auto live = ReadLive("24000", "50");
+  ASSERT_TRUE(live);
+  EXPECT_EQ(live->rate_hz, 24'000u);
+  EXPECT_EQ(live->fps, 50u);
+  EXPECT_EQ(ReadLive("22050", "50").error().text,
+            "rate: found '22050', expected one of 8000, 16000, 24000, 44100, 48000");
+  EXPECT_EQ(ReadLive("huge", "50").error().text,
+            "rate: found 'huge', expected one of 8000, 16000, 24000, 44100, 48000");
+  EXPECT_EQ(ReadLive("16000", "30").error().text,
+            "fps: found '30', expected one of 20, 25, 50, 100");
+  EXPECT_FALSE(ReadLive("16000", "50 "));
+  EXPECT_FALSE(ReadLive("", "50"));
 }
 
 TEST(FaceMessagesTest, FramesAreJsonWithTimeAndWeights) {

@@ -15,7 +15,9 @@ class McpProgramTest : public testing::Test {
   McpProgramTest() {
     std::ofstream(folder_ / "c.json")
         << R"({"listen": ["unix:)" << (folder_ / "hub")
-        << R"("], "modules": [{"name": "SSM", "command": [")" GALATEA_BIN_DIR R"(/ssm_stub"]}]})";
+        << R"("], "modules": [{"name": "SSM", "command": [")" GALATEA_BIN_DIR
+           R"(/ssm_stub"]}, {"name": "DEAF", "command": ["sh", "-c",
+           "echo rep Run = LIVE; exec sleep 1000"]}]})";
     hub_ = std::make_unique<Process>(
         std::vector<std::string>{GALATEA_BIN_DIR "/agent_manager", "--config", folder_ / "c.json"});
     hub_->WriteLine("to @SSM inq#1 Speak.stat");
@@ -49,6 +51,16 @@ TEST_F(McpProgramTest, OverHttpTheSameConversationIsHeldAndStrangersAreRefused) 
   }
   mcp.Terminate();
   EXPECT_EQ(mcp.Wait(), 0) << mcp.ErrorText();
+}
+
+TEST_F(McpProgramTest, ClientsWhoGoLeaveTheirPlacesAtOnceThoughAModuleNeverAnswers) {
+  Process mcp({GALATEA_BIN_DIR "/mcp", "--connect", "unix:" + (folder_ / "hub"), "--allow",
+               "@DEAF *", "--http", "tcp:127.0.0.1:0"});
+  const std::string url = mcp.ReadLine().value_or("");
+  Process crowd({"python3", GALATEA_SOURCE_DIR "/tests/gateway/mcp_crowd.py", url});
+  crowd.CloseInput();
+  EXPECT_TRUE(crowd.Expect("ok")) << crowd.Seen() << crowd.ErrorText() << mcp.ErrorText();
+  EXPECT_EQ(crowd.Wait(), 0);
 }
 
 TEST_F(McpProgramTest, HttpForOtherMachinesNeedsATokenOfItsOwn) {

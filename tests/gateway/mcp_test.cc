@@ -61,10 +61,13 @@ TEST(SlotToolTest, WhatIsNoAllowanceIsNamed) {
 /// A hub of two modules, played by the test.
 class McpServerTest : public testing::Test {
  protected:
-  void Ask(const vm::Message& message, const McpServer::OnAnswer& on_answer) {
+  McpServer::GiveUp Ask(const vm::Message& message, const McpServer::OnAnswer& on_answer) {
     const std::string line = vm::FormatMessage(message);
     asked_.push_back(line);
-    if (hold_) return held_.push_back(on_answer);
+    if (hold_) {
+      held_.push_back(on_answer);
+      return [this] { ++given_up_; };
+    }
     const std::map<std::string, std::string> known{
         {"to @SSM inq Slots", "Rate Text Text.pho SaveWAV"},
         {"to @SSM inq Rate.help", "Speed of speech. Value: <number 0.25..4>"},
@@ -77,13 +80,18 @@ class McpServerTest : public testing::Test {
         {"to @SSM set Rate = 1.5", "1.5"},
         {"to @SSM inq Rate", "1"}};
     const auto found = known.find(line);
-    if (found != known.end()) return on_answer(found->second);
-    on_answer(vm::Fail(vm::Errc::kUnknownModule, "no such thing"));
+    if (found != known.end()) {
+      on_answer(found->second);
+    } else {
+      on_answer(vm::Fail(vm::Errc::kUnknownModule, "no such thing"));
+    }
+    return [] {};
   }
   json Say(const json& message) { return SayText(message.dump()); }
   json SayText(const std::string& text) {
     said_.clear();
-    server_.Handle(text, [this](const std::string& answer) { said_.push_back(answer); });
+    question_ =
+        server_.Handle(text, [this](const std::string& answer) { said_.push_back(answer); });
     return said_.empty() ? json() : json::parse(said_.back());
   }
   json Request(const std::string& method, json params = json::object()) {
@@ -94,11 +102,13 @@ class McpServerTest : public testing::Test {
   }
 
   Lines asked_, said_;
+  McpServer::QuestionPtr question_;  // the last
+  int given_up_ = 0;
   bool hold_ = false;
   std::vector<McpServer::OnAnswer> held_;
   McpServer server_{{{"SSM", "Rate"}, {"SSM", "Text*"}},
                     {.ask = [this](const vm::Message& message, const auto& on_answer) {
-                      Ask(message, on_answer);
+                      return Ask(message, on_answer);
                     }}};
 };
 
@@ -174,10 +184,49 @@ TEST_F(McpServerTest, MoreCallsThanAllowedAtATimeAreRefused) {
   EXPECT_TRUE(Call("SSM_Rate", json::object()).contains("result"));
 }
 
+TEST_F(McpServerTest, TheLimitHoldsBeforeTheFirstListingAndForListings) {
+  hold_ = true;
+  for (std::size_t i = 0; i < McpServer::kMaxRunning; ++i) {
+    const json answer = i % 2 == 0 ? Request("tools/list") : Call("SSM_Rate", json::object());
+    EXPECT_TRUE(answer.is_null()) << answer;
+  }
+  EXPECT_EQ(server_.running(), McpServer::kMaxRunning);
+  EXPECT_EQ(Request("tools/list")["error"]["code"], -32000);
+  EXPECT_EQ(Call("SSM_Rate", json::object())["error"]["code"], -32000);
+  EXPECT_EQ(Request("ping")["result"], json::object()) << "what is answered at once needs no place";
+  hold_ = false;
+  said_.clear();
+  for (const auto& on_answer : std::exchange(held_, {})) on_answer("Rate Text");
+  EXPECT_EQ(said_.size(), McpServer::kMaxRunning);
+  EXPECT_EQ(server_.running(), 0u);
+}
+
+TEST_F(McpServerTest, AClientThatGoesLeavesItsPlaceAndItsQuestionIsGivenUp) {
+  hold_ = true;
+  std::vector<McpServer::QuestionPtr> questions;
+  for (std::size_t i = 0; i < McpServer::kMaxRunning; ++i) {
+    Request("tools/list");
+    questions.push_back(question_);
+  }
+  for (const auto& question : questions) server_.Forget(question);
+  EXPECT_EQ(server_.running(), 0u);
+  EXPECT_TRUE(Request("tools/list").is_null());
+  hold_ = false;
+  for (const auto& on_answer : std::exchange(held_, {})) on_answer("Rate Text");
+  EXPECT_EQ(said_.size(), 1u) << "only who has stayed is answered";
+  hold_ = true;
+  EXPECT_TRUE(Call("SSM_Rate", json::object()).is_null());
+  server_.Forget(question_);
+  EXPECT_EQ(given_up_, 1);
+  EXPECT_EQ(server_.running(), 0u);
+  for (const auto& on_answer : std::exchange(held_, {})) on_answer("1");
+  EXPECT_TRUE(said_.empty());
+}
+
 TEST_F(McpServerTest, AModuleThatDidNotAnswerIsAskedAgain) {
   McpServer server({{"NONE", "*"}},
                    {.ask = [this](const vm::Message& message, const auto& on_answer) {
-                     Ask(message, on_answer);
+                     return Ask(message, on_answer);
                    }});
   for (int i = 0; i < 2; ++i) {
     server.Handle(R"({"jsonrpc": "2.0", "id": 1, "method": "tools/list"})",

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -119,6 +120,81 @@ TEST_F(GatewayTest, ClearBeginsAnewAndWhatIsNoMessageIsAnswered) {
   EXPECT_NEAR(static_cast<double>(lines.end() - cleared - 3), seconds_ * 50, 2);
 }
 
+/// The pictures among these lines, of one sound.
+std::vector<json> PicturesOf(const Lines& lines, int sound) {
+  std::vector<json> pictures;
+  for (const std::string& line : lines) {
+    const json message = json::parse(line);
+    if (message["type"] == "picture" && message["sound"] == sound) pictures.push_back(message);
+  }
+  return pictures;
+}
+
+TEST_F(GatewayTest, PicturesOfAFaceThatSaysTheSoundComeBesideTheWeights) {
+  Start({"--no-voice"});
+  const std::string speech = Speech();
+  const auto lines =
+      Client({"until:ready", "sound:" + speech, "text:{\"type\": \"end\"}", "until:end",
+              "sound:" + speech, "text:{\"type\": \"end\"}", "until:end"},
+             "&set=arkit52&pictures=96x96&picture_fps=20");
+  const json ready = json::parse(lines.front());
+  EXPECT_EQ(ready["pictures"], (json{{"width", 96}, {"height", 96}, {"fps", 20}}));
+  for (const int sound : {0, 1}) {
+    const auto pictures = PicturesOf(lines, sound);
+    ASSERT_GT(static_cast<double>(pictures.size()), seconds_ * 20 / 2) << sound;
+    EXPECT_LE(static_cast<double>(pictures.size()), seconds_ * 20 + 1) << sound;
+    double before = 0;
+    for (const json& picture : pictures) {
+      EXPECT_TRUE(picture["jpeg"]) << picture;
+      EXPECT_GT(picture["t"], before) << "in order, and counted from the sound's beginning";
+      before = picture["t"].get<double>();
+      EXPECT_NEAR(std::remainder(before, 0.05), 0, 1e-6);
+    }
+    EXPECT_LE(before, seconds_);
+    EXPECT_GT(before, seconds_ - 0.3);
+  }
+}
+
+TEST_F(GatewayTest, AfterClearNoPictureOfTheSoundBeforeComes) {
+  Start({"--no-voice"});
+  const auto lines =
+      Client({"until:ready", "sound:" + Speech(), "until:picture", "text:{\"type\": \"clear\"}",
+              "until:cleared", "sound:" + folder_ / "said.raw", "text:{\"type\": \"end\"}",
+              "until:end"},
+             "&pictures=64x64&picture_fps=10");
+  const auto cleared = std::ranges::find(lines, R"({"type":"cleared"})");
+  ASSERT_NE(cleared, lines.end());
+  EXPECT_TRUE(PicturesOf({cleared, lines.end()}, 0).empty());
+  EXPECT_FALSE(PicturesOf({cleared, lines.end()}, 1).empty());
+}
+
+TEST_F(GatewayTest, PicturesAreForSoManyAndWithinBounds) {
+  Start({"--no-voice", "--faces", "1"});
+  for (const char* wish : {"&pictures=huge", "&pictures=63x64", "&pictures=64x1025",
+                           "&pictures=64x64x64", "&pictures=64x64&picture_fps=30"})
+    EXPECT_EQ(Client({"until:ready"}, wish), Lines{"status 400"}) << wish;
+  EXPECT_TRUE(gateway_->ErrorText().contains(
+      "pictures: found 'huge', expected WIDTHxHEIGHT, each from 64 to 1024"));
+  Process first({"python3", GALATEA_SOURCE_DIR "/tests/gateway/client.py",
+                 "ws://" + host_ + "/v1/mouth?pictures=64x64&token=" + kToken, "until:ready",
+                 "end"});
+  ASSERT_TRUE(first.Expect("ready"));
+  EXPECT_EQ(Client({"until:ready"}, "&pictures=64x64"), Lines{"status 503"});
+  EXPECT_EQ(Client({"until:ready"}).size(), 1u) << "weights alone need no face";
+  first.Kill();
+  first.Wait();
+}
+
+TEST_F(GatewayTest, AFaceThatCannotBeHadIsToldAndTheWeightsGoOn) {
+  Start({"--no-voice", "--mask", "nobody-has-this-name"});
+  const auto lines = Client(
+      {"until:ready", "until:error", "sound:" + Speech(), "text:{\"type\": \"end\"}", "until:end"},
+      "&pictures=64x64");
+  ASSERT_GT(lines.size(), 10u);
+  EXPECT_TRUE(lines[1].contains("the face: ")) << lines[1];
+  EXPECT_EQ(json::parse(lines.back())["type"], "end");
+}
+
 TEST_F(GatewayTest, OnlyWhoeverShowsTheTokenMayCome) {
   Start();
   const std::string host = "Host: " + host_ + "\r\n";
@@ -130,8 +206,14 @@ TEST_F(GatewayTest, OnlyWhoeverShowsTheTokenMayCome) {
   EXPECT_EQ(StatusOf("/v1/mouth?token=wrong", host + socket), "401");
   EXPECT_EQ(StatusOf("/v1/mouth", host + bearer + socket), "101");
   EXPECT_EQ(StatusOf("/v1/mouth", host + bearer), "426");
+  EXPECT_EQ(StatusOf("/v1/mouth", host + "Authorization: bEARER " + kToken + "\r\n"), "426")
+      << "the scheme's case does not count";
+  EXPECT_EQ(StatusOf("/v1/mouth", "Host: LocalHost:" + std::to_string(port_) + "\r\n" + bearer),
+            "426")
+      << "nor a host's";
   EXPECT_EQ(StatusOf("/v1/mouth?set=x", host + bearer + socket), "400");
   EXPECT_EQ(StatusOf("/v1/mouth?rate=1e9", host + bearer + socket), "400");
+  EXPECT_TRUE(gateway_->ExpectError("rate: found '1e9', expected one of 8000, 16000"));
   EXPECT_EQ(StatusOf("/etc/passwd", host + bearer), "404");
   EXPECT_EQ(StatusOf("/v1/audio/speech", host + bearer), "405");
   EXPECT_EQ(StatusOf("/v1/mouth", "Host: evil.example\r\n" + bearer + socket), "421");
@@ -139,6 +221,40 @@ TEST_F(GatewayTest, OnlyWhoeverShowsTheTokenMayCome) {
             "403");
   EXPECT_EQ(StatusOf("/v1/mouth", host + "X: " + std::string(20'000, 'x') + "\r\n"), "413");
   EXPECT_TRUE(Post("{}", {}).first.starts_with("status 401 ")) << "the voice is no one's either";
+}
+
+TEST_F(GatewayTest, WhoAsksBeforeItSendsIsTold) {
+  Start({"--no-voice"});
+  const std::string head = "POST /v1/audio/speech HTTP/1.1\r\nHost: " + host_ +
+                           "\r\nExpect: 100-Continue\r\nContent-Length: 2\r\nAuthorization: "
+                           "Bearer ";
+  auto client = SocketClient::Tcp(port_);
+  client->Write(head + kToken + "\r\n\r\n");
+  EXPECT_EQ(client->ReadLine(), "HTTP/1.1 100 Continue\r");
+  client->Write("{}");
+  EXPECT_TRUE(client->Expect("HTTP/1.1 404")) << client->Seen();
+  auto stranger = SocketClient::Tcp(port_);
+  stranger->Write(head + "wrong\r\n\r\n");
+  EXPECT_TRUE(stranger->Expect("HTTP/1.1 401")) << stranger->Seen();
+  EXPECT_FALSE(stranger->Seen().contains("100 Continue"));
+}
+
+TEST_F(GatewayTest, AClientThatGoesIsNotSpokenFor) {
+  // The voice answers nothing: one text is with it, eight may wait.
+  Start({"--voice", "sleep", "1000"});
+  const std::string request = "POST /v1/audio/speech HTTP/1.1\r\nHost: " + host_ +
+                              "\r\nContent-Length: 15\r\nAuthorization: Bearer " + kToken +
+                              "\r\n\r\n{\"input\": \"Hi\"}";
+  for (int i = 0; i < 20; ++i) SocketClient::Tcp(port_)->Write(request);
+  std::vector<std::unique_ptr<SocketClient>> waiting;
+  for (int i = 0; i < 7; ++i) {
+    waiting.push_back(SocketClient::Tcp(port_));
+    waiting.back()->Write(request);
+  }
+  EXPECT_EQ(
+      StatusOf("/v1/mouth", "Host: " + host_ + "\r\nAuthorization: Bearer " + kToken + "\r\n"),
+      "426");
+  EXPECT_FALSE(gateway_->ErrorText().contains("texts wait")) << gateway_->ErrorText();
 }
 
 TEST_F(GatewayTest, PagesOfNamedSitesMayCome) {

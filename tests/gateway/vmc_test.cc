@@ -139,7 +139,7 @@ class VmcModuleTest : public testing::Test {
   void Tell(const std::string& line) { module_.slots().HandleLine(line, 1); }
 
   vm::VirtualScheduler clock_;
-  bool real_ = false;
+  bool real_ = false, takes_ = true;
   Lines said_, errors_, sent_;
   VmcModule module_{clock_,
                     {.module_version = "test",
@@ -148,7 +148,11 @@ class VmcModuleTest : public testing::Test {
                        if (to == "here:1") return {};
                        return vm::Fail(vm::Errc::kBadValue, "not there");
                      },
-                     .send = [this](const std::string& bundle) { sent_.push_back(bundle); }}};
+                     .send =
+                         [this](const std::string& bundle) {
+                           sent_.push_back(bundle);
+                           return takes_;
+                         }}};
 };
 
 TEST_F(VmcModuleTest, TheFaceIsAskedForItsFramesAndEachIsABundle) {
@@ -159,6 +163,10 @@ TEST_F(VmcModuleTest, TheFaceIsAskedForItsFramesAndEachIsABundle) {
   EXPECT_TRUE(sent_[0].starts_with(std::string("#bundle\0", 8)));
   EXPECT_TRUE(sent_[0].contains("/VMC/Ext/Blend/Apply"));
   EXPECT_EQ(module_.slots().Value("Sent"), "2");
+  takes_ = false;
+  Tell("set FaceFrame = 66" + kRest);
+  EXPECT_EQ(module_.slots().Value("Sent"), "2") << "the system did not take it";
+  sent_.pop_back();
   Tell("set FaceFrame = nonsense");
   EXPECT_EQ(sent_.size(), 2u);
   EXPECT_EQ(errors_.size(), 1u);
@@ -192,6 +200,8 @@ TEST_F(VmcModuleTest, NamesBonesAndPlacesAreChosenByLines) {
   EXPECT_FALSE(sent_.back().contains("/VMC/Ext/Bone/Pos"));
   Tell("set To = nowhere");
   EXPECT_EQ(errors_, (Lines{"BAD_VALUE not there"}));
+  Tell("set Subject = " + std::string(65, 'x'));
+  EXPECT_EQ(errors_.back(), "TOO_LONG found 65 bytes, expected at most 64");
 }
 
 }  // namespace

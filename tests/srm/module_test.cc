@@ -85,6 +85,32 @@ TEST(EndpointerTest, AnEndlessSoundIsCut) {
   EXPECT_TRUE(log.events.starts_with("begin end ")) << log.events;
 }
 
+TEST(EndpointerTest, AWholePhraseNeedsLessSilence) {
+  Log log;
+  std::vector<std::size_t> asked_at_ms;
+  bool whole = false;
+  auto events = log.Events();
+  events.complete = [&] {
+    asked_at_ms.push_back(log.length / srm::kFramesPerMs);
+    return whole;
+  };
+  srm::Endpointer endpointer({.complete = Millis(200)}, events);
+  endpointer.Feed(Sound(800, 20));
+  endpointer.Feed(Sound(600, 3000));
+  const std::size_t end_ms = log.length / srm::kFramesPerMs;
+  endpointer.Feed(Sound(450, 20));
+  ASSERT_EQ(asked_at_ms.size(), 6u) << "from 200 ms on each 50, up to 450";
+  EXPECT_EQ(asked_at_ms[0], end_ms + 200);
+  EXPECT_EQ(asked_at_ms[1], end_ms + 250);
+  EXPECT_EQ(log.events, "begin ") << "what is not whole has the longer silence";
+  endpointer.Feed(Sound(100, 20));
+  EXPECT_EQ(log.events, "begin end ");
+  whole = true;
+  endpointer.Feed(Sound(600, 3000));
+  endpointer.Feed(Sound(230, 20));
+  EXPECT_EQ(log.events, "begin end begin end ");
+}
+
 /// Hears the same text in everything; notes the grammars it is given.
 class ToldDecoder final : public srm::SpeechDecoder {
  public:
@@ -183,6 +209,29 @@ TEST_F(RecognizerTest, SpeechBecomesPartialAndFinalResultsWithTheirMeaning) {
   EXPECT_EQ(errors_, Lines{});
   EXPECT_EQ(module_->slots().Value("Result.words").substr(0, 11), "yes please[");
   EXPECT_FALSE(module_->Busy());
+}
+
+TEST_F(RecognizerTest, AWholePhraseEndsSoonerAndOneThatGoesOnDoesNot) {
+  const auto end_ms = [this](const std::string& text) {
+    text_ = text;
+    Tell("set Input = wav:a");
+    UntilIdle();
+    return std::stol(calls_.back().substr(4)) * 100;  // "end" and the tenths of a second fed
+  };
+  sound_ = Sound(800, 20);
+  Add(sound_, Sound(700, 3000));
+  Add(sound_, Sound(800, 20));
+  Tell("set Run = START");
+  const long usual = end_ms("tomorrow");
+  Tell("set Listen.complete = 200");
+  EXPECT_EQ(end_ms("tomorrow"), usual - 300);
+  EXPECT_EQ(end_ms("the"), usual) << "more is said behind it";
+  Tell("set Grammar.load = answer yes | no");
+  Tell("set Grammar = answer");
+  EXPECT_EQ(end_ms("yes"), usual - 300);
+  EXPECT_EQ(end_ms("tomorrow"), usual) << "no phrase of the grammar";
+  Tell("set Listen.complete = 0");
+  EXPECT_EQ(end_ms("yes"), usual);
 }
 
 TEST_F(RecognizerTest, WhatFitsBadlyOrNotAtAllIsNoMatch) {

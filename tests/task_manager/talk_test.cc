@@ -162,7 +162,22 @@ TEST_F(TalkTest, AHangUpGivesTheConversationBack) {
   EXPECT_TRUE(lines.back().contains("hangup")) << lines.back();
   hub_->WriteLine("to @CHAT set#again Talk = STOP");
   EXPECT_TRUE(hub_->Expect("rep#again"));
-  EXPECT_TRUE(Log().contains("Talk = STOPPED 1 hello"));
+  EXPECT_TRUE(Log().contains("Talk.over = STOPPED 1 hello"));
+}
+
+TEST_F(TalkTest, ADialogueThatDiesGivesTheConversationBack) {
+  StartHub("", "real");
+  std::ofstream(folder_ / "d.vxml")
+      << "<vxml version=\"2.1\"><form><object name=\"c\" classid=\"builtin:chat\"/></form></vxml>";
+  Process dialogue({GALATEA_BIN_DIR "/task_manager", folder_ / "d.vxml", "--connect",
+                    "unix:" + (folder_ / "hub"), "--transcript", "json"});
+  dialogue.WriteLine("hello");
+  ASSERT_TRUE(dialogue.Expect("Hello!")) << dialogue.ErrorText();
+  dialogue.Kill();
+  dialogue.Wait();
+  EXPECT_TRUE(hub_->Expect("From @CHAT rep Talk.over = STOPPED 1 hello")) << hub_->Seen();
+  hub_->WriteLine("to @CHAT set#again Talk = 1 1");
+  EXPECT_TRUE(hub_->Expect("rep#again Talk = SILENCE 0")) << hub_->Seen();
 }
 
 TEST_F(TalkTest, WrongParametersAreSemanticErrors) {

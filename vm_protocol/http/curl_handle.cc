@@ -35,6 +35,7 @@ CurlHeaders SetUpRequest(CURL* handle, const HttpRequest& request, const std::st
   curl_easy_setopt(handle, CURLOPT_USERAGENT, "Galatea/" GALATEA_VERSION);
   curl_easy_setopt(handle, CURLOPT_TCP_NODELAY, 1L);
   if (!ca_file.empty()) curl_easy_setopt(handle, CURLOPT_CAINFO, ca_file.c_str());
+  if (request.unpacked) curl_easy_setopt(handle, CURLOPT_ACCEPT_ENCODING, "");
   if (IsHere(request.url)) curl_easy_setopt(handle, CURLOPT_PROXY, "");
   CurlHeaders headers;
   for (const std::string& line : request.headers)

@@ -15,11 +15,15 @@ struct CurlFree {
   void operator()(CURL* handle) const { curl_easy_cleanup(handle); }
   void operator()(curl_slist* list) const { curl_slist_free_all(list); }
 };
+struct CurlShareFree {
+  void operator()(CURLSH* share) const { curl_share_cleanup(share); }
+};
 struct CurlMultiFree {
   void operator()(CURLM* handle) const { curl_multi_cleanup(handle); }
 };
 using CurlHandle = std::unique_ptr<CURL, CurlFree>;
 using CurlHeaders = std::unique_ptr<curl_slist, CurlFree>;
+using CurlShare = std::unique_ptr<CURLSH, CurlShareFree>;
 using CurlMulti = std::unique_ptr<CURLM, CurlMultiFree>;
 
 /// Initialises libcurl, once in the life of the process.

@@ -18,6 +18,8 @@ struct HttpRequest {
   std::string body{};
   std::chrono::milliseconds limit{60'000};  ///< for the whole exchange
   std::size_t max_bytes = std::size_t{16} << 20;
+  /// Compressed answers are taken, too; max_bytes counts what they unpack to.
+  bool unpacked = false;
 };
 
 struct HttpHead {

@@ -20,14 +20,20 @@ struct HttpAnswer {
 /// for `stall`), kTooLong, kStopped (within 50 ms after `cancelled` became true).
 class HttpCaller {
  public:
-  /// `ca_file` (PEM): whose signatures count; empty: those the system trusts.
-  explicit HttpCaller(std::string ca_file);
+  static constexpr std::size_t kMaxCookies = 300;
+  /// `ca_file` (PEM): whose signatures count; empty: those the system trusts. `cookies`: they are
+  /// kept as long as this object (RFC 6265, libcurl's engine), in memory only; over kMaxCookies all
+  /// are forgotten.
+  explicit HttpCaller(std::string ca_file, bool cookies = false);
   ~HttpCaller();
   HttpCaller(const HttpCaller&) = delete;
 
   /// Any status is an answer.
   Result<HttpAnswer> Post(const HttpRequest& request, std::chrono::milliseconds stall,
                           const std::atomic<bool>& cancelled);
+  /// The request's body does not count.
+  Result<HttpAnswer> Get(const HttpRequest& request, std::chrono::milliseconds stall,
+                         const std::atomic<bool>& cancelled);
 
  private:
   struct Impl;

@@ -1,4 +1,4 @@
-#include "vm_protocol/runtime/web_door.h"
+#include "vm_protocol/web/door.h"
 
 #include <boost/asio/buffer.hpp>
 #include <stdexcept>

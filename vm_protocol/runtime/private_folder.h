@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace am {
+namespace vm {
 
 /// A folder under /tmp that only this user can enter, for one pipe or socket that another process
 /// opens by its path. Owns the folder and that file: both are removed by Remove or the destructor.
@@ -42,4 +42,4 @@ class PrivateFolder {
   std::string folder_, file_;
 };
 
-}  // namespace am
+}  // namespace vm
