@@ -28,6 +28,7 @@ using Command = std::function<void()>;
 Command AddUnits(CLI::App& app);
 Command AddEmotions(CLI::App& app);
 Command AddWhere(CLI::App& app);
+Command AddOnsets(CLI::App& app);
 Command AddPerform(CLI::App& app);
 
 /// Throws if a file that is to be written is one that was read.

@@ -11,8 +11,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "face_space (Galatea) " GALATEA_VERSION);
   app.require_subcommand(1);
   facespace::Command chosen;
-  for (const auto add :
-       {facespace::AddUnits, facespace::AddEmotions, facespace::AddWhere, facespace::AddPerform}) {
+  for (const auto add : {facespace::AddUnits, facespace::AddEmotions, facespace::AddWhere,
+                         facespace::AddOnsets, facespace::AddPerform}) {
     const facespace::Command command = add(app);
     CLI::App* const sub = app.get_subcommands({}).back();
     sub->final_callback([&chosen, command] { chosen = command; });

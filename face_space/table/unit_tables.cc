@@ -19,14 +19,6 @@ constexpr const char *kRowsFile = "action_units.txt", *kNamesFile = "action_unit
                      *kListFile = "action_unit_list.txt";
 constexpr std::size_t kMostRowsOfUnit = 40, kFewestRowsOfUnit = 5;
 
-vm::Result<std::string> Base(const std::string& folder, const char* file,
-                             std::string_view built_in) {
-  const std::string path = folder + "/" + file;
-  std::error_code code;
-  if (folder.empty() || !std::filesystem::exists(path, code)) return std::string(built_in);
-  return fsm::ReadTableFile(path);
-}
-
 /// The part of the face a unit belongs to: where most of its movement lies.
 std::string_view RegionOf(const WrittenUnit& unit) {
   double brow = 0, eye = 0, mouth = 0;
@@ -50,11 +42,19 @@ bool Opens(const WrittenUnit& unit) {
 
 }  // namespace
 
+vm::Result<std::string> BaseTable(const std::string& folder, const char* file,
+                                  std::string_view built_in) {
+  const std::string path = folder + "/" + file;
+  std::error_code code;
+  if (folder.empty() || !std::filesystem::exists(path, code)) return std::string(built_in);
+  return fsm::ReadTableFile(path);
+}
+
 vm::Result<UnitTables> WriteUnits(const std::vector<ShapeUnit>& shapes, const Placement& placement,
                                   const fsm::Head& head, const TableBase& base) {
-  auto rows = Base(base.folder, kRowsFile, embedded::base_action_units());
-  auto names = Base(base.folder, kNamesFile, embedded::base_action_unit_names());
-  auto list = Base(base.folder, kListFile, embedded::base_action_unit_list());
+  auto rows = BaseTable(base.folder, kRowsFile, embedded::base_action_units());
+  auto names = BaseTable(base.folder, kNamesFile, embedded::base_action_unit_names());
+  auto list = BaseTable(base.folder, kListFile, embedded::base_action_unit_list());
   for (const auto* text : {&rows, &names, &list}) {
     if (!*text) return std::unexpected(text->error());
   }

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "face_space/eigen/eigen_units.h"
@@ -42,5 +43,10 @@ struct TableBase {
 /// for five rows a unit or no number left, those of reading tables.
 vm::Result<UnitTables> WriteUnits(const std::vector<ShapeUnit>& shapes, const Placement& placement,
                                   const fsm::Head& head, const TableBase& base);
+
+/// The text of a table that is to be changed: `folder`/`file` where there is one, else what is
+/// built in. Errors: those of fsm::ReadTableFile.
+vm::Result<std::string> BaseTable(const std::string& folder, const char* file,
+                                  std::string_view built_in);
 
 }  // namespace facespace
