@@ -118,6 +118,7 @@ void FacePictures::OnLine(std::string_view line) {
 }
 
 void FacePictures::Add(double at_s, const vdm::MouthFrame& mouth) {
+  if (failed_) return;
   mouths_.emplace_back(at_s, MouthLine(at_s, mouth));
   last_s_ = at_s;
   MoveOn();
@@ -168,6 +169,7 @@ void FacePictures::NextSound(bool wanted) {
 }
 
 void FacePictures::End(std::function<void()> done) {
+  if (failed_) return asio::post(io_, std::move(done));
   done_ = std::move(done);
   MoveOn();
 }
@@ -207,8 +209,10 @@ void FacePictures::Fail(const std::string& why) {
   if (std::exchange(failed_, true)) return;
   limit_.cancel();
   last_s_ = 0;  // nothing is behind
-  asio::post(io_, [alive = alive_, failed = events_.failed, why = "the face: " + why] {
+  asio::post(io_, [alive = alive_, failed = events_.failed, why = "the face: " + why,
+                   done = std::exchange(done_, nullptr)] {
     if (*alive) failed(why);
+    if (*alive && done) done();  // what waits for the end of a sound waits no longer
   });
   if (done_) asio::post(io_, std::exchange(done_, nullptr));
 }

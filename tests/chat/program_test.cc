@@ -215,7 +215,7 @@ TEST_F(ChatHubTest, AnErrorIsSpokenAndEverythingGoesOn) {
   const std::string options = R"(, "--model-url", ")" + Url() + R"(", "--model", "500")";
   Run(options, {"to @SRM set Input.text = Hello", "set Wait = IDLE", "to @CHAT set Model = echo",
                 "to @SRM set Input.text = Again", "set Wait = IDLE"});
-  EXPECT_EQ(Log("set#c3 Speak = I am sorry, I cannot reach my thoughts just now.").size(), 1u);
+  EXPECT_EQ(Log("set#c4 Speak = I am sorry, I cannot reach my thoughts just now.").size(), 1u);
   EXPECT_EQ(Log("CHAT rep Reply = You said: Hello Again. That is all I know.").size(), 1u)
       << testing::PrintToString(Log("CHAT"));
 }

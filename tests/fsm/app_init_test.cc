@@ -118,6 +118,7 @@ std::string Another(const std::string& slot, const TemporaryFolder& files,
       {"Record", "before.mp4"},
       {"Frame.to", "VMC"},
       {"Capture", (files / "shots") + " a 10"},
+      {"FaceExp.point", "0.5 0.2 0"},
   };
   if (const auto found = values.find(slot); found != values.end()) return found->second;
   if (slot.starts_with("Face.") || slot.starts_with("Mouth.")) return "50";
