@@ -18,6 +18,7 @@ namespace asio = boost::asio;
 using boost::system::error_code;
 
 constexpr std::size_t kReadBytes = 64u << 10;
+constexpr std::chrono::seconds kLastPictureLimit{1};  // after the sound was drawn
 
 std::string MouthLine(double at_s, const vdm::MouthFrame& frame) {
   std::string line = fmt::format("set MouthFrame = {:g}", at_s * 1000);
@@ -130,9 +131,12 @@ void FacePictures::MoveOn() {
   const double next_s = static_cast<double>(drawn_ + 1) / settings_.fps;
   if (next_s > last_s_ + 1e-6) {
     if (!done_) return;
-    NextSound(true);
-    // Pictures that were drawn are on their way; whoever waits for the end hears of it by the loop.
-    return asio::post(io_, std::exchange(done_, nullptr));
+    // Pictures that were drawn are on their way; a face that is late leaves some out.
+    if (shown_ms_ + 1 > sounds_.back().from_ms + 1000.0 * drawn_ / settings_.fps) return EndSound();
+    limit_.expires_after(kLastPictureLimit);
+    return limit_.async_wait([this, alive = alive_](const error_code& stopped) {
+      if (*alive && !stopped && done_) EndSound();
+    });
   }
   // One behind the picture as well: between two the face moves.
   while (!mouths_.empty()) {
@@ -150,6 +154,13 @@ void FacePictures::MoveOn() {
         MoveOn();
         if (was_behind && !behind()) events_.caught_up();
       });
+}
+
+/// Whoever waits for the end hears of it by the loop.
+void FacePictures::EndSound() {
+  limit_.cancel();
+  NextSound(true);
+  asio::post(io_, std::exchange(done_, nullptr));
 }
 
 /// Begins where the clock stands, or will when it has moved.
@@ -195,8 +206,9 @@ void FacePictures::TakePictures() {
   while (*alive) {
     const auto piece = records_.Next();
     if (!piece) return Fail(piece.error().text);
-    if (!*piece) return;
+    if (!*piece) return done_ ? MoveOn() : void();
     const double at_ms = static_cast<double>((*piece)->at.count()) / 1000;
+    shown_ms_ = at_ms;
     // The last that had begun before. The first picture shows the face before any sound.
     const auto sound = std::ranges::find_if(sounds_.rbegin(), sounds_.rend(),
                                             [&](const Sound& one) { return at_ms > one.from_ms; });

@@ -64,6 +64,7 @@ class FacePictures {
   void Ask(const std::string& line, std::function<void(const std::string& value)> next);
   void OnLine(std::string_view line);
   void MoveOn();
+  void EndSound();
   void NextSound(bool wanted);
   void ReadPictures();
   void TakePictures();
@@ -86,6 +87,7 @@ class FacePictures {
   std::deque<std::pair<double, std::string>> mouths_;  // s of the sound, and its line
   double last_s_ = 0;                                  // up to here the mouth is known
   unsigned drawn_ = 0;                                 // pictures of this sound
+  double shown_ms_ = 0;                                // of the newest picture that came
   bool ready_ = false, moving_ = false, failed_ = false;
   std::function<void()> done_;  // the sound is over
   const std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
