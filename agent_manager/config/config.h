@@ -83,7 +83,7 @@ struct ModuleConfig {
   std::chrono::milliseconds ready_within{60000};  ///< killed if it is not ready by then
   HealthCheck health;
   ResourceLimits limits;
-  /// After `set Run = EXIT`, before SIGTERM; ParseConfig fills in what a file leaves out.
+  /// After `set Run = EXIT`, before SIGTERM; none: 4 s.
   std::optional<std::chrono::milliseconds> stop_within;
   Dialect dialect = Dialect::kAuto;
   std::string framing = "lf";  ///< lf or mmi

@@ -124,9 +124,8 @@ Config ReadConfig(const json& root, const std::string& folder) {
   if (config.virtual_clock && !config.mqtt.broker.empty())
     throw ConfigFault{"mqtt", "other agents do not follow a virtual clock, expected clock: real"};
   // On the virtual clock a face may have a film to finish, however busy the machine is.
-  const std::chrono::seconds stop_within{config.virtual_clock ? 60 : 4};
   for (ModuleConfig& module : config.modules)
-    if (!module.stop_within) module.stop_within = stop_within;
+    if (config.virtual_clock && !module.stop_within) module.stop_within = std::chrono::seconds(60);
   return config;
 }
 

@@ -18,6 +18,7 @@ using std::chrono::milliseconds;
 namespace {
 
 constexpr milliseconds kClosedPatience{500};      // after the program closed its output
+constexpr milliseconds kStopPatience{4000};       // after set Run = EXIT
 constexpr milliseconds kTerminatePatience{1000};  // after SIGTERM
 
 vm::Framing FramingOf(const ModuleConfig& module) {
@@ -139,7 +140,7 @@ void ModuleRun::Stop() {
   }
   // The first waits until what was said before is done, the second does not.
   for (int i = 0; i < 2; ++i) stream_->Send("set Run = EXIT");
-  const milliseconds within = config_.stop_within.value();
+  const milliseconds within = config_.stop_within.value_or(kStopPatience);
   KillAfter(within, "did not exit within " + vm::FormatMs(within) + " ms", SIGTERM);
 }
 

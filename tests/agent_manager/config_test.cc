@@ -35,10 +35,11 @@ TEST(ConfigTest, ReadsEveryKey) {
 TEST(ConfigTest, AModuleMayTakeLongerToExitOnTheVirtualClockUnlessTheFileSaysHowLong) {
   const std::string modules =
       R"("modules": [{"name": "A", "command": "a"}, {"name": "B", "command": "b", "stop_within_ms": 50}])";
-  for (const auto& [clock, within] : {std::pair("real", 4000), std::pair("virtual", 60000)}) {
+  const std::optional<std::chrono::milliseconds> none, minute = std::chrono::seconds(60);
+  for (const auto& [clock, within] : {std::pair("real", none), std::pair("virtual", minute)}) {
     const auto config = Parse("{\"clock\": \"" + std::string(clock) + "\", " + modules + "}");
     ASSERT_TRUE(config) << config.error().text;
-    EXPECT_EQ(config->modules[0].stop_within, std::chrono::milliseconds(within)) << clock;
+    EXPECT_EQ(config->modules[0].stop_within, within) << clock;
     EXPECT_EQ(config->modules[1].stop_within, std::chrono::milliseconds(50)) << clock;
   }
 }
