@@ -18,7 +18,7 @@ namespace asio = boost::asio;
 using boost::system::error_code;
 
 constexpr std::size_t kReadBytes = 64u << 10;
-constexpr std::chrono::seconds kLastPictureLimit{1};  // after the sound was drawn
+constexpr std::chrono::milliseconds kLastPictureLimit{200};  // after the sound was drawn
 
 std::string MouthLine(double at_s, const vdm::MouthFrame& frame) {
   std::string line = fmt::format("set MouthFrame = {:g}", at_s * 1000);
@@ -131,7 +131,7 @@ void FacePictures::MoveOn() {
   const double next_s = static_cast<double>(drawn_ + 1) / settings_.fps;
   if (next_s > last_s_ + 1e-6) {
     if (!done_) return;
-    // Pictures that were drawn are on their way; a face that is late leaves some out.
+    // What was drawn is on its way, but for pictures that look like the one before.
     if (shown_ms_ + 1 > sounds_.back().from_ms + 1000.0 * drawn_ / settings_.fps) return EndSound();
     limit_.expires_after(kLastPictureLimit);
     return limit_.async_wait([this, alive = alive_](const error_code& stopped) {
