@@ -4,6 +4,9 @@
 #include <functional>
 #include <string>
 
+#include "face_space/record/unit_track.h"
+#include "fsm/motion/motion_tables.h"
+
 namespace facespace {
 
 /// Says on standard error how far a command is: at a terminal in one line that changes, else a line
@@ -20,6 +23,17 @@ class Progress {
   const bool quiet_, terminal_;
   int shown_ = -1;
 };
+
+/// What commands that read tracks of units have in common.
+struct TrackOptions {
+  std::string tables;  ///< a folder; "" = fsm's own
+  double rate = 0;     ///< frames a second of tracks without a column of time
+  bool quiet = false;
+};
+void AddTrackOptions(CLI::App& command, TrackOptions& options);
+/// Throws what is wrong with the file.
+UnitTrack ReadUnitTrack(const std::string& path, const TrackOptions& options,
+                        const fsm::MotionTables& tables);
 
 /// What a command of the program does once its options are read; throws what it cannot do.
 using Command = std::function<void()>;

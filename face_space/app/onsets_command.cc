@@ -10,18 +10,15 @@
 #include "face_space/app/onset_plot.h"
 #include "face_space/table/unit_tables.h"
 #include "face_space/timing/onsets.h"
-#include "fsm/motion/motion_tables.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace facespace {
 namespace {
 
-struct Options {
+struct Options : TrackOptions {
   std::vector<std::string> tracks, timing;
-  std::string tables, plot, table_out;
-  double rate = 0;
-  bool quiet = false;
+  std::string plot, table_out;
 };
 
 constexpr double kFineMs = 10;  // between frames: lags of a few ms need as fine a track
@@ -36,14 +33,12 @@ void Run(const Options& options) {
   if (options.timing.empty() != options.table_out.empty())
     throw std::runtime_error("--timing KIND EMOTION and --table-out FILE go together");
   const fsm::MotionTables tables = vm::OrThrow(fsm::MotionTables::Load(options.tables));
-  TrackFormat format;
-  if (options.rate > 0) format.rate = options.rate;
   OnsetPlot plot;
   std::vector<Onset> all;
   double widest_ms = 0;
   std::cout << "track,begins_ms,onset_ms,eye_lag_ms,brow_lag_ms,mouth_lag_ms,eye,brow,mouth\n";
   for (const std::string& path : options.tracks) {
-    const UnitTrack track = vm::OrThrow(UnitsOf(vm::OrThrow(ReadTrack(path, format)), tables));
+    const UnitTrack track = ReadUnitTrack(path, options, tables);
     const std::vector<Onset> onsets = FindOnsets(track, tables.units);
     for (const Onset& onset : onsets) {
       std::cout << fmt::format("{},{:.1f},{:.1f},{},{},{},{:.3f},{:.3f},{:.3f}\n", path,
@@ -102,10 +97,7 @@ Command AddOnsets(CLI::App& app) {
       ->expected(2);
   onsets.add_option("--table-out", options->table_out,
                     "Where that table goes: FOLDER/emotions.txt for fsm --tables FOLDER");
-  onsets.add_option("--tables", options->tables, "Tables in place of fsm's own");
-  onsets.add_option("--rate", options->rate, "Frames a second of tracks without a column of time")
-      ->check(CLI::Range(1.0, 10'000.0));
-  onsets.add_flag("--quiet", options->quiet, "No summary on standard error");
+  AddTrackOptions(onsets, *options);
   return [options] { Run(*options); };
 }
 

@@ -7,26 +7,20 @@
 
 #include "face_space/app/commands.h"
 #include "face_space/emotion/whereabouts.h"
-#include "face_space/record/unit_track.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace facespace {
 namespace {
 
-struct Options {
-  std::string track, out, tables;
-  double rate = 0;
-  bool quiet = false;
+struct Options : TrackOptions {
+  std::string track, out;
 };
 
 void Run(const Options& options) {
   if (!options.out.empty()) NotTheInput(options.out, options.track);
   const fsm::MotionTables tables = vm::OrThrow(fsm::MotionTables::Load(options.tables));
-  TrackFormat format;
-  if (options.rate > 0) format.rate = options.rate;
-  const UnitTrack track =
-      vm::OrThrow(UnitsOf(vm::OrThrow(ReadTrack(options.track, format)), tables));
+  const UnitTrack track = ReadUnitTrack(options.track, options, tables);
   std::string text = "ms,x,y,z,emotion,strength,held\n";
   std::map<std::string, std::size_t> seen;
   for (std::size_t t = 0; t < track.looks.size(); ++t) {
@@ -61,10 +55,7 @@ Command AddWhere(CLI::App& app) {
                   "A track of units or of ARKit's shapes, as face_track prints it")
       ->required();
   where.add_option("--out", options->out, "Where the lines go (default: standard output)");
-  where.add_option("--tables", options->tables, "Tables in place of fsm's own");
-  where.add_option("--rate", options->rate, "Frames a second of tracks without a column of time")
-      ->check(CLI::Range(1.0, 10'000.0));
-  where.add_flag("--quiet", options->quiet, "No summary on standard error");
+  AddTrackOptions(where, *options);
   return [options] { Run(*options); };
 }
 
