@@ -2,52 +2,38 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace hypermask {
 namespace {
 
-double Mean(const Grey& picture) {
-  double sum = 0;
-  for (const std::uint8_t value : picture.pixels) sum += value;
-  return sum / static_cast<double>(picture.pixels.size());
-}
-
-/// A mean that forgets: of the last twenty or so.
-void Blend(double& mean, double value) {
-  constexpr double kPart = 0.05;
-  mean += (mean > 0 ? kPart : 1) * (value - mean);
-}
+double Ms(vm::Time time) { return static_cast<double>(time.count()) / 1000; }
 
 }  // namespace
 
 MaskModule::MaskModule(vm::Scheduler& scheduler, Options options)
-    : scheduler_(scheduler), options_(std::move(options)), slots_("MASK") {
+    : scheduler_(scheduler),
+      options_(std::move(options)),
+      slots_("MASK"),
+      face_(slots_, options_.io, [this](const fsm::Image& picture) { SetFace(picture); }),
+      measurement_(scheduler_, [this](const fsm::Image& frame) { Show(frame); }),
+      figures_(slots_) {
   DeclareRun();
-  DeclareFace();
+  face_.DeclareSlots();
+  DeclareMask();
   DeclareSettings();
   DeclareCalibration();
   DeclareTold();
-}
-
-void MaskModule::CancelTimers() {
-  for (vm::TimerId* const timer : {&timer_, &end_timer_}) {
-    if (*timer != 0) scheduler_.Cancel(std::exchange(*timer, 0));
-  }
+  figures_.DeclareSlots();
 }
 
 void MaskModule::Shutdown() {
-  CancelTimers();
-  meter_.reset();
-  taker_.reset();
+  measurement_.Drop();
   if (retire_timer_ != 0) scheduler_.Cancel(std::exchange(retire_timer_, 0));
   ++run_;
   rig_.reset();
   retired_.clear();
-  face_stream_.reset();
-  face_film_.reset();
+  face_.Close();
 }
 
 vm::Result<void> MaskModule::Start() {
@@ -65,23 +51,18 @@ vm::Result<void> MaskModule::Start() {
   if (!rig) return std::unexpected(rig.error());
   rig_ = std::move(*rig);
   warp_.emplace(layout_, rig_->projector_width(), rig_->projector_height());
-  if (!face_.rgba.empty()) warp_->SetFace(face_);
-  ResetFollower();
+  SetFace(face_.picture());
   misfit_told_ = no_mask_told_ = ever_seen_ = false;
-  interval_ms_ = work_ms_ = 0;
-  second_ = mask_at_ = scheduler_.Now();
-  picture_at_.reset();
-  pictures_ = seen_ = missed_ = 0;
-  miss_squares_ = 0;
+  mask_at_ = scheduler_.Now();
+  figures_.Begin(mask_at_);
+  ResetFollower();
   Tell("LOOKING");
   return {};
 }
 
 void MaskModule::Stop() {
   if (!rig_) return;
-  const vm::Error stopped{vm::Errc::kStopped, "Run was stopped or Input changed meanwhile"};
-  if (meter_) EndDelay(std::unexpected(stopped));
-  if (taker_) EndPlace(std::unexpected(stopped));
+  measurement_.Cancel({vm::Errc::kStopped, "Run was stopped or Input changed meanwhile"});
   ++run_;
   // One of its events may be going on.
   retired_.push_back(std::move(rig_));
@@ -109,38 +90,28 @@ void MaskModule::Over(const std::optional<vm::Error>& error) {
 
 void MaskModule::ResetFollower() {
   if (!rig_) return;
-  // What is shown between two pictures is to be right in the middle of that time.
-  const double ahead_ms = delay_ms_ + work_ms_ + interval_ms_ / 2;
-  follower_.emplace(
-      layout_,
-      MaskFollower::Settings{.prediction = prediction_, .ahead = ahead_ms / 1000, .spots = spots_});
+  follower_.emplace(layout_,
+                    MaskFollower::Settings{
+                        .prediction = prediction_, .ahead = AheadMs() / 1000, .spots = spots_});
 }
 
 void MaskModule::OnPicture(const Grey& picture, vm::Time arrived) {
-  ++pictures_;
   camera_width_ = picture.width;
   camera_height_ = picture.height;
-  constexpr vm::Time kPause{200'000};  // a camera that stops for long says nothing of its rate
-  if (picture_at_ && arrived > *picture_at_ && arrived - *picture_at_ < kPause) {
-    Blend(interval_ms_, Ms(arrived - *picture_at_));
-  }
-  picture_at_ = arrived;
-  if (meter_) {
-    meter_->Seen(Ms(arrived), Mean(picture));
-  } else if (taker_) {
-    if (taker_->Take(picture, Ms(arrived))) NextFrame();
+  figures_.Picture(arrived);
+  if (measurement_.Busy()) {
+    measurement_.Seen(picture, arrived);
   } else {
     Follow(picture, arrived);
   }
-  if (rig_) TellSecond(scheduler_.Now());
+  if (rig_) figures_.Tell(scheduler_.Now());
 }
 
 void MaskModule::Follow(const Grey& picture, vm::Time arrived) {
   const double seconds = Ms(arrived) / 1000;
   const std::size_t seen = follower_->Look(picture, seconds);
-  const double ahead_ms = delay_ms_ + work_ms_ + interval_ms_ / 2;
   if (seen > 0) {
-    ++seen_;
+    figures_.Seen();
     mask_at_ = arrived;
     ever_seen_ = true;
     no_mask_told_ = false;
@@ -148,43 +119,26 @@ void MaskModule::Follow(const Grey& picture, vm::Time arrived) {
     TellNoMask(arrived);
   }
   Tell(follower_->following() ? "FOLLOWING" : "LOOKING");
-  if (slots_.AutoOutput("Track")) TellTrack(seen, arrived, ahead_ms);
+  if (slots_.AutoOutput("Track")) TellTrack(seen, arrived);
   std::optional<PlaneMap> map;
   if (CalibrationFits(picture)) {
-    if (const auto markers = follower_->At(seconds + ahead_ms / 1000)) {
+    if (const auto markers = follower_->At(seconds + AheadMs() / 1000)) {
       map = MaskToProjector(*calibration_, form_, layout_, *markers);
     }
   }
-  const auto miss = map ? rig_->Miss(*map, interval_ms_ / 1000) : std::nullopt;
-  if (miss) {
-    ++missed_;
-    miss_squares_ += *miss * *miss;
-  }
+  const auto miss = map ? rig_->Miss(*map, figures_.interval_ms() / 1000) : std::nullopt;
   Show(warp_->Draw(map ? &*map : nullptr));
-  Blend(work_ms_, std::max(1e-3, Ms(scheduler_.Now() - arrived)));
+  figures_.Projected(Ms(scheduler_.Now() - arrived), miss);
 }
 
-void MaskModule::TellTrack(std::size_t seen, vm::Time arrived, double ahead_ms) {
+void MaskModule::TellTrack(std::size_t seen, vm::Time arrived) {
   std::string places;
   for (const Point& marker : follower_->markers()) {
     places += fmt::format("{}[{:.2f},{:.2f}]", places.empty() ? "" : ",", marker.x(), marker.y());
   }
   slots_.Report("Track",
                 fmt::format("{{\"ms\":{:.1f},\"seen\":{},\"markers\":[{}],\"ahead\":{:.1f}}}",
-                            Ms(arrived), seen, places, ahead_ms));
-}
-
-void MaskModule::TellSecond(vm::Time now) {
-  if (now - second_ < vm::Time(1'000'000)) return;
-  const double seconds = Ms(now - second_) / 1000;
-  slots_.Report("Track.speed",
-                fmt::format("{:.1f} {} {:.1f}", pictures_ / seconds, seen_, work_ms_));
-  if (missed_ > 0) {
-    slots_.Report("Track.miss", fmt::format("{:.2f}", std::sqrt(miss_squares_ / missed_)));
-  }
-  second_ = now;
-  pictures_ = seen_ = missed_ = 0;
-  miss_squares_ = 0;
+                            Ms(arrived), seen, places, AheadMs()));
 }
 
 void MaskModule::TellNoMask(vm::Time now) {
@@ -217,6 +171,81 @@ bool MaskModule::CalibrationFits(const Grey& picture) {
     slots_.ReportError("Calibration", {vm::Errc::kUnavailable, problem});
   }
   return false;
+}
+
+bool MaskModule::CanMeasure(const vm::Reply& reply) const {
+  if (!rig_) {
+    reply.Fail({vm::Errc::kUnavailable, "set Input and Run = START before"});
+  } else if (Busy()) {
+    reply.Fail({vm::Errc::kBusy, "something is being measured already"});
+  } else {
+    return true;
+  }
+  return false;
+}
+
+void MaskModule::BeginMeasurement(const std::string& stat) {
+  rig_->TakeFilterOff(true);
+  Tell(stat);
+}
+
+void MaskModule::EndMeasurement() {
+  rig_->TakeFilterOff(false);
+  mask_at_ = scheduler_.Now();  // nobody looked for it meanwhile
+  Tell("LOOKING");
+}
+
+void MaskModule::MeasureDelay(const vm::Reply& reply) {
+  if (!CanMeasure(reply)) return;
+  BeginMeasurement("MEASURING");
+  measurement_.MeasureDelay(*rig_, [this, reply](const vm::Result<double>& delay_ms) {
+    EndMeasurement();
+    if (!delay_ms) return reply.Fail(delay_ms.error());
+    delay_ms_ = *delay_ms;
+    if (calibration_) calibration_->delay_ms = delay_ms_;
+    ResetFollower();
+    const std::string text = fmt::format("{:g}", delay_ms_);
+    slots_.Report("Delay", text);
+    reply.Ok(text);
+  });
+}
+
+void MaskModule::TakePlace(const vm::Reply& reply) {
+  if (!CanMeasure(reply)) return;
+  if (places_.size() == kMostPlaces) {
+    return reply.Fail({vm::Errc::kLimit, fmt::format("there are {} places already", kMostPlaces)});
+  }
+  BeginMeasurement("CALIBRATING");
+  measurement_.TakePlace(*rig_, layout_, delay_ms_, [this, reply](const vm::Result<Place>& place) {
+    EndMeasurement();
+    ResetFollower();
+    if (!place) return reply.Fail(place.error());
+    places_.push_back(*place);
+    slots_.Report("Calibrate.places", std::to_string(places_.size()));
+    reply.Ok("PLACE");
+  });
+}
+
+vm::Result<void> MaskModule::FinishCalibration(const std::string& file) {
+  if (!rig_ || camera_width_ == 0) {
+    return vm::Fail(vm::Errc::kUnavailable, "set Input and Run = START before");
+  }
+  auto made =
+      Calibrate(places_, layout_, Pinhole::OfField(camera_width_, camera_height_, field_degrees_),
+                rig_->projector_width(), rig_->projector_height());
+  if (!made) return std::unexpected(made.error());
+  made->delay_ms = delay_ms_;
+  if (auto written = WriteCalibration(*made, file); !written) return written;
+  slots_.Report("Calibrate.rms", fmt::format("{:.2f} {:.2f} {:.2f}", made->homography_rms,
+                                             made->affine_rms, made->space_rms));
+  calibration_ = std::move(*made);
+  misfit_told_ = false;
+  slots_.Report("Calibration", file);
+  return {};
+}
+
+void MaskModule::SetFace(const fsm::Image& picture) {
+  if (warp_ && !picture.rgba.empty()) warp_->SetFace(picture);
 }
 
 void MaskModule::Show(const fsm::Image& frame) {

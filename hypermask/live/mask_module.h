@@ -7,12 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "hypermask/calibrate/calibrator.h"
-#include "hypermask/calibrate/delay_meter.h"
 #include "hypermask/follow/mask_follower.h"
-#include "hypermask/live/face_stream.h"
-#include "hypermask/live/live_pictures.h"
+#include "hypermask/live/face_source.h"
+#include "hypermask/live/measurement.h"
 #include "hypermask/live/rig.h"
+#include "hypermask/live/track_figures.h"
 #include "hypermask/project/calibration.h"
 #include "hypermask/project/face_warp.h"
 #include "vm_protocol/core/module.h"
@@ -47,13 +46,13 @@ class MaskModule final : public vm::Module {
   ~MaskModule() override { Shutdown(); }
 
   vm::SlotMachine& slots() override { return slots_; }
-  bool Busy() const override { return meter_ || taker_; }
+  bool Busy() const override { return measurement_.Busy(); }
   bool ExitRequested() const override { return exit_requested_; }
   void Shutdown() override;
 
  private:
   void DeclareRun();
-  void DeclareFace();
+  void DeclareMask();
   void DeclareSettings();
   void DeclareCalibration();
   void DeclareTold();
@@ -61,32 +60,31 @@ class MaskModule final : public vm::Module {
   void Stop();
   void Over(const std::optional<vm::Error>& error);
   void ResetFollower();
+  /// How far ahead of a picture the mask's place is foretold. What is shown between two pictures is
+  /// to be right in the middle of that time.
+  double AheadMs() const { return delay_ms_ + figures_.work_ms() + figures_.interval_ms() / 2; }
   void OnPicture(const Grey& picture, vm::Time arrived);
   void Follow(const Grey& picture, vm::Time arrived);
-  void TellTrack(std::size_t seen, vm::Time arrived, double ahead_ms);
-  void TellSecond(vm::Time now);
+  void TellTrack(std::size_t seen, vm::Time arrived);
   void TellNoMask(vm::Time now);
   bool CalibrationFits(const Grey& picture);
+  /// Whether camera and projector can be taken for a measurement now; why not is answered.
+  bool CanMeasure(const vm::Reply& reply) const;
+  void BeginMeasurement(const std::string& stat);
+  void EndMeasurement();
   void MeasureDelay(const vm::Reply& reply);
-  void Flash();
-  void CancelTimers();
-  void EndDelay(const vm::Result<double>& delay);
   void TakePlace(const vm::Reply& reply);
-  void NextFrame();
-  void EndPlace(const vm::Result<Place>& place);
   vm::Result<void> FinishCalibration(const std::string& file);
-  vm::Result<void> OpenFace(const std::string& name);
-  vm::Result<void> AskFace(const std::string& module);
+  void SetFace(const fsm::Image& picture);
   void Show(const fsm::Image& frame);
   void Tell(const std::string& stat);
-  double Ms(vm::Time time) const { return static_cast<double>(time.count()) / 1000; }
 
   vm::Scheduler& scheduler_;
   const Options options_;
   vm::SlotMachine slots_;
 
   // As the slots have it.
-  std::string input_ = "NONE", stat_ = "OFF", face_from_ = "NONE";
+  std::string input_ = "NONE", stat_ = "OFF";
   int screen_ = -1;
   MaskLayout layout_ = MaskLayout::Default();
   Prediction prediction_ = Prediction::kBank;
@@ -102,29 +100,14 @@ class MaskModule final : public vm::Module {
   unsigned run_ = 0;  // counts rigs, so that a late event of one before is known
   std::optional<MaskFollower> follower_;
   std::optional<FaceWarp> warp_;
-  fsm::Image face_;
-  std::unique_ptr<FaceStream> face_stream_;
-  std::unique_ptr<LivePictures> face_film_;
   bool misfit_told_ = false, no_mask_told_ = false, ever_seen_ = false;
-  std::optional<vm::Time> picture_at_;
   vm::Time mask_at_{0};
   int camera_width_ = 0, camera_height_ = 0;
-  double interval_ms_ = 0;  // between pictures, lately
-  double work_ms_ = 0;      // from having a picture to having shown the face, lately
-
-  // While the delay is measured or a place is taken; else empty.
-  std::optional<DelayMeter> meter_;
-  std::optional<DotPattern> pattern_;
-  std::optional<PlaceTaker> taker_;
-  std::optional<vm::Reply> reply_;
-  vm::TimerId timer_ = 0, end_timer_ = 0;  // of the next flash, of the last one
-  bool flash_on_ = false;
   std::vector<Place> places_;
 
-  // Of the second that is being counted.
-  vm::Time second_{0};
-  int pictures_ = 0, seen_ = 0, missed_ = 0;
-  double miss_squares_ = 0;
+  FaceSource face_;
+  Measurement measurement_;
+  TrackFigures figures_;
 };
 
 }  // namespace hypermask

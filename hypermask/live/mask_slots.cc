@@ -89,31 +89,7 @@ void MaskModule::DeclareRun() {
                   }});
 }
 
-void MaskModule::DeclareFace() {
-  slots_.Declare({.name = "Face",
-                  .grammar = "NONE | <file>",
-                  .initial = "NONE",
-                  .help = "The face that is projected: a picture (.png, .jpg, .bmp, .rgb), or a "
-                          "film, once.",
-                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
-                    if (auto opened = OpenFace(value.text); !opened) {
-                      return std::unexpected(opened.error());
-                    }
-                    return value.text;
-                  }});
-  slots_.Declare({.name = "Face.from",
-                  .grammar = "NONE | <word>",
-                  .initial = "NONE",
-                  .help =
-                      "The module whose pictures are projected, as FSM: it is asked for them by "
-                      "its slot Picture.to.",
-                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
-                    if (auto asked = AskFace(value.word(0)); !asked) {
-                      return std::unexpected(asked.error());
-                    }
-                    return face_from_;
-                  },
-                  .saved = false});
+void MaskModule::DeclareMask() {
   slots_.Declare({.name = "Mask",
                   .grammar = "DEFAULT | <file>",
                   .initial = "DEFAULT",
@@ -263,14 +239,6 @@ void MaskModule::DeclareTold() {
           false);
   declare("Track.stat", "OFF", "OFF, LOOKING (for the mask), FOLLOWING, MEASURING or CALIBRATING.",
           true);
-  declare("Track.speed", "0 0 0",
-          "Each second: pictures in it, in how many of them the mask was seen, and how many ms "
-          "after it was there what one shows was projected.",
-          false);
-  declare("Track.miss", "0",
-          "Each second on the simulated stage: how far the face lands from where it should, pixels "
-          "of the projector, root of mean square.",
-          false);
 }
 
 }  // namespace hypermask
