@@ -1,23 +1,15 @@
 // Sends pictures of the face or the sound of the voice to a browser: a WebSocket, a piece a
 // message.
 
-#include <array>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <deque>
 #include <utility>
 
 #include "agent_manager/web/web_impl.h"
-#include "vm_protocol/core/utf8.h"
+#include "vm_protocol/web/web_socket.h"
 
 namespace am::web {
 namespace {
-
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace websocket = boost::beast::websocket;
-using boost::system::error_code;
 
 constexpr std::size_t kMaxMessageBytes = 128;           // a browser has nothing to say here
 constexpr std::size_t kMaxWaitingBytes = 512u * 1024;   // of sound: 16 s
@@ -29,18 +21,14 @@ constexpr auto kWriteLimit = std::chrono::seconds(10);  // for a browser to take
 /// kMaxWaitingBytes of sound, or a piece within kWriteLimit, is let go.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
  public:
-  LiveSession(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream, Live live)
+  LiveSession(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream, Live live)
       : server_(std::move(server)),
         place_(*server_->door),
-        socket_(std::move(stream)),
-        write_limit_(server_->io),
+        socket_(std::move(stream), {.message_bytes = kMaxMessageBytes, .write = kWriteLimit}),
         live_(live) {}
 
   void Start(const Request& request) {
-    socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-    socket_.read_message_max(kMaxMessageBytes);
-    socket_.binary(true);
-    socket_.async_accept(request, [self = shared_from_this()](const error_code& error) {
+    socket_.Accept(request, "", [self = shared_from_this()](const Error& error) {
       if (error || self->server_->closed) return;
       self->Read();
       self->Join();
@@ -48,6 +36,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   }
 
  private:
+  using Error = vm::WebSocket::Error;
   LiveSource& Source() { return *(live_ == Live::kFace ? server_->face : server_->voice); }
 
   void Join() {
@@ -75,16 +64,10 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     waiting_.pop_front();
     header_ = vm::LiveHeader(going_->kind, going_->rate_hz,
                              static_cast<double>(going_->at.count()) / 1000);
-    write_limit_.expires_after(kWriteLimit);
-    write_limit_.async_wait([weak = weak_from_this()](const error_code& stopped) {
-      const auto self = weak.lock();
-      if (!stopped && self) self->Leave();
-    });
-    const std::array<asio::const_buffer, 2> buffers{asio::buffer(header_),
-                                                    asio::buffer(going_->bytes)};
-    socket_.async_write(buffers, [self = shared_from_this()](const error_code& error, std::size_t) {
+    const std::string_view bytes(reinterpret_cast<const char*>(going_->bytes.data()),
+                                 going_->bytes.size());
+    socket_.Write(header_, bytes, true, [self = shared_from_this()](const Error& error) {
       self->writing_ = false;
-      self->write_limit_.cancel();
       if (self->live_ == Live::kVoice) self->waiting_bytes_ -= self->going_->bytes.size();
       if (error) return self->Leave();
       if (!self->waiting_.empty()) return self->Write();
@@ -101,23 +84,19 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
   /// Says why nothing follows.
   void Close() {
-    // Beast takes at most 123 bytes of reason.
-    socket_.async_close({websocket::close_code::try_again_later, vm::CutUtf8(why_, 120)},
-                        [self = shared_from_this()](const error_code&) { self->Leave(); });
+    socket_.Close(why_, [self = shared_from_this()](const Error&) { self->Leave(); });
   }
 
   void Read() {
-    socket_.async_read(buffer_, [self = shared_from_this()](const error_code& error, std::size_t) {
+    socket_.Read([self = shared_from_this()](const Error& error, const std::string&, bool) {
       if (error || self->server_->closed) return self->Leave();
-      self->buffer_.consume(self->buffer_.size());
       self->Read();
     });
   }
 
   void Leave() {
     over_ = true;
-    error_code ignored;
-    beast::get_lowest_layer(socket_).socket().close(ignored);
+    socket_.Cut();
     const unsigned number = std::exchange(number_, 0);
     if (number == 0 || server_->closed) return;
     Source().Leave(number);
@@ -125,9 +104,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
   std::shared_ptr<WebServer::Impl> server_;
   const vm::WebDoor::Place place_;
-  websocket::stream<beast::tcp_stream> socket_;
-  asio::steady_timer write_limit_;
-  beast::flat_buffer buffer_;
+  vm::WebSocket socket_;
   const Live live_;
   std::deque<Audience::Piece> waiting_;
   std::size_t waiting_bytes_ = 0;  // of sound, with what is being written
@@ -140,7 +117,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
 }  // namespace
 
-void ServeLive(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream,
+void ServeLive(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream,
                const Request& request, Live live) {
   std::make_shared<LiveSession>(std::move(server), std::move(stream), live)->Start(request);
 }

@@ -4,20 +4,17 @@
 #include <algorithm>
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/write.hpp>
-#include <boost/beast/websocket.hpp>
 #include <utility>
 
 #include "agent_manager/routing/own_names.h"
 #include "agent_manager/web/web_impl.h"
-#include "vm_protocol/core/utf8.h"
 #include "vm_protocol/runtime/private_folder.h"
+#include "vm_protocol/web/web_socket.h"
 
 namespace am::web {
 namespace {
 
 namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace websocket = boost::beast::websocket;
 using boost::system::error_code;
 
 constexpr int kRate = 16000;
@@ -31,18 +28,16 @@ constexpr const char* kEar = "SRM";
 /// Errors: closes the WebSocket with the reason, and reports it.
 class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession> {
  public:
-  MicrophoneSession(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream)
+  MicrophoneSession(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream)
       : server_(std::move(server)),
         place_(*server_->door),
-        socket_(std::move(stream)),
+        socket_(std::move(stream), {.message_bytes = kMaxMessageBytes}),
         ear_(server_->io) {
     server_->microphone = true;
   }
 
   void Start(const Request& request) {
-    socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-    socket_.read_message_max(kMaxMessageBytes);
-    socket_.async_accept(request, [self = shared_from_this()](const error_code& error) {
+    socket_.Accept(request, "", [self = shared_from_this()](const error_code& error) {
       if (error) return self->End();
       self->Read();  // from now on, so that it is seen to go while the ear is still being asked
       self->AskEar();
@@ -79,25 +74,19 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
 
   void Refuse(const std::string& why) {
     server_->on_refusal("no microphone: " + why);
-    // Beast takes at most 123 bytes of reason.
-    socket_.async_close({websocket::close_code::try_again_later, vm::CutUtf8(why, 120)},
-                        [self = shared_from_this()](const error_code&) { self->End(); });
+    socket_.Close(why, [self = shared_from_this()](const error_code&) { self->End(); });
   }
 
   void Read() {
-    socket_.async_read(buffer_, [self = shared_from_this()](const error_code& error, std::size_t) {
+    socket_.Read([self = shared_from_this()](const error_code& error, const std::string& samples,
+                                             bool binary) {
       if (error || self->server_->closed) return self->End();
-      self->Take();
+      if (binary && self->waiting_.size() + samples.size() <= kMaxWaitingBytes) {
+        self->waiting_ += samples;
+      }
+      self->Write();
       self->Read();
     });
-  }
-
-  void Take() {
-    const auto bytes = buffer_.data();
-    if (socket_.got_binary() && waiting_.size() + bytes.size() <= kMaxWaitingBytes)
-      waiting_.append(static_cast<const char*>(bytes.data()), bytes.size());
-    buffer_.consume(buffer_.size());
-    Write();
   }
 
   void Write() {
@@ -117,16 +106,15 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
     server_->microphone = false;  // another may come while the ear still owes us an answer
     error_code ignored;
     ear_.close(ignored);
-    beast::get_lowest_layer(socket_).socket().close(ignored);
+    socket_.Cut();
     if (before_.empty() || server_->closed || !server_->hub.directory().IsPresent(kEar)) return;
     Ask(vm::Set("Input", before_), IgnoreAnswer);
   }
 
   std::shared_ptr<WebServer::Impl> server_;
   const vm::WebDoor::Place place_;
-  websocket::stream<beast::tcp_stream> socket_;
+  vm::WebSocket socket_;
   asio::local::stream_protocol::socket ear_;
-  beast::flat_buffer buffer_;
   vm::PrivateFolder folder_;  // of the socket
   std::string before_, waiting_, going_;
   bool connected_ = false, writing_ = false, ended_ = false;
@@ -134,7 +122,7 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
 
 }  // namespace
 
-void ServeMicrophone(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream,
+void ServeMicrophone(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream,
                      const Request& request) {
   std::make_shared<MicrophoneSession>(std::move(server), std::move(stream))->Start(request);
 }

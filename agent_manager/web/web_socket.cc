@@ -1,8 +1,8 @@
 // Makes a WebSocket a peer of the hub.
 
+#include "vm_protocol/web/web_socket.h"
+
 #include <algorithm>
-#include <boost/beast/core/buffers_to_string.hpp>
-#include <boost/beast/websocket.hpp>
 #include <deque>
 #include <utility>
 
@@ -12,30 +12,19 @@
 namespace am::web {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace websocket = boost::beast::websocket;
-using boost::system::error_code;
-
 /// One WebSocket. The hub owns its link, which shares the session: the link's end closes the
 /// socket, and the socket's end makes the peer leave the hub. Lifetime: kept alive by the link and
 /// its pending operations. Thread: the context's. Limits: vm::kMaxLineBytes a message; a longer one
 /// ends the connection.
 class SocketSession : public std::enable_shared_from_this<SocketSession> {
  public:
-  SocketSession(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream)
-      : server_(std::move(server)), place_(*server_->door), socket_(std::move(stream)) {}
+  SocketSession(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream)
+      : server_(std::move(server)),
+        place_(*server_->door),
+        socket_(std::move(stream), {.message_bytes = vm::kMaxLineBytes}) {}
 
   void Start(const Request& request) {
-    socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-    socket_.read_message_max(vm::kMaxLineBytes);
-    const bool names_protocol = request[beast::http::field::sec_websocket_protocol] == "galatea";
-    socket_.set_option(
-        websocket::stream_base::decorator([names_protocol](websocket::response_type& response) {
-          if (names_protocol) response.set(beast::http::field::sec_websocket_protocol, "galatea");
-        }));
-    socket_.text(true);
-    socket_.async_accept(request, [self = shared_from_this()](const error_code& error) {
+    socket_.Accept(request, "galatea", [self = shared_from_this()](const Error& error) {
       if (!error) self->Join();
     });
   }
@@ -48,8 +37,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   }
   void End() {
     if (std::exchange(ended_, true)) return;
-    error_code ignored;
-    beast::get_lowest_layer(socket_).socket().close(ignored);
+    socket_.Cut();
   }
   void Pause(bool paused) {
     paused_ = paused;
@@ -58,6 +46,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   std::size_t backlog() const { return backlog_; }
 
  private:
+  using Error = vm::WebSocket::Error;
   class SocketLink final : public Link {
    public:
     explicit SocketLink(std::shared_ptr<SocketSession> session) : session_(std::move(session)) {}
@@ -85,26 +74,24 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   void Read() {
     if (reading_ || paused_ || ended_) return;
     reading_ = true;
-    socket_.async_read(buffer_, [self = shared_from_this()](const error_code& error, std::size_t) {
+    socket_.Read([self = shared_from_this()](const Error& error, const std::string& text, bool) {
       self->reading_ = false;
-      self->OnRead(error);
+      self->OnRead(error, text);
     });
   }
 
-  void OnRead(const error_code& error) {
+  void OnRead(const Error& error, const std::string& text) {
     if (server_->closed) return;
     if (error) {
       const PeerKey peer = std::exchange(peer_, 0);
-      if (error == websocket::error::message_too_big) {
+      if (vm::WebSocket::IsTooLong(error)) {
         const std::string why = "a message over " + std::to_string(vm::kMaxLineBytes) + " bytes";
         server_->on_refusal("refused " + why);
         return server_->hub.Leave(peer, why);
       }
-      return server_->hub.Leave(
-          peer, error == websocket::error::closed ? "end of input" : error.message());
+      return server_->hub.Leave(peer,
+                                vm::WebSocket::IsGoodbye(error) ? "end of input" : error.message());
     }
-    const std::string text = beast::buffers_to_string(buffer_.data());
-    buffer_.consume(buffer_.size());
     // Usually one line; several are received in their order.
     std::string_view rest = text;
     while (!rest.empty() && peer_ != 0 && !ended_) {
@@ -117,19 +104,17 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
 
   void Write() {
     writing_ = true;
-    socket_.async_write(asio::buffer(outgoing_.front()),
-                        [self = shared_from_this()](const error_code& error, std::size_t) {
-                          self->backlog_ -= self->outgoing_.front().size();
-                          self->outgoing_.pop_front();
-                          self->writing_ = false;
-                          if (!error && !self->outgoing_.empty()) self->Write();
-                        });
+    socket_.Write(outgoing_.front(), "", false, [self = shared_from_this()](const Error& error) {
+      self->backlog_ -= self->outgoing_.front().size();
+      self->outgoing_.pop_front();
+      self->writing_ = false;
+      if (!error && !self->outgoing_.empty()) self->Write();
+    });
   }
 
   std::shared_ptr<WebServer::Impl> server_;
   const vm::WebDoor::Place place_;
-  websocket::stream<beast::tcp_stream> socket_;
-  beast::flat_buffer buffer_;
+  vm::WebSocket socket_;
   std::deque<std::string> outgoing_;
   std::size_t backlog_ = 0;
   PeerKey peer_ = 0;
@@ -138,7 +123,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
 
 }  // namespace
 
-void ServeSocket(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream,
+void ServeSocket(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream,
                  const Request& request) {
   std::make_shared<SocketSession>(std::move(server), std::move(stream))->Start(request);
 }

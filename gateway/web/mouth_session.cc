@@ -1,23 +1,18 @@
 // One client's WebSocket: sound in, weights and pictures out.
 
 #include <boost/asio/post.hpp>
-#include <boost/beast/core/buffers_to_string.hpp>
-#include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/websocket.hpp>
 #include <deque>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "gateway/face/face_messages.h"
 #include "gateway/web/gateway_impl.h"
+#include "vm_protocol/web/web_socket.h"
 
 namespace gateway {
 namespace {
 
 namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace websocket = boost::beast::websocket;
-using boost::system::error_code;
 
 constexpr std::size_t kMaxMessageBytes = 1u << 20;
 constexpr std::size_t kPieceBytes = 32u << 10;  // worked on in one turn of the loop
@@ -29,11 +24,10 @@ constexpr auto kWriteLimit = std::chrono::seconds(10);
 /// taken for kWriteLimit ends the connection. Errors: a message that is none is answered.
 class MouthSession : public std::enable_shared_from_this<MouthSession> {
  public:
-  MouthSession(std::shared_ptr<GatewayServer::Impl> server, beast::tcp_stream stream,
+  MouthSession(std::shared_ptr<GatewayServer::Impl> server, boost::beast::tcp_stream stream,
                MouthWish wish)
       : server_(std::move(server)),
-        socket_(std::move(stream)),
-        write_timer_(server_->io),
+        socket_(std::move(stream), {.message_bytes = kMaxMessageBytes, .write = kWriteLimit}),
         wish_(std::move(wish)),
         face_(server_->net, wish_.live) {
     ++server_->clients;
@@ -46,9 +40,7 @@ class MouthSession : public std::enable_shared_from_this<MouthSession> {
   MouthSession(const MouthSession&) = delete;
 
   void Start(const vm::WebRequest& request) {
-    socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-    socket_.read_message_max(kMaxMessageBytes);
-    socket_.async_accept(request, [self = shared_from_this()](const error_code& error) {
+    socket_.Accept(request, "", [self = shared_from_this()](const Error& error) {
       if (error) return;
       self->Send(ReadyText(self->face_, self->PicturesReady()));
       self->StartPictures();
@@ -57,6 +49,7 @@ class MouthSession : public std::enable_shared_from_this<MouthSession> {
   }
 
  private:
+  using Error = vm::WebSocket::Error;
   nlohmann::json PicturesReady() const {
     if (!wish_.pictures) return nlohmann::json::object();
     return {{"pictures",
@@ -103,10 +96,10 @@ class MouthSession : public std::enable_shared_from_this<MouthSession> {
       return;
     }
     reading_ = true;
-    socket_.async_read(buffer_, [self = shared_from_this()](const error_code& error, std::size_t) {
+    socket_.Read([self = shared_from_this()](const Error& error, std::string message, bool binary) {
       if (error || self->server_->closed) return self->End();
-      self->message_ = beast::buffers_to_string(self->buffer_.data());
-      self->buffer_.consume(self->buffer_.size());
+      self->message_ = std::move(message);
+      self->is_sound_ = binary;
       self->taken_ = 0;
       self->Take();
     });
@@ -115,7 +108,7 @@ class MouthSession : public std::enable_shared_from_this<MouthSession> {
   /// A piece of the message in each turn of the loop, so that other clients do not wait.
   void Take() {
     if (ended_ || server_->closed) return End();
-    if (!socket_.got_binary()) {
+    if (!is_sound_) {
       TakeControl();
       taken_ = message_.size();
     } else {
@@ -169,38 +162,29 @@ class MouthSession : public std::enable_shared_from_this<MouthSession> {
 
   void Write() {
     writing_ = true;
-    write_timer_.expires_after(kWriteLimit);
-    write_timer_.async_wait([weak = weak_from_this()](const error_code& error) {
-      const auto self = weak.lock();
-      if (!error && self) self->End();
+    const Outgoing& next = outgoing_.front();
+    socket_.Write(next.bytes, "", next.binary, [self = shared_from_this()](const Error& error) {
+      self->backlog_ -= self->outgoing_.front().bytes.size();
+      self->outgoing_.pop_front();
+      self->writing_ = false;
+      if (error) return self->End();
+      if (!self->outgoing_.empty()) self->Write();
+      self->Read();
     });
-    socket_.binary(outgoing_.front().binary);
-    socket_.async_write(asio::buffer(outgoing_.front().bytes),
-                        [self = shared_from_this()](const error_code& error, std::size_t) {
-                          self->write_timer_.cancel();
-                          self->backlog_ -= self->outgoing_.front().bytes.size();
-                          self->outgoing_.pop_front();
-                          self->writing_ = false;
-                          if (error) return self->End();
-                          if (!self->outgoing_.empty()) self->Write();
-                          self->Read();
-                        });
   }
 
   void End() {
     if (std::exchange(ended_, true)) return;
-    error_code ignored;
-    beast::get_lowest_layer(socket_).socket().close(ignored);
+    socket_.Cut();
   }
 
   const std::shared_ptr<GatewayServer::Impl> server_;
-  websocket::stream<beast::tcp_stream> socket_;
-  asio::steady_timer write_timer_;
+  vm::WebSocket socket_;
   const MouthWish wish_;
   LiveFace face_;
   std::unique_ptr<FacePictures> pictures_;
-  beast::flat_buffer buffer_;
   std::string message_;    // being worked on
+  bool is_sound_ = false;  // it, and not a control message
   std::size_t taken_ = 0;  // bytes of it
   struct Outgoing {
     std::string bytes;
@@ -215,7 +199,7 @@ class MouthSession : public std::enable_shared_from_this<MouthSession> {
 
 }  // namespace
 
-void ServeMouth(std::shared_ptr<GatewayServer::Impl> server, beast::tcp_stream stream,
+void ServeMouth(std::shared_ptr<GatewayServer::Impl> server, boost::beast::tcp_stream stream,
                 const vm::WebRequest& request, const MouthWish& wish) {
   std::make_shared<MouthSession>(std::move(server), std::move(stream), wish)->Start(request);
 }
