@@ -17,10 +17,10 @@ std::string_view ${NAME}();
 file(WRITE ${SOURCE} "#include \"embedded/${NAME}.h\"
 
 namespace embedded {
-namespace {
-const unsigned char kBytes[] = {
+std::string_view ${NAME}() {
+  static const unsigned char bytes[] = {
 ${bytes}0x00};
+  return {reinterpret_cast<const char*>(bytes), ${size}};
 }
-std::string_view ${NAME}() { return {reinterpret_cast<const char*>(kBytes), ${size}}; }
 }
 ")

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cctype>
 #include <string>
+
+#include "vm_protocol/core/lower_case.h"
 
 namespace ssm_stub {
 namespace {
@@ -163,8 +164,7 @@ std::size_t Letters(std::string_view word, std::size_t at, PhonemeNames& names) 
 }  // namespace
 
 PhonemeNames FromEnglishWord(std::string_view word) {
-  std::string lower(word);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string lower = vm::LowerCase(word);
   PhonemeNames names;
   for (const Entry& entry : kWords) {
     if (entry.spelling == lower) {

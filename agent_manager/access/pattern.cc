@@ -1,11 +1,9 @@
 #include "agent_manager/access/pattern.h"
 
-#include <algorithm>
+#include "vm_protocol/core/lower_case.h"
 
 namespace am {
 namespace {
-
-char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
 
 template <typename Same>
 bool Matches(std::string_view pattern, std::string_view text, const Same& same) {
@@ -36,11 +34,8 @@ bool MatchesPattern(std::string_view pattern, std::string_view text) {
 }
 
 bool MatchesIgnoringCase(std::string_view pattern, std::string_view text) {
-  return Matches(pattern, text, [](char a, char b) { return Lower(a) == Lower(b); });
-}
-
-bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](char x, char y) { return Lower(x) == Lower(y); });
+  return Matches(pattern, text,
+                 [](char a, char b) { return vm::LowerCase(a) == vm::LowerCase(b); });
 }
 
 }  // namespace am

@@ -10,7 +10,6 @@ namespace am {
 bool MatchesPattern(std::string_view pattern, std::string_view text);
 /// The same, with the letters A to Z as a to z.
 bool MatchesIgnoringCase(std::string_view pattern, std::string_view text);
-bool EqualsIgnoringCase(std::string_view a, std::string_view b);
 
 inline bool AnyMatches(const std::vector<std::string>& patterns, std::string_view text) {
   for (const std::string& pattern : patterns) {

@@ -6,6 +6,7 @@
 
 #include "agent_manager/access/pattern.h"
 #include "agent_manager/routing/own_names.h"
+#include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace am {
@@ -27,7 +28,7 @@ std::unexpected<vm::Error> Refuse(Role role, std::string_view member, std::strin
 }
 
 bool IsWord(const std::string& value, std::string_view word) {
-  return EqualsIgnoringCase(std::string_view(value).substr(0, word.size()), word) &&
+  return vm::EqualsIgnoringCase(std::string_view(value).substr(0, word.size()), word) &&
          value.find_first_not_of(" \t", word.size()) == std::string::npos;
 }
 

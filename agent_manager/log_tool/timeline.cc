@@ -57,8 +57,8 @@ class Timeline {
       for (const std::string& receiver : entry.receivers) AddLane(receiver);
     }
     if (!entries.empty()) {
-      first_ms_ = Ms(entries.front().log.time);
-      last_ms_ = std::max(Ms(entries.back().log.time), first_ms_ + 1);
+      first_ms_ = vm::InMs(entries.front().log.time);
+      last_ms_ = std::max(vm::InMs(entries.back().log.time), first_ms_ + 1);
     }
     scale_ = (kWidth - kLeft - kRight) / (last_ms_ - first_ms_);
     height_ = kTop + kLane * static_cast<double>(names_.size()) + 30;
@@ -111,8 +111,7 @@ class Timeline {
   std::string Finish() const { return svg_ + "</svg>\n"; }
 
  private:
-  static double Ms(vm::Time time) { return static_cast<double>(time.count()) / 1000; }
-  double X(vm::Time time) const { return kLeft + (Ms(time) - first_ms_) * scale_; }
+  double X(vm::Time time) const { return kLeft + (vm::InMs(time) - first_ms_) * scale_; }
   static double Y(std::size_t lane) { return kTop + kLane * (static_cast<double>(lane) + 0.5); }
   /// Without its end.
   static std::string Line(const std::string& x1, const std::string& y1, const std::string& x2,

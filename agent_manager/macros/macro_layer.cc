@@ -15,7 +15,6 @@ using vm::Result;
 
 namespace {
 
-constexpr const char* kName = own_name::kMacros;
 constexpr std::size_t kMaxWords = 64;  // words of a value that become variables
 
 }  // namespace
@@ -24,7 +23,7 @@ MacroLayer::MacroLayer(vm::Scheduler& clock, Hub& hub, ReadFile read_file,
                        std::function<void(const std::string& path)> remove_file)
     : hub_(hub),
       read_file_(std::move(read_file)),
-      slots_(kName),
+      slots_(own_name::kMacros),
       services_{
           .clock = clock, .hub = hub, .slots = slots_, .remove_file = std::move(remove_file)} {
   slots_.Declare({.name = "Macros",
@@ -133,7 +132,7 @@ void MacroLayer::SwitchOn(const std::string& module) {
        at != awaited_.end() && at->first.first == module; ++at) {
     if (!at->second.is_value || std::exchange(at->second.switched_on, true)) continue;
     hub_.Ask(
-        kName,
+        own_name::kMacros,
         vm::To(module,
                {{}, "", Command::kProp, "", at->first.second, vm::Relation::kAssign, "AutoOutput"}),
         IgnoreAnswer);
@@ -215,7 +214,7 @@ void MacroLayer::StopWithoutRun(const Macro& macro) {
       return std::string();
     });
     if (message && hub_.directory().IsPresent(message->to.front()))
-      hub_.Ask(kName, std::move(*message), IgnoreAnswer, origin_);
+      hub_.Ask(own_name::kMacros, std::move(*message), IgnoreAnswer, origin_);
   }
 }
 

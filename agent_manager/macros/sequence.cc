@@ -15,7 +15,6 @@ using vm::Result;
 
 namespace {
 
-constexpr const char* kName = own_name::kMacros;
 /// Added to the common start time: lets the mouth move first, and allows for a busy computer.
 constexpr vm::Time kStartMargin = milliseconds(60);
 
@@ -125,7 +124,7 @@ void Sequence::Say(const MessageTemplate& said, const Template::Lookup& lookup, 
   auto message = said.Expand(lookup);
   if (!message) return Fail(message.error());
   for (const std::string& name : message->to) run_.involved.insert(name);
-  services_.hub.Ask(kName, std::move(*message), std::move(done), origin_);
+  services_.hub.Ask(own_name::kMacros, std::move(*message), std::move(done), origin_);
 }
 
 void Sequence::Do(const SendStep& step) {
@@ -148,7 +147,7 @@ void Sequence::Do(const RequestStep& step) {
   auto message = step.message.Expand([this](const std::string& name) { return Value(name); });
   if (!message) return Answered(number, where, std::unexpected(message.error()));
   for (const std::string& name : message->to) run_.involved.insert(name);
-  services_.hub.Ask(kName, std::move(*message), answered, origin_);
+  services_.hub.Ask(own_name::kMacros, std::move(*message), answered, origin_);
 }
 
 void Sequence::Answered(unsigned number, const std::string& where,

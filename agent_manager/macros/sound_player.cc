@@ -15,12 +15,11 @@ using vm::Result;
 
 namespace {
 
-constexpr const char* kName = own_name::kSound;
 constexpr const char* kVoice = "SSM";
 
 }  // namespace
 
-SoundPlayer::SoundPlayer(Hub& hub) : hub_(hub), slots_(kName) {
+SoundPlayer::SoundPlayer(Hub& hub) : hub_(hub), slots_(own_name::kSound) {
   slots_.Declare({.name = "Play",
                   .grammar = "STOP | <file>",
                   .access = vm::Access::kWriteOnly,
@@ -59,7 +58,7 @@ void SoundPlayer::Prepare() {
   const File& file = files_.front();
   const std::string markup = "<speak><audio src=\"" + vm::EscapeXml(file.path) + "\"/></speak>";
   hub_.Ask(
-      kName, vm::To(kVoice, vm::Set("Text", markup)),
+      own_name::kSound, vm::To(kVoice, vm::Set("Text", markup)),
       [this, reply = file.reply](const Result<std::string>& taken) {
         if (reply.done()) return;  // dropped meanwhile
         if (taken) return Speak();
@@ -73,7 +72,7 @@ void SoundPlayer::Speak() {
   File& file = files_.front();
   file.state = File::State::kAsked;
   hub_.Ask(
-      kName, vm::To(kVoice, vm::Set("Speak", "NOW")),
+      own_name::kSound, vm::To(kVoice, vm::Set("Speak", "NOW")),
       [this, reply = file.reply](const Result<std::string>& begun) {
         if (reply.done()) return;
         if (begun) return Begun();
@@ -126,7 +125,8 @@ void SoundPlayer::Drop(const vm::Error& error) {
     file.reply.Fail(error);
   }
   if (!files.empty() && hub_.directory().IsPresent(kVoice))
-    hub_.Ask(kName, vm::To(kVoice, vm::Set("Speak", "STOP")), IgnoreAnswer, files.front().origin);
+    hub_.Ask(own_name::kSound, vm::To(kVoice, vm::Set("Speak", "STOP")), IgnoreAnswer,
+             files.front().origin);
 }
 
 }  // namespace am

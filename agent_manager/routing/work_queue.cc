@@ -4,7 +4,7 @@ namespace am {
 namespace {
 
 constexpr std::size_t kKeptItems = 16384;  // what a flood needed beyond this is given back
-constexpr std::size_t kLookAtClock = 4;  // items: cheap ones shall not pay for it
+constexpr std::size_t kLookAtClock = 4;    // items: cheap ones shall not pay for it
 
 std::size_t BytesOf(const Envelope& envelope) {
   return envelope.message.value.size() + envelope.message.slot.size();

@@ -18,20 +18,20 @@ namespace asio = boost::asio;
 using boost::system::error_code;
 
 constexpr int kRate = 16000;
-constexpr std::size_t kMaxMessageBytes = 64u * 1024;
-constexpr std::size_t kMaxWaitingBytes = 2 * 2 * kRate;  // two seconds; more is dropped
+constexpr std::size_t kMaxSoundBytes = 64u * 1024;
+constexpr std::size_t kMaxWaitingSoundBytes = 2 * 2 * kRate;  // two seconds; more is dropped
 constexpr const char* kEar = "SRM";
 
 /// One browser's microphone. Sets the ear's Input to a socket and restores the old value at the
 /// end. Lifetime: kept alive by its pending operations. Thread: the context's. Limits:
-/// kMaxMessageBytes a message; samples beyond kMaxWaitingBytes waiting for the ear are dropped.
+/// kMaxSoundBytes a message; samples beyond kMaxWaitingSoundBytes waiting for the ear are dropped.
 /// Errors: closes the WebSocket with the reason, and reports it.
 class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession> {
  public:
   MicrophoneSession(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream)
       : server_(std::move(server)),
         place_(*server_->door),
-        socket_(std::move(stream), {.message_bytes = kMaxMessageBytes}),
+        socket_(std::move(stream), {.message_bytes = kMaxSoundBytes}),
         ear_(server_->io) {
     server_->microphone = true;
   }
@@ -81,7 +81,7 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
     socket_.Read([self = shared_from_this()](const error_code& error, const std::string& samples,
                                              bool binary) {
       if (error || self->server_->closed) return self->End();
-      if (binary && self->waiting_.size() + samples.size() <= kMaxWaitingBytes) {
+      if (binary && self->waiting_.size() + samples.size() <= kMaxWaitingSoundBytes) {
         self->waiting_ += samples;
       }
       self->Write();

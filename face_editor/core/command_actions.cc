@@ -36,12 +36,12 @@ vm::Result<Editor::Keys> KeysOf(const Editor& editor, const std::string& kind, i
   return Editor::Keys(keys.begin(), keys.end());
 }
 
-struct FileKind {
+struct NamedFile {
   std::string_view word;
   Part part;
   bool bilingual;
 };
-constexpr FileKind kFiles[] = {
+constexpr NamedFile kFiles[] = {
     {"points", Part::kPoints, false},   {"emotions", Part::kEmotions, false},
     {"mouth", Part::kMouth, false},     {"mouth28", Part::kMouth, true},
     {"motions", Part::kMotions, false}, {"units", Part::kUnits, false}};
@@ -201,7 +201,7 @@ Answer LoadOrSave(Editor& editor, const Words& words, bool save) {
   if (words[0] == "identity") {
     return save ? editor.SaveIdentity(words[1], "") : Done(editor.LoadIdentity(words[1], ""));
   }
-  const auto kind = std::ranges::find(kFiles, words[0], &FileKind::word);
+  const auto kind = std::ranges::find(kFiles, words[0], &NamedFile::word);
   if (kind == std::end(kFiles)) {
     return vm::Fail(Errc::kBadValue, "'" + words[0] +
                                          "' found; points, emotions, mouth, mouth28, motions, "

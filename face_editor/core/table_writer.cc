@@ -22,7 +22,7 @@ struct Line {
   std::string comment;  ///< with its #, and the blanks before it
 };
 
-std::vector<Line> LinesOf(std::string_view text) {
+std::vector<Line> TableLinesOf(std::string_view text) {
   std::vector<Line> lines;
   while (!text.empty()) {
     const std::size_t newline = text.find('\n');
@@ -116,7 +116,7 @@ bool Same(const fsm::HeadCurve& curve, const std::vector<Line>& lines, std::size
 
 std::string WriteVisemes(std::string_view text, const fsm::Visemes& shapes) {
   std::vector<std::string> out;
-  for (const Line& line : LinesOf(text)) {
+  for (const Line& line : TableLinesOf(text)) {
     const fsm::Viseme* shape = line.words.empty() ? nullptr : fsm::FindShape(shapes, line.words[0]);
     if (!shape) {
       out.push_back(line.text);
@@ -137,7 +137,7 @@ std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotio
   Rows rows;
   std::map<std::string, std::size_t, std::less<>> written;
   std::vector<std::pair<std::string, std::string>> timed;  // kind, name
-  for (const Line& line : LinesOf(text)) {
+  for (const Line& line : TableLinesOf(text)) {
     const bool timing =
         !line.words.empty() && (line.words[0] == "posed" || line.words[0] == "elicited");
     const std::string name = line.words.size() < 2 ? "" : line.words[timing ? 1 : 0];
@@ -185,7 +185,7 @@ std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotio
 }
 
 std::string WriteCurves(std::string_view text, const HeadCurves& curves) {
-  const std::vector<Line> lines = LinesOf(text);
+  const std::vector<Line> lines = TableLinesOf(text);
   Rows rows;
   std::map<std::string, std::size_t, std::less<>> written;
   for (std::size_t i = 0; i < lines.size(); ++i) {

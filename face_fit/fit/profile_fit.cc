@@ -43,7 +43,7 @@ constexpr float kReachStep = 0.5F;
 constexpr float kEven = 2.2F;         // height over which gaps are evened out (Gaussian sigma)
 constexpr float kWide = 24;           // from the middle of the face: there 1/e of the gap counts
 constexpr float kMostCorrection = 6;  // in one round
-constexpr int kRounds = 3;
+constexpr int kProfileRounds = 3;
 
 /// The profile of the fitted head from the chin up: heights in even steps, and how far forward.
 std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin) {
@@ -340,7 +340,7 @@ vm::Result<PoseFit> RefineDepthByProfile(const FloatImage& opacity, Fit& fit) {
   view.pose = RefinePose(opacity, view.pose, line);
   view.residual_mm = MeanDepthGap(opacity, view.pose, line);
   if (view.residual_mm > kMostOffMm) return refused();
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kProfileRounds; ++round) {
     const auto now = ProfileOf(fit.head, 1);
     if (round > 0) view.pose = RefinePose(opacity, view.pose, now);
     CorrectDepth(DepthGaps(opacity, view.pose, now), fit);

@@ -5,12 +5,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 
 #include "embedded/network_points.h"
 #include "fsm/base/table_reader.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace facespace {
 namespace {
@@ -58,9 +58,7 @@ KnownPlaces PlacesByName(const std::vector<std::string>& markers, const fsm::Hea
   };
   const fsm::Table points("network_points.txt", embedded::network_points());
   for (const std::string& marker : markers) {
-    std::string small = marker;
-    std::ranges::transform(small, small.begin(), [](unsigned char c) { return std::tolower(c); });
-    add(marker, small);
+    add(marker, vm::LowerCase(marker));
     for (const fsm::TableRow& row : points.rows()) {
       if (row.Word(1) == marker) add(marker, row.Word(2));
     }

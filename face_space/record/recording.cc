@@ -8,6 +8,7 @@
 #include <map>
 
 #include "fsm/base/table_reader.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace facespace {
 namespace {
@@ -18,7 +19,7 @@ struct Place {
   std::size_t axis;
 };
 std::optional<std::size_t> AxisOf(char letter) {
-  const char small = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  const char small = vm::LowerCase(letter);
   if (small < 'x' || small > 'z') return std::nullopt;
   return static_cast<std::size_t>(small - 'x');
 }

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
 #include "vm_protocol/core/blanks.h"
+#include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace facespace {
@@ -23,12 +23,6 @@ struct TimeName {
 };
 constexpr std::array<TimeName, 5> kTimeNames{
     {{"ms", 1}, {"time_ms", 1}, {"time", 1000}, {"t", 1000}, {"seconds", 1000}}};
-
-std::string Small(std::string_view word) {
-  std::string small(word);
-  std::ranges::transform(small, small.begin(), [](unsigned char c) { return std::tolower(c); });
-  return small;
-}
 
 std::string Shown(std::string_view word) { return fsm::Printable(std::string(word.substr(0, 40))); }
 
@@ -51,7 +45,7 @@ class Frames {
     }
     names_ = std::move(names);
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      const std::string small = Small(names_[i]);
+      const std::string small = vm::LowerCase(names_[i]);
       for (const TimeName& time : kTimeNames) {
         if (small == time.name && !time_) time_ = {i, time.ms};
       }
@@ -80,8 +74,9 @@ class Frames {
     if (kept_.empty()) {
       for (std::size_t i = 0; i < cells.size(); ++i) {
         const std::string_view cell = vm::Trimmed(cells[i]);
-        const bool word = !fsm::ParseNumber(cell) && !cell.empty() && Small(cell) != "nan" &&
-                          Small(cell) != "inf" && Small(cell) != "-nan" && Small(cell) != "-inf";
+        const bool word = !fsm::ParseNumber(cell) && !cell.empty() &&
+                          vm::LowerCase(cell) != "nan" && vm::LowerCase(cell) != "inf" &&
+                          vm::LowerCase(cell) != "-nan" && vm::LowerCase(cell) != "-inf";
         kept_.push_back(!word);
       }
     }

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
+
+#include "vm_protocol/core/lower_case.h"
 
 namespace facespace {
 namespace {
@@ -12,9 +13,7 @@ namespace {
 /// What a column adds to a look at full strength; nothing for other columns.
 std::optional<fsm::ActionUnits> LookOf(const std::string& column, const fsm::MotionTables& tables) {
   std::string shape = column;
-  if (!shape.empty()) {
-    shape[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(shape[0])));
-  }
+  if (!shape.empty()) shape[0] = vm::LowerCase(shape[0]);
   if (const auto found = tables.blend_shapes.find(shape); found != tables.blend_shapes.end()) {
     return found->second;
   }

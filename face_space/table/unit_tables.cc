@@ -11,6 +11,7 @@
 #include "embedded/base_action_units.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/motion/unit_names.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace facespace {
 namespace {
@@ -96,9 +97,7 @@ vm::Result<UnitTables> WriteUnits(const std::vector<ShapeUnit>& shapes, const Pl
       }
       const bool whole = part.acting == Acting::kBothSides, left = part.acting == Acting::kLeftOnly;
       const std::string name = shape.name + (whole ? "" : left ? "OnLeft" : "OnRight");
-      std::string small = name;
-      std::ranges::transform(small, small.begin(), [](unsigned char c) { return std::tolower(c); });
-      if (known->by_name.contains(small)) {
+      if (known->by_name.contains(vm::LowerCase(name))) {
         return vm::Fail(vm::Errc::kBadValue,
                         fmt::format("{} has a unit called {} already", kNamesFile, name));
       }

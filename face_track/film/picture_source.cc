@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <vector>
 
 #include "face_fit/picture/photo.h"
 #include "face_track/film/ffmpeg_source.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace facetrack {
 namespace {
@@ -16,8 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool IsPhoto(const fs::path& path) {
-  std::string end = path.extension().string();
-  std::ranges::transform(end, end.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string end = vm::LowerCase(path.extension().string());
   return end == ".png" || end == ".jpg" || end == ".jpeg";
 }
 

@@ -9,7 +9,7 @@
 namespace fsm {
 namespace {
 
-struct Fault : std::runtime_error {
+struct Flaw : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
@@ -22,7 +22,7 @@ class Checker {
   explicit Checker(const HeadAsset& asset) : asset_(asset), vertices_(asset.rig.rest.size()) {}
 
   void Check() const {
-    if (vertices_ == 0) throw Fault("rig.rest: no vertices");
+    if (vertices_ == 0) throw Flaw("rig.rest: no vertices");
     CheckTopology(asset_.topology);
     CheckRig(asset_.rig);
     CheckLips(asset_.rig.lips);
@@ -31,13 +31,13 @@ class Checker {
  private:
   void Vertex(std::size_t vertex, const std::string& place) const {
     if (vertex < vertices_) return;
-    throw Fault(place + ": vertex " + std::to_string(vertex) + " of " + std::to_string(vertices_));
+    throw Flaw(place + ": vertex " + std::to_string(vertex) + " of " + std::to_string(vertices_));
   }
   template <typename List>
   void PerVertex(const List& list, const char* member, bool may_be_empty) const {
     if (list.size() == vertices_ || (may_be_empty && list.empty())) return;
-    throw Fault(std::string(member) + ": " + std::to_string(list.size()) + " elements for " +
-                std::to_string(vertices_) + " vertices");
+    throw Flaw(std::string(member) + ": " + std::to_string(list.size()) + " elements for " +
+               std::to_string(vertices_) + " vertices");
   }
   template <typename List>
   void Vertices(const List& list, const char* member) const {
@@ -50,7 +50,7 @@ class Checker {
   }
   template <typename List>
   void Triangles(const List& list, const char* member) const {
-    if (list.size() % 3 != 0) throw Fault(std::string(member) + ": not three for each triangle");
+    if (list.size() % 3 != 0) throw Flaw(std::string(member) + ": not three for each triangle");
     Vertices(list, member);
   }
 
@@ -61,11 +61,11 @@ class Checker {
       const std::string place = Place("topology.parts", i);
       if (part.index_count % 3 != 0 || part.first_index > topology.indices.size() ||
           part.index_count > topology.indices.size() - part.first_index) {
-        throw Fault(place + ": its triangles are not among the indices");
+        throw Flaw(place + ": its triangles are not among the indices");
       }
       if (part.pbr < -1 || part.pbr >= static_cast<int>(topology.pbr_materials.size())) {
-        throw Fault(place + ": PBR material " + std::to_string(part.pbr) + " of " +
-                    std::to_string(topology.pbr_materials.size()));
+        throw Flaw(place + ": PBR material " + std::to_string(part.pbr) + " of " +
+                   std::to_string(topology.pbr_materials.size()));
       }
     }
     PerVertex(topology.albedo, "topology.albedo", false);
@@ -90,12 +90,12 @@ class Checker {
 
   void CheckRig(const RigData& rig) const {
     for (std::size_t i = 0; i < vertices_; ++i) {
-      if (!WithinReach(rig.rest[i])) throw Fault(Place("rig.rest", i) + ": too far away");
+      if (!WithinReach(rig.rest[i])) throw Flaw(Place("rig.rest", i) + ": too far away");
     }
     PerVertex(rig.rest_normal, "rig.rest_normal", false);
     PerVertex(rig.proxy.rest, "rig.proxy_rest", true);
     if (rig.proxy.to_own.size() != rig.proxy.rest.size()) {
-      throw Fault("rig.own_form: not one for each of rig.proxy_rest");
+      throw Flaw("rig.own_form: not one for each of rig.proxy_rest");
     }
     Vertex(rig.jaw.chin, "rig.chin");
     PerVertex(rig.bone, "rig.bone", false);
@@ -118,23 +118,23 @@ class Checker {
       const Spring& spring = rig.swing.springs[i];
       const std::string place = Place("rig.springs", i);
       if (!WithinReach(spring.rest) || !WithinReach(spring.root))
-        throw Fault(place + ": too far away");
+        throw Flaw(place + ": too far away");
       if (!within(spring.frequency_hz, Spring::kLeastHz, Spring::kMostHz))
-        throw Fault(place + ": a frequency outside 0.1..30 Hz");
+        throw Flaw(place + ": a frequency outside 0.1..30 Hz");
       if (!within(spring.damping, Spring::kLeastDamping, Spring::kMostDamping))
-        throw Fault(place + ": a damping outside 0.01..0.99");
-      if (!within(spring.hang, 0, 1)) throw Fault(place + ": hang outside 0..1");
+        throw Flaw(place + ": a damping outside 0.01..0.99");
+      if (!within(spring.hang, 0, 1)) throw Flaw(place + ": hang outside 0..1");
       if (!within(spring.most_mm, Spring::kLeastMost, Spring::kMostMost))
-        throw Fault(place + ": most_mm outside 0.01..1000");
+        throw Flaw(place + ": most_mm outside 0.01..1000");
       if (!within(glm::dot(spring.outward, spring.outward), 0, 1.01f))
-        throw Fault(place + ": outward is longer than 1");
+        throw Flaw(place + ": outward is longer than 1");
     }
     VerticesOf(rig.swing.weights, "rig.spring_weights");
     for (std::size_t i = 0; i < rig.swing.weights.size(); ++i) {
       const std::uint32_t spring = rig.swing.weights[i].spring;
       if (spring >= rig.swing.springs.size()) {
-        throw Fault(Place("rig.spring_weights", i) + ": spring " + std::to_string(spring) + " of " +
-                    std::to_string(rig.swing.springs.size()));
+        throw Flaw(Place("rig.spring_weights", i) + ": spring " + std::to_string(spring) + " of " +
+                   std::to_string(rig.swing.springs.size()));
       }
     }
   }
@@ -149,8 +149,8 @@ class Checker {
                                    ? 0
                                    : FaceState{}.mouth.size() - 1;
       if (driver.drive.number > most) {
-        throw Fault(place + ": number " + std::to_string(driver.drive.number) + " above " +
-                    std::to_string(most));
+        throw Flaw(place + ": number " + std::to_string(driver.drive.number) + " above " +
+                   std::to_string(most));
       }
     }
     VerticesOf(channel.moves, (place + ".moves").c_str());
@@ -162,14 +162,14 @@ class Checker {
       Vertex(lips.seam[i].second, Place("rig.lips.seam", i));
     }
     if (!lips.apart_at_rest.empty() && lips.apart_at_rest.size() != lips.seam.size()) {
-      throw Fault("rig.lips.apart_at_rest: not one for each pair of the seam");
+      throw Flaw("rig.lips.apart_at_rest: not one for each pair of the seam");
     }
     VerticesOf(lips.followers, "rig.lips.followers");
     for (std::size_t i = 0; i < lips.followers.size(); ++i) {
       if (lips.followers[i].pair >= lips.seam.size()) {
-        throw Fault(Place("rig.lips.followers", i) + ": pair " +
-                    std::to_string(lips.followers[i].pair) + " of " +
-                    std::to_string(lips.seam.size()));
+        throw Flaw(Place("rig.lips.followers", i) + ": pair " +
+                   std::to_string(lips.followers[i].pair) + " of " +
+                   std::to_string(lips.seam.size()));
       }
     }
     if (lips.measured) Vertices(*lips.measured, "rig.lips.measured");
@@ -184,7 +184,7 @@ class Checker {
 vm::Result<void> CheckAsset(const HeadAsset& asset) {
   try {
     Checker(asset).Check();
-  } catch (const Fault& fault) {
+  } catch (const Flaw& fault) {
     return vm::Fail(vm::Errc::kBadValue, fault.what());
   }
   return {};

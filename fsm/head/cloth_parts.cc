@@ -14,12 +14,12 @@ constexpr std::array kRings = {"shirt_inside",   "shirt_collar_foot", "shirt_col
                                "shirt_neckline", "shirt_shoulder",    "shirt_chest",  "shirt_hem"};
 
 /// A half ring of the shirt, from the median in front by the agent's left to the median behind.
-struct Ring {
+struct ClothRing {
   float open;
   std::array<glm::vec3, kPoints> points;
 };
-Ring RingOf(const std::vector<float>& n) {
-  Ring ring{n[0], {}};
+ClothRing ClothRingOf(const std::vector<float>& n) {
+  ClothRing ring{n[0], {}};
   for (std::size_t i = 0; i < kPoints; ++i) {
     ring.points[i] = {n[3 * i + 1], n[3 * i + 2], n[3 * i + 3]};
   }
@@ -36,10 +36,10 @@ void BuildCloth(const Features& features, const Palette& palette, HeadMesh& mesh
   std::vector<float> around_at, down_at;
   // Mirrored neighbours at both ends keep the surface smooth over the medians.
   for (int i = -1; i <= kPoints; ++i) around_at.push_back(static_cast<float>(i));
-  std::vector<Ring> rings;
+  std::vector<ClothRing> rings;
   for (const char* name : kRings) {
     down_at.push_back(static_cast<float>(rings.size()) - 1);
-    rings.push_back(RingOf(features[name]));
+    rings.push_back(ClothRingOf(features[name]));
   }
   const SplineBasis around(around_at);
   const SplineBasis down(down_at);

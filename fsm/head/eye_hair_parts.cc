@@ -5,16 +5,14 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
 
+#include "fsm/base/angles.h"
 #include "fsm/base/random.h"
 #include "fsm/head/landmarks.h"
 #include "fsm/head/paint.h"
 
 namespace fsm {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 class LashBuilder {
  public:

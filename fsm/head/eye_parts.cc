@@ -3,26 +3,24 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <numbers>
 
+#include "fsm/base/angles.h"
 #include "fsm/base/random.h"
 #include "fsm/head/paint.h"
 
 namespace fsm {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
 // One ring of the ball about its optical axis: the angle from the axis, colour, and material of the
 // band between it and the ring before.
-struct Ring {
+struct BallRing {
   float angle;
   glm::vec3 colour;
   Material band;
 };
 
-std::array<Ring, 11> Rings(const EyeAnatomy& eye, const Features& features,
-                           const Palette& palette) {
+std::array<BallRing, 11> Rings(const EyeAnatomy& eye, const Features& features,
+                               const Palette& palette) {
   const float iris = std::asin(eye.iris_radius() / eye.radius());
   const float pupil = std::asin(eye.pupil_radius() / eye.radius());
   const glm::vec3 black = features.Vector("pupil_colour");
@@ -30,19 +28,19 @@ std::array<Ring, 11> Rings(const EyeAnatomy& eye, const Features& features,
   const glm::vec3 edge = glm::mix(limbus, palette.sclera, features["limbus"][1]);
   const glm::vec3 pink = palette.sclera * features.Vector("white_behind");
   const auto of_iris = [&, rings = features.Points("iris_rings")](std::size_t k) {
-    return Ring{glm::mix(pupil, iris, rings[k].x), palette.iris * rings[k].y, Material::kIris};
+    return BallRing{glm::mix(pupil, iris, rings[k].x), palette.iris * rings[k].y, Material::kIris};
   };
-  return {Ring{pupil * 0.6f, black, Material::kPupil},
-          Ring{pupil, black, Material::kPupil},
+  return {BallRing{pupil * 0.6f, black, Material::kPupil},
+          BallRing{pupil, black, Material::kPupil},
           of_iris(0),
           of_iris(1),
           of_iris(2),
-          Ring{iris * 0.97f, limbus, Material::kIris},
-          Ring{iris * 1.04f, edge, Material::kSclera},
-          Ring{iris * 1.2f, palette.sclera, Material::kSclera},
-          Ring{0.85f, palette.sclera, Material::kSclera},
-          Ring{1.15f, pink, Material::kSclera},
-          Ring{1.55f, pink, Material::kSclera}};
+          BallRing{iris * 0.97f, limbus, Material::kIris},
+          BallRing{iris * 1.04f, edge, Material::kSclera},
+          BallRing{iris * 1.2f, palette.sclera, Material::kSclera},
+          BallRing{0.85f, palette.sclera, Material::kSclera},
+          BallRing{1.15f, pink, Material::kSclera},
+          BallRing{1.55f, pink, Material::kSclera}};
 }
 
 }  // namespace

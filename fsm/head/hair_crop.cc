@@ -5,17 +5,15 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <vector>
 
+#include "fsm/base/angles.h"
 #include "fsm/base/random.h"
 #include "fsm/base/spline.h"
 #include "fsm/head/hair_parts.h"
 
 namespace fsm {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 class CroppedHair {
  public:

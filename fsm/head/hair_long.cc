@@ -4,9 +4,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <vector>
 
+#include "fsm/base/angles.h"
 #include "fsm/base/random.h"
 #include "fsm/base/spline.h"
 #include "fsm/head/hair_parts.h"
@@ -14,7 +14,6 @@
 namespace fsm {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kEnd = 1.0f;
 
 // Strands start along the parting, sweep over the skull and hang. Those at the face's edge are the

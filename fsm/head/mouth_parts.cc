@@ -4,17 +4,15 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "fsm/base/angles.h"
 #include "fsm/base/random.h"
 
 namespace fsm {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 /// The point of an arch at an arc length from the median, followed in small steps.
 glm::vec3 AlongArch(const ToothArch& arch, float arc, float y) {

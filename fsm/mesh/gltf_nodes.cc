@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kMaxDepth = 200;
+constexpr int kMaxNodeDepth = 200;
 const glm::mat4 kIdentity(1.0f);
 
 glm::mat4 MatrixOf(const json& node) {
@@ -81,7 +81,7 @@ vm::Result<void> GltfNodes::Place(const GltfDocument& document, std::int64_t nod
                                   const glm::mat4& above, int depth) {
   if (node < 0 || static_cast<std::size_t>(node) >= world_.size()) return {};
   const auto at = static_cast<std::size_t>(node);
-  if (depth > kMaxDepth || placed_[at]) {
+  if (depth > kMaxNodeDepth || placed_[at]) {
     return document.Wrong("nodes[" + std::to_string(node) + "]: nodes that are their own parents");
   }
   placed_[at] = true;

@@ -29,10 +29,7 @@ inline double SmootherStep(double u) {
 /// M(t) = W (V0 - V1) + (V0 + V1) / 2 with W = cos(pi u) / 2.
 inline double Sinusoid(double u) { return (1 - std::cos(std::numbers::pi * Clamp01(u))) / 2; }
 
-/// Milliseconds of a time, with their fraction.
-inline double InMs(vm::Time time) {
-  return std::chrono::duration<double, std::milli>(time).count();
-}
+using vm::InMs;
 
 /// The nearest microsecond.
 inline vm::Time FromMs(double ms) { return vm::Time(std::llround(ms * 1000)); }

@@ -12,7 +12,7 @@ namespace {
 constexpr vm::Time kOffset = std::chrono::milliseconds(500);  // of an expression, natural
 constexpr int kMostPatterns = 20;
 constexpr std::size_t kMostExpressions = 200;
-enum Stream : std::uint64_t { kLateSide = 200, kLag };
+enum ExpressionStream : std::uint64_t { kLateSide = 200, kLag };
 
 }  // namespace
 

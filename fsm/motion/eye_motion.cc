@@ -13,7 +13,7 @@ constexpr double kEyesAlone = 12;          // degrees the eyes turn without the 
 constexpr double kHeadShare = 0.6;         // of what is beyond
 constexpr EyeAngles kThinking = {-5, 11};  // about where a thinker looks
 constexpr double kHalfPupilsMm = 31;       // half the distance between the pupils
-enum Stream : std::uint64_t { kThinkTime = 7, kThinkSide, kThinkHeight, kShiftBlink = 300 };
+enum EyeStream : std::uint64_t { kThinkTime = 7, kThinkSide, kThinkHeight, kShiftBlink = 300 };
 
 // There within `move`, and if timed, back when `duration` is over.
 void ThereAndBack(Track<EyeAngles>& track, vm::Time now, const EyeAngles& there, vm::Time move,

@@ -11,7 +11,7 @@ namespace fsm {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr vm::Time kFade = 400ms;
+constexpr vm::Time kIdleFade = 400ms;
 constexpr vm::Time kQuickFade = 60ms;
 constexpr double kNostrilsAtFull = 0.15;  // with the lungs full
 
@@ -57,7 +57,7 @@ void IdleBehaviour::Set(vm::Time now, IdleKind kind, std::size_t pattern) {
   const bool quick = kind == IdleKind::kBlink || kind == IdleKind::kGaze;
   const bool at_once =
       kind == IdleKind::kAsymmetry || kind == IdleKind::kGazeBlink || kind == IdleKind::kEndBlink;
-  const vm::Time fade = at_once ? vm::Time(0) : quick ? kQuickFade : kFade;
+  const vm::Time fade = at_once ? vm::Time(0) : quick ? kQuickFade : kIdleFade;
   own.weight.MoveTo(now, own.on ? 1.0f : 0.0f, fade);
   if (kind == IdleKind::kBlink && own.on) blink_ = {};
 }

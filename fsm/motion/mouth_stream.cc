@@ -3,17 +3,12 @@
 #include <algorithm>
 
 #include "fsm/motion/easing.h"
+#include "fsm/motion/speech_motion.h"
 
 namespace fsm {
-namespace {
-
-constexpr vm::Time kRelease{300'000};               // as the speech of a text lets go
-constexpr double kInnerBrow = 1, kOuterBrow = 0.8;  // of units 1 and 2, as with a text's stress
-
-}  // namespace
 
 vm::Time MouthStream::GoneAt(const Frame& last) {
-  const vm::Time mouth = kHold + kClose + kRelease;
+  const vm::Time mouth = kHold + kClose + SpeechMotion::kRelease;
   return last.at + (last.head ? std::max(mouth, kHeadHome) : mouth);
 }
 
@@ -50,7 +45,7 @@ SpokenMouth MouthStream::MouthAt(vm::Time t) const {
     if (within) {
       return {1, Mix(last.pose, next->pose, Progress(t, last.at, next->at - last.at))};
     }
-    mouth.share = 1 - SmoothStep(Progress(t, last.at + kHold + kClose, kRelease));
+    mouth.share = 1 - SmoothStep(Progress(t, last.at + kHold + kClose, SpeechMotion::kRelease));
     mouth.pose = Mix(last.pose, ClosedMouth(), SmoothStep(Progress(t, last.at + kHold, kClose)));
   }
   if (next != frames_.end()) {  // the first frame of a run is near
@@ -82,8 +77,10 @@ void MouthStream::Contribute(vm::Time t, MotionFrame& frame) const {
     MotionLayer& gestures = frame.Layer("stream_gestures");
     gestures.head = head.pose.angles;
     for (const Side side : kSides) {
-      gestures.units.au[side][kInnerBrowRaiser] = static_cast<float>(kInnerBrow) * head.pose.brow;
-      gestures.units.au[side][kOuterBrowRaiser] = static_cast<float>(kOuterBrow) * head.pose.brow;
+      gestures.units.au[side][kInnerBrowRaiser] =
+          static_cast<float>(SpeechMotion::kInnerBrow) * head.pose.brow;
+      gestures.units.au[side][kOuterBrowRaiser] =
+          static_cast<float>(SpeechMotion::kOuterBrow) * head.pose.brow;
     }
   }
   const SpokenMouth mouth = MouthAt(t);

@@ -13,10 +13,8 @@ constexpr vm::Time kTakeOver = 60ms;  // the mouth comes under speech
 constexpr vm::Time kEmotionYields = 150ms;
 constexpr vm::Time kClose = 110ms;      // after STOP; the promise is 120
 constexpr vm::Time kClosedFor = 120ms;  // before emotion may part the lips again
-constexpr vm::Time kRelease = 300ms;
-constexpr vm::Time kHeadStops = 400ms;              // movement with the speech, after STOP
-constexpr double kInnerBrow = 1, kOuterBrow = 0.8;  // of units 1 and 2, with the stress
-enum Stream : std::uint64_t { kEndBlink = 310, kEndBlinkTime, kAvertBlink };
+constexpr vm::Time kHeadStops = 400ms;  // movement with the speech, after STOP
+enum SpeechStream : std::uint64_t { kEndBlink = 310, kEndBlinkTime, kAvertBlink };
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -24,6 +25,9 @@ namespace fsm {
 /// are for now or later.
 class SpeechMotion : public MotionSource {
  public:
+  static constexpr vm::Time kRelease = std::chrono::milliseconds(300);  ///< the mouth lets go
+  static constexpr double kInnerBrow = 1, kOuterBrow = 0.8;  ///< of units 1 and 2, with the stress
+
   SpeechMotion(const MotionTables& tables, const MotionSettings& settings,
                const IdleBehaviour& idle, std::uint64_t seed)
       : tables_(tables), settings_(settings), idle_(idle), seed_(seed) {}

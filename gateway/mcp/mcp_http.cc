@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/http/answer.h"
 #include "vm_protocol/runtime/credentials.h"
 #include "vm_protocol/web/session.h"
@@ -21,11 +22,8 @@ constexpr const char* kRevision = "MCP-Protocol-Version";
 
 /// "application/json; charset=utf-8" is "application/json".
 bool IsType(const std::string& header, std::string_view type) {
-  std::string name = header.substr(0, header.find(';'));
+  std::string name = vm::LowerCase(header.substr(0, header.find(';')));
   while (name.ends_with(' ')) name.pop_back();
-  std::ranges::transform(name, name.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  });
   return name == type;
 }
 
@@ -80,7 +78,11 @@ class McpSession final : public vm::WebSession {
                     "revision '" + revision.substr(0, 40) + "' in " + kRevision);
     if (request().method() == http::verb::post) return Post();
     if (request().method() == http::verb::delete_) return Delete();
-    Refuse(Status::method_not_allowed, "a method that is neither POST nor DELETE");
+    const std::string what = "a method that is neither POST nor DELETE";
+    if (request().method() != http::verb::get) return Refuse(Status::method_not_allowed, what);
+    // So every client asks whether there is a stream of what is said unasked: nothing to log.
+    const auto [type, body] = ErrorBody(Status::method_not_allowed, what);
+    Reply(Status::method_not_allowed, type, body, {{"Allow", site_->methods}});
   }
 
   void Post() {

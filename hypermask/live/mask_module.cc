@@ -5,12 +5,6 @@
 #include <utility>
 
 namespace hypermask {
-namespace {
-
-double Ms(vm::Time time) { return static_cast<double>(time.count()) / 1000; }
-
-}  // namespace
-
 MaskModule::MaskModule(vm::Scheduler& scheduler, Options options)
     : scheduler_(scheduler),
       options_(std::move(options)),
@@ -108,7 +102,7 @@ void MaskModule::OnPicture(const Grey& picture, vm::Time arrived) {
 }
 
 void MaskModule::Follow(const Grey& picture, vm::Time arrived) {
-  const double seconds = Ms(arrived) / 1000;
+  const double seconds = vm::InMs(arrived) / 1000;
   const std::size_t seen = follower_->Look(picture, seconds);
   if (seen > 0) {
     figures_.Seen();
@@ -128,7 +122,7 @@ void MaskModule::Follow(const Grey& picture, vm::Time arrived) {
   }
   const auto miss = map ? rig_->Miss(*map, figures_.interval_ms() / 1000) : std::nullopt;
   Show(warp_->Draw(map ? &*map : nullptr));
-  figures_.Projected(Ms(scheduler_.Now() - arrived), miss);
+  figures_.Projected(vm::InMs(scheduler_.Now() - arrived), miss);
 }
 
 void MaskModule::TellTrack(std::size_t seen, vm::Time arrived) {
@@ -138,7 +132,7 @@ void MaskModule::TellTrack(std::size_t seen, vm::Time arrived) {
   }
   slots_.Report("Track",
                 fmt::format("{{\"ms\":{:.1f},\"seen\":{},\"markers\":[{}],\"ahead\":{:.1f}}}",
-                            Ms(arrived), seen, places, AheadMs()));
+                            vm::InMs(arrived), seen, places, AheadMs()));
 }
 
 void MaskModule::TellNoMask(vm::Time now) {

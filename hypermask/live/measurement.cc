@@ -18,7 +18,6 @@ double Mean(const Grey& picture) {
 }
 
 vm::Time Micros(double ms) { return vm::Time(std::llround(1000 * ms)); }
-double Ms(vm::Time time) { return static_cast<double>(time.count()) / 1000; }
 
 }  // namespace
 
@@ -41,8 +40,8 @@ void Measurement::TakePlace(const Rig& rig, const MaskLayout& layout, double del
 
 void Measurement::Seen(const Grey& picture, vm::Time arrived) {
   if (delay_) {
-    delay_->meter.Seen(Ms(arrived), Mean(picture));
-  } else if (place_->taker.Take(picture, Ms(arrived))) {
+    delay_->meter.Seen(vm::InMs(arrived), Mean(picture));
+  } else if (place_->taker.Take(picture, vm::InMs(arrived))) {
     NextFrame();
   }
 }
@@ -60,7 +59,7 @@ void Measurement::Drop() {
 
 void Measurement::Flash() {
   delay_->on = !delay_->on;
-  delay_->meter.Shown(Ms(scheduler_.Now()), delay_->on);
+  delay_->meter.Shown(vm::InMs(scheduler_.Now()), delay_->on);
   show_(delay_->on ? delay_->bright : delay_->dark);
   if (!delay_) return;  // the projector is gone
   flash_timer_ = scheduler_.After(Micros(delay_->meter.NextHoldMs()), [this] {
@@ -70,7 +69,7 @@ void Measurement::Flash() {
 }
 
 void Measurement::NextFrame() {
-  if (const auto frame = place_->taker.Begin(Ms(scheduler_.Now()))) return show_(*frame);
+  if (const auto frame = place_->taker.Begin(vm::InMs(scheduler_.Now()))) return show_(*frame);
   EndPlace(ReadPlace(place_->dots, place_->taker.pictures(), MarkerFinder(place_->layout)));
 }
 

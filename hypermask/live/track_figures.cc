@@ -14,8 +14,6 @@ void Blend(double& mean, double value) {
   mean += (mean > 0 ? kPart : 1) * (value - mean);
 }
 
-double Ms(vm::Time time) { return static_cast<double>(time.count()) / 1000; }
-
 }  // namespace
 
 void TrackFigures::DeclareSlots() {
@@ -45,7 +43,7 @@ void TrackFigures::Picture(vm::Time arrived) {
   ++pictures_;
   constexpr vm::Time kPause{200'000};  // a camera that stops for long says nothing of its rate
   if (picture_at_ && arrived > *picture_at_ && arrived - *picture_at_ < kPause) {
-    Blend(interval_ms_, Ms(arrived - *picture_at_));
+    Blend(interval_ms_, vm::InMs(arrived - *picture_at_));
   }
   picture_at_ = arrived;
 }
@@ -60,7 +58,7 @@ void TrackFigures::Projected(double work_ms, std::optional<double> miss) {
 
 void TrackFigures::Tell(vm::Time now) {
   if (now - second_ < vm::Time(1'000'000)) return;
-  const double seconds = Ms(now - second_) / 1000;
+  const double seconds = vm::InMs(now - second_) / 1000;
   slots_.Report("Track.speed",
                 fmt::format("{:.1f} {} {:.1f}", pictures_ / seconds, seen_, work_ms_));
   if (missed_ > 0) {

@@ -10,14 +10,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-vm::Error BadAnswer(const std::string& line) {
+vm::Error BadAlignment(const std::string& line) {
   return {vm::Errc::kBadValue, "the aligner answered '" + line.substr(0, 60) + "'", 0};
 }
 
 /// {"phonemes":[{"name":"hh","ms":60}...],"words":[{"text":"hello","start":10,"end":300}...]}
 vm::Result<Piece> ReadAnswer(const std::string& line) {
   const Json answer = Json::parse(line, nullptr, false);
-  if (!answer.is_object()) return std::unexpected(BadAnswer(line));
+  if (!answer.is_object()) return std::unexpected(BadAlignment(line));
   if (answer.contains("error")) {
     return vm::Fail(vm::Errc::kUnavailable, "align: " + answer["error"].dump());
   }
@@ -33,7 +33,7 @@ vm::Result<Piece> ReadAnswer(const std::string& line) {
                              Millis(word.at("end").get<std::int64_t>())});
     }
   } catch (const Json::exception&) {
-    return std::unexpected(BadAnswer(line));
+    return std::unexpected(BadAlignment(line));
   }
   return piece;
 }

@@ -29,7 +29,7 @@ constexpr double kWordsPerMinute = 150;
 constexpr std::string_view kNamePrefix = "espeak-";
 
 /// What is spoken, and how its words are written.
-struct Script {
+struct SpokenText {
   std::string text;
   std::vector<std::string> words;  // empty: as in `text`
   std::string unspoken;
@@ -93,14 +93,14 @@ class EspeakEngine final : public PieceEngine {
     return 0;
   }
 
-  vm::Result<Script> ReadJapanese(const std::string& text) {
+  vm::Result<SpokenText> ReadJapanese(const std::string& text) {
 #ifdef SSM_HAS_MECAB
     if (!reader_) {
       auto opened = JapaneseReader::Open(options_.dictionary);
       if (!opened) return std::unexpected(opened.error());
       reader_ = std::move(*opened);
     }
-    Script script;
+    SpokenText script;
     std::string unread;
     for (JapaneseWord& word : reader_->Read(text, unread)) {
       script.text += (script.text.empty() ? "" : " ") + word.kana;
@@ -116,8 +116,8 @@ class EspeakEngine final : public PieceEngine {
 
   /// Pronunciations in brackets, as espeak-ng reads them: [[h@l'oU]]. It reads them behind a blank
   /// only, not behind a quote or a bracket. Brackets of the text's own are parted.
-  static vm::Result<Script> WithMnemonics(const std::string& text) {
-    Script script;
+  static vm::Result<SpokenText> WithMnemonics(const std::string& text) {
+    SpokenText script;
     for (const TextPiece& piece : CutPronounced(text)) {
       const auto mnemonics = IpaForEspeak(piece.ipa);
       if (!piece.ipa.empty() && mnemonics) {
@@ -137,7 +137,7 @@ class EspeakEngine final : public PieceEngine {
     return script;
   }
 
-  Piece MakePiece(const EspeakLink::Answer& answer, const Script& script,
+  Piece MakePiece(const EspeakLink::Answer& answer, const SpokenText& script,
                   const PhonemeMap& map) const {
     Piece piece{.phonemes = map.Map(answer.phonemes), .unspoken = script.unspoken};
     piece.samples = Resample(answer.samples, answer.rate, kSampleRateHz);

@@ -11,7 +11,7 @@ namespace {
 
 using Answer = EspeakLink::Answer;
 
-constexpr std::size_t kMaxFrames = 3600u * 48'000u;
+constexpr std::size_t kMaxSpokenFrames = 3600u * 48'000u;
 constexpr std::size_t kMaxLines = 100'000;
 
 vm::Error BadAnswer(const std::string& what) {
@@ -90,7 +90,7 @@ vm::Result<EspeakLink::Answer> EspeakLink::ReadSound(const std::string& head,
   std::size_t frames = 0, lines = 0;
   Answer answer;
   if (!(words >> verb >> answer.rate >> frames >> lines) || verb != "sound" || answer.rate < 1000 ||
-      answer.rate > 200'000 || frames > kMaxFrames || lines > kMaxLines) {
+      answer.rate > 200'000 || frames > kMaxSpokenFrames || lines > kMaxLines) {
     return std::unexpected(BadAnswer(head.substr(0, 60)));
   }
   std::vector<std::pair<Millis, std::string>> starts;

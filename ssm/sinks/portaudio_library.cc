@@ -26,8 +26,6 @@ bool CanInitialize() {
          WEXITSTATUS(status) == 0;
 }
 
-vm::Error Unavailable(std::string text) { return {vm::Errc::kUnavailable, std::move(text), 0}; }
-
 bool SwallowsSound(std::string_view name) {
   const std::string lower = vm::LowerCase(name);
   return lower == "null" || lower.find("discard all samples") != std::string::npos;
@@ -70,14 +68,14 @@ vm::Result<PaDeviceIndex> ChooseOutputDevice(const std::string& wanted) {
     if (chosen == paNoDevice && !wanted.empty() && fits) chosen = i;
   }
   if (chosen == paNoDevice) {
-    return std::unexpected(
-        Unavailable(names.empty() ? "there is no sound device"
-                                  : "no sound device '" + wanted + "', expected one of: " + names));
+    return vm::Fail(vm::Errc::kUnavailable,
+                    names.empty() ? "there is no sound device"
+                                  : "no sound device '" + wanted + "', expected one of: " + names);
   }
   if (SwallowsSound(Pa_GetDeviceInfo(chosen)->name)) {
-    return std::unexpected(Unavailable("sound device '" +
-                                       std::string(Pa_GetDeviceInfo(chosen)->name) +
-                                       "' throws sound away at any speed"));
+    return vm::Fail(vm::Errc::kUnavailable, "sound device '" +
+                                                std::string(Pa_GetDeviceInfo(chosen)->name) +
+                                                "' throws sound away at any speed");
   }
   return chosen;
 }

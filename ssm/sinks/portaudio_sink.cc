@@ -25,8 +25,6 @@ constexpr Micros kTrial{30'000};  // a device without a clock shows itself withi
 // Callbacks further apart than this mean that the device has stopped.
 constexpr Micros kDeadAfter{2'000'000};
 
-vm::Error Unavailable(std::string text) { return {vm::Errc::kUnavailable, std::move(text), 0}; }
-
 class PortAudioSink final : public AudioSink {
  public:
   PortAudioSink(vm::Scheduler& scheduler, std::unique_ptr<PortAudioLibrary> library,
@@ -55,16 +53,16 @@ class PortAudioSink final : public AudioSink {
     if (error == paNoError) error = Pa_StartStream(stream_);
     if (error == paNoError) {
       if (!ran_away_.try_acquire_for(kTrial)) return {};
-      return std::unexpected(
-          Unavailable("sound device '" + name_ + "' throws sound away at any speed"));
+      return vm::Fail(vm::Errc::kUnavailable,
+                      "sound device '" + name_ + "' throws sound away at any speed");
     }
-    return std::unexpected(
-        Unavailable("sound device '" + name_ + "' cannot be opened: " + Pa_GetErrorText(error)));
+    return vm::Fail(vm::Errc::kUnavailable,
+                    "sound device '" + name_ + "' cannot be opened: " + Pa_GetErrorText(error));
   }
 
   vm::Result<void> Play(std::shared_ptr<const SampleBuffer> samples, vm::Time start) override {
     assert(!samples_);
-    if (Failed()) return std::unexpected(Unavailable("sound device '" + name_ + "' failed"));
+    if (Failed()) return vm::Fail(vm::Errc::kUnavailable, "sound device '" + name_ + "' failed");
     WaitForCallback();
     samples_ = std::move(samples);
     start_ = std::max(start, scheduler_.Now());
@@ -212,7 +210,8 @@ vm::Result<std::unique_ptr<AudioSink>> OpenPortAudio(vm::Scheduler& scheduler,
   const QuietStderr quiet;
   auto library = std::make_unique<PortAudioLibrary>();
   if (library->error() != paNoError) {
-    return std::unexpected(Unavailable("the sound system cannot be used, or has no configuration"));
+    return vm::Fail(vm::Errc::kUnavailable,
+                    "the sound system cannot be used, or has no configuration");
   }
   const auto chosen = ChooseOutputDevice(device);
   if (!chosen) return std::unexpected(chosen.error());

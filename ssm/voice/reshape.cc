@@ -8,7 +8,7 @@
 namespace ssm {
 namespace {
 
-constexpr double kHopFrames = 5 * kFramesPerMs;
+constexpr double kPulseHopFrames = 5 * kFramesPerMs;
 constexpr double kUnvoicedPeriod = 5 * kFramesPerMs;
 constexpr double kMostGain = 8;
 
@@ -77,7 +77,7 @@ class Overlap {
 
 double ValueAt(const std::vector<double>& track, double frame) {
   if (track.empty()) return 0;
-  const auto i = static_cast<std::size_t>(std::max(0.0, std::round(frame / kHopFrames)));
+  const auto i = static_cast<std::size_t>(std::max(0.0, std::round(frame / kPulseHopFrames)));
   return track[std::min(i, track.size() - 1)];
 }
 
@@ -90,7 +90,7 @@ double SoundTrack::Rms(double frame) const { return ValueAt(track_.rms, frame); 
 double SoundTrack::MeanHz(double begin, double end) const {
   double sum = 0;
   int count = 0;
-  for (double at = begin; at < end; at += kHopFrames) {
+  for (double at = begin; at < end; at += kPulseHopFrames) {
     const double hz = Hz(at);
     if (hz == 0) continue;
     sum += std::log(hz);

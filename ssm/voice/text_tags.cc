@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ssm/voice/span_builder.h"
+#include "vm_protocol/core/blanks.h"
 
 namespace ssm {
 namespace {
@@ -41,7 +42,6 @@ struct Tag {
   }
 };
 
-bool IsBlank(char c) { return c == ' ' || c == '\t'; }
 bool IsNameByte(char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); }
 
 /// A tag at the beginning of `text`, which begins with '<'; none if it is not one of ours.
@@ -49,7 +49,7 @@ std::optional<Tag> ReadTag(std::string_view text) {
   Tag tag;
   std::size_t at = 1;
   const auto skip = [&] {
-    while (at < text.size() && IsBlank(text[at])) ++at;
+    while (at < text.size() && vm::IsBlank(text[at])) ++at;
   };
   const auto name = [&] {
     const std::size_t begin = at;

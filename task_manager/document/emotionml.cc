@@ -13,12 +13,13 @@ namespace {
 
 constexpr std::string_view kVocabularies = "http://www.w3.org/TR/emotion-voc/xml";
 
-constexpr std::string_view kSets = "category-set dimension-set appraisal-set action-tendency-set";
+constexpr std::string_view kVocabularySets =
+    "category-set dimension-set appraisal-set action-tendency-set";
 constexpr std::string_view kTypes = "category dimension appraisal action-tendency";
 
-class Checker {
+class EmotionChecker {
  public:
-  explicit Checker(const vm::xml::Node& root) : root_(root) {}
+  explicit EmotionChecker(const vm::xml::Node& root) : root_(root) {}
 
   std::vector<Finding> Run() {
     if (root_.name == "emotion") {
@@ -40,7 +41,7 @@ class Checker {
   void Attributes(const vm::xml::Node& node, std::string_view known, std::string_view required) {
     for (const vm::xml::Attribute& attribute : node.attributes) {
       if (attribute.name.starts_with("xml") || !attribute.space.empty()) continue;
-      if (attribute.name.find(':') == std::string::npos && !Contains(known, attribute.name)) {
+      if (attribute.name.find(':') == std::string::npos && !HasWord(known, attribute.name)) {
         Say(node, "<" + node.name + "> has no attribute '" + attribute.name + "'");
       }
     }
@@ -63,7 +64,7 @@ class Checker {
       }
       if (!child->IsElement()) continue;
       const bool own = child->space == kEmotionMlSpace;
-      if (!own || !Contains(elements, child->name)) {
+      if (!own || !HasWord(elements, child->name)) {
         Say(*child, "<" + child->name + ">" +
                         (own ? "" : " of the namespace '" + child->space + "'") +
                         " may not stand in <" + node.name + ">");
@@ -78,7 +79,7 @@ class Checker {
   static std::vector<const vm::xml::Node*> Own(const vm::xml::Node& node, std::string_view names) {
     std::vector<const vm::xml::Node*> found;
     for (const auto& child : node.children) {
-      if (child->IsElement() && child->space == kEmotionMlSpace && Contains(names, child->name)) {
+      if (child->IsElement() && child->space == kEmotionMlSpace && HasWord(names, child->name)) {
         found.push_back(child.get());
       }
     }
@@ -101,7 +102,7 @@ class Checker {
           "xmlns=\"" + std::string(kEmotionMlSpace) + "\"");
       return;
     }
-    Attributes(root_, std::string("version ") + std::string(kSets), "version");
+    Attributes(root_, std::string("version ") + std::string(kVocabularySets), "version");
     Version(root_);
     Content(root_, "info vocabulary emotion", true);
     for (const auto* vocabulary : Own(root_, "vocabulary")) Declare(*vocabulary);
@@ -116,7 +117,7 @@ class Checker {
 
   void Declare(const vm::xml::Node& node) {
     Attributes(node, "type id", "type id");
-    if (!Contains(kTypes, node.Get("type", "category"))) {
+    if (!HasWord(kTypes, node.Get("type", "category"))) {
       Say(node, "vocabulary type '" + node.Get("type") + "'",
           "expected one of " + std::string(kTypes));
     }
@@ -138,7 +139,7 @@ class Checker {
     Attributes(node,
                std::string("version id start end duration time-ref-uri time-ref-anchor-point "
                            "offset-to-start expressed-through ") +
-                   std::string(kSets),
+                   std::string(kVocabularySets),
                "");
     Version(node);
     Times(node);
@@ -262,7 +263,7 @@ class Checker {
       known = own == own_.end() || own->second.second.contains(name);
     } else if (set.starts_with(kVocabularies)) {
       const EmotionVocabulary* vocabulary = FindEmotionVocabulary(id);
-      known = !vocabulary || Contains(vocabulary->names, name);
+      known = !vocabulary || HasWord(vocabulary->names, name);
     }
     if (!known) Say(node, "'" + name + "' is not in the vocabulary " + set);
   }
@@ -310,7 +311,7 @@ class Checker {
       Say(node, "media-type '" + *type + "'", "expected TYPE/SUBTYPE");
     }
     const std::string role = node.Get("role", "expressedBy");
-    if (!Contains("expressedBy experiencedBy triggeredBy targetedAt", role)) {
+    if (!HasWord("expressedBy experiencedBy triggeredBy targetedAt", role)) {
       Say(node, "role '" + role + "'",
           "expected expressedBy, experiencedBy, triggeredBy or targetedAt");
     }
@@ -329,6 +330,8 @@ bool IsEmotionMl(const vm::xml::Node& root) {
          (root.IsElement("emotion") && root.space == kEmotionMlSpace);
 }
 
-std::vector<Finding> CheckEmotionMl(const vm::xml::Node& root) { return Checker(root).Run(); }
+std::vector<Finding> CheckEmotionMl(const vm::xml::Node& root) {
+  return EmotionChecker(root).Run();
+}
 
 }  // namespace vxml

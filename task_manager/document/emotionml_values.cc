@@ -10,11 +10,6 @@
 
 namespace vxml {
 
-bool Contains(std::string_view list, std::string_view word) {
-  const auto words = SplitWords(list);
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 std::optional<double> Number(std::string_view text) {
   text = vm::xml::Trim(text);
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);

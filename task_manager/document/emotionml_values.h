@@ -7,8 +7,6 @@ namespace vxml {
 
 // What the attributes of EmotionML may look like (EmotionML 1.0, schema).
 
-/// Whether a list of words parted by blanks holds the word.
-bool Contains(std::string_view list, std::string_view word);
 /// A finite number, blanks around it and a sign allowed.
 std::optional<double> Number(std::string_view text);
 /// A whole number (xs:integer); "+5" is one.

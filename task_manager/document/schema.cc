@@ -29,7 +29,7 @@ constexpr NameSet kSets[] = {
 
 constexpr std::string_view kFetch = " fetchaudio fetchhint fetchtimeout maxage maxstale";
 
-constexpr ElementRule kRules[] = {
+constexpr ElementRule kElementRules[] = {
     {"vxml", "@handlers form link menu meta metadata property script var data",
      "version xmlns xml:base xml:lang application"},
     {"form",
@@ -127,8 +127,13 @@ std::vector<std::string_view> SplitWords(std::string_view words) {
   }
 }
 
+bool HasWord(std::string_view list, std::string_view word) {
+  const auto words = SplitWords(list);
+  return std::ranges::find(words, word) != words.end();
+}
+
 const ElementRule* FindElementRule(std::string_view name) {
-  for (const ElementRule& rule : kRules) {
+  for (const ElementRule& rule : kElementRules) {
     if (rule.name == name) return &rule;
   }
   return nullptr;
@@ -146,8 +151,7 @@ bool Allows(const ElementRule& rule, std::string_view child) {
     if (word == child) return true;
     for (const NameSet& set : kSets) {
       if (set.name != word) continue;
-      const auto members = SplitWords(set.members);
-      if (std::find(members.begin(), members.end(), child) != members.end()) return true;
+      if (HasWord(set.members, child)) return true;
     }
   }
   return false;

@@ -32,5 +32,7 @@ struct AttributeChoice {
 const std::vector<AttributeChoice>& AttributeChoices();
 
 std::vector<std::string_view> SplitWords(std::string_view words);
+/// Whether the word is one of the list, which has blanks between them.
+bool HasWord(std::string_view list, std::string_view word);
 
 }  // namespace vxml

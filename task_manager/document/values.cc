@@ -42,11 +42,6 @@ constexpr ValueRule kRules[] = {
     {"connecttimeout", "", "@time"},
 };
 
-bool Contains(std::string_view list, std::string_view word) {
-  const auto words = SplitWords(list);
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 constexpr std::string_view kDigits = "0123456789";
 
 bool IsOf(std::string_view text, std::string_view signs) {
@@ -98,7 +93,7 @@ std::string WrongValue(std::string_view element, std::string_view attribute,
   value = vm::xml::Trim(value);
   for (const ValueRule& rule : kRules) {
     if (rule.attribute != attribute) continue;
-    if (!rule.elements.empty() && !Contains(rule.elements, element)) continue;
+    if (!rule.elements.empty() && !HasWord(rule.elements, element)) continue;
     if (rule.values == "@time") {
       return IsTimeDesignation(value) ? "" : "expected a time as 5s or 300ms";
     }
@@ -108,7 +103,7 @@ std::string WrongValue(std::string_view element, std::string_view attribute,
     if (rule.values == "@id") {
       return value.find_first_of(" \t\r\n") == std::string_view::npos ? "" : "expected one word";
     }
-    if (Contains(rule.values, value)) return "";
+    if (HasWord(rule.values, value)) return "";
     return "expected one of " + std::string(rule.values);
   }
   return "";

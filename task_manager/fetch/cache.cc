@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "vm_protocol/core/lower_case.h"
+
 namespace vxml::fetch {
 namespace {
 
@@ -17,9 +19,8 @@ std::string Header(const vm::HttpAnswer& response, const std::string& name) {
 std::optional<long long> Directive(const std::string& control, std::string_view name) {
   for (std::size_t at = 0; at < control.size();) {
     const std::size_t end = std::min(control.find(',', at), control.size());
-    std::string part = control.substr(at, end - at);
+    std::string part = vm::LowerCase(control.substr(at, end - at));
     part.erase(0, part.find_first_not_of(" \t"));
-    for (char& c : part) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
     if (part.starts_with(name)) {
       const std::string rest = part.substr(name.size());
       if (rest.empty() || rest[0] == ' ') return -1;

@@ -9,6 +9,7 @@
 
 #include "task_manager/fetch/cache.h"
 #include "task_manager/fetch/uri.h"
+#include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/http/http_caller.h"
 #include "vm_protocol/http/multipart.h"
 #include "vm_protocol/runtime/base64.h"
@@ -27,18 +28,13 @@ std::unexpected<Failure> Refuse(vm::Errc code, std::string text, int status = 0)
   return std::unexpected(std::move(failure));
 }
 
-std::string Lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  return text;
-}
-
 /// "text/xml; charset=UTF-8" -> type and charset.
 void SplitType(const std::string& header, Response& response) {
   const std::size_t semicolon = header.find(';');
-  std::string type = Lower(header.substr(0, semicolon));
+  std::string type = vm::LowerCase(header.substr(0, semicolon));
   type.erase(type.find_last_not_of(" \t") + 1);
   response.content_type = type;
-  const std::string lower = Lower(header);
+  const std::string lower = vm::LowerCase(header);
   const std::size_t at = lower.find("charset=");
   if (at == std::string::npos) return;
   std::string charset = lower.substr(at + 8);
@@ -61,7 +57,7 @@ std::string TypeOfName(const std::string& path) {
                                                             {".ulaw", "audio/basic"}};
   const std::size_t dot = path.rfind('.');
   if (dot == std::string::npos) return "";
-  const auto found = kTypes.find(Lower(path.substr(dot)));
+  const auto found = kTypes.find(vm::LowerCase(path.substr(dot)));
   return found == kTypes.end() ? "" : found->second;
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "vm_protocol/core/lower_case.h"
+
 namespace vxml::fetch {
 namespace {
 
@@ -38,12 +40,7 @@ class Url {
   bool ok_ = false;
 };
 
-std::string Lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  return text;
-}
-
-bool IsData(const std::string& uri) { return Lower(uri.substr(0, 5)) == "data:"; }
+bool IsData(const std::string& uri) { return vm::LowerCase(uri.substr(0, 5)) == "data:"; }
 
 }  // namespace
 
@@ -64,10 +61,10 @@ std::string Fragment(const std::string& uri) {
 }
 
 std::string Scheme(const std::string& uri) {
-  return IsData(uri) ? "data" : Lower(Url(uri).Get(CURLUPART_SCHEME).value_or(""));
+  return IsData(uri) ? "data" : vm::LowerCase(Url(uri).Get(CURLUPART_SCHEME).value_or(""));
 }
 std::string Host(const std::string& uri) {
-  return IsData(uri) ? "" : Lower(Url(uri).Get(CURLUPART_HOST).value_or(""));
+  return IsData(uri) ? "" : vm::LowerCase(Url(uri).Get(CURLUPART_HOST).value_or(""));
 }
 bool HasQuery(const std::string& uri) {
   return !IsData(uri) && Url(uri).Get(CURLUPART_QUERY).has_value();
@@ -116,12 +113,12 @@ std::optional<Place> PlaceOf(const std::string& uri) {
   const auto path = url.Get(CURLUPART_PATH, CURLU_URLDECODE);
   if (!scheme || !path) return {};
   Place place;
-  place.origin = Lower(*scheme) + ":";
+  place.origin = vm::LowerCase(*scheme) + ":";
   std::error_code failed;
   if (place.origin == "file:") {
     place.path = std::filesystem::weakly_canonical(*path, failed);
   } else {
-    std::string host = Lower(url.Get(CURLUPART_HOST).value_or(""));
+    std::string host = vm::LowerCase(url.Get(CURLUPART_HOST).value_or(""));
     if (host.ends_with('.')) host.pop_back();
     place.origin += "//" + host + ":" + url.Get(CURLUPART_PORT, CURLU_DEFAULT_PORT).value_or("");
     place.path = std::filesystem::path(*path).lexically_normal();

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "embedded/feelings.h"
+#include "task_manager/document/schema.h"
 #include "task_manager/document/values.h"
 
 namespace vxml {
@@ -14,14 +15,6 @@ namespace {
 
 constexpr std::string_view kKinds = "category appraisal action-tendency";
 constexpr std::string_view kTypes = "HAPPY ANGRY DISGUSTED SAD SURPRISED FEARED NEUTRAL";
-
-bool IsOneOf(std::string_view words, std::string_view word) {
-  std::istringstream list{std::string(words)};
-  for (std::string one; list >> one;) {
-    if (one == word) return true;
-  }
-  return false;
-}
 
 std::string Upper(std::string_view text) {
   std::string upper(text);
@@ -86,7 +79,7 @@ struct Named {
 std::optional<Named> Strongest(const vm::xml::Node& emotion, std::string_view kinds) {
   std::optional<Named> best;
   for (const auto& child : emotion.children) {
-    if (!child->IsElement() || !IsOneOf(kinds, child->name)) continue;
+    if (!child->IsElement() || !HasWord(kinds, child->name)) continue;
     const double amount = NumberIn(child->Get("value"), 0, 1, 1);
     if (!best || amount > best->amount) best = Named{child->name, child->Get("name"), amount};
   }
@@ -126,10 +119,10 @@ vm::Result<std::vector<NamedFeeling>> ParseFeelings(std::string_view text,
       return bad("expected KIND NAME EXPRESSION STRENGTH");
     }
     row.name = Upper(row.name);
-    if (!IsOneOf(kKinds, row.kind)) {
+    if (!HasWord(kKinds, row.kind)) {
       return bad("'" + row.kind + "', expected one of " + std::string(kKinds));
     }
-    if (!IsOneOf(kTypes, row.type)) {
+    if (!HasWord(kTypes, row.type)) {
       return bad("'" + row.type + "', expected one of " + std::string(kTypes));
     }
     if (row.strength < 0 || row.strength > 200) return bad("a strength of 0 to 200 expected");
@@ -164,8 +157,8 @@ std::optional<Feeling> ReadFeeling(const vm::xml::Node& emotion) {
   }
   feeling.pattern = static_cast<int>(NumberIn(emotion.Get("pattern"), 1, 5, 1));
   if (const std::string* through = emotion.Find("expressed-through")) {
-    feeling.on_face = IsOneOf(*through, "face");
-    feeling.in_voice = IsOneOf(*through, "voice");
+    feeling.on_face = HasWord(*through, "face");
+    feeling.in_voice = HasWord(*through, "voice");
   }
   return feeling;
 }

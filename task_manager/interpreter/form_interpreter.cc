@@ -12,13 +12,13 @@ using script::Value;
 namespace {
 
 std::optional<ItemKind> KindOf(const vm::xml::Node& node) {
-  static const std::map<std::string_view, ItemKind> kKinds = {
+  static const std::map<std::string_view, ItemKind> kItemKinds = {
       {"block", ItemKind::kBlock},       {"initial", ItemKind::kInitial},
       {"field", ItemKind::kField},       {"record", ItemKind::kRecord},
       {"transfer", ItemKind::kTransfer}, {"subdialog", ItemKind::kSubdialog},
       {"object", ItemKind::kObject}};
-  const auto found = kKinds.find(node.name);
-  if (!node.IsElement() || found == kKinds.end()) return {};
+  const auto found = kItemKinds.find(node.name);
+  if (!node.IsElement() || found == kItemKinds.end()) return {};
   return found->second;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "vm_protocol/core/lower_case.h"
+
 namespace vxml {
 namespace {
 
@@ -14,9 +16,7 @@ constexpr std::string_view kCodes =
 
 /// The first part of a tag in lower case.
 std::string Primary(std::string_view tag) {
-  std::string primary(tag.substr(0, tag.find_first_of("-_")));
-  for (char& c : primary) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  return primary;
+  return vm::LowerCase(tag.substr(0, tag.find_first_of("-_")));
 }
 
 }  // namespace

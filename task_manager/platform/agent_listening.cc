@@ -7,8 +7,6 @@
 namespace vxml {
 namespace {
 
-constexpr Millis kAnswer{5000};
-constexpr Millis kReaction{500};
 constexpr std::size_t kMostGrammar = 12'000;  // the ear takes 16 KiB
 
 /// The key that ends an input is no part of it, unless a grammar takes it so.

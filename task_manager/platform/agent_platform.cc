@@ -12,7 +12,6 @@
 namespace vxml {
 namespace {
 
-constexpr Millis kAnswer{5000};
 constexpr Millis kLongestSpeech{300'000};
 constexpr Millis kSoundModule{500};  // the hub refuses at once what it does not know
 constexpr std::chrono::seconds kNodPause{2};

@@ -13,8 +13,6 @@
 namespace vxml {
 namespace {
 
-constexpr Millis kAnswer{5000};
-constexpr Millis kReaction{500};
 constexpr Millis kKeySound{1000};  // a script's key without a sound: as on the text platform
 constexpr Millis kLongestRecording{600'000};
 constexpr Millis kShortestRecording{100};

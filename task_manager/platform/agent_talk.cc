@@ -7,8 +7,6 @@
 namespace vxml {
 namespace {
 
-constexpr Millis kAnswer{5000};
-constexpr Millis kReaction{500};
 constexpr Millis kLongestTurn{300'000};
 constexpr Millis kLook{500};
 

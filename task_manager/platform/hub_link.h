@@ -18,6 +18,9 @@ struct HubAddress {
   vm::Credentials credentials;
 };
 
+/// So long an answer of a module is waited for.
+inline constexpr Millis kAnswer{5000};
+
 /// A connection to the hub used by one session, with blocking waits.
 /// Thread: the session's. What is sent goes out together at the next wait: between two lines of one
 /// packet a virtual clock does not move. Limits: those of StreamPeer; a line over them is left out.

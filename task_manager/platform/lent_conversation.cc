@@ -3,19 +3,15 @@
 #include <charconv>
 #include <utility>
 
+#include "vm_protocol/core/lower_case.h"
+
 namespace vxml {
 namespace {
 
-constexpr Millis kAnswer{5000};
 constexpr Millis kPatience{10'000};  // the voice is stopped, and says what was heard
 
 std::string OneLine(std::string text) {
   for (char& c : text) c = c == '\n' || c == '\r' ? ' ' : c;
-  return text;
-}
-
-std::string Lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
   return text;
 }
 
@@ -34,7 +30,7 @@ TalkResult::Kind KindOf(vm::Errc code) {
 /// "SILENCE 3 see you" of slot Talk.over.
 void ReadEnd(const std::string& value, TalkResult& result) {
   const std::size_t blank = value.find(' ');
-  result.reason = Lower(value.substr(0, blank));
+  result.reason = vm::LowerCase(value.substr(0, blank));
   if (blank == std::string::npos) return;
   const char* const end = value.data() + value.size();
   const auto turns = std::from_chars(value.data() + blank + 1, end, result.turns);

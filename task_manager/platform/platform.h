@@ -14,6 +14,9 @@ namespace vxml {
 
 using Millis = std::chrono::milliseconds;
 
+/// So long after the prompts comes input that has no time of its own.
+inline constexpr Millis kReaction{500};
+
 /// A piece of a prompt, in the order it is rendered.
 struct Segment {
   enum class Kind { kText, kAudio, kMark, kPause, kCommand };

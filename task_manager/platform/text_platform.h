@@ -17,7 +17,6 @@ class TextPlatform final : public Platform {
   static constexpr int kMsPerLetter = 60;      ///< of alphabetic text
   static constexpr int kMsPerCharacter = 150;  ///< of kana and kanji
   static constexpr int kMsPerAudio = 1000;
-  static constexpr Millis kReaction{500};  ///< input without a time comes so long after prompts
 
   /// `write` gets each transcript line without newline.
   TextPlatform(CommandSource commands, std::function<void(const std::string& line)> write);

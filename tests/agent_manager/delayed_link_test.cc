@@ -7,14 +7,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/agent_manager/programs.h"
 #include "tests/support/process.h"
 
 namespace {
 
 using support::Process;
-
-const std::string kHub = GALATEA_BIN_DIR "/agent_manager";
-const std::string kModule = GALATEA_BIN_DIR "/test_module";
 
 /// A network: what is done to the loopback device, and how wrong an offset may be then, in ms.
 struct Network {

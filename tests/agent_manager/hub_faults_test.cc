@@ -7,6 +7,7 @@
 #include <fstream>
 #include <thread>
 
+#include "tests/agent_manager/programs.h"
 #include "tests/support/process.h"
 #include "tests/support/sanitized.h"
 
@@ -14,9 +15,6 @@ namespace {
 
 using support::Process;
 using support::SocketClient;
-
-const std::string kHub = GALATEA_BIN_DIR "/agent_manager";
-const std::string kModule = GALATEA_BIN_DIR "/test_module";
 
 class HubFaultsTest : public testing::Test {
  protected:

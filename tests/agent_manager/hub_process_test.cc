@@ -7,15 +7,13 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/agent_manager/programs.h"
 #include "tests/support/process.h"
 
 namespace {
 
 using support::Process;
 using support::SocketClient;
-
-const std::string kHub = GALATEA_BIN_DIR "/agent_manager";
-const std::string kModule = GALATEA_BIN_DIR "/test_module";
 
 std::string WriteConfig(const support::TempDir& folder, const std::string& text) {
   const std::string path = folder / "config.json";

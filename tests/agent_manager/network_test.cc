@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "tests/agent_manager/programs.h"
 #include "tests/support/certificates.h"
 #include "tests/support/process.h"
 #include "vm_protocol/runtime/credentials.h"
@@ -15,8 +16,6 @@ namespace {
 using support::Process;
 using support::SocketClient;
 
-const std::string kHub = GALATEA_BIN_DIR "/agent_manager";
-const std::string kModule = GALATEA_BIN_DIR "/test_module";
 const std::string kToken = "a token nobody guesses";
 
 class NetworkTest : public testing::Test {

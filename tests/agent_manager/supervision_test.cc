@@ -12,15 +12,13 @@
 #include <memory>
 #include <vector>
 
+#include "tests/agent_manager/programs.h"
 #include "tests/support/process.h"
 #include "tests/support/sanitized.h"
 
 namespace {
 
 using support::Process;
-
-const std::string kHub = GALATEA_BIN_DIR "/agent_manager";
-const std::string kModule = GALATEA_BIN_DIR "/test_module";
 
 class SupervisionTest : public testing::Test {
  protected:

@@ -12,14 +12,14 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-const Abbreviations& Shipped() {
+const Abbreviations& ShippedAbbreviations() {
   static const Abbreviations abbreviations = ParseAbbreviations(tables::Abbreviations());
   return abbreviations;
 }
 
 /// Fed in pieces of so many bytes.
 Texts Cut(const std::string& text, std::size_t piece) {
-  SentenceCutter cutter(Shipped());
+  SentenceCutter cutter(ShippedAbbreviations());
   Texts texts;
   const auto take = [&texts](std::vector<Sentence> sentences) {
     for (Sentence& sentence : sentences) texts.push_back(std::move(sentence.text));
@@ -94,7 +94,7 @@ TEST(SentenceCutterTest, WhatHasNoEndIsCutAtACommaABlankOrASign) {
 
 TEST(SentenceCutterTest, TheEndIsSeenBeforeAnythingFollows) {
   const auto would_end = [](const std::string& text) {
-    SentenceCutter cutter(Shipped());
+    SentenceCutter cutter(ShippedAbbreviations());
     cutter.Feed(text);
     cutter.Take();
     return cutter.WouldEnd();
@@ -108,7 +108,7 @@ TEST(SentenceCutterTest, TheEndIsSeenBeforeAnythingFollows) {
 }
 
 TEST(SentenceCutterTest, MarksStandWhereTheyWereGiven) {
-  SentenceCutter cutter(Shipped());
+  SentenceCutter cutter(ShippedAbbreviations());
   const auto cue = [](const char* value) { return Cue{vm::To("FSM", vm::Set("X", value))}; };
   cutter.Mark(cue("before"));
   cutter.Feed("Hello ");
@@ -128,7 +128,7 @@ TEST(SentenceCutterTest, MarksStandWhereTheyWereGiven) {
 }
 
 TEST(SentenceCutterTest, AFloodOfMarksIsCut) {
-  SentenceCutter cutter(Shipped());
+  SentenceCutter cutter(ShippedAbbreviations());
   for (int i = 0; i < 10'000; ++i) cutter.Mark(Cue{vm::To("FSM", vm::Set("X", "1"))});
   EXPECT_EQ(cutter.Flush().at(0).before.size(), SentenceCutter::kMaxMarks);
 }

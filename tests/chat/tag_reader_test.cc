@@ -10,14 +10,14 @@
 namespace chat {
 namespace {
 
-const TagTable& Shipped() {
+const TagTable& ShippedTags() {
   static const TagTable table = *TagTable::Parse("tags.txt", tables::Tags());
   return table;
 }
 
 /// The text with each cue as {its lines}, fed in pieces of so many bytes.
 std::string Read(const std::string& text, std::size_t piece) {
-  TagReader reader(Shipped());
+  TagReader reader(ShippedTags());
   std::string read;
   const auto take = [&read](const std::vector<TagReader::Item>& items) {
     for (const auto& item : items) {
@@ -106,17 +106,17 @@ TEST(TagTableTest, TheShippedPromptAsksOnlyForTagsThatAreThere) {
   for (std::size_t at = prompt.find('['); at != std::string_view::npos;
        at = prompt.find('[', at + 1)) {
     const std::string_view inside = prompt.substr(at + 1, prompt.find(']', at) - at - 1);
-    EXPECT_TRUE(Shipped().CueOf(ParseTag(inside))) << inside;
+    EXPECT_TRUE(ShippedTags().CueOf(ParseTag(inside))) << inside;
     ++count;
   }
   EXPECT_GT(count, 10);
 }
 
 TEST(TagTableTest, StatesKnowTheFacesLife) {
-  const Cue speaks = Shipped().AtState("SPEAKS", "LIVELY");
+  const Cue speaks = ShippedTags().AtState("SPEAKS", "LIVELY");
   ASSERT_EQ(speaks.size(), 2u);
   EXPECT_EQ(vm::FormatMessage(speaks[1]), "to @FSM set Life = LIVELY");
-  EXPECT_TRUE(Shipped().AtState("SLEEPS", "").empty());
+  EXPECT_TRUE(ShippedTags().AtState("SLEEPS", "").empty());
 }
 
 }  // namespace

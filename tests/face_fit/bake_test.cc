@@ -22,14 +22,14 @@
 namespace facefit {
 namespace {
 
-constexpr int kSide = 160;
+constexpr int kDiscSide = 160;
 
 /// Calls `f(pixel centre)` for the colour of each pixel, 0..255.
 template <typename F>
 fsm::Image Painted(F f) {
-  fsm::Image image{.width = kSide, .height = kSide, .rgba = {}};
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  fsm::Image image{.width = kDiscSide, .height = kDiscSide, .rgba = {}};
+  for (int y = 0; y < kDiscSide; ++y) {
+    for (int x = 0; x < kDiscSide; ++x) {
       const glm::vec3 c = f(glm::vec2(x, y) + 0.5F);
       for (int k = 0; k < 3; ++k) image.rgba.push_back(static_cast<std::uint8_t>(c[k] + 0.5F));
       image.rgba.push_back(255);
@@ -40,16 +40,16 @@ fsm::Image Painted(F f) {
 
 template <typename F>
 FloatImage Of(F f) {
-  FloatImage field(kSide, kSide);
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) field(x, y) = f(glm::vec2(x, y) + 0.5F);
+  FloatImage field(kDiscSide, kDiscSide);
+  for (int y = 0; y < kDiscSide; ++y) {
+    for (int x = 0; x < kDiscSide; ++x) field(x, y) = f(glm::vec2(x, y) + 0.5F);
   }
   return field;
 }
 
 /// A disc, soft over `soft` pixels.
 float Disc(glm::vec2 p, float radius, float soft) {
-  const float off = radius - glm::distance(p, glm::vec2(kSide / 2));
+  const float off = radius - glm::distance(p, glm::vec2(kDiscSide / 2));
   return glm::clamp(0.5F + off / soft, 0.0F, 1.0F);
 }
 
@@ -99,17 +99,17 @@ TEST(MatteTest, BlackHairBeforeAWhiteWallIsParted) {
 TEST(MatteTest, StrandsOfHairAreKeptAndTheSkyBetweenThemIsNot) {
   // Thin dark lines stand out of the disc, up and right of its middle.
   const auto strand = [](glm::vec2 p) {
-    const bool beyond = glm::distance(p, glm::vec2(kSide / 2)) < 54 && p.y < kSide / 2 - 30;
+    const bool beyond = glm::distance(p, glm::vec2(kDiscSide / 2)) < 54 && p.y < kDiscSide / 2 - 30;
     return beyond && std::fmod(p.x, 6.0F) < 1.5F ? 1.0F : 0.0F;
   };
   const auto part = [&](glm::vec2 p) { return std::max(Disc(p, 50, 2), strand(p)); };
   const fsm::Image photo = Painted([&](glm::vec2 p) { return glm::mix(Sky(p), Hair(p), part(p)); });
   const FloatImage found = Matte(photo, Blurred(Of([](glm::vec2 p) { return Disc(p, 50, 1); }), 2));
   float hair = 0, hairs = 0, sky = 0, skies = 0;
-  for (int y = 20; y < kSide / 2 - 30; ++y) {
-    for (int x = kSide / 2 - 20; x < kSide / 2 + 20; ++x) {
+  for (int y = 20; y < kDiscSide / 2 - 30; ++y) {
+    for (int x = kDiscSide / 2 - 20; x < kDiscSide / 2 + 20; ++x) {
       const glm::vec2 p = glm::vec2(x, y) + 0.5F;
-      const float off = glm::distance(p, glm::vec2(kSide / 2));
+      const float off = glm::distance(p, glm::vec2(kDiscSide / 2));
       if (off < 51.5F || off > 53) continue;
       (strand(p) > 0 ? hair : sky) += found(x, y);
       (strand(p) > 0 ? hairs : skies) += 1;
@@ -126,11 +126,11 @@ TEST(MatteTest, DoubtOverAWideAreaIsDecided) {
   const fsm::Image photo =
       Painted([&](glm::vec2 p) { return glm::mix(Sky(p), glm::vec3(235), cap(p)); });
   const FloatImage doubt =
-      Of([&](glm::vec2 p) { return cap(p) * (p.x < kSide / 2 ? 0.65F : 1.0F); });
+      Of([&](glm::vec2 p) { return cap(p) * (p.x < kDiscSide / 2 ? 0.65F : 1.0F); });
   const FloatImage found = Matte(photo, doubt);
   float least = 1;
-  for (int x = 35; x < kSide / 2; ++x) {
-    least = std::min(least, found(x, kSide / 2));
+  for (int x = 35; x < kDiscSide / 2; ++x) {
+    least = std::min(least, found(x, kDiscSide / 2));
   }
   EXPECT_GT(least, 0.9F);
 }
@@ -167,33 +167,33 @@ TEST(MatteTest, TheEdgeLosesTheBackgroundsColour) {
     most = std::max(most, glm::distance(c, kHair));
   }
   EXPECT_LT(most, 25);
-  const glm::vec3 beyond = ColourAt(figure, glm::vec2(kSide / 2 + 56, kSide / 2));
+  const glm::vec3 beyond = ColourAt(figure, glm::vec2(kDiscSide / 2 + 56, kDiscSide / 2));
   EXPECT_LT(glm::distance(beyond, kHair), 25) << "it goes on beyond its edge";
 }
 
 TEST(FigureTest, WhatOnlyOneSideOfAHeadShowsIsDoubtedAndRatherThereIfItLooksAlike) {
   FoundFace face;
   face.points.assign(kNetworkPoints, glm::vec3(0));
-  face.points[10] = glm::vec3(kSide / 2, 40, 0);
-  face.points[152] = glm::vec3(kSide / 2, 140, 0);
+  face.points[10] = glm::vec3(kDiscSide / 2, 40, 0);
+  face.points[152] = glm::vec3(kDiscSide / 2, 140, 0);
   // The network missed an ear on the left, and on the right saw hair that the left has none of.
   const auto ear = [](glm::vec2 p) { return std::abs(p.y - 90) < 10; };
   const fsm::Image photo = Painted([&](glm::vec2 p) {
-    const float off = std::abs(p.x - kSide / 2);
+    const float off = std::abs(p.x - kDiscSide / 2);
     if (off > 50) return kSky;
-    return ear(p) || off < 30 ? glm::vec3(220, 170, 140) : p.x < kSide / 2 ? kSky : kHair;
+    return ear(p) || off < 30 ? glm::vec3(220, 170, 140) : p.x < kDiscSide / 2 ? kSky : kHair;
   });
-  FloatImage person(kSide, kSide);
+  FloatImage person(kDiscSide, kDiscSide);
   const auto at = [&person](int x, int y) -> float& { return person(x, y); };
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = kSide / 2 - 30; x < kSide / 2 + 50; ++x) at(x, y) = 1;
+  for (int y = 0; y < kDiscSide; ++y) {
+    for (int x = kDiscSide / 2 - 30; x < kDiscSide / 2 + 50; ++x) at(x, y) = 1;
   }
   person = DoubtAsymmetry(face, photo, person);
-  EXPECT_GT(at(kSide / 2 - 40, 90), 0.75F) << "the ear";
-  EXPECT_NEAR(at(kSide / 2 - 40, 60), 0.5F, 0.1F) << "no hair";
-  EXPECT_EQ(at(kSide / 2 - 60, 90), 0) << "neither side";
-  EXPECT_EQ(at(kSide / 2 - 40, 150), 0) << "clothes need not be alike";
-  EXPECT_EQ(at(kSide / 2 + 40, 60), 1);
+  EXPECT_GT(at(kDiscSide / 2 - 40, 90), 0.75F) << "the ear";
+  EXPECT_NEAR(at(kDiscSide / 2 - 40, 60), 0.5F, 0.1F) << "no hair";
+  EXPECT_EQ(at(kDiscSide / 2 - 60, 90), 0) << "neither side";
+  EXPECT_EQ(at(kDiscSide / 2 - 40, 150), 0) << "clothes need not be alike";
+  EXPECT_EQ(at(kDiscSide / 2 + 40, 60), 1);
 }
 
 TEST(GrainTest, TheNearestKnownPointIsFound) {
@@ -208,7 +208,7 @@ TEST(GrainTest, TheNearestKnownPointIsFound) {
 
 TEST(GrainTest, WhatIsFilledInIsAsRoughAsWhatLiesBesideIt) {
   // Stripes, and a hole across the middle.
-  const auto hole = [](glm::vec2 p) { return std::abs(p.y - kSide / 2) < 12; };
+  const auto hole = [](glm::vec2 p) { return std::abs(p.y - kDiscSide / 2) < 12; };
   fsm::Image image =
       Painted([](glm::vec2 p) { return glm::vec3(std::fmod(p.x, 4.0F) < 2 ? 150 : 90); });
   const FloatImage weight = Of([&](glm::vec2 p) { return hole(p) ? 0.0F : 1.0F; });
@@ -217,9 +217,10 @@ TEST(GrainTest, WhatIsFilledInIsAsRoughAsWhatLiesBesideIt) {
     float sum = 0;
     for (int x = 20; x < 140; ++x) {
       sum += std::abs(
-          static_cast<float>(image.rgba[static_cast<std::size_t>(4 * (kSide / 2 * kSide + x))]) -
           static_cast<float>(
-              image.rgba[static_cast<std::size_t>(4 * (kSide / 2 * kSide + x + 2))]));
+              image.rgba[static_cast<std::size_t>(4 * (kDiscSide / 2 * kDiscSide + x))]) -
+          static_cast<float>(
+              image.rgba[static_cast<std::size_t>(4 * (kDiscSide / 2 * kDiscSide + x + 2))]));
     }
     return sum / 120;
   };
@@ -259,12 +260,12 @@ class GrainGap {
         image(Painted([half_gap](glm::vec2 p) {
           return glm::vec3(Off(p) < half_gap ? 180 : std::fmod(p.x, 4.0F) < 2 ? 150 : 90);
         })) {}
-  static float Off(glm::vec2 p) { return std::abs(p.y - kSide / 2); }
+  static float Off(glm::vec2 p) { return std::abs(p.y - kDiscSide / 2); }
   /// How far the stripes of a row stand out, and its mean.
   glm::vec2 Row(int y) const {
     glm::vec2 sum(0);
     for (int x = 40; x < 120; ++x) {
-      const float v = image.rgba[static_cast<std::size_t>(4 * (y * kSide + x))];
+      const float v = image.rgba[static_cast<std::size_t>(4 * (y * kDiscSide + x))];
       sum += glm::vec2(x % 4 < 2 ? v : -v, v) / glm::vec2(40, 80);
     }
     return sum;
@@ -277,7 +278,7 @@ class GrainGap {
 TEST(GrainTest, GrainIsLentInFullAsFarAsItWasAskedForAndChangesNoColour) {
   GrainGap whole(12, 1), half(12, 0.5F), none(12, 0);
   for (GrainGap* gap : {&whole, &half, &none}) AddGrain(gap->weight, gap->where, 4, gap->image);
-  constexpr int kRow = kSide / 2 - 8;
+  constexpr int kRow = kDiscSide / 2 - 8;
   EXPECT_NEAR(whole.Row(kRow).x, 60, 8);
   EXPECT_NEAR(half.Row(kRow).x, 30, 4);
   EXPECT_EQ(none.Row(kRow).x, 0);
@@ -287,38 +288,38 @@ TEST(GrainTest, GrainIsLentInFullAsFarAsItWasAskedForAndChangesNoColour) {
 TEST(GrainTest, GrainIsNotCarriedFar) {
   GrainGap gap(38, 1);
   AddGrain(gap.weight, gap.where, 4, gap.image);
-  EXPECT_GT(gap.Row(kSide / 2 - 33).x, 40);
-  EXPECT_EQ(gap.Row(kSide / 2 - 2).x, 0) << "36 pixels from the edge, eight times 4 are 32";
+  EXPECT_GT(gap.Row(kDiscSide / 2 - 33).x, 40);
+  EXPECT_EQ(gap.Row(kDiscSide / 2 - 2).x, 0) << "36 pixels from the edge, eight times 4 are 32";
 }
 
 TEST(GrainTest, GrainComesFromAsFarOnTheOtherSideOfTheEdge) {
   GrainGap gap(20, 1);
   // Only the six rows before the edge are striped.
-  for (int y = 0; y < kSide; ++y) {
+  for (int y = 0; y < kDiscSide; ++y) {
     if (GrainGap::Off({0, static_cast<float>(y) + 0.5F}) < 26) continue;
-    for (int i = 0; i < 4 * kSide; ++i) {
-      gap.image.rgba[static_cast<std::size_t>(4 * y * kSide + i)] = 120;
+    for (int i = 0; i < 4 * kDiscSide; ++i) {
+      gap.image.rgba[static_cast<std::size_t>(4 * y * kDiscSide + i)] = 120;
     }
   }
   AddGrain(gap.weight, gap.where, 2, gap.image);
-  EXPECT_GT(gap.Row(kSide / 2 - 17).x, 40) << "three pixels within";
-  EXPECT_LT(gap.Row(kSide / 2 - 9).x, 6) << "eleven pixels within";
+  EXPECT_GT(gap.Row(kDiscSide / 2 - 17).x, 40) << "three pixels within";
+  EXPECT_LT(gap.Row(kDiscSide / 2 - 9).x, 6) << "eleven pixels within";
 }
 
 TEST(GrainTest, WhatIsHalfKnownTakesHalfTheGrainAndGivesHalf) {
   GrainGap gap(12, 1);
-  for (int y = 0; y < kSide; ++y) {
+  for (int y = 0; y < kDiscSide; ++y) {
     const float off = GrainGap::Off({0, static_cast<float>(y) + 0.5F});
-    for (int x = 0; x < kSide; ++x) {
+    for (int x = 0; x < kDiscSide; ++x) {
       float& known = gap.weight(x, y);
       if (off > 9 && off < 12) known = 0.5F;
       // A thin line is all that is known before more that is not.
-      if (off > 14 && y < kSide / 2) known = 0;
+      if (off > 14 && y < kDiscSide / 2) known = 0;
     }
   }
   AddGrain(gap.weight, gap.where, 4, gap.image);
-  EXPECT_NEAR(gap.Row(kSide / 2 + 10).x, 30, 6) << "half of it is its own";
-  EXPECT_EQ(gap.Row(kSide / 2 - 5).x, 0) << "beyond the line nothing is known";
+  EXPECT_NEAR(gap.Row(kDiscSide / 2 + 10).x, 30, 6) << "half of it is its own";
+  EXPECT_EQ(gap.Row(kDiscSide / 2 - 5).x, 0) << "beyond the line nothing is known";
 }
 
 TEST(EnlargeTest, BesideAHardEdgeColoursStayWithinTheirRange) {

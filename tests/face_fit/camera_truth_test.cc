@@ -31,7 +31,7 @@
 namespace facefit {
 namespace {
 
-constexpr int kSide = 900;
+constexpr int kPhotoSide = 900;
 
 /// What is compared, by number of the network's point.
 struct NamedPoint {
@@ -74,12 +74,12 @@ struct TrueHead {
   std::array<glm::vec3, 2> ears;  ///< the agent's right and left
 };
 
-/// A picture of kFine x kFine colours, linear, as one of kSide x kSide.
-constexpr int kFine = 2 * kSide;
+/// A picture of kFine x kFine colours, linear, as one of kPhotoSide x kPhotoSide.
+constexpr int kFine = 2 * kPhotoSide;
 fsm::Image Halved(const std::vector<glm::vec3>& fine) {
-  fsm::Image photo{kSide, kSide, {}};
-  for (std::size_t y = 0; y < kSide; ++y) {
-    for (std::size_t x = 0; x < kSide; ++x) {
+  fsm::Image photo{kPhotoSide, kPhotoSide, {}};
+  for (std::size_t y = 0; y < kPhotoSide; ++y) {
+    for (std::size_t x = 0; x < kPhotoSide; ++x) {
       const std::size_t i = 2 * (y * kFine + x);
       const glm::vec3 mean = (fine[i] + fine[i + 1] + fine[i + kFine] + fine[i + kFine + 1]) / 4.0F;
       for (int c = 0; c < 3; ++c) {
@@ -98,7 +98,7 @@ struct TrueCamera {
   float turn_degrees;  ///< of the head, to the viewer's right
   static constexpr float kFaceZ = 50, kHalfHeight = 165, kMiddleY = -7, kNeckY = -60;
 
-  float focal() const { return kSide / 2.0F / kHalfHeight * distance; }  ///< pixels
+  float focal() const { return kPhotoSide / 2.0F / kHalfHeight * distance; }  ///< pixels
   glm::mat3 Turn() const {
     const float c = std::cos(glm::radians(turn_degrees)), s = std::sin(glm::radians(turn_degrees));
     return {c, 0, -s, 0, 1, 0, s, 0, c};
@@ -110,7 +110,7 @@ struct TrueCamera {
   glm::vec2 Pixel(glm::vec3 p) const {
     const glm::vec3 q = Placed(p);
     const float scale = focal() / (kFaceZ + distance - q.z);
-    return {kSide / 2.0F + scale * q.x, kSide / 2.0F - scale * (q.y - kMiddleY)};
+    return {kPhotoSide / 2.0F + scale * q.x, kPhotoSide / 2.0F - scale * (q.y - kMiddleY)};
   }
   /// Drawn plainly, by other means than the renderer's: the nearest triangle at each of four
   /// samples of a pixel, in the colours of its vertices, under one lamp above the camera.

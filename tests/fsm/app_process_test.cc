@@ -83,6 +83,12 @@ TEST_F(FsmProcessTest, APipedBatchLeavesAHappyFace) {
   EXPECT_NE(happy, ReadAll(folder / "neutral.png"));
 }
 
+TEST_F(FsmProcessTest, ExitWaitsForAnExpressionAndForNothingElse) {
+  support::Process program({GALATEA_BIN_DIR "/fsm", "--headless"});
+  program.Write("set FaceExp = HAPPY\nset Run = EXIT\n");
+  EXPECT_EQ(program.Wait(), 0) << "its input has not ended";
+}
+
 TEST_F(FsmProcessTest, TheSameInputGivesTheSameFilmAndTheSameWords) {
   const std::string input =
       "prop Frame = AutoOutput\nset Autonomous = BLINK 1\nset Record = film.mp4\n"

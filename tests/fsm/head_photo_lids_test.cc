@@ -9,7 +9,7 @@
 namespace fsm {
 namespace {
 
-constexpr glm::vec3 kSkin(0.8f, 0.6f, 0.5f);
+constexpr glm::vec3 kLidSkin(0.8f, 0.6f, 0.5f);
 
 /// The agent's left eye, 30 mm wide: 20 rows of an upper lid from its socket (0) to its rim (1) in
 /// the upper half of a picture, as many of a lower lid in the other half.
@@ -39,7 +39,7 @@ struct Eye {
     }
     open_normal.assign(open.size(), glm::vec3(0, 0, 1));
     shut_normal = open_normal;
-    for (int row = 0; row < 40; ++row) Paint(row, 0, 60, kSkin);
+    for (int row = 0; row < 40; ++row) Paint(row, 0, 60, kLidSkin);
   }
   void Paint(int row, int from, int to, glm::vec3 colour) {
     for (int x = from; x < to; ++x) {
@@ -65,7 +65,7 @@ void ExpectSkinInTheMiddle(const Eye& eye, float tolerance) {
     if (held < 0.75f || held > 0.92f) continue;
     if (std::abs(eye.open[lid.vertex].x - 30) > 7) continue;  // darker to the corners
     for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(std::sqrt(lid.colour[c]) / kSkin[c], 1, tolerance) << held;
+      EXPECT_NEAR(std::sqrt(lid.colour[c]) / kLidSkin[c], 1, tolerance) << held;
     EXPECT_GT(lid.weight, 0.7f) << "most of it is no photo";
     ++checked;
   }
@@ -114,7 +114,7 @@ TEST(PhotoLidsTest, TheRimOfGlassesAndItsReflectionAreLeftOut) {
 
 TEST(PhotoLidsTest, EachEndOfTheLidIsAsBrightAsTheSkinBesideIt) {
   Eye eye;
-  for (int row = 0; row < 40; ++row) eye.Paint(row, 30, 60, 0.6f * kSkin);
+  for (int row = 0; row < 40; ++row) eye.Paint(row, 30, 60, 0.6f * kLidSkin);
   float inner = 0, outer = 0;
   for (const ShutLid& lid : eye.Lids()) {
     const BakeWeights& f = eye.skin[lid.vertex];
@@ -137,7 +137,7 @@ TEST(PhotoLidsTest, LidsGoOverIntoTheSocketAndEndInDarkLashes) {
       EXPECT_EQ(lid.weight, 0) << "the lower lid keeps it up to its rim";
     }
     if (f.lid_upper == 1 || f.lid_lower == 1) {
-      EXPECT_LT(std::sqrt(lid.colour.g), 0.7f * kSkin.g);
+      EXPECT_LT(std::sqrt(lid.colour.g), 0.7f * kLidSkin.g);
       EXPECT_GT(lid.weight, 0.25f);
       ++rims;
     }
@@ -147,18 +147,18 @@ TEST(PhotoLidsTest, LidsGoOverIntoTheSocketAndEndInDarkLashes) {
 
 TEST(PhotoLidsTest, TheLidHasTheColoursOfTheSkinRoundTheEyeWhereverTheyChange) {
   Eye eye;
-  for (int row = 20; row < 40; ++row) eye.Paint(row, 0, 60, 0.7f * kSkin);
+  for (int row = 20; row < 40; ++row) eye.Paint(row, 0, 60, 0.7f * kLidSkin);
   const float above = GreenInTheMiddle(eye, 0.55f), below = GreenInTheMiddle(eye, 0.9f);
-  EXPECT_GT(above, 0.75f * kSkin.g) << "the upper skin's where that begins, in a furrow";
-  EXPECT_LT(below, 0.92f * kSkin.g) << "and the lower's below";
-  EXPECT_GT(below, 0.6f * kSkin.g);
+  EXPECT_GT(above, 0.75f * kLidSkin.g) << "the upper skin's where that begins, in a furrow";
+  EXPECT_LT(below, 0.92f * kLidSkin.g) << "and the lower's below";
+  EXPECT_GT(below, 0.6f * kLidSkin.g);
 }
 
 TEST(PhotoLidsTest, InADarkSocketTheLidBeginsDarkAndGrowsLightDownward) {
   Eye eye;
-  for (int row = 0; row < 20; ++row) eye.Paint(row, 0, 60, 0.4f * kSkin);
+  for (int row = 0; row < 20; ++row) eye.Paint(row, 0, 60, 0.4f * kLidSkin);
   const float above = GreenInTheMiddle(eye, 0.55f), below = GreenInTheMiddle(eye, 0.9f);
-  EXPECT_LT(above, 0.55f * kSkin.g);
+  EXPECT_LT(above, 0.55f * kLidSkin.g);
   EXPECT_GT(below, 1.4f * above);
 }
 
@@ -191,7 +191,7 @@ Eye LitFromAbove() {
     const int row = static_cast<int>(i) / 30;
     const float up = 0.6f - 1.2f * static_cast<float>(row) / 39;
     eye.open_normal[i] = {0, up, std::sqrt(1 - up * up)};
-    eye.Paint(row, 0, 60, kSkin * std::sqrt(0.5f + 0.6f * up));
+    eye.Paint(row, 0, 60, kLidSkin * std::sqrt(0.5f + 0.6f * up));
   }
   return eye;
 }
@@ -211,7 +211,7 @@ TEST(PhotoLidsTest, AShutLidIsLitAsItFaces) {
 TEST(PhotoLidsTest, TheLashesOfTheOpenEyeAreGoneWhenItIsShutButARimOfGlassesStays) {
   Eye eye;
   // From 3 to 6 millimetres above the open eye's rim; the skin above it is bright.
-  for (int row = 12; row < 16; ++row) eye.Paint(row, 0, 60, 0.3f * kSkin);
+  for (int row = 12; row < 16; ++row) eye.Paint(row, 0, 60, 0.3f * kLidSkin);
   EXPECT_GT(MeanPart(eye, 9.3f, 10.3f), 0.5f);
   eye.glasses = true;
   EXPECT_LT(MeanPart(eye, 9.3f, 10.3f), 0.1f);
@@ -219,7 +219,7 @@ TEST(PhotoLidsTest, TheLashesOfTheOpenEyeAreGoneWhenItIsShutButARimOfGlassesStay
 
 TEST(PhotoLidsTest, WhatALensMirrorsStaysBeforeTheLid) {
   Eye eye;
-  for (int row = 0; row < 40; ++row) eye.Paint(row, 0, 60, 0.5f * kSkin);
+  for (int row = 0; row < 40; ++row) eye.Paint(row, 0, 60, 0.5f * kLidSkin);
   eye.glasses = true;
   EXPECT_GT(MeanPart(eye, 6.4f, 7.6f), 0.8f);
   // From 1 to 5 millimetres above the open eye's rim.
@@ -255,7 +255,8 @@ TEST(PhotoLidsTest, AGreyShineAboveTheEyeDoesNotMakeTheLidGrey) {
   for (const ShutLid& lid : eye.Lids()) {
     const float held = eye.skin[lid.vertex].lid_upper;
     if (held < 0.5f || held > 0.9f) continue;
-    EXPECT_LT(std::sqrt(lid.colour.b) / std::sqrt(lid.colour.r), 0.5f * (1 + kSkin.b / kSkin.r))
+    EXPECT_LT(std::sqrt(lid.colour.b) / std::sqrt(lid.colour.r),
+              0.5f * (1 + kLidSkin.b / kLidSkin.r))
         << held;
     ++checked;
   }

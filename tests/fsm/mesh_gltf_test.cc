@@ -143,12 +143,12 @@ TEST(GltfHeadTest, EveryCutFileIsRefusedInWords) {
   }
 }
 
-struct Damage {
+struct GltfDamage {
   const char* json;
   const char* words;
 };
 
-class DamagedGltfTest : public testing::TestWithParam<Damage> {};
+class DamagedGltfTest : public testing::TestWithParam<GltfDamage> {};
 
 TEST_P(DamagedGltfTest, IsRefusedWithItsPlace) {
   const auto file = ParseGltfHead("a.gltf", GetParam().json);
@@ -164,38 +164,39 @@ TEST_P(DamagedGltfTest, IsRefusedWithItsPlace) {
 INSTANTIATE_TEST_SUITE_P(
     All, DamagedGltfTest,
     testing::Values(
-        Damage{"", "no glTF"}, Damage{"[1,2]", "no glTF"}, Damage{"{}", "no glTF"},
-        Damage{R"({"asset":{"version":"1.0"}})", "version 2"},
-        Damage{R"({"asset":{"version":"2.0"}})", "no mesh"},
-        Damage{R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"data:x,y"}]})",
-               "buffers[0]: its data URI is not base64"},
-        Damage{
+        GltfDamage{"", "no glTF"}, GltfDamage{"[1,2]", "no glTF"}, GltfDamage{"{}", "no glTF"},
+        GltfDamage{R"({"asset":{"version":"1.0"}})", "version 2"},
+        GltfDamage{R"({"asset":{"version":"2.0"}})", "no mesh"},
+        GltfDamage{R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"data:x,y"}]})",
+                   "buffers[0]: its data URI is not base64"},
+        GltfDamage{
             R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"../../etc/passwd"}]})",
             "cannot be read from beside it"},
-        Damage{R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{}]}]})",
-               "accessors[-1]"},
-        Damage{"{" BUFFER R"("asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+        GltfDamage{
+            R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{}]}]})",
+            "accessors[-1]"},
+        GltfDamage{"{" BUFFER R"("asset":{"version":"2.0"},"nodes":[{"mesh":0}],
                "bufferViews":[{"buffer":0,"byteOffset":30,"byteLength":36}],
                "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
                "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})",
-               "bufferViews[0]: bytes 30"},
-        Damage{"{" BUFFER R"("asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+                   "bufferViews[0]: bytes 30"},
+        GltfDamage{"{" BUFFER R"("asset":{"version":"2.0"},"nodes":[{"mesh":0}],
                "bufferViews":[{"buffer":0,"byteLength":36}],
                "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}],
                "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})",
-               "accessors[0]: its elements are not in its bufferView"},
-        Damage{"{" BUFFER R"("asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+                   "accessors[0]: its elements are not in its bufferView"},
+        GltfDamage{"{" BUFFER R"("asset":{"version":"2.0"},"nodes":[{"mesh":0}],
                "bufferViews":[{"buffer":0,"byteLength":36}],
                "accessors":[{"bufferView":0,"componentType":5126,"count":999999999,"type":"VEC3"}],
                "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})",
-               "more than"},
-        Damage{R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+                   "more than"},
+        GltfDamage{R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],
                "accessors":[{"componentType":5126,"count":2000000,"type":"VEC3"}],
                "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})",
-               "accessors[0]: more than 4194304 numbers"},
-        Damage{"{" BUFFER
-               R"("asset":{"version":"2.0"},"nodes":[{"children":[1]},{"children":[1]}]})",
-               "their own parents"}));
+                   "accessors[0]: more than 4194304 numbers"},
+        GltfDamage{"{" BUFFER
+                   R"("asset":{"version":"2.0"},"nodes":[{"children":[1]},{"children":[1]}]})",
+                   "their own parents"}));
 
 TEST(ShapeNameTest, MakersAgreeOnSidesOnceSpelledAlike) {
   EXPECT_EQ(PlainShapeName("mouthSmile_L"), "mouthsmileleft");

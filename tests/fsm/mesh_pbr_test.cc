@@ -19,7 +19,7 @@
 namespace fsm {
 namespace {
 
-std::string Number(int n) { return std::to_string(n); }
+std::string Written(int n) { return std::to_string(n); }
 
 /// A triangle of one material; `more`: further members of the file.
 HeadFile Read(GltfMaker& maker, const std::string& material, const std::string& more = "") {
@@ -28,7 +28,7 @@ HeadFile Read(GltfMaker& maker, const std::string& material, const std::string& 
   auto file = ParseGltfHead(
       "a.gltf", maker.File(R"("nodes":[{"mesh":0}],"materials":[)" + material +
                            R"(],"meshes":[{"primitives":[{"material":0,"attributes":{"POSITION":)" +
-                           Number(place) + R"(,"TEXCOORD_0":)" + Number(uv) + "}}]}]" + more));
+                           Written(place) + R"(,"TEXCOORD_0":)" + Written(uv) + "}}]}]" + more));
   EXPECT_TRUE(file) << file.error().text;
   return file ? std::move(*file) : HeadFile{};
 }

@@ -13,6 +13,7 @@
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/motion/motion_tables.h"
+#include "tests/fsm/motion_support.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace fsm {
@@ -23,13 +24,6 @@ constexpr const char* kTables[] = {
     "phonemes_en.txt",  "phonemes28_ja.txt",   "phonemes28_en.txt",    "phoneme_names.txt",
     "emotions.txt",     "motions.txt",         "action_unit_list.txt", "action_unit_names.txt",
     "arkit.txt",        "mixing.txt"};
-
-std::string BuiltIn(const std::string& table) {
-  std::ifstream in(std::string(GALATEA_SOURCE_DIR "/fsm/motion/tables/") + table);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 struct HostileTablesTest : testing::TestWithParam<const char*> {
   HostileTablesTest() {
@@ -64,7 +58,7 @@ TEST_P(HostileTablesTest, BytesThatAreNoTextAreNamedByTheirLine) {
   std::string bytes(20000, '\0');
   for (char& c : bytes) c = static_cast<char>(random());
   EXPECT_TRUE(ErrorOf(bytes).starts_with(path + ":")) << ErrorOf(bytes);
-  const std::string text = BuiltIn(GetParam());
+  const std::string text = TableText(GetParam());
   EXPECT_EQ(ErrorOf("# one\n# two\n\xff\n" + text),
             path + ":3: a byte that is not UTF-8 found, text expected");
 }
@@ -82,7 +76,7 @@ TEST_P(HostileTablesTest, ALineOfAMegabyteIsShortenedInTheError) {
 }
 
 TEST_P(HostileTablesTest, NumbersBeyondReasonAreRefusedWhereTheyStand) {
-  const std::string text = BuiltIn(GetParam());
+  const std::string text = TableText(GetParam());
   ASSERT_FALSE(text.empty());
   EXPECT_EQ(ErrorOf(text), "");
   int line = 1;
@@ -106,7 +100,7 @@ TEST_P(HostileTablesTest, NumbersBeyondReasonAreRefusedWhereTheyStand) {
 }
 
 TEST_P(HostileTablesTest, AnyDamageGivesOneWellFormedErrorOrNone) {
-  const std::string text = BuiltIn(GetParam());
+  const std::string text = TableText(GetParam());
   std::mt19937 random(3);
   int refused = 0;
   for (int run = 0; run < 60; ++run) {

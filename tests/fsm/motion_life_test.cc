@@ -10,6 +10,7 @@
 #include "fsm/base/random.h"
 #include "fsm/motion/face_motion.h"
 #include "fsm/motion/idle_behaviour.h"
+#include "tests/fsm/motion_support.h"
 
 namespace fsm {
 namespace {
@@ -19,8 +20,6 @@ using namespace std::chrono_literals;
 constexpr const char* kSentence =
     "pau 200 hh 60 ax 50 l 60 ow 180 pau 180 m 70 ay 140 n 60 ey 170 m 80 ih 60 z 90 g 70 ae 160 "
     "l 60 ax 50 t 60 iy 110 ah 60 pau 200 hh 60 aw 190 aa 60 r 60 y 50 uw 180 pau 200";
-
-vm::PhonemeList List(const char* text) { return vm::ParsePhonemes(text).value(); }
 
 struct IdleBehaviourTest : testing::Test {
   FaceMotion motion{MotionTables::Load().value(), 7};

@@ -10,6 +10,7 @@
 #include "fsm/head/make_head.h"
 #include "fsm/motion/face_motion.h"
 #include "fsm/rig/head.h"
+#include "tests/fsm/motion_support.h"
 
 namespace fsm {
 namespace {
@@ -20,7 +21,6 @@ const MotionTables& Tables() {
   static const MotionTables tables = MotionTables::Load().value();
   return tables;
 }
-vm::PhonemeList List(const char* text) { return vm::ParsePhonemes(text).value(); }
 VisemeTrack Track28(const char* text) { return {List(text), Tables(), LipStyle{}}; }
 const MouthPose& Shape(const char* name) { return FindShape(Tables().set28.shapes, name)->pose; }
 

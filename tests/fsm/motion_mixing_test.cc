@@ -8,18 +8,12 @@
 #include <sstream>
 
 #include "fsm/motion/face_motion.h"
+#include "tests/fsm/motion_support.h"
 
 namespace fsm {
 namespace {
 
 using namespace std::chrono_literals;
-
-std::string BuiltIn(const std::string& table) {
-  std::ifstream in(std::string(GALATEA_SOURCE_DIR "/fsm/motion/tables/") + table);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 /// Turns the head 10 degrees to the viewer's right from the first second to the second.
 class Turning : public MotionSource {
@@ -37,7 +31,7 @@ class Turning : public MotionSource {
 MotionTables With(const std::string& file, const std::string& rows) {
   char name[] = "/tmp/galatea_mixing_XXXXXX";
   EXPECT_NE(mkdtemp(name), nullptr);
-  std::ofstream(std::filesystem::path(name) / file) << BuiltIn(file) << rows;
+  std::ofstream(std::filesystem::path(name) / file) << TableText(file) << rows;
   auto tables = MotionTables::Load(name);
   std::filesystem::remove_all(name);
   EXPECT_TRUE(tables) << (tables ? "" : tables.error().text);

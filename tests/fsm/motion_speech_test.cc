@@ -4,15 +4,12 @@
 #include <numbers>
 
 #include "fsm/motion/face_motion.h"
+#include "tests/fsm/motion_support.h"
 
 namespace fsm {
 namespace {
 
 using namespace std::chrono_literals;
-
-MotionTables BuiltIn() { return MotionTables::Load().value(); }
-
-vm::PhonemeList List(const char* text) { return vm::ParsePhonemes(text).value(); }
 
 /// The original's way: 14 shapes joined by sinusoids.
 LipStyle Original(Language language) {

@@ -7,15 +7,10 @@
 #include <fstream>
 
 #include "fsm/motion/motion_reader.h"
+#include "tests/fsm/motion_support.h"
 
 namespace fsm {
 namespace {
-
-MotionTables BuiltIn() {
-  auto tables = MotionTables::Load();
-  EXPECT_TRUE(tables) << tables.error().text;
-  return std::move(*tables);
-}
 
 TEST(MotionTablesTest, TheFourteenShapesStandInTheirOrder) {
   const MotionTables tables = BuiltIn();

@@ -15,7 +15,7 @@
 namespace fsm {
 namespace {
 
-constexpr int kSide = 600;
+constexpr int kMouthSide = 600;
 
 /// A head with some action units, drawn from near by.
 class MouthPicture {
@@ -28,25 +28,26 @@ class MouthPicture {
     }
     Scene scene;
     scene.camera = {.distance = 0.4F, .height_mm = -40};
-    const auto context = RenderContext::MakeHeadless(kSide, kSide);
+    const auto context = RenderContext::MakeHeadless(kMouthSide, kMouthSide);
     const auto renderer = Renderer::Make(*context);
     head_->Evaluate(state, vertices_);
     renderer->Draw(*head_, vertices_, state, scene);
     renderer->Read(image_);
-    const View view = FramePortrait(state.figure, scene.camera, kSide, kSide);
+    const View view = FramePortrait(state.figure, scene.camera, kMouthSide, kMouthSide);
     to_clip_ = view.world_to_clip * view.figure_to_world;
   }
 
   /// Screen colours 0..255 at a place of the head's frame, the mean of 3 x 3 pixels.
   glm::vec3 At(glm::vec3 place) const {
     const glm::vec4 clip = to_clip_ * glm::vec4(place, 1);
-    const int x = static_cast<int>((0.5F + 0.5F * clip.x / clip.w) * kSide);
-    const int y = static_cast<int>((0.5F - 0.5F * clip.y / clip.w) * kSide);
-    EXPECT_TRUE(x > 0 && x < kSide - 1 && y > 0 && y < kSide - 1) << "the mouth is in the picture";
+    const int x = static_cast<int>((0.5F + 0.5F * clip.x / clip.w) * kMouthSide);
+    const int y = static_cast<int>((0.5F - 0.5F * clip.y / clip.w) * kMouthSide);
+    EXPECT_TRUE(x > 0 && x < kMouthSide - 1 && y > 0 && y < kMouthSide - 1)
+        << "the mouth is in the picture";
     glm::vec3 sum(0);
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
-        const auto i = static_cast<std::size_t>((y + dy) * kSide + x + dx) * 4;
+        const auto i = static_cast<std::size_t>((y + dy) * kMouthSide + x + dx) * 4;
         sum += glm::vec3(image_.rgba[i], image_.rgba[i + 1], image_.rgba[i + 2]);
       }
     }
@@ -250,7 +251,7 @@ TEST(MouthPictureTest, AHeadThatSaysNothingOfItsLipsTakesNothingFromTheOneDrawnB
   Scene scene;
   scene.camera = {.distance = 0.4F, .height_mm = -40};
   const auto drawn = [&](const Head* before) {
-    const auto context = RenderContext::MakeHeadless(kSide, kSide);
+    const auto context = RenderContext::MakeHeadless(kMouthSide, kMouthSide);
     const auto renderer = Renderer::Make(*context);
     HeadVertices vertices;
     if (before) {

@@ -14,7 +14,7 @@
 namespace fsm {
 namespace {
 
-constexpr int kWidth = 160, kHeight = 120;
+constexpr int kWide = 160, kHigh = 120;
 
 Image Drawn(RenderContext& context) {
   const BallHead head;
@@ -39,7 +39,7 @@ std::unique_ptr<RenderContext> Try(Make make, std::string& why) {
 }
 
 TEST(OffScreenTest, SoftwareIsWhatIsMadeWhenNothingIsSaid) {
-  const auto context = RenderContext::MakeHeadless(kWidth, kHeight);
+  const auto context = RenderContext::MakeHeadless(kWide, kHigh);
   const std::string way = context->reached_by();
   EXPECT_TRUE(way == "OSMesa" || way.ends_with(", software")) << way;
   EXPECT_NE(DescribeOffScreen(OffScreen::kOsMesa).find("by " + way), std::string::npos);
@@ -48,29 +48,29 @@ TEST(OffScreenTest, SoftwareIsWhatIsMadeWhenNothingIsSaid) {
 
 TEST(OffScreenTest, EglIsGraphicsCardsFirstAndThenMesaWithoutASurface) {
   std::string why, no_card;
-  const auto card = Try([] { return MakeEglDeviceContext(kWidth, kHeight, false); }, no_card);
+  const auto card = Try([] { return MakeEglDeviceContext(kWide, kHigh, false); }, no_card);
   const auto chosen =
-      Try([] { return RenderContext::MakeHeadless(kWidth, kHeight, OffScreen::kEgl); }, why);
+      Try([] { return RenderContext::MakeHeadless(kWide, kHigh, OffScreen::kEgl); }, why);
   if (!chosen) GTEST_SKIP() << "needs EGL (Debian: libegl1, libegl-dev): " << why;
   EXPECT_EQ(chosen->reached_by(), card ? card->reached_by() : "EGL, Mesa without a surface");
   EXPECT_TRUE(card || no_card.starts_with("EGL: ")) << no_card;
-  const auto any = RenderContext::MakeHeadless(kWidth, kHeight, OffScreen::kAny);
+  const auto any = RenderContext::MakeHeadless(kWide, kHigh, OffScreen::kAny);
   EXPECT_EQ(any->reached_by(), chosen->reached_by());
 }
 
 TEST(OffScreenTest, MesasSoftwareDeviceDrawsWhatOsMesaDraws) {
   std::string why;
-  const auto device = Try([] { return MakeEglDeviceContext(kWidth, kHeight, true); }, why);
+  const auto device = Try([] { return MakeEglDeviceContext(kWide, kHigh, true); }, why);
   if (!device) GTEST_SKIP() << "needs Mesa's EGL (Debian: libegl-mesa0): " << why;
   EXPECT_TRUE(device->reached_by().ends_with(", software")) << device->reached_by();
   const Image by_device = Drawn(*device);
-  const auto software = RenderContext::MakeHeadless(kWidth, kHeight);
+  const auto software = RenderContext::MakeHeadless(kWide, kHigh);
   const Image image = Drawn(*software);
   int different = 0;
   for (std::size_t i = 0; i < image.rgba.size(); ++i) {
     different += std::abs(image.rgba[i] - by_device.rgba[i]) > 4;
   }
-  EXPECT_LE(different, kWidth * kHeight / 200);
+  EXPECT_LE(different, kWide * kHigh / 200);
 }
 
 TEST(OffScreenTest, SizesThatNoPictureHasAreRefusedByEveryWay) {

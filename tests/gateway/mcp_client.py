@@ -67,7 +67,8 @@ class HttpServer:
 
     def end(self):
         ping = json.dumps({"jsonrpc": "2.0", "id": 1, "method": "ping"}).encode()
-        expect(self.send("GET", None)[0] == 405, "GET opens no stream")
+        status, headers, _ = self.send("GET", None)
+        expect(status == 405 and headers["Allow"] == "POST, DELETE", "GET opens no stream")
         expect(self.send("POST", ping, Origin="https://evil.example")[0] == 403, "another site's page")
         expect(self.send("POST", ping, Host="evil.example")[0] == 421, "another name of ours")
         expect(self.send("POST", ping, Authorization="Bearer wrong")[0] == 401, "without the token")

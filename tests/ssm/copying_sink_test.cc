@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kTenthOfASecond = 1600;
 
-std::shared_ptr<SampleBuffer> Ramp(std::size_t frames) {
+std::shared_ptr<SampleBuffer> Steps(std::size_t frames) {
   std::vector<std::int16_t> samples(frames);
   for (std::size_t i = 0; i < frames; ++i) samples[i] = static_cast<std::int16_t>(i + 1);
   auto buffer = std::make_shared<SampleBuffer>(frames);
@@ -88,7 +88,7 @@ TEST_F(CopyingSinkTest, SamplesComeWithTheirTimesBeforeTheyAreHeard) {
   Listener listener(path_);
   ASSERT_TRUE(sink_.SendTo("unix:" + path_));
   EXPECT_EQ(sink_.to(), "unix:" + path_);
-  ASSERT_TRUE(sink_.Play(Ramp(5 * kTenthOfASecond), vm::Time(100'000)));
+  ASSERT_TRUE(sink_.Play(Steps(5 * kTenthOfASecond), vm::Time(100'000)));
   // 300 of the 400 ms ahead are left after the start.
   EXPECT_EQ(listener.Heads(), "sound 100 16000 9600");
   clock_.RunUntil(vm::Time(80'000));
@@ -105,7 +105,7 @@ TEST_F(CopyingSinkTest, SamplesComeWithTheirTimesBeforeTheyAreHeard) {
 TEST_F(CopyingSinkTest, AStopSaysFromWhenOnNothingIsHeard) {
   Listener listener(path_);
   ASSERT_TRUE(sink_.SendTo("unix:" + path_));
-  ASSERT_TRUE(sink_.Play(Ramp(5 * kTenthOfASecond), vm::Time(0)));
+  ASSERT_TRUE(sink_.Play(Steps(5 * kTenthOfASecond), vm::Time(0)));
   clock_.RunUntil(vm::Time(50'000));
   listener.Heads();
   EXPECT_EQ(sink_.Stop().frames, 800u);
@@ -127,7 +127,7 @@ TEST_F(CopyingSinkTest, WhatIsMadeTooLateIsSilence) {
 
 TEST_F(CopyingSinkTest, WhoComesInTheMiddleHearsTheRest) {
   Listener listener(path_);
-  ASSERT_TRUE(sink_.Play(Ramp(5 * kTenthOfASecond), vm::Time(0)));
+  ASSERT_TRUE(sink_.Play(Steps(5 * kTenthOfASecond), vm::Time(0)));
   clock_.RunUntil(vm::Time(200'000));
   ASSERT_TRUE(sink_.SendTo("unix:" + path_));
   EXPECT_EQ(listener.Heads(), "sound 200 16000 9600");
@@ -141,7 +141,7 @@ TEST_F(CopyingSinkTest, OneWhoHasGoneIsForgotten) {
   listener.Heads();
   listener.Close();
   EXPECT_EQ(sink_.to(), "NONE");
-  ASSERT_TRUE(sink_.Play(Ramp(kTenthOfASecond), vm::Time(0)));
+  ASSERT_TRUE(sink_.Play(Steps(kTenthOfASecond), vm::Time(0)));
   clock_.RunUntil(vm::Time(100'000));
   EXPECT_EQ(sink_.Stop().frames, kTenthOfASecond) << "the sound itself goes on";
 }
@@ -150,7 +150,7 @@ TEST_F(CopyingSinkTest, OneWhoTakesNothingHoldsNobodyAndIsCutOff) {
   Listener listener(path_);
   ASSERT_TRUE(sink_.SendTo("unix:" + path_));
   // More than the system keeps for a socket and what may wait here: 60 s are 1.9 MB.
-  const auto minute = Ramp(600 * kTenthOfASecond);
+  const auto minute = Steps(600 * kTenthOfASecond);
   ASSERT_TRUE(sink_.Play(minute, vm::Time(0)));
   clock_.RunUntil(vm::Time(60'000'000));
   EXPECT_EQ(sink_.Stop().frames, minute->size());

@@ -3,13 +3,11 @@
 #include "ssm/voice/layered_engine.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
 
 #include "ssm/engines/engine_set.h"
-#include "ssm/engines/espeak_engine.h"
 #include "ssm/engines/hts_engine.h"
 #include "ssm/engines/open_jtalk_engine.h"
 #include "ssm/engines/wav_piece.h"
@@ -18,6 +16,7 @@
 #include "ssm/voice/ssml.h"
 #include "ssm/voice/wav_file.h"
 #include "ssm_stub/rule_engine.h"
+#include "tests/ssm/marked_up.h"
 #include "tests/ssm/spoken.h"
 #include "tests/support/test_data.h"
 #include "vm_protocol/core/utf8.h"
@@ -109,17 +108,11 @@ TEST(LayeredEngineTest, MarksAnywhereChangeNothingOfFlite) {
   ExpectUntouched(ssm::MakeFliteEngine(), "en", "slt");
 }
 
-std::unique_ptr<ssm::SpeechEngine> Espeak() {
-  const std::string helper = GALATEA_BIN_DIR "/ssm_espeak";
-  if (access(helper.c_str(), X_OK) != 0) return nullptr;
-  return ssm::MakeEspeakEngine({.helper = helper});
-}
-
 TEST(LayeredEngineTest, MarksAnywhereChangeNothingOfEspeak) {
-  if (!Espeak()) GTEST_SKIP() << "built without espeak-ng";
-  ExpectUntouched(Espeak(), "en", "espeak-en");
+  if (!ssm_test::Espeak()) GTEST_SKIP() << "built without espeak-ng";
+  ExpectUntouched(ssm_test::Espeak(), "en", "espeak-en");
 #ifdef SSM_HAS_MECAB
-  ExpectUntouched(Espeak(), "ja", "espeak-ja");
+  ExpectUntouched(ssm_test::Espeak(), "ja", "espeak-ja");
 #endif
 }
 

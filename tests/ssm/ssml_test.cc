@@ -10,7 +10,7 @@ namespace {
 
 using ssm::SpeechSpan;
 
-ssm::TaggedText Read(std::string_view text) {
+ssm::TaggedText ReadSsml(std::string_view text) {
   auto read = ssm::ReadMarkup(text);
   EXPECT_TRUE(read) << (read ? "" : read.error().text);
   return read ? std::move(*read) : ssm::TaggedText{};
@@ -36,7 +36,7 @@ TEST(SsmlTest, OnlyASpeakElementIsSsml) {
 }
 
 TEST(SsmlTest, MarksAndBreaksStandWhereTheyWereWritten) {
-  const auto text = Read("<speak>one <mark name='m'/> <break time='1.5s'/>two<break/></speak>");
+  const auto text = ReadSsml("<speak>one <mark name='m'/> <break time='1.5s'/>two<break/></speak>");
   EXPECT_EQ(text.plain, "one two");
   ASSERT_EQ(text.spans.size(), 4u);
   EXPECT_EQ(text.spans[0].text, "one ");
@@ -48,7 +48,7 @@ TEST(SsmlTest, MarksAndBreaksStandWhereTheyWereWritten) {
 }
 
 TEST(SsmlTest, ProsodyTakesWordsFactorsAndDifferences) {
-  const auto text = Read(
+  const auto text = ReadSsml(
       "<speak>a<prosody rate='200%' pitch='+2st' volume='-6dB'>b"
       "<prosody rate='slow'>c</prosody></prosody>d<prosody rate='what'>e</prosody></speak>");
   ASSERT_EQ(text.spans.size(), 5u);
@@ -61,18 +61,21 @@ TEST(SsmlTest, ProsodyTakesWordsFactorsAndDifferences) {
 }
 
 TEST(SsmlTest, OtherElementsChangeWhatIsSaid) {
-  EXPECT_EQ(Read("<speak><sub alias='World Wide Web'>WWW</sub></speak>").plain, "World Wide Web");
-  EXPECT_EQ(Read("<speak><say-as interpret-as='characters'>ab1</say-as></speak>").spans[0].text,
+  EXPECT_EQ(ReadSsml("<speak><sub alias='World Wide Web'>WWW</sub></speak>").plain,
+            "World Wide Web");
+  EXPECT_EQ(ReadSsml("<speak><say-as interpret-as='characters'>ab1</say-as></speak>").spans[0].text,
             "A, B, 1");
-  EXPECT_EQ(Read("<speak><say-as interpret-as='telephone'>03-12</say-as></speak>").spans[0].text,
-            "0 3, 1 2");
-  EXPECT_EQ(Read("<speak><phoneme ph='キョ’ー'>今日</phoneme></speak>").spans[0].text, "キョ’ー");
-  EXPECT_EQ(Read("<speak><phoneme ph='#!'>x</phoneme></speak>").spans[0].text, "x");
-  EXPECT_EQ(Read("<speak>a<unknown>b</unknown><metadata>c</metadata></speak>").plain, "a b");
-  EXPECT_EQ(Read("<speak><voice name='rms'>b</voice></speak>").spans[0].voice, "rms");
-  EXPECT_GT(Read("<speak><emphasis level='strong'>b</emphasis></speak>").spans[0].volume, 1.3);
-  EXPECT_EQ(Read("<speak>a<audio src='x.wav'>no</audio></speak>").spans[1].audio, "x.wav");
-  EXPECT_EQ(Read("<speak><p><s>a</s><s>b</s></p></speak>").spans[1].pause_before.count(), 200);
+  EXPECT_EQ(
+      ReadSsml("<speak><say-as interpret-as='telephone'>03-12</say-as></speak>").spans[0].text,
+      "0 3, 1 2");
+  EXPECT_EQ(ReadSsml("<speak><phoneme ph='キョ’ー'>今日</phoneme></speak>").spans[0].text,
+            "キョ’ー");
+  EXPECT_EQ(ReadSsml("<speak><phoneme ph='#!'>x</phoneme></speak>").spans[0].text, "x");
+  EXPECT_EQ(ReadSsml("<speak>a<unknown>b</unknown><metadata>c</metadata></speak>").plain, "a b");
+  EXPECT_EQ(ReadSsml("<speak><voice name='rms'>b</voice></speak>").spans[0].voice, "rms");
+  EXPECT_GT(ReadSsml("<speak><emphasis level='strong'>b</emphasis></speak>").spans[0].volume, 1.3);
+  EXPECT_EQ(ReadSsml("<speak>a<audio src='x.wav'>no</audio></speak>").spans[1].audio, "x.wav");
+  EXPECT_EQ(ReadSsml("<speak><p><s>a</s><s>b</s></p></speak>").spans[1].pause_before.count(), 200);
 }
 
 TEST(SsmlTest, BrokenDocumentsAreNamedWithTheirLine) {
@@ -87,7 +90,7 @@ TEST(SsmlTest, BrokenDocumentsAreNamedWithTheirLine) {
 }
 
 TEST(SsmlTest, EntitiesAreXmlsAndBombsAreRefused) {
-  EXPECT_EQ(Read("<!DOCTYPE speak [<!ENTITY who 'Anna'>]><speak>I am &who;.</speak>").plain,
+  EXPECT_EQ(ReadSsml("<!DOCTYPE speak [<!ENTITY who 'Anna'>]><speak>I am &who;.</speak>").plain,
             "I am Anna.");
   std::string bomb = "<!DOCTYPE speak [<!ENTITY a0 '0123456789'>";
   for (int i = 1; i < 9; ++i) {
@@ -101,7 +104,7 @@ TEST(SsmlTest, EntitiesAreXmlsAndBombsAreRefused) {
 
 TEST(SsmlTest, ProsodyTakesEveryFormOfTheStandard) {
   const auto one = [](const std::string& attributes) {
-    return Read("<speak><prosody " + attributes + ">a</prosody></speak>").spans[0];
+    return ReadSsml("<speak><prosody " + attributes + ">a</prosody></speak>").spans[0];
   };
   EXPECT_DOUBLE_EQ(one("volume='50'").volume, 0.5);
   EXPECT_DOUBLE_EQ(one("volume='0'").volume, 0);
@@ -122,9 +125,10 @@ TEST(SsmlTest, ProsodyTakesEveryFormOfTheStandard) {
 }
 
 TEST(SsmlTest, WhatCannotBeDoneIsSaid) {
-  EXPECT_TRUE(Read("<speak>a<prosody rate='slow' pitch='+1st'>b</prosody></speak>").notes.empty());
+  EXPECT_TRUE(
+      ReadSsml("<speak>a<prosody rate='slow' pitch='+1st'>b</prosody></speak>").notes.empty());
   const auto notes =
-      Read(
+      ReadSsml(
           "<speak><prosody rate='quick' contour='up'>a</prosody><voice age='9'>b</voice>"
           "<say-as interpret-as='riddle'>c</say-as><prosody rate='quick'>d</prosody></speak>")
           .notes;
@@ -159,7 +163,7 @@ TEST(SsmlTest, AudioFallsBackOnItsContent) {
 }
 
 TEST(SsmlTest, LanguagesAndVoicesAreAskedFor) {
-  const auto text = Read(
+  const auto text = ReadSsml(
       "<speak version='1.1' xml:lang='en'>a<lang xml:lang='ja'>2026</lang>"
       "<voice gender='male' languages='de'>b</voice>c</speak>");
   ASSERT_EQ(text.spans.size(), 4u);
@@ -193,7 +197,7 @@ TEST(SsmlTest, LexiconsGiveWordsTheirPronunciation) {
 }
 
 TEST(SsmlTest, SentencesHaveABlankBetweenThemInTheText) {
-  EXPECT_EQ(Read("<speak><p>One.</p><p>Two.</p></speak>").plain, "One. Two.");
+  EXPECT_EQ(ReadSsml("<speak><p>One.</p><p>Two.</p></speak>").plain, "One. Two.");
 }
 
 struct Form {
@@ -238,12 +242,12 @@ TEST(SpokenFormTest, IsTheOneOfItsMeaningAndLanguage) {
 }
 
 TEST(TagsTest, SpellingReadingsAndEmphasisOfTheOriginalAreObeyed) {
-  EXPECT_EQ(Read("<SPELL>ab</SPELL>").spans[0].text, "A, B");
-  EXPECT_EQ(Read("<PRON SYM=\"キョ’ー\">今日</PRON>").spans[0].text, "キョー");
-  EXPECT_EQ(Read("<PRON SYM=\"キョ’ー\">今日</PRON>").plain, "今日");
-  EXPECT_EQ(Read("<CONTEXT TYPE=\"PHONE\">03-12</CONTEXT>").spans[0].text, "0 3, 1 2");
-  EXPECT_EQ(Read("<CONTEXT TYPE=\"NUMBER\">12</CONTEXT>").spans[0].text, "12");
-  const auto text = Read("a <EMPH>b</EMPH> <RATE SPEED=\"2\">c<RESET/>d");
+  EXPECT_EQ(ReadSsml("<SPELL>ab</SPELL>").spans[0].text, "A, B");
+  EXPECT_EQ(ReadSsml("<PRON SYM=\"キョ’ー\">今日</PRON>").spans[0].text, "キョー");
+  EXPECT_EQ(ReadSsml("<PRON SYM=\"キョ’ー\">今日</PRON>").plain, "今日");
+  EXPECT_EQ(ReadSsml("<CONTEXT TYPE=\"PHONE\">03-12</CONTEXT>").spans[0].text, "0 3, 1 2");
+  EXPECT_EQ(ReadSsml("<CONTEXT TYPE=\"NUMBER\">12</CONTEXT>").spans[0].text, "12");
+  const auto text = ReadSsml("a <EMPH>b</EMPH> <RATE SPEED=\"2\">c<RESET/>d");
   ASSERT_EQ(text.spans.size(), 5u);
   EXPECT_GT(text.spans[1].volume, 1.1);
   EXPECT_DOUBLE_EQ(text.spans[3].stretch, 2);

@@ -16,21 +16,21 @@ namespace {
 using stack::Stack;
 
 /// One `rep Frame = NUMBER TIME_MS PHONEME JAW_DEG GAP_MM WIDTH_MM`.
-struct Frame {
+struct SpokenFrame {
   double time_ms = 0;
   std::string phoneme;
   double gap_mm = 0;
 };
 
-std::vector<Frame> Frames(const std::vector<std::string>& lines) {
-  std::vector<Frame> frames;
+std::vector<SpokenFrame> SpokenFrames(const std::vector<std::string>& lines) {
+  std::vector<SpokenFrame> frames;
   for (const std::string& line : lines) {
     const auto message = vm::ParseMessage(line);
     if (!message || message->slot != "Frame") continue;
     std::istringstream words(message->value);
     long number = 0;
     double jaw = 0;
-    Frame frame;
+    SpokenFrame frame;
     words >> number >> frame.time_ms >> frame.phoneme >> jaw >> frame.gap_mm;
     frames.push_back(frame);
   }
@@ -83,7 +83,7 @@ TEST_P(BargeInTest, SoundAndLipsStopInTimeAndTheNextUtteranceIsInStep) {
   EXPECT_FALSE(spoken.empty());
 
   double closed_at = -1;
-  for (const Frame& frame : Frames(lines)) {
+  for (const SpokenFrame& frame : SpokenFrames(lines)) {
     if (frame.time_ms < mark) continue;
     if (frame.gap_mm < 0.3 && closed_at < 0) closed_at = frame.time_ms;
   }

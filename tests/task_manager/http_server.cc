@@ -7,13 +7,10 @@
 
 #include <stdexcept>
 
+#include "vm_protocol/core/lower_case.h"
+
 namespace vxml_test {
 namespace {
-
-std::string Lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  return text;
-}
 
 /// Reads a request with its body. False if the client went away.
 bool Read(int fd, HttpServer::Request& request) {
@@ -27,7 +24,7 @@ bool Read(int fd, HttpServer::Request& request) {
     text.append(buffer, static_cast<std::size_t>(n));
     head = text.find("\r\n\r\n");
     if (head == std::string::npos) continue;
-    request.headers = Lower(text.substr(0, head));
+    request.headers = vm::LowerCase(text.substr(0, head));
     const std::size_t at = request.headers.find("content-length:");
     length = at == std::string::npos ? 0 : std::stoul(request.headers.substr(at + 15));
   }

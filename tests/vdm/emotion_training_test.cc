@@ -35,7 +35,7 @@ std::vector<std::int16_t> Voice(double hz, double size, double rate, double seco
   return sound;
 }
 
-std::vector<EmotionTake> Takes() {
+std::vector<EmotionTake> EmotionTakes() {
   std::vector<EmotionTake> takes;
   for (const auto& [speaker, hz] : {std::pair("he", 110.0), std::pair("she", 200.0)}) {
     for (int n = 0; n < 3; ++n) {
@@ -50,7 +50,8 @@ std::vector<EmotionTake> Takes() {
 
 TEST(EmotionTrainingTest, MannersBesideTheUsualAreToldApart) {
   std::string said;
-  const auto text = TeachEmotion(Takes(), "buzzes", [&](const std::string& line) { said = line; });
+  const auto text =
+      TeachEmotion(EmotionTakes(), "buzzes", [&](const std::string& line) { said = line; });
   ASSERT_TRUE(text) << text.error().text;
   const auto functions = ParseDiscriminant("t", *text);
   ASSERT_TRUE(functions) << functions.error().text;
@@ -58,7 +59,7 @@ TEST(EmotionTrainingTest, MannersBesideTheUsualAreToldApart) {
   ASSERT_EQ(functions->classes.size(), 3U);
   EXPECT_EQ(functions->classes[0].name, "neutral");
   EXPECT_TRUE(said.starts_with("speakers left out: ")) << said;
-  const auto examples = MeasureTakes(Takes());
+  const auto examples = MeasureTakes(EmotionTakes());
   ASSERT_TRUE(examples);
   EXPECT_GE(examples->size(), 18U);
   std::size_t right = 0;
@@ -71,7 +72,7 @@ TEST(EmotionTrainingTest, MannersBesideTheUsualAreToldApart) {
 }
 
 TEST(EmotionTrainingTest, ASpeakerWithoutNeutralSpeechIsRefused) {
-  auto takes = Takes();
+  auto takes = EmotionTakes();
   std::erase_if(takes,
                 [](const auto& take) { return take.speaker == "she" && take.label == "neutral"; });
   const auto text = TeachEmotion(takes, "buzzes", [](const std::string&) {});

@@ -23,7 +23,7 @@ std::vector<std::int16_t> Tone(double hz, double size, std::size_t samples) {
   return sound;
 }
 
-std::vector<ProsodyFrame> Track(const std::vector<std::int16_t>& sound) {
+std::vector<ProsodyFrame> Followed(const std::vector<std::int16_t>& sound) {
   std::vector<ProsodyFrame> frames;
   ProsodyTracker().Add(sound, frames);
   return frames;
@@ -31,11 +31,11 @@ std::vector<ProsodyFrame> Track(const std::vector<std::int16_t>& sound) {
 
 TEST(ProsodyTest, PowerIsTheMeanSquareInDecibels) {
   for (const double size : {100.0, 1000.0, 10000.0}) {
-    const ProsodyFrame frame = Track(Tone(500, size, 8000))[20];
+    const ProsodyFrame frame = Followed(Tone(500, size, 8000))[20];
     EXPECT_NEAR(frame.power_db, 10 * std::log10(size * size / 2), 0.1) << size;
     EXPECT_NEAR(frame.vowel_db, frame.power_db, 0.1);
   }
-  EXPECT_EQ(Track(std::vector<std::int16_t>(8000))[20].power_db, 0);
+  EXPECT_EQ(Followed(std::vector<std::int16_t>(8000))[20].power_db, 0);
 }
 
 TEST(ProsodyTest, TiltIsLowAgainstHigh) {
@@ -44,7 +44,7 @@ TEST(ProsodyTest, TiltIsLowAgainstHigh) {
   for (std::size_t i = 0; i < sound.size(); ++i) {
     sound[i] = static_cast<std::int16_t>(sound[i] + high[i]);
   }
-  EXPECT_NEAR(Track(sound)[20].tilt_db, 20, 0.2);
+  EXPECT_NEAR(Followed(sound)[20].tilt_db, 20, 0.2);
 }
 
 TEST(ProsodyTest, SyllablesAreCounted) {

@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace vm {
 namespace {
 
 std::string SystemName(const std::string& charset) {
-  std::string lower(charset);
-  std::ranges::transform(lower, lower.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c == '_' ? '-' : c;
-  });
+  std::string lower = LowerCase(charset);
+  std::ranges::replace(lower, '_', '-');
   const bool shift_jis = lower == "shift-jis" || lower == "sjis" || lower == "x-sjis" ||
                          lower == "windows-31j" || lower == "ms-kanji";
   return shift_jis ? "CP932" : charset;

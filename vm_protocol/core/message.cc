@@ -6,6 +6,7 @@
 
 #include "vm_protocol/core/blanks.h"
 #include "vm_protocol/core/limits.h"
+#include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace vm {
@@ -38,8 +39,6 @@ ValueRule RuleFor(Command command) {
   return ValueRule::kOptional;
 }
 
-bool IsBlank(char c) { return c == ' ' || c == '\t'; }
-
 constexpr bool IsAlnum(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
@@ -61,13 +60,6 @@ bool IsAddress(std::string_view name) {
   const std::size_t slash = name.find('/');
   if (slash == std::string_view::npos) return IsModuleName(name);
   return IsModuleName(name.substr(0, slash)) && IsModuleName(name.substr(slash + 1));
-}
-
-bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](char x, char y) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-    return lower(x) == lower(y);
-  });
 }
 
 std::string Quoted(std::string_view text) {

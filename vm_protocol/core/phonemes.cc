@@ -3,14 +3,13 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "vm_protocol/core/blanks.h"
 #include "vm_protocol/core/limits.h"
 
 namespace vm {
 namespace {
 
 constexpr double kMaxPhonemeMs = 60'000;
-
-bool IsBlank(char c) { return c == ' ' || c == '\t'; }
 
 /// Reads items of the form NAME[MS], NAME [MS], NAME MS.
 class PhonemeParser {

@@ -18,6 +18,8 @@ using Time = std::chrono::microseconds;
 
 /// "1234.5": milliseconds with at most three decimals, no trailing zeros; as written on the wire.
 std::string FormatMs(Time time);
+/// The same as a number, with its fraction.
+inline double InMs(Time time) { return std::chrono::duration<double, std::milli>(time).count(); }
 /// The reverse; accepts any finite decimal number of milliseconds within +-1e12.
 Result<Time> ParseMs(std::string_view text);
 

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "vm_protocol/core/blanks.h"
 #include "vm_protocol/core/limits.h"
 #include "vm_protocol/core/nearest_word.h"
 #include "vm_protocol/core/slot.h"
@@ -14,8 +15,6 @@ namespace {
 
 constexpr std::string_view kErrorSlot = "Error";
 constexpr std::size_t kShownLineBytes = 200;  // of a refused line, for the log
-
-bool IsBlank(char c) { return c == ' ' || c == '\t'; }
 
 std::string JoinLines(std::string_view text) {
   std::string joined;

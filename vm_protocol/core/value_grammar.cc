@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "vm_protocol/core/blanks.h"
+#include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/nearest_word.h"
 #include "vm_protocol/core/start_time.h"
 #include "vm_protocol/core/utf8.h"
@@ -41,8 +43,6 @@ struct ValueGrammar::Node {
 
 namespace {
 
-bool IsBlank(char c) { return c == ' ' || c == '\t'; }
-
 std::size_t SkipBlanks(std::string_view text, std::size_t at) {
   while (at < text.size() && IsBlank(text[at])) ++at;
   return at;
@@ -51,15 +51,6 @@ std::size_t SkipBlanks(std::string_view text, std::size_t at) {
 std::size_t WordEnd(std::string_view text, std::size_t at) {
   while (at < text.size() && !IsBlank(text[at])) ++at;
   return at;
-}
-
-bool SameWord(std::string_view a, std::string_view b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-    if (lower(a[i]) != lower(b[i])) return false;
-  }
-  return true;
 }
 
 std::optional<double> ReadNumber(std::string_view word) {
@@ -475,7 +466,7 @@ class Matcher {
     const std::string_view word = text_.substr(at, end - at);
     if (node.kind == Node::Kind::kWord) return Take(std::string(word), 0, end, next);
     if (node.kind == Node::Kind::kLiteral) {
-      return SameWord(word, node.literal) && Take(node.literal, 0, end, next);
+      return EqualsIgnoringCase(word, node.literal) && Take(node.literal, 0, end, next);
     }
     const auto number = ReadNumber(word);
     if (!number || *number < node.low || *number > node.high) return false;

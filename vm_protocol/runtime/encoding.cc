@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "vm_protocol/core/charset.h"
+#include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace vm {
@@ -39,10 +40,8 @@ Reading Read(std::string_view line, Encoding encoding) {
 }  // namespace
 
 Result<Encoding> ParseEncoding(std::string_view name) {
-  std::string lower(name);
-  std::ranges::transform(lower, lower.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c == '_' ? '-' : c;
-  });
+  std::string lower = LowerCase(name);
+  std::ranges::replace(lower, '_', '-');
   if (lower == "utf-8" || lower == "utf8") return Encoding::kUtf8;
   if (lower == "euc-jp" || lower == "eucjp") return Encoding::kEucJp;
   if (lower == "shift-jis" || lower == "sjis" || lower == "cp932") return Encoding::kShiftJis;
