@@ -71,7 +71,7 @@ void AddTimes(const vm::PhonemeList& list, const WeightSet& set, json& answer) {
   if (set.visemes()) answer["visemes"] = std::move(visemes);
 }
 
-json Frames(const SpeechRequest& request, const Spoken& spoken, const vdm::MouthNet& net) {
+json Frames(const SpeechRequest& request, const ssm::Spoken& spoken, const vdm::MouthNet& net) {
   json frames = json::array();
   LiveFace face(net, {.set = request.set, .rate_hz = 16'000, .fps = request.fps});
   auto moments = face.Add(spoken.samples);
@@ -86,7 +86,7 @@ json Frames(const SpeechRequest& request, const Spoken& spoken, const vdm::Mouth
 
 }  // namespace
 
-vm::Result<SpeechAnswer> MakeSpeechAnswer(const SpeechRequest& request, const Spoken& spoken,
+vm::Result<SpeechAnswer> MakeSpeechAnswer(const SpeechRequest& request, const ssm::Spoken& spoken,
                                           const vdm::MouthNet& net,
                                           const std::atomic<bool>& cancelled) {
   auto sound = Sound(*request.format, spoken.samples, cancelled);

@@ -14,12 +14,11 @@
 #include <vector>
 
 #include "gateway/speech/speech_answer.h"
-#include "ssm/process/child_process.h"
+#include "ssm/process/voice_process.h"
 
 namespace gateway {
 
-/// A voice module (ssm) of our own, spoken to in the protocol over its standard input and output:
-/// started when first needed, kept, started anew after it failed. One text after the other.
+/// A voice of our own, which speaks one text after the other.
 /// Thread: the context's; one of its own waits for the voice and makes the
 /// answer, and is joined at the end. Lifetime:
 /// context and network outlive it. Limits: kMostWaiting texts, and `limit` for each.
@@ -47,29 +46,19 @@ class VoiceWorker {
     Done done{};
   };
   void Run();
-  vm::Result<Spoken> Ask(const SpeechRequest& request);
-  vm::Result<Spoken> AskOnce(const SpeechRequest& request, const std::string& wav);
-  /// The value a request is answered with.
-  vm::Result<std::string> Request(const std::string& line, const ssm::ChildProcess::Wait& wait);
 
   // Constant after construction.
   boost::asio::io_context& io_;
-  const std::vector<std::string> command_;
-  const std::chrono::milliseconds limit_;
   const vdm::MouthNet& net_;
   const std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  // the context's thread alone
-  // The worker's own.
-  std::unique_ptr<ssm::ChildProcess> process_;
-  unsigned last_tag_ = 0;
-  bool refused_ = false;  // the last error is the voice's own word
-  std::string first_voice_;
+  std::atomic<bool> cancelled_ = false;
+  ssm::VoiceProcess voice_;  // the worker's own
   // Guarded by the mutex.
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Job> jobs_;
   std::uint64_t last_number_ = 0;
   bool stopping_ = false;
-  std::atomic<bool> cancelled_ = false;
   std::thread thread_;
 };
 
