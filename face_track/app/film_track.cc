@@ -6,8 +6,8 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "face_track/app/progress.h"
 #include "face_track/film/picture_source.h"
+#include "face_track/print/progress.h"
 #include "face_track/print/track_plot.h"
 #include "vm_protocol/core/or_throw.h"
 
@@ -67,7 +67,7 @@ void PrintFilmTrack(const FilmTrack& wanted) {
   TimedPicture picture;
   vm::Result<bool> more = false;
   {
-    Progress progress(wanted.quiet, source->length_ms());
+    Progress progress("face_track:", wanted.quiet, source->length_ms());
     while ((more = source->Next(picture)) && *more) {
       if (pictures == 0) out.Write(print.Header());
       write(tracker.Look(picture.picture, picture.ms));

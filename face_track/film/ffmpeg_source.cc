@@ -43,7 +43,8 @@ std::optional<double> After(const std::string& line, std::string_view key) {
 
 }  // namespace
 
-vm::Result<std::unique_ptr<PictureSource>> FfmpegSource::OpenFilm(const std::string& name) {
+vm::Result<std::unique_ptr<PictureSource>> FfmpegSource::OpenFilm(const std::string& name,
+                                                                  int most_side) {
   // ffmpeg's names of formats that hold all they show.
   constexpr const char* kFormats =
       "mov,matroska,avi,mpegts,mpeg,mpegvideo,ogg,flv,asf,mxf,nut,ivf,wtv,rm,dv,gif,apng,mjpeg,"
@@ -52,16 +53,17 @@ vm::Result<std::unique_ptr<PictureSource>> FfmpegSource::OpenFilm(const std::str
                                  "-i"};
   if (name == "-") {
     words.emplace_back("pipe:0");
-    return Open(name, words, "");
+    return Open(name, words, most_side, "");
   }
   if (auto fit = vm::CheckReadable(name); !fit) return std::unexpected(fit.error());
   // ffmpeg is not told the name, which could mean more to it than a file.
   words.emplace_back(kOnStdin);
-  return Open(name, words, name);
+  return Open(name, words, most_side, name);
 }
 
 vm::Result<std::unique_ptr<PictureSource>> FfmpegSource::Open(const std::string& name,
                                                               const std::vector<std::string>& input,
+                                                              int most_side,
                                                               const std::string& stdin_file) {
   std::vector<std::string> words{"ffmpeg", "-hide_banner", "-nostats", "-loglevel", "level+info"};
   if (!stdin_file.empty()) words.push_back("-nostdin");
@@ -69,7 +71,7 @@ vm::Result<std::unique_ptr<PictureSource>> FfmpegSource::Open(const std::string&
   const std::string filters = fmt::format(
       "scale=w='trunc(iw*sar)':h=ih,setsar=1,"
       "scale=w='min({0},iw)':h='min({0},ih)':force_original_aspect_ratio=decrease,showinfo",
-      kMostSide);
+      most_side);
   for (const char* word : {"-map", "0:v:0", "-vf", filters.c_str(), "-fps_mode", "passthrough",
                            "-pix_fmt", "rgba", "-f", "rawvideo", "pipe:1"}) {
     words.emplace_back(word);
@@ -97,7 +99,8 @@ vm::Result<std::unique_ptr<PictureSource>> FfmpegSource::Open(const std::string&
   }
   fcntl(output[0], F_SETFL, O_NONBLOCK);
   fcntl(errors[0], F_SETFL, O_NONBLOCK);
-  return std::unique_ptr<PictureSource>(new FfmpegSource(name, pid, output[0], errors[0]));
+  return std::unique_ptr<PictureSource>(
+      new FfmpegSource(name, most_side, pid, output[0], errors[0]));
 }
 
 FfmpegSource::~FfmpegSource() {
@@ -197,8 +200,8 @@ vm::Result<bool> FfmpegSource::Next(TimedPicture& out) {
     return false;
   }
   if (width_ < 16 || height_ < 16) return Failed(vm::Errc::kBadValue, "is smaller than 16 x 16");
-  if (width_ > kMostSide || height_ > kMostSide) {
-    return Failed(vm::Errc::kBadValue, fmt::format("is larger than {0} x {0}", kMostSide));
+  if (width_ > most_side_ || height_ > most_side_) {
+    return Failed(vm::Errc::kBadValue, fmt::format("is larger than {0} x {0}", most_side_));
   }
   out.picture.width = width_;
   out.picture.height = height_;

@@ -22,11 +22,11 @@ bool IsPhoto(const fs::path& path) {
 
 class FolderSource : public PictureSource {
  public:
-  FolderSource(std::vector<std::string> files, double rate)
-      : files_(std::move(files)), rate_(rate) {}
+  FolderSource(std::vector<std::string> files, double rate, int most_side)
+      : files_(std::move(files)), rate_(rate), most_side_(most_side) {}
   vm::Result<bool> Next(TimedPicture& out) override {
     if (at_ == files_.size()) return false;
-    auto photo = facefit::ReadPhoto(files_[at_], kMostSide);
+    auto photo = facefit::ReadPhoto(files_[at_], most_side_);
     if (!photo) return std::unexpected(photo.error());
     if (at_ > 0 && (photo->width != width_ || photo->height != height_)) {
       return vm::Fail(vm::Errc::kBadValue,
@@ -47,11 +47,13 @@ class FolderSource : public PictureSource {
  private:
   const std::vector<std::string> files_;
   const double rate_;
+  const int most_side_;
   std::size_t at_ = 0;
   int width_ = 0, height_ = 0;
 };
 
-vm::Result<std::unique_ptr<PictureSource>> OpenFolder(const std::string& name, double rate) {
+vm::Result<std::unique_ptr<PictureSource>> OpenFolder(const std::string& name, double rate,
+                                                      int most_side) {
   constexpr std::size_t kMostPictures = 1'000'000;
   std::vector<std::string> files;
   std::error_code error;
@@ -67,7 +69,7 @@ vm::Result<std::unique_ptr<PictureSource>> OpenFolder(const std::string& name, d
     return vm::Fail(vm::Errc::kBadValue, "'" + name + "' holds no .png and no .jpg");
   }
   std::ranges::sort(files);
-  return std::make_unique<FolderSource>(std::move(files), rate);
+  return std::make_unique<FolderSource>(std::move(files), rate, most_side);
 }
 
 std::vector<std::string> Words(const std::string& text) {
@@ -129,27 +131,28 @@ bool IsLive(const std::string& name) {
   return name == "camera" || name.starts_with("v4l2:") || name.starts_with("ffmpeg:");
 }
 
-vm::Result<std::unique_ptr<PictureSource>> OpenPictures(const std::string& name, double rate) {
+vm::Result<std::unique_ptr<PictureSource>> OpenPictures(const std::string& name, double rate,
+                                                        int most_side) {
   const std::vector<std::string> at_once{"-fflags", "nobuffer", "-flags", "low_delay"};
   const auto camera = [&](const std::string& device) {
     auto words = at_once;
     words.insert(words.end(), {"-f", "v4l2", "-i", device});
-    return FfmpegSource::Open(name, words);
+    return FfmpegSource::Open(name, words, most_side);
   };
   if (name == "camera") return camera("/dev/video0");
   if (name.starts_with("v4l2:")) return camera(name.substr(5));
   if (name.starts_with("ffmpeg:")) {
     const auto words = InputWords(name.substr(7));
-    return words ? FfmpegSource::Open(name, *words) : std::unexpected(words.error());
+    return words ? FfmpegSource::Open(name, *words, most_side) : std::unexpected(words.error());
   }
-  if (name == "-") return FfmpegSource::OpenFilm(name);
+  if (name == "-") return FfmpegSource::OpenFilm(name, most_side);
   std::error_code error;
   const auto status = fs::status(name, error);
   if (!fs::exists(status)) {
     return vm::Fail(vm::Errc::kUnavailable, "there is no '" + name + "'");
   }
-  if (fs::is_directory(status)) return OpenFolder(name, rate);
-  return FfmpegSource::OpenFilm(name);
+  if (fs::is_directory(status)) return OpenFolder(name, rate, most_side);
+  return FfmpegSource::OpenFilm(name, most_side);
 }
 
 }  // namespace facetrack

@@ -30,6 +30,8 @@ class PictureSource {
 
 /// The longest side of what films are read at: more shows the network nothing more.
 inline constexpr int kMostSide = 1280;
+/// The same for what is to be written again.
+inline constexpr int kWholeSide = 4096;
 /// A source that gives no picture for so long has failed.
 inline constexpr int kStallSeconds = 30;
 
@@ -41,8 +43,9 @@ inline constexpr int kStallSeconds = 30;
 ///   v4l2:DEVICE      another one
 ///   ffmpeg:WORDS     any input of ffmpeg, as its command line has it: ffmpeg:-f lavfi -i testsrc;
 ///                    only options of inputs, since other words could make it write files
-/// Errors: kUnavailable, kBadValue.
-vm::Result<std::unique_ptr<PictureSource>> OpenPictures(const std::string& name, double rate);
+/// Larger ones are made smaller, to `most_side`. Errors: kUnavailable, kBadValue.
+vm::Result<std::unique_ptr<PictureSource>> OpenPictures(const std::string& name, double rate,
+                                                        int most_side = kMostSide);
 /// Whether a source of that name goes on by itself, at its own pace.
 bool IsLive(const std::string& name);
 

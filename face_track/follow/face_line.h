@@ -23,6 +23,7 @@ struct FaceLine {
   float jaw = 0;                         ///< degrees
   std::vector<float> units;              ///< doses of the table's channels
   Points points;                         ///< on the face, in the head's frame, mm
+  std::vector<glm::vec2> places;         ///< where they are seen, pixels
 };
 
 }  // namespace facetrack

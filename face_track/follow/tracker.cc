@@ -168,8 +168,10 @@ std::vector<FaceLine> Tracker::Look(const fsm::Image& picture, double ms) {
     }
   }
   if (!seen) {
-    lines.push_back(
-        {.ms = ms, .units = std::vector<float>(face_.channels.size(), 0), .points = {}});
+    lines.push_back({.ms = ms,
+                     .units = std::vector<float>(face_.channels.size(), 0),
+                     .points = {},
+                     .places = {}});
     last_.reset();
     filters_.clear();
   } else if (person_) {
@@ -217,7 +219,8 @@ FaceLine Tracker::LineOf(const Waiting& waiting, const Doing& doing) {
                 .head = AnglesOf(doing.pose.turn),
                 .place = doing.pose.place,
                 .units = doing.doses,
-                .points = fit_->OnFace(person_->rest, waiting.seen.places, doing)};
+                .points = fit_->OnFace(person_->rest, waiting.seen.places, doing),
+                .places = waiting.seen.places};
   for (const fsm::Side side : fsm::kSides) {
     line.lid[static_cast<std::size_t>(side)] = std::clamp(
         LidGap(line.points, side) / std::max(LidGap(person_->rest, side), 1.0F), 0.0F, 2.0F);

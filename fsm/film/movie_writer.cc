@@ -1,6 +1,7 @@
 #include "fsm/film/movie_writer.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <system_error>
@@ -40,10 +42,11 @@ Words Opening() { return {"-hide_banner", "-nostdin", "-loglevel", "error", "-y"
 /// A kind of film, told by its name's ending.
 struct FilmKind {
   std::string_view ending;
-  bool has_alpha;  ///< its pictures keep what is transparent
+  bool as_rgba;  ///< pictures are handed over as they are, not as YuvPlanes
   const char* muxer;
   const char* pixels;    ///< ffmpeg's name of their form
   Words encoder, sound;  ///< of pictures and of sound
+  bool is_rgb = false;   ///< as the pictures are: nothing is lost
 };
 
 const FilmKind* KindOf(std::string_view path) {
@@ -63,6 +66,7 @@ const FilmKind* KindOf(std::string_view path) {
        {"libvpx-vp9", "-deadline", "realtime", "-cpu-used", "6", "-crf", "20", "-b:v", "0",
         "-auto-alt-ref", "0"},
        {"libopus", "-b:a", "96k"}},
+      {".mkv", true, "matroska", "bgr0", {"ffv1", "-level", "3", "-slicecrc", "1"}, {"flac"}, true},
   };
   const auto found = std::ranges::find_if(kinds, [path](const FilmKind& kind) {
     return path.size() > kind.ending.size() && path.ends_with(kind.ending);
@@ -70,9 +74,11 @@ const FilmKind* KindOf(std::string_view path) {
   return found == kinds.end() ? nullptr : &*found;
 }
 
-void AppendOutput(Words& words, const FilmKind& kind, const std::string& path) {
+void AppendOutput(Words& words, const FilmKind& kind, const std::string& comment,
+                  const std::string& path) {
   Append(words, {"-map_metadata", "-1", "-fflags", "+bitexact"});
-  if (std::string_view(kind.muxer) != "webm") Append(words, {"-movflags", "+faststart"});
+  if (!comment.empty()) Append(words, {"-metadata", "comment=" + comment});
+  if (kind.ending == ".mp4" || kind.ending == ".mov") Append(words, {"-movflags", "+faststart"});
   Append(words, {"-f", kind.muxer, FileUrl(path)});
 }
 
@@ -80,47 +86,52 @@ std::string SizeText(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-Words EncodeWords(const FilmKind& kind, int width, int height, int frames_per_second,
-                  const std::string& path) {
+Words EncodeWords(const FilmKind& kind, int width, int height, double frames_per_second,
+                  const std::string& comment, const std::string& path) {
   Words words = Opening();
-  Append(words, {"-f", "rawvideo", "-pixel_format", kind.has_alpha ? "rgba" : "yuv420p"});
+  Append(words, {"-f", "rawvideo", "-pixel_format", kind.as_rgba ? "rgba" : "yuv420p"});
   // Sides are made even: by YuvPlanes, or, where the pictures go as they are, by ffmpeg.
-  Append(words, {"-video_size", kind.has_alpha ? SizeText(width, height)
-                                               : SizeText(width + width % 2, height + height % 2)});
-  Append(words, {"-framerate", std::to_string(frames_per_second), "-i", "pipe:0"});
-  if (kind.has_alpha) {
+  Append(words, {"-video_size", kind.as_rgba ? SizeText(width, height)
+                                             : SizeText(width + width % 2, height + height % 2)});
+  Append(words, {"-framerate", fmt::format("{:.10g}", frames_per_second), "-i", "pipe:0", "-an"});
+  if (kind.as_rgba && !kind.is_rgb) {
     Append(words, {"-vf",
                    "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=black@0,"
                    "scale=out_color_matrix=bt709:out_range=tv,format=" +
                        std::string(kind.pixels)});
   }
-  // The numbers of the HD standard are named in the file; players guess differently where they are
-  // left out, and skin turns orange or green.
-  Append(words, {"-an", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
-                 "-color_range", "tv", "-c:v"});
+  if (!kind.is_rgb) {
+    // The numbers of the HD standard are named in the file; players guess differently where they
+    // are left out, and skin turns orange or green.
+    Append(words, {"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
+                   "-color_range", "tv"});
+  }
+  Append(words, {"-c:v"});
   words.insert(words.end(), kind.encoder.begin(), kind.encoder.end());
-  Append(words, {"-pix_fmt", kind.pixels, "-g", std::to_string(frames_per_second * 2), "-threads",
+  Append(words, {"-pix_fmt", kind.pixels, "-g",
+                 std::to_string(kind.is_rgb ? 1 : std::lround(frames_per_second * 2)), "-threads",
                  "1", "-flags:v", "+bitexact"});
-  AppendOutput(words, kind, path);
+  AppendOutput(words, kind, comment, path);
   return words;
 }
 
 Words SoundWords(const FilmKind& kind, const std::string& film, const std::string& sound,
-                 const std::string& path) {
+                 const std::string& comment, const std::string& path) {
   Words words = Opening();
   Append(words, {"-i", FileUrl(film), "-i", FileUrl(sound), "-map", "0:v:0", "-map", "1:a:0",
                  "-c:v", "copy", "-c:a"});
   words.insert(words.end(), kind.sound.begin(), kind.sound.end());
   Append(words, {"-threads", "1", "-flags:a", "+bitexact"});
-  AppendOutput(words, kind, path);
+  AppendOutput(words, kind, comment, path);
   return words;
 }
 
 class FfmpegMovieWriter : public MovieWriter {
  public:
-  FfmpegMovieWriter(const FilmKind& kind, std::string path, std::string draft, int width,
-                    int height, std::unique_ptr<FfmpegProcess> ffmpeg)
+  FfmpegMovieWriter(const FilmKind& kind, std::string comment, std::string path, std::string draft,
+                    int width, int height, std::unique_ptr<FfmpegProcess> ffmpeg)
       : kind_(kind),
+        comment_(std::move(comment)),
         path_(std::move(path)),
         draft_(std::move(draft)),
         width_(width),
@@ -141,7 +152,7 @@ class FfmpegMovieWriter : public MovieWriter {
            static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
     if (!ffmpeg_) return vm::Fail(vm::Errc::kUnavailable, "the film '" + path_ + "' has ended");
     auto bytes = feeder_->TakeSpare();
-    if (kind_.has_alpha) {
+    if (kind_.as_rgba) {
       bytes.assign(frame.rgba.begin(), frame.rgba.end());
     } else {
       YuvPlanes(frame, bytes);
@@ -178,7 +189,7 @@ class FfmpegMovieWriter : public MovieWriter {
     vm::Result<void> done = vm::CheckReadable(sound);
     if (done) done = vm::CheckWritable(with_sound);
     if (done) {
-      auto ffmpeg = FfmpegProcess::Start(SoundWords(kind_, draft_, sound, with_sound));
+      auto ffmpeg = FfmpegProcess::Start(SoundWords(kind_, draft_, sound, comment_, with_sound));
       done = ffmpeg ? (*ffmpeg)->Finish() : std::unexpected(ffmpeg.error());
     }
     if (done && rename(with_sound.c_str(), draft_.c_str()) == 0) return {};
@@ -196,6 +207,7 @@ class FfmpegMovieWriter : public MovieWriter {
   }
 
   const FilmKind& kind_;  // of a table that stays
+  const std::string comment_;
   std::string path_;
   std::string draft_;  // empty once moved to the path
   int width_;
@@ -290,7 +302,8 @@ vm::Result<std::string> MakeDraft(const std::string& path) {
 }  // namespace
 
 vm::Result<std::unique_ptr<MovieWriter>> MovieWriter::Open(const std::string& path, int width,
-                                                           int height, int frames_per_second) {
+                                                           int height, double frames_per_second,
+                                                           const std::string& comment) {
   constexpr std::string_view kRaw = ".rgba";
   const bool raw = path.size() > kRaw.size() && path.ends_with(kRaw);
   const FilmKind* const kind = KindOf(path);
@@ -298,25 +311,27 @@ vm::Result<std::unique_ptr<MovieWriter>> MovieWriter::Open(const std::string& pa
     return vm::Fail(vm::Errc::kBadValue,
                     "'" + path +
                         "' is no film's name: it must end in .mp4, or, to keep what is "
-                        "transparent, .mov or .webm (or .rgba, raw frames)");
+                        "transparent, .mov or .webm, or .mkv, to lose nothing (or .rgba, raw "
+                        "frames)");
   }
   if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide ||
-      frames_per_second < 1 || frames_per_second > kMaxFramesPerSecond) {
-    return vm::Fail(vm::Errc::kBadValue, "a film cannot be " + std::to_string(width) + " x " +
-                                             std::to_string(height) + " at " +
-                                             std::to_string(frames_per_second) + " per second");
+      !(frames_per_second >= 1 && frames_per_second <= kMaxFramesPerSecond)) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    "a film cannot be " + std::to_string(width) + " x " + std::to_string(height) +
+                        " at " + fmt::format("{:g}", frames_per_second) + " per second");
   }
   if (raw) return OpenRaw(path);
   if (auto fit = vm::CheckWritable(path); !fit) return std::unexpected(std::move(fit.error()));
   auto draft = MakeDraft(path);
   if (!draft) return std::unexpected(std::move(draft.error()));
-  auto ffmpeg = FfmpegProcess::Start(EncodeWords(*kind, width, height, frames_per_second, *draft));
+  auto ffmpeg =
+      FfmpegProcess::Start(EncodeWords(*kind, width, height, frames_per_second, comment, *draft));
   if (!ffmpeg) {
     unlink(draft->c_str());
     return vm::Fail(vm::Errc::kUnavailable,
                     "cannot make the film '" + path + "': " + ffmpeg.error().text);
   }
-  return std::make_unique<FfmpegMovieWriter>(*kind, path, *std::move(draft), width, height,
+  return std::make_unique<FfmpegMovieWriter>(*kind, comment, path, *std::move(draft), width, height,
                                              *std::move(ffmpeg));
 }
 

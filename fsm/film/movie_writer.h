@@ -13,12 +13,15 @@ namespace fsm {
 /// Deterministic: the same frames give the same bytes (no time stamps, one encoder thread).
 class MovieWriter {
  public:
-  /// .mp4 (H.264, yuv420p); .mov (ProRes 4444) or .webm (VP9), which keep what is transparent; or
+  /// .mp4 (H.264, yuv420p); .mov (ProRes 4444) or .webm (VP9), which keep what is transparent; .mkv
+  /// (FFV1 in RGB, FLAC), which keeps colours and sound to the bit; or
   /// .rgba: every frame's width * height * 4 bytes one after the other,
   /// into a file or a named pipe that somebody reads (SIGPIPE must be ignored). Error: kUnavailable
-  /// if ffmpeg is missing or refuses, with its last line.
+  /// if ffmpeg is missing or refuses, with its last line. 1 to 1000
+  /// frames per second; `comment`: told to whoever reads the file's metadata, unless it is .rgba.
   static vm::Result<std::unique_ptr<MovieWriter>> Open(const std::string& path, int width,
-                                                       int height, int frames_per_second);
+                                                       int height, double frames_per_second,
+                                                       const std::string& comment = {});
   virtual ~MovieWriter() = default;
   /// The size must be that given at Open. Handed on by another thread; blocks only while several
   /// frames wait. An error may belong to a frame before.

@@ -50,7 +50,7 @@ vm::Result<Spoken> VoiceProcess::SpeakOnce(const Words& words, const std::string
 }
 
 vm::Result<std::string> VoiceProcess::Request(const std::string& line,
-                                             const ChildProcess::Wait& wait) {
+                                              const ChildProcess::Wait& wait) {
   const std::string tag = std::to_string(++last_tag_);
   std::string tagged = line;
   tagged.replace(tagged.find("{}"), 2, tag);

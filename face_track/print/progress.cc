@@ -1,4 +1,4 @@
-#include "face_track/app/progress.h"
+#include "face_track/print/progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -15,7 +15,7 @@ void Progress::At(std::size_t pictures, double ms) {
   if (quiet_ || since.count() < (terminal ? 0.5 : 10)) return;
   shown_ = now;
   const std::chrono::duration<double> all = now - begun_;
-  std::string text = fmt::format("face_track: {} pictures, {:.1f} s", pictures, ms / 1000);
+  std::string text = fmt::format("{} {} pictures, {:.1f} s", what_, pictures, ms / 1000);
   if (length_ms_ && *length_ms_ > 0) text += fmt::format(" of {:.1f}", *length_ms_ / 1000);
   text += fmt::format(", {:.1f} pictures a second", static_cast<double>(pictures) / all.count());
   std::cerr << (terminal ? "\r\033[K" + text : text + "\n") << std::flush;

@@ -1,0 +1,100 @@
+#include "film_dub/face/dub_face.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <glm/vec4.hpp>
+#include <string>
+#include <utility>
+
+#include "face_fit/find/face/around_face.h"
+#include "face_fit/picture/photo.h"
+#include "face_track/model/seen_face.h"
+#include "fsm/head/make_head.h"
+
+namespace filmdub {
+namespace {
+
+constexpr float kViewMm = 330;  // from above to below (camera_pose.h)
+constexpr int kLeastSide = 384, kMostSide = 1536;
+
+/// The face whose middle lies nearest to that of the places.
+const facefit::FoundFace* Nearest(std::span<const facefit::FoundFace> faces,
+                                  std::span<const glm::vec2> places) {
+  const auto nose = places[facefit::point::kNoseTip];
+  const auto best = std::ranges::min_element(faces, {}, [&](const facefit::FoundFace& face) {
+    return glm::distance(face.At(facefit::point::kNoseTip), nose);
+  });
+  return best == faces.end() ? nullptr : &*best;
+}
+
+fsm::Scene OnNothing() {
+  fsm::Scene scene;
+  scene.show_background = false;
+  return scene;
+}
+
+}  // namespace
+
+vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networks,
+                                                   const fsm::Image& picture,
+                                                   std::span<const glm::vec2> places) {
+  try {
+    const fsm::Image photo = facefit::AtWorkingSide(picture);
+    const float scale = static_cast<float>(photo.width) / static_cast<float>(picture.width);
+    std::vector<glm::vec2> there(places.begin(), places.end());
+    for (glm::vec2& place : there) place *= scale;
+    const auto faces = facefit::FindFaces(networks, photo);
+    const auto* found = Nearest(faces, there);
+    if (found == nullptr || found->certainty < facefit::kCertainFace) {
+      return vm::Fail(vm::Errc::kBadValue,
+                      "the face cannot be told apart in the picture where it is seen best");
+    }
+    auto base = facefit::BaseHead::See(networks, "galatea");
+    if (!base) return std::unexpected(base.error());
+    auto [near, face] = facefit::CropToFace(photo, picture, *found);
+    const float finer = face.crop.side / found->crop.side;
+    const auto front = facefit::LookAtFront(networks, *base, std::move(near), &face,
+                                            static_cast<int>(faces.size()));
+    const auto made = facefit::MakeFace(*base, front, face, nullptr, {});
+    const float film_pixels_per_mm = made.fit.head.pose.PixelsPerMm() / finer / scale;
+    const int side = std::clamp(static_cast<int>(std::lround(kViewMm * film_pixels_per_mm)),
+                                kLeastSide, kMostSide);
+    return std::unique_ptr<DubFace>(new DubFace(std::move(*base), made, side));
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kUnavailable, error.what());
+  }
+}
+
+DubFace::DubFace(facefit::BaseHead base, const facefit::MadeFace& made, int side)
+    : base_(std::move(base)),
+      head_(fsm::MakeHead(made.bake.head)),
+      held_(facetrack::AnglesOf(made.fit.head.pose.Rotation())),
+      side_(side),
+      context_(fsm::RenderContext::MakeHeadless(side, side)),
+      renderer_(fsm::Renderer::Make(*context_)),
+      scene_(OnNothing()),
+      view_(fsm::FramePortrait({}, scene_.camera, side, side)) {}
+
+const fsm::Image& DubFace::Draw(const fsm::FaceState& state) {
+  head_->Evaluate(state, vertices_);
+  context_->MakeCurrent();
+  renderer_->Draw(*head_, vertices_, state, scene_);
+  renderer_->Read(drawn_);
+  return drawn_;
+}
+
+std::vector<glm::vec2> DubFace::PointsOf(const fsm::FaceState& state) {
+  head_->Evaluate(state, vertices_);
+  std::vector<glm::vec2> points;
+  points.reserve(base_.points.size());
+  const glm::mat4 to_clip = view_.world_to_clip * view_.figure_to_world;
+  for (const facefit::MeshPoint& point : base_.points) {
+    const glm::vec4 clip = to_clip * glm::vec4(point.On(vertices_.position), 1);
+    points.push_back(0.5F * static_cast<float>(side_) *
+                     glm::vec2(1 + clip.x / clip.w, 1 - clip.y / clip.w));
+  }
+  return points;
+}
+
+}  // namespace filmdub

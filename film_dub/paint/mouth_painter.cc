@@ -1,0 +1,200 @@
+#include "film_dub/paint/mouth_painter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "face_fit/find/network/network_points.h"
+
+namespace filmdub {
+namespace {
+
+using facefit::PointIndex;
+namespace point = facefit::point;
+
+// Below the nose from the person's right to left, down the left cheek, along the jaw to the right.
+constexpr PointIndex kUpperEdge[] = {192, 207, 206, 203, 98, 2, 327, 423, 426, 427, 416};
+constexpr PointIndex kJawEdge[] = {365, 379, 378, 400, 377, 152, 148, 176, 149, 150, 136};
+// How far the chin's part of it lies beyond the jaw, as part of the way from the mouth, by how far
+// it is from the ends: the new chin may be higher than the old one, whose edge is to vanish.
+constexpr float kBeyondChin = 0.22F;
+// As parts of the distance between the eyes' outer corners.
+constexpr float kFade = 0.10F;     // of the edge
+constexpr float kAround = 0.12F;   // skin beside the area whose colours are compared
+constexpr float kEvenness = 0.28F; // how smooth the quotient is
+constexpr float kMostGain = 2.5F;
+
+/// The part of a picture that is worked on.
+struct Part {
+  cv::Rect box;
+  float unit = 1;  // distance between the eyes' outer corners, pixels
+};
+
+std::vector<cv::Point> InPart(std::span<const glm::vec2> outline, const Part& part) {
+  std::vector<cv::Point> pixels;
+  for (const glm::vec2 p : outline) {
+    pixels.emplace_back(cvRound(p.x) - part.box.x, cvRound(p.y) - part.box.y);
+  }
+  return pixels;
+}
+
+void Fill(cv::Mat& mask, std::span<const glm::vec2> outline, const Part& part, int value) {
+  cv::fillPoly(mask, std::vector{InPart(outline, part)}, cv::Scalar(value));
+}
+
+/// The lips and what lies between and just around them.
+std::vector<glm::vec2> Lips(std::span<const glm::vec2> points) {
+  std::vector<glm::vec2> lips{points[point::kMouthRight]};
+  for (const PointIndex i : point::kUpperOuterLip) lips.push_back(points[i]);
+  lips.push_back(points[point::kMouthLeft]);
+  for (auto i = point::kLowerOuterLip.rbegin(); i != point::kLowerOuterLip.rend(); ++i) {
+    lips.push_back(points[*i]);
+  }
+  return lips;
+}
+
+cv::Mat Ellipse(float radius) {
+  const int side = 2 * std::max(1, cvRound(radius)) + 1;
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side});
+}
+
+/// How much of what is drawn is shown: 0 at the edge of the area and outside, 1 well inside.
+cv::Mat Shares(const cv::Mat& area, const Part& part) {
+  cv::Mat inside, shares;
+  cv::distanceTransform(area, inside, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  shares.create(area.size(), CV_32F);
+  const float fade = kFade * part.unit;
+  for (int y = 0; y < area.rows; ++y) {
+    for (int x = 0; x < area.cols; ++x) {
+      const float t = std::clamp((inside.at<float>(y, x) - 1) / fade, 0.0F, 1.0F);
+      shares.at<float>(y, x) = t * t * (3 - 2 * t);
+    }
+  }
+  return shares;
+}
+
+/// What the drawn colours are to be multiplied with to be the film's: the quotient of both where
+/// `counts`, evenly spread.
+cv::Mat Gains(const cv::Mat& film, const cv::Mat& drawn, const cv::Mat& counts, const Part& part) {
+  const double smaller = std::clamp(24.0 / static_cast<double>(part.unit), 0.05, 1.0);
+  const double spread = std::max(0.5, static_cast<double>(kEvenness * part.unit) * smaller);
+  const auto mean = [&](const cv::Mat& of) {
+    cv::Mat weighted, small, smooth;
+    cv::Mat three;
+    cv::merge(std::vector{counts, counts, counts}, three);
+    cv::multiply(of, three, weighted);
+    cv::resize(weighted, small, {}, smaller, smaller, cv::INTER_AREA);
+    cv::GaussianBlur(small, smooth, {}, spread, spread, cv::BORDER_CONSTANT);
+    return smooth;
+  };
+  const cv::Mat above = mean(film), below = mean(drawn);
+  cv::Mat quotient(above.size(), CV_32FC3), gains;
+  for (int y = 0; y < above.rows; ++y) {
+    for (int x = 0; x < above.cols; ++x) {
+      const auto a = above.at<cv::Vec3f>(y, x), b = below.at<cv::Vec3f>(y, x);
+      for (int c = 0; c < 3; ++c) {
+        quotient.at<cv::Vec3f>(y, x)[c] =
+            b[c] > 1e-4F ? std::clamp(a[c] / b[c], 1 / kMostGain, kMostGain) : 1;
+      }
+    }
+  }
+  cv::resize(quotient, gains, film.size(), 0, 0, cv::INTER_LINEAR);
+  return gains;
+}
+
+/// Colours 0..1 and opacity of the drawn face as it lies in the part.
+void Lay(const DrawnMouth& drawn, const Part& part, cv::Mat& colours, cv::Mat& opacity) {
+  const auto& m = drawn.placing.m;
+  const cv::Matx23f map(m[0], m[1], m[2] - static_cast<float>(part.box.x), m[3], m[4],
+                        m[5] - static_cast<float>(part.box.y));
+  const cv::Mat whole(drawn.picture->height, drawn.picture->width, CV_8UC4,
+                      const_cast<std::uint8_t*>(drawn.picture->rgba.data()));
+  cv::Mat laid, real;
+  cv::warpAffine(whole, laid, map, part.box.size(), cv::INTER_LINEAR, cv::BORDER_CONSTANT);
+  laid.convertTo(real, CV_32FC4, 1.0 / 255);
+  std::vector<cv::Mat> channels;
+  cv::split(real, channels);
+  // The outermost pixels are mixed with nothing.
+  cv::erode(channels[3], opacity, Ellipse(1));
+  channels.pop_back();
+  cv::merge(channels, colours);
+}
+
+}  // namespace
+
+std::vector<glm::vec2> MouthArea(std::span<const glm::vec2> points) {
+  std::vector<glm::vec2> area;
+  for (const PointIndex i : kUpperEdge) area.push_back(points[i]);
+  const glm::vec2 mouth = 0.5F * (points[point::kMouthRight] + points[point::kMouthLeft]);
+  constexpr auto kJawPoints = static_cast<float>(std::size(kJawEdge) - 1);
+  for (std::size_t k = 0; k < std::size(kJawEdge); ++k) {
+    const float across = 2 * static_cast<float>(k) / kJawPoints - 1;
+    const float beyond = kBeyondChin * (1 - across * across) - 0.04F;
+    const glm::vec2 jaw = points[kJawEdge[k]];
+    area.push_back(jaw + beyond * (jaw - mouth));
+  }
+  return area;
+}
+
+void PaintMouth(fsm::Image& picture, std::span<const glm::vec2> seen, const DrawnMouth& drawn,
+                float share) {
+  std::vector<glm::vec2> points;
+  for (const glm::vec2 p : drawn.points) points.push_back(drawn.placing(p));
+  const auto old_area = MouthArea(seen), new_area = MouthArea(points);
+  Part part{.box = {},
+            .unit = glm::distance(seen[point::kEyeOuterRight], seen[point::kEyeOuterLeft])};
+  const int margin = cvCeil(kAround * part.unit) + 2;
+  auto all = InPart(old_area, {});
+  const auto more = InPart(new_area, {});
+  all.insert(all.end(), more.begin(), more.end());
+  part.box = cv::boundingRect(all);
+  part.box -= cv::Point(margin, margin);
+  part.box += cv::Size(2 * margin, 2 * margin);
+  part.box &= cv::Rect(0, 0, picture.width, picture.height);
+  if (part.box.width < 8 || part.box.height < 8 || share <= 0) return;
+
+  cv::Mat area(part.box.size(), CV_8U, cv::Scalar(0));
+  Fill(area, old_area, part, 255);
+  Fill(area, new_area, part, 255);
+  cv::Mat colours, opacity;
+  Lay(drawn, part, colours, opacity);
+  cv::Mat whole(picture.height, picture.width, CV_8UC4, picture.rgba.data());
+  cv::Mat film_part = whole(part.box), film;
+  cv::cvtColor(film_part, film, cv::COLOR_RGBA2RGB);
+  film.convertTo(film, CV_32FC3, 1.0 / 255);
+
+  // Skin that both show: around the area and in it, but for both mouths.
+  cv::Mat skin, counts;
+  cv::Mat lips(part.box.size(), CV_8U, cv::Scalar(0));
+  Fill(lips, Lips(seen), part, 255);
+  Fill(lips, Lips(points), part, 255);
+  cv::dilate(lips, lips, Ellipse(0.06F * part.unit));
+  std::vector<glm::vec2> seen_face, drawn_face;
+  cv::Mat faces(part.box.size(), CV_8U, cv::Scalar(0)), face_drawn = faces.clone();
+  Fill(faces, old_area, part, 255);
+  Fill(face_drawn, new_area, part, 255);
+  cv::bitwise_and(faces, face_drawn, skin);
+  skin.setTo(0, lips);
+  skin.convertTo(counts, CV_32F, 1.0 / 255);
+  cv::multiply(counts, opacity, counts);
+
+  const cv::Mat gains = Gains(film, colours, counts, part);
+  cv::Mat shares = Shares(area, part);
+  cv::multiply(shares, opacity, shares, static_cast<double>(std::min(share, 1.0F)));
+  for (int y = 0; y < film.rows; ++y) {
+    for (int x = 0; x < film.cols; ++x) {
+      const float s = shares.at<float>(y, x);
+      if (s <= 0) continue;
+      auto& out = film_part.at<cv::Vec4b>(y, x);
+      const auto old = film.at<cv::Vec3f>(y, x), gain = gains.at<cv::Vec3f>(y, x),
+                 fresh = colours.at<cv::Vec3f>(y, x);
+      for (int c = 0; c < 3; ++c) {
+        out[c] =
+            cv::saturate_cast<std::uint8_t>(255 * (old[c] + s * (fresh[c] * gain[c] - old[c])));
+      }
+    }
+  }
+}
+
+}  // namespace filmdub

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+#include "film_dub/paint/placing.h"
+#include "fsm/image/image.h"
+
+namespace filmdub {
+
+/// A face as drawn, to be laid onto a picture of the film.
+struct DrawnMouth {
+  const fsm::Image* picture = nullptr;  ///< on nothing; outlives the painting
+  Placing placing;                      ///< from its pixels to the film's
+  std::vector<glm::vec2> points;        ///< the network's, in its pixels
+};
+
+/// Lays mouth and chin of a drawn face over those of a picture. Its colours are brought to those of
+/// the film by the quotient of both around the mouth, smoothed, for each colour; its edge fades out
+/// inside the skin. `seen`: where the picture shows the network's points. `share`: 1 = all of it, 0
+/// = nothing. Pixels outside the area of MouthArea are not touched. Pure; thread: any.
+void PaintMouth(fsm::Image& picture, std::span<const glm::vec2> seen, const DrawnMouth& drawn,
+                float share);
+
+/// The outline of mouth and chin, from below the nose over both cheeks to below the chin, for the
+/// points of a face.
+std::vector<glm::vec2> MouthArea(std::span<const glm::vec2> points);
+
+}  // namespace filmdub
