@@ -151,9 +151,9 @@ void MakeDub(const Dub& wanted) {
   std::optional<FilmCourse> course;
   {
     facetrack::Progress progress("film_dub: followed", wanted.quiet, std::nullopt);
-    course = vm::OrThrow(Survey(
-        wanted.film, networks, attention, wanted.tracker,
-        [&](std::size_t pictures, double ms) { progress.At(pictures, ms); }));
+    course =
+        vm::OrThrow(Survey(wanted.film, networks, attention, wanted.tracker,
+                           [&](std::size_t pictures, double ms) { progress.At(pictures, ms); }));
   }
   const auto times = course->Times();
   const double rate = PicturesPerSecond(times);
@@ -165,8 +165,8 @@ void MakeDub(const Dub& wanted) {
         wanted.film, kMostTurn));
   }
   tell(fmt::format("the face is taken from the picture at {:.2f} s", times[*rest] / 1000));
-  const auto face = vm::OrThrow(DubFace::Make(networks, PictureOf(wanted.film, *rest),
-                                              course->lines[*rest].places));
+  const auto face = vm::OrThrow(
+      DubFace::Make(networks, PictureOf(wanted.film, *rest), course->lines[*rest].places));
   Writing(wanted, *course, *rest, *face, speech).Run(rate, shown);
   const std::string as_it_was =
       Stretches(*course, [&](std::size_t i) { return !course->IsUsable(i); });

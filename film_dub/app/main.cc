@@ -1,5 +1,5 @@
-// Has the person in a film say something else: tracks the face, and paints mouth and chin of its own
-// head, speaking the new words, over the old ones.
+// Has the person in a film say something else: tracks the face, and paints mouth and chin of its
+// own head, speaking the new words, over the old ones.
 
 #include <CLI/CLI.hpp>
 #include <csignal>

@@ -13,8 +13,8 @@
 
 namespace filmdub {
 
-/// The face of a film as a head of its own, made of one of its pictures by face_fit, and drawn about
-/// as large as the film shows it. Thread: the one that made it.
+/// The face of a film as a head of its own, made of one of its pictures by face_fit, and drawn
+/// about as large as the film shows it. Thread: the one that made it.
 class DubFace {
  public:
   /// `places`: where that picture shows the points of the face, pixels. Errors: kBadValue (no face

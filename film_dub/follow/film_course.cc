@@ -13,10 +13,10 @@
 namespace filmdub {
 namespace {
 
-constexpr float kSure = 0.5F;      // that there is a face
-constexpr float kMostMissMm = 4;   // of its points
-constexpr float kOpenJaw = 1.5F;   // how much a degree of it counts beside one of the head
-constexpr float kShutLids = 20;    // likewise lids that are shut
+constexpr float kSure = 0.5F;     // that there is a face
+constexpr float kMostMissMm = 4;  // of its points
+constexpr float kOpenJaw = 1.5F;  // how much a degree of it counts beside one of the head
+constexpr float kShutLids = 20;   // likewise lids that are shut
 
 }  // namespace
 
@@ -65,8 +65,8 @@ vm::Result<FilmCourse> Survey(const std::string& film, facefit::FaceNetworks& ne
   vm::Result<bool> more = false;
   while ((more = (*source)->Next(picture)) && *more) {
     if (++pictures > kMostPictures) {
-      return vm::Fail(vm::Errc::kLimit, fmt::format("'{}' has more than {} pictures", film,
-                                                    kMostPictures));
+      return vm::Fail(vm::Errc::kLimit,
+                      fmt::format("'{}' has more than {} pictures", film, kMostPictures));
     }
     course.width = picture.picture.width;
     course.height = picture.picture.height;

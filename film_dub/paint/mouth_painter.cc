@@ -14,16 +14,18 @@ using facefit::PointIndex;
 namespace point = facefit::point;
 
 // Below the nose from the person's right to left, down the left cheek, along the jaw to the right.
-constexpr PointIndex kUpperEdge[] = {192, 207, 206, 203, 98, 2, 327, 423, 426, 427, 416};
-constexpr PointIndex kJawEdge[] = {365, 379, 378, 400, 377, 152, 148, 176, 149, 150, 136};
+constexpr PointIndex kUpperEdge[] = {214, 216, 206, 203, 98, 2, 327, 423, 426, 436, 434};
+constexpr PointIndex kJawEdge[] = {379, 378, 400, 377, 152, 148, 176, 149, 150};
 // How far the chin's part of it lies beyond the jaw, as part of the way from the mouth, by how far
 // it is from the ends: the new chin may be higher than the old one, whose edge is to vanish.
 constexpr float kBeyondChin = 0.22F;
 // As parts of the distance between the eyes' outer corners.
-constexpr float kFade = 0.10F;     // of the edge
-constexpr float kAround = 0.12F;   // skin beside the area whose colours are compared
-constexpr float kEvenness = 0.28F; // how smooth the quotient is
+constexpr float kFade = 0.10F;      // of the edge
+constexpr float kAround = 0.12F;    // skin beside the area whose colours are compared
+constexpr float kEvenness = 0.28F;  // how smooth the quotient is
 constexpr float kMostGain = 2.5F;
+constexpr float kDifferenceSpread = 0.02F;
+constexpr float kAlike = 0.05F, kUnlike = 0.12F;  // of colours 0..1
 
 /// The part of a picture that is worked on.
 struct Part {
@@ -72,6 +74,36 @@ cv::Mat Shares(const cv::Mat& area, const Part& part) {
     }
   }
   return shares;
+}
+
+/// What of the shares stays beside mouth and chin: there film and drawing show the same skin, and
+/// where they differ the drawing shows what is hidden in the film, or hair, or a wall.
+void KeepWhatDiffers(const cv::Mat& film, const cv::Mat& fresh, std::span<const glm::vec2> seen,
+                     const Part& part, cv::Mat& shares) {
+  cv::Mat difference, smooth;
+  cv::absdiff(film, fresh, difference);
+  const double spread = static_cast<double>(kDifferenceSpread * part.unit);
+  cv::GaussianBlur(difference, smooth, {}, spread, spread);
+  const glm::vec2 right = seen[point::kMouthRight], left = seen[point::kMouthLeft];
+  const glm::vec2 lips = 0.5F * (seen[point::kLipTop] + seen[point::kLipBottom]);
+  const glm::vec2 middle = lips - glm::vec2(part.box.x, part.box.y);
+  const glm::vec2 along = (left - right) / std::max(glm::distance(left, right), 1.0F);
+  // Of a turned head the far half of the mouth is the narrower one.
+  const float least = 0.08F * part.unit;
+  const float right_half = std::max(glm::dot(lips - right, along), least);
+  const float left_half = std::max(glm::dot(left - lips, along), least);
+  for (int y = 0; y < shares.rows; ++y) {
+    for (int x = 0; x < shares.cols; ++x) {
+      const float across = glm::dot(glm::vec2(x, y) - middle, along);
+      const float aside = std::max(across / left_half, -across / right_half);
+      const float beside = std::clamp((aside - 1.1F) / 0.3F, 0.0F, 1.0F);
+      if (beside <= 0) continue;
+      const auto d = smooth.at<cv::Vec3f>(y, x);
+      const float off = std::max({d[0], d[1], d[2]});
+      const float alike = std::clamp((kUnlike - off) / (kUnlike - kAlike), 0.0F, 1.0F);
+      shares.at<float>(y, x) *= 1 - beside * (1 - alike);
+    }
+  }
 }
 
 /// What the drawn colours are to be multiplied with to be the film's: the quotient of both where
@@ -180,18 +212,18 @@ void PaintMouth(fsm::Image& picture, std::span<const glm::vec2> seen, const Draw
   cv::multiply(counts, opacity, counts);
 
   const cv::Mat gains = Gains(film, colours, counts, part);
+  cv::multiply(colours, gains, colours);
   cv::Mat shares = Shares(area, part);
+  KeepWhatDiffers(film, colours, seen, part, shares);
   cv::multiply(shares, opacity, shares, static_cast<double>(std::min(share, 1.0F)));
   for (int y = 0; y < film.rows; ++y) {
     for (int x = 0; x < film.cols; ++x) {
       const float s = shares.at<float>(y, x);
       if (s <= 0) continue;
       auto& out = film_part.at<cv::Vec4b>(y, x);
-      const auto old = film.at<cv::Vec3f>(y, x), gain = gains.at<cv::Vec3f>(y, x),
-                 fresh = colours.at<cv::Vec3f>(y, x);
+      const auto old = film.at<cv::Vec3f>(y, x), fresh = colours.at<cv::Vec3f>(y, x);
       for (int c = 0; c < 3; ++c) {
-        out[c] =
-            cv::saturate_cast<std::uint8_t>(255 * (old[c] + s * (fresh[c] * gain[c] - old[c])));
+        out[c] = cv::saturate_cast<std::uint8_t>(255 * (old[c] + s * (fresh[c] - old[c])));
       }
     }
   }

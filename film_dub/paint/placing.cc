@@ -6,12 +6,19 @@
 #include "face_fit/find/network/network_points.h"
 
 namespace filmdub {
+namespace {
+
+// Nose, corners of the eyes, and the skin between: neither speech nor brows nor lids move them, and
+// no silhouette is near, along which the network's points slide when a head turns.
+constexpr facefit::PointIndex kUsed[] = {168, 6,  197, 195, 5,   4,   1,   2,   98,  327, 129,
+                                         358, 33, 133, 362, 263, 118, 347, 101, 330, 8,   9};
+
+}  // namespace
 
 Placing PlaceOnFilm(std::span<const glm::vec2> drawn, std::span<const glm::vec2> seen) {
-  constexpr auto& kUsed = facefit::point::kStill;
-  Eigen::Matrix<double, kUsed.size(), 3> from;
-  Eigen::Matrix<double, kUsed.size(), 2> to;
-  for (std::size_t k = 0; k < kUsed.size(); ++k) {
+  Eigen::Matrix<double, std::size(kUsed), 3> from;
+  Eigen::Matrix<double, std::size(kUsed), 2> to;
+  for (std::size_t k = 0; k < std::size(kUsed); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     from.row(row) << drawn[kUsed[k]].x, drawn[kUsed[k]].y, 1;
     to.row(row) << seen[kUsed[k]].x, seen[kUsed[k]].y;

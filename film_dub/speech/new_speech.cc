@@ -35,9 +35,9 @@ vm::Result<NewSpeech> SpeechOfSound(const std::string& sound, fsm::MotionTables 
   NewSpeech speech{.sound_file = sound,
                    .length_s = static_cast<double>(samples->size()) / vdm::kSampleRateHz};
   speech.motion = std::make_unique<fsm::FaceMotion>(std::move(tables), 1);
-  const vdm::MouthNet& net = vdm::ShippedNet(vdm::CanMakeFeatures(vdm::FeatureKind::kPhones)
-                                                 ? vdm::FeatureKind::kPhones
-                                                 : vdm::FeatureKind::kMel);
+  const vdm::MouthNet& net =
+      vdm::ShippedNet(vdm::CanMakeFeatures(vdm::FeatureKind::kPhones) ? vdm::FeatureKind::kPhones
+                                                                      : vdm::FeatureKind::kMel);
   vdm::MouthTracker tracker(net);
   const std::size_t length = samples->size();
   samples->resize(length + tracker.ahead_samples() + tracker.hop_samples());

@@ -25,9 +25,9 @@ struct NewSpeech {
   std::unique_ptr<fsm::FaceMotion> motion{};
 };
 
-/// A text is spoken by a voice module, whose sound is `kept` as a WAV file and whose phonemes move the
-/// mouth; the mouth of a sound is what the network of vdm hears in it. Errors: the voice's or the
-/// file's own.
+/// A text is spoken by a voice module, whose sound is `kept` as a WAV file and whose phonemes move
+/// the mouth; the mouth of a sound is what the network of vdm hears in it. Errors: the voice's or
+/// the file's own.
 vm::Result<NewSpeech> Prepare(const SpeechWanted& wanted, const std::string& kept);
 
 }  // namespace filmdub

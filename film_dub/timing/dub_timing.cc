@@ -33,10 +33,11 @@ vm::Result<std::vector<std::size_t>> FitLength(std::span<const double> times_ms,
   const double film_s = (times_ms.back() - times_ms.front()) / 1000 + 1 / rate;
   const double slower = sound_s / film_s;
   if (slower > kMostStretch || slower < 1 / kMostStretch) {
-    return vm::Fail(vm::Errc::kBadValue,
-                    fmt::format("the film lasts {:.2f} s and its new sound {:.2f}: expected at most "
-                                "{:g} times as long or as short",
-                                film_s, sound_s, kMostStretch));
+    return vm::Fail(
+        vm::Errc::kBadValue,
+        fmt::format("the film lasts {:.2f} s and its new sound {:.2f}: expected at most "
+                    "{:g} times as long or as short",
+                    film_s, sound_s, kMostStretch));
   }
   std::vector<std::size_t> shown(static_cast<std::size_t>(std::ceil(sound_s * rate - 1e-6)));
   for (std::size_t i = 0; i < shown.size(); ++i) {
