@@ -18,12 +18,14 @@ constexpr PointIndex kUpperEdge[] = {214, 216, 206, 203, 98, 2, 327, 423, 426, 4
 constexpr PointIndex kJawEdge[] = {379, 378, 400, 377, 152, 148, 176, 149, 150};
 // How far the chin's part of it lies beyond the jaw, as part of the way from the mouth, by how far
 // it is from the ends: the new chin may be higher than the old one, whose edge is to vanish.
-constexpr float kBeyondChin = 0.22F;
+constexpr float kBeyondChin = 0.22F, kInsideJaw = 0.04F;
+// Likewise how far inside the edge of the chin colours are compared.
+constexpr float kEdge = 0.25F;
 // As parts of the distance between the eyes' outer corners.
 constexpr float kFade = 0.10F;      // of the edge
 constexpr float kAround = 0.12F;    // skin beside the area whose colours are compared
 constexpr float kEvenness = 0.28F;  // how smooth the quotient is
-constexpr float kMostGain = 2.5F;
+constexpr float kMostGain = 2;
 constexpr float kDifferenceSpread = 0.02F;
 constexpr float kAlike = 0.05F, kUnlike = 0.12F;  // of colours 0..1
 
@@ -43,6 +45,21 @@ std::vector<cv::Point> InPart(std::span<const glm::vec2> outline, const Part& pa
 
 void Fill(cv::Mat& mask, std::span<const glm::vec2> outline, const Part& part, int value) {
   cv::fillPoly(mask, std::vector{InPart(outline, part)}, cv::Scalar(value));
+}
+
+/// The outline of mouth and chin, from below the nose over both cheeks to `beyond` the chin, as
+/// part of the way there from the mouth.
+std::vector<glm::vec2> Outline(std::span<const glm::vec2> points, float beyond) {
+  std::vector<glm::vec2> outline;
+  for (const PointIndex i : kUpperEdge) outline.push_back(points[i]);
+  const glm::vec2 mouth = 0.5F * (points[point::kMouthRight] + points[point::kMouthLeft]);
+  constexpr auto kSteps = static_cast<float>(std::size(kJawEdge) - 1);
+  for (std::size_t k = 0; k < std::size(kJawEdge); ++k) {
+    const float across = 2 * static_cast<float>(k) / kSteps - 1;
+    const glm::vec2 jaw = points[kJawEdge[k]];
+    outline.push_back(jaw + (beyond * (1 - across * across) - kInsideJaw) * (jaw - mouth));
+  }
+  return outline;
 }
 
 /// The lips and what lies between and just around them.
@@ -155,25 +172,11 @@ void Lay(const DrawnMouth& drawn, const Part& part, cv::Mat& colours, cv::Mat& o
 
 }  // namespace
 
-std::vector<glm::vec2> MouthArea(std::span<const glm::vec2> points) {
-  std::vector<glm::vec2> area;
-  for (const PointIndex i : kUpperEdge) area.push_back(points[i]);
-  const glm::vec2 mouth = 0.5F * (points[point::kMouthRight] + points[point::kMouthLeft]);
-  constexpr auto kJawPoints = static_cast<float>(std::size(kJawEdge) - 1);
-  for (std::size_t k = 0; k < std::size(kJawEdge); ++k) {
-    const float across = 2 * static_cast<float>(k) / kJawPoints - 1;
-    const float beyond = kBeyondChin * (1 - across * across) - 0.04F;
-    const glm::vec2 jaw = points[kJawEdge[k]];
-    area.push_back(jaw + beyond * (jaw - mouth));
-  }
-  return area;
-}
-
 void PaintMouth(fsm::Image& picture, std::span<const glm::vec2> seen, const DrawnMouth& drawn,
                 float share) {
   std::vector<glm::vec2> points;
   for (const glm::vec2 p : drawn.points) points.push_back(drawn.placing(p));
-  const auto old_area = MouthArea(seen), new_area = MouthArea(points);
+  const auto old_area = Outline(seen, kBeyondChin), new_area = Outline(points, kBeyondChin);
   Part part{.box = {},
             .unit = glm::distance(seen[point::kEyeOuterRight], seen[point::kEyeOuterLeft])};
   const int margin = cvCeil(kAround * part.unit) + 2;
@@ -202,10 +205,9 @@ void PaintMouth(fsm::Image& picture, std::span<const glm::vec2> seen, const Draw
   Fill(lips, Lips(seen), part, 255);
   Fill(lips, Lips(points), part, 255);
   cv::dilate(lips, lips, Ellipse(0.06F * part.unit));
-  std::vector<glm::vec2> seen_face, drawn_face;
   cv::Mat faces(part.box.size(), CV_8U, cv::Scalar(0)), face_drawn = faces.clone();
-  Fill(faces, old_area, part, 255);
-  Fill(face_drawn, new_area, part, 255);
+  Fill(faces, Outline(seen, -kEdge), part, 255);
+  Fill(face_drawn, Outline(points, -kEdge), part, 255);
   cv::bitwise_and(faces, face_drawn, skin);
   skin.setTo(0, lips);
   skin.convertTo(counts, CV_32F, 1.0 / 255);

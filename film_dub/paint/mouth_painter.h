@@ -19,12 +19,9 @@ struct DrawnMouth {
 /// Lays mouth and chin of a drawn face over those of a picture. Its colours are brought to those of
 /// the film by the quotient of both around the mouth, smoothed, for each colour; its edge fades out
 /// inside the skin. `seen`: where the picture shows the network's points. `share`: 1 = all of it, 0
-/// = nothing. Pixels outside the area of MouthArea are not touched. Pure; thread: any.
+/// = nothing. It reaches from below the nose over both cheeks
+/// to a little below the chin; no pixel elsewhere is touched. Pure; thread: any.
 void PaintMouth(fsm::Image& picture, std::span<const glm::vec2> seen, const DrawnMouth& drawn,
                 float share);
-
-/// The outline of mouth and chin, from below the nose over both cheeks to below the chin, for the
-/// points of a face.
-std::vector<glm::vec2> MouthArea(std::span<const glm::vec2> points);
 
 }  // namespace filmdub
