@@ -18,6 +18,7 @@
 #include "film_dub/timing/dub_timing.h"
 #include "fsm/film/movie_writer.h"
 #include "ssm/engines/wav_piece.h"
+#include "vm_protocol/core/file_kind.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace filmdub {
@@ -142,6 +143,8 @@ void MakeDub(const Dub& wanted) {
   const auto tell = [&](const std::string& text) {
     if (!wanted.quiet) std::cerr << "film_dub: " << text << std::endl;
   };
+  vm::OrThrow(fsm::MovieWriter::CheckName(wanted.out));
+  vm::OrThrow(vm::CheckWritable(wanted.out));
   auto networks = vm::OrThrow(facefit::FaceNetworks::Load(wanted.networks));
   auto attention = vm::OrThrow(facefit::LoadAttentionLandmarks(wanted.networks));
   const ssm::TemporaryFolder folder;

@@ -34,7 +34,8 @@ Placing PlaceOnFilm(std::span<const glm::vec2> drawn, std::span<const glm::vec2>
 }
 
 std::vector<std::optional<Placing>> Smoothed(const std::vector<std::optional<Placing>>& placings) {
-  constexpr int kReach = 2;  // pictures to either side
+  constexpr int kReach = 4;       // pictures to either side
+  constexpr float kWidth = 1.5F;  // of the bell
   std::vector<std::optional<Placing>> smooth(placings.size());
   for (std::size_t i = 0; i < placings.size(); ++i) {
     if (!placings[i]) continue;
@@ -44,7 +45,7 @@ std::vector<std::optional<Placing>> Smoothed(const std::vector<std::optional<Pla
       for (int away = step > 0 ? 0 : 1; away <= kReach; ++away) {
         const auto k = static_cast<std::ptrdiff_t>(i) + step * away;
         if (k < 0 || k >= std::ssize(placings) || !placings[static_cast<std::size_t>(k)]) break;
-        const float weight = std::exp(-0.5F * static_cast<float>(away * away));
+        const float weight = std::exp(-0.5F * static_cast<float>(away * away) / (kWidth * kWidth));
         for (std::size_t n = 0; n < mean.m.size(); ++n) {
           mean.m[n] += weight * placings[static_cast<std::size_t>(k)]->m[n];
         }

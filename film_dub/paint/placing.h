@@ -20,9 +20,9 @@ struct Placing {
 /// neither speech nor lids nor brows move. Both: the network's points.
 Placing PlaceOnFilm(std::span<const glm::vec2> drawn, std::span<const glm::vec2> seen);
 
-/// Each map as a mean of those of the pictures around it, nearer ones more (a bell one picture
-/// wide): what trembles is the landmarks, not the head. Where there is none stays none, and what
-/// lies on its other side does not count.
+/// Each map as a mean of those of the pictures around it, nearer ones more (a bell of
+/// 1.5 pictures): what trembles is the landmarks, not the head. Where there is none stays none, and
+/// what lies on its other side does not count.
 std::vector<std::optional<Placing>> Smoothed(const std::vector<std::optional<Placing>>& placings);
 
 }  // namespace filmdub

@@ -74,6 +74,11 @@ const FilmKind* KindOf(std::string_view path) {
   return found == kinds.end() ? nullptr : &*found;
 }
 
+bool IsRaw(std::string_view path) {
+  constexpr std::string_view kRaw = ".rgba";
+  return path.size() > kRaw.size() && path.ends_with(kRaw);
+}
+
 void AppendOutput(Words& words, const FilmKind& kind, const std::string& comment,
                   const std::string& path) {
   Append(words, {"-map_metadata", "-1", "-fflags", "+bitexact"});
@@ -301,37 +306,37 @@ vm::Result<std::string> MakeDraft(const std::string& path) {
 
 }  // namespace
 
+vm::Result<void> MovieWriter::CheckName(const std::string& path) {
+  if (IsRaw(path) || KindOf(path) != nullptr) return {};
+  return vm::Fail(vm::Errc::kBadValue,
+                  "'" + path +
+                      "' is no film's name: it must end in .mp4, or, to keep what is transparent, "
+                      ".mov or .webm, or .mkv, to lose nothing (or .rgba, raw frames)");
+}
+
 vm::Result<std::unique_ptr<MovieWriter>> MovieWriter::Open(const std::string& path, int width,
                                                            int height, double frames_per_second,
                                                            const std::string& comment) {
-  constexpr std::string_view kRaw = ".rgba";
-  const bool raw = path.size() > kRaw.size() && path.ends_with(kRaw);
-  const FilmKind* const kind = KindOf(path);
-  if (!raw && kind == nullptr) {
-    return vm::Fail(vm::Errc::kBadValue,
-                    "'" + path +
-                        "' is no film's name: it must end in .mp4, or, to keep what is "
-                        "transparent, .mov or .webm, or .mkv, to lose nothing (or .rgba, raw "
-                        "frames)");
-  }
+  if (auto fit = CheckName(path); !fit) return std::unexpected(std::move(fit.error()));
   if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide ||
       !(frames_per_second >= 1 && frames_per_second <= kMaxFramesPerSecond)) {
     return vm::Fail(vm::Errc::kBadValue,
                     "a film cannot be " + std::to_string(width) + " x " + std::to_string(height) +
                         " at " + fmt::format("{:g}", frames_per_second) + " per second");
   }
-  if (raw) return OpenRaw(path);
+  if (IsRaw(path)) return OpenRaw(path);
   if (auto fit = vm::CheckWritable(path); !fit) return std::unexpected(std::move(fit.error()));
+  const FilmKind& kind = *KindOf(path);
   auto draft = MakeDraft(path);
   if (!draft) return std::unexpected(std::move(draft.error()));
   auto ffmpeg =
-      FfmpegProcess::Start(EncodeWords(*kind, width, height, frames_per_second, comment, *draft));
+      FfmpegProcess::Start(EncodeWords(kind, width, height, frames_per_second, comment, *draft));
   if (!ffmpeg) {
     unlink(draft->c_str());
     return vm::Fail(vm::Errc::kUnavailable,
                     "cannot make the film '" + path + "': " + ffmpeg.error().text);
   }
-  return std::make_unique<FfmpegMovieWriter>(*kind, comment, path, *std::move(draft), width, height,
+  return std::make_unique<FfmpegMovieWriter>(kind, comment, path, *std::move(draft), width, height,
                                              *std::move(ffmpeg));
 }
 

@@ -22,6 +22,8 @@ class MovieWriter {
   static vm::Result<std::unique_ptr<MovieWriter>> Open(const std::string& path, int width,
                                                        int height, double frames_per_second,
                                                        const std::string& comment = {});
+  /// Whether the name ends as one of these. Error: kBadValue, as of Open.
+  static vm::Result<void> CheckName(const std::string& path);
   virtual ~MovieWriter() = default;
   /// The size must be that given at Open. Handed on by another thread; blocks only while several
   /// frames wait. An error may belong to a frame before.

@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "face_track/model/seen_face.h"
+#include "film_dub/paint/mouth_painter.h"
+
+namespace filmdub {
+namespace {
+
+constexpr int kWide = 320, kHigh = 300;
+
+/// The network's points of the usual face from the front.
+std::vector<glm::vec2> Points() {
+  std::vector<glm::vec2> points;
+  for (const glm::vec3 p : facetrack::SeenFace::Shipped().rest) {
+    points.emplace_back(160 + 1.4F * p.x, 130 - 1.4F * p.y);
+  }
+  return points;
+}
+
+/// Skin that grows darker downwards, times `light`.
+fsm::Image Skin(float light) {
+  fsm::Image image = fsm::FilledImage(kWide, kHigh);
+  for (int y = 0; y < kHigh; ++y) {
+    for (int x = 0; x < kWide; ++x) {
+      const float v = light * (210 - 0.2F * static_cast<float>(y));
+      for (std::size_t c = 0; c < 3; ++c) {
+        image.rgba[4 * image.Index(x, y) + c] =
+            static_cast<std::uint8_t>(v * (1 - 0.2F * static_cast<float>(c)));
+      }
+    }
+  }
+  return image;
+}
+
+int MostDifference(const fsm::Image& a, const fsm::Image& b) {
+  int most = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); ++i) {
+    most = std::max(most, std::abs(int{a.rgba[i]} - int{b.rgba[i]}));
+  }
+  return most;
+}
+
+TEST(MouthPainterTest, ADarkerDrawingOfTheSameSkinIsNotSeen) {
+  const fsm::Image film = Skin(1), drawn = Skin(0.8F);
+  fsm::Image out = film;
+  PaintMouth(out, Points(), {.picture = &drawn, .placing = {}, .points = Points()}, 1);
+  EXPECT_LE(MostDifference(film, out), 3);
+}
+
+TEST(MouthPainterTest, OnlyMouthAndChinArePaintedOver) {
+  const fsm::Image film = Skin(1);
+  fsm::Image drawn = film, out = film;
+  const auto points = Points();
+  const glm::vec2 lips = points[13];
+  for (int y = -6; y <= 6; ++y) {
+    for (int x = -12; x <= 12; ++x) {
+      const auto i =
+          4 * drawn.Index(static_cast<int>(lips.x) + x, static_cast<int>(lips.y) + y);
+      drawn.rgba[i] = drawn.rgba[i + 1] = drawn.rgba[i + 2] = 20;
+    }
+  }
+  PaintMouth(out, points, {.picture = &drawn, .placing = {}, .points = points}, 1);
+  EXPECT_LT(out.rgba[4 * out.Index(static_cast<int>(lips.x), static_cast<int>(lips.y))], 60);
+  for (int y = 0; y < kHigh; ++y) {
+    for (int x = 0; x < kWide; ++x) {
+      const bool near = static_cast<float>(y) > points[2].y && std::abs(static_cast<float>(x) - lips.x) < 60;
+      if (near) continue;
+      for (std::size_t c = 0; c < 4; ++c) {
+        ASSERT_EQ(out.rgba[4 * out.Index(x, y) + c], film.rgba[4 * film.Index(x, y) + c])
+            << x << " " << y;
+      }
+    }
+  }
+  fsm::Image none = film;
+  PaintMouth(none, points, {.picture = &drawn, .placing = {}, .points = points}, 0);
+  EXPECT_EQ(MostDifference(none, film), 0) << "a share of nothing";
+}
+
+TEST(MouthPainterTest, AFaceAtTheEdgeOfThePictureIsPaintedAsFarAsItIsThere) {
+  const fsm::Image film = Skin(1), drawn = Skin(0.5F);
+  auto points = Points();
+  for (glm::vec2& p : points) p += glm::vec2(150, 120);
+  fsm::Image out = film;
+  PaintMouth(out, points,
+             {.picture = &drawn, .placing = {{1, 0, 150, 0, 1, 120}}, .points = Points()}, 1);
+  EXPECT_EQ(out.width, kWide);
+}
+
+TEST(PlacingTest, AnAffineMapIsFoundAgain) {
+  const Placing truth{{0.9F, 0.1F, 12, -0.1F, 1.1F, -7}};
+  const auto drawn = Points();
+  std::vector<glm::vec2> seen;
+  for (const glm::vec2 p : drawn) seen.push_back(truth(p));
+  const Placing found = PlaceOnFilm(drawn, seen);
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(found.m[k], truth.m[k], 2e-3F);
+}
+
+TEST(PlacingTest, SmoothingKeepsWhatIsSteadyAndStopsAtGaps) {
+  std::vector<std::optional<Placing>> placings(9, Placing{{1, 0, 5, 0, 1, 5}});
+  placings[4].reset();
+  for (std::size_t i = 5; i < 9; ++i) placings[i]->m[2] = 100;
+  const auto smooth = Smoothed(placings);
+  EXPECT_FALSE(smooth[4]);
+  EXPECT_FLOAT_EQ(smooth[3]->m[2], 5);
+  EXPECT_FLOAT_EQ(smooth[5]->m[2], 100);
+  placings[1]->m[2] = 7;
+  const float middle = Smoothed(placings)[1]->m[2];
+  EXPECT_TRUE(middle > 5 && middle < 6.5F) << middle;
+}
+
+}  // namespace
+}  // namespace filmdub

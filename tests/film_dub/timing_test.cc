@@ -1,0 +1,79 @@
+#include "film_dub/timing/dub_timing.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "film_dub/follow/film_course.h"
+
+namespace filmdub {
+namespace {
+
+std::vector<double> Times(std::size_t pictures, double step_ms) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < pictures; ++i) times.push_back(step_ms * static_cast<double>(i));
+  return times;
+}
+
+TEST(DubTimingTest, TheRateIsTheUsualOneThoughSomePicturesAreMissing) {
+  auto times = Times(100, 1001.0 / 30);
+  EXPECT_NEAR(PicturesPerSecond(times), 30000.0 / 1001, 1e-6);
+  times.erase(times.begin() + 40, times.begin() + 45);
+  EXPECT_NEAR(PicturesPerSecond(times), 30000.0 / 1001, 1e-6);
+}
+
+TEST(DubTimingTest, AFilmAsLongAsItsSoundIsShownAsItIs) {
+  const auto shown = FitLength(Times(50, 40), 25, 2.0);
+  ASSERT_TRUE(shown);
+  ASSERT_EQ(shown->size(), 50U);
+  for (std::size_t i = 0; i < 50; ++i) EXPECT_EQ((*shown)[i], i);
+}
+
+TEST(DubTimingTest, PicturesAreHeldOrDroppedEvenly) {
+  const auto longer = FitLength(Times(50, 40), 25, 3.0), shorter = FitLength(Times(50, 40), 25, 1.0);
+  ASSERT_TRUE(longer && shorter);
+  EXPECT_EQ(longer->size(), 75U);
+  EXPECT_EQ(std::set(longer->begin(), longer->end()).size(), 50U) << "none is left out";
+  EXPECT_EQ(shorter->size(), 25U);
+  for (std::size_t i = 1; i < shorter->size(); ++i)
+    EXPECT_EQ((*shorter)[i], (*shorter)[i - 1] + 2);
+}
+
+TEST(DubTimingTest, WhatWouldBeStretchedTooFarIsRefusedWithBothLengths) {
+  const auto shown = FitLength(Times(50, 40), 25, 4.5);
+  ASSERT_FALSE(shown);
+  EXPECT_NE(shown.error().text.find("lasts 2.00 s and its new sound 4.50"), std::string::npos)
+      << shown.error().text;
+}
+
+TEST(FilmCourseTest, StretchesAreToldByTheirTimes) {
+  FilmCourse course;
+  for (int i = 0; i < 10; ++i) course.lines.push_back({.ms = 100.0 * i, .units = {}, .points = {}, .places = {}});
+  EXPECT_EQ(Stretches(course, [](std::size_t i) { return i == 0 || (i > 3 && i < 7); }),
+            "0.00 s, 0.40 to 0.60 s");
+  EXPECT_EQ(Stretches(course, [](std::size_t) { return false; }), "");
+}
+
+TEST(FilmCourseTest, TheRestIsAFaceTurnedToTheCameraWithItsMouthShut) {
+  FilmCourse course;
+  const auto add = [&](float right, float jaw, float lid, int person) {
+    facetrack::FaceLine line;
+    line.person = person;
+    line.certainty = 1;
+    line.head = {0, right, 0};
+    line.jaw = jaw;
+    line.lid = {lid, lid};
+    course.lines.push_back(line);
+  };
+  add(0, 0, 1, 0);   // nobody
+  add(0, 0, 0, 1);   // shut eyes
+  add(2, 8, 1, 1);   // speaks
+  add(3, 0, 1, 1);   // the one
+  add(40, 0, 1, 1);  // turned away
+  EXPECT_EQ(course.RestPicture(), 3U);
+  EXPECT_FALSE(course.IsUsable(0));
+  EXPECT_FALSE(course.IsUsable(4));
+}
+
+}  // namespace
+}  // namespace filmdub
