@@ -124,7 +124,8 @@ class Writing {
     PaintMouth(out, course_.lines[number].places,
                {.picture = &face_.Draw(state),
                 .placing = *places_[number],
-                .points = face_.PointsOf(state)},
+                .points = face_.PointsOf(state),
+                .seed = static_cast<std::uint64_t>(at.count()) + 1},
                shares_[number]);
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
 #include <vector>
@@ -14,13 +15,14 @@ struct DrawnMouth {
   const fsm::Image* picture = nullptr;  ///< on nothing; outlives the painting
   Placing placing;                      ///< from its pixels to the film's
   std::vector<glm::vec2> points;        ///< the network's, in its pixels
+  std::uint64_t seed = 1;               ///< of the grain, another one for each picture
 };
 
 /// Lays mouth and chin of a drawn face over those of a picture. Its colours are brought to those of
-/// the film by the quotient of both around the mouth, smoothed, for each colour; its edge fades out
-/// inside the skin. `seen`: where the picture shows the network's points. `share`: 1 = all of it, 0
-/// = nothing. It reaches from below the nose over both cheeks
-/// to a little below the chin; no pixel elsewhere is touched. Pure; thread: any.
+/// the film by the quotient of both around the mouth, smoothed, for each colour, and its grain,
+/// too; its edge fades out inside the skin. `seen`: where the picture shows the network's points.
+/// `share`: 1 = all of it, 0 = nothing. It reaches from below the nose over both cheeks to a little
+/// below the chin; no pixel elsewhere is touched. Pure; thread: any.
 void PaintMouth(fsm::Image& picture, std::span<const glm::vec2> seen, const DrawnMouth& drawn,
                 float share);
 

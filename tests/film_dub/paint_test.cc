@@ -58,8 +58,7 @@ TEST(MouthPainterTest, OnlyMouthAndChinArePaintedOver) {
   const glm::vec2 lips = points[13];
   for (int y = -6; y <= 6; ++y) {
     for (int x = -12; x <= 12; ++x) {
-      const auto i =
-          4 * drawn.Index(static_cast<int>(lips.x) + x, static_cast<int>(lips.y) + y);
+      const auto i = 4 * drawn.Index(static_cast<int>(lips.x) + x, static_cast<int>(lips.y) + y);
       drawn.rgba[i] = drawn.rgba[i + 1] = drawn.rgba[i + 2] = 20;
     }
   }
@@ -67,7 +66,8 @@ TEST(MouthPainterTest, OnlyMouthAndChinArePaintedOver) {
   EXPECT_LT(out.rgba[4 * out.Index(static_cast<int>(lips.x), static_cast<int>(lips.y))], 60);
   for (int y = 0; y < kHigh; ++y) {
     for (int x = 0; x < kWide; ++x) {
-      const bool near = static_cast<float>(y) > points[2].y && std::abs(static_cast<float>(x) - lips.x) < 60;
+      const bool near =
+          static_cast<float>(y) > points[2].y && std::abs(static_cast<float>(x) - lips.x) < 60;
       if (near) continue;
       for (std::size_t c = 0; c < 4; ++c) {
         ASSERT_EQ(out.rgba[4 * out.Index(x, y) + c], film.rgba[4 * film.Index(x, y) + c])

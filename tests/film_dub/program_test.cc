@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -105,7 +105,8 @@ struct Difference {
 };
 
 TEST_F(FilmDubTest, NewWordsMoveTheMouthAndNothingElse) {
-  const Ran ran = Dub({Path("film.mp4"), "--text", "Ah, my mama bought two maps.", "--out", Path("new.mkv")});
+  const Ran ran =
+      Dub({Path("film.mp4"), "--text", "Ah, my mama bought two maps.", "--out", Path("new.mkv")});
   ASSERT_EQ(ran.code, 0) << ran.error;
   EXPECT_EQ(ran.out, "film_dub: wrote " + Path("new.mkv") + "\n");
   const auto before = Pictures("film.mp4"), after = Pictures("new.mkv");
@@ -125,7 +126,8 @@ TEST_F(FilmDubTest, OutsideOfTheMouthEveryPixelIsTheFilms) {
   const auto before = Pictures("film.mp4");
   const std::string length = std::to_string(static_cast<double>(before.size()) / 25);
   Make({"-f", "lavfi", "-i", "anullsrc=r=16000:cl=mono", "-t", length, Path("silence.wav")});
-  const Ran ran = Dub({Path("film.mp4"), "--sound", Path("silence.wav"), "--out", Path("same.mkv")});
+  const Ran ran =
+      Dub({Path("film.mp4"), "--sound", Path("silence.wav"), "--out", Path("same.mkv")});
   ASSERT_EQ(ran.code, 0) << ran.error;
   const auto after = Pictures("same.mkv");
   ASSERT_EQ(after.size(), before.size());
@@ -152,7 +154,8 @@ TEST_F(FilmDubTest, TheNewFilmSaysThatItWasAlteredAndHasTheNewSound) {
   ASSERT_GE(bytes.size(), sizeof samples);
   std::memcpy(samples.data(), bytes.data(), sizeof samples);
   int crossings = 0;
-  for (std::size_t i = 1; i < samples.size(); ++i) crossings += samples[i - 1] < 0 && samples[i] >= 0;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    crossings += samples[i - 1] < 0 && samples[i] >= 0;
   EXPECT_NEAR(crossings, 900, 10) << "in the first second";
 }
 

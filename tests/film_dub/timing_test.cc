@@ -1,10 +1,9 @@
-#include "film_dub/timing/dub_timing.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "film_dub/follow/film_course.h"
+#include "film_dub/timing/dub_timing.h"
 
 namespace filmdub {
 namespace {
@@ -30,13 +29,13 @@ TEST(DubTimingTest, AFilmAsLongAsItsSoundIsShownAsItIs) {
 }
 
 TEST(DubTimingTest, PicturesAreHeldOrDroppedEvenly) {
-  const auto longer = FitLength(Times(50, 40), 25, 3.0), shorter = FitLength(Times(50, 40), 25, 1.0);
+  const auto longer = FitLength(Times(50, 40), 25, 3.0),
+             shorter = FitLength(Times(50, 40), 25, 1.0);
   ASSERT_TRUE(longer && shorter);
   EXPECT_EQ(longer->size(), 75U);
   EXPECT_EQ(std::set(longer->begin(), longer->end()).size(), 50U) << "none is left out";
   EXPECT_EQ(shorter->size(), 25U);
-  for (std::size_t i = 1; i < shorter->size(); ++i)
-    EXPECT_EQ((*shorter)[i], (*shorter)[i - 1] + 2);
+  for (std::size_t i = 1; i < shorter->size(); ++i) EXPECT_EQ((*shorter)[i], (*shorter)[i - 1] + 2);
 }
 
 TEST(DubTimingTest, WhatWouldBeStretchedTooFarIsRefusedWithBothLengths) {
@@ -48,7 +47,8 @@ TEST(DubTimingTest, WhatWouldBeStretchedTooFarIsRefusedWithBothLengths) {
 
 TEST(FilmCourseTest, StretchesAreToldByTheirTimes) {
   FilmCourse course;
-  for (int i = 0; i < 10; ++i) course.lines.push_back({.ms = 100.0 * i, .units = {}, .points = {}, .places = {}});
+  for (int i = 0; i < 10; ++i)
+    course.lines.push_back({.ms = 100.0 * i, .units = {}, .points = {}, .places = {}});
   EXPECT_EQ(Stretches(course, [](std::size_t i) { return i == 0 || (i > 3 && i < 7); }),
             "0.00 s, 0.40 to 0.60 s");
   EXPECT_EQ(Stretches(course, [](std::size_t) { return false; }), "");

@@ -220,6 +220,29 @@ TEST_F(MovieTest, RawFramesFollowEachOther) {
   EXPECT_EQ(FileBytes(folder / "film.rgba"), expected);
 }
 
+TEST_F(MovieTest, AMatroskaFilmKeepsEveryPixelItsRateAndWhatIsSaidOfIt) {
+  const std::string path = folder_ / "film.mkv";
+  auto movie = MovieWriter::Open(path, 31, 17, 30000.0 / 1001, "altered: yes");
+  ASSERT_TRUE(movie) << movie.error().text;
+  const Image frames[] = {Pattern(31, 17), Pattern(31, 17, 40)};
+  std::vector<std::uint8_t> expected;
+  for (const Image& frame : frames) {
+    ASSERT_TRUE((*movie)->Add(frame));
+    for (std::size_t i = 0; i < frame.rgba.size(); ++i) {
+      if (i % 4 != 3) expected.push_back(frame.rgba[i]);
+    }
+  }
+  ASSERT_TRUE((*movie)->Finish(""));
+  EXPECT_EQ(Probe(path, "v", "r_frame_rate"), "30000/1001");
+  EXPECT_EQ(
+      OutputOf("ffprobe -v error -show_entries format_tags=comment -of csv=p=0 '" + path + "'"),
+      "altered: yes");
+  ASSERT_EQ(OutputOf("ffmpeg -v error -y -i '" + path + "' -f rawvideo -pix_fmt rgb24 '" +
+                     (folder_ / "raw") + "' 2>&1"),
+            "");
+  EXPECT_EQ(FileBytes(folder_ / "raw"), expected);
+}
+
 TEST_F(MovieTest, PipeWithoutAReaderIsRefused) {
   const TemporaryFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe.rgba").c_str(), 0600), 0);
