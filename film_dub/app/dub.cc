@@ -125,6 +125,7 @@ class Writing {
                {.picture = &face_.Draw(state),
                 .placing = *places_[number],
                 .points = face_.PointsOf(state),
+                .grain = course_.grain,
                 .seed = static_cast<std::uint64_t>(at.count()) + 1},
                shares_[number]);
   }

@@ -9,14 +9,16 @@
 #include <utility>
 
 #include "face_track/film/picture_source.h"
+#include "film_dub/follow/grain.h"
 
 namespace filmdub {
 namespace {
 
-constexpr float kSure = 0.5F;     // that there is a face
-constexpr float kMostMissMm = 4;  // of its points
-constexpr float kOpenJaw = 1.5F;  // how much a degree of it counts beside one of the head
-constexpr float kShutLids = 20;   // likewise lids that are shut
+constexpr std::size_t kGrainEach = 5;  // pictures
+constexpr float kSure = 0.5F;          // that there is a face
+constexpr float kMostMissMm = 4;       // of its points
+constexpr float kOpenJaw = 1.5F;       // how much a degree of it counts beside one of the head
+constexpr float kShutLids = 20;        // likewise lids that are shut
 
 }  // namespace
 
@@ -61,6 +63,9 @@ vm::Result<FilmCourse> Survey(const std::string& film, facefit::FaceNetworks& ne
     for (auto& line : lines) course.lines.push_back(std::move(line));
   };
   facetrack::TimedPicture picture;
+  fsm::Image before;
+  facefit::Box2 face{.low = {0, 0}, .high = {0, 0}};  // where it was seen last
+  std::vector<double> grains;
   std::size_t pictures = 0;
   vm::Result<bool> more = false;
   while ((more = (*source)->Next(picture)) && *more) {
@@ -71,10 +76,21 @@ vm::Result<FilmCourse> Survey(const std::string& film, facefit::FaceNetworks& ne
     course.width = picture.picture.width;
     course.height = picture.picture.height;
     take(tracker.Look(picture.picture, picture.ms));
+    if (!course.lines.empty() && !course.lines.back().places.empty()) {
+      face = {};
+      for (const glm::vec2 place : course.lines.back().places) face.Add(place);
+    }
+    if (pictures % kGrainEach == 0) grains.push_back(GrainBetween(before, picture.picture, face));
+    if ((pictures + 1) % kGrainEach == 0) before = picture.picture;
     told(pictures, picture.ms);
   }
   if (!more) return std::unexpected(more.error());
   take(tracker.Finish());
+  if (!grains.empty()) {
+    const auto middle = grains.begin() + static_cast<std::ptrdiff_t>(grains.size() / 2);
+    std::ranges::nth_element(grains, middle);
+    course.grain = *middle;
+  }
   if (pictures < 2) {
     return vm::Fail(vm::Errc::kBadValue,
                     fmt::format("'{}' is a single picture, a film expected", film));

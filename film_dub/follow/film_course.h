@@ -20,6 +20,7 @@ inline constexpr std::size_t kMostPictures = 60'000;
 struct FilmCourse {
   int width = 0, height = 0;
   std::vector<facetrack::FaceLine> lines;
+  double grain = 0;  ///< GrainBetween, the usual one
 
   std::vector<double> Times() const;  ///< of the pictures, ms
   /// Whether the face of a picture can be painted over: there is one, it is seen well and not

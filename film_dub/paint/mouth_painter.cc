@@ -26,7 +26,6 @@ constexpr float kFade = 0.10F;      // of the edge
 constexpr float kAround = 0.12F;    // skin beside the area whose colours are compared
 constexpr float kEvenness = 0.28F;  // how smooth the quotient is
 constexpr float kMostGain = 2;
-constexpr double kGrainPixels = 1;
 constexpr float kDifferenceSpread = 0.02F;
 constexpr float kAlike = 0.05F, kUnlike = 0.12F;  // of colours 0..1
 
@@ -153,25 +152,11 @@ cv::Mat Gains(const cv::Mat& film, const cv::Mat& drawn, const cv::Mat& counts, 
   return gains;
 }
 
-/// How much a picture's pixels differ from their neighbours where it `counts`: grain, and pores.
-double GrainOf(const cv::Mat& picture, const cv::Mat& counts) {
-  cv::Mat grey, smooth, squares;
-  cv::cvtColor(picture, grey, cv::COLOR_RGB2GRAY);
-  cv::GaussianBlur(grey, smooth, {}, kGrainPixels);
-  cv::subtract(grey, smooth, squares);
-  cv::multiply(squares, squares, squares);
-  cv::multiply(squares, counts, squares);
-  return std::sqrt(cv::sum(squares)[0] / std::max(cv::sum(counts)[0], 1.0));
-}
-
-/// Gives what is drawn the grain that the film has beyond its own.
-void AddGrain(const cv::Mat& film, const cv::Mat& counts, std::uint64_t seed, cv::Mat& drawn) {
-  // What is left of white noise less its mean over a bell of one pixel, 1 - 1/pi + 1/(4 pi).
-  constexpr double kLeft = 0.87;
-  const double wanted = GrainOf(film, counts), there = GrainOf(drawn, counts);
-  if (wanted <= there) return;
+/// Noise of that deviation, as the film has it.
+void AddGrain(double deviation, std::uint64_t seed, cv::Mat& drawn) {
+  if (deviation <= 0) return;
   cv::Mat noise(drawn.size(), CV_32F), three;
-  cv::RNG(seed).fill(noise, cv::RNG::NORMAL, 0, std::sqrt(wanted * wanted - there * there) / kLeft);
+  cv::RNG(seed).fill(noise, cv::RNG::NORMAL, 0, deviation);
   cv::merge(std::vector{noise, noise, noise}, three);
   cv::add(drawn, three, drawn);
 }
@@ -239,7 +224,7 @@ void PaintMouth(fsm::Image& picture, std::span<const glm::vec2> seen, const Draw
 
   const cv::Mat gains = Gains(film, colours, counts, part);
   cv::multiply(colours, gains, colours);
-  AddGrain(film, counts, drawn.seed, colours);
+  AddGrain(drawn.grain, drawn.seed, colours);
   cv::Mat shares = Shares(area, part);
   KeepWhatDiffers(film, colours, seen, part, shares);
   cv::multiply(shares, opacity, shares, static_cast<double>(std::min(share, 1.0F)));

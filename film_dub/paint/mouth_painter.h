@@ -15,6 +15,7 @@ struct DrawnMouth {
   const fsm::Image* picture = nullptr;  ///< on nothing; outlives the painting
   Placing placing;                      ///< from its pixels to the film's
   std::vector<glm::vec2> points;        ///< the network's, in its pixels
+  double grain = 0;                     ///< GrainBetween of the film
   std::uint64_t seed = 1;               ///< of the grain, another one for each picture
 };
 

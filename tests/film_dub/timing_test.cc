@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
 #include <set>
 
 #include "film_dub/follow/film_course.h"
+#include "film_dub/follow/grain.h"
 #include "film_dub/timing/dub_timing.h"
 
 namespace filmdub {
@@ -52,6 +55,28 @@ TEST(FilmCourseTest, StretchesAreToldByTheirTimes) {
   EXPECT_EQ(Stretches(course, [](std::size_t i) { return i == 0 || (i > 3 && i < 7); }),
             "0.00 s, 0.40 to 0.60 s");
   EXPECT_EQ(Stretches(course, [](std::size_t) { return false; }), "");
+}
+
+TEST(GrainTest, IsTheNoiseOfWhatStandsStill) {
+  std::mt19937 dice(1);
+  std::normal_distribution<double> noise(0, 5);
+  const auto picture = [&](bool noisy, int moved) {
+    fsm::Image image = fsm::FilledImage(160, 128);
+    for (int y = 0; y < 128; ++y) {
+      for (int x = 0; x < 160; ++x) {
+        const double value =
+            (x < 40 ? 100 + 50 * ((x + moved) % 7 / 6.0) : 120) + (noisy ? noise(dice) : 0);
+        for (std::size_t c = 0; c < 3; ++c) {
+          image.rgba[4 * image.Index(x, y) + c] = static_cast<std::uint8_t>(std::lround(value));
+        }
+      }
+    }
+    return image;
+  };
+  const facefit::Box2 all{.low = {-5, 0}, .high = {200, 128}};
+  EXPECT_NEAR(GrainBetween(picture(true, 0), picture(true, 3), all), 5.0 / 255, 1.0 / 255);
+  EXPECT_EQ(GrainBetween(picture(false, 0), picture(false, 3), all), 0);
+  EXPECT_EQ(GrainBetween(picture(true, 0), picture(true, 3), {}), 0) << "no part";
 }
 
 TEST(FilmCourseTest, TheRestIsAFaceTurnedToTheCameraWithItsMouthShut) {
