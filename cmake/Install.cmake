@@ -7,7 +7,7 @@ include(CMakePackageConfigHelpers)
 
 set(programs "")
 # ssm finds ssm_espeak, and with --voices align, beside itself.
-foreach(program agent_manager galatea-log fsm face_fit face_editor face_space face_track face_watch hypermask ssm ssm_espeak ssm_stub srm srm_stub align
+foreach(program agent_manager galatea-log fsm face_fit face_editor face_space face_track face_watch film_dub hypermask ssm ssm_espeak ssm_stub srm srm_stub align
                 vdm chat gateway mcp vmc task_manager srgs_match)
   if(TARGET ${program})
     list(APPEND programs ${program})

@@ -37,7 +37,7 @@ def options_of(program):
 def value_of(text):
     if choices := re.search(r"\{(.*?)\}", text):
         return choices[1].replace(",", "|")
-    value = re.sub(r"\(Env:.*?\)|REQUIRED|Needs:.*|:\S.*|=\S+", "", text).strip()
+    value = re.sub(r"\(Env:.*?\)|REQUIRED|Needs:.*|Excludes:.*|:\S.*|=\S+", "", text).strip()
     return {"TEXT": "VALUE", "INT": "N", "UINT": "N", "FLOAT": "N", "INT x 2": "N N"}.get(value, value.replace("TEXT", "VALUE"))
 
 

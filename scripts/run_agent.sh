@@ -28,7 +28,7 @@ usage: scripts/run_agent.sh [options]     (installed: galatea-agent [options])
                      a film, agent.mp4 without --out
   --voice mic        it speaks with the microphone, until end of input (^D)
   --out FILE.mp4     make a film with sound instead of opening a window; FILE.mov (ProRes) and FILE.webm (VP9) are
-                     transparent beside the agent
+                     transparent beside the agent, FILE.mkv (FFV1) loses nothing
   --subtitles        with --dialog or --chat, and --out: show what both say in the film; FILE.srt and FILE.vtt
                      lie beside it in any case
   --photo PHOTO      wear the face of the person in PHOTO (docs/photo.md)
@@ -103,8 +103,8 @@ while [ $# -gt 0 ]; do
   esac
 done
 case $say in *$'\n'*) say=${say//$'\n'/ } ;; esac
-case $out in "" | *.mp4 | *.mov | *.webm) ;; *) fail "--out '$out': expected a name that ends in .mp4, .mov or .webm" ;; esac
-case $subtitles$out in 1*.mov | 1*.webm) fail "--subtitles are put into .mp4 only; FILE.srt lies beside the film" ;; esac
+case $out in "" | *.mp4 | *.mov | *.webm | *.mkv) ;; *) fail "--out '$out': expected a name that ends in .mp4, .mov, .webm or .mkv" ;; esac
+case $subtitles$out in 1*.mov | 1*.webm | 1*.mkv) fail "--subtitles are put into .mp4 only; FILE.srt lies beside the film" ;; esac
 [ -z "$out" ] || [ -d "$(dirname "$out")" ] || fail "--out: there is no folder '$(dirname "$out")'"
 [ -z "$out" ] || [ -w "$(dirname "$out")" ] || fail "--out: the folder '$(dirname "$out")' cannot be written to"
 [ -z "$photo" ] || [ -r "$photo" ] || fail "--photo: cannot read '$photo'"

@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
   text->excludes(sound);
   app.add_option("--voice", wanted.speech.voice, "Of --text: a speaker of ssm (default: its first)")
       ->needs(text);
-  app.add_option("--voices", voices, "Of --text: more voices, as ssm --voices")->needs(text);
+  app.add_option("--voices", voices, "Of --text: more voices, as ssm --voices");
   app.add_option("--out", wanted.out,
                  "The new film: .mkv keeps every pixel that is not painted over as it was; .mp4, "
                  ".mov and .webm are compressed (default: FILM.dubbed.mkv, in this folder)");

@@ -170,10 +170,10 @@ void FsmModule::DeclareRecording() {
       {.name = "Record",
        .grammar = "STOP | <file>",
        .initial = "STOP",
-       .help =
-           "Records a film from now on: .mp4; .mov or .webm, which keep what is transparent; or "
-           ".rgba, width * height * 4 bytes a frame, into a file or a named pipe that is being "
-           "read. STOP ends it, and answers when it is there.",
+       .help = "Records a film from now on: .mp4; .mov or .webm, which keep what is transparent; "
+               ".mkv, which loses nothing; or "
+               ".rgba, width * height * 4 bytes a frame, into a file or a named pipe that is being "
+               "read. STOP ends it, and answers when it is there.",
        .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
          if (value.word(0) == "STOP") return StopFilm();
          const int rate = std::stoi(core_.slots.Value("Record.fps"));
