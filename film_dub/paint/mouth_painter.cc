@@ -21,8 +21,11 @@ constexpr PointIndex kJawEdge[] = {379, 378, 400, 377, 152, 148, 176, 149, 150};
 constexpr float kBeyondChin = 0.22F, kInsideJaw = 0.04F;
 // Likewise how far inside the edge of the chin colours are compared.
 constexpr float kEdge = 0.25F;
+// Likewise how far outside it a face surely ends.
+constexpr float kChinEdge = 0.06F;
 // As parts of the distance between the eyes' outer corners.
 constexpr float kFade = 0.10F;      // of the edge
+constexpr float kOutside = 0.04F;   // of the way out of the faces to what need not be painted
 constexpr float kAround = 0.12F;    // skin beside the area whose colours are compared
 constexpr float kEvenness = 0.28F;  // how smooth the quotient is
 constexpr float kMostGain = 2;
@@ -93,10 +96,14 @@ cv::Mat Shares(const cv::Mat& area, const Part& part) {
   return shares;
 }
 
-/// What of the shares stays beside mouth and chin: there film and drawing show the same skin, and
-/// where they differ the drawing shows what is hidden in the film, or hair, or a wall.
+/// What of the shares stays beside mouth and chin, and outside of `faces`: there film and drawing
+/// show the same skin, and where they differ the drawing shows what is hidden in the film, or hair,
+/// or a wall.
 void KeepWhatDiffers(const cv::Mat& film, const cv::Mat& fresh, std::span<const glm::vec2> seen,
-                     const Part& part, cv::Mat& shares) {
+                     const cv::Mat& faces, const Part& part, cv::Mat& shares) {
+  cv::Mat around, outside;
+  cv::bitwise_not(faces, around);
+  cv::distanceTransform(around, outside, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   cv::Mat difference, smooth;
   cv::absdiff(film, fresh, difference);
   const double spread = static_cast<double>(kDifferenceSpread * part.unit);
@@ -113,7 +120,9 @@ void KeepWhatDiffers(const cv::Mat& film, const cv::Mat& fresh, std::span<const 
     for (int x = 0; x < shares.cols; ++x) {
       const float across = glm::dot(glm::vec2(x, y) - middle, along);
       const float aside = std::max(across / left_half, -across / right_half);
-      const float beside = std::clamp((aside - 1.1F) / 0.3F, 0.0F, 1.0F);
+      const float beside = std::clamp(
+          std::max((aside - 1.1F) / 0.3F, outside.at<float>(y, x) / (kOutside * part.unit)), 0.0F,
+          1.0F);
       if (beside <= 0) continue;
       const auto d = smooth.at<cv::Vec3f>(y, x);
       const float off = std::max({d[0], d[1], d[2]});
@@ -226,7 +235,10 @@ void PaintMouth(fsm::Image& picture, std::span<const glm::vec2> seen, const Draw
   cv::multiply(colours, gains, colours);
   AddGrain(drawn.grain, drawn.seed, colours);
   cv::Mat shares = Shares(area, part);
-  KeepWhatDiffers(film, colours, seen, part, shares);
+  cv::Mat either(part.box.size(), CV_8U, cv::Scalar(0));
+  Fill(either, Outline(seen, kChinEdge), part, 255);
+  Fill(either, Outline(points, kChinEdge), part, 255);
+  KeepWhatDiffers(film, colours, seen, either, part, shares);
   cv::multiply(shares, opacity, shares, static_cast<double>(std::min(share, 1.0F)));
   for (int y = 0; y < film.rows; ++y) {
     for (int x = 0; x < film.cols; ++x) {

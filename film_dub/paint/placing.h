@@ -17,7 +17,8 @@ struct Placing {
 };
 
 /// The map by which what is drawn lies where the film shows it: least squares over the points that
-/// neither speech nor lids nor brows move. Both: the network's points.
+/// neither speech nor lids nor brows move, and, across the face alone, over the chin. Both: the
+/// network's points.
 Placing PlaceOnFilm(std::span<const glm::vec2> drawn, std::span<const glm::vec2> seen);
 
 /// Each map as a mean of those of the pictures around it, nearer ones more (a bell of

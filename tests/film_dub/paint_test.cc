@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <glm/geometric.hpp>
 
 #include "face_track/model/seen_face.h"
 #include "film_dub/paint/mouth_painter.h"
@@ -80,6 +81,23 @@ TEST(MouthPainterTest, OnlyMouthAndChinArePaintedOver) {
   EXPECT_EQ(MostDifference(none, film), 0) << "a share of nothing";
 }
 
+TEST(MouthPainterTest, BelowTheChinWhatDiffersStaysTheFilms) {
+  const auto points = Points();
+  const fsm::Image drawn = Skin(1);
+  fsm::Image film = drawn;  // a dark coat from a little below the chin
+  const int coat = static_cast<int>(points[152].y) + 2;
+  for (int y = coat; y < kHigh; ++y) {
+    for (int x = 0; x < kWide; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) film.rgba[4 * film.Index(x, y) + c] = 30;
+    }
+  }
+  fsm::Image out = film;
+  PaintMouth(out, points, {.picture = &drawn, .placing = {}, .points = points}, 1);
+  for (int y = coat + 5; y < kHigh; ++y) {
+    EXPECT_NEAR(out.rgba[4 * out.Index(static_cast<int>(points[152].x), y)], 30, 3) << y;
+  }
+}
+
 TEST(MouthPainterTest, AFaceAtTheEdgeOfThePictureIsPaintedAsFarAsItIsThere) {
   const fsm::Image film = Skin(1), drawn = Skin(0.5F);
   auto points = Points();
@@ -97,6 +115,22 @@ TEST(PlacingTest, AnAffineMapIsFoundAgain) {
   for (const glm::vec2 p : drawn) seen.push_back(truth(p));
   const Placing found = PlaceOnFilm(drawn, seen);
   for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(found.m[k], truth.m[k], 2e-3F);
+}
+
+TEST(PlacingTest, ADroppedJawMovesNothingAndAChinThatIsAsideIsFollowed) {
+  const auto drawn = Points();
+  auto dropped = drawn, aside = drawn;
+  for (const std::size_t i : {152U, 148U, 377U, 176U, 400U, 149U, 378U}) {
+    dropped[i].y += 12;
+    aside[i].x += 6;
+  }
+  const glm::vec2 nose = drawn[1], chin = drawn[152];
+  EXPECT_LT(glm::distance(PlaceOnFilm(drawn, dropped)(nose), nose), 0.01F);
+  EXPECT_LT(glm::distance(PlaceOnFilm(drawn, dropped)(chin), chin), 0.01F);
+  const Placing slanted = PlaceOnFilm(drawn, aside);
+  EXPECT_NEAR(slanted(chin).x, chin.x + 6, 2);
+  EXPECT_NEAR(slanted(chin).y, chin.y, 0.01F);
+  EXPECT_NEAR(slanted(drawn[168]).x, drawn[168].x, 2);
 }
 
 TEST(PlacingTest, SmoothingKeepsWhatIsSteadyAndStopsAtGaps) {
