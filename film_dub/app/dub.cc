@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
@@ -147,6 +148,13 @@ void MakeDub(const Dub& wanted) {
   };
   vm::OrThrow(fsm::MovieWriter::CheckName(wanted.out));
   vm::OrThrow(vm::CheckWritable(wanted.out));
+  for (const std::string& read : {wanted.film, wanted.speech.sound}) {
+    std::error_code none;  // there may be no such file yet
+    if (std::filesystem::equivalent(read, wanted.out, none)) {
+      throw std::runtime_error("'" + wanted.out +
+                               "' would be overwritten, though it is read: another name expected");
+    }
+  }
   auto networks = vm::OrThrow(facefit::FaceNetworks::Load(wanted.networks));
   auto attention = vm::OrThrow(facefit::LoadAttentionLandmarks(wanted.networks));
   const ssm::TemporaryFolder folder;

@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   app.add_option("--voice", wanted.speech.voice, "Of --text: a speaker of ssm (default: its first)")
       ->needs(text);
   app.add_option("--voices", voices, "Of --text: more voices, as ssm --voices");
-  app.add_option("--out", wanted.out,
+  app.add_option("-o,--out", wanted.out,
                  "The new film: .mkv keeps every pixel that is not painted over as it was; .mp4, "
                  ".mov and .webm are compressed (default: FILM.dubbed.mkv, in this folder)");
   app.add_option("--field", wanted.tracker.field_degrees,

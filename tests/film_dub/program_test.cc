@@ -162,6 +162,7 @@ TEST_F(FilmDubTest, TheNewFilmSaysThatItWasAlteredAndHasTheNewSound) {
 TEST_F(FilmDubTest, WhatCannotBeDubbedIsOneSentenceAndNoFilm) {
   std::ofstream(Path("text.mp4")) << "this is no film";
   Make({"-f", "lavfi", "-i", "testsrc=size=320x240:rate=25:duration=1", Path("nobody.mp4")});
+  Make({"-i", Path("film.mp4"), "-frames:v", "1", "-an", Path("one.mp4")});
   Make({"-f", "lavfi", "-i", "anullsrc=r=16000:cl=mono", "-t", "9", Path("long.wav")});
   struct Case {
     std::vector<std::string> words;
@@ -170,6 +171,7 @@ TEST_F(FilmDubTest, WhatCannotBeDubbedIsOneSentenceAndNoFilm) {
   const Case cases[] = {
       {{"/nothing/here.mp4", "--text", "Ah"}, "there is no '/nothing/here.mp4'"},
       {{Path("text.mp4"), "--text", "Ah"}, "is no film with a picture"},
+      {{Path("one.mp4"), "--text", "Ah"}, "is a single picture, a film expected"},
       {{Path("nobody.mp4"), "--text", "Ah"}, "no face is seen in any of its 25 pictures"},
       {{Path("film.mp4"), "--sound", Path("text.mp4")}, "cannot read '"},
       {{Path("film.mp4"), "--sound", Path("long.wav")}, "its new sound 9.00: expected at most 2"},
@@ -188,6 +190,11 @@ TEST_F(FilmDubTest, WhatCannotBeDubbedIsOneSentenceAndNoFilm) {
     EXPECT_EQ(ran.error.find('\n', own), ran.error.size() - 1) << ran.error;
     EXPECT_TRUE(ReadBytes(Path("none.mkv")).empty());
   }
+  const std::string film = ReadBytes(Path("film.mp4"));
+  EXPECT_NE(Dub({Path("film.mp4"), "--text", "Ah", "--out", Path("film.mp4")})
+                .error.find("would be overwritten"),
+            std::string::npos);
+  EXPECT_EQ(ReadBytes(Path("film.mp4")), film);
   EXPECT_NE(Dub({Path("film.mp4"), "--text", "Ah", "--out", Path("new.avi")})
                 .error.find("is no film's name"),
             std::string::npos);
