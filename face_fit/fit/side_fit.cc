@@ -145,13 +145,13 @@ void RefineDepthBySide(const fsm::Image& front, const fsm::Image& side, CameraPo
       }
     }
     // Some single patches are mistaken: those far from what their neighbours say are left out.
-    constexpr float kSmooth = 60, kEven = 12, kFar = 2, kMost = 10;
+    constexpr float kSmooth = 60, kEvenly = 12, kFar = 2, kMost = 10;
     const fsm::Warp rough(both, kSmooth);
     std::erase_if(both, [&](const fsm::WarpPoint& point) {
       return std::abs(rough.Motion(point.at).z - point.by.z) > kFar;
     });
     if (both.size() < 20) return;
-    const fsm::Warp depth(both, kEven);
+    const fsm::Warp depth(both, kEvenly);
     for (LandmarkConstraint& constraint : fit.targets.constraints) {
       constraint.z += std::clamp(
           depth.Motion(constraint.on_head.On(fit.head.base->rest.position)).z, -kMost, kMost);

@@ -24,7 +24,7 @@ enum Stream : std::uint64_t {
   kGazeY,
   kNodTime,
   kNodSize,
-  kHead = 10  // and the five that follow
+  kHeadWander = 10  // and the five that follow
 };
 
 Angles Looped(const HeadCurve& curve, double ms) {
@@ -123,8 +123,8 @@ void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // Two frequencies are added, because one alone looks like a pendulum.
     const double slow = InMs(t) / move.period_ms + 0.37 * static_cast<double>(axis);
-    const double way =
-        0.75 * Wander(kHead + 2 * axis, slow) + 0.25 * Wander(kHead + 2 * axis + 1, slow * 2.3);
+    const double way = 0.75 * Wander(kHeadWander + 2 * axis, slow) +
+                       0.25 * Wander(kHeadWander + 2 * axis + 1, slow * 2.3);
     out[axis] += static_cast<float>(weight * way * move.amplitude[axis]);
   }
 }

@@ -53,7 +53,7 @@ std::vector<std::string> HeardWords(const std::string& text) {
 const std::set<std::string, std::less<>>& UnfinishedWords() {
   static const auto words = [] {
     std::set<std::string, std::less<>> read;
-    std::istringstream lines(std::string(embedded::srm_unfinished()));
+    std::istringstream lines{std::string(embedded::srm_unfinished())};
     for (std::string line; std::getline(lines, line);) {
       if (line.starts_with('#')) continue;
       std::istringstream row(line);

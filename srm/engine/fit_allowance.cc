@@ -8,11 +8,11 @@
 namespace srm {
 
 double Clearness(std::span<const std::int16_t> samples) {
-  constexpr std::size_t kFrame = 160;  // 10 ms
+  constexpr std::size_t kLevelFrame = 160;  // 10 ms
   std::vector<double> levels_db;
-  for (; samples.size() >= kFrame; samples = samples.subspan(kFrame)) {
+  for (; samples.size() >= kLevelFrame; samples = samples.subspan(kLevelFrame)) {
     double power = 1;
-    for (const std::int16_t s : samples.first(kFrame)) power += static_cast<double>(s) * s;
+    for (const std::int16_t s : samples.first(kLevelFrame)) power += static_cast<double>(s) * s;
     levels_db.push_back(10 * std::log10(power));
   }
   if (levels_db.empty()) return 0;

@@ -112,13 +112,13 @@ std::string ReadDigits(std::string_view digits) {
 }
 
 std::string LetterName(char letter) {
-  static constexpr std::array<const char*, 26> kNames = {
+  static constexpr std::array<const char*, 26> kLetterNames = {
       "エー",   "ビー",   "シー", "ディー", "イー",       "エフ",     "ジー", "エイチ", "アイ",
       "ジェー", "ケー",   "エル", "エム",   "エヌ",       "オー",     "ピー", "キュー", "アール",
       "エス",   "ティー", "ユー", "ブイ",   "ダブリュー", "エックス", "ワイ", "ゼット"};
   const char upper =
       letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
-  return upper >= 'A' && upper <= 'Z' ? kNames[static_cast<std::size_t>(upper - 'A')] : "";
+  return upper >= 'A' && upper <= 'Z' ? kLetterNames[static_cast<std::size_t>(upper - 'A')] : "";
 }
 
 vm::Result<Counters> Counters::Parse(std::string_view table, const std::string& file) {

@@ -13,20 +13,20 @@
 namespace facefit {
 namespace {
 
-constexpr int kSide = 256;
+constexpr int kHalvedSide = 256;
 
 /// A face whose right half is lit orange and whose left one blue, with freckles that are the same
 /// on both.
 glm::vec3 Lit(int x, int y) {
-  const int from_middle = std::abs(2 * x + 1 - kSide) / 2;
+  const int from_middle = std::abs(2 * x + 1 - kHalvedSide) / 2;
   const float freckle = (from_middle / 4 + y / 4) % 5 == 0 ? 0.8F : 1.0F;
-  return freckle * (x < kSide / 2 ? glm::vec3(220, 140, 90) : glm::vec3(110, 120, 200));
+  return freckle * (x < kHalvedSide / 2 ? glm::vec3(220, 140, 90) : glm::vec3(110, 120, 200));
 }
 
 struct OtherSideTest : testing::Test {
   OtherSideTest() {
-    for (int y = 0; y < kSide; ++y) {
-      for (int x = 0; x < kSide; ++x) {
+    for (int y = 0; y < kHalvedSide; ++y) {
+      for (int x = 0; x < kHalvedSide; ++x) {
         const glm::vec3 c = Lit(x, y);
         for (int k = 0; k < 3; ++k) map.rgba.push_back(static_cast<std::uint8_t>(c[k]));
         map.rgba.push_back(255);
@@ -46,9 +46,9 @@ struct OtherSideTest : testing::Test {
   }
 
   static constexpr int kLow = 150, kHigh = 170;
-  fsm::Image map{.width = kSide, .height = kSide, .rgba = {}};
-  FloatImage seen{kSide, kSide, 1};
-  std::vector<bool> skin = std::vector<bool>(kSide * kSide, true);
+  fsm::Image map{.width = kHalvedSide, .height = kHalvedSide, .rgba = {}};
+  FloatImage seen{kHalvedSide, kHalvedSide, 1};
+  std::vector<bool> skin = std::vector<bool>(kHalvedSide * kHalvedSide, true);
 };
 
 TEST_F(OtherSideTest, WhatIsTakenFromTheOtherSideStandsInTheLightOfItsOwn) {
@@ -63,7 +63,7 @@ TEST_F(OtherSideTest, WhatIsTakenFromTheOtherSideStandsInTheLightOfItsOwn) {
 
 TEST_F(OtherSideTest, WhatWasSeenStaysAsItIs) {
   CompleteByMirroring(skin, map, seen);
-  for (int x = 0; x < kSide; ++x) {
+  for (int x = 0; x < kHalvedSide; ++x) {
     EXPECT_LT(glm::distance(At(x, 100), glm::floor(Lit(x, 100))), 1.8F) << x;
   }
 }
@@ -71,7 +71,7 @@ TEST_F(OtherSideTest, WhatWasSeenStaysAsItIs) {
 TEST_F(OtherSideTest, AHighlightOfTheOtherSideAloneIsNotTakenOver) {
   for (int y = kLow; y < kHigh; ++y) {
     for (int x = kLow; x < kHigh; ++x) {
-      std::uint8_t* p = &map.rgba[4 * seen.Index(kSide - 1 - x, y)];
+      std::uint8_t* p = &map.rgba[4 * seen.Index(kHalvedSide - 1 - x, y)];
       for (int c = 0; c < 3; ++c) p[c] = 255;
     }
   }
