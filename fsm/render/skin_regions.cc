@@ -8,8 +8,6 @@
 namespace fsm {
 namespace {
 
-constexpr int kCells = SkinMap::kCells;
-
 /// Smoothed random numbers about 0, one row of a SkinMap at a time; `cell` cells from one number to
 /// the next.
 class NoiseRow {
@@ -23,7 +21,7 @@ class NoiseRow {
       Lattice(row_ + 1, upper_);
     }
     const float t = Ease(y % cell_);
-    for (int x = 0; x < kCells; ++x) {
+    for (int x = 0; x < SkinMap::kCells; ++x) {
       const auto k = static_cast<std::size_t>(x / cell_);
       const float s = Ease(x % cell_);
       const float low = lower_[k] + (lower_[k + 1] - lower_[k]) * s;
@@ -39,7 +37,7 @@ class NoiseRow {
     return t * t * (3 - 2 * t);
   }
   void Lattice(int row, std::vector<float>& out) const {
-    const int count = kCells / cell_;
+    const int count = SkinMap::kCells / cell_;
     out.resize(static_cast<std::size_t>(count) + 1);
     for (int k = 0; k <= count; ++k) {
       const auto at = static_cast<std::uint64_t>(row) << 16 | static_cast<std::uint64_t>(k % count);
@@ -51,7 +49,7 @@ class NoiseRow {
   std::uint64_t series_;
   int row_ = -1;
   std::vector<float> lower_, upper_;
-  std::vector<float> out_ = std::vector<float>(kCells);
+  std::vector<float> out_ = std::vector<float>(SkinMap::kCells);
 };
 
 /// The regions of one head's face, by its landmarks.
@@ -141,10 +139,10 @@ std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceLandmarks& la
   std::vector<SkinRegion> out(map.kind.size());
   NoiseRow broad(16, 1);  // patches of 20 and of 5 millimetres
   NoiseRow fine(4, 2);
-  for (int y = 0; y < kCells; ++y) {
+  for (int y = 0; y < SkinMap::kCells; ++y) {
     const auto& b = broad.At(y);
     const auto& f = fine.At(y);
-    for (int x = 0; x < kCells; ++x) {
+    for (int x = 0; x < SkinMap::kCells; ++x) {
       const auto i = SkinMap::Index(x, y);
       const auto c = static_cast<std::size_t>(x);
       if (map.kind[i] != SkinMap::kNone) {
