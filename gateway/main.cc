@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <boost/asio/signal_set.hpp>
 #include <csignal>
-#include <filesystem>
 #include <iostream>
 #include <span>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 
 #include "agent_manager/web/page_token.h"
 #include "gateway/web/gateway_server.h"
+#include "vm_protocol/core/spawn.h"
 #include "vm_protocol/runtime/credentials.h"
 #include "vm_protocol/runtime/endpoint.h"
 
@@ -25,13 +25,6 @@ struct Options {
   bool no_voice = false;
   int limit_s = 60;
 };
-
-/// A program that is built beside this one.
-std::string Neighbour(const char* name) {
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return error ? std::string(name) : (self.parent_path() / name).string();
-}
 
 std::string TokenOf(const Options& options) {
   vm::Credentials credentials;
@@ -62,7 +55,7 @@ void Serve(Options& options) {
   };
   std::vector<std::string> command = options.voice;
   if (command.empty()) {
-    command = {Neighbour("ssm"), "--sink", "null", "--clock", "virtual"};
+    command = {vm::ProgramBeside("ssm"), "--sink", "null", "--clock", "virtual"};
     if (!options.voices.empty()) command.insert(command.end(), {"--voices", options.voices});
   }
   std::unique_ptr<gateway::VoiceWorker> voice;
@@ -71,7 +64,7 @@ void Serve(Options& options) {
         io, command, std::chrono::seconds(options.limit_s), BestNet());
   }
   if (options.server.faces > 0) {
-    options.server.face_command = {Neighbour("fsm"), "--headless", "--life", "LIVELY"};
+    options.server.face_command = {vm::ProgramBeside("fsm"), "--headless", "--life", "LIVELY"};
     for (const auto& [name, value] : {std::pair("--mask", options.mask), {"--head", options.head}})
       if (!value.empty())
         options.server.face_command.insert(options.server.face_command.end(), {name, value});

@@ -5,25 +5,11 @@
 # show the page: conversation and engineer's view, light and dark, 400, 820 and 1280 pixels wide, English and Japanese.
 # Prints what is found, leaves a picture of each view in FOLDER, and ends with 1 if anything was found.
 set -euo pipefail
-if [ $# -lt 1 ]; then
-  sed -n '2,7s/^# \?//p' "$0"
-  exit 2
-fi
-root=$(cd "$(dirname "$0")/.." && pwd)
-mkdir -p "$1"
-folder=$(cd "$1" && pwd)
-bin=$(cd "${2:-$root/build/bin}" && pwd)
-case "$folder/" in "$root"/*)
-  echo "page_access: '$1' lies in the repository; expected a folder outside of it" >&2
-  exit 2
-  ;;
-esac
+. "$(dirname "$0")/npm_folder.sh"
 browser=$(command -v chromium || command -v chromium-headless-shell) || {
   echo "page_access: no chromium here (Debian package chromium-headless-shell or chromium)" >&2
   exit 2
 }
-cd "$folder"
-[ -f package.json ] || echo '{"private": true}' >package.json
 npm install --no-fund --no-audit axe-core >/dev/null
 echo "axe-core $(node -p 'require("./node_modules/axe-core/package.json").version')"
 

@@ -4,21 +4,7 @@
 #     scripts/real_clients.sh FOLDER [BIN]
 # installs them by npm into FOLDER, which must lie outside of the repository, and runs scripts/real_clients/*.mjs.
 set -euo pipefail
-if [ $# -lt 1 ]; then
-  sed -n '2,5s/^# \?//p' "$0"
-  exit 2
-fi
-root=$(cd "$(dirname "$0")/.." && pwd)
-mkdir -p "$1"
-folder=$(cd "$1" && pwd)
-bin=$(cd "${2:-$root/build/bin}" && pwd)
-case "$folder/" in "$root"/*)
-  echo "real_clients: '$1' lies in the repository; expected a folder outside of it" >&2
-  exit 2
-  ;;
-esac
-cd "$folder"
-[ -f package.json ] || echo '{"private": true}' >package.json
+. "$(dirname "$0")/npm_folder.sh"
 npm install --no-fund --no-audit openai @modelcontextprotocol/sdk @modelcontextprotocol/inspector osc osc-min
 cp "$root"/scripts/real_clients/*.mjs .
 for package in openai @modelcontextprotocol/sdk @modelcontextprotocol/inspector osc osc-min; do

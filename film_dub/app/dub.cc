@@ -39,17 +39,6 @@ fsm::Image PictureOf(const std::string& film, std::size_t number) {
   return std::move(picture.picture);
 }
 
-/// How the head is turned when it is drawn for a picture of the film: as in the picture it was made
-/// of, and as much further as the film's has turned since.
-fsm::Angles TurnFor(const FilmCourse& course, std::size_t picture, std::size_t rest,
-                    const fsm::Angles& held) {
-  fsm::Angles turn = held;
-  for (std::size_t k = 0; k < turn.size(); ++k) {
-    turn[k] += course.lines[picture].head[k] - course.lines[rest].head[k];
-  }
-  return turn;
-}
-
 /// Where the head is laid in each picture; none where it cannot be.
 std::vector<std::optional<Placing>> Places(const FilmCourse& course, std::size_t rest,
                                            DubFace& face) {
@@ -57,8 +46,9 @@ std::vector<std::optional<Placing>> Places(const FilmCourse& course, std::size_t
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!course.IsUsable(i)) continue;
     fsm::FaceState state;
-    state.head_rotation = TurnFor(course, i, rest, face.held());
-    places[i] = PlaceOnFilm(face.PointsOf(state), course.lines[i].places);
+    state.head_rotation = course.Turned(face.held(), rest, i);
+    face.Pose(state);
+    places[i] = PlaceOnFilm(face.Points(), course.lines[i].places);
   }
   return Smoothed(places);
 }
@@ -121,11 +111,12 @@ class Writing {
     state.blink = {};
     state.gaze = {};
     state.head_forward = 0;
-    state.head_rotation = TurnFor(course_, number, rest_, face_.held());
+    state.head_rotation = course_.Turned(face_.held(), rest_, number);
+    face_.Pose(state);
     PaintMouth(out, course_.lines[number].places,
-               {.picture = &face_.Draw(state),
+               {.picture = &face_.Draw(),
                 .placing = *places_[number],
-                .points = face_.PointsOf(state),
+                .points = face_.Points(),
                 .grain = course_.grain,
                 .seed = static_cast<std::uint64_t>(at.count()) + 1},
                shares_[number]);
@@ -146,6 +137,10 @@ void MakeDub(const Dub& wanted) {
   const auto tell = [&](const std::string& text) {
     if (!wanted.quiet) std::cerr << "film_dub: " << text << std::endl;
   };
+  if (wanted.film == "-" || facetrack::IsLive(wanted.film)) {
+    throw std::runtime_error("'" + wanted.film +
+                             "' can be seen only once: a film or a folder of pictures expected");
+  }
   vm::OrThrow(fsm::MovieWriter::CheckName(wanted.out));
   vm::OrThrow(vm::CheckWritable(wanted.out));
   for (const std::string& read : {wanted.film, wanted.speech.sound}) {

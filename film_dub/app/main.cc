@@ -9,16 +9,7 @@
 #include <string>
 
 #include "film_dub/app/dub.h"
-
-namespace {
-
-std::string Neighbour(const char* name) {
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return error ? std::string(name) : (self.parent_path() / name).string();
-}
-
-}  // namespace
+#include "vm_protocol/core/spawn.h"
 
 int main(int argc, char** argv) {
   filmdub::Dub wanted;
@@ -53,13 +44,16 @@ int main(int argc, char** argv) {
   app.add_flag("--quiet", wanted.quiet, "Nothing on standard error but errors and notices");
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGPIPE, SIG_IGN);
-  wanted.speech.voice_module = {Neighbour("ssm"), "--sink", "null", "--clock", "virtual"};
+  wanted.speech.voice_module = {vm::ProgramBeside("ssm"), "--sink", "null", "--clock", "virtual"};
   if (!voices.empty()) {
     wanted.speech.voice_module.insert(wanted.speech.voice_module.end(), {"--voices", voices});
   }
   try {
     if (wanted.speech.text.empty() && wanted.speech.sound.empty()) {
       throw std::runtime_error("--text or --sound expected: what is to be said");
+    }
+    if (!voices.empty() && wanted.speech.text.empty()) {
+      throw std::runtime_error("--voices: --text expected, which they speak");
     }
     if (wanted.out.empty()) {
       wanted.out = std::filesystem::path(wanted.film).stem().string() + ".dubbed.mkv";

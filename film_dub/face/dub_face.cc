@@ -76,16 +76,19 @@ DubFace::DubFace(facefit::BaseHead base, const facefit::MadeFace& made, int side
       scene_(OnNothing()),
       view_(fsm::FramePortrait({}, scene_.camera, side, side)) {}
 
-const fsm::Image& DubFace::Draw(const fsm::FaceState& state) {
-  head_->Evaluate(state, vertices_);
+void DubFace::Pose(const fsm::FaceState& state) {
+  state_ = state;
+  head_->Evaluate(state_, vertices_);
+}
+
+const fsm::Image& DubFace::Draw() {
   context_->MakeCurrent();
-  renderer_->Draw(*head_, vertices_, state, scene_);
+  renderer_->Draw(*head_, vertices_, state_, scene_);
   renderer_->Read(drawn_);
   return drawn_;
 }
 
-std::vector<glm::vec2> DubFace::PointsOf(const fsm::FaceState& state) {
-  head_->Evaluate(state, vertices_);
+std::vector<glm::vec2> DubFace::Points() const {
   std::vector<glm::vec2> points;
   points.reserve(base_.points.size());
   const glm::mat4 to_clip = view_.world_to_clip * view_.figure_to_world;

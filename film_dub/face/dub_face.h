@@ -25,10 +25,12 @@ class DubFace {
 
   /// How its head was held in the picture it is made of.
   fsm::Angles held() const { return held_; }
-  /// The head in a state on nothing, kSquare pixels; alpha = where there is something.
-  const fsm::Image& Draw(const fsm::FaceState& state);
-  /// Where the network's points lie in such a picture.
-  std::vector<glm::vec2> PointsOf(const fsm::FaceState& state);
+  /// From now on the head is in that state.
+  void Pose(const fsm::FaceState& state);
+  /// A square picture of it on nothing; alpha = where there is something. Until the next.
+  const fsm::Image& Draw();
+  /// Where the network's points lie in that picture.
+  std::vector<glm::vec2> Points() const;
 
  private:
   DubFace(facefit::BaseHead base, const facefit::MadeFace& made, int side);
@@ -41,6 +43,7 @@ class DubFace {
   const std::unique_ptr<fsm::Renderer> renderer_;
   fsm::Scene scene_;
   const fsm::View view_;
+  fsm::FaceState state_;
   fsm::HeadVertices vertices_;
   fsm::Image drawn_;
 };

@@ -51,6 +51,14 @@ std::optional<std::size_t> FilmCourse::RestPicture() const {
   return best;
 }
 
+fsm::Angles FilmCourse::Turned(const fsm::Angles& held, std::size_t from,
+                               std::size_t picture) const {
+  fsm::Angles turn = held;
+  for (std::size_t k = 0; k < turn.size(); ++k)
+    turn[k] += lines[picture].head[k] - lines[from].head[k];
+  return turn;
+}
+
 vm::Result<FilmCourse> Survey(const std::string& film, facefit::FaceNetworks& networks,
                               facefit::Network& attention,
                               const facetrack::Tracker::Settings& settings,
@@ -60,7 +68,10 @@ vm::Result<FilmCourse> Survey(const std::string& film, facefit::FaceNetworks& ne
   facetrack::Tracker tracker(networks, attention, facetrack::SeenFace::Shipped(), settings);
   FilmCourse course;
   const auto take = [&](std::vector<facetrack::FaceLine> lines) {
-    for (auto& line : lines) course.lines.push_back(std::move(line));
+    for (auto& line : lines) {
+      line.points = {};  // most of a line's memory, and not needed here
+      course.lines.push_back(std::move(line));
+    }
   };
   facetrack::TimedPicture picture;
   fsm::Image before;

@@ -19,8 +19,8 @@ inline constexpr std::size_t kMostPictures = 60'000;
 /// What every picture of a film shows, in order.
 struct FilmCourse {
   int width = 0, height = 0;
-  std::vector<facetrack::FaceLine> lines;
-  double grain = 0;  ///< GrainBetween, the usual one
+  std::vector<facetrack::FaceLine> lines;  ///< without their points
+  double grain = 0;                        ///< GrainBetween, the usual one
 
   std::vector<double> Times() const;  ///< of the pictures, ms
   /// Whether the face of a picture can be painted over: there is one, it is seen well and not
@@ -29,6 +29,9 @@ struct FilmCourse {
   /// The picture to make a head of: the face turned to the camera, its mouth and eyes as at rest;
   /// none where no picture is usable.
   std::optional<std::size_t> RestPicture() const;
+  /// How a head is turned in a picture that is so `held` in another one: as much further as the
+  /// film's head has turned between them.
+  fsm::Angles Turned(const fsm::Angles& held, std::size_t from, std::size_t picture) const;
 };
 
 /// Follows the face through a film. `told` is called after each picture with its time. Errors: the

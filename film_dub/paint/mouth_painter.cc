@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "face_fit/find/network/network_points.h"
+#include "face_fit/picture/plane.h"
 
 namespace filmdub {
 namespace {
@@ -26,7 +27,7 @@ constexpr float kChinEdge = 0.06F;
 // As parts of the distance between the eyes' outer corners.
 constexpr float kFade = 0.10F;      // of the edge
 constexpr float kOutside = 0.04F;   // of the way out of the faces to what need not be painted
-constexpr float kAround = 0.12F;    // skin beside the area whose colours are compared
+constexpr float kAround = 0.12F;    // room beside the area, for what is smoothed
 constexpr float kEvenness = 0.28F;  // how smooth the quotient is
 constexpr float kMostGain = 2;
 constexpr float kDifferenceSpread = 0.02F;
@@ -38,6 +39,20 @@ struct Part {
   float unit = 1;  // distance between the eyes' outer corners, pixels
 };
 
+/// The part with both areas and some room beside them.
+Part PartOf(const fsm::Image& picture, std::span<const glm::vec2> a, std::span<const glm::vec2> b,
+            float unit) {
+  const int margin = cvCeil(kAround * unit) + 2;
+  facefit::Box2 box;
+  for (const auto outline : {a, b}) {
+    for (const glm::vec2 p : outline) box.Add(p);
+  }
+  const cv::Point low(cvRound(box.low.x) - margin, cvRound(box.low.y) - margin);
+  const cv::Point beyond(cvRound(box.high.x) + margin + 1, cvRound(box.high.y) + margin + 1);
+  return {.box = cv::Rect(low, beyond) & cv::Rect(0, 0, picture.width, picture.height),
+          .unit = unit};
+}
+
 std::vector<cv::Point> InPart(std::span<const glm::vec2> outline, const Part& part) {
   std::vector<cv::Point> pixels;
   for (const glm::vec2 p : outline) {
@@ -46,8 +61,13 @@ std::vector<cv::Point> InPart(std::span<const glm::vec2> outline, const Part& pa
   return pixels;
 }
 
-void Fill(cv::Mat& mask, std::span<const glm::vec2> outline, const Part& part, int value) {
-  cv::fillPoly(mask, std::vector{InPart(outline, part)}, cv::Scalar(value));
+/// What lies inside either of two outlines: 255, else 0.
+cv::Mat Inside(std::span<const glm::vec2> a, std::span<const glm::vec2> b, const Part& part) {
+  cv::Mat mask(part.box.size(), CV_8U, cv::Scalar(0));
+  for (const auto outline : {a, b}) {
+    cv::fillPoly(mask, std::vector{InPart(outline, part)}, cv::Scalar(255));
+  }
+  return mask;
 }
 
 /// The outline of mouth and chin, from below the nose over both cheeks to `beyond` the chin, as
@@ -137,10 +157,10 @@ void KeepWhatDiffers(const cv::Mat& film, const cv::Mat& fresh, std::span<const 
 cv::Mat Gains(const cv::Mat& film, const cv::Mat& drawn, const cv::Mat& counts, const Part& part) {
   const double smaller = std::clamp(24.0 / static_cast<double>(part.unit), 0.05, 1.0);
   const double spread = std::max(0.5, static_cast<double>(kEvenness * part.unit) * smaller);
+  cv::Mat three;
+  cv::merge(std::vector{counts, counts, counts}, three);
   const auto mean = [&](const cv::Mat& of) {
     cv::Mat weighted, small, smooth;
-    cv::Mat three;
-    cv::merge(std::vector{counts, counts, counts}, three);
     cv::multiply(of, three, weighted);
     cv::resize(weighted, small, {}, smaller, smaller, cv::INTER_AREA);
     cv::GaussianBlur(small, smooth, {}, spread, spread, cv::BORDER_CONSTANT);
@@ -159,6 +179,19 @@ cv::Mat Gains(const cv::Mat& film, const cv::Mat& drawn, const cv::Mat& counts, 
   }
   cv::resize(quotient, gains, film.size(), 0, 0, cv::INTER_LINEAR);
   return gains;
+}
+
+/// Skin that both film and drawing show: inside both chins, but for both mouths. 0 to 1.
+cv::Mat SkinOfBoth(std::span<const glm::vec2> seen, std::span<const glm::vec2> points,
+                   const cv::Mat& opacity, const Part& part) {
+  const auto old_skin = Outline(seen, -kEdge), new_skin = Outline(points, -kEdge);
+  cv::Mat skin, lips, counts;
+  cv::bitwise_and(Inside(old_skin, old_skin, part), Inside(new_skin, new_skin, part), skin);
+  cv::dilate(Inside(Lips(seen), Lips(points), part), lips, Ellipse(0.06F * part.unit));
+  skin.setTo(0, lips);
+  skin.convertTo(counts, CV_32F, 1.0 / 255);
+  cv::multiply(counts, opacity, counts);
+  return counts;
 }
 
 /// Noise of that deviation, as the film has it.
@@ -195,50 +228,23 @@ void PaintMouth(fsm::Image& picture, std::span<const glm::vec2> seen, const Draw
   std::vector<glm::vec2> points;
   for (const glm::vec2 p : drawn.points) points.push_back(drawn.placing(p));
   const auto old_area = Outline(seen, kBeyondChin), new_area = Outline(points, kBeyondChin);
-  Part part{.box = {},
-            .unit = glm::distance(seen[point::kEyeOuterRight], seen[point::kEyeOuterLeft])};
-  const int margin = cvCeil(kAround * part.unit) + 2;
-  auto all = InPart(old_area, {});
-  const auto more = InPart(new_area, {});
-  all.insert(all.end(), more.begin(), more.end());
-  part.box = cv::boundingRect(all);
-  part.box -= cv::Point(margin, margin);
-  part.box += cv::Size(2 * margin, 2 * margin);
-  part.box &= cv::Rect(0, 0, picture.width, picture.height);
+  const Part part = PartOf(picture, old_area, new_area,
+                           glm::distance(seen[point::kEyeOuterRight], seen[point::kEyeOuterLeft]));
   if (part.box.width < 8 || part.box.height < 8 || share <= 0) return;
 
-  cv::Mat area(part.box.size(), CV_8U, cv::Scalar(0));
-  Fill(area, old_area, part, 255);
-  Fill(area, new_area, part, 255);
-  cv::Mat colours, opacity;
+  cv::Mat colours, opacity, film;
   Lay(drawn, part, colours, opacity);
-  cv::Mat whole(picture.height, picture.width, CV_8UC4, picture.rgba.data());
-  cv::Mat film_part = whole(part.box), film;
+  cv::Mat film_part =
+      cv::Mat(picture.height, picture.width, CV_8UC4, picture.rgba.data())(part.box);
   cv::cvtColor(film_part, film, cv::COLOR_RGBA2RGB);
   film.convertTo(film, CV_32FC3, 1.0 / 255);
 
-  // Skin that both show: around the area and in it, but for both mouths.
-  cv::Mat skin, counts;
-  cv::Mat lips(part.box.size(), CV_8U, cv::Scalar(0));
-  Fill(lips, Lips(seen), part, 255);
-  Fill(lips, Lips(points), part, 255);
-  cv::dilate(lips, lips, Ellipse(0.06F * part.unit));
-  cv::Mat faces(part.box.size(), CV_8U, cv::Scalar(0)), face_drawn = faces.clone();
-  Fill(faces, Outline(seen, -kEdge), part, 255);
-  Fill(face_drawn, Outline(points, -kEdge), part, 255);
-  cv::bitwise_and(faces, face_drawn, skin);
-  skin.setTo(0, lips);
-  skin.convertTo(counts, CV_32F, 1.0 / 255);
-  cv::multiply(counts, opacity, counts);
-
-  const cv::Mat gains = Gains(film, colours, counts, part);
-  cv::multiply(colours, gains, colours);
+  const cv::Mat counts = SkinOfBoth(seen, points, opacity, part);
+  cv::multiply(colours, Gains(film, colours, counts, part), colours);
   AddGrain(drawn.grain, drawn.seed, colours);
-  cv::Mat shares = Shares(area, part);
-  cv::Mat either(part.box.size(), CV_8U, cv::Scalar(0));
-  Fill(either, Outline(seen, kChinEdge), part, 255);
-  Fill(either, Outline(points, kChinEdge), part, 255);
-  KeepWhatDiffers(film, colours, seen, either, part, shares);
+  cv::Mat shares = Shares(Inside(old_area, new_area, part), part);
+  const cv::Mat faces = Inside(Outline(seen, kChinEdge), Outline(points, kChinEdge), part);
+  KeepWhatDiffers(film, colours, seen, faces, part, shares);
   cv::multiply(shares, opacity, shares, static_cast<double>(std::min(share, 1.0F)));
   for (int y = 0; y < film.rows; ++y) {
     for (int x = 0; x < film.cols; ++x) {

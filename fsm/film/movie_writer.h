@@ -14,11 +14,11 @@ namespace fsm {
 class MovieWriter {
  public:
   /// .mp4 (H.264, yuv420p); .mov (ProRes 4444) or .webm (VP9), which keep what is transparent; .mkv
-  /// (FFV1 in RGB, FLAC), which keeps colours and sound to the bit; or
-  /// .rgba: every frame's width * height * 4 bytes one after the other,
-  /// into a file or a named pipe that somebody reads (SIGPIPE must be ignored). Error: kUnavailable
-  /// if ffmpeg is missing or refuses, with its last line. 1 to 1000
-  /// frames per second; `comment`: told to whoever reads the file's metadata, unless it is .rgba.
+  /// (FFV1 in RGB, FLAC), which keeps colours and sound to the bit; or .rgba: every frame's width *
+  /// height * 4 bytes one after the other, into a file or a named pipe that somebody reads (SIGPIPE
+  /// must be ignored). Error: kUnavailable if ffmpeg is missing or refuses, with its last line. 1
+  /// to 1000 frames per second; `comment`: told to whoever reads the file's metadata, unless it is
+  /// .rgba.
   static vm::Result<std::unique_ptr<MovieWriter>> Open(const std::string& path, int width,
                                                        int height, double frames_per_second,
                                                        const std::string& comment = {});

@@ -24,6 +24,7 @@
 #include "ssm/sinks/sink_choice.h"
 #include "ssm/voice/voice_module.h"
 #include "vm_protocol/core/file_kind.h"
+#include "vm_protocol/core/spawn.h"
 #include "vm_protocol/core/text_file.h"
 #include "vm_protocol/runtime/module_main.h"
 
@@ -56,13 +57,6 @@ std::string ReadFileOrThrow(const std::string& path) {
   return std::move(*text);
 }
 
-/// A program that is built beside this one.
-std::string Neighbour(const char* name) {
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return error ? std::string(name) : (self.parent_path() / name).string();
-}
-
 /// flite, the voices of the configuration, and espeak-ng for all other languages if it is there.
 std::unique_ptr<ssm::SpeechEngine> MakeEngines(const Options& options) {
   std::vector<std::unique_ptr<ssm::SpeechEngine>> engines;
@@ -72,13 +66,14 @@ std::unique_ptr<ssm::SpeechEngine> MakeEngines(const Options& options) {
     const auto folder = std::filesystem::path(options.voices_path).parent_path().string();
     auto parsed = ssm::ParseVoicesConfig(ReadFileOrThrow(options.voices_path),
                                          {.folder = folder.empty() ? "." : folder,
-                                          .aligner = Neighbour("align"),
+                                          .aligner = vm::ProgramBeside("align"),
                                           .read_file = ReadFile});
     if (!parsed) throw std::runtime_error(options.voices_path + ": " + parsed.error().text);
     config = std::move(*parsed);
   }
   for (auto& engine : config.engines) engines.push_back(std::move(engine));
-  if (const std::string helper = Neighbour("ssm_espeak"); access(helper.c_str(), X_OK) == 0) {
+  if (const std::string helper = vm::ProgramBeside("ssm_espeak");
+      access(helper.c_str(), X_OK) == 0) {
     engines.push_back(ssm::MakeEspeakEngine({.helper = helper, .dictionary = options.dictionary}));
   }
   auto set = std::make_unique<ssm::EngineSet>(std::move(engines));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "ssm/engines/wav_piece.h"
@@ -54,6 +55,8 @@ vm::Result<std::string> VoiceProcess::Request(const std::string& line,
   const std::string tag = std::to_string(++last_tag_);
   std::string tagged = line;
   tagged.replace(tagged.find("{}"), 2, tag);
+  std::ranges::replace_if(
+      tagged, [](char c) { return c == '\n' || c == '\r'; }, ' ');
   if (auto sent = process_->Write(tagged + "\n", wait); !sent) {
     return std::unexpected(sent.error());
   }

@@ -23,8 +23,8 @@ struct Spoken {
 class VoiceProcess {
  public:
   struct Words {
-    std::string text;   ///< as its slot Text takes it: one line, SSML or plain
-    std::string voice;  ///< "" = its first one
+    std::string text{};   ///< as its slot Text takes it; line breaks are blanks
+    std::string voice{};  ///< "" = its first one
     double speed = 1;
   };
   /// `limit` for a text; `cancelled`, which outlives this, ends what is under way.

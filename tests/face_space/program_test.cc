@@ -9,26 +9,16 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/support/process.h"
+#include "tests/support/run.h"
 
 namespace {
 
-struct Ran {
-  int code = -1;
-  std::string out, error;
-};
+using support::Ran;
 
 Ran RunProgram(const std::string& program, std::vector<std::string> words,
                const std::string& input = "") {
   words.insert(words.begin(), GALATEA_BIN_DIR "/" + program);
-  support::Process process(words);
-  if (!input.empty()) process.Write(input);
-  process.CloseInput();
-  Ran ran;
-  for (const std::string& line : process.ReadAll(support::Millis{120'000})) ran.out += line + "\n";
-  ran.code = process.Wait().value_or(-1);
-  ran.error = process.ErrorText();
-  return ran;
+  return support::RunToEnd(words, input);
 }
 
 class FaceSpaceProgramTest : public testing::Test {
@@ -64,8 +54,8 @@ TEST_F(FaceSpaceProgramTest, RecordingsBecomeTablesByWhichFsmMoves) {
                      "--labels", takes + "/labels.txt", "--places", takes + "/places.txt", "--out",
                      tables, "--vectors-out", folder_ / "vectors.csv", "--quiet"});
   ASSERT_EQ(units.code, 0) << units.error;
-  EXPECT_NE(units.out.find("Face vectors"), std::string::npos);
-  EXPECT_NE(units.out.find("Recorded12"), std::string::npos) << units.out;
+  EXPECT_NE(units.out().find("Face vectors"), std::string::npos);
+  EXPECT_NE(units.out().find("Recorded12"), std::string::npos) << units.out();
   EXPECT_TRUE(Read(folder_ / "vectors.csv").starts_with("vector,variance,s001_x"));
   const std::string moves = Read(tables + "/moves/motion_1.txt");
   EXPECT_NE(moves.find("set AU = "), std::string::npos);
@@ -88,7 +78,7 @@ TEST_F(FaceSpaceProgramTest, AnArkitTrackIsARecordingToo) {
   const Ran units = RunProgram(
       "face_space", {"units", Write("arkit.csv", track), "--out", folder_ / "tables", "--quiet"});
   EXPECT_EQ(units.code, 0) << units.error;
-  EXPECT_NE(units.out.find("Eigen1"), std::string::npos) << units.out;
+  EXPECT_NE(units.out().find("Eigen1"), std::string::npos) << units.out();
 }
 
 TEST_F(FaceSpaceProgramTest, ATrackOfASmileLandsAtHappy) {
@@ -97,9 +87,9 @@ TEST_F(FaceSpaceProgramTest, ATrackOfASmileLandsAtHappy) {
       "ms,person,au6L,au6R,au12L,au12R,au25,au26\n0,1,0,0,0,0,0,0\n40,1,0.9,0.9,0.8,0.8,0.7,0.1\n");
   const Ran where = RunProgram("face_space", {"where", track});
   ASSERT_EQ(where.code, 0) << where.error;
-  EXPECT_NE(where.out.find("0.0,0.000,0.000,0.000,NEUTRAL,0.00,1.00\n40.0,"), std::string::npos)
-      << where.out;
-  EXPECT_NE(where.out.find(",HAPPY,"), std::string::npos) << where.out;
+  EXPECT_NE(where.out().find("0.0,0.000,0.000,0.000,NEUTRAL,0.00,1.00\n40.0,"), std::string::npos)
+      << where.out();
+  EXPECT_NE(where.out().find(",HAPPY,"), std::string::npos) << where.out();
   EXPECT_NE(where.error.find("HAPPY 50 %"), std::string::npos) << where.error;
 }
 
@@ -108,8 +98,8 @@ TEST_F(FaceSpaceProgramTest, ThePointIsASlotOfFsm) {
       "fsm", {"--headless", "--clock", "virtual", "--size", "64x64"},
       "set FaceExp.point = 0.5 0 -0.5 200\ninq FaceExp.point\nset FaceExp.point = 3 0 0\n"
       "def FaceExp.point = 12 1\n");
-  EXPECT_NE(fsm.out.find("rep FaceExp.point = 0.5 0 -0.5 200"), std::string::npos) << fsm.out;
-  EXPECT_NE((fsm.out + fsm.error).find("FaceExp.point"), std::string::npos);
+  EXPECT_NE(fsm.out().find("rep FaceExp.point = 0.5 0 -0.5 200"), std::string::npos) << fsm.out();
+  EXPECT_NE((fsm.out() + fsm.error).find("FaceExp.point"), std::string::npos);
   EXPECT_NE(fsm.error.find("found '3'"), std::string::npos) << fsm.error;
 }
 

@@ -11,15 +11,11 @@
 #include <sstream>
 
 #include "face_fit/find/network/face_networks.h"
-#include "tests/support/process.h"
+#include "tests/support/run.h"
 
 namespace {
 
-struct Ran {
-  int code = -1;
-  std::vector<std::string> lines;
-  std::string error;
-
+struct Ran : support::Ran {
   /// Of a CSV: each line by the names of the first.
   std::vector<std::map<std::string, std::string>> Rows() const {
     const auto cells = [](const std::string& line) {
@@ -45,15 +41,7 @@ struct Ran {
   }
 };
 
-Ran RunProgram(const std::vector<std::string>& words) {
-  support::Process program(words);
-  program.CloseInput();
-  Ran ran;
-  ran.lines = program.ReadAll(support::Millis{120000});
-  ran.code = program.Wait().value_or(-1);
-  ran.error = program.ErrorText();
-  return ran;
-}
+Ran RunProgram(const std::vector<std::string>& words) { return {support::RunToEnd(words)}; }
 
 Ran Track(std::vector<std::string> words) {
   words.insert(words.begin(), GALATEA_BIN_DIR "/face_track");

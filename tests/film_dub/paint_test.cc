@@ -98,14 +98,54 @@ TEST(MouthPainterTest, BelowTheChinWhatDiffersStaysTheFilms) {
   }
 }
 
-TEST(MouthPainterTest, AFaceAtTheEdgeOfThePictureIsPaintedAsFarAsItIsThere) {
-  const fsm::Image film = Skin(1), drawn = Skin(0.5F);
-  auto points = Points();
-  for (glm::vec2& p : points) p += glm::vec2(150, 120);
+TEST(MouthPainterTest, BesideTheMouthWhatDiffersStaysTheFilms) {
+  const auto points = Points();
+  const fsm::Image film = Skin(1);
+  fsm::Image drawn = film, out = film;  // with a lock of dark hair over the cheek
+  const int lock = static_cast<int>(1.45F * points[291].x - 0.45F * points[13].x);
+  const int row = static_cast<int>(points[13].y);
+  for (int y = 0; y < kHigh; ++y) {
+    for (int x = lock - 3; x <= lock + 3; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) drawn.rgba[4 * drawn.Index(x, y) + c] = 20;
+    }
+  }
+  PaintMouth(out, points, {.picture = &drawn, .placing = {}, .points = points}, 1);
+  EXPECT_NEAR(out.rgba[4 * out.Index(lock, row)], film.rgba[4 * film.Index(lock, row)], 12);
+}
+
+TEST(MouthPainterTest, GrainIsAddedWhereTheMouthIsDrawn) {
+  const auto points = Points();
+  const fsm::Image film = Skin(1);
   fsm::Image out = film;
   PaintMouth(out, points,
-             {.picture = &drawn, .placing = {{1, 0, 150, 0, 1, 120}}, .points = Points()}, 1);
-  EXPECT_EQ(out.width, kWide);
+             {.picture = &film, .placing = {}, .points = points, .grain = 4.0 / 255, .seed = 3}, 1);
+  double squares = 0;
+  int count = 0;
+  for (int y = -5; y <= 5; ++y) {
+    for (int x = -15; x <= 15; ++x, ++count) {
+      const auto i =
+          4 * out.Index(static_cast<int>(points[13].x) + x, static_cast<int>(points[13].y) + y);
+      squares += std::pow(int{out.rgba[i]} - int{film.rgba[i]}, 2);
+    }
+  }
+  EXPECT_NEAR(std::sqrt(squares / count), 4, 0.7);
+}
+
+TEST(MouthPainterTest, AFaceAtTheEdgeOfThePictureIsPaintedAsFarAsItIsThere) {
+  const auto points = Points();
+  const glm::vec2 lips = points[13];
+  const glm::vec2 aside(static_cast<float>(kWide) - lips.x - 10, 0);
+  auto seen = points;
+  for (glm::vec2& p : seen) p += aside;
+  const fsm::Image film = Skin(1);
+  fsm::Image drawn = film, out = film;
+  for (int x = -12; x <= 12; ++x) {
+    const auto i = 4 * drawn.Index(static_cast<int>(lips.x) + x, static_cast<int>(lips.y));
+    drawn.rgba[i] = drawn.rgba[i + 1] = drawn.rgba[i + 2] = 20;
+  }
+  PaintMouth(out, seen,
+             {.picture = &drawn, .placing = {{1, 0, aside.x, 0, 1, 0}}, .points = points}, 1);
+  EXPECT_LT(out.rgba[4 * out.Index(kWide - 8, static_cast<int>(lips.y))], 60);
 }
 
 TEST(PlacingTest, AnAffineMapIsFoundAgain) {

@@ -12,24 +12,12 @@
 #include <sstream>
 
 #include "face_fit/find/network/face_networks.h"
-#include "tests/support/process.h"
+#include "tests/support/run.h"
 
 namespace {
 
-struct Ran {
-  int code = -1;
-  std::string out, error;
-};
-
-Ran RunProgram(const std::vector<std::string>& words) {
-  support::Process program(words);
-  program.CloseInput();
-  Ran ran;
-  for (const std::string& line : program.ReadAll(support::Millis{240000})) ran.out += line + "\n";
-  ran.code = program.Wait().value_or(-1);
-  ran.error = program.ErrorText();
-  return ran;
-}
+using support::Ran;
+using support::RunToEnd;
 
 std::string ReadBytes(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -66,13 +54,13 @@ class FilmDubTest : public testing::Test {
   static std::string Path(const std::string& name) { return *folder_ / name; }
   static void Make(std::vector<std::string> words) {
     words.insert(words.begin(), {"ffmpeg", "-v", "error", "-nostdin", "-y"});
-    const Ran made = RunProgram(words);
+    const Ran made = RunToEnd(words);
     ASSERT_EQ(made.code, 0) << made.error;
   }
   static Ran Dub(std::vector<std::string> words) {
     words.insert(words.begin(), GALATEA_BIN_DIR "/film_dub");
     words.insert(words.end(), {"--field", "25", "--quiet"});
-    return RunProgram(words);
+    return RunToEnd(words);
   }
   /// Every picture's bytes, RGB.
   static std::vector<std::string> Pictures(const std::string& name) {
@@ -108,7 +96,7 @@ TEST_F(FilmDubTest, NewWordsMoveTheMouthAndNothingElse) {
   const Ran ran =
       Dub({Path("film.mp4"), "--text", "Ah, my mama bought two maps.", "--out", Path("new.mkv")});
   ASSERT_EQ(ran.code, 0) << ran.error;
-  EXPECT_EQ(ran.out, "film_dub: wrote " + Path("new.mkv") + "\n");
+  EXPECT_EQ(ran.out(), "film_dub: wrote " + Path("new.mkv") + "\n");
   const auto before = Pictures("film.mp4"), after = Pictures("new.mkv");
   ASSERT_GT(after.size(), 30U);
   constexpr int kPlain = 40;  // more than the codec makes of stillness
@@ -142,12 +130,12 @@ TEST_F(FilmDubTest, TheNewFilmSaysThatItWasAlteredAndHasTheNewSound) {
   Make({"-f", "lavfi", "-i", "sine=frequency=900:duration=2:sample_rate=16000", Path("high.wav")});
   const Ran ran = Dub({Path("film.mp4"), "--sound", Path("high.wav"), "--out", Path("told.mkv")});
   ASSERT_EQ(ran.code, 0) << ran.error;
-  const Ran told = RunProgram({"ffprobe", "-v", "error", "-show_entries",
-                               "format_tags:stream=codec_name", "-of", "csv", Path("told.mkv")});
-  EXPECT_NE(told.out.find("stream,ffv1"), std::string::npos) << told.out;
-  EXPECT_NE(told.out.find("stream,flac"), std::string::npos) << told.out;
-  EXPECT_NE(told.out.find("Altered: what is said, and mouth and chin"), std::string::npos)
-      << told.out;
+  const Ran told = RunToEnd({"ffprobe", "-v", "error", "-show_entries",
+                             "format_tags:stream=codec_name", "-of", "csv", Path("told.mkv")});
+  EXPECT_NE(told.out().find("stream,ffv1"), std::string::npos) << told.out();
+  EXPECT_NE(told.out().find("stream,flac"), std::string::npos) << told.out();
+  EXPECT_NE(told.out().find("Altered: what is said, and mouth and chin"), std::string::npos)
+      << told.out();
   Make({"-i", Path("told.mkv"), "-f", "s16le", "-ac", "1", "-ar", "16000", Path("sound")});
   const std::string bytes = ReadBytes(Path("sound"));
   std::array<std::int16_t, 16000> samples{};
@@ -176,6 +164,8 @@ TEST_F(FilmDubTest, WhatCannotBeDubbedIsOneSentenceAndNoFilm) {
       {{Path("film.mp4"), "--sound", Path("text.mp4")}, "cannot read '"},
       {{Path("film.mp4"), "--sound", Path("long.wav")}, "its new sound 9.00: expected at most 2"},
       {{Path("film.mp4")}, "--text or --sound expected"},
+      {{"camera", "--text", "Ah"}, "'camera' can be seen only once"},
+      {{Path("film.mp4"), "--sound", Path("long.wav"), "--voices", "v.json"}, "--voices: --text"},
       {{Path("film.mp4"), "--text", "Ah", "--voice", "nobody"}, "nobody"},
   };
   for (const auto& [words, said] : cases) {

@@ -100,5 +100,13 @@ TEST(FilmCourseTest, TheRestIsAFaceTurnedToTheCameraWithItsMouthShut) {
   EXPECT_FALSE(course.IsUsable(4));
 }
 
+TEST(FilmCourseTest, AHeadTurnsOnFromWhereItIsHeld) {
+  FilmCourse course;
+  course.lines.resize(2);
+  course.lines[0].head = {1, 2, 3};
+  course.lines[1].head = {5, -10, 3};
+  EXPECT_EQ(course.Turned({0.5F, 1, -1}, 0, 1), (fsm::Angles{4.5F, -11, -1}));
+}
+
 }  // namespace
 }  // namespace filmdub

@@ -51,6 +51,9 @@ TEST_F(McpProgramTest, OverHttpTheSameConversationIsHeldAndStrangersAreRefused) 
   }
   mcp.Terminate();
   EXPECT_EQ(mcp.Wait(), 0) << mcp.ErrorText();
+  EXPECT_NE(mcp.ErrorText().find("refused"), std::string::npos) << "strangers are";
+  EXPECT_EQ(mcp.ErrorText().find("neither POST nor DELETE"), std::string::npos)
+      << "whoever asks for a stream is not: " << mcp.ErrorText();
 }
 
 TEST_F(McpProgramTest, ClientsWhoGoLeaveTheirPlacesAtOnceThoughAModuleNeverAnswers) {

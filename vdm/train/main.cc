@@ -15,6 +15,7 @@
 #include "vdm/train/training.h"
 #include "vdm/train/triphone_training.h"
 #include "vdm/train/truth.h"
+#include "vm_protocol/core/spawn.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace {
@@ -43,14 +44,11 @@ T OrThrow(vm::Result<T> result) {
 
 void Tell(const std::string& text) { std::cerr << "vdm_train: " << text << std::endl; }
 
-std::string EspeakHelper() {
-  return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "ssm_espeak").string();
-}
-
 std::vector<vdm::Take> Corpus(const Options& options) {
   const std::string path = options.work + "/takes";
   if (!std::filesystem::exists(path)) {
-    const auto takes = OrThrow(vdm::MakeCorpus(EspeakHelper(), options.work + "/festival", Tell));
+    const auto takes =
+        OrThrow(vdm::MakeCorpus(vm::ProgramBeside("ssm_espeak"), options.work + "/festival", Tell));
     OrThrow(vdm::SaveCorpus(takes, path));
   }
   return OrThrow(vdm::LoadCorpus(path));
@@ -100,9 +98,10 @@ int TrainHead(const Options& options) {
 
 int TrainEmotion(const Options& options) {
   const bool made = options.emotion == kSynthetic;
-  const auto takes = OrThrow(made ? vdm::MakeEmotionTakes(EspeakHelper(), options.without,
-                                                          vdm::Dice(options.plan.seed), Tell)
-                                  : vdm::ReadEmotionTakes(options.emotion));
+  const auto takes =
+      OrThrow(made ? vdm::MakeEmotionTakes(vm::ProgramBeside("ssm_espeak"), options.without,
+                                           vdm::Dice(options.plan.seed), Tell)
+                   : vdm::ReadEmotionTakes(options.emotion));
   const std::string from = made ? "synthetic voices in manners of ssm" : "recordings";
   Write(options.out, OrThrow(vdm::TeachEmotion(takes, from, Tell)));
   return 0;

@@ -2,6 +2,8 @@
 
 #include <signal.h>
 
+#include <filesystem>
+
 extern "C" char** environ;
 
 namespace vm {
@@ -35,6 +37,12 @@ int Spawn::Start(const std::vector<std::string>& argv, pid_t& pid) {
   for (const std::string& word : argv) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
   return posix_spawnp(&pid, words[0], &files_, &attributes_, words.data(), environ);
+}
+
+std::string ProgramBeside(const std::string& name) {
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  return error ? name : (self.parent_path() / name).string();
 }
 
 }  // namespace vm

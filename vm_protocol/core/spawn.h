@@ -29,4 +29,8 @@ class Spawn {
   posix_spawnattr_t attributes_;
 };
 
+/// The path of a program that lies in the folder of this one; the name alone, to be found along
+/// PATH, where that folder is not known.
+std::string ProgramBeside(const std::string& name);
+
 }  // namespace vm

@@ -239,7 +239,7 @@ bool ModuleServer::Settle() {
   if (stop_ || module_.ExitRequested()) return true;
   if (!held_exits_.empty() && !module_.Busy()) {
     for (const auto& exit : std::exchange(held_exits_, {})) exit();
-    return module_.ExitRequested();
+    return Settle();
   }
   bool waiting = false;
   for (auto& [id, peer] : peers_) {
