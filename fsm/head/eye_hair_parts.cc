@@ -161,26 +161,29 @@ namespace {
 class BrowPlace {
  public:
   explicit BrowPlace(const Identity& identity)
-      : thickness_(identity.brow_thickness),
-        height_(identity.brow_height),
+      : brows_(identity.brows),
         middle_(identity.Look().CurveOf("brow_middle")),
         half_(identity.Look().CurveOf("brow_half_height")) {}
 
   // `level` -1 at the lower edge .. 1 at the upper.
   float Y(float x, float level) const {
-    return middle_(x) + thickness_ * half_(x) * level - 0.8f + height_;
+    const float straight = glm::mix(middle_(kFrom), middle_(kTo), (x - kFrom) / (kTo - kFrom));
+    return glm::mix(straight, middle_(x), brows_.arch) + brows_.thickness * half_(x) * level -
+           0.8f + brows_.height_mm;
   }
   // How densely the skin is covered, 0..1.
   float Cover(glm::vec2 at) const {
     const float x = std::abs(at.x);
     if (x < 6 || x > 60) return 0;
-    const float high = thickness_ * std::max(half_(std::clamp(x, 9.0f, 56.0f)), 1.0f) + 0.8f;
-    const float off = (at.y - Y(std::clamp(x, 9.0f, 56.0f), 0)) / high;
-    return std::exp(-off * off) * SmoothStep(8, 17, x) * SmoothStep(60, 48, x);
+    const float within = std::clamp(x, kFrom, kTo);
+    const float high = brows_.thickness * std::max(half_(within), 1.0f) + 0.8f;
+    const float off = (at.y - Y(within, 0)) / high;
+    return brows_.density * std::exp(-off * off) * SmoothStep(8, 17, x) * SmoothStep(60, 48, x);
   }
 
  private:
-  float thickness_, height_;
+  static constexpr float kFrom = 9, kTo = 56;  // of its table, millimetres from the middle
+  const Identity::Brows brows_;
   Curve middle_, half_;
 };
 
@@ -230,7 +233,11 @@ namespace {
 class BrowBuilder {
  public:
   BrowBuilder(const SkinFront& front, const Identity& identity, const BrowPlace& place)
-      : front_(front), palette_(identity.palette), features_(identity.Look()), place_(place) {}
+      : front_(front),
+        palette_(identity.palette),
+        features_(identity.Look()),
+        place_(place),
+        density_(identity.brows.density) {}
 
   std::vector<SkinHair> Build() {
     const auto& count = features_["brow_hairs"];
@@ -253,7 +260,7 @@ class BrowBuilder {
   void AddHair(Side side, float x, float level, int seed) {
     const float ends = SmoothStep(7, 20, x) * SmoothStep(59, 47, x);
     // Sparse where it begins.
-    if (0.5f + 0.5f * NoiseAt(seed, 26) > 0.35f + 0.65f * ends) return;
+    if (0.5f + 0.5f * NoiseAt(seed, 26) > density_ * (0.35f + 0.65f * ends)) return;
     const glm::vec2 root(x, place_.Y(x, 0.9f * level - 0.1f));
     // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
     const auto& lean = features_["brow_lean"];
@@ -285,6 +292,7 @@ class BrowBuilder {
   const Palette& palette_;
   const Features& features_;
   const BrowPlace& place_;
+  const float density_;
   const Curve grow_ = features_.CurveOf("brow_growth");
   std::vector<SkinHair> hairs_;
 };
@@ -302,6 +310,44 @@ std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identit
         glm::mix(mesh.albedo[i], identity.palette.brow, tone * place.Cover({p.x, p.y}));
   }
   return BrowBuilder(front, identity, place).Build();
+}
+
+std::vector<SkinHair> BuildStubble(const SkinFront& front, const SkinPainter& painter,
+                                   const Identity& identity) {
+  const Features& features = identity.Look();
+  const auto& n = features["stubble"];
+  const auto& place = features["stubble_place"];
+  std::vector<SkinHair> hairs;
+  if (identity.palette.beard <= 0) return hairs;
+  for (int k = 0; k < static_cast<int>(100 * n[0]); ++k) {
+    const glm::vec2 at(place[0] * NoiseAt(k, 41),
+                       glm::mix(place[1], place[2], 0.5f + 0.5f * NoiseAt(k, 42)));
+    glm::vec3 normal;
+    const glm::vec2 half(std::abs(at.x), at.y);
+    const glm::vec3 root = front.PointAt(half, normal);
+    if (0.5f + 0.5f * NoiseAt(k, 43) > painter.Beard(half, root.z)) continue;
+    const glm::vec2 from_lips = (half - glm::vec2(0, place[3])) / glm::vec2(place[4], place[5]);
+    if (glm::dot(from_lips, from_lips) < 1) continue;
+    const float length = n[1] * (1 + 0.5f * NoiseAt(k, 44));
+    const float lean = 0.6f * NoiseAt(k, 45);
+    const auto along = [&](float part) {
+      return front.PointAt(half + part * length * glm::vec2(lean, -1), normal);
+    };
+    if (glm::length(along(1) - root) > 3 * length) continue;  // past an edge
+    const auto on_skin = [&](float part) {
+      glm::vec3 p = along(part);
+      p.x = std::copysign(p.x, at.x);
+      return Unroll(p);
+    };
+    const float cover = n[3] * (1 + 0.4f * NoiseAt(k, 46));
+    hairs.push_back(
+        {.root = on_skin(0),
+         .middle = on_skin(0.5f),
+         .tip = on_skin(1),
+         .width_mm = n[2],
+         .tint = glm::mix(glm::vec3(1), identity.palette.hair / identity.palette.skin, cover)});
+  }
+  return hairs;
 }
 
 }  // namespace fsm

@@ -6,6 +6,7 @@
 #include "fsm/head/features.h"
 #include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
+#include "fsm/head/paint.h"
 #include "fsm/head/skin_mesh.h"
 
 namespace fsm {
@@ -15,6 +16,9 @@ std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identit
 /// The furrow over each upper lid, as strokes painted on the skin.
 std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye,
                                     const Identity& identity);
+/// A shaved beard's hairs, painted on the skin as densely as `painter` tones it.
+std::vector<SkinHair> BuildStubble(const SkinFront& front, const SkinPainter& painter,
+                                   const Identity& identity);
 /// Lashes of both sides. They move as skin and must be added before the rigid parts, so that such
 /// vertices stay one run. `of_photo`: those of the upper lids alone, with how dark they are in
 /// HeadMesh::opacity.

@@ -12,7 +12,7 @@ constexpr std::string_view kCurves[] = {"brow_middle", "brow_half_height", "brow
                                         "lid_fold_height", "hairline"};
 // How many things are made.
 constexpr std::string_view kCounts[] = {"upper_lashes", "lower_lashes", "brow_hairs",
-                                        "long_locks",   "long_wisps",   "long_fringe_locks"};
+                                        "long_locks",   "long_wisps",   "long_flyaways"};
 constexpr float kMostHairs = 200;  // in one row
 
 bool Ascends(const std::vector<float>& pairs) {
@@ -31,7 +31,7 @@ Features::Features(NumberTable numbers) : NumberTable(std::move(numbers)) {
     if (std::ranges::any_of(kCurves, is) && !Ascends(n))
       row.Fail("numbers of x that do not ascend");
     if (std::ranges::any_of(kCounts, is)) row.Within(1, 1, kMostHairs);
-    if (is("brow_hairs") || is("long_fringe_locks")) row.Within(2, 1, kMostHairs);
+    if (is("brow_hairs")) row.Within(2, 1, kMostHairs);
     if (is("long_locks") && !(n[1] < n[0])) row.Fail("no lock that is not at the edge");
     if (is("long_volume")) {
       for (std::size_t i = 1; i <= 3; ++i) row.Within(i, 10, 1000);
@@ -47,6 +47,14 @@ Features::Features(NumberTable numbers) : NumberTable(std::move(numbers)) {
     if (is("ear_bowl") || is("ear_upper_bowl") || is("ear_tragus") || is("ear_notch")) {
       row.Within(3, kLeast, kMost);
       row.Within(4, kLeast, kMost);
+    }
+    if (is("long_over_ear")) {
+      row.Within(3, kLeast, kMost);
+      row.Within(5, kLeast, kMost);
+    }
+    if (is("stubble_place")) {
+      row.Within(5, kLeast, kMost);
+      row.Within(6, kLeast, kMost);
     }
     if (is("photo_lid_furrow")) row.Within(3, kLeast, kMost);
     if (is("spot") || is("beard_thin_cheek")) {

@@ -108,13 +108,15 @@ class CroppedHair {
     const float top = SmoothStep(0.2f, 0.85f, d.y);
     const float body = glm::mix(style_.side_mm, style_.top_mm, top);
     const auto& thickens = features_["crop_thickens"];
-    return features_("crop_edge") + body * SmoothStep(thickens[0], thickens[1], up);
+    const auto& edge = features_["crop_edge"];
+    return edge[0] + edge[1] * SmoothStep(0.2f, -0.5f, d.z) +
+           body * SmoothStep(thickens[0], thickens[1], up);
   }
 
   void Shell() {
-    constexpr int kAround = 56;
-    constexpr std::array kUp = {0.0f,  0.022f, 0.06f, 0.12f, 0.20f, 0.29f,
-                                0.39f, 0.50f,  0.62f, 0.75f, 0.88f, 1.0f};
+    constexpr int kAround = 48;
+    constexpr std::array kUp = {0.0f,  0.022f, 0.06f, 0.11f, 0.17f, 0.23f, 0.30f, 0.37f, 0.44f,
+                                0.51f, 0.58f,  0.65f, 0.72f, 0.79f, 0.86f, 0.93f, 1.0f};
     const float ragged_by = features_("crop_ragged");
     const auto& edge_hair = features_["crop_edge_hair"];
     const auto& edge_density = features_["crop_edge_density"];
@@ -129,13 +131,14 @@ class CroppedHair {
         const glm::vec3 d = Direction(azimuth, kUp[r] + ragged);
         const float uneven = 1 + below[0] * NoiseAt(k % kAround, static_cast<int>(r) + 62);
         const glm::vec3 p = scalp_.Over(d, Depth(d, kUp[r]) * (r == 0 ? 1.0f : uneven));
-        const glm::vec3 colour = glm::mix(
-            palette_.hair, look_.StrandColour(3 * (k % kAround), static_cast<int>(r)), below[1]);
+        const glm::vec3 colour =
+            glm::mix(palette_.hair, look_.StrandColour(3 * (k % kAround), static_cast<int>(r)),
+                     below[1] * (1 - style_.curl));
         const float thin = r == 0 ? edge_hair[0] : 1.0f;
         mesh_.Add(p, glm::mix(palette_.skin * edge_hair[1], colour, thin),
                   r < 3 ? light[0] : light[1], Bone::kSkull);
         mesh_.strands.back() = {.along = Along(d, Forehead(azimuth, kUp[r])),
-                                .density = r < 2 ? edge_density[r] : 1.0f,
+                                .density = r < edge_density.size() ? edge_density[r] : 1.0f,
                                 .tile_mm = Curled({1.49f * azimuth, -140 * kUp[r]})};
       }
     }
@@ -174,7 +177,7 @@ class CroppedHair {
       const float swing = style_.wave_mm * std::sin(waves * kPi * v + static_cast<float>(k));
       const glm::vec3 d = glm::normalize(root + (along * (length * v) + side * swing * v) / 100.0f);
       const float over = Depth(d, Up(d));  // along the shell
-      path.push_back(scalp_.Over(d, 1.02f * over + lift * v * (1 - 0.75f * v) + 0.3f));
+      path.push_back(scalp_.Over(d, 1.02f * over + lift * v * (1 - 0.75f * v) + 0.9f));
     }
     const auto& wide = features_["crop_lock_width"];
     const float width =
@@ -183,6 +186,7 @@ class CroppedHair {
     look_.AddLock(path,
                   {.width_mm = wide[3] * width * (1 + uneven[3] * NoiseAt(k, 35)),
                    .root_part = taper[0],
+                   .tip_part = taper[3],
                    .fray_from = taper[1],
                    .open = taper[2]},
                   k, mesh_);

@@ -16,8 +16,8 @@ namespace {
 
 constexpr float kEnd = 1.0f;
 
-// Strands start along the parting, sweep over the skull and hang. Those at the face's edge are the
-// fringe: they come down over the forehead slantwise, a little off the skin, towards the temples.
+// Strands start along the parting, sweep over the skull and hang. Those at the face's edge frame
+// the forehead in a round arch, a little off the skin.
 class LongHair {
  public:
   LongHair(const LongStyle& style, const Features& features, const Palette& palette, HeadMesh& mesh)
@@ -35,7 +35,7 @@ class LongHair {
       Lining(side);
       Locks(side);
       Wisps(side);
-      Fringe(side);
+      Flyaways(side);
     }
   }
 
@@ -112,15 +112,15 @@ class LongHair {
     radius = glm::mix(skin + features_("long_furrow") * (radius - skin), radius,
                       SmoothStep(-0.1f, 0.28f, cap));
     glm::vec3 p = kHairCentre + d * (radius + out_mm);
+    p.x += side * OverEar(i, p.y);
     if (t > kCap) {
       const float hang = (t - kCap) / (kEnd - kCap);
       const glm::vec3 out = glm::normalize(glm::vec3(d.x, 0, d.z));
       const float front = SmoothStep(0.35f, 0, i);
       p.y = glm::mix(p.y, EndY(i, side), hang);
       const float full = Mix("long_full", front) * std::sin(std::min(1.0f, 1.2f * hang) * kPi);
-      const float wave =
-          style_.wave_mm * std::sin(7 * hang + 9 * i + side) * SmoothStep(0.1f, 0.6f, hang);
-      p += out * (full + wave - Mix("long_inward", SmoothStep(0, 0.6f, i)) * hang * hang * hang);
+      p += out * (full - Mix("long_inward", SmoothStep(0, 0.6f, i)) * hang * hang * hang) +
+           Wave(i, side, hang, out);
       p.z += front * features_("long_forward") * hang * (1 - 0.4f * hang);
       // At the face it follows the cheek.
       p.x -= side * front * features_("long_cheek") *
@@ -129,9 +129,29 @@ class LongHair {
     return p;
   }
 
+  // What hangs swings round the head and, less, off it; neighbours swing nearly alike.
+  glm::vec3 Wave(float i, float side, float hang, glm::vec3 out) const {
+    const auto& waves = features_["long_waves"];
+    const float phase = 2 * kPi * waves[0] * hang + waves[1] * i + waves[2] * side;
+    const float swing = style_.wave_mm * SmoothStep(-0.1f, 0.5f, hang);
+    return swing * (std::sin(phase) * glm::vec3(out.z, 0, -out.x) * side +
+                    waves[3] * std::cos(phase) * out);
+  }
+
+  // By how much the ear lifts what hangs over it.
+  float OverEar(float i, float y) const {
+    const auto& ear = features_["long_over_ear"];
+    const float round = (i - ear[1]) / ear[2];
+    const float up = (y - ear[3]) / ear[4];
+    return ear[0] * std::exp(-round * round - up * up);
+  }
+
   glm::vec3 Along(float i, float side, float t) const {
-    return glm::normalize(Point(i, side, t + 0.02f, 0) - Point(i, side, t - 0.02f, 0) +
-                          glm::vec3(0, -1e-3f, 0));
+    const glm::vec3 along = glm::normalize(Point(i, side, t + 0.02f, 0) -
+                                           Point(i, side, t - 0.02f, 0) + glm::vec3(0, -1e-3f, 0));
+    // At the parting hairs of both sides rise alike, or light would break off there.
+    const float off = SmoothStep(0, features_("long_parting_soft"), t);
+    return glm::normalize(glm::mix(features_.Vector("long_parting_along"), along, off));
   }
 
   float Ridge(float i, float t) const {
@@ -151,9 +171,10 @@ class LongHair {
   }
 
   void Shell(float side) {
-    constexpr int kStrands = 30;
-    constexpr int kCapRows = 13;  // the skull is round, what hangs nearly straight
-    constexpr int kRows = 19;
+    constexpr int kStrands = 27;
+    constexpr int kCapRows = 15;  // the skull is round, what hangs nearly straight
+    constexpr int kRows = 24;
+    const auto& thin = features_["long_thin"];
     const auto& light = features_["long_light"];
     const auto& tile = features_["long_tile"];
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
@@ -162,17 +183,23 @@ class LongHair {
       const float u = static_cast<float>(k) / kStrands;
       const float i = glm::mix(u * u, u, 0.45f);
       for (int row = 0; row <= kRows; ++row) {
+        // The first two rows are the parting, where the scalp is seen.
         const float t =
-            row <= kCapRows
-                ? kCap * static_cast<float>(row) / kCapRows
+            row == 1 ? features_("long_parting_line")
+            : row <= kCapRows
+                ? kCap * static_cast<float>(std::max(row - 1, 0)) / (kCapRows - 1)
                 : glm::mix(kCap, kEnd, static_cast<float>(row - kCapRows) / (kRows - kCapRows));
         const glm::vec3 p = Point(i, side, t, Ridge(i, t));
-        const float open = glm::mix(light[0], 1.0f, SmoothStep(0, 0.12f, t)) *
-                           glm::mix(light[1], 1.0f, SmoothStep(0, 0.1f, i));
-        mesh_.Add(p, look_.StrandColour(k * 3, row) * Mix("long_fade", t), open, Bone::kSkull);
+        const float open = std::min(1.0f, glm::mix(light[0], 1.0f, SmoothStep(0, 0.12f, t)) *
+                                              glm::mix(light[1], 1.0f, SmoothStep(0, 0.1f, i)) *
+                                              (1 + light[3] * Ridge(i, t)));
+        const glm::vec3 colour = look_.StrandColour(k * 3, row) * Mix("long_fade", t);
+        mesh_.Add(
+            p, row > 0 ? colour : glm::mix(colour, palette_.skin, features_("long_parting_scalp")),
+            open, Bone::kSkull);
         const float edge = k == 0 ? 0.1f : k == 1 ? 0.8f : 1.0f;
         mesh_.strands.back() = {.along = Along(i, side, t),
-                                .density = edge * SmoothStep(1.04f, 0.86f, t),
+                                .density = edge * SmoothStep(thin[0], thin[1], t),
                                 .tile_mm = {side * tile[0] * i, tile[1] * t}};
       }
     }
@@ -184,6 +211,7 @@ class LongHair {
     constexpr int kStrands = 12;
     constexpr int kRows = 6;
     const auto& insets = features_["long_lining"];
+    const auto& thin = features_["long_thin"];
     const auto& tile = features_["long_tile"];
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
@@ -198,7 +226,7 @@ class LongHair {
         mesh_.Add(Point(i, side, t, inset), palette_.hair, features_["long_light"][2],
                   Bone::kSkull);
         mesh_.strands.back() = {.along = Along(i, side, t),
-                                .density = SmoothStep(1.04f, 0.86f, t),
+                                .density = SmoothStep(thin[0], thin[1], t),
                                 .tile_mm = {tile[0] * i, tile[1] * t}};
       }
     }
@@ -225,7 +253,7 @@ class LongHair {
                             : ends[2] + ends[3] * NoiseAt(seed, 3);
       const float lift = edge ? lifts[0] : lifts[1] + lifts[2] * NoiseAt(seed, 4);
       std::vector<glm::vec3> path;
-      constexpr int kSteps = 6;
+      constexpr int kSteps = 8;
       for (int s = 0; s <= kSteps; ++s) {
         const float v = static_cast<float>(s) / kSteps;
         const float t = glm::mix(from, to, v);
@@ -238,7 +266,8 @@ class LongHair {
                     {.width_mm = edge ? wide[0] : wide[1] + wide[2] * NoiseAt(seed, 6),
                      .root_part = edge ? taper[0] : taper[1],
                      .tip_part = taper[2],
-                     .fray_from = taper[3]},
+                     .fray_from = taper[3],
+                     .open = edge ? taper[4] : 1},
                     seed, mesh_);
     }
   }
@@ -280,49 +309,24 @@ class LongHair {
     }
   }
 
-  // Locks from the parting over the upper forehead to the temple. The foremost end first, those
-  // from farther back reach lower.
-  void Fringe(float side) {
-    const std::size_t which = side < 0 ? 0 : 1;
-    const int locks = Count("long_fringe_locks", which);
-    const auto& rises = features_["long_fringe_rise"];
-    const auto& wide = features_["long_fringe_width"];
-    const auto& uneven = features_["long_fringe_uneven"];
-    const auto& thin = features_["long_fringe_thin"];
-    const auto& lifts = features_["long_fringe_lift"];
-    const auto& taper = features_["long_fringe_taper"];
-    for (int k = 0; k < locks; ++k) {
-      const int seed = k + (side > 0 ? 1300 : 1100);
-      const float u =
-          (static_cast<float>(k) + 0.5f + 0.5f * NoiseAt(seed, 1)) / static_cast<float>(locks);
-      // Some are thin strands that come further down.
-      const float strand = k % 3 == 1 && u < 0.7f ? 1.0f : 0.0f;
-      const glm::vec3 start = OnParting(Mix("long_fringe_start", u));
-      const glm::vec3 bend =
-          HairDirection(side * (Mix("long_fringe_bend", u) + uneven[0] * NoiseAt(seed, 2)),
-                        glm::mix(rises[which], rises[2], u) - thin[0] * strand);
-      const glm::vec3 end = HairDirection(
-          side * (Mix("long_fringe_end", u) + uneven[1] * NoiseAt(seed, 3)),
-          Mix("long_fringe_fall", u) + uneven[2] * NoiseAt(seed, 4) - thin[1] * strand);
+  // Single hairs that stand off the others.
+  void Flyaways(float side) {
+    const auto& fly = features_["long_flyaways"];
+    for (int k = 0; k < static_cast<int>(fly[0]); ++k) {
+      const int seed = k + (side > 0 ? 1700 : 1500);
+      const float i = 0.5f + 0.5f * NoiseAt(seed, 1);
+      const float from = fly[1] * (0.5f + 0.5f * NoiseAt(seed, 2));
+      const float length = fly[2] * (1 + 0.5f * NoiseAt(seed, 3));
+      const float drift = fly[3] * NoiseAt(seed, 4);
+      const float off = fly[4] * (1 + 0.6f * NoiseAt(seed, 5));
       std::vector<glm::vec3> path;
-      constexpr int kSteps = 7;
+      constexpr int kSteps = 3;
       for (int s = 0; s <= kSteps; ++s) {
         const float v = static_cast<float>(s) / kSteps;
-        const glm::vec3 d =
-            glm::normalize((1 - v) * (1 - v) * start + 2 * v * (1 - v) * bend + v * v * end);
-        const glm::vec3 scaled = d / volume_;
-        const float skin = scalp_.Distance(d);
-        const float full = 0.5f * (1 / std::sqrt(glm::dot(scaled, scaled)) - skin);
-        const float lift =
-            glm::mix(full + lifts[0], lifts[1] + NoiseAt(seed, 5), SmoothStep(0, 0.55f, v));
-        path.push_back(kHairCentre + d * (skin + lift - lifts[2] * v * v));
+        path.push_back(Point(std::clamp(i + drift * v * v, 0.0f, 1.0f), side, from + length * v,
+                             off * std::sin(kPi * (0.1f + 0.75f * v))));
       }
-      look_.AddLock(path,
-                    {.width_mm = wide[0] + wide[1] * NoiseAt(seed, 6) - thin[2] * strand,
-                     .root_part = taper[0],
-                     .fray_from = taper[1],
-                     .root_density = taper[2]},
-                    seed, mesh_);
+      look_.AddLock(path, {.width_mm = fly[5], .tip_part = 0.3f, .fray_from = 0.9f}, seed, mesh_);
     }
   }
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "fsm/base/angles.h"
 #include "fsm/base/random.h"
 #include "fsm/base/spline.h"
 #include "fsm/head/landmarks.h"
@@ -25,12 +26,14 @@ Scalp::Scalp(const HeadMesh& mesh) {
 }
 
 float Scalp::Distance(glm::vec3 direction) const {
+  // Behind, the skin has few points, because hair hides it.
+  const float reach = glm::mix(0.004f, 0.03f, SmoothStep(0.1f, -0.5f, direction.z));
   float sum = 0;
   float weights = 0;
   for (const auto& [d, length] : points_) {
     const float off = 1 - glm::dot(d, direction);
-    if (off > 0.05f) continue;
-    const float weight = std::exp(-off / 0.004f);
+    if (off > 12 * reach) continue;
+    const float weight = std::exp(-off / reach);
     sum += weight * length;
     weights += weight;
   }
@@ -68,8 +71,13 @@ void HairLook::ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMe
     float nearest = 1e9f;
     for (const glm::vec3 q : edge) nearest = std::min(nearest, glm::dot(p - q, p - q));
     const float near = std::exp(-nearest / (reach_mm * reach_mm)) * SmoothStep(10, 40, p.y);
-    mesh.occlusion[i] *= 1 - on_skin[0] * near;
-    mesh.albedo[i] = glm::mix(mesh.albedo[i], palette_.hair, on_skin[1] * near);
+    const glm::vec3 d = glm::normalize(p - kHairCentre);
+    const float above =
+        std::asin(d.y) * 180 / kPi - HairlineElevation(std::atan2(d.x, d.z) * 180 / kPi);
+    const float under = SmoothStep(on_skin[2], on_skin[3], above);
+    mesh.occlusion[i] *= 1 - on_skin[0] * std::max(near, under);
+    mesh.albedo[i] =
+        glm::mix(mesh.albedo[i], palette_.hair, std::max(on_skin[1] * near, on_skin[4] * under));
   }
 }
 

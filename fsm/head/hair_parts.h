@@ -52,7 +52,7 @@ class HairLook {
   /// A lock as a card along `path` that frays at its sides and towards its tip.
   void AddLock(std::span<const glm::vec3> path, const LockStyle& style, int seed,
                HeadMesh& mesh) const;
-  /// Darkens the skin under and beside the hair's edge, which runs through `edge`.
+  /// Darkens the skin under the hair and beside its edge, which runs through `edge`.
   void ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMesh& mesh) const;
   /// A hair painted on the skin, from `root` on (unit, from kHairCentre) in the direction `along`;
   /// `strength`: 1 = as the others, less is shorter and paler.

@@ -100,8 +100,9 @@ void ReadIdentityRow(const TableRow& row, Identity& identity) {
   } else if (key == "lashes") {
     identity.lashes = row.Number(1);
   } else if (key == "brows") {
-    identity.brow_thickness = row.Number(1);
-    identity.brow_height = row.Number(2);
+    identity.brows = {row.Number(1), row.Number(2)};
+    if (row.size() > 3) identity.brows.arch = row.Within(3, -0.5f, 2);
+    if (row.size() > 4) identity.brows.density = row.Within(4, 0, 1.5f);
   } else if (key == "creases") {
     for (std::size_t i = 0; i < 4; ++i) identity.creases[i] = row.Number(i + 1);
   } else {

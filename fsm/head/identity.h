@@ -46,7 +46,12 @@ struct Identity {
   };
   LidFold fold;
   float lashes = 1;
-  float brow_thickness = 1, brow_height = 0;
+  struct Brows {
+    float thickness = 1, height_mm = 0;
+    float arch = 1;     ///< how much they bend: 0 = straight from end to end
+    float density = 1;  ///< how many of their hairs there are, and how dark the skin between is
+  };
+  Brows brows;
   std::array<float, 4> creases{};              ///< by Crease
   std::shared_ptr<const Features> features{};  ///< in place of the built-in ones
 

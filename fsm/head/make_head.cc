@@ -119,6 +119,8 @@ BaseParts LayParts(const Ingredients& from, const BaseSkin& skin) {
   std::ranges::move(BuildLidFolds(front, from.eye, from.identity),
                     std::back_inserter(parts.skin_hairs));
   if (!from.photo) {
+    std::ranges::move(BuildStubble(front, SkinPainter(look, from.eye, palette), from.identity),
+                      std::back_inserter(parts.skin_hairs));
     std::ranges::move(HairlineOf(from.identity, mesh), std::back_inserter(parts.skin_hairs));
   }
   // A photo shows the lashes of open eyes: only those of shut lids are added.

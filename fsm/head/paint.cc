@@ -25,8 +25,7 @@ void SkinPainter::AddSpots(glm::vec2 at, PaintedSkin& paint) const {
   }
 }
 
-/// On upper lip, chin, jaw up to before the ear, and some of the throat.
-void SkinPainter::AddBeard(glm::vec2 at, float z, PaintedSkin& paint) const {
+float SkinPainter::Beard(glm::vec2 at, float z) const {
   const auto& line = features_["beard_line"];
   const auto& thin = features_["beard_thin_cheek"];
   const float jaw_line = glm::mix(line[0], line[1], SmoothStep(30, 62, at.x));
@@ -35,8 +34,7 @@ void SkinPainter::AddBeard(glm::vec2 at, float z, PaintedSkin& paint) const {
   const float under_nose = SmoothStep(-23, -27, at.y);
   const float cheek = 1 - thin[0] * std::exp(-0.5f * (std::pow((at.x - thin[1]) / thin[3], 2.0f) +
                                                       std::pow((at.y - thin[2]) / thin[4], 2.0f)));
-  const float shown = palette_.beard * low * front * under_nose * cheek;
-  paint.albedo *= glm::mix(glm::vec3(1), features_.Vector("beard_colour"), shown);
+  return palette_.beard * low * front * under_nose * cheek;
 }
 
 /// The upper lid is a little darker and warmer, most in its fold and at its lashes.
@@ -57,7 +55,7 @@ PaintedSkin SkinPainter::At(glm::vec3 place) const {
   PaintedSkin paint{palette_.skin, 1.0f};
   const bool front = place.z > 40;
   if (front) AddSpots(half, paint);
-  if (palette_.beard > 0) AddBeard(half, place.z, paint);
+  paint.albedo *= glm::mix(glm::vec3(1), features_.Vector("beard_colour"), Beard(half, place.z));
   // Under the jaw, down to the throat.
   const float under = SmoothStep(-80, -92, place.y) * SmoothStep(-150, -108, place.y) *
                       SmoothStep(64, 52, place.z + 0.4f * (place.y + 88));

@@ -26,6 +26,9 @@ class SkinPainter {
  public:
   SkinPainter(const Features& features, const EyeAnatomy& eye, const Palette& palette);
   PaintedSkin At(glm::vec3 place) const;
+  /// How far a shaved beard shows there, 0..1: on upper lip, chin, jaw up to before the ear, and
+  /// some of the throat. `at.x`: 0 or more.
+  float Beard(glm::vec2 at, float z) const;
 
  private:
   struct Spot {
@@ -33,7 +36,6 @@ class SkinPainter {
     float blush, shade;
   };
   void AddSpots(glm::vec2 at, PaintedSkin& paint) const;
-  void AddBeard(glm::vec2 at, float z, PaintedSkin& paint) const;
   void AddLid(glm::vec2 at, PaintedSkin& paint) const;
 
   const Features& features_;

@@ -91,6 +91,9 @@ class RegionPainter {
                        Bell(p.y - chin_[2] * m_.gnathion.y - chin_[3] * m_.stomion.y, chin_[1]);
     const float flush = blood_[0] * cheek + blood_[1] * tip + blood_[2] * chin;
     tint *= 1.0F - flush * (blood_[3] + blood_[4] * fine) * Tint(blood_, 5);
+    const float high = SmoothStep(m_.nasion.y + 8, m_.nasion.y + 30, p.y);
+    const float low = SmoothStep(m_.stomion.y + 6, 0.7F * m_.gnathion.y + 0.3F * m_.stomion.y, p.y);
+    tint *= 1.0F - high * Tint(forehead_, 0) - low * Tint(lower_face_, 0);
     tint *= AroundEye(side, p.y);
     tint.a *= Oil(p, tip, chin);
   }
@@ -126,6 +129,7 @@ class RegionPainter {
   const Numbers &patches_ = Look("patches"), &lip_ = Look("lip_highlights"),
                 &pores_ = Look("pores");
   const Numbers &cheek_ = Look("cheek"), &nose_tip_ = Look("nose_tip"), &chin_ = Look("chin");
+  const Numbers &forehead_ = Look("forehead"), &lower_face_ = Look("lower_face");
   const Numbers &blood_ = Look("blood"), &eye_width_ = Look("eye_width"),
                 &below_eye_ = Look("below_eye");
   const Numbers &lid_ = Look("lid"), &eye_corner_ = Look("eye_corner"), &oil_ = Look("oil");

@@ -49,7 +49,7 @@ TEST(AppearanceTest, BadRowsAreRefusedWithFileAndLine) {
   struct Case {
     std::string row, instead, why;
   };
-  const std::string skin = "surface skin         0.54 0.44 0.39   1.5 1.9 0.0  0.35    1.0  1.12";
+  const std::string skin = "surface skin         0.60 0.42 0.36   1.5 1.9 0.0  0.35    1.0  1.20";
   const Case cases[] = {
       {"\nexposure            0.44", "\nexposure bright", "'exposure bright' is not known"},
       {"\nexposure            0.44", "\nexposure", "'exposure' needs 1 numbers after it, found 0"},

@@ -145,7 +145,7 @@ void main() {
   // A photographer's lamp is smaller and round.
   if (photo_brightness > 0.0) window = photo_lamp * smoothstep(0.24, 0.04, length(pane)) * step(0.0, dot(mirrored, kWindow));
   float soft_box = pow(max(dot(mirrored, lamp_directions[1]), 0.0), 24.0);
-  result += gloss * mirrored_window * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
+  result += gloss * mirrored_window * lamp_colors[0] * window * mix(1.0, window_on_white, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
   result += gloss * lamp_colors[1] * mirrored_box * soft_box * shade;
   // Tears stand along the lower lid and catch the light from above.
   float tears = smoothstep(0.9, 0.35, above_lower - 0.3 * narrower) * smoothstep(0.9, 0.3, abs(beside));

@@ -12,7 +12,7 @@ out vec4 color;
 void main() {
   vec4 fine = texture(strands, streak_place) - 0.5;
   // Where hair thins out some hairs are gone and some are left.
-  float density = fray.x * min(2.2 - 2.2 * abs(fray.y), 1.0);
+  float density = hair_closed * fray.x * min(2.2 - 2.2 * abs(fray.y), 1.0);
   // Ends and edges thin out softly: each of the samples of a pixel asks for another density.
   vec2 odd = mod(floor(gl_FragCoord.xy), 2.0);
   float asks = 0.35 * (0.5 * odd.x + 0.25 * odd.y - odd.x * odd.y);
