@@ -31,8 +31,9 @@ ClothRing ClothRingOf(const std::vector<float>& n) {
 void BuildCloth(const Features& features, const Palette& palette, HeadMesh& mesh) {
   constexpr int kHalf = 13;  // columns of a half
   // The first ring is row -1, the collar's foot 0.
-  constexpr std::array kRows = {-1.0f, 0.0f, 0.75f, 1.0f, 1.5f, 2.0f,
-                                2.5f,  3.0f, 3.6f,  4.3f, 5.0f, 6.0f};
+  constexpr std::array kRows = {-1.0f, 0.0f, 0.75f, 1.0f, 2.2f, 2.26f, 2.32f,
+                                2.7f,  3.1f, 3.6f,  4.3f, 5.0f, 6.0f};
+  constexpr std::size_t kSeam = 5;
   std::vector<float> around_at, down_at;
   // Mirrored neighbours at both ends keep the surface smooth over the medians.
   for (int i = -1; i <= kPoints; ++i) around_at.push_back(static_cast<float>(i));
@@ -48,27 +49,30 @@ void BuildCloth(const Features& features, const Palette& palette, HeadMesh& mesh
   weights.free = weights.neck = weights.jaw = 0;
   const float uneven = features("shirt_uneven");
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
-  for (const float row : kRows) {
+  const auto& seam = features["shirt_seam"];
+  for (std::size_t r = 0; r < kRows.size(); ++r) {
+    const float row = kRows[r];
+    const float light = r == kSeam ? seam[0] : r < kSeam ? seam[1] : 1.0f;
     down.Weights(row, wd);
     float open = 0;
-    for (std::size_t r = 0; r < rings.size(); ++r) open += wd[r] * rings[r].open;
+    for (std::size_t k = 0; k < rings.size(); ++k) open += wd[k] * rings[k].open;
     for (int c = 0; c <= 2 * kHalf; ++c) {
       // From the back over the agent's left to the front, over the right and back again.
       const bool left = c <= kHalf;
       const int k = left ? kHalf - c : c - kHalf;
       around.Weights(static_cast<float>(k) * (kPoints - 1) / kHalf, wa);
       glm::vec3 p(0);
-      for (std::size_t r = 0; r < rings.size(); ++r) {
+      for (std::size_t ring = 0; ring < rings.size(); ++ring) {
         for (int i = -1; i <= kPoints; ++i) {
           const int from = i < 0 ? 1 : i == kPoints ? kPoints - 2 : i;
-          glm::vec3 q = rings[r].points[static_cast<std::size_t>(from)];
+          glm::vec3 q = rings[ring].points[static_cast<std::size_t>(from)];
           if (from != i) q.x = -q.x;
-          p += wd[r] * wa[static_cast<std::size_t>(i + 1)] * q;
+          p += wd[ring] * wa[static_cast<std::size_t>(i + 1)] * q;
         }
       }
       if (k == 0 || k == kHalf) p.x = 0;
       if (!left) p.x = -p.x;
-      mesh.Add(p, palette.cloth * (1 + uneven * NoiseAt(c, static_cast<int>(10 * row))),
+      mesh.Add(p, light * palette.cloth * (1 + uneven * NoiseAt(c, static_cast<int>(10 * row))),
                glm::clamp(open, 0.2f, 1.0f), Bone::kSkin, weights);
     }
   }

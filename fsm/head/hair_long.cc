@@ -208,7 +208,7 @@ class LongHair {
 
   // The dark inside of the hair, seen beside the neck and beyond the far temple.
   void Lining(float side) {
-    constexpr int kStrands = 12;
+    constexpr int kStrands = 11;
     constexpr int kRows = 6;
     const auto& insets = features_["long_lining"];
     const auto& thin = features_["long_thin"];

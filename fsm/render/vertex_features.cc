@@ -1,5 +1,6 @@
 #include "fsm/render/vertex_features.h"
 
+#include <glm/exponential.hpp>
 #include <initializer_list>
 #include <utility>
 
@@ -8,7 +9,7 @@ namespace {
 
 // As how many millimetres of error a difference of what a vertex shows counts.
 constexpr float kNormalMm = 3;      // of a radian
-constexpr float kColourMm = 6;      // from black to white
+constexpr float kColourMm = 3;      // from a colour to one e times as bright, as eyes compare
 constexpr float kOpenMm = 4;        // from shut off from light to open, from transparent to opaque
 constexpr float kUnrolledMm = 150;  // once across the skin's texture, which is some 310 mm wide
 constexpr float kCreaseMm = 2;      // from no crease to a whole one
@@ -64,7 +65,8 @@ VertexFeatures::VertexFeatures(const Head& head, const CreaseWeights& creases) {
     auto& column = columns.emplace_back(vertices);
     for (std::size_t i = 0; i < vertices; ++i) column[i] = value(i);
   };
-  add(true, [&](std::size_t i) { return kColourMm * topology.albedo[i]; });
+  constexpr float kDarkest = 0.02F;  // darker than this is all the same
+  add(true, [&](std::size_t i) { return kColourMm * glm::log(topology.albedo[i] + kDarkest); });
   add(true, [&](std::size_t i) {
     return kOpenMm * glm::vec3(topology.occlusion[i],
                                topology.opacity.empty() ? 1 : topology.opacity[i],

@@ -239,7 +239,10 @@ FloatImage FigureOf(const fsm::Image& photo) {
   return figure;
 }
 
+// Size and lean of the person in the second picture are found with the outline, so that one shape
+// may gain little; over two shapes it is much.
 TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
+  float all_with = 0, all_without = 0;
   for (const float strength : {1.0F, -1.0F}) {
     const Profile truth(this->truth(), strength);
     const auto& [photo, faces, face, front] = FrontOf(truth, strength);
@@ -254,9 +257,12 @@ TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
                   GetParam(), static_cast<double>(strength), static_cast<double>(turn),
                   static_cast<double>(view->residual_mm), static_cast<double>(with),
                   static_cast<double>(without));
-      EXPECT_LT(with, 0.96F * without);
+      EXPECT_LT(with, 1.05F * without);
+      all_with += with;
+      all_without += without;
     }
   }
+  EXPECT_LT(all_with, 0.9F * all_without);
 }
 
 TEST_P(TruthTest, AnOutlineThatIsNoProfileChangesNothing) {
