@@ -161,13 +161,25 @@ class LongHair {
            SmoothStep(0.02f, 0.3f, t) * (0.6f + 0.7f * t) * SmoothStep(0, 0.08f, i);
   }
 
+  /// By how much a column ends higher than its neighbours.
+  float Pointed(int column, float t) const {
+    return column % 2 == 0 ? 0.0f : features_("long_points") * SmoothStep(0.8f, kEnd, t);
+  }
+
   void Shade() {
     std::vector<glm::vec3> edge;
     for (const float side : {-1.0f, 1.0f}) {
-      for (int k = 0; k <= 32; ++k)
+      for (int k = 0; k <= 48; ++k)
         edge.push_back(Point(0, side, 0.02f * static_cast<float>(k), 0));
     }
     look_.ShadeSkin(edge, features_("long_shade"), mesh_);
+    for (std::size_t i = 0; i < mesh_.position.size(); ++i) {
+      const glm::vec3 p = mesh_.position[i];
+      if (mesh_.bone[i] != Bone::kSkin) continue;
+      const float behind = SmoothStep(25, -20, p.z) * SmoothStep(-40, -70, p.y) *
+                           SmoothStep(style_.back_y - 30, style_.back_y + 10, p.y);
+      mesh_.occlusion[i] *= 1 - features_("long_neck_shade") * behind;
+    }
   }
 
   void Shell(float side) {
@@ -189,7 +201,8 @@ class LongHair {
             : row <= kCapRows
                 ? kCap * static_cast<float>(std::max(row - 1, 0)) / (kCapRows - 1)
                 : glm::mix(kCap, kEnd, static_cast<float>(row - kCapRows) / (kRows - kCapRows));
-        const glm::vec3 p = Point(i, side, t, Ridge(i, t));
+        glm::vec3 p = Point(i, side, t, Ridge(i, t));
+        p.y += Pointed(k, t);
         const float open = std::min(1.0f, glm::mix(light[0], 1.0f, SmoothStep(0, 0.12f, t)) *
                                               glm::mix(light[1], 1.0f, SmoothStep(0, 0.1f, i)) *
                                               (1 + light[3] * Ridge(i, t)));
@@ -223,8 +236,8 @@ class LongHair {
         const float t =
             glm::mix(kCap * glm::mix(0.1f, 0.6f, behind), kEnd, static_cast<float>(row) / kRows);
         const float inset = glm::mix(insets.back(), insets[static_cast<std::size_t>(row)], behind);
-        mesh_.Add(Point(i, side, t, inset), palette_.hair, features_["long_light"][2],
-                  Bone::kSkull);
+        const glm::vec3 p = Point(i, side, t, inset) + glm::vec3(0, Pointed(k, t), 0);
+        mesh_.Add(p, palette_.hair, features_["long_light"][2], Bone::kSkull);
         mesh_.strands.back() = {.along = Along(i, side, t),
                                 .density = SmoothStep(thin[0], thin[1], t),
                                 .tile_mm = {tile[0] * i, tile[1] * t}};

@@ -67,15 +67,17 @@ void HairLook::ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMe
   const auto& on_skin = features_["hair_on_skin"];
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 p = mesh.position[i];
-    if (mesh.bone[i] != Bone::kSkin || p.y < 10) continue;
+    if (mesh.bone[i] != Bone::kSkin || p.y < on_skin[5]) continue;
     float nearest = 1e9f;
     for (const glm::vec3 q : edge) nearest = std::min(nearest, glm::dot(p - q, p - q));
-    const float near = std::exp(-nearest / (reach_mm * reach_mm)) * SmoothStep(10, 40, p.y);
+    const float beside =
+        std::exp(-nearest / (reach_mm * reach_mm)) * SmoothStep(on_skin[5], on_skin[5] + 30, p.y);
+    const float near = beside * SmoothStep(10, 40, p.y);
     const glm::vec3 d = glm::normalize(p - kHairCentre);
     const float above =
         std::asin(d.y) * 180 / kPi - HairlineElevation(std::atan2(d.x, d.z) * 180 / kPi);
     const float under = SmoothStep(on_skin[2], on_skin[3], above);
-    mesh.occlusion[i] *= 1 - on_skin[0] * std::max(near, under);
+    mesh.occlusion[i] *= 1 - on_skin[0] * std::max(beside, under);
     mesh.albedo[i] =
         glm::mix(mesh.albedo[i], palette_.hair, std::max(on_skin[1] * near, on_skin[4] * under));
   }

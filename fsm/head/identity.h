@@ -16,6 +16,7 @@
 #include "fsm/head/hair_long.h"
 #include "fsm/head/paint.h"
 #include "fsm/rig/eye_transform.h"
+#include "fsm/rig/unit_table.h"
 
 namespace fsm {
 
@@ -52,7 +53,7 @@ struct Identity {
     float density = 1;  ///< how many of their hairs there are, and how dark the skin between is
   };
   Brows brows;
-  std::array<float, 4> creases{};              ///< by Crease
+  std::array<float, kCreases> creases{};       ///< by Crease
   std::shared_ptr<const Features> features{};  ///< in place of the built-in ones
 
   const Features& Look() const { return features ? *features : Features::BuiltIn(); }

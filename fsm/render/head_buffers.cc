@@ -13,25 +13,26 @@ namespace {
 
 const glm::vec4 kNone(0);
 
-/// Per vertex, the attributes kDetailPlace, kDetailRight and kDetailLeft.
+/// Per vertex, the attributes kDetailPlace, kDetail and kDetailMore.
 struct DetailAttributes {
   std::vector<glm::vec2> place;
-  std::vector<glm::vec4> right, left;
+  std::vector<glm::vec4> detail;
+  std::vector<glm::vec2> more;
 };
 
 DetailAttributes DetailOf(const HeadTopology& topology, const CreaseWeights& creases,
                           std::size_t count) {
-  DetailAttributes detail{topology.uv, creases.right, creases.left};
+  DetailAttributes detail{topology.uv, creases.face, creases.nose_and_left};
   detail.place.resize(count);
-  detail.right.resize(count);
-  detail.left.resize(count);
+  detail.detail.resize(count);
+  detail.more.resize(count);
   for (const auto& part : topology.parts) {
     if (!IsHair(part.material)) continue;
     for (const std::uint32_t i : topology.Corners(part)) {
       const Strand strand = i < topology.strands.size() ? topology.strands[i] : Strand{};
       detail.place[i] = strand.tile_mm;
-      detail.right[i] = glm::vec4(strand.along, strand.density);
-      detail.left[i] = glm::vec4(strand.across, 0, 0, 0);
+      detail.detail[i] = glm::vec4(strand.along, strand.density);
+      detail.more[i] = glm::vec2(strand.across, 0);
     }
   }
   return detail;
@@ -65,7 +66,7 @@ PaintAttributes PaintOf(const HeadTopology& topology) {
 std::vector<SkinDetail> SkinDetailOf(const PaintAttributes& paint, const DetailAttributes& detail) {
   std::vector<SkinDetail> out(paint.opacity.size(), SkinDetail::kPlain);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (detail.right[i] != kNone || detail.left[i] != kNone) out[i] = SkinDetail::kCreased;
+    if (detail.detail[i] != kNone || detail.more[i] != glm::vec2(0)) out[i] = SkinDetail::kCreased;
     if (paint.opacity[i] < 1 || paint.grain[i].x > 0) out[i] = SkinDetail::kDetailed;
   }
   return out;
@@ -185,8 +186,8 @@ void HeadBuffers::UploadAttributes(const HeadVertices& rest) {
   upload(VertexAttribute::kRestPosition, rest.position);
   upload(VertexAttribute::kAlbedoOcclusion, paint.colour);
   upload(VertexAttribute::kDetailPlace, detail.place);
-  upload(VertexAttribute::kDetailRight, detail.right);
-  upload(VertexAttribute::kDetailLeft, detail.left);
+  upload(VertexAttribute::kDetail, detail.detail);
+  upload(VertexAttribute::kDetailMore, detail.more);
   upload(VertexAttribute::kTexcoord, paint.texcoord);
   upload(VertexAttribute::kLidGrain, paint.grain);
   upload(VertexAttribute::kOpacity, paint.opacity);

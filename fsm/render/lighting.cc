@@ -51,7 +51,8 @@ MaterialFrame FrameOf(const Appearance& appearance, const View& view, const Head
       .shadows = shadows,
       .rest_to_world = glm::mat3(view.figure_to_world) * shadows.turn,
       .photo_brightness = std::sqrt((lamps.colors[0].g + lamps.colors[1].g + room) / usual),
-      .creases = {}};
+      .creases = {},
+      .nose_creases = vertices.creases[static_cast<std::size_t>(Crease::kNose)]};
   for (const Side side : kSides) {
     for (int k = 0; k < 4; ++k) {
       frame.creases[side][k] = vertices.creases[static_cast<std::size_t>(k)][side];

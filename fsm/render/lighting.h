@@ -31,7 +31,8 @@ struct MaterialFrame {
   glm::mat3 rest_to_world;  ///< how the head is turned, with the figure's scale
   /// How much brighter than by default the lamps are: a photo's own light stands for the default.
   float photo_brightness;
-  Sided<glm::vec4> creases;  ///< how deep each Crease is, 0..1
+  Sided<glm::vec4> creases;  ///< how deep each Crease but the nose's is, 0..1
+  Sided<float> nose_creases;
 };
 MaterialFrame FrameOf(const Appearance& appearance, const View& view, const HeadBuffers& head,
                       const HeadVertices& vertices, const Scene& scene);

@@ -59,7 +59,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   head_ = &head;
   head_textures_ = &textures;
   const MaterialFrame frame = FrameOf(appearance_, view, head, vertices, scene);
-  creased_ = frame.creases != Sided<glm::vec4>{};
+  creased_ = frame.creases != Sided<glm::vec4>{} || frame.nose_creases != Sided<float>{};
   pores_ = view.samples_per_mm >= appearance_.Number("pores_from");
   photo_.Prepare(head);
   if (!head.topology().pbr_materials.empty() && !pbr_) {
@@ -102,6 +102,7 @@ void Materials::SetSurface(const GlProgram& program, const MaterialFrame& frame)
   program.Set("relief", 2);
   program.Set("head_up", glm::normalize(frame.rest_to_world[1]));
   program.Set("crease_depths", frame.creases.InOrder());
+  program.Set("nose_creases", frame.nose_creases.InOrder());
 }
 
 bool Materials::IsHidden(const DrawnPart& part) const {

@@ -28,6 +28,7 @@ void PhotoMaterial::Begin(const MaterialFrame& frame, const MouthMaterial& mouth
     if (!program) continue;
     program->Use();
     program->Set("crease_depths", frame.creases.InOrder());
+    program->Set("nose_creases", frame.nose_creases.InOrder());
     program->Set("lids_shut", frame.vertices.lids_shut.InOrder());
     program->Set("photo", 1);
     program->Set("relief", 2);

@@ -59,7 +59,7 @@ void CreaseRelief::AddForehead(const glm::vec3& p, float side, float& height) co
   }
 }
 
-/// Two upright lines between the brows, one across the root of the nose.
+/// Two upright lines between the brows, and one across the root of the nose, which is the nose's.
 void CreaseRelief::AddGlabella(const glm::vec3& p, float side, float& height) const {
   const float between = Bell(p.y - (m_.nasion.y + 10), 9);
   height += glabella_[0] * Furrow(side - glabella_[2] - 0.10F * (p.y - m_.nasion.y), glabella_[1]) *
@@ -120,22 +120,25 @@ CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& m) {
   for (const glm::vec3& p : rest.position) {
     const float side = std::abs(p.x);
     const float front = SmoothStep(0, 20, p.z);
-    const float left = SmoothStep(-5, 5, p.x);
     const float brow_y = m.nasion.y + 14;
     const float between = SmoothStep(19, 12, side);
-    const glm::vec4 weights =
+    const float under_forehead = SmoothStep(m.nasion.y + 24, m.nasion.y + 16, p.y);
+    const float over_nose = SmoothStep(m.nasion.y, m.nasion.y + 5, p.y);
+    const glm::vec4 face =
         front * glm::vec4(SmoothStep(brow_y, brow_y + 8, p.y) * SmoothStep(60, 48, side) *
-                              (1 - between * SmoothStep(m.nasion.y + 24, m.nasion.y + 16, p.y)),
-                          between * SmoothStep(m.nasion.y - 26, m.nasion.y - 18, p.y) *
-                              SmoothStep(m.nasion.y + 24, m.nasion.y + 16, p.y),
+                              (1 - between * under_forehead),
+                          between * over_nose * under_forehead,
                           SmoothStep(m.exocanthion.left.x - 2, m.exocanthion.left.x + 2, side) *
                               Bell(p.y - m.exocanthion.left.y, 14),
                           SmoothStep(m.alare.left.y + 10, m.alare.left.y + 3, p.y) *
                               SmoothStep(m.gnathion.y,
                                          0.6F * m.cheilion.left.y + 0.4F * m.gnathion.y, p.y) *
                               SmoothStep(m.alare.left.x - 4, m.alare.left.x + 1, side));
-    out.left.push_back(weights * left);
-    out.right.push_back(weights * (1 - left));
+    const float nose =
+        front * between * (1 - over_nose) * SmoothStep(m.nasion.y - 26, m.nasion.y - 18, p.y);
+    const bool creases = nose > 0 || face != glm::vec4(0);
+    out.face.push_back(face);
+    out.nose_and_left.emplace_back(nose, creases ? SmoothStep(-5, 5, p.x) : 0.0F);
   }
   return out;
 }

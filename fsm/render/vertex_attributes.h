@@ -15,8 +15,8 @@ struct VertexAttribute {
     kRestPosition,     ///< millimetres
     kAlbedoOcclusion,  ///< linear RGB; openness to light, 0..1
     kDetailPlace,      ///< skin: HeadTopology::uv; hair: Strand::tile_mm
-    kDetailRight,      ///< skin: CreaseWeights of the right side; hair: Strand::along and density
-    kDetailLeft,       ///< skin: CreaseWeights of the left side; hair: Strand::across
+    kDetail,           ///< skin: CreaseWeights::face; hair: Strand::along and density
+    kDetailMore,       ///< skin: CreaseWeights::nose_and_left; hair: Strand::across
     kTexcoord,         ///< TextureMaps::texcoord and weight; ShutLid::weight
     kLidGrain,         ///< ShutLid::grain_at and slide
     kOpacity,          ///< HeadTopology::opacity
@@ -24,7 +24,7 @@ struct VertexAttribute {
     kCount
   };
   /// Numbers of each.
-  static constexpr std::array<GLint, kCount> kWidth{3, 3, 3, 4, 2, 4, 4, 4, 4, 1, 3};
+  static constexpr std::array<GLint, kCount> kWidth{3, 3, 3, 4, 2, 4, 2, 4, 4, 1, 3};
 };
 
 }  // namespace fsm

@@ -85,12 +85,10 @@ VertexFeatures::VertexFeatures(const Head& head, const CreaseWeights& creases) {
   });
   add(topology.strands.size() == vertices,
       [&](std::size_t i) { return glm::vec3(kStrandMm * topology.strands[i].density, 0, 0); });
-  for (const Side side : kSides) {
-    add(creases[side].size() == vertices,
-        [&](std::size_t i) { return kCreaseMm * glm::vec3(creases[side][i]); });
-  }
-  add(creases.right.size() == vertices, [&](std::size_t i) {
-    return kCreaseMm * glm::vec3(creases.right[i].w, creases.left[i].w, 0);
+  const bool creased = creases.face.size() == vertices;
+  add(creased, [&](std::size_t i) { return kCreaseMm * glm::vec3(creases.face[i]); });
+  add(creased, [&](std::size_t i) {
+    return kCreaseMm * glm::vec3(creases.face[i].w, creases.nose_and_left[i]);
   });
   count_ = columns.size();
   values_.resize(vertices * count_);

@@ -76,8 +76,8 @@ class UnitTable {
 };
 
 /// Where skin creases with expression.
-enum class Crease { kForehead, kGlabella, kCrowsFeet, kNasolabial };
-inline constexpr std::size_t kCreases = 4;
+enum class Crease { kForehead, kGlabella, kCrowsFeet, kNasolabial, kNose };
+inline constexpr std::size_t kCreases = 5;
 /// How deep each of them is, 0..1.
 using Creases = std::array<Sided<float>, kCreases>;
 /// By what the units bunch up there, beyond `at_rest`.

@@ -139,7 +139,7 @@ void main() {
   const vec3 kWindow = vec3(-0.4212, 0.5215, 0.7421);
   const vec3 kAcross = vec3(0.8697, 0.0, 0.4936);
   vec2 pane = vec2(dot(mirrored, kAcross), dot(mirrored, cross(kWindow, kAcross)));
-  vec2 inside = smoothstep(vec2(0.31, 0.35), vec2(0.24, 0.28), abs(pane));
+  vec2 inside = smoothstep(vec2(0.27, 0.31), vec2(0.16, 0.20), abs(pane));
   float window = inside.x * inside.y * step(0.0, dot(mirrored, kWindow)) *
                  mix(mirrored_bar, 1.0, smoothstep(0.01, 0.04, abs(pane.x + 0.02)));
   // A photographer's lamp is smaller and round.

@@ -2,8 +2,8 @@
 // mouth_vertex.glsl). Light is worked out here and only bent per pixel: the mesh is so fine that a
 // software rasterizer shades several pixels beside every triangle for each one in it.
 layout(location = 4) in vec2 unrolled;
-layout(location = 5) in vec4 creases_right;  // how much each crease of that side shows here
-layout(location = 6) in vec4 creases_left;
+layout(location = 5) in vec4 creases;        // how much each shows here
+layout(location = 6) in vec2 nose_and_left;  // that of the nose; to which part the left side creases
 
 uniform vec3 wrap;           // how far light goes round, per channel
 uniform float key_through;   // how much of the key light reaches occluded places all the same
@@ -15,6 +15,7 @@ uniform float chroma;        // of the colour on the screen, less than 1 beside 
 uniform float planar;        // 0: detail by the unrolled place; else repeats per millimetre
 uniform vec3 head_up;        // unit, the direction of growing v on the skin
 uniform vec4 crease_depths[2];  // right, left: forehead, glabella, crow's feet, nasolabial
+uniform float nose_creases[2];
 
 out vec2 place;   // in the detail textures
 out vec3 light;   // all that is scattered, with the surface's colour
@@ -32,7 +33,8 @@ void main() {
   vec3 albedo = albedo_occlusion.rgb;
   albedo = max(mix(vec3(dot(albedo, vec3(0.3, 0.6, 0.1))), albedo, saturation), 0.0);
 
-  float crease = dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]);
+  float crease = dot(creases, mix(crease_depths[0], crease_depths[1], nose_and_left.y)) +
+                 nose_and_left.x * mix(nose_creases[0], nose_creases[1], nose_and_left.y);
 
   // Corners shut off from light glow red, because what light there is came through skin.
   float root = sqrt(occlusion);
