@@ -48,6 +48,7 @@ Features::Features(NumberTable numbers) : NumberTable(std::move(numbers)) {
       row.Within(3, kLeast, kMost);
       row.Within(4, kLeast, kMost);
     }
+    if (is("long_parting_soft")) row.Within(1, kLeast, kMost);
     if (is("long_over_ear")) {
       row.Within(3, kLeast, kMost);
       row.Within(5, kLeast, kMost);

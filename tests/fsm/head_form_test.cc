@@ -190,6 +190,9 @@ TEST(HeadFormTest, CreasesFollowTheirUnitsAndSides) {
   EXPECT_GT(Vertices(WithUnit(4, 1)).creases[1].right, 0.5f);
   EXPECT_GT(Vertices(WithUnit(6, 1)).creases[2].right, 0.5f);
   EXPECT_GT(Vertices(WithUnit(12, 1)).creases[3].left, 0.5f);
+  const auto nose = static_cast<std::size_t>(Crease::kNose);
+  EXPECT_GT(Vertices(WithUnit(9, 1)).creases[nose].left, 0.8f);
+  EXPECT_EQ(Vertices(WithUnit(4, 1)).creases[nose].left, 0) << "anger has no lines across the nose";
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "fsm/head/cage.h"
 #include "fsm/head/features.h"
 #include "fsm/head/identity.h"
+#include "fsm/head/landmarks.h"
 #include "fsm/head/make_head.h"
 #include "fsm/rig/unit_table.h"
 
@@ -264,6 +265,68 @@ TEST(HeadTablesTest, CurlsAreDullAndShort) {
             "i.txt:1: '2' found where 0 to 1 was expected");
 }
 
+TEST(HeadTablesTest, BrowsBendAndThinAsTheirRowSays) {
+  const auto brows = [](const char* row) {
+    Identity identity = BuiltInIdentity("pygmalion");
+    ReadIdentityRow(Table("i.txt", "beard 0").rows()[0], identity);
+    ReadIdentityRow(Table("i.txt", row).rows()[0], identity);
+    std::vector<SkinHair> hairs = MakeHead(std::move(identity))->topology().skin_hairs;
+    // Above the eyes, below the hair, as the height of the unrolled skin has it.
+    std::erase_if(hairs, [](const SkinHair& h) { return h.root.y < 0.69f || h.root.y > 0.75f; });
+    return hairs;
+  };
+  const auto middle_over_ends = [](const std::vector<SkinHair>& hairs) {
+    float low_x = 1, high_x = 0, middle = 0, ends = 0;
+    for (const SkinHair& h : hairs) {
+      if (h.root.x < 0.5f) continue;
+      low_x = std::min(low_x, h.root.x);
+      high_x = std::max(high_x, h.root.x);
+    }
+    int in_middle = 0, at_ends = 0;
+    for (const SkinHair& h : hairs) {
+      const float at = (h.root.x - low_x) / (high_x - low_x);
+      if (at > 0.4f && at < 0.7f) {
+        middle += h.root.y;
+        ++in_middle;
+      } else if ((at >= 0 && at < 0.15f) || at > 0.85f) {
+        ends += h.root.y;
+        ++at_ends;
+      }
+    }
+    return middle / static_cast<float>(in_middle) - ends / static_cast<float>(at_ends);
+  };
+  const auto arched = brows("brows 1 0 1.4"), straight = brows("brows 1 0 0"),
+             thin = brows("brows 1 0 0 0.4");
+  EXPECT_GT(middle_over_ends(arched), middle_over_ends(straight) + 0.004f);
+  EXPECT_LT(thin.size(), 0.6f * static_cast<float>(straight.size()));
+  EXPECT_EQ(Complaint([&] { brows("brows 1 0 3"); }),
+            "i.txt:1: '3' found where -0.5 to 2 was expected");
+  EXPECT_EQ(Complaint([&] { brows("brows 1 0 1 2"); }),
+            "i.txt:1: '2' found where 0 to 1.5 was expected");
+}
+
+TEST(HeadTablesTest, AShavedBeardsHairsLieBelowTheNoseAndNotOnTheLips) {
+  const auto hairs = [](const char* row) {
+    Identity identity = BuiltInIdentity("pygmalion");
+    ReadIdentityRow(Table("i.txt", row).rows()[0], identity);
+    return MakeHead(std::move(identity));
+  };
+  const auto shaved = hairs("beard 0"), stubbled = hairs("beard 0.6");
+  const float nose = Unroll(shaved->Landmark("subnasale")).y;
+  const auto below = [nose](const Head& head) {
+    return std::ranges::count_if(head.topology().skin_hairs,
+                                 [nose](const SkinHair& h) { return h.root.y < nose; });
+  };
+  EXPECT_EQ(below(*shaved), 0);
+  EXPECT_GT(below(*stubbled), 1000);
+  const float lips = Unroll({0, -44.5f, 80}).y;
+  for (const SkinHair& h : stubbled->topology().skin_hairs) {
+    EXPECT_FALSE(std::abs(h.root.y - lips) < 0.01f && std::abs(h.root.x - 0.5f) < 0.03f)
+        << h.root.x << " " << h.root.y;
+    EXPECT_TRUE(h.root.y >= nose || glm::length(h.tip - h.root) < 0.02f) << "a long hair";
+  }
+}
+
 TEST(HeadTablesTest, LongHairIsAsLongAsItsRowSays) {
   const auto lowest = [](const char* row) {
     Identity identity = BuiltInIdentity("galatea");
@@ -314,6 +377,9 @@ TEST(HeadTablesTest, FeaturesAreChecked) {
       {"long_locks", "long_locks 9 9", "no lock that is not at the edge"},
       {"long_volume", "long_volume 80 0 90", "'0' found where 10 to 1000 was expected"},
       {"crop_crown", "crop_crown 0 0 0", "a crown that is nowhere"},
+      {"long_over_ear", "long_over_ear 9 0.1 0 0 30", "'0' found where 0.01 to 100 was expected"},
+      {"stubble_place", "stubble_place 66 -104 -22 -44 27 0", "'0' found where 0.01 to 100"},
+      {"long_parting_soft", "long_parting_soft 0", "'0' found where 0.01 to 100 was expected"},
   };
   for (const auto& [name, row, why] : cases) {
     const auto said = Complaint([&] { Features("mine.txt", WithRow(name, row)); });
