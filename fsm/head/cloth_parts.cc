@@ -32,7 +32,7 @@ void BuildCloth(const Features& features, const Palette& palette, HeadMesh& mesh
   constexpr int kHalf = 13;  // columns of a half
   // The first ring is row -1, the collar's foot 0.
   constexpr std::array kRows = {-1.0f, 0.0f, 0.75f, 1.0f, 2.2f, 2.26f, 2.32f,
-                                2.7f,  3.1f, 3.6f,  4.3f, 5.0f, 6.0f};
+                                2.62f, 2.9f, 3.2f,  3.6f, 4.2f, 6.0f};
   constexpr std::size_t kSeam = 5;
   std::vector<float> around_at, down_at;
   // Mirrored neighbours at both ends keep the surface smooth over the medians.
