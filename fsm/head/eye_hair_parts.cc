@@ -322,28 +322,32 @@ std::vector<SkinHair> BuildStubble(const SkinFront& front, const SkinPainter& pa
   for (int k = 0; k < static_cast<int>(100 * n[0]); ++k) {
     const glm::vec2 at(place[0] * NoiseAt(k, 41),
                        glm::mix(place[1], place[2], 0.5f + 0.5f * NoiseAt(k, 42)));
-    glm::vec3 normal;
     const glm::vec2 half(std::abs(at.x), at.y);
-    const glm::vec3 root = front.PointAt(half, normal);
-    if (0.5f + 0.5f * NoiseAt(k, 43) > painter.Beard(half, root.z)) continue;
+    if (half.x > place[0] - place[6] * (place[2] - at.y)) continue;  // beside the jaw
+    const float chance = 0.5f + 0.5f * NoiseAt(k, 43);
+    constexpr float kBeforeAll = 200;  // the front of the face has the most
+    if (chance > painter.Beard(half, kBeforeAll)) continue;
     const glm::vec2 from_lips = (half - glm::vec2(0, place[3])) / glm::vec2(place[4], place[5]);
     if (glm::dot(from_lips, from_lips) < 1) continue;
+    glm::vec3 normal;
+    const glm::vec3 root = front.PointAt(half, normal);
+    if (chance > painter.Beard(half, root.z)) continue;
     const float length = n[1] * (1 + 0.5f * NoiseAt(k, 44));
     const float lean = 0.6f * NoiseAt(k, 45);
     const auto along = [&](float part) {
       return front.PointAt(half + part * length * glm::vec2(lean, -1), normal);
     };
-    if (glm::length(along(1) - root) > 3 * length) continue;  // past an edge
-    const auto on_skin = [&](float part) {
-      glm::vec3 p = along(part);
+    const glm::vec3 tip = along(1);
+    if (glm::length(tip - root) > 3 * length) continue;  // past an edge
+    const auto on_skin = [&](glm::vec3 p) {
       p.x = std::copysign(p.x, at.x);
       return Unroll(p);
     };
     const float cover = n[3] * (1 + 0.4f * NoiseAt(k, 46));
     hairs.push_back(
-        {.root = on_skin(0),
-         .middle = on_skin(0.5f),
-         .tip = on_skin(1),
+        {.root = on_skin(root),
+         .middle = on_skin(along(0.5f)),
+         .tip = on_skin(tip),
          .width_mm = n[2],
          .tint = glm::mix(glm::vec3(1), identity.palette.hair / identity.palette.skin, cover)});
   }

@@ -378,7 +378,7 @@ TEST(HeadTablesTest, FeaturesAreChecked) {
       {"long_volume", "long_volume 80 0 90", "'0' found where 10 to 1000 was expected"},
       {"crop_crown", "crop_crown 0 0 0", "a crown that is nowhere"},
       {"long_over_ear", "long_over_ear 9 0.1 0 0 30", "'0' found where 0.01 to 100 was expected"},
-      {"stubble_place", "stubble_place 66 -104 -22 -44 27 0", "'0' found where 0.01 to 100"},
+      {"stubble_place", "stubble_place 66 -104 -22 -44 27 0 0", "'0' found where 0.01 to 100"},
       {"long_parting_soft", "long_parting_soft 0", "'0' found where 0.01 to 100 was expected"},
   };
   for (const auto& [name, row, why] : cases) {
