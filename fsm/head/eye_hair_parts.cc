@@ -171,6 +171,7 @@ class BrowPlace {
     return glm::mix(straight, middle_(x), brows_.arch) + brows_.thickness * half_(x) * level -
            0.8f + brows_.height_mm;
   }
+  float Density() const { return brows_.density; }
   // How densely the skin is covered, 0..1.
   float Cover(glm::vec2 at) const {
     const float x = std::abs(at.x);
@@ -233,11 +234,7 @@ namespace {
 class BrowBuilder {
  public:
   BrowBuilder(const SkinFront& front, const Identity& identity, const BrowPlace& place)
-      : front_(front),
-        palette_(identity.palette),
-        features_(identity.Look()),
-        place_(place),
-        density_(identity.brows.density) {}
+      : front_(front), palette_(identity.palette), features_(identity.Look()), place_(place) {}
 
   std::vector<SkinHair> Build() {
     const auto& count = features_["brow_hairs"];
@@ -260,7 +257,7 @@ class BrowBuilder {
   void AddHair(Side side, float x, float level, int seed) {
     const float ends = SmoothStep(7, 20, x) * SmoothStep(59, 47, x);
     // Sparse where it begins.
-    if (0.5f + 0.5f * NoiseAt(seed, 26) > density_ * (0.35f + 0.65f * ends)) return;
+    if (0.5f + 0.5f * NoiseAt(seed, 26) > place_.Density() * (0.35f + 0.65f * ends)) return;
     const glm::vec2 root(x, place_.Y(x, 0.9f * level - 0.1f));
     // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
     const auto& lean = features_["brow_lean"];
@@ -292,7 +289,6 @@ class BrowBuilder {
   const Palette& palette_;
   const Features& features_;
   const BrowPlace& place_;
-  const float density_;
   const Curve grow_ = features_.CurveOf("brow_growth");
   std::vector<SkinHair> hairs_;
 };

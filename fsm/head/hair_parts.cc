@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "fsm/base/angles.h"
 #include "fsm/base/random.h"
 #include "fsm/base/spline.h"
 #include "fsm/head/landmarks.h"
@@ -63,6 +62,12 @@ glm::vec3 HairLook::StrandColour(int strand, int row) const {
          glm::mix(glm::vec3(1), features_.Vector("hair_lightest"), 0.5f + 0.5f * fine);
 }
 
+float HairLook::AboveHairline(glm::vec3 place) const {
+  const glm::vec3 d = place - kHairCentre;
+  return glm::degrees(std::asin(d.y / glm::length(d))) -
+         HairlineElevation(glm::degrees(std::atan2(d.x, d.z)));
+}
+
 void HairLook::ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMesh& mesh) const {
   const auto& on_skin = features_["hair_on_skin"];
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
@@ -73,10 +78,7 @@ void HairLook::ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMe
     const float beside =
         std::exp(-nearest / (reach_mm * reach_mm)) * SmoothStep(on_skin[5], on_skin[5] + 30, p.y);
     const float near = beside * SmoothStep(10, 40, p.y);
-    const glm::vec3 d = glm::normalize(p - kHairCentre);
-    const float above =
-        std::asin(d.y) * 180 / kPi - HairlineElevation(std::atan2(d.x, d.z) * 180 / kPi);
-    const float under = SmoothStep(on_skin[2], on_skin[3], above);
+    const float under = SmoothStep(on_skin[2], on_skin[3], AboveHairline(p));
     mesh.occlusion[i] *= 1 - on_skin[0] * std::max(beside, under);
     mesh.albedo[i] =
         glm::mix(mesh.albedo[i], palette_.hair, std::max(on_skin[1] * near, on_skin[4] * under));

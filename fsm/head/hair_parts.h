@@ -47,6 +47,8 @@ class HairLook {
 
   /// Where the hair begins on the skin: elevation by azimuth, degrees.
   float HairlineElevation(float azimuth) const { return hairline_(std::abs(azimuth)); }
+  /// By how many degrees a place lies above that line.
+  float AboveHairline(glm::vec3 place) const;
   /// The colour of one strand: lighter and darker streaks.
   glm::vec3 StrandColour(int strand, int row) const;
   /// A lock as a card along `path` that frays at its sides and towards its tip.

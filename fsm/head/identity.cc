@@ -104,7 +104,7 @@ void ReadIdentityRow(const TableRow& row, Identity& identity) {
     if (row.size() > 3) identity.brows.arch = row.Within(3, -0.5f, 2);
     if (row.size() > 4) identity.brows.density = row.Within(4, 0, 1.5f);
   } else if (key == "creases") {
-    for (std::size_t i = 0; i < 4; ++i) identity.creases[i] = row.Number(i + 1);
+    for (std::size_t i = 0; i < kLastingCreases; ++i) identity.creases[i] = row.Number(i + 1);
   } else {
     row.Fail("unknown word '" + key + "'");
   }

@@ -53,8 +53,8 @@ struct Identity {
     float density = 1;  ///< how many of their hairs there are, and how dark the skin between is
   };
   Brows brows;
-  std::array<float, kCreases> creases{};       ///< by Crease
-  std::shared_ptr<const Features> features{};  ///< in place of the built-in ones
+  std::array<float, kLastingCreases> creases{};  ///< by Crease
+  std::shared_ptr<const Features> features{};    ///< in place of the built-in ones
 
   const Features& Look() const { return features ? *features : Features::BuiltIn(); }
 };

@@ -26,6 +26,7 @@ void SkinPainter::AddSpots(glm::vec2 at, PaintedSkin& paint) const {
 }
 
 float SkinPainter::Beard(glm::vec2 at, float z) const {
+  if (palette_.beard <= 0) return 0;
   const auto& line = features_["beard_line"];
   const auto& thin = features_["beard_thin_cheek"];
   const float jaw_line = glm::mix(line[0], line[1], SmoothStep(30, 62, at.x));

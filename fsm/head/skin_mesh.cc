@@ -94,12 +94,7 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
 }
 
 /// Whether the scalp at `p` is hidden by hair of any kind.
-bool HairCovers(const HairLook& hair, glm::vec3 p) {
-  const glm::vec3 d = p - kHairCentre;
-  const float azimuth = glm::degrees(std::atan2(std::abs(d.x), d.z));
-  const float elevation = glm::degrees(std::asin(d.y / glm::length(d)));
-  return elevation > hair.HairlineElevation(azimuth) + 16;
-}
+bool HairCovers(const HairLook& hair, glm::vec3 p) { return hair.AboveHairline(p) > 16; }
 
 }  // namespace
 

@@ -73,8 +73,8 @@ struct ProxyForm {
 
 /// How the skin creases, Crease by Crease.
 struct CreaseRig {
-  std::optional<std::array<float, kCreases>> at_rest;  ///< nothing where the head shows none
-  float depth = 1;                                     ///< a factor on all of them
+  std::optional<std::array<float, kLastingCreases>> at_rest;  ///< nothing where the head shows none
+  float depth = 1;                                            ///< a factor on all of them
 };
 
 /// How a head moves: plain data, in the frame of HeadVertices. What all steps look at, then what

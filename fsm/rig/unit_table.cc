@@ -239,7 +239,8 @@ glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& weights, Side
   return weight * by;
 }
 
-Creases CreaseDepths(const Sided<UnitValues>& units, const std::array<float, kCreases>& at_rest) {
+Creases CreaseDepths(const Sided<UnitValues>& units,
+                     const std::array<float, kLastingCreases>& at_rest) {
   /// How deep a unit at full strength makes a crease. Ours, by eye.
   struct Share {
     Crease crease;
@@ -260,7 +261,7 @@ Creases CreaseDepths(const Sided<UnitValues>& units, const std::array<float, kCr
                                       {Crease::kNasolabial, kLipCornerPuller, 0.75f}};
   Creases creases{};
   for (const Side side : kSides) {
-    for (std::size_t k = 0; k < kCreases; ++k) creases[k][side] = at_rest[k];
+    for (std::size_t k = 0; k < kLastingCreases; ++k) creases[k][side] = at_rest[k];
     for (const auto& [crease, unit, depth] : kShares) {
       creases[static_cast<std::size_t>(crease)][side] += depth * units[side][unit];
     }

@@ -78,9 +78,12 @@ class UnitTable {
 /// Where skin creases with expression.
 enum class Crease { kForehead, kGlabella, kCrowsFeet, kNasolabial, kNose };
 inline constexpr std::size_t kCreases = 5;
+/// The first so many may be there at rest, too.
+inline constexpr std::size_t kLastingCreases = 4;
 /// How deep each of them is, 0..1.
 using Creases = std::array<Sided<float>, kCreases>;
 /// By what the units bunch up there, beyond `at_rest`.
-Creases CreaseDepths(const Sided<UnitValues>& units, const std::array<float, kCreases>& at_rest);
+Creases CreaseDepths(const Sided<UnitValues>& units,
+                     const std::array<float, kLastingCreases>& at_rest);
 
 }  // namespace fsm

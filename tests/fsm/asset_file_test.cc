@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -98,6 +99,14 @@ TEST(AssetFileTest, AParallelViewAndAMaterialComeBack) {
   ASSERT_EQ(read.topology().pbr_materials.size(), 1U);
   EXPECT_EQ(read.topology().pbr_materials[0].kind, PbrMaterial::Kind::kToon);
   EXPECT_EQ(read.topology().parts[0].pbr, 0);
+}
+
+TEST(AssetFileTest, CreasesAtRestAreFourAsInFilesThatThereAre) {
+  const std::string file = WriteAsset(*MakeHead("baucis"), {});
+  const std::size_t from = file.find("\"creases\":[");
+  ASSERT_NE(from, std::string::npos);
+  const std::string list = file.substr(from, file.find(']', from) - from);
+  EXPECT_EQ(std::ranges::count(list, ','), 3) << list;
 }
 
 TEST(AssetFileTest, TheUnitsTableStandsInItAsText) {

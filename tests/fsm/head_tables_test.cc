@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -26,6 +27,13 @@ std::string Complaint(F&& action) {
     return error.what();
   }
   return "no complaint";
+}
+
+/// A built-in face with other lines in its block; their text is "i.txt".
+Identity Changed(const char* face, std::initializer_list<const char*> rows) {
+  Identity identity = BuiltInIdentity(face);
+  for (const char* row : rows) ReadIdentityRow(Table("i.txt", row).rows()[0], identity);
+  return identity;
 }
 
 TEST(HeadTablesTest, CommentsAndBlankLinesAreSkipped) {
@@ -177,11 +185,7 @@ std::string WithRow(const std::string& name, const std::string& row) {
 }
 
 TEST(HeadTablesTest, EyesAreAsLargeAndTiltedAsTheirRowSays) {
-  const auto with = [](const char* row) {
-    Identity identity = BuiltInIdentity("galatea");
-    ReadIdentityRow(Table("i.txt", row).rows()[0], identity);
-    return MakeHead(identity, false);
-  };
+  const auto with = [](const char* row) { return MakeHead(Changed("galatea", {row}), false); };
   const auto slit = [](const Head& head) {
     return head.Landmark("exocanthion_left") - head.Landmark("endocanthion_left");
   };
@@ -201,9 +205,7 @@ TEST(HeadTablesTest, EyesAreAsLargeAndTiltedAsTheirRowSays) {
 
 TEST(HeadTablesTest, TheFurrowOverTheUpperLidLiesWhereItsRowSays) {
   const auto strokes = [](const char* row) {
-    Identity identity = BuiltInIdentity("galatea");
-    ReadIdentityRow(Table("i.txt", row).rows()[0], identity);
-    return MakeHead(std::move(identity))->topology().skin_hairs;
+    return MakeHead(Changed("galatea", {row}))->topology().skin_hairs;
   };
   const auto usual = strokes("fold 0 0 1 0"), higher = strokes("fold 1 1 0.5 0");
   ASSERT_EQ(usual.size(), higher.size());
@@ -237,11 +239,7 @@ TEST(HeadTablesTest, HairBeginsWithSingleHairsOnTheSkin) {
 }
 
 TEST(HeadTablesTest, CurlsAreDullAndShort) {
-  const auto made = [](const char* row) {
-    Identity identity = BuiltInIdentity("memnon");
-    ReadIdentityRow(Table("i.txt", row).rows()[0], identity);
-    return MakeHead(std::move(identity));
-  };
+  const auto made = [](const char* row) { return MakeHead(Changed("memnon", {row})); };
   const auto sleekest = [](const Head& head) {
     float most = 0;
     for (const auto& part : head.topology().parts) {
@@ -267,10 +265,7 @@ TEST(HeadTablesTest, CurlsAreDullAndShort) {
 
 TEST(HeadTablesTest, BrowsBendAndThinAsTheirRowSays) {
   const auto brows = [](const char* row) {
-    Identity identity = BuiltInIdentity("pygmalion");
-    ReadIdentityRow(Table("i.txt", "beard 0").rows()[0], identity);
-    ReadIdentityRow(Table("i.txt", row).rows()[0], identity);
-    std::vector<SkinHair> hairs = MakeHead(std::move(identity))->topology().skin_hairs;
+    auto hairs = MakeHead(Changed("pygmalion", {"beard 0", row}))->topology().skin_hairs;
     // Above the eyes, below the hair, as the height of the unrolled skin has it.
     std::erase_if(hairs, [](const SkinHair& h) { return h.root.y < 0.69f || h.root.y > 0.75f; });
     return hairs;
@@ -306,11 +301,7 @@ TEST(HeadTablesTest, BrowsBendAndThinAsTheirRowSays) {
 }
 
 TEST(HeadTablesTest, AShavedBeardsHairsLieBelowTheNoseAndNotOnTheLips) {
-  const auto hairs = [](const char* row) {
-    Identity identity = BuiltInIdentity("pygmalion");
-    ReadIdentityRow(Table("i.txt", row).rows()[0], identity);
-    return MakeHead(std::move(identity));
-  };
+  const auto hairs = [](const char* row) { return MakeHead(Changed("pygmalion", {row})); };
   const auto shaved = hairs("beard 0"), stubbled = hairs("beard 0.6");
   const float nose = Unroll(shaved->Landmark("subnasale")).y;
   const auto below = [nose](const Head& head) {
@@ -329,9 +320,7 @@ TEST(HeadTablesTest, AShavedBeardsHairsLieBelowTheNoseAndNotOnTheLips) {
 
 TEST(HeadTablesTest, LongHairIsAsLongAsItsRowSays) {
   const auto lowest = [](const char* row) {
-    Identity identity = BuiltInIdentity("galatea");
-    ReadIdentityRow(Table("i.txt", row).rows()[0], identity);
-    const auto head = MakeHead(identity, false);
+    const auto head = MakeHead(Changed("galatea", {row}), false);
     float low = 0;
     for (const auto& part : head->topology().parts) {
       if (part.material != Material::kHair) continue;
