@@ -70,14 +70,8 @@ class EglContext : public OffScreenContext {
     if (!eglChooseConfig(display_.get(), wanted, &config, 1, &count) || count == 0) {
       Refuse(name + " has no configuration for desktop OpenGL");
     }
-    const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION,
-                              3,
-                              EGL_CONTEXT_MINOR_VERSION,
-                              3,
-                              EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                              EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                              EGL_NONE};
-    context_ = eglCreateContext(display_.get(), config, EGL_NO_CONTEXT, version);
+    context_ = Create(config, 4, 3);
+    if (context_ == EGL_NO_CONTEXT) context_ = Create(config, 3, 3);
     if (context_ == EGL_NO_CONTEXT) Refuse("the driver of " + name + " has no OpenGL 3.3 core");
   }
   ~EglContext() override {
@@ -92,6 +86,17 @@ class EglContext : public OffScreenContext {
   }
 
  private:
+  /// Some drivers (NVIDIA's) give the very version that is asked for, and compute shaders need 4.3.
+  EGLContext Create(EGLConfig config, EGLint major, EGLint minor) {
+    const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION,
+                              major,
+                              EGL_CONTEXT_MINOR_VERSION,
+                              minor,
+                              EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                              EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                              EGL_NONE};
+    return eglCreateContext(display_.get(), config, EGL_NO_CONTEXT, version);
+  }
   void Bind() override {
     if (!eglMakeCurrent(display_.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
       Refuse("the driver of " + display_.name() +

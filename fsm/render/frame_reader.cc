@@ -1,24 +1,35 @@
 #include "fsm/render/frame_reader.h"
 
 #include <cassert>
+#include <cstring>
 #include <stdexcept>
 #include <utility>
 
+#include "embedded/average_samples.h"
+
 namespace fsm {
+namespace {
+
+GLsizeiptr BytesOf(const Image& image) {
+  return static_cast<GLsizeiptr>(image.width) * image.height * 4;
+}
+
+}  // namespace
+
+FrameReader::FrameReader(const GlFunctions& gl, bool on_card) : gl_(gl) {
+  if (on_card) average_.emplace(gl, "average_samples", embedded::average_samples());
+}
 
 FrameReader::~FrameReader() {
-  for (const auto& [number, frame] : frames_) {
-    if (frame.buffer != 0) spare_buffers_.push_back(frame.buffer);
-  }
-  for (const GLuint buffer : spare_buffers_) gl_.DeleteBuffers(1, &buffer);
+  for (const auto& [number, frame] : frames_) spare_buffers_.push_back(frame.buffer);
+  for (const Buffer& buffer : spare_buffers_) gl_.DeleteBuffers(1, &buffer.name);
 }
 
 std::uint64_t FrameReader::Begin(GlTarget& target, bool soft, bool transparent) {
   Frame& frame = frames_[++last_];
-  frame.soft = soft;
   frame.transparent = transparent;
-  if (by_buffers_) {
-    BeginCopy(target, frame);
+  if (average_) {
+    BeginAverage(target, soft, frame);
   } else {
     target.Read(frame.image, soft);
   }
@@ -29,52 +40,62 @@ void FrameReader::End(std::uint64_t number, Image& out) {
   auto found = frames_.extract(number);
   assert(!found.empty());
   Frame& frame = found.mapped();
-  if (frame.buffer != 0) EndCopy(frame);
-  if (frame.transparent) Unmultiply(frame.image);
-  out = std::move(frame.image);
+  if (frame.buffer.name != 0) {
+    EndAverage(frame, out);
+  } else {
+    out = std::move(frame.image);
+  }
+  if (frame.transparent) Unmultiply(out);
 }
 
 void FrameReader::Drop(std::uint64_t number) {
   const auto found = frames_.extract(number);
-  if (!found.empty() && found.mapped().buffer != 0) {
+  if (!found.empty() && found.mapped().buffer.name != 0) {
     spare_buffers_.push_back(found.mapped().buffer);
   }
 }
 
-void FrameReader::BeginCopy(const GlTarget& target, Frame& frame) {
+void FrameReader::BeginAverage(const GlTarget& target, bool soft, Frame& frame) {
+  Image& image = frame.image;
+  image.width = target.width();
+  image.height = target.height();
+  Buffer& buffer = frame.buffer;
   if (spare_buffers_.empty()) {
-    gl_.GenBuffers(1, &frame.buffer);
+    gl_.GenBuffers(1, &buffer.name);
   } else {
-    frame.buffer = spare_buffers_.back();
+    buffer = spare_buffers_.back();
     spare_buffers_.pop_back();
   }
-  frame.image.width = target.width();
-  frame.image.height = target.height();
-  const int rows = target.height() * kSamplesAlong;
-  gl_.BindBuffer(GL_PIXEL_PACK_BUFFER, frame.buffer);
-  gl_.BufferData(GL_PIXEL_PACK_BUFFER, static_cast<GLsizeiptr>(target.samples_in_row() * 4) * rows,
-                 nullptr, GL_STREAM_READ);
-  target.ReadRows(0, rows - 1, nullptr);
-  gl_.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.name);
+  if (std::exchange(buffer.bytes, BytesOf(image)) != BytesOf(image)) {
+    gl_.BufferData(GL_SHADER_STORAGE_BUFFER, buffer.bytes, nullptr, GL_STREAM_READ);
+  }
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, target.samples());
+  average_->Use();
+  average_->Set("samples", 0);
+  average_->Set("soft", soft ? 1 : 0);
+  constexpr int kGroup = 8;  // local_size_x and _y
+  gl_.DispatchCompute(static_cast<GLuint>((image.width + kGroup - 1) / kGroup),
+                      static_cast<GLuint>((image.height + kGroup - 1) / kGroup), 1);
+  gl_.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   gl_.Flush();
 }
 
-void FrameReader::EndCopy(Frame& frame) {
-  Image& image = frame.image;
-  const std::size_t row = static_cast<std::size_t>(image.width) * kSamplesAlong;
-  const int rows = image.height * kSamplesAlong;
-  image.rgba.resize(row * 2 * static_cast<std::size_t>(image.height));
-  gl_.BindBuffer(GL_PIXEL_PACK_BUFFER, frame.buffer);
-  const void* samples = gl_.MapBufferRange(
-      GL_PIXEL_PACK_BUFFER, 0, static_cast<GLsizeiptr>(row * 4) * rows, GL_MAP_READ_BIT);
-  if (samples) {
-    AverageSamples({static_cast<const std::uint32_t*>(samples), row, 0, rows - 1}, 0, image.height,
-                   frame.soft, image.rgba.data());
-    gl_.UnmapBuffer(GL_PIXEL_PACK_BUFFER);
+void FrameReader::EndAverage(const Frame& frame, Image& out) {
+  const Buffer& buffer = frame.buffer;
+  out.width = frame.image.width;
+  out.height = frame.image.height;
+  out.rgba.resize(static_cast<std::size_t>(buffer.bytes));
+  gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.name);
+  const void* pixels =
+      gl_.MapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, buffer.bytes, GL_MAP_READ_BIT);
+  if (pixels) {
+    std::memcpy(out.rgba.data(), pixels, out.rgba.size());
+    gl_.UnmapBuffer(GL_SHADER_STORAGE_BUFFER);
   }
-  gl_.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  spare_buffers_.push_back(frame.buffer);
-  if (!samples) throw std::runtime_error("OpenGL does not hand out a frame that was drawn");
+  spare_buffers_.push_back(buffer);
+  if (!pixels) throw std::runtime_error("OpenGL does not hand out a frame that was drawn");
 }
 
 }  // namespace fsm

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "fsm/image/image.h"
@@ -12,10 +13,10 @@ namespace fsm {
 /// Brings frames to memory while others are drawn. Destroy while its context is current.
 class FrameReader {
  public:
-  /// `by_buffers`: each frame goes through a pixel pack buffer, which a graphics card fills in its
-  /// own time. A software driver has nobody to do that: it would copy at once, and once more than
-  /// needed, so there frames are read when they begin.
-  FrameReader(const GlFunctions& gl, bool by_buffers) : gl_(gl), by_buffers_(by_buffers) {}
+  /// `on_card`: a card averages each frame, in its own time, into a buffer that is read when it is
+  /// wanted. A software driver has nobody to do that, so there frames are read when they begin.
+  /// REQUIRES of `on_card`: GlFunctions::has_compute.
+  FrameReader(const GlFunctions& gl, bool on_card);
   ~FrameReader();
   FrameReader(const FrameReader&) = delete;
   FrameReader& operator=(const FrameReader&) = delete;
@@ -29,20 +30,24 @@ class FrameReader {
   void Drop(std::uint64_t frame);
 
  private:
+  struct Buffer {
+    GLuint name = 0;
+    GLsizeiptr bytes = 0;
+  };
   struct Frame {
-    Image image;        ///< what was read, or as large as it will be
-    GLuint buffer = 0;  ///< 0: it is read
-    bool soft = false, transparent = false;
+    Image image;    ///< what was read, or as large as it will be
+    Buffer buffer;  ///< name 0: it was read
+    bool transparent = false;
   };
 
-  void BeginCopy(const GlTarget& target, Frame& frame);
-  void EndCopy(Frame& frame);
+  void BeginAverage(const GlTarget& target, bool soft, Frame& frame);
+  void EndAverage(const Frame& frame, Image& out);
 
   const GlFunctions& gl_;
-  const bool by_buffers_;
+  std::optional<GlProgram> average_;  // on a card
   std::map<std::uint64_t, Frame> frames_;
   std::uint64_t last_ = 0;
-  std::vector<GLuint> spare_buffers_;
+  std::vector<Buffer> spare_buffers_;
 };
 
 }  // namespace fsm

@@ -42,6 +42,7 @@ class RenderContext;
   X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
   X(PFNGLFLUSHPROC, Flush)                                     \
   X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer) \
+  X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)       \
   X(PFNGLGENBUFFERSPROC, GenBuffers)                           \
   X(PFNGLGENERATEMIPMAPPROC, GenerateMipmap)                   \
   X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                 \
@@ -82,8 +83,7 @@ class RenderContext;
   X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)     \
   X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)   \
   X(PFNGLGETBUFFERSUBDATAPROC, GetBufferSubData) \
-  X(PFNGLMEMORYBARRIERPROC, MemoryBarrier)       \
-  X(PFNGLUNIFORM1UIPROC, Uniform1ui)
+  X(PFNGLMEMORYBARRIERPROC, MemoryBarrier)
 
 struct GlFunctions {
 #define FSM_GL_MEMBER(type, name) type name = nullptr;

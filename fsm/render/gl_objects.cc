@@ -67,31 +67,42 @@ void GlProgram::Link(const char* name, std::initializer_list<GLuint> shaders) {
   }
 }
 
+std::optional<GLint> GlProgram::Changed(const char* name, std::span<const std::byte> value) const {
+  const auto [found, is_new] = uniforms_.try_emplace(name);
+  Uniform& uniform = found->second;
+  if (is_new) uniform.at = gl_.GetUniformLocation(id_, name);
+  if (uniform.at < 0 || std::ranges::equal(uniform.value, value)) return {};
+  uniform.value.assign(value.begin(), value.end());
+  return uniform.at;
+}
+
 GlTarget::GlTarget(const GlFunctions& gl, int width, int height)
     : gl_(gl), width_(width), height_(height) {
+  const int across = width * kSamplesAlong, up = height * kSamplesAlong;
   gl.GenFramebuffers(1, &frame_);
-  gl.GenRenderbuffers(2, buffers_);
   gl.BindFramebuffer(GL_FRAMEBUFFER, frame_);
+  gl.GenTextures(1, &colour_);
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D, colour_);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, across, up, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_, 0);
   // Depth as a number with a point: the rasterizer computes it so and need not convert.
-  const GLenum formats[] = {GL_RGBA8, GL_DEPTH_COMPONENT32F};
-  const GLenum points[] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
-  for (int i = 0; i < 2; ++i) {
-    gl.BindRenderbuffer(GL_RENDERBUFFER, buffers_[i]);
-    gl.RenderbufferStorage(GL_RENDERBUFFER, formats[i], width * kSamplesAlong,
-                           height * kSamplesAlong);
-    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, points[i], GL_RENDERBUFFER, buffers_[i]);
-  }
+  gl.GenRenderbuffers(1, &depth_);
+  gl.BindRenderbuffer(GL_RENDERBUFFER, depth_);
+  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, across, up);
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    gl.DeleteFramebuffers(1, &frame_);
-    gl.DeleteRenderbuffers(2, buffers_);
+    Delete();
     throw std::runtime_error("OpenGL cannot make a picture of " + std::to_string(width) + " x " +
                              std::to_string(height) + " with 4 samples");
   }
 }
 
-GlTarget::~GlTarget() {
+void GlTarget::Delete() {
   gl_.DeleteFramebuffers(1, &frame_);
-  gl_.DeleteRenderbuffers(2, buffers_);
+  gl_.DeleteTextures(1, &colour_);
+  gl_.DeleteRenderbuffers(1, &depth_);
 }
 
 void GlTarget::Bind() const {

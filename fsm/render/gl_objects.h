@@ -1,13 +1,16 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -25,43 +28,63 @@ class GlProgram {
   /// Makes a program of a compute shader. REQUIRES: GlFunctions::has_compute.
   GlProgram(const GlFunctions& gl, const char* name, std::string_view compute);
   ~GlProgram() { gl_.DeleteProgram(id_); }
-  GlProgram(GlProgram&& other) noexcept : gl_(other.gl_), id_(std::exchange(other.id_, 0)) {}
+  GlProgram(GlProgram&& other) noexcept
+      : gl_(other.gl_), id_(std::exchange(other.id_, 0)), uniforms_(std::move(other.uniforms_)) {}
   GlProgram(const GlProgram&) = delete;
   GlProgram& operator=(const GlProgram&) = delete;
 
   void Use() const { gl_.UseProgram(id_); }
   /// Sets a uniform, or an array of them; one that the program does not have is ignored.
-  /// REQUIRES of all: the program is in use.
-  void Set(const char* name, float value) const { gl_.Uniform1f(At(name), value); }
-  void Set(const char* name, GLint value) const { gl_.Uniform1i(At(name), value); }
-  void Set(const char* name, GLuint value) const { gl_.Uniform1ui(At(name), value); }
+  /// REQUIRES of all: the program is in use, `name` is a literal.
+  void Set(const char* name, float value) const { Set(name, std::span(&value, 1)); }
+  void Set(const char* name, GLint value) const {
+    if (const auto at = Changed(name, std::as_bytes(std::span(&value, 1)))) {
+      gl_.Uniform1i(*at, value);
+    }
+  }
   void Set(const char* name, const glm::vec3& value) const { Set(name, std::span(&value, 1)); }
   void Set(const char* name, const glm::vec4& value) const { Set(name, std::span(&value, 1)); }
   void Set(const char* name, const glm::mat3& value) const {
-    gl_.UniformMatrix3fv(At(name), 1, GL_FALSE, &value[0][0]);
+    if (const auto at = Changed(name, std::as_bytes(std::span(&value, 1)))) {
+      gl_.UniformMatrix3fv(*at, 1, GL_FALSE, &value[0][0]);
+    }
   }
   void Set(const char* name, const glm::mat4& value) const { Set(name, std::span(&value, 1)); }
   void Set(const char* name, std::span<const float> values) const {
-    gl_.Uniform1fv(At(name), static_cast<GLsizei>(values.size()), values.data());
+    if (const auto at = Changed(name, std::as_bytes(values))) {
+      gl_.Uniform1fv(*at, static_cast<GLsizei>(values.size()), values.data());
+    }
   }
   void Set(const char* name, std::span<const glm::vec3> values) const {
-    gl_.Uniform3fv(At(name), static_cast<GLsizei>(values.size()), &values[0][0]);
+    if (const auto at = Changed(name, std::as_bytes(values))) {
+      gl_.Uniform3fv(*at, static_cast<GLsizei>(values.size()), &values[0][0]);
+    }
   }
   void Set(const char* name, std::span<const glm::vec4> values) const {
-    gl_.Uniform4fv(At(name), static_cast<GLsizei>(values.size()), &values[0][0]);
+    if (const auto at = Changed(name, std::as_bytes(values))) {
+      gl_.Uniform4fv(*at, static_cast<GLsizei>(values.size()), &values[0][0]);
+    }
   }
   void Set(const char* name, std::span<const glm::mat4> values) const {
-    gl_.UniformMatrix4fv(At(name), static_cast<GLsizei>(values.size()), GL_FALSE, &values[0][0][0]);
+    if (const auto at = Changed(name, std::as_bytes(values))) {
+      gl_.UniformMatrix4fv(*at, static_cast<GLsizei>(values.size()), GL_FALSE, &values[0][0][0]);
+    }
   }
 
  private:
-  /// -1, which GL ignores, for a uniform the program does not use.
-  GLint At(const char* name) const { return gl_.GetUniformLocation(id_, name); }
+  struct Uniform {
+    GLint at;  ///< -1: the program has none of that name
+    std::vector<std::byte> value;
+  };
+  /// Where a uniform is, if it is there and has another value than that: a driver takes far longer
+  /// to find a name or to note a value than this does to see that it need not.
+  std::optional<GLint> Changed(const char* name, std::span<const std::byte> value) const;
   /// Links what has been attached and lets the shaders go.
   void Link(const char* name, std::initializer_list<GLuint> shaders);
 
   const GlFunctions& gl_;
   GLuint id_;
+  mutable std::unordered_map<std::string_view, Uniform> uniforms_;  // those set so far
 };
 
 /// Where a frame is drawn: colour and depth of twice the picture's size in each direction, averaged
@@ -72,7 +95,7 @@ class GlTarget {
  public:
   /// Throws std::runtime_error if the driver cannot make it. Sizes: the finished picture's.
   GlTarget(const GlFunctions& gl, int width, int height);
-  ~GlTarget();
+  ~GlTarget() { Delete(); }
   GlTarget(const GlTarget&) = delete;
   GlTarget& operator=(const GlTarget&) = delete;
 
@@ -83,18 +106,19 @@ class GlTarget {
   std::size_t samples_in_row() const { return static_cast<std::size_t>(width_) * kSamplesAlong; }
   /// The averaged picture; `soft` as of AverageSamples.
   void Read(Image& out, bool soft);
-  /// RGBA8 samples of the rows from .. to, the lowest first: into memory, or where a
-  /// GL_PIXEL_PACK_BUFFER is bound into that.
-  void ReadRows(int from, int to, void* samples) const;
+  GLuint samples() const { return colour_; }  ///< a texture of RGBA8, the lowest row first
   /// Averages into the framebuffer bound as GL_DRAW_FRAMEBUFFER, its lower left corner at (x, y).
   void Show(int x, int y) const;
 
  private:
+  void Delete();
+  /// RGBA8 samples of the rows from .. to, the lowest first.
+  void ReadRows(int from, int to, void* samples) const;
+
   const GlFunctions& gl_;
   int width_;
   int height_;
-  GLuint frame_ = 0;
-  GLuint buffers_[2] = {};              // colour, depth
+  GLuint frame_ = 0, colour_ = 0, depth_ = 0;
   std::vector<std::uint32_t> samples_;  // some rows of RGBA8, as they are read
 };
 

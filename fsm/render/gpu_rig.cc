@@ -1,5 +1,6 @@
 #include "fsm/render/gpu_rig.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <iomanip>
@@ -233,8 +234,10 @@ void GpuRig::Add(const char* kernel, std::span<const std::uint32_t> items, std::
   kernels_.push_back({&programs_.Of(kernel), 0, static_cast<std::uint32_t>(count)});
   gl_.GenBuffers(1, &kernels_.back().items);
   gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, kernels_.back().items);
-  gl_.BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(items.size_bytes()),
-                 items.data(), GL_STATIC_DRAW);
+  Words words{static_cast<std::uint32_t>(count)};
+  words.insert(words.end(), items.begin(), items.end());
+  gl_.BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(words.size() * sizeof(words[0])),
+                 words.data(), GL_STATIC_DRAW);
 }
 
 void GpuRig::AddStep(RigStep step, const RigData& data) {
@@ -301,7 +304,10 @@ void GpuRig::AddStep(RigStep step, const RigData& data) {
 }
 
 void GpuRig::Evaluate(const Rig& rig, std::span<const Face> faces) {
-  std::vector<float> poses;
+  if (faces.empty()) return;
+  // First what all poses share (Poses in rig_steps.glsl), when it is known.
+  constexpr std::size_t kShared = 4;
+  std::vector<float> poses(kShared);
   std::size_t swings_at = 0;
   for (const Face& face : faces) {
     PoseBlock block(rig.data(), rig.InputsOf(*face.state));
@@ -315,7 +321,12 @@ void GpuRig::Evaluate(const Rig& rig, std::span<const Face> faces) {
     }
     poses.resize(poses.size() + 3 * seam_count_, 0.0F);
   }
-  if (faces.empty()) return;
+  const std::array<std::size_t, kShared> shared{vertex_count_,
+                                                (poses.size() - kShared) / faces.size(), swings_at,
+                                                swings_at + 3 * spring_count_};
+  std::ranges::transform(shared, poses.begin(), [](std::size_t number) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(number));
+  });
   const auto bind = [this](Buffer which) {
     gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, buffers_[which]);
   };
@@ -332,17 +343,11 @@ void GpuRig::Evaluate(const Rig& rig, std::span<const Face> faces) {
                  poses.data(), GL_STREAM_DRAW);
   for (const Buffer which : {kPositions, kNormals, kPoses})
     gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, which, buffers_[which]);
-  const auto number = [](std::size_t n) { return static_cast<GLuint>(n); };
   for (const Kernel& kernel : kernels_) {
     kernel.program->Use();
-    kernel.program->Set("item_count", number(kernel.count));
-    kernel.program->Set("vertex_count", number(vertex_count_));
-    kernel.program->Set("pose_size", number(poses.size() / faces.size()));
-    kernel.program->Set("swings_at", number(swings_at));
-    kernel.program->Set("seam_at", number(swings_at + 3 * spring_count_));
     gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, kBuffers, kernel.items);
     constexpr std::uint32_t kGroup = 64;  // local_size_x
-    gl_.DispatchCompute((kernel.count + kGroup - 1) / kGroup, number(faces.size()), 1);
+    gl_.DispatchCompute((kernel.count + kGroup - 1) / kGroup, static_cast<GLuint>(faces.size()), 1);
     gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
   gl_.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);

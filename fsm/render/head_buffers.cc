@@ -145,14 +145,17 @@ void HeadBuffers::Upload(const HeadVertices& vertices) {
   Use(positions, normals);
 }
 
-void HeadBuffers::Use(GLuint positions, GLuint normals) {
+void HeadBuffers::Use(GLuint positions, GLuint normals, std::size_t from) {
   gl_.BindVertexArray(array_);
-  const std::array wanted{positions, normals};
+  const std::array<std::size_t, 3> wanted{positions, normals, from};
   if (std::exchange(used_, wanted) == wanted) return;
-  for (const GLuint i : {VertexAttribute::kPosition, VertexAttribute::kNormal}) {
-    gl_.BindBuffer(GL_ARRAY_BUFFER, wanted[i]);
-    gl_.VertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-  }
+  const auto point = [&](GLuint attribute, GLuint buffer) {
+    gl_.BindBuffer(GL_ARRAY_BUFFER, buffer);
+    gl_.VertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, 0,
+                            reinterpret_cast<const void*>(from));
+  };
+  point(VertexAttribute::kPosition, positions);
+  point(VertexAttribute::kNormal, normals);
 }
 
 std::vector<std::uint32_t> HeadBuffers::MeasuredVertices() const {

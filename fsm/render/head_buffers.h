@@ -32,8 +32,9 @@ class HeadBuffers {
 
   /// Binds the head's vertex array with these vertices, which are the head's, in it.
   void Upload(const HeadVertices& vertices);
-  /// The same with buffers of positions and of normals that are on the card already.
-  void Use(GLuint positions, GLuint normals);
+  /// The same with buffers of positions and of normals that are on the card already, of which the
+  /// head's begin `from` bytes in.
+  void Use(GLuint positions, GLuint normals, std::size_t from = 0);
   /// The vertices at which eyes(), shadows() and mouth() look.
   std::vector<std::uint32_t> MeasuredVertices() const;
   /// The head's parts in the order to draw them, what hides most first. `error_mm`: by how much
@@ -72,7 +73,7 @@ class HeadBuffers {
   GLuint array_ = 0;
   std::array<GLuint, VertexAttribute::kCount> buffers_{};
   GLuint index_buffer_ = 0;
-  std::array<GLuint, 2> used_{};                  // positions and normals
+  std::array<std::size_t, 3> used_{};             // positions, normals and where they begin
   std::map<int, std::vector<DrawnPart>> levels_;  // by the error, as a power of the root of 2
   std::vector<std::uint32_t> indices_;            // of all levels
   CreaseWeights creases_;

@@ -54,19 +54,23 @@ class CardRig {
   CardRig(const GlFunctions& gl, RigPrograms& programs, const Head& head,
           std::vector<std::uint32_t> measured)
       : rig_(gl, programs, head.rig()), partial_(head.rig(), std::move(measured)) {}
-  const GpuRig& rig() const { return rig_; }
-  /// The places that are measured.
-  const HeadVertices& Move(const Head& head, const FaceState& state,
-                           std::span<const glm::vec3> swings) {
-    const GpuRig::Face face{&state, swings};
-    rig_.Evaluate(head.rig(), {&face, 1});
-    partial_.Evaluate(state, seen_, swings);
+  void Move(const Head& head, std::span<const Renderer::Pane> panes) {
+    faces_.clear();
+    for (const Renderer::Pane& pane : panes) faces_.push_back({pane.state, pane.swings});
+    rig_.Evaluate(head.rig(), faces_);
+  }
+  /// Has the buffers use the vertices of one of the faces moved last; gives the places that are
+  /// measured.
+  const HeadVertices& Use(std::size_t face, HeadBuffers& buffers) {
+    buffers.Use(rig_.positions(), rig_.normals(), rig_.OffsetBytes(face));
+    partial_.Evaluate(*faces_[face].state, seen_, faces_[face].swings);
     return seen_;
   }
 
  private:
   GpuRig rig_;
   PartialRig partial_;
+  std::vector<GpuRig::Face> faces_;  // moved last
   HeadVertices seen_;
 };
 
@@ -79,10 +83,11 @@ class GlRenderer : public Renderer {
         gl_(GlFunctions::Load(context)),
         materials_(gl_, appearance),
         backdrop_(gl_),
-        reader_(gl_, !IsSoftware(gl_)),
+        draws_on_card_(!IsSoftware(gl_)),
+        reader_(gl_, draws_on_card_ && gl_.has_compute),
         rig_programs_(gl_),
         rig_on_card_(rig == RigOn::kCard ||
-                     (rig == RigOn::kBest && RigPrograms::Supported(gl_) && !IsSoftware(gl_))) {
+                     (rig == RigOn::kBest && RigPrograms::Supported(gl_) && draws_on_card_)) {
     if (rig_on_card_ && !RigPrograms::Supported(gl_))
       throw std::runtime_error(
           "OpenGL 4.3 is needed to move faces on the card, this driver has " +
@@ -102,17 +107,28 @@ class GlRenderer : public Renderer {
 
   void Draw(const Head& head, const FaceState& state, std::span<const glm::vec3> swings,
             const Scene& scene) override {
-    if (!rig_on_card_) {
-      head.Evaluate(state, vertices_, swings);
-      return Draw(head, vertices_, state, scene);
+    const Pane pane{&head, &state, &scene, viewport_, swings};
+    Draw({&pane, 1}, {});
+  }
+
+  void Draw(std::span<const Pane> panes, const std::function<void(std::size_t)>& drawn) override {
+    constexpr std::ptrdiff_t kMostAtOnce = 256;  // each takes some 0.3 MB of the card
+    const Viewport before = viewport_;
+    std::size_t done = 0;
+    while (done < panes.size()) {
+      const Head& head = *panes[done].head;
+      auto run = panes.subspan(done);
+      const auto other = std::ranges::find_if(
+          run, [&head](const Pane& pane) { return pane.head->serial() != head.serial(); });
+      run = run.first(static_cast<std::size_t>(std::min(other - run.begin(), kMostAtOnce)));
+      if (rig_on_card_) Move(head, run);
+      for (std::size_t k = 0; k < run.size(); ++k, ++done) {
+        viewport_ = run[k].viewport;
+        DrawOne(head, run[k], k);
+        if (drawn) drawn(done);
+      }
     }
-    Draw(head, state, scene, [&](HeadOnCard& on_card) -> const HeadVertices& {
-      auto& rig = on_card.rig;
-      if (!rig) rig.emplace(gl_, rig_programs_, head, on_card.buffers.MeasuredVertices());
-      const HeadVertices& seen = rig->Move(head, state, swings);
-      on_card.buffers.Use(rig->rig().positions(), rig->rig().normals());
-      return seen;
-    });
+    viewport_ = before;
   }
 
  private:
@@ -125,6 +141,24 @@ class GlRenderer : public Renderer {
     std::optional<CardRig> rig;
     std::uint64_t drawn = 0;  ///< the number of the last frame with it
   };
+
+  void Move(const Head& head, std::span<const Pane> panes) {
+    HeadOnCard& on_card = Find(head);
+    if (!on_card.rig)
+      on_card.rig.emplace(gl_, rig_programs_, head, on_card.buffers.MeasuredVertices());
+    on_card.rig->Move(head, panes);
+  }
+
+  /// `moved`: which of the faces of the head that were moved last it is.
+  void DrawOne(const Head& head, const Pane& pane, std::size_t moved) {
+    if (!rig_on_card_) {
+      head.Evaluate(*pane.state, vertices_, pane.swings);
+      return Draw(head, vertices_, *pane.state, *pane.scene);
+    }
+    Draw(head, *pane.state, *pane.scene, [moved](HeadOnCard& on_card) -> const HeadVertices& {
+      return on_card.rig->Use(moved, on_card.buffers);
+    });
+  }
 
   /// `move`: has the buffers use the vertices of the frame, and gives those that are measured.
   void Draw(const Head& head, const FaceState& state, const Scene& scene, const auto& move) {
@@ -152,6 +186,7 @@ class GlRenderer : public Renderer {
 
   void Read(Image& out) override {
     assert(target_ && "Read before the first Draw");
+    if (draws_on_card_) return EndRead(BeginRead(), out);
     target_->Read(out, soft_);
     if (transparent_) Unmultiply(out);
   }
@@ -223,7 +258,7 @@ class GlRenderer : public Renderer {
         DrawPart(part.part);
         if (part.soft) gl_.Disable(GL_BLEND);
         // A software driver draws on threads of its own, but begins when told to.
-        if (&part == &parts.front()) gl_.Flush();
+        if (!draws_on_card_ && &part == &parts.front()) gl_.Flush();
       }
       gl_.Disable(GL_CULL_FACE);
       gl_.Disable(GL_POLYGON_OFFSET_FILL);
@@ -291,6 +326,7 @@ class GlRenderer : public Renderer {
   std::map<std::uint64_t, std::unique_ptr<HeadOnCard>> heads_;  // by Head::serial
   std::uint64_t frames_ = 0;
   std::vector<std::unique_ptr<GlTarget>> targets_;  // the one used last first
+  const bool draws_on_card_;
   FrameReader reader_;
   RigPrograms rig_programs_;
   const bool rig_on_card_;

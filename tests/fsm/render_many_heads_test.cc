@@ -7,8 +7,10 @@
 #include <memory>
 #include <vector>
 
+#include "fsm/render/appearance.h"
 #include "fsm/render/backdrop.h"
 #include "fsm/render/frame_reader.h"
+#include "fsm/render/gpu_rig.h"
 #include "fsm/render/renderer.h"
 #include "tests/fsm/ball_head.h"
 #include "tests/fsm/render_support.h"
@@ -45,6 +47,50 @@ TEST(ManyHeadsTest, DrawnInTurnsTheyLookAsAlone) {
         EXPECT_EQ(picture(*shared, *head, size), picture(*alone, *head, size));
       }
     }
+  }
+}
+
+TEST(ManyHeadsTest, FacesDrawnInOneCallLookAsOneByOne) {
+  const auto context = RenderContext::MakeHeadless(80, 64);
+  const auto plain = MakeHead("galatea");
+  const auto photo = WearingPhoto();
+  const BallHead ball;
+  std::vector<FaceState> states(6);
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    states[k].au.left[12] = states[k].au.right[26] = 0.2F * static_cast<float>(k);
+  }
+  Scene scene;
+  scene.background = {0.1F, 0.4F, 0.7F};
+  // The second of the two runs of one head has fewer faces, and a head comes twice.
+  const std::vector<Renderer::Pane> panes{{plain.get(), &states[0], &scene, {0, 0, 40, 64}},
+                                          {plain.get(), &states[1], &scene, {40, 0, 40, 64}},
+                                          {plain.get(), &states[2], &scene, {}},
+                                          {photo.get(), &states[3], &scene, {0, 0, 40, 64}},
+                                          {&ball, &states[4], &scene, {0, 0, 40, 64}},
+                                          {plain.get(), &states[5], &scene, {0, 0, 40, 64}}};
+  for (const RigOn rig : {RigOn::kProcessor, RigOn::kCard}) {
+    if (rig == RigOn::kCard && !RigPrograms::Supported(GlFunctions::Load(*context))) continue;
+    const auto renderer = Renderer::Make(*context, 2, Appearance::BuiltIn(), rig);
+    std::vector<Image> expected, drawn;
+    for (const Renderer::Pane& pane : panes) {
+      renderer->SetViewport(pane.viewport);
+      renderer->Draw(*pane.head, *pane.state, pane.swings, *pane.scene);
+      renderer->Read(expected.emplace_back());
+    }
+    renderer->SetViewport({0, 0, 10, 20});
+    renderer->Draw(panes, [&](std::size_t k) {
+      EXPECT_EQ(k, drawn.size());
+      renderer->Read(drawn.emplace_back());
+    });
+    ASSERT_EQ(drawn.size(), panes.size());
+    for (std::size_t k = 0; k < panes.size(); ++k) {
+      EXPECT_EQ(drawn[k].width, panes[k].viewport.width > 0 ? 40 : 80) << k;
+      EXPECT_EQ(drawn[k].rgba, expected[k].rgba) << k;
+    }
+    EXPECT_NE(drawn[0].rgba, drawn[1].rgba);
+    renderer->Draw(ball, states[0], {}, scene);
+    renderer->Read(drawn[0]);
+    EXPECT_EQ(drawn[0].width, 10) << "the viewport set before is back";
   }
 }
 

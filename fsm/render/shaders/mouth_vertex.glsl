@@ -34,12 +34,12 @@ const float kBehindTeeth = 9.0;  // behind the lips
 vec3 RingAt(int i, float deep) {
   if (i == 0) return vec3(mouth_edges.x, 0.0, 0.0);
   if (i == kColumns + 1) return vec3(mouth_edges.y, 0.0, 0.0);
-  if (i > kColumns) {
-    vec3 upper = lips[kRing - 1 - i];
-    return vec3(upper.x, mix(upper.y, min(upper.y, mouth_edges.z), deep), upper.z);
-  }
-  vec3 lower = lips[kColumns + i - 1];
-  return vec3(lower.x, mix(lower.y, max(lower.y, mouth_edges.w), deep), lower.z);
+  // One index for both edges: NVIDIA's compiler unrolls the loop and refuses an index that is out of
+  // bounds where it would not be reached.
+  bool upper = i > kColumns;
+  vec3 p = lips[upper ? kRing - 1 - i : kColumns + i - 1];
+  float behind = upper ? min(p.y, mouth_edges.z) : max(p.y, mouth_edges.w);
+  return vec3(p.x, mix(p.y, behind, deep), p.z);
 }
 
 // Light from all sides through the opening, as a vector: with a surface's normal it gives the light on

@@ -7,13 +7,17 @@
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Positions { float positions[]; };
 layout(std430, binding = 1) buffer Normals { float normals[]; };
-layout(std430, binding = 2) buffer Poses { float poses[]; };
-layout(std430, binding = 3) readonly buffer Items { uint items[]; };
-uniform uint item_count;
-uniform uint vertex_count;
-uniform uint pose_size;
-uniform uint swings_at;  // in a pose
-uniform uint seam_at;
+layout(std430, binding = 2) buffer Poses {
+  uint vertex_count;
+  uint pose_size;
+  uint swings_at;  // in a pose
+  uint seam_at;
+  float poses[];
+};
+layout(std430, binding = 3) readonly buffer Items {
+  uint item_count;
+  uint items[];
+};
 
 uint Face() { return gl_GlobalInvocationID.y; }
 uint At(uint vertex) { return 3u * (Face() * vertex_count + vertex); }
