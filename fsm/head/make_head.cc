@@ -226,9 +226,7 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& pa
   rig.lips = BakeLips(skin.mouth, soft);
   rig.teeth = BakeTeeth(from.mouth.UpperTeeth().Moved(head.teeth),
                         from.mouth.LowerTeeth().Moved(head.teeth), rig.rest, soft);
-  for (const Side side : kSides) {
-    rig.eyes.pivot[side] = rig.ball_lids.centre[side] = topology.eyes[side].centre;
-  }
+  for (const Side side : kSides) rig.eyes.pivot[side] = topology.eyes[side].centre;
   for (std::size_t i = 0; i < topology.indices.size(); i += 3) {
     const std::uint32_t* const corner = &topology.indices[i];
     if (*corner >= parts.soft_end) continue;

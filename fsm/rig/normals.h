@@ -21,10 +21,7 @@ struct NormalRig {
 void FindNormals(const NormalRig& rig, std::span<const std::uint32_t> soft,
                  std::span<const glm::vec3> position, std::span<glm::vec3> normal);
 
-/// Adds the normals of triangles, by their areas, to those of their corners, and makes them unit.
-void Accumulate(std::span<const std::uint32_t> triangles, std::span<const glm::vec3> position,
-                std::span<glm::vec3> normal);
-/// The unit normals of `count` vertices, found by Accumulate.
+/// The unit normals of `count` vertices: those of their triangles, weighted by area.
 std::vector<glm::vec3> Normals(std::span<const std::uint32_t> triangles,
                                std::span<const glm::vec3> position, std::size_t count);
 

@@ -1,6 +1,7 @@
 #include "fsm/rig/rig.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -31,6 +32,10 @@ JawMove ByChin(const JawRig& jaw, glm::vec3 before, glm::vec3 after) {
           .sway_mm = after.x - before.x};
 }
 
+void AddOwnForm(std::span<const glm::vec3> to_own, std::span<glm::vec3> position) {
+  for (std::size_t i = 0; i < to_own.size(); ++i) position[i] += to_own[i];
+}
+
 void Swing(std::span<const SpringWeight> weights, std::span<const glm::vec3> swings,
            std::span<glm::vec3> position) {
   if (swings.empty()) return;
@@ -50,50 +55,46 @@ struct Rig::Frame {
   std::span<const glm::vec3> swings{};
 };
 
-struct Rig::StepEntry {
-  RigStep step;
-  std::string_view name;
-  void (*run)(const Rig&, Frame&);
-};
+std::string_view NameOf(RigStep step) {
+  static constexpr std::array<std::string_view, static_cast<std::size_t>(RigStep::kNormals) + 1>
+      kNames{"channels", "lids",   "lids_on_balls", "jaw",  "jaw_by_chin", "teeth",  "lips",
+             "own_form", "tongue", "bones",         "neck", "springs",     "normals"};
+  return kNames[static_cast<std::size_t>(step)];
+}
 
-constexpr Rig::StepEntry Rig::kSteps[] = {
-    {RigStep::kChannels, "channels", [](const Rig& rig, Frame& f) { rig.AddChannels(f); }},
-    {RigStep::kLids, "lids",
-     [](const Rig& rig, Frame& f) { MoveLids(rig.data_.lids, f.pose, f.position); }},
-    {RigStep::kLidsOnBalls, "lids_on_balls",
-     [](const Rig& rig, Frame& f) { KeepOutside(rig.data_.ball_lids, f.position); }},
-    {RigStep::kJaw, "jaw",
-     [](const Rig& rig, Frame& f) {
-       MoveWithJaw(rig.jawed_, rig.data_.weights, f.pose, f.position);
-     }},
-    {RigStep::kJawByChin, "jaw_by_chin",
-     [](const Rig& rig, Frame& f) {
-       const JawRig& jaw = rig.data_.jaw;
-       f.pose.SetJaw(ByChin(jaw, rig.data_.rest[jaw.chin], f.position[jaw.chin]));
-     }},
-    {RigStep::kTeeth, "teeth",
-     [](const Rig& rig, Frame& f) { KeepOffTeeth(rig.data_.teeth, f.pose, f.position); }},
-    {RigStep::kLips, "lips",
-     [](const Rig& rig, Frame& f) { CloseLips(rig.data_.lips, f.pose.seal, f.position); }},
-    {RigStep::kOwnForm, "own_form",
-     [](const Rig& rig, Frame& f) {
-       const auto& by = rig.data_.proxy.to_own;
-       for (std::size_t i = 0; i < by.size(); ++i) f.position[i] += by[i];
-     }},
-    {RigStep::kTongue, "tongue", [](const Rig& rig, Frame& f) { rig.MoveTongue(f); }},
-    {RigStep::kBones, "bones", [](const Rig& rig, Frame& f) { rig.MoveBones(f); }},
-    {RigStep::kNeck, "neck", [](const Rig& rig, Frame& f) { rig.TurnNeck(f); }},
-    {RigStep::kSprings, "springs",
-     [](const Rig& rig, Frame& f) { Swing(rig.data_.swing.weights, f.swings, f.position); }},
-    {RigStep::kNormals, "normals",
-     [](const Rig& rig, Frame& f) {
-       FindNormals(rig.data_.normals, rig.soft_, f.position, f.normal);
-     }},
-};
-
-const Rig::StepEntry& Rig::EntryOf(RigStep step) { return kSteps[static_cast<std::size_t>(step)]; }
-
-std::string_view NameOf(RigStep step) { return Rig::EntryOf(step).name; }
+void Rig::Take(RigStep step, Frame& frame) const {
+  switch (step) {
+    using enum RigStep;
+    case kChannels:
+      return AddChannels(frame);
+    case kLids:
+      return MoveLids(data_.lids, frame.pose, frame.position);
+    case kLidsOnBalls:
+      return KeepOutside(data_.ball_lids, frame.position);
+    case kJaw:
+      return MoveWithJaw(jawed_, data_.weights, frame.pose, frame.position);
+    case kJawByChin: {
+      const JawRig& jaw = data_.jaw;
+      return frame.pose.SetJaw(ByChin(jaw, data_.rest[jaw.chin], frame.position[jaw.chin]));
+    }
+    case kTeeth:
+      return KeepOffTeeth(data_.teeth, frame.pose, frame.position);
+    case kLips:
+      return CloseLips(data_.lips, frame.pose.seal, frame.position);
+    case kOwnForm:
+      return AddOwnForm(data_.proxy.to_own, frame.position);
+    case kTongue:
+      return MoveTongue(frame);
+    case kBones:
+      return MoveBones(frame);
+    case kNeck:
+      return TurnNeck(frame);
+    case kSprings:
+      return Swing(data_.swing.weights, frame.swings, frame.position);
+    case kNormals:
+      return FindNormals(data_.normals, soft_, frame.position, frame.normal);
+  }
+}
 
 Rig::Rig(RigData data) : data_(std::move(data)), drives_(data_.channels) {
   std::vector<bool> soft(data_.rest.size(), false);
@@ -116,7 +117,7 @@ void Rig::Evaluate(const FaceState& state, HeadVertices& out,
   out.position = data_.Start();
   out.normal = data_.rest_normal;
   Frame frame{state, PoseOf(state), out.position, out.normal, swings};
-  for (const RigStep step : data_.steps) EntryOf(step).run(*this, frame);
+  for (const RigStep step : data_.steps) Take(step, frame);
   FindCreasesAndLids(frame.pose, out);
 }
 
@@ -144,7 +145,7 @@ MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
   Frame frame{state, PoseOf(state), position, {}};
   for (const RigStep step : data_.steps) {
     if (step == RigStep::kTongue || step == RigStep::kBones) break;
-    EntryOf(step).run(*this, frame);
+    Take(step, frame);
   }
   const auto [upper, lower, left, right] = *data_.lips.measured;
   return {.gap_mm = std::max(0.0f, position[upper].y - position[lower].y),

@@ -58,12 +58,9 @@ class Rig {
   Rig WithUnits(const UnitTable& units) const;
 
  private:
-  friend std::string_view NameOf(RigStep step);
   struct Frame;
-  struct StepEntry;
-  static const StepEntry kSteps[];
-  static const StepEntry& EntryOf(RigStep step);
 
+  void Take(RigStep step, Frame& frame) const;
   Pose PoseOf(const FaceState& state) const;
   /// How far an eye turns, which of heads from elsewhere is another angle than that of the gaze.
   glm::mat3 EyeTurn(const Pose& pose, Side side) const;
