@@ -1,5 +1,7 @@
 #include "fsm/asset/asset_reader.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -20,6 +22,12 @@ using nlohmann::json;
 struct Fault : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/// How many numbers an element of a column has.
+template <typename M>
+constexpr std::size_t kWidth = 1;
+template <glm::length_t L>
+constexpr std::size_t kWidth<glm::vec<L, float>> = L;
 
 /// Reads what asset_writer.cc has written, by the same lists of members.
 class Reader {
@@ -50,8 +58,7 @@ class Reader {
     if (!from.is_number_integer()) throw Fault(place + ": a whole number expected");
     const auto value = from.get<std::int64_t>();
     if (value < least || value > most) {
-      throw Fault(place + ": " + std::to_string(value) + " found, " + std::to_string(least) +
-                  " to " + std::to_string(most) + " expected");
+      throw Fault(fmt::format("{}: {} found, {} to {} expected", place, value, least, most));
     }
     return value;
   }
@@ -62,7 +69,7 @@ class Reader {
   }
   static void NeedList(const std::string& place, const json& from, std::size_t size) {
     if (!from.is_array() || from.size() != size) {
-      throw Fault(place + ": a list of " + std::to_string(size) + " expected");
+      throw Fault(fmt::format("{}: a list of {} expected", place, size));
     }
   }
   /// The document's errors begin with the name of the file, which ParseAsset says, too.
@@ -116,17 +123,14 @@ class Reader {
                            Narrow<std::uint32_t>(place, numbers[i + 1]));
     } else if constexpr (requires { T::length(); }) {
       const auto numbers = Column(place, from, T::length());
-      items.resize(numbers.size() / static_cast<std::size_t>(T::length()));
-      for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const auto width = static_cast<std::size_t>(T::length());
-        items[i / width][static_cast<glm::length_t>(i % width)] = static_cast<float>(numbers[i]);
-      }
+      items.resize(numbers.size() / kWidth<T>);
+      for (std::size_t i = 0; i < items.size(); ++i) Fill(place, &numbers[i * kWidth<T>], items[i]);
     } else if constexpr (std::is_enum_v<T> || std::is_arithmetic_v<T>) {
       for (const double number : Column(place, from, 1)) items.push_back(Narrow<T>(place, number));
     } else {
       if (!from.is_array()) throw Fault(place + ": a list expected");
       for (std::size_t i = 0; i < from.size(); ++i)
-        Read(place + "[" + std::to_string(i) + "]", from[i], items.emplace_back());
+        Read(fmt::format("{}[{}]", place, i), from[i], items.emplace_back());
     }
   }
   template <typename T>
@@ -163,7 +167,7 @@ class Reader {
         most = std::numeric_limits<T>::max();
       }
       if (!(number >= least && number <= most)) {
-        throw Fault(place + ": " + std::to_string(number) + " is out of range");
+        throw Fault(fmt::format("{}: {} is out of range", place, number));
       }
       return static_cast<T>(static_cast<std::int64_t>(number));
     }
@@ -171,31 +175,29 @@ class Reader {
 
   template <typename T>
   void ReadTable(const std::string& place, const json& from, std::vector<T>& items) {
-    std::size_t column = 0;
-    T sample{};
-    const auto member = [&]<typename M>(const char* name, M&) {
-      const std::string where = place + "." + name;
-      constexpr int kWidth = [] {
-        if constexpr (requires { M::length(); }) return static_cast<int>(M::length());
-        return 1;
-      }();
-      const auto numbers = Column(where, MemberOf(place, from, name), kWidth);
-      const std::size_t count = numbers.size() / kWidth;
-      if (column == 0) items.resize(count);
-      if (items.size() != count) throw Fault(where + ": as many as in the first column expected");
-      for (std::size_t i = 0; i < count; ++i) {
-        std::size_t at = 0;
-        const auto fill = [&]<typename Other>(const char*, Other& value) {
-          if constexpr (std::is_same_v<M, Other>) {
-            if (at == column) Fill(where, &numbers[i * kWidth], value);
-          }
-          ++at;
-        };
-        Members(fill, items[i]);
-      }
-      ++column;
+    struct TableColumn {
+      std::string place;
+      std::vector<double> numbers;
     };
-    Members(member, sample);
+    std::vector<TableColumn> columns;
+    const auto read = [&]<typename M>(const char* name, M&) {
+      std::string where = place + "." + name;
+      auto numbers = Column(where, MemberOf(place, from, name), static_cast<int>(kWidth<M>));
+      const std::size_t count = numbers.size() / kWidth<M>;
+      if (columns.empty()) items.resize(count);
+      if (items.size() != count) throw Fault(where + ": as many as in the first column expected");
+      columns.push_back({std::move(where), std::move(numbers)});
+    };
+    T sample{};
+    Members(read, sample);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      std::size_t at = 0;
+      const auto fill = [&]<typename M>(const char*, M& value) {
+        const auto& [where, numbers] = columns[at++];
+        Fill(where, &numbers[i * kWidth<M>], value);
+      };
+      Members(fill, items[i]);
+    }
   }
   template <typename M>
   static void Fill(const std::string& place, const double* numbers, M& value) {

@@ -30,19 +30,47 @@ constexpr GltfType TypeOf() {
   return GltfType::kUint8;
 }
 
-/// The glTF type of a column of numbers, where it is not that of the numbers.
+/// What a number is stored as in a column.
 template <typename T>
-struct Stored {
-  using Type = std::conditional_t<std::is_same_v<T, bool> || std::is_enum_v<T>, std::uint8_t,
+using Stored = std::conditional_t<std::is_same_v<T, bool> || std::is_enum_v<T>, std::uint8_t,
                                   std::conditional_t<std::is_same_v<T, int>, std::int16_t, T>>;
-};
 
+/// The numbers of one element of a column.
+template <typename T>
+requires(std::is_enum_v<T> || std::is_arithmetic_v<T>) std::array < Stored<T>,
+1 > NumbersOf(T value) { return {static_cast<Stored<T>>(value)}; }
+std::array<std::uint32_t, 2> NumbersOf(const std::pair<std::uint32_t, std::uint32_t>& pair) {
+  return {pair.first, pair.second};
+}
 template <glm::length_t L>
 std::array<float, L> NumbersOf(const glm::vec<L, float>& v) {
   std::array<float, L> numbers;
   for (glm::length_t k = 0; k < L; ++k) numbers[static_cast<std::size_t>(k)] = v[k];
   return numbers;
 }
+
+/// An accessor in the making: elements of one type.
+class Column {
+ public:
+  template <typename T>
+  void Add(const T& element) {
+    const auto numbers = NumbersOf(element);
+    type_ = TypeOf<typename decltype(numbers)::value_type>();
+    width_ = static_cast<int>(numbers.size());
+    const auto bytes = std::as_bytes(std::span(numbers));
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    ++count_;
+  }
+  std::size_t Finish(GltfBuilder& gltf) const {
+    return gltf.AddAccessor(gltf.AddView(bytes_), count_, width_, type_);
+  }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::size_t count_ = 0;
+  int width_ = 0;
+  GltfType type_{};
+};
 
 /// Writes members as JSON, and arrays of numbers as accessors that the JSON names by index.
 class Writer {
@@ -103,16 +131,10 @@ class Writer {
     if (items.empty()) return json::array();
     if constexpr (Tabular<T>) {
       return WriteTable(items);
-    } else if constexpr (std::is_enum_v<T> || std::is_arithmetic_v<T>) {
-      return WriteColumn<typename Stored<T>::Type, 1>(items, [](const T& item) {
-        return std::array{static_cast<typename Stored<T>::Type>(item)};
-      });
-    } else if constexpr (std::is_same_v<T, std::pair<std::uint32_t, std::uint32_t>>) {
-      return WriteColumn<std::uint32_t, 2>(items, [](const T& pair) {
-        return std::array{pair.first, pair.second};
-      });
-    } else if constexpr (requires { T::length(); }) {
-      return WriteColumn<float, T::length()>(items, [](const T& item) { return NumbersOf(item); });
+    } else if constexpr (requires { NumbersOf(items.front()); }) {
+      Column column;
+      for (const T& item : items) column.Add(item);
+      return column.Finish(gltf_);
     } else {
       json list = json::array();
       for (const T& item : items) list.push_back(Write(item));
@@ -130,46 +152,18 @@ class Writer {
   /// One column for each member.
   template <typename T>
   json WriteTable(const std::vector<T>& items) {
-    json columns = json::object();
-    std::size_t column = 0;
-    const auto member = [&]<typename M>(const char* name, const M&) {
-      const auto nth = [column](const T& item) {
-        const M* found = nullptr;
-        std::size_t at = 0;
-        const auto look = [&]<typename Other>(const char*, const Other& value) {
-          if constexpr (std::is_same_v<M, Other>) {
-            if (at == column) found = &value;
-          }
-          ++at;
-        };
-        Members(look, item);
-        return *found;
-      };
-      std::vector<M> values;
-      values.reserve(items.size());
-      for (const T& item : items) values.push_back(nth(item));
-      if constexpr (std::is_same_v<M, bool>) {
-        columns[name] = Write(std::vector<std::uint8_t>(values.begin(), values.end()));
-      } else {
-        columns[name] = Write(values);
-      }
-      ++column;
-    };
-    Members(member, items.front());
-    return columns;
-  }
-
-  /// An accessor; `numbers` gives those of one item.
-  template <typename Number, int Width, typename T, typename Numbers>
-  json WriteColumn(const std::vector<T>& items, const Numbers& numbers) {
-    std::vector<Number> all;
-    all.reserve(items.size() * Width);
+    std::vector<std::pair<const char*, Column>> columns;
     for (const T& item : items) {
-      const auto each = numbers(item);
-      all.insert(all.end(), each.begin(), each.end());
+      std::size_t at = 0;
+      const auto add = [&](const char* name, const auto& value) {
+        if (at == columns.size()) columns.emplace_back(name, Column());
+        columns[at++].second.Add(value);
+      };
+      Members(add, item);
     }
-    const std::size_t view = gltf_.AddView(std::span<const Number>(all));
-    return gltf_.AddAccessor(view, items.size(), Width, TypeOf<Number>());
+    json accessors = json::object();
+    for (const auto& [name, column] : columns) accessors[name] = column.Finish(gltf_);
+    return accessors;
   }
 
   GltfBuilder& gltf_;

@@ -1,5 +1,7 @@
 #include "fsm/asset/check_asset.h"
 
+#include <fmt/format.h>
+
 #include <glm/geometric.hpp>
 #include <stdexcept>
 #include <string>
@@ -13,9 +15,7 @@ struct Flaw : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-std::string Place(const char* member, std::size_t at) {
-  return std::string(member) + "[" + std::to_string(at) + "]";
-}
+std::string Place(const char* member, std::size_t at) { return fmt::format("{}[{}]", member, at); }
 
 class Checker {
  public:
@@ -31,13 +31,12 @@ class Checker {
  private:
   void Vertex(std::size_t vertex, const std::string& place) const {
     if (vertex < vertices_) return;
-    throw Flaw(place + ": vertex " + std::to_string(vertex) + " of " + std::to_string(vertices_));
+    throw Flaw(fmt::format("{}: vertex {} of {}", place, vertex, vertices_));
   }
   template <typename List>
   void PerVertex(const List& list, const char* member, bool may_be_empty) const {
     if (list.size() == vertices_ || (may_be_empty && list.empty())) return;
-    throw Flaw(std::string(member) + ": " + std::to_string(list.size()) + " elements for " +
-               std::to_string(vertices_) + " vertices");
+    throw Flaw(fmt::format("{}: {} elements for {} vertices", member, list.size(), vertices_));
   }
   template <typename List>
   void Vertices(const List& list, const char* member) const {
@@ -64,8 +63,8 @@ class Checker {
         throw Flaw(place + ": its triangles are not among the indices");
       }
       if (part.pbr < -1 || part.pbr >= static_cast<int>(topology.pbr_materials.size())) {
-        throw Flaw(place + ": PBR material " + std::to_string(part.pbr) + " of " +
-                   std::to_string(topology.pbr_materials.size()));
+        throw Flaw(fmt::format("{}: PBR material {} of {}", place, part.pbr,
+                               topology.pbr_materials.size()));
       }
     }
     PerVertex(topology.albedo, "topology.albedo", false);
@@ -111,30 +110,28 @@ class Checker {
   }
 
   void CheckSprings(const RigData& rig) const {
-    const auto within = [](float value, float least, float most) {
-      return value >= least && value <= most;  // false for not-a-number
-    };
     for (std::size_t i = 0; i < rig.swing.springs.size(); ++i) {
       const Spring& spring = rig.swing.springs[i];
       const std::string place = Place("rig.springs", i);
+      const auto check = [&](const char* member, float value, float least, float most) {
+        if (value >= least && value <= most) return;  // false for not-a-number
+        throw Flaw(fmt::format("{}: {} outside {}..{}", place, member, least, most));
+      };
       if (!WithinReach(spring.rest) || !WithinReach(spring.root))
         throw Flaw(place + ": too far away");
-      if (!within(spring.frequency_hz, Spring::kLeastHz, Spring::kMostHz))
-        throw Flaw(place + ": a frequency outside 0.1..30 Hz");
-      if (!within(spring.damping, Spring::kLeastDamping, Spring::kMostDamping))
-        throw Flaw(place + ": a damping outside 0.01..0.99");
-      if (!within(spring.hang, 0, 1)) throw Flaw(place + ": hang outside 0..1");
-      if (!within(spring.most_mm, Spring::kLeastMost, Spring::kMostMost))
-        throw Flaw(place + ": most_mm outside 0.01..1000");
-      if (!within(glm::dot(spring.outward, spring.outward), 0, 1.01f))
+      check("frequency_hz", spring.frequency_hz, Spring::kLeastHz, Spring::kMostHz);
+      check("damping", spring.damping, Spring::kLeastDamping, Spring::kMostDamping);
+      check("hang", spring.hang, 0, 1);
+      check("most_mm", spring.most_mm, Spring::kLeastMost, Spring::kMostMost);
+      if (!(glm::dot(spring.outward, spring.outward) <= 1.01f))
         throw Flaw(place + ": outward is longer than 1");
     }
     VerticesOf(rig.swing.weights, "rig.spring_weights");
     for (std::size_t i = 0; i < rig.swing.weights.size(); ++i) {
       const std::uint32_t spring = rig.swing.weights[i].spring;
       if (spring >= rig.swing.springs.size()) {
-        throw Flaw(Place("rig.spring_weights", i) + ": spring " + std::to_string(spring) + " of " +
-                   std::to_string(rig.swing.springs.size()));
+        throw Flaw(fmt::format("rig.spring_weights[{}]: spring {} of {}", i, spring,
+                               rig.swing.springs.size()));
       }
     }
   }
@@ -149,8 +146,7 @@ class Checker {
                                    ? 0
                                    : FaceState{}.mouth.size() - 1;
       if (driver.drive.number > most) {
-        throw Flaw(place + ": number " + std::to_string(driver.drive.number) + " above " +
-                   std::to_string(most));
+        throw Flaw(fmt::format("{}: number {} above {}", place, driver.drive.number, most));
       }
     }
     VerticesOf(channel.moves, (place + ".moves").c_str());
@@ -167,9 +163,8 @@ class Checker {
     VerticesOf(lips.followers, "rig.lips.followers");
     for (std::size_t i = 0; i < lips.followers.size(); ++i) {
       if (lips.followers[i].pair >= lips.seam.size()) {
-        throw Flaw(Place("rig.lips.followers", i) + ": pair " +
-                   std::to_string(lips.followers[i].pair) + " of " +
-                   std::to_string(lips.seam.size()));
+        throw Flaw(fmt::format("rig.lips.followers[{}]: pair {} of {}", i, lips.followers[i].pair,
+                               lips.seam.size()));
       }
     }
     if (lips.measured) Vertices(*lips.measured, "rig.lips.measured");

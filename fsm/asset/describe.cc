@@ -1,7 +1,8 @@
 #include "fsm/asset/describe.h"
 
+#include <fmt/format.h>
+
 #include <array>
-#include <cstdio>
 #include <map>
 #include <set>
 
@@ -46,8 +47,7 @@ class Description {
       : head_(head), topology_(head.topology()), rig_(head.rig().data()) {}
 
   std::string Text() {
-    Line("mesh", std::to_string(rig_.rest.size()) + " vertices, " +
-                     std::to_string(topology_.indices.size() / 3) + " triangles");
+    Line("mesh", "{} vertices, {} triangles", rig_.rest.size(), topology_.indices.size() / 3);
     Parts();
     Pictures();
     Bones();
@@ -58,22 +58,21 @@ class Description {
     MemorySum sum;
     Members(sum, topology_);
     Members(sum, rig_);
-    Line("memory", std::to_string(sum.bytes / 1024) + " KiB");
+    Line("memory", "{} KiB", sum.bytes / 1024);
     return std::move(text_);
   }
 
  private:
-  void Line(const std::string& what, const std::string& value) {
-    std::array<char, 16> column;
-    std::snprintf(column.data(), column.size(), "%-12s", what.c_str());
-    text_ += column.data() + value + "\n";
+  template <typename... Values>
+  void Line(std::string_view what, fmt::format_string<Values...> format, Values&&... values) {
+    text_ += fmt::format("{:<12}{}\n", what, fmt::format(format, std::forward<Values>(values)...));
   }
 
   void Parts() {
     std::map<Material, std::size_t> triangles;
     for (const auto& part : topology_.parts) triangles[part.material] += part.index_count / 3;
     for (const auto& [material, count] : triangles)
-      Line("part", std::string(NameOf(material)) + ", " + std::to_string(count) + " triangles");
+      Line("part", "{}, {} triangles", NameOf(material), count);
   }
 
   void Pictures() {
@@ -82,12 +81,10 @@ class Description {
         {"normal_map, linear", topology_.textures.normal_map},
         {"emissive_map, sRGB", topology_.textures.emissive_map}};
     for (const auto& [name, image] : pictures) {
-      if (!image) continue;
-      Line("texture", std::string(name) + ", " + std::to_string(image->width) + " x " +
-                          std::to_string(image->height));
+      if (image) Line("texture", "{}, {} x {}", name, image->width, image->height);
     }
     if (!topology_.pbr_materials.empty())
-      Line("materials", std::to_string(topology_.pbr_materials.size()) + " of its own");
+      Line("materials", "{} of its own", topology_.pbr_materials.size());
   }
 
   void Bones() {
@@ -96,13 +93,12 @@ class Description {
     std::array<std::size_t, kNames.size()> vertices{};
     for (const Bone bone : rig_.bone) ++vertices[static_cast<std::size_t>(bone)];
     for (std::size_t i = 0; i < kNames.size(); ++i) {
-      if (vertices[i] > 0)
-        Line("bone", std::string(kNames[i]) + ", " + std::to_string(vertices[i]) + " vertices");
+      if (vertices[i] > 0) Line("bone", "{}, {} vertices", kNames[i], vertices[i]);
     }
   }
 
   void Channels() {
-    std::map<std::string, std::set<int>> drives;  // numbers of each kind
+    std::map<std::string_view, std::set<int>> drives;  // numbers of each kind
     std::size_t moves = 0;
     for (const Channel& channel : rig_.channels) {
       for (const Channel::Driver& driver : channel.drivers) {
@@ -113,17 +109,16 @@ class Description {
       }
       moves += channel.moves.size();
     }
-    Line("channels",
-         std::to_string(rig_.channels.size()) + ", " + std::to_string(moves) + " displacements");
+    Line("channels", "{}, {} displacements", rig_.channels.size(), moves);
     for (const auto& [kind, numbers] : drives) {
       std::string listed;
       if (numbers != std::set{0}) {
-        for (const int number : numbers) listed += " " + std::to_string(number);
+        for (const int number : numbers) listed += fmt::format(" {}", number);
       }
-      Line("driven by", kind + listed);
+      Line("driven by", "{}{}", kind, listed);
     }
   }
-  static std::string KindName(Drive::Kind kind) {
+  static std::string_view KindName(Drive::Kind kind) {
     static constexpr std::array<const char*, kValuesOf<Drive::Kind>> kNames{
         "units",         "units as asked", "mouth",   "mouth of speech",
         "mouth by hand", "blink",          "gaze up", "gaze right"};
@@ -132,24 +127,19 @@ class Description {
 
   void Springs() {
     if (rig_.swing.springs.empty()) return;
-    Line("springs", std::to_string(rig_.swing.springs.size()) + ", moving vertices by " +
-                        std::to_string(rig_.swing.weights.size()) + " weights");
+    Line("springs", "{}, moving vertices by {} weights", rig_.swing.springs.size(),
+         rig_.swing.weights.size());
   }
 
   void Steps() {
-    std::string listed;
-    for (const RigStep step : rig_.steps)
-      listed += (listed.empty() ? "" : ", ") + std::string(NameOf(step));
-    Line("steps", listed);
+    std::vector<std::string_view> names;
+    for (const RigStep step : rig_.steps) names.push_back(NameOf(step));
+    Line("steps", "{}", fmt::join(names, ", "));
   }
 
   void DescribeLandmarks() {
     for (const auto& [name, place] : head_.landmarks()) {
-      std::array<char, 96> numbers;
-      std::snprintf(numbers.data(), numbers.size(), " %.1f %.1f %.1f mm",
-                    static_cast<double>(place.x), static_cast<double>(place.y),
-                    static_cast<double>(place.z));
-      Line("landmark", name + numbers.data());
+      Line("landmark", "{} {:.1f} {:.1f} {:.1f} mm", name, place.x, place.y, place.z);
     }
   }
 
