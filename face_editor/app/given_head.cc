@@ -1,7 +1,7 @@
 #include "face_editor/app/given_head.h"
 
 #include <exception>
-#include <memory>
+#include <utility>
 #include <vector>
 
 #include "fsm/faces/head_of_file.h"
@@ -15,9 +15,9 @@ vm::Result<MadeHead> OpenOriginal(const std::string& path, const std::string& fa
                                   const std::string& tables) {
   const auto config = fsm::OriginalConfig::Read(path);
   if (!config) return std::unexpected(config.error());
-  std::vector<std::string> left_out;
+  const auto [faces, left_out] = fsm::OriginalFaces(config->masks, config->shared, tables);
   std::string names;
-  for (const auto& one : fsm::OriginalFaces(config->masks, config->shared, tables, &left_out)) {
+  for (const fsm::NamedFace& one : faces) {
     names += (names.empty() ? "" : ", ") + one.name;
     if (!face.empty() && one.name != face) continue;
     MadeHead made;
@@ -43,14 +43,12 @@ vm::Result<MadeHead> OpenHead(const std::string& path, const std::string& face,
   try {
     if (path.ends_with(".txt")) return OpenOriginal(path, face, tables);
     MadeHead made;
-    fsm::HeadReport telling;
-    made.head = fsm::MakeHeadOfFile(path, tables, &telling);
-    made.notice = telling.notice;
-    if (made.notice.empty()) made.notice = "Head of " + path;
-    if (telling.by_shapes) {
+    fsm::FileHead file = fsm::MakeHeadOfFile(path, tables);
+    made.head = std::move(file.head);
+    made.notice = file.notice.empty() ? "Head of " + path : file.notice;
+    if (file.by_shapes) {
       made.remake = [path, tables](const fsm::UnitTable& units) {
-        fsm::HeadReport known;
-        return fsm::MakeHeadOfFile(path, tables, &known, units);
+        return fsm::MakeHeadOfFile(path, tables, units).head;
       };
     }
     return made;

@@ -148,7 +148,8 @@ void AddOptions(CLI::App& app, Options& options) {
 
 /// Faces beside the built-in ones, the one to be worn first of all.
 std::vector<fsm::NamedFace> MoreFaces(const Options& options, const fsm::OriginalConfig& config) {
-  auto faces = fsm::OriginalFaces(config.masks, config.shared, options.module.tables);
+  auto [faces, left_out] = fsm::OriginalFaces(config.masks, config.shared, options.module.tables);
+  for (const std::string& what : left_out) fsm::Notice(what);
   if (!options.head.empty()) {
     if (!std::filesystem::is_regular_file(options.head))
       throw std::runtime_error("--head: there is no file '" + options.head + "'");

@@ -41,10 +41,12 @@ std::shared_ptr<const Features> FeaturesIn(const std::string& folder) {
   return text ? std::make_shared<Features>(folder + "/" + kFeaturesFile, *text) : nullptr;
 }
 
+std::unique_ptr<Head> WithUnits(const std::optional<UnitTable>& units, std::unique_ptr<Head> head) {
+  return units ? head->WithUnits(*units) : std::move(head);
+}
+
 std::unique_ptr<Head> WithUnitsOf(const std::string& tables, std::unique_ptr<Head> head) {
-  const auto units = UnitsIn(tables);
-  auto moved = units ? head->WithUnits(*units) : nullptr;
-  return moved ? std::move(moved) : std::move(head);
+  return WithUnits(UnitsIn(tables), std::move(head));
 }
 
 std::string UnitsFolder(const std::string& folder, const std::string& tables) {

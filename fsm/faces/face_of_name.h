@@ -24,6 +24,8 @@ std::optional<Appearance> AppearanceIn(const std::string& folder);
 /// What teeth, ears, lashes and the like are like, in place of fsm/head/tables/features.txt: the
 /// file of that name in a folder of tables; null if there is none. Throws as UnitsIn.
 std::shared_ptr<const Features> FeaturesIn(const std::string& folder);
+/// The same head, moved by other units if there are any.
+std::unique_ptr<Head> WithUnits(const std::optional<UnitTable>& units, std::unique_ptr<Head> head);
 /// The same head, moved by the units of a folder of tables if that has any. Throws as UnitsIn.
 std::unique_ptr<Head> WithUnitsOf(const std::string& tables, std::unique_ptr<Head> head);
 

@@ -83,16 +83,15 @@ std::string ReadAll(const std::string& path) {
 std::unique_ptr<Head> HeadCache::HeadOfFile(const std::string& path,
                                             const std::string& tables) const {
   const std::string sources = folder_.empty() ? "" : SourcesOf(path, tables);
-  if (sources.empty()) return MakeHeadOfFile(path, tables);
   const std::string entry = folder_ + "/" + NameOf(sources) + kEntry;
-  if (auto kept = Find(entry, sources)) return kept;
-  HeadReport report;
-  auto head = MakeHeadOfFile(path, tables, &report);
-  if (!report.notice.empty()) Notice(report.notice);
+  if (auto kept = sources.empty() ? nullptr : Find(entry, sources)) return kept;
+  FileHead made = MakeHeadOfFile(path, tables);
+  if (!made.notice.empty()) Notice(made.notice);
+  if (sources.empty()) return std::move(made.head);
   std::string made_from = sources;
-  for (const std::string& beside : report.beside) made_from += LineOf(beside);
-  Keep(entry, made_from + std::string(kNoticesFollow) + report.notice, *head);
-  return head;
+  for (const std::string& file : made.named_files) made_from += LineOf(file);
+  Keep(entry, made_from + std::string(kNoticesFollow) + made.notice, *made.head);
+  return std::move(made.head);
 }
 
 std::unique_ptr<Head> HeadCache::Find(const std::string& entry, const std::string& sources) {

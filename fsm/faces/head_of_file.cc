@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "fsm/asset/asset_reader.h"
-#include "fsm/base/notice.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/table_folder.h"
 #include "fsm/head/anatomy.h"
@@ -89,7 +88,7 @@ std::vector<FaceState> VisemeStates(const MotionTables& tables) {
 struct Alignment {
   Similarity to_ours;
   float mouth_y = kUsualMouthY;
-  std::vector<PointPair> pairs;  // in our frame
+  std::vector<PointPair> pairs;  // in our frame; none where the file has no points
   std::string face = "galatea";
 };
 
@@ -141,6 +140,26 @@ Alignment AlignByOutline(const HeadFile& file) {
   return alignment;
 }
 
+/// By the points that lie beside the file, else by the outline.
+Alignment AlignmentOf(const HeadFile& file, const std::string& points) {
+  std::error_code none;
+  if (!std::filesystem::exists(points, none)) return AlignByOutline(file);
+  const std::string text = vm::OrThrow(vm::ReadTextFile(points, 1U << 20));
+  return AlignByPoints(vm::OrThrow(ParseHeadPoints(points, text)));
+}
+
+/// The rig of a file's own shapes; nothing if too few have names with a meaning.
+std::optional<RigData> RigOfShapes(const HeadFile& file, const Alignment& alignment,
+                                   const MotionTables& tables,
+                                   const std::optional<UnitTable>& units, MeshModel& model,
+                                   std::vector<std::string>& unused) {
+  const auto source = MakeHead(alignment.face, false);
+  const auto other = units ? source->WithUnits(*units) : nullptr;
+  const std::vector<ShapeMeaning> shapes = Meanings(tables);
+  return BlendshapeRig(file, alignment.to_ours, model, {*source, shapes}, other ? *other : *source,
+                       VisemeStates(tables), &unused);
+}
+
 }  // namespace
 
 std::vector<ExportedShape> ArkitShapes(const MotionTables& tables) {
@@ -157,57 +176,45 @@ std::vector<ExportedShape> ArkitShapes(const MotionTables& tables) {
   return shapes;
 }
 
-std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables_folder,
-                                     HeadReport* report,
-                                     const std::optional<UnitTable>& given_units) {
+FileHead MakeHeadOfFile(const std::string& path, const std::string& tables_folder,
+                        const std::optional<UnitTable>& given_units) {
   const std::optional<UnitTable> units = given_units ? given_units : UnitsIn(tables_folder);
-  const auto moved = [&units](std::unique_ptr<Head> head) {
-    return units ? head->WithUnits(*units) : std::move(head);
-  };
-  if (auto own = AssetOfFile(path)) return moved(std::move(own));
-  HeadReport told;
-  const auto tell = [&](const std::string& what) {
-    told.notice += (told.notice.empty() ? "'" : "; '") + path + "': " + what;
-  };
+  FileHead made;
+  if (auto own = AssetOfFile(path)) {
+    made.head = WithUnits(units, std::move(own));
+    return made;
+  }
   const HeadFile file = vm::OrThrow(ReadHeadFile(path));
-  for (const std::string& what : file.notices) tell(what);
-  told.beside = file.beside;
-  const std::string beside = path + ".points";
-  std::error_code code;
-  const bool has_points = std::filesystem::exists(beside, code);
-  const Alignment alignment = has_points
-                                  ? AlignByPoints(vm::OrThrow(ParseHeadPoints(
-                                        beside, vm::OrThrow(vm::ReadTextFile(beside, 1U << 20)))))
-                                  : AlignByOutline(file);
+  made.named_files = file.named_files;
+  std::vector<std::string> notices = file.notices;
+  const std::string points = path + ".points";
+  const Alignment alignment = AlignmentOf(file, points);
   MeshModel model = ModelOf(file, alignment.to_ours, alignment.mouth_y);
   std::optional<RigData> skin;
   if (!file.shapes.empty()) {
     const MotionTables tables = vm::OrThrow(MotionTables::Load(tables_folder));
-    const auto source = MakeHead(alignment.face, false);
-    const auto other = units ? source->WithUnits(*units) : nullptr;
-    const std::vector<ShapeMeaning> shapes = Meanings(tables);
     std::vector<std::string> unused;
-    skin = BlendshapeRig(file, alignment.to_ours, model, {*source, shapes},
-                         other ? *other : *source, VisemeStates(tables), &unused);
-    told.by_shapes = skin.has_value();
-    if (!unused.empty())
-      tell("shapes are not used, for neither ARKit nor VRM has their names: " + Listed(unused));
+    skin = RigOfShapes(file, alignment, tables, units, model, unused);
+    made.by_shapes = skin.has_value();
+    if (!unused.empty()) {
+      notices.push_back("shapes are not used, for neither ARKit nor VRM has their names: " +
+                        Listed(unused));
+    }
   }
-  if (!skin && has_points) {
-    skin = TransferredRig(model, *moved(MakeHead(alignment.face)), alignment.pairs);
+  if (!skin && !alignment.pairs.empty()) {
+    skin = TransferredRig(model, *WithUnits(units, MakeHead(alignment.face)), alignment.pairs);
   }
   if (!skin) {
-    tell("has no shapes with names of ARKit or VRM, and no '" + beside +
-         "' says where its eyes and mouth are (face_fit --head finds out): only head, eyes and jaw "
-         "move");
+    notices.push_back("has no shapes with names of ARKit or VRM, and no '" + points +
+                      "' says where its eyes and mouth are (face_fit --head finds out): only head, "
+                      "eyes and jaw move");
   }
-  if (report) {
-    *report = told;
-  } else if (!told.notice.empty()) {
-    Notice(told.notice);
+  for (const std::string& what : notices) {
+    made.notice += (made.notice.empty() ? "'" : "; '") + path + "': " + what;
   }
-  if (!skin) return moved(MakeMeshHead(std::move(model)));
-  return MakeMeshHead(std::move(model), std::move(*skin));
+  made.head = skin ? MakeMeshHead(std::move(model), std::move(*skin))
+                   : WithUnits(units, MakeMeshHead(std::move(model)));
+  return made;
 }
 
 vm::Result<void> ExportHead(const Head& head, const MotionTables& tables, const std::string& path) {

@@ -11,21 +11,20 @@
 
 namespace fsm {
 
-/// What MakeHeadOfFile found out about a head.
-struct HeadReport {
-  std::string notice;               ///< what it lacks; or nothing
-  std::vector<std::string> beside;  ///< HeadFile::beside
-  bool by_shapes = false;           ///< moved by its own shapes: other units need it made anew
+/// A head of a file, and what there is to say about it.
+struct FileHead {
+  std::unique_ptr<Head> head;
+  std::string notice;                    ///< what it lacks; or nothing
+  std::vector<std::string> named_files;  ///< HeadFile::named_files
+  bool by_shapes = false;                ///< moved by its own shapes: other units need it made anew
 };
 
 /// A head out of .obj, .glb, .gltf or .vrm. One that ExportHead has written is what it was. Any
 /// other is moved by its own shapes where their names are ARKit's or VRM's, else by ours carried
-/// over with the points of `path`.points; without either only head, eyes and jaw move, and a notice
-/// says so: in `report`, else on stderr. `units`: in place of those of `tables`. Throws
-/// std::runtime_error.
-std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables,
-                                     HeadReport* report = nullptr,
-                                     const std::optional<UnitTable>& units = {});
+/// over with the points of `path`.points; without either only head, eyes and jaw move, and the
+/// notice says so. `units`: in place of those of `tables`. Throws std::runtime_error.
+FileHead MakeHeadOfFile(const std::string& path, const std::string& tables,
+                        const std::optional<UnitTable>& units = {});
 
 /// Every ARKit shape of the tables as a state of the face.
 std::vector<ExportedShape> ArkitShapes(const MotionTables& tables);

@@ -60,20 +60,18 @@ std::string Missing(const OriginalFaceFiles& files, const OriginalSharedFiles& s
 
 }  // namespace
 
-std::vector<NamedFace> OriginalFaces(std::span<const OriginalFaceFiles> faces,
-                                     const OriginalSharedFiles& shared, const std::string& tables,
-                                     std::vector<std::string>* left_out) {
-  std::vector<NamedFace> found;
+OriginalFaceList OriginalFaces(std::span<const OriginalFaceFiles> faces,
+                               const OriginalSharedFiles& shared, const std::string& tables) {
+  OriginalFaceList found;
   for (const OriginalFaceFiles& files : faces) {
     const std::string missing = Missing(files, shared);
     if (missing.empty()) {
-      found.push_back(
+      found.faces.push_back(
           {files.name, [files, shared, tables] { return MakeOriginal(files, shared, tables); }});
-      continue;
+    } else {
+      found.left_out.push_back(shared.config + ": face '" + files.name + "' is left out, " +
+                               missing + " is missing");
     }
-    const std::string told =
-        shared.config + ": face '" + files.name + "' is left out, " + missing + " is missing";
-    left_out ? left_out->push_back(told) : Notice(told);
   }
   return found;
 }

@@ -19,12 +19,14 @@ struct NamedFace {
   std::function<std::unique_ptr<Head>()> make;
 };
 
-/// The faces of a configuration of the original. A face whose files are not there is left out with
-/// a notice, in `left_out` or else on stderr. `tables`: folder of tables that replace the built-in
-/// ones.
-std::vector<NamedFace> OriginalFaces(std::span<const OriginalFaceFiles> faces,
-                                     const OriginalSharedFiles& shared, const std::string& tables,
-                                     std::vector<std::string>* left_out = nullptr);
+/// The faces of a configuration of the original.
+struct OriginalFaceList {
+  std::vector<NamedFace> faces;
+  std::vector<std::string> left_out;  ///< a sentence for each face whose files are not there
+};
+/// `tables`: folder of tables that replace the built-in ones.
+OriginalFaceList OriginalFaces(std::span<const OriginalFaceFiles> faces,
+                               const OriginalSharedFiles& shared, const std::string& tables);
 
 /// Looks of whole expressions by FaceExp's name and pattern: those of the files beside the standard
 /// wireframe (AU31.pnt ..., user*.pnt, userdef*.pnt), so that FaceExp shows them on every face.

@@ -343,7 +343,7 @@ vm::Result<HeadFile> ReadGltfHead(const std::string& path) {
     return std::move(*read);
   };
   auto file = ReadDocument(GltfDocument::Parse(path, *bytes, beside));
-  if (file) file->beside = std::move(asked);
+  if (file) file->named_files = std::move(asked);
   return file;
 }
 

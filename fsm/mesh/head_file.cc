@@ -59,7 +59,7 @@ class ObjHead {
     for (const std::string& library : obj_.libraries) {
       const auto beside = FileBeside(path_, library);
       if (!beside) continue;
-      head_.beside.push_back(*beside);
+      head_.named_files.push_back(*beside);
       // A head without its library still has its form.
       if (const auto text = vm::ReadTextFile(*beside, 1U << 22)) materials_.merge(ParseMtl(*text));
     }
@@ -86,7 +86,7 @@ class ObjHead {
     constexpr std::size_t kMostPictures = 64;
     const auto [known, fresh] = pictures_.try_emplace(file, -1);
     if (fresh && pictures_.size() <= kMostPictures) {
-      head_.beside.push_back(file);
+      head_.named_files.push_back(file);
       if (auto picture = ReadImage(file)) {
         known->second = static_cast<int>(head_.pictures.size());
         head_.pictures.push_back(std::move(*picture));

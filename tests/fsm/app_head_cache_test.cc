@@ -70,7 +70,7 @@ TEST_F(HeadCacheTest, AHeadIsBakedOnceAndItsNoticeToldEachTime) {
 
 TEST_F(HeadCacheTest, AKeptHeadIsTheBakedOne) {
   Make();
-  const auto baked = MakeHeadOfFile(folder_ / "heads/a.obj", "");
+  const auto baked = MakeHeadOfFile(folder_ / "heads/a.obj", "").head;
   const auto kept = HeadCache(cache_).HeadOfFile(folder_ / "heads/a.obj", "");
   FaceState state;
   state.au.left[26] = state.au.right[26] = 1;
