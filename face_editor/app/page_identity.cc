@@ -33,11 +33,10 @@ void SliderList(Ui& ui) {
 }  // namespace
 
 fsm::FaceState IdentityPage(Ui& ui) {
-  std::vector<std::string> bases;
-  for (const auto& face : fsm::Identities()) bases.emplace_back(face.name);
   std::string base = ui.editor.state().base;
   ImGui::SetNextItemWidth(160);
-  if (Choice(ui, "made into somebody else", &base, bases)) ui.Check(ui.editor.SetBase(base));
+  if (Choice(ui, "made into somebody else", &base, fsm::Identities()))
+    ui.Check(ui.editor.SetBase(base));
   Heading("0 = as the plain head; numbers are typed with Ctrl and a click");
   SliderList(ui);
   TryIt(ui);

@@ -33,19 +33,17 @@ vm::Result<std::string> FolderOf(const std::string& name, const std::string& fol
 }  // namespace
 
 vm::Result<void> Editor::SetBase(std::string_view name) {
-  std::string names;
-  for (const auto& face : fsm::Identities()) {
-    names += (names.empty() ? "" : ", ") + std::string(face.name);
-    if (face.name != name) continue;
-    const std::string base(name);
-    history_.Change(Part::kIdentity, "face " + base, "", [&](State& state) {
-      state.base = base;
-      state.sliders = SlidersOf(base);
-    });
-    return {};
+  if (!fsm::IsBuiltIn(name)) {
+    return Fail(Errc::kBadValue,
+                fmt::format("there is no built-in face '{}'; {} expected", name.substr(0, 40),
+                            fmt::join(fsm::Identities(), ", ")));
   }
-  return Fail(Errc::kBadValue, fmt::format("there is no built-in face '{}'; {} expected",
-                                           name.substr(0, 40), names));
+  const std::string base(name);
+  history_.Change(Part::kIdentity, "face " + base, "", [&](State& state) {
+    state.base = base;
+    state.sliders = SlidersOf(base);
+  });
+  return {};
 }
 
 vm::Result<void> Editor::SetSlider(std::string_view name, float value, std::string_view merge) {

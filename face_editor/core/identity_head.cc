@@ -20,7 +20,7 @@ vm::Result<OwnFace> ReadOwnFace(const std::string& path, std::string_view text) 
   try {
     OwnFace face;
     const fsm::Identity identity = fsm::ReadOwnIdentity(path, text);
-    face.base = fsm::Identities()[identity.index].name;
+    face.base = fsm::Identities()[identity.index];
     for (const auto& [name, value] : identity.sliders) face.sliders[name] = value;
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t end = std::min(text.find('\n', at), text.size());

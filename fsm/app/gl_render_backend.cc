@@ -38,8 +38,7 @@ std::unique_ptr<Head> GlRenderBackend::MakeNamedHead(const std::string& face) co
   for (const auto& more : options_.more_faces) {
     if (face.empty() || more.name == face) return more.make();
   }
-  return MakeHeadOfName(face.empty() ? std::string(Identities().front().name) : face,
-                        options_.tables);
+  return MakeHeadOfName(face.empty() ? Identities().front() : face, options_.tables);
 }
 
 void GlRenderBackend::MakeRenderer() {
@@ -125,8 +124,8 @@ MouthMeasure GlRenderBackend::Measure(const FaceState& state) { return head().Me
 std::vector<std::string> GlRenderBackend::Faces() const {
   std::vector<std::string> names;
   for (const auto& more : options_.more_faces) names.push_back(more.name);
-  for (const IdentityInfo& face : Identities()) {
-    if (std::ranges::find(names, face.name) == names.end()) names.emplace_back(face.name);
+  for (const std::string& name : Identities()) {
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   }
   for (const std::string& name : FacesIn(FacesFolder())) {
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);

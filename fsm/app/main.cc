@@ -171,7 +171,7 @@ std::unique_ptr<fsm::Head> HeadAsked(const Options& options) {
   const std::string& tables = options.module.tables;
   if (!options.head.empty()) return fsm::HeadCache(options.cache).HeadOfFile(options.head, tables);
   const std::string& name = options.module.mask;
-  return fsm::MakeHeadOfName(name.empty() ? std::string(fsm::Identities()[0].name) : name, tables);
+  return fsm::MakeHeadOfName(name.empty() ? fsm::Identities().front() : name, tables);
 }
 
 /// Writes or describes a head, for a run that does nothing else.
@@ -235,7 +235,7 @@ std::vector<std::string> FacesShown(const std::string& asked,
   if (!asked.empty()) return {asked};
   std::vector<std::string> names;
   for (const fsm::NamedFace& face : more) names.push_back(face.name);
-  for (const fsm::IdentityInfo& face : fsm::Identities()) names.emplace_back(face.name);
+  names.insert(names.end(), fsm::Identities().begin(), fsm::Identities().end());
   return names;
 }
 

@@ -1,6 +1,5 @@
 #include "fsm/faces/face_of_name.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -59,9 +58,7 @@ std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const std::string&
     identity.features = features;
     return MakeHead(std::move(identity));
   };
-  if (std::ranges::find(Identities(), face, &IdentityInfo::name) != Identities().end()) {
-    return WithUnitsOf(tables, make(BuiltInIdentity(face)));
-  }
+  if (IsBuiltIn(face)) return WithUnitsOf(tables, make(BuiltInIdentity(face)));
   const std::string folder = FacesFolder() + "/" + face;
   const std::string units = UnitsFolder(folder, tables);
   const std::string own = folder + "/identity.txt";

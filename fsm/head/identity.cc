@@ -14,14 +14,6 @@
 namespace fsm {
 namespace {
 
-constexpr std::array kIdentities = {
-    IdentityInfo{"galatea", "a woman in her twenties, chestnut hair to the shoulders, brown eyes"},
-    IdentityInfo{"pygmalion", "a man in his thirties, short dark hair, grey-blue eyes"},
-    IdentityInfo{"baucis", "a woman of seventy, short grey hair, green eyes"},
-    IdentityInfo{"zhenzhen", "an East Asian woman in her twenties, straight black hair, dark eyes"},
-    IdentityInfo{"memnon", "a Black man in his thirties, cropped curly hair, dark brown eyes"},
-};
-
 struct NamedColour {
   std::string_view name;
   glm::vec3 Palette::*colour;
@@ -55,6 +47,15 @@ Palette ReadBasePalette(const Table& table) {
     ReadColour(row, palette);
   }
   return palette;
+}
+
+/// The place of a name in Identities(); throws std::invalid_argument listing the names.
+std::size_t IdentityIndex(std::string_view name) {
+  const std::vector<std::string>& names = Identities();
+  const auto found = std::ranges::find(names, name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  throw std::invalid_argument(
+      fmt::format("there is no face '{}'; there is {}", name, fmt::join(names, ", ")));
 }
 
 }  // namespace
@@ -110,16 +111,20 @@ void ReadIdentityRow(const TableRow& row, Identity& identity) {
   }
 }
 
-std::span<const IdentityInfo> Identities() { return kIdentities; }
+const std::vector<std::string>& Identities() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> found;
+    const Table table("tables/identities.txt", embedded::identities());
+    for (const TableRow& row : table.rows()) {
+      if (row.key() == "face") found.push_back(row.Word(1));
+    }
+    return found;
+  }();
+  return names;
+}
 
-std::size_t IdentityIndex(std::string_view name) {
-  const auto found = std::ranges::find(kIdentities, name, &IdentityInfo::name);
-  if (found != kIdentities.end()) return static_cast<std::size_t>(found - kIdentities.begin());
-  std::string names;
-  for (const IdentityInfo& identity : kIdentities) {
-    names += (names.empty() ? "" : ", ") + std::string(identity.name);
-  }
-  throw std::invalid_argument("there is no face '" + std::string(name) + "'; there is " + names);
+bool IsBuiltIn(std::string_view name) {
+  return std::ranges::find(Identities(), name) != Identities().end();
 }
 
 Identity ReadIdentity(const Table& table, std::string_view name) {
@@ -158,8 +163,7 @@ Identity ReadOwnIdentity(const std::string& name, std::string_view text) {
   std::optional<Identity> identity;
   for (const TableRow& row : table.rows()) {
     if (row.key() == "base") {
-      const auto known = std::ranges::find(Identities(), row.Word(1), &IdentityInfo::name);
-      if (known == Identities().end()) row.Fail("no built-in face is called " + row.Word(1));
+      if (!IsBuiltIn(row.Word(1))) row.Fail("no built-in face is called " + row.Word(1));
       if (identity) row.Fail("a second base");
       identity = BuiltInIdentity(row.Word(1));
       continue;

@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,13 +19,10 @@
 
 namespace fsm {
 
-/// A face to choose: a block of tables/identities.txt.
-struct IdentityInfo {
-  std::string_view name;
-  std::string_view description;  ///< one line
-};
-/// All built-in heads, the default one first. Valid as long as the program runs.
-std::span<const IdentityInfo> Identities();
+/// The names of the built-in faces, blocks of tables/identities.txt; the default one first. Valid
+/// as long as the program runs.
+const std::vector<std::string>& Identities();
+bool IsBuiltIn(std::string_view name);
 
 /// The colours of the base head: the rows of tables/identities.txt that stand before any face.
 const Palette& BasePalette();
@@ -59,11 +55,8 @@ struct Identity {
   const Features& Look() const { return features ? *features : Features::BuiltIn(); }
 };
 
-/// The place of a name in Identities(); throws std::invalid_argument listing the names.
-std::size_t IdentityIndex(std::string_view name);
-
-/// Throws std::invalid_argument for an unknown name, std::runtime_error naming file and line for a
-/// damaged table.
+/// Throws std::invalid_argument listing the names for an unknown one, std::runtime_error naming
+/// file and line for a damaged table.
 Identity ReadIdentity(const Table& table, std::string_view name);
 /// One line of a face's block; a slider takes the place of one of the same name.
 void ReadIdentityRow(const TableRow& row, Identity& identity);

@@ -78,8 +78,8 @@ TEST(HeadContactTest, LipsDoNotCrossInTenThousandRandomStates) {
 }
 
 TEST(HeadContactTest, EveryIdentityClosesItsEyes) {
-  for (const IdentityInfo& identity : Identities()) {
-    const auto head = MakeHead(identity.name);
+  for (const std::string& identity : Identities()) {
+    const auto head = MakeHead(identity);
     FaceState blink;
     blink.blink.left = blink.blink.right = 1;
     HeadVertices v;
@@ -104,7 +104,7 @@ TEST(HeadContactTest, EveryIdentityClosesItsEyes) {
                     pupil.z - 13.2f + 12 * std::sqrt(1 - reach * reach);
         }
       }
-      EXPECT_TRUE(covered) << identity.name << " " << off.x << " " << off.y;
+      EXPECT_TRUE(covered) << identity << " " << off.x << " " << off.y;
     }
   }
 }

@@ -32,7 +32,7 @@ class DeformationTransferTest : public testing::Test {
  protected:
   void SetUp() override {
     from_ = MakeHead("galatea", false);
-    to_ = MakeHead(Identities()[1].name, false);
+    to_ = MakeHead(Identities()[1], false);
     from_->Evaluate({}, from_rest_);
     to_->Evaluate({}, to_rest_);
     flesh_ = SkinTriangles(from_->topology());

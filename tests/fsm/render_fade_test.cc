@@ -65,9 +65,9 @@ TEST_F(FadeTest, AHeadThatWearsAPhotoDoesNotTear) {
 }
 
 TEST_F(FadeTest, BuiltInHeadsDoNotShowTheirInside) {
-  for (const auto& identity : Identities()) {
-    const auto head = MakeHead(identity.name);
-    ExpectOnePicture(*head, std::string(identity.name));
+  for (const std::string& identity : Identities()) {
+    const auto head = MakeHead(identity);
+    ExpectOnePicture(*head, identity);
   }
 }
 

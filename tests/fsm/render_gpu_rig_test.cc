@@ -93,9 +93,9 @@ std::vector<FaceState> Wilds(unsigned count) {
 }
 
 TEST_F(GpuRigTest, BuiltInHeadsMoveAsOnTheProcessor) {
-  for (const IdentityInfo& identity : Identities()) {
-    SCOPED_TRACE(identity.name);
-    ExpectEqual(MakeHead(identity.name)->rig(), Wilds(6));
+  for (const std::string& identity : Identities()) {
+    SCOPED_TRACE(identity);
+    ExpectEqual(MakeHead(identity)->rig(), Wilds(6));
   }
 }
 

@@ -26,7 +26,7 @@ TEST(ManyHeadsTest, DrawnInTurnsTheyLookAsAlone) {
   heads.push_back(MakeHead("galatea"));
   heads.push_back(std::make_unique<BallHead>());
   heads.push_back(WearingPhoto());
-  heads.push_back(MakeHead(Identities().back().name));
+  heads.push_back(MakeHead(Identities().back()));
   const auto picture = [](Renderer& renderer, const Head& head, int size) {
     FaceState state;
     state.au.left[12] = state.au.right[26] = 0.8F;
