@@ -15,8 +15,8 @@
 
 #include "face_editor/app/given_head.h"
 #include "face_editor/app/script.h"
+#include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
-#include "fsm/head/face_folder.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace {

@@ -10,7 +10,7 @@
 #include "face_editor/core/identity_head.h"
 #include "face_editor/core/table_writer.h"
 #include "fsm/base/table_reader.h"
-#include "fsm/head/face_folder.h"
+#include "fsm/faces/face_folder.h"
 #include "fsm/head/make_head.h"
 #include "vm_protocol/core/text_file.h"
 

@@ -8,8 +8,8 @@
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/find/face/upright.h"
 #include "face_fit/picture/photo.h"
+#include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
-#include "fsm/head/face_folder.h"
 #include "fsm/head/make_head.h"
 #include "fsm/image/image_file.h"
 

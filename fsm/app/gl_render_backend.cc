@@ -4,11 +4,23 @@
 #include <future>
 
 #include "fsm/base/notice.h"
+#include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
-#include "fsm/head/face_folder.h"
+#include "fsm/faces/table_folder.h"
 #include "fsm/image/image_file.h"
 
 namespace fsm {
+namespace {
+
+/// How things look, in place of fsm/render/tables/appearance.txt: the file of that name in a folder
+/// of tables; nothing if there is none. Throws std::runtime_error naming file and line.
+std::optional<Appearance> AppearanceIn(const std::string& folder) {
+  const auto text = TableIn(folder, kAppearanceFile);
+  if (!text) return std::nullopt;
+  return Appearance(folder + "/" + kAppearanceFile, *text);
+}
+
+}  // namespace
 
 GlRenderBackend::GlRenderBackend(const Options& options)
     : options_(options), appearance_(AppearanceIn(options.tables)) {

@@ -18,12 +18,12 @@
 #include "fsm/app/gl_render_backend.h"
 #include "fsm/asset/describe.h"
 #include "fsm/base/notice.h"
+#include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/head_cache.h"
 #include "fsm/faces/head_of_file.h"
 #include "fsm/faces/original_faces.h"
 #include "fsm/faces/table_folder.h"
-#include "fsm/head/face_folder.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/runtime/module_main.h"
 

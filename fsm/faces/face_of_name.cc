@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "fsm/faces/face_folder.h"
 #include "fsm/faces/table_folder.h"
-#include "fsm/head/face_folder.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
@@ -27,12 +27,6 @@ std::optional<UnitTable> UnitsIn(const std::string& folder) {
   const auto text = TableIn(folder, kUnitsFile);
   if (!text) return std::nullopt;
   return UnitTable(Table(folder + "/" + kUnitsFile, *text));
-}
-
-std::optional<Appearance> AppearanceIn(const std::string& folder) {
-  const auto text = TableIn(folder, kAppearanceFile);
-  if (!text) return std::nullopt;
-  return Appearance(folder + "/" + kAppearanceFile, *text);
 }
 
 std::shared_ptr<const Features> FeaturesIn(const std::string& folder) {

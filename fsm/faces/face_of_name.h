@@ -5,7 +5,6 @@
 #include <string>
 
 #include "fsm/head/features.h"
-#include "fsm/render/appearance.h"
 #include "fsm/rig/head.h"
 #include "fsm/rig/unit_table.h"
 
@@ -18,9 +17,6 @@ std::optional<UnitTable> UnitsIn(const std::string& folder);
 inline constexpr const char* kUnitsFile = "action_units.txt";
 inline constexpr const char* kAppearanceFile = "appearance.txt";
 inline constexpr const char* kFeaturesFile = "features.txt";
-/// How things look, in place of fsm/render/tables/appearance.txt: the file of that name in a folder
-/// of tables; nothing if there is none. Throws as UnitsIn.
-std::optional<Appearance> AppearanceIn(const std::string& folder);
 /// What teeth, ears, lashes and the like are like, in place of fsm/head/tables/features.txt: the
 /// file of that name in a folder of tables; null if there is none. Throws as UnitsIn.
 std::shared_ptr<const Features> FeaturesIn(const std::string& folder);

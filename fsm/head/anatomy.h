@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "fsm/base/side.h"
 #include "fsm/base/spline.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/rig/lid_rig.h"
@@ -17,6 +18,7 @@ class EyeAnatomy {
   static const EyeAnatomy& BuiltIn();
 
   glm::vec3 centre() const { return centre_; }
+  glm::vec3 CentreOf(Side side) const { return {SignOf(side) * centre_.x, centre_.y, centre_.z}; }
   float radius() const { return radius_; }
   float iris_radius() const { return iris_; }
   /// Makes iris and pupil larger or smaller.

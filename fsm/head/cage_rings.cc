@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "fsm/base/pi.h"
 #include "fsm/base/spline.h"
 
 namespace fsm {
@@ -31,8 +32,8 @@ LidPoint PointOnLid(const EyeAnatomy& eye, int i) {
   const int along = upper ? i : kLidPoints - i;  // 0 inner corner .. kHalf outer corner
   const float t = static_cast<float>(along) / kHalf;
   // Closer together towards the corners, where lids bend most.
-  const float part = 0.5f - 0.5f * std::cos(3.14159265f * (0.12f + 0.76f * t));
-  const float from = 0.5f - 0.5f * std::cos(3.14159265f * 0.12f);
+  const float part = 0.5f - 0.5f * std::cos(kPi * (0.12f + 0.76f * t));
+  const float from = 0.5f - 0.5f * std::cos(kPi * 0.12f);
   const float x = glm::mix(eye.inner_x(), eye.outer_x(), (part - from) / (1 - 2 * from));
   return {x, upper, along == 0 || along == kHalf};
 }

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "fsm/base/angles.h"
+#include "fsm/base/pi.h"
 #include "fsm/base/random.h"
 #include "fsm/head/landmarks.h"
 #include "fsm/head/paint.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "fsm/base/angles.h"
+#include "fsm/base/pi.h"
 #include "fsm/base/random.h"
 #include "fsm/head/paint.h"
 
@@ -52,7 +52,7 @@ void BuildEyes(const EyeAnatomy& eye, const Features& features, const Palette& p
   const float fibres = features("iris_fibres");
   for (const Side side : kSides) {
     const Bone bone = BoneOf(side);
-    const glm::vec3 centre = eye.centre() * glm::vec3(SignOf(side), 1, 1);
+    const glm::vec3 centre = eye.CentreOf(side);
     const auto point = [&](float angle, float around) {
       // The cornea: a smaller sphere through the iris's edge, whose pole stands out of the ball.
       const float c = eye.CorneaCentre();

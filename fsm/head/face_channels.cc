@@ -68,7 +68,7 @@ LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
   rig.eyes = eyes;
   rig.cornea_centre = eye.CorneaCentre();
   for (const Side side : kSides) {
-    rig.ball[side] = eye.centre() * glm::vec3(SignOf(side), 1, 1) + eyes[side].shift;
+    rig.ball[side] = eye.CentreOf(side) + eyes[side].shift;
   }
   float widest = 0;
   for (float x = eye.inner_x(); x < eye.outer_x(); x += 1) {

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "fsm/base/angles.h"
+#include "fsm/base/pi.h"
 #include "fsm/base/random.h"
 #include "fsm/base/spline.h"
 #include "fsm/head/hair_parts.h"

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
-#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "fsm/base/pi.h"
 #include "fsm/base/spline.h"
 
 namespace fsm {
@@ -76,7 +76,7 @@ class HairSprings {
 
   void HangOnRow(std::uint32_t v, std::size_t row, float weight, RigData& rig) {
     const glm::vec3 beside = rig.rest[v] - axis_;
-    const float turn = std::atan2(beside.x, beside.z) / (2 * std::numbers::pi_v<float>)+0.5f;
+    const float turn = std::atan2(beside.x, beside.z) / (2 * kPi) + 0.5f;
     const float place = turn * static_cast<float>(around_);
     const float part = place - std::floor(place);
     const int one = static_cast<int>(std::floor(place)) % around_;

@@ -93,7 +93,7 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& m
 
 glm::vec3 PlaceInFace(const EyeAnatomy& eye, const Sided<EyeTransform>& eye_transforms, Side side,
                       glm::vec3 p) {
-  return eye_transforms[side].Placed(eye.centre() * glm::vec3(SignOf(side), 1, 1), p);
+  return eye_transforms[side].Placed(eye.CentreOf(side), p);
 }
 
 }  // namespace fsm

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "embedded/landmarks.h"
+#include "fsm/base/pi.h"
 #include "fsm/head/ear_parts.h"
 
 namespace fsm {
@@ -50,7 +50,6 @@ Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const 
 }
 
 glm::vec2 Unroll(glm::vec3 p) {
-  constexpr float kPi = std::numbers::pi_v<float>;
   const float turn = std::atan2(p.x, p.z) / kPi;  // -1..1, 0 to the front
   const float part = std::abs(turn);
   constexpr float kFront = 1.0f / 3;

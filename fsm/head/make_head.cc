@@ -187,13 +187,13 @@ HeadTopology TopologyOf(const Ingredients& from, const BaseSkin& skin, const Bas
   for (const glm::vec3 p : head.base) topology.uv.push_back(Unroll(p));
   for (const Side side : kSides) {
     const float size = head.eyes[side].size;
-    topology.eyes[side] = {.centre = PlaceInFace(from.eye, head.eyes, side,
-                                                 from.eye.centre() * glm::vec3(SignOf(side), 1, 1)),
-                           .ball_radius = size * from.eye.radius(),
-                           .iris_radius = size * from.eye.iris_radius(),
-                           .pupil_radius = size * from.eye.pupil_radius(),
-                           .iris_colour = from.identity.palette.iris,
-                           .white_colour = from.identity.palette.sclera};
+    topology.eyes[side] = {
+        .centre = PlaceInFace(from.eye, head.eyes, side, from.eye.CentreOf(side)),
+        .ball_radius = size * from.eye.radius(),
+        .iris_radius = size * from.eye.iris_radius(),
+        .pupil_radius = size * from.eye.pupil_radius(),
+        .iris_colour = from.identity.palette.iris,
+        .white_colour = from.identity.palette.sclera};
   }
   return topology;
 }

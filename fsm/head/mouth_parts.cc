@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/base/angles.h"
+#include "fsm/base/pi.h"
 #include "fsm/base/random.h"
 
 namespace fsm {

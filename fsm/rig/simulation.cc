@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <utility>
 
+#include "fsm/base/pi.h"
 #include "fsm/rig/pose.h"
 
 namespace fsm {
@@ -47,7 +47,7 @@ Simulation::Simulation(std::vector<Spring> springs)
 }
 
 Simulation::Step Simulation::StepOf(const Spring& spring, float seconds) {
-  const float w = 2 * std::numbers::pi_v<float> * spring.frequency_hz;
+  const float w = 2 * kPi * spring.frequency_hz;
   const float decay = spring.damping * w;
   const float damped = w * std::sqrt(1 - spring.damping * spring.damping);
   const float e = std::exp(-decay * seconds);

@@ -1,4 +1,4 @@
-#include "fsm/head/face_folder.h"
+#include "fsm/faces/face_folder.h"
 
 #include <algorithm>
 #include <filesystem>
