@@ -203,7 +203,7 @@ class ObjHeadMaker {
                                  static_cast<std::uint32_t>(indices.size())});
       topology_.indices.insert(topology_.indices.end(), indices.begin(), indices.end());
     }
-    topology_.occlusion.assign(rest_.position.size(), 1);
+    topology_.openness.assign(rest_.position.size(), 1);
     for (const glm::vec3& p : rest_.position) topology_.uv.push_back(Unroll(p));
     rest_.normal.assign(rest_.position.size(), glm::vec3(0));
     for (std::size_t i = 0; i < topology_.indices.size(); i += 3) {

@@ -59,7 +59,7 @@ fsm::Head SmallHead() {
   asset.topology.indices = {0, 1, 2, 3, 4, 5, 6, 7, 8};
   asset.topology.parts = {{fsm::Material::kSkin, 0, 6}, {fsm::Material::kHair, 6, 3, 0, true}};
   asset.topology.albedo.resize(kVertices);
-  asset.topology.occlusion.resize(kVertices);
+  asset.topology.openness.resize(kVertices);
   asset.topology.strands.resize(kVertices);
   asset.topology.opacity.assign(kVertices, 0.5F);
   asset.topology.portrait.shut_lids.resize(1);

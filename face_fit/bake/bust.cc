@@ -46,7 +46,7 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
       if (normal.z <= 0) continue;  // at the very outline the smooth normal may turn away
       bust.opacity(x, y) = 1;
       bust.cloth(x, y) = MaterialOf(topology, t) == fsm::Material::kCloth ? 1.0F : 0.0F;
-      bust.open(x, y) = at.On(topology.occlusion);
+      bust.open(x, y) = at.On(topology.openness);
       bust.normal(x, y) = normal;
     }
   }

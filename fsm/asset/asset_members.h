@@ -96,7 +96,7 @@ void Members(V& v, Like<HeadTopology> auto& topology) {
   v("indices", topology.indices);
   v("parts", topology.parts);
   v("albedo", topology.albedo);
-  v("occlusion", topology.occlusion);
+  v("occlusion", topology.openness);
   v("opacity", topology.opacity);
   v("uv", topology.uv);
   v("skin_hairs", topology.skin_hairs);
@@ -271,7 +271,7 @@ void Members(V& v, Like<RigData> auto& rig) {
   v("weights", rig.weights);
   v("soft_triangles", rig.normals.soft_triangles);
   v("normal_twin", rig.normals.twin);
-  v("person", rig.person);
+  v("person", rig.asymmetry_seed);
   v("units_by_place", rig.units_by_place);
   v("channels", rig.channels);
   v("lids", rig.lids);

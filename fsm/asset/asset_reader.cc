@@ -225,7 +225,7 @@ HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
   read("landmarks", asset.landmarks);
   read("view", asset.view);
   asset.rig.units = UnitTable(Table("rig.units", JsonText(from["rig"], "units")));
-  if (asset.rig.person) asset.rig.units.MakeAsymmetric(*asset.rig.person);
+  if (asset.rig.asymmetry_seed) asset.rig.units.MakeAsymmetric(*asset.rig.asymmetry_seed);
   if (const auto checked = CheckAsset(asset); !checked) throw Fault(checked.error().text);
   return asset;
 }

@@ -68,7 +68,7 @@ class Checker {
       }
     }
     PerVertex(topology.albedo, "topology.albedo", false);
-    PerVertex(topology.occlusion, "topology.occlusion", false);
+    PerVertex(topology.openness, "topology.occlusion", false);
     PerVertex(topology.opacity, "topology.opacity", true);
     PerVertex(topology.uv, "topology.uv", true);
     PerVertex(topology.strands, "topology.strands", true);

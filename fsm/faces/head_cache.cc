@@ -1,9 +1,8 @@
 #include "fsm/faces/head_cache.h"
 
-#include <unistd.h>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -67,10 +66,8 @@ bool Unchanged(std::string_view lines) {
   return true;
 }
 
-std::string NameOf(const std::string& sources) {
-  char name[17];
-  std::snprintf(name, sizeof name, "%016llx", static_cast<unsigned long long>(HashOf(sources)));
-  return name;
+std::string EntryName(const std::string& sources) {
+  return fmt::format("{:016x}{}", HashOf(sources), kEntry);
 }
 
 std::string ReadAll(const std::string& path) {
@@ -83,7 +80,7 @@ std::string ReadAll(const std::string& path) {
 std::unique_ptr<Head> HeadCache::HeadOfFile(const std::string& path,
                                             const std::string& tables) const {
   const std::string sources = folder_.empty() ? "" : SourcesOf(path, tables);
-  const std::string entry = folder_ + "/" + NameOf(sources) + kEntry;
+  const std::string entry = folder_ + "/" + EntryName(sources);
   if (auto kept = sources.empty() ? nullptr : Find(entry, sources)) return kept;
   FileHead made = MakeHeadOfFile(path, tables);
   if (!made.notice.empty()) Notice(made.notice);

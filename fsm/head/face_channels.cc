@@ -26,29 +26,29 @@ std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
     channels[parameter].moves.push_back({static_cast<std::uint32_t>(i), by});
   };
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const BakeWeights& f = weights[i];
-    const float a = std::abs(f.domain.x);
+    const BakeWeights& vertex = weights[i];
+    const float a = std::abs(vertex.domain.x);
     const float line = mouth.LineY(std::min(a, corner_x));
-    if (f.free <= 0 || a > 56 || f.domain.y > -14 || f.domain.y < -84) continue;
-    const float side_x = f.domain.x < 0 ? -1.0f : 1.0f;
+    if (vertex.free <= 0 || a > 56 || vertex.domain.y > -14 || vertex.domain.y < -84) continue;
+    const float side_x = vertex.domain.x < 0 ? -1.0f : 1.0f;
 
     // The corner's field: linear along the lips, fading into the cheek.
-    const float height = std::abs(f.domain.y - line);
+    const float height = std::abs(vertex.domain.y - line);
     const float corner =
         (a < corner_x ? std::pow(a / corner_x, 1.3f) : SmoothStep(56, corner_x, a)) *
-        SmoothStep(24, 0, height) * f.free;
+        SmoothStep(24, 0, height) * vertex.free;
     add(kCornerX, i, {side_x * corner, 0, 0});
     add(kCornerY, i, {0, corner, 0});
     add(kCornerZ, i, {0, 0, corner});
 
     // The lips' four rings: full in the middle, nothing at the corner.
-    if (a >= corner_x || f.lip_weight == 0) continue;
-    const bool upper = f.lip_weight > 0;
+    if (a >= corner_x || vertex.lip_weight == 0) continue;
+    const bool upper = vertex.lip_weight > 0;
     const float along = 1 - (a / corner_x) * (a / corner_x);
     const float quarter = 4 * (a / corner_x) * (1 - a / corner_x);
     const float border = std::abs(mouth.BorderY(upper ? 1 : -1, a));
     const float part = std::min(1.0f, height / std::max(border, 0.5f));
-    const float hold = std::abs(f.lip_weight);
+    const float hold = std::abs(vertex.lip_weight);
     const float outer = part * hold;
     const float inner = (1 - part) * hold;
     add(upper ? kUpperOuterY : kLowerOuterY, i, {0, outer * along, 0});
@@ -75,20 +75,20 @@ LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
     widest = std::max(widest, eye.UpperY(x) - eye.LowerY(x));
   }
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const BakeWeights& f = weights[i];
-    if (!f.eye) continue;
-    const float x = std::clamp(std::abs(f.domain.x), eye.inner_x(), eye.outer_x());
+    const BakeWeights& vertex = weights[i];
+    if (!vertex.eye) continue;
+    const float x = std::clamp(std::abs(vertex.domain.x), eye.inner_x(), eye.outer_x());
     const float upper = eye.UpperAngle(x);
     const float lower = eye.LowerAngle(x);
-    const Side side = *f.eye;
+    const Side side = *vertex.eye;
     const EyeTransform& transform = eyes[side];
     const EyeTransform back{.turn = -transform.turn, .size = 1 / transform.size};
     const glm::vec3 from_ball = back.Turned(rest[i] - rig.ball[side]);
     rig.vertices.push_back(
         {.vertex = static_cast<std::uint32_t>(i),
          .side = side,
-         .upper = f.lid_upper,
-         .lower = f.lid_lower,
+         .upper = vertex.lid_upper,
+         .lower = vertex.lid_lower,
          .upper_angle = upper,
          .lower_angle = lower,
          .meet_angle = eye.MeetAngle(x),
@@ -117,10 +117,10 @@ LipRig BakeLips(const MouthSlit& mouth, std::span<const BakeWeights> weights) {
   LipRig rig;
   rig.seam = mouth.seam;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const BakeWeights& f = weights[i];
-    if (f.lip_column < 0 || f.lip_weight == 0) continue;
-    rig.followers.push_back(
-        {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(f.lip_column), f.lip_weight});
+    const BakeWeights& vertex = weights[i];
+    if (vertex.lip_column < 0 || vertex.lip_weight == 0) continue;
+    rig.followers.push_back({static_cast<std::uint32_t>(i),
+                             static_cast<std::uint32_t>(vertex.lip_column), vertex.lip_weight});
   }
   const auto [upper, lower] = mouth.seam[mouth.seam.size() / 2];
   rig.measured = {upper, lower, mouth.corner_left, mouth.corner_right};

@@ -178,7 +178,7 @@ class LongHair {
       if (mesh_.bone[i] != Bone::kSkin) continue;
       const float behind = SmoothStep(25, -20, p.z) * SmoothStep(-40, -70, p.y) *
                            SmoothStep(style_.back_y - 30, style_.back_y + 10, p.y);
-      mesh_.occlusion[i] *= 1 - features_("long_neck_shade") * behind;
+      mesh_.openness[i] *= 1 - features_("long_neck_shade") * behind;
     }
   }
 

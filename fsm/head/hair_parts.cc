@@ -79,7 +79,7 @@ void HairLook::ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMe
         std::exp(-nearest / (reach_mm * reach_mm)) * SmoothStep(on_skin[5], on_skin[5] + 30, p.y);
     const float near = beside * SmoothStep(10, 40, p.y);
     const float under = SmoothStep(on_skin[2], on_skin[3], AboveHairline(p));
-    mesh.occlusion[i] *= 1 - on_skin[0] * std::max(beside, under);
+    mesh.openness[i] *= 1 - on_skin[0] * std::max(beside, under);
     mesh.albedo[i] =
         glm::mix(mesh.albedo[i], palette_.hair, std::max(on_skin[1] * near, on_skin[4] * under));
   }

@@ -8,12 +8,12 @@
 namespace fsm {
 
 std::uint32_t HeadMesh::Add(glm::vec3 p, glm::vec3 colour, float open, Bone b,
-                            const BakeWeights& f) {
+                            const BakeWeights& vertex_weights) {
   position.push_back(p);
   albedo.push_back(colour);
-  occlusion.push_back(open);
+  openness.push_back(open);
   bone.push_back(b);
-  weights.push_back(f);
+  weights.push_back(vertex_weights);
   opacity.push_back(1);
   strands.push_back({});
   return static_cast<std::uint32_t>(position.size() - 1);
@@ -62,8 +62,8 @@ void SetParts(std::span<const HeadMesh::Batch> batches, HeadTopology& topology) 
 }
 
 BakeWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y) {
-  BakeWeights f;
-  f.domain = domain;
+  BakeWeights weights;
+  weights.domain = domain;
   const float a = std::abs(domain.x);
   const float below = mouth_line_y - domain.y;  // millimetres below the line of the mouth
   const float beyond = std::max(0.0f, a - 25.0f);
@@ -80,20 +80,21 @@ BakeWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y) {
   const float reach_up = 18 + 0.5f * beyond;
   const bool lower = side < 0 || (side == 0 && below > 0);
   if (lower) {
-    f.jaw = lower_seam + (1 - lower_seam) * SmoothStep(0, reach_down, below);
-    f.above_mouth = side < 0 ? 0.5f * (1 - SmoothStep(25, 19, a)) * (1 - SmoothStep(0, 12, below))
-                             : 0.5f * (1 - SmoothStep(0, 8 + 0.3f * beyond, below));
+    weights.jaw = lower_seam + (1 - lower_seam) * SmoothStep(0, reach_down, below);
+    weights.above_mouth = side < 0
+                              ? 0.5f * (1 - SmoothStep(25, 19, a)) * (1 - SmoothStep(0, 12, below))
+                              : 0.5f * (1 - SmoothStep(0, 8 + 0.3f * beyond, below));
   } else {
-    f.jaw = upper_seam * (1 - SmoothStep(0, reach_up, -below));
+    weights.jaw = upper_seam * (1 - SmoothStep(0, reach_up, -below));
     const float half = 0.5f * (side > 0 ? (1 - SmoothStep(25, 19, a)) : 1.0f);
-    f.above_mouth = 1 - half * (1 - SmoothStep(0, 8 + 0.3f * beyond, -below));
+    weights.above_mouth = 1 - half * (1 - SmoothStep(0, 8 + 0.3f * beyond, -below));
   }
   // The jaw's skin ends at the throat and before the ear.
-  f.jaw *= SmoothStep(-138, -84, domain.y) * SmoothStep(112, 62, a);
+  weights.jaw *= SmoothStep(-138, -84, domain.y) * SmoothStep(112, 62, a);
 
   // The neck twists: all of the turn at the jaw, none at the shoulders.
-  f.neck = SmoothStep(-168, -96, domain.y);
-  return f;
+  weights.neck = SmoothStep(-168, -96, domain.y);
+  return weights;
 }
 
 }  // namespace fsm

@@ -27,7 +27,7 @@ struct BakeWeights : SkinWeights {
 struct HeadMesh {
   std::vector<glm::vec3> position;
   std::vector<glm::vec3> albedo;
-  std::vector<float> occlusion;
+  std::vector<float> openness;
   std::vector<float> opacity;
   std::vector<Bone> bone;
   std::vector<BakeWeights> weights;  ///< meaningful where bone is kSkin
@@ -43,7 +43,8 @@ struct HeadMesh {
   /// The triangles of that material which take light so.
   Batch& BatchOf(Material material, int pbr = -1, bool two_sided = false);
 
-  std::uint32_t Add(glm::vec3 p, glm::vec3 colour, float open, Bone b, const BakeWeights& f = {});
+  std::uint32_t Add(glm::vec3 p, glm::vec3 colour, float open, Bone b,
+                    const BakeWeights& vertex_weights = {});
   /// A quad with corners counter-clockwise from outside; degenerate halves are left out.
   void Quad(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
   void Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c);

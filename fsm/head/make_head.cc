@@ -44,13 +44,13 @@ namespace {
 
 /// What a head is made of: an identity, or the built-in face that a person's photo is warped from.
 struct Ingredients {
-  Ingredients(Identity own, bool both_alike)
+  Ingredients(Identity own, bool sides_differ)
       : identity(std::move(own)),
         sliders(Table("tables/sliders.txt", embedded::sliders()), identity.sliders),
-        alike(both_alike) {
+        asymmetric(sides_differ) {
     eye.FillUpperLid(identity.fold.full_mm);
   }
-  explicit Ingredients(const PhotoHead& head) : Ingredients(BuiltInIdentity(head.base), false) {
+  explicit Ingredients(const PhotoHead& head) : Ingredients(BuiltInIdentity(head.base), true) {
     identity.features = head.features;
     TakeColours(head, identity.palette);
     eye.ScaleIris(head.iris_size);
@@ -62,7 +62,7 @@ struct Ingredients {
   EyeAnatomy eye = EyeAnatomy::BuiltIn();
   const MouthAnatomy& mouth = MouthAnatomy::BuiltIn();
   SliderWarp sliders;
-  bool alike;                        ///< both sides move so
+  bool asymmetric;                   ///< the two sides do not move quite alike
   const PhotoHead* photo = nullptr;  ///< worn, if there is one
   std::optional<Warp> warp;          ///< to the person in it
 };
@@ -179,7 +179,7 @@ HeadTopology TopologyOf(const Ingredients& from, const BaseSkin& skin, const Bas
   topology.mouth = skin.mouth;
   topology.albedo = head.mesh.albedo;
   for (glm::vec3& colour : topology.albedo) colour = glm::clamp(colour, 0.0f, 1.0f);
-  topology.occlusion = head.mesh.occlusion;
+  topology.openness = head.mesh.openness;
   if (std::ranges::any_of(head.mesh.opacity, [](float opacity) { return opacity < 1; })) {
     topology.opacity = head.mesh.opacity;
   }
@@ -213,9 +213,9 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& pa
   rig.bone = head.mesh.bone;
   rig.weights.assign(head.mesh.weights.begin(), head.mesh.weights.end());
   rig.units = BuiltInUnits();
-  if (!from.alike) {
-    rig.person = static_cast<int>(identity.index);
-    rig.units.MakeAsymmetric(*rig.person);
+  if (from.asymmetric) {
+    rig.asymmetry_seed = static_cast<int>(identity.index);
+    rig.units.MakeAsymmetric(*rig.asymmetry_seed);
   }
   rig.units_by_place = true;
   rig.creases = {.at_rest = identity.creases, .depth = from.photo ? from.photo->lined : 1};
@@ -278,7 +278,7 @@ std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric) {
 }
 
 std::unique_ptr<Head> MakeHead(Identity identity, bool asymmetric) {
-  return Bake(Ingredients(std::move(identity), !asymmetric));
+  return Bake(Ingredients(std::move(identity), asymmetric));
 }
 
 std::unique_ptr<Head> MakeHead(const PhotoHead& head) {

@@ -21,7 +21,7 @@ void SkinPainter::AddSpots(glm::vec2 at, PaintedSkin& paint) const {
     const glm::vec2 d = (at - spot.at) / spot.size;
     const float weight = std::exp(-0.5f * (d.x * d.x + d.y * d.y));
     paint.albedo = glm::mix(paint.albedo, palette_.blush, spot.blush * weight);
-    paint.open *= 1 - spot.shade * weight;
+    paint.openness *= 1 - spot.shade * weight;
   }
 }
 
@@ -48,7 +48,7 @@ void SkinPainter::AddLid(glm::vec2 at, PaintedSkin& paint) const {
   const float lid = ends * SmoothStep(10, 2, above) * SmoothStep(-1, 0, above);
   paint.albedo = glm::mix(paint.albedo, palette_.skin * features_.Vector("lid_colour"),
                           features_("lid_tint") * lid);
-  paint.open *= 1 - features_("lid_fold_shade") * fold;
+  paint.openness *= 1 - features_("lid_fold_shade") * fold;
 }
 
 PaintedSkin SkinPainter::At(glm::vec3 place) const {
@@ -60,7 +60,7 @@ PaintedSkin SkinPainter::At(glm::vec3 place) const {
   // Under the jaw, down to the throat.
   const float under = SmoothStep(-80, -92, place.y) * SmoothStep(-150, -108, place.y) *
                       SmoothStep(64, 52, place.z + 0.4f * (place.y + 88));
-  paint.open *= 1 - features_("throat_shade") * under * SmoothStep(-30, 10, place.z);
+  paint.openness *= 1 - features_("throat_shade") * under * SmoothStep(-30, 10, place.z);
   if (front) AddLid(half, paint);
   return paint;
 }

@@ -18,7 +18,7 @@ struct Palette {
 
 struct PaintedSkin {
   glm::vec3 albedo;
-  float open;  ///< occlusion: 1 = open to the light
+  float openness;  ///< HeadTopology::openness
 };
 
 /// Paints the skin of the base identity's face (both sides alike). What it is made of outlives it.

@@ -93,15 +93,15 @@ class LidPainter {
     std::vector<SkinSample> samples;
     std::vector<glm::vec2> rims;
     for (std::size_t i = 0; i < face.skin.size(); ++i) {
-      const BakeWeights& f = face.skin[i];
-      if (f.eye != side) continue;
+      const BakeWeights& weights = face.skin[i];
+      if (weights.eye != side) continue;
       const glm::vec2 at(face.open.position[i]);
       const glm::vec3 screen = PhotoColour(face.sight.photo, face.sight.texcoord[i]);
-      const bool above = f.lid_upper >= f.lid_lower;
+      const bool above = weights.lid_upper >= weights.lid_lower;
       samples.push_back({at, screen, above, 1, false});
-      if (f.lid_upper + f.lid_lower > 0.95f) rims.push_back(at);
-      if (f.lid_upper > 0.95f) upper_rim_.push_back(at);
-      if (f.lid_lower > 0.95f) lower_rim_.push_back(at);
+      if (weights.lid_upper + weights.lid_lower > 0.95f) rims.push_back(at);
+      if (weights.lid_upper > 0.95f) upper_rim_.push_back(at);
+      if (weights.lid_lower > 0.95f) lower_rim_.push_back(at);
       around_.push_back({at, face.sight.texcoord[i], screen, light.On(face.open.normal[i])});
     }
     if (!HasLids()) return;
@@ -135,8 +135,8 @@ class LidPainter {
 
   void Paint(std::vector<ShutLid>& lids) const {
     for (std::uint32_t i = 0; i < face_.skin.size(); ++i) {
-      const BakeWeights& f = face_.skin[i];
-      if (f.eye == side_) lids.push_back(f.lid_upper > 0 ? Upper(i) : Lower(i));
+      const BakeWeights& weights = face_.skin[i];
+      if (weights.eye == side_) lids.push_back(weights.lid_upper > 0 ? Upper(i) : Lower(i));
     }
   }
 

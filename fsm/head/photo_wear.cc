@@ -63,7 +63,7 @@ void RollLips(const PhotoHead& head, std::span<const CageTag> tags, glm::vec3 li
     // Within the mouth what light there is has gone through flesh.
     const float inside = SmoothStep(0.5f, -4.0f, outward);
     topology.albedo[i] = Wetter(Wetter(dry, head.saturation), inside * head.saturation);
-    topology.occlusion[i] = glm::mix(1.0f, 0.4f, inside);
+    topology.openness[i] = glm::mix(1.0f, 0.4f, inside);
     topology.textures.weight[i] = 1 - wet;
   }
 }
@@ -74,9 +74,9 @@ std::vector<float> RelitParts(const PhotoSkin& skin) {
   constexpr float kNone = 14, kAll = 26;  // millimetres from the middle of an eye
   Sided<glm::vec3> eye;                   // sums and number
   for (std::size_t i = 0; i < skin.weights.size(); ++i) {
-    const BakeWeights& f = skin.weights[i];
-    if (!f.eye || f.lid_upper + f.lid_lower < 0.95f) continue;
-    eye[*f.eye] += glm::vec3(glm::vec2(skin.open.position[i]), 1);
+    const BakeWeights& weights = skin.weights[i];
+    if (!weights.eye || weights.lid_upper + weights.lid_lower < 0.95f) continue;
+    eye[*weights.eye] += glm::vec3(glm::vec2(skin.open.position[i]), 1);
   }
   std::vector<float> parts(skin.weights.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -180,10 +180,10 @@ void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh) {
   // How far a large lens with its rim reaches from the eye, millimetres.
   constexpr float kAside = 37, kUp = 19, kDown = 29;
   for (std::size_t i = 0; i < skin_count; ++i) {
-    BakeWeights& f = mesh.weights[i];
-    const float up = f.domain.y - eye.y;
-    const glm::vec2 off((std::abs(f.domain.x) - eye.x) / kAside, up / (up > 0 ? kUp : kDown));
-    f.free *= SmoothStep(1, 1.35f, glm::length(off));
+    BakeWeights& weights = mesh.weights[i];
+    const float up = weights.domain.y - eye.y;
+    const glm::vec2 off((std::abs(weights.domain.x) - eye.x) / kAside, up / (up > 0 ? kUp : kDown));
+    weights.free *= SmoothStep(1, 1.35f, glm::length(off));
   }
 }
 
@@ -231,7 +231,7 @@ void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_insid
     if (topology.textures.weight[i] <= 0) continue;
     const glm::vec3 seen = PhotoColour(*head.photo, topology.textures.texcoord[i]);
     topology.albedo[i] = seen * seen;
-    topology.occlusion[i] = 1;
+    topology.openness[i] = 1;
   }
   ThinLashes(head, topology);
   RollLips(head, skin.tags, lip_inside, topology);

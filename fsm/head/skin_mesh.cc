@@ -63,7 +63,7 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
     const auto& light = features["mouth_light"];
     paint.albedo = glm::mix(palette.lip_inside, palette.mouth, SmoothStep(0.15f, 0.8f, tag.deep));
     const float out = 1 - tag.deep;
-    paint.open = light[0] + light[1] * out * out;
+    paint.openness = light[0] + light[1] * out * out;
     return paint;
   }
   if (tag.red >= 0 && kind == SkinKind::kLip) {
@@ -76,19 +76,19 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
     const auto& wets = features["lip_wet"];
     const float wet = SmoothStep(0.35f, 0, tag.red) * (1 - wets[1] * SmoothStep(12, 25, aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip_inside, wets[0] * wet);
-    paint.open *= 1 - wets[2] * wet;
+    paint.openness *= 1 - wets[2] * wet;
     // The lower lip rolls into the mouth: its edge is in its own shade.
-    if (tag.lip_side < 0) paint.open *= 1 - wets[3] * SmoothStep(0.3f, 0, tag.red);
+    if (tag.lip_side < 0) paint.openness *= 1 - wets[3] * SmoothStep(0.3f, 0, tag.red);
   }
   if (tag.hole > 0) {
     const auto& dark = features["nostril_dark"];
     paint.albedo = glm::mix(paint.albedo, features.Vector("nostril_colour"), dark[0] * tag.hole);
-    paint.open *= 1 - dark[1] * tag.hole;
+    paint.openness *= 1 - dark[1] * tag.hole;
   }
   if (tag.margin >= 0 && tag.margin < 0.2f) {
     const auto& rim = features["lid_rim"];
     paint.albedo = glm::mix(paint.albedo, palette.lid_rim, rim[0]);
-    paint.open *= rim[1];
+    paint.openness *= rim[1];
   }
   return paint;
 }
@@ -113,7 +113,7 @@ MouthSlit BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnat
     const CageTag& tag = skin.tag[v];
     const PaintedSkin paint =
         MakePaint(tag, p, kind[v], painter, identity.Look(), identity.palette);
-    mesh.Add(p, paint.albedo, paint.open, Bone::kSkin, MakeSkinWeights(tag, p, mouth));
+    mesh.Add(p, paint.albedo, paint.openness, Bone::kSkin, MakeSkinWeights(tag, p, mouth));
     if (tag.seam < 1) continue;
     const int column = FineColumn(tag, p.x);
     if (std::abs(column) > kLastColumn) {

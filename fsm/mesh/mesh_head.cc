@@ -23,7 +23,7 @@ HeadTopology TopologyOf(const MeshModel& model) {
   SetParts(model.batches, topology);
   if (topology.indices.empty()) throw std::runtime_error("the head has no triangles");
   topology.albedo = model.albedo;
-  topology.occlusion.assign(model.position.size(), 1);
+  topology.openness.assign(model.position.size(), 1);
   for (const glm::vec3& p : model.position) topology.uv.push_back(Unroll(p));
   topology.textures = model.textures;
   topology.pbr_materials = model.pbr_materials;
@@ -127,8 +127,8 @@ void FindMouth(const RigData& rig, HeadTopology& topology) {
       taken[i] = true;
       const bool lower = rig.bone[i] == Bone::kJaw;
       if (teeth && lower) topology.albedo[i] *= shade;
-      topology.occlusion[i] = glm::mix(light[teeth && lower ? 1 : 0], light[2],
-                                       SmoothStep(6, 32, std::abs(rig.rest[i].x - middle)));
+      topology.openness[i] = glm::mix(light[teeth && lower ? 1 : 0], light[2],
+                                      SmoothStep(6, 32, std::abs(rig.rest[i].x - middle)));
     }
   }
 }

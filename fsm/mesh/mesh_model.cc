@@ -10,11 +10,11 @@ namespace fsm {
 
 std::uint32_t MeshModel::Add(glm::vec3 p, Bone b, glm::vec3 colour, std::optional<glm::vec2> at,
                              float turn) {
-  BakeWeights f;
-  f.neck = turn;
+  BakeWeights vertex_weights;
+  vertex_weights.neck = turn;
   textures.texcoord.push_back(at.value_or(glm::vec2(0)));
   textures.weight.push_back(at ? 1.0f : 0.0f);
-  return HeadMesh::Add(p, colour, 1, b, f);
+  return HeadMesh::Add(p, colour, 1, b, vertex_weights);
 }
 
 namespace {

@@ -294,7 +294,7 @@ RigData TransferredRig(MeshModel& model, const Head& source, std::span<const Poi
   const std::vector<Row> rows = AddLips(from, transfer.rows(), model, rig.lips);
   RigResampler(from, rows, rig).Resample(model.position);
   rig.units = from.units;
-  rig.person = from.person;
+  rig.asymmetry_seed = from.asymmetry_seed;
   rig.units_by_place = true;
   std::ranges::move(UnitChannels(rig.units, model.bone, rig.weights),
                     std::back_inserter(rig.channels));

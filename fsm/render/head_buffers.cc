@@ -50,7 +50,7 @@ PaintAttributes PaintOf(const HeadTopology& topology) {
                         std::vector<glm::vec4>(count, kNone), topology.opacity};
   paint.opacity.resize(count, 1.0F);
   for (std::size_t i = 0; i < count; ++i) {
-    paint.colour[i] = glm::vec4(topology.albedo[i], topology.occlusion[i]);
+    paint.colour[i] = glm::vec4(topology.albedo[i], topology.openness[i]);
   }
   for (std::size_t i = 0; i < topology.textures.texcoord.size(); ++i) {
     paint.texcoord[i] = glm::vec4(topology.textures.texcoord[i], topology.textures.weight[i], 0);
@@ -102,7 +102,7 @@ HeadBuffers::HeadBuffers(const GlFunctions& gl, const Head& head, const Appearan
     : gl_(gl), topology_(head.shared_topology()) {
   HeadVertices rest;
   head.Evaluate(FaceState{}, rest);
-  assert(topology().occlusion.size() == topology().albedo.size());
+  assert(topology().openness.size() == topology().albedo.size());
   assert(rest.position.size() == topology().albedo.size());
   photo_texels_per_mm_ = TexelsPerMm(topology(), rest);
   if (const auto landmarks = FaceLandmarks::Of(head)) {

@@ -68,7 +68,7 @@ VertexFeatures::VertexFeatures(const Head& head, const CreaseWeights& creases) {
   constexpr float kDarkest = 0.02F;  // darker than this is all the same
   add(true, [&](std::size_t i) { return kColourMm * glm::log(topology.albedo[i] + kDarkest); });
   add(true, [&](std::size_t i) {
-    return kOpenMm * glm::vec3(topology.occlusion[i],
+    return kOpenMm * glm::vec3(topology.openness[i],
                                topology.opacity.empty() ? 1 : topology.opacity[i],
                                topology.portrait.relit.empty() ? 0 : topology.portrait.relit[i]);
   });

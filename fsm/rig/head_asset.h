@@ -141,7 +141,7 @@ struct HeadTopology {
     return std::span(indices).subspan(part.first_index, part.index_count);
   }
   std::vector<glm::vec3> albedo;  ///< per vertex, linear RGB 0..1
-  std::vector<float> occlusion;   ///< per vertex, 0 = fully shut off from light, 1 = open
+  std::vector<float> openness;    ///< per vertex, to light: 0 = fully shut off, 1 = open
   std::vector<float> opacity;     ///< per vertex, 0..1: how much it hides; empty: all
   /// Per vertex, 0..1, v up: the base identity's rest form unrolled about a vertical axis, with the
   /// front (60 degrees to either side) widened to 60 % of the width. For skin, lips and brows; may

@@ -156,7 +156,7 @@ MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
 Rig Rig::WithUnits(const UnitTable& units) const {
   RigData data = data_;
   data.units = units;
-  if (data.person) data.units.MakeAsymmetric(*data.person);
+  if (data.asymmetry_seed) data.units.MakeAsymmetric(*data.asymmetry_seed);
   if (data.units_by_place) {
     std::erase_if(data.channels, [](const Channel& channel) {
       return channel.drivers.front().drive.kind == Drive::Kind::kUnit;

@@ -84,8 +84,8 @@ struct RigData {
   std::vector<glm::vec3> rest, rest_normal;  ///< per vertex
   std::vector<Bone> bone;                    ///< per vertex
   std::vector<SkinWeights> weights;          ///< per vertex
-  UnitTable units;            ///< how units combine, and what they do beside displacing skin
-  std::optional<int> person;  ///< whose two sides differ: see UnitTable::MakeAsymmetric
+  UnitTable units;  ///< how units combine, and what they do beside displacing skin
+  std::optional<int> asymmetry_seed;  ///< of UnitTable::MakeAsymmetric; none: both sides alike
   /// Whether the displacements of units follow from `units` and `weights` (UnitChannels); else
   /// they are the head's own.
   bool units_by_place = false;

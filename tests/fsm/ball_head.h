@@ -48,7 +48,7 @@ class BallHead : public fsm::Head {
           position.push_back(centre + radius * unit);
           normal.push_back(glm::normalize(unit / radius));
           asset.topology.albedo.push_back(albedo);
-          asset.topology.occlusion.push_back(1);
+          asset.topology.openness.push_back(1);
         }
       }
       for (std::uint32_t row = 0; row < kRows; ++row) {

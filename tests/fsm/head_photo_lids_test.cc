@@ -24,15 +24,15 @@ struct Eye {
   Eye() {
     for (int row = 0; row < 40; ++row) {
       for (int column = 0; column < 30; ++column) {
-        BakeWeights f;
-        f.eye = Side::kLeft;
+        BakeWeights weights;
+        weights.eye = Side::kLeft;
         const float way = 15 * static_cast<float>(row < 20 ? row : 39 - row) / 19;
         open.emplace_back(15.0f + static_cast<float>(column), row < 20 ? 20 - way : way - 20, 70);
         shut.push_back(open.back());
         if (row < 20) shut.back().y -= 10 * way / 15;
         const float held = static_cast<float>(row < 20 ? row : 39 - row) / 19;
-        (row < 20 ? f.lid_upper : f.lid_lower) = held;
-        skin.push_back(f);
+        (row < 20 ? weights.lid_upper : weights.lid_lower) = held;
+        skin.push_back(weights);
         places.emplace_back((static_cast<float>(column) + 0.5f) / 30,
                             (static_cast<float>(row) + 0.5f) / 40);
       }
@@ -117,8 +117,8 @@ TEST(PhotoLidsTest, EachEndOfTheLidIsAsBrightAsTheSkinBesideIt) {
   for (int row = 0; row < 40; ++row) eye.Paint(row, 30, 60, 0.6f * kLidSkin);
   float inner = 0, outer = 0;
   for (const ShutLid& lid : eye.Lids()) {
-    const BakeWeights& f = eye.skin[lid.vertex];
-    if (std::abs(f.lid_upper - 0.8f) > 0.05f) continue;
+    const BakeWeights& weights = eye.skin[lid.vertex];
+    if (std::abs(weights.lid_upper - 0.8f) > 0.05f) continue;
     if (eye.open[lid.vertex].x < 18) inner = std::sqrt(lid.colour.g);
     if (eye.open[lid.vertex].x > 41) outer = std::sqrt(lid.colour.g);
   }
@@ -129,14 +129,14 @@ TEST(PhotoLidsTest, LidsGoOverIntoTheSocketAndEndInDarkLashes) {
   const Eye eye;
   int rims = 0;
   for (const ShutLid& lid : eye.Lids()) {
-    const BakeWeights& f = eye.skin[lid.vertex];
-    if (std::max(f.lid_upper, f.lid_lower) < 0.12f) {
+    const BakeWeights& weights = eye.skin[lid.vertex];
+    if (std::max(weights.lid_upper, weights.lid_lower) < 0.12f) {
       EXPECT_LT(lid.weight, 0.1f) << "the socket keeps the photo";
     }
-    if (f.lid_upper == 0 && f.lid_lower < 0.85f) {
+    if (weights.lid_upper == 0 && weights.lid_lower < 0.85f) {
       EXPECT_EQ(lid.weight, 0) << "the lower lid keeps it up to its rim";
     }
-    if (f.lid_upper == 1 || f.lid_lower == 1) {
+    if (weights.lid_upper == 1 || weights.lid_lower == 1) {
       EXPECT_LT(std::sqrt(lid.colour.g), 0.7f * kLidSkin.g);
       EXPECT_GT(lid.weight, 0.25f);
       ++rims;

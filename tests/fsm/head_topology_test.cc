@@ -21,7 +21,7 @@ TEST(HeadTopologyTest, ArraysAgreeAndIndicesAreInRange) {
   const HeadTopology& topology = GenericHead().topology();
   const HeadVertices rest = Vertices({});
   EXPECT_EQ(topology.albedo.size(), rest.position.size());
-  EXPECT_EQ(topology.occlusion.size(), rest.position.size());
+  EXPECT_EQ(topology.openness.size(), rest.position.size());
   EXPECT_EQ(rest.normal.size(), rest.position.size());
   for (const std::uint32_t i : topology.indices) ASSERT_LT(i, rest.position.size());
   std::uint32_t next = 0;
@@ -83,7 +83,7 @@ TEST(HeadTopologyTest, PaintAndOcclusionAreInRange) {
     ASSERT_GE(std::min({c.x, c.y, c.z}), 0.0f);
     ASSERT_LE(std::max({c.x, c.y, c.z}), 1.0f);
   }
-  for (const float o : topology.occlusion) ASSERT_TRUE(o >= 0 && o <= 1);
+  for (const float o : topology.openness) ASSERT_TRUE(o >= 0 && o <= 1);
 }
 
 TEST(HeadTopologyTest, NormalsAreUnitAndTheFaceLooksAtTheViewer) {

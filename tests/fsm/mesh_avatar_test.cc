@@ -490,7 +490,7 @@ std::shared_ptr<const Head> FallingBall() {
       rig.bone.push_back(Bone::kSkin);
       rig.weights.emplace_back();
       asset.topology.albedo.emplace_back(0);
-      asset.topology.occlusion.push_back(1);
+      asset.topology.openness.push_back(1);
     }
     rig.lips.measured = {count, count + 1, count, count};
     fall.moves.push_back({count + 1, {0, -10, 0}});
