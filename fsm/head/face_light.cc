@@ -21,8 +21,7 @@ FaceLight::FaceLight(std::span<const Patch> skin) {
     glm::vec4 sum(0), colours(0);
     for (const Patch& patch : skin) {
       const glm::vec4 n(patch.normal, 1);
-      // Light is nearly the square of what a screen shows.
-      const float shown = ScreenBrightness(patch.screen), light = shown * shown;
+      const float light = FromScreen(ScreenBrightness(patch.screen));
       const float expected = std::max(glm::dot(light_, n), kLeast);
       const float odd = round == 0 ? 0 : std::log(light / expected) / kSpread;
       const float weight = std::exp(-odd * odd);

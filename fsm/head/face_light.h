@@ -9,6 +9,12 @@ namespace fsm {
 /// Brightness on the screen (sRGB, 0..1), a little above 0 so that it can be divided by.
 float ScreenBrightness(glm::vec3 screen);
 
+/// Linear light of what a screen shows, nearly its square.
+template <typename Colour>
+Colour FromScreen(Colour screen) {
+  return screen * screen;
+}
+
 /// How a photo's light falls on skin, by the direction the skin faces: a part that comes from
 /// everywhere and one that grows along one direction (spherical harmonics up to the first order),
 /// fitted to what the photo shows of a face. Beards, brows and shine are left out by the fit.

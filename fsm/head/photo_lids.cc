@@ -87,22 +87,28 @@ PhotoPlane PhotoByFace(std::span<const PhotoSpot> all) {
 /// The lids of one eye.
 class LidPainter {
  public:
-  LidPainter(const PhotoFace& face, const FaceLight& light, Side side)
-      : face_(face), features_(face.features), light_(light), side_(side) {
+  LidPainter(const PhotoMapping& mapping, const PhotoSkin& skin, bool glasses,
+             const Features& features, const FaceLight& light, Side side)
+      : mapping_(mapping),
+        skin_(skin),
+        glasses_(glasses),
+        features_(features),
+        light_(light),
+        side_(side) {
     // How far a place goes with a lid: 1 at the rim, a third where the lid ends, 0 at the socket's.
     std::vector<SkinSample> samples;
     std::vector<glm::vec2> rims;
-    for (std::size_t i = 0; i < face.skin.size(); ++i) {
-      const BakeWeights& weights = face.skin[i];
+    for (std::size_t i = 0; i < skin.weights.size(); ++i) {
+      const BakeWeights& weights = skin.weights[i];
       if (weights.eye != side) continue;
-      const glm::vec2 at(face.open.position[i]);
-      const glm::vec3 screen = PhotoColour(face.sight.photo, face.sight.texcoord[i]);
+      const glm::vec2 at(skin.open.position[i]);
+      const glm::vec3 screen = PhotoColour(mapping.photo, mapping.texcoord[i]);
       const bool above = weights.lid_upper >= weights.lid_lower;
       samples.push_back({at, screen, above, 1, false});
       if (weights.lid_upper + weights.lid_lower > 0.95f) rims.push_back(at);
       if (weights.lid_upper > 0.95f) upper_rim_.push_back(at);
       if (weights.lid_lower > 0.95f) lower_rim_.push_back(at);
-      around_.push_back({at, face.sight.texcoord[i], screen, light.On(face.open.normal[i])});
+      around_.push_back({at, mapping.texcoord[i], screen, light.On(skin.open.normal[i])});
     }
     if (!HasLids()) return;
     const auto [first, last] = std::ranges::minmax(upper_rim_, {}, &glm::vec2::x);
@@ -118,24 +124,24 @@ class LidPainter {
       // Along the rims the photo shows lashes.
       float away = 100;
       for (const glm::vec2 rim : rims) away = std::min(away, glm::distance(rim, s.at));
-      s.near = away < (face.glasses ? 6.0f : 8.0f);
+      s.near = away < (glasses ? 6.0f : 8.0f);
       s.known = s.above ? SmoothStep(1.0f, 3.0f, away) : SmoothStep(0.6f, 1.6f, away);
     }
     // Only skin is bright above an eye, unless glasses shine there.
-    DoubtOddSkin(samples, face.glasses ? 0.5f : 0.65f);
+    DoubtOddSkin(samples, glasses ? 0.5f : 0.65f);
     // Below an eye skin is thin and bluish: half of the hue is the face's. Lenses have their own.
     skin_below_ = MeanBelow(samples);
     const glm::vec3 face_hue = light.skin() / ScreenBrightness(light.skin());
     skin_below_ = glm::mix(skin_below_, ScreenBrightness(skin_below_) * face_hue,
-                           features_["photo_lid_face_hue"][face.glasses ? 1 : 0]);
+                           features_["photo_lid_face_hue"][glasses ? 1 : 0]);
     eyeless_.emplace(samples);
   }
 
   bool HasLids() const { return !upper_rim_.empty() && !lower_rim_.empty(); }
 
   void Paint(std::vector<ShutLid>& lids) const {
-    for (std::uint32_t i = 0; i < face_.skin.size(); ++i) {
-      const BakeWeights& weights = face_.skin[i];
+    for (std::uint32_t i = 0; i < skin_.weights.size(); ++i) {
+      const BakeWeights& weights = skin_.weights[i];
       if (weights.eye == side_) lids.push_back(weights.lid_upper > 0 ? Upper(i) : Lower(i));
     }
   }
@@ -181,11 +187,11 @@ class LidPainter {
     const float rim = HeightAt(upper_rim_, at.x), meet = HeightAt(lower_rim_, at.x);
     const glm::vec2 below(at.x, meet - 3);
     const auto& in_socket = features_["photo_lid_in_socket"];
-    const float turned = light_.On(face_.shut.normal[i]) / Around(below_, below, 4).lit;
+    const float turned = light_.On(skin_.shut.normal[i]) / Around(below_, below, 4).lit;
     const glm::vec3 lit = in_socket[0] * turned * OfHue(eyeless_->At(below), skin_below_);
     const float down = SmoothStep(rim + 2, meet, at.y);
     // The frame of glasses shades what lies behind it.
-    if (face_.glasses) {
+    if (glasses_) {
       const auto& behind = features_["photo_lid_behind_glasses"];
       return glm::mix(behind[0] * glm::mix(deep, skin_below_, behind[1]), lit, behind[2] * down);
     }
@@ -195,31 +201,30 @@ class LidPainter {
     return glm::mix(deep, lit, out * glm::mix(in_socket[2], in_socket[3], down));
   }
 
-  static glm::vec3 Linear(glm::vec3 screen) { return screen * screen; }
-  static float LightOf(const PhotoSpot& skin) {
+  static float GrainLight(const PhotoSpot& skin) {
     return std::max(ScreenBrightness(skin.screen), 0.02f);
   }
 
   ShutLid Lower(std::uint32_t i) const {
     // The lashes of the upper lid lie over the rim of the lower.
-    const glm::vec2 at(face_.shut.position[i]);
+    const glm::vec2 at(skin_.shut.position[i]);
     const float outward = Outward(at);
-    const float held = face_.skin[i].lid_lower;
+    const float held = skin_.weights[i].lid_lower;
     const float lashes = SmoothStep(0.96f - 0.08f * outward, 1.0f, held);
     const auto& dark = features_["photo_lower_lashes"];
     // The wet rim of the open eye is hidden.
     const float rim = SmoothStep(0.92f, 0.97f, held);
     return {.vertex = i,
-            .colour = Linear(Lashed(Skin(i, at), dark[0] * lashes)),
+            .colour = FromScreen(Lashed(Skin(i, at), dark[0] * lashes)),
             .weight = std::max(dark[1] * rim, (dark[2] + dark[3] * outward) * lashes),
-            .grain_at = face_.sight.texcoord[i],
-            .grain_light = LightOf(Around(around_, at, 2)),
+            .grain_at = mapping_.texcoord[i],
+            .grain_light = GrainLight(Around(around_, at, 2)),
             .slide = glm::vec2(0)};
   }
 
   ShutLid Upper(std::uint32_t i) const {
-    const glm::vec2 at(face_.shut.position[i]);
-    const float held = face_.skin[i].lid_upper;
+    const glm::vec2 at(skin_.shut.position[i]);
+    const float held = skin_.weights[i].lid_upper;
     const float rim = HeightAt(upper_rim_, at.x), meet = HeightAt(lower_rim_, at.x);
     const float inside = std::min(Along(at) * Along(at), 1.0f);
     // A soft furrow where the lid slips under the skin.
@@ -233,16 +238,16 @@ class LidPainter {
     const auto& dark = features_["photo_upper_lashes"];
     const float lashes = (dark[0] + dark[1] * Outward(at)) * SmoothStep(0.96f, 1.0f, held);
     const float height = std::max(at.y - lowest_, 0.0f);
-    const float down = face_.glasses ? Folded(height) : std::abs(kHighest - height);
+    const float down = glasses_ ? Folded(height) : std::abs(kHighest - height);
     const glm::vec2 source(at.x, lowest_ - 1.5f - down);
     // Near a rim of glasses skin darkens within millimetres: that is no grain.
-    const PhotoSpot wide = Around(below_, source, face_.glasses ? 1.2f : 4.0f);
+    const PhotoSpot wide = Around(below_, source, glasses_ ? 1.2f : 4.0f);
     return {.vertex = i,
-            .colour = Linear(glm::clamp(Lashed(skin, lashes), 0.0f, 1.0f)),
+            .colour = FromScreen(glm::clamp(Lashed(skin, lashes), 0.0f, 1.0f)),
             .weight = Part(at, rim, skin) * SmoothStep(0.02f, 0.2f, held),
             .grain_at = grain_by_face_(source),
-            .grain_light = LightOf(wide),
-            .slide = photo_by_face_.slope * (at - glm::vec2(face_.open.position[i]))};
+            .grain_light = GrainLight(wide),
+            .slide = photo_by_face_.slope * (at - glm::vec2(skin_.open.position[i]))};
   }
 
   /// How much is lid: from a little above the eye's rim on, and where its lashes were.
@@ -252,13 +257,15 @@ class LidPainter {
     const float lid = SmoothStep(rim + above[0], rim + above[1], at.y) * SmoothStep(3, 0, beyond);
     const float shown = ScreenBrightness(Around(around_, at, 1.5f).screen) / ScreenBrightness(skin);
     // What a lens mirrors lies before the lid.
-    if (face_.glasses) return lid * SmoothStep(1.7f, 1.3f, shown);
+    if (glasses_) return lid * SmoothStep(1.7f, 1.3f, shown);
     const float dark = SmoothStep(0.05f, 0.2f, 1 - shown);
     return std::max(lid, features_("photo_lashes_hidden") * dark *
                              SmoothStep(rim + 7.5f, rim + 5.5f, at.y) * SmoothStep(6, 3, beyond));
   }
 
-  const PhotoFace& face_;
+  const PhotoMapping& mapping_;
+  const PhotoSkin& skin_;
+  const bool glasses_;
   const Features& features_;
   const FaceLight& light_;
   Side side_;
@@ -281,21 +288,22 @@ glm::vec3 PhotoColour(const Image& photo, glm::vec2 place) {
   return glm::vec3(p[0], p[1], p[2]) / 255.0f;
 }
 
-FaceLight LightOf(const PhotoMapping& sight, const SkinPose& open) {
+FaceLight FitFaceLight(const PhotoMapping& mapping, const SkinPose& open) {
   constexpr float kSquarely = 0.3f, kFront = 45;  // millimetres: no neck, no ears
   std::vector<FaceLight::Patch> seen;
   for (std::size_t i = 0; i < open.normal.size(); ++i) {
     const bool squarely = open.normal[i].z > kSquarely && open.position[i].z > kFront;
-    if (sight.weight[i] <= 0 || !squarely) continue;
-    seen.push_back({open.normal[i], PhotoColour(sight.photo, sight.texcoord[i])});
+    if (mapping.weight[i] <= 0 || !squarely) continue;
+    seen.push_back({open.normal[i], PhotoColour(mapping.photo, mapping.texcoord[i])});
   }
   return FaceLight(seen);
 }
 
-std::vector<ShutLid> PaintLids(const PhotoFace& face, const FaceLight& light) {
+std::vector<ShutLid> PaintLids(const PhotoMapping& mapping, const PhotoSkin& skin, bool glasses,
+                               const Features& features, const FaceLight& light) {
   std::vector<ShutLid> lids;
   for (const Side side : kSides) {
-    const LidPainter painter(face, light, side);
+    const LidPainter painter(mapping, skin, glasses, features, light, side);
     if (painter.HasLids()) painter.Paint(lids);
   }
   return lids;

@@ -40,6 +40,11 @@ void DarkenNostrils(std::span<const CageTag> tags, HeadMesh& mesh) {
   }
 }
 
+/// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
+glm::vec3 Wetter(glm::vec3 lip, float saturation) {
+  return lip * glm::mix(glm::vec3(1), glm::vec3(1, 0.56f, 0.52f), saturation);
+}
+
 /// A photo of a closed mouth does not show where the lips roll inward: as they part, from beside
 /// the line where they met on, their own colour turns redder and darker until it is the lining's.
 void RollLips(const PhotoHead& head, std::span<const CageTag> tags, glm::vec3 lip_inside,
@@ -154,10 +159,6 @@ void TakeColours(const PhotoHead& head, Palette& palette) {
 
 float JawLine(float above_bottom) { return 30 * SmoothStep(48, 36, above_bottom); }
 
-glm::vec3 Wetter(glm::vec3 lip, float saturation) {
-  return lip * glm::mix(glm::vec3(1), glm::vec3(1, 0.56f, 0.52f), saturation);
-}
-
 void AddSheet(const PhotoHead& head, HeadMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (const auto& vertex : head.sheet) {
@@ -229,20 +230,18 @@ void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_insid
   // Where paint begins it goes over from the photo's colour.
   for (std::size_t i = 0; i < skin_count; ++i) {
     if (topology.textures.weight[i] <= 0) continue;
-    const glm::vec3 seen = PhotoColour(*head.photo, topology.textures.texcoord[i]);
-    topology.albedo[i] = seen * seen;
+    topology.albedo[i] = FromScreen(PhotoColour(*head.photo, topology.textures.texcoord[i]));
     topology.openness[i] = 1;
   }
   ThinLashes(head, topology);
   RollLips(head, skin.tags, lip_inside, topology);
-  const PhotoMapping sight{*head.photo, topology.textures.texcoord, topology.textures.weight};
-  const FaceLight light = LightOf(sight, skin.open);
+  const PhotoMapping mapping{*head.photo, topology.textures.texcoord, topology.textures.weight};
+  const FaceLight light = FitFaceLight(mapping, skin.open);
   topology.portrait.light = light.coefficients();
   topology.portrait.relit = RelitParts(skin);
   topology.portrait.relit.resize(topology.uv.size());
-  topology.portrait.shut_lids = PaintLids({sight, skin.weights, skin.open, skin.shut, head.glasses,
-                                           head.features ? *head.features : Features::BuiltIn()},
-                                          light);
+  topology.portrait.shut_lids = PaintLids(
+      mapping, skin, head.glasses, head.features ? *head.features : Features::BuiltIn(), light);
   for (const ShutLid& lid : topology.portrait.shut_lids) topology.textures.weight[lid.vertex] = 1;
 }
 

@@ -34,16 +34,6 @@ float JawLine(float above_bottom);
 /// first.
 void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, HeadMesh& mesh);
 
-/// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
-glm::vec3 Wetter(glm::vec3 lip, float saturation);
-
-/// The vertices of the skin, which come first: all of one length.
-struct PhotoSkin {
-  std::span<const BakeWeights> weights;
-  std::span<const CageTag> tags;
-  SkinPose open, shut;  ///< with lids at rest and shut
-};
-
 /// Gives every vertex of skin and sheet its place in the photo, lids and lips their own paint.
 /// `lip_inside`: the colour of lips that roll inward if `head` has none.
 void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,

@@ -50,11 +50,10 @@ struct Eye {
     }
   }
   std::vector<ShutLid> Lids() const {
-    const SkinPose seen{open, open_normal};
+    const PhotoSkin all{skin, {}, {open, open_normal}, {shut, shut_normal}};
     const std::vector<float> weight(places.size(), 1);
-    const PhotoMapping sight{photo, places, weight};
-    return PaintLids({sight, skin, seen, {shut, shut_normal}, glasses, Features::BuiltIn()},
-                     LightOf(sight, seen));
+    const PhotoMapping mapping{photo, places, weight};
+    return PaintLids(mapping, all, glasses, Features::BuiltIn(), FitFaceLight(mapping, all.open));
   }
 };
 
