@@ -31,8 +31,8 @@ class HeadForm {
 
  private:
   glm::vec3 Motion(glm::vec3 p) const;
-  /// How much too far the teeth stand forward for the lips of a warped head, millimetres: by the
-  /// room that lips have on the base head.
+  /// How far the teeth must go back, millimetres, for the lips of a warped head to have the room
+  /// they have on the base head.
   float TeethTooFar(const HeadMesh& base) const;
 
   const EyeAnatomy& eye_;
@@ -43,7 +43,7 @@ class HeadForm {
   TeethTransform teeth_;
 };
 
-/// Where a place of the table's eye lies in a face whose eyes lie so.
+/// Moves a place on the table's eye to the face's own eye of that side.
 glm::vec3 PlaceInFace(const EyeAnatomy& eye, const Sided<EyeTransform>& eye_transforms, Side side,
                       glm::vec3 p);
 

@@ -239,7 +239,7 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& pa
   return rig;
 }
 
-/// What is seen of the photo where, with lids at rest and shut.
+/// Maps the photo onto the skin, using the lids open and shut.
 void Wear(const Ingredients& from, const BaseSkin& skin, const FormedHead& formed,
           HeadAsset& asset) {
   const std::size_t count = skin.mesh.position.size();

@@ -24,8 +24,8 @@ struct Displacement {
 struct Drive {
   enum class Kind : std::uint8_t {
     kUnit,         ///< `number`: of FACS; its strength beside the others (UnitTable::Combine)
-    kAskedUnit,    ///< the same as the state asks for it, 0..2, whatever else is asked
-    kMouth,        ///< `number`: index into FaceState::mouth; of the jaw what units leave to it
+    kAskedUnit,    ///< the same as the state has it, 0..2, before units are combined
+    kMouth,        ///< `number`: index into Pose::mouth
     kSpokenMouth,  ///< what FaceState::mouth asks beyond FaceState::mouth_by_hand
     kHandMouth,    ///< `number`: index into FaceState::mouth_by_hand
     kBlink,        ///< how far lids close beyond what units ask, 0..1
@@ -52,8 +52,8 @@ struct Drive {
   Half half = Half::kWhole;
 };
 
-/// What moves together, and how strongly in which state: as much as its drivers say in sum, within
-/// limits, and by whether the lips are sealed. Channels add up.
+/// Displacements with one common strength: the sum of the drivers, kept within limits and scaled by
+/// whether the lips are sealed. Channels add up.
 struct Channel {
   struct Driver {
     Drive drive;
@@ -70,7 +70,7 @@ struct Channel {
 std::vector<Channel> UnitChannels(const UnitTable& units, std::span<const Bone> bones,
                                   std::span<const SkinWeights> weights);
 
-/// What drives channels, each number of a state looked at once.
+/// Evaluates each distinct Drive once per state.
 class ChannelDrives {
  public:
   explicit ChannelDrives(std::span<const Channel> channels);

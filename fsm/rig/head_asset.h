@@ -74,13 +74,11 @@ struct Strand {
 /// eyes: what the photo shows at TextureMaps::texcoord gives way to it as the lid shuts.
 struct ShutLid {
   std::uint32_t vertex;
-  glm::vec3 colour;  ///< linear RGB
-  float weight;      ///< how much of it is lid, 0..1: it goes over into the skin round it
-  /// The skin whose grain it takes, a lid's height below or nearer behind glasses: its texcoord,
-  /// and the mean brightness round it on the screen, 0..1.
-  glm::vec2 grain_at;
-  float grain_light;
-  glm::vec2 slide;  ///< from the vertex's texcoord to where in the photo it comes to lie
+  glm::vec3 colour;    ///< linear RGB
+  float weight;        ///< opacity of the lid's colour, 0..1: less where it blends into other skin
+  glm::vec2 grain_at;  ///< texture coordinate of the skin whose grain the lid takes
+  float grain_light;   ///< mean screen brightness around it, 0..1
+  glm::vec2 slide;     ///< from the vertex's texcoord to where in the photo it comes to lie
 };
 
 /// A fine hair that lies on the skin and is painted into its texture: of the brows. Places are
@@ -113,12 +111,12 @@ struct TextureMaps {
   std::vector<float> weight;
 };
 
-/// What the photo of a person brings beside the picture.
+/// Data of a head with the photo of a person, beside the picture.
 struct Portrait {
   std::vector<ShutLid> shut_lids;
   /// The light in the photo, as FaceLight::coefficients().
   glm::vec4 light{0, 0, 0, 1};
-  /// Per vertex: how much that light follows it as it turns with an expression, 0..1. May be empty.
+  /// Per vertex, 0..1: how much its light changes as an expression turns it. May be empty.
   std::vector<float> relit;
   std::optional<Sided<EyePicture>> eyes;  ///< if the photo shows them; else they are drawn
   /// Saturation of what is lit beside a photo, 0..1: our lamps are coloured, a grey photo is not.

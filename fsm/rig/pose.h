@@ -17,7 +17,7 @@ struct JawMove {
 /// The numbers of one state from which every vertex follows.
 struct Pose {
   Sided<UnitValues> units;
-  std::array<float, kMouthParameters> mouth;  ///< of the jaw what units leave to it
+  std::array<float, kMouthParameters> mouth;  ///< the jaw's without what units move it by
   Sided<float> blink;                         ///< lids close by it beyond the units
   Sided<UnitEffects::Lids> lids;              ///< gaze and blink included
   JawMove jaw;
@@ -44,7 +44,7 @@ glm::vec3 TurnJaw(glm::vec3 p, const Pose& pose, float weight);
 glm::vec3 IntoJaw(glm::vec3 p, const Pose& pose);
 glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight);
 
-/// Where an eye that is turned so looks, and the turn by which it looks there.
+/// The gaze of an eye with this rotation, and the rotation for a gaze.
 EyeAngles GazeOf(const glm::mat3& eye);
 glm::mat3 EyeTo(const EyeAngles& gaze);
 

@@ -23,11 +23,11 @@ struct HeadVertices {
   Sided<float> lids_shut;  ///< 0 = as at rest, 1 = wholly
 };
 
-/// The numbers of one state by which the steps move vertices, the same for all of them.
+/// What the steps read of one state.
 struct RigInputs {
   Pose pose;
   std::vector<float> strengths;  ///< of each channel
-  Sided<glm::mat3> eye_turn;     ///< of what eyes carry, about EyeRig::pivot
+  Sided<glm::mat3> eye_turn;     ///< rotations about EyeRig::pivot
 };
 
 /// The name of a step, as `fsm --describe` shows it.
@@ -50,7 +50,7 @@ class Rig {
   void Evaluate(const FaceState& state, HeadVertices& out,
                 std::span<const glm::vec3> swings = {}) const;
   RigInputs InputsOf(const FaceState& state) const;
-  /// What HeadVertices says beside places and normals.
+  /// Fills the members of HeadVertices other than positions and normals.
   void FindCreasesAndLids(const Pose& pose, HeadVertices& out) const;
   /// All 0 if the head does not say where its lips are.
   MouthMeasure MeasureMouth(const FaceState& state) const;
@@ -62,7 +62,7 @@ class Rig {
 
   void Take(RigStep step, Frame& frame) const;
   Pose PoseOf(const FaceState& state) const;
-  /// How far an eye turns, which of heads from elsewhere is another angle than that of the gaze.
+  /// Rotation of the eyeball; heads with LookRanges scale the gaze angle.
   glm::mat3 EyeTurn(const Pose& pose, Side side) const;
   void AddChannels(Frame& frame) const;
   void MoveTongue(Frame& frame) const;
@@ -70,7 +70,7 @@ class Rig {
   void TurnNeck(Frame& frame) const;
 
   RigData data_;
-  // What follows from the data: vertices by what moves them.
+  // Vertices that the jaw, a bone and the step kNormals move, found from the data.
   std::vector<std::uint32_t> jawed_, rigid_, soft_;
   ChannelDrives drives_;
 };

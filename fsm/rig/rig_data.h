@@ -23,8 +23,8 @@ inline constexpr glm::vec3 kJawHinge{0, -4, -3};
 /// The point the head turns about, in the upper neck.
 inline constexpr glm::vec3 kNeckPivot{0, -85, -28};
 
-/// How far an eye turns for a gaze: in proportion up to `gaze_deg`, where it has turned by `turn`
-/// (degrees; where shapes do it, the weight of one). VRM 0.x and 1.0, "lookAt".
+/// The rotation of an eye grows with the gaze up to `gaze_deg`, where it is `turn` (degrees; the
+/// weight of a shape where shapes turn the eyes). VRM 0.x and 1.0, "lookAt".
 struct LookRange {
   float gaze_deg = 90, turn = 10;
 };
@@ -32,10 +32,10 @@ struct LookRanges {
   LookRange inner, outer, up, down;
 };
 
-/// The steps by which a state becomes vertices, in the order of RigData::steps. Each sees what
-/// those before it made.
+/// The steps that compute vertices from a state; RigData::steps lists those of a head in order.
+/// Each works on the result of the steps before it.
 enum class RigStep : std::uint8_t {
-  kChannels,     ///< what units and mouth parameters displace
+  kChannels,     ///< units and mouth parameters displace vertices
   kLids,         ///< lids turn about the eyes, over the cornea
   kLidsOnBalls,  ///< what was outside an eyeball stays outside
   kJaw,          ///< skin goes with the jaw, by its weights
@@ -47,7 +47,7 @@ enum class RigStep : std::uint8_t {
   kBones,        ///< jaw and eyes, with what is fixed to them
   kNeck,         ///< the head turns and goes forward
   kSprings,      ///< what is soft swings, where a simulation says how far
-  kNormals       ///< the skin's light follows its form
+  kNormals       ///< normals are found from the moved skin
 };
 
 /// The jaw: its axis goes through the hinge along x.
@@ -59,26 +59,26 @@ struct JawRig {
 /// What the eyes turn about, and how far.
 struct EyeRig {
   Sided<glm::vec3> pivot;
-  std::optional<LookRanges> look;  ///< else as far as the gaze does
+  std::optional<LookRanges> look;  ///< none: the eyes turn by the gaze angle
 };
 
-/// Where a rig was taken over from another head. Both are per vertex, or empty where it was not.
+/// The other head that a transferred rig was taken from. Both arrays are per vertex, and empty
+/// where the rig is the head's own.
 struct ProxyForm {
-  /// Its place on the other head, where the steps before kOwnForm move it among the other's lids,
-  /// lips and teeth.
+  /// Position on the other head; the steps before kOwnForm move it there.
   std::vector<glm::vec3> rest;
-  /// What leads from there, moved to where nothing is asked, to RigData::rest.
+  /// Offset from the proxy's neutral position to this head's rest.
   std::vector<glm::vec3> to_own;
 };
 
 /// How the skin creases, Crease by Crease.
 struct CreaseRig {
-  std::optional<std::array<float, kLastingCreases>> at_rest;  ///< nothing where the head shows none
+  std::optional<std::array<float, kLastingCreases>> at_rest;  ///< none: no creases are shown
   float depth = 1;                                            ///< a factor on all of them
 };
 
-/// How a head moves: plain data, in the frame of HeadVertices. What all steps look at, then what
-/// belongs to one of them.
+/// How a head moves: plain data, in the frame of HeadVertices. Members that all steps read come
+/// before those of single steps.
 struct RigData {
   std::vector<RigStep> steps;
   std::vector<glm::vec3> rest, rest_normal;  ///< per vertex
@@ -102,7 +102,7 @@ struct RigData {
   SpringRig swing;
   NormalRig normals;
 
-  /// Where the steps begin.
+  /// The positions that the steps start from.
   const std::vector<glm::vec3>& Start() const { return proxy.rest.empty() ? rest : proxy.rest; }
 };
 

@@ -68,7 +68,7 @@ class UnitTable {
     int unit;
     float first, second;
   };
-  /// By which part a unit is stronger on that side than the table says.
+  /// Relative extra strength per side; 0.03 = 3 % stronger.
   Sided<UnitValues> lean_;
   std::vector<Field> fields_;
   std::vector<Rule> rules_;
@@ -82,7 +82,7 @@ inline constexpr std::size_t kCreases = 5;
 inline constexpr std::size_t kLastingCreases = 4;
 /// How deep each of them is, 0..1.
 using Creases = std::array<Sided<float>, kCreases>;
-/// By what the units bunch up there, beyond `at_rest`.
+/// The depths in a state: `at_rest` and what the units add to it.
 Creases CreaseDepths(const Sided<UnitValues>& units,
                      const std::array<float, kLastingCreases>& at_rest);
 
