@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/find/face/around_face.h"
+#include "face_fit/find/face/crop_to_face.h"
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/find/face/upright.h"
 #include "face_fit/find/head/head_finder.h"

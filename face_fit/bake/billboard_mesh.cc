@@ -7,11 +7,11 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "face_fit/bake/grain.h"
 #include "face_fit/bake/skin_surface.h"
 #include "face_fit/bake/texture_bake.h"
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/picture/filters.h"
+#include "face_fit/picture/grain.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/tables/photo_look.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "face_fit/find/head/visible_surface.h"
 #include "face_fit/fit/fitted_head.h"
+#include "face_fit/surface/visible_surface.h"
 
 namespace facefit {
 

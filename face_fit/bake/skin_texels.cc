@@ -9,8 +9,8 @@
 #include <span>
 
 #include "face_fit/bake/skin_surface.h"
-#include "face_fit/find/head/rasterizer.h"
 #include "face_fit/picture/plane.h"
+#include "face_fit/surface/rasterizer.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "face_fit/bake/complete_figure.h"
+#include "face_fit/complete/complete_figure.h"
 #include "face_fit/fit/side_view.h"
 #include "fsm/head/photo_head.h"
 

@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "face_fit/fit/least_squares.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
@@ -133,6 +134,23 @@ void ShiftLidsToIrises(const BaseHead& base, const SeenIrises& irises,
       constraint.pixel += (by - std::copysign(free, by)) * across;
     }
   }
+}
+
+fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted) {
+  const float kept = PhotoLook()("squint_kept");
+  const BaseHead& base = *fitted.base;
+  fsm::HeadVertices posed;
+  base.head->Evaluate(fitted.expression.State(), posed);
+  fsm::Sided<fsm::EyeTransform> transforms = fitted.eyes;
+  for (const fsm::Side side : fsm::kSides) {
+    const auto raised = [&](std::size_t k) {
+      const MeshPoint& lid = base.points[EyeOutline(side)[k]];
+      return lid.On(posed.position).y - lid.On(base.rest.position).y;
+    };
+    transforms[side].upper_mm += kept * std::min(raised(kUpperMiddle), 0.0F);
+    transforms[side].lower_mm += kept * std::max(raised(kLowerMiddle), 0.0F);
+  }
+  return transforms;
 }
 
 }  // namespace facefit

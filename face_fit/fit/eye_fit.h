@@ -20,4 +20,8 @@ SeenIrises FindSeenIrises(const BaseHead& base, const FoundFace& face, const fsm
 void ShiftLidsToIrises(const BaseHead& base, const SeenIrises& irises,
                        std::vector<LandmarkConstraint>& constraints);
 
+/// The eyes at rest. Half of a smile's squint is kept: the photo does not show how wide the eyes
+/// would be without it, and eyes that are too wide stare.
+fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted);
+
 }  // namespace facefit

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "face_fit/find/face/mouth_line.h"
-#include "face_fit/find/head/rasterizer.h"
 #include "face_fit/fit/eye_fit.h"
+#include "face_fit/surface/rasterizer.h"
 #include "fsm/base/spline.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"

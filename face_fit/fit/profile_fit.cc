@@ -8,10 +8,10 @@
 #include <optional>
 #include <utility>
 
-#include "face_fit/find/head/rasterizer.h"
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/fit/least_squares.h"
 #include "face_fit/picture/pixels.h"
+#include "face_fit/surface/rasterizer.h"
 
 namespace facefit {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "face_fit/find/head/rasterizer.h"
-#include "face_fit/find/head/visible_surface.h"
 #include "face_fit/fit/pose_fit.h"
 #include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
+#include "face_fit/surface/rasterizer.h"
+#include "face_fit/surface/visible_surface.h"
 
 namespace facefit {
 namespace {

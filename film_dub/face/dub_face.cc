@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "face_fit/find/face/around_face.h"
+#include "face_fit/find/face/crop_to_face.h"
 #include "face_fit/picture/photo.h"
 #include "face_track/model/seen_face.h"
 #include "fsm/head/make_head.h"

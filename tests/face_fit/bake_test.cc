@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "face_fit/bake/billboard_mesh.h"
-#include "face_fit/bake/complete_figure.h"
-#include "face_fit/bake/grain.h"
+#include "face_fit/complete/complete_figure.h"
 #include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/find/figure/matte.h"
 #include "face_fit/picture/filters.h"
+#include "face_fit/picture/grain.h"
 #include "face_fit/picture/resample.h"
 #include "tests/face_fit/network_fixture.h"
 

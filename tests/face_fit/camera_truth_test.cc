@@ -17,8 +17,8 @@
 #include <string>
 
 #include "face_fit/find/head/head_finder.h"
-#include "face_fit/find/head/rasterizer.h"
 #include "face_fit/fit/fit.h"
+#include "face_fit/surface/rasterizer.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/head_model.h"

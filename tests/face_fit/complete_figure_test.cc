@@ -1,6 +1,6 @@
 // What is drawn where a photo cuts the figure, on photos of people cut like those of a passport.
 
-#include "face_fit/bake/complete_figure.h"
+#include "face_fit/complete/complete_figure.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "face_fit/bake/canvas.h"
+#include "face_fit/complete/edge_means.h"
 #include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/fit/fit.h"
 #include "face_fit/picture/filters.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "face_fit/bake/eye_pictures.h"
-#include "face_fit/bake/eyes.h"
+#include "face_fit/bake/feature_colours.h"
 #include "face_fit/bake/openings.h"
 #include "face_fit/bake/red_eye.h"
 #include "face_fit/bake/skin_colours.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "face_fit/find/face/around_face.h"
+#include "face_fit/find/face/crop_to_face.h"
 #include "face_fit/make_face.h"
 #include "face_fit/picture/photo.h"
 #include "fsm/head/make_head.h"

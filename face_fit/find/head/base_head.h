@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "face_fit/find/head/lip_seam.h"
-#include "face_fit/find/head/mesh_point.h"
 #include "face_fit/find/network/face_finder.h"
 #include "face_fit/find/network/network_points.h"
+#include "face_fit/surface/mesh_point.h"
 #include "fsm/rig/head.h"
 #include "fsm/rig/unit_table.h"
 #include "vm_protocol/core/result.h"

@@ -12,7 +12,7 @@
 
 #include "face_fit/find/head/base_head.h"
 #include "face_fit/find/head/lid_edges.h"
-#include "face_fit/find/head/symmetry.h"
+#include "face_fit/find/head/point_pairs.h"
 #include "face_fit/picture/pixels.h"
 #include "fsm/mesh/head_model.h"
 #include "fsm/mesh/mesh_head.h"

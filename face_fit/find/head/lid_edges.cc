@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "face_fit/find/head/visible_surface.h"
 #include "face_fit/picture/filters.h"
+#include "face_fit/surface/visible_surface.h"
 #include "fsm/mesh/transferred_rig.h"
 
 namespace facefit {

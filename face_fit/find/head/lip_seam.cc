@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "face_fit/find/head/rasterizer.h"
-#include "face_fit/find/head/visible_surface.h"
 #include "face_fit/picture/plane.h"
+#include "face_fit/surface/rasterizer.h"
+#include "face_fit/surface/visible_surface.h"
 #include "fsm/mesh/surface_index.h"
 
 namespace facefit {

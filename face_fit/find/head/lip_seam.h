@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "face_fit/find/head/mesh_point.h"
+#include "face_fit/surface/mesh_point.h"
 #include "fsm/rig/head.h"
 
 namespace facefit {

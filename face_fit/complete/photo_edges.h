@@ -8,14 +8,10 @@
 #include "face_fit/find/figure/matte.h"
 #include "face_fit/find/head/base_head.h"
 #include "face_fit/fit/fitted_head.h"
-#include "fsm/head/face_light.h"
 
 namespace facefit {
 
 inline constexpr std::size_t kPhotoSides = 2;  ///< 0 left, 1 right
-
-/// The light that falls on the skin of a face, and the usual colour of that skin.
-fsm::FaceLight LightOnFace(const FittedHead& fitted, const Cutout& figure);
 
 /// What the edge of a photo cuts; a tip is one of a collar, beside a neck.
 enum class EdgeKind { kNothing, kSkin, kHair, kCloth, kTip };

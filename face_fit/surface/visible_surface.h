@@ -5,8 +5,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "face_fit/find/head/mesh_point.h"
 #include "face_fit/picture/float_image.h"
+#include "face_fit/surface/mesh_point.h"
 #include "fsm/rig/head.h"
 
 namespace facefit {

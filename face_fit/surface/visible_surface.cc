@@ -1,9 +1,9 @@
-#include "face_fit/find/head/visible_surface.h"
+#include "face_fit/surface/visible_surface.h"
 
 #include <glm/common.hpp>
 #include <utility>
 
-#include "face_fit/find/head/rasterizer.h"
+#include "face_fit/surface/rasterizer.h"
 
 namespace facefit {
 

@@ -1,16 +1,13 @@
-#include "face_fit/bake/photo_edges.h"
+#include "face_fit/complete/photo_edges.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "face_fit/find/head/rasterizer.h"
 #include "face_fit/picture/pixels.h"
-#include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
 #include "face_fit/tables/photo_look.h"
-#include "fsm/rig/normals.h"
 
 namespace facefit {
 namespace {
@@ -100,24 +97,6 @@ bool HangsDown(const Cutout& figure, const EdgeClassifier* hair, int x, float fr
 }
 
 }  // namespace
-
-fsm::FaceLight LightOnFace(const FittedHead& fitted, const Cutout& figure) {
-  const auto& position = fitted.posed_vertices;
-  std::vector<std::uint32_t> corners;
-  ForSkinTriangles(fitted.base->head->topology(),
-                   [&](const std::uint32_t* t) { corners.insert(corners.end(), t, t + 3); });
-  const auto normal = fsm::Normals(corners, position, position.size());
-  constexpr float kSquarely = 0.3F, kFront = 45;  // cosine; millimetres: neither neck nor ears
-  const Box2 photo{{0, 0}, glm::vec2(figure.colours.width, figure.colours.height)};
-  std::vector<fsm::FaceLight::Patch> patches;
-  for (std::size_t v = 0; v < position.size(); ++v) {
-    if (normal[v].z < kSquarely || position[v].z < kFront) continue;
-    const glm::vec2 at = fitted.pose.Pixel(position[v]);
-    if (at != glm::clamp(at, photo.low, photo.high)) continue;
-    patches.push_back({normal[v], ColourAt(figure.colours, at) / 255.0F});
-  }
-  return fsm::FaceLight(patches);
-}
 
 PhotoEdges::PhotoEdges(const FittedHead& fitted, const Cutout& figure, glm::vec3 skin) {
   const int width = figure.opacity.width, height = figure.opacity.height;

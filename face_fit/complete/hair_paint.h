@@ -4,8 +4,9 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "face_fit/bake/canvas.h"
-#include "face_fit/bake/photo_edges.h"
+#include "face_fit/complete/canvas.h"
+#include "face_fit/complete/edge_means.h"
+#include "face_fit/complete/photo_edges.h"
 
 namespace facefit {
 

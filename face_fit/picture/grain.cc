@@ -1,4 +1,4 @@
-#include "face_fit/bake/grain.h"
+#include "face_fit/picture/grain.h"
 
 #include <algorithm>
 #include <glm/common.hpp>

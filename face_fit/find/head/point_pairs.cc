@@ -1,4 +1,4 @@
-#include "face_fit/find/head/symmetry.h"
+#include "face_fit/find/head/point_pairs.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,18 +1,19 @@
-#include "face_fit/bake/complete_figure.h"
+#include "face_fit/complete/complete_figure.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <utility>
 
-#include "face_fit/bake/body_paint.h"
-#include "face_fit/bake/canvas.h"
-#include "face_fit/bake/grain.h"
-#include "face_fit/bake/hair_paint.h"
-#include "face_fit/bake/photo_edges.h"
-#include "face_fit/find/head/rasterizer.h"
+#include "face_fit/complete/body_paint.h"
+#include "face_fit/complete/canvas.h"
+#include "face_fit/complete/hair_paint.h"
+#include "face_fit/complete/light_on_face.h"
+#include "face_fit/complete/photo_edges.h"
 #include "face_fit/picture/filters.h"
+#include "face_fit/picture/grain.h"
 #include "face_fit/picture/pixels.h"
+#include "face_fit/surface/rasterizer.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

@@ -1,4 +1,4 @@
-#include "face_fit/bake/hair_paint.h"
+#include "face_fit/complete/hair_paint.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "face_fit/bake/bust.h"
+#include "face_fit/complete/bust.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "face_fit/find/head/rasterizer.h"
-#include "face_fit/find/head/visible_surface.h"
 #include "face_fit/picture/filters.h"
+#include "face_fit/surface/rasterizer.h"
+#include "face_fit/surface/visible_surface.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

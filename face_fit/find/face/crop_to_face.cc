@@ -1,4 +1,4 @@
-#include "face_fit/find/face/around_face.h"
+#include "face_fit/find/face/crop_to_face.h"
 
 #include <algorithm>
 #include <glm/common.hpp>

@@ -1,6 +1,6 @@
 // What of a photo is worked on.
 
-#include "face_fit/find/face/around_face.h"
+#include "face_fit/find/face/crop_to_face.h"
 
 #include <gtest/gtest.h>
 

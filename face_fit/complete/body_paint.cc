@@ -1,4 +1,4 @@
-#include "face_fit/bake/body_paint.h"
+#include "face_fit/complete/body_paint.h"
 
 #include <algorithm>
 #include <cmath>

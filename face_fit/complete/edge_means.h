@@ -3,39 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
 
 namespace facefit {
-
-/// A colour, 0..255, and how much it covers, 0..1.
-struct Paint {
-  glm::vec3 colour{0};
-  float opacity = 0;
-};
-
-/// A place beyond a photo: how far below or above it and how far aside, pixels, not negative.
-struct Beyond {
-  float below, above, aside;
-  std::size_t side;  ///< 0 left, 1 right
-};
-
-/// A photo on a larger canvas. Places are in the photo's pixels, also beyond it.
-struct Canvas {
-  glm::ivec2 photo;       ///< the pixel of the canvas that shows the photo's first
-  glm::ivec2 photo_size;  ///< pixels, as `size`
-  glm::ivec2 size;
-  float per_mm;    ///< pixels
-  glm::vec2 chin;  ///< place
-
-  Beyond BeyondPhoto(glm::vec2 p) const {
-    const glm::vec2 end(photo_size);
-    return {std::max(p.y - end.y, 0.0F), std::max(-p.y, 0.0F), std::max({-p.x, p.x - end.x, 0.0F}),
-            p.x < 0 ? 0U : 1U};
-  }
-};
 
 /// Colours along an edge, as means over any part of it.
 class EdgeMeans {

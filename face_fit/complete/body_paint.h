@@ -4,9 +4,11 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "face_fit/bake/bust.h"
-#include "face_fit/bake/canvas.h"
-#include "face_fit/bake/photo_edges.h"
+#include "face_fit/complete/bust.h"
+#include "face_fit/complete/canvas.h"
+#include "face_fit/complete/edge_means.h"
+#include "face_fit/complete/photo_edges.h"
+#include "fsm/head/face_light.h"
 
 namespace facefit {
 

@@ -1,4 +1,4 @@
-#include "face_fit/bake/eyes.h"
+#include "face_fit/bake/feature_colours.h"
 
 #include <algorithm>
 #include <glm/common.hpp>
@@ -30,23 +30,6 @@ float SkinLight(const FoundFace& face, const fsm::Image& photo) {
 }
 
 }  // namespace
-
-fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted) {
-  const float kept = PhotoLook()("squint_kept");
-  const BaseHead& base = *fitted.base;
-  fsm::HeadVertices posed;
-  base.head->Evaluate(fitted.expression.State(), posed);
-  fsm::Sided<fsm::EyeTransform> transforms = fitted.eyes;
-  for (const fsm::Side side : fsm::kSides) {
-    const auto raised = [&](std::size_t k) {
-      const MeshPoint& lid = base.points[EyeOutline(side)[k]];
-      return lid.On(posed.position).y - lid.On(base.rest.position).y;
-    };
-    transforms[side].upper_mm += kept * std::min(raised(kUpperMiddle), 0.0F);
-    transforms[side].lower_mm += kept * std::max(raised(kLowerMiddle), 0.0F);
-  }
-  return transforms;
-}
 
 EyeColours SampleEyes(const FoundFace& face, const SeenIrises& irises, const fsm::Image& photo) {
   const fsm::NumberTable& look = PhotoLook();

@@ -1,4 +1,4 @@
-#include "face_fit/find/head/symmetry.h"
+#include "face_fit/find/head/point_pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ struct Faces {
   }
 };
 
-TEST(SymmetryTest, PointsThatMissTheCheekAreLeftOutAndDoNotTurnTheHead) {
+TEST(PointPairsTest, PointsThatMissTheCheekAreLeftOutAndDoNotTurnTheHead) {
   Faces faces;
   const std::size_t all = faces.pairs.size();
   // The outermost of one side lie on an ear, four centimetres behind.
@@ -58,7 +58,7 @@ TEST(SymmetryTest, PointsThatMissTheCheekAreLeftOutAndDoNotTurnTheHead) {
   EXPECT_LT(std::abs(glm::degrees(std::atan2(ahead.x, ahead.z))), 0.05F);
 }
 
-TEST(SymmetryTest, AWideFaceKeepsAllItsPoints) {
+TEST(PointPairsTest, AWideFaceKeepsAllItsPoints) {
   Faces faces;
   const std::size_t all = faces.pairs.size();
   for (auto& pair : faces.pairs) {
@@ -68,7 +68,7 @@ TEST(SymmetryTest, AWideFaceKeepsAllItsPoints) {
   EXPECT_EQ(faces.pairs.size(), all);
 }
 
-TEST(SymmetryTest, PointsAreBalancedAboutTheHeadsOwnMiddleWhereverOneThoughtItToBe) {
+TEST(PointPairsTest, PointsAreBalancedAboutTheHeadsOwnMiddleWhereverOneThoughtItToBe) {
   Faces faces;
   const auto before = faces.pairs;
   // The sides of a head that is looked at from three degrees beside are no mirror images in x.
@@ -78,7 +78,7 @@ TEST(SymmetryTest, PointsAreBalancedAboutTheHeadsOwnMiddleWhereverOneThoughtItTo
   }
 }
 
-TEST(SymmetryTest, APointAndItsOppositeShareWhatOneOfThemIsOff) {
+TEST(PointPairsTest, APointAndItsOppositeShareWhatOneOfThemIsOff) {
   Faces faces;
   const auto before = faces.pairs;
   faces.pairs[20].to += 0.01F * (faces.turn * glm::vec3(0, 3, 0));
@@ -92,7 +92,7 @@ TEST(SymmetryTest, APointAndItsOppositeShareWhatOneOfThemIsOff) {
   }
 }
 
-TEST(SymmetryTest, OppositesThatDisagreeByFarStayAsTheyAre) {
+TEST(PointPairsTest, OppositesThatDisagreeByFarStayAsTheyAre) {
   Faces faces;
   faces.pairs[20].to += 0.01F * (faces.turn * glm::vec3(0, 0, -20));
   const auto before = faces.pairs;

@@ -8,9 +8,6 @@
 
 namespace facefit {
 
-/// The eyes at rest. Half of a smile's squint is kept: the photo does not show how wide the eyes
-/// would be without it, and eyes that are too wide stare.
-fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted);
 /// Colours of the eyes in a photo, linear RGB.
 struct EyeColours {
   glm::vec3 iris, white;
