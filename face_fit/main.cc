@@ -116,20 +116,20 @@ void TellLeftOut(const std::string& path, const std::string& why) {
 }
 
 /// The further photos that can be read.
-facefit::SidePhotos ReadSidePhotos(const Options& options, facefit::FaceNetworks& networks) {
-  if (options.views.size() > facefit::kMostSidePhotos) {
-    throw std::runtime_error("--view: at most " + std::to_string(facefit::kMostSidePhotos) +
+facefit::ExtraPhotos ReadExtraPhotos(const Options& options, facefit::FaceNetworks& networks) {
+  if (options.views.size() > facefit::kMostExtraPhotos) {
+    throw std::runtime_error("--view: at most " + std::to_string(facefit::kMostExtraPhotos) +
                              " are used");
   }
-  facefit::SidePhotos sides;
+  facefit::ExtraPhotos extras;
   for (const std::string& path : options.views) {
-    if (auto side = facefit::ReadSidePhoto(networks, path)) {
-      sides.push_back(std::move(*side));
+    if (auto extra = facefit::ReadExtraPhoto(networks, path)) {
+      extras.push_back(std::move(*extra));
     } else {
-      TellLeftOut(path, side.error().text);
+      TellLeftOut(path, extra.error().text);
     }
   }
-  return sides;
+  return extras;
 }
 
 /// Where in the whole photo the face lies, in the pixels of --points.
@@ -163,8 +163,8 @@ void Run(const Options& options) {
   std::optional<OriginalFace> original;
   if (!options.galatea.empty()) original = ReadOriginal(options);
   fsm::Image finest =
-      original ? std::move(original->photo) : vm::OrThrow(ReadPhoto(options.photo, kFineSide));
-  fsm::Image photo = original ? finest : AtWorkingSide(finest);
+      original ? std::move(original->photo) : vm::OrThrow(ReadPhoto(options.photo, kFineSize));
+  fsm::Image photo = original ? finest : AtWorkingSize(finest);
   const bool by_hand = original || !options.points.empty();
   FaceNetworks networks = vm::OrThrow(FaceNetworks::Load(options.networks));
   progress.Say("photo and networks read");
@@ -188,7 +188,7 @@ void Run(const Options& options) {
   progress.Say("figure cut out");
   std::optional<bool> glasses;
   if (!options.glasses.empty()) glasses = options.glasses == "yes";
-  const MadeFace made = MakeFace(base, front, face, &networks, ReadSidePhotos(options, networks),
+  const MadeFace made = MakeFace(base, front, face, &networks, ReadExtraPhotos(options, networks),
                                  glasses, [&](const char* step) { progress.Say(step); });
   for (const auto& [path, why] : made.left_out) TellLeftOut(path, why);
   const std::string report = PlaceInPhoto(found, photo) + made.report;

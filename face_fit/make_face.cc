@@ -25,7 +25,7 @@ FrontPhoto LookAtFront(FaceNetworks& networks, const BaseHead& base, fsm::Image 
 }
 
 MadeFace MakeFace(const BaseHead& base, const FrontPhoto& front, const FoundFace& face,
-                  FaceNetworks* networks, const SidePhotos& sides, std::optional<bool> glasses,
+                  FaceNetworks* networks, const ExtraPhotos& extras, std::optional<bool> glasses,
                   const StepDone& done) {
   const auto tell = [&done](const char* step) {
     if (done) done(step);
@@ -33,13 +33,13 @@ MadeFace MakeFace(const BaseHead& base, const FrontPhoto& front, const FoundFace
   MadeFace made;
   made.fit = FitFace(base, face, &front.photo);
   tell("head fitted");
-  std::vector<SideView> views;
-  for (const auto& side : sides) {
-    auto view = LookFromSide(*networks, front.photo, *side, made.fit);
+  std::vector<ExtraView> views;
+  for (const auto& extra : extras) {
+    auto view = LookAtExtra(*networks, front.photo, *extra, made.fit);
     if (view) {
       views.push_back(std::move(*view));
     } else {
-      made.left_out.push_back({side->path, view.error().text});
+      made.left_out.push_back({extra->path, view.error().text});
     }
   }
   if (!views.empty()) tell("seen from the side, too");

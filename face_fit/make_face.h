@@ -8,7 +8,7 @@
 
 #include "face_fit/bake/texture_bake.h"
 #include "face_fit/find/face/occlusion_detector.h"
-#include "face_fit/fit/side_view.h"
+#include "face_fit/fit/extra_view.h"
 
 namespace facefit {
 
@@ -39,11 +39,11 @@ struct MadeFace {
 /// What is done on the way, told at the end of each step.
 using StepDone = std::function<void(const char* step)>;
 /// Fits the base head, which outlives the result, to a face of a photo, corrects its depth by
-/// photos from the side, and bakes them onto it. `networks`: looked with if there are `sides`;
+/// photos from the side, and bakes them onto it. `networks`: looked with if there are `extras`;
 /// `glasses`: whether the person wears them, else that is looked for. Throws std::exception if
 /// nothing can be drawn with.
 MadeFace MakeFace(const BaseHead& base, const FrontPhoto& front, const FoundFace& face,
-                  FaceNetworks* networks, const SidePhotos& sides,
+                  FaceNetworks* networks, const ExtraPhotos& extras,
                   std::optional<bool> glasses = std::nullopt, const StepDone& done = {});
 
 }  // namespace facefit

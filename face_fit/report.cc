@@ -15,7 +15,7 @@ namespace {
 /// Mean difference of neighbouring pixels over the face, as part of its brightness: sharpness.
 float Sharpness(const FoundFace& face, const fsm::Image& photo) {
   float sum = 0, light = 0;
-  const float step = std::max(face.crop.side / 150, 1.0F);
+  const float step = std::max(face.crop.size / 150, 1.0F);
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 60; ++x) {
       const glm::vec2 p = face.crop.ToPicture(0.25F + glm::vec2(x, y) / 120.0F);

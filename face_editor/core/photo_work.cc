@@ -98,18 +98,18 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
   return work;
 }
 
-vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& sight,
-                                                                    const PhotoWork& work,
-                                                                    const PointMap& points,
-                                                                    const std::string& path) {
+vm::Result<std::shared_ptr<const facefit::ExtraPhoto>> OpenExtraPhoto(FaceSight& sight,
+                                                                      const PhotoWork& work,
+                                                                      const PointMap& points,
+                                                                      const std::string& path) {
   try {
-    auto side = facefit::ReadSidePhoto(sight.networks, path);
-    if (!side) return side;
+    auto extra = facefit::ReadExtraPhoto(sight.networks, path);
+    if (!extra) return extra;
     const auto fit = facefit::FitFace(*work.base, FoundFrom(points), &work.front.photo);
-    if (auto placed = facefit::FitSideView(sight.networks, fit.head, **side); !placed) {
+    if (auto placed = facefit::FitExtraView(sight.networks, fit.head, **extra); !placed) {
       return vm::Fail(placed.error().code, path + ": " + placed.error().text);
     }
-    return side;
+    return extra;
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue, path + ": " + error.what());
   }
@@ -117,12 +117,12 @@ vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& s
 
 vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
                                                        const PointMap& points, FaceSight* sight,
-                                                       const SidePhotos& sides) {
+                                                       const ExtraPhotos& extras) {
   try {
     auto built = std::make_shared<BuiltFace>();
     built->base = work.base;
     built->made = facefit::MakeFace(*work.base, work.front, FoundFrom(points),
-                                    sight ? &sight->networks : nullptr, sides);
+                                    sight ? &sight->networks : nullptr, extras);
     built->head = fsm::MakeHead(built->made.bake.head);
     return built;
   } catch (const std::exception& error) {

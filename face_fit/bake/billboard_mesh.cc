@@ -324,7 +324,7 @@ Billboard MakeBillboard(const FittedHead& fitted, const Cutout& figure) {
     for (int x = 0; x < grid.columns; ++x) {
       const glm::vec2 pixel = grid.Point(x, y);
       const std::size_t i = depth.Index(x, y);
-      const glm::vec2 at = glm::clamp(pixel / size, 0.5F / kMapSide, 1 - 0.5F / kMapSide);
+      const glm::vec2 at = glm::clamp(pixel / size, 0.5F / kMapSize, 1 - 0.5F / kMapSize);
       const glm::vec3 place = fitted.pose.PlaceAt(pixel, std::min(depth.at[i], kMostDepth));
       out.sheet.push_back({place + motion.at[i], {0.5F + 0.5F * at.x, at.y}});
     }

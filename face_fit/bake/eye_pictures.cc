@@ -22,8 +22,8 @@ constexpr float kLeastIris = 3;  // radius in pixels of what is worth showing
 
 // Squares side by side in the lower left corner of the picture: below the neck the skin's map is
 // not looked at. Texels between them, so that they do not run into each other.
-constexpr int kIrisSide = 64;
-constexpr int kEyeSide = 128;
+constexpr int kIrisPixels = 64;
+constexpr int kBallPixels = 128;
 constexpr int kMargin = 4;
 constexpr int kRings = 24;
 
@@ -68,12 +68,12 @@ std::array<glm::vec3, kRings> MedianByRing(const std::vector<Texel>& texels) {
 
 /// A square of texels; (-1, 1) is its upper left corner.
 template <typename Colour>
-fsm::Image Painted(int side, Colour colour_at) {
-  fsm::Image out = fsm::FilledImage(side, side);
+fsm::Image Painted(int size, Colour colour_at) {
+  fsm::Image out = fsm::FilledImage(size, size);
   std::size_t i = 0;
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x, ++i) {
-      const glm::vec2 p = 2.0F * (glm::vec2(x, y) + 0.5F) / static_cast<float>(side) - 1.0F;
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x, ++i) {
+      const glm::vec2 p = 2.0F * (glm::vec2(x, y) + 0.5F) / static_cast<float>(size) - 1.0F;
       SetRgb(out, i, colour_at(glm::vec2(p.x, -p.y)));
     }
   }
@@ -82,14 +82,14 @@ fsm::Image Painted(int side, Colour colour_at) {
 
 /// Its place in the picture: left, top, right, bottom.
 glm::vec4 Insert(const fsm::Image& square, int left, fsm::Image& picture) {
-  const int side = square.width;
-  const int top = picture.height - kMargin - side;
-  for (int y = 0; y < side; ++y) {
-    std::copy_n(&square.rgba[4 * square.Index(0, y)], 4 * side,
+  const int size = square.width;
+  const int top = picture.height - kMargin - size;
+  for (int y = 0; y < size; ++y) {
+    std::copy_n(&square.rgba[4 * square.Index(0, y)], 4 * size,
                 &picture.rgba[4 * picture.Index(left, top + y)]);
   }
-  const glm::vec2 size(picture.width, picture.height);
-  return {glm::vec2(left, top) / size, glm::vec2(left + side, top + side) / size};
+  const glm::vec2 whole(picture.width, picture.height);
+  return {glm::vec2(left, top) / whole, glm::vec2(left + size, top + size) / whole};
 }
 
 struct SeenEye {
@@ -116,9 +116,9 @@ fsm::Image IrisPicture(const SeenEye& eye, glm::vec3 skin, const fsm::Image& pho
                  glm::smoothstep(0.5F * edge, edge, within), glm::length(p)};
   };
   std::vector<Texel> texels;
-  Painted(kIrisSide, [&](glm::vec2 p) { return texels.emplace_back(texel_at(p)).colour; });
+  Painted(kIrisPixels, [&](glm::vec2 p) { return texels.emplace_back(texel_at(p)).colour; });
   const auto median = MedianByRing(texels);
-  return Painted(kIrisSide, [&, next = texels.begin()](glm::vec2) mutable {
+  return Painted(kIrisPixels, [&, next = texels.begin()](glm::vec2) mutable {
     const Texel& t = *next++;
     const float ring = std::clamp(t.radius / fsm::kIrisSpan * kRings - 0.5F, 0.0F, kRings - 1.001F);
     const auto k = static_cast<std::size_t>(ring);
@@ -145,11 +145,11 @@ fsm::Image BallPicture(const SeenEye& eye, const LidLines& rest, float radius,
     return Ramp(range, glm::distance(at, eye.ring.centre) / eye.ring.radius);
   };
   fsm::Image white =
-      Painted(kEyeSide, [&](glm::vec2 p) { return ColourAt(photo, place(p).first); });
+      Painted(kBallPixels, [&](glm::vec2 p) { return ColourAt(photo, place(p).first); });
   // Behind the iris lies what is seen beside it, but not the lids' shade and lashes.
-  FloatImage weight(kEyeSide, kEyeSide);
+  FloatImage weight(kBallPixels, kBallPixels);
   std::size_t i = 0;
-  Painted(kEyeSide, [&](glm::vec2 p) {
+  Painted(kBallPixels, [&](glm::vec2 p) {
     const auto [at, between] = place(p);
     weight.at[i++] = beside_iris(at) * glm::smoothstep(0.15F, 0.35F, between) *
                      glm::smoothstep(1.0F, 0.85F, between);
@@ -157,7 +157,7 @@ fsm::Image BallPicture(const SeenEye& eye, const LidLines& rest, float radius,
   });
   PushPullInpaint(white, weight);
   i = 0;
-  return Painted(kEyeSide, [&](glm::vec2 p) {
+  return Painted(kBallPixels, [&](glm::vec2 p) {
     const glm::vec2 at = place(p).first;
     return glm::mix(Rgb(white, i++), ColourAt(photo, at), beside_iris(at));
   });
@@ -248,9 +248,9 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
       squares[k] = {Mirrored(squares[other].iris, gain), Mirrored(squares[other].ball, gain)};
     }
     pictures[k].iris = Insert(squares[k].iris, left, picture);
-    left += kIrisSide + kMargin;
+    left += kIrisPixels + kMargin;
     pictures[k].ball = Insert(squares[k].ball, left, picture);
-    left += kEyeSide + kMargin;
+    left += kBallPixels + kMargin;
   }
   return pictures;
 }

@@ -100,11 +100,11 @@ std::vector<glm::vec3> SkinNormals(const fsm::HeadTopology& topology,
 /// A triangle of the skin in texels of its map; nothing if it runs across the seam of the map.
 std::optional<Triangle2> OnMap(const fsm::HeadTopology& topology, const std::uint32_t* t) {
   const auto texel = [&](std::uint32_t v) {
-    return glm::vec2(topology.uv[v].x, 1 - topology.uv[v].y) * static_cast<float>(kMapSide) - 0.5F;
+    return glm::vec2(topology.uv[v].x, 1 - topology.uv[v].y) * static_cast<float>(kMapSize) - 0.5F;
   };
   const Triangle2 out{texel(t[0]), texel(t[1]), texel(t[2])};
   const float wide = std::max({out.a.x, out.b.x, out.c.x}) - std::min({out.a.x, out.b.x, out.c.x});
-  if (wide > kMapSide / 4.0F) return std::nullopt;
+  if (wide > kMapSize / 4.0F) return std::nullopt;
   return out;
 }
 
@@ -125,11 +125,11 @@ SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, bool hi
   const float brows = base.head->Landmark("nasion").y + kBrowsEnd;
   const float chin = base.AtRest(point::kChin).y;
   const LipLines lips(base);
-  SkinTexels out(kMapSide, kMapSide);
+  SkinTexels out(kMapSize, kMapSize);
   ForSkinTriangles(topology, [&](const std::uint32_t* t) {
     const auto triangle = OnMap(topology, t);
     if (!triangle) return;
-    Rasterize(*triangle, kMapSide, kMapSide, kSlack, [&](int x, int y, glm::vec3 weights) {
+    Rasterize(*triangle, kMapSize, kMapSize, kSlack, [&](int x, int y, glm::vec3 weights) {
       const glm::vec3 rest = Interpolated(base.rest.position, t, weights);
       const float outward = rest.x * rest.x + rest.z * rest.z;
       const std::size_t i = MapIndex(x, y);

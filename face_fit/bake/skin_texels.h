@@ -8,7 +8,7 @@
 namespace facefit {
 
 inline std::size_t MapIndex(int x, int y) {
-  return static_cast<std::size_t>(y) * kMapSide + static_cast<std::size_t>(x);
+  return static_cast<std::size_t>(y) * kMapSize + static_cast<std::size_t>(x);
 }
 
 inline constexpr float kBrowsEnd = 27;  ///< millimetres above the nasion
@@ -24,12 +24,12 @@ struct SkinTexel {
   float within_lips_mm = -1e9F;  ///< of the border of the lips, negative outside
   float aside = 0;               ///< 1 on the sides of the head and below the chin, 0 on the face
 };
-/// kMapSide texels to a side.
+/// kMapSize texels to a side.
 using SkinTexels = Raster<SkinTexel>;
 
 /// Whether a texel belongs to what is counted as face.
 inline bool OnFront(const SkinTexels& texels, std::size_t i) {
-  return texels.at[i].outward > 0 && i / kMapSide > kMapSide / 5 && i / kMapSide < kMapSide * 3 / 4;
+  return texels.at[i].outward > 0 && i / kMapSize > kMapSize / 5 && i / kMapSize < kMapSize * 3 / 4;
 }
 
 /// For each texel of the skin's map its place in a photo taken with `pose`. `hidden`: skin that the

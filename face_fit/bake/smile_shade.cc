@@ -82,7 +82,7 @@ void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const Fl
   if (smile <= 0) return;
   const glm::ivec2 reach(PhotoLook().Pair("shade_texels"));
   const Cheeks cheeks(base);
-  FloatImage weight(kMapSide, kMapSide);
+  FloatImage weight(kMapSize, kMapSize);
   for (std::size_t i = 0; i < weight.at.size(); ++i) {
     weight.at[i] = cheeks.Skin(texels, i) ? seen.at[i] * seen.at[i] : 0.0F;
   }
@@ -102,11 +102,11 @@ void GrainFromCheeks(const FloatImage& smooth, fsm::Image& map) {
   constexpr int kGrain = 8;           // what varies over more is no grain
   constexpr float kMost = 0.12F;      // of the brightness: more is a line, not grain
   const VectorImage colours = Colours(map), means = Blurred(Blurred(colours, kGrain), kGrain);
-  for (int y = kUp; y < kMapSide; ++y) {
-    for (int x = kOut; x < kMapSide - kOut; ++x) {
+  for (int y = kUp; y < kMapSize; ++y) {
+    for (int x = kOut; x < kMapSize - kOut; ++x) {
       const std::size_t i = MapIndex(x, y);
       if (smooth.at[i] <= 0) continue;
-      const std::size_t from = MapIndex(x < kMapSide / 2 ? x - kOut : x + kOut, y - kUp);
+      const std::size_t from = MapIndex(x < kMapSize / 2 ? x - kOut : x + kOut, y - kUp);
       const glm::vec3 grain = (colours.at[from] + 1.0F) / (means.at[from] + 1.0F) - 1.0F;
       SetRgb(map, i, colours.at[i] * (1.0F + smooth.at[i] * glm::clamp(grain, -kMost, kMost)));
     }

@@ -36,13 +36,13 @@ bool InPhoto(const fsm::Image& photo, glm::vec2 p) {
 }
 
 /// Lays a view from the side over what the first photo saw at a slant or not at all.
-void BlendSideView(const FittedHead& fitted, const SideView& side, const SkinTexels& front,
-                   fsm::Image& map, FloatImage& seen) {
-  const CameraPose& pose = side.fit.pose;
+void BlendExtraView(const FittedHead& fitted, const ExtraView& extra, const SkinTexels& front,
+                    fsm::Image& map, FloatImage& seen) {
+  const CameraPose& pose = extra.fit.pose;
   const SkinTexels texels = ProjectSkin(fitted, pose, false);
   // What it shows is of the side towards it: the other cheek lies behind the nose.
   const float towards = pose.TowardsCamera().x > 0 ? 1.0F : -1.0F;
-  const fsm::Image& colours = side.figure.colours;
+  const fsm::Image& colours = extra.figure.colours;
   // The same skin in another light: a gain for each channel makes it match. It is taken from what
   // both show well: cosines of the slant, millimetres from the middle.
   constexpr float kWellSeen = 0.9F, kFront = 0.4F, kAside = 0.5F, kFromMiddle = 5;
@@ -75,9 +75,9 @@ void BlendSideView(const FittedHead& fitted, const SideView& side, const SkinTex
 
 /// The skin's map while it is painted.
 struct SkinMap {
-  fsm::Image image = fsm::FilledImage(kMapSide, kMapSide);
-  FloatImage seen{kMapSide, kMapSide};    ///< how well each texel was seen, 0..1
-  FloatImage smooth{kMapSide, kMapSide};  ///< how much of its grain it lost, 0..1
+  fsm::Image image = fsm::FilledImage(kMapSize, kMapSize);
+  FloatImage seen{kMapSize, kMapSize};    ///< how well each texel was seen, 0..1
+  FloatImage smooth{kMapSize, kMapSize};  ///< how much of its grain it lost, 0..1
   std::vector<bool> skin = std::vector<bool>(seen.at.size(), true);  ///< not within eyes or mouth
 };
 
@@ -151,8 +151,8 @@ SkinLook FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool open
                      map.image);
   GrainFromCheeks(map.smooth, map.image);
   const auto aside =
-      FloatImage::From(kMapSide, kMapSide, [&](int x, int y) { return texels(x, y).aside; });
-  AddGrain(map.seen, aside, kMapSide / 170, map.image);
+      FloatImage::From(kMapSize, kMapSize, [&](int x, int y) { return texels(x, y).aside; });
+  AddGrain(map.seen, aside, kMapSize / 170, map.image);
   if (open) {
     RestoreLipColour(texels, map.image);
     DrawMouthLine(texels, saturation, map.image);
@@ -176,15 +176,15 @@ fsm::Image SideBySide(const fsm::Image& map, const fsm::Image& back, const Float
   // pixels to a millimetre.
   constexpr float kShown = 2;
   const float steep = glm::clamp(kShown / pixels_per_mm, 1.0F, 3.0F);
-  const glm::vec2 scale = glm::vec2(back.width, back.height) / static_cast<float>(kMapSide);
-  fsm::Image out = fsm::FilledImage(2 * kMapSide, kMapSide);
-  for (int y = 0; y < kMapSide; ++y) {
-    for (int x = 0; x < kMapSide; ++x) {
+  const glm::vec2 scale = glm::vec2(back.width, back.height) / static_cast<float>(kMapSize);
+  fsm::Image out = fsm::FilledImage(2 * kMapSize, kMapSize);
+  for (int y = 0; y < kMapSize; ++y) {
+    for (int x = 0; x < kMapSize; ++x) {
       const glm::vec2 p = (glm::vec2(x, y) + 0.5F) * scale;
       const std::size_t left = out.Index(x, y);
       std::copy_n(&map.rgba[4 * MapIndex(x, y)], 4, &out.rgba[4 * left]);
-      SetRgb(out, left + kMapSide, SharpColourAt(back, p));
-      out.rgba[4 * (left + kMapSide) + 3] =
+      SetRgb(out, left + kMapSize, SharpColourAt(back, p));
+      out.rgba[4 * (left + kMapSize) + 3] =
           Byte(255 * (0.5F + steep * (SmoothAt(opacity, p) - 0.5F)));
     }
   }
@@ -194,17 +194,17 @@ fsm::Image SideBySide(const fsm::Image& map, const fsm::Image& back, const Float
 }  // namespace
 
 TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-                        const Cutout& figure, std::span<const SideView> sides) {
+                        const Cutout& figure, std::span<const ExtraView> extras) {
   const FittedHead& fitted = fit.head;
   TextureBake bake;
   const SkinTexels texels = ProjectSkin(fitted, fitted.pose, true);
   const bool open = fitted.expression.jaw + fitted.expression.parted > kMouthOpen;
   SkinMap map = PaintPhoto(face, fitted, texels, open, figure.colours);
   std::vector<glm::vec3> also_seen;
-  for (const SideView& side : sides) {
-    if (side.outline_only) continue;
-    BlendSideView(fitted, side, texels, map.image, map.seen);
-    also_seen.push_back(side.fit.pose.TowardsCamera());
+  for (const ExtraView& extra : extras) {
+    if (extra.outline_only) continue;
+    BlendExtraView(fitted, extra, texels, map.image, map.seen);
+    also_seen.push_back(extra.fit.pose.TowardsCamera());
   }
   bake.coverage = Coverage(texels, map.seen);
   const SkinLook skin = FinishMap(fitted, texels, open, map);
@@ -219,7 +219,7 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
   const MouthColours mouth = SampleMouth(face, photo);
   Billboard billboard = MakeBillboard(on_canvas, whole.figure);
   // Half a texel within, so that the halves do not run into each other.
-  constexpr float kHalf = 0.25F / kMapSide;
+  constexpr float kHalf = 0.25F / kMapSize;
   bake.head = {.base = fitted.base->name,
                .points = fitted.points,
                .smooth = fitted.smooth,

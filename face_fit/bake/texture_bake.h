@@ -1,7 +1,7 @@
 #pragma once
 
 #include "face_fit/complete/complete_figure.h"
-#include "face_fit/fit/side_view.h"
+#include "face_fit/fit/extra_view.h"
 #include "fsm/head/photo_head.h"
 
 namespace facefit {
@@ -15,11 +15,11 @@ struct TextureBake {
   Completed completed;  ///< what of the figure it does not
 };
 
-inline constexpr int kMapSide = 1024;  ///< of each half
+inline constexpr int kMapSize = 1024;  ///< of each half
 
-/// `figure`: of `photo`; `sides`: photos of the same person from the side, may be empty. Pure;
+/// `figure`: of `photo`; `extras`: photos of the same person from the side, may be empty. Pure;
 /// thread: any.
 TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-                        const Cutout& figure, std::span<const SideView> sides);
+                        const Cutout& figure, std::span<const ExtraView> extras);
 
 }  // namespace facefit

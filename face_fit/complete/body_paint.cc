@@ -41,42 +41,43 @@ BodyPaint::BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const FloatI
       opacity_(opacity),
       light_(light),
       bust_(std::move(bust)),
-      joint_{Join(0), Join(1)},
+      joint_{Join(PhotoEdge::kLeft), Join(PhotoEdge::kRight)},
       cloth_(ClothColour()),
       neckline_(FindNeckline()) {
   const glm::vec2 size(canvas.photo_size);
   for (int x = 0; x < edges.width(); ++x) {
     AddDifference(edges.bottom(x), {static_cast<float>(x) + 0.5F, size.y}, below_);
   }
-  for (std::size_t side = 0; side < kPhotoSides; ++side) {
+  for (const PhotoEdge edge : kPhotoEdges) {
     for (int y = 0; y < edges.height(); ++y) {
-      const glm::vec2 place(side == 0 ? 0 : size.x, static_cast<float>(y) + 0.5F);
-      const bool body = joint_[side].cut && place.y > joint_[side].row;
-      AddDifference(body ? edges.aside(side, y) : PhotoEdges::Seen{}, place, aside_[side]);
+      const glm::vec2 place(edge == PhotoEdge::kLeft ? 0 : size.x, static_cast<float>(y) + 0.5F);
+      const bool body = joint_[edge].cut && place.y > joint_[edge].row;
+      AddDifference(body ? edges.aside(edge, y) : PhotoEdges::Seen{}, place, aside_[edge]);
     }
   }
 }
 
-BodyPaint::Joint BodyPaint::Join(std::size_t side) const {
+BodyPaint::Joint BodyPaint::Join(PhotoEdge edge) const {
   const float end = static_cast<float>(canvas_.photo_size.y);
   Joint joint{.row = end, .width_ratio = 1, .cut = false};
-  // Up along the photo's side as far as that cuts the body.
+  // Up along the photo's edge as far as that cuts the body.
   while (joint.row > std::max(canvas_.chin.y, 0.0F) + 1 &&
-         IsBody(edges_.aside(side, static_cast<int>(joint.row) - 1))) {
+         IsBody(edges_.aside(edge, static_cast<int>(joint.row) - 1))) {
     --joint.row;
   }
   joint.cut = joint.row < end;
-  float half = side == 0 ? Axis() : static_cast<float>(canvas_.photo_size.x) - Axis();
+  float half =
+      edge == PhotoEdge::kLeft ? Axis() : static_cast<float>(canvas_.photo_size.x) - Axis();
   bool hidden = false;
   if (!joint.cut) {
     // Else along the lower edge as far as the body goes; hair may hide more of it.
     int x = std::clamp(static_cast<int>(Axis()), 0, edges_.width() - 1);
     const auto seen = [&] { return edges_.bottom(x); };
-    while (x >= 0 && x < edges_.width() && IsBody(seen())) x += side == 0 ? -1 : 1;
+    while (x >= 0 && x < edges_.width() && IsBody(seen())) x += edge == PhotoEdge::kLeft ? -1 : 1;
     hidden = x >= 0 && x < edges_.width() && seen().kind == EdgeKind::kHair;
     half = std::abs(static_cast<float>(x) + 0.5F - Axis());
   }
-  const float own = bust_.HalfWidth(side, joint.row + static_cast<float>(canvas_.photo.y) - 0.5F);
+  const float own = bust_.HalfWidth(edge, joint.row + static_cast<float>(canvas_.photo.y) - 0.5F);
   glm::vec2 limit = PhotoLook().Pair("body_wider");
   // At the height of the jaw the figure is wider than its neck, but not for long; above the chin
   // the bust has a jaw of its own.
@@ -86,14 +87,14 @@ BodyPaint::Joint BodyPaint::Join(std::size_t side) const {
   joint.fade_mm =
       glm::mix(fade_mm.x, fade_mm.y, Ramp(PhotoLook().Pair("body_neck_begins"), below_chin));
   joint.width_ratio = glm::clamp(half / own, hidden ? 1.0F : limit.x, limit.y);
-  if (joint.cut) joint.slope = OutlineSlope(side, joint.row);
+  if (joint.cut) joint.slope = OutlineSlope(edge, joint.row);
   return joint;
 }
 
-float BodyPaint::OutlineSlope(std::size_t side, float row) const {
+float BodyPaint::OutlineSlope(PhotoEdge edge, float row) const {
   // How far the outline falls towards the edge, over the last part of the photo.
   const int inward = std::max(canvas_.photo_size.x / 16, 1);
-  const int x = side == 0 ? inward : canvas_.photo_size.x - 1 - inward;
+  const int x = edge == PhotoEdge::kLeft ? inward : canvas_.photo_size.x - 1 - inward;
   const glm::vec2 limit = PhotoLook().Pair("shoulder_fall");
   int y = static_cast<int>(row);
   while (y > 0 && opacity_(x, y - 1) > 0.5F) --y;
@@ -107,10 +108,10 @@ glm::vec3 BodyPaint::ClothColour() const {
     if (cloth) sum += glm::vec4(seen.colour, 1);
   };
   for (int x = 0; x < edges_.width(); ++x) add(edges_.bottom(x));
-  for (std::size_t side = 0; side < kPhotoSides; ++side) {
-    if (!joint_[side].cut) continue;
-    for (int y = static_cast<int>(joint_[side].row); y < edges_.height(); ++y) {
-      add(edges_.aside(side, y));
+  for (const PhotoEdge edge : kPhotoEdges) {
+    if (!joint_[edge].cut) continue;
+    for (int y = static_cast<int>(joint_[edge].row); y < edges_.height(); ++y) {
+      add(edges_.aside(edge, y));
     }
   }
   if (sum.w >= PhotoLook()("body_cloth_seen") * canvas_.per_mm) return glm::vec3(sum) / sum.w;
@@ -138,7 +139,7 @@ glm::vec2 BodyPaint::FindNeckline() const {
 
 BodyPaint::Sample BodyPaint::SampleAt(glm::vec2 place) const {
   const glm::vec2 on = place + glm::vec2(canvas_.photo);
-  const Joint& joint = joint_[on.x < bust_.axis ? 0 : 1];
+  const Joint& joint = on.x < bust_.axis ? joint_.left : joint_.right;
   const float down = std::max(place.y - joint.row, 0.0F) / canvas_.per_mm;
   const float width_ratio =
       joint.cut ? joint.width_ratio
@@ -167,9 +168,10 @@ void BodyPaint::AddDifference(const PhotoEdges::Seen& seen, glm::vec2 place,
 float BodyPaint::ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) const {
   const float reach = Look().known * canvas_.per_mm;
   const bool below = beyond.below > 0;
-  const Differences& edge = below ? below_ : aside_[beyond.side];
+  const Differences& differences = below ? below_ : aside_[beyond.edge];
   const float at = below ? place.x : place.y;
-  const float skin = edge[kSkin].Around(at, reach).w, cloth = edge[kCloth].Around(at, reach).w;
+  const float skin = differences[kSkin].Around(at, reach).w,
+              cloth = differences[kCloth].Around(at, reach).w;
   if (skin + cloth <= 0) return on_bust;
   const float at_edge = cloth / (skin + cloth);
   if (!below) return at_edge;
@@ -195,9 +197,9 @@ glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond, int c
   if (beyond.below > 0) sum += beyond.below / out * of(below_[i], place.x, beyond.below);
   if (beyond.aside > 0) {
     // A sleeve falls with its shoulder.
-    const float row = std::clamp(place.y - Look().slope * beyond.aside, joint_[beyond.side].row,
+    const float row = std::clamp(place.y - Look().slope * beyond.aside, joint_[beyond.edge].row,
                                  static_cast<float>(canvas_.photo_size.y));
-    sum += beyond.aside / out * of(aside_[beyond.side][i], row, beyond.aside);
+    sum += beyond.aside / out * of(aside_[beyond.edge][i], row, beyond.aside);
   }
   return sum;
 }
@@ -207,12 +209,12 @@ Paint BodyPaint::At(glm::vec2 place) const {
   const Sample body = SampleAt(place);
   float opacity = body.opacity;
   if (beyond.aside <= 0) {
-    // Below a shoulder that the photo's side cuts all is body.
+    // Below a shoulder that the photo's edge cuts all is body.
     if (beyond.above > 0) return {};
-    if (joint_[place.x < Axis() ? 0 : 1].cut) opacity = 1;
+    if ((place.x < Axis() ? joint_.left : joint_.right).cut) opacity = 1;
   } else {
-    // A shoulder that the photo's side cuts goes on as it falls there and bends down into the arm.
-    const Joint& joint = joint_[beyond.side];
+    // A shoulder that the photo's edge cuts goes on as it falls there and bends down into the arm.
+    const Joint& joint = joint_[beyond.edge];
     if (joint.cut) {
       const float line = joint.row + joint.slope * beyond.aside +
                          beyond.aside * beyond.aside / (2 * Look().round * canvas_.per_mm);

@@ -19,8 +19,8 @@ class BodyPaint {
   /// `opacity`: of the figure in the photo; `bust`: drawn on the canvas. All others outlive it.
   BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const FloatImage& opacity,
             const fsm::FaceLight& light, Bust bust);
-  /// Whether a side of the photo cuts the shoulder.
-  bool CutsShoulder() const { return joint_[0].cut || joint_[1].cut; }
+  /// Whether the left or right edge of the photo cuts the shoulder.
+  bool CutsShoulder() const { return joint_.left.cut || joint_.right.cut; }
   /// REQUIRES: beyond the photo, or at its lower edge.
   Paint At(glm::vec2 place) const;
 
@@ -33,15 +33,15 @@ class BodyPaint {
   struct Joint {
     float row = 0, width_ratio = 1;  ///< the figure's half width there by the bust's
     float fade_mm = 1;               ///< over how many millimetres downward that fades
-    bool cut = false;                ///< by the photo's side
+    bool cut = false;                ///< by the photo's left or right edge
     float slope = 0;                 ///< if it is: how steeply the outline falls there
   };
   /// Of one edge, for skin and for cloth: by how much the photo differs from what is drawn there.
   using Differences = std::array<EdgeMeans, 2>;
 
   float Axis() const { return bust_.axis - static_cast<float>(canvas_.photo.x); }
-  Joint Join(std::size_t side) const;
-  float OutlineSlope(std::size_t side, float row) const;
+  Joint Join(PhotoEdge edge) const;
+  float OutlineSlope(PhotoEdge edge, float row) const;
   glm::vec3 ClothColour() const;
   glm::vec2 FindNeckline() const;
   void AddDifference(const PhotoEdges::Seen& seen, glm::vec2 place, Differences& to) const;
@@ -55,11 +55,11 @@ class BodyPaint {
   const FloatImage& opacity_;
   const fsm::FaceLight& light_;
   Bust bust_;
-  std::array<Joint, kPhotoSides> joint_;
+  PerEdge<Joint> joint_;
   glm::vec3 cloth_;     ///< its usual colour, 0..255
   glm::vec2 neckline_;  ///< middle and half width of the skin that the lower edge cuts, pixels
   Differences below_;
-  std::array<Differences, kPhotoSides> aside_;
+  PerEdge<Differences> aside_;
 };
 
 }  // namespace facefit

@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "face_fit/complete/canvas.h"
 #include "face_fit/find/head/base_head.h"
 #include "face_fit/fit/fitted_head.h"
 #include "face_fit/picture/float_image.h"
@@ -17,8 +18,8 @@ struct Bust {
   VectorImage normal;  ///< unit; where nothing is, towards the camera
   float axis;          ///< pixels from the left: the middle of the body
 
-  /// How far it reaches from its axis in a row, pixels; `side`: 0 to the left, 1 to the right.
-  float HalfWidth(std::size_t side, float row) const;
+  /// How far it reaches from its axis in a row, pixels, to the left or to the right.
+  float HalfWidth(PhotoEdge towards, float row) const;
 };
 
 Bust DrawBust(const FittedHead& fitted, int width, int height);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -13,10 +14,21 @@ struct Paint {
   float opacity = 0;
 };
 
+enum class PhotoEdge { kLeft, kRight };
+inline constexpr std::array kPhotoEdges{PhotoEdge::kLeft, PhotoEdge::kRight};
+
+/// A value for the left and for the right edge of a photo.
+template <typename T>
+struct PerEdge {
+  T left{}, right{};
+  T& operator[](PhotoEdge edge) { return edge == PhotoEdge::kLeft ? left : right; }
+  const T& operator[](PhotoEdge edge) const { return edge == PhotoEdge::kLeft ? left : right; }
+};
+
 /// A place beyond a photo: how far below or above it and how far aside, pixels, not negative.
 struct Beyond {
   float below, above, aside;
-  std::size_t side;  ///< 0 left, 1 right
+  PhotoEdge edge;  ///< the nearer one
 };
 
 /// A photo on a larger canvas. Places are in the photo's pixels, also beyond it.
@@ -30,7 +42,7 @@ struct Canvas {
   Beyond BeyondPhoto(glm::vec2 p) const {
     const glm::vec2 end(photo_size);
     return {std::max(p.y - end.y, 0.0F), std::max(-p.y, 0.0F), std::max({-p.x, p.x - end.x, 0.0F}),
-            p.x < 0 ? 0U : 1U};
+            p.x < 0 ? PhotoEdge::kLeft : PhotoEdge::kRight};
   }
 };
 

@@ -35,22 +35,22 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Cutout
       edges_(edges),
       figure_(figure),
       top_(TopSpan()),
-      sides_{SideSpan(0), SideSpan(1)} {
+      aside_{SpanAside(PhotoEdge::kLeft), SpanAside(PhotoEdge::kRight)} {
   const auto& look = PhotoLook();
   const float most = look("hair_beside") * canvas.per_mm;
-  for (std::size_t side = 0; side < kPhotoSides; ++side) {
-    bulge_[side] = std::min(look("hair_bulge") * sides_[side].Length(), most);
+  for (const PhotoEdge edge : kPhotoEdges) {
+    bulge_[edge] = std::min(look("hair_bulge") * aside_[edge].Length(), most);
     // What touches a corner goes on above it.
-    if (bulge_[side] <= 0 || sides_[side].from > 1 || top_.Length() <= 0) continue;
-    if (side == 0 && top_.from < 1) top_.from -= bulge_[side];
-    if (side == 1 && top_.to > static_cast<float>(canvas.photo_size.x) - 1) {
-      top_.to += bulge_[side];
+    if (bulge_[edge] <= 0 || aside_[edge].from > 1 || top_.Length() <= 0) continue;
+    if (edge == PhotoEdge::kLeft && top_.from < 1) top_.from -= bulge_[edge];
+    if (edge == PhotoEdge::kRight && top_.to > static_cast<float>(canvas.photo_size.x) - 1) {
+      top_.to += bulge_[edge];
     }
   }
   const glm::vec2 rounded = look.Pair("hair_dome");
   if (top_.Length() > 0)
     dome_ = std::clamp(-crown, rounded.x * top_.Length(), rounded.y * top_.Length());
-  cut_ = dome_ > 0 || bulge_[0] + bulge_[1] > 0;
+  cut_ = dome_ > 0 || bulge_.left + bulge_.right > 0;
   for (int x = 0; x < edges.width(); ++x) {
     const PhotoEdges::Seen& seen = edges.bottom(x);
     below_.Add(seen.colour, seen.kind == EdgeKind::kHair ? 1 : 0);
@@ -74,12 +74,12 @@ HairPaint::EdgeSpan HairPaint::TopSpan() const {
   return longest;
 }
 
-HairPaint::EdgeSpan HairPaint::SideSpan(std::size_t side) const {
+HairPaint::EdgeSpan HairPaint::SpanAside(PhotoEdge edge) const {
   // Beside the head all that is cut is taken for hair or hat, whatever its colour; farther down
   // only what looks like hair.
   EdgeSpan longest, span;
   for (int y = 0; y < edges_.height(); ++y) {
-    const EdgeKind kind = edges_.aside(side, y).kind;
+    const EdgeKind kind = edges_.aside(edge, y).kind;
     const bool head = static_cast<float>(y) < canvas_.chin.y;
     if (kind == EdgeKind::kHair || (head && kind != EdgeKind::kNothing)) {
       span.to = static_cast<float>(y) + 1;
@@ -96,9 +96,9 @@ float HairPaint::DomeHeight(float x) const {
   return dome_ * Arc((x - 0.5F * (top_.from + top_.to)) / (0.5F * top_.Length()));
 }
 
-float HairPaint::BulgeWidth(std::size_t side, float y) const {
-  const EdgeSpan& span = sides_[side];
-  const float bulge = bulge_[side];
+float HairPaint::BulgeWidth(PhotoEdge edge, float y) const {
+  const EdgeSpan& span = aside_[edge];
+  const float bulge = bulge_[edge];
   if (bulge <= 0) return 0;
   // The photo's corners are no ends.
   const float from = span.from < 1 ? -dome_ : span.from;
@@ -113,13 +113,13 @@ glm::vec3 HairPaint::Colour(glm::vec2 place) const {
   glm::vec2 at = glm::clamp(place, glm::vec2(0.5F), size - 0.5F);
   const bool above = beyond.above > 0;
   const int depth = above ? edges_.top(static_cast<int>(at.x)).hair_depth
-                          : edges_.aside(beyond.side, static_cast<int>(at.y)).hair_depth;
+                          : edges_.aside(beyond.edge, static_cast<int>(at.y)).hair_depth;
   // Back and forth within the hair: no skin below it is mirrored.
   const float away = PingPong(above ? beyond.above : beyond.aside, static_cast<float>(depth));
   if (above) {
     at.y = std::clamp(away, 0.5F, size.y - 0.5F);
   } else {
-    at.x = std::clamp(beyond.side == 0 ? away : size.x - away, 0.5F, size.x - 0.5F);
+    at.x = std::clamp(beyond.edge == PhotoEdge::kLeft ? away : size.x - away, 0.5F, size.x - 0.5F);
   }
   const float enough = PhotoLook()("hair_enough") * canvas_.per_mm;
   const float own = glm::smoothstep(0.0F, enough, static_cast<float>(depth));
@@ -147,13 +147,13 @@ Paint HairPaint::At(glm::vec2 place) const {
   if (beyond.below > 0) {
     Paint hair = HairBelow(place, beyond.below);
     if (beyond.aside > 0) {
-      const float reach = BulgeWidth(beyond.side, place.y);
+      const float reach = BulgeWidth(beyond.edge, place.y);
       hair.opacity *=
           glm::smoothstep(reach, 0.8F * reach, beyond.aside) * (reach > 0 ? 1.0F : 0.0F);
     }
     return hair;
   }
-  const float up = DomeHeight(place.x), out = BulgeWidth(beyond.side, place.y);
+  const float up = DomeHeight(place.x), out = BulgeWidth(beyond.edge, place.y);
   const float soft = PhotoLook()("hair_soft") * canvas_.per_mm *
                      (0.5F + StrandNoise((place.x + place.y) / canvas_.per_mm));
   float within = 1;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <glm/vec2.hpp>
 #include <vector>
 
@@ -26,7 +25,7 @@ class HairPaint {
 
  private:
   float DomeHeight(float x) const;
-  float BulgeWidth(std::size_t side, float y) const;
+  float BulgeWidth(PhotoEdge edge, float y) const;
   glm::vec3 Colour(glm::vec2 place) const;
   Paint HairBelow(glm::vec2 place, float below) const;
 
@@ -36,16 +35,16 @@ class HairPaint {
     float Length() const { return to - from; }
   };
   EdgeSpan TopSpan() const;
-  EdgeSpan SideSpan(std::size_t side) const;
+  EdgeSpan SpanAside(PhotoEdge edge) const;
 
   const Canvas& canvas_;
   const PhotoEdges& edges_;
   const Cutout& figure_;
   EdgeSpan top_;
-  std::array<EdgeSpan, kPhotoSides> sides_;
-  float dome_ = 0;                          ///< how high the top is rounded off, pixels
-  std::array<float, kPhotoSides> bulge_{};  ///< how far it goes on beside, pixels
-  EdgeMeans below_;                         ///< the hair along the lower edge
+  PerEdge<EdgeSpan> aside_;
+  float dome_ = 0;        ///< how high the top is rounded off, pixels
+  PerEdge<float> bulge_;  ///< how far it goes on beside, pixels
+  EdgeMeans below_;       ///< the hair along the lower edge
   bool bearded_ = false, cut_ = false;
 };
 

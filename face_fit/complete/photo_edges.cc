@@ -119,18 +119,18 @@ PhotoEdges::PhotoEdges(const FittedHead& fitted, const Cutout& figure, glm::vec3
   if ((static_cast<float>(height) - chin.y) / per_mm < look("edge_above_shoulders")) {
     ClassifyNeck(figure, chin, per_mm);
   }
-  for (std::size_t side = 0; side < kPhotoSides; ++side) {
-    const bool left = side == 0;
+  for (const PhotoEdge edge : kPhotoEdges) {
+    const bool left = edge == PhotoEdge::kLeft;
     for (int y = 0; y < height; ++y) {
-      aside_[side].push_back(
+      aside_[edge].push_back(
           EdgeSample(figure, classifier, {left ? 0 : width - across, y}, {across, 1}));
-      aside_[side].back().hair_depth =
+      aside_[edge].back().hair_depth =
           HairDepth(figure, classifier, {left ? 0 : width - 1, y}, {left ? 1 : -1, 0}, width);
     }
     // Hair hangs down from the head: dark cloth below a gap is none.
     bool gap = false;
     for (int y = std::max(static_cast<int>(chin.y), 0); y < height; ++y) {
-      EdgeKind& kind = aside_[side][static_cast<std::size_t>(y)].kind;
+      EdgeKind& kind = aside_[edge][static_cast<std::size_t>(y)].kind;
       gap = gap || kind == EdgeKind::kNothing;
       if (gap && kind == EdgeKind::kHair) kind = EdgeKind::kCloth;
     }
@@ -141,9 +141,10 @@ PhotoEdges::PhotoEdges(const FittedHead& fitted, const Cutout& figure, glm::vec3
 glm::vec3 PhotoEdges::HairBeside(float chin, glm::vec3 skin) const {
   // Hair of the skin's brightness and hue, as grey and blond hair, is told from it by its place.
   glm::vec4 sum(0);
-  for (const auto& side : aside_) {
-    for (std::size_t y = 0; y < side.size() && static_cast<float>(y) < chin; ++y) {
-      if (side[y].kind != EdgeKind::kNothing) sum += glm::vec4(side[y].colour, 1);
+  for (const PhotoEdge edge : kPhotoEdges) {
+    const std::vector<Seen>& seen = aside_[edge];
+    for (std::size_t y = 0; y < seen.size() && static_cast<float>(y) < chin; ++y) {
+      if (seen[y].kind != EdgeKind::kNothing) sum += glm::vec4(seen[y].colour, 1);
     }
   }
   constexpr float kDarker = 0.3F;

@@ -1,17 +1,15 @@
 #pragma once
 
-#include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "face_fit/complete/canvas.h"
 #include "face_fit/find/figure/matte.h"
 #include "face_fit/find/head/base_head.h"
 #include "face_fit/fit/fitted_head.h"
 
 namespace facefit {
-
-inline constexpr std::size_t kPhotoSides = 2;  ///< 0 left, 1 right
 
 /// What the edge of a photo cuts; a tip is one of a collar, beside a neck.
 enum class EdgeKind { kNothing, kSkin, kHair, kCloth, kTip };
@@ -29,11 +27,11 @@ class PhotoEdges {
   PhotoEdges(const FittedHead& fitted, const Cutout& figure, glm::vec3 skin);
 
   int width() const { return static_cast<int>(bottom_.size()); }
-  int height() const { return static_cast<int>(aside_[0].size()); }
+  int height() const { return static_cast<int>(aside_.left.size()); }
   const Seen& bottom(int x) const { return bottom_[static_cast<std::size_t>(x)]; }
   const Seen& top(int x) const { return top_[static_cast<std::size_t>(x)]; }
-  const Seen& aside(std::size_t side, int y) const {
-    return aside_[side][static_cast<std::size_t>(y)];
+  const Seen& aside(PhotoEdge edge, int y) const {
+    return aside_[edge][static_cast<std::size_t>(y)];
   }
   /// The mean colour of what is head, but no skin: hair or a hat.
   glm::vec3 hair() const { return hair_; }
@@ -43,7 +41,7 @@ class PhotoEdges {
   void ClassifyNeck(const Cutout& figure, glm::vec2 chin, float per_mm);
 
   std::vector<Seen> bottom_, top_;
-  std::array<std::vector<Seen>, kPhotoSides> aside_;
+  PerEdge<std::vector<Seen>> aside_;
   glm::vec3 hair_{0};
 };
 

@@ -22,13 +22,13 @@ constexpr int kMostSamples = 400;  // to a side
 /// Of every sample of a patch: cosines of the slant to the cameras of both photos, and how far its
 /// depth may be from that of the middle, millimetres. Beyond them a patch looks too different in
 /// both photos, or lies on two parts of the face.
-constexpr float kLeastFacing = 0.25F, kLeastFacingSide = 0.2F, kMostDepth = 25;
+constexpr float kLeastFacing = 0.25F, kLeastFacingExtra = 0.2F, kMostDepth = 25;
 
 /// A place of the fitted skin as the first photo shows it; without skin `facing` is negative.
 struct SkinSample {
   glm::vec3 camera{0}, rest{0};  // in the camera's frame; on the base head
   float light = 0;
-  float facing = -1, facing_side = -1;  // cosines of the slant to either camera
+  float facing = -1, facing_extra = -1;  // cosines of the slant to either camera
 };
 using SeenSkin = Raster<SkinSample>;
 
@@ -48,10 +48,10 @@ VisibleSurface SkinInFront(const FittedHead& fitted) {
   return surface;
 }
 
-SeenSkin SampleSkin(const FittedHead& fitted, const fsm::Image& front, const CameraPose& side) {
+SeenSkin SampleSkin(const FittedHead& fitted, const fsm::Image& front, const CameraPose& extra) {
   const VisibleSurface surface = SkinInFront(fitted);
   const SampleGrid& grid = surface.grid();
-  const glm::vec3 to_front = fitted.pose.TowardsCamera(), to_side = side.TowardsCamera();
+  const glm::vec3 to_front = fitted.pose.TowardsCamera(), to_extra = extra.TowardsCamera();
   const auto& posed = fitted.posed_vertices;
   return SeenSkin::From(grid.columns, grid.rows, [&](int x, int y) -> SkinSample {
     const std::uint32_t* t = surface.Triangle(x, y);
@@ -63,7 +63,7 @@ SeenSkin SampleSkin(const FittedHead& fitted, const fsm::Image& front, const Cam
             .rest = place.On(fitted.base->rest.position),
             .light = Brightness(ColourAt(front, grid.Point(x, y))),
             .facing = glm::dot(normal, to_front),
-            .facing_side = glm::dot(normal, to_side)};
+            .facing_extra = glm::dot(normal, to_extra)};
   });
 }
 
@@ -117,7 +117,7 @@ std::vector<Patch> PatchesOf(const SeenSkin& seen) {
         for (int dx = -kPatch; dx <= kPatch && whole; ++dx) {
           const std::size_t i = seen.Index(x + dx, y + dy);
           const SkinSample& sample = seen.at[i];
-          whole = sample.facing > kLeastFacing && sample.facing_side > kLeastFacingSide &&
+          whole = sample.facing > kLeastFacing && sample.facing_extra > kLeastFacingExtra &&
                   std::abs(sample.camera.z - seen.at[patch.middle].camera.z) < kMostDepth;
           patch.light.push_back(sample.light);
           patch.camera.push_back(sample.camera);
@@ -157,32 +157,32 @@ Peak FindPeak(int reach, F value) {
 }
 
 /// Compares patches with what lies at some pixels of the second photo.
-class SideMatcher {
+class PatchMatcher {
  public:
-  explicit SideMatcher(const fsm::Image& side) : side_(side) {}
+  explicit PatchMatcher(const fsm::Image& extra) : extra_(extra) {}
   /// `pixel(i)`: where the i-th sample of the patch would lie.
   template <typename Pixel>
   float Match(const Patch& patch, Pixel pixel) {
     light_.clear();
     for (std::size_t i = 0; i < patch.camera.size(); ++i) {
-      light_.push_back(Brightness(ColourAt(side_, pixel(i))));
+      light_.push_back(Brightness(ColourAt(extra_, pixel(i))));
     }
     RemovePlane(light_);
     return Correlation(patch.light, light_);
   }
 
  private:
-  const fsm::Image& side_;
+  const fsm::Image& extra_;
   std::vector<float> light_;  // of one patch, kept for its memory
 };
 
 /// Where whole patches lie in the second photo, whatever their depth.
 std::vector<PointMatch> FindPatches(const SeenSkin& seen, const CameraPose& front,
-                                    const CameraPose& side, SideMatcher& matcher) {
+                                    const CameraPose& extra, PatchMatcher& matcher) {
   std::vector<PointMatch> matches;
   std::vector<glm::vec2> pixels;
-  const float pixels_per_mm = side.PixelsPerMm();
-  const auto shown = [&](const glm::vec3& q) { return side.Pixel(front.FromCamera(q)); };
+  const float pixels_per_mm = extra.PixelsPerMm();
+  const auto shown = [&](const glm::vec3& q) { return extra.Pixel(front.FromCamera(q)); };
   for (const Patch& patch : PatchesOf(seen)) {
     // Projected once: turning a head takes longer than looking up a pixel.
     pixels.clear();
@@ -209,8 +209,8 @@ std::vector<PointMatch> FindPatches(const SeenSkin& seen, const CameraPose& fron
 }  // namespace
 
 std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front,
-                                         const fsm::Image& side, CameraPose& pose) {
-  SideMatcher matcher(side);
+                                         const fsm::Image& extra, CameraPose& pose) {
+  PatchMatcher matcher(extra);
   for (int round = 0; round < 2; ++round) {
     const auto matches = FindPatches(SampleSkin(fitted, front, pose), fitted.pose, pose, matcher);
     if (matches.size() < kFewest) return {};

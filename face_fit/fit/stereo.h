@@ -13,6 +13,6 @@ namespace facefit {
 /// rest and by how many millimetres each lies nearer to the first photo's camera than the fit has
 /// it; empty if fewer than 25 patches are found.
 std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front,
-                                         const fsm::Image& side, CameraPose& pose);
+                                         const fsm::Image& extra, CameraPose& pose);
 
 }  // namespace facefit

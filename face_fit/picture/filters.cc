@@ -44,8 +44,8 @@ template <typename T>
 Raster<T> Blurred(const Raster<T>& image, int reach) {
   Raster<T> out(image.width, image.height);
   cv::Mat sums = View(out);
-  const int side = 2 * reach + 1;
-  cv::boxFilter(View(image), sums, CV_32F, {side, side}, {-1, -1}, false, cv::BORDER_CONSTANT);
+  const int square = 2 * reach + 1;
+  cv::boxFilter(View(image), sums, CV_32F, {square, square}, {-1, -1}, false, cv::BORDER_CONSTANT);
   const auto within = [reach](int i, int size) {
     return static_cast<float>(std::min(i + reach, size - 1) - std::max(i - reach, 0) + 1);
   };
@@ -62,9 +62,9 @@ template <typename T>
 Raster<T> Closed(const Raster<T>& image, int reach) {
   Raster<T> out(image.width, image.height);
   cv::Mat closed = View(out);
-  const int side = 2 * reach + 1;
+  const int square = 2 * reach + 1;
   cv::morphologyEx(View(image), closed, cv::MORPH_CLOSE,
-                   cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
+                   cv::getStructuringElement(cv::MORPH_RECT, {square, square}));
   return out;
 }
 

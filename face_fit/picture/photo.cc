@@ -14,16 +14,16 @@ namespace {
 
 constexpr std::uint8_t kPngStart[] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10};
 /// Below this nothing can be seen of a face.
-constexpr int kLeastSide = 64;
+constexpr int kLeastSize = 64;
 
 bool StartsWith(std::span<const std::uint8_t> bytes, std::span<const std::uint8_t> start) {
   return bytes.size() >= start.size() && std::ranges::equal(bytes.first(start.size()), start);
 }
 
 /// If there are several EXIF blocks the last one with an orientation counts.
-vm::Result<fsm::Image> DecodeJpegPhoto(std::span<const std::uint8_t> bytes, int most_side,
+vm::Result<fsm::Image> DecodeJpegPhoto(std::span<const std::uint8_t> bytes, int most_size,
                                        int& orientation) {
-  fsm::JpegWish wish{.most_pixels = kMaxPixels, .enough_side = most_side, .exif = {}};
+  fsm::JpegWish wish{.most_pixels = kMaxPixels, .enough_side = most_size, .exif = {}};
   std::string why;
   auto image = fsm::DecodeJpeg(bytes, wish, why);
   if (!image) return vm::Fail(vm::Errc::kBadValue, why);
@@ -59,11 +59,11 @@ vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
 }
 
 /// The picture as it is, or scaled down if a side is longer.
-fsm::Image Limited(int most_side, fsm::Image image) {
+fsm::Image Limited(int most_size, fsm::Image image) {
   const int longer = std::max(image.width, image.height);
-  if (longer <= most_side) return image;
+  if (longer <= most_size) return image;
   const auto scaled = [&](int side) {
-    return std::max(static_cast<int>(std::lround(static_cast<double>(side) * most_side / longer)),
+    return std::max(static_cast<int>(std::lround(static_cast<double>(side) * most_size / longer)),
                     1);
   };
   return ScaledDown(image, scaled(image.width), scaled(image.height));
@@ -71,34 +71,34 @@ fsm::Image Limited(int most_side, fsm::Image image) {
 
 }  // namespace
 
-fsm::Image AtWorkingSide(const fsm::Image& photo) { return Limited(kWorkingSide, photo); }
+fsm::Image AtWorkingSize(const fsm::Image& photo) { return Limited(kWorkingSize, photo); }
 
-vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most_side) {
+vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most_size) {
   constexpr std::uint8_t kJpegStart[] = {0xff, 0xd8, 0xff};
   int orientation = 1;
   vm::Result<fsm::Image> image =
-      StartsWith(bytes, kJpegStart)  ? DecodeJpegPhoto(bytes, most_side, orientation)
+      StartsWith(bytes, kJpegStart)  ? DecodeJpegPhoto(bytes, most_size, orientation)
       : StartsWith(bytes, kPngStart) ? DecodePngPhoto(bytes)
                                      : vm::Fail(vm::Errc::kBadValue,
                                                 "not a picture that is read here: a JPEG or PNG "
                                                 "file is expected");
   if (!image) return image;
-  if (std::min(image->width, image->height) < kLeastSide) {
+  if (std::min(image->width, image->height) < kLeastSize) {
     return vm::Fail(vm::Errc::kBadValue, "the photo is only " + std::to_string(image->width) +
                                              " x " + std::to_string(image->height) +
-                                             " pixels; at least " + std::to_string(kLeastSide) +
+                                             " pixels; at least " + std::to_string(kLeastSize) +
                                              " on each side are needed");
   }
-  *image = Limited(most_side, std::move(*image));
+  *image = Limited(most_size, std::move(*image));
   if (orientation != 1) *image = Turned(*image, orientation);
   return image;
 }
 
-vm::Result<fsm::Image> ReadPhoto(const std::string& path, int most_side) {
+vm::Result<fsm::Image> ReadPhoto(const std::string& path, int most_size) {
   constexpr std::size_t kMostBytes = 200'000'000;
   const auto bytes = vm::ReadTextFile(path, kMostBytes);
   if (!bytes) return std::unexpected(bytes.error());
-  auto image = DecodePhoto(fsm::BytesOf(*bytes), most_side);
+  auto image = DecodePhoto(fsm::BytesOf(*bytes), most_size);
   if (!image) return vm::Fail(image.error().code, "'" + path + "': " + image.error().text);
   return image;
 }

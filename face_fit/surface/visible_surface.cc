@@ -41,8 +41,8 @@ MeshPoint VisibleSurface::Place(int column, int row) const {
 VisibleSurface SeenFromFront(const fsm::HeadTopology& topology,
                              const std::vector<glm::vec3>& position, glm::vec2 low,
                              glm::vec2 high) {
-  constexpr float kMostSideMm = 200;
-  const glm::ivec2 points(glm::clamp(high - low, 1.0F, kMostSideMm) / kFrontStepMm);
+  constexpr float kMostMm = 200;
+  const glm::ivec2 points(glm::clamp(high - low, 1.0F, kMostMm) / kFrontStepMm);
   VisibleSurface surface({low + 0.5F * kFrontStepMm, kFrontStepMm, points.x, points.y}, position);
   for (const auto& part : topology.parts) {
     if (IsHair(part.material) || part.material == fsm::Material::kShutLash) continue;

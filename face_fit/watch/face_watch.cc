@@ -27,7 +27,7 @@ bool FaceWatch::Find(const fsm::Image& picture) {
   const FoundFace& face = faces.front();
   const EyeLine eyes = EyesOf(face);
   eyes_to_middle_ = Turned(face.crop.centre - eyes.middle, -eyes.angle);
-  side_ = face.crop.side;
+  size_ = face.crop.size;
   last_ = FindAttentivePoints(attention_, picture, face.crop);
   return true;
 }
@@ -35,7 +35,7 @@ bool FaceWatch::Find(const fsm::Image& picture) {
 std::optional<FaceMeasures> FaceWatch::Look(const fsm::Image& picture) {
   if (last_) {
     const EyeLine eyes = EyesOf(last_->face);
-    const Crop crop{eyes.middle + Turned(eyes_to_middle_, eyes.angle), side_, eyes.angle};
+    const Crop crop{eyes.middle + Turned(eyes_to_middle_, eyes.angle), size_, eyes.angle};
     last_ = FindAttentivePoints(attention_, picture, crop);
     if (last_->face.certainty < kCertainFace) last_.reset();
   }

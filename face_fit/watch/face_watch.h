@@ -28,7 +28,7 @@ class FaceWatch {
   std::optional<AttentiveFace> last_;
   /// The crop beside the line between the eyes, so that a mouth that opens does not move it.
   glm::vec2 eyes_to_middle_{0};
-  float side_ = 0;
+  float size_ = 0;
 };
 
 }  // namespace facefit

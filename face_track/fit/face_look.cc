@@ -55,7 +55,7 @@ glm::vec3 FaceLook::At(std::size_t level, glm::vec2 place) const {
 }
 
 glm::mat2 FaceLook::Scale() const {
-  const float scale = static_cast<float>(kSide) / crop_.side;
+  const float scale = static_cast<float>(kSide) / crop_.size;
   const float c = scale * std::cos(crop_.angle), s = scale * std::sin(crop_.angle);
   return {c, -s, s, c};
 }

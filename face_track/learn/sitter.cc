@@ -62,7 +62,7 @@ Sitter::Sight Sitter::Look(const fsm::FaceState& state) {
   const auto found = facefit::FindAttentivePoints(attention_, sight.picture, crop);
   if (found.face.certainty < facefit::kCertainFace) throw std::runtime_error("a face is lost");
   sight.places = PlacesOf(found);
-  for (const glm::vec3& p : found.face.points) sight.depth.push_back(p.z * 245 / crop.side);
+  for (const glm::vec3& p : found.face.points) sight.depth.push_back(p.z * 245 / crop.size);
   return sight;
 }
 

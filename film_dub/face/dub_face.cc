@@ -40,7 +40,7 @@ vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networ
                                                    const fsm::Image& picture,
                                                    std::span<const glm::vec2> places) {
   try {
-    const fsm::Image photo = facefit::AtWorkingSide(picture);
+    const fsm::Image photo = facefit::AtWorkingSize(picture);
     const float scale = static_cast<float>(photo.width) / static_cast<float>(picture.width);
     std::vector<glm::vec2> there(places.begin(), places.end());
     for (glm::vec2& place : there) place *= scale;
@@ -53,7 +53,7 @@ vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networ
     auto base = facefit::BaseHead::See(networks, "galatea");
     if (!base) return std::unexpected(base.error());
     auto [near, face] = facefit::CropToFace(photo, picture, *found);
-    const float finer = face.crop.side / found->crop.side;
+    const float finer = face.crop.size / found->crop.size;
     const auto front = facefit::LookAtFront(networks, *base, std::move(near), &face,
                                             static_cast<int>(faces.size()));
     const auto made = facefit::MakeFace(*base, front, face, nullptr, {});

@@ -46,7 +46,7 @@ TEST(CutToFaceTest, OfASmallFaceWhatIsNearItIsCutFromTheFinestPhoto) {
   EXPECT_NEAR(near.height, 730, 2);
   EXPECT_NEAR(there.points[263].x - there.points[33].x, 90, 0.01F);
   EXPECT_NEAR(there.points[4].z, 20, 0.01F);
-  EXPECT_NEAR(there.crop.side, 180, 0.01F);
+  EXPECT_NEAR(there.crop.size, 180, 0.01F);
   for (const std::size_t point : {1U, 33U, 263U}) {
     EXPECT_LT(
         glm::distance(ColourAt(near, there.points[point]), ColourAt(photo, face.points[point])),
@@ -87,7 +87,7 @@ TEST(CutToFaceTest, APortraitStaysAsItIs) {
 TEST(CutToFaceTest, NoMoreIsCutThanIsWorkedOn) {
   const fsm::Image photo = Map(1600, 1600), finest = Map(4000, 4000);
   const auto [near, there] = CropToFace(photo, finest, FaceAt({800, 700}, 160));
-  EXPECT_LE(std::max(near.width, near.height), kWorkingSide);
+  EXPECT_LE(std::max(near.width, near.height), kWorkingSize);
   EXPECT_LT(glm::distance(ColourAt(near, there.points[33]), ColourAt(photo, {720, 700})), 1.5F);
 }
 

@@ -38,7 +38,7 @@ TEST_F(MakeFaceTest, APhotoThatDoesNotHelpIsLeftOutWithItsReasonAndTheRestIsMade
   const auto faces = FindFaces(*networks_, photo);
   const FoundFace face = vm::OrThrow(ChooseFace(faces, 1));
   const FrontPhoto front = LookAtFront(*networks_, Galatea(), photo, &face, 1);
-  const SidePhotos again{std::make_shared<const SidePhoto>("again.png", photo, faces)};
+  const ExtraPhotos again{std::make_shared<const ExtraPhoto>("again.png", photo, faces)};
   std::string steps;
   const MadeFace made = MakeFace(Galatea(), front, face, &*networks_, again, true,
                                  [&](const char* step) { steps += std::string(step) + ";"; });

@@ -33,7 +33,7 @@ class SmileShadeTest : public NetworkTest {
       fitted.posed_vertices = Galatea().rest.position;
       placed_.emplace(ProjectSkin(fitted, fitted.pose, true));
     }
-    map_ = {.width = kMapSide, .height = kMapSide, .rgba = {}};
+    map_ = {.width = kMapSize, .height = kMapSize, .rgba = {}};
     for (std::size_t i = 0; i < placed_->at.size(); ++i) {
       const float y = Height(i);
       const bool band = std::abs(y - middle()) < 5 || placed_->at[i].above_brows_mm > 10;
@@ -64,7 +64,7 @@ class SmileShadeTest : public NetworkTest {
 
   static inline std::optional<SkinTexels> placed_;
   fsm::Image map_;
-  FloatImage seen_{kMapSide, kMapSide, 1};
+  FloatImage seen_{kMapSize, kMapSize, 1};
 };
 
 TEST_F(SmileShadeTest, SkinIsHiddenAsThePoseGivenSeesItNotAsThatOfTheFit) {
@@ -128,7 +128,7 @@ TEST_F(SmileShadeTest, WhatThePhotoDoesNotShowStays) {
 
 TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
   fsm::Image flat = map_;
-  FloatImage smooth(kMapSide, kMapSide);
+  FloatImage smooth(kMapSize, kMapSize);
   const auto spot = [&](std::size_t i) {
     return std::abs(std::abs(placed_->at[i].x_mm) - 30) < 4 &&
            std::abs(Height(i) - middle() + 12) < 3;

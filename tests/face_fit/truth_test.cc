@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "face_fit/find/face/hand_points.h"
+#include "face_fit/fit/extra_fit.h"
 #include "face_fit/fit/fit.h"
 #include "face_fit/fit/profile_fit.h"
-#include "face_fit/fit/side_fit.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/mesh/head_points.h"
@@ -110,7 +110,7 @@ class TruthTest : public NetworkTest, public testing::WithParamInterface<const c
   static const Front& front() {
     return FrontOf(0, [] { return PhotoOf(truth(), 0); });
   }
-  static SidePhoto Seen(const fsm::Image& photo) {
+  static ExtraPhoto Seen(const fsm::Image& photo) {
     return {"", photo, FindFaces(*networks_, photo)};
   }
   static const Front& FrontOf(const Profile& truth, float strength) {
@@ -207,9 +207,9 @@ TEST_P(TruthTest, ASecondPhotoFromTheSideBringsDepthNearer) {
     for (const float turn : {-40.0F, 25.0F, 40.0F, 55.0F}) {
       Fit fit = front;
       const fsm::Image side = truth.Photo(turn);
-      auto view = FitSideView(*networks_, fit.head, Seen(side));
+      auto view = FitExtraView(*networks_, fit.head, Seen(side));
       ASSERT_TRUE(view) << turn << ": " << view.error().text;
-      RefineDepthBySide(photo, side, view->pose, fit);
+      RefineDepthByStereo(photo, side, view->pose, fit);
       const float with = DepthError(truth, fit);
       std::printf("%-9s %+.0f turned %+.0f (found %+.0f): depth %.2f mm off, front alone %.2f\n",
                   GetParam(), static_cast<double>(strength), static_cast<double>(turn),
@@ -285,7 +285,7 @@ TEST_P(TruthTest, AnOutlineThatIsNoProfileChangesNothing) {
 
 TEST_P(TruthTest, APhotoThatDoesNotHelpIsRefusedInWords) {
   const auto refusal = [&](const fsm::Image& photo) {
-    const auto view = FitSideView(*networks_, front().fit.head, Seen(photo));
+    const auto view = FitExtraView(*networks_, front().fit.head, Seen(photo));
     return view ? "points " + std::to_string(view->residual_mm) : view.error().text;
   };
   const fsm::Image grey{

@@ -40,9 +40,9 @@ FaceCrop CropToFace(const fsm::Image& photo, const fsm::Image& finest, const Fou
   const bool whole = std::min(share.x, share.y) > 0.95F;
   if (whole || std::min(part.x, part.y) < 1) return {photo, face};
   FaceCrop out{Cropped(finest, from.x, from.y, part.x, part.y), face};
-  if (const int longer = std::max(part.x, part.y); longer > kWorkingSide) {
+  if (const int longer = std::max(part.x, part.y); longer > kWorkingSize) {
     const glm::vec2 scaled =
-        glm::round(glm::vec2(part) * float{kWorkingSide} / static_cast<float>(longer));
+        glm::round(glm::vec2(part) * float{kWorkingSize} / static_cast<float>(longer));
     out.photo = ScaledDown(out.photo, static_cast<int>(scaled.x), static_cast<int>(scaled.y));
   }
   const glm::vec2 scale = glm::vec2(out.photo.width, out.photo.height) / glm::vec2(part);
@@ -50,7 +50,7 @@ FaceCrop CropToFace(const fsm::Image& photo, const fsm::Image& finest, const Fou
   const float larger = finer.x * scale.x;
   for (glm::vec3& p : out.face.points) p = glm::vec3(place(glm::vec2(p)), p.z * larger);
   out.face.crop.centre = place(face.crop.centre);
-  out.face.crop.side *= larger;
+  out.face.crop.size *= larger;
   return out;
 }
 

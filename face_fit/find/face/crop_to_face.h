@@ -12,7 +12,7 @@ struct FaceCrop {
 };
 
 /// Cuts a photo to some 33 centimetres to either side of a face, 30 above its nose and 43 below, at
-/// most kWorkingSide on a side. Of a group or a whole figure little else is left, and what is left
+/// most kWorkingSize on a side. Of a group or a whole figure little else is left, and what is left
 /// is as fine as the photo has it.
 /// `finest`: the same photo with all its pixels, or `photo` itself. Where nothing would be cut off
 /// and nothing gained it is `photo` as it is.

@@ -12,7 +12,7 @@
 namespace facefit {
 
 /// Points set by hand: by number of the landmark network, in pixels of the upright photo scaled to
-/// at most kWorkingSide.
+/// at most kWorkingSize.
 using HandPoints = std::map<PointIndex, glm::vec2>;
 
 /// A table of lines `NAME X Y`, NAME one of HandPointNames() or a number of MediaPipe's face mesh;

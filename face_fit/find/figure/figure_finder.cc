@@ -12,19 +12,19 @@
 namespace facefit {
 namespace {
 
-constexpr int kFigureSide = 256;
+constexpr int kFigurePixels = 256;
 
 /// What the network says of the picture it was given.
 FloatImage RunSegmentation(FaceNetworks& networks, const std::vector<float>& input) {
   networks.segmentation.Run(input);
-  FloatImage out(kFigureSide, kFigureSide);
+  FloatImage out(kFigurePixels, kFigurePixels);
   std::ranges::copy(networks.segmentation.output(0), out.at.begin());
   return out;
 }
 
 /// How much a place of the network's square, 0..1 on both axes, belongs to a person.
 float PersonAt(const FloatImage& figure, glm::vec2 place) {
-  return figure.Between(place.x * kFigureSide, place.y * kFigureSide);
+  return figure.Between(place.x * kFigurePixels, place.y * kFigurePixels);
 }
 
 /// A rectangle of a picture, or beyond it.
@@ -102,16 +102,16 @@ FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const 
   const Window all = face ? WholeFor(size, BoxOf(*face)) : Window{{0, 0}, size};
   const FloatImage whole = RunSegmentation(
       networks,
-      Resampled(image, all.corner, glm::mat2(all.size.x, 0, 0, all.size.y), kFigureSide, 0, 1));
+      Resampled(image, all.corner, glm::mat2(all.size.x, 0, 0, all.size.y), kFigurePixels, 0, 1));
   FloatImage near;
   Crop head;
   if (face) {
     const Box2 box = BoxOf(*face);
-    const float face_side = std::max(box.Size().x, box.Size().y);
-    head.side = std::min({2.3F * face_side, size.x, size.y});
-    head.centre = glm::clamp(box.Middle() - glm::vec2(0, 0.1F * face_side),
-                             glm::vec2(head.side / 2), size - head.side / 2);
-    near = RunSegmentation(networks, head.Sample(image, kFigureSide, 0, 1));
+    const float face_size = std::max(box.Size().x, box.Size().y);
+    head.size = std::min({2.3F * face_size, size.x, size.y});
+    head.centre = glm::clamp(box.Middle() - glm::vec2(0, 0.1F * face_size),
+                             glm::vec2(head.size / 2), size - head.size / 2);
+    near = RunSegmentation(networks, head.Sample(image, kFigurePixels, 0, 1));
   }
   FloatImage out(image.width, image.height);
   for (int y = 0; y < image.height; ++y) {

@@ -20,7 +20,7 @@ namespace facefit {
 namespace {
 
 /// Longest side of the picture that is solved; larger ones take what was found for a smaller copy.
-constexpr int kSolvedSide = 720;
+constexpr int kSolvedSize = 720;
 /// How far, by the longer side and in pixels beside it, the outline of the person may be off.
 constexpr int kOutlinePart = 90, kOutlinePixels = 2;
 /// Noise of colours, as a variance of 0..1: of the matting Laplacian, and of the guided filter.
@@ -219,13 +219,13 @@ FloatImage GuidedUpsampling(const fsm::Image& small, const FloatImage& opacity,
 }  // namespace
 
 FloatImage Matte(const fsm::Image& photo, const FloatImage& person) {
-  const int side = std::max(photo.width, photo.height);
+  const int longer = std::max(photo.width, photo.height);
   FloatImage out;
-  if (side <= kSolvedSide) {
+  if (longer <= kSolvedSize) {
     out = SolveOpacity(photo, person);
   } else {
-    const fsm::Image small = ScaledDown(photo, std::max(photo.width * kSolvedSide / side, 1),
-                                        std::max(photo.height * kSolvedSide / side, 1));
+    const fsm::Image small = ScaledDown(photo, std::max(photo.width * kSolvedSize / longer, 1),
+                                        std::max(photo.height * kSolvedSize / longer, 1));
     out = GuidedUpsampling(
         small, SolveOpacity(small, ScaledDown(person, small.width, small.height)), photo);
   }
@@ -236,7 +236,7 @@ FloatImage Matte(const fsm::Image& photo, const FloatImage& person) {
 fsm::Image ForegroundColours(const fsm::Image& photo, const FloatImage& opacity) {
   // Blurred figure and background mixed as the opacity says, and what then is still missing
   // (Forte, Approximate Fast Foreground Colour Estimation, 2021); first from afar, then from near.
-  const int side = std::max(photo.width, photo.height);
+  const int longer = std::max(photo.width, photo.height);
   fsm::Image out = photo;
   std::vector<std::size_t> edge;
   for (std::size_t i = 0; i < opacity.at.size(); ++i) {
@@ -246,7 +246,7 @@ fsm::Image ForegroundColours(const fsm::Image& photo, const FloatImage& opacity)
   for (float& v : behind_opacity.at) v = 1 - v;
   VectorImage figure = Colours(photo), behind = figure;
   for (const auto& [part, pixels] : kForegroundReach) {
-    const int reach = side / part + pixels;
+    const int reach = longer / part + pixels;
     VectorImage with = figure, without = behind;
     for (std::size_t i = 0; i < with.at.size(); ++i) {
       with.at[i] *= opacity.at[i];

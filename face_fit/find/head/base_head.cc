@@ -16,12 +16,12 @@
 namespace facefit {
 namespace {
 
-constexpr int kSide = 720;
+constexpr int kPortraitSize = 720;
 
-/// What of the skin is seen foremost at each pixel of a portrait of kSide pixels to a side.
+/// What of the skin is seen foremost at each pixel of a portrait of kPortraitSize pixels to a side.
 /// `screen`: of each vertex, pixels with y down, and depth towards the viewer in millimetres.
 VisibleSurface SkinIn(const fsm::HeadTopology& topology, const std::vector<glm::vec3>& screen) {
-  VisibleSurface surface({glm::vec2(0.5F), 1, kSide, kSide}, screen);
+  VisibleSurface surface({glm::vec2(0.5F), 1, kPortraitSize, kPortraitSize}, screen);
   ForSkinTriangles(topology, [&](const std::uint32_t* t) {
     const Triangle2 seen{screen[t[0]], screen[t[1]], screen[t[2]]};
     if (seen.SignedArea() < 0) surface.Draw(t);  // else it is seen from behind: y runs down
@@ -38,9 +38,10 @@ std::vector<MeshPoint> PlacesUnder(const VisibleSurface& skin, const std::vector
   if (std::ranges::max(skin.depth().at) < kFarthestBack) return places;
   const auto nearest = NearestAbove(skin.depth(), kFarthestBack);
   for (const glm::vec3& p : points) {
-    const glm::ivec2 pixel = glm::clamp(glm::ivec2(p), 0, kSide - 1);
+    const glm::ivec2 pixel = glm::clamp(glm::ivec2(p), 0, kPortraitSize - 1);
     const std::size_t own = skin.depth().Index(pixel.x, pixel.y), at = nearest[own];
-    MeshPoint place = skin.Place(static_cast<int>(at % kSide), static_cast<int>(at / kSide));
+    MeshPoint place =
+        skin.Place(static_cast<int>(at % kPortraitSize), static_cast<int>(at / kPortraitSize));
     // Within the pixel, to where the point lies.
     const auto& t = place.corner;
     if (at == own) {
@@ -103,7 +104,7 @@ vm::Result<BaseHead> BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::
   base.surface = std::move(surface);
   const fsm::FaceState state;
   base.head->Evaluate(state, base.rest);
-  const PortraitView portrait(kSide);
+  const PortraitView portrait(kPortraitSize);
   base.picture = portrait.Draw(*base.head, base.rest, state);
   std::vector<glm::vec3> screen;
   for (const glm::vec3& p : base.rest.position) screen.emplace_back(portrait.Pixel(p), p.z);

@@ -6,12 +6,12 @@
 
 namespace facefit {
 
-PortraitView::PortraitView(int side_pixels)
-    : side_(side_pixels), view_(fsm::FramePortrait({}, fsm::Camera{}, side_pixels, side_pixels)) {}
+PortraitView::PortraitView(int size)
+    : size_(size), view_(fsm::FramePortrait({}, fsm::Camera{}, size, size)) {}
 
 fsm::Image PortraitView::Draw(const fsm::Head& head, const fsm::HeadVertices& vertices,
                               const fsm::FaceState& state) const {
-  const auto context = fsm::RenderContext::MakeHeadless(side_, side_);
+  const auto context = fsm::RenderContext::MakeHeadless(size_, size_);
   const auto renderer = fsm::Renderer::Make(*context);
   renderer->Draw(head, vertices, state, fsm::Scene{});
   fsm::Image picture;
@@ -21,7 +21,7 @@ fsm::Image PortraitView::Draw(const fsm::Head& head, const fsm::HeadVertices& ve
 
 glm::vec2 PortraitView::Pixel(glm::vec3 place) const {
   const glm::vec4 clip = view_.world_to_clip * view_.figure_to_world * glm::vec4(place, 1.0F);
-  return (0.5F + 0.5F * glm::vec2(clip.x, -clip.y) / clip.w) * static_cast<float>(side_);
+  return (0.5F + 0.5F * glm::vec2(clip.x, -clip.y) / clip.w) * static_cast<float>(size_);
 }
 
 }  // namespace facefit

@@ -12,7 +12,7 @@ namespace facefit {
 /// A head as the renderer shows it from the front, in a square picture, for networks to look at.
 class PortraitView {
  public:
-  explicit PortraitView(int side_pixels);
+  explicit PortraitView(int size);
   /// Throws std::runtime_error if nothing can be drawn with.
   fsm::Image Draw(const fsm::Head& head, const fsm::HeadVertices& vertices,
                   const fsm::FaceState& state) const;
@@ -21,7 +21,7 @@ class PortraitView {
   float mm_per_pixel() const { return 2 / view_.samples_per_mm; }  // two samples to a pixel
 
  private:
-  int side_;
+  int size_;
   fsm::View view_;
 };
 

@@ -10,7 +10,7 @@ namespace facefit {
 /// A turned square of a picture, as a network is shown it. Pure; thread: any.
 struct Crop {
   glm::vec2 centre;
-  float side = 0;
+  float size = 0;
   float angle = 0;  ///< radians; of the square's x axis in the picture, whose y runs down
 
   /// From the square, 0..1 on both axes, to the picture and back.

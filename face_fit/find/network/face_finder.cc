@@ -12,7 +12,7 @@
 namespace facefit {
 namespace {
 
-constexpr int kDetectorSide = 128;
+constexpr int kDetectorPixels = 128;
 constexpr float kLeastScore = 0.5F;
 constexpr float kLeastFace = 8;  // pixels; the landmark network sees nothing in smaller ones
 /// Two boxes are of one face if so much is common to both, by both together or by the smaller one.
@@ -55,8 +55,8 @@ std::vector<glm::vec2> Anchors() {
 bool OfOneFace(const FaceBox& a, const FaceBox& b) {
   const glm::vec2 low = glm::max(a.centre - a.size * 0.5F, b.centre - b.size * 0.5F);
   const glm::vec2 high = glm::min(a.centre + a.size * 0.5F, b.centre + b.size * 0.5F);
-  const glm::vec2 sides = glm::max(high - low, 0.0F);
-  const float both = sides.x * sides.y;
+  const glm::vec2 common = glm::max(high - low, 0.0F);
+  const float both = common.x * common.y;
   return both / (a.Area() + b.Area() - both) > kSameUnion ||
          both / std::max(std::min(a.Area(), b.Area()), 1e-6F) > kSameSmaller;
 }
@@ -64,7 +64,7 @@ bool OfOneFace(const FaceBox& a, const FaceBox& b) {
 void Detect(FaceNetworks& networks, const fsm::Image& image, const Crop& crop,
             std::vector<FaceBox>& found) {
   static const std::vector<glm::vec2> anchors = Anchors();
-  networks.detector.Run(crop.Sample(image, kDetectorSide, -1, 1));
+  networks.detector.Run(crop.Sample(image, kDetectorPixels, -1, 1));
   const auto boxes = networks.detector.output(0);
   const auto scores = networks.detector.output(1);
   for (std::size_t i = 0; i < anchors.size(); ++i) {
@@ -75,7 +75,7 @@ void Detect(FaceNetworks& networks, const fsm::Image& image, const Crop& crop,
       return crop.ToPicture(anchors[i] + glm::vec2(box[k], box[k + 1]) / 128.0F);
     };
     FaceBox face{.centre = place(0),
-                 .size = glm::abs(glm::vec2(box[2], box[3])) / 128.0F * crop.side,
+                 .size = glm::abs(glm::vec2(box[2], box[3])) / 128.0F * crop.size,
                  .score = score,
                  .eyes = {place(4), place(6)}};
     if (std::min(face.size.x, face.size.y) >= kLeastFace) found.push_back(face);
@@ -100,21 +100,21 @@ class ScaledDetector {
  public:
   ScaledDetector(FaceNetworks& networks, const fsm::Image& image) : networks_(networks) {
     copies_.push_back(image);
-    while (std::max(copies_.back().width, copies_.back().height) > 2 * kDetectorSide) {
+    while (std::max(copies_.back().width, copies_.back().height) > 2 * kDetectorPixels) {
       copies_.push_back(Halved(copies_.back()));
     }
   }
 
   /// `whole`: from the picture itself, as exactly as it can be seen.
-  void Look(glm::vec2 centre, float side, bool whole = false) {
+  void Look(glm::vec2 centre, float size, bool whole = false) {
     float scale = 1;
     std::size_t copy = 0;
-    while (!whole && copy + 1 < copies_.size() && side * scale > 2 * kDetectorSide) {
+    while (!whole && copy + 1 < copies_.size() && size * scale > 2 * kDetectorPixels) {
       scale *= 0.5F;
       ++copy;
     }
     std::vector<FaceBox> seen;
-    Detect(networks_, copies_[copy], {centre * scale, side * scale, 0}, seen);
+    Detect(networks_, copies_[copy], {centre * scale, size * scale, 0}, seen);
     for (FaceBox face : seen) {
       face.centre /= scale;
       face.size /= scale;
@@ -179,11 +179,11 @@ std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image
   for (const Detection& seen : scan.found) largest = std::max(largest, seen.face.size.x);
   for (const int parts : kParts) {
     if (largest > kFillsPart * longer / static_cast<float>(parts)) break;
-    const float side = longer / static_cast<float>(parts) * kPartOverlap;
+    const float part = longer / static_cast<float>(parts) * kPartOverlap;
     for (int y = 0; y < 2 * parts; ++y) {
       for (int x = 0; x < 2 * parts; ++x) {
         const glm::vec2 centre = (glm::vec2(x, y) + 0.5F) * longer / static_cast<float>(2 * parts);
-        if (centre.x <= size.x && centre.y <= size.y) scan.Look(centre, side);
+        if (centre.x <= size.x && centre.y <= size.y) scan.Look(centre, part);
       }
     }
   }
@@ -203,7 +203,7 @@ std::vector<glm::vec3> PointsInPicture(std::span<const float> raw, const Crop& c
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
     const glm::vec3 at =
         glm::vec3(raw[3 * i], raw[3 * i + 1], -raw[3 * i + 2]) / float{kPointsPixels};
-    points.emplace_back(crop.ToPicture(glm::vec2(at)), at.z * crop.side);
+    points.emplace_back(crop.ToPicture(glm::vec2(at)), at.z * crop.size);
   }
   return points;
 }

@@ -1,4 +1,4 @@
-#include "face_fit/fit/side_fit.h"
+#include "face_fit/fit/extra_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace facefit {
 namespace {
 
-constexpr int kSide = 640;
+constexpr int kDrawnSize = 640;
 /// Below it a photo tells no more of depth than the first one did; beyond it the network guesses.
 constexpr float kLeastTurn = 12, kMostTurn = 80;  // degrees
 /// Of a turned face the network is less sure than of one from the front (kCertainFace).
@@ -59,7 +59,7 @@ bool MeasureBias(FaceNetworks& networks, const FittedHead& fitted, const CameraP
   for (const glm::vec3& p : fitted.posed_vertices) turned.position.push_back(pose.ToCamera(p));
   turned.normal =
       fsm::Normals(fitted.base->head->topology().indices, turned.position, turned.position.size());
-  const PortraitView portrait(kSide);
+  const PortraitView portrait(kDrawnSize);
   const fsm::Image picture = portrait.Draw(*fitted.base->head, turned, {});
   const auto faces = FindFaces(networks, picture);
   if (faces.empty()) return false;
@@ -99,10 +99,10 @@ CameraPose FindPose(const FittedHead& fitted, const FoundFace& face,
 
 }  // namespace
 
-vm::Result<PoseFit> FitSideView(FaceNetworks& networks, const FittedHead& fitted,
-                                const SidePhoto& side) {
-  if (side.faces.empty()) return vm::Fail(vm::Errc::kBadValue, "no face is found in it");
-  const FoundFace& face = side.faces.front();
+vm::Result<PoseFit> FitExtraView(FaceNetworks& networks, const FittedHead& fitted,
+                                 const ExtraPhoto& extra) {
+  if (extra.faces.empty()) return vm::Fail(vm::Errc::kBadValue, "no face is found in it");
+  const FoundFace& face = extra.faces.front();
   if (face.certainty < kLeastCertainty) {
     return vm::Fail(vm::Errc::kBadValue,
                     "no eyes, nose and mouth can be told apart in it; turned by 20 to 60 degrees "
@@ -131,10 +131,10 @@ vm::Result<PoseFit> FitSideView(FaceNetworks& networks, const FittedHead& fitted
   return view;
 }
 
-void RefineDepthBySide(const fsm::Image& front, const fsm::Image& side, CameraPose& pose,
-                       Fit& fit) {
+void RefineDepthByStereo(const fsm::Image& front, const fsm::Image& extra, CameraPose& pose,
+                         Fit& fit) {
   for (int round = 0; round < 2; ++round) {
-    const auto depths = CompareDepth(fit.head, front, side, pose);
+    const auto depths = CompareDepth(fit.head, front, extra, pose);
     if (depths.empty()) return;
     // What the far cheek hides is taken to be as the near one.
     std::vector<fsm::WarpPoint> both = depths;

@@ -5,19 +5,19 @@
 #include <vector>
 
 #include "face_fit/find/figure/matte.h"
-#include "face_fit/fit/side_fit.h"
+#include "face_fit/fit/extra_fit.h"
 
 namespace facefit {
 
-inline constexpr std::size_t kMostSidePhotos = 6;
-using SidePhotos = std::vector<std::shared_ptr<const SidePhoto>>;
+inline constexpr std::size_t kMostExtraPhotos = 6;
+using ExtraPhotos = std::vector<std::shared_ptr<const ExtraPhoto>>;
 
 /// Reads a photo and sets it upright by what is seen in it. Errors: as ReadPhoto.
-vm::Result<std::shared_ptr<const SidePhoto>> ReadSidePhoto(FaceNetworks& networks,
-                                                           const std::string& path);
+vm::Result<std::shared_ptr<const ExtraPhoto>> ReadExtraPhoto(FaceNetworks& networks,
+                                                             const std::string& path);
 
 /// A photo of the person from the side with what it tells of the head.
-struct SideView {
+struct ExtraView {
   PoseFit fit;
   Cutout figure;
   /// A full profile: only its outline is used. Front and profile show too little of the same skin
@@ -25,8 +25,8 @@ struct SideView {
   bool outline_only = false;
 };
 /// Takes from a photo of the fitted person from the side what it tells of depth, and how it looks
-/// there. Errors: as FitSideView; then the fit is as it was.
-vm::Result<SideView> LookFromSide(FaceNetworks& networks, const fsm::Image& front,
-                                  const SidePhoto& side, Fit& fit);
+/// there. Errors: as FitExtraView; then the fit is as it was.
+vm::Result<ExtraView> LookAtExtra(FaceNetworks& networks, const fsm::Image& front,
+                                  const ExtraPhoto& extra, Fit& fit);
 
 }  // namespace facefit

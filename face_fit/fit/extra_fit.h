@@ -10,7 +10,7 @@
 namespace facefit {
 
 /// Another photo of the person, upright, and the faces found in it.
-struct SidePhoto {
+struct ExtraPhoto {
   std::string path;
   fsm::Image photo;
   std::vector<FoundFace> faces;
@@ -20,12 +20,13 @@ struct SidePhoto {
 /// drawn in that pose and shown to the same network: what the network gets wrong of the drawn head
 /// is subtracted from what it says of the photo. Errors (kBadValue, in words): no face; from the
 /// front again; turned too far; not this face.
-vm::Result<PoseFit> FitSideView(FaceNetworks& networks, const FittedHead& fitted,
-                                const SidePhoto& side);
+vm::Result<PoseFit> FitExtraView(FaceNetworks& networks, const FittedHead& fitted,
+                                 const ExtraPhoto& extra);
 
 /// Corrects the depth of the fit's constraints until skin seen in both photos lies at one place in
 /// space, warps the head again, and refines `pose`, that of the photo from the side. Leaves both as
 /// they are if too little skin is found in both.
-void RefineDepthBySide(const fsm::Image& front, const fsm::Image& side, CameraPose& pose, Fit& fit);
+void RefineDepthByStereo(const fsm::Image& front, const fsm::Image& extra, CameraPose& pose,
+                         Fit& fit);
 
 }  // namespace facefit
