@@ -176,7 +176,7 @@ void Run(const Options& options) {
                  "was set upright\n";
   }
   progress.Say("faces and their points found");
-  BaseHead base = vm::OrThrow(BaseHead::See(networks, options.base));
+  BaseHead base = vm::OrThrow(BaseHead::Observe(networks, options.base));
   if (units) base.MoveBy(*units);
   progress.Say("head looked at");
   const FoundFace found = original  ? FaceFromHand(base, original->points)

@@ -63,7 +63,7 @@ std::string WarnOfTurn(glm::vec3 turn) {
 
 std::string WarnOfEyes(const SeenIrises& irises) {
   const auto hidden = std::ranges::count_if(
-      irises.circles.InOrder(), [](const IrisCircle& ring) { return ring.contrast < kClearIris; });
+      irises.circles.InOrder(), [](const IrisCircle& iris) { return iris.contrast < kClearIris; });
   if (hidden == 2) {
     return "warning: no iris is seen: the eyes are shut, look down or lie in the shade; they are "
            "drawn, and their lids keep what the photo shows on them\n";

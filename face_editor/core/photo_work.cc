@@ -40,7 +40,7 @@ vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder,
   if (!networks) return std::unexpected(networks.error());
   auto sight = std::make_shared<FaceSight>(FaceSight{std::move(*networks), nullptr, {}});
   try {
-    auto base = facefit::BaseHead::See(sight->networks, "galatea");
+    auto base = facefit::BaseHead::Observe(sight->networks, "galatea");
     if (!base) return std::unexpected(base.error());
     if (const auto units = fsm::UnitsIn(tables)) base->MoveBy(*units);
     std::vector<glm::vec3> places;

@@ -98,9 +98,9 @@ VectorImage MotionOn(const VisibleSurface& surface, const std::vector<glm::vec3>
 /// The eyes and the mouth, which open: no part of the sheet may lie behind them. Of a turned head
 /// one eye and one corner of the mouth are near the edge of what the photo shows, where the sheet
 /// goes on from just under the skin.
-class OpeningsOfHead {
+class HeadOpenings {
  public:
-  explicit OpeningsOfHead(const FittedHead& fitted) {
+  explicit HeadOpenings(const FittedHead& fitted) {
     using namespace point;
     constexpr std::array<std::pair<PointIndex, PointIndex>, 2> kEyes = {
         std::pair(kEyeOuterRight, kEyeInnerRight), std::pair(kEyeInnerLeft, kEyeOuterLeft)};
@@ -224,7 +224,7 @@ Quads DrawnCells(const FittedHead& fitted, const SampleGrid& grid, const FloatIm
   FillHoles(covered);
   // Nothing behind the middle of the face: there are the mouth and the eyes.
   const FloatImage within = Blurred(covered, rim);
-  const OpeningsOfHead openings(fitted);
+  const HeadOpenings openings(fitted);
   const auto about = [&](int x, int y) {
     return fitted.pose.PlaceAt(grid.Point(x, y), depth(x, y));
   };

@@ -93,7 +93,7 @@ glm::vec4 Insert(const fsm::Image& square, int left, fsm::Image& picture) {
 }
 
 struct SeenEye {
-  const IrisCircle& ring;
+  const IrisCircle& iris;
   LidLines lids;        ///< in the photo
   glm::vec2 right, up;  ///< the head's axes there, unit
 };
@@ -101,15 +101,15 @@ struct SeenEye {
 /// `skin`: its colour below the eye.
 fsm::Image IrisPicture(const SeenEye& eye, glm::vec3 skin, const fsm::Image& photo) {
   // The shade of the lid's edge and its lashes.
-  const float edge = std::max(PhotoLook()("lid_shade") * eye.ring.radius, 0.7F);
+  const float edge = std::max(PhotoLook()("lid_shade") * eye.iris.radius, 0.7F);
   const auto texel_at = [&](glm::vec2 p) {
     p *= fsm::kIrisSpan;
-    const glm::vec2 at = eye.ring.centre + eye.ring.radius * (p.x * eye.right + p.y * eye.up);
+    const glm::vec2 at = eye.iris.centre + eye.iris.radius * (p.x * eye.right + p.y * eye.up);
     const auto [upper, lower] = eye.lids.At(eye.lids.Part(at));
     const float within = std::min(eye.lids.Down(at) - upper, lower - eye.lids.Down(at));
     float red = 0;
     for (int k = 0; k < 9; ++k) {
-      const glm::vec2 beside = at + 0.22F * eye.ring.radius * (glm::vec2(k % 3, k / 3) - 1.0F);
+      const glm::vec2 beside = at + 0.22F * eye.iris.radius * (glm::vec2(k % 3, k / 3) - 1.0F);
       red = std::max(red, RedEye(ColourAt(photo, beside), skin));
     }
     return Texel{WithoutRedEye(ColourAt(photo, at), skin, red),
@@ -142,7 +142,7 @@ fsm::Image BallPicture(const SeenEye& eye, const LidLines& rest, float radius,
         between);
   };
   const auto beside_iris = [&eye, range = PhotoLook().Pair("beside_iris")](glm::vec2 at) {
-    return Ramp(range, glm::distance(at, eye.ring.centre) / eye.ring.radius);
+    return Ramp(range, glm::distance(at, eye.iris.centre) / eye.iris.radius);
   };
   fsm::Image white =
       Painted(kBallPixels, [&](glm::vec2 p) { return ColourAt(photo, place(p).first); });

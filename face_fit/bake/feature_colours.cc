@@ -38,14 +38,12 @@ EyeColours SampleEyes(const FoundFace& face, const SeenIrises& irises, const fsm
     const auto outline = EyeOutline(side);
     const glm::vec2 a = face.At(outline[kOuterCorner]), b = face.At(outline[kInnerCorner]);
     const float wide = glm::distance(a, b);
-    const IrisCircle& ring = irises.circles[side];
-    const float radius = ring.radius;
-    const glm::vec2 centre = ring.centre;
+    const IrisCircle& circle = irises.circles[side];
     for (float y = -0.25F; y <= 0.25F; y += 0.02F) {
       for (float x = -0.5F; x <= 0.5F; x += 0.02F) {
         const glm::vec2 at = 0.5F * (a + b) + wide * glm::vec2(x, y);
         if (SignedDistance(face, outline, at) > -0.05F * wide) continue;
-        const float far = glm::distance(at, centre) / radius;
+        const float far = glm::distance(at, circle.centre) / circle.radius;
         const glm::vec3 colour = ColourAt(photo, at);
         if (far > 0.45F && far < 0.85F) iris.push_back(colour);
         if (far > 1.25F) white.push_back(colour);

@@ -17,9 +17,9 @@ namespace facefit {
 namespace {
 
 /// Whether the head itself hides a place of its skin from the camera, as the jaw does the throat.
-class Hidden {
+class SelfOcclusion {
  public:
-  Hidden(const FittedHead& fitted, const CameraPose& pose) : pose_(pose) {
+  SelfOcclusion(const FittedHead& fitted, const CameraPose& pose) : pose_(pose) {
     const glm::vec2 middle = pose.Project({0, 0, 0});
     const float reach = kReach * pose.PixelsPerMm();
     const float cell = 2 * reach / kCells;
@@ -116,7 +116,7 @@ SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, bool hi
   const glm::vec2 above_chin = PhotoLook().Pair("aside_above_chin");
   constexpr float kSlack = 0.02F;
   constexpr glm::vec3 kEye(0, 0, kCameraZ);
-  std::optional<Hidden> hides;
+  std::optional<SelfOcclusion> hides;
   if (hidden) hides.emplace(fitted, pose);
   const auto& topology = base.head->topology();
   std::vector<glm::vec3> camera;

@@ -83,17 +83,18 @@ int HairDepth(const Cutout& figure, const EdgeClassifier& classifier, glm::ivec2
   return count;
 }
 
-/// Whether most of a column from a row down to the photo's lower edge belongs to the figure, and if
-/// `hair` is given is hair by its colour: what hangs from the head, no collar.
-bool HangsDown(const Cutout& figure, const EdgeClassifier* hair, int x, float from) {
+/// Whether most of a column from a row down to the photo's lower edge belongs to the figure and, if
+/// a classifier is given, is hair by its colour: what hangs from the head, no collar.
+bool HangsDown(const Cutout& figure, const EdgeClassifier* classifier_or_null, int x, float from) {
   int hanging = 0, rows = 0;
   for (int y = std::max(static_cast<int>(from), 0); y < figure.opacity.height; ++y, ++rows) {
     const std::size_t i = figure.opacity.Index(x, y);
-    hanging += figure.opacity.at[i] > 0.5F &&
-               (!hair || hair->Of(Rgb(figure.colours, i)) == EdgeKind::kHair);
+    hanging +=
+        figure.opacity.at[i] > 0.5F &&
+        (!classifier_or_null || classifier_or_null->Of(Rgb(figure.colours, i)) == EdgeKind::kHair);
   }
-  constexpr int kMost = 10, kOf = 8;  // eight of ten
-  return kMost * hanging >= kOf * rows;
+  constexpr float kHangingPart = 0.8F;
+  return static_cast<float>(hanging) >= kHangingPart * static_cast<float>(rows);
 }
 
 }  // namespace

@@ -100,13 +100,13 @@ SeenIrises FindSeenIrises(const BaseHead& base, const FoundFace& face, const fsm
     irises.circles[side] = {.centre = iris.centre, .radius = eyes[side].expected, .contrast = 0};
   }
   if (!photo) return irises;
-  const auto rings = FindIrises(*photo, std::array{eyes.right, eyes.left});
+  const auto found = FindIrises(*photo, std::array{eyes.right, eyes.left});
   float size = 0, count = 0;
   for (const fsm::Side side : fsm::kSides) {
-    const IrisCircle& ring = rings[static_cast<std::size_t>(side)];
-    if (ring.contrast < kClearIris) continue;
-    irises.circles[side] = ring;
-    size += ring.radius / eyes[side].expected;
+    const IrisCircle& iris = found[static_cast<std::size_t>(side)];
+    if (iris.contrast < kClearIris) continue;
+    irises.circles[side] = iris;
+    size += iris.radius / eyes[side].expected;
     count += 1;
   }
   if (count > 0) irises.size = Within(kIrisSize, size / count);
@@ -116,17 +116,17 @@ SeenIrises FindSeenIrises(const BaseHead& base, const FoundFace& face, const fsm
 void ShiftLidsToIrises(const BaseHead& base, const SeenIrises& irises,
                        std::vector<LandmarkConstraint>& constraints) {
   for (const fsm::Side side : fsm::kSides) {
-    const IrisCircle& ring = irises.circles[side];
-    if (ring.contrast <= 0) continue;
+    const IrisCircle& iris = irises.circles[side];
+    if (iris.contrast <= 0) continue;
     const auto outline = EyeOutline(side);
     const LidSpan span = LidSpanOf(side, [&constraints](PointIndex i) {
       return std::ranges::find(constraints, i, &LandmarkConstraint::point)->pixel;
     });
-    const IrisPlacement iris = ExpectedIris(base, span, side);
+    const IrisPlacement expected = ExpectedIris(base, span, side);
     const glm::vec2 axis = glm::normalize(span.inner - span.outer);
     const glm::vec2 across(-axis.y, axis.x);
-    const float off = glm::dot(ring.centre - iris.centre, across);
-    const float free = kRestsFreely * iris.scale, most = kMostShift * iris.scale;
+    const float off = glm::dot(iris.centre - expected.centre, across);
+    const float free = kRestsFreely * expected.scale, most = kMostShift * expected.scale;
     const float by = std::clamp(off, -most, most);
     if (std::abs(by) <= free) continue;
     for (LandmarkConstraint& constraint : constraints) {

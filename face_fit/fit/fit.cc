@@ -84,7 +84,7 @@ std::vector<float> DepthBias(const BaseHead& base) {
   std::vector<float> bias;
   float mean = 0;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-    bias.push_back(base.AtRest(i).z - base.seen_z[i]);
+    bias.push_back(base.AtRest(i).z - base.seen[i].z);
     mean += bias.back() / static_cast<float>(kNetworkPoints);
   }
   for (float& b : bias) b -= mean;

@@ -258,8 +258,8 @@ float MeanDepthGap(const FloatImage& opacity, const CameraPose& pose,
 }
 
 /// Scale, place and lean of the profile once more, from where the outline really is.
-CameraPose RefinePose(const FloatImage& opacity, CameraPose pose,
-                      const std::vector<glm::vec3>& line) {
+CameraPose FitPoseToOutline(const FloatImage& opacity, CameraPose pose,
+                            const std::vector<glm::vec3>& line) {
   for (int round = 0; round < 6; ++round) {
     std::vector<glm::vec3> places;
     std::vector<glm::vec2> pixels;
@@ -337,12 +337,12 @@ vm::Result<PoseFit> RefineDepthByProfile(const FloatImage& opacity, Fit& fit) {
   view.pose = PoseWithTurn(
       line, pixels,
       {0, glm::radians(90.0F) * static_cast<float>(placement->direction), -placement->tilt});
-  view.pose = RefinePose(opacity, view.pose, line);
+  view.pose = FitPoseToOutline(opacity, view.pose, line);
   view.residual_mm = MeanDepthGap(opacity, view.pose, line);
   if (view.residual_mm > kMostOffMm) return refused();
   for (int round = 0; round < kProfileRounds; ++round) {
     const auto now = ProfileOf(fit.head, 1);
-    if (round > 0) view.pose = RefinePose(opacity, view.pose, now);
+    if (round > 0) view.pose = FitPoseToOutline(opacity, view.pose, now);
     CorrectDepth(DepthGaps(opacity, view.pose, now), fit);
   }
   return view;

@@ -30,7 +30,7 @@ struct SkinSample {
   float light = 0;
   float facing = -1, facing_extra = -1;  // cosines of the slant to either camera
 };
-using SeenSkin = Raster<SkinSample>;
+using SkinSamples = Raster<SkinSample>;
 
 /// What of the fitted skin the first photo shows.
 VisibleSurface SkinInFront(const FittedHead& fitted) {
@@ -48,12 +48,12 @@ VisibleSurface SkinInFront(const FittedHead& fitted) {
   return surface;
 }
 
-SeenSkin SampleSkin(const FittedHead& fitted, const fsm::Image& front, const CameraPose& extra) {
+SkinSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front, const CameraPose& extra) {
   const VisibleSurface surface = SkinInFront(fitted);
   const SampleGrid& grid = surface.grid();
   const glm::vec3 to_front = fitted.pose.TowardsCamera(), to_extra = extra.TowardsCamera();
   const auto& posed = fitted.posed_vertices;
-  return SeenSkin::From(grid.columns, grid.rows, [&](int x, int y) -> SkinSample {
+  return SkinSamples::From(grid.columns, grid.rows, [&](int x, int y) -> SkinSample {
     const std::uint32_t* t = surface.Triangle(x, y);
     if (!t) return {};
     const MeshPoint place = surface.Place(x, y);
@@ -107,7 +107,7 @@ struct Patch {
   std::vector<glm::vec3> camera;
 };
 
-std::vector<Patch> PatchesOf(const SeenSkin& seen) {
+std::vector<Patch> PatchesOf(const SkinSamples& seen) {
   std::vector<Patch> patches;
   for (int y = kPatch; y + kPatch < seen.height; y += kPatchStep) {
     for (int x = kPatch; x + kPatch < seen.width; x += kPatchStep) {
@@ -177,7 +177,7 @@ class PatchMatcher {
 };
 
 /// Where whole patches lie in the second photo, whatever their depth.
-std::vector<PointMatch> FindPatches(const SeenSkin& seen, const CameraPose& front,
+std::vector<PointMatch> FindPatches(const SkinSamples& seen, const CameraPose& front,
                                     const CameraPose& extra, PatchMatcher& matcher) {
   std::vector<PointMatch> matches;
   std::vector<glm::vec2> pixels;
@@ -219,7 +219,7 @@ std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Im
   // Then along the line of sight of the first photo.
   constexpr float kStep = 0.75F;  // millimetres
   constexpr int kReach = 14;
-  const SeenSkin seen = SampleSkin(fitted, front, pose);
+  const SkinSamples seen = SampleSkin(fitted, front, pose);
   std::vector<fsm::WarpPoint> depths;
   for (const Patch& patch : PatchesOf(seen)) {
     const Peak peak = FindPeak(kReach, [&](int k) {

@@ -50,7 +50,7 @@ vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networ
       return vm::Fail(vm::Errc::kBadValue,
                       "the face cannot be told apart in the picture where it is seen best");
     }
-    auto base = facefit::BaseHead::See(networks, "galatea");
+    auto base = facefit::BaseHead::Observe(networks, "galatea");
     if (!base) return std::unexpected(base.error());
     auto [near, face] = facefit::CropToFace(photo, picture, *found);
     const float finer = face.crop.size / found->crop.size;

@@ -190,7 +190,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     FoundFace face;
     face.certainty = 1;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-      const float bias = base.AtRest(i).z - base.seen_z[i];
+      const float bias = base.AtRest(i).z - base.seen[i].z;
       face.points.emplace_back(camera.Pixel(truth().points[i]),
                                pixels * (camera.Placed(base.AtRest(i)).z - bias));
     }
@@ -279,8 +279,8 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     const fsm::Similarity place = fsm::FitSimilarity(found.pairs);
     fsm::MeshModel model = fsm::ModelOf(*file, place, -43);
     BaseHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
-    BaseHead seen = vm::OrThrow(
-        BaseHead::See(*networks_, fsm::MakeMeshHead(std::move(model)), name, std::move(surface)));
+    BaseHead seen = vm::OrThrow(BaseHead::Observe(*networks_, fsm::MakeMeshHead(std::move(model)),
+                                                  name, std::move(surface)));
     TrueHead made;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
       // At the outline the network may miss the cheek and see an ear or the neck, centimetres

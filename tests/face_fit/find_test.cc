@@ -100,7 +100,7 @@ FoundFace SeenOf(const std::vector<MeshPoint>& places, const std::vector<glm::ve
 /// The head as a network would see it whose depth is true.
 BaseHead Exact(const BaseHead& base) {
   BaseHead exact{base.name, fsm::MakeHead("galatea", false), {}, base.rest, base.points, {}};
-  for (const MeshPoint& place : base.points) exact.seen_z.push_back(place.On(base.rest.position).z);
+  for (const MeshPoint& place : base.points) exact.seen.push_back(place.On(base.rest.position));
   return exact;
 }
 

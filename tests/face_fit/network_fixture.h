@@ -30,7 +30,7 @@ class NetworkTest : public testing::Test {
     if (!networks_) GTEST_SKIP() << missing_;
   }
   static const BaseHead& Galatea() {
-    if (!base_) base_.emplace(vm::OrThrow(BaseHead::See(*networks_, "galatea")));
+    if (!base_) base_.emplace(vm::OrThrow(BaseHead::Observe(*networks_, "galatea")));
     return *base_;
   }
 

@@ -141,7 +141,7 @@ FoundFace FaceFromHand(const BaseHead& base, const HandPoints& points) {
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
     const glm::vec3 p = base.AtRest(i);
     const glm::vec2 at = to_photo(glm::vec2(p)) + to_photo.scale() * glm::vec2(warp.Motion(p));
-    face.points.emplace_back(at, to_photo.scale() * base.seen_z[i]);
+    face.points.emplace_back(at, to_photo.scale() * base.seen[i].z);
   }
   face.crop = CropAround(face.points);
   return face;

@@ -26,7 +26,7 @@ struct OpenEye {
 
 /// Finds the irises of the eyes given: the circle that best separates dark from bright between the
 /// lids, and whose left and right sides have the strongest edge. Irises of one person have one
-/// size, so all eyes are searched together. Returns a ring for each eye, in their order.
+/// size, so all eyes are searched together. Returns a circle for each eye, in their order.
 std::vector<IrisCircle> FindIrises(const fsm::Image& photo, std::span<const OpenEye> eyes);
 
 }  // namespace facefit

@@ -58,7 +58,7 @@ class PhotoToBase {
  public:
   PhotoToBase(const FoundFace& face, const BaseHead& base) {
     for (const PointIndex i : point::kForFit) {
-      pairs_.push_back({face.crop.FromPicture(face.At(i)) * float{kInputSide}, base.seen[i]});
+      pairs_.push_back({face.crop.FromPicture(face.At(i)) * float{kInputSide}, base.SeenAt(i)});
     }
   }
 
@@ -112,7 +112,7 @@ WarpedHead WarpBaseHead(const BaseHead& base, const FoundFace& face) {
   const auto on_face = [&](PointIndex i) { return glm::vec2(base.AtRest(i)); };
   const float mm_per_pixel =
       glm::distance(on_face(point::kEyeOuterRight), on_face(point::kEyeOuterLeft)) /
-      glm::distance(base.seen[point::kEyeOuterRight], base.seen[point::kEyeOuterLeft]);
+      glm::distance(base.SeenAt(point::kEyeOuterRight), base.SeenAt(point::kEyeOuterLeft));
   WarpedHead warped;
   for (int y = 0; y < kInputSide; ++y) {
     for (int x = 0; x < kInputSide; ++x) {
@@ -122,7 +122,7 @@ WarpedHead WarpBaseHead(const BaseHead& base, const FoundFace& face) {
       const glm::vec2 on_base =
           glm::mix(glm::mix(coarse[k], coarse[k + 1], t.x),
                    glm::mix(coarse[k + kCells], coarse[k + kCells + 1], t.x), t.y);
-      const glm::vec2 off = mm_per_pixel * (on_base - base.seen[point::kNasion]);
+      const glm::vec2 off = mm_per_pixel * (on_base - base.SeenAt(point::kNasion));
       warped.place.push_back(on_face(point::kNasion) + glm::vec2(off.x, -off.y));
       warped.colour.push_back(ColourAt(base.picture, on_base) / 255.0F);
     }

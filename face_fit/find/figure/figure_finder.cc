@@ -28,13 +28,13 @@ float PersonAt(const FloatImage& figure, glm::vec2 place) {
 }
 
 /// A rectangle of a picture, or beyond it.
-struct Window {
+struct PictureRect {
   glm::vec2 corner, size;
 };
 
 /// The whole picture, and more around a face that fills it: the network knows figures with
 /// shoulders, and in pictures of little more than a face takes the wall for one.
-Window WholeFor(glm::vec2 picture, const Box2& face) {
+PictureRect WholeFor(glm::vec2 picture, const Box2& face) {
   const glm::vec2 larger = glm::max(picture, face.Size() / PhotoLook()("figure_face"));
   return {(picture - larger) * glm::vec2(0.5F, PhotoLook()("figure_above")), larger};
 }
@@ -99,7 +99,7 @@ FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image, const 
 FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundFace* face) {
   const glm::vec2 size(image.width, image.height);
   // The network takes a rectangle stretched to a square.
-  const Window all = face ? WholeFor(size, BoxOf(*face)) : Window{{0, 0}, size};
+  const PictureRect all = face ? WholeFor(size, BoxOf(*face)) : PictureRect{{0, 0}, size};
   const FloatImage whole = RunSegmentation(
       networks,
       Resampled(image, all.corner, glm::mat2(all.size.x, 0, 0, all.size.y), kFigurePixels, 0, 1));

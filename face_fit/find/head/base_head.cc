@@ -64,8 +64,8 @@ std::optional<LipSeam> SeamOf(const BaseHead& base) {
 }
 
 /// Moves the points of the inner lips up or down onto the seam, but not the corners.
-void OntoSeam(const std::vector<glm::vec3>& position, const LipSeam& seam,
-              std::vector<MeshPoint>& points) {
+void SnapToSeam(const std::vector<glm::vec3>& position, const LipSeam& seam,
+                std::vector<MeshPoint>& points) {
   const float right = seam.At(0).upper.On(position).x, left = seam.At(1).upper.On(position).x;
   const auto edges = [&](PointIndex i) {
     return seam.At(glm::clamp((points[i].On(position).x - right) / (left - right), 0.0F, 1.0F));
@@ -82,22 +82,22 @@ void BaseHead::MoveBy(const fsm::UnitTable& own) {
   head = head->WithUnits(own);
 }
 
-vm::Result<BaseHead> BaseHead::See(FaceNetworks& networks, const std::string& name) {
-  return See(networks, fsm::MakeHead(name), name);
+vm::Result<BaseHead> BaseHead::Observe(FaceNetworks& networks, const std::string& name) {
+  return Observe(networks, fsm::MakeHead(name), name);
 }
 
-vm::Result<BaseHead> BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                                   const std::string& name) {
+vm::Result<BaseHead> BaseHead::Observe(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
+                                       const std::string& name) {
   Surface surface{.skin_triangles = fsm::SkinTriangles(head->topology()),
                   .has_uv_seams = false,
                   .is_eye = EyeVertices(head->topology())};
-  auto base = See(networks, std::move(head), name, std::move(surface));
-  if (base && base->seam) OntoSeam(base->rest.position, *base->seam, base->points);
+  auto base = Observe(networks, std::move(head), name, std::move(surface));
+  if (base && base->seam) SnapToSeam(base->rest.position, *base->seam, base->points);
   return base;
 }
 
-vm::Result<BaseHead> BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                                   const std::string& name, Surface surface) {
+vm::Result<BaseHead> BaseHead::Observe(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
+                                       const std::string& name, Surface surface) {
   BaseHead base;
   base.name = name;
   base.head = std::move(head);
@@ -116,8 +116,7 @@ vm::Result<BaseHead> BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::
     return vm::Fail(vm::Errc::kBadValue, "no face is seen on the head '" + name + "'");
   }
   for (const glm::vec3& p : faces.front().points) {
-    base.seen_z.push_back(p.z * portrait.mm_per_pixel());
-    base.seen.emplace_back(p);
+    base.seen.emplace_back(p.x, p.y, p.z * portrait.mm_per_pixel());
   }
   base.seam = SeamOf(base);
   return base;

@@ -31,26 +31,27 @@ struct BaseHead {
   };
   Surface surface = {};
   fsm::HeadVertices rest;
-  std::vector<MeshPoint> points;             ///< where the network's points lie on it
-  std::vector<float> seen_z;                 ///< the depth the network gave each, millimetres
-  fsm::Image picture = {};                   ///< what the network was shown
-  std::vector<glm::vec2> seen = {};          ///< where it found the points there, pixels
-  std::optional<LipSeam> seam = {};          ///< where its lips meet, if that is seen
+  std::vector<MeshPoint> points;     ///< where the network's points lie on it
+  std::vector<glm::vec3> seen;       ///< where it saw them: x, y pixels of `picture`, z millimetres
+  fsm::Image picture = {};           ///< what the network was shown
+  std::optional<LipSeam> seam = {};  ///<< where its lips meet, if that is seen
   std::optional<fsm::UnitTable> units = {};  ///< of one's own, that move it
 
   /// Where a point of the network lies on the head at rest.
   glm::vec3 AtRest(PointIndex i) const { return points[i].On(rest.position); }
+  /// Where the network saw a point in `picture`, pixels.
+  glm::vec2 SeenAt(PointIndex i) const { return glm::vec2(seen[i]); }
   /// From now on moved by these units. Its points stay: they were seen at rest.
   void MoveBy(const fsm::UnitTable& own);
 
   /// A built-in head; the points of its inner lips are moved onto the seam. Error: kBadValue, no
   /// face is seen on it. Throws std::runtime_error if it cannot be drawn.
-  static vm::Result<BaseHead> See(FaceNetworks& networks, const std::string& name);
-  static vm::Result<BaseHead> See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                                  const std::string& name);
+  static vm::Result<BaseHead> Observe(FaceNetworks& networks, const std::string& name);
+  static vm::Result<BaseHead> Observe(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
+                                      const std::string& name);
   /// Likewise any head, whose points stay where they were seen.
-  static vm::Result<BaseHead> See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                                  const std::string& name, Surface surface);
+  static vm::Result<BaseHead> Observe(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
+                                      const std::string& name, Surface surface);
 };
 
 }  // namespace facefit

@@ -60,8 +60,8 @@ fsm::FacePart PartOf(PointIndex i) {
   return fsm::FacePart::kPlain;
 }
 
-/// Moves the points of the inner lips onto a seam.
-void OntoSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
+/// Moves the points of the inner lips onto a seam, at even steps.
+void SpreadAlongSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
   points[point::kInnerMouthRight] = seam.At(0).upper;
   points[point::kInnerMouthLeft] = seam.At(1).upper;
   const std::size_t count = point::kLowerInnerLip.size();
@@ -81,20 +81,20 @@ class HeadMatcher {
       : networks_(networks),
         file_(file),
         name_(std::move(name)),
-        base_(vm::OrThrow(BaseHead::See(networks, face))),
+        base_(vm::OrThrow(BaseHead::Observe(networks, face))),
         inner_lips_(point::kUpperInnerLip.begin(), point::kUpperInnerLip.end()) {
     inner_lips_.insert(point::kLowerInnerLip.begin(), point::kLowerInnerLip.end());
   }
   /// None if no face is seen on the head as `to_ours` has it stand.
   std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_ours) {
-    const auto seen = See(to_ours);
+    const auto seen = Observe(to_ours);
     if (!seen) return {};
     std::vector<MeshPoint> ours = base_.points, theirs = seen->points;
     OntoLidEdges(base_, ours, *seen, theirs);
     const bool both = base_.seam && seen->seam;
     if (both) {
-      OntoSeam(*base_.seam, ours);
-      OntoSeam(*seen->seam, theirs);
+      SpreadAlongSeam(*base_.seam, ours);
+      SpreadAlongSeam(*seen->seam, theirs);
     }
     std::vector<fsm::PointPair> found;
     for (const PointIndex i : point::kForFit) {
@@ -110,13 +110,14 @@ class HeadMatcher {
 
  private:
   /// The head as the network sees it. Error: no face is seen.
-  vm::Result<BaseHead> See(const fsm::Similarity& to_ours) {
+  vm::Result<BaseHead> Observe(const fsm::Similarity& to_ours) {
     fsm::MeshModel model = fsm::ModelOf(file_, to_ours, fsm::kUsualMouthY);
     BaseHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
     for (const fsm::Bone bone : model.bone) {
       surface.is_eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
-    return BaseHead::See(networks_, fsm::MakeMeshHead(std::move(model)), name_, std::move(surface));
+    return BaseHead::Observe(networks_, fsm::MakeMeshHead(std::move(model)), name_,
+                             std::move(surface));
   }
 
   FaceNetworks& networks_;

@@ -15,7 +15,8 @@ namespace {
 constexpr glm::vec2 kHalf(34, 24);
 
 /// 1 where an eyeball is foremost, of what is connected there with the point nearest to `centre`.
-FloatImage Opening(const VisibleSurface& surface, const std::vector<bool>& eye, glm::vec2 centre) {
+FloatImage EyeballMask(const VisibleSurface& surface, const std::vector<bool>& eye,
+                       glm::vec2 centre) {
   constexpr float kFarthest = 12;  // millimetres
   FloatImage open(surface.grid().columns, surface.grid().rows);
   glm::ivec2 seed(0);
@@ -76,7 +77,7 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
                                      float outward) {
   const VisibleSurface surface =
       SeenFromFront(topology, position, glm::vec2(centre) - kHalf, glm::vec2(centre) + kHalf);
-  const std::vector<RowSpan> rows = RowsOf(Opening(surface, eye, centre));
+  const std::vector<RowSpan> rows = RowsOf(EyeballMask(surface, eye, centre));
   const auto ends = EndsOf(rows);
   if (!ends) return std::nullopt;
   // A step or two of gap between eyeball and lid may show what lies behind.
