@@ -16,9 +16,9 @@ inline constexpr float kCameraZ = kFaceZ + 744;
 /// How the photo was taken: a head turned about its middle before a camera as far away as that of
 /// the renderer, so that what is fitted looks the same there.
 struct CameraPose {
-  glm::vec3 turn{};  ///< radians about x, y, z
-  float focal = 1;   ///< pixels
-  glm::vec2 centre;  ///< pixel on the camera's axis
+  glm::vec3 turn{};    ///< radians about x, y, z
+  float focal = 1;     ///< pixels
+  glm::vec2 centre{};  ///< pixel on the camera's axis
 
   glm::mat3 Rotation() const;
   /// From the head's frame to the camera's, and back: millimetres, same axes when turn is 0.

@@ -1,5 +1,7 @@
 #include "face_fit/fit/extra_fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -123,10 +125,10 @@ vm::Result<PoseFit> FitExtraView(FaceNetworks& networks, const FittedHead& fitte
   view.pose = RefinePose(matches, view.pose);
   view.residual_mm = MeanDistanceMm(view.pose, matches);
   if (view.residual_mm > kMostResidual) {
-    std::string mm = std::to_string(view.residual_mm);
-    mm.resize(3);
-    return vm::Fail(vm::Errc::kBadValue, "its face does not fit the first photo's (points lie " +
-                                             mm + " mm apart); is it the same person?");
+    return vm::Fail(vm::Errc::kBadValue,
+                    fmt::format("its face does not fit the first photo's (points lie {:.1f} mm "
+                                "apart); is it the same person?",
+                                view.residual_mm));
   }
   return view;
 }

@@ -2,7 +2,7 @@
 
 #include "face_fit/find/face/upright.h"
 #include "face_fit/find/figure/figure_finder.h"
-#include "face_fit/fit/profile_fit.h"
+#include "face_fit/fit/profile_depth.h"
 #include "face_fit/picture/photo.h"
 
 namespace facefit {

@@ -48,6 +48,21 @@ CameraPose RefinePose(std::span<const PointMatch> matches, const CameraPose& sta
   return PoseOf(LevenbergMarquardt(residuals, unknowns, 20));
 }
 
+CameraPose PoseWithTurn(const std::vector<glm::vec3>& places, const std::vector<glm::vec2>& pixels,
+                        glm::vec3 turn) {
+  CameraPose pose{.turn = turn};
+  LinearLeastSquares sum;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const glm::vec2 u = pose.Pixel(places[i]);
+    sum.Add({static_cast<double>(u.x), 1, 0}, static_cast<double>(pixels[i].x));
+    sum.Add({static_cast<double>(u.y), 0, 1}, static_cast<double>(pixels[i].y));
+  }
+  const auto solved = sum.Solve(1e-12);
+  pose.focal = static_cast<float>(solved[0]);
+  pose.centre = {static_cast<float>(solved[1]), static_cast<float>(solved[2])};
+  return pose;
+}
+
 float MeanDistanceMm(const CameraPose& pose, std::span<const PointMatch> matches) {
   float sum = 0, weight = 0;
   for (const PointMatch& match : matches) {

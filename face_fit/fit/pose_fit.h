@@ -30,6 +30,9 @@ CameraPose PoseOf(std::span<const double> parameters);
 /// The pose that shows the matches nearest to where the photo shows them, starting from `start`.
 /// Marks more than 3 mm off count by their distance, not by its square.
 CameraPose RefinePose(std::span<const PointMatch> matches, const CameraPose& start);
+/// The pose that shows places nearest to pixels, with the turn as given.
+CameraPose PoseWithTurn(const std::vector<glm::vec3>& places, const std::vector<glm::vec2>& pixels,
+                        glm::vec3 turn);
 /// A pose, and the mean distance of what it was found by from what it shows of the head.
 struct PoseFit {
   CameraPose pose;

@@ -137,23 +137,15 @@ struct Peak {
 };
 template <typename F>
 Peak FindPeak(int reach, F value) {
-  int best = 0;
-  float most = -2;
   std::vector<float> all;
-  for (int k = -reach; k <= reach; ++k) {
-    all.push_back(value(k));
-    if (all.back() > most) {
-      most = all.back();
-      best = k;
-    }
+  for (int k = -reach; k <= reach; ++k) all.push_back(value(k));
+  const auto best = std::ranges::max_element(all);
+  float at = static_cast<float>(best - all.begin()) - static_cast<float>(reach);
+  if (best != all.begin() && best + 1 != all.end()) {
+    const float bend = best[-1] - 2 * best[0] + best[1];
+    if (bend < -1e-6F) at += 0.5F * (best[-1] - best[1]) / bend;
   }
-  float at = static_cast<float>(best);
-  if (std::abs(best) < reach) {
-    const auto i = static_cast<std::size_t>(best + reach);
-    const float bend = all[i - 1] - 2 * all[i] + all[i + 1];
-    if (bend < -1e-6F) at += 0.5F * (all[i - 1] - all[i + 1]) / bend;
-  }
-  return {at, most};
+  return {at, *best};
 }
 
 /// Compares patches with what lies at some pixels of the second photo.

@@ -54,14 +54,18 @@ glm::vec2 GazeOf(const AttentiveFace& found) {
 
 }  // namespace
 
-FaceMeasures FaceMeasurer::Measure(const AttentiveFace& found) {
-  const float scale = kEyesApart / glm::length(found.face.points[point::kEyeOuterLeft] -
-                                               found.face.points[point::kEyeOuterRight]);
+std::vector<glm::vec3> PointsInMm(const FoundFace& face) {
+  const float scale = kEyesApart / glm::length(face.points[point::kEyeOuterLeft] -
+                                               face.points[point::kEyeOuterRight]);
   std::vector<glm::vec3> points;
-  for (const glm::vec3& p : found.face.points) points.push_back(scale * glm::vec3(p.x, -p.y, p.z));
-  if (first_.empty()) first_ = points;
+  for (const glm::vec3& p : face.points) points.push_back(scale * glm::vec3(p.x, -p.y, p.z));
+  return points;
+}
+
+FaceMeasures Measure(const AttentiveFace& found, std::span<const glm::vec3> first) {
+  std::vector<glm::vec3> points = PointsInMm(found.face);
   std::vector<fsm::PointPair> pairs;
-  for (const PointIndex i : point::kStill) pairs.push_back({.from = first_[i], .to = points[i]});
+  for (const PointIndex i : point::kStill) pairs.push_back({.from = first[i], .to = points[i]});
   const fsm::Similarity back = fsm::FitSimilarity(pairs);
   for (glm::vec3& p : points) p = back(p);
 

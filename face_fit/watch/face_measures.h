@@ -2,6 +2,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "face_fit/find/network/attention_points.h"
@@ -25,14 +26,9 @@ struct FaceMeasures {
                           ///< towards the viewer's right, up; mean of both eyes
 };
 
-/// Measures faces one after the other. Not for several threads.
-class FaceMeasurer {
- public:
-  /// REQUIRES: all points, the corners of the eyes apart.
-  FaceMeasures Measure(const AttentiveFace& found);
-
- private:
-  std::vector<glm::vec3> first_;  ///< the points of the first picture, mm, y up
-};
+/// The points of a face in millimetres, y up. REQUIRES: all points, the corners of the eyes apart.
+std::vector<glm::vec3> PointsInMm(const FoundFace& face);
+/// `first`: the points of the first picture in millimetres. REQUIRES: as PointsInMm.
+FaceMeasures Measure(const AttentiveFace& found, std::span<const glm::vec3> first);
 
 }  // namespace facefit

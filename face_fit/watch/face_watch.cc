@@ -40,7 +40,8 @@ std::optional<FaceMeasures> FaceWatch::Look(const fsm::Image& picture) {
     if (last_->face.certainty < kCertainFace) last_.reset();
   }
   if (!last_ && !Find(picture)) return std::nullopt;
-  return measurer_.Measure(*last_);
+  if (first_.empty()) first_ = PointsInMm(last_->face);
+  return Measure(*last_, first_);
 }
 
 }  // namespace facefit

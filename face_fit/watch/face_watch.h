@@ -24,8 +24,8 @@ class FaceWatch {
 
   FaceNetworks& networks_;
   Network& attention_;
-  FaceMeasurer measurer_;
   std::optional<AttentiveFace> last_;
+  std::vector<glm::vec3> first_;  ///< points of the first face that was seen, millimetres
   /// The crop beside the line between the eyes, so that a mouth that opens does not move it.
   glm::vec2 eyes_to_middle_{0};
   float size_ = 0;

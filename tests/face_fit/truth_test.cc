@@ -14,7 +14,7 @@
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/fit/extra_fit.h"
 #include "face_fit/fit/fit.h"
-#include "face_fit/fit/profile_fit.h"
+#include "face_fit/fit/profile_depth.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/mesh/head_points.h"
