@@ -66,18 +66,12 @@ std::array<glm::vec3, kRings> MedianByRing(const std::vector<Texel>& texels) {
   return median;
 }
 
-/// A square of texels; (-1, 1) is its upper left corner.
-template <typename Colour>
-fsm::Image Painted(int size, Colour colour_at) {
-  fsm::Image out = fsm::FilledImage(size, size);
-  std::size_t i = 0;
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x, ++i) {
-      const glm::vec2 p = 2.0F * (glm::vec2(x, y) + 0.5F) / static_cast<float>(size) - 1.0F;
-      SetRgb(out, i, colour_at(glm::vec2(p.x, -p.y)));
-    }
-  }
-  return out;
+/// Of each texel of a square `value(place)`; (-1, 1) is its upper left corner.
+auto Square(int size, auto value) {
+  return Raster<decltype(value(glm::vec2()))>::From(size, size, [&](int x, int y) {
+    const glm::vec2 p = 2.0F * (glm::vec2(x, y) + 0.5F) / static_cast<float>(size) - 1.0F;
+    return value(glm::vec2(p.x, -p.y));
+  });
 }
 
 /// Its place in the picture: left, top, right, bottom.
@@ -102,7 +96,7 @@ struct SeenEye {
 fsm::Image IrisPicture(const SeenEye& eye, glm::vec3 skin, const fsm::Image& photo) {
   // The shade of the lid's edge and its lashes.
   const float edge = std::max(PhotoLook()("lid_shade") * eye.iris.radius, 0.7F);
-  const auto texel_at = [&](glm::vec2 p) {
+  const auto texels = Square(kIrisPixels, [&](glm::vec2 p) {
     p *= fsm::kIrisSpan;
     const glm::vec2 at = eye.iris.centre + eye.iris.radius * (p.x * eye.right + p.y * eye.up);
     const auto [upper, lower] = eye.lids.At(eye.lids.Part(at));
@@ -114,24 +108,24 @@ fsm::Image IrisPicture(const SeenEye& eye, glm::vec3 skin, const fsm::Image& pho
     }
     return Texel{WithoutRedEye(ColourAt(photo, at), skin, red),
                  glm::smoothstep(0.5F * edge, edge, within), glm::length(p)};
-  };
-  std::vector<Texel> texels;
-  Painted(kIrisPixels, [&](glm::vec2 p) { return texels.emplace_back(texel_at(p)).colour; });
-  const auto median = MedianByRing(texels);
-  return Painted(kIrisPixels, [&, next = texels.begin()](glm::vec2) mutable {
-    const Texel& t = *next++;
+  });
+  const auto median = MedianByRing(texels.at);
+  fsm::Image out = fsm::FilledImage(kIrisPixels, kIrisPixels);
+  for (std::size_t i = 0; i < texels.at.size(); ++i) {
+    const Texel& t = texels.at[i];
     const float ring = std::clamp(t.radius / fsm::kIrisSpan * kRings - 0.5F, 0.0F, kRings - 1.001F);
     const auto k = static_cast<std::size_t>(ring);
-    return glm::mix(glm::mix(median[k], median[k + 1], ring - static_cast<float>(k)), t.colour,
-                    t.seen);
-  });
+    const glm::vec3 usual = glm::mix(median[k], median[k + 1], ring - static_cast<float>(k));
+    SetRgb(out, i, glm::mix(usual, t.colour, t.seen));
+  }
+  return out;
 }
 
 /// `rest`: the lids of the eye at rest; `radius`: of its ball; both in millimetres round its
 /// centre.
 fsm::Image BallPicture(const SeenEye& eye, const LidLines& rest, float radius,
                        const fsm::Image& photo) {
-  const auto place = [&](glm::vec2 p) {
+  const auto places = Square(kBallPixels, [&](glm::vec2 p) {
     p *= fsm::kBallSpan * radius;
     const float part = glm::clamp(rest.Part(p), 0.0F, 1.0F);
     const auto [upper, lower] = rest.At(part);
@@ -140,27 +134,25 @@ fsm::Image BallPicture(const SeenEye& eye, const LidLines& rest, float radius,
     return std::pair(
         eye.lids.PointAt(part, glm::mix(upper_seen, lower_seen, glm::clamp(between, 0.0F, 1.0F))),
         between);
-  };
+  });
   const auto beside_iris = [&eye, range = PhotoLook().Pair("beside_iris")](glm::vec2 at) {
     return Ramp(range, glm::distance(at, eye.iris.centre) / eye.iris.radius);
   };
-  fsm::Image white =
-      Painted(kBallPixels, [&](glm::vec2 p) { return ColourAt(photo, place(p).first); });
   // Behind the iris lies what is seen beside it, but not the lids' shade and lashes.
+  fsm::Image out = fsm::FilledImage(kBallPixels, kBallPixels);
   FloatImage weight(kBallPixels, kBallPixels);
-  std::size_t i = 0;
-  Painted(kBallPixels, [&](glm::vec2 p) {
-    const auto [at, between] = place(p);
-    weight.at[i++] = beside_iris(at) * glm::smoothstep(0.15F, 0.35F, between) *
-                     glm::smoothstep(1.0F, 0.85F, between);
-    return glm::vec3(0);
-  });
-  PushPullInpaint(white, weight);
-  i = 0;
-  return Painted(kBallPixels, [&](glm::vec2 p) {
-    const glm::vec2 at = place(p).first;
-    return glm::mix(Rgb(white, i++), ColourAt(photo, at), beside_iris(at));
-  });
+  for (std::size_t i = 0; i < places.at.size(); ++i) {
+    const auto [at, between] = places.at[i];
+    SetRgb(out, i, ColourAt(photo, at));
+    weight.at[i] = beside_iris(at) * glm::smoothstep(0.15F, 0.35F, between) *
+                   glm::smoothstep(1.0F, 0.85F, between);
+  }
+  PushPullInpaint(out, weight);
+  for (std::size_t i = 0; i < places.at.size(); ++i) {
+    const glm::vec2 at = places.at[i].first;
+    SetRgb(out, i, glm::mix(Rgb(out, i), ColourAt(photo, at), beside_iris(at)));
+  }
+  return out;
 }
 
 struct EyeSquares {
@@ -197,13 +189,27 @@ glm::vec3 LightBeside(const FoundFace& face, const fsm::Image& photo, fsm::Side 
 fsm::Image Mirrored(const fsm::Image& square, glm::vec3 gain) {
   const glm::vec2 limit = PhotoLook().Pair("light_gain");
   gain = glm::clamp(gain, limit.x, limit.y);
-  fsm::Image out = square;
-  const auto width = static_cast<std::size_t>(square.width);
-  for (std::size_t i = 0; i < out.rgba.size() / 4; ++i) {
-    const std::size_t mirrored = i - i % width + (width - 1 - i % width);
-    SetRgb(out, i, Rgb(square, mirrored) * gain);
-  }
+  fsm::Image out = Turned(square, 2);
+  for (std::size_t i = 0; i < out.rgba.size() / 4; ++i) SetRgb(out, i, Rgb(out, i) * gain);
   return out;
+}
+
+/// The lids of an eye of the head at rest, millimetres round the middle of its ball.
+LidLines LidsAtRest(const BaseHead& base, fsm::Side side, const fsm::EyeTransform& transform) {
+  const glm::vec3 centre = base.head->topology().eyes[side].centre;
+  EyePoints rest;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    rest[i] = glm::vec2(base.AtRest(EyeOutline(side)[i]) - centre);
+  }
+  const float inner = rest[kInnerCorner].x, outer = rest[kOuterCorner].x;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const float raised = i % kInnerCorner == 0 ? 0
+                         : i < kInnerCorner    ? transform.upper_mm
+                                               : transform.lower_mm;
+    const float y = rest[i].y + LidOpening(rest[i].x, inner, outer) * raised;
+    rest[i] = glm::vec2(transform.Turned(glm::vec3(rest[i].x, y, 0)));
+  }
+  return LidLines(rest);
 }
 
 }  // namespace
@@ -219,26 +225,12 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
   fsm::Sided<EyeSquares> squares;
   for (const fsm::Side k : fsm::kSides) {
     if ((*shown)[k] != k) continue;
-    const fsm::EyeGeometry& ball = base.head->topology().eyes[k];
-    const fsm::EyeTransform& transform = at_rest[k];
-    EyePoints seen, rest;
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      const PointIndex point = EyeOutline(k)[i];
-      seen[i] = face.At(point);
-      rest[i] = glm::vec2(base.AtRest(point) - ball.centre);
-    }
-    const float inner = rest[kInnerCorner].x, outer = rest[kOuterCorner].x;
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-      const float along = 2 * (rest[i].x - inner) / (outer - inner) - 1;
-      const float open = std::max(1 - along * along, 0.0F);
-      const float raised = i % kInnerCorner == 0 ? 0
-                           : i < kInnerCorner    ? transform.upper_mm
-                                                 : transform.lower_mm;
-      rest[i] = glm::vec2(transform.Turned(glm::vec3(rest[i].x, rest[i].y + open * raised, 0)));
-    }
+    EyePoints seen;
+    std::ranges::transform(EyeOutline(k), seen.begin(), [&](PointIndex p) { return face.At(p); });
     const SeenEye eye{fit.irises.circles[k], LidLines(seen), right, {right.y, -right.x}};
+    const float radius = at_rest[k].size * base.head->topology().eyes[k].ball_radius;
     squares[k] = {IrisPicture(eye, LightBeside(face, photo, k), photo),
-                  BallPicture(eye, LidLines(rest), transform.size * ball.ball_radius, photo)};
+                  BallPicture(eye, LidsAtRest(base, k, at_rest[k]), radius, photo)};
   }
   int left = kMargin;
   fsm::Sided<fsm::EyePicture> pictures;

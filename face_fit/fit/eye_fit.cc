@@ -34,8 +34,7 @@ fsm::EyeTransform FitEye(const BaseHead& base, const std::map<PointIndex, glm::v
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const glm::vec3 p = place(k) - centre;
     const glm::vec3 q = to.at(outline[k]) - centre;
-    const float along = 2 * (place(k).x - inner) / (outer - inner) - 1;
-    const double open = static_cast<double>(std::max(1 - along * along, 0.0F));
+    const double open = static_cast<double>(LidOpening(place(k).x, inner, outer));
     const bool upper = k > 0 && k<kInnerCorner, lower = k> kInnerCorner;
     const double px = static_cast<double>(p.x), py = static_cast<double>(p.y);
     sum.Add({1, 0, px, -py, 0, 0}, static_cast<double>(q.x));

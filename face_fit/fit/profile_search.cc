@@ -183,7 +183,8 @@ std::optional<ProfilePlacement> FindProfile(const FittedHead& fitted, const Floa
                                      .tilt = glm::radians(degrees),
                                      .row = row,
                                      .middle = middle};
-          if (Compare(line, columns, placement) && Score(placement) > Score(found)) found = placement;
+          if (Compare(line, columns, placement) && Score(placement) > Score(found))
+            found = placement;
         }
       }
     }

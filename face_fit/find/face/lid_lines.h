@@ -15,6 +15,13 @@ namespace facefit {
 /// along the lower lid; those of the lids lie over each other.
 using EyePoints = std::array<glm::vec2, 16>;
 
+/// How far a place between the corners of an eye goes along with a lid that is raised: 1 in the
+/// middle, 0 at the corners and beyond. All are x.
+inline float LidOpening(float x, float inner, float outer) {
+  const float along = 2 * (x - inner) / (outer - inner) - 1;
+  return std::max(1 - along * along, 0.0F);
+}
+
 /// The lines of the lids between the corners of an eye, whichever way its axes point. Ways: `part`
 /// of the way from the outer corner to the inner one; `down` from that line towards the lower lid.
 class LidLines {
