@@ -256,6 +256,16 @@ Quads DrawnCells(const FittedHead& fitted, const SampleGrid& grid, const FloatIm
   return quads;
 }
 
+/// A picture whose unknown pixels are filled from around, with grain.
+fsm::Image FilledIn(fsm::Image image, const FloatImage& known, float pixels_per_mm) {
+  PushPullInpaint(image, known);
+  const int grain = std::max(static_cast<int>(PhotoLook()("hole_grain") * pixels_per_mm), 2);
+  // In a small photo a pixel is as coarse as grain: none is added.
+  const float amount = glm::smoothstep(0.6F, 1.6F, pixels_per_mm);
+  AddGrain(known, FloatImage(image.width, image.height, amount), grain, image);
+  return image;
+}
+
 }  // namespace
 
 fsm::Image BehindFace(const FittedHead& fitted, const Cutout& figure) {
@@ -284,16 +294,9 @@ fsm::Image BehindFace(const FittedHead& fitted, const Cutout& figure) {
       below.at[i] = chin.Below(about);
     }
   }
-  fsm::Image out = figure.colours;
-  PushPullInpaint(out, keep);
-  const int grain = std::max(static_cast<int>(PhotoLook()("hole_grain") * pixels_per_mm), 2);
-  // In a small photo a pixel is as coarse as grain: none is added.
-  const FloatImage all(width, height, glm::smoothstep(0.6F, 1.6F, pixels_per_mm));
-  AddGrain(keep, all, grain, out);
+  fsm::Image out = FilledIn(figure.colours, keep, pixels_per_mm);
   // Behind the jaw lies what is below it, not what is on it.
-  fsm::Image neck = figure.colours;
-  PushPullInpaint(neck, beside);
-  AddGrain(beside, all, grain, neck);
+  const fsm::Image neck = FilledIn(figure.colours, beside, pixels_per_mm);
   for (std::size_t i = 0; i < keep.at.size(); ++i) {
     const float part = below.at[i] * (1 - keep.at[i]);
     if (part > 0) SetRgb(out, i, glm::mix(Rgb(out, i), Rgb(neck, i), part));

@@ -210,14 +210,12 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
   const SkinLook skin = FinishMap(fitted, texels, open, map);
   const CompletedFigure whole = CompleteFigure(fitted, figure);
   bake.completed = whole.completed;
-  FittedHead on_canvas = fitted;
-  on_canvas.pose.centre += whole.photo;
-  fsm::Image picture = SideBySide(map.image, BehindFace(on_canvas, whole.figure),
+  fsm::Image picture = SideBySide(map.image, BehindFace(whole.head, whole.figure),
                                   whole.figure.opacity, fitted.pose.PixelsPerMm());
   const auto eyes = EyesAtRest(fitted);
   const EyeColours eye_colours = SampleEyes(face, fit.irises, photo);
   const MouthColours mouth = SampleMouth(face, photo);
-  Billboard billboard = MakeBillboard(on_canvas, whole.figure);
+  Billboard billboard = MakeBillboard(whole.head, whole.figure);
   // Half a texel within, so that the halves do not run into each other.
   constexpr float kHalf = 0.25F / kMapSize;
   bake.head = {.base = fitted.base->name,

@@ -77,7 +77,8 @@ BodyPaint::Joint BodyPaint::Join(PhotoEdge edge) const {
     hidden = x >= 0 && x < edges_.width() && seen().kind == EdgeKind::kHair;
     half = std::abs(static_cast<float>(x) + 0.5F - Axis());
   }
-  const float own = bust_.HalfWidth(edge, joint.row + static_cast<float>(canvas_.photo.y) - 0.5F);
+  const float own =
+      bust_.HalfWidth(edge, joint.row + static_cast<float>(canvas_.photo_origin.y) - 0.5F);
   glm::vec2 limit = PhotoLook().Pair("body_wider");
   // At the height of the jaw the figure is wider than its neck, but not for long; above the chin
   // the bust has a jaw of its own.
@@ -138,7 +139,7 @@ glm::vec2 BodyPaint::FindNeckline() const {
 }
 
 BodyPaint::Sample BodyPaint::SampleAt(glm::vec2 place) const {
-  const glm::vec2 on = place + glm::vec2(canvas_.photo);
+  const glm::vec2 on = place + glm::vec2(canvas_.photo_origin);
   const Joint& joint = on.x < bust_.axis ? joint_.left : joint_.right;
   const float down = std::max(place.y - joint.row, 0.0F) / canvas_.per_mm;
   const float width_ratio =

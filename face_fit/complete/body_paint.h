@@ -39,7 +39,7 @@ class BodyPaint {
   /// Of one edge, for skin and for cloth: by how much the photo differs from what is drawn there.
   using Differences = std::array<EdgeMeans, 2>;
 
-  float Axis() const { return bust_.axis - static_cast<float>(canvas_.photo.x); }
+  float Axis() const { return bust_.axis - static_cast<float>(canvas_.photo_origin.x); }
   Joint Join(PhotoEdge edge) const;
   float OutlineSlope(PhotoEdge edge, float row) const;
   glm::vec3 ClothColour() const;

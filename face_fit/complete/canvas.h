@@ -33,8 +33,8 @@ struct Beyond {
 
 /// A photo on a larger canvas. Places are in the photo's pixels, also beyond it.
 struct Canvas {
-  glm::ivec2 photo;       ///< the pixel of the canvas that shows the photo's first
-  glm::ivec2 photo_size;  ///< pixels, as `size`
+  glm::ivec2 photo_origin;  ///< the pixel of the canvas that shows the photo's first
+  glm::ivec2 photo_size;    ///< pixels, as `size`
   glm::ivec2 size;
   float per_mm;    ///< pixels
   glm::vec2 chin;  ///< place

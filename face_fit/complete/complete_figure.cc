@@ -38,7 +38,7 @@ Canvas CanvasFor(const Cutout& figure, const FittedHead& fitted, glm::vec2 chin,
   const float above = std::clamp(-crown, dome.x, dome.y) + PhotoLook()("canvas_above") * per_mm;
   const glm::vec2 low = glm::floor(glm::min(chin - glm::vec2(reach.x, 0), glm::vec2(0, -above)));
   const glm::vec2 high = glm::ceil(glm::max(chin + reach, size));
-  return {.photo = glm::ivec2(-low),
+  return {.photo_origin = glm::ivec2(-low),
           .photo_size = glm::ivec2(size),
           .size = glm::ivec2(high - low),
           .per_mm = per_mm,
@@ -63,60 +63,89 @@ Cutout WithoutTips(const PhotoEdges& edges, float per_mm, Cutout figure) {
   return figure;
 }
 
+/// A figure on its canvas while it is completed.
+struct Painted {
+  Cutout figure;
+  FloatImage known, drawn;  ///< the opacities that the photo tells, and those that are drawn
+  FloatImage coloured;      ///< 1 where a colour is known
+
+  explicit Painted(glm::ivec2 size)
+      : figure{fsm::FilledImage(size.x, size.y), FloatImage(size.x, size.y)},
+        known(size.x, size.y),
+        drawn(known),
+        coloured(known) {}
+};
+
+/// `seen`: the photo's figure, `figure`: what is left of it without tips.
+void CopyPhoto(const Canvas& canvas, const Cutout& seen, const Cutout& figure, Painted& out) {
+  for (int y = 0; y < canvas.photo_size.y; ++y) {
+    for (int x = 0; x < canvas.photo_size.x; ++x) {
+      const std::size_t from = seen.opacity.Index(x, y);
+      const std::size_t to = out.known.Index(x + canvas.photo_origin.x, y + canvas.photo_origin.y);
+      SetRgb(out.figure.colours, to, Rgb(figure.colours, from));
+      out.figure.opacity.at[to] = out.known.at[to] = figure.opacity.at[from];
+      out.coloured.at[to] = figure.opacity.at[from] == seen.opacity.at[from] ? 1 : 0;
+    }
+  }
+}
+
+/// The matte is in doubt at the very edge: where the body goes on below, the figure does.
+void CloseSeam(const Canvas& canvas, const Cutout& figure, const BodyPaint& body,
+               FloatImage& opacity) {
+  const int seam = std::max(static_cast<int>(PhotoLook()("edge_band") * canvas.per_mm), 1);
+  const int above = canvas.photo_size.y - 1 - 2 * seam;
+  if (above < 0) return;
+  for (int y = canvas.photo_size.y - seam; y < canvas.photo_size.y; ++y) {
+    for (int x = 0; x < canvas.photo_size.x; ++x) {
+      float& here = opacity(x + canvas.photo_origin.x, y + canvas.photo_origin.y);
+      const float below = body.At(glm::vec2(x, y) + 0.5F).opacity;
+      here = std::max(here, std::min(figure.opacity(x, above), below));
+    }
+  }
+}
+
+void PaintBeyond(const Canvas& canvas, const BodyPaint& body, const HairPaint& hair, Painted& out) {
+  for (int y = 0; y < canvas.size.y; ++y) {
+    for (int x = 0; x < canvas.size.x; ++x) {
+      const glm::ivec2 at = glm::ivec2(x, y) - canvas.photo_origin;
+      if (at == glm::clamp(at, glm::ivec2(0), canvas.photo_size - 1)) continue;
+      const glm::vec2 place = glm::vec2(at) + 0.5F;
+      const Paint under = body.At(place), over = hair.At(place);
+      const std::size_t i = out.drawn.Index(x, y);
+      SetRgb(out.figure.colours, i, glm::mix(under.colour, over.colour, over.opacity));
+      out.drawn.at[i] = over.opacity + (1 - over.opacity) * under.opacity;
+      out.figure.opacity.at[i] = out.drawn.at[i];
+      out.coloured.at[i] = out.drawn.at[i] > 0 ? 1 : 0;
+    }
+  }
+}
+
 }  // namespace
 
 CompletedFigure CompleteFigure(const FittedHead& fitted, const Cutout& seen) {
-  const glm::vec3 chin = fitted.At(point::kChin);
   const float crown = CrownRow(fitted);
-  const Canvas canvas = CanvasFor(seen, fitted, fitted.pose.Pixel(chin), crown);
+  const Canvas canvas = CanvasFor(seen, fitted, fitted.pose.Pixel(fitted.At(point::kChin)), crown);
   const fsm::FaceLight light = LightOnFace(fitted, seen);
   const PhotoEdges edges(fitted, seen, 255.0F * light.skin());
   const Cutout figure = WithoutTips(edges, canvas.per_mm, seen);
   FittedHead on_canvas = fitted;
-  on_canvas.pose.centre += glm::vec2(canvas.photo);
+  on_canvas.pose.centre += glm::vec2(canvas.photo_origin);
   const BodyPaint body(canvas, edges, figure.opacity, light,
                        DrawBust(on_canvas, canvas.size.x, canvas.size.y));
   const HairPaint hair(canvas, edges, figure, crown);
-  const auto [width, height] = std::pair(canvas.size.x, canvas.size.y);
-  CompletedFigure out{
-      {fsm::FilledImage(width, height), FloatImage(width, height)}, glm::vec2(canvas.photo), {}};
-  FloatImage& opacity = out.figure.opacity;
-  const int seam = std::max(static_cast<int>(PhotoLook()("edge_band") * canvas.per_mm), 1);
-  const int above_seam = canvas.photo_size.y - 1 - 2 * seam;
-  // Opacities that the photo tells and that are drawn; 1 where a colour is known.
-  FloatImage known(width, height), drawn = known, coloured = known;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const std::size_t i = opacity.Index(x, y);
-      const glm::ivec2 at = glm::ivec2(x, y) - canvas.photo;
-      const glm::vec2 place = glm::vec2(at) + 0.5F;
-      if (at == glm::clamp(at, glm::ivec2(0), canvas.photo_size - 1)) {
-        const std::size_t from = seen.opacity.Index(at.x, at.y);
-        SetRgb(out.figure.colours, i, Rgb(figure.colours, from));
-        opacity.at[i] = known.at[i] = figure.opacity.at[from];
-        coloured.at[i] = figure.opacity.at[from] == seen.opacity.at[from] ? 1 : 0;
-        // The matte is in doubt at the very edge: where the body goes on below, the figure does.
-        if (at.y >= canvas.photo_size.y - seam && above_seam >= 0) {
-          opacity.at[i] = std::max(
-              opacity.at[i], std::min(figure.opacity(at.x, above_seam), body.At(place).opacity));
-        }
-        continue;
-      }
-      const Paint under = body.At(place), over = hair.At(place);
-      SetRgb(out.figure.colours, i, glm::mix(under.colour, over.colour, over.opacity));
-      opacity.at[i] = drawn.at[i] = over.opacity + (1 - over.opacity) * under.opacity;
-      coloured.at[i] = opacity.at[i] > 0 ? 1 : 0;
-    }
-  }
+  Painted out(canvas.size);
+  CopyPhoto(canvas, seen, figure, out);
+  CloseSeam(canvas, figure, body, out.figure.opacity);
+  PaintBeyond(canvas, body, hair, out);
   // Colours go on beyond the outline, where they are mixed into it.
-  PushPullInpaint(out.figure.colours, coloured);
+  PushPullInpaint(out.figure.colours, out.coloured);
   const int grain = std::max(static_cast<int>(PhotoLook()("hole_grain") * canvas.per_mm), 2);
-  AddGrain(known, drawn, grain, out.figure.colours);
+  AddGrain(out.known, out.drawn, grain, out.figure.colours);
   const float neck = canvas.chin.y + PhotoLook()("completed_neck") * canvas.per_mm;
-  out.completed = {.neck = static_cast<float>(canvas.photo_size.y) < neck,
-                   .shoulders = body.CutsShoulder(),
-                   .hair = hair.Cut()};
-  return out;
+  return {std::move(out.figure), std::move(on_canvas),
+          Completed{.neck = static_cast<float>(canvas.photo_size.y) < neck,
+                    .shoulders = body.CutsShoulder(),
+                    .hair = hair.Cut()}};
 }
 
 }  // namespace facefit

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <glm/vec2.hpp>
-
 #include "face_fit/find/figure/matte.h"
 #include "face_fit/find/head/base_head.h"
 #include "face_fit/fit/fitted_head.h"
@@ -18,7 +16,7 @@ struct Completed {
 /// A figure on a canvas that is large enough for head and shoulders.
 struct CompletedFigure {
   Cutout figure;
-  glm::vec2 photo;  ///< the pixel of the canvas that shows the photo's first
+  FittedHead head;  ///< its pose is that in the canvas
   Completed completed;
 };
 

@@ -40,7 +40,8 @@ class CompleteFigureTest : public NetworkTest {
     fsm::Image photo;
     Cutout figure;
     CompletedFigure whole;
-    glm::vec2 chin;  ///< pixel of the canvas
+    glm::vec2 origin;  ///< pixel of the canvas that shows the photo's first
+    glm::vec2 chin;    ///< pixel of the canvas
     float per_mm;
 
     /// How far the figure reaches to either side of the chin, millimetres, so far below it.
@@ -63,10 +64,10 @@ class CompleteFigureTest : public NetworkTest {
     const Fit fit = FitFace(Galatea(), face, &photo);
     Cutout figure = CutOut(photo, SegmentPerson(*networks_, photo, &face));
     CompletedFigure whole = CompleteFigure(fit.head, figure);
-    const glm::vec3 chin = Galatea().points[point::kChin].On(fit.head.posed_vertices);
-    const glm::vec2 pixel = fit.head.pose.Pixel(chin) + whole.photo;
-    return std::make_unique<Made>(std::move(photo), std::move(figure), std::move(whole), pixel,
-                                  fit.head.pose.PixelsPerMm());
+    const glm::vec2 origin = glm::round(whole.head.pose.centre - fit.head.pose.centre);
+    const glm::vec2 chin = whole.head.pose.Pixel(whole.head.At(point::kChin));
+    return std::make_unique<Made>(std::move(photo), std::move(figure), std::move(whole), origin,
+                                  chin, fit.head.pose.PixelsPerMm());
   }
 };
 
@@ -86,7 +87,7 @@ TEST_F(CompleteFigureTest, NothingBelowAPhotoIsItsMirrorImage) {
   const auto made = Make(kCollinsNeck);
   if (!made) GTEST_SKIP() << support::Photos().Missing();
   const fsm::Image& colours = made->whole.figure.colours;
-  const int end = static_cast<int>(made->whole.photo.y) + made->photo.height;
+  const int end = static_cast<int>(made->origin.y) + made->photo.height;
   float difference = 0, count = 0;
   for (int d = 8; d < 30; ++d) {
     for (int x = -25; x <= 25; ++x) {
@@ -137,15 +138,15 @@ TEST_F(CompleteFigureTest, HairThatTheUpperEdgeCutsIsRoundedOff) {
   const FloatImage& opacity = made->whole.figure.opacity;
   const auto width = [&](float mm) {
     float sum = 0;
-    const int y = static_cast<int>(made->whole.photo.y - mm * made->per_mm);
+    const int y = static_cast<int>(made->origin.y - mm * made->per_mm);
     for (int x = 0; x < opacity.width; ++x) sum += opacity(x, y);
     return sum / made->per_mm;
   };
   const float at_edge = width(-1), above = width(5);
   EXPECT_GT(above, 0.4F * at_edge);
   EXPECT_LT(above, 0.95F * at_edge);
-  EXPECT_LT(made->per_mm, made->whole.photo.y) << "there is room above";
-  EXPECT_LT(width(made->whole.photo.y / made->per_mm - 0.5F), 1);
+  EXPECT_LT(made->per_mm, made->origin.y) << "there is room above";
+  EXPECT_LT(width(made->origin.y / made->per_mm - 0.5F), 1);
 }
 
 TEST_F(CompleteFigureTest, AWholePortraitKeepsItsNeckAndEveryPixel) {
@@ -153,7 +154,7 @@ TEST_F(CompleteFigureTest, AWholePortraitKeepsItsNeckAndEveryPixel) {
   if (!made) GTEST_SKIP() << support::Photos().Missing();
   EXPECT_FALSE(made->whole.completed.neck);
   EXPECT_TRUE(made->whole.completed.shoulders);
-  const glm::ivec2 from(made->whole.photo);
+  const glm::ivec2 from(made->origin);
   for (int y = 0; y < made->photo.height; ++y) {
     for (int x = 0; x < made->photo.width; ++x) {
       const std::size_t i = made->figure.opacity.Index(x, y);
