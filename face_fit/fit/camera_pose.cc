@@ -1,11 +1,19 @@
 #include "face_fit/fit/camera_pose.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace facefit {
 
 constexpr glm::vec3 kMiddle{0, -10, 20};  ///< the head is turned about it
+
+fsm::Angles AnglesOf(const glm::mat3& turn) {
+  return {glm::degrees(std::asin(std::clamp(-turn[2][1], -1.0F, 1.0F))),
+          glm::degrees(std::atan2(turn[2][0], turn[2][2])),
+          glm::degrees(std::atan2(-turn[0][1], turn[1][1]))};
+}
 
 glm::mat3 CameraPose::Rotation() const {
   const float cx = std::cos(turn.x), sx = std::sin(turn.x);

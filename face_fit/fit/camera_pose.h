@@ -6,12 +6,17 @@
 #include <span>
 #include <vector>
 
+#include "fsm/rig/angles.h"
+
 namespace facefit {
 
 /// Where the camera stands, as that of the renderer does: so far before the plane of the face (its
 /// kFaceDepth) that a lens of 25 degrees shows a portrait 330 mm high. Millimetres.
 inline constexpr float kFaceZ = 50;
 inline constexpr float kCameraZ = kFaceZ + 744;
+
+/// Degrees of a turn that is the product of those about y, x and z, as FaceState::head_rotation.
+fsm::Angles AnglesOf(const glm::mat3& turn);
 
 /// How the photo was taken: a head turned about its middle before a camera as far away as that of
 /// the renderer, so that what is fitted looks the same there.

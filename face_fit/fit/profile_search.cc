@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "face_fit/picture/pixels.h"
+#include "face_fit/picture/plane.h"
 #include "face_fit/surface/rasterizer.h"
 
 namespace facefit {
@@ -155,8 +156,7 @@ std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin) {
 
 glm::vec2 ProfilePlacement::At(glm::vec3 p) const {
   const glm::vec2 v(static_cast<float>(direction) * (p.z - middle.z), middle.y - p.y);
-  const float c = std::cos(tilt), s = std::sin(tilt);
-  return glm::vec2(column, row) + scale * glm::vec2(v.x * c - v.y * s, v.x * s + v.y * c);
+  return glm::vec2(column, row) + scale * Rotated(v, tilt);
 }
 
 std::optional<ProfilePlacement> FindProfile(const FittedHead& fitted, const FloatImage& opacity) {

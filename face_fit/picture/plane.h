@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -9,6 +10,12 @@
 namespace facefit {
 
 // Geometry in a plane. Pure; thread: any.
+
+/// Turned about (0, 0) from x towards y.
+inline glm::vec2 Rotated(glm::vec2 p, float angle_rad) {
+  const float c = std::cos(angle_rad), s = std::sin(angle_rad);
+  return {c * p.x - s * p.y, s * p.x + c * p.y};
+}
 
 /// The smallest rectangle around points; low > high as long as there is none.
 struct Box2 {

@@ -1,10 +1,8 @@
 #include "face_fit/watch/face_measures.h"
 
-#include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
+#include "face_fit/fit/camera_pose.h"
 #include "fsm/mesh/head_points.h"
 
 namespace facefit {
@@ -28,14 +26,6 @@ float MeanGap(std::span<const glm::vec3> points, std::span<const PointIndex>::it
     sum += glm::length(glm::vec2(points[upper[k]] - points[lower[step * k]]));
   }
   return sum / 3;
-}
-
-/// Degrees of a turn that is the product of those about y, x and z: as FaceState::head_rotation.
-glm::vec3 AnglesOf(const glm::mat3& turn) {
-  const float x = std::asin(glm::clamp(-turn[2][1], -1.0F, 1.0F));
-  const float y = std::atan2(turn[2][0], turn[2][2]);
-  const float z = std::atan2(-turn[0][1], turn[1][1]);
-  return glm::degrees(glm::vec3(x, y, z));
 }
 
 /// Where both irises look: from the middle between the corners of their eyes.
@@ -86,7 +76,8 @@ FaceMeasures Measure(const AttentiveFace& found, std::span<const glm::vec3> firs
     measures.brow_inner[side] = Middle(points, point::kBrowInner[side]).y - eyes;
     measures.brow_outer[side] = Middle(points, point::kBrowOuter[side]).y - eyes;
   }
-  measures.turn_deg = AnglesOf(glm::transpose(back.turn));
+  const auto [down, across, tilted] = AnglesOf(glm::transpose(back.turn));
+  measures.turn_deg = {down, across, tilted};
   measures.gaze = GazeOf(found);
   return measures;
 }

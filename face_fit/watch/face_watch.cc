@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "face_fit/picture/plane.h"
+
 namespace facefit {
 namespace {
 
@@ -14,11 +16,6 @@ EyeLine EyesOf(const FoundFace& face) {
   return {0.5F * (right + left), std::atan2(left.y - right.y, left.x - right.x)};
 }
 
-glm::vec2 Turned(glm::vec2 p, float angle) {
-  const float c = std::cos(angle), s = std::sin(angle);
-  return {c * p.x - s * p.y, s * p.x + c * p.y};
-}
-
 }  // namespace
 
 bool FaceWatch::Find(const fsm::Image& picture) {
@@ -26,7 +23,7 @@ bool FaceWatch::Find(const fsm::Image& picture) {
   if (faces.empty() || faces.front().certainty < kCertainFace) return false;
   const FoundFace& face = faces.front();
   const EyeLine eyes = EyesOf(face);
-  eyes_to_middle_ = Turned(face.crop.centre - eyes.middle, -eyes.angle);
+  eyes_to_middle_ = Rotated(face.crop.centre - eyes.middle, -eyes.angle);
   size_ = face.crop.size;
   last_ = FindAttentivePoints(attention_, picture, face.crop);
   return true;
@@ -35,7 +32,7 @@ bool FaceWatch::Find(const fsm::Image& picture) {
 std::optional<FaceMeasures> FaceWatch::Look(const fsm::Image& picture) {
   if (last_) {
     const EyeLine eyes = EyesOf(last_->face);
-    const Crop crop{eyes.middle + Turned(eyes_to_middle_, eyes.angle), size_, eyes.angle};
+    const Crop crop{eyes.middle + Rotated(eyes_to_middle_, eyes.angle), size_, eyes.angle};
     last_ = FindAttentivePoints(attention_, picture, crop);
     if (last_->face.certainty < kCertainFace) last_.reset();
   }

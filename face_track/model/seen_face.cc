@@ -101,12 +101,6 @@ glm::mat3 TurnOf(const fsm::Angles& degrees) {
          About(2, -glm::radians(degrees[fsm::kTilted]));
 }
 
-fsm::Angles AnglesOf(const glm::mat3& turn) {
-  return {glm::degrees(std::asin(std::clamp(-turn[2][1], -1.0F, 1.0F))),
-          glm::degrees(std::atan2(turn[2][0], turn[2][2])),
-          glm::degrees(std::atan2(-turn[0][1], turn[1][1]))};
-}
-
 std::string Channel::Name() const {
   return (kind == Kind::kUnit ? std::to_string(unit)
                               : std::string(kKinds[static_cast<std::size_t>(kind)])) +

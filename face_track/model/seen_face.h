@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "face_fit/find/network/attention_points.h"
+#include "face_fit/fit/camera_pose.h"
 #include "fsm/base/side.h"
 #include "fsm/rig/angles.h"
 #include "vm_protocol/core/result.h"
@@ -23,7 +24,7 @@ using Points = std::vector<glm::vec3>;  ///< kPoints of them, millimetres
 /// Degrees down, to the viewer's right and tilted towards it as a turn, and back: as
 /// FaceState::head_rotation.
 glm::mat3 TurnOf(const fsm::Angles& degrees);
-fsm::Angles AnglesOf(const glm::mat3& turn);
+using facefit::AnglesOf;
 
 /// Something a face does, and what the network sees of it.
 struct Channel {
