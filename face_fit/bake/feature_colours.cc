@@ -5,7 +5,7 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
-#include "face_fit/bake/openings.h"
+#include "face_fit/picture/filters.h"
 #include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
 #include "face_fit/tables/photo_look.h"
@@ -35,14 +35,14 @@ EyeColours SampleEyes(const FoundFace& face, const SeenIrises& irises, const fsm
   const fsm::NumberTable& look = PhotoLook();
   std::vector<glm::vec3> iris, white;
   for (const fsm::Side side : fsm::kSides) {
-    const auto outline = EyeOutline(side);
-    const glm::vec2 a = face.At(outline[kOuterCorner]), b = face.At(outline[kInnerCorner]);
+    const std::vector<glm::vec2> outline = face.Line(EyeOutline(side));
+    const glm::vec2 a = outline[kOuterCorner], b = outline[kInnerCorner];
     const float wide = glm::distance(a, b);
     const IrisCircle& circle = irises.circles[side];
     for (float y = -0.25F; y <= 0.25F; y += 0.02F) {
       for (float x = -0.5F; x <= 0.5F; x += 0.02F) {
         const glm::vec2 at = 0.5F * (a + b) + wide * glm::vec2(x, y);
-        if (SignedDistance(face, outline, at) > -0.05F * wide) continue;
+        if (SignedDistance(outline, at) > -0.05F * wide) continue;
         const float far = glm::distance(at, circle.centre) / circle.radius;
         const glm::vec3 colour = ColourAt(photo, at);
         if (far > 0.45F && far < 0.85F) iris.push_back(colour);

@@ -61,9 +61,7 @@ FloatImage FillSmileFolds(const FoundFace& face, float smile, float pixels_per_m
   const int valley = static_cast<int>(std::lround(PhotoLook()("fold_half_width") * pixels_per_mm));
   if (smile <= 0 || valley < 1) return smooth;
   for (const fsm::Side side : fsm::kSides) {
-    std::vector<glm::vec2> line;
-    for (const PointIndex i : point::kSmileFold[side]) line.push_back(face.At(i));
-    FillFold(line, smile, pixels_per_mm, valley, photo, smooth);
+    FillFold(face.Line(point::kSmileFold[side]), smile, pixels_per_mm, valley, photo, smooth);
   }
   return smooth;
 }

@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "face_fit/fit/least_squares.h"
+#include "face_fit/picture/plane.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
@@ -76,8 +77,7 @@ IrisPlacement ExpectedIris(const BaseHead& base, const LidSpan& seen, fsm::Side 
   const float scale = glm::length(to) / std::max(glm::length(from), 1e-3F);
   const float turn = std::atan2(to.y, to.x) - std::atan2(from.y, from.x);
   const glm::vec2 off = glm::vec2(ball.x, -ball.y) - own.middle;
-  const float c = scale * std::cos(turn), s = scale * std::sin(turn);
-  return {seen.middle + glm::vec2(c * off.x - s * off.y, s * off.x + c * off.y), scale};
+  return {seen.middle + scale * Rotated(off, turn), scale};
 }
 
 }  // namespace

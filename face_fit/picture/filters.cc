@@ -4,7 +4,6 @@
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
 #include <opencv2/imgproc.hpp>
-#include <span>
 
 #include "face_fit/picture/pixels.h"
 
@@ -143,6 +142,12 @@ std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold) 
   std::ranges::transform(std::span(label.ptr<int>(), nearest.size()), nearest.begin(),
                          [&](int k) { return of_label[static_cast<std::size_t>(k)]; });
   return nearest;
+}
+
+float SignedDistance(std::span<const glm::vec2> outline, glm::vec2 place) {
+  const cv::Mat line(static_cast<int>(outline.size()), 1, CV_32FC2,
+                     const_cast<glm::vec2*>(outline.data()));
+  return static_cast<float>(-cv::pointPolygonTest(line, {place.x, place.y}, true));
 }
 
 fsm::Image ScaledDown(const fsm::Image& image, int width, int height) {

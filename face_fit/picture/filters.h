@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
+#include <span>
 #include <vector>
 
 #include "face_fit/picture/float_image.h"
@@ -41,6 +42,9 @@ void KeepConnected(glm::ivec2 to, FloatImage& image);
 /// Distances are right to about 2 %, so of two at nearly the same distance either is returned.
 /// REQUIRES: there is such a pixel.
 std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold);
+
+/// How far outside a closed line a place lies, negative within.
+float SignedDistance(std::span<const glm::vec2> outline, glm::vec2 place);
 
 /// Each pixel is the mean of those it covers. REQUIRES: 1 <= width <= image.width, likewise height.
 fsm::Image ScaledDown(const fsm::Image& image, int width, int height);

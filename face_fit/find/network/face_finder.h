@@ -21,6 +21,11 @@ struct FoundFace {
   float score = 1;                ///< 0..1 the detector's, which sees no face upside down
   Crop crop;                      ///< around the points
   glm::vec2 At(PointIndex i) const { return glm::vec2(points[i]); }
+  std::vector<glm::vec2> Line(std::span<const PointIndex> of) const {
+    std::vector<glm::vec2> line;
+    for (const PointIndex i : of) line.push_back(At(i));
+    return line;
+  }
 };
 
 /// Below that certainty there is no face: of pictures of all kinds a few reach 0.66, people and
