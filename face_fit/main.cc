@@ -164,7 +164,7 @@ void Run(const Options& options) {
   if (!options.galatea.empty()) original = ReadOriginal(options);
   fsm::Image finest =
       original ? std::move(original->photo) : vm::OrThrow(ReadPhoto(options.photo, kFineSize));
-  fsm::Image photo = original ? finest : AtWorkingSize(finest);
+  fsm::Image photo = original ? finest : ScaledToFit(finest, kWorkingSize);
   const bool by_hand = original || !options.points.empty();
   FaceNetworks networks = vm::OrThrow(FaceNetworks::Load(options.networks));
   progress.Say("photo and networks read");

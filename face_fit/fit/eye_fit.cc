@@ -117,7 +117,6 @@ void ShiftLidsToIrises(const BaseHead& base, const SeenIrises& irises,
   for (const fsm::Side side : fsm::kSides) {
     const IrisCircle& iris = irises.circles[side];
     if (iris.contrast <= 0) continue;
-    const auto outline = EyeOutline(side);
     const LidSpan span = LidSpanOf(side, [&constraints](PointIndex i) {
       return std::ranges::find(constraints, i, &LandmarkConstraint::point)->pixel;
     });
@@ -129,7 +128,7 @@ void ShiftLidsToIrises(const BaseHead& base, const SeenIrises& irises,
     const float by = std::clamp(off, -most, most);
     if (std::abs(by) <= free) continue;
     for (LandmarkConstraint& constraint : constraints) {
-      if (std::ranges::find(outline, constraint.point) == outline.end()) continue;
+      if (!Contains(EyeOutline(side), constraint.point)) continue;
       constraint.pixel += (by - std::copysign(free, by)) * across;
     }
   }

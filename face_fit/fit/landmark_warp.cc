@@ -2,48 +2,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
 #include <optional>
 
 #include "face_fit/find/face/mouth_line.h"
 #include "face_fit/fit/eye_fit.h"
-#include "face_fit/surface/rasterizer.h"
-#include "fsm/base/spline.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 
 namespace facefit {
 namespace {
 
-bool Among(std::span<const PointIndex> list, PointIndex i) {
-  return std::ranges::find(list, i) != list.end();
-}
 bool OfInnerLips(const LandmarkConstraint& c) {
-  return Among(point::kUpperInnerLip, c.point) || Among(point::kLowerInnerLip, c.point);
+  return Contains(point::kUpperInnerLip, c.point) || Contains(point::kLowerInnerLip, c.point);
 }
 bool OfOuterLips(const LandmarkConstraint& c) {
-  return Among(point::kUpperOuterLip, c.point) || Among(point::kLowerOuterLip, c.point);
+  return Contains(point::kUpperOuterLip, c.point) || Contains(point::kLowerOuterLip, c.point);
 }
 /// Whose outline has the point; none if it is no eye's.
 std::optional<fsm::Side> EyeOf(const LandmarkConstraint& c) {
   for (const fsm::Side side : fsm::kSides) {
-    if (Among(EyeOutline(side), c.point)) return side;
+    if (Contains(EyeOutline(side), c.point)) return side;
   }
   return std::nullopt;
 }
 
 std::uint32_t NearestLip(const BaseHead& base, glm::vec3 p) {
   std::uint32_t nearest = 0;
+  float distance = 1e9F;
   const auto& topology = base.head->topology();
-  const auto far = [&](std::uint32_t v) { return glm::distance(base.rest.position[v], p); };
-  bool any = false;
   for (const auto& part : topology.parts) {
     if (part.material != fsm::Material::kLip) continue;
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
       const std::uint32_t v = topology.indices[part.first_index + k];
-      if (!any || far(v) < far(nearest)) nearest = v;
-      any = true;
+      const float far = glm::distance(base.rest.position[v], p);
+      if (far >= distance) continue;
+      distance = far;
+      nearest = v;
     }
   }
   return nearest;
@@ -128,7 +125,7 @@ void ConstrainToMouthLine(const BaseHead& base, const FoundFace& face, const Cam
     for (LandmarkConstraint& constraint : constraints) {
       if (constraint.point != corner && !OfOuterLips(constraint)) continue;
       constraint.pixel +=
-          off * fsm::SmoothStep(0.3F, 0.05F, std::abs(along(constraint.on_head) - corner_at));
+          off * glm::smoothstep(0.3F, 0.05F, std::abs(along(constraint.on_head) - corner_at));
     }
   }
   const auto constrain = [&](const MeshPoint& p) {

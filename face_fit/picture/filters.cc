@@ -1,6 +1,7 @@
 #include "face_fit/picture/filters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
 #include <opencv2/imgproc.hpp>
@@ -152,6 +153,16 @@ float SignedDistance(std::span<const glm::vec2> outline, glm::vec2 place) {
 
 fsm::Image ScaledDown(const fsm::Image& image, int width, int height) {
   return ScaledInto(fsm::FilledImage(width, height), image);
+}
+
+fsm::Image ScaledToFit(fsm::Image image, int most_size) {
+  const int longer = std::max(image.width, image.height);
+  if (longer <= most_size) return image;
+  const auto scaled = [&](int side) {
+    return std::max(static_cast<int>(std::lround(static_cast<double>(side) * most_size / longer)),
+                    1);
+  };
+  return ScaledDown(image, scaled(image.width), scaled(image.height));
 }
 
 template <typename T>

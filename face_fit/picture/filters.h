@@ -52,6 +52,9 @@ fsm::Image ScaledDown(const fsm::Image& image, int width, int height);
 template <typename T>
 Raster<T> ScaledDown(const Raster<T>& image, int width, int height);
 
+/// The picture as it is, or scaled down if it is wider or higher than `most_size` pixels.
+fsm::Image ScaledToFit(fsm::Image image, int most_size);
+
 /// A copy of `width` x `height` pixels from (left, top). REQUIRES: they lie within the picture.
 fsm::Image Cropped(const fsm::Image& image, int left, int top, int width, int height);
 

@@ -1,7 +1,6 @@
 #include "face_fit/picture/photo.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "face_fit/picture/filters.h"
@@ -58,20 +57,7 @@ vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
   return std::move(*image);
 }
 
-/// The picture as it is, or scaled down if a side is longer.
-fsm::Image Limited(int most_size, fsm::Image image) {
-  const int longer = std::max(image.width, image.height);
-  if (longer <= most_size) return image;
-  const auto scaled = [&](int side) {
-    return std::max(static_cast<int>(std::lround(static_cast<double>(side) * most_size / longer)),
-                    1);
-  };
-  return ScaledDown(image, scaled(image.width), scaled(image.height));
-}
-
 }  // namespace
-
-fsm::Image AtWorkingSize(const fsm::Image& photo) { return Limited(kWorkingSize, photo); }
 
 vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most_size) {
   constexpr std::uint8_t kJpegStart[] = {0xff, 0xd8, 0xff};
@@ -89,7 +75,7 @@ vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most
                                              " pixels; at least " + std::to_string(kLeastSize) +
                                              " on each side are needed");
   }
-  *image = Limited(most_size, std::move(*image));
+  *image = ScaledToFit(std::move(*image), most_size);
   if (orientation != 1) *image = Turned(*image, orientation);
   return image;
 }

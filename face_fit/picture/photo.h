@@ -20,8 +20,6 @@ inline constexpr int kWorkingSize = 1600, kFineSize = 4800;
 vm::Result<fsm::Image> ReadPhoto(const std::string& path, int most_size = kWorkingSize);
 vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes,
                                    int most_size = kWorkingSize);
-/// The photo scaled down to kWorkingSize, if it is larger.
-fsm::Image AtWorkingSize(const fsm::Image& photo);
 
 /// The orientation 1..8 in an EXIF block ("Exif\0\0" and a TIFF file); 1 if it says nothing or is
 /// damaged.

@@ -8,8 +8,6 @@
 namespace facefit {
 namespace {
 
-constexpr float kEyesApart = 90;  // mm
-
 glm::vec3 Middle(std::span<const glm::vec3> points, std::span<const PointIndex> of) {
   glm::vec3 sum(0);
   for (const PointIndex i : of) sum += points[i];
@@ -45,8 +43,8 @@ glm::vec2 GazeOf(const AttentiveFace& found) {
 }  // namespace
 
 std::vector<glm::vec3> PointsInMm(const FoundFace& face) {
-  const float scale = kEyesApart / glm::length(face.points[point::kEyeOuterLeft] -
-                                               face.points[point::kEyeOuterRight]);
+  const float scale = kEyesApartMm / glm::length(face.points[point::kEyeOuterLeft] -
+                                                 face.points[point::kEyeOuterRight]);
   std::vector<glm::vec3> points;
   for (const glm::vec3& p : face.points) points.push_back(scale * glm::vec3(p.x, -p.y, p.z));
   return points;

@@ -9,9 +9,9 @@
 
 namespace facefit {
 
-/// What a face in a picture does, in millimetres on a face whose outer corners of the eyes lie 90
-/// mm apart (Farkas 1994: 91.2 and 87.8 for men and women), turned back to how it is held in the
-/// first picture. `right` and `left` are the person's.
+/// What a face in a picture does, in millimetres on a face whose outer corners of the eyes lie
+/// kEyesApartMm apart, turned back to how it is held in the first picture. `right` and `left` are
+/// the person's.
 struct FaceMeasures {
   float certainty = 0;             ///< 0..1 that there is a face
   float gap = 0;                   ///< between the inner edges of the lips, mean of three places

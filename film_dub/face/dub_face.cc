@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "face_fit/find/face/crop_to_face.h"
+#include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
 #include "face_track/model/seen_face.h"
 #include "fsm/head/make_head.h"
@@ -40,7 +41,7 @@ vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networ
                                                    const fsm::Image& picture,
                                                    std::span<const glm::vec2> places) {
   try {
-    const fsm::Image photo = facefit::AtWorkingSize(picture);
+    const fsm::Image photo = facefit::ScaledToFit(picture, facefit::kWorkingSize);
     const float scale = static_cast<float>(photo.width) / static_cast<float>(picture.width);
     std::vector<glm::vec2> there(places.begin(), places.end());
     for (glm::vec2& place : there) place *= scale;

@@ -15,9 +15,10 @@ constexpr float kAside = 330, kAbove = 300, kBelow = 430;  // millimetres from t
 /// Measured between the outer corners of the eyes and from forehead to chin; the larger of the two
 /// is seen less at a slant.
 float PixelsPerMm(const FoundFace& face) {
-  constexpr float kEyes = 90, kHeight = 132;  // millimetres, of the built-in head
+  constexpr float kHeight = 132;  // millimetres, of the built-in head
   return std::max(
-      glm::distance(face.points[point::kEyeOuterRight], face.points[point::kEyeOuterLeft]) / kEyes,
+      glm::distance(face.points[point::kEyeOuterRight], face.points[point::kEyeOuterLeft]) /
+          kEyesApartMm,
       glm::distance(face.points[point::kForehead], face.points[point::kChin]) / kHeight);
 }
 
@@ -39,12 +40,7 @@ FaceCrop CropToFace(const fsm::Image& photo, const fsm::Image& finest, const Fou
   const glm::vec2 share = glm::vec2(part) / all;
   const bool whole = std::min(share.x, share.y) > 0.95F;
   if (whole || std::min(part.x, part.y) < 1) return {photo, face};
-  FaceCrop out{Cropped(finest, from.x, from.y, part.x, part.y), face};
-  if (const int longer = std::max(part.x, part.y); longer > kWorkingSize) {
-    const glm::vec2 scaled =
-        glm::round(glm::vec2(part) * float{kWorkingSize} / static_cast<float>(longer));
-    out.photo = ScaledDown(out.photo, static_cast<int>(scaled.x), static_cast<int>(scaled.y));
-  }
+  FaceCrop out{ScaledToFit(Cropped(finest, from.x, from.y, part.x, part.y), kWorkingSize), face};
   const glm::vec2 scale = glm::vec2(out.photo.width, out.photo.height) / glm::vec2(part);
   const auto place = [&](glm::vec2 p) { return (p * finer - glm::vec2(from)) * scale; };
   const float larger = finer.x * scale.x;

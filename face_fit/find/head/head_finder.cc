@@ -46,16 +46,13 @@ fsm::Similarity InitialPlacement(const fsm::HeadFile& file, const glm::mat3& tur
 }
 
 fsm::FacePart PartOf(PointIndex i) {
-  const auto among = [i](std::span<const PointIndex> list) {
-    return std::ranges::find(list, i) != list.end();
-  };
   // Not those of the inner lips: where both meet, the nearest vertex may be the other's.
-  if (among(point::kUpperOuterLip)) return fsm::FacePart::kUpperLip;
-  if (among(point::kLowerOuterLip)) return fsm::FacePart::kLowerLip;
+  if (Contains(point::kUpperOuterLip, i)) return fsm::FacePart::kUpperLip;
+  if (Contains(point::kLowerOuterLip, i)) return fsm::FacePart::kLowerLip;
   for (const fsm::Side side : fsm::kSides) {
     const auto outline = EyeOutline(side);
-    if (among(outline.subspan(1, kInnerCorner - 1))) return fsm::FacePart::kUpperLid;
-    if (among(outline.subspan(kInnerCorner + 1))) return fsm::FacePart::kLowerLid;
+    if (Contains(outline.subspan(1, kInnerCorner - 1), i)) return fsm::FacePart::kUpperLid;
+    if (Contains(outline.subspan(kInnerCorner + 1), i)) return fsm::FacePart::kLowerLid;
   }
   return fsm::FacePart::kPlain;
 }

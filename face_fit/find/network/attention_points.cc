@@ -1,6 +1,6 @@
 #include "face_fit/find/network/attention_points.h"
 
-#include <cmath>
+#include "face_fit/tflite/operators.h"
 
 namespace facefit {
 namespace {
@@ -41,7 +41,7 @@ AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image, c
   };
   AttentiveFace found;
   found.face.crop = crop;
-  found.face.certainty = 1 / (1 + std::exp(-attention.output(kAttentionFlag)[0]));
+  found.face.certainty = op::Logistic::Of(attention.output(kAttentionFlag)[0]);
   found.face.points = PointsInPicture(attention.output(kAttentionMesh), crop);
   const auto refine = [&](AttentionOutput output, std::span<const PointIndex> points) {
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -8,6 +8,7 @@
 
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/plane.h"
+#include "face_fit/tflite/operators.h"
 
 namespace facefit {
 namespace {
@@ -68,7 +69,7 @@ void Detect(FaceNetworks& networks, const fsm::Image& image, const Crop& crop,
   const auto boxes = networks.detector.output(0);
   const auto scores = networks.detector.output(1);
   for (std::size_t i = 0; i < anchors.size(); ++i) {
-    const float score = 1 / (1 + std::exp(-std::clamp(scores[i], -100.0F, 100.0F)));
+    const float score = op::Logistic::Of(scores[i]);
     if (!(score >= kLeastScore)) continue;
     const float* box = &boxes[16 * i];
     const auto place = [&](int k) {
@@ -145,7 +146,7 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
   for (int look = 0; look < 3; ++look) {
     if (look > 0) face.crop = CropAround(face.points, face.crop.angle);
     networks.landmarks.Run(face.crop.Sample(image, kPointsPixels, 0, 1));
-    face.certainty = 1 / (1 + std::exp(-networks.landmarks.output(1)[0]));
+    face.certainty = op::Logistic::Of(networks.landmarks.output(1)[0]);
     face.points = PointsInPicture(networks.landmarks.output(0), face.crop);
   }
   return face;

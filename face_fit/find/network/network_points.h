@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -73,6 +74,14 @@ inline constexpr PointIndex kForFit[] = {
     151, 9, 8, 108, 337, 104, 333, 50, 280, 205, 425, 116, 345, 187, 411, 207, 427, 199, 18, 200,
     192, 416, 214, 434};
 }  // namespace point
+
+/// Between the outer corners of the eyes, of the built-in head (Farkas 1994: 91.2 and 87.8 for men
+/// and women).
+inline constexpr float kEyesApartMm = 90;
+
+inline bool Contains(std::span<const PointIndex> list, PointIndex i) {
+  return std::ranges::find(list, i) != list.end();
+}
 
 inline std::span<const PointIndex> EyeOutline(fsm::Side side) { return point::kEyeOutline[side]; }
 /// Places in that list: corners and the middles of the lids.
