@@ -84,7 +84,7 @@ MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
         0.5F * (face.At(point::kLowerOuterLip[k]) + face.At(point::kLowerInnerLip[k]));
     lip += Linear(ColourAt(photo, at)) / float{kLast - kFirst + 1};
   }
-  // Screen colours are squares of it there; the inner rim lies in shade.
+  // The inner rim lies in shade.
   const glm::vec2 inner = look.Pair("lip_inner");
   const glm::vec3 teeth = look.Vector("teeth_light");
   return {.lip = inner.x * glm::pow(lip, glm::vec3(inner.y)),

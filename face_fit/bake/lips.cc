@@ -13,13 +13,13 @@ namespace {
 
 float LogRedness(glm::vec3 c) { return std::log((c.r + 4) / (c.g + 4)); }
 
-/// The mean of some texels: those whose redness is `from` to `to` of the way from the least to the
-/// most.
 struct ToneStatistics {
   glm::vec3 colour{0};
   float redness = 0, brightness = 0;
 };
 
+/// The mean of the texels whose rank by redness is `from` to `to` of the way from the least red to
+/// the reddest. Sorts them.
 ToneStatistics MeanOf(std::vector<glm::vec3>& texels, float from, float to) {
   ToneStatistics kind;
   std::ranges::sort(texels, {}, LogRedness);

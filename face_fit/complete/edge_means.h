@@ -27,7 +27,7 @@ class EdgeMeans {
   glm::vec3 All() const { return glm::vec3(sums_.back()) / std::max(sums_.back().w, 1e-4F); }
 
  private:
-  /// By the length of what is summed up.
+  /// The sum divided by the number of pixels.
   glm::vec4 Sum(float at, float reach) const {
     const int count = static_cast<int>(sums_.size()) - 1;
     if (count < 1) return glm::vec4(0);

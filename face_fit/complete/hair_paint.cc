@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "face_fit/picture/resample.h"
 #include "face_fit/tables/photo_look.h"

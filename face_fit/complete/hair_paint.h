@@ -1,7 +1,6 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <vector>
 
 #include "face_fit/complete/canvas.h"
 #include "face_fit/complete/edge_means.h"
@@ -15,8 +14,7 @@ namespace facefit {
 /// on in the colours of that edge and ends in strands.
 class HairPaint {
  public:
-  /// `colours`: of the figure. `crown`: the row of the top of the skull with its hair. All outlive
-  /// it.
+  /// `crown`: the row of the top of the skull with its hair. The references outlive this.
   HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Cutout& figure, float crown);
   /// Whether the photo cuts hair above or aside.
   bool Cut() const { return cut_; }

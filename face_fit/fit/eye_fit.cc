@@ -13,8 +13,8 @@
 namespace facefit {
 namespace {
 
-// What people's eyes do; beyond it a point was misjudged. By the built-in eye, radians, and
-// millimetres that the lids are raised.
+// Plausible limits. Sizes are relative to the built-in eye, the turn in radians, the raise of the
+// lids in millimetres.
 constexpr glm::vec2 kSize{0.82F, 1.2F}, kTurn{-0.25F, 0.25F}, kUpperRaise{-6, 0.7F},
     kLowerRaise{-2.5F, 3.5F}, kIrisSize{0.8F, 1.12F};
 /// How far an iris may lie above or below the middle between the lids, millimetres: so differently

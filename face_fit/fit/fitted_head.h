@@ -47,7 +47,7 @@ struct PhotoTargets {
 /// The irises in the photo.
 struct SeenIrises {
   fsm::Sided<IrisCircle> circles;
-  float size = 1;  ///< of that of the built-in head, by the size of the eye
+  float size = 1;  ///< iris radius relative to the built-in head's, after scaling by the eye's size
 };
 
 /// The base head brought into the form, pose and expression of the photo.

@@ -15,6 +15,44 @@ namespace {
 
 // Numbers and places of fields are those of tensorflow/lite/schema/schema.fbs.
 enum : int { kFloat32 = 0, kFloat16 = 1, kInt32 = 2 };
+enum ModelField : std::size_t { kModelOperatorCodes = 1, kModelSubgraphs, kModelBuffers = 4 };
+enum SubgraphField : std::size_t {
+  kSubgraphTensors,
+  kSubgraphInputs,
+  kSubgraphOutputs,
+  kSubgraphOperators
+};
+enum TensorField : std::size_t { kTensorShape, kTensorType, kTensorBuffer };
+enum BufferField : std::size_t { kBufferData };
+enum OperatorCodeField : std::size_t { kByteCode, kCustomCode, kBuiltinCode = 3 };
+enum OperatorField : std::size_t {
+  kOperatorCode,
+  kOperatorInputs,
+  kOperatorOutputs,
+  kOperatorOptions = 4,
+  kOperatorCustomOptions
+};
+/// The first options of convolutions and of pooling.
+enum WindowField : std::size_t { kWindowPadding, kWindowStrideColumns, kWindowStrideRows };
+enum ConvolutionField : std::size_t { kConvolutionActivation = 3, kConvolutionDilation };
+enum DepthwiseField : std::size_t {
+  kDepthwiseMultiplier = 3,
+  kDepthwiseActivation,
+  kDepthwiseDilation
+};
+enum PoolingField : std::size_t { kPoolingColumns = 3, kPoolingRows, kPoolingActivation };
+enum ConcatenationField : std::size_t { kConcatenationAxis, kConcatenationActivation };
+/// Of addition and multiplication.
+enum PairField : std::size_t { kPairActivation };
+enum SliceField : std::size_t {
+  kSliceBeginMask,
+  kSliceEndMask,
+  kSliceEllipsisMask,
+  kSliceNewAxisMask,
+  kSliceShrinkAxisMask
+};
+enum ResizeField : std::size_t { kResizeAlignCorners = 2, kResizeHalfPixelCentres };
+
 std::vector<std::int32_t> Numbers(const FlatTable& table, std::size_t field) {
   std::size_t count = 0;
   const Bytes bytes = table.Vector(field, 4, count);
@@ -24,7 +62,7 @@ std::vector<std::int32_t> Numbers(const FlatTable& table, std::size_t field) {
 }
 
 Shape ReadShape(const FlatTable& table) {
-  const auto numbers = Numbers(table, 0);
+  const auto numbers = Numbers(table, kTensorShape);
   if (numbers.size() > 4) throw BadModel("a tensor of more than four dimensions");
   Shape shape;
   std::size_t total = 1;
@@ -43,11 +81,11 @@ Shape ReadShape(const FlatTable& table) {
 Tensor ReadTensor(const FlatTable& model, const FlatTable& table) {
   Tensor tensor;
   tensor.shape = ReadShape(table);
-  const int type = table.Scalar<std::int8_t>(1, 0);
-  const auto buffer = table.Scalar<std::uint32_t>(2, 0);
+  const int type = table.Scalar<std::int8_t>(kTensorType, 0);
+  const auto buffer = table.Scalar<std::uint32_t>(kTensorBuffer, 0);
   if (buffer == 0) return tensor;
   std::size_t bytes = 0;
-  const Bytes data = model.TableAt(4, buffer).Vector(0, 1, bytes);
+  const Bytes data = model.TableAt(kModelBuffers, buffer).Vector(kBufferData, 1, bytes);
   if (bytes == 0) return tensor;
   const std::size_t count = tensor.shape.count();
   const auto expect = [&](std::size_t each) {
@@ -102,9 +140,9 @@ class Options {
 };
 
 op::Window ReadWindow(const Options& options) {
-  return {.same_padding = options.Small(0) == 0,
-          .stride_rows = options.Size(2),
-          .stride_columns = options.Size(1)};
+  return {.same_padding = options.Small(kWindowPadding) == 0,
+          .stride_rows = options.Size(kWindowStrideRows),
+          .stride_columns = options.Size(kWindowStrideColumns)};
 }
 
 /// `field`: of the first of two dilations.
@@ -120,14 +158,15 @@ Operator ReadPlain(const Options&) {
 }
 
 Operator ReadConvolution(const Options& options) {
-  RefuseDilation(options, 4);
+  RefuseDilation(options, kConvolutionDilation);
   return op::Convolution{ReadWindow(options)};
 }
 
 Operator ReadDepthwiseConvolution(const Options& options) {
   // 0 stands for "as the shapes say", which are compared later.
-  if (options.Number(3) > 1) throw BadModel("a depthwise convolution of several filters");
-  RefuseDilation(options, 5);
+  if (options.Number(kDepthwiseMultiplier) > 1)
+    throw BadModel("a depthwise convolution of several filters");
+  RefuseDilation(options, kDepthwiseDilation);
   return op::DepthwiseConvolution{ReadWindow(options)};
 }
 
@@ -135,24 +174,25 @@ template <bool greatest>
 Operator ReadPooling(const Options& options) {
   return op::Pooling{.greatest = greatest,
                      .window = ReadWindow(options),
-                     .rows = options.Size(4),
-                     .columns = options.Size(3)};
+                     .rows = options.Size(kPoolingRows),
+                     .columns = options.Size(kPoolingColumns)};
 }
 
 Operator ReadConcatenation(const Options& options) {
-  return op::Concatenation{.axis = options.Number(0)};
+  return op::Concatenation{.axis = options.Number(kConcatenationAxis)};
 }
 
 Operator ReadStridedSlice(const Options& options) {
-  for (const std::size_t other : {2U, 3U, 4U}) {
+  for (const std::size_t other : {kSliceEllipsisMask, kSliceNewAxisMask, kSliceShrinkAxisMask}) {
     if (options.Number(other) != 0) throw BadModel("a slice that changes axes");
   }
-  return op::StridedSlice{.begin_mask = options.Number(0), .end_mask = options.Number(1)};
+  return op::StridedSlice{.begin_mask = options.Number(kSliceBeginMask),
+                          .end_mask = options.Number(kSliceEndMask)};
 }
 
 Operator ReadResizeBilinear(const Options& options) {
-  return op::ResizeBilinear{.align_corners = options.Flag(2),
-                            .half_pixel_centres = options.Flag(3)};
+  return op::ResizeBilinear{.align_corners = options.Flag(kResizeAlignCorners),
+                            .half_pixel_centres = options.Flag(kResizeHalfPixelCentres)};
 }
 
 /// By the names that MediaPipe's TensorFlow Lite operation reads
@@ -190,15 +230,15 @@ struct Reader {
 };
 constexpr int kCustom = 32;
 constexpr Reader kReaders[] = {
-    {0, "", 0, ReadPlain<op::Add>},
-    {1, "", 5, ReadPooling<false>},
-    {2, "", 1, ReadConcatenation},
-    {3, "", 3, ReadConvolution},
-    {4, "", 4, ReadDepthwiseConvolution},
+    {0, "", kPairActivation, ReadPlain<op::Add>},
+    {1, "", kPoolingActivation, ReadPooling<false>},
+    {2, "", kConcatenationActivation, ReadConcatenation},
+    {3, "", kConvolutionActivation, ReadConvolution},
+    {4, "", kDepthwiseActivation, ReadDepthwiseConvolution},
     {6, "", -1, ReadPlain<op::Dequantize>},
     {14, "", -1, ReadPlain<op::Logistic>},
-    {17, "", 5, ReadPooling<true>},
-    {18, "", 0, ReadPlain<op::Multiply>},
+    {17, "", kPoolingActivation, ReadPooling<true>},
+    {18, "", kPairActivation, ReadPlain<op::Multiply>},
     {19, "", -1, ReadPlain<op::Relu>},
     {22, "", -1, ReadPlain<op::Reshape>},
     {23, "", -1, ReadResizeBilinear},
@@ -213,8 +253,9 @@ constexpr Reader kReaders[] = {
 };
 
 const Reader& ReaderOf(const FlatTable& code) {
-  const int number = std::max<int>(code.Scalar<std::int8_t>(0, 0), code.Scalar<std::int32_t>(3, 0));
-  const std::string name = number == kCustom ? code.Text(1) : "";
+  const int number = std::max<int>(code.Scalar<std::int8_t>(kByteCode, 0),
+                                   code.Scalar<std::int32_t>(kBuiltinCode, 0));
+  const std::string name = number == kCustom ? code.Text(kCustomCode) : "";
   const auto* found = std::ranges::find_if(kReaders, [&](const Reader& reader) {
     return reader.number == number && reader.custom == name;
   });
@@ -233,8 +274,8 @@ Activation ReadActivation(int number) {
 std::vector<Tensor> ReadTensors(const FlatTable& root, const FlatTable& graph) {
   std::vector<Tensor> tensors;
   std::size_t total = 0;
-  for (std::size_t i = 0; i < graph.TableCount(0); ++i) {
-    tensors.push_back(ReadTensor(root, graph.TableAt(0, i)));
+  for (std::size_t i = 0; i < graph.TableCount(kSubgraphTensors); ++i) {
+    tensors.push_back(ReadTensor(root, graph.TableAt(kSubgraphTensors, i)));
     // Tensors may share a buffer, so their number alone does not bound what is copied.
     total += tensors.back().values.size() + tensors.back().counts.size();
     if (total > 4 * Model::kMaxTensor) throw BadModel("the weights are too large");
@@ -244,13 +285,14 @@ std::vector<Tensor> ReadTensors(const FlatTable& root, const FlatTable& graph) {
 
 Step ReadStep(const FlatTable& table, const Reader& reader) {
   std::size_t bytes = 0;
-  const Options options(table.Has(4) ? std::optional(table.Table(4)) : std::nullopt,
-                        table.Vector(5, 1, bytes));
-  Step step{.op = reader.read(options), .inputs = Numbers(table, 1), .output = -1};
+  const Options options(
+      table.Has(kOperatorOptions) ? std::optional(table.Table(kOperatorOptions)) : std::nullopt,
+      table.Vector(kOperatorCustomOptions, 1, bytes));
+  Step step{.op = reader.read(options), .inputs = Numbers(table, kOperatorInputs), .output = -1};
   if (reader.activation >= 0) {
     step.activation = ReadActivation(options.Small(static_cast<std::size_t>(reader.activation)));
   }
-  const auto outputs = Numbers(table, 2);
+  const auto outputs = Numbers(table, kOperatorOutputs);
   if (outputs.size() != 1 || step.inputs.empty()) {
     throw BadModel("an operator without input, or with other than one output");
   }
@@ -265,12 +307,12 @@ Model Model::Read(Bytes file) {
     throw BadModel("not a TensorFlow Lite file");
   }
   const FlatTable root = FlatTable::Root(file);
-  if (root.TableCount(2) != 1) throw BadModel("one graph expected");
-  const FlatTable graph = root.TableAt(2, 0);
+  if (root.TableCount(kModelSubgraphs) != 1) throw BadModel("one graph expected");
+  const FlatTable graph = root.TableAt(kModelSubgraphs, 0);
   Model model{.tensors = ReadTensors(root, graph),
               .steps = {},
-              .inputs = Numbers(graph, 1),
-              .outputs = Numbers(graph, 2)};
+              .inputs = Numbers(graph, kSubgraphInputs),
+              .outputs = Numbers(graph, kSubgraphOutputs)};
   const auto known = [&model](const std::vector<int>& list) {
     return !list.empty() && std::ranges::all_of(list, [&](int i) {
       return i >= 0 && static_cast<std::size_t>(i) < model.tensors.size();
@@ -280,12 +322,12 @@ Model Model::Read(Bytes file) {
     throw BadModel("the graph names a tensor that is not there");
   }
   std::vector<Reader> readers;
-  for (std::size_t i = 0; i < root.TableCount(1); ++i) {
-    readers.push_back(ReaderOf(root.TableAt(1, i)));
+  for (std::size_t i = 0; i < root.TableCount(kModelOperatorCodes); ++i) {
+    readers.push_back(ReaderOf(root.TableAt(kModelOperatorCodes, i)));
   }
-  for (std::size_t i = 0; i < graph.TableCount(3); ++i) {
-    const FlatTable table = graph.TableAt(3, i);
-    const auto code = table.Scalar<std::uint32_t>(0, 0);
+  for (std::size_t i = 0; i < graph.TableCount(kSubgraphOperators); ++i) {
+    const FlatTable table = graph.TableAt(kSubgraphOperators, i);
+    const auto code = table.Scalar<std::uint32_t>(kOperatorCode, 0);
     if (code >= readers.size()) throw BadModel("an operator that is not listed");
     const Step& step = model.steps.emplace_back(ReadStep(table, readers[code]));
     auto used = step.inputs;

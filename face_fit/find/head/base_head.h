@@ -35,7 +35,7 @@ struct BaseHead {
   std::vector<glm::vec3> seen;       ///< where it saw them: x, y pixels of `picture`, z millimetres
   fsm::Image picture = {};           ///< what the network was shown
   std::optional<LipSeam> seam = {};  ///<< where its lips meet, if that is seen
-  std::optional<fsm::UnitTable> units = {};  ///< of one's own, that move it
+  std::optional<fsm::UnitTable> units = {};  ///< the face's own action units, if it has any
 
   /// Where a point of the network lies on the head at rest.
   glm::vec3 AtRest(PointIndex i) const { return points[i].On(rest.position); }

@@ -33,7 +33,7 @@ struct FoundFace {
 inline constexpr float kCertainFace = 0.75F;
 
 /// All faces, largest first. Looks at the whole picture, and at its parts unless a large face was
-/// seen. Where there are several, each is certain, if any is.
+/// seen. Drops uncertain faces when several are found and at least one is certain.
 std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image);
 
 /// What a landmark network says of the crop it was shown (x, y, z of each point, in pixels of
