@@ -96,6 +96,7 @@ struct SeenEye {
 fsm::Image IrisPicture(const SeenEye& eye, glm::vec3 skin, const fsm::Image& photo) {
   // The shade of the lid's edge and its lashes.
   const float edge = std::max(PhotoLook()("lid_shade") * eye.iris.radius, 0.7F);
+  const RedEye flash(skin);
   const auto texels = Square(kIrisPixels, [&](glm::vec2 p) {
     p *= fsm::kIrisSpan;
     const glm::vec2 at = eye.iris.centre + eye.iris.radius * (p.x * eye.right + p.y * eye.up);
@@ -104,9 +105,9 @@ fsm::Image IrisPicture(const SeenEye& eye, glm::vec3 skin, const fsm::Image& pho
     float red = 0;
     for (int k = 0; k < 9; ++k) {
       const glm::vec2 beside = at + 0.22F * eye.iris.radius * (glm::vec2(k % 3, k / 3) - 1.0F);
-      red = std::max(red, RedEye(ColourAt(photo, beside), skin));
+      red = std::max(red, flash.Likelihood(ColourAt(photo, beside)));
     }
-    return Texel{WithoutRedEye(ColourAt(photo, at), skin, red),
+    return Texel{flash.Without(ColourAt(photo, at), red),
                  glm::smoothstep(0.5F * edge, edge, within), glm::length(p)};
   });
   const auto median = MedianByRing(texels.at);

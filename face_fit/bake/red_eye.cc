@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "face_fit/tables/photo_look.h"
-
 namespace facefit {
 namespace {
 
@@ -16,19 +14,16 @@ float Redder(glm::vec3 colour, glm::vec3 skin) {
 
 }  // namespace
 
-float RedEye(glm::vec3 colour, glm::vec3 skin) {
-  const fsm::NumberTable& look = PhotoLook();
-  const float bluer = Blueness(colour) / std::max(Blueness(skin), 0.1F);
-  const float bright = colour.r / std::max(skin.r, 1.0F);
-  return Ramp(look.Pair("flash_redder"), Redder(colour, skin)) *
-         Ramp(look.Pair("flash_bluer"), bluer) * Ramp(look.Pair("flash_bright"), bright);
+float RedEye::Likelihood(glm::vec3 colour) const {
+  const float bluer = Blueness(colour) / std::max(Blueness(skin_), 0.1F);
+  const float bright = colour.r / std::max(skin_.r, 1.0F);
+  return Ramp(redder_, Redder(colour, skin_)) * Ramp(bluer_, bluer) * Ramp(bright_, bright);
 }
 
-glm::vec3 WithoutRedEye(glm::vec3 colour, glm::vec3 skin, float near) {
+glm::vec3 RedEye::Without(glm::vec3 colour, float near) const {
   // A pupil is dark; what else shines in it is left a little brighter.
-  const float part = near * glm::smoothstep(1.0F, 1.15F, Redder(colour, skin));
-  return glm::mix(colour, glm::vec3(PhotoLook()("flash_pupil") * 0.5F * (colour.g + colour.b)),
-                  part);
+  const float part = near * glm::smoothstep(1.0F, 1.15F, Redder(colour, skin_));
+  return glm::mix(colour, glm::vec3(pupil_ * 0.5F * (colour.g + colour.b)), part);
 }
 
 }  // namespace facefit

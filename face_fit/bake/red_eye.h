@@ -2,15 +2,29 @@
 
 #include <glm/vec3.hpp>
 
+#include "face_fit/tables/photo_look.h"
+
 namespace facefit {
 
-/// The probability, 0..1, that a colour in an iris is a flash reflected by the back of the eye:
-/// much redder than the skin, about as bright, and with as much blue relative to green. Brown
-/// irises have less blue or are darker. Both colours 0..255; `skin`: below the eye.
-float RedEye(glm::vec3 colour, glm::vec3 skin);
+/// A flash that the back of an eye reflects. Colours are 0..255.
+class RedEye {
+ public:
+  /// `skin`: below the eye.
+  explicit RedEye(glm::vec3 skin) : skin_(skin) {}
+  /// The probability, 0..1, that a colour in an iris is such a reflection: much redder than the
+  /// skin, about as bright, and with as much blue relative to green. Brown irises have less blue or
+  /// are darker.
+  float Likelihood(glm::vec3 colour) const;
+  /// The colour with the red of a flash replaced by dark grey. `near`: the highest likelihood of
+  /// the pixel and those close to it, because in a photo red runs over the edge of the pupil.
+  glm::vec3 Without(glm::vec3 colour, float near) const;
 
-/// The colour with the red of a flash replaced by dark grey. `near`: the highest RedEye of the
-/// pixel and those close to it, because in a photo red runs over the edge of the pupil.
-glm::vec3 WithoutRedEye(glm::vec3 colour, glm::vec3 skin, float near);
+ private:
+  const glm::vec2 redder_ = PhotoLook().Pair("flash_redder");
+  const glm::vec2 bluer_ = PhotoLook().Pair("flash_bluer");
+  const glm::vec2 bright_ = PhotoLook().Pair("flash_bright");
+  const float pupil_ = PhotoLook()("flash_pupil");
+  glm::vec3 skin_;
+};
 
 }  // namespace facefit

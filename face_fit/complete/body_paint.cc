@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "face_fit/picture/resample.h"
-#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
@@ -15,21 +14,6 @@ constexpr int kSkin = 0, kCloth = 1;  // of Differences
 
 bool IsBody(const PhotoEdges::Seen& seen) {
   return seen.kind == EdgeKind::kSkin || seen.kind == EdgeKind::kCloth;
-}
-
-/// The table's numbers that are asked for at each pixel.
-struct BodyLook {
-  float shade = PhotoLook()("body_shade");
-  float neckline = PhotoLook()("body_neckline"), slope = PhotoLook()("edge_falls");
-  float known = PhotoLook()("edge_stuff_reach"), doubt = PhotoLook()("edge_doubt");
-  float round = PhotoLook()("shoulder_round");
-  glm::vec2 spread[2] = {PhotoLook().Pair("edge_spread_skin"),
-                         PhotoLook().Pair("edge_spread_cloth")};
-  glm::vec2 fade_mm = PhotoLook().Pair("edge_lasts");
-};
-const BodyLook& Look() {
-  static const BodyLook look;
-  return look;
 }
 
 }  // namespace
@@ -153,7 +137,7 @@ BodyPaint::Sample BodyPaint::SampleAt(glm::vec2 place) const {
 
 glm::vec3 BodyPaint::BustColour(const Sample& body, int cloth) const {
   const float shade = light_.On(body.normal) / light_.On({0, 0, 1});
-  return shade * glm::mix(1.0F, body.open, Look().shade) *
+  return shade * glm::mix(1.0F, body.open, shade_kept_) *
          (cloth == kCloth ? cloth_ : 255.0F * light_.skin());
 }
 
@@ -167,7 +151,7 @@ void BodyPaint::AddDifference(const PhotoEdges::Seen& seen, glm::vec2 place,
 }
 
 float BodyPaint::ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) const {
-  const float reach = Look().known * canvas_.per_mm;
+  const float reach = known_reach_mm_ * canvas_.per_mm;
   const bool below = beyond.below > 0;
   const Differences& differences = below ? below_ : aside_[beyond.edge];
   const float at = below ? place.x : place.y;
@@ -178,7 +162,7 @@ float BodyPaint::ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) c
   if (!below) return at_edge;
   // An open neckline that the photo cuts closes farther down in a round line.
   const float off = (place.x - neckline_.x) / neckline_.y;
-  const float deep = Look().neckline * std::sqrt(std::max(1 - off * off, 0.0F));
+  const float deep = neckline_depth_mm_ * std::sqrt(std::max(1 - off * off, 0.0F));
   constexpr float kHem = 0.7F;  // millimetres
   return std::max(
       at_edge, on_bust * glm::smoothstep(deep - kHem, deep + kHem, beyond.below / canvas_.per_mm));
@@ -186,19 +170,19 @@ float BodyPaint::ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) c
 
 glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond, int cloth) const {
   const auto i = static_cast<std::size_t>(cloth);
-  const glm::vec2 spread = Look().spread[cloth];
+  const glm::vec2 spread = spread_[i];
   const auto of = [&](const EdgeMeans& edge, float at, float away) {
     const float mm = away / canvas_.per_mm;
     const glm::vec4 near = edge.Around(at, (spread.x + spread.y * mm) * canvas_.per_mm);
-    return std::exp(-mm / Look().fade_mm[cloth]) *
-           glm::mix(edge.All(), glm::vec3(near), near.w / (near.w + Look().doubt));
+    return std::exp(-mm / lasts_mm_[cloth]) *
+           glm::mix(edge.All(), glm::vec3(near), near.w / (near.w + doubt_));
   };
   glm::vec3 sum(0);
   const float out = beyond.below + beyond.aside;
   if (beyond.below > 0) sum += beyond.below / out * of(below_[i], place.x, beyond.below);
   if (beyond.aside > 0) {
     // A sleeve falls with its shoulder.
-    const float row = std::clamp(place.y - Look().slope * beyond.aside, joint_[beyond.edge].row,
+    const float row = std::clamp(place.y - sleeve_falls_ * beyond.aside, joint_[beyond.edge].row,
                                  static_cast<float>(canvas_.photo_size.y));
     sum += beyond.aside / out * of(aside_[beyond.edge][i], row, beyond.aside);
   }
@@ -218,7 +202,7 @@ Paint BodyPaint::At(glm::vec2 place) const {
     const Joint& joint = joint_[beyond.edge];
     if (joint.cut) {
       const float line = joint.row + joint.slope * beyond.aside +
-                         beyond.aside * beyond.aside / (2 * Look().round * canvas_.per_mm);
+                         beyond.aside * beyond.aside / (2 * shoulder_round_mm_ * canvas_.per_mm);
       opacity = glm::smoothstep(-1.0F, 1.0F, place.y - line);
     } else if (beyond.below <= 0) {
       opacity = 0;

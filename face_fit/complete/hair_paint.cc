@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 
 #include "face_fit/picture/resample.h"
-#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
@@ -102,7 +101,7 @@ float HairPaint::BulgeWidth(PhotoEdge edge, float y) const {
   // The photo's corners are no ends.
   const float from = span.from < 1 ? -dome_ : span.from;
   const bool goes_on = span.to > static_cast<float>(canvas_.photo_size.y) - 1;
-  const float to = goes_on ? span.to + PhotoLook()("hair_falls") * canvas_.per_mm : span.to;
+  const float to = goes_on ? span.to + falls_mm_ * canvas_.per_mm : span.to;
   return bulge * Arc((2 * y - from - to) / (to - from));
 }
 
@@ -120,8 +119,7 @@ glm::vec3 HairPaint::Colour(glm::vec2 place) const {
   } else {
     at.x = std::clamp(beyond.edge == PhotoEdge::kLeft ? away : size.x - away, 0.5F, size.x - 0.5F);
   }
-  const float enough = PhotoLook()("hair_enough") * canvas_.per_mm;
-  const float own = glm::smoothstep(0.0F, enough, static_cast<float>(depth));
+  const float own = glm::smoothstep(0.0F, enough_mm_ * canvas_.per_mm, static_cast<float>(depth));
   return glm::mix(edges_.hair(), ColourAt(figure_.colours, at), own);
 }
 
@@ -131,12 +129,9 @@ Paint HairPaint::HairBelow(glm::vec2 place, float below) const {
   const float x = place.x < 0 ? -place.x : place.x > size.x ? 2 * size.x - place.x : place.x;
   const glm::vec4 hair = below_.Around(x, 0.5F + 0.1F * below);
   // Below a bearded chin it is the beard, which ends at once.
-  const glm::vec2 beard = PhotoLook().Pair("hair_beard");
   const float aside = std::abs(x - canvas_.chin.x) / canvas_.per_mm;
-  const float falls =
-      bearded_
-          ? glm::mix(PhotoLook()("hair_beard_falls"), PhotoLook()("hair_falls"), Ramp(beard, aside))
-          : PhotoLook()("hair_falls") * Ramp(PhotoLook().Pair("hair_aside"), aside);
+  const float falls = bearded_ ? glm::mix(beard_falls_mm_, falls_mm_, Ramp(beard_mm_, aside))
+                               : falls_mm_ * Ramp(aside_mm_, aside);
   const float end = falls * (0.5F + 0.5F * StrandNoise(place.x / canvas_.per_mm));
   return {glm::vec3(hair), mm < end ? hair.w * glm::smoothstep(end, 0.35F * end, mm) : 0.0F};
 }
@@ -153,8 +148,8 @@ Paint HairPaint::At(glm::vec2 place) const {
     return hair;
   }
   const float up = DomeHeight(place.x), out = BulgeWidth(beyond.edge, place.y);
-  const float soft = PhotoLook()("hair_soft") * canvas_.per_mm *
-                     (0.5F + StrandNoise((place.x + place.y) / canvas_.per_mm));
+  const float soft =
+      soft_mm_ * canvas_.per_mm * (0.5F + StrandNoise((place.x + place.y) / canvas_.per_mm));
   float within = 1;
   if (beyond.above > 0) within = std::min(within, (up - beyond.above) / soft);
   if (beyond.aside > 0 && beyond.above <= 0) within = std::min(within, (out - beyond.aside) / soft);

@@ -259,9 +259,9 @@ TEST(IrisTest, IsNotImaginedInAnEvenPatch) {
 }
 
 TEST(RedEyeTest, WhatAFlashThrowsBackIsDarkenedAndIrisesStay) {
-  const glm::vec3 skin(215, 190, 155), warm(210, 140, 80);
+  const RedEye eye({215, 190, 155}), warm({210, 140, 80});
   for (const glm::vec3 flash : {glm::vec3(225, 90, 90), {190, 60, 70}, {240, 130, 120}}) {
-    const glm::vec3 pupil = WithoutRedEye(flash, skin, RedEye(flash, skin));
+    const glm::vec3 pupil = eye.Without(flash, eye.Likelihood(flash));
     EXPECT_LT(pupil.r, 80) << flash.r;
     EXPECT_NEAR(pupil.r, pupil.g, 12) << flash.r;
   }
@@ -272,12 +272,12 @@ TEST(RedEyeTest, WhatAFlashThrowsBackIsDarkenedAndIrisesStay) {
                                {90, 120, 160},
                                {25, 18, 16},
                                {250, 245, 240}}) {
-    EXPECT_LT(RedEye(iris, skin), 0.05F) << iris.r;
+    EXPECT_LT(eye.Likelihood(iris), 0.05F) << iris.r;
   }
-  EXPECT_LT(RedEye({90, 45, 15}, warm), 0.05F);
+  EXPECT_LT(warm.Likelihood({90, 45, 15}), 0.05F);
   // Where red has run over the edge it is taken away, too, but nothing else beside it.
-  EXPECT_LT(WithoutRedEye({110, 70, 65}, skin, 1).r, 60);
-  EXPECT_EQ(WithoutRedEye({200, 195, 185}, skin, 1), glm::vec3(200, 195, 185));
+  EXPECT_LT(eye.Without({110, 70, 65}, 1).r, 60);
+  EXPECT_EQ(eye.Without({200, 195, 185}, 1), glm::vec3(200, 195, 185));
 }
 
 TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
