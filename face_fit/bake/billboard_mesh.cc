@@ -261,7 +261,7 @@ fsm::Image FilledIn(fsm::Image image, const FloatImage& known, float pixels_per_
   PushPullInpaint(image, known);
   const int grain = std::max(static_cast<int>(PhotoLook()("hole_grain") * pixels_per_mm), 2);
   // In a small photo a pixel is as coarse as grain: none is added.
-  const float amount = glm::smoothstep(0.6F, 1.6F, pixels_per_mm);
+  const float amount = Ramp(PhotoLook().Pair("hole_grain_pixels"), pixels_per_mm);
   AddGrain(known, FloatImage(image.width, image.height, amount), grain, image);
   return image;
 }
@@ -280,6 +280,8 @@ fsm::Image BehindFace(const FittedHead& fitted, const Cutout& figure) {
   // large as the skin, or the chin would be seen a second time.
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const float face_hole = PhotoLook()("hole_face"), neck_hole = PhotoLook()("hole_neck");
+  const glm::vec2 hole_edge = PhotoLook().Pair("hole_edge");
+  const glm::vec2 neck_edge = PhotoLook().Pair("hole_neck_edge");
   const FloatImage soft =
       Blurred(face, std::max(static_cast<int>(PhotoLook()("hole_soft") * pixels_per_mm), 1));
   FloatImage keep(width, height, 1), beside(width, height, 1), below(width, height);
@@ -289,8 +291,8 @@ fsm::Image BehindFace(const FittedHead& fitted, const Cutout& figure) {
       const glm::vec3 about = fitted.pose.PlaceAt(pixel, kUsualDepth);
       const std::size_t i = keep.Index(x, y);
       const float most = glm::mix(face_hole, neck_hole, chin.BeforeNeck(about));
-      keep.at[i] = glm::smoothstep(most + 0.08F, most - 0.12F, soft.at[i]);
-      beside.at[i] = glm::smoothstep(neck_hole + 0.1F, neck_hole - 0.1F, soft.at[i]);
+      keep.at[i] = Ramp(most + hole_edge, soft.at[i]);
+      beside.at[i] = Ramp(neck_hole + neck_edge, soft.at[i]);
       below.at[i] = chin.Below(about);
     }
   }

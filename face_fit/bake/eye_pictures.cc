@@ -142,11 +142,12 @@ fsm::Image BallPicture(const SeenEye& eye, const LidLines& rest, float radius,
   // Behind the iris lies what is seen beside it, but not the lids' shade and lashes.
   fsm::Image out = fsm::FilledImage(kBallPixels, kBallPixels);
   FloatImage weight(kBallPixels, kBallPixels);
+  const glm::vec2 upper_lid = PhotoLook().Pair("beside_upper_lid");
+  const glm::vec2 lower_lid = PhotoLook().Pair("beside_lower_lid");
   for (std::size_t i = 0; i < places.at.size(); ++i) {
     const auto [at, between] = places.at[i];
     SetRgb(out, i, ColourAt(photo, at));
-    weight.at[i] = beside_iris(at) * glm::smoothstep(0.15F, 0.35F, between) *
-                   glm::smoothstep(1.0F, 0.85F, between);
+    weight.at[i] = beside_iris(at) * Ramp(upper_lid, between) * Ramp(lower_lid, between);
   }
   PushPullInpaint(out, weight);
   for (std::size_t i = 0; i < places.at.size(); ++i) {

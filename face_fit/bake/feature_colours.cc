@@ -33,6 +33,8 @@ float SkinLight(const FoundFace& face, const fsm::Image& photo) {
 
 EyeColours SampleEyes(const FoundFace& face, const SeenIrises& irises, const fsm::Image& photo) {
   const fsm::NumberTable& look = PhotoLook();
+  const glm::vec2 iris_part = look.Pair("iris_part");
+  const float white_from = look("white_from");
   std::vector<glm::vec3> iris, white;
   for (const fsm::Side side : fsm::kSides) {
     const std::vector<glm::vec2> outline = face.Line(EyeOutline(side));
@@ -45,8 +47,8 @@ EyeColours SampleEyes(const FoundFace& face, const SeenIrises& irises, const fsm
         if (SignedDistance(outline, at) > -0.05F * wide) continue;
         const float far = glm::distance(at, circle.centre) / circle.radius;
         const glm::vec3 colour = ColourAt(photo, at);
-        if (far > 0.45F && far < 0.85F) iris.push_back(colour);
-        if (far > 1.25F) white.push_back(colour);
+        if (far > iris_part.x && far < iris_part.y) iris.push_back(colour);
+        if (far > white_from) white.push_back(colour);
       }
     }
   }

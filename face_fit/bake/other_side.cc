@@ -72,6 +72,7 @@ void CompleteByMirroring(const std::vector<bool>& skin, fsm::Image& map, FloatIm
   const FloatImage near = Blurred(seen_once, std::max(map.width / 50, 1));
   constexpr float kAny = 50;
   const glm::vec2 near_light = PhotoLook().Pair("other_side_light");
+  const glm::vec2 held_by = PhotoLook().Pair("other_side_held");
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const std::size_t i = seen.Index(x, y), j = seen.Index(map.width - 1 - x, y);
@@ -79,7 +80,7 @@ void CompleteByMirroring(const std::vector<bool>& skin, fsm::Image& map, FloatIm
       if (part <= 0 || !skin[i]) continue;
       const float sum = seen_once.at[i] + part;
       const glm::vec3 gain = gain_of_side.At(x, y);
-      const float held = glm::smoothstep(0.05F, 0.4F, near.at[i]);
+      const float held = Ramp(held_by, near.at[i]);
       const glm::vec3 here = Rgb(around, i);
       const glm::vec3 brightest = glm::min(glm::mix(kAny, near_light.y, held) * here, 255.0F);
       const glm::vec3 taken =

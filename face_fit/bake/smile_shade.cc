@@ -11,14 +11,11 @@
 namespace facefit {
 namespace {
 
-/// Where on the base face a smile shades the skin: from below the eyes to above the chin, beside
-/// the wings of the nose and, less, below it. Ranges in millimetres, from none to all.
-constexpr glm::vec2 kBelowEyes{-10, -22}, kAboveChin{8, 20}, kBesideMiddle{58, 44};
-constexpr glm::vec2 kBesideWings{1, 7}, kBelowNose{-3, -7}, kOutsideLips{-1.5F, -4};
-constexpr float kBelowNoseWeight = 0.7F;
 /// What stands for the cheeks: skin at least so far from lips, eyes and nose.
 constexpr float kFromLips = -2, kFromEyes = -8, kFromNose = -2;
 
+/// Where on the base face a smile shades the skin: from below the eyes to above the chin, beside
+/// the wings of the nose and, less, below it.
 class Cheeks {
  public:
   explicit Cheeks(const BaseHead& base) : brows_(base.head->Landmark("nasion").y + kBrowsEnd) {
@@ -31,9 +28,10 @@ class Cheeks {
   }
   float At(const SkinTexels& texels, std::size_t i) const {
     const float y = Y(texels, i), x = std::abs(texels.at[i].x_mm);
-    return Ramp(eyes_ + kBelowEyes, y) * Ramp(chin_ + kAboveChin, y) * Ramp(kBesideMiddle, x) *
-           std::max(Ramp(wing_ + kBesideWings, x), kBelowNoseWeight * Ramp(nose_ + kBelowNose, y)) *
-           Ramp(kOutsideLips, texels.at[i].within_lips_mm);
+    return Ramp(eyes_ + below_eyes_, y) * Ramp(chin_ + above_chin_, y) * Ramp(beside_middle_, x) *
+           std::max(Ramp(wing_ + beside_wings_, x),
+                    below_nose_part_ * Ramp(nose_ + below_nose_, y)) *
+           Ramp(outside_lips_, texels.at[i].within_lips_mm);
   }
   /// Whether it is skin that can stand for the cheeks: no lips, no nose.
   bool Skin(const SkinTexels& texels, std::size_t i) const {
@@ -46,6 +44,13 @@ class Cheeks {
   float Y(const SkinTexels& texels, std::size_t i) const {
     return texels.at[i].above_brows_mm + brows_;
   }
+  const glm::vec2 below_eyes_ = PhotoLook().Pair("shade_below_eyes");
+  const glm::vec2 above_chin_ = PhotoLook().Pair("shade_above_chin");
+  const glm::vec2 beside_middle_ = PhotoLook().Pair("shade_beside_middle");
+  const glm::vec2 beside_wings_ = PhotoLook().Pair("shade_beside_wings");
+  const glm::vec2 below_nose_ = PhotoLook().Pair("shade_below_nose");
+  const float below_nose_part_ = PhotoLook()("shade_below_nose_part");
+  const glm::vec2 outside_lips_ = PhotoLook().Pair("shade_outside_lips");
   float brows_, eyes_ = 0, wing_ = 0, nose_ = 0, chin_ = 0;
 };
 
@@ -98,17 +103,18 @@ void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const Fl
 
 void GrainFromCheeks(const FloatImage& smooth, fsm::Image& map) {
   if (std::ranges::none_of(smooth.at, [](float s) { return s > 0; })) return;
-  constexpr int kUp = 48, kOut = 36;  // texels, some 12 and 9 millimetres
-  constexpr int kGrain = 8;           // what varies over more is no grain
-  constexpr float kMost = 0.12F;      // of the brightness: more is a line, not grain
-  const VectorImage colours = Colours(map), means = Blurred(Blurred(colours, kGrain), kGrain);
-  for (int y = kUp; y < kMapSize; ++y) {
-    for (int x = kOut; x < kMapSize - kOut; ++x) {
+  const glm::ivec2 from_texel(PhotoLook().Pair("grain_from"));
+  const int out = from_texel.x, up = from_texel.y;
+  const int reach = static_cast<int>(PhotoLook()("grain_texels"));
+  const float most = PhotoLook()("grain_most");
+  const VectorImage colours = Colours(map), means = Blurred(Blurred(colours, reach), reach);
+  for (int y = up; y < kMapSize; ++y) {
+    for (int x = out; x < kMapSize - out; ++x) {
       const std::size_t i = MapIndex(x, y);
       if (smooth.at[i] <= 0) continue;
-      const std::size_t from = MapIndex(x < kMapSize / 2 ? x - kOut : x + kOut, y - kUp);
+      const std::size_t from = MapIndex(x < kMapSize / 2 ? x - out : x + out, y - up);
       const glm::vec3 grain = (colours.at[from] + 1.0F) / (means.at[from] + 1.0F) - 1.0F;
-      SetRgb(map, i, colours.at[i] * (1.0F + smooth.at[i] * glm::clamp(grain, -kMost, kMost)));
+      SetRgb(map, i, colours.at[i] * (1.0F + smooth.at[i] * glm::clamp(grain, -most, most)));
     }
   }
 }

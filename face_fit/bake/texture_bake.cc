@@ -55,15 +55,16 @@ void BlendExtraView(const FittedHead& fitted, const ExtraView& extra, const Skin
     here += Rgb(map, i);
     there += ColourAt(colours, texels.at[i].pixel);
   }
-  const glm::vec2 limit = PhotoLook().Pair("light_gain");
+  const fsm::NumberTable& look = PhotoLook();
+  const glm::vec2 limit = look.Pair("light_gain");
+  const glm::vec2 facing = look.Pair("extra_facing"), across = look.Pair("extra_across");
+  const glm::vec2 facing_front = look.Pair("extra_facing_front");
   const glm::vec3 gain = glm::clamp(here / there, limit.x, limit.y);
   for (std::size_t i = 0; i < seen.at.size(); ++i) {
     // Too slanted a texel is drawn from a line of pixels.
-    constexpr float kSlanted = 0.15F, kStraight = 0.45F;  // cosines
-    if (texels.at[i].facing < kSlanted || !InPhoto(colours, texels.at[i].pixel)) continue;
-    const float can = glm::smoothstep(kSlanted, kStraight, texels.at[i].facing) *
-                      glm::smoothstep(-4.0F, 12.0F, towards * front.at[i].x_mm);
-    const float known = seen.at[i] * glm::smoothstep(0.2F, 0.5F, front.at[i].facing);
+    if (texels.at[i].facing < facing.x || !InPhoto(colours, texels.at[i].pixel)) continue;
+    const float can = Ramp(facing, texels.at[i].facing) * Ramp(across, towards * front.at[i].x_mm);
+    const float known = seen.at[i] * Ramp(facing_front, front.at[i].facing);
     const float sum = known + (1 - known) * can;
     if (sum <= seen.at[i] * 0.01F || can <= 0) continue;
     const float part = (1 - known) * can / std::max(sum, 1e-4F);
@@ -111,8 +112,9 @@ void DrawMouthLine(const SkinTexels& texels, float saturation, fsm::Image& map) 
   const fsm::NumberTable& look = PhotoLook();
   const glm::vec3 dark =
       glm::mix(look.Vector("mouth_line_grey"), look.Vector("mouth_line_colour"), saturation);
+  const glm::vec2 width = look.Pair("mouth_line_width");
   for (std::size_t i = 0; i < texels.at.size(); ++i) {
-    const float line = glm::smoothstep(1.0F, 0.1F, texels.at[i].off_seam_mm);
+    const float line = Ramp(width, texels.at[i].off_seam_mm);
     if (line > 0) SetRgb(map, i, Rgb(map, i) * (1.0F - dark * line));
   }
 }

@@ -163,9 +163,8 @@ float BodyPaint::ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) c
   // An open neckline that the photo cuts closes farther down in a round line.
   const float off = (place.x - neckline_.x) / neckline_.y;
   const float deep = neckline_depth_mm_ * std::sqrt(std::max(1 - off * off, 0.0F));
-  constexpr float kHem = 0.7F;  // millimetres
-  return std::max(
-      at_edge, on_bust * glm::smoothstep(deep - kHem, deep + kHem, beyond.below / canvas_.per_mm));
+  return std::max(at_edge, on_bust * glm::smoothstep(deep - hem_mm_, deep + hem_mm_,
+                                                     beyond.below / canvas_.per_mm));
 }
 
 glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond, int cloth) const {

@@ -54,6 +54,7 @@ class BodyPaint {
   // Numbers of the table that are asked for at each pixel.
   const float shade_kept_ = PhotoLook()("body_shade");
   const float neckline_depth_mm_ = PhotoLook()("body_neckline");
+  const float hem_mm_ = PhotoLook()("body_hem");
   const float shoulder_round_mm_ = PhotoLook()("shoulder_round");
   const float sleeve_falls_ = PhotoLook()("edge_falls");
   const float known_reach_mm_ = PhotoLook()("edge_stuff_reach");

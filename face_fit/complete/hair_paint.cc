@@ -127,13 +127,13 @@ Paint HairPaint::HairBelow(glm::vec2 place, float below) const {
   const glm::vec2 size(canvas_.photo_size);
   const float mm = below / canvas_.per_mm;
   const float x = place.x < 0 ? -place.x : place.x > size.x ? 2 * size.x - place.x : place.x;
-  const glm::vec4 hair = below_.Around(x, 0.5F + 0.1F * below);
+  const glm::vec4 hair = below_.Around(x, spread_.x + spread_.y * below);
   // Below a bearded chin it is the beard, which ends at once.
   const float aside = std::abs(x - canvas_.chin.x) / canvas_.per_mm;
   const float falls = bearded_ ? glm::mix(beard_falls_mm_, falls_mm_, Ramp(beard_mm_, aside))
                                : falls_mm_ * Ramp(aside_mm_, aside);
   const float end = falls * (0.5F + 0.5F * StrandNoise(place.x / canvas_.per_mm));
-  return {glm::vec3(hair), mm < end ? hair.w * glm::smoothstep(end, 0.35F * end, mm) : 0.0F};
+  return {glm::vec3(hair), mm < end ? hair.w * glm::smoothstep(end, whole_part_ * end, mm) : 0.0F};
 }
 
 Paint HairPaint::At(glm::vec2 place) const {

@@ -148,8 +148,7 @@ glm::vec3 PhotoEdges::HairBeside(float chin, glm::vec3 skin) const {
       if (seen[y].kind != EdgeKind::kNothing) sum += glm::vec4(seen[y].colour, 1);
     }
   }
-  constexpr float kDarker = 0.3F;
-  return sum.w > 0 ? glm::vec3(sum) / sum.w : kDarker * skin;
+  return sum.w > 0 ? glm::vec3(sum) / sum.w : PhotoLook()("hair_by_skin") * skin;
 }
 
 void PhotoEdges::ClassifyNeck(const Cutout& figure, glm::vec2 chin, float per_mm) {
