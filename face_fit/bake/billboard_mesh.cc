@@ -146,16 +146,12 @@ SampleGrid GridOver(const Cutout& figure, float pixels_per_mm) {
 
 /// The skin on the sheet's grid.
 struct GridSkin {
-  GridSkin(const FloatImage& skin_depth, int rim_cells)
+  GridSkin(const VisibleSurface& surface, int rim_cells)
       : rim(rim_cells),
-        depth(skin_depth),
-        covered(depth.width, depth.height),
-        inner(covered),
-        within(covered) {
-    for (std::size_t i = 0; i < depth.at.size(); ++i) {
-      covered.at[i] = depth.at[i] > VisibleSurface::kNothing ? 1.0F : 0.0F;
-    }
-    within = Blurred(covered, rim);
+        depth(surface.depth()),
+        covered(surface.Covered()),
+        inner(depth.width, depth.height),
+        within(Blurred(covered, rim)) {
     for (std::size_t i = 0; i < depth.at.size(); ++i) {
       inner.at[i] = covered.at[i] > 0 && within.at[i] > kEdge ? 1.0F : 0.0F;
     }
@@ -272,8 +268,8 @@ fsm::Image BehindFace(const FittedHead& fitted, const Cutout& figure) {
   const int width = figure.colours.width, height = figure.colours.height;
   const Chin chin(fitted);
   FloatImage face =
-      SeenSkin(fitted, fitted.pose, {glm::vec2(0.5F), 1, width, height}, chin.SkinBottom()).depth();
-  for (float& v : face.at) v = v > VisibleSurface::kNothing ? 1.0F : 0.0F;
+      SeenSkin(fitted, fitted.pose, {glm::vec2(0.5F), 1, width, height}, chin.SkinBottom())
+          .Covered();
   FillHoles(face);
   // Somewhat smaller than the skin, whose edge shows the same as the sheet's there. Forehead and
   // temples are mostly hair already, so the hole begins at the brows. Before the neck it is as
@@ -312,7 +308,7 @@ Billboard MakeBillboard(const FittedHead& fitted, const Cutout& figure) {
   const SampleGrid grid = GridOver(figure, pixels_per_mm);
   const VisibleSurface surface = SeenSkin(fitted, fitted.pose, grid, chin.SkinBottom());
   const GridSkin skin(
-      surface.depth(),
+      surface,
       std::max(static_cast<int>(std::lround(PhotoLook()("sheet_rim") * pixels_per_mm / grid.step)),
                1));
   // Hair and neck beside the skin go with it.

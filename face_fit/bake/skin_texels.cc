@@ -10,6 +10,7 @@
 
 #include "face_fit/bake/skin_surface.h"
 #include "face_fit/picture/plane.h"
+#include "face_fit/surface/mesh_point.h"
 #include "face_fit/surface/rasterizer.h"
 #include "face_fit/tables/photo_look.h"
 
@@ -130,12 +131,13 @@ SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, bool hi
     const auto triangle = OnMap(topology, t);
     if (!triangle) return;
     Rasterize(*triangle, kMapSize, kMapSize, kSlack, [&](int x, int y, glm::vec3 weights) {
-      const glm::vec3 rest = Interpolated(base.rest.position, t, weights);
+      const MeshPoint place{{t[0], t[1], t[2]}, weights};
+      const glm::vec3 rest = place.On(base.rest.position);
       const float outward = rest.x * rest.x + rest.z * rest.z;
-      const std::size_t i = MapIndex(x, y);
+      const std::size_t i = out.Index(x, y);
       if (outward <= out.at[i].outward) return;
-      const glm::vec3 q = Interpolated(camera, t, weights);
-      const glm::vec3 n = Interpolated(normal, t, weights) + glm::vec3(0, 0, 1e-9F);
+      const glm::vec3 q = place.On(camera);
+      const glm::vec3 n = place.On(normal) + glm::vec3(0, 0, 1e-9F);
       out.at[i].outward = outward;
       out.at[i].pixel = pose.Project(q);
       out.at[i].x_mm = rest.x;

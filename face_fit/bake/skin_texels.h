@@ -7,10 +7,6 @@
 
 namespace facefit {
 
-inline std::size_t MapIndex(int x, int y) {
-  return static_cast<std::size_t>(y) * kMapSize + static_cast<std::size_t>(x);
-}
-
 inline constexpr float kBrowsEnd = 27;  ///< millimetres above the nasion
 
 /// A texel of the skin's map: where it lies in a photo and on the base head at rest.

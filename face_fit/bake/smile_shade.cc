@@ -110,9 +110,9 @@ void GrainFromCheeks(const FloatImage& smooth, fsm::Image& map) {
   const VectorImage colours = Colours(map), means = Blurred(Blurred(colours, reach), reach);
   for (int y = up; y < kMapSize; ++y) {
     for (int x = out; x < kMapSize - out; ++x) {
-      const std::size_t i = MapIndex(x, y);
+      const std::size_t i = smooth.Index(x, y);
       if (smooth.at[i] <= 0) continue;
-      const std::size_t from = MapIndex(x < kMapSize / 2 ? x - out : x + out, y - up);
+      const std::size_t from = smooth.Index(x < kMapSize / 2 ? x - out : x + out, y - up);
       const glm::vec3 grain = (colours.at[from] + 1.0F) / (means.at[from] + 1.0F) - 1.0F;
       SetRgb(map, i, colours.at[i] * (1.0F + smooth.at[i] * glm::clamp(grain, -most, most)));
     }

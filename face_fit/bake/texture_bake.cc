@@ -184,7 +184,7 @@ fsm::Image SideBySide(const fsm::Image& map, const fsm::Image& back, const Float
     for (int x = 0; x < kMapSize; ++x) {
       const glm::vec2 p = (glm::vec2(x, y) + 0.5F) * scale;
       const std::size_t left = out.Index(x, y);
-      std::copy_n(&map.rgba[4 * MapIndex(x, y)], 4, &out.rgba[4 * left]);
+      std::copy_n(&map.rgba[4 * map.Index(x, y)], 4, &out.rgba[4 * left]);
       SetRgb(out, left + kMapSize, SharpColourAt(back, p));
       out.rgba[4 * (left + kMapSize) + 3] =
           Byte(255 * (0.5F + steep * (SmoothAt(opacity, p) - 0.5F)));

@@ -23,16 +23,14 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
   const fsm::HeadTopology& topology = base.head->topology();
   std::vector<glm::vec3> place = base.rest.position;
   for (glm::vec3& p : place) p -= lower;
-  const std::vector<glm::vec3> screen = pose.Screen(place);
-  VisibleSurface surface({glm::vec2(0.5F), 1, width, height}, screen);
+  VisibleSurface surface({glm::vec2(0.5F), 1, width, height}, pose.Screen(place));
   for (const auto& part : topology.parts) {
     if (part.material != fsm::Material::kCloth && part.material != fsm::Material::kSkin) continue;
     for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
       const std::uint32_t* t = &topology.indices[part.first_index + k];
       const bool above =
           std::any_of(t, t + 3, [&](std::uint32_t v) { return base.rest.position[v].y > highest; });
-      const Triangle2 seen{screen[t[0]], screen[t[1]], screen[t[2]]};
-      if (!above && seen.SignedArea() < 0) surface.Draw(t);  // y runs down
+      if (!above) surface.DrawFront(t);
     }
   }
   const FloatImage none(width, height);

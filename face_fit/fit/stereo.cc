@@ -34,17 +34,14 @@ using SkinSamples = Raster<SkinSample>;
 
 /// What of the fitted skin the first photo shows.
 VisibleSurface SkinInFront(const FittedHead& fitted) {
-  const auto& posed = fitted.posed_vertices;
   Box2 box;
   for (const PointIndex i : point::kForFit) box.Add(fitted.pose.Pixel(fitted.At(i)));
   const float step = kCell * fitted.pose.PixelsPerMm();
   const glm::ivec2 points = glm::clamp(glm::ivec2(box.Size() / step), 1, kMostSamples);
-  const std::vector<glm::vec3> screen = fitted.pose.Screen(posed);
-  VisibleSurface surface({box.low, step, points.x, points.y}, screen);
-  ForSkinTriangles(fitted.base->head->topology(), [&](const std::uint32_t* t) {
-    const Triangle2 seen{screen[t[0]], screen[t[1]], screen[t[2]]};
-    if (seen.SignedArea() < 0) surface.Draw(t);  // else it is seen from behind: y runs down
-  });
+  VisibleSurface surface({box.low, step, points.x, points.y},
+                         fitted.pose.Screen(fitted.posed_vertices));
+  ForSkinTriangles(fitted.base->head->topology(),
+                   [&](const std::uint32_t* t) { surface.DrawFront(t); });
   return surface;
 }
 

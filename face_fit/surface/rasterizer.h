@@ -46,12 +46,6 @@ void Rasterize(const Triangle2& triangle, int columns, int rows, float slack, F 
   }
 }
 
-/// The mean of the values of a triangle's vertices by barycentric weights; `t`: their indices.
-template <typename Values>
-auto Interpolated(const Values& values, const std::uint32_t* t, glm::vec3 weights) {
-  return values[t[0]] * weights.x + values[t[1]] * weights.y + values[t[2]] * weights.z;
-}
-
 /// The material of a triangle, which is part of `topology.indices`.
 inline fsm::Material MaterialOf(const fsm::HeadTopology& topology, const std::uint32_t* triangle) {
   const auto index = static_cast<std::uint32_t>(triangle - topology.indices.data());

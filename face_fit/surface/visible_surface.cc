@@ -20,12 +20,23 @@ void VisibleSurface::Draw(const std::uint32_t* triangle) {
   };
   Rasterize({on_grid(0), on_grid(1), on_grid(2)}, grid_.columns, grid_.rows, kSlack,
             [&](int column, int row, glm::vec3 weights) {
-              const float z = Interpolated(screen_, triangle, weights).z;
+              const MeshPoint place{{triangle[0], triangle[1], triangle[2]}, weights};
+              const float z = place.On(screen_).z;
               const std::size_t i = depth_.Index(column, row);
               if (z <= depth_.at[i]) return;
               depth_.at[i] = z;
               samples_[i] = {triangle, weights};
             });
+}
+
+void VisibleSurface::DrawFront(const std::uint32_t* triangle) {
+  const Triangle2 seen{screen_[triangle[0]], screen_[triangle[1]], screen_[triangle[2]]};
+  if (seen.SignedArea() < 0) Draw(triangle);
+}
+
+FloatImage VisibleSurface::Covered() const {
+  return FloatImage::From(depth_.width, depth_.height,
+                          [&](int x, int y) { return depth_(x, y) > kNothing ? 1.0F : 0.0F; });
 }
 
 const std::uint32_t* VisibleSurface::Triangle(int column, int row) const {

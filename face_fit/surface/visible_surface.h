@@ -28,9 +28,13 @@ class VisibleSurface {
   VisibleSurface(const SampleGrid& grid, std::vector<glm::vec3> screen);
   /// `triangle`: the numbers of its three vertices, which outlive this.
   void Draw(const std::uint32_t* triangle);
+  /// Likewise, unless it is seen from behind. REQUIRES: rows run down, as those of a picture.
+  void DrawFront(const std::uint32_t* triangle);
 
   const SampleGrid& grid() const { return grid_; }
   const FloatImage& depth() const { return depth_; }
+  /// 1 where something was drawn.
+  FloatImage Covered() const;
   /// The triangle at a point as it was drawn; nullptr where there is none and outside the grid.
   const std::uint32_t* Triangle(int column, int row) const;
   /// REQUIRES: a triangle there.

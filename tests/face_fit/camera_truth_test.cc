@@ -18,6 +18,7 @@
 
 #include "face_fit/find/head/head_finder.h"
 #include "face_fit/fit/fit.h"
+#include "face_fit/surface/mesh_point.h"
 #include "face_fit/surface/rasterizer.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/head_file.h"
@@ -136,10 +137,11 @@ struct TrueCamera {
         const std::uint32_t* t = &topology.indices[part.first_index + k];
         Rasterize({at[t[0]], at[t[1]], at[t[2]]}, kFine, kFine, 0, [&](int x, int y, glm::vec3 w) {
           const auto i = static_cast<std::size_t>(y) * kFine + static_cast<std::size_t>(x);
-          const float near = Interpolated(at, t, w).z;
+          const MeshPoint place{{t[0], t[1], t[2]}, w};
+          const float near = place.On(at).z;
           if (near <= nearness[i]) return;
           nearness[i] = near;
-          colour[i] = Interpolated(light, t, w);
+          colour[i] = place.On(light);
         });
       }
     }

@@ -22,10 +22,7 @@ constexpr int kPortraitSize = 720;
 /// `screen`: of each vertex, pixels with y down, and depth towards the viewer in millimetres.
 VisibleSurface SkinIn(const fsm::HeadTopology& topology, const std::vector<glm::vec3>& screen) {
   VisibleSurface surface({glm::vec2(0.5F), 1, kPortraitSize, kPortraitSize}, screen);
-  ForSkinTriangles(topology, [&](const std::uint32_t* t) {
-    const Triangle2 seen{screen[t[0]], screen[t[1]], screen[t[2]]};
-    if (seen.SignedArea() < 0) surface.Draw(t);  // else it is seen from behind: y runs down
-  });
+  ForSkinTriangles(topology, [&](const std::uint32_t* t) { surface.DrawFront(t); });
   return surface;
 }
 
