@@ -182,8 +182,7 @@ class EarBuilder {
     return mesh_.Add(p, glm::mix(blush_, colour_, open), light[0] + light[1] * open, Bone::kSkull);
   }
   void Face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    side_ == Side::kLeft ? mesh_.Triangle(Material::kSkin, a, b, c)
-                         : mesh_.Triangle(Material::kSkin, a, c, b);
+    mesh_.Triangle(Material::kSkin, a, b, c, side_ == Side::kRight);
   }
 
   const Features& features_;

@@ -19,10 +19,11 @@ std::uint32_t HeadMesh::Add(glm::vec3 p, glm::vec3 colour, float open, Bone b,
   return static_cast<std::uint32_t>(position.size() - 1);
 }
 
-void HeadMesh::Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+void HeadMesh::Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                        bool flip) {
   if (a == b || b == c || c == a) return;
   auto& indices = BatchOf(material).indices;
-  indices.insert(indices.end(), {a, b, c});
+  indices.insert(indices.end(), {a, flip ? c : b, flip ? b : c});
 }
 
 HeadMesh::Batch& HeadMesh::BatchOf(Material material, int pbr, bool two_sided) {

@@ -47,7 +47,8 @@ struct HeadMesh {
                     const BakeWeights& vertex_weights = {});
   /// A quad with corners counter-clockwise from outside; degenerate halves are left out.
   void Quad(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
-  void Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  void Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                bool flip = false);
   /// Quads over a grid of `rows` x `columns` vertices that begin at `first`, row after row.
   void Grid(Material material, std::uint32_t first, int rows, int columns, bool flip = false);
 };

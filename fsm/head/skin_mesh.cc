@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "fsm/head/hair_parts.h"
+#include "fsm/head/landmarks.h"
 #include "fsm/head/paint.h"
 
 namespace fsm {
@@ -158,7 +159,7 @@ SkinFront::SkinFront(const FineSkin& skin)
   }
 }
 
-glm::vec3 SkinFront::PointAt(glm::vec2 xy, glm::vec3& normal) const {
+glm::vec3 SkinFront::PointAt(glm::vec2 xy) const {
   glm::vec3 best(xy.x, xy.y, -1e9f);
   for (const std::uint32_t i : cells_[Cell(xy.y) * kCells + Cell(xy.x)]) {
     const auto& t = skin_.triangles[i].corner;
@@ -168,24 +169,24 @@ glm::vec3 SkinFront::PointAt(glm::vec2 xy, glm::vec3& normal) const {
     const float wc = ((b.x - a.x) * (xy.y - a.y) - (xy.x - a.x) * (b.y - a.y)) / n.z;
     if (wb < -1e-4f || wc < -1e-4f || wb + wc > 1.0001f) continue;
     const float z = a.z + wb * (b.z - a.z) + wc * (c.z - a.z);
-    if (z <= best.z) continue;
-    best.z = z;
-    normal = glm::normalize(n);
+    best.z = std::max(best.z, z);
   }
   if (best.z > -1e8f) return best;
 
   glm::vec3 nearest(0);
   float least = 900;  // within 30 mm
   for (const std::uint32_t i : front_) {
-    const auto& t = skin_.triangles[i].corner;
-    const glm::vec3 a = skin_.position[t[0]];
+    const glm::vec3 a = skin_.position[skin_.triangles[i].corner[0]];
     const float d2 = (a.x - xy.x) * (a.x - xy.x) + (a.y - xy.y) * (a.y - xy.y);
     if (d2 >= least) continue;
     least = d2;
     nearest = a;
-    normal = glm::normalize(glm::cross(skin_.position[t[1]] - a, skin_.position[t[2]] - a));
   }
   return nearest;
+}
+
+glm::vec2 SkinFront::UvAt(glm::vec2 xy, Side side) const {
+  return Unroll(PointAt(xy) * glm::vec3(SignOf(side), 1, 1));
 }
 
 }  // namespace fsm

@@ -20,9 +20,10 @@ MouthSlit BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnat
 class SkinFront {
  public:
   explicit SkinFront(const FineSkin& skin);
-  /// The foremost point at (x, y) and the unit normal there; the nearest vertex where there is no
-  /// skin.
-  glm::vec3 PointAt(glm::vec2 xy, glm::vec3& normal) const;
+  /// The foremost point at (x, y); the nearest vertex where there is no skin.
+  glm::vec3 PointAt(glm::vec2 xy) const;
+  /// The texture coordinates of that point, or of its mirror image on the right.
+  glm::vec2 UvAt(glm::vec2 xy, Side side) const;
 
  private:
   static constexpr int kCells = 64;  // along each side of a square about the origin

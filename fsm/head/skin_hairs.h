@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "fsm/head/anatomy.h"
-#include "fsm/head/features.h"
 #include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/paint.h"
@@ -19,9 +18,5 @@ std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& ey
 /// A shaved beard's hairs, painted on the skin as densely as `painter` tones it.
 std::vector<SkinHair> BuildStubble(const SkinFront& front, const SkinPainter& painter,
                                    const Identity& identity);
-/// Lashes of both sides. They move as skin and must be added before the rigid parts, so that such
-/// vertices stay one run. `of_photo`: those of the upper lids alone, with how dark they are in
-/// HeadMesh::opacity.
-void BuildLashes(const EyeAnatomy& eye, const Identity& identity, bool of_photo, HeadMesh& mesh);
 
 }  // namespace fsm

@@ -1,0 +1,151 @@
+#include "fsm/head/lashes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "fsm/base/pi.h"
+#include "fsm/base/random.h"
+
+namespace fsm {
+namespace {
+
+class LashBuilder {
+ public:
+  LashBuilder(const EyeAnatomy& eye, const Identity& identity, bool of_photo, Side side,
+              HeadMesh& mesh)
+      : eye_(eye),
+        features_(identity.Look()),
+        palette_(identity.palette),
+        size_(identity.lashes),
+        of_photo_(of_photo),
+        side_(SignOf(side)),
+        mesh_(mesh) {
+    weights_.eye = side;
+    weights_.free = 0;
+  }
+
+  void Row(bool upper) {
+    upper_ = upper;
+    weights_.lid_upper = upper ? 1.0f : 0.0f;
+    weights_.lid_lower = 1 - weights_.lid_upper;
+    if (upper) Line();
+    const auto& row = features_[upper ? "upper_lashes" : "lower_lashes"];
+    const int hairs = static_cast<int>(row[0]);
+    for (int i = 0; i < hairs; ++i) {
+      const float part = (static_cast<float>(i) + 0.5f) / static_cast<float>(hairs);
+      Hair(glm::mix(row[1], row[2], part) + 0.008f * NoiseAt(i, 71), i);
+    }
+  }
+
+ private:
+  float X(float along) const { return glm::mix(eye_.inner_x(), eye_.outer_x(), along); }
+  /// One of the three numbers of a row: for the upper lid, the lower lid, or lids of a photo.
+  float ByLid(const char* name) const {
+    const auto& n = features_[name];
+    return of_photo_ ? n[2] : upper_ ? n[0] : n[1];
+  }
+  float Angle(float x) const { return upper_ ? eye_.UpperAngle(x) : eye_.LowerAngle(x); }
+
+  std::uint32_t Add(glm::vec3 p, float at_x, float dark) {
+    weights_.domain = {at_x * side_, eye_.centre().y};
+    p.x *= side_;
+    const glm::vec3 colour = glm::mix(palette_.skin, palette_.lash, of_photo_ ? 1.0f : dark);
+    const std::uint32_t i = mesh_.Add(p, colour, 1, Bone::kSkin, weights_);
+    if (of_photo_) mesh_.opacity.back() = dark;
+    return i;
+  }
+  void Face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    mesh_.Triangle(of_photo_ ? Material::kShutLash : Material::kLash, a, b, c, side_ < 0);
+  }
+
+  // The roots together: a thin dark line on the upper rim, thickening outward.
+  void Line() {
+    constexpr int kSteps = 14;
+    const auto& ends_at = features_["lash_line"];
+    const auto& thickness = features_["lash_line_thickness"];
+    const auto& dark = features_["lash_line_dark"];
+    std::array<std::uint32_t, 2> before{};
+    for (int i = 0; i <= kSteps; ++i) {
+      const float part = static_cast<float>(i) / kSteps;
+      const float x = X(glm::mix(ends_at[0], ends_at[1], part));
+      const float thick =
+          (0.35f + 0.65f * size_) *
+          (thickness[0] + thickness[1] * std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
+      const float radius = eye_.LidRadius(x);
+      const float ends = SmoothStep(0, 0.2f, part);
+      const float soft = of_photo_ ? dark[4] * SmoothStep(0, 0.5f, part) : 1.0f;
+      const std::uint32_t low = Add(eye_.OnLid(x, Angle(x) - 0.10f / radius, radius - 0.1f), x,
+                                    soft * (dark[0] + dark[1] * ends));
+      const std::uint32_t high = Add(eye_.OnLid(x, Angle(x) + thick / radius, radius + 0.45f), x,
+                                     of_photo_ ? 0 : dark[2] + dark[3] * ends);
+      if (i > 0) {
+        Face(before[0], low, high);
+        Face(before[0], high, before[1]);
+      }
+      before = {low, high};
+    }
+  }
+
+  void Hair(float along, int i) {
+    const float x = X(along);
+    const float angle = Angle(x);
+    const float up = upper_ ? 1.0f : -1.0f;
+    const float radius = eye_.LidRadius(x) + 0.05f;
+    // Neighbours lean together in threes.
+    const auto& clumps = features_["lash_clump"];
+    const float clump = clumps[0] * (static_cast<float>(1 - i % 3)) + clumps[1] * NoiseAt(i, 5) +
+                        (of_photo_ ? clumps[2] * NoiseAt(i, 6) : 0.0f);
+    const auto& differ = features_["lash_lengths"];
+    const auto& fans = features_["lash_fan"];
+    const auto& long_by = features_["upper_lash_length"];
+    const float fan = fans[1] * (along - fans[0]) + clump;
+    const float length =
+        size_ * (upper_ ? (long_by[0] +
+                           long_by[1] * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
+                              (0.94f + (of_photo_ ? differ[1] : differ[0]) * NoiseAt(i, 9))
+                        : features_("lower_lash_length") * (1 + differ[2] * NoiseAt(i, 9)));
+    const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
+    const float width = ByLid("lash_width");
+    // Lower hairs are thin: much of the skin shows between them.
+    const float dark =
+        ByLid("lash_darkness") + (of_photo_ ? features_("lash_photo_dark") * NoiseAt(i, 4) : 0.0f);
+    const float rise = ByLid("lash_rise");
+    const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
+    // Out and then up (the lower ones down): a curved card of two segments.
+    const glm::vec3 middle = root + length * (0.5f * out + glm::vec3(0, 0.06f * up, 0));
+    const glm::vec3 tip = root + length * (0.72f * out + glm::vec3(0, rise, 0));
+    const std::uint32_t a = Add(root - glm::vec3(width, 0, 0), x, dark);
+    const std::uint32_t b = Add(root + glm::vec3(width, 0, 0), x, dark);
+    const std::uint32_t c = Add(middle - glm::vec3(0.6f * width, 0, 0), x, dark);
+    const std::uint32_t d = Add(middle + glm::vec3(0.6f * width, 0, 0), x, dark);
+    const std::uint32_t e = Add(tip, x, (of_photo_ ? 0.2f : 0.75f) * dark);
+    Face(a, b, d);
+    Face(a, d, c);
+    Face(c, d, e);
+  }
+
+  const EyeAnatomy& eye_;
+  const Features& features_;
+  const Palette& palette_;
+  float size_;
+  bool of_photo_;
+  float side_;
+  HeadMesh& mesh_;
+  BakeWeights weights_;
+  bool upper_ = true;
+};
+
+}  // namespace
+
+void BuildLashes(const EyeAnatomy& eye, const Identity& identity, bool of_photo, HeadMesh& mesh) {
+  for (const Side side : kSides) {
+    LashBuilder builder(eye, identity, of_photo, side, mesh);
+    builder.Row(true);
+    if (!of_photo) builder.Row(false);
+  }
+}
+
+}  // namespace fsm

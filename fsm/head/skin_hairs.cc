@@ -1,0 +1,193 @@
+#include "fsm/head/skin_hairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "fsm/base/pi.h"
+#include "fsm/base/random.h"
+#include "fsm/head/landmarks.h"
+
+namespace fsm {
+namespace {
+
+// Where brows lie: middle line and half height over x, on the base identity's face.
+class BrowPlace {
+ public:
+  explicit BrowPlace(const Identity& identity)
+      : brows_(identity.brows),
+        middle_(identity.Look().CurveOf("brow_middle")),
+        half_(identity.Look().CurveOf("brow_half_height")) {}
+
+  // `level` -1 at the lower edge .. 1 at the upper.
+  float Y(float x, float level) const {
+    const float straight = glm::mix(middle_(kFrom), middle_(kTo), (x - kFrom) / (kTo - kFrom));
+    return glm::mix(straight, middle_(x), brows_.arch) + brows_.thickness * half_(x) * level -
+           0.8f + brows_.height_mm;
+  }
+  float Density() const { return brows_.density; }
+  // How densely the skin is covered, 0..1.
+  float Cover(glm::vec2 at) const {
+    const float x = std::abs(at.x);
+    if (x < 6 || x > 60) return 0;
+    const float within = std::clamp(x, kFrom, kTo);
+    const float high = brows_.thickness * std::max(half_(within), 1.0f) + 0.8f;
+    const float off = (at.y - Y(within, 0)) / high;
+    return brows_.density * std::exp(-off * off) * SmoothStep(8, 17, x) * SmoothStep(60, 48, x);
+  }
+
+ private:
+  static constexpr float kFrom = 9, kTo = 56;  // of its table, millimetres from the middle
+  const Identity::Brows brows_;
+  Curve middle_, half_;
+};
+
+/// The hairs of both brows.
+class BrowBuilder {
+ public:
+  BrowBuilder(const SkinFront& front, const Identity& identity, const BrowPlace& place)
+      : front_(front), palette_(identity.palette), features_(identity.Look()), place_(place) {}
+
+  std::vector<SkinHair> Build() {
+    const auto& count = features_["brow_hairs"];
+    const int columns = static_cast<int>(count[0]), rows = static_cast<int>(count[1]);
+    for (const Side side : kSides) {
+      for (int i = 0; i < columns * rows; ++i) {
+        const int seed = 2 * i + (side == Side::kLeft ? 1 : 0);
+        const float column = static_cast<float>(i / rows) + 0.5f + 0.9f * NoiseAt(seed, 21);
+        const auto& across = features_["brow_width"];
+        const float x = across[0] + across[1] * column / static_cast<float>(columns);
+        const float row = static_cast<float>(i % rows) + 0.5f + 0.7f * NoiseAt(seed, 22);
+        AddHair(side, x, -1 + 2 * row / static_cast<float>(rows), seed);
+      }
+    }
+    return std::move(hairs_);
+  }
+
+ private:
+  /// `level` as BrowPlace::Y.
+  void AddHair(Side side, float x, float level, int seed) {
+    const float ends = SmoothStep(7, 20, x) * SmoothStep(59, 47, x);
+    // Sparse where it begins.
+    if (0.5f + 0.5f * NoiseAt(seed, 26) > place_.Density() * (0.35f + 0.65f * ends)) return;
+    const glm::vec2 root(x, place_.Y(x, 0.9f * level - 0.1f));
+    // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
+    const auto& lean = features_["brow_lean"];
+    const auto& bends = features_["brow_bend"];
+    const float angle = (grow_(x) - lean[0] * level + lean[1] * NoiseAt(seed, 23)) * kPi / 180;
+    const float bend = (bends[0] + bends[1] * level) * kPi / 180;
+    const auto& long_by = features_["brow_hair_length"];
+    const float length = (long_by[0] + long_by[1] * NoiseAt(seed, 24)) * (0.6f + 0.4f * ends);
+    const auto step = [&](float a) { return 0.5f * length * glm::vec2(std::cos(a), std::sin(a)); };
+    const glm::vec2 middle = root + step(angle);
+    const auto& wide_by = features_["brow_hair_width"];
+    const auto& tint = features_["brow_tint"];
+    hairs_.push_back(
+        {.root = front_.UvAt(root, side),
+         .middle = front_.UvAt(middle, side),
+         .tip = front_.UvAt(middle + step(angle + bend), side),
+         .width_mm = (wide_by[0] + wide_by[1] * NoiseAt(seed, 27)) * (0.7f + 0.3f * ends),
+         .tint = tint[0] * palette_.brow / palette_.skin * (1 + tint[1] * NoiseAt(seed, 25))});
+  }
+
+  const SkinFront& front_;
+  const Palette& palette_;
+  const Features& features_;
+  const BrowPlace& place_;
+  const Curve grow_ = features_.CurveOf("brow_growth");
+  std::vector<SkinHair> hairs_;
+};
+
+}  // namespace
+
+std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh) {
+  const BrowPlace place(identity);
+  // The soft tone between the hairs.
+  const float tone = identity.Look()("brow_tone");
+  for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+    const glm::vec3 p = mesh.position[i];
+    if (p.z < 30 || std::abs(p.y - 42) > 16) continue;
+    mesh.albedo[i] =
+        glm::mix(mesh.albedo[i], identity.palette.brow, tone * place.Cover({p.x, p.y}));
+  }
+  return BrowBuilder(front, identity, place).Build();
+}
+
+std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye,
+                                    const Identity& identity) {
+  constexpr int kSteps = 26;
+  const Features& features = identity.Look();
+  const auto& widths = features["lid_fold_widths"];
+  const auto& tints = features["lid_fold_tints"];
+  const Curve base_height = features.CurveOf("lid_fold_height");
+  const auto height = [&](float along) {
+    return base_height(along) + glm::mix(identity.fold.inner_mm, identity.fold.outer_mm, along);
+  };
+  std::vector<SkinHair> folds;
+  folds.reserve(2 * widths.size() * kSteps);
+  for (const Side side : kSides) {
+    const auto at = [&](float part) {
+      const float along = std::clamp(part, 0.0f, 1.0f);
+      const float x = glm::mix(eye.inner_x() + 0.5f, eye.outer_x() + 1.0f, along);
+      return front.UvAt({x, eye.UpperY(x) + height(along)}, side);
+    };
+    for (std::size_t stroke = 0; stroke < widths.size(); ++stroke) {
+      for (int k = 0; k < kSteps; ++k) {
+        const float part = static_cast<float>(k) / kSteps;
+        const float ends = SmoothStep(0, 0.25f, part) * SmoothStep(1, 0.85f, part);
+        folds.push_back(
+            {.root = at(part),
+             .middle = at(part + 0.5f / kSteps),
+             .tip = at(part + 1.0f / kSteps),
+             .width_mm = widths[stroke] * (0.35f + 0.65f * ends),
+             .tint = glm::mix(glm::vec3(1), features.Vector("lid_fold_colour") * tints[stroke],
+                              identity.fold.dark * (0.25f + 0.75f * ends))});
+      }
+    }
+  }
+  return folds;
+}
+
+std::vector<SkinHair> BuildStubble(const SkinFront& front, const SkinPainter& painter,
+                                   const Identity& identity) {
+  const Features& features = identity.Look();
+  const auto& n = features["stubble"];
+  const auto& place = features["stubble_place"];
+  std::vector<SkinHair> hairs;
+  if (identity.palette.beard <= 0) return hairs;
+  for (int k = 0; k < static_cast<int>(100 * n[0]); ++k) {
+    const glm::vec2 at(place[0] * NoiseAt(k, 41),
+                       glm::mix(place[1], place[2], 0.5f + 0.5f * NoiseAt(k, 42)));
+    const glm::vec2 half(std::abs(at.x), at.y);
+    if (half.x > place[0] - place[6] * (place[2] - at.y)) continue;  // beside the jaw
+    const float chance = 0.5f + 0.5f * NoiseAt(k, 43);
+    constexpr float kBeforeAll = 200;  // the front of the face has the most
+    if (chance > painter.Beard(half, kBeforeAll)) continue;
+    const glm::vec2 from_lips = (half - glm::vec2(0, place[3])) / glm::vec2(place[4], place[5]);
+    if (glm::dot(from_lips, from_lips) < 1) continue;
+    const glm::vec3 root = front.PointAt(half);
+    if (chance > painter.Beard(half, root.z)) continue;
+    const float length = n[1] * (1 + 0.5f * NoiseAt(k, 44));
+    const float lean = 0.6f * NoiseAt(k, 45);
+    const auto along = [&](float part) {
+      return front.PointAt(half + part * length * glm::vec2(lean, -1));
+    };
+    const glm::vec3 tip = along(1);
+    if (glm::length(tip - root) > 3 * length) continue;  // past an edge
+    const auto on_skin = [&](glm::vec3 p) {
+      p.x = std::copysign(p.x, at.x);
+      return Unroll(p);
+    };
+    const float cover = n[3] * (1 + 0.4f * NoiseAt(k, 46));
+    hairs.push_back(
+        {.root = on_skin(root),
+         .middle = on_skin(along(0.5f)),
+         .tip = on_skin(tip),
+         .width_mm = n[2],
+         .tint = glm::mix(glm::vec3(1), identity.palette.hair / identity.palette.skin, cover)});
+  }
+  return hairs;
+}
+
+}  // namespace fsm
