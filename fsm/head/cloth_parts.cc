@@ -28,7 +28,8 @@ ClothRing ClothRingOf(const std::vector<float>& n) {
 
 }  // namespace
 
-void BuildCloth(const Features& features, const Palette& palette, HeadMesh& mesh) {
+void BuildCloth(const Identity& identity, HeadMesh& mesh) {
+  const Features& features = identity.Look();
   constexpr int kHalf = 13;  // columns of a half
   // The first ring is row -1, the collar's foot 0.
   constexpr std::array kRows = {-1.0f, 0.0f, 0.75f, 1.0f, 2.2f, 2.26f, 2.32f,
@@ -72,8 +73,9 @@ void BuildCloth(const Features& features, const Palette& palette, HeadMesh& mesh
       }
       if (k == 0 || k == kHalf) p.x = 0;
       if (!left) p.x = -p.x;
-      mesh.Add(p, light * palette.cloth * (1 + uneven * NoiseAt(c, static_cast<int>(10 * row))),
-               glm::clamp(open, 0.2f, 1.0f), Bone::kSkin, weights);
+      mesh.Add(
+          p, light * identity.palette.cloth * (1 + uneven * NoiseAt(c, static_cast<int>(10 * row))),
+          glm::clamp(open, 0.2f, 1.0f), Bone::kSkin, weights);
     }
   }
   mesh.Grid(Material::kCloth, first, static_cast<int>(kRows.size()), 2 * kHalf + 1, true);

@@ -120,11 +120,11 @@ namespace {
 /// One ear as rings of vertices from its middle to the rim and round its back into the head.
 class EarBuilder {
  public:
-  EarBuilder(const Features& features, const Palette& palette, Side side, HeadMesh& mesh)
-      : features_(features),
-        blush_(palette.blush * features["ear_blush"][1]),
-        colour_(glm::mix(palette.skin, palette.blush, features["ear_blush"][0])),
-        ear_(features),
+  EarBuilder(const Identity& identity, Side side, HeadMesh& mesh)
+      : features_(identity.Look()),
+        blush_(identity.palette.blush * features_["ear_blush"][1]),
+        colour_(glm::mix(identity.palette.skin, identity.palette.blush, features_["ear_blush"][0])),
+        ear_(features_),
         side_(side),
         mesh_(mesh) {}
 
@@ -195,8 +195,8 @@ class EarBuilder {
 
 }  // namespace
 
-void BuildEars(const Features& features, const Palette& palette, HeadMesh& mesh) {
-  for (const Side side : kSides) EarBuilder(features, palette, side, mesh).Build();
+void BuildEars(const Identity& identity, HeadMesh& mesh) {
+  for (const Side side : kSides) EarBuilder(identity, side, mesh).Build();
 }
 
 }  // namespace fsm

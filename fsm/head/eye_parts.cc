@@ -6,7 +6,6 @@
 
 #include "fsm/base/pi.h"
 #include "fsm/base/random.h"
-#include "fsm/head/paint.h"
 
 namespace fsm {
 namespace {
@@ -19,8 +18,9 @@ struct BallRing {
   Material band;
 };
 
-std::array<BallRing, 11> Rings(const EyeAnatomy& eye, const Features& features,
-                               const Palette& palette) {
+std::array<BallRing, 11> Rings(const EyeAnatomy& eye, const Identity& identity) {
+  const Features& features = identity.Look();
+  const Palette& palette = identity.palette;
   const float iris = std::asin(eye.iris_radius() / eye.radius());
   const float pupil = std::asin(eye.pupil_radius() / eye.radius());
   const glm::vec3 black = features.Vector("pupil_colour");
@@ -45,11 +45,10 @@ std::array<BallRing, 11> Rings(const EyeAnatomy& eye, const Features& features,
 
 }  // namespace
 
-void BuildEyes(const EyeAnatomy& eye, const Features& features, const Palette& palette,
-               HeadMesh& mesh) {
+void BuildEyes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh) {
   constexpr int kSegments = 22;
-  const auto rings = Rings(eye, features, palette);
-  const float fibres = features("iris_fibres");
+  const auto rings = Rings(eye, identity);
+  const float fibres = identity.Look()("iris_fibres");
   for (const Side side : kSides) {
     const Bone bone = BoneOf(side);
     const glm::vec3 centre = eye.CentreOf(side);

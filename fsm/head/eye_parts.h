@@ -1,14 +1,12 @@
 #pragma once
 
 #include "fsm/head/anatomy.h"
-#include "fsm/head/features.h"
 #include "fsm/head/head_mesh.h"
-#include "fsm/head/paint.h"
+#include "fsm/head/identity.h"
 
 namespace fsm {
 
 /// Adds both eyeballs.
-void BuildEyes(const EyeAnatomy& eye, const Features& features, const Palette& palette,
-               HeadMesh& mesh);
+void BuildEyes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh);
 
 }  // namespace fsm

@@ -1,5 +1,3 @@
-#include "fsm/head/hair_crop.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "fsm/base/pi.h"
 #include "fsm/base/random.h"
 #include "fsm/base/spline.h"
+#include "fsm/head/hair.h"
 #include "fsm/head/hair_parts.h"
 
 namespace fsm {
@@ -17,9 +16,13 @@ namespace {
 
 class CroppedHair {
  public:
-  CroppedHair(const CropStyle& style, const Features& features, const Palette& palette,
-              HeadMesh& mesh)
-      : style_(style), features_(features), palette_(palette), scalp_(mesh), mesh_(mesh) {}
+  CroppedHair(const Identity& identity, HeadMesh& mesh)
+      : style_(*identity.crop),
+        features_(identity.Look()),
+        palette_(identity.palette),
+        look_(identity),
+        scalp_(mesh),
+        mesh_(mesh) {}
 
   void Build() {
     std::vector<glm::vec3> edge;
@@ -195,7 +198,7 @@ class CroppedHair {
   const CropStyle& style_;
   const Features& features_;
   const Palette& palette_;
-  const HairLook look_{features_, palette_};
+  const HairLook look_;
   const glm::vec3 crown_ = glm::normalize(features_.Vector("crop_crown"));
   Scalp scalp_;
   HeadMesh& mesh_;
@@ -203,14 +206,12 @@ class CroppedHair {
 
 }  // namespace
 
-void BuildCroppedHair(const CropStyle& style, const Features& features, const Palette& palette,
-                      HeadMesh& mesh) {
-  CroppedHair(style, features, palette, mesh).Build();
+void BuildCroppedHair(const Identity& identity, HeadMesh& mesh) {
+  CroppedHair(identity, mesh).Build();
 }
 
-std::vector<SkinHair> CroppedHairline(const CropStyle& style, const Features& features,
-                                      const Palette& palette, HeadMesh& mesh) {
-  return CroppedHair(style, features, palette, mesh).Hairline();
+std::vector<SkinHair> CroppedHairline(const Identity& identity, HeadMesh& mesh) {
+  return CroppedHair(identity, mesh).Hairline();
 }
 
 }  // namespace fsm

@@ -1,5 +1,3 @@
-#include "fsm/head/hair_long.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -9,6 +7,7 @@
 #include "fsm/base/pi.h"
 #include "fsm/base/random.h"
 #include "fsm/base/spline.h"
+#include "fsm/head/hair.h"
 #include "fsm/head/hair_parts.h"
 
 namespace fsm {
@@ -20,11 +19,12 @@ constexpr float kEnd = 1.0f;
 // the forehead in a round arch, a little off the skin.
 class LongHair {
  public:
-  LongHair(const LongStyle& style, const Features& features, const Palette& palette, HeadMesh& mesh)
-      : style_(style),
-        features_(features),
-        volume_(features.Vector("long_volume") + style.full_mm),
-        palette_(palette),
+  LongHair(const Identity& identity, HeadMesh& mesh)
+      : style_(identity.long_hair),
+        features_(identity.Look()),
+        palette_(identity.palette),
+        volume_(features_.Vector("long_volume") + style_.full_mm),
+        look_(identity),
         scalp_(mesh),
         mesh_(mesh) {}
 
@@ -343,25 +343,21 @@ class LongHair {
     }
   }
 
-  const LongStyle style_;
+  const LongStyle& style_;
   const Features& features_;
-  const glm::vec3 volume_;
   const Palette& palette_;
-  const HairLook look_{features_, palette_};
+  const glm::vec3 volume_;
+  const HairLook look_;
   Scalp scalp_;
   HeadMesh& mesh_;
 };
 
 }  // namespace
 
-void BuildLongHair(const LongStyle& style, const Features& features, const Palette& palette,
-                   HeadMesh& mesh) {
-  LongHair(style, features, palette, mesh).Build();
-}
+void BuildLongHair(const Identity& identity, HeadMesh& mesh) { LongHair(identity, mesh).Build(); }
 
-std::vector<SkinHair> LongHairline(const LongStyle& style, const Features& features,
-                                   const Palette& palette, HeadMesh& mesh) {
-  return LongHair(style, features, palette, mesh).Hairline();
+std::vector<SkinHair> LongHairline(const Identity& identity, HeadMesh& mesh) {
+  return LongHair(identity, mesh).Hairline();
 }
 
 }  // namespace fsm

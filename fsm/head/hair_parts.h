@@ -6,9 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/head/features.h"
 #include "fsm/head/head_mesh.h"
-#include "fsm/head/paint.h"
+#include "fsm/head/identity.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
@@ -39,11 +38,13 @@ struct LockStyle {
   float open = 1;          ///< to the light, 0..1
   float tip_light = 1.1f;  ///< colour at the tip over that at the root
 };
-/// What all heads of hair have in common. Lifetime: features and palette outlive it.
+/// What all heads of hair have in common. Lifetime: the identity outlives it.
 class HairLook {
  public:
-  HairLook(const Features& features, const Palette& palette)
-      : features_(features), palette_(palette), hairline_(features.CurveOf("hairline")) {}
+  explicit HairLook(const Identity& identity)
+      : features_(identity.Look()),
+        palette_(identity.palette),
+        hairline_(features_.CurveOf("hairline")) {}
 
   /// Where the hair begins on the skin: elevation by azimuth, degrees.
   float HairlineElevation(float azimuth) const { return hairline_(std::abs(azimuth)); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <glm/vec3.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,9 +12,6 @@
 
 #include "fsm/base/table_reader.h"
 #include "fsm/head/features.h"
-#include "fsm/head/hair_crop.h"
-#include "fsm/head/hair_long.h"
-#include "fsm/head/paint.h"
 #include "fsm/rig/eye_transform.h"
 #include "fsm/rig/unit_table.h"
 
@@ -24,8 +22,36 @@ namespace fsm {
 const std::vector<std::string>& Identities();
 bool IsBuiltIn(std::string_view name);
 
+/// Colours of a head, linear RGB; see BasePalette.
+struct Palette {
+  glm::vec3 skin{}, blush{}, lip{}, hair{}, brow{}, lash{}, iris{}, cloth{}, tooth{}, sclera{};
+  glm::vec3 lip_inside{}, lid_rim{}, mouth{}, tongue{}, gum{};
+  float beard = 0;  ///< how far a shaved beard shows, 0..1
+};
+
 /// The colours of the base head: the rows of tables/identities.txt that stand before any face.
 const Palette& BasePalette();
+
+/// Short hair all round.
+struct CropStyle {
+  float side_mm, top_mm;  ///< of the shell over the skin
+  int locks;
+  float lock_mm;   ///< length of a lock
+  float lift_mm;   ///< of its tip over the shell
+  float wave_mm;   ///< sideways swing of a lock
+  float front_up;  ///< how far locks over the forehead stand up, 0..1
+  float recede;    ///< degrees the hairline is drawn back at the temples
+  float curl = 0;  ///< 0: hairs lie along the head; 1: tight curls, which stand off it
+};
+
+/// Hair that is parted and hangs.
+struct LongStyle {
+  float parting = 0.17f;  ///< to the agent's left, as part of the hair's half width
+  float full_mm = 0;      ///< more volume over the skull than usual
+  float front_y = -84;    ///< height of the ends beside the face, millimetres
+  float back_y = -112;    ///< of those behind
+  float wave_mm = 2.2f;   ///< sideways swing of what hangs
+};
 
 /// What makes one face differ from the base head; a block of tables/identities.txt.
 struct Identity {

@@ -20,8 +20,7 @@
 #include "fsm/head/ear_parts.h"
 #include "fsm/head/eye_parts.h"
 #include "fsm/head/face_channels.h"
-#include "fsm/head/hair_crop.h"
-#include "fsm/head/hair_long.h"
+#include "fsm/head/hair.h"
 #include "fsm/head/hair_parts.h"
 #include "fsm/head/hair_springs.h"
 #include "fsm/head/head_form.h"
@@ -98,40 +97,32 @@ BaseParts OnlySkin(const BaseSkin& skin) {
   return {skin.mesh, end, end, end, {}};
 }
 
-std::vector<SkinHair> HairlineOf(const Identity& identity, HeadMesh& mesh) {
-  const Features& look = identity.Look();
-  return identity.crop ? CroppedHairline(*identity.crop, look, identity.palette, mesh)
-                       : LongHairline(identity.long_hair, look, identity.palette, mesh);
-}
-
 BaseParts LayParts(const Ingredients& from, const BaseSkin& skin) {
-  const Features& look = from.identity.Look();
-  const Palette& palette = from.identity.palette;
+  const Identity& identity = from.identity;
   BaseParts parts = OnlySkin(skin);
   HeadMesh& mesh = parts.mesh;
   if (from.photo) {
     AddSheet(*from.photo, mesh);
   } else {
-    BuildCloth(look, palette, mesh);
+    BuildCloth(identity, mesh);
   }
   parts.figure_end = mesh.position.size();
   const SkinFront front(skin.fine);
-  parts.skin_hairs = BuildBrows(front, from.identity, mesh);
-  std::ranges::move(BuildLidFolds(front, from.eye, from.identity),
-                    std::back_inserter(parts.skin_hairs));
+  parts.skin_hairs = BuildBrows(front, identity, mesh);
+  std::ranges::move(BuildLidFolds(front, from.eye, identity), std::back_inserter(parts.skin_hairs));
   if (!from.photo) {
-    std::ranges::move(BuildStubble(front, SkinPainter(look, from.eye, palette), from.identity),
+    std::ranges::move(BuildStubble(front, SkinPainter(identity, from.eye), identity),
                       std::back_inserter(parts.skin_hairs));
-    std::ranges::move(HairlineOf(from.identity, mesh), std::back_inserter(parts.skin_hairs));
+    std::ranges::move(Hairline(identity, mesh), std::back_inserter(parts.skin_hairs));
   }
   // A photo shows the lashes of open eyes: only those of shut lids are added.
-  BuildLashes(from.eye, from.identity, from.photo != nullptr, mesh);
+  BuildLashes(from.eye, identity, from.photo != nullptr, mesh);
   parts.soft_end = mesh.position.size();
-  BuildEyes(from.eye, look, palette, mesh);
-  BuildTeeth(from.mouth, look, palette, mesh);
-  BuildTongue(from.mouth, look, palette, mesh);
+  BuildEyes(from.eye, identity, mesh);
+  BuildTeeth(from.mouth, identity, mesh);
+  BuildTongue(from.mouth, identity, mesh);
   // Long hair covers ears; a photo shows them.
-  if (from.identity.crop && !from.photo) BuildEars(look, palette, mesh);
+  if (identity.crop && !from.photo) BuildEars(identity, mesh);
   return parts;
 }
 
@@ -145,15 +136,12 @@ struct FormedHead {
 };
 
 void AddHair(const Ingredients& from, const BaseSkin& skin, HeadMesh& mesh) {
-  const Identity& identity = from.identity;
   if (from.photo) {
     LeaveOutUnseen(*from.photo, skin.fine.tag, mesh);
     if (!from.photo->glasses) return;
     HoldBehindGlasses(glm::vec2(from.eye.centre()), skin.mesh.position.size(), mesh);
-  } else if (identity.crop) {
-    BuildCroppedHair(*identity.crop, identity.Look(), identity.palette, mesh);
   } else {
-    BuildLongHair(identity.long_hair, identity.Look(), identity.palette, mesh);
+    BuildHair(from.identity, mesh);
   }
 }
 
@@ -208,9 +196,8 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& pa
                kTongue,   kBones, kNeck, kSprings, kNormals};
   rig.rest = head.mesh.position;
   rig.rest_normal = Normals(topology.indices, rig.rest, rig.rest.size());
-  HairLook(identity.Look(), identity.palette)
-      .LightAsOne(std::span(rig.rest).subspan(head.hair_first),
-                  std::span(rig.rest_normal).subspan(head.hair_first));
+  HairLook(identity).LightAsOne(std::span(rig.rest).subspan(head.hair_first),
+                                std::span(rig.rest_normal).subspan(head.hair_first));
   rig.bone = head.mesh.bone;
   rig.weights.assign(head.mesh.weights.begin(), head.mesh.weights.end());
   rig.units = BuiltInUnits();

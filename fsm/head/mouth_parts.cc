@@ -36,12 +36,19 @@ class ToothRow {
     Bone bone;
     std::string name;  // of its rows in the table
     float light;       // on the teeth in the middle
+    glm::vec3 tooth;   // colour
   };
-  ToothRow(Jaw jaw, const Features& features, const Palette& palette, HeadMesh& mesh)
-      : jaw_(std::move(jaw)), features_(features), palette_(palette), mesh_(mesh) {
+  ToothRow(Jaw jaw, const Identity& identity, HeadMesh& mesh)
+      : jaw_(std::move(jaw)), features_(identity.Look()), gum_(identity.palette.gum), mesh_(mesh) {
     for (int c = -half(); c <= half(); ++c) columns_.push_back(ColumnAt(c));
   }
 
+  void Add() {
+    AddCrowns();
+    AddGum();
+  }
+
+ private:
   void AddCrowns() {
     // Rows from behind the chewing edge over the front of the crown to the gum.
     constexpr std::array kRows = {-0.5f, -0.15f, 0.0f, 0.1f, 0.3f, 0.55f, 0.8f, 1.0f};
@@ -63,14 +70,12 @@ class ToothRow {
         const float scallop = row < 1 ? features_("gum_scallop") * (1 - column.bump) : 0.0f;
         glm::vec3 p = Place(column, row * column.height - scallop);
         p.z += row < 1 ? bulge[0] : row < 1.2f ? bulge[1] : 0.0f;
-        mesh_.Add(p, palette_.gum, glm::mix(light[0], light[1], SmoothStep(6, 34, back)),
-                  jaw_.bone);
+        mesh_.Add(p, gum_, glm::mix(light[0], light[1], SmoothStep(6, 34, back)), jaw_.bone);
       }
     }
     mesh_.Grid(Material::kGum, first, static_cast<int>(kRows.size()), Columns(), jaw_.upward > 0);
   }
 
- private:
   // Closer together where two teeth meet.
   static constexpr std::array kWithin = {0.0f, 0.12f, 0.31f, 0.5f, 0.69f, 0.88f};
   static constexpr int kPerTooth = kWithin.size();
@@ -151,36 +156,32 @@ class ToothRow {
     const glm::vec3 edge = glm::mix(glm::vec3(1), features_.Vector("enamel_edge_colour"),
                                     tooth < kCanine ? SmoothStep(0.22f, 0.0f, row) : 0.0f);
     const float darkest = features_("tooth_shades");
-    return palette_.tooth * edge * (darkest + (1 - darkest) * NoiseAt(tooth, 7)) *
+    return jaw_.tooth * edge * (darkest + (1 - darkest) * NoiseAt(tooth, 7)) *
            glm::mix(glm::vec3(1), features_.Vector("dentine_colour"), std::min(warm, 1.0f));
   }
 
   const Jaw jaw_;
   const Features& features_;
-  const Palette& palette_;
+  const glm::vec3 gum_;
   HeadMesh& mesh_;
   std::vector<Column> columns_;  // from the agent's right to the left
 };
 
 }  // namespace
 
-void BuildTeeth(const MouthAnatomy& mouth, const Features& features, const Palette& palette,
-                HeadMesh& mesh) {
+void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh) {
+  const Features& features = identity.Look();
   const auto& light = features["teeth_light"];
-  const auto add = [&](ToothRow::Jaw jaw, const Palette& colours) {
-    ToothRow row(std::move(jaw), features, colours, mesh);
-    row.AddCrowns();
-    row.AddGum();
-  };
-  add({mouth.UpperTeeth(), 1, Bone::kSkull, "upper", light[0]}, palette);
+  const glm::vec3 tooth = identity.palette.tooth;
+  ToothRow({mouth.UpperTeeth(), 1, Bone::kSkull, "upper", light[0], tooth}, identity, mesh).Add();
   // The lower ones stand farther back, in the shade of lip and upper row.
-  Palette shaded = palette;
-  shaded.tooth *= features.Vector("lower_teeth_colour");
-  add({mouth.LowerTeeth(), -1, Bone::kJaw, "lower", light[1]}, shaded);
+  const glm::vec3 shaded = tooth * features.Vector("lower_teeth_colour");
+  ToothRow({mouth.LowerTeeth(), -1, Bone::kJaw, "lower", light[1], shaded}, identity, mesh).Add();
 }
 
-void BuildTongue(const MouthAnatomy& mouth, const Features& features, const Palette& palette,
-                 HeadMesh& mesh) {
+void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh) {
+  const Features& features = identity.Look();
+  const Palette& palette = identity.palette;
   // A rounded back over a flat belly along the floor of the mouth; its row number is its way to the
   // tip, which lies low behind the lower teeth.
   constexpr int kAlong = 17;

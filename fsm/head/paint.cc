@@ -7,11 +7,11 @@
 
 namespace fsm {
 
-SkinPainter::SkinPainter(const Features& features, const EyeAnatomy& eye, const Palette& palette)
-    : features_(features), eye_(eye), palette_(palette) {
-  for (const TableRow& row : features.rows()) {
+SkinPainter::SkinPainter(const Identity& identity, const EyeAnatomy& eye)
+    : features_(identity.Look()), eye_(eye), palette_(identity.palette) {
+  for (const TableRow& row : features_.rows()) {
     if (row.key() != "spot") continue;
-    const auto& n = features[NumberTable::NameOf(row)];
+    const auto& n = features_[NumberTable::NameOf(row)];
     spots_.push_back({{n[0], n[1]}, {n[2], n[3]}, n[4], n[5]});
   }
 }

@@ -5,16 +5,9 @@
 #include <vector>
 
 #include "fsm/head/anatomy.h"
-#include "fsm/head/features.h"
+#include "fsm/head/identity.h"
 
 namespace fsm {
-
-/// Colours of a head, linear RGB; see BasePalette.
-struct Palette {
-  glm::vec3 skin{}, blush{}, lip{}, hair{}, brow{}, lash{}, iris{}, cloth{}, tooth{}, sclera{};
-  glm::vec3 lip_inside{}, lid_rim{}, mouth{}, tongue{}, gum{};
-  float beard = 0;  ///< how far a shaved beard shows, 0..1
-};
 
 struct PaintedSkin {
   glm::vec3 albedo;
@@ -24,7 +17,7 @@ struct PaintedSkin {
 /// Paints the skin of the base identity's face (both sides alike). What it is made of outlives it.
 class SkinPainter {
  public:
-  SkinPainter(const Features& features, const EyeAnatomy& eye, const Palette& palette);
+  SkinPainter(const Identity& identity, const EyeAnatomy& eye);
   PaintedSkin At(glm::vec3 place) const;
   /// How far a shaved beard shows there, 0..1: on upper lip, chin, jaw up to before the ear, and
   /// some of the throat. `at.x`: 0 or more.

@@ -6,7 +6,7 @@
 
 #include "fsm/head/cage.h"
 #include "fsm/head/head_mesh.h"
-#include "fsm/head/paint.h"
+#include "fsm/head/identity.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/head/photo_lids.h"
 #include "fsm/rig/head.h"

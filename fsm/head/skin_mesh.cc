@@ -58,7 +58,9 @@ BakeWeights MakeSkinWeights(const CageTag& tag, glm::vec3 p, const MouthAnatomy&
 }
 
 PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const SkinPainter& painter,
-                      const Features& features, const Palette& palette) {
+                      const Identity& identity) {
+  const Features& features = identity.Look();
+  const Palette& palette = identity.palette;
   PaintedSkin paint = painter.At(p);
   if (tag.deep > 0) {
     const auto& light = features["mouth_light"];
@@ -101,8 +103,8 @@ bool HairCovers(const HairLook& hair, glm::vec3 p) { return hair.AboveHairline(p
 
 MouthSlit BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
                     const Identity& identity, HeadMesh& mesh) {
-  const SkinPainter painter(identity.Look(), eye, identity.palette);
-  const HairLook hair(identity.Look(), identity.palette);
+  const SkinPainter painter(identity, eye);
+  const HairLook hair(identity);
   std::vector<SkinKind> kind(skin.position.size(), SkinKind::kSkin);
   for (const FineSkin::Triangle& t : skin.triangles) {
     for (const std::uint32_t v : t.corner) kind[v] = std::max(kind[v], t.kind);
@@ -112,8 +114,7 @@ MouthSlit BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnat
   for (std::uint32_t v = 0; v < skin.position.size(); ++v) {
     const glm::vec3 p = skin.position[v];
     const CageTag& tag = skin.tag[v];
-    const PaintedSkin paint =
-        MakePaint(tag, p, kind[v], painter, identity.Look(), identity.palette);
+    const PaintedSkin paint = MakePaint(tag, p, kind[v], painter, identity);
     mesh.Add(p, paint.albedo, paint.openness, Bone::kSkin, MakeSkinWeights(tag, p, mouth));
     if (tag.seam < 1) continue;
     const int column = FineColumn(tag, p.x);
