@@ -33,7 +33,7 @@ NumberTable::NumberTable(const std::string& file, std::string_view text,
     std::vector<float> numbers = row.Numbers(NameWordsOf(row));
     if (built_in != nullptr) {
       const auto like = built_in->numbers_.find(name);
-      if (like == built_in->numbers_.end()) row.Fail("'" + name + "' is not known");
+      if (like == built_in->numbers_.end()) row.Fail(built_in->NoRow(row.key(), name));
       if (numbers.size() != like->second.size()) {
         row.Fail("'" + name + "' needs " + std::to_string(like->second.size()) +
                  " numbers after it, found " + std::to_string(numbers.size()));
@@ -49,6 +49,14 @@ NumberTable::NumberTable(const std::string& file, std::string_view text,
   for (const auto& [name, unused] : built_in->numbers_) {
     if (!numbers_.contains(name)) table_.Fail("'" + name + "' is missing");
   }
+}
+
+std::string NumberTable::NoRow(const std::string& word, const std::string& name) const {
+  std::string others;
+  for (const auto& [other, unused] : numbers_) {
+    if (other.starts_with(word + " ")) others += (others.empty() ? "" : ", ") + other;
+  }
+  return "'" + name + "' is not known" + (others.empty() ? "" : "; known are " + others);
 }
 
 const std::vector<float>& NumberTable::operator[](std::string_view name) const {

@@ -35,6 +35,9 @@ class NumberTable {
   static std::string NameOf(const TableRow& row);
 
  private:
+  /// That `name` is not known, and which names begin with `word`, each of a row of its own.
+  std::string NoRow(const std::string& word, const std::string& name) const;
+
   Table table_;
   std::map<std::string, std::vector<float>, std::less<>> numbers_;
 };

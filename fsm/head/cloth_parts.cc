@@ -50,10 +50,11 @@ void BuildCloth(const Identity& identity, HeadMesh& mesh) {
   weights.free = weights.neck = weights.jaw = 0;
   const float uneven = features("shirt_uneven");
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
-  const auto& seam = features["shirt_seam"];
   for (std::size_t r = 0; r < kRows.size(); ++r) {
     const float row = kRows[r];
-    const float light = r == kSeam ? seam[0] : r < kSeam ? seam[1] : 1.0f;
+    const float light = r == kSeam  ? features("shirt_seam dark")
+                        : r < kSeam ? features("shirt_seam band")
+                                    : 1.0f;
     down.Weights(row, wd);
     float open = 0;
     for (std::size_t k = 0; k < rings.size(); ++k) open += wd[k] * rings[k].open;

@@ -43,32 +43,33 @@ class Ear {
     float height, open;
   };
   Relief ReliefAt(glm::vec2 p) const {
-    const auto& lobes = features_["ear_lobe"];
-    const float lobe = SmoothStep(lobes[0], lobes[1], p.y);
+    const float lobe = features_.Step("ear_lobe begins", p.y);
     const float helix = RidgeAt("ear_helix", p) * (1 - lobe);
     const float anti = RidgeAt("ear_antihelix", p);
     const float fork = RidgeAt("ear_fork", p);
     const float bowl =
-        BumpAt("ear_bowl", p) + features_["ear_upper_bowl"][4] * BumpAt("ear_upper_bowl", p);
+        BumpAt("ear_bowl", p) + features_("ear_upper_bowl part") * BumpAt("ear_upper_bowl", p);
     const float tragus = BumpAt("ear_tragus", p);
     const float notch = BumpAt("ear_notch", p);
-    const float height = Flare(features_["ear_flare"][0], p) + Height("ear_helix_ridge") * helix +
-                         Height("ear_antihelix_ridge") * anti + Height("ear_fork_ridge") * fork -
-                         features_["ear_bowl"][4] * bowl + features_["ear_tragus"][4] * tragus -
-                         features_["ear_notch"][4] * notch + lobes[2] * lobe;
+    const float height =
+        Flare(features_("ear_flare front"), p) + features_("ear_helix height") * helix +
+        features_("ear_antihelix height") * anti + features_("ear_fork height") * fork -
+        features_("ear_bowl depth") * bowl + features_("ear_tragus height") * tragus -
+        features_("ear_notch depth") * notch + features_("ear_lobe height") * lobe;
     const float groove = (1 - helix) * (1 - anti) * (1 - fork) * (1 - lobe);
-    const auto& dark = features_["ear_dark"];
-    return {height, 1 - dark[0] * std::min(1.0f, bowl) - dark[1] * groove * (1 - tragus)};
+    return {height, 1 - features_("ear_dark bowl") * std::min(1.0f, bowl) -
+                        features_("ear_dark grooves") * groove * (1 - tragus)};
   }
   float BackAt(glm::vec2 p) const {
-    return Flare(features_["ear_back"][0], p) + features_["ear_back"][1];
+    return Flare(features_("ear_flare back"), p) + features_("ear_thick");
   }
 
   glm::vec2 middle() const { return middle_; }
   /// Leans back at the top; the front lies in the skin of the cheek.
   glm::vec3 Place(glm::vec2 p, float height) const {
-    const auto& n = features_["ear_place"];
-    return {n[0] + height, n[1] * p.y + n[2] * p.x, n[3] - p.x - n[4] * p.y};
+    return {features_("ear_place aside") + height,
+            features_("ear_place height") * p.y + features_("ear_place back_higher") * p.x,
+            features_("ear_place forward") - p.x - features_("ear_place top_back") * p.y};
   }
   /// The outline at part `turn` of the way round.
   glm::vec2 Outline(float turn) const {
@@ -84,21 +85,19 @@ class Ear {
 
  private:
   float Flare(float at_tragus, glm::vec2 p) const {
-    const auto& flare = features_["ear_flare"];
-    return at_tragus + flare[1] * std::max(p.x, 0.0f) - flare[2] * p.x * p.x;
+    return at_tragus + features_("ear_flare backwards") * std::max(p.x, 0.0f) -
+           features_("ear_flare square") * p.x * p.x;
   }
-  float Height(const char* ridge) const { return features_[ridge][1]; }
   float RidgeAt(const std::string& line, glm::vec2 p) const {
-    return Ridge(DistanceToLine(p, features_.Points(line)), features_[line + "_ridge"][0]);
+    return Ridge(DistanceToLine(p, features_.Points(line)), features_(line + " half_width"));
   }
-  float BumpAt(const char* name, glm::vec2 p) const {
-    const auto& n = features_[name];
-    return Bump(p, {n[0], n[1]}, {n[2], n[3]});
+  float BumpAt(const std::string& name, glm::vec2 p) const {
+    return Bump(p, features_.Pair(name + " middle"), features_.Pair(name + " half_size"));
   }
 
   const Features& features_;
   const std::vector<glm::vec2> outline_ = features_.Points("ear_outline");
-  const glm::vec2 middle_ = features_.Points("ear_middle")[0];
+  const glm::vec2 middle_ = features_.Pair("ear_middle");
   SplineBasis around_{{0, 1}};
 };
 
@@ -111,7 +110,7 @@ std::array<std::pair<const char*, glm::vec3>, 4> EarLandmarks(const Features& fe
   const auto by_depth = [](glm::vec2 p) { return p.x; };
   return {{{"superaurale", at(std::ranges::max(ear.corners(), {}, by_height))},
            {"subaurale", at(std::ranges::min(ear.corners(), {}, by_height))},
-           {"preaurale", at(features.Points("ear_front")[0])},
+           {"preaurale", at(features.Pair("ear_front"))},
            {"postaurale", at(std::ranges::max(ear.corners(), {}, by_depth))}}};
 }
 
@@ -122,8 +121,9 @@ class EarBuilder {
  public:
   EarBuilder(const Identity& identity, Side side, HeadMesh& mesh)
       : features_(identity.Look()),
-        blush_(identity.palette.blush * features_["ear_blush"][1]),
-        colour_(glm::mix(identity.palette.skin, identity.palette.blush, features_["ear_blush"][0])),
+        blush_(identity.palette.blush * features_("ear_blush dark")),
+        colour_(
+            glm::mix(identity.palette.skin, identity.palette.blush, features_("ear_blush part"))),
         ear_(features_),
         side_(side),
         mesh_(mesh) {}
@@ -134,8 +134,8 @@ class EarBuilder {
     const std::uint32_t middle = Add(ear_.Place(centre, deep.height), deep.open);
     AddFront();
     AddBack();
-    const auto& inside_at = features_["ear_inside"];
-    const std::uint32_t inside = Add(ear_.Place(centre, inside_at[0]), inside_at[1]);
+    const std::uint32_t inside =
+        Add(ear_.Place(centre, features_("ear_inside aside")), features_("ear_inside light"));
     for (std::size_t a = 0; a < kAround; ++a) {
       const std::size_t b = (a + 1) % kAround;
       Face(middle, rings_.front()[b], rings_.front()[a]);
@@ -178,8 +178,8 @@ class EarBuilder {
   }
   std::uint32_t Add(glm::vec3 p, float open) {
     p.x *= SignOf(side_);
-    const auto& light = features_["ear_light"];
-    return mesh_.Add(p, glm::mix(blush_, colour_, open), light[0] + light[1] * open, Bone::kSkull);
+    return mesh_.Add(p, glm::mix(blush_, colour_, open), features_.Linear("ear_light", open),
+                     Bone::kSkull);
   }
   void Face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     mesh_.Triangle(Material::kSkin, a, b, c, side_ == Side::kRight);

@@ -24,8 +24,8 @@ std::array<BallRing, 11> Rings(const EyeAnatomy& eye, const Identity& identity) 
   const float iris = std::asin(eye.iris_radius() / eye.radius());
   const float pupil = std::asin(eye.pupil_radius() / eye.radius());
   const glm::vec3 black = features.Vector("pupil_colour");
-  const glm::vec3 limbus = features["limbus"][0] * palette.iris;
-  const glm::vec3 edge = glm::mix(limbus, palette.sclera, features["limbus"][1]);
+  const glm::vec3 limbus = features("limbus dark") * palette.iris;
+  const glm::vec3 edge = glm::mix(limbus, palette.sclera, features("limbus outside"));
   const glm::vec3 pink = palette.sclera * features.Vector("white_behind");
   const auto of_iris = [&, rings = features.Points("iris_rings")](std::size_t k) {
     return BallRing{glm::mix(pupil, iris, rings[k].x), palette.iris * rings[k].y, Material::kIris};

@@ -1,6 +1,8 @@
 #include "fsm/head/features.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "embedded/features.h"
@@ -10,10 +12,37 @@ namespace {
 
 constexpr std::string_view kCurves[] = {"brow_middle", "brow_half_height", "brow_growth",
                                         "lid_fold_height", "hairline"};
-// How many things are made.
-constexpr std::string_view kCounts[] = {"upper_lashes", "lower_lashes", "brow_hairs",
-                                        "long_locks",   "long_wisps",   "long_flyaways"};
-constexpr float kMostHairs = 200;  // in one row
+/// Within what all numbers of a row must lie.
+struct Limits {
+  std::string_view name;
+  float least, most;
+};
+constexpr float kMostHairs = 200;                     // in one row
+constexpr float kLeastSize = 0.01f, kMostSize = 100;  // of what is divided by
+constexpr Limits kLimits[] = {
+    {"upper_lashes count", 1, kMostHairs},
+    {"lower_lashes count", 1, kMostHairs},
+    {"brow_hairs columns", 1, kMostHairs},
+    {"brow_hairs rows", 1, kMostHairs},
+    {"long_locks count", 1, kMostHairs},
+    {"long_wisps", 1, kMostHairs},
+    {"long_flyaways count", 1, kMostHairs},
+    {"long_volume", 10, 1000},
+    {"upper_tooth_widths", 0.5f, kMostSize},
+    {"lower_tooth_widths", 0.5f, kMostSize},
+    {"ear_helix half_width", kLeastSize, kMostSize},
+    {"ear_antihelix half_width", kLeastSize, kMostSize},
+    {"ear_fork half_width", kLeastSize, kMostSize},
+    {"ear_bowl half_size", kLeastSize, kMostSize},
+    {"ear_upper_bowl half_size", kLeastSize, kMostSize},
+    {"ear_tragus half_size", kLeastSize, kMostSize},
+    {"ear_notch half_size", kLeastSize, kMostSize},
+    {"long_parting_soft", kLeastSize, kMostSize},
+    {"long_over_ear half_width", kLeastSize, kMostSize},
+    {"long_over_ear half_height", kLeastSize, kMostSize},
+    {"stubble_place lips_half_size", kLeastSize, kMostSize},
+    {"beard_thin_cheek half_size", kLeastSize, kMostSize},
+};
 
 bool Ascends(const std::vector<float>& pairs) {
   for (std::size_t i = 2; i < pairs.size(); i += 2) {
@@ -26,42 +55,22 @@ bool Ascends(const std::vector<float>& pairs) {
 
 Features::Features(NumberTable numbers) : NumberTable(std::move(numbers)) {
   for (const TableRow& row : rows()) {
-    const auto& n = (*this)[NameOf(row)];
-    const auto is = [&row](std::string_view name) { return row.key() == name; };
-    if (std::ranges::any_of(kCurves, is) && !Ascends(n))
+    const std::string name = NameOf(row);
+    const auto& n = (*this)[name];
+    if (std::ranges::find(kCurves, name) != std::end(kCurves) && !Ascends(n))
       row.Fail("numbers of x that do not ascend");
-    if (std::ranges::any_of(kCounts, is)) row.Within(1, 1, kMostHairs);
-    if (is("brow_hairs")) row.Within(2, 1, kMostHairs);
-    if (is("long_locks") && !(n[1] < n[0])) row.Fail("no lock that is not at the edge");
-    if (is("long_volume")) {
-      for (std::size_t i = 1; i <= 3; ++i) row.Within(i, 10, 1000);
+    for (const Limits& limits : kLimits) {
+      if (name != limits.name) continue;
+      for (std::size_t i = row.size() - n.size(); i < row.size(); ++i)
+        row.Within(i, limits.least, limits.most);
     }
-    if (is("crop_crown") && n[0] == 0 && n[1] == 0 && n[2] == 0)
-      row.Fail("a crown that is nowhere");
-    const bool of_tooth = row.key().ends_with("_tooth_widths");
-    if (of_tooth && std::ranges::any_of(n, [](float width) { return !(width > 0.5f); }))
-      row.Fail("a tooth of less than half a millimetre");
-    // Half widths are divided by.
-    constexpr float kLeast = 0.01f, kMost = 100;
-    if (row.key().ends_with("_ridge")) row.Within(1, kLeast, kMost);
-    if (is("ear_bowl") || is("ear_upper_bowl") || is("ear_tragus") || is("ear_notch")) {
-      row.Within(3, kLeast, kMost);
-      row.Within(4, kLeast, kMost);
+    if (row.key() == "spot") {
+      for (const std::size_t half_size : {4, 5}) row.Within(half_size, kLeastSize, kMostSize);
     }
-    if (is("long_parting_soft")) row.Within(1, kLeast, kMost);
-    if (is("long_over_ear")) {
-      row.Within(3, kLeast, kMost);
-      row.Within(5, kLeast, kMost);
-    }
-    if (is("stubble_place")) {
-      row.Within(5, kLeast, kMost);
-      row.Within(6, kLeast, kMost);
-    }
-    if (is("photo_lid_furrow")) row.Within(3, kLeast, kMost);
-    if (is("spot") || is("beard_thin_cheek")) {
-      row.Within(4, kLeast, kMost);
-      row.Within(5, kLeast, kMost);
-    }
+    if (name == "photo_lid_furrow") row.Within(3, kLeastSize, kMostSize);
+    if (name == "long_locks at_edge" && !(n[0] < (*this)("long_locks count")))
+      row.Fail("no lock that is not at the edge");
+    if (name == "crop_crown" && Vector(name) == glm::vec3(0)) row.Fail("a crown that is nowhere");
   }
 }
 
@@ -84,6 +93,21 @@ Curve Features::CurveOf(std::string_view name) const {
     y.push_back(point.y);
   }
   return {std::move(x), std::move(y)};
+}
+
+float Features::Between(std::string_view name, float part) const {
+  const glm::vec2 range = Pair(name);
+  return glm::mix(range.x, range.y, part);
+}
+
+float Features::Step(std::string_view name, float x) const {
+  const glm::vec2 range = Pair(name);
+  return SmoothStep(range.x, range.y, x);
+}
+
+float Features::Linear(std::string_view name, float x) const {
+  const glm::vec2 n = Pair(name);
+  return n.x + n.y * x;
 }
 
 }  // namespace fsm

@@ -23,6 +23,14 @@ class Features : public NumberTable {
   std::vector<glm::vec2> Points(std::string_view name) const;
   Curve CurveOf(std::string_view name) const;  ///< of x and y
 
+  // Rows of two numbers; REQUIRES as NumberTable.
+  /// `part` of the way from the first to the second.
+  float Between(std::string_view name, float part) const;
+  /// SmoothStep from the first to the second.
+  float Step(std::string_view name, float x) const;
+  /// The first, and the second times `x`.
+  float Linear(std::string_view name, float x) const;
+
  private:
   /// Throws if the x of a curve do not ascend, or there are no hairs where there must be some.
   explicit Features(NumberTable numbers);

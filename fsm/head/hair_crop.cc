@@ -35,14 +35,15 @@ class CroppedHair {
   }
 
   std::vector<SkinHair> Hairline() {
-    const auto& n = features_["crop_hairline"];
     std::vector<SkinHair> hairs;
-    for (int k = 0; k < static_cast<int>(n[0]); ++k) {
-      const float azimuth = n[1] * NoiseAt(k, 91);
+    for (int k = 0; k < static_cast<int>(features_("crop_hairline count")); ++k) {
+      const float azimuth = features_("crop_hairline azimuth") * NoiseAt(k, 91);
       // Most grow near the line, few before it.
       const float off = NoiseAt(k, 92);
-      const glm::vec3 root = Direction(azimuth, n[2] + n[3] * off * std::abs(off));
-      if (scalp_.Over(root, 0).y < n[4]) continue;
+      const float up =
+          features_("crop_hairline up") + features_("crop_hairline spread") * off * std::abs(off);
+      const glm::vec3 root = Direction(azimuth, up);
+      if (scalp_.Over(root, 0).y < features_("crop_hairline lowest")) continue;
       SkinHair hair = look_.OnSkin(scalp_, root, Flow(root, Forehead(azimuth, 0.1f)),
                                    std::min(1.0f, 1 + off), k);
       // What is curled reaches less far.
@@ -57,12 +58,10 @@ class CroppedHair {
  private:
   // Azimuth -180..180; `up` 0 at the hairline .. 1 at the crown, which lies behind the top.
   glm::vec3 Direction(float azimuth, float up) const {
-    const auto& recess = features_["crop_recess"];
-    const float recede = style_.recede * SmoothStep(recess[0], recess[1], std::abs(azimuth)) *
-                         SmoothStep(recess[2], recess[3], std::abs(azimuth));
-    const auto& waves = features_["crop_wander"];
-    const float wander =
-        waves[0] * std::sin(0.23f * azimuth + 1) + waves[1] * std::sin(0.61f * azimuth);
+    const float recede = style_.recede * features_.Step("crop_recess begins", std::abs(azimuth)) *
+                         features_.Step("crop_recess ends", std::abs(azimuth));
+    const float wander = features_("crop_wander long") * std::sin(0.23f * azimuth + 1) +
+                         features_("crop_wander short") * std::sin(0.61f * azimuth);
     const float line = look_.HairlineElevation(azimuth) + recede + wander;
     const glm::vec3 low = HairDirection(azimuth, line);
     // Along the great circle from the hairline to the crown.
@@ -82,8 +81,8 @@ class CroppedHair {
 
   /// How much hair there lies over the forehead, 0..1.
   float Forehead(float azimuth, float up) const {
-    const auto& n = features_["crop_forehead"];
-    return SmoothStep(n[0], n[1], std::abs(azimuth)) * SmoothStep(n[2], n[3], up);
+    return features_.Step("crop_forehead azimuth", std::abs(azimuth)) *
+           features_.Step("crop_forehead up", up);
   }
 
   /// Which way hair lies: away from the crown, forward on top, down at the sides and behind; over
@@ -103,43 +102,38 @@ class CroppedHair {
   }
   /// Millimetres across and along strands: those of curls are small and as long as wide.
   glm::vec2 Curled(glm::vec2 mm) const {
-    const auto& smaller = features_["crop_curl_smaller"];
-    return mm * glm::mix(glm::vec2(1), glm::vec2(smaller[0], smaller[1]), style_.curl);
+    return mm * glm::mix(glm::vec2(1), features_.Pair("crop_curl_smaller"), style_.curl);
   }
 
   float Depth(glm::vec3 d, float up) const {
     const float top = SmoothStep(0.2f, 0.85f, d.y);
     const float body = glm::mix(style_.side_mm, style_.top_mm, top);
-    const auto& thickens = features_["crop_thickens"];
-    const auto& edge = features_["crop_edge"];
-    return edge[0] + edge[1] * SmoothStep(0.2f, -0.5f, d.z) +
-           body * SmoothStep(thickens[0], thickens[1], up);
+    return features_("crop_edge thick") +
+           features_("crop_edge behind") * SmoothStep(0.2f, -0.5f, d.z) +
+           body * features_.Step("crop_thickens", up);
   }
 
   void Shell() {
     constexpr int kAround = 48;
     constexpr std::array kUp = {0.0f,  0.022f, 0.06f, 0.11f, 0.17f, 0.23f, 0.30f, 0.37f, 0.44f,
                                 0.51f, 0.58f,  0.65f, 0.72f, 0.79f, 0.86f, 0.93f, 1.0f};
-    const float ragged_by = features_("crop_ragged");
-    const auto& edge_hair = features_["crop_edge_hair"];
     const auto& edge_density = features_["crop_edge_density"];
-    const auto& below = features_["crop_below"];
-    const auto& light = features_["crop_light"];
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (std::size_t r = 0; r < kUp.size(); ++r) {
       for (int k = 0; k <= kAround; ++k) {
         const float azimuth = -180 + 360 * static_cast<float>(k) / kAround;
         // An uneven edge: hair does not end on a drawn line.
-        const float ragged = r == 0 ? ragged_by * NoiseAt(k % kAround, 61) : 0.0f;
+        const float ragged = r == 0 ? features_("crop_ragged") * NoiseAt(k % kAround, 61) : 0.0f;
         const glm::vec3 d = Direction(azimuth, kUp[r] + ragged);
-        const float uneven = 1 + below[0] * NoiseAt(k % kAround, static_cast<int>(r) + 62);
+        const float uneven =
+            1 + features_("crop_below uneven") * NoiseAt(k % kAround, static_cast<int>(r) + 62);
         const glm::vec3 p = scalp_.Over(d, Depth(d, kUp[r]) * (r == 0 ? 1.0f : uneven));
         const glm::vec3 colour =
             glm::mix(palette_.hair, look_.StrandColour(3 * (k % kAround), static_cast<int>(r)),
-                     below[1] * (1 - style_.curl));
-        const float thin = r == 0 ? edge_hair[0] : 1.0f;
-        mesh_.Add(p, glm::mix(palette_.skin * edge_hair[1], colour, thin),
-                  r < 3 ? light[0] : light[1], Bone::kSkull);
+                     features_("crop_below streaks") * (1 - style_.curl));
+        const float thin = r == 0 ? features_("crop_edge_hair part") : 1.0f;
+        mesh_.Add(p, glm::mix(palette_.skin * features_("crop_edge_hair skin"), colour, thin),
+                  features_(r < 3 ? "crop_light edge" : "crop_light others"), Bone::kSkull);
         mesh_.strands.back() = {.along = Along(d, Forehead(azimuth, kUp[r])),
                                 .density = r < edge_density.size() ? edge_density[r] : 1.0f,
                                 .tile_mm = Curled({1.49f * azimuth, -140 * kUp[r]})};
@@ -154,22 +148,22 @@ class CroppedHair {
         360 * (0.618034f * static_cast<float>(k) - std::floor(0.618034f * static_cast<float>(k)));
     const float azimuth = turn - 180;
     const float share = (static_cast<float>(k) + 0.5f) / static_cast<float>(style_.locks);
-    const auto& from = features_["crop_lock_from"];
-    const float up = from[0] + from[1] * share * share;
-    const auto& ear = features_["crop_ear"];
-    const bool by_ear = std::abs(azimuth) > ear[0] && std::abs(azimuth) < ear[1];
-    if (by_ear && up < ear[2]) return;
-    const auto& uneven = features_["crop_uneven"];
+    const float up =
+        features_("crop_lock_from first") + features_("crop_lock_from more") * share * share;
+    const glm::vec2 ear = features_.Pair("crop_ear azimuth");
+    const bool by_ear = std::abs(azimuth) > ear.x && std::abs(azimuth) < ear.y;
+    if (by_ear && up < features_("crop_ear up")) return;
     const glm::vec3 root = Direction(azimuth, up);
     const float forehead = Forehead(azimuth, up);
-    glm::vec3 along =
-        Flow(root, forehead) + glm::vec3(uneven[0] * NoiseAt(k, 31), 0, uneven[0] * NoiseAt(k, 32));
+    glm::vec3 along = Flow(root, forehead) + features_("crop_uneven direction") *
+                                                 glm::vec3(NoiseAt(k, 31), 0, NoiseAt(k, 32));
     along = glm::normalize(along - root * glm::dot(along, root));
-    const auto& lengths = features_["crop_lock_length"];
-    const float length = style_.lock_mm * (1 + uneven[1] * NoiseAt(k, 33)) *
-                         (lengths[0] + lengths[1] * SmoothStep(-0.3f, 0.5f, root.y)) *
-                         (lengths[2] + lengths[3] * SmoothStep(0, 0.2f, up));
-    const float lift = style_.lift_mm * (1 + uneven[2] * NoiseAt(k, 34)) +
+    const float length = style_.lock_mm * (1 + features_("crop_uneven length") * NoiseAt(k, 33)) *
+                         (features_("crop_lock_length nape") +
+                          features_("crop_lock_length top") * SmoothStep(-0.3f, 0.5f, root.y)) *
+                         (features_("crop_lock_length hairline") +
+                          features_("crop_lock_length above") * SmoothStep(0, 0.2f, up));
+    const float lift = style_.lift_mm * (1 + features_("crop_uneven lift") * NoiseAt(k, 34)) +
                        forehead * style_.front_up * features_("crop_front_lift");
     std::vector<glm::vec3> path;
     constexpr int kSteps = 4;
@@ -182,16 +176,17 @@ class CroppedHair {
       const float over = Depth(d, Up(d));  // along the shell
       path.push_back(scalp_.Over(d, 1.02f * over + lift * v * (1 - 0.75f * v) + 0.9f));
     }
-    const auto& wide = features_["crop_lock_width"];
-    const float width =
-        glm::mix(wide[0], wide[1] + wide[2] * style_.lock_mm, SmoothStep(0, 0.28f, up));
-    const auto& taper = features_["crop_lock_taper"];
+    const float width = glm::mix(
+        features_("crop_lock_width hairline"),
+        features_("crop_lock_width top") + features_("crop_lock_width per_length") * style_.lock_mm,
+        SmoothStep(0, 0.28f, up));
     look_.AddLock(path,
-                  {.width_mm = wide[3] * width * (1 + uneven[3] * NoiseAt(k, 35)),
-                   .root_part = taper[0],
-                   .tip_part = taper[3],
-                   .fray_from = taper[1],
-                   .open = taper[2]},
+                  {.width_mm = features_("crop_lock_width factor") * width *
+                               (1 + features_("crop_uneven width") * NoiseAt(k, 35)),
+                   .root_part = features_("crop_lock_taper root"),
+                   .tip_part = features_("crop_lock_taper tip"),
+                   .fray_from = features_("crop_lock_taper fray_from"),
+                   .open = features_("crop_lock_taper light")},
                   k, mesh_);
   }
 

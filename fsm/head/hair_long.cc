@@ -40,19 +40,20 @@ class LongHair {
   }
 
   std::vector<SkinHair> Hairline() {
-    const auto& n = features_["long_hairline"];
     std::vector<SkinHair> hairs;
-    for (int k = 0; k < static_cast<int>(n[0]); ++k) {
+    for (int k = 0; k < static_cast<int>(features_("long_hairline count")); ++k) {
       const float side = k % 2 == 0 ? -1.0f : 1.0f;
-      const float t = n[1] * (0.5f + 0.5f * NoiseAt(k, 91));
+      const float t = features_("long_hairline to") * (0.5f + 0.5f * NoiseAt(k, 91));
       const glm::vec3 edge = Direction(0, side, t);
       const glm::vec3 along = glm::normalize(Direction(0, side, t + 0.02f) - edge);
       const float off = NoiseAt(k, 92);
       const glm::vec3 before = glm::cross(along, edge) * side;  // away from the hair
-      const glm::vec3 root = glm::normalize(edge + before * (n[2] + n[3] * off * std::abs(off)));
-      if (scalp_.Over(root, 0).y < n[4]) continue;
-      hairs.push_back(
-          look_.OnSkin(scalp_, root, along + n[5] * before, std::min(1.0f, 1 - off), k));
+      const float away = features_("long_hairline before") +
+                         features_("long_hairline spread") * off * std::abs(off);
+      const glm::vec3 root = glm::normalize(edge + before * away);
+      if (scalp_.Over(root, 0).y < features_("long_hairline lowest")) continue;
+      hairs.push_back(look_.OnSkin(scalp_, root, along + features_("long_hairline turn") * before,
+                                   std::min(1.0f, 1 - off), k));
     }
     return hairs;
   }
@@ -62,31 +63,25 @@ class LongHair {
   // the end of the skull (kCap) to the ends (1).
   static constexpr float kCap = 0.58f;
 
-  /// Between the two numbers of that name.
-  float Mix(const char* name, float part) const {
-    return glm::mix(features_[name][0], features_[name][1], part);
-  }
-  int Count(const char* name, std::size_t which) const {
-    return static_cast<int>(features_[name][which]);
-  }
   glm::vec3 OnParting(float degrees) const {
     const float along = degrees * kPi / 180;
     return glm::normalize(glm::vec3(style_.parting, std::sin(along), std::cos(along)));
   }
 
   glm::vec3 Direction(float i, float side, float t) const {
-    const auto& crowd = features_["long_crowd"];
-    const glm::vec3 start = OnParting(Mix("long_parting", std::pow(i, crowd[0])));
-    const float azimuth = Mix("long_round", std::pow(i, crowd[1]));
-    const auto& nearer = features_["long_edge_nearer"];
-    const auto& bends = features_["long_bend"];
+    const glm::vec3 start =
+        OnParting(features_.Between("long_parting", std::pow(i, features_("long_crowd parting"))));
+    const float azimuth =
+        features_.Between("long_round", std::pow(i, features_("long_crowd round")));
     const float edge = SmoothStep(0.25f, 0, i);
     // The side away from the parting has the longer way round the forehead.
     const float away = side < 0 ? 1.0f : 0.0f;
-    const glm::vec3 bend =
-        HairDirection(side * azimuth * glm::mix(1.0f, nearer[0] - nearer[1] * away, edge),
-                      glm::mix(bends[0], bends[1] - bends[2] * away, edge));
-    const glm::vec3 end = HairDirection(side * azimuth, Mix("long_skull_end", edge));
+    const float nearer =
+        features_("long_edge_nearer part") - features_("long_edge_nearer less_away") * away;
+    const float edge_bend = features_("long_bend edge") - features_("long_bend less_away") * away;
+    const glm::vec3 bend = HairDirection(side * azimuth * glm::mix(1.0f, nearer, edge),
+                                         glm::mix(features_("long_bend behind"), edge_bend, edge));
+    const glm::vec3 end = HairDirection(side * azimuth, features_.Between("long_skull_end", edge));
     return glm::normalize((1 - t) * (1 - t) * start + 2 * t * (1 - t) * bend + t * t * end);
   }
 
@@ -102,12 +97,15 @@ class LongHair {
     const float volume = 1 / std::sqrt(glm::dot(scaled, scaled));
     const float skin = scalp_.Distance(d);
     const float part = SmoothStep(0, 0.17f, i) * (0.8f + 0.2f * SmoothStep(0, 0.3f, cap));
-    const auto& off = features_["long_fringe_off"];
-    const float fringe = off[0] + off[1] * std::sin(kPi * SmoothStep(0, 1, cap));
+    const float off = features_("long_fringe_off ends");
+    const float fringe =
+        off + features_("long_fringe_off middle") * std::sin(kPi * SmoothStep(0, 1, cap));
     const float least =
         skin + glm::mix(fringe, features_("long_least_off"), SmoothStep(0, 0.12f, i));
-    float radius =
-        std::max(least, glm::mix(skin + off[0] + off[2] * SmoothStep(0.3f, 1, cap), volume, part));
+    float radius = std::max(
+        least,
+        glm::mix(skin + off + features_("long_fringe_off temples") * SmoothStep(0.3f, 1, cap),
+                 volume, part));
     // The parting is a furrow in the hair.
     radius = glm::mix(skin + features_("long_furrow") * (radius - skin), radius,
                       SmoothStep(-0.1f, 0.28f, cap));
@@ -118,8 +116,10 @@ class LongHair {
       const glm::vec3 out = glm::normalize(glm::vec3(d.x, 0, d.z));
       const float front = SmoothStep(0.35f, 0, i);
       p.y = glm::mix(p.y, EndY(i, side), hang);
-      const float full = Mix("long_full", front) * std::sin(std::min(1.0f, 1.2f * hang) * kPi);
-      p += out * (full - Mix("long_inward", SmoothStep(0, 0.6f, i)) * hang * hang * hang) +
+      const float full =
+          features_.Between("long_full", front) * std::sin(std::min(1.0f, 1.2f * hang) * kPi);
+      p += out * (full -
+                  features_.Between("long_inward", SmoothStep(0, 0.6f, i)) * hang * hang * hang) +
            Wave(i, side, hang, out);
       p.z += front * features_("long_forward") * hang * (1 - 0.4f * hang);
       // At the face it follows the cheek.
@@ -131,19 +131,19 @@ class LongHair {
 
   // What hangs swings round the head and, less, off it; neighbours swing nearly alike.
   glm::vec3 Wave(float i, float side, float hang, glm::vec3 out) const {
-    const auto& waves = features_["long_waves"];
-    const float phase = 2 * kPi * waves[0] * hang + waves[1] * i + waves[2] * side;
+    const float phase = 2 * kPi * features_("long_waves count") * hang +
+                        features_("long_waves round") * i + features_("long_waves sides") * side;
     const float swing = style_.wave_mm * SmoothStep(-0.1f, 0.5f, hang);
     return swing * (std::sin(phase) * glm::vec3(out.z, 0, -out.x) * side +
-                    waves[3] * std::cos(phase) * out);
+                    features_("long_waves off") * std::cos(phase) * out);
   }
 
   // By how much the ear lifts what hangs over it.
   float OverEar(float i, float y) const {
-    const auto& ear = features_["long_over_ear"];
-    const float round = (i - ear[1]) / ear[2];
-    const float up = (y - ear[3]) / ear[4];
-    return ear[0] * std::exp(-round * round - up * up);
+    const float round =
+        (i - features_("long_over_ear round")) / features_("long_over_ear half_width");
+    const float up = (y - features_("long_over_ear y")) / features_("long_over_ear half_height");
+    return features_("long_over_ear lift") * std::exp(-round * round - up * up);
   }
 
   glm::vec3 Along(float i, float side, float t) const {
@@ -155,9 +155,10 @@ class LongHair {
   }
 
   float Ridge(float i, float t) const {
-    const auto& deep = features_["long_ridges"];
-    const float phase = deep[2] * i + 2.0f * std::sin(3 * t + 9 * i);
-    return (deep[0] * std::sin(phase) + deep[1] * std::sin(deep[3] * phase + 1)) *
+    const float phase = features_("long_ridges close") * i + 2.0f * std::sin(3 * t + 9 * i);
+    return (features_("long_ridges broad") * std::sin(phase) +
+            features_("long_ridges narrow") *
+                std::sin(features_("long_ridges closer") * phase + 1)) *
            SmoothStep(0.02f, 0.3f, t) * (0.6f + 0.7f * t) * SmoothStep(0, 0.08f, i);
   }
 
@@ -186,9 +187,6 @@ class LongHair {
     constexpr int kStrands = 27;
     constexpr int kCapRows = 15;  // the skull is round, what hangs nearly straight
     constexpr int kRows = 24;
-    const auto& thin = features_["long_thin"];
-    const auto& light = features_["long_light"];
-    const auto& tile = features_["long_tile"];
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       // Closer together at the face, where the edge is seen.
@@ -203,17 +201,18 @@ class LongHair {
                 : glm::mix(kCap, kEnd, static_cast<float>(row - kCapRows) / (kRows - kCapRows));
         glm::vec3 p = Point(i, side, t, Ridge(i, t));
         p.y += Pointed(k, t);
-        const float open = std::min(1.0f, glm::mix(light[0], 1.0f, SmoothStep(0, 0.12f, t)) *
-                                              glm::mix(light[1], 1.0f, SmoothStep(0, 0.1f, i)) *
-                                              (1 + light[3] * Ridge(i, t)));
-        const glm::vec3 colour = look_.StrandColour(k * 3, row) * Mix("long_fade", t);
+        const float open = std::min(
+            1.0f, glm::mix(features_("long_light parting"), 1.0f, SmoothStep(0, 0.12f, t)) *
+                      glm::mix(features_("long_light edge"), 1.0f, SmoothStep(0, 0.1f, i)) *
+                      (1 + features_("long_light ridges") * Ridge(i, t)));
+        const glm::vec3 colour = look_.StrandColour(k * 3, row) * features_.Between("long_fade", t);
         mesh_.Add(
             p, row > 0 ? colour : glm::mix(colour, palette_.skin, features_("long_parting_scalp")),
             open, Bone::kSkull);
         const float edge = k == 0 ? 0.1f : k == 1 ? 0.8f : 1.0f;
         mesh_.strands.back() = {.along = Along(i, side, t),
-                                .density = edge * SmoothStep(thin[0], thin[1], t),
-                                .tile_mm = {side * tile[0] * i, tile[1] * t}};
+                                .density = edge * features_.Step("long_thin", t),
+                                .tile_mm = features_.Pair("long_tile") * glm::vec2(side * i, t)};
       }
     }
     mesh_.Grid(Material::kHair, first, kStrands + 1, kRows + 1, side > 0);
@@ -223,9 +222,7 @@ class LongHair {
   void Lining(float side) {
     constexpr int kStrands = 11;
     constexpr int kRows = 6;
-    const auto& insets = features_["long_lining"];
-    const auto& thin = features_["long_thin"];
-    const auto& tile = features_["long_tile"];
+    const auto& insets = features_["long_lining inset"];
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       // Beside the face it reaches up to the forehead: there one looks under the hair.
@@ -235,72 +232,72 @@ class LongHair {
       for (int row = 0; row <= kRows; ++row) {
         const float t =
             glm::mix(kCap * glm::mix(0.1f, 0.6f, behind), kEnd, static_cast<float>(row) / kRows);
-        const float inset = glm::mix(insets.back(), insets[static_cast<std::size_t>(row)], behind);
+        const float inset =
+            glm::mix(features_("long_lining face"), insets[static_cast<std::size_t>(row)], behind);
         const glm::vec3 p = Point(i, side, t, inset) + glm::vec3(0, Pointed(k, t), 0);
-        mesh_.Add(p, palette_.hair, features_["long_light"][2], Bone::kSkull);
+        mesh_.Add(p, palette_.hair, features_("long_light lining"), Bone::kSkull);
         mesh_.strands.back() = {.along = Along(i, side, t),
-                                .density = SmoothStep(thin[0], thin[1], t),
-                                .tile_mm = {tile[0] * i, tile[1] * t}};
+                                .density = features_.Step("long_thin", t),
+                                .tile_mm = features_.Pair("long_tile") * glm::vec2(i, t)};
       }
     }
     mesh_.Grid(Material::kHair, first, kStrands + 1, kRows + 1, side < 0);
   }
 
   void Locks(float side) {
-    const int locks = Count("long_locks", 0), at_edge = Count("long_locks", 1);
-    const auto& wide = features_["long_lock_width"];
-    const auto& lifts = features_["long_lock_lift"];
-    const auto& starts = features_["long_lock_from"];
-    const auto& ends = features_["long_lock_to"];
-    const auto& drifts = features_["long_lock_drift"];
-    const auto& taper = features_["long_lock_taper"];
+    const int locks = static_cast<int>(features_("long_locks count"));
+    const int at_edge = static_cast<int>(features_("long_locks at_edge"));
     for (int k = 0; k < locks; ++k) {
       const int seed = k + (side > 0 ? 500 : 0);
       const float u = (static_cast<float>(k - at_edge) + 0.5f + 0.4f * NoiseAt(seed, 1)) /
                       static_cast<float>(locks - at_edge);
       const bool edge = k < at_edge;
       const float i = edge ? 0.005f * static_cast<float>(k) : u;
-      const float from = edge ? starts[0] + starts[1] * static_cast<float>(k)
-                              : starts[2] + starts[3] * (NoiseAt(seed, 2) + 1);
-      const float to = edge ? ends[0] + ends[1] * static_cast<float>(k % 5)
-                            : ends[2] + ends[3] * NoiseAt(seed, 3);
-      const float lift = edge ? lifts[0] : lifts[1] + lifts[2] * NoiseAt(seed, 4);
+      const float from = edge ? features_("long_lock_from edge") +
+                                    features_("long_lock_from edge_step") * static_cast<float>(k)
+                              : features_.Linear("long_lock_from others", NoiseAt(seed, 2) + 1);
+      const float to = edge ? features_("long_lock_to edge") +
+                                  features_("long_lock_to edge_step") * static_cast<float>(k % 5)
+                            : features_.Linear("long_lock_to others", NoiseAt(seed, 3));
+      const float lift = edge ? features_("long_lock_lift edge")
+                              : features_.Linear("long_lock_lift others", NoiseAt(seed, 4));
       std::vector<glm::vec3> path;
       constexpr int kSteps = 8;
       for (int s = 0; s <= kSteps; ++s) {
         const float v = static_cast<float>(s) / kSteps;
         const float t = glm::mix(from, to, v);
-        const float drift = edge ? drifts[0] * v * v * (1 + 0.4f * NoiseAt(seed, 5))
-                                 : drifts[1] * std::sin(4 * v + static_cast<float>(k));
+        const float drift =
+            edge ? features_("long_lock_drift edge") * v * v * (1 + 0.4f * NoiseAt(seed, 5))
+                 : features_("long_lock_drift others") * std::sin(4 * v + static_cast<float>(k));
         path.push_back(Point(std::clamp(i + drift, 0.0f, 1.0f), side, t,
                              lift * std::sin(kPi * (0.12f + 0.8f * v))));
       }
-      look_.AddLock(path,
-                    {.width_mm = edge ? wide[0] : wide[1] + wide[2] * NoiseAt(seed, 6),
-                     .root_part = edge ? taper[0] : taper[1],
-                     .tip_part = taper[2],
-                     .fray_from = taper[3],
-                     .open = edge ? taper[4] : 1},
-                    seed, mesh_);
+      look_.AddLock(
+          path,
+          {.width_mm = edge ? features_("long_lock_width edge")
+                            : features_.Linear("long_lock_width others", NoiseAt(seed, 6)),
+           .root_part = features_(edge ? "long_lock_taper edge_root" : "long_lock_taper root"),
+           .tip_part = features_("long_lock_taper tip"),
+           .fray_from = features_("long_lock_taper fray_from"),
+           .open = edge ? features_("long_lock_taper edge_light") : 1},
+          seed, mesh_);
     }
   }
 
   // Thin locks that leave the edge of the hair towards the face and end there, so that the edge is
   // no drawn line.
   void Wisps(float side) {
-    const int wisps = Count("long_wisps", 0);
-    const auto& reaches = features_["long_wisp_reach"];
-    const auto& wide = features_["long_wisp_width"];
-    const auto& along = features_["long_wisp_from"];
-    const auto& lengths = features_["long_wisp_length"];
-    const auto& taper = features_["long_wisp_taper"];
+    const int wisps = static_cast<int>(features_("long_wisps"));
     for (int k = 0; k < wisps; ++k) {
       const int seed = k + (side > 0 ? 900 : 700);
-      const float from = along[0] + along[1] * (static_cast<float>(k) + 0.4f * NoiseAt(seed, 1)) /
-                                        static_cast<float>(wisps);
-      const float long_part = lengths[0] * (1 + lengths[1] * NoiseAt(seed, 3));
-      const float reach = (reaches[0] + reaches[1] * NoiseAt(seed, 2)) *
-                          (1 + reaches[2] * SmoothStep(0.45f, 0.25f, from));
+      const float from = features_("long_wisp_from first") +
+                         features_("long_wisp_from more") *
+                             (static_cast<float>(k) + 0.4f * NoiseAt(seed, 1)) /
+                             static_cast<float>(wisps);
+      const float long_part = features_("long_wisp_length part") *
+                              (1 + features_("long_wisp_length uneven") * NoiseAt(seed, 3));
+      const float reach = features_.Linear("long_wisp_reach all", NoiseAt(seed, 2)) *
+                          (1 + features_("long_wisp_reach upper") * SmoothStep(0.45f, 0.25f, from));
       std::vector<glm::vec3> path;
       constexpr int kSteps = 3;
       for (int s = 0; s <= kSteps; ++s) {
@@ -314,24 +311,23 @@ class LongHair {
         path.push_back(p + face * (reach * v * v) - outward * (1.0f * v * v));
       }
       look_.AddLock(path,
-                    {.width_mm = wide[0] + wide[1] * NoiseAt(seed, 4),
-                     .root_part = taper[0],
-                     .fray_from = taper[1],
-                     .open = taper[2]},
+                    {.width_mm = features_.Linear("long_wisp_width", NoiseAt(seed, 4)),
+                     .root_part = features_("long_wisp_taper root"),
+                     .fray_from = features_("long_wisp_taper fray_from"),
+                     .open = features_("long_wisp_taper light")},
                     seed, mesh_);
     }
   }
 
   // Single hairs that stand off the others.
   void Flyaways(float side) {
-    const auto& fly = features_["long_flyaways"];
-    for (int k = 0; k < static_cast<int>(fly[0]); ++k) {
+    for (int k = 0; k < static_cast<int>(features_("long_flyaways count")); ++k) {
       const int seed = k + (side > 0 ? 1700 : 1500);
       const float i = 0.5f + 0.5f * NoiseAt(seed, 1);
-      const float from = fly[1] * (0.5f + 0.5f * NoiseAt(seed, 2));
-      const float length = fly[2] * (1 + 0.5f * NoiseAt(seed, 3));
-      const float drift = fly[3] * NoiseAt(seed, 4);
-      const float off = fly[4] * (1 + 0.6f * NoiseAt(seed, 5));
+      const float from = features_("long_flyaways from") * (0.5f + 0.5f * NoiseAt(seed, 2));
+      const float length = features_("long_flyaways length") * (1 + 0.5f * NoiseAt(seed, 3));
+      const float drift = features_("long_flyaways drift") * NoiseAt(seed, 4);
+      const float off = features_("long_flyaways off") * (1 + 0.6f * NoiseAt(seed, 5));
       std::vector<glm::vec3> path;
       constexpr int kSteps = 3;
       for (int s = 0; s <= kSteps; ++s) {
@@ -339,7 +335,9 @@ class LongHair {
         path.push_back(Point(std::clamp(i + drift * v * v, 0.0f, 1.0f), side, from + length * v,
                              off * std::sin(kPi * (0.1f + 0.75f * v))));
       }
-      look_.AddLock(path, {.width_mm = fly[5], .tip_part = 0.3f, .fray_from = 0.9f}, seed, mesh_);
+      look_.AddLock(
+          path, {.width_mm = features_("long_flyaways width"), .tip_part = 0.3f, .fray_from = 0.9f},
+          seed, mesh_);
     }
   }
 

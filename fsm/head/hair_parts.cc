@@ -50,14 +50,14 @@ glm::vec3 HairDirection(float azimuth, float elevation) {
 }
 
 glm::vec3 HairLook::StrandColour(int strand, int row) const {
-  const auto& streaks = features_["hair_streaks"];
-  const auto& even = features_["hair_even"];
   const float fine = NoiseAt(strand * 7, 3);
   const float broad = NoiseAt(strand / 4, 11);
-  const float along = streaks[2] * NoiseAt(strand, row + 40);
+  const float along = features_("hair_streaks along") * NoiseAt(strand, row + 40);
   // Dark hair shows its streaks, light hair is more even.
-  const float strength = 1 - even[0] * SmoothStep(even[1], even[2], palette_.hair.g);
-  const float light = 1 + strength * (streaks[0] * fine + streaks[1] * broad + along);
+  const float strength =
+      1 - features_("hair_even part") * features_.Step("hair_even green", palette_.hair.g);
+  const float light = 1 + strength * (features_("hair_streaks strand") * fine +
+                                      features_("hair_streaks broad") * broad + along);
   return palette_.hair * light *
          glm::mix(glm::vec3(1), features_.Vector("hair_lightest"), 0.5f + 0.5f * fine);
 }
@@ -69,19 +69,20 @@ float HairLook::AboveHairline(glm::vec3 place) const {
 }
 
 void HairLook::ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMesh& mesh) const {
-  const auto& on_skin = features_["hair_on_skin"];
+  const float lowest = features_("hair_on_skin lowest");
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 p = mesh.position[i];
-    if (mesh.bone[i] != Bone::kSkin || p.y < on_skin[5]) continue;
+    if (mesh.bone[i] != Bone::kSkin || p.y < lowest) continue;
     float nearest = 1e9f;
     for (const glm::vec3 q : edge) nearest = std::min(nearest, glm::dot(p - q, p - q));
     const float beside =
-        std::exp(-nearest / (reach_mm * reach_mm)) * SmoothStep(on_skin[5], on_skin[5] + 30, p.y);
+        std::exp(-nearest / (reach_mm * reach_mm)) * SmoothStep(lowest, lowest + 30, p.y);
     const float near = beside * SmoothStep(10, 40, p.y);
-    const float under = SmoothStep(on_skin[2], on_skin[3], AboveHairline(p));
-    mesh.openness[i] *= 1 - on_skin[0] * std::max(beside, under);
-    mesh.albedo[i] =
-        glm::mix(mesh.albedo[i], palette_.hair, std::max(on_skin[1] * near, on_skin[4] * under));
+    const float under = features_.Step("hair_on_skin under", AboveHairline(p));
+    mesh.openness[i] *= 1 - features_("hair_on_skin shade") * std::max(beside, under);
+    mesh.albedo[i] = glm::mix(mesh.albedo[i], palette_.hair,
+                              std::max(features_("hair_on_skin tint") * near,
+                                       features_("hair_on_skin under_tint") * under));
   }
 }
 
@@ -125,10 +126,8 @@ void HairLook::AddLock(std::span<const glm::vec3> path, const LockStyle& style, 
 
 SkinHair HairLook::OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
                           int seed) const {
-  const auto& long_by = features_["hairline_length"];
-  const auto& wide_by = features_["hairline_width"];
-  const auto& dark = features_["hairline_cover"];
-  const float length = (long_by[0] + long_by[1] * NoiseAt(seed, 81)) * (0.4f + 0.6f * strength);
+  const float length =
+      features_.Linear("hairline_length", NoiseAt(seed, 81)) * (0.4f + 0.6f * strength);
   const glm::vec3 aside = glm::cross(root, along);
   const glm::vec3 way =
       glm::normalize(along + features_("hairline_uneven") * NoiseAt(seed, 82) * aside);
@@ -136,21 +135,22 @@ SkinHair HairLook::OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, f
       glm::normalize(along + features_("hairline_uneven") * NoiseAt(seed, 83) * aside);
   const auto at = [&](glm::vec3 d) { return Unroll(scalp.Over(glm::normalize(d), 0)); };
   const glm::vec3 middle = root + way * (0.5f * length / 100);
-  const float cover = (dark[0] + dark[1] * NoiseAt(seed, 84)) * (0.3f + 0.7f * strength);
+  const float cover =
+      features_.Linear("hairline_cover", NoiseAt(seed, 84)) * (0.3f + 0.7f * strength);
   return {.root = at(root),
           .middle = at(middle),
           .tip = at(middle + bent * (0.5f * length / 100)),
-          .width_mm = wide_by[0] + wide_by[1] * NoiseAt(seed, 85),
+          .width_mm = features_.Linear("hairline_width", NoiseAt(seed, 85)),
           .tint = glm::mix(glm::vec3(1), palette_.hair / palette_.skin, cover)};
 }
 
 void HairLook::LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3> normal) const {
-  const auto& as_one = features_["hair_as_one"];
+  const float below = features_("hair_as_one below"), part = features_("hair_as_one part");
   for (std::size_t i = 0; i < place.size(); ++i) {
     const glm::vec3 from = place[i] - kHairCentre;
-    const glm::vec3 outward = glm::normalize(from * glm::vec3(1, from.y > 0 ? 1.0f : as_one[1], 1));
+    const glm::vec3 outward = glm::normalize(from * glm::vec3(1, from.y > 0 ? 1.0f : below, 1));
     if (glm::dot(normal[i], outward) < 0) continue;  // the lining
-    normal[i] = glm::normalize(glm::mix(normal[i], outward, as_one[0]));
+    normal[i] = glm::normalize(glm::mix(normal[i], outward, part));
   }
 }
 

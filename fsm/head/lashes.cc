@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <string>
 
 #include "fsm/base/pi.h"
 #include "fsm/base/random.h"
@@ -32,20 +33,20 @@ class LashBuilder {
     weights_.lid_upper = upper ? 1.0f : 0.0f;
     weights_.lid_lower = 1 - weights_.lid_upper;
     if (upper) Line();
-    const auto& row = features_[upper ? "upper_lashes" : "lower_lashes"];
-    const int hairs = static_cast<int>(row[0]);
+    const int hairs =
+        static_cast<int>(features_(upper ? "upper_lashes count" : "lower_lashes count"));
     for (int i = 0; i < hairs; ++i) {
       const float part = (static_cast<float>(i) + 0.5f) / static_cast<float>(hairs);
-      Hair(glm::mix(row[1], row[2], part) + 0.008f * NoiseAt(i, 71), i);
+      const char* const range = upper ? "upper_lashes along" : "lower_lashes along";
+      Hair(features_.Between(range, part) + 0.008f * NoiseAt(i, 71), i);
     }
   }
 
  private:
   float X(float along) const { return glm::mix(eye_.inner_x(), eye_.outer_x(), along); }
-  /// One of the three numbers of a row: for the upper lid, the lower lid, or lids of a photo.
-  float ByLid(const char* name) const {
-    const auto& n = features_[name];
-    return of_photo_ ? n[2] : upper_ ? n[0] : n[1];
+  /// The number of that name for the upper lid, the lower lid, or lids of a photo.
+  float ByLid(const std::string& name) const {
+    return features_(name + (of_photo_ ? " photo" : upper_ ? " upper" : " lower"));
   }
   float Angle(float x) const { return upper_ ? eye_.UpperAngle(x) : eye_.LowerAngle(x); }
 
@@ -64,23 +65,22 @@ class LashBuilder {
   // The roots together: a thin dark line on the upper rim, thickening outward.
   void Line() {
     constexpr int kSteps = 14;
-    const auto& ends_at = features_["lash_line"];
-    const auto& thickness = features_["lash_line_thickness"];
-    const auto& dark = features_["lash_line_dark"];
     std::array<std::uint32_t, 2> before{};
     for (int i = 0; i <= kSteps; ++i) {
       const float part = static_cast<float>(i) / kSteps;
-      const float x = X(glm::mix(ends_at[0], ends_at[1], part));
-      const float thick =
-          (0.35f + 0.65f * size_) *
-          (thickness[0] + thickness[1] * std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
+      const float x = X(features_.Between("lash_line", part));
+      const float thick = (0.35f + 0.65f * size_) *
+                          features_.Linear("lash_line_thickness",
+                                           std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
       const float radius = eye_.LidRadius(x);
       const float ends = SmoothStep(0, 0.2f, part);
-      const float soft = of_photo_ ? dark[4] * SmoothStep(0, 0.5f, part) : 1.0f;
+      const float soft =
+          of_photo_ ? features_("lash_line_dark photo") * SmoothStep(0, 0.5f, part) : 1.0f;
       const std::uint32_t low = Add(eye_.OnLid(x, Angle(x) - 0.10f / radius, radius - 0.1f), x,
-                                    soft * (dark[0] + dark[1] * ends));
-      const std::uint32_t high = Add(eye_.OnLid(x, Angle(x) + thick / radius, radius + 0.45f), x,
-                                     of_photo_ ? 0 : dark[2] + dark[3] * ends);
+                                    soft * features_.Linear("lash_line_dark rim", ends));
+      const std::uint32_t high =
+          Add(eye_.OnLid(x, Angle(x) + thick / radius, radius + 0.45f), x,
+              of_photo_ ? 0 : features_.Linear("lash_line_dark above", ends));
       if (i > 0) {
         Face(before[0], low, high);
         Face(before[0], high, before[1]);
@@ -95,18 +95,15 @@ class LashBuilder {
     const float up = upper_ ? 1.0f : -1.0f;
     const float radius = eye_.LidRadius(x) + 0.05f;
     // Neighbours lean together in threes.
-    const auto& clumps = features_["lash_clump"];
-    const float clump = clumps[0] * (static_cast<float>(1 - i % 3)) + clumps[1] * NoiseAt(i, 5) +
-                        (of_photo_ ? clumps[2] * NoiseAt(i, 6) : 0.0f);
-    const auto& differ = features_["lash_lengths"];
-    const auto& fans = features_["lash_fan"];
-    const auto& long_by = features_["upper_lash_length"];
-    const float fan = fans[1] * (along - fans[0]) + clump;
+    const float clump = features_("lash_clump threes") * (static_cast<float>(1 - i % 3)) +
+                        features_("lash_clump each") * NoiseAt(i, 5) +
+                        (of_photo_ ? features_("lash_clump photo") * NoiseAt(i, 6) : 0.0f);
+    const float fan = features_("lash_fan out") * (along - features_("lash_fan from")) + clump;
+    const float differs = ByLid("lash_lengths") * NoiseAt(i, 9);
+    const float outward = std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along));
     const float length =
-        size_ * (upper_ ? (long_by[0] +
-                           long_by[1] * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
-                              (0.94f + (of_photo_ ? differ[1] : differ[0]) * NoiseAt(i, 9))
-                        : features_("lower_lash_length") * (1 + differ[2] * NoiseAt(i, 9)));
+        size_ * (upper_ ? features_.Linear("upper_lash_length", outward) * (0.94f + differs)
+                        : features_("lower_lash_length") * (1 + differs));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
     const float width = ByLid("lash_width");
     // Lower hairs are thin: much of the skin shows between them.

@@ -53,24 +53,26 @@ class ToothRow {
     // Rows from behind the chewing edge over the front of the crown to the gum.
     constexpr std::array kRows = {-0.5f, -0.15f, 0.0f, 0.1f, 0.3f, 0.55f, 0.8f, 1.0f};
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
-    for (const float row : kRows) {
-      for (const Column& column : columns_) AddCrown(column, row);
+    const auto& depths = features_["crown_depths"];
+    for (std::size_t r = 0; r < kRows.size(); ++r) {
+      const float depth = r < depths.size() ? depths[r] : 0.0f;
+      for (const Column& column : columns_) AddCrown(column, kRows[r], depth);
     }
     mesh_.Grid(Material::kTeeth, first, static_cast<int>(kRows.size()), Columns(), jaw_.upward > 0);
   }
 
   void AddGum() {
     constexpr std::array kRows = {0.96f, 1.1f, 1.6f};
-    const auto& light = features_["gum_light"];
     const auto& bulge = features_["gum_bulge"];
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
-    for (const float row : kRows) {
+    for (std::size_t r = 0; r < kRows.size(); ++r) {
+      const float row = kRows[r];
       for (const Column& column : columns_) {
         const float back = std::abs(column.arc);
         const float scallop = row < 1 ? features_("gum_scallop") * (1 - column.bump) : 0.0f;
         glm::vec3 p = Place(column, row * column.height - scallop);
-        p.z += row < 1 ? bulge[0] : row < 1.2f ? bulge[1] : 0.0f;
-        mesh_.Add(p, gum_, glm::mix(light[0], light[1], SmoothStep(6, 34, back)), jaw_.bone);
+        p.z += bulge[r];
+        mesh_.Add(p, gum_, features_.Between("gum_light", SmoothStep(6, 34, back)), jaw_.bone);
       }
     }
     mesh_.Grid(Material::kGum, first, static_cast<int>(kRows.size()), Columns(), jaw_.upward > 0);
@@ -103,10 +105,10 @@ class ToothRow {
     const float within = place < kPerTooth ? kWithin[static_cast<std::size_t>(place)] : 1.0f;
     arc += within * Of("widths")[t];
     // Canines come to a point, the others are round at their corners.
-    const auto& corners = features_["tooth_corners"];
     const float off_middle = std::abs(2 * within - 1);
-    const float corner =
-        tooth == kCanine ? corners[0] * off_middle : corners[1] * std::pow(off_middle, 4.0f);
+    const float corner = tooth == kCanine
+                             ? features_("tooth_corners canine") * off_middle
+                             : features_("tooth_corners others") * std::pow(off_middle, 4.0f);
     return {
         .tooth = tooth,
         .arc = signed_c < 0 ? -arc : arc,
@@ -121,27 +123,21 @@ class ToothRow {
     return AlongArch(jaw_.arch, column.arc, jaw_.arch.edge_y + jaw_.upward * (up + rise));
   }
 
-  void AddCrown(const Column& column, float row) {
+  /// `depth` of the row behind the front.
+  void AddCrown(const Column& column, float row, float depth) {
     const float up = row < -0.3f ? 0.6f * column.height
                      : row < 0   ? 0.3f + column.shorter
                                : row * column.height + column.shorter * SmoothStep(0.6f, 0.0f, row);
     glm::vec3 p = Place(column, up);
-    const auto& depths = features_["crown_depths"];
-    const float thin = row < -0.3f    ? depths[0]
-                       : row < -0.15f ? depths[1]
-                       : row < 0      ? depths[2]
-                       : row == 0     ? depths[3]
-                                      : 0.0f;
-    const auto& bulge = features_["tooth_bulge"];
-    const float curve =
-        bulge[0] * std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
-    p.z += curve - thin - bulge[1] * (1 - column.bump);
-    p.x *= 1 - 0.012f * thin;
+    const float curve = features_("tooth_bulge front") *
+                        std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
+    p.z += curve - depth - features_("tooth_bulge between") * (1 - column.bump);
+    p.x *= 1 - 0.012f * depth;
     // Deep between the teeth and in the corners of the mouth there is little light.
     const float between = features_("light_between_teeth");
     const float crevice = between + (1 - between) * SmoothStep(0.0f, 0.75f, column.bump);
-    const float dark =
-        glm::mix(jaw_.light, features_["teeth_light"][2], SmoothStep(6, 32, std::abs(column.arc)));
+    const float dark = glm::mix(jaw_.light, features_("teeth_light deep"),
+                                SmoothStep(6, 32, std::abs(column.arc)));
     mesh_.Add(p, Enamel(column.tooth, row), crevice * dark * (row < -0.3f ? 0.4f : 1.0f),
               jaw_.bone);
   }
@@ -149,10 +145,10 @@ class ToothRow {
   /// Enamel is thin and grey at the edge and lets the warm dentine through towards the gum, most in
   /// a canine; no two teeth are of one shade.
   glm::vec3 Enamel(int tooth, float row) const {
-    const auto& shows = features_["dentine_shows"];
-    const float warm = shows[0] + shows[1] * static_cast<float>(tooth) +
-                       (tooth == kCanine ? shows[2] : 0.0f) +
-                       shows[3] * SmoothStep(0.35f, 1.0f, row);
+    const float warm = features_("dentine_shows middle") +
+                       features_("dentine_shows outward") * static_cast<float>(tooth) +
+                       (tooth == kCanine ? features_("dentine_shows canine") : 0.0f) +
+                       features_("dentine_shows gum") * SmoothStep(0.35f, 1.0f, row);
     const glm::vec3 edge = glm::mix(glm::vec3(1), features_.Vector("enamel_edge_colour"),
                                     tooth < kCanine ? SmoothStep(0.22f, 0.0f, row) : 0.0f);
     const float darkest = features_("tooth_shades");
@@ -171,12 +167,15 @@ class ToothRow {
 
 void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh) {
   const Features& features = identity.Look();
-  const auto& light = features["teeth_light"];
   const glm::vec3 tooth = identity.palette.tooth;
-  ToothRow({mouth.UpperTeeth(), 1, Bone::kSkull, "upper", light[0], tooth}, identity, mesh).Add();
+  ToothRow({mouth.UpperTeeth(), 1, Bone::kSkull, "upper", features("teeth_light upper"), tooth},
+           identity, mesh)
+      .Add();
   // The lower ones stand farther back, in the shade of lip and upper row.
   const glm::vec3 shaded = tooth * features.Vector("lower_teeth_colour");
-  ToothRow({mouth.LowerTeeth(), -1, Bone::kJaw, "lower", light[1], shaded}, identity, mesh).Add();
+  ToothRow({mouth.LowerTeeth(), -1, Bone::kJaw, "lower", features("teeth_light lower"), shaded},
+           identity, mesh)
+      .Add();
 }
 
 void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh) {
@@ -186,20 +185,21 @@ void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& 
   // tip, which lies low behind the lower teeth.
   constexpr int kAlong = 17;
   constexpr int kAround = 20;
-  const auto& width = features["tongue_half_width"];
-  const auto& flat = features["tongue_half_height"];
-  const auto& rises = features["tongue_rise"];
-  const auto& light = features["tongue_light"];
-  const float tip_z = mouth.LineZ(0) - features["tongue_place"][0];
-  const float base_y = mouth.LineY(0) - features["tongue_place"][1];
+  const float tip_z = mouth.LineZ(0) - features("tongue_place behind");
+  const float base_y = mouth.LineY(0) - features("tongue_place below");
+  const float root_part = features("tongue_half_width root");
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (int i = 0; i < kAlong; ++i) {
     const float part = static_cast<float>(i) / (kAlong - 1);  // 0 = root, 1 = tip
     const float taper = std::sqrt(std::max(0.0f, 1 - std::pow(part, 2.2f)));
-    const float half_width = width[0] * taper * (width[1] + (1 - width[1]) * part) + 0.2f;
-    const float height = flat[0] * taper * (1 - flat[1] * part * part) + 0.1f;
+    const float half_width =
+        features("tongue_half_width widest") * taper * (root_part + (1 - root_part) * part) + 0.2f;
+    const float height = features("tongue_half_height root") * taper *
+                             (1 - features("tongue_half_height flatter") * part * part) +
+                         0.1f;
     const float z = glm::mix(tip_z - features("tongue_length"), tip_z, std::sin(part * kPi / 2));
-    const float rise = rises[0] * (1 - part) + rises[1] * std::sin(kPi * part);
+    const float rise = features("tongue_rise root") * (1 - part) +
+                       features("tongue_rise middle") * std::sin(kPi * part);
     for (int k = 0; k <= kAround; ++k) {
       const float around = 2 * kPi * static_cast<float>(k) / kAround;
       const float up = std::sin(around);
@@ -214,7 +214,7 @@ void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& 
       weights.free = part;  // the tip bends, the root stays
       // Its outline is lost in the dark of the mouth.
       const glm::vec3 colour = glm::mix(palette.mouth, palette.tongue, SmoothStep(0, 0.5f, lit));
-      mesh.Add(p, colour, light[0] + light[1] * lit, Bone::kTongue, weights);
+      mesh.Add(p, colour, features.Linear("tongue_light", lit), Bone::kTongue, weights);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);

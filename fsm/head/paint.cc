@@ -27,14 +27,14 @@ void SkinPainter::AddSpots(glm::vec2 at, PaintedSkin& paint) const {
 
 float SkinPainter::Beard(glm::vec2 at, float z) const {
   if (palette_.beard <= 0) return 0;
-  const auto& line = features_["beard_line"];
-  const auto& thin = features_["beard_thin_cheek"];
-  const float jaw_line = glm::mix(line[0], line[1], SmoothStep(30, 62, at.x));
+  const float jaw_line = features_.Between("beard_line", SmoothStep(30, 62, at.x));
   const float low = SmoothStep(jaw_line + 6, jaw_line - 22, at.y) * SmoothStep(-128, -100, at.y);
   const float front = SmoothStep(-12, 8, z);
   const float under_nose = SmoothStep(-23, -27, at.y);
-  const float cheek = 1 - thin[0] * std::exp(-0.5f * (std::pow((at.x - thin[1]) / thin[3], 2.0f) +
-                                                      std::pow((at.y - thin[2]) / thin[4], 2.0f)));
+  const glm::vec2 off = (at - features_.Pair("beard_thin_cheek middle")) /
+                        features_.Pair("beard_thin_cheek half_size");
+  const float cheek =
+      1 - features_("beard_thin_cheek part") * std::exp(-0.5f * (off.x * off.x + off.y * off.y));
   return palette_.beard * low * front * under_nose * cheek;
 }
 

@@ -50,14 +50,14 @@ class BrowBuilder {
       : front_(front), palette_(identity.palette), features_(identity.Look()), place_(place) {}
 
   std::vector<SkinHair> Build() {
-    const auto& count = features_["brow_hairs"];
-    const int columns = static_cast<int>(count[0]), rows = static_cast<int>(count[1]);
+    const int columns = static_cast<int>(features_("brow_hairs columns"));
+    const int rows = static_cast<int>(features_("brow_hairs rows"));
     for (const Side side : kSides) {
       for (int i = 0; i < columns * rows; ++i) {
         const int seed = 2 * i + (side == Side::kLeft ? 1 : 0);
         const float column = static_cast<float>(i / rows) + 0.5f + 0.9f * NoiseAt(seed, 21);
-        const auto& across = features_["brow_width"];
-        const float x = across[0] + across[1] * column / static_cast<float>(columns);
+        const float x = features_("brow_width from") +
+                        features_("brow_width all") * column / static_cast<float>(columns);
         const float row = static_cast<float>(i % rows) + 0.5f + 0.7f * NoiseAt(seed, 22);
         AddHair(side, x, -1 + 2 * row / static_cast<float>(rows), seed);
       }
@@ -73,22 +73,21 @@ class BrowBuilder {
     if (0.5f + 0.5f * NoiseAt(seed, 26) > place_.Density() * (0.35f + 0.65f * ends)) return;
     const glm::vec2 root(x, place_.Y(x, 0.9f * level - 0.1f));
     // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
-    const auto& lean = features_["brow_lean"];
-    const auto& bends = features_["brow_bend"];
-    const float angle = (grow_(x) - lean[0] * level + lean[1] * NoiseAt(seed, 23)) * kPi / 180;
-    const float bend = (bends[0] + bends[1] * level) * kPi / 180;
-    const auto& long_by = features_["brow_hair_length"];
-    const float length = (long_by[0] + long_by[1] * NoiseAt(seed, 24)) * (0.6f + 0.4f * ends);
+    const float angle = (grow_(x) - features_("brow_lean edge") * level +
+                         features_("brow_lean uneven") * NoiseAt(seed, 23)) *
+                        kPi / 180;
+    const float bend = features_.Linear("brow_bend", level) * kPi / 180;
+    const float length =
+        features_.Linear("brow_hair_length", NoiseAt(seed, 24)) * (0.6f + 0.4f * ends);
     const auto step = [&](float a) { return 0.5f * length * glm::vec2(std::cos(a), std::sin(a)); };
     const glm::vec2 middle = root + step(angle);
-    const auto& wide_by = features_["brow_hair_width"];
-    const auto& tint = features_["brow_tint"];
     hairs_.push_back(
         {.root = front_.UvAt(root, side),
          .middle = front_.UvAt(middle, side),
          .tip = front_.UvAt(middle + step(angle + bend), side),
-         .width_mm = (wide_by[0] + wide_by[1] * NoiseAt(seed, 27)) * (0.7f + 0.3f * ends),
-         .tint = tint[0] * palette_.brow / palette_.skin * (1 + tint[1] * NoiseAt(seed, 25))});
+         .width_mm = features_.Linear("brow_hair_width", NoiseAt(seed, 27)) * (0.7f + 0.3f * ends),
+         .tint = features_("brow_tint factor") * palette_.brow / palette_.skin *
+                 (1 + features_("brow_tint uneven") * NoiseAt(seed, 25))});
   }
 
   const SkinFront& front_;
@@ -152,23 +151,25 @@ std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& ey
 std::vector<SkinHair> BuildStubble(const SkinFront& front, const SkinPainter& painter,
                                    const Identity& identity) {
   const Features& features = identity.Look();
-  const auto& n = features["stubble"];
-  const auto& place = features["stubble_place"];
+  const float aside = features("stubble_place aside"), narrows = features("stubble_place narrows");
+  const glm::vec2 height = features.Pair("stubble_place height");
+  const glm::vec2 lips(0, features("stubble_place lips_y"));
+  const glm::vec2 lips_size = features.Pair("stubble_place lips_half_size");
   std::vector<SkinHair> hairs;
   if (identity.palette.beard <= 0) return hairs;
-  for (int k = 0; k < static_cast<int>(100 * n[0]); ++k) {
-    const glm::vec2 at(place[0] * NoiseAt(k, 41),
-                       glm::mix(place[1], place[2], 0.5f + 0.5f * NoiseAt(k, 42)));
+  for (int k = 0; k < static_cast<int>(100 * features("stubble hundreds")); ++k) {
+    const glm::vec2 at(aside * NoiseAt(k, 41),
+                       glm::mix(height.x, height.y, 0.5f + 0.5f * NoiseAt(k, 42)));
     const glm::vec2 half(std::abs(at.x), at.y);
-    if (half.x > place[0] - place[6] * (place[2] - at.y)) continue;  // beside the jaw
+    if (half.x > aside - narrows * (height.y - at.y)) continue;  // beside the jaw
     const float chance = 0.5f + 0.5f * NoiseAt(k, 43);
     constexpr float kBeforeAll = 200;  // the front of the face has the most
     if (chance > painter.Beard(half, kBeforeAll)) continue;
-    const glm::vec2 from_lips = (half - glm::vec2(0, place[3])) / glm::vec2(place[4], place[5]);
+    const glm::vec2 from_lips = (half - lips) / lips_size;
     if (glm::dot(from_lips, from_lips) < 1) continue;
     const glm::vec3 root = front.PointAt(half);
     if (chance > painter.Beard(half, root.z)) continue;
-    const float length = n[1] * (1 + 0.5f * NoiseAt(k, 44));
+    const float length = features("stubble length") * (1 + 0.5f * NoiseAt(k, 44));
     const float lean = 0.6f * NoiseAt(k, 45);
     const auto along = [&](float part) {
       return front.PointAt(half + part * length * glm::vec2(lean, -1));
@@ -179,12 +180,12 @@ std::vector<SkinHair> BuildStubble(const SkinFront& front, const SkinPainter& pa
       p.x = std::copysign(p.x, at.x);
       return Unroll(p);
     };
-    const float cover = n[3] * (1 + 0.4f * NoiseAt(k, 46));
+    const float cover = features("stubble cover") * (1 + 0.4f * NoiseAt(k, 46));
     hairs.push_back(
         {.root = on_skin(root),
          .middle = on_skin(along(0.5f)),
          .tip = on_skin(tip),
-         .width_mm = n[2],
+         .width_mm = features("stubble width"),
          .tint = glm::mix(glm::vec3(1), identity.palette.hair / identity.palette.skin, cover)});
   }
   return hairs;

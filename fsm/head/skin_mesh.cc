@@ -63,35 +63,34 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
   const Palette& palette = identity.palette;
   PaintedSkin paint = painter.At(p);
   if (tag.deep > 0) {
-    const auto& light = features["mouth_light"];
     paint.albedo = glm::mix(palette.lip_inside, palette.mouth, SmoothStep(0.15f, 0.8f, tag.deep));
     const float out = 1 - tag.deep;
-    paint.openness = light[0] + light[1] * out * out;
+    const glm::vec2 light = features.Pair("mouth_light");
+    paint.openness = light.x + light.y * out * out;
     return paint;
   }
   if (tag.red >= 0 && kind == SkinKind::kLip) {
     const float aside = std::abs(p.x);
-    const auto& red = features["lip_red"];
-    const float reddened =
-        red[0] * SmoothStep(1.1f, 0.6f, tag.red) * (1 - red[1] * SmoothStep(16, 26, aside));
+    const float reddened = features("lip_red middle") * SmoothStep(1.1f, 0.6f, tag.red) *
+                           (1 - features("lip_red less_aside") * SmoothStep(16, 26, aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip, reddened);
     // The edge of the red is soft, the middle of the lips wet.
-    const auto& wets = features["lip_wet"];
-    const float wet = SmoothStep(0.35f, 0, tag.red) * (1 - wets[1] * SmoothStep(12, 25, aside));
-    paint.albedo = glm::mix(paint.albedo, palette.lip_inside, wets[0] * wet);
-    paint.openness *= 1 - wets[2] * wet;
+    const float wet = SmoothStep(0.35f, 0, tag.red) *
+                      (1 - features("lip_wet less_aside") * SmoothStep(12, 25, aside));
+    paint.albedo = glm::mix(paint.albedo, palette.lip_inside, features("lip_wet middle") * wet);
+    paint.openness *= 1 - features("lip_wet shade") * wet;
     // The lower lip rolls into the mouth: its edge is in its own shade.
-    if (tag.lip_side < 0) paint.openness *= 1 - wets[3] * SmoothStep(0.3f, 0, tag.red);
+    if (tag.lip_side < 0)
+      paint.openness *= 1 - features("lip_wet lower_edge") * SmoothStep(0.3f, 0, tag.red);
   }
   if (tag.hole > 0) {
-    const auto& dark = features["nostril_dark"];
-    paint.albedo = glm::mix(paint.albedo, features.Vector("nostril_colour"), dark[0] * tag.hole);
-    paint.openness *= 1 - dark[1] * tag.hole;
+    paint.albedo = glm::mix(paint.albedo, features.Vector("nostril_colour"),
+                            features("nostril_dark colour") * tag.hole);
+    paint.openness *= 1 - features("nostril_dark shade") * tag.hole;
   }
   if (tag.margin >= 0 && tag.margin < 0.2f) {
-    const auto& rim = features["lid_rim"];
-    paint.albedo = glm::mix(paint.albedo, palette.lid_rim, rim[0]);
-    paint.openness *= rim[1];
+    paint.albedo = glm::mix(paint.albedo, palette.lid_rim, features("lid_rim colour"));
+    paint.openness *= features("lid_rim light");
   }
   return paint;
 }

@@ -115,8 +115,8 @@ void FindMouth(const RigData& rig, HeadTopology& topology) {
   mouth.seam = rig.lips.seam;
   mouth.corner_left = (*rig.lips.measured)[LipRig::kCornerLeft];
   mouth.corner_right = (*rig.lips.measured)[LipRig::kCornerRight];
-  const auto& light = Features::BuiltIn()["teeth_light"];
-  const glm::vec3 shade = Features::BuiltIn().Vector("lower_teeth_colour");
+  const Features& features = Features::BuiltIn();
+  const glm::vec3 shade = features.Vector("lower_teeth_colour");
   const float middle = rig.rest[mouth.upper_incisor].x;
   std::vector<bool> taken(rig.rest.size(), false);
   for (const HeadTopology::Part& part : topology.parts) {
@@ -127,8 +127,9 @@ void FindMouth(const RigData& rig, HeadTopology& topology) {
       taken[i] = true;
       const bool lower = rig.bone[i] == Bone::kJaw;
       if (teeth && lower) topology.albedo[i] *= shade;
-      topology.openness[i] = glm::mix(light[teeth && lower ? 1 : 0], light[2],
-                                      SmoothStep(6, 32, std::abs(rig.rest[i].x - middle)));
+      topology.openness[i] = glm::mix(
+          features(teeth && lower ? "teeth_light lower" : "teeth_light upper"),
+          features("teeth_light deep"), SmoothStep(6, 32, std::abs(rig.rest[i].x - middle)));
     }
   }
 }

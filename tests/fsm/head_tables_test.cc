@@ -230,10 +230,10 @@ TEST(HeadTablesTest, HairBeginsWithSingleHairsOnTheSkin) {
       return MakeHead(std::move(identity))->topology().skin_hairs.size();
     };
     const bool crop = std::string_view(face) == "pygmalion";
-    const auto few = crop ? strokes("crop_hairline", "crop_hairline 10 105 0.01 0.06 28")
-                          : strokes("long_hairline", "long_hairline 10 0.56 0 0.06 28 0.2");
-    const auto many = crop ? strokes("crop_hairline", "crop_hairline 800 105 0.01 0.06 28")
-                           : strokes("long_hairline", "long_hairline 800 0.56 0 0.06 28 0.2");
+    const auto few = crop ? strokes("crop_hairline count", "crop_hairline count 10")
+                          : strokes("long_hairline count", "long_hairline count 10");
+    const auto many = crop ? strokes("crop_hairline count", "crop_hairline count 800")
+                           : strokes("long_hairline count", "long_hairline count 800");
     EXPECT_GT(many, few + 400) << face;
   }
 }
@@ -355,19 +355,23 @@ TEST(HeadTablesTest, FeaturesAreChecked) {
       {"brow_growth", "brow_growth 9 86 9 62 22 36 36 16 48 -12 56 -32", "do not ascend"},
       {"lid_fold_height", "lid_fold_height 0 2 0.5 4 0.5 6 0.8 6 1 4", "do not ascend"},
       {"iris_rings", "iris_rings 0.3 1 0.6 0.85", "'iris_rings' needs 6 numbers after it, found 4"},
-      {"upper_lashes", "upper_lashes 0 0.1 0.9", "'0' found where 1 to 200 was expected"},
-      {"brow_hairs", "brow_hairs 9 1e2 7", "'brow_hairs' needs 2 numbers"},
-      {"brow_hairs", "brow_hairs 9 999", "'999' found where 1 to 200 was expected"},
-      {"upper_tooth_widths", "upper_tooth_widths 8 7 0 7 7 7", "less than half a millimetre"},
-      {"ear_bowl", "ear_bowl 1 2 0 4 5", "'0' found where 0.01 to 100 was expected"},
-      {"ear_fork_ridge", "ear_fork_ridge 0 1", "'0' found where 0.01 to 100 was expected"},
+      {"upper_lashes count", "upper_lashes count 0", "'0' found where 1 to 200 was expected"},
+      {"brow_hairs rows", "brow_hairs rows 1e2 7", "'brow_hairs rows' needs 1 numbers"},
+      {"brow_hairs rows", "brow_hairs rows 999", "'999' found where 1 to 200 was expected"},
+      {"brow_hairs rows", "brow_hairs 72 7",
+       "'brow_hairs' is not known; known are brow_hairs columns, brow_hairs rows"},
+      {"upper_tooth_widths", "upper_tooth_widths 8 7 0 7 7 7", "'0' found where 0.5 to 100"},
+      {"ear_bowl half_size", "ear_bowl half_size 4 0", "'0' found where 0.01 to 100 was expected"},
+      {"ear_fork half_width", "ear_fork half_width 0", "'0' found where 0.01 to 100 was expected"},
       {"spot cheeks", "spot cheeks 34 -9 0 10 0.2 0", "'0' found where 0.01 to 100 was expected"},
-      {"beard_thin_cheek", "beard_thin_cheek 1 36 -34 9 0", "'0' found where 0.01 to 100"},
-      {"long_locks", "long_locks 9 9", "no lock that is not at the edge"},
+      {"beard_thin_cheek half_size", "beard_thin_cheek half_size 9 0",
+       "'0' found where 0.01 to 100"},
+      {"long_locks at_edge", "long_locks at_edge 30", "no lock that is not at the edge"},
       {"long_volume", "long_volume 80 0 90", "'0' found where 10 to 1000 was expected"},
       {"crop_crown", "crop_crown 0 0 0", "a crown that is nowhere"},
-      {"long_over_ear", "long_over_ear 9 0.1 0 0 30", "'0' found where 0.01 to 100 was expected"},
-      {"stubble_place", "stubble_place 66 -104 -22 -44 27 0 0", "'0' found where 0.01 to 100"},
+      {"long_over_ear half_width", "long_over_ear half_width 0", "'0' found where 0.01 to 100"},
+      {"stubble_place lips_half_size", "stubble_place lips_half_size 0 9",
+       "'0' found where 0.01 to 100"},
       {"long_parting_soft", "long_parting_soft 0", "'0' found where 0.01 to 100 was expected"},
   };
   for (const auto& [name, row, why] : cases) {
@@ -394,7 +398,7 @@ TEST(HeadTablesTest, FeaturesOfOnesOwnChangeTheHeads) {
             as_ever);
   for (const auto& [name, row] : {std::pair{"lower_tooth_widths", "lower_tooth_widths 5 5 6 7 7 9"},
                                   {"tongue_length", "tongue_length 40"},
-                                  {"ear_place", "ear_place 66.2 1.05 0.05 2 0.16"},
+                                  {"ear_place height", "ear_place height 1.05"},
                                   {"upper_lash_length", "upper_lash_length 2 3"},
                                   {"ear_edge", "ear_edge 2"},
                                   {"crop_lock_waves", "crop_lock_waves 1"},
