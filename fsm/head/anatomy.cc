@@ -42,6 +42,10 @@ EyeAnatomy::EyeAnatomy(const Table& table)
   pupil_ = table.Only("iris").Number(2);
   shear_ = table.Only("lid_shear").Number(1);
   meet_sag_ = table.Only("meet_sag").Number(1);
+  for (const TableRow& row : table.RowsOf("lid_ring")) {
+    lid_rings_.push_back({row.Number(1), row.Number(2), row.Number(3), row.Number(4), row.Number(5),
+                          row.Number(6), row.Number(7), row.Number(8)});
+  }
 }
 
 float EyeAnatomy::AngleOf(float x, float y) const {
@@ -97,6 +101,11 @@ MouthAnatomy::MouthAnatomy(const Table& table)
   lower_full_ = full("lower_full");
   border_z_upper_ = table.Only("border_z").Number(1);
   border_z_lower_ = table.Only("border_z").Number(2);
+  column_x_ = table.Only("column_x").Numbers(1);
+  for (const TableRow& row : table.RowsOf("bag_ring")) {
+    bag_rings_.push_back(
+        {row.Number(1), row.Number(2), row.Number(3), row.Number(4), row.Number(5)});
+  }
 }
 
 // The upper incisors end 2.6 mm below the line of the lips and overlap the lower ones by half of

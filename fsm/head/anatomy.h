@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "fsm/base/side.h"
 #include "fsm/base/spline.h"
@@ -9,6 +10,16 @@
 #include "fsm/rig/tooth_arch.h"
 
 namespace fsm {
+
+/// A ring of the cage round the eye: a row `lid_ring` of tables/eye.txt, where it is explained.
+struct LidRing {
+  float upper_mm, lower_mm, upper_hold, lower_hold, to_orbit, upper_lift, lower_lift, fill;
+};
+
+/// A ring of the bag behind the lips: a row `bag_ring` of tables/mouth.txt, where it is explained.
+struct BagRing {
+  float height, back, widen, web, lip_hold;
+};
 
 /// The agent's left eye and its lids (tables/eye.txt); the right one is its mirror image.
 /// Angles in radians about the ball's horizontal axis, up from straight ahead.
@@ -47,12 +58,14 @@ class EyeAnatomy {
   /// Where the closed lids meet.
   float MeetAngle(float x) const;
   glm::vec3 OnLid(float x, float angle, float radius) const;
+  const std::vector<LidRing>& lid_rings() const { return lid_rings_; }
 
  private:
   float AngleOf(float x, float y) const;
   glm::vec3 centre_{};
   float radius_ = 0, iris_ = 0, pupil_ = 0, shear_ = 0, meet_sag_ = 0, upper_fill_ = 0;
   Curve lid_radius_, upper_, lower_;
+  std::vector<LidRing> lid_rings_;  // outwards
 };
 
 /// The closed mouth (tables/mouth.txt), left half over x = 0..corner.
@@ -70,11 +83,15 @@ class MouthAnatomy {
   ToothArch LowerTeeth() const;
   /// A point of the red: part 0 = seam, 1 = border.
   glm::vec3 Red(int side, float x, float part) const;
+  const std::vector<float>& column_x() const { return column_x_; }
+  const std::vector<BagRing>& bag_rings() const { return bag_rings_; }
 
  private:
   glm::vec3 corner_{};
   Curve line_y_, line_z_, upper_, lower_, upper_full_, lower_full_;
   float border_z_upper_ = 0, border_z_lower_ = 0;
+  std::vector<float> column_x_;     // of the cage, from the middle to the corner
+  std::vector<BagRing> bag_rings_;  // from the end of the bag to the lips
 };
 
 /// A curve from two rows of a table, `x_key` and `y_key`; throws naming the line if they do not

@@ -38,18 +38,6 @@ LidPoint PointOnLid(const EyeAnatomy& eye, int i) {
   return {x, upper, along == 0 || along == kHalf};
 }
 
-/// A curve around the eye: millimetres from the margin on each lid, part of the lid's turn that it
-/// shares, part of the way to the socket's edge, and millimetres that it is lifted, above and
-/// below: the socket of a young face is nearly filled. The last number is the part of
-/// EyeAnatomy::upper_fill that the upper lid has there.
-struct LidRing {
-  float upper_mm, lower_mm, upper_hold, lower_hold, to_orbit, upper_lift, lower_lift, fill;
-};
-constexpr std::array kLidRings = {LidRing{0.1f, 0.1f, 1, 1, 0, 0, 0, 0},
-                                  LidRing{3.4f, 3.2f, 0.94f, 0.85f, 0, 0.1f, 0.1f, 0.4f},
-                                  LidRing{6.1f, 6.6f, 0.6f, 0.5f, 0.04f, 1.7f, 0.5f, 1},
-                                  LidRing{8.2f, 10.0f, 0.28f, 0.22f, 0.50f, 2.6f, 1.0f, 0.8f}};
-
 /// `edge`: the point of the socket's edge there.
 glm::vec3 PointOfRing(const EyeAnatomy& eye, const LidPoint& at, const LidRing& ring,
                       glm::vec3 edge) {
@@ -80,12 +68,11 @@ struct LipPoint {
   float side;  ///< 1 upper, -1 lower lip, 0 corner
 };
 
-LipPoint PointOnLips(int k) {
-  constexpr std::array<float, kLipColumns + 1> kX = {0, 3.8f, 8.0f, 12.8f, 17.6f, 22.0f, 25.0f};
+LipPoint PointOnLips(const MouthAnatomy& mouth, int k) {
   const bool upper = k <= kLipColumns;
   const int column = upper ? k : 2 * kLipColumns - k;
   const float side = column == kLipColumns ? 0.0f : upper ? 1.0f : -1.0f;
-  return {column, kX[static_cast<std::size_t>(column)], upper, side};
+  return {column, mouth.column_x()[static_cast<std::size_t>(column)], upper, side};
 }
 
 /// `red`: 0 at the seam, 1 at the border.
@@ -96,17 +83,6 @@ glm::vec3 PointOfRed(const MouthAnatomy& mouth, const LipPoint& at, float red) {
   p.y += at.side * 0.5f * red * SmoothStep(14, 22, at.x);
   return p;
 }
-
-/// A ring of the bag behind the lips: how high it is above and below, how far back, how wide
-/// against the lips, how much nearer to the middle the skin in an open mouth's corners is, and how
-/// much of the lips' closing it shares.
-struct BagRing {
-  float height, back, widen, web, lip_hold;
-};
-constexpr std::array<BagRing, kSeamRing> kBagRings = {
-    BagRing{0, 62, 0.5f, 0, 0},          BagRing{12, 48, 1.08f, 0, 0},
-    BagRing{15, 26, 1.2f, 0, 0},         BagRing{11.5f, 11, 1.1f, 0.04f, 0.6f},
-    BagRing{3.8f, 5.4f, 1.0f, 0.17f, 1}, BagRing{0.4f, 2.6f, 1.0f, 0.14f, 1}};
 
 glm::vec3 PointOfBag(const MouthAnatomy& mouth, const LipPoint& at, const BagRing& bag) {
   const float open = std::sqrt(std::max(0.0f, 1 - at.x * at.x / (25.0f * 25.0f)));
@@ -142,8 +118,8 @@ void AddLidCurves(const EyeAnatomy& eye, Cage& cage) {
     Add(cage, "eye0", eye.centre() + (eye.radius() - 0.15f) * glm::normalize(from_ball), tag);
     Add(cage, "eye1", eye.OnLid(at.x, margin, inside), tag);
     const glm::vec3 edge = cage.position[orbit->second[static_cast<std::size_t>(i)]];
-    for (std::size_t r = 0; r < kLidRings.size(); ++r) {
-      const LidRing& ring = kLidRings[r];
+    for (std::size_t r = 0; r < eye.lid_rings().size(); ++r) {
+      const LidRing& ring = eye.lid_rings()[r];
       CageTag lid = tag;
       lid.margin = at.upper ? ring.upper_mm : ring.lower_mm;
       lid.eye = at.upper ? ring.upper_hold : ring.lower_hold;
@@ -161,10 +137,14 @@ void AddLidCurves(const EyeAnatomy& eye, Cage& cage) {
 
 void AddMouthCurves(const MouthAnatomy& mouth, Cage& cage) {
   constexpr std::array<float, kMouthRings - kSeamRing> kRed = {0, 0.3f, 0.66f, 1};
+  if (mouth.bag_rings().size() != kSeamRing || mouth.column_x().size() != kLipColumns + 1) {
+    throw std::runtime_error(
+        "tables/mouth.txt: 6 rows 'bag_ring' and 7 numbers of 'column_x' expected");
+  }
   for (int ring = 0; ring < kMouthRings; ++ring) {
     const std::string name = "mouth" + std::to_string(ring);
     for (int k = 0; k <= 2 * kLipColumns; ++k) {
-      const LipPoint at = PointOnLips(k);
+      const LipPoint at = PointOnLips(mouth, k);
       if (ring == 0 && !at.upper) {  // the bag's end: both halves meet
         cage.curves[name].push_back(cage.curves[name][static_cast<std::size_t>(at.column)]);
         continue;
@@ -178,7 +158,7 @@ void AddMouthCurves(const MouthAnatomy& mouth, Cage& cage) {
         tag.seam = ring == kSeamRing ? 1.0f : 0.0f;
         Add(cage, name, PointOfRed(mouth, at, tag.red), tag);
       } else {
-        const BagRing& bag = kBagRings[static_cast<std::size_t>(ring)];
+        const BagRing& bag = mouth.bag_rings()[static_cast<std::size_t>(ring)];
         tag.red = 0;
         tag.deep = static_cast<float>(kSeamRing - ring) / kSeamRing;
         tag.lip_hold = bag.lip_hold;

@@ -59,7 +59,8 @@ float HeadForm::TeethTooFar(const HeadMesh& base) const {
   return std::min(most, kMost);
 }
 
-void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& mesh) const {
+void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, std::size_t ears_first,
+                     HeadMesh& mesh) const {
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     if (i >= fixed_first && i < fixed_end) continue;
     glm::vec3& p = mesh.position[i];
@@ -72,11 +73,9 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& m
       case Bone::kTongue:
         p = teeth_(p);
         break;
-      case Bone::kSkull: {
-        const bool tooth = p.z > 30 && std::abs(p.x) < 40;
-        p = tooth ? teeth_(p) : p + Motion(p);
+      case Bone::kSkull:
+        p = i < ears_first ? teeth_(p) : p + Motion(p);
         break;
-      }
       case Bone::kSkin: {
         const BakeWeights& weights = mesh.weights[i];
         glm::vec3 by = Motion(p);

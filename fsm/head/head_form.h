@@ -23,8 +23,10 @@ class HeadForm {
            const Warp* warp, const std::optional<Sided<EyeTransform>>& eye_transforms,
            const HeadMesh& base, const EyeTransform& left_eye = {});
 
-  /// Moves all vertices but those from `fixed_first` to before `fixed_end`.
-  void Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& mesh) const;
+  /// Moves all vertices but those from `fixed_first` to before `fixed_end`. What moves with the
+  /// skull is ears from `ears_first` on, teeth and gums before.
+  void Shape(std::size_t fixed_first, std::size_t fixed_end, std::size_t ears_first,
+             HeadMesh& mesh) const;
 
   const Sided<EyeTransform>& eye_transforms() const { return eye_transforms_; }
   const TeethTransform& teeth() const { return teeth_; }

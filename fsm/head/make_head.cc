@@ -85,16 +85,16 @@ BaseSkin MakeSkin(const Ingredients& from) {
 }
 
 /// The base head without what lies on its skull: vertices of skin, then those of the figure, which
-/// move as skin does, as do all before `soft_end`.
+/// move as skin does, as do all before `soft_end`, then eyes, teeth and tongue, then ears.
 struct BaseParts {
   HeadMesh mesh;
-  std::size_t skin_end, figure_end, soft_end;
+  std::size_t skin_end, figure_end, soft_end, ears_first;
   std::vector<SkinHair> skin_hairs;
 };
 
 BaseParts OnlySkin(const BaseSkin& skin) {
   const std::size_t end = skin.mesh.position.size();
-  return {skin.mesh, end, end, end, {}};
+  return {skin.mesh, end, end, end, end, {}};
 }
 
 BaseParts LayParts(const Ingredients& from, const BaseSkin& skin) {
@@ -121,6 +121,7 @@ BaseParts LayParts(const Ingredients& from, const BaseSkin& skin) {
   BuildEyes(from.eye, identity, mesh);
   BuildTeeth(from.mouth, identity, mesh);
   BuildTongue(from.mouth, identity, mesh);
+  parts.ears_first = mesh.position.size();
   // Long hair covers ears; a photo shows them.
   if (identity.crop && !from.photo) BuildEars(identity, mesh);
   return parts;
@@ -152,7 +153,8 @@ FormedHead TakeForm(const Ingredients& from, const BaseSkin& skin, const BasePar
   FormedHead head{parts.mesh, parts.mesh.position, parts.mesh.position.size(),
                   form.eye_transforms(), form.teeth()};
   // The sheet of a photo is where it belongs already.
-  form.Shape(parts.skin_end, from.photo ? parts.figure_end : parts.skin_end, head.mesh);
+  form.Shape(parts.skin_end, from.photo ? parts.figure_end : parts.skin_end, parts.ears_first,
+             head.mesh);
   AddHair(from, skin, head.mesh);
   head.base.insert(head.base.end(),
                    head.mesh.position.begin() + static_cast<std::ptrdiff_t>(head.hair_first),

@@ -22,6 +22,11 @@ void Desaturate(Palette& palette, float saturation) {
   }
 }
 
+/// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
+glm::vec3 Wetter(const PhotoHead& head, glm::vec3 lip, float part) {
+  return lip * glm::mix(glm::vec3(1), head.Look().Vector("photo_lips_wet"), part * head.saturation);
+}
+
 void DarkenNostrils(std::span<const CageTag> tags, HeadMesh& mesh) {
   std::vector<std::uint32_t> nostrils;
   for (auto& batch : mesh.batches) {
@@ -38,11 +43,6 @@ void DarkenNostrils(std::span<const CageTag> tags, HeadMesh& mesh) {
   for (std::size_t i = 0; i + 2 < nostrils.size(); i += 3) {
     mesh.Triangle(Material::kSkin, nostrils[i], nostrils[i + 1], nostrils[i + 2]);
   }
-}
-
-/// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
-glm::vec3 Wetter(glm::vec3 lip, float saturation) {
-  return lip * glm::mix(glm::vec3(1), glm::vec3(1, 0.56f, 0.52f), saturation);
 }
 
 /// A photo of a closed mouth does not show where the lips roll inward: as they part, from beside
@@ -67,7 +67,7 @@ void RollLips(const PhotoHead& head, std::span<const CageTag> tags, glm::vec3 li
     const glm::vec3 dry = glm::mix(topology.albedo[i], lip, 0.3f + 0.7f * wet);
     // Within the mouth what light there is has gone through flesh.
     const float inside = SmoothStep(0.5f, -4.0f, outward);
-    topology.albedo[i] = Wetter(Wetter(dry, head.saturation), inside * head.saturation);
+    topology.albedo[i] = Wetter(head, Wetter(head, dry, 1), inside);
     topology.openness[i] = glm::mix(1.0f, 0.4f, inside);
     topology.textures.weight[i] = 1 - wet;
   }
@@ -98,8 +98,9 @@ std::vector<float> RelitParts(const PhotoSkin& skin) {
 /// Lashes grow thin and pale with age, of which creases tell.
 void ThinLashes(const PhotoHead& head, HeadTopology& topology) {
   constexpr float kLost = 0.5f;
+  const Features& look = head.Look();
   const glm::vec3 colour =
-      glm::mix(glm::vec3(0.02f), glm::vec3(0.03f, 0.018f, 0.012f), head.saturation);
+      glm::mix(look.Vector("photo_lash_grey"), look.Vector("photo_lash_colour"), head.saturation);
   for (const auto& part : topology.parts) {
     if (part.material != Material::kShutLash) continue;
     const auto corners = topology.Corners(part);
@@ -139,22 +140,22 @@ float SeenSkin(const PhotoHead& head, glm::vec3 p, glm::vec3 normal) {
 }  // namespace
 
 void TakeColours(const PhotoHead& head, Palette& palette) {
+  const Features& look = head.Look();
   palette.iris = head.iris_colour;
   palette.sclera = head.white_colour;
   Desaturate(palette, head.saturation);
   if (head.lip_colour) {
     // Where the lips turn inward the mouth is painted: it begins in their colour.
-    constexpr float kOpen = 0.85f;
-    palette.lip_inside = *head.lip_colour / kOpen;
-    palette.mouth = 0.9f * Wetter(palette.lip_inside, 0.5f * head.saturation);
+    palette.lip_inside = *head.lip_colour / look("photo_lips_light");
+    palette.mouth = look("photo_mouth") * Wetter(head, palette.lip_inside, 0.5f);
   }
   // Teeth stand in the light whose hue the whites of the eyes show. It comes from the front, where
   // the photographer's lamp is, and reaches into the mouth.
   const glm::vec3 white = head.white_colour;
-  palette.tooth *=
-      0.67f * head.teeth *
-      glm::mix(glm::vec3(1), white / std::max({white.r, white.g, white.b, 1e-3f}), 0.5f);
-  palette.tongue *= 0.85f * head.teeth;
+  palette.tooth *= look("photo_teeth") * head.teeth *
+                   glm::mix(glm::vec3(1), white / std::max({white.r, white.g, white.b, 1e-3f}),
+                            look("photo_teeth_hue"));
+  palette.tongue *= look("photo_tongue") * head.teeth;
 }
 
 float JawLine(float above_bottom) { return 30 * SmoothStep(48, 36, above_bottom); }
@@ -240,8 +241,7 @@ void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_insid
   topology.portrait.light = light.coefficients();
   topology.portrait.relit = RelitParts(skin);
   topology.portrait.relit.resize(topology.uv.size());
-  topology.portrait.shut_lids = PaintLids(
-      mapping, skin, head.glasses, head.features ? *head.features : Features::BuiltIn(), light);
+  topology.portrait.shut_lids = PaintLids(mapping, skin, head.glasses, head.Look(), light);
   for (const ShutLid& lid : topology.portrait.shut_lids) topology.textures.weight[lid.vertex] = 1;
 }
 
