@@ -42,6 +42,7 @@ constexpr Limits kLimits[] = {
     {"long_over_ear half_height", kLeastSize, kMostSize},
     {"stubble_place lips_half_size", kLeastSize, kMostSize},
     {"beard_thin_cheek half_size", kLeastSize, kMostSize},
+    {"photo_lips_light", kLeastSize, kMostSize},
 };
 
 bool Ascends(const std::vector<float>& pairs) {

@@ -106,10 +106,10 @@ class CroppedHair {
   }
 
   float Depth(glm::vec3 d, float up) const {
-    const float top = SmoothStep(0.2f, 0.85f, d.y);
+    const float top = features_.Step("crop_top", d.y);
     const float body = glm::mix(style_.side_mm, style_.top_mm, top);
     return features_("crop_edge thick") +
-           features_("crop_edge behind") * SmoothStep(0.2f, -0.5f, d.z) +
+           features_("crop_edge behind") * features_.Step("crop_edge hollow", d.z) +
            body * features_.Step("crop_thickens", up);
   }
 
@@ -158,11 +158,12 @@ class CroppedHair {
     glm::vec3 along = Flow(root, forehead) + features_("crop_uneven direction") *
                                                  glm::vec3(NoiseAt(k, 31), 0, NoiseAt(k, 32));
     along = glm::normalize(along - root * glm::dot(along, root));
-    const float length = style_.lock_mm * (1 + features_("crop_uneven length") * NoiseAt(k, 33)) *
-                         (features_("crop_lock_length nape") +
-                          features_("crop_lock_length top") * SmoothStep(-0.3f, 0.5f, root.y)) *
-                         (features_("crop_lock_length hairline") +
-                          features_("crop_lock_length above") * SmoothStep(0, 0.2f, up));
+    const float length =
+        style_.lock_mm * (1 + features_("crop_uneven length") * NoiseAt(k, 33)) *
+        (features_("crop_lock_length nape") +
+         features_("crop_lock_length top") * features_.Step("crop_lock_length top_over", root.y)) *
+        (features_("crop_lock_length hairline") +
+         features_("crop_lock_length above") * features_.Step("crop_lock_length above_over", up));
     const float lift = style_.lift_mm * (1 + features_("crop_uneven lift") * NoiseAt(k, 34)) +
                        forehead * style_.front_up * features_("crop_front_lift");
     std::vector<glm::vec3> path;
@@ -174,12 +175,13 @@ class CroppedHair {
       const float swing = style_.wave_mm * std::sin(waves * kPi * v + static_cast<float>(k));
       const glm::vec3 d = glm::normalize(root + (along * (length * v) + side * swing * v) / 100.0f);
       const float over = Depth(d, Up(d));  // along the shell
-      path.push_back(scalp_.Over(d, 1.02f * over + lift * v * (1 - 0.75f * v) + 0.9f));
+      path.push_back(
+          scalp_.Over(d, 1.02f * over + lift * v * (1 - 0.75f * v) + features_("crop_lock_off")));
     }
     const float width = glm::mix(
         features_("crop_lock_width hairline"),
         features_("crop_lock_width top") + features_("crop_lock_width per_length") * style_.lock_mm,
-        SmoothStep(0, 0.28f, up));
+        features_.Step("crop_lock_width over", up));
     look_.AddLock(path,
                   {.width_mm = features_("crop_lock_width factor") * width *
                                (1 + features_("crop_uneven width") * NoiseAt(k, 35)),

@@ -73,7 +73,7 @@ class LongHair {
         OnParting(features_.Between("long_parting", std::pow(i, features_("long_crowd parting"))));
     const float azimuth =
         features_.Between("long_round", std::pow(i, features_("long_crowd round")));
-    const float edge = SmoothStep(0.25f, 0, i);
+    const float edge = features_.Step("long_edge_nearer over", i);
     // The side away from the parting has the longer way round the forehead.
     const float away = side < 0 ? 1.0f : 0.0f;
     const float nearer =
@@ -86,8 +86,8 @@ class LongHair {
   }
 
   float EndY(float i, float side) const {
-    return glm::mix(style_.front_y, style_.back_y, std::sqrt(SmoothStep(0, 0.8f, i))) +
-           features_("long_ends") * std::sin(17 * i + side);
+    return glm::mix(style_.front_y, style_.back_y, std::sqrt(features_.Step("long_ends over", i))) +
+           features_("long_ends uneven") * std::sin(17 * i + side);
   }
 
   glm::vec3 Point(float i, float side, float t, float out_mm) const {
@@ -100,15 +100,15 @@ class LongHair {
     const float off = features_("long_fringe_off ends");
     const float fringe =
         off + features_("long_fringe_off middle") * std::sin(kPi * SmoothStep(0, 1, cap));
-    const float least =
-        skin + glm::mix(fringe, features_("long_least_off"), SmoothStep(0, 0.12f, i));
+    const float least = skin + glm::mix(fringe, features_("long_least_off mm"),
+                                        features_.Step("long_least_off over", i));
     float radius = std::max(
         least,
         glm::mix(skin + off + features_("long_fringe_off temples") * SmoothStep(0.3f, 1, cap),
                  volume, part));
     // The parting is a furrow in the hair.
-    radius = glm::mix(skin + features_("long_furrow") * (radius - skin), radius,
-                      SmoothStep(-0.1f, 0.28f, cap));
+    radius = glm::mix(skin + features_("long_furrow part") * (radius - skin), radius,
+                      features_.Step("long_furrow over", cap));
     glm::vec3 p = kHairCentre + d * (radius + out_mm);
     p.x += side * OverEar(i, p.y);
     if (t > kCap) {
@@ -133,7 +133,7 @@ class LongHair {
   glm::vec3 Wave(float i, float side, float hang, glm::vec3 out) const {
     const float phase = 2 * kPi * features_("long_waves count") * hang +
                         features_("long_waves round") * i + features_("long_waves sides") * side;
-    const float swing = style_.wave_mm * SmoothStep(-0.1f, 0.5f, hang);
+    const float swing = style_.wave_mm * features_.Step("long_waves over", hang);
     return swing * (std::sin(phase) * glm::vec3(out.z, 0, -out.x) * side +
                     features_("long_waves off") * std::cos(phase) * out);
   }
@@ -159,7 +159,8 @@ class LongHair {
     return (features_("long_ridges broad") * std::sin(phase) +
             features_("long_ridges narrow") *
                 std::sin(features_("long_ridges closer") * phase + 1)) *
-           SmoothStep(0.02f, 0.3f, t) * (0.6f + 0.7f * t) * SmoothStep(0, 0.08f, i);
+           features_.Step("long_ridges over", t) * features_.Linear("long_ridges deep", t) *
+           features_.Step("long_ridges round", i);
   }
 
   /// By how much a column ends higher than its neighbours.
@@ -201,10 +202,11 @@ class LongHair {
                 : glm::mix(kCap, kEnd, static_cast<float>(row - kCapRows) / (kRows - kCapRows));
         glm::vec3 p = Point(i, side, t, Ridge(i, t));
         p.y += Pointed(k, t);
-        const float open = std::min(
-            1.0f, glm::mix(features_("long_light parting"), 1.0f, SmoothStep(0, 0.12f, t)) *
-                      glm::mix(features_("long_light edge"), 1.0f, SmoothStep(0, 0.1f, i)) *
-                      (1 + features_("long_light ridges") * Ridge(i, t)));
+        const float open = std::min(1.0f, glm::mix(features_("long_light parting"), 1.0f,
+                                                   features_.Step("long_light parting_over", t)) *
+                                              glm::mix(features_("long_light edge"), 1.0f,
+                                                       features_.Step("long_light edge_over", i)) *
+                                              (1 + features_("long_light ridges") * Ridge(i, t)));
         const glm::vec3 colour = look_.StrandColour(k * 3, row) * features_.Between("long_fade", t);
         mesh_.Add(
             p, row > 0 ? colour : glm::mix(colour, palette_.skin, features_("long_parting_scalp")),
@@ -335,9 +337,11 @@ class LongHair {
         path.push_back(Point(std::clamp(i + drift * v * v, 0.0f, 1.0f), side, from + length * v,
                              off * std::sin(kPi * (0.1f + 0.75f * v))));
       }
-      look_.AddLock(
-          path, {.width_mm = features_("long_flyaways width"), .tip_part = 0.3f, .fray_from = 0.9f},
-          seed, mesh_);
+      look_.AddLock(path,
+                    {.width_mm = features_("long_flyaways width"),
+                     .tip_part = features_("long_flyaways tip"),
+                     .fray_from = features_("long_flyaways fray_from")},
+                    seed, mesh_);
     }
   }
 
