@@ -7,9 +7,9 @@
 
 namespace fsm {
 
-/// Hangs the vertices of `rig.rest` from `first` on on springs, as the table hair_springs.txt says
-/// (its layout stands in its head). Rows blend into each other, and springs of a row around the
-/// head; those that no hair hangs on are left out. Throws std::runtime_error naming file and line.
+/// Attaches the vertices of `rig.rest` from index `first` on to the springs of hair_springs.txt,
+/// which describes its layout. Weights blend between rows, and within a row between springs;
+/// springs without hair are left out. Throws std::runtime_error naming file and line.
 void AddHairSprings(const Table& table, std::size_t first, RigData& rig);
 
 }  // namespace fsm

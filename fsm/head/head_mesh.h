@@ -13,8 +13,8 @@
 
 namespace fsm {
 
-/// The weights of a vertex while its head is made, with what tells which lid, lip and teeth touch
-/// it. Of that the rig knows only what is baked of it (face_channels.h).
+/// The weights of a vertex while its head is made, and which lid, lip and teeth touch it, which
+/// face_channels.h bakes into the rig.
 struct BakeWeights : SkinWeights {
   std::optional<Side> eye;  ///< whose lids are near
   float lid_upper = 0, lid_lower = 0;
