@@ -25,7 +25,6 @@ constexpr Limits kLimits[] = {
     {"brow_hairs columns", 1, kMostHairs},
     {"brow_hairs rows", 1, kMostHairs},
     {"long_locks count", 1, kMostHairs},
-    {"long_wisps", 1, kMostHairs},
     {"long_flyaways count", 1, kMostHairs},
     {"long_volume", 10, 1000},
     {"upper_tooth_widths", 0.5f, kMostSize},
@@ -38,6 +37,7 @@ constexpr Limits kLimits[] = {
     {"ear_tragus half_size", kLeastSize, kMostSize},
     {"ear_notch half_size", kLeastSize, kMostSize},
     {"long_parting_soft", kLeastSize, kMostSize},
+    {"long_goes_on", kLeastSize, kMostSize},
     {"long_over_ear half_width", kLeastSize, kMostSize},
     {"long_over_ear half_height", kLeastSize, kMostSize},
     {"stubble_place lips_half_size", kLeastSize, kMostSize},
@@ -69,8 +69,6 @@ Features::Features(NumberTable numbers) : NumberTable(std::move(numbers)) {
       for (const std::size_t half_size : {4, 5}) row.Within(half_size, kLeastSize, kMostSize);
     }
     if (name == "photo_lid_furrow") row.Within(3, kLeastSize, kMostSize);
-    if (name == "long_locks at_edge" && !(n[0] < (*this)("long_locks count")))
-      row.Fail("no lock that is not at the edge");
     if (name == "crop_crown" && Vector(name) == glm::vec3(0)) row.Fail("a crown that is nowhere");
   }
 }

@@ -34,7 +34,6 @@ class LongHair {
       Shell(side);
       Lining(side);
       Locks(side);
-      Wisps(side);
       Flyaways(side);
     }
   }
@@ -65,7 +64,9 @@ class LongHair {
 
   glm::vec3 OnParting(float degrees) const {
     const float along = degrees * kPi / 180;
-    return glm::normalize(glm::vec3(style_.parting, std::sin(along), std::cos(along)));
+    const float wander = std::sin(0.31f * degrees) + 0.7f * std::sin(0.83f * degrees + 1);
+    return glm::normalize(glm::vec3(style_.parting + features_("long_parting_wander") * wander,
+                                    std::sin(along), std::cos(along)));
   }
 
   glm::vec3 Direction(float i, float side, float t) const {
@@ -116,6 +117,11 @@ class LongHair {
       const glm::vec3 out = glm::normalize(glm::vec3(d.x, 0, d.z));
       const float front = SmoothStep(0.35f, 0, i);
       p.y = glm::mix(p.y, EndY(i, side), hang);
+      // It goes on round the skull for a little, so that it does not break where that ends.
+      constexpr float kStep = 0.04f;
+      const glm::vec3 on =
+          (d - Direction(i, side, 1 - kStep)) * radius * (1 - kCap) / (kCap * kStep);
+      p += glm::vec3(on.x, 0, on.z) * hang * std::exp(-hang / features_("long_goes_on"));
       const float full =
           features_.Between("long_full", front) * std::sin(std::min(1.0f, 1.2f * hang) * kPi);
       p += out * (full -
@@ -211,9 +217,9 @@ class LongHair {
         mesh_.Add(
             p, row > 0 ? colour : glm::mix(colour, palette_.skin, features_("long_parting_scalp")),
             open, Bone::kSkull);
-        const float edge = k == 0 ? 0.1f : k == 1 ? 0.8f : 1.0f;
+        const float edge = k == 0 ? features_("long_thin edge") : 1.0f;
         mesh_.strands.back() = {.along = Along(i, side, t),
-                                .density = edge * features_.Step("long_thin", t),
+                                .density = edge * features_.Step("long_thin ends", t),
                                 .tile_mm = features_.Pair("long_tile") * glm::vec2(side * i, t)};
       }
     }
@@ -239,7 +245,7 @@ class LongHair {
         const glm::vec3 p = Point(i, side, t, inset) + glm::vec3(0, Pointed(k, t), 0);
         mesh_.Add(p, palette_.hair, features_("long_light lining"), Bone::kSkull);
         mesh_.strands.back() = {.along = Along(i, side, t),
-                                .density = features_.Step("long_thin", t),
+                                .density = features_.Step("long_thin ends", t),
                                 .tile_mm = features_.Pair("long_tile") * glm::vec2(i, t)};
       }
     }
@@ -248,75 +254,26 @@ class LongHair {
 
   void Locks(float side) {
     const int locks = static_cast<int>(features_("long_locks count"));
-    const int at_edge = static_cast<int>(features_("long_locks at_edge"));
     for (int k = 0; k < locks; ++k) {
       const int seed = k + (side > 0 ? 500 : 0);
-      const float u = (static_cast<float>(k - at_edge) + 0.5f + 0.4f * NoiseAt(seed, 1)) /
-                      static_cast<float>(locks - at_edge);
-      const bool edge = k < at_edge;
-      const float i = edge ? 0.005f * static_cast<float>(k) : u;
-      const float from = edge ? features_("long_lock_from edge") +
-                                    features_("long_lock_from edge_step") * static_cast<float>(k)
-                              : features_.Linear("long_lock_from others", NoiseAt(seed, 2) + 1);
-      const float to = edge ? features_("long_lock_to edge") +
-                                  features_("long_lock_to edge_step") * static_cast<float>(k % 5)
-                            : features_.Linear("long_lock_to others", NoiseAt(seed, 3));
-      const float lift = edge ? features_("long_lock_lift edge")
-                              : features_.Linear("long_lock_lift others", NoiseAt(seed, 4));
+      const float i =
+          (static_cast<float>(k) + 0.5f + 0.4f * NoiseAt(seed, 1)) / static_cast<float>(locks);
+      const float from = features_.Linear("long_locks from", NoiseAt(seed, 2) + 1);
+      const float to = features_.Linear("long_locks to", NoiseAt(seed, 3));
+      const float lift = features_.Linear("long_locks lift", NoiseAt(seed, 4));
       std::vector<glm::vec3> path;
       constexpr int kSteps = 8;
       for (int s = 0; s <= kSteps; ++s) {
         const float v = static_cast<float>(s) / kSteps;
-        const float t = glm::mix(from, to, v);
-        const float drift =
-            edge ? features_("long_lock_drift edge") * v * v * (1 + 0.4f * NoiseAt(seed, 5))
-                 : features_("long_lock_drift others") * std::sin(4 * v + static_cast<float>(k));
-        path.push_back(Point(std::clamp(i + drift, 0.0f, 1.0f), side, t,
+        const float drift = features_("long_locks drift") * std::sin(4 * v + static_cast<float>(k));
+        path.push_back(Point(std::clamp(i + drift, 0.0f, 1.0f), side, glm::mix(from, to, v),
                              lift * std::sin(kPi * (0.12f + 0.8f * v))));
       }
-      look_.AddLock(
-          path,
-          {.width_mm = edge ? features_("long_lock_width edge")
-                            : features_.Linear("long_lock_width others", NoiseAt(seed, 6)),
-           .root_part = features_(edge ? "long_lock_taper edge_root" : "long_lock_taper root"),
-           .tip_part = features_("long_lock_taper tip"),
-           .fray_from = features_("long_lock_taper fray_from"),
-           .open = edge ? features_("long_lock_taper edge_light") : 1},
-          seed, mesh_);
-    }
-  }
-
-  // Thin locks that leave the edge of the hair towards the face and end there, so that the edge is
-  // no drawn line.
-  void Wisps(float side) {
-    const int wisps = static_cast<int>(features_("long_wisps"));
-    for (int k = 0; k < wisps; ++k) {
-      const int seed = k + (side > 0 ? 900 : 700);
-      const float from = features_("long_wisp_from first") +
-                         features_("long_wisp_from more") *
-                             (static_cast<float>(k) + 0.4f * NoiseAt(seed, 1)) /
-                             static_cast<float>(wisps);
-      const float long_part = features_("long_wisp_length part") *
-                              (1 + features_("long_wisp_length uneven") * NoiseAt(seed, 3));
-      const float reach = features_.Linear("long_wisp_reach all", NoiseAt(seed, 2)) *
-                          (1 + features_("long_wisp_reach upper") * SmoothStep(0.45f, 0.25f, from));
-      std::vector<glm::vec3> path;
-      constexpr int kSteps = 3;
-      for (int s = 0; s <= kSteps; ++s) {
-        const float v = static_cast<float>(s) / kSteps;
-        const float t = from + long_part * v;
-        const float i = 0.05f * (1 - v);
-        const glm::vec3 p = Point(i, side, t, 1.2f - 1.2f * v);
-        const glm::vec3 down = glm::normalize(Point(i, side, t + 0.02f, 0) - p);
-        const glm::vec3 outward = glm::normalize(p - kHairCentre);
-        const glm::vec3 face = glm::cross(down, outward) * side;  // away from the hair
-        path.push_back(p + face * (reach * v * v) - outward * (1.0f * v * v));
-      }
       look_.AddLock(path,
-                    {.width_mm = features_.Linear("long_wisp_width", NoiseAt(seed, 4)),
-                     .root_part = features_("long_wisp_taper root"),
-                     .fray_from = features_("long_wisp_taper fray_from"),
-                     .open = features_("long_wisp_taper light")},
+                    {.width_mm = features_.Linear("long_locks width", NoiseAt(seed, 6)),
+                     .root_part = features_("long_locks root"),
+                     .tip_part = features_("long_locks tip"),
+                     .fray_from = features_("long_locks fray_from")},
                     seed, mesh_);
     }
   }

@@ -71,12 +71,13 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
   }
   if (tag.red >= 0 && kind == SkinKind::kLip) {
     const float aside = std::abs(p.x);
-    const float reddened = features("lip_red middle") * SmoothStep(1.1f, 0.6f, tag.red) *
-                           (1 - features("lip_red less_aside") * SmoothStep(16, 26, aside));
+    const float reddened =
+        features("lip_red middle") * SmoothStep(1.1f, 0.6f, tag.red) *
+        (1 - features("lip_red less_aside") * features.Step("lip_red aside", aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip, reddened);
     // The edge of the red is soft, the middle of the lips wet.
     const float wet = SmoothStep(0.35f, 0, tag.red) *
-                      (1 - features("lip_wet less_aside") * SmoothStep(12, 25, aside));
+                      (1 - features("lip_wet less_aside") * features.Step("lip_wet aside", aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip_inside, features("lip_wet middle") * wet);
     paint.openness *= 1 - features("lip_wet shade") * wet;
     // The lower lip rolls into the mouth: its edge is in its own shade.

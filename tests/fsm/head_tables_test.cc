@@ -368,7 +368,7 @@ TEST(HeadTablesTest, FeaturesAreChecked) {
       {"spot cheeks", "spot cheeks 34 -9 0 10 0.2 0", "'0' found where 0.01 to 100 was expected"},
       {"beard_thin_cheek half_size", "beard_thin_cheek half_size 9 0",
        "'0' found where 0.01 to 100"},
-      {"long_locks at_edge", "long_locks at_edge 30", "no lock that is not at the edge"},
+      {"long_goes_on", "long_goes_on 0", "'0' found where 0.01 to 100 was expected"},
       {"long_volume", "long_volume 80 0 90", "'0' found where 10 to 1000 was expected"},
       {"crop_crown", "crop_crown 0 0 0", "a crown that is nowhere"},
       {"long_over_ear half_width", "long_over_ear half_width 0", "'0' found where 0.01 to 100"},
