@@ -66,8 +66,8 @@ void GlRenderBackend::MakeRenderer() {
 }
 
 /// How far springs are from where the head carries them.
-std::span<const glm::vec3> GlRenderBackend::Swing(const Course* course) {
-  if (course == nullptr || head().rig().data().swing.springs.empty()) {
+std::span<const glm::vec3> GlRenderBackend::Swing(const StateHistory* history) {
+  if (history == nullptr || head().rig().data().swing.springs.empty()) {
     simulation_.reset();
     return {};
   }
@@ -75,12 +75,12 @@ std::span<const glm::vec3> GlRenderBackend::Swing(const Course* course) {
     simulation_.emplace(head().rig().data().swing.springs);
     simulated_ = head().serial();
   }
-  simulation_->RunTo(course->now, course->state_at);
+  simulation_->RunTo(history->now, history->state_at);
   return simulation_->offsets();
 }
 
 vm::Result<void> GlRenderBackend::Draw(const FaceState& state, const Scene& scene,
-                                       const Course* course) {
+                                       const StateHistory* history) {
   try {
     // The head is made while the driver starts; both take a good part of the first frame.
     std::future<std::unique_ptr<Head>> made;
@@ -91,7 +91,7 @@ vm::Result<void> GlRenderBackend::Draw(const FaceState& state, const Scene& scen
     if (made.valid()) head_ = made.get();
     Scene seen = scene;
     seen.camera.parallel = head().view();
-    renderer_->Draw(head(), state, Swing(course), seen);
+    renderer_->Draw(head(), state, Swing(history), seen);
     return {};
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kUnavailable, std::string("cannot draw: ") + error.what());
@@ -105,19 +105,13 @@ const Image& GlRenderBackend::Read() {
 
 std::uint64_t GlRenderBackend::BeginRead() {
   context_->MakeCurrent();
-  readings_[++last_reading_].in_renderer = renderer_->BeginRead();
-  return last_reading_;
+  return renderer_->BeginRead();
 }
 
 vm::Result<void> GlRenderBackend::EndRead(std::uint64_t frame, Image& out) {
-  auto reading = readings_.extract(frame);
-  if (reading.mapped().image) {
-    out = *std::move(reading.mapped().image);
-    return {};
-  }
   try {
     context_->MakeCurrent();
-    renderer_->EndRead(reading.mapped().in_renderer, out);
+    renderer_->EndRead(frame, out);
     return {};
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kUnavailable, error.what());
@@ -125,10 +119,8 @@ vm::Result<void> GlRenderBackend::EndRead(std::uint64_t frame, Image& out) {
 }
 
 void GlRenderBackend::DropRead(std::uint64_t frame) {
-  const auto reading = readings_.extract(frame);
-  if (reading.mapped().image) return;
   context_->MakeCurrent();
-  renderer_->DropRead(reading.mapped().in_renderer);
+  renderer_->DropRead(frame);
 }
 
 MouthMeasure GlRenderBackend::Measure(const FaceState& state) { return head().MeasureMouth(state); }
@@ -162,28 +154,13 @@ vm::Result<void> GlRenderBackend::Wear(const std::string& face) {
   }
 }
 
-int GlRenderBackend::width() const { return has_window() ? context_->width() : options_.width; }
-int GlRenderBackend::height() const { return has_window() ? context_->height() : options_.height; }
+int GlRenderBackend::width() const { return context_ ? context_->width() : options_.width; }
+int GlRenderBackend::height() const { return context_ ? context_->height() : options_.height; }
 
 vm::Result<void> GlRenderBackend::Resize(int width, int height) {
   options_.width = width;
   options_.height = height;
-  if (!context_) return {};
-  if (has_window()) {
-    context_->Resize(width, height);
-    return {};
-  }
-  // GL objects first: they live in the context. The next frame makes another.
-  context_->MakeCurrent();
-  try {
-    for (auto& [number, reading] : readings_) {
-      if (!reading.image) renderer_->EndRead(reading.in_renderer, reading.image.emplace());
-    }
-  } catch (const std::exception& error) {
-    return vm::Fail(vm::Errc::kUnavailable, error.what());
-  }
-  renderer_.reset();
-  context_.reset();
+  if (context_) context_->Resize(width, height);
   return {};
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -39,7 +38,8 @@ class GlRenderBackend final : public RenderBackend {
   explicit GlRenderBackend(const Options& options);
   ~GlRenderBackend() override;
 
-  vm::Result<void> Draw(const FaceState& state, const Scene& scene, const Course* course) override;
+  vm::Result<void> Draw(const FaceState& state, const Scene& scene,
+                        const StateHistory* history) override;
   bool Swings() const override { return simulation_ && !simulation_->Still(); }
   const Image& Read() override;
   std::uint64_t BeginRead() override;
@@ -64,7 +64,7 @@ class GlRenderBackend final : public RenderBackend {
   const Head& head();
   std::unique_ptr<Head> MakeNamedHead(const std::string& face) const;
   void MakeRenderer();
-  std::span<const glm::vec3> Swing(const Course* course);
+  std::span<const glm::vec3> Swing(const StateHistory* history);
 
   Options options_;
   std::optional<Appearance> appearance_;  // in place of the built-in one
@@ -76,14 +76,6 @@ class GlRenderBackend final : public RenderBackend {
   std::optional<Simulation> simulation_;
   std::uint64_t simulated_ = 0;  // serial of that head
   Image image_;
-  // Frames begun and not ended, by their number here; each is in the renderer or, when that went,
-  // here.
-  struct Reading {
-    std::uint64_t in_renderer = 0;
-    std::optional<Image> image;
-  };
-  std::map<std::uint64_t, Reading> readings_;
-  std::uint64_t last_reading_ = 0;
 };
 
 }  // namespace fsm

@@ -22,15 +22,15 @@ class RenderBackend {
   virtual ~RenderBackend() = default;
 
   /// How the face came to where it is: what it looked like at earlier times.
-  struct Course {
+  struct StateHistory {
     vm::Time now;
     Simulation::StateAt state_at;
   };
-  /// Draws a state; the picture can then be read or shown. `course`: by it swings what hangs on
+  /// Draws a state; the picture can then be read or shown. `history`: by it swings what hangs on
   /// springs, if it is given. Error: kUnavailable if there is no way to draw (the first call makes
   /// the graphics context of a headless backend).
   virtual vm::Result<void> Draw(const FaceState& state, const Scene& scene,
-                                const Course* course) = 0;
+                                const StateHistory* history) = 0;
   /// Something still swings, though the face may stand still.
   virtual bool Swings() const { return false; }
   /// The frame drawn last; valid until the next call. REQUIRES: one was drawn.

@@ -115,8 +115,7 @@ vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
   }
   auto picture = core_.backend.ReadPicture(named == backgrounds_.end() ? name : named->second);
   if (!picture) return std::unexpected(picture.error());
-  picture_ = std::move(*picture);
-  core_.scene.background_image = &picture_;
+  core_.scene.background_image = std::make_shared<const Image>(std::move(*picture));
   ShowBackground(false);
   return {};
 }

@@ -35,7 +35,6 @@ class SceneSlots {
   std::vector<std::pair<std::string, std::string>> backgrounds_;
   void ShowBackground(bool transparent);
 
-  Image picture_;
   bool transparent_ = false;
   bool background_enabled_ = true;
   int start_width_, start_height_;  // of the view

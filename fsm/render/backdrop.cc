@@ -1,7 +1,6 @@
 #include "fsm/render/backdrop.h"
 
 #include <cassert>
-#include <cstring>
 
 #include "embedded/backdrop_fragment.h"
 #include "embedded/backdrop_vertex.h"
@@ -12,21 +11,6 @@ namespace {
 /// Whether a scene shows a picture behind the figure.
 bool IsPictured(const Scene& scene) {
   return scene.show_background && scene.background_image && !scene.background_image->rgba.empty();
-}
-
-/// FNV-1a over 8 bytes at a time; to notice a change, not to resist one made on purpose.
-std::uint64_t Checksum(const void* data, std::size_t bytes, std::uint64_t start) {
-  constexpr std::uint64_t kPrime = 0x100000001b3;
-  std::uint64_t sum = start ^ 0xcbf29ce484222325;
-  const auto* at = static_cast<const unsigned char*>(data);
-  for (; bytes >= 8; bytes -= 8, at += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, at, 8);
-    sum = (sum ^ word) * kPrime;
-    sum ^= sum >> 29;
-  }
-  for (; bytes > 0; --bytes) sum = (sum ^ *at++) * kPrime;
-  return sum;
 }
 
 }  // namespace
@@ -56,10 +40,9 @@ void Backdrop::Draw(const Scene& scene, int width, int height) {
   }
   gl_.ActiveTexture(GL_TEXTURE0);
   gl_.BindTexture(GL_TEXTURE_2D, texture_);
-  const Image& image = *scene.background_image;
-  Upload(image);
+  Upload(scene.background_image);
   // A picture of the view's own size is shown pixel by pixel.
-  const bool same = image.width == width && image.height == height;
+  const bool same = uploaded_->width == width && uploaded_->height == height;
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
                     same ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, same ? GL_NEAREST : GL_LINEAR);
@@ -90,17 +73,14 @@ void Backdrop::Cover(bool pictured, const glm::vec3& plain, float opacity) {
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Backdrop::Upload(const Image& image) {
-  assert(image.rgba.size() ==
-         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4);
-  const auto checksum =
-      Checksum(image.rgba.data(), image.rgba.size(), static_cast<std::uint64_t>(image.width));
-  if (checksum == checksum_) return;
-  checksum_ = checksum;
+void Backdrop::Upload(const std::shared_ptr<const Image>& image) {
+  if (image == uploaded_) return;
+  assert(image->rgba.size() == 4 * image->Index(0, image->height));
+  uploaded_ = image;
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, image.rgba.data());
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image->width, image->height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, image->rgba.data());
   gl_.GenerateMipmap(GL_TEXTURE_2D);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
+#include <memory>
 
 #include "fsm/render/gl_objects.h"
 #include "fsm/render/scene.h"
@@ -18,7 +17,7 @@ class Backdrop {
   Backdrop& operator=(const Backdrop&) = delete;
 
   /// Covers the target bound at present, which becomes a picture of `width` x `height`. The
-  /// background's picture is uploaded again only when its content changes.
+  /// background's picture is uploaded when it is another than before.
   void Draw(const Scene& scene, int width, int height);
   /// Lays the background over what was drawn before it, which so fades: `opacity` 1 leaves nothing
   /// of it. Over no background its colours, which are multiplied by its opacity, fade alike.
@@ -27,13 +26,13 @@ class Backdrop {
 
  private:
   void Cover(bool pictured, const glm::vec3& plain, float opacity);
-  void Upload(const Image& image);
+  void Upload(const std::shared_ptr<const Image>& image);
 
   const GlFunctions& gl_;
   GlProgram program_;
   GLuint array_ = 0;
   GLuint texture_ = 0;
-  std::optional<std::uint64_t> checksum_;
+  std::shared_ptr<const Image> uploaded_;
 };
 
 }  // namespace fsm

@@ -40,7 +40,7 @@ class SwitchedContext : public RenderContext {
   static inline thread_local SwitchedContext* current_ = nullptr;
 };
 
-/// A context that shows nothing and keeps its size.
+/// A context that shows nothing. Its size is a number: the renderer draws into targets of its own.
 class OffScreenContext : public SwitchedContext {
  public:
   OffScreenContext(int width, int height) : width_(width), height_(height) {}
@@ -50,6 +50,10 @@ class OffScreenContext : public SwitchedContext {
   int width() const override { return width_; }
   int height() const override { return height_; }
   bool is_window() const override { return false; }
+  void Resize(int width, int height) override {
+    width_ = width;
+    height_ = height;
+  }
   void Present() override {}
   bool close_requested() const override { return false; }
 

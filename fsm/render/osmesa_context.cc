@@ -3,15 +3,14 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "fsm/render/off_screen.h"
 
 namespace fsm {
 namespace {
 
-/// Software OpenGL into memory. The renderer draws into framebuffer objects of its own, so the
-/// memory OSMesa insists on is only ever bound, never looked at.
+/// Software OpenGL into memory. The renderer draws into framebuffer objects of its own; OSMesa
+/// insists on memory to bind, and one pixel is enough.
 class OsMesaContext : public OffScreenContext {
  public:
   OsMesaContext(int width, int height) : OffScreenContext(width, height) {
@@ -32,7 +31,6 @@ class OsMesaContext : public OffScreenContext {
     if (!context_) {
       throw std::runtime_error("cannot make an off-screen OpenGL 3.3 context with OSMesa");
     }
-    pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
   }
   ~OsMesaContext() override {
     auto* other = Leave();
@@ -47,15 +45,14 @@ class OsMesaContext : public OffScreenContext {
 
  private:
   void Bind() override {
-    if (!OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, width(), height())) {
-      throw std::runtime_error("OSMesa refused a picture of " + std::to_string(width()) + " x " +
-                               std::to_string(height()));
+    if (!OSMesaMakeCurrent(context_, pixel_, GL_UNSIGNED_BYTE, 1, 1)) {
+      throw std::runtime_error("OSMesa refused to draw into memory");
     }
   }
   void Release() override { OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0); }
 
   OSMesaContext context_ = nullptr;
-  std::vector<std::uint8_t> pixels_;
+  std::uint8_t pixel_[4] = {};
 };
 
 }  // namespace

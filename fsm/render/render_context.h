@@ -26,8 +26,8 @@ class RenderContext {
   virtual void SetFullScreen(bool /*full*/) {}
   /// Window: moves its upper left corner, where the window system lets it. Else nothing.
   virtual void Move(int /*x*/, int /*y*/) {}
-  /// Window: asks for another size of its inside, which follows when the window system grants it.
-  virtual void Resize(int /*width*/, int /*height*/) {}
+  /// Another size of the drawable. That of a window follows when the window system grants it.
+  virtual void Resize(int width, int height) = 0;
   virtual void MakeCurrent() = 0;
   virtual void* GetProcAddress(const char* name) = 0;
   /// The way that led to it, as "OSMesa" or "EGL, device 0 (/dev/dri/card0), hardware".

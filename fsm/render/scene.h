@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 
 #include "fsm/image/image.h"
@@ -33,8 +34,9 @@ struct Camera {
 /// Everything in a picture but the head.
 struct Scene {
   glm::vec3 background{0.35f, 0.42f, 0.48f};  ///< sRGB 0..1, when there is no picture
-  const Image* background_image = nullptr;    ///< stretched over the view; borrowed
-  bool show_background = true;                ///< off: transparent black
+  /// Stretched over the view; another picture is another object.
+  std::shared_ptr<const Image> background_image = {};
+  bool show_background = true;  ///< off: transparent black
   ViewMode view_mode = ViewMode::kTexture;
   Camera camera;
   glm::vec3 wire{0.10f, 0.55f, 0.42f};  ///< sRGB, of the lines of ViewMode::kWireframe

@@ -21,12 +21,13 @@ class FakeRenderBackend : public RenderBackend {
     bool finished = false;
   };
 
-  vm::Result<void> Draw(const FaceState& state, const Scene& scene, const Course* course) override {
+  vm::Result<void> Draw(const FaceState& state, const Scene& scene,
+                        const StateHistory* history) override {
     if (!no_drawing.empty()) return vm::Fail(vm::Errc::kUnavailable, no_drawing);
     ++draws;
     last_state = state;
     last_scene = scene;
-    simulated = course != nullptr;
+    simulated = history != nullptr;
     image_.width = image_.height = 1;
     image_.rgba = {static_cast<std::uint8_t>(std::lround(state.mouth[kJawY] * 10)), 0, 0, 255};
     return {};

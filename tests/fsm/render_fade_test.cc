@@ -74,8 +74,7 @@ TEST_F(FadeTest, BuiltInHeadsDoNotShowTheirInside) {
 TEST_F(FadeTest, WhatIsBehindMayBeAPictureOfAnySize) {
   const auto head = WearingPhoto();
   for (const int width : {kWidth, 37, 500}) {
-    const Image picture = Pattern(width, kHeight);
-    scene_.background_image = &picture;
+    scene_.background_image = std::make_shared<const Image>(Pattern(width, kHeight));
     ExpectOnePicture(*head, std::to_string(width) + " wide");
   }
 }

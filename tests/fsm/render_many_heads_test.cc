@@ -157,9 +157,8 @@ TEST(FrameReaderTest, BuffersHandOutWhatIsReadAtOnce) {
   std::vector<std::array<std::uint64_t, 2>> begun;
   std::vector<Image> expected;
   for (int i = 0; i < 5; ++i) {
-    const Image picture = Pattern(53, 37, 11 * i);  // stretched, so that every sample is another
-    Scene scene;
-    scene.background_image = &picture;
+    Scene scene;  // the picture is stretched, so that every sample is another
+    scene.background_image = std::make_shared<const Image>(Pattern(53, 37, 11 * i));
     target.Bind();
     backdrop.Draw(scene, 40, 30);
     const bool soft = i % 2 == 1;

@@ -64,16 +64,16 @@ class VirtualScreen {
  private:
   pid_t pid_ = 0;
   bool ready_ = false;
+#ifdef FSM_LEAK_CHECK
+  // The window system's driver is unloaded with what it forgot, so that no name is left for a
+  // suppression to match.
+  const __lsan::ScopedDisabler the_drivers_leaks_are_not_ours_;
+#endif
 };
 
 TEST(WindowTest, WindowAndHeadlessContextInOneProcessShowTheSamePicture) {
   const VirtualScreen screen;
   if (!screen.ready()) GTEST_SKIP() << "needs Xvfb (Debian: xvfb)";
-#ifdef FSM_LEAK_CHECK
-  // The window system's driver is unloaded with what it forgot, so that no name is left for a
-  // suppression to match.
-  const __lsan::ScopedDisabler the_drivers_leaks_are_not_ours;
-#endif
   BallHead head;
   HeadVertices vertices;
   head.Evaluate({}, vertices);
@@ -109,6 +109,52 @@ TEST(WindowTest, WindowAndHeadlessContextInOneProcessShowTheSamePicture) {
   headless.reset();
   window->MakeCurrent();
   window_renderer.reset();
+}
+
+TEST(WindowTest, SeveralFacesShareAWindow) {
+  const VirtualScreen screen;
+  if (!screen.ready()) GTEST_SKIP() << "needs Xvfb (Debian: xvfb)";
+  const auto context = RenderContext::MakeWindow(64, 64, "test");
+  BallHead head;
+  HeadVertices vertices;
+  head.Evaluate({}, vertices);
+  Scene left_scene, right_scene;
+  left_scene.background = {1, 0, 0};
+  right_scene.background = {0, 0, 1};
+  auto left = Renderer::Make(*context);
+  auto right = Renderer::Make(*context);
+  left->SetViewport({0, 0, 32, 40});
+  right->SetViewport({32, 24, 32, 40});
+  FaceState turned;
+  turned.head_rotation = {0, 30, 0};
+  Image shared;
+  for (int i = 0; i < 2; ++i) {
+    left->Draw(head, vertices, {}, left_scene);
+    right->Draw(head, vertices, turned, right_scene);
+  }
+  right->Read(shared);
+
+  Image window{64, 64, std::vector<std::uint8_t>(64 * 64 * 4)};
+  const auto gl = GlFunctions::Load(*context);
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  gl.ReadPixels(0, 0, 64, 64, GL_RGBA, GL_UNSIGNED_BYTE, window.rgba.data());
+  // GL's first row is the lowest.
+  const auto shown = [&window](int x, int y) { return At(window, x, 63 - y); };
+  EXPECT_EQ(shown(1, 1), (Pixel{255, 0, 0, 255}));
+  EXPECT_EQ(shown(30, 1), (Pixel{255, 0, 0, 255}));
+  EXPECT_EQ(shown(33, 25), (Pixel{0, 0, 255, 255}));
+  EXPECT_EQ(shown(62, 25), (Pixel{0, 0, 255, 255}));
+  EXPECT_NE(shown(33, 22), (Pixel{0, 0, 255, 255}));  // above the right pane
+  EXPECT_NE(shown(16, 20), (Pixel{255, 0, 0, 255}));  // the left face
+
+  auto alone_context = RenderContext::MakeHeadless(32, 40);
+  auto alone = Renderer::Make(*alone_context);
+  Image image;
+  alone->Draw(head, vertices, turned, right_scene);
+  alone->Read(image);
+  EXPECT_EQ(Differing(shared, image), 0);
+  alone.reset();
+  context->MakeCurrent();
 }
 
 }  // namespace
