@@ -26,7 +26,6 @@ void Capture::Begin(vm::Time at) {
 }
 
 void Capture::Tick() {
-  timer_ = 0;
   if (auto done = DrawNext(); !done) {
     Cancel();
     on_end_(done);
@@ -68,19 +67,17 @@ void Capture::WaitOrFinish() {
     on_end_(written);
     return;
   }
-  timer_ = clock_.At(series_.TimeOf(next_), [this] { Tick(); });
+  timer_.At(series_.TimeOf(next_), [this] { Tick(); });
 }
 
 void Capture::End(vm::Time at) {
   if (!running_) return;
   end_ = at;
-  if (timer_ != 0) clock_.Cancel(timer_);
   WaitOrFinish();
 }
 
 void Capture::Cancel() {
-  if (timer_ != 0) clock_.Cancel(timer_);
-  timer_ = 0;
+  timer_.Cancel();
   static_cast<void>(queue_.Flush());
   armed_ = false;
   running_ = false;

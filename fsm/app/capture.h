@@ -8,7 +8,7 @@
 #include "fsm/app/frame_queue.h"
 #include "fsm/app/frame_series.h"
 #include "fsm/app/render_backend.h"
-#include "vm_protocol/core/scheduler.h"
+#include "vm_protocol/core/timer.h"
 
 namespace fsm {
 
@@ -35,12 +35,12 @@ class Capture {
   Capture(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnEnd on_end)
       : Capture(clock, backend, std::move(draw), std::move(on_end), Limits{}) {}
   Capture(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnEnd on_end, Limits limits)
-      : clock_(clock),
-        backend_(backend),
+      : backend_(backend),
         draw_(std::move(draw)),
         on_end_(std::move(on_end)),
         queue_(backend, [this](const Image& picture, long) { return Write(picture); }),
-        limits_(limits) {}
+        limits_(limits),
+        timer_(clock) {}
   ~Capture() { Cancel(); }
 
   void Arm(Order order);
@@ -58,7 +58,6 @@ class Capture {
   void WaitOrFinish();
   bool IsOver() const { return end_ && series_.TimeOf(next_) > *end_; }
 
-  vm::Scheduler& clock_;
   RenderBackend& backend_;
   Draw draw_;
   OnEnd on_end_;
@@ -72,7 +71,7 @@ class Capture {
   long next_ = 0;                // to be drawn
   long written_ = 0;             // and what they take
   std::uintmax_t bytes_ = 0;
-  vm::TimerId timer_ = 0;
+  vm::Timer timer_;
 };
 
 }  // namespace fsm

@@ -14,10 +14,6 @@ Film::Film(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnFailure on
       on_failure_(std::move(on_failure)),
       queue_(backend, [this](const Image& frame, long times) { return Write(frame, times); }) {}
 
-Film::~Film() {
-  if (timer_ != 0) clock_.Cancel(timer_);
-}
-
 vm::Result<void> Film::Start(const std::string& path, int frames_per_second) {
   if (recording()) {
     return vm::Fail(vm::Errc::kBusy, "recording " + path_ + "; set Record = STOP first");
@@ -34,11 +30,10 @@ vm::Result<void> Film::Start(const std::string& path, int frames_per_second) {
 }
 
 void Film::Arm() {
-  timer_ = clock_.At(series_.TimeOf(next_), [this] { Tick(); });
+  timer_.At(series_.TimeOf(next_), [this] { Tick(); });
 }
 
 void Film::Tick() {
-  timer_ = 0;
   // A slow encoder must not keep the module from its input: the rest comes right after that.
   if (auto added = AddUpTo(clock_.Now(), kMostRepeatsAtOnce); !added) {
     queue_.Clear();
@@ -71,8 +66,7 @@ vm::Result<void> Film::Write(const Image& frame, long times) {
 
 vm::Result<Film::Report> Film::Stop(const std::string& sound) {
   if (!recording()) return vm::Fail(vm::Errc::kBadValue, "no film is being recorded");
-  if (timer_ != 0) clock_.Cancel(timer_);
-  timer_ = 0;
+  timer_.Cancel();
   // Frames that were due before now belong to the film; the one due right now does not, but a film
   // has at least one.
   const vm::Time stop = clock_.Now();

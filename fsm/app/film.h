@@ -8,7 +8,7 @@
 #include "fsm/app/frame_series.h"
 #include "fsm/app/render_backend.h"
 #include "fsm/film/movie_writer.h"
-#include "vm_protocol/core/scheduler.h"
+#include "vm_protocol/core/timer.h"
 
 namespace fsm {
 
@@ -22,7 +22,6 @@ class Film {
   /// Told when recording ended by itself because of an error.
   using OnFailure = std::function<void(const vm::Error&)>;
   Film(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnFailure on_failure);
-  ~Film();
 
   /// Errors: kBusy while recording; kUnavailable if the film cannot be opened.
   vm::Result<void> Start(const std::string& path, int frames_per_second);
@@ -57,7 +56,7 @@ class Film {
   FrameSeries series_;
   long next_ = 0;
   long repeated_ = 0;
-  vm::TimerId timer_ = 0;
+  vm::Timer timer_{clock_};
 };
 
 }  // namespace fsm

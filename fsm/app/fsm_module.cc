@@ -63,11 +63,6 @@ FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions op
   Changed();
 }
 
-FsmModule::~FsmModule() {
-  if (frame_timer_ != 0) core_.clock.Cancel(frame_timer_);
-  if (end_timer_ != 0) core_.clock.Cancel(end_timer_);
-}
-
 void FsmModule::ApplyConfig(const OriginalConfig& config) {
   vm::OrThrow(config.ApplyTo(tables_));
   if (config.expression_ms) {
@@ -347,16 +342,13 @@ void FsmModule::ArmFrames() {
     if (active) due = FrameAfter(std::max(now, *active));
     if (window) due = std::min(due.value_or(now + kWindowEvents), now + kWindowEvents);
   }
-  if (frame_timer_ != 0 && due && *due == frame_due_) return;
-  if (frame_timer_ != 0) core_.clock.Cancel(frame_timer_);
-  frame_timer_ = 0;
-  if (!due) return;
+  if (!due) return frame_timer_.Cancel();
+  if (frame_timer_.pending() && *due == frame_due_) return;
   frame_due_ = *due;
-  frame_timer_ = core_.clock.At(*due, [this] { OnFrame(); });
+  frame_timer_.At(*due, [this] { OnFrame(); });
 }
 
 void FsmModule::OnFrame() {
-  frame_timer_ = 0;
   const vm::Time now = core_.Now();
   if (core_.backend.has_window()) {
     if (auto drawn = core_.DrawAt(now); !drawn) {
@@ -382,15 +374,10 @@ void FsmModule::ArmEnd() {
   // A timer stands at the end of what moves: whoever waits for it is woken then, and the virtual
   // clock only goes to times at which there is a timer.
   const vm::Time end = BusyUntil();
-  if (end_timer_ != 0 && end == end_due_) return;
-  if (end_timer_ != 0) core_.clock.Cancel(end_timer_);
-  end_timer_ = 0;
-  if (end <= core_.Now()) return;
+  if (end_timer_.pending() && end == end_due_) return;
+  if (end <= core_.Now()) return end_timer_.Cancel();
   end_due_ = end;
-  end_timer_ = core_.clock.At(end, [this] {
-    end_timer_ = 0;
-    ArmEnd();
-  });
+  end_timer_.At(end, [this] { ArmEnd(); });
 }
 
 bool FsmModule::Busy() const {
@@ -402,8 +389,7 @@ void FsmModule::Shutdown() {
   // between two pictures, a capture would always have a next one due.
   capture_->Cancel();
   static_cast<void>(pictures_->SendTo("NONE", 1));
-  if (frame_timer_ != 0) core_.clock.Cancel(frame_timer_);
-  frame_timer_ = 0;
+  frame_timer_.Cancel();
   if (!film_->recording()) return;
   if (auto stopped = StopFilm(); !stopped) core_.slots.ReportError("Record", stopped.error());
 }

@@ -15,6 +15,7 @@
 #include "fsm/app/speech_slots.h"
 #include "fsm/faces/original_config.h"
 #include "vm_protocol/core/module.h"
+#include "vm_protocol/core/timer.h"
 
 namespace fsm {
 
@@ -38,7 +39,6 @@ class FsmModule final : public vm::Module {
  public:
   /// Throws std::runtime_error with a sentence if tables or configuration are damaged.
   FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions options);
-  ~FsmModule() override;
 
   vm::SlotMachine& slots() override { return core_.slots; }
   std::vector<vm::Message> Greeting() override;
@@ -81,9 +81,9 @@ class FsmModule final : public vm::Module {
   double frame_rate_ = 60;
   long frames_shown_ = 0;
   std::string frame_to_;  // the module that is told each frame; empty: none
-  vm::TimerId frame_timer_ = 0;
+  vm::Timer frame_timer_{core_.clock};
   vm::Time frame_due_{0};
-  vm::TimerId end_timer_ = 0;
+  vm::Timer end_timer_{core_.clock};
   vm::Time end_due_{0};
   bool exit_requested_ = false;
 };

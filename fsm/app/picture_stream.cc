@@ -17,8 +17,6 @@ PictureStream::PictureStream(vm::Scheduler& clock, RenderBackend& backend, Draw 
       on_failure_(std::move(on_failure)),
       to_(kNobody) {}
 
-PictureStream::~PictureStream() { LetGo(); }
-
 vm::Result<void> PictureStream::SendTo(const std::string& to, int per_second) {
   LetGo();
   if (to == kNobody) return {};
@@ -33,7 +31,7 @@ vm::Result<void> PictureStream::SendTo(const std::string& to, int per_second) {
   series_ = {clock_.Now(), static_cast<double>(per_second)};
   next_ = 0;
   touched_ = true;
-  timer_ = clock_.At(series_.start, [this] { Tick(); });
+  timer_.At(series_.start, [this] { Tick(); });
   return {};
 }
 
@@ -43,13 +41,12 @@ std::string PictureStream::to() {
 }
 
 void PictureStream::LetGo() {
-  if (timer_ != 0) clock_.Cancel(std::exchange(timer_, 0));
+  timer_.Cancel();
   sender_.reset();
   to_ = kNobody;
 }
 
 void PictureStream::Tick() {
-  timer_ = 0;
   if (sender_->gone()) return LetGo();
   // A picture is too late to be sent when the next one is due as well.
   const vm::Time now = clock_.Now();
@@ -57,7 +54,7 @@ void PictureStream::Tick() {
   const vm::Time at = series_.TimeOf(next_++);
   const bool wanted = touched_ || at - sent_ >= kStillLimit || moves_(sent_, at);
   if (wanted && !sender_->full() && !DrawAndSend(at)) return;
-  timer_ = clock_.At(series_.TimeOf(next_), [this] { Tick(); });
+  timer_.At(series_.TimeOf(next_), [this] { Tick(); });
 }
 
 bool PictureStream::DrawAndSend(vm::Time at) {

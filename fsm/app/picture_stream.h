@@ -7,7 +7,7 @@
 #include "fsm/app/frame_series.h"
 #include "fsm/app/render_backend.h"
 #include "fsm/film/picture_sender.h"
-#include "vm_protocol/core/scheduler.h"
+#include "vm_protocol/core/timer.h"
 
 namespace fsm {
 
@@ -25,9 +25,6 @@ class PictureStream {
   using OnFailure = std::function<void(const vm::Error&)>;
   PictureStream(vm::Scheduler& clock, RenderBackend& backend, Draw draw, Moves moves,
                 OnFailure on_failure);
-  ~PictureStream();
-  PictureStream(const PictureStream&) = delete;
-  PictureStream& operator=(const PictureStream&) = delete;
 
   /// "unix:PATH" of a socket somebody listens at, or "NONE"; the receiver before is let go.
   /// Errors: kBadValue, kUnavailable; there is no receiver then.
@@ -54,7 +51,7 @@ class PictureStream {
   long next_ = 0;
   vm::Time sent_{0};  // the instant of the last picture
   bool touched_ = true;
-  vm::TimerId timer_ = 0;
+  vm::Timer timer_{clock_};
 };
 
 }  // namespace fsm

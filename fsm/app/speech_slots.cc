@@ -154,7 +154,7 @@ vm::Result<std::string> SpeechSlots::Prepare(const std::string& text) {
   }
   auto list = vm::ParsePhonemes(text);
   if (!list) return std::unexpected(list.error());
-  CancelTimer();
+  timer_.Cancel();
   if (core_.motion->speech.active())
     core_.motion->speech.Stop(core_.Now());  // its start was to come
   list_ = std::move(*list);
@@ -204,14 +204,10 @@ void SpeechSlots::Begin() {
   const vm::Time now = core_.Now();
   const vm::Time start = start_.value_or(now);
   start_ = start;
-  CancelTimer();
   core_.motion->speech.Start(now, list_, start, std::exchange(text_, {}));
   core_.slots.Store("LipSync.text", kNothing);
   if (start > now) {
-    timer_ = core_.clock.At(start, [this] {
-      timer_ = 0;
-      Speaking();
-    });
+    timer_.At(start, [this] { Speaking(); });
   } else {
     Speaking();
   }
@@ -225,10 +221,8 @@ void SpeechSlots::Speaking() {
 }
 
 void SpeechSlots::WaitForEnd() {
-  CancelTimer();
   const vm::Time end = core_.motion->speech.End().value_or(core_.Now());
-  timer_ = core_.clock.At(end, [this] {
-    timer_ = 0;
+  timer_.At(end, [this] {
     // Settings may have moved the end meanwhile.
     if (core_.motion->speech.End().value_or(vm::Time(0)) > core_.Now()) return WaitForEnd();
     End(list_);
@@ -237,7 +231,7 @@ void SpeechSlots::WaitForEnd() {
 }
 
 void SpeechSlots::Stop() {
-  CancelTimer();
+  timer_.Cancel();
   const vm::Time now = core_.Now();
   vm::PhonemeList spoken;
   if (stat_ == Stat::kSpeaking) {
@@ -265,7 +259,7 @@ void SpeechSlots::End(vm::PhonemeList spoken) {
 }
 
 void SpeechSlots::Reset() {
-  CancelTimer();
+  timer_.Cancel();
   const bool was_busy = stat_ == Stat::kSpeaking;
   stat_ = Stat::kIdle;
   list_.clear();
@@ -288,11 +282,6 @@ void SpeechSlots::SetStat(Stat stat) {
   static constexpr const char* kNames[] = {"IDLE", "PROCESSING", "READY", "SPEAKING"};
   stat_ = stat;
   core_.slots.Report("Speak.stat", kNames[static_cast<int>(stat)]);
-}
-
-void SpeechSlots::CancelTimer() {
-  if (timer_ != 0) core_.clock.Cancel(timer_);
-  timer_ = 0;
 }
 
 }  // namespace fsm

@@ -6,6 +6,7 @@
 
 #include "fsm/app/fsm_core.h"
 #include "vm_protocol/core/phonemes.h"
+#include "vm_protocol/core/timer.h"
 
 namespace fsm {
 
@@ -44,7 +45,6 @@ class SpeechSlots {
   void Stop();
   void End(vm::PhonemeList spoken);
   void SetStat(Stat stat);
-  void CancelTimer();
 
   FsmCore& core_;
   Listener listener_;
@@ -54,7 +54,7 @@ class SpeechSlots {
   bool start_asked_ = false;       // by Speak, and not over
   std::optional<vm::Time> start_;  // asked for; none: as soon as the list is there
   vm::PhonemeList spoken_;         // of the utterance before
-  vm::TimerId timer_ = 0;          // the start or the end
+  vm::Timer timer_{core_.clock};   // the start or the end
 };
 
 }  // namespace fsm

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "vm_protocol/core/timer.h"
+
 namespace vm {
 namespace {
 
@@ -51,6 +53,27 @@ TEST(VirtualSchedulerTest, StopsAtItsLimit) {
   forever();
   EXPECT_FALSE(clock.RunUntilIdle(milliseconds(100)));
   EXPECT_EQ(clock.Now(), milliseconds(100));
+}
+
+TEST(TimerTest, HasOneActionPendingAtMostAndCancelsItAtItsEnd) {
+  VirtualScheduler clock;
+  std::string order;
+  {
+    Timer timer(clock);
+    timer.At(milliseconds(10), [&] { order += 'a'; });
+    timer.At(milliseconds(20), [&] {
+      order += timer.pending() ? 'x' : 'b';
+      timer.At(milliseconds(30), [&] { order += 'c'; });
+    });
+    EXPECT_EQ(clock.pending(), 1U);
+    clock.RunUntil(milliseconds(40));
+    EXPECT_EQ(order, "bc");
+    timer.At(milliseconds(50), [&] { order += 'd'; });
+    timer.Cancel();
+    EXPECT_FALSE(timer.pending());
+    timer.At(milliseconds(50), [&] { order += 'e'; });
+  }
+  EXPECT_EQ(clock.pending(), 0U);
 }
 
 TEST(TimeTextTest, MillisecondsAreWrittenShortAndReadBackExactly) {
