@@ -13,7 +13,7 @@ namespace fsm {
 
 EyeMaterial::EyeMaterial(const GlFunctions& gl, const Appearance& appearance)
     : program_(
-          CompileLit(gl, appearance, "eye", embedded::eye_vertex(), embedded::eye_fragment())) {}
+          CompileLit(gl, appearance, "eye", {embedded::eye_vertex()}, embedded::eye_fragment())) {}
 
 void EyeMaterial::Begin(const MaterialFrame& frame) const {
   if (!frame.head.eyes().found()) return;

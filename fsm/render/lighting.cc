@@ -62,12 +62,13 @@ MaterialFrame FrameOf(const Appearance& appearance, const View& view, const Head
 }
 
 GlProgram CompileLit(const GlFunctions& gl, const Appearance& appearance, const char* name,
-                     std::string_view vertex, std::string_view fragment, std::string_view more) {
+                     std::initializer_list<std::string_view> vertex, std::string_view fragment,
+                     std::string_view more) {
   const std::string common = "#version 330 core\n" + appearance.constants() + std::string(more) +
                              std::string(embedded::lighting());
   std::string vertex_text = common, fragment_text = common;
   vertex_text += embedded::transform();
-  vertex_text += vertex;
+  for (const std::string_view text : vertex) vertex_text += text;
   fragment_text += fragment;
   return {gl, name, vertex_text, fragment_text};
 }
@@ -87,6 +88,11 @@ void SetLight(const GlProgram& program, const MaterialFrame& frame) {
   program.Set("lamp_colors", frame.lamps.colors);
   program.Set("occluders", occluders);
   program.Set("occluder_lights", keys);
+}
+
+void SetCreases(const GlProgram& program, const MaterialFrame& frame) {
+  program.Set("crease_depths", frame.creases.InOrder());
+  program.Set("nose_creases", frame.nose_creases.InOrder());
 }
 
 std::string ShaderConstant(const char* name, bool value) {

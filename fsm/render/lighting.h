@@ -4,6 +4,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -37,13 +38,15 @@ struct MaterialFrame {
 MaterialFrame FrameOf(const Appearance& appearance, const View& view, const HeadBuffers& head,
                       const HeadVertices& vertices, const Scene& scene);
 
-/// Makes a program of its own two texts and of what all programs that place a head's vertices and
+/// Makes a program of its own texts and of what all programs that place a head's vertices and
 /// light them have in common. `more` stands before both.
 GlProgram CompileLit(const GlFunctions& gl, const Appearance& appearance, const char* name,
-                     std::string_view vertex, std::string_view fragment,
+                     std::initializer_list<std::string_view> vertex, std::string_view fragment,
                      std::string_view more = "");
 /// Hands camera, lamps and shadows to such a program.
 void SetLight(const GlProgram& program, const MaterialFrame& frame);
+/// For programs with shaders/creases.glsl.
+void SetCreases(const GlProgram& program, const MaterialFrame& frame);
 /// "const bool NAME = true;" for CompileLit.
 std::string ShaderConstant(const char* name, bool value);
 

@@ -3,12 +3,14 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "embedded/creases.h"
 #include "embedded/eye_vertex.h"
 #include "embedded/hair_fragment.h"
 #include "embedded/hair_vertex.h"
 #include "embedded/line_fragment.h"
 #include "embedded/pbr_fragment.h"
 #include "embedded/pbr_vertex.h"
+#include "embedded/surface_common.h"
 #include "embedded/surface_fragment.h"
 #include "embedded/surface_vertex.h"
 #include "fsm/render/noise_tile.h"
@@ -26,12 +28,18 @@ constexpr bool IsOfMouth(Material material) {
 Materials::Materials(const GlFunctions& gl, const Appearance& appearance)
     : gl_(gl),
       appearance_(appearance),
-      surface_(CompileLit(gl, appearance, "surface", embedded::surface_vertex(),
-                          embedded::surface_fragment(), ShaderConstant("kRelief", true))),
-      smooth_(CompileLit(gl, appearance, "smooth", embedded::surface_vertex(),
-                         embedded::surface_fragment(), ShaderConstant("kRelief", false))),
-      hair_(CompileLit(gl, appearance, "hair", embedded::hair_vertex(), embedded::hair_fragment())),
-      line_(CompileLit(gl, appearance, "line", embedded::eye_vertex(), embedded::line_fragment())),
+      surface_(
+          CompileLit(gl, appearance, "surface",
+                     {embedded::surface_common(), embedded::creases(), embedded::surface_vertex()},
+                     embedded::surface_fragment(), ShaderConstant("kRelief", true))),
+      smooth_(
+          CompileLit(gl, appearance, "smooth",
+                     {embedded::surface_common(), embedded::creases(), embedded::surface_vertex()},
+                     embedded::surface_fragment(), ShaderConstant("kRelief", false))),
+      hair_(
+          CompileLit(gl, appearance, "hair", {embedded::hair_vertex()}, embedded::hair_fragment())),
+      line_(
+          CompileLit(gl, appearance, "line", {embedded::eye_vertex()}, embedded::line_fragment())),
       mouth_(gl, appearance),
       eye_(gl, appearance),
       photo_(gl, appearance) {
@@ -64,7 +72,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   photo_.Prepare(head);
   if (!head.topology().pbr_materials.empty() && !pbr_) {
     pbr_.emplace(
-        CompileLit(gl_, appearance_, "pbr", embedded::pbr_vertex(), embedded::pbr_fragment()));
+        CompileLit(gl_, appearance_, "pbr", {embedded::pbr_vertex()}, embedded::pbr_fragment()));
   }
   std::vector<const GlProgram*> programs{&surface_, &smooth_,          &hair_,
                                          &line_,    &mouth_.program(), &eye_.program()};
@@ -101,8 +109,7 @@ void Materials::SetSurface(const GlProgram& program, const MaterialFrame& frame)
   program.Set("tint", 1);
   program.Set("relief", 2);
   program.Set("head_up", glm::normalize(frame.rest_to_world[1]));
-  program.Set("crease_depths", frame.creases.InOrder());
-  program.Set("nose_creases", frame.nose_creases.InOrder());
+  SetCreases(program, frame);
 }
 
 bool Materials::IsHidden(const DrawnPart& part) const {

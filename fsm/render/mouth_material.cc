@@ -6,13 +6,15 @@
 #include <glm/matrix.hpp>
 
 #include "embedded/mouth_vertex.h"
+#include "embedded/surface_common.h"
 #include "embedded/surface_fragment.h"
 
 namespace fsm {
 
 MouthMaterial::MouthMaterial(const GlFunctions& gl, const Appearance& appearance)
     : appearance_(appearance),
-      program_(CompileLit(gl, appearance, "mouth", embedded::mouth_vertex(),
+      program_(CompileLit(gl, appearance, "mouth",
+                          {embedded::surface_common(), embedded::mouth_vertex()},
                           embedded::surface_fragment(), ShaderConstant("kRelief", true))) {}
 
 float MouthMaterial::gap_mm() const {

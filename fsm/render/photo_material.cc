@@ -2,6 +2,7 @@
 
 #include <glm/common.hpp>
 
+#include "embedded/creases.h"
 #include "embedded/photo_fragment.h"
 #include "embedded/photo_vertex.h"
 
@@ -18,7 +19,8 @@ void PhotoMaterial::Prepare(const HeadBuffers& head) {
     if (program || !Draws(part.part.material, head)) continue;
     const std::string constants = ShaderConstant("kCreased", part.detail != SkinDetail::kPlain) +
                                   ShaderConstant("kDetailed", part.detail == SkinDetail::kDetailed);
-    program.emplace(CompileLit(gl_, appearance_, "photo", embedded::photo_vertex(),
+    program.emplace(CompileLit(gl_, appearance_, "photo",
+                               {embedded::creases(), embedded::photo_vertex()},
                                embedded::photo_fragment(), constants));
   }
 }
@@ -27,8 +29,7 @@ void PhotoMaterial::Begin(const MaterialFrame& frame, const MouthMaterial& mouth
   for (const auto& program : programs_) {
     if (!program) continue;
     program->Use();
-    program->Set("crease_depths", frame.creases.InOrder());
-    program->Set("nose_creases", frame.nose_creases.InOrder());
+    SetCreases(*program, frame);
     program->Set("lids_shut", frame.vertices.lids_shut.InOrder());
     program->Set("photo", 1);
     program->Set("relief", 2);

@@ -42,7 +42,7 @@ vec3 Iris(vec2 p, float r, float toward_light) {
 
 vec3 Photographed(vec4 square, vec2 from_middle) {
   vec2 part = clamp(0.5 + 0.5 * vec2(from_middle.x, -from_middle.y), 0.0, 1.0);
-  return pow(texture(photo, mix(square.xy, square.zw, part)).rgb, vec3(2.2));
+  return ToLinear(texture(photo, mix(square.xy, square.zw, part)).rgb);
 }
 
 void main() {

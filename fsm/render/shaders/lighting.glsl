@@ -55,3 +55,13 @@ vec3 ToScreen(vec3 light) {
   vec3 s = sqrt(x);
   return (5.547 * x - 0.0477 * s) / (1.0 - 0.6045 * s + 5.653 * x);
 }
+
+// The colours of pictures as linear light.
+vec3 ToLinear(vec3 shown) { return pow(shown, vec3(2.2)); }
+
+// Four samples make a pixel, and each asks for another step of opacity: what is there in part comes out
+// as the share of those kept.
+float OpacityStep(vec2 sample_place) {
+  ivec2 s = ivec2(sample_place) & 1;
+  return (float(s.x ^ s.y) * 2.0 + float(s.y) + 0.5) / 4.0;
+}

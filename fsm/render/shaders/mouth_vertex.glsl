@@ -1,19 +1,10 @@
 // Teeth, gums, tongue and the lining of the mouth. Light comes in between the lips, and deeper between
 // the teeth: how much of it, from where, is worked out here for the mouth as it stands. Detail and
 // highlights are those of surface_fragment.glsl.
-layout(location = 4) in vec2 unrolled;
-
 const int kColumns = 11;
 const int kRing = 2 * kColumns + 2;
 
-uniform vec3 wrap;
-uniform float saturation;
-uniform vec3 lobes;          // strengths of a broad, a middle and a tight highlight
-uniform float bump;          // depth of pores or threads
-uniform float chroma;        // of the colour on the screen, less than 1 beside a faded photo
-uniform float planar;
 uniform float lining;                // 1: of the walls, which are seen from within
-uniform vec3 head_up;
 uniform float front_gain;            // how much more light there is than the lamps bring in: on the
 uniform float deep_gain;             // teeth, and deeper
 uniform mat4 to_mouth;               // from the figure's frame: x along the lips, y up, z out
@@ -21,13 +12,6 @@ uniform mat3 mouth_to_world;         // directions
 uniform vec3 lips[2 * kColumns];     // the upper edge from -x to +x, then the lower one
 uniform vec4 mouth_edges;            // x of the corners (y = z = 0), heights of upper and lower teeth's
 uniform vec3 mouth_key;              // towards the key light, in the mouth's frame
-
-out vec2 place;
-out vec3 light;
-out vec4 slopes;
-out vec3 shine;
-flat out vec4 finish;
-flat out vec4 gleam;
 
 const float kBehindTeeth = 9.0;  // behind the lips
 
@@ -77,8 +61,6 @@ void main() {
   vec3 p = (to_mouth * vec4(position, 1.0)).xyz;
   vec3 n = mat3(to_mouth) * normal;
   float occlusion = albedo_occlusion.a;
-  vec3 albedo = albedo_occlusion.rgb;
-  albedo = max(mix(vec3(dot(albedo, vec3(0.3, 0.6, 0.1))), albedo, saturation), 0.0);
 
   vec3 upper = EdgeAt(0, p.x);
   vec3 lower = EdgeAt(kColumns, p.x);
@@ -119,20 +101,14 @@ void main() {
   float facing = smoothstep(-0.1, 0.55, dot(n_world, v));
   float outline = mix(0.4 + 0.6 * facing, 1.0, lining);
   float open = mix(mix(sqrt(occlusion), 1.0, 0.5 * lining), occlusion * occlusion, out_of_mouth);
-  light = albedo * (total * open * outline + bounced * mix(0.4, 1.0, open)) *
+  light = Albedo() * (total * open * outline + bounced * mix(0.4, 1.0, open)) *
           mix(front_gain, deep_gain, smoothstep(2.0, 9.0, inward));
 
-  vec3 right = normalize(cross(head_up, n_world) + vec3(1e-5, 0.0, 0.0));
-  vec3 up = cross(n_world, right);
   float power =
       lamp_colors[0].g * shadow * smoothstep(-0.35, 0.15, n_dot_l) * 0.8 / max(total.g, 1e-3);
-  slopes.xy = -power * vec2(dot(right, lamp_directions[0]), dot(up, lamp_directions[0]) + 0.12);
   vec3 h = normalize(mouth_to_world * mouth_key + v);
-  slopes.zw = vec2(dot(right, h), dot(up, h));
+  SetSlopes(n_world, h, power);
   shine.x = Fresnel(dot(h, v)) * occlusion * occlusion * shadow * smoothstep(0.0, 0.3, dot(n_world, h));
-  finish = vec4(lobes, bump);
-  gleam = vec4(lamp_colors[0], chroma);
-  shine.y = 0.0;
-  shine.z = 0.0;
+  shine.yz = vec2(0.0);
   place = rest_position.xz * planar;
 }

@@ -24,8 +24,6 @@ out vec4 color;
 // white plate that faces the viewer sends back twice as much.
 const float kPlate = 0.52;
 
-vec3 Linear(vec3 shown) { return pow(shown, vec3(2.2)); }
-
 // The normal bent as the map says, in the frame in which the picture lies on the surface: found
 // from how both change from pixel to pixel (Schueler, "Followup: Normal Mapping Without Precomputed
 // Tangents", 2013).
@@ -49,11 +47,8 @@ float Mirrored(float n_h, float n_l, float n_v, float a2) {
 
 void main() {
   vec4 p = texture(photo, texcoord.xy);
-  // Four samples make a pixel, so four steps of opacity come out as the share of those kept.
-  ivec2 s = ivec2(gl_FragCoord.xy) & 1;
-  float step = (float(s.x ^ s.y) * 2.0 + float(s.y) + 0.5) / 4.0;
-  if (texcoord.z > 0.0 && ragged * (1.0 - p.a) > step && p.a < 0.98) discard;
-  vec3 base = texcoord.z > 0.0 ? Linear(p.rgb) * tint : tint;
+  if (texcoord.z > 0.0 && ragged * (1.0 - p.a) > OpacityStep(gl_FragCoord.xy) && p.a < 0.98) discard;
+  vec3 base = texcoord.z > 0.0 ? ToLinear(p.rgb) * tint : tint;
   vec4 r = texcoord.z > 0.0 ? texture(normal_map, texcoord.xy) : vec4(0.5, 0.5, 1.0, 1.0);
   vec4 l = texcoord.z > 0.0 ? texture(emissive_map, texcoord.xy) : vec4(1.0);
 
@@ -64,7 +59,7 @@ void main() {
   if (toon > 0.5) {
     float lit = clamp((dot(n, lamp_directions[0]) - shade_to) / max(light_from - shade_to, 1e-3),
                       0.0, 1.0);
-    vec3 drawn = mix(shade * Linear(l.rgb) * tint, base, lit) + glow;
+    vec3 drawn = mix(shade * ToLinear(l.rgb) * tint, base, lit) + glow;
     color = vec4(pow(drawn, vec3(1.0 / 2.2)) * brightness, 1.0);
     return;
   }
@@ -92,6 +87,6 @@ void main() {
   vec3 room = f0 * (-1.04 * e + q.z) + (1.04 * e + q.w);
   light += l.a * (Ambient(n) * scatters + Ambient(reflect(-v, n)) * room);
   light *= kPlate;
-  light += glow * Linear(l.rgb) / exposure;
+  light += glow * ToLinear(l.rgb) / exposure;
   color = vec4(ToScreen(light), 1.0);
 }

@@ -17,12 +17,7 @@ out vec4 color;
 void main() {
   vec4 p = texture(photo, texcoord.xy);
   float opacity = kDetailed ? covering * mix(1.0, p.a, settings.y) : 1.0;
-  if (kDetailed && opacity < 0.98) {
-    // Four samples make a pixel, so four steps of opacity come out as the share of those kept.
-    ivec2 s = ivec2(gl_FragCoord.xy) & 1;
-    float step = (float(s.x ^ s.y) * 2.0 + float(s.y) + 0.5) / 4.0;
-    if (1.0 - opacity > mix(step, 0.99, settings.z)) discard;
-  }
+  if (kDetailed && opacity < 0.98 && 1.0 - opacity > mix(OpacityStep(gl_FragCoord.xy), 0.99, settings.z)) discard;
   float shade = 1.0;
   if (kCreased) {
     vec2 slope = texture(relief, place).zw - 0.5;

@@ -1,14 +1,10 @@
 // What wears a photo: skin, lips, and the sheet of hair, neck and clothes.
 layout(location = 4) in vec2 unrolled;
-layout(location = 5) in vec4 creases;        // as in surface_vertex.glsl
-layout(location = 6) in vec2 nose_and_left;
 layout(location = 7) in vec4 photo_texcoord;  // u, v down; the photo's part in the colour; how much is lid
 layout(location = 8) in vec4 lid_grain;   // of a lid: the place whose grain it takes; its way
 layout(location = 9) in float opacity;     // 1: hides what is behind, 0: is not there
 layout(location = 10) in vec3 rest_normal;  // as long as the light on it follows it, 0..1
 
-uniform vec4 crease_depths[2];
-uniform float nose_creases[2];
 uniform float lids_shut[2];  // right, left
 uniform float chin_y;         // of its lowest point at rest, millimetres
 uniform float chin_drop;      // how far it is below that
@@ -66,8 +62,6 @@ void main() {
   }
   covering = opacity * mix(1.0, smoothstep(0.4, 0.9, closed), lashes);
   // The sheet shows what is beside the face.
-  crease = (1.0 - ragged) *
-           (dot(creases, mix(crease_depths[0], crease_depths[1], nose_and_left.y)) +
-            nose_and_left.x * mix(nose_creases[0], nose_creases[1], nose_and_left.y));
+  crease = (1.0 - ragged) * CreaseDepth();
   paint = sqrt(max(albedo_occlusion.rgb * (grained ? 1.0 : albedo_occlusion.a), 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
 }
