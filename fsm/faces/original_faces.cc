@@ -85,7 +85,7 @@ ExpressionLooks LooksOfExpressions(const OriginalSharedFiles& shared) {
     Notice(read.error().text + "; expressions are our own");
     return looks;
   }
-  for (const std::string& path : read->without_rest) {
+  for (const std::string& path : read->without_residual) {
     Notice(path + ": too many unlike expressions; this one is shown as far as units go");
   }
   for (const OriginalExpression& one : read->all) {

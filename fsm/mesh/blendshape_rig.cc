@@ -54,7 +54,7 @@ class ShapeSolver {
   std::vector<float> Solve(const FaceState& state) {
     if (!mix_) mix_.emplace(keys_);
     const ProbeMotion motion = MotionOf(moved_, state);
-    std::vector<float> weights = mix_->TakeApart(motion.moves).weights;
+    std::vector<float> weights = mix_->Solve(motion.moves).weights;
     HoldShut(motion.gap_mm, weights);
     return weights;
   }
@@ -62,9 +62,9 @@ class ShapeSolver {
   float PartShown(const FaceState& state) {
     if (!mix_) mix_.emplace(keys_);
     const NnlsSolver::Row moves = MotionOf(moved_, state).moves;
-    const NnlsSolver::Row rest = mix_->TakeApart(moves).rest;
+    const NnlsSolver::Row residual = mix_->Solve(moves).residual;
     const float all = std::inner_product(moves.begin(), moves.end(), moves.begin(), 0.0f);
-    const float left = std::inner_product(rest.begin(), rest.end(), rest.begin(), 0.0f);
+    const float left = std::inner_product(residual.begin(), residual.end(), residual.begin(), 0.0f);
     return all > 0 ? 1 - left / all : 0;
   }
 
@@ -137,11 +137,11 @@ class ShapeSolver {
 struct KnownShapes {
   std::vector<std::string> names;
   std::vector<Moves> moves;
-  std::map<std::string, Moves, std::less<>> looks;  ///< those by which eyes are turned
+  std::map<std::string, Moves, std::less<>> gazes;  ///< those by which eyes are turned
   std::vector<std::string> unused;                  ///< names, as the file has them, of all others
 };
 
-constexpr const char* kLooks[] = {"vrmlookleft", "vrmlookright", "vrmlookup", "vrmlookdown"};
+constexpr const char* kGazeShapes[] = {"vrmlookleft", "vrmlookright", "vrmlookup", "vrmlookdown"};
 
 /// What one side of a face does in a state.
 FaceState OnlyOn(Side side, FaceState state) {
@@ -196,16 +196,16 @@ KnownShapes Recognise(const HeadFile& file, const Similarity& to_ours, const Mes
       if (but_eyes && EyeOf(model.bone[vertex])) continue;
       moves.push_back({vertex, to_ours.scale * (to_ours.turn * by)});
     }
-    if (file.look_by_shape && std::ranges::find(kLooks, name) != std::end(kLooks)) {
-      known.looks[name] = std::move(moves);
+    if (file.gaze_by_shape && std::ranges::find(kGazeShapes, name) != std::end(kGazeShapes)) {
+      known.gazes[name] = std::move(moves);
       continue;
     }
     const auto meaning = finder.Of(name);
     if (!meaning) {
       // An expression of VRM that only repeats a shape, or moves nothing, is not missed.
       const bool repeats = name.starts_with("vrm") && finder.Given(name.substr(3));
-      const bool look = std::ranges::find(kLooks, name) != std::end(kLooks);
-      if (!repeats && !look && !moves.empty()) {
+      const bool gazes = std::ranges::find(kGazeShapes, name) != std::end(kGazeShapes);
+      if (!repeats && !gazes && !moves.empty()) {
         known.unused.push_back(shape.name.starts_with("vrm") ? shape.name.substr(3) : shape.name);
       }
       continue;
@@ -287,7 +287,8 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
 
 /// Eyes that turn by shapes: both go with one, half by either; the agent's left is to the viewer's
 /// right.
-void AddLooks(const KnownShapes& known, const LookRanges& ranges, std::vector<Channel>& channels) {
+void AddGazeShapes(const KnownShapes& known, const LookRanges& ranges,
+                   std::vector<Channel>& channels) {
   using enum Drive::Kind;
   using enum Drive::Half;
   struct GazeShape {
@@ -296,22 +297,22 @@ void AddLooks(const KnownShapes& known, const LookRanges& ranges, std::vector<Ch
     Drive::Half half;
     LookRange range;
   };
-  for (const GazeShape& look : {GazeShape{kLooks[0], kGazeRight, kPositive, ranges.outer},
-                                GazeShape{kLooks[1], kGazeRight, kNegative, ranges.outer},
-                                GazeShape{kLooks[2], kGazeUp, kPositive, ranges.up},
-                                GazeShape{kLooks[3], kGazeUp, kNegative, ranges.down}}) {
-    const auto found = known.looks.find(look.name);
-    if (found == known.looks.end()) continue;
+  for (const GazeShape& shape : {GazeShape{kGazeShapes[0], kGazeRight, kPositive, ranges.outer},
+                                 GazeShape{kGazeShapes[1], kGazeRight, kNegative, ranges.outer},
+                                 GazeShape{kGazeShapes[2], kGazeUp, kPositive, ranges.up},
+                                 GazeShape{kGazeShapes[3], kGazeUp, kNegative, ranges.down}}) {
+    const auto found = known.gazes.find(shape.name);
+    if (found == known.gazes.end()) continue;
     Channel& channel = channels.emplace_back();
     for (const Side side : kSides) {
       channel.drivers.push_back(
-          {{.kind = look.kind, .side = Drive::OnlyOf(side), .half = look.half},
-           0.5f / std::max(look.range.gaze_deg, 1e-3f)});
+          {{.kind = shape.kind, .side = Drive::OnlyOf(side), .half = shape.half},
+           0.5f / std::max(shape.range.gaze_deg, 1e-3f)});
     }
     channel.least = 0;
     channel.most = 1;
     channel.moves = found->second;
-    for (Displacement& d : channel.moves) d.by *= std::min(look.range.turn, 1.0f);
+    for (Displacement& d : channel.moves) d.by *= std::min(shape.range.turn, 1.0f);
   }
 }
 
@@ -353,7 +354,7 @@ std::optional<RigData> BlendshapeRig(const HeadFile& file, const Similarity& to_
     if (solver.Opens(k) && !kept) channel.sealed_factor = 0;
   }
   std::erase_if(rig.channels, [](const Channel& channel) { return channel.drivers.empty(); });
-  AddLooks(known, file.look.value_or(LookRanges{}), rig.channels);
+  AddGazeShapes(known, file.look.value_or(LookRanges{}), rig.channels);
   return rig;
 }
 

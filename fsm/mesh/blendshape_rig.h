@@ -10,23 +10,24 @@
 
 namespace fsm {
 
-/// What a shape of that name stands for, "mouthsmileleft" in small letters.
+/// The state of the face that a shape stands for. `name`: in small letters, as "mouthsmileleft".
 struct ShapeMeaning {
   std::string name;
   FaceState state;
 };
-/// Shapes look as `source` does in their states.
+/// The shape of each name looks as `source` does in the state beside it.
 struct ShapeMeanings {
   const Head& source;
   std::span<const ShapeMeaning> shapes;
 };
-/// The rig of skin that is moved by the file's own shapes, those whose names have a meaning: units,
-/// the mouth's parameters and the rest drive them as is needed to look like `moved` where they act
-/// alone, and in `visemes`. A name of both sides (browInnerUp) may come as two halves with Left and
-/// Right behind it; each then stands for its side. A unit of whose movement the shapes can show
-/// hardly anything drives none of them. `moved` is the source of the meanings, with other units
-/// perhaps. What the shapes move in `model` is flesh then, teeth too. Nothing if there are fewer
-/// than four. `unused` gets the names of shapes that move something but have no meaning.
+/// A rig that moves the skin by the file's own shapes, as far as `meanings` has their names. Units,
+/// the mouth's parameters and the other channels drive the shapes so that the face looks like
+/// `moved` when one of them acts alone, and in the states `visemes`. `moved`: the source of the
+/// meanings, which may have other units. A shape of both sides (browInnerUp) may be given as two
+/// halves, with Left and Right after its name. A unit drives no shape if the shapes can show hardly
+/// anything of its movement. Vertices of `model` that the shapes move, those of teeth too, become
+/// flesh. Returns nothing if fewer than four shapes have a meaning. `unused` gets the names of
+/// shapes that move something but have no meaning.
 std::optional<RigData> BlendshapeRig(const HeadFile& file, const Similarity& to_ours,
                                      MeshModel& model, const ShapeMeanings& meanings,
                                      const Head& moved, std::span<const FaceState> visemes = {},

@@ -109,7 +109,7 @@ WeldedSurface Carried(const WeldedSurface& rest, std::span<const PointPair> pair
   std::vector<WarpPoint> points;
   for (const PointPair& pair : pairs) points.push_back({pair.from, pair.to - pair.from});
   // Landmarks lie a millimetre or two off, and a warp through each of them tears lids and lips. So
-  // it goes near them, and DrawTowards does the rest.
+  // it goes near them, and PullTowards does the rest.
   constexpr float kSmooth = 80;
   const Warp warp(points, kSmooth);
   const EdgePull edges(pairs, warp);
@@ -121,27 +121,23 @@ WeldedSurface Carried(const WeldedSurface& rest, std::span<const PointPair> pair
   return carried;
 }
 
-/// Draws a surface towards those places of `target` that are within `reach` millimetres, in pieces
-/// of about `rounds` triangles across. Returns how far they were on average.
-float DrawTowards(WeldedSurface& drawn, const WeldedSurface& target, float reach, int rounds) {
+/// Pulls a surface towards those places of `target` that are within `reach` millimetres, in pieces
+/// of about `rounds` triangles across.
+void PullTowards(WeldedSurface& pulled, const WeldedSurface& target, float reach, int rounds) {
   const SurfaceIndex there(target, reach);
-  std::vector<glm::vec3> by(drawn.at.size(), glm::vec3(0));
-  std::vector<float> weight(drawn.at.size(), 0);
-  float sum = 0, count = 0;
-  for (std::size_t i = 0; i < drawn.at.size(); ++i) {
-    const auto hit = there.Find(drawn, i);
+  std::vector<glm::vec3> by(pulled.at.size(), glm::vec3(0));
+  std::vector<float> weight(pulled.at.size(), 0);
+  for (std::size_t i = 0; i < pulled.at.size(); ++i) {
+    const auto hit = there.Find(pulled, i);
     if (!hit) continue;
     // Only along the normal: the landmarks have said where a place lies sideways, and the nearest
     // place, which changes its triangle from round to round, would drift.
-    by[i] = glm::dot(hit->at - drawn.at[i], drawn.normal[i]) * drawn.normal[i];
+    by[i] = glm::dot(hit->at - pulled.at[i], pulled.normal[i]) * pulled.normal[i];
     weight[i] = SmoothStep(reach, 0.4f * reach, hit->far);
-    sum += weight[i] * hit->far;
-    count += weight[i];
   }
-  Spread(drawn, by, weight, rounds);
-  for (std::size_t i = 0; i < drawn.at.size(); ++i) drawn.at[i] += 0.8f * by[i];
-  drawn.FindNormals();
-  return sum / std::max(count, 1e-6f);
+  Spread(pulled, by, weight, rounds);
+  for (std::size_t i = 0; i < pulled.at.size(); ++i) pulled.at[i] += 0.8f * by[i];
+  pulled.FindNormals();
 }
 
 }  // namespace
@@ -163,26 +159,26 @@ DeformationTransfer::DeformationTransfer(const TransferSurface& from, const Tran
   const WeldedSurface rest = prepared(from, true);
   WeldedSurface target = prepared(to, false);
 
-  WeldedSurface drawn = Carried(rest, pairs);
-  // The surface is drawn onto the other in rounds, first as a whole, in the end in detail. Necks
+  WeldedSurface pulled = Carried(rest, pairs);
+  // The surface is pulled onto the other in rounds, first as a whole, in the end in detail. Necks
   // and backs of heads, which have no landmarks, lie far apart at first.
   constexpr std::pair<float, int> kRounds[] = {{30, 40}, {26, 24}, {22, 14},
                                                {18, 8},  {14, 5},  {14, 3}};
-  for (const auto& [reach, rounds] : kRounds) residual_ = DrawTowards(drawn, target, reach, rounds);
-  MakeRows(Bind(rest, drawn, target), target);
+  for (const auto& [reach, rounds] : kRounds) PullTowards(pulled, target, reach, rounds);
+  MakeRows(Bind(rest, pulled, target), target);
 }
 
 std::vector<DeformationTransfer::BarycentricBinding> DeformationTransfer::Bind(
-    const WeldedSurface& rest, const WeldedSurface& drawn, const WeldedSurface& target) {
+    const WeldedSurface& rest, const WeldedSurface& pulled, const WeldedSurface& target) {
   constexpr float kReach = 20;
-  const SurfaceIndex own(drawn, kReach);
+  const SurfaceIndex own(pulled, kReach);
   std::vector<BarycentricBinding> bindings(target.at.size());
   std::vector<std::uint32_t> open;
   std::vector<bool> bound(target.at.size(), false);
   for (std::uint32_t w = 0; w < target.at.size(); ++w) {
     const auto hit = own.Find(target, w);
     if (!hit) continue;
-    const auto& t = drawn.triangles[hit->triangle];
+    const auto& t = pulled.triangles[hit->triangle];
     bindings[w] = {{rest.first[t[0]], rest.first[t[1]], rest.first[t[2]]}, hit->part};
     bound[w] = true;
     open.push_back(w);

@@ -31,12 +31,12 @@ struct TransferSurface {
 };
 
 /// Carries displacements of one face over to another, whatever its mesh: landmarks guide a radial
-/// warp, the warped surface is then drawn onto the other, and every vertex follows the place of the
-/// first face it came to lie on (expression cloning, Noh and Neumann 2001). Motion keeps its size
-/// and direction: turned and stretched with the local surface, as in that paper, the large motions
-/// of a jaw tear, and shapes brought to another head and back came out a third smaller. Upper and
-/// lower lips and lids are told apart along the surface, so that they are never taken for each
-/// other. Immutable; thread: any.
+/// warp, the warped surface is then pulled onto the other, and every vertex follows the place of
+/// the first face it came to lie on (expression cloning, Noh and Neumann 2001). Motion keeps its
+/// size and direction: turned and stretched with the local surface, as in that paper, the large
+/// motions of a jaw tear, and shapes brought to another head and back came out a third smaller.
+/// Upper and lower lips and lids are told apart along the surface, so that they are never taken for
+/// each other. Immutable; thread: any.
 class DeformationTransfer {
  public:
   /// Throws std::runtime_error if there are fewer than eight pairs or they lie (nearly) in a plane,
@@ -49,8 +49,6 @@ class DeformationTransfer {
   std::span<const Row> rows() const { return rows_; }
   /// Adds to `to_by` what `from_by` means there; both by vertex.
   void Apply(std::span<const glm::vec3> from_by, std::span<glm::vec3> to_by) const;
-  /// Mean distance of the drawn surface from the other over what was matched, millimetres.
-  float residual_mm() const { return residual_; }
 
  private:
   struct BarycentricBinding {
@@ -58,12 +56,12 @@ class DeformationTransfer {
     glm::vec3 part{1, 0, 0};
   };
   /// For each vertex of the second face, doubled ones counted once.
-  static std::vector<BarycentricBinding> Bind(const WeldedSurface& rest, const WeldedSurface& drawn,
+  static std::vector<BarycentricBinding> Bind(const WeldedSurface& rest,
+                                              const WeldedSurface& pulled,
                                               const WeldedSurface& target);
   void MakeRows(std::span<const BarycentricBinding> bindings, const WeldedSurface& target);
 
   std::vector<Row> rows_;
-  float residual_ = 0;
 };
 
 }  // namespace fsm

@@ -33,10 +33,9 @@ class DriveFit {
   std::vector<std::vector<Channel::Driver>> drivers_;
 };
 
-/// Drives targets by the mouth's parameters, what raises one apart from what lowers it: as each
-/// parameter by itself asks, changed as little as makes every viseme come out as it is given, and
-/// halfway between two of them nearly the mean (least squares, the change slightly damped because
-/// visemes may be nearly the same).
+/// Least-squares gains from the mouth's parameters, raised and lowered apart, to targets. Starts
+/// from the answers of AddParameters and changes them as little as possible so that every viseme is
+/// reproduced. The change is slightly damped because visemes may be nearly the same.
 class MouthFit {
  public:
   using Weights = DriveFit::Weights;

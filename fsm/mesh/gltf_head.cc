@@ -14,6 +14,7 @@
 #include "fsm/mesh/vrm_avatar.h"
 #include "fsm/mesh/vrm_springs.h"
 #include "vm_protocol/core/lower_case.h"
+#include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace fsm {
@@ -24,17 +25,7 @@ using nlohmann::json;
 constexpr std::size_t kMaxShapes = 400;
 constexpr std::size_t kMaxDeltas = 20'000'000;
 
-/// Ends the reading of a file; does not leave this one.
-struct Refusal {
-  vm::Error error;
-};
-template <typename T>
-T OrRefuse(vm::Result<T> result) {
-  if (!result) throw Refusal{std::move(result.error())};
-  return std::move(*result);
-}
-
-/// Reads one document; what is wrong with it is thrown as a Refusal.
+/// Reads one document; what is wrong with it is thrown as a vm::Failure.
 class GltfReader {
  public:
   explicit GltfReader(GltfDocument document)
@@ -43,7 +34,7 @@ class GltfReader {
   HeadFile Read() {
     head_.name = document_.name();
     head_.metres = true;
-    nodes_ = OrRefuse(GltfNodes::Read(document_));
+    nodes_ = vm::OrThrow(GltfNodes::Read(document_));
     const VrmSprings springs(document_, nodes_);
     springs_ = &springs;
     head_.swing.springs = springs.springs();
@@ -60,7 +51,7 @@ class GltfReader {
       }
     }
     if (avatar_.says_look) head_.look = avatar_.look;
-    head_.look_by_shape = avatar_.look_by_shape;
+    head_.gaze_by_shape = avatar_.gaze_by_shape;
     if (avatar_.looks_back) TurnRound();
     if (!head_.texcoord.empty()) head_.texcoord.resize(head_.position.size(), glm::vec2(0));
     if (!head_.tint.empty()) head_.tint.resize(head_.position.size(), glm::vec3(1));
@@ -77,7 +68,7 @@ class GltfReader {
     const std::int64_t index = JsonInteger(of, "mesh"), skin = JsonInteger(of, "skin");
     if (index < 0) return;
     if (skin >= 0 && !skins_.contains(skin)) {
-      skins_.emplace(skin, OrRefuse(GltfSkin::Read(document_, nodes_, skin)));
+      skins_.emplace(skin, vm::OrThrow(GltfSkin::Read(document_, nodes_, skin)));
     }
     const json& mesh = document_.At("meshes", index);
     std::vector<std::string> names;
@@ -125,7 +116,7 @@ class GltfReader {
     std::vector<std::uint32_t> indices(count);
     std::iota(indices.begin(), indices.end(), 0u);
     if (primitive.contains("indices")) {
-      indices = OrRefuse(document_.Indices(JsonInteger(primitive, "indices")));
+      indices = vm::OrThrow(document_.Indices(JsonInteger(primitive, "indices")));
     }
     for (std::uint32_t& i : indices) {
       if (i >= count) {
@@ -145,7 +136,7 @@ class GltfReader {
     const json& attributes = JsonMember(primitive, "attributes");
     const std::int64_t position = JsonInteger(attributes, "POSITION");
     const std::size_t first = head_.position.size();
-    const auto numbers = OrRefuse(document_.Numbers(position, 3));
+    const auto numbers = vm::OrThrow(document_.Numbers(position, 3));
     const std::size_t count = numbers.size() / 3;
     if (first + count > kMaxMeshVertices) RefuseSize();
     count_of_[{place.node, position}] = count;
@@ -154,9 +145,9 @@ class GltfReader {
     head_.eye.resize(first);
     if (place.skin >= 0) {
       GltfSkin::Skinned skinned =
-          OrRefuse(skins_.at(place.skin)
-                       .Apply(document_, attributes, count, nodes_.World(place.node),
-                              [this](std::int64_t bone) { return springs_->Has(bone); }));
+          vm::OrThrow(skins_.at(place.skin)
+                          .Apply(document_, attributes, count, nodes_.World(place.node),
+                                 [this](std::int64_t bone) { return springs_->Has(bone); }));
       transforms = std::move(skinned.transform);
       watched = std::move(skinned.watched);
       std::ranges::transform(skinned.main, std::back_inserter(head_.eye),
@@ -189,7 +180,7 @@ class GltfReader {
   void ReadTexcoords(const json& attributes, const GltfUv& to, std::size_t first) {
     const std::string set = "TEXCOORD_" + std::to_string(to.set);
     if (!attributes.contains(set)) return;
-    const auto uv = OrRefuse(document_.Numbers(JsonInteger(attributes, set.c_str()), 2));
+    const auto uv = vm::OrThrow(document_.Numbers(JsonInteger(attributes, set.c_str()), 2));
     head_.texcoord.resize(head_.position.size(), glm::vec2(0));
     for (std::size_t i = 0; i < std::min(head_.position.size() - first, uv.size() / 2); ++i) {
       head_.texcoord[first + i] = to({uv[2 * i], uv[2 * i + 1]});
@@ -199,7 +190,7 @@ class GltfReader {
   void Tints(std::int64_t accessor, std::size_t begin, std::size_t count) {
     const std::size_t width =
         JsonText(document_.At("accessors", accessor), "type") == "VEC4" ? 4 : 3;
-    const auto colours = OrRefuse(document_.Numbers(accessor, static_cast<int>(width)));
+    const auto colours = vm::OrThrow(document_.Numbers(accessor, static_cast<int>(width)));
     head_.tint.resize(head_.position.size(), glm::vec3(1));
     for (std::size_t i = 0; i < std::min(count, colours.size() / width); ++i) {
       for (std::size_t c = 0; c < 3; ++c) {
@@ -213,7 +204,7 @@ class GltfReader {
     const json& targets = JsonMember(primitive, "targets");
     for (std::size_t t = 0; t < targets.size(); ++t) {
       if (!targets.is_array() || !targets[t].contains("POSITION")) continue;
-      const auto by = OrRefuse(document_.Numbers(JsonInteger(targets[t], "POSITION"), 3));
+      const auto by = vm::OrThrow(document_.Numbers(JsonInteger(targets[t], "POSITION"), 3));
       if (by.size() < 3 * transforms.size()) {
         Refuse("meshes[" + std::to_string(place.mesh) + "]: target " + std::to_string(t) +
                " has fewer vertices than the mesh");
@@ -283,7 +274,7 @@ class GltfReader {
   }
 
   [[noreturn]] void Refuse(const std::string& what) const {
-    throw Refusal{document_.Wrong(what).error()};
+    throw vm::Failure(document_.Wrong(what).error());
   }
   [[noreturn]] void RefuseReach(const Place& place, std::size_t vertex,
                                 const std::string& how) const {
@@ -292,10 +283,10 @@ class GltfReader {
            " comes to lie farther than 10000000 metres from the origin");
   }
   [[noreturn]] void RefuseSize() const {
-    throw Refusal{{vm::Errc::kLimit, document_.name() + ": at most " +
-                                         std::to_string(kMaxMeshVertices) + " vertices, " +
-                                         std::to_string(kMaxMeshTriangles) + " triangles and " +
-                                         std::to_string(kMaxShapes) + " shapes are read"}};
+    throw vm::Failure({vm::Errc::kLimit, document_.name() + ": at most " +
+                                             std::to_string(kMaxMeshVertices) + " vertices, " +
+                                             std::to_string(kMaxMeshTriangles) + " triangles and " +
+                                             std::to_string(kMaxShapes) + " shapes are read"});
   }
 
   /// What a morph target moves: vertices of a shape's.
@@ -319,9 +310,9 @@ class GltfReader {
 };
 
 vm::Result<HeadFile> ReadDocument(vm::Result<GltfDocument> document) try {
-  return GltfReader(OrRefuse(std::move(document))).Read();
-} catch (const Refusal& refusal) {
-  return std::unexpected(refusal.error);
+  return GltfReader(vm::OrThrow(std::move(document))).Read();
+} catch (const vm::Failure& failure) {
+  return std::unexpected(failure.error);
 }
 
 }  // namespace

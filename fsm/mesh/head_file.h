@@ -54,7 +54,7 @@ struct HeadFile {
   std::optional<Sided<glm::vec3>> eye_pivot;
   std::optional<LookRanges> look;        ///< how the eyes follow a gaze, where the file says it
   SpringRig swing;                       ///< see VrmSprings
-  bool look_by_shape = false;            ///< not by turning, but by shapes vrmlookleft and so on
+  bool gaze_by_shape = false;            ///< not by turning, but by shapes vrmlookleft and so on
   std::vector<std::string> notices;      ///< what was left out
   std::vector<std::string> named_files;  ///< paths of other files it names, there or not
   bool metres = false;                   ///< the file's kind says so

@@ -1,9 +1,9 @@
 #include "fsm/mesh/lip_seal.h"
 
-#include <glm/geometric.hpp>
-#include <queue>
+#include <array>
 
 #include "fsm/base/spline.h"
+#include "fsm/mesh/mesh_paths.h"
 
 namespace fsm {
 
@@ -15,42 +15,28 @@ LipRig LipsOf(const MeshModel& model, std::size_t count) {
     rig.apart_at_rest.push_back(model.position[upper] - model.position[lower]);
   }
   // Along the surface, because across the slit the other lip is as near.
-  std::vector<std::vector<std::uint32_t>> next(model.position.size());
+  std::vector<std::array<std::uint32_t, 3>> triangles;
   for (const auto& batch : model.batches) {
     if (batch.material != Material::kSkin && batch.material != Material::kLip) continue;
     for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        next[batch.indices[i + k]].push_back(batch.indices[i + (k + 1) % 3]);
-        next[batch.indices[i + (k + 1) % 3]].push_back(batch.indices[i + k]);
-      }
+      triangles.push_back({batch.indices[i], batch.indices[i + 1], batch.indices[i + 2]});
     }
+  }
+  const Neighbours next = NeighboursAlongEdges(model.position.size(), triangles);
+  std::vector<std::uint32_t> pairs;
+  for (std::uint32_t k = 0; k < rig.seam.size(); ++k) {
+    if (rig.seam[k].first != rig.seam[k].second) pairs.push_back(k);  // else a corner
   }
   constexpr float kReach = 11;  // millimetres from the seam
   for (const bool upper : {true, false}) {
-    struct Way {
-      float far;
-      std::uint32_t vertex, pair;
-      bool operator<(const Way& other) const { return far > other.far; }
-    };
-    std::priority_queue<Way> open;
-    std::vector<float> far(model.position.size(), 1e9f);
-    for (std::uint32_t k = 0; k < rig.seam.size(); ++k) {
-      if (rig.seam[k].first == rig.seam[k].second) continue;  // a corner
-      open.push({0, upper ? rig.seam[k].first : rig.seam[k].second, k});
+    std::vector<std::uint32_t> edge;
+    for (const std::uint32_t k : pairs) {
+      edge.push_back(upper ? rig.seam[k].first : rig.seam[k].second);
     }
-    while (!open.empty()) {
-      const Way way = open.top();
-      open.pop();
-      if (way.far >= far[way.vertex] || way.far > kReach) continue;
-      far[way.vertex] = way.far;
-      const float part = SmoothStep(kReach, 0, way.far);
-      if (way.vertex < count && part > 0) {
-        rig.followers.push_back({way.vertex, way.pair, upper ? part : -part});
-      }
-      for (const std::uint32_t v : next[way.vertex]) {
-        open.push(
-            {way.far + glm::distance(model.position[way.vertex], model.position[v]), v, way.pair});
-      }
+    const MeshPaths paths = ShortestPaths(next, model.position, edge, kReach);
+    for (std::uint32_t v = 0; v < count; ++v) {
+      const float part = SmoothStep(kReach, 0, paths.length[v]);
+      if (part > 0) rig.followers.push_back({v, pairs[paths.seed[v]], upper ? part : -part});
     }
   }
   return rig;

@@ -23,20 +23,20 @@ NnlsSolver::NnlsSolver(std::vector<Row> keys) : keys_(std::move(keys)) {
   }
 }
 
-NnlsSolver::Parts NnlsSolver::TakeApart(std::span<const float> row) const {
+NnlsSolver::Parts NnlsSolver::Solve(std::span<const float> row) const {
   // One key after another takes its best part; a small price on every part prefers few keys.
   constexpr int kRounds = 60;
   constexpr float kPrice = 0.05F, kMost = 1.5F, kLeast = 1e-3F;
   Parts parts;
-  parts.rest.assign(row.begin(), row.end());
-  for (float& v : parts.rest) {
+  parts.residual.assign(row.begin(), row.end());
+  for (float& v : parts.residual) {
     if (!std::isfinite(v)) v = 0;
   }
   parts.weights.assign(keys_.size(), 0);
   std::vector<float> slope;  // of the fit, by key
   float size = 0;
   for (const Row& key : keys_) {
-    slope.push_back(Product(key, parts.rest));
+    slope.push_back(Product(key, parts.residual));
     size = std::max(size, std::abs(slope.back()));
   }
   if (size < kLeast) return parts;
@@ -56,7 +56,7 @@ NnlsSolver::Parts NnlsSolver::TakeApart(std::span<const float> row) const {
   }
   for (std::size_t k = 0; k < keys_.size(); ++k) {
     for (std::size_t i = 0; i < row.size(); ++i) {
-      parts.rest[i] -= parts.weights[k] * keys_[k][i];
+      parts.residual[i] -= parts.weights[k] * keys_[k][i];
     }
   }
   return parts;

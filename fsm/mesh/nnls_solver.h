@@ -15,9 +15,9 @@ class NnlsSolver {
 
   struct Parts {
     std::vector<float> weights;  ///< of each key, 0..1.5
-    Row rest;                    ///< what they leave
+    Row residual;                ///< what they leave
   };
-  Parts TakeApart(std::span<const float> row) const;
+  Parts Solve(std::span<const float> row) const;
 
  private:
   std::vector<Row> keys_;

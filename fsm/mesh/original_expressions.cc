@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 #include "fsm/base/spline.h"
@@ -16,9 +15,8 @@
 namespace fsm {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = 4U << 20;
 /// An expression whose remainder moves no vertex so far gets no channel, millimetres.
-constexpr float kLeastRestMm = 0.4F;
+constexpr float kLeastResidualMm = 0.4F;
 
 /// FaceExp's name, and how the files of its patterns begin and are numbered.
 struct Files {
@@ -45,7 +43,7 @@ class Reader {
   Reader(const std::string& folder, const std::string& path, PntFile standard)
       : folder_(folder), path_(path), standard_(std::move(standard)), frame_(standard_) {}
 
-  /// Throws std::runtime_error with the text of what it cannot read.
+  /// Throws vm::Failure with what it cannot read.
   OriginalExpressions Read() {
     ReadUnits();
     for (const Files& files : kFiles) {
@@ -69,7 +67,8 @@ class Reader {
     for (const PointName& name : standard_.names) {
       const auto found = file.index.find(name);
       if (found == file.index.end()) {
-        throw std::runtime_error(path + ": " + InWords(name) + " of '" + path_ + "' is missing");
+        throw vm::Failure(
+            {vm::Errc::kBadValue, path + ": " + InWords(name) + " of '" + path_ + "' is missing"});
       }
       const glm::vec3 by = frame_.mm() * file.at[found->second];
       row.insert(row.end(), {by.x, by.y, by.z});
@@ -98,7 +97,7 @@ class Reader {
 
   /// Without its name.
   const OriginalExpression& ReadOne(const std::string& path) {
-    std::string text = vm::OrThrow(vm::ReadTextFile(path, kMaxFileBytes));
+    std::string text = vm::OrThrow(vm::ReadTextFile(path, kMaxPntBytes));
     // A user's expressions begin as copies of the standard ones.
     if (const auto known = seen_.find(text); known != seen_.end()) return known->second;
     const PntFile file = vm::OrThrow(ParsePnt(path, text));
@@ -106,28 +105,29 @@ class Reader {
   }
 
   OriginalExpression TakeApart(const NnlsSolver::Row& offsets, const std::string& path) {
-    const NnlsSolver::Parts parts = units_.TakeApart(offsets);
+    const NnlsSolver::Parts parts = units_.Solve(offsets);
     OriginalExpression made;
     for (std::size_t i = 0; i < kOriginalUnits; ++i) {
       made.strengths.right[i] = parts.weights[2 * i];
       made.strengths.left[i] = parts.weights[2 * i + 1];
     }
-    PntFile rest;
+    PntFile residual;
     float most = 0;
     for (std::size_t i = 0; i < standard_.names.size(); ++i) {
-      const glm::vec3 by(parts.rest[3 * i], parts.rest[3 * i + 1], parts.rest[3 * i + 2]);
+      const glm::vec3 by(parts.residual[3 * i], parts.residual[3 * i + 1],
+                         parts.residual[3 * i + 2]);
       most = std::max(most, glm::length(by));
-      rest.index.emplace(standard_.names[i], i);
-      rest.at.push_back(by / frame_.mm());
+      residual.index.emplace(standard_.names[i], i);
+      residual.at.push_back(by / frame_.mm());
     }
-    rest.names = standard_.names;
-    if (most < kLeastRestMm) return made;
-    if (out_.rests.size() == kExpressionChannels.size()) {
-      out_.without_rest.push_back(path);
+    residual.names = standard_.names;
+    if (most < kLeastResidualMm) return made;
+    if (out_.residuals.size() == kExpressionChannels.size()) {
+      out_.without_residual.push_back(path);
       return made;
     }
-    made.channel = out_.rests.size();
-    out_.rests.push_back(std::move(rest));
+    made.channel = out_.residuals.size();
+    out_.residuals.push_back(std::move(residual));
     return made;
   }
 
@@ -149,8 +149,8 @@ vm::Result<OriginalExpressions> ReadOriginalExpressions(const std::string& folde
   PntFile wireframe = vm::OrThrow(ReadPnt(standard));
   vm::OrThrow(CheckPoints(standard, wireframe));
   return Reader(folder, standard, std::move(wireframe)).Read();
-} catch (const std::runtime_error& error) {
-  return vm::Fail(vm::Errc::kBadValue, error.what());
+} catch (const vm::Failure& failure) {
+  return std::unexpected(failure.error);
 }
 
 }  // namespace fsm

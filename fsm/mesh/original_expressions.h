@@ -12,9 +12,9 @@ namespace fsm {
 
 /// Whole expressions are files of offsets in the original, AU31.pnt to AU36.pnt and those of users,
 /// but action units here. Each file is taken apart into units of the agent's right and left side;
-/// what they leave is kept, as "rest", and shown with it.
+/// what they leave is kept, as a residual, and shown with it.
 ///
-/// An expression comes to the face as a look of FaceState::au alone, so a rest
+/// An expression comes to the face as a look of FaceState::au alone, so a residual
 /// has a number there that FACS does not use, on one side, and so does nothing to other heads.
 struct ExpressionChannel {
   std::size_t unit;
@@ -32,14 +32,14 @@ struct OriginalExpression {
   std::string name;                                    ///< of FaceExp
   int pattern = 1;                                     ///< from 1
   Sided<std::array<float, kOriginalUnits>> strengths;  ///< by the original's list of units
-  std::size_t channel = kNoChannel;                    ///< of its rest
+  std::size_t channel = kNoChannel;                    ///< of its residual
 };
 
 struct OriginalExpressions {
   std::vector<OriginalExpression> all;
-  std::vector<PntFile> rests;  ///< by channel, at most so many; offsets as the files have them
-  /// Expressions whose rest found no channel left: their units alone are shown.
-  std::vector<std::string> without_rest;
+  std::vector<PntFile> residuals;  ///< by channel, at most so many; offsets as the files have them
+  /// Expressions whose residual found no channel left: their units alone are shown.
+  std::vector<std::string> without_residual;
 };
 
 /// Reads those of the folder that holds _AU_Datas; a file that is not there is passed over.

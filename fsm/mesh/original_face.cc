@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
 
 #include "fsm/base/parse_number.h"
 #include "fsm/base/words.h"
@@ -20,17 +19,17 @@ constexpr std::size_t kEyeDefBytes = 29 * sizeof(double);
 
 using Offsets = std::vector<std::vector<glm::vec3>>;
 
-// The readers below throw std::runtime_error with the text of what they cannot read.
+// The readers below throw vm::Failure with what they cannot read.
 
 /// The parts of the expressions that no units can show, brought to the face's vertices.
-Offsets ReadRests(const PntFile& wireframe, const OriginalSharedFiles& shared) {
+Offsets ReadResiduals(const PntFile& wireframe, const OriginalSharedFiles& shared) {
   Offsets all;
   const auto read = vm::OrThrow(ReadOriginalExpressions(shared.offsets, shared.standard));
-  for (const PntFile& rest : read.rests) {
+  for (const PntFile& residual : read.residuals) {
     std::vector<glm::vec3>& offsets = all.emplace_back();
     for (const PointName& name : wireframe.names) {
-      const auto found = rest.index.find(name);
-      offsets.push_back(found == rest.index.end() ? glm::vec3(0) : rest.at[found->second]);
+      const auto found = residual.index.find(name);
+      offsets.push_back(found == residual.index.end() ? glm::vec3(0) : residual.at[found->second]);
     }
   }
   return all;
@@ -46,8 +45,8 @@ Offsets ReadOffsets(const PntFile& wireframe, const std::string& stem, std::size
     for (const PointName& name : wireframe.names) {
       const auto found = file.index.find(name);
       if (found == file.index.end()) {
-        throw std::runtime_error(path + ": " + InWords(name) +
-                                 " of the face's wireframe is missing");
+        throw vm::Failure({vm::Errc::kBadValue,
+                           path + ": " + InWords(name) + " of the face's wireframe is missing"});
       }
       offsets.push_back(file.at[found->second]);
     }
@@ -90,8 +89,9 @@ void CheckCorners(const std::string& name, const PntFile& wireframe, const LnkFi
   for (const auto& triangle : link.triangles) {
     for (const PointName& corner : triangle.corner) {
       if (wireframe.index.contains(corner)) continue;
-      throw std::runtime_error(name + ": " + InWords(corner) + " is missing, which " + link_name +
-                               " joins to triangles");
+      throw vm::Failure({vm::Errc::kBadValue, name + ": " + InWords(corner) +
+                                                  " is missing, which " + link_name +
+                                                  " joins to triangles"});
     }
   }
 }
@@ -170,12 +170,12 @@ vm::Result<OriginalFace> ReadOriginalFace(const OriginalFaceFiles& files,
   face.units = offsets("_AU_Datas/AU", kOriginalUnits);
   face.mouth_units = offsets("_MU_Datas/MU", kMouthParameters);
   face.visemes = offsets("_VM_Datas/VISEME", kOriginalVisemes);
-  face.expression_rests = ReadRests(face.wireframe, shared);
+  face.expression_residuals = ReadResiduals(face.wireframe, shared);
   ReadEyes(files, shared, face);
   ReadMouth(files, shared, face);
   return face;
-} catch (const std::runtime_error& error) {
-  return vm::Fail(vm::Errc::kBadValue, error.what());
+} catch (const vm::Failure& failure) {
+  return std::unexpected(failure.error);
 }
 
 }  // namespace fsm

@@ -52,7 +52,8 @@ struct OriginalFace {
   std::optional<ObjFile> upper_teeth, lower_teeth, eye;
   /// Offsets at full strength in the wireframe's units, by its vertices.
   std::vector<std::vector<glm::vec3>> units, mouth_units, visemes;
-  std::vector<std::vector<glm::vec3>> expression_rests;  ///< by channel, see OriginalExpressions
+  std::vector<std::vector<glm::vec3>>
+      expression_residuals;  ///< by channel, see OriginalExpressions
 };
 /// Error: kBadValue naming the file, and the line or byte where there is one. A file "" is left
 /// out; wireframe, picture, standard, link and offsets must be there.

@@ -39,9 +39,9 @@ class OriginalRigBaker {
     rig_.lips = LipsOf(model_, face_.wireframe.at.size());
     rig_.jaw.chin = static_cast<std::uint32_t>(face_.wireframe.index.at(kChin));
     AddUnits();
-    for (std::size_t k = 0; k < face_.expression_rests.size(); ++k) {
+    for (std::size_t k = 0; k < face_.expression_residuals.size(); ++k) {
       const auto [unit, side] = kExpressionChannels[k];
-      Add(Moves(face_.expression_rests[k], unit_scale_), {{Asked(unit, side)}});
+      Add(Moves(face_.expression_residuals[k], unit_scale_), {{Asked(unit, side)}});
     }
     AddVisemes(mouths);
     for (std::size_t k = 0; k < face_.mouth_units.size(); ++k) {
@@ -115,10 +115,9 @@ class OriginalRigBaker {
       }
     }
     const NnlsSolver mix(std::move(keys));
-    mouth.AddParameters(
-        [&mix](const FaceState& state) { return mix.TakeApart(state.mouth).weights; });
+    mouth.AddParameters([&mix](const FaceState& state) { return mix.Solve(state.mouth).weights; });
     for (std::size_t i = count; i < mouths.size(); ++i) {
-      mouth.AddViseme(mouths[i], mix.TakeApart(mouths[i]).weights);
+      mouth.AddViseme(mouths[i], mix.Solve(mouths[i]).weights);
     }
     DriveFit fit(count);
     mouth.AddTo(fit, Drive::Kind::kSpokenMouth);

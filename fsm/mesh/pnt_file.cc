@@ -11,7 +11,6 @@
 namespace fsm {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = 4U << 20;
 constexpr int kMaxName = 9999;
 
 /// Lines of numbers; ended by LF, CR or both.
@@ -147,13 +146,13 @@ vm::Result<LnkFile> ParseLnk(const std::string& name, std::string_view text) {
 }
 
 vm::Result<PntFile> ReadPnt(const std::string& path) {
-  const auto text = vm::ReadTextFile(path, kMaxFileBytes);
+  const auto text = vm::ReadTextFile(path, kMaxPntBytes);
   if (!text) return std::unexpected(text.error());
   return ParsePnt(path, *text);
 }
 
 vm::Result<LnkFile> ReadLnk(const std::string& path) {
-  const auto text = vm::ReadTextFile(path, kMaxFileBytes);
+  const auto text = vm::ReadTextFile(path, kMaxPntBytes);
   if (!text) return std::unexpected(text.error());
   return ParseLnk(path, *text);
 }

@@ -35,7 +35,8 @@ struct LnkFile {
   std::vector<Triangle> triangles;
 };
 
-inline constexpr std::size_t kMaxWireframe = 20000;  ///< points, and triangles
+inline constexpr std::size_t kMaxWireframe = 20000;    ///< points, and triangles
+inline constexpr std::size_t kMaxPntBytes = 4U << 20;  ///< of a file
 
 /// A .pnt file: `#N`, then N - 1 lines `INDEX GROUP NUMBER X Y Z`. Errors: kBadValue "NAME:LINE:
 /// what was expected", kLimit.

@@ -25,7 +25,7 @@ void ReadOld(const json& vrm, VrmAvatar& avatar) {
   }
   const json& person = JsonMember(vrm, "firstPerson");
   avatar.says_look = person.contains("lookAtTypeName");
-  avatar.look_by_shape = JsonText(person, "lookAtTypeName") == "BlendShape";
+  avatar.gaze_by_shape = JsonText(person, "lookAtTypeName") == "BlendShape";
   for (const auto& [key, range] : {std::pair("lookAtHorizontalInner", &avatar.look.inner),
                                    {"lookAtHorizontalOuter", &avatar.look.outer},
                                    {"lookAtVerticalDown", &avatar.look.down},
@@ -51,7 +51,7 @@ void ReadNew(const GltfDocument& document, const json& vrm, VrmAvatar& avatar) {
                      JsonInteger(JsonMember(bones, "leftEye"), "node")};
   const json& look = JsonMember(vrm, "lookAt");
   avatar.says_look = look.contains("type");
-  avatar.look_by_shape = JsonText(look, "type") == "expression";
+  avatar.gaze_by_shape = JsonText(look, "type") == "expression";
   for (const auto& [key, range] : {std::pair("rangeMapHorizontalInner", &avatar.look.inner),
                                    {"rangeMapHorizontalOuter", &avatar.look.outer},
                                    {"rangeMapVerticalDown", &avatar.look.down},

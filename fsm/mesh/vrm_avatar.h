@@ -27,7 +27,7 @@ struct VrmAvatar {
   /// Avatars of VRM 0.x look to -z, those of 1.0 and other glTF to +z.
   bool looks_back = false;
   bool says_look = false;      ///< `look` is the file's
-  bool look_by_shape = false;  ///< gaze is a matter of expressions, not of bones
+  bool gaze_by_shape = false;  ///< gaze is a matter of expressions, not of bones
   LookRanges look;
   std::vector<Expression> expressions;
 };

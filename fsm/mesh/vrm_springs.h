@@ -42,7 +42,7 @@ class VrmSprings {
   };
   struct Joint {
     glm::vec3 from{0};        // it turns about this place
-    int spring = -1;          // at its end; of the last of a chain that of the one before
+    int spring = -1;          // at its end; the last joint of a chain shares its predecessor's
     int before = -1;          // the spring that carries it; -1: the head does
     glm::vec3 chain_from{0};  // where its chain begins
   };

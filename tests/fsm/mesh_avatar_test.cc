@@ -218,7 +218,7 @@ TEST(VrmTest, OldAvatarsAreTurnedToTheViewerWithBonesGazeAndExpressions) {
   ASSERT_TRUE(file.look);
   EXPECT_EQ(file.look->outer.gaze_deg, 60);
   EXPECT_EQ(file.look->outer.turn, 12);
-  EXPECT_FALSE(file.look_by_shape);
+  EXPECT_FALSE(file.gaze_by_shape);
   ASSERT_EQ(file.shapes.size(), 6U);
   EXPECT_EQ(file.shapes[4].name, "vrma");
   ASSERT_EQ(file.shapes[4].deltas.size(), 2U);
@@ -234,7 +234,7 @@ TEST(VrmTest, NewAvatarsLookWithShapesAndHaveExpressionsOfTheirOwn) {
       R"({"morphTargetBinds":[{"node":0,"index":0,"weight":1}]}},"custom":{"JawOpen":)"
       R"({"morphTargetBinds":[{"node":3,"index":2,"weight":1}]}}}})"));
   ExpectPlace(file.position[1], {0.1F, 0, 0});
-  EXPECT_TRUE(file.look_by_shape);
+  EXPECT_TRUE(file.gaze_by_shape);
   ASSERT_EQ(file.shapes.size(), 6U) << "what no node has is no shape";
   EXPECT_EQ(file.shapes[4].name, "vrmaa");
   EXPECT_EQ(file.shapes[5].name, "vrmJawOpen");

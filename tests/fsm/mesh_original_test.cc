@@ -168,8 +168,9 @@ TEST(SmallOriginalFaceTest, AMouthSetByHandShowsTheMouthUnitOfThatNumber) {
 TEST(SmallOriginalFaceTest, WhatUnitsLeaveOfAnExpressionComesByItsChannel) {
   OriginalFace face = SmallFace();
   const auto nose = face.wireframe.index.at({3, 15});
-  face.expression_rests.assign(4, std::vector<glm::vec3>(face.wireframe.at.size(), glm::vec3(0)));
-  face.expression_rests[3][nose] = {0, 0.02F, 0};
+  face.expression_residuals.assign(4,
+                                   std::vector<glm::vec3>(face.wireframe.at.size(), glm::vec3(0)));
+  face.expression_residuals[3][nose] = {0, 0.02F, 0};
   const auto head = HeadOf(face);
   HeadVertices rest, moved;
   head->Evaluate({}, rest);
@@ -187,11 +188,11 @@ TEST(NnlsSolverTest, MixturesComeApartAgain) {
   keys.push_back({0.3F, 5, 0.4F, 4.5F, -0.6F, 4.5F, -0.5F, 5, -5, 0, 2.2F, 5});
   NnlsSolver::Row mixed(12);
   for (std::size_t i = 0; i < mixed.size(); ++i) mixed[i] = 0.6F * keys[0][i] + 0.4F * keys[2][i];
-  const auto parts = NnlsSolver(keys).TakeApart(mixed);
+  const auto parts = NnlsSolver(keys).Solve(mixed);
   EXPECT_NEAR(parts.weights[0], 0.6F, 0.03F);
   EXPECT_NEAR(parts.weights[1], 0.0F, 0.03F);
   EXPECT_NEAR(parts.weights[2], 0.4F, 0.03F);
-  EXPECT_NEAR(parts.rest[11], 0, 0.2F);
+  EXPECT_NEAR(parts.residual[11], 0, 0.2F);
 }
 
 TEST(NnlsSolverTest, WhatNoKeyExplainsIsGivenBack) {
@@ -199,9 +200,9 @@ TEST(NnlsSolverTest, WhatNoKeyExplainsIsGivenBack) {
   keys[0][11] = 9;
   NnlsSolver::Row mouth(12);
   mouth[kCornerY] = 2;
-  const auto parts = NnlsSolver(keys).TakeApart(mouth);
+  const auto parts = NnlsSolver(keys).Solve(mouth);
   EXPECT_EQ(parts.weights[0], 0);
-  EXPECT_EQ(parts.rest[9], 2);
+  EXPECT_EQ(parts.residual[9], 2);
 }
 
 class StandardFaceTest : public testing::Test {
@@ -327,7 +328,7 @@ TEST_F(StandardFaceTest, ExpressionsAreThoseOfTheFiles) {
   ASSERT_TRUE(read) << read.error().text;
   EXPECT_EQ(read->all.size(), 6U + 6 * 4 + 5);
   EXPECT_EQ(read->rests.size(), 3U) << "DISGUSTED, SURPRISED and FEARED are no mixture of units";
-  EXPECT_TRUE(read->without_rest.empty());
+  EXPECT_TRUE(read->without_residual.empty());
   const OriginalFrame frame(face_.standard);
   for (std::size_t k = 0; k < 6; ++k) {
     const OriginalExpression& one = read->all[k];

@@ -8,10 +8,16 @@
 
 namespace vm {
 
-/// For what the world refuses at start-up: the value, or std::runtime_error with the error's text.
+/// An error on its way to somebody who hands it on or prints its text.
+struct Failure : std::runtime_error {
+  explicit Failure(Error of) : std::runtime_error(of.text), error(std::move(of)) {}
+  Error error;
+};
+
+/// The value, or Failure: for what the world refuses at start-up, and within a reader.
 template <typename T>
 T OrThrow(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().text);
+  if (!result) throw Failure(std::move(result.error()));
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
