@@ -122,7 +122,7 @@ vm::Result<void> Editor::Load(Part part, const std::string& path, bool bilingual
     emotions_text_ = std::move(*text);
     put("expressions read", [&](State& state) { state.emotions = std::move(*read); });
   } else if (part == Part::kMouth) {
-    auto read = fsm::ReadVisemes(path, *text, bilingual ? fsm::kBilingualShapes : fsm::kVisemes);
+    auto read = fsm::ReadVisemes(path, *text, bilingual ? fsm::ShapeSet::k28 : fsm::ShapeSet::k14);
     if (!read) return std::unexpected(read.error());
     // Phonemes and dominances know shapes by name and place.
     for (std::size_t i = 0; i < read->size(); ++i) {

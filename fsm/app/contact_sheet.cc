@@ -39,7 +39,6 @@ FaceState After(const MotionTables& tables, const Command& command) {
 // What must go along for a unit to be seen at all.
 std::string Companions(int unit) {
   if (unit == 19 || unit == 37) return " 25 0.6 26 0.5";
-  if (unit == 36) return "";
   if (unit == 8) return " 26 0.5";
   return "";
 }
@@ -71,9 +70,9 @@ Sheet Emotions(const MotionTables& tables, const std::string& face) {
 
 Sheet VisemeSheet(const MotionTables& tables, const std::string& face) {
   Sheet sheet{{}, 7};
-  for (const MouthSet* set : {&tables.set28, &tables.set14}) {
-    const std::string prefix = set == &tables.set28 ? "28 " : "14 ";
-    for (const Viseme& shape : set->shapes) {
+  for (const ShapeSet set : {ShapeSet::k28, ShapeSet::k14}) {
+    const std::string prefix = std::to_string(CountOf(set)) + " ";
+    for (const Viseme& shape : tables.mouths(set).shapes) {
       FaceState state;
       state.mouth = shape.pose.mouth;
       state.lip_seal = shape.pose.seal;

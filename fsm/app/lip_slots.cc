@@ -22,9 +22,9 @@ constexpr std::array<SpeakingStyle, 5> kStyles = {{{"MUMBLED", 35, 45},
                                                    {"CLEAR", 125, 120},
                                                    {"SHOUTED", 180, 135}}};
 
-constexpr std::array kSets = {false, true};
-std::string SlotOf(bool bilingual, const std::string& shape) {
-  return (bilingual ? "MouthShape28." : "MouthShape.") + shape;
+ShapeSet SetOfCount(double count) { return count == 28 ? ShapeSet::k28 : ShapeSet::k14; }
+std::string SlotOf(ShapeSet set, const std::string& shape) {
+  return (set == ShapeSet::k28 ? "MouthShape28." : "MouthShape.") + shape;
 }
 
 LipMode ModeOf(const std::string& word) {
@@ -38,7 +38,7 @@ vm::Result<void> SetShapes(MotionSettings& settings, const vm::SetValue& value) 
     return vm::Fail(vm::Errc::kBadValue,
                     "there are sets of 14 and of 28 mouth shapes; 14 or 28 expected");
   }
-  settings.lips.bilingual = value.number(0) == 28;
+  settings.lips.shapes = SetOfCount(value.number(0));
   return {};
 }
 
@@ -95,25 +95,25 @@ void DeclareStyle(FsmCore& core) {
        .initial = "NORMAL"});
 }
 
-void DeclareShapes(FsmCore& core, bool bilingual) {
-  for (const Viseme& shape : core.motion->shapes(bilingual)) {
-    core.Declare({.name = SlotOf(bilingual, shape.name),
-                  .grammar = "<number>...",
-                  .help = "Mouth shape '" + shape.name + "' of the " + (bilingual ? "28" : "14") +
-                          ": 17 mouth parameters [seal [tongue [hold]]], see face.md.",
-                  .action = [&core, bilingual,
-                             name = shape.name](const vm::SetValue& value) -> vm::Result<void> {
-                    std::vector<std::string> words;
-                    for (std::size_t i = 0; i < value.size(); ++i) words.push_back(value.word(i));
-                    Visemes shapes = core.motion->shapes(bilingual);
-                    for (Viseme& edited : shapes) {
-                      if (edited.name != name) continue;
-                      if (auto read = ReadShapeValues(words, 0, edited); !read) return read;
-                    }
-                    core.motion->SetShapes(bilingual, std::move(shapes));
-                    return {};
-                  },
-                  .initial = FormatShapeValues(shape)});
+void DeclareShapes(FsmCore& core, ShapeSet set) {
+  for (const Viseme& shape : core.motion->shapes(set)) {
+    core.Declare(
+        {.name = SlotOf(set, shape.name),
+         .grammar = "<number>...",
+         .help = "Mouth shape '" + shape.name + "' of the " + std::to_string(CountOf(set)) +
+                 ": 17 mouth parameters [seal [tongue [hold]]], see face.md.",
+         .action = [&core, set, name = shape.name](const vm::SetValue& value) -> vm::Result<void> {
+           std::vector<std::string> words;
+           for (std::size_t i = 0; i < value.size(); ++i) words.push_back(value.word(i));
+           Visemes shapes = core.motion->shapes(set);
+           for (Viseme& edited : shapes) {
+             if (edited.name != name) continue;
+             if (auto read = ReadShapeValues(words, 0, edited); !read) return read;
+           }
+           core.motion->SetShapes(set, std::move(shapes));
+           return {};
+         },
+         .initial = FormatShapeValues(shape)});
   }
 }
 
@@ -121,10 +121,10 @@ void DeclareShapes(FsmCore& core, bool bilingual) {
 vm::Result<void> LoadShapes(FsmCore& core, const std::string& path) {
   const auto text = ReadTableFile(path);
   if (!text) return std::unexpected(text.error());
-  const bool bilingual = Table(path, *text).rows().size() == kBilingualShapes;
-  auto shapes = ReadVisemes(path, *text, bilingual ? kBilingualShapes : kVisemes);
+  const ShapeSet set = SetOfCount(static_cast<double>(Table(path, *text).rows().size()));
+  auto shapes = ReadVisemes(path, *text, set);
   if (!shapes) return std::unexpected(shapes.error());
-  const Visemes& now = core.motion->shapes(bilingual);
+  const Visemes& now = core.motion->shapes(set);
   for (std::size_t i = 0; i < now.size(); ++i) {
     if ((*shapes)[i].name != now[i].name) {
       return vm::Fail(vm::Errc::kBadValue, path + ": shape " + std::to_string(i + 1) + " is '" +
@@ -132,18 +132,18 @@ vm::Result<void> LoadShapes(FsmCore& core, const std::string& path) {
                                                "' expected");
     }
   }
-  core.motion->SetShapes(bilingual, std::move(*shapes));
-  for (const Viseme& shape : core.motion->shapes(bilingual)) {
-    core.slots.Report(SlotOf(bilingual, shape.name), FormatShapeValues(shape));
+  core.motion->SetShapes(set, std::move(*shapes));
+  for (const Viseme& shape : core.motion->shapes(set)) {
+    core.slots.Report(SlotOf(set, shape.name), FormatShapeValues(shape));
   }
   return {};
 }
 
-vm::Result<void> SaveShapes(FsmCore& core, bool bilingual, const std::string& path) {
+vm::Result<void> SaveShapes(FsmCore& core, ShapeSet set, const std::string& path) {
   if (auto fit = vm::CheckWritable(path); !fit) return fit;
   std::ofstream out(path, std::ios::binary);
   out << "# Mouth shapes: name, the 17 mouth parameters, seal, tongue, hold (docs/face.md).\n";
-  for (const Viseme& shape : core.motion->shapes(bilingual)) {
+  for (const Viseme& shape : core.motion->shapes(set)) {
     out << shape.name << " " << FormatShapeValues(shape) << "\n";
   }
   out.close();
@@ -164,7 +164,7 @@ void DeclareShapeFiles(FsmCore& core) {
        .help = "Writes the 14 or the 28 mouth shapes to a file, as MouthShapes loads them.",
        .action =
            [&core](const vm::SetValue& value) {
-             return SaveShapes(core, value.number(0) == 28, value.word(1));
+             return SaveShapes(core, SetOfCount(value.number(0)), value.word(1));
            },
        .readable = false});
 }
@@ -173,7 +173,7 @@ void DeclareShapeFiles(FsmCore& core) {
 
 void DeclareLipSlots(FsmCore& core) {
   DeclareStyle(core);
-  for (const bool bilingual : kSets) DeclareShapes(core, bilingual);
+  for (const ShapeSet set : kShapeSets) DeclareShapes(core, set);
   DeclareShapeFiles(core);
 }
 

@@ -49,8 +49,8 @@ void FaceMotion::StopMoves(vm::Time now) {
   eyes.StopBlinks();
 }
 
-void FaceMotion::SetShapes(bool bilingual, Visemes shapes) {
-  Visemes& own = (bilingual ? tables_.set28 : tables_.set14).shapes;
+void FaceMotion::SetShapes(ShapeSet set, Visemes shapes) {
+  Visemes& own = tables_.mouths(set).shapes;
   assert(shapes.size() == own.size());
   for (std::size_t i = 0; i < own.size(); ++i) {
     const float contact = own[i].pose.contact;

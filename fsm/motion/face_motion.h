@@ -50,12 +50,10 @@ class FaceMotion {
                         int count = 1);
   void StopMoves(vm::Time now);  ///< FaceMot = NOMOVE
 
-  // Mouth shapes, from the next utterance on. `bilingual`: of the 28, else of the 14.
-  const Visemes& shapes(bool bilingual) const {
-    return bilingual ? tables_.set28.shapes : tables_.set14.shapes;
-  }
+  // Mouth shapes, from the next utterance on.
+  const Visemes& shapes(ShapeSet set) const { return tables_.mouths(set).shapes; }
   /// REQUIRES: the same names in the same order. How they dominate each other is kept.
-  void SetShapes(bool bilingual, Visemes shapes);
+  void SetShapes(ShapeSet set, Visemes shapes);
 
   // Settings. Those of speech act at once, without a jump.
   const MotionSettings& settings() const { return settings_; }

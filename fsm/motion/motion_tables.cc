@@ -39,7 +39,7 @@ class Loader {
   /// `read(name, text, others...)` gives vm::Result<T>.
   template <typename T, typename Read, typename... Others>
   void Get(T& out, const std::string& file, std::string_view built_in, const Read& read,
-           Others&... others) {
+           Others&&... others) {
     if (files_ != nullptr) files_->push_back(file);
     if (error_) return;
     const std::string path = folder_.empty() ? file : folder_ + "/" + file;
@@ -71,21 +71,22 @@ class Loader {
 void LoadMouth(Loader& loader, MotionTables& out) {
   Visemes& shapes14 = out.set14.shapes;
   Visemes& shapes28 = out.set28.shapes;
-  loader.Get(shapes14, "mouth_shapes.txt", embedded::mouth_shapes(), ReadVisemes, kVisemes);
+  loader.Get(shapes14, "mouth_shapes.txt", embedded::mouth_shapes(), ReadVisemes, ShapeSet::k14);
   loader.Get(shapes28, "mouth_shapes_28.txt", embedded::mouth_shapes_28(), ReadVisemes,
-             kBilingualShapes);
+             ShapeSet::k28);
   loader.Get(out.reach, "dominance.txt", embedded::dominance(), ReadDominance, shapes14, shapes28);
-  loader.Get(out.set14.japanese, "phonemes_ja.txt", embedded::phonemes_ja(), ReadPhonemeTable,
-             shapes14);
-  loader.Get(out.set14.english, "phonemes_en.txt", embedded::phonemes_en(), ReadPhonemeTable,
-             shapes14);
-  loader.Get(out.set28.japanese, "phonemes28_ja.txt", embedded::phonemes28_ja(), ReadPhonemeTable,
-             shapes28);
-  loader.Get(out.set28.english, "phonemes28_en.txt", embedded::phonemes28_en(), ReadPhonemeTable,
-             shapes28);
-  for (MouthSet* set : {&out.set14, &out.set28}) {
-    const Viseme* const rest = FindShape(set->shapes, "rest");
-    if (rest != nullptr) set->rest = static_cast<std::size_t>(rest - set->shapes.data());
+  const auto phonemes = [&loader](PhonemeTable& table, const char* file, std::string_view built_in,
+                                  const Visemes& shapes) {
+    loader.Get(table, file, built_in, ReadPhonemeTable, shapes);
+  };
+  phonemes(out.set14.japanese, "phonemes_ja.txt", embedded::phonemes_ja(), shapes14);
+  phonemes(out.set14.english, "phonemes_en.txt", embedded::phonemes_en(), shapes14);
+  phonemes(out.set28.japanese, "phonemes28_ja.txt", embedded::phonemes28_ja(), shapes28);
+  phonemes(out.set28.english, "phonemes28_en.txt", embedded::phonemes28_en(), shapes28);
+  for (const ShapeSet which : kShapeSets) {
+    MouthSet& set = out.mouths(which);
+    const Viseme* const rest = FindShape(set.shapes, "rest");
+    if (rest != nullptr) set.rest = static_cast<std::size_t>(rest - set.shapes.data());
   }
   loader.Get(out.engines, "phoneme_names.txt", embedded::phoneme_names(), ReadPhonemeNames,
              out.set28);

@@ -17,8 +17,7 @@ namespace fsm {
 
 /// Everything that is known about moving, read from the tables. A plain value.
 struct MotionTables {
-  MouthSet set14;  ///< the original's shapes
-  MouthSet set28;  ///< those of the English and Japanese translation system
+  MouthSet set14, set28;
   std::vector<EngineNames> engines;
   Reach reach;
   EmotionTable emotions;
@@ -29,6 +28,9 @@ struct MotionTables {
   BlendShapes blend_shapes;
   Mixer mixer;
   TextCues text_cues;
+
+  MouthSet& mouths(ShapeSet set) { return set == ShapeSet::k14 ? set14 : set28; }
+  const MouthSet& mouths(ShapeSet set) const { return set == ShapeSet::k14 ? set14 : set28; }
 
   /// The tables the program carries; with a `folder`, each file found there replaces its own.
   /// Errors: kBadValue with file and line; kUnavailable if the folder or a file cannot be read.

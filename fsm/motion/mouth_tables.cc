@@ -94,21 +94,21 @@ Viseme ReadViseme(const TableRow& row) {
 
 int ShapeAt(const TableRow& row, std::size_t word, const Visemes& shapes) {
   const std::string& name = row.Word(word);
-  if (name == "next") return PhonemeLook::kNext;
+  if (name == "next") return PhonemeShapes::kNext;
   const Viseme* const shape = FindShape(shapes, name);
   if (shape == nullptr) row.Fail("'" + name + "' is neither a mouth shape nor 'next'");
   return static_cast<int>(shape - shapes.data());
 }
 
-PhonemeLook ReadLook(const TableRow& row, const Visemes& shapes) {
+PhonemeShapes ReadPhonemeShapes(const TableRow& row, const Visemes& shapes) {
   if (row.size() != 3 && row.size() != 5) {
     row.Fail("a phoneme, then one or two pairs of shape and strength expected");
   }
-  PhonemeLook look;
+  PhonemeShapes out;
   for (std::size_t i = 1; i < row.size(); i += 2) {
-    look.phases.push_back({ShapeAt(row, i, shapes), row.Number(i + 1, "a strength", 0, 2)});
+    out.phases.push_back({ShapeAt(row, i, shapes), row.Number(i + 1, "a strength", 0, 2)});
   }
-  return look;
+  return out;
 }
 
 /// Reads KIND JAW LIPS ROUND TONGUE EARLY CONTACT from word 3 on.
@@ -147,8 +147,8 @@ const Viseme* ReadShapeRow(const TableRow& row, Visemes& set14, Visemes& set28) 
 
 }  // namespace
 
-vm::Result<Visemes> ReadVisemes(const std::string& name, std::string_view text, std::size_t count) {
-  return ReadTable(name, text, [count](const Table& table) {
+vm::Result<Visemes> ReadVisemes(const std::string& name, std::string_view text, ShapeSet set) {
+  return ReadTable(name, text, [set](const Table& table) {
     Visemes shapes;
     for (const TableRow& row : table.rows()) {
       Viseme shape = ReadViseme(row);
@@ -157,8 +157,8 @@ vm::Result<Visemes> ReadVisemes(const std::string& name, std::string_view text, 
       }
       shapes.push_back(std::move(shape));
     }
-    if (shapes.size() != count) {
-      table.Fail(fmt::format("{} shapes found, {} expected", shapes.size(), count));
+    if (shapes.size() != CountOf(set)) {
+      table.Fail(fmt::format("{} shapes found, {} expected", shapes.size(), CountOf(set)));
     }
     if (FindShape(shapes, "rest") == nullptr) {
       table.Fail("no shape 'rest', which is the mouth of pauses");
@@ -172,7 +172,7 @@ vm::Result<PhonemeTable> ReadPhonemeTable(const std::string& name, std::string_v
   return ReadTable(name, text, [&shapes](const Table& table) {
     PhonemeTable phonemes;
     for (const TableRow& row : table.rows()) {
-      if (!phonemes.emplace(row.key(), ReadLook(row, shapes)).second) {
+      if (!phonemes.emplace(row.key(), ReadPhonemeShapes(row, shapes)).second) {
         row.Fail("the phoneme '" + row.key() + "' is here twice");
       }
     }

@@ -42,8 +42,11 @@ struct Viseme {
 
 /// Shapes by their numbers. Each set has one named `rest`: the mouth of pauses.
 using Visemes = std::vector<Viseme>;
-inline constexpr std::size_t kVisemes = 14;
-inline constexpr std::size_t kBilingualShapes = 28;
+/// The sets there are, each called by its count: the original's, and that of the English and
+/// Japanese translation system.
+enum class ShapeSet { k14 = 14, k28 = 28 };
+inline constexpr std::array kShapeSets = {ShapeSet::k14, ShapeSet::k28};
+constexpr std::size_t CountOf(ShapeSet set) { return static_cast<std::size_t>(set); }
 /// The 17 parameters, then seal, tongue and hold, which may be left out at the end (they then stay
 /// as `shape` has them). Values: finite; parameters within +-60, seal and tongue 0..1, hold 0..0.9.
 /// Error: kBadValue, and `shape` stays as it was.
@@ -51,15 +54,15 @@ vm::Result<void> ReadShapeValues(const std::vector<std::string>& words, std::siz
                                  Viseme& shape);
 /// The 20 numbers in the form of a row of the table.
 std::string FormatShapeValues(const Viseme& shape);
-/// Reads a table of exactly `count` shapes, one of them `rest`. This and the readers below:
+/// Reads a table of all shapes of a set, one of them `rest`. This and the readers below:
 /// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<Visemes> ReadVisemes(const std::string& name, std::string_view text,
-                                std::size_t count = kVisemes);
+                                ShapeSet set = ShapeSet::k14);
 /// nullptr if there is none of that name.
 const Viseme* FindShape(const Visemes& shapes, std::string_view name);
 
 /// What a phoneme looks like: one shape, or two for a diphthong.
-struct PhonemeLook {
+struct PhonemeShapes {
   static constexpr int kNext = -1;  ///< takes the shape of what follows
   struct Phase {
     int shape = 0;  ///< index into Visemes, or kNext
@@ -68,7 +71,7 @@ struct PhonemeLook {
   std::vector<Phase> phases;  ///< one or two
 };
 /// By phoneme name; names differ in case (N is not n).
-using PhonemeTable = std::map<std::string, PhonemeLook, std::less<>>;
+using PhonemeTable = std::map<std::string, PhonemeShapes, std::less<>>;
 vm::Result<PhonemeTable> ReadPhonemeTable(const std::string& name, std::string_view text,
                                           const Visemes& shapes);
 

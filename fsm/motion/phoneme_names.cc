@@ -81,7 +81,7 @@ PhonemeReader::PhonemeReader(const vm::PhonemeList& phonemes, const MouthSet& se
     if (language != Language::kAuto && english != (language == Language::kEnglish)) return;
     if (!engine.empty() && engine != "AUTO" && engine != called) return;
     const auto known = std::ranges::count_if(phonemes, [&](const vm::Phoneme& phoneme) {
-      return LookIn(names, english, phoneme.name) != nullptr;
+      return ShapesIn(names, english, phoneme.name) != nullptr;
     });
     if (known <= most) return;
     most = known;
@@ -93,18 +93,18 @@ PhonemeReader::PhonemeReader(const vm::PhonemeList& phonemes, const MouthSet& se
   for (const EngineNames& names : engines) consider(&names, names.english, names.engine);
 }
 
-const PhonemeLook* PhonemeReader::LookIn(const EngineNames* names, bool english,
-                                         std::string_view name) const {
+const PhonemeShapes* PhonemeReader::ShapesIn(const EngineNames* names, bool english,
+                                             std::string_view name) const {
   const std::string_view ours = names == nullptr ? name : names->Ours(name);
   const PhonemeTable& table = english ? set_.english : set_.japanese;
   const auto found = table.find(ours);
   return found == table.end() ? nullptr : &found->second;
 }
 
-const PhonemeLook* PhonemeReader::Look(std::string_view name) const {
-  if (const PhonemeLook* look = LookIn(names_, english_, name)) return look;
-  if (const PhonemeLook* look = LookIn(nullptr, english_, name)) return look;
-  return LookIn(nullptr, !english_, name);
+const PhonemeShapes* PhonemeReader::ShapesOf(std::string_view name) const {
+  if (const PhonemeShapes* shapes = ShapesIn(names_, english_, name)) return shapes;
+  if (const PhonemeShapes* shapes = ShapesIn(nullptr, english_, name)) return shapes;
+  return ShapesIn(nullptr, !english_, name);
 }
 
 }  // namespace fsm

@@ -45,11 +45,12 @@ class PhonemeReader {
                 std::string_view engine);
 
   /// nullptr if no list has the name.
-  const PhonemeLook* Look(std::string_view name) const;
+  const PhonemeShapes* ShapesOf(std::string_view name) const;
   bool english() const { return english_; }
 
  private:
-  const PhonemeLook* LookIn(const EngineNames* names, bool english, std::string_view name) const;
+  const PhonemeShapes* ShapesIn(const EngineNames* names, bool english,
+                                std::string_view name) const;
 
   const MouthSet& set_;
   const EngineNames* names_ = nullptr;  // nullptr = our own

@@ -25,19 +25,19 @@ MouthPose Scaled(const Viseme& shape, double strength, const LipStyle& style) {
 struct TimedPhase {
   double start_ms;
   double length_ms;
-  PhonemeLook::Phase look;
+  PhonemeShapes::Phase phase;
   bool holds;
 };
 
 // "next" takes over what follows; at the end, or before a closure of the lips, there is only rest.
 void ResolveNext(std::vector<TimedPhase>& phases, const MouthSet& set) {
   for (std::size_t i = phases.size(); i-- > 0;) {
-    PhonemeLook::Phase& look = phases[i].look;
-    if (look.shape != PhonemeLook::kNext) continue;
+    PhonemeShapes::Phase& phase = phases[i].phase;
+    if (phase.shape != PhonemeShapes::kNext) continue;
     const bool follows = i + 1 < phases.size();
-    look.shape = follows ? phases[i + 1].look.shape : static_cast<int>(set.rest);
-    const bool closes = set.shapes[static_cast<std::size_t>(look.shape)].pose.seal > 0;
-    look.strength *= follows && !closes ? phases[i + 1].look.strength : 0;
+    phase.shape = follows ? phases[i + 1].phase.shape : static_cast<int>(set.rest);
+    const bool closes = set.shapes[static_cast<std::size_t>(phase.shape)].pose.seal > 0;
+    phase.strength *= follows && !closes ? phases[i + 1].phase.strength : 0;
   }
 }
 
@@ -45,23 +45,23 @@ void ResolveNext(std::vector<TimedPhase>& phases, const MouthSet& set) {
 /// phonemes are unknown.
 std::vector<TimedPhase> PhasesOf(const vm::PhonemeList& phonemes, const PhonemeReader& reader,
                                  const MouthSet& set, VisemeTargets& out) {
-  const PhonemeLook closed{{{static_cast<int>(set.rest), 1}}};
+  const PhonemeShapes closed{{{static_cast<int>(set.rest), 1}}};
   std::vector<TimedPhase> phases;
   for (const vm::Phoneme& phoneme : phonemes) {
     const double length = InMs(phoneme.duration);
-    const PhonemeLook* look = reader.Look(phoneme.name);
-    if (look == nullptr) {
-      look = &closed;
+    const PhonemeShapes* shapes = reader.ShapesOf(phoneme.name);
+    if (shapes == nullptr) {
+      shapes = &closed;
       if (std::ranges::find(out.unknown, phoneme.name) == out.unknown.end()) {
         out.unknown.push_back(phoneme.name);
       }
     }
-    const bool diphthong = look->phases.size() == 2;
+    const bool diphthong = shapes->phases.size() == 2;
     const double split = diphthong ? length * kFirstPartShare : length;
     const bool holds = length >= kLongMs;
-    phases.push_back({out.length_ms, split, look->phases[0], holds && !diphthong});
+    phases.push_back({out.length_ms, split, shapes->phases[0], holds && !diphthong});
     if (diphthong) {
-      phases.push_back({out.length_ms + split, length - split, look->phases[1], holds});
+      phases.push_back({out.length_ms + split, length - split, shapes->phases[1], holds});
     }
     out.length_ms += length;
   }
@@ -82,19 +82,18 @@ double HoldOf(const TimedPhase& phase, double share, bool pause) {
 
 VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTables& tables,
                                 const LipStyle& style) {
-  const MouthSet& set = style.bilingual ? tables.set28 : tables.set14;
+  const MouthSet& set = tables.mouths(style.shapes);
   const PhonemeReader reader(phonemes, set, tables.engines, style.language, style.engine);
   VisemeTargets out;
-  out.english = reader.english();
   out.rest = set.shapes[set.rest].pose;
-  for (const TimedPhase& phase : PhasesOf(phonemes, reader, set, out)) {
-    if (phase.length_ms <= 0) continue;
-    const auto index = static_cast<std::size_t>(phase.look.shape);
+  for (const TimedPhase& timed : PhasesOf(phonemes, reader, set, out)) {
+    if (timed.length_ms <= 0) continue;
+    const auto index = static_cast<std::size_t>(timed.phase.shape);
     const Viseme& shape = set.shapes[index];
     const bool pause = index == set.rest;
-    out.targets.push_back({phase.start_ms, phase.length_ms,
-                           Scaled(shape, phase.look.strength, style),
-                           HoldOf(phase, shape.hold, pause), shape.dominance, pause, phase.holds});
+    out.targets.push_back({timed.start_ms, timed.length_ms,
+                           Scaled(shape, timed.phase.strength, style),
+                           HoldOf(timed, shape.hold, pause), shape.dominance, pause});
   }
   return out;
 }

@@ -18,7 +18,7 @@ enum class LipMode {
 /// How an utterance is to be articulated; taken when it begins.
 struct LipStyle {
   LipMode mode = LipMode::kDominance;
-  bool bilingual = true;  ///< the set of 28 shapes, else of 14
+  ShapeSet shapes = ShapeSet::k28;
   Language language = Language::kAuto;
   std::string engine = "AUTO";  ///< whose phoneme names, see PhonemeReader
   double jaw = 1;               ///< size of the jaw's opening, 0 (mumbled) .. 3
@@ -33,7 +33,6 @@ struct VisemeTarget {
   double hold_ms = 0;  ///< how long a key shape stands
   Dominance dominance;
   bool pause = false;
-  bool holds = false;  ///< belongs to a phoneme of 200 ms or more
 };
 
 /// What a sentence asks of the mouth.
@@ -41,7 +40,6 @@ struct VisemeTargets {
   std::vector<VisemeTarget> targets;  ///< in time, without those of no length
   MouthPose rest;
   double length_ms = 0;
-  bool english = false;
   std::vector<std::string> unknown;  ///< phonemes no table has, once each: lips close on them
 };
 VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTables& tables,

@@ -32,7 +32,6 @@ class VisemeTrack {
   /// The phoneme sounding at a position; "" outside the utterance.
   const std::string& PhonemeAt(double position_ms) const;
   double length_ms() const { return visemes_.length_ms; }
-  bool english() const { return visemes_.english; }
   const VisemeTargets& visemes() const { return visemes_; }
 
  private:

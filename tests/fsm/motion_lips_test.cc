@@ -129,7 +129,10 @@ TEST(LipStyleTest, LinearModeGoesStraight) {
 }
 
 TEST(PhonemeNamesTest, TheListThatKnowsMostNamesTheLanguage) {
-  const auto english = [](const char* text) { return Track28(text).english(); };
+  const auto english = [](const char* text) {
+    return PhonemeReader(List(text), Tables().set28, Tables().engines, Language::kAuto, "")
+        .english();
+  };
   EXPECT_FALSE(english("pau 10 k 10 o 10 N 10 n 10 i 10 ch 10 i 10 w 10 a 10"));  // open_jtalk
   EXPECT_TRUE(english("pau 10 hh 10 ax 10 l 10 ow 10 pau 10"));                   // flite
   EXPECT_TRUE(english("SIL 10 HH 10 AH0 10 L 10 OW1 10 SIL 10"));                 // ARPAbet
@@ -159,13 +162,12 @@ TEST(PhonemeNamesTest, EndingsAreTakenOffAndUnknownNamesAreListed) {
 }
 
 TEST(PhonemeNamesTest, ALanguageOrAnEngineCanBeInsistedOn) {
-  LipStyle style;
-  style.language = Language::kEnglish;
-  EXPECT_TRUE(VisemeTrack(List("k 10 t 10"), Tables(), style).english());
-  style = {};
-  style.engine = "ESPEAK";
+  const auto english = [](const char* text, Language language, const char* engine) {
+    return PhonemeReader(List(text), Tables().set28, Tables().engines, language, engine).english();
+  };
+  EXPECT_TRUE(english("k 10 t 10", Language::kEnglish, ""));
   // a of espeak-ng's English is the vowel of "cat".
-  EXPECT_TRUE(VisemeTrack(List("k 10 a 10 t 10"), Tables(), style).english());
+  EXPECT_TRUE(english("k 10 a 10 t 10", Language::kAuto, "ESPEAK"));
 }
 
 TEST(PhonemeTablesTest, BothSetsKnowTheSamePhonemes) {
@@ -179,12 +181,12 @@ TEST(PhonemeTablesTest, BothSetsKnowTheSamePhonemes) {
 
 TEST(PhonemeTablesTest, JapaneseConsonantsAreSixtyPerCentOfTheEnglishShape) {
   for (const char* name : {"t", "n", "k", "s", "sh", "w", "m"}) {
-    const PhonemeLook& look = Tables().set28.japanese.at(name);
-    EXPECT_DOUBLE_EQ(look.phases[0].strength, 0.6) << name;
-    EXPECT_EQ(look.phases[0].shape, Tables().set28.english.at(name).phases[0].shape) << name;
+    const PhonemeShapes& shapes = Tables().set28.japanese.at(name);
+    EXPECT_DOUBLE_EQ(shapes.phases[0].strength, 0.6) << name;
+    EXPECT_EQ(shapes.phases[0].shape, Tables().set28.english.at(name).phases[0].shape) << name;
   }
   EXPECT_DOUBLE_EQ(Tables().set28.japanese.at("U").phases[0].strength, 0.6);
-  EXPECT_EQ(Tables().set28.japanese.at("h").phases[0].shape, PhonemeLook::kNext);
+  EXPECT_EQ(Tables().set28.japanese.at("h").phases[0].shape, PhonemeShapes::kNext);
 }
 
 // ---- on the head

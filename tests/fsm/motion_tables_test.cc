@@ -114,7 +114,7 @@ TEST(MotionTablesTest, AFolderReplacesOnlyTheTablesItHas) {
   const auto tables = MotionTables::Load(folder.string());
   ASSERT_TRUE(tables) << tables.error().text;
   EXPECT_EQ(tables->emotions.size(), 1u);
-  EXPECT_EQ(tables->set14.shapes.size(), kVisemes);
+  EXPECT_EQ(tables->set14.shapes.size(), CountOf(ShapeSet::k14));
   std::ofstream(folder / "emotions.txt") << "\nBORED\n";
   const auto wrong = MotionTables::Load(folder.string());
   ASSERT_FALSE(wrong);
