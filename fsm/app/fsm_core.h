@@ -46,7 +46,7 @@ struct FsmCore {
     std::string initial = "";
     bool readable = true;  ///< false: the slot is an action and has no value to ask for
     bool quoted = false;
-    /// Numbers beyond are taken for the nearest within, as the original does; 0, 0: none are.
+    /// Numbers are clamped to least..most, as the original does, unless both are 0.
     int least = 0, most = 0;
     /// How the value is told; null: as it came.
     std::string (*told)(const vm::SetValue&) = nullptr;

@@ -242,7 +242,6 @@ class RawMovieWriter : public MovieWriter {
       }
     }
     if (fd_ < 0) return vm::Fail(vm::Errc::kUnavailable, "the film '" + path_ + "' has ended");
-    ++frames_;
     return {};
   }
 
@@ -268,7 +267,6 @@ class RawMovieWriter : public MovieWriter {
   std::string path_;
   int fd_;
   bool is_pipe_;
-  int frames_ = 0;
 };
 
 vm::Result<std::unique_ptr<MovieWriter>> OpenRaw(const std::string& path) {

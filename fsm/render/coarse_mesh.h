@@ -14,11 +14,10 @@ struct HeadTriangles {
   std::vector<std::uint32_t> indices;
 };
 
-/// The triangles of a head without the vertices that are not missed: in none of some far-reaching
-/// states of the face is such a vertex more than `error_mm` away from the coarser surface, nor does
-/// what is shown there (normal, colour, place in textures) differ by more than counts as much
-/// (vertex_features.cc). Only hair and lashes change at their borders, so nothing comes apart.
-/// `creases`: of the head, or empty. Always the same for the same head.
+/// Simplifies a head. In each of the test states of vertex_features.cc no removed vertex lies more
+/// than `error_mm` from the coarser surface; differences in normal, colour and place in textures
+/// are weighed as millimetres. Only hair and lashes change at their borders, so nothing comes
+/// apart. `creases`: of the head, or empty. Always the same for the same head.
 HeadTriangles CoarseTriangles(const Head& head, const CreaseWeights& creases, float error_mm);
 
 }  // namespace fsm

@@ -9,12 +9,11 @@
 
 namespace fsm {
 
-/// How much of skin is more than its colour, or of what wears a photo more than the photo: each
-/// costs a good part of a pixel.
+/// Which shader variant a part needs. Each step makes its pixels noticeably slower to draw.
 enum class SkinDetail : std::uint8_t {
-  kPlain,    ///< nothing
-  kCreased,  ///< skin that creases with an expression
-  kDetailed  ///< that, or grain from elsewhere, or it is left out or mixed with what is behind it
+  kPlain,    ///< the colour, or the photo, alone
+  kCreased,  ///< and creases of expression
+  kDetailed  ///< and grain from elsewhere, and pixels that are left out or mixed with those behind
 };
 
 /// A part as it is drawn.

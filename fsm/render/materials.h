@@ -26,7 +26,7 @@ class Materials {
   /// shut.
   bool IsHidden(const DrawnPart& part) const;
   void Use(const DrawnPart& part);
-  /// Whether skin creases; as BeginFrame found, or as is set until the next.
+  /// Whether the creased variants of shaders are used: what BeginFrame found, until it is set.
   bool creased() const { return creased_; }
   void SetCreased(bool creased) { creased_ = creased; }
   /// A plain colour, for lines and for passes whose colour is not kept.

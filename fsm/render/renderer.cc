@@ -35,7 +35,7 @@ Scene Behind(const Scene& scene) {
   return behind;
 }
 
-bool IsSheet(const HeadTopology::Part& part) {
+bool IsDrawnFromBothSides(const HeadTopology::Part& part) {
   return part.two_sided || part.material == Material::kLash ||
          part.material == Material::kShutLash || part.material == Material::kMouthInside;
 }
@@ -252,7 +252,7 @@ class GlRenderer : public Renderer {
         if (materials_.IsHidden(part)) continue;
         // Lashes have two sides; everything else is the skin of something closed, or of hair, which
         // has an inside of its own where it hangs.
-        (IsSheet(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+        (IsDrawnFromBothSides(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
         materials_.Use(part);
         if (part.soft) BeginBlending();
         DrawPart(part.part);
@@ -278,7 +278,7 @@ class GlRenderer : public Renderer {
       materials_.SetCreased(!materials_.creased());
       for (auto part : parts) {
         part.part.index_count = 3;
-        (IsSheet(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+        (IsDrawnFromBothSides(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
         materials_.Use(part);
         DrawPart(part.part);
       }
