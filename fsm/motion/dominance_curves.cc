@@ -33,7 +33,7 @@ double Bell(double distance_ms, double reach_ms) {
 
 double DominanceCurves::Contact::At(double position_ms) const {
   const auto part = [](double begin, double end, double at) {
-    return end <= begin ? (at >= end ? 1.0 : 0.0) : SmoothStep((at - begin) / (end - begin));
+    return end <= begin ? (at >= end ? 1.0 : 0.0) : Eased((at - begin) / (end - begin));
   };
   return std::min(part(rise, from, position_ms), 1 - part(to, fall, position_ms));
 }
@@ -41,7 +41,7 @@ double DominanceCurves::Contact::At(double position_ms) const {
 DominanceCurves::DominanceCurves(const VisemeTargets& visemes, const Reach& reach) : reach_(reach) {
   VisemeTarget rest;
   rest.target = visemes.rest;
-  rest.dominance = {.jaw = 0.8, .lips = 0.8, .round = 0.5, .tongue = 0.5};
+  rest.dominance = visemes.rest_dominance;
   rest.pause = true;
   rest.length_ms = kForever;
   rest.start_ms = -kForever;

@@ -14,7 +14,7 @@ namespace fsm {
 inline double Clamp01(double u) { return std::clamp(u, 0.0, 1.0); }
 
 /// 3u^2 - 2u^3.
-inline double SmoothStep(double u) {
+inline double Eased(double u) {
   u = Clamp01(u);
   return u * u * (3 - 2 * u);
 }

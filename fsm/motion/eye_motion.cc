@@ -106,8 +106,8 @@ EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
   const auto place = [&](std::int64_t index) -> std::array<double, 2> {
     if (index < 0) return {0, 0};
     const double side = std::copysign(1, habit + 0.8 * RandomAt(seed_, kThinkSide, index + 1));
-    return {-5 + 7 * RandomAt(seed_, kThinkHeight, index),
-            side * (11 + 4 * RandomAt(seed_, kThinkHeight, index + 50))};
+    return {kThinking[0] + 7 * RandomAt(seed_, kThinkHeight, index),
+            side * (kThinking[1] + 4 * RandomAt(seed_, kThinkHeight, index + 50))};
   };
   const auto from = place(k - 1), to = place(k);
   const double u = SmootherStep((ms - jump_ms(k)) / 55);

@@ -51,7 +51,7 @@ void HeadMotion::Contribute(vm::Time t, MotionFrame& frame) const {
     const double ms = std::max(0.0, InMs(t - move.start));
     const double times = std::floor(ms / move.curve->length_ms());
     const Angles more = move.curve->At(ms - times * move.curve->length_ms());
-    const double stays = move.stopped ? 1 - SmoothStep(Progress(t, *move.stopped, kFade)) : 1;
+    const double stays = move.stopped ? 1 - Eased(Progress(t, *move.stopped, kFade)) : 1;
     const double weight = stays * move.strength * std::pow(kSmaller, times);
     for (std::size_t i = 0; i < 3; ++i) angles[i] += static_cast<float>(weight * more[i]);
   }

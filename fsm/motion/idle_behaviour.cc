@@ -172,7 +172,7 @@ double IdleBehaviour::BreathAt(vm::Time t) const {
   const double ms = std::max(0.0, InMs(t - own.since));
   const double u = std::fmod(ms / table_.auto_breaths[own.pattern - 1].period_ms, 1.0);
   // In for two fifths of the time, out for the rest with a pause at its end.
-  const double in = u < 0.4 ? SmoothStep(u / 0.4) : 1 - SmoothStep((u - 0.4) / 0.5);
+  const double in = u < 0.4 ? Eased(u / 0.4) : 1 - Eased((u - 0.4) / 0.5);
   return own.weight.At(t) * in;
 }
 

@@ -51,11 +51,11 @@ vm::Time LengthOf(const BlinkPattern& pattern) {
 double LidsAt(const BlinkPattern& pattern, vm::Time since) {
   const double ms = InMs(since);
   if (ms <= 0) return 0;
-  if (ms < pattern.closing_ms) return SmoothStep(ms / pattern.closing_ms);
+  if (ms < pattern.closing_ms) return Eased(ms / pattern.closing_ms);
   const double opening = ms - pattern.closing_ms - pattern.shut_ms;
   if (opening <= 0) return 1;
   if (opening >= pattern.opening_ms) return 0;
-  return 1 - SmoothStep(opening / pattern.opening_ms);
+  return 1 - Eased(opening / pattern.opening_ms);
 }
 
 std::optional<IdleKind> IdleKindNamed(std::string_view name) {

@@ -45,11 +45,11 @@ SpokenMouth MouthStream::MouthAt(vm::Time t) const {
     if (within) {
       return {1, Mix(last.pose, next->pose, Progress(t, last.at, next->at - last.at))};
     }
-    mouth.share = 1 - SmoothStep(Progress(t, last.at + kHold + kClose, SpeechMotion::kRelease));
-    mouth.pose = Mix(last.pose, ClosedMouth(), SmoothStep(Progress(t, last.at + kHold, kClose)));
+    mouth.share = 1 - Eased(Progress(t, last.at + kHold + kClose, SpeechMotion::kRelease));
+    mouth.pose = Mix(last.pose, ClosedMouth(), Eased(Progress(t, last.at + kHold, kClose)));
   }
   if (next != frames_.end()) {  // the first frame of a run is near
-    mouth.Cover(next->pose, SmoothStep(Progress(t, next->at - kTakeOver, kTakeOver)));
+    mouth.Cover(next->pose, Eased(Progress(t, next->at - kTakeOver, kTakeOver)));
   }
   return mouth;
 }
@@ -62,10 +62,10 @@ MouthStream::HeadShare MouthStream::HeadAt(vm::Time t) const {
     if (next != frames_.end() && next->run_start != next->at) {
       return Between(HeadOf(last), HeadOf(*next), Progress(t, last.at, next->at - last.at));
     }
-    head = Between(HeadOf(last), HeadShare{}, SmoothStep(Progress(t, last.at, kHeadHome)));
+    head = Between(HeadOf(last), HeadShare{}, Eased(Progress(t, last.at, kHeadHome)));
   }
   if (next != frames_.end()) {
-    head = Between(head, HeadOf(*next), SmoothStep(Progress(t, next->at - kTakeOver, kTakeOver)));
+    head = Between(head, HeadOf(*next), Eased(Progress(t, next->at - kTakeOver, kTakeOver)));
   }
   return head;
 }

@@ -9,9 +9,8 @@
 namespace fsm {
 namespace {
 
-constexpr double kPhrasePauseMs = 110;  // a pause from here on begins a phrase
-constexpr double kApartMs = 300;        // stressed vowels are at least so far apart
-constexpr double kPoseMoveMs = 520;     // the head's way to the pose of a phrase
+constexpr double kApartMs = 300;     // stressed vowels are at least so far apart
+constexpr double kPoseMoveMs = 520;  // the head's way to the pose of a phrase
 enum GestureStream : std::uint64_t { kTurn = 100, kTilt, kLift, kBrow, kAvertSide, kAvertLength };
 
 // Up from 0 at peak - rise to 1 at the peak, and back at peak + fall.

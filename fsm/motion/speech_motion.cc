@@ -73,15 +73,15 @@ SpeechMotion::Mouth SpeechMotion::MouthAt(vm::Time t) const {
   Mouth mouth;
   for (const Utterance& one : said_) {
     const vm::Time release = one.stopped ? *one.stopped + kClosedFor : EndOf(one);
-    const double stays = 1 - SmoothStep(Progress(t, release, kRelease));
-    const double share = SmoothStep(Progress(t, one.begin, kTakeOver)) * stays;
+    const double stays = 1 - Eased(Progress(t, release, kRelease));
+    const double share = Eased(Progress(t, one.begin, kTakeOver)) * stays;
     if (share <= 0) continue;
     MouthPose pose = one.track->At(MouthPosition(one, t));
     if (one.stopped) {
-      pose = Mix(pose, ClosedMouth(), SmoothStep(Progress(t, *one.stopped, kClose)));
+      pose = Mix(pose, ClosedMouth(), Eased(Progress(t, *one.stopped, kClose)));
     }
     mouth.Cover(pose, share);
-    const double yields = SmoothStep(Progress(t, one.begin, kEmotionYields)) * stays;
+    const double yields = Eased(Progress(t, one.begin, kEmotionYields)) * stays;
     mouth.over_emotion = 1 - (1 - mouth.over_emotion) * (1 - yields);
   }
   return mouth;
@@ -96,7 +96,7 @@ const AutoAvert* SpeechMotion::Avert() const {
 
 double SpeechMotion::GesturesOf(const Utterance& one, vm::Time t) const {
   if (t < one.begin || t >= GoneAt(one)) return 0;
-  return one.stopped ? 1 - SmoothStep(Progress(t, *one.stopped, kHeadStops)) : 1;
+  return one.stopped ? 1 - Eased(Progress(t, *one.stopped, kHeadStops)) : 1;
 }
 
 void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t kMostLooks = 100, kMostCues = 1000;
 constexpr float kMostDegrees = 30;
-constexpr double kPauseMs = 110;
 constexpr double kNearPauseMs = 600;  // a sentence ends at a pause that is no further away
 constexpr double kRiseMs = 350, kFallMs = 500, kAheadMs = 150;
 constexpr double kEndMs = 700;  // of looks at the end of a sentence
@@ -136,7 +135,7 @@ double TimeOfShare(double share, const VisemeTargets& visemes) {
   }
   double nearest = kNearPauseMs, found = at;
   for (const VisemeTarget& viseme : visemes.targets) {
-    if (!viseme.pause || viseme.length_ms < kPauseMs) continue;
+    if (!viseme.pause || viseme.length_ms < kPhrasePauseMs) continue;
     if (std::abs(viseme.start_ms - at) < nearest) {
       nearest = std::abs(viseme.start_ms - at);
       found = viseme.start_ms;

@@ -86,6 +86,7 @@ VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTab
   const PhonemeReader reader(phonemes, set, tables.engines, style.language, style.engine);
   VisemeTargets out;
   out.rest = set.shapes[set.rest].pose;
+  out.rest_dominance = set.shapes[set.rest].dominance;
   for (const TimedPhase& timed : PhasesOf(phonemes, reader, set, out)) {
     if (timed.length_ms <= 0) continue;
     const auto index = static_cast<std::size_t>(timed.phase.shape);

@@ -39,13 +39,15 @@ struct VisemeTarget {
 struct VisemeTargets {
   std::vector<VisemeTarget> targets;  ///< in time, without those of no length
   MouthPose rest;
+  Dominance rest_dominance;
   double length_ms = 0;
   std::vector<std::string> unknown;  ///< phonemes no table has, once each: lips close on them
 };
 VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTables& tables,
                                 const LipStyle& style);
 
-inline constexpr double kApproachMs = 92;  ///< the original's time of transition
-inline constexpr double kSeenMs = 34;      ///< just over one frame at 30 a second
+inline constexpr double kApproachMs = 92;      ///< the original's time of transition
+inline constexpr double kSeenMs = 34;          ///< just over one frame at 30 a second
+inline constexpr double kPhrasePauseMs = 110;  ///< a pause from here on ends a phrase
 
 }  // namespace fsm
