@@ -18,6 +18,7 @@ struct Image {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
   }
+  bool IsWhole() const { return rgba.size() == 4 * Index(0, height); }
 };
 
 inline constexpr std::array<std::uint8_t, 4> kBlack = {0, 0, 0, 255};

@@ -59,14 +59,14 @@ const Appearance& Appearance::BuiltIn() {
 
 float Appearance::Number(const std::string& name) const { return numbers_(name); }
 
-glm::vec3 Appearance::Color(const std::string& name) const { return numbers_.Vector(name); }
+glm::vec3 Appearance::Colour(const std::string& name) const { return numbers_.Vector(name); }
 
 const std::vector<float>& Appearance::Skin(std::string_view name) const {
   return numbers_["skin " + std::string(name)];
 }
 
-glm::vec4 Appearance::ColorAndOpacity(const std::string& name) const {
-  return {Color(name), numbers_[name].at(3)};
+glm::vec4 Appearance::ColourAndOpacity(const std::string& name) const {
+  return {Colour(name), numbers_[name].at(3)};
 }
 
 }  // namespace fsm

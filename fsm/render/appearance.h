@@ -23,7 +23,7 @@ class Appearance {
     float key_through = 0, sheen = 0, saturation = 1, bump = 0, planar = 0;
   };
   struct Lamp {
-    glm::vec3 direction{0, 0, 1}, color{0};
+    glm::vec3 direction{0, 0, 1}, colour{0};
   };
 
   /// `name` is for messages. Throws std::runtime_error naming file and line where the text is no
@@ -36,8 +36,8 @@ class Appearance {
   const Surface& surface(Material material) const { return surfaces_.at(material); }
   const Lamp& lamp(const std::string& name) const { return lamps_.at(name); }
   float Number(const std::string& name) const;
-  glm::vec3 Color(const std::string& name) const;
-  glm::vec4 ColorAndOpacity(const std::string& name) const;
+  glm::vec3 Colour(const std::string& name) const;
+  glm::vec4 ColourAndOpacity(const std::string& name) const;
   /// The numbers of the row "skin NAME".
   const std::vector<float>& Skin(std::string_view name) const;
   /// What has numbers and no word in front of its name as constants of GLSL: "const vec3 sky_color

@@ -75,7 +75,7 @@ void Backdrop::Cover(bool pictured, const glm::vec3& plain, float opacity) {
 
 void Backdrop::Upload(const std::shared_ptr<const Image>& image) {
   if (image == uploaded_) return;
-  assert(image->rgba.size() == 4 * image->Index(0, image->height));
+  assert(image->IsWhole());
   uploaded_ = image;
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);

@@ -37,7 +37,7 @@ void EyeMaterial::SetEyeballs(const View& view, const Sided<EyeFrame>& eyes,
                               const EyeGeometry& look) const {
   const glm::mat3 turn(view.figure_to_world);
   const float scale = glm::length(turn[0]);
-  std::array<glm::vec4, 2> balls, lids{};
+  std::array<glm::vec4, 2> balls, lid_heights{};
   std::array<glm::vec3, 2> gazes;
   for (const Side side : kSides) {
     const EyeFrame& eye = eyes[side];
@@ -48,37 +48,38 @@ void EyeMaterial::SetEyeballs(const View& view, const Sided<EyeFrame>& eyes,
     balls[i] = glm::vec4(to_world(eye.centre), eye.radius * scale);
     gazes[i] = turn * eye.gaze / scale;
     const glm::vec3 front = eye.centre + eye.gaze * eye.radius;
-    lids[i].x = to_world({front.x, eye.upper_lid_y, front.z}).y;
-    lids[i].y = to_world({front.x, eye.lower_lid_y, front.z}).y;
+    lid_heights[i].x = to_world({front.x, eye.upper_lid_y, front.z}).y;
+    lid_heights[i].y = to_world({front.x, eye.lower_lid_y, front.z}).y;
   }
   const EyeFrame& first = eyes.right;  // both are as large
   const float plane = std::sqrt(
       std::max(first.radius * first.radius - first.iris_radius * first.iris_radius, 1.0F));
   program_.Set("ball", balls);
   program_.Set("gaze", gazes);
-  program_.Set("lids", lids);
-  program_.Set("iris", glm::vec4(first.iris_radius * scale, look.pupil_radius / look.iris_radius,
-                                 plane * scale, 0.0F));
-  program_.Set("iris_color", look.iris_colour);
-  program_.Set("white_color", look.white_colour);
+  program_.Set("lid_heights", lid_heights);
+  program_.Set("iris_radius", first.iris_radius * scale);
+  program_.Set("pupil_share", look.pupil_radius / look.iris_radius);
+  program_.Set("iris_depth", plane * scale);
+  program_.Set("iris_colour", look.iris_colour);
+  program_.Set("white_colour", look.white_colour);
   program_.Set("figure_scale", scale);
 }
 
 void EyeMaterial::SetPictures(const MaterialFrame& frame, const Sided<EyeFrame>& eyes) const {
   const Sided<EyePicture>& pictures = *frame.head.topology().portrait.eyes;
-  std::array<glm::vec4, 2> irises, balls, open;
+  std::array<glm::vec4, 2> iris_rect, ball_rect, lid_heights;
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
     const EyeFrame& rest = frame.head.resting_eyes()[side];
     const EyeFrame& eye = eyes[side];
-    irises[i] = pictures[side].iris;
-    balls[i] = pictures[side].ball;
-    open[i] = {rest.upper_lid_y - rest.centre.y, rest.lower_lid_y - rest.centre.y,
-               eye.upper_lid_y - eye.centre.y, kBallSpan * eye.radius};
+    iris_rect[i] = pictures[side].iris;
+    ball_rect[i] = pictures[side].ball;
+    lid_heights[i] = {rest.upper_lid_y - rest.centre.y, rest.lower_lid_y - rest.centre.y,
+                      eye.upper_lid_y - eye.centre.y, kBallSpan * eye.radius};
   }
-  program_.Set("irises", irises);
-  program_.Set("balls", balls);
-  program_.Set("open", open);
+  program_.Set("photo_iris_rect", iris_rect);
+  program_.Set("photo_ball_rect", ball_rect);
+  program_.Set("photo_lid_heights", lid_heights);
   program_.Set("world_to_head", glm::inverse(frame.rest_to_world));
 }
 

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "fsm/render/draw_order.h"
-#include "fsm/render/eye_frame.h"
+#include "fsm/render/eye_finder.h"
 #include "fsm/render/gl_functions.h"
-#include "fsm/render/mouth_frame.h"
-#include "fsm/render/shadow_frame.h"
+#include "fsm/render/mouth_finder.h"
+#include "fsm/render/shadow_finder.h"
 #include "fsm/render/skin_texture.h"
 #include "fsm/render/vertex_attributes.h"
 #include "fsm/rig/head.h"

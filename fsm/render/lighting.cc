@@ -16,9 +16,9 @@ Appearance::Lamp LampOf(const Appearance& appearance, const char* name,
   if (wanted.direction) lamp.direction = *wanted.direction;
   // White is as bright as the lamp is by itself.
   if (wanted.tint) {
-    lamp.color = *wanted.tint * (lamp.color.r + lamp.color.g + lamp.color.b) / 3.0F;
+    lamp.colour = *wanted.tint * (lamp.colour.r + lamp.colour.g + lamp.colour.b) / 3.0F;
   }
-  lamp.color *= wanted.strength;
+  lamp.colour *= wanted.strength;
   return lamp;
 }
 
@@ -30,7 +30,7 @@ Lamps LampsOf(const Appearance& appearance, const Scene& scene) {
   Lamps out;
   for (std::size_t i = 0; i < lamps.size(); ++i) {
     out.directions[i] = glm::normalize(lamps[i].direction);
-    out.colors[i] = lamps[i].color;
+    out.colours[i] = lamps[i].colour;
   }
   return out;
 }
@@ -41,7 +41,7 @@ MaterialFrame FrameOf(const Appearance& appearance, const View& view, const Head
                       const HeadVertices& vertices, const Scene& scene) {
   const Lamps lamps = LampsOf(appearance, scene);
   const float room = appearance.Number("photo_room_light");
-  const float usual = appearance.lamp("key").color.g + appearance.lamp("fill").color.g + room;
+  const float usual = appearance.lamp("key").colour.g + appearance.lamp("fill").colour.g + room;
   const auto shadows = head.shadows().Measure(vertices);
   MaterialFrame frame{
       .view = view,
@@ -50,7 +50,7 @@ MaterialFrame FrameOf(const Appearance& appearance, const View& view, const Head
       .lamps = lamps,
       .shadows = shadows,
       .rest_to_world = glm::mat3(view.figure_to_world) * shadows.turn,
-      .photo_brightness = std::sqrt((lamps.colors[0].g + lamps.colors[1].g + room) / usual),
+      .photo_brightness = std::sqrt((lamps.colours[0].g + lamps.colours[1].g + room) / usual),
       .creases = {},
       .nose_creases = vertices.creases[static_cast<std::size_t>(Crease::kNose)]};
   for (const Side side : kSides) {
@@ -85,7 +85,7 @@ void SetLight(const GlProgram& program, const MaterialFrame& frame) {
   program.Set("world_to_clip", frame.view.world_to_clip);
   program.Set("eye", frame.view.eye);
   program.Set("lamp_directions", frame.lamps.directions);
-  program.Set("lamp_colors", frame.lamps.colors);
+  program.Set("lamp_colours", frame.lamps.colours);
   program.Set("occluders", occluders);
   program.Set("occluder_lights", keys);
 }

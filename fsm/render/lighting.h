@@ -19,7 +19,7 @@ namespace fsm {
 
 /// Key, fill and rim: unit vectors towards them, in the world, and their light, linear.
 struct Lamps {
-  std::array<glm::vec3, 3> directions, colors;
+  std::array<glm::vec3, 3> directions, colours;
 };
 
 /// What the materials of a head know of the frame they are drawn in. Borrowed for the frame.

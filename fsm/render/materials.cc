@@ -189,9 +189,9 @@ void Materials::UseHair(float streaks, float shine) {
   hair_.Set("shine", shine);
 }
 
-void Materials::UseLine(const glm::vec4& color) {
+void Materials::UseLine(const glm::vec4& colour) {
   line_.Use();
-  line_.Set("line_color", color);
+  line_.Set("line_colour", colour);
 }
 
 }  // namespace fsm

@@ -30,7 +30,7 @@ class Materials {
   bool creased() const { return creased_; }
   void SetCreased(bool creased) { creased_ = creased; }
   /// A plain colour, for lines and for passes whose colour is not kept.
-  void UseLine(const glm::vec4& color);
+  void UseLine(const glm::vec4& colour);
 
  private:
   enum Texture { kNoise, kWeave, kStrands, kPlain, kTextures };

@@ -37,9 +37,9 @@ void MouthMaterial::Begin(const MaterialFrame& frame) {
   const auto number = [&](const char* of_photo, const char* of_paint) {
     return appearance_.Number(frame.head.photo() ? of_photo : of_paint);
   };
-  const glm::vec3 key =
-      glm::mix(glm::transpose(to_world) * frame.lamps.directions[0],
-               appearance_.Color("mouth_key_from"), number("photo_mouth_ahead", "mouth_key_ahead"));
+  const glm::vec3 key = glm::mix(glm::transpose(to_world) * frame.lamps.directions[0],
+                                 appearance_.Colour("mouth_key_from"),
+                                 number("photo_mouth_ahead", "mouth_key_ahead"));
   program_.Use();
   program_.Set("to_mouth", opening_->to_mouth);
   program_.Set("mouth_to_world", to_world);

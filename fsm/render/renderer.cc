@@ -290,14 +290,14 @@ class GlRenderer : public Renderer {
 
   void DrawLines(const std::vector<DrawnPart>& parts, const Scene& scene) {
     const bool alone = scene.view_mode == ViewMode::kWireframe;
-    const glm::vec4 color =
-        alone ? glm::vec4(scene.wire, 1.0F) : appearance_.ColorAndOpacity("line_over_texture");
+    const glm::vec4 colour =
+        alone ? glm::vec4(scene.wire, 1.0F) : appearance_.ColourAndOpacity("line_over_texture");
     BeginBlending();
     gl_.DepthFunc(GL_LEQUAL);
     gl_.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     gl_.Enable(GL_CULL_FACE);
     gl_.CullFace(GL_BACK);
-    materials_.UseLine(color);
+    materials_.UseLine(colour);
     for (const auto& part : parts) DrawPart(part.part);
     gl_.Disable(GL_CULL_FACE);
     gl_.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);

@@ -8,8 +8,6 @@
 namespace fsm {
 namespace {
 
-constexpr int kSide = SkinTexture::kSide;
-
 /// Where a point is beside a line: how far from it, and how far along, 0..1.
 glm::vec2 Beside(glm::vec2 p, glm::vec2 from, glm::vec2 to) {
   const glm::vec2 line = to - from;
@@ -19,13 +17,15 @@ glm::vec2 Beside(glm::vec2 p, glm::vec2 from, glm::vec2 to) {
 }
 
 void PaintHair(const SkinHair& hair, SkinTexture& out) {
-  const auto texels = static_cast<float>(kSide);
+  const auto texels = static_cast<float>(SkinTexture::kSide);
   const std::array points = {texels * hair.root, texels * hair.middle, texels * hair.tip};
   const auto [left, right] = std::minmax({points[0].x, points[1].x, points[2].x});
   const auto [low, high] = std::minmax({points[0].y, points[1].y, points[2].y});
   const float half = 0.5F * hair.width_mm * SkinTexture::kTexelsPerMm;
   const auto first = [half](float v) { return std::max(static_cast<int>(v - half - 1), 0); };
-  const auto last = [half](float v) { return std::min(static_cast<int>(v + half + 1), kSide - 1); };
+  const auto last = [half](float v) {
+    return std::min(static_cast<int>(v + half + 1), SkinTexture::kSide - 1);
+  };
   for (int y = first(low); y <= last(high); ++y) {
     for (int x = first(left); x <= last(right); ++x) {
       const glm::vec2 p(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
@@ -38,8 +38,7 @@ void PaintHair(const SkinHair& hair, SkinTexture& out) {
       const float cover =
           std::clamp(wide + 0.5F - (root_half ? lower.x : upper.x), 0.0F, std::min(1.0F, 2 * wide));
       if (cover <= 0) continue;
-      std::uint8_t* tint =
-          &out.tint.rgba[4 * (static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x))];
+      std::uint8_t* tint = &out.tint.rgba[4 * out.tint.Index(x, y)];
       for (int k = 0; k < 4; ++k) {
         // Hairs that lie on hairs do not make each other darker; all are duller than skin.
         const float own = 128 * (k < 3 ? std::min(hair.tint[k], 1.0F) : 0.4F);

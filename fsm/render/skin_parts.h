@@ -21,6 +21,11 @@ inline float Bell(float x, float width) {
   return t * t * t * t;
 }
 
+/// Four of the numbers of a row, as a tint.
+inline glm::vec4 TintOf(const std::vector<float>& n, std::size_t first) {
+  return {n[first], n[first + 1], n[first + 2], n[first + 3]};
+}
+
 /// What changes slowly over the skin, one for each cell of a SkinMap.
 struct SkinRegion {
   glm::vec4 tint{1.0F};  ///< factors on colour and on highlights

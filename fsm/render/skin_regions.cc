@@ -62,7 +62,7 @@ class RegionPainter {
   SkinRegion At(SkinMap::Kind kind, const glm::vec3& p, float broad, float fine) const {
     SkinRegion out;
     const float patch = patches_[0] * broad + patches_[1] * fine;
-    out.tint *= 1.0F + patch * Tint(patches_, 2);
+    out.tint *= 1.0F + patch * TintOf(patches_, 2);
     if (kind == SkinMap::kLip) {
       out.cracks = 1;
       out.tint.a *= p.y < m_.stomion.y ? lip_[0] : lip_[1];
@@ -76,9 +76,6 @@ class RegionPainter {
 
  private:
   using Numbers = std::vector<float>;
-  static glm::vec4 Tint(const Numbers& n, std::size_t first) {
-    return {n[first], n[first + 1], n[first + 2], n[first + 3]};
-  }
 
   void PaintFront(const glm::vec3& p, float fine, glm::vec4& tint) const {
     const float side = std::abs(p.x);
@@ -90,10 +87,10 @@ class RegionPainter {
     const float chin = Bell(side, chin_[0]) *
                        Bell(p.y - chin_[2] * m_.gnathion.y - chin_[3] * m_.stomion.y, chin_[1]);
     const float flush = blood_[0] * cheek + blood_[1] * tip + blood_[2] * chin;
-    tint *= 1.0F - flush * (blood_[3] + blood_[4] * fine) * Tint(blood_, 5);
+    tint *= 1.0F - flush * (blood_[3] + blood_[4] * fine) * TintOf(blood_, 5);
     const float high = SmoothStep(m_.nasion.y + 8, m_.nasion.y + 30, p.y);
     const float low = SmoothStep(m_.stomion.y + 6, 0.7F * m_.gnathion.y + 0.3F * m_.stomion.y, p.y);
-    tint *= 1.0F - high * Tint(forehead_, 0) - low * Tint(lower_face_, 0);
+    tint *= 1.0F - high * TintOf(forehead_, 0) - low * TintOf(lower_face_, 0);
     tint *= AroundEye(side, p.y);
     tint.a *= Oil(p, tip, chin);
   }
@@ -106,7 +103,8 @@ class RegionPainter {
     const float lid = Bell(y - (pupil.y + lid_[0]), lid_[1]) * Bell(from_pupil, eye_width_[1]);
     const float corner = Bell(side - m_.endocanthion.left.x - eye_corner_[0], eye_corner_[1]) *
                          Bell(y - pupil.y - eye_corner_[0], eye_corner_[2]);
-    return 1.0F - below * Tint(below_eye_, 2) - lid * Tint(lid_, 2) - corner * Tint(eye_corner_, 3);
+    return 1.0F - below * TintOf(below_eye_, 2) - lid * TintOf(lid_, 2) -
+           corner * TintOf(eye_corner_, 3);
   }
 
   float Oil(const glm::vec3& p, float tip, float chin) const {

@@ -94,11 +94,6 @@ SkinRegion Between(const SkinRegion& a, const SkinRegion& b, float t) {
           a.cracks + (b.cracks - a.cracks) * t};
 }
 
-/// Four of the numbers of a row, as a tint.
-glm::vec4 TintOf(const std::vector<float>& n, std::size_t first) {
-  return {n[first], n[first + 1], n[first + 2], n[first + 3]};
-}
-
 /// Rows of both pictures but for the creases.
 void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& tile,
                const Appearance& appearance, int first, int last, SkinTexture& out) {
@@ -248,28 +243,6 @@ void PaintVessels(const SkinMap& map, const FaceLandmarks& m, const Appearance& 
 }
 
 }  // namespace
-
-std::optional<FaceLandmarks> FaceLandmarks::Of(const Head& head) {
-  try {
-    const auto both = [&head](const std::string& name) {
-      return Sided<glm::vec3>{head.Landmark(name + "_right"), head.Landmark(name + "_left")};
-    };
-    return FaceLandmarks{.nasion = head.Landmark("nasion"),
-                         .pronasale = head.Landmark("pronasale"),
-                         .subnasale = head.Landmark("subnasale"),
-                         .stomion = head.Landmark("stomion"),
-                         .gnathion = head.Landmark("gnathion"),
-                         .trichion = head.Landmark("trichion"),
-                         .cheilion = both("cheilion"),
-                         .endocanthion = both("endocanthion"),
-                         .exocanthion = both("exocanthion"),
-                         .pupil = both("pupil"),
-                         .alare = both("alare"),
-                         .zygion = both("zygion")};
-  } catch (const std::out_of_range&) {
-    return std::nullopt;
-  }
-}
 
 SkinTexture PaintSkin(const HeadTopology& topology, const HeadVertices& rest,
                       const FaceLandmarks& landmarks, const Appearance& appearance) {

@@ -2,24 +2,15 @@
 
 #include <cstdint>
 #include <glm/vec4.hpp>
-#include <optional>
 #include <vector>
 
 #include "fsm/image/image.h"
+#include "fsm/render/face_landmarks.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
 
 class Appearance;
-
-/// Where things are on a face, from the head's landmarks; millimetres at rest.
-struct FaceLandmarks {
-  glm::vec3 nasion, pronasale, subnasale, stomion, gnathion, trichion;
-  Sided<glm::vec3> cheilion, endocanthion, exocanthion, pupil, alare, zygion;
-
-  /// Nothing for a head that does not name all of them.
-  static std::optional<FaceLandmarks> Of(const Head& head);
-};
 
 /// What skin looks like closer than a vertex: two pictures of kSide x kSide, their first row at v =
 /// 0, over HeadTopology::uv.

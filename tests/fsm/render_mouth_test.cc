@@ -9,7 +9,7 @@
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/render/camera.h"
-#include "fsm/render/mouth_frame.h"
+#include "fsm/render/mouth_finder.h"
 #include "tests/fsm/render_support.h"
 
 namespace fsm {

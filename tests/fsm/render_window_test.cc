@@ -3,6 +3,8 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 
 #ifdef __has_feature
@@ -16,6 +18,7 @@
 #include <sanitizer/lsan_interface.h>
 #endif
 
+#include "fsm/render/gl_functions.h"
 #include "tests/fsm/ball_head.h"
 #include "tests/fsm/render_support.h"
 
@@ -71,6 +74,17 @@ class VirtualScreen {
 #endif
 };
 
+/// How many bytes of two pictures differ. Drivers may round differently; more than that would be a
+/// different picture.
+int DifferingBytes(const Image& a, const Image& b) {
+  EXPECT_EQ(a.rgba.size(), b.rgba.size());
+  int count = 0;
+  for (std::size_t i = 0; i < std::min(a.rgba.size(), b.rgba.size()); ++i) {
+    count += std::abs(a.rgba[i] - b.rgba[i]) > 3;
+  }
+  return count;
+}
+
 TEST(WindowTest, WindowAndHeadlessContextInOneProcessShowTheSamePicture) {
   const VirtualScreen screen;
   if (!screen.ready()) GTEST_SKIP() << "needs Xvfb (Debian: xvfb)";
@@ -98,13 +112,7 @@ TEST(WindowTest, WindowAndHeadlessContextInOneProcessShowTheSamePicture) {
     headless_renderer->Draw(head, vertices, {}, {});
     headless_renderer->Read(off_screen);
   }
-  // Drivers may round differently; more than that would be a different picture.
-  ASSERT_EQ(in_window.rgba.size(), off_screen.rgba.size());
-  int different = 0;
-  for (std::size_t i = 0; i < off_screen.rgba.size(); ++i) {
-    different += std::abs(in_window.rgba[i] - off_screen.rgba[i]) > 3;
-  }
-  EXPECT_LT(different, 200);
+  EXPECT_LT(DifferingBytes(in_window, off_screen), 200);
   headless_renderer.reset();
   headless.reset();
   window->MakeCurrent();
@@ -139,7 +147,11 @@ TEST(WindowTest, SeveralFacesShareAWindow) {
   gl.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
   gl.ReadPixels(0, 0, 64, 64, GL_RGBA, GL_UNSIGNED_BYTE, window.rgba.data());
   // GL's first row is the lowest.
-  const auto shown = [&window](int x, int y) { return At(window, x, 63 - y); };
+  using Pixel = std::array<int, 4>;
+  const auto shown = [&window](int x, int y) {
+    const std::uint8_t* p = &window.rgba[4 * window.Index(x, 63 - y)];
+    return Pixel{p[0], p[1], p[2], p[3]};
+  };
   EXPECT_EQ(shown(1, 1), (Pixel{255, 0, 0, 255}));
   EXPECT_EQ(shown(30, 1), (Pixel{255, 0, 0, 255}));
   EXPECT_EQ(shown(33, 25), (Pixel{0, 0, 255, 255}));
@@ -152,7 +164,7 @@ TEST(WindowTest, SeveralFacesShareAWindow) {
   Image image;
   alone->Draw(head, vertices, turned, right_scene);
   alone->Read(image);
-  EXPECT_EQ(Differing(shared, image), 0);
+  EXPECT_LT(DifferingBytes(shared, image), 20);
   alone.reset();
   context->MakeCurrent();
 }

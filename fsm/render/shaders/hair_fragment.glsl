@@ -7,7 +7,7 @@ flat in vec4 gleam;
 
 uniform sampler2D strands;  // locks in b, hairs in a
 
-out vec4 color;
+out vec4 colour;
 
 void main() {
   vec4 fine = texture(strands, streak_place) - 0.5;
@@ -28,5 +28,5 @@ void main() {
   lobe.x *= lobe.x;
   vec3 seen = light * (1.0 + streaks_seen * streak) +
               key_light * lobe.y + gleam.rgb * (tilt.z * lobe.x);
-  color = vec4(ToScreen(max(seen, 0.0)), 1.0);
+  colour = vec4(ToScreen(max(seen, 0.0)), 1.0);
 }

@@ -35,17 +35,17 @@ void main() {
   float t_dot_l = dot(strand, lamp_directions[0]);
   float across = 0.4 + 0.6 * sqrt(max(1.0 - t_dot_l * t_dot_l, 0.0));
   vec3 soft = albedo * occlusion *
-              (Ambient(n) + lamp_colors[1] * max((dot(n, lamp_directions[1]) + 0.35) / 1.82, 0.0));
+              (Ambient(n) + lamp_colours[1] * max((dot(n, lamp_directions[1]) + 0.35) / 1.82, 0.0));
   float rim = clamp(dot(n, lamp_directions[2]) * 0.8 + 0.3, 0.0, 1.0);
   float away = 1.0 - max(dot(n, v), 0.0);
   // Dark hairs (lashes) must not glitter where seen edgewise.
   vec3 sheen = min(vec3(hair_rim_sheen), albedo) * away * away;
-  soft += lamp_colors[2] * occlusion * rim * (albedo * hair_rim + sheen);
+  soft += lamp_colours[2] * occlusion * rim * (albedo * hair_rim + sheen);
   float n_dot_l = dot(n, lamp_directions[0]);
-  vec3 key = lamp_colors[0] * shadow * albedo * max((n_dot_l + 0.35) / 1.82, 0.0) * across;
+  vec3 key = lamp_colours[0] * shadow * albedo * max((n_dot_l + 0.35) / 1.82, 0.0) * across;
   light = soft + key;
   key_light = shine * sleek * hair_through_part * key;
-  gleam = vec4(shine * sleek * lamp_colors[0], streaks);
+  gleam = vec4(shine * sleek * lamp_colours[0], streaks);
   vec3 h = normalize(lamp_directions[0] + v);
   tilt = vec3(dot(strand, h), dot(n, h), hair_mirrored_part * shadow * clamp(n_dot_l * 1.7 + 0.3, 0.0, 1.0));
 }

@@ -11,7 +11,7 @@ uniform vec3 occluder_lights[2];
 
 // Towards the lamps, unit, and their light: key, fill, rim.
 uniform vec3 lamp_directions[3];
-uniform vec3 lamp_colors[3];
+uniform vec3 lamp_colours[3];
 
 const float kShadowDepth[2] = float[2](head_shadow, nose_shadow);
 

@@ -1,3 +1,3 @@
-uniform vec4 line_color;
-out vec4 color;
-void main() { color = line_color; }
+uniform vec4 line_colour;
+out vec4 colour;
+void main() { colour = line_colour; }

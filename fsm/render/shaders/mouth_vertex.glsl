@@ -74,7 +74,7 @@ void main() {
   float amount = length(flow);
   vec3 from = amount > 1e-4 ? flow / amount : vec3(0.0, 0.0, 1.0);
   // The room before the mouth, lit by the lamps as the face is.
-  vec3 sky = Ambient(mouth_to_world * from) + mouth_room * (lamp_colors[0] + lamp_colors[1]);
+  vec3 sky = Ambient(mouth_to_world * from) + mouth_room * (lamp_colours[0] + lamp_colours[1]);
   vec3 soft = sky * amount * Wrapped(dot(from, n), wrap);
   // What goes round between the walls is red.
   vec3 bounced = sky * through_flesh * sqrt(amount + mouth_seeps) * mouth_bounced *
@@ -94,7 +94,7 @@ void main() {
   lit = mix(lit, 1.0, out_of_mouth);
   float n_dot_l = dot(n, mouth_key);
   float shadow = KeyShadow(world) * lit;
-  vec3 key = lamp_colors[0] * shadow * Wrapped(n_dot_l, wrap);
+  vec3 key = lamp_colours[0] * shadow * Wrapped(n_dot_l, wrap);
 
   vec3 total = soft + key;
   // What turns away from the viewer, wet and soft, has no hard outline.
@@ -105,7 +105,7 @@ void main() {
           mix(front_gain, deep_gain, smoothstep(2.0, 9.0, inward));
 
   float power =
-      lamp_colors[0].g * shadow * smoothstep(-0.35, 0.15, n_dot_l) * 0.8 / max(total.g, 1e-3);
+      lamp_colours[0].g * shadow * smoothstep(-0.35, 0.15, n_dot_l) * 0.8 / max(total.g, 1e-3);
   vec3 h = normalize(mouth_to_world * mouth_key + v);
   SetSlopes(n_world, h, power);
   shine.x = Fresnel(dot(h, v)) * occlusion * occlusion * shadow * smoothstep(0.0, 0.3, dot(n_world, h));

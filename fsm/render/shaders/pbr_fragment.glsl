@@ -18,7 +18,7 @@ uniform sampler2D photo;
 uniform sampler2D normal_map;   // normal's x and y, roughness, metallic
 uniform sampler2D emissive_map; // what glows, or the picture of the shade; a: open to light
 
-out vec4 color;
+out vec4 colour;
 
 // Colours of materials are meant for light that white sends back as white; of our lamps and room a
 // white plate that faces the viewer sends back twice as much.
@@ -60,7 +60,7 @@ void main() {
     float lit = clamp((dot(n, lamp_directions[0]) - shade_to) / max(light_from - shade_to, 1e-3),
                       0.0, 1.0);
     vec3 drawn = mix(shade * ToLinear(l.rgb) * tint, base, lit) + glow;
-    color = vec4(pow(drawn, vec3(1.0 / 2.2)) * brightness, 1.0);
+    colour = vec4(pow(drawn, vec3(1.0 / 2.2)) * brightness, 1.0);
     return;
   }
   vec3 v = normalize(eye - at);
@@ -77,7 +77,7 @@ void main() {
     float c = 1.0 - clamp(dot(h, v), 0.0, 1.0);
     vec3 fresnel = f0 + (1.0 - f0) * c * c * c * c * c;
     // Lamps are given by what white that faces them sends back.
-    vec3 falls = lamp_colors[i] * n_l * (i == 0 ? shadow : 1.0);
+    vec3 falls = lamp_colours[i] * n_l * (i == 0 ? shadow : 1.0);
     light += falls * ((1.0 - fresnel) * scatters +
                       fresnel * Mirrored(max(dot(n, h), 0.0), n_l, n_v, a2));
   }
@@ -88,5 +88,5 @@ void main() {
   light += l.a * (Ambient(n) * scatters + Ambient(reflect(-v, n)) * room);
   light *= kPlate;
   light += glow * ToLinear(l.rgb) / exposure;
-  color = vec4(ToScreen(light), 1.0);
+  colour = vec4(ToScreen(light), 1.0);
 }

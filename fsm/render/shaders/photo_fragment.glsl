@@ -12,7 +12,7 @@ flat in vec3 settings;  // brightness, ragged, blends
 uniform sampler2D photo;
 uniform sampler2D relief;
 
-out vec4 color;
+out vec4 colour;
 
 void main() {
   vec4 p = texture(photo, texcoord.xy);
@@ -35,5 +35,5 @@ void main() {
   // Light that reaches skin in the shade has gone through skin.
   float skin = photo_shade_redness * clamp(1.0 - seen.b / max(seen.r, 0.05), 0.0, 1.0);
   vec3 shaded = vec3(shadow) + skin * shadow * (1.0 - shadow) * vec3(1.0, 0.0, -0.4);
-  color = vec4(seen * shade * shaded * settings.x, mix(1.0, opacity, settings.z));
+  colour = vec4(seen * shade * shaded * settings.x, mix(1.0, opacity, settings.z));
 }

@@ -27,5 +27,5 @@ void SetSlopes(vec3 n, vec3 h, float power) {
   slopes.xy = -power * vec2(dot(right, lamp_directions[0]), dot(up, lamp_directions[0]) + 0.12);
   slopes.zw = vec2(dot(right, h), dot(up, h));
   finish = vec4(lobes, bump);
-  gleam = vec4(lamp_colors[0], chroma);
+  gleam = vec4(lamp_colours[0], chroma);
 }

@@ -9,7 +9,7 @@ flat in vec4 gleam;
 uniform sampler2D tint;   // on the colour in rgb, on highlights in a; both about half
 uniform sampler2D relief; // slopes to the right and up of fine detail in rg, of creases in ba
 
-out vec4 color;
+out vec4 colour;
 
 void main() {
   vec4 t = texture(tint, place);
@@ -28,5 +28,5 @@ void main() {
   float highlight = shine.x * t.a * dot(lobe, finish.xyz) + shine.z;
   vec3 seen = ToScreen(t.rgb * (light * (2.0 + 2.0 * dot(slope, slopes.xy))) +
                        gleam.rgb * highlight);
-  color = vec4(mix(vec3(dot(seen, vec3(0.3, 0.6, 0.1))), seen, gleam.a), 1.0);
+  colour = vec4(mix(vec3(dot(seen, vec3(0.3, 0.6, 0.1))), seen, gleam.a), 1.0);
 }

@@ -1,4 +1,4 @@
-#include "fsm/render/mouth_frame.h"
+#include "fsm/render/mouth_finder.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-#include "fsm/render/eye_frame.h"
+#include "fsm/render/eye_finder.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-#include "fsm/render/shadow_frame.h"
+#include "fsm/render/shadow_finder.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
