@@ -56,7 +56,7 @@ struct Options {
 /// Looks for eyes, nose and mouth of a head from elsewhere and writes them beside it.
 void FindPointsOfHead(const Options& options) {
   Progress progress(options.quiet);
-  const fsm::HeadFile file = vm::OrThrow(fsm::ReadHeadFile(options.head));
+  const fsm::ImportedHead file = vm::OrThrow(fsm::ReadImportedHead(options.head));
   facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(options.networks));
   progress.Say("head and networks read");
   const auto points = facefit::FindHeadPoints(networks, file, options.head, options.base);

@@ -14,9 +14,9 @@
 
 #include "fsm/image/image_codec.h"
 #include "fsm/mesh/gltf_head.h"
-#include "fsm/mesh/head_file.h"
-#include "fsm/mesh/head_model.h"
 #include "fsm/mesh/head_points.h"
+#include "fsm/mesh/imported_head.h"
+#include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/obj_file.h"
@@ -77,11 +77,11 @@ std::unique_ptr<fsm::Head> HeadOf(const Ball& ball) {
 
 /// Makes a head of the file, lays the rig of the ball on it and moves it. Whatever its numbers are,
 /// it is refused, or every vertex has a place.
-void CarryOnto(const fsm::HeadFile& file, const fsm::Similarity& place,
+void CarryOnto(const fsm::ImportedHead& file, const fsm::Similarity& place,
                std::span<const fsm::PointPair> pairs) {
   static const std::unique_ptr<fsm::Head> source = HeadOf(Ball());
   try {
-    fsm::MeshModel model = fsm::ModelOf(file, place, -43);
+    fsm::MeshModel model = fsm::ModelOfImport(file, place, -43);
     if (model.bone.size() != model.position.size()) __builtin_trap();
     for (const glm::vec3& p : model.position) {
       if (!IsFinite(p)) __builtin_trap();
@@ -130,8 +130,8 @@ void CarryRaw(std::span<const std::uint8_t> bytes) {
       ball.pairs.begin() +
           std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(landmarks), std::ssize(ball.pairs)));
   for (fsm::PointPair& pair : pairs) pair.to = pair.from + place();
-  fsm::HeadFile file;
-  fsm::HeadFile::Part part;
+  fsm::ImportedHead file;
+  fsm::ImportedHead::Part part;
   while (at < bytes.size() && file.position.size() < kMaxCarried) {
     const glm::vec3 p = place();
     if (!fsm::WithinReach(p)) return;  // no reader lets it through
@@ -212,7 +212,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 7:
       if (const auto points = fsm::ParseHeadPoints("f", text)) {
         const Ball ball;
-        fsm::HeadFile file;
+        fsm::ImportedHead file;
         file.position = ball.place;
         file.parts.push_back({.name = "", .indices = ball.triangles});
         CarryOnto(file, fsm::FitSimilarity(points->pairs), points->pairs);

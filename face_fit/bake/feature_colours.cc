@@ -9,7 +9,7 @@
 #include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
 #include "face_fit/tables/photo_look.h"
-#include "fsm/image/color_space.h"
+#include "fsm/image/colour_space.h"
 
 namespace facefit {
 namespace {

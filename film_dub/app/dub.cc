@@ -17,7 +17,7 @@
 #include "film_dub/follow/film_course.h"
 #include "film_dub/paint/mouth_painter.h"
 #include "film_dub/timing/dub_timing.h"
-#include "fsm/film/movie_writer.h"
+#include "fsm/film/film_writer.h"
 #include "ssm/engines/wav_piece.h"
 #include "vm_protocol/core/file_kind.h"
 #include "vm_protocol/core/or_throw.h"
@@ -82,7 +82,7 @@ class Writing {
 
   void Run(double rate, const std::vector<std::size_t>& shown) {
     const auto movie = vm::OrThrow(
-        fsm::MovieWriter::Open(wanted_.out, course_.width, course_.height, rate, kAltered));
+        fsm::FilmWriter::Open(wanted_.out, course_.width, course_.height, rate, kAltered));
     const auto source =
         vm::OrThrow(facetrack::OpenPictures(wanted_.film, 25, facetrack::kWholeSide));
     facetrack::Progress progress("film_dub: written", wanted_.quiet, speech_.length_s * 1000);
@@ -141,7 +141,7 @@ void MakeDub(const Dub& wanted) {
     throw std::runtime_error("'" + wanted.film +
                              "' can be seen only once: a film or a folder of pictures expected");
   }
-  vm::OrThrow(fsm::MovieWriter::CheckName(wanted.out));
+  vm::OrThrow(fsm::FilmWriter::CheckName(wanted.out));
   vm::OrThrow(vm::CheckWritable(wanted.out));
   for (const std::string& read : {wanted.film, wanted.speech.sound}) {
     std::error_code none;  // there may be no such file yet

@@ -11,7 +11,7 @@ namespace filmdub {
 struct Dub {
   std::string film;
   SpeechWanted speech;
-  std::string out;       ///< a name MovieWriter takes
+  std::string out;       ///< a name FilmWriter takes
   std::string networks;  ///< as FaceNetworks::Load takes it
   facetrack::Tracker::Settings tracker{};
   bool quiet = false;

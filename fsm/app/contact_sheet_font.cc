@@ -105,8 +105,7 @@ int TextWidth(int scale, std::string_view text) {
 void DrawText(Image& image, int x, int y, int scale, std::string_view text) {
   const auto ink = [&image](int px, int py) {
     if (px < 0 || py < 0 || px >= image.width || py >= image.height) return;
-    const auto at = 4 * (static_cast<std::size_t>(py) * static_cast<std::size_t>(image.width) +
-                         static_cast<std::size_t>(px));
+    const std::size_t at = 4 * image.Index(px, py);
     for (std::size_t i = 0; i < 3; ++i) image.rgba[at + i] = 30;
     image.rgba[at + 3] = 255;
   };

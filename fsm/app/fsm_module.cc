@@ -76,10 +76,11 @@ void FsmModule::ApplyConfig(const OriginalConfig& config) {
 
 void FsmModule::MakeFilms() {
   const auto draw = [this](long number, vm::Time at) { return DrawFrame(number, at); };
-  film_ = std::make_unique<Film>(core_.clock, core_.backend, draw, [this](const vm::Error& error) {
-    core_.slots.Report("Record", "STOP");
-    core_.slots.ReportError("Record", error);
-  });
+  film_ = std::make_unique<FilmRecorder>(core_.clock, core_.backend, draw,
+                                         [this](const vm::Error& error) {
+                                           core_.slots.Report("Record", "STOP");
+                                           core_.slots.ReportError("Record", error);
+                                         });
   capture_ = std::make_unique<Capture>(core_.clock, core_.backend, draw,
                                        [this](const vm::Result<void>& done) {
                                          core_.slots.Report("Capture", "DISABLE");

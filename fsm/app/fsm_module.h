@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fsm/app/capture.h"
-#include "fsm/app/film.h"
+#include "fsm/app/film_recorder.h"
 #include "fsm/app/fsm_core.h"
 #include "fsm/app/mask_slots.h"
 #include "fsm/app/picture_stream.h"
@@ -75,7 +75,7 @@ class FsmModule final : public vm::Module {
   std::unique_ptr<MaskSlots> mask_;
   std::unique_ptr<SceneSlots> scene_;
   std::unique_ptr<SpeechSlots> speech_;
-  std::unique_ptr<Film> film_;
+  std::unique_ptr<FilmRecorder> film_;
   std::unique_ptr<Capture> capture_;
   std::unique_ptr<PictureStream> pictures_;
   double frame_rate_ = 60;

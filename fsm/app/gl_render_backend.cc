@@ -180,10 +180,10 @@ vm::Result<void> GlRenderBackend::WritePicture(const Image& image, const std::st
 
 vm::Result<Image> GlRenderBackend::ReadPicture(const std::string& path) { return ReadImage(path); }
 
-vm::Result<std::unique_ptr<MovieWriter>> GlRenderBackend::OpenFilm(const std::string& path,
-                                                                   int width, int height,
-                                                                   int frames_per_second) {
-  return MovieWriter::Open(path, width, height, frames_per_second);
+vm::Result<std::unique_ptr<FilmWriter>> GlRenderBackend::OpenFilm(const std::string& path,
+                                                                  int width, int height,
+                                                                  int frames_per_second) {
+  return FilmWriter::Open(path, width, height, frames_per_second);
 }
 
 }  // namespace fsm

@@ -9,7 +9,7 @@
 
 #include "fsm/app/render_backend.h"
 #include "fsm/faces/original_faces.h"
-#include "fsm/film/movie_writer.h"
+#include "fsm/film/film_writer.h"
 #include "fsm/head/make_head.h"
 #include "fsm/render/appearance.h"
 #include "fsm/render/renderer.h"
@@ -57,8 +57,8 @@ class GlRenderBackend final : public RenderBackend {
   bool close_requested() const override;
   vm::Result<void> WritePicture(const Image& image, const std::string& path) override;
   vm::Result<Image> ReadPicture(const std::string& path) override;
-  vm::Result<std::unique_ptr<MovieWriter>> OpenFilm(const std::string& path, int width, int height,
-                                                    int frames_per_second) override;
+  vm::Result<std::unique_ptr<FilmWriter>> OpenFilm(const std::string& path, int width, int height,
+                                                   int frames_per_second) override;
 
  private:
   const Head& head();

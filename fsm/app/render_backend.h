@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/film/movie_writer.h"
+#include "fsm/film/film_writer.h"
 #include "fsm/render/scene.h"
 #include "fsm/rig/face_state.h"
 #include "fsm/rig/simulation.h"
@@ -66,8 +66,8 @@ class RenderBackend {
 
   virtual vm::Result<void> WritePicture(const Image& image, const std::string& path) = 0;
   virtual vm::Result<Image> ReadPicture(const std::string& path) = 0;
-  virtual vm::Result<std::unique_ptr<MovieWriter>> OpenFilm(const std::string& path, int width,
-                                                            int height, int frames_per_second) = 0;
+  virtual vm::Result<std::unique_ptr<FilmWriter>> OpenFilm(const std::string& path, int width,
+                                                           int height, int frames_per_second) = 0;
 };
 
 }  // namespace fsm

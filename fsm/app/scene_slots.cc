@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "fsm/base/notice.h"
-#include "fsm/image/color_space.h"
+#include "fsm/image/colour_space.h"
 
 namespace fsm {
 namespace {

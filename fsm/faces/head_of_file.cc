@@ -10,8 +10,8 @@
 #include "fsm/head/anatomy.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/blendshape_rig.h"
-#include "fsm/mesh/head_file.h"
-#include "fsm/mesh/head_model.h"
+#include "fsm/mesh/imported_head.h"
+#include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/transferred_rig.h"
@@ -116,9 +116,9 @@ Similarity ScaledAbout(glm::vec3 from, float scale, glm::vec3 to) {
 
 /// Aligns a head by its eyes, which come to lie where ours do, else by its outline; of a file much
 /// higher than wide the upper part is taken for the head.
-Alignment AlignByOutline(const HeadFile& file) {
+Alignment AlignByOutline(const ImportedHead& file) {
   Alignment alignment;
-  const MeshModel raw = ModelOf(file, {}, 0);
+  const MeshModel raw = ModelOfImport(file, {}, 0);
   if (raw.has_eyes) {
     const glm::vec3 apart = raw.eyes.left.centre - raw.eyes.right.centre;
     const glm::vec3 middle = 0.5f * (raw.eyes.right.centre + raw.eyes.left.centre);
@@ -184,12 +184,12 @@ FileHead MakeHeadOfFile(const std::string& path, const std::string& tables_folde
     made.head = WithUnits(units, std::move(own));
     return made;
   }
-  const HeadFile file = vm::OrThrow(ReadHeadFile(path));
+  const ImportedHead file = vm::OrThrow(ReadImportedHead(path));
   made.named_files = file.named_files;
   std::vector<std::string> notices = file.notices;
   const std::string points = path + ".points";
   const Alignment alignment = AlignmentOf(file, points);
-  MeshModel model = ModelOf(file, alignment.to_ours, alignment.mouth_y);
+  MeshModel model = ModelOfImport(file, alignment.to_ours, alignment.mouth_y);
   std::optional<RigData> skin;
   if (!file.shapes.empty()) {
     const MotionTables tables = vm::OrThrow(MotionTables::Load(tables_folder));

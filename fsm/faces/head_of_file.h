@@ -15,7 +15,7 @@ namespace fsm {
 struct FileHead {
   std::unique_ptr<Head> head;
   std::string notice;                    ///< what it lacks; or nothing
-  std::vector<std::string> named_files;  ///< HeadFile::named_files
+  std::vector<std::string> named_files;  ///< ImportedHead::named_files
   bool by_shapes = false;                ///< moved by its own shapes: other units need it made anew
 };
 

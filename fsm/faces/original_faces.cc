@@ -38,8 +38,8 @@ std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
     mouths.push_back(motion.set28.shapes[i].pose.mouth);
   }
   for (const Viseme& viseme : motion.set14.shapes) mouths.push_back(viseme.pose.mouth);
-  MeshModel model = ModelOf(*face);
-  RigData skin = RigOf(*face, model, mouths, UnitSizes(motion));
+  MeshModel model = ModelOfOriginal(*face);
+  RigData skin = RigOfOriginal(*face, model, mouths, UnitSizes(motion));
   return WithUnitsOf(tables, MakeMeshHead(std::move(model), std::move(skin)));
 }
 

@@ -80,8 +80,7 @@ bool WriteAll(int fd, std::span<const std::uint8_t> bytes) {
 }  // namespace
 
 vm::Result<void> WriteImage(const Image& image, const std::string& path) {
-  assert(image.rgba.size() ==
-         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4);
+  assert(image.IsWhole());
   const Format* format = FormatOf(path);
   if (!format || !format->encode) return BadEnding(path);
   if (auto fit = vm::CheckWritable(path); !fit) return fit;

@@ -155,7 +155,7 @@ FaceState OnlyOn(Side side, FaceState state) {
 /// Finds what the shapes of a file stand for, by their plain names.
 class MeaningFinder {
  public:
-  MeaningFinder(const HeadFile& file, std::span<const ShapeMeaning> meanings) {
+  MeaningFinder(const ImportedHead& file, std::span<const ShapeMeaning> meanings) {
     for (const ShapeMeaning& meaning : meanings) states_.emplace(meaning.name, &meaning.state);
     for (const auto& shape : file.shapes) given_.insert(PlainShapeName(shape.name));
   }
@@ -183,7 +183,7 @@ class MeaningFinder {
   std::set<std::string> given_;
 };
 
-KnownShapes Recognise(const HeadFile& file, const Similarity& to_ours, const MeshModel& model,
+KnownShapes Recognise(const ImportedHead& file, const Similarity& to_ours, const MeshModel& model,
                       std::span<const ShapeMeaning> meanings, ShapeSolver& solver) {
   const MeaningFinder finder(file, meanings);
   KnownShapes known;
@@ -218,7 +218,7 @@ KnownShapes Recognise(const HeadFile& file, const Similarity& to_ours, const Mes
 }
 
 /// Teeth and tongues that the shapes move are not moved with the jaw as well.
-void FreeWhatMoves(const HeadFile& file, const KnownShapes& known, MeshModel& model) {
+void FreeWhatMoves(const ImportedHead& file, const KnownShapes& known, MeshModel& model) {
   std::vector<bool> moves(model.position.size(), false);
   for (const Moves& shape : known.moves) {
     for (const Displacement& d : shape) moves[d.vertex] = true;
@@ -318,7 +318,7 @@ void AddGazeShapes(const KnownShapes& known, const LookRanges& ranges,
 
 }  // namespace
 
-std::optional<RigData> BlendshapeRig(const HeadFile& file, const Similarity& to_ours,
+std::optional<RigData> BlendshapeRig(const ImportedHead& file, const Similarity& to_ours,
                                      MeshModel& model, const ShapeMeanings& meanings,
                                      const Head& moved, std::span<const FaceState> visemes,
                                      std::vector<std::string>* unused) {

@@ -31,7 +31,7 @@ class GltfReader {
   explicit GltfReader(GltfDocument document)
       : document_(std::move(document)), avatar_(ReadVrm(document_)), paint_(document_, head_) {}
 
-  HeadFile Read() {
+  ImportedHead Read() {
     head_.name = document_.name();
     head_.metres = true;
     nodes_ = vm::OrThrow(GltfNodes::Read(document_));
@@ -102,7 +102,7 @@ class GltfReader {
     const std::size_t first = known->second;
     if (fresh) Vertices(primitive, place, names);
     const std::size_t count = count_of_[{place.node, position}];
-    HeadFile::Part part;
+    ImportedHead::Part part;
     part.name = name;
     part.indices = TrianglesOf(primitive, place, first, count);
     if (triangles_ += part.indices.size() / 3; triangles_ > kMaxMeshTriangles) RefuseSize();
@@ -169,7 +169,7 @@ class GltfReader {
     Targets(primitive, place, transforms, first, names);
   }
 
-  /// Which eye a bone belongs to, as HeadFile::eye says it.
+  /// Which eye a bone belongs to, as ImportedHead::eye says it.
   std::optional<Side> EyeOf(std::int64_t bone) const {
     if (bone < 0) return std::nullopt;
     const auto is = [this, bone](Side side) { return bone == avatar_.eye_bone[side]; };
@@ -235,13 +235,13 @@ class GltfReader {
 
   /// VRM's expressions become shapes of their own, called vrmNAME.
   void Express(const VrmAvatar::Expression& expression) {
-    HeadFile::Shape shape{"vrm" + expression.name, {}};
+    ImportedHead::Shape shape{"vrm" + expression.name, {}};
     for (const VrmAvatar::Bind& bind : expression.binds) Add(shape, bind);
     if (!shape.deltas.empty() && head_.shapes.size() < kMaxShapes)
       head_.shapes.push_back(std::move(shape));
   }
 
-  void Add(HeadFile::Shape& shape, const VrmAvatar::Bind& bind) {
+  void Add(ImportedHead::Shape& shape, const VrmAvatar::Bind& bind) {
     if (bind.target < 0) return;
     const auto found = targets_.find({bind.mesh, static_cast<std::size_t>(bind.target)});
     if (found == targets_.end()) return;
@@ -296,7 +296,7 @@ class GltfReader {
     std::size_t first, end;
   };
   GltfDocument document_;
-  HeadFile head_;
+  ImportedHead head_;
   VrmAvatar avatar_;
   GltfPaint paint_;
   GltfNodes nodes_;
@@ -309,7 +309,7 @@ class GltfReader {
   std::size_t triangles_ = 0, deltas_ = 0;
 };
 
-vm::Result<HeadFile> ReadDocument(vm::Result<GltfDocument> document) try {
+vm::Result<ImportedHead> ReadDocument(vm::Result<GltfDocument> document) try {
   return GltfReader(vm::OrThrow(std::move(document))).Read();
 } catch (const vm::Failure& failure) {
   return std::unexpected(failure.error);
@@ -317,11 +317,11 @@ vm::Result<HeadFile> ReadDocument(vm::Result<GltfDocument> document) try {
 
 }  // namespace
 
-vm::Result<HeadFile> ParseGltfHead(const std::string& name, std::string_view bytes) {
+vm::Result<ImportedHead> ParseGltfHead(const std::string& name, std::string_view bytes) {
   return ReadDocument(GltfDocument::Parse(name, bytes, {}));
 }
 
-vm::Result<HeadFile> ReadGltfHead(const std::string& path) {
+vm::Result<ImportedHead> ReadGltfHead(const std::string& path) {
   const auto bytes = vm::ReadTextFile(path, kMaxMeshBytes);
   if (!bytes) return std::unexpected(bytes.error());
   std::vector<std::string> asked;

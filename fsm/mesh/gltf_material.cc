@@ -72,6 +72,10 @@ GltfMaterial ReadMaterial(const GltfDocument& document, std::int64_t material) {
   GltfMaterial out;
   if (material < 0) return out;
   const json& given = document.At("materials", material);
+  const std::string mode = JsonText(given, "alphaMode");
+  out.alpha = mode == "MASK"    ? GltfMaterial::Alpha::kMask
+              : mode == "BLEND" ? GltfMaterial::Alpha::kBlend
+                                : GltfMaterial::Alpha::kOpaque;
   const json& extensions = JsonMember(given, "extensions");
   const json& old = OldProperties(document, material);
   const std::string shader = JsonText(old, "shader");
@@ -96,8 +100,7 @@ GltfMaterial ReadMaterial(const GltfDocument& document, std::int64_t material) {
   const double strength =
       JsonNumber(JsonMember(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
   out.pbr->glow *= static_cast<float>(std::clamp(strength, 0.0, 16.0));
-  const std::string mode = JsonText(given, "alphaMode");
-  out.pbr->cut_out = mode == "MASK" || mode == "BLEND";
+  out.pbr->cut_out = out.alpha != GltfMaterial::Alpha::kOpaque;
   return out;
 }
 

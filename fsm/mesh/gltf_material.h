@@ -19,6 +19,7 @@ struct GltfMaterial {
   std::optional<PbrMaterial>
       pbr;  ///< nothing: shown as it is (KHR_materials_unlit, or no material)
   Texture normal, surface, open, glow;
+  enum class Alpha { kOpaque, kMask, kBlend } alpha = Alpha::kOpaque;
 };
 
 /// A material of metal and roughness, or of MToon: VRMC_materials_mtoon 1.0 and

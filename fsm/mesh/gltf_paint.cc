@@ -8,7 +8,7 @@
 #include <span>
 
 #include "fsm/image/byte_order.h"
-#include "fsm/image/color_space.h"
+#include "fsm/image/colour_space.h"
 #include "fsm/image/image_codec.h"
 #include "fsm/mesh/texture_atlas.h"
 #include "vm_protocol/core/lower_case.h"
@@ -73,8 +73,7 @@ Image Sized(Image image, int width, int height) {
   Image out{width, height, {}};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const auto from = static_cast<std::size_t>(
-          4 * ((y * image.height / height) * image.width + x * image.width / width));
+      const std::size_t from = 4 * image.Index(x * image.width / width, y * image.height / height);
       out.rgba.insert(out.rgba.end(), &image.rgba[from], &image.rgba[from] + 4);
     }
   }
@@ -123,15 +122,15 @@ std::int64_t GltfPaint::ImageOf(std::int64_t texture) {
   return -1;
 }
 
-void GltfPaint::ApplyMaterial(std::int64_t index, HeadFile::Part& part) {
+void GltfPaint::ApplyMaterial(std::int64_t index, ImportedHead::Part& part) {
+  using Alpha = GltfMaterial::Alpha;
   const json& material = document_.At("materials", index);
   part.name += " " + vm::LowerCase(JsonText(material, "name"));
   const glm::vec4 factor = FactorOf(material);
   if (index >= 0) part.colour = glm::vec3(factor);
-  const std::string mode = JsonText(material, "alphaMode");
-  part.cut_out = mode == "MASK" || mode == "BLEND";
   part.two_sided = material.contains("doubleSided") && material["doubleSided"] == json(true);
   const GltfMaterial given = ReadMaterial(document_, index);
+  part.cut_out = given.alpha != Alpha::kOpaque;
   if (given.pbr) {
     const auto [known, fresh] =
         pbr_index_.try_emplace(index, static_cast<int>(head_.pbr_materials.size()));
@@ -143,9 +142,9 @@ void GltfPaint::ApplyMaterial(std::int64_t index, HeadFile::Part& part) {
                         given.open.index >= 0 || given.glow.index >= 0;
   if (texture < 0 && !detailed) return;
   const double cut_off = std::clamp(JsonNumber(material, "alphaCutoff", 0.5), 0.0, 1.0);
-  const int cut = mode == "MASK"    ? static_cast<int>(std::lround(255 * cut_off))
-                  : mode == "BLEND" ? kSmooth
-                                    : kOpaque;
+  const int cut = given.alpha == Alpha::kMask    ? static_cast<int>(std::lround(255 * cut_off))
+                  : given.alpha == Alpha::kBlend ? kSmooth
+                                                 : kOpaque;
   std::uint32_t steps = 0;
   for (int k = 0; k < 4; ++k) {
     steps = steps << 8 | static_cast<std::uint32_t>(std::lround(255 * factor[k]));
@@ -155,8 +154,8 @@ void GltfPaint::ApplyMaterial(std::int64_t index, HeadFile::Part& part) {
     part.picture = known->second;
     return;
   }
-  part.picture =
-      Picture(key, factor, detailed ? DetailOf(given, UvOfMaterial(index)) : HeadFile::Detail{});
+  part.picture = Picture(key, factor,
+                         detailed ? DetailOf(given, UvOfMaterial(index)) : ImportedHead::Detail{});
 }
 
 std::optional<Image> GltfPaint::Decode(std::int64_t image) {
@@ -172,8 +171,8 @@ std::optional<Image> GltfPaint::Decode(std::int64_t image) {
   return picture;
 }
 
-HeadFile::Detail GltfPaint::DetailOf(const GltfMaterial& given, const GltfUv& uv) {
-  HeadFile::Detail detail;
+ImportedHead::Detail GltfPaint::DetailOf(const GltfMaterial& given, const GltfUv& uv) {
+  ImportedHead::Detail detail;
   if (++detailed_ > kMaxDetailed) {
     if (detailed_ == kMaxDetailed + 1) {
       head_.notices.push_back("pictures of light of more than " + std::to_string(kMaxDetailed) +
@@ -216,7 +215,7 @@ HeadFile::Detail GltfPaint::DetailOf(const GltfMaterial& given, const GltfUv& uv
   return detail;
 }
 
-int GltfPaint::Picture(const Key& key, glm::vec4 factor, HeadFile::Detail detail) {
+int GltfPaint::Picture(const Key& key, glm::vec4 factor, ImportedHead::Detail detail) {
   int& known = picture_of_.emplace(key, -1).first->second;
   if (head_.pictures.size() >= kMaxPictures) return known;
   // A picture that cannot be read leaves the colour; the form is still worth showing.

@@ -8,7 +8,7 @@
 
 #include "fsm/mesh/gltf_document.h"
 #include "fsm/mesh/gltf_material.h"
-#include "fsm/mesh/head_file.h"
+#include "fsm/mesh/imported_head.h"
 
 namespace fsm {
 
@@ -28,8 +28,8 @@ struct GltfUv {
 class GltfPaint {
  public:
   /// `document` and `head` outlive it.
-  GltfPaint(const GltfDocument& document, HeadFile& head) : document_(document), head_(head) {}
-  void ApplyMaterial(std::int64_t material, HeadFile::Part& part);
+  GltfPaint(const GltfDocument& document, ImportedHead& head) : document_(document), head_(head) {}
+  void ApplyMaterial(std::int64_t material, ImportedHead::Part& part);
   /// The settings of a material's picture.
   GltfUv UvOfMaterial(std::int64_t material) const;
 
@@ -37,14 +37,14 @@ class GltfPaint {
   /// Image, factor in steps of 1/255, cut-off (-1 opaque, 256 smooth), material if its light has
   /// pictures of its own.
   using Key = std::tuple<std::int64_t, std::uint32_t, int, std::int64_t>;
-  int Picture(const Key& key, glm::vec4 factor, HeadFile::Detail detail);
+  int Picture(const Key& key, glm::vec4 factor, ImportedHead::Detail detail);
   std::int64_t ImageOf(std::int64_t texture);
   std::optional<Image> Decode(std::int64_t image);
   /// The pictures of light, where they lie on the mesh as `uv` says.
-  HeadFile::Detail DetailOf(const GltfMaterial& given, const GltfUv& uv);
+  ImportedHead::Detail DetailOf(const GltfMaterial& given, const GltfUv& uv);
 
   const GltfDocument& document_;
-  HeadFile& head_;
+  ImportedHead& head_;
   std::map<Key, int> picture_of_;
   std::map<std::int64_t, int> pbr_index_;  // of materials
   std::size_t detailed_ = 0;

@@ -8,7 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "fsm/base/spline.h"
-#include "fsm/image/color_space.h"
+#include "fsm/image/colour_space.h"
 #include "fsm/mesh/original_points.h"
 #include "fsm/mesh/texture_atlas.h"
 
@@ -238,6 +238,6 @@ class OriginalBuilder {
 
 }  // namespace
 
-MeshModel ModelOf(const OriginalFace& face) { return OriginalBuilder(face).Build(); }
+MeshModel ModelOfOriginal(const OriginalFace& face) { return OriginalBuilder(face).Build(); }
 
 }  // namespace fsm

@@ -9,6 +9,6 @@ namespace fsm {
 /// view is the window the original shows a face through, without
 /// perspective: its middle is the origin of the wireframe, and half its longer side is one of the
 /// wireframe's units.
-MeshModel ModelOf(const OriginalFace& face);
+MeshModel ModelOfOriginal(const OriginalFace& face);
 
 }  // namespace fsm

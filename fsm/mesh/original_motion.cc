@@ -138,8 +138,8 @@ class OriginalRigBaker {
 
 }  // namespace
 
-RigData RigOf(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths,
-              const MouthUnitSizes& unit_sizes) {
+RigData RigOfOriginal(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths,
+                      const MouthUnitSizes& unit_sizes) {
   return OriginalRigBaker(face, model).Bake(mouths, unit_sizes);
 }
 

@@ -17,7 +17,7 @@ using MouthUnitSizes = std::array<float, kMouthParameters>;
 /// The rig of a face from its own shapes: action units by their FACS number, visemes by what speech
 /// asks of the mouth, and mouth units by what is asked by hand (Mouth.N): each shows the one of its
 /// number, whatever that is (in the data of the original, mostly vowels).
-RigData RigOf(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths,
-              const MouthUnitSizes& unit_sizes = {});
+RigData RigOfOriginal(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths,
+                      const MouthUnitSizes& unit_sizes = {});
 
 }  // namespace fsm

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "fsm/mesh/head_file.h"
+#include "fsm/mesh/imported_head.h"
 
 namespace fsm {
 namespace {

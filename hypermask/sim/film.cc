@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "face_track/film/picture_source.h"
-#include "fsm/film/movie_writer.h"
+#include "fsm/film/film_writer.h"
 #include "hypermask/follow/mask_follower.h"
 #include "hypermask/project/face_warp.h"
 #include "hypermask/sim/trial.h"
@@ -132,7 +132,7 @@ void MakeStageFilm(const StageFilm& wanted) {
   const StageCamera camera(stage);
   const StageView view(stage);
   FaceFilm face(wanted.face);
-  const auto movie = vm::OrThrow(fsm::MovieWriter::Open(wanted.out, kWidth, kHeight, kFilmRate));
+  const auto movie = vm::OrThrow(fsm::FilmWriter::Open(wanted.out, kWidth, kHeight, kFilmRate));
   fsm::Image frame = fsm::FilledImage(kWidth, kHeight, fsm::kBlack), seen;
   cv::Mat canvas(kHeight, kWidth, CV_8UC4, frame.rgba.data());
   Grey picture;

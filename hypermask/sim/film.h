@@ -12,7 +12,7 @@ struct StageFilm {
   std::string face{};   ///< the face's picture or film, as facetrack::OpenPictures takes it; a film
                         ///< begins anew where it ends
   std::string sound{};  ///< a .wav; "" = silent
-  std::string out{};    ///< as fsm::MovieWriter::Open
+  std::string out{};    ///< as fsm::FilmWriter::Open
   std::vector<SimSettings> scenes{};  ///< one after the other
   double scene_seconds = 6;
 };

@@ -21,9 +21,9 @@
 #include "face_fit/surface/mesh_point.h"
 #include "face_fit/surface/rasterizer.h"
 #include "fsm/head/make_head.h"
-#include "fsm/mesh/head_file.h"
-#include "fsm/mesh/head_model.h"
 #include "fsm/mesh/head_points.h"
+#include "fsm/mesh/imported_head.h"
+#include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/transferred_rig.h"
 #include "tests/face_fit/network_fixture.h"
@@ -275,11 +275,11 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
   }
   /// Somebody else's head, by what the network sees of it from the renderer's camera.
   static TrueHead Foreign(const std::string& name) {
-    const auto file = fsm::ReadHeadFile(support::Heads() / name + "/neutral.obj");
+    const auto file = fsm::ReadImportedHead(support::Heads() / name + "/neutral.obj");
     if (!file) throw std::runtime_error(file.error().text);
     const auto found = FindHeadPoints(*networks_, *file, name, "galatea");
     const fsm::Similarity place = fsm::FitSimilarity(found.pairs);
-    fsm::MeshModel model = fsm::ModelOf(*file, place, -43);
+    fsm::MeshModel model = fsm::ModelOfImport(*file, place, -43);
     BaseHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
     BaseHead seen = vm::OrThrow(BaseHead::Observe(*networks_, fsm::MakeMeshHead(std::move(model)),
                                                   name, std::move(surface)));

@@ -8,7 +8,7 @@
 #include "face_fit/find/head/lid_edges.h"
 #include "face_fit/find/head/lip_seam.h"
 #include "fsm/head/make_head.h"
-#include "fsm/mesh/head_file.h"
+#include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/transferred_rig.h"
 
 namespace facefit {

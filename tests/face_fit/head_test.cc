@@ -18,7 +18,7 @@
 
 #include "face_fit/find/head/head_finder.h"
 #include "fsm/head/make_head.h"
-#include "fsm/mesh/head_model.h"
+#include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/transferred_rig.h"
@@ -57,14 +57,14 @@ class HeadTest : public NetworkTest {
  private:
   static Subject Read(const std::string& name) {
     const std::string folder = support::Heads() / name;
-    const auto file = fsm::ReadHeadFile(folder + "/neutral.obj");
+    const auto file = fsm::ReadImportedHead(folder + "/neutral.obj");
     EXPECT_TRUE(file) << file.error().text;
     const auto points = FindHeadPoints(*networks_, *file, name, "galatea");
     const auto place = fsm::FitSimilarity(points.pairs);
     Subject subject;
     subject.pairs = points.pairs;
     for (auto& pair : subject.pairs) pair.to = place(pair.to);
-    subject.model = fsm::ModelOf(*file, place, -43);
+    subject.model = fsm::ModelOfImport(*file, place, -43);
     subject.flesh = subject.model.SkinTriangles();
     subject.eyes = subject.model.EyeTriangles();
     // The shapes number the file's own lines; the reader keeps what its faces use, by place.
@@ -194,12 +194,12 @@ TEST_F(HeadTest, PointsAreTheSameWhicheverWayAHeadFaces) {
   // The file's x, y and z axes, as they lie where the head faces x, -x, or -y with z up.
   const glm::mat3 turns[] = {
       {0, 0, -1, 0, 1, 0, 1, 0, 0}, {0, 0, 1, 0, 1, 0, -1, 0, 0}, {1, 0, 0, 0, 0, 1, 0, -1, 0}};
-  const auto straight = fsm::ReadHeadFile(support::Heads() / "ict" + "/neutral.obj");
+  const auto straight = fsm::ReadImportedHead(support::Heads() / "ict" + "/neutral.obj");
   ASSERT_TRUE(straight) << straight.error().text;
   const auto expected = FindHeadPoints(*networks_, *straight, "ict", "galatea").pairs;
   const float scale = fsm::FitSimilarity(expected).scale;
   for (const glm::mat3& turn : turns) {
-    fsm::HeadFile file = *straight;
+    fsm::ImportedHead file = *straight;
     for (glm::vec3& p : file.position) p = turn * p;
     const auto found = FindHeadPoints(*networks_, file, "ict", "galatea").pairs;
     EXPECT_GT(found.size(), expected.size() / 2);
@@ -218,7 +218,7 @@ TEST_F(HeadTest, PointsAreTheSameWhicheverWayAHeadFaces) {
 }
 
 TEST_F(HeadTest, AFileThatIsNoHeadIsNotTakenForAHeadWithoutAFace) {
-  fsm::HeadFile file;
+  fsm::ImportedHead file;
   file.name = "empty.obj";
   file.position = {{0, 0, 0}, {0, 1, 0}};
   try {
@@ -230,7 +230,7 @@ TEST_F(HeadTest, AFileThatIsNoHeadIsNotTakenForAHeadWithoutAFace) {
 }
 
 TEST_F(HeadTest, AHeadThatIsNeverSeenFromTheFrontIsRefused) {
-  auto file = fsm::ReadHeadFile(support::Heads() / "ict" + "/neutral.obj");
+  auto file = fsm::ReadImportedHead(support::Heads() / "ict" + "/neutral.obj");
   ASSERT_TRUE(file) << file.error().text;
   for (glm::vec3& p : file->position) p = {p.x, p.z, -p.y};  // it faces y
   try {

@@ -54,7 +54,7 @@ struct FilmTest : testing::Test {
   FakeRenderBackend backend;
   std::vector<std::pair<long, vm::Time>> drawn;
   vm::Time drawing_takes{0};
-  Film film;
+  FilmRecorder film;
 };
 
 TEST_F(FilmTest, FramesStandAtExactInstantsHoweverLongItIs) {
@@ -94,7 +94,7 @@ TEST_F(FilmTest, AFilmStoppedAtOnceHasOneFrame) {
 TEST_F(FilmTest, FramesArriveInOrderAndRepeatedOnesAfterThatWhichTheyRepeat) {
   std::vector<float> expected;
   FaceState state;
-  Film moving(
+  FilmRecorder moving(
       clock, backend,
       [&](long number, vm::Time) {
         expected.resize(static_cast<std::size_t>(number), expected.empty() ? 0 : expected.back());

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fsm/app/fsm_module.h"
-#include "fsm/film/movie_writer.h"
+#include "fsm/film/film_writer.h"
 #include "vm_protocol/core/scheduler.h"
 
 namespace fsm {
@@ -83,8 +83,7 @@ class FakeRenderBackend : public RenderBackend {
     if (path == "missing.png") return vm::Fail(vm::Errc::kUnavailable, "cannot read " + path);
     return Image{1, 1, {1, 2, 3, 255}};
   }
-  vm::Result<std::unique_ptr<MovieWriter>> OpenFilm(const std::string& path, int, int,
-                                                    int) override;
+  vm::Result<std::unique_ptr<FilmWriter>> OpenFilm(const std::string& path, int, int, int) override;
 
   std::map<std::string, FaceState> pictures;
   std::map<std::string, FakeFilm> films;
@@ -107,7 +106,7 @@ class FakeRenderBackend : public RenderBackend {
   int height_ = 480;
 };
 
-class FakeMovieWriter final : public MovieWriter {
+class FakeMovieWriter final : public FilmWriter {
  public:
   explicit FakeMovieWriter(FakeRenderBackend::FakeFilm& film) : film_(film) {}
   vm::Result<void> Add(const Image& frame) override {
@@ -124,8 +123,8 @@ class FakeMovieWriter final : public MovieWriter {
   FakeRenderBackend::FakeFilm& film_;
 };
 
-inline vm::Result<std::unique_ptr<MovieWriter>> FakeRenderBackend::OpenFilm(const std::string& path,
-                                                                            int, int, int) {
+inline vm::Result<std::unique_ptr<FilmWriter>> FakeRenderBackend::OpenFilm(const std::string& path,
+                                                                           int, int, int) {
   if (!path.ends_with(".mp4")) return vm::Fail(vm::Errc::kBadValue, path + " is not .mp4");
   return std::make_unique<FakeMovieWriter>(films[path]);
 }

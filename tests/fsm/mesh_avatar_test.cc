@@ -16,8 +16,8 @@
 #include "fsm/image/image_codec.h"
 #include "fsm/mesh/blendshape_rig.h"
 #include "fsm/mesh/gltf_head.h"
-#include "fsm/mesh/head_file.h"
-#include "fsm/mesh/head_model.h"
+#include "fsm/mesh/imported_head.h"
+#include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/render/renderer.h"
 #include "fsm/rig/pose.h"
@@ -36,10 +36,10 @@ void ExpectPlace(glm::vec3 is, glm::vec3 wanted) {
   EXPECT_LT(glm::distance(is, wanted), 1e-5F) << is.x << " " << is.y << " " << is.z;
 }
 
-HeadFile Read(const std::string& json) {
+ImportedHead Read(const std::string& json) {
   auto file = ParseGltfHead("a.gltf", json);
   EXPECT_TRUE(file) << file.error().text;
-  return file ? std::move(*file) : HeadFile{};
+  return file ? std::move(*file) : ImportedHead{};
 }
 
 TEST(GltfPlaceTest, SkinnedMeshStandsWhereItsBonesHoldIt) {
@@ -52,7 +52,7 @@ TEST(GltfPlaceTest, SkinnedMeshStandsWhereItsBonesHoldIt) {
   const int inverse = maker.Floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
                                     1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
                                    "MAT4", 16);
-  const HeadFile file = Read(
+  const ImportedHead file = Read(
       maker.File(R"("nodes":[{"scale":[0.1,0.1,0.1],"translation":[0,1,0],"children":[1,2]},{},)"
                  R"({"translation":[0,0,20]},{"mesh":0,"skin":0,"translation":[5,5,5]}],)"
                  R"("skins":[{"joints":[1,2],"inverseBindMatrices":)" +
@@ -70,7 +70,7 @@ TEST(GltfPlaceTest, OnlyTheSceneIsShownAndMirroredPartsKeepTheirOutside) {
   const int place = maker.Places(kTriangle);
   const std::string mesh =
       R"("meshes":[{"primitives":[{"attributes":{"POSITION":)" + Number(place) + "}}]}]";
-  const HeadFile file = Read(maker.File(
+  const ImportedHead file = Read(maker.File(
       R"("scenes":[{"nodes":[1]}],"nodes":[{"mesh":0},{"mesh":0,"scale":[-1,1,1]}],)" + mesh));
   ASSERT_EQ(file.position.size(), 3U);
   const auto& t = file.parts.at(0).indices;
@@ -83,7 +83,7 @@ TEST(GltfPlaceTest, ShapesOfShortsWithOneVertexNamedMoveThatVertex) {
   GltfMaker maker;
   const int place = maker.Shorts({0, 0, 0, 32767, 0, 0, 0, 32767, 0}, "VEC3", 3);
   const int by = maker.SparseShorts(3, 2, {0, -16384, 0});
-  const HeadFile file = Read(maker.File(
+  const ImportedHead file = Read(maker.File(
       R"("nodes":[{"mesh":0,"scale":[2,2,2]}],"meshes":[{"extras":{"targetNames":["jawOpen"]},)"
       R"("primitives":[{"attributes":{"POSITION":)" +
       Number(place) + R"(},"targets":[{"POSITION":)" + Number(by) + "}]}]}]"));
@@ -117,7 +117,7 @@ std::vector<std::uint8_t> TwoPixels() {
   return EncodePng(Image{2, 1, {188, 188, 188, 255, 255, 255, 255, 100}});
 }
 
-HeadFile Painted(const std::string& material) {
+ImportedHead Painted(const std::string& material) {
   GltfMaker maker;
   const int place = maker.Places(kTriangle);
   const int uv = maker.Floats({0, 0, 1, 0, 0, 1}, "VEC2", 2);
@@ -129,7 +129,7 @@ HeadFile Painted(const std::string& material) {
 
 TEST(GltfPaintTest, FactorIsPaintedIntoThePictureAsLight) {
   // 188 is half of the light (sRGB); half of that is 137.
-  const HeadFile file = Painted(
+  const ImportedHead file = Painted(
       R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"baseColorFactor":[0.5,1,0,1]}})");
   ASSERT_EQ(file.pictures.size(), 1U);
   EXPECT_NEAR(file.pictures[0].rgba[0], 137, 1);
@@ -140,21 +140,21 @@ TEST(GltfPaintTest, FactorIsPaintedIntoThePictureAsLight) {
 }
 
 TEST(GltfPaintTest, WhatIsBelowTheCutOffIsLeftOut) {
-  const HeadFile cut =
+  const ImportedHead cut =
       Painted(R"({"alphaMode":"MASK","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
   EXPECT_EQ(cut.pictures.at(0).rgba[3], 255);
   EXPECT_EQ(cut.pictures.at(0).rgba[7], 0);
   EXPECT_TRUE(cut.parts[0].cut_out);
-  const HeadFile low = Painted(R"({"alphaMode":"MASK","alphaCutoff":0.3,)"
-                               R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
+  const ImportedHead low = Painted(R"({"alphaMode":"MASK","alphaCutoff":0.3,)"
+                                   R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
   EXPECT_EQ(low.pictures.at(0).rgba[7], 255);
-  const HeadFile smooth =
+  const ImportedHead smooth =
       Painted(R"({"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
   EXPECT_EQ(smooth.pictures.at(0).rgba[7], 100);
 }
 
 TEST(GltfPaintTest, PicturesMayBeMovedScaledAndTurned) {
-  const HeadFile file =
+  const ImportedHead file =
       Painted(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":)"
               R"({"KHR_texture_transform":{"offset":[0.25,0.5],"scale":[0.5,0.25],)"
               R"("rotation":1.5707963}}}}})");
@@ -168,7 +168,7 @@ TEST(GltfPaintTest, PictureOfAnotherKindIsLeftOutWithANotice) {
   GltfMaker maker;
   const int place = maker.Places(kTriangle);
   maker.Picture({'R', 'I', 'F', 'F', 0, 0, 0, 0, 'W', 'E', 'B', 'P'});
-  const HeadFile file = Read(maker.File(
+  const ImportedHead file = Read(maker.File(
       R"("nodes":[{"mesh":0}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":)"
       R"({"index":0}}}],"meshes":[{"primitives":[{"material":0,"attributes":{"POSITION":)" +
       Number(place) + "}}]}]"));
@@ -203,7 +203,7 @@ std::string Avatar(const std::string& extension) {
 }
 
 TEST(VrmTest, OldAvatarsAreTurnedToTheViewerWithBonesGazeAndExpressions) {
-  const HeadFile file = Read(Avatar(
+  const ImportedHead file = Read(Avatar(
       R"("VRM":{"humanoid":{"humanBones":[{"bone":"leftEye","node":1},{"bone":"rightEye","node":2}]},)"
       R"("firstPerson":{"lookAtTypeName":"Bone","lookAtHorizontalOuter":{"xRange":60,"yRange":12}},)"
       R"("blendShapeMaster":{"blendShapeGroups":[{"name":"A","presetName":"a","binds":)"
@@ -227,7 +227,7 @@ TEST(VrmTest, OldAvatarsAreTurnedToTheViewerWithBonesGazeAndExpressions) {
 }
 
 TEST(VrmTest, NewAvatarsLookWithShapesAndHaveExpressionsOfTheirOwn) {
-  const HeadFile file = Read(Avatar(
+  const ImportedHead file = Read(Avatar(
       R"("VRMC_vrm":{"specVersion":"1.0","lookAt":{"type":"expression","rangeMapVerticalUp":)"
       R"({"inputMaxValue":30,"outputScale":0.5}},"expressions":{"preset":{"aa":)"
       R"({"morphTargetBinds":[{"node":3,"index":0,"weight":1}]},"oh":)"
@@ -263,7 +263,7 @@ std::string HairAvatar(const std::string& extensions) {
 }
 
 /// By how much the springs of a file carry each of its vertices, in sum: 0, 1 and 2.
-std::vector<std::array<float, 3>> Hung(const HeadFile& file) {
+std::vector<std::array<float, 3>> Hung(const ImportedHead& file) {
   std::vector<std::array<float, 3>> hung(file.position.size());
   for (const auto& [vertex, spring, weight] : file.swing.weights)
     hung.at(vertex).at(spring) += weight;
@@ -271,7 +271,7 @@ std::vector<std::array<float, 3>> Hung(const HeadFile& file) {
 }
 
 TEST(VrmTest, HairOfOldAvatarsSwingsByItsSecondaryAnimation) {
-  const HeadFile file = Read(
+  const ImportedHead file = Read(
       HairAvatar(R"("VRM":{"secondaryAnimation":{"boneGroups":[{"stiffiness":1,"gravityPower":0,)"
                  R"("dragForce":0.4,"bones":[1],"colliderGroups":[0]}]}})"));
   ASSERT_EQ(file.swing.springs.size(), 3U);
@@ -291,7 +291,7 @@ TEST(VrmTest, HairOfOldAvatarsSwingsByItsSecondaryAnimation) {
 }
 
 TEST(VrmTest, HairOfNewAvatarsSwingsByItsSpringBones) {
-  const HeadFile file = Read(HairAvatar(
+  const ImportedHead file = Read(HairAvatar(
       R"("VRMC_vrm":{"specVersion":"1.0"},"VRMC_springBone":{"specVersion":"1.0","springs":[)"
       R"({"joints":[{"node":1,"stiffness":0.5,"gravityPower":0.5,"dragForce":0.3},)"
       R"({"node":2,"stiffness":0.5,"dragForce":0.3},{"node":3}]},)"
@@ -305,12 +305,12 @@ TEST(VrmTest, HairOfNewAvatarsSwingsByItsSpringBones) {
 }
 
 TEST(VrmTest, HairOfAnAvatarSwingsAsItsHeadTurns) {
-  const HeadFile file = Read(HairAvatar(
+  const ImportedHead file = Read(HairAvatar(
       R"("VRM":{"secondaryAnimation":{"boneGroups":[{"stiffiness":0.3,"dragForce":0.1,"bones":[1]},)"
       R"({"bones":[0]}]}})"));
   constexpr float kMillimetres = 1000;
   const Similarity place{.scale = kMillimetres, .move = {0, -1500, 0}};
-  const auto head = MakeMeshHead(ModelOf(file, place, -43));
+  const auto head = MakeMeshHead(ModelOfImport(file, place, -43));
   const RigData& rig = head->rig().data();
   ASSERT_EQ(rig.swing.springs.size(), 4U);
   Simulation simulation(rig.swing.springs);
@@ -329,10 +329,10 @@ TEST(VrmTest, HairOfAnAvatarSwingsAsItsHeadTurns) {
 }
 
 TEST(VrmTest, SpringsOfTheBodyAreLeftOut) {
-  const HeadFile file = Read(
+  const ImportedHead file = Read(
       HairAvatar(R"("VRM":{"secondaryAnimation":{"boneGroups":[{"stiffiness":1,"bones":[1]}]}})"));
   const Similarity place{.scale = 1000, .move = {0, -2500, 0}};
-  EXPECT_TRUE(MakeMeshHead(ModelOf(file, place, -43))->rig().data().swing.springs.empty());
+  EXPECT_TRUE(MakeMeshHead(ModelOfImport(file, place, -43))->rig().data().swing.springs.empty());
 }
 
 TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
@@ -355,7 +355,7 @@ TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
 }
 
 TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) {
-  HeadFile file;
+  ImportedHead file;
   file.position = {{0, -40, 70}, {5, -40, 70}, {0, -45, 70}};
   file.parts.push_back({.name = "teeth", .indices = {0, 1, 2}});
   std::vector<ShapeMeaning> meanings;
@@ -368,7 +368,7 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
     file.shapes.push_back({"vrm" + std::string(name), {}});
   }
   file.shapes[0].deltas = {{0, {0, -10, 0}}, {1, {0, -10, 0}}, {2, {0, -10, 0}}};
-  MeshModel model = ModelOf(file, {}, -30);
+  MeshModel model = ModelOfImport(file, {}, -30);
   ASSERT_EQ(model.bone[0], Bone::kJaw);
   const auto source = MakeHead("galatea", false);
   auto skin = BlendshapeRig(file, {}, model, {*source, meanings}, *source);
@@ -381,8 +381,8 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
 }
 
 /// A file of shapes that each move a vertex of their own by a millimetre.
-HeadFile OfShapes(std::initializer_list<const char*> names) {
-  HeadFile file;
+ImportedHead OfShapes(std::initializer_list<const char*> names) {
+  ImportedHead file;
   for (const char* name : names) {
     const auto vertex = static_cast<std::uint32_t>(file.position.size());
     file.position.emplace_back(5 * static_cast<float>(vertex), 40, 70);
@@ -394,7 +394,7 @@ HeadFile OfShapes(std::initializer_list<const char*> names) {
 
 /// The rig of a file by some of ARKit's shapes, and which shapes it leaves out.
 struct OwnShapes {
-  explicit OwnShapes(const HeadFile& file) : model(ModelOf(file, {}, -43)) {
+  explicit OwnShapes(const ImportedHead& file) : model(ModelOfImport(file, {}, -43)) {
     const auto source = MakeHead("galatea", false);
     const auto add = [&](const char* name, std::size_t unit, bool right, bool left) {
       FaceState state;
@@ -418,8 +418,8 @@ struct OwnShapes {
 };
 
 TEST(OwnShapesTest, HalvesOfAShapeOfBothSidesAreDrivenByTheirSide) {
-  const HeadFile file = OfShapes({"browInnerUp_L", "browInnerUp_R", "browDown_L", "browDown_R",
-                                  "jawOpen", "Head.CheekPuffLeft", "Smirk"});
+  const ImportedHead file = OfShapes({"browInnerUp_L", "browInnerUp_R", "browDown_L", "browDown_R",
+                                      "jawOpen", "Head.CheekPuffLeft", "Smirk"});
   OwnShapes shapes(file);
   EXPECT_EQ(shapes.unused, (std::vector<std::string>{"Smirk"}));
   ASSERT_TRUE(shapes.skin);
@@ -505,7 +505,7 @@ std::shared_ptr<const Head> FallingBall() {
 }
 
 TEST(OwnShapesTest, LipsThatAreShutWithUsAreNotOpenedByTheirShapes) {
-  HeadFile file;
+  ImportedHead file;
   file.position = {{0, -40, 70}, {5, -40, 70}, {0, -45, 70}, {0, 40, 70}};
   file.parts.push_back({.name = "face", .indices = {0, 1, 2, 1, 2, 3}});
   std::vector<ShapeMeaning> meanings;
@@ -516,7 +516,7 @@ TEST(OwnShapesTest, LipsThatAreShutWithUsAreNotOpenedByTheirShapes) {
     meanings.push_back({name, state});
     file.shapes.push_back({name, {{unit == 27 ? 0U : 3U, {0, unit == 27 ? -10 : 10, 0}}}});
   }
-  MeshModel model = ModelOf(file, {}, -30);
+  MeshModel model = ModelOfImport(file, {}, -30);
   const auto source = FallingBall();
   auto skin = BlendshapeRig(file, {}, model, {*source, meanings}, *source);
   ASSERT_TRUE(skin);

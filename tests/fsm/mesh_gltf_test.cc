@@ -10,8 +10,8 @@
 #include "fsm/mesh/blendshape_rig.h"
 #include "fsm/mesh/gltf_document.h"
 #include "fsm/mesh/gltf_head.h"
-#include "fsm/mesh/head_file.h"
-#include "fsm/mesh/head_model.h"
+#include "fsm/mesh/imported_head.h"
+#include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/rig/unit_table.h"
 #include "tests/fsm/ball_head.h"
@@ -85,7 +85,7 @@ TEST(GltfHeadTest, UnitsOfOnesOwnMoveAHeadByItsOwnShapes) {
   ASSERT_TRUE(file) << file.error().text;
   const Similarity place{.scale = 1000};
   const auto moved_as = [&](const Head& moved) -> std::unique_ptr<Head> {
-    MeshModel model = ModelOf(*file, place, -43);
+    MeshModel model = ModelOfImport(*file, place, -43);
     auto skin = BlendshapeRig(*file, place, model, {*source, meanings}, moved);
     return skin ? MakeMeshHead(std::move(model), std::move(*skin)) : nullptr;
   };

@@ -64,8 +64,8 @@ OriginalFace SmallFace() {
 }
 
 std::unique_ptr<Head> HeadOf(const OriginalFace& face, const VisemeMouths& mouths = {}) {
-  MeshModel model = ModelOf(face);
-  RigData skin = RigOf(face, model, mouths);
+  MeshModel model = ModelOfOriginal(face);
+  RigData skin = RigOfOriginal(face, model, mouths);
   return MakeMeshHead(std::move(model), std::move(skin));
 }
 
@@ -153,8 +153,8 @@ TEST(SmallOriginalFaceTest, AMouthSetByHandShowsTheMouthUnitOfThatNumber) {
   mouths[2] = {0.4F, 0, 0.5F, 0, -0.9F, 0, -0.8F, 0, 0, 0, 0, 9};
   MouthUnitSizes sizes{};
   sizes[11] = 15;
-  MeshModel model = ModelOf(face);
-  RigData skin = RigOf(face, model, mouths, sizes);
+  MeshModel model = ModelOfOriginal(face);
+  RigData skin = RigOfOriginal(face, model, mouths, sizes);
   const auto head = MakeMeshHead(std::move(model), std::move(skin));
   HeadVertices rest, moved;
   head->Evaluate({}, rest);
@@ -327,7 +327,8 @@ TEST_F(StandardFaceTest, ExpressionsAreThoseOfTheFiles) {
   const auto read = ReadOriginalExpressions(Data(), Data() + "/fheadv2.pnt");
   ASSERT_TRUE(read) << read.error().text;
   EXPECT_EQ(read->all.size(), 6U + 6 * 4 + 5);
-  EXPECT_EQ(read->rests.size(), 3U) << "DISGUSTED, SURPRISED and FEARED are no mixture of units";
+  EXPECT_EQ(read->residuals.size(), 3U)
+      << "DISGUSTED, SURPRISED and FEARED are no mixture of units";
   EXPECT_TRUE(read->without_residual.empty());
   const OriginalFrame frame(face_.standard);
   for (std::size_t k = 0; k < 6; ++k) {

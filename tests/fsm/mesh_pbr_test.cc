@@ -10,7 +10,7 @@
 
 #include "fsm/image/image_codec.h"
 #include "fsm/mesh/gltf_head.h"
-#include "fsm/mesh/head_file.h"
+#include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/texture_atlas.h"
 #include "fsm/render/renderer.h"
@@ -22,7 +22,7 @@ namespace {
 std::string Written(int n) { return std::to_string(n); }
 
 /// A triangle of one material; `more`: further members of the file.
-HeadFile Read(GltfMaker& maker, const std::string& material, const std::string& more = "") {
+ImportedHead Read(GltfMaker& maker, const std::string& material, const std::string& more = "") {
   const int place = maker.Places({0, 0, 0, 1, 0, 0, 0, 1, 0});
   const int uv = maker.Floats({0, 0, 1, 0, 0, 1}, "VEC2", 2);
   auto file = ParseGltfHead(
@@ -30,12 +30,12 @@ HeadFile Read(GltfMaker& maker, const std::string& material, const std::string& 
                            R"(],"meshes":[{"primitives":[{"material":0,"attributes":{"POSITION":)" +
                            Written(place) + R"(,"TEXCOORD_0":)" + Written(uv) + "}}]}]" + more));
   EXPECT_TRUE(file) << file.error().text;
-  return file ? std::move(*file) : HeadFile{};
+  return file ? std::move(*file) : ImportedHead{};
 }
 
 PbrMaterial MaterialOf(const std::string& material, const std::string& more = "") {
   GltfMaker maker;
-  const HeadFile file = Read(maker, material, more);
+  const ImportedHead file = Read(maker, material, more);
   EXPECT_EQ(file.pbr_materials.size(), 1U);
   EXPECT_EQ(file.parts.at(0).pbr, 0);
   return file.pbr_materials.empty() ? PbrMaterial{} : file.pbr_materials[0];
@@ -58,7 +58,7 @@ TEST(GltfMaterialTest, MetalAndRoughnessAreReadAndAreWholeIfNothingIsSaid) {
 
 TEST(GltfMaterialTest, UnlitStaysAsItIsButNotWhereItOnlyStandsInForMToon) {
   GltfMaker maker;
-  const HeadFile plain = Read(maker, R"({"extensions":{"KHR_materials_unlit":{}}})");
+  const ImportedHead plain = Read(maker, R"({"extensions":{"KHR_materials_unlit":{}}})");
   EXPECT_TRUE(plain.pbr_materials.empty());
   EXPECT_EQ(plain.parts.at(0).pbr, -1);
   const PbrMaterial toon =
@@ -91,7 +91,7 @@ TEST(GltfMaterialTest, PicturesOfLightArePutTogetherBesideTheColour) {
   maker.Picture(EncodePng(Image{2, 1, {10, 20, 30, 255, 40, 50, 60, 255}}));  // colour
   maker.Picture(EncodePng(Image{1, 1, {228, 78, 255, 255}}));                 // normal
   maker.Picture(EncodePng(Image{1, 1, {100, 150, 200, 255}}));  // openness, roughness, metal
-  const HeadFile file =
+  const ImportedHead file =
       Read(maker,
            R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicRoughnessTexture":)"
            R"({"index":2}},"normalTexture":{"index":1,"scale":0.5},"occlusionTexture":{"index":2,)"
@@ -119,7 +119,7 @@ TEST(GltfMaterialTest, APictureThatLiesOtherwiseThanTheColourIsLeftOutWithANotic
   GltfMaker maker;
   maker.Picture(EncodePng(Image{1, 1, {10, 20, 30, 255}}));
   maker.Picture(EncodePng(Image{1, 1, {228, 78, 255, 255}}));
-  const HeadFile file =
+  const ImportedHead file =
       Read(maker, R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"normalTexture":)"
                   R"({"index":1,"texCoord":1}})");
   EXPECT_TRUE(file.details.empty());

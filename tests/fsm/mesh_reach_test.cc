@@ -12,9 +12,9 @@
 
 #include "fsm/mesh/deformation_transfer.h"
 #include "fsm/mesh/gltf_head.h"
-#include "fsm/mesh/head_file.h"
-#include "fsm/mesh/head_model.h"
 #include "fsm/mesh/head_points.h"
+#include "fsm/mesh/imported_head.h"
+#include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/surface_index.h"
 #include "tests/fsm/gltf_maker.h"
 
@@ -71,7 +71,7 @@ TEST(MeshReachTest, LandmarksThatEnlargeAHeadBeyondReachAreRefusedWithItsName) {
   ASSERT_TRUE(file) << file.error().text;
   const auto refused = [&](const Similarity& place) -> std::string {
     try {
-      (void)ModelOf(*file, place, -43);
+      (void)ModelOfImport(*file, place, -43);
     } catch (const std::runtime_error& error) {
       return error.what();
     }

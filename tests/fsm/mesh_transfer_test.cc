@@ -17,8 +17,8 @@
 
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/deformation_transfer.h"
-#include "fsm/mesh/head_file.h"
 #include "fsm/mesh/head_points.h"
+#include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/surface_index.h"
 #include "fsm/mesh/transferred_rig.h"

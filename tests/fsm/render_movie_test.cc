@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "fsm/film/movie_writer.h"
+#include "fsm/film/film_writer.h"
 #include "fsm/image/byte_order.h"
 #include "fsm/image/image.h"
 #include "tests/fsm/render_support.h"
@@ -37,7 +37,7 @@ std::string Probe(const std::string& path, const std::string& stream, const std:
 /// Runs a film of `frames` pictures through to its end.
 vm::Result<void> MakeFilm(const std::string& path, int width, int height, int frames,
                           const std::string& sound = "") {
-  auto movie = MovieWriter::Open(path, width, height, kFps);
+  auto movie = FilmWriter::Open(path, width, height, kFps);
   if (!movie) return std::unexpected(movie.error());
   for (int i = 0; i < frames; ++i) {
     if (auto added = (*movie)->Add(Pattern(width, height, i * 5)); !added) return added;
@@ -118,7 +118,7 @@ TEST_F(MovieTest, OddSizesAreMadeEvenByRepeatingTheEdge) {
 }
 
 TEST_F(MovieTest, ColoursSurvive) {
-  auto movie = MovieWriter::Open(film_, 32, 32, kFps);
+  auto movie = FilmWriter::Open(film_, 32, 32, kFps);
   ASSERT_TRUE(movie);
   Image skin{32, 32, {}};
   for (int i = 0; i < 32 * 32; ++i) skin.rgba.insert(skin.rgba.end(), {224, 172, 140, 255});
@@ -159,7 +159,7 @@ TEST_F(MovieTest, MovAndWebmKeepWhatIsTransparent) {
                            // ffmpeg's own decoder of VP9 passes over the transparency.
                            Kind{"clear.webm", "libvpx-vp9", "vp9,64,48,5", "opus"}}) {
     const std::string film = folder_ / kind.file;
-    auto movie = MovieWriter::Open(film, 63, 47, kFps);
+    auto movie = FilmWriter::Open(film, 63, 47, kFps);
     ASSERT_TRUE(movie) << movie.error().text;
     for (int i = 0; i < 5; ++i) ASSERT_TRUE((*movie)->Add(HalfClear(63, 47)));
     const auto finished = (*movie)->Finish(sound);
@@ -210,7 +210,7 @@ TEST_F(MovieTest, WithoutItsSoundTheSilentFilmIsKept) {
 
 TEST_F(MovieTest, RawFramesFollowEachOther) {
   const TemporaryFolder folder;
-  auto writer = MovieWriter::Open(folder / "film.rgba", 5, 3, 30);
+  auto writer = FilmWriter::Open(folder / "film.rgba", 5, 3, 30);
   ASSERT_TRUE(writer) << writer.error().text;
   const Image frames[] = {Pattern(5, 3), Pattern(5, 3, 40)};
   for (const Image& frame : frames) ASSERT_TRUE((*writer)->Add(frame));
@@ -222,7 +222,7 @@ TEST_F(MovieTest, RawFramesFollowEachOther) {
 
 TEST_F(MovieTest, AMatroskaFilmKeepsEveryPixelItsRateAndWhatIsSaidOfIt) {
   const std::string path = folder_ / "film.mkv";
-  auto movie = MovieWriter::Open(path, 31, 17, 30000.0 / 1001, "altered: yes");
+  auto movie = FilmWriter::Open(path, 31, 17, 30000.0 / 1001, "altered: yes");
   ASSERT_TRUE(movie) << movie.error().text;
   const Image frames[] = {Pattern(31, 17), Pattern(31, 17, 40)};
   std::vector<std::uint8_t> expected;
@@ -246,14 +246,14 @@ TEST_F(MovieTest, AMatroskaFilmKeepsEveryPixelItsRateAndWhatIsSaidOfIt) {
 TEST_F(MovieTest, PipeWithoutAReaderIsRefused) {
   const TemporaryFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe.rgba").c_str(), 0600), 0);
-  const auto writer = MovieWriter::Open(folder / "pipe.rgba", 4, 4, 30);
+  const auto writer = FilmWriter::Open(folder / "pipe.rgba", 4, 4, 30);
   ASSERT_FALSE(writer);
   EXPECT_NE(writer.error().text.find("nobody reads"), std::string::npos) << writer.error().text;
 }
 
 TEST_F(MovieTest, UnfinishedFilmLeavesNoFile) {
   {
-    auto movie = MovieWriter::Open(film_, 64, 48, kFps);
+    auto movie = FilmWriter::Open(film_, 64, 48, kFps);
     ASSERT_TRUE(movie);
     ASSERT_TRUE((*movie)->Add(Pattern(64, 48)));
   }
@@ -266,10 +266,10 @@ TEST_F(MovieTest, EmptyFilmIsAnError) {
 }
 
 TEST_F(MovieTest, UnusableRequestsAreRefusedAtOnce) {
-  EXPECT_EQ(MovieWriter::Open(folder_ / "a.avi", 64, 48, kFps).error().code, vm::Errc::kBadValue);
-  EXPECT_EQ(MovieWriter::Open(film_, 0, 48, kFps).error().code, vm::Errc::kBadValue);
-  EXPECT_EQ(MovieWriter::Open(film_, 64, 48, 0).error().code, vm::Errc::kBadValue);
-  EXPECT_EQ(MovieWriter::Open(folder_ / "no/such/a.mp4", 64, 48, kFps).error().code,
+  EXPECT_EQ(FilmWriter::Open(folder_ / "a.avi", 64, 48, kFps).error().code, vm::Errc::kBadValue);
+  EXPECT_EQ(FilmWriter::Open(film_, 0, 48, kFps).error().code, vm::Errc::kBadValue);
+  EXPECT_EQ(FilmWriter::Open(film_, 64, 48, 0).error().code, vm::Errc::kBadValue);
+  EXPECT_EQ(FilmWriter::Open(folder_ / "no/such/a.mp4", 64, 48, kFps).error().code,
             vm::Errc::kUnavailable);
   EXPECT_EQ(folder_.files(), 0U);
 }
@@ -283,7 +283,7 @@ TEST_F(MovieTest, NamesThatLookLikeOptionsOrShellAreOnlyNames) {
 TEST_F(MovieTest, MissingFfmpegIsSaidClearly) {
   const std::string kept = std::getenv("PATH");
   setenv("PATH", (folder_ / "").c_str(), 1);
-  const auto movie = MovieWriter::Open(film_, 64, 48, kFps);
+  const auto movie = FilmWriter::Open(film_, 64, 48, kFps);
   setenv("PATH", kept.c_str(), 1);
   ASSERT_FALSE(movie);
   EXPECT_EQ(movie.error().code, vm::Errc::kUnavailable);
@@ -303,7 +303,7 @@ TEST_F(MovieTest, ProcessKilledHalfWayIsAnErrorAndNoSignal) {
 
 TEST_F(MovieTest, AfterAFaultEveryCallIsAnError) {
   const FakeFfmpeg fake("#!/bin/sh\nexit 1\n");
-  auto movie = MovieWriter::Open(film_, 640, 480, kFps);
+  auto movie = FilmWriter::Open(film_, 640, 480, kFps);
   ASSERT_TRUE(movie);
   while ((*movie)->Add(Pattern(640, 480))) {
   }

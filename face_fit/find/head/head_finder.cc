@@ -14,7 +14,7 @@
 #include "face_fit/find/head/lid_edges.h"
 #include "face_fit/find/head/point_pairs.h"
 #include "face_fit/picture/pixels.h"
-#include "fsm/mesh/head_model.h"
+#include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/transferred_rig.h"
 #include "vm_protocol/core/or_throw.h"
@@ -30,7 +30,7 @@ constexpr glm::mat3 kTurns[] = {{1, 0, 0, 0, 1, 0, 0, 0, 1},    // y up, towards
                                 {0, 0, -1, 0, 1, 0, 1, 0, 0}};  // towards -x
 
 /// The head as large as ours and in the middle of the picture, the upper part of a whole figure.
-fsm::Similarity InitialPlacement(const fsm::HeadFile& file, const glm::mat3& turn, float part) {
+fsm::Similarity InitialPlacement(const fsm::ImportedHead& file, const glm::mat3& turn, float part) {
   glm::vec3 low(1e9F), high(-1e9F);
   for (const glm::vec3& p : file.position) {
     low = glm::min(low, turn * p);
@@ -73,7 +73,7 @@ void SpreadAlongSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
 /// Looks at a head and pairs its places with those of the built-in one.
 class HeadMatcher {
  public:
-  HeadMatcher(FaceNetworks& networks, const fsm::HeadFile& file, std::string name,
+  HeadMatcher(FaceNetworks& networks, const fsm::ImportedHead& file, std::string name,
               const std::string& face)
       : networks_(networks),
         file_(file),
@@ -108,7 +108,7 @@ class HeadMatcher {
  private:
   /// The head as the network sees it. Error: no face is seen.
   vm::Result<BaseHead> Observe(const fsm::Similarity& to_ours) {
-    fsm::MeshModel model = fsm::ModelOf(file_, to_ours, fsm::kUsualMouthY);
+    fsm::MeshModel model = fsm::ModelOfImport(file_, to_ours, fsm::kUsualMouthY);
     BaseHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
     for (const fsm::Bone bone : model.bone) {
       surface.is_eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
@@ -118,7 +118,7 @@ class HeadMatcher {
   }
 
   FaceNetworks& networks_;
-  const fsm::HeadFile& file_;
+  const fsm::ImportedHead& file_;
   std::string name_;
   BaseHead base_;
   std::set<PointIndex> inner_lips_;
@@ -170,7 +170,7 @@ std::optional<HeadMatch> MatchFrom(HeadMatcher& matcher, const fsm::Similarity& 
 
 }  // namespace
 
-fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file,
+fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::ImportedHead& file,
                                const std::string& name, const std::string& face) {
   HeadMatcher matcher(networks, file, name, face);
   bool face_seen = false;

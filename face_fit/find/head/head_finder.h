@@ -1,7 +1,7 @@
 #pragma once
 
 #include "face_fit/find/network/face_networks.h"
-#include "fsm/mesh/head_file.h"
+#include "fsm/mesh/imported_head.h"
 
 namespace facefit {
 
@@ -10,7 +10,7 @@ namespace facefit {
 /// face z, -z, x or -x with y up, or -y with z up: all are tried, and the one is taken from which
 /// it looks most like ours. `face`: the built-in head of the pairs. Throws std::runtime_error if no
 /// face is seen from any side, or none from the front, or if the file is none of a head.
-fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file,
+fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::ImportedHead& file,
                                const std::string& name, const std::string& face);
 
 }  // namespace facefit

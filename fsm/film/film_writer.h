@@ -11,7 +11,7 @@ namespace fsm {
 /// Writes a film through an ffmpeg process fed with raw frames on a pipe.
 /// Lifetime: Finish() or the destructor ends the process; without Finish the file is removed.
 /// Deterministic: the same frames give the same bytes (no time stamps, one encoder thread).
-class MovieWriter {
+class FilmWriter {
  public:
   /// .mp4 (H.264, yuv420p); .mov (ProRes 4444) or .webm (VP9), which keep what is transparent; .mkv
   /// (FFV1 in RGB, FLAC), which keeps colours and sound to the bit; or .rgba: every frame's width *
@@ -19,12 +19,12 @@ class MovieWriter {
   /// must be ignored). Error: kUnavailable if ffmpeg is missing or refuses, with its last line. 1
   /// to 1000 frames per second; `comment`: told to whoever reads the file's metadata, unless it is
   /// .rgba.
-  static vm::Result<std::unique_ptr<MovieWriter>> Open(const std::string& path, int width,
-                                                       int height, double frames_per_second,
-                                                       const std::string& comment = {});
+  static vm::Result<std::unique_ptr<FilmWriter>> Open(const std::string& path, int width,
+                                                      int height, double frames_per_second,
+                                                      const std::string& comment = {});
   /// Whether the name ends as one of these. Error: kBadValue, as of Open.
   static vm::Result<void> CheckName(const std::string& path);
-  virtual ~MovieWriter() = default;
+  virtual ~FilmWriter() = default;
   /// The size must be that given at Open. Handed on by another thread; blocks only while several
   /// frames wait. An error may belong to a frame before.
   virtual vm::Result<void> Add(const Image& frame) = 0;

@@ -16,7 +16,7 @@
 namespace fsm {
 
 /// Somebody else's head as its file has it: own unit and frame, y up.
-struct HeadFile {
+struct ImportedHead {
   struct Part {
     std::string name;  ///< of group, mesh and material, in small letters
     std::vector<std::uint32_t> indices;
@@ -62,7 +62,7 @@ struct HeadFile {
 
 /// Reads .obj, .gltf, .glb or .vrm. Pictures and buffers beside the file are read from its folder
 /// only. Errors: kUnavailable, kLimit, kBadValue naming file and place.
-vm::Result<HeadFile> ReadHeadFile(const std::string& path);
+vm::Result<ImportedHead> ReadImportedHead(const std::string& path);
 /// A file that `path` names by `name`; nothing if that leads out of its folder.
 std::optional<std::string> FileBeside(const std::string& path, const std::string& name);
 

@@ -1,4 +1,4 @@
-#include "fsm/app/film.h"
+#include "fsm/app/film_recorder.h"
 
 #include <limits>
 
@@ -7,14 +7,15 @@ namespace {
 constexpr long kMostRepeatsAtOnce = 4;
 }
 
-Film::Film(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnFailure on_failure)
+FilmRecorder::FilmRecorder(vm::Scheduler& clock, RenderBackend& backend, Draw draw,
+                           OnFailure on_failure)
     : clock_(clock),
       backend_(backend),
       draw_(std::move(draw)),
       on_failure_(std::move(on_failure)),
       queue_(backend, [this](const Image& frame, long times) { return Write(frame, times); }) {}
 
-vm::Result<void> Film::Start(const std::string& path, int frames_per_second) {
+vm::Result<void> FilmRecorder::Start(const std::string& path, int frames_per_second) {
   if (recording()) {
     return vm::Fail(vm::Errc::kBusy, "recording " + path_ + "; set Record = STOP first");
   }
@@ -29,11 +30,11 @@ vm::Result<void> Film::Start(const std::string& path, int frames_per_second) {
   return {};
 }
 
-void Film::Arm() {
+void FilmRecorder::Arm() {
   timer_.At(series_.TimeOf(next_), [this] { Tick(); });
 }
 
-void Film::Tick() {
+void FilmRecorder::Tick() {
   // A slow encoder must not keep the module from its input: the rest comes right after that.
   if (auto added = AddUpTo(clock_.Now(), kMostRepeatsAtOnce); !added) {
     queue_.Clear();
@@ -44,7 +45,7 @@ void Film::Tick() {
   Arm();
 }
 
-vm::Result<void> Film::AddUpTo(vm::Time now, long most_repeats) {
+vm::Result<void> FilmRecorder::AddUpTo(vm::Time now, long most_repeats) {
   // A frame is too late to be drawn when the next one is due as well.
   const long first = next_;
   while (next_ > 0 && series_.TimeOf(next_ + 1) <= now) {
@@ -58,13 +59,13 @@ vm::Result<void> Film::AddUpTo(vm::Time now, long most_repeats) {
   return queue_.Add(!writer_->is_live());
 }
 
-vm::Result<void> Film::Write(const Image& frame, long times) {
+vm::Result<void> FilmRecorder::Write(const Image& frame, long times) {
   vm::Result<void> added;
   for (; added && times > 0; --times) added = writer_->Add(frame);
   return added;
 }
 
-vm::Result<Film::Report> Film::Stop(const std::string& sound) {
+vm::Result<FilmRecorder::Report> FilmRecorder::Stop(const std::string& sound) {
   if (!recording()) return vm::Fail(vm::Errc::kBadValue, "no film is being recorded");
   timer_.Cancel();
   // Frames that were due before now belong to the film; the one due right now does not, but a film

@@ -7,7 +7,7 @@
 #include "fsm/app/frame_queue.h"
 #include "fsm/app/frame_series.h"
 #include "fsm/app/render_backend.h"
-#include "fsm/film/movie_writer.h"
+#include "fsm/film/film_writer.h"
 #include "vm_protocol/core/timer.h"
 
 namespace fsm {
@@ -15,13 +15,13 @@ namespace fsm {
 /// Records a film of the face: frame k is the face at start + k / rate exactly. When drawing falls
 /// behind the clock, the frame before is repeated so that the film keeps step with time; on the
 /// virtual clock that never happens. Thread: the scheduler's; a timer is pending while recording.
-class Film {
+class FilmRecorder {
  public:
   /// Draws frame `number` as the face is at `at`; the picture is then read from the backend.
   using Draw = std::function<vm::Result<void>(long number, vm::Time at)>;
   /// Told when recording ended by itself because of an error.
   using OnFailure = std::function<void(const vm::Error&)>;
-  Film(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnFailure on_failure);
+  FilmRecorder(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnFailure on_failure);
 
   /// Errors: kBusy while recording; kUnavailable if the film cannot be opened.
   vm::Result<void> Start(const std::string& path, int frames_per_second);
@@ -31,7 +31,7 @@ class Film {
     long repeated = 0;
   };
   /// Ends the film with the frames up to now and adds the sound (may be ""). Errors: kBadValue when
-  /// none is being recorded; kUnavailable as MovieWriter::Finish.
+  /// none is being recorded; kUnavailable as FilmWriter::Finish.
   vm::Result<Report> Stop(const std::string& sound);
 
   bool recording() const { return writer_ != nullptr; }
@@ -50,7 +50,7 @@ class Film {
   RenderBackend& backend_;
   Draw draw_;
   OnFailure on_failure_;
-  std::unique_ptr<MovieWriter> writer_;
+  std::unique_ptr<FilmWriter> writer_;
   FrameQueue queue_;
   std::string path_;
   FrameSeries series_;

@@ -1,4 +1,4 @@
-#include "fsm/mesh/head_model.h"
+#include "fsm/mesh/imported_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +60,7 @@ std::vector<std::uint32_t> Pieces(std::size_t count, std::span<const std::uint32
 
 class HeadBuilder {
  public:
-  HeadBuilder(const HeadFile& file, const Similarity& to_ours, float mouth_y)
+  HeadBuilder(const ImportedHead& file, const Similarity& to_ours, float mouth_y)
       : file_(file), to_ours_(to_ours), mouth_y_(mouth_y) {
     model_.name = file.name;
     for (const glm::vec3& p : file.position) {
@@ -141,7 +141,7 @@ class HeadBuilder {
                              "(.points) or eyes belong to it?");
   }
 
-  bool IsEye(const HeadFile::Part& part) const { return KindOf(part.name) == Kind::kEye; }
+  bool IsEye(const ImportedHead::Part& part) const { return KindOf(part.name) == Kind::kEye; }
 
   /// Eyes are parts called so, or vertices the file's skeleton gives to eyes.
   void FindEyes() {
@@ -183,7 +183,7 @@ class HeadBuilder {
     }
   }
 
-  void AddPart(const HeadFile::Part& part) {
+  void AddPart(const ImportedHead::Part& part) {
     const Kind kind = KindOf(part.name);
     const bool pictured = part.picture >= 0 && !file_.texcoord.empty();
     if (kind == Kind::kEye && !pictured && model_.has_eyes) {
@@ -222,7 +222,7 @@ class HeadBuilder {
 
   /// The index in the model of the part's PbrMaterial. Without pictures skin and mouth are lit as
   /// ours, unless they are toon-shaded.
-  int PbrOf(Kind kind, const HeadFile::Part& part, bool pictured) {
+  int PbrOf(Kind kind, const ImportedHead::Part& part, bool pictured) {
     if (part.pbr < 0) return -1;
     const PbrMaterial& pbr = file_.pbr_materials[static_cast<std::size_t>(part.pbr)];
     const bool own =
@@ -252,7 +252,7 @@ class HeadBuilder {
     }
   }
 
-  glm::vec3 ColourOf(Kind kind, const HeadFile::Part& part, std::uint32_t v) const {
+  glm::vec3 ColourOf(Kind kind, const ImportedHead::Part& part, std::uint32_t v) const {
     const Palette& palette = BasePalette();
     if (!file_.tint.empty() && file_.tint[v] != glm::vec3(1)) return part.colour * file_.tint[v];
     switch (kind) {
@@ -299,7 +299,7 @@ class HeadBuilder {
     }
   }
 
-  const HeadFile& file_;
+  const ImportedHead& file_;
   const Similarity& to_ours_;
   float mouth_y_;
   std::vector<glm::vec3> at_;
@@ -312,7 +312,7 @@ class HeadBuilder {
 
 }  // namespace
 
-MeshModel ModelOf(const HeadFile& file, const Similarity& to_ours, float mouth_y) {
+MeshModel ModelOfImport(const ImportedHead& file, const Similarity& to_ours, float mouth_y) {
   return HeadBuilder(file, to_ours, mouth_y).Build();
 }
 

@@ -1,4 +1,4 @@
-#include "fsm/film/movie_writer.h"
+#include "fsm/film/film_writer.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -131,10 +131,10 @@ Words SoundWords(const FilmKind& kind, const std::string& film, const std::strin
   return words;
 }
 
-class FfmpegMovieWriter : public MovieWriter {
+class FfmpegFilmWriter : public FilmWriter {
  public:
-  FfmpegMovieWriter(const FilmKind& kind, std::string comment, std::string path, std::string draft,
-                    int width, int height, std::unique_ptr<FfmpegProcess> ffmpeg)
+  FfmpegFilmWriter(const FilmKind& kind, std::string comment, std::string path, std::string draft,
+                   int width, int height, std::unique_ptr<FfmpegProcess> ffmpeg)
       : kind_(kind),
         comment_(std::move(comment)),
         path_(std::move(path)),
@@ -145,16 +145,14 @@ class FfmpegMovieWriter : public MovieWriter {
     feeder_.emplace(*ffmpeg_);
   }
 
-  ~FfmpegMovieWriter() override {
+  ~FfmpegFilmWriter() override {
     feeder_.reset();
     ffmpeg_.reset();
     if (!draft_.empty()) unlink(draft_.c_str());
   }
 
   vm::Result<void> Add(const Image& frame) override {
-    assert(frame.width == width_ && frame.height == height_);
-    assert(frame.rgba.size() ==
-           static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
+    assert(frame.width == width_ && frame.height == height_ && frame.IsWhole());
     if (!ffmpeg_) return vm::Fail(vm::Errc::kUnavailable, "the film '" + path_ + "' has ended");
     auto bytes = feeder_->TakeSpare();
     if (kind_.as_rgba) {
@@ -223,11 +221,11 @@ class FfmpegMovieWriter : public MovieWriter {
 };
 
 /// Raw frames, as they come, into a file or a pipe.
-class RawMovieWriter : public MovieWriter {
+class RawFilmWriter : public FilmWriter {
  public:
-  RawMovieWriter(std::string path, int fd, bool is_pipe)
+  RawFilmWriter(std::string path, int fd, bool is_pipe)
       : path_(std::move(path)), fd_(fd), is_pipe_(is_pipe) {}
-  ~RawMovieWriter() override { Close(); }
+  ~RawFilmWriter() override { Close(); }
 
   vm::Result<void> Add(const Image& frame) override {
     for (std::span<const std::uint8_t> left(frame.rgba); fd_ >= 0 && !left.empty();) {
@@ -269,7 +267,7 @@ class RawMovieWriter : public MovieWriter {
   bool is_pipe_;
 };
 
-vm::Result<std::unique_ptr<MovieWriter>> OpenRaw(const std::string& path) {
+vm::Result<std::unique_ptr<FilmWriter>> OpenRaw(const std::string& path) {
   struct stat state {};
   const bool is_pipe = stat(path.c_str(), &state) == 0 && S_ISFIFO(state.st_mode);
   if (!is_pipe) {
@@ -283,7 +281,7 @@ vm::Result<std::unique_ptr<MovieWriter>> OpenRaw(const std::string& path) {
         "cannot write frames to '" + path + "': " +
             (errno == ENXIO ? "nobody reads that pipe" : std::generic_category().message(errno)));
   }
-  return std::make_unique<RawMovieWriter>(path, fd, is_pipe);
+  return std::make_unique<RawFilmWriter>(path, fd, is_pipe);
 }
 
 /// An empty file beside the film's place, under a name nobody else has; made before the first
@@ -304,7 +302,7 @@ vm::Result<std::string> MakeDraft(const std::string& path) {
 
 }  // namespace
 
-vm::Result<void> MovieWriter::CheckName(const std::string& path) {
+vm::Result<void> FilmWriter::CheckName(const std::string& path) {
   if (IsRaw(path) || KindOf(path) != nullptr) return {};
   return vm::Fail(vm::Errc::kBadValue,
                   "'" + path +
@@ -312,9 +310,9 @@ vm::Result<void> MovieWriter::CheckName(const std::string& path) {
                       ".mov or .webm, or .mkv, to lose nothing (or .rgba, raw frames)");
 }
 
-vm::Result<std::unique_ptr<MovieWriter>> MovieWriter::Open(const std::string& path, int width,
-                                                           int height, double frames_per_second,
-                                                           const std::string& comment) {
+vm::Result<std::unique_ptr<FilmWriter>> FilmWriter::Open(const std::string& path, int width,
+                                                         int height, double frames_per_second,
+                                                         const std::string& comment) {
   if (auto fit = CheckName(path); !fit) return std::unexpected(std::move(fit.error()));
   if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide ||
       !(frames_per_second >= 1 && frames_per_second <= kMaxFramesPerSecond)) {
@@ -334,8 +332,8 @@ vm::Result<std::unique_ptr<MovieWriter>> MovieWriter::Open(const std::string& pa
     return vm::Fail(vm::Errc::kUnavailable,
                     "cannot make the film '" + path + "': " + ffmpeg.error().text);
   }
-  return std::make_unique<FfmpegMovieWriter>(kind, comment, path, *std::move(draft), width, height,
-                                             *std::move(ffmpeg));
+  return std::make_unique<FfmpegFilmWriter>(kind, comment, path, *std::move(draft), width, height,
+                                            *std::move(ffmpeg));
 }
 
 }  // namespace fsm

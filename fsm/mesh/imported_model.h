@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fsm/mesh/head_file.h"
+#include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/mesh_model.h"
 
 namespace fsm {
@@ -11,6 +11,6 @@ inline constexpr float kUsualMouthY = -43;
 /// by where they lie to the mouth, which is at `mouth_y`. Throws std::runtime_error naming file and
 /// vertex if `to_ours` takes one out of kMaxMeshReach, as where landmarks do not belong to the
 /// head.
-MeshModel ModelOf(const HeadFile& file, const Similarity& to_ours, float mouth_y);
+MeshModel ModelOfImport(const ImportedHead& file, const Similarity& to_ours, float mouth_y);
 
 }  // namespace fsm

@@ -1,11 +1,8 @@
-#include "fsm/mesh/head_file.h"
+#include "fsm/mesh/obj_head.h"
 
-#include <algorithm>
-#include <filesystem>
 #include <map>
 
 #include "fsm/image/image_file.h"
-#include "fsm/mesh/gltf_head.h"
 #include "fsm/mesh/obj_file.h"
 #include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/text_file.h"
@@ -17,30 +14,6 @@ glm::vec3 Linear(glm::vec3 screen) {
   return screen * (screen * (screen * 0.305306f + 0.682171f) + 0.012523f);
 }
 
-}  // namespace
-
-std::optional<std::string> FileBeside(const std::string& path, const std::string& name) {
-  const std::filesystem::path given(name);
-  if (name.empty() || given.is_absolute() || std::ranges::find(given, "..") != given.end()) {
-    return std::nullopt;
-  }
-  return (std::filesystem::path(path).parent_path() / given).string();
-}
-
-std::string PlainShapeName(std::string_view name) {
-  std::string out = vm::LowerCase(name);
-  if (const auto dot = out.find_last_of(".:"); dot != std::string::npos && dot + 2 < out.size()) {
-    out = out.substr(dot + 1);  // node.shape, namespace:shape
-  }
-  for (const auto& [end, word] : {std::pair("_l", "left"), std::pair("_r", "right")}) {
-    if (out.ends_with(end)) out = out.substr(0, out.size() - 2) + word;
-  }
-  std::erase_if(out, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
-  return out;
-}
-
-namespace {
-
 /// Makes a head of an .obj file and what lies beside it.
 class ObjHead {
  public:
@@ -48,7 +21,7 @@ class ObjHead {
     head_.name = path;
   }
 
-  HeadFile Make() {
+  ImportedHead Make() {
     ReadMaterials();
     for (const auto& group : obj_.groups) AddPart(group);
     return std::move(head_);
@@ -66,7 +39,7 @@ class ObjHead {
   }
 
   void AddPart(const ObjFile::Group& group) {
-    HeadFile::Part part;
+    ImportedHead::Part part;
     part.name = vm::LowerCase(group.name + " " + group.material);
     if (const auto found = materials_.find(group.material); found != materials_.end()) {
       part.colour = Linear(found->second.colour);
@@ -112,7 +85,7 @@ class ObjHead {
 
   const std::string& path_;
   const ObjFile& obj_;
-  HeadFile head_;
+  ImportedHead head_;
   std::map<std::string, ObjMaterial> materials_;
   std::map<std::string, int> pictures_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> vertices_;  // by corner
@@ -120,16 +93,10 @@ class ObjHead {
 
 }  // namespace
 
-vm::Result<HeadFile> ReadHeadFile(const std::string& path) {
-  const std::string ending = vm::LowerCase(std::filesystem::path(path).extension().string());
-  if (ending == ".obj") {
-    const auto obj = ReadObj(path);
-    if (!obj) return std::unexpected(obj.error());
-    return ObjHead(path, *obj).Make();
-  }
-  if (ending == ".glb" || ending == ".gltf" || ending == ".vrm") return ReadGltfHead(path);
-  return vm::Fail(vm::Errc::kBadValue,
-                  "'" + path + "' is no head's name: it must end in .obj, .glb, .gltf or .vrm");
+vm::Result<ImportedHead> ReadObjHead(const std::string& path) {
+  const auto obj = ReadObj(path);
+  if (!obj) return std::unexpected(obj.error());
+  return ObjHead(path, *obj).Make();
 }
 
 }  // namespace fsm

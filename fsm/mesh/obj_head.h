@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "fsm/mesh/imported_head.h"
+
+namespace fsm {
+
+/// An .obj file with its materials and pictures. Errors: as ReadImportedHead.
+vm::Result<ImportedHead> ReadObjHead(const std::string& path);
+
+}  // namespace fsm
