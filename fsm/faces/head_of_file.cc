@@ -141,7 +141,7 @@ Alignment AlignByOutline(const ImportedHead& file) {
 }
 
 /// By the points that lie beside the file, else by the outline.
-Alignment AlignmentOf(const HeadFile& file, const std::string& points) {
+Alignment AlignmentOf(const ImportedHead& file, const std::string& points) {
   std::error_code none;
   if (!std::filesystem::exists(points, none)) return AlignByOutline(file);
   const std::string text = vm::OrThrow(vm::ReadTextFile(points, 1U << 20));
@@ -149,7 +149,7 @@ Alignment AlignmentOf(const HeadFile& file, const std::string& points) {
 }
 
 /// The rig of a file's own shapes; nothing if too few have names with a meaning.
-std::optional<RigData> RigOfShapes(const HeadFile& file, const Alignment& alignment,
+std::optional<RigData> RigOfShapes(const ImportedHead& file, const Alignment& alignment,
                                    const MotionTables& tables,
                                    const std::optional<UnitTable>& units, MeshModel& model,
                                    std::vector<std::string>& unused) {

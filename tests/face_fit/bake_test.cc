@@ -389,11 +389,12 @@ class BillboardTest : public NetworkTest {
 TEST_F(BillboardTest, ShouldersFallBeyondThePhotosSides) {
   const CompletedFigure whole = CompleteFigure(fitted_, figure_);
   EXPECT_TRUE(whole.completed.shoulders);
+  const glm::vec2 origin = glm::round(whole.head.pose.centre - fitted_.pose.centre);
   const FloatImage& opacity = whole.figure.opacity;
   int beside = 0;
   for (int y = 0; y < opacity.height; ++y) {
     for (int x = 0; x < opacity.width; ++x) {
-      const glm::vec2 p = glm::vec2(x, y) + 0.5F - whole.photo;
+      const glm::vec2 p = glm::vec2(x, y) + 0.5F - origin;
       const float out = std::max(-p.x, p.x - kPhoto);
       if (out < 8 || p.y > kPhoto - 4) continue;
       const float outline = Shoulder(kPhoto / 2) + 0.3F * out;
