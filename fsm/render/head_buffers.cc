@@ -38,7 +38,7 @@ DetailAttributes DetailOf(const HeadTopology& topology, const CreaseWeights& cre
   return detail;
 }
 
-/// Per vertex, the attributes kAlbedoOcclusion, kTexcoord, kLidGrain and kOpacity.
+/// Per vertex, the attributes kAlbedoOpenness, kTexcoord, kLidGrain and kOpacity.
 struct PaintAttributes {
   std::vector<glm::vec4> colour, texcoord, grain;
   std::vector<float> opacity;
@@ -187,7 +187,7 @@ void HeadBuffers::UploadAttributes(const HeadVertices& rest) {
     relit_normal[i] *= i < topology().portrait.relit.size() ? topology().portrait.relit[i] : 0.0F;
   }
   upload(VertexAttribute::kRestPosition, rest.position);
-  upload(VertexAttribute::kAlbedoOcclusion, paint.colour);
+  upload(VertexAttribute::kAlbedoOpenness, paint.colour);
   upload(VertexAttribute::kDetailPlace, detail.place);
   upload(VertexAttribute::kDetail, detail.detail);
   upload(VertexAttribute::kDetailMore, detail.more);

@@ -10,17 +10,17 @@ namespace fsm {
 /// and hair, which have shaders of their own, put different things at three of them.
 struct VertexAttribute {
   enum Location : GLuint {
-    kPosition,         ///< millimetres
-    kNormal,           ///< unit
-    kRestPosition,     ///< millimetres
-    kAlbedoOcclusion,  ///< linear RGB; openness to light, 0..1
-    kDetailPlace,      ///< skin: HeadTopology::uv; hair: Strand::tile_mm
-    kDetail,           ///< skin: CreaseWeights::face; hair: Strand::along and density
-    kDetailMore,       ///< skin: CreaseWeights::nose_and_left; hair: Strand::across
-    kTexcoord,         ///< TextureMaps::texcoord and weight; ShutLid::weight
-    kLidGrain,         ///< ShutLid::grain_at and slide
-    kOpacity,          ///< HeadTopology::opacity
-    kRelitNormal,      ///< the normal at rest, as long as Portrait::relit
+    kPosition,        ///< millimetres
+    kNormal,          ///< unit
+    kRestPosition,    ///< millimetres
+    kAlbedoOpenness,  ///< linear RGB; openness to light, 0..1
+    kDetailPlace,     ///< skin: HeadTopology::uv; hair: Strand::tile_mm
+    kDetail,          ///< skin: CreaseWeights::face; hair: Strand::along and density
+    kDetailMore,      ///< skin: CreaseWeights::nose_and_left; hair: Strand::across
+    kTexcoord,        ///< TextureMaps::texcoord and weight; ShutLid::weight
+    kLidGrain,        ///< ShutLid::grain_at and slide
+    kOpacity,         ///< HeadTopology::opacity
+    kRelitNormal,     ///< the normal at rest, as long as Portrait::relit
     kCount
   };
   /// Numbers of each.

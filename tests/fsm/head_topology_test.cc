@@ -76,7 +76,7 @@ TEST(HeadTopologyTest, HairThinsOutOnlyWhereLocksEnd) {
   EXPECT_GT(gone, all / 50);
 }
 
-TEST(HeadTopologyTest, PaintAndOcclusionAreInRange) {
+TEST(HeadTopologyTest, PaintAndOpennessAreInRange) {
   const HeadTopology& topology = GenericHead().topology();
   for (const glm::vec3 c : topology.albedo) {
     ASSERT_TRUE(Finite(c));

@@ -1,7 +1,7 @@
 // Eyeballs: white, iris and pupil are all found per pixel, so that they are round whatever the mesh.
 // Everything is seen through a wet surface whose highlight comes from a sphere of its own.
 in vec3 world_position;
-in float occlusion;
+in float openness;
 
 uniform sampler2D noise;
 uniform vec4 ball[2];         // centre in world coordinates, radius; left of the picture, right
@@ -189,7 +189,7 @@ void main() {
   light += lamp_colours[0] * Wrapped(dot(p.normal, lamp_directions[0]), vec3(0.35)) * 0.8;
   light += lamp_colours[1] * Wrapped(dot(p.normal, lamp_directions[1]), vec3(0.35));
   light = photo_brightness > 0.0 ? vec3(1.0) : light;
-  vec3 seen = base * light * shade * mix(occlusion, 1.0, 0.3);
+  vec3 seen = base * light * shade * mix(openness, 1.0, 0.3);
   AddMirrored(p, pictured, shade, light, seen);
   seen = max(seen, 0.0);
   colour = vec4(photo_brightness > 0.0 ? photo_brightness * pow(seen, vec3(0.4545)) : ToScreen(seen), 1.0);

@@ -1,8 +1,8 @@
 // Eyeballs, which are shaded per pixel, and lines, which are not shaded at all.
 out vec3 world_position;
-out float occlusion;
+out float openness;
 
 void main() {
   world_position = TransformVertex();
-  occlusion = albedo_occlusion.a;
+  openness = albedo_openness.a;
 }

@@ -21,8 +21,8 @@ void main() {
   vec3 v = normalize(eye - world);
   // Sheets are seen from both sides; at the outline they keep the side they face.
   n -= 2.0 * min(dot(n, v), 0.0) * v;
-  vec3 albedo = albedo_occlusion.rgb;
-  float occlusion = albedo_occlusion.a;
+  vec3 albedo = albedo_openness.rgb;
+  float openness = albedo_openness.a;
 
   vec3 strand = rest_to_world * along_and_density.xyz;
   float sleek = length(strand);
@@ -31,16 +31,16 @@ void main() {
   fray = vec2(along_and_density.w, across_lock);
 
   // Light falls on a strand by the sine of its angle to it (Kajiya and Kay 1989).
-  float shadow = mix(occlusion, 1.0, 0.25) * mix(KeyShadow(world), 1.0, 0.3);
+  float shadow = mix(openness, 1.0, 0.25) * mix(KeyShadow(world), 1.0, 0.3);
   float t_dot_l = dot(strand, lamp_directions[0]);
   float across = 0.4 + 0.6 * sqrt(max(1.0 - t_dot_l * t_dot_l, 0.0));
-  vec3 soft = albedo * occlusion *
+  vec3 soft = albedo * openness *
               (Ambient(n) + lamp_colours[1] * max((dot(n, lamp_directions[1]) + 0.35) / 1.82, 0.0));
   float rim = clamp(dot(n, lamp_directions[2]) * 0.8 + 0.3, 0.0, 1.0);
   float away = 1.0 - max(dot(n, v), 0.0);
   // Dark hairs (lashes) must not glitter where seen edgewise.
   vec3 sheen = min(vec3(hair_rim_sheen), albedo) * away * away;
-  soft += lamp_colours[2] * occlusion * rim * (albedo * hair_rim + sheen);
+  soft += lamp_colours[2] * openness * rim * (albedo * hair_rim + sheen);
   float n_dot_l = dot(n, lamp_directions[0]);
   vec3 key = lamp_colours[0] * shadow * albedo * max((n_dot_l + 0.35) / 1.82, 0.0) * across;
   light = soft + key;

@@ -60,7 +60,7 @@ void main() {
   vec3 v = normalize(eye - world);
   vec3 p = (to_mouth * vec4(position, 1.0)).xyz;
   vec3 n = mat3(to_mouth) * normal;
-  float occlusion = albedo_occlusion.a;
+  float openness = albedo_openness.a;
 
   vec3 upper = EdgeAt(0, p.x);
   vec3 lower = EdgeAt(kColumns, p.x);
@@ -100,7 +100,7 @@ void main() {
   // What turns away from the viewer, wet and soft, has no hard outline.
   float facing = smoothstep(-0.1, 0.55, dot(n_world, v));
   float outline = mix(0.4 + 0.6 * facing, 1.0, lining);
-  float open = mix(mix(sqrt(occlusion), 1.0, 0.5 * lining), occlusion * occlusion, out_of_mouth);
+  float open = mix(mix(sqrt(openness), 1.0, 0.5 * lining), openness * openness, out_of_mouth);
   light = Albedo() * (total * open * outline + bounced * mix(0.4, 1.0, open)) *
           mix(front_gain, deep_gain, smoothstep(2.0, 9.0, inward));
 
@@ -108,7 +108,7 @@ void main() {
       lamp_colours[0].g * shadow * smoothstep(-0.35, 0.15, n_dot_l) * 0.8 / max(total.g, 1e-3);
   vec3 h = normalize(mouth_to_world * mouth_key + v);
   SetSlopes(n_world, h, power);
-  shine.x = Fresnel(dot(h, v)) * occlusion * occlusion * shadow * smoothstep(0.0, 0.3, dot(n_world, h));
+  shine.x = Fresnel(dot(h, v)) * openness * openness * shadow * smoothstep(0.0, 0.3, dot(n_world, h));
   shine.yz = vec2(0.0);
   place = rest_position.xz * planar;
 }

@@ -10,5 +10,5 @@ void main() {
   at = TransformVertex();
   facing = WorldNormal();
   texcoord = photo_texcoord;
-  tint = albedo_occlusion.rgb;
+  tint = albedo_openness.rgb;
 }

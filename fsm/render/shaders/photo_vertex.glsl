@@ -40,7 +40,7 @@ void main() {
   float shut = lid_grain.zw == vec2(0.0) ? smoothstep(0.8, 1.0, closed) : smoothstep(0.1, 0.4, closed);
   texcoord = vec3(photo_texcoord.xy + closed * lid_grain.zw, photo_texcoord.z * (1.0 - lid * shut));
   bool grained = lid_grain.x > 0.0;
-  grain_from = grained ? vec4(lid_grain.xy, 1.0, albedo_occlusion.a) : vec4(photo_texcoord.xy, 0.0, 1.0);
+  grain_from = grained ? vec4(lid_grain.xy, 1.0, albedo_openness.a) : vec4(photo_texcoord.xy, 0.0, 1.0);
   // A lip that rolls inward is paint in part, and the more so as it turns away.
   float roll = smoothstep(0.0, 0.3, 1.0 - photo_texcoord.z);
   float facing = smoothstep(-0.05, 0.6, dot(WorldNormal(), normalize(eye - world)));
@@ -63,5 +63,5 @@ void main() {
   covering = opacity * mix(1.0, smoothstep(0.4, 0.9, closed), lashes);
   // The sheet shows what is beside the face.
   crease = (1.0 - ragged) * CreaseDepth();
-  paint = sqrt(max(albedo_occlusion.rgb * (grained ? 1.0 : albedo_occlusion.a), 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
+  paint = sqrt(max(albedo_openness.rgb * (grained ? 1.0 : albedo_openness.a), 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
 }

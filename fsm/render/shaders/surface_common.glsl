@@ -16,7 +16,7 @@ flat out vec4 finish;  // strengths of the highlights, depth of detail
 flat out vec4 gleam;   // light that gleams; chroma
 
 vec3 Albedo() {
-  vec3 albedo = albedo_occlusion.rgb;
+  vec3 albedo = albedo_openness.rgb;
   return max(mix(vec3(dot(albedo, vec3(0.3, 0.6, 0.1))), albedo, saturation), 0.0);
 }
 

@@ -10,12 +10,12 @@ void main() {
   vec3 world = TransformVertex();
   vec3 n = WorldNormal();
   vec3 v = normalize(eye - world);
-  float occlusion = albedo_occlusion.a;
+  float openness = albedo_openness.a;
   float crease = CreaseDepth();
 
   // Corners shut off from light glow red, because what light there is came through skin.
-  float root = sqrt(occlusion);
-  vec3 open = mix(vec3(1.0), vec3(1.0, sqrt(root), root), occlusion_redness) * occlusion;
+  float root = sqrt(openness);
+  vec3 open = mix(vec3(1.0), vec3(1.0, sqrt(root), root), occlusion_redness) * openness;
   vec3 shadow = vec3(KeyShadow(world));
   shadow.gb *= shadow.gb * 0.08 + 0.92;
 
@@ -33,7 +33,7 @@ void main() {
   vec3 h = normalize(lamp_directions[0] + v);
   float power = key_open.g * smoothstep(-0.35, 0.15, n_dot_l) * 0.8 / max(total.g, 1e-3);
   SetSlopes(n, h, power);
-  shine.x = Fresnel(dot(h, v)) * occlusion * occlusion * shadow.g *
+  shine.x = Fresnel(dot(h, v)) * openness * openness * shadow.g *
             clamp(n_dot_l * 4.0 + 0.2, 0.0, 1.0) * smoothstep(0.0, 0.3, dot(n, h));
   shine.y = crease;
 
@@ -41,7 +41,7 @@ void main() {
   float g4 = g * g * g * g;
   shine.z = (lamp_colours[1].g * down_fill * g4 * g4 * g4 * g4 +
              (lamp_colours[2].g * down_rim + Ambient(n).g * down_room) * away * away * away) *
-            occlusion * occlusion * sheen;
+            openness * openness * sheen;
 
   light = Albedo() * total * (1.0 - crease_darkens * crease);
   place = planar > 0.0 ? rest_position.xy * planar : unrolled;

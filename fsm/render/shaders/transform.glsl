@@ -3,7 +3,7 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 rest_position;
-layout(location = 3) in vec4 albedo_occlusion;
+layout(location = 3) in vec4 albedo_openness;
 
 uniform mat4 figure_to_world;
 uniform mat4 world_to_clip;
