@@ -177,46 +177,46 @@ vm::Result<std::vector<HeadCurve>> ReadCurves(const std::vector<std::string>& fi
 }  // namespace
 
 vm::Result<void> OriginalConfig::ApplyTo(MotionTables& tables) const {
-  MotionTable& table = tables.motions;
+  MotionPatterns& patterns = tables.motions;
   for (const auto& [kind, files] : motions) {
     auto curves = ReadCurves(files);
     if (!curves) return std::unexpected(curves.error());
-    table.head[kind] = std::move(*curves);
+    patterns.head[kind] = std::move(*curves);
   }
-  for (const auto& [files, out] : {std::pair{&auto_moves, &table.auto_move_files},
-                                   std::pair{&auto_userdefs, &table.auto_userdef}}) {
+  for (const auto& [files, out] : {std::pair{&auto_moves, &patterns.auto_move_files},
+                                   std::pair{&auto_userdefs, &patterns.auto_userdef}}) {
     if (files->empty()) continue;
     auto curves = ReadCurves(*files);
     if (!curves) return std::unexpected(curves.error());
     *out = std::move(*curves);
   }
   for (const auto& [name, looks] : expressions) {
-    auto& patterns = tables.emotions[name].patterns;
+    auto& own = tables.emotions[name].patterns;
     for (const auto& [pattern, look] : looks) {
       const auto index = static_cast<std::size_t>(pattern - 1);
-      patterns.resize(std::max(patterns.size(), index + 1));
-      patterns[index] = look;
+      own.resize(std::max(own.size(), index + 1));
+      own[index] = look;
     }
   }
-  if (!blinks_ms.empty()) table.blinks.clear();
+  if (!blinks_ms.empty()) patterns.blinks.clear();
   for (const double ms : blinks_ms) {
     // Two fifths closing, as lids close faster than they open.
-    table.blinks.push_back({0.4 * ms, 0.05 * ms, 0.55 * ms});
+    patterns.blinks.push_back({0.4 * ms, 0.05 * ms, 0.55 * ms});
   }
-  if (!auto_blinks.empty()) table.auto_blinks.clear();
+  if (!auto_blinks.empty()) patterns.auto_blinks.clear();
   for (const auto& [percent, pattern] : auto_blinks) {
-    if (static_cast<std::size_t>(pattern) > table.blinks.size()) {
+    if (static_cast<std::size_t>(pattern) > patterns.blinks.size()) {
       return vm::Fail(vm::Errc::kBadValue, path + ": AutonomousBlink names blink pattern " +
                                                std::to_string(pattern) + ", which there is not");
     }
     // The original draws lots for every frame, 30 a second.
     constexpr double kFrameMs = 1000.0 / 30;
-    table.auto_blinks.push_back(
+    patterns.auto_blinks.push_back(
         {std::max(500.0, kFrameMs * 100 / percent), static_cast<std::size_t>(pattern) - 1, false});
   }
   // Built-in autonomous blinks may now point past the patterns the file gave.
-  for (AutoBlink& blink : table.auto_blinks) {
-    blink.blink = std::min(blink.blink, table.blinks.size() - 1);
+  for (AutoBlink& blink : patterns.auto_blinks) {
+    blink.blink = std::min(blink.blink, patterns.blinks.size() - 1);
   }
   return {};
 }

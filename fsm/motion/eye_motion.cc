@@ -57,7 +57,7 @@ void EyeMotion::LookAt(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time 
 }
 
 void EyeMotion::BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to) {
-  if (!idle_.On(IdleKind::kGazeBlink) || table_.blinks.empty()) return;
+  if (!idle_.On(IdleKind::kGazeBlink) || patterns_.blinks.empty()) return;
   const double angle = std::hypot(to[0] - from[0], to[1] - from[1]);
   // Nearly always with large shifts, seldom with small ones (Evinger et al., Not looking while
   // leaping, 1994).
@@ -81,7 +81,7 @@ void EyeMotion::Think(vm::Time now) {
 }
 
 void EyeMotion::Blink(vm::Time now, std::size_t pattern, int count) {
-  const BlinkPattern& blink = table_.blinks[pattern - 1];
+  const BlinkPattern& blink = patterns_.blinks[pattern - 1];
   for (int i = 0; i < count; ++i) {
     const vm::Time start = now + i * LengthOf(blink);
     std::erase_if(blinks_,

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "fsm/motion/idle_behaviour.h"
+#include "fsm/motion/motion_patterns.h"
 #include "fsm/motion/motion_settings.h"
 #include "fsm/motion/motion_source.h"
-#include "fsm/motion/motion_table.h"
 
 namespace fsm {
 
@@ -15,9 +15,9 @@ namespace fsm {
 /// how far the eyes are kept on the viewer. Lifetime: what it is made with outlives it.
 class EyeMotion : public MotionSource {
  public:
-  EyeMotion(const MotionTable& table, const MotionSettings& settings, const IdleBehaviour& idle,
-            std::uint64_t seed)
-      : table_(table), settings_(settings), idle_(idle), seed_(seed) {}
+  EyeMotion(const MotionPatterns& patterns, const MotionSettings& settings,
+            const IdleBehaviour& idle, std::uint64_t seed)
+      : patterns_(patterns), settings_(settings), idle_(idle), seed_(seed) {}
 
   /// The eyes that are true turn there, and with a `duration` (not zero) are back after it.
   void Turn(vm::Time now, bool left, bool right, const EyeAngles& angles, vm::Time duration);
@@ -26,7 +26,7 @@ class EyeMotion : public MotionSource {
   void Gaze(vm::Time now, const EyeAngles& angles, vm::Time duration);
   void LookAtUser(vm::Time now);
   void Think(vm::Time now);
-  /// `count` blinks, one after the other. REQUIRES: the table has the pattern, from 1.
+  /// `count` blinks, one after the other. REQUIRES: the pattern exists; counted from 1.
   void Blink(vm::Time now, std::size_t pattern, int count = 1);
   void StopBlinks() { blinks_.clear(); }
 
@@ -49,7 +49,7 @@ class EyeMotion : public MotionSource {
     BlinkPattern pattern;
     vm::Time start;
   };
-  const MotionTable& table_;
+  const MotionPatterns& patterns_;
   const MotionSettings& settings_;
   const IdleBehaviour& idle_;
   std::uint64_t seed_;

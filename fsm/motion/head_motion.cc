@@ -27,8 +27,8 @@ vm::Time HeadMotion::EndOf(const Move& move) {
 
 vm::Result<void> HeadMotion::Play(vm::Time now, std::string_view kind, int pattern, double strength,
                                   int count) {
-  const auto found = table_.head.find(kind);
-  const std::size_t patterns = found == table_.head.end() ? 0 : found->second.size();
+  const auto found = patterns_.head.find(kind);
+  const std::size_t patterns = found == patterns_.head.end() ? 0 : found->second.size();
   if (auto fits = CheckPattern(kind, pattern, 1, patterns); !fits) return fits;
   StopMoves(now);
   const HeadCurve& curve = found->second[static_cast<std::size_t>(pattern - 1)];

@@ -4,17 +4,17 @@
 #include <string_view>
 #include <vector>
 
+#include "fsm/motion/motion_patterns.h"
 #include "fsm/motion/motion_source.h"
-#include "fsm/motion/motion_table.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {
 
 /// Where the head is turned, on the layer `head`: a direction it was told, and movements (nods)
-/// added to it. The table outlives it.
+/// added to it. The patterns outlive it.
 class HeadMotion : public MotionSource {
  public:
-  explicit HeadMotion(const MotionTable& table) : table_(table) {}
+  explicit HeadMotion(const MotionPatterns& patterns) : patterns_(patterns) {}
 
   void TurnTo(vm::Time now, const Angles& angles);
   /// From where the last turn leads; each angle stays within +-90 degrees.
@@ -42,7 +42,7 @@ class HeadMotion : public MotionSource {
   };
   static vm::Time EndOf(const Move& move);
 
-  const MotionTable& table_;
+  const MotionPatterns& patterns_;
   Track<Angles> turn_;
   std::vector<Move> moves_;
 };

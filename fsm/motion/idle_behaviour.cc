@@ -42,8 +42,8 @@ double Swing(double u) {
 
 }  // namespace
 
-IdleBehaviour::IdleBehaviour(const MotionTable& table, std::uint64_t seed)
-    : table_(table), seed_(seed) {
+IdleBehaviour::IdleBehaviour(const MotionPatterns& patterns, std::uint64_t seed)
+    : patterns_(patterns), seed_(seed) {
   switches_[static_cast<std::size_t>(IdleKind::kAsymmetry)] = {1, true, vm::Time(0), Track(1.0f)};
 }
 
@@ -70,7 +70,7 @@ vm::Result<void> IdleBehaviour::Set(vm::Time now, std::string_view kind, int pat
                                                      kind, fmt::join(kIdleKindNames, " ")));
   }
   if (pattern != 0) {
-    const std::size_t count = table_.Patterns(*named);
+    const std::size_t count = patterns_.Count(*named);
     if (auto fits = CheckPattern(kind, pattern, 0, count); !fits) return fits;
   }
   Set(now, *named, static_cast<std::size_t>(pattern));
@@ -82,10 +82,10 @@ vm::Result<void> IdleBehaviour::SetProfile(vm::Time now, std::string_view profil
   if (profile == "OFF") {
     wanted[static_cast<std::size_t>(IdleKind::kAsymmetry)] = 1;
   } else {
-    const auto found = table_.profiles.find(profile);
-    if (found == table_.profiles.end()) {
+    const auto found = patterns_.profiles.find(profile);
+    if (found == patterns_.profiles.end()) {
       return vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' is no way to live; {} or OFF expected",
-                                                       profile, KeysOf(table_.profiles)));
+                                                       profile, KeysOf(patterns_.profiles)));
     }
     wanted = found->second;
   }
@@ -115,11 +115,11 @@ void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
   const Switch& own = Of(IdleKind::kMove);
   if (own.pattern == 0) return;
   const double weight = own.weight.At(t);
-  if (!table_.auto_move_files.empty()) {
-    Add(out, Looped(table_.auto_move_files[own.pattern - 1], InMs(t - own.since)), weight);
+  if (!patterns_.auto_move_files.empty()) {
+    Add(out, Looped(patterns_.auto_move_files[own.pattern - 1], InMs(t - own.since)), weight);
     return;
   }
-  const AutoMove& move = table_.auto_moves[own.pattern - 1];
+  const AutoMove& move = patterns_.auto_moves[own.pattern - 1];
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // Two frequencies are added, because one alone looks like a pendulum.
     const double slow = InMs(t) / move.period_ms + 0.37 * static_cast<double>(axis);
@@ -133,7 +133,7 @@ void IdleBehaviour::AddNods(vm::Time t, Angles& out) const {
   const Switch& own = Of(IdleKind::kNods);
   const double weight = own.weight.At(t);
   if (own.pattern == 0 || weight <= 0) return;
-  const AutoNods& nods = table_.auto_nods[own.pattern - 1];
+  const AutoNods& nods = patterns_.auto_nods[own.pattern - 1];
   const double ms = InMs(t - own.since);
   const auto k = static_cast<std::int64_t>(std::floor(ms / nods.interval_ms));
   if (ms < 0) return;
@@ -149,12 +149,12 @@ void IdleBehaviour::Contribute(vm::Time t, MotionFrame& frame) const {
   MotionLayer& layer = frame.Layer("idle");
   AddMove(t, layer.head);
   if (const Switch& own = Of(IdleKind::kUserdef); own.pattern > 0) {
-    Add(layer.head, Looped(table_.auto_userdef[own.pattern - 1], InMs(t - own.since)),
+    Add(layer.head, Looped(patterns_.auto_userdef[own.pattern - 1], InMs(t - own.since)),
         own.weight.At(t));
   }
   if (const Switch& own = Of(IdleKind::kBreath); own.pattern > 0) {
     const double breath = BreathAt(t);
-    layer.head[0] -= static_cast<float>(table_.auto_breaths[own.pattern - 1].pitch * breath);
+    layer.head[0] -= static_cast<float>(patterns_.auto_breaths[own.pattern - 1].pitch * breath);
     const auto nostrils = static_cast<float>(kNostrilsAtFull * breath);
     layer.units.au.left[kNostrilDilator] = layer.units.au.right[kNostrilDilator] = nostrils;
   }
@@ -162,7 +162,7 @@ void IdleBehaviour::Contribute(vm::Time t, MotionFrame& frame) const {
   layer.lids_shut = static_cast<float>(LidsShutAt(t));
   AddNods(t, frame.Layer("nods").head);
   if (const Switch& own = Of(IdleKind::kFace); own.pattern > 0) {
-    AddTo(frame.Layer("idle_face").units, table_.auto_faces[own.pattern - 1], own.weight.At(t));
+    AddTo(frame.Layer("idle_face").units, patterns_.auto_faces[own.pattern - 1], own.weight.At(t));
   }
 }
 
@@ -170,7 +170,7 @@ double IdleBehaviour::BreathAt(vm::Time t) const {
   const Switch& own = Of(IdleKind::kBreath);
   if (own.pattern == 0) return 0;
   const double ms = std::max(0.0, InMs(t - own.since));
-  const double u = std::fmod(ms / table_.auto_breaths[own.pattern - 1].period_ms, 1.0);
+  const double u = std::fmod(ms / patterns_.auto_breaths[own.pattern - 1].period_ms, 1.0);
   // In for two fifths of the time, out for the rest with a pause at its end.
   const double in = u < 0.4 ? Eased(u / 0.4) : 1 - Eased((u - 0.4) / 0.5);
   return own.weight.At(t) * in;
@@ -179,7 +179,7 @@ double IdleBehaviour::BreathAt(vm::Time t) const {
 EyeAngles IdleBehaviour::EyesAt(vm::Time t) const {
   const Switch& own = Of(IdleKind::kGaze);
   if (own.pattern == 0) return {};
-  const AutoGaze& gaze = table_.auto_gazes[own.pattern - 1];
+  const AutoGaze& gaze = patterns_.auto_gazes[own.pattern - 1];
   const double weight = own.weight.At(t);
   if (weight <= 0) return {};
   // One jump in each interval: fixations of very different lengths.
@@ -203,7 +203,7 @@ EyeAngles IdleBehaviour::EyesAt(vm::Time t) const {
 vm::Time IdleBehaviour::BlinkInterval(std::int64_t index) const {
   // Intervals between blinks are skewed: many short, some long. exp of a sum of three even numbers
   // (nearly normal) is nearly log-normal; bounded to half and one and a half of the mean.
-  const double mean = table_.auto_blinks[Of(IdleKind::kBlink).pattern - 1].interval_ms;
+  const double mean = patterns_.auto_blinks[Of(IdleKind::kBlink).pattern - 1].interval_ms;
   const std::int64_t n = 3 * index;
   const double normal =
       Random(kBlinkTime, n) + Random(kBlinkTime, n + 1) + Random(kBlinkTime, n + 2);
@@ -228,7 +228,7 @@ IdleBehaviour::Blink IdleBehaviour::LastBlink(vm::Time t) const {
 double IdleBehaviour::LidsShutAt(vm::Time t) const {
   const Switch& own = Of(IdleKind::kBlink);
   if (own.pattern == 0) return 0;
-  const AutoBlink& blinks = table_.auto_blinks[own.pattern - 1];
+  const AutoBlink& blinks = patterns_.auto_blinks[own.pattern - 1];
   const double weight = own.weight.At(t);
   if (weight <= 0) return 0;
   const Blink blink = LastBlink(t);
@@ -236,7 +236,7 @@ double IdleBehaviour::LidsShutAt(vm::Time t) const {
   // Half of people's blinks do not shut the eye quite.
   const double depth =
       blinks.varied ? std::min(1.0, 0.9 + 0.2 * Random(kBlinkDepth, blink.index)) : 1;
-  return weight * depth * LidsAt(table_.blinks[blinks.blink], t - blink.start);
+  return weight * depth * LidsAt(patterns_.blinks[blinks.blink], t - blink.start);
 }
 
 std::optional<vm::Time> IdleBehaviour::NextActivity(vm::Time t) const {
@@ -247,8 +247,8 @@ std::optional<vm::Time> IdleBehaviour::NextActivity(vm::Time t) const {
   const std::optional<vm::Time> next = MotionSource::NextActivity(t);
   if (next && *next <= t) return t;
   if (!On(IdleKind::kBlink)) return next;
-  const AutoBlink& blinks = table_.auto_blinks[Of(IdleKind::kBlink).pattern - 1];
-  const vm::Time length = LengthOf(table_.blinks[blinks.blink]);
+  const AutoBlink& blinks = patterns_.auto_blinks[Of(IdleKind::kBlink).pattern - 1];
+  const vm::Time length = LengthOf(patterns_.blinks[blinks.blink]);
   // The earliest blink that is not over: the one that follows the last which was over by now.
   const Blink over = LastBlink(t - length);
   return Earlier(next, std::max(t, over.start + BlinkInterval(over.index + 1)));

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "fsm/motion/motion_patterns.h"
 #include "fsm/motion/motion_source.h"
-#include "fsm/motion/motion_table.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {
@@ -14,17 +14,17 @@ namespace fsm {
 /// `idle`, a listener's nods on `nods`, a slight look that stays on `idle_face`. Everything is a
 /// function of the seed and the time, with no state but what is switched on, so any instant can be
 /// asked for in any order. The kinds that belong to commands or to speech are only switched here;
-/// other sources ask for them. The table outlives it. Errors: kBadValue with what there is.
+/// other sources ask for them. The patterns outlive it. Errors: kBadValue with what there is.
 class IdleBehaviour : public MotionSource {
  public:
   /// ASYMMETRY is on, everything else is off.
-  IdleBehaviour(const MotionTable& table, std::uint64_t seed);
+  IdleBehaviour(const MotionPatterns& patterns, std::uint64_t seed);
 
   /// A kind by its name; pattern 0 switches off.
   vm::Result<void> Set(vm::Time now, std::string_view kind, int pattern);
-  /// Everything as a profile of the table says; OFF is as it is at the start.
+  /// Everything as a profile says; OFF is as it is at the start.
   vm::Result<void> SetProfile(vm::Time now, std::string_view profile);
-  /// Pattern 0 switches off. REQUIRES: pattern at most the count the table has.
+  /// Pattern 0 switches off. REQUIRES: pattern at most MotionPatterns::Count.
   void Set(vm::Time now, IdleKind kind, std::size_t pattern);
   bool On(IdleKind kind) const { return Of(kind).on; }
   /// The pattern in force or switched off last, from 1; 0 = never on.
@@ -65,7 +65,7 @@ class IdleBehaviour : public MotionSource {
   /// The last blink that has begun by `t`; its index is -1 before the first.
   Blink LastBlink(vm::Time t) const;
 
-  const MotionTable& table_;
+  const MotionPatterns& patterns_;
   std::uint64_t seed_;
   std::array<Switch, kIdleKindNames.size()> switches_;
   /// The blink that was asked for last. A blink's place is the sum of all intervals before it, but

@@ -7,10 +7,10 @@ namespace fsm {
 vm::Result<void> MoodMotion::Set(vm::Time now, std::string_view name, double strength) {
   ActionUnits look;
   if (name != "NEUTRAL") {
-    const auto found = table_.moods.find(name);
-    if (found == table_.moods.end()) {
+    const auto found = patterns_.moods.find(name);
+    if (found == patterns_.moods.end()) {
       return vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' is no mood; {} or NEUTRAL expected",
-                                                       name, KeysOf(table_.moods)));
+                                                       name, KeysOf(patterns_.moods)));
     }
     AddTo(look, found->second, static_cast<float>(strength));
   }

@@ -53,7 +53,7 @@ class MotionReader {
  public:
   MotionReader(const Table& table, const UnitNames& units) : rows_(table.rows()), units_(units) {}
 
-  MotionTable Read() {
+  MotionPatterns Read() {
     while (next_ < rows_.size()) ReadRow(rows_[next_++]);
     return std::move(out_);
   }
@@ -156,7 +156,7 @@ class MotionReader {
     for (std::size_t i = 2; i < row.size(); i += 2) {
       const auto kind = IdleKindNamed(row.Word(i));
       if (!kind) row.Fail(fmt::format("'{}' found, a kind of Autonomous expected", row.Word(i)));
-      const auto patterns = static_cast<double>(out_.Patterns(*kind));
+      const auto patterns = static_cast<double>(out_.Count(*kind));
       profile[static_cast<std::size_t>(*kind)] =
           static_cast<std::size_t>(row.Number(i + 1, "a pattern given above", 0, patterns));
     }
@@ -183,13 +183,13 @@ class MotionReader {
   const std::vector<TableRow>& rows_;
   const UnitNames& units_;
   std::size_t next_ = 0;  // the row after the one in hand
-  MotionTable out_;
+  MotionPatterns out_;
 };
 
 }  // namespace
 
-vm::Result<MotionTable> ReadMotions(const std::string& name, std::string_view text,
-                                    const UnitNames& units) {
+vm::Result<MotionPatterns> ReadMotions(const std::string& name, std::string_view text,
+                                       const UnitNames& units) {
   return ReadTable(name, text,
                    [&units](const Table& table) { return MotionReader(table, units).Read(); });
 }

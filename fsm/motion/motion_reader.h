@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "fsm/motion/motion_table.h"
+#include "fsm/motion/motion_patterns.h"
 
 namespace fsm {
 
@@ -12,7 +12,7 @@ namespace fsm {
 vm::Result<HeadCurve> ReadMotionFile(const std::string& name, std::string_view text);
 
 /// Reads tables/motions.txt. Error: kBadValue "NAME:LINE: what was expected".
-vm::Result<MotionTable> ReadMotions(const std::string& name, std::string_view text,
-                                    const UnitNames& units);
+vm::Result<MotionPatterns> ReadMotions(const std::string& name, std::string_view text,
+                                       const UnitNames& units);
 
 }  // namespace fsm

@@ -7,7 +7,7 @@
 #include "fsm/motion/emotion_space.h"
 #include "fsm/motion/emotion_table.h"
 #include "fsm/motion/mixer.h"
-#include "fsm/motion/motion_table.h"
+#include "fsm/motion/motion_patterns.h"
 #include "fsm/motion/mouth_tables.h"
 #include "fsm/motion/phoneme_names.h"
 #include "fsm/motion/text_cues.h"
@@ -22,7 +22,7 @@ struct MotionTables {
   Reach reach;
   EmotionTable emotions;
   EmotionSpace emotion_space;
-  MotionTable motions;
+  MotionPatterns motions;
   UnitList units;
   UnitNames unit_names;
   BlendShapes blend_shapes;

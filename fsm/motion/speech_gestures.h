@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fsm/motion/eye_motion.h"
-#include "fsm/motion/motion_table.h"
+#include "fsm/motion/motion_patterns.h"
 #include "fsm/motion/viseme_target.h"
 
 namespace fsm {

@@ -1,4 +1,4 @@
-#include "fsm/motion/motion_table.h"
+#include "fsm/motion/motion_patterns.h"
 
 #include <algorithm>
 #include <cassert>
@@ -64,7 +64,7 @@ std::optional<IdleKind> IdleKindNamed(std::string_view name) {
   return static_cast<IdleKind>(found - kIdleKindNames.begin());
 }
 
-std::size_t MotionTable::Patterns(IdleKind kind) const {
+std::size_t MotionPatterns::Count(IdleKind kind) const {
   const std::size_t moves = auto_move_files.empty() ? auto_moves.size() : auto_move_files.size();
   constexpr std::size_t kSwitch = 1;  // only on or off
   const std::array patterns{auto_blinks.size(),

@@ -79,7 +79,7 @@ struct AutoText {
   double size = 1;  ///< of the looks of text_cues.txt
 };
 
-/// What the face does by itself; each is switched by name. Names and MotionTable::Patterns have the
+/// What the face does by itself; each is switched by name. Names and MotionPatterns::Count have the
 /// same order.
 enum class IdleKind : std::size_t {
   kBlink,
@@ -104,7 +104,7 @@ std::optional<IdleKind> IdleKindNamed(std::string_view name);
 using IdleProfile = std::array<std::size_t, kIdleKindNames.size()>;
 
 /// Everything the face does by pattern number; pattern n is element n - 1.
-struct MotionTable {
+struct MotionPatterns {
   std::map<std::string, std::vector<HeadCurve>, std::less<>> head;  ///< NOD REFUSE LISTEN USERDEF
   std::vector<BlinkPattern> blinks;
   std::vector<AutoBlink> auto_blinks;
@@ -121,7 +121,7 @@ struct MotionTable {
   std::vector<HeadCurve> auto_move_files;  ///< if not empty, these are Autonomous MOVE n, in a loop
   std::vector<HeadCurve> auto_userdef;     ///< Autonomous USERDEF n, in a loop
 
-  std::size_t Patterns(IdleKind kind) const;  ///< how many there are
+  std::size_t Count(IdleKind kind) const;  ///< how many there are of a kind
 };
 
 }  // namespace fsm
