@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "fsm/base/box.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/landmarks.h"
 
@@ -20,18 +21,6 @@ namespace fsm::bench {
 namespace {
 
 constexpr std::size_t kLandmarks = 68;
-
-struct Box {
-  glm::vec3 low{std::numeric_limits<float>::max()};
-  glm::vec3 high{std::numeric_limits<float>::lowest()};
-  void Add(const glm::vec3& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  bool empty() const { return low.x > high.x; }
-  glm::vec3 centre() const { return (low + high) / 2.0F; }
-  glm::vec3 radii() const { return (high - low) / 2.0F; }
-};
 
 [[noreturn]] void Damaged(const std::filesystem::path& file, int line) {
   throw std::runtime_error(file.string() + ":" + std::to_string(line) + " cannot be read");

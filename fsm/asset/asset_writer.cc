@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <map>
 
 #include "fsm/asset/asset_members.h"
 #include "fsm/asset/gltf_builder.h"
 #include "fsm/asset/material_name.h"
+#include "fsm/base/box.h"
 #include "fsm/image/image_codec.h"
 
 namespace fsm {
@@ -214,13 +213,9 @@ class ForeignView {
 
  private:
   static void MarkBounds(std::span<const glm::vec3> places, json& accessor) {
-    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
-    for (const glm::vec3& place : places) {
-      low = glm::min(low, place);
-      high = glm::max(high, place);
-    }
-    accessor["min"] = NumbersOf(low);
-    accessor["max"] = NumbersOf(high);
+    const Box box = Box::Of(places);
+    accessor["min"] = NumbersOf(box.low);
+    accessor["max"] = NumbersOf(box.high);
   }
 
   void WriteTexture(const json& image) {

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "fsm/asset/asset_reader.h"
+#include "fsm/base/box.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/table_folder.h"
 #include "fsm/head/anatomy.h"
@@ -127,16 +128,12 @@ Alignment AlignByOutline(const ImportedHead& file) {
     alignment.to_ours = ScaledAbout(middle, scale, ours * glm::vec3(0, 1, 1));
     return alignment;
   }
-  glm::vec3 low(1e9f), high(-1e9f);
-  for (const glm::vec3& p : file.position) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  const glm::vec3 size = high - low;
+  const Box box = Box::Of(file.position);
+  const glm::vec3 size = box.size(), middle = box.centre();
   const float head = size.y > 2.2f * size.x ? size.y / 7.5f : size.y;
   constexpr float kHeadMm = 250, kTopMm = 130;
-  alignment.to_ours = ScaledAbout({0.5f * (low.x + high.x), high.y, 0.5f * (low.z + high.z)},
-                                  kHeadMm / std::max(head, 1e-6f), {0, kTopMm, 0});
+  alignment.to_ours = ScaledAbout({middle.x, box.high.y, middle.z}, kHeadMm / std::max(head, 1e-6f),
+                                  {0, kTopMm, 0});
   return alignment;
 }
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 
+#include "fsm/base/box.h"
 #include "fsm/base/spline.h"
 #include "fsm/head/identity.h"
 #include "fsm/mesh/mesh_reach.h"
@@ -85,18 +85,6 @@ class HeadBuilder {
   }
 
  private:
-  struct Box {
-    glm::vec3 low{1e9f}, high{-1e9f};
-    std::size_t count = 0;
-    void Add(glm::vec3 p) {
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-      ++count;
-    }
-    glm::vec3 centre() const { return 0.5f * (low + high); }
-    glm::vec3 radii() const { return 0.5f * (high - low); }
-  };
-
   void LayDetails() {
     std::vector<Image> normal_maps, emissive_map;
     for (const auto& detail : file_.details) {
@@ -155,7 +143,7 @@ class HeadBuilder {
         box[side].Add(at_[v]);
       }
     }
-    if (box.right.count == 0 || box.left.count == 0) return;
+    if (box.right.empty() || box.left.empty()) return;
     for (const Side side : kSides) {
       const glm::vec3 radii = box[side].radii();
       EyeGeometry& eye = model_.eyes[side];

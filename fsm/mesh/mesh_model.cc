@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "fsm/base/pi.h"
 #include "fsm/head/identity.h"
 
 namespace fsm {
@@ -47,7 +47,6 @@ std::vector<std::uint32_t> MeshModel::EyeTriangles() const {
 void MeshModel::AddBall(Side side) {
   // Rings about the line of sight, one of them the edge of the iris.
   constexpr int kSegments = 32, kIrisRings = 4, kRings = 14;
-  constexpr float kPi = std::numbers::pi_v<float>;
   const EyeGeometry& eye = eyes[side];
   const float edge = std::asin(std::min(eye.iris_radius / eye.ball_radius, 0.9F));
   const Bone carrier = BoneOf(side);

@@ -7,6 +7,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "fsm/base/box.h"
+#include "fsm/base/pi.h"
 #include "fsm/base/spline.h"
 #include "fsm/image/colour_space.h"
 #include "fsm/mesh/original_points.h"
@@ -86,7 +88,7 @@ class OriginalBuilder {
       for (std::size_t i = 0; i < rim.size(); ++i) {
         const glm::vec3 p = model_.position[rim[i]];
         // Points 0 and 10 of the rim's 20 are the corners, 1 to 9 the upper lip.
-        const float round = std::sin(3.14159265F * static_cast<float>(i % 10) / 10);
+        const float round = std::sin(kPi * static_cast<float>(i % 10) / 10);
         const float up = i < 10 ? round : -round;
         const glm::vec3 at(middle.x + (p.x - middle.x) * ring.wide, p.y + up * ring.high,
                            p.z - ring.back);
@@ -133,12 +135,8 @@ class OriginalBuilder {
     turned = glm::rotate(turned, turn.x, {1, 0, 0});
     turned = glm::rotate(turned, turn.y, {0, 1, 0});
     turned = glm::rotate(turned, turn.z, {0, 0, 1});
-    glm::vec3 low(1e9F), high(-1e9F);
-    for (const glm::vec3& p : face_.eye->positions) {
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-    }
-    const glm::vec3 size = glm::max(high - low, 1e-6F), middle = 0.5F * (low + high);
+    const Box box = Box::Of(face_.eye->positions);
+    const glm::vec3 size = glm::max(box.size(), 1e-6F), middle = box.centre();
     model_.eyes[side].centre = frame_.ToMm(eye.place);
     model_.eyes[side].ball_radius = 0.5F * size.x * eye.scale * frame_.mm();
     model_.eyes[side].iris_radius = 0.48F * model_.eyes[side].ball_radius;
@@ -189,16 +187,12 @@ class OriginalBuilder {
     };
     const bool upper = bone == Bone::kSkull;
     const TeethPoints& places = upper ? kUpperTeeth : kLowerTeeth;
-    glm::vec3 low(1e9F), high(-1e9F);
-    for (const glm::vec3& p : teeth.positions) {
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-    }
-    const glm::vec3 size = glm::max(high - low, 1e-6F);
+    const Box box = Box::Of(teeth.positions);
+    const glm::vec3 size = glm::max(box.size(), 1e-6F);
     const float wide = std::abs(at(kJawAtTeeth.left).x - at(kJawAtTeeth.right).x) / size.x;
     const float tall = std::abs(at(places.top).y - at(places.bottom).y) / size.y;
     const float edge = 0.5F * (at(kUpperLipFront).y + at(kLipMiddle).y);
-    const glm::vec3 from(0.5F * (low.x + high.x), upper ? low.y : high.y, high.z);
+    const glm::vec3 from(box.centre().x, upper ? box.low.y : box.high.y, box.high.z);
     const glm::vec3 to(at(kUpperLipFront).x, edge, at(places.front).z);
     const auto first = static_cast<std::uint32_t>(model_.position.size());
     for (const glm::vec3& p : teeth.positions) {

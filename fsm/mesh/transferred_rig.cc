@@ -102,17 +102,7 @@ class RigResampler {
                  .cornea_centre = source_.lids.cornea_centre};
     const auto lids = ByVertex(source_.lids.vertices);
     for (std::uint32_t v = 0; v < rows_.size(); ++v) {
-      LidRig::Vertex mean{.vertex = v,
-                          .side = Side::kRight,
-                          .upper = 0,
-                          .lower = 0,
-                          .upper_angle = 0,
-                          .lower_angle = 0,
-                          .meet_angle = 0,
-                          .opening = 0,
-                          .y = 0,
-                          .z = 0,
-                          .proper = false};
+      LidRig::Vertex mean{.vertex = v};
       float sum = 0, left = 0, proper = 0;
       for (const auto& [from, part] : rows_[v]) sum += lids[from] ? part : 0;
       if (sum <= 0) continue;

@@ -19,14 +19,14 @@ inline constexpr float kCorneaRadius = 8.0f;
 /// millimetres in the frame of the eye before its EyeTransform.
 struct LidRig {
   struct Vertex {
-    std::uint32_t vertex;
-    Side side;
-    float upper, lower;              ///< part in each lid's turn, 0..1
-    float upper_angle, lower_angle;  ///< of the rims at rest
-    float meet_angle;                ///< where the closed lids meet
-    float opening;                   ///< how far the lids stand apart here, of the widest place
-    float y, z;                      ///< at rest from the axis of the lids
-    bool proper;                     ///< of the lid itself, not of the fold behind it
+    std::uint32_t vertex = 0;
+    Side side{};
+    float upper = 0, lower = 0;              ///< part in each lid's turn, 0..1
+    float upper_angle = 0, lower_angle = 0;  ///< of the rims at rest
+    float meet_angle = 0;                    ///< where the closed lids meet
+    float opening = 0;    ///< how far the lids stand apart here, of the widest place
+    float y = 0, z = 0;   ///< at rest from the axis of the lids
+    bool proper = false;  ///< of the lid itself, not of the fold behind it
   };
   std::vector<Vertex> vertices;
   Sided<EyeTransform> eyes;
