@@ -158,7 +158,7 @@ namespace {
 
 HeadCurve LeaningAsOurs(const HeadCurve& curve) {
   std::vector<HeadCurve::Key> keys(curve.keys().begin(), curve.keys().end());
-  for (HeadCurve::Key& key : keys) key.angles[2] = -key.angles[2];
+  for (HeadCurve::Key& key : keys) key.angles[kTilted] = -key.angles[kTilted];
   return HeadCurve(std::move(keys));
 }
 

@@ -52,13 +52,14 @@ void EyeMotion::LookAt(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time 
                            : std::atan2(kHalfPupilsMm, near) * 180 / std::numbers::pi;
   vergence_deg_.MoveTo(now, static_cast<float>(angle), 2 * settings_.eye_move);
   ThereAndBack(gaze_, now, angles, settings_.eye_move, duration);
-  ThereAndBack(head_share_, now, {Beyond(angles[0]), Beyond(angles[1])}, kHeadFollows, duration);
+  ThereAndBack(head_share_, now, {Beyond(angles[kDown]), Beyond(angles[kToRight])}, kHeadFollows,
+               duration);
   ends_.gaze = duration > vm::Time(0) ? now + duration : now;
 }
 
 void EyeMotion::BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to) {
   if (!idle_.On(IdleKind::kGazeBlink) || patterns_.blinks.empty()) return;
-  const double angle = std::hypot(to[0] - from[0], to[1] - from[1]);
+  const double angle = std::hypot(to[kDown] - from[kDown], to[kToRight] - from[kToRight]);
   // Nearly always with large shifts, seldom with small ones (Evinger et al., Not looking while
   // leaping, 1994).
   const double chance = std::clamp(angle / 20, 0.0, 0.95);
@@ -106,13 +107,13 @@ EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
   const auto place = [&](std::int64_t index) -> std::array<double, 2> {
     if (index < 0) return {0, 0};
     const double side = std::copysign(1, habit + 0.8 * RandomAt(seed_, kThinkSide, index + 1));
-    return {kThinking[0] + 7 * RandomAt(seed_, kThinkHeight, index),
-            side * (kThinking[1] + 4 * RandomAt(seed_, kThinkHeight, index + 50))};
+    return {kThinking[kDown] + 7 * RandomAt(seed_, kThinkHeight, index),
+            side * (kThinking[kToRight] + 4 * RandomAt(seed_, kThinkHeight, index + 50))};
   };
   const auto from = place(k - 1), to = place(k);
   const double u = SmootherStep((ms - jump_ms(k)) / 55);
-  return {static_cast<float>(from[0] + u * (to[0] - from[0])),
-          static_cast<float>(from[1] + u * (to[1] - from[1]))};
+  return {static_cast<float>(from[kDown] + u * (to[kDown] - from[kDown])),
+          static_cast<float>(from[kToRight] + u * (to[kToRight] - from[kToRight]))};
 }
 
 double EyeMotion::LidsShutAt(vm::Time t) const {
@@ -129,13 +130,14 @@ void EyeMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   const EyeAngles thought = thinking > 0 ? ThinkingAt(t) : EyeAngles{};
   const EyeAngles left = turned_.left.At(t), right = turned_.right.At(t);
   const EyeAngles gaze = gaze_.At(t), head = head_share_.At(t);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const float both = gaze[i] - head[i] + thinking * thought[i];
-    const float inwards = i == 1 ? vergence : 0;
-    layer.units.gaze.left[i] = left[i] + both - inwards;
-    layer.units.gaze.right[i] = right[i] + both + inwards;
-    layer.head[i] = head[i];
+  for (const auto turn : {kDown, kToRight}) {
+    const float both = gaze[turn] - head[turn] + thinking * thought[turn];
+    layer.units.gaze.left[turn] = left[turn] + both;
+    layer.units.gaze.right[turn] = right[turn] + both;
+    layer.head[turn] = head[turn];
   }
+  layer.units.gaze.left[kToRight] -= vergence;
+  layer.units.gaze.right[kToRight] += vergence;
   layer.lids_shut = static_cast<float>(LidsShutAt(t));
   frame.AddSignal("at_user", on_user_.At(t));
 }

@@ -142,7 +142,7 @@ void IdleBehaviour::AddNods(vm::Time t, Angles& out) const {
   const double size = nods.angle * (0.75 + 0.25 * Random(kNodSize, k));
   // A double nod, the second one smaller.
   const double down = Swing((ms - start) / 480) + 0.55 * Swing((ms - start - 420) / 460);
-  out[0] += static_cast<float>(weight * size * down);
+  out[kDown] += static_cast<float>(weight * size * down);
 }
 
 void IdleBehaviour::Contribute(vm::Time t, MotionFrame& frame) const {
@@ -154,7 +154,7 @@ void IdleBehaviour::Contribute(vm::Time t, MotionFrame& frame) const {
   }
   if (const Switch& own = Of(IdleKind::kBreath); own.pattern > 0) {
     const double breath = BreathAt(t);
-    layer.head[0] -= static_cast<float>(patterns_.auto_breaths[own.pattern - 1].pitch * breath);
+    layer.head[kDown] -= static_cast<float>(patterns_.auto_breaths[own.pattern - 1].pitch * breath);
     const auto nostrils = static_cast<float>(kNostrilsAtFull * breath);
     layer.units.au.left[kNostrilDilator] = layer.units.au.right[kNostrilDilator] = nostrils;
   }

@@ -109,9 +109,9 @@ void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {
     const double stays = weight * GesturesOf(one, t);
     if (stays <= 0) continue;
     const SpeechGestures::At head = one.gestures.HeadAt(MouthPosition(one, t));
-    layer.head[0] += static_cast<float>(stays * size.nod * head.nod);
-    layer.head[1] += static_cast<float>(stays * size.turn * head.turn);
-    layer.head[2] += static_cast<float>(stays * size.tilt * head.tilt);
+    layer.head[kDown] += static_cast<float>(stays * size.nod * head.nod);
+    layer.head[kToRight] += static_cast<float>(stays * size.turn * head.turn);
+    layer.head[kTilted] += static_cast<float>(stays * size.tilt * head.tilt);
     brow = std::max(brow, stays * size.brow * head.brow);
   }
   for (const Side side : kSides) {

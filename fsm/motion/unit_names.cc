@@ -280,7 +280,7 @@ std::string FormatLook(const ActionUnits& look, const UnitNames& names) {
   }
   const auto gaze = [&](const char* side, const EyeAngles& angles) {
     if (angles != EyeAngles{}) {
-      add(fmt::format("gaze{}:{:g},{:g}", side, angles[0], angles[1]));
+      add(fmt::format("gaze{}:{:g},{:g}", side, angles[kDown], angles[kToRight]));
     }
   };
   const bool both = look.gaze.left == look.gaze.right;
