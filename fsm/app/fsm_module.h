@@ -30,7 +30,7 @@ struct FsmOptions {
   std::function<void()> on_failure = [] {};
 };
 
-/// The face synthesis module: all its slots over FaceMotion and a Backend.
+/// The face synthesis module: all its slots over FaceMotion and a RenderBackend.
 /// Drawing: with a window, whenever something moves (at most at the frame rate) and a few times a
 /// second otherwise; without one, only for pictures, films and Frame reports. No timer is pending
 /// while nothing moves and nothing is recorded or sent (but for the window's events).

@@ -8,7 +8,7 @@
 
 namespace fsm {
 
-/// Writes a film through an ffmpeg process fed with raw frames on a pipe.
+/// Writes a film through an ffmpeg process fed with raw frames; .rgba is written without one.
 /// Lifetime: Finish() or the destructor ends the process; without Finish the file is removed.
 /// Deterministic: the same frames give the same bytes (no time stamps, one encoder thread).
 class FilmWriter {

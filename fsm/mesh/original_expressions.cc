@@ -60,7 +60,7 @@ class Reader {
   }
 
  private:
-  /// Offsets by the standard wireframe's points, three millimetres each.
+  /// Offsets by the standard wireframe's points, three numbers each, in millimetres.
   NnlsSolver::Row Offsets(const std::string& path, const PntFile& file) const {
     NnlsSolver::Row row;
     row.reserve(3 * standard_.names.size());

@@ -24,8 +24,8 @@ void Put(Words& words, std::initializer_list<std::uint32_t> more) {
 }
 void Put(Words& words, glm::vec3 p) { Put(words, {Word(p.x), Word(p.y), Word(p.z)}); }
 
-/// VertexLists of what acts on each vertex. Entries keep their order, so that sums are taken in the
-/// same order as on the processor.
+/// What acts on each vertex, as lists. Entries keep their order, so that sums are taken in the same
+/// order as on the processor.
 class VertexLists {
  public:
   explicit VertexLists(std::size_t vertices) : entries_(vertices) {}

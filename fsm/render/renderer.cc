@@ -99,7 +99,7 @@ class GlRenderer : public Renderer {
 
   void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
             const Scene& scene) override {
-    Draw(head, state, scene, [&vertices](HeadOnCard& on_card) -> const HeadVertices& {
+    DrawFrame(head, state, scene, [&vertices](HeadOnCard& on_card) -> const HeadVertices& {
       on_card.buffers.Upload(vertices);
       return vertices;
     });
@@ -131,6 +131,20 @@ class GlRenderer : public Renderer {
     viewport_ = before;
   }
 
+  void Read(Image& out) override {
+    assert(target_ && "Read before the first Draw");
+    if (draws_on_card_) return EndRead(BeginRead(), out);
+    target_->Read(out, soft_);
+    if (transparent_) Unmultiply(out);
+  }
+
+  std::uint64_t BeginRead() override {
+    assert(target_ && "BeginRead before the first Draw");
+    return reader_.Begin(*target_, soft_, transparent_);
+  }
+  void EndRead(std::uint64_t frame, Image& out) override { reader_.End(frame, out); }
+  void DropRead(std::uint64_t frame) override { reader_.Drop(frame); }
+
  private:
   /// What the card holds of a head.
   struct HeadOnCard {
@@ -155,13 +169,13 @@ class GlRenderer : public Renderer {
       head.Evaluate(*pane.state, vertices_, pane.swings);
       return Draw(head, vertices_, *pane.state, *pane.scene);
     }
-    Draw(head, *pane.state, *pane.scene, [moved](HeadOnCard& on_card) -> const HeadVertices& {
+    DrawFrame(head, *pane.state, *pane.scene, [moved](HeadOnCard& on_card) -> const HeadVertices& {
       return on_card.rig->Use(moved, on_card.buffers);
     });
   }
 
   /// `move`: has the buffers use the vertices of the frame, and gives those that are measured.
-  void Draw(const Head& head, const FaceState& state, const Scene& scene, const auto& move) {
+  void DrawFrame(const Head& head, const FaceState& state, const Scene& scene, const auto& move) {
     const int width = viewport_.width > 0 ? viewport_.width : context_.width();
     const int height = viewport_.width > 0 ? viewport_.height : context_.height();
     FindTarget(width, height);
@@ -183,20 +197,6 @@ class GlRenderer : public Renderer {
                     viewport_.width > 0 ? context_.height() - viewport_.y - height : 0);
     }
   }
-
-  void Read(Image& out) override {
-    assert(target_ && "Read before the first Draw");
-    if (draws_on_card_) return EndRead(BeginRead(), out);
-    target_->Read(out, soft_);
-    if (transparent_) Unmultiply(out);
-  }
-
-  std::uint64_t BeginRead() override {
-    assert(target_ && "BeginRead before the first Draw");
-    return reader_.Begin(*target_, soft_, transparent_);
-  }
-  void EndRead(std::uint64_t frame, Image& out) override { reader_.End(frame, out); }
-  void DropRead(std::uint64_t frame) override { reader_.Drop(frame); }
 
   HeadOnCard& Find(const Head& head) {
     auto found = heads_.find(head.serial());

@@ -27,24 +27,24 @@ ShadowFinder::ShadowFinder(const HeadTopology& topology, const HeadVertices& res
   for (const auto& part : topology.parts) {
     if (part.material != Material::kSkin || part.index_count == 0) continue;
     const auto first = topology.indices[part.first_index];
-    if (!anchors_) anchors_ = Anchors{first, first, first};
+    if (!anchors_) anchors_ = Anchors{first, {first, first}};
     Anchors& found = *anchors_;
     for (const auto i : topology.Corners(part)) {
       const auto& p = rest.position[i];
       if (p.z > rest.position[found.nose].z) found.nose = i;
       if (p.y < kLowestSide || p.y > kHighestSide) continue;
-      if (p.x < rest.position[found.left].x) found.left = i;
-      if (p.x > rest.position[found.right].x) found.right = i;
+      if (p.x < rest.position[found.sides.right].x) found.sides.right = i;
+      if (p.x > rest.position[found.sides.left].x) found.sides.left = i;
     }
   }
   if (anchors_) rest_to_frame_ = glm::inverse(Frame(rest));
 }
 
 glm::mat4 ShadowFinder::Frame(const HeadVertices& vertices) const {
-  const glm::vec3 left = vertices.position[anchors_->left];
-  const glm::vec3 right = vertices.position[anchors_->right];
-  const glm::vec3 middle = (left + right) / 2.0F;
-  glm::vec3 x = right - left;
+  const glm::vec3 right = vertices.position[anchors_->sides.right];
+  const glm::vec3 left = vertices.position[anchors_->sides.left];
+  const glm::vec3 middle = (right + left) / 2.0F;
+  glm::vec3 x = left - right;
   glm::vec3 z = vertices.position[anchors_->nose] - middle;
   // A degenerate head keeps the axes it was given in.
   x = glm::length(x) > 1 ? glm::normalize(x) : glm::vec3(1.0F, 0.0F, 0.0F);
@@ -55,7 +55,8 @@ glm::mat4 ShadowFinder::Frame(const HeadVertices& vertices) const {
 }
 
 void ShadowFinder::AppendVertices(std::vector<std::uint32_t>& out) const {
-  if (anchors_) out.insert(out.end(), {anchors_->nose, anchors_->left, anchors_->right});
+  if (anchors_)
+    out.insert(out.end(), {anchors_->nose, anchors_->sides.right, anchors_->sides.left});
 }
 
 ShadowFinder::Occluders ShadowFinder::Measure(const HeadVertices& vertices) const {

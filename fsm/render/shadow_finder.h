@@ -5,6 +5,7 @@
 #include <glm/mat4x4.hpp>
 #include <optional>
 
+#include "fsm/base/side.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
@@ -33,10 +34,9 @@ class ShadowFinder {
   /// outermost ones of the upper face.
   struct Anchors {
     std::uint32_t nose = 0;
-    std::uint32_t left = 0;
-    std::uint32_t right = 0;
+    Sided<std::uint32_t> sides;
   };
-  /// Origin midway between the sides; x to the right one, z towards the nose.
+  /// Origin midway between the sides; x to the left one, z towards the nose.
   glm::mat4 Frame(const HeadVertices& vertices) const;
 
   std::optional<Anchors> anchors_;
