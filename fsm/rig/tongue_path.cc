@@ -48,14 +48,16 @@ glm::vec3 TonguePath::Fit(glm::vec3 p) const {
   const float out = SmoothStep(0, kTongueOut, part_ * pose_.tongue_out_mm);
   if (out <= 0) return within;
   const float middle_x = 0.5f * (open_from_ + open_to_);
-  const float width = std::min(kTongueInArch, 0.35f * (open_to_ - open_from_)) / kTongueWidest;
-  const float squeezed = SmoothStep(front_z_ - 16, front_z_ - 5, p.z);
+  const float width =
+      std::min(kTongueInArch, kTongueInLips * (open_to_ - open_from_)) / kTongueWidest;
+  const float squeezed = SmoothStep(front_z_ - kTongueWide, front_z_ - kTongueNarrow, p.z);
   p.x += squeezed * (middle_x + std::min(1.0f, width) * p.x - p.x);
   const Gap lips = LipsAt(p.x);
   // Over the lower teeth and lip, under the upper ones, and no less so a little before and behind
   // them, as its surface is made of triangles. Lips come last: they are seen.
   const auto held = [&p](float z) {
-    return SmoothStep(z - 15, z - 9, p.z) * SmoothStep(z + 15, z + 9, p.z);
+    return SmoothStep(z - kTongueFree, z - kTongueHeld, p.z) *
+           SmoothStep(z + kTongueFree, z + kTongueHeld, p.z);
   };
   const auto above = [&](float z, float y) { p.y += held(z) * std::max(0.0f, y - p.y); };
   const auto below = [&](float z, float y) { p.y += held(z) * std::min(0.0f, y - p.y); };

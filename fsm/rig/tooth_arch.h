@@ -2,6 +2,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "fsm/rig/step_constants.h"
+
 namespace fsm {
 
 /// Where teeth and tongue lie in a face, from the base head's places: moved, and turned towards a
@@ -23,7 +25,7 @@ struct ToothArch {
   float At(float x) const {
     const float off = x - middle_x;
     const float t = (off / half_width) * (off / half_width);
-    return front_z + turn * off - depth * t * (0.45f + 0.55f * t);
+    return front_z + turn * off - depth * t * (step::kArchSquare + step::kArchFourth * t);
   }
   ToothArch Moved(const TeethTransform& to) const {
     ToothArch moved = *this;
@@ -37,7 +39,8 @@ struct ToothArch {
   float Slope(float x) const {
     const float off = x - middle_x;
     const float t = (off / half_width) * (off / half_width);
-    return depth * (0.9f + 2.2f * t) * off / (half_width * half_width) - turn;
+    const float steep = 2 * step::kArchSquare + 4 * step::kArchFourth * t;
+    return depth * steep * off / (half_width * half_width) - turn;
   }
 };
 

@@ -75,7 +75,7 @@ vec3 IntoJaw(vec3 p) {
 float ArchAt(uint arch, float x) {
   float off = x - Pose(arch + 5u);
   float t = (off / Pose(arch + 2u)) * (off / Pose(arch + 2u));
-  return Pose(arch) + Pose(arch + 6u) * off - Pose(arch + 1u) * t * (0.45 + 0.55 * t);
+  return Pose(arch) + Pose(arch + 6u) * off - Pose(arch + 1u) * t * (kArchSquare + kArchFourth * t);
 }
 
 #ifdef STEP_begin  // item: a vertex; its place and normal at rest
@@ -227,7 +227,9 @@ void LipsAt(float x, out vec3 high, out vec3 low) {
   high = mix(High(a), High(b), t);
   low = mix(Low(a), Low(b), t);
 }
-float Held(float p, float z) { return SmoothStep(z - 15.0, z - 9.0, p) * SmoothStep(z + 15.0, z + 9.0, p); }
+float Held(float p, float z) {
+  return SmoothStep(z - kTongueFree, z - kTongueHeld, p) * SmoothStep(z + kTongueFree, z + kTongueHeld, p);
+}
 void Take(uint item) {
   uint r = 8u * item;
   vec3 rest = Place(r + 1u);
@@ -261,8 +263,8 @@ void Take(uint item) {
     float outside = SmoothStep(0.0, kTongueOut, part * Pose(TONGUE + 1u));
     if (outside > 0.0) {
       float middle_x = 0.5 * (open_from + open_to);
-      float width = min(kTongueInArch, 0.35 * (open_to - open_from)) / kTongueWidest;
-      p.x += SmoothStep(front_z - 16.0, front_z - 5.0, p.z) *
+      float width = min(kTongueInArch, kTongueInLips * (open_to - open_from)) / kTongueWidest;
+      p.x += SmoothStep(front_z - kTongueWide, front_z - kTongueNarrow, p.z) *
              (middle_x + min(1.0, width) * p.x - p.x);
       vec3 high, low;
       LipsAt(p.x, high, low);
