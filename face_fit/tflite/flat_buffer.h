@@ -52,27 +52,21 @@ class FlatTable {
   }
 
   /// A vector of scalars; empty if absent. The bytes need not be aligned.
-  Bytes Vector(std::size_t field, std::size_t item_bytes, std::size_t& count) const {
-    count = 0;
+  Bytes Vector(std::size_t field, std::size_t item_bytes) const {
     const std::size_t place = Place(field);
     if (place == 0) return {};
     const std::size_t start = place + Read<std::uint32_t>(file_, place);
-    count = Read<std::uint32_t>(file_, start);
+    const std::size_t count = Read<std::uint32_t>(file_, start);
     if (count > (file_.size() - start - 4) / item_bytes) {
       throw BadModel("a vector ends beyond the file");
     }
     return file_.subspan(start + 4, count * item_bytes);
   }
 
-  std::size_t TableCount(std::size_t field) const {
-    std::size_t count = 0;
-    Vector(field, 4, count);
-    return count;
-  }
+  std::size_t TableCount(std::size_t field) const { return Vector(field, 4).size() / 4; }
   FlatTable TableAt(std::size_t field, std::size_t index) const {
-    std::size_t count = 0;
-    const Bytes items = Vector(field, 4, count);
-    if (index >= count) throw BadModel("a list of tables is too short");
+    const Bytes items = Vector(field, 4);
+    if (index >= items.size() / 4) throw BadModel("a list of tables is too short");
     const auto here = static_cast<std::size_t>(items.data() - file_.data()) + 4 * index;
     return {file_, here + Read<std::uint32_t>(file_, here)};
   }
@@ -83,8 +77,7 @@ class FlatTable {
     return {file_, place + Read<std::uint32_t>(file_, place)};
   }
   std::string Text(std::size_t field) const {
-    std::size_t count = 0;
-    const Bytes text = Vector(field, 1, count);
+    const Bytes text = Vector(field, 1);
     return {text.begin(), text.end()};
   }
 

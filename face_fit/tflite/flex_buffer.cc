@@ -11,7 +11,9 @@ enum : unsigned { kInt = 1, kUint = 2, kFloat = 3, kMap = 9, kVectorInt = 11, kV
 unsigned Kind(unsigned packed) { return packed >> 2; }
 std::size_t TargetWidth(unsigned packed) { return std::size_t{1} << (packed & 3U); }
 
-/// A whole number of `width` bytes: 1, 2, 4 or 8.
+bool IsWidth(std::uint64_t bytes) { return bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8; }
+
+/// A whole number of `width` bytes. REQUIRES: IsWidth(width).
 template <typename Result, typename One, typename Two, typename Four>
 Result ReadWhole(Bytes bytes, std::size_t at, std::size_t width) {
   switch (width) {
@@ -50,7 +52,7 @@ std::size_t Count(Bytes bytes, std::size_t first, std::size_t width) {
 FlexMap FlexMap::Root(Bytes bytes) {
   if (bytes.size() < 3) throw BadModel("an operator lacks its options");
   const std::size_t width = bytes[bytes.size() - 1];
-  if ((width != 1 && width != 2 && width != 4 && width != 8) || bytes.size() < width + 2) {
+  if (!IsWidth(width) || bytes.size() < width + 2) {
     throw BadModel("an operator's options are damaged");
   }
   return {bytes, {bytes.size() - 2 - width, width, bytes[bytes.size() - 2]}};
@@ -68,7 +70,7 @@ FlexMap::Value FlexMap::Find(std::string_view key) const {
   // Before the number of values stand the place of the keys and the width of their offsets.
   const std::size_t keys = Behind(bytes_, values_ - 3 * width_, width_);
   const std::uint64_t width = ReadUnsigned(bytes_, values_ - 2 * width_, width_);
-  if (width != 1 && width != 2 && width != 4 && width != 8) {
+  if (!IsWidth(width)) {
     throw BadModel("an operator's options are damaged");
   }
   const auto step = static_cast<std::size_t>(width);

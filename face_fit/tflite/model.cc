@@ -54,10 +54,9 @@ enum SliceField : std::size_t {
 enum ResizeField : std::size_t { kResizeAlignCorners = 2, kResizeHalfPixelCentres };
 
 std::vector<std::int32_t> Numbers(const FlatTable& table, std::size_t field) {
-  std::size_t count = 0;
-  const Bytes bytes = table.Vector(field, 4, count);
-  std::vector<std::int32_t> numbers(count);
-  if (count > 0) std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  const Bytes bytes = table.Vector(field, 4);
+  std::vector<std::int32_t> numbers(bytes.size() / 4);
+  if (!bytes.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
   return numbers;
 }
 
@@ -84,18 +83,17 @@ Tensor ReadTensor(const FlatTable& model, const FlatTable& table) {
   const int type = table.Scalar<std::int8_t>(kTensorType, 0);
   const auto buffer = table.Scalar<std::uint32_t>(kTensorBuffer, 0);
   if (buffer == 0) return tensor;
-  std::size_t bytes = 0;
-  const Bytes data = model.TableAt(kModelBuffers, buffer).Vector(kBufferData, 1, bytes);
-  if (bytes == 0) return tensor;
+  const Bytes data = model.TableAt(kModelBuffers, buffer).Vector(kBufferData, 1);
+  if (data.empty()) return tensor;
   const std::size_t count = tensor.shape.count();
   const auto expect = [&](std::size_t each) {
-    if (bytes != count * each) throw BadModel("a tensor's data does not have its size");
+    if (data.size() != count * each) throw BadModel("a tensor's data does not have its size");
   };
   tensor.constant = true;
   if (type == kFloat32) {
     expect(4);
     tensor.values.resize(count);
-    std::memcpy(tensor.values.data(), data.data(), bytes);
+    std::memcpy(tensor.values.data(), data.data(), data.size());
   } else if (type == kFloat16) {
     expect(2);
     tensor.values.resize(count);
@@ -108,7 +106,7 @@ Tensor ReadTensor(const FlatTable& model, const FlatTable& table) {
   } else if (type == kInt32) {
     expect(4);
     tensor.counts.resize(count);
-    std::memcpy(tensor.counts.data(), data.data(), bytes);
+    std::memcpy(tensor.counts.data(), data.data(), data.size());
   } else {
     throw BadModel("a tensor of type " + std::to_string(type) + ", which is not read here");
   }
@@ -284,10 +282,9 @@ std::vector<Tensor> ReadTensors(const FlatTable& root, const FlatTable& graph) {
 }
 
 Step ReadStep(const FlatTable& table, const Reader& reader) {
-  std::size_t bytes = 0;
   const Options options(
       table.Has(kOperatorOptions) ? std::optional(table.Table(kOperatorOptions)) : std::nullopt,
-      table.Vector(kOperatorCustomOptions, 1, bytes));
+      table.Vector(kOperatorCustomOptions, 1));
   Step step{.op = reader.read(options), .inputs = Numbers(table, kOperatorInputs), .output = -1};
   if (reader.activation >= 0) {
     step.activation = ReadActivation(options.Small(static_cast<std::size_t>(reader.activation)));
