@@ -14,6 +14,8 @@
 
 namespace {
 
+using facefit::FaceMeasures;
+
 struct Options {
   std::string size, networks;
   double rate = 30;
@@ -32,20 +34,37 @@ fsm::Image PictureOfSize(const std::string& text) {
   return fsm::FilledImage(width, height);
 }
 
-void PrintRow(long number, double rate, const std::optional<facefit::FaceMeasures>& seen) {
+/// A column of the CSV after that of the time.
+struct Column {
+  const char* name;
+  float (*get)(const FaceMeasures&);
+};
+constexpr Column kColumns[] = {
+    {"certainty", [](const FaceMeasures& m) { return m.certainty; }},
+    {"gap", [](const FaceMeasures& m) { return m.gap; }},
+    {"width", [](const FaceMeasures& m) { return m.width; }},
+    {"jaw", [](const FaceMeasures& m) { return m.jaw; }},
+    {"corner_up_right", [](const FaceMeasures& m) { return m.corner_up.right; }},
+    {"corner_up_left", [](const FaceMeasures& m) { return m.corner_up.left; }},
+    {"eye_right", [](const FaceMeasures& m) { return m.eye.right; }},
+    {"eye_left", [](const FaceMeasures& m) { return m.eye.left; }},
+    {"brow_inner_right", [](const FaceMeasures& m) { return m.brow_inner.right; }},
+    {"brow_inner_left", [](const FaceMeasures& m) { return m.brow_inner.left; }},
+    {"brow_outer_right", [](const FaceMeasures& m) { return m.brow_outer.right; }},
+    {"brow_outer_left", [](const FaceMeasures& m) { return m.brow_outer.left; }},
+    {"turn_down", [](const FaceMeasures& m) { return m.turn_deg.x; }},
+    {"turn_left", [](const FaceMeasures& m) { return m.turn_deg.y; }},
+    {"tilt_left", [](const FaceMeasures& m) { return m.turn_deg.z; }},
+    {"gaze_across", [](const FaceMeasures& m) { return m.gaze.x; }},
+    {"gaze_up", [](const FaceMeasures& m) { return m.gaze.y; }}};
+
+void PrintRow(long number, double rate, const std::optional<FaceMeasures>& seen) {
   std::cout << fmt::format("{:.1f}", 1000.0 * static_cast<double>(number) / rate);
   if (!seen) {
-    std::cout << ",0" << std::string(16, ',') << "\n";
+    std::cout << ",0" << std::string(std::size(kColumns) - 1, ',') << "\n";
     return;
   }
-  std::cout << fmt::format(",{:.3f}", seen->certainty);
-  for (const float value :
-       {seen->gap, seen->width, seen->jaw, seen->corner_up.right, seen->corner_up.left,
-        seen->eye.right, seen->eye.left, seen->brow_inner.right, seen->brow_inner.left,
-        seen->brow_outer.right, seen->brow_outer.left, seen->turn_deg.x, seen->turn_deg.y,
-        seen->turn_deg.z, seen->gaze.x, seen->gaze.y}) {
-    std::cout << fmt::format(",{:.3f}", value);
-  }
+  for (const Column& column : kColumns) std::cout << fmt::format(",{:.3f}", column.get(*seen));
   std::cout << "\n";
 }
 
@@ -70,9 +89,9 @@ void Watch(const Options& options) {
   facefit::Network attention = vm::OrThrow(facefit::LoadAttentionLandmarks(options.networks));
   facefit::FaceWatch watch(networks, attention);
   if (!options.points) {
-    std::cout << "ms,certainty,gap,width,jaw,corner_up_right,corner_up_left,eye_right,eye_left,"
-                 "brow_inner_right,brow_inner_left,brow_outer_right,brow_outer_left,turn_down,"
-                 "turn_left,tilt_left,gaze_across,gaze_up\n";
+    std::cout << "ms";
+    for (const Column& column : kColumns) std::cout << "," << column.name;
+    std::cout << "\n";
   }
   for (long number = 0;; ++number) {
     const std::size_t got = std::fread(picture.rgba.data(), 1, picture.rgba.size(), stdin);
