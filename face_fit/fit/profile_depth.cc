@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
-#include <optional>
 #include <utility>
 
 #include "face_fit/fit/landmark_warp.h"
@@ -111,15 +110,10 @@ void CorrectDepth(const DepthGaps& gaps, Fit& fit) {
 
 }  // namespace
 
-vm::Result<PoseFit> RefineDepthByProfile(const FloatImage& opacity, Fit& fit) {
+std::optional<PoseFit> RefineDepthByProfile(const FloatImage& opacity, Fit& fit) {
   const auto placement = FindProfile(fit.head, opacity);
   const auto line = ProfileOf(fit.head, 1);
-  const auto refused = [] {
-    return vm::Fail(vm::Errc::kBadValue,
-                    "no face is found in it, and no outline that could be the profile of the first "
-                    "photo's");
-  };
-  if (!placement) return refused();
+  if (!placement) return std::nullopt;
   std::vector<glm::vec2> pixels;
   for (const glm::vec3& p : line) pixels.push_back(placement->At(p));
   PoseFit view;
@@ -128,7 +122,7 @@ vm::Result<PoseFit> RefineDepthByProfile(const FloatImage& opacity, Fit& fit) {
       {0, glm::radians(90.0F) * static_cast<float>(placement->direction), -placement->tilt});
   view.pose = FitPoseToOutline(opacity, view.pose, line);
   view.residual_mm = MeanDepthGap(opacity, view.pose, line);
-  if (view.residual_mm > kMostProfileOffMm) return refused();
+  if (view.residual_mm > kMostProfileOffMm) return std::nullopt;
   for (int round = 0; round < kProfileRounds; ++round) {
     const auto now = ProfileOf(fit.head, 1);
     if (round > 0) view.pose = FitPoseToOutline(opacity, view.pose, now);
