@@ -15,8 +15,7 @@
 namespace facefit {
 namespace {
 
-constexpr int kInputSide = kPointsPixels;
-constexpr std::size_t kPixels = static_cast<std::size_t>(kInputSide) * kInputSide;
+constexpr std::size_t kPixels = static_cast<std::size_t>(kPointsPixels) * kPointsPixels;
 
 struct Ellipse {
   glm::vec2 middle, radii;  // millimetres on the built-in face: x to its left, y up
@@ -58,7 +57,7 @@ class PhotoToBase {
  public:
   PhotoToBase(const FoundFace& face, const BaseHead& base) {
     for (const PointIndex i : point::kForFit) {
-      pairs_.push_back({face.crop.FromPicture(face.At(i)) * float{kInputSide}, base.SeenAt(i)});
+      pairs_.push_back({face.crop.FromPicture(face.At(i)) * float{kPointsPixels}, base.SeenAt(i)});
     }
   }
 
@@ -102,7 +101,7 @@ struct WarpedHead {
 
 WarpedHead WarpBaseHead(const BaseHead& base, const FoundFace& face) {
   // Smooth as the way is, every fourth pixel will do.
-  constexpr int kStep = 4, kCells = kInputSide / kStep + 1;
+  constexpr int kStep = 4, kCells = kPointsPixels / kStep + 1;
   const PhotoToBase onto(face, base);
   std::vector<glm::vec2> coarse;
   for (int y = 0; y < kCells; ++y) {
@@ -114,8 +113,8 @@ WarpedHead WarpBaseHead(const BaseHead& base, const FoundFace& face) {
       glm::distance(on_face(point::kEyeOuterRight), on_face(point::kEyeOuterLeft)) /
       glm::distance(base.SeenAt(point::kEyeOuterRight), base.SeenAt(point::kEyeOuterLeft));
   WarpedHead warped;
-  for (int y = 0; y < kInputSide; ++y) {
-    for (int x = 0; x < kInputSide; ++x) {
+  for (int y = 0; y < kPointsPixels; ++y) {
+    for (int x = 0; x < kPointsPixels; ++x) {
       const glm::vec2 at = (glm::vec2(x, y) + 0.5F) / float{kStep}, t = glm::fract(at);
       const auto k =
           static_cast<std::size_t>(static_cast<int>(at.y) * kCells + static_cast<int>(at.x));
@@ -167,7 +166,7 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const BaseHead& base, const Fo
     networks.landmarks.Run(input);
     return networks.landmarks.output(1)[0];
   };
-  const std::vector<float> seen = face.crop.Sample(photo, kInputSide, 0, 1);
+  const std::vector<float> seen = face.crop.Sample(photo, kPointsPixels, 0, 1);
   const float before = sure(seen);
   WarpedHead warped = WarpBaseHead(base, face);
   MatchSkinColour(seen, warped);

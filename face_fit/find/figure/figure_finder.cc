@@ -12,8 +12,6 @@
 namespace facefit {
 namespace {
 
-constexpr int kFigurePixels = 256;
-
 /// What the network says of the picture it was given.
 FloatImage RunSegmentation(FaceNetworks& networks, const std::vector<float>& input) {
   networks.segmentation.Run(input);

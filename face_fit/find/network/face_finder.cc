@@ -13,7 +13,6 @@
 namespace facefit {
 namespace {
 
-constexpr int kDetectorPixels = 128;
 constexpr float kLeastScore = 0.5F;
 constexpr float kLeastFace = 8;  // pixels; the landmark network sees nothing in smaller ones
 /// Two boxes are of one face if so much is common to both, by both together or by the smaller one.
@@ -62,25 +61,26 @@ bool OfOneFace(const FaceBox& a, const FaceBox& b) {
          both / std::max(std::min(a.Area(), b.Area()), 1e-6F) > kSameSmaller;
 }
 
-void Detect(FaceNetworks& networks, const fsm::Image& image, const Crop& crop,
-            std::vector<FaceBox>& found) {
+std::vector<FaceBox> Detect(FaceNetworks& networks, const fsm::Image& image, const Crop& crop) {
   static const std::vector<glm::vec2> anchors = Anchors();
   networks.detector.Run(crop.Sample(image, kDetectorPixels, -1, 1));
   const auto boxes = networks.detector.output(0);
   const auto scores = networks.detector.output(1);
+  std::vector<FaceBox> found;
   for (std::size_t i = 0; i < anchors.size(); ++i) {
     const float score = op::Logistic::Of(scores[i]);
     if (!(score >= kLeastScore)) continue;
     const float* box = &boxes[16 * i];
     const auto place = [&](int k) {
-      return crop.ToPicture(anchors[i] + glm::vec2(box[k], box[k + 1]) / 128.0F);
+      return crop.ToPicture(anchors[i] + glm::vec2(box[k], box[k + 1]) / float{kDetectorPixels});
     };
     FaceBox face{.centre = place(0),
-                 .size = glm::abs(glm::vec2(box[2], box[3])) / 128.0F * crop.size,
+                 .size = glm::abs(glm::vec2(box[2], box[3])) / float{kDetectorPixels} * crop.size,
                  .score = score,
                  .eyes = {place(4), place(6)}};
     if (std::min(face.size.x, face.size.y) >= kLeastFace) found.push_back(face);
   }
+  return found;
 }
 
 /// Each pixel the mean of four; an odd last row or column is left out.
@@ -114,13 +114,11 @@ class ScaledDetector {
       scale *= 0.5F;
       ++copy;
     }
-    std::vector<FaceBox> seen;
-    Detect(networks_, copies_[copy], {centre * scale, size * scale, 0}, seen);
-    for (FaceBox face : seen) {
+    for (FaceBox face : Detect(networks_, copies_[copy], {centre * scale, size * scale, 0})) {
       face.centre /= scale;
       face.size /= scale;
       for (glm::vec2& eye : face.eyes) eye /= scale;
-      if (std::min(face.size.x, face.size.y) >= kLeastFace) found.push_back({face, face.score});
+      found.push_back({face, face.score});
     }
   }
 

@@ -11,8 +11,6 @@
 
 namespace facefit {
 
-inline constexpr int kPointsPixels = 192;  ///< the side of what the landmark network is shown
-
 /// A face with its points: x and y in pixels of the picture, y down, z in the same unit towards
 /// the viewer, 0 about the middle of the head.
 struct FoundFace {

@@ -59,8 +59,10 @@ std::unexpected<vm::Error> NotUsable(const std::string& where, const std::except
                   "the networks in '" + where + "' cannot be used: " + error.what());
 }
 
-Network Expect(Network network, std::size_t input, std::initializer_list<std::size_t> outputs) {
-  bool fits = network.input_shape().count() == input && network.outputs() == outputs.size();
+/// `side`: of the square that the network is shown, pixels.
+Network Expect(Network network, std::size_t side, std::initializer_list<std::size_t> outputs) {
+  bool fits =
+      network.input_shape().count() == side * side * 3 && network.outputs() == outputs.size();
   std::size_t i = 0;
   for (const std::size_t n : outputs) fits = fits && network.output(i++).size() == n;
   if (!fits) throw BadModel("a network of another kind");
@@ -82,11 +84,11 @@ vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
   if (!package || !figure) return NotThere(where);
   try {
     return FaceNetworks{.detector = Expect(package->Open("face_detection_short_range.tflite"),
-                                           128 * 128 * 3, {896 * 16, 896}),
-                        .landmarks = Expect(package->Open("face_landmark.tflite"), 192 * 192 * 3,
+                                           kDetectorPixels, {896 * 16, 896}),
+                        .landmarks = Expect(package->Open("face_landmark.tflite"), kPointsPixels,
                                             {3 * kNetworkPoints, 1}),
                         .segmentation = Expect(Network(Model::Read(fsm::BytesOf(*figure))),
-                                               256 * 256 * 3, {256 * 256})};
+                                               kFigurePixels, {kFigurePixels * kFigurePixels})};
   } catch (const std::exception& error) {
     return NotUsable(where, error);
   }
@@ -97,7 +99,7 @@ vm::Result<Network> LoadAttentionLandmarks(const std::string& folder) {
   const auto package = FaceMeshPackage::Read(where);
   if (!package) return NotThere(where);
   try {
-    return Expect(package->Open("face_landmark_with_attention.tflite"), 192 * 192 * 3,
+    return Expect(package->Open("face_landmark_with_attention.tflite"), kPointsPixels,
                   {3 * kNetworkPoints, 2 * 80, 2 * 71, 2 * 71, 2 * 5, 2 * 5, 1});
   } catch (const std::exception& error) {
     return NotUsable(where, error);

@@ -7,6 +7,10 @@
 
 namespace facefit {
 
+/// The sides of the square pictures that the networks are shown, in pixels: those that find faces,
+/// their points, and figures.
+inline constexpr int kDetectorPixels = 128, kPointsPixels = 192, kFigurePixels = 256;
+
 /// The networks of the npm packages @mediapipe/face_mesh and @mediapipe/selfie_segmentation, read
 /// as they are unpacked (both Apache-2.0).
 struct FaceNetworks {
