@@ -15,9 +15,6 @@
 namespace facefit {
 namespace {
 
-bool OfInnerLips(const LandmarkConstraint& c) {
-  return Contains(point::kUpperInnerLip, c.point) || Contains(point::kLowerInnerLip, c.point);
-}
 bool OfOuterLips(const LandmarkConstraint& c) {
   return Contains(point::kUpperOuterLip, c.point) || Contains(point::kLowerOuterLip, c.point);
 }
@@ -35,8 +32,7 @@ std::uint32_t NearestLip(const BaseHead& base, glm::vec3 p) {
   const auto& topology = base.head->topology();
   for (const auto& part : topology.parts) {
     if (part.material != fsm::Material::kLip) continue;
-    for (std::uint32_t k = 0; k < part.index_count; ++k) {
-      const std::uint32_t v = topology.indices[part.first_index + k];
+    for (const std::uint32_t v : topology.Corners(part)) {
       const float far = glm::distance(base.rest.position[v], p);
       if (far >= distance) continue;
       distance = far;
@@ -73,7 +69,7 @@ std::vector<Correctable> PlaceWarpPoints(const PhotoTargets& targets,
   for (std::size_t i = 0; i < targets.constraints.size(); ++i) {
     const LandmarkConstraint& constraint = targets.constraints[i];
     // At rest both inner lips are one line, which cannot follow two that are apart in the photo.
-    if (targets.lips_apart && OfInnerLips(constraint)) continue;
+    if (targets.lips_apart && OnInnerLips(constraint.point)) continue;
     const glm::vec3 rest = constraint.on_head.On(base.rest.position);
     if (const auto side = EyeOf(constraint)) {
       // Lids go with the eye: the skin around them must, too.
@@ -112,7 +108,7 @@ void ConstrainToMouthLine(const BaseHead& base, const FoundFace& face, const Cam
   };
   const auto line = FindMouthLine(photo, face, along(base.points[point::kMouthRight]),
                                   along(base.points[point::kMouthLeft]));
-  std::erase_if(constraints, OfInnerLips);
+  std::erase_if(constraints, [](const auto& c) { return OnInnerLips(c.point); });
   const auto on_line = [&](float part) {
     const float at = glm::clamp(part, 0.0F, 1.0F) * (kMouthLinePoints - 1);
     const auto k = std::min(static_cast<std::size_t>(at), kMouthLinePoints - 2);

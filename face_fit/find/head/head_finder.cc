@@ -7,8 +7,8 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <optional>
-#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "face_fit/find/head/base_head.h"
 #include "face_fit/find/head/lid_edges.h"
@@ -70,6 +70,29 @@ void SpreadAlongSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
   }
 }
 
+/// Moves the points of the eyes' outlines in both lists onto the edges, where both heads show them.
+void OntoLidEdges(const BaseHead& ours, std::vector<MeshPoint>& our_points, const BaseHead& theirs,
+                  std::vector<MeshPoint>& their_points) {
+  for (const fsm::Side side : fsm::kSides) {
+    const auto find = [side](const BaseHead& head) {
+      const auto& topology = head.head->topology();
+      return FindLidEdges(topology, head.rest.position, head.surface.is_eye,
+                          topology.eyes[side].centre, fsm::SignOf(side));
+    };
+    const auto a = find(ours), b = find(theirs);
+    if (!a || !b) continue;
+    const auto& outline = point::kEyeOutline[side];
+    for (const auto& [edges, points] : {std::pair(&*a, &our_points), {&*b, &their_points}}) {
+      (*points)[outline[kOuterCorner]] = edges->outer;
+      (*points)[outline[kInnerCorner]] = edges->inner;
+      for (std::size_t k = 0; k < LidEdges::kBetween; ++k) {
+        (*points)[outline[1 + k]] = edges->upper[k];
+        (*points)[outline[outline.size() - 1 - k]] = edges->lower[k];
+      }
+    }
+  }
+}
+
 /// Looks at a head and pairs its places with those of the built-in one.
 class HeadMatcher {
  public:
@@ -78,10 +101,7 @@ class HeadMatcher {
       : networks_(networks),
         file_(file),
         name_(std::move(name)),
-        base_(vm::OrThrow(BaseHead::Observe(networks, face))),
-        inner_lips_(point::kUpperInnerLip.begin(), point::kUpperInnerLip.end()) {
-    inner_lips_.insert(point::kLowerInnerLip.begin(), point::kLowerInnerLip.end());
-  }
+        base_(vm::OrThrow(BaseHead::Observe(networks, face))) {}
   /// None if no face is seen on the head as `to_ours` has it stand.
   std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_ours) {
     const auto seen = Observe(to_ours);
@@ -97,7 +117,7 @@ class HeadMatcher {
     for (const PointIndex i : point::kForFit) {
       // Where both lips meet a point of the network may come to lie on either.
       const bool corner = i == point::kMouthRight || i == point::kMouthLeft;
-      if (inner_lips_.contains(i) ? !both : both && corner) continue;
+      if (OnInnerLips(i) ? !both : both && corner) continue;
       const glm::vec3 at = theirs[i].On(seen->rest.position);
       const glm::vec3 raw = to_ours.Inverse(at);
       found.push_back({ours[i].On(base_.rest.position), raw, PartOf(i)});
@@ -121,7 +141,6 @@ class HeadMatcher {
   const fsm::ImportedHead& file_;
   std::string name_;
   BaseHead base_;
-  std::set<PointIndex> inner_lips_;
 };
 
 /// What was found on a head that stood one way.

@@ -120,26 +120,4 @@ std::vector<bool> EyeVertices(const fsm::HeadTopology& topology) {
   return eye;
 }
 
-void OntoLidEdges(const BaseHead& ours, std::vector<MeshPoint>& our_points, const BaseHead& theirs,
-                  std::vector<MeshPoint>& their_points) {
-  for (const fsm::Side side : fsm::kSides) {
-    const auto find = [side](const BaseHead& head) {
-      const auto& topology = head.head->topology();
-      return FindLidEdges(topology, head.rest.position, head.surface.is_eye,
-                          topology.eyes[side].centre, fsm::SignOf(side));
-    };
-    const auto a = find(ours), b = find(theirs);
-    if (!a || !b) continue;
-    const auto& outline = point::kEyeOutline[side];
-    for (const auto& [edges, points] : {std::pair(&*a, &our_points), {&*b, &their_points}}) {
-      (*points)[outline[kOuterCorner]] = edges->outer;
-      (*points)[outline[kInnerCorner]] = edges->inner;
-      for (std::size_t k = 0; k < LidEdges::kBetween; ++k) {
-        (*points)[outline[1 + k]] = edges->upper[k];
-        (*points)[outline[outline.size() - 1 - k]] = edges->lower[k];
-      }
-    }
-  }
-}
-
 }  // namespace facefit

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/surface/mesh_point.h"
 #include "fsm/rig/head.h"
 
 namespace facefit {
@@ -30,9 +30,5 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
 
 /// For each vertex of a head whether it is an eyeball's by its material.
 std::vector<bool> EyeVertices(const fsm::HeadTopology& topology);
-
-/// Moves the points of the eyes' outlines in both lists onto the edges, where both heads show them.
-void OntoLidEdges(const BaseHead& ours, std::vector<MeshPoint>& our_points, const BaseHead& theirs,
-                  std::vector<MeshPoint>& their_points);
 
 }  // namespace facefit

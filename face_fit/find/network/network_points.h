@@ -83,6 +83,11 @@ inline bool Contains(std::span<const PointIndex> list, PointIndex i) {
   return std::ranges::find(list, i) != list.end();
 }
 
+/// The corners are among them.
+inline bool OnInnerLips(PointIndex i) {
+  return Contains(point::kUpperInnerLip, i) || Contains(point::kLowerInnerLip, i);
+}
+
 inline std::span<const PointIndex> EyeOutline(fsm::Side side) { return point::kEyeOutline[side]; }
 /// Places in that list: corners and the middles of the lids.
 inline constexpr std::size_t kOuterCorner = 0, kUpperMiddle = 4, kInnerCorner = 8,
