@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
 
 namespace facefit {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "face_fit/surface/rasterizer.h"
+#include "face_fit/surface/triangles.h"
 #include "fsm/head/photo_wear.h"
 
 namespace facefit {

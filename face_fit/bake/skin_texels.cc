@@ -12,6 +12,7 @@
 #include "face_fit/picture/plane.h"
 #include "face_fit/surface/mesh_point.h"
 #include "face_fit/surface/rasterizer.h"
+#include "face_fit/surface/triangles.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

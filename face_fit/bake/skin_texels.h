@@ -1,12 +1,13 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <vector>
 
-#include "face_fit/bake/texture_bake.h"
+#include "face_fit/fit/fitted_head.h"
+#include "face_fit/picture/float_image.h"
 
 namespace facefit {
 
+inline constexpr int kMapSize = 1024;   ///< texels on each side of the skin's map
 inline constexpr float kBrowsEnd = 27;  ///< millimetres above the nasion
 
 /// A texel of the skin's map: where it lies in a photo and on the base head at rest.
@@ -22,11 +23,6 @@ struct SkinTexel {
 };
 /// kMapSize texels to a side.
 using SkinTexels = Raster<SkinTexel>;
-
-/// Whether a texel belongs to what is counted as face.
-inline bool OnFront(const SkinTexels& texels, std::size_t i) {
-  return texels.at[i].outward > 0 && i / kMapSize > kMapSize / 5 && i / kMapSize < kMapSize * 3 / 4;
-}
 
 /// For each texel of the skin's map its place in a photo taken with `pose`. `hidden`: skin that the
 /// head itself covers, as the jaw covers the throat, counts as not seen (facing -1). Texels that no

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "face_fit/bake/billboard_mesh.h"
 #include "face_fit/bake/eye_pictures.h"
 #include "face_fit/bake/feature_colours.h"
 #include "face_fit/bake/lips.h"
 #include "face_fit/bake/openings.h"
 #include "face_fit/bake/other_side.h"
+#include "face_fit/bake/sheet.h"
 #include "face_fit/bake/skin_colours.h"
 #include "face_fit/bake/skin_texels.h"
 #include "face_fit/bake/smile_folds.h"
@@ -119,6 +119,11 @@ void DrawMouthLine(const SkinTexels& texels, float saturation, fsm::Image& map) 
   }
 }
 
+/// Whether a texel belongs to what is counted as face.
+bool OnFront(const SkinTexels& texels, std::size_t i) {
+  return texels.at[i].outward > 0 && i / kMapSize > kMapSize / 5 && i / kMapSize < kMapSize * 3 / 4;
+}
+
 /// `seen`, but 0 where no face is but the sides and the back of the head.
 FloatImage OnFace(const SkinTexels& texels, FloatImage seen) {
   for (std::size_t i = 0; i < seen.at.size(); ++i) {
@@ -217,7 +222,7 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
   const auto eyes = EyesAtRest(fitted);
   const EyeColours eye_colours = SampleEyes(face, fit.irises, photo);
   const MouthColours mouth = SampleMouth(face, photo);
-  Billboard billboard = MakeBillboard(whole.head, whole.figure);
+  Sheet sheet = MakeSheet(whole.head, whole.figure);
   // Half a texel within, so that the halves do not run into each other.
   constexpr float kHalf = 0.25F / kMapSize;
   bake.head = {.base = fitted.base->name,
@@ -237,9 +242,9 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
                .skin_high = {0.5F - kHalf, 0},
                .seen_from = fitted.pose.TowardsCamera(),
                .also_seen = std::move(also_seen),
-               .skin_bottom_y = billboard.skin_bottom_y,
-               .sheet = std::move(billboard.sheet),
-               .sheet_triangles = std::move(billboard.triangles),
+               .skin_bottom_y = sheet.skin_bottom_y,
+               .sheet = std::move(sheet.vertices),
+               .sheet_triangles = std::move(sheet.triangles),
                .photo = std::make_shared<fsm::Image>(std::move(picture))};
   return bake;
 }

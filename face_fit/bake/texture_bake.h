@@ -15,8 +15,6 @@ struct TextureBake {
   Completed completed;  ///< what of the figure it does not
 };
 
-inline constexpr int kMapSize = 1024;  ///< of each half
-
 /// `figure`: of `photo`; `extras`: photos of the same person from the side, may be empty. Pure;
 /// thread: any.
 TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image& photo,

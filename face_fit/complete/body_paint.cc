@@ -5,12 +5,10 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include "face_fit/picture/resample.h"
+#include "face_fit/picture/pixels.h"
 
 namespace facefit {
 namespace {
-
-constexpr int kSkin = 0, kCloth = 1;  // of Differences
 
 bool IsBody(const PhotoEdges::Seen& seen) {
   return seen.kind == EdgeKind::kSkin || seen.kind == EdgeKind::kCloth;
@@ -26,7 +24,7 @@ BodyPaint::BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const FloatI
       light_(light),
       bust_(std::move(bust)),
       joint_{Join(PhotoEdge::kLeft), Join(PhotoEdge::kRight)},
-      cloth_(ClothColour()),
+      cloth_colour_(ClothColour()),
       neckline_(FindNeckline()) {
   const glm::vec2 size(canvas.photo_size);
   for (int x = 0; x < edges.width(); ++x) {
@@ -131,22 +129,22 @@ BodyPaint::Sample BodyPaint::SampleAt(glm::vec2 place) const {
                 : glm::mix(1.0F, joint.width_ratio, std::exp(-down / joint.fade_mm));
   const float x = bust_.axis + (on.x - bust_.axis) / width_ratio;
   if (x < 0 || x > static_cast<float>(bust_.opacity.width)) return {};
-  return {bust_.opacity.Between(x, on.y), bust_.cloth.Between(x, on.y), bust_.open.Between(x, on.y),
-          bust_.normal.Between(x, on.y)};
+  return {bust_.opacity.Between(x, on.y), bust_.cloth.Between(x, on.y),
+          bust_.openness.Between(x, on.y), bust_.normal.Between(x, on.y)};
 }
 
-glm::vec3 BodyPaint::BustColour(const Sample& body, int cloth) const {
+glm::vec3 BodyPaint::BustColour(const Sample& body, Stuff stuff) const {
   const float shade = light_.On(body.normal) / light_.On({0, 0, 1});
-  return shade * glm::mix(1.0F, body.open, shade_kept_) *
-         (cloth == kCloth ? cloth_ : 255.0F * light_.skin());
+  return shade * glm::mix(1.0F, body.openness, shade_kept_) *
+         (stuff == kCloth ? cloth_colour_ : 255.0F * light_.skin());
 }
 
 void BodyPaint::AddDifference(const PhotoEdges::Seen& seen, glm::vec2 place,
                               Differences& to) const {
   const Sample body = SampleAt(place);
-  for (const int cloth : {kSkin, kCloth}) {
-    const bool is = seen.kind == (cloth == kCloth ? EdgeKind::kCloth : EdgeKind::kSkin);
-    to[static_cast<std::size_t>(cloth)].Add(seen.colour - BustColour(body, cloth), is ? 1 : 0);
+  for (const Stuff stuff : {kSkin, kCloth}) {
+    const bool is = seen.kind == (stuff == kCloth ? EdgeKind::kCloth : EdgeKind::kSkin);
+    to[stuff].Add(seen.colour - BustColour(body, stuff), is ? 1 : 0);
   }
 }
 
@@ -167,23 +165,22 @@ float BodyPaint::ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) c
                                                      beyond.below / canvas_.per_mm));
 }
 
-glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond, int cloth) const {
-  const auto i = static_cast<std::size_t>(cloth);
-  const glm::vec2 spread = spread_[i];
+glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond, Stuff stuff) const {
+  const glm::vec2 spread = spread_[stuff];
   const auto of = [&](const EdgeMeans& edge, float at, float away) {
     const float mm = away / canvas_.per_mm;
     const glm::vec4 near = edge.Around(at, (spread.x + spread.y * mm) * canvas_.per_mm);
-    return std::exp(-mm / lasts_mm_[cloth]) *
+    return std::exp(-mm / lasts_mm_[stuff]) *
            glm::mix(edge.All(), glm::vec3(near), near.w / (near.w + doubt_));
   };
   glm::vec3 sum(0);
   const float out = beyond.below + beyond.aside;
-  if (beyond.below > 0) sum += beyond.below / out * of(below_[i], place.x, beyond.below);
+  if (beyond.below > 0) sum += beyond.below / out * of(below_[stuff], place.x, beyond.below);
   if (beyond.aside > 0) {
     // A sleeve falls with its shoulder.
     const float row = std::clamp(place.y - sleeve_falls_ * beyond.aside, joint_[beyond.edge].row,
                                  static_cast<float>(canvas_.photo_size.y));
-    sum += beyond.aside / out * of(aside_[beyond.edge][i], row, beyond.aside);
+    sum += beyond.aside / out * of(aside_[beyond.edge][stuff], row, beyond.aside);
   }
   return sum;
 }

@@ -26,8 +26,11 @@ class BodyPaint {
   Paint At(glm::vec2 place) const;
 
  private:
+  /// Index of what is kept once for skin and once for cloth.
+  enum Stuff { kSkin, kCloth };
+  /// The bust at a place; `cloth`: how much of what is covered is cloth.
   struct Sample {
-    float opacity = 0, cloth = 0, open = 1;
+    float opacity = 0, cloth = 0, openness = 1;
     glm::vec3 normal{0, 0, 1};
   };
   /// Where one half of the figure and that of the bust are made to meet.
@@ -37,7 +40,7 @@ class BodyPaint {
     bool cut = false;                ///< by the photo's left or right edge
     float slope = 0;                 ///< if it is: how steeply the outline falls there
   };
-  /// Of one edge, for skin and for cloth: by how much the photo differs from what is drawn there.
+  /// Of one edge, by Stuff: by how much the photo differs from what is drawn there.
   using Differences = std::array<EdgeMeans, 2>;
 
   float Axis() const { return bust_.axis - static_cast<float>(canvas_.photo_origin.x); }
@@ -47,9 +50,9 @@ class BodyPaint {
   glm::vec2 FindNeckline() const;
   void AddDifference(const PhotoEdges::Seen& seen, glm::vec2 place, Differences& to) const;
   Sample SampleAt(glm::vec2 place) const;
-  glm::vec3 BustColour(const Sample& body, int cloth) const;
+  glm::vec3 BustColour(const Sample& body, Stuff stuff) const;
   float ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) const;
-  glm::vec3 EdgeDifference(glm::vec2 place, const Beyond& beyond, int cloth) const;
+  glm::vec3 EdgeDifference(glm::vec2 place, const Beyond& beyond, Stuff stuff) const;
 
   // Numbers of the table that are asked for at each pixel.
   const float shade_kept_ = PhotoLook()("body_shade");
@@ -69,8 +72,8 @@ class BodyPaint {
   const fsm::FaceLight& light_;
   Bust bust_;
   PerEdge<Joint> joint_;
-  glm::vec3 cloth_;     ///< its usual colour, 0..255
-  glm::vec2 neckline_;  ///< middle and half width of the skin that the lower edge cuts, pixels
+  glm::vec3 cloth_colour_;  ///< 0..255
+  glm::vec2 neckline_;      ///< middle and half width of the skin that the lower edge cuts, pixels
   Differences below_;
   PerEdge<Differences> aside_;
 };

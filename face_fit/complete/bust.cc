@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 
 #include "face_fit/picture/filters.h"
-#include "face_fit/surface/rasterizer.h"
+#include "face_fit/surface/triangles.h"
 #include "face_fit/surface/visible_surface.h"
 #include "face_fit/tables/photo_look.h"
 
@@ -24,15 +24,14 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
   std::vector<glm::vec3> place = base.rest.position;
   for (glm::vec3& p : place) p -= lower;
   VisibleSurface surface({glm::vec2(0.5F), 1, width, height}, pose.Screen(place));
-  for (const auto& part : topology.parts) {
-    if (part.material != fsm::Material::kCloth && part.material != fsm::Material::kSkin) continue;
-    for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
-      const std::uint32_t* t = &topology.indices[part.first_index + k];
-      const bool above =
-          std::any_of(t, t + 3, [&](std::uint32_t v) { return base.rest.position[v].y > highest; });
-      if (!above) surface.DrawFront(t);
-    }
-  }
+  const auto body = [](fsm::Material m) {
+    return m == fsm::Material::kCloth || m == fsm::Material::kSkin;
+  };
+  ForTriangles(topology, body, [&](const std::uint32_t* t) {
+    const bool above =
+        std::any_of(t, t + 3, [&](std::uint32_t v) { return base.rest.position[v].y > highest; });
+    if (!above) surface.DrawFront(t);
+  });
   const FloatImage none(width, height);
   Bust bust{none, none, none, VectorImage(width, height, {0, 0, 1}), pose.Project({}).x};
   for (int y = 0; y < height; ++y) {
@@ -44,7 +43,7 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
       if (normal.z <= 0) continue;  // at the very outline the smooth normal may turn away
       bust.opacity(x, y) = 1;
       bust.cloth(x, y) = MaterialOf(topology, t) == fsm::Material::kCloth ? 1.0F : 0.0F;
-      bust.open(x, y) = at.On(topology.openness);
+      bust.openness(x, y) = at.On(topology.openness);
       bust.normal(x, y) = normal;
     }
   }
@@ -71,7 +70,7 @@ Bust DrawBust(const FittedHead& fitted, int width, int height) {
   pose.centre *= static_cast<float>(finer);
   Bust bust = DrawWith(fitted, pose, finer * width, finer * height);
   bust.axis /= static_cast<float>(finer);
-  for (FloatImage* image : {&bust.opacity, &bust.cloth, &bust.open}) {
+  for (FloatImage* image : {&bust.opacity, &bust.cloth, &bust.openness}) {
     *image = ScaledDown(*image, width, height);
   }
   bust.normal = ScaledDown(bust.normal, width, height);

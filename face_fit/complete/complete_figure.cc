@@ -13,7 +13,7 @@
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/grain.h"
 #include "face_fit/picture/pixels.h"
-#include "face_fit/surface/rasterizer.h"
+#include "face_fit/surface/triangles.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

@@ -10,9 +10,9 @@
 namespace facefit {
 
 /// Hair (or a hat) beyond a photo that cuts it: above the head it is rounded off, beside the head
-/// it goes on a little, both as a mirror image of the hair within, or where
-/// skin reaches the edge in the hair's usual colour; what the lower edge cuts falls
-/// on in the colours of that edge and ends in strands.
+/// it goes on a little, both as a mirror image of the hair within, or in the hair's usual colour
+/// where skin reaches the edge; what the lower edge cuts falls on in the colours of that edge and
+/// ends in strands.
 class HairPaint {
  public:
   /// `crown`: the row of the top of the skull with its hair. The references outlive this.

@@ -3,7 +3,7 @@
 #include <glm/common.hpp>
 
 #include "face_fit/picture/resample.h"
-#include "face_fit/surface/rasterizer.h"
+#include "face_fit/surface/triangles.h"
 #include "fsm/rig/normals.h"
 
 namespace facefit {

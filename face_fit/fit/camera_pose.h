@@ -35,9 +35,9 @@ struct CameraPose {
   glm::vec3 Unproject(glm::vec2 pixel, float z) const;  ///< to the place at that depth
   /// From the head's frame to pixels, and back to the place at depth `z` of the camera's frame.
   glm::vec2 Pixel(glm::vec3 p) const { return Project(ToCamera(p)); }
-  /// Likewise of many: pixels, and depth in the camera's frame as the third coordinate.
-  std::vector<glm::vec3> Screen(std::span<const glm::vec3> places) const;
   glm::vec3 PlaceAt(glm::vec2 pixel, float z) const { return FromCamera(Unproject(pixel, z)); }
+  /// Pixels of many places, with their depths in the camera's frame as third coordinates.
+  std::vector<glm::vec3> Screen(std::span<const glm::vec3> places) const;
   float PixelsPerMm() const;  ///< at the depth of the face
 };
 

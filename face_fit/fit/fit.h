@@ -15,8 +15,8 @@ struct Fit {
 
 /// Fits the base head to the points of a face: pose and expression by least squares, then the form
 /// by a warp. `photo`, if given, shows the irises and the line where closed lips meet, which the
-/// points miss by some pixels. Pure; thread: any. REQUIRES: face.points has
-/// kNetworkPoints; `base` outlives the result.
+/// points miss by some pixels. Pure; thread: any. REQUIRES: face.points has kNetworkPoints; `base`
+/// outlives the result.
 Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo = nullptr);
 
 }  // namespace facefit

@@ -9,7 +9,7 @@
 
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/plane.h"
-#include "face_fit/surface/rasterizer.h"
+#include "face_fit/surface/triangles.h"
 
 namespace facefit {
 namespace {

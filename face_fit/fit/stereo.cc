@@ -5,9 +5,10 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/fit/pose_fit.h"
+#include "face_fit/picture/pixels.h"
 #include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
-#include "face_fit/surface/rasterizer.h"
+#include "face_fit/surface/triangles.h"
 #include "face_fit/surface/visible_surface.h"
 
 namespace facefit {

@@ -12,7 +12,7 @@
 
 namespace facefit {
 
-// Pixels by their number, row by row from the top. Pure; thread: any.
+// Colours, and pixels by their number, row by row from the top. Pure; thread: any.
 
 inline glm::vec3 Rgb(const fsm::Image& image, std::size_t i) {
   const std::uint8_t* p = &image.rgba[4 * i];
@@ -26,6 +26,9 @@ inline std::uint8_t Byte(float v) {
 inline void SetRgb(fsm::Image& image, std::size_t i, glm::vec3 colour) {
   for (int c = 0; c < 3; ++c) image.rgba[4 * i + static_cast<std::size_t>(c)] = Byte(colour[c]);
 }
+
+/// How bright a colour is, in its own unit; red weighs more than in human vision, as faces are red.
+inline float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c.b; }
 
 /// The colours of all pixels, 0..255.
 inline VectorImage Colours(const fsm::Image& image) {

@@ -29,7 +29,4 @@ float SmoothAt(const FloatImage& image, glm::vec2 at);
 std::vector<float> Resampled(const fsm::Image& image, glm::vec2 corner, const glm::mat2& axes,
                              int pixels, float low, float high);
 
-/// How bright a colour is, in its own unit; red weighs more than in human vision, as faces are red.
-inline float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c.b; }
-
 }  // namespace facefit

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-
-#include "fsm/rig/head.h"
 
 namespace facefit {
 
@@ -42,26 +39,6 @@ void Rasterize(const Triangle2& triangle, int columns, int rows, float slack, F 
     for (int x = static_cast<int>(from.x); x <= static_cast<int>(to.x); ++x) {
       const glm::vec3 weights = triangle.WeightsAt(glm::vec2(x, y));
       if (std::min({weights.x, weights.y, weights.z}) >= -slack) f(x, y, weights);
-    }
-  }
-}
-
-/// The material of a triangle, which is part of `topology.indices`.
-inline fsm::Material MaterialOf(const fsm::HeadTopology& topology, const std::uint32_t* triangle) {
-  const auto index = static_cast<std::uint32_t>(triangle - topology.indices.data());
-  return std::ranges::find_if(
-             topology.parts,
-             [index](const auto& part) { return index - part.first_index < part.index_count; })
-      ->material;
-}
-
-/// Calls `f(indices)` with the three vertices of each triangle of skin and lips.
-template <typename F>
-void ForSkinTriangles(const fsm::HeadTopology& topology, F f) {
-  for (const auto& part : topology.parts) {
-    if (part.material != fsm::Material::kSkin && part.material != fsm::Material::kLip) continue;
-    for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
-      f(&topology.indices[part.first_index + k]);
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "face_fit/surface/rasterizer.h"
+#include "face_fit/surface/triangles.h"
 
 namespace facefit {
 
@@ -55,14 +56,11 @@ VisibleSurface SeenFromFront(const fsm::HeadTopology& topology,
   constexpr float kMostMm = 200;
   const glm::ivec2 points(glm::clamp(high - low, 1.0F, kMostMm) / kFrontStepMm);
   VisibleSurface surface({low + 0.5F * kFrontStepMm, kFrontStepMm, points.x, points.y}, position);
-  for (const auto& part : topology.parts) {
-    if (IsHair(part.material) || part.material == fsm::Material::kShutLash) continue;
-    for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
-      const std::uint32_t* t = &topology.indices[part.first_index + k];
-      const Triangle2 seen{position[t[0]], position[t[1]], position[t[2]]};
-      if (seen.SignedArea() > 0) surface.Draw(t);
-    }
-  }
+  const auto opaque = [](fsm::Material m) { return !IsHair(m) && m != fsm::Material::kShutLash; };
+  ForTriangles(topology, opaque, [&](const std::uint32_t* t) {
+    const Triangle2 seen{position[t[0]], position[t[1]], position[t[2]]};
+    if (seen.SignedArea() > 0) surface.Draw(t);
+  });
   return surface;
 }
 

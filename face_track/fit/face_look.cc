@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "face_fit/picture/filters.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/picture/pixels.h"
 
 namespace facetrack {
 namespace {

@@ -10,7 +10,7 @@
 #include <glm/trigonometric.hpp>
 #include <vector>
 
-#include "face_fit/bake/billboard_mesh.h"
+#include "face_fit/bake/sheet.h"
 #include "face_fit/complete/complete_figure.h"
 #include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/find/figure/matte.h"
@@ -352,7 +352,7 @@ TEST(EnlargeTest, ColoursGoThroughTheirPixelsAndContoursAreStraight) {
 }
 
 /// The built-in head as if a photo showed it, with shoulders that the photo's sides cut off.
-class BillboardTest : public NetworkTest {
+class PhotoSheetTest : public NetworkTest {
  protected:
   static constexpr int kPhoto = 300;
   void SetUp() override {
@@ -376,7 +376,7 @@ class BillboardTest : public NetworkTest {
     figure_.colours.rgba.assign(static_cast<std::size_t>(4 * kPhoto * kPhoto), 200);
   }
   static float Shoulder(float off) { return 240 + 0.3F * std::max(off - 40, 0.0F); }
-  Billboard Sheet() { return MakeBillboard(fitted_, figure_); }
+  Sheet Made() const { return MakeSheet(fitted_, figure_); }
   /// The pixel over which a vertex lies.
   glm::vec2 Over(const fsm::PhotoHead::SheetVertex& vertex) const {
     return fitted_.pose.Pixel(vertex.position);
@@ -386,7 +386,7 @@ class BillboardTest : public NetworkTest {
   Cutout figure_{{.width = kPhoto, .height = kPhoto, .rgba = {}}, FloatImage(kPhoto, kPhoto)};
 };
 
-TEST_F(BillboardTest, ShouldersFallBeyondThePhotosSides) {
+TEST_F(PhotoSheetTest, ShouldersFallBeyondThePhotosSides) {
   const CompletedFigure whole = CompleteFigure(fitted_, figure_);
   EXPECT_TRUE(whole.completed.shoulders);
   const glm::vec2 origin = glm::round(whole.head.pose.centre - fitted_.pose.centre);
@@ -409,27 +409,27 @@ TEST_F(BillboardTest, ShouldersFallBeyondThePhotosSides) {
   EXPECT_GT(beside, 50);
 }
 
-TEST_F(BillboardTest, IsWrittenFromBackToFront) {
-  const Billboard set = Sheet();
+TEST_F(PhotoSheetTest, IsWrittenFromBackToFront) {
+  const Sheet set = Made();
   ASSERT_GT(set.triangles.size(), 600U);
   float last = -1e9F;
   for (std::size_t i = 0; i + 5 < set.triangles.size(); i += 6) {
     const float z =
-        set.sheet[set.triangles[i]].position.z + set.sheet[set.triangles[i + 2]].position.z;
+        set.vertices[set.triangles[i]].position.z + set.vertices[set.triangles[i + 2]].position.z;
     EXPECT_GE(z, last - 1e-3F);
     last = z;
   }
 }
 
-TEST_F(BillboardTest, GoesWithTheFaceFromItsExpressionToRest) {
-  const Billboard still = Sheet();
+TEST_F(PhotoSheetTest, GoesWithTheFaceFromItsExpressionToRest) {
+  const Sheet still = Made();
   // In the photo the whole face is 6 mm higher than at rest.
   for (glm::vec3& p : fitted_.posed_vertices) p.y += p.z > 0 ? 6.0F : 0.0F;
-  const Billboard moved = Sheet();
+  const Sheet moved = Made();
   const glm::vec3 cheek = Galatea().points[234].On(Galatea().rest.position);
   const auto motion = [&](glm::vec2 near) {
     float nearest = 1e9F, by = 0;
-    for (const auto& vertex : moved.sheet) {
+    for (const auto& vertex : moved.vertices) {
       const float far = glm::distance(glm::vec2(vertex.position), near);
       if (far >= nearest) continue;
       nearest = far;
@@ -443,12 +443,12 @@ TEST_F(BillboardTest, GoesWithTheFaceFromItsExpressionToRest) {
   };
   EXPECT_NEAR(motion(glm::vec2(cheek)), -6, 2);
   EXPECT_NEAR(motion(glm::vec2(0, cheek.y + 140)), 0, 0.5F) << "far from the face";
-  EXPECT_EQ(still.sheet.size(), moved.sheet.size());
+  EXPECT_EQ(still.vertices.size(), moved.vertices.size());
 }
 
-TEST_F(BillboardTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
+TEST_F(PhotoSheetTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
   fitted_.pose.turn.y = glm::radians(25.0F);
-  const Billboard set = Sheet();
+  const Sheet set = Made();
   const auto at = [&](std::size_t point) {
     return Galatea().points[point].On(Galatea().rest.position);
   };
@@ -457,8 +457,8 @@ TEST_F(BillboardTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
   for (const glm::vec3 opening : {at(78) + in, at(308) - in, at(78) + in - down,
                                   at(308) - in - down, at(33) + in, at(263) - in}) {
     for (std::size_t i = 0; i + 5 < set.triangles.size(); i += 6) {
-      const glm::vec3 p =
-          0.5F * (set.sheet[set.triangles[i]].position + set.sheet[set.triangles[i + 2]].position);
+      const glm::vec3 p = 0.5F * (set.vertices[set.triangles[i]].position +
+                                  set.vertices[set.triangles[i + 2]].position);
       // What lies far behind is the hair at the nape.
       if (p.z < opening.z - 80) continue;
       EXPECT_GT(glm::distance(glm::vec2(p), glm::vec2(opening)), 3) << p.x << " " << p.y;
@@ -467,16 +467,16 @@ TEST_F(BillboardTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
   EXPECT_GT(set.triangles.size(), 600U);
 }
 
-TEST_F(BillboardTest, NothingOfItLiesBehindTheMouthWhereItsCellsAreWide) {
+TEST_F(PhotoSheetTest, NothingOfItLiesBehindTheMouthWhereItsCellsAreWide) {
   // A head that is small in its photo: a cell is 9 mm wide.
   fitted_.pose.focal = 250;
   fitted_.pose.turn.y = glm::radians(15.0F);
-  const Billboard set = Sheet();
+  const Sheet set = Made();
   const glm::vec3 right = Galatea().points[78].On(Galatea().rest.position),
                   left = Galatea().points[308].On(Galatea().rest.position);
   for (std::size_t i = 0; i + 5 < set.triangles.size(); i += 6) {
-    const glm::vec3 p =
-        0.5F * (set.sheet[set.triangles[i]].position + set.sheet[set.triangles[i + 2]].position);
+    const glm::vec3 p = 0.5F * (set.vertices[set.triangles[i]].position +
+                                set.vertices[set.triangles[i + 2]].position);
     if (p.z < right.z - 80) continue;
     const bool behind = p.x > right.x && p.x < left.x && p.y < right.y && p.y > right.y - 20;
     EXPECT_FALSE(behind) << p.x << " " << p.y;

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
 
 namespace facefit {

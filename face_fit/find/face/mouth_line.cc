@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "face_fit/picture/pixels.h"
 #include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
 

@@ -6,8 +6,8 @@
 namespace facefit {
 
 /// How much each pixel belongs to a person, 0..1, as fine as the network's 256 x 256. If `face` is
-/// given, the surroundings of the head are looked at a second
-/// time from nearer, and DoubtAsymmetry corrects the result.
+/// given, the surroundings of the head are looked at a second time from nearer, and DoubtAsymmetry
+/// corrects the result.
 FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image,
                          const FoundFace* face = nullptr);
 

@@ -111,21 +111,21 @@ class MattingLaplacian {
 void ConjugateGradients(const MattingLaplacian& laplacian, const PixelVector& open,
                         const PixelVector& pull, PixelVector& x) {
   constexpr int kRounds = 120;
-  constexpr double kEnough = 1e-5;  // of the square of what is missing at the beginning
+  constexpr double kEnough = 1e-5;  // of the residual's squared norm at the beginning
   const auto square = [](const PixelVector& v) { return v.matrix().cast<double>().squaredNorm(); };
-  PixelVector rest = -open * laplacian.Times(x);
-  PixelVector step = rest;
-  double left = square(rest);
-  const double enough = std::max(left * kEnough, 1e-9);
-  for (int round = 0; round < kRounds && left > enough; ++round) {
-    const PixelVector moved = open * (laplacian.Times(step) + pull * step);
-    const double along = step.matrix().cast<double>().dot(moved.matrix().cast<double>());
-    const auto by = static_cast<float>(left / std::max(along, 1e-12));
-    x += by * step;
-    rest -= by * moved;
-    const double now = square(rest);
-    step = rest + static_cast<float>(now / left) * step;
-    left = now;
+  PixelVector residual = -open * laplacian.Times(x);
+  PixelVector direction = residual;
+  double squared_norm = square(residual);
+  const double enough = std::max(squared_norm * kEnough, 1e-9);
+  for (int round = 0; round < kRounds && squared_norm > enough; ++round) {
+    const PixelVector product = open * (laplacian.Times(direction) + pull * direction);
+    const double curvature = direction.matrix().cast<double>().dot(product.matrix().cast<double>());
+    const auto alpha = static_cast<float>(squared_norm / std::max(curvature, 1e-12));
+    x += alpha * direction;
+    residual -= alpha * product;
+    const double next = square(residual);
+    direction = residual + static_cast<float>(next / squared_norm) * direction;
+    squared_norm = next;
   }
 }
 

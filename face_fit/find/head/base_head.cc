@@ -9,6 +9,7 @@
 #include "face_fit/find/head/portrait_view.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/surface/rasterizer.h"
+#include "face_fit/surface/triangles.h"
 #include "face_fit/surface/visible_surface.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/transferred_rig.h"

@@ -34,7 +34,7 @@ struct BaseHead {
   std::vector<MeshPoint> points;     ///< where the network's points lie on it
   std::vector<glm::vec3> seen;       ///< where it saw them: x, y pixels of `picture`, z millimetres
   fsm::Image picture = {};           ///< what the network was shown
-  std::optional<LipSeam> seam = {};  ///<< where its lips meet, if that is seen
+  std::optional<LipSeam> seam = {};  ///< where its lips meet, if that is seen
   std::optional<fsm::UnitTable> units = {};  ///< the face's own action units, if it has any
 
   /// Where a point of the network lies on the head at rest.

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "face_fit/picture/plane.h"
-#include "face_fit/surface/rasterizer.h"
+#include "face_fit/surface/triangles.h"
 #include "face_fit/surface/visible_surface.h"
 #include "fsm/mesh/surface_index.h"
 

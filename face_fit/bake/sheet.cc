@@ -1,4 +1,4 @@
-#include "face_fit/bake/billboard_mesh.h"
+#include "face_fit/bake/sheet.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "face_fit/bake/skin_surface.h"
-#include "face_fit/bake/texture_bake.h"
+#include "face_fit/bake/skin_texels.h"
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/grain.h"
@@ -302,7 +302,7 @@ fsm::Image BehindFace(const FittedHead& fitted, const Cutout& figure) {
   return out;
 }
 
-Billboard MakeBillboard(const FittedHead& fitted, const Cutout& figure) {
+Sheet MakeSheet(const FittedHead& fitted, const Cutout& figure) {
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const Chin chin(fitted);
   const SampleGrid grid = GridOver(figure, pixels_per_mm);
@@ -320,20 +320,20 @@ Billboard MakeBillboard(const FittedHead& fitted, const Cutout& figure) {
   });
   const FloatImage depth = SheetDepth(fitted, grid, chin, skin, Blurred(shown, 2));
   const glm::vec2 size(figure.colours.width, figure.colours.height);
-  Billboard out{.sheet = {}, .triangles = {}, .skin_bottom_y = chin.SkinBottom()};
+  Sheet out{.vertices = {}, .triangles = {}, .skin_bottom_y = chin.SkinBottom()};
   for (int y = 0; y < grid.rows; ++y) {
     for (int x = 0; x < grid.columns; ++x) {
       const glm::vec2 pixel = grid.Point(x, y);
       const std::size_t i = depth.Index(x, y);
       const glm::vec2 at = glm::clamp(pixel / size, 0.5F / kMapSize, 1 - 0.5F / kMapSize);
       const glm::vec3 place = fitted.pose.PlaceAt(pixel, std::min(depth.at[i], kMostDepth));
-      out.sheet.push_back({place + motion.at[i], {0.5F + 0.5F * at.x, at.y}});
+      out.vertices.push_back({place + motion.at[i], {0.5F + 0.5F * at.x, at.y}});
     }
   }
   Quads quads = DrawnCells(fitted, grid, shown, skin.covered, skin.rim, depth);
   // From back to front: soft edges show what lies behind them.
   std::ranges::sort(quads, {}, [&](const auto& quad) {
-    return std::pair(out.sheet[quad[0]].position.z + out.sheet[quad[2]].position.z, quad);
+    return std::pair(out.vertices[quad[0]].position.z + out.vertices[quad[2]].position.z, quad);
   });
   for (const auto& quad : quads) {
     for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) out.triangles.push_back(quad[k]);

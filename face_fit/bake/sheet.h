@@ -15,12 +15,12 @@ namespace facefit {
 fsm::Image BehindFace(const FittedHead& fitted, const Cutout& figure);
 
 /// The mesh that carries hair, neck and clothes.
-struct Billboard {
-  std::vector<fsm::PhotoHead::SheetVertex> sheet;
-  std::vector<std::uint32_t> triangles;  ///< of the sheet, from back to front
+struct Sheet {
+  std::vector<fsm::PhotoHead::SheetVertex> vertices;
+  std::vector<std::uint32_t> triangles;  ///< from back to front
   float skin_bottom_y;                   ///< PhotoHead::skin_bottom_y
 };
 /// A sheet just behind the face, from there gently back to the outline.
-Billboard MakeBillboard(const FittedHead& fitted, const Cutout& figure);
+Sheet MakeSheet(const FittedHead& fitted, const Cutout& figure);
 
 }  // namespace facefit
