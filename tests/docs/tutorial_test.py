@@ -145,7 +145,8 @@ def compare(line: int, command: str, shown: list[str], said: str, block: Block) 
 @contextlib.contextmanager
 def workspace() -> Iterator[pathlib.Path]:
     """A folder that looks like the root of the toolkit, in which what a command writes stays."""
-    with tempfile.TemporaryDirectory() as folder:
+    # A browser that was told to end may still write its profile.
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         root = pathlib.Path(folder, "galatea")
         (root / "scripts").mkdir(parents=True)
         for name in ("docs", "examples", "fsm", "python", "ssm", "tests", "vm_protocol"):
