@@ -30,6 +30,13 @@ std::string Changed(const std::string& old_text, const std::string& new_text) {
   return text.replace(at, old_text.size(), new_text);
 }
 
+/// The built-in row that begins so.
+std::string Row(const std::string& key) {
+  const std::string text = BuiltInText();
+  const auto at = text.find("\n" + key) + 1;
+  return text.substr(at, text.find('\n', at) - at);
+}
+
 int LineOf(const std::string& word) {
   const std::string text = BuiltInText();
   const auto before = text.substr(0, text.find(word));
@@ -49,7 +56,7 @@ TEST(AppearanceTest, BadRowsAreRefusedWithFileAndLine) {
   struct Case {
     std::string row, instead, why;
   };
-  const std::string skin = "surface skin         0.60 0.42 0.36   1.5 1.9 0.0  0.35    1.0  1.20";
+  const std::string skin = Row("surface skin");
   const Case cases[] = {
       {"\nexposure            0.44", "\nexposure bright", "'exposure bright' is not known"},
       {"\nexposure            0.44", "\nexposure", "'exposure' needs 1 numbers after it, found 0"},
