@@ -66,7 +66,7 @@ Features::Features(NumberTable numbers) : NumberTable(std::move(numbers)) {
         row.Within(i, limits.least, limits.most);
     }
     if (row.key() == "spot") {
-      for (const std::size_t half_size : {4, 5}) row.Within(half_size, kLeastSize, kMostSize);
+      for (const std::size_t half_size : {4uz, 5uz}) row.Within(half_size, kLeastSize, kMostSize);
     }
     if (name == "photo_lid_furrow") row.Within(3, kLeastSize, kMostSize);
     if (name == "crop_crown" && Vector(name) == glm::vec3(0)) row.Fail("a crown that is nowhere");
