@@ -65,9 +65,9 @@ class Renderer {
     Viewport viewport = {};
     std::span<const glm::vec3> swings = {};
   };
-  /// Draws each in its viewport as above, and calls `drawn` with its number when it is the frame
-  /// drawn last. A card moves faces of one head that follow each other in one go, which takes less
-  /// than half the time.
+  /// Draws each in its viewport as above, and calls `drawn`, which may read but not draw, with its
+  /// number when it is the frame drawn last. A card moves faces of one head that follow each other
+  /// in one go. The viewport is afterwards what it was.
   virtual void Draw(std::span<const Pane> panes,
                     const std::function<void(std::size_t)>& drawn = {}) = 0;
   /// The frame drawn last, of the viewport's size.
