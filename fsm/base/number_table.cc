@@ -75,4 +75,13 @@ glm::vec3 NumberTable::Vector(std::string_view name) const {
   return {n.at(0), n.at(1), n.at(2)};
 }
 
+glm::vec4 NumberTable::Vector4(std::string_view name) const {
+  return {Vector(name), (*this)[name].at(3)};
+}
+
+float NumberTable::Linear(std::string_view name, float x) const {
+  const glm::vec2 n = Pair(name);
+  return n.x + n.y * x;
+}
+
 }  // namespace fsm

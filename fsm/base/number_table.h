@@ -2,6 +2,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <map>
 #include <string>
 #include <string_view>
@@ -27,9 +28,12 @@ class NumberTable {
   const std::vector<float>& operator[](std::string_view name) const;
   /// The only one.
   float operator()(std::string_view name) const { return (*this)[name].at(0); }
-  /// The first two, and the first three.
+  /// The first two, three and four.
   glm::vec2 Pair(std::string_view name) const;
   glm::vec3 Vector(std::string_view name) const;
+  glm::vec4 Vector4(std::string_view name) const;
+  /// The first, and the second times `x`.
+  float Linear(std::string_view name, float x) const;
 
   const std::vector<TableRow>& rows() const { return table_.rows(); }
   static std::string NameOf(const TableRow& row);

@@ -104,9 +104,4 @@ float Features::Step(std::string_view name, float x) const {
   return SmoothStep(range.x, range.y, x);
 }
 
-float Features::Linear(std::string_view name, float x) const {
-  const glm::vec2 n = Pair(name);
-  return n.x + n.y * x;
-}
-
 }  // namespace fsm

@@ -28,8 +28,6 @@ class Features : public NumberTable {
   float Between(std::string_view name, float part) const;
   /// SmoothStep from the first to the second.
   float Step(std::string_view name, float x) const;
-  /// The first, and the second times `x`.
-  float Linear(std::string_view name, float x) const;
 
  private:
   /// Throws if the x of a curve do not ascend, or there are no hairs where there must be some.

@@ -7,7 +7,7 @@
 namespace fsm {
 namespace {
 
-constexpr std::pair<std::string_view, Material> kSurfaces[] = {
+constexpr std::pair<const char*, Material> kSurfaces[] = {
     {"skin", Material::kSkin},     {"lips", Material::kLip},
     {"teeth", Material::kTeeth},   {"gums", Material::kGum},
     {"tongue", Material::kTongue}, {"mouth_inside", Material::kMouthInside},
@@ -21,34 +21,24 @@ std::string ConstantOf(const TableRow& row) {
   return text + ");\n";
 }
 
-Appearance::Surface SurfaceOf(const std::vector<float>& n) {
-  return {.wrap = {n[0], n[1], n[2]},
-          .lobes = {n[3], n[4], n[5]},
-          .key_through = n[6],
-          .sheen = n[7],
-          .saturation = n[8],
-          .bump = n[9],
-          .planar = n[10]};
-}
-
 }  // namespace
 
-Appearance::Appearance(const std::string& name, std::string_view text)
-    : Appearance(NumberTable(name, text, &BuiltIn().numbers_)) {}
-
-Appearance::Appearance(NumberTable numbers) : numbers_(std::move(numbers)) {
-  for (const TableRow& row : numbers_.rows()) {
-    const auto& n = numbers_[NumberTable::NameOf(row)];
-    if (row.key() == "lamp") {
-      if (n[0] == 0 && n[1] == 0 && n[2] == 0) row.Fail("a lamp that stands nowhere");
-      lamps_[row.Word(1)] = {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
-    } else if (row.key() == "surface") {
-      for (const auto& [word, material] : kSurfaces) {
-        if (word == row.Word(1)) surfaces_[material] = SurfaceOf(n);
-      }
-    } else if (row.key() != "skin") {
-      constants_ += ConstantOf(row);
-    }
+Appearance::Appearance(NumberTable numbers) : NumberTable(std::move(numbers)) {
+  for (const TableRow& row : rows()) {
+    const std::string name = NameOf(row);
+    if (name == row.key()) constants_ += ConstantOf(row);
+    if (name.ends_with(" direction") && Vector(name) == glm::vec3(0))
+      row.Fail("a lamp that stands nowhere");
+  }
+  for (const auto& [name, material] : kSurfaces) {
+    const auto row = [name](const char* property) { return std::string(property) + " " + name; };
+    surfaces_[material] = {.wrap = Vector(row("wrap")),
+                           .lobes = Vector(row("lobes")),
+                           .key_through = (*this)(row("key_through")),
+                           .sheen = (*this)(row("down")),
+                           .saturation = (*this)(row("saturation")),
+                           .bump = (*this)(row("bump")),
+                           .planar = (*this)(row("repeats"))};
   }
 }
 
@@ -57,16 +47,8 @@ const Appearance& Appearance::BuiltIn() {
   return table;
 }
 
-float Appearance::Number(const std::string& name) const { return numbers_(name); }
-
-glm::vec3 Appearance::Colour(const std::string& name) const { return numbers_.Vector(name); }
-
-const std::vector<float>& Appearance::Skin(std::string_view name) const {
-  return numbers_["skin " + std::string(name)];
-}
-
-glm::vec4 Appearance::ColourAndOpacity(const std::string& name) const {
-  return {Colour(name), numbers_[name].at(3)};
+Appearance::Lamp Appearance::lamp(const std::string& name) const {
+  return {Vector("lamp " + name + " direction"), Vector("lamp " + name + " light")};
 }
 
 }  // namespace fsm

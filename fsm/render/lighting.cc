@@ -40,7 +40,7 @@ Lamps LampsOf(const Appearance& appearance, const Scene& scene) {
 MaterialFrame FrameOf(const Appearance& appearance, const View& view, const HeadBuffers& head,
                       const HeadVertices& vertices, const Scene& scene) {
   const Lamps lamps = LampsOf(appearance, scene);
-  const float room = appearance.Number("photo_room_light");
+  const float room = appearance("photo_room_light");
   const float usual = appearance.lamp("key").colour.g + appearance.lamp("fill").colour.g + room;
   const auto shadows = head.shadows().Measure(vertices);
   MaterialFrame frame{

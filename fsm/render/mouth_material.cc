@@ -35,10 +35,10 @@ void MouthMaterial::Begin(const MaterialFrame& frame) {
   const glm::mat3 to_world =
       turn / glm::length(turn[0]) * glm::transpose(glm::mat3(opening_->to_mouth));
   const auto number = [&](const char* of_photo, const char* of_paint) {
-    return appearance_.Number(frame.head.photo() ? of_photo : of_paint);
+    return appearance_(frame.head.photo() ? of_photo : of_paint);
   };
   const glm::vec3 key = glm::mix(glm::transpose(to_world) * frame.lamps.directions[0],
-                                 appearance_.Colour("mouth_key_from"),
+                                 appearance_.Vector("mouth_key_from"),
                                  number("photo_mouth_ahead", "mouth_key_ahead"));
   program_.Use();
   program_.Set("to_mouth", opening_->to_mouth);

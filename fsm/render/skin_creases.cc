@@ -8,19 +8,6 @@
 
 namespace fsm {
 
-CreaseRelief::CreaseRelief(const FaceLandmarks& landmarks, const Appearance& appearance)
-    : m_(landmarks),
-      swelling_(appearance.Skin("crease_swelling")[0]),
-      lines_(appearance.Skin("forehead_lines")),
-      depth_(appearance.Skin("forehead_depth")),
-      form_(appearance.Skin("forehead_form")),
-      reach_(appearance.Skin("forehead_reach")),
-      glabella_(appearance.Skin("glabella_lines")),
-      nasion_(appearance.Skin("nasion_line")),
-      bridge_(appearance.Skin("bridge_lines")),
-      crows_feet_(appearance.Skin("crows_feet")),
-      nasolabial_(appearance.Skin("nasolabial_fold")) {}
-
 /// A narrow furrow between two low swellings.
 float CreaseRelief::Furrow(float off, float width) const {
   if (std::abs(off) > 5.2F * width) return 0;
@@ -46,15 +33,15 @@ void CreaseRelief::AddForehead(const glm::vec3& p, float side, float& height) co
   const float brow_y = m_.nasion.y + 20;
   if (p.y <= brow_y - 2 || p.y >= m_.trichion.y) return;
   const float room = m_.trichion.y - brow_y;
-  const float bow = form_[0] * std::sin((std::sqrt(side * side + 49) - 7) * 0.055F);
-  for (const float& part : lines_) {
-    const float reach = (reach_[0] - reach_[1] * std::abs(part - reach_[2])) *
-                        (&part == &lines_.back() ? reach_[3] : 1.0F);
-    const float sway = form_[1] * std::sin(p.x * (0.09F + 0.05F * part) + 11 * part) +
-                       form_[2] * std::sin(p.x * 0.27F + 7 * part);
-    const float deep = depth_[0] + depth_[1] * std::sin(p.x * 0.075F + 23 * part) +
-                       depth_[2] * std::sin(p.x * 0.19F + 5 * part);
-    height += deep * Furrow(p.y - brow_y - room * part * 0.9F - bow - sway, depth_[3]) *
+  const float bow = rise_ * std::sin((std::sqrt(side * side + 49) - 7) * 0.055F);
+  for (const float& part : forehead_places_) {
+    const float reach = (reach_ - less_ * std::abs(part - farthest_)) *
+                        (&part == &forehead_places_.back() ? last_ : 1.0F);
+    const float sway = sway_long_ * std::sin(p.x * (0.09F + 0.05F * part) + 11 * part) +
+                       sway_short_ * std::sin(p.x * 0.27F + 7 * part);
+    const float deep = forehead_.depth + deep_long_ * std::sin(p.x * 0.075F + 23 * part) +
+                       deep_short_ * std::sin(p.x * 0.19F + 5 * part);
+    height += deep * Furrow(p.y - brow_y - room * part * 0.9F - bow - sway, forehead_.width) *
               SmoothStep(reach + 8, reach - 8, side);
   }
 }
@@ -62,20 +49,19 @@ void CreaseRelief::AddForehead(const glm::vec3& p, float side, float& height) co
 /// Two upright lines between the brows, and one across the root of the nose, which is the nose's.
 void CreaseRelief::AddGlabella(const glm::vec3& p, float side, float& height) const {
   const float between = Bell(p.y - (m_.nasion.y + 10), 9);
-  height += glabella_[0] * Furrow(side - glabella_[2] - 0.10F * (p.y - m_.nasion.y), glabella_[1]) *
-            between;
-  height += nasion_[0] * Furrow(p.y - m_.nasion.y + 1.5F - 0.035F * side * side, nasion_[1]) *
-            Bell(side, nasion_[2]);
+  height += glabella_.depth *
+            Furrow(side - glabella_side_ - 0.10F * (p.y - m_.nasion.y), glabella_.width) * between;
+  height += nasion_.depth * Furrow(p.y - m_.nasion.y + 1.5F - 0.035F * side * side, nasion_.width) *
+            Bell(side, nasion_reach_);
 }
 
 /// Short lines beside the bridge of the nose that slant down and outward.
 void CreaseRelief::AddBridge(const glm::vec3& p, float side, float& height) const {
   if (side >= 16 || p.y >= m_.nasion.y - 2) return;
-  for (const std::size_t line : {2U, 3U, 4U}) {
-    const float off =
-        p.y - (m_.nasion.y - bridge_[line]) + 0.45F * (side - 6) - 0.02F * side * side;
-    height +=
-        bridge_[0] * Furrow(off, bridge_[1]) * SmoothStep(1.5F, 5, side) * SmoothStep(14, 9, side);
+  for (const float below : bridge_below_) {
+    const float off = p.y - (m_.nasion.y - below) + 0.45F * (side - 6) - 0.02F * side * side;
+    height += bridge_.depth * Furrow(off, bridge_.width) * SmoothStep(1.5F, 5, side) *
+              SmoothStep(14, 9, side);
   }
 }
 
@@ -83,13 +69,12 @@ void CreaseRelief::AddBridge(const glm::vec3& p, float side, float& height) cons
 void CreaseRelief::AddCrowsFeet(const glm::vec3& p, float side, float& height) const {
   const glm::vec2 out(side - m_.exocanthion.left.x - 2, p.y - m_.exocanthion.left.y + 0.5F);
   if (out.x <= -2) return;
-  for (const std::size_t line : {2U, 3U, 4U}) {
-    const float angle = crows_feet_[line];
+  for (const float angle : crows_feet_directions_) {
     const glm::vec2 along(std::cos(angle), std::sin(angle));
     const float far = glm::dot(out, along);
     const float off = out.y * along.x - out.x * along.y;
     const float bend = 0.02F * far * far * (angle > 0 ? -1.0F : 1.0F) * 0.5F;
-    height += crows_feet_[0] * Furrow(off + bend, crows_feet_[1]) * SmoothStep(1, 5, far) *
+    height += crows_feet_.depth * Furrow(off + bend, crows_feet_.width) * SmoothStep(1, 5, far) *
               SmoothStep(17, 9, far);
   }
 }
@@ -99,9 +84,9 @@ void CreaseRelief::AddNasolabial(const glm::vec3& p, float side, float& height) 
   const glm::vec3 wing = m_.alare.left, corner = m_.cheilion.left;
   const float t = (wing.y + 4 - p.y) / (wing.y + 4 - corner.y);
   const float fold_x =
-      glm::mix(wing.x + nasolabial_[2], corner.x + nasolabial_[3], std::clamp(t, 0.0F, 1.3F)) +
-      nasolabial_[4] * std::sin(std::clamp(t, 0.0F, 1.0F) * 3.1416F);
-  height += nasolabial_[0] * Furrow((side - fold_x) * 0.8F, nasolabial_[1]) *
+      glm::mix(wing.x + outside_nose_, corner.x + outside_mouth_, std::clamp(t, 0.0F, 1.3F)) +
+      nasolabial_bow_ * std::sin(std::clamp(t, 0.0F, 1.0F) * 3.1416F);
+  height += nasolabial_.depth * Furrow((side - fold_x) * 0.8F, nasolabial_.width) *
             SmoothStep(-0.12F, 0.12F, t) * SmoothStep(1.35F, 0.85F, t);
 }
 

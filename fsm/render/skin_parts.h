@@ -21,11 +21,6 @@ inline float Bell(float x, float width) {
   return t * t * t * t;
 }
 
-/// Four of the numbers of a row, as a tint.
-inline glm::vec4 TintOf(const std::vector<float>& n, std::size_t first) {
-  return {n[first], n[first + 1], n[first + 2], n[first + 3]};
-}
-
 /// What changes slowly over the skin, one for each cell of a SkinMap.
 struct SkinRegion {
   glm::vec4 tint{1.0F};  ///< factors on colour and on highlights
@@ -38,14 +33,14 @@ std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceLandmarks& la
 /// The creases of expression as a relief on the skin of a face. What it is made of outlives it.
 class CreaseRelief {
  public:
-  CreaseRelief(const FaceLandmarks& landmarks, const Appearance& appearance);
+  CreaseRelief(const FaceLandmarks& landmarks, const Appearance& appearance)
+      : m_(landmarks), look_(appearance) {}
   /// How high above the skin a place lies when all creases are at their deepest, millimetres.
   float HeightAt(const glm::vec3& place) const;
   /// False where no crease is within a few millimetres.
   bool MayCrease(const glm::vec3& place) const;
 
  private:
-  using Numbers = std::vector<float>;
   float Furrow(float off, float width) const;
   // The creases of one region; `side` is how far the place is from the median. Each adds to what
   // there is.
@@ -56,9 +51,34 @@ class CreaseRelief {
   void AddNasolabial(const glm::vec3& p, float side, float& height) const;
 
   const FaceLandmarks& m_;
-  const float swelling_;
-  const Numbers &lines_, &depth_, &form_, &reach_;  // of the forehead
-  const Numbers &glabella_, &nasion_, &bridge_, &crows_feet_, &nasolabial_;
+  const NumberTable& look_;
+  const float swelling_ = look_("skin crease swelling");
+  /// Depth and width of lines.
+  struct Line {
+    float depth, width;
+  };
+  Line LineOf(const std::string& name) const {
+    return {look_("skin " + name + " depth"), look_("skin " + name + " width")};
+  }
+  const Line forehead_ = LineOf("forehead_lines"), glabella_ = LineOf("glabella_lines"),
+             nasion_ = LineOf("nasion_line"), bridge_ = LineOf("bridge_lines"),
+             crows_feet_ = LineOf("crows_feet"), nasolabial_ = LineOf("nasolabial_fold");
+  const std::vector<float>& forehead_places_ = look_["skin forehead_lines places"];
+  const float deep_long_ = look_("skin forehead_lines deep_long"),
+              deep_short_ = look_("skin forehead_lines deep_short"),
+              rise_ = look_("skin forehead_lines rise"),
+              sway_long_ = look_("skin forehead_lines sway_long"),
+              sway_short_ = look_("skin forehead_lines sway_short"),
+              reach_ = look_("skin forehead_lines reach"),
+              farthest_ = look_("skin forehead_lines farthest"),
+              less_ = look_("skin forehead_lines less"), last_ = look_("skin forehead_lines last");
+  const float glabella_side_ = look_("skin glabella_lines side"),
+              nasion_reach_ = look_("skin nasion_line reach");
+  const std::vector<float>&bridge_below_ = look_["skin bridge_lines below"],
+        &crows_feet_directions_ = look_["skin crows_feet directions"];
+  const float outside_nose_ = look_("skin nasolabial_fold nose"),
+              outside_mouth_ = look_("skin nasolabial_fold mouth"),
+              nasolabial_bow_ = look_("skin nasolabial_fold bow");
 };
 
 /// Draws hairs into the tint, each a bent line that ends in a point.

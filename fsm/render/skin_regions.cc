@@ -56,41 +56,40 @@ class NoiseRow {
 class RegionPainter {
  public:
   RegionPainter(const FaceLandmarks& landmarks, const Appearance& appearance)
-      : m_(landmarks), appearance_(appearance) {}
+      : m_(landmarks), look_(appearance) {}
 
   /// `broad`, `fine`: of the patches there, about 0.
   SkinRegion At(SkinMap::Kind kind, const glm::vec3& p, float broad, float fine) const {
     SkinRegion out;
-    const float patch = patches_[0] * broad + patches_[1] * fine;
-    out.tint *= 1.0F + patch * TintOf(patches_, 2);
+    const float patch = patches_broad_ * broad + patches_fine_ * fine;
+    out.tint *= 1.0F + patch * patches_tint_;
     if (kind == SkinMap::kLip) {
       out.cracks = 1;
-      out.tint.a *= p.y < m_.stomion.y ? lip_[0] : lip_[1];
+      out.tint.a *= p.y < m_.stomion.y ? lower_lip_ : upper_lip_;
       return out;
     }
     const float from_nose = glm::length(glm::vec2(p.x * 0.7F, p.y - m_.pronasale.y));
-    out.pores = pores_[0] + pores_[1] * Bell(from_nose, pores_[2]);
+    out.pores = pores_ + nose_pores_ * Bell(from_nose, nose_pores_width_);
     if (p.z > 0) PaintFront(p, fine, out.tint);
     return out;
   }
 
  private:
-  using Numbers = std::vector<float>;
-
   void PaintFront(const glm::vec3& p, float fine, glm::vec4& tint) const {
     const float side = std::abs(p.x);
-    const float cheek_x = cheek_[0] * m_.zygion.left.x;
-    const float cheek_y = cheek_[1] * m_.nasion.y + cheek_[2] * m_.subnasale.y;
-    const float cheek = Bell(side - cheek_x, cheek_[3]) * Bell(p.y - cheek_y, cheek_[3]);
-    const float tip = Bell(side, nose_tip_[0]) * Bell(p.y - m_.pronasale.y, nose_tip_[1]) *
+    const float cheek_x = cheek_zygion_ * m_.zygion.left.x;
+    const float cheek_y = cheek_nasion_ * m_.nasion.y + cheek_subnasale_ * m_.subnasale.y;
+    const float cheek = Bell(side - cheek_x, cheek_width_) * Bell(p.y - cheek_y, cheek_width_);
+    const float tip = Bell(side, nose_tip_width_) * Bell(p.y - m_.pronasale.y, nose_tip_height_) *
                       SmoothStep(m_.subnasale.z, m_.pronasale.z, p.z);
-    const float chin = Bell(side, chin_[0]) *
-                       Bell(p.y - chin_[2] * m_.gnathion.y - chin_[3] * m_.stomion.y, chin_[1]);
-    const float flush = blood_[0] * cheek + blood_[1] * tip + blood_[2] * chin;
-    tint *= 1.0F - flush * (blood_[3] + blood_[4] * fine) * TintOf(blood_, 5);
+    const float chin =
+        Bell(side, chin_width_) *
+        Bell(p.y - chin_gnathion_ * m_.gnathion.y - chin_stomion_ * m_.stomion.y, chin_height_);
+    const float flush = blood_cheek_ * cheek + blood_nose_tip_ * tip + blood_chin_ * chin;
+    tint *= 1.0F - flush * (blood_even_ + blood_patches_ * fine) * blood_tint_;
     const float high = SmoothStep(m_.nasion.y + 8, m_.nasion.y + 30, p.y);
     const float low = SmoothStep(m_.stomion.y + 6, 0.7F * m_.gnathion.y + 0.3F * m_.stomion.y, p.y);
-    tint *= 1.0F - high * TintOf(forehead_, 0) - low * TintOf(lower_face_, 0);
+    tint *= 1.0F - high * forehead_tint_ - low * lower_face_tint_;
     tint *= AroundEye(side, p.y);
     tint.a *= Oil(p, tip, chin);
   }
@@ -98,13 +97,13 @@ class RegionPainter {
   /// Thin skin below the eyes is bluish and darker; the lids are warmer.
   glm::vec4 AroundEye(float side, float y) const {
     const glm::vec3 pupil = m_.pupil.left;
-    const float from_pupil = (side - pupil.x) / eye_width_[0];
-    const float below = Bell(y - (pupil.y + below_eye_[0]), below_eye_[1]) * Bell(from_pupil, 1);
-    const float lid = Bell(y - (pupil.y + lid_[0]), lid_[1]) * Bell(from_pupil, eye_width_[1]);
-    const float corner = Bell(side - m_.endocanthion.left.x - eye_corner_[0], eye_corner_[1]) *
-                         Bell(y - pupil.y - eye_corner_[0], eye_corner_[2]);
-    return 1.0F - below * TintOf(below_eye_, 2) - lid * TintOf(lid_, 2) -
-           corner * TintOf(eye_corner_, 3);
+    const float from_pupil = (side - pupil.x) / eye_width_;
+    const float below =
+        Bell(y - (pupil.y + below_eye_above_), below_eye_height_) * Bell(from_pupil, 1);
+    const float lid = Bell(y - (pupil.y + lid_above_), lid_height_) * Bell(from_pupil, lid_width_);
+    const float corner = Bell(side - m_.endocanthion.left.x - eye_corner_away_, eye_corner_width_) *
+                         Bell(y - pupil.y - eye_corner_away_, eye_corner_height_);
+    return 1.0F - below * below_eye_tint_ - lid * lid_tint_ - corner * eye_corner_tint_;
   }
 
   float Oil(const glm::vec3& p, float tip, float chin) const {
@@ -116,21 +115,49 @@ class RegionPainter {
     const float cheek_bone =
         Bell(side - 0.6F * m_.zygion.left.x, 12) * Bell(p.y - m_.pronasale.y - 14, 9);
     const float jaw = SmoothStep(m_.pronasale.y, m_.stomion.y, p.y) * SmoothStep(20, 45, side);
-    return oil_[0] + oil_[1] * forehead + oil_[2] * bridge + oil_[3] * tip + oil_[4] * bow +
-           oil_[5] * cheek_bone + oil_[6] * chin - oil_[7] * jaw;
+    return oil_ + oil_forehead_ * forehead + oil_bridge_ * bridge + oil_nose_tip_ * tip +
+           oil_lip_bow_ * bow + oil_cheek_bone_ * cheek_bone + oil_chin_ * chin - oil_jaw_ * jaw;
   }
 
-  const Numbers& Look(const char* name) const { return appearance_.Skin(name); }
-
   const FaceLandmarks& m_;
-  const Appearance& appearance_;
-  const Numbers &patches_ = Look("patches"), &lip_ = Look("lip_highlights"),
-                &pores_ = Look("pores");
-  const Numbers &cheek_ = Look("cheek"), &nose_tip_ = Look("nose_tip"), &chin_ = Look("chin");
-  const Numbers &forehead_ = Look("forehead"), &lower_face_ = Look("lower_face");
-  const Numbers &blood_ = Look("blood"), &eye_width_ = Look("eye_width"),
-                &below_eye_ = Look("below_eye");
-  const Numbers &lid_ = Look("lid"), &eye_corner_ = Look("eye_corner"), &oil_ = Look("oil");
+  const NumberTable& look_;
+  const float patches_broad_ = look_("skin patches broad"),
+              patches_fine_ = look_("skin patches fine"),
+              lower_lip_ = look_("skin lip_highlights lower"),
+              upper_lip_ = look_("skin lip_highlights upper"),
+              pores_ = look_("skin pores everywhere"), nose_pores_ = look_("skin pores nose"),
+              nose_pores_width_ = look_("skin pores nose_width"),
+              cheek_zygion_ = look_("skin cheek zygion"),
+              cheek_nasion_ = look_("skin cheek nasion"),
+              cheek_subnasale_ = look_("skin cheek subnasale"),
+              cheek_width_ = look_("skin cheek width"),
+              nose_tip_width_ = look_("skin nose_tip width"),
+              nose_tip_height_ = look_("skin nose_tip height"),
+              chin_width_ = look_("skin chin width"), chin_height_ = look_("skin chin height"),
+              chin_gnathion_ = look_("skin chin gnathion"),
+              chin_stomion_ = look_("skin chin stomion"), blood_cheek_ = look_("skin blood cheek"),
+              blood_nose_tip_ = look_("skin blood nose_tip"),
+              blood_chin_ = look_("skin blood chin"), blood_even_ = look_("skin blood even"),
+              blood_patches_ = look_("skin blood patches"), eye_width_ = look_("skin eye width"),
+              below_eye_above_ = look_("skin below_eye above"),
+              below_eye_height_ = look_("skin below_eye height"),
+              lid_above_ = look_("skin lid above"), lid_height_ = look_("skin lid height"),
+              lid_width_ = look_("skin lid width"),
+              eye_corner_away_ = look_("skin eye_corner away"),
+              eye_corner_width_ = look_("skin eye_corner width"),
+              eye_corner_height_ = look_("skin eye_corner height"),
+              oil_ = look_("skin oil everywhere"), oil_forehead_ = look_("skin oil forehead"),
+              oil_bridge_ = look_("skin oil bridge"), oil_nose_tip_ = look_("skin oil nose_tip"),
+              oil_lip_bow_ = look_("skin oil lip_bow"),
+              oil_cheek_bone_ = look_("skin oil cheek_bone"), oil_chin_ = look_("skin oil chin"),
+              oil_jaw_ = look_("skin oil jaw");
+  const glm::vec4 patches_tint_ = look_.Vector4("skin patches tint"),
+                  forehead_tint_ = look_.Vector4("skin forehead tint"),
+                  lower_face_tint_ = look_.Vector4("skin lower_face tint"),
+                  blood_tint_ = look_.Vector4("skin blood tint"),
+                  below_eye_tint_ = look_.Vector4("skin below_eye tint"),
+                  lid_tint_ = look_.Vector4("skin lid tint"),
+                  eye_corner_tint_ = look_.Vector4("skin eye_corner tint");
 };
 
 }  // namespace

@@ -40,15 +40,14 @@ std::size_t InTile(int x, int y) {
 /// Pores a millimetre and a half apart, each a pit; upright lines of lips.
 std::vector<Fine> MakeFineTile(const Appearance& appearance) {
   constexpr int kApart = 4;
-  const auto& look = appearance.Skin("pore");
   std::vector<Fine> tile(static_cast<std::size_t>(kTile) * kTile);
   std::uint64_t n = 0;
   for (int y = 0; y < kTile; y += kApart) {
     for (int x = 0; x < kTile; x += kApart, ++n) {
       const float px = static_cast<float>(x) + kApart * Chance(11, n);
       const float py = static_cast<float>(y) + kApart * Chance(12, n);
-      const float deep = look[0] + look[1] * Chance(13, n);
-      const float radius = look[2] + look[3] * Chance(14, n);
+      const float deep = appearance.Linear("skin pore dark", Chance(13, n));
+      const float radius = appearance.Linear("skin pore radius", Chance(14, n));
       for (int ty = y - 2; ty <= y + kApart + 2; ++ty) {
         for (int tx = x - 2; tx <= x + kApart + 2; ++tx) {
           const float dx = static_cast<float>(tx) + 0.5F - px;
@@ -74,7 +73,8 @@ std::vector<Fine> MakeFineTile(const Appearance& appearance) {
     }
   }
   const float between = 2 / SkinTexture::kTexelsPerMm;  // millimetres from neighbour to neighbour
-  const float crack_mm = appearance.Skin("lip_lines")[0];
+  const float pore_mm = appearance("skin pore depth");
+  const float crack_mm = appearance("skin lip_lines depth");
   for (int y = 0; y < kTile; ++y) {
     for (int x = 0; x < kTile; ++x) {
       const Fine& l = tile[InTile(x - 1, y)];
@@ -82,7 +82,7 @@ std::vector<Fine> MakeFineTile(const Appearance& appearance) {
       const Fine& b = tile[InTile(x, y - 1)];
       const Fine& a = tile[InTile(x, y + 1)];
       Fine& f = tile[InTile(x, y)];
-      f.pore_slope = glm::vec2(r.pore - l.pore, a.pore - b.pore) * (-look[4] / between);
+      f.pore_slope = glm::vec2(r.pore - l.pore, a.pore - b.pore) * (-pore_mm / between);
       f.crack_slope = glm::vec2(r.crack - l.crack, a.crack - b.crack) * (crack_mm / between);
     }
   }
@@ -99,9 +99,9 @@ void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& 
                const Appearance& appearance, int first, int last, SkinTexture& out) {
   constexpr int kCells = SkinMap::kCells;
   constexpr int kStep = kSide / kCells;
-  const glm::vec4 pore_tint = TintOf(appearance.Skin("pore"), 5);
-  const glm::vec4 crack_tint = TintOf(appearance.Skin("lip_lines"), 1);
-  const glm::vec4 grain_tint = TintOf(appearance.Skin("grain"), 0);
+  const glm::vec4 pore_tint = appearance.Vector4("skin pore tint");
+  const glm::vec4 crack_tint = appearance.Vector4("skin lip_lines tint");
+  const glm::vec4 grain_tint = appearance.Vector4("skin grain tint");
   std::vector<SkinRegion> row(kCells + 1);
   for (int y = first; y < last; ++y) {
     // Cells count for their middles.
@@ -194,22 +194,28 @@ void Stamp(float x, float y, float radius, Paint paint) {
 /// Faint brown freckles over nose and cheeks, a few darker moles.
 void PaintFreckles(const SkinMap& map, const FaceLandmarks& m, const Appearance& appearance,
                    SkinTexture& out) {
-  const auto& look = appearance.Skin("freckles");
-  const auto& cheek = appearance.Skin("freckled_cheek");
-  const auto& freckle = appearance.Skin("freckle");
-  const auto& moles = appearance.Skin("moles");
-  const glm::vec4 tint = TintOf(freckle, 4);
-  for (std::uint64_t n = 0; static_cast<float>(n) < 100 * look[0]; ++n) {
+  const float count = 100 * appearance("skin freckles hundreds");
+  const float everywhere = appearance("skin freckles everywhere");
+  const float on_cheek = appearance("skin freckles cheek");
+  const float side = appearance("skin freckled_cheek side");
+  const float width = appearance("skin freckled_cheek width");
+  const float above = appearance("skin freckled_cheek above");
+  const float height = appearance("skin freckled_cheek height");
+  const float one_in = appearance("skin moles one_in");
+  const glm::vec4 tint = appearance.Vector4("skin freckle tint");
+  for (std::uint64_t n = 0; static_cast<float>(n) < count; ++n) {
     const float x = kSide * (0.18F + 0.64F * Chance(21, n));
     const float y = kSide * (0.25F + 0.6F * Chance(22, n));
     if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) continue;
     const glm::vec3 p = map.PlaceAt(x / kSide, y / kSide);
     const float near_cheek =
-        Bell(std::abs(p.x) - cheek[0], cheek[1]) * Bell(p.y - m.pronasale.y - cheek[2], cheek[3]);
-    if (Chance(23, n) > look[1] + look[2] * near_cheek) continue;
-    const bool mole = moles[0] >= 1 && n % static_cast<std::uint64_t>(moles[0]) == 7;
-    const float strength = mole ? moles[1] : freckle[0] + freckle[1] * Chance(24, n);
-    const float radius = mole ? moles[2] : freckle[2] + freckle[3] * Chance(25, n);
+        Bell(std::abs(p.x) - side, width) * Bell(p.y - m.pronasale.y - above, height);
+    if (Chance(23, n) > everywhere + on_cheek * near_cheek) continue;
+    const bool mole = one_in >= 1 && n % static_cast<std::uint64_t>(one_in) == 7;
+    const float strength = mole ? appearance("skin moles strength")
+                                : appearance.Linear("skin freckle strength", Chance(24, n));
+    const float radius = mole ? appearance("skin moles radius")
+                              : appearance.Linear("skin freckle radius", Chance(25, n));
     Stamp(x, y, radius, [&](std::size_t i, float w) { Tint(out, i, 1.0F - w * strength * tint); });
   }
 }
@@ -217,26 +223,33 @@ void PaintFreckles(const SkinMap& map, const FaceLandmarks& m, const Appearance&
 /// Fine vessels beside the nose and on the cheeks: short walks that wander.
 void PaintVessels(const SkinMap& map, const FaceLandmarks& m, const Appearance& appearance,
                   SkinTexture& out) {
-  const auto& look = appearance.Skin("vessels");
-  const auto& places = appearance.Skin("vessel_places");
-  const glm::vec4 tint = TintOf(appearance.Skin("vessel_tint"), 0);
-  for (std::uint64_t n = 0; static_cast<float>(n) < look[0]; ++n) {
+  const float count = appearance("skin vessels count");
+  const float length = appearance("skin vessels length");
+  const float radius = appearance("skin vessels radius");
+  const float bend = appearance("skin vessels bend");
+  const float at_nose = appearance("skin vessels strength");
+  const float nose_width = appearance("skin vessels nose_width");
+  const float on_cheek = appearance("skin vessels cheek");
+  const float cheek_side = appearance("skin vessels cheek_side");
+  const float cheek_width = appearance("skin vessels cheek_width");
+  const glm::vec4 tint = appearance.Vector4("skin vessels tint");
+  for (std::uint64_t n = 0; static_cast<float>(n) < count; ++n) {
     float x = kSide * (0.25F + 0.5F * Chance(31, n));
     float y = kSide * (0.42F + 0.22F * Chance(32, n));
     float turn = 6.2832F * Chance(33, n);
-    for (std::uint64_t step = 0; static_cast<float>(step) < look[1]; ++step) {
-      turn += look[3] * (Chance(34, n * 64 + step) - 0.5F);
+    for (std::uint64_t step = 0; static_cast<float>(step) < length; ++step) {
+      turn += bend * (Chance(34, n * 64 + step) - 0.5F);
       x += std::cos(turn);
       y += std::sin(turn);
       if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) break;
       const glm::vec3 p = map.PlaceAt(x / kSide, y / kSide);
       const float ala = Bell(
-          glm::length(glm::vec2(std::abs(p.x) - m.alare.left.x, p.y - m.alare.left.y)), places[3]);
+          glm::length(glm::vec2(std::abs(p.x) - m.alare.left.x, p.y - m.alare.left.y)), nose_width);
       const float cheek =
-          Bell(std::abs(p.x) - places[2], places[4]) * Bell(p.y - m.pronasale.y, places[4]);
-      const float strength = places[0] * (ala + places[1] * cheek);
+          Bell(std::abs(p.x) - cheek_side, cheek_width) * Bell(p.y - m.pronasale.y, cheek_width);
+      const float strength = at_nose * (ala + on_cheek * cheek);
       if (strength < 0.01F) continue;
-      Stamp(x, y, look[2],
+      Stamp(x, y, radius,
             [&](std::size_t i, float w) { Tint(out, i, 1.0F - w * strength * tint); });
     }
   }

@@ -56,7 +56,6 @@ TEST(AppearanceTest, BadRowsAreRefusedWithFileAndLine) {
   struct Case {
     std::string row, instead, why;
   };
-  const std::string skin = Row("surface skin");
   const Case cases[] = {
       {"\nexposure            0.44", "\nexposure bright", "'exposure bright' is not known"},
       {"\nexposure            0.44", "\nexposure", "'exposure' needs 1 numbers after it, found 0"},
@@ -65,11 +64,14 @@ TEST(AppearanceTest, BadRowsAreRefusedWithFileAndLine) {
       {"\nexposure            0.44", "\nexposure 1e9", "a number beyond -1000 to 1000"},
       {"\nexposure            0.44", "\nexposures 0.44", "'exposures' is not known"},
       {"\nexposure            0.44", "\nsky_color 1 1 1", "'sky_color' is there twice"},
-      {"\n" + skin, "\nsurface wood 1 2 3", "'surface wood' is not known"},
-      {"\n" + skin, "\n" + skin.substr(0, 30), "'surface skin' needs 11 numbers"},
-      {"\nlamp key   -0.75 0.64  1.10 ", "\nlamp key 0 0 0 ", "a lamp that stands nowhere"},
-      {"\nskin nose_tip         11 10", "\nskin nose_tip 11", "'skin nose_tip' needs 2 numbers"},
-      {"\nskin moles            331", "\nskin moles 100000", "a number beyond -1000 to 1000"},
+      {"\n" + Row("wrap skin"), "\nwrap wood 1 2 3",
+       "'wrap wood' is not known; known are wrap cloth, wrap gums"},
+      {"\n" + Row("wrap skin"), "\nwrap skin 0.6 0.4", "'wrap skin' needs 3 numbers"},
+      {"\n" + Row("lamp key direction"), "\nlamp key direction 0 0 0",
+       "a lamp that stands nowhere"},
+      {"\n" + Row("skin pore dark"), "\nskin pore dark 1", "'skin pore dark' needs 2 numbers"},
+      {"\n" + Row("skin moles one_in"), "\nskin moles one_in 100000",
+       "a number beyond -1000 to 1000"},
   };
   for (const Case& one : cases) {
     const std::string refused = Refusal(Changed(one.row, one.instead));
@@ -79,11 +81,11 @@ TEST(AppearanceTest, BadRowsAreRefusedWithFileAndLine) {
   }
   EXPECT_EQ(Refusal(Changed("\nexposure            0.44", "")),
             "mine/appearance.txt: 'exposure' is missing");
-  EXPECT_EQ(Refusal(""), "mine/appearance.txt: 'chin_shadow' is missing");
+  EXPECT_EQ(Refusal(""), "mine/appearance.txt: 'bump cloth' is missing");
 }
 
 TEST(AppearanceTest, NumbersReachSurfacesAndShaders) {
-  const Appearance mine("mine", Changed("surface cloth        0.25", "surface cloth 0.75"));
+  const Appearance mine("mine", Changed(Row("wrap cloth"), "wrap cloth 0.75 0.25 0.25"));
   EXPECT_EQ(mine.surface(Material::kCloth).wrap, glm::vec3(0.75F, 0.25F, 0.25F));
   EXPECT_EQ(Appearance::BuiltIn().surface(Material::kCloth).wrap, glm::vec3(0.25F));
   EXPECT_NE(mine.constants().find("const vec3 sky_color = vec3(0.32, 0.34, 0.37);\n"),
@@ -109,7 +111,7 @@ TEST(AppearanceTest, ATableOfOnesOwnChangesThePicture) {
   EXPECT_EQ(brightness(Appearance("same", BuiltInText())), usual);
   const Appearance dark("dark", Changed("\nexposure            0.44", "\nexposure 0.2"));
   EXPECT_LT(brightness(dark), usual);
-  const Appearance unlit("unlit", Changed("2.72 2.50 2.36", "0 0 0"));
+  const Appearance unlit("unlit", Changed(Row("lamp key light"), "lamp key light 0 0 0"));
   EXPECT_LT(brightness(unlit), usual);
 }
 
@@ -129,11 +131,11 @@ TEST(AppearanceTest, TheSkinIsPaintedAsItsRowsSay) {
     for (std::size_t i = 0; i < a.rgba.size(); ++i) count += a.rgba[i] != b.rgba[i] ? 1 : 0;
     return count;
   };
-  const SkinTexture plain = painted("\nskin freckles         26", "\nskin freckles 0");
+  const SkinTexture plain = painted(Row("skin freckles hundreds"), "skin freckles hundreds 0");
   EXPECT_GT(differing(plain.tint, usual.tint), 1000U);
   EXPECT_EQ(plain.relief.rgba, usual.relief.rgba);
   const SkinTexture smooth =
-      painted("\nskin forehead_depth   0.6 0.25 0.15", "\nskin forehead_depth 0 0 0");
+      painted(Row("skin forehead_lines depth"), "skin forehead_lines depth 0");
   EXPECT_EQ(smooth.tint.rgba, usual.tint.rgba);
   EXPECT_GT(differing(smooth.relief, usual.relief), 1000U);
 }
@@ -145,13 +147,12 @@ TEST(AppearanceTest, ASkinOfZerosAndOfExtremesIsPaintedAllTheSame) {
   const auto landmarks = FaceLandmarks::Of(*head);
   ASSERT_TRUE(landmarks);
   const Table built_in("built-in", BuiltInText());
-  for (const char* number : {" 0", " -1000", " 0.001"}) {
+  for (const std::string number : {"0", "-1000", "0.001"}) {
     std::string text;
     for (const TableRow& row : built_in.rows()) {
       const bool skin = row.key() == "skin";
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        text += i == 0 ? row.key() : skin && i >= 2 ? number : " " + row.Word(i);
-      }
+      for (std::size_t i = 0; i < row.size(); ++i)
+        text += (i == 0 ? "" : " ") + (skin && i >= 3 ? number : row.Word(i));
       text += "\n";
     }
     const Appearance mine("mine", text);

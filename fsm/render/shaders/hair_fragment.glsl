@@ -20,9 +20,9 @@ void main() {
   float streak = (hair_differs * fine.a + lock_differs * fine.b) * gleam.a;
   // Highlights lie across the strands. Two of them, shifted along the strand: light mirrored by the
   // surface towards the root, light that went through and took its colour towards the tip.
-  float a = tilt.x + tilt.y * (hair_mirrored.x + 0.25 * streak);
-  float b = tilt.x - tilt.y * (hair_through.x - 0.25 * streak);
-  vec2 lobe = max(1.0 - vec2(a * a * hair_mirrored.y, b * b * hair_through.y), 0.0);
+  float a = tilt.x + tilt.y * (hair_mirrored_shift + 0.25 * streak);
+  float b = tilt.x - tilt.y * (hair_through_shift - 0.25 * streak);
+  vec2 lobe = max(1.0 - vec2(a * a * hair_mirrored_narrow, b * b * hair_through_narrow), 0.0);
   lobe *= lobe;
   lobe *= lobe;
   lobe.x *= lobe.x;

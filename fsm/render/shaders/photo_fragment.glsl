@@ -22,7 +22,7 @@ void main() {
   if (kCreased) {
     vec2 slope = texture(relief, place).zw - 0.5;
     // Of the skin's map opacity says how much of it is skin: hair over it does not crease.
-    shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (photo_crease.x + photo_crease.y * dot(slope, vec2(-0.5, 0.85)));
+    shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (photo_crease + photo_crease_slope * dot(slope, vec2(-0.5, 0.85)));
     // Furrows are seen by their shadows; their rims hardly shine.
     shade = clamp(shade > 1.0 ? 1.0 + 0.35 * (shade - 1.0) : shade, photo_crease_range.x, photo_crease_range.y);
   }
