@@ -2,6 +2,8 @@
 
 #include <cassert>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace fsm {
 namespace {
@@ -26,43 +28,47 @@ std::string NumberTable::NameOf(const TableRow& row) {
 }
 
 NumberTable::NumberTable(const std::string& file, std::string_view text,
-                         const NumberTable* built_in)
-    : table_(file, text) {
-  for (const TableRow& row : table_.rows()) {
+                         const NumberTable* built_in) {
+  if (built_in != nullptr) *this = *built_in;
+  std::set<std::string> given;
+  const Table table(file, text);
+  for (const TableRow& row : table.rows()) {
     const std::string name = NameOf(row);
     std::vector<float> numbers = row.Numbers(NameWordsOf(row));
-    if (built_in != nullptr) {
-      const auto like = built_in->numbers_.find(name);
-      if (like == built_in->numbers_.end()) row.Fail(built_in->NoRow(row.key(), name));
-      if (numbers.size() != like->second.size()) {
-        row.Fail("'" + name + "' needs " + std::to_string(like->second.size()) +
-                 " numbers after it, found " + std::to_string(numbers.size()));
-      }
-    }
     for (const float number : numbers) {
       if (std::abs(number) > kMost) row.Fail("a number beyond -1000 to 1000");
     }
-    if (!numbers_.try_emplace(name, std::move(numbers)).second)
-      row.Fail("'" + name + "' is there twice");
-  }
-  if (built_in == nullptr) return;
-  for (const auto& [name, unused] : built_in->numbers_) {
-    if (!numbers_.contains(name)) table_.Fail("'" + name + "' is missing");
+    if (!given.insert(name).second) row.Fail("'" + name + "' is there twice");
+    if (built_in == nullptr) {
+      places_[name] = rows_.size();
+      rows_.push_back(row);
+      numbers_.push_back(std::move(numbers));
+      continue;
+    }
+    const auto known = places_.find(name);
+    if (known == places_.end()) row.Fail(built_in->NoRow(row.key(), name));
+    std::vector<float>& own = numbers_[known->second];
+    if (numbers.size() != own.size()) {
+      row.Fail("'" + name + "' needs " + std::to_string(own.size()) + " numbers after it, found " +
+               std::to_string(numbers.size()));
+    }
+    rows_[known->second] = row;
+    own = std::move(numbers);
   }
 }
 
 std::string NumberTable::NoRow(const std::string& word, const std::string& name) const {
   std::string others;
-  for (const auto& [other, unused] : numbers_) {
+  for (const auto& [other, unused] : places_) {
     if (other.starts_with(word + " ")) others += (others.empty() ? "" : ", ") + other;
   }
   return "'" + name + "' is not known" + (others.empty() ? "" : "; known are " + others);
 }
 
 const std::vector<float>& NumberTable::operator[](std::string_view name) const {
-  const auto found = numbers_.find(name);
-  assert(found != numbers_.end());
-  return found->second;
+  const auto found = places_.find(name);
+  assert(found != places_.end());
+  return numbers_[found->second];
 }
 
 glm::vec2 NumberTable::Pair(std::string_view name) const {

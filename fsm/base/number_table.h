@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -13,13 +15,13 @@
 namespace fsm {
 
 /// Numbers by name, to be edited without compiling: rows of a name, which is one word or more, and
-/// as many numbers as the built-in table of that kind has there, each name once. Constant after
-/// construction; thread: any.
+/// as many numbers as the built-in table of that kind has there, each name once; rows left out are
+/// the built-in ones. Constant after construction; thread: any.
 class NumberTable {
  public:
   /// In place of `built_in`; a built-in table itself without it. Throws std::runtime_error naming
-  /// file and line where a name is there twice, unknown or missing, or has another count of numbers
-  /// or numbers beyond -1000..1000.
+  /// file and line where a name is there twice or unknown, or has another count of numbers or
+  /// numbers beyond -1000..1000.
   NumberTable(const std::string& file, std::string_view text,
               const NumberTable* built_in = nullptr);
 
@@ -35,15 +37,17 @@ class NumberTable {
   /// The first, and the second times `x`.
   float Linear(std::string_view name, float x) const;
 
-  const std::vector<TableRow>& rows() const { return table_.rows(); }
+  /// In the order of the built-in table.
+  const std::vector<TableRow>& rows() const { return rows_; }
   static std::string NameOf(const TableRow& row);
 
  private:
   /// That `name` is not known, and which names begin with `word`, each of a row of its own.
   std::string NoRow(const std::string& word, const std::string& name) const;
 
-  Table table_;
-  std::map<std::string, std::vector<float>, std::less<>> numbers_;
+  std::vector<TableRow> rows_;
+  std::vector<std::vector<float>> numbers_;                 // of each row
+  std::map<std::string, std::size_t, std::less<>> places_;  // of a name among the rows
 };
 
 }  // namespace fsm

@@ -381,9 +381,19 @@ TEST(HeadTablesTest, FeaturesAreChecked) {
     EXPECT_TRUE(said.starts_with("mine.txt:")) << said << " for " << row;
     EXPECT_NE(said.find(why), std::string::npos) << said << " for " << row;
   }
-  EXPECT_EQ(Complaint([&] { Features("mine.txt", WithRow("tongue_groove", "")); }),
-            "mine.txt: 'tongue_groove' is missing");
   EXPECT_EQ(Complaint([&] { Features("mine.txt", built_in); }), "no complaint");
+}
+
+TEST(HeadTablesTest, FeaturesLeftOutAreTheBuiltInOnes) {
+  const Features mine("mine.txt", "gum_light 0.6 0.25\nspot cheeks 34 -9 20 10 0.2 0\n");
+  EXPECT_EQ(mine.Pair("gum_light"), glm::vec2(0.6f, 0.25f));
+  EXPECT_EQ(mine.rows().size(), Features::BuiltIn().rows().size());
+  for (std::size_t i = 0; i < mine.rows().size(); ++i) {
+    const std::string name = NumberTable::NameOf(Features::BuiltIn().rows()[i]);
+    EXPECT_EQ(NumberTable::NameOf(mine.rows()[i]), name);
+    if (name == "gum_light" || name == "spot cheeks") continue;
+    EXPECT_EQ(mine[name], Features::BuiltIn()[name]);
+  }
 }
 
 TEST(HeadTablesTest, FeaturesOfOnesOwnChangeTheHeads) {
