@@ -52,7 +52,7 @@ fsm::Head SmallHead() {
   rig.lips.measured = {{2, 3, 1, 4}};
   rig.teeth.upper = rig.teeth.lower = {70, 20, 25, -40, -30};
   rig.teeth.contacts = {{4, 1, 1}};
-  rig.eyes.look.emplace();
+  rig.eyes.gaze_ranges.emplace();
   rig.swing.springs.resize(1);
   rig.swing.weights = {{8, 0, 0.5F}};
   rig.creases.at_rest = {{0, 0.1F, 0, 0}};

@@ -156,17 +156,17 @@ void Members(V& v, Like<Channel> auto& channel) {
 }
 
 template <typename V>
-void Members(V& v, Like<LookRange> auto& range) {
+void Members(V& v, Like<GazeRange> auto& range) {
   v("gaze_deg", range.gaze_deg);
   v("turn", range.turn);
 }
 
 template <typename V>
-void Members(V& v, Like<LookRanges> auto& look) {
-  v("inner", look.inner);
-  v("outer", look.outer);
-  v("up", look.up);
-  v("down", look.down);
+void Members(V& v, Like<GazeRanges> auto& ranges) {
+  v("inner", ranges.inner);
+  v("outer", ranges.outer);
+  v("up", ranges.up);
+  v("down", ranges.down);
 }
 
 template <typename V>
@@ -284,7 +284,7 @@ void Members(V& v, Like<RigData> auto& rig) {
   v("chin", rig.jaw.chin);
   v("eye_pivot", rig.eyes.pivot);
   v("ball_centre", rig.ball_lids.centre);
-  v("look", rig.eyes.look);
+  v("look", rig.eyes.gaze_ranges);
   v("creases", rig.creases.at_rest);
   v("crease_depth", rig.creases.depth);
   v("springs", rig.swing.springs);

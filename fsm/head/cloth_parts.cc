@@ -29,7 +29,7 @@ ClothRing ClothRingOf(const std::vector<float>& n) {
 }  // namespace
 
 void BuildCloth(const Identity& identity, HeadMesh& mesh) {
-  const Features& features = identity.Look();
+  const Features& features = identity.UsedFeatures();
   constexpr int kHalf = 13;  // columns of a half
   // The first ring is row -1, the collar's foot 0.
   constexpr std::array kRows = {-1.0f, 0.0f, 0.75f, 1.0f, 2.2f, 2.26f, 2.32f,

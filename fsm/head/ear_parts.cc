@@ -120,7 +120,7 @@ namespace {
 class EarBuilder {
  public:
   EarBuilder(const Identity& identity, Side side, HeadMesh& mesh)
-      : features_(identity.Look()),
+      : features_(identity.UsedFeatures()),
         blush_(identity.palette.blush * features_("ear_blush dark")),
         colour_(
             glm::mix(identity.palette.skin, identity.palette.blush, features_("ear_blush part"))),

@@ -19,7 +19,7 @@ struct BallRing {
 };
 
 std::array<BallRing, 11> Rings(const EyeAnatomy& eye, const Identity& identity) {
-  const Features& features = identity.Look();
+  const Features& features = identity.UsedFeatures();
   const Palette& palette = identity.palette;
   const float iris = std::asin(eye.iris_radius() / eye.radius());
   const float pupil = std::asin(eye.pupil_radius() / eye.radius());
@@ -48,7 +48,7 @@ std::array<BallRing, 11> Rings(const EyeAnatomy& eye, const Identity& identity) 
 void BuildEyes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh) {
   constexpr int kSegments = 22;
   const auto rings = Rings(eye, identity);
-  const float fibres = identity.Look()("iris_fibres");
+  const float fibres = identity.UsedFeatures()("iris_fibres");
   for (const Side side : kSides) {
     const Bone bone = BoneOf(side);
     const glm::vec3 centre = eye.CentreOf(side);

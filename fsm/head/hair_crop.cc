@@ -18,7 +18,7 @@ class CroppedHair {
  public:
   CroppedHair(const Identity& identity, HeadMesh& mesh)
       : style_(*identity.crop),
-        features_(identity.Look()),
+        features_(identity.UsedFeatures()),
         palette_(identity.palette),
         look_(identity),
         scalp_(mesh),

@@ -21,7 +21,7 @@ class LongHair {
  public:
   LongHair(const Identity& identity, HeadMesh& mesh)
       : style_(identity.long_hair),
-        features_(identity.Look()),
+        features_(identity.UsedFeatures()),
         palette_(identity.palette),
         volume_(features_.Vector("long_volume") + style_.full_mm),
         look_(identity),

@@ -42,7 +42,7 @@ struct LockStyle {
 class HairLook {
  public:
   explicit HairLook(const Identity& identity)
-      : features_(identity.Look()),
+      : features_(identity.UsedFeatures()),
         palette_(identity.palette),
         hairline_(features_.CurveOf("hairline")) {}
 

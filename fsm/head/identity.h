@@ -78,7 +78,8 @@ struct Identity {
   std::array<float, kLastingCreases> creases{};  ///< by Crease
   std::shared_ptr<const Features> features{};    ///< in place of the built-in ones
 
-  const Features& Look() const { return features ? *features : Features::BuiltIn(); }
+  /// `features`, or else the built-in ones.
+  const Features& UsedFeatures() const { return features ? *features : Features::BuiltIn(); }
 };
 
 /// Throws std::invalid_argument listing the names for an unknown one, std::runtime_error naming

@@ -18,7 +18,7 @@ class LashBuilder {
   LashBuilder(const EyeAnatomy& eye, const Identity& identity, bool of_photo, Side side,
               HeadMesh& mesh)
       : eye_(eye),
-        features_(identity.Look()),
+        features_(identity.UsedFeatures()),
         palette_(identity.palette),
         size_(identity.lashes),
         of_photo_(of_photo),

@@ -257,7 +257,7 @@ std::unique_ptr<Head> Bake(const Ingredients& from) {
   FindIncisors(asset.rig.rest, asset.rig.bone, asset.topology);
   if (from.photo) Wear(from, skin, formed, asset);
   asset.landmarks = NameLandmarks(skin.cage, skin.fine, asset.rig.rest, from.eye, formed.eyes,
-                                  from.identity.Look());
+                                  from.identity.UsedFeatures());
   return std::make_unique<Head>(std::move(asset));
 }
 

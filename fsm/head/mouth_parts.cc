@@ -39,7 +39,10 @@ class ToothRow {
     glm::vec3 tooth;   // colour
   };
   ToothRow(Jaw jaw, const Identity& identity, HeadMesh& mesh)
-      : jaw_(std::move(jaw)), features_(identity.Look()), gum_(identity.palette.gum), mesh_(mesh) {
+      : jaw_(std::move(jaw)),
+        features_(identity.UsedFeatures()),
+        gum_(identity.palette.gum),
+        mesh_(mesh) {
     for (int c = -half(); c <= half(); ++c) columns_.push_back(ColumnAt(c));
   }
 
@@ -166,7 +169,7 @@ class ToothRow {
 }  // namespace
 
 void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh) {
-  const Features& features = identity.Look();
+  const Features& features = identity.UsedFeatures();
   const glm::vec3 tooth = identity.palette.tooth;
   ToothRow({mouth.UpperTeeth(), 1, Bone::kSkull, "upper", features("teeth_light upper"), tooth},
            identity, mesh)
@@ -179,7 +182,7 @@ void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& m
 }
 
 void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh) {
-  const Features& features = identity.Look();
+  const Features& features = identity.UsedFeatures();
   const Palette& palette = identity.palette;
   // A rounded back over a flat belly along the floor of the mouth; its row number is its way to the
   // tip, which lies low behind the lower teeth.

@@ -8,7 +8,7 @@
 namespace fsm {
 
 SkinPainter::SkinPainter(const Identity& identity, const EyeAnatomy& eye)
-    : features_(identity.Look()), eye_(eye), palette_(identity.palette) {
+    : features_(identity.UsedFeatures()), eye_(eye), palette_(identity.palette) {
   for (const TableRow& row : features_.rows()) {
     if (row.key() != "spot") continue;
     const auto& n = features_[NumberTable::NameOf(row)];

@@ -46,7 +46,8 @@ struct PhotoHead {
   std::shared_ptr<const Image> photo;          ///< read by the caller: photo.png
   std::shared_ptr<const Features> features{};  ///< in place of the built-in ones
 
-  const Features& Look() const { return features ? *features : Features::BuiltIn(); }
+  /// `features`, or else the built-in ones.
+  const Features& UsedFeatures() const { return features ? *features : Features::BuiltIn(); }
 };
 
 /// Reads face.txt; `name` is for messages. Throws std::runtime_error naming file and line.

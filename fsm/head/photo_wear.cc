@@ -24,7 +24,8 @@ void Desaturate(Palette& palette, float saturation) {
 
 /// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
 glm::vec3 Wetter(const PhotoHead& head, glm::vec3 lip, float part) {
-  return lip * glm::mix(glm::vec3(1), head.Look().Vector("photo_lips_wet"), part * head.saturation);
+  return lip * glm::mix(glm::vec3(1), head.UsedFeatures().Vector("photo_lips_wet"),
+                        part * head.saturation);
 }
 
 void DarkenNostrils(std::span<const CageTag> tags, HeadMesh& mesh) {
@@ -98,9 +99,9 @@ std::vector<float> RelitParts(const PhotoSkin& skin) {
 /// Lashes grow thin and pale with age, of which creases tell.
 void ThinLashes(const PhotoHead& head, HeadTopology& topology) {
   constexpr float kLost = 0.5f;
-  const Features& look = head.Look();
-  const glm::vec3 colour =
-      glm::mix(look.Vector("photo_lash_grey"), look.Vector("photo_lash_colour"), head.saturation);
+  const Features& features = head.UsedFeatures();
+  const glm::vec3 colour = glm::mix(features.Vector("photo_lash_grey"),
+                                    features.Vector("photo_lash_colour"), head.saturation);
   for (const auto& part : topology.parts) {
     if (part.material != Material::kShutLash) continue;
     const auto corners = topology.Corners(part);
@@ -140,22 +141,22 @@ float SeenSkin(const PhotoHead& head, glm::vec3 p, glm::vec3 normal) {
 }  // namespace
 
 void TakeColours(const PhotoHead& head, Palette& palette) {
-  const Features& look = head.Look();
+  const Features& features = head.UsedFeatures();
   palette.iris = head.iris_colour;
   palette.sclera = head.white_colour;
   Desaturate(palette, head.saturation);
   if (head.lip_colour) {
     // Where the lips turn inward the mouth is painted: it begins in their colour.
-    palette.lip_inside = *head.lip_colour / look("photo_lips_light");
-    palette.mouth = look("photo_mouth") * Wetter(head, palette.lip_inside, 0.5f);
+    palette.lip_inside = *head.lip_colour / features("photo_lips_light");
+    palette.mouth = features("photo_mouth") * Wetter(head, palette.lip_inside, 0.5f);
   }
   // Teeth stand in the light whose hue the whites of the eyes show. It comes from the front, where
   // the photographer's lamp is, and reaches into the mouth.
   const glm::vec3 white = head.white_colour;
-  palette.tooth *= look("photo_teeth") * head.teeth *
+  palette.tooth *= features("photo_teeth") * head.teeth *
                    glm::mix(glm::vec3(1), white / std::max({white.r, white.g, white.b, 1e-3f}),
-                            look("photo_teeth_hue"));
-  palette.tongue *= look("photo_tongue") * head.teeth;
+                            features("photo_teeth_hue"));
+  palette.tongue *= features("photo_tongue") * head.teeth;
 }
 
 float JawLine(float above_bottom) { return 30 * SmoothStep(48, 36, above_bottom); }
@@ -241,7 +242,7 @@ void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_insid
   topology.portrait.light = light.coefficients();
   topology.portrait.relit = RelitParts(skin);
   topology.portrait.relit.resize(topology.uv.size());
-  topology.portrait.shut_lids = PaintLids(mapping, skin, head.glasses, head.Look(), light);
+  topology.portrait.shut_lids = PaintLids(mapping, skin, head.glasses, head.UsedFeatures(), light);
   for (const ShutLid& lid : topology.portrait.shut_lids) topology.textures.weight[lid.vertex] = 1;
 }
 

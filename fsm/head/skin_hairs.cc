@@ -17,8 +17,8 @@ class BrowPlace {
  public:
   explicit BrowPlace(const Identity& identity)
       : brows_(identity.brows),
-        middle_(identity.Look().CurveOf("brow_middle")),
-        half_(identity.Look().CurveOf("brow_half_height")) {}
+        middle_(identity.UsedFeatures().CurveOf("brow_middle")),
+        half_(identity.UsedFeatures().CurveOf("brow_half_height")) {}
 
   // `level` -1 at the lower edge .. 1 at the upper.
   float Y(float x, float level) const {
@@ -47,7 +47,10 @@ class BrowPlace {
 class BrowBuilder {
  public:
   BrowBuilder(const SkinFront& front, const Identity& identity, const BrowPlace& place)
-      : front_(front), palette_(identity.palette), features_(identity.Look()), place_(place) {}
+      : front_(front),
+        palette_(identity.palette),
+        features_(identity.UsedFeatures()),
+        place_(place) {}
 
   std::vector<SkinHair> Build() {
     const int columns = static_cast<int>(features_("brow_hairs columns"));
@@ -103,7 +106,7 @@ class BrowBuilder {
 std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh) {
   const BrowPlace place(identity);
   // The soft tone between the hairs.
-  const float tone = identity.Look()("brow_tone");
+  const float tone = identity.UsedFeatures()("brow_tone");
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 p = mesh.position[i];
     if (p.z < 30 || std::abs(p.y - 42) > 16) continue;
@@ -116,7 +119,7 @@ std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identit
 std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye,
                                     const Identity& identity) {
   constexpr int kSteps = 26;
-  const Features& features = identity.Look();
+  const Features& features = identity.UsedFeatures();
   const auto& widths = features["lid_fold_widths"];
   const auto& tints = features["lid_fold_tints"];
   const Curve base_height = features.CurveOf("lid_fold_height");
@@ -150,7 +153,7 @@ std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& ey
 
 std::vector<SkinHair> BuildStubble(const SkinFront& front, const SkinPainter& painter,
                                    const Identity& identity) {
-  const Features& features = identity.Look();
+  const Features& features = identity.UsedFeatures();
   const float aside = features("stubble_place aside"), narrows = features("stubble_place narrows");
   const glm::vec2 height = features.Pair("stubble_place height");
   const glm::vec2 lips(0, features("stubble_place lips_y"));

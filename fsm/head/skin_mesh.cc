@@ -59,7 +59,7 @@ BakeWeights MakeSkinWeights(const CageTag& tag, glm::vec3 p, const MouthAnatomy&
 
 PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const SkinPainter& painter,
                       const Identity& identity) {
-  const Features& features = identity.Look();
+  const Features& features = identity.UsedFeatures();
   const Palette& palette = identity.palette;
   PaintedSkin paint = painter.At(p);
   if (tag.deep > 0) {

@@ -287,7 +287,7 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
 
 /// Eyes that turn by shapes: both go with one, half by either; the agent's left is to the viewer's
 /// right.
-void AddGazeShapes(const KnownShapes& known, const LookRanges& ranges,
+void AddGazeShapes(const KnownShapes& known, const GazeRanges& ranges,
                    std::vector<Channel>& channels) {
   using enum Drive::Kind;
   using enum Drive::Half;
@@ -295,7 +295,7 @@ void AddGazeShapes(const KnownShapes& known, const LookRanges& ranges,
     const char* name;
     Drive::Kind kind;
     Drive::Half half;
-    LookRange range;
+    GazeRange range;
   };
   for (const GazeShape& shape : {GazeShape{kGazeShapes[0], kGazeRight, kPositive, ranges.outer},
                                  GazeShape{kGazeShapes[1], kGazeRight, kNegative, ranges.outer},
@@ -354,7 +354,7 @@ std::optional<RigData> BlendshapeRig(const ImportedHead& file, const Similarity&
     if (solver.Opens(k) && !kept) channel.sealed_factor = 0;
   }
   std::erase_if(rig.channels, [](const Channel& channel) { return channel.drivers.empty(); });
-  AddGazeShapes(known, file.look.value_or(LookRanges{}), rig.channels);
+  AddGazeShapes(known, file.gaze_ranges.value_or(GazeRanges{}), rig.channels);
   return rig;
 }
 

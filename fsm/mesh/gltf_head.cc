@@ -50,7 +50,7 @@ class GltfReader {
                "]: the eye lies farther than 10000000 metres from the origin");
       }
     }
-    if (avatar_.says_look) head_.look = avatar_.look;
+    if (avatar_.says_gaze_ranges) head_.gaze_ranges = avatar_.gaze_ranges;
     head_.gaze_by_shape = avatar_.gaze_by_shape;
     if (avatar_.looks_back) TurnRound();
     if (!head_.texcoord.empty()) head_.texcoord.resize(head_.position.size(), glm::vec2(0));

@@ -52,12 +52,12 @@ struct ImportedHead {
   std::vector<std::optional<Side>> eye;  ///< the one that a vertex is of; or none at all
   /// What those turn about, right and left, where the file says it.
   std::optional<Sided<glm::vec3>> eye_pivot;
-  std::optional<LookRanges> look;        ///< how the eyes follow a gaze, where the file says it
-  SpringRig swing;                       ///< see VrmSprings
-  bool gaze_by_shape = false;            ///< not by turning, but by shapes vrmlookleft and so on
-  std::vector<std::string> notices;      ///< what was left out
-  std::vector<std::string> named_files;  ///< paths of other files it names, there or not
-  bool metres = false;                   ///< the file's kind says so
+  std::optional<GazeRanges> gaze_ranges;  ///< how the eyes follow a gaze, where the file says it
+  SpringRig swing;                        ///< see VrmSprings
+  bool gaze_by_shape = false;             ///< not by turning, but by shapes vrmlookleft and so on
+  std::vector<std::string> notices;       ///< what was left out
+  std::vector<std::string> named_files;   ///< paths of other files it names, there or not
+  bool metres = false;                    ///< the file's kind says so
 };
 
 /// Reads .obj, .gltf, .glb or .vrm. Pictures and buffers beside the file are read from its folder

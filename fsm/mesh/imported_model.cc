@@ -156,7 +156,7 @@ class HeadBuilder {
     }
     model_.has_eyes = std::ranges::all_of(
         kSides, [this](Side side) { return model_.eyes[side].ball_radius < 40; });
-    model_.look = file_.look;
+    model_.gaze_ranges = file_.gaze_ranges;
     if (file_.eye_pivot) {
       model_.eye_pivot.emplace();
       for (const Side side : kSides) {

@@ -92,7 +92,7 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology, RigData rig)
     rig.ball_lids.centre[side] = model.eyes[side].centre;
     rig.eyes.pivot[side] = model.eye_pivot ? (*model.eye_pivot)[side] : rig.ball_lids.centre[side];
   }
-  rig.eyes.look = model.look;
+  rig.eyes.gaze_ranges = model.gaze_ranges;
   rig.swing = model.swing;
   if (model.has_eyes && model.round_eyes) rig.ball_lids.vertices = LidsOf(model);
   if (!rig.lips.measured && !model.seam.empty()) {

@@ -21,7 +21,7 @@ struct MeshModel : HeadMesh {
   Sided<EyeGeometry> eyes;  ///< meaningful where has_eyes
   bool has_eyes = false;
   std::optional<Sided<glm::vec3>> eye_pivot;  ///< what they turn about, if not the centres
-  std::optional<LookRanges> look;             ///< else they turn as ours do
+  std::optional<GazeRanges> gaze_ranges;      ///< else they turn as ours do
   bool round_eyes = true;                     ///< balls that lids must stay outside of
   bool has_uv_seams = false;    ///< vertices are doubled where the texture is sewn together
   glm::vec3 hinge = kJawHinge;  ///< the jaw's axis goes through it along x

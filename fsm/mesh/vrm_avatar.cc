@@ -10,7 +10,7 @@ namespace {
 using nlohmann::json;
 
 /// Degrees; what is no angle of an eye is left as it was.
-void ReadRange(const json& range, const char* from, const char* to, LookRange& out) {
+void ReadRange(const json& range, const char* from, const char* to, GazeRange& out) {
   const double gaze = JsonNumber(range, from, -1), turn = JsonNumber(range, to, -1);
   if (gaze <= 0 || gaze > 360 || turn < 0 || turn > 360) return;
   out = {static_cast<float>(gaze), static_cast<float>(turn)};
@@ -24,12 +24,12 @@ void ReadOld(const json& vrm, VrmAvatar& avatar) {
     if (name == "leftEye") avatar.eye_bone.left = JsonInteger(bone, "node");
   }
   const json& person = JsonMember(vrm, "firstPerson");
-  avatar.says_look = person.contains("lookAtTypeName");
+  avatar.says_gaze_ranges = person.contains("lookAtTypeName");
   avatar.gaze_by_shape = JsonText(person, "lookAtTypeName") == "BlendShape";
-  for (const auto& [key, range] : {std::pair("lookAtHorizontalInner", &avatar.look.inner),
-                                   {"lookAtHorizontalOuter", &avatar.look.outer},
-                                   {"lookAtVerticalDown", &avatar.look.down},
-                                   {"lookAtVerticalUp", &avatar.look.up}}) {
+  for (const auto& [key, range] : {std::pair("lookAtHorizontalInner", &avatar.gaze_ranges.inner),
+                                   {"lookAtHorizontalOuter", &avatar.gaze_ranges.outer},
+                                   {"lookAtVerticalDown", &avatar.gaze_ranges.down},
+                                   {"lookAtVerticalUp", &avatar.gaze_ranges.up}}) {
     ReadRange(JsonMember(person, key), "xRange", "yRange", *range);
   }
   for (const json& group : JsonMember(JsonMember(vrm, "blendShapeMaster"), "blendShapeGroups")) {
@@ -50,12 +50,12 @@ void ReadNew(const GltfDocument& document, const json& vrm, VrmAvatar& avatar) {
   avatar.eye_bone = {JsonInteger(JsonMember(bones, "rightEye"), "node"),
                      JsonInteger(JsonMember(bones, "leftEye"), "node")};
   const json& look = JsonMember(vrm, "lookAt");
-  avatar.says_look = look.contains("type");
+  avatar.says_gaze_ranges = look.contains("type");
   avatar.gaze_by_shape = JsonText(look, "type") == "expression";
-  for (const auto& [key, range] : {std::pair("rangeMapHorizontalInner", &avatar.look.inner),
-                                   {"rangeMapHorizontalOuter", &avatar.look.outer},
-                                   {"rangeMapVerticalDown", &avatar.look.down},
-                                   {"rangeMapVerticalUp", &avatar.look.up}}) {
+  for (const auto& [key, range] : {std::pair("rangeMapHorizontalInner", &avatar.gaze_ranges.inner),
+                                   {"rangeMapHorizontalOuter", &avatar.gaze_ranges.outer},
+                                   {"rangeMapVerticalDown", &avatar.gaze_ranges.down},
+                                   {"rangeMapVerticalUp", &avatar.gaze_ranges.up}}) {
     ReadRange(JsonMember(look, key), "inputMaxValue", "outputScale", *range);
   }
   for (const char* kind : {"preset", "custom"}) {

@@ -26,9 +26,9 @@ struct VrmAvatar {
   Sided<std::int64_t> eye_bone{-1, -1};  ///< nodes; -1: none
   /// Avatars of VRM 0.x look to -z, those of 1.0 and other glTF to +z.
   bool looks_back = false;
-  bool says_look = false;      ///< `look` is the file's
-  bool gaze_by_shape = false;  ///< gaze is a matter of expressions, not of bones
-  LookRanges look;
+  bool says_gaze_ranges = false;  ///< `gaze_ranges` is the file's
+  bool gaze_by_shape = false;     ///< gaze is a matter of expressions, not of bones
+  GazeRanges gaze_ranges;
   std::vector<Expression> expressions;
 };
 VrmAvatar ReadVrm(const GltfDocument& document);

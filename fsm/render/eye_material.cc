@@ -19,13 +19,13 @@ void EyeMaterial::Begin(const MaterialFrame& frame) const {
   if (!frame.head.eyes().found()) return;
   const auto eyes = frame.head.eyes().Measure(frame.vertices);
   const HeadTopology& topology = frame.head.topology();
-  const EyeGeometry& look = topology.eyes.right;  // sizes and colours, which both eyes share
+  const EyeGeometry& geometry = topology.eyes.right;  // sizes and colours, which both eyes share
   // The white of a grey photo is grey, and so is the flesh beside it.
-  const glm::vec3 white = look.white_colour;
+  const glm::vec3 white = geometry.white_colour;
   const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02F * white.g;
   const bool pictured = frame.head.photo() && topology.portrait.eyes;
   program_.Use();
-  SetEyeballs(frame.view, eyes, look);
+  SetEyeballs(frame.view, eyes, geometry);
   program_.Set("flesh_red", grey ? 0.0F : 1.0F);
   program_.Set("photo_brightness", frame.head.photo() ? frame.photo_brightness : 0.0F);
   program_.Set("iris_span", pictured ? kIrisSpan : 0.0F);
@@ -34,7 +34,7 @@ void EyeMaterial::Begin(const MaterialFrame& frame) const {
 }
 
 void EyeMaterial::SetEyeballs(const View& view, const Sided<EyeFrame>& eyes,
-                              const EyeGeometry& look) const {
+                              const EyeGeometry& geometry) const {
   const glm::mat3 turn(view.figure_to_world);
   const float scale = glm::length(turn[0]);
   std::array<glm::vec4, 2> balls, lid_heights{};
@@ -58,10 +58,10 @@ void EyeMaterial::SetEyeballs(const View& view, const Sided<EyeFrame>& eyes,
   program_.Set("gaze", gazes);
   program_.Set("lid_heights", lid_heights);
   program_.Set("iris_radius", first.iris_radius * scale);
-  program_.Set("pupil_share", look.pupil_radius / look.iris_radius);
+  program_.Set("pupil_share", geometry.pupil_radius / geometry.iris_radius);
   program_.Set("iris_depth", plane * scale);
-  program_.Set("iris_colour", look.iris_colour);
-  program_.Set("white_colour", look.white_colour);
+  program_.Set("iris_colour", geometry.iris_colour);
+  program_.Set("white_colour", geometry.white_colour);
   program_.Set("figure_scale", scale);
 }
 

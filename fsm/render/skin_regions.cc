@@ -56,7 +56,7 @@ class NoiseRow {
 class RegionPainter {
  public:
   RegionPainter(const FaceLandmarks& landmarks, const Appearance& appearance)
-      : m_(landmarks), look_(appearance) {}
+      : m_(landmarks), table_(appearance) {}
 
   /// `broad`, `fine`: of the patches there, about 0.
   SkinRegion At(SkinMap::Kind kind, const glm::vec3& p, float broad, float fine) const {
@@ -120,44 +120,45 @@ class RegionPainter {
   }
 
   const FaceLandmarks& m_;
-  const NumberTable& look_;
-  const float patches_broad_ = look_("skin patches broad"),
-              patches_fine_ = look_("skin patches fine"),
-              lower_lip_ = look_("skin lip_highlights lower"),
-              upper_lip_ = look_("skin lip_highlights upper"),
-              pores_ = look_("skin pores everywhere"), nose_pores_ = look_("skin pores nose"),
-              nose_pores_width_ = look_("skin pores nose_width"),
-              cheek_zygion_ = look_("skin cheek zygion"),
-              cheek_nasion_ = look_("skin cheek nasion"),
-              cheek_subnasale_ = look_("skin cheek subnasale"),
-              cheek_width_ = look_("skin cheek width"),
-              nose_tip_width_ = look_("skin nose_tip width"),
-              nose_tip_height_ = look_("skin nose_tip height"),
-              chin_width_ = look_("skin chin width"), chin_height_ = look_("skin chin height"),
-              chin_gnathion_ = look_("skin chin gnathion"),
-              chin_stomion_ = look_("skin chin stomion"), blood_cheek_ = look_("skin blood cheek"),
-              blood_nose_tip_ = look_("skin blood nose_tip"),
-              blood_chin_ = look_("skin blood chin"), blood_even_ = look_("skin blood even"),
-              blood_patches_ = look_("skin blood patches"), eye_width_ = look_("skin eye width"),
-              below_eye_above_ = look_("skin below_eye above"),
-              below_eye_height_ = look_("skin below_eye height"),
-              lid_above_ = look_("skin lid above"), lid_height_ = look_("skin lid height"),
-              lid_width_ = look_("skin lid width"),
-              eye_corner_away_ = look_("skin eye_corner away"),
-              eye_corner_width_ = look_("skin eye_corner width"),
-              eye_corner_height_ = look_("skin eye_corner height"),
-              oil_ = look_("skin oil everywhere"), oil_forehead_ = look_("skin oil forehead"),
-              oil_bridge_ = look_("skin oil bridge"), oil_nose_tip_ = look_("skin oil nose_tip"),
-              oil_lip_bow_ = look_("skin oil lip_bow"),
-              oil_cheek_bone_ = look_("skin oil cheek_bone"), oil_chin_ = look_("skin oil chin"),
-              oil_jaw_ = look_("skin oil jaw");
-  const glm::vec4 patches_tint_ = look_.Vector4("skin patches tint"),
-                  forehead_tint_ = look_.Vector4("skin forehead tint"),
-                  lower_face_tint_ = look_.Vector4("skin lower_face tint"),
-                  blood_tint_ = look_.Vector4("skin blood tint"),
-                  below_eye_tint_ = look_.Vector4("skin below_eye tint"),
-                  lid_tint_ = look_.Vector4("skin lid tint"),
-                  eye_corner_tint_ = look_.Vector4("skin eye_corner tint");
+  const NumberTable& table_;
+  const float patches_broad_ = table_("skin patches broad"),
+              patches_fine_ = table_("skin patches fine"),
+              lower_lip_ = table_("skin lip_highlights lower"),
+              upper_lip_ = table_("skin lip_highlights upper"),
+              pores_ = table_("skin pores everywhere"), nose_pores_ = table_("skin pores nose"),
+              nose_pores_width_ = table_("skin pores nose_width"),
+              cheek_zygion_ = table_("skin cheek zygion"),
+              cheek_nasion_ = table_("skin cheek nasion"),
+              cheek_subnasale_ = table_("skin cheek subnasale"),
+              cheek_width_ = table_("skin cheek width"),
+              nose_tip_width_ = table_("skin nose_tip width"),
+              nose_tip_height_ = table_("skin nose_tip height"),
+              chin_width_ = table_("skin chin width"), chin_height_ = table_("skin chin height"),
+              chin_gnathion_ = table_("skin chin gnathion"),
+              chin_stomion_ = table_("skin chin stomion"),
+              blood_cheek_ = table_("skin blood cheek"),
+              blood_nose_tip_ = table_("skin blood nose_tip"),
+              blood_chin_ = table_("skin blood chin"), blood_even_ = table_("skin blood even"),
+              blood_patches_ = table_("skin blood patches"), eye_width_ = table_("skin eye width"),
+              below_eye_above_ = table_("skin below_eye above"),
+              below_eye_height_ = table_("skin below_eye height"),
+              lid_above_ = table_("skin lid above"), lid_height_ = table_("skin lid height"),
+              lid_width_ = table_("skin lid width"),
+              eye_corner_away_ = table_("skin eye_corner away"),
+              eye_corner_width_ = table_("skin eye_corner width"),
+              eye_corner_height_ = table_("skin eye_corner height"),
+              oil_ = table_("skin oil everywhere"), oil_forehead_ = table_("skin oil forehead"),
+              oil_bridge_ = table_("skin oil bridge"), oil_nose_tip_ = table_("skin oil nose_tip"),
+              oil_lip_bow_ = table_("skin oil lip_bow"),
+              oil_cheek_bone_ = table_("skin oil cheek_bone"), oil_chin_ = table_("skin oil chin"),
+              oil_jaw_ = table_("skin oil jaw");
+  const glm::vec4 patches_tint_ = table_.Vector4("skin patches tint"),
+                  forehead_tint_ = table_.Vector4("skin forehead tint"),
+                  lower_face_tint_ = table_.Vector4("skin lower_face tint"),
+                  blood_tint_ = table_.Vector4("skin blood tint"),
+                  below_eye_tint_ = table_.Vector4("skin below_eye tint"),
+                  lid_tint_ = table_.Vector4("skin lid tint"),
+                  eye_corner_tint_ = table_.Vector4("skin eye_corner tint");
 };
 
 }  // namespace

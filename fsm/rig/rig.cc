@@ -197,15 +197,16 @@ void Rig::MoveTongue(Frame& frame) const {
 }
 
 glm::mat3 Rig::EyeTurn(const Pose& pose, Side side) const {
-  if (!data_.eyes.look) return pose.eye[side];
+  const auto& ranges = data_.eyes.gaze_ranges;
+  if (!ranges) return pose.eye[side];
   const EyeAngles gaze = GazeOf(pose.eye[side]);
   // To the viewer's right is outward of the agent's left eye.
   const bool outward = (gaze[kToRight] > 0) == (side == Side::kLeft);
-  const auto turned = [](float angle, const LookRange& range) {
+  const auto turned = [](float angle, const GazeRange& range) {
     return std::copysign(std::min(std::abs(angle) / range.gaze_deg, 1.0f) * range.turn, angle);
   };
-  return EyeTo({turned(gaze[kDown], gaze[kDown] < 0 ? data_.eyes.look->up : data_.eyes.look->down),
-                turned(gaze[kToRight], outward ? data_.eyes.look->outer : data_.eyes.look->inner)});
+  return EyeTo({turned(gaze[kDown], gaze[kDown] < 0 ? ranges->up : ranges->down),
+                turned(gaze[kToRight], outward ? ranges->outer : ranges->inner)});
 }
 
 void Rig::MoveBones(Frame& frame) const {

@@ -62,7 +62,7 @@ class Rig {
 
   void Take(RigStep step, Frame& frame) const;
   Pose PoseOf(const FaceState& state) const;
-  /// Rotation of the eyeball; heads with LookRanges scale the gaze angle.
+  /// Rotation of the eyeball; heads with GazeRanges scale the gaze angle.
   glm::mat3 EyeTurn(const Pose& pose, Side side) const;
   void AddChannels(Frame& frame) const;
   void MoveTongue(Frame& frame) const;

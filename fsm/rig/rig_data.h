@@ -25,11 +25,11 @@ inline constexpr glm::vec3 kNeckPivot{0, -85, -28};
 
 /// The rotation of an eye grows with the gaze up to `gaze_deg`, where it is `turn` (degrees; the
 /// weight of a shape where shapes turn the eyes). VRM 0.x and 1.0, "lookAt".
-struct LookRange {
+struct GazeRange {
   float gaze_deg = 90, turn = 10;
 };
-struct LookRanges {
-  LookRange inner, outer, up, down;
+struct GazeRanges {
+  GazeRange inner, outer, up, down;
 };
 
 /// The steps that compute vertices from a state; RigData::steps lists those of a head in order.
@@ -59,7 +59,7 @@ struct JawRig {
 /// What the eyes turn about, and how far.
 struct EyeRig {
   Sided<glm::vec3> pivot;
-  std::optional<LookRanges> look;  ///< none: the eyes turn by the gaze angle
+  std::optional<GazeRanges> gaze_ranges;  ///< none: the eyes turn by the gaze angle
 };
 
 /// The other head that a transferred rig was taken from. Both arrays are per vertex, and empty

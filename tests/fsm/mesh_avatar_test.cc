@@ -215,9 +215,9 @@ TEST(VrmTest, OldAvatarsAreTurnedToTheViewerWithBonesGazeAndExpressions) {
   EXPECT_EQ(file.eye[2], std::nullopt);
   EXPECT_EQ(file.eye[4], Side::kLeft);
   ASSERT_TRUE(file.eye_pivot);
-  ASSERT_TRUE(file.look);
-  EXPECT_EQ(file.look->outer.gaze_deg, 60);
-  EXPECT_EQ(file.look->outer.turn, 12);
+  ASSERT_TRUE(file.gaze_ranges);
+  EXPECT_EQ(file.gaze_ranges->outer.gaze_deg, 60);
+  EXPECT_EQ(file.gaze_ranges->outer.turn, 12);
   EXPECT_FALSE(file.gaze_by_shape);
   ASSERT_EQ(file.shapes.size(), 6U);
   EXPECT_EQ(file.shapes[4].name, "vrma");
@@ -341,7 +341,7 @@ TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
   model.eyes.right.centre = {-30, 0, 60};
   model.eyes.left.centre = {30, 0, 60};
   model.eye_pivot = {glm::vec3(-30, 0, 40), glm::vec3(30, 0, 40)};
-  model.look.emplace().outer = {.gaze_deg = 40, .turn = 8};
+  model.gaze_ranges.emplace().outer = {.gaze_deg = 40, .turn = 8};
   for (const glm::vec3 p : {glm::vec3(30, 0, 70), glm::vec3(31, 0, 70), glm::vec3(30, 1, 70)}) {
     model.Add(p, Bone::kEyeLeft, glm::vec3(1));
   }
