@@ -51,69 +51,89 @@ class VertexLists {
   std::size_t count_ = 0;
 };
 
-/// A pose as the shaders read it, and where its members begin.
+/// A pose as the shaders read it.
 class PoseBlock {
  public:
-  PoseBlock(const RigData& rig, const RigInputs& inputs) {
+  /// `constants`, if not null, is told where members begin: "const uint JAW_ANGLE = 0u;" and so on.
+  PoseBlock(const RigData& rig, const RigInputs& inputs, std::string* constants = nullptr)
+      : constants_(constants) {
     const Pose& pose = inputs.pose;
-    Mark("JAW");
-    Add({pose.jaw.open_rad, pose.jaw.slide_mm, pose.jaw.sway_mm, pose.jaw_cos, pose.jaw_sin});
-    Mark("HINGE");
-    Add({pose.hinge.y, pose.hinge.z});
-    Mark("SEAL");
-    Add({pose.seal});
-    Mark("TONGUE");
-    Add({pose.tongue_raise, pose.tongue_out_mm});
-    Mark("HEAD");
-    Add(pose.head);
-    Add({pose.head_forward_mm});
-    Mark("EYE_TURN");
-    for (const Side side : kSides) Add(inputs.eye_turn[side]);
-    Mark("EYE_PIVOT");
-    for (const Side side : kSides) Add(rig.eyes.pivot[side]);
-    Mark("BALL_CENTRE");
-    for (const Side side : kSides) Add(rig.ball_lids.centre[side]);
-    Mark("LIDS");
+    Add("JAW_ANGLE", pose.jaw.open_rad);
+    Add("JAW_SLIDE", pose.jaw.slide_mm);
+    Add("JAW_SWAY", pose.jaw.sway_mm);
+    Add("JAW_COS", pose.jaw_cos);
+    Add("JAW_SIN", pose.jaw_sin);
+    Add("HINGE_Y", pose.hinge.y);
+    Add("HINGE_Z", pose.hinge.z);
+    Add("SEAL", pose.seal);
+    Add("TONGUE_RAISE", pose.tongue_raise);
+    Add("TONGUE_OUT", pose.tongue_out_mm);
+    Add("HEAD_TURN", pose.head);
+    Add("HEAD_FORWARD", pose.head_forward_mm);
     for (const Side side : kSides) {
+      Begin(side == Side::kRight ? "RIGHT_EYE" : "LEFT_EYE");
+      Add("EYE_TURN", inputs.eye_turn[side]);
+      Add("EYE_PIVOT", rig.eyes.pivot[side]);
+      Add("BALL_CENTRE", rig.ball_lids.centre[side]);
       const EyeTransform& eye = rig.lids.eyes[side];
       const UnitEffects::Lids& ask = pose.lids[side];
       const glm::vec3 across = eye.Turned({0, 1, 0});  // -sin, cos
-      Add({across.y, -across.x, eye.size, eye.upper_mm + ask.upper_mm, eye.lower_mm, ask.close,
-           ask.lower_mm});
-      Add(rig.lids.ball[side] + eye.size * rig.lids.cornea_centre * pose.eye[side][2]);
+      Add("EYE_COS", across.y);
+      Add("EYE_SIN", -across.x);
+      Add("EYE_SIZE", eye.size);
+      Add("UPPER_LID_OPEN", eye.upper_mm + ask.upper_mm);
+      Add("LOWER_LID_OPEN", eye.lower_mm);
+      Add("LIDS_CLOSE", ask.close);
+      Add("LOWER_LID_RAISED", ask.lower_mm);
+      Add("CORNEA", rig.lids.ball[side] + eye.size * rig.lids.cornea_centre * pose.eye[side][2]);
     }
-    Mark("UPPER_ARCH");
+    Begin("UPPER_ARCH");
     Add(rig.teeth.upper);
-    Mark("LOWER_ARCH");
+    Begin("LOWER_ARCH");
     Add(rig.teeth.lower);
-    Mark("STRENGTHS");
-    Add(inputs.strengths);
-  }
-  void Add(std::span<const float> more) {
-    numbers_.insert(numbers_.end(), more.begin(), more.end());
-  }
-  void Add(std::initializer_list<float> more) { numbers_.insert(numbers_.end(), more); }
-  void Add(glm::vec3 p) { Add({p.x, p.y, p.z}); }
-  void Add(const glm::mat3& m) {
-    for (int column = 0; column < 3; ++column) Add(m[column]);
+    Begin("STRENGTHS");
+    numbers_.insert(numbers_.end(), inputs.strengths.begin(), inputs.strengths.end());
   }
 
   const std::vector<float>& numbers() const { return numbers_; }
-  /// For the shaders: "const uint JAW = 0u;" and so on.
-  const std::string& constants() const { return constants_; }
 
  private:
-  void Mark(const char* name) {
-    constants_ +=
-        "const uint " + std::string(name) + " = " + std::to_string(numbers_.size()) + "u;\n";
+  /// What is added from here on has places from here on; before, from the pose's beginning.
+  void Begin(const char* name) {
+    begin_ = 0;
+    Name(name);
+    begin_ = numbers_.size();
+  }
+  void Name(const char* name) {
+    if (constants_ == nullptr) return;
+    const std::string constant = "const uint " + std::string(name) + " = ";
+    if (constants_->find(constant) != std::string::npos) return;  // of the other side
+    *constants_ += constant + std::to_string(numbers_.size() - begin_) + "u;\n";
+  }
+  void Add(const char* name, float number) {
+    Name(name);
+    numbers_.push_back(number);
+  }
+  void Add(const char* name, glm::vec3 p) {
+    Name(name);
+    numbers_.insert(numbers_.end(), {p.x, p.y, p.z});
+  }
+  void Add(const char* name, const glm::mat3& m) {
+    for (int column = 0; column < 3; ++column) Add(name, m[column]);
   }
   void Add(const ToothArch& arch) {
-    Add({arch.front_z, arch.depth, arch.half_width, arch.edge_y, arch.root_y, arch.middle_x,
-         arch.turn});
+    Add("FRONT_Z", arch.front_z);
+    Add("DEPTH", arch.depth);
+    Add("HALF_WIDTH", arch.half_width);
+    Add("EDGE_Y", arch.edge_y);
+    Add("ROOT_Y", arch.root_y);
+    Add("MIDDLE_X", arch.middle_x);
+    Add("TURN", arch.turn);
   }
 
+  std::string* const constants_;
   std::vector<float> numbers_;
-  std::string constants_;
+  std::size_t begin_ = 0;
 };
 
 /// "const float kMostOpen = 0.5;" and so on.
@@ -204,8 +224,11 @@ VertexLists NormalLists(const RigData& data) {
 const GlProgram& RigPrograms::Of(const char* kernel) {
   auto& program = programs_[kernel];
   if (!program) {
-    static const std::string constants = PoseBlock({}, {}).constants() +  // places depend on no rig
-                                         StepConstants();
+    static const std::string constants = [] {
+      std::string text = StepConstants();
+      PoseBlock({}, {}, &text);  // places depend on no rig
+      return text;
+    }();
     const std::string source = "#version 430\n#define STEP_" + std::string(kernel) + "\n" +
                                constants + std::string(embedded::rig_steps());
     program = std::make_unique<GlProgram>(gl_, kernel, source);

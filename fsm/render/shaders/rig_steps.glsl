@@ -1,9 +1,9 @@
-// The steps of fsm/rig/rig.cc on a graphics card, one program for each: gpu_rig.cc puts the version,
-// the places of the members of a pose (JAW ...), the numbers of step_constants.h, kCorneaRadius,
-// kPivot (kNeckPivot) and which step it is before this. An invocation
-// moves one vertex of one face. `items` holds what a step knows of its vertices, as gpu_rig.cc lays
-// it out; every list of several things that act on one vertex stands behind the records of fixed
-// size, and a record says from where to where.
+// The steps of fsm/rig/rig.cc on a graphics card, one program for each: gpu_rig.cc puts before this the
+// version, the places of the members of a pose (those of an eye are from RIGHT_EYE or LEFT_EYE on, those of a
+// row of teeth, a ToothArch, from UPPER_ARCH or LOWER_ARCH on), the numbers of step_constants.h,
+// kCorneaRadius, kPivot (kNeckPivot) and which step it is. An invocation moves one vertex of one face.
+// `items` holds what a step knows of its vertices, as gpu_rig.cc lays it out; every list of several things
+// that act on one vertex stands behind the records of fixed size, and a record says from where to where.
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Positions { float positions[]; };
 layout(std430, binding = 1) buffer Normals { float normals[]; };
@@ -53,29 +53,30 @@ float SmoothStep(float from, float to, float x) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-// The jaw: JAW is its angle, how far it slides and sways, cosine and sine; HINGE y and z.
 vec3 TurnJaw(vec3 p, float weight) {
-  float angle = Pose(JAW) * weight;
-  float c = weight == 1.0 ? Pose(JAW + 3u) : cos(angle);
-  float s = weight == 1.0 ? Pose(JAW + 4u) : sin(angle);
-  float y = p.y - Pose(HINGE);
-  float z = p.z - Pose(HINGE + 1u);
-  return vec3(p.x + sqrt(weight) * Pose(JAW + 2u), Pose(HINGE) + y * c - z * s,
-              Pose(HINGE + 1u) + z * c + y * s + weight * Pose(JAW + 1u));
+  float angle = Pose(JAW_ANGLE) * weight;
+  float c = weight == 1.0 ? Pose(JAW_COS) : cos(angle);
+  float s = weight == 1.0 ? Pose(JAW_SIN) : sin(angle);
+  float y = p.y - Pose(HINGE_Y);
+  float z = p.z - Pose(HINGE_Z);
+  return vec3(p.x + sqrt(weight) * Pose(JAW_SWAY), Pose(HINGE_Y) + y * c - z * s,
+              Pose(HINGE_Z) + z * c + y * s + weight * Pose(JAW_SLIDE));
 }
 vec3 IntoJaw(vec3 p) {
-  float c = Pose(JAW + 3u);
-  float s = Pose(JAW + 4u);
-  float y = p.y - Pose(HINGE);
-  float z = p.z - Pose(HINGE + 1u) - Pose(JAW + 1u);
-  return vec3(p.x - Pose(JAW + 2u), Pose(HINGE) + y * c + z * s, Pose(HINGE + 1u) + z * c - y * s);
+  float c = Pose(JAW_COS);
+  float s = Pose(JAW_SIN);
+  float y = p.y - Pose(HINGE_Y);
+  float z = p.z - Pose(HINGE_Z) - Pose(JAW_SLIDE);
+  return vec3(p.x - Pose(JAW_SWAY), Pose(HINGE_Y) + y * c + z * s, Pose(HINGE_Z) + z * c - y * s);
 }
 
-// A row of teeth (ToothArch): front_z, depth, half_width, edge_y, root_y, middle_x, turn.
+uint Eye(uint side) { return side == 0u ? RIGHT_EYE : LEFT_EYE; }
+
 float ArchAt(uint arch, float x) {
-  float off = x - Pose(arch + 5u);
-  float t = (off / Pose(arch + 2u)) * (off / Pose(arch + 2u));
-  return Pose(arch) + Pose(arch + 6u) * off - Pose(arch + 1u) * t * (kArchSquare + kArchFourth * t);
+  float off = x - Pose(arch + MIDDLE_X);
+  float t = (off / Pose(arch + HALF_WIDTH)) * (off / Pose(arch + HALF_WIDTH));
+  return Pose(arch + FRONT_Z) + Pose(arch + TURN) * off -
+         Pose(arch + DEPTH) * t * (kArchSquare + kArchFourth * t);
 }
 
 #ifdef STEP_begin  // item: a vertex; its place and normal at rest
@@ -96,40 +97,46 @@ void Take(uint item) {
 }
 #endif
 
-#ifdef STEP_lids  // record: as LidRig::Vertex; LIDS has ten numbers of each side
-float TurnOf(uint r, uint side) {
-  float opening = Number(r + 7u);
-  float lower_mm = Pose(side + 6u);
-  float upper = Number(r + 4u) + opening * Pose(side + 3u) / kLidRadius;
-  float raised = lower_mm * (lower_mm > 0.0 ? sqrt(opening) : opening);
-  float lower = Number(r + 5u) + (opening * Pose(side + 4u) + raised) / kLidRadius;
+#ifdef STEP_lids  // record: a LidRig::Vertex
+struct Lid {
+  uint vertex, side;
+  float upper, lower, upper_angle, lower_angle, meet_angle, opening, y, z;
+  bool proper;
+};
+Lid LidOf(uint r) {
+  return Lid(items[r], items[r + 1u], Number(r + 2u), Number(r + 3u), Number(r + 4u), Number(r + 5u),
+             Number(r + 6u), Number(r + 7u), Number(r + 8u), Number(r + 9u), items[r + 10u] != 0u);
+}
+float TurnOf(Lid lid, uint eye) {
+  float lower_mm = Pose(eye + LOWER_LID_RAISED);
+  float upper = lid.upper_angle + lid.opening * Pose(eye + UPPER_LID_OPEN) / kLidRadius;
+  float raised = lower_mm * (lower_mm > 0.0 ? sqrt(lid.opening) : lid.opening);
+  float lower = lid.lower_angle + (lid.opening * Pose(eye + LOWER_LID_OPEN) + raised) / kLidRadius;
   if (upper < lower) upper = lower = 0.5 * (upper + lower);
-  upper += Pose(side + 5u) * (Number(r + 6u) - upper);
-  lower += Pose(side + 5u) * (Number(r + 6u) - lower);
-  return Number(r + 2u) * (upper - Number(r + 4u)) + Number(r + 3u) * (lower - Number(r + 5u));
+  upper += Pose(eye + LIDS_CLOSE) * (lid.meet_angle - upper);
+  lower += Pose(eye + LIDS_CLOSE) * (lid.meet_angle - lower);
+  return lid.upper * (upper - lid.upper_angle) + lid.lower * (lower - lid.lower_angle);
 }
 void Take(uint item) {
-  uint r = 11u * item;
-  uint side = LIDS + 10u * (items[r + 1u] & 1u);
-  float size = Pose(side + 2u);
-  vec3 p = Position(items[r]);
-  float turn = TurnOf(r, side);
+  Lid lid = LidOf(11u * item);
+  uint eye = Eye(lid.side);
+  float size = Pose(eye + EYE_SIZE);
+  vec3 p = Position(lid.vertex);
+  float turn = TurnOf(lid, eye);
   if (turn != 0.0) {
     float c = cos(turn);
     float s = sin(turn);
-    float y = Number(r + 8u);
-    float z = Number(r + 9u);
-    vec3 d = vec3(0.0, y * c + z * s - y, z * c - y * s - z);
-    p += vec3(-Pose(side + 1u) * d.y, Pose(side) * d.y, size * d.z);
+    vec3 d = vec3(0.0, lid.y * c + lid.z * s - lid.y, lid.z * c - lid.y * s - lid.z);
+    p += vec3(-Pose(eye + EYE_SIN) * d.y, Pose(eye + EYE_COS) * d.y, size * d.z);
   }
-  if (items[r + 10u] != 0u) {
-    vec3 middle = Pose3(side + 7u);
+  if (lid.proper) {
+    vec3 middle = Pose3(eye + CORNEA);
     vec3 off = p - middle;
     float distance = length(off);
     float least = size * (kCorneaRadius + kLidThickness);
     if (distance < least && distance > 1.0) p = middle + off * (least / distance);
   }
-  SetPosition(items[r], p);
+  SetPosition(lid.vertex, p);
 }
 #endif
 
@@ -137,7 +144,7 @@ void Take(uint item) {
 void Take(uint item) {
   uint vertex = items[3u * item];
   vec3 p = Position(vertex);
-  vec3 off = p - Pose3(BALL_CENTRE + 3u * items[3u * item + 1u]);
+  vec3 off = p - Pose3(Eye(items[3u * item + 1u]) + BALL_CENTRE);
   float far = length(off);
   float least = Number(3u * item + 2u);
   if (far < least && far > 1.0) SetPosition(vertex, p + off * (least / far - 1.0));
@@ -154,20 +161,20 @@ void Take(uint item) {
 #ifdef STEP_jaw_by_chin  // the chin: vertex, its place at rest from the hinge
 void Take(uint item) {
   vec3 before = Place(1u);
-  vec3 after = Position(items[0]) - vec3(0.0, Pose(HINGE), Pose(HINGE + 1u));
+  vec3 after = Position(items[0]) - vec3(0.0, Pose(HINGE_Y), Pose(HINGE_Z));
   float angle = clamp(atan(-after.y, after.z) - atan(-before.y, before.z), 0.0, kMostOpen);
-  SetPose(JAW, angle);
-  SetPose(JAW + 1u, 0.0);
-  SetPose(JAW + 2u, after.x - before.x);
-  SetPose(JAW + 3u, cos(angle));
-  SetPose(JAW + 4u, sin(angle));
+  SetPose(JAW_ANGLE, angle);
+  SetPose(JAW_SLIDE, 0.0);
+  SetPose(JAW_SWAY, after.x - before.x);
+  SetPose(JAW_COS, cos(angle));
+  SetPose(JAW_SIN, sin(angle));
 }
 #endif
 
 #ifdef STEP_teeth  // record: vertex, gaps from the upper and the lower arch
 float Beside(uint arch, float y) {
-  float down = Pose(arch + 4u) > Pose(arch + 3u) ? 1.0 : -1.0;
-  return SmoothStep(kPastTeeth, kBesideTeeth, down * (y - Pose(arch + 3u)));
+  float down = Pose(arch + ROOT_Y) > Pose(arch + EDGE_Y) ? 1.0 : -1.0;
+  return SmoothStep(kPastTeeth, kBesideTeeth, down * (y - Pose(arch + EDGE_Y)));
 }
 void Take(uint item) {
   uint vertex = items[3u * item];
@@ -234,12 +241,12 @@ void Take(uint item) {
   uint r = 8u * item;
   vec3 rest = Place(r + 1u);
   float tip = Number(r + 7u);
-  float raise = Pose(TONGUE);
+  float raise = Pose(TONGUE_RAISE);
   uint count = items[Seam()];
-  vec3 edge = TurnJaw(vec3(0.0, Pose(LOWER_ARCH + 3u), Pose(LOWER_ARCH)), 1.0);
+  vec3 edge = TurnJaw(vec3(0.0, Pose(LOWER_ARCH + EDGE_Y), Pose(LOWER_ARCH + FRONT_Z)), 1.0);
   float teeth_low = edge.y;
-  float teeth_high = Pose(UPPER_ARCH + 3u);
-  float front_z = max(Pose(UPPER_ARCH), edge.z);
+  float teeth_high = Pose(UPPER_ARCH + EDGE_Y);
+  float front_z = max(Pose(UPPER_ARCH + FRONT_Z), edge.z);
   float room = 0.0;
   float open_from = 0.0;
   float open_to = 0.0;
@@ -253,14 +260,14 @@ void Take(uint item) {
     open_to = max(open_to, high.x);
   }
   float part = SmoothStep(kTongueNoRoom, kTongueRoom, min(room, teeth_high - teeth_low));
-  vec3 turned = rest + vec3(0.0, raise * kTongueRaise * tip * tip, part * Pose(TONGUE + 1u) * tip);
+  vec3 turned = rest + vec3(0.0, raise * kTongueRaise * tip * tip, part * Pose(TONGUE_OUT) * tip);
   vec3 p = TurnJaw(turned, 1.0 - kTongueOffJaw * raise * tip);
   SetNormal(items[r], normalize(TurnJaw(rest + Place(r + 4u), 1.0) - TurnJaw(rest, 1.0)));
   if (count > 0u) {
-    float jaw_x = p.x - Pose(JAW + 2u);
-    float lower_z = TurnJaw(vec3(jaw_x, Pose(LOWER_ARCH + 3u), ArchAt(LOWER_ARCH, jaw_x)), 1.0).z;
+    float jaw_x = p.x - Pose(JAW_SWAY);
+    float lower_z = TurnJaw(vec3(jaw_x, Pose(LOWER_ARCH + EDGE_Y), ArchAt(LOWER_ARCH, jaw_x)), 1.0).z;
     vec3 within = vec3(p.xy, min(p.z, min(lower_z, ArchAt(UPPER_ARCH, p.x)) - kBehindTeeth));
-    float outside = SmoothStep(0.0, kTongueOut, part * Pose(TONGUE + 1u));
+    float outside = SmoothStep(0.0, kTongueOut, part * Pose(TONGUE_OUT));
     if (outside > 0.0) {
       float middle_x = 0.5 * (open_from + open_to);
       float width = min(kTongueInArch, kTongueInLips * (open_to - open_from)) / kTongueWidest;
@@ -292,10 +299,11 @@ void Take(uint item) {
     p = TurnJaw(p, 1.0);
     n = normalize(tip - p);
   } else {
-    mat3 eye = PoseMatrix(EYE_TURN + 9u * (bone - 1u));
-    vec3 pivot = Pose3(EYE_PIVOT + 3u * (bone - 1u));
-    p = pivot + eye * (p - pivot);
-    n = eye * n;
+    uint eye = Eye(bone - 1u);
+    mat3 turn = PoseMatrix(eye + EYE_TURN);
+    vec3 pivot = Pose3(eye + EYE_PIVOT);
+    p = pivot + turn * (p - pivot);
+    n = turn * n;
   }
   SetPosition(vertex, p);
   SetNormal(vertex, n);
@@ -304,9 +312,9 @@ void Take(uint item) {
 
 #ifdef STEP_neck  // item: a vertex; its weight, whether its normal turns
 void Take(uint item) {
-  mat3 head = PoseMatrix(HEAD);
+  mat3 head = PoseMatrix(HEAD_TURN);
   vec3 p = Position(item);
-  vec3 turned = kPivot + head * (p - kPivot) + vec3(0.0, 0.0, Pose(HEAD + 9u));
+  vec3 turned = kPivot + head * (p - kPivot) + vec3(0.0, 0.0, Pose(HEAD_FORWARD));
   SetPosition(item, p + Number(2u * item) * (turned - p));
   if (items[2u * item + 1u] != 0u) SetNormal(item, head * Normal(item));
 }
