@@ -1,26 +1,13 @@
 #include "fsm/app/lip_slots.h"
 
-#include <algorithm>
-#include <array>
 #include <fstream>
-#include <string_view>
 
+#include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
 #include "vm_protocol/core/file_kind.h"
 
 namespace fsm {
 namespace {
-
-/// Ways to speak: size of the jaw's and of the lips' movements in per cent. Ours, by eye.
-struct SpeakingStyle {
-  std::string_view name;
-  double jaw, lips;
-};
-constexpr std::array<SpeakingStyle, 5> kStyles = {{{"MUMBLED", 35, 45},
-                                                   {"SOFT", 70, 80},
-                                                   {"NORMAL", 100, 100},
-                                                   {"CLEAR", 125, 120},
-                                                   {"SHOUTED", 180, 135}}};
 
 ShapeSet SetOfCount(double count) { return count == 28 ? ShapeSet::k28 : ShapeSet::k14; }
 std::string SlotOf(ShapeSet set, const std::string& shape) {
@@ -53,11 +40,13 @@ vm::Result<void> SetNames(const std::string& names, MotionSettings& settings,
   return {};
 }
 
-void SetScale(MotionSettings& settings, const vm::SetValue& value) {
-  const auto style = std::ranges::find(kStyles, value.word(0), &SpeakingStyle::name);
-  const bool named = style != kStyles.end();
-  settings.lips.jaw = (named ? style->jaw : value.number(0)) / 100;
-  settings.lips.lips = (named ? style->lips : value.number(value.size() > 1 ? 1 : 0)) / 100;
+/// By a way of speaking, a row of gestures.txt, or by numbers.
+void SetScale(const NumberTable& gestures, MotionSettings& settings, const vm::SetValue& value) {
+  const std::string& word = value.word(0);
+  const bool named = !ParseNumber(word);
+  settings.lips.jaw = (named ? gestures("jaw " + word) : value.number(0)) / 100;
+  settings.lips.lips =
+      (named ? gestures("lips " + word) : value.number(value.size() > 1 ? 1 : 0)) / 100;
 }
 
 void DeclareStyle(FsmCore& core) {
@@ -91,7 +80,9 @@ void DeclareStyle(FsmCore& core) {
        .grammar = "MUMBLED | SOFT | NORMAL | CLEAR | SHOUTED | <number 0..300> [ <number 0..300> ]",
        .help = "How large the next utterances are articulated: a way of speaking, or per cent for "
                "the jaw and for the lips. Closures stay closed.",
-       .action = core.Setting(SetScale),
+       .action = core.Setting([&core](MotionSettings& settings, const vm::SetValue& value) {
+         SetScale(core.motion->tables().gestures, settings, value);
+       }),
        .initial = "NORMAL"});
 }
 

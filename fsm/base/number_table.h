@@ -19,6 +19,7 @@ namespace fsm {
 /// the built-in ones. Constant after construction; thread: any.
 class NumberTable {
  public:
+  NumberTable() = default;  ///< of no names
   /// In place of `built_in`; a built-in table itself without it. Throws std::runtime_error naming
   /// file and line where a name is there twice or unknown, or has another count of numbers or
   /// numbers beyond -1000..1000.

@@ -9,10 +9,7 @@ namespace fsm {
 namespace {
 
 constexpr vm::Time kHeadFollows = std::chrono::milliseconds(320);
-constexpr double kEyesAlone = 12;          // degrees the eyes turn without the head
-constexpr double kHeadShare = 0.6;         // of what is beyond
-constexpr EyeAngles kThinking = {-5, 11};  // about where a thinker looks
-constexpr double kHalfPupilsMm = 31;       // half the distance between the pupils
+constexpr double kHalfPupilsMm = 31;  // half the distance between the pupils
 enum EyeStream : std::uint64_t { kThinkTime = 7, kThinkSide, kThinkHeight, kShiftBlink = 300 };
 
 // There within `move`, and if timed, back when `duration` is over.
@@ -24,12 +21,16 @@ void ThereAndBack(Track<EyeAngles>& track, vm::Time now, const EyeAngles& there,
   if (timed) track.Plan(now, EyeAngles{}, now + duration - move, move);
 }
 
-float Beyond(float angle) {
-  const double more = std::max(0.0, std::abs(angle) - kEyesAlone) * kHeadShare;
-  return static_cast<float>(std::copysign(more, angle));
+}  // namespace
+
+float EyeMotion::HeadShareOf(float angle) const {
+  const float beyond = std::max(0.0f, std::abs(angle) - gestures_("gaze alone"));
+  return std::copysign(beyond * gestures_("gaze head"), angle);
 }
 
-}  // namespace
+EyeAngles EyeMotion::Thinking() const {
+  return {gestures_.Pair("think down").x, gestures_.Pair("think aside").x};
+}
 
 // ---- commands
 
@@ -52,8 +53,8 @@ void EyeMotion::LookAt(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time 
                            : std::atan2(kHalfPupilsMm, near) * 180 / std::numbers::pi;
   vergence_deg_.MoveTo(now, static_cast<float>(angle), 2 * settings_.eye_move);
   ThereAndBack(gaze_, now, angles, settings_.eye_move, duration);
-  ThereAndBack(head_share_, now, {Beyond(angles[kDown]), Beyond(angles[kToRight])}, kHeadFollows,
-               duration);
+  ThereAndBack(head_share_, now, {HeadShareOf(angles[kDown]), HeadShareOf(angles[kToRight])},
+               kHeadFollows, duration);
   ends_.gaze = duration > vm::Time(0) ? now + duration : now;
 }
 
@@ -72,12 +73,12 @@ void EyeMotion::Gaze(vm::Time now, const EyeAngles& angles, vm::Time duration) {
 }
 
 void EyeMotion::LookAtUser(vm::Time now) {
-  BlinkAtShift(now, thinking_.TargetAt(now) > 0 ? kThinking : gaze_.TargetAt(now), {0, 0});
+  BlinkAtShift(now, thinking_.TargetAt(now) > 0 ? Thinking() : gaze_.TargetAt(now), {0, 0});
   LookAt(now, Aim::kUser, {0, 0}, vm::Time(0));
 }
 
 void EyeMotion::Think(vm::Time now) {
-  BlinkAtShift(now, gaze_.TargetAt(now), kThinking);
+  BlinkAtShift(now, gaze_.TargetAt(now), Thinking());
   LookAt(now, Aim::kNothing, {0, 0}, vm::Time(0));
 }
 
@@ -107,8 +108,10 @@ EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
   const auto place = [&](std::int64_t index) -> std::array<double, 2> {
     if (index < 0) return {0, 0};
     const double side = std::copysign(1, habit + 0.8 * RandomAt(seed_, kThinkSide, index + 1));
-    return {kThinking[kDown] + 7 * RandomAt(seed_, kThinkHeight, index),
-            side * (kThinking[kToRight] + 4 * RandomAt(seed_, kThinkHeight, index + 50))};
+    const auto varied = [&](const char* name, std::int64_t at) {
+      return gestures_.Linear(name, static_cast<float>(RandomAt(seed_, kThinkHeight, at)));
+    };
+    return {varied("think down", index), side * varied("think aside", index + 50)};
   };
   const auto from = place(k - 1), to = place(k);
   const double u = SmootherStep((ms - jump_ms(k)) / 55);

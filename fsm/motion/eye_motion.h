@@ -15,9 +15,9 @@ namespace fsm {
 /// how far the eyes are kept on the viewer. Lifetime: what it is made with outlives it.
 class EyeMotion : public MotionSource {
  public:
-  EyeMotion(const MotionPatterns& patterns, const MotionSettings& settings,
-            const IdleBehaviour& idle, std::uint64_t seed)
-      : patterns_(patterns), settings_(settings), idle_(idle), seed_(seed) {}
+  EyeMotion(const MotionPatterns& patterns, const NumberTable& gestures,
+            const MotionSettings& settings, const IdleBehaviour& idle, std::uint64_t seed)
+      : patterns_(patterns), gestures_(gestures), settings_(settings), idle_(idle), seed_(seed) {}
 
   /// The eyes that are true turn there, and with a `duration` (not zero) are back after it.
   void Turn(vm::Time now, bool left, bool right, const EyeAngles& angles, vm::Time duration);
@@ -40,6 +40,10 @@ class EyeMotion : public MotionSource {
  private:
   enum class Aim { kPlace, kUser, kNothing };  // of the gaze; a thinker looks at nothing
   void LookAt(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time duration);
+  /// What the head turns of a gaze, by one angle.
+  float HeadShareOf(float angle) const;
+  /// About where a thinker looks.
+  EyeAngles Thinking() const;
   void BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to);
   EyeAngles ThinkingAt(vm::Time t) const;
   double LidsShutAt(vm::Time t) const;
@@ -50,6 +54,7 @@ class EyeMotion : public MotionSource {
     vm::Time start;
   };
   const MotionPatterns& patterns_;
+  const NumberTable& gestures_;
   const MotionSettings& settings_;
   const IdleBehaviour& idle_;
   std::uint64_t seed_;

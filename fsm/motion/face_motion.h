@@ -90,12 +90,12 @@ class FaceMotion {
 
  public:
   // The sources the face has from the start. They take what they need as references to the above.
-  IdleBehaviour& idle = Make<IdleBehaviour>(tables_.motions, seed_);
+  IdleBehaviour& idle = Make<IdleBehaviour>(tables_.motions, tables_.gestures, seed_);
   ExpressionMotion& expression = Make<ExpressionMotion>(tables_, settings_, idle, seed_);
   UnitMotion& units = Make<UnitMotion>(tables_.unit_names);
   MouthMotion& mouth = Make<MouthMotion>();
   BlendShapeMotion& blend_shapes = Make<BlendShapeMotion>(tables_.blend_shapes);
-  EyeMotion& eyes = Make<EyeMotion>(tables_.motions, settings_, idle, seed_);
+  EyeMotion& eyes = Make<EyeMotion>(tables_.motions, tables_.gestures, settings_, idle, seed_);
   HeadMotion& head = Make<HeadMotion>(tables_.motions);
   SpeechMotion& speech = Make<SpeechMotion>(tables_, settings_, idle, seed_);
   MoodMotion& mood = Make<MoodMotion>(tables_.motions);

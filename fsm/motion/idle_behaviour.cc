@@ -13,7 +13,6 @@ namespace {
 using namespace std::chrono_literals;
 constexpr vm::Time kIdleFade = 400ms;
 constexpr vm::Time kQuickFade = 60ms;
-constexpr double kNostrilsAtFull = 0.15;  // with the lungs full
 
 // Streams of random numbers, one for each thing that varies.
 enum Stream : std::uint64_t {
@@ -42,8 +41,9 @@ double Swing(double u) {
 
 }  // namespace
 
-IdleBehaviour::IdleBehaviour(const MotionPatterns& patterns, std::uint64_t seed)
-    : patterns_(patterns), seed_(seed) {
+IdleBehaviour::IdleBehaviour(const MotionPatterns& patterns, const NumberTable& gestures,
+                             std::uint64_t seed)
+    : patterns_(patterns), gestures_(gestures), seed_(seed) {
   switches_[static_cast<std::size_t>(IdleKind::kAsymmetry)] = {1, true, vm::Time(0), Track(1.0f)};
 }
 
@@ -121,10 +121,10 @@ void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
   }
   const AutoMove& move = patterns_.auto_moves[own.pattern - 1];
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    // Two frequencies are added, because one alone looks like a pendulum.
     const double slow = InMs(t) / move.period_ms + 0.37 * static_cast<double>(axis);
-    const double way = 0.75 * Wander(kHeadWander + 2 * axis, slow) +
-                       0.25 * Wander(kHeadWander + 2 * axis + 1, slow * 2.3);
+    const double fast = slow * gestures_("wander faster");
+    const double way = gestures_("wander slow") * Wander(kHeadWander + 2 * axis, slow) +
+                       gestures_("wander fast") * Wander(kHeadWander + 2 * axis + 1, fast);
     out[axis] += static_cast<float>(weight * way * move.amplitude[axis]);
   }
 }
@@ -137,11 +137,15 @@ void IdleBehaviour::AddNods(vm::Time t, Angles& out) const {
   const double ms = InMs(t - own.since);
   const auto k = static_cast<std::int64_t>(std::floor(ms / nods.interval_ms));
   if (ms < 0) return;
-  const double start =
-      nods.interval_ms * (static_cast<double>(k) + 0.35 + 0.25 * Random(kNodTime, k));
-  const double size = nods.angle * (0.75 + 0.25 * Random(kNodSize, k));
-  // A double nod, the second one smaller.
-  const double down = Swing((ms - start) / 480) + 0.55 * Swing((ms - start - 420) / 460);
+  const auto varied = [&](const char* name, Stream stream) {
+    return gestures_.Linear(name, static_cast<float>(Random(stream, k)));
+  };
+  const double since =
+      ms - nods.interval_ms * (static_cast<double>(k) + varied("nod begins", kNodTime));
+  const double size = nods.angle * varied("nod size", kNodSize);
+  const double down = Swing(since / gestures_("nod lasts")) +
+                      gestures_("second_nod size") * Swing((since - gestures_("second_nod after")) /
+                                                           gestures_("second_nod lasts"));
   out[kDown] += static_cast<float>(weight * size * down);
 }
 
@@ -155,7 +159,7 @@ void IdleBehaviour::Contribute(vm::Time t, MotionFrame& frame) const {
   if (const Switch& own = Of(IdleKind::kBreath); own.pattern > 0) {
     const double breath = BreathAt(t);
     layer.head[kDown] -= static_cast<float>(patterns_.auto_breaths[own.pattern - 1].pitch * breath);
-    const auto nostrils = static_cast<float>(kNostrilsAtFull * breath);
+    const auto nostrils = static_cast<float>(gestures_("breath nostrils") * breath);
     layer.units.au.left[kNostrilDilator] = layer.units.au.right[kNostrilDilator] = nostrils;
   }
   layer.units.gaze.left = layer.units.gaze.right = EyesAt(t);
@@ -171,9 +175,8 @@ double IdleBehaviour::BreathAt(vm::Time t) const {
   if (own.pattern == 0) return 0;
   const double ms = std::max(0.0, InMs(t - own.since));
   const double u = std::fmod(ms / patterns_.auto_breaths[own.pattern - 1].period_ms, 1.0);
-  // In for two fifths of the time, out for the rest with a pause at its end.
-  const double in = u < 0.4 ? Eased(u / 0.4) : 1 - Eased((u - 0.4) / 0.5);
-  return own.weight.At(t) * in;
+  const double in = gestures_("breath in"), out = gestures_("breath out");
+  return own.weight.At(t) * (u < in ? Eased(u / in) : 1 - Eased((u - in) / out));
 }
 
 EyeAngles IdleBehaviour::EyesAt(vm::Time t) const {

@@ -1,6 +1,8 @@
 #include "fsm/motion/motion_tables.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 
 #include "embedded/action_unit_list.h"
@@ -9,6 +11,7 @@
 #include "embedded/dominance.h"
 #include "embedded/emotion_space.h"
 #include "embedded/emotions.h"
+#include "embedded/gestures.h"
 #include "embedded/mixing.h"
 #include "embedded/motions.h"
 #include "embedded/mouth_shapes.h"
@@ -92,6 +95,22 @@ void LoadMouth(Loader& loader, MotionTables& out) {
              out.set28);
 }
 
+vm::Result<NumberTable> ReadGestures(const std::string& name, std::string_view text) {
+  static const NumberTable built_in("tables/gestures.txt", embedded::gestures());
+  try {
+    NumberTable gestures(name, text, &built_in);
+    for (const TableRow& row : gestures.rows()) {
+      constexpr std::string_view kTimes[] = {"lasts", "rise", "fall"};  // are divided by
+      if (std::ranges::find(kTimes, row.Word(1)) != std::end(kTimes)) row.Within(2, 1, 1000);
+      if (row.key() == "jaw" || row.key() == "lips") row.Within(2, 0, 300);
+      if (row.Word(1) == "in" || row.Word(1) == "out") row.Within(2, 0.01f, 1);
+    }
+    return gestures;
+  } catch (const TableError& error) {
+    return vm::Fail(vm::Errc::kBadValue, error.what());
+  }
+}
+
 }  // namespace
 
 vm::Result<MotionTables> MotionTables::Load(const std::string& folder,
@@ -109,6 +128,7 @@ vm::Result<MotionTables> MotionTables::Load(const std::string& folder,
   loader.Get(out.blend_shapes, "arkit.txt", embedded::arkit(), ReadBlendShapes, names);
   loader.Get(out.mixer, "mixing.txt", embedded::mixing(), Mixer::Read);
   loader.Get(out.text_cues, "text_cues.txt", embedded::text_cues(), ReadTextCues, names);
+  loader.Get(out.gestures, "gestures.txt", embedded::gestures(), ReadGestures);
   if (loader.error()) return std::unexpected(*loader.error());
   return out;
 }

@@ -9,20 +9,37 @@
 namespace fsm {
 namespace {
 
-constexpr double kApartMs = 300;     // stressed vowels are at least so far apart
-constexpr double kPoseMoveMs = 520;  // the head's way to the pose of a phrase
+constexpr double kApartMs = 300;  // stressed vowels are at least so far apart
 enum GestureStream : std::uint64_t { kTurn = 100, kTilt, kLift, kBrow, kAvertSide, kAvertLength };
-
-// Up from 0 at peak - rise to 1 at the peak, and back at peak + fall.
-double Bump(double ms, double peak, double rise, double fall) {
-  if (ms <= peak) return SmootherStep((ms - (peak - rise)) / rise);
-  return 1 - SmootherStep((ms - peak) / fall);
-}
 
 }  // namespace
 
-SpeechGestures::SpeechGestures(const VisemeTargets& visemes, std::uint64_t seed)
-    : seed_(seed), length_ms_(visemes.length_ms) {
+SpeechGestures::Bump::Bump(const NumberTable& sizes, const std::string& name)
+    : before_ms(sizes(name + " before")),
+      rise_ms(sizes(name + " rise")),
+      fall_ms(sizes(name + " fall")) {}
+
+double SpeechGestures::Bump::At(double ms, double beat_ms) const {
+  const double after = ms - (beat_ms - before_ms);
+  return after <= 0 ? SmootherStep(1 + after / rise_ms) : 1 - SmootherStep(after / fall_ms);
+}
+
+SpeechGestures::SpeechGestures(const VisemeTargets& visemes, const NumberTable& sizes,
+                               std::uint64_t seed)
+    : seed_(seed),
+      length_ms_(visemes.length_ms),
+      nod_(sizes, "stress"),
+      lift_(sizes, "lift"),
+      brow_(sizes, "brow"),
+      lift_size_(sizes("lift size")),
+      phrase_ms_(sizes("phrase lasts")),
+      sink_size_(sizes("sink size")),
+      sink_ms_(sizes("sink lasts")),
+      avert_ms_(sizes.Linear("avert lasts", static_cast<float>(RandomAt(seed, kAvertLength, 0)))),
+      avert_part_(sizes("avert part")),
+      avert_side_(sizes("avert side")),
+      avert_up_(sizes("avert up")),
+      avert_down_(sizes("avert down")) {
   FindBeats(visemes);
   bool pause = true;
   for (const VisemeTarget& viseme : visemes.targets) {
@@ -33,10 +50,11 @@ SpeechGestures::SpeechGestures(const VisemeTargets& visemes, std::uint64_t seed)
     if (!pause) continue;
     pause = false;
     const auto index = static_cast<std::int64_t>(phrases_.size());
-    phrases_.push_back({std::max(-kApproachMs, viseme.start_ms - 150),
-                        {.nod = -0.35 + 0.3 * RandomAt(seed_, kLift, index),
-                         .turn = RandomAt(seed_, kTurn, index),
-                         .tilt = RandomAt(seed_, kTilt, index)}});
+    phrases_.push_back(
+        {std::max(-kApproachMs, viseme.start_ms - 150),
+         {.nod = sizes.Linear("phrase nod", static_cast<float>(RandomAt(seed_, kLift, index))),
+          .turn = RandomAt(seed_, kTurn, index),
+          .tilt = RandomAt(seed_, kTilt, index)}});
   }
 }
 
@@ -79,20 +97,18 @@ SpeechGestures::At SpeechGestures::HeadAt(double position_ms) const {
   At out;
   if (phrases_.empty()) return out;
   for (const Phrase& phrase : phrases_) {
-    const double u = SmootherStep((position_ms - phrase.start_ms) / kPoseMoveMs);
+    const double u = SmootherStep((position_ms - phrase.start_ms) / phrase_ms_);
     if (u <= 0) break;
     out.nod += u * (phrase.pose.nod - out.nod);
     out.turn += u * (phrase.pose.turn - out.turn);
     out.tilt += u * (phrase.pose.tilt - out.tilt);
   }
   for (const Beat& beat : beats_) {
-    // A small lift prepares the nod.
-    out.nod += beat.nod * (Bump(position_ms, beat.peak_ms, 150, 330) -
-                           0.25 * Bump(position_ms, beat.peak_ms - 170, 140, 120));
-    out.brow = std::max(out.brow, beat.brow * Bump(position_ms, beat.peak_ms - 40, 180, 420));
+    out.nod += beat.nod * (nod_.At(position_ms, beat.peak_ms) -
+                           lift_size_ * lift_.At(position_ms, beat.peak_ms));
+    out.brow = std::max(out.brow, beat.brow * brow_.At(position_ms, beat.peak_ms));
   }
-  // The head sinks a little with the last words.
-  out.nod += 0.4 * SmootherStep((position_ms - (length_ms_ - 500)) / 500);
+  out.nod += sink_size_ * SmootherStep((position_ms - (length_ms_ - sink_ms_)) / sink_ms_);
   const double stays = SmootherStep((position_ms + kApproachMs) / 150) *
                        (1 - SmootherStep((position_ms - length_ms_) / kFadeMs));
   return {out.nod * stays, out.turn * stays, out.tilt * stays, out.brow * stays};
@@ -101,8 +117,7 @@ SpeechGestures::At SpeechGestures::HeadAt(double position_ms) const {
 std::array<double, 2> SpeechGestures::AvertTimes(double shortest_ms) const {
   if (length_ms_ < shortest_ms || phrases_.empty()) return {0, 0};
   const double from = phrases_.front().start_ms + 20;
-  const double length = 650 + 350 * RandomAt(seed_, kAvertLength, 0);
-  return {from, from + std::min(length, 0.45 * length_ms_)};
+  return {from, from + std::min(avert_ms_, avert_part_ * length_ms_)};
 }
 
 std::array<double, 2> SpeechGestures::AvertAt(double position_ms, double shortest_ms) const {
@@ -112,7 +127,7 @@ std::array<double, 2> SpeechGestures::AvertAt(double position_ms, double shortes
   const double u =
       SmootherStep((position_ms - away) / 45) - SmootherStep((position_ms - back) / 45);
   const double side = RandomAt(seed_, kAvertSide, 0);
-  return {u * (side > 0.2 ? -0.5 : 0.45), u * std::copysign(0.8, side)};
+  return {u * (side > 0.2 ? -avert_up_ : avert_down_), u * std::copysign(avert_side_, side)};
 }
 
 }  // namespace fsm

@@ -39,7 +39,7 @@ void SpeechMotion::Start(vm::Time now, const vm::PhonemeList& phonemes, vm::Time
   std::erase_if(said_, [&](const Utterance& one) { return GoneAt(one) <= now; });
   auto track = std::make_shared<const VisemeTrack>(phonemes, tables_, settings_.lips);
   const std::uint64_t seed = Scramble(seed_ + static_cast<std::uint64_t>(++utterances_));
-  SpeechGestures gestures(track->visemes(), seed);
+  SpeechGestures gestures(track->visemes(), tables_.gestures, seed);
   auto looks = LooksOf(tables_.text_cues, text, track->visemes());
   const vm::Time ahead = FromMs(lead_ms_.At(now) + kApproachMs);
   said_.push_back({std::move(track), std::move(gestures), std::move(looks), SpeechClock(start),

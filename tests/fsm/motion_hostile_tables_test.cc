@@ -23,7 +23,7 @@ constexpr const char* kTables[] = {
     "mouth_shapes.txt", "mouth_shapes_28.txt", "dominance.txt",        "phonemes_ja.txt",
     "phonemes_en.txt",  "phonemes28_ja.txt",   "phonemes28_en.txt",    "phoneme_names.txt",
     "emotions.txt",     "motions.txt",         "action_unit_list.txt", "action_unit_names.txt",
-    "arkit.txt",        "mixing.txt"};
+    "arkit.txt",        "mixing.txt",          "gestures.txt"};
 
 struct HostileTablesTest : testing::TestWithParam<const char*> {
   HostileTablesTest() {

@@ -317,7 +317,7 @@ struct BlinkTest : testing::Test {
   const MotionTables tables{MotionTables::Load().value()};
 
   IdleBehaviour Blinking() const {
-    IdleBehaviour autonomy(tables.motions, kSeed);
+    IdleBehaviour autonomy(tables.motions, tables.gestures, kSeed);
     autonomy.Set(kSwitched, IdleKind::kBlink, 1);
     return autonomy;
   }

@@ -120,6 +120,16 @@ TEST(MotionTablesTest, AFolderReplacesOnlyTheTablesItHas) {
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().text, (folder / "emotions.txt").string() +
                                     ":2: the line ends where a pattern number is expected");
+  std::filesystem::remove(folder / "emotions.txt");
+  const std::string gestures = (folder / "gestures.txt").string();
+  std::ofstream(gestures) << "nod size 0.5 0\n";
+  const auto nods = MotionTables::Load(folder.string());
+  ASSERT_TRUE(nods) << nods.error().text;
+  EXPECT_EQ(nods->gestures.Pair("nod size"), glm::vec2(0.5F, 0));
+  EXPECT_EQ(nods->gestures("jaw SHOUTED"), 180) << "rows left out are the built-in ones";
+  std::ofstream(gestures) << "nod lasts 0\n";
+  EXPECT_EQ(MotionTables::Load(folder.string()).error().text,
+            gestures + ":1: '0' found where 1 to 1000 was expected");
   std::filesystem::remove_all(folder);
   EXPECT_FALSE(MotionTables::Load(folder.string()));
 }

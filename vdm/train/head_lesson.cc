@@ -175,7 +175,7 @@ HeadTruth TextDrivenHead(const Talk& talk, float emotion, const fsm::MotionTable
   const std::array<double, 4> sizes = {size(&fsm::AutoSpeech::nod), size(&fsm::AutoSpeech::turn),
                                        size(&fsm::AutoSpeech::tilt), size(&fsm::AutoSpeech::brow)};
   const fsm::SpeechGestures gestures(fsm::MakeVisemeTargets(talk.phonemes, tables, fsm::LipStyle{}),
-                                     seed);
+                                     tables.gestures, seed);
   return [gestures, sizes](double ms) {
     const auto at = gestures.HeadAt(ms);
     return HeadPose{{static_cast<float>(sizes[0] * at.nod), static_cast<float>(sizes[1] * at.turn),
