@@ -56,8 +56,9 @@ vec3 ToScreen(vec3 light) {
   return (5.547 * x - 0.0477 * s) / (1.0 - 0.6045 * s + 5.653 * x);
 }
 
-// The colours of pictures as linear light.
+// The colours of pictures as linear light, and back.
 vec3 ToLinear(vec3 shown) { return pow(shown, vec3(2.2)); }
+vec3 FromLinear(vec3 light) { return pow(light, vec3(1.0 / 2.2)); }
 
 // Four samples make a pixel, and each asks for another step of opacity: what is there in part comes out
 // as the share of those kept.

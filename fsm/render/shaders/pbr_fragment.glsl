@@ -60,7 +60,7 @@ void main() {
     float lit = clamp((dot(n, lamp_directions[0]) - shade_to) / max(light_from - shade_to, 1e-3),
                       0.0, 1.0);
     vec3 drawn = mix(shade * ToLinear(l.rgb) * tint, base, lit) + glow;
-    colour = vec4(pow(drawn, vec3(1.0 / 2.2)) * brightness, 1.0);
+    colour = vec4(FromLinear(drawn) * brightness, 1.0);
     return;
   }
   vec3 v = normalize(eye - at);
