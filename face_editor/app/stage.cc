@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_editor/core/identity_head.h"
+#include "face_fit/surface/triangles.h"
 
 namespace editor {
 
@@ -126,25 +127,18 @@ void Stage::Draw(const fsm::Viewport& pane, const fsm::FaceState& state) {
 
 std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::FittedHead& fitted) {
   const facefit::BaseHead& base = *fitted.base;
-  const auto& topology = base.head->topology();
   std::vector<glm::vec3> camera;
   for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(fitted.pose.ToCamera(p));
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-  for (const auto& part : topology.parts) {
-    if (part.material != fsm::Material::kSkin && part.material != fsm::Material::kLip) continue;
-    for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
-      const std::uint32_t* t = &topology.indices[part.first_index + k];
-      const glm::vec3 n = glm::cross(camera[t[1]] - camera[t[0]], camera[t[2]] - camera[t[0]]);
-      // The neck is not fitted, what lies behind is not seen.
-      const bool face = std::all_of(t, t + 3, [&](std::uint32_t v) {
-        return fitted.posed_vertices[v].z > 10 && base.rest.position[v].y > -95;
-      });
-      if (!face || n.z <= 0.1F * glm::length(n)) continue;
-      for (int c = 0; c < 3; ++c) {
-        edges.emplace_back(std::minmax(t[c], t[(c + 1) % 3]));
-      }
-    }
-  }
+  facefit::ForSkinTriangles(base.head->topology(), [&](const std::uint32_t* t) {
+    const glm::vec3 n = glm::cross(camera[t[1]] - camera[t[0]], camera[t[2]] - camera[t[0]]);
+    // The neck is not fitted, what lies behind is not seen.
+    const bool face = std::all_of(t, t + 3, [&](std::uint32_t v) {
+      return fitted.posed_vertices[v].z > 10 && base.rest.position[v].y > -95;
+    });
+    if (!face || n.z <= 0.1F * glm::length(n)) return;
+    for (int c = 0; c < 3; ++c) edges.emplace_back(std::minmax(t[c], t[(c + 1) % 3]));
+  });
   std::ranges::sort(edges);
   const auto rest = std::ranges::unique(edges);
   edges.erase(rest.begin(), rest.end());

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -36,11 +35,5 @@ class Curve {
   SplineBasis basis_;
   std::vector<float> y_;
 };
-
-/// 0 below `from`, 1 above `to`, smooth between; `from` may exceed `to`.
-inline float SmoothStep(float from, float to, float x) {
-  const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
 
 }  // namespace fsm

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "fsm/base/pi.h"
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 namespace {

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "embedded/action_units.h"
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "embedded/features.h"
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "fsm/base/pi.h"
 #include "fsm/base/random.h"
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 #include "fsm/head/hair.h"
 #include "fsm/head/hair_parts.h"
 

@@ -8,7 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "fsm/base/random.h"
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 #include "fsm/head/landmarks.h"
 
 namespace fsm {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fsm/base/pi.h"
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 namespace {

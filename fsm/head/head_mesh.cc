@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 

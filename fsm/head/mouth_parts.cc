@@ -10,6 +10,7 @@
 
 #include "fsm/base/pi.h"
 #include "fsm/base/random.h"
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 namespace {

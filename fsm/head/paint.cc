@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 

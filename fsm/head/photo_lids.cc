@@ -9,7 +9,7 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 #include "fsm/head/skin_membrane.h"
 
 namespace fsm {

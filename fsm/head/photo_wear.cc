@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 namespace {

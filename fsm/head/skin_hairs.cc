@@ -7,6 +7,7 @@
 
 #include "fsm/base/pi.h"
 #include "fsm/base/random.h"
+#include "fsm/base/smooth_step.h"
 #include "fsm/head/landmarks.h"
 
 namespace fsm {

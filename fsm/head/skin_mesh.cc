@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "fsm/base/smooth_step.h"
 #include "fsm/head/hair_parts.h"
 #include "fsm/head/landmarks.h"
 #include "fsm/head/paint.h"

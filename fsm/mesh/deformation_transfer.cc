@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 #include "fsm/head/warp.h"
 #include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/surface_index.h"

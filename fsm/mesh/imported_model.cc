@@ -9,7 +9,7 @@
 #include <string>
 
 #include "fsm/base/box.h"
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 #include "fsm/head/identity.h"
 #include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/texture_atlas.h"

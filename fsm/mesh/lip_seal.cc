@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 #include "fsm/mesh/mesh_paths.h"
 
 namespace fsm {

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 #include "fsm/head/face_channels.h"
 #include "fsm/head/landmarks.h"
 #include "fsm/head/mouth_parts.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 #include "fsm/mesh/nnls_solver.h"
 #include "fsm/mesh/original_points.h"
 #include "vm_protocol/core/or_throw.h"

@@ -9,7 +9,7 @@
 
 #include "fsm/base/box.h"
 #include "fsm/base/pi.h"
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 #include "fsm/image/colour_space.h"
 #include "fsm/mesh/original_points.h"
 #include "fsm/mesh/texture_atlas.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <tuple>
 
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 #include "fsm/render/appearance.h"
 #include "fsm/render/skin_map.h"
 #include "fsm/render/skin_texture.h"

@@ -1,6 +1,6 @@
 #include "fsm/rig/teeth_rig.h"
 
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 #include "fsm/rig/pose.h"
 #include "fsm/rig/step_constants.h"
 

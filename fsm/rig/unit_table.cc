@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "fsm/base/random.h"
-#include "fsm/base/spline.h"
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 namespace {

@@ -14,6 +14,7 @@
 #include "face_fit/find/head/lid_edges.h"
 #include "face_fit/find/head/point_pairs.h"
 #include "face_fit/picture/pixels.h"
+#include "fsm/base/box.h"
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/transferred_rig.h"
@@ -31,17 +32,14 @@ constexpr glm::mat3 kTurns[] = {{1, 0, 0, 0, 1, 0, 0, 0, 1},    // y up, towards
 
 /// The head as large as ours and in the middle of the picture, the upper part of a whole figure.
 fsm::Similarity InitialPlacement(const fsm::ImportedHead& file, const glm::mat3& turn, float part) {
-  glm::vec3 low(1e9F), high(-1e9F);
-  for (const glm::vec3& p : file.position) {
-    low = glm::min(low, turn * p);
-    high = glm::max(high, turn * p);
-  }
+  fsm::Box box;
+  for (const glm::vec3& p : file.position) box.Add(turn * p);
   constexpr float kHeight = 290, kTop = 140;
   fsm::Similarity guess;
   guess.turn = turn;
-  guess.scale = kHeight / std::max((high.y - low.y) * part, 1e-6F);
-  guess.move = {-0.5F * guess.scale * (low.x + high.x), kTop - guess.scale * high.y,
-                -0.5F * guess.scale * (low.z + high.z)};
+  guess.scale = kHeight / std::max(box.size().y * part, 1e-6F);
+  guess.move = -guess.scale * glm::vec3(box.centre().x, box.high.y, box.centre().z);
+  guess.move.y += kTop;
   return guess;
 }
 
