@@ -75,7 +75,7 @@ void BlendExtraView(const FittedHead& fitted, const ExtraView& extra, const Skin
 }
 
 /// The skin's map while it is painted.
-struct SkinMap {
+struct PaintedMap {
   fsm::Image image = fsm::FilledImage(kMapSize, kMapSize);
   FloatImage seen{kMapSize, kMapSize};    ///< how well each texel was seen, 0..1
   FloatImage smooth{kMapSize, kMapSize};  ///< how much of its grain it lost, 0..1
@@ -83,8 +83,8 @@ struct SkinMap {
 };
 
 /// What the photo shows, but not what is between lids and lips.
-SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTexels& texels,
-                   bool open, fsm::Image colours) {
+PaintedMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTexels& texels,
+                      bool open, fsm::Image colours) {
   const fsm::NumberTable& look = PhotoLook();
   const float least_on_face = look("facing_least"), least_aside = look("facing_least_aside");
   const float soft = look("facing_soft");
@@ -92,7 +92,7 @@ SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTe
   const FloatImage filled =
       FillSmileFolds(face, look("smile_folds_filled") * Smile(fitted), pixels_per_mm, colours);
   const Openings openings(face, pixels_per_mm, open);
-  SkinMap map;
+  PaintedMap map;
   for (std::size_t i = 0; i < texels.at.size(); ++i) {
     const glm::vec2 p = texels.at[i].pixel;
     // Near the head's outline the photo shows more of what lies beside it than of its skin.
@@ -149,7 +149,7 @@ struct SkinLook {
 };
 
 /// Completes the map where the photo does not show it, and says in its alpha what is skin.
-SkinLook FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool open, SkinMap& map) {
+SkinLook FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool open, PaintedMap& map) {
   const fsm::NumberTable& look = PhotoLook();
   const float saturation = Saturation(map.image, map.seen);
   CompleteByMirroring(map.skin, map.image, map.seen);
@@ -206,7 +206,7 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
   TextureBake bake;
   const SkinTexels texels = ProjectSkin(fitted, fitted.pose, true);
   const bool open = fitted.expression.jaw + fitted.expression.parted > kMouthOpen;
-  SkinMap map = PaintPhoto(face, fitted, texels, open, figure.colours);
+  PaintedMap map = PaintPhoto(face, fitted, texels, open, figure.colours);
   std::vector<glm::vec3> also_seen;
   for (const ExtraView& extra : extras) {
     if (extra.outline_only) continue;

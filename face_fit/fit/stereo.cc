@@ -26,12 +26,12 @@ constexpr int kMostSamples = 400;  // to a side
 constexpr float kLeastFacing = 0.25F, kLeastFacingExtra = 0.2F, kMostDepth = 25;
 
 /// A place of the fitted skin as the first photo shows it; without skin `facing` is negative.
-struct SkinSample {
+struct StereoSample {
   glm::vec3 camera{0}, rest{0};  // in the camera's frame; on the base head
   float light = 0;
   float facing = -1, facing_extra = -1;  // cosines of the slant to either camera
 };
-using SkinSamples = Raster<SkinSample>;
+using StereoSamples = Raster<StereoSample>;
 
 /// What of the fitted skin the first photo shows.
 VisibleSurface SkinInFront(const FittedHead& fitted) {
@@ -46,12 +46,13 @@ VisibleSurface SkinInFront(const FittedHead& fitted) {
   return surface;
 }
 
-SkinSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front, const CameraPose& extra) {
+StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front,
+                         const CameraPose& extra) {
   const VisibleSurface surface = SkinInFront(fitted);
   const SampleGrid& grid = surface.grid();
   const glm::vec3 to_front = fitted.pose.TowardsCamera(), to_extra = extra.TowardsCamera();
   const auto& posed = fitted.posed_vertices;
-  return SkinSamples::From(grid.columns, grid.rows, [&](int x, int y) -> SkinSample {
+  return StereoSamples::From(grid.columns, grid.rows, [&](int x, int y) -> StereoSample {
     const std::uint32_t* t = surface.Triangle(x, y);
     if (!t) return {};
     const MeshPoint place = surface.Place(x, y);
@@ -105,7 +106,7 @@ struct Patch {
   std::vector<glm::vec3> camera;
 };
 
-std::vector<Patch> PatchesOf(const SkinSamples& seen) {
+std::vector<Patch> PatchesOf(const StereoSamples& seen) {
   std::vector<Patch> patches;
   for (int y = kPatch; y + kPatch < seen.height; y += kPatchStep) {
     for (int x = kPatch; x + kPatch < seen.width; x += kPatchStep) {
@@ -114,7 +115,7 @@ std::vector<Patch> PatchesOf(const SkinSamples& seen) {
       for (int dy = -kPatch; dy <= kPatch && whole; ++dy) {
         for (int dx = -kPatch; dx <= kPatch && whole; ++dx) {
           const std::size_t i = seen.Index(x + dx, y + dy);
-          const SkinSample& sample = seen.at[i];
+          const StereoSample& sample = seen.at[i];
           whole = sample.facing > kLeastFacing && sample.facing_extra > kLeastFacingExtra &&
                   std::abs(sample.camera.z - seen.at[patch.middle].camera.z) < kMostDepth;
           patch.light.push_back(sample.light);
@@ -167,7 +168,7 @@ class PatchMatcher {
 };
 
 /// Where whole patches lie in the second photo, whatever their depth.
-std::vector<PointMatch> FindPatches(const SkinSamples& seen, const CameraPose& front,
+std::vector<PointMatch> FindPatches(const StereoSamples& seen, const CameraPose& front,
                                     const CameraPose& extra, PatchMatcher& matcher) {
   std::vector<PointMatch> matches;
   std::vector<glm::vec2> pixels;
@@ -209,7 +210,7 @@ std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Im
   // Then along the line of sight of the first photo.
   constexpr float kStep = 0.75F;  // millimetres
   constexpr int kReach = 14;
-  const SkinSamples seen = SampleSkin(fitted, front, pose);
+  const StereoSamples seen = SampleSkin(fitted, front, pose);
   std::vector<fsm::WarpPoint> depths;
   for (const Patch& patch : PatchesOf(seen)) {
     const Peak peak = FindPeak(kReach, [&](int k) {
