@@ -30,19 +30,10 @@ constexpr Limits kLimits[] = {
     {"long_volume", 10, 1000},
     {"upper_tooth_widths", 0.5f, kMostSize},
     {"lower_tooth_widths", 0.5f, kMostSize},
-    {"ear_helix half_width", kLeastSize, kMostSize},
-    {"ear_antihelix half_width", kLeastSize, kMostSize},
-    {"ear_fork half_width", kLeastSize, kMostSize},
-    {"ear_bowl half_size", kLeastSize, kMostSize},
-    {"ear_upper_bowl half_size", kLeastSize, kMostSize},
-    {"ear_tragus half_size", kLeastSize, kMostSize},
-    {"ear_notch half_size", kLeastSize, kMostSize},
     {"long_parting_soft", kLeastSize, kMostSize},
     {"long_goes_on", kLeastSize, kMostSize},
-    {"long_over_ear half_width", kLeastSize, kMostSize},
-    {"long_over_ear half_height", kLeastSize, kMostSize},
     {"stubble_place lips_half_size", kLeastSize, kMostSize},
-    {"beard_thin_cheek half_size", kLeastSize, kMostSize},
+    {"photo_lid_furrow width", kLeastSize, kMostSize},
     {"photo_lips_light", kLeastSize, kMostSize},
 };
 
@@ -61,15 +52,14 @@ Features::Features(NumberTable numbers) : NumberTable(std::move(numbers)) {
     const auto& n = (*this)[name];
     if (std::ranges::find(kCurves, name) != std::end(kCurves) && !Ascends(n))
       row.Fail("numbers of x that do not ascend");
+    const auto within = [&](float least, float most) {
+      for (std::size_t i = row.size() - n.size(); i < row.size(); ++i) row.Within(i, least, most);
+    };
     for (const Limits& limits : kLimits) {
-      if (name != limits.name) continue;
-      for (std::size_t i = row.size() - n.size(); i < row.size(); ++i)
-        row.Within(i, limits.least, limits.most);
+      if (name == limits.name) within(limits.least, limits.most);
     }
-    if (row.key() == "spot") {
-      for (const std::size_t half_size : {4uz, 5uz}) row.Within(half_size, kLeastSize, kMostSize);
-    }
-    if (name == "photo_lid_furrow") row.Within(3, kLeastSize, kMostSize);
+    // half_size, half_width, half_height
+    if (name.contains(" half_")) within(kLeastSize, kMostSize);
     if (name == "crop_crown" && Vector(name) == glm::vec3(0)) row.Fail("a crown that is nowhere");
   }
 }

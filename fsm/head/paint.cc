@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/common.hpp>
+#include <string>
 
 #include "fsm/base/smooth_step.h"
 
@@ -10,9 +11,10 @@ namespace fsm {
 SkinPainter::SkinPainter(const Identity& identity, const EyeAnatomy& eye)
     : features_(identity.UsedFeatures()), eye_(eye), palette_(identity.palette) {
   for (const TableRow& row : features_.rows()) {
-    if (row.key() != "spot") continue;
-    const auto& n = features_[NumberTable::NameOf(row)];
-    spots_.push_back({{n[0], n[1]}, {n[2], n[3]}, n[4], n[5]});
+    if (row.key() != "spot" || row.Word(2) != "middle") continue;
+    const std::string name = "spot " + row.Word(1);
+    spots_.push_back({features_.Pair(name + " middle"), features_.Pair(name + " half_size"),
+                      features_(name + " blush"), features_(name + " shade")});
   }
 }
 

@@ -132,8 +132,9 @@ class LidPainter {
     // Below an eye skin is thin and bluish: half of the hue is the face's. Lenses have their own.
     skin_below_ = MeanBelow(samples);
     const glm::vec3 face_hue = light.skin() / ScreenBrightness(light.skin());
-    skin_below_ = glm::mix(skin_below_, ScreenBrightness(skin_below_) * face_hue,
-                           features_["photo_lid_face_hue"][glasses ? 1 : 0]);
+    skin_below_ =
+        glm::mix(skin_below_, ScreenBrightness(skin_below_) * face_hue,
+                 features_(glasses ? "photo_lid_face_hue glasses" : "photo_lid_face_hue plain"));
     eyeless_.emplace(samples);
   }
 
@@ -172,12 +173,12 @@ class LidPainter {
   /// shows above the eye may be the shine of glasses, a rim, or lashes. Skin in the shade is
   /// redder, because light has gone through it.
   glm::vec3 OfHue(glm::vec3 colour, glm::vec3 skin) const {
-    const auto& hue = features_["photo_lid_hue"];
     const float dim = ScreenBrightness(colour) / ScreenBrightness(skin);
-    const float red = hue[1] * (skin.r - skin.b) / std::max(skin.r, 0.01f);
+    const float red =
+        features_("photo_lid_hue redder") * (skin.r - skin.b) / std::max(skin.r, 0.01f);
     const glm::vec3 shaded =
         skin * glm::pow(glm::vec3(dim), glm::vec3(1 - red, 1 + 0.4f * red, 1 + 0.4f * red));
-    return glm::mix(colour, shaded, hue[0]);
+    return glm::mix(colour, shaded, features_("photo_lid_hue below"));
   }
 
   /// Where the lid begins it lies as deep as the skin round it; downward the ball bulges it into
@@ -186,19 +187,22 @@ class LidPainter {
     const glm::vec3 deep = OfHue(eyeless_->At(at), skin_below_);
     const float rim = HeightAt(upper_rim_, at.x), meet = HeightAt(lower_rim_, at.x);
     const glm::vec2 below(at.x, meet - 3);
-    const auto& in_socket = features_["photo_lid_in_socket"];
     const float turned = light_.On(skin_.shut.normal[i]) / Around(below_, below, 4).lit;
-    const glm::vec3 lit = in_socket[0] * turned * OfHue(eyeless_->At(below), skin_below_);
+    const glm::vec3 lit =
+        features_("photo_lid_in_socket light") * turned * OfHue(eyeless_->At(below), skin_below_);
     const float down = SmoothStep(rim + 2, meet, at.y);
     // The frame of glasses shades what lies behind it.
     if (glasses_) {
-      const auto& behind = features_["photo_lid_behind_glasses"];
-      return glm::mix(behind[0] * glm::mix(deep, skin_below_, behind[1]), lit, behind[2] * down);
+      const glm::vec3 skin =
+          glm::mix(deep, skin_below_, features_("photo_lid_behind_glasses below"));
+      return glm::mix(features_("photo_lid_behind_glasses light") * skin, lit,
+                      features_("photo_lid_behind_glasses rim") * down);
     }
     // Out of a deep socket, which is dark, it does not come all the way.
-    const float out = glm::mix(
-        in_socket[1], 1.0f, SmoothStep(0.4f, 0.8f, ScreenBrightness(deep) / ScreenBrightness(lit)));
-    return glm::mix(deep, lit, out * glm::mix(in_socket[2], in_socket[3], down));
+    const float out =
+        glm::mix(features_("photo_lid_in_socket out"), 1.0f,
+                 SmoothStep(0.4f, 0.8f, ScreenBrightness(deep) / ScreenBrightness(lit)));
+    return glm::mix(deep, lit, out * features_.Between("photo_lid_in_socket lit", down));
   }
 
   static float GrainLight(const PhotoSpot& skin) {
@@ -211,15 +215,16 @@ class LidPainter {
     const float outward = Outward(at);
     const float held = skin_.weights[i].lid_lower;
     const float lashes = SmoothStep(0.96f - 0.08f * outward, 1.0f, held);
-    const auto& dark = features_["photo_lower_lashes"];
     // The wet rim of the open eye is hidden.
     const float rim = SmoothStep(0.92f, 0.97f, held);
-    return {.vertex = i,
-            .colour = FromScreen(Lashed(Skin(i, at), dark[0] * lashes)),
-            .weight = std::max(dark[1] * rim, (dark[2] + dark[3] * outward) * lashes),
-            .grain_at = mapping_.texcoord[i],
-            .grain_light = GrainLight(Around(around_, at, 2)),
-            .slide = glm::vec2(0)};
+    return {
+        .vertex = i,
+        .colour = FromScreen(Lashed(Skin(i, at), features_("photo_lower_lashes dark") * lashes)),
+        .weight = std::max(features_("photo_lower_lashes rim") * rim,
+                           features_.Linear("photo_lower_lashes skin", outward) * lashes),
+        .grain_at = mapping_.texcoord[i],
+        .grain_light = GrainLight(Around(around_, at, 2)),
+        .slide = glm::vec2(0)};
   }
 
   ShutLid Upper(std::uint32_t i) const {
@@ -228,15 +233,16 @@ class LidPainter {
     const float rim = HeightAt(upper_rim_, at.x), meet = HeightAt(lower_rim_, at.x);
     const float inside = std::min(Along(at) * Along(at), 1.0f);
     // A soft furrow where the lid slips under the skin.
-    const auto& furrows = features_["photo_lid_furrow"];
-    const float deep = (at.y - rim - furrows[1]) / furrows[2];
-    const float furrow = 1 - furrows[0] * (1 - inside) * std::exp(-deep * deep);
+    const float deep =
+        (at.y - rim - features_("photo_lid_furrow above")) / features_("photo_lid_furrow width");
+    const float furrow =
+        1 - features_("photo_lid_furrow dark") * (1 - inside) * std::exp(-deep * deep);
     // It turns away at its ends, and its lashes shade it.
-    const auto& shades = features_["photo_lid_shade"];
-    const float shade = (1 - shades[0] * inside) * (1 - shades[1] * SmoothStep(2, 0, at.y - meet));
+    const float shade = (1 - features_("photo_lid_shade ends") * inside) *
+                        (1 - features_("photo_lid_shade rim") * SmoothStep(2, 0, at.y - meet));
     const glm::vec3 skin = Shaded(Skin(i, at), furrow * shade);
-    const auto& dark = features_["photo_upper_lashes"];
-    const float lashes = (dark[0] + dark[1] * Outward(at)) * SmoothStep(0.96f, 1.0f, held);
+    const float lashes =
+        features_.Linear("photo_upper_lashes", Outward(at)) * SmoothStep(0.96f, 1.0f, held);
     const float height = std::max(at.y - lowest_, 0.0f);
     const float down = glasses_ ? Folded(height) : std::abs(kHighest - height);
     const glm::vec2 source(at.x, lowest_ - 1.5f - down);
@@ -253,8 +259,8 @@ class LidPainter {
   /// How much is lid: from a little above the eye's rim on, and where its lashes were.
   float Part(glm::vec2 at, float rim, glm::vec3 skin) const {
     const float beyond = std::max(rim_from_ - at.x, at.x - rim_to_);  // the corners, millimetres
-    const auto& above = features_["photo_lid_above"];
-    const float lid = SmoothStep(rim + above[0], rim + above[1], at.y) * SmoothStep(3, 0, beyond);
+    const glm::vec2 above = rim + features_.Pair("photo_lid_above");
+    const float lid = SmoothStep(above.x, above.y, at.y) * SmoothStep(3, 0, beyond);
     const float shown = ScreenBrightness(Around(around_, at, 1.5f).screen) / ScreenBrightness(skin);
     // What a lens mirrors lies before the lid.
     if (glasses_) return lid * SmoothStep(1.7f, 1.3f, shown);

@@ -146,7 +146,7 @@ std::string StepConstants() {
   };
   for (const step::Named& constant : step::kAll) add(constant.name, constant.value);
   add("kCorneaRadius", kCorneaRadius);
-  text << "const vec3 kPivot = vec3(" << kNeckPivot.x << ", " << kNeckPivot.y << ", "
+  text << "const vec3 kNeckPivot = vec3(" << kNeckPivot.x << ", " << kNeckPivot.y << ", "
        << kNeckPivot.z << ");\n";
   return text.str();
 }

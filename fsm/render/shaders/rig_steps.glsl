@@ -1,7 +1,7 @@
 // The steps of fsm/rig/rig.cc on a graphics card, one program for each: gpu_rig.cc puts before this the
 // version, the places of the members of a pose (those of an eye are from RIGHT_EYE or LEFT_EYE on, those of a
 // row of teeth, a ToothArch, from UPPER_ARCH or LOWER_ARCH on), the numbers of step_constants.h,
-// kCorneaRadius, kPivot (kNeckPivot) and which step it is. An invocation moves one vertex of one face.
+// kCorneaRadius, kNeckPivot and which step it is. An invocation moves one vertex of one face.
 // `items` holds what a step knows of its vertices, as gpu_rig.cc lays it out; every list of several things
 // that act on one vertex stands behind the records of fixed size, and a record says from where to where.
 layout(local_size_x = 64) in;
@@ -314,7 +314,7 @@ void Take(uint item) {
 void Take(uint item) {
   mat3 head = PoseMatrix(HEAD_TURN);
   vec3 p = Position(item);
-  vec3 turned = kPivot + head * (p - kPivot) + vec3(0.0, 0.0, Pose(HEAD_FORWARD));
+  vec3 turned = kNeckPivot + head * (p - kNeckPivot) + vec3(0.0, 0.0, Pose(HEAD_FORWARD));
   SetPosition(item, p + Number(2u * item) * (turned - p));
   if (items[2u * item + 1u] != 0u) SetNormal(item, head * Normal(item));
 }
