@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <glm/geometric.hpp>
-#include <map>
 #include <span>
 #include <utility>
 
@@ -13,36 +12,28 @@
 namespace fsm {
 namespace {
 
-bool Has(const auto& range, std::uint32_t value) {
-  return std::ranges::find(range, value) != std::ranges::end(range);
-}
-
-glm::vec3 Cross(const VertexFeatures& features, const std::array<std::uint32_t, 3>& t) {
-  const glm::vec3 a = features.RestOf(t[0]);
-  return glm::cross(features.RestOf(t[1]) - a, features.RestOf(t[2]) - a);
-}
-
 /// A part of a head's mesh that loses vertices one by one: each is drawn onto one beside it (a
 /// half-edge collapse, after Kobbelt, Campagna and Seidel 1998, "A general framework for mesh
 /// decimation"), so that those that stay are where they were.
 class PartDecimator {
  public:
-  using Triangle = std::array<std::uint32_t, 3>;
-
   /// `open`: vertices of its border may go, too, along the border.
   PartDecimator(const VertexFeatures& features, std::span<const std::uint32_t> corners, bool open)
       : features_(features), open_(open) {
-    std::map<std::uint32_t, std::uint32_t> own;
+    std::vector<std::uint32_t> own;  // of the head's vertices, the index in vertices_ and one more
     for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
-      Triangle triangle{};
+      Corners triangle{};
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto [found, fresh] =
-            own.try_emplace(corners[k + c], static_cast<std::uint32_t>(vertices_.size()));
-        if (fresh) vertices_.emplace_back().number = corners[k + c];
-        triangle[c] = found->second;
-        vertices_[found->second].triangles.push_back(static_cast<std::uint32_t>(triangles_.size()));
+        const std::uint32_t number = corners[k + c];
+        if (number >= own.size()) own.resize(number + 1);
+        if (own[number] == 0) {
+          vertices_.push_back({number, features.RestOf(number)});
+          own[number] = static_cast<std::uint32_t>(vertices_.size());
+        }
+        triangle[c] = own[number] - 1;
+        vertices_[triangle[c]].triangles.push_back(static_cast<std::uint32_t>(triangles_.size()));
       }
-      triangles_.push_back(triangle);
+      triangles_.push_back(Between(triangle));
     }
     left_out_.resize(triangles_.size());
     gone_.resize(triangles_.size());
@@ -63,19 +54,16 @@ class PartDecimator {
           continue;
         }
         vertex.tried_at = pass_;
-        Ring ring = RingOf(v);
-        if (!MayGo(ring)) continue;
+        FindRing(v, ring_);
+        if (!MayGo()) continue;
         // Short edges first, so that no slivers come about.
-        std::ranges::sort(ring.around, {}, [&](std::uint32_t w) {
-          return std::pair(
-              glm::distance(features_.RestOf(vertex.number), features_.RestOf(vertices_[w].number)),
-              w);
-        });
-        const auto to = std::ranges::find_if(
-            ring.around, [&](std::uint32_t w) { return Fits(v, w, ring, error); });
-        if (to == ring.around.end()) continue;
-        Collapse(v, *to);
-        for (const auto w : ring.around) vertices_[w].changed_at = pass_ + 1;
+        for (Neighbour& n : ring_) n.far = glm::distance(vertex.place, vertices_[n.vertex].place);
+        std::ranges::sort(ring_, {}, [](const Neighbour& n) { return std::pair(n.far, n.vertex); });
+        const auto to =
+            std::ranges::find_if(ring_, [&](const Neighbour& n) { return Fits(v, n, error); });
+        if (to == ring_.end()) continue;
+        Collapse(v, to->vertex);
+        for (const Neighbour& n : ring_) vertices_[n.vertex].changed_at = pass_ + 1;
         any = true;
       }
     }
@@ -84,91 +72,102 @@ class PartDecimator {
   void Append(std::vector<std::uint32_t>& out) const {
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       if (gone_[t]) continue;
-      for (const auto corner : triangles_[t]) out.push_back(vertices_[corner].number);
+      for (const auto corner : triangles_[t].corners) out.push_back(vertices_[corner].number);
     }
   }
 
  private:
-  struct Vertex {
-    std::uint32_t number = 0;              // in the head
-    std::vector<std::uint32_t> triangles;  // that it is a corner of
-    std::uint32_t tried_at = 0;            // the pass in which it was last found to be needed
-    std::uint32_t changed_at = 0;          // and the first after something beside it changed
+  using Corners = std::array<std::uint32_t, 3>;  // indices into vertices_
+  struct Triangle {
+    Corners corners;
+    glm::vec3 normal;  // of twice the triangle's area
+    float length;      // of the normal
+    bool Has(std::uint32_t v) const { return std::ranges::find(corners, v) != corners.end(); }
   };
-  struct Ring {
-    std::vector<std::uint32_t> around;  // neighbours
-    std::vector<std::uint32_t> ends;    // those to which it is joined by the border
+  struct Vertex {
+    std::uint32_t number;  // in the head
+    glm::vec3 place;
+    std::vector<std::uint32_t> triangles{};  // that it is a corner of
+    std::uint32_t tried_at = 0;              // the pass in which it was last found to be needed
+    std::uint32_t changed_at = 0;            // and the first after something beside it changed
+  };
+  struct Neighbour {
+    std::uint32_t vertex;
+    int triangles;  // that meet at the edge to it; at a border one
+    float far = 0;
   };
 
-  Ring RingOf(std::uint32_t v) const {
-    std::vector<std::uint32_t> seen;
+  Triangle Between(const Corners& corners) const {
+    const glm::vec3 a = vertices_[corners[0]].place;
+    const glm::vec3 normal =
+        glm::cross(vertices_[corners[1]].place - a, vertices_[corners[2]].place - a);
+    return {corners, normal, glm::length(normal)};
+  }
+
+  void FindRing(std::uint32_t v, std::vector<Neighbour>& ring) const {
+    ring.clear();
     for (const auto t : vertices_[v].triangles) {
-      for (const auto corner : triangles_[t]) {
-        if (corner != v) seen.push_back(corner);
+      for (const auto corner : triangles_[t].corners) {
+        if (corner == v) continue;
+        const auto found = std::ranges::find(ring, corner, &Neighbour::vertex);
+        if (found == ring.end()) {
+          ring.push_back({corner, 1});
+        } else {
+          ++found->triangles;
+        }
       }
     }
-    std::ranges::sort(seen);
-    Ring ring;
-    for (std::size_t i = 0; i < seen.size();) {
-      std::size_t next = i;
-      while (next < seen.size() && seen[next] == seen[i]) ++next;
-      ring.around.push_back(seen[i]);
-      // Where more than two triangles meet at an edge both of its ends stay.
-      if (next - i != 2) ring.ends.insert(ring.ends.end(), next - i == 1 ? 1 : 3, seen[i]);
-      i = next;
-    }
-    return ring;
   }
 
-  bool MayGo(const Ring& ring) const {
-    return ring.ends.empty() || (open_ && ring.ends.size() == 2);
+  /// Whether the vertex of `ring_` may. Where more than two triangles meet at an edge both of its
+  /// ends stay.
+  bool MayGo() const {
+    const auto ends = std::ranges::count(ring_, 1, &Neighbour::triangles);
+    return (ends == 0 || (open_ && ends == 2)) &&
+           std::ranges::none_of(ring_, [](const Neighbour& n) { return n.triangles > 2; });
   }
-  /// Whether `v` may be drawn onto `to`; then `after_` says what becomes of its triangles.
-  bool Fits(std::uint32_t v, std::uint32_t to, const Ring& ring, float error) {
-    const bool on_border = !ring.ends.empty();
-    if (on_border && !Has(ring.ends, to)) return false;
+
+  /// Whether `v`, whose ring is `ring_`, may be drawn onto `to`; then `after_` says what becomes of
+  /// its triangles.
+  bool Fits(std::uint32_t v, const Neighbour& to, float error) {
+    const bool on_border = std::ranges::count(ring_, 1, &Neighbour::triangles) > 0;
+    if (on_border && to.triangles != 1) return false;
     after_.clear();
     moved_.clear();
     for (const auto t : vertices_[v].triangles) {
-      Triangle triangle = triangles_[t];
-      if (Has(triangle, to)) continue;
-      const auto numbers = [this](const Triangle& of) {
-        return Triangle{vertices_[of[0]].number, vertices_[of[1]].number, vertices_[of[2]].number};
-      };
-      const glm::vec3 before = Cross(features_, numbers(triangle));
-      std::ranges::replace(triangle, v, to);
-      const glm::vec3 now = Cross(features_, numbers(triangle));
-      if (glm::dot(before, now) < 0.3F * glm::length(before) * glm::length(now)) return false;
-      after_.emplace_back(t, triangle);
+      const Triangle& before = triangles_[t];
+      if (before.Has(to.vertex)) continue;
+      Corners corners = before.corners;
+      std::ranges::replace(corners, v, to.vertex);
+      const Triangle now = Between(corners);
+      if (glm::dot(before.normal, now.normal) < 0.3F * before.length * now.length) return false;
+      after_.emplace_back(t, now);
     }
-    std::size_t where = 0;
-    const auto settle = [&](std::uint32_t vertex) {
-      if (!Settle(vertex, error, where)) return false;
-      moved_.emplace_back(vertex, after_[where].first);
-      return true;
-    };
+    const auto settle = [&](std::uint32_t vertex) { return Settle(vertex, error); };
     if (!settle(vertices_[v].number)) return false;
     // More common neighbours than triangles at the edge: the surface would be pinched.
-    const Ring other = RingOf(to);
-    const auto common = std::ranges::count_if(
-        other.around, [&ring](std::uint32_t w) { return Has(ring.around, w); });
+    FindRing(to.vertex, other_ring_);
+    const auto common = std::ranges::count_if(other_ring_, [this](const Neighbour& n) {
+      return std::ranges::find(ring_, n.vertex, &Neighbour::vertex) != ring_.end();
+    });
     if (common != (on_border ? 1 : 2)) return false;
     return std::ranges::all_of(vertices_[v].triangles, [&](std::uint32_t t) {
       return std::ranges::all_of(left_out_[t], settle);
     });
   }
 
-  /// The one of `after_` on which a vertex is shown best; none if the error is greater.
-  bool Settle(std::uint32_t vertex, float error, std::size_t& where) const {
+  /// Adds to `moved_` the one of `after_` on which a vertex is shown best; false if the error is
+  /// greater.
+  bool Settle(std::uint32_t vertex, float error) {
     const glm::vec3 p = features_.RestOf(vertex);
     float best = error * error;
     bool found = false;
-    for (std::size_t k = 0; k < after_.size(); ++k) {
-      const Triangle& t = after_[k].second;
-      const std::array numbers{vertices_[t[0]].number, vertices_[t[1]].number,
-                               vertices_[t[2]].number};
-      const glm::vec3 a = features_.RestOf(numbers[0]);
-      const glm::vec3 b = features_.RestOf(numbers[1]) - a, c = features_.RestOf(numbers[2]) - a;
+    std::uint32_t where = 0;
+    for (const auto& [triangle, after] : after_) {
+      const Corners& t = after.corners;
+      const std::array corners{&vertices_[t[0]], &vertices_[t[1]], &vertices_[t[2]]};
+      const glm::vec3 a = corners[0]->place;
+      const glm::vec3 b = corners[1]->place - a, c = corners[2]->place - a;
       const float bb = glm::dot(b, b), bc = glm::dot(b, c), cc = glm::dot(c, c);
       const float pb = glm::dot(p - a, b), pc = glm::dot(p - a, c);
       const float whole = std::max(bb * cc - bc * bc, 1e-12F);
@@ -178,21 +177,23 @@ class PartDecimator {
       weights.x = 1 - weights.y - weights.z;
       weights = glm::max(weights, 0.0F);
       weights /= weights.x + weights.y + weights.z;
-      const float off = features_.Difference(vertex, numbers, weights, best);
+      const float off = features_.Difference(
+          vertex, {corners[0]->number, corners[1]->number, corners[2]->number}, weights, best);
       if (off > best) continue;
       best = off;
-      where = k;
+      where = triangle;
       found = true;
     }
+    if (found) moved_.emplace_back(vertex, where);
     return found;
   }
 
   void Collapse(std::uint32_t v, std::uint32_t to) {
     for (const auto t : vertices_[v].triangles) {
       left_out_[t].clear();
-      gone_[t] = Has(triangles_[t], to);
+      gone_[t] = triangles_[t].Has(to);
       if (!gone_[t]) continue;
-      for (const auto corner : triangles_[t]) {
+      for (const auto corner : triangles_[t].corners) {
         if (corner != v) std::erase(vertices_[corner].triangles, t);
       }
     }
@@ -207,9 +208,11 @@ class PartDecimator {
   const VertexFeatures& features_;
   bool open_;
   std::vector<Vertex> vertices_;
-  std::vector<Triangle> triangles_;                   // of indices into vertices_
+  std::vector<Triangle> triangles_;
   std::vector<std::vector<std::uint32_t>> left_out_;  // numbers of vertices that lie on each
   std::vector<bool> gone_;                            // triangles
+  // Of the vertex tried last its neighbours, and of the collapse tried last those of the other end.
+  std::vector<Neighbour> ring_, other_ring_;
   // What Fits found for the collapse tried last: the triangles that get another corner, as they
   // would be, and for each vertex that is left out the triangle that takes it over.
   std::vector<std::pair<std::uint32_t, Triangle>> after_;
