@@ -86,6 +86,9 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME galatea)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION sound)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
+if(TARGET fsm_render AND OSMESA_FOUND) # fsm_render loads it itself, so it is not among the shared libraries found
+  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS libosmesa6)
+endif()
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS
   "ffmpeg, python3, pocketsphinx-en-us, mecab-naist-jdic, open-jtalk, open-jtalk-mecab-naist-jdic, fonts-dejavu-core, fonts-vlgothic")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "npm")

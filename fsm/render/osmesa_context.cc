@@ -1,4 +1,5 @@
 #include <GL/osmesa.h>
+#include <dlfcn.h>
 
 #include <cstdint>
 #include <stdexcept>
@@ -8,6 +9,30 @@
 
 namespace fsm {
 namespace {
+
+/// The functions of OSMesa. Its library is loaded when a context is first made and then stays: it
+/// brings LLVM, which takes as long to load as a head takes to be baked. That is done meanwhile,
+/// and programs that draw nothing do without.
+class OsMesa {
+ public:
+  /// Throws std::runtime_error with the loader's sentence.
+  OsMesa() {
+    void* const library = dlopen("libOSMesa.so.8", RTLD_LAZY);
+    const auto fetch = [library]<typename Function>(const char* name, Function& function) {
+      if (library) function = reinterpret_cast<Function>(dlsym(library, name));
+      if (!function) throw std::runtime_error(dlerror());
+    };
+    fetch("OSMesaCreateContextAttribs", create);
+    fetch("OSMesaMakeCurrent", make_current);
+    fetch("OSMesaDestroyContext", destroy);
+    fetch("OSMesaGetProcAddress", get_proc_address);
+  }
+
+  decltype(&OSMesaCreateContextAttribs) create = nullptr;
+  decltype(&OSMesaMakeCurrent) make_current = nullptr;
+  decltype(&OSMesaDestroyContext) destroy = nullptr;
+  decltype(&OSMesaGetProcAddress) get_proc_address = nullptr;
+};
 
 /// Software OpenGL into memory. The renderer draws into framebuffer objects of its own; OSMesa
 /// insists on memory to bind, and one pixel is enough.
@@ -27,30 +52,31 @@ class OsMesaContext : public OffScreenContext {
                               OSMESA_CONTEXT_MINOR_VERSION,
                               3,
                               0};
-    context_ = OSMesaCreateContextAttribs(attributes, nullptr);
+    context_ = mesa_.create(attributes, nullptr);
     if (!context_) {
       throw std::runtime_error("cannot make an off-screen OpenGL 3.3 context with OSMesa");
     }
   }
   ~OsMesaContext() override {
     auto* other = Leave();
-    OSMesaDestroyContext(context_);
+    mesa_.destroy(context_);
     Resume(other);
   }
 
   std::string reached_by() const override { return "OSMesa"; }
   void* GetProcAddress(const char* name) override {
-    return reinterpret_cast<void*>(OSMesaGetProcAddress(name));
+    return reinterpret_cast<void*>(mesa_.get_proc_address(name));
   }
 
  private:
   void Bind() override {
-    if (!OSMesaMakeCurrent(context_, pixel_, GL_UNSIGNED_BYTE, 1, 1)) {
+    if (!mesa_.make_current(context_, pixel_, GL_UNSIGNED_BYTE, 1, 1)) {
       throw std::runtime_error("OSMesa refused to draw into memory");
     }
   }
-  void Release() override { OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0); }
+  void Release() override { mesa_.make_current(nullptr, nullptr, 0, 0, 0); }
 
+  const OsMesa mesa_;
   OSMesaContext context_ = nullptr;
   std::uint8_t pixel_[4] = {};
 };
