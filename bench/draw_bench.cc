@@ -30,6 +30,7 @@
 #include <deque>
 #include <fstream>
 #include <functional>
+#include <future>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -301,10 +302,12 @@ void MeasureAll(char** argv, const Options& options) {
 }
 
 void DrawFirstFrame(const Options& options) {
+  // Like fsm, which makes the head while the driver starts.
+  auto made = std::async(std::launch::async, [] { return fsm::MakeHead("galatea"); });
   auto context = fsm::RenderContext::MakeHeadless(options.width, options.height);
   auto renderer = fsm::Renderer::Make(*context);
   renderer->SetFormError(FormError(options));
-  const auto head = fsm::MakeHead("galatea");
+  const auto head = made.get();
   fsm::HeadVertices vertices;
   fsm::Image image;
   head->Evaluate({}, vertices);
