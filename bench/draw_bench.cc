@@ -37,6 +37,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fsm/base/large_pages.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/original_config.h"
 #include "fsm/faces/original_faces.h"
@@ -320,6 +321,7 @@ void DrawFirstFrame(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  fsm::UseLargePages();
   Options options;
   bool first_frame = false;
   if (!ReadOptions(argc, argv, options, first_frame)) {

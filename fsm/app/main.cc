@@ -17,6 +17,7 @@
 #include "fsm/app/fsm_module.h"
 #include "fsm/app/gl_render_backend.h"
 #include "fsm/asset/describe.h"
+#include "fsm/base/large_pages.h"
 #include "fsm/base/notice.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
@@ -279,6 +280,7 @@ int RunOnce(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  fsm::UseLargePages();
   Options options;
   bool failed = false;
   options.module.on_failure = [&failed] { failed = true; };
