@@ -50,18 +50,19 @@ float ValueOf(const Drive& drive, const FaceState& state, const Pose& pose) {
 
 std::vector<Channel> UnitChannels(const UnitTable& units, std::span<const Bone> bones,
                                   std::span<const SkinWeights> weights) {
-  constexpr float kLeast = 1e-3f;  // millimetres
+  constexpr float kLeast = 1e-3f;                       // millimetres
+  std::map<int, std::vector<UnitTable::Field>> fields;  // of each unit
+  for (const UnitTable::Field& field : units.fields()) fields[field.unit].push_back(field);
   std::vector<Channel> channels;
+  std::vector<glm::vec3> sum;  // by vertex
   for (const Side side : kSides) {
-    std::map<int, std::vector<glm::vec3>> sums;  // of each unit, by vertex
-    for (const UnitTable::Field& field : units.fields()) {
-      auto& sum = sums[field.unit];
-      sum.resize(weights.size(), glm::vec3(0));
-      for (std::size_t i = 0; i < weights.size(); ++i) {
-        if (bones[i] == Bone::kSkin) sum[i] += UnitTable::Motion(field, weights[i], side);
+    for (const auto& [unit, own] : fields) {
+      sum.assign(weights.size(), glm::vec3(0));
+      for (const UnitTable::Field& field : own) {
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+          if (bones[i] == Bone::kSkin) sum[i] += UnitTable::Motion(field, weights[i], side);
+        }
       }
-    }
-    for (const auto& [unit, sum] : sums) {
       Channel channel;
       channel.drivers.push_back({{.kind = Drive::Kind::kUnit,
                                   .number = static_cast<std::uint16_t>(unit),
