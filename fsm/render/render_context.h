@@ -7,7 +7,7 @@ namespace fsm {
 
 /// What draws off screen. The order in which ways are tried stands in headless_context.cc.
 enum class OffScreen {
-  kOsMesa,  ///< Mesa's software: OSMesa, or its software device where a build has no OSMesa
+  kOsMesa,  ///< Mesa's software: OSMesa, or its software device where there is no OSMesa
   kEgl,     ///< a graphics card by EGL; else what Mesa has, which may be software
   kAny      ///< as kEgl; where EGL has nothing, OSMesa
 };
