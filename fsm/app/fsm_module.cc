@@ -51,7 +51,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions op
   DeclareMouthStreamSlots(core_);
   DeclareFigureSlots(core_);
   mask_ = std::make_unique<MaskSlots>(core_, options_.mask, options_.config.MaskNames());
-  scene_ = std::make_unique<SceneSlots>(core_, options_.config.backgrounds);
+  scene_ = std::make_unique<SceneSlots>(core_, options_.config.backgrounds, options_.background);
   scene_->set_size_locked([this] { return film_->recording(); });
   MakeFilms();
   DeclareRecording();

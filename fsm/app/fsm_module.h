@@ -20,11 +20,12 @@
 namespace fsm {
 
 struct FsmOptions {
-  std::uint64_t seed = 1;        ///< of everything the face does by itself
-  std::string tables;            ///< folder of tables that replace the built-in ones
-  std::string mask;              ///< face worn at the start, "" = the backend's first
-  std::string life;              ///< profile of Life at the start, "" = OFF
-  OriginalConfig config;         ///< path "" = none
+  std::uint64_t seed = 1;  ///< of everything the face does by itself
+  std::string tables;      ///< folder of tables that replace the built-in ones
+  std::string mask;        ///< face worn at the start, "" = the backend's first
+  std::string background;  ///< as slot Background at the start, "" = the configuration's first
+  std::string life;        ///< profile of Life at the start, "" = OFF
+  OriginalConfig config;   ///< path "" = none
   bool announce_config = false;  ///< greet as the original does: tell detected: -C flag: FILE
   /// Called when the window cannot be drawn any more, which ends the module.
   std::function<void()> on_failure = [] {};

@@ -137,6 +137,10 @@ void AddOptions(CLI::App& app, Options& options) {
                  "Writes the face named by --mask or --head with ARKit's shapes as .glb and ends");
   app.add_flag("--describe", options.describe,
                "Tells what the face named by --mask or --head is made of, and ends");
+  app.add_option(
+      "--background", options.module.background,
+      "What is behind the agent at the start, as slot Background: plain (default), studio, "
+      "a picture, #rrggbb or transparent");
   app.add_option("--life", options.module.life,
                  "What the face does by itself from the start: OFF (default), CALM, LIVELY, ...");
   auto* const sheet = app.add_option(

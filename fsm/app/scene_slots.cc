@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <optional>
+#include <stdexcept>
 
 #include "fsm/base/notice.h"
 #include "fsm/image/colour_space.h"
@@ -16,6 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr const char* kPlain = "plain";              // the background without a picture
+constexpr const char* kStudio = "studio";            // a wall that is brighter behind the head
 constexpr const char* kTransparent = "transparent";  // no background
 constexpr vm::Time kLongestSettling = 2000ms;  // what a picture waits for movements, on their clock
 
@@ -39,11 +41,15 @@ bool IsPictureName(const std::string& name) {
 
 }  // namespace
 
-SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds)
+SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds,
+                       const std::string& first)
     : core_(core),
       backgrounds_(std::move(backgrounds)),
-      start_width_(core.backend.width()),
-      start_height_(core.backend.height()) {
+      first_(!first.empty()         ? first
+             : backgrounds_.empty() ? kPlain
+                                    : backgrounds_.front().first),
+      start_width_(core_.backend.width()),
+      start_height_(core_.backend.height()) {
   core_.scene = FirstScene();
   DeclareBackgrounds();
   DeclareView();
@@ -52,15 +58,12 @@ SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::st
   DeclareLight("Light.fill", "The lamp that brightens shadows", &Scene::fill);
   DeclareLight("Light.rim", "The lamp behind, for the edge of hair and shoulder", &Scene::rim);
   DeclareSaveImage();
-  if (!backgrounds_.empty()) {
-    // The face is shown all the same when the picture of its background is missing.
-    if (auto set = SetBackground(backgrounds_.front().first); !set) {
-      Notice("background " + backgrounds_.front().first + ": " + set.error().text +
-             "; the plain one is shown");
-      core_.slots.Store("Background", kPlain);
-    } else {
-      core_.slots.Store("NowBackground", backgrounds_.front().first);
-    }
+  if (auto set = SetBackground(first_); !set) {
+    if (!first.empty()) throw std::runtime_error(set.error().text);
+    // The face is shown all the same when the configuration's picture is missing.
+    Notice("background " + first_ + ": " + set.error().text + "; the plain one is shown");
+    core_.slots.Store("Background", kPlain);
+    core_.slots.Store("NowBackground", kPlain);
   }
 }
 
@@ -75,11 +78,12 @@ Scene SceneSlots::FirstScene() const {
 }
 
 void SceneSlots::DeclareBackgrounds() {
-  std::string names = core_.original && !backgrounds_.empty() ? "" : kPlain;
+  std::string names =
+      core_.original && !backgrounds_.empty() ? "" : std::string(kPlain) + "," + kStudio;
   for (const auto& [name, file] : backgrounds_) names += (names.empty() ? "" : ",") + name;
   core_.DeclareReadOnly("BackgroundSet", names,
                         "The backgrounds that have names, with commas between them.", true);
-  core_.DeclareReadOnly("NowBackground", kPlain, "The background shown now.", true);
+  core_.DeclareReadOnly("NowBackground", first_, "The background shown now.", true);
   core_.Declare(
       {.name = "Background",
        .grammar = "<file>",
@@ -90,12 +94,13 @@ void SceneSlots::DeclareBackgrounds() {
          core_.slots.Report("NowBackground", value.word(0));
          return {};
        },
-       .initial = backgrounds_.empty() ? kPlain : backgrounds_.front().first});
+       .initial = first_});
 }
 
 vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
-  const auto show_colour = [this](glm::vec3 colour) {
+  const auto show_colour = [this](glm::vec3 colour, bool studio = false) {
     core_.scene.background = colour;
+    core_.scene.studio = studio;
     core_.scene.background_image = nullptr;
     ShowBackground(false);
     return vm::Result<void>{};
@@ -105,6 +110,7 @@ vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
     return {};
   }
   if (name == kPlain) return show_colour(Scene{}.background);
+  if (name == kStudio) return show_colour(Scene{}.background, true);
   if (const auto colour = ParseColour(name)) return show_colour(*colour);
   const auto named =
       std::ranges::find(backgrounds_, name, &std::pair<std::string, std::string>::first);
@@ -268,13 +274,12 @@ void SceneSlots::Reset() {
   background_enabled_ = true;
   core_.simulates = true;
   if (auto sized = ResetSize(); !sized) core_.slots.ReportError("Window", sized.error());
-  const std::string first = backgrounds_.empty() ? kPlain : backgrounds_.front().first;
-  if (auto set = SetBackground(first); !set) {
+  if (auto set = SetBackground(first_); !set) {
     core_.slots.ReportError("Background", set.error());
     for (const char* slot : {"Background", "NowBackground"}) core_.slots.Store(slot, kPlain);
     return;
   }
-  core_.slots.Store("NowBackground", first);
+  core_.slots.Store("NowBackground", first_);
 }
 
 }  // namespace fsm

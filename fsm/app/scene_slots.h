@@ -12,9 +12,11 @@ namespace fsm {
 /// view, and single pictures of it (SaveImage).
 class SceneSlots {
  public:
-  /// `backgrounds`: names and files of the configuration; the first is shown at the start.
-  /// Throws std::runtime_error if that one cannot be read. `core` outlives this.
-  SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds);
+  /// `backgrounds`: names and files of the configuration; its first, or else the plain one, is
+  /// shown at the start where `first` is empty. Throws std::runtime_error where `first` cannot be
+  /// shown. `core` outlives this.
+  SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds,
+             const std::string& first);
   void Reset();  ///< for `Run = INIT`; no film is recorded
   /// The size cannot be changed while this says so (a film is recorded).
   void set_size_locked(std::function<bool()> locked) { size_locked_ = std::move(locked); }
@@ -28,12 +30,13 @@ class SceneSlots {
                     DirectionalLight Scene::*lamp);
   void DeclareSaveImage();
   vm::Result<void> SetBackground(const std::string& name);
+  void ShowBackground(bool transparent);
   vm::Result<void> FillScreen(bool fill);
   vm::Result<void> ResetSize();
 
   FsmCore& core_;
   std::vector<std::pair<std::string, std::string>> backgrounds_;
-  void ShowBackground(bool transparent);
+  std::string first_;  // shown at the start
 
   bool transparent_ = false;
   bool background_enabled_ = true;

@@ -15,9 +15,11 @@ bool IsPictured(const Scene& scene) {
 
 }  // namespace
 
-Backdrop::Backdrop(const GlFunctions& gl)
+Backdrop::Backdrop(const GlFunctions& gl, const Appearance& appearance)
     : gl_(gl),
-      program_(gl, "backdrop", embedded::backdrop_vertex(), embedded::backdrop_fragment()) {
+      program_(gl, "backdrop", embedded::backdrop_vertex(),
+               "#version 330 core\n" + appearance.constants() +
+                   std::string(embedded::backdrop_fragment())) {
   gl_.GenVertexArrays(1, &array_);
   gl_.GenTextures(1, &texture_);
 }
@@ -33,41 +35,44 @@ void Backdrop::Draw(const Scene& scene, int width, int height) {
     gl_.Clear(GL_COLOR_BUFFER_BIT);
     return;
   }
-  if (!IsPictured(scene)) {
+  wide_ = static_cast<float>(width) / static_cast<float>(height);
+  if (IsPictured(scene)) {
+    gl_.ActiveTexture(GL_TEXTURE0);
+    gl_.BindTexture(GL_TEXTURE_2D, texture_);
+    Upload(scene.background_image);
+    // A picture of the view's own size is shown pixel by pixel.
+    const bool same = uploaded_->width == width && uploaded_->height == height;
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
+                      same ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, same ? GL_NEAREST : GL_LINEAR);
+  } else if (!scene.studio) {
     gl_.ClearColor(scene.background.r, scene.background.g, scene.background.b, 1);
     gl_.Clear(GL_COLOR_BUFFER_BIT);
     return;
   }
-  gl_.ActiveTexture(GL_TEXTURE0);
-  gl_.BindTexture(GL_TEXTURE_2D, texture_);
-  Upload(scene.background_image);
-  // A picture of the view's own size is shown pixel by pixel.
-  const bool same = uploaded_->width == width && uploaded_->height == height;
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
-                    same ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, same ? GL_NEAREST : GL_LINEAR);
-  Cover(true, glm::vec3(0), 1);
+  Cover(scene, 1);
 }
 
 void Backdrop::Veil(const Scene& scene, float opacity) {
-  const bool shown = scene.show_background;
   if (IsPictured(scene)) {
     gl_.ActiveTexture(GL_TEXTURE0);
     gl_.BindTexture(GL_TEXTURE_2D, texture_);
   }
   gl_.Enable(GL_BLEND);
   // Where there is no background nothing is added, and colours and opacity become less.
-  gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, shown ? GL_ONE : GL_ZERO,
-                        GL_ONE_MINUS_SRC_ALPHA);
-  Cover(IsPictured(scene), shown ? scene.background : glm::vec3(0), opacity);
+  gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA,
+                        scene.show_background ? GL_ONE : GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
+  Cover(scene, opacity);
   gl_.Disable(GL_BLEND);
 }
 
-void Backdrop::Cover(bool pictured, const glm::vec3& plain, float opacity) {
+void Backdrop::Cover(const Scene& scene, float opacity) {
   program_.Use();
   program_.Set("picture", 0);
-  program_.Set("pictured", pictured ? 1 : 0);
-  program_.Set("plain", plain);
+  program_.Set("pictured", IsPictured(scene) ? 1 : 0);
+  program_.Set("studio", scene.show_background && scene.studio ? 1 : 0);
+  program_.Set("wide", wide_);
+  program_.Set("plain", scene.show_background ? scene.background : glm::vec3(0));
   program_.Set("opacity", opacity);
   gl_.BindVertexArray(array_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);

@@ -2,16 +2,18 @@
 
 #include <memory>
 
+#include "fsm/render/appearance.h"
 #include "fsm/render/gl_objects.h"
 #include "fsm/render/scene.h"
 
 namespace fsm {
 
-/// What stands behind the figure: nothing, a colour or a picture. Destroy while its context is
+/// What stands behind the figure: nothing, a colour, the wall of a studio or
+/// a picture. Destroy while its context is
 /// current.
 class Backdrop {
  public:
-  explicit Backdrop(const GlFunctions& gl);
+  Backdrop(const GlFunctions& gl, const Appearance& appearance);
   ~Backdrop();
   Backdrop(const Backdrop&) = delete;
   Backdrop& operator=(const Backdrop&) = delete;
@@ -25,13 +27,14 @@ class Backdrop {
   void Veil(const Scene& scene, float opacity);
 
  private:
-  void Cover(bool pictured, const glm::vec3& plain, float opacity);
+  void Cover(const Scene& scene, float opacity);
   void Upload(const std::shared_ptr<const Image>& image);
 
   const GlFunctions& gl_;
   GlProgram program_;
   GLuint array_ = 0;
   GLuint texture_ = 0;
+  float wide_ = 1;  // width of the view, 1 = its height
   std::shared_ptr<const Image> uploaded_;
 };
 

@@ -82,7 +82,7 @@ class GlRenderer : public Renderer {
         appearance_(appearance),
         gl_(GlFunctions::Load(context)),
         materials_(gl_, appearance),
-        backdrop_(gl_),
+        backdrop_(gl_, appearance_),
         draws_on_card_(!IsSoftware(gl_)),
         reader_(gl_, draws_on_card_ && gl_.has_compute),
         rig_programs_(gl_),

@@ -34,6 +34,7 @@ struct Camera {
 /// Everything in a picture but the head.
 struct Scene {
   glm::vec3 background{0.35f, 0.42f, 0.48f};  ///< sRGB 0..1, when there is no picture
+  bool studio = false;  ///< instead of that colour, a wall that is brighter behind the head
   /// Stretched over the view; another picture is another object.
   std::shared_ptr<const Image> background_image = {};
   bool show_background = true;  ///< off: transparent black

@@ -18,7 +18,7 @@ TEST(FsmModuleTest, AnswersAsTheOriginal) {
             "rep ModuleVersion = Module Ver. Galatea FSM " GALATEA_VERSION);
   EXPECT_EQ(fsm.Say("inq MaskSet"), "rep MaskSet = \"galatea,pygmalion\"");
   EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"galatea\"");
-  EXPECT_EQ(fsm.Say("inq BackgroundSet"), "rep BackgroundSet = \"plain\"");
+  EXPECT_EQ(fsm.Say("inq BackgroundSet"), "rep BackgroundSet = \"plain,studio\"");
   EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"plain\"");
   EXPECT_EQ(fsm.Say("inq MouthScale"), "rep MouthScale = 30");
   EXPECT_EQ(fsm.Say("inq Offset"), "rep Offset = 0.000000");
@@ -464,7 +464,20 @@ TEST(FsmModuleTest, AConfiguredBackgroundThatIsGoneLeavesThePlainOne) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(),
             "fsm: notice: background bg1: cannot read missing.png; the plain one is shown\n");
   EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"plain\"");
-  EXPECT_EQ(fsm.Say("inq BackgroundSet"), "rep BackgroundSet = \"plain,bg1,bg2\"");
+  EXPECT_EQ(fsm.Say("inq BackgroundSet"), "rep BackgroundSet = \"plain,studio,bg1,bg2\"");
+}
+
+TEST(FsmModuleTest, TheBackgroundOfTheCommandLineIsThatOfTheStart) {
+  FsmOptions options;
+  options.background = "studio";
+  FsmStage fsm(options);
+  EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"studio\"");
+  fsm.Say("set Background = plain");
+  fsm.Say("set Run = INIT");
+  EXPECT_EQ(fsm.Say("inq Background"), "rep Background = studio");
+  EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"studio\"");
+  options.background = "nowhere";
+  EXPECT_THROW(FsmStage{options}, std::runtime_error);
 }
 
 TEST(FsmModuleTest, AsymmetryIsANumberOfTheFigure) {

@@ -137,6 +137,22 @@ TEST_F(FrameTest, FadedFigureWithoutBackgroundKeepsItsColours) {
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(faded[c], solid[c], 6);
 }
 
+TEST_F(FrameTest, TheStudiosWallIsBrightestBehindTheHeadAndEndsNowhere) {
+  scene_.studio = true;
+  state_.figure.enabled = false;
+  const Image wall = Draw();
+  const Pixel middle = At(wall, kWidth / 2, kHeight * 2 / 5);
+  for (const int x : {0, kWidth - 1}) {
+    for (const int y : {0, kHeight - 1}) EXPECT_LT(At(wall, x, y)[1] + 20, middle[1]);
+  }
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 1; x < kWidth; ++x) EXPECT_NEAR(At(wall, x, y)[1], At(wall, x - 1, y)[1], 3);
+  }
+  state_.figure.enabled = true;
+  state_.figure.alpha = 0;
+  EXPECT_EQ(Draw().rgba, wall.rgba) << "a faded figure leaves the wall";
+}
+
 TEST_F(FrameTest, PictureOfTheSameSizeIsShownPixelByPixel) {
   scene_.background_image = std::make_shared<const Image>(Pattern(kWidth, kHeight));
   state_.figure.enabled = false;

@@ -151,7 +151,7 @@ TEST(FrameReaderTest, FramesReadWhileOthersAreDrawnAreThoseReadAtOnce) {
 TEST(FrameReaderTest, BuffersHandOutWhatIsReadAtOnce) {
   const auto context = RenderContext::MakeHeadless(40, 30);
   const GlFunctions gl = GlFunctions::Load(*context);
-  Backdrop backdrop(gl);
+  Backdrop backdrop(gl, Appearance::BuiltIn());
   FrameReader buffered(gl, true), at_once(gl, false);
   GlTarget target(gl, 40, 30);
   std::vector<std::array<std::uint64_t, 2>> begun;
