@@ -140,7 +140,8 @@ std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotio
   for (const Line& line : TableLinesOf(text)) {
     const bool timing =
         !line.words.empty() && (line.words[0] == "posed" || line.words[0] == "elicited");
-    const std::string name = line.words.size() < 2 ? "" : line.words[timing ? 1 : 0];
+    const bool begins = line.words.size() > 2 && line.words[0] == "begins";
+    const std::string name = line.words.size() < 2 ? "" : line.words[timing || begins ? 1 : 0];
     const auto emotion = emotions.find(name);
     if (line.words.size() < 2) {
       rows.emplace_back(line.text, "");
@@ -153,6 +154,10 @@ std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotio
       const bool same = fsm::Table("", row).rows().front().words() == line.words;
       rows.emplace_back(same ? line.text : row + line.comment, "");
       timed.emplace_back(line.words[0], name);
+    } else if (begins) {
+      const auto pattern = fsm::ParseNumber(line.words[2]);
+      const auto count = static_cast<double>(emotion->second.patterns.size());
+      if (pattern && *pattern <= count) rows.emplace_back(line.text, name);
     } else {
       const std::size_t pattern = PatternOf(line);
       if (pattern == 0 || pattern > emotion->second.patterns.size()) continue;

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "fsm/base/table_reader.h"
 
 namespace fsm {
@@ -26,7 +29,38 @@ void ReadPattern(const TableRow& row, const UnitNames& names, EmotionTable& emot
   patterns.push_back(ReadUnits(row, 2, names));
 }
 
+void ReadBegins(const TableRow& row, const UnitNames& names, EmotionTable& emotions) {
+  Emotion& emotion = emotions[row.Name(1, "an emotion's name")];
+  const auto pattern = static_cast<std::size_t>(row.Number(2, "a pattern number", 1, 100));
+  if (pattern > emotion.patterns.size()) row.Fail("a pattern that stands above expected");
+  ActionUnits begins = ReadUnits(row, 3, names);
+  for (const Side side : kSides) {
+    for (const float from : begins.au[side]) {
+      if (from > 0.9F) row.Fail("strengths from 0 to 0.9 expected");
+    }
+    if (begins.gaze[side] != EyeAngles{}) row.Fail("action units expected, and no gaze");
+  }
+  emotion.begins.resize(emotion.patterns.size());
+  emotion.begins[pattern - 1] = std::move(begins);
+}
+
 }  // namespace
+
+ActionUnits Emotion::LookAt(int pattern, double strength) const {
+  const auto index = static_cast<std::size_t>(pattern - 1);
+  ActionUnits look;
+  AddTo(look, patterns[index], strength);
+  if (index >= begins.size()) return look;
+  for (const Side side : kSides) {
+    for (std::size_t i = 0; i < begins[index].au[side].size(); ++i) {
+      const double from = begins[index].au[side][i];
+      if (from == 0) continue;
+      look.au[side][i] = patterns[index].au[side][i] *
+                         static_cast<float>(std::max(0.0, strength - from) / (1 - from));
+    }
+  }
+  return look;
+}
 
 vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view text,
                                       const UnitNames& names) {
@@ -35,6 +69,8 @@ vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view 
     for (const TableRow& row : table.rows()) {
       if (row.key() == "posed" || row.key() == "elicited") {
         ReadTiming(row, emotions);
+      } else if (row.key() == "begins") {
+        ReadBegins(row, names, emotions);
       } else {
         ReadPattern(row, names, emotions);
       }

@@ -12,7 +12,9 @@ namespace fsm {
 
 /// An emotion: its looks by pattern number, and how it comes about.
 struct Emotion {
-  std::vector<ActionUnits> patterns;  ///< pattern 1 is patterns[0]
+  std::vector<ActionUnits> patterns;  ///< at full strength; pattern 1 is patterns[0]
+  /// Of each pattern, the strength from which on a unit takes part, 0..0.9: a slight smile is shut.
+  std::vector<ActionUnits> begins;
   /// How it comes about: ms from neutral to the peak, and by how much each part of the face begins
   /// later than the first.
   struct Timing {
@@ -21,6 +23,9 @@ struct Emotion {
   };
   Timing posed;     ///< shown on purpose
   Timing elicited;  ///< felt
+
+  /// What a pattern looks like at a strength. REQUIRES: there is that pattern.
+  ActionUnits LookAt(int pattern, double strength) const;
 };
 using EmotionTable = std::map<std::string, Emotion, std::less<>>;
 /// Looks of whole expressions by FaceExp's name and pattern number.

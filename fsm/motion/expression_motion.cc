@@ -58,10 +58,9 @@ vm::Result<void> ExpressionMotion::Show(vm::Time now, std::string_view name, int
   const Emotion& emotion = found->second;
   if (auto fits = CheckPattern(name, pattern, 1, emotion.patterns.size()); !fits) return fits;
   if (auto fits = CheckStrength(strength); !fits) return fits;
-  ActionUnits look;
-  AddTo(look, emotion.patterns[static_cast<std::size_t>(pattern - 1)], strength);
-  Plan(now, look, settings_.onset == Onset::kElicited ? emotion.elicited : emotion.posed,
-       OnsetOf(emotion), duration);
+  Plan(now, emotion.LookAt(pattern, strength),
+       settings_.onset == Onset::kElicited ? emotion.elicited : emotion.posed, OnsetOf(emotion),
+       duration);
   return {};
 }
 
@@ -174,7 +173,7 @@ void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
     frame.AddSignal("expression", std::min(1.0F, weight));
     const auto found = tables_.emotions.find(tables_.units.emotions[i]);
     if (found == tables_.emotions.end()) continue;
-    AddTo(frame.Layer("emotions").units, found->second.patterns[0], weight);
+    AddTo(frame.Layer("emotions").units, found->second.LookAt(1, weight), 1);
   }
 }
 

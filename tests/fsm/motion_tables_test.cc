@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <string>
 
 #include "fsm/motion/motion_reader.h"
 #include "tests/fsm/motion_support.h"
@@ -63,6 +65,29 @@ TEST(MotionTablesTest, ThereAreSixEmotionsAndUserdefWithFivePatterns) {
   }
   EXPECT_FLOAT_EQ(tables.emotions.at("HAPPY").patterns[0].au.left[12], 0.8f);
   EXPECT_DOUBLE_EQ(tables.emotions.at("HAPPY").posed.onset_ms, 556);
+}
+
+TEST(MotionTablesTest, AUnitThatBeginsLaterIsLeftOutBelowThatStrengthAndWholeAtFull) {
+  const auto emotions =
+      ReadEmotions("e.txt", "GLAD 1 12:0.8 25L:0.5\nbegins GLAD 1 25:0.4", UnitNames::BuiltIn());
+  ASSERT_TRUE(emotions) << emotions.error().text;
+  const Emotion& glad = emotions->at("GLAD");
+  EXPECT_FLOAT_EQ(glad.LookAt(1, 0.4).au.left[12], 0.32F);
+  EXPECT_FLOAT_EQ(glad.LookAt(1, 0.4).au.left[25], 0);
+  EXPECT_FLOAT_EQ(glad.LookAt(1, 0.7).au.left[25], 0.25F);
+  EXPECT_FLOAT_EQ(glad.LookAt(1, 1).au.left[25], 0.5F);
+  EXPECT_FLOAT_EQ(glad.LookAt(1, 1).au.right[25], 0);
+}
+
+TEST(MotionTablesTest, ADamagedRowOfBeginsIsReportedWithFileAndLine) {
+  for (const auto& [row, expected] : std::map<std::string, std::string>{
+           {"begins GLAD 2 25:0.4", "e.txt:2: a pattern that stands above expected"},
+           {"begins GLAD 1 25:0.95", "e.txt:2: strengths from 0 to 0.9 expected"},
+           {"begins GLAD 1 gaze:1,2", "e.txt:2: action units expected, and no gaze"}}) {
+    const auto read = ReadEmotions("e.txt", "GLAD 1 12:0.8\n" + row, UnitNames::BuiltIn());
+    ASSERT_FALSE(read) << row;
+    EXPECT_EQ(read.error().text, expected);
+  }
 }
 
 TEST(MotionTablesTest, FaceThirtyClosesTheEyes) {
