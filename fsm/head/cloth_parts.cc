@@ -1,7 +1,11 @@
 #include "fsm/head/cloth_parts.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <span>
 #include <vector>
 
 #include "fsm/base/random.h"
@@ -26,6 +30,19 @@ ClothRing ClothRingOf(const std::vector<float>& n) {
   return ring;
 }
 
+/// The collar keeps light off the skin beside it.
+void ShadeNeck(const Features& features, std::span<const glm::vec3> collar, std::size_t skin,
+               HeadMesh& mesh) {
+  const float reach = features("shirt_shade reach");
+  for (std::size_t i = 0; i < skin; ++i) {
+    float nearest = 1e9f;
+    for (const glm::vec3 q : collar)
+      nearest = std::min(nearest, glm::distance(mesh.position[i], q));
+    const float near = nearest / reach;
+    mesh.openness[i] *= 1 - features("shirt_shade dark") * std::exp(-near * near);
+  }
+}
+
 }  // namespace
 
 void BuildCloth(const Identity& identity, HeadMesh& mesh) {
@@ -34,7 +51,8 @@ void BuildCloth(const Identity& identity, HeadMesh& mesh) {
   // The first ring is row -1, the collar's foot 0.
   constexpr std::array kRows = {-1.0f, 0.0f, 0.75f, 1.0f, 2.2f, 2.26f, 2.32f,
                                 2.62f, 2.9f, 3.2f,  3.6f, 4.2f, 6.0f};
-  constexpr std::size_t kSeam = 5;
+  constexpr std::size_t kCollar = 2, kSeam = 5;
+  constexpr int kAround = 2 * kHalf + 1;
   std::vector<float> around_at, down_at;
   // Mirrored neighbours at both ends keep the surface smooth over the medians.
   for (int i = -1; i <= kPoints; ++i) around_at.push_back(static_cast<float>(i));
@@ -58,7 +76,7 @@ void BuildCloth(const Identity& identity, HeadMesh& mesh) {
     down.Weights(row, wd);
     float open = 0;
     for (std::size_t k = 0; k < rings.size(); ++k) open += wd[k] * rings[k].open;
-    for (int c = 0; c <= 2 * kHalf; ++c) {
+    for (int c = 0; c < kAround; ++c) {
       // From the back over the agent's left to the front, over the right and back again.
       const bool left = c <= kHalf;
       const int k = left ? kHalf - c : c - kHalf;
@@ -79,7 +97,9 @@ void BuildCloth(const Identity& identity, HeadMesh& mesh) {
           glm::clamp(open, 0.2f, 1.0f), Bone::kSkin, weights);
     }
   }
-  mesh.Grid(Material::kCloth, first, static_cast<int>(kRows.size()), 2 * kHalf + 1, true);
+  ShadeNeck(features, std::span(mesh.position).subspan(first + kCollar * kAround, kAround), first,
+            mesh);
+  mesh.Grid(Material::kCloth, first, static_cast<int>(kRows.size()), kAround, true);
 }
 
 }  // namespace fsm

@@ -238,8 +238,7 @@ class LongHair {
       const float i = glm::mix(0.005f, 1.0f, glm::mix(u * u, u, 0.4f));
       const float behind = SmoothStep(0.06f, 0.3f, i);
       for (int row = 0; row <= kRows; ++row) {
-        const float t =
-            glm::mix(kCap * glm::mix(0.1f, 0.6f, behind), kEnd, static_cast<float>(row) / kRows);
+        const float t = glm::mix(kCap * 0.6f * behind, kEnd, static_cast<float>(row) / kRows);
         const float inset =
             glm::mix(features_("long_lining face"), insets[static_cast<std::size_t>(row)], behind);
         const glm::vec3 p = Point(i, side, t, inset) + glm::vec3(0, Pointed(k, t), 0);

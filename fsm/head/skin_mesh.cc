@@ -81,6 +81,8 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
                       (1 - features("lip_wet less_aside") * features.Step("lip_wet aside", aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip_inside, features("lip_wet middle") * wet);
     paint.openness *= 1 - features("lip_wet shade") * wet;
+    // Corners lie deep.
+    paint.openness *= 1 - features("lip_corner shade") * features.Step("lip_corner aside", aside);
     // The lower lip rolls into the mouth: its edge is in its own shade.
     if (tag.lip_side < 0)
       paint.openness *= 1 - features("lip_wet lower_edge") * SmoothStep(0.3f, 0, tag.red);

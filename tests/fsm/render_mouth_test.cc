@@ -172,7 +172,7 @@ TEST(MouthPictureTest, FleshClosesTheCornersOfAnOpenMouth) {
       const glm::vec3 upper = picture.Lip(true, side * at), lower = picture.Lip(false, side * at);
       return picture.At({side * at, 0.5F * (upper.y + lower.y), upper.z});
     };
-    const glm::vec3 corner = between(x + 0.5F), inside = between(x - 5);
+    const glm::vec3 corner = between(x + 0.25F), inside = between(x - 5);
     EXPECT_GT(corner.r, 1.4F * inside.r) << side;
     EXPECT_GT(inside.r, 0.18F * kPhoto.r) << side << ": there is light within";
     EXPECT_GT(corner.r, 1.3F * corner.g) << side << ": it is red";

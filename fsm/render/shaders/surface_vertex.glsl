@@ -25,9 +25,9 @@ void main() {
   vec3 key = key_open * Wrapped(n_dot_l, wrap);
   // The lamp behind only reaches the outline: folds that face it are shut off by the head.
   float away = 1.0 - max(dot(n, v), 0.0);
+  vec3 behind = lamp_colours[2] * Wrapped(dot(n, lamp_directions[2]), wrap * 0.6);
   vec3 soft = Ambient(n) + lamp_colours[1] * Wrapped(dot(n, lamp_directions[1]), wrap) +
-              lamp_colours[2] * rim_on_skin * mix(rim_facing, rim_at_outline, smoothstep(0.25, 0.85, away)) *
-                  Wrapped(dot(n, lamp_directions[2]), wrap * 0.6);
+              behind * rim_on_skin * mix(rim_facing, rim_at_outline, smoothstep(0.25, 0.85, away));
   vec3 total = soft * open + key;
 
   vec3 h = normalize(lamp_directions[0] + v);
@@ -40,7 +40,7 @@ void main() {
   float g = max(dot(n, normalize(lamp_directions[1] + v)), 0.0);
   float g4 = g * g * g * g;
   shine.z = (lamp_colours[1].g * down_fill * g4 * g4 * g4 * g4 +
-             (lamp_colours[2].g * down_rim + Ambient(n).g * down_room) * away * away * away) *
+             (behind.g * down_rim + Ambient(n).g * down_room) * away * away * away) *
             openness * openness * sheen;
 
   light = Albedo() * total * (1.0 - crease_darkens * crease);
