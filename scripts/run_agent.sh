@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # Sets up and builds if needed, and runs an agent with voice and face. Installed as galatea-agent it runs the programs
 # beside it.
-set -euo pipefail
+set -Eeuo pipefail
+# No step ends it without a word. What fails in a subshell is told by the command that waits for it.
+trap '[ "$BASH_SUBSHELL" -gt 0 ] || echo "run_agent: ended in line $LINENO by the failure of: $BASH_COMMAND" >&2' ERR
 
 usage() {
   cat <<'TEXT'
@@ -443,22 +445,31 @@ printf '%s' "$(sed -e "0,/{/s#{#{\"listen\": [{\"at\": \"unix:$work/hub\", \"rol
 } >"$work/first"
 "$hub_program" --config "$work/dialogue.json" --no-console --do "$work/first" ${web:+--web "$web" --web-role owner} 2>"$work/hub.log" &
 hub=$!
-for _ in $(seq 100); do [ -S "$work/hub" ] && break; sleep 0.05; done
-[ -S "$work/hub" ] || { cat "$work/hub.log" >&2; fail "the hub did not start"; }
+# Waits until a command succeeds: as long as PROGRAM (a process) lives, 30 s at most.
+await() { # PROGRAM COMMAND...
+  for _ in $(seq 600); do
+    "${@:2}" && return 0
+    kill -0 "$1" 2>/dev/null || break
+    sleep 0.05
+  done
+  "${@:2}"
+}
+await "$hub" test -S "$work/hub" || { cat "$work/hub.log" >&2; fail "the hub did not start"; }
 if [ -n "$gateway" ]; then
   # A voice of its own, so that what other programs have it say is not heard here.
   "$bin/gateway" --at "tcp:127.0.0.1:$gateway" \
     ${mask:+--mask "$mask"} --voice "$bin/$voice" --sink null --clock virtual ${speaker:+--speaker "$speaker"} >"$work/gateway" &
   gateway_program=$!
-  for _ in $(seq 100); do [ -s "$work/gateway" ] && break; sleep 0.05; done
-  [ -s "$work/gateway" ] || fail "the gateway did not start"
+  await "$gateway_program" test -s "$work/gateway" || fail "the gateway did not start"
   address=$(cat "$work/gateway")
   echo "run_agent: lips at $address"
   address=${address/#ws:/http:}
   echo "run_agent: speech at ${address/v1\/mouth/v1/audio/speech}"
 fi
 if [ -n "$web" ]; then
-  address=$(grep -o 'http://[^ ]*' "$work/hub.log" | head -n 1)
+  # The hub says it after its socket is there.
+  await "$hub" grep -q 'http://[^ ]* *$' "$work/hub.log" || { cat "$work/hub.log" >&2; fail "the hub has not told the address of its page"; }
+  address=$(grep -o -m 1 'http://[^ ]*' "$work/hub.log")
   echo "run_agent: talk with it at $address"
   [ -n "$dialog" ] || echo "run_agent: ^C ends it"
   if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && command -v xdg-open >/dev/null; then
