@@ -42,6 +42,7 @@ usage: scripts/run_agent.sh [options]     (installed: galatea-agent [options])
                      tell it (scripts/text_languages.txt), and Japanese wherever the text is
   --stub             use the voice without sound and engine (ssm_stub)
   --config FILE      a configuration of the hub (docs/configuration.md) instead of examples/agents/
+  --version          which version of the toolkit this is
   --help             this text
 
 Without --say, --dialog, --voice and --out it is --chat.
@@ -54,12 +55,19 @@ if [ -d "$root/share/galatea/examples" ]; then
 else
   installed="" bin=$root/build/bin data=$root
 fi
-photo="" say="" emotion="" out="" config="" voice=ssm dialog="" script="" subtitles="" heard="" chat="" web="" model_url="" model="" key_file=""
+photo="" say="" says="" emotion="" out="" config="" voice=ssm dialog="" script="" subtitles="" heard="" chat="" web="" model_url="" model="" key_file=""
 gateway="" mask="" keep_face="" size="" speaker="" language=""
 started_in=$PWD
 fail() {
   echo "run_agent: $1" >&2
   exit 2
+}
+version() {
+  if [ -n "$installed" ]; then
+    "$bin/agent_manager" --version | sed 's/^agent_manager/galatea-agent/'
+  else
+    sed -n 's/^project(galatea VERSION \([0-9.]*\).*/run_agent (Galatea) \1/p' "$root/CMakeLists.txt"
+  fi
 }
 absolute() { case $1 in /*) echo "$1" ;; *) echo "$PWD/$1" ;; esac; }
 while [ $# -gt 0 ]; do
@@ -69,7 +77,7 @@ while [ $# -gt 0 ]; do
       [ $# -ge 2 ] || fail "$1 needs a value"
       case $1 in
         --photo) photo=$(absolute "$2") ;;
-        --say) say=$2 ;;
+        --say) say=$2 says=1 ;;
         --emotion) emotion=$2 ;;
         --out) out=$(absolute "$2") ;;
         --config) config=$(absolute "$2") ;;
@@ -101,14 +109,18 @@ while [ $# -gt 0 ]; do
     --stub) voice=ssm_stub; shift ;;
     --subtitles) subtitles=1; shift ;;
     --help | -h) usage; exit 0 ;;
-    *) usage >&2; fail "unknown option '$1'" ;;
+    --version) version; exit 0 ;;
+    *) fail "unknown option '$1'; --help lists them" ;;
   esac
 done
 case $say in *$'\n'*) say=${say//$'\n'/ } ;; esac
+[ -z "$says" ] || [[ $say =~ [^[:space:]] ]] || fail "--say: the text is empty"
 case $out in "" | *.mp4 | *.mov | *.webm | *.mkv) ;; *) fail "--out '$out': expected a name that ends in .mp4, .mov, .webm or .mkv" ;; esac
 case $subtitles$out in 1*.mov | 1*.webm | 1*.mkv) fail "--subtitles are put into .mp4 only; FILE.srt lies beside the film" ;; esac
 [ -z "$out" ] || [ -d "$(dirname "$out")" ] || fail "--out: there is no folder '$(dirname "$out")'"
 [ -z "$out" ] || [ -w "$(dirname "$out")" ] || fail "--out: the folder '$(dirname "$out")' cannot be written to"
+[ -z "$out" ] || [ ! -e "$out" ] || [ -f "$out" ] || fail "--out: '$out' is a folder or a device; expected the name of a file"
+[ -z "$out" ] || [ ! -e "$out" ] || [ -w "$out" ] || fail "--out: '$out' cannot be written to"
 [ -z "$photo" ] || [ -r "$photo" ] || fail "--photo: cannot read '$photo'"
 [ -z "$config" ] || [ -z "$photo$mask$size$speaker$language" ] ||
   fail "--config excludes --photo, --mask, --size, --speaker and --language: put them into the configuration"
@@ -117,11 +129,17 @@ case $subtitles$out in 1*.mov | 1*.webm | 1*.mkv) fail "--subtitles are put into
 for name in "$mask" "$keep_face" "$speaker"; do
   [[ $name =~ ^[A-Za-z0-9_.-]*$ ]] || fail "'$name': expected a name of letters, digits, - and _"
 done
-[[ -z $size || $size =~ ^[1-9][0-9]{1,3}x[1-9][0-9]{1,3}$ ]] || fail "--size '$size': expected WIDTHxHEIGHT, such as 640x480"
+[[ -z $size || $size =~ ^[1-9][0-9]*x[1-9][0-9]*$ ]] || fail "--size '$size': expected WIDTHxHEIGHT, such as 640x480"
+for side in ${size/x/ }; do  # kMaxImageSide of fsm
+  [ ${#side} -le 4 ] && [ "$side" -ge 16 ] && [ "$side" -le 8192 ] || fail "--size '$size': the face (fsm) is 16 to 8192 pixels wide and high"
+done
 [[ $language =~ ^[a-z]*(-[a-z]+)?$ ]] || fail "--language '$language': expected a code, such as en, ja or de"
 [ -z "$speaker$language" ] || [ -z "$heard" ] || fail "--speaker and --language are not for --voice, which has its own"
 [ -z "$config" ] || [ -r "$config" ] || fail "--config: cannot read '$config'"
-[ -z "$dialog" ] || [ -r "$dialog" ] || fail "--dialog: cannot read '$dialog'"
+{ [ -z "$dialog" ] || [ -r "$dialog" ]; } && [ ! -d "$dialog" ] || fail "--dialog: cannot read '$dialog'"
+# Whether it is correct is found by task_manager, which tells the place; a picture or a film needs no hub for its no.
+[ -z "$dialog" ] || tr -d '\000' <"$dialog" | LC_ALL=C grep -aE '<([A-Za-z_][A-Za-z0-9_.-]*:)?vxml([[:space:]/>]|$)' >/dev/null ||
+  fail "--dialog: '$dialog' is no VoiceXML document: it has no element <vxml>"
 [ -z "$script" ] || [ -r "$script" ] || fail "--script: cannot read '$script'"
 [ -z "$dialog" ] || [ -z "$say" ] || fail "--dialog and --say exclude each other"
 [ -n "$say$dialog$heard$out" ] || chat=1
@@ -274,6 +292,10 @@ if [ -n "$photo" ]; then
 elif [ -n "$mask" ]; then
   masks=$(asks MaskSet "$bin/fsm" --headless)
   [[ ,$masks, == *,"$mask",* ]] || fail "--mask '$mask': there is no such face; there are ${masks//,/ }"
+fi
+if [ "$heard" = mic ] && [ -z "$config" ]; then
+  error=$(echo "set Input = portaudio" | timeout 30 "$bin/vdm" --clock real 2>&1 >/dev/null | sed -n 's/^vdm: error: [A-Z_]* \(.*\) (in: .*/\1/p') || true
+  [ -z "$error" ] || fail "--voice mic: $error"
 fi
 if [ -n "$say" ] && [ -z "$language$speaker" ]; then
   language=$(python3 - "$data/scripts/text_languages.txt" "$say" <<'PYTHON'
@@ -485,7 +507,12 @@ if [ -n "$dialog" ]; then
   options=()
   [ -z "$script" ] || options+=(--script "$script" --transcript text)
   [ -z "$out" ] || options+=(--out "$out")
-  "$bin/task_manager" "$dialog" --connect "unix:$work/hub" "${options[@]}" || { cat "$work/hub.log" >&2; exit 1; }
+  "$bin/task_manager" "$dialog" --connect "unix:$work/hub" "${options[@]}" || {
+    ended=$?
+    # 2: the document could not be loaded, which it has said.
+    [ "$ended" = 2 ] || cat "$work/hub.log" >&2
+    exit "$ended"
+  }
   [ -z "$subtitles" ] || show_subtitles
   [ -z "$out" ] || echo "run_agent: wrote $out"
   exit 0

@@ -51,3 +51,41 @@ grep -q 'run_agent: the hub has not told the address of its page' "$work/said" |
 # ---- any other step that fails is named
 ! timeout 20 "$bin/galatea-agent" --say hello --mask galatea --out film.mp4 >"$work/said" 2>&1 || wrong "a face that fails is no error"
 grep -q 'run_agent: .*masks=' "$work/said" || wrong "it ended silently"
+
+# ---- what cannot be done is refused at the start, in one line
+refuses() { # LINE ARGUMENT...
+  local ended=0
+  timeout 20 "$bin/galatea-agent" "${@:2}" >"$work/said" 2>&1 || ended=$?
+  [ "$ended" = 2 ] || wrong "${*:2}: ended with $ended"
+  [ "$(cat "$work/said")" = "run_agent: $1" ] || wrong "${*:2}: expected one line, '$1'"
+}
+refuses "--say: the text is empty" --say ''
+refuses "--say: the text is empty" --say '   '
+mkdir folder.mp4
+refuses "--out: '$work/folder.mp4' is a folder or a device; expected the name of a file" --say hello --out folder.mp4
+refuses "--out: there is no folder '$work/nowhere'" --say hello --out nowhere/film.mp4
+sides=$(sed -n 's/^inline constexpr int kMaxImageSide = \([0-9]*\);/\1/p' "$root/fsm/image/image.h")
+for size in 9999x9999 15x480 640x$((sides + 1)) 99999999999999999999x480; do
+  refuses "--size '$size': the face (fsm) is 16 to $sides pixels wide and high" --say hello --size "$size"
+done
+refuses "--size 'large': expected WIDTHxHEIGHT, such as 640x480" --say hello --size large
+printf '\211PNG\0\1\2' >me.jpg
+refuses "--dialog: '$work/me.jpg' is no VoiceXML document: it has no element <vxml>" --dialog me.jpg
+refuses "--dialog: cannot read '$work/folder.mp4'" --dialog folder.mp4
+refuses "unknown option '--keep'; --help lists them" --keep
+program vdm <<'VDM'
+#!/bin/sh
+echo "vdm: error: UNAVAILABLE there is no microphone (in: set Input = portaudio)" >&2
+VDM
+refuses "--voice mic: there is no microphone" --voice mic
+
+# ---- a dialogue that cannot be loaded says so itself; what the hub says is no part of it
+printf '#!/bin/sh\necho "(error.badfetch: broken)"\nexit 2\n' | program task_manager
+! timeout 20 "$bin/galatea-agent" --dialog "$root/examples/dialogs/food_en.vxml" >"$work/said" 2>&1 || wrong "no error"
+! grep -q 'the page is at' "$work/said" || wrong "the hub's log is shown"
+
+# ---- as every program
+"$bin/galatea-agent" --help | grep -q '^usage: ' || wrong "--help fails"
+[ "$("$bin/galatea-agent" --version)" = "galatea-agent (Galatea) 1.2.3" ] || wrong "--version fails"
+version=$(sed -n 's/^project(galatea VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")
+[ "$("$root/scripts/run_agent.sh" --version)" = "run_agent (Galatea) $version" ] || wrong "--version fails in the source tree"
