@@ -472,6 +472,89 @@ TEST_F(WebPageTest, ATypedLineGoesToWhoAnswersAndTheLogHasWhatBothSay) {
   EXPECT_EQ(page->ReadLine(), "You Hello there Galatea Good day.");
 }
 
+TEST_F(WebPageTest, AnAnswerIsReadWhereTheVoiceIsAwayAndNobodyToAnswerIsNamed) {
+  const auto page = Browse(
+      {Tell("here"), "wait:document.querySelector('#way').dataset.text == 'way_chat'",
+       "do:galatea.hub.send('to @AM set Stop = SSM')",
+       "wait:document.querySelector('#way').dataset.text == 'way_chat_silent'", Type("Hello"),
+       "wait:document.querySelector('#log').innerText.includes('Be well.')", Tell("read"),
+       "wait:document.querySelector('#way').dataset.text == 'way_no_chat'", Type("Still there?"),
+       "print:document.querySelector('#log').innerText.replace(/\\s+/g, ' ')",
+       "print:document.querySelector('#text').value"});
+  ASSERT_TRUE(hub_->Expect("tell here")) << page->ErrorText();
+  auto chat = SocketClient::Unix(folder_ / "hub");
+  chat->WriteLine("to @AM set Name = CHAT");
+  chat->WriteLine("rep Run = LIVE");
+  ASSERT_TRUE(chat->Expect("inq Listen")) << page->ErrorText();
+  chat->WriteLine("rep Listen = ON");
+  ASSERT_TRUE(chat->Expect("Input.text = Hello")) << page->ErrorText() << chat->Seen();
+  for (const char* line : {"rep Busy = THINKING", "rep Reply.sentence = Good day.",
+                           "rep Say.error = UNAVAILABLE the voice @SSM is not there",
+                           "rep Reply.sentence = Be well.", "rep Busy = IDLE"})
+    chat->WriteLine(line);
+  ASSERT_TRUE(hub_->Expect("tell read")) << page->ErrorText();
+  chat.reset();
+  EXPECT_EQ(page->Wait(support::Millis(120000)), 0) << page->ErrorText() << hub_->ErrorText();
+  EXPECT_EQ(
+      page->ReadLine(),
+      "You Hello Galatea Good day. The voice (module SSM) is not there: answers can only be "
+      "read. Galatea Be well. You Still there? Nobody answers: the module CHAT is not there.");
+}
+
+TEST_F(WebPageTest, AVoiceThatDiesInTheMiddleLeavesTheWholeAnswerToRead) {
+  const auto page =
+      Browse({Tell("here"), "wait:document.querySelector('#way').dataset.text == 'way_chat'",
+              Type("Hello"), "wait:document.querySelector('#subtitle').textContent == 'Good day.'",
+              "do:galatea.hub.send('to @AM set Stop = SSM')",
+              "wait:document.querySelector('#way').dataset.text == 'way_chat_silent'", Tell("gone"),
+              "wait:document.querySelector('#log').innerText.includes('Be well.')",
+              "print:document.querySelector('#log').innerText.replace(/\\s+/g, ' ')"});
+  ASSERT_TRUE(hub_->Expect("tell here")) << page->ErrorText();
+  const auto chat = SocketClient::Unix(folder_ / "hub");
+  chat->WriteLine("to @AM set Name = CHAT");
+  chat->WriteLine("rep Run = LIVE");
+  ASSERT_TRUE(chat->Expect("inq Listen")) << page->ErrorText();
+  chat->WriteLine("rep Listen = ON");
+  ASSERT_TRUE(chat->Expect("Input.text = Hello")) << page->ErrorText() << chat->Seen();
+  for (const char* line : {"rep Busy = THINKING", "rep Reply.sentence = Good day.",
+                           "to @SSM set Tell = rep Speak.text = Good day.",
+                           "to @SSM set Tell = rep Speak.stat = SPEAKING"})
+    chat->WriteLine(line);
+  ASSERT_TRUE(hub_->Expect("tell gone")) << page->ErrorText();
+  for (const char* line : {"rep Say.error = UNAVAILABLE @SSM has gone in the middle of it",
+                           "rep Reply.sentence = Be well.", "rep Busy = IDLE"})
+    chat->WriteLine(line);
+  EXPECT_EQ(page->Wait(support::Millis(120000)), 0) << page->ErrorText() << hub_->ErrorText();
+  EXPECT_EQ(page->ReadLine(),
+            "You Hello Galatea Good day. The voice (module SSM) is not there: answers can only be "
+            "read. Galatea Be well.");
+}
+
+TEST_F(WebPageTest, WhatIsTypedAsSoonAsThePageIsConnectedWaitsUntilItKnowsWhoIsThere) {
+  const auto chat = SocketClient::Unix(folder_ / "hub");
+  chat->WriteLine("to @AM set Name = CHAT");
+  chat->WriteLine("rep Run = LIVE");
+  const auto page =
+      Browse({"wait:document.querySelector('#way').dataset.text == 'way_chat'",
+              "do:new MutationObserver(() => { if "
+              "(document.querySelector('#link.on') && !window.said) { window.said = "
+              "document.querySelector('#way').dataset.text; " +
+                  Type("Early").substr(3) +
+                  "} }).observe(document.querySelector('#link'), {attributes: true}); "
+                  "galatea.hub.socket.close()",
+              "wait:window.said", "wait:document.querySelector('#log').innerText.includes('Early')",
+              "print:window.said",
+              "print:document.querySelector('#log').innerText.replace(/\\s+/g, ' ')"});
+  for (int visit = 0; visit < 2; ++visit) {
+    ASSERT_TRUE(chat->Expect("inq Listen")) << page->ErrorText();
+    chat->WriteLine("rep Listen = ON");
+  }
+  EXPECT_TRUE(chat->Expect("Input.text = Early")) << page->ErrorText() << chat->Seen();
+  EXPECT_EQ(page->Wait(support::Millis(120000)), 0) << page->ErrorText() << hub_->ErrorText();
+  EXPECT_NE(page->ReadLine(), "way_chat") << "it was typed before the module was known";
+  EXPECT_EQ(page->ReadLine(), "You Early");
+}
+
 TEST_F(WebPageTest, WhatHasGoneSaysSoAndWhatComesBackIsAsItWasChosen) {
   const auto page = Browse(
       {"wait:document.querySelector('#face').width === 16 && "

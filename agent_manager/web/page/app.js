@@ -49,7 +49,10 @@ $('subtitles').onclick = () => {
   $('subtitles').setAttribute('aria-pressed', String(on));
 };
 $('full').onclick = () => $('stage').requestFullscreen().catch(() => {});
-if (matchMedia('(max-width: 700px)').matches) $('settings').open = false;
+// Where there is little room the pickers fold, so that log and buttons stay in view; also when the room becomes less.
+const narrow = matchMedia('(max-width: 900px)');
+narrow.onchange = () => { $('settings').open = !narrow.matches; };
+narrow.onchange();
 
 // ---- the parts
 const pickers = new Pickers(hub, presence, {
@@ -71,8 +74,9 @@ async function askSink() {
 }
 presence.onCome = name => {
   if (name === 'SSM') askSink();
-  for (const part of parts) part.come(name);
+  return Promise.all(parts.map(part => part.come(name)));
 };
+presence.onLook = () => conversation.look();
 presence.onGo = name => { for (const part of parts) part.go(name); };
 hub.onReport = report => {
   presence.hear(report);

@@ -3,6 +3,7 @@ import {element, put, text} from './texts.js';
 
 const kMostLines = 300;
 const kSameMs = 20000;  // within which what was typed is heard
+const kMostHeldMs = 15000, kLookAgainMs = 500;  // a line waits so long for modules that are being started
 
 export class Conversation {
   // `nodes`: log, subtitle, status, form, input, stop, way.
@@ -10,8 +11,13 @@ export class Conversation {
     Object.assign(this, {hub, presence, nodes, voice, delay});
     this.sentence = '';     // what the voice has prepared
     this.speaking = null;   // its line in the log
+    this.unsaid = '';       // the sentence of the answer that has not sounded yet
+    this.read = null;       // the last one that could only be read, and its line
+    this.mute = false;      // the voice has failed in this answer
+    this.told_away = false; // that the voice is not there
     this.listening = false; // the ear
     this.chat_listens = true;
+    this.held = [];         // [when, text] of what was typed before the modules were known
     this.typed = [];        // [when, text] of what is in the log already
     nodes.form.onsubmit = event => {
       event.preventDefault();
@@ -47,6 +53,7 @@ export class Conversation {
   // ---- what is said to the agent
   get way() {
     if (this.presence.has('CHAT') && this.chat_listens) return 'chat';
+    if (this.presence.lacks('CHAT') && !this.presence.has('DM')) return this.presence.isComing('CHAT') ? 'coming' : 'no_chat';
     if (this.presence.has('SRM') && this.listening) return 'ear';
     if (this.presence.has('CHAT')) return 'chat';
     return this.presence.has('SSM') ? 'voice' : 'none';
@@ -55,20 +62,47 @@ export class Conversation {
     const {input, way} = this.nodes;
     input.dataset.hint = `hint_${this.way}`;
     input.placeholder = text(input.dataset.hint);
-    put(way, `way_${this.way}`);
+    put(way, this.way === 'chat' && this.presence.lacks('SSM') ? 'way_chat_silent' : `way_${this.way}`);
   }
   send() {
     const words = this.nodes.input.value.trim();
     if (!words) return;
     this.voice.allow();
-    const line = {chat: 'to @CHAT set Input.text', ear: 'to @SRM set Input.text', voice: 'to @AM-MCL set Speak'}[this.way];
-    if (!line || !this.hub.on) return this.fail(text(this.hub.on ? 'way_none' : 'away'));
-    if (this.way !== 'voice') this.hearUser(words);
+    if (!this.hub.on) return this.fail(text('away'));
     this.nodes.input.value = '';
+    this.held.push([performance.now(), words]);
+    this.sayHeld();
+  }
+  // What was typed waits until it is known who is there, and for who is being started.
+  sayHeld() {
+    while (this.hub.on && this.presence.known && this.held.length > 0) {
+      const [when, words] = this.held[0];
+      const coming = ['CHAT', 'SRM', 'SSM'].some(name => this.presence.isComing(name));
+      if (this.way !== 'chat' && coming && performance.now() - when < kMostHeldMs) {
+        put(this.nodes.status, 'starting');
+        clearTimeout(this.again);
+        this.again = setTimeout(() => this.presence.look(), kLookAgainMs);
+        return;
+      }
+      this.held.shift();
+      this.say(words);
+    }
+    if (this.held.length === 0 && this.nodes.status.dataset.text === 'starting') this.clearStatus();
+  }
+  say(words) {
+    const {way} = this;
+    const line = {chat: 'to @CHAT set Input.text', ear: 'to @SRM set Input.text', voice: 'to @AM-MCL set Speak'}[way];
+    if (way !== 'voice') this.hearUser(words);
+    if (!line) return this.fail(text(`way_${way}`));
     // Chat answers when the reply is over; that it was stopped is no failure.
     this.hub.ask(`${line} = ${words}`, 'u').catch(error => {
-      if (!error.message.startsWith('STOPPED')) this.fail(error.message);
+      if (error.message.startsWith('STOPPED')) return;
+      this.fail(way === 'chat' && !this.presence.has('CHAT') ? text('way_no_chat') : error.message);
     });
+  }
+  clearStatus() {
+    delete this.nodes.status.dataset.text;
+    this.nodes.status.replaceChildren();
   }
   stop() {
     this.voice.stop();
@@ -92,7 +126,16 @@ export class Conversation {
     }
     if ((from === 'SRM' && slot === 'Result') || (from === 'CHAT' && slot === 'Heard')) this.hearOnce(value);
     if (from !== 'CHAT') return;
-    if (slot === 'Busy') value === 'THINKING' ? put(this.nodes.status, 'thinking') : this.nodes.status.replaceChildren();
+    if (slot === 'Busy') value === 'THINKING' ? put(this.nodes.status, 'thinking') : this.clearStatus();
+    if (slot === 'Busy' && value === 'THINKING') this.mute = false;
+    if (slot === 'Reply.sentence') {
+      this.unsaid = value;
+      if (this.mute || this.presence.lacks('SSM')) this.showUnsaid();
+    }
+    if (slot === 'Say.error') {
+      this.mute = true;
+      this.showUnsaid(value);
+    }
     if (slot === 'Model.error') this.fail(text('model_error', {why: value}));
     if (slot === 'Listen') {
       this.chat_listens = value === 'ON';
@@ -105,6 +148,17 @@ export class Conversation {
     if (this.typed.some(([when, same]) => same === words && now - when < kSameMs)) return;
     this.hearUser(words);
   }
+  // An answer the voice does not say can still be read; that it does not is said once while it is away.
+  showUnsaid(why) {
+    if (this.unsaid) this.read = {words: this.unsaid, line: this.add('agent', this.unsaid)};
+    this.unsaid = '';
+    if (this.presence.has('SSM')) {
+      if (why) this.fail(text('voice_failed', {why}));
+    } else if (!this.told_away) {
+      this.told_away = true;
+      this.fail(text('voice_away'));
+    }
+  }
   hearVoice(slot, value) {
     if (slot === 'Speak.text') this.sentence = value;
     if (slot === 'Speak.dur') this.length_ms = Number(value);
@@ -115,14 +169,21 @@ export class Conversation {
     }
     if (slot !== 'Speak.stat') return;
     const sentence = value === 'SPEAKING' ? this.sentence : '';
-    if (sentence && !this.speaking) this.speaking = this.add('agent', sentence);
+    if (sentence && !this.speaking)
+      this.speaking = this.read?.words === sentence ? this.read.line : this.add('agent', sentence);
+    if (sentence) this.unsaid = '', this.read = null, this.mute = false;
     if (value === 'IDLE') this.speaking = null;
     // As late as the voice is heard.
     if (value === 'SPEAKING' || value === 'IDLE')
       setTimeout(() => { this.nodes.subtitle.textContent = sentence; }, this.delay.ms);
   }
 
+  look() {
+    this.showWay();
+    this.sayHeld();
+  }
   async come(name) {
+    if (name === 'SSM') this.told_away = false;
     if (name === 'SRM') {
       const stat = await this.hub.ask('to @SRM inq Listen.stat').catch(() => 'OFF');
       this.listening = stat !== 'OFF';
@@ -136,7 +197,7 @@ export class Conversation {
       this.nodes.subtitle.textContent = '';
     }
     if (name === 'SRM') this.listening = false;
-    if (name === 'CHAT') this.nodes.status.replaceChildren();
+    if (name === 'CHAT') this.clearStatus();
     this.showWay();
   }
 }
