@@ -555,6 +555,25 @@ TEST_F(WebPageTest, WhatIsTypedAsSoonAsThePageIsConnectedWaitsUntilItKnowsWhoIsT
   EXPECT_EQ(page->ReadLine(), "You Early");
 }
 
+TEST_F(WebPageTest, OnANarrowPageThePickersFoldAndLogAndButtonsStayInView) {
+  const std::string settle = "do:new Promise(done => setTimeout(done, 300))";
+  const std::string seen =
+      "print:['#log', '#text', '#microphone'].every(each => "
+      "document.querySelector(each).getBoundingClientRect().bottom <= innerHeight) + ' ' + "
+      "document.querySelector('#settings').open";
+  const auto page =
+      Browse({"size:1280x850", settle, seen, "size:400x850", settle, seen, "size:820x850", settle,
+              seen, "do:document.querySelector('#settings summary').click()", settle,
+              "print:document.querySelector('#pick-face').checkVisibility()", "size:1280x850",
+              settle, seen});
+  EXPECT_EQ(page->Wait(support::Millis(60000)), 0) << page->ErrorText() << hub_->ErrorText();
+  EXPECT_EQ(page->ReadLine(), "true true");
+  EXPECT_EQ(page->ReadLine(), "true false");
+  EXPECT_EQ(page->ReadLine(), "true false");
+  EXPECT_EQ(page->ReadLine(), "True") << "they can be unfolded";
+  EXPECT_EQ(page->ReadLine(), "true true");
+}
+
 TEST_F(WebPageTest, WhatHasGoneSaysSoAndWhatComesBackIsAsItWasChosen) {
   const auto page = Browse(
       {"wait:document.querySelector('#face').width === 16 && "
