@@ -34,7 +34,7 @@ install(FILES examples/lamp_module.py examples/typed_chat.py DESTINATION ${CMAKE
 install(PROGRAMS scripts/run_agent.sh DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME galatea-agent COMPONENT programs)
 install(PROGRAMS scripts/face_networks.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/scripts COMPONENT programs)
 install(FILES scripts/text_languages.txt DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/scripts COMPONENT programs)
-install(PROGRAMS scripts/subtitles.py DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/scripts COMPONENT programs)
+install(PROGRAMS scripts/subtitles.py scripts/web_dialog.py DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/scripts COMPONENT programs)
 # The example finds the package beside its folder; pip installs it from there for everything else.
 install(DIRECTORY python DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea COMPONENT programs
   PATTERN __pycache__ EXCLUDE)

@@ -15,7 +15,8 @@ usage: scripts/run_agent.sh [options]     (installed: galatea-agent [options])
   --chat             talk with the agent, typed at the terminal: it answers by rules, offline (docs/chat.md).
                      With --out a film is made of it, with the user's part from --script FILE, a line a turn
   --web [PORT]       talk with the agent in a browser, with its voice there: opens the page, and prints its address
-                     (docs/configuration.md, The page). With --dialog the dialogue is held there. Port 8080 without one
+                     (docs/configuration.md, The page). With --dialog the dialogue is held there, from when the page is open.
+                     Port 8080 without one
   --model-url URL    with --chat, --web, or a dialogue that hands over to conversation: a language model answers, asked
                      at URL (any OpenAI-compatible endpoint)
   --model NAME       its name there
@@ -241,9 +242,9 @@ else
 fi
 
 work=$(mktemp -d)
-hub="" gateway_program=""
+hub="" gateway_program="" dialog_program=""
 cleanup() {
-  for program in $hub $gateway_program; do
+  for program in $hub $gateway_program $dialog_program; do
     kill "$program" 2>/dev/null || true
     wait "$program" 2>/dev/null || true
   done
@@ -493,16 +494,21 @@ if [ -n "$web" ]; then
   await "$hub" grep -q 'http://[^ ]* *$' "$work/hub.log" || { cat "$work/hub.log" >&2; fail "the hub has not told the address of its page"; }
   address=$(grep -o -m 1 'http://[^ ]*' "$work/hub.log")
   echo "run_agent: talk with it at $address"
-  [ -n "$dialog" ] || echo "run_agent: ^C ends it"
+  if [ -n "$dialog" ]; then
+    # As often as the page asks for it, first when it is opened.
+    "$data/scripts/web_dialog.py" --connect "unix:$work/hub" --name DIALOG -- \
+      "$bin/task_manager" "$dialog" --connect "unix:$work/hub" <&0 &
+    dialog_program=$!
+    echo "run_agent: the dialogue begins when the page is open"
+  fi
+  echo "run_agent: ^C ends it"
   if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && command -v xdg-open >/dev/null; then
     xdg-open "$address" >/dev/null 2>&1 </dev/null || true
   fi
-  if [ -z "$dialog" ]; then
-    wait "$hub" || { cat "$work/hub.log" >&2; exit 1; }
-    exit 0
-  fi
+  wait "$hub" || { cat "$work/hub.log" >&2; exit 1; }
+  exit 0
 fi
-[ -n "$out$web" ] || has_display || echo "run_agent: no display, so no window; --out FILE.mp4 makes films" >&2
+[ -n "$out" ] || has_display || echo "run_agent: no display, so no window; --out FILE.mp4 makes films" >&2
 if [ -n "$dialog" ]; then
   options=()
   [ -z "$script" ] || options+=(--script "$script" --transcript text)

@@ -555,6 +555,25 @@ TEST_F(WebPageTest, WhatIsTypedAsSoonAsThePageIsConnectedWaitsUntilItKnowsWhoIsT
   EXPECT_EQ(page->ReadLine(), "You Early");
 }
 
+TEST_F(WebPageTest, ADialogueBeginsWithThePageAndCanBeStartedAgain) {
+  Process dialog({GALATEA_SOURCE_DIR "/scripts/web_dialog.py", "--connect",
+                  "unix:" + (folder_ / "hub"), "--name", "DIALOG", "--", "sh", "-c",
+                  "echo begun; sleep 1"});
+  const auto page =
+      Browse({"wait:!document.querySelector('#again').hidden",
+              "do:document.querySelector('#again').click()",
+              "wait:document.querySelector('#again').hidden",
+              "wait:!document.querySelector('#again').hidden", Type("Hello"),
+              "print:document.querySelector('#log').innerText.replace(/\\s+/g, ' ')"});
+  EXPECT_TRUE(dialog.Expect("begun")) << dialog.ErrorText();
+  EXPECT_TRUE(dialog.Expect("run_agent: the dialogue is over")) << dialog.ErrorText();
+  EXPECT_TRUE(dialog.Expect("begun")) << "again";
+  EXPECT_EQ(page->Wait(support::Millis(60000)), 0) << page->ErrorText() << hub_->ErrorText();
+  EXPECT_EQ(page->ReadLine(),
+            "The dialogue is over. The dialogue is over. You Hello The dialogue is over: nobody "
+            "listens.");
+}
+
 TEST_F(WebPageTest, OnANarrowPageThePickersFoldAndLogAndButtonsStayInView) {
   const std::string settle = "do:new Promise(done => setTimeout(done, 300))";
   const std::string seen =

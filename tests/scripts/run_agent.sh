@@ -21,7 +21,7 @@ program() { cat >"$bin/$1" && chmod +x "$bin/$1"; }
 # The hub: its socket is there a second before it tells the address of its page, if it tells it.
 program agent_manager <<'HUB'
 #!/usr/bin/env python3
-import os, signal, socket, sys, re, time
+import os, re, signal, socket, sys, time
 if "--version" in sys.argv:
     print("agent_manager (Galatea) 1.2.3")
     sys.exit()
@@ -89,3 +89,12 @@ printf '#!/bin/sh\necho "(error.badfetch: broken)"\nexit 2\n' | program task_man
 [ "$("$bin/galatea-agent" --version)" = "galatea-agent (Galatea) 1.2.3" ] || wrong "--version fails"
 version=$(sed -n 's/^project(galatea VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")
 [ "$("$root/scripts/run_agent.sh" --version)" = "run_agent (Galatea) $version" ] || wrong "--version fails in the source tree"
+
+# ---- a dialogue in the browser waits for the page, which can start it again
+timeout 20 "$bin/galatea-agent" --web --dialog "$root/examples/dialogs/food_en.vxml" </dev/null >"$work/said" 2>&1 &
+agent=$!
+for _ in $(seq 100); do grep -q '\^C ends it' "$work/said" && break; sleep 0.1; done
+grep -q 'the dialogue begins when the page is open' "$work/said" || wrong "a dialogue in the browser does not wait for the page"
+! grep -q 'badfetch' "$work/said" || wrong "the dialogue has begun before a page was open"
+kill "$agent"
+wait "$agent" 2>/dev/null || true

@@ -60,7 +60,7 @@ const pickers = new Pickers(hub, presence, {
   strength: $('pick-strength'), strength_value: $('strength'), canvas: $('face'),
 }, why => conversation.fail(why));
 const conversation = new Conversation(hub, presence, {
-  log: $('log'), subtitle: $('subtitle'), status: $('status'), form: $('speak'), input: $('text'), stop: $('hush'), way: $('way'),
+  log: $('log'), subtitle: $('subtitle'), status: $('status'), form: $('speak'), input: $('text'), stop: $('hush'), way: $('way'), again: $('again'),
 }, {voice, delay});
 const listening = new Listening(hub, presence, {button: $('microphone'), state: $('microphone-state')});
 const engineer = new Engineer(hub);

@@ -6,7 +6,7 @@ const kSameMs = 20000;  // within which what was typed is heard
 const kMostHeldMs = 15000, kLookAgainMs = 500;  // a line waits so long for modules that are being started
 
 export class Conversation {
-  // `nodes`: log, subtitle, status, form, input, stop, way.
+  // `nodes`: log, subtitle, status, form, input, stop, way, again.
   constructor(hub, presence, nodes, {voice, delay}) {
     Object.assign(this, {hub, presence, nodes, voice, delay});
     this.sentence = '';     // what the voice has prepared
@@ -17,6 +17,7 @@ export class Conversation {
     this.told_away = false; // that the voice is not there
     this.listening = false; // the ear
     this.chat_listens = true;
+    this.dialog = '';       // what @DIALOG is at, where there is one
     this.held = [];         // [when, text] of what was typed before the modules were known
     this.typed = [];        // [when, text] of what is in the log already
     nodes.form.onsubmit = event => {
@@ -24,6 +25,10 @@ export class Conversation {
       this.send();
     };
     nodes.stop.onclick = () => this.stop();
+    nodes.again.onclick = () => {
+      this.voice.allow();
+      this.startDialog('u');
+    };
     document.addEventListener('keydown', event => {
       if (event.key === 'Escape' && !document.fullscreenElement && !nodes.form.closest('[hidden]')) this.stop();
     });
@@ -38,7 +43,7 @@ export class Conversation {
   add(who, words) {
     const at_end = who === 'you' || this.at_end;
     const line = element('p', {className: who});
-    if (who !== 'note') {
+    if (who === 'you' || who === 'agent') {
       const name = element('b');
       put(name, who);
       line.append(name, ' ');
@@ -52,6 +57,7 @@ export class Conversation {
 
   // ---- what is said to the agent
   get way() {
+    if (this.presence.has('DIALOG') && this.dialog !== 'RUNNING') return this.dialog === 'WAITING' ? 'coming' : 'dialog';
     if (this.presence.has('CHAT') && this.chat_listens) return 'chat';
     if (this.presence.lacks('CHAT') && !this.presence.has('DM')) return this.presence.isComing('CHAT') ? 'coming' : 'no_chat';
     if (this.presence.has('SRM') && this.listening) return 'ear';
@@ -117,9 +123,21 @@ export class Conversation {
   }
   fail(why) { this.add('note', why); }
 
+  // ---- a dialogue that is held here (scripts/web_dialog.py): it begins with the first page, and again when it is asked to
+  startDialog(who) { this.hub.ask('to @DIALOG set Dialog = START', who).catch(error => this.fail(error.message)); }
+  showDialog(state) {
+    const was = this.dialog;
+    this.dialog = state;
+    const over = {OVER: 'dialog_over', FAILED: 'dialog_failed'}[state];
+    this.nodes.again.hidden = !over;
+    if (over && was !== state) this.add('event', text(over));
+    this.showWay();
+  }
+
   // ---- what the modules report
   hear({from, slot, value}) {
     if (from === 'SSM') this.hearVoice(slot, value);
+    if (from === 'DIALOG' && slot === 'Dialog') this.showDialog(value);
     if (from === 'SRM' && slot === 'Listen.stat') {
       this.listening = value !== 'OFF';
       this.showWay();
@@ -188,6 +206,10 @@ export class Conversation {
       const stat = await this.hub.ask('to @SRM inq Listen.stat').catch(() => 'OFF');
       this.listening = stat !== 'OFF';
     }
+    if (name === 'DIALOG') {
+      this.showDialog(await this.hub.ask('to @DIALOG inq Dialog').catch(() => ''));
+      if (this.dialog === 'WAITING') this.startDialog('w');
+    }
     if (name === 'CHAT') this.chat_listens = (await this.hub.ask('to @CHAT inq Listen').catch(() => 'ON')) === 'ON';
     this.showWay();
   }
@@ -198,6 +220,9 @@ export class Conversation {
     }
     if (name === 'SRM') this.listening = false;
     if (name === 'CHAT') this.clearStatus();
+    if (name === 'DIALOG') this.showDialog('');
+    // One that somebody else holds.
+    if (name === 'DM' && this.hub.on && !this.presence.has('DIALOG')) this.add('event', text('dialog_over'));
     this.showWay();
   }
 }
