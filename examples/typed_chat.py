@@ -40,7 +40,7 @@ class Conversation:
         self.await_start()
         for line in ("to @AM set Name = TYPED", "to @AM set Subscribe = CHAT",
                      "to @FSM set FaceExp.onset = NATURAL", "to @CHAT set#talk Talk = 1000 0",
-                     "to @CHAT set#hello Say = [happy 90] Hello! I am Galatea. Please type something to me."):
+                     "to @CHAT set#hello Say = [happy 90] Welcome! Please type something to me."):
             self.send(line)
 
     def send(self, line):
