@@ -120,7 +120,12 @@ void ModuleClocks::EndProbes(const std::set<PeerKey>& modules) {
     // One that has said nothing at all yet may still be starting, on a busy machine.
     if (!peer->spoken && ++peer->probe.silent_rounds < kSilentRounds) continue;
     outbox_.Notice("@" + peer->name +
-                   " does not know the slot Clock: it is spoken to as a module of the original");
+                   " has no slot Clock: it works, but by this machine's time, so what it does in a "
+                   "film is not placed exactly. To be exact it needs that slot (docs/protocol.md, "
+                   "Time; modules made with our libraries have it)" +
+                   (peer->configured ? "; where this is enough, \"dialect\": \"original\" in its "
+                                       "configuration spares the wait for it"
+                                     : ""));
     peer->probe.probing = false;
     peer->dialect = Dialect::kOriginal;
     requests_.Forget(*peer);
