@@ -103,7 +103,9 @@ export class Conversation {
     // Chat answers when the reply is over; that it was stopped is no failure.
     this.hub.ask(`${line} = ${words}`, 'u').catch(error => {
       if (error.message.startsWith('STOPPED')) return;
-      this.fail(way === 'chat' && !this.presence.has('CHAT') ? text('way_no_chat') : error.message);
+      // The refusal may be here before the news that the module has gone.
+      const gone = way === 'chat' && /@CHAT has gone|there is no @CHAT/.test(error.message);
+      this.fail(gone ? text('way_no_chat') : error.message);
     });
   }
   clearStatus() {
