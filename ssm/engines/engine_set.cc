@@ -168,7 +168,18 @@ std::size_t EngineSet::VoiceFor(const std::string& language, std::size_t base) c
   return found;
 }
 
-std::vector<EngineSet::Run> EngineSet::Runs(const std::vector<SpeechSpan>& spans) const {
+std::string EngineSet::LanguageOfIdeographs(const std::vector<SpeechSpan>& spans) const {
+  Ideographs all;
+  for (const SpeechSpan& span : spans) {
+    const Ideographs found = FindIdeographs(span.text);
+    all.kana = all.kana || found.kana;
+    all.beyond_japanese = all.beyond_japanese || found.beyond_japanese;
+  }
+  return all.beyond_japanese && !all.kana && Speaks("zh") ? "zh" : "ja";
+}
+
+std::vector<EngineSet::Run> EngineSet::Runs(const std::vector<SpeechSpan>& spans,
+                                            const std::string& ideographs) const {
   std::vector<Run> runs;
   const auto add = [&](SpeechSpan span, std::size_t voice, bool joined) {
     const std::size_t engine = engine_of_[voice];
@@ -183,9 +194,9 @@ std::vector<EngineSet::Run> EngineSet::Runs(const std::vector<SpeechSpan>& spans
   std::string before;  // what was said last, if nothing parts it from what follows
   for (const SpeechSpan& span : spans) {
     const std::size_t base = IndexOf(span.voice);
-    std::vector<LanguageRun> pieces = span.language.empty()
-                                          ? SplitLanguages(span.text, voices_[base].language)
-                                          : SplitAsked(span.text, PrimaryLanguage(span.language));
+    std::vector<LanguageRun> pieces =
+        span.language.empty() ? SplitLanguages(span.text, voices_[base].language, ideographs)
+                              : SplitAsked(span.text, PrimaryLanguage(span.language));
     if (span.pause_before.count() > 0 || span.begins_sentence) before.clear();
     if (!span.audio.empty() || pieces.empty()) {
       add(span, base, false);
@@ -207,7 +218,7 @@ std::vector<EngineSet::Run> EngineSet::Runs(const std::vector<SpeechSpan>& spans
 }
 
 bool EngineSet::Prompt(const std::vector<SpeechSpan>& spans) const {
-  const std::vector<Run> runs = Runs(spans);
+  const std::vector<Run> runs = Runs(spans, LanguageOfIdeographs(spans));
   return std::all_of(runs.begin(), runs.end(), [this](const Run& run) {
     return run.spans.front().audio.empty() && engines_[run.engine]->Prompt(run.spans);
   });
@@ -215,8 +226,23 @@ bool EngineSet::Prompt(const std::vector<SpeechSpan>& spans) const {
 
 vm::Result<SpeechPlan> EngineSet::Plan(const std::vector<SpeechSpan>& spans,
                                        const std::atomic<bool>& cancelled) {
+  const std::string ideographs = LanguageOfIdeographs(spans);
+  auto plan = PlanRuns(Runs(spans, ideographs), cancelled);
+  if (!plan || plan->unspoken.empty() || ideographs == "zh" || !Speaks("zh")) return plan;
+  const auto any = [&](bool Ideographs::*is) {
+    return std::ranges::any_of(spans, [&](const SpeechSpan& span) {
+      return span.language.empty() && FindIdeographs(span.text).*is;
+    });
+  };
+  if (!any(&Ideographs::any) || any(&Ideographs::kana)) return plan;
+  // Rather the whole of it in Chinese than half in Japanese.
+  auto chinese = PlanRuns(Runs(spans, "zh"), cancelled);
+  return chinese && chinese->unspoken.empty() ? std::move(chinese) : std::move(plan);
+}
+
+vm::Result<SpeechPlan> EngineSet::PlanRuns(const std::vector<Run>& runs,
+                                           const std::atomic<bool>& cancelled) {
   auto detail = std::make_shared<SetDetail>();
-  const std::vector<Run> runs = Runs(spans);
   for (const Run& run : runs) {
     Part part;
     if (!run.spans.front().audio.empty()) {

@@ -13,7 +13,9 @@ namespace ssm {
 
 /// Several engines as one. A span goes to the engine that has its voice; runs in another language
 /// (SplitLanguages, or the span's own word for it) to the voice of that language: the one chosen,
-/// else one of the speaker's sex, else the first. Sound files (SpeechSpan::audio) are played here.
+/// else one of the speaker's sex, else the first. A text with ideographs and without kana goes to
+/// the voice of Chinese, if there is one, where its ideographs are none of Japanese, or where the
+/// voice of Japanese leaves some of them out. Sound files (SpeechSpan::audio) are played here.
 /// Where the language changes inside a sentence, the engines' silences there are cut to kJoint.
 /// Thread: as the engines; ChooseVoice may be called at any time.
 class EngineSet final : public SpeechEngine {
@@ -39,7 +41,10 @@ class EngineSet final : public SpeechEngine {
   };
   std::size_t IndexOf(std::string_view voice) const;
   std::size_t VoiceFor(const std::string& language, std::size_t base) const;
-  std::vector<Run> Runs(const std::vector<SpeechSpan>& spans) const;
+  /// The language of the ideographs whose language nobody has said, as far as they themselves tell.
+  std::string LanguageOfIdeographs(const std::vector<SpeechSpan>& spans) const;
+  std::vector<Run> Runs(const std::vector<SpeechSpan>& spans, const std::string& ideographs) const;
+  vm::Result<SpeechPlan> PlanRuns(const std::vector<Run>& runs, const std::atomic<bool>& cancelled);
 
   const std::vector<std::unique_ptr<SpeechEngine>> engines_;
   std::vector<VoiceInfo> voices_;

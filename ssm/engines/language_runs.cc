@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "vm_protocol/core/charset.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace ssm {
@@ -58,14 +59,14 @@ Script ScriptOfLanguage(std::string_view language) {
   return Script::kLatin;
 }
 
-std::string LanguageOf(Script script, std::string_view base) {
+std::string LanguageOf(Script script, std::string_view base, std::string_view ideographs) {
   const Script own = ScriptOfLanguage(base);
   if (script == own) return std::string(base);
   switch (script) {
     case Script::kKana:
       return "ja";
     case Script::kHan:
-      return "ja";
+      return std::string(ideographs);
     case Script::kHangul:
       return "ko";
     case Script::kCyrillic:
@@ -93,7 +94,8 @@ bool IsAcronym(std::string_view text) {
 
 }  // namespace
 
-std::vector<LanguageRun> SplitLanguages(std::string_view text, std::string_view base) {
+std::vector<LanguageRun> SplitLanguages(std::string_view text, std::string_view base,
+                                        std::string_view ideographs) {
   std::vector<LanguageRun> runs;
   std::string leading;  // signs before the first letter go with it
   bool in_acronym = false;
@@ -119,7 +121,7 @@ std::vector<LanguageRun> SplitLanguages(std::string_view text, std::string_view 
       continue;
     }
     const std::string language =
-        script == Script::kLatin && in_acronym ? "ja" : LanguageOf(script, base);
+        script == Script::kLatin && in_acronym ? "ja" : LanguageOf(script, base, ideographs);
     if (runs.empty() || runs.back().language != language) {
       runs.push_back({language, std::exchange(leading, {})});
     }
@@ -136,6 +138,22 @@ std::vector<LanguageRun> SplitAsked(std::string_view text, const std::string& la
   });
   if (other) return SplitLanguages(text, language);
   return {{language, std::string(text)}};
+}
+
+Ideographs FindIdeographs(std::string_view text) {
+  Ideographs found;
+  for (std::size_t at = 0; at < text.size();) {
+    const vm::CodePoint c = vm::SignAt(text, at);
+    const Script script = ScriptOf(c.value);
+    found.kana = found.kana || script == Script::kKana;
+    if (script == Script::kHan) {
+      found.any = true;
+      const auto japanese = vm::EncodeCharset(text.substr(at, c.length), "CP932");
+      found.beyond_japanese = found.beyond_japanese || (japanese && *japanese == "?");
+    }
+    at += c.length;
+  }
+  return found;
 }
 
 }  // namespace ssm

@@ -60,6 +60,19 @@ TEST(LanguageRunsTest, CutWhereTheScriptSaysSo) {
   EXPECT_EQ(ssm::SplitLanguages("", "de"), Runs{});
 }
 
+TEST(LanguageRunsTest, IdeographsBeyondThoseOfJapaneseAreFound) {
+  for (const char* chinese : {"你好，世界", "谢谢", "我们"}) {
+    EXPECT_TRUE(ssm::FindIdeographs(chinese).beyond_japanese) << chinese;
+    EXPECT_FALSE(ssm::FindIdeographs(chinese).kana) << chinese;
+  }
+  for (const char* japanese : {"東京都庁", "世界", "髙﨑", "今日は晴れです"}) {
+    EXPECT_FALSE(ssm::FindIdeographs(japanese).beyond_japanese) << japanese;
+    EXPECT_TRUE(ssm::FindIdeographs(japanese).any) << japanese;
+  }
+  EXPECT_TRUE(ssm::FindIdeographs("今日は").kana);
+  EXPECT_FALSE(ssm::FindIdeographs("Hello, 12.").any);
+}
+
 TEST(SentencesTest, AreCutInEveryScriptAndSignsAloneAreNone) {
   using Sentences = std::vector<std::string>;
   EXPECT_EQ(ssm::SplitUtf8Sentences("一つ。二つ！three. Four?"),
@@ -237,6 +250,26 @@ TEST(EspeakHelperTest, ADeadOrSilentHelperIsAnErrorAndTheNextSentenceWorks) {
   EXPECT_TRUE(plan.error().text.starts_with("the helper for espeak-ng answered 'say"))
       << plan.error().text;
 }
+
+#ifdef SSM_HAS_MECAB
+TEST_F(EspeakTest, ChineseIsSaidWholeByTheVoiceOfChineseAndJapaneseStaysJapanese) {
+  std::vector<std::unique_ptr<ssm::SpeechEngine>> engines;
+  engines.push_back(std::move(engine_));
+  ssm::EngineSet set(std::move(engines));
+  const auto said = [&set](const std::string& text, const std::string& voice) {
+    const auto plan = Speak(set, {Span(text, voice)}).plan;
+    EXPECT_EQ(plan.unspoken, "") << text;
+    return vm::FormatPhonemesVoice(plan.phonemes);
+  };
+  // 辶 is a character of Japanese for which its dictionary has no reading.
+  for (const char* chinese : {"你好，世界", "谢谢", "辶世界"}) {
+    EXPECT_EQ(said(chinese, "espeak-en"), said(chinese, "espeak-zh")) << chinese;
+  }
+  for (const char* japanese : {"東京都庁", "世界平和", "今日は晴れです"}) {
+    EXPECT_EQ(said(japanese, "espeak-en"), said(japanese, "espeak-ja")) << japanese;
+  }
+}
+#endif
 
 TEST_F(EspeakTest, ASetOfEnginesSplitsATextByLanguage) {
   std::vector<std::unique_ptr<ssm::SpeechEngine>> engines;
