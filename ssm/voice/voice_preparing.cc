@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ssm/voice/emoji.h"
 #include "ssm/voice/lead.h"
 #include "ssm/voice/prosody.h"
 #include "ssm/voice/ssml.h"
@@ -147,6 +148,7 @@ std::vector<SpeechSpan> VoiceModule::Manners(std::vector<SpeechSpan> spans) {
   for (SpeechSpan& span : spans) {
     const VoiceInfo* voice = &SpeakerOf(span);
     span.voice = voice->name;
+    span.text = WithoutEmoji(span.text);
     span.feeling = feeling_;
     Manner& manner = span.feeling.manner;
     if (!voice->pitch_adjustable) manner.pitch = 1;
@@ -184,7 +186,8 @@ void VoiceModule::OnPlanned(const std::shared_ptr<Preparation>& preparation) {
       std::make_shared<SampleBuffer>(ToFrames(utterance->duration()), ToFrames(cut));
   utterance_ = utterance;
   ReportPhonemes();
-  if (utterance->plan.unspoken.empty() && IsBlank(preparation->spans)) {
+  const bool emoji_only = WithoutEmoji(utterance->spoken_text) != utterance->spoken_text;
+  if (utterance->plan.unspoken.empty() && IsBlank(preparation->spans) && !emoji_only) {
     utterance->plan.unspoken = "the text is empty, there is nothing to say";
   }
   if (!utterance->plan.unspoken.empty()) {

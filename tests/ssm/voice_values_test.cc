@@ -84,6 +84,24 @@ TEST_P(VoiceValuesTest, AnEmptyTextIsSaidToBeOneAndASilentOneIsNot) {
   EXPECT_EQ(told("yes"), std::vector<std::string>{});
 }
 
+TEST_P(VoiceValuesTest, EmojiAreNotSpokenAndNoError) {
+  const auto phonemes = [this](const std::string& text) {
+    world_.errors.clear();
+    world_.Tell("set Text = " + text);
+    EXPECT_EQ(world_.errors, std::vector<std::string>{}) << text;
+    return world_.Ask("Text.pho");
+  };
+  const std::string plain = phonemes("I love it!");
+  for (const char* text : {"I love it 😀!", "😀 I love it!", "I love it! 😀", "I love it❤️!",
+                           "I love it!👩‍👩‍👧‍👦👍🏽",
+                           "I ✨love it! 🇯🇵🏴󠁧󠁢󠁥󠁮󠁧󠁿", "I ❤ love it!"}) {
+    EXPECT_EQ(phonemes(text), plain) << text;
+  }
+  for (const char* text : {"😀", "👍🏽 🇯🇵", "❤️"})
+    EXPECT_EQ(phonemes(text), "pau[10]") << text;
+  EXPECT_EQ(phonemes("no 1️⃣"), phonemes("no 1")) << "the figure of a keycap is spoken";
+}
+
 TEST_P(VoiceValuesTest, ATextOverTheLimitIsTooLong) {
   world_.Tell("set#1 Text = " + std::string(ssm::kMaxTextBytes + 1, 'a'));
   EXPECT_TRUE(world_.Lines().at(0).starts_with("rep#1 Text.error = TOO_LONG "));
