@@ -34,8 +34,8 @@ std::string WithoutEmoji(std::string_view text) {
   bool gap = false;  // an emoji stood here
   for (std::size_t i = 0; i < signs.size(); ++i) {
     const char32_t sign = signs[i], next = i + 1 < signs.size() ? signs[i + 1] : 0;
-    const bool pictograph = IsPictograph(sign) && next != kTextSelector &&
-                            (!IsTextToo(sign) || next == kEmojiSelector);
+    const bool pictograph =
+        IsPictograph(sign) && next != kTextSelector && (!IsTextToo(sign) || next == kEmojiSelector);
     // Elsewhere a joiner belongs to the letters of a script.
     if (pictograph || IsPartOfEmoji(sign) || (gap && sign == kJoiner)) {
       gap = gap || (sign != kTextSelector && sign != kEmojiSelector && sign != kKeycap);
@@ -44,7 +44,8 @@ std::string WithoutEmoji(std::string_view text) {
     if (gap && !kept.empty()) {
       const bool word = IsWordSign(sign);
       if (kept.back() == U' ' && !word && sign != U' ') kept.pop_back();
-      if (IsWordSign(kept.empty() ? 0 : kept.back()) && word && IsOfSpacedScript(sign)) kept += U' ';
+      if (IsWordSign(kept.empty() ? 0 : kept.back()) && word && IsOfSpacedScript(sign))
+        kept += U' ';
     }
     gap = false;
     kept += sign;

@@ -42,8 +42,14 @@ vm::Result<const VoiceInfo*> SpeakerTable::Wanted(std::string_view name) const {
   if (const VoiceInfo* found = Find(name)) return found;
   std::vector<std::string> known;
   for (const Entry& entry : entries_) known.push_back(entry.name);
+  std::string more;
+  const auto unlisted = [](const Entry& entry) { return !entry.voice.listed; };
+  if (const auto count = std::ranges::count_if(entries_, unlisted); count > 0) {
+    more = ", or one of " + std::to_string(count) + " more such as " +
+           std::ranges::find_if(entries_, unlisted)->name + " (inq Speaker.all names them)";
+  }
   return vm::Fail(vm::Errc::kBadValue, "unknown speaker '" + std::string(name) +
-                                           "', expected one of: " + Names() +
+                                           "', expected one of: " + Names() + more +
                                            vm::DidYouMean(name, known));
 }
 

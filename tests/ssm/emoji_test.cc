@@ -24,7 +24,8 @@ TEST(EmojiTest, AreTakenOutAndWordsStayParted) {
 
 TEST(EmojiTest, WhatIsTextStays) {
   // The last two have joiners inside a word (Persian, Hindi).
-  for (const char* text : {"", "plain 12#*", "Galatea™ © 2026", "〰 ㊗", "→ a", "می‌خواهم", "क्‍ष"}) {
+  for (const char* text :
+       {"", "plain 12#*", "Galatea™ © 2026", "〰 ㊗", "→ a", "می‌خواهم", "क्‍ष"}) {
     EXPECT_EQ(ssm::WithoutEmoji(text), text) << text;
   }
 }

@@ -2,8 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include "ssm/voice/speakers.h"
+
 namespace ssm {
 namespace {
+
+TEST(SpeakerTableTest, AnUnknownSpeakerIsToldWhoThereIsAndThatThereAreMore) {
+  const std::vector<VoiceInfo> voices = {{.name = "slt", .language = "en", .female = true},
+                                         {.name = "espeak-de", .language = "de", .listed = false}};
+  const auto wanted = SpeakerTable(voices, {}).Wanted("siri");
+  ASSERT_FALSE(wanted);
+  EXPECT_EQ(wanted.error().text,
+            "unknown speaker 'siri', expected one of: slt, or one of 1 more such as espeak-de "
+            "(inq Speaker.all names them)");
+}
 
 TEST(TextTagsTest, PlainTextIsOneSpan) {
   const auto tagged = ParseTaggedText("Hello there.");
