@@ -1,16 +1,21 @@
 // The gateway: options, the network, a voice of its own, and the server over them.
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <boost/asio/signal_set.hpp>
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
 #include "agent_manager/web/page_token.h"
 #include "gateway/web/gateway_server.h"
+#include "ssm/process/child_process.h"
 #include "vm_protocol/core/spawn.h"
 #include "vm_protocol/runtime/credentials.h"
 #include "vm_protocol/runtime/endpoint.h"
@@ -46,6 +51,31 @@ const vdm::MouthNet& BestNet() {
                                                                          : vdm::FeatureKind::kMel);
 }
 
+bool IsProgram(const std::string& name) {
+  if (name.contains('/')) return access(name.c_str(), X_OK) == 0;
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (access((folder + "/" + name).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+/// What a person has misspelt is said now, not to the first client.
+void CheckVoice(const std::vector<std::string>& command) {
+  if (IsProgram(command.front())) return;
+  throw std::runtime_error("--voice: there is no program '" + command.front() +
+                           "'; it takes the command of a voice module, to which all words behind "
+                           "it belong, so it is the last option");
+}
+
+void CheckFace(const std::string& option, const std::string& face) {
+  constexpr std::chrono::seconds kLimit{60};  // a head of a file is baked
+  const std::vector<std::string> command{vm::ProgramBeside("fsm"), "--describe", option, face};
+  if (ssm::RunProgram({.argv = command, .limit = kLimit}, nullptr)) return;
+  throw std::runtime_error(option + ": fsm has no such face: '" + face + "' (fsm --describe " +
+                           option + " " + face + " says why; its slot MaskSet names the faces)");
+}
+
 void Serve(Options& options) {
   std::signal(SIGPIPE, SIG_IGN);
   boost::asio::io_context io;
@@ -60,14 +90,17 @@ void Serve(Options& options) {
   }
   std::unique_ptr<gateway::VoiceWorker> voice;
   if (!options.no_voice) {
+    CheckVoice(command);
     voice = std::make_unique<gateway::VoiceWorker>(
         io, command, std::chrono::seconds(options.limit_s), BestNet());
   }
   if (options.server.faces > 0) {
     options.server.face_command = {vm::ProgramBeside("fsm"), "--headless", "--life", "LIVELY"};
     for (const auto& [name, value] : {std::pair("--mask", options.mask), {"--head", options.head}})
-      if (!value.empty())
+      if (!value.empty()) {
+        CheckFace(name, value);
         options.server.face_command.insert(options.server.face_command.end(), {name, value});
+      }
   }
   const gateway::GatewayServer server(io, options.server, BestNet(), voice.get());
   std::cout << "ws://" << server.host() << "/v1/mouth?token=" << options.server.token << std::endl;

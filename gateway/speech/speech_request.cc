@@ -21,6 +21,11 @@ constexpr std::array<SoundFormat, 6> kFormats{{{"wav", "audio/wav", ""},
                                                {"aac", "audio/aac", "adts"},
                                                {"flac", "audio/flac", "flac"}}};
 
+// https://platform.openai.com/docs/guides/text-to-speech, its voices.
+constexpr std::array<std::string_view, 13> kVoicesOfOpenAi{
+    "alloy", "ash",  "ballad", "cedar", "coral",   "echo", "fable",
+    "marin", "nova", "onyx",   "sage",  "shimmer", "verse"};
+
 /// One line, and nothing in it that the voice takes for markup.
 std::string Plain(const std::string& text) {
   std::string plain;
@@ -36,6 +41,10 @@ std::string Plain(const std::string& text) {
 const SoundFormat* FindSoundFormat(std::string_view name) {
   const auto found = std::ranges::find(kFormats, name, &SoundFormat::name);
   return found == kFormats.end() ? nullptr : &*found;
+}
+
+bool IsVoiceOfOpenAi(std::string_view name) {
+  return std::ranges::find(kVoicesOfOpenAi, name) != kVoicesOfOpenAi.end();
 }
 
 vm::Result<SpeechRequest> ReadSpeechRequest(std::string_view body) {

@@ -24,6 +24,9 @@ struct SpeechRequest {
   const WeightSet* set = nullptr;  ///< of the frames beside the sound; null: the sound alone
   unsigned fps = 50;
 };
+/// Whether a name is that of a voice of OpenAI's service, which its clients send whatever there is.
+bool IsVoiceOfOpenAi(std::string_view name);
+
 inline constexpr std::size_t kMaxSpokenBytes = 8192;  // as the voice's Text takes
 
 /// Reads a request's body; `model` and unknown members do not count. kBadValue, kSyntax, kTooLong.

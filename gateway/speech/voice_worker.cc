@@ -53,8 +53,13 @@ void VoiceWorker::Run() {
     Job job = std::move(jobs_.front());
     jobs_.pop_front();
     lock.unlock();
-    auto spoken = voice_.Speak(
-        {.text = job.request.text, .voice = job.request.voice, .speed = job.request.speed});
+    const auto speak = [&](const std::string& voice) {
+      return voice_.Speak({.text = job.request.text, .voice = voice, .speed = job.request.speed});
+    };
+    auto spoken = speak(job.request.voice);
+    // A voice of ours may bear such a name; else whatever there is speaks.
+    if (!spoken && spoken.error().code == Errc::kBadValue && IsVoiceOfOpenAi(job.request.voice))
+      spoken = speak("");
     auto answer = std::make_shared<vm::Result<SpeechAnswer>>(
         spoken ? MakeSpeechAnswer(job.request, *spoken, net_, cancelled_)
                : std::unexpected(spoken.error()));

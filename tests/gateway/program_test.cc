@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -184,13 +185,18 @@ TEST_F(GatewayTest, PicturesAreForSoManyAndWithinBounds) {
 }
 
 TEST_F(GatewayTest, AFaceThatCannotBeHadIsToldAndTheWeightsGoOn) {
-  Start({"--no-voice", "--mask", "nobody-has-this-name"});
+  std::filesystem::create_directories(folder_ / "faces/berta");
+  std::ofstream(folder_ / "faces/berta/identity.txt") << "base galatea\n";
+  ASSERT_EQ(::setenv("GALATEA_FACES", (folder_ / "faces").c_str(), 1), 0);
+  Start({"--no-voice", "--mask", "berta"});
+  std::filesystem::remove_all(folder_ / "faces/berta");
   const auto lines = Client(
       {"until:ready", "until:error", "sound:" + Speech(), "text:{\"type\": \"end\"}", "until:end"},
       "&pictures=64x64");
   ASSERT_GT(lines.size(), 10u);
   EXPECT_TRUE(lines[1].contains("the face: ")) << lines[1];
   EXPECT_EQ(json::parse(lines.back())["type"], "end");
+  ::unsetenv("GALATEA_FACES");
 }
 
 TEST_F(GatewayTest, OnlyWhoeverShowsTheTokenMayCome) {
@@ -338,10 +344,34 @@ TEST_F(GatewayTest, MistakesAreToldAsOpenAIsApiTellsThem) {
   EXPECT_EQ(
       wrong.second,
       R"({"error":{"message":"input: expected the text to be spoken","type":"invalid_request_error"}})");
-  const auto voice = Post(R"({"input": "Hello.", "voice": "alloy"})");
+  const auto voice = Post(R"({"input": "Hello.", "voice": "siri"})");
   EXPECT_EQ(voice.first, "status 400 application/json");
-  EXPECT_TRUE(voice.second.contains("alloy")) << voice.second;
+  EXPECT_TRUE(voice.second.contains("siri")) << voice.second;
   EXPECT_EQ(Post(R"({"input": "Hello.", "response_format": "wav"})").first, "status 200 audio/wav");
+}
+
+TEST_F(GatewayTest, AVoiceOfOpenAisServiceIsTheVoiceItBeginsWith) {
+  Start();
+  const auto ask = [this](const std::string& voice) {
+    return Post(R"({"input": "Good morning.", "response_format": "wav", "voice": ")" + voice +
+                "\"}");
+  };
+  const auto unnamed = ask("");
+  EXPECT_EQ(ask("rms").first, "status 200 audio/wav");
+  for (const char* voice : {"alloy", "nova"}) EXPECT_EQ(ask(voice), unnamed) << voice;
+}
+
+TEST_F(GatewayTest, AVoiceOrAFaceThatIsNotThereIsRefusedAtTheStart) {
+  const auto refused = [](const Lines& options) {
+    Lines command{GALATEA_BIN_DIR "/gateway", "--at", "tcp:127.0.0.1:0"};
+    command.insert(command.end(), options.begin(), options.end());
+    Process gateway(command);
+    EXPECT_EQ(gateway.Wait(), 1);
+    return gateway.ErrorText();
+  };
+  EXPECT_TRUE(refused({"--voice", "nope", "--at", "tcp:127.0.0.1:0"})
+                  .contains("--voice: there is no program 'nope'"));
+  EXPECT_TRUE(refused({"--mask", "nope"}).contains("--mask: fsm has no such face: 'nope'"));
 }
 
 TEST_F(GatewayTest, OptionsBehindVoiceAreTheVoices) {
@@ -357,11 +387,14 @@ TEST_F(GatewayTest, OptionsBehindVoiceAreTheVoices) {
 }
 
 TEST_F(GatewayTest, AVoiceThatCannotBeHadIsOneErrorEachTime) {
-  Start({"--voice", "/nowhere/ssm"});
+  const std::string voice = folder_ / "ssm";
+  std::filesystem::create_symlink(GALATEA_BIN_DIR "/ssm", voice);
+  Start({"--voice", voice});
+  std::filesystem::remove(voice);
   for (int i = 0; i < 2; ++i) {
     const auto answer = Post(R"({"input": "Hello."})");
     EXPECT_EQ(answer.first, "status 503 application/json");
-    EXPECT_TRUE(answer.second.contains("/nowhere/ssm")) << answer.second;
+    EXPECT_TRUE(answer.second.contains(voice)) << answer.second;
   }
 }
 
