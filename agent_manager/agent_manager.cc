@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <csignal>
 #include <cstdio>
 #include <stdexcept>
@@ -31,6 +32,7 @@ constexpr milliseconds kMeasureEvery{2000};
 /// Past every module's own clock at its start.
 constexpr vm::Time kVirtualStart = milliseconds(10000);
 constexpr milliseconds kFlushLogEvery{500};
+constexpr milliseconds kAnswerPatience{200};
 constexpr milliseconds kFlushPatience{2000};
 constexpr std::size_t kMaxFileBytes = 4u << 20;  // of `<`, `do FILE` and macros
 
@@ -109,6 +111,10 @@ Console::Hooks AgentManager::ConsoleHooks() {
   return {.started = [this] { return Started(); },
           .on_said = [this] { quiet_.Disturb(); },
           .on_quit = [this] { stop_ = true; },
+          .on_told =
+              [this](const std::string& line) {
+                if (person_) told_.Told(line);
+              },
           .on_lost =
               [this](const std::string& why) {
                 SayError("console: " + why);
@@ -195,10 +201,19 @@ void AgentManager::OnSlotError(PeerKey peer, const std::string& line, const vm::
 }
 
 void AgentManager::OnModuleOutput(const std::string& module, const OutputLine& line) {
-  Say(module + " " + line.level + ": " + line.text);
+  const std::string text = module + " " + line.level + ": " + line.text;
+  person_&& ToldErrors::IsComplaint(line.text) ? SayUnlessTold(text) : Say(text);
   // A module that a reload has taken out writes on until it has gone.
   const std::string slot = "Module." + module + ".output";
   if (slots_.Has(slot)) slots_.Report(slot, line.level + " " + line.text);
+}
+
+void AgentManager::SayUnlessTold(const std::string& text) {
+  // The answer comes by another pipe, before or after.
+  const auto wait = std::make_shared<boost::asio::steady_timer>(io_, kAnswerPatience);
+  wait->async_wait([this, wait, text](const auto&) {
+    if (!told_.Take(text)) Say(text);
+  });
 }
 
 void AgentManager::OnModuleWithoutClock(PeerKey module, const std::string& why) {

@@ -27,6 +27,7 @@
 #include "agent_manager/session/periodic_task.h"
 #include "agent_manager/session/quiet_watch.h"
 #include "agent_manager/session/replay.h"
+#include "agent_manager/session/told_errors.h"
 #include "agent_manager/slots/built_in_dispatcher.h"
 #include "agent_manager/slots/hub_slots.h"
 #include "agent_manager/supervision/supervisor.h"
@@ -90,6 +91,7 @@ class AgentManager {
   void Guarded(const Act& act);
   void Refused(const std::string& text);
   void OnModuleOutput(const std::string& module, const OutputLine& line);
+  void SayUnlessTold(const std::string& text);
   void OnModuleWithoutClock(PeerKey module, const std::string& why);
   void OnPresence(const std::string& name, bool present, const std::string& reason);
   void OnSlotError(PeerKey peer, const std::string& line, const vm::Error& error);
@@ -100,6 +102,7 @@ class AgentManager {
   boost::asio::io_context io_;
   vm::ClockScheduler clock_;
   ErrorStream people_{STDERR_FILENO};
+  ToldErrors told_;
   std::unique_ptr<LogWriter> log_writer_;
   FlowWatchers flow_watchers_;
   SessionLog log_;

@@ -127,6 +127,14 @@ std::vector<std::string> Directory::Names() const {
   return names;
 }
 
+std::vector<std::string> Directory::Addressable() const {
+  std::vector<std::string> names = Names();
+  for (const auto& [name, machine] : machines_) names.push_back(name);
+  std::ranges::sort(names);
+  names.erase(std::ranges::unique(names).begin(), names.end());
+  return names;
+}
+
 void Directory::AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases,
                            bool replaceable) {
   if (replaceable) replaceable_.insert(machine.module_name());

@@ -46,6 +46,8 @@ class Directory {
   /// kHub's is the owner's, that of one who is not there a guest's.
   Role RoleOf(PeerKey key) const;
   std::vector<std::string> Names() const;  ///< of peers, sorted
+  /// Those and the hub's own machines: whom a message may be sent to.
+  std::vector<std::string> Addressable() const;
 
   /// `replaceable`: a peer may take its name, and then its place.
   void AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases, bool replaceable);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "agent_manager/routing/own_names.h"
+#include "vm_protocol/core/nearest_word.h"
 
 namespace am {
 
@@ -173,8 +174,12 @@ void Router::HandOver(Envelope& envelope, const std::string& receiver) {
       on_unknown_ ? on_unknown_(receiver, envelope.origin.role) : Result<bool>(false);
   if (!attached) return Refuse(envelope, attached.error());
   if (*attached && directory_.Find(receiver) != nullptr) return HandOver(envelope, receiver);
-  Refuse(envelope,
-         {Errc::kUnknownModule, "there is no @" + receiver + " (inq Modules lists them)", 0});
+  // Whoever may not know who there is gets no hints.
+  const std::string meant = envelope.origin.role == Role::kOwner
+                                ? vm::DidYouMean(receiver, directory_.Addressable())
+                                : std::string();
+  Refuse(envelope, {Errc::kUnknownModule,
+                    "there is no @" + receiver + " (inq Modules lists them)" + meant, 0});
 }
 
 void Router::ToMachine(vm::SlotMachine& machine, Envelope& envelope) {

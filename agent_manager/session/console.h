@@ -23,7 +23,8 @@ class Console {
     std::function<bool()> started;  ///< lines can be said
     std::function<void()> on_said;  ///< after each
     std::function<void()> on_quit;
-    std::function<void(const std::string& why)> on_lost;  ///< what is said cannot be written
+    std::function<void(const std::string& line)> on_told;  ///< each message to it
+    std::function<void(const std::string& why)> on_lost;   ///< what is said cannot be written
   };
   Console(boost::asio::io_context& io, vm::Scheduler& clock, Hub& hub, Hooks hooks);
 
@@ -46,6 +47,7 @@ class Console {
  private:
   void OnLine(vm::Result<std::string_view> line);
   bool TakeWord(const std::string& line);
+  void Help(const std::string& name);
 
   boost::asio::io_context& io_;
   vm::Scheduler& clock_;

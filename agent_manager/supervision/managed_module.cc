@@ -31,7 +31,13 @@ std::string ManagedModule::StateName(State state) {
 
 ManagedModule::ManagedModule(boost::asio::io_context& io, Hub& hub, ChildReaper& reaper,
                              const ModuleConfig& config, const Events& events)
-    : io_(io), hub_(hub), reaper_(reaper), config_(config), events_(events), restart_timer_(io) {}
+    : io_(io),
+      hub_(hub),
+      reaper_(reaper),
+      config_(config),
+      events_(events),
+      restart_timer_(io),
+      hold_timer_(io) {}
 
 ModuleStatus ManagedModule::Status() const {
   return {config_.name, StateName(state_), run_ ? run_->pid() : -1, starts_, ending_};
@@ -51,7 +57,10 @@ ModuleRun::Events ManagedModule::RunEvents() {
 vm::Result<void> ManagedModule::Start(bool watch_health) {
   watch_health_ = watch_health;
   state_ = State::kStarting;
-  history_.Started(SteadyClock::now());
+  started_ = SteadyClock::now();
+  history_.Started(started_);
+  holds_ = true;
+  failed_start_ = false;
   ++starts_;
   run_ = std::make_shared<ModuleRun>(io_, hub_, reaper_, config_, RunEvents());
   const auto started = run_->Start();
@@ -77,7 +86,36 @@ void ManagedModule::OnJoined() {
   monitor_->Start(watch_health_);
 }
 
-void ManagedModule::OnOutput(const OutputLine& line) {
+void ManagedModule::OnOutput(OutputLine line) {
+  const bool plain = line.level == "INFO";
+  if (failed_start_ && plain) line.level = "ERROR";
+  if (holds_ && plain && held_.size() < ModuleOutput::kMaxOutputLines) return Hold(std::move(line));
+  LetGo();
+  Tell(line);
+}
+
+void ManagedModule::Hold(OutputLine line) {
+  if (held_.empty()) {
+    hold_timer_.expires_after(kHoldOutput);
+    hold_timer_.async_wait([self = weak_from_this()](const auto& error) {
+      const auto module = self.lock();
+      if (error || !module) return;
+      module->holds_ = false;
+      module->LetGo();
+    });
+  }
+  held_.push_back(std::move(line));
+}
+
+void ManagedModule::LetGo(const std::string& level) {
+  hold_timer_.cancel();
+  for (OutputLine& line : std::exchange(held_, {})) {
+    line.level = level;
+    Tell(line);
+  }
+}
+
+void ManagedModule::Tell(const OutputLine& line) {
   output_.Add(line);
   events_.on_output(config_.name, line);
 }
@@ -89,6 +127,8 @@ void ManagedModule::OnPresent() {
 void ManagedModule::OnReady() {
   state_ = State::kReady;
   failed_starts_ = 0;
+  holds_ = false;
+  LetGo();
   for (const Done& done : std::exchange(wait_for_ready_, {})) done(StateName(state_));
   events_.on_ready();
 }
@@ -100,6 +140,11 @@ void ManagedModule::OnEnded(const ModuleRun::Ending& ending) {
   const bool at_start = state_ == State::kStarting && is_process;
   failed_starts_ = at_start ? failed_starts_ + 1 : 0;
   ending_ = ending.how;
+  failed_start_ =
+      at_start && ending.exited_with_error && SteadyClock::now() - started_ < kFirstSeconds;
+  spoke_ = spoke_ || ending.spoke || !failed_start_;
+  holds_ = false;
+  LetGo(failed_start_ ? "ERROR" : "INFO");
   // A program that fails says why in its last line, whether or not that line calls itself an error.
   const std::string reason =
       ending.failed && !ending.last_output.empty() ? ": " + ending.last_output : "";
@@ -115,7 +160,7 @@ void ManagedModule::OnEnded(const ModuleRun::Ending& ending) {
 
 void ManagedModule::RestartByPolicy(const std::string& how, bool failed,
                                     const std::string& reason) {
-  if (failed_starts_ >= kFailedStarts) {
+  if (failed_starts_ >= (spoke_ ? kFailedStarts : kMuteStarts)) {
     Error(" has failed to start " + std::to_string(failed_starts_) +
           " times, it is not started again" + reason);
     return GiveUp(State::kFailed, how);
@@ -151,6 +196,7 @@ void ManagedModule::AskToStart(Done done) {
   restart_timer_.cancel();
   history_.Forgive();
   failed_starts_ = 0;
+  spoke_ = false;
   state_ = State::kWaiting;
 }
 
@@ -185,6 +231,7 @@ bool ManagedModule::TakeReplacement() {
   config_ = *std::exchange(replacement_, std::nullopt);
   history_.Forgive();
   failed_starts_ = 0;
+  spoke_ = false;
   state_ = State::kWaiting;
   return true;
 }

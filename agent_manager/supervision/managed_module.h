@@ -27,8 +27,10 @@ struct ModuleStatus {
 
 /// One module of the configuration over all its runs: its state, its restarts by policy, and those
 /// who wait for it to become ready or to stop. A module whose program ends before it is ready
-/// kFailedStarts times in a row, or cannot be run at all, is not started again by itself.
-/// Thread: the context's. All that it is given outlives it.
+/// kFailedStarts times in a row, or cannot be run at all, is not started again by itself; one that
+/// ends with an error within kFirstSeconds each time and never said a line has kMuteStarts. What
+/// such a start wrote to stderr without a level is an ERROR; to tell, it is held back until it is
+/// ready or kHoldOutput have passed. Thread: the context's. All that it is given outlives it.
 class ManagedModule : public std::enable_shared_from_this<ManagedModule> {
  public:
   enum class State {
@@ -43,7 +45,8 @@ class ManagedModule : public std::enable_shared_from_this<ManagedModule> {
   };
   /// "WAITING", "STARTING", ...
   static std::string StateName(State state);
-  static constexpr unsigned kFailedStarts = 3;
+  static constexpr unsigned kFailedStarts = 3, kMuteStarts = 2;
+  static constexpr std::chrono::milliseconds kFirstSeconds{5000}, kHoldOutput{2000};
   using Done = std::function<void(vm::Result<std::string> state)>;
   struct Events {
     std::function<void(const std::string& text)> on_notice;  ///< for people
@@ -88,7 +91,11 @@ class ManagedModule : public std::enable_shared_from_this<ManagedModule> {
  private:
   ModuleRun::Events RunEvents();
   void OnJoined();
-  void OnOutput(const OutputLine& line);
+  void OnOutput(OutputLine line);
+  void Hold(OutputLine line);
+  /// What was held back is told, at the level it had or as this one.
+  void LetGo(const std::string& level = "INFO");
+  void Tell(const OutputLine& line);
   void OnReady();
   void OnEnded(const ModuleRun::Ending& ending);
   void Notice(const std::string& text) { events_.on_notice("@" + config_.name + text); }
@@ -106,7 +113,12 @@ class ManagedModule : public std::enable_shared_from_this<ManagedModule> {
   State state_ = State::kWaiting;
   std::shared_ptr<ModuleRun> run_;
   std::shared_ptr<HealthMonitor> monitor_;
-  boost::asio::steady_timer restart_timer_;
+  boost::asio::steady_timer restart_timer_, hold_timer_;
+  std::vector<OutputLine> held_;
+  std::chrono::steady_clock::time_point started_{};
+  bool holds_ = false;         // it has just been started
+  bool failed_start_ = false;  // the last run ended so; its last lines may still come
+  bool spoke_ = false;         // any run of it, since somebody started it by hand
   RestartHistory history_;
   bool watch_health_ = true;
   bool restarts_ = true;

@@ -89,11 +89,14 @@ void ModuleRun::Join(std::shared_ptr<vm::StreamPeer> stream) {
   }
   peer_ = *peer;
   events_.on_joined();
-  stream_->Start([&hub = hub_, key = *peer](
-                     vm::Result<std::string_view> line) { hub.Receive(key, std::move(line)); },
-                 [self = weak_from_this()](const vm::StreamEnd& end) {
-                   if (const auto run = self.lock()) run->OnInputEnd(end.reason);
-                 });
+  stream_->Start(
+      [&hub = hub_, key = *peer, self = weak_from_this()](vm::Result<std::string_view> line) {
+        if (const auto run = self.lock()) run->spoke_ = true;
+        hub.Receive(key, std::move(line));
+      },
+      [self = weak_from_this()](const vm::StreamEnd& end) {
+        if (const auto run = self.lock()) run->OnInputEnd(end.reason);
+      });
   stream_->ResumeReading();
 }
 
@@ -157,9 +160,12 @@ void ModuleRun::OnExit(int status) {
   // What has escaped from its group may keep stderr open; its last lines are read for a while.
   const auto last_lines = std::make_shared<boost::asio::steady_timer>(io_, kClosedPatience);
   last_lines->async_wait([last_lines, errors = errors_](const auto&) { errors->Close(); });
-  Ending ending{.how = DescribeEnding(status),
-                .failed = !WIFEXITED(status) || WEXITSTATUS(status) != 0,
-                .last_output = last_output_};
+  Ending ending{
+      .how = DescribeEnding(status),
+      .failed = !WIFEXITED(status) || WEXITSTATUS(status) != 0,
+      .last_output = last_output_,
+      .exited_with_error = WIFEXITED(status) && WEXITSTATUS(status) != 0 && killed_for_.empty(),
+      .spoke = spoke_};
   if (!killed_for_.empty()) ending.how += " (" + killed_for_ + ")";
   End(std::move(ending));
 }

@@ -24,6 +24,9 @@ class ModuleRun : public std::enable_shared_from_this<ModuleRun> {
     std::string how;            ///< "ended with code 3 (did not exit within 5000 ms)"
     bool failed = false;        ///< anything but exit code 0 or a stop that was asked for
     std::string last_output{};  ///< the last line of its stderr, if there was one
+    /// Its program ended by itself with an error code.
+    bool exited_with_error = false;
+    bool spoke = false;  ///< it had said a line
   };
   struct Events {
     std::function<void()> on_joined;                         ///< the hub has it as a peer
@@ -71,6 +74,7 @@ class ModuleRun : public std::enable_shared_from_this<ModuleRun> {
   boost::asio::steady_timer kill_timer_;
   std::string killed_for_, last_output_;
   bool stopping_ = false;
+  bool spoke_ = false;
   bool ended_ = false;
 };
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from galatea.errors import Refused
+from galatea.nearest_word import did_you_mean
 
 MAX_LINE_BYTES = 64 * 1024
 MAX_NAME_BYTES = 128
@@ -236,7 +237,7 @@ class _Parser:
         if word.group() not in COMMANDS or not (end == len(self.text) or self.text[end] in " \t#"):
             if start == len(self.text):
                 raise self.fault(start, "a command")
-            raise self.fault(start, "one of " + " ".join(COMMANDS), "UNKNOWN_COMMAND")
+            raise self.fault(start, "one of " + " ".join(COMMANDS) + did_you_mean(word.group(), COMMANDS), "UNKNOWN_COMMAND")
         self.at = end
         tag = ""
         if self.text.startswith("#", self.at):

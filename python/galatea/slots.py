@@ -9,7 +9,8 @@ from dataclasses import dataclass, field, replace
 
 from galatea.errors import Refused
 from galatea.message import MAX_LINE_BYTES, Message, cut, is_slot_name, parse, printable, rep, set_, tag_of
-from galatea.values import Item, ValueGrammar, did_you_mean
+from galatea.nearest_word import did_you_mean
+from galatea.values import Item, ValueGrammar
 
 MAX_FILE_BYTES = 4 << 20
 MAX_MACRO_LINES = 1024

@@ -237,6 +237,13 @@ TEST_F(HubFaultsTest, WhatAModuleHasStartedItselfEndsWithIt) {
   EXPECT_FALSE(runs());
 }
 
+TEST_F(HubFaultsTest, AModuleThatSaidAWordBeforeItFailedIsTriedThreeTimes) {
+  Process& hub = Start(
+      "{\"name\": \"BAD\", \"command\": \"echo rep X = 1; echo 'no display' >&2; exit 1\", "
+      "\"restart\": {\"when\": \"always\", \"first_ms\": 1}}");
+  EXPECT_TRUE(hub.ExpectError("error: @BAD has failed to start 3 times")) << hub.ErrorText();
+}
+
 TEST_F(HubFaultsTest, AModuleThatFailsToStartIsAnErrorWithItsReasonAndIsGivenUp) {
   Process& hub = Start(
       "{\"name\": \"BAD\", \"command\": \"echo 'fsm: no display' >&2; exit 1\", "
@@ -244,14 +251,15 @@ TEST_F(HubFaultsTest, AModuleThatFailsToStartIsAnErrorWithItsReasonAndIsGivenUp)
   EXPECT_TRUE(hub.ExpectError("error: @BAD ended with code 1 before it was ready: fsm: no display"))
       << hub.ErrorText();
   EXPECT_TRUE(hub.ExpectError(
-      "error: @BAD has failed to start 3 times, it is not started again: fsm: no display"))
+      "error: @BAD has failed to start 2 times, it is not started again: fsm: no display"))
       << hub.ErrorText();
   hub.WriteLine("inq#1 Module.BAD.state");
   EXPECT_TRUE(hub.Expect("rep#1 Module.BAD.state = FAILED"));
   hub.WriteLine("inq#2 Module.BAD.log");
   const std::string reason = "ERROR fsm: no display";
-  EXPECT_TRUE(hub.Expect("rep#2 Module.BAD.log = " + reason + " | " + reason + " | " + reason))
-      << hub.Seen();
+  EXPECT_TRUE(hub.Expect("rep#2 Module.BAD.log = " + reason + " | " + reason)) << hub.Seen();
+  EXPECT_TRUE(hub.ErrorText().contains("BAD ERROR: fsm: no display")) << hub.ErrorText();
+  EXPECT_FALSE(hub.ErrorText().contains("BAD INFO")) << hub.ErrorText();
 }
 
 TEST_F(HubFaultsTest, TheNameOfAnExceptionIsAnError) {

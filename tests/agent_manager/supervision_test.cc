@@ -191,6 +191,22 @@ TEST_F(SupervisionTest, AModuleThatEndsInOrderBeforeItIsReadyIsGivenUpToo) {
   EXPECT_EQ(Ask(hub, "Module.BRIEF.state"), "FAILED") << "the console goes on";
 }
 
+TEST_F(SupervisionTest, HelpTakesTheNameOfAModuleAndMisspeltNamesAndCommandsAreTold) {
+  Configure(Module("TEST"));
+  Process hub({kHub, "--config", path_});
+  const auto answered = [&hub](const std::string& line, const std::string& answer) {
+    hub.WriteLine(line);
+    EXPECT_TRUE(hub.Expect(answer)) << line << "\n" << hub.Seen();
+  };
+  answered("help TEST", "# the slots of @TEST;");
+  EXPECT_TRUE(hub.Expect("From @TEST rep Slots = ")) << hub.Seen();
+  answered("help @TSET", "# there is no @TSET, did you mean 'TEST'?; help takes one of: AM ");
+  answered("help me please", "# help takes the name of a module or nothing");
+  answered("quit now", "# quit takes no words");
+  answered("sett X = 1", "did you mean 'set'?");
+  answered("to @test inq X", "there is no @test (inq Modules lists them), did you mean 'TEST'?");
+}
+
 TEST_F(SupervisionTest, QuitEndsAHubWhoseModulesDoNotStart) {
   Configure(Shell("SLOW", "cat >/dev/null", ", \"ready\": \"Run = LIVE\""));
   Process hub({kHub, "--config", path_});

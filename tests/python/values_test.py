@@ -5,7 +5,8 @@ import unittest
 
 import support
 from galatea.errors import Refused
-from galatea.values import (Phoneme, StartTime, ValueGrammar, did_you_mean, format_ms, format_phonemes, parse_phonemes, parse_start_time,
+from galatea.nearest_word import did_you_mean
+from galatea.values import (Phoneme, StartTime, ValueGrammar, format_ms, format_phonemes, parse_phonemes, parse_start_time,
                             quote, read_quoted, words)
 
 VALUES = [

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "vm_protocol/core/blanks.h"
 #include "vm_protocol/core/limits.h"
 #include "vm_protocol/core/lower_case.h"
+#include "vm_protocol/core/nearest_word.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace vm {
@@ -173,10 +176,12 @@ class LineParser {
     const bool clean_end = end == line_.size() || IsBlank(line_[end]) || line_[end] == '#';
     if (found == kCommandNames.end() || !clean_end) {
       if (AtEnd()) return Syntax(start, "found the end of the line, expected a command");
-      return Fail(
-          Errc::kUnknownCommand,
-          "found " + Found(start) + ", expected one of set inq prop save rest del def do rep tell",
-          start + 1);
+      const std::vector<std::string> known(kCommandNames.begin(), kCommandNames.end());
+      return Fail(Errc::kUnknownCommand,
+                  "found " + Found(start) +
+                      ", expected one of set inq prop save rest del def do rep tell" +
+                      DidYouMean(word, known),
+                  start + 1);
     }
     message_.command = static_cast<Command>(found - kCommandNames.begin());
     at_ = end;
