@@ -75,6 +75,23 @@ TEST(ExamplesTest, AreFoundWithoutFault) {
   EXPECT_GE(count, 6);
 }
 
+TEST(ExamplesTest, SayThatTheyHaveNotUnderstood) {
+  support::TempDir folder;
+  std::ofstream(folder / "script.txt") << "nomatch\nhangup\n";
+  for (const auto& [name, said] : {std::pair("food_en", "I did not understand"),
+                                   {"place_en", "I did not understand"},
+                                   {"food_ja", "すみません"},
+                                   {"place_ja", "わかりませんでした"}}) {
+    support::Process dialogue(
+        {GALATEA_BIN_DIR "/task_manager",
+         std::string(GALATEA_SOURCE_DIR "/examples/dialogs/") + name + ".vxml", "--script",
+         folder / "script.txt", "--transcript", "text"});
+    std::string all;
+    for (const std::string& line : dialogue.ReadAll()) all += line + "\n";
+    EXPECT_NE(all.find(said), std::string::npos) << name << ":\n" << all;
+  }
+}
+
 TEST(SessionsTest, AScriptThatCannotBeStoppedEndsItsSessionAndTheOthersGoOn) {
   // Nothing can interrupt this comparison of texts, which would take minutes.
   support::TempDir folder;
