@@ -13,7 +13,8 @@ namespace am {
 class ToldErrors {
  public:
   static constexpr std::size_t kMost = 50;
-  /// A line to the console: "From @FSM rep FaceExp.error = BAD_VALUE ..." is an error, most are not.
+  /// A line to the console: "From @FSM rep FaceExp.error = BAD_VALUE ..." is an error, most are
+  /// not.
   void Told(std::string_view line);
   /// Whether a line of stderr complains of a line from outside: "error: TEXT (in: LINE)".
   static bool IsComplaint(std::string_view output);
