@@ -48,12 +48,13 @@ class Out {
 }  // namespace
 
 void PrintFilmTrack(const FilmTrack& wanted) {
+  // First of all: a misspelt name is no matter of networks.
+  const auto source = vm::OrThrow(OpenPictures(wanted.film, wanted.rate));
   auto networks = vm::OrThrow(facefit::FaceNetworks::Load(wanted.networks));
   auto attention = vm::OrThrow(facefit::LoadAttentionLandmarks(wanted.networks));
   const SeenFace& face = SeenFace::Shipped();
   Tracker tracker(networks, attention, face, wanted.tracker);
   const FacePrint print(wanted.format, wanted.points, face);
-  const auto source = vm::OrThrow(OpenPictures(wanted.film, wanted.rate));
   TrackPlot plot;
   Out out(wanted.out, IsLive(wanted.film));
   std::size_t pictures = 0, faces = 0;

@@ -141,6 +141,12 @@ void MakeDub(const Dub& wanted) {
     throw std::runtime_error("'" + wanted.film +
                              "' can be seen only once: a film or a folder of pictures expected");
   }
+  for (const std::string& read : {wanted.film, wanted.speech.sound}) {
+    std::error_code none;
+    if (!read.empty() && !std::filesystem::exists(read, none)) {
+      throw std::runtime_error("there is no '" + read + "'");
+    }
+  }
   vm::OrThrow(fsm::FilmWriter::CheckName(wanted.out));
   vm::OrThrow(vm::CheckWritable(wanted.out));
   for (const std::string& read : {wanted.film, wanted.speech.sound}) {

@@ -51,6 +51,12 @@ Ran Track(std::vector<std::string> words) {
 
 constexpr int kRate = 15;
 
+TEST(FaceTrackProgramTest, AFilmThatIsNotThereIsNamedBeforeNetworksAre) {
+  const Ran ran = RunProgram({GALATEA_BIN_DIR "/face_track", "nope.mp4", "--networks", "/nowhere"});
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_EQ(ran.error, "face_track: there is no 'nope.mp4'\n");
+}
+
 /// Films of two heads at rest that then turn to the right and shut their eyes, made once.
 class FaceTrackTest : public testing::Test {
  protected:

@@ -28,6 +28,13 @@ std::string ReadBytes(const std::string& path) {
 
 constexpr std::size_t kWide = 320, kHigh = 320;
 
+TEST(FilmDubProgramTest, AFilmThatIsNotThereIsNamedBeforeNetworksAre) {
+  const auto ran = RunToEnd({GALATEA_BIN_DIR "/film_dub", "nope.mp4", "--text", "Good evening.",
+                             "--networks", "/nowhere", "--out", "new.mkv"});
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_EQ(ran.error, "film_dub: there is no 'nope.mp4'\n");
+}
+
 /// A head at rest for two seconds, half of them turned, with a humming sound; made once.
 class FilmDubTest : public testing::Test {
  protected:
