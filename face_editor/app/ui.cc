@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "face_editor/app/given_head.h"
+#include "face_editor/core/face_name.h"
 
 namespace editor {
 namespace {
@@ -34,11 +35,12 @@ vm::Result<void> SaveFolder(Ui& ui, const std::string& folder) {
 }
 
 void Shortcuts(Ui& ui) {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput || !io.KeyCtrl) return;
-  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
-  if (pressed(ImGuiKey_Z)) io.KeyShift ? ui.editor.history().Redo() : ui.editor.history().Undo();
-  if (pressed(ImGuiKey_Y)) ui.editor.history().Redo();
+  const auto pressed = ui.window.TakeShortcuts();
+  if (ImGui::GetIO().WantTextInput) return;
+  for (const Window::Shortcut& shortcut : pressed) {
+    if (shortcut.key == 'z' && !shortcut.shift) ui.editor.history().Undo();
+    if (shortcut.key == 'y' || (shortcut.key == 'z' && shortcut.shift)) ui.editor.history().Redo();
+  }
 }
 
 void TopBar(Ui& ui, ImVec2 size) {
@@ -213,6 +215,9 @@ vm::Result<void> OpenFile(Ui& ui, const std::string& path, const std::string& fa
   if (!opened) return opened;
   ui.photo_path = path;
   ui.page = Page::kPoints;
+  // A name that somebody has typed stays.
+  const std::string offered = std::exchange(ui.offered_name, FaceNameOf(path));
+  if (ui.face_name == offered) ui.face_name = ui.offered_name;
   const auto& work = ui.editor.work();
   ui.Tell(!work->notice.empty() ? work->notice
           : work->front.faces > 1

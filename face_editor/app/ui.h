@@ -102,7 +102,8 @@ struct Ui {
   bool loop = true;
   float distance = 1;  ///< of the viewer from the head, as of fsm::Camera
   std::string say = kHello;
-  std::string face_name = "anna";
+  std::string face_name;              ///< of the face made of a photo
+  std::string offered_name;           ///< the one its file gave
   std::string own_name = "berta";     ///< of the face made with sliders
   std::string new_name;               ///< of an expression to be made
   std::map<Part, std::string> paths;  ///< where each part is kept

@@ -64,7 +64,20 @@ Window::Window(int width, int height)
   glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
     if (count > 0) static_cast<Window*>(glfwGetWindowUserPointer(window))->dropped = paths[0];
   });
-  ImGui_ImplGlfw_InitForOpenGL(window_, true);
+  glfwSetKeyCallback(window_, [](GLFWwindow* window, int pressed, int, int action, int mods) {
+    if (action == GLFW_RELEASE || (mods & GLFW_MOD_CONTROL) == 0) return;
+    // By what is written on the key where that is known, as on a German keyboard.
+    const char* const name = pressed == GLFW_KEY_UNKNOWN ? nullptr : glfwGetKeyName(pressed, 0);
+    const char letter = name != nullptr && name[0] >= 'a' && name[0] <= 'z' && name[1] == '\0'
+                            ? name[0]
+                        : pressed >= GLFW_KEY_A && pressed <= GLFW_KEY_Z
+                            ? static_cast<char>('a' + (pressed - GLFW_KEY_A))
+                            : '\0';
+    if (letter != '\0')
+      static_cast<Window*>(glfwGetWindowUserPointer(window))
+          ->shortcuts_.push_back({letter, (mods & GLFW_MOD_SHIFT) != 0});
+  });
+  ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the callbacks set before, too
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
@@ -113,6 +126,8 @@ void Window::ApplyHand() {
   if (!held_.empty()) press(held_, false);
   held_ = std::exchange(key, "");
   if (!held_.empty()) press(held_, true);
+  if (const std::size_t last = held_.rfind('+'); io.KeyCtrl && last + 2 == held_.size())
+    shortcuts_.push_back({held_.back(), io.KeyShift});
   io.AddInputCharactersUTF8(std::exchange(typed, "").c_str());
 }
 

@@ -3,6 +3,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "fsm/image/image_file.h"
 #include "fsm/render/gl_functions.h"
@@ -48,6 +50,14 @@ class Window {
     float wheel = 0;  ///< of the next frame
   };
   std::optional<Hand> hand;
+  /// A letter pressed with Ctrl, or repeated, lower case.
+  struct Shortcut {
+    char key = 0;
+    bool shift = false;
+  };
+  /// Those since the last call, in order. Each comes from the event that tells of it: widgets see
+  /// only which keys are down when a frame begins, and short presses lie between two frames.
+  std::vector<Shortcut> TakeShortcuts() { return std::exchange(shortcuts_, {}); }
   /// A key held during the next frame, as ctrl+z; letters are lower case.
   std::string key;
   /// Text typed in the next frame.
@@ -63,6 +73,7 @@ class Window {
   GLFWwindow* window_ = nullptr;
   fsm::GlFunctions gl_;
   std::string held_;
+  std::vector<Shortcut> shortcuts_;
 };
 
 }  // namespace editor

@@ -6,13 +6,31 @@
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <string>
+#include <utility>
 
 #include "face_editor/core/editor.h"
+#include "face_editor/core/face_name.h"
 #include "face_editor/core/identity_head.h"
+#include "fsm/faces/face_folder.h"
 #include "fsm/head/make_head.h"
 
 namespace editor {
 namespace {
+
+TEST(FaceNameTest, IsThatOfThePhotosFileMadeAValidOne) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"me.jpg", "me"},
+      {"/home/x/Anna Maria (2).png", "Anna_Maria_2"},
+      {"写真.jpg", "face"},
+      {"", "face"},
+      {"a.b-c_d.jpeg", "a_b-c_d"}};
+  for (const auto& [photo, name] : cases) {
+    EXPECT_EQ(FaceNameOf(photo), name) << photo;
+    EXPECT_TRUE(fsm::IsFaceName(FaceNameOf(photo))) << photo;
+  }
+  EXPECT_TRUE(fsm::IsFaceName(FaceNameOf(std::string(300, 'x') + ".png")));
+}
 
 TEST(IdentityTest, ASliderMovesWhatItIsCalledAfter) {
   const auto plain = MakeIdentityHead("galatea", SlidersOf("galatea"));
