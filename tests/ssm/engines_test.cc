@@ -265,6 +265,7 @@ TEST_F(EspeakTest, ChineseIsSaidWholeByTheVoiceOfChineseAndJapaneseStaysJapanese
   for (const char* chinese : {"你好，世界", "谢谢", "辶世界"}) {
     EXPECT_EQ(said(chinese, "espeak-en"), said(chinese, "espeak-zh")) << chinese;
   }
+  EXPECT_FALSE(said("你好", "espeak-en").contains("th[")) << "a tone is no English number";
   for (const char* japanese : {"東京都庁", "世界平和", "今日は晴れです"}) {
     EXPECT_EQ(said(japanese, "espeak-en"), said(japanese, "espeak-ja")) << japanese;
   }
