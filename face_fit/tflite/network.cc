@@ -61,7 +61,7 @@ class StepChecker {
     return CheckFilter(1);
   }
   double CheckOf(const op::TransposeConvolution&) const {
-    Require(out_.rows() == in_.shape.rows() * Numbers(1).rows() &&
+    Require(out_.size[0] == 1 && out_.rows() == in_.shape.rows() * Numbers(1).rows() &&
                 out_.columns() == in_.shape.columns() * Numbers(1).columns(),
             "an unfolding convolution of overlapping blocks");
     return CheckFilter(out_.channels());
@@ -85,6 +85,7 @@ class StepChecker {
 
   void CheckWindow(const op::Window& window, int rows, int columns) const {
     const Shape& in = in_.shape;
+    Require(out_.size[0] == 1, "more than one picture at a time");
     Require(window.same_padding || (rows <= in.rows() && columns <= in.columns()),
             "a filter larger than its input");
     Require(out_.rows() == SizeAfter(window, in.rows(), window.stride_rows, rows) &&
@@ -148,7 +149,8 @@ class StepChecker {
   }
 
   double CheckOf(const op::ResizeBilinear&) const {
-    Require(out_.channels() == in_.shape.channels(), "resizing changes the channels");
+    Require(out_.channels() == in_.shape.channels() && out_.size[0] == 1,
+            "resizing changes the channels");
     return 1;
   }
 
@@ -191,6 +193,7 @@ Network::Network(Model model) : model_(std::move(model)) {
   std::vector<bool> known(model_.tensors.size());
   std::size_t total = 0;
   for (std::size_t i = 0; i < known.size(); ++i) known[i] = model_.tensors[i].constant;
+  Require(model_.inputs.size() == 1, "a network of other than one input");
   for (const int i : model_.inputs) {
     Require(!known[static_cast<std::size_t>(i)], "a network's input is a constant");
     known[static_cast<std::size_t>(i)] = true;

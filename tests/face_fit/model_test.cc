@@ -48,7 +48,13 @@ TEST(NetworkTest, SizesThatDoNotMatchAreRefused) {
   EXPECT_THROW(Network(OneStep(kSameConvolution, {{1, 2, 2, 1}}, ones, {{1, 5, 2, 1}})), BadModel);
   EXPECT_THROW(Network(OneStep(kSameConvolution, {{1, 2, 2, 2}}, ones, {{1, 2, 2, 1}})), BadModel);
   EXPECT_THROW(Network(OneStep(op::Add{}, {{1, 2, 2, 1}}, ones, {{1, 2, 2, 1}})), BadModel);
+  const Tensor point = Constant({{1, 1, 1, 1}}, {1});
+  EXPECT_THROW(Network(OneStep(kSameConvolution, {{1, 2, 2, 1}}, point, {{2, 2, 2, 1}})), BadModel)
+      << "two pictures of one";
   Model unwritten = OneStep(kSameConvolution, {{1, 2, 2, 1}}, ones, {{1, 2, 2, 1}});
+  Model two = unwritten;
+  two.inputs = {0, 1};
+  EXPECT_THROW(Network(std::move(two)), BadModel);
   unwritten.steps.clear();
   EXPECT_THROW(Network(std::move(unwritten)), BadModel);
 }
