@@ -1,6 +1,6 @@
-// The file of a small head with bytes changed: what is read moves without harm, the rest is
-// refused. Input: changes of five bytes each: where (three bytes, wrapped round), one that is not
-// used, and what stands there then.
+// The file of a small head with bytes changed: what is read moves, is measured and takes other
+// units without harm, the rest is refused. Input: changes of five bytes each: where (three bytes,
+// wrapped round), one that is not used, and what stands there then. No changes: the whole file.
 
 #include <chrono>
 #include <cstdint>
@@ -75,6 +75,40 @@ fsm::Head SmallHead() {
   return fsm::Head(std::move(asset));
 }
 
+/// The face at rest, with everything at its most, and with everything beyond that.
+std::vector<fsm::FaceState> States() {
+  std::vector<fsm::FaceState> states(1);
+  for (const float strength : {1.0F, -1.0F, 1e30F}) {
+    fsm::FaceState& state = states.emplace_back();
+    for (std::size_t unit = 0; unit < fsm::kActionUnits; ++unit) {
+      state.au.left[unit] = strength;
+      state.au.right[unit] = 2 * strength;
+    }
+    state.au.left[fsm::UnitValues::kMost] = strength;
+    state.mouth.fill(10 * strength);
+    state.mouth_by_hand.fill(-10 * strength);
+    state.lip_seal = state.tongue = strength;
+    state.blink = {strength, strength};
+    state.gaze.left = state.gaze.right = {30 * strength, 40 * strength};
+    state.head_rotation = {50 * strength, 70 * strength, 45 * strength};
+    state.head_forward = 40 * strength;
+  }
+  return states;
+}
+
+void Move(const fsm::Head& head) {
+  fsm::HeadVertices vertices;
+  for (const fsm::FaceState& state : States()) {
+    head.Evaluate(state, vertices);
+    head.MeasureMouth(state);
+    fsm::Simulation simulation(head.rig().data().swing.springs);
+    for (const int ms : {0, 500, 530}) {
+      simulation.RunTo(std::chrono::milliseconds(ms), [&state](auto) { return state; });
+    }
+    head.Evaluate(state, vertices, simulation.offsets());
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -87,17 +121,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   auto asset = fsm::ParseAsset("head.glb", file);
   if (!asset) return 0;
   const fsm::Head head(std::move(*asset));
-  fsm::HeadVertices vertices;
-  fsm::FaceState state;
-  head.Evaluate(state, vertices);
-  state.au.left[4] = state.au.right[43] = state.blink.left = 1;
-  state.mouth.fill(0.5F);
-  state.head_rotation = {10, 20, 30};
-  fsm::Simulation simulation(head.rig().data().swing.springs);
-  for (const int ms : {0, 500, 530}) {
-    simulation.RunTo(std::chrono::milliseconds(ms), [&state](auto) { return state; });
-  }
-  head.Evaluate(state, vertices, simulation.offsets());
+  Move(head);
+  static const fsm::UnitTable kOthers(
+      fsm::Table("others", "field 12 10 20 15 15 both 1 2 3\njaw 26 20 0"));
+  Move(*head.WithUnits(kOthers));
   fsm::Describe(head);
   return 0;
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fsm/mesh/mesh_reach.h"
+#include "fsm/rig/rig.h"
 
 namespace fsm {
 namespace {
@@ -96,6 +97,7 @@ class Checker {
     if (rig.proxy.to_own.size() != rig.proxy.rest.size()) {
       throw Flaw("rig.own_form: not one for each of rig.proxy_rest");
     }
+    CheckSteps(rig.steps);
     Vertex(rig.jaw.chin, "rig.chin");
     PerVertex(rig.bone, "rig.bone", false);
     PerVertex(rig.weights, "rig.weights", false);
@@ -107,6 +109,20 @@ class Checker {
     VerticesOf(rig.ball_lids.vertices, "rig.ball_lids");
     VerticesOf(rig.teeth.contacts, "rig.teeth_contacts");
     CheckSprings(rig);
+  }
+
+  static void CheckSteps(const std::vector<RigStep>& steps) {
+    if (steps.size() > RigData::kMostSteps) {
+      throw Flaw(
+          fmt::format("rig.steps: {}, at most {} expected", steps.size(), RigData::kMostSteps));
+    }
+    for (std::size_t i = 1; i < steps.size(); ++i) {
+      const bool in_order =
+          ShapesSkin(steps[i]) ? ShapesSkin(steps[i - 1]) : steps[i - 1] < steps[i];
+      if (in_order) continue;
+      throw Flaw(fmt::format("{}: {} cannot come after {}", Place("rig.steps", i), NameOf(steps[i]),
+                             NameOf(steps[i - 1])));
+    }
   }
 
   void CheckSprings(const RigData& rig) const {
@@ -148,6 +164,9 @@ class Checker {
       if (driver.drive.number > most) {
         throw Flaw(fmt::format("{}: number {} above {}", place, driver.drive.number, most));
       }
+    }
+    if (!(channel.least <= channel.most)) {  // true for not-a-number, too
+      throw Flaw(fmt::format("{}: least {} is above most {}", place, channel.least, channel.most));
     }
     VerticesOf(channel.moves, (place + ".moves").c_str());
   }

@@ -5,8 +5,9 @@
 
 namespace fsm {
 
-/// Whether the arrays of an asset fit together as Head requires it: lengths, and every index within
-/// what it points into. Errors: kBadValue naming the member, "rig.lips.seam[3]: vertex 900 of 800".
+/// Whether an asset is as Head requires it: arrays fit together, every index is within what it
+/// points into, and the rig has what RigData and its steps (RigStep) say they need. Errors:
+/// kBadValue naming the member, "rig.lips.seam[3]: vertex 900 of 800".
 vm::Result<void> CheckAsset(const HeadAsset& asset);
 
 }  // namespace fsm

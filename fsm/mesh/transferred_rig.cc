@@ -82,7 +82,7 @@ class RigResampler {
     constexpr float kLeast = 1e-3f;  // millimetres
     std::vector<glm::vec3> by(source_.rest.size());
     for (const Channel& channel : source_.channels) {
-      if (channel.drivers.front().drive.kind != Drive::Kind::kMouth) continue;
+      if (!channel.IsLedBy(Drive::Kind::kMouth)) continue;
       std::ranges::fill(by, glm::vec3(0));
       for (const Displacement& d : channel.moves) by[d.vertex] = d.by;
       Channel& own = rig_.channels.emplace_back(channel);

@@ -53,17 +53,22 @@ struct Drive {
 };
 
 /// Displacements with one common strength: the sum of the drivers, kept within limits and scaled by
-/// whether the lips are sealed. Channels add up.
+/// whether the lips are sealed. Without drivers the sum is 0. Channels add up.
 struct Channel {
   struct Driver {
     Drive drive;
     float gain = 1;
   };
   std::vector<Driver> drivers;
-  float least = -std::numeric_limits<float>::infinity();
+  float least = -std::numeric_limits<float>::infinity();  ///< not above `most`
   float most = std::numeric_limits<float>::infinity();
   float open_factor = 1, sealed_factor = 1;  ///< on the strength, while lips are open and sealed
   std::vector<Displacement> moves;
+
+  /// Whether the first driver is of that kind; false without drivers.
+  bool IsLedBy(Drive::Kind kind) const {
+    return !drivers.empty() && drivers.front().drive.kind == kind;
+  }
 };
 
 /// The channels of the units' table for vertices of skin with these weights.

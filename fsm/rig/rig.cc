@@ -51,7 +51,7 @@ struct Rig::Frame {
   const FaceState& state;
   Pose pose;
   std::span<glm::vec3> position;
-  std::span<glm::vec3> normal;  ///< none where only the mouth is measured
+  std::span<glm::vec3> normal;  ///< empty where only steps that shape the skin are taken
   std::span<const glm::vec3> swings{};
 };
 
@@ -144,7 +144,7 @@ MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
   std::vector<glm::vec3> position = data_.Start();
   Frame frame{state, PoseOf(state), position, {}};
   for (const RigStep step : data_.steps) {
-    if (step == RigStep::kTongue || step == RigStep::kBones) break;
+    if (!ShapesSkin(step)) break;  // the others write normals, and move no lips
     Take(step, frame);
   }
   const auto [upper, lower, left, right] = *data_.lips.measured;
@@ -158,9 +158,8 @@ Rig Rig::WithUnits(const UnitTable& units) const {
   data.units = units;
   if (data.asymmetry_seed) data.units.MakeAsymmetric(*data.asymmetry_seed);
   if (data.units_by_place) {
-    std::erase_if(data.channels, [](const Channel& channel) {
-      return channel.drivers.front().drive.kind == Drive::Kind::kUnit;
-    });
+    std::erase_if(data.channels,
+                  [](const Channel& channel) { return channel.IsLedBy(Drive::Kind::kUnit); });
     std::ranges::move(UnitChannels(data.units, data.bone, data.weights),
                       std::back_inserter(data.channels));
   }

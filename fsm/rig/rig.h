@@ -37,7 +37,8 @@ std::string_view NameOf(RigStep step);
 /// one after the other. Immutable; thread: any.
 class Rig {
  public:
-  /// REQUIRES: the arrays of `data` fit together, as the bakers make them.
+  /// REQUIRES: `data` has what RigData and its steps (RigStep) say they need. The bakers make it
+  /// so; CheckAsset finds out of what comes from elsewhere.
   explicit Rig(RigData data);
 
   const RigData& data() const { return data_; }
@@ -47,12 +48,13 @@ class Rig {
   }
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
   /// `swings`: Simulation::offsets() of SpringRig::springs, or none where nothing swings.
+  /// REQUIRES: one swing for each spring, or none at all.
   void Evaluate(const FaceState& state, HeadVertices& out,
                 std::span<const glm::vec3> swings = {}) const;
   RigInputs InputsOf(const FaceState& state) const;
   /// Fills the members of HeadVertices other than positions and normals.
   void FindCreasesAndLids(const Pose& pose, HeadVertices& out) const;
-  /// All 0 if the head does not say where its lips are.
+  /// Measured before the head turns. All 0 if the head does not say where its lips are.
   MouthMeasure MeasureMouth(const FaceState& state) const;
   /// The same rig whose units move as another table says.
   Rig WithUnits(const UnitTable& units) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -33,22 +34,40 @@ struct GazeRanges {
 };
 
 /// The steps that compute vertices from a state; RigData::steps lists those of a head in order.
-/// Each works on the result of the steps before it.
+/// Each works on the result of the steps before it. All of them rely on the arrays of RigData that
+/// are per vertex; what a step relies on beside these stands after "Needs". CheckAsset checks all
+/// of it in a head that comes from a file.
 enum class RigStep : std::uint8_t {
-  kChannels,     ///< units and mouth parameters displace vertices
-  kLids,         ///< lids turn about the eyes, over the cornea
-  kLidsOnBalls,  ///< what was outside an eyeball stays outside
+  // These shape the skin of a head that looks ahead. They write positions only.
+  /// Units and mouth parameters displace vertices. Needs: the number of each Drive is one that its
+  /// kind has; Channel::least is not above Channel::most; moves name vertices.
+  kChannels,
+  kLids,         ///< lids turn about the eyes, over the cornea. Needs: `lids` names vertices
+  kLidsOnBalls,  ///< what was outside an eyeball stays outside. Needs: `ball_lids` names vertices
   kJaw,          ///< skin goes with the jaw, by its weights
-  kJawByChin,    ///< the jaw opens and sways as far as JawRig::chin has gone
-  kTeeth,        ///< lips are held off the teeth
-  kLips,         ///< lips that would cross meet, and close as far as they are sealed
-  kOwnForm,      ///< vertices go by ProxyForm::to_own
-  kTongue,       ///< the tongue finds its way between teeth and lips
-  kBones,        ///< jaw and eyes, with what is fixed to them
-  kNeck,         ///< the head turns and goes forward
-  kSprings,      ///< what is soft swings, where a simulation says how far
-  kNormals       ///< normals are found from the moved skin
+  /// The jaw opens and sways as far as JawRig::chin has gone. Needs: that is a vertex.
+  kJawByChin,
+  kTeeth,  ///< lips are held off the teeth. Needs: TeethRig::contacts names vertices
+  /// Lips that would cross meet, and close as far as they are sealed. Needs: the seam and the
+  /// followers name vertices, each follower a pair of the seam; apart_at_rest is empty or has one
+  /// element for each pair.
+  kLips,
+  kOwnForm,  ///< vertices go by ProxyForm::to_own. Needs: it is empty or per vertex
+
+  // These write normals, too, but for kSprings.
+  kTongue,  ///< the tongue finds its way between teeth and lips. Needs: the seam names vertices
+  kBones,   ///< jaw and eyes turn, with what is fixed to them
+  kNeck,    ///< the head turns and goes forward
+  /// What is soft swings, where a simulation says how far. Needs: the weights of SpringRig name
+  /// vertices and springs; the simulation is of the same springs.
+  kSprings,
+  /// Normals are found from the moved skin. Needs: soft_triangles are three vertices each; twin is
+  /// empty, or per vertex and names vertices.
+  kNormals
 };
+
+/// Whether a step shapes the skin, rather than what comes after: tongue, bones, neck and normals.
+constexpr bool ShapesSkin(RigStep step) { return step < RigStep::kTongue; }
 
 /// The jaw: its axis goes through the hinge along x.
 struct JawRig {
@@ -80,7 +99,10 @@ struct CreaseRig {
 /// How a head moves: plain data, in the frame of HeadVertices. Members that all steps read come
 /// before those of single steps.
 struct RigData {
+  /// First those that shape the skin (ShapesSkin), in any order, also several times. Then the
+  /// others in the order of RigStep, each at most once. At most kMostSteps.
   std::vector<RigStep> steps;
+  static constexpr std::size_t kMostSteps = 32;
   std::vector<glm::vec3> rest, rest_normal;  ///< per vertex
   std::vector<Bone> bone;                    ///< per vertex
   std::vector<SkinWeights> weights;          ///< per vertex

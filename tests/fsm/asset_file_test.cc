@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -227,6 +228,67 @@ TEST(CheckAssetTest, WhatTheBakersMakeFitsTogether) {
     asset.rig.lips.followers.push_back({3, 10000, 1});
     EXPECT_FALSE(CheckAsset(asset));
   }
+}
+
+HeadAsset BallAsset() {
+  const BallHead ball;
+  return {ball.topology(), ball.rig().data(), {}, {}};
+}
+
+TEST(CheckAssetTest, StepsOutOfOrderAreRefusedByTheirNames) {
+  using enum RigStep;
+  HeadAsset asset = BallAsset();
+  const auto flaw = [&asset](std::vector<RigStep> steps) {
+    asset.rig.steps = std::move(steps);
+    const auto checked = CheckAsset(asset);
+    return checked ? "" : checked.error().text;
+  };
+  EXPECT_EQ(flaw({kTeeth, kLips, kTeeth, kNeck, kNormals}), "");
+  EXPECT_EQ(flaw({kNormals, kChannels}), "rig.steps[1]: channels cannot come after normals");
+  EXPECT_EQ(flaw({kNeck, kBones}), "rig.steps[1]: bones cannot come after neck");
+  EXPECT_EQ(flaw({kJaw, kNormals, kNormals}), "rig.steps[2]: normals cannot come after normals");
+  EXPECT_EQ(flaw(std::vector(33, kJaw)), "rig.steps: 33, at most 32 expected");
+}
+
+TEST(CheckAssetTest, AFileWithStepsOutOfOrderIsNotRead) {
+  HeadAsset asset = BallAsset();
+  asset.rig.steps = {RigStep::kNormals, RigStep::kChannels};
+  const auto read = ParseAsset("head.glb", WriteAsset(Head(std::move(asset)), {}));
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().text.find("rig.steps[1]"), std::string::npos) << read.error().text;
+}
+
+TEST(CheckAssetTest, AChannelWhoseLimitsAreTheWrongWayRoundIsRefused) {
+  HeadAsset asset = BallAsset();
+  Channel& channel = asset.rig.channels.emplace_back();
+  EXPECT_TRUE(CheckAsset(asset)) << "without drivers it stays at rest";
+  channel.least = 2;
+  channel.most = 1;
+  EXPECT_FALSE(CheckAsset(asset));
+  channel.least = std::nanf("");
+  EXPECT_FALSE(CheckAsset(asset));
+}
+
+TEST(RigTest, AMouthIsMeasuredWhicheverStepsThereAre) {
+  HeadAsset asset = BallAsset();
+  asset.rig.lips.measured = {{600, 800, 610, 620}};
+  asset.rig.normals.soft_triangles = asset.topology.indices;
+  const float width = glm::distance(asset.rig.rest[610], asset.rig.rest[620]);
+  FaceState state;
+  state.head_rotation = {10, 20, 5};
+  for (int step = 0; step <= static_cast<int>(RigStep::kNormals); ++step) {
+    asset.rig.steps = {static_cast<RigStep>(step)};
+    const Rig rig(asset.rig);
+    EXPECT_NEAR(rig.MeasureMouth(state).width_mm, width, 1e-3F)
+        << NameOf(static_cast<RigStep>(step));
+  }
+}
+
+TEST(RigTest, AChannelWithoutDriversIsKeptWhenUnitsChange) {
+  RigData data = BallAsset().rig;
+  data.units_by_place = true;
+  data.channels.emplace_back().moves = {{0, {1, 2, 3}}};
+  EXPECT_EQ(Rig(data).WithUnits({}).data().channels.size(), 1U);
 }
 
 TEST(DescribeTest, NamesWhatAHeadIsMadeOf) {
