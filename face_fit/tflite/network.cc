@@ -23,9 +23,6 @@ struct Overloaded : F... {
   using F::operator()...;
 };
 
-/// More multiplications than any of the networks needs, by some margin.
-constexpr double kMostWork = 4e9;
-
 /// Whether an operator's inputs, weights and output fit together. What does not throws BadModel.
 class StepChecker {
  public:
@@ -61,8 +58,9 @@ class StepChecker {
     return CheckFilter(1);
   }
   double CheckOf(const op::TransposeConvolution&) const {
-    Require(out_.size[0] == 1 && out_.rows() == in_.shape.rows() * Numbers(1).rows() &&
-                out_.columns() == in_.shape.columns() * Numbers(1).columns(),
+    const auto times = [](int a, int b) { return std::int64_t{a} * b; };
+    Require(out_.size[0] == 1 && out_.rows() == times(in_.shape.rows(), Numbers(1).rows()) &&
+                out_.columns() == times(in_.shape.columns(), Numbers(1).columns()),
             "an unfolding convolution of overlapping blocks");
     return CheckFilter(out_.channels());
   }
@@ -122,6 +120,7 @@ class StepChecker {
   double CheckOf(const op::Pad&) const {
     const auto& by = Argument(1).counts;
     Require(by.size() == 8, "a padding of other than four axes");
+    Require(out_.size[0] == 1, "more than one picture at a time");
     for (std::size_t axis = 0; axis < 4; ++axis) {
       const std::int64_t before = by[2 * axis], after = by[2 * axis + 1];
       Require(before >= 0 && after >= 0 && in_.shape.size[axis] + before + after == out_.size[axis],
@@ -189,7 +188,7 @@ class StepChecker {
 
 }  // namespace
 
-Network::Network(Model model) : model_(std::move(model)) {
+Network::Network(Model model, double most_work) : model_(std::move(model)) {
   std::vector<bool> known(model_.tensors.size());
   std::size_t total = 0;
   for (std::size_t i = 0; i < known.size(); ++i) known[i] = model_.tensors[i].constant;
@@ -208,7 +207,7 @@ Network::Network(Model model) : model_(std::move(model)) {
     Require(!known[out], "two operators write one tensor");
     known[out] = true;
     work += each * static_cast<double>(Of(step.output).shape.count());
-    Require(work < kMostWork, "the network is too large");
+    Require(work < most_work, "the network is too large");
   }
   for (const int i : model_.outputs) {
     Require(known[static_cast<std::size_t>(i)], "nothing writes the network's output");
