@@ -9,24 +9,31 @@
 namespace fsm {
 
 /// Writes a film through an ffmpeg process fed with raw frames; .rgba is written without one.
-/// Lifetime: Finish() or the destructor ends the process; without Finish the file is removed.
+/// Lifetime: Finish() or the destructor ends the process. Without Finish nothing is left at the
+///           path, but for .rgba, whose frames stand there as soon as they are written.
 /// Deterministic: the same frames give the same bytes (no time stamps, one encoder thread).
 class FilmWriter {
  public:
-  /// .mp4 (H.264, yuv420p); .mov (ProRes 4444) or .webm (VP9), which keep what is transparent; .mkv
-  /// (FFV1 in RGB, FLAC), which keeps colours and sound to the bit; or .rgba: every frame's width *
-  /// height * 4 bytes one after the other, into a file or a named pipe that somebody reads (SIGPIPE
-  /// must be ignored). Error: kUnavailable if ffmpeg is missing or refuses, with its last line. 1
-  /// to 1000 frames per second; `comment`: told to whoever reads the file's metadata, unless it is
-  /// .rgba.
+  /// Opens a film for writing. The ending of `path` chooses its kind:
+  ///   .mp4         H.264, yuv420p
+  ///   .mov, .webm  ProRes 4444, VP9: keep transparency
+  ///   .mkv         FFV1 in RGB, FLAC: keeps colours and sound to the bit
+  ///   .rgba        width * height * 4 bytes for each frame, into a file or a named pipe that
+  ///                somebody reads. REQUIRES: SIGPIPE is ignored.
+  /// `frames_per_second`: 1..1000. `comment` is written into the film's metadata; .rgba has none.
+  /// Errors: kBadValue for a name, size or rate that is not allowed; kUnavailable if `path` cannot
+  /// be written, nobody reads the pipe, or ffmpeg is missing or refuses (with its last line).
   static vm::Result<std::unique_ptr<FilmWriter>> Open(const std::string& path, int width,
                                                       int height, double frames_per_second,
                                                       const std::string& comment = {});
   /// Whether the name ends as one of these. Error: kBadValue, as of Open.
   static vm::Result<void> CheckName(const std::string& path);
   virtual ~FilmWriter() = default;
-  /// The size must be that given at Open. Handed on by another thread; blocks only while several
-  /// frames wait. An error may belong to a frame before.
+  /// REQUIRES: the frame has the size given at Open. For ffmpeg the frame is handed on by another
+  /// thread: the call blocks only while FrameFeeder::kMostWaiting frames wait, and an error may
+  /// belong to a frame before. An .rgba frame is written by the caller's thread: the call blocks
+  /// until the file or the reader of the pipe has taken all of it. A reader that takes nothing for
+  /// five seconds is an error. Error: kUnavailable; the film has then ended.
   virtual vm::Result<void> Add(const Image& frame) = 0;
   /// Ends the film; `sound_wav` (may be empty) is added as its sound from the start. The result is
   /// moved to the path only when complete. Errors: kUnavailable; when only the sound is at fault
