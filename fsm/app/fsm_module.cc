@@ -128,6 +128,7 @@ void FsmModule::Initialise() {
   if (auto set = BeginLife(); !set) core_.slots.ReportError("Life", set.error());
   frames_shown_ = 0;
   core_.slots.Store("Frame", "");
+  unmeasured_mask_.reset();
   frame_to_.clear();
   Changed();
 }
@@ -298,12 +299,19 @@ void FsmModule::TellFrame(vm::Time at) {
 
 void FsmModule::ReportFrame(long number, vm::Time at) {
   if (!core_.slots.AutoOutput("Frame")) return;
+  // A head that cannot be made is one error, not one for each frame; another may be worn later.
+  const std::string worn = core_.slots.Value("Mask");
+  if (worn == unmeasured_mask_) return;
   const FaceState state = core_.motion->StateAt(at);
-  const MouthMeasure mouth = core_.backend.Measure(state);
+  const auto mouth = core_.backend.Measure(state);
+  if (!mouth) {
+    unmeasured_mask_ = worn;
+    return core_.slots.ReportError("Frame", mouth.error());
+  }
   const std::string& phoneme = core_.motion->speech.PhonemeAt(at);
   core_.slots.Report("Frame", fmt::format("{} {} {} {:.2f} {:.2f} {:.2f}", number, vm::FormatMs(at),
-                                          phoneme.empty() ? "-" : phoneme, mouth.jaw_degrees,
-                                          mouth.gap_mm, mouth.width_mm));
+                                          phoneme.empty() ? "-" : phoneme, mouth->jaw_degrees,
+                                          mouth->gap_mm, mouth->width_mm));
 }
 
 vm::Result<void> FsmModule::DrawFrame(long number, vm::Time at) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -81,7 +82,8 @@ class FsmModule final : public vm::Module {
   std::unique_ptr<PictureStream> pictures_;
   double frame_rate_ = 60;
   long frames_shown_ = 0;
-  std::string frame_to_;  // the module that is told each frame; empty: none
+  std::string frame_to_;                        // the module that is told each frame; empty: none
+  std::optional<std::string> unmeasured_mask_;  // the face whose head Frame could not measure
   vm::Timer frame_timer_{core_.clock};
   vm::Time frame_due_{0};
   vm::Timer end_timer_{core_.clock};

@@ -123,7 +123,13 @@ void GlRenderBackend::DropRead(std::uint64_t frame) {
   renderer_->DropRead(frame);
 }
 
-MouthMeasure GlRenderBackend::Measure(const FaceState& state) { return head().MeasureMouth(state); }
+vm::Result<MouthMeasure> GlRenderBackend::Measure(const FaceState& state) {
+  try {
+    return head().MeasureMouth(state);
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kUnavailable, std::string("cannot measure: ") + error.what());
+  }
+}
 
 std::vector<std::string> GlRenderBackend::Faces() const {
   std::vector<std::string> names;

@@ -45,7 +45,7 @@ class GlRenderBackend final : public RenderBackend {
   std::uint64_t BeginRead() override;
   vm::Result<void> EndRead(std::uint64_t frame, Image& out) override;
   void DropRead(std::uint64_t frame) override;
-  MouthMeasure Measure(const FaceState& state) override;
+  vm::Result<MouthMeasure> Measure(const FaceState& state) override;
   std::vector<std::string> Faces() const override;
   vm::Result<void> Wear(const std::string& face) override;
   int width() const override;

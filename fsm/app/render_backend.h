@@ -42,8 +42,9 @@ class RenderBackend {
   /// kUnavailable if the graphics context lost it.
   virtual vm::Result<void> EndRead(std::uint64_t frame, Image& out) = 0;
   virtual void DropRead(std::uint64_t frame) = 0;
-  /// What the mouth of a state measures. Needs no drawing.
-  virtual MouthMeasure Measure(const FaceState& state) = 0;
+  /// What the mouth of a state measures. Needs no drawing, but the head: the first call makes it.
+  /// Error: kUnavailable if the head cannot be made.
+  virtual vm::Result<MouthMeasure> Measure(const FaceState& state) = 0;
 
   /// The faces there are, the one worn at the start first; at least one.
   virtual std::vector<std::string> Faces() const = 0;

@@ -285,6 +285,20 @@ TEST(InitTest, FramesAreCountedFromTheStart) {
   EXPECT_TRUE(said.starts_with("rep Frame = 0 ")) << said;
 }
 
+TEST(FrameTest, AHeadThatCannotBeMadeIsOneErrorAndAllElseGoesOn) {
+  FsmStage fsm;
+  fsm.backend.no_head = "cannot measure: there is no such file";
+  fsm.Say("prop Frame = AutoOutput");
+  fsm.Say("set FaceMot = NOD 1");
+  EXPECT_EQ(fsm.Until(1000).find("rep Frame"), std::string::npos);
+  EXPECT_EQ(fsm.errors, std::vector<std::string>{"UNAVAILABLE " + fsm.backend.no_head});
+  EXPECT_EQ(fsm.Say("inq Mask"), "rep Mask = galatea");
+  fsm.backend.no_head.clear();
+  fsm.Say("set Mask = pygmalion");
+  fsm.Say("set FaceMot = NOD 1");
+  EXPECT_NE(fsm.Until(2000).find("rep Frame"), std::string::npos) << "another head is measured";
+}
+
 TEST(InitTest, OwnExpressionsCanBeMadeAgain) {
   FsmStage fsm;
   for (int round = 0; round < 3; ++round) {

@@ -42,9 +42,10 @@ class FakeRenderBackend : public RenderBackend {
     return {};
   }
   void DropRead(std::uint64_t frame) override { readings.at(frame) = {}; }
-  MouthMeasure Measure(const FaceState& state) override {
-    return {state.mouth[kUpperInnerY] - state.mouth[kLowerInnerY], 50 + 2 * state.mouth[kCornerX],
-            state.mouth[kJawY]};
+  vm::Result<MouthMeasure> Measure(const FaceState& state) override {
+    if (!no_head.empty()) return vm::Fail(vm::Errc::kUnavailable, no_head);
+    return MouthMeasure{state.mouth[kUpperInnerY] - state.mouth[kLowerInnerY],
+                        50 + 2 * state.mouth[kCornerX], state.mouth[kJawY]};
   }
   std::vector<std::string> Faces() const override { return {"galatea", "pygmalion"}; }
   vm::Result<void> Wear(const std::string& name) override {
@@ -98,6 +99,7 @@ class FakeRenderBackend : public RenderBackend {
   bool swings = false;
   bool fills_screen = false;
   bool closed = false;
+  std::string no_head;     ///< the reason why no head can be made, "" = it can
   std::string no_drawing;  ///< the reason why nothing can be drawn, "" = all can
 
  private:
