@@ -61,11 +61,11 @@ struct Identity {
   std::optional<CropStyle> crop;  ///< long hair if empty
   LongStyle long_hair;
   EyeTransform eyes;  ///< the left one; `shift` is what the sliders make it
-  /// The furrow over the upper lid: millimetres by which it lies higher than on the base head at
-  /// the inner and at the outer corner; how dark it is, as factor; by how many millimetres the skin
-  /// there and above is fuller.
+  /// The furrow over the upper lid, compared with the base head's.
   struct LidFold {
-    float inner_mm = 0, outer_mm = 0, dark = 1, full_mm = 0;
+    float inner_mm = 0, outer_mm = 0;  ///< how much higher it lies at the eye's two corners
+    float dark = 1;                    ///< factor on how dark it is
+    float full_mm = 0;                 ///< how much thicker the skin is, there and above
   };
   LidFold fold;
   float lashes = 1;

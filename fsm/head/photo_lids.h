@@ -36,12 +36,14 @@ struct PhotoSkin {
   SkinPose open, shut;  ///< with lids at rest and shut
 };
 
-/// Lids for a face that wears such a photo, looking as `features` says. With glasses nothing above
-/// the eye is taken for lashes. A lid that shuts comes out from under the skin above
-/// it: what the photo shows there stays where it is, but the lashes of the open eye, and the eye
-/// gives way to skin with the grain of the lower lid's. At the top the skin is coloured like that
-/// round the eye, as far as that is not darker or brighter than most of it (glasses, brows,
-/// reflections); downward it comes out into the light that falls on the face.
+/// Paints the shut lids of a face that wears a photo of open eyes; `features` says how they look.
+/// `glasses`: the person wears them, so nothing above the eye is taken for lashes.
+///
+/// A shutting lid slides out from under the skin above it. That skin keeps its place in the photo,
+/// but the lashes of the open eye do not, and the eye is covered by skin with the grain of the
+/// lower lid. At its upper edge the lid has the colour of the skin round the eye; places there that
+/// are darker or brighter than most (glasses, brows, reflections) do not count. Further down the
+/// lid takes the light that falls on the face.
 std::vector<ShutLid> PaintLids(const PhotoMapping& mapping, const PhotoSkin& skin, bool glasses,
                                const Features& features, const FaceLight& light);
 

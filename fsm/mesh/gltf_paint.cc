@@ -80,7 +80,9 @@ Image Sized(Image image, int width, int height) {
   return out;
 }
 
-/// Both as large as the larger; what is missing is `otherwise` all over. Nothing if both are.
+/// Scales two pictures to one size: the larger width and the larger height of the two. A missing
+/// picture is filled with the colour that stands for it, `a_otherwise` or `b_otherwise`. Returns
+/// false, and changes nothing, if both are missing.
 bool Pair(std::optional<Image>& a, std::optional<Image>& b,
           const std::array<std::uint8_t, 4>& a_otherwise,
           const std::array<std::uint8_t, 4>& b_otherwise) {

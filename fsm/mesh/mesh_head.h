@@ -6,11 +6,11 @@
 
 namespace fsm {
 
-/// Skin that nothing but the head's turn moves; with the units of built-in heads.
+/// A rig whose skin only turns with the head. It has the units of the built-in heads.
 RigData StillSkin();
-/// A head that shows `model`, whose skin moves as `skin` says: steps and what they need, by the
-/// model's vertices. Eyes, jaw, neck and light are added. Throws std::runtime_error if the model
-/// has no triangles.
+/// Makes a head of `model`. `skin` holds the steps that shape its skin (ShapesSkin) and what these
+/// need, by the model's vertices; the steps of eyes, jaw, neck, springs and normals are added, and
+/// how open each vertex is to light. Throws std::runtime_error if the model has no triangles.
 std::unique_ptr<Head> MakeMeshHead(MeshModel model, RigData skin = StillSkin());
 
 }  // namespace fsm

@@ -12,8 +12,9 @@
 
 namespace fsm {
 
-/// Somebody else's head at rest, in our frame and millimetres: what MakeMeshHead shows.
-/// Bone::kSkin moves as that is told; of the weights only `neck` is looked at.
+/// A head from elsewhere at rest, in the frame of HeadVertices, millimetres. MakeMeshHead makes a
+/// Head of it: vertices of Bone::kSkin move by the rig that it is given, the others with their
+/// bones. Of the weights only `neck` is read.
 struct MeshModel : HeadMesh {
   std::string name;  ///< of its file, for messages; may be empty
   TextureMaps textures;

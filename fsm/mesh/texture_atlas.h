@@ -22,12 +22,13 @@ class TextureAtlas {
     glm::vec2 low{0}, high{1};
     glm::vec2 At(glm::vec2 uv) const { return low + uv * (high - low); }
   };
-  /// The number of the picture, for rect(). Pictures beyond kMaxSide are halved until they fit.
+  /// Takes a picture, halved until neither side is above kMaxSide. Returns its number for rect().
   std::size_t Add(Image picture);
-  /// Lays all out. Nothing if there are none.
+  /// Lays all pictures out on one. Returns nullptr if there are none.
   std::shared_ptr<const Image> Make();
-  /// Others laid out alike, half as large; `neutral` where one is missing or empty. Nothing if all
-  /// are. REQUIRES: Make was called.
+  /// Makes a second atlas of other pictures, at half the size and with the same layout: `others[i]`
+  /// lies where picture i does. Where one is missing or empty the atlas has the colour `neutral`.
+  /// Returns nullptr if all are missing or empty. REQUIRES: Make was called.
   std::shared_ptr<const Image> MakeBeside(std::vector<Image> others,
                                           std::array<std::uint8_t, 4> neutral) const;
   /// Valid after Make.

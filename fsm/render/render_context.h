@@ -12,8 +12,9 @@ enum class OffScreen {
   kAny      ///< as kEgl; where EGL has nothing, OSMesa
 };
 
-/// A GL context and where its frames go. Thread: one, the one that made it; at most one is current,
-/// and a context is current when made. Destroying one leaves another current that was so.
+/// A GL context and where its frames go.
+/// Thread: the one that made it. At most one context is current there. Making a context makes it
+///         current; destroying a context that is not current leaves the current one as it is.
 class RenderContext {
  public:
   virtual ~RenderContext() = default;

@@ -10,8 +10,8 @@
 namespace fsm {
 
 /// The parameters of the mouth, in the order of the original's editor and of our tables
-/// (docs/face.md): millimetres on a mouth 50 mm wide, of kJawY degrees of opening. Y is up, Z
-/// forward, and X of the corners outward.
+/// (docs/face.md). Y points up, Z forward, X of the corners outward. Units: degrees of opening for
+/// kJawY, for all others millimetres on a mouth that is 50 mm wide.
 enum MouthParameter : std::size_t {
   kUpperOuterY,
   kUpperOuterZ,

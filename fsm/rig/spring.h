@@ -6,16 +6,20 @@
 
 namespace fsm {
 
-/// A place of something soft, as of long hair, that swings about where the head carries it. See
-/// Simulation.
+/// A damped oscillator: a point of something soft, as of long hair, that swings about the place
+/// where the head carries it (Simulation).
 struct Spring {
-  glm::vec3 rest{};     ///< millimetres
-  glm::vec3 root{};     ///< what it hangs from, at rest, millimetres
-  glm::vec3 outward{};  ///< away from what it lies on, unit: it never swings inward; 0: it may
-  float frequency_hz = 2;
-  float damping = 0.3f;  ///< of the critical, kLeastDamping..kMostDamping
-  float hang = 0;        ///< as the head leans: 0 it leans with it, 1 it hangs straight from `root`
-  float most_mm = 20;    ///< it comes no further from where the head carries it
+  glm::vec3 rest{};  ///< the place at rest, millimetres
+  glm::vec3 root{};  ///< the place it hangs from, at rest, millimetres
+  /// The normal, of unit length, of the surface it lies on: it does not swing into that. 0: it
+  /// swings in all directions.
+  glm::vec3 outward{};
+  float frequency_hz = 2;  ///< undamped; kLeastHz..kMostHz
+  float damping = 0.3f;    ///< damping ratio (1 = critical), kLeastDamping..kMostDamping
+  /// Where it comes to rest while the head leans, 0..1: 0 = leaning with the head, 1 = straight
+  /// below `root`.
+  float hang = 0;
+  float most_mm = 20;  ///< limit of its distance from where the head carries it
 
   static constexpr float kLeastHz = 0.1f, kMostHz = 30;
   static constexpr float kLeastDamping = 0.01f, kMostDamping = 0.99f;
