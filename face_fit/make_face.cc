@@ -4,6 +4,7 @@
 
 #include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/report.h"
+#include "vm_protocol/core/or_throw.h"
 
 namespace facefit {
 
@@ -27,6 +28,7 @@ FrontPhoto LookAtFront(FaceNetworks& networks, const BaseHead& base, fsm::Image 
 MadeFace MakeFace(const BaseHead& base, const FrontPhoto& front, const FoundFace& face,
                   FaceNetworks* networks, const ExtraPhotos& extras, std::optional<bool> glasses,
                   const StepDone& done) {
+  vm::OrThrow(CheckExtras(networks, extras));
   const auto tell = [&done](const char* step) {
     if (done) done(step);
   };

@@ -39,9 +39,9 @@ struct MadeFace {
 /// What is done on the way, told at the end of each step.
 using StepDone = std::function<void(const char* step)>;
 /// Fits the base head, which outlives the result, to a face of a photo, corrects its depth by
-/// photos from the side, and bakes them onto it. `networks`: looked with if there are `extras`;
-/// `glasses`: whether the person wears them, else that is looked for. Throws std::exception if
-/// nothing can be drawn with.
+/// photos from the side, and bakes them onto it. `networks` look at `extras`; nullptr will do where
+/// there are none. `glasses`: whether the person wears them, else that is looked for. Throws
+/// std::runtime_error with the error of CheckExtras, or if nothing can be drawn with.
 MadeFace MakeFace(const BaseHead& base, const FrontPhoto& front, const FoundFace& face,
                   FaceNetworks* networks, const ExtraPhotos& extras,
                   std::optional<bool> glasses = std::nullopt, const StepDone& done = {});

@@ -7,6 +7,18 @@
 
 namespace facefit {
 
+vm::Result<void> CheckExtras(const FaceNetworks* networks, const ExtraPhotos& extras) {
+  if (extras.size() > kMostExtraPhotos) {
+    return vm::Fail(vm::Errc::kLimit, "at most " + std::to_string(kMostExtraPhotos) +
+                                          " photos from the side are used");
+  }
+  if (!extras.empty() && networks == nullptr) {
+    return vm::Fail(vm::Errc::kUnavailable,
+                    "without the networks photos from the side cannot be used");
+  }
+  return {};
+}
+
 vm::Result<std::shared_ptr<const ExtraPhoto>> ReadExtraPhoto(FaceNetworks& networks,
                                                              const std::string& path) {
   auto photo = ReadPhoto(path);

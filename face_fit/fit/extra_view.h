@@ -12,6 +12,10 @@ namespace facefit {
 inline constexpr std::size_t kMostExtraPhotos = 6;
 using ExtraPhotos = std::vector<std::shared_ptr<const ExtraPhoto>>;
 
+/// Whether photos from the side can be used: there are at most kMostExtraPhotos, and, if there are
+/// any, networks to look at them with. Errors: kLimit, kUnavailable.
+vm::Result<void> CheckExtras(const FaceNetworks* networks, const ExtraPhotos& extras);
+
 /// Reads a photo and sets it upright by what is seen in it. Errors: as ReadPhoto.
 vm::Result<std::shared_ptr<const ExtraPhoto>> ReadExtraPhoto(FaceNetworks& networks,
                                                              const std::string& path);

@@ -23,6 +23,20 @@ TEST(ChooseFaceTest, FacesAreCountedFromOneAndThereIsNoOther) {
   EXPECT_FALSE(ChooseFace({}, 1));
 }
 
+TEST(ExtrasTest, PhotosFromTheSideNeedNetworksAndAreNotTooMany) {
+  EXPECT_TRUE(CheckExtras(nullptr, {}));
+  const auto blind = CheckExtras(nullptr, ExtraPhotos(1));
+  ASSERT_FALSE(blind);
+  EXPECT_EQ(blind.error().code, vm::Errc::kUnavailable);
+  const auto many = CheckExtras(nullptr, ExtraPhotos(kMostExtraPhotos + 1));
+  ASSERT_FALSE(many);
+  EXPECT_EQ(many.error().code, vm::Errc::kLimit);
+}
+
+TEST(ExtrasTest, NoFaceIsMadeOfPhotosFromTheSideWithoutNetworks) {
+  EXPECT_THROW(MakeFace(BaseHead{}, {}, {}, nullptr, ExtraPhotos(1)), std::runtime_error);
+}
+
 using MakeFaceTest = NetworkTest;
 
 TEST_F(MakeFaceTest, APhotoThatDoesNotHelpIsLeftOutWithItsReasonAndTheRestIsMade) {
