@@ -202,7 +202,11 @@ void AgentManager::OnSlotError(PeerKey peer, const std::string& line, const vm::
 
 void AgentManager::OnModuleOutput(const std::string& module, const OutputLine& line) {
   const std::string text = module + " " + line.level + ": " + line.text;
-  person_&& ToldErrors::IsComplaint(line.text) ? SayUnlessTold(text) : Say(text);
+  if (person_ && ToldErrors::IsComplaint(line.text)) {
+    SayUnlessTold(text);
+  } else {
+    Say(text);
+  }
   // A module that a reload has taken out writes on until it has gone.
   const std::string slot = "Module." + module + ".output";
   if (slots_.Has(slot)) slots_.Report(slot, line.level + " " + line.text);
