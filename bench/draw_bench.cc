@@ -255,7 +255,7 @@ void PrintOthers(const Options& options, fsm::Renderer& renderer) {
 
 /// As the program draws, or the option.
 float FormError(const Options& options) {
-  return options.form_error >= 0 ? options.form_error : fsm::Appearance::BuiltIn()("form_error");
+  return options.form_error >= 0 ? options.form_error : fsm::Appearance::BuiltIn().form_error;
 }
 
 void MeasureAll(char** argv, const Options& options) {

@@ -61,7 +61,7 @@ void GlRenderBackend::MakeRenderer() {
   if (!renderer_) {
     const Appearance& appearance = appearance_ ? *appearance_ : Appearance::BuiltIn();
     renderer_ = Renderer::Make(*context_, 1, appearance, options_.rig);
-    renderer_->SetFormError(appearance("form_error"));
+    renderer_->SetFormError(appearance.form_error);
   }
 }
 

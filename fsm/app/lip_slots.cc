@@ -40,13 +40,16 @@ vm::Result<void> SetNames(const std::string& names, MotionSettings& settings,
   return {};
 }
 
-/// By a way of speaking, a row of gestures.txt, or by numbers.
-void SetScale(const NumberTable& gestures, MotionSettings& settings, const vm::SetValue& value) {
+/// Movements of the jaw and of the lips in per cent: of a way of speaking, or two numbers or one.
+glm::vec2 ScaleOf(const GestureNumbers& gestures, const vm::SetValue& value) {
+  const auto& [jaw, lips] = std::tie(gestures.jaw, gestures.lips);
   const std::string& word = value.word(0);
-  const bool named = !ParseNumber(word);
-  settings.lips.jaw = (named ? gestures("jaw " + word) : value.number(0)) / 100;
-  settings.lips.lips =
-      (named ? gestures("lips " + word) : value.number(value.size() > 1 ? 1 : 0)) / 100;
+  if (word == "MUMBLED") return {jaw.MUMBLED, lips.MUMBLED};
+  if (word == "SOFT") return {jaw.SOFT, lips.SOFT};
+  if (word == "NORMAL") return {jaw.NORMAL, lips.NORMAL};
+  if (word == "CLEAR") return {jaw.CLEAR, lips.CLEAR};
+  if (word == "SHOUTED") return {jaw.SHOUTED, lips.SHOUTED};
+  return {value.number(0), value.number(value.size() > 1 ? 1 : 0)};
 }
 
 void DeclareStyle(FsmCore& core) {
@@ -81,7 +84,9 @@ void DeclareStyle(FsmCore& core) {
        .help = "How large the next utterances are articulated: a way of speaking, or per cent for "
                "the jaw and for the lips. Closures stay closed.",
        .action = core.Setting([&core](MotionSettings& settings, const vm::SetValue& value) {
-         SetScale(core.motion->tables().gestures, settings, value);
+         const glm::vec2 scale = ScaleOf(core.motion->tables().gestures, value);
+         settings.lips.jaw = scale.x / 100;
+         settings.lips.lips = scale.y / 100;
        }),
        .initial = "NORMAL"});
 }

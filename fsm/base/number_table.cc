@@ -1,5 +1,6 @@
 #include "fsm/base/number_table.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <set>
@@ -71,23 +72,10 @@ const std::vector<float>& NumberTable::operator[](std::string_view name) const {
   return numbers_[found->second];
 }
 
-glm::vec2 NumberTable::Pair(std::string_view name) const {
-  const auto& n = (*this)[name];
-  return {n.at(0), n.at(1)};
-}
-
-glm::vec3 NumberTable::Vector(std::string_view name) const {
-  const auto& n = (*this)[name];
-  return {n.at(0), n.at(1), n.at(2)};
-}
-
-glm::vec4 NumberTable::Vector4(std::string_view name) const {
-  return {Vector(name), (*this)[name].at(3)};
-}
-
-float NumberTable::Linear(std::string_view name, float x) const {
-  const glm::vec2 n = Pair(name);
-  return n.x + n.y * x;
+void NumberTable::Copy(std::string_view name, std::span<float> out) const {
+  const std::vector<float>& numbers = (*this)[name];
+  assert(numbers.size() == out.size());
+  std::ranges::copy(numbers, out.begin());
 }
 
 }  // namespace fsm

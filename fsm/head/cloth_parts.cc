@@ -14,15 +14,13 @@ namespace fsm {
 namespace {
 
 constexpr int kPoints = 8;  // of a half ring
-constexpr std::array kRings = {"shirt_inside",   "shirt_collar_foot", "shirt_collar", "shirt_fold",
-                               "shirt_neckline", "shirt_shoulder",    "shirt_chest",  "shirt_hem"};
 
 /// A half ring of the shirt, from the median in front by the agent's left to the median behind.
 struct ClothRing {
   float open;
   std::array<glm::vec3, kPoints> points;
 };
-ClothRing ClothRingOf(const std::vector<float>& n) {
+ClothRing ClothRingOf(const std::array<float, 1 + 3 * kPoints>& n) {
   ClothRing ring{n[0], {}};
   for (std::size_t i = 0; i < kPoints; ++i) {
     ring.points[i] = {n[3 * i + 1], n[3 * i + 2], n[3 * i + 3]};
@@ -33,13 +31,13 @@ ClothRing ClothRingOf(const std::vector<float>& n) {
 /// The collar keeps light off the skin beside it.
 void ShadeNeck(const Features& features, std::span<const glm::vec3> collar, std::size_t skin,
                HeadMesh& mesh) {
-  const float reach = features("shirt_shade reach");
+  const float reach = features.shirt_shade.reach;
   for (std::size_t i = 0; i < skin; ++i) {
     float nearest = 1e9f;
     for (const glm::vec3 q : collar)
       nearest = std::min(nearest, glm::distance(mesh.position[i], q));
     const float near = nearest / reach;
-    mesh.openness[i] *= 1 - features("shirt_shade dark") * std::exp(-near * near);
+    mesh.openness[i] *= 1 - features.shirt_shade.dark * std::exp(-near * near);
   }
 }
 
@@ -57,21 +55,23 @@ void BuildCloth(const Identity& identity, HeadMesh& mesh) {
   // Mirrored neighbours at both ends keep the surface smooth over the medians.
   for (int i = -1; i <= kPoints; ++i) around_at.push_back(static_cast<float>(i));
   std::vector<ClothRing> rings;
-  for (const char* name : kRings) {
+  for (const auto* row : {&features.shirt_inside, &features.shirt_collar_foot,
+                          &features.shirt_collar, &features.shirt_fold, &features.shirt_neckline,
+                          &features.shirt_shoulder, &features.shirt_chest, &features.shirt_hem}) {
     down_at.push_back(static_cast<float>(rings.size()) - 1);
-    rings.push_back(ClothRingOf(features[name]));
+    rings.push_back(ClothRingOf(*row));
   }
   const SplineBasis around(around_at);
   const SplineBasis down(down_at);
   std::vector<float> wa(around_at.size()), wd(down_at.size());
   BakeWeights weights;
   weights.free = weights.neck = weights.jaw = 0;
-  const float uneven = features("shirt_uneven");
+  const float uneven = features.shirt_uneven;
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (std::size_t r = 0; r < kRows.size(); ++r) {
     const float row = kRows[r];
-    const float light = r == kSeam  ? features("shirt_seam dark")
-                        : r < kSeam ? features("shirt_seam band")
+    const float light = r == kSeam  ? features.shirt_seam.dark
+                        : r < kSeam ? features.shirt_seam.band
                                     : 1.0f;
     down.Weights(row, wd);
     float open = 0;

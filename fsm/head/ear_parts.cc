@@ -43,33 +43,32 @@ class Ear {
     float height, open;
   };
   Relief ReliefAt(glm::vec2 p) const {
-    const float lobe = features_.Step("ear_lobe begins", p.y);
-    const float helix = RidgeAt("ear_helix", p) * (1 - lobe);
-    const float anti = RidgeAt("ear_antihelix", p);
-    const float fork = RidgeAt("ear_fork", p);
-    const float bowl =
-        BumpAt("ear_bowl", p) + features_("ear_upper_bowl part") * BumpAt("ear_upper_bowl", p);
-    const float tragus = BumpAt("ear_tragus", p);
-    const float notch = BumpAt("ear_notch", p);
-    const float height =
-        Flare(features_("ear_flare front"), p) + features_("ear_helix height") * helix +
-        features_("ear_antihelix height") * anti + features_("ear_fork height") * fork -
-        features_("ear_bowl depth") * bowl + features_("ear_tragus height") * tragus -
-        features_("ear_notch depth") * notch + features_("ear_lobe height") * lobe;
+    const float lobe = SmoothStep(features_.ear_lobe.begins, p.y);
+    const float helix = RidgeAt(features_.ear_helix, p) * (1 - lobe);
+    const float anti = RidgeAt(features_.ear_antihelix, p);
+    const float fork = RidgeAt(features_.ear_fork, p);
+    const float bowl = BumpAt(features_.ear_bowl, p) +
+                       features_.ear_upper_bowl.part * BumpAt(features_.ear_upper_bowl, p);
+    const float tragus = BumpAt(features_.ear_tragus, p);
+    const float notch = BumpAt(features_.ear_notch, p);
+    const float height = Flare(features_.ear_flare.front, p) + features_.ear_helix.height * helix +
+                         features_.ear_antihelix.height * anti + features_.ear_fork.height * fork -
+                         features_.ear_bowl.depth * bowl + features_.ear_tragus.height * tragus -
+                         features_.ear_notch.depth * notch + features_.ear_lobe.height * lobe;
     const float groove = (1 - helix) * (1 - anti) * (1 - fork) * (1 - lobe);
-    return {height, 1 - features_("ear_dark bowl") * std::min(1.0f, bowl) -
-                        features_("ear_dark grooves") * groove * (1 - tragus)};
+    return {height, 1 - features_.ear_dark.bowl * std::min(1.0f, bowl) -
+                        features_.ear_dark.grooves * groove * (1 - tragus)};
   }
   float BackAt(glm::vec2 p) const {
-    return Flare(features_("ear_flare back"), p) + features_("ear_thick");
+    return Flare(features_.ear_flare.back, p) + features_.ear_thick;
   }
 
   glm::vec2 middle() const { return middle_; }
   /// Leans back at the top; the front lies in the skin of the cheek.
   glm::vec3 Place(glm::vec2 p, float height) const {
-    return {features_("ear_place aside") + height,
-            features_("ear_place height") * p.y + features_("ear_place back_higher") * p.x,
-            features_("ear_place forward") - p.x - features_("ear_place top_back") * p.y};
+    return {features_.ear_place.aside + height,
+            features_.ear_place.height * p.y + features_.ear_place.back_higher * p.x,
+            features_.ear_place.forward - p.x - features_.ear_place.top_back * p.y};
   }
   /// The outline at part `turn` of the way round.
   glm::vec2 Outline(float turn) const {
@@ -85,19 +84,17 @@ class Ear {
 
  private:
   float Flare(float at_tragus, glm::vec2 p) const {
-    return at_tragus + features_("ear_flare backwards") * std::max(p.x, 0.0f) -
-           features_("ear_flare square") * p.x * p.x;
+    return at_tragus + features_.ear_flare.backwards * std::max(p.x, 0.0f) -
+           features_.ear_flare.square * p.x * p.x;
   }
-  float RidgeAt(const std::string& line, glm::vec2 p) const {
-    return Ridge(DistanceToLine(p, features_.Points(line)), features_(line + " half_width"));
+  static float RidgeAt(const auto& row, glm::vec2 p) {
+    return Ridge(DistanceToLine(p, PairsOf(row.line)), row.half_width);
   }
-  float BumpAt(const std::string& name, glm::vec2 p) const {
-    return Bump(p, features_.Pair(name + " middle"), features_.Pair(name + " half_size"));
-  }
+  static float BumpAt(const auto& row, glm::vec2 p) { return Bump(p, row.middle, row.half_size); }
 
   const Features& features_;
-  const std::vector<glm::vec2> outline_ = features_.Points("ear_outline");
-  const glm::vec2 middle_ = features_.Pair("ear_middle");
+  const std::vector<glm::vec2> outline_ = PairsOf(features_.ear_outline);
+  const glm::vec2 middle_ = features_.ear_middle;
   SplineBasis around_{{0, 1}};
 };
 
@@ -110,7 +107,7 @@ std::array<std::pair<const char*, glm::vec3>, 4> EarLandmarks(const Features& fe
   const auto by_depth = [](glm::vec2 p) { return p.x; };
   return {{{"superaurale", at(std::ranges::max(ear.corners(), {}, by_height))},
            {"subaurale", at(std::ranges::min(ear.corners(), {}, by_height))},
-           {"preaurale", at(features.Pair("ear_front"))},
+           {"preaurale", at(features.ear_front)},
            {"postaurale", at(std::ranges::max(ear.corners(), {}, by_depth))}}};
 }
 
@@ -121,9 +118,8 @@ class EarBuilder {
  public:
   EarBuilder(const Identity& identity, Side side, HeadMesh& mesh)
       : features_(identity.UsedFeatures()),
-        blush_(identity.palette.blush * features_("ear_blush dark")),
-        colour_(
-            glm::mix(identity.palette.skin, identity.palette.blush, features_("ear_blush part"))),
+        blush_(identity.palette.blush * features_.ear_blush.dark),
+        colour_(glm::mix(identity.palette.skin, identity.palette.blush, features_.ear_blush.part)),
         ear_(features_),
         side_(side),
         mesh_(mesh) {}
@@ -135,7 +131,7 @@ class EarBuilder {
     AddFront();
     AddBack();
     const std::uint32_t inside =
-        Add(ear_.Place(centre, features_("ear_inside aside")), features_("ear_inside light"));
+        Add(ear_.Place(centre, features_.ear_inside.aside), features_.ear_inside.light);
     for (std::size_t a = 0; a < kAround; ++a) {
       const std::size_t b = (a + 1) % kAround;
       Face(middle, rings_.front()[b], rings_.front()[a]);
@@ -161,13 +157,13 @@ class EarBuilder {
       for (std::size_t k = 0; k < kAround; ++k) {
         const glm::vec2 p = On(k, part);
         const Ear::Relief relief = ear_.ReliefAt(p);
-        const float in = part == 1.0f ? features_("ear_edge") : 0;
+        const float in = part == 1.0f ? features_.ear_edge : 0;
         ring[k] = Add(ear_.Place(p, relief.height - in), relief.open);
       }
     }
   }
   void AddBack() {
-    const auto& rim = features_["ear_rim"];
+    const auto& rim = features_.ear_rim;
     for (std::size_t i = 0; i + 2 < rim.size(); i += 3) {
       Ring& ring = rings_.emplace_back();
       for (std::size_t k = 0; k < kAround; ++k) {
@@ -178,7 +174,7 @@ class EarBuilder {
   }
   std::uint32_t Add(glm::vec3 p, float open) {
     p.x *= SignOf(side_);
-    return mesh_.Add(p, glm::mix(blush_, colour_, open), features_.Linear("ear_light", open),
+    return mesh_.Add(p, glm::mix(blush_, colour_, open), Linear(features_.ear_light, open),
                      Bone::kSkull);
   }
   void Face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -23,11 +23,11 @@ std::array<BallRing, 11> Rings(const EyeAnatomy& eye, const Identity& identity) 
   const Palette& palette = identity.palette;
   const float iris = std::asin(eye.iris_radius() / eye.radius());
   const float pupil = std::asin(eye.pupil_radius() / eye.radius());
-  const glm::vec3 black = features.Vector("pupil_colour");
-  const glm::vec3 limbus = features("limbus dark") * palette.iris;
-  const glm::vec3 edge = glm::mix(limbus, palette.sclera, features("limbus outside"));
-  const glm::vec3 pink = palette.sclera * features.Vector("white_behind");
-  const auto of_iris = [&, rings = features.Points("iris_rings")](std::size_t k) {
+  const glm::vec3 black = features.pupil_colour;
+  const glm::vec3 limbus = features.limbus.dark * palette.iris;
+  const glm::vec3 edge = glm::mix(limbus, palette.sclera, features.limbus.outside);
+  const glm::vec3 pink = palette.sclera * features.white_behind;
+  const auto of_iris = [&, rings = PairsOf(features.iris_rings)](std::size_t k) {
     return BallRing{glm::mix(pupil, iris, rings[k].x), palette.iris * rings[k].y, Material::kIris};
   };
   return {BallRing{pupil * 0.6f, black, Material::kPupil},
@@ -48,7 +48,7 @@ std::array<BallRing, 11> Rings(const EyeAnatomy& eye, const Identity& identity) 
 void BuildEyes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh) {
   constexpr int kSegments = 22;
   const auto rings = Rings(eye, identity);
-  const float fibres = identity.UsedFeatures()("iris_fibres");
+  const float fibres = identity.UsedFeatures().iris_fibres;
   for (const Side side : kSides) {
     const Bone bone = BoneOf(side);
     const glm::vec3 centre = eye.CentreOf(side);

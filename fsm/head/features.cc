@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <glm/common.hpp>
 #include <utility>
 
 #include "embedded/features.h"
-#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 namespace {
@@ -46,10 +44,10 @@ bool Ascends(const std::vector<float>& pairs) {
 
 }  // namespace
 
-Features::Features(NumberTable numbers) : NumberTable(std::move(numbers)) {
-  for (const TableRow& row : rows()) {
-    const std::string name = NameOf(row);
-    const auto& n = (*this)[name];
+Features::Features(NumberTable numbers) : FeatureNumbers(numbers), table_(std::move(numbers)) {
+  for (const TableRow& row : table_.rows()) {
+    const std::string name = NumberTable::NameOf(row);
+    const auto& n = table_[name];
     if (std::ranges::find(kCurves, name) != std::end(kCurves) && !Ascends(n))
       row.Fail("numbers of x that do not ascend");
     const auto within = [&](float least, float most) {
@@ -60,7 +58,7 @@ Features::Features(NumberTable numbers) : NumberTable(std::move(numbers)) {
     }
     // half_size, half_width, half_height
     if (name.contains(" half_")) within(kLeastSize, kMostSize);
-    if (name == "crop_crown" && Vector(name) == glm::vec3(0)) row.Fail("a crown that is nowhere");
+    if (name == "crop_crown" && crop_crown == glm::vec3(0)) row.Fail("a crown that is nowhere");
   }
 }
 
@@ -69,30 +67,19 @@ const Features& Features::BuiltIn() {
   return features;
 }
 
-std::vector<glm::vec2> Features::Points(std::string_view name) const {
-  const auto& n = (*this)[name];
+std::vector<glm::vec2> PairsOf(std::span<const float> row) {
   std::vector<glm::vec2> points;
-  for (std::size_t i = 0; i + 1 < n.size(); i += 2) points.emplace_back(n[i], n[i + 1]);
+  for (std::size_t i = 0; i + 1 < row.size(); i += 2) points.emplace_back(row[i], row[i + 1]);
   return points;
 }
 
-Curve Features::CurveOf(std::string_view name) const {
+Curve CurveOf(std::span<const float> row) {
   std::vector<float> x, y;
-  for (const glm::vec2 point : Points(name)) {
+  for (const glm::vec2 point : PairsOf(row)) {
     x.push_back(point.x);
     y.push_back(point.y);
   }
   return {std::move(x), std::move(y)};
-}
-
-float Features::Between(std::string_view name, float part) const {
-  const glm::vec2 range = Pair(name);
-  return glm::mix(range.x, range.y, part);
-}
-
-float Features::Step(std::string_view name, float x) const {
-  const glm::vec2 range = Pair(name);
-  return SmoothStep(range.x, range.y, x);
 }
 
 }  // namespace fsm

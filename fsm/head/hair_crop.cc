@@ -29,25 +29,25 @@ class CroppedHair {
     for (int k = -22; k <= 22; ++k) {
       edge.push_back(scalp_.Over(Direction(3 * static_cast<float>(k), 0.03f), 0));
     }
-    look_.ShadeSkin(edge, features_("crop_shade"), mesh_);
+    look_.ShadeSkin(edge, features_.crop_shade, mesh_);
     Shell();
     for (int k = 0; k < style_.locks; ++k) Lock(k);
   }
 
   std::vector<SkinHair> Hairline() {
     std::vector<SkinHair> hairs;
-    for (int k = 0; k < static_cast<int>(features_("crop_hairline count")); ++k) {
-      const float azimuth = features_("crop_hairline azimuth") * NoiseAt(k, 91);
+    for (int k = 0; k < static_cast<int>(features_.crop_hairline.count); ++k) {
+      const float azimuth = features_.crop_hairline.azimuth * NoiseAt(k, 91);
       // Most grow near the line, few before it.
       const float off = NoiseAt(k, 92);
       const float up =
-          features_("crop_hairline up") + features_("crop_hairline spread") * off * std::abs(off);
+          features_.crop_hairline.up + features_.crop_hairline.spread * off * std::abs(off);
       const glm::vec3 root = Direction(azimuth, up);
-      if (scalp_.Over(root, 0).y < features_("crop_hairline lowest")) continue;
+      if (scalp_.Over(root, 0).y < features_.crop_hairline.lowest) continue;
       SkinHair hair = look_.OnSkin(scalp_, root, Flow(root, Forehead(azimuth, 0.1f)),
                                    std::min(1.0f, 1 + off), k);
       // What is curled reaches less far.
-      const float reach = 1 - features_("crop_curl_shorter") * style_.curl;
+      const float reach = 1 - features_.crop_curl_shorter * style_.curl;
       hair.middle = glm::mix(hair.root, hair.middle, reach);
       hair.tip = glm::mix(hair.root, hair.tip, reach);
       hairs.push_back(hair);
@@ -58,10 +58,11 @@ class CroppedHair {
  private:
   // Azimuth -180..180; `up` 0 at the hairline .. 1 at the crown, which lies behind the top.
   glm::vec3 Direction(float azimuth, float up) const {
-    const float recede = style_.recede * features_.Step("crop_recess begins", std::abs(azimuth)) *
-                         features_.Step("crop_recess ends", std::abs(azimuth));
-    const float wander = features_("crop_wander long") * std::sin(0.23f * azimuth + 1) +
-                         features_("crop_wander short") * std::sin(0.61f * azimuth);
+    const float recede = style_.recede *
+                         SmoothStep(features_.crop_recess.begins, std::abs(azimuth)) *
+                         SmoothStep(features_.crop_recess.ends, std::abs(azimuth));
+    const float wander = features_.crop_wander.wide * std::sin(0.23f * azimuth + 1) +
+                         features_.crop_wander.narrow * std::sin(0.61f * azimuth);
     const float line = look_.HairlineElevation(azimuth) + recede + wander;
     const glm::vec3 low = HairDirection(azimuth, line);
     // Along the great circle from the hairline to the crown.
@@ -81,8 +82,8 @@ class CroppedHair {
 
   /// How much hair there lies over the forehead, 0..1.
   float Forehead(float azimuth, float up) const {
-    return features_.Step("crop_forehead azimuth", std::abs(azimuth)) *
-           features_.Step("crop_forehead up", up);
+    return SmoothStep(features_.crop_forehead.azimuth, std::abs(azimuth)) *
+           SmoothStep(features_.crop_forehead.up, up);
   }
 
   /// Which way hair lies: away from the crown, forward on top, down at the sides and behind; over
@@ -91,49 +92,49 @@ class CroppedHair {
     glm::vec3 away = root - crown_;
     away -= root * glm::dot(away, root);
     glm::vec3 along = away / std::max(glm::length(away), 1e-3f) * (1 - forehead) +
-                      forehead * features_.Vector("crop_combed");
+                      forehead * features_.crop_combed;
     along -= root * glm::dot(along, root);
     return glm::normalize(along + glm::vec3(0, -1e-3f, 0));
   }
 
   /// Which way single hairs go, as long as they are sleek: curls mirror light every way.
   glm::vec3 Along(glm::vec3 root, float forehead) const {
-    return Flow(root, forehead) * (1 - features_("crop_curl_dull") * style_.curl);
+    return Flow(root, forehead) * (1 - features_.crop_curl_dull * style_.curl);
   }
   /// Millimetres across and along strands: those of curls are small and as long as wide.
   glm::vec2 Curled(glm::vec2 mm) const {
-    return mm * glm::mix(glm::vec2(1), features_.Pair("crop_curl_smaller"), style_.curl);
+    return mm * glm::mix(glm::vec2(1), features_.crop_curl_smaller, style_.curl);
   }
 
   float Depth(glm::vec3 d, float up) const {
-    const float top = features_.Step("crop_top", d.y);
+    const float top = SmoothStep(features_.crop_top, d.y);
     const float body = glm::mix(style_.side_mm, style_.top_mm, top);
-    return features_("crop_edge thick") +
-           features_("crop_edge behind") * features_.Step("crop_edge hollow", d.z) +
-           body * features_.Step("crop_thickens", up);
+    return features_.crop_edge.thick +
+           features_.crop_edge.behind * SmoothStep(features_.crop_edge.hollow, d.z) +
+           body * SmoothStep(features_.crop_thickens, up);
   }
 
   void Shell() {
     constexpr int kAround = 48;
     constexpr std::array kUp = {0.0f,  0.022f, 0.06f, 0.11f, 0.17f, 0.23f, 0.30f, 0.37f, 0.44f,
                                 0.51f, 0.58f,  0.65f, 0.72f, 0.79f, 0.86f, 0.93f, 1.0f};
-    const auto& edge_density = features_["crop_edge_density"];
+    const auto edge_density = ListOf(features_.crop_edge_density);
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (std::size_t r = 0; r < kUp.size(); ++r) {
       for (int k = 0; k <= kAround; ++k) {
         const float azimuth = -180 + 360 * static_cast<float>(k) / kAround;
         // An uneven edge: hair does not end on a drawn line.
-        const float ragged = r == 0 ? features_("crop_ragged") * NoiseAt(k % kAround, 61) : 0.0f;
+        const float ragged = r == 0 ? features_.crop_ragged * NoiseAt(k % kAround, 61) : 0.0f;
         const glm::vec3 d = Direction(azimuth, kUp[r] + ragged);
         const float uneven =
-            1 + features_("crop_below uneven") * NoiseAt(k % kAround, static_cast<int>(r) + 62);
+            1 + features_.crop_below.uneven * NoiseAt(k % kAround, static_cast<int>(r) + 62);
         const glm::vec3 p = scalp_.Over(d, Depth(d, kUp[r]) * (r == 0 ? 1.0f : uneven));
         const glm::vec3 colour =
             glm::mix(palette_.hair, look_.StrandColour(3 * (k % kAround), static_cast<int>(r)),
-                     features_("crop_below streaks") * (1 - style_.curl));
-        const float thin = r == 0 ? features_("crop_edge_hair part") : 1.0f;
-        mesh_.Add(p, glm::mix(palette_.skin * features_("crop_edge_hair skin"), colour, thin),
-                  features_(r < 3 ? "crop_light edge" : "crop_light others"), Bone::kSkull);
+                     features_.crop_below.streaks * (1 - style_.curl));
+        const float thin = r == 0 ? features_.crop_edge_hair.part : 1.0f;
+        mesh_.Add(p, glm::mix(palette_.skin * features_.crop_edge_hair.skin, colour, thin),
+                  r < 3 ? features_.crop_light.edge : features_.crop_light.others, Bone::kSkull);
         mesh_.strands.back() = {.along = Along(d, Forehead(azimuth, kUp[r])),
                                 .density = r < edge_density.size() ? edge_density[r] : 1.0f,
                                 .tile_mm = Curled({1.49f * azimuth, -140 * kUp[r]})};
@@ -148,47 +149,46 @@ class CroppedHair {
         360 * (0.618034f * static_cast<float>(k) - std::floor(0.618034f * static_cast<float>(k)));
     const float azimuth = turn - 180;
     const float share = (static_cast<float>(k) + 0.5f) / static_cast<float>(style_.locks);
-    const float up =
-        features_("crop_lock_from first") + features_("crop_lock_from more") * share * share;
-    const glm::vec2 ear = features_.Pair("crop_ear azimuth");
+    const float up = features_.crop_lock_from.first + features_.crop_lock_from.more * share * share;
+    const glm::vec2 ear = features_.crop_ear.azimuth;
     const bool by_ear = std::abs(azimuth) > ear.x && std::abs(azimuth) < ear.y;
-    if (by_ear && up < features_("crop_ear up")) return;
+    if (by_ear && up < features_.crop_ear.up) return;
     const glm::vec3 root = Direction(azimuth, up);
     const float forehead = Forehead(azimuth, up);
-    glm::vec3 along = Flow(root, forehead) + features_("crop_uneven direction") *
+    glm::vec3 along = Flow(root, forehead) + features_.crop_uneven.direction *
                                                  glm::vec3(NoiseAt(k, 31), 0, NoiseAt(k, 32));
     along = glm::normalize(along - root * glm::dot(along, root));
     const float length =
-        style_.lock_mm * (1 + features_("crop_uneven length") * NoiseAt(k, 33)) *
-        (features_("crop_lock_length nape") +
-         features_("crop_lock_length top") * features_.Step("crop_lock_length top_over", root.y)) *
-        (features_("crop_lock_length hairline") +
-         features_("crop_lock_length above") * features_.Step("crop_lock_length above_over", up));
-    const float lift = style_.lift_mm * (1 + features_("crop_uneven lift") * NoiseAt(k, 34)) +
-                       forehead * style_.front_up * features_("crop_front_lift");
+        style_.lock_mm * (1 + features_.crop_uneven.length * NoiseAt(k, 33)) *
+        (features_.crop_lock_length.nape +
+         features_.crop_lock_length.top * SmoothStep(features_.crop_lock_length.top_over, root.y)) *
+        (features_.crop_lock_length.hairline +
+         features_.crop_lock_length.above * SmoothStep(features_.crop_lock_length.above_over, up));
+    const float lift = style_.lift_mm * (1 + features_.crop_uneven.lift * NoiseAt(k, 34)) +
+                       forehead * style_.front_up * features_.crop_front_lift;
     std::vector<glm::vec3> path;
     constexpr int kSteps = 4;
     const glm::vec3 side = glm::cross(root, along);
-    const float waves = features_("crop_lock_waves");
+    const float waves = features_.crop_lock_waves;
     for (int s = 0; s <= kSteps; ++s) {
       const float v = static_cast<float>(s) / kSteps;
       const float swing = style_.wave_mm * std::sin(waves * kPi * v + static_cast<float>(k));
       const glm::vec3 d = glm::normalize(root + (along * (length * v) + side * swing * v) / 100.0f);
       const float over = Depth(d, Up(d));  // along the shell
       path.push_back(
-          scalp_.Over(d, 1.02f * over + lift * v * (1 - 0.75f * v) + features_("crop_lock_off")));
+          scalp_.Over(d, 1.02f * over + lift * v * (1 - 0.75f * v) + features_.crop_lock_off));
     }
     const float width = glm::mix(
-        features_("crop_lock_width hairline"),
-        features_("crop_lock_width top") + features_("crop_lock_width per_length") * style_.lock_mm,
-        features_.Step("crop_lock_width over", up));
+        features_.crop_lock_width.hairline,
+        features_.crop_lock_width.top + features_.crop_lock_width.per_length * style_.lock_mm,
+        SmoothStep(features_.crop_lock_width.over, up));
     look_.AddLock(path,
-                  {.width_mm = features_("crop_lock_width factor") * width *
-                               (1 + features_("crop_uneven width") * NoiseAt(k, 35)),
-                   .root_part = features_("crop_lock_taper root"),
-                   .tip_part = features_("crop_lock_taper tip"),
-                   .fray_from = features_("crop_lock_taper fray_from"),
-                   .open = features_("crop_lock_taper light")},
+                  {.width_mm = features_.crop_lock_width.factor * width *
+                               (1 + features_.crop_uneven.width * NoiseAt(k, 35)),
+                   .root_part = features_.crop_lock_taper.root,
+                   .tip_part = features_.crop_lock_taper.tip,
+                   .fray_from = features_.crop_lock_taper.fray_from,
+                   .open = features_.crop_lock_taper.light},
                   k, mesh_);
   }
 
@@ -196,7 +196,7 @@ class CroppedHair {
   const Features& features_;
   const Palette& palette_;
   const HairLook look_;
-  const glm::vec3 crown_ = glm::normalize(features_.Vector("crop_crown"));
+  const glm::vec3 crown_ = glm::normalize(features_.crop_crown);
   Scalp scalp_;
   HeadMesh& mesh_;
 };

@@ -52,14 +52,14 @@ glm::vec3 HairDirection(float azimuth, float elevation) {
 glm::vec3 HairLook::StrandColour(int strand, int row) const {
   const float fine = NoiseAt(strand * 7, 3);
   const float broad = NoiseAt(strand / 4, 11);
-  const float along = features_("hair_streaks along") * NoiseAt(strand, row + 40);
+  const float along = features_.hair_streaks.along * NoiseAt(strand, row + 40);
   // Dark hair shows its streaks, light hair is more even.
   const float strength =
-      1 - features_("hair_even part") * features_.Step("hair_even green", palette_.hair.g);
-  const float light = 1 + strength * (features_("hair_streaks strand") * fine +
-                                      features_("hair_streaks broad") * broad + along);
+      1 - features_.hair_even.part * SmoothStep(features_.hair_even.green, palette_.hair.g);
+  const float light = 1 + strength * (features_.hair_streaks.strand * fine +
+                                      features_.hair_streaks.broad * broad + along);
   return palette_.hair * light *
-         glm::mix(glm::vec3(1), features_.Vector("hair_lightest"), 0.5f + 0.5f * fine);
+         glm::mix(glm::vec3(1), features_.hair_lightest, 0.5f + 0.5f * fine);
 }
 
 float HairLook::AboveHairline(glm::vec3 place) const {
@@ -69,7 +69,7 @@ float HairLook::AboveHairline(glm::vec3 place) const {
 }
 
 void HairLook::ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMesh& mesh) const {
-  const float lowest = features_("hair_on_skin lowest");
+  const float lowest = features_.hair_on_skin.lowest;
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 p = mesh.position[i];
     if (mesh.bone[i] != Bone::kSkin || p.y < lowest) continue;
@@ -78,17 +78,17 @@ void HairLook::ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMe
     const float beside =
         std::exp(-nearest / (reach_mm * reach_mm)) * SmoothStep(lowest, lowest + 30, p.y);
     const float near = beside * SmoothStep(10, 40, p.y);
-    const float under = features_.Step("hair_on_skin under", AboveHairline(p));
-    mesh.openness[i] *= 1 - features_("hair_on_skin shade") * std::max(beside, under);
-    mesh.albedo[i] = glm::mix(mesh.albedo[i], palette_.hair,
-                              std::max(features_("hair_on_skin tint") * near,
-                                       features_("hair_on_skin under_tint") * under));
+    const float under = SmoothStep(features_.hair_on_skin.under, AboveHairline(p));
+    mesh.openness[i] *= 1 - features_.hair_on_skin.shade * std::max(beside, under);
+    mesh.albedo[i] = glm::mix(
+        mesh.albedo[i], palette_.hair,
+        std::max(features_.hair_on_skin.tint * near, features_.hair_on_skin.under_tint * under));
   }
 }
 
 void HairLook::AddLock(std::span<const glm::vec3> path, const LockStyle& style, int seed,
                        HeadMesh& mesh) const {
-  const float streaks = features_("lock_streaks"), root_light = features_("lock_root_light");
+  const float streaks = features_.lock_streaks, root_light = features_.lock_root_light;
   std::array<std::uint32_t, 2> before{};
   const int last = static_cast<int>(path.size()) - 1;
   float along_mm = 90 * (1 + NoiseAt(seed, 71));
@@ -127,25 +127,25 @@ void HairLook::AddLock(std::span<const glm::vec3> path, const LockStyle& style, 
 SkinHair HairLook::OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
                           int seed) const {
   const float length =
-      features_.Linear("hairline_length", NoiseAt(seed, 81)) * (0.4f + 0.6f * strength);
+      Linear(features_.hairline_length, NoiseAt(seed, 81)) * (0.4f + 0.6f * strength);
   const glm::vec3 aside = glm::cross(root, along);
   const glm::vec3 way =
-      glm::normalize(along + features_("hairline_uneven") * NoiseAt(seed, 82) * aside);
+      glm::normalize(along + features_.hairline_uneven * NoiseAt(seed, 82) * aside);
   const glm::vec3 bent =
-      glm::normalize(along + features_("hairline_uneven") * NoiseAt(seed, 83) * aside);
+      glm::normalize(along + features_.hairline_uneven * NoiseAt(seed, 83) * aside);
   const auto at = [&](glm::vec3 d) { return Unroll(scalp.Over(glm::normalize(d), 0)); };
   const glm::vec3 middle = root + way * (0.5f * length / 100);
   const float cover =
-      features_.Linear("hairline_cover", NoiseAt(seed, 84)) * (0.3f + 0.7f * strength);
+      Linear(features_.hairline_cover, NoiseAt(seed, 84)) * (0.3f + 0.7f * strength);
   return {.root = at(root),
           .middle = at(middle),
           .tip = at(middle + bent * (0.5f * length / 100)),
-          .width_mm = features_.Linear("hairline_width", NoiseAt(seed, 85)),
+          .width_mm = Linear(features_.hairline_width, NoiseAt(seed, 85)),
           .tint = glm::mix(glm::vec3(1), palette_.hair / palette_.skin, cover)};
 }
 
 void HairLook::LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3> normal) const {
-  const float below = features_("hair_as_one below"), part = features_("hair_as_one part");
+  const float below = features_.hair_as_one.below, part = features_.hair_as_one.part;
   for (std::size_t i = 0; i < place.size(); ++i) {
     const glm::vec3 from = place[i] - kHairCentre;
     const glm::vec3 outward = glm::normalize(from * glm::vec3(1, from.y > 0 ? 1.0f : below, 1));

@@ -44,7 +44,7 @@ class HairLook {
   explicit HairLook(const Identity& identity)
       : features_(identity.UsedFeatures()),
         palette_(identity.palette),
-        hairline_(features_.CurveOf("hairline")) {}
+        hairline_(CurveOf(features_.hairline)) {}
 
   /// Where the hair begins on the skin: elevation by azimuth, degrees.
   float HairlineElevation(float azimuth) const { return hairline_(std::abs(azimuth)); }

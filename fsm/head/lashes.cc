@@ -34,20 +34,20 @@ class LashBuilder {
     weights_.lid_upper = upper ? 1.0f : 0.0f;
     weights_.lid_lower = 1 - weights_.lid_upper;
     if (upper) Line();
-    const int hairs =
-        static_cast<int>(features_(upper ? "upper_lashes count" : "lower_lashes count"));
+    const glm::vec2 along = upper ? features_.upper_lashes.along : features_.lower_lashes.along;
+    const float count = upper ? features_.upper_lashes.count : features_.lower_lashes.count;
+    const int hairs = static_cast<int>(count);
     for (int i = 0; i < hairs; ++i) {
       const float part = (static_cast<float>(i) + 0.5f) / static_cast<float>(hairs);
-      const char* const range = upper ? "upper_lashes along" : "lower_lashes along";
-      Hair(features_.Between(range, part) + 0.008f * NoiseAt(i, 71), i);
+      Hair(Between(along, part) + 0.008f * NoiseAt(i, 71), i);
     }
   }
 
  private:
   float X(float along) const { return glm::mix(eye_.inner_x(), eye_.outer_x(), along); }
-  /// The number of that name for the upper lid, the lower lid, or lids of a photo.
-  float ByLid(const std::string& name) const {
-    return features_(name + (of_photo_ ? " photo" : upper_ ? " upper" : " lower"));
+  /// Of a row, that for the upper lid, the lower lid, or lids of a photo.
+  float ByLid(const auto& row) const {
+    return of_photo_ ? row.photo : upper_ ? row.upper : row.lower;
   }
   float Angle(float x) const { return upper_ ? eye_.UpperAngle(x) : eye_.LowerAngle(x); }
 
@@ -69,19 +69,18 @@ class LashBuilder {
     std::array<std::uint32_t, 2> before{};
     for (int i = 0; i <= kSteps; ++i) {
       const float part = static_cast<float>(i) / kSteps;
-      const float x = X(features_.Between("lash_line", part));
-      const float thick = (0.35f + 0.65f * size_) *
-                          features_.Linear("lash_line_thickness",
+      const float x = X(Between(features_.lash_line, part));
+      const float thick =
+          (0.35f + 0.65f * size_) * Linear(features_.lash_line_thickness,
                                            std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
       const float radius = eye_.LidRadius(x);
       const float ends = SmoothStep(0, 0.2f, part);
       const float soft =
-          of_photo_ ? features_("lash_line_dark photo") * SmoothStep(0, 0.5f, part) : 1.0f;
+          of_photo_ ? features_.lash_line_dark.photo * SmoothStep(0, 0.5f, part) : 1.0f;
       const std::uint32_t low = Add(eye_.OnLid(x, Angle(x) - 0.10f / radius, radius - 0.1f), x,
-                                    soft * features_.Linear("lash_line_dark rim", ends));
-      const std::uint32_t high =
-          Add(eye_.OnLid(x, Angle(x) + thick / radius, radius + 0.45f), x,
-              of_photo_ ? 0 : features_.Linear("lash_line_dark above", ends));
+                                    soft * Linear(features_.lash_line_dark.rim, ends));
+      const std::uint32_t high = Add(eye_.OnLid(x, Angle(x) + thick / radius, radius + 0.45f), x,
+                                     of_photo_ ? 0 : Linear(features_.lash_line_dark.above, ends));
       if (i > 0) {
         Face(before[0], low, high);
         Face(before[0], high, before[1]);
@@ -96,21 +95,21 @@ class LashBuilder {
     const float up = upper_ ? 1.0f : -1.0f;
     const float radius = eye_.LidRadius(x) + 0.05f;
     // Neighbours lean together in threes.
-    const float clump = features_("lash_clump threes") * (static_cast<float>(1 - i % 3)) +
-                        features_("lash_clump each") * NoiseAt(i, 5) +
-                        (of_photo_ ? features_("lash_clump photo") * NoiseAt(i, 6) : 0.0f);
-    const float fan = features_("lash_fan out") * (along - features_("lash_fan from")) + clump;
-    const float differs = ByLid("lash_lengths") * NoiseAt(i, 9);
+    const float clump = features_.lash_clump.threes * (static_cast<float>(1 - i % 3)) +
+                        features_.lash_clump.each * NoiseAt(i, 5) +
+                        (of_photo_ ? features_.lash_clump.photo * NoiseAt(i, 6) : 0.0f);
+    const float fan = features_.lash_fan.out * (along - features_.lash_fan.from) + clump;
+    const float differs = ByLid(features_.lash_lengths) * NoiseAt(i, 9);
     const float outward = std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along));
     const float length =
-        size_ * (upper_ ? features_.Linear("upper_lash_length", outward) * (0.94f + differs)
-                        : features_("lower_lash_length") * (1 + differs));
+        size_ * (upper_ ? Linear(features_.upper_lash_length, outward) * (0.94f + differs)
+                        : features_.lower_lash_length * (1 + differs));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
-    const float width = ByLid("lash_width");
+    const float width = ByLid(features_.lash_width);
     // Lower hairs are thin: much of the skin shows between them.
-    const float dark =
-        ByLid("lash_darkness") + (of_photo_ ? features_("lash_photo_dark") * NoiseAt(i, 4) : 0.0f);
-    const float rise = ByLid("lash_rise");
+    const float dark = ByLid(features_.lash_darkness) +
+                       (of_photo_ ? features_.lash_photo_dark * NoiseAt(i, 4) : 0.0f);
+    const float rise = ByLid(features_.lash_rise);
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
     // Out and then up (the lower ones down): a curved card of two segments.
     const glm::vec3 middle = root + length * (0.5f * out + glm::vec3(0, 0.06f * up, 0));

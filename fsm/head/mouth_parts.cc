@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,13 +30,14 @@ glm::vec3 AlongArch(const ToothArch& arch, float arc, float y) {
 /// Draws one row of teeth and its gum.
 class ToothRow {
  public:
+  using TeethRow = decltype(Features::upper_tooth_widths);
   struct Jaw {
     ToothArch arch;
     float upward;  // +1: crowns grow upwards from the edge (upper jaw)
     Bone bone;
-    std::string name;  // of its rows in the table
-    float light;       // on the teeth in the middle
-    glm::vec3 tooth;   // colour
+    TeethRow widths, heights, shorter;  // of each tooth from the middle on
+    float light;                        // on the teeth in the middle
+    glm::vec3 tooth;                    // colour
   };
   ToothRow(Jaw jaw, const Identity& identity, HeadMesh& mesh)
       : jaw_(std::move(jaw)),
@@ -57,7 +57,7 @@ class ToothRow {
     // Rows from behind the chewing edge over the front of the crown to the gum.
     constexpr std::array kRows = {-0.5f, -0.15f, 0.0f, 0.1f, 0.3f, 0.55f, 0.8f, 1.0f};
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
-    const auto& depths = features_["crown_depths"];
+    const auto depths = ListOf(features_.crown_depths);
     for (std::size_t r = 0; r < kRows.size(); ++r) {
       const float depth = r < depths.size() ? depths[r] : 0.0f;
       for (const Column& column : columns_) AddCrown(column, kRows[r], depth);
@@ -67,16 +67,16 @@ class ToothRow {
 
   void AddGum() {
     constexpr std::array kRows = {0.96f, 1.1f, 1.6f};
-    const auto& bulge = features_["gum_bulge"];
+    const auto bulge = ListOf(features_.gum_bulge);
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (std::size_t r = 0; r < kRows.size(); ++r) {
       const float row = kRows[r];
       for (const Column& column : columns_) {
         const float back = std::abs(column.arc);
-        const float scallop = row < 1 ? features_("gum_scallop") * (1 - column.bump) : 0.0f;
+        const float scallop = row < 1 ? features_.gum_scallop * (1 - column.bump) : 0.0f;
         glm::vec3 p = Place(column, row * column.height - scallop);
         p.z += bulge[r];
-        mesh_.Add(p, gum_, features_.Between("gum_light", SmoothStep(6, 34, back)), jaw_.bone);
+        mesh_.Add(p, gum_, Between(features_.gum_light, SmoothStep(6, 34, back)), jaw_.bone);
       }
     }
     mesh_.Grid(Material::kGum, first, static_cast<int>(kRows.size()), Columns(), jaw_.upward > 0);
@@ -92,10 +92,7 @@ class ToothRow {
     float arc, bump, height, shorter;
   };
 
-  const std::vector<float>& Of(const char* what) const {
-    return features_[jaw_.name + "_tooth_" + what];
-  }
-  int count() const { return static_cast<int>(Of("widths").size()); }
+  int count() const { return static_cast<int>(jaw_.widths.size()); }
   int half() const { return count() * kPerTooth; }
   int Columns() const { return static_cast<int>(columns_.size()); }
 
@@ -104,26 +101,26 @@ class ToothRow {
     const int tooth = std::min(step / kPerTooth, count() - 1);
     const auto t = static_cast<std::size_t>(tooth);
     float arc = 0;
-    for (std::size_t inner = 0; inner < t; ++inner) arc += Of("widths")[inner];
+    for (std::size_t inner = 0; inner < t; ++inner) arc += jaw_.widths[inner];
     const int place = step - tooth * kPerTooth;
     const float within = place < kPerTooth ? kWithin[static_cast<std::size_t>(place)] : 1.0f;
-    arc += within * Of("widths")[t];
+    arc += within * jaw_.widths[t];
     // Canines come to a point, the others are round at their corners.
     const float off_middle = std::abs(2 * within - 1);
     const float corner = tooth == kCanine
-                             ? features_("tooth_corners canine") * off_middle
-                             : features_("tooth_corners others") * std::pow(off_middle, 4.0f);
+                             ? features_.tooth_corners.canine * off_middle
+                             : features_.tooth_corners.others * std::pow(off_middle, 4.0f);
     return {
         .tooth = tooth,
         .arc = signed_c < 0 ? -arc : arc,
         .bump = std::sqrt(std::max(0.0f, std::sin(kPi * within))),
-        .height = Of("heights")[t],
-        .shorter = Of("short")[t] + corner +
-                   features_("tooth_uneven") * (1 + NoiseAt(tooth, static_cast<int>(jaw_.upward)))};
+        .height = jaw_.heights[t],
+        .shorter = jaw_.shorter[t] + corner +
+                   features_.tooth_uneven * (1 + NoiseAt(tooth, static_cast<int>(jaw_.upward)))};
   }
 
   glm::vec3 Place(const Column& column, float up) const {
-    const float rise = features_("teeth_rise") * std::abs(column.arc);
+    const float rise = features_.teeth_rise * std::abs(column.arc);
     return AlongArch(jaw_.arch, column.arc, jaw_.arch.edge_y + jaw_.upward * (up + rise));
   }
 
@@ -133,15 +130,15 @@ class ToothRow {
                      : row < 0   ? 0.3f + column.shorter
                                : row * column.height + column.shorter * SmoothStep(0.6f, 0.0f, row);
     glm::vec3 p = Place(column, up);
-    const float curve = features_("tooth_bulge front") *
+    const float curve = features_.tooth_bulge.front *
                         std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
-    p.z += curve - depth - features_("tooth_bulge between") * (1 - column.bump);
+    p.z += curve - depth - features_.tooth_bulge.between * (1 - column.bump);
     p.x *= 1 - 0.012f * depth;
     // Deep between the teeth and in the corners of the mouth there is little light.
-    const float between = features_("light_between_teeth");
+    const float between = features_.light_between_teeth;
     const float crevice = between + (1 - between) * SmoothStep(0.0f, 0.75f, column.bump);
-    const float dark = glm::mix(jaw_.light, features_("teeth_light deep"),
-                                SmoothStep(6, 32, std::abs(column.arc)));
+    const float dark =
+        glm::mix(jaw_.light, features_.teeth_light.deep, SmoothStep(6, 32, std::abs(column.arc)));
     mesh_.Add(p, Enamel(column.tooth, row), crevice * dark * (row < -0.3f ? 0.4f : 1.0f),
               jaw_.bone);
   }
@@ -149,15 +146,15 @@ class ToothRow {
   /// Enamel is thin and grey at the edge and lets the warm dentine through towards the gum, most in
   /// a canine; no two teeth are of one shade.
   glm::vec3 Enamel(int tooth, float row) const {
-    const float warm = features_("dentine_shows middle") +
-                       features_("dentine_shows outward") * static_cast<float>(tooth) +
-                       (tooth == kCanine ? features_("dentine_shows canine") : 0.0f) +
-                       features_("dentine_shows gum") * SmoothStep(0.35f, 1.0f, row);
-    const glm::vec3 edge = glm::mix(glm::vec3(1), features_.Vector("enamel_edge_colour"),
+    const float warm = features_.dentine_shows.middle +
+                       features_.dentine_shows.outward * static_cast<float>(tooth) +
+                       (tooth == kCanine ? features_.dentine_shows.canine : 0.0f) +
+                       features_.dentine_shows.gum * SmoothStep(0.35f, 1.0f, row);
+    const glm::vec3 edge = glm::mix(glm::vec3(1), features_.enamel_edge_colour,
                                     tooth < kCanine ? SmoothStep(0.22f, 0.0f, row) : 0.0f);
-    const float darkest = features_("tooth_shades");
+    const float darkest = features_.tooth_shades;
     return jaw_.tooth * edge * (darkest + (1 - darkest) * NoiseAt(tooth, 7)) *
-           glm::mix(glm::vec3(1), features_.Vector("dentine_colour"), std::min(warm, 1.0f));
+           glm::mix(glm::vec3(1), features_.dentine_colour, std::min(warm, 1.0f));
   }
 
   const Jaw jaw_;
@@ -172,12 +169,16 @@ class ToothRow {
 void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh) {
   const Features& features = identity.UsedFeatures();
   const glm::vec3 tooth = identity.palette.tooth;
-  ToothRow({mouth.UpperTeeth(), 1, Bone::kSkull, "upper", features("teeth_light upper"), tooth},
-           identity, mesh)
+  ToothRow(
+      {mouth.UpperTeeth(), 1, Bone::kSkull, features.upper_tooth_widths,
+       features.upper_tooth_heights, features.upper_tooth_short, features.teeth_light.upper, tooth},
+      identity, mesh)
       .Add();
   // The lower ones stand farther back, in the shade of lip and upper row.
-  const glm::vec3 shaded = tooth * features.Vector("lower_teeth_colour");
-  ToothRow({mouth.LowerTeeth(), -1, Bone::kJaw, "lower", features("teeth_light lower"), shaded},
+  const glm::vec3 shaded = tooth * features.lower_teeth_colour;
+  ToothRow({mouth.LowerTeeth(), -1, Bone::kJaw, features.lower_tooth_widths,
+            features.lower_tooth_heights, features.lower_tooth_short, features.teeth_light.lower,
+            shaded},
            identity, mesh)
       .Add();
 }
@@ -189,25 +190,25 @@ void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& 
   // tip, which lies low behind the lower teeth.
   constexpr int kAlong = 17;
   constexpr int kAround = 20;
-  const float tip_z = mouth.LineZ(0) - features("tongue_place behind");
-  const float base_y = mouth.LineY(0) - features("tongue_place below");
-  const float root_part = features("tongue_half_width root");
+  const float tip_z = mouth.LineZ(0) - features.tongue_place.behind;
+  const float base_y = mouth.LineY(0) - features.tongue_place.below;
+  const float root_part = features.tongue_half_width.root;
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (int i = 0; i < kAlong; ++i) {
     const float part = static_cast<float>(i) / (kAlong - 1);  // 0 = root, 1 = tip
     const float taper = std::sqrt(std::max(0.0f, 1 - std::pow(part, 2.2f)));
     const float half_width =
-        features("tongue_half_width widest") * taper * (root_part + (1 - root_part) * part) + 0.2f;
-    const float height = features("tongue_half_height root") * taper *
-                             (1 - features("tongue_half_height flatter") * part * part) +
+        features.tongue_half_width.widest * taper * (root_part + (1 - root_part) * part) + 0.2f;
+    const float height = features.tongue_half_height.root * taper *
+                             (1 - features.tongue_half_height.flatter * part * part) +
                          0.1f;
-    const float z = glm::mix(tip_z - features("tongue_length"), tip_z, std::sin(part * kPi / 2));
-    const float rise = features("tongue_rise root") * (1 - part) +
-                       features("tongue_rise middle") * std::sin(kPi * part);
+    const float z = glm::mix(tip_z - features.tongue_length, tip_z, std::sin(part * kPi / 2));
+    const float rise =
+        features.tongue_rise.root * (1 - part) + features.tongue_rise.middle * std::sin(kPi * part);
     for (int k = 0; k <= kAround; ++k) {
       const float around = 2 * kPi * static_cast<float>(k) / kAround;
       const float up = std::sin(around);
-      const float groove = features("tongue_groove") * taper * std::pow(std::max(0.0f, up), 12.0f);
+      const float groove = features.tongue_groove * taper * std::pow(std::max(0.0f, up), 12.0f);
       const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * up - groove, z);
       // The sides lie in the shade of the teeth beside them, the root in that of the palate.
       // The underside of a raised tip is seen, too.
@@ -218,7 +219,7 @@ void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& 
       weights.free = part;  // the tip bends, the root stays
       // Its outline is lost in the dark of the mouth.
       const glm::vec3 colour = glm::mix(palette.mouth, palette.tongue, SmoothStep(0, 0.5f, lit));
-      mesh.Add(p, colour, features.Linear("tongue_light", lit), Bone::kTongue, weights);
+      mesh.Add(p, colour, Linear(features.tongue_light, lit), Bone::kTongue, weights);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);

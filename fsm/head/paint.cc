@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <glm/common.hpp>
-#include <string>
 
 #include "fsm/base/smooth_step.h"
 
@@ -10,12 +9,19 @@ namespace fsm {
 
 SkinPainter::SkinPainter(const Identity& identity, const EyeAnatomy& eye)
     : features_(identity.UsedFeatures()), eye_(eye), palette_(identity.palette) {
-  for (const TableRow& row : features_.rows()) {
-    if (row.key() != "spot" || row.Word(2) != "middle") continue;
-    const std::string name = "spot " + row.Word(1);
-    spots_.push_back({features_.Pair(name + " middle"), features_.Pair(name + " half_size"),
-                      features_(name + " blush"), features_(name + " shade")});
-  }
+  const auto add = [this](const auto& row) {
+    spots_.push_back({row.middle, row.half_size, row.blush, row.shade});
+  };
+  const auto& spot = features_.spot;
+  add(spot.cheeks);
+  add(spot.nose_tip);
+  add(spot.chin);
+  add(spot.nose_groove);
+  add(spot.nose_side);
+  add(spot.under_nose);
+  add(spot.under_eye);
+  add(spot.under_lip);
+  add(spot.mouth_corners);
 }
 
 void SkinPainter::AddSpots(glm::vec2 at, PaintedSkin& paint) const {
@@ -29,14 +35,14 @@ void SkinPainter::AddSpots(glm::vec2 at, PaintedSkin& paint) const {
 
 float SkinPainter::Beard(glm::vec2 at, float z) const {
   if (palette_.beard <= 0) return 0;
-  const float jaw_line = features_.Between("beard_line", SmoothStep(30, 62, at.x));
+  const float jaw_line = Between(features_.beard_line, SmoothStep(30, 62, at.x));
   const float low = SmoothStep(jaw_line + 6, jaw_line - 22, at.y) * SmoothStep(-128, -100, at.y);
   const float front = SmoothStep(-12, 8, z);
   const float under_nose = SmoothStep(-23, -27, at.y);
-  const glm::vec2 off = (at - features_.Pair("beard_thin_cheek middle")) /
-                        features_.Pair("beard_thin_cheek half_size");
+  const glm::vec2 off =
+      (at - features_.beard_thin_cheek.middle) / features_.beard_thin_cheek.half_size;
   const float cheek =
-      1 - features_("beard_thin_cheek part") * std::exp(-0.5f * (off.x * off.x + off.y * off.y));
+      1 - features_.beard_thin_cheek.part * std::exp(-0.5f * (off.x * off.x + off.y * off.y));
   return palette_.beard * low * front * under_nose * cheek;
 }
 
@@ -48,9 +54,9 @@ void SkinPainter::AddLid(glm::vec2 at, PaintedSkin& paint) const {
                      SmoothStep(eye_.outer_x() + 5, eye_.outer_x() - 3, at.x);
   const float fold = std::exp(-0.5f * (above - 4.2f) * (above - 4.2f) / 1.2f) * ends;
   const float lid = ends * SmoothStep(10, 2, above) * SmoothStep(-1, 0, above);
-  paint.albedo = glm::mix(paint.albedo, palette_.skin * features_.Vector("lid_colour"),
-                          features_("lid_tint") * lid);
-  paint.openness *= 1 - features_("lid_fold_shade") * fold;
+  paint.albedo =
+      glm::mix(paint.albedo, palette_.skin * features_.lid_colour, features_.lid_tint * lid);
+  paint.openness *= 1 - features_.lid_fold_shade * fold;
 }
 
 PaintedSkin SkinPainter::At(glm::vec3 place) const {
@@ -58,11 +64,11 @@ PaintedSkin SkinPainter::At(glm::vec3 place) const {
   PaintedSkin paint{palette_.skin, 1.0f};
   const bool front = place.z > 40;
   if (front) AddSpots(half, paint);
-  paint.albedo *= glm::mix(glm::vec3(1), features_.Vector("beard_colour"), Beard(half, place.z));
+  paint.albedo *= glm::mix(glm::vec3(1), features_.beard_colour, Beard(half, place.z));
   // Under the jaw, down to the throat.
   const float under = SmoothStep(-80, -92, place.y) * SmoothStep(-150, -108, place.y) *
                       SmoothStep(64, 52, place.z + 0.4f * (place.y + 88));
-  paint.openness *= 1 - features_("throat_shade") * under * SmoothStep(-30, 10, place.z);
+  paint.openness *= 1 - features_.throat_shade * under * SmoothStep(-30, 10, place.z);
   if (front) AddLid(half, paint);
   return paint;
 }

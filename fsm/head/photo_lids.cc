@@ -132,9 +132,9 @@ class LidPainter {
     // Below an eye skin is thin and bluish: half of the hue is the face's. Lenses have their own.
     skin_below_ = MeanBelow(samples);
     const glm::vec3 face_hue = light.skin() / ScreenBrightness(light.skin());
-    skin_below_ =
-        glm::mix(skin_below_, ScreenBrightness(skin_below_) * face_hue,
-                 features_(glasses ? "photo_lid_face_hue glasses" : "photo_lid_face_hue plain"));
+    skin_below_ = glm::mix(
+        skin_below_, ScreenBrightness(skin_below_) * face_hue,
+        glasses ? features_.photo_lid_face_hue.glasses : features_.photo_lid_face_hue.plain);
     eyeless_.emplace(samples);
   }
 
@@ -158,15 +158,14 @@ class LidPainter {
   /// Skin under lashes that take `dark` of its light, 0..1: they are brown where there is colour.
   glm::vec3 Lashed(glm::vec3 skin, float dark) const {
     const float chroma = std::max(skin.r - skin.b, 0.0f) / std::max(skin.r, 0.01f);
-    const glm::vec3 brown =
-        glm::vec3(1) + std::min(2 * chroma, 1.0f) * features_.Vector("photo_lash_brown");
+    const glm::vec3 brown = glm::vec3(1) + std::min(2 * chroma, 1.0f) * features_.photo_lash_brown;
     return skin * glm::pow(glm::vec3(1 - dark), brown);
   }
 
   /// Skin that gets less light: what reaches it has gone through skin.
   glm::vec3 Shaded(glm::vec3 skin, float light) const {
     const float chroma = std::clamp(1 - skin.b / std::max(skin.r, 0.05f), 0.0f, 1.0f);
-    return skin * light * (1.0f + (1 - light) * chroma * features_.Vector("photo_lid_shade_hue"));
+    return skin * light * (1.0f + (1 - light) * chroma * features_.photo_lid_shade_hue);
   }
 
   /// `colour` with the hue of `skin`, that below the eye: a lid has the same, while what the photo
@@ -174,11 +173,10 @@ class LidPainter {
   /// redder, because light has gone through it.
   glm::vec3 OfHue(glm::vec3 colour, glm::vec3 skin) const {
     const float dim = ScreenBrightness(colour) / ScreenBrightness(skin);
-    const float red =
-        features_("photo_lid_hue redder") * (skin.r - skin.b) / std::max(skin.r, 0.01f);
+    const float red = features_.photo_lid_hue.redder * (skin.r - skin.b) / std::max(skin.r, 0.01f);
     const glm::vec3 shaded =
         skin * glm::pow(glm::vec3(dim), glm::vec3(1 - red, 1 + 0.4f * red, 1 + 0.4f * red));
-    return glm::mix(colour, shaded, features_("photo_lid_hue below"));
+    return glm::mix(colour, shaded, features_.photo_lid_hue.below);
   }
 
   /// Where the lid begins it lies as deep as the skin round it; downward the ball bulges it into
@@ -189,20 +187,19 @@ class LidPainter {
     const glm::vec2 below(at.x, meet - 3);
     const float turned = light_.On(skin_.shut.normal[i]) / Around(below_, below, 4).lit;
     const glm::vec3 lit =
-        features_("photo_lid_in_socket light") * turned * OfHue(eyeless_->At(below), skin_below_);
+        features_.photo_lid_in_socket.light * turned * OfHue(eyeless_->At(below), skin_below_);
     const float down = SmoothStep(rim + 2, meet, at.y);
     // The frame of glasses shades what lies behind it.
     if (glasses_) {
-      const glm::vec3 skin =
-          glm::mix(deep, skin_below_, features_("photo_lid_behind_glasses below"));
-      return glm::mix(features_("photo_lid_behind_glasses light") * skin, lit,
-                      features_("photo_lid_behind_glasses rim") * down);
+      const glm::vec3 skin = glm::mix(deep, skin_below_, features_.photo_lid_behind_glasses.below);
+      return glm::mix(features_.photo_lid_behind_glasses.light * skin, lit,
+                      features_.photo_lid_behind_glasses.rim * down);
     }
     // Out of a deep socket, which is dark, it does not come all the way.
     const float out =
-        glm::mix(features_("photo_lid_in_socket out"), 1.0f,
+        glm::mix(features_.photo_lid_in_socket.out, 1.0f,
                  SmoothStep(0.4f, 0.8f, ScreenBrightness(deep) / ScreenBrightness(lit)));
-    return glm::mix(deep, lit, out * features_.Between("photo_lid_in_socket lit", down));
+    return glm::mix(deep, lit, out * Between(features_.photo_lid_in_socket.lit, down));
   }
 
   static float GrainLight(const PhotoSpot& skin) {
@@ -217,14 +214,13 @@ class LidPainter {
     const float lashes = SmoothStep(0.96f - 0.08f * outward, 1.0f, held);
     // The wet rim of the open eye is hidden.
     const float rim = SmoothStep(0.92f, 0.97f, held);
-    return {
-        .vertex = i,
-        .colour = FromScreen(Lashed(Skin(i, at), features_("photo_lower_lashes dark") * lashes)),
-        .weight = std::max(features_("photo_lower_lashes rim") * rim,
-                           features_.Linear("photo_lower_lashes skin", outward) * lashes),
-        .grain_at = mapping_.texcoord[i],
-        .grain_light = GrainLight(Around(around_, at, 2)),
-        .slide = glm::vec2(0)};
+    return {.vertex = i,
+            .colour = FromScreen(Lashed(Skin(i, at), features_.photo_lower_lashes.dark * lashes)),
+            .weight = std::max(features_.photo_lower_lashes.rim * rim,
+                               Linear(features_.photo_lower_lashes.skin, outward) * lashes),
+            .grain_at = mapping_.texcoord[i],
+            .grain_light = GrainLight(Around(around_, at, 2)),
+            .slide = glm::vec2(0)};
   }
 
   ShutLid Upper(std::uint32_t i) const {
@@ -234,15 +230,15 @@ class LidPainter {
     const float inside = std::min(Along(at) * Along(at), 1.0f);
     // A soft furrow where the lid slips under the skin.
     const float deep =
-        (at.y - rim - features_("photo_lid_furrow above")) / features_("photo_lid_furrow width");
+        (at.y - rim - features_.photo_lid_furrow.above) / features_.photo_lid_furrow.width;
     const float furrow =
-        1 - features_("photo_lid_furrow dark") * (1 - inside) * std::exp(-deep * deep);
+        1 - features_.photo_lid_furrow.dark * (1 - inside) * std::exp(-deep * deep);
     // It turns away at its ends, and its lashes shade it.
-    const float shade = (1 - features_("photo_lid_shade ends") * inside) *
-                        (1 - features_("photo_lid_shade rim") * SmoothStep(2, 0, at.y - meet));
+    const float shade = (1 - features_.photo_lid_shade.ends * inside) *
+                        (1 - features_.photo_lid_shade.rim * SmoothStep(2, 0, at.y - meet));
     const glm::vec3 skin = Shaded(Skin(i, at), furrow * shade);
     const float lashes =
-        features_.Linear("photo_upper_lashes", Outward(at)) * SmoothStep(0.96f, 1.0f, held);
+        Linear(features_.photo_upper_lashes, Outward(at)) * SmoothStep(0.96f, 1.0f, held);
     const float height = std::max(at.y - lowest_, 0.0f);
     const float down = glasses_ ? Folded(height) : std::abs(kHighest - height);
     const glm::vec2 source(at.x, lowest_ - 1.5f - down);
@@ -259,13 +255,13 @@ class LidPainter {
   /// How much is lid: from a little above the eye's rim on, and where its lashes were.
   float Part(glm::vec2 at, float rim, glm::vec3 skin) const {
     const float beyond = std::max(rim_from_ - at.x, at.x - rim_to_);  // the corners, millimetres
-    const glm::vec2 above = rim + features_.Pair("photo_lid_above");
+    const glm::vec2 above = rim + features_.photo_lid_above;
     const float lid = SmoothStep(above.x, above.y, at.y) * SmoothStep(3, 0, beyond);
     const float shown = ScreenBrightness(Around(around_, at, 1.5f).screen) / ScreenBrightness(skin);
     // What a lens mirrors lies before the lid.
     if (glasses_) return lid * SmoothStep(1.7f, 1.3f, shown);
     const float dark = SmoothStep(0.05f, 0.2f, 1 - shown);
-    return std::max(lid, features_("photo_lashes_hidden") * dark *
+    return std::max(lid, features_.photo_lashes_hidden * dark *
                              SmoothStep(rim + 7.5f, rim + 5.5f, at.y) * SmoothStep(6, 3, beyond));
   }
 

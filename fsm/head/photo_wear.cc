@@ -24,8 +24,7 @@ void Desaturate(Palette& palette, float saturation) {
 
 /// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
 glm::vec3 Wetter(const PhotoHead& head, glm::vec3 lip, float part) {
-  return lip * glm::mix(glm::vec3(1), head.UsedFeatures().Vector("photo_lips_wet"),
-                        part * head.saturation);
+  return lip * glm::mix(glm::vec3(1), head.UsedFeatures().photo_lips_wet, part * head.saturation);
 }
 
 void DarkenNostrils(std::span<const CageTag> tags, HeadMesh& mesh) {
@@ -100,8 +99,8 @@ std::vector<float> RelitParts(const PhotoSkin& skin) {
 void ThinLashes(const PhotoHead& head, HeadTopology& topology) {
   constexpr float kLost = 0.5f;
   const Features& features = head.UsedFeatures();
-  const glm::vec3 colour = glm::mix(features.Vector("photo_lash_grey"),
-                                    features.Vector("photo_lash_colour"), head.saturation);
+  const glm::vec3 colour =
+      glm::mix(features.photo_lash_grey, features.photo_lash_colour, head.saturation);
   for (const auto& part : topology.parts) {
     if (part.material != Material::kShutLash) continue;
     const auto corners = topology.Corners(part);
@@ -147,16 +146,16 @@ void TakeColours(const PhotoHead& head, Palette& palette) {
   Desaturate(palette, head.saturation);
   if (head.lip_colour) {
     // Where the lips turn inward the mouth is painted: it begins in their colour.
-    palette.lip_inside = *head.lip_colour / features("photo_lips_light");
-    palette.mouth = features("photo_mouth") * Wetter(head, palette.lip_inside, 0.5f);
+    palette.lip_inside = *head.lip_colour / features.photo_lips_light;
+    palette.mouth = features.photo_mouth * Wetter(head, palette.lip_inside, 0.5f);
   }
   // Teeth stand in the light whose hue the whites of the eyes show. It comes from the front, where
   // the photographer's lamp is, and reaches into the mouth.
   const glm::vec3 white = head.white_colour;
-  palette.tooth *= features("photo_teeth") * head.teeth *
+  palette.tooth *= features.photo_teeth * head.teeth *
                    glm::mix(glm::vec3(1), white / std::max({white.r, white.g, white.b, 1e-3f}),
-                            features("photo_teeth_hue"));
-  palette.tongue *= features("photo_tongue") * head.teeth;
+                            features.photo_teeth_hue);
+  palette.tongue *= features.photo_tongue * head.teeth;
 }
 
 float JawLine(float above_bottom) { return 30 * SmoothStep(48, 36, above_bottom); }

@@ -18,8 +18,8 @@ class BrowPlace {
  public:
   explicit BrowPlace(const Identity& identity)
       : brows_(identity.brows),
-        middle_(identity.UsedFeatures().CurveOf("brow_middle")),
-        half_(identity.UsedFeatures().CurveOf("brow_half_height")) {}
+        middle_(CurveOf(identity.UsedFeatures().brow_middle)),
+        half_(CurveOf(identity.UsedFeatures().brow_half_height)) {}
 
   // `level` -1 at the lower edge .. 1 at the upper.
   float Y(float x, float level) const {
@@ -54,14 +54,14 @@ class BrowBuilder {
         place_(place) {}
 
   std::vector<SkinHair> Build() {
-    const int columns = static_cast<int>(features_("brow_hairs columns"));
-    const int rows = static_cast<int>(features_("brow_hairs rows"));
+    const int columns = static_cast<int>(features_.brow_hairs.columns);
+    const int rows = static_cast<int>(features_.brow_hairs.rows);
     for (const Side side : kSides) {
       for (int i = 0; i < columns * rows; ++i) {
         const int seed = 2 * i + (side == Side::kLeft ? 1 : 0);
         const float column = static_cast<float>(i / rows) + 0.5f + 0.9f * NoiseAt(seed, 21);
-        const float x = features_("brow_width from") +
-                        features_("brow_width all") * column / static_cast<float>(columns);
+        const float x = features_.brow_width.from +
+                        features_.brow_width.all * column / static_cast<float>(columns);
         const float row = static_cast<float>(i % rows) + 0.5f + 0.7f * NoiseAt(seed, 22);
         AddHair(side, x, -1 + 2 * row / static_cast<float>(rows), seed);
       }
@@ -77,28 +77,28 @@ class BrowBuilder {
     if (0.5f + 0.5f * NoiseAt(seed, 26) > place_.Density() * (0.35f + 0.65f * ends)) return;
     const glm::vec2 root(x, place_.Y(x, 0.9f * level - 0.1f));
     // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
-    const float angle = (grow_(x) - features_("brow_lean edge") * level +
-                         features_("brow_lean uneven") * NoiseAt(seed, 23)) *
+    const float angle = (grow_(x) - features_.brow_lean.edge * level +
+                         features_.brow_lean.uneven * NoiseAt(seed, 23)) *
                         kPi / 180;
-    const float bend = features_.Linear("brow_bend", level) * kPi / 180;
+    const float bend = Linear(features_.brow_bend, level) * kPi / 180;
     const float length =
-        features_.Linear("brow_hair_length", NoiseAt(seed, 24)) * (0.6f + 0.4f * ends);
+        Linear(features_.brow_hair_length, NoiseAt(seed, 24)) * (0.6f + 0.4f * ends);
     const auto step = [&](float a) { return 0.5f * length * glm::vec2(std::cos(a), std::sin(a)); };
     const glm::vec2 middle = root + step(angle);
     hairs_.push_back(
         {.root = front_.UvAt(root, side),
          .middle = front_.UvAt(middle, side),
          .tip = front_.UvAt(middle + step(angle + bend), side),
-         .width_mm = features_.Linear("brow_hair_width", NoiseAt(seed, 27)) * (0.7f + 0.3f * ends),
-         .tint = features_("brow_tint factor") * palette_.brow / palette_.skin *
-                 (1 + features_("brow_tint uneven") * NoiseAt(seed, 25))});
+         .width_mm = Linear(features_.brow_hair_width, NoiseAt(seed, 27)) * (0.7f + 0.3f * ends),
+         .tint = features_.brow_tint.factor * palette_.brow / palette_.skin *
+                 (1 + features_.brow_tint.uneven * NoiseAt(seed, 25))});
   }
 
   const SkinFront& front_;
   const Palette& palette_;
   const Features& features_;
   const BrowPlace& place_;
-  const Curve grow_ = features_.CurveOf("brow_growth");
+  const Curve grow_ = CurveOf(features_.brow_growth);
   std::vector<SkinHair> hairs_;
 };
 
@@ -107,7 +107,7 @@ class BrowBuilder {
 std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh) {
   const BrowPlace place(identity);
   // The soft tone between the hairs.
-  const float tone = identity.UsedFeatures()("brow_tone");
+  const float tone = identity.UsedFeatures().brow_tone;
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 p = mesh.position[i];
     if (p.z < 30 || std::abs(p.y - 42) > 16) continue;
@@ -121,9 +121,9 @@ std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& ey
                                     const Identity& identity) {
   constexpr int kSteps = 26;
   const Features& features = identity.UsedFeatures();
-  const auto& widths = features["lid_fold_widths"];
-  const auto& tints = features["lid_fold_tints"];
-  const Curve base_height = features.CurveOf("lid_fold_height");
+  const auto widths = ListOf(features.lid_fold_widths);
+  const auto tints = ListOf(features.lid_fold_tints);
+  const Curve base_height = CurveOf(features.lid_fold_height);
   const auto height = [&](float along) {
     return base_height(along) + glm::mix(identity.fold.inner_mm, identity.fold.outer_mm, along);
   };
@@ -139,13 +139,12 @@ std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& ey
       for (int k = 0; k < kSteps; ++k) {
         const float part = static_cast<float>(k) / kSteps;
         const float ends = SmoothStep(0, 0.25f, part) * SmoothStep(1, 0.85f, part);
-        folds.push_back(
-            {.root = at(part),
-             .middle = at(part + 0.5f / kSteps),
-             .tip = at(part + 1.0f / kSteps),
-             .width_mm = widths[stroke] * (0.35f + 0.65f * ends),
-             .tint = glm::mix(glm::vec3(1), features.Vector("lid_fold_colour") * tints[stroke],
-                              identity.fold.dark * (0.25f + 0.75f * ends))});
+        folds.push_back({.root = at(part),
+                         .middle = at(part + 0.5f / kSteps),
+                         .tip = at(part + 1.0f / kSteps),
+                         .width_mm = widths[stroke] * (0.35f + 0.65f * ends),
+                         .tint = glm::mix(glm::vec3(1), features.lid_fold_colour * tints[stroke],
+                                          identity.fold.dark * (0.25f + 0.75f * ends))});
       }
     }
   }
@@ -155,13 +154,13 @@ std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& ey
 std::vector<SkinHair> BuildStubble(const SkinFront& front, const SkinPainter& painter,
                                    const Identity& identity) {
   const Features& features = identity.UsedFeatures();
-  const float aside = features("stubble_place aside"), narrows = features("stubble_place narrows");
-  const glm::vec2 height = features.Pair("stubble_place height");
-  const glm::vec2 lips(0, features("stubble_place lips_y"));
-  const glm::vec2 lips_size = features.Pair("stubble_place lips_half_size");
+  const float aside = features.stubble_place.aside, narrows = features.stubble_place.narrows;
+  const glm::vec2 height = features.stubble_place.height;
+  const glm::vec2 lips(0, features.stubble_place.lips_y);
+  const glm::vec2 lips_size = features.stubble_place.lips_half_size;
   std::vector<SkinHair> hairs;
   if (identity.palette.beard <= 0) return hairs;
-  for (int k = 0; k < static_cast<int>(100 * features("stubble hundreds")); ++k) {
+  for (int k = 0; k < static_cast<int>(100 * features.stubble.hundreds); ++k) {
     const glm::vec2 at(aside * NoiseAt(k, 41),
                        glm::mix(height.x, height.y, 0.5f + 0.5f * NoiseAt(k, 42)));
     const glm::vec2 half(std::abs(at.x), at.y);
@@ -173,7 +172,7 @@ std::vector<SkinHair> BuildStubble(const SkinFront& front, const SkinPainter& pa
     if (glm::dot(from_lips, from_lips) < 1) continue;
     const glm::vec3 root = front.PointAt(half);
     if (chance > painter.Beard(half, root.z)) continue;
-    const float length = features("stubble length") * (1 + 0.5f * NoiseAt(k, 44));
+    const float length = features.stubble.length * (1 + 0.5f * NoiseAt(k, 44));
     const float lean = 0.6f * NoiseAt(k, 45);
     const auto along = [&](float part) {
       return front.PointAt(half + part * length * glm::vec2(lean, -1));
@@ -184,12 +183,12 @@ std::vector<SkinHair> BuildStubble(const SkinFront& front, const SkinPainter& pa
       p.x = std::copysign(p.x, at.x);
       return Unroll(p);
     };
-    const float cover = features("stubble cover") * (1 + 0.4f * NoiseAt(k, 46));
+    const float cover = features.stubble.cover * (1 + 0.4f * NoiseAt(k, 46));
     hairs.push_back(
         {.root = on_skin(root),
          .middle = on_skin(along(0.5f)),
          .tip = on_skin(tip),
-         .width_mm = features("stubble width"),
+         .width_mm = features.stubble.width,
          .tint = glm::mix(glm::vec3(1), identity.palette.hair / identity.palette.skin, cover)});
   }
   return hairs;

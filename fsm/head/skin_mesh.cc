@@ -66,35 +66,35 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
   if (tag.deep > 0) {
     paint.albedo = glm::mix(palette.lip_inside, palette.mouth, SmoothStep(0.15f, 0.8f, tag.deep));
     const float out = 1 - tag.deep;
-    const glm::vec2 light = features.Pair("mouth_light");
+    const glm::vec2 light = features.mouth_light;
     paint.openness = light.x + light.y * out * out;
     return paint;
   }
   if (tag.red >= 0 && kind == SkinKind::kLip) {
     const float aside = std::abs(p.x);
     const float reddened =
-        features("lip_red middle") * SmoothStep(1.1f, 0.6f, tag.red) *
-        (1 - features("lip_red less_aside") * features.Step("lip_red aside", aside));
+        features.lip_red.middle * SmoothStep(1.1f, 0.6f, tag.red) *
+        (1 - features.lip_red.less_aside * SmoothStep(features.lip_red.aside, aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip, reddened);
     // The edge of the red is soft, the middle of the lips wet.
     const float wet = SmoothStep(0.35f, 0, tag.red) *
-                      (1 - features("lip_wet less_aside") * features.Step("lip_wet aside", aside));
-    paint.albedo = glm::mix(paint.albedo, palette.lip_inside, features("lip_wet middle") * wet);
-    paint.openness *= 1 - features("lip_wet shade") * wet;
+                      (1 - features.lip_wet.less_aside * SmoothStep(features.lip_wet.aside, aside));
+    paint.albedo = glm::mix(paint.albedo, palette.lip_inside, features.lip_wet.middle * wet);
+    paint.openness *= 1 - features.lip_wet.shade * wet;
     // Corners lie deep.
-    paint.openness *= 1 - features("lip_corner shade") * features.Step("lip_corner aside", aside);
+    paint.openness *= 1 - features.lip_corner.shade * SmoothStep(features.lip_corner.aside, aside);
     // The lower lip rolls into the mouth: its edge is in its own shade.
     if (tag.lip_side < 0)
-      paint.openness *= 1 - features("lip_wet lower_edge") * SmoothStep(0.3f, 0, tag.red);
+      paint.openness *= 1 - features.lip_wet.lower_edge * SmoothStep(0.3f, 0, tag.red);
   }
   if (tag.hole > 0) {
-    paint.albedo = glm::mix(paint.albedo, features.Vector("nostril_colour"),
-                            features("nostril_dark colour") * tag.hole);
-    paint.openness *= 1 - features("nostril_dark shade") * tag.hole;
+    paint.albedo =
+        glm::mix(paint.albedo, features.nostril_colour, features.nostril_dark.colour * tag.hole);
+    paint.openness *= 1 - features.nostril_dark.shade * tag.hole;
   }
   if (tag.margin >= 0 && tag.margin < 0.2f) {
-    paint.albedo = glm::mix(paint.albedo, palette.lid_rim, features("lid_rim colour"));
-    paint.openness *= features("lid_rim light");
+    paint.albedo = glm::mix(paint.albedo, palette.lid_rim, features.lid_rim.colour);
+    paint.openness *= features.lid_rim.light;
   }
   return paint;
 }

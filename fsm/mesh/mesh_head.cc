@@ -116,7 +116,7 @@ void FindMouth(const RigData& rig, HeadTopology& topology) {
   mouth.corner_left = (*rig.lips.measured)[LipRig::kCornerLeft];
   mouth.corner_right = (*rig.lips.measured)[LipRig::kCornerRight];
   const Features& features = Features::BuiltIn();
-  const glm::vec3 shade = features.Vector("lower_teeth_colour");
+  const glm::vec3 shade = features.lower_teeth_colour;
   const float middle = rig.rest[mouth.upper_incisor].x;
   std::vector<bool> taken(rig.rest.size(), false);
   for (const HeadTopology::Part& part : topology.parts) {
@@ -127,9 +127,9 @@ void FindMouth(const RigData& rig, HeadTopology& topology) {
       taken[i] = true;
       const bool lower = rig.bone[i] == Bone::kJaw;
       if (teeth && lower) topology.albedo[i] *= shade;
-      topology.openness[i] = glm::mix(
-          features(teeth && lower ? "teeth_light lower" : "teeth_light upper"),
-          features("teeth_light deep"), SmoothStep(6, 32, std::abs(rig.rest[i].x - middle)));
+      topology.openness[i] =
+          glm::mix(teeth && lower ? features.teeth_light.lower : features.teeth_light.upper,
+                   features.teeth_light.deep, SmoothStep(6, 32, std::abs(rig.rest[i].x - middle)));
     }
   }
 }

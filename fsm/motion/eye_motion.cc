@@ -24,13 +24,11 @@ void ThereAndBack(Track<EyeAngles>& track, vm::Time now, const EyeAngles& there,
 }  // namespace
 
 float EyeMotion::HeadShareOf(float angle) const {
-  const float beyond = std::max(0.0f, std::abs(angle) - gestures_("gaze alone"));
-  return std::copysign(beyond * gestures_("gaze head"), angle);
+  const float beyond = std::max(0.0f, std::abs(angle) - gestures_.gaze.alone);
+  return std::copysign(beyond * gestures_.gaze.head, angle);
 }
 
-EyeAngles EyeMotion::Thinking() const {
-  return {gestures_.Pair("think down").x, gestures_.Pair("think aside").x};
-}
+EyeAngles EyeMotion::Thinking() const { return {gestures_.think.down.x, gestures_.think.aside.x}; }
 
 // ---- commands
 
@@ -108,10 +106,10 @@ EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
   const auto place = [&](std::int64_t index) -> std::array<double, 2> {
     if (index < 0) return {0, 0};
     const double side = std::copysign(1, habit + 0.8 * RandomAt(seed_, kThinkSide, index + 1));
-    const auto varied = [&](const char* name, std::int64_t at) {
-      return gestures_.Linear(name, static_cast<float>(RandomAt(seed_, kThinkHeight, at)));
+    const auto varied = [&](glm::vec2 row, std::int64_t at) {
+      return Linear(row, static_cast<float>(RandomAt(seed_, kThinkHeight, at)));
     };
-    return {varied("think down", index), side * varied("think aside", index + 50)};
+    return {varied(gestures_.think.down, index), side * varied(gestures_.think.aside, index + 50)};
   };
   const auto from = place(k - 1), to = place(k);
   const double u = SmootherStep((ms - jump_ms(k)) / 55);

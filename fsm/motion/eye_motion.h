@@ -15,7 +15,7 @@ namespace fsm {
 /// how far the eyes are kept on the viewer. Lifetime: what it is made with outlives it.
 class EyeMotion : public MotionSource {
  public:
-  EyeMotion(const MotionPatterns& patterns, const NumberTable& gestures,
+  EyeMotion(const MotionPatterns& patterns, const GestureNumbers& gestures,
             const MotionSettings& settings, const IdleBehaviour& idle, std::uint64_t seed)
       : patterns_(patterns), gestures_(gestures), settings_(settings), idle_(idle), seed_(seed) {}
 
@@ -54,7 +54,7 @@ class EyeMotion : public MotionSource {
     vm::Time start;
   };
   const MotionPatterns& patterns_;
-  const NumberTable& gestures_;
+  const GestureNumbers& gestures_;
   const MotionSettings& settings_;
   const IdleBehaviour& idle_;
   std::uint64_t seed_;

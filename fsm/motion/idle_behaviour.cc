@@ -41,7 +41,7 @@ double Swing(double u) {
 
 }  // namespace
 
-IdleBehaviour::IdleBehaviour(const MotionPatterns& patterns, const NumberTable& gestures,
+IdleBehaviour::IdleBehaviour(const MotionPatterns& patterns, const GestureNumbers& gestures,
                              std::uint64_t seed)
     : patterns_(patterns), gestures_(gestures), seed_(seed) {
   switches_[static_cast<std::size_t>(IdleKind::kAsymmetry)] = {1, true, vm::Time(0), Track(1.0f)};
@@ -122,9 +122,9 @@ void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
   const AutoMove& move = patterns_.auto_moves[own.pattern - 1];
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double slow = InMs(t) / move.period_ms + 0.37 * static_cast<double>(axis);
-    const double fast = slow * gestures_("wander faster");
-    const double way = gestures_("wander slow") * Wander(kHeadWander + 2 * axis, slow) +
-                       gestures_("wander fast") * Wander(kHeadWander + 2 * axis + 1, fast);
+    const double fast = slow * gestures_.wander.faster;
+    const double way = gestures_.wander.slow * Wander(kHeadWander + 2 * axis, slow) +
+                       gestures_.wander.fast * Wander(kHeadWander + 2 * axis + 1, fast);
     out[axis] += static_cast<float>(weight * way * move.amplitude[axis]);
   }
 }
@@ -137,15 +137,15 @@ void IdleBehaviour::AddNods(vm::Time t, Angles& out) const {
   const double ms = InMs(t - own.since);
   const auto k = static_cast<std::int64_t>(std::floor(ms / nods.interval_ms));
   if (ms < 0) return;
-  const auto varied = [&](const char* name, Stream stream) {
-    return gestures_.Linear(name, static_cast<float>(Random(stream, k)));
+  const auto varied = [&](glm::vec2 row, Stream stream) {
+    return Linear(row, static_cast<float>(Random(stream, k)));
   };
   const double since =
-      ms - nods.interval_ms * (static_cast<double>(k) + varied("nod begins", kNodTime));
-  const double size = nods.angle * varied("nod size", kNodSize);
-  const double down = Swing(since / gestures_("nod lasts")) +
-                      gestures_("second_nod size") * Swing((since - gestures_("second_nod after")) /
-                                                           gestures_("second_nod lasts"));
+      ms - nods.interval_ms * (static_cast<double>(k) + varied(gestures_.nod.begins, kNodTime));
+  const double size = nods.angle * varied(gestures_.nod.size, kNodSize);
+  const double down = Swing(since / gestures_.nod.lasts) +
+                      gestures_.second_nod.size *
+                          Swing((since - gestures_.second_nod.after) / gestures_.second_nod.lasts);
   out[kDown] += static_cast<float>(weight * size * down);
 }
 
@@ -159,7 +159,7 @@ void IdleBehaviour::Contribute(vm::Time t, MotionFrame& frame) const {
   if (const Switch& own = Of(IdleKind::kBreath); own.pattern > 0) {
     const double breath = BreathAt(t);
     layer.head[kDown] -= static_cast<float>(patterns_.auto_breaths[own.pattern - 1].pitch * breath);
-    const auto nostrils = static_cast<float>(gestures_("breath nostrils") * breath);
+    const auto nostrils = static_cast<float>(gestures_.breath.nostrils * breath);
     layer.units.au.left[kNostrilDilator] = layer.units.au.right[kNostrilDilator] = nostrils;
   }
   layer.units.gaze.left = layer.units.gaze.right = EyesAt(t);
@@ -175,7 +175,7 @@ double IdleBehaviour::BreathAt(vm::Time t) const {
   if (own.pattern == 0) return 0;
   const double ms = std::max(0.0, InMs(t - own.since));
   const double u = std::fmod(ms / patterns_.auto_breaths[own.pattern - 1].period_ms, 1.0);
-  const double in = gestures_("breath in"), out = gestures_("breath out");
+  const double in = gestures_.breath.in, out = gestures_.breath.out;
   return own.weight.At(t) * (u < in ? Eased(u / in) : 1 - Eased((u - in) / out));
 }
 

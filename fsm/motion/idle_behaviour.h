@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "fsm/base/number_table.h"
+#include "embedded/gesture_numbers.h"
 #include "fsm/motion/motion_patterns.h"
 #include "fsm/motion/motion_source.h"
 #include "vm_protocol/core/result.h"
@@ -19,7 +19,7 @@ namespace fsm {
 class IdleBehaviour : public MotionSource {
  public:
   /// ASYMMETRY is on, everything else is off.
-  IdleBehaviour(const MotionPatterns& patterns, const NumberTable& gestures, std::uint64_t seed);
+  IdleBehaviour(const MotionPatterns& patterns, const GestureNumbers& gestures, std::uint64_t seed);
 
   /// A kind by its name; pattern 0 switches off.
   vm::Result<void> Set(vm::Time now, std::string_view kind, int pattern);
@@ -67,7 +67,7 @@ class IdleBehaviour : public MotionSource {
   Blink LastBlink(vm::Time t) const;
 
   const MotionPatterns& patterns_;
-  const NumberTable& gestures_;
+  const GestureNumbers& gestures_;
   std::uint64_t seed_;
   std::array<Switch, kIdleKindNames.size()> switches_;
   /// The blink that was asked for last. A blink's place is the sum of all intervals before it, but

@@ -95,17 +95,17 @@ void LoadMouth(Loader& loader, MotionTables& out) {
              out.set28);
 }
 
-vm::Result<NumberTable> ReadGestures(const std::string& name, std::string_view text) {
+vm::Result<GestureNumbers> ReadGestures(const std::string& name, std::string_view text) {
   static const NumberTable built_in("tables/gestures.txt", embedded::gestures());
   try {
-    NumberTable gestures(name, text, &built_in);
+    const NumberTable gestures(name, text, &built_in);
     for (const TableRow& row : gestures.rows()) {
       constexpr std::string_view kTimes[] = {"lasts", "rise", "fall"};  // are divided by
       if (std::ranges::find(kTimes, row.Word(1)) != std::end(kTimes)) row.Within(2, 1, 1000);
       if (row.key() == "jaw" || row.key() == "lips") row.Within(2, 0, 300);
       if (row.Word(1) == "in" || row.Word(1) == "out") row.Within(2, 0.01f, 1);
     }
-    return gestures;
+    return GestureNumbers(gestures);
   } catch (const TableError& error) {
     return vm::Fail(vm::Errc::kBadValue, error.what());
   }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/base/number_table.h"
+#include "embedded/gesture_numbers.h"
 #include "fsm/motion/action_units.h"
 #include "fsm/motion/emotion_space.h"
 #include "fsm/motion/emotion_table.h"
@@ -29,7 +29,7 @@ struct MotionTables {
   BlendShapes blend_shapes;
   Mixer mixer;
   TextCues text_cues;
-  NumberTable gestures;  ///< gestures.txt, where each number is explained
+  GestureNumbers gestures;  ///< gestures.txt, where each number is explained
 
   MouthSet& mouths(ShapeSet set) { return set == ShapeSet::k14 ? set14 : set28; }
   const MouthSet& mouths(ShapeSet set) const { return set == ShapeSet::k14 ? set14 : set28; }

@@ -12,34 +12,18 @@ namespace {
 constexpr double kApartMs = 300;  // stressed vowels are at least so far apart
 enum GestureStream : std::uint64_t { kTurn = 100, kTilt, kLift, kBrow, kAvertSide, kAvertLength };
 
-}  // namespace
-
-SpeechGestures::Bump::Bump(const NumberTable& sizes, const std::string& name)
-    : before_ms(sizes(name + " before")),
-      rise_ms(sizes(name + " rise")),
-      fall_ms(sizes(name + " fall")) {}
-
-double SpeechGestures::Bump::At(double ms, double beat_ms) const {
-  const double after = ms - (beat_ms - before_ms);
-  return after <= 0 ? SmootherStep(1 + after / rise_ms) : 1 - SmootherStep(after / fall_ms);
+/// From 0 to 1 and back; `row` says how long before the beat the peak is, and how long it rises and
+/// falls.
+double Bump(const auto& row, double ms, double beat_ms) {
+  const double after = ms - (beat_ms - row.before);
+  return after <= 0 ? SmootherStep(1 + after / row.rise) : 1 - SmootherStep(after / row.fall);
 }
 
-SpeechGestures::SpeechGestures(const VisemeTargets& visemes, const NumberTable& sizes,
+}  // namespace
+
+SpeechGestures::SpeechGestures(const VisemeTargets& visemes, const GestureNumbers& sizes,
                                std::uint64_t seed)
-    : seed_(seed),
-      length_ms_(visemes.length_ms),
-      nod_(sizes, "stress"),
-      lift_(sizes, "lift"),
-      brow_(sizes, "brow"),
-      lift_size_(sizes("lift size")),
-      phrase_ms_(sizes("phrase lasts")),
-      sink_size_(sizes("sink size")),
-      sink_ms_(sizes("sink lasts")),
-      avert_ms_(sizes.Linear("avert lasts", static_cast<float>(RandomAt(seed, kAvertLength, 0)))),
-      avert_part_(sizes("avert part")),
-      avert_side_(sizes("avert side")),
-      avert_up_(sizes("avert up")),
-      avert_down_(sizes("avert down")) {
+    : seed_(seed), length_ms_(visemes.length_ms), sizes_(sizes) {
   FindBeats(visemes);
   bool pause = true;
   for (const VisemeTarget& viseme : visemes.targets) {
@@ -52,7 +36,7 @@ SpeechGestures::SpeechGestures(const VisemeTargets& visemes, const NumberTable& 
     const auto index = static_cast<std::int64_t>(phrases_.size());
     phrases_.push_back(
         {std::max(-kApproachMs, viseme.start_ms - 150),
-         {.nod = sizes.Linear("phrase nod", static_cast<float>(RandomAt(seed_, kLift, index))),
+         {.nod = Linear(sizes.phrase.nod, static_cast<float>(RandomAt(seed_, kLift, index))),
           .turn = RandomAt(seed_, kTurn, index),
           .tilt = RandomAt(seed_, kTilt, index)}});
   }
@@ -97,18 +81,19 @@ SpeechGestures::At SpeechGestures::HeadAt(double position_ms) const {
   At out;
   if (phrases_.empty()) return out;
   for (const Phrase& phrase : phrases_) {
-    const double u = SmootherStep((position_ms - phrase.start_ms) / phrase_ms_);
+    const double u = SmootherStep((position_ms - phrase.start_ms) / sizes_.phrase.lasts);
     if (u <= 0) break;
     out.nod += u * (phrase.pose.nod - out.nod);
     out.turn += u * (phrase.pose.turn - out.turn);
     out.tilt += u * (phrase.pose.tilt - out.tilt);
   }
   for (const Beat& beat : beats_) {
-    out.nod += beat.nod * (nod_.At(position_ms, beat.peak_ms) -
-                           lift_size_ * lift_.At(position_ms, beat.peak_ms));
-    out.brow = std::max(out.brow, beat.brow * brow_.At(position_ms, beat.peak_ms));
+    out.nod += beat.nod * (Bump(sizes_.stress, position_ms, beat.peak_ms) -
+                           sizes_.lift.size * Bump(sizes_.lift, position_ms, beat.peak_ms));
+    out.brow = std::max(out.brow, beat.brow * Bump(sizes_.brow, position_ms, beat.peak_ms));
   }
-  out.nod += sink_size_ * SmootherStep((position_ms - (length_ms_ - sink_ms_)) / sink_ms_);
+  out.nod += sizes_.sink.size *
+             SmootherStep((position_ms - (length_ms_ - sizes_.sink.lasts)) / sizes_.sink.lasts);
   const double stays = SmootherStep((position_ms + kApproachMs) / 150) *
                        (1 - SmootherStep((position_ms - length_ms_) / kFadeMs));
   return {out.nod * stays, out.turn * stays, out.tilt * stays, out.brow * stays};
@@ -117,7 +102,9 @@ SpeechGestures::At SpeechGestures::HeadAt(double position_ms) const {
 std::array<double, 2> SpeechGestures::AvertTimes(double shortest_ms) const {
   if (length_ms_ < shortest_ms || phrases_.empty()) return {0, 0};
   const double from = phrases_.front().start_ms + 20;
-  return {from, from + std::min(avert_ms_, avert_part_ * length_ms_)};
+  const double longest =
+      Linear(sizes_.avert.lasts, static_cast<float>(RandomAt(seed_, kAvertLength, 0)));
+  return {from, from + std::min(longest, sizes_.avert.part * length_ms_)};
 }
 
 std::array<double, 2> SpeechGestures::AvertAt(double position_ms, double shortest_ms) const {
@@ -127,7 +114,8 @@ std::array<double, 2> SpeechGestures::AvertAt(double position_ms, double shortes
   const double u =
       SmootherStep((position_ms - away) / 45) - SmootherStep((position_ms - back) / 45);
   const double side = RandomAt(seed_, kAvertSide, 0);
-  return {u * (side > 0.2 ? -avert_up_ : avert_down_), u * std::copysign(avert_side_, side)};
+  return {u * (side > 0.2 ? -sizes_.avert.up : sizes_.avert.down),
+          u * std::copysign(sizes_.avert.side, side)};
 }
 
 }  // namespace fsm

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/base/number_table.h"
+#include "embedded/gesture_numbers.h"
 #include "fsm/motion/eye_motion.h"
 #include "fsm/motion/motion_patterns.h"
 #include "fsm/motion/viseme_target.h"
@@ -22,7 +22,7 @@ namespace fsm {
 class SpeechGestures {
  public:
   /// `sizes`: gestures.txt.
-  SpeechGestures(const VisemeTargets& visemes, const NumberTable& sizes, std::uint64_t seed);
+  SpeechGestures(const VisemeTargets& visemes, const GestureNumbers& sizes, std::uint64_t seed);
 
   /// In parts of the table's greatest angles, about -1..1.
   struct At {
@@ -50,20 +50,11 @@ class SpeechGestures {
     double start_ms;
     At pose;
   };
-  /// From 0 to 1 and back, its peak so long before that of a beat.
-  struct Bump {
-    Bump(const NumberTable& sizes, const std::string& name);
-    double At(double ms, double beat_ms) const;
-    double before_ms, rise_ms, fall_ms;
-  };
   void FindBeats(const VisemeTargets& visemes);
 
   std::uint64_t seed_;
   double length_ms_;
-  // Rows of gestures.txt.
-  Bump nod_, lift_, brow_;
-  double lift_size_, phrase_ms_, sink_size_, sink_ms_;
-  double avert_ms_, avert_part_, avert_side_, avert_up_, avert_down_;
+  GestureNumbers sizes_;
   std::vector<Beat> beats_;
   std::vector<Phrase> phrases_;
 };

@@ -1,5 +1,8 @@
 #include "fsm/render/appearance.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
 #include "embedded/appearance.h"
@@ -7,7 +10,7 @@
 namespace fsm {
 namespace {
 
-constexpr std::pair<const char*, Material> kSurfaces[] = {
+constexpr std::pair<std::string_view, Material> kSurfaces[] = {
     {"skin", Material::kSkin},     {"lips", Material::kLip},
     {"teeth", Material::kTeeth},   {"gums", Material::kGum},
     {"tongue", Material::kTongue}, {"mouth_inside", Material::kMouthInside},
@@ -23,32 +26,32 @@ std::string ConstantOf(const TableRow& row) {
 
 }  // namespace
 
-Appearance::Appearance(NumberTable numbers) : NumberTable(std::move(numbers)) {
-  for (const TableRow& row : rows()) {
-    const std::string name = NameOf(row);
+Appearance::Appearance(NumberTable numbers)
+    : AppearanceNumbers(numbers), table_(std::move(numbers)) {
+  for (const TableRow& row : table_.rows()) {
+    const std::string name = NumberTable::NameOf(row);
     if (name == row.key()) constants_ += ConstantOf(row);
-    if (name.ends_with(" direction") && Vector(name) == glm::vec3(0))
+    if (name.ends_with(" direction") && std::ranges::count(table_[name], 0.0F) == 3)
       row.Fail("a lamp that stands nowhere");
   }
   for (const auto& [name, material] : kSurfaces) {
-    const auto row = [name](const char* property) { return std::string(property) + " " + name; };
-    surfaces_[material] = {.wrap = Vector(row("wrap")),
-                           .lobes = Vector(row("lobes")),
-                           .key_through = (*this)(row("key_through")),
-                           .sheen = (*this)(row("down")),
-                           .saturation = (*this)(row("saturation")),
-                           .bump = (*this)(row("bump")),
-                           .planar = (*this)(row("repeats"))};
+    Surface& surface = surfaces_[material];
+    const auto get = [this, name](std::string_view property, auto& out) {
+      table_.Get(fmt::format("{} {}", property, name), out);
+    };
+    get("wrap", surface.wrap);
+    get("lobes", surface.lobes);
+    get("key_through", surface.key_through);
+    get("down", surface.sheen);
+    get("saturation", surface.saturation);
+    get("bump", surface.bump);
+    get("repeats", surface.planar);
   }
 }
 
 const Appearance& Appearance::BuiltIn() {
   static const Appearance table(NumberTable("tables/appearance.txt", embedded::appearance()));
   return table;
-}
-
-Appearance::Lamp Appearance::lamp(const std::string& name) const {
-  return {Vector("lamp " + name + " direction"), Vector("lamp " + name + " light")};
 }
 
 }  // namespace fsm

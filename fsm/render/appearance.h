@@ -1,11 +1,11 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 #include <map>
 #include <string>
 #include <string_view>
 
+#include "embedded/appearance_numbers.h"
 #include "fsm/base/number_table.h"
 #include "fsm/rig/head.h"
 
@@ -13,7 +13,7 @@ namespace fsm {
 
 /// How things look: what tables/appearance.txt says, where each number is explained. Constant after
 /// construction; thread: any.
-class Appearance : public NumberTable {
+class Appearance : public AppearanceNumbers {
  public:
   /// How a surface takes light; the names are those of the uniforms in surface_*.glsl.
   struct Surface {
@@ -21,20 +21,15 @@ class Appearance : public NumberTable {
     glm::vec3 lobes{0};
     float key_through = 0, sheen = 0, saturation = 1, bump = 0, planar = 0;
   };
-  struct Lamp {
-    glm::vec3 direction{0, 0, 1}, colour{0};
-  };
 
   /// In place of the built-in table; `name` is for messages. Throws as NumberTable, and where a
   /// lamp stands nowhere.
   Appearance(const std::string& name, std::string_view text)
-      : Appearance(NumberTable(name, text, &BuiltIn())) {}
+      : Appearance(NumberTable(name, text, &BuiltIn().table_)) {}
   static const Appearance& BuiltIn();
 
-  /// REQUIRES of all below: the built-in table has what is asked for.
+  /// REQUIRES: a material with rows in the table.
   const Surface& surface(Material material) const { return surfaces_.at(material); }
-  Lamp lamp(const std::string& name) const;
-  glm::vec4 ColourAndOpacity(std::string_view name) const { return Vector4(name); }
   /// The rows whose name is one word as constants of GLSL: "const vec3 sky_color = vec3(...);". A
   /// compiler folds them, so a number in the table costs no more than one in a shader.
   const std::string& constants() const { return constants_; }
@@ -42,6 +37,7 @@ class Appearance : public NumberTable {
  private:
   explicit Appearance(NumberTable numbers);
 
+  NumberTable table_;
   std::map<Material, Surface> surfaces_;
   std::string constants_;
 };

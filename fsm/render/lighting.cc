@@ -10,28 +10,18 @@
 namespace fsm {
 namespace {
 
-Appearance::Lamp LampOf(const Appearance& appearance, const char* name,
-                        const DirectionalLight& wanted) {
-  Appearance::Lamp lamp = appearance.lamp(name);
-  if (wanted.direction) lamp.direction = *wanted.direction;
-  // White is as bright as the lamp is by itself.
-  if (wanted.tint) {
-    lamp.colour = *wanted.tint * (lamp.colour.r + lamp.colour.g + lamp.colour.b) / 3.0F;
-  }
-  lamp.colour *= wanted.strength;
-  return lamp;
-}
-
 /// The lamps of the table, changed as a scene wants them.
 Lamps LampsOf(const Appearance& appearance, const Scene& scene) {
-  const std::array lamps = {LampOf(appearance, "key", scene.key),
-                            LampOf(appearance, "fill", scene.fill),
-                            LampOf(appearance, "rim", scene.rim)};
   Lamps out;
-  for (std::size_t i = 0; i < lamps.size(); ++i) {
-    out.directions[i] = glm::normalize(lamps[i].direction);
-    out.colours[i] = lamps[i].colour;
-  }
+  const auto set = [&out](std::size_t i, const auto& row, const DirectionalLight& wanted) {
+    out.directions[i] = glm::normalize(wanted.direction.value_or(row.direction));
+    // White is as bright as the lamp is by itself.
+    const float mean = (row.light.r + row.light.g + row.light.b) / 3.0F;
+    out.colours[i] = wanted.strength * (wanted.tint ? *wanted.tint * mean : row.light);
+  };
+  set(0, appearance.lamp.key, scene.key);
+  set(1, appearance.lamp.fill, scene.fill);
+  set(2, appearance.lamp.rim, scene.rim);
   return out;
 }
 
@@ -40,8 +30,8 @@ Lamps LampsOf(const Appearance& appearance, const Scene& scene) {
 MaterialFrame FrameOf(const Appearance& appearance, const View& view, const HeadBuffers& head,
                       const HeadVertices& vertices, const Scene& scene) {
   const Lamps lamps = LampsOf(appearance, scene);
-  const float room = appearance("photo_room_light");
-  const float usual = appearance.lamp("key").colour.g + appearance.lamp("fill").colour.g + room;
+  const float room = appearance.photo_room_light;
+  const float usual = appearance.lamp.key.light.g + appearance.lamp.fill.light.g + room;
   const auto shadows = head.shadows().Measure(vertices);
   MaterialFrame frame{
       .view = view,

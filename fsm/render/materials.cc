@@ -68,7 +68,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   head_textures_ = &textures;
   const MaterialFrame frame = FrameOf(appearance_, view, head, vertices, scene);
   creased_ = frame.creases != Sided<glm::vec4>{} || frame.nose_creases != Sided<float>{};
-  pores_ = view.samples_per_mm >= appearance_("pores_from");
+  pores_ = view.samples_per_mm >= appearance_.pores_from;
   photo_.Prepare(head);
   if (!head.topology().pbr_materials.empty() && !pbr_) {
     pbr_.emplace(

@@ -34,19 +34,17 @@ void MouthMaterial::Begin(const MaterialFrame& frame) {
   const glm::mat3 turn(frame.view.figure_to_world);
   const glm::mat3 to_world =
       turn / glm::length(turn[0]) * glm::transpose(glm::mat3(opening_->to_mouth));
-  const auto number = [&](const char* of_photo, const char* of_paint) {
-    return appearance_(frame.head.photo() ? of_photo : of_paint);
-  };
-  const glm::vec3 key = glm::mix(glm::transpose(to_world) * frame.lamps.directions[0],
-                                 appearance_.Vector("mouth_key_from"),
-                                 number("photo_mouth_ahead", "mouth_key_ahead"));
+  const bool photo = frame.head.photo() != nullptr;
+  const glm::vec3 key =
+      glm::mix(glm::transpose(to_world) * frame.lamps.directions[0], appearance_.mouth_key_from,
+               photo ? appearance_.photo_mouth_ahead : appearance_.mouth_key_ahead);
   program_.Use();
   program_.Set("to_mouth", opening_->to_mouth);
   program_.Set("mouth_to_world", to_world);
   program_.Set("lips", opening_->lips);
   program_.Set("mouth_edges", glm::vec4(opening_->corners, opening_->teeth));
-  program_.Set("front_gain", number("photo_mouth_front", "mouth_front"));
-  program_.Set("deep_gain", number("photo_mouth_deep", "mouth_deep"));
+  program_.Set("front_gain", photo ? appearance_.photo_mouth_front : appearance_.mouth_front);
+  program_.Set("deep_gain", photo ? appearance_.photo_mouth_deep : appearance_.mouth_deep);
   program_.Set("mouth_key", glm::normalize(key));
 }
 

@@ -290,8 +290,7 @@ class GlRenderer : public Renderer {
 
   void DrawLines(const std::vector<DrawnPart>& parts, const Scene& scene) {
     const bool alone = scene.view_mode == ViewMode::kWireframe;
-    const glm::vec4 colour =
-        alone ? glm::vec4(scene.wire, 1.0F) : appearance_.ColourAndOpacity("line_over_texture");
+    const glm::vec4 colour = alone ? glm::vec4(scene.wire, 1.0F) : appearance_.line_over_texture;
     BeginBlending();
     gl_.DepthFunc(GL_LEQUAL);
     gl_.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);

@@ -34,7 +34,7 @@ std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceLandmarks& la
 class CreaseRelief {
  public:
   CreaseRelief(const FaceLandmarks& landmarks, const Appearance& appearance)
-      : m_(landmarks), table_(appearance) {}
+      : landmarks_(landmarks), skin_(appearance.skin) {}
   /// How high above the skin a place lies when all creases are at their deepest, millimetres.
   float HeightAt(const glm::vec3& place) const;
   /// False where no crease is within a few millimetres.
@@ -50,36 +50,8 @@ class CreaseRelief {
   void AddCrowsFeet(const glm::vec3& p, float side, float& height) const;
   void AddNasolabial(const glm::vec3& p, float side, float& height) const;
 
-  const FaceLandmarks& m_;
-  const NumberTable& table_;
-  const float swelling_ = table_("skin crease swelling");
-  /// Depth and width of lines.
-  struct Line {
-    float depth, width;
-  };
-  Line LineOf(const std::string& name) const {
-    return {table_("skin " + name + " depth"), table_("skin " + name + " width")};
-  }
-  const Line forehead_ = LineOf("forehead_lines"), glabella_ = LineOf("glabella_lines"),
-             nasion_ = LineOf("nasion_line"), bridge_ = LineOf("bridge_lines"),
-             crows_feet_ = LineOf("crows_feet"), nasolabial_ = LineOf("nasolabial_fold");
-  const std::vector<float>& forehead_places_ = table_["skin forehead_lines places"];
-  const float deep_long_ = table_("skin forehead_lines deep_long"),
-              deep_short_ = table_("skin forehead_lines deep_short"),
-              rise_ = table_("skin forehead_lines rise"),
-              sway_long_ = table_("skin forehead_lines sway_long"),
-              sway_short_ = table_("skin forehead_lines sway_short"),
-              reach_ = table_("skin forehead_lines reach"),
-              farthest_ = table_("skin forehead_lines farthest"),
-              less_ = table_("skin forehead_lines less"),
-              last_ = table_("skin forehead_lines last");
-  const float glabella_side_ = table_("skin glabella_lines side"),
-              nasion_reach_ = table_("skin nasion_line reach");
-  const std::vector<float>&bridge_below_ = table_["skin bridge_lines below"],
-        &crows_feet_directions_ = table_["skin crows_feet directions"];
-  const float outside_nose_ = table_("skin nasolabial_fold nose"),
-              outside_mouth_ = table_("skin nasolabial_fold mouth"),
-              nasolabial_bow_ = table_("skin nasolabial_fold bow");
+  const FaceLandmarks& landmarks_;
+  const decltype(Appearance::skin)& skin_;
 };
 
 /// Draws hairs into the tint, each a bent line that ends in a point.

@@ -46,8 +46,8 @@ std::vector<Fine> MakeFineTile(const Appearance& appearance) {
     for (int x = 0; x < kTile; x += kApart, ++n) {
       const float px = static_cast<float>(x) + kApart * Chance(11, n);
       const float py = static_cast<float>(y) + kApart * Chance(12, n);
-      const float deep = appearance.Linear("skin pore dark", Chance(13, n));
-      const float radius = appearance.Linear("skin pore radius", Chance(14, n));
+      const float deep = Linear(appearance.skin.pore.dark, Chance(13, n));
+      const float radius = Linear(appearance.skin.pore.radius, Chance(14, n));
       for (int ty = y - 2; ty <= y + kApart + 2; ++ty) {
         for (int tx = x - 2; tx <= x + kApart + 2; ++tx) {
           const float dx = static_cast<float>(tx) + 0.5F - px;
@@ -73,8 +73,8 @@ std::vector<Fine> MakeFineTile(const Appearance& appearance) {
     }
   }
   const float between = 2 / SkinTexture::kTexelsPerMm;  // millimetres from neighbour to neighbour
-  const float pore_mm = appearance("skin pore depth");
-  const float crack_mm = appearance("skin lip_lines depth");
+  const float pore_mm = appearance.skin.pore.depth;
+  const float crack_mm = appearance.skin.lip_lines.depth;
   for (int y = 0; y < kTile; ++y) {
     for (int x = 0; x < kTile; ++x) {
       const Fine& l = tile[InTile(x - 1, y)];
@@ -99,9 +99,9 @@ void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& 
                const Appearance& appearance, int first, int last, SkinTexture& out) {
   constexpr int kCells = SkinMap::kCells;
   constexpr int kStep = kSide / kCells;
-  const glm::vec4 pore_tint = appearance.Vector4("skin pore tint");
-  const glm::vec4 crack_tint = appearance.Vector4("skin lip_lines tint");
-  const glm::vec4 grain_tint = appearance.Vector4("skin grain tint");
+  const glm::vec4 pore_tint = appearance.skin.pore.tint;
+  const glm::vec4 crack_tint = appearance.skin.lip_lines.tint;
+  const glm::vec4 grain_tint = appearance.skin.grain.tint;
   std::vector<SkinRegion> row(kCells + 1);
   for (int y = first; y < last; ++y) {
     // Cells count for their middles.
@@ -192,65 +192,51 @@ void Stamp(float x, float y, float radius, Paint paint) {
 }
 
 /// Faint brown freckles over nose and cheeks, a few darker moles.
-void PaintFreckles(const SkinMap& map, const FaceLandmarks& m, const Appearance& appearance,
+void PaintFreckles(const SkinMap& map, const FaceLandmarks& landmarks, const Appearance& appearance,
                    SkinTexture& out) {
-  const float count = 100 * appearance("skin freckles hundreds");
-  const float everywhere = appearance("skin freckles everywhere");
-  const float on_cheek = appearance("skin freckles cheek");
-  const float side = appearance("skin freckled_cheek side");
-  const float width = appearance("skin freckled_cheek width");
-  const float above = appearance("skin freckled_cheek above");
-  const float height = appearance("skin freckled_cheek height");
-  const float one_in = appearance("skin moles one_in");
-  const glm::vec4 tint = appearance.Vector4("skin freckle tint");
-  for (std::uint64_t n = 0; static_cast<float>(n) < count; ++n) {
+  const auto& skin = appearance.skin;
+  for (std::uint64_t n = 0; static_cast<float>(n) < 100 * skin.freckles.hundreds; ++n) {
     const float x = kSide * (0.18F + 0.64F * Chance(21, n));
     const float y = kSide * (0.25F + 0.6F * Chance(22, n));
     if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) continue;
     const glm::vec3 p = map.PlaceAt(x / kSide, y / kSide);
     const float near_cheek =
-        Bell(std::abs(p.x) - side, width) * Bell(p.y - m.pronasale.y - above, height);
-    if (Chance(23, n) > everywhere + on_cheek * near_cheek) continue;
-    const bool mole = one_in >= 1 && n % static_cast<std::uint64_t>(one_in) == 7;
-    const float strength = mole ? appearance("skin moles strength")
-                                : appearance.Linear("skin freckle strength", Chance(24, n));
-    const float radius = mole ? appearance("skin moles radius")
-                              : appearance.Linear("skin freckle radius", Chance(25, n));
-    Stamp(x, y, radius, [&](std::size_t i, float w) { Tint(out, i, 1.0F - w * strength * tint); });
+        Bell(std::abs(p.x) - skin.freckled_cheek.side, skin.freckled_cheek.width) *
+        Bell(p.y - landmarks.pronasale.y - skin.freckled_cheek.above, skin.freckled_cheek.height);
+    if (Chance(23, n) > skin.freckles.everywhere + skin.freckles.cheek * near_cheek) continue;
+    const bool mole =
+        skin.moles.one_in >= 1 && n % static_cast<std::uint64_t>(skin.moles.one_in) == 7;
+    const float strength =
+        mole ? skin.moles.strength : Linear(skin.freckle.strength, Chance(24, n));
+    const float radius = mole ? skin.moles.radius : Linear(skin.freckle.radius, Chance(25, n));
+    Stamp(x, y, radius,
+          [&](std::size_t i, float w) { Tint(out, i, 1.0F - w * strength * skin.freckle.tint); });
   }
 }
 
 /// Fine vessels beside the nose and on the cheeks: short walks that wander.
-void PaintVessels(const SkinMap& map, const FaceLandmarks& m, const Appearance& appearance,
+void PaintVessels(const SkinMap& map, const FaceLandmarks& landmarks, const Appearance& appearance,
                   SkinTexture& out) {
-  const float count = appearance("skin vessels count");
-  const float length = appearance("skin vessels length");
-  const float radius = appearance("skin vessels radius");
-  const float bend = appearance("skin vessels bend");
-  const float at_nose = appearance("skin vessels strength");
-  const float nose_width = appearance("skin vessels nose_width");
-  const float on_cheek = appearance("skin vessels cheek");
-  const float cheek_side = appearance("skin vessels cheek_side");
-  const float cheek_width = appearance("skin vessels cheek_width");
-  const glm::vec4 tint = appearance.Vector4("skin vessels tint");
-  for (std::uint64_t n = 0; static_cast<float>(n) < count; ++n) {
+  const auto& skin = appearance.skin;
+  for (std::uint64_t n = 0; static_cast<float>(n) < skin.vessels.count; ++n) {
     float x = kSide * (0.25F + 0.5F * Chance(31, n));
     float y = kSide * (0.42F + 0.22F * Chance(32, n));
     float turn = 6.2832F * Chance(33, n);
-    for (std::uint64_t step = 0; static_cast<float>(step) < length; ++step) {
-      turn += bend * (Chance(34, n * 64 + step) - 0.5F);
+    for (std::uint64_t step = 0; static_cast<float>(step) < skin.vessels.length; ++step) {
+      turn += skin.vessels.bend * (Chance(34, n * 64 + step) - 0.5F);
       x += std::cos(turn);
       y += std::sin(turn);
       if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) break;
       const glm::vec3 p = map.PlaceAt(x / kSide, y / kSide);
-      const float ala = Bell(
-          glm::length(glm::vec2(std::abs(p.x) - m.alare.left.x, p.y - m.alare.left.y)), nose_width);
-      const float cheek =
-          Bell(std::abs(p.x) - cheek_side, cheek_width) * Bell(p.y - m.pronasale.y, cheek_width);
-      const float strength = at_nose * (ala + on_cheek * cheek);
+      const float ala = Bell(glm::length(glm::vec2(std::abs(p.x) - landmarks.alare.left.x,
+                                                   p.y - landmarks.alare.left.y)),
+                             skin.vessels.nose_width);
+      const float cheek = Bell(std::abs(p.x) - skin.vessels.cheek_side, skin.vessels.cheek_width) *
+                          Bell(p.y - landmarks.pronasale.y, skin.vessels.cheek_width);
+      const float strength = skin.vessels.strength * (ala + skin.vessels.cheek * cheek);
       if (strength < 0.01F) continue;
-      Stamp(x, y, radius,
-            [&](std::size_t i, float w) { Tint(out, i, 1.0F - w * strength * tint); });
+      Stamp(x, y, skin.vessels.radius,
+            [&](std::size_t i, float w) { Tint(out, i, 1.0F - w * strength * skin.vessels.tint); });
     }
   }
 }

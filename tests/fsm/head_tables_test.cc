@@ -387,13 +387,13 @@ TEST(HeadTablesTest, FeaturesAreChecked) {
 
 TEST(HeadTablesTest, FeaturesLeftOutAreTheBuiltInOnes) {
   const Features mine("mine.txt", "gum_light 0.6 0.25\nspot cheeks half_size 20 10\n");
-  EXPECT_EQ(mine.Pair("gum_light"), glm::vec2(0.6f, 0.25f));
-  EXPECT_EQ(mine.rows().size(), Features::BuiltIn().rows().size());
-  for (std::size_t i = 0; i < mine.rows().size(); ++i) {
-    const std::string name = NumberTable::NameOf(Features::BuiltIn().rows()[i]);
-    EXPECT_EQ(NumberTable::NameOf(mine.rows()[i]), name);
+  EXPECT_EQ(mine.gum_light, glm::vec2(0.6f, 0.25f));
+  EXPECT_EQ(mine.table().rows().size(), Features::BuiltIn().table().rows().size());
+  for (std::size_t i = 0; i < mine.table().rows().size(); ++i) {
+    const std::string name = NumberTable::NameOf(Features::BuiltIn().table().rows()[i]);
+    EXPECT_EQ(NumberTable::NameOf(mine.table().rows()[i]), name);
     if (name == "gum_light" || name == "spot cheeks half_size") continue;
-    EXPECT_EQ(mine[name], Features::BuiltIn()[name]);
+    EXPECT_EQ(mine.table()[name], Features::BuiltIn().table()[name]);
   }
 }
 
