@@ -27,14 +27,14 @@ float CreaseRelief::HeightAt(const glm::vec3& p) const {
   return height;
 }
 
-/// Lines that follow the brow, rising a little to the sides of the middle; no line is quite like
-/// another.
+/// Lines that follow the brow, rising a little to the sides of the middle. The waves of each begin
+/// elsewhere and differ in length, so that no line is quite like another.
 void CreaseRelief::AddForehead(const glm::vec3& p, float side, float& height) const {
   const auto& lines = skin_.forehead_lines;
   const auto places = ListOf(lines.places);
-  const float brow_y = landmarks_.nasion.y + 20;
+  const float brow_y = landmarks_.nasion.y + lines.above;
   if (p.y <= brow_y - 2 || p.y >= landmarks_.trichion.y) return;
-  const float room = landmarks_.trichion.y - brow_y;
+  const float room = lines.room * (landmarks_.trichion.y - brow_y);
   const float bow = lines.rise * std::sin((std::sqrt(side * side + 49) - 7) * 0.055F);
   for (const float& part : places) {
     const float reach = (lines.reach - lines.less * std::abs(part - lines.farthest)) *
@@ -43,22 +43,20 @@ void CreaseRelief::AddForehead(const glm::vec3& p, float side, float& height) co
                        lines.sway_short * std::sin(p.x * 0.27F + 7 * part);
     const float deep = lines.depth + lines.deep_long * std::sin(p.x * 0.075F + 23 * part) +
                        lines.deep_short * std::sin(p.x * 0.19F + 5 * part);
-    height += deep * Furrow(p.y - brow_y - room * part * 0.9F - bow - sway, lines.width) *
-              SmoothStep(reach + 8, reach - 8, side);
+    height += deep * Furrow(p.y - brow_y - room * part - bow - sway, lines.width) *
+              SmoothStep(reach + lines.fades, reach - lines.fades, side);
   }
 }
 
 /// Two upright lines between the brows, and one across the root of the nose, which is the nose's.
 void CreaseRelief::AddGlabella(const glm::vec3& p, float side, float& height) const {
-  const float between = Bell(p.y - (landmarks_.nasion.y + 10), 9);
-  height += skin_.glabella_lines.depth *
-            Furrow(side - skin_.glabella_lines.side - 0.10F * (p.y - landmarks_.nasion.y),
-                   skin_.glabella_lines.width) *
-            between;
-  height +=
-      skin_.nasion_line.depth *
-      Furrow(p.y - landmarks_.nasion.y + 1.5F - 0.035F * side * side, skin_.nasion_line.width) *
-      Bell(side, skin_.nasion_line.reach);
+  const auto& lines = skin_.glabella_lines;
+  const auto& across = skin_.nasion_line;
+  const float up = p.y - landmarks_.nasion.y;
+  height += lines.depth * Furrow(side - lines.side - lines.lean * up, lines.width) *
+            Bell(up - lines.above, lines.height);
+  height += across.depth * Furrow(up + across.below - across.arch * side * side, across.width) *
+            Bell(side, across.reach);
 }
 
 /// Short lines beside the bridge of the nose that slant down and outward.
@@ -67,9 +65,9 @@ void CreaseRelief::AddBridge(const glm::vec3& p, float side, float& height) cons
   if (side >= 16 || p.y >= landmarks_.nasion.y - 2) return;
   for (const float below : ListOf(lines.below)) {
     const float off =
-        p.y - (landmarks_.nasion.y - below) + 0.45F * (side - 6) - 0.02F * side * side;
-    height += lines.depth * Furrow(off, lines.width) * SmoothStep(1.5F, 5, side) *
-              SmoothStep(14, 9, side);
+        p.y - (landmarks_.nasion.y - below) + lines.slant * (side - 6) - lines.bend * side * side;
+    height += lines.depth * Furrow(off, lines.width) * SmoothStep(lines.begin, side) *
+              SmoothStep(lines.end, side);
   }
 }
 
@@ -83,9 +81,9 @@ void CreaseRelief::AddCrowsFeet(const glm::vec3& p, float side, float& height) c
     const glm::vec2 along(std::cos(angle), std::sin(angle));
     const float far = glm::dot(out, along);
     const float off = out.y * along.x - out.x * along.y;
-    const float bend = 0.02F * far * far * (angle > 0 ? -1.0F : 1.0F) * 0.5F;
-    height += lines.depth * Furrow(off + bend, lines.width) * SmoothStep(1, 5, far) *
-              SmoothStep(17, 9, far);
+    const float bend = lines.bend * far * far * (angle > 0 ? -1.0F : 1.0F);
+    height += lines.depth * Furrow(off + bend, lines.width) * SmoothStep(lines.begin, far) *
+              SmoothStep(lines.end, far);
   }
 }
 
@@ -93,12 +91,14 @@ void CreaseRelief::AddCrowsFeet(const glm::vec3& p, float side, float& height) c
 void CreaseRelief::AddNasolabial(const glm::vec3& p, float side, float& height) const {
   const auto& fold = skin_.nasolabial_fold;
   const glm::vec3 wing = landmarks_.alare.left, corner = landmarks_.cheilion.left;
-  const float t = (wing.y + 4 - p.y) / (wing.y + 4 - corner.y);
+  const float top = wing.y + fold.above;
+  const float t = (top - p.y) / (top - corner.y);
   const float fold_x =
       glm::mix(wing.x + fold.nose, corner.x + fold.mouth, std::clamp(t, 0.0F, 1.3F)) +
       fold.bow * std::sin(std::clamp(t, 0.0F, 1.0F) * 3.1416F);
-  height += fold.depth * Furrow((side - fold_x) * 0.8F, fold.width) * SmoothStep(-0.12F, 0.12F, t) *
-            SmoothStep(1.35F, 0.85F, t);
+  // Measured along x a slanting fold is wider.
+  height += fold.depth * Furrow((side - fold_x) * fold.slants, fold.width) *
+            SmoothStep(fold.begin, t) * SmoothStep(fold.end, t);
 }
 
 bool CreaseRelief::MayCrease(const glm::vec3& p) const {

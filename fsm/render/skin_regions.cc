@@ -69,7 +69,8 @@ class RegionPainter {
           p.y < landmarks_.stomion.y ? skin_.lip_highlights.lower : skin_.lip_highlights.upper;
       return out;
     }
-    const float from_nose = glm::length(glm::vec2(p.x * 0.7F, p.y - landmarks_.pronasale.y));
+    const float from_nose =
+        glm::length(glm::vec2(p.x * skin_.pores.nose_narrow, p.y - landmarks_.pronasale.y));
     out.pores = skin_.pores.everywhere + skin_.pores.nose * Bell(from_nose, skin_.pores.nose_width);
     if (p.z > 0) PaintFront(p, fine, out.tint);
     return out;
@@ -93,9 +94,10 @@ class RegionPainter {
     const float flush =
         skin_.blood.cheek * cheek + skin_.blood.nose_tip * tip + skin_.blood.chin * chin;
     tint *= 1.0F - flush * (skin_.blood.even + skin_.blood.patches * fine) * skin_.blood.tint;
-    const float high = SmoothStep(landmarks_.nasion.y + 8, landmarks_.nasion.y + 30, p.y);
-    const float low = SmoothStep(landmarks_.stomion.y + 6,
-                                 0.7F * landmarks_.gnathion.y + 0.3F * landmarks_.stomion.y, p.y);
+    const float high = SmoothStep(skin_.forehead.above, p.y - landmarks_.nasion.y);
+    const float low = SmoothStep(
+        landmarks_.stomion.y + skin_.lower_face.above,
+        glm::mix(landmarks_.stomion.y, landmarks_.gnathion.y, skin_.lower_face.whole), p.y);
     tint *= 1.0F - high * skin_.forehead.tint - low * skin_.lower_face.tint;
     tint *= AroundEye(side, p.y);
     tint.a *= Oil(p, tip, chin);
@@ -118,17 +120,20 @@ class RegionPainter {
 
   float Oil(const glm::vec3& p, float tip, float chin) const {
     const float side = std::abs(p.x);
+    const float up = p.y - landmarks_.nasion.y;
     const float forehead =
-        Bell(side, 34) * SmoothStep(landmarks_.nasion.y + 8, landmarks_.nasion.y + 22, p.y);
-    const float bridge = Bell(side, 7) *
+        Bell(side, skin_.oily_forehead.width) * SmoothStep(skin_.oily_forehead.above, up);
+    const float bridge = Bell(side, skin_.oily_bridge.width) *
                          SmoothStep(landmarks_.subnasale.y, landmarks_.nasion.y, p.y) *
-                         SmoothStep(landmarks_.nasion.y + 6, landmarks_.nasion.y - 4, p.y);
+                         SmoothStep(skin_.oily_bridge.above, up);
+    const float bow_y = 0.5F * (landmarks_.subnasale.y + landmarks_.stomion.y);
     const float bow =
-        Bell(side, 7) * Bell(p.y - 0.5F * (landmarks_.subnasale.y + landmarks_.stomion.y), 5);
-    const float cheek_bone = Bell(side - 0.6F * landmarks_.zygion.left.x, 12) *
-                             Bell(p.y - landmarks_.pronasale.y - 14, 9);
-    const float jaw =
-        SmoothStep(landmarks_.pronasale.y, landmarks_.stomion.y, p.y) * SmoothStep(20, 45, side);
+        Bell(side, skin_.oily_lip_bow.width) * Bell(p.y - bow_y, skin_.oily_lip_bow.height);
+    const auto& bone = skin_.oily_cheek_bone;
+    const float cheek_bone = Bell(side - bone.zygion * landmarks_.zygion.left.x, bone.width) *
+                             Bell(p.y - landmarks_.pronasale.y - bone.above, bone.height);
+    const float jaw = SmoothStep(landmarks_.pronasale.y, landmarks_.stomion.y, p.y) *
+                      SmoothStep(skin_.oily_jaw.aside, side);
     return skin_.oil.everywhere + skin_.oil.forehead * forehead + skin_.oil.bridge * bridge +
            skin_.oil.nose_tip * tip + skin_.oil.lip_bow * bow + skin_.oil.cheek_bone * cheek_bone +
            skin_.oil.chin * chin - skin_.oil.jaw * jaw;
