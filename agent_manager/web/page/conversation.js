@@ -3,7 +3,7 @@ import {element, put, text} from './texts.js';
 
 const kMostLines = 300;
 const kSameMs = 20000;  // within which what was typed is heard
-const kMostHeldMs = 15000, kLookAgainMs = 500;  // a line waits so long for modules that are being started
+const kMostHeld = 20, kMostHeldMs = 15000, kLookAgainMs = 500;  // so many lines wait so long for modules that are being started
 
 export class Conversation {
   // `nodes`: log, subtitle, status, form, input, stop, way, again.
@@ -75,6 +75,7 @@ export class Conversation {
     if (!words) return;
     this.voice.allow();
     if (!this.hub.on) return this.fail(text('away'));
+    if (this.held.length >= kMostHeld) return this.fail(text('held_full'));
     this.nodes.input.value = '';
     this.held.push([performance.now(), words]);
     this.sayHeld();
