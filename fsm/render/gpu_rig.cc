@@ -1,6 +1,7 @@
 #include "fsm/render/gpu_rig.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <iomanip>
@@ -11,45 +12,11 @@
 #include <utility>
 
 #include "embedded/rig_steps.h"
+#include "fsm/render/rig_items.h"
 #include "fsm/rig/step_constants.h"
 
 namespace fsm {
 namespace {
-
-using Words = std::vector<std::uint32_t>;
-
-std::uint32_t Word(float number) { return std::bit_cast<std::uint32_t>(number); }
-void Put(Words& words, std::initializer_list<std::uint32_t> more) {
-  words.insert(words.end(), more);
-}
-void Put(Words& words, glm::vec3 p) { Put(words, {Word(p.x), Word(p.y), Word(p.z)}); }
-
-/// What acts on each vertex, as lists. Entries keep their order, so that sums are taken in the same
-/// order as on the processor.
-class VertexLists {
- public:
-  explicit VertexLists(std::size_t vertices) : entries_(vertices) {}
-  Words& operator[](std::uint32_t vertex) { return entries_[vertex]; }
-  std::size_t count() const { return count_; }
-  /// As the shader reads them: a record for each vertex with where its entries are, then these.
-  Words Flat() {
-    for (const Words& entry : entries_) count_ += entry.empty() ? 0 : 1;
-    Words records, behind;
-    for (std::uint32_t vertex = 0; vertex < entries_.size(); ++vertex) {
-      const Words& entry = entries_[vertex];
-      if (entry.empty()) continue;
-      const auto from = static_cast<std::uint32_t>(3 * count_ + behind.size());
-      Put(records, {vertex, from, from + static_cast<std::uint32_t>(entry.size())});
-      behind.insert(behind.end(), entry.begin(), entry.end());
-    }
-    records.insert(records.end(), behind.begin(), behind.end());
-    return records;
-  }
-
- private:
-  std::vector<Words> entries_;  // by vertex
-  std::size_t count_ = 0;
-};
 
 /// A pose as the shaders read it.
 class PoseBlock {
@@ -72,6 +39,7 @@ class PoseBlock {
     Add("HEAD_FORWARD", pose.head_forward_mm);
     for (const Side side : kSides) {
       Begin(side == Side::kRight ? "RIGHT_EYE" : "LEFT_EYE");
+      naming_ = side == Side::kRight;  // the members of the other eye are called the same
       Add("EYE_TURN", inputs.eye_turn[side]);
       Add("EYE_PIVOT", rig.eyes.pivot[side]);
       Add("BALL_CENTRE", rig.ball_lids.centre[side]);
@@ -87,10 +55,13 @@ class PoseBlock {
       Add("LOWER_LID_RAISED", ask.lower_mm);
       Add("CORNEA", rig.lids.ball[side] + eye.size * rig.lids.cornea_centre * pose.eye[side][2]);
     }
+    naming_ = true;
     Begin("UPPER_ARCH");
     Add(rig.teeth.upper);
     Begin("LOWER_ARCH");
+    naming_ = false;  // as those of the upper one
     Add(rig.teeth.lower);
+    naming_ = true;
     Begin("STRENGTHS");
     numbers_.insert(numbers_.end(), inputs.strengths.begin(), inputs.strengths.end());
   }
@@ -105,10 +76,9 @@ class PoseBlock {
     begin_ = numbers_.size();
   }
   void Name(const char* name) {
-    if (constants_ == nullptr) return;
-    const std::string constant = "const uint " + std::string(name) + " = ";
-    if (constants_->find(constant) != std::string::npos) return;  // of the other side
-    *constants_ += constant + std::to_string(numbers_.size() - begin_) + "u;\n";
+    if (constants_ == nullptr || !naming_) return;
+    *constants_ += "const uint " + std::string(name) + " = " +
+                   std::to_string(numbers_.size() - begin_) + "u;\n";
   }
   void Add(const char* name, float number) {
     Name(name);
@@ -119,7 +89,8 @@ class PoseBlock {
     numbers_.insert(numbers_.end(), {p.x, p.y, p.z});
   }
   void Add(const char* name, const glm::mat3& m) {
-    for (int column = 0; column < 3; ++column) Add(name, m[column]);
+    Name(name);
+    for (int c = 0; c < 3; ++c) numbers_.insert(numbers_.end(), {m[c].x, m[c].y, m[c].z});
   }
   void Add(const ToothArch& arch) {
     Add("FRONT_Z", arch.front_z);
@@ -132,6 +103,7 @@ class PoseBlock {
   }
 
   std::string* const constants_;
+  bool naming_ = true;  // whether what is added gets a name in `constants_`
   std::vector<float> numbers_;
   std::size_t begin_ = 0;
 };
@@ -151,87 +123,21 @@ std::string StepConstants() {
   return text.str();
 }
 
-Words BeginItems(const RigData& data) {
-  const auto& place = data.Start();
-  Words items;
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    Put(items, place[i]);
-    Put(items, data.rest_normal[i]);
-  }
-  return items;
-}
-
-Words LidItems(const LidRig& lids) {
-  Words items;
-  for (const LidRig::Vertex& lid : lids.vertices) {
-    Put(items, {lid.vertex, static_cast<std::uint32_t>(lid.side), Word(lid.upper), Word(lid.lower),
-                Word(lid.upper_angle), Word(lid.lower_angle), Word(lid.meet_angle),
-                Word(lid.opening), Word(lid.y), Word(lid.z), lid.proper ? 1u : 0u});
-  }
-  return items;
-}
-
-Words GapItems(const LipRig& lips) {
-  Words items;
-  for (std::size_t k = 0; k < lips.seam.size(); ++k) {
-    Put(items, {lips.seam[k].first, lips.seam[k].second});
-    Put(items, lips.apart_at_rest.empty() ? glm::vec3(0) : lips.apart_at_rest[k]);
-  }
-  return items;
-}
-
-Words TongueItems(const RigData& data) {
-  Words items;
-  for (std::uint32_t i = 0; i < data.rest.size(); ++i) {
-    if (data.bone[i] != Bone::kTongue) continue;
-    Put(items, {i});
-    Put(items, data.rest[i]);
-    Put(items, data.rest_normal[i]);
-    Put(items, {Word(data.weights[i].free)});
-  }
-  Put(items, {static_cast<std::uint32_t>(data.lips.seam.size())});
-  for (const auto& [upper, lower] : data.lips.seam) Put(items, {upper, lower});
-  return items;
-}
-
-Words BoneItems(const RigData& data) {
-  Words items;
-  for (std::uint32_t i = 0; i < data.rest.size(); ++i) {
-    if (data.bone[i] == Bone::kJaw) Put(items, {i, 0});
-    if (data.bone[i] == Bone::kEyeRight) Put(items, {i, 1});
-    if (data.bone[i] == Bone::kEyeLeft) Put(items, {i, 2});
-  }
-  return items;
-}
-
-/// A vertex gathers from all triangles about it, and about those it shares its normal with.
-VertexLists NormalLists(const RigData& data) {
-  const NormalRig& normals = data.normals;
-  const Words& t = normals.soft_triangles;
-  VertexLists lists(data.rest.size());
-  for (std::size_t k = 0; k + 2 < t.size(); k += 3) {
-    for (std::size_t c = 0; c < 3; ++c)
-      Put(lists[normals.Owner(t[k + c])], {t[k], t[k + 1], t[k + 2]});
-  }
-  for (const std::uint32_t i : t) {
-    if (normals.Owner(i) != i) lists[i] = lists[normals.Owner(i)];
-  }
-  return lists;
-}
-
 }  // namespace
 
-const GlProgram& RigPrograms::Of(const char* kernel) {
-  auto& program = programs_[kernel];
+const GlProgram& RigPrograms::Of(const RigItems& items) {
+  auto& program = programs_[items.step];
   if (!program) {
     static const std::string constants = [] {
       std::string text = StepConstants();
       PoseBlock({}, {}, &text);  // places depend on no rig
       return text;
     }();
-    const std::string source = "#version 430\n#define STEP_" + std::string(kernel) + "\n" +
+    const std::string source = "#version 430\n#define STEP_" + std::string(items.step) +
+                               "\nconst uint RECORD = " + std::to_string(items.record_words) +
+                               "u, ENTRY = " + std::to_string(items.entry_words) + "u;\n" +
                                constants + std::string(embedded::rig_steps());
-    program = std::make_unique<GlProgram>(gl_, kernel, source);
+    program = std::make_unique<GlProgram>(gl_, items.step, source);
   }
   return *program;
 }
@@ -243,8 +149,7 @@ GpuRig::GpuRig(const GlFunctions& gl, RigPrograms& programs, const Rig& rig)
       spring_count_(rig.data().swing.springs.size()),
       seam_count_(rig.data().lips.seam.size()) {
   gl_.GenBuffers(kBuffers, buffers_.data());
-  Add("begin", BeginItems(rig.data()), vertex_count_);
-  for (const RigStep step : rig.data().steps) AddStep(step, rig.data());
+  for (const RigItems& items : ItemsOfSteps(rig.data())) Add(items);
 }
 
 GpuRig::~GpuRig() {
@@ -252,87 +157,24 @@ GpuRig::~GpuRig() {
   for (const Kernel& kernel : kernels_) gl_.DeleteBuffers(1, &kernel.items);
 }
 
-void GpuRig::Add(const char* kernel, std::span<const std::uint32_t> items, std::size_t count) {
-  if (count == 0) return;
-  kernels_.push_back({&programs_.Of(kernel), 0, static_cast<std::uint32_t>(count)});
+void GpuRig::Add(const RigItems& items) {
+  const auto count = static_cast<std::uint32_t>(items.count);
+  kernels_.push_back({&programs_.Of(items), 0, count});
   gl_.GenBuffers(1, &kernels_.back().items);
   gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, kernels_.back().items);
-  Words words{static_cast<std::uint32_t>(count)};
-  words.insert(words.end(), items.begin(), items.end());
+  std::vector<std::uint32_t> words{count};
+  words.insert(words.end(), items.words.begin(), items.words.end());
   gl_.BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(words.size() * sizeof(words[0])),
                  words.data(), GL_STATIC_DRAW);
 }
 
-void GpuRig::AddStep(RigStep step, const RigData& data) {
-  const auto add_lists = [this](const char* kernel, VertexLists lists) {
-    const Words items = lists.Flat();
-    Add(kernel, items, lists.count());
-  };
-  VertexLists lists(data.rest.size());
-  Words items;
-  switch (step) {
-    case RigStep::kChannels:
-      for (std::uint32_t k = 0; k < data.channels.size(); ++k) {
-        for (const Displacement& move : data.channels[k].moves) {
-          Put(lists[move.vertex], {k});
-          Put(lists[move.vertex], move.by);
-        }
-      }
-      return add_lists("channels", std::move(lists));
-    case RigStep::kLids:
-      return Add("lids", LidItems(data.lids), data.lids.vertices.size());
-    case RigStep::kLidsOnBalls:
-      for (const BallLids::Vertex& lid : data.ball_lids.vertices) {
-        Put(items, {lid.vertex, static_cast<std::uint32_t>(lid.side), Word(lid.least)});
-      }
-      return Add("lids_on_balls", items, data.ball_lids.vertices.size());
-    case RigStep::kJaw:
-      for (std::uint32_t i = 0; i < data.rest.size(); ++i) {
-        if (Rig::MovesWithJaw(data, i)) Put(items, {i, Word(data.weights[i].jaw)});
-      }
-      return Add("jaw", items, items.size() / 2);
-    case RigStep::kJawByChin:
-      Put(items, {data.jaw.chin});
-      Put(items, data.rest[data.jaw.chin] - data.jaw.hinge);
-      return Add("jaw_by_chin", items, 1);
-    case RigStep::kTeeth:
-      for (const TeethRig::Contact& contact : data.teeth.contacts)
-        Put(items, {contact.vertex, Word(contact.upper_gap), Word(contact.lower_gap)});
-      return Add("teeth", items, data.teeth.contacts.size());
-    case RigStep::kLips:
-      for (const LipRig::Follower& f : data.lips.followers)
-        Put(lists[f.vertex], {f.pair, Word(LipRig::ShareOf(f))});
-      Add("lip_gaps", GapItems(data.lips), data.lips.seam.size());
-      return add_lists("lips", std::move(lists));
-    case RigStep::kOwnForm:
-      for (const glm::vec3 by : data.proxy.to_own) Put(items, by);
-      return Add("own_form", items, data.proxy.to_own.size());
-    case RigStep::kTongue:
-      items = TongueItems(data);
-      return Add("tongue", items, (items.size() - 1 - 2 * data.lips.seam.size()) / 8);
-    case RigStep::kBones:
-      items = BoneItems(data);
-      return Add("bones", items, items.size() / 2);
-    case RigStep::kNeck:
-      for (std::size_t i = 0; i < data.rest.size(); ++i)
-        Put(items, {Word(data.weights[i].neck), data.bone[i] != Bone::kSkin ? 1u : 0u});
-      return Add("neck", items, data.rest.size());
-    case RigStep::kSprings:
-      for (const auto& [vertex, spring, weight] : data.swing.weights)
-        Put(lists[vertex], {spring, Word(weight)});
-      return add_lists("springs", std::move(lists));
-    case RigStep::kNormals:
-      return add_lists("normals", NormalLists(data));
-  }
-}
-
-void GpuRig::Evaluate(const Rig& rig, std::span<const Face> faces) {
+void GpuRig::Evaluate(const Rig& rig, std::span<const Input> faces) {
   if (faces.empty()) return;
   // First what all poses share (Poses in rig_steps.glsl), when it is known.
   constexpr std::size_t kShared = 4;
   std::vector<float> poses(kShared);
   std::size_t swings_at = 0;
-  for (const Face& face : faces) {
+  for (const Input& face : faces) {
     PoseBlock block(rig.data(), rig.InputsOf(*face.state));
     swings_at = block.numbers().size();
     // Zeros where nothing swings, and for the gaps of the lips, which a step fills in.

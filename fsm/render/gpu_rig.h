@@ -12,6 +12,8 @@
 
 namespace fsm {
 
+struct RigItems;
+
 /// The programs of shaders/rig_steps.glsl, compiled when a head first needs them and shared by all
 /// heads of a context. Destroy while it is current.
 class RigPrograms {
@@ -19,8 +21,8 @@ class RigPrograms {
   explicit RigPrograms(const GlFunctions& gl) : gl_(gl) {}
   /// Whether the driver has what they need: compute shaders and buffers for them, OpenGL 4.3.
   static bool Supported(const GlFunctions& gl) { return gl.has_compute; }
-  /// `kernel`: the name after STEP_. Throws std::runtime_error with the compiler's words.
-  const GlProgram& Of(const char* kernel);
+  /// The program that reads such items. Throws std::runtime_error with the compiler's words.
+  const GlProgram& Of(const RigItems& items);
 
  private:
   const GlFunctions& gl_;
@@ -40,12 +42,12 @@ class GpuRig {
   GpuRig(const GpuRig&) = delete;
   GpuRig& operator=(const GpuRig&) = delete;
 
-  struct Face {
+  struct Input {
     const FaceState* state;  ///< borrowed for the call
     std::span<const glm::vec3> swings = {};
   };
   /// REQUIRES: `rig` is that of construction.
-  void Evaluate(const Rig& rig, std::span<const Face> faces);
+  void Evaluate(const Rig& rig, std::span<const Input> faces);
   /// The buffers of all faces' places and normals, three floats each, and where a face's begin.
   GLuint positions() const { return buffers_[kPositions]; }
   GLuint normals() const { return buffers_[kNormals]; }
@@ -62,8 +64,7 @@ class GpuRig {
     GLuint items;
     std::uint32_t count;
   };
-  void Add(const char* kernel, std::span<const std::uint32_t> items, std::size_t count);
-  void AddStep(RigStep step, const RigData& data);
+  void Add(const RigItems& items);
 
   const GlFunctions& gl_;
   RigPrograms& programs_;

@@ -70,7 +70,7 @@ class CardRig {
  private:
   GpuRig rig_;
   PartialRig partial_;
-  std::vector<GpuRig::Face> faces_;  // moved last
+  std::vector<GpuRig::Input> faces_;  // moved last
   HeadVertices seen_;
 };
 

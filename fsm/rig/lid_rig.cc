@@ -9,6 +9,8 @@
 namespace fsm {
 namespace {
 
+// Twins: STEP_lids and STEP_lids_on_balls in fsm/render/shaders/rig_steps.glsl.
+
 /// The angle by which a vertex turns about the axis of the lids.
 float TurnOf(const LidRig::Vertex& lid, const EyeTransform& eye, const UnitEffects::Lids& ask) {
   float upper = lid.upper_angle + lid.opening * (eye.upper_mm + ask.upper_mm) / step::kLidRadius;

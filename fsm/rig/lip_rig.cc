@@ -4,6 +4,7 @@
 
 namespace fsm {
 
+// Twins: STEP_lip_gaps and STEP_lips in fsm/render/shaders/rig_steps.glsl.
 void CloseLips(const LipRig& rig, float seal, std::span<glm::vec3> position) {
   thread_local std::vector<glm::vec3> correction;  // kept from frame to frame
   correction.clear();

@@ -25,6 +25,7 @@ glm::vec3 Unit(glm::vec3 n) {
 
 }  // namespace
 
+// Twin: STEP_normals in fsm/render/shaders/rig_steps.glsl.
 void FindNormals(const NormalRig& rig, std::span<const std::uint32_t> soft,
                  std::span<const glm::vec3> position, std::span<glm::vec3> normal) {
   for (const std::uint32_t i : soft) normal[i] = glm::vec3(0);

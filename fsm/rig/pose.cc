@@ -86,6 +86,7 @@ void Pose::SetJaw(const JawMove& move) {
   jaw_sin = std::sin(move.open_rad);
 }
 
+// Twins of TurnJaw and IntoJaw: those in fsm/render/shaders/rig_steps.glsl.
 glm::vec3 TurnJaw(glm::vec3 p, const Pose& pose, float weight) {
   const float angle = pose.jaw.open_rad * weight;
   const float c = weight == 1 ? pose.jaw_cos : std::cos(angle);

@@ -14,7 +14,9 @@
 namespace fsm {
 namespace {
 
-/// Skin goes with the jaw, by its weights.
+// A twin is the same step for a graphics card, in fsm/render/shaders/rig_steps.glsl.
+
+/// Skin goes with the jaw, by its weights. Twin: STEP_jaw.
 void MoveWithJaw(std::span<const std::uint32_t> vertices, std::span<const SkinWeights> weights,
                  const Pose& pose, std::span<glm::vec3> position) {
   const JawMove& jaw = pose.jaw;
@@ -22,7 +24,7 @@ void MoveWithJaw(std::span<const std::uint32_t> vertices, std::span<const SkinWe
   for (const std::uint32_t i : vertices) position[i] = TurnJaw(position[i], pose, weights[i].jaw);
 }
 
-/// The jaw as far as the chin has gone, from `before` to `after`.
+/// The jaw as far as the chin has gone, from `before` to `after`. Twin: STEP_jaw_by_chin.
 JawMove ByChin(const JawRig& jaw, glm::vec3 before, glm::vec3 after) {
   before -= jaw.hinge;
   after -= jaw.hinge;
@@ -32,10 +34,12 @@ JawMove ByChin(const JawRig& jaw, glm::vec3 before, glm::vec3 after) {
           .sway_mm = after.x - before.x};
 }
 
+/// Twin: STEP_own_form.
 void AddOwnForm(std::span<const glm::vec3> to_own, std::span<glm::vec3> position) {
   for (std::size_t i = 0; i < to_own.size(); ++i) position[i] += to_own[i];
 }
 
+/// Twin: STEP_springs.
 void Swing(std::span<const SpringWeight> weights, std::span<const glm::vec3> swings,
            std::span<glm::vec3> position) {
   if (swings.empty()) return;
@@ -46,8 +50,8 @@ void Swing(std::span<const SpringWeight> weights, std::span<const glm::vec3> swi
 
 }  // namespace
 
-/// A state while the steps make vertices of it.
-struct Rig::Frame {
+/// What the steps read and write while they make vertices of a state.
+struct Rig::Work {
   const FaceState& state;
   Pose pose;
   std::span<glm::vec3> position;
@@ -62,37 +66,37 @@ std::string_view NameOf(RigStep step) {
   return kNames[static_cast<std::size_t>(step)];
 }
 
-void Rig::Take(RigStep step, Frame& frame) const {
+void Rig::Take(RigStep step, Work& work) const {
   switch (step) {
     using enum RigStep;
     case kChannels:
-      return AddChannels(frame);
+      return AddChannels(work);
     case kLids:
-      return MoveLids(data_.lids, frame.pose, frame.position);
+      return MoveLids(data_.lids, work.pose, work.position);
     case kLidsOnBalls:
-      return KeepOutside(data_.ball_lids, frame.position);
+      return KeepOutside(data_.ball_lids, work.position);
     case kJaw:
-      return MoveWithJaw(jawed_, data_.weights, frame.pose, frame.position);
+      return MoveWithJaw(jawed_, data_.weights, work.pose, work.position);
     case kJawByChin: {
       const JawRig& jaw = data_.jaw;
-      return frame.pose.SetJaw(ByChin(jaw, data_.rest[jaw.chin], frame.position[jaw.chin]));
+      return work.pose.SetJaw(ByChin(jaw, data_.rest[jaw.chin], work.position[jaw.chin]));
     }
     case kTeeth:
-      return KeepOffTeeth(data_.teeth, frame.pose, frame.position);
+      return KeepOffTeeth(data_.teeth, work.pose, work.position);
     case kLips:
-      return CloseLips(data_.lips, frame.pose.seal, frame.position);
+      return CloseLips(data_.lips, work.pose.seal, work.position);
     case kOwnForm:
-      return AddOwnForm(data_.proxy.to_own, frame.position);
+      return AddOwnForm(data_.proxy.to_own, work.position);
     case kTongue:
-      return MoveTongue(frame);
+      return MoveTongue(work);
     case kBones:
-      return MoveBones(frame);
+      return MoveBones(work);
     case kNeck:
-      return TurnNeck(frame);
+      return TurnNeck(work);
     case kSprings:
-      return Swing(data_.swing.weights, frame.swings, frame.position);
+      return Swing(data_.swing.weights, work.swings, work.position);
     case kNormals:
-      return FindNormals(data_.normals, soft_, frame.position, frame.normal);
+      return FindNormals(data_.normals, soft_, work.position, work.normal);
   }
 }
 
@@ -116,9 +120,9 @@ void Rig::Evaluate(const FaceState& state, HeadVertices& out,
                    std::span<const glm::vec3> swings) const {
   out.position = data_.Start();
   out.normal = data_.rest_normal;
-  Frame frame{state, PoseOf(state), out.position, out.normal, swings};
-  for (const RigStep step : data_.steps) Take(step, frame);
-  FindCreasesAndLids(frame.pose, out);
+  Work work{state, PoseOf(state), out.position, out.normal, swings};
+  for (const RigStep step : data_.steps) Take(step, work);
+  FindCreasesAndLids(work.pose, out);
 }
 
 void Rig::FindCreasesAndLids(const Pose& pose, HeadVertices& out) const {
@@ -142,15 +146,15 @@ RigInputs Rig::InputsOf(const FaceState& state) const {
 MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
   if (!data_.lips.measured) return {};
   std::vector<glm::vec3> position = data_.Start();
-  Frame frame{state, PoseOf(state), position, {}};
+  Work work{state, PoseOf(state), position, {}};
   for (const RigStep step : data_.steps) {
     if (!ShapesSkin(step)) break;  // the others write normals, and move no lips
-    Take(step, frame);
+    Take(step, work);
   }
   const auto [upper, lower, left, right] = *data_.lips.measured;
   return {.gap_mm = std::max(0.0f, position[upper].y - position[lower].y),
           .width_mm = glm::distance(position[left], position[right]),
-          .jaw_degrees = glm::degrees(frame.pose.jaw.open_rad)};
+          .jaw_degrees = glm::degrees(work.pose.jaw.open_rad)};
 }
 
 Rig Rig::WithUnits(const UnitTable& units) const {
@@ -166,32 +170,33 @@ Rig Rig::WithUnits(const UnitTable& units) const {
   return Rig(std::move(data));
 }
 
-void Rig::AddChannels(Frame& frame) const {
+/// Twin: STEP_channels.
+void Rig::AddChannels(Work& work) const {
   thread_local std::vector<float> strengths;  // kept from frame to frame
   strengths.clear();
-  drives_.FindStrengths(data_.channels, frame.state, frame.pose, strengths);
+  drives_.FindStrengths(data_.channels, work.state, work.pose, strengths);
   for (std::size_t k = 0; k < strengths.size(); ++k) {
     if (strengths[k] == 0) continue;
     for (const Displacement& d : data_.channels[k].moves) {
-      frame.position[d.vertex] += strengths[k] * d.by;
+      work.position[d.vertex] += strengths[k] * d.by;
     }
   }
 }
 
-void Rig::MoveTongue(Frame& frame) const {
-  const Pose& pose = frame.pose;
-  const TonguePath path(pose, data_.teeth.upper, data_.teeth.lower, data_.lips.seam,
-                        frame.position);
+/// Twin: STEP_tongue.
+void Rig::MoveTongue(Work& work) const {
+  const Pose& pose = work.pose;
+  const TonguePath path(pose, data_.teeth.upper, data_.teeth.lower, data_.lips.seam, work.position);
   for (const std::uint32_t i : rigid_) {
     if (data_.bone[i] != Bone::kTongue) continue;
     const glm::vec3 rest = data_.rest[i], rest_normal = data_.rest_normal[i];
     const float tip = data_.weights[i].free;
     glm::vec3 p = rest;
-    p.z += path.Part() * pose.tongue_out_mm * tip;
+    p.z += path.Share() * pose.tongue_out_mm * tip;
     p.y += pose.tongue_raise * step::kTongueRaise * tip * tip;
-    frame.position[i] =
+    work.position[i] =
         path.Fit(TurnJaw(p, pose, 1 - step::kTongueOffJaw * pose.tongue_raise * tip));
-    frame.normal[i] = glm::normalize(TurnJaw(rest + rest_normal, pose, 1) - TurnJaw(rest, pose, 1));
+    work.normal[i] = glm::normalize(TurnJaw(rest + rest_normal, pose, 1) - TurnJaw(rest, pose, 1));
   }
 }
 
@@ -208,15 +213,16 @@ glm::mat3 Rig::EyeTurn(const Pose& pose, Side side) const {
                 turned(gaze[kToRight], outward ? ranges->outer : ranges->inner)});
 }
 
-void Rig::MoveBones(Frame& frame) const {
-  const Sided<glm::mat3> turn{EyeTurn(frame.pose, Side::kRight), EyeTurn(frame.pose, Side::kLeft)};
+/// Twin: STEP_bones.
+void Rig::MoveBones(Work& work) const {
+  const Sided<glm::mat3> turn{EyeTurn(work.pose, Side::kRight), EyeTurn(work.pose, Side::kLeft)};
   for (const std::uint32_t i : rigid_) {
-    glm::vec3& p = frame.position[i];
-    glm::vec3& n = frame.normal[i];
+    glm::vec3& p = work.position[i];
+    glm::vec3& n = work.normal[i];
     const Bone bone = data_.bone[i];
     if (bone == Bone::kJaw) {
-      const glm::vec3 tip = TurnJaw(p + n, frame.pose, 1);
-      p = TurnJaw(p, frame.pose, 1);
+      const glm::vec3 tip = TurnJaw(p + n, work.pose, 1);
+      p = TurnJaw(p, work.pose, 1);
       n = glm::normalize(tip - p);
     } else if (const auto eye = EyeOf(bone)) {
       const glm::vec3 pivot = data_.eyes.pivot[*eye];
@@ -226,11 +232,12 @@ void Rig::MoveBones(Frame& frame) const {
   }
 }
 
-void Rig::TurnNeck(Frame& frame) const {
-  for (std::size_t i = 0; i < frame.position.size(); ++i) {
-    frame.position[i] = TurnHead(frame.position[i], frame.pose, data_.weights[i].neck);
+/// Twin: STEP_neck.
+void Rig::TurnNeck(Work& work) const {
+  for (std::size_t i = 0; i < work.position.size(); ++i) {
+    work.position[i] = TurnHead(work.position[i], work.pose, data_.weights[i].neck);
   }
-  for (const std::uint32_t i : rigid_) frame.normal[i] = frame.pose.head * frame.normal[i];
+  for (const std::uint32_t i : rigid_) work.normal[i] = work.pose.head * work.normal[i];
 }
 
 }  // namespace fsm

@@ -60,16 +60,16 @@ class Rig {
   Rig WithUnits(const UnitTable& units) const;
 
  private:
-  struct Frame;
+  struct Work;
 
-  void Take(RigStep step, Frame& frame) const;
+  void Take(RigStep step, Work& work) const;
   Pose PoseOf(const FaceState& state) const;
   /// Rotation of the eyeball; heads with GazeRanges scale the gaze angle.
   glm::mat3 EyeTurn(const Pose& pose, Side side) const;
-  void AddChannels(Frame& frame) const;
-  void MoveTongue(Frame& frame) const;
-  void MoveBones(Frame& frame) const;
-  void TurnNeck(Frame& frame) const;
+  void AddChannels(Work& work) const;
+  void MoveTongue(Work& work) const;
+  void MoveBones(Work& work) const;
+  void TurnNeck(Work& work) const;
 
   RigData data_;
   // Vertices that the jaw, a bone and the step kNormals move, found from the data.

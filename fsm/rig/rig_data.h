@@ -37,6 +37,14 @@ struct GazeRanges {
 /// Each works on the result of the steps before it. All of them rely on the arrays of RigData that
 /// are per vertex; what a step relies on beside these stands after "Needs". CheckAsset checks all
 /// of it in a head that comes from a file.
+///
+/// A new step is
+/// - here an enumerator, and in RigData what it knows; if that names vertices, also in
+/// OnlyVertices;
+/// - in rig.cc its name (NameOf) and a case of Rig::Take;
+/// - its twin for graphics cards: STEP_name in fsm/render/shaders/rig_steps.glsl, and a case of
+///   ItemsOfSteps with a struct for its records; render_gpu_rig_test.cc compares both;
+/// - what it needs in CheckAsset; its members in asset_members.h; the last enumerator in kValuesOf.
 enum class RigStep : std::uint8_t {
   // These shape the skin of a head that looks ahead. They write positions only.
   /// Units and mouth parameters displace vertices. Needs: the number of each Drive is one that its

@@ -6,6 +6,7 @@
 
 namespace fsm {
 
+// Twin: STEP_teeth in fsm/render/shaders/rig_steps.glsl.
 void KeepOffTeeth(const TeethRig& rig, const Pose& pose, std::span<glm::vec3> position) {
   // How much of a push counts, by height: all beside the crowns, fading past the edge.
   const auto beside = [](const ToothArch& arch, float y) {

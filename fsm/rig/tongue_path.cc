@@ -9,6 +9,8 @@
 namespace fsm {
 using namespace step;
 
+// Twin: STEP_tongue in fsm/render/shaders/rig_steps.glsl.
+
 TonguePath::TonguePath(const Pose& pose, const ToothArch& upper, const ToothArch& lower,
                        std::span<const std::pair<std::uint32_t, std::uint32_t>> seam,
                        std::span<const glm::vec3> skin)
@@ -27,7 +29,7 @@ TonguePath::TonguePath(const Pose& pose, const ToothArch& upper, const ToothArch
     open_from_ = std::min(open_from_, skin[above].x);
     open_to_ = std::max(open_to_, skin[above].x);
   }
-  part_ = SmoothStep(kTongueNoRoom, kTongueRoom, std::min(lips, teeth_high_ - teeth_low_));
+  share_ = SmoothStep(kTongueNoRoom, kTongueRoom, std::min(lips, teeth_high_ - teeth_low_));
 }
 
 TonguePath::Gap TonguePath::LipsAt(float x) const {
@@ -45,7 +47,7 @@ glm::vec3 TonguePath::Fit(glm::vec3 p) const {
   const float jaw_x = p.x - pose_.jaw.sway_mm;
   const float lower_z = TurnJaw({jaw_x, lower_.edge_y, lower_.At(jaw_x)}, pose_, 1).z;
   const glm::vec3 within(p.x, p.y, std::min(p.z, std::min(lower_z, upper_.At(p.x)) - kBehindTeeth));
-  const float out = SmoothStep(0, kTongueOut, part_ * pose_.tongue_out_mm);
+  const float out = SmoothStep(0, kTongueOut, share_ * pose_.tongue_out_mm);
   if (out <= 0) return within;
   const float middle_x = 0.5f * (open_from_ + open_to_);
   const float width =

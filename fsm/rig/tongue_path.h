@@ -23,7 +23,7 @@ class TonguePath {
              std::span<const glm::vec3> skin);
 
   /// How much of a tongue put out comes out at all, 0..1, by how far the mouth is open.
-  float Part() const { return part_; }
+  float Share() const { return share_; }
   /// A place of the tongue, moved to where it has room.
   glm::vec3 Fit(glm::vec3 p) const;
 
@@ -39,7 +39,7 @@ class TonguePath {
   std::vector<Gap> lips_;
   float teeth_low_ = 0, teeth_high_ = 0, front_z_ = 0;
   float open_from_ = 0, open_to_ = 0;  // the open part of the lips, by x
-  float part_ = 0;
+  float share_ = 0;
 };
 
 }  // namespace fsm

@@ -22,6 +22,7 @@ struct ToothArch {
   float root_y;  ///< where the gum ends
   float middle_x = 0;
   float turn = 0;  ///< as TeethTransform::slope
+  /// Twin: ArchAt in fsm/render/shaders/rig_steps.glsl.
   float At(float x) const {
     const float off = x - middle_x;
     const float t = (off / half_width) * (off / half_width);

@@ -61,7 +61,7 @@ class GpuRigTest : public testing::Test {
   void ExpectEqual(const Rig& rig, const std::vector<FaceState>& states) {
     GpuRig on_card(gl_, programs_, rig);
     const std::vector<glm::vec3> swings(rig.data().swing.springs.size(), glm::vec3(1, -2, 3));
-    std::vector<GpuRig::Face> faces;
+    std::vector<GpuRig::Input> faces;
     for (const FaceState& state : states) faces.push_back({&state, swings});
     on_card.Evaluate(rig, faces);
     for (std::size_t face = 0; face < states.size(); ++face) {
@@ -194,9 +194,9 @@ TEST_F(GpuRigTest, AFaceThatIsAskedForAgainIsTheSame) {
   GpuRig on_card(gl_, programs_, head->rig());
   const FaceState wild = Wild(3), rest;
   HeadVertices first, again;
-  on_card.Evaluate(head->rig(), std::vector<GpuRig::Face>{{&wild}});
+  on_card.Evaluate(head->rig(), std::vector<GpuRig::Input>{{&wild}});
   on_card.Read(0, first);
-  on_card.Evaluate(head->rig(), std::vector<GpuRig::Face>{{&rest}, {&rest}, {&wild}});
+  on_card.Evaluate(head->rig(), std::vector<GpuRig::Input>{{&rest}, {&rest}, {&wild}});
   on_card.Read(2, again);
   EXPECT_EQ(first.position, again.position);
   EXPECT_EQ(first.normal, again.normal);

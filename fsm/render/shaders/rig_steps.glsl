@@ -1,9 +1,10 @@
-// The steps of fsm/rig/rig.cc on a graphics card, one program for each: gpu_rig.cc puts before this the
-// version, the places of the members of a pose (those of an eye are from RIGHT_EYE or LEFT_EYE on, those of a
-// row of teeth, a ToothArch, from UPPER_ARCH or LOWER_ARCH on), the numbers of step_constants.h,
+// The steps of Rig::Take (fsm/rig/rig.cc) on a graphics card, one program for each: gpu_rig.cc puts before
+// this the version, the places of the members of a pose (those of an eye are from RIGHT_EYE or LEFT_EYE on,
+// those of a row of teeth, a ToothArch, from UPPER_ARCH or LOWER_ARCH on), the numbers of step_constants.h,
 // kCorneaRadius, kNeckPivot and which step it is. An invocation moves one vertex of one face.
-// `items` holds what a step knows of its vertices, as gpu_rig.cc lays it out; every list of several things
-// that act on one vertex stands behind the records of fixed size, and a record says from where to where.
+// `items` holds what a step knows of its vertices: records of RECORD numbers, a struct of rig_items.cc whose
+// members are read here in their order. Where several things act on a vertex, they are entries of ENTRY
+// numbers behind all records, and a ListRecord says from where to where.
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Positions { float positions[]; };
 layout(std430, binding = 1) buffer Normals { float normals[]; };
@@ -79,25 +80,25 @@ float ArchAt(uint arch, float x) {
          Pose(arch + DEPTH) * t * (kArchSquare + kArchFourth * t);
 }
 
-#ifdef STEP_begin  // item: a vertex; its place and normal at rest
+#ifdef STEP_begin  // item: a vertex; PlaceRecord
 void Take(uint item) {
-  SetPosition(item, Place(6u * item));
-  SetNormal(item, Place(6u * item + 3u));
+  SetPosition(item, Place(RECORD * item));
+  SetNormal(item, Place(RECORD * item + 3u));
 }
 #endif
 
-#ifdef STEP_channels  // record: vertex, from, to; entry: channel, displacement
+#ifdef STEP_channels  // ListRecord, ChannelEntry
 void Take(uint item) {
-  uint vertex = items[3u * item];
+  uint vertex = items[RECORD * item];
   vec3 p = Position(vertex);
-  for (uint i = items[3u * item + 1u]; i < items[3u * item + 2u]; i += 4u) {
+  for (uint i = items[RECORD * item + 1u]; i < items[RECORD * item + 2u]; i += ENTRY) {
     p += Pose(STRENGTHS + items[i]) * Place(i + 1u);
   }
   SetPosition(vertex, p);
 }
 #endif
 
-#ifdef STEP_lids  // record: a LidRig::Vertex
+#ifdef STEP_lids  // LidRecord
 struct Lid {
   uint vertex, side;
   float upper, lower, upper_angle, lower_angle, meet_angle, opening, y, z;
@@ -118,7 +119,7 @@ float TurnOf(Lid lid, uint eye) {
   return lid.upper * (upper - lid.upper_angle) + lid.lower * (lower - lid.lower_angle);
 }
 void Take(uint item) {
-  Lid lid = LidOf(11u * item);
+  Lid lid = LidOf(RECORD * item);
   uint eye = Eye(lid.side);
   float size = Pose(eye + EYE_SIZE);
   vec3 p = Position(lid.vertex);
@@ -140,25 +141,25 @@ void Take(uint item) {
 }
 #endif
 
-#ifdef STEP_lids_on_balls  // record: vertex, side, least distance
+#ifdef STEP_lids_on_balls  // BallLidRecord
 void Take(uint item) {
-  uint vertex = items[3u * item];
+  uint vertex = items[RECORD * item];
   vec3 p = Position(vertex);
-  vec3 off = p - Pose3(Eye(items[3u * item + 1u]) + BALL_CENTRE);
+  vec3 off = p - Pose3(Eye(items[RECORD * item + 1u]) + BALL_CENTRE);
   float far = length(off);
-  float least = Number(3u * item + 2u);
+  float least = Number(RECORD * item + 2u);
   if (far < least && far > 1.0) SetPosition(vertex, p + off * (least / far - 1.0));
 }
 #endif
 
-#ifdef STEP_jaw  // record: vertex, weight
+#ifdef STEP_jaw  // JawRecord
 void Take(uint item) {
-  uint vertex = items[2u * item];
-  SetPosition(vertex, TurnJaw(Position(vertex), Number(2u * item + 1u)));
+  uint vertex = items[RECORD * item];
+  SetPosition(vertex, TurnJaw(Position(vertex), Number(RECORD * item + 1u)));
 }
 #endif
 
-#ifdef STEP_jaw_by_chin  // the chin: vertex, its place at rest from the hinge
+#ifdef STEP_jaw_by_chin  // ChinRecord, one
 void Take(uint item) {
   vec3 before = Place(1u);
   vec3 after = Position(items[0]) - vec3(0.0, Pose(HINGE_Y), Pose(HINGE_Z));
@@ -171,18 +172,18 @@ void Take(uint item) {
 }
 #endif
 
-#ifdef STEP_teeth  // record: vertex, gaps from the upper and the lower arch
+#ifdef STEP_teeth  // ContactRecord
 float Beside(uint arch, float y) {
   float down = Pose(arch + ROOT_Y) > Pose(arch + EDGE_Y) ? 1.0 : -1.0;
   return SmoothStep(kPastTeeth, kBesideTeeth, down * (y - Pose(arch + EDGE_Y)));
 }
 void Take(uint item) {
-  uint vertex = items[3u * item];
+  uint vertex = items[RECORD * item];
   vec3 p = Position(vertex);
-  float upper = ArchAt(UPPER_ARCH, p.x) + Number(3u * item + 1u) - p.z;
+  float upper = ArchAt(UPPER_ARCH, p.x) + Number(RECORD * item + 1u) - p.z;
   if (upper > 0.0) p.z += upper * Beside(UPPER_ARCH, p.y);
   vec3 q = IntoJaw(p);
-  float lower = ArchAt(LOWER_ARCH, q.x) + Number(3u * item + 2u) - q.z;
+  float lower = ArchAt(LOWER_ARCH, q.x) + Number(RECORD * item + 2u) - q.z;
   if (lower > 0.0) {
     q.z += lower * Beside(LOWER_ARCH, q.y);
     p = TurnJaw(q, 1.0);
@@ -191,9 +192,9 @@ void Take(uint item) {
 }
 #endif
 
-#ifdef STEP_lip_gaps  // record: upper and lower vertex of the seam, how far apart at rest
+#ifdef STEP_lip_gaps  // GapRecord
 void Take(uint item) {
-  uint r = 5u * item;
+  uint r = RECORD * item;
   float seal = Pose(SEAL);
   vec3 apart = Position(items[r]) - Position(items[r + 1u]) - Place(r + 2u);
   vec3 by = seal * apart;
@@ -204,26 +205,26 @@ void Take(uint item) {
 }
 #endif
 
-#ifdef STEP_lips  // record: vertex, from, to; entry: pair of the seam, part of its gap
+#ifdef STEP_lips  // ListRecord, LipEntry
 void Take(uint item) {
-  uint vertex = items[3u * item];
+  uint vertex = items[RECORD * item];
   vec3 p = Position(vertex);
-  for (uint i = items[3u * item + 1u]; i < items[3u * item + 2u]; i += 2u) {
+  for (uint i = items[RECORD * item + 1u]; i < items[RECORD * item + 2u]; i += ENTRY) {
     p -= Number(i + 1u) * Pose3(seam_at + 3u * items[i]);
   }
   SetPosition(vertex, p);
 }
 #endif
 
-#ifdef STEP_own_form  // item: a vertex; by how much it goes
-void Take(uint item) { SetPosition(item, Position(item) + Place(3u * item)); }
+#ifdef STEP_own_form  // item: a vertex; by how much it goes, one vec3
+void Take(uint item) { SetPosition(item, Position(item) + Place(RECORD * item)); }
 #endif
 
-#ifdef STEP_tongue  // record: vertex, place and normal at rest, how near to the tip; then the seam
+#ifdef STEP_tongue  // TongueRecord; behind the records how many pairs the seam has, and SeamEntry
 // As in tongue_path.cc and Rig::MoveTongue.
-uint Seam() { return 8u * item_count; }
-vec3 High(uint k) { return Position(items[Seam() + 1u + 2u * k]); }
-vec3 Low(uint k) { return Position(items[Seam() + 2u + 2u * k]); }
+uint Seam() { return RECORD * item_count; }
+vec3 High(uint k) { return Position(items[Seam() + 1u + ENTRY * k]); }
+vec3 Low(uint k) { return Position(items[Seam() + 2u + ENTRY * k]); }
 void LipsAt(float x, out vec3 high, out vec3 low) {
   uint count = items[Seam()];
   uint right = 0u;
@@ -238,7 +239,7 @@ float Held(float p, float z) {
   return SmoothStep(z - kTongueFree, z - kTongueHeld, p) * SmoothStep(z + kTongueFree, z + kTongueHeld, p);
 }
 void Take(uint item) {
-  uint r = 8u * item;
+  uint r = RECORD * item;
   vec3 rest = Place(r + 1u);
   float tip = Number(r + 7u);
   float raise = Pose(TONGUE_RAISE);
@@ -259,15 +260,15 @@ void Take(uint item) {
     open_from = min(open_from, high.x);
     open_to = max(open_to, high.x);
   }
-  float part = SmoothStep(kTongueNoRoom, kTongueRoom, min(room, teeth_high - teeth_low));
-  vec3 turned = rest + vec3(0.0, raise * kTongueRaise * tip * tip, part * Pose(TONGUE_OUT) * tip);
+  float share = SmoothStep(kTongueNoRoom, kTongueRoom, min(room, teeth_high - teeth_low));
+  vec3 turned = rest + vec3(0.0, raise * kTongueRaise * tip * tip, share * Pose(TONGUE_OUT) * tip);
   vec3 p = TurnJaw(turned, 1.0 - kTongueOffJaw * raise * tip);
   SetNormal(items[r], normalize(TurnJaw(rest + Place(r + 4u), 1.0) - TurnJaw(rest, 1.0)));
   if (count > 0u) {
     float jaw_x = p.x - Pose(JAW_SWAY);
     float lower_z = TurnJaw(vec3(jaw_x, Pose(LOWER_ARCH + EDGE_Y), ArchAt(LOWER_ARCH, jaw_x)), 1.0).z;
     vec3 within = vec3(p.xy, min(p.z, min(lower_z, ArchAt(UPPER_ARCH, p.x)) - kBehindTeeth));
-    float outside = SmoothStep(0.0, kTongueOut, part * Pose(TONGUE_OUT));
+    float outside = SmoothStep(0.0, kTongueOut, share * Pose(TONGUE_OUT));
     if (outside > 0.0) {
       float middle_x = 0.5 * (open_from + open_to);
       float width = min(kTongueInArch, kTongueInLips * (open_to - open_from)) / kTongueWidest;
@@ -288,10 +289,10 @@ void Take(uint item) {
 }
 #endif
 
-#ifdef STEP_bones  // record: vertex; 0 the jaw's, 1 the right eye's, 2 the left eye's
+#ifdef STEP_bones  // BoneRecord; bone: 0 the jaw, 1 the right eye, 2 the left eye
 void Take(uint item) {
-  uint vertex = items[2u * item];
-  uint bone = items[2u * item + 1u];
+  uint vertex = items[RECORD * item];
+  uint bone = items[RECORD * item + 1u];
   vec3 p = Position(vertex);
   vec3 n = Normal(vertex);
   if (bone == 0u) {
@@ -310,36 +311,36 @@ void Take(uint item) {
 }
 #endif
 
-#ifdef STEP_neck  // item: a vertex; its weight, whether its normal turns
+#ifdef STEP_neck  // item: a vertex; NeckRecord
 void Take(uint item) {
   mat3 head = PoseMatrix(HEAD_TURN);
   vec3 p = Position(item);
   vec3 turned = kNeckPivot + head * (p - kNeckPivot) + vec3(0.0, 0.0, Pose(HEAD_FORWARD));
-  SetPosition(item, p + Number(2u * item) * (turned - p));
-  if (items[2u * item + 1u] != 0u) SetNormal(item, head * Normal(item));
+  SetPosition(item, p + Number(RECORD * item) * (turned - p));
+  if (items[RECORD * item + 1u] != 0u) SetNormal(item, head * Normal(item));
 }
 #endif
 
-#ifdef STEP_springs  // record: vertex, from, to; entry: spring, weight
+#ifdef STEP_springs  // ListRecord, SpringEntry
 void Take(uint item) {
-  uint vertex = items[3u * item];
+  uint vertex = items[RECORD * item];
   vec3 p = Position(vertex);
-  for (uint i = items[3u * item + 1u]; i < items[3u * item + 2u]; i += 2u) {
+  for (uint i = items[RECORD * item + 1u]; i < items[RECORD * item + 2u]; i += ENTRY) {
     p += Number(i + 1u) * Pose3(swings_at + 3u * items[i]);
   }
   SetPosition(vertex, p);
 }
 #endif
 
-#ifdef STEP_normals  // record: vertex, from, to; entry: the corners of a triangle
+#ifdef STEP_normals  // ListRecord, TriangleEntry
 void Take(uint item) {
   vec3 sum = vec3(0.0);
-  for (uint i = items[3u * item + 1u]; i < items[3u * item + 2u]; i += 3u) {
+  for (uint i = items[RECORD * item + 1u]; i < items[RECORD * item + 2u]; i += ENTRY) {
     vec3 a = Position(items[i]);
     sum += cross(Position(items[i + 1u]) - a, Position(items[i + 2u]) - a);
   }
   float squared = dot(sum, sum);
-  SetNormal(items[3u * item], squared > 1e-12 ? sum * inversesqrt(squared) : vec3(0.0, 0.0, 1.0));
+  SetNormal(items[RECORD * item], squared > 1e-12 ? sum * inversesqrt(squared) : vec3(0.0, 0.0, 1.0));
 }
 #endif
 
