@@ -7,12 +7,16 @@
 
 namespace fsm {
 
-/// The extension of glTF that holds what only we need of a head.
+/// The extension of glTF that holds what only we need of a head, and the version of its members
+/// that is written. Version 1, which is read too, called some of them otherwise (asset_reader.cc).
 inline constexpr const char* kAssetExtension = "GALATEA_head";
+inline constexpr int kAssetVersion = 2;
 
 /// Names every member of a head's description once; what writes, reads and checks an asset file
 /// walks these lists, so that a new member is one line here. `v` is called as
 /// `v("name", object.member)`, in the order of the lists, for a const object or one to be filled.
+/// Names are those of the members; what HeadTopology and RigData hold in structs of a few members
+/// stands flat beside the others, by the struct's name where its own would not be clear.
 
 template <typename T, typename U>
 concept Like = std::same_as<std::remove_const_t<T>, U>;
@@ -31,8 +35,8 @@ void Members(V& v, Like<ShutLid> auto& lid) {
   v("vertex", lid.vertex);
   v("colour", lid.colour);
   v("weight", lid.weight);
-  v("lender", lid.grain_at);
-  v("lender_light", lid.grain_light);
+  v("grain_at", lid.grain_at);
+  v("grain_light", lid.grain_light);
   v("slide", lid.slide);
 }
 
@@ -50,7 +54,7 @@ void Members(V& v, Like<Strand> auto& strand) {
   v("along", strand.along);
   v("density", strand.density);
   v("across", strand.across);
-  v("place", strand.tile_mm);
+  v("tile_mm", strand.tile_mm);
 }
 
 template <typename V>
@@ -83,7 +87,7 @@ void Members(V& v, Like<EyeGeometry> auto& eye) {
 
 template <typename V>
 void Members(V& v, Like<MouthSlit> auto& mouth) {
-  v("lips", mouth.seam);
+  v("seam", mouth.seam);
   v("corner_right", mouth.corner_right);
   v("corner_left", mouth.corner_left);
   v("upper_incisor", mouth.upper_incisor);
@@ -96,21 +100,21 @@ void Members(V& v, Like<HeadTopology> auto& topology) {
   v("indices", topology.indices);
   v("parts", topology.parts);
   v("albedo", topology.albedo);
-  v("occlusion", topology.openness);
+  v("openness", topology.openness);
   v("opacity", topology.opacity);
   v("uv", topology.uv);
   v("skin_hairs", topology.skin_hairs);
   v("strands", topology.strands);
-  v("photo", topology.textures.image);
+  v("image", topology.textures.image);
   v("pbr_materials", topology.pbr_materials);
   v("normal_map", topology.textures.normal_map);
   v("emissive_map", topology.textures.emissive_map);
   v("texcoord", topology.textures.texcoord);
   v("texture_weight", topology.textures.weight);
   v("shut_lids", topology.portrait.shut_lids);
-  v("photo_light", topology.portrait.light);
+  v("portrait_light", topology.portrait.light);
   v("relit", topology.portrait.relit);
-  v("eye_pictures", topology.portrait.eyes);
+  v("portrait_eyes", topology.portrait.eyes);
   v("mouth", topology.mouth);
   v("saturation", topology.portrait.saturation);
   v("eyes", topology.eyes);
@@ -266,12 +270,12 @@ void Members(V& v, Like<RigData> auto& rig) {
   v("rest", rig.rest);
   v("rest_normal", rig.rest_normal);
   v("proxy_rest", rig.proxy.rest);
-  v("own_form", rig.proxy.to_own);
+  v("proxy_to_own", rig.proxy.to_own);
   v("bone", rig.bone);
   v("weights", rig.weights);
   v("soft_triangles", rig.normals.soft_triangles);
   v("normal_twin", rig.normals.twin);
-  v("person", rig.asymmetry_seed);
+  v("asymmetry_seed", rig.asymmetry_seed);
   v("units_by_place", rig.units_by_place);
   v("channels", rig.channels);
   v("lids", rig.lids);
@@ -284,7 +288,7 @@ void Members(V& v, Like<RigData> auto& rig) {
   v("chin", rig.jaw.chin);
   v("eye_pivot", rig.eyes.pivot);
   v("ball_centre", rig.ball_lids.centre);
-  v("look", rig.eyes.gaze_ranges);
+  v("gaze_ranges", rig.eyes.gaze_ranges);
   v("creases", rig.creases.at_rest);
   v("crease_depth", rig.creases.depth);
   v("springs", rig.swing.springs);

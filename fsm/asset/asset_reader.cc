@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -29,10 +31,26 @@ constexpr std::size_t kWidth = 1;
 template <glm::length_t L>
 constexpr std::size_t kWidth<glm::vec<L, float>> = L;
 
+/// What version 1 called the members that have other names now.
+struct OldName {
+  std::string_view place, name;
+};
+constexpr OldName kNamesOfVersion1[] = {{"topology.openness", "occlusion"},
+                                        {"topology.image", "photo"},
+                                        {"topology.portrait_light", "photo_light"},
+                                        {"topology.portrait_eyes", "eye_pictures"},
+                                        {"topology.strands.tile_mm", "place"},
+                                        {"topology.shut_lids.grain_at", "lender"},
+                                        {"topology.shut_lids.grain_light", "lender_light"},
+                                        {"topology.mouth.seam", "lips"},
+                                        {"rig.proxy_to_own", "own_form"},
+                                        {"rig.asymmetry_seed", "person"},
+                                        {"rig.gaze_ranges", "look"}};
+
 /// Reads what asset_writer.cc has written, by the same lists of members.
 class Reader {
  public:
-  explicit Reader(const GltfDocument& gltf) : gltf_(gltf) {}
+  Reader(const GltfDocument& gltf, std::int64_t version) : gltf_(gltf), version_(version) {}
 
   template <typename T>
   void Read(const std::string& place, const json& from, T& value) {
@@ -141,10 +159,15 @@ class Reader {
     Members(member, object);
   }
 
-  static const json& MemberOf(const std::string& place, const json& from, const char* name) {
+  const json& MemberOf(const std::string& place, const json& from, std::string_view name) const {
+    if (version_ == 1) {
+      const auto* const old =
+          std::ranges::find(kNamesOfVersion1, fmt::format("{}.{}", place, name), &OldName::place);
+      if (old != std::end(kNamesOfVersion1)) name = old->name;
+    }
     const auto found = from.is_object() ? from.find(name) : from.end();
     if (!from.is_object() || found == from.end()) {
-      throw Fault(place + ": no member \"" + name + "\"");
+      throw Fault(fmt::format("{}: no member \"{}\"", place, name));
     }
     return *found;
   }
@@ -209,11 +232,15 @@ class Reader {
   }
 
   const GltfDocument& gltf_;
+  const std::int64_t version_;
 };
 
 HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
-  if (JsonInteger(from, "version") != 1) throw Fault("version: 1 expected");
-  Reader reader(gltf);
+  const std::int64_t version = JsonInteger(from, "version");
+  if (version < 1 || version > kAssetVersion) {
+    throw Fault(fmt::format("version: 1 to {} expected", kAssetVersion));
+  }
+  Reader reader(gltf, version);
   HeadAsset asset;
   const auto read = [&](const char* name, auto& part) {
     const auto found = from.find(name);

@@ -34,10 +34,14 @@ template <typename T>
 using Stored = std::conditional_t<std::is_same_v<T, bool> || std::is_enum_v<T>, std::uint8_t,
                                   std::conditional_t<std::is_same_v<T, int>, std::int16_t, T>>;
 
-/// The numbers of one element of a column.
 template <typename T>
-requires(std::is_enum_v<T> || std::is_arithmetic_v<T>) std::array < Stored<T>,
-1 > NumbersOf(T value) { return {static_cast<Stored<T>>(value)}; }
+concept Number = std::is_enum_v<T> || std::is_arithmetic_v<T>;
+
+/// The numbers of one element of a column.
+template <Number T>
+std::array<Stored<T>, 1> NumbersOf(T value) {
+  return {static_cast<Stored<T>>(value)};
+}
 std::array<std::uint32_t, 2> NumbersOf(const std::pair<std::uint32_t, std::uint32_t>& pair) {
   return {pair.first, pair.second};
 }
@@ -181,7 +185,7 @@ class ForeignView {
     MarkBounds(head_.rig().data().rest, gltf_.document["accessors"][position_]);
     normal_ = rig["rest_normal"];
     colour_ = topology["albedo"];
-    if (topology_.textures.image) WriteTexture(topology["photo"]);
+    if (topology_.textures.image) WriteTexture(topology["image"]);
     json names = json::array(), targets = json::array();
     HeadVertices rest, moved;
     head_.Evaluate({}, rest);
@@ -298,7 +302,7 @@ class ForeignView {
 std::string WriteAsset(const Head& head, std::span<const ExportedShape> shapes) {
   GltfBuilder gltf;
   Writer writer(gltf);
-  json extension = {{"version", 1}};
+  json extension = {{"version", kAssetVersion}};
   extension["topology"] = writer.Write(head.topology());
   extension["rig"] = writer.Write(head.rig().data());
   extension["rig"]["units"] = head.rig().data().units.Text();

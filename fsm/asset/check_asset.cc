@@ -69,7 +69,7 @@ class Checker {
       }
     }
     PerVertex(topology.albedo, "topology.albedo", false);
-    PerVertex(topology.openness, "topology.occlusion", false);
+    PerVertex(topology.openness, "topology.openness", false);
     PerVertex(topology.opacity, "topology.opacity", true);
     PerVertex(topology.uv, "topology.uv", true);
     PerVertex(topology.strands, "topology.strands", true);
@@ -79,8 +79,8 @@ class Checker {
     PerVertex(topology.portrait.relit, "topology.relit", true);
     const MouthSlit& mouth = topology.mouth;
     for (std::size_t i = 0; i < mouth.seam.size(); ++i) {
-      Vertex(mouth.seam[i].first, Place("topology.mouth.lips", i));
-      Vertex(mouth.seam[i].second, Place("topology.mouth.lips", i));
+      Vertex(mouth.seam[i].first, Place("topology.mouth.seam", i));
+      Vertex(mouth.seam[i].second, Place("topology.mouth.seam", i));
     }
     for (const auto vertex : {mouth.corner_right, mouth.corner_left, mouth.upper_incisor,
                               mouth.lower_incisor, mouth.upper_root}) {
@@ -95,7 +95,7 @@ class Checker {
     PerVertex(rig.rest_normal, "rig.rest_normal", false);
     PerVertex(rig.proxy.rest, "rig.proxy_rest", true);
     if (rig.proxy.to_own.size() != rig.proxy.rest.size()) {
-      throw Flaw("rig.own_form: not one for each of rig.proxy_rest");
+      throw Flaw("rig.proxy_to_own: not one for each of rig.proxy_rest");
     }
     CheckSteps(rig.steps);
     Vertex(rig.jaw.chin, "rig.chin");

@@ -94,8 +94,8 @@ ExpressionLooks LooksOfExpressions(const OriginalSharedFiles& shared) {
       const auto unit = static_cast<std::size_t>(kUnitNumbers[i]);
       for (const Side side : kSides) look.au[side][unit] = one.strengths[side][i];
     }
-    if (one.channel != kNoChannel) {
-      const auto [unit, side] = kExpressionChannels[one.channel];
+    if (one.channel) {
+      const auto [unit, side] = ResidualChannelOf(*one.channel);
       look.au[side][unit] = 1;
     }
   }

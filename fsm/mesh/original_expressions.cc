@@ -122,7 +122,7 @@ class Reader {
     }
     residual.names = standard_.names;
     if (most < kLeastResidualMm) return made;
-    if (out_.residuals.size() == kExpressionChannels.size()) {
+    if (out_.residuals.size() == kResidualChannels) {
       out_.without_residual.push_back(path);
       return made;
     }

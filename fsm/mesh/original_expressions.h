@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,30 +15,29 @@ namespace fsm {
 /// but action units here. Each file is taken apart into units of the agent's right and left side;
 /// what they leave is kept, as a residual, and shown with it.
 ///
-/// An expression comes to the face as a look of FaceState::au alone, so a residual
-/// has a number there that FACS does not use, on one side, and so does nothing to other heads.
-struct ExpressionChannel {
+/// An expression comes to the face as a look of FaceState::au alone, so the strength of a residual
+/// is one of kResidualUnits there, on one side.
+struct ResidualChannel {
   std::size_t unit;
   Side side;
 };
-inline constexpr std::array<ExpressionChannel, 6> kExpressionChannels{{{3, Side::kRight},
-                                                                       {3, Side::kLeft},
-                                                                       {40, Side::kRight},
-                                                                       {40, Side::kLeft},
-                                                                       {0, Side::kRight},
-                                                                       {0, Side::kLeft}}};
-inline constexpr std::size_t kNoChannel = kExpressionChannels.size();
+inline constexpr std::size_t kResidualChannels = 2 * kResidualUnits.size();
+/// REQUIRES: `channel` < kResidualChannels.
+constexpr ResidualChannel ResidualChannelOf(std::size_t channel) {
+  return {kResidualUnits[channel / 2], kSides[channel % 2]};
+}
 
 struct OriginalExpression {
   std::string name;                                    ///< of FaceExp
   int pattern = 1;                                     ///< from 1
   Sided<std::array<float, kOriginalUnits>> strengths;  ///< by the original's list of units
-  std::size_t channel = kNoChannel;                    ///< of its residual
+  std::optional<std::size_t> channel;                  ///< of its residual; none: not shown
 };
 
 struct OriginalExpressions {
   std::vector<OriginalExpression> all;
-  std::vector<PntFile> residuals;  ///< by channel, at most so many; offsets as the files have them
+  std::vector<PntFile>
+      residuals;  ///< by channel, at most kResidualChannels; offsets as the files have them
   /// Expressions whose residual found no channel left: their units alone are shown.
   std::vector<std::string> without_residual;
 };

@@ -40,7 +40,7 @@ class OriginalRigBaker {
     rig_.jaw.chin = static_cast<std::uint32_t>(face_.wireframe.index.at(kChin));
     AddUnits();
     for (std::size_t k = 0; k < face_.expression_residuals.size(); ++k) {
-      const auto [unit, side] = kExpressionChannels[k];
+      const auto [unit, side] = ResidualChannelOf(k);
       Add(Moves(face_.expression_residuals[k], unit_scale_), {{Asked(unit, side)}});
     }
     AddVisemes(mouths);

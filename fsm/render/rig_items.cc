@@ -85,7 +85,8 @@ void Append(std::vector<std::uint32_t>& words, const T& record) {
 
 template <typename Record>
 RigItems ItemsOf(const char* step, const std::vector<Record>& records) {
-  RigItems items{.step = step, .words = {}, .count = records.size(), .record_words = kWords<Record>};
+  RigItems items{
+      .step = step, .words = {}, .count = records.size(), .record_words = kWords<Record>};
   for (const Record& record : records) Append(items.words, record);
   return items;
 }

@@ -17,7 +17,8 @@ std::size_t At(int unit) { return static_cast<std::size_t>(unit); }
 
 int ReadUnit(const TableRow& row, std::size_t index) {
   const int unit = row.Integer(index);
-  if (unit < 1 || unit > static_cast<int>(UnitValues::kMost) || unit == 3 || unit == 40) {
+  if (unit < 1 || unit > static_cast<int>(UnitValues::kMost) ||
+      std::ranges::find(kResidualUnits, At(unit)) != kResidualUnits.end()) {
     row.Fail("'" + row.Word(index) + "' is no action unit (1, 2, 4-39, 41-999)");
   }
   return unit;

@@ -11,6 +11,10 @@ namespace fsm {
 /// FACS of 1978 numbers its action units 1..46 (3 and 40 unused); a table of this size has room
 /// for all of them by number.
 inline constexpr std::size_t kActionUnits = 47;
+/// Numbers that FACS leaves free, in which residuals of the original's expressions travel
+/// (mesh/original_expressions.h): no table has them, and heads other than the original's have no
+/// channel for them.
+inline constexpr std::array<std::size_t, 3> kResidualUnits{3, 40, 0};
 /// The units that code looks at by itself, by their names in FACS.
 enum ActionUnit : std::size_t {
   kInnerBrowRaiser = 1,

@@ -144,7 +144,7 @@ TEST(AssetFileTest, ADamagedFileIsRefusedByFileAndMember) {
   const std::string whole = WriteAsset(*MakeHead("galatea"), {});
   ASSERT_TRUE(ParseAsset("head.glb", Changed(whole, [](json&) {})));
   const std::pair<std::function<void(json&)>, const char*> faults[] = {
-      {[](json& e) { e["version"] = 2; }, "version: 1 expected"},
+      {[](json& e) { e["version"] = 3; }, "version: 1 to 2 expected"},
       {[](json& e) { e.erase("rig"); }, "no member \"rig\""},
       {[](json& e) { e["rig"]["steps"] = 7000000; }, "rig.steps"},
       {[](json& e) { e["rig"]["bone"] = e["rig"]["rest"]; }, "rig.bone: accessors["},
@@ -170,7 +170,7 @@ TEST(AssetFileTest, ADamagedFileIsRefusedByFileAndMember) {
        "topology.parts[0]: its triangles are not among the indices"},
       {[](json& e) { e["topology"]["parts"][0]["material"] = "skin"; },
        "topology.parts[0].material: a whole number expected"},
-      {[](json& e) { e["topology"]["photo"] = 3; }, "topology.photo:"},
+      {[](json& e) { e["topology"]["image"] = 3; }, "topology.image:"},
       {[](json& e) {
          e["landmarks"] = {{"nasion", "here"}};
        },
@@ -196,6 +196,49 @@ TEST(AssetFileTest, MembersThatAreNoMoreArePassedOver) {
   auto asset = ParseAsset("head.glb", old);
   ASSERT_TRUE(asset) << asset.error().text;
   ExpectSameHead(Head(std::move(*asset)), *head);
+}
+
+/// The file as version 1 had it.
+std::string InVersion1(const std::string& file) {
+  return Changed(file, [](nlohmann::json& e) {
+    e["version"] = 1;
+    const auto rename = [](nlohmann::json& object, const char* now, const char* before) {
+      ASSERT_TRUE(object.contains(now)) << now;
+      object[before] = std::move(object[now]);
+      object.erase(now);
+    };
+    nlohmann::json &topology = e["topology"], &rig = e["rig"];
+    rename(topology, "openness", "occlusion");
+    rename(topology, "image", "photo");
+    rename(topology, "portrait_light", "photo_light");
+    rename(topology, "portrait_eyes", "eye_pictures");
+    rename(topology["mouth"], "seam", "lips");
+    if (topology["strands"].is_object()) rename(topology["strands"], "tile_mm", "place");
+    if (topology["shut_lids"].is_object()) {
+      rename(topology["shut_lids"], "grain_at", "lender");
+      rename(topology["shut_lids"], "grain_light", "lender_light");
+    }
+    rename(rig, "proxy_to_own", "own_form");
+    rename(rig, "asymmetry_seed", "person");
+    rename(rig, "gaze_ranges", "look");
+  });
+}
+
+TEST(AssetFileTest, AFileOfVersion1IsRead) {
+  for (const auto& head : {MakeHead("galatea"), MakeHead(OneColour())}) {
+    auto asset = ParseAsset("head.glb", InVersion1(WriteAsset(*head, {})));
+    ASSERT_TRUE(asset) << asset.error().text;
+    ExpectSameHead(Head(std::move(*asset)), *head);
+  }
+}
+
+TEST(AssetFileTest, TheNamesOfVersion1AreNotTakenInVersion2) {
+  const std::string file = Changed(InVersion1(WriteAsset(*MakeHead("galatea"), {})),
+                                   [](nlohmann::json& e) { e["version"] = 2; });
+  const auto read = ParseAsset("head.glb", file);
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().text.find("topology: no member \"openness\""), std::string::npos)
+      << read.error().text;
 }
 
 TEST(AssetFileTest, OtherProgramsSeeAMeshWithShapes) {
