@@ -312,7 +312,7 @@ concept Tabular = Like<T, SkinHair> || Like<T, ShutLid> || Like<T, Strand> ||
 template <typename E>
 inline constexpr int kValuesOf = 0;
 template <>
-inline constexpr int kValuesOf<Material> = static_cast<int>(Material::kShutLash) + 1;
+inline constexpr int kValuesOf<Material> = static_cast<int>(Material::kMatte) + 1;
 template <>
 inline constexpr int kValuesOf<Bone> = static_cast<int>(Bone::kEyeRight) + 1;
 template <>

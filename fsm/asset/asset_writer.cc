@@ -245,7 +245,8 @@ class ForeignView {
     const bool photo = ShowsPhoto(part);
     json material = {{"name", NameOf(part.material)},
                      {"doubleSided", part.two_sided || IsHair(part.material) ||
-                                         part.material == Material::kMouthInside},
+                                         part.material == Material::kMouthInside ||
+                                         part.material == Material::kMatte},
                      {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.7}}}};
     json attributes = {{"POSITION", position_}, {"NORMAL", normal_}};
     if (photo) {

@@ -9,8 +9,8 @@ namespace fsm {
 /// What a material is called in files and descriptions.
 inline const char* NameOf(Material material) {
   static constexpr std::array<const char*, kValuesOf<Material>> kNames{
-      "skin",   "lips",  "eye_white", "eye_iris", "eye_pupil", "teeth", "gums",
-      "tongue", "mouth", "lashes",    "hair",     "cloth",     "photo", "shut_lashes"};
+      "skin",  "lips",   "eye_white", "eye_iris", "eye_pupil", "teeth",       "gums", "tongue",
+      "mouth", "lashes", "hair",      "cloth",    "photo",     "shut_lashes", "matte"};
   return kNames[static_cast<std::size_t>(material)];
 }
 

@@ -269,11 +269,12 @@ class HeadBuilder {
       case Kind::kTongue:
         return Material::kTongue;
       case Kind::kMouth:
-      case Kind::kLash:
         return Material::kMouthInside;
+      case Kind::kLash:
+        return Material::kMatte;
       default:
         // Material::kSkin would show the picture.
-        return model_.textures.image ? Material::kMouthInside : Material::kSkin;
+        return model_.textures.image ? Material::kMatte : Material::kSkin;
     }
   }
 

@@ -27,8 +27,9 @@ void EyeMaterial::Begin(const MaterialFrame& frame) const {
   program_.Use();
   SetEyeballs(frame.view, eyes, geometry);
   program_.Set("flesh_red", grey ? 0.0F : 1.0F);
-  program_.Set("photo_brightness", frame.head.photo() ? frame.photo_brightness : 0.0F);
-  program_.Set("iris_span", pictured ? kIrisSpan : 0.0F);
+  program_.Set("beside_photo", frame.head.photo() != nullptr);
+  program_.Set("photo_brightness", frame.photo_brightness);
+  program_.Set("pictured", pictured);
   program_.Set("photo", 1);
   if (pictured) SetPictures(frame, eyes);
 }
@@ -77,6 +78,7 @@ void EyeMaterial::SetPictures(const MaterialFrame& frame, const Sided<EyeFrame>&
     lid_heights[i] = {rest.upper_lid_y - rest.centre.y, rest.lower_lid_y - rest.centre.y,
                       eye.upper_lid_y - eye.centre.y, kBallSpan * eye.radius};
   }
+  program_.Set("iris_span", kIrisSpan);
   program_.Set("photo_iris_rect", iris_rect);
   program_.Set("photo_ball_rect", ball_rect);
   program_.Set("photo_lid_heights", lid_heights);

@@ -42,6 +42,7 @@ class GlProgram {
       gl_.Uniform1i(*at, value);
     }
   }
+  void Set(const char* name, bool value) const { Set(name, GLint{value}); }
   void Set(const char* name, const glm::vec3& value) const { Set(name, std::span(&value, 1)); }
   void Set(const char* name, const glm::vec4& value) const { Set(name, std::span(&value, 1)); }
   void Set(const char* name, const glm::mat3& value) const {

@@ -38,16 +38,18 @@ DetailAttributes DetailOf(const HeadTopology& topology, const CreaseWeights& cre
   return detail;
 }
 
-/// Per vertex, the attributes kAlbedoOpenness, kTexcoord, kLidGrain and kOpacity.
+/// Per vertex, the attributes kAlbedoOpenness, kTexcoord, kLidGrain, kOpacity and kLidSkin.
 struct PaintAttributes {
-  std::vector<glm::vec4> colour, texcoord, grain;
+  std::vector<glm::vec4> colour, texcoord, lid_grain;
   std::vector<float> opacity;
+  std::vector<glm::vec2> lid_skin;
 };
 
 PaintAttributes PaintOf(const HeadTopology& topology) {
   const std::size_t count = topology.albedo.size();
   PaintAttributes paint{std::vector<glm::vec4>(count), std::vector<glm::vec4>(count, kNone),
-                        std::vector<glm::vec4>(count, kNone), topology.opacity};
+                        std::vector<glm::vec4>(count, kNone), topology.opacity,
+                        std::vector<glm::vec2>(count, glm::vec2(0))};
   paint.opacity.resize(count, 1.0F);
   for (std::size_t i = 0; i < count; ++i) {
     paint.colour[i] = glm::vec4(topology.albedo[i], topology.openness[i]);
@@ -56,9 +58,10 @@ PaintAttributes PaintOf(const HeadTopology& topology) {
     paint.texcoord[i] = glm::vec4(topology.textures.texcoord[i], topology.textures.weight[i], 0);
   }
   for (const ShutLid& lid : topology.portrait.shut_lids) {
-    paint.colour[lid.vertex] = glm::vec4(lid.colour, lid.grain_light);
+    paint.colour[lid.vertex] = glm::vec4(lid.colour, topology.openness[lid.vertex]);
     paint.texcoord[lid.vertex].w = lid.weight;
-    paint.grain[lid.vertex] = glm::vec4(lid.grain_at, lid.slide);
+    paint.lid_grain[lid.vertex] = glm::vec4(lid.grain_at, lid.slide);
+    paint.lid_skin[lid.vertex] = glm::vec2(1, lid.grain_light);
   }
   return paint;
 }
@@ -67,7 +70,7 @@ std::vector<SkinDetail> SkinDetailOf(const PaintAttributes& paint, const DetailA
   std::vector<SkinDetail> out(paint.opacity.size(), SkinDetail::kPlain);
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (detail.detail[i] != kNone || detail.more[i] != glm::vec2(0)) out[i] = SkinDetail::kCreased;
-    if (paint.opacity[i] < 1 || paint.grain[i].x > 0) out[i] = SkinDetail::kDetailed;
+    if (paint.opacity[i] < 1 || paint.lid_skin[i].x > 0) out[i] = SkinDetail::kDetailed;
   }
   return out;
 }
@@ -192,7 +195,8 @@ void HeadBuffers::UploadAttributes(const HeadVertices& rest) {
   upload(VertexAttribute::kDetail, detail.detail);
   upload(VertexAttribute::kDetailMore, detail.more);
   upload(VertexAttribute::kTexcoord, paint.texcoord);
-  upload(VertexAttribute::kLidGrain, paint.grain);
+  upload(VertexAttribute::kLidGrain, paint.lid_grain);
+  upload(VertexAttribute::kLidSkin, paint.lid_skin);
   upload(VertexAttribute::kOpacity, paint.opacity);
   upload(VertexAttribute::kRelitNormal, relit_normal);
   skin_detail_ = SkinDetailOf(paint, detail);

@@ -145,7 +145,9 @@ void Materials::Use(const DrawnPart& drawn) {
 
 void Materials::UseSurface(const DrawnPart& drawn) {
   const Material material = drawn.part.material;
-  const Appearance::Surface& surface = appearance_.surface(material);
+  // What is plain is as dull as the lining of a mouth, which the table has.
+  const Appearance::Surface& surface =
+      appearance_.surface(material == Material::kMatte ? Material::kMouthInside : material);
   const bool inside = mouth_.has_opening() && IsOfMouth(material);
   const bool threads = surface.planar > 0;
   const bool relief =
@@ -155,7 +157,7 @@ void Materials::UseSurface(const DrawnPart& drawn) {
   program.Set("wrap", surface.wrap);
   program.Set("lobes", 2.0F * surface.lobes);  // of a texture in which one half stands for 1
   if (inside) {
-    program.Set("lining", material == Material::kMouthInside ? 1.0F : 0.0F);
+    program.Set("lining", material == Material::kMouthInside);
   } else {
     program.Set("key_through", surface.key_through);
     program.Set("sheen", surface.sheen);
@@ -170,8 +172,8 @@ void Materials::UseSurface(const DrawnPart& drawn) {
 
 void Materials::UsePbr(const PbrMaterial& pbr) {
   pbr_->Use();
-  pbr_->Set("ragged", pbr.cut_out ? 1.0F : 0.0F);
-  pbr_->Set("toon", pbr.kind == PbrMaterial::Kind::kToon ? 1.0F : 0.0F);
+  pbr_->Set("ragged", pbr.cut_out);
+  pbr_->Set("toon", pbr.kind == PbrMaterial::Kind::kToon);
   pbr_->Set("metallic", pbr.metallic);
   pbr_->Set("roughness", pbr.roughness);
   pbr_->Set("shade_to", pbr.shade_to);

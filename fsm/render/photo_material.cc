@@ -33,7 +33,7 @@ void PhotoMaterial::Begin(const MaterialFrame& frame, const MouthMaterial& mouth
     program->Set("lids_shut", frame.vertices.lids_shut.InOrder());
     program->Set("photo", 1);
     program->Set("relief", 2);
-    program->Set("blends", HasSoftLayers(frame.head.topology()) ? 1.0F : 0.0F);
+    program->Set("blends", HasSoftLayers(frame.head.topology()));
     program->Set("brightness", frame.photo_brightness);
     program->Set("rest_to_world", frame.rest_to_world);
     program->Set("photo_light", frame.head.topology().portrait.light);
@@ -51,8 +51,8 @@ void PhotoMaterial::Use(const DrawnPart& part, const HeadBuffers& head, bool cre
   // Where the sheet goes on from the skin the skin is seen, however coarse the sheet.
   constexpr float kYieldsMm = 5;
   program.Use();
-  program.Set("lashes", part.part.material == Material::kShutLash ? 1.0F : 0.0F);
-  program.Set("ragged", ragged ? 1.0F : 0.0F);
+  program.Set("lashes", part.part.material == Material::kShutLash);
+  program.Set("ragged", ragged);
   program.Set("yields", ragged && HasSoftLayers(head.topology()) ? kYieldsMm : 0.0F);
 }
 

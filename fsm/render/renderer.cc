@@ -36,8 +36,10 @@ Scene Behind(const Scene& scene) {
 }
 
 bool IsDrawnFromBothSides(const HeadTopology::Part& part) {
-  return part.two_sided || part.material == Material::kLash ||
-         part.material == Material::kShutLash || part.material == Material::kMouthInside;
+  using enum Material;
+  const Material material = part.material;
+  return part.two_sided || material == kLash || material == kShutLash || material == kMouthInside ||
+         material == kMatte;
 }
 
 /// Whether the processor draws: Mesa's drivers for that.

@@ -13,7 +13,7 @@ struct VertexAttribute {
     kPosition,        ///< millimetres
     kNormal,          ///< unit
     kRestPosition,    ///< millimetres
-    kAlbedoOpenness,  ///< linear RGB; openness to light, 0..1
+    kAlbedoOpenness,  ///< linear RGB, of lids ShutLid::colour; openness to light, 0..1
     kDetailPlace,     ///< skin: HeadTopology::uv; hair: Strand::tile_mm
     kDetail,          ///< skin: CreaseWeights::face; hair: Strand::along and density
     kDetailMore,      ///< skin: CreaseWeights::nose_and_left; hair: Strand::across
@@ -21,10 +21,11 @@ struct VertexAttribute {
     kLidGrain,        ///< ShutLid::grain_at and slide
     kOpacity,         ///< HeadTopology::opacity
     kRelitNormal,     ///< the normal at rest, as long as Portrait::relit
+    kLidSkin,         ///< 1 where there is a ShutLid, else 0; its grain_light
     kCount
   };
   /// Numbers of each.
-  static constexpr std::array<GLint, kCount> kWidth{3, 3, 3, 4, 2, 4, 2, 4, 4, 1, 3};
+  static constexpr std::array<GLint, kCount> kWidth{3, 3, 3, 4, 2, 4, 2, 4, 4, 1, 3, 2};
 };
 
 }  // namespace fsm

@@ -33,8 +33,9 @@ enum class Material {
   kLash,
   kHair,
   kCloth,
-  kPhoto,    ///< a sheet that shows the photo and nothing else
-  kShutLash  ///< of lids that wear a photo of open eyes: seen as they shut
+  kPhoto,     ///< a sheet that shows the photo and nothing else
+  kShutLash,  ///< of lids that wear a photo of open eyes: seen as they shut
+  kMatte  ///< what has a plain colour beside skin that may show a picture: lashes, hair, clothes
 };
 
 constexpr bool IsHair(Material material) {

@@ -14,8 +14,10 @@ uniform vec3 iris_colour;
 uniform vec3 white_colour;
 uniform float figure_scale;
 uniform float flesh_red;         // 0: flesh and vessels are grey, as in a grey photo
-uniform float photo_brightness;  // beside a photo, whose colours are shown as they are; else 0
-uniform float iris_span;         // a photo of the eyes: its picture of the iris reaches so many radii; else 0
+uniform bool beside_photo;       // whose colours are shown as they are
+uniform float photo_brightness;  // of that photo
+uniform bool pictured;           // the photo shows the eyes; the rest is meaningful then:
+uniform float iris_span;            // its picture of the iris reaches so many radii
 uniform vec4 photo_iris_rect[2];    // left, top, right, bottom in the photo
 uniform vec4 photo_ball_rect[2];
 uniform vec4 photo_lid_heights[2];  // over the centre: upper and lower at rest, upper now; how far the
@@ -81,7 +83,7 @@ vec3 Iris(vec2 p, float r, float toward_light) {
   base = mix(base, base * iris_collar + iris_collar_least, collar * iris_collar_part);
   // Light falls in through the cornea and gathers on the far side.
   base *= iris_light + iris_gathered * max(-toward_light, 0.0) * Ramp(iris_gathered_edge, r);
-  base *= mix(1.0, photo_brightness > 0.0 ? photo_iris_rim : iris_rim, Ramp(iris_rim_edge, r));
+  base *= mix(1.0, beside_photo ? photo_iris_rim : iris_rim, Ramp(iris_rim_edge, r));
   return mix(vec3(pupil_color), base, smoothstep(pupil_share + pupil_edge.x, pupil_share + pupil_edge.y, r + pupil_ragged * (fibre - 0.5)));
 }
 
@@ -114,7 +116,7 @@ vec3 White(Place p) {
 }
 
 // The line of sight bends at the cornea and meets the plane of the iris behind it.
-vec3 IrisSeen(Place p, bool pictured) {
+vec3 IrisSeen(Place p) {
   vec3 ray = refract(-p.to_viewer, p.wet, 1.0 / 1.336);
   float depth = dot(p.from_centre, p.axis) - iris_depth;
   vec3 hit = p.from_centre + ray * (max(depth, 0.0) / max(-dot(ray, p.axis), 0.2));
@@ -131,7 +133,7 @@ vec3 IrisSeen(Place p, bool pictured) {
 float LidShade(Place p) {
   float shade = mix(upper_lid_shade, 1.0, Ramp(upper_lid_edge, p.below_upper - upper_lid_falls * p.narrower)) *
                 mix(lower_lid_shade, 1.0, Ramp(lower_lid_edge, p.above_lower - lower_lid_rises * p.narrower));
-  return photo_brightness > 0.0 ? photo_lid_least + (1.0 - photo_lid_least) * shade : shade;
+  return beside_photo ? photo_lid_least + (1.0 - photo_lid_least) * shade : shade;
 }
 
 // The photo has its shade, but not where it was completed and where the eye opens wider than in it.
@@ -157,17 +159,17 @@ float PhotoShade(Place p, float edge, inout vec3 base) {
 }
 
 // Adds what the wet surface mirrors. `light`: on the ball.
-void AddMirrored(Place p, bool pictured, float shade, vec3 light, inout vec3 seen) {
+void AddMirrored(Place p, float shade, vec3 light, inout vec3 seen) {
   // What a photographed eye mirrors is seen in it.
   // One drawn into a photo mirrors as little light as there is.
   float bright = clamp(dot(white_colour, vec3(0.3, 0.5, 0.2)) / 0.4, 0.15, 1.0);
-  float gloss = photo_brightness > 0.0 ? (pictured ? 0.0 : photo_gloss * bright) : 1.0;
+  float gloss = beside_photo ? (pictured ? 0.0 : photo_gloss * bright) : 1.0;
   vec3 mirrored = reflect(-p.to_viewer, p.wet);
   vec2 pane = vec2(dot(mirrored, window_across), dot(mirrored, cross(window_at, window_across)));
   vec2 inside = smoothstep(window_outer, window_inner, abs(pane));
   float window = inside.x * inside.y * step(0.0, dot(mirrored, window_at)) *
                  mix(mirrored_bar, 1.0, Ramp(window_bar_edge, abs(pane.x - window_bar_at)));
-  if (photo_brightness > 0.0) {
+  if (beside_photo) {
     window = photo_lamp * Ramp(photo_lamp_edge, length(pane)) * step(0.0, dot(mirrored, window_at));
   }
   float soft_box = pow(max(dot(mirrored, lamp_directions[1]), 0.0), mirrored_box_narrow);
@@ -183,20 +185,19 @@ void AddMirrored(Place p, bool pictured, float shade, vec3 light, inout vec3 see
 
 void main() {
   Place p = FindPlace();
-  bool pictured = iris_span > 0.0;
   vec3 base = pictured ? PhotographedWhite(p) : White(p);
   // A photo shows the soft edge of the iris, too.
   float edge = pictured ? Ramp(photo_iris_edge, p.from_axis)
                         : Ramp(iris_edge, p.from_axis);
-  if (edge > 0.0) base = mix(base, IrisSeen(p, pictured), edge);
+  if (edge > 0.0) base = mix(base, IrisSeen(p), edge);
   float shade = pictured ? PhotoShade(p, edge, base) : LidShade(p);
 
   vec3 light = Ambient(p.normal) * eye_room;
   light += lamp_colours[0] * Wrapped(dot(p.normal, lamp_directions[0]), vec3(eye_wrap)) * eye_key;
   light += lamp_colours[1] * Wrapped(dot(p.normal, lamp_directions[1]), vec3(eye_wrap));
-  light = photo_brightness > 0.0 ? vec3(1.0) : light;
+  light = beside_photo ? vec3(1.0) : light;
   vec3 seen = base * light * shade * mix(openness, 1.0, eye_open);
-  AddMirrored(p, pictured, shade, light, seen);
+  AddMirrored(p, shade, light, seen);
   seen = max(seen, 0.0);
-  colour = vec4(photo_brightness > 0.0 ? photo_brightness * FromLinear(seen) : ToScreen(seen), 1.0);
+  colour = vec4(beside_photo ? photo_brightness * FromLinear(seen) : ToScreen(seen), 1.0);
 }

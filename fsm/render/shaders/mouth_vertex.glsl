@@ -4,7 +4,7 @@
 const int kColumns = 11;
 const int kRing = 2 * kColumns + 2;
 
-uniform float lining;                // 1: of the walls, which are seen from within
+uniform bool lining;                 // of the walls, which are seen from within
 uniform float front_gain;            // how much more light there is than the lamps bring in: on the
 uniform float deep_gain;             // teeth, and deeper
 uniform mat4 to_mouth;               // from the figure's frame: x along the lips, y up, z out
@@ -99,8 +99,8 @@ void main() {
   vec3 total = soft + key;
   // What turns away from the viewer, wet and soft, has no hard outline.
   float facing = smoothstep(-0.1, 0.55, dot(n_world, v));
-  float outline = mix(0.4 + 0.6 * facing, 1.0, lining);
-  float open = mix(mix(sqrt(openness), 1.0, 0.5 * lining), openness * openness, out_of_mouth);
+  float outline = lining ? 1.0 : 0.4 + 0.6 * facing;
+  float open = mix(mix(sqrt(openness), 1.0, lining ? 0.5 : 0.0), openness * openness, out_of_mouth);
   light = Albedo() * (total * open * outline + bounced * mix(0.4, 1.0, open)) *
           mix(front_gain, deep_gain, smoothstep(2.0, 9.0, inward));
 

@@ -6,8 +6,8 @@ in vec3 texcoord;  // u, v down; z > 0: the colour is there
 in vec3 tint;  // on the picture, or the colour where there is none
 
 uniform float brightness;
-uniform float ragged;      // 1: what is transparent is left out
-uniform float toon;        // 1: two colours
+uniform bool ragged;       // what is transparent is left out
+uniform bool toon;         // two colours
 uniform float metallic;
 uniform float roughness;
 uniform float shade_to;    // cosines: shade up to here,
@@ -47,7 +47,7 @@ float Mirrored(float n_h, float n_l, float n_v, float a2) {
 
 void main() {
   vec4 p = texture(photo, texcoord.xy);
-  if (texcoord.z > 0.0 && ragged * (1.0 - p.a) > OpacityStep(gl_FragCoord.xy) && p.a < 0.98) discard;
+  if (texcoord.z > 0.0 && ragged && 1.0 - p.a > OpacityStep(gl_FragCoord.xy) && p.a < 0.98) discard;
   vec3 base = texcoord.z > 0.0 ? ToLinear(p.rgb) * tint : tint;
   vec4 r = texcoord.z > 0.0 ? texture(normal_map, texcoord.xy) : vec4(0.5, 0.5, 1.0, 1.0);
   vec4 l = texcoord.z > 0.0 ? texture(emissive_map, texcoord.xy) : vec4(1.0);
@@ -56,7 +56,7 @@ void main() {
   if (!gl_FrontFacing) n = -n;
   vec2 slope = (r.xy * 255.0 - 128.0) / 127.0;
   if (dot(slope, slope) > 1e-3) n = Bent(n, slope);
-  if (toon > 0.5) {
+  if (toon) {
     float lit = clamp((dot(n, lamp_directions[0]) - shade_to) / max(light_from - shade_to, 1e-3),
                       0.0, 1.0);
     vec3 drawn = mix(shade * ToLinear(l.rgb) * tint, base, lit) + glow;

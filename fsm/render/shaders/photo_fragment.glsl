@@ -7,7 +7,7 @@ in vec4 grain_from;
 in float crease;
 in float shadow;
 in float covering;
-flat in vec3 settings;  // brightness, ragged, blends
+flat in vec3 settings;  // brightness, whether it is ragged, whether it blends
 
 uniform sampler2D photo;
 uniform sampler2D relief;

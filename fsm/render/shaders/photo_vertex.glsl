@@ -4,17 +4,18 @@ layout(location = 7) in vec4 photo_texcoord;  // u, v down; the photo's part in 
 layout(location = 8) in vec4 lid_grain;   // of a lid: the place whose grain it takes; its way
 layout(location = 9) in float opacity;     // 1: hides what is behind, 0: is not there
 layout(location = 10) in vec3 rest_normal;  // as long as the light on it follows it, 0..1
+layout(location = 11) in vec2 lid_skin;     // 1: of a lid, else 0; how bright the skin is whose grain it takes
 
 uniform float lids_shut[2];  // right, left
 uniform float chin_y;         // of its lowest point at rest, millimetres
 uniform float chin_drop;      // how far it is below that
-uniform float ragged;         // 1: the sheet, of which what is transparent in the photo is left out
+uniform bool ragged;          // the sheet, of which what is transparent in the photo is left out
 uniform float brightness;
-uniform float blends;         // 1: in part, over what is drawn already; 0: sample by sample
+uniform bool blends;          // in part, over what is drawn already; else sample by sample
 uniform vec4 photo_light;     // in the head's frame: on a normal, and from all sides
 uniform mat3 rest_to_world;   // how the head is turned, with the figure's scale
 uniform float lips_apart;    // 0: closed, where the photo shows them so; 1: as they are without it
-uniform float lashes;        // 1: seen on shut lids; those of open ones are in the photo
+uniform bool lashes;         // seen on shut lids; those of open ones are in the photo
 uniform float yields;        // millimetres by which it lies behind what is as near
 
 out vec2 place;
@@ -24,7 +25,7 @@ out vec4 grain_from;  // place, whether there is one, how bright it is round it
 out float crease;
 out float shadow;
 out float covering;
-flat out vec3 settings;  // brightness, ragged, blends: in software a uniform costs a pixel more
+flat out vec3 settings;  // brightness, ragged, blends (1 or 0): in software a uniform costs a pixel more
 
 void main() {
   vec3 world = TransformVertex();
@@ -32,15 +33,15 @@ void main() {
     vec4 farther = world_to_clip * vec4(world + yields * normalize(world - eye), 1.0);
     gl_Position.z = farther.z / farther.w * gl_Position.w;
   }
-  settings = vec3(brightness, ragged, blends);
+  settings = vec3(brightness, float(ragged), float(blends));
   place = unrolled;
   float lid = photo_texcoord.w;
   float closed = rest_position.x < 0.0 ? lids_shut[0] : lids_shut[1];
   // The rim of the lower lid, which has no way to go, is reached last.
   float shut = lid_grain.zw == vec2(0.0) ? smoothstep(0.8, 1.0, closed) : smoothstep(0.1, 0.4, closed);
   texcoord = vec3(photo_texcoord.xy + closed * lid_grain.zw, photo_texcoord.z * (1.0 - lid * shut));
-  bool grained = lid_grain.x > 0.0;
-  grain_from = grained ? vec4(lid_grain.xy, 1.0, albedo_openness.a) : vec4(photo_texcoord.xy, 0.0, 1.0);
+  bool of_lid = lid_skin.x > 0.5;
+  grain_from = of_lid ? vec4(lid_grain.xy, 1.0, lid_skin.y) : vec4(photo_texcoord.xy, 0.0, 1.0);
   // A lip that rolls inward is paint in part, and the more so as it turns away.
   float roll = smoothstep(0.0, 0.3, 1.0 - photo_texcoord.z);
   float facing = smoothstep(-0.05, 0.6, dot(WorldNormal(), normalize(eye - world)));
@@ -48,7 +49,7 @@ void main() {
   if (photo_texcoord.z > 0.0 && roll > 0.0) texcoord.z = mix(1.0, texcoord.z, lips_apart);
   // The shadow that a dropped chin throws on the neck, which goes with it. The jaw's line rises to the sides.
   float below = chin_y + 0.012 * rest_position.x * rest_position.x - rest_position.y;
-  shadow = 1.0 - chin_shadow * ragged * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *
+  shadow = 1.0 - chin_shadow * float(ragged) * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *
                      exp(-max(below, 0.0) / 14.0) * smoothstep(59.0, 36.0, abs(rest_position.x));
   // The photo has the light on the face at rest; what turns with an expression is lit as it faces then
   // (an expression ratio image, Liu, Shan and Zhang 2001).
@@ -60,8 +61,8 @@ void main() {
     float change = sqrt(light.x / light.y) - 1.0;
     shadow *= 1.0 + follows * change / (1.0 + 3.0 * abs(change));
   }
-  covering = opacity * mix(1.0, smoothstep(0.4, 0.9, closed), lashes);
+  covering = opacity * (lashes ? smoothstep(0.4, 0.9, closed) : 1.0);
   // The sheet shows what is beside the face.
-  crease = (1.0 - ragged) * CreaseDepth();
-  paint = sqrt(max(albedo_openness.rgb * (grained ? 1.0 : albedo_openness.a), 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
+  crease = ragged ? 0.0 : CreaseDepth();
+  paint = sqrt(max(albedo_openness.rgb * (of_lid ? 1.0 : albedo_openness.a), 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
 }
