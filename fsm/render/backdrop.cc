@@ -37,7 +37,7 @@ void Backdrop::Draw(const Scene& scene, int width, int height) {
   }
   wide_ = static_cast<float>(width) / static_cast<float>(height);
   if (IsPictured(scene)) {
-    gl_.ActiveTexture(GL_TEXTURE0);
+    gl_.ActiveTexture(NameOf(TextureUnit::kPass));
     gl_.BindTexture(GL_TEXTURE_2D, texture_);
     Upload(scene.background_image);
     // A picture of the view's own size is shown pixel by pixel.
@@ -55,7 +55,7 @@ void Backdrop::Draw(const Scene& scene, int width, int height) {
 
 void Backdrop::Veil(const Scene& scene, float opacity) {
   if (IsPictured(scene)) {
-    gl_.ActiveTexture(GL_TEXTURE0);
+    gl_.ActiveTexture(NameOf(TextureUnit::kPass));
     gl_.BindTexture(GL_TEXTURE_2D, texture_);
   }
   gl_.Enable(GL_BLEND);
@@ -68,9 +68,9 @@ void Backdrop::Veil(const Scene& scene, float opacity) {
 
 void Backdrop::Cover(const Scene& scene, float opacity) {
   program_.Use();
-  program_.Set("picture", 0);
-  program_.Set("pictured", IsPictured(scene) ? 1 : 0);
-  program_.Set("studio", scene.show_background && scene.studio ? 1 : 0);
+  program_.Set("picture", TextureUnit::kPass);
+  program_.Set("pictured", IsPictured(scene));
+  program_.Set("studio", scene.show_background && scene.studio);
   program_.Set("wide", wide_);
   program_.Set("plain", scene.show_background ? scene.background : glm::vec3(0));
   program_.Set("opacity", opacity);

@@ -30,7 +30,7 @@ void EyeMaterial::Begin(const MaterialFrame& frame) const {
   program_.Set("beside_photo", frame.head.photo() != nullptr);
   program_.Set("photo_brightness", frame.photo_brightness);
   program_.Set("pictured", pictured);
-  program_.Set("photo", 1);
+  program_.Set("photo", TextureUnit::kPhoto);
   if (pictured) SetPictures(frame, eyes);
 }
 

@@ -70,11 +70,11 @@ void FrameReader::BeginAverage(const GlTarget& target, bool soft, Frame& frame) 
   if (std::exchange(buffer.bytes, BytesOf(image)) != BytesOf(image)) {
     gl_.BufferData(GL_SHADER_STORAGE_BUFFER, buffer.bytes, nullptr, GL_STREAM_READ);
   }
-  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.ActiveTexture(NameOf(TextureUnit::kPass));
   gl_.BindTexture(GL_TEXTURE_2D, target.samples());
   average_->Use();
-  average_->Set("samples", 0);
-  average_->Set("soft", soft ? 1 : 0);
+  average_->Set("samples", TextureUnit::kPass);
+  average_->Set("soft", soft);
   constexpr int kGroup = 8;  // local_size_x and _y
   gl_.DispatchCompute(static_cast<GLuint>((image.width + kGroup - 1) / kGroup),
                       static_cast<GLuint>((image.height + kGroup - 1) / kGroup), 1);

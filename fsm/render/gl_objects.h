@@ -16,6 +16,7 @@
 
 #include "fsm/render/gl_functions.h"
 #include "fsm/render/samples.h"
+#include "fsm/render/texture_unit.h"
 
 namespace fsm {
 
@@ -43,6 +44,7 @@ class GlProgram {
     }
   }
   void Set(const char* name, bool value) const { Set(name, GLint{value}); }
+  void Set(const char* name, TextureUnit unit) const { Set(name, static_cast<GLint>(unit)); }
   void Set(const char* name, const glm::vec3& value) const { Set(name, std::span(&value, 1)); }
   void Set(const char* name, const glm::vec4& value) const { Set(name, std::span(&value, 1)); }
   void Set(const char* name, const glm::mat3& value) const {

@@ -53,12 +53,12 @@ Materials::Materials(const GlFunctions& gl, const Appearance& appearance)
 
 Materials::~Materials() { gl_.DeleteTextures(kTextures, shared_textures_); }
 
-void Materials::Bind(GLuint texture, GLenum unit) {
-  gl_.ActiveTexture(unit);
+void Materials::Bind(GLuint texture, TextureUnit unit) {
+  gl_.ActiveTexture(NameOf(unit));
   gl_.BindTexture(GL_TEXTURE_2D, texture);
 }
 
-void Materials::BindOrPlain(GLuint texture, GLenum unit) {
+void Materials::BindOrPlain(GLuint texture, TextureUnit unit) {
   Bind(texture != 0 ? texture : shared_textures_[kPlain], unit);
 }
 
@@ -80,12 +80,12 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
     if (program) programs.push_back(&*program);
   }
   if (pbr_) programs.push_back(&*pbr_);
-  Bind(shared_textures_[kNoise], GL_TEXTURE0);
-  Bind(shared_textures_[kStrands], GL_TEXTURE3);
+  Bind(shared_textures_[kNoise], TextureUnit::kNoise);
+  Bind(shared_textures_[kStrands], TextureUnit::kStrands);
   for (const GlProgram* program : programs) {
     program->Use();
-    program->Set("noise", 0);
-    program->Set("strands", 3);
+    program->Set("noise", TextureUnit::kNoise);
+    program->Set("strands", TextureUnit::kStrands);
     SetLight(*program, frame);
   }
   SetSurface(surface_, frame);
@@ -99,15 +99,15 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   if (!pbr_) return;
   pbr_->Use();
   pbr_->Set("brightness", frame.photo_brightness);
-  pbr_->Set("photo", 1);
-  pbr_->Set("normal_map", 4);
-  pbr_->Set("emissive_map", 5);
+  pbr_->Set("photo", TextureUnit::kPhoto);
+  pbr_->Set("normal_map", TextureUnit::kNormalMap);
+  pbr_->Set("emissive_map", TextureUnit::kEmissiveMap);
 }
 
 void Materials::SetSurface(const GlProgram& program, const MaterialFrame& frame) const {
   program.Use();
-  program.Set("tint", 1);
-  program.Set("relief", 2);
+  program.Set("tint", TextureUnit::kTint);
+  program.Set("relief", TextureUnit::kRelief);
   program.Set("head_up", glm::normalize(frame.rest_to_world[1]));
   SetCreases(program, frame);
 }
@@ -125,14 +125,14 @@ void Materials::Use(const DrawnPart& drawn) {
   }
   if (PhotoMaterial::Draws(part.material, *head_)) {
     photo_.Use(drawn, *head_, creased_);
-    BindOrPlain(head_textures_->photo(), GL_TEXTURE1);
-    return BindOrPlain(head_textures_->skin_relief(), GL_TEXTURE2);
+    BindOrPlain(head_textures_->photo(), TextureUnit::kPhoto);
+    return BindOrPlain(head_textures_->skin_relief(), TextureUnit::kRelief);
   }
   switch (part.material) {
     case Material::kSclera:
     case Material::kIris:
     case Material::kPupil:
-      BindOrPlain(head_textures_->photo(), GL_TEXTURE1);
+      BindOrPlain(head_textures_->photo(), TextureUnit::kPhoto);
       return eye_.program().Use();
     case Material::kHair:
       return UseHair(1.0F, 1.0F);
@@ -166,8 +166,9 @@ void Materials::UseSurface(const DrawnPart& drawn) {
   program.Set("bump", surface.bump);
   program.Set("planar", surface.planar);
   program.Set("chroma", head_->topology().portrait.saturation);
-  BindOrPlain(threads ? 0 : head_textures_->tint(), GL_TEXTURE1);
-  BindOrPlain(threads ? shared_textures_[kWeave] : head_textures_->skin_relief(), GL_TEXTURE2);
+  BindOrPlain(threads ? 0 : head_textures_->tint(), TextureUnit::kTint);
+  BindOrPlain(threads ? shared_textures_[kWeave] : head_textures_->skin_relief(),
+              TextureUnit::kRelief);
 }
 
 void Materials::UsePbr(const PbrMaterial& pbr) {
@@ -180,9 +181,9 @@ void Materials::UsePbr(const PbrMaterial& pbr) {
   pbr_->Set("light_from", pbr.light_from);
   pbr_->Set("glow", pbr.glow);
   pbr_->Set("shade", pbr.shade);
-  BindOrPlain(head_textures_->photo(), GL_TEXTURE1);
-  Bind(head_textures_->normal_map(), GL_TEXTURE4);
-  Bind(head_textures_->emissive_map(), GL_TEXTURE5);
+  BindOrPlain(head_textures_->photo(), TextureUnit::kPhoto);
+  Bind(head_textures_->normal_map(), TextureUnit::kNormalMap);
+  Bind(head_textures_->emissive_map(), TextureUnit::kEmissiveMap);
 }
 
 void Materials::UseHair(float streaks, float shine) {

@@ -35,9 +35,9 @@ class Materials {
  private:
   enum Texture { kNoise, kWeave, kStrands, kPlain, kTextures };
 
-  void Bind(GLuint texture, GLenum unit);
+  void Bind(GLuint texture, TextureUnit unit);
   /// 0: of one colour.
-  void BindOrPlain(GLuint texture, GLenum unit);
+  void BindOrPlain(GLuint texture, TextureUnit unit);
   void SetSurface(const GlProgram& program, const MaterialFrame& frame) const;
   void UseSurface(const DrawnPart& part);
   void UsePbr(const PbrMaterial& pbr);

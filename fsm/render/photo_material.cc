@@ -31,8 +31,8 @@ void PhotoMaterial::Begin(const MaterialFrame& frame, const MouthMaterial& mouth
     program->Use();
     SetCreases(*program, frame);
     program->Set("lids_shut", frame.vertices.lids_shut.InOrder());
-    program->Set("photo", 1);
-    program->Set("relief", 2);
+    program->Set("photo", TextureUnit::kPhoto);
+    program->Set("relief", TextureUnit::kRelief);
     program->Set("blends", HasSoftLayers(frame.head.topology()));
     program->Set("brightness", frame.photo_brightness);
     program->Set("rest_to_world", frame.rest_to_world);
