@@ -27,7 +27,7 @@ struct FsmCore {
   Scene scene{};
   bool simulates = true;  ///< what hangs on springs swings
   /// Called after every command, because something may move now, or look different.
-  std::function<void()> changed{};
+  std::function<void()> changed = [] {};
   /// Every slot declared with Declare, with its value at start, for `Run = INIT`.
   std::vector<std::pair<std::string, std::string>> initial_values{};
   std::size_t declared_at_start = 0;  ///< how many of them the module itself has

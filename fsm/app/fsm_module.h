@@ -3,15 +3,15 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "fsm/app/capture.h"
-#include "fsm/app/film_recorder.h"
+#include "fsm/app/capture_slots.h"
+#include "fsm/app/frame_slots.h"
 #include "fsm/app/fsm_core.h"
 #include "fsm/app/mask_slots.h"
-#include "fsm/app/picture_stream.h"
+#include "fsm/app/picture_slots.h"
+#include "fsm/app/record_slots.h"
 #include "fsm/app/scene_slots.h"
 #include "fsm/app/speech_slots.h"
 #include "fsm/faces/original_config.h"
@@ -51,24 +51,16 @@ class FsmModule final : public vm::Module {
 
  private:
   void ApplyConfig(const OriginalConfig& config);
-  void MakeFilms();  // and captures
   void MakeMotion();
   vm::Result<void> BeginLife();  // as FsmOptions::life says
   void Initialise();             // Run = INIT
-  void DeclareRecording();
-  void DeclarePictures();
-  void DeclareCapture();
-  void DeclareFrame();
+  void Connect();                // what parts tell each other, once all are there
   void Changed();
   void ArmFrames();
   void ArmEnd();
   void OnFrame();
   vm::Time FrameAfter(vm::Time t) const;
   vm::Time BusyUntil() const;
-  void ReportFrame(long number, vm::Time at);
-  void TellFrame(vm::Time at);  // Frame.to
-  vm::Result<void> DrawFrame(long number, vm::Time at);
-  vm::Result<std::string> StopFilm();
 
   FsmOptions options_;
   MotionTables tables_;
@@ -77,13 +69,11 @@ class FsmModule final : public vm::Module {
   std::unique_ptr<MaskSlots> mask_;
   std::unique_ptr<SceneSlots> scene_;
   std::unique_ptr<SpeechSlots> speech_;
-  std::unique_ptr<FilmRecorder> film_;
-  std::unique_ptr<Capture> capture_;
-  std::unique_ptr<PictureStream> pictures_;
+  std::unique_ptr<FrameSlots> frames_;  // outlives those that draw by it
+  std::unique_ptr<RecordSlots> record_;
+  std::unique_ptr<CaptureSlots> capture_;
+  std::unique_ptr<PictureSlots> pictures_;
   double frame_rate_ = 60;
-  long frames_shown_ = 0;
-  std::string frame_to_;                        // the module that is told each frame; empty: none
-  std::optional<std::string> unmeasured_mask_;  // the face whose head Frame could not measure
   vm::Timer frame_timer_{core_.clock};
   vm::Time frame_due_{0};
   vm::Timer end_timer_{core_.clock};

@@ -19,8 +19,7 @@ std::string LengthOf(const vm::PhonemeList& list) {
 
 }  // namespace
 
-SpeechSlots::SpeechSlots(FsmCore& core, Listener listener)
-    : core_(core), listener_(std::move(listener)) {
+SpeechSlots::SpeechSlots(FsmCore& core) : core_(core) {
   DeclareListSlots();
   DeclareSpeakSlots();
   DeclareSettings();
@@ -207,13 +206,13 @@ void SpeechSlots::Begin() {
   core_.motion->speech.Start(now, list_, start, std::exchange(text_, {}));
   core_.slots.Store("LipSync.text", kNothing);
   if (start > now) {
-    timer_.At(start, [this] { Speaking(); });
+    timer_.At(start, [this] { TellSpeaking(); });
   } else {
-    Speaking();
+    TellSpeaking();
   }
 }
 
-void SpeechSlots::Speaking() {
+void SpeechSlots::TellSpeaking() {
   SetStat(Stat::kSpeaking);
   if (listener_.begun) listener_.begun(*start_);
   WaitForEnd();

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "fsm/app/fsm_core.h"
 #include "vm_protocol/core/phonemes.h"
@@ -20,11 +21,12 @@ class SpeechSlots {
  public:
   struct Listener {
     /// SPEAKING was reached; the utterance stands from `start` on, now or just before.
-    std::function<void(vm::Time start)> begun;
-    std::function<void()> ended;  ///< IDLE was reached
+    std::function<void(vm::Time start)> begun = [](vm::Time) {};
+    std::function<void()> ended = [] {};  ///< IDLE was reached
   };
   /// Declares the slots. `core` outlives this.
-  SpeechSlots(FsmCore& core, Listener listener);
+  explicit SpeechSlots(FsmCore& core);
+  void set_listener(Listener listener) { listener_ = std::move(listener); }
 
   /// Speaking, or about to at a time that is known.
   bool Busy() const { return stat_ == Stat::kSpeaking || (stat_ == Stat::kReady && start_asked_); }
@@ -40,7 +42,7 @@ class SpeechSlots {
   vm::Result<std::string> Prepare(const std::string& text);
   vm::Result<void> Speak(const vm::SetValue& value);
   void Begin();
-  void Speaking();
+  void TellSpeaking();
   void WaitForEnd();
   void Stop();
   void End(vm::PhonemeList spoken);

@@ -1,0 +1,50 @@
+#include "fsm/app/capture_slots.h"
+
+#include <filesystem>
+#include <utility>
+
+namespace fsm {
+
+CaptureSlots::CaptureSlots(FsmCore& core, Capture::Draw draw)
+    : core_(core),
+      capture_(core.clock, core.backend, std::move(draw), [this](const vm::Result<void>& done) {
+        core_.slots.Report("Capture", "DISABLE");
+        if (!done) core_.slots.ReportError("Capture", done.error());
+      }) {
+  core_.slots.Declare(
+      {.name = "Capture",
+       .grammar = "STOP | <word> <word> <number 0.1..120> [ BMP | PNG ]",
+       .initial = "DISABLE",
+       .help =
+           "Numbered pictures of the next utterance, from Speak = NOW to its end: folder, "
+           "prefix, pictures a second. Its value is ENABLE until they are made, else DISABLE. At "
+           "most 36000 of them and 8 GiB.",
+       .on_set = [this](const vm::SetValue& value) { return Set(value); },
+       .saved = false});
+}
+
+vm::Result<std::string> CaptureSlots::Set(const vm::SetValue& value) {
+  if (value.word(0) == "STOP" && value.size() == 1) {
+    capture_.Cancel();
+    return "DISABLE";
+  }
+  if (capture_.running()) {
+    return vm::Fail(vm::Errc::kBusy, "pictures are being captured; wait for IDLE");
+  }
+  std::error_code code;
+  std::filesystem::create_directories(value.word(0), code);
+  if (!std::filesystem::is_directory(value.word(0), code)) {
+    return vm::Fail(vm::Errc::kUnavailable,
+                    "'" + value.word(0) + "' is not a folder and cannot be made one");
+  }
+  const bool png = value.size() > 3 && value.word(3) == "PNG";
+  capture_.Arm({value.word(0), value.word(1), value.number(2), png ? ".png" : ".bmp"});
+  return "ENABLE";
+}
+
+void CaptureSlots::Reset() {
+  capture_.Cancel();
+  core_.slots.Store("Capture", "DISABLE");
+}
+
+}  // namespace fsm

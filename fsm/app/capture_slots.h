@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "fsm/app/capture.h"
+#include "fsm/app/fsm_core.h"
+
+namespace fsm {
+
+/// Numbered pictures of an utterance: the slot Capture.
+class CaptureSlots {
+ public:
+  /// Declares the slot. `core` outlives this, and so does what `draw` uses.
+  CaptureSlots(FsmCore& core, Capture::Draw draw);
+  void Reset();  ///< for `Run = INIT`
+  Capture& capture() { return capture_; }
+  const Capture& capture() const { return capture_; }
+
+ private:
+  vm::Result<std::string> Set(const vm::SetValue& value);
+
+  FsmCore& core_;
+  Capture capture_;
+};
+
+}  // namespace fsm

@@ -1,0 +1,93 @@
+#include "fsm/app/frame_slots.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "vm_protocol/core/module.h"
+
+namespace fsm {
+
+FrameSlots::FrameSlots(FsmCore& core) : core_(core) {
+  core_.slots.Declare({.name = "Frame",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .help =
+                           "The frame drawn last: NUMBER TIME_MS PHONEME JAW_DEG GAP_MM WIDTH_MM. "
+                           "With AutoOutput every frame is reported; the number counts from 0 in "
+                           "a film."});
+  core_.Declare(
+      {.name = "Frame.to",
+       .grammar = "NONE | <word>",
+       .help =
+           "The module that is told each frame, by its slot FaceFrame, while something moves: "
+           "TIME_MS on this module's clock, 17 mouth parameters, SEAL, TONGUE, the head's DOWN "
+           "RIGHT TILT, DOWN RIGHT of the left and of the right eye in degrees, how far the left "
+           "and the right lids are closed, then UNIT:STRENGTH of every action unit that is not at "
+           "rest (12L:0.7).",
+       .action = [this](const vm::SetValue& value) -> vm::Result<void> {
+         const std::string name = value.word(0);
+         if (name != "NONE" && !vm::IsModuleName(name)) {
+           return vm::Fail(vm::Errc::kBadValue, "'" + name + "' is no name of a module");
+         }
+         to_ = name == "NONE" ? "" : name;
+         Tell(core_.Now());
+         return {};
+       },
+       .initial = "NONE"});
+}
+
+void FrameSlots::Tell(vm::Time at) {
+  if (to_.empty()) return;
+  const FaceState state = core_.motion->StateAt(at);
+  std::string text = vm::FormatMs(at);
+  const auto add = [&text](float value) { text += fmt::format(" {:.4g}", value); };
+  for (const float value : state.mouth) add(value);
+  add(state.lip_seal);
+  add(state.tongue);
+  for (const float angle : state.head_rotation) add(angle);
+  for (const float angle : state.gaze.left) add(angle);
+  for (const float angle : state.gaze.right) add(angle);
+  add(state.blink.left);
+  add(state.blink.right);
+  for (const auto& [units, side] : {std::pair(&state.au.left, 'L'), {&state.au.right, 'R'}}) {
+    for (std::size_t unit = 0; unit < units->size(); ++unit) {
+      if (std::abs((*units)[unit]) < 0.002F) continue;
+      text += fmt::format(" {}{}:{:.3g}", unit, side, (*units)[unit]);
+    }
+  }
+  core_.slots.Say(vm::To(to_, vm::Set("FaceFrame", text)));
+}
+
+void FrameSlots::Report(long number, vm::Time at) {
+  if (!is_reported()) return;
+  // A head that cannot be made is one error, not one for each frame; another may be worn later.
+  const std::string worn = core_.slots.Value("Mask");
+  if (worn == unmeasured_mask_) return;
+  const FaceState state = core_.motion->StateAt(at);
+  const auto mouth = core_.backend.Measure(state);
+  if (!mouth) {
+    unmeasured_mask_ = worn;
+    return core_.slots.ReportError("Frame", mouth.error());
+  }
+  const std::string& phoneme = core_.motion->speech.PhonemeAt(at);
+  core_.slots.Report("Frame", fmt::format("{} {} {} {:.2f} {:.2f} {:.2f}", number, vm::FormatMs(at),
+                                          phoneme.empty() ? "-" : phoneme, mouth->jaw_degrees,
+                                          mouth->gap_mm, mouth->width_mm));
+}
+
+vm::Result<void> FrameSlots::Draw(long number, vm::Time at) {
+  auto drawn = core_.DrawAt(at);
+  if (drawn) Report(number, at);
+  return drawn;
+}
+
+void FrameSlots::Reset() {
+  shown_ = 0;
+  core_.slots.Store("Frame", "");
+  unmeasured_mask_.reset();
+  to_.clear();
+}
+
+}  // namespace fsm

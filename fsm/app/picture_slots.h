@@ -1,0 +1,26 @@
+#pragma once
+
+#include "fsm/app/fsm_core.h"
+#include "fsm/app/picture_stream.h"
+
+namespace fsm {
+
+/// Pictures for another program: Picture.to and Picture.fps.
+class PictureSlots {
+ public:
+  /// Declares the slots. `core` outlives this.
+  explicit PictureSlots(FsmCore& core);
+  void Reset();  ///< for `Run = INIT`
+  void End() { static_cast<void>(pictures_.SendTo("NONE", 1)); }
+  /// Something was said to the face, which may look otherwise now.
+  void Touch() { pictures_.Touch(); }
+
+ private:
+  static constexpr int kPerSecond = 25;
+
+  FsmCore& core_;
+  PictureStream pictures_;
+  int per_second_ = kPerSecond;
+};
+
+}  // namespace fsm

@@ -1,0 +1,78 @@
+#include "fsm/app/record_slots.h"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <utility>
+
+namespace fsm {
+
+RecordSlots::RecordSlots(FsmCore& core, FilmRecorder::Draw draw)
+    : core_(core), film_(core.clock, core.backend, std::move(draw), [this](const vm::Error& error) {
+        core_.slots.Report("Record", "STOP");
+        core_.slots.ReportError("Record", error);
+      }) {
+  core_.Declare(
+      {.name = "Record.sound",
+       .grammar = "<text>",
+       .help = "A WAV file that becomes the film's sound when it is stopped; empty = silent.",
+       .action = [](const vm::SetValue&) -> vm::Result<void> { return {}; }});
+  core_.Declare({.name = "Record.fps",
+                 .grammar = "<int 1..120>",
+                 .help = "Frames a second of films and of Frame reports.",
+                 .action = [this](const vm::SetValue& value) -> vm::Result<void> {
+                   frames_per_second_ = static_cast<int>(value.number(0));
+                   return {};
+                 },
+                 .initial = std::to_string(kFramesPerSecond)});
+  core_.slots.Declare({.name = "Record.start",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .help = "The instant of the film's first frame, in ms on this process's "
+                               "clock; frame k shows the face k / Record.fps seconds later. Empty "
+                               "while there is no film.",
+                       .on_inq = [this]() -> std::string {
+                         return film_.recording() ? vm::FormatMs(film_.start()) : "";
+                       }});
+  core_.slots.Declare(
+      {.name = "Record",
+       .grammar = "STOP | <file>",
+       .initial = "STOP",
+       .help = "Records a film from now on: .mp4; .mov or .webm, which keep what is transparent; "
+               ".mkv, which loses nothing; or "
+               ".rgba, width * height * 4 bytes a frame, into a file or a named pipe that is being "
+               "read. STOP ends it, and answers when it is there.",
+       .on_set = [this](const vm::SetValue& value) { return Set(value.word(0)); },
+       .saved = false});
+}
+
+vm::Result<std::string> RecordSlots::Set(const std::string& file) {
+  if (file == "STOP") return Stop();
+  if (auto started = film_.Start(file, frames_per_second_); !started) {
+    return std::unexpected(started.error());
+  }
+  core_.changed();
+  return file;
+}
+
+vm::Result<std::string> RecordSlots::Stop() {
+  const auto report = film_.Stop(core_.slots.Value("Record.sound"));
+  core_.slots.Store("Record", "STOP");
+  core_.changed();
+  if (!report) return std::unexpected(report.error());
+  std::cerr << fmt::format("fsm: {}: {} frames, {} of them repeated because drawing was late\n",
+                           report->path, report->frames, report->repeated);
+  return "STOP";
+}
+
+void RecordSlots::End() {
+  if (!film_.recording()) return;
+  if (auto stopped = Stop(); !stopped) core_.slots.ReportError("Record", stopped.error());
+}
+
+void RecordSlots::Reset() {
+  End();
+  frames_per_second_ = kFramesPerSecond;
+}
+
+}  // namespace fsm

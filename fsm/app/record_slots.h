@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "fsm/app/film_recorder.h"
+#include "fsm/app/fsm_core.h"
+
+namespace fsm {
+
+/// Films of the face: Record and its settings.
+class RecordSlots {
+ public:
+  /// Declares the slots. `core` outlives this, and so does what `draw` uses.
+  RecordSlots(FsmCore& core, FilmRecorder::Draw draw);
+  void Reset();  ///< for `Run = INIT`, while the motion is the old one
+  /// Ends the film, if there is one; an error is reported.
+  void End();
+
+  bool recording() const { return film_.recording(); }
+  int frames_per_second() const { return frames_per_second_; }
+
+ private:
+  static constexpr int kFramesPerSecond = 30;
+
+  vm::Result<std::string> Set(const std::string& file);
+  vm::Result<std::string> Stop();
+
+  FsmCore& core_;
+  FilmRecorder film_;
+  int frames_per_second_ = kFramesPerSecond;
+};
+
+}  // namespace fsm
