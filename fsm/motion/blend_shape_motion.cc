@@ -18,8 +18,8 @@ vm::Result<void> BlendShapeMotion::Set(vm::Time now, std::string_view name, doub
   return {};
 }
 
-void BlendShapeMotion::Contribute(vm::Time t, MotionFrame& frame) const {
-  ActionUnits& units = frame.Layer("blend_shapes").units;
+void BlendShapeMotion::Contribute(vm::Time t, MotionLayers& layers) const {
+  ActionUnits& units = layers.Layer("blend_shapes").units;
   for (const auto& [name, weight] : weights_)
     AddTo(units, shapes_.find(name)->second, weight.At(t));
 }

@@ -19,7 +19,7 @@ class BlendShapeMotion : public MotionSource {
   /// kBadValue as Check, and for a weight outside 0..2.
   vm::Result<void> Set(vm::Time now, std::string_view name, double weight, vm::Time move);
 
-  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  void Contribute(vm::Time t, MotionLayers& layers) const override;
 
  protected:
   void ForEachTrack(const TrackVisitor& visit) const override;

@@ -12,7 +12,6 @@ namespace {
 constexpr vm::Time kOffset = std::chrono::milliseconds(500);  // of an expression, natural
 constexpr int kMostPatterns = 20;
 constexpr std::size_t kMostExpressions = 200;
-enum ExpressionStream : std::uint64_t { kLateSide = 200, kLag };
 
 }  // namespace
 
@@ -29,8 +28,8 @@ ExpressionMotion::ExpressionMotion(MotionTables& tables, const MotionSettings& s
 
 void ExpressionMotion::DrawLags(std::uint64_t seed) {
   side_lags_ms_ = {};
-  const Side late = RandomAt(seed, kLateSide, 0) < 0 ? Side::kLeft : Side::kRight;
-  side_lags_ms_[late] = 30 + 10 * RandomAt(seed, kLag, 0);
+  const Side late = RandomAt(seed, RandomStream::kLateSide, 0) < 0 ? Side::kLeft : Side::kRight;
+  side_lags_ms_[late] = 30 + 10 * RandomAt(seed, RandomStream::kLag, 0);
 }
 
 // ---- commands
@@ -150,10 +149,10 @@ void ExpressionMotion::Forget(std::string_view name) {
 
 // ---- as a source
 
-void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
+void ExpressionMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   Sided<std::array<ActionUnits, kRegions>> now;
-  frame.AddSignal("expression", shown_.At(t));
-  ActionUnits& out = frame.Layer("expression").units;
+  layers.AddSignal("expression", shown_.At(t));
+  ActionUnits& out = layers.Layer("expression").units;
   for (const Side side : kSides) {
     std::size_t size = 0;
     for (std::size_t part = 0; part < kRegions; ++part) {
@@ -170,10 +169,10 @@ void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   for (std::size_t i = 0; i < emotions_.size(); ++i) {
     const float weight = emotions_[i].At(t);
     if (weight == 0) continue;
-    frame.AddSignal("expression", std::min(1.0F, weight));
+    layers.AddSignal("expression", std::min(1.0F, weight));
     const auto found = tables_.emotions.find(tables_.units.emotions[i]);
     if (found == tables_.emotions.end()) continue;
-    AddTo(frame.Layer("emotions").units, found->second.LookAt(1, weight), 1);
+    AddTo(layers.Layer("emotions").units, found->second.LookAt(1, weight), 1);
   }
 }
 

@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/base/random.h"
 #include "fsm/motion/idle_behaviour.h"
 #include "fsm/motion/motion_settings.h"
 #include "fsm/motion/motion_source.h"
 #include "fsm/motion/motion_tables.h"
+#include "fsm/motion/random_streams.h"
 
 namespace fsm {
 
@@ -45,7 +45,7 @@ class ExpressionMotion : public MotionSource {
   /// to 40 ms. How much weaker one side is belongs to the head.
   void SetPerson(std::uint64_t person) { DrawLags(Scramble(seed_ ^ person)); }
 
-  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  void Contribute(vm::Time t, MotionLayers& layers) const override;
   vm::Time SettledAt(vm::Time t) const override;
   vm::Time FiniteEnd(vm::Time t) const override { return end_.value_or(t); }
 

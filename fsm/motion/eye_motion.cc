@@ -3,14 +3,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "fsm/base/random.h"
+#include "fsm/motion/random_streams.h"
 
 namespace fsm {
 namespace {
 
 constexpr vm::Time kHeadFollows = std::chrono::milliseconds(320);
 constexpr double kHalfPupilsMm = 31;  // half the distance between the pupils
-enum EyeStream : std::uint64_t { kThinkTime = 7, kThinkSide, kThinkHeight, kShiftBlink = 300 };
 
 // There within `move`, and if timed, back when `duration` is over.
 void ThereAndBack(Track<EyeAngles>& track, vm::Time now, const EyeAngles& there, vm::Time move,
@@ -62,7 +61,7 @@ void EyeMotion::BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngle
   // Nearly always with large shifts, seldom with small ones (Evinger et al., Not looking while
   // leaping, 1994).
   const double chance = std::clamp(angle / 20, 0.0, 0.95);
-  if ((RandomAt(seed_, kShiftBlink, ++shifts_) + 1) / 2 < chance) Blink(now, 1);
+  if ((RandomAt(seed_, RandomStream::kShiftBlink, ++shifts_) + 1) / 2 < chance) Blink(now, 1);
 }
 
 void EyeMotion::Gaze(vm::Time now, const EyeAngles& angles, vm::Time duration) {
@@ -95,19 +94,22 @@ void EyeMotion::Blink(vm::Time now, std::size_t pattern, int count) {
 EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
   constexpr double kStay = 1500;  // ms
   const auto jump_ms = [&](std::int64_t k) {
-    return k == 0 ? 0 : kStay * (static_cast<double>(k) + 0.35 * RandomAt(seed_, kThinkTime, k));
+    return k == 0 ? 0
+                  : kStay * (static_cast<double>(k) +
+                             0.35 * RandomAt(seed_, RandomStream::kThinkTime, k));
   };
   const double ms = std::max(0.0, InMs(t - thinking_since_));
   auto k = static_cast<std::int64_t>(std::floor(ms / kStay));
   if (ms < jump_ms(k)) --k;
   if (ms >= jump_ms(k + 1)) ++k;
   // Mostly up and to one side; which side is the person's own and changes now and then.
-  const double habit = RandomAt(seed_, kThinkSide, 0);
+  const double habit = RandomAt(seed_, RandomStream::kThinkSide, 0);
   const auto place = [&](std::int64_t index) -> std::array<double, 2> {
     if (index < 0) return {0, 0};
-    const double side = std::copysign(1, habit + 0.8 * RandomAt(seed_, kThinkSide, index + 1));
+    const double side =
+        std::copysign(1, habit + 0.8 * RandomAt(seed_, RandomStream::kThinkSide, index + 1));
     const auto varied = [&](glm::vec2 row, std::int64_t at) {
-      return Linear(row, static_cast<float>(RandomAt(seed_, kThinkHeight, at)));
+      return Linear(row, static_cast<float>(RandomAt(seed_, RandomStream::kThinkHeight, at)));
     };
     return {varied(gestures_.think.down, index), side * varied(gestures_.think.aside, index + 50)};
   };
@@ -125,8 +127,8 @@ double EyeMotion::LidsShutAt(vm::Time t) const {
   return shut;
 }
 
-void EyeMotion::Contribute(vm::Time t, MotionFrame& frame) const {
-  MotionLayer& layer = frame.Layer("eyes");
+void EyeMotion::Contribute(vm::Time t, MotionLayers& layers) const {
+  MotionLayer& layer = layers.Layer("eyes");
   const float thinking = thinking_.At(t), vergence = vergence_deg_.At(t);
   const EyeAngles thought = thinking > 0 ? ThinkingAt(t) : EyeAngles{};
   const EyeAngles left = turned_.left.At(t), right = turned_.right.At(t);
@@ -140,7 +142,7 @@ void EyeMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   layer.units.gaze.left[kToRight] -= vergence;
   layer.units.gaze.right[kToRight] += vergence;
   layer.lids_shut = static_cast<float>(LidsShutAt(t));
-  frame.AddSignal("at_user", on_user_.At(t));
+  layers.AddSignal("at_user", on_user_.At(t));
 }
 
 vm::Time EyeMotion::BlinksEnd(vm::Time t) const {

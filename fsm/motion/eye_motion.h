@@ -30,7 +30,7 @@ class EyeMotion : public MotionSource {
   void Blink(vm::Time now, std::size_t pattern, int count = 1);
   void StopBlinks() { blinks_.clear(); }
 
-  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  void Contribute(vm::Time t, MotionLayers& layers) const override;
   std::optional<vm::Time> NextActivity(vm::Time t) const override;
   vm::Time FiniteEnd(vm::Time t) const override;
 

@@ -71,12 +71,12 @@ void FaceMotion::Apply(vm::Time now, const MotionSettings& settings) {
 // ---- all sources together
 
 FaceState FaceMotion::StateAt(vm::Time t) const {
-  MotionFrame frame;
-  for (const auto& source : sources_) source->Contribute(t, frame);
+  MotionLayers layers;
+  for (const auto& source : sources_) source->Contribute(t, layers);
   FaceState state;
   state.asymmetry = asymmetry;
   state.figure = figure;
-  tables_.mixer.Mix(frame, tables_.units, state);
+  tables_.mixer.Mix(layers, tables_.units, state);
   return state;
 }
 

@@ -43,8 +43,8 @@ void HeadMotion::StopMoves(vm::Time now) {
   }
 }
 
-void HeadMotion::Contribute(vm::Time t, MotionFrame& frame) const {
-  Angles& angles = frame.Layer("head").head;
+void HeadMotion::Contribute(vm::Time t, MotionLayers& layers) const {
+  Angles& angles = layers.Layer("head").head;
   angles = turn_.At(t);
   for (const Move& move : moves_) {
     if (t >= EndOf(move)) continue;

@@ -25,7 +25,7 @@ class HeadMotion : public MotionSource {
                         int count);
   void StopMoves(vm::Time now);
 
-  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  void Contribute(vm::Time t, MotionLayers& layers) const override;
   std::optional<vm::Time> NextActivity(vm::Time t) const override;
   vm::Time FiniteEnd(vm::Time t) const override;
 

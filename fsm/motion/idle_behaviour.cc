@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "fsm/base/random.h"
 #include "fsm/motion/motion_errors.h"
 
 namespace fsm {
@@ -13,18 +12,6 @@ namespace {
 using namespace std::chrono_literals;
 constexpr vm::Time kIdleFade = 400ms;
 constexpr vm::Time kQuickFade = 60ms;
-
-// Streams of random numbers, one for each thing that varies.
-enum Stream : std::uint64_t {
-  kBlinkTime,
-  kBlinkDepth,
-  kGazeTime,
-  kGazeX,
-  kGazeY,
-  kNodTime,
-  kNodSize,
-  kHeadWander = 10  // and the five that follow
-};
 
 Angles Looped(const HeadCurve& curve, double ms) {
   return curve.At(std::fmod(std::max(0.0, ms), curve.length_ms()));
@@ -100,11 +87,13 @@ void IdleBehaviour::ForEachTrack(const TrackVisitor& visit) const {
   for (const Switch& own : switches_) visit(own.weight);
 }
 
-double IdleBehaviour::Random(std::uint64_t stream, std::int64_t index) const {
+double IdleBehaviour::Random(RandomStream stream, std::int64_t index) const {
   return RandomAt(seed_, stream, index);
 }
 
-double IdleBehaviour::Wander(std::uint64_t stream, double periods) const {
+double IdleBehaviour::Wander(std::size_t wave, double periods) const {
+  const auto stream =
+      static_cast<RandomStream>(static_cast<std::size_t>(RandomStream::kHeadWander) + wave);
   const double cell = std::floor(periods);
   const auto index = static_cast<std::int64_t>(cell);
   const double u = SmootherStep(periods - cell);
@@ -123,8 +112,8 @@ void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double slow = InMs(t) / move.period_ms + 0.37 * static_cast<double>(axis);
     const double fast = slow * gestures_.wander.faster;
-    const double way = gestures_.wander.slow * Wander(kHeadWander + 2 * axis, slow) +
-                       gestures_.wander.fast * Wander(kHeadWander + 2 * axis + 1, fast);
+    const double way = gestures_.wander.slow * Wander(2 * axis, slow) +
+                       gestures_.wander.fast * Wander(2 * axis + 1, fast);
     out[axis] += static_cast<float>(weight * way * move.amplitude[axis]);
   }
 }
@@ -137,20 +126,21 @@ void IdleBehaviour::AddNods(vm::Time t, Angles& out) const {
   const double ms = InMs(t - own.since);
   const auto k = static_cast<std::int64_t>(std::floor(ms / nods.interval_ms));
   if (ms < 0) return;
-  const auto varied = [&](glm::vec2 row, Stream stream) {
+  const auto varied = [&](glm::vec2 row, RandomStream stream) {
     return Linear(row, static_cast<float>(Random(stream, k)));
   };
   const double since =
-      ms - nods.interval_ms * (static_cast<double>(k) + varied(gestures_.nod.begins, kNodTime));
-  const double size = nods.angle * varied(gestures_.nod.size, kNodSize);
+      ms - nods.interval_ms *
+               (static_cast<double>(k) + varied(gestures_.nod.begins, RandomStream::kNodTime));
+  const double size = nods.angle * varied(gestures_.nod.size, RandomStream::kNodSize);
   const double down = Swing(since / gestures_.nod.lasts) +
                       gestures_.second_nod.size *
                           Swing((since - gestures_.second_nod.after) / gestures_.second_nod.lasts);
   out[kDown] += static_cast<float>(weight * size * down);
 }
 
-void IdleBehaviour::Contribute(vm::Time t, MotionFrame& frame) const {
-  MotionLayer& layer = frame.Layer("idle");
+void IdleBehaviour::Contribute(vm::Time t, MotionLayers& layers) const {
+  MotionLayer& layer = layers.Layer("idle");
   AddMove(t, layer.head);
   if (const Switch& own = Of(IdleKind::kUserdef); own.pattern > 0) {
     Add(layer.head, Looped(patterns_.auto_userdef[own.pattern - 1], InMs(t - own.since)),
@@ -164,9 +154,9 @@ void IdleBehaviour::Contribute(vm::Time t, MotionFrame& frame) const {
   }
   layer.units.gaze.left = layer.units.gaze.right = EyesAt(t);
   layer.lids_shut = static_cast<float>(LidsShutAt(t));
-  AddNods(t, frame.Layer("nods").head);
+  AddNods(t, layers.Layer("nods").head);
   if (const Switch& own = Of(IdleKind::kFace); own.pattern > 0) {
-    AddTo(frame.Layer("idle_face").units, patterns_.auto_faces[own.pattern - 1], own.weight.At(t));
+    AddTo(layers.Layer("idle_face").units, patterns_.auto_faces[own.pattern - 1], own.weight.At(t));
   }
 }
 
@@ -187,16 +177,18 @@ EyeAngles IdleBehaviour::EyesAt(vm::Time t) const {
   if (weight <= 0) return {};
   // One jump in each interval: fixations of very different lengths.
   const auto jump_ms = [&](std::int64_t k) {
-    return gaze.interval_ms * (static_cast<double>(k) + 0.5 + 0.45 * Random(kGazeTime, k));
+    return gaze.interval_ms *
+           (static_cast<double>(k) + 0.5 + 0.45 * Random(RandomStream::kGazeTime, k));
   };
   const double now_ms = InMs(t);
   auto k = static_cast<std::int64_t>(std::floor(now_ms / gaze.interval_ms));
   if (now_ms < jump_ms(k)) --k;
-  const auto place = [&](std::uint64_t stream, double share, std::int64_t index) {
+  const auto place = [&](RandomStream stream, double share, std::int64_t index) {
     return share * gaze.amplitude * Random(stream, index);
   };
-  const double x0 = place(kGazeX, 1, k - 1), x1 = place(kGazeX, 1, k);
-  const double y0 = place(kGazeY, 0.6, k - 1), y1 = place(kGazeY, 0.6, k);
+  const double x0 = place(RandomStream::kGazeX, 1, k - 1), x1 = place(RandomStream::kGazeX, 1, k);
+  const double y0 = place(RandomStream::kGazeY, 0.6, k - 1),
+               y1 = place(RandomStream::kGazeY, 0.6, k);
   // The main sequence of saccades: 21 ms and 2.2 ms a degree.
   const double u = SmootherStep((now_ms - jump_ms(k)) / (21 + 2.2 * std::hypot(x1 - x0, y1 - y0)));
   return {static_cast<float>(weight * (y0 + u * (y1 - y0))),
@@ -208,8 +200,9 @@ vm::Time IdleBehaviour::BlinkInterval(std::int64_t index) const {
   // (nearly normal) is nearly log-normal; bounded to half and one and a half of the mean.
   const double mean = patterns_.auto_blinks[Of(IdleKind::kBlink).pattern - 1].interval_ms;
   const std::int64_t n = 3 * index;
-  const double normal =
-      Random(kBlinkTime, n) + Random(kBlinkTime, n + 1) + Random(kBlinkTime, n + 2);
+  const double normal = Random(RandomStream::kBlinkTime, n) +
+                        Random(RandomStream::kBlinkTime, n + 1) +
+                        Random(RandomStream::kBlinkTime, n + 2);
   const double interval = mean * std::clamp(0.93 * std::exp(0.4 * normal), 0.5, 1.5);
   return FromMs(index == 0 ? 0.6 * interval : interval);
 }
@@ -238,7 +231,7 @@ double IdleBehaviour::LidsShutAt(vm::Time t) const {
   if (blink.index < 0) return 0;
   // Half of people's blinks do not shut the eye quite.
   const double depth =
-      blinks.varied ? std::min(1.0, 0.9 + 0.2 * Random(kBlinkDepth, blink.index)) : 1;
+      blinks.varied ? std::min(1.0, 0.9 + 0.2 * Random(RandomStream::kBlinkDepth, blink.index)) : 1;
   return weight * depth * LidsAt(patterns_.blinks[blinks.blink], t - blink.start);
 }
 

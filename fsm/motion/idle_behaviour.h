@@ -7,6 +7,7 @@
 #include "embedded/gesture_numbers.h"
 #include "fsm/motion/motion_patterns.h"
 #include "fsm/motion/motion_source.h"
+#include "fsm/motion/random_streams.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {
@@ -34,7 +35,7 @@ class IdleBehaviour : public MotionSource {
   double Weight(IdleKind kind, vm::Time t) const { return Of(kind).weight.At(t); }
 
   double LidsShutAt(vm::Time t) const;
-  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  void Contribute(vm::Time t, MotionLayers& layers) const override;
   std::optional<vm::Time> NextActivity(vm::Time t) const override;
   vm::Time SettledAt(vm::Time t) const override { return t; }
 
@@ -49,8 +50,8 @@ class IdleBehaviour : public MotionSource {
     Track<float> weight;
   };
   const Switch& Of(IdleKind kind) const { return switches_[static_cast<std::size_t>(kind)]; }
-  double Random(std::uint64_t stream, std::int64_t index) const;  // -1..1
-  double Wander(std::uint64_t stream, double periods) const;      // smooth, -1..1
+  double Random(RandomStream stream, std::int64_t index) const;  // -1..1
+  double Wander(std::size_t wave, double periods) const;         // 0..5; smooth, -1..1
   void AddMove(vm::Time t, Angles& out) const;
   void AddNods(vm::Time t, Angles& out) const;
   double BreathAt(vm::Time t) const;  // 0 = out, 1 = in; times the switch's weight

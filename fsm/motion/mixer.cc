@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstring>
 #include <set>
 #include <span>
 
@@ -20,7 +19,7 @@ class Mixer::Reader {
     for (const TableRow& row : table.rows()) ReadRow(row);
     for (std::size_t i = 0; i < kChannels; ++i) {
       if (seen_[i]) continue;
-      table.Fail(fmt::format("no row says how channel '{}' is mixed", kWeighedNames[i]));
+      table.Fail(fmt::format("no row says how channel '{}' is mixed", kTargetNames[i]));
     }
     return std::move(out_);
   }
@@ -45,13 +44,13 @@ class Mixer::Reader {
   }
 
   void ReadChannel(const TableRow& row) {
-    const auto found = std::ranges::find(kWeighedNames, row.Word(1));
-    const auto index = static_cast<std::size_t>(found - kWeighedNames.begin());
+    const auto found = std::ranges::find(kTargetNames, row.Word(1));
+    const auto index = static_cast<std::size_t>(found - kTargetNames.begin());
     const std::string& how = row.Word(2);
     if (index >= kChannels || (how != "sum" && how != "greatest")) {
       row.Fail(
           fmt::format("'{} {}' found; {} with sum or greatest expected", row.Word(1), how,
-                      fmt::join(kWeighedNames.begin(), kWeighedNames.begin() + kChannels, ", ")));
+                      fmt::join(kTargetNames.begin(), kTargetNames.begin() + kChannels, ", ")));
     }
     ChannelRule& channel = out_.channels_[index];
     channel = {.greatest = how == "greatest"};
@@ -90,11 +89,11 @@ class Mixer::Reader {
 
   void ReadWeight(const TableRow& row) {
     Rules& layer = row.Word(1) == "result" ? out_.result_ : LayerAt(row);
-    const auto found = std::ranges::find(kWeighedNames, row.Word(2));
-    if (found == kWeighedNames.end()) {
-      row.Fail(fmt::format("'{}' found; {} expected", row.Word(2), fmt::join(kWeighedNames, ", ")));
+    const auto found = std::ranges::find(kTargetNames, row.Word(2));
+    if (found == kTargetNames.end()) {
+      row.Fail(fmt::format("'{}' found; {} expected", row.Word(2), fmt::join(kTargetNames, ", ")));
     }
-    layer.weights.push_back({static_cast<Weighed>(found - kWeighedNames.begin()), SignalAt(row, 3),
+    layer.weights.push_back({static_cast<Target>(found - kTargetNames.begin()), SignalAt(row, 3),
                              row.Number(4, "a factor", 0, 10)});
   }
 
@@ -123,40 +122,35 @@ const Mixer::Rules& Mixer::RulesOf(std::string_view layer) const {
   return kInFull;
 }
 
-Mixer::Weights Mixer::WeightsOf(const Rules& rules, const MotionFrame& frame) {
-  Weights weights;
-  weights.fill(1);
-  for (const Weight& rule : rules.weights) {
-    weights[rule.weighed] *= 1 - (1 - rule.factor) * frame.Signal(rule.signal);
+Mixer::Factors Mixer::FactorsOf(const Rules& rules, const MotionLayers& layers) {
+  Factors factors;
+  factors.fill(1);
+  for (const WeightRule& rule : rules.weights) {
+    factors[rule.target] *= 1 - (1 - rule.factor) * layers.Signal(rule.signal);
   }
-  return weights;
+  return factors;
 }
 
-double Mixer::OfUnit(const Weights& weights, const UnitList& units, std::size_t unit) {
-  constexpr std::array<Weighed, kRegions> kWeighedOf = {kEye, kBrow, kLips};
-  const double own = weights[kWeighedOf[static_cast<std::size_t>(units.RegionOf(unit))]];
-  return weights[kUnits] * own * (units.Opens(unit) ? weights[kOpening] : 1);
+double Mixer::OfUnit(const Factors& factors, const UnitList& units, std::size_t unit) {
+  constexpr std::array<Target, kRegions> kTargetOf = {kEyeUnits, kBrowUnits, kMouthUnits};
+  const double own = factors[kTargetOf[static_cast<std::size_t>(units.RegionOf(unit))]];
+  return factors[kUnits] * own * (units.Opens(unit) ? factors[kOpeningUnits] : 1);
 }
 
-void Mixer::Add(const MotionLayer& layer, const Rules& rules, const Weights& weights,
+void Mixer::Add(const MotionLayer& layer, const Rules& rules, const Factors& factors,
                 const UnitList& units, MotionLayer& total) const {
   const bool in_full = rules.weights.empty();
-  const auto join = [&](Weighed weighed, auto& sum, const auto& asked) {
+  const auto join = [&](Target target, auto& sum, const auto& asked) {
     for (std::size_t i = 0; i < sum.size(); ++i) {
-      channels_[weighed].Join(sum[i], weights[weighed] * asked[i]);
+      channels_[target].Join(sum[i], factors[target] * asked[i]);
     }
   };
   const auto join_units = [&](UnitValues& sum, const UnitValues& asked) {
-    // Most layers ask nothing of the units, which is seen fastest in one piece.
-    static const UnitValues kRest;
-    const std::size_t bytes = kRest.size() * sizeof(float);
-    if (asked.size() == kRest.size() && std::memcmp(asked.begin(), kRest.begin(), bytes) == 0) {
-      return;
-    }
+    if (asked.AtRest()) return;
     const std::span strengths(asked.begin(), asked.size());
     for (std::size_t unit = 0; unit < strengths.size(); ++unit) {
       if (strengths[unit] == 0) continue;
-      const double weight = in_full ? 1 : OfUnit(weights, units, unit);
+      const double weight = in_full ? 1 : OfUnit(factors, units, unit);
       channels_[kUnits].Join(sum[unit], weight * strengths[unit]);
     }
   };
@@ -166,45 +160,45 @@ void Mixer::Add(const MotionLayer& layer, const Rules& rules, const Weights& wei
   }
   join(kMouth, total.mouth, layer.mouth);
   join(kMouth, total.mouth_by_hand, layer.mouth_by_hand);
-  channels_[kMouth].Join(total.seal, weights[kMouth] * layer.seal);
-  channels_[kMouth].Join(total.tongue, weights[kMouth] * layer.tongue);
+  channels_[kMouth].Join(total.seal, factors[kMouth] * layer.seal);
+  channels_[kMouth].Join(total.tongue, factors[kMouth] * layer.tongue);
   join(kHead, total.head, layer.head);
-  channels_[kHead].Join(total.head_forward_mm, weights[kHead] * layer.head_forward_mm);
-  channels_[kLids].Join(total.lids_shut, weights[kLids] * layer.lids_shut);
+  channels_[kHead].Join(total.head_forward_mm, factors[kHead] * layer.head_forward_mm);
+  channels_[kLids].Join(total.lids_shut, factors[kLids] * layer.lids_shut);
 }
 
-void Mixer::Mix(const MotionFrame& frame, const UnitList& units, FaceState& state) const {
+void Mixer::Mix(const MotionLayers& layers, const UnitList& units, FaceState& state) const {
   MotionLayer total;
-  for (const auto& [name, layer] : frame.layers()) {
+  for (const auto& [name, layer] : layers.all()) {
     const Rules& rules = RulesOf(name);
-    const Weights weights = WeightsOf(rules, frame);
-    Add(layer, rules, weights, units, total);
+    const Factors factors = FactorsOf(rules, layers);
+    Add(layer, rules, factors, units, total);
     if (!rules.steady) continue;
     const Steady& steady = *rules.steady;
-    const double share = steady.signal.empty() ? 1 : frame.Signal(steady.signal);
+    const double share = steady.signal.empty() ? 1 : layers.Signal(steady.signal);
     for (std::size_t axis = 0; axis < 2; ++axis) {
-      const auto turn = static_cast<float>(weights[kHead] * layer.head[axis]);
+      const auto turn = static_cast<float>(factors[kHead] * layer.head[axis]);
       const auto back =
           static_cast<float>(share * std::clamp(turn, -steady.limit_deg, steady.limit_deg));
       for (const Side side : kSides) total.units.gaze[side][axis] -= back;
     }
   }
-  Place(total, WeightsOf(result_, frame), units, state);
+  Place(total, FactorsOf(result_, layers), units, state);
 }
 
-void Mixer::Place(const MotionLayer& total, const Weights& weights, const UnitList& units,
+void Mixer::Place(const MotionLayer& total, const Factors& factors, const UnitList& units,
                   FaceState& state) const {
-  const auto result = [&](Weighed weighed, float value) {
-    return static_cast<float>(weights[weighed] * channels_[weighed].Limited(value));
+  const auto result = [&](Target target, float value) {
+    return static_cast<float>(factors[target] * channels_[target].Limited(value));
   };
-  const auto place = [&](Weighed weighed, auto& to, const auto& values) {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] = result(weighed, values[i]);
+  const auto place = [&](Target target, auto& to, const auto& values) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] = result(target, values[i]);
   };
   const auto place_units = [&](UnitValues& to, const UnitValues& values) {
     std::size_t unit = 0;
     Combine(to, values, [&](float& strength, float value) {
       float limited = channels_[kUnits].Limited(value);
-      if (limited != 0) limited = static_cast<float>(OfUnit(weights, units, unit) * limited);
+      if (limited != 0) limited = static_cast<float>(OfUnit(factors, units, unit) * limited);
       strength = limited;
       ++unit;
     });

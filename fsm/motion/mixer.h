@@ -23,16 +23,27 @@ class Mixer {
 
   /// Sets the units, mouth, head, eyes and lids of `state`; the rest stays as it is. `units` says
   /// which group a unit belongs to.
-  void Mix(const MotionFrame& frame, const UnitList& units, FaceState& state) const;
+  void Mix(const MotionLayers& layers, const UnitList& units, FaceState& state) const;
 
  private:
   class Reader;
   /// What can be weighed: the channels, then groups within the units.
-  enum Weighed { kUnits, kMouth, kHead, kGaze, kLids, kEye, kBrow, kLips, kOpening, kWeighedCount };
-  static constexpr std::array<std::string_view, kWeighedCount> kWeighedNames = {
+  enum Target {
+    kUnits,
+    kMouth,
+    kHead,
+    kGaze,
+    kLids,
+    kEyeUnits,
+    kBrowUnits,
+    kMouthUnits,
+    kOpeningUnits,
+    kTargets
+  };
+  static constexpr std::array<std::string_view, kTargets> kTargetNames = {
       "units",     "mouth",      "head",        "gaze",         "lids",
       "eye_units", "brow_units", "mouth_units", "opening_units"};
-  static constexpr std::size_t kChannels = kEye;
+  static constexpr std::size_t kChannels = kEyeUnits;
 
   struct ChannelRule {
     bool greatest = false;  // else the sum
@@ -45,8 +56,8 @@ class Mixer {
     }
     float Limited(float total) const { return std::clamp(total, lowest, highest); }
   };
-  struct Weight {
-    Weighed weighed;
+  struct WeightRule {
+    Target target;
     std::string signal;
     double factor;
   };
@@ -55,17 +66,17 @@ class Mixer {
     std::string signal;  // "" = always
   };
   struct Rules {
-    std::vector<Weight> weights;
+    std::vector<WeightRule> weights;
     std::optional<Steady> steady;
   };
-  using Weights = std::array<double, kWeighedCount>;
+  using Factors = std::array<double, kTargets>;
 
   const Rules& RulesOf(std::string_view layer) const;
-  static Weights WeightsOf(const Rules& rules, const MotionFrame& frame);
-  static double OfUnit(const Weights& weights, const UnitList& units, std::size_t unit);
-  void Add(const MotionLayer& layer, const Rules& rules, const Weights& weights,
+  static Factors FactorsOf(const Rules& rules, const MotionLayers& layers);
+  static double OfUnit(const Factors& factors, const UnitList& units, std::size_t unit);
+  void Add(const MotionLayer& layer, const Rules& rules, const Factors& factors,
            const UnitList& units, MotionLayer& total) const;
-  void Place(const MotionLayer& total, const Weights& weights, const UnitList& units,
+  void Place(const MotionLayer& total, const Factors& factors, const UnitList& units,
              FaceState& state) const;
 
   std::array<ChannelRule, kChannels> channels_;

@@ -18,8 +18,8 @@ vm::Result<void> MoodMotion::Set(vm::Time now, std::string_view name, double str
   return {};
 }
 
-void MoodMotion::Contribute(vm::Time t, MotionFrame& frame) const {
-  frame.Layer("mood").units = look_.At(t);
+void MoodMotion::Contribute(vm::Time t, MotionLayers& layers) const {
+  layers.Layer("mood").units = look_.At(t);
 }
 
 }  // namespace fsm

@@ -18,7 +18,7 @@ class MoodMotion : public MotionSource {
   explicit MoodMotion(const MotionPatterns& patterns) : patterns_(patterns) {}
   /// Shows a mood of the patterns, or NEUTRAL; `strength` 1 is full.
   vm::Result<void> Set(vm::Time now, std::string_view name, double strength);
-  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  void Contribute(vm::Time t, MotionLayers& layers) const override;
 
  protected:
   void ForEachTrack(const TrackVisitor& visit) const override { visit(look_); }

@@ -28,10 +28,10 @@ struct MotionLayer {
 /// What all sources ask of the face at one instant: layers, and signals by which the mixer weighs
 /// them (see tables/mixing.txt). A layer that the table does not name counts in full; a signal that
 /// nobody gives is 0, of one that several give the greatest counts. Names are string literals or
-/// outlive the frame.
-class MotionFrame {
+/// outlive it.
+class MotionLayers {
  public:
-  MotionFrame() { layers_.reserve(20); }
+  MotionLayers() { layers_.reserve(20); }
 
   /// The layer of that name, at rest when it is asked for first; valid until the next call.
   MotionLayer& Layer(std::string_view name) {
@@ -44,7 +44,7 @@ class MotionFrame {
   }
 
   using NamedLayer = std::pair<std::string_view, MotionLayer>;
-  const std::vector<NamedLayer>& layers() const { return layers_; }
+  const std::vector<NamedLayer>& all() const { return layers_; }
   double Signal(std::string_view name) const {
     double greatest = 0;
     for (const auto& [signal, value01] : signals_) {
@@ -66,7 +66,7 @@ class MotionSource {
   virtual ~MotionSource() = default;
 
   /// Adds what it asks at `t` to its layers.
-  virtual void Contribute(vm::Time t, MotionFrame& frame) const = 0;
+  virtual void Contribute(vm::Time t, MotionLayers& layers) const = 0;
   /// `t` while it moves, else when it will begin to by itself; none = it is still until a command.
   virtual std::optional<vm::Time> NextActivity(vm::Time t) const {
     std::optional<vm::Time> next;

@@ -24,8 +24,8 @@ vm::Result<void> MouthMotion::Set(vm::Time now, int parameter, double strength) 
   return {};
 }
 
-void MouthMotion::Contribute(vm::Time t, MotionFrame& frame) const {
-  MotionLayer& layer = frame.Layer("mouth");
+void MouthMotion::Contribute(vm::Time t, MotionLayers& layers) const {
+  MotionLayer& layer = layers.Layer("mouth");
   for (std::size_t i = 0; i < kMouthParameters; ++i) layer.mouth[i] = parameters_[i].At(t);
   layer.mouth_by_hand = layer.mouth;
 }

@@ -13,7 +13,7 @@ class MouthMotion : public MotionSource {
   /// `parameter` from 1. kBadValue for one there is not, and for a strength outside 0..2.
   vm::Result<void> Set(vm::Time now, int parameter, double strength);
 
-  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  void Contribute(vm::Time t, MotionLayers& layers) const override;
 
  protected:
   void ForEachTrack(const TrackVisitor& visit) const override;

@@ -70,11 +70,11 @@ MouthStream::HeadShare MouthStream::HeadAt(vm::Time t) const {
   return head;
 }
 
-void MouthStream::Contribute(vm::Time t, MotionFrame& frame) const {
+void MouthStream::Contribute(vm::Time t, MotionLayers& layers) const {
   if (frames_.empty()) return;
   if (const HeadShare head = HeadAt(t); head.share > 0) {
-    frame.AddSignal("head_taken", head.share);
-    MotionLayer& gestures = frame.Layer("stream_gestures");
+    layers.AddSignal("head_taken", head.share);
+    MotionLayer& gestures = layers.Layer("stream_gestures");
     gestures.head = head.pose.angles;
     for (const Side side : kSides) {
       gestures.units.au[side][kInnerBrowRaiser] =
@@ -85,9 +85,9 @@ void MouthStream::Contribute(vm::Time t, MotionFrame& frame) const {
   }
   const SpokenMouth mouth = MouthAt(t);
   if (mouth.share <= 0) return;
-  frame.AddSignal("speaking", mouth.share);
-  frame.AddSignal("stream_taken", mouth.share);
-  mouth.Contribute(mouth_scale_.At(t), "mouth_stream", frame);
+  layers.AddSignal("speaking", mouth.share);
+  layers.AddSignal("stream_taken", mouth.share);
+  mouth.Contribute(mouth_scale_.At(t), "mouth_stream", layers);
 }
 
 std::optional<vm::Time> MouthStream::NextActivity(vm::Time t) const {

@@ -54,7 +54,7 @@ class MouthStream : public MotionSource {
   /// Forgets the frames after `now`; the mouth holds, closes and is let go from there.
   void Stop(vm::Time now);
 
-  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  void Contribute(vm::Time t, MotionLayers& layers) const override;
   std::optional<vm::Time> NextActivity(vm::Time t) const override;
   vm::Time FiniteEnd(vm::Time t) const override;
 

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsm/base/random.h"
 #include "fsm/motion/easing.h"
+#include "fsm/motion/random_streams.h"
 
 namespace fsm {
 namespace {
 
 constexpr double kApartMs = 300;  // stressed vowels are at least so far apart
-enum GestureStream : std::uint64_t { kTurn = 100, kTilt, kLift, kBrow, kAvertSide, kAvertLength };
 
 /// From 0 to 1 and back; `row` says how long before the beat the peak is, and how long it rises and
 /// falls.
@@ -34,11 +33,11 @@ SpeechGestures::SpeechGestures(const VisemeTargets& visemes, const GestureNumber
     if (!pause) continue;
     pause = false;
     const auto index = static_cast<std::int64_t>(phrases_.size());
-    phrases_.push_back(
-        {std::max(-kApproachMs, viseme.start_ms - 150),
-         {.nod = Linear(sizes.phrase.nod, static_cast<float>(RandomAt(seed_, kLift, index))),
-          .turn = RandomAt(seed_, kTurn, index),
-          .tilt = RandomAt(seed_, kTilt, index)}});
+    phrases_.push_back({std::max(-kApproachMs, viseme.start_ms - 150),
+                        {.nod = Linear(sizes.phrase.nod, static_cast<float>(RandomAt(
+                                                             seed_, RandomStream::kLift, index))),
+                         .turn = RandomAt(seed_, RandomStream::kTurn, index),
+                         .tilt = RandomAt(seed_, RandomStream::kTilt, index)}});
   }
 }
 
@@ -70,7 +69,8 @@ void SpeechGestures::FindBeats(const VisemeTargets& visemes) {
   for (std::size_t i = 0; i < beats_.size(); ++i) {
     const bool strongest = (i == 0 || beats_[i - 1].nod <= beats_[i].nod) &&
                            (i + 1 == beats_.size() || beats_[i + 1].nod <= beats_[i].nod);
-    const double chance = 0.5 + 0.5 * RandomAt(seed_, kBrow, static_cast<std::int64_t>(i));
+    const double chance =
+        0.5 + 0.5 * RandomAt(seed_, RandomStream::kBrow, static_cast<std::int64_t>(i));
     if (!strongest || chance < 0.3 || beats_[i].peak_ms - last < 1500) continue;
     beats_[i].brow = std::clamp(beats_[i].nod * (0.6 + 0.4 * chance), 0.0, 1.0);
     last = beats_[i].peak_ms;
@@ -102,8 +102,8 @@ SpeechGestures::At SpeechGestures::HeadAt(double position_ms) const {
 std::array<double, 2> SpeechGestures::AvertTimes(double shortest_ms) const {
   if (length_ms_ < shortest_ms || phrases_.empty()) return {0, 0};
   const double from = phrases_.front().start_ms + 20;
-  const double longest =
-      Linear(sizes_.avert.lasts, static_cast<float>(RandomAt(seed_, kAvertLength, 0)));
+  const double longest = Linear(sizes_.avert.lasts,
+                                static_cast<float>(RandomAt(seed_, RandomStream::kAvertLength, 0)));
   return {from, from + std::min(longest, sizes_.avert.part * length_ms_)};
 }
 
@@ -113,7 +113,7 @@ std::array<double, 2> SpeechGestures::AvertAt(double position_ms, double shortes
   // The jumps of the eyes take about 45 ms at ten degrees (main sequence).
   const double u =
       SmootherStep((position_ms - away) / 45) - SmootherStep((position_ms - back) / 45);
-  const double side = RandomAt(seed_, kAvertSide, 0);
+  const double side = RandomAt(seed_, RandomStream::kAvertSide, 0);
   return {u * (side > 0.2 ? -sizes_.avert.up : sizes_.avert.down),
           u * std::copysign(sizes_.avert.side, side)};
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fsm/base/random.h"
+#include "fsm/motion/random_streams.h"
 
 namespace fsm {
 namespace {
@@ -14,7 +14,6 @@ constexpr vm::Time kEmotionYields = 150ms;
 constexpr vm::Time kClose = 110ms;      // after STOP; the promise is 120
 constexpr vm::Time kClosedFor = 120ms;  // before emotion may part the lips again
 constexpr vm::Time kHeadStops = 400ms;  // movement with the speech, after STOP
-enum SpeechStream : std::uint64_t { kEndBlink = 310, kEndBlinkTime, kAvertBlink };
 
 }  // namespace
 
@@ -164,29 +163,31 @@ double SpeechMotion::LidsShutAt(vm::Time t) const {
   };
   const Utterance& last = said_.back();
   // Most utterances end with a blink, just before or after the last sound.
-  if (at_end && RandomAt(seed_, kEndBlink, utterances_) < 0.6) {
+  if (at_end && RandomAt(seed_, RandomStream::kEndBlink, utterances_) < 0.6) {
     blink(last.stopped.value_or(EndOf(last)) +
-          FromMs(20 + 90 * RandomAt(seed_, kEndBlinkTime, utterances_)));
+          FromMs(20 + 90 * RandomAt(seed_, RandomStream::kEndBlinkTime, utterances_)));
   }
   if (!at_shifts) return shut;
   const auto [away, back] = last.gestures.AvertTimes(Avert()->shortest_ms);
   if (back <= away) return shut;
   const double lead = lead_ms_.At(last.begin);
-  if (RandomAt(seed_, kAvertBlink, 2 * utterances_) < 0) blink(last.clock.WhenAt(away - lead));
-  if (RandomAt(seed_, kAvertBlink, 2 * utterances_ + 1) < 0) blink(last.clock.WhenAt(back - lead));
+  if (RandomAt(seed_, RandomStream::kAvertBlink, 2 * utterances_) < 0)
+    blink(last.clock.WhenAt(away - lead));
+  if (RandomAt(seed_, RandomStream::kAvertBlink, 2 * utterances_ + 1) < 0)
+    blink(last.clock.WhenAt(back - lead));
   return shut;
 }
 
 // ---- as a source
 
-void SpeechMotion::Contribute(vm::Time t, MotionFrame& frame) const {
+void SpeechMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   const Mouth mouth = MouthAt(t);
-  frame.AddSignal("speaking", mouth.over_emotion);
-  mouth.Contribute(mouth_scale_.At(t), "speech", frame);
-  MotionLayer& gestures = frame.Layer("gestures");
+  layers.AddSignal("speaking", mouth.over_emotion);
+  mouth.Contribute(mouth_scale_.At(t), "speech", layers);
+  MotionLayer& gestures = layers.Layer("gestures");
   MoveHeadAndBrows(t, gestures);
   AvertEyes(t, gestures);
-  ShowLooks(t, frame.Layer("text"));
+  ShowLooks(t, layers.Layer("text"));
   gestures.lids_shut = static_cast<float>(LidsShutAt(t));
 }
 

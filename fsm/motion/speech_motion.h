@@ -54,7 +54,7 @@ class SpeechMotion : public MotionSource {
   double VoicePositionAt(vm::Time t) const;        ///< 0 if nothing is spoken
   const std::string& PhonemeAt(vm::Time t) const;  ///< on the mouth; "" = none
 
-  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  void Contribute(vm::Time t, MotionLayers& layers) const override;
   std::optional<vm::Time> NextActivity(vm::Time t) const override;
 
  private:

@@ -17,11 +17,11 @@ void SpokenMouth::Cover(const MouthPose& other, double other_share) {
 }
 
 void SpokenMouth::Contribute(double mouth_scale, std::string_view layer_name,
-                             MotionFrame& frame) const {
+                             MotionLayers& layers) const {
   const double contact = share * pose.contact;
-  frame.AddSignal("lips_taken", share);
-  frame.AddSignal("contact", contact);
-  MotionLayer& layer = frame.Layer(layer_name);
+  layers.AddSignal("lips_taken", share);
+  layers.AddSignal("contact", contact);
+  MotionLayer& layer = layers.Layer(layer_name);
   double scale = mouth_scale / kFullMouthScale;
   if (scale > 1) scale = 1 + (scale - 1) * (1 - contact);  // a contact is no larger than it is
   for (std::size_t i = 0; i < kMouthParameters; ++i) {

@@ -19,7 +19,7 @@ struct SpokenMouth {
   /// Lets another mouth come over it by `other_share`, 0..1.
   void Cover(const MouthPose& other, double other_share);
   /// Puts it on a layer, in the size of that MouthScale, and gives `lips_taken` and `contact`.
-  void Contribute(double mouth_scale, std::string_view layer, MotionFrame& frame) const;
+  void Contribute(double mouth_scale, std::string_view layer, MotionLayers& layers) const;
 };
 
 }  // namespace fsm

@@ -7,6 +7,7 @@
 #include "fsm/base/table_reader.h"
 #include "fsm/motion/easing.h"
 #include "fsm/motion/viseme_target.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace fsm {
 namespace {
@@ -17,14 +18,6 @@ constexpr double kNearPauseMs = 600;  // a sentence ends at a pause that is no f
 constexpr double kRiseMs = 350, kFallMs = 500, kAheadMs = 150;
 constexpr double kEndMs = 700;  // of looks at the end of a sentence
 constexpr std::array<std::string_view, 6> kStops = {".", "!", "?", "。", "！", "？"};
-
-std::string Lowered(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return out;
-}
 
 // ---- the table
 
@@ -55,7 +48,7 @@ TextCues::Cue ReadCue(const TableRow& row, const TextCues& cues) {
     if (row.Word(i) == "|") {
       cue.phrases.emplace_back();
     } else {
-      cue.phrases.back() += (cue.phrases.back().empty() ? "" : " ") + Lowered(row.Word(i));
+      cue.phrases.back() += (cue.phrases.back().empty() ? "" : " ") + vm::LowerCase(row.Word(i));
     }
   }
   if (std::ranges::find(cue.phrases, "") != cue.phrases.end()) {
@@ -170,7 +163,7 @@ double TimedLook::At(double position_ms) const {
 
 std::vector<TimedLook> LooksOf(const TextCues& cues, std::string_view text,
                                const VisemeTargets& visemes) {
-  const std::string lowered = Lowered(WithoutMarkup(text));
+  const std::string lowered = vm::LowerCase(WithoutMarkup(text));
   const double letters = Letters(lowered);
   std::vector<TimedLook> timed;
   if (letters == 0) return timed;

@@ -45,8 +45,8 @@ void UnitMotion::Set(vm::Time now, int unit, double strength) {
   SetOne(now, setting, kUnitMove);
 }
 
-void UnitMotion::Contribute(vm::Time t, MotionFrame& frame) const {
-  MotionLayer& layer = frame.Layer("units");
+void UnitMotion::Contribute(vm::Time t, MotionLayers& layers) const {
+  MotionLayer& layer = layers.Layer("units");
   for (const auto& [number, track] : units_) {
     const auto found = names_.codes.find(number);
     if (found == names_.codes.end()) {

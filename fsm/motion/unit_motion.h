@@ -21,7 +21,7 @@ class UnitMotion : public MotionSource {
   /// Sets a unit on both sides within 60 ms, as Face.N does.
   void Set(vm::Time now, int unit, double strength);
 
-  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  void Contribute(vm::Time t, MotionLayers& layers) const override;
 
  protected:
   void ForEachTrack(const TrackVisitor& visit) const override;

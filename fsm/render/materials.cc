@@ -150,8 +150,8 @@ void Materials::UseSurface(const DrawnPart& drawn) {
       appearance_.surface(material == Material::kMatte ? Material::kMouthInside : material);
   const bool inside = mouth_.has_opening() && IsOfMouth(material);
   const bool threads = surface.planar > 0;
-  const bool relief =
-      threads ? surface.bump > 0 && pores_ : pores_ || (creased_ && drawn.detail != SkinDetail::kPlain);
+  const bool relief = threads ? surface.bump > 0 && pores_
+                              : pores_ || (creased_ && drawn.detail != SkinDetail::kPlain);
   const GlProgram& program = inside ? mouth_.program() : relief ? surface_ : smooth_;
   program.Use();
   program.Set("wrap", surface.wrap);

@@ -55,6 +55,9 @@ class UnitValues {
     first_.fill(strength);
     std::ranges::fill(more_, strength);
   }
+  bool AtRest() const {
+    return std::all_of(begin(), end(), [](float strength) { return strength == 0; });
+  }
   /// True if every number reads the same.
   friend bool operator==(const UnitValues& a, const UnitValues& b) {
     for (std::size_t unit = 0; unit < std::max(a.size(), b.size()); ++unit) {

@@ -18,8 +18,8 @@ using namespace std::chrono_literals;
 /// Turns the head 10 degrees to the viewer's right from the first second to the second.
 class Turning : public MotionSource {
  public:
-  void Contribute(vm::Time t, MotionFrame& frame) const override {
-    if (t >= 1s && t < 2s) frame.Layer("turning").head[1] += 10;
+  void Contribute(vm::Time t, MotionLayers& layers) const override {
+    if (t >= 1s && t < 2s) layers.Layer("turning").head[1] += 10;
   }
   std::optional<vm::Time> NextActivity(vm::Time t) const override {
     if (t >= 2s) return std::nullopt;
@@ -68,24 +68,24 @@ TEST(MixerTest, ALayerIsWeighedBySignalsAndLimitedByItsChannel) {
   ASSERT_TRUE(mixer) << mixer.error().text;
   const UnitList units =
       ReadUnitList("l.txt", "region brow 1\nopens 25\n", UnitNames::BuiltIn()).value();
-  MotionFrame frame;
-  MotionLayer& a = frame.Layer("a");
+  MotionLayers layers;
+  MotionLayer& a = layers.Layer("a");
   a.head[0] = 8;
   a.lids_shut = 0.4f;
   a.units.au.left[1] = a.units.au.left[25] = 1;
   a.units.au.left[12] = 1.5f;
-  MotionLayer& b = frame.Layer("b");
+  MotionLayer& b = layers.Layer("b");
   b.lids_shut = 0.7f;
   b.units.au.left[12] = 1.5f;
   b.head[0] = 1;
   FaceState quiet, loud;
-  mixer->Mix(frame, units, quiet);
+  mixer->Mix(layers, units, quiet);
   EXPECT_FLOAT_EQ(quiet.head_rotation[0], 9);
   EXPECT_FLOAT_EQ(quiet.blink.left, 0.7f) << "the greatest";
   EXPECT_FLOAT_EQ(quiet.au.left[12], 2) << "the limit";
   EXPECT_FLOAT_EQ(quiet.au.left[1], 1);
-  frame.AddSignal("loud", 1);
-  mixer->Mix(frame, units, loud);
+  layers.AddSignal("loud", 1);
+  mixer->Mix(layers, units, loud);
   EXPECT_FLOAT_EQ(loud.head_rotation[0], 3);
   EXPECT_FLOAT_EQ(loud.au.left[1], 0);
   EXPECT_FLOAT_EQ(loud.au.left[25], 0);
