@@ -68,7 +68,7 @@ class ObjHeadMaker {
 
   HeadAsset Asset() {
     return {.topology = std::move(topology_),
-            .rig = StillRig(std::move(rest_.position), std::move(rest_.normal)),
+            .rig = MakeStillRig(std::move(rest_.position), std::move(rest_.normal)),
             .landmarks = std::move(landmarks_),
             .view = {}};
   }

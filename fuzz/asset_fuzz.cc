@@ -23,7 +23,7 @@ fsm::Head SmallHead() {
     rest.emplace_back(10 * t - 50, t * t - 60, 80 - t);
     normal.emplace_back(0, 0, 1);
   }
-  fsm::RigData& rig = asset.rig = fsm::StillRig(std::move(rest), std::move(normal));
+  fsm::RigData& rig = asset.rig = fsm::MakeStillRig(std::move(rest), std::move(normal));
   rig.steps.clear();
   for (int step = 0; step <= static_cast<int>(fsm::RigStep::kNormals); ++step)
     rig.steps.push_back(static_cast<fsm::RigStep>(step));

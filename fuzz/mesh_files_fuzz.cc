@@ -62,7 +62,7 @@ bool IsFinite(glm::vec3 p) {
 /// The ball as a head whose lower half a mouth parameter pulls down.
 std::unique_ptr<fsm::Head> HeadOf(const Ball& ball) {
   fsm::MeshModel model;
-  fsm::RigData skin = fsm::StillSkin();
+  fsm::RigData skin = fsm::MakeStillSkin();
   skin.steps = {fsm::RigStep::kChannels};
   fsm::Channel fall;
   fall.drivers = {{{.kind = fsm::Drive::Kind::kMouth, .number = 4}}};
@@ -88,7 +88,7 @@ void CarryOnto(const fsm::ImportedHead& file, const fsm::Similarity& place,
     }
     const auto flesh = model.SkinTriangles(), eyes = model.EyeTriangles();
     if (model.position.size() > kMaxCarried || flesh.size() + eyes.size() > kMaxCarried) return;
-    fsm::RigData skin = fsm::TransferredRig(model, *source, pairs);
+    fsm::RigData skin = fsm::TransferRig(model, *source, pairs);
     const auto head = fsm::MakeMeshHead(std::move(model), std::move(skin));
     fsm::FaceState state;
     state.mouth[fsm::kLowerInnerY] = 3;
@@ -158,7 +158,6 @@ void CarryRaw(std::span<const std::uint8_t> bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  std::string why;
   switch (data[0] % 10) {
     case 0:
       if (const auto file = fsm::ParsePnt("f", text)) {
@@ -219,7 +218,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
       break;
     case 8:
-      (void)fsm::DecodeSgi(std::span(data + 1, size - 1), why);
+      (void)fsm::DecodeSgi(std::span(data + 1, size - 1));
       break;
     default:
       CarryRaw(std::span(data + 1, size - 1));

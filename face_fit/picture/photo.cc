@@ -23,13 +23,12 @@ bool StartsWith(std::span<const std::uint8_t> bytes, std::span<const std::uint8_
 vm::Result<fsm::Image> DecodeJpegPhoto(std::span<const std::uint8_t> bytes, int most_size,
                                        int& orientation) {
   fsm::JpegWish wish{.most_pixels = kMaxPixels, .enough_side = most_size, .exif = {}};
-  std::string why;
-  auto image = fsm::DecodeJpeg(bytes, wish, why);
-  if (!image) return vm::Fail(vm::Errc::kBadValue, why);
+  auto image = fsm::DecodeJpegAs(wish, bytes);
+  if (!image) return image;
   for (const auto& block : wish.exif) {
     if (const int found = ExifOrientation(block); found != 1) orientation = found;
   }
-  return std::move(*image);
+  return image;
 }
 
 vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
@@ -42,9 +41,10 @@ vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
                                              std::to_string(kMaxPixels / 1'000'000) +
                                              " million are read: scale it down");
   }
-  std::string why;
-  auto image = fsm::DecodePng(bytes, why);
-  if (!image) return vm::Fail(vm::Errc::kBadValue, "the PNG file cannot be read: " + why);
+  auto image = fsm::DecodePng(bytes);
+  if (!image) {
+    return vm::Fail(vm::Errc::kBadValue, "the PNG file cannot be read: " + image.error().text);
+  }
   // Transparent pixels show white behind them.
   for (std::size_t i = 0; i < image->rgba.size(); i += 4) {
     const unsigned a = image->rgba[i + 3];
@@ -54,7 +54,7 @@ vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
     }
     image->rgba[i + 3] = 255;
   }
-  return std::move(*image);
+  return image;
 }
 
 }  // namespace

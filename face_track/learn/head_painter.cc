@@ -5,7 +5,7 @@ namespace facetrack {
 HeadPainter::HeadPainter()
     : context_(fsm::RenderContext::MakeHeadless(kSide, kSide)),
       renderer_(fsm::Renderer::Make(*context_)),
-      view_(fsm::FramePortrait({}, scene_.camera, kSide, kSide)),
+      view_(fsm::ViewOfPortrait({}, scene_.camera, kSide, kSide)),
       lens_(Lens::Of(kSide, kSide, kField)) {}
 
 fsm::Image HeadPainter::Draw(const fsm::Head& head, const fsm::FaceState& state) {

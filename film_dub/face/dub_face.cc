@@ -75,7 +75,7 @@ DubFace::DubFace(facefit::BaseHead base, const facefit::MadeFace& made, int side
       context_(fsm::RenderContext::MakeHeadless(side, side)),
       renderer_(fsm::Renderer::Make(*context_)),
       scene_(OnNothing()),
-      view_(fsm::FramePortrait({}, scene_.camera, side, side)) {}
+      view_(fsm::ViewOfPortrait({}, scene_.camera, side, side)) {}
 
 void DubFace::Pose(const fsm::FaceState& state) {
   state_ = state;

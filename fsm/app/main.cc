@@ -253,6 +253,8 @@ void DrawSheet(const Options& options) {
   const auto more = MoreFaces(options, config);
   fsm::GlRenderBackend backend({.width = fsm::kCellWidth,
                                 .height = fsm::kCellHeight,
+                                .off_screen = OffScreenWanted(options),
+                                .rig = RigWanted(options),
                                 .more_faces = more,
                                 .tables = options.module.tables});
   const std::string& face = options.module.mask;

@@ -15,15 +15,12 @@
 #include "fsm/image/byte_order.h"
 #include "fsm/image/image_codec.h"
 #include "fsm/mesh/gltf_document.h"
+#include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
 namespace {
 
 using nlohmann::json;
-
-struct Fault : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// How many numbers an element of a column has.
 template <typename M>
@@ -50,6 +47,9 @@ constexpr OldName kNamesOfVersion1[] = {{"topology.openness", "occlusion"},
 /// Reads what asset_writer.cc has written, by the same lists of members.
 class Reader {
  public:
+  [[noreturn]] static void Refuse(const std::string& what) {
+    throw vm::Failure({vm::Errc::kBadValue, what});
+  }
   Reader(const GltfDocument& gltf, std::int64_t version) : gltf_(gltf), version_(version) {}
 
   template <typename T>
@@ -57,7 +57,7 @@ class Reader {
     if constexpr (std::is_enum_v<T>) {
       value = static_cast<T>(Whole(place, from, 0, kValuesOf<T> - 1));
     } else if constexpr (std::is_same_v<T, bool>) {
-      if (!from.is_boolean()) throw Fault(place + ": true or false expected");
+      if (!from.is_boolean()) Refuse(place + ": true or false expected");
       value = from.get<bool>();
     } else if constexpr (std::is_integral_v<T>) {
       value = static_cast<T>(
@@ -73,27 +73,27 @@ class Reader {
  private:
   static std::int64_t Whole(const std::string& place, const json& from, std::int64_t least,
                             std::int64_t most) {
-    if (!from.is_number_integer()) throw Fault(place + ": a whole number expected");
+    if (!from.is_number_integer()) Refuse(place + ": a whole number expected");
     const auto value = from.get<std::int64_t>();
     if (value < least || value > most) {
-      throw Fault(fmt::format("{}: {} found, {} to {} expected", place, value, least, most));
+      Refuse(fmt::format("{}: {} found, {} to {} expected", place, value, least, most));
     }
     return value;
   }
   static float Real(const std::string& place, const json& from) {
     const float value = from.is_number() ? from.get<float>() : NAN;
-    if (!std::isfinite(value)) throw Fault(place + ": a number expected");
+    if (!std::isfinite(value)) Refuse(place + ": a number expected");
     return value;
   }
   static void NeedList(const std::string& place, const json& from, std::size_t size) {
     if (!from.is_array() || from.size() != size) {
-      throw Fault(fmt::format("{}: a list of {} expected", place, size));
+      Refuse(fmt::format("{}: a list of {} expected", place, size));
     }
   }
   /// The document's errors begin with the name of the file, which ParseAsset says, too.
   template <typename T>
-  T OrFault(const std::string& place, vm::Result<T> read) const {
-    if (!read) throw Fault(place + read.error().text.substr(gltf_.name().size()));
+  T OrRefuse(const std::string& place, vm::Result<T> read) const {
+    if (!read) Refuse(place + read.error().text.substr(gltf_.name().size()));
     return std::move(*read);
   }
 
@@ -117,16 +117,15 @@ class Reader {
     if (!from.is_null()) Read(place, from, value.emplace());
   }
   void ReadObject(const std::string& place, const json& from, Landmarks& landmarks) {
-    if (!from.is_object()) throw Fault(place + ": an object of places expected");
+    if (!from.is_object()) Refuse(place + ": an object of places expected");
     for (const auto& [name, at] : from.items()) Read(place + "." + name, at, landmarks[name]);
   }
   void ReadObject(const std::string& place, const json& from, std::shared_ptr<const Image>& image) {
     if (from.is_null()) return;
     const auto bytes =
-        OrFault(place, gltf_.ImageBytes(Whole(place, from, 0, std::numeric_limits<int>::max())));
-    std::string why;
-    auto decoded = DecodePng(BytesOf(bytes), why);
-    if (!decoded) throw Fault(place + ": " + why);
+        OrRefuse(place, gltf_.ImageBytes(Whole(place, from, 0, std::numeric_limits<int>::max())));
+    auto decoded = DecodePng(BytesOf(bytes));
+    if (!decoded) Refuse(place + ": " + decoded.error().text);
     image = std::make_shared<const Image>(std::move(*decoded));
   }
   template <typename T>
@@ -146,7 +145,7 @@ class Reader {
     } else if constexpr (std::is_enum_v<T> || std::is_arithmetic_v<T>) {
       for (const double number : Column(place, from, 1)) items.push_back(Narrow<T>(place, number));
     } else {
-      if (!from.is_array()) throw Fault(place + ": a list expected");
+      if (!from.is_array()) Refuse(place + ": a list expected");
       for (std::size_t i = 0; i < from.size(); ++i)
         Read(fmt::format("{}[{}]", place, i), from[i], items.emplace_back());
     }
@@ -167,15 +166,15 @@ class Reader {
     }
     const auto found = from.is_object() ? from.find(name) : from.end();
     if (!from.is_object() || found == from.end()) {
-      throw Fault(fmt::format("{}: no member \"{}\"", place, name));
+      Refuse(fmt::format("{}: no member \"{}\"", place, name));
     }
     return *found;
   }
 
   /// The numbers of an accessor.
   std::vector<double> Column(const std::string& place, const json& from, int width) const {
-    return OrFault(place,
-                   gltf_.Values(Whole(place, from, 0, std::numeric_limits<int>::max()), width));
+    return OrRefuse(place,
+                    gltf_.Values(Whole(place, from, 0, std::numeric_limits<int>::max()), width));
   }
   template <typename T>
   static T Narrow(const std::string& place, double number) {
@@ -190,7 +189,7 @@ class Reader {
         most = std::numeric_limits<T>::max();
       }
       if (!(number >= least && number <= most)) {
-        throw Fault(fmt::format("{}: {} is out of range", place, number));
+        Refuse(fmt::format("{}: {} is out of range", place, number));
       }
       return static_cast<T>(static_cast<std::int64_t>(number));
     }
@@ -208,7 +207,7 @@ class Reader {
       auto numbers = Column(where, MemberOf(place, from, name), static_cast<int>(kWidth<M>));
       const std::size_t count = numbers.size() / kWidth<M>;
       if (columns.empty()) items.resize(count);
-      if (items.size() != count) throw Fault(where + ": as many as in the first column expected");
+      if (items.size() != count) Refuse(where + ": as many as in the first column expected");
       columns.push_back({std::move(where), std::move(numbers)});
     };
     T sample{};
@@ -238,13 +237,13 @@ class Reader {
 HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
   const std::int64_t version = JsonInteger(from, "version");
   if (version < 1 || version > kAssetVersion) {
-    throw Fault(fmt::format("version: 1 to {} expected", kAssetVersion));
+    Reader::Refuse(fmt::format("version: 1 to {} expected", kAssetVersion));
   }
   Reader reader(gltf, version);
   HeadAsset asset;
   const auto read = [&](const char* name, auto& part) {
     const auto found = from.find(name);
-    if (found == from.end()) throw Fault("no member \"" + std::string(name) + "\"");
+    if (found == from.end()) Reader::Refuse("no member \"" + std::string(name) + "\"");
     reader.Read(name, *found, part);
   };
   read("topology", asset.topology);
@@ -253,7 +252,7 @@ HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
   read("view", asset.view);
   asset.rig.units = UnitTable(Table("rig.units", JsonText(from["rig"], "units")));
   if (asset.rig.asymmetry_seed) asset.rig.units.MakeAsymmetric(*asset.rig.asymmetry_seed);
-  if (const auto checked = CheckAsset(asset); !checked) throw Fault(checked.error().text);
+  vm::OrThrow(CheckAsset(asset));
   return asset;
 }
 
@@ -270,8 +269,8 @@ vm::Result<HeadAsset> ParseAsset(const std::string& name, std::string_view bytes
   const json& extension = JsonMember(JsonMember(gltf->root(), "extensions"), kAssetExtension);
   try {
     return ReadAsset(*gltf, extension);
-  } catch (const std::runtime_error& fault) {
-    return gltf->Wrong(std::string(kAssetExtension) + ": " + fault.what());
+  } catch (const std::runtime_error& error) {  // vm::Failure, or TableError of the units
+    return gltf->Wrong(std::string(kAssetExtension) + ": " + error.what());
   }
 }
 

@@ -8,13 +8,10 @@
 
 #include "fsm/mesh/mesh_reach.h"
 #include "fsm/rig/rig.h"
+#include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
 namespace {
-
-struct Flaw : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 std::string Place(const char* member, std::size_t at) { return fmt::format("{}[{}]", member, at); }
 
@@ -23,21 +20,24 @@ class Checker {
   explicit Checker(const HeadAsset& asset) : asset_(asset), vertices_(asset.rig.rest.size()) {}
 
   void Check() const {
-    if (vertices_ == 0) throw Flaw("rig.rest: no vertices");
+    if (vertices_ == 0) Refuse("rig.rest: no vertices");
     CheckTopology(asset_.topology);
     CheckRig(asset_.rig);
     CheckLips(asset_.rig.lips);
   }
 
  private:
+  [[noreturn]] static void Refuse(const std::string& what) {
+    throw vm::Failure({vm::Errc::kBadValue, what});
+  }
   void Vertex(std::size_t vertex, const std::string& place) const {
     if (vertex < vertices_) return;
-    throw Flaw(fmt::format("{}: vertex {} of {}", place, vertex, vertices_));
+    Refuse(fmt::format("{}: vertex {} of {}", place, vertex, vertices_));
   }
   template <typename List>
   void PerVertex(const List& list, const char* member, bool may_be_empty) const {
     if (list.size() == vertices_ || (may_be_empty && list.empty())) return;
-    throw Flaw(fmt::format("{}: {} elements for {} vertices", member, list.size(), vertices_));
+    Refuse(fmt::format("{}: {} elements for {} vertices", member, list.size(), vertices_));
   }
   template <typename List>
   void Vertices(const List& list, const char* member) const {
@@ -50,7 +50,7 @@ class Checker {
   }
   template <typename List>
   void Triangles(const List& list, const char* member) const {
-    if (list.size() % 3 != 0) throw Flaw(std::string(member) + ": not three for each triangle");
+    if (list.size() % 3 != 0) Refuse(std::string(member) + ": not three for each triangle");
     Vertices(list, member);
   }
 
@@ -61,11 +61,11 @@ class Checker {
       const std::string place = Place("topology.parts", i);
       if (part.index_count % 3 != 0 || part.first_index > topology.indices.size() ||
           part.index_count > topology.indices.size() - part.first_index) {
-        throw Flaw(place + ": its triangles are not among the indices");
+        Refuse(place + ": its triangles are not among the indices");
       }
       if (part.pbr < -1 || part.pbr >= static_cast<int>(topology.pbr_materials.size())) {
-        throw Flaw(fmt::format("{}: PBR material {} of {}", place, part.pbr,
-                               topology.pbr_materials.size()));
+        Refuse(fmt::format("{}: PBR material {} of {}", place, part.pbr,
+                           topology.pbr_materials.size()));
       }
     }
     PerVertex(topology.albedo, "topology.albedo", false);
@@ -90,12 +90,12 @@ class Checker {
 
   void CheckRig(const RigData& rig) const {
     for (std::size_t i = 0; i < vertices_; ++i) {
-      if (!WithinReach(rig.rest[i])) throw Flaw(Place("rig.rest", i) + ": too far away");
+      if (!WithinReach(rig.rest[i])) Refuse(Place("rig.rest", i) + ": too far away");
     }
     PerVertex(rig.rest_normal, "rig.rest_normal", false);
     PerVertex(rig.proxy.rest, "rig.proxy_rest", true);
     if (rig.proxy.to_own.size() != rig.proxy.rest.size()) {
-      throw Flaw("rig.proxy_to_own: not one for each of rig.proxy_rest");
+      Refuse("rig.proxy_to_own: not one for each of rig.proxy_rest");
     }
     CheckSteps(rig.steps);
     Vertex(rig.jaw.chin, "rig.chin");
@@ -113,15 +113,14 @@ class Checker {
 
   static void CheckSteps(const std::vector<RigStep>& steps) {
     if (steps.size() > RigData::kMostSteps) {
-      throw Flaw(
-          fmt::format("rig.steps: {}, at most {} expected", steps.size(), RigData::kMostSteps));
+      Refuse(fmt::format("rig.steps: {}, at most {} expected", steps.size(), RigData::kMostSteps));
     }
     for (std::size_t i = 1; i < steps.size(); ++i) {
       const bool in_order =
           ShapesSkin(steps[i]) ? ShapesSkin(steps[i - 1]) : steps[i - 1] < steps[i];
       if (in_order) continue;
-      throw Flaw(fmt::format("{}: {} cannot come after {}", Place("rig.steps", i), NameOf(steps[i]),
-                             NameOf(steps[i - 1])));
+      Refuse(fmt::format("{}: {} cannot come after {}", Place("rig.steps", i), NameOf(steps[i]),
+                         NameOf(steps[i - 1])));
     }
   }
 
@@ -131,23 +130,22 @@ class Checker {
       const std::string place = Place("rig.springs", i);
       const auto check = [&](const char* member, float value, float least, float most) {
         if (value >= least && value <= most) return;  // false for not-a-number
-        throw Flaw(fmt::format("{}: {} outside {}..{}", place, member, least, most));
+        Refuse(fmt::format("{}: {} outside {}..{}", place, member, least, most));
       };
-      if (!WithinReach(spring.rest) || !WithinReach(spring.root))
-        throw Flaw(place + ": too far away");
+      if (!WithinReach(spring.rest) || !WithinReach(spring.root)) Refuse(place + ": too far away");
       check("frequency_hz", spring.frequency_hz, Spring::kLeastHz, Spring::kMostHz);
       check("damping", spring.damping, Spring::kLeastDamping, Spring::kMostDamping);
       check("hang", spring.hang, 0, 1);
       check("most_mm", spring.most_mm, Spring::kLeastMost, Spring::kMostMost);
       if (!(glm::dot(spring.outward, spring.outward) <= 1.01f))
-        throw Flaw(place + ": outward is longer than 1");
+        Refuse(place + ": outward is longer than 1");
     }
     VerticesOf(rig.swing.weights, "rig.spring_weights");
     for (std::size_t i = 0; i < rig.swing.weights.size(); ++i) {
       const std::uint32_t spring = rig.swing.weights[i].spring;
       if (spring >= rig.swing.springs.size()) {
-        throw Flaw(fmt::format("rig.spring_weights[{}]: spring {} of {}", i, spring,
-                               rig.swing.springs.size()));
+        Refuse(fmt::format("rig.spring_weights[{}]: spring {} of {}", i, spring,
+                           rig.swing.springs.size()));
       }
     }
   }
@@ -162,11 +160,11 @@ class Checker {
                                    ? 0
                                    : FaceState{}.mouth.size() - 1;
       if (driver.drive.number > most) {
-        throw Flaw(fmt::format("{}: number {} above {}", place, driver.drive.number, most));
+        Refuse(fmt::format("{}: number {} above {}", place, driver.drive.number, most));
       }
     }
     if (!(channel.least <= channel.most)) {  // true for not-a-number, too
-      throw Flaw(fmt::format("{}: least {} is above most {}", place, channel.least, channel.most));
+      Refuse(fmt::format("{}: least {} is above most {}", place, channel.least, channel.most));
     }
     VerticesOf(channel.moves, (place + ".moves").c_str());
   }
@@ -177,13 +175,13 @@ class Checker {
       Vertex(lips.seam[i].second, Place("rig.lips.seam", i));
     }
     if (!lips.apart_at_rest.empty() && lips.apart_at_rest.size() != lips.seam.size()) {
-      throw Flaw("rig.lips.apart_at_rest: not one for each pair of the seam");
+      Refuse("rig.lips.apart_at_rest: not one for each pair of the seam");
     }
     VerticesOf(lips.followers, "rig.lips.followers");
     for (std::size_t i = 0; i < lips.followers.size(); ++i) {
       if (lips.followers[i].pair >= lips.seam.size()) {
-        throw Flaw(fmt::format("rig.lips.followers[{}]: pair {} of {}", i, lips.followers[i].pair,
-                               lips.seam.size()));
+        Refuse(fmt::format("rig.lips.followers[{}]: pair {} of {}", i, lips.followers[i].pair,
+                           lips.seam.size()));
       }
     }
     if (lips.measured) Vertices(*lips.measured, "rig.lips.measured");
@@ -198,8 +196,8 @@ class Checker {
 vm::Result<void> CheckAsset(const HeadAsset& asset) {
   try {
     Checker(asset).Check();
-  } catch (const Flaw& fault) {
-    return vm::Fail(vm::Errc::kBadValue, fault.what());
+  } catch (const vm::Failure& failure) {
+    return std::unexpected(failure.error);
   }
   return {};
 }

@@ -5,10 +5,9 @@
 #include <span>
 #include <string>
 
-namespace fsm {
+#include "fsm/mesh/gltf_document.h"
 
-/// Component types of glTF 2.0 accessors.
-enum class GltfType { kInt8 = 5120, kUint8 = 5121, kInt16 = 5122, kUint32 = 5125, kFloat = 5126 };
+namespace fsm {
 
 /// Puts a binary glTF 2.0 file together: one buffer, and the views and accessors into it.
 class GltfBuilder {

@@ -30,7 +30,7 @@ std::string UnitsFolder(const std::string& folder, const std::string& tables);
 
 /// A built-in head, or one out of the folder of faces (FacesFolder). Its units are those of its own
 /// folder, else those of the folder `tables`, else the built-in ones; its features those of
-/// `tables`, else the built-in ones. Throws std::runtime_error or std::invalid_argument with a
+/// `tables`, else the built-in ones. Throws std::runtime_error with a
 /// sentence.
 std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const std::string& tables = "");
 

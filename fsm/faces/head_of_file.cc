@@ -153,8 +153,8 @@ std::optional<RigData> RigOfShapes(const ImportedHead& file, const Alignment& al
   const auto source = MakeHead(alignment.face, false);
   const auto other = units ? source->WithUnits(*units) : nullptr;
   const std::vector<ShapeMeaning> shapes = Meanings(tables);
-  return BlendshapeRig(file, alignment.to_ours, model, {*source, shapes}, other ? *other : *source,
-                       VisemeStates(tables), &unused);
+  return MakeBlendshapeRig(file, alignment.to_ours, model, {*source, shapes},
+                           other ? *other : *source, VisemeStates(tables), &unused);
 }
 
 }  // namespace
@@ -199,7 +199,7 @@ FileHead MakeHeadOfFile(const std::string& path, const std::string& tables_folde
     }
   }
   if (!skin && !alignment.pairs.empty()) {
-    skin = TransferredRig(model, *WithUnits(units, MakeHead(alignment.face)), alignment.pairs);
+    skin = TransferRig(model, *WithUnits(units, MakeHead(alignment.face)), alignment.pairs);
   }
   if (!skin) {
     notices.push_back("has no shapes with names of ARKit or VRM, and no '" + points +

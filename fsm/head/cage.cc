@@ -97,12 +97,12 @@ bool ReadFine(const TableRow& row) {
   return word == "fine";
 }
 
-void AddFace(Cage& cage, std::vector<std::uint32_t> corner, SkinKind kind, bool fine) {
+void AddPolygon(Cage& cage, std::vector<std::uint32_t> corner, SkinKind kind, bool fine) {
   std::vector<std::uint32_t> kept;
   for (const std::uint32_t v : corner) {
     if (std::ranges::find(kept, v) == kept.end()) kept.push_back(v);
   }
-  if (kept.size() >= 3) cage.faces.push_back({std::move(kept), kind, fine});
+  if (kept.size() >= 3) cage.polygons.push_back({std::move(kept), kind, fine});
 }
 
 /// The rows of a strip: its curves with the bands between them filled in.
@@ -165,31 +165,33 @@ void ReadPatchRow(const TableRow& row, Cage& cage) {
       for (std::size_t c = 0; c < count; ++c) {
         if (key == "strip" && c + 1 == count) break;
         const std::size_t next = (c + 1) % count;
-        AddFace(cage, {rows[r][c], rows[r][next], rows[r + 1][next], rows[r + 1][c]}, kind, fine);
+        AddPolygon(cage, {rows[r][c], rows[r][next], rows[r + 1][next], rows[r + 1][c]}, kind,
+                   fine);
       }
     }
   } else if (key == "quad") {
     std::vector<std::uint32_t> corner;
     for (std::size_t i = 3; i < 7; ++i) corner.push_back(CagePoint(cage, row, row.Word(i)));
-    AddFace(cage, std::move(corner), kind, fine);
+    AddPolygon(cage, std::move(corner), kind, fine);
   } else if (key == "cap") {
-    AddFace(cage, FindCurve(cage, row, row.Word(3)), kind, fine);
+    AddPolygon(cage, FindCurve(cage, row, row.Word(3)), kind, fine);
   } else {
     row.Fail(fmt::format("unknown word '{}'", key));
   }
 }
 
-/// Turns all faces the same way round as their neighbours; the first forehead face decides which.
+/// Turns all polygons the same way round as their neighbours, and then so that the skin as a whole
+/// is seen from outside.
 void Orient(Cage& cage, const Table& patches) {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   std::map<Edge, std::vector<std::size_t>> by_edge;
   const auto edges = [&](std::size_t f, auto&& visit) {
-    const auto& corner = cage.faces[f].corner;
+    const auto& corner = cage.polygons[f].corner;
     for (std::size_t i = 0; i < corner.size(); ++i) {
       visit(corner[i], corner[(i + 1) % corner.size()]);
     }
   };
-  for (std::size_t f = 0; f < cage.faces.size(); ++f) {
+  for (std::size_t f = 0; f < cage.polygons.size(); ++f) {
     edges(f, [&](std::uint32_t a, std::uint32_t b) { by_edge[std::minmax(a, b)].push_back(f); });
   }
   for (const auto& [edge, faces] : by_edge) {
@@ -197,7 +199,7 @@ void Orient(Cage& cage, const Table& patches) {
       patches.Fail("three patches share an edge at point " + std::to_string(edge.first));
     }
   }
-  std::vector<bool> seen(cage.faces.size());
+  std::vector<bool> seen(cage.polygons.size());
   std::vector<std::size_t> todo = {0};
   seen[0] = true;
   while (!todo.empty()) {
@@ -209,7 +211,7 @@ void Orient(Cage& cage, const Table& patches) {
         seen[g] = true;
         bool same = false;
         edges(g, [&](std::uint32_t c, std::uint32_t d) { same |= c == a && d == b; });
-        if (same) std::ranges::reverse(cage.faces[g].corner);
+        if (same) std::ranges::reverse(cage.polygons[g].corner);
         todo.push_back(g);
       }
     });
@@ -218,14 +220,14 @@ void Orient(Cage& cage, const Table& patches) {
     patches.Fail("the skin is not in one piece");
   }
   float outward = 0;
-  for (const Cage::Face& face : cage.faces) {
-    const glm::vec3 a = cage.position[face.corner[0]];
+  for (const Cage::Polygon& polygon : cage.polygons) {
+    const glm::vec3 a = cage.position[polygon.corner[0]];
     const glm::vec3 n =
-        glm::cross(cage.position[face.corner[1]] - a, cage.position[face.corner[2]] - a);
+        glm::cross(cage.position[polygon.corner[1]] - a, cage.position[polygon.corner[2]] - a);
     outward += glm::dot(n, a - glm::vec3(0, -20, 0));
   }
   if (outward < 0) {
-    for (Cage::Face& face : cage.faces) std::ranges::reverse(face.corner);
+    for (Cage::Polygon& polygon : cage.polygons) std::ranges::reverse(polygon.corner);
   }
 }
 

@@ -34,19 +34,20 @@ inline constexpr int kLidPoints = 18;
 
 /// A polygon mesh of the left half of the skin.
 struct Cage {
-  struct Face {
+  struct Polygon {
     std::vector<std::uint32_t> corner;
     SkinKind kind;
     bool fine;
   };
   std::vector<glm::vec3> position;
   std::vector<CageTag> tag;
-  std::vector<Face> faces;
+  std::vector<Polygon> polygons;
   std::map<std::string, std::vector<std::uint32_t>, std::less<>> curves;
 };
 
-/// Reads curves.txt and patches.txt; curves of lids and mouth are made from their anatomies. Faces
-/// are turned so that they are seen from outside. Throws std::runtime_error naming file and line.
+/// Reads curves.txt and patches.txt; curves of lids and mouth are made from their anatomies.
+/// Polygons are turned so that they are seen from outside. Throws std::runtime_error naming file
+/// and line.
 Cage ReadCage(const Table& curves, const Table& patches, const EyeAnatomy& eye,
               const MouthAnatomy& mouth);
 

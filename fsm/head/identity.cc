@@ -49,12 +49,12 @@ Palette ReadBasePalette(const Table& table) {
   return palette;
 }
 
-/// The place of a name in Identities(); throws std::invalid_argument listing the names.
+/// The place of a name in Identities(); throws std::runtime_error listing the names.
 std::size_t IdentityIndex(std::string_view name) {
   const std::vector<std::string>& names = Identities();
   const auto found = std::ranges::find(names, name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  throw std::invalid_argument(
+  throw std::runtime_error(
       fmt::format("there is no face '{}'; there is {}", name, fmt::join(names, ", ")));
 }
 

@@ -82,8 +82,8 @@ struct Identity {
   const Features& UsedFeatures() const { return features ? *features : Features::BuiltIn(); }
 };
 
-/// Throws std::invalid_argument listing the names for an unknown one, std::runtime_error naming
-/// file and line for a damaged table.
+/// Throws std::runtime_error listing the names for an unknown one, or naming file and line for a
+/// damaged table.
 Identity ReadIdentity(const Table& table, std::string_view name);
 /// One line of a face's block; a slider takes the place of one of the same name.
 void ReadIdentityRow(const TableRow& row, Identity& identity);

@@ -194,6 +194,7 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& pa
   using enum RigStep;
   const Identity& identity = from.identity;
   RigData rig;
+  // Lips meet where the teeth let them, and what then follows them is held off the teeth again.
   rig.steps = {kChannels, kLids,  kJaw,  kTeeth,   kLips,   kTeeth,
                kTongue,   kBones, kNeck, kSprings, kNormals};
   rig.rest = head.mesh.position;

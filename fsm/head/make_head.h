@@ -11,8 +11,8 @@ namespace fsm {
 struct PhotoHead;
 
 /// The built-in head called `identity`. Nobody's two sides move quite alike: a few percent, fixed
-/// for each identity, unless `asymmetric` is false. Deterministic. Throws std::invalid_argument
-/// listing the names if there is none of that name, std::runtime_error if a table is damaged.
+/// for each identity, unless `asymmetric` is false. Deterministic. Throws std::runtime_error
+/// listing the names if there is none of that name, and if a table is damaged.
 std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric = true);
 /// The head of an identity of one's own. Throws std::runtime_error for an unknown slider.
 std::unique_ptr<Head> MakeHead(Identity identity, bool asymmetric = true);

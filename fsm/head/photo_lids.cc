@@ -95,7 +95,7 @@ class LidPainter {
         features_(features),
         light_(light),
         side_(side) {
-    // How far a place goes with a lid: 1 at the rim, a third where the lid ends, 0 at the socket's.
+    // What the photo shows about the eye, and where the rims of the lids are.
     std::vector<SkinSample> samples;
     std::vector<glm::vec2> rims;
     for (std::size_t i = 0; i < skin.weights.size(); ++i) {
@@ -246,14 +246,14 @@ class LidPainter {
     const PhotoSpot wide = Around(below_, source, glasses_ ? 1.2f : 4.0f);
     return {.vertex = i,
             .colour = FromScreen(glm::clamp(Lashed(skin, lashes), 0.0f, 1.0f)),
-            .weight = Part(at, rim, skin) * SmoothStep(0.02f, 0.2f, held),
+            .weight = Share(at, rim, skin) * SmoothStep(0.02f, 0.2f, held),
             .grain_at = grain_by_face_(source),
             .grain_light = GrainLight(wide),
             .slide = photo_by_face_.slope * (at - glm::vec2(skin_.open.position[i]))};
   }
 
   /// How much is lid: from a little above the eye's rim on, and where its lashes were.
-  float Part(glm::vec2 at, float rim, glm::vec3 skin) const {
+  float Share(glm::vec2 at, float rim, glm::vec3 skin) const {
     const float beyond = std::max(rim_from_ - at.x, at.x - rim_to_);  // the corners, millimetres
     const glm::vec2 above = rim + features_.photo_lid_above;
     const float lid = SmoothStep(above.x, above.y, at.y) * SmoothStep(3, 0, beyond);

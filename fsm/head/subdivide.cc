@@ -18,7 +18,7 @@ struct Mesh {
   std::vector<glm::vec3> position;
   std::vector<CageTag> tag;
   std::vector<std::uint32_t> mirror;
-  std::vector<Cage::Face> faces;
+  std::vector<Cage::Polygon> faces;
   std::vector<Edge> edges;
   std::vector<std::vector<std::uint32_t>> face_edges;    // edge k joins corners k and k + 1
   std::vector<std::vector<std::uint32_t>> vertex_edges;  // by vertex
@@ -29,7 +29,7 @@ Mesh Mirrored(const Cage& half) {
   Mesh mesh;
   mesh.position = half.position;
   mesh.tag = half.tag;
-  mesh.faces = half.faces;
+  mesh.faces = half.polygons;
   mesh.mirror.resize(half.position.size());
   for (std::uint32_t i = 0; i < half.position.size(); ++i) {
     if (half.position[i].x == 0) {
@@ -42,8 +42,8 @@ Mesh Mirrored(const Cage& half) {
     mesh.tag.push_back(half.tag[i]);
     mesh.mirror.push_back(i);
   }
-  for (const Cage::Face& face : half.faces) {
-    Cage::Face image = face;
+  for (const Cage::Polygon& face : half.polygons) {
+    Cage::Polygon image = face;
     for (std::uint32_t& v : image.corner) v = mesh.mirror[v];
     std::ranges::reverse(image.corner);
     mesh.faces.push_back(std::move(image));
@@ -150,7 +150,7 @@ CageTag Mean(const std::vector<CageTag>& tags, const std::vector<std::uint32_t>&
 class Subdivider {
  public:
   explicit Subdivider(const Cage& half)
-      : mesh_(Mirrored(half)), first_mirrored_(half.faces.size()), cage_(half.position.size()) {
+      : mesh_(Mirrored(half)), first_mirrored_(half.polygons.size()), cage_(half.position.size()) {
     FindEdges(mesh_);
     p_ = Corrected(mesh_);
   }
@@ -197,7 +197,7 @@ class Subdivider {
   }
 
   void AddPlain(std::uint32_t f) {
-    const Cage::Face& face = mesh_.faces[f];
+    const Cage::Polygon& face = mesh_.faces[f];
     std::vector<std::uint32_t> outline;
     for (std::size_t k = 0; k < face.corner.size(); ++k) {
       outline.push_back(vertex_id_[face.corner[k]]);
@@ -221,7 +221,7 @@ class Subdivider {
   }
 
   void AddFine(std::uint32_t f) {
-    const Cage::Face& face = mesh_.faces[f];
+    const Cage::Polygon& face = mesh_.faces[f];
     const std::size_t n = face.corner.size();
     const std::uint32_t centre = Add(FacePoint(mesh_, p_, f), Mean(mesh_.tag, face.corner));
     for (std::size_t k = 0; k < n; ++k) {

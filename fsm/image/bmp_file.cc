@@ -56,14 +56,12 @@ std::vector<std::uint8_t> EncodeBmp(const Image& image) {
   return out;
 }
 
-std::optional<Image> DecodeBmp(std::span<const std::uint8_t> bytes, std::string& why) {
+vm::Result<Image> DecodeBmp(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < kFileHeader + kInfoHeader || bytes[0] != 'B' || bytes[1] != 'M') {
-    why = "it is not a bitmap file";
-    return std::nullopt;
+    return vm::Fail(vm::Errc::kBadValue, "it is not a bitmap file");
   }
   if (LittleEndian(bytes, 14, 4) < kInfoHeader) {
-    why = "it is an OS/2 bitmap";
-    return std::nullopt;
+    return vm::Fail(vm::Errc::kBadValue, "it is an OS/2 bitmap");
   }
   const std::size_t start = LittleEndian(bytes, 10, 4);
   const auto width = static_cast<std::int32_t>(LittleEndian(bytes, 18, 4));
@@ -72,21 +70,19 @@ std::optional<Image> DecodeBmp(std::span<const std::uint8_t> bytes, std::string&
   const std::int64_t height = downwards ? -static_cast<std::int64_t>(signed_height) : signed_height;
   const std::size_t bits = LittleEndian(bytes, 28, 2);
   const auto compression = LittleEndian(bytes, 30, 4);
-  if (!SizeAllowed(width, height, why)) return std::nullopt;
+  if (auto fits = CheckSize(width, height); !fits) return std::unexpected(fits.error());
   if (bits != 24 && bits != 32) {
-    why = "it has " + std::to_string(bits) + " bits per pixel, only 24 and 32 are read";
-    return std::nullopt;
+    return vm::Fail(vm::Errc::kBadValue,
+                    "it has " + std::to_string(bits) + " bits per pixel, only 24 and 32 are read");
   }
   if (compression != kUncompressed &&
       !(compression == kBitFields && bits == 32 && UsualMasks(bytes))) {
-    why = "it is compressed";
-    return std::nullopt;
+    return vm::Fail(vm::Errc::kBadValue, "it is compressed");
   }
   const std::size_t stride = Stride(width, bits / 8);
   const std::size_t needed = stride * static_cast<std::size_t>(height);
   if (start > bytes.size() || bytes.size() - start < needed) {
-    why = "it ends too early";
-    return std::nullopt;
+    return vm::Fail(vm::Errc::kBadValue, "it ends too early");
   }
   Image image = FilledImage(width, static_cast<int>(height), kBlack);
   for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {

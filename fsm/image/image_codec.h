@@ -1,18 +1,17 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "fsm/image/image.h"
+#include "vm_protocol/core/result.h"
 
 namespace fsm {
 
 /// Formats of pictures (png_file.cc, bmp_file.cc, ...), each between bytes in memory and an Image.
-/// All decoders take hostile bytes: an empty result means the file is damaged, too large or of a
-/// kind we do not read, and `why` then says so in a clause.
+/// All decoders take hostile bytes. Error: kBadValue with a clause where the file is damaged, too
+/// large or of a kind we do not read.
 
 std::vector<std::uint8_t> EncodePng(const Image& image);
 std::vector<std::uint8_t> EncodeBmp(const Image& image);  ///< 24 bit, opacity dropped
@@ -20,9 +19,9 @@ std::vector<std::uint8_t> EncodeSgi(const Image& image);  ///< uncompressed RGB,
 /// Opacity dropped; `quality` 1 to 100 as libjpeg counts. Empty if there is no memory for it.
 std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality);
 
-std::optional<Image> DecodePng(std::span<const std::uint8_t> bytes, std::string& why);
-std::optional<Image> DecodeBmp(std::span<const std::uint8_t> bytes, std::string& why);
-std::optional<Image> DecodeSgi(std::span<const std::uint8_t> bytes, std::string& why);
+vm::Result<Image> DecodePng(std::span<const std::uint8_t> bytes);
+vm::Result<Image> DecodeBmp(std::span<const std::uint8_t> bytes);
+vm::Result<Image> DecodeSgi(std::span<const std::uint8_t> bytes);
 
 /// What is wanted of a JPEG file, and what it says beside its picture.
 struct JpegWish {
@@ -32,13 +31,12 @@ struct JpegWish {
   std::vector<std::vector<std::uint8_t>> exif;  ///< out: the APP1 blocks
 };
 /// RGB, grey and CMYK; a file that ends too early is damaged. Not turned.
-std::optional<Image> DecodeJpeg(std::span<const std::uint8_t> bytes, JpegWish& wish,
-                                std::string& why);
-std::optional<Image> DecodeJpeg(std::span<const std::uint8_t> bytes, std::string& why);
+vm::Result<Image> DecodeJpegAs(JpegWish& wish, std::span<const std::uint8_t> bytes);
+vm::Result<Image> DecodeJpeg(std::span<const std::uint8_t> bytes);
 /// PNG or JPEG, told apart by content.
-std::optional<Image> DecodePicture(std::span<const std::uint8_t> bytes, std::string& why);
+vm::Result<Image> DecodePicture(std::span<const std::uint8_t> bytes);
 
-/// Whether a decoder may go on: 1..kMaxImageSide on each side.
-bool SizeAllowed(std::int64_t width, std::int64_t height, std::string& why);
+/// Whether a decoder may go on: 1..kMaxImageSide on each side. Error: kBadValue.
+vm::Result<void> CheckSize(std::int64_t width, std::int64_t height);
 
 }  // namespace fsm

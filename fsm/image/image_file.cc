@@ -24,7 +24,7 @@ constexpr std::size_t kMaxFileBytes = 300U << 20;
 struct Format {
   const char* ending;
   std::vector<std::uint8_t> (*encode)(const Image&);
-  std::optional<Image> (*decode)(std::span<const std::uint8_t>, std::string&);
+  vm::Result<Image> (*decode)(std::span<const std::uint8_t>);
 };
 
 constexpr Format kFormats[] = {{".png", EncodePng, DecodePng},
@@ -103,9 +103,10 @@ vm::Result<Image> ReadImage(const std::string& path) {
   if (!format) return BadEnding(path, " (or .jpg, to be read)");
   const auto bytes = vm::ReadTextFile(path, kMaxFileBytes);
   if (!bytes) return std::unexpected(bytes.error());
-  std::string why;
-  if (auto image = format->decode(BytesOf(*bytes), why)) return *std::move(image);
-  return vm::Fail(vm::Errc::kBadValue, "cannot use the picture '" + path + "': " + why);
+  auto image = format->decode(BytesOf(*bytes));
+  if (image) return image;
+  return vm::Fail(vm::Errc::kBadValue,
+                  "cannot use the picture '" + path + "': " + image.error().text);
 }
 
 }  // namespace fsm

@@ -147,8 +147,7 @@ std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality) {
   return out;
 }
 
-std::optional<Image> DecodeJpeg(std::span<const std::uint8_t> bytes, JpegWish& wish,
-                                std::string& why) {
+vm::Result<Image> DecodeJpegAs(JpegWish& wish, std::span<const std::uint8_t> bytes) {
   jpeg_decompress_struct info{};
   Failure failure{};
   info.err = jpeg_std_error(&failure.manager);
@@ -162,6 +161,7 @@ std::optional<Image> DecodeJpeg(std::span<const std::uint8_t> bytes, JpegWish& w
   const std::string size =
       std::to_string(info.image_width) + " x " + std::to_string(info.image_height);
   jpeg_destroy_decompress(&info);
+  std::string why;
   if (outcome == Outcome::kTooLarge) {
     why = "it has " + size + " pixels; at most " + std::to_string(wish.most_pixels / 1'000'000) +
           " million are read: scale it down";
@@ -176,13 +176,16 @@ std::optional<Image> DecodeJpeg(std::span<const std::uint8_t> bytes, JpegWish& w
   } else {
     return out;
   }
-  return std::nullopt;
+  return vm::Fail(vm::Errc::kBadValue, why);
 }
 
-std::optional<Image> DecodeJpeg(std::span<const std::uint8_t> bytes, std::string& why) {
+vm::Result<Image> DecodeJpeg(std::span<const std::uint8_t> bytes) {
   JpegWish wish;
-  auto image = DecodeJpeg(bytes, wish, why);
-  if (image && !SizeAllowed(image->width, image->height, why)) return std::nullopt;
+  auto image = DecodeJpegAs(wish, bytes);
+  if (!image) return image;
+  if (auto fits = CheckSize(image->width, image->height); !fits) {
+    return std::unexpected(fits.error());
+  }
   return image;
 }
 

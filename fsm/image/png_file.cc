@@ -40,26 +40,24 @@ std::vector<std::uint8_t> EncodePng(const Image& image) {
   return out;
 }
 
-std::optional<Image> DecodePng(std::span<const std::uint8_t> bytes, std::string& why) {
+vm::Result<Image> DecodePng(std::span<const std::uint8_t> bytes) {
   // The simplified interface keeps libpng's long jumps inside libpng.
   png_image header;
   std::memset(&header, 0, sizeof header);
   header.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size())) {
-    why = header.message;
-    return std::nullopt;
+    return vm::Fail(vm::Errc::kBadValue, header.message);
   }
-  if (!SizeAllowed(header.width, header.height, why)) {
+  if (auto fits = CheckSize(header.width, header.height); !fits) {
     png_image_free(&header);
-    return std::nullopt;
+    return std::unexpected(fits.error());
   }
   header.format = PNG_FORMAT_RGBA;
   Image image =
       FilledImage(static_cast<int>(header.width), static_cast<int>(header.height), kBlack);
   if (!png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr)) {
-    why = header.message;
-    png_image_free(&header);
-    return std::nullopt;
+    png_image_free(&header);  // which leaves the message
+    return vm::Fail(vm::Errc::kBadValue, header.message);
   }
   return image;
 }

@@ -15,26 +15,24 @@ struct Header {
   std::size_t width, height, channels;
 };
 
-std::optional<Header> ReadHeader(std::span<const std::uint8_t> bytes, std::string& why) {
+vm::Result<Header> ReadHeader(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < kHeader || BigEndian(bytes, 0, 2) != kMagic) {
-    why = "it is not an SGI image";
-    return std::nullopt;
+    return vm::Fail(vm::Errc::kBadValue, "it is not an SGI image");
   }
   const auto dimension = BigEndian(bytes, 4, 2);
   if (bytes[2] > 1 || bytes[3] != 1 || dimension < 2 || dimension > 3 ||
       BigEndian(bytes, 104, 4) != 0) {
-    why = "only SGI images of one byte per channel are read";
-    return std::nullopt;
+    return vm::Fail(vm::Errc::kBadValue, "only SGI images of one byte per channel are read");
   }
   Header header{bytes[2] == 1, BigEndian(bytes, 6, 2), BigEndian(bytes, 8, 2),
                 dimension == 2 ? 1 : BigEndian(bytes, 10, 2)};
-  if (!SizeAllowed(static_cast<std::int64_t>(header.width),
-                   static_cast<std::int64_t>(header.height), why)) {
-    return std::nullopt;
+  if (auto fits = CheckSize(static_cast<std::int64_t>(header.width),
+                            static_cast<std::int64_t>(header.height));
+      !fits) {
+    return std::unexpected(fits.error());
   }
   if (header.channels < 1 || header.channels > 4) {
-    why = "it has " + std::to_string(header.channels) + " channels";
-    return std::nullopt;
+    return vm::Fail(vm::Errc::kBadValue, "it has " + std::to_string(header.channels) + " channels");
   }
   return header;
 }
@@ -97,17 +95,16 @@ std::vector<std::uint8_t> EncodeSgi(const Image& image) {
   return out;
 }
 
-std::optional<Image> DecodeSgi(std::span<const std::uint8_t> bytes, std::string& why) {
-  const auto header = ReadHeader(bytes, why);
-  if (!header) return std::nullopt;
+vm::Result<Image> DecodeSgi(std::span<const std::uint8_t> bytes) {
+  const auto header = ReadHeader(bytes);
+  if (!header) return std::unexpected(header.error());
   Image image =
       FilledImage(static_cast<int>(header->width), static_cast<int>(header->height), kBlack);
   std::vector<std::uint8_t> row(header->width);
   for (std::size_t channel = 0; channel < header->channels; ++channel) {
     for (std::size_t y = 0; y < header->height; ++y) {
       if (!ReadRow(bytes, *header, channel * header->height + y, row)) {
-        why = "it ends too early or its packing is damaged";
-        return std::nullopt;
+        return vm::Fail(vm::Errc::kBadValue, "it ends too early or its packing is damaged");
       }
       auto* line = &image.rgba[(header->height - 1 - y) * header->width * 4];
       // One channel is grey, a second one its opacity.

@@ -318,17 +318,17 @@ void AddGazeShapes(const KnownShapes& known, const GazeRanges& ranges,
 
 }  // namespace
 
-std::optional<RigData> BlendshapeRig(const ImportedHead& file, const Similarity& to_ours,
-                                     MeshModel& model, const ShapeMeanings& meanings,
-                                     const Head& moved, std::span<const FaceState> visemes,
-                                     std::vector<std::string>* unused) {
+std::optional<RigData> MakeBlendshapeRig(const ImportedHead& file, const Similarity& to_ours,
+                                         MeshModel& model, const ShapeMeanings& meanings,
+                                         const Head& moved, std::span<const FaceState> visemes,
+                                         std::vector<std::string>* unused) {
   constexpr std::size_t kFewest = 4;
   ShapeSolver solver(meanings.source, moved);
   KnownShapes known = Recognise(file, to_ours, model, meanings.shapes, solver);
   if (unused) *unused = known.unused;
   if (known.names.size() < kFewest) return std::nullopt;
   FreeWhatMoves(file, known, model);
-  RigData rig = StillSkin();
+  RigData rig = MakeStillSkin();
   rig.steps = {RigStep::kChannels};
   rig.units = moved.rig().data().units;
   auto drivers = FitDrivers(solver, rig.units, visemes);

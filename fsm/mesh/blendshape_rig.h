@@ -28,9 +28,9 @@ struct ShapeMeanings {
 /// anything of its movement. Vertices of `model` that the shapes move, those of teeth too, become
 /// flesh. Returns nothing if fewer than four shapes have a meaning. `unused` gets the names of
 /// shapes that move something but have no meaning.
-std::optional<RigData> BlendshapeRig(const ImportedHead& file, const Similarity& to_ours,
-                                     MeshModel& model, const ShapeMeanings& meanings,
-                                     const Head& moved, std::span<const FaceState> visemes = {},
-                                     std::vector<std::string>* unused = nullptr);
+std::optional<RigData> MakeBlendshapeRig(const ImportedHead& file, const Similarity& to_ours,
+                                         MeshModel& model, const ShapeMeanings& meanings,
+                                         const Head& moved, std::span<const FaceState> visemes = {},
+                                         std::vector<std::string>* unused = nullptr);
 
 }  // namespace fsm

@@ -30,18 +30,18 @@ struct Kind {
 };
 
 std::optional<Kind> KindOf(std::int64_t component) {
-  switch (component) {
-    case 5120:
+  switch (static_cast<GltfType>(component)) {
+    case GltfType::kInt8:
       return Kind{1, 127, true};
-    case 5121:
+    case GltfType::kUint8:
       return Kind{1, 255, false};
-    case 5122:
+    case GltfType::kInt16:
       return Kind{2, 32767, true};
-    case 5123:
+    case GltfType::kUint16:
       return Kind{2, 65535, false};
-    case 5125:
+    case GltfType::kUint32:
       return Kind{4, 4294967295.0, false};
-    case 5126:
+    case GltfType::kFloat:
       return Kind{4, 1, true};
     default:
       return std::nullopt;
@@ -50,7 +50,7 @@ std::optional<Kind> KindOf(std::int64_t component) {
 
 double Value(const std::uint8_t* at, std::int64_t component, const Kind& kind, bool normalised) {
   const std::uint32_t bits = LittleEndian(std::span(at, kind.bytes), 0, kind.bytes);
-  if (component == 5126) {
+  if (component == static_cast<std::int64_t>(GltfType::kFloat)) {
     float value = 0;
     std::memcpy(&value, &bits, sizeof(value));
     return std::isfinite(value) ? static_cast<double>(value) : 0;

@@ -14,6 +14,16 @@
 
 namespace fsm {
 
+/// Component types of glTF 2.0 accessors.
+enum class GltfType {
+  kInt8 = 5120,
+  kUint8 = 5121,
+  kInt16 = 5122,
+  kUint16 = 5123,
+  kUint32 = 5125,
+  kFloat = 5126
+};
+
 /// A glTF 2.0 file taken apart: its JSON, and its buffers, every access to them checked. We read it
 /// ourselves because tinygltf 2.7, the version to be had, trusts the offsets of a hostile file.
 class GltfDocument {

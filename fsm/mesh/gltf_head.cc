@@ -9,11 +9,11 @@
 #include "fsm/mesh/gltf_document.h"
 #include "fsm/mesh/gltf_nodes.h"
 #include "fsm/mesh/gltf_paint.h"
+#include "fsm/mesh/gltf_targets.h"
 #include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/vrm_avatar.h"
 #include "fsm/mesh/vrm_springs.h"
-#include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 
@@ -22,34 +22,25 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMaxShapes = 400;
-constexpr std::size_t kMaxDeltas = 20'000'000;
-
 /// Reads one document; what is wrong with it is thrown as a vm::Failure.
 class GltfReader {
  public:
   explicit GltfReader(GltfDocument document)
-      : document_(std::move(document)), avatar_(ReadVrm(document_)), paint_(document_, head_) {}
+      : document_(std::move(document)),
+        avatar_(ReadVrm(document_)),
+        nodes_(vm::OrThrow(GltfNodes::Read(document_))),
+        springs_(document_, nodes_),
+        paint_(document_, head_),
+        targets_(document_, head_) {}
 
   ImportedHead Read() {
     head_.name = document_.name();
     head_.metres = true;
-    nodes_ = vm::OrThrow(GltfNodes::Read(document_));
-    const VrmSprings springs(document_, nodes_);
-    springs_ = &springs;
-    head_.swing.springs = springs.springs();
-    for (const std::int64_t node : nodes_.shown()) Mesh(node);
-    if (head_.parts.empty()) Refuse("no mesh of triangles is in it");
-    for (const auto& expression : avatar_.expressions) Express(expression);
-    if (avatar_.eye_bone.right >= 0 && avatar_.eye_bone.left >= 0) {
-      head_.eye_pivot.emplace();
-      for (const Side side : kSides) {
-        (*head_.eye_pivot)[side] = glm::vec3(nodes_.World(avatar_.eye_bone[side])[3]);
-        if (WithinReach((*head_.eye_pivot)[side])) continue;
-        Refuse("nodes[" + std::to_string(avatar_.eye_bone[side]) +
-               "]: the eye lies farther than 10000000 metres from the origin");
-      }
-    }
+    head_.swing.springs = springs_.springs();
+    for (const std::int64_t node : nodes_.shown()) ReadMesh(node);
+    if (head_.parts.empty()) Refuse(document_, "no mesh of triangles is in it");
+    for (const auto& expression : avatar_.expressions) targets_.AddExpression(expression);
+    if (avatar_.eye_bone.right >= 0 && avatar_.eye_bone.left >= 0) ReadEyePivots();
     if (avatar_.says_gaze_ranges) head_.gaze_ranges = avatar_.gaze_ranges;
     head_.gaze_by_shape = avatar_.gaze_by_shape;
     if (avatar_.looks_back) TurnRound();
@@ -63,7 +54,17 @@ class GltfReader {
   }
 
  private:
-  void Mesh(std::int64_t node) {
+  void ReadEyePivots() {
+    head_.eye_pivot.emplace();
+    for (const Side side : kSides) {
+      const std::int64_t bone = avatar_.eye_bone[side];
+      (*head_.eye_pivot)[side] = glm::vec3(nodes_.World(bone)[3]);
+      if (WithinReach((*head_.eye_pivot)[side])) continue;
+      RefuseReach(document_, "nodes[" + std::to_string(bone) + "]: the eye");
+    }
+  }
+
+  void ReadMesh(std::int64_t node) {
     const json& of = document_.At("nodes", node);
     const std::int64_t index = JsonInteger(of, "mesh"), skin = JsonInteger(of, "skin");
     if (index < 0) return;
@@ -77,69 +78,68 @@ class GltfReader {
     }
     for (const json& primitive : JsonMember(mesh, "primitives")) {
       if (JsonInteger(primitive, "mode", 4) != 4) continue;
-      const Place place{.mesh = index, .node = node, .skin = skin};
-      Primitive(primitive, place,
-                vm::LowerCase(JsonText(of, "name") + " " + JsonText(mesh, "name")), names);
+      const GltfPlace place{.mesh = index, .node = node, .skin = skin};
+      ReadPrimitive(primitive, place, JsonText(of, "name") + " " + JsonText(mesh, "name"), names);
     }
   }
 
-  struct Place {
-    std::int64_t mesh, node, skin;
-  };
-
-  void Primitive(const json& primitive, const Place& place, const std::string& name,
-                 const std::vector<std::string>& names) {
+  void ReadPrimitive(const json& primitive, const GltfPlace& place, const std::string& name,
+                     const std::vector<std::string>& names) {
     const json& attributes = JsonMember(primitive, "attributes");
     const std::int64_t position = JsonInteger(attributes, "POSITION");
     // Without a fallback the accessors of packed geometry are there, but point to nothing.
     if (JsonMember(primitive, "extensions").contains("KHR_draco_mesh_compression") &&
         !document_.At("accessors", position).contains("bufferView")) {
-      Refuse("meshes[" + std::to_string(place.mesh) + "]: " + kPackedMesh);
+      Refuse(document_, "meshes[" + std::to_string(place.mesh) + "]: " + kPackedMesh);
     }
     // Primitives of a mesh often share their vertices.
-    const auto [known, fresh] =
-        first_of_.try_emplace({place.node, position}, head_.position.size());
-    const std::size_t first = known->second;
-    if (fresh) Vertices(primitive, place, names);
-    const std::size_t count = count_of_[{place.node, position}];
+    const auto [known, fresh] = runs_.try_emplace({place.node, position});
+    if (fresh) known->second = ReadVertices(primitive, place, names);
     ImportedHead::Part part;
     part.name = name;
-    part.indices = TrianglesOf(primitive, place, first, count);
-    if (triangles_ += part.indices.size() / 3; triangles_ > kMaxMeshTriangles) RefuseSize();
+    part.indices = TrianglesOf(primitive, place, known->second);
+    if (triangles_ += part.indices.size() / 3; triangles_ > kMaxMeshTriangles)
+      RefuseSize(document_);
     paint_.ApplyMaterial(JsonInteger(primitive, "material"), part);
     if (!part.indices.empty()) head_.parts.push_back(std::move(part));
   }
 
-  /// Appends the triangles of the `count` vertices from `first` on, counter-clockwise from outside.
-  std::vector<std::uint32_t> TrianglesOf(const json& primitive, const Place& place,
-                                         std::size_t first, std::size_t count) {
-    std::vector<std::uint32_t> indices(count);
+  /// Vertices of the head that one accessor of positions has become, under one node.
+  struct VertexRun {
+    std::size_t first = 0, count = 0;
+    bool mirrored = false;  // by the node: its triangles are seen from the other side
+  };
+
+  /// The triangles of a primitive, counter-clockwise from outside.
+  std::vector<std::uint32_t> TrianglesOf(const json& primitive, const GltfPlace& place,
+                                         const VertexRun& run) const {
+    std::vector<std::uint32_t> indices(run.count);
     std::iota(indices.begin(), indices.end(), 0u);
     if (primitive.contains("indices")) {
       indices = vm::OrThrow(document_.Indices(JsonInteger(primitive, "indices")));
     }
     for (std::uint32_t& i : indices) {
-      if (i >= count) {
-        Refuse("meshes[" + std::to_string(place.mesh) + "]: an index beyond its " +
-               std::to_string(count) + " vertices");
+      if (i >= run.count) {
+        Refuse(document_, "meshes[" + std::to_string(place.mesh) + "]: an index beyond its " +
+                              std::to_string(run.count) + " vertices");
       }
-      i += static_cast<std::uint32_t>(first);
+      i += static_cast<std::uint32_t>(run.first);
     }
     indices.resize(indices.size() / 3 * 3);
-    if (mirrored_[first]) {
+    if (run.mirrored) {
       for (std::size_t i = 0; i < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
     }
     return indices;
   }
 
-  void Vertices(const json& primitive, const Place& place, const std::vector<std::string>& names) {
+  VertexRun ReadVertices(const json& primitive, const GltfPlace& place,
+                         const std::vector<std::string>& names) {
     const json& attributes = JsonMember(primitive, "attributes");
     const std::int64_t position = JsonInteger(attributes, "POSITION");
     const std::size_t first = head_.position.size();
     const auto numbers = vm::OrThrow(document_.Numbers(position, 3));
     const std::size_t count = numbers.size() / 3;
-    if (first + count > kMaxMeshVertices) RefuseSize();
-    count_of_[{place.node, position}] = count;
+    if (first + count > kMaxMeshVertices) RefuseSize(document_);
     std::vector<glm::mat4> transforms(count, nodes_.World(place.node));
     std::vector<GltfSkin::Skinned::Influence> watched;
     head_.eye.resize(first);
@@ -147,30 +147,30 @@ class GltfReader {
       GltfSkin::Skinned skinned =
           vm::OrThrow(skins_.at(place.skin)
                           .Apply(document_, attributes, count, nodes_.World(place.node),
-                                 [this](std::int64_t bone) { return springs_->Has(bone); }));
+                                 [this](std::int64_t bone) { return springs_.Has(bone); }));
       transforms = std::move(skinned.transform);
       watched = std::move(skinned.watched);
       std::ranges::transform(skinned.main, std::back_inserter(head_.eye),
-                             [this](std::int64_t bone) { return EyeOf(bone); });
+                             [this](std::int64_t bone) { return EyeOfBone(bone); });
     }
     for (std::size_t i = 0; i < count; ++i) {
       const glm::vec4 p(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2], 1);
       head_.position.push_back(glm::vec3(transforms[i] * p));
-      if (!WithinReach(head_.position.back())) RefuseReach(place, i, "");
+      if (!WithinReach(head_.position.back())) RefuseReach(document_, VertexAt(place, i));
     }
     for (const auto& [vertex, node, weight] : watched) {
-      springs_->Bind(static_cast<std::uint32_t>(first + vertex), head_.position[first + vertex],
-                     node, weight, head_.swing.weights);
+      springs_.Bind(static_cast<std::uint32_t>(first + vertex), head_.position[first + vertex],
+                    node, weight, head_.swing.weights);
     }
-    mirrored_[first] = count > 0 && glm::determinant(glm::mat3(transforms[0])) < 0;
     const GltfUv uv = paint_.UvOfMaterial(JsonInteger(primitive, "material"));
     ReadTexcoords(attributes, uv, first);
-    if (attributes.contains("COLOR_0")) Tints(JsonInteger(attributes, "COLOR_0"), first, count);
-    Targets(primitive, place, transforms, first, names);
+    if (attributes.contains("COLOR_0")) ReadTints(JsonInteger(attributes, "COLOR_0"), first, count);
+    targets_.Read(primitive, place, transforms, first, names);
+    return {first, count, count > 0 && glm::determinant(glm::mat3(transforms[0])) < 0};
   }
 
   /// Which eye a bone belongs to, as ImportedHead::eye says it.
-  std::optional<Side> EyeOf(std::int64_t bone) const {
+  std::optional<Side> EyeOfBone(std::int64_t bone) const {
     if (bone < 0) return std::nullopt;
     const auto is = [this, bone](Side side) { return bone == avatar_.eye_bone[side]; };
     const auto found = std::ranges::find_if(kSides, is);
@@ -187,7 +187,7 @@ class GltfReader {
     }
   }
 
-  void Tints(std::int64_t accessor, std::size_t begin, std::size_t count) {
+  void ReadTints(std::int64_t accessor, std::size_t begin, std::size_t count) {
     const std::size_t width =
         JsonText(document_.At("accessors", accessor), "type") == "VEC4" ? 4 : 3;
     const auto colours = vm::OrThrow(document_.Numbers(accessor, static_cast<int>(width)));
@@ -195,65 +195,6 @@ class GltfReader {
     for (std::size_t i = 0; i < std::min(count, colours.size() / width); ++i) {
       for (std::size_t c = 0; c < 3; ++c) {
         head_.tint[begin + i][static_cast<int>(c)] = std::clamp(colours[width * i + c], 0.0f, 1.0f);
-      }
-    }
-  }
-
-  void Targets(const json& primitive, const Place& place, const std::vector<glm::mat4>& transforms,
-               std::size_t first, const std::vector<std::string>& names) {
-    const json& targets = JsonMember(primitive, "targets");
-    for (std::size_t t = 0; t < targets.size(); ++t) {
-      if (!targets.is_array() || !targets[t].contains("POSITION")) continue;
-      const auto by = vm::OrThrow(document_.Numbers(JsonInteger(targets[t], "POSITION"), 3));
-      if (by.size() < 3 * transforms.size()) {
-        Refuse("meshes[" + std::to_string(place.mesh) + "]: target " + std::to_string(t) +
-               " has fewer vertices than the mesh");
-      }
-      const std::string name = t < names.size() ? names[t] : "target" + std::to_string(t);
-      const auto [known, fresh] = shape_of_.try_emplace(name, head_.shapes.size());
-      if (fresh) {
-        if (head_.shapes.size() >= kMaxShapes) RefuseSize();
-        head_.shapes.push_back({name, {}});
-      }
-      targets_[{place.mesh, t}].push_back({.shape = known->second,
-                                           .node = place.node,
-                                           .first = first,
-                                           .end = first + transforms.size()});
-      auto& deltas = head_.shapes[known->second].deltas;
-      for (std::size_t i = 0; i < transforms.size(); ++i) {
-        const glm::vec3 d(by[3 * i], by[3 * i + 1], by[3 * i + 2]);
-        if (d == glm::vec3(0)) continue;
-        const glm::vec3 moved(transforms[i] * glm::vec4(d, 0));
-        if (!WithinReach(moved)) {
-          RefuseReach(place, i, " is moved by target " + std::to_string(t) + " and");
-        }
-        deltas.push_back({static_cast<std::uint32_t>(first + i), moved});
-        if (++deltas_ > kMaxDeltas) RefuseSize();
-      }
-    }
-  }
-
-  /// VRM's expressions become shapes of their own, called vrmNAME.
-  void Express(const VrmAvatar::Expression& expression) {
-    ImportedHead::Shape shape{"vrm" + expression.name, {}};
-    for (const VrmAvatar::Bind& bind : expression.binds) Add(shape, bind);
-    if (!shape.deltas.empty() && head_.shapes.size() < kMaxShapes)
-      head_.shapes.push_back(std::move(shape));
-  }
-
-  void Add(ImportedHead::Shape& shape, const VrmAvatar::Bind& bind) {
-    if (bind.target < 0) return;
-    const auto found = targets_.find({bind.mesh, static_cast<std::size_t>(bind.target)});
-    if (found == targets_.end()) return;
-    for (const Moved& moved : found->second) {
-      if (bind.node >= 0 && moved.node != bind.node) continue;
-      for (const auto& delta : head_.shapes[moved.shape].deltas) {
-        // Targets of the same name on several meshes are one shape; only this mesh's is meant.
-        if (delta.vertex < moved.first || delta.vertex >= moved.end) continue;
-        if (++deltas_ > kMaxDeltas) return;
-        // VRM has weights from 0 to 1; what is far beyond is a damaged file, not a wish.
-        const auto weight = static_cast<float>(std::clamp(bind.weight, -10.0, 10.0));
-        shape.deltas.push_back({delta.vertex, weight * delta.by});
       }
     }
   }
@@ -273,40 +214,17 @@ class GltfReader {
     }
   }
 
-  [[noreturn]] void Refuse(const std::string& what) const {
-    throw vm::Failure(document_.Wrong(what).error());
-  }
-  [[noreturn]] void RefuseReach(const Place& place, std::size_t vertex,
-                                const std::string& how) const {
-    Refuse("meshes[" + std::to_string(place.mesh) + "] of nodes[" + std::to_string(place.node) +
-           "]: vertex " + std::to_string(vertex) + how +
-           " comes to lie farther than 10000000 metres from the origin");
-  }
-  [[noreturn]] void RefuseSize() const {
-    throw vm::Failure({vm::Errc::kLimit, document_.name() + ": at most " +
-                                             std::to_string(kMaxMeshVertices) + " vertices, " +
-                                             std::to_string(kMaxMeshTriangles) + " triangles and " +
-                                             std::to_string(kMaxShapes) + " shapes are read"});
-  }
-
-  /// What a morph target moves: vertices of a shape's.
-  struct Moved {
-    std::size_t shape;
-    std::int64_t node;
-    std::size_t first, end;
-  };
-  GltfDocument document_;
+  // Each is made from those before it.
+  const GltfDocument document_;
   ImportedHead head_;
-  VrmAvatar avatar_;
+  const VrmAvatar avatar_;
+  const GltfNodes nodes_;
+  const VrmSprings springs_;
   GltfPaint paint_;
-  GltfNodes nodes_;
-  const VrmSprings* springs_ = nullptr;  // while it is read
+  GltfTargets targets_;
   std::map<std::int64_t, GltfSkin> skins_;
-  std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> first_of_, count_of_;
-  std::map<std::size_t, bool> mirrored_;  // by first vertex
-  std::map<std::string, std::size_t> shape_of_;
-  std::map<std::pair<std::int64_t, std::size_t>, std::vector<Moved>> targets_;
-  std::size_t triangles_ = 0, deltas_ = 0;
+  std::map<std::pair<std::int64_t, std::int64_t>, VertexRun> runs_;  // by node and accessor
+  std::size_t triangles_ = 0;
 };
 
 vm::Result<ImportedHead> ReadDocument(vm::Result<GltfDocument> document) try {

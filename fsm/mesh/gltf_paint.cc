@@ -127,7 +127,7 @@ std::int64_t GltfPaint::ImageOf(std::int64_t texture) {
 void GltfPaint::ApplyMaterial(std::int64_t index, ImportedHead::Part& part) {
   using Alpha = GltfMaterial::Alpha;
   const json& material = document_.At("materials", index);
-  part.name += " " + vm::LowerCase(JsonText(material, "name"));
+  part.name += " " + JsonText(material, "name");
   const glm::vec4 factor = FactorOf(material);
   if (index >= 0) part.colour = glm::vec3(factor);
   part.two_sided = material.contains("doubleSided") && material["doubleSided"] == json(true);
@@ -162,15 +162,15 @@ void GltfPaint::ApplyMaterial(std::int64_t index, ImportedHead::Part& part) {
 
 std::optional<Image> GltfPaint::Decode(std::int64_t image) {
   const auto bytes = document_.ImageBytes(image);
-  std::string why = bytes ? "" : bytes.error().text;
-  std::optional<Image> picture;
-  if (bytes) picture = DecodePicture(BytesOf(*bytes), why);
+  vm::Result<Image> picture =
+      bytes ? DecodePicture(BytesOf(*bytes)) : std::unexpected(bytes.error());
   if (!picture) {
-    head_.notices.push_back("images[" + std::to_string(image) + "] is left out: " + why);
+    head_.notices.push_back("images[" + std::to_string(image) +
+                            "] is left out: " + picture.error().text);
     return std::nullopt;
   }
   Shrink(*picture, TextureAtlas::kMaxSide);
-  return picture;
+  return std::move(*picture);
 }
 
 ImportedHead::Detail GltfPaint::DetailOf(const GltfMaterial& given, const GltfUv& uv) {

@@ -18,7 +18,7 @@ namespace fsm {
 /// Somebody else's head as its file has it: own unit and frame, y up.
 struct ImportedHead {
   struct Part {
-    std::string name;  ///< of group, mesh and material, in small letters
+    std::string name;  ///< of group, mesh and material (PartNames)
     std::vector<std::uint32_t> indices;
     glm::vec3 colour{0.6f, 0.42f, 0.33f};  ///< linear
     int picture = -1;                      ///< index into pictures

@@ -12,35 +12,11 @@
 #include "fsm/base/smooth_step.h"
 #include "fsm/head/identity.h"
 #include "fsm/mesh/mesh_reach.h"
+#include "fsm/mesh/part_names.h"
 #include "fsm/mesh/texture_atlas.h"
 
 namespace fsm {
 namespace {
-
-bool Has(const std::string& name, std::initializer_list<const char*> words) {
-  return std::ranges::any_of(
-      words, [&](const char* word) { return name.find(word) != std::string::npos; });
-}
-
-/// What a part is by its name.
-enum class Kind { kSkin, kEye, kTeeth, kGum, kTongue, kMouth, kHair, kLash, kOther };
-
-Kind KindOf(const std::string& name) {
-  if (Has(name, {"lash"})) return Kind::kLash;
-  if (Has(name, {"socket", "brow", "lid", "eyeline", "eyeliner", "eyeshadow"}))
-    return Has(name, {"mouth"}) ? Kind::kMouth : Kind::kSkin;
-  if (Has(name, {"eye", "iris", "sclera", "pupil", "cornea"})) return Kind::kEye;
-  if (Has(name, {"gum"})) return Kind::kGum;
-  if (Has(name, {"teeth", "tooth"})) return Kind::kTeeth;
-  if (Has(name, {"tongue"})) return Kind::kTongue;
-  if (Has(name, {"mouth", "oral"})) return Kind::kMouth;
-  if (Has(name, {"hair"})) return Kind::kHair;
-  if (Has(name,
-          {"cloth", "shirt", "dress", "shoe", "body_tops", "tops", "bottoms", "glass", "hat"})) {
-    return Kind::kOther;
-  }
-  return Kind::kSkin;
-}
 
 /// Numbers of the connected pieces of a part's vertices.
 std::vector<std::uint32_t> Pieces(std::size_t count, std::span<const std::uint32_t> indices) {
@@ -129,15 +105,18 @@ class HeadBuilder {
                              "(.points) or eyes belong to it?");
   }
 
-  bool IsEye(const ImportedHead::Part& part) const { return KindOf(part.name) == Kind::kEye; }
+  static PartKind KindOf(const ImportedHead::Part& part) {
+    return PartNames::BuiltIn().KindOf(part.name);
+  }
 
   /// Eyes are parts called so, or vertices the file's skeleton gives to eyes.
   void FindEyes() {
     Sided<Box> box;
     eye_.assign(at_.size(), std::nullopt);
     for (const auto& part : file_.parts) {
+      const bool is_eye = KindOf(part) == PartKind::kEye;
       for (const std::uint32_t v : part.indices) {
-        if (!file_.eye.empty() ? !file_.eye[v] : !IsEye(part)) continue;
+        if (!file_.eye.empty() ? !file_.eye[v] : !is_eye) continue;
         const Side side = at_[v].x < 0 ? Side::kRight : Side::kLeft;
         eye_[v] = side;
         box[side].Add(at_[v]);
@@ -172,13 +151,13 @@ class HeadBuilder {
   }
 
   void AddPart(const ImportedHead::Part& part) {
-    const Kind kind = KindOf(part.name);
+    const PartKind kind = KindOf(part);
     const bool pictured = part.picture >= 0 && !file_.texcoord.empty();
-    if (kind == Kind::kEye && !pictured && model_.has_eyes) {
+    if (kind == PartKind::kEye && !pictured && model_.has_eyes) {
       AddBalls();
       return;
     }
-    const auto pieces = kind == Kind::kTeeth || kind == Kind::kGum
+    const auto pieces = kind == PartKind::kTeeth || kind == PartKind::kGum
                             ? Pieces(at_.size(), part.indices)
                             : std::vector<std::uint32_t>();
     std::vector<Box> piece(pieces.empty() ? 0 : at_.size());
@@ -186,7 +165,7 @@ class HeadBuilder {
       for (const std::uint32_t v : part.indices) piece[pieces[v]].Add(at_[v]);
     }
     for (const std::uint32_t v : part.indices) {
-      model_.bone[v] = BoneOf(kind, v, pieces.empty() ? nullptr : &piece[pieces[v]]);
+      model_.bone[v] = BoneOfPart(kind, v, pieces.empty() ? nullptr : &piece[pieces[v]]);
       model_.albedo[v] = ColourOf(kind, part, v);
       if (!pictured) continue;
       const glm::vec2 uv = file_.texcoord[v];
@@ -210,11 +189,11 @@ class HeadBuilder {
 
   /// The index in the model of the part's PbrMaterial. Without pictures skin and mouth are lit as
   /// ours, unless they are toon-shaded.
-  int PbrOf(Kind kind, const ImportedHead::Part& part, bool pictured) {
+  int PbrOf(PartKind kind, const ImportedHead::Part& part, bool pictured) {
     if (part.pbr < 0) return -1;
     const PbrMaterial& pbr = file_.pbr_materials[static_cast<std::size_t>(part.pbr)];
     const bool own =
-        kind == Kind::kHair || kind == Kind::kOther || model_.textures.image != nullptr;
+        kind == PartKind::kHair || kind == PartKind::kOther || model_.textures.image != nullptr;
     if (!pictured && !own && pbr.kind == PbrMaterial::Kind::kLit) return -1;
     const auto [known, fresh] =
         pbr_index_.try_emplace(part.pbr, static_cast<int>(model_.pbr_materials.size()));
@@ -224,53 +203,53 @@ class HeadBuilder {
 
   static float Wrapped(float x) { return x >= 0 && x <= 1 ? x : x - std::floor(x); }
 
-  Bone BoneOf(Kind kind, std::uint32_t v, const Box* piece) const {
-    if (eye_[v] && model_.has_eyes) return fsm::BoneOf(*eye_[v]);
+  Bone BoneOfPart(PartKind kind, std::uint32_t v, const Box* piece) const {
+    if (eye_[v] && model_.has_eyes) return BoneOf(*eye_[v]);
     switch (kind) {
-      case Kind::kTeeth:
-      case Kind::kGum:
+      case PartKind::kTeeth:
+      case PartKind::kGum:
         return (piece ? piece->centre().y : at_[v].y) > mouth_y_ ? Bone::kSkull : Bone::kJaw;
-      case Kind::kTongue:
+      case PartKind::kTongue:
         return Bone::kJaw;
-      case Kind::kHair:
-      case Kind::kOther:
+      case PartKind::kHair:
+      case PartKind::kOther:
         return Bone::kSkull;
       default:
         return Bone::kSkin;
     }
   }
 
-  glm::vec3 ColourOf(Kind kind, const ImportedHead::Part& part, std::uint32_t v) const {
+  glm::vec3 ColourOf(PartKind kind, const ImportedHead::Part& part, std::uint32_t v) const {
     const Palette& palette = BasePalette();
     if (!file_.tint.empty() && file_.tint[v] != glm::vec3(1)) return part.colour * file_.tint[v];
     switch (kind) {
-      case Kind::kTeeth:
+      case PartKind::kTeeth:
         return palette.tooth;
-      case Kind::kGum:
+      case PartKind::kGum:
         return palette.gum;
-      case Kind::kTongue:
+      case PartKind::kTongue:
         return palette.tongue;
-      case Kind::kMouth:
+      case PartKind::kMouth:
         return palette.mouth;
-      case Kind::kLash:
+      case PartKind::kLash:
         return palette.lash;
       default:
         return part.colour;
     }
   }
 
-  Material MaterialOf(Kind kind, bool pictured, bool cut_out) const {
+  Material MaterialOf(PartKind kind, bool pictured, bool cut_out) const {
     if (pictured) return cut_out ? Material::kPhoto : Material::kSkin;
     switch (kind) {
-      case Kind::kTeeth:
+      case PartKind::kTeeth:
         return Material::kTeeth;
-      case Kind::kGum:
+      case PartKind::kGum:
         return Material::kGum;
-      case Kind::kTongue:
+      case PartKind::kTongue:
         return Material::kTongue;
-      case Kind::kMouth:
+      case PartKind::kMouth:
         return Material::kMouthInside;
-      case Kind::kLash:
+      case PartKind::kLash:
         return Material::kMatte;
       default:
         // Material::kSkin would show the picture.

@@ -136,7 +136,7 @@ void FindMouth(const RigData& rig, HeadTopology& topology) {
 
 }  // namespace
 
-RigData StillSkin() {
+RigData MakeStillSkin() {
   RigData rig;
   rig.units = BuiltInUnits();
   return rig;

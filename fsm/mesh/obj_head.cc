@@ -4,7 +4,6 @@
 
 #include "fsm/image/image_file.h"
 #include "fsm/mesh/obj_file.h"
-#include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace fsm {
@@ -40,7 +39,7 @@ class ObjHead {
 
   void AddPart(const ObjFile::Group& group) {
     ImportedHead::Part part;
-    part.name = vm::LowerCase(group.name + " " + group.material);
+    part.name = group.name + " " + group.material;
     if (const auto found = materials_.find(group.material); found != materials_.end()) {
       part.colour = Linear(found->second.colour);
       const auto file = FileBeside(path_, found->second.picture);

@@ -41,7 +41,7 @@ std::string PathOf(const std::string& folder, const std::string& stem, int numbe
 class Reader {
  public:
   Reader(const std::string& folder, const std::string& path, PntFile standard)
-      : folder_(folder), path_(path), standard_(std::move(standard)), frame_(standard_) {}
+      : folder_(folder), path_(path), standard_(std::move(standard)), space_(standard_) {}
 
   /// Throws vm::Failure with what it cannot read.
   OriginalExpressions Read() {
@@ -70,17 +70,17 @@ class Reader {
         throw vm::Failure(
             {vm::Errc::kBadValue, path + ": " + InWords(name) + " of '" + path_ + "' is missing"});
       }
-      const glm::vec3 by = frame_.mm() * file.at[found->second];
+      const glm::vec3 by = space_.mm() * file.at[found->second];
       row.insert(row.end(), {by.x, by.y, by.z});
     }
     return row;
   }
 
   void ReadUnits() {
-    const float middle = 0.5F * (frame_.Place(standard_, kLipCorners.right).x +
-                                 frame_.Place(standard_, kLipCorners.left).x);
+    const float middle = 0.5F * (space_.Place(standard_, kLipCorners.right).x +
+                                 space_.Place(standard_, kLipCorners.left).x);
     std::vector<float> left;
-    for (const glm::vec3& p : standard_.at) left.push_back(LeftPartAt(frame_.ToMm(p).x - middle));
+    for (const glm::vec3& p : standard_.at) left.push_back(LeftPartAt(space_.ToMm(p).x - middle));
     std::vector<NnlsSolver::Row> halves;
     for (int unit = 1; unit <= static_cast<int>(kOriginalUnits); ++unit) {
       const std::string path = PathOf(folder_, "AU", unit);
@@ -118,7 +118,7 @@ class Reader {
                          parts.residual[3 * i + 2]);
       most = std::max(most, glm::length(by));
       residual.index.emplace(standard_.names[i], i);
-      residual.at.push_back(by / frame_.mm());
+      residual.at.push_back(by / space_.mm());
     }
     residual.names = standard_.names;
     if (most < kLeastResidualMm) return made;
@@ -134,7 +134,7 @@ class Reader {
   const std::string& folder_;
   const std::string& path_;
   const PntFile standard_;
-  const OriginalFrame frame_;
+  const OriginalSpace space_;
   NnlsSolver units_;                                // right and left half of each
   std::map<std::string, OriginalExpression> seen_;  // by the content of their file
   OriginalExpressions out_;

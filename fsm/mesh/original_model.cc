@@ -17,10 +17,10 @@
 namespace fsm {
 namespace {
 
-/// Builds the model part by part; `mm` takes wireframe units to our frame.
+/// Builds the model part by part, in our space.
 class OriginalBuilder {
  public:
-  explicit OriginalBuilder(const OriginalFace& face) : face_(face), frame_(face.wireframe) {}
+  explicit OriginalBuilder(const OriginalFace& face) : face_(face), space_(face.wireframe) {}
 
   MeshModel Build() {
     const std::size_t picture = atlas_.Add(face_.picture);
@@ -45,11 +45,11 @@ class OriginalBuilder {
 
   void AddFace(std::size_t picture) {
     // The picture covers -1..1 of the wireframe at rest in both directions.
-    const float chin = frame_.Place(face_.wireframe, kChin).y;
+    const float chin = space_.Place(face_.wireframe, kChin).y;
     for (const glm::vec3& p : face_.wireframe.at) {
       const glm::vec2 place =
           atlas_.rect(picture).At(glm::clamp(glm::vec2(p.x + 1, 1 - p.y) / 2.0F, 0.0F, 1.0F));
-      const glm::vec3 at = frame_.ToMm(p);
+      const glm::vec3 at = space_.ToMm(p);
       model_.Add(at, Bone::kSkin, face_.mouth, place, SmoothStep(chin - 42, chin - 4, at.y));
     }
     for (const auto& triangle : face_.link.triangles) {
@@ -118,7 +118,7 @@ class OriginalBuilder {
         AddOwnEye(side, picture);
         continue;
       }
-      eye.centre = frame_.EyeOpening(face_.wireframe, side) - glm::vec3(0, 0, 12.6F);
+      eye.centre = space_.EyeOpening(face_.wireframe, side) - glm::vec3(0, 0, 12.6F);
       eye.ball_radius = 12.4F;
       model_.AddBall(side);
     }
@@ -137,8 +137,8 @@ class OriginalBuilder {
     turned = glm::rotate(turned, turn.z, {0, 0, 1});
     const Box box = Box::Of(face_.eye->positions);
     const glm::vec3 size = glm::max(box.size(), 1e-6F), middle = box.centre();
-    model_.eyes[side].centre = frame_.ToMm(eye.place);
-    model_.eyes[side].ball_radius = 0.5F * size.x * eye.scale * frame_.mm();
+    model_.eyes[side].centre = space_.ToMm(eye.place);
+    model_.eyes[side].ball_radius = 0.5F * size.x * eye.scale * space_.mm();
     model_.eyes[side].iris_radius = 0.48F * model_.eyes[side].ball_radius;
     const Bone carrier = BoneOf(side);
     const auto first = static_cast<std::uint32_t>(model_.position.size());
@@ -147,7 +147,7 @@ class OriginalBuilder {
       const glm::vec2 place =
           atlas_.rect(picture).At(glm::clamp(glm::vec2(flat.x, 1 - flat.y), 0.0F, 1.0F));
       const glm::vec3 at = eye.place + eye.scale * glm::vec3(turned * glm::vec4(p, 1));
-      model_.Add(frame_.ToMm(at), carrier, glm::vec3(0.5F), place);
+      model_.Add(space_.ToMm(at), carrier, glm::vec3(0.5F), place);
     }
     for (const auto& group : face_.eye->groups) {
       for (const auto& t : group.triangles) {
@@ -197,7 +197,7 @@ class OriginalBuilder {
     const auto first = static_cast<std::uint32_t>(model_.position.size());
     for (const glm::vec3& p : teeth.positions) {
       const glm::vec3 place = to + glm::vec3(wide, tall, wide) * (p - from);
-      model_.Add(frame_.ToMm(place), bone, ShownTeeth());
+      model_.Add(space_.ToMm(place), bone, ShownTeeth());
     }
     for (const auto& group : teeth.groups) {
       for (const auto& t : group.triangles) {
@@ -220,12 +220,12 @@ class OriginalBuilder {
   void NamePlaces() {
     for (const auto& [name, point] : kNamedPoints) model_.landmarks[name] = Place(point);
     model_.landmarks["stomion"] = 0.5F * (Place(kLipMiddle) + Place({1, 37}));
-    const glm::vec3 middle = frame_.ToMm(glm::vec3(0));
-    model_.view = ParallelView{middle, frame_.ToMm(glm::vec3(1, 0, 0)).x - middle.x};
+    const glm::vec3 middle = space_.ToMm(glm::vec3(0));
+    model_.view = ParallelView{middle, space_.ToMm(glm::vec3(1, 0, 0)).x - middle.x};
   }
 
   const OriginalFace& face_;
-  OriginalFrame frame_;
+  OriginalSpace space_;
   TextureAtlas atlas_;
   MeshModel model_;
 };

@@ -25,16 +25,16 @@ class OriginalRigBaker {
     // Units belong to the standard wireframe and grow with the face, so that its lids meet: across
     // with the distance of the eyes, up and down with the height from eyes to mouth. Mouths are
     // added as they are, as in the original: those of small faces move more.
-    const OriginalFrame standard(face.standard);
-    const auto height = [](const OriginalFrame& frame, const PntFile& file) {
-      return frame.EyeOpening(file, Side::kRight).y - frame.Place(file, kLipMiddle).y;
+    const OriginalSpace standard(face.standard);
+    const auto height = [](const OriginalSpace& space, const PntFile& file) {
+      return space.EyeOpening(file, Side::kRight).y - space.Place(file, kLipMiddle).y;
     };
     const float tall = height(own_, face.wireframe) / height(standard, face.standard);
     unit_scale_ = standard.mm() * glm::vec3(1, std::clamp(tall, 0.5f, 2.0f), 1);
   }
 
   RigData Bake(const VisemeMouths& mouths, const MouthUnitSizes& unit_sizes) {
-    rig_ = StillSkin();
+    rig_ = MakeStillSkin();
     rig_.steps = {RigStep::kChannels, RigStep::kLips, RigStep::kJawByChin};
     rig_.lips = LipsOf(model_, face_.wireframe.at.size());
     rig_.jaw.chin = static_cast<std::uint32_t>(face_.wireframe.index.at(kChin));
@@ -131,7 +131,7 @@ class OriginalRigBaker {
 
   const OriginalFace& face_;
   const MeshModel& model_;
-  OriginalFrame own_;
+  OriginalSpace own_;
   glm::vec3 unit_scale_{1};
   RigData rig_;
 };

@@ -31,14 +31,14 @@ glm::vec3 MeanOfRim(const PntFile& file, Side side) {
 
 std::span<const PointName> LidRim(Side side) { return kLids[side]; }
 
-OriginalFrame::OriginalFrame(const PntFile& wireframe) {
+OriginalSpace::OriginalSpace(const PntFile& wireframe) {
   const glm::vec3 right = MeanOfRim(wireframe, Side::kRight),
                   left = MeanOfRim(wireframe, Side::kLeft);
   middle_ = 0.5f * (right + left);
   mm_ = kOpeningsApart / std::max(glm::distance(right, left), 1e-4f);
 }
 
-glm::vec3 OriginalFrame::EyeOpening(const PntFile& file, Side side) const {
+glm::vec3 OriginalSpace::EyeOpening(const PntFile& file, Side side) const {
   return ToMm(MeanOfRim(file, side));
 }
 

@@ -66,10 +66,10 @@ constexpr bool IsDrawn(int group) {
 }
 
 /// Takes a face's wireframe to our frame: the openings of its eyes to where ours are.
-class OriginalFrame {
+class OriginalSpace {
  public:
   /// REQUIRES: the points of both rims are there.
-  explicit OriginalFrame(const PntFile& wireframe);
+  explicit OriginalSpace(const PntFile& wireframe);
   glm::vec3 ToMm(glm::vec3 p) const { return (p - middle_) * mm_ + kOpening; }
   glm::vec3 Place(const PntFile& file, PointName name) const {
     return ToMm(file.at[file.index.at(name)]);

@@ -276,7 +276,7 @@ std::vector<std::uint32_t> EyeballTriangles(const HeadTopology& topology) {
   return TrianglesOf(topology, {Material::kSclera, Material::kIris, Material::kPupil});
 }
 
-RigData TransferredRig(MeshModel& model, const Head& source, std::span<const PointPair> pairs) {
+RigData TransferRig(MeshModel& model, const Head& source, std::span<const PointPair> pairs) {
   using enum RigStep;
   const RigData& from = source.rig().data();
   const DeformationTransfer transfer = TransferBetween(source, model, pairs);
@@ -288,7 +288,7 @@ RigData TransferredRig(MeshModel& model, const Head& source, std::span<const Poi
   rig.units_by_place = true;
   std::ranges::move(UnitChannels(rig.units, model.bone, rig.weights),
                     std::back_inserter(rig.channels));
-  rig.steps = {kChannels, kLids, kJaw, kTeeth, kLips, kTeeth};
+  rig.steps = {kChannels, kLids, kJaw, kTeeth, kLips, kTeeth};  // twice, as in make_head.cc
   rig.proxy.to_own = OwnForm(rig, model, rows);
   MoveLips(rig.lips, model, pairs, rig.proxy.to_own);
   RedLips(source, rows, model);

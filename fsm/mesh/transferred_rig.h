@@ -17,6 +17,6 @@ std::vector<std::uint32_t> EyeballTriangles(const HeadTopology& topology);
 /// The rig of skin that moves as `source`, a built-in head, would; `pairs` in our frame. Adds
 /// unseen vertices to `model`, the source's lips. Throws as DeformationTransfer, with the model's
 /// name before the sentence.
-RigData TransferredRig(MeshModel& model, const Head& source, std::span<const PointPair> pairs);
+RigData TransferRig(MeshModel& model, const Head& source, std::span<const PointPair> pairs);
 
 }  // namespace fsm

@@ -59,7 +59,7 @@ View FrameParallel(const Figure& placed, const Camera& camera, float aspect, int
 
 }  // namespace
 
-View FramePortrait(const Figure& placed, const Camera& camera, int width, int height) {
+View ViewOfPortrait(const Figure& placed, const Camera& camera, int width, int height) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   if (camera.parallel) return FrameParallel(placed, camera, aspect, height);
   const float framed_height = std::max(kFramedTop - kFramedBottom, kFramedWidth / aspect);

@@ -23,6 +23,6 @@ struct View {
 /// Where the camera has a ParallelView, its longer side fills that of the picture, and the figure
 /// turns and grows about its centre, by z, then y, then x: both as in the original. The camera's
 /// distance, height and angle act upon it as upon a portrait.
-View FramePortrait(const Figure& placed, const Camera& camera, int width, int height);
+View ViewOfPortrait(const Figure& placed, const Camera& camera, int width, int height);
 
 }  // namespace fsm

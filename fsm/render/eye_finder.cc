@@ -35,7 +35,7 @@ glm::vec3 Centroid(std::span<const std::uint32_t> points, const HeadVertices& ve
 
 /// The sphere through points, by least squares: |p|^2 = 2 c.p + (r^2 - |c|^2) is linear in the
 /// centre c and in the bracket. Positions are taken from their centroid to keep the numbers small.
-void FitSphere(std::span<const std::uint32_t> points, const HeadVertices& vertices, EyeFrame& out) {
+void FitSphere(std::span<const std::uint32_t> points, const HeadVertices& vertices, EyePose& out) {
   const glm::dvec3 origin = Centroid(points, vertices);
   glm::dmat4 normal(0.0);
   glm::dvec4 right(0.0);
@@ -92,8 +92,8 @@ void EyeFinder::AppendVertices(std::vector<std::uint32_t>& out) const {
   }
 }
 
-Sided<EyeFrame> EyeFinder::Measure(const HeadVertices& vertices) const {
-  Sided<EyeFrame> eyes;
+Sided<EyePose> EyeFinder::Measure(const HeadVertices& vertices) const {
+  Sided<EyePose> eyes;
   for (const Side side : kSides) {
     auto& eye = eyes[side];
     FitSphere(white_[side], vertices, eye);

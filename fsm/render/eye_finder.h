@@ -9,7 +9,7 @@
 namespace fsm {
 
 /// What the eye shader must know of one eyeball, in the frame of the vertices measured.
-struct EyeFrame {
+struct EyePose {
   glm::vec3 centre{0.0F};
   float radius = 12.0F;
   glm::vec3 gaze{0.0F, 0.0F, 1.0F};  ///< unit, from the centre through the pupil
@@ -27,7 +27,7 @@ class EyeFinder {
   EyeFinder(const HeadTopology& topology, const HeadVertices& rest);
   bool found() const { return !white_.right.empty() && !white_.left.empty(); }
   /// REQUIRES: found().
-  Sided<EyeFrame> Measure(const HeadVertices& vertices) const;
+  Sided<EyePose> Measure(const HeadVertices& vertices) const;
   /// The vertices that Measure looks at.
   void AppendVertices(std::vector<std::uint32_t>& out) const;
 

@@ -34,14 +34,14 @@ void EyeMaterial::Begin(const MaterialFrame& frame) const {
   if (pictured) SetPictures(frame, eyes);
 }
 
-void EyeMaterial::SetEyeballs(const View& view, const Sided<EyeFrame>& eyes,
+void EyeMaterial::SetEyeballs(const View& view, const Sided<EyePose>& eyes,
                               const EyeGeometry& geometry) const {
   const glm::mat3 turn(view.figure_to_world);
   const float scale = glm::length(turn[0]);
   std::array<glm::vec4, 2> balls, lid_heights{};
   std::array<glm::vec3, 2> gazes;
   for (const Side side : kSides) {
-    const EyeFrame& eye = eyes[side];
+    const EyePose& eye = eyes[side];
     const auto i = static_cast<std::size_t>(side);
     const auto to_world = [&view](const glm::vec3& p) {
       return glm::vec3(view.figure_to_world * glm::vec4(p, 1.0F));
@@ -52,7 +52,7 @@ void EyeMaterial::SetEyeballs(const View& view, const Sided<EyeFrame>& eyes,
     lid_heights[i].x = to_world({front.x, eye.upper_lid_y, front.z}).y;
     lid_heights[i].y = to_world({front.x, eye.lower_lid_y, front.z}).y;
   }
-  const EyeFrame& first = eyes.right;  // both are as large
+  const EyePose& first = eyes.right;  // both are as large
   const float plane = std::sqrt(
       std::max(first.radius * first.radius - first.iris_radius * first.iris_radius, 1.0F));
   program_.Set("ball", balls);
@@ -66,13 +66,13 @@ void EyeMaterial::SetEyeballs(const View& view, const Sided<EyeFrame>& eyes,
   program_.Set("figure_scale", scale);
 }
 
-void EyeMaterial::SetPictures(const MaterialFrame& frame, const Sided<EyeFrame>& eyes) const {
+void EyeMaterial::SetPictures(const MaterialFrame& frame, const Sided<EyePose>& eyes) const {
   const Sided<EyePicture>& pictures = *frame.head.topology().portrait.eyes;
   std::array<glm::vec4, 2> iris_rect, ball_rect, lid_heights;
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
-    const EyeFrame& rest = frame.head.resting_eyes()[side];
-    const EyeFrame& eye = eyes[side];
+    const EyePose& rest = frame.head.resting_eyes()[side];
+    const EyePose& eye = eyes[side];
     iris_rect[i] = pictures[side].iris;
     ball_rect[i] = pictures[side].ball;
     lid_heights[i] = {rest.upper_lid_y - rest.centre.y, rest.lower_lid_y - rest.centre.y,

@@ -14,9 +14,8 @@ class EyeMaterial {
   void Begin(const MaterialFrame& frame) const;
 
  private:
-  void SetEyeballs(const View& view, const Sided<EyeFrame>& eyes,
-                   const EyeGeometry& geometry) const;
-  void SetPictures(const MaterialFrame& frame, const Sided<EyeFrame>& eyes) const;
+  void SetEyeballs(const View& view, const Sided<EyePose>& eyes, const EyeGeometry& geometry) const;
+  void SetPictures(const MaterialFrame& frame, const Sided<EyePose>& eyes) const;
 
   GlProgram program_;
 };

@@ -217,11 +217,11 @@ void HeadBuffers::AddLevel(int level, const HeadTriangles& triangles,
                  GL_STATIC_DRAW);
 }
 
-const std::vector<DrawnPart>& HeadBuffers::Parts(const Head& head, float error_mm) {
+const std::vector<DrawnPart>& HeadBuffers::PartsWithin(const Head& head, float error_mm) {
   // Finer than the first nothing is left out; coarser than the last skin comes through short hair.
   constexpr int kFirst = -6, kLast = -1;
   const auto error_of = [](int level) { return std::exp2(0.5F * static_cast<float>(level)); };
-  if (error_mm < error_of(kFirst)) return parts();
+  if (error_mm < error_of(kFirst)) return FinestParts();
   int level = kFirst;
   while (level < kLast && error_of(level + 1) <= error_mm) ++level;
   if (!levels_.contains(level)) {

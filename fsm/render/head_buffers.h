@@ -40,9 +40,9 @@ class HeadBuffers {
   /// The head's parts in the order to draw them, what hides most first. `error_mm`: by how much
   /// at most it may be coarser than it is (CoarseTriangles); each step of the root of 2 is made
   /// when it is first asked for, and kept. `head` is that of the constructor.
-  const std::vector<DrawnPart>& Parts(const Head& head, float error_mm);
+  const std::vector<DrawnPart>& PartsWithin(const Head& head, float error_mm);
   /// All of its triangles.
-  const std::vector<DrawnPart>& parts() const { return levels_.at(kFinest); }
+  const std::vector<DrawnPart>& FinestParts() const { return levels_.at(kFinest); }
   const EyeFinder& eyes() const { return eyes_; }
   const ShadowFinder& shadows() const { return shadows_; }
   const MouthFinder& mouth() const { return mouth_; }
@@ -57,7 +57,7 @@ class HeadBuffers {
   /// How fine the photo lies on the head at rest, as seen from the front; 0 without one.
   float photo_texels_per_mm() const { return photo_texels_per_mm_; }
   /// The eyes as they are at rest. REQUIRES: eyes().found().
-  const Sided<EyeFrame>& resting_eyes() const { return resting_eyes_; }
+  const Sided<EyePose>& resting_eyes() const { return resting_eyes_; }
   /// Height of the chin's lowest point at rest, millimetres; of a head without landmarks far below.
   float chin_y() const { return chin_y_; }
 
@@ -83,7 +83,7 @@ class HeadBuffers {
   MouthFinder mouth_;
   std::optional<SkinTexture> skin_;
   std::future<SkinTexture> painting_;  // on a thread of its own, which the future joins
-  Sided<EyeFrame> resting_eyes_;
+  Sided<EyePose> resting_eyes_;
   float photo_texels_per_mm_ = 0;
   float chin_y_ = kNoChin;
 };

@@ -14,7 +14,7 @@ bool PhotoMaterial::Draws(Material material, const HeadBuffers& head) {
 }
 
 void PhotoMaterial::Prepare(const HeadBuffers& head) {
-  for (const DrawnPart& part : head.parts()) {
+  for (const DrawnPart& part : head.FinestParts()) {
     auto& program = programs_[static_cast<std::size_t>(part.detail)];
     if (program || !Draws(part.part.material, head)) continue;
     const std::string constants = ShaderConstant("kCreased", part.detail != SkinDetail::kPlain) +

@@ -232,7 +232,7 @@ class GlRenderer : public Renderer {
 
   void DrawFigure(const Head& head, const FaceState& state, const Scene& scene, const auto& move) {
     const View view =
-        FramePortrait(state.figure, scene.camera, target_->width(), target_->height());
+        ViewOfPortrait(state.figure, scene.camera, target_->width(), target_->height());
     HeadOnCard& on_card = Find(head);
     HeadBuffers& buffers = on_card.buffers;
     const HeadVertices& vertices = move(on_card);
@@ -241,7 +241,7 @@ class GlRenderer : public Renderer {
     materials_.BeginFrame(view, buffers, on_card.textures, vertices, scene);
     const bool lines = scene.view_mode != ViewMode::kTexture;
     const float error_mm = form_error_ * kSamplesAlong / view.samples_per_mm;
-    const auto& parts = buffers.Parts(head, lines ? 0 : error_mm);
+    const auto& parts = buffers.PartsWithin(head, lines ? 0 : error_mm);
     if (buffers.painting()) WarmUp(parts);
     on_card.textures.Load(buffers, view.samples_per_mm);
     if (scene.view_mode != ViewMode::kWireframe) {
@@ -276,8 +276,9 @@ class GlRenderer : public Renderer {
   void WarmUp(const std::vector<DrawnPart>& parts) {
     gl_.Viewport(0, 0, 0, 0);
     gl_.CullFace(GL_BACK);
-    for (int twice = 0; twice < 2; ++twice) {
-      materials_.SetCreased(!materials_.creased());
+    const bool creased = materials_.creased();
+    for (const bool variant : {!creased, creased}) {
+      materials_.SetCreased(variant);
       for (auto part : parts) {
         part.part.index_count = 3;
         (IsDrawnFromBothSides(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);

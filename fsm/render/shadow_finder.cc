@@ -37,10 +37,10 @@ ShadowFinder::ShadowFinder(const HeadTopology& topology, const HeadVertices& res
       if (p.x > rest.position[found.sides.left].x) found.sides.left = i;
     }
   }
-  if (anchors_) rest_to_frame_ = glm::inverse(Frame(rest));
+  if (anchors_) rest_to_space_ = glm::inverse(SpaceOf(rest));
 }
 
-glm::mat4 ShadowFinder::Frame(const HeadVertices& vertices) const {
+glm::mat4 ShadowFinder::SpaceOf(const HeadVertices& vertices) const {
   const glm::vec3 right = vertices.position[anchors_->sides.right];
   const glm::vec3 left = vertices.position[anchors_->sides.left];
   const glm::vec3 middle = (right + left) / 2.0F;
@@ -65,11 +65,11 @@ ShadowFinder::Occluders ShadowFinder::Measure(const HeadVertices& vertices) cons
     const glm::mat4 nothing = ToUnitSphere(kNowhere, glm::vec3(1.0F));
     return {nothing, nothing, glm::mat3(1.0F)};
   }
-  const glm::mat4 frame = Frame(vertices);
-  const glm::mat4 to_rest = glm::inverse(frame * rest_to_frame_);
+  const glm::mat4 space = SpaceOf(vertices);
+  const glm::mat4 to_rest = glm::inverse(space * rest_to_space_);
   const glm::vec3 nose(to_rest * glm::vec4(vertices.position[anchors_->nose], 1.0F));
   return {ToUnitSphere(kSkullCentre, kSkullRadii) * to_rest,
-          ToUnitSphere(nose + kNoseInset, kNoseRadii) * to_rest, glm::mat3(frame * rest_to_frame_)};
+          ToUnitSphere(nose + kNoseInset, kNoseRadii) * to_rest, glm::mat3(space * rest_to_space_)};
 }
 
 }  // namespace fsm

@@ -37,10 +37,10 @@ class ShadowFinder {
     Sided<std::uint32_t> sides;
   };
   /// Origin midway between the sides; x to the left one, z towards the nose.
-  glm::mat4 Frame(const HeadVertices& vertices) const;
+  glm::mat4 SpaceOf(const HeadVertices& vertices) const;
 
   std::optional<Anchors> anchors_;
-  glm::mat4 rest_to_frame_{1.0F};
+  glm::mat4 rest_to_space_{1.0F};
 };
 
 }  // namespace fsm

@@ -49,7 +49,7 @@ RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertice
   return some;
 }
 
-RigData StillRig(std::vector<glm::vec3> position, std::vector<glm::vec3> normal) {
+RigData MakeStillRig(std::vector<glm::vec3> position, std::vector<glm::vec3> normal) {
   RigData rig;
   rig.bone.assign(position.size(), Bone::kSkull);
   rig.weights.resize(position.size());

@@ -143,6 +143,6 @@ RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertice
 std::vector<std::uint32_t> StepVertices(const RigData& data);
 
 /// The rig of vertices that stay where they are.
-RigData StillRig(std::vector<glm::vec3> position, std::vector<glm::vec3> normal);
+RigData MakeStillRig(std::vector<glm::vec3> position, std::vector<glm::vec3> normal);
 
 }  // namespace fsm

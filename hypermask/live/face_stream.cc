@@ -76,14 +76,13 @@ struct FaceStream::Listener : std::enable_shared_from_this<Listener> {
     std::string why = "sends no more";
     bool go_on = !error && records.Add({piece.data(), size}, why);
     if (const std::string jpeg = records.TakeNewest(); go_on && !jpeg.empty()) {
-      std::string damage;
       const auto picture = fsm::DecodeJpeg(
-          std::span(reinterpret_cast<const std::uint8_t*>(jpeg.data()), jpeg.size()), damage);
+          std::span(reinterpret_cast<const std::uint8_t*>(jpeg.data()), jpeg.size()));
       if (picture) {
         events.picture(*picture);
         if (over) return;
       } else {
-        why = "sent a picture that cannot be read: " + damage;
+        why = "sent a picture that cannot be read: " + picture.error().text;
         go_on = false;
       }
     }

@@ -174,7 +174,7 @@ TEST_F(HeadTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
       return y / count;
     };
     fsm::MeshModel model = subject.model;
-    fsm::RigData skin = fsm::TransferredRig(model, *fsm::MakeHead("galatea", false), pairs);
+    fsm::RigData skin = fsm::TransferRig(model, *fsm::MakeHead("galatea", false), pairs);
     const auto head = fsm::MakeMeshHead(std::move(model), std::move(skin));
     fsm::HeadVertices moved;
     fsm::FaceState state;

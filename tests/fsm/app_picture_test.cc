@@ -26,9 +26,8 @@ TEST(PictureStreamTest, AProgramThatLooksOnGetsPicturesWithTheirTimes) {
   const auto first = onlooker.Next();
   ASSERT_TRUE(first);
   EXPECT_EQ(first->time, "100");
-  std::string why;
-  const auto picture = DecodeJpeg(first->jpeg, why);
-  ASSERT_TRUE(picture) << why;
+  const auto picture = DecodeJpeg(first->jpeg);
+  ASSERT_TRUE(picture) << picture.error().text;
   EXPECT_EQ(picture->width, 1);
   stage.Say("set FaceExp = HAPPY 1 100 0");
   stage.Until(141);

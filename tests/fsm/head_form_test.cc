@@ -81,7 +81,7 @@ TEST(HeadFormTest, UnknownNamesAreRefused) {
   try {
     MakeHead("nobody");
     FAIL();
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::runtime_error& error) {
     for (const std::string& identity : Identities()) {
       EXPECT_NE(std::string(error.what()).find(identity), std::string::npos);
     }

@@ -162,7 +162,7 @@ TEST(SimulationTest, WhatHangsGoesStraightDownAsTheHeadLeans) {
   Simulation simulation({spring});
   const auto leaning = [](Time) { return Turned(0, 40, 20); };
   simulation.RunTo(5s, leaning);
-  RigData still = StillRig({spring.rest, spring.root}, {{0, 0, 1}, {0, 0, 1}});
+  RigData still = MakeStillRig({spring.rest, spring.root}, {{0, 0, 1}, {0, 0, 1}});
   still.steps = {RigStep::kNeck};
   HeadVertices carried;
   Rig(still).Evaluate(leaning(5s), carried);
@@ -224,7 +224,7 @@ TEST(HairSpringsTest, NeighboursGoAlong) {
 
 TEST(HairSpringsTest, TheTableRefusesNonsenseByFileAndLine) {
   const auto complaint = [](const std::string& rows) -> std::string {
-    RigData rig = StillRig({{0, -50, 80}}, {{0, 0, 1}});
+    RigData rig = MakeStillRig({{0, -50, 80}}, {{0, 0, 1}});
     try {
       AddHairSprings(Table("hair.txt", "axis 0 0\naround 8\nstill 0\n" + rows), 0, rig);
     } catch (const std::runtime_error& error) {

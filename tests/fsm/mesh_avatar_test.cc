@@ -371,7 +371,7 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
   MeshModel model = ModelOfImport(file, {}, -30);
   ASSERT_EQ(model.bone[0], Bone::kJaw);
   const auto source = MakeHead("galatea", false);
-  auto skin = BlendshapeRig(file, {}, model, {*source, meanings}, *source);
+  auto skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source);
   ASSERT_TRUE(skin);
   EXPECT_EQ(model.bone[0], Bone::kSkin);
   const auto head = MakeMeshHead(std::move(model), std::move(*skin));
@@ -409,7 +409,7 @@ struct OwnShapes {
     add("jawleft", 30, false, true);
     add("browdownleft", 4, false, true);
     add("browdownright", 4, true, false);
-    skin = BlendshapeRig(file, {}, model, {*source, meanings}, *source, {}, &unused);
+    skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source, {}, &unused);
   }
   std::vector<ShapeMeaning> meanings;
   MeshModel model;
@@ -518,7 +518,7 @@ TEST(OwnShapesTest, LipsThatAreShutWithUsAreNotOpenedByTheirShapes) {
   }
   MeshModel model = ModelOfImport(file, {}, -30);
   const auto source = FallingBall();
-  auto skin = BlendshapeRig(file, {}, model, {*source, meanings}, *source);
+  auto skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source);
   ASSERT_TRUE(skin);
   const float rest = model.position[0].y;
   const auto head = MakeMeshHead(std::move(model), std::move(*skin));

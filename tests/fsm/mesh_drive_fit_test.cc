@@ -12,7 +12,7 @@ namespace {
 /// A head of one vertex for each target, moved by 1 mm to the right for each weight of 1.
 std::unique_ptr<Head> HeadOf(std::vector<std::vector<Channel::Driver>> drivers) {
   MeshModel model;
-  RigData skin = StillSkin();
+  RigData skin = MakeStillSkin();
   skin.steps = {RigStep::kChannels};
   for (auto& by : drivers) {
     Channel& channel = skin.channels.emplace_back();

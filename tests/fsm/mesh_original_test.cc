@@ -71,13 +71,13 @@ std::unique_ptr<Head> HeadOf(const OriginalFace& face, const VisemeMouths& mouth
 
 TEST(SmallOriginalFaceTest, EyesComeToWhereOursAre) {
   const OriginalFace face = SmallFace();
-  const OriginalFrame frame(face.wireframe);
+  const OriginalSpace frame(face.wireframe);
   EXPECT_LT(glm::distance(frame.EyeOpening(face.wireframe, Side::kLeft), {29.9F, 21.5F, 74}), 0.1F);
 }
 
 TEST(SmallOriginalFaceTest, TheWindowShowsOneUnitOfTheWireframeToEitherSide) {
   const OriginalFace face = SmallFace();
-  const OriginalFrame frame(face.wireframe);
+  const OriginalSpace frame(face.wireframe);
   const auto window = HeadOf(face)->view();
   ASSERT_TRUE(window);
   EXPECT_LT(glm::distance(window->centre, frame.ToMm(glm::vec3(0))), 1e-3F);
@@ -107,7 +107,7 @@ TEST(SmallOriginalFaceTest, AUnitOfOneSideMovesThatSide) {
   state.au.left[12] = 1;
   head->Evaluate(state, moved);
   EXPECT_NEAR(moved.position[left].y - rest.position[left].y,
-              0.05F * OriginalFrame(face.wireframe).mm(), 0.05F);
+              0.05F * OriginalSpace(face.wireframe).mm(), 0.05F);
   EXPECT_NEAR(moved.position[right].y, rest.position[right].y, 0.05F);
 }
 
@@ -125,7 +125,7 @@ TEST(SmallOriginalFaceTest, AKeyMouthIsShownByItsViseme) {
   state.mouth = mouths[2];
   head->Evaluate(state, moved);
   const float fall = rest.position[lower].y - moved.position[lower].y;
-  EXPECT_NEAR(fall, 0.4F * 0.1F * OriginalFrame(face.wireframe).mm(), 0.1F);
+  EXPECT_NEAR(fall, 0.4F * 0.1F * OriginalSpace(face.wireframe).mm(), 0.1F);
 }
 
 TEST(SmallOriginalFaceTest, AllOfAVisemeIsShownAtAMouthScaleOf100) {
@@ -141,7 +141,7 @@ TEST(SmallOriginalFaceTest, AllOfAVisemeIsShownAtAMouthScaleOf100) {
   for (std::size_t i = 0; i < kMouthParameters; ++i) state.mouth[i] = mouths[2][i] * 100 / 40;
   head->Evaluate(state, moved);
   EXPECT_NEAR(rest.position[lower].y - moved.position[lower].y,
-              0.1F * OriginalFrame(face.wireframe).mm(), 0.1F);
+              0.1F * OriginalSpace(face.wireframe).mm(), 0.1F);
 }
 
 TEST(SmallOriginalFaceTest, AMouthSetByHandShowsTheMouthUnitOfThatNumber) {
@@ -162,7 +162,7 @@ TEST(SmallOriginalFaceTest, AMouthSetByHandShowsTheMouthUnitOfThatNumber) {
   state.mouth[kJawY] = state.mouth_by_hand[kJawY] = 15;  // Mouth.12 = 100
   head->Evaluate(state, moved);
   EXPECT_NEAR(rest.position[lower].y - moved.position[lower].y,
-              0.06F * OriginalFrame(face.wireframe).mm(), 0.05F);
+              0.06F * OriginalSpace(face.wireframe).mm(), 0.05F);
 }
 
 TEST(SmallOriginalFaceTest, WhatUnitsLeaveOfAnExpressionComesByItsChannel) {
@@ -178,7 +178,7 @@ TEST(SmallOriginalFaceTest, WhatUnitsLeaveOfAnExpressionComesByItsChannel) {
   state.au.left[ResidualChannelOf(3).unit] = 2;
   head->Evaluate(state, moved);
   EXPECT_NEAR(moved.position[nose].y - rest.position[nose].y,
-              0.04F * OriginalFrame(face.wireframe).mm(), 0.05F);
+              0.04F * OriginalSpace(face.wireframe).mm(), 0.05F);
 }
 
 TEST(NnlsSolverTest, MixturesComeApartAgain) {
@@ -262,7 +262,7 @@ TEST_F(StandardFaceTest, ASealClosesAnOpenMouth) {
 }
 
 TEST_F(StandardFaceTest, TeethFillTheMouthAsInTheOriginalAndStayWithinNarrowJaws) {
-  const OriginalFrame frame(face_.wireframe);
+  const OriginalSpace frame(face_.wireframe);
   const auto at = [&](PointName name) { return frame.Place(face_.wireframe, name); };
   std::vector<glm::vec3> teeth;
   for (const auto& part : head_->topology().parts) {
@@ -330,7 +330,7 @@ TEST_F(StandardFaceTest, ExpressionsAreThoseOfTheFiles) {
   EXPECT_EQ(read->residuals.size(), 3U)
       << "DISGUSTED, SURPRISED and FEARED are no mixture of units";
   EXPECT_TRUE(read->without_residual.empty());
-  const OriginalFrame frame(face_.standard);
+  const OriginalSpace frame(face_.standard);
   for (std::size_t k = 0; k < 6; ++k) {
     const OriginalExpression& one = read->all[k];
     FaceState state;

@@ -216,7 +216,7 @@ TEST_F(DeformationTransferTest, TheRigLaidOnAnotherFaceMovesItAsCarryingEverySta
   carry_ = std::make_unique<DeformationTransfer>(
       TransferSurface{from_rest_.position, flesh_, false, EyeballTriangles(from_->topology())},
       TransferSurface{to_rest_.position, onto, false, {}}, pairs_);
-  RigData skin = TransferredRig(model, *from_, pairs_);
+  RigData skin = TransferRig(model, *from_, pairs_);
   const auto head = MakeMeshHead(std::move(model), std::move(skin));
   const auto expect_carried = [&](const char* what, const FaceState& state) {
     HeadVertices a, b;
@@ -261,7 +261,7 @@ TEST_F(DeformationTransferTest, AHeadWithoutPicturesHasRedLipsAndSaysWhereTheyPa
       for (int c = 0; c < 3; ++c) model.bone[t[c]] = to_->rig().data().bone[t[c]];
     }
   }
-  RigData skin = TransferredRig(model, *from_, pairs_);
+  RigData skin = TransferRig(model, *from_, pairs_);
   const auto head = MakeMeshHead(std::move(model), std::move(skin));
   const HeadTopology& topology = head->topology();
   EXPECT_EQ(topology.mouth.upper_incisor, known.mouth.upper_incisor);

@@ -329,7 +329,7 @@ TEST_F(FrameTest, HeadWithoutEyesOrPartsIsDrawn) {
 TEST(PortraitTest, HeadAndShouldersStayInViewInEveryShape) {
   for (const auto& [width, height] :
        {std::pair{640, 480}, {480, 640}, {1920, 1080}, {256, 256}, {200, 600}}) {
-    const View view = FramePortrait({}, Camera{}, width, height);
+    const View view = ViewOfPortrait({}, Camera{}, width, height);
     for (const glm::vec3 point : {glm::vec3(0, 145, 0), {0, -160, 30}, {-95, 20, 0}, {95, 20, 0}}) {
       const glm::vec4 clip = view.world_to_clip * view.figure_to_world * glm::vec4(point, 1.0F);
       EXPECT_LT(std::abs(clip.x), clip.w) << width << " x " << height;
@@ -340,7 +340,7 @@ TEST(PortraitTest, HeadAndShouldersStayInViewInEveryShape) {
 
 TEST(PortraitTest, CameraMovesAsAsked) {
   const auto seen = [](const Camera& camera, const glm::vec3& point) {
-    const View view = FramePortrait({}, camera, 640, 480);
+    const View view = ViewOfPortrait({}, camera, 640, 480);
     const glm::vec4 clip = view.world_to_clip * view.figure_to_world * glm::vec4(point, 1.0F);
     return glm::vec3(clip) / clip.w;
   };
@@ -358,7 +358,7 @@ TEST(PortraitTest, RotationHasTheOriginalsSigns) {
   const auto moved = [&](std::size_t axis, const glm::vec4& point) {
     figure.rotation = {};
     figure.rotation[axis] = 20;
-    return FramePortrait(figure, Camera{}, 640, 480).figure_to_world * point - point;
+    return ViewOfPortrait(figure, Camera{}, 640, 480).figure_to_world * point - point;
   };
   EXPECT_LT(moved(0, nose).y, -10) << "x+ looks down";
   EXPECT_GT(moved(1, nose).x, 10) << "y+ looks to the viewer's right";
@@ -499,21 +499,21 @@ void ExpectSeen(const View& view, glm::vec3 place, glm::vec2 expected) {
 TEST(ParallelViewTest, ItsLongerSideFillsThePictureAtAnyDepth) {
   // As glOrtho in the original: of a picture that is wider than high top and bottom are cut.
   for (const float z : {-100.0F, 30.0F, 100.0F}) {
-    ExpectSeen(FramePortrait({}, Parallel(), 200, 200), {110, 80, z}, {1, 1});
-    ExpectSeen(FramePortrait({}, Parallel(), 200, 100), {110, 30, z}, {1, 1});
-    ExpectSeen(FramePortrait({}, Parallel(), 100, 200), {60, 80, z}, {1, 1});
+    ExpectSeen(ViewOfPortrait({}, Parallel(), 200, 200), {110, 80, z}, {1, 1});
+    ExpectSeen(ViewOfPortrait({}, Parallel(), 200, 100), {110, 30, z}, {1, 1});
+    ExpectSeen(ViewOfPortrait({}, Parallel(), 100, 200), {60, 80, z}, {1, 1});
   }
-  EXPECT_NEAR(FramePortrait({}, Parallel(), 200, 100).samples_per_mm, 2.0F, 1e-4F);
+  EXPECT_NEAR(ViewOfPortrait({}, Parallel(), 200, 100).samples_per_mm, 2.0F, 1e-4F);
 }
 
 TEST(ParallelViewTest, ATranslationOfOneIsHalfTheLongerSide) {
   Figure figure;
   figure.translation = {1.0F, 0.2F};
-  ExpectSeen(FramePortrait(figure, Parallel(), 200, 200), {10, -20, 30}, {1, 0.2F});
-  ExpectSeen(FramePortrait(figure, Parallel(), 200, 100), {10, -20, 30}, {1, 0.4F});
+  ExpectSeen(ViewOfPortrait(figure, Parallel(), 200, 200), {10, -20, 30}, {1, 0.2F});
+  ExpectSeen(ViewOfPortrait(figure, Parallel(), 200, 100), {10, -20, 30}, {1, 0.4F});
   Camera portrait;
   portrait.moves_by_half_views = true;
-  const glm::vec2 moved = Seen(FramePortrait(figure, portrait, 300, 200), {0, -7, 50});
+  const glm::vec2 moved = Seen(ViewOfPortrait(figure, portrait, 300, 200), {0, -7, 50});
   EXPECT_NEAR(moved.x, 1, 1e-4F);
   EXPECT_NEAR(moved.y, 0.3F, 1e-4F);
 }
@@ -523,8 +523,8 @@ TEST(ParallelViewTest, TheFigureTurnsByZThenYThenXAndGrowsAboutTheMiddle) {
   figure.scale = 0.5F;
   figure.rotation = {90, 0, 90};
   // z+ brings up to the viewer's right; then x+ would bring up to the viewer, which right is not.
-  ExpectSeen(FramePortrait(figure, Parallel(), 200, 200), {10, 80, 30}, {0.5F, 0});
-  ExpectSeen(FramePortrait(figure, Parallel(), 200, 200), {10, -20, 80}, {0, -0.25F});
+  ExpectSeen(ViewOfPortrait(figure, Parallel(), 200, 200), {10, 80, 30}, {0.5F, 0});
+  ExpectSeen(ViewOfPortrait(figure, Parallel(), 200, 200), {10, -20, 80}, {0, -0.25F});
 }
 
 }  // namespace

@@ -57,13 +57,12 @@ TEST_P(PictureFormat, DamagedBytesNeverCrash) {
           random() % (hit < 3 ? std::min<std::size_t>(64, bytes.size()) : bytes.size());
       bytes[place] = static_cast<std::uint8_t>(random());
     }
-    std::string why;
     const std::string format = GetParam();
-    const auto decoded = format == ".png"   ? DecodePng(bytes, why)
-                         : format == ".bmp" ? DecodeBmp(bytes, why)
-                                            : DecodeSgi(bytes, why);
+    const auto decoded = format == ".png"   ? DecodePng(bytes)
+                         : format == ".bmp" ? DecodeBmp(bytes)
+                                            : DecodeSgi(bytes);
     if (!decoded) {
-      EXPECT_FALSE(why.empty());
+      EXPECT_FALSE(decoded.error().text.empty());
     } else {
       EXPECT_EQ(decoded->rgba.size(), static_cast<std::size_t>(decoded->width) *
                                           static_cast<std::size_t>(decoded->height) * 4);
@@ -119,9 +118,8 @@ TEST(ImageFileTest, BmpOf32BitsAndDownwardRowsIsRead) {
       'B', 'M',  62,   0,    0,    0, 0, 0,  0, 0, 54, 0, 0, 0, 40,  0, 0,   0, 1, 0, 0,
       0,   0xfe, 0xff, 0xff, 0xff, 1, 0, 32, 0, 0, 0,  0, 0, 8, 0,   0, 0,   0, 0, 0, 0,
       0,   0,    0,    0,    0,    0, 0, 0,  0, 0, 0,  0, 0, 0, 255, 0, 255, 0, 0, 0};
-  std::string why;
-  const auto image = DecodeBmp(bytes, why);
-  ASSERT_TRUE(image) << why;
+  const auto image = DecodeBmp(bytes);
+  ASSERT_TRUE(image) << image.error().text;
   EXPECT_EQ(image->rgba, (std::vector<std::uint8_t>{255, 0, 0, 255, 0, 0, 255, 255}));
 }
 
@@ -133,23 +131,22 @@ TEST(ImageFileTest, PackedSgiIsRead) {
   for (const int b : {0, 0, 2, 8, 0, 0, 0, 5, 3, 9, 0x81, 5, 0}) {
     bytes.push_back(static_cast<std::uint8_t>(b));
   }
-  std::string why;
-  const auto image = DecodeSgi(bytes, why);
-  ASSERT_TRUE(image) << why;
+  const auto image = DecodeSgi(bytes);
+  ASSERT_TRUE(image) << image.error().text;
   EXPECT_EQ(image->rgba,
             (std::vector<std::uint8_t>{9, 9, 9, 255, 9, 9, 9, 255, 9, 9, 9, 255, 5, 5, 5, 255}));
 }
 
 TEST(ImageFileTest, HugeSizesAreRefusedBeforeTheyAreBelieved) {
-  std::string why;
   auto bmp = EncodeBmp(Pattern(2, 2));
   for (const std::size_t i : {18U, 22U}) {
     auto huge = bmp;
     huge[i + 2] = 0x7f;
-    EXPECT_FALSE(DecodeBmp(huge, why));
-    EXPECT_NE(why.find("size"), std::string::npos);
+    const auto read = DecodeBmp(huge);
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().text.find("size"), std::string::npos);
     huge[i + 3] = 0x80;
-    EXPECT_FALSE(DecodeBmp(huge, why));
+    EXPECT_FALSE(DecodeBmp(huge));
   }
 }
 

@@ -33,7 +33,7 @@ class MouthPicture {
     head_->Evaluate(state, vertices_);
     renderer->Draw(*head_, vertices_, state, scene);
     renderer->Read(image_);
-    const View view = FramePortrait(state.figure, scene.camera, kMouthSide, kMouthSide);
+    const View view = ViewOfPortrait(state.figure, scene.camera, kMouthSide, kMouthSide);
     to_clip_ = view.world_to_clip * view.figure_to_world;
   }
 

@@ -7,7 +7,7 @@
 namespace facefit {
 
 PortraitView::PortraitView(int size)
-    : size_(size), view_(fsm::FramePortrait({}, fsm::Camera{}, size, size)) {}
+    : size_(size), view_(fsm::ViewOfPortrait({}, fsm::Camera{}, size, size)) {}
 
 fsm::Image PortraitView::Draw(const fsm::Head& head, const fsm::HeadVertices& vertices,
                               const fsm::FaceState& state) const {
