@@ -13,12 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/find/face/crop_to_face.h"
 #include "face_fit/find/face/hand_points.h"
-#include "face_fit/find/face/upright.h"
 #include "face_fit/find/head/head_finder.h"
 #include "face_fit/make_face.h"
-#include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
@@ -54,38 +51,17 @@ struct Options {
 };
 
 /// Looks for eyes, nose and mouth of a head from elsewhere and writes them beside it.
-void FindPointsOfHead(const Options& options) {
+void WritePointsOfHead(const Options& options) {
   Progress progress(options.quiet);
   const fsm::ImportedHead file = vm::OrThrow(fsm::ReadImportedHead(options.head));
   facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(options.networks));
   progress.Say("head and networks read");
-  const auto points = facefit::FindHeadPoints(networks, file, options.head, options.base);
+  const auto points =
+      vm::OrThrow(facefit::FindHeadPoints(networks, file, options.head, options.base));
   progress.Say("points found");
   const std::string path = options.out.empty() ? options.head + ".points" : options.out;
   vm::OrThrow(vm::WriteTextFile(path, fsm::FormatHeadPoints(points)));
   std::cout << "face_fit: wrote " << path << "\n";
-}
-
-/// The face asked for, of those the networks found.
-facefit::FoundFace AskedFor(const Options& options, const std::vector<facefit::FoundFace>& faces) {
-  const char* by_hand = "; --points FILE with a few points set by hand helps (docs/photo.md)";
-  if (faces.empty()) {
-    throw std::runtime_error(
-        "no face found in '" + options.photo +
-        "': it should look into the camera, be lit and fill a tenth of the picture or more" +
-        by_hand);
-  }
-  facefit::FoundFace face = vm::OrThrow(facefit::ChooseFace(faces, options.face));
-  if (face.certainty < facefit::kCertainFace) {
-    throw std::runtime_error("what looked like a face in '" + options.photo +
-                             "' has no eyes, nose and mouth that can be told apart" + by_hand);
-  }
-  return face;
-}
-
-facefit::FoundFace FaceFromPoints(const Options& options, const facefit::BaseHead& base) {
-  const std::string text = vm::OrThrow(vm::ReadTextFile(options.points, 1U << 20));
-  return facefit::FaceFromHand(base, vm::OrThrow(facefit::ParseHandPoints(options.points, text)));
 }
 
 /// A face of a configuration of the original, with the points its wireframe was fitted to.
@@ -111,34 +87,32 @@ OriginalFace ReadOriginal(const Options& options) {
   return face;
 }
 
-void TellLeftOut(const std::string& path, const std::string& why) {
-  std::cerr << "face_fit: notice: '" << path << "' is left out: " << why << "\n";
+void Notice(const std::string& what) { std::cerr << "face_fit: notice: " << what << "\n"; }
+void NoticeLeftOut(const std::string& path, const std::string& why) {
+  Notice("'" + path + "' is left out: " + why);
 }
 
-/// The further photos that can be read.
-facefit::ExtraPhotos ReadExtraPhotos(const Options& options, facefit::FaceNetworks& networks) {
-  if (options.views.size() > facefit::kMostExtraPhotos) {
-    throw std::runtime_error("--view: at most " + std::to_string(facefit::kMostExtraPhotos) +
-                             " are used");
-  }
-  facefit::ExtraPhotos extras;
+/// The photos from the side that can be read.
+std::vector<facefit::SidePhoto> ReadSidePhotos(const Options& options,
+                                               facefit::FaceNetworks& networks) {
+  vm::OrThrow(facefit::CheckSidePhotoCount(options.views.size()));
+  std::vector<facefit::SidePhoto> sides;
   for (const std::string& path : options.views) {
-    if (auto extra = facefit::ReadExtraPhoto(networks, path)) {
-      extras.push_back(std::move(*extra));
+    if (auto side = facefit::ReadSidePhoto(networks, path)) {
+      sides.push_back(std::move(*side));
     } else {
-      TellLeftOut(path, extra.error().text);
+      NoticeLeftOut(path, side.error().text);
     }
   }
-  return extras;
+  return sides;
 }
 
 /// Where in the whole photo the face lies, in the pixels of --points.
-std::string PlaceInPhoto(const facefit::FoundFace& face, const fsm::Image& whole) {
+std::string PlaceInPhoto(const facefit::FrontPhoto& front) {
   const auto pixel = [](float v) { return std::to_string(std::lround(v)); };
-  const glm::vec3 nose = face.points[facefit::point::kNoseTip];
-  return "place       nose " + pixel(nose.x) + " pixels from the left, " + pixel(nose.y) +
-         " from the top, of " + std::to_string(whole.width) + " x " + std::to_string(whole.height) +
-         "\n";
+  return "place       nose " + pixel(front.nose.x) + " pixels from the left, " +
+         pixel(front.nose.y) + " from the top, of " + std::to_string(front.whole_size.x) + " x " +
+         std::to_string(front.whole_size.y) + "\n";
 }
 
 /// Throws std::runtime_error that says what is missing.
@@ -153,49 +127,91 @@ void CheckOptions(const Options& options) {
   }
 }
 
-void Run(const Options& options) {
-  using namespace facefit;
-  if (!options.head.empty()) return FindPointsOfHead(options);
-  CheckOptions(options);
-  Progress progress(options.quiet);
-  const std::string folder = options.out.empty() ? fsm::FacesFolder() : options.out;
-  const auto units = fsm::UnitsIn(fsm::UnitsFolder(folder + "/" + options.name, options.tables));
-  std::optional<OriginalFace> original;
-  if (!options.galatea.empty()) original = ReadOriginal(options);
-  fsm::Image finest =
-      original ? std::move(original->photo) : vm::OrThrow(ReadPhoto(options.photo, kFineSize));
-  fsm::Image photo = original ? finest : ScaledToFit(finest, kWorkingSize);
-  const bool by_hand = original || !options.points.empty();
-  FaceNetworks networks = vm::OrThrow(FaceNetworks::Load(options.networks));
-  progress.Say("photo and networks read");
-  UprightFaces seen;
-  if (!by_hand) seen = FindUprightFaces(networks, photo);
-  if (seen.orientation != 1) {
-    finest = Turned(finest, seen.orientation);
-    std::cerr << "face_fit: notice: the photo lies on its side or head, whatever its file says; it "
-                 "was set upright\n";
+/// Where faces lie, and what the face of that name is made with.
+struct Workshop {
+  std::string folder;
+  facefit::FaceNetworks networks;
+  facefit::BaseHead base;
+
+  Workshop(const Options& options, Progress& progress)
+      : folder(options.out.empty() ? fsm::FacesFolder() : options.out),
+        networks(vm::OrThrow(facefit::FaceNetworks::Load(options.networks))),
+        base(vm::OrThrow(facefit::BaseHead::Observe(networks, options.base))) {
+    const std::string own = fsm::UnitsFolder(folder + "/" + options.name, options.tables);
+    if (const auto units = fsm::UnitsIn(own)) base.MoveBy(*units);
+    progress.Say("networks read, head looked at");
   }
-  progress.Say("faces and their points found");
-  BaseHead base = vm::OrThrow(BaseHead::Observe(networks, options.base));
-  if (units) base.MoveBy(*units);
-  progress.Say("head looked at");
-  const FoundFace found = original  ? FaceFromHand(base, original->points)
-                          : by_hand ? FaceFromPoints(options, base)
-                                    : AskedFor(options, seen.faces);
-  auto [near, face] = original ? FaceCrop{photo, found} : CropToFace(photo, finest, found);
-  const FrontPhoto front = LookAtFront(networks, base, std::move(near), &face,
-                                       by_hand ? 1 : static_cast<int>(seen.faces.size()));
-  progress.Say("figure cut out");
+};
+
+/// Makes the face that a photo shows and writes it. REQUIRES: front.face
+void WriteFace(const Options& options, Workshop& workshop, const facefit::FrontPhoto& front,
+               Progress& progress) {
+  const std::vector<facefit::SidePhoto> sides = ReadSidePhotos(options, workshop.networks);
+  facefit::SidePhotos side_photos{workshop.networks, {}};
+  for (const facefit::SidePhoto& side : sides) side_photos.photos.push_back(&side);
   std::optional<bool> glasses;
   if (!options.glasses.empty()) glasses = options.glasses == "yes";
-  const MadeFace made = MakeFace(base, front, face, &networks, ReadExtraPhotos(options, networks),
-                                 glasses, [&](const char* step) { progress.Say(step); });
-  for (const auto& [path, why] : made.left_out) TellLeftOut(path, why);
-  const std::string report = PlaceInPhoto(found, photo) + made.report;
+  const auto made =
+      vm::OrThrow(facefit::MakeFace(workshop.base, front, *front.face, side_photos, glasses,
+                                    [&](const char* step) { progress.Say(step); }));
+  for (const auto& [path, why] : made.left_out) NoticeLeftOut(path, why);
+  const std::string report = PlaceInPhoto(front) + made.report;
   const std::string place =
-      vm::OrThrow(fsm::WriteFace(made.bake.head, report, folder, options.name));
+      vm::OrThrow(fsm::WriteFace(made.bake.head, report, workshop.folder, options.name));
   progress.Say("written");
   std::cout << report << "face_fit: wrote " << place << "\n";
+}
+
+/// Throws std::runtime_error if no face was found, or what was found may be none.
+void RequireFace(const Options& options, const facefit::FrontPhoto& front) {
+  const char* by_hand = "; --points FILE with a few points set by hand helps (docs/photo.md)";
+  if (!front.face) {
+    throw std::runtime_error(
+        "no face found in '" + options.photo +
+        "': it should look into the camera, be lit and fill a tenth of the picture or more" +
+        by_hand);
+  }
+  if (front.face->certainty < facefit::kCertainFace) {
+    throw std::runtime_error("what looked like a face in '" + options.photo +
+                             "' has no eyes, nose and mouth that can be told apart" + by_hand);
+  }
+}
+
+void FaceOfPhoto(const Options& options) {
+  Progress progress(options.quiet);
+  fsm::Image photo = vm::OrThrow(facefit::ReadPhoto(options.photo, facefit::kFineSize));
+  facefit::FaceChoice choice = facefit::FaceNumber{options.face};
+  if (!options.points.empty()) {
+    const std::string text = vm::OrThrow(vm::ReadTextFile(options.points, 1U << 20));
+    choice = vm::OrThrow(facefit::ParseHandPoints(options.points, text));
+  }
+  progress.Say("photo read");
+  Workshop workshop(options, progress);
+  const auto front = vm::OrThrow(facefit::PrepareFront(
+      workshop.networks, workshop.base, std::move(photo), choice, facefit::PhotoPart::kCloseUp,
+      [&](const char* step) { progress.Say(step); }));
+  if (front.orientation != 1) {
+    Notice("the photo lies on its side or head, whatever its file says; it was set upright");
+  }
+  RequireFace(options, front);
+  WriteFace(options, workshop, front, progress);
+}
+
+void FaceOfOriginal(const Options& options) {
+  Progress progress(options.quiet);
+  OriginalFace original = ReadOriginal(options);
+  progress.Say("photo read");
+  Workshop workshop(options, progress);
+  const auto front = vm::OrThrow(facefit::PrepareFront(
+      workshop.networks, workshop.base, std::move(original.photo), original.points,
+      facefit::PhotoPart::kWhole, [&](const char* step) { progress.Say(step); }));
+  WriteFace(options, workshop, front, progress);
+}
+
+void Run(const Options& options) {
+  if (!options.head.empty()) return WritePointsOfHead(options);
+  CheckOptions(options);
+  options.galatea.empty() ? FaceOfPhoto(options) : FaceOfOriginal(options);
 }
 
 }  // namespace

@@ -1,12 +1,62 @@
 #include "face_fit/make_face.h"
 
+#include <algorithm>
+#include <glm/geometric.hpp>
 #include <utility>
 
+#include "face_fit/find/face/close_up.h"
+#include "face_fit/find/face/upright.h"
 #include "face_fit/find/figure/figure_finder.h"
+#include "face_fit/picture/filters.h"
+#include "face_fit/picture/photo.h"
 #include "face_fit/report.h"
-#include "vm_protocol/core/or_throw.h"
 
 namespace facefit {
+namespace {
+
+/// A photo as it was given and as it is worked on, and the face of it that is meant.
+struct PhotoWithFace {
+  fsm::Image finest, working;
+  int orientation = 1;
+  int faces = 1;
+  std::optional<FoundFace> face = {};
+};
+
+/// Looks for the face that is meant, in a way for each kind of choice.
+struct FaceSearch {
+  FaceNetworks& networks;
+  const BaseHead& base;
+  fsm::Image finest, working;
+
+  vm::Result<PhotoWithFace> operator()(const FaceNumber& choice) {
+    UprightPhoto upright = SetUpright(networks, std::move(working));
+    if (upright.orientation != 1) finest = Turned(finest, upright.orientation);
+    PhotoWithFace found{std::move(finest), std::move(upright.photo), upright.orientation,
+                        static_cast<int>(upright.faces.size())};
+    if (upright.faces.empty()) return found;
+    auto face = ChooseFace(upright.faces, choice.number);
+    if (!face) return std::unexpected(face.error());
+    found.face = std::move(*face);
+    return found;
+  }
+  vm::Result<PhotoWithFace> operator()(const FaceNear& choice) {
+    const float scale = static_cast<float>(working.width) / static_cast<float>(finest.width);
+    const auto faces = FindFaces(networks, working);
+    PhotoWithFace found{std::move(finest), std::move(working), 1, static_cast<int>(faces.size())};
+    const auto nearest = std::ranges::min_element(faces, {}, [&](const FoundFace& face) {
+      return glm::distance(face.At(point::kNoseTip), scale * choice.nose);
+    });
+    if (nearest != faces.end()) found.face = *nearest;
+    return found;
+  }
+  vm::Result<PhotoWithFace> operator()(const HandPoints& choice) {
+    return PhotoWithFace{.finest = std::move(finest),
+                         .working = std::move(working),
+                         .face = FaceFromHand(base, choice)};
+  }
+};
+
+}  // namespace
 
 vm::Result<FoundFace> ChooseFace(std::span<const FoundFace> faces, int number) {
   if (number < 1 || static_cast<std::size_t>(number) > faces.size()) {
@@ -17,39 +67,72 @@ vm::Result<FoundFace> ChooseFace(std::span<const FoundFace> faces, int number) {
   return faces[static_cast<std::size_t>(number - 1)];
 }
 
-FrontPhoto LookAtFront(FaceNetworks& networks, const BaseHead& base, fsm::Image photo,
-                       const FoundFace* face, int faces) {
-  Cutout figure = CutOut(photo, SegmentPerson(networks, photo, face));
-  Occlusion occlusion;
-  if (face) occlusion = DetectOcclusion(networks, base, *face, photo);
-  return {std::move(photo), std::move(figure), std::move(occlusion), faces};
-}
-
-MadeFace MakeFace(const BaseHead& base, const FrontPhoto& front, const FoundFace& face,
-                  FaceNetworks* networks, const ExtraPhotos& extras, std::optional<bool> glasses,
-                  const StepDone& done) {
-  vm::OrThrow(CheckExtras(networks, extras));
+vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const BaseHead& base, fsm::Image photo,
+                                    const FaceChoice& choice, PhotoPart part,
+                                    const StepDone& done) {
   const auto tell = [&done](const char* step) {
     if (done) done(step);
   };
-  MadeFace made;
-  made.fit = FitFace(base, face, &front.photo);
+  const int given_longer = std::max(photo.width, photo.height);
+  fsm::Image working = part == PhotoPart::kWhole ? photo : ScaledToFit(photo, kWorkingSize);
+  auto found = std::visit(FaceSearch{networks, base, std::move(photo), std::move(working)}, choice);
+  if (!found) return std::unexpected(found.error());
+  tell("faces and their points found");
+  const glm::ivec2 whole_size(found->working.width, found->working.height);
+  const glm::vec2 nose = found->face ? found->face->At(point::kNoseTip) : glm::vec2(0);
+  float scale =
+      static_cast<float>(std::max(whole_size.x, whole_size.y)) / static_cast<float>(given_longer);
+  if (found->face && part == PhotoPart::kCloseUp) {
+    CloseUp close_up = CloseUpOf(found->working, found->finest, *found->face);
+    found->working = std::move(close_up.photo);
+    found->face = std::move(close_up.face);
+    scale *= close_up.scale;
+  }
+  const FoundFace* face = found->face ? &*found->face : nullptr;
+  FigureCutout figure = CutOutFigure(found->working, SegmentPerson(networks, found->working, face));
+  Occlusion occlusion;
+  if (face) occlusion = DetectOcclusion(networks, base, *face, found->working);
+  tell("figure cut out");
+  return FrontPhoto{.photo = std::move(found->working),
+                    .face = std::move(found->face),
+                    .figure = std::move(figure),
+                    .occlusion = std::move(occlusion),
+                    .faces = found->faces,
+                    .orientation = found->orientation,
+                    .scale = scale,
+                    .nose = nose,
+                    .whole_size = whole_size};
+}
+
+vm::Result<MadeFace> MakeFace(const BaseHead& base, const FrontPhoto& front, const FoundFace& face,
+                              const std::optional<SidePhotos>& sides, std::optional<bool> glasses,
+                              const StepDone& done) {
+  const auto tell = [&done](const char* step) {
+    if (done) done(step);
+  };
+  if (sides) {
+    if (auto few = CheckSidePhotoCount(sides->photos.size()); !few) {
+      return std::unexpected(few.error());
+    }
+  }
+  Fit fit = FitFace(base, face, &front.photo);
   tell("head fitted");
-  std::vector<ExtraView> views;
-  for (const auto& extra : extras) {
-    auto view = LookAtExtra(*networks, front.photo, *extra, made.fit);
-    if (view) {
-      views.push_back(std::move(*view));
+  std::vector<SideView> views;
+  std::vector<MadeFace::LeftOut> left_out;
+  for (const SidePhoto* side : sides ? sides->photos : std::vector<const SidePhoto*>{}) {
+    if (auto corrected = CorrectDepthBy(sides->networks, front.photo, *side, fit)) {
+      fit = std::move(corrected->fit);
+      views.push_back(std::move(corrected->view));
     } else {
-      made.left_out.push_back({extra->path, view.error().text});
+      left_out.push_back({side->path, corrected.error().text});
     }
   }
   if (!views.empty()) tell("seen from the side, too");
-  made.bake = BakeTexture(face, made.fit, front.photo, front.figure, views);
-  if (glasses) made.bake.head.glasses = *glasses;
+  TextureBake bake = BakeTexture(face, fit, front.photo, front.figure, views);
+  if (glasses) bake.head.glasses = *glasses;
   tell("photo put on");
-  made.report = Report(face, made.fit, front.photo, made.bake, front.faces, front.occlusion);
-  return made;
+  std::string report = Report(face, fit, front.photo, bake, front.faces, front.occlusion);
+  return MadeFace{std::move(fit), std::move(bake), std::move(report), std::move(left_out)};
 }
 
 }  // namespace facefit

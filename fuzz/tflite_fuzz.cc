@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "face_fit/tflite/network.h"
-#include "tests/face_fit/tflite_maker.h"
+#include "tests/face_fit/tflite/tflite_maker.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  constexpr double kMostWork = 1e6;
-  constexpr std::size_t kMostNumbers = 1 << 20;
-  static const std::string kWhole = facefit::tflite_maker::EveryOperator();
+  constexpr double kMaxWork = 1e6;
+  constexpr std::size_t kMaxNumbers = 1 << 20;
+  static const std::string kWhole = facefit::tflite::maker::EveryOperator();
   std::string file = kWhole;
   if (size >= 8 && std::string(data + 4, data + 8) == "TFL3") {
     file.assign(data, data + size);
@@ -27,14 +27,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // As the kernels get it: a copy whose end the sanitizer knows.
   const std::vector<std::uint8_t> bytes(file.begin(), file.end());
   try {
-    facefit::Model model = facefit::Model::Read(bytes);
+    facefit::tflite::Model model = facefit::tflite::Model::Read(bytes);
     std::size_t numbers = 0;  // memory is bounded, but slow to clear so often
-    for (const facefit::Tensor& tensor : model.tensors) numbers += tensor.shape.count();
-    if (numbers > kMostNumbers) return 0;
-    facefit::Network network(std::move(model), kMostWork);
+    for (const facefit::tflite::Tensor& tensor : model.tensors) numbers += tensor.shape.count();
+    if (numbers > kMaxNumbers) return 0;
+    facefit::tflite::Network network(std::move(model), kMaxWork);
     network.Run(std::vector<float>(network.input_shape().count(), 0.5F));
     for (std::size_t i = 0; i < network.outputs(); ++i) (void)network.output(i);
-  } catch (const facefit::BadModel& refused) {
+  } catch (const facefit::tflite::BadModel& refused) {
     if (file == kWhole) __builtin_trap();
   }
   return 0;

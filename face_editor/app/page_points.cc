@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "face_editor/app/ui.h"
-#include "face_fit/fit/extra_view.h"
+#include "face_fit/fit/side_view.h"
 
 namespace editor {
 namespace {
@@ -42,21 +42,21 @@ void Build(Ui& ui) {
     }
   }
   ImGui::SameLine();
-  const std::size_t views = ui.editor.extra_photos().size();
+  const std::size_t views = ui.editor.side_photos().size();
   const std::string label = fmt::format("From the side: {} ...###side", views);
-  if (Button(ui, label.c_str(), can && views < facefit::kMostExtraPhotos,
+  if (Button(ui, label.c_str(), can && views < facefit::kMaxSidePhotos,
              "Photos of the same person turned by 20 to 60 degrees: the face that is built gets "
              "their depth and their skin")) {
     Browse(ui, "A photo from the side", FileKind::kPhoto, ui.photo_path,
            {{"Add", false, [&ui](const std::string& path) {
-               auto added = ui.editor.AddExtraPhoto(path);
+               auto added = ui.editor.AddSidePhoto(path);
                if (added) ui.Tell(path + " is used when the face is built");
                return added;
              }}});
   }
   Mark(ui, "from the side");
   ImGui::SameLine();
-  if (Button(ui, "x##sides", views > 0, "None of them")) ui.editor.RemoveExtraPhotos();
+  if (Button(ui, "x##sides", views > 0, "None of them")) ui.editor.RemoveSidePhotos();
   Mark(ui, "no side photos");
 }
 

@@ -130,14 +130,16 @@ std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::FittedHead
   std::vector<glm::vec3> camera;
   for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(fitted.pose.ToCamera(p));
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-  facefit::ForSkinTriangles(base.head->topology(), [&](const std::uint32_t* t) {
-    const glm::vec3 n = glm::cross(camera[t[1]] - camera[t[0]], camera[t[2]] - camera[t[0]]);
+  facefit::ForSkinTriangles(base.head->topology(), [&](const facefit::MeshTriangle& t) {
+    const glm::vec3 n = t.Normal(camera);
     // The neck is not fitted, what lies behind is not seen.
-    const bool face = std::all_of(t, t + 3, [&](std::uint32_t v) {
+    const bool face = std::ranges::all_of(t.corner, [&](std::uint32_t v) {
       return fitted.posed_vertices[v].z > 10 && base.rest.position[v].y > -95;
     });
     if (!face || n.z <= 0.1F * glm::length(n)) return;
-    for (int c = 0; c < 3; ++c) edges.emplace_back(std::minmax(t[c], t[(c + 1) % 3]));
+    for (std::size_t c = 0; c < 3; ++c) {
+      edges.emplace_back(std::minmax(t.corner[c], t.corner[(c + 1) % 3]));
+    }
   });
   std::ranges::sort(edges);
   const auto rest = std::ranges::unique(edges);

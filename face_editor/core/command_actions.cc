@@ -227,8 +227,8 @@ Answer GetPoint(Editor& editor, const Words& words) {
 
 Answer GetViews(Editor& editor, const Words&) {
   std::string paths;
-  for (const auto& extra : editor.extra_photos()) {
-    paths += (paths.empty() ? "" : "\n") + extra->path;
+  for (const auto& side : editor.side_photos()) {
+    paths += (paths.empty() ? "" : "\n") + side->path;
   }
   return paths.empty() ? "nothing" : paths;
 }

@@ -76,8 +76,8 @@ const std::vector<Command>& Commands() {
        1,
        1,
        [](E e, W w) -> Answer {
-         if (w[0] != "none") return Done(e.AddExtraPhoto(w[0]));
-         e.RemoveExtraPhotos();
+         if (w[0] != "none") return Done(e.AddSidePhoto(w[0]));
+         e.RemoveSidePhotos();
          return "";
        }},
       {{"get", "views"}, "", 0, 0, GetViews},

@@ -6,7 +6,6 @@
 
 #include "face_editor/core/table_writer.h"
 #include "face_fit/find/face/hand_points.h"
-#include "face_fit/fit/extra_view.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/mesh/pnt_file.h"
@@ -43,7 +42,7 @@ vm::Result<void> Editor::OpenPhoto(const std::string& path, int face) {
   auto work = editor::OpenPhoto(sight_.get(), path, face);
   if (!work) return std::unexpected(work.error());
   work_ = std::move(*work);
-  extras_.clear();
+  sides_.clear();
   selection.clear();
   history_.Restart(Part::kPoints, [this](State& state) { state.points = work_->found; });
   MarkSaved(Part::kPoints);
@@ -97,7 +96,7 @@ void Editor::DragSelection(const PointMap& from, glm::vec2 by, std::string_view 
 vm::Result<std::string> Editor::BuildFace(const std::string& name, const std::string& folder) {
   if (!work_) return Fail(Errc::kBadValue, "there is no photo: open one first");
   if (!work_->base) return Fail(Errc::kUnavailable, work_->notice);
-  const auto built = editor::BuildFace(*work_, state().points, sight_.get(), extras_);
+  const auto built = editor::BuildFace(*work_, state().points, sight_.get(), sides_);
   if (!built) return std::unexpected(built.error());
   const facefit::MadeFace& made = (*built)->made;
   auto place = fsm::WriteFace(made.bake.head, made.report, folder, name);
@@ -109,16 +108,13 @@ vm::Result<std::string> Editor::BuildFace(const std::string& name, const std::st
   return place;
 }
 
-vm::Result<void> Editor::AddExtraPhoto(const std::string& path) {
+vm::Result<void> Editor::AddSidePhoto(const std::string& path) {
   if (!work_) return Fail(Errc::kBadValue, "open the photo from the front first");
   if (!work_->base || !sight_) return Fail(Errc::kUnavailable, work_->notice);
-  if (extras_.size() >= facefit::kMostExtraPhotos) {
-    return Fail(Errc::kLimit,
-                fmt::format("at most {} photos from the side are used", facefit::kMostExtraPhotos));
-  }
-  auto extra = OpenExtraPhoto(*sight_, *work_, state().points, path);
-  if (!extra) return std::unexpected(extra.error());
-  extras_.push_back(std::move(*extra));
+  if (auto few = facefit::CheckSidePhotoCount(sides_.size() + 1); !few) return few;
+  auto side = OpenSidePhoto(*sight_, *work_, state().points, path);
+  if (!side) return std::unexpected(side.error());
+  sides_.push_back(std::move(*side));
   return {};
 }
 

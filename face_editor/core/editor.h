@@ -41,9 +41,9 @@ class Editor {
   vm::Result<void> SavePoints(const std::string& path);
   /// More photos of the person, from the side, which the face that is built is made of as well;
   /// another photo opened takes them away.
-  vm::Result<void> AddExtraPhoto(const std::string& path);
-  void RemoveExtraPhotos() { extras_.clear(); }
-  const ExtraPhotos& extra_photos() const { return extras_; }
+  vm::Result<void> AddSidePhoto(const std::string& path);
+  void RemoveSidePhotos() { sides_.clear(); }
+  const SidePhotos& side_photos() const { return sides_; }
   /// Back to where they were found.
   vm::Result<void> ResetPoints();
   /// Moves the selection from where it is in `from`; see Drag.
@@ -124,7 +124,7 @@ class Editor {
   std::array<std::uint64_t, kParts> saved_{};
   std::shared_ptr<FaceSight> sight_;
   std::shared_ptr<const PhotoWork> work_;
-  ExtraPhotos extras_;
+  SidePhotos sides_;
 };
 
 /// The key frames are in order of time from above 0, angles within 180 degrees. Error: kBadValue.

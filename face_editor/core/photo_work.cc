@@ -6,7 +6,7 @@
 
 #include "face_editor/core/table_writer.h"
 #include "face_fit/find/face/hand_points.h"
-#include "face_fit/find/face/upright.h"
+#include "face_fit/fit/side_pose.h"
 #include "face_fit/picture/photo.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
@@ -75,41 +75,37 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
     return work;
   }
   try {
-    const facefit::UprightFaces seen = facefit::FindUprightFaces(sight->networks, *photo);
-    if (seen.orientation != 1) work->notice = "The photo was lying; it was set upright";
+    auto front = facefit::PrepareFront(sight->networks, *sight->base, std::move(*photo),
+                                       facefit::FaceNumber{face}, facefit::PhotoPart::kWhole);
+    if (!front) return std::unexpected(front.error());
+    work->front = std::move(*front);
     work->base = sight->base;
     work->mirror = sight->mirror;
-    std::optional<facefit::FoundFace> found;
-    if (seen.faces.empty() && face == 1) {
-      work->notice = "No face was found: drag the points to where eyes, nose, mouth and chin are";
-      work->found = AllPoints(*work, PlainPoints(photo->width, photo->height));
+    if (work->front.face) {
+      work->found = PointsOf(*work->front.face);
+      if (work->front.orientation != 1) work->notice = "The photo was lying; it was set upright";
     } else {
-      auto chosen = facefit::ChooseFace(seen.faces, face);
-      if (!chosen) return std::unexpected(chosen.error());
-      found = std::move(*chosen);
-      work->found = PointsOf(*found);
+      work->notice = "No face was found: drag the points to where eyes, nose, mouth and chin are";
+      work->found = AllPoints(*work, work->found);
     }
-    work->front =
-        facefit::LookAtFront(sight->networks, *work->base, std::move(*photo),
-                             found ? &*found : nullptr, static_cast<int>(seen.faces.size()));
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue, path + ": " + error.what());
   }
   return work;
 }
 
-vm::Result<std::shared_ptr<const facefit::ExtraPhoto>> OpenExtraPhoto(FaceSight& sight,
-                                                                      const PhotoWork& work,
-                                                                      const PointMap& points,
-                                                                      const std::string& path) {
+vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& sight,
+                                                                    const PhotoWork& work,
+                                                                    const PointMap& points,
+                                                                    const std::string& path) {
   try {
-    auto extra = facefit::ReadExtraPhoto(sight.networks, path);
-    if (!extra) return extra;
+    auto side = facefit::ReadSidePhoto(sight.networks, path);
+    if (!side) return std::unexpected(side.error());
     const auto fit = facefit::FitFace(*work.base, FoundFrom(points), &work.front.photo);
-    if (auto placed = facefit::FitExtraView(sight.networks, fit.head, **extra); !placed) {
+    if (auto placed = facefit::FitSidePose(sight.networks, fit.head, *side); !placed) {
       return vm::Fail(placed.error().code, path + ": " + placed.error().text);
     }
-    return extra;
+    return std::make_shared<const facefit::SidePhoto>(std::move(*side));
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue, path + ": " + error.what());
   }
@@ -117,12 +113,18 @@ vm::Result<std::shared_ptr<const facefit::ExtraPhoto>> OpenExtraPhoto(FaceSight&
 
 vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
                                                        const PointMap& points, FaceSight* sight,
-                                                       const ExtraPhotos& extras) {
+                                                       const SidePhotos& sides) {
   try {
+    std::optional<facefit::SidePhotos> side_photos;
+    if (sight) {
+      side_photos.emplace(sight->networks, std::vector<const facefit::SidePhoto*>{});
+      for (const auto& side : sides) side_photos->photos.push_back(side.get());
+    }
+    auto made = facefit::MakeFace(*work.base, work.front, FoundFrom(points), side_photos);
+    if (!made) return std::unexpected(made.error());
     auto built = std::make_shared<BuiltFace>();
     built->base = work.base;
-    built->made = facefit::MakeFace(*work.base, work.front, FoundFrom(points),
-                                    sight ? &sight->networks : nullptr, extras);
+    built->made = std::move(*made);
     built->head = fsm::MakeHead(built->made.bake.head);
     return built;
   } catch (const std::exception& error) {

@@ -38,13 +38,13 @@ struct PhotoWork {
 vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const std::string& path,
                                                        int face);
 
-using facefit::ExtraPhotos;
+using SidePhotos = std::vector<std::shared_ptr<const facefit::SidePhoto>>;
 /// A photo from the side, if it shows the person whose face these points make. Error: kBadValue
 /// "PATH: why not". REQUIRES: work.base
-vm::Result<std::shared_ptr<const facefit::ExtraPhoto>> OpenExtraPhoto(FaceSight& sight,
-                                                                      const PhotoWork& work,
-                                                                      const PointMap& points,
-                                                                      const std::string& path);
+vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& sight,
+                                                                    const PhotoWork& work,
+                                                                    const PointMap& points,
+                                                                    const std::string& path);
 
 /// All 468 points of a face of which some are known. REQUIRES: work.base, eye corners, tip of the
 /// nose, mouth corners and chin.
@@ -62,5 +62,5 @@ struct BuiltFace {
 vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
                                                        const PointMap& points,
                                                        FaceSight* sight = nullptr,
-                                                       const ExtraPhotos& extras = {});
+                                                       const SidePhotos& sides = {});
 }  // namespace editor

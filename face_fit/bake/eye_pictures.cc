@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "face_fit/bake/light_gain.h"
 #include "face_fit/bake/red_eye.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/float_image.h"
@@ -18,7 +19,13 @@
 namespace facefit {
 namespace {
 
-constexpr float kLeastIris = 3;  // radius in pixels of what is worth showing
+constexpr float kMinIrisPx = 3;  // radius of what is worth showing
+/// What is seen of an iris whose texel counts as its own.
+constexpr float kOpenTexel = 0.9F;
+/// Part of a flash's red runs over the edge of the pupil: so far, in radii of the iris.
+constexpr float kRedRuns = 0.22F;
+/// The least width of the shade at a lid's edge, pixels.
+constexpr float kMinShadePx = 0.7F;
 
 // Squares side by side in the lower left corner of the picture: below the neck the skin's map is
 // not looked at. Texels between them, so that they do not run into each other.
@@ -29,7 +36,7 @@ constexpr int kRings = 24;
 
 struct Texel {
   glm::vec3 colour{0};
-  float seen = 0;    ///< 0..1, not hidden by a lid
+  float open = 0;    ///< 0..1, not hidden by a lid
   float radius = 0;  ///< in radii of the iris
 };
 
@@ -40,12 +47,12 @@ std::array<glm::vec3, kRings> MedianByRing(const std::vector<Texel>& texels) {
     return std::min(static_cast<int>(radius / fsm::kIrisSpan * kRings), kRings - 1);
   };
   for (const Texel& t : texels) {
-    if (t.seen > 0.9F) rings[static_cast<std::size_t>(ring_of(t.radius))].push_back(t.colour);
+    if (t.open > kOpenTexel) rings[static_cast<std::size_t>(ring_of(t.radius))].push_back(t.colour);
   }
   const auto light = [](glm::vec3 c) { return c.r + c.g + c.b; };
   std::array<glm::vec3, kRings> median;
   // Where all of an iris is hidden, the texel that is hidden least is the best there is.
-  median.fill(std::ranges::max_element(texels, {}, &Texel::seen)->colour);
+  median.fill(std::ranges::max_element(texels, {}, &Texel::open)->colour);
   int last = -1;
   for (int k = 0; k < kRings; ++k) {
     auto& ring = rings[static_cast<std::size_t>(k)];
@@ -86,73 +93,75 @@ glm::vec4 Insert(const fsm::Image& square, int left, fsm::Image& picture) {
   return {glm::vec2(left, top) / whole, glm::vec2(left + size, top + size) / whole};
 }
 
-struct SeenEye {
+/// An eye as a photo shows it.
+struct PhotoEye {
   const IrisCircle& iris;
-  LidLines lids;        ///< in the photo
-  glm::vec2 right, up;  ///< the head's axes there, unit
+  LidLines lids;
+  glm::vec2 right, up;  ///< the head's axes in the photo, unit
 };
 
 /// `skin`: its colour below the eye.
-fsm::Image IrisPicture(const SeenEye& eye, glm::vec3 skin, const fsm::Image& photo) {
+fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin, const fsm::Image& photo) {
   // The shade of the lid's edge and its lashes.
-  const float edge = std::max(PhotoLook()("lid_shade") * eye.iris.radius, 0.7F);
+  const float edge = std::max(PhotoLook()("lid_shade") * eye.iris.radius, kMinShadePx);
   const RedEye flash(skin);
   const auto texels = Square(kIrisPixels, [&](glm::vec2 p) {
     p *= fsm::kIrisSpan;
-    const glm::vec2 at = eye.iris.centre + eye.iris.radius * (p.x * eye.right + p.y * eye.up);
-    const auto [upper, lower] = eye.lids.At(eye.lids.Part(at));
-    const float within = std::min(eye.lids.Down(at) - upper, lower - eye.lids.Down(at));
+    const glm::vec2 pixel = eye.iris.centre + eye.iris.radius * (p.x * eye.right + p.y * eye.up);
+    const auto [upper, lower] = eye.lids.At(eye.lids.Part(pixel));
+    const float within = std::min(eye.lids.Down(pixel) - upper, lower - eye.lids.Down(pixel));
     float red = 0;
     for (int k = 0; k < 9; ++k) {
-      const glm::vec2 beside = at + 0.22F * eye.iris.radius * (glm::vec2(k % 3, k / 3) - 1.0F);
+      const glm::vec2 beside =
+          pixel + kRedRuns * eye.iris.radius * (glm::vec2(k % 3, k / 3) - 1.0F);
       red = std::max(red, flash.Likelihood(ColourAt(photo, beside)));
     }
-    return Texel{flash.Without(ColourAt(photo, at), red),
+    return Texel{flash.Without(ColourAt(photo, pixel), red),
                  glm::smoothstep(0.5F * edge, edge, within), glm::length(p)};
   });
-  const auto median = MedianByRing(texels.at);
+  const auto median = MedianByRing(texels.values);
   fsm::Image out = fsm::FilledImage(kIrisPixels, kIrisPixels);
-  for (std::size_t i = 0; i < texels.at.size(); ++i) {
-    const Texel& t = texels.at[i];
+  for (std::size_t i = 0; i < texels.values.size(); ++i) {
+    const Texel& t = texels.values[i];
     const float ring = std::clamp(t.radius / fsm::kIrisSpan * kRings - 0.5F, 0.0F, kRings - 1.001F);
     const auto k = static_cast<std::size_t>(ring);
     const glm::vec3 usual = glm::mix(median[k], median[k + 1], ring - static_cast<float>(k));
-    SetRgb(out, i, glm::mix(usual, t.colour, t.seen));
+    SetRgb(out, i, glm::mix(usual, t.colour, t.open));
   }
   return out;
 }
 
 /// `rest`: the lids of the eye at rest; `radius`: of its ball; both in millimetres round its
 /// centre.
-fsm::Image BallPicture(const SeenEye& eye, const LidLines& rest, float radius,
+fsm::Image BallPicture(const PhotoEye& eye, const LidLines& rest, float radius,
                        const fsm::Image& photo) {
   const auto places = Square(kBallPixels, [&](glm::vec2 p) {
     p *= fsm::kBallSpan * radius;
     const float part = glm::clamp(rest.Part(p), 0.0F, 1.0F);
     const auto [upper, lower] = rest.At(part);
     const float between = (rest.Down(p) - upper) / std::max(lower - upper, 0.05F);
-    const auto [upper_seen, lower_seen] = eye.lids.At(part);
+    const auto [upper_shown, lower_shown] = eye.lids.At(part);
     return std::pair(
-        eye.lids.PointAt(part, glm::mix(upper_seen, lower_seen, glm::clamp(between, 0.0F, 1.0F))),
+        eye.lids.PointAt(part, glm::mix(upper_shown, lower_shown, glm::clamp(between, 0.0F, 1.0F))),
         between);
   });
-  const auto beside_iris = [&eye, range = PhotoLook().Pair("beside_iris")](glm::vec2 at) {
-    return Ramp(range, glm::distance(at, eye.iris.centre) / eye.iris.radius);
+  const auto beside_iris = [&eye, range = PhotoLook().Pair("beside_iris")](glm::vec2 pixel) {
+    return Ramp(range, glm::distance(pixel, eye.iris.centre) / eye.iris.radius);
   };
   // Behind the iris lies what is seen beside it, but not the lids' shade and lashes.
   fsm::Image out = fsm::FilledImage(kBallPixels, kBallPixels);
   FloatImage weight(kBallPixels, kBallPixels);
   const glm::vec2 upper_lid = PhotoLook().Pair("beside_upper_lid");
   const glm::vec2 lower_lid = PhotoLook().Pair("beside_lower_lid");
-  for (std::size_t i = 0; i < places.at.size(); ++i) {
-    const auto [at, between] = places.at[i];
-    SetRgb(out, i, ColourAt(photo, at));
-    weight.at[i] = beside_iris(at) * Ramp(upper_lid, between) * Ramp(lower_lid, between);
+  for (std::size_t i = 0; i < places.values.size(); ++i) {
+    const auto [pixel, between] = places.values[i];
+    SetRgb(out, i, ColourAt(photo, pixel));
+    weight.values[i] = beside_iris(pixel) * Ramp(upper_lid, between) * Ramp(lower_lid, between);
   }
   PushPullInpaint(out, weight);
-  for (std::size_t i = 0; i < places.at.size(); ++i) {
-    const glm::vec2 at = places.at[i].first;
-    SetRgb(out, i, glm::mix(Rgb(out, i), ColourAt(photo, at), beside_iris(at)));
+  for (std::size_t i = 0; i < places.values.size(); ++i) {
+    const glm::vec2 pixel = places.values[i].first;
+    SetRgb(out, i, glm::mix(Rgb(out, i), ColourAt(photo, pixel), beside_iris(pixel)));
   }
   return out;
 }
@@ -163,17 +172,17 @@ struct EyeSquares {
 
 /// Whose picture each eye shows: its own, or that of the other where it is not seen. None where
 /// neither is seen well enough.
-std::optional<fsm::Sided<fsm::Side>> ShownEyes(const SeenIrises& irises) {
+std::optional<fsm::Sided<fsm::Side>> ShownEyes(const PhotoIrises& irises) {
   // What stands for both is no half shut eye.
   constexpr float kForBoth = 0.1F;
-  const auto seen = [&irises](fsm::Side k, float contrast) {
-    return irises.circles[k].contrast >= contrast && irises.circles[k].radius >= kLeastIris;
+  const auto clear = [&irises](fsm::Side k, float contrast) {
+    return irises.circles[k].contrast >= contrast && irises.circles[k].radius >= kMinIrisPx;
   };
-  if (seen(fsm::Side::kRight, kClearIris) && seen(fsm::Side::kLeft, kClearIris)) {
+  if (clear(fsm::Side::kRight, kClearIris) && clear(fsm::Side::kLeft, kClearIris)) {
     return {{fsm::Side::kRight, fsm::Side::kLeft}};
   }
   for (const fsm::Side k : fsm::kSides) {
-    if (seen(k, kForBoth)) return {{k, k}};
+    if (clear(k, kForBoth)) return {{k, k}};
   }
   return std::nullopt;
 }
@@ -189,8 +198,6 @@ glm::vec3 LightBeside(const FoundFace& face, const fsm::Image& photo, fsm::Side 
 
 /// Right and left exchanged, in another light.
 fsm::Image Mirrored(const fsm::Image& square, glm::vec3 gain) {
-  const glm::vec2 limit = PhotoLook().Pair("light_gain");
-  gain = glm::clamp(gain, limit.x, limit.y);
   fsm::Image out = Turned(square, 2);
   for (std::size_t i = 0; i < out.rgba.size() / 4; ++i) SetRgb(out, i, Rgb(out, i) * gain);
   return out;
@@ -227,9 +234,10 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
   fsm::Sided<EyeSquares> squares;
   for (const fsm::Side k : fsm::kSides) {
     if ((*shown)[k] != k) continue;
-    EyePoints seen;
-    std::ranges::transform(EyeOutline(k), seen.begin(), [&](PointIndex p) { return face.At(p); });
-    const SeenEye eye{fit.irises.circles[k], LidLines(seen), right, {right.y, -right.x}};
+    EyePoints outline;
+    std::ranges::transform(EyeOutline(k), outline.begin(),
+                           [&](PointIndex p) { return face.At(p); });
+    const PhotoEye eye{fit.irises.circles[k], LidLines(outline), right, {right.y, -right.x}};
     const float radius = at_rest[k].size * base.head->topology().eyes[k].ball_radius;
     squares[k] = {IrisPicture(eye, LightBeside(face, photo, k), photo),
                   BallPicture(eye, LidsAtRest(base, k, at_rest[k]), radius, photo)};
@@ -238,7 +246,8 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
   fsm::Sided<fsm::EyePicture> pictures;
   for (const fsm::Side k : fsm::kSides) {
     if (const fsm::Side other = (*shown)[k]; other != k) {
-      const glm::vec3 gain = LightBeside(face, photo, k) / LightBeside(face, photo, other);
+      const glm::vec3 gain =
+          LightGain(LightBeside(face, photo, k), LightBeside(face, photo, other));
       squares[k] = {Mirrored(squares[other].iris, gain), Mirrored(squares[other].ball, gain)};
     }
     pictures[k].iris = Insert(squares[k].iris, left, picture);

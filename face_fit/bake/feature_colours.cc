@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"
@@ -21,6 +22,29 @@ glm::vec3 Linear(glm::vec3 encoded) {
   return {linear(encoded.r), linear(encoded.g), linear(encoded.b)};
 }
 
+// Where an eye's colours are taken, by the distance of its corners: a rectangle round their middle,
+// but not so near to the lids, whose lashes and shade lie there.
+constexpr float kHalfWidth = 0.5F, kHalfHeight = 0.25F, kSampleStep = 0.02F, kFromLids = 0.05F;
+// What stands for all of them, by rank of brightness: of the iris the middle; of the white somewhat
+// more, because lids and lashes throw shade on it.
+constexpr float kIrisRank = 0.5F, kWhiteRank = 0.6F;
+constexpr std::size_t kRanksTogether = 7, kMinSamples = 8;
+// Linear light of irises and whites that eyes have.
+constexpr glm::vec2 kIrisLight{0.0005F, 0.6F}, kWhiteLight{0.04F, 0.8F};
+
+/// The mean of the colours round a rank of brightness, 0..1; `otherwise` if there are too few.
+glm::vec3 Typical(std::vector<glm::vec3> colours, float rank, glm::vec3 otherwise) {
+  if (colours.size() < kMinSamples) return otherwise;
+  std::ranges::sort(colours, {}, Brightness);
+  const auto middle = static_cast<std::size_t>(rank * static_cast<float>(colours.size() - 1));
+  const std::size_t first = middle < kRanksTogether / 2 ? 0 : middle - kRanksTogether / 2;
+  glm::vec3 sum(0);
+  for (std::size_t i = first; i < first + kRanksTogether; ++i) {
+    sum += colours[std::min(i, colours.size() - 1)];
+  }
+  return sum / float{kRanksTogether};
+}
+
 /// Mean brightness of the skin, linear.
 float SkinLight(const FoundFace& face, const fsm::Image& photo) {
   float light = 0;
@@ -32,7 +56,7 @@ float SkinLight(const FoundFace& face, const fsm::Image& photo) {
 
 }  // namespace
 
-EyeColours SampleEyes(const FoundFace& face, const SeenIrises& irises, const fsm::Image& photo) {
+EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fsm::Image& photo) {
   const fsm::NumberTable& look = PhotoLook();
   const glm::vec2 iris_part = look.Pair("iris_part");
   const float white_from = look("white_from");
@@ -40,41 +64,33 @@ EyeColours SampleEyes(const FoundFace& face, const SeenIrises& irises, const fsm
   for (const fsm::Side side : fsm::kSides) {
     const std::vector<glm::vec2> outline = face.Line(EyeOutline(side));
     const glm::vec2 a = outline[kOuterCorner], b = outline[kInnerCorner];
-    const float wide = glm::distance(a, b);
+    const float width = glm::distance(a, b);
     const IrisCircle& circle = irises.circles[side];
-    for (float y = -0.25F; y <= 0.25F; y += 0.02F) {
-      for (float x = -0.5F; x <= 0.5F; x += 0.02F) {
-        const glm::vec2 at = 0.5F * (a + b) + wide * glm::vec2(x, y);
-        if (SignedDistance(outline, at) > -0.05F * wide) continue;
-        const float far = glm::distance(at, circle.centre) / circle.radius;
-        const glm::vec3 colour = ColourAt(photo, at);
-        if (far > iris_part.x && far < iris_part.y) iris.push_back(colour);
-        if (far > white_from) white.push_back(colour);
+    for (float y = -kHalfHeight; y <= kHalfHeight; y += kSampleStep) {
+      for (float x = -kHalfWidth; x <= kHalfWidth; x += kSampleStep) {
+        const glm::vec2 pixel = 0.5F * (a + b) + width * glm::vec2(x, y);
+        if (SignedDistance(outline, pixel) > -kFromLids * width) continue;
+        const float radii = glm::distance(pixel, circle.centre) / circle.radius;
+        const glm::vec3 colour = ColourAt(photo, pixel);
+        if (radii > iris_part.x && radii < iris_part.y) iris.push_back(colour);
+        if (radii > white_from) white.push_back(colour);
       }
     }
   }
-  const auto pick = [](std::vector<glm::vec3>& colours, float part, glm::vec3 otherwise) {
-    if (colours.size() < 8) return otherwise;
-    std::ranges::sort(colours, {}, Brightness);
-    const auto middle = static_cast<std::size_t>(part * static_cast<float>(colours.size() - 1));
-    const std::size_t first = middle < 3 ? 0 : middle - 3;
-    glm::vec3 sum(0);
-    for (std::size_t i = first; i < first + 7; ++i) sum += colours[std::min(i, colours.size() - 1)];
-    return sum / 7.0F;
-  };
   // Drawn, an iris is darker than its base colour on the mean, where it meets pupil and rim.
   // In weak light it keeps its hue: brightened channel by channel a brown one would turn grey.
-  const glm::vec3 tint = Linear(pick(iris, 0.5F, look.Vector("iris_unseen"))) * look("iris_gain");
+  const glm::vec3 tint =
+      Linear(Typical(iris, kIrisRank, look.Vector("iris_unseen"))) * look("iris_gain");
   const glm::vec3 shown =
       glm::clamp(tint * std::max(1.0F, look("iris_darkest") / std::max(Brightness(tint), 1e-4F)),
-                 0.0005F, 0.6F);
+                 kIrisLight.x, kIrisLight.y);
   // Whites are paler than what is seen of them, but have the hue of the light; and in whatever
-  // shade they are not darker than a third of the skin beside them.
-  glm::vec3 ball = Linear(pick(white, 0.6F, look.Vector("white_unseen")));
+  // shade they are not much darker than the skin beside them.
+  glm::vec3 ball = Linear(Typical(white, kWhiteRank, look.Vector("white_unseen")));
   const float least = look("white_least") * SkinLight(face, photo);
   ball = glm::mix(ball, glm::vec3(Brightness(ball)), look("white_greyed"));
   ball *= std::max(1.0F, least / std::max(Brightness(ball), 1e-3F));
-  return {.iris = shown, .white = glm::clamp(ball, 0.04F, 0.8F)};
+  return {.iris = shown, .white = glm::clamp(ball, kWhiteLight.x, kWhiteLight.y)};
 }
 
 MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
@@ -83,9 +99,9 @@ MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
   constexpr std::size_t kFirst = 2, kLast = 6;
   glm::vec3 lip(0);
   for (std::size_t k = kFirst; k <= kLast; ++k) {
-    const glm::vec2 at =
+    const glm::vec2 pixel =
         0.5F * (face.At(point::kLowerOuterLip[k]) + face.At(point::kLowerInnerLip[k]));
-    lip += Linear(ColourAt(photo, at)) / float{kLast - kFirst + 1};
+    lip += Linear(ColourAt(photo, pixel)) / float{kLast - kFirst + 1};
   }
   // The inner rim lies in shade.
   const glm::vec2 inner = look.Pair("lip_inner");

@@ -12,7 +12,7 @@ namespace facefit {
 struct EyeColours {
   glm::vec3 iris, white;
 };
-EyeColours SampleEyes(const FoundFace& face, const SeenIrises& irises, const fsm::Image& photo);
+EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fsm::Image& photo);
 
 /// PhotoHead::lip_colour and PhotoHead::teeth, by the light on the skin.
 struct MouthColours {

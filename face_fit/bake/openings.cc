@@ -11,7 +11,10 @@
 
 namespace facefit {
 
-Openings::Openings(const FoundFace& face, float pixels_per_mm, bool lips_apart) {
+/// The least that mouth_rim is in a small photo: the blur of its own pixels.
+constexpr glm::vec2 kMinRimPx{0.8F, 1};
+
+PhotoOpenings::PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool lips_apart) {
   const fsm::NumberTable& look = PhotoLook();
   // The dark line of the lashes stays on the rims of the lids.
   const float lash = look("lash_rim") * pixels_per_mm;
@@ -22,7 +25,7 @@ Openings::Openings(const FoundFace& face, float pixels_per_mm, bool lips_apart) 
     std::vector<PointIndex> mouth(point::kUpperInnerLip.begin(), point::kUpperInnerLip.end());
     mouth.insert(mouth.end(), point::kLowerInnerLip.rbegin(), point::kLowerInnerLip.rend());
     // Teeth shine through the blurred edge of the lips, in a small photo over more of them.
-    const glm::vec2 rim = glm::max(look.Pair("mouth_rim") * pixels_per_mm, glm::vec2(0.8F, 1));
+    const glm::vec2 rim = glm::max(look.Pair("mouth_rim") * pixels_per_mm, kMinRimPx);
     openings_.push_back({face.Line(mouth), rim.x, rim.x + rim.y});
   }
   for (Opening& opening : openings_) {
@@ -33,17 +36,18 @@ Openings::Openings(const FoundFace& face, float pixels_per_mm, bool lips_apart) 
   }
 }
 
-float Openings::SkinWeight(glm::vec2 pixel) const {
-  float part = 1;
+float PhotoOpenings::SkinWeight(glm::vec2 pixel) const {
+  float skin = 1;
   for (const Opening& opening : openings_) {
     if (glm::distance(pixel, opening.middle) >= opening.radius) continue;
     const float outside = SignedDistance(opening.outline, pixel);
-    const float here = opening.all_skin_px > opening.no_skin_px
-                           ? glm::smoothstep(opening.no_skin_px, opening.all_skin_px, outside)
-                           : static_cast<float>(outside >= opening.no_skin_px);
-    part = std::min(part, here);
+    const float outside_this =
+        opening.all_skin_px > opening.no_skin_px
+            ? glm::smoothstep(opening.no_skin_px, opening.all_skin_px, outside)
+            : static_cast<float>(outside >= opening.no_skin_px);
+    skin = std::min(skin, outside_this);
   }
-  return part;
+  return skin;
 }
 
 }  // namespace facefit

@@ -8,10 +8,10 @@
 namespace facefit {
 
 /// The places of a photo where eyes show between the lids, or teeth between the lips.
-class Openings {
+class PhotoOpenings {
  public:
   /// `pixels_per_mm`: on the face. `lips_apart`: the mouth is an opening, too.
-  Openings(const FoundFace& face, float pixels_per_mm, bool lips_apart);
+  PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool lips_apart);
   /// How much of what is seen at a pixel is skin, 0..1.
   float SkinWeight(glm::vec2 pixel) const;
 

@@ -4,6 +4,8 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
+#include "face_fit/bake/light_gain.h"
+#include "face_fit/bake/skin_texels.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/tables/photo_look.h"
@@ -13,11 +15,17 @@ namespace {
 
 /// The gain is one number for each channel of a square of so many texels to a side.
 constexpr int kCell = 8;
+/// Over how much of the face both sides are compared, from wide to narrow: what lies nearest counts
+/// most, where enough of it was seen.
+constexpr float kLightReachMm[] = {128, 32, 12, 6};
+constexpr float kEnoughSeen = 0.1F;
+/// What lies around a texel lies within this.
+constexpr float kAroundMm = 5;
 
 /// The light that falls on each place of a map, as part of that on the mirrored place.
 class SideGain {
  public:
-  SideGain(const std::vector<bool>& skin, const fsm::Image& map, const FloatImage& seen)
+  SideGain(const std::vector<bool>& skin, const fsm::Image& map, const FloatImage& coverage)
       : width_((map.width + kCell - 1) / kCell),
         height_((map.height + kCell - 1) / kCell),
         gain_(width_, height_, glm::vec3(1)) {
@@ -25,26 +33,24 @@ class SideGain {
     FloatImage both(width_, height_);
     for (int y = 0; y < map.height; ++y) {
       for (int x = 0; x < map.width; ++x) {
-        const std::size_t i = seen.Index(x, y), j = seen.Index(map.width - 1 - x, y);
+        const std::size_t i = coverage.Index(x, y), j = coverage.Index(map.width - 1 - x, y);
         if (!skin[i] || !skin[j]) continue;
-        const float weight = seen.at[i] * seen.at[j];
+        const float weight = coverage.values[i] * coverage.values[j];
         both(x / kCell, y / kCell) += weight / (kCell * kCell);
         own(x / kCell, y / kCell) += weight * Rgb(map, i);
         other(x / kCell, y / kCell) += weight * Rgb(map, j);
       }
     }
-    const glm::vec2 limit = PhotoLook().Pair("light_gain");
-    // From wide to narrow: what lies nearest counts most, where enough of it was seen.
-    for (const int part : {2, 8, 20, 40}) {
-      const int reach = std::max(width_ / part, 1);
+    for (const float reach_mm : kLightReachMm) {
+      const int reach = std::max(TexelsOf(reach_mm, map.width) / kCell, 1);
       const FloatImage known = Blurred(both, reach);
-      const VectorImage here = Blurred(own, reach), there = Blurred(other, reach);
-      for (std::size_t i = 0; i < known.at.size(); ++i) {
-        const float weight = glm::smoothstep(0.0F, 0.1F, known.at[i]);
+      const VectorImage own_mean = Blurred(own, reach), other_mean = Blurred(other, reach);
+      for (std::size_t i = 0; i < known.values.size(); ++i) {
+        const float weight = glm::smoothstep(0.0F, kEnoughSeen, known.values[i]);
+        const glm::vec3 gain = LightGain(own_mean.values[i], other_mean.values[i]);
         for (int c = 0; c < 3; ++c) {
-          if (there.at[i][c] <= 0) continue;
-          const float gain = glm::clamp(here.at[i][c] / there.at[i][c], limit.x, limit.y);
-          gain_.at[i][c] = glm::mix(gain_.at[i][c], gain, weight);
+          if (other_mean.values[i][c] <= 0) continue;
+          gain_.values[i][c] = glm::mix(gain_.values[i][c], gain[c], weight);
         }
       }
     }
@@ -61,32 +67,33 @@ class SideGain {
 
 }  // namespace
 
-void CompleteByMirroring(const std::vector<bool>& skin, fsm::Image& map, FloatImage& seen) {
-  const SideGain gain_of_side(skin, map, seen);
+void CompleteByMirroring(const std::vector<bool>& skin, fsm::Image& map, FloatImage& coverage) {
+  const SideGain gain_of_side(skin, map, coverage);
   const fsm::Image one_side = map;
-  const FloatImage seen_once = seen;
+  const FloatImage own_coverage = coverage;
   // What shines or is in the shade on the other side alone, as a wing of the nose in the sun, is
   // kept near to what lies around it here.
   fsm::Image around = map;
-  PushPullInpaint(around, seen_once);
-  const FloatImage near = Blurred(seen_once, std::max(map.width / 50, 1));
-  constexpr float kAny = 50;
+  PushPullInpaint(around, own_coverage);
+  const FloatImage covered_around =
+      Blurred(own_coverage, std::max(TexelsOf(kAroundMm, map.width), 1));
+  constexpr float kAny = 50;  // so much brighter nothing is
   const glm::vec2 near_light = PhotoLook().Pair("other_side_light");
   const glm::vec2 held_by = PhotoLook().Pair("other_side_held");
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
-      const std::size_t i = seen.Index(x, y), j = seen.Index(map.width - 1 - x, y);
-      const float part = std::max(seen_once.at[j] - seen_once.at[i], 0.0F) * 0.5F;
+      const std::size_t i = coverage.Index(x, y), j = coverage.Index(map.width - 1 - x, y);
+      const float part = std::max(own_coverage.values[j] - own_coverage.values[i], 0.0F) * 0.5F;
       if (part <= 0 || !skin[i]) continue;
-      const float sum = seen_once.at[i] + part;
+      const float sum = own_coverage.values[i] + part;
       const glm::vec3 gain = gain_of_side.At(x, y);
-      const float held = Ramp(held_by, near.at[i]);
-      const glm::vec3 here = Rgb(around, i);
-      const glm::vec3 brightest = glm::min(glm::mix(kAny, near_light.y, held) * here, 255.0F);
+      const float held = Ramp(held_by, covered_around.values[i]);
+      const glm::vec3 beside = Rgb(around, i);
+      const glm::vec3 brightest = glm::min(glm::mix(kAny, near_light.y, held) * beside, 255.0F);
       const glm::vec3 taken =
-          glm::clamp(gain * Rgb(one_side, j), held * near_light.x * here, brightest);
-      SetRgb(map, i, (seen_once.at[i] * Rgb(one_side, i) + taken * part) / sum);
-      seen.at[i] = sum;
+          glm::clamp(gain * Rgb(one_side, j), held * near_light.x * beside, brightest);
+      SetRgb(map, i, (own_coverage.values[i] * Rgb(one_side, i) + taken * part) / sum);
+      coverage.values[i] = sum;
     }
   }
 }

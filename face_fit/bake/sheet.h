@@ -10,10 +10,6 @@
 
 namespace facefit {
 
-/// The figure's colours with the face taken out and the gap filled from around it: this shows
-/// beside the face when the head turns.
-fsm::Image BehindFace(const FittedHead& fitted, const Cutout& figure);
-
 /// The mesh that carries hair, neck and clothes.
 struct Sheet {
   std::vector<fsm::PhotoHead::SheetVertex> vertices;
@@ -21,6 +17,6 @@ struct Sheet {
   float skin_bottom_y;                   ///< PhotoHead::skin_bottom_y
 };
 /// A sheet just behind the face, from there gently back to the outline.
-Sheet MakeSheet(const FittedHead& fitted, const Cutout& figure);
+Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure);
 
 }  // namespace facefit

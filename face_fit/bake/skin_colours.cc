@@ -11,13 +11,19 @@
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
+namespace {
 
-constexpr float kSeen = 0.9F;
+constexpr float kWellCovered = 0.9F;  // coverage from which a texel shows the photo's own colour
+// Lengths on the face. Edges of hair fade over kHairEdgeMm. A line of the forehead is narrower than
+// kFringeMm, a fringe is not. Lines of the skin are wider than kFineMm and lie closer than kWideMm.
+constexpr float kHairEdgeMm = 1.5F, kFringeMm = 2.5F, kFineMm = 0.5F, kWideMm = 2.5F;
 
-float Saturation(const fsm::Image& map, const FloatImage& seen) {
+}  // namespace
+
+float Saturation(const fsm::Image& map, const FloatImage& coverage) {
   float sum = 0, light = 0;
-  for (std::size_t i = 0; i < seen.at.size(); ++i) {
-    if (seen.at[i] < kSeen) continue;
+  for (std::size_t i = 0; i < coverage.values.size(); ++i) {
+    if (coverage.values[i] < kWellCovered) continue;
     const glm::vec3 c = Rgb(map, i);
     const float brightest = std::max({c.r, c.g, c.b});
     sum += brightest - std::min({c.r, c.g, c.b});
@@ -26,10 +32,10 @@ float Saturation(const fsm::Image& map, const FloatImage& seen) {
   return Ramp(PhotoLook().Pair("colour_difference"), sum / std::max(light, 1.0F));
 }
 
-FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_seen) {
+FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_coverage) {
   std::array<std::vector<float>, 3> channels;
-  for (std::size_t i = 0; i < face_seen.at.size(); ++i) {
-    if (face_seen.at[i] < kSeen) continue;
+  for (std::size_t i = 0; i < face_coverage.values.size(); ++i) {
+    if (face_coverage.values[i] < kWellCovered) continue;
     for (std::size_t c = 0; c < 3; ++c) channels[c].push_back(map.rgba[4 * i + c]);
   }
   FloatImage likeness(map.width, map.height, 1);
@@ -40,35 +46,34 @@ FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_seen) {
   for (std::size_t c = 0; c < 3; ++c) {
     middle[c] = Median(std::move(channels[c])) + kDark;
   }
-  for (std::size_t i = 0; i < likeness.at.size(); ++i) {
+  for (std::size_t i = 0; i < likeness.values.size(); ++i) {
     float darker = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       darker =
           std::max(darker, std::log(middle[c] / (static_cast<float>(map.rgba[4 * i + c]) + kDark)));
     }
-    likeness.at[i] = Ramp(hair, darker);
+    likeness.values[i] = Ramp(hair, darker);
   }
-  return Blurred(likeness, map.width / 170);
+  return Blurred(likeness, TexelsOf(kHairEdgeMm, map.width));
 }
 
-float Roughness(const fsm::Image& map, const FloatImage& face_seen) {
+float Roughness(const fsm::Image& map, const FloatImage& face_coverage) {
   FloatImage light(map.width, map.height);
-  for (std::size_t i = 0; i < light.at.size(); ++i) {
-    light.at[i] = glm::dot(Rgb(map, i), glm::vec3(0.3F, 0.6F, 0.1F));
+  for (std::size_t i = 0; i < light.values.size(); ++i) {
+    light.values[i] = glm::dot(Rgb(map, i), glm::vec3(0.3F, 0.6F, 0.1F));
   }
-  // The face is some 400 texels wide at a side of 1024: lines are 1 to 4 mm apart.
-  const FloatImage fine = Blurred(light, map.width / 512), wide = Blurred(light, map.width / 100);
+  const FloatImage fine = Blurred(light, TexelsOf(kFineMm, map.width)),
+                   wide = Blurred(light, TexelsOf(kWideMm, map.width));
   std::vector<float> steps;
-  for (std::size_t i = 0; i < light.at.size(); ++i) {
-    if (face_seen.at[i] < kSeen) continue;
-    steps.push_back(std::abs(fine.at[i] - wide.at[i]) / std::max(wide.at[i], 8.0F));
+  for (std::size_t i = 0; i < light.values.size(); ++i) {
+    if (face_coverage.values[i] < kWellCovered) continue;
+    steps.push_back(std::abs(fine.values[i] - wide.values[i]) / std::max(wide.values[i], 8.0F));
   }
   return steps.empty() ? 0 : Median(std::move(steps));
 }
 
-void CutAtHairline(const SkinTexels& texels, FloatImage& likeness) {
-  // A line of the forehead is narrower than this, a fringe is not.
-  const FloatImage wide = Blurred(likeness, likeness.width / 100);
+FloatImage CutAtHairline(const SkinTexels& texels, FloatImage likeness) {
+  const FloatImage wide = Blurred(likeness, TexelsOf(kFringeMm, likeness.width));
   const glm::vec2 edge = PhotoLook().Pair("hair_edge");
   FloatImage skin(likeness.width, likeness.height, 1);
   for (int x = 0; x < likeness.width; ++x) {
@@ -78,10 +83,11 @@ void CutAtHairline(const SkinTexels& texels, FloatImage& likeness) {
       skin(x, y) = least;
     }
   }
-  skin = Blurred(skin, likeness.width / 170);
-  for (std::size_t i = 0; i < likeness.at.size(); ++i) {
-    likeness.at[i] = std::min(likeness.at[i], skin.at[i]);
+  skin = Blurred(skin, TexelsOf(kHairEdgeMm, likeness.width));
+  for (std::size_t i = 0; i < likeness.values.size(); ++i) {
+    likeness.values[i] = std::min(likeness.values[i], skin.values[i]);
   }
+  return likeness;
 }
 
 }  // namespace facefit

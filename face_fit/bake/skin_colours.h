@@ -4,20 +4,22 @@
 
 namespace facefit {
 
+// `coverage`: how well the photo shows each texel of a map, 0..1; only those near 1 are asked.
+
 /// How coloured a photo is: 0 for a grey one, 1 for one in colour, by the mean difference of the
-/// channels where the skin's map shows it (`seen` near 1).
-float Saturation(const fsm::Image& map, const FloatImage& seen);
+/// channels.
+float Saturation(const fsm::Image& map, const FloatImage& coverage);
 
 /// How much of each texel is skin rather than hair, 0..1: hair is much darker than the median of
-/// the face that is seen.
-FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_seen);
+/// the face.
+FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_coverage);
 
-/// Removes bright strands of a fringe: going up from the brows, `likeness` ends where the hair
+/// The likeness without bright strands of a fringe: going up from the brows, it ends where the hair
 /// begins.
-void CutAtHairline(const SkinTexels& texels, FloatImage& likeness);
+FloatImage CutAtHairline(const SkinTexels& texels, FloatImage likeness);
 
 /// How wrinkled the skin is: the median of the steps of brightness within some millimetres,
 /// relative to the brightness; about 0.01 for smooth skin, 0.03 for old skin.
-float Roughness(const fsm::Image& map, const FloatImage& face_seen);
+float Roughness(const fsm::Image& map, const FloatImage& face_coverage);
 
 }  // namespace facefit

@@ -5,10 +5,10 @@
 
 namespace facefit {
 
-/// What of the skin of the fitted head a camera in `pose` sees on a grid of pixels: above `bottom`
-/// (height in the head's frame, millimetres), in front of ears and neck, and not too much at a
+/// What of the skin of the fitted head a camera in `pose` sees on a grid of pixels: above
+/// `bottom_mm` (height in the head's frame), in front of ears and neck, and not too much at a
 /// slant.
-VisibleSurface SeenSkin(const FittedHead& fitted, const CameraPose& pose, const SampleGrid& grid,
-                        float bottom);
+VisibleSurface VisibleSkin(const FittedHead& fitted, const CameraPose& pose, const SampleGrid& grid,
+                           float bottom_mm);
 
 }  // namespace facefit

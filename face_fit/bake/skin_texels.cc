@@ -23,26 +23,27 @@ class SelfOcclusion {
  public:
   SelfOcclusion(const FittedHead& fitted, const CameraPose& pose) : pose_(pose) {
     const glm::vec2 middle = pose.Project({0, 0, 0});
-    const float reach = kReach * pose.PixelsPerMm();
+    const float reach = kReachMm * pose.PixelsPerMm();
     const float cell = 2 * reach / kCells;
     grid_ = {middle - reach, cell, kCells, kCells};
-    nearest_ = SeenSkin(fitted, pose, grid_, -1e9F).depth();
+    nearest_ = VisibleSkin(fitted, pose, grid_, kNoBottom).depth();
   }
   bool operator()(glm::vec3 camera) const {
-    const glm::vec2 at = (pose_.Project(camera) - grid_.origin) / grid_.step + 0.5F;
-    const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
+    const glm::vec2 cell = (pose_.Project(camera) - grid_.origin) / grid_.step + 0.5F;
+    const int x = static_cast<int>(cell.x), y = static_cast<int>(cell.y);
     if (x < 1 || y < 1 || x + 1 >= kCells || y + 1 >= kCells) return false;
-    constexpr float kBehind = 5;  // millimetres
+    constexpr float kBehindMm = 5;
     for (int k = 0; k < 9; ++k) {
       const float z = nearest_(x + k % 3 - 1, y + k / 3 - 1);
-      if (z < camera.z + kBehind) return false;
+      if (z < camera.z + kBehindMm) return false;
     }
     return true;
   }
 
  private:
   static constexpr int kCells = 256;
-  static constexpr float kReach = 180;  // millimetres
+  static constexpr float kReachMm = 180;
+  static constexpr float kNoBottom = -1e9F;
   const CameraPose& pose_;
   SampleGrid grid_{};
   FloatImage nearest_;
@@ -56,22 +57,23 @@ class LipLines {
         upper_(Line(base, point::kUpperOuterLip, kCorners)),
         lower_(Line(base, point::kLowerOuterLip, kCorners)) {}
   float OffSeam(glm::vec3 p) const {
-    if (!Spans(seam_, p)) return 1e9F;
-    const float off = std::abs(p.y - HeightAt<glm::vec3>(seam_, p.x));
-    // Towards its ends the line grows thin.
-    const float to_end = std::min(p.x - seam_.front().x, seam_.back().x - p.x);
-    return off + 0.2F * std::max(7 - to_end, 0.0F);
+    // Towards its ends the line grows thin, as if it were farther off.
+    constexpr float kThinMm = 7, kThinner = 0.2F;
+    if (!Spans(seam_, p)) return SkinTexel::kNotNear;
+    const float gap_mm = std::abs(p.y - HeightAt<glm::vec3>(seam_, p.x));
+    const float to_end_mm = std::min(p.x - seam_.front().x, seam_.back().x - p.x);
+    return gap_mm + kThinner * std::max(kThinMm - to_end_mm, 0.0F);
   }
   float Within(glm::vec3 p) const {
-    if (!Spans(upper_, p)) return -1e9F;
+    if (!Spans(upper_, p)) return -SkinTexel::kNotNear;
     return std::min(HeightAt<glm::vec3>(upper_, p.x) - p.y, p.y - HeightAt<glm::vec3>(lower_, p.x));
   }
 
  private:
   static constexpr std::array kCorners = {point::kMouthRight, point::kMouthLeft};
   static bool Spans(std::span<const glm::vec3> line, glm::vec3 p) {
-    constexpr float kFront = 60;  // behind it lies the mouth's inside
-    return p.x >= line.front().x && p.x <= line.back().x && p.z >= kFront;
+    constexpr float kFrontMm = 60;  // behind it lies the mouth's inside
+    return p.x >= line.front().x && p.x <= line.back().x && p.z >= kFrontMm;
   }
   static std::vector<glm::vec3> Line(const BaseHead& base, std::span<const PointIndex> points,
                                      std::span<const PointIndex> ends) {
@@ -91,63 +93,63 @@ class LipLines {
 std::vector<glm::vec3> SkinNormals(const fsm::HeadTopology& topology,
                                    const std::vector<glm::vec3>& position) {
   std::vector<glm::vec3> normal(position.size(), glm::vec3(0));
-  ForSkinTriangles(topology, [&](const std::uint32_t* t) {
-    const glm::vec3 n =
-        glm::cross(position[t[1]] - position[t[0]], position[t[2]] - position[t[0]]);
-    for (int c = 0; c < 3; ++c) normal[t[c]] += n;
+  ForSkinTriangles(topology, [&](const MeshTriangle& triangle) {
+    for (const std::uint32_t v : triangle.corner) normal[v] += triangle.Normal(position);
   });
   return normal;
 }
 
 /// A triangle of the skin in texels of its map; nothing if it runs across the seam of the map.
-std::optional<Triangle2> OnMap(const fsm::HeadTopology& topology, const std::uint32_t* t) {
+std::optional<Triangle2> OnMap(const fsm::HeadTopology& topology, const MeshTriangle& triangle) {
   const auto texel = [&](std::uint32_t v) {
     return glm::vec2(topology.uv[v].x, 1 - topology.uv[v].y) * static_cast<float>(kMapSize) - 0.5F;
   };
-  const Triangle2 out{texel(t[0]), texel(t[1]), texel(t[2])};
-  const float wide = std::max({out.a.x, out.b.x, out.c.x}) - std::min({out.a.x, out.b.x, out.c.x});
-  if (wide > kMapSize / 4.0F) return std::nullopt;
+  constexpr float kAcrossSeam = kMapSize / 4.0F;  // so wide is no triangle on either side of it
+  const auto& [a, b, c] = triangle.corner;
+  const Triangle2 out{texel(a), texel(b), texel(c)};
+  const float width = std::max({out.a.x, out.b.x, out.c.x}) - std::min({out.a.x, out.b.x, out.c.x});
+  if (width > kAcrossSeam) return std::nullopt;
   return out;
 }
 
 }  // namespace
 
-SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, bool hidden) {
+SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, SelfHidden self_hidden) {
   const BaseHead& base = *fitted.base;
   const glm::vec2 across = PhotoLook().Pair("aside_across");
   const glm::vec2 above_chin = PhotoLook().Pair("aside_above_chin");
   constexpr float kSlack = 0.02F;
   constexpr glm::vec3 kEye(0, 0, kCameraZ);
   std::optional<SelfOcclusion> hides;
-  if (hidden) hides.emplace(fitted, pose);
+  if (self_hidden == SelfHidden::kNotSeen) hides.emplace(fitted, pose);
   const auto& topology = base.head->topology();
   std::vector<glm::vec3> camera;
   for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(pose.ToCamera(p));
   const std::vector<glm::vec3> normal = SkinNormals(topology, camera);
-  const float brows = base.head->Landmark("nasion").y + kBrowsEnd;
+  const float brows = base.head->Landmark("nasion").y + kBrowsEndMm;
   const float chin = base.AtRest(point::kChin).y;
   const LipLines lips(base);
   SkinTexels out(kMapSize, kMapSize);
-  ForSkinTriangles(topology, [&](const std::uint32_t* t) {
-    const auto triangle = OnMap(topology, t);
-    if (!triangle) return;
-    Rasterize(*triangle, kMapSize, kMapSize, kSlack, [&](int x, int y, glm::vec3 weights) {
-      const MeshPoint place{{t[0], t[1], t[2]}, weights};
+  ForSkinTriangles(topology, [&](const MeshTriangle& triangle) {
+    const auto on_map = OnMap(topology, triangle);
+    if (!on_map) return;
+    Rasterize(*on_map, kMapSize, kMapSize, kSlack, [&](int x, int y, glm::vec3 weights) {
+      const MeshPoint place{triangle.corner, weights};
       const glm::vec3 rest = place.On(base.rest.position);
-      const float outward = rest.x * rest.x + rest.z * rest.z;
-      const std::size_t i = out.Index(x, y);
-      if (outward <= out.at[i].outward) return;
+      const float outward_mm2 = rest.x * rest.x + rest.z * rest.z;
+      if (outward_mm2 <= out(x, y).outward_mm2) return;
       const glm::vec3 q = place.On(camera);
       const glm::vec3 n = place.On(normal) + glm::vec3(0, 0, 1e-9F);
-      out.at[i].outward = outward;
-      out.at[i].pixel = pose.Project(q);
-      out.at[i].x_mm = rest.x;
-      out.at[i].above_brows_mm = rest.y - brows;
-      out.at[i].off_seam_mm = lips.OffSeam(rest);
-      out.at[i].within_lips_mm = lips.Within(rest);
-      out.at[i].aside = std::max(Ramp(across, std::abs(rest.x)), Ramp(above_chin, rest.y - chin));
-      out.at[i].facing =
-          hides && (*hides)(q) ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q));
+      const bool hidden = hides && (*hides)(q);
+      out(x, y) = {
+          .pixel = pose.Project(q),
+          .facing = hidden ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q)),
+          .outward_mm2 = outward_mm2,
+          .x_mm = rest.x,
+          .above_brows_mm = rest.y - brows,
+          .off_seam_mm = lips.OffSeam(rest),
+          .within_lips_mm = lips.Within(rest),
+          .aside = std::max(Ramp(across, std::abs(rest.x)), Ramp(above_chin, rest.y - chin))};
     });
   });
   return out;

@@ -24,14 +24,14 @@ float DistanceToLine(glm::vec2 p, std::span<const glm::vec2> line) {
   return nearest;
 }
 
-/// Fills what is dark within `reach` (millimetres) of a line and narrower than twice `valley`
-/// (pixels) as much as `smile` says; `smooth` becomes how much of each pixel was filled, 0..1.
-void FillFold(std::span<const glm::vec2> line, float smile, float pixels_per_mm, int valley,
+/// Fills what is dark near a line and narrower than twice `valley_px` as much as `smile` says;
+/// `smooth` becomes how much of each pixel was filled, 0..1.
+void FillFold(std::span<const glm::vec2> line, float smile, float pixels_per_mm, int valley_px,
               fsm::Image& photo, FloatImage& smooth) {
-  const float reach = PhotoLook()("fold_reach");
+  const float reach_mm = PhotoLook()("fold_reach");
   Box2 box;
-  for (const glm::vec2 at : line) box.Add(at);
-  const float margin = reach * pixels_per_mm + 2 * static_cast<float>(valley);
+  for (const glm::vec2 p : line) box.Add(p);
+  const float margin = reach_mm * pixels_per_mm + 2 * static_cast<float>(valley_px);
   const glm::ivec2 first = glm::max(glm::ivec2(box.low - margin), 0);
   const glm::ivec2 last = glm::min(glm::ivec2(box.high + margin) + 1, {photo.width, photo.height});
   if (last.x <= first.x || last.y <= first.y) return;
@@ -40,15 +40,16 @@ void FillFold(std::span<const glm::vec2> line, float smile, float pixels_per_mm,
   const auto colours = VectorImage::From(size.x, size.y, [&](int x, int y) {
     return Rgb(photo, photo.Index(first.x + x, first.y + y));
   });
-  const VectorImage filled = Blurred(Closed(colours, valley), std::max(valley / 2, 1));
+  const VectorImage filled = Blurred(Closed(colours, valley_px), std::max(valley_px / 2, 1));
   for (int y = 0; y < size.y; ++y) {
     for (int x = 0; x < size.x; ++x) {
-      const glm::ivec2 at = first + glm::ivec2(x, y);
-      const float off = DistanceToLine(glm::vec2(at) + 0.5F, line) / pixels_per_mm;
-      const float part = smile * glm::smoothstep(reach, 0.5F * reach, off);
+      const glm::ivec2 pixel = first + glm::ivec2(x, y);
+      const float gap_mm = DistanceToLine(glm::vec2(pixel) + 0.5F, line) / pixels_per_mm;
+      const float blend = smile * glm::smoothstep(reach_mm, 0.5F * reach_mm, gap_mm);
       const glm::vec3 lit = glm::max(filled(x, y), colours(x, y));
-      if (lit != colours(x, y)) smooth(at.x, at.y) = std::max(smooth(at.x, at.y), part);
-      SetRgb(photo, photo.Index(at.x, at.y), glm::mix(colours(x, y), lit, part));
+      if (lit != colours(x, y))
+        smooth(pixel.x, pixel.y) = std::max(smooth(pixel.x, pixel.y), blend);
+      SetRgb(photo, photo.Index(pixel.x, pixel.y), glm::mix(colours(x, y), lit, blend));
     }
   }
 }
@@ -58,10 +59,11 @@ void FillFold(std::span<const glm::vec2> line, float smile, float pixels_per_mm,
 FloatImage FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm,
                           fsm::Image& photo) {
   FloatImage smooth(photo.width, photo.height);
-  const int valley = static_cast<int>(std::lround(PhotoLook()("fold_half_width") * pixels_per_mm));
-  if (smile <= 0 || valley < 1) return smooth;
+  const int valley_px =
+      static_cast<int>(std::lround(PhotoLook()("fold_half_width") * pixels_per_mm));
+  if (smile <= 0 || valley_px < 1) return smooth;
   for (const fsm::Side side : fsm::kSides) {
-    FillFold(face.Line(point::kSmileFold[side]), smile, pixels_per_mm, valley, photo, smooth);
+    FillFold(face.Line(point::kSmileFold[side]), smile, pixels_per_mm, valley_px, photo, smooth);
   }
   return smooth;
 }

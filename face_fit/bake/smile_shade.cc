@@ -11,14 +11,18 @@
 namespace facefit {
 namespace {
 
-/// What stands for the cheeks: skin at least so far from lips, eyes and nose.
-constexpr float kFromLips = -2, kFromEyes = -8, kFromNose = -2;
+/// What stands for the cheeks: skin at least so far outside the lips, below eyes and nose, where no
+/// edge of theirs is blurred into it.
+constexpr float kFromLipsMm = 2, kBelowEyesMm = 8, kBelowNoseMm = 2;
+/// How much of what is around must stand for the cheeks for their shade to be taken away: nothing
+/// happens below the first, all of it from the second on.
+constexpr glm::vec2 kKnownCheek{0.1F, 0.5F};
 
 /// Where on the base face a smile shades the skin: from below the eyes to above the chin, beside
 /// the wings of the nose and, less, below it.
 class Cheeks {
  public:
-  explicit Cheeks(const BaseHead& base) : brows_(base.head->Landmark("nasion").y + kBrowsEnd) {
+  explicit Cheeks(const BaseHead& base) : brows_(base.head->Landmark("nasion").y + kBrowsEndMm) {
     using namespace point;
     const auto at = [&base](PointIndex i) { return base.AtRest(i); };
     eyes_ = 0.5F * (at(kEyeBottomRight).y + at(kEyeBottomLeft).y);
@@ -27,22 +31,22 @@ class Cheeks {
     chin_ = at(kChin).y;
   }
   float At(const SkinTexels& texels, std::size_t i) const {
-    const float y = Y(texels, i), x = std::abs(texels.at[i].x_mm);
+    const float y = Height(texels, i), x = std::abs(texels.values[i].x_mm);
     return Ramp(eyes_ + below_eyes_, y) * Ramp(chin_ + above_chin_, y) * Ramp(beside_middle_, x) *
            std::max(Ramp(wing_ + beside_wings_, x),
                     below_nose_part_ * Ramp(nose_ + below_nose_, y)) *
-           Ramp(outside_lips_, texels.at[i].within_lips_mm);
+           Ramp(outside_lips_, texels.values[i].within_lips_mm);
   }
   /// Whether it is skin that can stand for the cheeks: no lips, no nose.
   bool Skin(const SkinTexels& texels, std::size_t i) const {
-    const float y = Y(texels, i), x = std::abs(texels.at[i].x_mm);
-    return texels.at[i].within_lips_mm < kFromLips && y < eyes_ + kFromEyes &&
-           (x > wing_ || y < nose_ + kFromNose);
+    const float y = Height(texels, i), x = std::abs(texels.values[i].x_mm);
+    return texels.values[i].within_lips_mm < -kFromLipsMm && y < eyes_ - kBelowEyesMm &&
+           (x > wing_ || y < nose_ - kBelowNoseMm);
   }
 
  private:
-  float Y(const SkinTexels& texels, std::size_t i) const {
-    return texels.at[i].above_brows_mm + brows_;
+  float Height(const SkinTexels& texels, std::size_t i) const {
+    return texels.values[i].above_brows_mm + brows_;
   }
   const glm::vec2 below_eyes_ = PhotoLook().Pair("shade_below_eyes");
   const glm::vec2 above_chin_ = PhotoLook().Pair("shade_above_chin");
@@ -60,12 +64,12 @@ class WeightedMeans {
   WeightedMeans(const FloatImage& weight, int reach)
       : weight_(weight), reach_(reach), sum_(Soft(weight)) {}
   /// How much there is to go by near a texel, 0..1.
-  float Known(std::size_t i) const { return sum_.at[i]; }
+  float Known(std::size_t i) const { return sum_.values[i]; }
   VectorImage Of(VectorImage colours) const {
-    for (std::size_t i = 0; i < colours.at.size(); ++i) colours.at[i] *= weight_.at[i];
+    for (std::size_t i = 0; i < colours.values.size(); ++i) colours.values[i] *= weight_.values[i];
     colours = Soft(colours);
-    for (std::size_t i = 0; i < colours.at.size(); ++i) {
-      colours.at[i] /= std::max(sum_.at[i], 1e-3F);
+    for (std::size_t i = 0; i < colours.values.size(); ++i) {
+      colours.values[i] /= std::max(sum_.values[i], 1e-3F);
     }
     return colours;
   }
@@ -82,39 +86,41 @@ class WeightedMeans {
 
 }  // namespace
 
-void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const FloatImage& seen,
+void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const FloatImage& coverage,
                         float smile, fsm::Image& map) {
   if (smile <= 0) return;
   const glm::ivec2 reach(PhotoLook().Pair("shade_texels"));
   const Cheeks cheeks(base);
   FloatImage weight(kMapSize, kMapSize);
-  for (std::size_t i = 0; i < weight.at.size(); ++i) {
-    weight.at[i] = cheeks.Skin(texels, i) ? seen.at[i] * seen.at[i] : 0.0F;
+  for (std::size_t i = 0; i < weight.values.size(); ++i) {
+    weight.values[i] = cheeks.Skin(texels, i) ? coverage.values[i] * coverage.values[i] : 0.0F;
   }
   const WeightedMeans fine(weight, reach.x), wide(weight, reach.y);
-  const VectorImage colours = Colours(map), near = fine.Of(colours), far = wide.Of(colours);
-  for (std::size_t i = 0; i < colours.at.size(); ++i) {
-    const float part = smile * cheeks.At(texels, i) * glm::smoothstep(0.1F, 0.5F, fine.Known(i));
+  const VectorImage colours = Colours(map), fine_mean = fine.Of(colours),
+                    wide_mean = wide.Of(colours);
+  for (std::size_t i = 0; i < colours.values.size(); ++i) {
+    const float part = smile * cheeks.At(texels, i) * Ramp(kKnownCheek, fine.Known(i));
     if (part <= 0) continue;
-    const glm::vec3 even = (far.at[i] + 1.0F) / (near.at[i] + 1.0F);
-    SetRgb(map, i, colours.at[i] * glm::mix(glm::vec3(1), even, part));
+    const glm::vec3 even = (wide_mean.values[i] + 1.0F) / (fine_mean.values[i] + 1.0F);
+    SetRgb(map, i, colours.values[i] * glm::mix(glm::vec3(1), even, part));
   }
 }
 
 void GrainFromCheeks(const FloatImage& smooth, fsm::Image& map) {
-  if (std::ranges::none_of(smooth.at, [](float s) { return s > 0; })) return;
+  if (std::ranges::none_of(smooth.values, [](float s) { return s > 0; })) return;
   const glm::ivec2 from_texel(PhotoLook().Pair("grain_from"));
-  const int out = from_texel.x, up = from_texel.y;
+  const int outward = from_texel.x, up = from_texel.y;
   const int reach = static_cast<int>(PhotoLook()("grain_texels"));
   const float most = PhotoLook()("grain_most");
   const VectorImage colours = Colours(map), means = Blurred(Blurred(colours, reach), reach);
   for (int y = up; y < kMapSize; ++y) {
-    for (int x = out; x < kMapSize - out; ++x) {
+    for (int x = outward; x < kMapSize - outward; ++x) {
       const std::size_t i = smooth.Index(x, y);
-      if (smooth.at[i] <= 0) continue;
-      const std::size_t from = smooth.Index(x < kMapSize / 2 ? x - out : x + out, y - up);
-      const glm::vec3 grain = (colours.at[from] + 1.0F) / (means.at[from] + 1.0F) - 1.0F;
-      SetRgb(map, i, colours.at[i] * (1.0F + smooth.at[i] * glm::clamp(grain, -most, most)));
+      if (smooth.values[i] <= 0) continue;
+      const std::size_t from = smooth.Index(x < kMapSize / 2 ? x - outward : x + outward, y - up);
+      const glm::vec3 grain = (colours.values[from] + 1.0F) / (means.values[from] + 1.0F) - 1.0F;
+      SetRgb(map, i,
+             colours.values[i] * (1.0F + smooth.values[i] * glm::clamp(grain, -most, most)));
     }
   }
 }

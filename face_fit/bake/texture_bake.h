@@ -1,7 +1,7 @@
 #pragma once
 
 #include "face_fit/complete/complete_figure.h"
-#include "face_fit/fit/extra_view.h"
+#include "face_fit/fit/side_view.h"
 #include "fsm/head/photo_head.h"
 
 namespace facefit {
@@ -11,13 +11,13 @@ namespace facefit {
 /// its opacity.
 struct TextureBake {
   fsm::PhotoHead head;
-  float coverage = 0;   ///< part of the face's map that the photo shows
+  float coverage = 0;   ///< how much of the face's map the photo shows, 0..1
   Completed completed;  ///< what of the figure it does not
 };
 
-/// `figure`: of `photo`; `extras`: photos of the same person from the side, may be empty. Pure;
+/// `figure`: of `photo`; `sides`: photos of the same person from the side, may be empty. Pure;
 /// thread: any.
 TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-                        const Cutout& figure, std::span<const ExtraView> extras);
+                        const FigureCutout& figure, std::span<const SideView> sides);
 
 }  // namespace facefit

@@ -10,8 +10,8 @@
 namespace facefit {
 namespace {
 
-bool IsBody(const PhotoEdges::Seen& seen) {
-  return seen.kind == EdgeKind::kSkin || seen.kind == EdgeKind::kCloth;
+bool IsBody(const EdgeSample& sample) {
+  return sample.kind == EdgeKind::kSkin || sample.kind == EdgeKind::kCloth;
 }
 
 }  // namespace
@@ -34,7 +34,8 @@ BodyPaint::BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const FloatI
     for (int y = 0; y < edges.height(); ++y) {
       const glm::vec2 place(edge == PhotoEdge::kLeft ? 0 : size.x, static_cast<float>(y) + 0.5F);
       const bool body = joint_[edge].cut && place.y > joint_[edge].row;
-      AddDifference(body ? edges.aside(edge, y) : PhotoEdges::Seen{}, place, aside_[edge]);
+      const EdgeSample& sample = edges.aside(edge, y);
+      AddDifference(body ? sample : EdgeSample{}, place, aside_[edge]);
     }
   }
 }
@@ -48,28 +49,28 @@ BodyPaint::Joint BodyPaint::Join(PhotoEdge edge) const {
     --joint.row;
   }
   joint.cut = joint.row < end;
-  float half =
+  float half_width =
       edge == PhotoEdge::kLeft ? Axis() : static_cast<float>(canvas_.photo_size.x) - Axis();
   bool hidden = false;
   if (!joint.cut) {
     // Else along the lower edge as far as the body goes; hair may hide more of it.
     int x = std::clamp(static_cast<int>(Axis()), 0, edges_.width() - 1);
-    const auto seen = [&] { return edges_.bottom(x); };
-    while (x >= 0 && x < edges_.width() && IsBody(seen())) x += edge == PhotoEdge::kLeft ? -1 : 1;
-    hidden = x >= 0 && x < edges_.width() && seen().kind == EdgeKind::kHair;
-    half = std::abs(static_cast<float>(x) + 0.5F - Axis());
+    const auto on_edge = [&] { return x >= 0 && x < edges_.width(); };
+    while (on_edge() && IsBody(edges_.bottom(x))) x += edge == PhotoEdge::kLeft ? -1 : 1;
+    hidden = on_edge() && edges_.bottom(x).kind == EdgeKind::kHair;
+    half_width = std::abs(static_cast<float>(x) + 0.5F - Axis());
   }
-  const float own =
+  const float bust_half_width =
       bust_.HalfWidth(edge, joint.row + static_cast<float>(canvas_.photo_origin.y) - 0.5F);
   glm::vec2 limit = PhotoLook().Pair("body_wider");
   // At the height of the jaw the figure is wider than its neck, but not for long; above the chin
   // the bust has a jaw of its own.
   const glm::vec2 fade_mm = PhotoLook().Pair("body_joint");
-  const float below_chin = (joint.row - canvas_.chin.y) / canvas_.per_mm;
+  const float below_chin = (joint.row - canvas_.chin.y) / canvas_.pixels_per_mm;
   if (below_chin < 0) limit.y = std::min(limit.y, PhotoLook()("body_jaw_wider"));
   joint.fade_mm =
       glm::mix(fade_mm.x, fade_mm.y, Ramp(PhotoLook().Pair("body_neck_begins"), below_chin));
-  joint.width_ratio = glm::clamp(half / own, hidden ? 1.0F : limit.x, limit.y);
+  joint.width_ratio = glm::clamp(half_width / bust_half_width, hidden ? 1.0F : limit.x, limit.y);
   if (joint.cut) joint.slope = OutlineSlope(edge, joint.row);
   return joint;
 }
@@ -86,9 +87,9 @@ float BodyPaint::OutlineSlope(PhotoEdge edge, float row) const {
 
 glm::vec3 BodyPaint::ClothColour() const {
   glm::vec4 sum(0);
-  const auto add = [&sum](const PhotoEdges::Seen& seen) {
-    const bool cloth = seen.kind == EdgeKind::kCloth || seen.kind == EdgeKind::kTip;
-    if (cloth) sum += glm::vec4(seen.colour, 1);
+  const auto add = [&sum](const EdgeSample& sample) {
+    const bool cloth = sample.kind == EdgeKind::kCloth || sample.kind == EdgeKind::kTip;
+    if (cloth) sum += glm::vec4(sample.colour, 1);
   };
   for (int x = 0; x < edges_.width(); ++x) add(edges_.bottom(x));
   for (const PhotoEdge edge : kPhotoEdges) {
@@ -97,7 +98,8 @@ glm::vec3 BodyPaint::ClothColour() const {
       add(edges_.aside(edge, y));
     }
   }
-  if (sum.w >= PhotoLook()("body_cloth_seen") * canvas_.per_mm) return glm::vec3(sum) / sum.w;
+  if (sum.w >= PhotoLook()("body_cloth_seen") * canvas_.pixels_per_mm)
+    return glm::vec3(sum) / sum.w;
   // Cloth of our own stands in the light that skin stands in: it is tinted like that, and grey in a
   // grey photo.
   const glm::vec3 skin = 255.0F * light_.skin(), usual = PhotoLook().Vector("body_usual_skin");
@@ -120,74 +122,77 @@ glm::vec2 BodyPaint::FindNeckline() const {
   return 0.5F * glm::vec2(to + from, to - from);
 }
 
-BodyPaint::Sample BodyPaint::SampleAt(glm::vec2 place) const {
-  const glm::vec2 on = place + glm::vec2(canvas_.photo_origin);
-  const Joint& joint = on.x < bust_.axis ? joint_.left : joint_.right;
-  const float down = std::max(place.y - joint.row, 0.0F) / canvas_.per_mm;
+BodyPaint::BustSample BodyPaint::SampleAt(glm::vec2 place) const {
+  const glm::vec2 pixel = place + glm::vec2(canvas_.photo_origin);
+  const Joint& joint = pixel.x < bust_.axis ? joint_.left : joint_.right;
+  const float below_mm = std::max(place.y - joint.row, 0.0F) / canvas_.pixels_per_mm;
   const float width_ratio =
       joint.cut ? joint.width_ratio
-                : glm::mix(1.0F, joint.width_ratio, std::exp(-down / joint.fade_mm));
-  const float x = bust_.axis + (on.x - bust_.axis) / width_ratio;
+                : glm::mix(1.0F, joint.width_ratio, std::exp(-below_mm / joint.fade_mm));
+  const float x = bust_.axis + (pixel.x - bust_.axis) / width_ratio;
   if (x < 0 || x > static_cast<float>(bust_.opacity.width)) return {};
-  return {bust_.opacity.Between(x, on.y), bust_.cloth.Between(x, on.y),
-          bust_.openness.Between(x, on.y), bust_.normal.Between(x, on.y)};
+  return {bust_.opacity.Between(x, pixel.y), bust_.cloth.Between(x, pixel.y),
+          bust_.openness.Between(x, pixel.y), bust_.normal.Between(x, pixel.y)};
 }
 
-glm::vec3 BodyPaint::BustColour(const Sample& body, Stuff stuff) const {
+glm::vec3 BodyPaint::BustColour(const BustSample& body, Stuff stuff) const {
   const float shade = light_.On(body.normal) / light_.On({0, 0, 1});
   return shade * glm::mix(1.0F, body.openness, shade_kept_) *
          (stuff == kCloth ? cloth_colour_ : 255.0F * light_.skin());
 }
 
-void BodyPaint::AddDifference(const PhotoEdges::Seen& seen, glm::vec2 place,
-                              Differences& to) const {
-  const Sample body = SampleAt(place);
+void BodyPaint::AddDifference(const EdgeSample& edge, glm::vec2 place, Differences& to) const {
+  const BustSample body = SampleAt(place);
   for (const Stuff stuff : {kSkin, kCloth}) {
-    const bool is = seen.kind == (stuff == kCloth ? EdgeKind::kCloth : EdgeKind::kSkin);
-    to[stuff].Add(seen.colour - BustColour(body, stuff), is ? 1 : 0);
+    const bool known = edge.kind == (stuff == kCloth ? EdgeKind::kCloth : EdgeKind::kSkin);
+    to[stuff].Add(edge.colour - BustColour(body, stuff), known ? 1 : 0);
   }
 }
 
 float BodyPaint::ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) const {
-  const float reach = known_reach_mm_ * canvas_.per_mm;
+  const float reach_px = known_reach_mm_ * canvas_.pixels_per_mm;
   const bool below = beyond.below > 0;
   const Differences& differences = below ? below_ : aside_[beyond.edge];
-  const float at = below ? place.x : place.y;
-  const float skin = differences[kSkin].Around(at, reach).w,
-              cloth = differences[kCloth].Around(at, reach).w;
+  const float along_px = below ? place.x : place.y;
+  const float skin = differences[kSkin].Around(along_px, reach_px).w,
+              cloth = differences[kCloth].Around(along_px, reach_px).w;
   if (skin + cloth <= 0) return on_bust;
   const float at_edge = cloth / (skin + cloth);
   if (!below) return at_edge;
   // An open neckline that the photo cuts closes farther down in a round line.
-  const float off = (place.x - neckline_.x) / neckline_.y;
-  const float deep = neckline_depth_mm_ * std::sqrt(std::max(1 - off * off, 0.0F));
-  return std::max(at_edge, on_bust * glm::smoothstep(deep - hem_mm_, deep + hem_mm_,
-                                                     beyond.below / canvas_.per_mm));
+  const float half_widths = (place.x - neckline_.x) / neckline_.y;
+  const float depth_mm =
+      neckline_depth_mm_ * std::sqrt(std::max(1 - half_widths * half_widths, 0.0F));
+  return std::max(at_edge, on_bust * glm::smoothstep(depth_mm - hem_mm_, depth_mm + hem_mm_,
+                                                     beyond.below / canvas_.pixels_per_mm));
 }
 
 glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond, Stuff stuff) const {
   const glm::vec2 spread = spread_[stuff];
-  const auto of = [&](const EdgeMeans& edge, float at, float away) {
-    const float mm = away / canvas_.per_mm;
-    const glm::vec4 near = edge.Around(at, (spread.x + spread.y * mm) * canvas_.per_mm);
-    return std::exp(-mm / lasts_mm_[stuff]) *
-           glm::mix(edge.All(), glm::vec3(near), near.w / (near.w + doubt_));
+  const auto difference = [&](const EdgeMeans& edge, float along_px, float away_px) {
+    const float away_mm = away_px / canvas_.pixels_per_mm;
+    const glm::vec4 mean =
+        edge.Around(along_px, (spread.x + spread.y * away_mm) * canvas_.pixels_per_mm);
+    return std::exp(-away_mm / lasts_mm_[stuff]) *
+           glm::mix(edge.All(), glm::vec3(mean), mean.w / (mean.w + doubt_));
   };
   glm::vec3 sum(0);
-  const float out = beyond.below + beyond.aside;
-  if (beyond.below > 0) sum += beyond.below / out * of(below_[stuff], place.x, beyond.below);
+  const float beyond_px = beyond.below + beyond.aside;
+  if (beyond.below > 0) {
+    sum += beyond.below / beyond_px * difference(below_[stuff], place.x, beyond.below);
+  }
   if (beyond.aside > 0) {
     // A sleeve falls with its shoulder.
     const float row = std::clamp(place.y - sleeve_falls_ * beyond.aside, joint_[beyond.edge].row,
                                  static_cast<float>(canvas_.photo_size.y));
-    sum += beyond.aside / out * of(aside_[beyond.edge][stuff], row, beyond.aside);
+    sum += beyond.aside / beyond_px * difference(aside_[beyond.edge][stuff], row, beyond.aside);
   }
   return sum;
 }
 
 Paint BodyPaint::At(glm::vec2 place) const {
   const Beyond beyond = canvas_.BeyondPhoto(place);
-  const Sample body = SampleAt(place);
+  const BustSample body = SampleAt(place);
   float opacity = body.opacity;
   if (beyond.aside <= 0) {
     // Below a shoulder that the photo's edge cuts all is body.
@@ -197,8 +202,9 @@ Paint BodyPaint::At(glm::vec2 place) const {
     // A shoulder that the photo's edge cuts goes on as it falls there and bends down into the arm.
     const Joint& joint = joint_[beyond.edge];
     if (joint.cut) {
-      const float line = joint.row + joint.slope * beyond.aside +
-                         beyond.aside * beyond.aside / (2 * shoulder_round_mm_ * canvas_.per_mm);
+      const float line =
+          joint.row + joint.slope * beyond.aside +
+          beyond.aside * beyond.aside / (2 * shoulder_round_mm_ * canvas_.pixels_per_mm);
       opacity = glm::smoothstep(-1.0F, 1.0F, place.y - line);
     } else if (beyond.below <= 0) {
       opacity = 0;

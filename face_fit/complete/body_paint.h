@@ -29,7 +29,7 @@ class BodyPaint {
   /// Index of what is kept once for skin and once for cloth.
   enum Stuff { kSkin, kCloth };
   /// The bust at a place; `cloth`: how much of what is covered is cloth.
-  struct Sample {
+  struct BustSample {
     float opacity = 0, cloth = 0, openness = 1;
     glm::vec3 normal{0, 0, 1};
   };
@@ -48,9 +48,9 @@ class BodyPaint {
   float OutlineSlope(PhotoEdge edge, float row) const;
   glm::vec3 ClothColour() const;
   glm::vec2 FindNeckline() const;
-  void AddDifference(const PhotoEdges::Seen& seen, glm::vec2 place, Differences& to) const;
-  Sample SampleAt(glm::vec2 place) const;
-  glm::vec3 BustColour(const Sample& body, Stuff stuff) const;
+  void AddDifference(const EdgeSample& edge, glm::vec2 place, Differences& to) const;
+  BustSample SampleAt(glm::vec2 place) const;
+  glm::vec3 BustColour(const BustSample& body, Stuff stuff) const;
   float ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) const;
   glm::vec3 EdgeDifference(glm::vec2 place, const Beyond& beyond, Stuff stuff) const;
 
@@ -70,6 +70,7 @@ class BodyPaint {
   const PhotoEdges& edges_;
   const FloatImage& opacity_;
   const fsm::FaceLight& light_;
+  // Each is found by those above it: their order is that of the constructor.
   Bust bust_;
   PerEdge<Joint> joint_;
   glm::vec3 cloth_colour_;  ///< 0..255

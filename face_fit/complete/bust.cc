@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 
 #include "face_fit/picture/filters.h"
-#include "face_fit/surface/triangles.h"
 #include "face_fit/surface/visible_surface.h"
 #include "face_fit/tables/photo_look.h"
 
@@ -16,7 +15,7 @@ namespace {
 Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) {
   const BaseHead& base = *fitted.base;
   // Upright below the fitted head, whose chin may be lower than the built-in one's.
-  pose.turn = {};
+  pose.turn_rad = {};
   const float chin = base.AtRest(point::kChin).y;
   const glm::vec3 lower(0, chin - fitted.At(point::kChin).y, 0);
   const float highest = chin + PhotoLook()("bust_above_chin");
@@ -27,23 +26,23 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
   const auto body = [](fsm::Material m) {
     return m == fsm::Material::kCloth || m == fsm::Material::kSkin;
   };
-  ForTriangles(topology, body, [&](const std::uint32_t* t) {
-    const bool above =
-        std::any_of(t, t + 3, [&](std::uint32_t v) { return base.rest.position[v].y > highest; });
-    if (!above) surface.DrawFront(t);
+  ForTriangles(topology, body, [&](const MeshTriangle& triangle) {
+    const bool above = std::ranges::any_of(
+        triangle.corner, [&](std::uint32_t v) { return base.rest.position[v].y > highest; });
+    if (!above) surface.DrawFront(triangle);
   });
   const FloatImage none(width, height);
   Bust bust{none, none, none, VectorImage(width, height, {0, 0, 1}), pose.Project({}).x};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const std::uint32_t* t = surface.Triangle(x, y);
-      if (!t) continue;
-      const MeshPoint at = surface.Place(x, y);
-      const glm::vec3 normal = at.On(base.rest.normal);
+      const MeshTriangle* triangle = surface.Triangle(x, y);
+      if (!triangle) continue;
+      const MeshPoint place_on_base = surface.Place(x, y);
+      const glm::vec3 normal = place_on_base.On(base.rest.normal);
       if (normal.z <= 0) continue;  // at the very outline the smooth normal may turn away
       bust.opacity(x, y) = 1;
-      bust.cloth(x, y) = MaterialOf(topology, t) == fsm::Material::kCloth ? 1.0F : 0.0F;
-      bust.openness(x, y) = at.On(topology.openness);
+      bust.cloth(x, y) = triangle->material == fsm::Material::kCloth ? 1.0F : 0.0F;
+      bust.openness(x, y) = place_on_base.On(topology.openness);
       bust.normal(x, y) = normal;
     }
   }

@@ -36,8 +36,8 @@ struct Canvas {
   glm::ivec2 photo_origin;  ///< the pixel of the canvas that shows the photo's first
   glm::ivec2 photo_size;    ///< pixels, as `size`
   glm::ivec2 size;
-  float per_mm;    ///< pixels
-  glm::vec2 chin;  ///< place
+  float pixels_per_mm;
+  glm::vec2 chin;       ///< place
 
   Beyond BeyondPhoto(glm::vec2 p) const {
     const glm::vec2 end(photo_size);

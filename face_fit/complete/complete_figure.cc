@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 #include <utility>
 
 #include "face_fit/complete/body_paint.h"
@@ -21,35 +22,38 @@ namespace {
 
 /// The row of the top of the head with hair on it.
 float CrownRow(const FittedHead& fitted) {
-  float highest = 1e9F;
-  ForSkinTriangles(fitted.base->head->topology(), [&](const std::uint32_t* t) {
-    highest = std::min(highest, fitted.pose.Pixel(fitted.posed_vertices[*t]).y);
+  float highest = std::numeric_limits<float>::infinity();
+  ForSkinTriangles(fitted.base->head->topology(), [&](const MeshTriangle& triangle) {
+    highest = std::min(highest, fitted.pose.Pixel(fitted.posed_vertices[triangle.corner[0]]).y);
   });
   return highest - PhotoLook()("hair_on_crown") * fitted.pose.PixelsPerMm();
 }
 
 /// Room for the photo, for head and shoulders below its chin, and for hair above it.
-Canvas CanvasFor(const Cutout& figure, const FittedHead& fitted, glm::vec2 chin, float crown) {
-  const float per_mm = fitted.pose.PixelsPerMm();
+Canvas CanvasFor(const FigureCutout& figure, const FittedHead& fitted, glm::vec2 chin,
+                 float crown) {
+  const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const glm::vec2 size(figure.opacity.width, figure.opacity.height);
-  const glm::vec2 reach = PhotoLook().Pair("canvas_from_chin") * per_mm;
-  const float wide = size.x + 2 * PhotoLook()("hair_beside") * per_mm;
+  const glm::vec2 reach = PhotoLook().Pair("canvas_from_chin") * pixels_per_mm;
+  const float wide = size.x + 2 * PhotoLook()("hair_beside") * pixels_per_mm;
   const glm::vec2 dome = wide * PhotoLook().Pair("hair_dome");
-  const float above = std::clamp(-crown, dome.x, dome.y) + PhotoLook()("canvas_above") * per_mm;
+  const float above =
+      std::clamp(-crown, dome.x, dome.y) + PhotoLook()("canvas_above") * pixels_per_mm;
   const glm::vec2 low = glm::floor(glm::min(chin - glm::vec2(reach.x, 0), glm::vec2(0, -above)));
   const glm::vec2 high = glm::ceil(glm::max(chin + reach, size));
   return {.photo_origin = glm::ivec2(-low),
           .photo_size = glm::ivec2(size),
           .size = glm::ivec2(high - low),
-          .per_mm = per_mm,
+          .pixels_per_mm = pixels_per_mm,
           .chin = chin};
 }
 
 /// Takes away the tips of a collar, which would float beside the neck that is drawn: where the
 /// background begins a little above the edge, or it would leave a hole.
-Cutout WithoutTips(const PhotoEdges& edges, float per_mm, Cutout figure) {
+FigureCutout WithoutTips(const PhotoEdges& edges, float pixels_per_mm, FigureCutout figure) {
   const int height = figure.opacity.height;
-  const int highest = std::max(height - static_cast<int>(PhotoLook()("edge_hangs") * per_mm), 0);
+  const int highest =
+      std::max(height - static_cast<int>(PhotoLook()("edge_hangs") * pixels_per_mm), 0);
   constexpr float kBackground = 0.3F;  // the matte is in doubt beside such tips
   for (int x = 0; x < figure.opacity.width; ++x) {
     if (edges.bottom(x).kind != EdgeKind::kTip) continue;
@@ -65,7 +69,7 @@ Cutout WithoutTips(const PhotoEdges& edges, float per_mm, Cutout figure) {
 
 /// A figure on its canvas while it is completed.
 struct Painted {
-  Cutout figure;
+  FigureCutout figure;
   FloatImage known, drawn;  ///< the opacities that the photo tells, and those that are drawn
   FloatImage coloured;      ///< 1 where a colour is known
 
@@ -76,30 +80,31 @@ struct Painted {
         coloured(known) {}
 };
 
-/// `seen`: the photo's figure, `figure`: what is left of it without tips.
-void CopyPhoto(const Canvas& canvas, const Cutout& seen, const Cutout& figure, Painted& out) {
+/// `photo`: its whole figure, `figure`: what is left of it without tips.
+void CopyPhoto(const Canvas& canvas, const FigureCutout& photo, const FigureCutout& figure,
+               Painted& out) {
   for (int y = 0; y < canvas.photo_size.y; ++y) {
     for (int x = 0; x < canvas.photo_size.x; ++x) {
-      const std::size_t from = seen.opacity.Index(x, y);
+      const std::size_t from = photo.opacity.Index(x, y);
       const std::size_t to = out.known.Index(x + canvas.photo_origin.x, y + canvas.photo_origin.y);
       SetRgb(out.figure.colours, to, Rgb(figure.colours, from));
-      out.figure.opacity.at[to] = out.known.at[to] = figure.opacity.at[from];
-      out.coloured.at[to] = figure.opacity.at[from] == seen.opacity.at[from] ? 1 : 0;
+      out.figure.opacity.values[to] = out.known.values[to] = figure.opacity.values[from];
+      out.coloured.values[to] = figure.opacity.values[from] == photo.opacity.values[from] ? 1 : 0;
     }
   }
 }
 
 /// The matte is in doubt at the very edge: where the body goes on below, the figure does.
-void CloseSeam(const Canvas& canvas, const Cutout& figure, const BodyPaint& body,
+void CloseSeam(const Canvas& canvas, const FigureCutout& figure, const BodyPaint& body,
                FloatImage& opacity) {
-  const int seam = std::max(static_cast<int>(PhotoLook()("edge_band") * canvas.per_mm), 1);
+  const int seam = std::max(static_cast<int>(PhotoLook()("edge_band") * canvas.pixels_per_mm), 1);
   const int above = canvas.photo_size.y - 1 - 2 * seam;
   if (above < 0) return;
   for (int y = canvas.photo_size.y - seam; y < canvas.photo_size.y; ++y) {
     for (int x = 0; x < canvas.photo_size.x; ++x) {
-      float& here = opacity(x + canvas.photo_origin.x, y + canvas.photo_origin.y);
+      float& pixel = opacity(x + canvas.photo_origin.x, y + canvas.photo_origin.y);
       const float below = body.At(glm::vec2(x, y) + 0.5F).opacity;
-      here = std::max(here, std::min(figure.opacity(x, above), below));
+      pixel = std::max(pixel, std::min(figure.opacity(x, above), below));
     }
   }
 }
@@ -107,41 +112,41 @@ void CloseSeam(const Canvas& canvas, const Cutout& figure, const BodyPaint& body
 void PaintBeyond(const Canvas& canvas, const BodyPaint& body, const HairPaint& hair, Painted& out) {
   for (int y = 0; y < canvas.size.y; ++y) {
     for (int x = 0; x < canvas.size.x; ++x) {
-      const glm::ivec2 at = glm::ivec2(x, y) - canvas.photo_origin;
-      if (at == glm::clamp(at, glm::ivec2(0), canvas.photo_size - 1)) continue;
-      const glm::vec2 place = glm::vec2(at) + 0.5F;
+      const glm::ivec2 pixel = glm::ivec2(x, y) - canvas.photo_origin;
+      if (pixel == glm::clamp(pixel, glm::ivec2(0), canvas.photo_size - 1)) continue;
+      const glm::vec2 place = glm::vec2(pixel) + 0.5F;
       const Paint under = body.At(place), over = hair.At(place);
       const std::size_t i = out.drawn.Index(x, y);
       SetRgb(out.figure.colours, i, glm::mix(under.colour, over.colour, over.opacity));
-      out.drawn.at[i] = over.opacity + (1 - over.opacity) * under.opacity;
-      out.figure.opacity.at[i] = out.drawn.at[i];
-      out.coloured.at[i] = out.drawn.at[i] > 0 ? 1 : 0;
+      out.drawn.values[i] = over.opacity + (1 - over.opacity) * under.opacity;
+      out.figure.opacity.values[i] = out.drawn.values[i];
+      out.coloured.values[i] = out.drawn.values[i] > 0 ? 1 : 0;
     }
   }
 }
 
 }  // namespace
 
-CompletedFigure CompleteFigure(const FittedHead& fitted, const Cutout& seen) {
+CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& photo) {
   const float crown = CrownRow(fitted);
-  const Canvas canvas = CanvasFor(seen, fitted, fitted.pose.Pixel(fitted.At(point::kChin)), crown);
-  const fsm::FaceLight light = LightOnFace(fitted, seen);
-  const PhotoEdges edges(fitted, seen, 255.0F * light.skin());
-  const Cutout figure = WithoutTips(edges, canvas.per_mm, seen);
+  const Canvas canvas = CanvasFor(photo, fitted, fitted.pose.Pixel(fitted.At(point::kChin)), crown);
+  const fsm::FaceLight light = LightOnFace(fitted, photo);
+  const PhotoEdges edges(fitted, photo, 255.0F * light.skin());
+  const FigureCutout figure = WithoutTips(edges, canvas.pixels_per_mm, photo);
   FittedHead on_canvas = fitted;
   on_canvas.pose.centre += glm::vec2(canvas.photo_origin);
   const BodyPaint body(canvas, edges, figure.opacity, light,
                        DrawBust(on_canvas, canvas.size.x, canvas.size.y));
   const HairPaint hair(canvas, edges, figure, crown);
   Painted out(canvas.size);
-  CopyPhoto(canvas, seen, figure, out);
+  CopyPhoto(canvas, photo, figure, out);
   CloseSeam(canvas, figure, body, out.figure.opacity);
   PaintBeyond(canvas, body, hair, out);
   // Colours go on beyond the outline, where they are mixed into it.
   PushPullInpaint(out.figure.colours, out.coloured);
-  const int grain = std::max(static_cast<int>(PhotoLook()("hole_grain") * canvas.per_mm), 2);
+  const int grain = std::max(static_cast<int>(PhotoLook()("hole_grain") * canvas.pixels_per_mm), 2);
   AddGrain(out.known, out.drawn, grain, out.figure.colours);
-  const float neck = canvas.chin.y + PhotoLook()("completed_neck") * canvas.per_mm;
+  const float neck = canvas.chin.y + PhotoLook()("completed_neck") * canvas.pixels_per_mm;
   return {std::move(out.figure), std::move(on_canvas),
           Completed{.neck = static_cast<float>(canvas.photo_size.y) < neck,
                     .shoulders = body.CutsShoulder(),

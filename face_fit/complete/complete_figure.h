@@ -15,7 +15,7 @@ struct Completed {
 
 /// A figure on a canvas that is large enough for head and shoulders.
 struct CompletedFigure {
-  Cutout figure;
+  FigureCutout figure;
   FittedHead head;  ///< its pose is that in the canvas
   Completed completed;
 };
@@ -24,6 +24,6 @@ struct CompletedFigure {
 /// wide as the figure where the photo ends, in the colours found there and lit by the photo's
 /// light; above and beside the head hair. Strands that the lower edge cuts fall on and end softly.
 /// Within the photo nothing changes.
-CompletedFigure CompleteFigure(const FittedHead& fitted, const Cutout& figure);
+CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& figure);
 
 }  // namespace facefit

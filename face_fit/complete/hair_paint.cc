@@ -9,6 +9,9 @@
 namespace facefit {
 namespace {
 
+/// Hair that falls beside the photo is whole up to this part of its width.
+constexpr float kWholeBulge = 0.8F;
+
 /// A number 0..1 that varies from strand to strand, without a period; `at`: millimetres along an
 /// edge.
 float StrandNoise(float at) {
@@ -27,7 +30,7 @@ float Arc(float part) { return std::sqrt(std::max(1 - part * part, 0.0F)); }
 
 }  // namespace
 
-HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Cutout& figure,
+HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const FigureCutout& figure,
                      float crown)
     : canvas_(canvas),
       edges_(edges),
@@ -35,7 +38,7 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Cutout
       top_(TopSpan()),
       aside_{SpanAside(PhotoEdge::kLeft), SpanAside(PhotoEdge::kRight)} {
   const auto& look = PhotoLook();
-  const float most = look("hair_beside") * canvas.per_mm;
+  const float most = look("hair_beside") * canvas.pixels_per_mm;
   for (const PhotoEdge edge : kPhotoEdges) {
     bulge_[edge] = std::min(look("hair_bulge") * aside_[edge].Length(), most);
     // What touches a corner goes on above it.
@@ -50,11 +53,11 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Cutout
     dome_ = std::clamp(-crown, rounded.x * top_.Length(), rounded.y * top_.Length());
   cut_ = dome_ > 0 || bulge_.left + bulge_.right > 0;
   for (int x = 0; x < edges.width(); ++x) {
-    const PhotoEdges::Seen& seen = edges.bottom(x);
-    below_.Add(seen.colour, seen.kind == EdgeKind::kHair ? 1 : 0);
+    const EdgeSample& sample = edges.bottom(x);
+    below_.Add(sample.colour, sample.kind == EdgeKind::kHair ? 1 : 0);
   }
   // Single dark columns below the chin are wrinkles.
-  const float chin = look("hair_beard_half") * canvas.per_mm;
+  const float chin = look("hair_beard_half") * canvas.pixels_per_mm;
   bearded_ = below_.Around(canvas.chin.x, chin).w > look("hair_beard_least");
 }
 
@@ -101,39 +104,43 @@ float HairPaint::BulgeWidth(PhotoEdge edge, float y) const {
   // The photo's corners are no ends.
   const float from = span.from < 1 ? -dome_ : span.from;
   const bool goes_on = span.to > static_cast<float>(canvas_.photo_size.y) - 1;
-  const float to = goes_on ? span.to + falls_mm_ * canvas_.per_mm : span.to;
+  const float to = goes_on ? span.to + falls_mm_ * canvas_.pixels_per_mm : span.to;
   return bulge * Arc((2 * y - from - to) / (to - from));
 }
 
 glm::vec3 HairPaint::Colour(glm::vec2 place) const {
   const glm::vec2 size(canvas_.photo_size);
   const Beyond beyond = canvas_.BeyondPhoto(place);
-  glm::vec2 at = glm::clamp(place, glm::vec2(0.5F), size - 0.5F);
+  glm::vec2 pixel = glm::clamp(place, glm::vec2(0.5F), size - 0.5F);
   const bool above = beyond.above > 0;
-  const int depth = above ? edges_.top(static_cast<int>(at.x)).hair_depth
-                          : edges_.aside(beyond.edge, static_cast<int>(at.y)).hair_depth;
+  const int depth_px = above ? edges_.top(static_cast<int>(pixel.x)).hair_depth_px
+                             : edges_.aside(beyond.edge, static_cast<int>(pixel.y)).hair_depth_px;
   // Back and forth within the hair: no skin below it is mirrored.
-  const float away = PingPong(above ? beyond.above : beyond.aside, static_cast<float>(depth));
+  const float inward_px =
+      PingPong(above ? beyond.above : beyond.aside, static_cast<float>(depth_px));
   if (above) {
-    at.y = std::clamp(away, 0.5F, size.y - 0.5F);
+    pixel.y = std::clamp(inward_px, 0.5F, size.y - 0.5F);
   } else {
-    at.x = std::clamp(beyond.edge == PhotoEdge::kLeft ? away : size.x - away, 0.5F, size.x - 0.5F);
+    pixel.x = std::clamp(beyond.edge == PhotoEdge::kLeft ? inward_px : size.x - inward_px, 0.5F,
+                         size.x - 0.5F);
   }
-  const float own = glm::smoothstep(0.0F, enough_mm_ * canvas_.per_mm, static_cast<float>(depth));
-  return glm::mix(edges_.hair(), ColourAt(figure_.colours, at), own);
+  const float mirrored =
+      glm::smoothstep(0.0F, enough_mm_ * canvas_.pixels_per_mm, static_cast<float>(depth_px));
+  return glm::mix(edges_.hair(), ColourAt(figure_.colours, pixel), mirrored);
 }
 
-Paint HairPaint::HairBelow(glm::vec2 place, float below) const {
+Paint HairPaint::HairBelow(glm::vec2 place, float below_px) const {
   const glm::vec2 size(canvas_.photo_size);
-  const float mm = below / canvas_.per_mm;
+  const float below_mm = below_px / canvas_.pixels_per_mm;
   const float x = place.x < 0 ? -place.x : place.x > size.x ? 2 * size.x - place.x : place.x;
-  const glm::vec4 hair = below_.Around(x, spread_.x + spread_.y * below);
+  const glm::vec4 hair = below_.Around(x, spread_.x + spread_.y * below_px);
   // Below a bearded chin it is the beard, which ends at once.
-  const float aside = std::abs(x - canvas_.chin.x) / canvas_.per_mm;
-  const float falls = bearded_ ? glm::mix(beard_falls_mm_, falls_mm_, Ramp(beard_mm_, aside))
-                               : falls_mm_ * Ramp(aside_mm_, aside);
-  const float end = falls * (0.5F + 0.5F * StrandNoise(place.x / canvas_.per_mm));
-  return {glm::vec3(hair), mm < end ? hair.w * glm::smoothstep(end, whole_part_ * end, mm) : 0.0F};
+  const float aside_mm = std::abs(x - canvas_.chin.x) / canvas_.pixels_per_mm;
+  const float falls_mm = bearded_ ? glm::mix(beard_falls_mm_, falls_mm_, Ramp(beard_mm_, aside_mm))
+                                  : falls_mm_ * Ramp(aside_mm_, aside_mm);
+  const float end_mm = falls_mm * (0.5F + 0.5F * StrandNoise(place.x / canvas_.pixels_per_mm));
+  if (below_mm >= end_mm) return {glm::vec3(hair), 0};
+  return {glm::vec3(hair), hair.w * glm::smoothstep(end_mm, whole_part_ * end_mm, below_mm)};
 }
 
 Paint HairPaint::At(glm::vec2 place) const {
@@ -143,16 +150,18 @@ Paint HairPaint::At(glm::vec2 place) const {
     if (beyond.aside > 0) {
       const float reach = BulgeWidth(beyond.edge, place.y);
       hair.opacity *=
-          glm::smoothstep(reach, 0.8F * reach, beyond.aside) * (reach > 0 ? 1.0F : 0.0F);
+          glm::smoothstep(reach, kWholeBulge * reach, beyond.aside) * (reach > 0 ? 1.0F : 0.0F);
     }
     return hair;
   }
-  const float up = DomeHeight(place.x), out = BulgeWidth(beyond.edge, place.y);
-  const float soft =
-      soft_mm_ * canvas_.per_mm * (0.5F + StrandNoise((place.x + place.y) / canvas_.per_mm));
+  const float dome_px = DomeHeight(place.x), bulge_px = BulgeWidth(beyond.edge, place.y);
+  const float soft_px = soft_mm_ * canvas_.pixels_per_mm *
+                        (0.5F + StrandNoise((place.x + place.y) / canvas_.pixels_per_mm));
   float within = 1;
-  if (beyond.above > 0) within = std::min(within, (up - beyond.above) / soft);
-  if (beyond.aside > 0 && beyond.above <= 0) within = std::min(within, (out - beyond.aside) / soft);
+  if (beyond.above > 0) within = std::min(within, (dome_px - beyond.above) / soft_px);
+  if (beyond.aside > 0 && beyond.above <= 0) {
+    within = std::min(within, (bulge_px - beyond.aside) / soft_px);
+  }
   if (within <= 0) return {};
   return {Colour(place), std::min(within, 1.0F)};
 }

@@ -16,7 +16,7 @@ namespace facefit {
 class HairPaint {
  public:
   /// `crown`: the row of the top of the skull with its hair. The references outlive this.
-  HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Cutout& figure, float crown);
+  HairPaint(const Canvas& canvas, const PhotoEdges& edges, const FigureCutout& figure, float crown);
   /// Whether the photo cuts hair above or aside.
   bool Cut() const { return cut_; }
   /// REQUIRES: beyond the photo.
@@ -26,7 +26,7 @@ class HairPaint {
   float DomeHeight(float x) const;
   float BulgeWidth(PhotoEdge edge, float y) const;
   glm::vec3 Colour(glm::vec2 place) const;
-  Paint HairBelow(glm::vec2 place, float below) const;
+  Paint HairBelow(glm::vec2 place, float below_px) const;
 
   /// A part of an edge that cuts the hair, pixels.
   struct EdgeSpan {
@@ -47,7 +47,7 @@ class HairPaint {
 
   const Canvas& canvas_;
   const PhotoEdges& edges_;
-  const Cutout& figure_;
+  const FigureCutout& figure_;
   EdgeSpan top_;
   PerEdge<EdgeSpan> aside_;
   float dome_ = 0;        ///< how high the top is rounded off, pixels

@@ -7,6 +7,6 @@
 namespace facefit {
 
 /// The light that falls on the skin of a face, and the usual colour of that skin.
-fsm::FaceLight LightOnFace(const FittedHead& fitted, const Cutout& figure);
+fsm::FaceLight LightOnFace(const FittedHead& fitted, const FigureCutout& figure);
 
 }  // namespace facefit

@@ -4,37 +4,45 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+#include <iterator>
+#include <limits>
+#include <optional>
 
 #include "face_fit/picture/pixels.h"
-#include "face_fit/picture/resample.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
 
+constexpr float kMostly = 0.5F;       // opacity from which a pixel belongs to the figure
+constexpr float kWholly = 0.9F;       // and from which its colour is the figure's own
+constexpr float kEnoughPixels = 20;   // for a mean colour of hair
+constexpr float kHangingPart = 0.8F;  // of a column, which then hangs down
+
 /// Tells hair and clothes from skin by their colours.
 class EdgeClassifier {
  public:
   /// `brows`: the row above which a figure is head, hair or hat. `skin`: 0..255.
-  EdgeClassifier(const Cutout& figure, float brows, glm::vec3 skin) : skin_(skin) {
+  EdgeClassifier(const FigureCutout& figure, float brows, glm::vec3 skin) : skin_(skin) {
     glm::vec3 sum(0);
     float count = 0;
     for (int y = 0; y < std::min(figure.opacity.height, static_cast<int>(brows)); ++y) {
       for (int x = 0; x < figure.opacity.width; ++x) {
         const std::size_t i = figure.opacity.Index(x, y);
         const glm::vec3 colour = Rgb(figure.colours, i);
-        if (figure.opacity.at[i] < 0.9F || IsSkin(colour)) continue;
+        if (figure.opacity.values[i] < kWholly || IsSkin(colour)) continue;
         sum += colour;
         ++count;
       }
     }
-    constexpr float kEnough = 20;
-    if (count > kEnough) hair_ = sum / count;
+    if (count > kEnoughPixels) hair_ = sum / count;
   }
-  /// The mean of hair or hat; negative where none is seen.
-  glm::vec3 hair() const { return hair_; }
+  /// The mean of hair or hat; nothing where none is seen.
+  std::optional<glm::vec3> hair() const { return hair_; }
   EdgeKind Of(glm::vec3 colour) const {
-    const float from_hair = glm::distance(colour, hair_);
+    const float from_hair =
+        hair_ ? glm::distance(colour, *hair_) : std::numeric_limits<float>::infinity();
     if (IsSkin(colour) && glm::distance(colour, skin_) < from_hair) return EdgeKind::kSkin;
     return from_hair < hair_reach_ ? EdgeKind::kHair : EdgeKind::kCloth;
   }
@@ -46,151 +54,223 @@ class EdgeClassifier {
            part < bright_.y;
   }
   /// Colour without brightness; of the dark, where it is noise, grey.
-  static glm::vec3 Hue(glm::vec3 colour) { return (colour + 8.0F) / (Brightness(colour) + 8); }
+  static glm::vec3 Hue(glm::vec3 colour) {
+    constexpr float kDark = 8;  // of 255
+    return (colour + kDark) / (Brightness(colour) + kDark);
+  }
 
   // Numbers of the table that are asked for at each pixel.
   const float hair_reach_ = PhotoLook()("edge_hair_colour");
   const float hue_reach_ = PhotoLook()("edge_skin_hue");
   const glm::vec2 bright_ = PhotoLook().Pair("edge_skin_bright");
-  glm::vec3 skin_, hair_{-1e3F};
+  glm::vec3 skin_;
+  std::optional<glm::vec3> hair_;
 };
 
-PhotoEdges::Seen EdgeSample(const Cutout& figure, const EdgeClassifier& classifier, glm::ivec2 from,
-                            glm::ivec2 size) {
-  PhotoEdges::Seen seen;
-  const float part = 1 / static_cast<float>(size.x * size.y);
-  for (int y = from.y; y < from.y + size.y; ++y) {
-    for (int x = from.x; x < from.x + size.x; ++x) {
-      const std::size_t i = figure.opacity.Index(x, y);
-      seen.colour += part * Rgb(figure.colours, i);
-      seen.opacity += part * figure.opacity.at[i];
+/// The rows of a photo near its lower edge, by how far they lie below the chin, and how far aside
+/// of it a column lies: millimetres.
+struct BelowChin {
+  glm::vec2 chin;  ///< pixel
+  float pixels_per_mm;
+  float Below(int row) const { return (static_cast<float>(row) - chin.y) / pixels_per_mm; }
+  float Aside(std::size_t x) const {
+    return std::abs(static_cast<float>(x) + 0.5F - chin.x) / pixels_per_mm;
+  }
+};
+
+/// Reads the edges of a figure, as yet by colour alone.
+class EdgeReader {
+ public:
+  EdgeReader(const FigureCutout& figure, const EdgeClassifier& classifier)
+      : figure_(figure), classifier_(classifier) {}
+
+  /// The mean over a rectangle.
+  EdgeSample Sample(glm::ivec2 from, glm::ivec2 size) const {
+    EdgeSample sample;
+    const float share = 1 / static_cast<float>(size.x * size.y);
+    for (int y = from.y; y < from.y + size.y; ++y) {
+      for (int x = from.x; x < from.x + size.x; ++x) {
+        const std::size_t i = figure_.opacity.Index(x, y);
+        sample.colour += share * Rgb(figure_.colours, i);
+        sample.opacity += share * figure_.opacity.values[i];
+      }
     }
+    if (sample.opacity > kMostly) sample.kind = classifier_.Of(sample.colour);
+    return sample;
   }
-  if (seen.opacity > 0.5F) seen.kind = classifier.Of(seen.colour);
-  return seen;
-}
-
-/// How many pixels, at most `most`, follow each other from one on that are the figure's but no
-/// skin.
-int HairDepth(const Cutout& figure, const EdgeClassifier& classifier, glm::ivec2 from,
-              glm::ivec2 step, int most) {
-  int count = 0;
-  for (glm::ivec2 p = from; count < most; p += step, ++count) {
-    const std::size_t i = figure.opacity.Index(p.x, p.y);
-    if (figure.opacity.at[i] < 0.5F || classifier.Of(Rgb(figure.colours, i)) == EdgeKind::kSkin)
-      break;
+  /// How many pixels, at most `most`, follow each other from one on that are the figure's but no
+  /// skin.
+  int HairDepth(glm::ivec2 from, glm::ivec2 step, int most) const {
+    int count = 0;
+    for (glm::ivec2 p = from; count < most; p += step, ++count) {
+      const std::size_t i = figure_.opacity.Index(p.x, p.y);
+      if (figure_.opacity.values[i] < kMostly || KindOf(i) == EdgeKind::kSkin) break;
+    }
+    return count;
   }
-  return count;
-}
-
-/// Whether most of a column from a row down to the photo's lower edge belongs to the figure and, if
-/// a classifier is given, is hair by its colour: what hangs from the head, no collar.
-bool HangsDown(const Cutout& figure, const EdgeClassifier* classifier_or_null, int x, float from) {
-  int hanging = 0, rows = 0;
-  for (int y = std::max(static_cast<int>(from), 0); y < figure.opacity.height; ++y, ++rows) {
-    const std::size_t i = figure.opacity.Index(x, y);
-    hanging +=
-        figure.opacity.at[i] > 0.5F &&
-        (!classifier_or_null || classifier_or_null->Of(Rgb(figure.colours, i)) == EdgeKind::kHair);
+  /// Whether most of a column from a row down to the photo's lower edge belongs to the figure: what
+  /// hangs from the head, no collar.
+  bool HangsDown(std::size_t x, float from) const {
+    return MostOf(x, from, [](std::size_t) { return true; });
   }
-  constexpr float kHangingPart = 0.8F;
-  return static_cast<float>(hanging) >= kHangingPart * static_cast<float>(rows);
-}
+  /// Likewise and is hair by its colour.
+  bool HairHangsDown(std::size_t x, float from) const {
+    return MostOf(x, from, [this](std::size_t i) { return KindOf(i) == EdgeKind::kHair; });
+  }
 
-}  // namespace
+ private:
+  EdgeKind KindOf(std::size_t i) const { return classifier_.Of(Rgb(figure_.colours, i)); }
+  bool MostOf(std::size_t x, float from, auto counts) const {
+    int hanging = 0, rows = 0;
+    for (int y = std::max(static_cast<int>(from), 0); y < figure_.opacity.height; ++y, ++rows) {
+      const std::size_t i = figure_.opacity.Index(static_cast<int>(x), y);
+      hanging += figure_.opacity.values[i] > kMostly && counts(i);
+    }
+    return static_cast<float>(hanging) >= kHangingPart * static_cast<float>(rows);
+  }
 
-PhotoEdges::PhotoEdges(const FittedHead& fitted, const Cutout& figure, glm::vec3 skin) {
-  const int width = figure.opacity.width, height = figure.opacity.height;
-  const glm::vec3 forehead = fitted.At(point::kForehead);
-  const EdgeClassifier classifier(figure, fitted.pose.Pixel(forehead).y, skin);
-  const glm::vec2 chin = fitted.pose.Pixel(fitted.At(point::kChin));
+  const FigureCutout& figure_;
+  const EdgeClassifier& classifier_;
+};
+
+// By colour alone brown hair is skin in warm light, and the shade on a neck is cloth. Above the
+// shoulders only hair hangs beside the neck, and tips of a collar stand there; the neck itself is
+// bare or in a collar. So the lower edge is split into runs, which are told by their places.
+
+/// What a run of the lower edge consists of; of kOther the kinds are as the colours say.
+enum class RunStuff { kOther, kClothOnNeck, kClothBesideNeck, kBeyondNeck };
+struct Run {
+  std::size_t from, to;  ///< columns from..to - 1
+  RunStuff stuff;
+};
+/// What becomes of a run, some column of which hangs down, and of another.
+struct RunRule {
+  RunStuff stuff;
+  EdgeKind hanging, standing;
+};
+constexpr RunRule kRunRules[] = {
+    {RunStuff::kClothOnNeck, EdgeKind::kSkin, EdgeKind::kSkin},    // the shade on a bare neck
+    {RunStuff::kClothBesideNeck, EdgeKind::kTip, EdgeKind::kTip},  // nothing else stands there
+    {RunStuff::kBeyondNeck, EdgeKind::kHair,
+     EdgeKind::kTip},  // a lock hangs in some columns at least
+};
+
+/// Splits the lower edge of a photo that ends above the shoulders; `below_mm`: how far it shows
+/// what is below the chin.
+std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const BelowChin& place,
+                        float below_mm) {
   const auto& look = PhotoLook();
-  const float per_mm = fitted.pose.PixelsPerMm();
-  const int wanted = static_cast<int>(look("edge_band") * per_mm);
-  const int down = std::clamp(wanted, 1, height), across = std::clamp(wanted, 1, width);
-  for (int x = 0; x < width; ++x) {
-    top_.push_back(EdgeSample(figure, classifier, {x, 0}, {1, down}));
-    top_.back().hair_depth = HairDepth(figure, classifier, {x, 0}, {0, 1}, height);
-    bottom_.push_back(EdgeSample(figure, classifier, {x, height - down}, {1, down}));
-    EdgeKind& kind = bottom_.back().kind;
-    const float from = std::min(chin.y, static_cast<float>(height) - look("edge_hangs") * per_mm);
-    if (kind == EdgeKind::kHair && !HangsDown(figure, &classifier, x, from))
-      kind = EdgeKind::kCloth;
+  const float neck_mm = look("edge_neck");
+  int cloth = 0, neck = 0;
+  for (std::size_t x = 0; x < bottom.size(); ++x) {
+    if (place.Aside(x) > neck_mm) continue;
+    cloth += bottom[x].kind == EdgeKind::kCloth;
+    ++neck;
   }
-  if ((static_cast<float>(height) - chin.y) / per_mm < look("edge_above_shoulders")) {
-    ClassifyNeck(figure, chin, per_mm);
-  }
-  for (const PhotoEdge edge : kPhotoEdges) {
-    const bool left = edge == PhotoEdge::kLeft;
-    for (int y = 0; y < height; ++y) {
-      aside_[edge].push_back(
-          EdgeSample(figure, classifier, {left ? 0 : width - across, y}, {across, 1}));
-      aside_[edge].back().hair_depth =
-          HairDepth(figure, classifier, {left ? 0 : width - 1, y}, {left ? 1 : -1, 0}, width);
+  const bool collar = below_mm > look("edge_at_chin") && 2 * cloth > neck;
+  const bool at_jaw = below_mm < look("edge_at_jaw");
+  const float beyond_mm = look("edge_beside_neck") + (at_jaw ? look("edge_jaw") : 0);
+  const auto stuff_of = [&](std::size_t x) {
+    const EdgeKind kind = bottom[x].kind;
+    if (kind == EdgeKind::kNothing) return RunStuff::kOther;
+    if (place.Aside(x) > beyond_mm) {
+      // Lower down than the jaw skin beside the neck may be a raised shoulder.
+      return kind == EdgeKind::kSkin && !at_jaw ? RunStuff::kOther : RunStuff::kBeyondNeck;
     }
-    // Hair hangs down from the head: dark cloth below a gap is none.
-    bool gap = false;
-    for (int y = std::max(static_cast<int>(chin.y), 0); y < height; ++y) {
-      EdgeKind& kind = aside_[edge][static_cast<std::size_t>(y)].kind;
-      gap = gap || kind == EdgeKind::kNothing;
-      if (gap && kind == EdgeKind::kHair) kind = EdgeKind::kCloth;
-    }
+    if (kind != EdgeKind::kCloth || collar) return RunStuff::kOther;
+    return place.Aside(x) > neck_mm ? RunStuff::kClothBesideNeck : RunStuff::kClothOnNeck;
+  };
+  std::vector<Run> runs;
+  for (std::size_t x = 0; x < bottom.size(); ++x) {
+    const RunStuff stuff = stuff_of(x);
+    if (runs.empty() || runs.back().stuff != stuff) runs.push_back({x, x, stuff});
+    runs.back().to = x + 1;
   }
-  hair_ = classifier.hair().r < 0 ? HairBeside(chin.y, skin) : classifier.hair();
+  return runs;
 }
 
-glm::vec3 PhotoEdges::HairBeside(float chin, glm::vec3 skin) const {
-  // Hair of the skin's brightness and hue, as grey and blond hair, is told from it by its place.
+std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const BelowChin& place,
+                                   glm::ivec2 size, int band) {
+  const auto& look = PhotoLook();
+  const float hang_from = static_cast<float>(size.y) - look("edge_hangs") * place.pixels_per_mm;
+  std::vector<EdgeSample> bottom;
+  for (int x = 0; x < size.x; ++x) {
+    EdgeSample& sample = bottom.emplace_back(reader.Sample({x, size.y - band}, {1, band}));
+    if (sample.kind == EdgeKind::kHair &&
+        !reader.HairHangsDown(static_cast<std::size_t>(x), std::min(place.chin.y, hang_from))) {
+      sample.kind = EdgeKind::kCloth;
+    }
+  }
+  const float below_mm = place.Below(size.y);
+  if (below_mm >= look("edge_above_shoulders")) return bottom;
+  for (const auto& [from, to, stuff] : RunsOf(bottom, place, below_mm)) {
+    const auto* rule = std::ranges::find(kRunRules, stuff, &RunRule::stuff);
+    if (rule == std::end(kRunRules)) continue;
+    bool hangs = false;
+    for (std::size_t x = from; x < to; ++x) hangs = hangs || reader.HangsDown(x, hang_from);
+    for (std::size_t x = from; x < to; ++x) {
+      bottom[x].kind = hangs ? rule->hanging : rule->standing;
+    }
+  }
+  return bottom;
+}
+
+std::vector<UpperEdgeSample> ReadTop(const EdgeReader& reader, glm::ivec2 size, int band) {
+  std::vector<UpperEdgeSample> top;
+  for (int x = 0; x < size.x; ++x) {
+    top.push_back({reader.Sample({x, 0}, {1, band}), reader.HairDepth({x, 0}, {0, 1}, size.y)});
+  }
+  return top;
+}
+
+std::vector<UpperEdgeSample> ReadSide(const EdgeReader& reader, PhotoEdge edge, float chin,
+                                      glm::ivec2 size, int band) {
+  const bool left = edge == PhotoEdge::kLeft;
+  std::vector<UpperEdgeSample> side;
+  for (int y = 0; y < size.y; ++y) {
+    side.push_back({reader.Sample({left ? 0 : size.x - band, y}, {band, 1}),
+                    reader.HairDepth({left ? 0 : size.x - 1, y}, {left ? 1 : -1, 0}, size.x)});
+  }
+  // Hair hangs down from the head: dark cloth below a gap is none.
+  bool gap = false;
+  for (int y = std::max(static_cast<int>(chin), 0); y < size.y; ++y) {
+    EdgeKind& kind = side[static_cast<std::size_t>(y)].kind;
+    gap = gap || kind == EdgeKind::kNothing;
+    if (gap && kind == EdgeKind::kHair) kind = EdgeKind::kCloth;
+  }
+  return side;
+}
+
+/// The mean colour of the figure at both sides above the chin, which is hair or hat whatever its
+/// colour: grey and blond hair have the skin's brightness and hue. Dark skin's if there is none.
+glm::vec3 HairBeside(const PerEdge<std::vector<UpperEdgeSample>>& aside, float chin,
+                     glm::vec3 skin) {
   glm::vec4 sum(0);
   for (const PhotoEdge edge : kPhotoEdges) {
-    const std::vector<Seen>& seen = aside_[edge];
-    for (std::size_t y = 0; y < seen.size() && static_cast<float>(y) < chin; ++y) {
-      if (seen[y].kind != EdgeKind::kNothing) sum += glm::vec4(seen[y].colour, 1);
+    const auto& side = aside[edge];
+    for (std::size_t y = 0; y < side.size() && static_cast<float>(y) < chin; ++y) {
+      if (side[y].kind != EdgeKind::kNothing) sum += glm::vec4(side[y].colour, 1);
     }
   }
   return sum.w > 0 ? glm::vec3(sum) / sum.w : PhotoLook()("hair_by_skin") * skin;
 }
 
-void PhotoEdges::ClassifyNeck(const Cutout& figure, glm::vec2 chin, float per_mm) {
-  // By colour alone brown hair is skin in warm light, and the shade on a neck is cloth. Above the
-  // shoulders only hair hangs beside the neck, and tips of a collar stand there; the neck itself is
-  // bare or in a collar.
-  const auto& look = PhotoLook();
-  const auto aside = [&](std::size_t x) {
-    return std::abs(static_cast<float>(x) + 0.5F - chin.x) / per_mm;
-  };
-  const float end = static_cast<float>(height()), below = (end - chin.y) / per_mm;
-  const float neck = look("edge_neck");
-  int cloth = 0, all = 0;
-  for (std::size_t x = 0; x < bottom_.size(); ++x) {
-    if (aside(x) > neck) continue;
-    cloth += bottom_[x].kind == EdgeKind::kCloth;
-    ++all;
+}  // namespace
+
+PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure, glm::vec3 skin) {
+  const glm::ivec2 size(figure.opacity.width, figure.opacity.height);
+  const EdgeClassifier classifier(figure, fitted.pose.Pixel(fitted.At(point::kForehead)).y, skin);
+  const EdgeReader reader(figure, classifier);
+  const BelowChin place{fitted.pose.Pixel(fitted.At(point::kChin)), fitted.pose.PixelsPerMm()};
+  const glm::ivec2 band =
+      glm::clamp(glm::ivec2(static_cast<int>(PhotoLook()("edge_band") * place.pixels_per_mm)),
+                 glm::ivec2(1), size);
+  bottom_ = ReadBottom(reader, place, size, band.y);
+  top_ = ReadTop(reader, size, band.y);
+  for (const PhotoEdge edge : kPhotoEdges) {
+    aside_[edge] = ReadSide(reader, edge, place.chin.y, size, band.x);
   }
-  const bool collar = below > look("edge_at_chin") && 2 * cloth > all;
-  const bool at_jaw = below < look("edge_at_jaw");
-  const auto beside_neck = [&](std::size_t x) {
-    // Lower down skin beside the neck may be a raised shoulder.
-    if (!at_jaw && bottom_[x].kind == EdgeKind::kSkin) return false;
-    return aside(x) > look("edge_beside_neck") + (at_jaw ? look("edge_jaw") : 0);
-  };
-  for (std::size_t x = 0; x < bottom_.size(); ++x) {
-    EdgeKind& kind = bottom_[x].kind;
-    if (kind == EdgeKind::kCloth && !collar && !beside_neck(x)) {
-      kind = aside(x) > neck ? EdgeKind::kTip : EdgeKind::kSkin;
-    }
-    if (kind == EdgeKind::kNothing || !beside_neck(x)) continue;
-    // A lock hangs down in some of its columns at least.
-    std::size_t last = x;
-    bool hangs = false;
-    const float from = end - look("edge_hangs") * per_mm;
-    for (; last < bottom_.size() && bottom_[last].kind != EdgeKind::kNothing && beside_neck(last);
-         ++last) {
-      hangs = hangs || HangsDown(figure, nullptr, static_cast<int>(last), from);
-    }
-    for (; x < last; ++x) bottom_[x].kind = hangs ? EdgeKind::kHair : EdgeKind::kTip;
-    --x;
-  }
+  hair_ = classifier.hair() ? *classifier.hair() : HairBeside(aside_, place.chin.y, skin);
 }
 
 }  // namespace facefit

@@ -16,9 +16,9 @@ fsm::Angles AnglesOf(const glm::mat3& turn) {
 }
 
 glm::mat3 CameraPose::Rotation() const {
-  const float cx = std::cos(turn.x), sx = std::sin(turn.x);
-  const float cy = std::cos(turn.y), sy = std::sin(turn.y);
-  const float cz = std::cos(turn.z), sz = std::sin(turn.z);
+  const float cx = std::cos(turn_rad.x), sx = std::sin(turn_rad.x);
+  const float cy = std::cos(turn_rad.y), sy = std::sin(turn_rad.y);
+  const float cz = std::cos(turn_rad.z), sz = std::sin(turn_rad.z);
   const glm::mat3 x(1, 0, 0, 0, cx, sx, 0, -sx, cx);
   const glm::mat3 y(cy, 0, -sy, 0, 1, 0, sy, 0, cy);
   const glm::mat3 z(cz, sz, 0, -sz, cz, 0, 0, 0, 1);

@@ -21,12 +21,12 @@ fsm::Angles AnglesOf(const glm::mat3& turn);
 /// How the photo was taken: a head turned about its middle before a camera as far away as that of
 /// the renderer, so that what is fitted looks the same there.
 struct CameraPose {
-  glm::vec3 turn{};    ///< radians about x, y, z
-  float focal = 1;     ///< pixels
-  glm::vec2 centre{};  ///< pixel on the camera's axis
+  glm::vec3 turn_rad{};  ///< about x, y, z
+  float focal = 1;       ///< pixels
+  glm::vec2 centre{};    ///< pixel on the camera's axis
 
   glm::mat3 Rotation() const;
-  /// From the head's frame to the camera's, and back: millimetres, same axes when turn is 0.
+  /// From the head's frame to the camera's, and back: millimetres, same axes when turn_rad is 0.
   glm::vec3 ToCamera(glm::vec3 p) const;
   glm::vec3 FromCamera(glm::vec3 q) const;
   /// The direction from which the photo was taken, in the head's frame, unit.

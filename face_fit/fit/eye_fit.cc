@@ -17,9 +17,9 @@ namespace {
 // lids in millimetres.
 constexpr glm::vec2 kSize{0.82F, 1.2F}, kTurn{-0.25F, 0.25F}, kUpperRaise{-6, 0.7F},
     kLowerRaise{-2.5F, 3.5F}, kIrisSize{0.8F, 1.12F};
-/// How far an iris may lie above or below the middle between the lids, millimetres: so differently
-/// do eyes rest; and by how much the lids are moved at most.
-constexpr float kRestsFreely = 0.5F, kMostShift = 3;
+/// How far an iris may lie above or below the middle between the lids: so differently do eyes rest;
+/// and by how much the lids are moved at most.
+constexpr float kFreeRestMm = 0.5F, kMaxShiftMm = 3;
 
 float Within(glm::vec2 range, float v) { return std::clamp(v, range.x, range.y); }
 
@@ -36,7 +36,8 @@ fsm::EyeTransform FitEye(const BaseHead& base, const std::map<PointIndex, glm::v
     const glm::vec3 p = place(k) - centre;
     const glm::vec3 q = to.at(outline[k]) - centre;
     const double open = static_cast<double>(LidOpening(place(k).x, inner, outer));
-    const bool upper = k > 0 && k<kInnerCorner, lower = k> kInnerCorner;
+    const bool upper = k > 0 && k < kInnerCorner;
+    const bool lower = k > kInnerCorner;
     const double px = static_cast<double>(p.x), py = static_cast<double>(p.y);
     sum.Add({1, 0, px, -py, 0, 0}, static_cast<double>(q.x));
     sum.Add({0, 1, py, px, upper ? open : 0, lower ? open : 0}, static_cast<double>(q.y));
@@ -64,20 +65,20 @@ LidSpan LidSpanOf(fsm::Side side, Place place) {
   return {place(outline[kOuterCorner]), place(outline[kInnerCorner]),
           0.5F * (place(outline[kUpperMiddle]) + place(outline[kLowerMiddle]))};
 }
-/// Where the iris is expected, and the photo's pixels by millimetre of the base head's eye.
+/// Where the iris is expected; millimetres are those of the base head's eye.
 struct IrisPlacement {
   glm::vec2 centre;
-  float scale;
+  float pixels_per_mm;
 };
-IrisPlacement ExpectedIris(const BaseHead& base, const LidSpan& seen, fsm::Side side) {
+IrisPlacement ExpectedIris(const BaseHead& base, const LidSpan& photo, fsm::Side side) {
   const LidSpan own = LidSpanOf(
       side, [&base](PointIndex i) { return glm::vec2(1, -1) * glm::vec2(base.AtRest(i)); });
   const glm::vec3 ball = base.head->topology().eyes[side].centre;
-  const glm::vec2 from = own.inner - own.outer, to = seen.inner - seen.outer;
-  const float scale = glm::length(to) / std::max(glm::length(from), 1e-3F);
-  const float turn = std::atan2(to.y, to.x) - std::atan2(from.y, from.x);
-  const glm::vec2 off = glm::vec2(ball.x, -ball.y) - own.middle;
-  return {seen.middle + scale * Rotated(off, turn), scale};
+  const glm::vec2 from = own.inner - own.outer, to = photo.inner - photo.outer;
+  const float pixels_per_mm = glm::length(to) / std::max(glm::length(from), 1e-3F);
+  const float turn_rad = std::atan2(to.y, to.x) - std::atan2(from.y, from.x);
+  const glm::vec2 from_middle = glm::vec2(ball.x, -ball.y) - own.middle;
+  return {photo.middle + pixels_per_mm * Rotated(from_middle, turn_rad), pixels_per_mm};
 }
 
 }  // namespace
@@ -87,16 +88,17 @@ fsm::Sided<fsm::EyeTransform> FitEyes(const BaseHead& base,
   return {FitEye(base, to, fsm::Side::kRight), FitEye(base, to, fsm::Side::kLeft)};
 }
 
-SeenIrises FindSeenIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo) {
-  SeenIrises irises;
+PhotoIrises FindPhotoIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo) {
+  PhotoIrises irises;
   fsm::Sided<OpenEye> eyes;
   for (const fsm::Side side : fsm::kSides) {
     const auto place = [&face](PointIndex i) { return face.At(i); };
     const IrisPlacement iris = ExpectedIris(base, LidSpanOf(side, place), side);
     std::ranges::transform(EyeOutline(side), eyes[side].lids.begin(), place);
     eyes[side].middle = iris.centre;
-    eyes[side].expected = iris.scale * base.head->topology().eyes[side].iris_radius;
-    irises.circles[side] = {.centre = iris.centre, .radius = eyes[side].expected, .contrast = 0};
+    eyes[side].expected_radius = iris.pixels_per_mm * base.head->topology().eyes[side].iris_radius;
+    irises.circles[side] = {
+        .centre = iris.centre, .radius = eyes[side].expected_radius, .contrast = 0};
   }
   if (!photo) return irises;
   const auto found = FindIrises(*photo, std::array{eyes.right, eyes.left});
@@ -105,15 +107,15 @@ SeenIrises FindSeenIrises(const BaseHead& base, const FoundFace& face, const fsm
     const IrisCircle& iris = found[static_cast<std::size_t>(side)];
     if (iris.contrast < kClearIris) continue;
     irises.circles[side] = iris;
-    size += iris.radius / eyes[side].expected;
+    size += iris.radius / eyes[side].expected_radius;
     count += 1;
   }
   if (count > 0) irises.size = Within(kIrisSize, size / count);
   return irises;
 }
 
-void ShiftLidsToIrises(const BaseHead& base, const SeenIrises& irises,
-                       std::vector<LandmarkConstraint>& constraints) {
+std::vector<LandmarkConstraint> ShiftLidsToIrises(const BaseHead& base, const PhotoIrises& irises,
+                                                  std::vector<LandmarkConstraint> constraints) {
   for (const fsm::Side side : fsm::kSides) {
     const IrisCircle& iris = irises.circles[side];
     if (iris.contrast <= 0) continue;
@@ -123,15 +125,17 @@ void ShiftLidsToIrises(const BaseHead& base, const SeenIrises& irises,
     const IrisPlacement expected = ExpectedIris(base, span, side);
     const glm::vec2 axis = glm::normalize(span.inner - span.outer);
     const glm::vec2 across(-axis.y, axis.x);
-    const float off = glm::dot(iris.centre - expected.centre, across);
-    const float free = kRestsFreely * expected.scale, most = kMostShift * expected.scale;
-    const float by = std::clamp(off, -most, most);
-    if (std::abs(by) <= free) continue;
+    const float free_px = kFreeRestMm * expected.pixels_per_mm;
+    const float max_px = kMaxShiftMm * expected.pixels_per_mm;
+    const float shift_px =
+        std::clamp(glm::dot(iris.centre - expected.centre, across), -max_px, max_px);
+    if (std::abs(shift_px) <= free_px) continue;
     for (LandmarkConstraint& constraint : constraints) {
       if (!Contains(EyeOutline(side), constraint.point)) continue;
-      constraint.pixel += (by - std::copysign(free, by)) * across;
+      constraint.pixel += (shift_px - std::copysign(free_px, shift_px)) * across;
     }
   }
+  return constraints;
 }
 
 fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted) {

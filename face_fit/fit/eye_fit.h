@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 #include <map>
+#include <vector>
 
 #include "face_fit/find/head/base_head.h"
 #include "face_fit/fit/fitted_head.h"
@@ -15,13 +16,14 @@ fsm::Sided<fsm::EyeTransform> FitEyes(const BaseHead& base,
                                       const std::map<PointIndex, glm::vec3>& to);
 
 /// Without a photo irises lie where the eyes' outlines say, with a contrast of 0.
-SeenIrises FindSeenIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo);
-/// Moves the outlines of eyes up or down where the irises show that the network misplaced them.
-void ShiftLidsToIrises(const BaseHead& base, const SeenIrises& irises,
-                       std::vector<LandmarkConstraint>& constraints);
+PhotoIrises FindPhotoIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo);
+/// The constraints with the outlines of eyes moved up or down where the irises show that the
+/// network misplaced them.
+std::vector<LandmarkConstraint> ShiftLidsToIrises(const BaseHead& base, const PhotoIrises& irises,
+                                                  std::vector<LandmarkConstraint> constraints);
 
-/// The eyes at rest. Half of a smile's squint is kept: the photo does not show how wide the eyes
-/// would be without it, and eyes that are too wide stare.
+/// The eyes at rest. A part of a smile's squint is kept (squint_kept of the table): the photo does
+/// not show how wide the eyes would be without it, and eyes that are too wide stare.
 fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted);
 
 }  // namespace facefit

@@ -3,25 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "face_fit/find/face/mouth_line.h"
 #include "face_fit/fit/eye_fit.h"
 #include "face_fit/fit/landmark_warp.h"
-#include "face_fit/fit/least_squares.h"
-#include "face_fit/fit/pose_fit.h"
 
 namespace facefit {
 namespace {
 
 /// Unknowns of the fit: those of the pose, and the strengths of Expression.
 enum FitParameter : std::size_t { kSmile = kPoseParameters, kJaw, kParted, kFitParameters };
-constexpr double kMostExpression = 1.5;
-constexpr int kRounds = 20;
+constexpr double kMaxExpression = 1.5;
 using Parameters = std::vector<double>;
 
 Expression ExpressionOf(const Parameters& p) {
   const auto strength = [&p](FitParameter i) {
-    return static_cast<float>(std::clamp(p[i], 0.0, kMostExpression));
+    return static_cast<float>(std::clamp(p[i], 0.0, kMaxExpression));
   };
   return {.smile = strength(kSmile), .jaw = strength(kJaw), .parted = strength(kParted)};
 }
@@ -54,29 +52,23 @@ std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& par
   constexpr double kDepthWeight = 0.4;
   for (const float d : depth) out.push_back(kDepthWeight * static_cast<double>(d - mean));
   // People mostly hold still for a photo: what is not clearly seen is not assumed. Without teeth to
-  // see a mouth's form is taken for the person's own rather than for a smile. Millimetres that a
-  // unit at full strength counts as.
-  constexpr double kApartMm = 6, kClosedSmileMm = 40, kClosedJawMm = 1e4;
+  // see a mouth's form is taken for the person's own rather than for a smile, and a jaw that has
+  // dropped or parted lips are ruled out. Residuals, in millimetres, of a unit at full strength.
+  constexpr double kApartMm = 6, kClosedSmileMm = 40, kRuledOutMm = 1e4;
   out.push_back((problem.lips_apart ? kApartMm : kClosedSmileMm) * parameters[kSmile]);
   for (const FitParameter i : {kJaw, kParted}) {
-    out.push_back((problem.lips_apart ? kApartMm : kClosedJawMm) * parameters[i]);
+    out.push_back((problem.lips_apart ? kApartMm : kRuledOutMm) * parameters[i]);
   }
   return out;
 }
 
-Parameters Refine(const FitProblem& problem, const Parameters& start) {
-  std::vector<Unknown> unknowns;
-  for (std::size_t i = kTurnX; i <= kLogFocal; ++i) {
-    unknowns.push_back({.start = start[i], .step = 1e-3});
-  }
-  for (const std::size_t i : {kCentreX, kCentreY}) {
-    unknowns.push_back({.start = start[i], .step = 0.5});
-  }
+Parameters Refine(const FitProblem& problem, const CameraPose& start) {
+  std::vector<Unknown> unknowns = PoseUnknowns(start);
   for (std::size_t i = kSmile; i < kFitParameters; ++i) {
-    unknowns.push_back({.start = start[i], .step = 0.05, .low = 0, .high = kMostExpression});
+    unknowns.push_back({.start = 0, .step = 0.05, .low = 0, .high = kMaxExpression});
   }
   return LevenbergMarquardt([&problem](const Parameters& p) { return ResidualsOf(problem, p); },
-                            unknowns, kRounds);
+                            unknowns, kPoseRounds);
 }
 
 /// What the network sees of depth too much or too little on the base head; mean 0, millimetres.
@@ -84,7 +76,7 @@ std::vector<float> DepthBias(const BaseHead& base) {
   std::vector<float> bias;
   float mean = 0;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-    bias.push_back(base.AtRest(i).z - base.seen[i].z);
+    bias.push_back(base.AtRest(i).z - base.detected[i].z);
     mean += bias.back() / static_cast<float>(kNetworkPoints);
   }
   for (float& b : bias) b -= mean;
@@ -92,23 +84,20 @@ std::vector<float> DepthBias(const BaseHead& base) {
 }
 
 /// Size, position and tilt by the outer corners of the eyes and the root of the nose.
-Parameters InitialParameters(const BaseHead& base, const FoundFace& face) {
+CameraPose InitialPose(const BaseHead& base, const FoundFace& face) {
   using namespace point;
-  const glm::vec2 right = face.At(kEyeOuterRight), left = face.At(kEyeOuterLeft),
-                  nose = face.At(kNoseBridge);
-  const float wide = glm::distance(base.AtRest(kEyeOuterRight), base.AtRest(kEyeOuterLeft));
-  const float scale = glm::distance(right, left) / wide;
+  const glm::vec2 right = face.At(kEyeOuterRight), left = face.At(kEyeOuterLeft);
+  const float width_mm = glm::distance(base.AtRest(kEyeOuterRight), base.AtRest(kEyeOuterLeft));
+  const float pixels_per_mm = glm::distance(right, left) / width_mm;
   const glm::vec3 root = base.AtRest(kNoseBridge);
-  Parameters start(kFitParameters);
-  start[kTurnZ] = -std::atan2(left.y - right.y, left.x - right.x);
-  start[kLogFocal] = std::log(static_cast<double>(scale * (kCameraZ - kFaceZ)));
-  start[kCentreX] = nose.x - scale * root.x;
-  start[kCentreY] = nose.y + scale * root.y;
-  return start;
+  return {.turn_rad = {0, 0, -std::atan2(left.y - right.y, left.x - right.x)},
+          .focal = pixels_per_mm * (kCameraZ - kFaceZ),
+          .centre = face.At(kNoseBridge) + pixels_per_mm * glm::vec2(-root.x, root.y)};
 }
 
-/// How mouths at rest differ from the built-in one looks like that much of a smile; taken away from
-/// a closed mouth it would leave a grim face.
+/// How mouths at rest differ from the built-in one looks like some smile. Of a closed mouth that
+/// much is not a smile, whatever comes on top: taken away it would leave a grim face. Between
+/// parted lips teeth show, so that what is more than a little is a smile, all of it.
 float SmileBeyondRest(float smile, bool lips_apart) {
   constexpr float kUsualApart = 0.12F, kUsualClosed = 0.45F;
   if (lips_apart) return smile < kUsualApart ? 0 : smile;
@@ -118,7 +107,7 @@ float SmileBeyondRest(float smile, bool lips_apart) {
 /// Where the network sees the points of the face, their depth mostly as the head's own form has it.
 std::vector<LandmarkConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
                                               const std::vector<glm::vec3>& now) {
-  constexpr float kTrustDepth = 0.3F, kMostDepth = 15;  // millimetres
+  constexpr float kTrustDepth = 0.3F, kMaxDepthGapMm = 15;
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<LandmarkConstraint> constraints;
   std::vector<float> depth_gaps;
@@ -130,7 +119,8 @@ std::vector<LandmarkConstraint> ConstraintsOf(const FitProblem& problem, const C
     constraints.push_back({k, problem.base.points[k], problem.face.At(k), q.z});
   }
   for (std::size_t i = 0; i < depth_gaps.size(); ++i) {
-    constraints[i].z += kTrustDepth * std::clamp(depth_gaps[i] - mean, -kMostDepth, kMostDepth);
+    constraints[i].z_mm +=
+        kTrustDepth * std::clamp(depth_gaps[i] - mean, -kMaxDepthGapMm, kMaxDepthGapMm);
   }
   return constraints;
 }
@@ -149,24 +139,28 @@ float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
 
 Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo) {
   const FitProblem problem{base, face, DepthBias(base), LipsApart(face)};
-  const Parameters settled = Refine(problem, InitialParameters(base, face));
-  Fit fit;
-  FittedHead& fitted = fit.head;
-  fitted.base = &base;
-  fitted.pose = PoseOf(settled);
-  fitted.expression = ExpressionOf(settled);
-  fitted.expression.smile = SmileBeyondRest(fitted.expression.smile, problem.lips_apart);
+  const Parameters settled = Refine(problem, InitialPose(base, face));
+  const CameraPose pose = PoseOf(settled);
+  Expression expression = ExpressionOf(settled);
+  expression.smile = SmileBeyondRest(expression.smile, problem.lips_apart);
   fsm::HeadVertices now;
-  base.head->Evaluate(fitted.expression.State(), now);
-  fit.targets = {ConstraintsOf(problem, fitted.pose, now.position), problem.lips_apart};
-  fit.irises = FindSeenIrises(base, face, photo);
-  ShiftLidsToIrises(base, fit.irises, fit.targets.constraints);
+  base.head->Evaluate(expression.State(), now);
+  const PhotoIrises irises = FindPhotoIrises(base, face, photo);
+  auto constraints = ShiftLidsToIrises(base, irises, ConstraintsOf(problem, pose, now.position));
   if (photo && !problem.lips_apart) {
-    ConstrainToMouthLine(base, face, fitted.pose, now.position, *photo, fit.targets.constraints);
+    constraints =
+        ConstrainToMouthLine(base, face, pose, now.position, *photo, std::move(constraints));
   }
-  WarpToLandmarks(fit.targets, fitted);
-  fit.residual_mm = ResidualMm(face, fitted);
-  return fit;
+  PhotoTargets targets{std::move(constraints), problem.lips_apart};
+  FittedHead head = WarpToLandmarks(base, pose, expression, targets);
+  const float residual_mm = ResidualMm(face, head);
+  return {std::move(head), std::move(targets), irises, residual_mm};
+}
+
+Fit WithConstraints(const Fit& fit, std::vector<LandmarkConstraint> constraints) {
+  PhotoTargets targets{std::move(constraints), fit.targets.lips_apart};
+  FittedHead head = WarpToLandmarks(*fit.head.base, fit.head.pose, fit.head.expression, targets);
+  return {std::move(head), std::move(targets), fit.irises, fit.residual_mm};
 }
 
 }  // namespace facefit

@@ -1,15 +1,18 @@
 #pragma once
 
+#include <vector>
+
 #include "face_fit/find/head/base_head.h"
 #include "face_fit/find/network/face_finder.h"
 #include "face_fit/fit/fitted_head.h"
+#include "face_fit/fit/pose_fit.h"
 
 namespace facefit {
 
 struct Fit {
   FittedHead head;
   PhotoTargets targets;
-  SeenIrises irises;
+  PhotoIrises irises;
   float residual_mm = 0;  ///< mean distance of the network's points from those of the head
 };
 
@@ -18,5 +21,15 @@ struct Fit {
 /// points miss by some pixels. Pure; thread: any. REQUIRES: face.points has kNetworkPoints; `base`
 /// outlives the result.
 Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo = nullptr);
+
+/// The fit with other constraints: its head is warped again, its residual stays that of the first
+/// warp.
+Fit WithConstraints(const Fit& fit, std::vector<LandmarkConstraint> constraints);
+
+/// A fit whose depth another photo of the person has corrected, and how that photo was taken.
+struct CorrectedFit {
+  Fit fit;
+  PoseFit side;
+};
 
 }  // namespace facefit

@@ -35,7 +35,7 @@ struct LandmarkConstraint {
   PointIndex point;  ///< of the network, or kNoPoint
   MeshPoint on_head;
   glm::vec2 pixel;
-  float z;  ///< in the camera's frame, millimetres towards it
+  float z_mm;  ///< in the camera's frame, towards it
 };
 
 /// What the photo says of the form of the head.
@@ -45,7 +45,7 @@ struct PhotoTargets {
 };
 
 /// The irises in the photo.
-struct SeenIrises {
+struct PhotoIrises {
   fsm::Sided<IrisCircle> circles;
   float size = 1;  ///< iris radius relative to the built-in head's, after scaling by the eye's size
 };
@@ -56,7 +56,7 @@ struct FittedHead {
   CameraPose pose;
   Expression expression;
   std::vector<fsm::WarpPoint> points;  ///< base face at rest -> person at rest
-  float smooth = 1;                    ///< of the warp by them, see fsm::Warp
+  float smooth_mm = 1;                 ///< how much noise of them is evened out, see fsm::Warp
   fsm::Sided<fsm::EyeTransform> eyes;
   /// Every vertex of the base as it lies in the photo, head's frame.
   std::vector<glm::vec3> posed_vertices;

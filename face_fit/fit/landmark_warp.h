@@ -8,18 +8,21 @@
 
 namespace facefit {
 
-/// Replaces the constraints of closed inner lips by the line where the photo shows them to meet,
-/// and moves those of the outer lips beside a corner along. `now`: the base head's vertices with
-/// the photo's expression, millimetres.
-void ConstrainToMouthLine(const BaseHead& base, const FoundFace& face, const CameraPose& pose,
-                          std::span<const glm::vec3> now, const fsm::Image& photo,
-                          std::vector<LandmarkConstraint>& constraints);
+/// The constraints with those of closed inner lips replaced by the line where the photo shows them
+/// to meet; those of the outer lips beside a corner are moved along. `now`: the base head's
+/// vertices with the photo's expression, millimetres.
+std::vector<LandmarkConstraint> ConstrainToMouthLine(const BaseHead& base, const FoundFace& face,
+                                                     const CameraPose& pose,
+                                                     std::span<const glm::vec3> now,
+                                                     const fsm::Image& photo,
+                                                     std::vector<LandmarkConstraint> constraints);
 
 /// Positions of the vertices of the fitted head's skin as fsm will show it in a state, millimetres.
 /// They are the first vertices of that head and have the numbers of those of the base head.
 std::vector<glm::vec3> SkinWith(const FittedHead& fitted, const fsm::FaceState& state);
 
-/// Fills points, eyes and posed_vertices of a head that has base, pose and expression.
-void WarpToLandmarks(const PhotoTargets& targets, FittedHead& fitted);
+/// The base head, which outlives the result, warped until it shows its points where the photo does.
+FittedHead WarpToLandmarks(const BaseHead& base, const CameraPose& pose,
+                           const Expression& expression, const PhotoTargets& targets);
 
 }  // namespace facefit

@@ -49,11 +49,11 @@ std::vector<double> LinearLeastSquares::Solve(double ridge) const {
 
 std::vector<double> LevenbergMarquardt(const Residuals& residuals,
                                        const std::vector<Unknown>& unknowns, int rounds) {
-  constexpr double kDampStart = 1e-3, kDampLeast = 1e-9, kDampMost = 1e6, kDampStep = 10;
+  constexpr double kFirstDamp = 1e-3, kMinDamp = 1e-9, kMaxDamp = 1e6, kDampStep = 10;
   constexpr double kRidge = 1e-9, kEnough = 1e-7;
   std::vector<double> at;
   for (const Unknown& u : unknowns) at.push_back(std::clamp(u.start, u.low, u.high));
-  double damp = kDampStart;
+  double damp = kFirstDamp;
   VectorXd here = View(residuals(at));
   for (int round = 0; round < rounds; ++round) {
     MatrixXd slopes = Derivatives(residuals, at, here, unknowns);
@@ -61,12 +61,15 @@ std::vector<double> LevenbergMarquardt(const Residuals& residuals,
     for (std::size_t i = 0; i < at.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       const bool held = down[k] < 0 ? at[i] <= unknowns[i].low : at[i] >= unknowns[i].high;
-      if (held) slopes.col(k).setZero(), down[k] = 0;
+      if (!held) continue;
+      slopes.col(k).setZero();
+      down[k] = 0;
     }
     const MatrixXd normal = slopes.transpose() * slopes;
     const double before = here.squaredNorm();
-    for (bool smaller = false; !smaller; damp *= smaller ? 1 / kDampStep : kDampStep) {
-      if (damp > kDampMost) return at;  // no step in any direction helps
+    bool smaller = false;
+    while (!smaller) {
+      if (damp > kMaxDamp) return at;  // no step in any direction helps
       MatrixXd damped = normal;
       damped.diagonal() += damp * normal.diagonal() + VectorXd::Constant(down.size(), kRidge);
       const VectorXd by = damped.ldlt().solve(down);
@@ -77,11 +80,12 @@ std::vector<double> LevenbergMarquardt(const Residuals& residuals,
       }
       const VectorXd there = View(residuals(next));
       smaller = there.squaredNorm() < before;
+      damp *= smaller ? 1 / kDampStep : kDampStep;
       if (!smaller) continue;
       at = std::move(next);
       here = there;
     }
-    damp = std::max(damp, kDampLeast);
+    damp = std::max(damp, kMinDamp);
     if (before - here.squaredNorm() < kEnough * before) break;
   }
   return at;

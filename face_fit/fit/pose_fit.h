@@ -1,14 +1,17 @@
 #pragma once
 
+#include <limits>
 #include <span>
+#include <vector>
 
 #include "face_fit/fit/camera_pose.h"
+#include "face_fit/fit/least_squares.h"
 
 namespace facefit {
 
 /// A point in the head's frame and where a photo shows it.
 struct PointMatch {
-  glm::vec3 at;
+  glm::vec3 place;
   glm::vec2 pixel;
   float weight = 1;
 };
@@ -24,21 +27,26 @@ enum PoseParameter : std::size_t {
   kCentreY,
   kPoseParameters
 };
+/// Those unknowns, in that order; no turn goes beyond `max_turn_rad` to either side.
+std::vector<Unknown> PoseUnknowns(const CameraPose& start,
+                                  double max_turn_rad = std::numeric_limits<double>::infinity());
 /// REQUIRES: kPoseParameters numbers or more.
 CameraPose PoseOf(std::span<const double> parameters);
+/// So many steps settle a pose, with and without an expression.
+inline constexpr int kPoseRounds = 20;
 
 /// The pose that shows the matches nearest to where the photo shows them, starting from `start`.
-/// Marks more than 3 mm off count by their distance, not by its square.
+/// Matches more than 3 mm off count by their distance, not by its square.
 CameraPose RefinePose(std::span<const PointMatch> matches, const CameraPose& start);
 /// The pose that shows places nearest to pixels, with the turn as given.
 CameraPose PoseWithTurn(const std::vector<glm::vec3>& places, const std::vector<glm::vec2>& pixels,
-                        glm::vec3 turn);
-/// A pose, and the mean distance of what it was found by from what it shows of the head.
+                        glm::vec3 turn_rad);
+/// A pose, and the mean distance between the matches and where it projects them.
 struct PoseFit {
   CameraPose pose;
   float residual_mm = 0;
 };
-/// Mean distance of matches from where they are shown, millimetres.
+/// That mean distance, each match by its weight.
 float MeanDistanceMm(const CameraPose& pose, std::span<const PointMatch> matches);
 
 }  // namespace facefit

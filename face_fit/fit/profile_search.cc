@@ -14,25 +14,25 @@
 namespace facefit {
 namespace {
 
-// The profile line of the head. Millimetres.
-constexpr float kBin = 2;           // between two places, in height
-constexpr float kHalfWidth = 13;    // of the middle of the face, which alone makes the outline
-constexpr float kThroat = 16;       // below the chin: there the outline goes back
-constexpr float kAboveNasion = 16;  // higher up there may be hair
+// The profile line of the head.
+constexpr float kLineStepMm = 2;      // between two places, in height
+constexpr float kHalfWidthMm = 13;    // of the middle of the face, which alone makes the outline
+constexpr float kThroatMm = 16;       // below the chin: there the outline goes back
+constexpr float kAboveNasionMm = 16;  // higher up there may be hair
 
 // Where it is looked for: the person reaches from above the head to the throat at least, to the
 // elbows at most. People lean a photo's camera no farther.
-constexpr float kLeastTall = 60;          // pixels; smaller figures show no profile
-constexpr std::size_t kLeastPlaces = 30;  // of the line, some 6 cm
+constexpr float kMinHeightPx = 60;      // smaller figures show no profile
+constexpr std::size_t kMinPlaces = 30;  // of the line, some 6 cm
 constexpr float kHeadMm = 180, kElbowsMm = 620;
 constexpr float kScaleStep = 1.05F;  // from one scale to the next
 constexpr float kRowStepMm = 1.5F;   // and from one row
 constexpr std::array kLeanDegrees = {-24.0F, -16.0F, -8.0F, 0.0F, 8.0F, 16.0F, 24.0F};
 
 // What counts as the same line.
-constexpr float kLeastConcordance = 0.92F;  // of both lines without their slopes
-constexpr float kOutlierMm = 8;             // a place farther off than this counts as this
-constexpr float kScorePerMm = 0.05F;        // concordance that a millimetre of distance is worth
+constexpr float kMinConcordance = 0.92F;  // of both lines without their slopes
+constexpr float kOutlierMm = 8;           // a place farther off than this counts as this
+constexpr float kScorePerMm = 0.05F;      // concordance that a millimetre of distance is worth
 
 /// The figure's outermost column of each row, to the right (direction 1) or to the left; -1: none.
 std::vector<float> Outline(const FloatImage& opacity, int direction) {
@@ -48,9 +48,13 @@ std::vector<float> Outline(const FloatImage& opacity, int direction) {
   return columns;
 }
 
-float Score(const ProfilePlacement& placement) {
-  return placement.concordance - kScorePerMm * placement.off;
-}
+/// A placement and how like the outline the profile is there.
+struct ProfileMatch {
+  ProfilePlacement placement;
+  float gap_mm;       ///< mean distance
+  float concordance;  ///< of both lines without their slopes, -1..1
+  float Score() const { return concordance - kScorePerMm * gap_mm; }
+};
 
 /// Concordance of two lines with as many places, means and slopes taken off (Lin, A concordance
 /// correlation coefficient to evaluate reproducibility, Biometrics 1989): 1 = the same.
@@ -79,120 +83,137 @@ float Concordance(std::vector<float> a, std::vector<float> b) {
   return 2 * ab / (aa + bb);
 }
 
-/// Fills column, off and concordance of a placement that has the rest; false if it does not fit the
-/// picture.
-bool Compare(const std::vector<glm::vec3>& line, const std::vector<float>& columns,
-             ProfilePlacement& placement) {
-  placement.column = 0;
-  std::vector<float> ours, beside;
-  ours.reserve(line.size());
-  beside.reserve(line.size());
+/// How like the outline the profile is with that size, tilt and row, in the column where both are
+/// nearest; nothing if it does not fit the picture or lies too far from the outline.
+std::optional<ProfileMatch> MatchAt(const std::vector<glm::vec3>& line,
+                                    const std::vector<float>& columns, ProfilePlacement placement) {
+  placement.pixel.x = 0;
+  std::vector<float> profile, gaps;
+  profile.reserve(line.size());
+  gaps.reserve(line.size());
   for (const glm::vec3& p : line) {
-    const glm::vec2 at = placement.At(p);
-    if (at.y < 0 || at.y >= static_cast<float>(columns.size())) return false;
-    const float column = columns[static_cast<std::size_t>(at.y)];
-    if (column < 0) return false;
-    ours.push_back(at.x);
-    beside.push_back(column - at.x);
+    const glm::vec2 pixel = placement.PixelOf(p);
+    if (pixel.y < 0 || pixel.y >= static_cast<float>(columns.size())) return {};
+    const float column = columns[static_cast<std::size_t>(pixel.y)];
+    if (column < 0) return {};
+    profile.push_back(pixel.x);
+    gaps.push_back(column - pixel.x);
   }
-  placement.column = Median(beside);
-  placement.off = 0;
-  for (const float x : beside) {
-    placement.off += std::min(std::abs(x - placement.column) / placement.scale, kOutlierMm) /
-                     static_cast<float>(line.size());
+  placement.pixel.x = Median(gaps);
+  float gap_mm = 0;
+  for (const float gap : gaps) {
+    gap_mm += std::min(std::abs(gap - placement.pixel.x) / placement.pixels_per_mm, kOutlierMm) /
+              static_cast<float>(line.size());
   }
-  if (placement.off > kMostProfileOffMm) return false;
-  for (std::size_t i = 0; i < ours.size(); ++i) beside[i] += ours[i];
-  placement.concordance = Concordance(std::move(ours), std::move(beside));
-  return true;
+  if (gap_mm > kMaxProfileGapMm) return {};
+  std::vector<float> outline = std::move(gaps);
+  for (std::size_t i = 0; i < outline.size(); ++i) outline[i] += profile[i];
+  return ProfileMatch{placement, gap_mm, Concordance(std::move(profile), std::move(outline))};
 }
 
-/// Improves a placement in ever smaller steps of size, height and lean (pattern search).
-ProfilePlacement RefinedPlacement(const std::vector<glm::vec3>& line,
-                                  const std::vector<float>& columns, ProfilePlacement placement) {
+/// Improves a placement in ever smaller steps of size, height and tilt (pattern search).
+ProfileMatch RefinedMatch(const std::vector<glm::vec3>& line, const std::vector<float>& columns,
+                          ProfileMatch best) {
   constexpr float kFirstScale = 0.025F, kFirstDegrees = 3;
   for (float step = 1; step > 0.1F; step *= 0.6F) {
     for (int round = 0; round < 4; ++round) {
-      const ProfilePlacement from = placement;
+      const ProfilePlacement from = best.placement;
       for (const glm::vec3 direction :
            {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, -1, 0),
             glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)}) {
         ProfilePlacement other = from;
-        other.scale *= 1 + kFirstScale * step * direction.x;
-        other.row += kRowStepMm * other.scale * step * direction.y;
-        other.tilt += glm::radians(kFirstDegrees * step) * direction.z;
-        if (Compare(line, columns, other) && Score(other) > Score(placement)) placement = other;
+        other.pixels_per_mm *= 1 + kFirstScale * step * direction.x;
+        other.pixel.y += kRowStepMm * other.pixels_per_mm * step * direction.y;
+        other.tilt_rad += glm::radians(kFirstDegrees * step) * direction.z;
+        const auto match = MatchAt(line, columns, other);
+        if (match && match->Score() > best.Score()) best = *match;
       }
     }
   }
-  return placement;
+  return best;
+}
+
+/// The rows a figure reaches from and to.
+struct FigureRows {
+  float top, bottom;
+  float Height() const { return bottom - top; }
+};
+FigureRows FigureRowsOf(const std::vector<float>& columns) {
+  const auto covered = [](float column) { return column >= 0; };
+  const auto top = std::ranges::find_if(columns, covered) - columns.begin();
+  const auto below = std::find_if(columns.rbegin(), columns.rend(), covered).base();
+  return {static_cast<float>(top), static_cast<float>(below - columns.begin() - 1)};
+}
+
+/// The best of all placements on one outline, `direction` as of ProfilePlacement.
+std::optional<ProfileMatch> SearchOutline(const std::vector<glm::vec3>& line,
+                                          const std::vector<float>& columns, int direction,
+                                          const FigureRows& rows) {
+  std::optional<ProfileMatch> best;
+  for (float pixels_per_mm = rows.Height() / kElbowsMm; pixels_per_mm < rows.Height() / kHeadMm;
+       pixels_per_mm *= kScaleStep) {
+    for (const float degrees : kLeanDegrees) {
+      const float step = std::max(kRowStepMm * pixels_per_mm, 1.0F);
+      for (float row = rows.top; row < rows.bottom; row += step) {
+        const auto match = MatchAt(line, columns,
+                                   {.direction = direction,
+                                    .pixels_per_mm = pixels_per_mm,
+                                    .tilt_rad = glm::radians(degrees),
+                                    .pixel = {0, row},
+                                    .middle = line[line.size() / 2]});
+        if (match && (!best || match->Score() > best->Score())) best = match;
+      }
+    }
+  }
+  if (best) best = RefinedMatch(line, columns, *best);
+  return best;
 }
 
 }  // namespace
 
-std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin) {
-  const float low = fitted.At(point::kChin).y - below_chin;
-  const float high = fitted.At(point::kNasion).y + kAboveNasion;
-  const auto count = static_cast<std::size_t>(std::max(high - low, kBin) / kBin) + 1;
-  std::vector<float> z(count, -1e9F);
-  ForSkinTriangles(fitted.base->head->topology(), [&](const std::uint32_t* t) {
+std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin_mm) {
+  const float low = fitted.At(point::kChin).y - below_chin_mm;
+  const float high = fitted.At(point::kNasion).y + kAboveNasionMm;
+  const auto count = static_cast<std::size_t>(std::max(high - low, kLineStepMm) / kLineStepMm) + 1;
+  std::vector<std::optional<float>> foremost(count);
+  ForSkinTriangles(fitted.base->head->topology(), [&](const MeshTriangle& triangle) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const glm::vec3 a = fitted.posed_vertices[t[c]], b = fitted.posed_vertices[t[(c + 1) % 3]];
+      const glm::vec3 a = fitted.posed_vertices[triangle.corner[c]],
+                      b = fitted.posed_vertices[triangle.corner[(c + 1) % 3]];
       for (const float along : {0.0F, 0.25F, 0.5F, 0.75F}) {
         const glm::vec3 p = glm::mix(a, b, along);
-        const float bin = (p.y - low) / kBin;
-        if (std::abs(p.x) > kHalfWidth || bin < 0) continue;
-        const auto i = static_cast<std::size_t>(bin + 0.5F);
-        if (i < count) z[i] = std::max(z[i], p.z);
+        const float step = (p.y - low) / kLineStepMm;
+        if (std::abs(p.x) > kHalfWidthMm || step < 0) continue;
+        const auto i = static_cast<std::size_t>(step + 0.5F);
+        if (i < count && (!foremost[i] || p.z > *foremost[i])) foremost[i] = p.z;
       }
     }
   });
   std::vector<glm::vec3> line;
   for (std::size_t i = 0; i < count; ++i) {
-    if (z[i] > -1e8F) line.emplace_back(0, low + kBin * static_cast<float>(i), z[i]);
+    if (foremost[i]) line.emplace_back(0, low + kLineStepMm * static_cast<float>(i), *foremost[i]);
   }
   return line;
 }
 
-glm::vec2 ProfilePlacement::At(glm::vec3 p) const {
-  const glm::vec2 v(static_cast<float>(direction) * (p.z - middle.z), middle.y - p.y);
-  return glm::vec2(column, row) + scale * Rotated(v, tilt);
+glm::vec2 ProfilePlacement::PixelOf(glm::vec3 place) const {
+  const glm::vec2 offset(static_cast<float>(direction) * (place.z - middle.z), middle.y - place.y);
+  return pixel + pixels_per_mm * Rotated(offset, tilt_rad);
 }
 
 std::optional<ProfilePlacement> FindProfile(const FittedHead& fitted, const FloatImage& opacity) {
-  const std::vector<glm::vec3> line = ProfileOf(fitted, kThroat);
-  const std::array outlines{Outline(opacity, 1), Outline(opacity, -1)};
-  const auto seen = [](float column) { return column >= 0; };
-  const auto top = std::ranges::find_if(outlines[0], seen) - outlines[0].begin();
-  const auto below = std::find_if(outlines[0].rbegin(), outlines[0].rend(), seen).base();
-  const auto bottom = below - outlines[0].begin() - 1;
-  const auto tall = static_cast<float>(bottom - top);
-  if (tall < kLeastTall || line.size() < kLeastPlaces) return {};
-  const glm::vec3 middle = line[line.size() / 2];
-  // A throat or the back of a head lies as near the line as another's nose; but it has no nose.
-  ProfilePlacement best;
+  const std::vector<glm::vec3> line = ProfileOf(fitted, kThroatMm);
+  std::optional<ProfileMatch> best;
   for (const int direction : {1, -1}) {
-    const auto& columns = outlines[direction > 0 ? 0 : 1];
-    ProfilePlacement found;
-    for (float scale = tall / kElbowsMm; scale < tall / kHeadMm; scale *= kScaleStep) {
-      for (const float degrees : kLeanDegrees) {
-        const float step = std::max(kRowStepMm * scale, 1.0F);
-        for (auto row = static_cast<float>(top); row < static_cast<float>(bottom); row += step) {
-          ProfilePlacement placement{.direction = direction,
-                                     .scale = scale,
-                                     .tilt = glm::radians(degrees),
-                                     .row = row,
-                                     .middle = middle};
-          if (Compare(line, columns, placement) && Score(placement) > Score(found))
-            found = placement;
-        }
-      }
-    }
-    if (found.off < kMostProfileOffMm) found = RefinedPlacement(line, columns, found);
-    if (direction > 0 || Score(found) >= Score(best)) best = found;
+    const std::vector<float> columns = Outline(opacity, direction);
+    const FigureRows rows = FigureRowsOf(columns);
+    if (rows.Height() < kMinHeightPx || line.size() < kMinPlaces) return {};
+    const auto match = SearchOutline(line, columns, direction, rows);
+    if (match && (!best || match->Score() >= best->Score())) best = match;
   }
-  if (best.off > kMostProfileOffMm || best.concordance < kLeastConcordance) return {};
-  return best;
+  // A throat or the back of a head lies as near the line as another's nose; but it has no nose.
+  if (!best || best->concordance < kMinConcordance) return {};
+  return best->placement;
 }
 
 }  // namespace facefit

@@ -10,21 +10,21 @@
 
 namespace facefit {
 
-/// The profile of the fitted head from `below_chin` millimetres below the chin up: heights in even
-/// steps, and how far forward.
-std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin);
+/// The profile of the fitted head from `below_chin_mm` below the chin up: heights in even steps,
+/// and how far forward.
+std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin_mm);
 
-/// Mean distance of outline and profile, millimetres: another person's face lies farther off.
-inline constexpr float kMostProfileOffMm = 4;
+/// Mean distance of outline and profile: another person's face lies farther off.
+inline constexpr float kMaxProfileGapMm = 4;
 
-/// Where the profile may lie: the place of its middle, pixels by millimetre, how it leans.
+/// Where the profile may lie in a picture.
 struct ProfilePlacement {
   int direction = 1;  ///< 1: it looks to the right, -1: to the left
-  float scale = 1, tilt = 0, row = 0, column = 0;
-  float off = 1e9F;        ///< mean distance, millimetres
-  float concordance = -1;  ///< of both lines without their slopes, -1..1
-  glm::vec3 middle{0};
-  glm::vec2 At(glm::vec3 p) const;  ///< in pixels
+  float pixels_per_mm = 1;
+  float tilt_rad = 0;
+  glm::vec2 pixel{0};   ///< where `middle` is seen
+  glm::vec3 middle{0};  ///< of the profile, head's frame
+  glm::vec2 PixelOf(glm::vec3 place) const;
 };
 
 /// Where the outline of a figure (`opacity`: 1 = figure) is like the profile of the fitted head.

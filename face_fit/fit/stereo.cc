@@ -3,33 +3,33 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "face_fit/fit/pose_fit.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
-#include "face_fit/surface/triangles.h"
 #include "face_fit/surface/visible_surface.h"
 
 namespace facefit {
 namespace {
 
-constexpr float kCell = 1.4F;              // millimetres between samples of the first photo
-constexpr int kPatch = 5;                  // samples to each side of a patch's middle
-constexpr int kPatchStep = 4;              // samples between the middles of patches
-constexpr float kLeastCorrelation = 0.7F;  // correlation from which a patch counts as found
-constexpr std::size_t kFewest = 25;
-constexpr int kMostSamples = 400;  // to a side
+constexpr float kCellMm = 1.4F;          // between samples of the first photo
+constexpr int kPatch = 5;                // samples to each side of a patch's middle
+constexpr int kPatchStep = 4;            // samples between the middles of patches
+constexpr float kMinCorrelation = 0.7F;  // correlation from which a patch counts as found
+constexpr std::size_t kMinPatches = 25;
+constexpr int kMaxSamples = 400;  // to a side
 /// Of every sample of a patch: cosines of the slant to the cameras of both photos, and how far its
-/// depth may be from that of the middle, millimetres. Beyond them a patch looks too different in
+/// depth may be from that of the middle. Beyond them a patch looks too different in
 /// both photos, or lies on two parts of the face.
-constexpr float kLeastFacing = 0.25F, kLeastFacingExtra = 0.2F, kMostDepth = 25;
+constexpr float kMinFacing = 0.25F, kMinFacingSide = 0.2F, kMaxDepthStepInPatchMm = 25;
 
 /// A place of the fitted skin as the first photo shows it; without skin `facing` is negative.
 struct StereoSample {
   glm::vec3 camera{0}, rest{0};  // in the camera's frame; on the base head
   float light = 0;
-  float facing = -1, facing_extra = -1;  // cosines of the slant to either camera
+  float facing = -1, facing_side = -1;  // cosines of the slant to either camera
 };
 using StereoSamples = Raster<StereoSample>;
 
@@ -37,32 +37,31 @@ using StereoSamples = Raster<StereoSample>;
 VisibleSurface SkinInFront(const FittedHead& fitted) {
   Box2 box;
   for (const PointIndex i : point::kForFit) box.Add(fitted.pose.Pixel(fitted.At(i)));
-  const float step = kCell * fitted.pose.PixelsPerMm();
-  const glm::ivec2 points = glm::clamp(glm::ivec2(box.Size() / step), 1, kMostSamples);
+  const float step = kCellMm * fitted.pose.PixelsPerMm();
+  const glm::ivec2 points = glm::clamp(glm::ivec2(box.Size() / step), 1, kMaxSamples);
   VisibleSurface surface({box.low, step, points.x, points.y},
                          fitted.pose.Screen(fitted.posed_vertices));
   ForSkinTriangles(fitted.base->head->topology(),
-                   [&](const std::uint32_t* t) { surface.DrawFront(t); });
+                   [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
 }
 
 StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front,
-                         const CameraPose& extra) {
+                         const CameraPose& side) {
   const VisibleSurface surface = SkinInFront(fitted);
   const SampleGrid& grid = surface.grid();
-  const glm::vec3 to_front = fitted.pose.TowardsCamera(), to_extra = extra.TowardsCamera();
+  const glm::vec3 to_front = fitted.pose.TowardsCamera(), to_side = side.TowardsCamera();
   const auto& posed = fitted.posed_vertices;
   return StereoSamples::From(grid.columns, grid.rows, [&](int x, int y) -> StereoSample {
-    const std::uint32_t* t = surface.Triangle(x, y);
-    if (!t) return {};
+    const MeshTriangle* triangle = surface.Triangle(x, y);
+    if (!triangle) return {};
     const MeshPoint place = surface.Place(x, y);
-    const glm::vec3 normal =
-        glm::normalize(glm::cross(posed[t[1]] - posed[t[0]], posed[t[2]] - posed[t[0]]));
+    const glm::vec3 normal = glm::normalize(triangle->Normal(posed));
     return {.camera = fitted.pose.ToCamera(place.On(posed)),
             .rest = place.On(fitted.base->rest.position),
             .light = Brightness(ColourAt(front, grid.Point(x, y))),
             .facing = glm::dot(normal, to_front),
-            .facing_extra = glm::dot(normal, to_extra)};
+            .facing_side = glm::dot(normal, to_side)};
   });
 }
 
@@ -89,14 +88,14 @@ void RemovePlane(std::vector<float>& patch) {
 
 /// Correlation of two flattened patches, -1..1; 0 where one shows hardly anything.
 float Correlation(std::span<const float> a, std::span<const float> b) {
-  constexpr float kLeast = 1.5F;  // of 255, root of the mean square
+  constexpr float kMin = 1.5F;  // of 255, root of the mean square
   float aa = 0, bb = 0, ab = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     aa += a[i] * a[i];
     bb += b[i] * b[i];
     ab += a[i] * b[i];
   }
-  const float least = kLeast * kLeast * static_cast<float>(a.size());
+  const float least = kMin * kMin * static_cast<float>(a.size());
   return aa < least || bb < least ? 0 : ab / std::sqrt(aa * bb);
 }
 
@@ -106,18 +105,19 @@ struct Patch {
   std::vector<glm::vec3> camera;
 };
 
-std::vector<Patch> PatchesOf(const StereoSamples& seen) {
+std::vector<Patch> PatchesOf(const StereoSamples& samples) {
   std::vector<Patch> patches;
-  for (int y = kPatch; y + kPatch < seen.height; y += kPatchStep) {
-    for (int x = kPatch; x + kPatch < seen.width; x += kPatchStep) {
-      Patch patch{seen.Index(x, y), {}, {}};
+  for (int y = kPatch; y + kPatch < samples.height; y += kPatchStep) {
+    for (int x = kPatch; x + kPatch < samples.width; x += kPatchStep) {
+      Patch patch{samples.Index(x, y), {}, {}};
       bool whole = true;
       for (int dy = -kPatch; dy <= kPatch && whole; ++dy) {
         for (int dx = -kPatch; dx <= kPatch && whole; ++dx) {
-          const std::size_t i = seen.Index(x + dx, y + dy);
-          const StereoSample& sample = seen.at[i];
-          whole = sample.facing > kLeastFacing && sample.facing_extra > kLeastFacingExtra &&
-                  std::abs(sample.camera.z - seen.at[patch.middle].camera.z) < kMostDepth;
+          const std::size_t i = samples.Index(x + dx, y + dy);
+          const StereoSample& sample = samples.values[i];
+          whole = sample.facing > kMinFacing && sample.facing_side > kMinFacingSide &&
+                  std::abs(sample.camera.z - samples.values[patch.middle].camera.z) <
+                      kMaxDepthStepInPatchMm;
           patch.light.push_back(sample.light);
           patch.camera.push_back(sample.camera);
         }
@@ -132,100 +132,115 @@ std::vector<Patch> PatchesOf(const StereoSamples& seen) {
 
 /// The best of values at even steps, refined by the parabola through its neighbours.
 struct Peak {
-  float at, value;
+  float step, value;
 };
 template <typename F>
 Peak FindPeak(int reach, F value) {
   std::vector<float> all;
   for (int k = -reach; k <= reach; ++k) all.push_back(value(k));
   const auto best = std::ranges::max_element(all);
-  float at = static_cast<float>(best - all.begin()) - static_cast<float>(reach);
+  float step = static_cast<float>(best - all.begin()) - static_cast<float>(reach);
   if (best != all.begin() && best + 1 != all.end()) {
     const float bend = best[-1] - 2 * best[0] + best[1];
-    if (bend < -1e-6F) at += 0.5F * (best[-1] - best[1]) / bend;
+    if (bend < -1e-6F) step += 0.5F * (best[-1] - best[1]) / bend;
   }
-  return {at, *best};
+  return {step, *best};
 }
 
 /// Compares patches with what lies at some pixels of the second photo.
 class PatchMatcher {
  public:
-  explicit PatchMatcher(const fsm::Image& extra) : extra_(extra) {}
+  explicit PatchMatcher(const fsm::Image& side) : side_(side) {}
   /// `pixel(i)`: where the i-th sample of the patch would lie.
   template <typename Pixel>
   float Match(const Patch& patch, Pixel pixel) {
     light_.clear();
     for (std::size_t i = 0; i < patch.camera.size(); ++i) {
-      light_.push_back(Brightness(ColourAt(extra_, pixel(i))));
+      light_.push_back(Brightness(ColourAt(side_, pixel(i))));
     }
     RemovePlane(light_);
     return Correlation(patch.light, light_);
   }
 
  private:
-  const fsm::Image& extra_;
+  const fsm::Image& side_;
   std::vector<float> light_;  // of one patch, kept for its memory
 };
 
+// How far beside where the fit has it a patch is looked for, and in which steps.
+constexpr int kReachAcrossMm = 6, kReachDownMm = 4;
+// Likewise along the line of sight of the first photo. Of places that correlate alike the nearest
+// is taken: a square millimetre costs as much correlation.
+constexpr float kDepthStepMm = 0.75F, kCorrelationPerMm2 = 0.0012F;
+constexpr int kDepthSteps = 14;
+constexpr int kPoseRefinements = 2;
+
 /// Where whole patches lie in the second photo, whatever their depth.
-std::vector<PointMatch> FindPatches(const StereoSamples& seen, const CameraPose& front,
-                                    const CameraPose& extra, PatchMatcher& matcher) {
+std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPose& front,
+                                    const CameraPose& side, PatchMatcher& matcher) {
   std::vector<PointMatch> matches;
   std::vector<glm::vec2> pixels;
-  const float pixels_per_mm = extra.PixelsPerMm();
-  const auto shown = [&](const glm::vec3& q) { return extra.Pixel(front.FromCamera(q)); };
-  for (const Patch& patch : PatchesOf(seen)) {
+  const float pixels_per_mm = side.PixelsPerMm();
+  const auto pixel_of = [&](const glm::vec3& q) { return side.Pixel(front.FromCamera(q)); };
+  for (const Patch& patch : PatchesOf(samples)) {
     // Projected once: turning a head takes longer than looking up a pixel.
     pixels.clear();
-    for (const glm::vec3& q : patch.camera) pixels.push_back(shown(q));
-    float best = kLeastCorrelation;
-    glm::vec2 by(0);
-    for (int y = -4; y <= 4; ++y) {
-      for (int x = -6; x <= 6; ++x) {
-        const glm::vec2 off = glm::vec2(x, y) * pixels_per_mm;
+    for (const glm::vec3& q : patch.camera) pixels.push_back(pixel_of(q));
+    float best = kMinCorrelation;
+    glm::vec2 best_shift_px(0);
+    for (int y = -kReachDownMm; y <= kReachDownMm; ++y) {
+      for (int x = -kReachAcrossMm; x <= kReachAcrossMm; ++x) {
+        const glm::vec2 shift_px = glm::vec2(x, y) * pixels_per_mm;
         const float correlation =
-            matcher.Match(patch, [&](std::size_t i) { return pixels[i] + off; });
+            matcher.Match(patch, [&](std::size_t i) { return pixels[i] + shift_px; });
         if (correlation <= best) continue;
         best = correlation;
-        by = off;
+        best_shift_px = shift_px;
       }
     }
-    if (best <= kLeastCorrelation) continue;
-    const glm::vec3 q = seen.at[patch.middle].camera;
-    matches.push_back({front.FromCamera(q), shown(q) + by, 1});
+    if (best <= kMinCorrelation) continue;
+    const glm::vec3 q = samples.values[patch.middle].camera;
+    matches.push_back({front.FromCamera(q), pixel_of(q) + best_shift_px, 1});
   }
   return matches;
 }
 
-}  // namespace
-
-std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front,
-                                         const fsm::Image& extra, CameraPose& pose) {
-  PatchMatcher matcher(extra);
-  for (int round = 0; round < 2; ++round) {
-    const auto matches = FindPatches(SampleSkin(fitted, front, pose), fitted.pose, pose, matcher);
-    if (matches.size() < kFewest) return {};
-    pose = RefinePose(matches, pose);
-  }
-  // Then along the line of sight of the first photo.
-  constexpr float kStep = 0.75F;  // millimetres
-  constexpr int kReach = 14;
-  const StereoSamples seen = SampleSkin(fitted, front, pose);
+/// How much nearer to the first camera each patch lies, where that is seen clearly.
+std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const CameraPose& front,
+                                       const CameraPose& side, PatchMatcher& matcher) {
   std::vector<fsm::WarpPoint> depths;
-  for (const Patch& patch : PatchesOf(seen)) {
-    const Peak peak = FindPeak(kReach, [&](int k) {
-      const float by = kStep * static_cast<float>(k);
+  for (const Patch& patch : PatchesOf(samples)) {
+    const Peak peak = FindPeak(kDepthSteps, [&](int step) {
+      const float nearer_mm = kDepthStepMm * static_cast<float>(step);
       const float correlation = matcher.Match(patch, [&](std::size_t i) {
         const glm::vec3& q = patch.camera[i];
-        const glm::vec3 moved = fitted.pose.Unproject(fitted.pose.Project(q), q.z + by);
-        return pose.Pixel(fitted.pose.FromCamera(moved));
+        return side.Pixel(front.FromCamera(front.Unproject(front.Project(q), q.z + nearer_mm)));
       });
-      return correlation - 0.0012F * by * by;  // of places that correlate alike the nearest
+      return correlation - kCorrelationPerMm2 * nearer_mm * nearer_mm;
     });
-    if (peak.value < kLeastCorrelation || std::abs(peak.at) > kReach - 1) continue;
-    depths.push_back({seen.at[patch.middle].rest, glm::vec3(0, 0, kStep * peak.at)});
+    if (peak.value < kMinCorrelation || std::abs(peak.step) > kDepthSteps - 1) continue;
+    depths.push_back(
+        {samples.values[patch.middle].rest, glm::vec3(0, 0, kDepthStepMm * peak.step)});
   }
-  return depths.size() < kFewest ? std::vector<fsm::WarpPoint>{} : depths;
+  return depths;
+}
+
+}  // namespace
+
+StereoDepths CompareDepth(const FittedHead& fitted, const fsm::Image& front, const fsm::Image& side,
+                          const CameraPose& side_pose) {
+  PatchMatcher matcher(side);
+  StereoDepths found{side_pose, {}};
+  for (int round = 0; round < kPoseRefinements; ++round) {
+    const auto matches = FindPatches(SampleSkin(fitted, front, found.side_pose), fitted.pose,
+                                     found.side_pose, matcher);
+    if (matches.size() < kMinPatches) return found;
+    found.side_pose = RefinePose(matches, found.side_pose);
+  }
+  auto depths =
+      FindDepths(SampleSkin(fitted, front, found.side_pose), fitted.pose, found.side_pose, matcher);
+  if (depths.size() >= kMinPatches) found.depths = std::move(depths);
+  return found;
 }
 
 }  // namespace facefit

@@ -23,7 +23,7 @@ template <typename T>
 cv::Mat View(const Raster<T>& image) {
   StayOnThisThread();
   constexpr int kChannels = sizeof(T) / sizeof(float);
-  return {image.height, image.width, CV_32FC(kChannels), const_cast<T*>(image.at.data())};
+  return {image.height, image.width, CV_32FC(kChannels), const_cast<T*>(image.values.data())};
 }
 cv::Mat View(const fsm::Image& image) {
   StayOnThisThread();
@@ -77,7 +77,7 @@ void PushPullInpaint(fsm::Image& image, const FloatImage& weight) {
   std::vector<cv::Mat_<Pixel>> levels(1, cv::Mat_<Pixel>(image.height, image.width));
   std::size_t i = 0;
   for (Pixel& p : levels[0]) {
-    const glm::vec4 weighted = glm::vec4(Rgb(image, i), 1) * weight.at[i];
+    const glm::vec4 weighted = glm::vec4(Rgb(image, i), 1) * weight.values[i];
     p = {weighted.r, weighted.g, weighted.b, weighted.w};
     ++i;
   }
@@ -117,10 +117,10 @@ void FillHoles(FloatImage& image) {
 }
 
 void KeepConnected(glm::ivec2 to, FloatImage& image) {
-  constexpr float kLeast = 0.1F;
+  constexpr float kMin = 0.1F;
   const glm::ivec2 seed = glm::clamp(to, glm::ivec2(0), glm::ivec2(image.width, image.height) - 1);
-  if (image(seed.x, seed.y) < kLeast) return;
-  cv::Mat present = View(image) >= kLeast;  // 255 where it is
+  if (image(seed.x, seed.y) < kMin) return;
+  cv::Mat present = View(image) >= kMin;  // 255 where it is
   constexpr int kKept = 128;
   cv::floodFill(present, {seed.x, seed.y}, cv::Scalar(kKept), nullptr, {}, {}, 8);
   for (int y = 0; y < image.height; ++y) {
@@ -135,9 +135,9 @@ std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold) 
   const cv::Mat unknown = View(image) < threshold;
   cv::distanceTransform(unknown, distance, label, cv::DIST_L2, cv::DIST_MASK_5,
                         cv::DIST_LABEL_PIXEL);
-  std::vector<std::size_t> of_label(image.at.size() + 1), nearest(image.at.size());
+  std::vector<std::size_t> of_label(image.values.size() + 1), nearest(image.values.size());
   for (std::size_t i = 0; i < nearest.size(); ++i) {
-    if (image.at[i] >= threshold)
+    if (image.values[i] >= threshold)
       of_label[static_cast<std::size_t>(label.begin<int>()[static_cast<int>(i)])] = i;
   }
   std::ranges::transform(std::span(label.ptr<int>(), nearest.size()), nearest.begin(),

@@ -24,16 +24,18 @@ struct FourPixels {
 template <typename T>
 struct Raster {
   int width = 0, height = 0;
-  std::vector<T> at;  ///< width * height
+  std::vector<T> values;  ///< width * height
   Raster() = default;
   Raster(int w, int h, T value = {})
-      : width(w), height(h), at(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value) {}
+      : width(w),
+        height(h),
+        values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value) {}
   /// Of each pixel `value(x, y)`, row by row.
   static Raster From(int w, int h, auto value) {
     Raster out(w, h);
     std::size_t i = 0;
     for (int y = 0; y < h; ++y) {
-      for (int x = 0; x < w; ++x) out.at[i++] = value(x, y);
+      for (int x = 0; x < w; ++x) out.values[i++] = value(x, y);
     }
     return out;
   }
@@ -41,11 +43,11 @@ struct Raster {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
   }
-  T& operator()(int x, int y) { return at[Index(x, y)]; }
-  const T& operator()(int x, int y) const { return at[Index(x, y)]; }
+  T& operator()(int x, int y) { return values[Index(x, y)]; }
+  const T& operator()(int x, int y) const { return values[Index(x, y)]; }
   /// Bilinear interpolation, as FourPixels.
   T Between(float x, float y) const {
-    return FourPixels(width, height, x, y).Mean([this](std::size_t i) { return at[i]; });
+    return FourPixels(width, height, x, y).Mean([this](std::size_t i) { return values[i]; });
   }
 };
 using FloatImage = Raster<float>;

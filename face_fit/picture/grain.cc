@@ -21,7 +21,7 @@ glm::ivec2 PlaceOf(const FloatImage& field, std::size_t i) {
 }  // namespace
 
 void AddGrain(const FloatImage& weight, const FloatImage& where, int reach, fsm::Image& image) {
-  if (std::ranges::max(weight.at) < kKnown) return;
+  if (std::ranges::max(weight.values) < kKnown) return;
   const auto nearest = NearestAbove(weight, kKnown);
   const float farthest = 8 * static_cast<float>(reach);
   struct Transfer {
@@ -29,8 +29,8 @@ void AddGrain(const FloatImage& weight, const FloatImage& where, int reach, fsm:
     float amount;
   };
   std::vector<Transfer> transfers;
-  for (std::size_t i = 0; i < weight.at.size(); ++i) {
-    if (weight.at[i] >= kKnown || where.at[i] <= 0) continue;
+  for (std::size_t i = 0; i < weight.values.size(); ++i) {
+    if (weight.values[i] >= kKnown || where.values[i] <= 0) continue;
     const glm::ivec2 here = PlaceOf(weight, i), edge = PlaceOf(weight, nearest[i]);
     const glm::ivec2 beyond = 2 * edge - here;
     if (beyond.x < 0 || beyond.y < 0 || beyond.x >= weight.width || beyond.y >= weight.height) {
@@ -38,13 +38,13 @@ void AddGrain(const FloatImage& weight, const FloatImage& where, int reach, fsm:
     }
     const std::size_t from = weight.Index(beyond.x, beyond.y);
     const float off = glm::length(glm::vec2(edge - here));
-    const float amount = where.at[i] * weight.at[from] * (1 - weight.at[i]) *
+    const float amount = where.values[i] * weight.values[from] * (1 - weight.values[i]) *
                          glm::smoothstep(farthest, 0.5F * farthest, off);
     if (amount > 0) transfers.push_back({i, from, amount});
   }
   const VectorImage colours = Colours(image), even = Blurred(colours, reach);
   for (const auto& [to, from, amount] : transfers) {
-    SetRgb(image, to, colours.at[to] + amount * (colours.at[from] - even.at[from]));
+    SetRgb(image, to, colours.values[to] + amount * (colours.values[from] - even.values[from]));
   }
 }
 

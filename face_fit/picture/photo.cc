@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint8_t kPngStart[] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10};
 /// Below this nothing can be seen of a face.
-constexpr int kLeastSize = 64;
+constexpr int kMinSize = 64;
 
 bool StartsWith(std::span<const std::uint8_t> bytes, std::span<const std::uint8_t> start) {
   return bytes.size() >= start.size() && std::ranges::equal(bytes.first(start.size()), start);
@@ -69,10 +69,10 @@ vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most
                                                 "not a picture that is read here: a JPEG or PNG "
                                                 "file is expected");
   if (!image) return image;
-  if (std::min(image->width, image->height) < kLeastSize) {
+  if (std::min(image->width, image->height) < kMinSize) {
     return vm::Fail(vm::Errc::kBadValue, "the photo is only " + std::to_string(image->width) +
                                              " x " + std::to_string(image->height) +
-                                             " pixels; at least " + std::to_string(kLeastSize) +
+                                             " pixels; at least " + std::to_string(kMinSize) +
                                              " on each side are needed");
   }
   *image = ScaledToFit(std::move(*image), most_size);
@@ -81,8 +81,8 @@ vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most
 }
 
 vm::Result<fsm::Image> ReadPhoto(const std::string& path, int most_size) {
-  constexpr std::size_t kMostBytes = 200'000'000;
-  const auto bytes = vm::ReadTextFile(path, kMostBytes);
+  constexpr std::size_t kMaxBytes = 200'000'000;
+  const auto bytes = vm::ReadTextFile(path, kMaxBytes);
   if (!bytes) return std::unexpected(bytes.error());
   auto image = DecodePhoto(fsm::BytesOf(*bytes), most_size);
   if (!image) return vm::Fail(image.error().code, "'" + path + "': " + image.error().text);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -27,13 +28,19 @@ inline void SetRgb(fsm::Image& image, std::size_t i, glm::vec3 colour) {
   for (int c = 0; c < 3; ++c) image.rgba[4 * i + static_cast<std::size_t>(c)] = Byte(colour[c]);
 }
 
+/// Whether a place lies in a picture.
+inline bool IsInside(const fsm::Image& image, glm::vec2 p) {
+  return p.x >= 0 && p.y >= 0 && p.x < static_cast<float>(image.width) &&
+         p.y < static_cast<float>(image.height);
+}
+
 /// How bright a colour is, in its own unit; red weighs more than in human vision, as faces are red.
 inline float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c.b; }
 
 /// The colours of all pixels, 0..255.
 inline VectorImage Colours(const fsm::Image& image) {
   VectorImage out(image.width, image.height);
-  for (std::size_t i = 0; i < out.at.size(); ++i) out.at[i] = Rgb(image, i);
+  for (std::size_t i = 0; i < out.values.size(); ++i) out.values[i] = Rgb(image, i);
   return out;
 }
 

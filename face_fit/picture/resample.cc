@@ -22,10 +22,11 @@ std::array<float, 4> BSpline(float t) {
           t * t * t / 6};
 }
 
-/// Sums `get(index)` over 4 x 4 pixels round a place; the edge goes on outside.
-template <typename Value, typename Weights, typename Get>
-Value Around(int width, int height, glm::vec2 at, Weights weights, Get get) {
-  const glm::vec2 p = glm::clamp(at, glm::vec2(0), glm::vec2(width, height)) - 0.5F;
+/// Sums `get(index)` over 4 x 4 pixels of an image round a place; the edge goes on outside.
+template <typename Value, typename Picture, typename Weights, typename Get>
+Value Around(const Picture& image, glm::vec2 place, Weights weights, Get get) {
+  const int width = image.width, height = image.height;
+  const glm::vec2 p = glm::clamp(place, glm::vec2(0), glm::vec2(width, height)) - 0.5F;
   const glm::vec2 first = glm::floor(p);
   const auto across = weights(p.x - first.x), down = weights(p.y - first.y);
   Value sum(0);
@@ -34,8 +35,7 @@ Value Around(int width, int height, glm::vec2 at, Weights weights, Get get) {
     Value row(0);
     for (std::size_t i = 0; i < 4; ++i) {
       const int x = std::clamp(static_cast<int>(first.x + static_cast<float>(i)) - 1, 0, width - 1);
-      row += across[i] * get(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                             static_cast<std::size_t>(x));
+      row += across[i] * get(image.Index(x, y));
     }
     sum += down[j] * row;
   }
@@ -52,20 +52,17 @@ glm::vec3 ColourAt(const fsm::Image& image, glm::vec2 at) {
 
 glm::vec3 SharpColourAt(const fsm::Image& image, glm::vec2 at) {
   const auto colour = [&](std::size_t i) { return Rgb(image, i); };
-  return glm::clamp(Around<glm::vec3>(image.width, image.height, at, CatmullRom, colour), 0.0F,
-                    255.0F);
+  return glm::clamp(Around<glm::vec3>(image, at, CatmullRom, colour), 0.0F, 255.0F);
 }
 
 float SmoothAt(const FloatImage& field, glm::vec2 at) {
-  return Around<float>(field.width, field.height, at, BSpline,
-                       [&](std::size_t i) { return field.at[i]; });
+  return Around<float>(field, at, BSpline, [&](std::size_t i) { return field.values[i]; });
 }
 
 std::vector<float> Resampled(const fsm::Image& image, glm::vec2 corner, const glm::mat2& axes,
                              int pixels, float low, float high) {
   const float longer = std::max(glm::length(axes[0]), glm::length(axes[1]));
   const int n = std::clamp(static_cast<int>(std::ceil(longer / static_cast<float>(pixels))), 1, 8);
-  const glm::vec2 size(image.width, image.height);
   std::vector<float> out;
   out.reserve(static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels) * 3);
   for (int y = 0; y < pixels; ++y) {
@@ -75,8 +72,7 @@ std::vector<float> Resampled(const fsm::Image& image, glm::vec2 corner, const gl
         const glm::vec2 within = (glm::vec2(k % n, k / n) + 0.5F) / static_cast<float>(n);
         const glm::vec2 p =
             corner + axes * ((glm::vec2(x, y) + within) / static_cast<float>(pixels));
-        if (p.x < 0 || p.y < 0 || p.x >= size.x || p.y >= size.y) continue;
-        sum += ColourAt(image, p);
+        if (IsInside(image, p)) sum += ColourAt(image, p);
       }
       sum = low + sum * (high - low) / (255.0F * static_cast<float>(n * n));
       for (int c = 0; c < 3; ++c) out.push_back(sum[c]);

@@ -29,8 +29,8 @@ struct Triangle2 {
 /// that no point on an edge between two triangles is lost. Triangles without area have no points.
 template <typename F>
 void Rasterize(const Triangle2& triangle, int columns, int rows, float slack, F f) {
-  constexpr float kLeastArea = 1e-7F;
-  if (!(std::abs(triangle.SignedArea()) >= kLeastArea)) return;
+  constexpr float kMinArea = 1e-7F;
+  if (!(std::abs(triangle.SignedArea()) >= kMinArea)) return;
   const auto& [a, b, c] = triangle;
   const glm::vec2 from = glm::max(glm::floor(glm::min(a, glm::min(b, c))), 0.0F);
   const glm::vec2 to =

@@ -1,28 +1,36 @@
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
 
 #include "fsm/rig/head_asset.h"
 
 namespace facefit {
 
-/// The material of a triangle, which is part of `topology.indices`.
-inline fsm::Material MaterialOf(const fsm::HeadTopology& topology, const std::uint32_t* triangle) {
-  const auto index = static_cast<std::uint32_t>(triangle - topology.indices.data());
-  return std::ranges::find_if(
-             topology.parts,
-             [index](const auto& part) { return index - part.first_index < part.index_count; })
-      ->material;
-}
+/// A triangle of a head: the numbers of its vertices, counter-clockwise from outside, and what it
+/// is of.
+struct MeshTriangle {
+  std::array<std::uint32_t, 3> corner{};
+  fsm::Material material{};
+  /// Outward, as long as twice the area. `position`: of each vertex.
+  glm::vec3 Normal(const std::vector<glm::vec3>& position) const {
+    return glm::cross(position[corner[1]] - position[corner[0]],
+                      position[corner[2]] - position[corner[0]]);
+  }
+};
 
-/// Calls `f(corners)` with the three vertices of each triangle whose material is kept.
+/// Calls `f` with each triangle whose material is kept.
 template <typename Keep, typename F>
 void ForTriangles(const fsm::HeadTopology& topology, Keep keep_material, F f) {
   for (const auto& part : topology.parts) {
     if (!keep_material(part.material)) continue;
     const auto corners = topology.Corners(part);
-    for (std::size_t k = 0; k + 2 < corners.size(); k += 3) f(&corners[k]);
+    for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
+      f(MeshTriangle{{corners[k], corners[k + 1], corners[k + 2]}, part.material});
+    }
   }
 }
 

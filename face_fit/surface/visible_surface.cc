@@ -4,35 +4,34 @@
 #include <utility>
 
 #include "face_fit/surface/rasterizer.h"
-#include "face_fit/surface/triangles.h"
 
 namespace facefit {
 
-VisibleSurface::VisibleSurface(const SampleGrid& grid, std::vector<glm::vec3> screen)
+VisibleSurface::VisibleSurface(const SampleGrid& grid, std::vector<glm::vec3> screen, Upward upward)
     : grid_(grid),
       screen_(std::move(screen)),
+      front_sign_(upward == Upward::kYes ? 1.0F : -1.0F),
       depth_(grid.columns, grid.rows, kNothing),
-      samples_(depth_.at.size()) {}
+      samples_(depth_.values.size()) {}
 
-void VisibleSurface::Draw(const std::uint32_t* triangle) {
+void VisibleSurface::Draw(const MeshTriangle& triangle) {
   constexpr float kSlack = 0.01F;  // of a weight: no point between two triangles is lost
-  const auto on_grid = [&](int corner) {
-    return (glm::vec2(screen_[triangle[corner]]) - grid_.origin) / grid_.step;
+  const auto on_grid = [&](std::size_t corner) {
+    return (glm::vec2(screen_[triangle.corner[corner]]) - grid_.origin) / grid_.step;
   };
   Rasterize({on_grid(0), on_grid(1), on_grid(2)}, grid_.columns, grid_.rows, kSlack,
             [&](int column, int row, glm::vec3 weights) {
-              const MeshPoint place{{triangle[0], triangle[1], triangle[2]}, weights};
-              const float z = place.On(screen_).z;
+              const float z = MeshPoint{triangle.corner, weights}.On(screen_).z;
               const std::size_t i = depth_.Index(column, row);
-              if (z <= depth_.at[i]) return;
-              depth_.at[i] = z;
+              if (z <= depth_.values[i]) return;
+              depth_.values[i] = z;
               samples_[i] = {triangle, weights};
             });
 }
 
-void VisibleSurface::DrawFront(const std::uint32_t* triangle) {
-  const Triangle2 seen{screen_[triangle[0]], screen_[triangle[1]], screen_[triangle[2]]};
-  if (seen.SignedArea() < 0) Draw(triangle);
+void VisibleSurface::DrawFront(const MeshTriangle& triangle) {
+  const auto& [a, b, c] = triangle.corner;
+  if (front_sign_ * Triangle2{screen_[a], screen_[b], screen_[c]}.SignedArea() > 0) Draw(triangle);
 }
 
 FloatImage VisibleSurface::Covered() const {
@@ -40,27 +39,25 @@ FloatImage VisibleSurface::Covered() const {
                           [&](int x, int y) { return depth_(x, y) > kNothing ? 1.0F : 0.0F; });
 }
 
-const std::uint32_t* VisibleSurface::Triangle(int column, int row) const {
+const MeshTriangle* VisibleSurface::Triangle(int column, int row) const {
   if (column < 0 || row < 0 || column >= grid_.columns || row >= grid_.rows) return nullptr;
-  return samples_[depth_.Index(column, row)].triangle;
+  return depth_(column, row) > kNothing ? &samples_[depth_.Index(column, row)].triangle : nullptr;
 }
 
 MeshPoint VisibleSurface::Place(int column, int row) const {
-  const auto& [t, weights] = samples_[depth_.Index(column, row)];
-  return {{t[0], t[1], t[2]}, weights};
+  const auto& [triangle, weights] = samples_[depth_.Index(column, row)];
+  return {triangle.corner, weights};
 }
 
-VisibleSurface SeenFromFront(const fsm::HeadTopology& topology,
-                             const std::vector<glm::vec3>& position, glm::vec2 low,
-                             glm::vec2 high) {
-  constexpr float kMostMm = 200;
-  const glm::ivec2 points(glm::clamp(high - low, 1.0F, kMostMm) / kFrontStepMm);
-  VisibleSurface surface({low + 0.5F * kFrontStepMm, kFrontStepMm, points.x, points.y}, position);
+VisibleSurface VisibleFromFront(const fsm::HeadTopology& topology,
+                                const std::vector<glm::vec3>& position, glm::vec2 low,
+                                glm::vec2 high) {
+  constexpr float kMaxMm = 200;
+  const glm::ivec2 points(glm::clamp(high - low, 1.0F, kMaxMm) / kFrontStepMm);
+  VisibleSurface surface({low + 0.5F * kFrontStepMm, kFrontStepMm, points.x, points.y}, position,
+                         VisibleSurface::Upward::kYes);
   const auto opaque = [](fsm::Material m) { return !IsHair(m) && m != fsm::Material::kShutLash; };
-  ForTriangles(topology, opaque, [&](const std::uint32_t* t) {
-    const Triangle2 seen{position[t[0]], position[t[1]], position[t[2]]};
-    if (seen.SignedArea() > 0) surface.Draw(t);
-  });
+  ForTriangles(topology, opaque, [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
 #include "face_fit/picture/float_image.h"
 #include "face_fit/surface/mesh_point.h"
+#include "face_fit/surface/triangles.h"
 #include "fsm/rig/head.h"
 
 namespace facefit {
@@ -20,42 +20,47 @@ struct SampleGrid {
 };
 
 /// A depth buffer over a mesh: at each point of a grid it keeps the foremost place of the triangles
-/// that were drawn. Triangles seen from behind must be left out by the caller.
+/// that were drawn.
 class VisibleSurface {
  public:
   static constexpr float kNothing = -1e9F;  ///< the depth where nothing was drawn
+  /// Which way the second coordinate of the grid's plane points: that of a picture down.
+  enum class Upward { kNo, kYes };
   /// `screen`: of each vertex x and y in the plane of the grid, z towards the viewer.
-  VisibleSurface(const SampleGrid& grid, std::vector<glm::vec3> screen);
-  /// `triangle`: the numbers of its three vertices, which outlive this.
-  void Draw(const std::uint32_t* triangle);
-  /// Likewise, unless it is seen from behind. REQUIRES: rows run down, as those of a picture.
-  void DrawFront(const std::uint32_t* triangle);
+  VisibleSurface(const SampleGrid& grid, std::vector<glm::vec3> screen,
+                 Upward upward = Upward::kNo);
+  /// Draws it whichever way it faces.
+  void Draw(const MeshTriangle& triangle);
+  /// Draws it unless it is seen from behind.
+  void DrawFront(const MeshTriangle& triangle);
 
   const SampleGrid& grid() const { return grid_; }
   const FloatImage& depth() const { return depth_; }
   /// 1 where something was drawn.
   FloatImage Covered() const;
-  /// The triangle at a point as it was drawn; nullptr where there is none and outside the grid.
-  const std::uint32_t* Triangle(int column, int row) const;
+  /// The triangle at a point; nullptr where there is none and outside the grid. It lives as long as
+  /// this and nothing more is drawn.
+  const MeshTriangle* Triangle(int column, int row) const;
   /// REQUIRES: a triangle there.
   MeshPoint Place(int column, int row) const;
 
  private:
   struct Sample {
-    const std::uint32_t* triangle = nullptr;
+    MeshTriangle triangle;
     glm::vec3 weights{0};
   };
   SampleGrid grid_;
   std::vector<glm::vec3> screen_;
+  float front_sign_;  ///< of the area of triangles that face the viewer
   FloatImage depth_;
   std::vector<Sample> samples_;
 };
 
-/// What is seen in a window before a head that looks to +z, in steps of an eighth of a millimetre,
-/// rows upward. Hair and lashes are seen through. Millimetres; at most 200 to a side. `topology`
-/// outlives the result.
+/// What is seen in a window before a head that looks to +z, in steps of kFrontStepMm, rows upward.
+/// Hair and lashes are seen through. Millimetres; at most 200 to a side.
 inline constexpr float kFrontStepMm = 0.125F;
-VisibleSurface SeenFromFront(const fsm::HeadTopology& topology,
-                             const std::vector<glm::vec3>& position, glm::vec2 low, glm::vec2 high);
+VisibleSurface VisibleFromFront(const fsm::HeadTopology& topology,
+                                const std::vector<glm::vec3>& position, glm::vec2 low,
+                                glm::vec2 high);
 
 }  // namespace facefit

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace facefit {
+namespace facefit::tflite {
 
 /// Bytes that do not hold what they should.
 class BadModel : public std::runtime_error {
@@ -94,4 +94,4 @@ class FlatTable {
   std::size_t fields_ = 0, field_bytes_ = 0;
 };
 
-}  // namespace facefit
+}  // namespace facefit::tflite

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace facefit {
+namespace facefit::tflite {
 namespace {
 
 // Kinds of values, as flexbuffers.h of google/flatbuffers numbers them.
@@ -123,4 +123,4 @@ std::vector<std::int64_t> FlexMap::Wholes(std::string_view key) const {
   return numbers;
 }
 
-}  // namespace facefit
+}  // namespace facefit::tflite

@@ -6,7 +6,7 @@
 
 #include "face_fit/tflite/flat_buffer.h"
 
-namespace facefit {
+namespace facefit::tflite {
 
 /// A map of a FlexBuffer (google/flatbuffers, "FlexBuffers: internals"), in which TensorFlow Lite
 /// keeps the options of custom operators. Values are whole numbers, floating-point numbers, and
@@ -34,4 +34,4 @@ class FlexMap {
   std::size_t values_ = 0, width_ = 0, count_ = 0;
 };
 
-}  // namespace facefit
+}  // namespace facefit::tflite

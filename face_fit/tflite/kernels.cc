@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace facefit {
+namespace facefit::tflite {
 namespace {
 
 std::size_t At(const Shape& s, int row, int column) {
@@ -15,7 +15,13 @@ std::size_t At(const Shape& s, int row, int column) {
 
 using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-void FillWithBias(const float* bias, Tensor& out) {
+/// The third input of a convolution; nullptr if it is left out.
+const float* BiasOf(Inputs inputs) {
+  return inputs.size() > 2 && inputs[2] ? inputs[2]->values.data() : nullptr;
+}
+
+void FillWithBias(Inputs inputs, Tensor& out) {
+  const float* bias = BiasOf(inputs);
   const auto channels = static_cast<std::size_t>(out.shape.channels());
   for (std::size_t i = 0; i < out.values.size(); ++i) {
     out.values[i] = bias ? bias[i % channels] : 0;
@@ -56,48 +62,51 @@ Padding PaddingOf(const op::Window& window, const Shape& in, const Shape& out, i
           before(in.columns(), out.columns(), window.stride_columns, filter_columns)};
 }
 
-void Convolve(const op::Window& window, const Tensor& in, const Tensor& filter, const float* bias,
-              Tensor& out) {
-  constexpr Eigen::Index kMostNumbers = 1 << 20;  // of what several pixels see, side by side
+void Run(const op::Convolution& convolution, Inputs inputs, Tensor& out) {
+  const Tensor &in = *inputs[0], &filter = *inputs[1];
+  const op::Window& window = convolution.window;
+  constexpr Eigen::Index kMaxNumbers = 1 << 20;  // of what several pixels see, side by side
   const Eigen::Index outs = out.shape.channels(), channels = in.shape.channels();
   const auto pixels = static_cast<Eigen::Index>(out.values.size()) / outs;
   const auto weights = static_cast<Eigen::Index>(filter.values.size()) / outs;
   const Eigen::Map<const Rows> by(filter.values.data(), outs, weights);
   Eigen::Map<Rows> to(out.values.data(), pixels, outs);
-  FillWithBias(bias, out);
+  FillWithBias(inputs, out);
   if (weights == channels && window.stride_rows == 1 && window.stride_columns == 1) {
     to.noalias() += Eigen::Map<const Rows>(in.values.data(), pixels, channels) * by.transpose();
     return;
   }
-  const Eigen::Index together = std::clamp<Eigen::Index>(kMostNumbers / weights, 1, pixels);
-  Rows seen(together, weights);
+  const Eigen::Index together = std::clamp<Eigen::Index>(kMaxNumbers / weights, 1, pixels);
+  Rows patches(together, weights);  // of each pixel what the filter lies over
   for (Eigen::Index first = 0; first < pixels; first += together) {
     const Eigen::Index count = std::min(together, pixels - first);
-    seen.setZero();
+    patches.setZero();
     ForEachTap(window, in.shape, out.shape, filter.shape, first, first + count,
                [&](Eigen::Index pixel, std::size_t from, int row, int column) {
                  const Eigen::Index tap = row * filter.shape.columns() + column;
-                 std::copy_n(&in.values[from], channels, &seen(pixel - first, tap * channels));
+                 std::copy_n(&in.values[from], channels, &patches(pixel - first, tap * channels));
                });
-    to.middleRows(first, count).noalias() += seen.topRows(count) * by.transpose();
+    to.middleRows(first, count).noalias() += patches.topRows(count) * by.transpose();
   }
 }
 
-void DepthwiseConv(const op::Window& window, const Tensor& in, const Tensor& filter,
-                   const float* bias, Tensor& out) {
+void Run(const op::DepthwiseConvolution& convolution, Inputs inputs, Tensor& out) {
+  const Tensor &in = *inputs[0], &filter = *inputs[1];
   const auto channels = static_cast<std::size_t>(in.shape.channels());
-  FillWithBias(bias, out);
-  ForEachTap(window, in.shape, out.shape, filter.shape, 0,
+  FillWithBias(inputs, out);
+  ForEachTap(convolution.window, in.shape, out.shape, filter.shape, 0,
              static_cast<Eigen::Index>(out.values.size() / channels),
              [&](Eigen::Index pixel, std::size_t from, int row, int column) {
                float* sum = &out.values[static_cast<std::size_t>(pixel) * channels];
-               const float* seen = &in.values[from];
+               const float* pixel_in = &in.values[from];
                const float* w = &filter.values[At(filter.shape, row, column)];
-               for (std::size_t k = 0; k < channels; ++k) sum[k] += seen[k] * w[k];
+               for (std::size_t k = 0; k < channels; ++k) sum[k] += pixel_in[k] * w[k];
              });
 }
 
-void TransposeConv(const Tensor& in, const Tensor& filter, const float* bias, Tensor& out) {
+void Run(const op::TransposeConvolution&, Inputs inputs, Tensor& out) {
+  const Tensor &in = *inputs[0], &filter = *inputs[1];
+  const float* bias = BiasOf(inputs);
   const auto channels = static_cast<std::size_t>(in.shape.channels());
   const int rows = filter.shape.rows();
   const int columns = filter.shape.columns();
@@ -119,7 +128,8 @@ void TransposeConv(const Tensor& in, const Tensor& filter, const float* bias, Te
   }
 }
 
-void Pool(const op::Pooling& pooling, const Tensor& in, Tensor& out) {
+void Run(const op::Pooling& pooling, Inputs inputs, Tensor& out) {
+  const Tensor& in = *inputs[0];
   const auto channels = static_cast<std::size_t>(in.shape.channels());
   const bool greatest = pooling.greatest;
   const Padding pad = PaddingOf(pooling.window, in.shape, out.shape, pooling.rows, pooling.columns);
@@ -127,49 +137,50 @@ void Pool(const op::Pooling& pooling, const Tensor& in, Tensor& out) {
     for (int x = 0; x < out.shape.columns(); ++x) {
       float* to = &out.values[At(out.shape, y, x)];
       std::fill_n(to, channels, greatest ? -INFINITY : 0.0F);
-      int seen = 0;
+      int count = 0;
       const int top = y * pooling.window.stride_rows - pad.rows;
       const int left = x * pooling.window.stride_columns - pad.columns;
       for (int r = std::max(top, 0); r < std::min(top + pooling.rows, in.shape.rows()); ++r) {
         for (int c = std::max(left, 0); c < std::min(left + pooling.columns, in.shape.columns());
              ++c) {
           const float* from = &in.values[At(in.shape, r, c)];
-          ++seen;
+          ++count;
           for (std::size_t k = 0; k < channels; ++k) {
             to[k] = greatest ? std::max(to[k], from[k]) : to[k] + from[k];
           }
         }
       }
       if (greatest) continue;
-      for (std::size_t k = 0; k < channels; ++k) to[k] /= static_cast<float>(std::max(seen, 1));
+      for (std::size_t k = 0; k < channels; ++k) to[k] /= static_cast<float>(std::max(count, 1));
     }
   }
 }
 
-void ResizeBilinear(const op::ResizeBilinear& resize, const Tensor& in, Tensor& out) {
+void Run(const op::ResizeBilinear& resize, Inputs inputs, Tensor& out) {
+  const Tensor& in = *inputs[0];
   const auto channels = static_cast<std::size_t>(in.shape.channels());
   struct Between {
     int first, second;
     float part;
   };
-  const auto place = [&resize](int i, int size_in, int size_out) {
-    float at = 0;
+  const auto between = [&resize](int i, int size_in, int size_out) {
+    float place = 0;
     if (resize.align_corners && size_out > 1) {
-      at = static_cast<float>(i) * static_cast<float>(size_in - 1) /
-           static_cast<float>(size_out - 1);
+      place = static_cast<float>(i) * static_cast<float>(size_in - 1) /
+              static_cast<float>(size_out - 1);
     } else {
       const float scale = static_cast<float>(size_in) / static_cast<float>(size_out);
-      at = resize.half_pixel_centres ? (static_cast<float>(i) + 0.5F) * scale - 0.5F
-                                     : static_cast<float>(i) * scale;
+      place = resize.half_pixel_centres ? (static_cast<float>(i) + 0.5F) * scale - 0.5F
+                                        : static_cast<float>(i) * scale;
     }
-    at = std::clamp(at, 0.0F, static_cast<float>(size_in - 1));
-    const int first = static_cast<int>(at);
-    return Between{first, std::min(first + 1, size_in - 1), at - static_cast<float>(first)};
+    place = std::clamp(place, 0.0F, static_cast<float>(size_in - 1));
+    const int first = static_cast<int>(place);
+    return Between{first, std::min(first + 1, size_in - 1), place - static_cast<float>(first)};
   };
   for (int y = 0; y < out.shape.rows(); ++y) {
-    const Between v = place(y, in.shape.rows(), out.shape.rows());
+    const Between v = between(y, in.shape.rows(), out.shape.rows());
     for (int x = 0; x < out.shape.columns(); ++x) {
-      const Between u = place(x, in.shape.columns(), out.shape.columns());
+      const Between u = between(x, in.shape.columns(), out.shape.columns());
       const float* a = &in.values[At(in.shape, v.first, u.first)];
       const float* b = &in.values[At(in.shape, v.first, u.second)];
       const float* c = &in.values[At(in.shape, v.second, u.first)];
@@ -184,64 +195,75 @@ void ResizeBilinear(const op::ResizeBilinear& resize, const Tensor& in, Tensor& 
   }
 }
 
-void Pad(const Tensor& in, const std::vector<std::int32_t>& by, Tensor& out) {
+void Run(const op::Concatenation&, Inputs inputs, Tensor& out) {
+  auto to = out.values.begin();
+  for (const Tensor* input : inputs) to = std::ranges::copy(input->values, to).out;
+}
+
+void Run(const op::Pad&, Inputs inputs, Tensor& out) {
+  const Tensor& in = *inputs[0];
+  const std::vector<std::int32_t>& zeros = inputs[1]->counts;  // before and after each axis
   std::ranges::fill(out.values, 0.0F);
   const auto channels = static_cast<std::size_t>(in.shape.channels());
   for (int y = 0; y < in.shape.rows(); ++y) {
     for (int x = 0; x < in.shape.columns(); ++x) {
-      std::copy_n(
-          &in.values[At(in.shape, y, x)], channels,
-          &out.values[At(out.shape, y + by[2], x + by[4]) + static_cast<std::size_t>(by[6])]);
+      std::copy_n(&in.values[At(in.shape, y, x)], channels,
+                  &out.values[At(out.shape, y + zeros[2], x + zeros[4]) +
+                              static_cast<std::size_t>(zeros[6])]);
     }
   }
 }
 
-void StridedSlice(const Tensor& in, std::span<const std::int32_t> begin,
-                  std::span<const std::int32_t> by, Tensor& out) {
+void Run(const op::StridedSlice&, Inputs inputs, Tensor& out) {
+  const Tensor& in = *inputs[0];
+  const std::vector<std::int32_t>&begin = inputs[1]->counts, &step = inputs[3]->counts;
   std::size_t to = 0;
   for (int b = 0; b < out.shape.size[0]; ++b) {
     for (int y = 0; y < out.shape.rows(); ++y) {
       for (int x = 0; x < out.shape.columns(); ++x) {
-        const std::size_t pixel = static_cast<std::size_t>(begin[0] + b * by[0]) *
+        const std::size_t pixel = static_cast<std::size_t>(begin[0] + b * step[0]) *
                                       static_cast<std::size_t>(in.shape.rows()) *
                                       At(in.shape, 1, 0) +
-                                  At(in.shape, begin[1] + y * by[1], begin[2] + x * by[2]);
+                                  At(in.shape, begin[1] + y * step[1], begin[2] + x * step[2]);
         for (int k = 0; k < out.shape.channels(); ++k) {
-          out.values[to++] = in.values[pixel + static_cast<std::size_t>(begin[3] + k * by[3])];
+          out.values[to++] = in.values[pixel + static_cast<std::size_t>(begin[3] + k * step[3])];
         }
       }
     }
   }
 }
 
-void LandmarksToMatrix(const op::LandmarksToMatrix& crop, const Tensor& points, Tensor& matrix) {
+void Run(const op::LandmarksToMatrix& options, Inputs inputs, Tensor& matrix) {
+  const Tensor& points = *inputs[0];
   const auto x = [&points](std::size_t i) { return points.values[3 * i]; };
   const auto y = [&points](std::size_t i) { return points.values[3 * i + 1]; };
-  const float angle =
-      std::atan2(y(crop.right) - y(crop.left), x(crop.right) - x(crop.left)) - crop.angle;
+  const float angle_rad =
+      std::atan2(y(options.right) - y(options.left), x(options.right) - x(options.left)) -
+      options.angle_rad;
   // The axes of the part as they lie in the whole: right = (c, s), down = (-s, c).
-  const float c = std::cos(angle), s = std::sin(angle);
+  const float c = std::cos(angle_rad), s = std::sin(angle_rad);
   float left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
-  for (const std::size_t i : crop.points) {
+  for (const std::size_t i : options.points) {
     const float along = c * x(i) + s * y(i), down = c * y(i) - s * x(i);
     left = std::min(left, along);
     right = std::max(right, along);
     top = std::min(top, down);
     bottom = std::max(bottom, down);
   }
-  const float width = crop.scale_x * (right - left), height = crop.scale_y * (bottom - top);
+  const float width = options.scale_x * (right - left), height = options.scale_y * (bottom - top);
   const float corner_along = (left + right - width) / 2, corner_down = (top + bottom - height) / 2;
-  const float along = width / static_cast<float>(crop.columns);
-  const float down = height / static_cast<float>(crop.rows);
+  const float along = width / static_cast<float>(options.columns);
+  const float down = height / static_cast<float>(options.rows);
   matrix.values = {c * along, -s * down, 0, c * corner_along - s * corner_down,  //
                    s * along, c * down,  0, s * corner_along + c * corner_down,  //
                    0,         0,         1, 0,                                   //
                    0,         0,         0, 1};
 }
 
-void TransformTensor(const Tensor& in, const Tensor& matrix, Tensor& out) {
+void Run(const op::TransformTensor&, Inputs inputs, Tensor& out) {
+  const Tensor& in = *inputs[0];
   const auto channels = static_cast<std::size_t>(in.shape.channels());
-  const float* m = matrix.values.data();
+  const float* m = inputs[1]->values.data();
   const auto last_x = static_cast<float>(in.shape.columns() - 1);
   const auto last_y = static_cast<float>(in.shape.rows() - 1);
   for (int row = 0; row < out.shape.rows(); ++row) {
@@ -269,9 +291,10 @@ void TransformTensor(const Tensor& in, const Tensor& matrix, Tensor& out) {
   }
 }
 
-void TransformLandmarks(const Tensor& in, const Tensor& matrix, Tensor& out) {
+void Run(const op::TransformLandmarks&, Inputs inputs, Tensor& out) {
+  const Tensor& in = *inputs[0];
   const auto each = static_cast<std::size_t>(in.shape.channels());
-  const float* m = matrix.values.data();
+  const float* m = inputs[1]->values.data();
   out.values = in.values;
   for (std::size_t i = 0; i + each <= in.values.size(); i += each) {
     const float x = in.values[i], y = in.values[i + 1];
@@ -286,4 +309,4 @@ void Activate(Activation activation, std::vector<float>& values) {
   for (float& v : values) v = std::clamp(v, 0.0F, most);
 }
 
-}  // namespace facefit
+}  // namespace facefit::tflite

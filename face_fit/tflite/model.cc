@@ -10,7 +10,7 @@
 
 #include "face_fit/tflite/flex_buffer.h"
 
-namespace facefit {
+namespace facefit::tflite {
 namespace {
 
 // Numbers and places of fields are those of tensorflow/lite/schema/schema.fbs.
@@ -204,19 +204,19 @@ Operator ReadLandmarksToMatrix(const Options& options) {
   const auto most = static_cast<std::int64_t>(Model::kMaxTensor);
   const auto point = [&](std::int64_t n) { return static_cast<std::size_t>(within(n, most)); };
   const auto size = [&](const char* key) { return static_cast<int>(within(map.Whole(key), 4096)); };
-  op::LandmarksToMatrix crop;
-  for (const std::int64_t n : map.Wholes("subset_idxs")) crop.points.push_back(point(n));
-  crop.left = point(map.Whole("left_rotation_idx"));
-  crop.right = point(map.Whole("right_rotation_idx"));
-  crop.angle = static_cast<float>(map.Number("target_rotation_radians"));
-  crop.scale_x = static_cast<float>(map.Number("scale_x"));
-  crop.scale_y = static_cast<float>(map.Number("scale_y"));
-  crop.rows = size("output_height");
-  crop.columns = size("output_width");
-  if (crop.points.empty() || crop.rows < 1 || crop.columns < 1) {
+  op::LandmarksToMatrix read;
+  for (const std::int64_t n : map.Wholes("subset_idxs")) read.points.push_back(point(n));
+  read.left = point(map.Whole("left_rotation_idx"));
+  read.right = point(map.Whole("right_rotation_idx"));
+  read.angle_rad = static_cast<float>(map.Number("target_rotation_radians"));
+  read.scale_x = static_cast<float>(map.Number("scale_x"));
+  read.scale_y = static_cast<float>(map.Number("scale_y"));
+  read.rows = size("output_height");
+  read.columns = size("output_width");
+  if (read.points.empty() || read.rows < 1 || read.columns < 1) {
     throw BadModel("a crop without points or without size");
   }
-  return crop;
+  return read;
 }
 
 /// How an operator is called in a file, and how its options are read.
@@ -337,4 +337,4 @@ Model Model::Read(Bytes file) {
   return model;
 }
 
-}  // namespace facefit
+}  // namespace facefit::tflite

@@ -8,7 +8,7 @@
 #include "face_fit/tflite/flat_buffer.h"
 #include "face_fit/tflite/operators.h"
 
-namespace facefit {
+namespace facefit::tflite {
 
 /// Batch, rows, columns, channels; shorter shapes are filled with 1 from the left.
 struct Shape {
@@ -54,4 +54,4 @@ struct Model {
   static constexpr std::size_t kMaxTensor = 1U << 23;
 };
 
-}  // namespace facefit
+}  // namespace facefit::tflite

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <concepts>
 #include <cstdint>
 
 #include "face_fit/tflite/kernels.h"
 
-namespace facefit {
+namespace facefit::tflite {
 namespace {
 
 void Require(bool holds, const char* what) {
@@ -17,11 +16,6 @@ void Require(bool holds, const char* what) {
 int SizeAfter(const op::Window& window, int in, int stride, int filter) {
   return window.same_padding ? (in + stride - 1) / stride : (in - filter) / stride + 1;
 }
-
-template <typename... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
 
 /// Whether an operator's inputs, weights and output fit together. What does not throws BadModel.
 class StepChecker {
@@ -153,12 +147,12 @@ class StepChecker {
     return 1;
   }
 
-  double CheckOf(const op::LandmarksToMatrix& crop) const {
+  double CheckOf(const op::LandmarksToMatrix& options) const {
     CheckMatrix(out_);
     const std::size_t points = in_.shape.count() / 3;
-    Require(in_.shape.channels() == 3 && crop.left < points && crop.right < points &&
-                !crop.points.empty() &&
-                std::ranges::all_of(crop.points, [=](std::size_t i) { return i < points; }),
+    Require(in_.shape.channels() == 3 && options.left < points && options.right < points &&
+                !options.points.empty() &&
+                std::ranges::all_of(options.points, [=](std::size_t i) { return i < points; }),
             "a crop of points that are not there");
     return 1;
   }
@@ -235,37 +229,9 @@ void Network::Run(std::span<const float> input) {
 }
 
 void Network::Compute(const Step& step) {
-  const Tensor& in = Of(step.inputs[0]);
-  Tensor& out = Of(step.output);
-  const auto argument = [&](std::size_t i) -> const Tensor& { return Of(step.inputs[i]); };
-  const float* bias =
-      step.inputs.size() > 2 && step.inputs[2] >= 0 ? argument(2).values.data() : nullptr;
-  const Overloaded compute{
-      [&](const op::Convolution& of) { Convolve(of.window, in, argument(1), bias, out); },
-      [&](const op::DepthwiseConvolution& of) {
-        DepthwiseConv(of.window, in, argument(1), bias, out);
-      },
-      [&](const op::TransposeConvolution&) { TransposeConv(in, argument(1), bias, out); },
-      [&](const op::Pooling& of) { Pool(of, in, out); },
-      [&](const op::Concatenation&) {
-        auto to = out.values.begin();
-        for (const int i : step.inputs) to = std::ranges::copy(Of(i).values, to).out;
-      },
-      [&](const op::Pad&) { Pad(in, argument(1).counts, out); },
-      [&](const op::StridedSlice&) {
-        StridedSlice(in, argument(1).counts, argument(3).counts, out);
-      },
-      [&](const op::ResizeBilinear& of) { ResizeBilinear(of, in, out); },
-      [&](const op::LandmarksToMatrix& of) { LandmarksToMatrix(of, in, out); },
-      [&](const op::TransformTensor&) { TransformTensor(in, argument(1), out); },
-      [&](const op::TransformLandmarks&) { TransformLandmarks(in, argument(1), out); },
-      [&]<std::derived_from<op::OfEach> Each>(const Each&) {
-        std::ranges::transform(in.values, out.values.begin(), [](float x) { return Each::Of(x); });
-      },
-      [&]<std::derived_from<op::OfPair> Pair>(const Pair&) {
-        Combine(in, argument(1), out, [](float a, float b) { return Pair::Of(a, b); });
-      }};
-  std::visit(compute, step.op);
+  std::vector<const Tensor*> inputs;
+  for (const int i : step.inputs) inputs.push_back(i < 0 ? nullptr : &Of(i));
+  std::visit([&](const auto& of) { tflite::Run(of, inputs, Of(step.output)); }, step.op);
 }
 
-}  // namespace facefit
+}  // namespace facefit::tflite

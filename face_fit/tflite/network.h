@@ -6,17 +6,17 @@
 
 #include "face_fit/tflite/model.h"
 
-namespace facefit {
+namespace facefit::tflite {
 
 /// Runs a model. Immutable but for the tensors it works in; one thread at a time.
 class Network {
  public:
   /// More multiplications than any of the networks needs, by some margin.
-  static constexpr double kMostWork = 4e9;
+  static constexpr double kMaxWork = 4e9;
 
   /// Throws BadModel if sizes do not match, if an operator is used in a way not known here, or if a
   /// run takes more than about `most_work` multiplications: a network that was made can be run.
-  explicit Network(Model model, double most_work = kMostWork);
+  explicit Network(Model model, double most_work = kMaxWork);
 
   const Shape& input_shape() const { return Of(model_.inputs[0]).shape; }
   std::size_t outputs() const { return model_.outputs.size(); }
@@ -37,4 +37,4 @@ class Network {
   Model model_;
 };
 
-}  // namespace facefit
+}  // namespace facefit::tflite

@@ -7,9 +7,9 @@
 #include <vector>
 
 /// The operators of a network, each with its options: of those of TensorFlow Lite what the face
-/// networks use. A new one needs a struct here, a row among the readers (model.cc), a check and
-/// its arithmetic (network.cc); the compiler asks for the last two.
-namespace facefit::op {
+/// networks use. A new one needs a struct here, a row among the readers (model.cc), a check
+/// (network.cc) and its arithmetic (kernels.h); the compiler asks for the last two.
+namespace facefit::tflite::op {
 
 /// How a filter or window moves over its input.
 struct Window {
@@ -17,7 +17,7 @@ struct Window {
   int stride_rows = 1, stride_columns = 1;
 };
 
-/// What makes a number of one, each by itself: `Of`.
+/// An operator that makes each number of the output from one number of its input, by `Of`.
 struct OfEach {};
 struct Dequantize : OfEach {  ///< weights are read as what they stand for
   static float Of(float x) { return x; }
@@ -35,8 +35,8 @@ struct Relu : OfEach {
   static float Of(float x) { return std::max(x, 0.0F); }
 };
 
-/// What makes a number of two: `Of`. The second input has the shape of the first, or is one number
-/// for each channel, or one.
+/// An operator that makes each number of the output from one number of each of its two inputs, by
+/// `Of`. The second input has the shape of the first, or is one number for each channel, or one.
 struct OfPair {};
 struct Add : OfPair {
   static float Of(float a, float b) { return a + b; }
@@ -74,21 +74,21 @@ struct ResizeBilinear {
 // MediaPipe's, for looking closer at parts of a face.
 
 /// Lays a picture of `columns` x `rows` over some points: it is turned until the line from point
-/// `left` to point `right` runs at `angle`, and as large as the box round `points` times the
+/// `left` to point `right` runs at `angle_rad`, and as large as the box round `points` times the
 /// scales.
 struct LandmarksToMatrix {
   std::vector<std::size_t> points;
   std::size_t left = 0, right = 0;
-  float angle = 0;  ///< radians
+  float angle_rad = 0;
   float scale_x = 1, scale_y = 1;
   int rows = 1, columns = 1;
 };
 struct TransformTensor {};
 struct TransformLandmarks {};
 
-}  // namespace facefit::op
+}  // namespace facefit::tflite::op
 
-namespace facefit {
+namespace facefit::tflite {
 
 using Operator = std::variant<op::Add, op::Concatenation, op::Convolution, op::DepthwiseConvolution,
                               op::Dequantize, op::HardSwish, op::LandmarksToMatrix, op::Logistic,
@@ -96,4 +96,4 @@ using Operator = std::variant<op::Add, op::Concatenation, op::Convolution, op::D
                               op::ResizeBilinear, op::StridedSlice, op::TransformLandmarks,
                               op::TransformTensor, op::TransposeConvolution>;
 
-}  // namespace facefit
+}  // namespace facefit::tflite

@@ -32,7 +32,7 @@ bool FaceWatch::Find(const fsm::Image& picture) {
 std::optional<FaceMeasures> FaceWatch::Look(const fsm::Image& picture) {
   if (last_) {
     const EyeLine eyes = EyesOf(last_->face);
-    const Crop crop{eyes.middle + Rotated(eyes_to_middle_, eyes.angle), size_, eyes.angle};
+    const NetworkCrop crop{eyes.middle + Rotated(eyes_to_middle_, eyes.angle), size_, eyes.angle};
     last_ = FindAttentivePoints(attention_, picture, crop);
     if (last_->face.certainty < kCertainFace) last_.reset();
   }

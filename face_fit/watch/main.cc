@@ -58,13 +58,13 @@ constexpr Column kColumns[] = {
     {"gaze_across", [](const FaceMeasures& m) { return m.gaze.x; }},
     {"gaze_up", [](const FaceMeasures& m) { return m.gaze.y; }}};
 
-void PrintRow(long number, double rate, const std::optional<FaceMeasures>& seen) {
+void PrintRow(long number, double rate, const std::optional<FaceMeasures>& measures) {
   std::cout << fmt::format("{:.1f}", 1000.0 * static_cast<double>(number) / rate);
-  if (!seen) {
+  if (!measures) {
     std::cout << ",0" << std::string(std::size(kColumns) - 1, ',') << "\n";
     return;
   }
-  for (const Column& column : kColumns) std::cout << fmt::format(",{:.3f}", column.get(*seen));
+  for (const Column& column : kColumns) std::cout << fmt::format(",{:.3f}", column.get(*measures));
   std::cout << "\n";
 }
 
@@ -101,11 +101,11 @@ void Watch(const Options& options) {
           fmt::format("standard input ends within frame {}: it has {} of {} bytes ({} RGBA)",
                       number, got, picture.rgba.size(), options.size));
     }
-    const auto seen = watch.Look(picture);
+    const auto measures = watch.Look(picture);
     if (options.points) {
       PrintPoints(watch.last());
     } else {
-      PrintRow(number, options.rate, seen);
+      PrintRow(number, options.rate, measures);
     }
   }
 }

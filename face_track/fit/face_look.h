@@ -3,7 +3,7 @@
 #include <array>
 #include <glm/vec3.hpp>
 
-#include "face_fit/find/network/crop.h"
+#include "face_fit/find/network/network_crop.h"
 #include "face_fit/picture/float_image.h"
 
 namespace facetrack {
@@ -16,8 +16,8 @@ class FaceLook {
   static constexpr int kSide = 224;          ///< pixels; about 1.1 mm each
   static constexpr std::size_t kLevels = 2;  ///< from blurred to sharp
 
-  FaceLook(const fsm::Image& picture, const facefit::Crop& crop);
-  const facefit::Crop& crop() const { return crop_; }
+  FaceLook(const fsm::Image& picture, const facefit::NetworkCrop& crop);
+  const facefit::NetworkCrop& crop() const { return crop_; }
   /// At a place in pixels of the picture: how bright it is, and how that changes to the right and
   /// down, for one pixel of the square.
   glm::vec3 At(std::size_t level, glm::vec2 place) const;
@@ -25,7 +25,7 @@ class FaceLook {
   glm::mat2 Scale() const;
 
  private:
-  facefit::Crop crop_;
+  facefit::NetworkCrop crop_;
   std::array<facefit::FloatImage, kLevels> levels_;
 };
 

@@ -67,9 +67,9 @@ std::optional<Tracker::Candidate> Tracker::LookAt(const fsm::Image& picture,
   for (int look = 0;; ++look) {
     if (found.face.certainty < facefit::kCertainFace) return std::nullopt;
     doing = fit_->Solve(rest, PlacesOf(found), doing, what);
-    const facefit::Crop crop = CropOf(fit_->lens(), doing.pose);
+    const facefit::NetworkCrop crop = CropOf(fit_->lens(), doing.pose);
     const bool moved = glm::distance(crop.centre, found.face.crop.centre) > 0.03F * crop.size ||
-                       std::abs(crop.angle - found.face.crop.angle) > 0.05F ||
+                       std::abs(crop.angle_rad - found.face.crop.angle_rad) > 0.05F ||
                        std::abs(crop.size / found.face.crop.size - 1) > 0.05F;
     if (!moved || look + 1 == kLooks) break;
     found = facefit::FindAttentivePoints(attention_, picture, crop);

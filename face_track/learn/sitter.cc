@@ -57,7 +57,7 @@ Sitter::Sight Sitter::Look(const fsm::FaceState& state) {
   const fsm::Similarity moved = pairs.empty() ? fsm::Similarity{} : fsm::FitSimilarity(pairs);
   const Pose rest = painter_.rest();
   sight.pose = {.turn = rest.turn * moved.turn, .place = scale_ * (rest(moved.move))};
-  const facefit::Crop crop = CropOf(painter_.lens(), sight.pose);
+  const facefit::NetworkCrop crop = CropOf(painter_.lens(), sight.pose);
   sight.picture = painter_.Draw(*base_.head, state);
   const auto found = facefit::FindAttentivePoints(attention_, sight.picture, crop);
   if (found.face.certainty < facefit::kCertainFace) throw std::runtime_error("a face is lost");

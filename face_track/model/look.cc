@@ -29,7 +29,7 @@ glm::vec2 SeenAt(const SeenFace& face, const Lens& lens, const Pose& pose, std::
   return lens.Project(q + glm::vec3(c * slide.x - s * slide.y, s * slide.x + c * slide.y, 0));
 }
 
-facefit::Crop CropOf(const Lens& lens, const Pose& pose) {
+facefit::NetworkCrop CropOf(const Lens& lens, const Pose& pose) {
   constexpr glm::vec3 kMiddle(0, -4, 30);
   constexpr float kSide = 245;  // mm; the networks were trained on faces with so much around them
   const glm::vec3 q = pose(kMiddle);

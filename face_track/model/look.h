@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "face_fit/find/network/crop.h"
+#include "face_fit/find/network/network_crop.h"
 #include "face_track/model/seen_face.h"
 
 namespace facetrack {
@@ -37,7 +37,7 @@ glm::vec2 SeenAt(const SeenFace& face, const Lens& lens, const Pose& pose, std::
                  glm::vec3 p);
 /// The square in which the network is shown a head: a fixed part of it, upright, so that what the
 /// face does changes nothing.
-facefit::Crop CropOf(const Lens& lens, const Pose& pose);
+facefit::NetworkCrop CropOf(const Lens& lens, const Pose& pose);
 
 /// The points as kPoints places in the picture.
 std::vector<glm::vec2> PlacesOf(const facefit::AttentiveFace& face);

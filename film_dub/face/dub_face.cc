@@ -7,9 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "face_fit/find/face/crop_to_face.h"
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/photo.h"
 #include "face_track/model/seen_face.h"
 #include "fsm/head/make_head.h"
 
@@ -18,16 +15,6 @@ namespace {
 
 constexpr float kViewMm = 330;  // from above to below (camera_pose.h)
 constexpr int kLeastSide = 384, kMostSide = 1536;
-
-/// The face whose middle lies nearest to that of the places.
-const facefit::FoundFace* Nearest(std::span<const facefit::FoundFace> faces,
-                                  std::span<const glm::vec2> places) {
-  const auto nose = places[facefit::point::kNoseTip];
-  const auto best = std::ranges::min_element(faces, {}, [&](const facefit::FoundFace& face) {
-    return glm::distance(face.At(facefit::point::kNoseTip), nose);
-  });
-  return best == faces.end() ? nullptr : &*best;
-}
 
 fsm::Scene OnNothing() {
   fsm::Scene scene;
@@ -41,27 +28,22 @@ vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networ
                                                    const fsm::Image& picture,
                                                    std::span<const glm::vec2> places) {
   try {
-    const fsm::Image photo = facefit::ScaledToFit(picture, facefit::kWorkingSize);
-    const float scale = static_cast<float>(photo.width) / static_cast<float>(picture.width);
-    std::vector<glm::vec2> there(places.begin(), places.end());
-    for (glm::vec2& place : there) place *= scale;
-    const auto faces = facefit::FindFaces(networks, photo);
-    const auto* found = Nearest(faces, there);
-    if (found == nullptr || found->certainty < facefit::kCertainFace) {
+    auto base = facefit::BaseHead::Observe(networks, "galatea");
+    if (!base) return std::unexpected(base.error());
+    const auto front = facefit::PrepareFront(networks, *base, picture,
+                                             facefit::FaceNear{places[facefit::point::kNoseTip]},
+                                             facefit::PhotoPart::kCloseUp);
+    if (!front) return std::unexpected(front.error());
+    if (!front->face || front->face->certainty < facefit::kCertainFace) {
       return vm::Fail(vm::Errc::kBadValue,
                       "the face cannot be told apart in the picture where it is seen best");
     }
-    auto base = facefit::BaseHead::Observe(networks, "galatea");
-    if (!base) return std::unexpected(base.error());
-    auto [near, face] = facefit::CropToFace(photo, picture, *found);
-    const float finer = face.crop.size / found->crop.size;
-    const auto front = facefit::LookAtFront(networks, *base, std::move(near), &face,
-                                            static_cast<int>(faces.size()));
-    const auto made = facefit::MakeFace(*base, front, face, nullptr, {});
-    const float film_pixels_per_mm = made.fit.head.pose.PixelsPerMm() / finer / scale;
+    const auto made = facefit::MakeFace(*base, *front, *front->face);
+    if (!made) return std::unexpected(made.error());
+    const float film_pixels_per_mm = made->fit.head.pose.PixelsPerMm() / front->scale;
     const int side = std::clamp(static_cast<int>(std::lround(kViewMm * film_pixels_per_mm)),
                                 kLeastSide, kMostSide);
-    return std::unique_ptr<DubFace>(new DubFace(std::move(*base), made, side));
+    return std::unique_ptr<DubFace>(new DubFace(std::move(*base), *made, side));
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kUnavailable, error.what());
   }

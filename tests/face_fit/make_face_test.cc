@@ -23,21 +23,30 @@ TEST(ChooseFaceTest, FacesAreCountedFromOneAndThereIsNoOther) {
   EXPECT_FALSE(ChooseFace({}, 1));
 }
 
-TEST(ExtrasTest, PhotosFromTheSideNeedNetworksAndAreNotTooMany) {
-  EXPECT_TRUE(CheckExtras(nullptr, {}));
-  const auto blind = CheckExtras(nullptr, ExtraPhotos(1));
-  ASSERT_FALSE(blind);
-  EXPECT_EQ(blind.error().code, vm::Errc::kUnavailable);
-  const auto many = CheckExtras(nullptr, ExtraPhotos(kMostExtraPhotos + 1));
-  ASSERT_FALSE(many);
-  EXPECT_EQ(many.error().code, vm::Errc::kLimit);
-}
-
-TEST(ExtrasTest, NoFaceIsMadeOfPhotosFromTheSideWithoutNetworks) {
-  EXPECT_THROW(MakeFace(BaseHead{}, {}, {}, nullptr, ExtraPhotos(1)), std::runtime_error);
-}
-
 using MakeFaceTest = NetworkTest;
+
+fsm::Image GreyPhoto() {
+  return {.width = 200, .height = 150, .rgba = std::vector<std::uint8_t>(200 * 150 * 4, 128)};
+}
+
+TEST_F(MakeFaceTest, WhereNoFaceIsFoundTheFigureAloneIsCutOut) {
+  for (const FaceChoice& choice : {FaceChoice(FaceNumber{}), FaceChoice(FaceNear{{100, 75}})}) {
+    const auto front =
+        vm::OrThrow(PrepareFront(*networks_, Galatea(), GreyPhoto(), choice, PhotoPart::kCloseUp));
+    EXPECT_FALSE(front.face);
+    EXPECT_EQ(front.faces, 0);
+    EXPECT_EQ(front.figure.opacity.width, 200);
+    EXPECT_EQ(front.occlusion.measure, 0);
+  }
+}
+
+TEST_F(MakeFaceTest, MorePhotosFromTheSideThanAreUsedAreRefused) {
+  const SidePhoto side;
+  const SidePhotos sides{*networks_, std::vector<const SidePhoto*>(kMaxSidePhotos + 1, &side)};
+  const auto made = MakeFace(Galatea(), {}, {}, sides);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, vm::Errc::kLimit);
+}
 
 TEST_F(MakeFaceTest, APhotoThatDoesNotHelpIsLeftOutWithItsReasonAndTheRestIsMade) {
   constexpr int kSide = 500;
@@ -49,20 +58,21 @@ TEST_F(MakeFaceTest, APhotoThatDoesNotHelpIsLeftOutWithItsReasonAndTheRestIsMade
   renderer->Draw(*head, vertices, {}, fsm::Scene{});
   fsm::Image photo;
   renderer->Read(photo);
-  const auto faces = FindFaces(*networks_, photo);
-  const FoundFace face = vm::OrThrow(ChooseFace(faces, 1));
-  const FrontPhoto front = LookAtFront(*networks_, Galatea(), photo, &face, 1);
-  const ExtraPhotos again{std::make_shared<const ExtraPhoto>("again.png", photo, faces)};
   std::string steps;
-  const MadeFace made = MakeFace(Galatea(), front, face, &*networks_, again, true,
-                                 [&](const char* step) { steps += std::string(step) + ";"; });
+  const auto tell = [&](const char* step) { steps += std::string(step) + ";"; };
+  const auto front = vm::OrThrow(
+      PrepareFront(*networks_, Galatea(), photo, FaceNumber{}, PhotoPart::kCloseUp, tell));
+  ASSERT_TRUE(front.face);
+  const SidePhoto again{"again.png", photo, FindFaces(*networks_, photo)};
+  const auto made = vm::OrThrow(
+      MakeFace(Galatea(), front, *front.face, SidePhotos{*networks_, {&again}}, true, tell));
   ASSERT_EQ(made.left_out.size(), 1U);
   EXPECT_EQ(made.left_out[0].path, "again.png");
   EXPECT_NE(made.left_out[0].why.find("from the front"), std::string::npos);
   EXPECT_TRUE(made.bake.head.glasses) << "as it was told, though none are there";
   EXPECT_NE(made.report.find("glasses     yes"), std::string::npos) << made.report;
   EXPECT_NE(made.report.find("faces       1\n"), std::string::npos);
-  EXPECT_EQ(steps, "head fitted;photo put on;");
+  EXPECT_EQ(steps, "faces and their points found;figure cut out;head fitted;photo put on;");
   EXPECT_EQ(made.bake.head.base, "galatea");
 }
 

@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "face_fit/find/face/crop_to_face.h"
 #include "face_fit/make_face.h"
-#include "face_fit/picture/photo.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/render/renderer.h"
@@ -17,9 +15,9 @@ namespace {
 /// The head that the program makes of a photo of one person.
 std::unique_ptr<fsm::Head> WornBy(FaceNetworks& networks, const BaseHead& base,
                                   const fsm::Image& photo) {
-  const auto [near, face] = CropToFace(photo, photo, FindFaces(networks, photo).at(0));
-  const FrontPhoto front = LookAtFront(networks, base, near, &face, 1);
-  return fsm::MakeHead(MakeFace(base, front, face, &networks, {}).bake.head);
+  const auto front =
+      vm::OrThrow(PrepareFront(networks, base, photo, FaceNumber{}, PhotoPart::kCloseUp));
+  return fsm::MakeHead(vm::OrThrow(MakeFace(base, front, front.face.value())).bake.head);
 }
 
 fsm::Image Drawn(const fsm::Head& head, const fsm::FaceState& state, const fsm::Scene& scene,
@@ -35,7 +33,7 @@ fsm::Image Drawn(const fsm::Head& head, const fsm::FaceState& state, const fsm::
 }
 
 /// A picture of a built-in head, taken for a photo.
-fsm::Image PhotoOf(const char* name) {
+fsm::Image DrawnPhoto(const char* name) {
   fsm::Scene scene;
   scene.camera.distance = 0.9F;
   scene.camera.height_mm = -20;
@@ -45,7 +43,7 @@ fsm::Image PhotoOf(const char* name) {
 using PhotoGoldenTest = NetworkTest;
 
 TEST_F(PhotoGoldenTest, APhotoIsFittedAndWornAsKept) {
-  const auto head = WornBy(*networks_, Galatea(), PhotoOf("baucis"));
+  const auto head = WornBy(*networks_, Galatea(), DrawnPhoto("baucis"));
   fsm::FaceState state;
   state.au.left[26] = state.au.right[26] = 0.6F;
   state.au.left[1] = state.au.right[1] = 0.6F;

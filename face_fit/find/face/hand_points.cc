@@ -57,7 +57,7 @@ class ToPhoto {
     const Eigen::Vector3d p = map_ * Eigen::Vector3d(mm.x, -mm.y, 1);
     return {static_cast<float>(p.x()), static_cast<float>(p.y())};
   }
-  float scale() const { return std::max(std::hypot(cosine(), sine()), 1e-6F); }
+  float pixels_per_mm() const { return std::max(std::hypot(cosine(), sine()), 1e-6F); }
 
  private:
   float cosine() const { return static_cast<float>(map_(0, 0)); }  // times the scale
@@ -132,16 +132,18 @@ FoundFace FaceFromHand(const BaseHead& base, const HandPoints& points) {
   const ToPhoto to_photo(base, points);
   std::vector<fsm::WarpPoint> bends;
   for (const auto& [i, at] : points) {
-    bends.push_back({base.AtRest(i),
-                     glm::vec3((at - to_photo(glm::vec2(base.AtRest(i)))) / to_photo.scale(), 0)});
+    bends.push_back(
+        {base.AtRest(i),
+         glm::vec3((at - to_photo(glm::vec2(base.AtRest(i)))) / to_photo.pixels_per_mm(), 0)});
   }
   const fsm::Warp warp(bends, 0.5F);
   FoundFace face;
   face.certainty = 1;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
     const glm::vec3 p = base.AtRest(i);
-    const glm::vec2 at = to_photo(glm::vec2(p)) + to_photo.scale() * glm::vec2(warp.Motion(p));
-    face.points.emplace_back(at, to_photo.scale() * base.seen[i].z);
+    const glm::vec2 pixel =
+        to_photo(glm::vec2(p)) + to_photo.pixels_per_mm() * glm::vec2(warp.Motion(p));
+    face.points.emplace_back(pixel, to_photo.pixels_per_mm() * base.detected[i].z);
   }
   face.crop = CropAround(face.points);
   return face;

@@ -29,8 +29,8 @@ std::span<const HandPointName> HandPointList();
 /// The names, with blanks between them.
 std::string HandPointNames();
 
-/// The points that a wireframe of the original fitted to a photo of that size gives. Error:
-/// kBadValue if it is none of its standard head.
+/// The points that a wireframe of the original, fitted to a photo of that size, gives. Error:
+/// kBadValue if the wireframe is not one of the original's standard head.
 vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::PntFile& wireframe,
                                          int width, int height);
 

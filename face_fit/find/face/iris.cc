@@ -25,7 +25,7 @@ constexpr float kAwayAlong = 5, kAwayDown = 40;
 // axis of the eye; radii within and outside, by that of the circle.
 constexpr std::array<float, 9> kAngles = {-0.8F, -0.6F, -0.4F, -0.2F, 0, 0.2F, 0.4F, 0.6F, 0.8F};
 constexpr float kWithin = 0.82F, kOutside = 1.18F;
-constexpr float kLeastSeen = 3;       // of the angles; with fewer there is no step
+constexpr float kMinSeen = 3;         // of the angles; with fewer there is no step
 constexpr float kBetterSide = 0.35F;  // weight of the side with the larger step, beside 1
 // What the parts of the circle's score weigh, beside the step.
 constexpr float kSeparationWeight = 1.5F, kPupilWeight = 0.7F;
@@ -77,7 +77,7 @@ class IrisSearch {
 
  private:
   struct Sample {
-    glm::vec2 at;
+    glm::vec2 pixel;
     float light, weight;
   };
 
@@ -98,7 +98,7 @@ class IrisSearch {
             Light(centre + kOutside * radius * way) - Light(centre + kWithin * radius * way);
         count += 1;
       }
-      if (count < kLeastSeen) return 0;
+      if (count < kMinSeen) return 0;
       step[side] /= count;
     }
     return std::min(step[0], step[1]) + kBetterSide * std::max(step[0], step[1]);
@@ -114,9 +114,9 @@ class IrisSearch {
     // Pupil, the rest of the iris, what is beside it.
     std::array<float, 3> sum{}, weight{1e-4F, 1e-4F, 1e-4F};
     for (const Sample& s : samples_) {
-      const glm::vec2 off = s.at - centre;
-      const float far = glm::dot(off, off) / (radius * radius);
-      const std::size_t zone = far > 1 ? 2 : far > kPupil ? 1 : 0;
+      const glm::vec2 offset = s.pixel - centre;
+      const float square = glm::dot(offset, offset) / (radius * radius);
+      const std::size_t zone = square > 1 ? 2 : square > kPupil ? 1 : 0;
       sum[zone] += s.weight * s.light;
       weight[zone] += s.weight;
     }
@@ -146,7 +146,7 @@ std::vector<IrisCircle> FindIrises(const fsm::Image& photo, std::span<const Open
     std::vector<IrisCircle> circles;
     float score = 0;
     for (std::size_t i = 0; i < eyes.size(); ++i) {
-      const auto [circle, own] = searches[i].BestCircle(size * eyes[i].expected);
+      const auto [circle, own] = searches[i].BestCircle(size * eyes[i].expected_radius);
       circles.push_back(circle);
       const float odd = (size - kUsualSize) / kSizeSpread;
       score += own * std::exp(-odd * odd);

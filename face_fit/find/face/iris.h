@@ -20,8 +20,8 @@ inline constexpr float kClearIris = 0.06F;
 /// An open eye in a photo, pixels.
 struct OpenEye {
   EyePoints lids;
-  glm::vec2 middle;    ///< of the iris where eyes look into the camera
-  float expected = 0;  ///< its radius by the head's form
+  glm::vec2 middle;           ///< of the iris where eyes look into the camera
+  float expected_radius = 0;  ///< by the head's form
 };
 
 /// Finds the irises of the eyes given: the circle that best separates dark from bright between the

@@ -16,7 +16,10 @@ namespace {
 constexpr std::size_t kInnerPoints = 9;  // of either inner lip, without corners
 constexpr int kOffsets = 25;  // looked at on the line across each place, half of them to each side
 /// How far to each side the line is looked for, as part of the mouth's width.
-constexpr float kReach = 0.08F;
+constexpr float kLineReach = 0.08F;
+/// Each place is the mean of three so far from each other, as part of the mouth's width: a hair or
+/// a chapped spot is narrower.
+constexpr float kLineBeside = 0.012F;
 
 /// A value for each place along the mouth and each offset across it.
 template <typename T>
@@ -41,14 +44,14 @@ std::array<glm::vec2, kInnerPoints + 2> ExpectedLine(const FoundFace& face, glm:
 /// Among all paths along a strip the one with the least sum, in which each step across costs by its
 /// square (dynamic programming): an offset for each place. `cost` is used up.
 std::array<int, kMouthLinePoints> CheapestPath(Strip<float>& cost) {
-  constexpr int kMostStep = 3;
+  constexpr int kMaxStep = 3;
   constexpr float kBend = 0.03F;
   Strip<int> from{};
   for (std::size_t i = 1; i < kMouthLinePoints; ++i) {
     for (int o = 0; o < kOffsets; ++o) {
       const auto k = static_cast<std::size_t>(o);
       float best = std::numeric_limits<float>::max();
-      for (int b = std::max(o - kMostStep, 0); b <= std::min(o + kMostStep, kOffsets - 1); ++b) {
+      for (int b = std::max(o - kMaxStep, 0); b <= std::min(o + kMaxStep, kOffsets - 1); ++b) {
         const float bend = static_cast<float>(o - b);
         const float sum = cost[i - 1][static_cast<std::size_t>(b)] + kBend * bend * bend;
         if (sum >= best) continue;
@@ -74,9 +77,9 @@ bool LipsApart(const FoundFace& face) {
     return glm::distance(face.At(a), face.At(b));
   };
   // Between the middles of the inner lips, by the width of the mouth.
-  constexpr float kLeastGap = 0.06F;
+  constexpr float kMinGap = 0.06F;
   return apart(point::kInnerLipTop, point::kInnerLipBottom) >
-         kLeastGap * apart(point::kMouthRight, point::kMouthLeft);
+         kMinGap * apart(point::kMouthRight, point::kMouthLeft);
 }
 
 std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& face, float first,
@@ -88,7 +91,7 @@ std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& f
   const glm::vec2 along = axis / width;
   const glm::vec2 down(-along.y, along.x);
   const auto expected = ExpectedLine(face, begin, along, down, width);
-  const float step = 2 * kReach * width / (kOffsets - 1);
+  const float step = 2 * kLineReach * width / (kOffsets - 1);
   const auto place = [&](std::size_t i, int offset) {
     const float t = static_cast<float>(i) / (kMouthLinePoints - 1);
     const float below = HeightAt(std::span<const glm::vec2>(expected), t) +
@@ -98,20 +101,20 @@ std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& f
   // The path from corner to corner that is dark, smooth and near to what was expected.
   Strip<float> cost{};
   float least = 1e9F, most = 0;
-  const glm::vec2 beside = along * (0.012F * width);
+  const glm::vec2 beside = along * (kLineBeside * width);
   for (std::size_t i = 0; i < kMouthLinePoints; ++i) {
     for (int o = 0; o < kOffsets; ++o) {
-      const glm::vec2 at = place(i, o);
+      const glm::vec2 pixel = place(i, o);
       float& dark = cost[i][static_cast<std::size_t>(o)];
-      for (const glm::vec2 p : {at, at - beside, at + beside}) {
+      for (const glm::vec2 p : {pixel, pixel - beside, pixel + beside}) {
         dark += Brightness(ColourAt(photo, p)) / 3;
       }
       least = std::min(least, dark);
       most = std::max(most, dark);
     }
   }
-  constexpr float kLeastRange = 8, kStray = 0.25F;  // of 255; what the farthest offset costs
-  const float range = std::max(most - least, kLeastRange);
+  constexpr float kMinRange = 8, kStray = 0.25F;  // of 255; what the farthest offset costs
+  const float range = std::max(most - least, kMinRange);
   for (auto& column : cost) {
     for (int o = 0; o < kOffsets; ++o) {
       float& value = column[static_cast<std::size_t>(o)];

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <vector>
 
 #include "face_fit/picture/pixels.h"
@@ -15,6 +16,7 @@
 namespace facefit {
 namespace {
 
+constexpr float kDarkest = 0.02F;  // 0..1: darker skin says nothing of its colour
 constexpr std::size_t kPixels = static_cast<std::size_t>(kPointsPixels) * kPointsPixels;
 
 struct Ellipse {
@@ -57,16 +59,17 @@ class PhotoToBase {
  public:
   PhotoToBase(const FoundFace& face, const BaseHead& base) {
     for (const PointIndex i : point::kForFit) {
-      pairs_.push_back({face.crop.FromPicture(face.At(i)) * float{kPointsPixels}, base.SeenAt(i)});
+      pairs_.push_back(
+          {face.crop.FromPicture(face.At(i)) * float{kPointsPixels}, base.DetectedAt(i)});
     }
   }
 
   glm::vec2 operator()(glm::vec2 p) const {
-    constexpr float kNear = 4;  // pixels
+    constexpr float kNearPx = 4;
     float total = 0;
     glm::vec2 from(0), to(0);
     const auto weight = [&p](glm::vec2 q) {
-      const float d = glm::dot(q - p, q - p) + kNear * kNear;
+      const float d = glm::dot(q - p, q - p) + kNearPx * kNearPx;
       return 1 / (d * d);
     };
     for (const auto& [q, r] : pairs_) {
@@ -88,7 +91,7 @@ class PhotoToBase {
 
  private:
   struct Pair {
-    glm::vec2 seen, on_base;
+    glm::vec2 in_photo, on_base;
   };
   std::vector<Pair> pairs_;
 };
@@ -111,49 +114,58 @@ WarpedHead WarpBaseHead(const BaseHead& base, const FoundFace& face) {
   const auto on_face = [&](PointIndex i) { return glm::vec2(base.AtRest(i)); };
   const float mm_per_pixel =
       glm::distance(on_face(point::kEyeOuterRight), on_face(point::kEyeOuterLeft)) /
-      glm::distance(base.SeenAt(point::kEyeOuterRight), base.SeenAt(point::kEyeOuterLeft));
+      glm::distance(base.DetectedAt(point::kEyeOuterRight), base.DetectedAt(point::kEyeOuterLeft));
   WarpedHead warped;
   for (int y = 0; y < kPointsPixels; ++y) {
     for (int x = 0; x < kPointsPixels; ++x) {
-      const glm::vec2 at = (glm::vec2(x, y) + 0.5F) / float{kStep}, t = glm::fract(at);
+      const glm::vec2 cell = (glm::vec2(x, y) + 0.5F) / float{kStep}, t = glm::fract(cell);
       const auto k =
-          static_cast<std::size_t>(static_cast<int>(at.y) * kCells + static_cast<int>(at.x));
+          static_cast<std::size_t>(static_cast<int>(cell.y) * kCells + static_cast<int>(cell.x));
       const glm::vec2 on_base =
           glm::mix(glm::mix(coarse[k], coarse[k + 1], t.x),
                    glm::mix(coarse[k + kCells], coarse[k + kCells + 1], t.x), t.y);
-      const glm::vec2 off = mm_per_pixel * (on_base - base.SeenAt(point::kNasion));
-      warped.place.push_back(on_face(point::kNasion) + glm::vec2(off.x, -off.y));
+      const glm::vec2 from_nasion = mm_per_pixel * (on_base - base.DetectedAt(point::kNasion));
+      warped.place.push_back(on_face(point::kNasion) + glm::vec2(from_nasion.x, -from_nasion.y));
       warped.colour.push_back(ColourAt(base.picture, on_base) / 255.0F);
     }
   }
   return warped;
 }
 
+/// Whether a place of the built-in face is on cheeks, nose or forehead and not by an eye.
+bool IsBareSkin(glm::vec2 mm) {
+  constexpr glm::vec2 kEye(31, 25);
+  constexpr float kEyeReach = 18, kAside = 45, kLow = -20, kHigh = 60;
+  const bool eye =
+      std::abs(std::abs(mm.x) - kEye.x) < kEyeReach && std::abs(mm.y - kEye.y) < kEyeReach;
+  return std::abs(mm.x) <= kAside && mm.y >= kLow && mm.y <= kHigh && !eye;
+}
+
 /// Makes the built-in head's skin as bright and coloured as the photo's, by the middle of what both
 /// show on cheeks, nose and forehead.
-void MatchSkinColour(std::span<const float> seen, WarpedHead& warped) {
+WarpedHead MatchSkinColour(std::span<const float> network_pixels, WarpedHead warped) {
   for (int c = 0; c < 3; ++c) {
     std::vector<float> gain;
     for (std::size_t i = 0; i < kPixels; ++i) {
-      const glm::vec2 p = warped.place[i];
-      const bool eye = std::abs(std::abs(p.x) - 31) < 18 && std::abs(p.y - 25) < 18;
-      if (std::abs(p.x) > 45 || p.y < -20 || p.y > 60 || eye) continue;
-      gain.push_back(seen[3 * i + static_cast<std::size_t>(c)] /
-                     std::max(warped.colour[i][c], 0.02F));
+      if (!IsBareSkin(warped.place[i])) continue;
+      gain.push_back(network_pixels[3 * i + static_cast<std::size_t>(c)] /
+                     std::max(warped.colour[i][c], kDarkest));
     }
-    if (gain.empty()) return;
+    if (gain.empty()) return warped;
     const float middle = Median(std::move(gain));
     for (glm::vec3& colour : warped.colour) colour[c] = std::min(middle * colour[c], 1.0F);
   }
+  return warped;
 }
 
-/// How much of a pixel is replaced: softly at the patch's edge.
+/// How much of a pixel is replaced: softly at the patch's edge, which lies about its radii.
 float PatchWeight(const FacePatch& patch, glm::vec2 place) {
+  constexpr float kPatchEnd = 1.15F, kPatchEdge = 0.3F;
   float weight = 0;
   for (const Ellipse& ellipse : patch.ellipses) {
     if (ellipse.radii.x <= 0) continue;
-    const float far = glm::length((place - ellipse.middle) / ellipse.radii);
-    weight = std::max(weight, glm::clamp((1.15F - far) / 0.3F, 0.0F, 1.0F));
+    const float radii = glm::length((place - ellipse.middle) / ellipse.radii);
+    weight = std::max(weight, glm::clamp((kPatchEnd - radii) / kPatchEdge, 0.0F, 1.0F));
   }
   return weight;
 }
@@ -166,14 +178,13 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const BaseHead& base, const Fo
     networks.landmarks.Run(input);
     return networks.landmarks.output(1)[0];
   };
-  const std::vector<float> seen = face.crop.Sample(photo, kPointsPixels, 0, 1);
-  const float before = sure(seen);
-  WarpedHead warped = WarpBaseHead(base, face);
-  MatchSkinColour(seen, warped);
+  const std::vector<float> network_pixels = face.crop.Sample(photo, kPointsPixels, 0, 1);
+  const float before = sure(network_pixels);
+  const WarpedHead warped = MatchSkinColour(network_pixels, WarpBaseHead(base, face));
   Occlusion occlusion;
-  float most = -1e9F;
+  float most = -std::numeric_limits<float>::infinity();
   for (const FacePatch& patch : kPatches) {
-    std::vector<float> changed = seen;
+    std::vector<float> changed = network_pixels;
     for (std::size_t i = 0; i < kPixels; ++i) {
       const float weight = PatchWeight(patch, warped.place[i]);
       for (std::size_t c = 0; c < 3 && weight > 0; ++c) {

@@ -37,21 +37,24 @@ constexpr float kClearer = 0.04F;
 
 }  // namespace
 
-UprightFaces FindUprightFaces(FaceNetworks& networks, fsm::Image& photo) {
-  UprightFaces found{1, FindFaces(networks, photo)};
-  const auto count = static_cast<float>(found.faces.size());
-  const Clearness clear = ClearnessOf(found.faces);
-  if (clear.upright > count * (count > 1 ? kUprightGroup : kUprightOne)) return found;
-  float best = clear.detected;
-  for (const int orientation : {6, 8, 3}) {
-    auto faces = FindFaces(networks, Turned(photo, orientation));
-    const float detected = ClearnessOf(faces).detected;
-    if (detected <= best + kClearer * std::max(count, 1.0F)) continue;
-    best = detected;
-    found = {orientation, std::move(faces)};
+UprightPhoto SetUpright(FaceNetworks& networks, fsm::Image photo) {
+  std::vector<FoundFace> faces = FindFaces(networks, photo);
+  int orientation = 1;
+  const auto count = static_cast<float>(faces.size());
+  const Clearness clear = ClearnessOf(faces);
+  if (clear.upright <= count * (count > 1 ? kUprightGroup : kUprightOne)) {
+    float best = clear.detected;
+    for (const int other : {6, 8, 3}) {
+      auto turned_faces = FindFaces(networks, Turned(photo, other));
+      const float detected = ClearnessOf(turned_faces).detected;
+      if (detected <= best + kClearer * std::max(count, 1.0F)) continue;
+      best = detected;
+      orientation = other;
+      faces = std::move(turned_faces);
+    }
   }
-  if (found.orientation != 1) photo = Turned(photo, found.orientation);
-  return found;
+  if (orientation != 1) photo = Turned(photo, orientation);
+  return {std::move(photo), orientation, std::move(faces)};
 }
 
 }  // namespace facefit

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/picture/filters.h"
+#include "face_fit/picture/pixels.h"
 #include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
 #include "face_fit/tables/photo_look.h"
@@ -12,11 +13,24 @@
 namespace facefit {
 namespace {
 
+// Where one side of a head belongs to the person and the other does not. Lengths by the height of
+// the face.
+constexpr float kNearby = 0.03F;     // the other side's colour is looked for so far round its place
+constexpr float kSameOnBoth = 0.8F;  // of the other side's opacity: then both sides agree
+constexpr glm::vec2 kAlike{0.3F, 0.05F};  // difference of colours, 0..1, from other to the same
+constexpr float kDoubt = 0.5F, kRather = 0.85F;  // of the other side, where unlike and where alike
+
+// How the surroundings of the head are looked at: by the size of the face, how large a square, and
+// how much higher than the face its middle lies, because hair lies above and only a neck below.
+constexpr float kHeadSquare = 2.3F, kHeadHigher = 0.1F;
+// Towards the edge of that square, 0.5 from its middle, the whole picture takes over.
+constexpr glm::vec2 kSquareEdge{0.48F, 0.38F};
+
 /// What the network says of the picture it was given.
 FloatImage RunSegmentation(FaceNetworks& networks, const std::vector<float>& input) {
   networks.segmentation.Run(input);
   FloatImage out(kFigurePixels, kFigurePixels);
-  std::ranges::copy(networks.segmentation.output(0), out.at.begin());
+  std::ranges::copy(networks.segmentation.output(0), out.values.begin());
   return out;
 }
 
@@ -43,6 +57,14 @@ Box2 BoxOf(const FoundFace& face) {
   return box;
 }
 
+/// A square round the head, within the picture.
+NetworkCrop HeadSquare(const Box2& face, glm::vec2 picture) {
+  const float face_size = std::max(face.Size().x, face.Size().y);
+  const float size = std::min({kHeadSquare * face_size, picture.x, picture.y});
+  const glm::vec2 middle = face.Middle() - glm::vec2(0, kHeadHigher * face_size);
+  return {glm::clamp(middle, glm::vec2(size / 2), picture - size / 2), size, 0};
+}
+
 /// How nearly a face looks into the camera, 0..1: then its cheeks are as far from its middle.
 float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
   const float right = std::abs(glm::dot(face.At(point::kCheekRight) - middle, across));
@@ -53,45 +75,39 @@ float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
 
 }  // namespace
 
-FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image, const FloatImage& seen) {
-  const int width = image.width, height = image.height;
+FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image,
+                          const FloatImage& person) {
   const glm::vec2 top = face.At(point::kForehead), chin = face.At(point::kChin);
-  if (glm::distance(top, chin) < 1) return seen;
+  if (glm::distance(top, chin) < 1) return person;
   const glm::vec2 down = glm::normalize(chin - top), across(-down.y, down.x);
-  const float tall = glm::distance(top, chin), near = 0.03F * tall;
+  const float height = glm::distance(top, chin), nearby = kNearby * height;
   // Ears and hats, not what stands behind a shoulder.
-  const glm::vec2 aside = PhotoLook().Pair("figure_mirrored") * tall;
+  const glm::vec2 aside = PhotoLook().Pair("figure_mirrored") * height;
   const float frontal = Frontal(face, chin, across);
   const auto unlike = [&](glm::vec2 p, glm::vec2 q) {
     float least = 1;
     for (int k = 0; k < 9; ++k) {
-      const glm::vec2 beside = q + near * (glm::vec2(k % 3, k / 3) - 1.0F);
+      const glm::vec2 beside = q + nearby * (glm::vec2(k % 3, k / 3) - 1.0F);
       least = std::min(least, glm::distance(ColourAt(image, p), ColourAt(image, beside)) / 255);
     }
     return least;
   };
-  FloatImage person = seen;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+  FloatImage doubted = person;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
       const glm::vec2 p = glm::vec2(x, y) + 0.5F;
       if (glm::dot(p - chin, down) > 0) continue;
-      const float off = glm::dot(p - chin, across);
-      const float part = frontal * Ramp(aside, std::abs(off));
-      const glm::vec2 q = p - 2 * off * across;
-      if (part <= 0 || q.x < 0 || q.y < 0 || q.x >= static_cast<float>(width) ||
-          q.y >= static_cast<float>(height)) {
-        continue;
-      }
-      const auto at = [&image](glm::vec2 v) {
-        return image.Index(static_cast<int>(v.x), static_cast<int>(v.y));
-      };
-      const float here = seen.at[at(p)], there = seen.at[at(q)];
-      if (here > 0.8F * there) continue;
-      const float alike = glm::smoothstep(0.3F, 0.05F, unlike(p, q));
-      person.at[at(p)] = std::max(here, part * glm::mix(0.5F, 0.85F, alike) * there);
+      const float from_axis = glm::dot(p - chin, across);
+      const float mirrored = frontal * Ramp(aside, std::abs(from_axis));
+      const glm::vec2 q = p - 2 * from_axis * across;
+      if (mirrored <= 0 || !IsInside(image, q)) continue;
+      const float own = person(x, y), other = person(static_cast<int>(q.x), static_cast<int>(q.y));
+      if (own > kSameOnBoth * other) continue;
+      const float alike = Ramp(kAlike, unlike(p, q));
+      doubted(x, y) = std::max(own, mirrored * glm::mix(kDoubt, kRather, alike) * other);
     }
   }
-  return person;
+  return doubted;
 }
 
 FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundFace* face) {
@@ -101,32 +117,23 @@ FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const 
   const FloatImage whole = RunSegmentation(
       networks,
       Resampled(image, all.corner, glm::mat2(all.size.x, 0, 0, all.size.y), kFigurePixels, 0, 1));
-  FloatImage near;
-  Crop head;
-  if (face) {
-    const Box2 box = BoxOf(*face);
-    const float face_size = std::max(box.Size().x, box.Size().y);
-    head.size = std::min({2.3F * face_size, size.x, size.y});
-    head.centre = glm::clamp(box.Middle() - glm::vec2(0, 0.1F * face_size),
-                             glm::vec2(head.size / 2), size - head.size / 2);
-    near = RunSegmentation(networks, head.Sample(image, kFigurePixels, 0, 1));
+  const auto person_in_whole = [&](glm::vec2 p) {
+    return PersonAt(whole, (p - all.corner) / all.size);
+  };
+  if (!face) {
+    return FloatImage::From(image.width, image.height,
+                            [&](int x, int y) { return person_in_whole(glm::vec2(x, y) + 0.5F); });
   }
-  FloatImage out(image.width, image.height);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const glm::vec2 p = glm::vec2(x, y) + 0.5F;
-      float person = PersonAt(whole, (p - all.corner) / all.size);
-      if (face) {
-        // The mean where both see well: what one of them doubts is looked at by its colours.
-        const glm::vec2 at = head.FromPicture(p);
-        const glm::vec2 off = glm::abs(at - 0.5F);
-        const float part = 0.5F * glm::smoothstep(0.48F, 0.38F, std::max(off.x, off.y));
-        if (part > 0) person = glm::mix(person, PersonAt(near, at), part);
-      }
-      out(x, y) = person;
-    }
-  }
-  if (!face) return out;
+  const NetworkCrop head = HeadSquare(BoxOf(*face), size);
+  const FloatImage near = RunSegmentation(networks, head.Sample(image, kFigurePixels, 0, 1));
+  auto out = FloatImage::From(image.width, image.height, [&](int x, int y) {
+    const glm::vec2 p = glm::vec2(x, y) + 0.5F;
+    // The mean where both see well: what one of them doubts is looked at by its colours.
+    const glm::vec2 in_square = head.FromPicture(p), from_middle = glm::abs(in_square - 0.5F);
+    const float share = 0.5F * Ramp(kSquareEdge, std::max(from_middle.x, from_middle.y));
+    const float person = person_in_whole(p);
+    return share > 0 ? glm::mix(person, PersonAt(near, in_square), share) : person;
+  });
   KeepConnected(glm::ivec2(face->At(point::kNoseTip)), out);
   return DoubtAsymmetry(*face, image, out);
 }

@@ -13,9 +13,9 @@ FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image,
 
 /// Heads are nearly symmetric: where one side of a face that looks into the camera belongs to the
 /// person and its mirror image does not, as with an ear or half a hat, the network may have missed
-/// the latter. Returns `seen`, where pixels belong to a person, with such pixels set to doubt, 0.5,
-/// or to 0.85 of the other side where both have one colour. Only near the head: what stands behind
-/// it is of one colour with it often enough.
-FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image, const FloatImage& seen);
+/// the latter. Returns `person`, where pixels belong to a person, with such pixels set to doubt, or
+/// to nearly as much as on the other side where both have one colour. Only near the head: what
+/// stands behind it is of one colour with it often enough.
+FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image, const FloatImage& person);
 
 }  // namespace facefit

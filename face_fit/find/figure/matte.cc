@@ -35,6 +35,12 @@ constexpr std::pair<int, int> kForegroundReach[] = {{16, 2}, {150, 1}};
 /// Opacity below which the figure's own colour is hardly known, and from which it is.
 constexpr float kUnknown = 0.05F, kKnown = 0.6F;
 
+/// Rough opacity that is taken for 0 and for 1, as an edge of the network is blurred.
+constexpr glm::vec2 kSharpen{0.08F, 0.92F};
+/// Opacity that is doubt, and how even it is around (0 = an edge, 1 = the same everywhere) for it
+/// to be decided one way or the other: not at all, and wholly.
+constexpr glm::vec2 kDecide{0.3F, 0.7F}, kEven{0.35F, 0.7F};
+
 using PixelVector = Eigen::ArrayXf;  // of each pixel
 
 /// 0..1.
@@ -56,14 +62,15 @@ class MattingLaplacian {
     for (std::size_t i = 0; i < image.rgba.size() / 4; ++i) colour_.push_back(Colour(image, i));
     for (int y = 1; y + 1 < image.height; ++y) {
       for (int x = 1; x + 1 < width_; ++x) {
-        const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                       static_cast<std::size_t>(x);
-        const auto at = Around(i);
-        if (std::ranges::none_of(at, [&](std::size_t j) { return open[Index(j)] != 0; })) continue;
+        const std::size_t i = image.Index(x, y);
+        const auto around = Around(i);
+        if (std::ranges::none_of(around, [&](std::size_t j) { return open[Index(j)] != 0; })) {
+          continue;
+        }
         Window window{i, glm::vec3(0), glm::mat3(0)};
         glm::mat3 spread(0);
-        for (const std::size_t j : at) window.mean += colour_[j] / 9.0F;
-        for (const std::size_t j : at) {
+        for (const std::size_t j : around) window.mean += colour_[j] / 9.0F;
+        for (const std::size_t j : around) {
           const glm::vec3 off = colour_[j] - window.mean;
           spread += glm::outerProduct(off, off) / 9.0F;
         }
@@ -77,14 +84,15 @@ class MattingLaplacian {
   PixelVector Times(const PixelVector& x) const {
     PixelVector out = PixelVector::Zero(x.size());
     for (const Window& window : windows_) {
-      const auto at = Around(window.middle);
+      const auto around = Around(window.middle);
       float mean = 0;
-      for (const std::size_t j : at) mean += x[Index(j)] / 9;
-      glm::vec3 with(0);
-      for (const std::size_t j : at)
-        with += (colour_[j] - window.mean) * ((x[Index(j)] - mean) / 9);
-      const glm::vec3 slope = window.inverse * with;
-      for (const std::size_t j : at) {
+      for (const std::size_t j : around) mean += x[Index(j)] / 9;
+      glm::vec3 covariance(0);
+      for (const std::size_t j : around) {
+        covariance += (colour_[j] - window.mean) * ((x[Index(j)] - mean) / 9);
+      }
+      const glm::vec3 slope = window.inverse * covariance;
+      for (const std::size_t j : around) {
         out[Index(j)] += x[Index(j)] - mean - glm::dot(slope, colour_[j] - window.mean);
       }
     }
@@ -130,19 +138,19 @@ void ConjugateGradients(const MattingLaplacian& laplacian, const PixelVector& op
 }
 
 /// Towards 0 and 1 where it says which, not where it says half.
-float Sharpened(float v) { return glm::smoothstep(0.08F, 0.92F, v); }
+float Sharpened(float v) { return Ramp(kSharpen, v); }
 
 /// Nothing is half there over a wide area: that is doubt, not an edge.
 void SuppressWideDoubt(FloatImage& opacity, int reach) {
   FloatImage square = opacity;
-  for (float& v : square.at) v *= v;
+  for (float& v : square.values) v *= v;
   const FloatImage mean = Blurred(opacity, reach), mean_square = Blurred(square, reach);
-  for (std::size_t i = 0; i < opacity.at.size(); ++i) {
-    const float m = mean.at[i], most = m * (1 - m);
+  for (std::size_t i = 0; i < opacity.values.size(); ++i) {
+    const float m = mean.values[i], most = m * (1 - m);
     if (most < 1e-3F) continue;
-    const float even = 1 - (mean_square.at[i] - m * m) / most;
-    const float sure = glm::smoothstep(0.3F, 0.7F, opacity.at[i]);
-    opacity.at[i] = glm::mix(opacity.at[i], sure, glm::smoothstep(0.35F, 0.7F, even));
+    const float even = 1 - (mean_square.values[i] - m * m) / most;
+    const float sure = Ramp(kDecide, opacity.values[i]);
+    opacity.values[i] = glm::mix(opacity.values[i], sure, Ramp(kEven, even));
   }
 }
 
@@ -151,20 +159,20 @@ FloatImage SolveOpacity(const fsm::Image& image, const FloatImage& person) {
   const int reach = std::max(image.width, image.height) / kOutlinePart + kOutlinePixels;
   const FloatImage around = Blurred(person, reach);
   FloatImage out(person.width, person.height);
-  const auto count = static_cast<Eigen::Index>(out.at.size());
+  const auto count = static_cast<Eigen::Index>(out.values.size());
   PixelVector open(count);
-  for (std::size_t i = 0; i < out.at.size(); ++i) {
-    const bool doubt = around.at[i] > sure.x && around.at[i] < sure.y;
+  for (std::size_t i = 0; i < out.values.size(); ++i) {
+    const bool doubt = around.values[i] > sure.x && around.values[i] < sure.y;
     open[static_cast<Eigen::Index>(i)] = doubt ? 1.0F : 0.0F;
-    out.at[i] = doubt ? Sharpened(person.at[i]) : std::round(around.at[i]);
+    out.values[i] = doubt ? Sharpened(person.values[i]) : std::round(around.values[i]);
   }
   const MattingLaplacian laplacian(image, open);
   // Then once more from what was found: where colours say nothing it settles on one or the other.
   for (int round = 0; round < 2; ++round) {
-    PixelVector opacity = Eigen::Map<const PixelVector>(out.at.data(), count);
+    PixelVector opacity = Eigen::Map<const PixelVector>(out.values.data(), count);
     const PixelVector pull = kPull + kPullDecided * (2 * opacity - 1).square();
     ConjugateGradients(laplacian, open, pull, opacity);
-    Eigen::Map<PixelVector>(out.at.data(), count) = opacity.max(0).min(1);
+    Eigen::Map<PixelVector>(out.values.data(), count) = opacity.max(0).min(1);
     SuppressWideDoubt(out, reach);
   }
   return out;
@@ -179,23 +187,24 @@ struct OpacityGuide {
 /// By least squares over 3 x 3 pixels (guided filter; He, Sun and Tang 2010).
 OpacityGuide FitGuide(const fsm::Image& image, const FloatImage& opacity) {
   constexpr int kReach = 1;
-  VectorImage mean(image.width, image.height), with = mean;
+  VectorImage mean(image.width, image.height), product = mean;
   Raster<glm::mat3> square(image.width, image.height);
-  for (std::size_t i = 0; i < opacity.at.size(); ++i) {
+  for (std::size_t i = 0; i < opacity.values.size(); ++i) {
     const glm::vec3 c = Colour(image, i);
-    mean.at[i] = c;
-    with.at[i] = c * opacity.at[i];
-    square.at[i] = glm::outerProduct(c, c);
+    mean.values[i] = c;
+    product.values[i] = c * opacity.values[i];
+    square.values[i] = glm::outerProduct(c, c);
   }
   mean = Blurred(mean, kReach);
-  with = Blurred(with, kReach);
+  product = Blurred(product, kReach);
   square = Blurred(square, kReach);
   OpacityGuide fit{mean, Blurred(opacity, kReach)};
-  for (std::size_t i = 0; i < opacity.at.size(); ++i) {
-    const glm::vec3 m = mean.at[i];
-    const glm::mat3 spread = square.at[i] - glm::outerProduct(m, m);
-    fit.slope.at[i] = Inverse(spread, kGuideNoise) * (with.at[i] - m * fit.base.at[i]);
-    fit.base.at[i] -= glm::dot(fit.slope.at[i], m);
+  for (std::size_t i = 0; i < opacity.values.size(); ++i) {
+    const glm::vec3 m = mean.values[i];
+    const glm::mat3 spread = square.values[i] - glm::outerProduct(m, m);
+    fit.slope.values[i] =
+        Inverse(spread, kGuideNoise) * (product.values[i] - m * fit.base.values[i]);
+    fit.base.values[i] -= glm::dot(fit.slope.values[i], m);
   }
   return {Blurred(fit.slope, kReach), Blurred(fit.base, kReach)};
 }
@@ -229,7 +238,7 @@ FloatImage Matte(const fsm::Image& photo, const FloatImage& person) {
     out = GuidedUpsampling(
         small, SolveOpacity(small, ScaledDown(person, small.width, small.height)), photo);
   }
-  for (float& v : out.at) v = glm::clamp((v - kNearlyNone) / (1 - 2 * kNearlyNone), 0.0F, 1.0F);
+  for (float& v : out.values) v = glm::clamp((v - kNearlyNone) / (1 - 2 * kNearlyNone), 0.0F, 1.0F);
   return out;
 }
 
@@ -239,40 +248,40 @@ fsm::Image ForegroundColours(const fsm::Image& photo, const FloatImage& opacity)
   const int longer = std::max(photo.width, photo.height);
   fsm::Image out = photo;
   std::vector<std::size_t> edge;
-  for (std::size_t i = 0; i < opacity.at.size(); ++i) {
-    if (opacity.at[i] > 0 && opacity.at[i] < 1) edge.push_back(i);
+  for (std::size_t i = 0; i < opacity.values.size(); ++i) {
+    if (opacity.values[i] > 0 && opacity.values[i] < 1) edge.push_back(i);
   }
   FloatImage behind_opacity = opacity;
-  for (float& v : behind_opacity.at) v = 1 - v;
+  for (float& v : behind_opacity.values) v = 1 - v;
   VectorImage figure = Colours(photo), behind = figure;
   for (const auto& [part, pixels] : kForegroundReach) {
     const int reach = longer / part + pixels;
-    VectorImage with = figure, without = behind;
-    for (std::size_t i = 0; i < with.at.size(); ++i) {
-      with.at[i] *= opacity.at[i];
-      without.at[i] *= behind_opacity.at[i];
+    VectorImage figure_sum = figure, behind_sum = behind;
+    for (std::size_t i = 0; i < figure_sum.values.size(); ++i) {
+      figure_sum.values[i] *= opacity.values[i];
+      behind_sum.values[i] *= behind_opacity.values[i];
     }
     const FloatImage share = Blurred(opacity, reach), rest = Blurred(behind_opacity, reach);
-    with = Blurred(with, reach);
-    without = Blurred(without, reach);
+    figure_sum = Blurred(figure_sum, reach);
+    behind_sum = Blurred(behind_sum, reach);
     for (const std::size_t i : edge) {
-      const float a = opacity.at[i];
-      const glm::vec3 f = with.at[i] / (share.at[i] + 1e-4F);
-      const glm::vec3 b = without.at[i] / (rest.at[i] + 1e-4F);
+      const float a = opacity.values[i];
+      const glm::vec3 f = figure_sum.values[i] / (share.values[i] + 1e-4F);
+      const glm::vec3 b = behind_sum.values[i] / (rest.values[i] + 1e-4F);
       const glm::vec3 missing = Rgb(photo, i) - a * f - (1 - a) * b;
-      figure.at[i] = glm::clamp(f + a * missing, 0.0F, 255.0F);
-      behind.at[i] = glm::clamp(b + (1 - a) * missing, 0.0F, 255.0F);
+      figure.values[i] = glm::clamp(f + a * missing, 0.0F, 255.0F);
+      behind.values[i] = glm::clamp(b + (1 - a) * missing, 0.0F, 255.0F);
     }
   }
-  for (const std::size_t i : edge) SetRgb(out, i, figure.at[i]);
+  for (const std::size_t i : edge) SetRgb(out, i, figure.values[i]);
   // Where the figure is nearly transparent its colour is hardly known and is taken from around.
   FloatImage known = opacity;
-  for (float& v : known.at) v = glm::smoothstep(kUnknown, kKnown, v);
+  for (float& v : known.values) v = glm::smoothstep(kUnknown, kKnown, v);
   PushPullInpaint(out, known);
   return out;
 }
 
-Cutout CutOut(const fsm::Image& photo, const FloatImage& person) {
+FigureCutout CutOutFigure(const fsm::Image& photo, const FloatImage& person) {
   FloatImage opacity = Matte(photo, person);
   fsm::Image colours = ForegroundColours(photo, opacity);
   return {std::move(colours), std::move(opacity)};

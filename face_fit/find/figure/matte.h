@@ -14,11 +14,11 @@ FloatImage Matte(const fsm::Image& photo, const FloatImage& person);
 fsm::Image ForegroundColours(const fsm::Image& photo, const FloatImage& opacity);
 
 /// A figure cut out of a photo: its colours, continued beyond its outline, and its opacity, 0..1.
-struct Cutout {
+struct FigureCutout {
   fsm::Image colours;
   FloatImage opacity;
 };
 /// `person`: as of Matte.
-Cutout CutOut(const fsm::Image& photo, const FloatImage& person);
+FigureCutout CutOutFigure(const fsm::Image& photo, const FloatImage& person);
 
 }  // namespace facefit

@@ -23,7 +23,7 @@ constexpr int kPortraitSize = 720;
 /// `screen`: of each vertex, pixels with y down, and depth towards the viewer in millimetres.
 VisibleSurface SkinIn(const fsm::HeadTopology& topology, const std::vector<glm::vec3>& screen) {
   VisibleSurface surface({glm::vec2(0.5F), 1, kPortraitSize, kPortraitSize}, screen);
-  ForSkinTriangles(topology, [&](const std::uint32_t* t) { surface.DrawFront(t); });
+  ForSkinTriangles(topology, [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
 }
 
@@ -31,18 +31,18 @@ VisibleSurface SkinIn(const fsm::HeadTopology& topology, const std::vector<glm::
 /// seen and no farther back than the ears. Empty if none is.
 std::vector<MeshPoint> PlacesUnder(const VisibleSurface& skin, const std::vector<glm::vec3>& screen,
                                    std::span<const glm::vec3> points) {
-  constexpr float kFarthestBack = -20;  // millimetres
+  constexpr float kFarthestBackMm = -20;
   std::vector<MeshPoint> places;
-  if (std::ranges::max(skin.depth().at) < kFarthestBack) return places;
-  const auto nearest = NearestAbove(skin.depth(), kFarthestBack);
+  if (std::ranges::max(skin.depth().values) < kFarthestBackMm) return places;
+  const auto nearest = NearestAbove(skin.depth(), kFarthestBackMm);
   for (const glm::vec3& p : points) {
     const glm::ivec2 pixel = glm::clamp(glm::ivec2(p), 0, kPortraitSize - 1);
-    const std::size_t own = skin.depth().Index(pixel.x, pixel.y), at = nearest[own];
+    const std::size_t own = skin.depth().Index(pixel.x, pixel.y), i = nearest[own];
     MeshPoint place =
-        skin.Place(static_cast<int>(at % kPortraitSize), static_cast<int>(at / kPortraitSize));
+        skin.Place(static_cast<int>(i % kPortraitSize), static_cast<int>(i / kPortraitSize));
     // Within the pixel, to where the point lies.
     const auto& t = place.corner;
-    if (at == own) {
+    if (i == own) {
       place.weight = Triangle2{screen[t[0]], screen[t[1]], screen[t[2]]}.WeightsAt(glm::vec2(p));
     }
     places.push_back(place);
@@ -89,13 +89,14 @@ vm::Result<BaseHead> BaseHead::Observe(FaceNetworks& networks, std::unique_ptr<f
   Surface surface{.skin_triangles = fsm::SkinTriangles(head->topology()),
                   .has_uv_seams = false,
                   .is_eye = EyeVertices(head->topology())};
-  auto base = Observe(networks, std::move(head), name, std::move(surface));
+  auto base = ObserveForeign(networks, std::move(head), name, std::move(surface));
   if (base && base->seam) SnapToSeam(base->rest.position, *base->seam, base->points);
   return base;
 }
 
-vm::Result<BaseHead> BaseHead::Observe(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                                       const std::string& name, Surface surface) {
+vm::Result<BaseHead> BaseHead::ObserveForeign(FaceNetworks& networks,
+                                              std::unique_ptr<fsm::Head> head,
+                                              const std::string& name, Surface surface) {
   BaseHead base;
   base.name = name;
   base.head = std::move(head);
@@ -114,7 +115,7 @@ vm::Result<BaseHead> BaseHead::Observe(FaceNetworks& networks, std::unique_ptr<f
     return vm::Fail(vm::Errc::kBadValue, "no face is seen on the head '" + name + "'");
   }
   for (const glm::vec3& p : faces.front().points) {
-    base.seen.emplace_back(p.x, p.y, p.z * portrait.mm_per_pixel());
+    base.detected.emplace_back(p.x, p.y, p.z * portrait.mm_per_pixel());
   }
   base.seam = SeamOf(base);
   return base;

@@ -32,7 +32,7 @@ struct BaseHead {
   Surface surface = {};
   fsm::HeadVertices rest;
   std::vector<MeshPoint> points;     ///< where the network's points lie on it
-  std::vector<glm::vec3> seen;       ///< where it saw them: x, y pixels of `picture`, z millimetres
+  std::vector<glm::vec3> detected;   ///< where it saw them: x, y pixels of `picture`, z millimetres
   fsm::Image picture = {};           ///< what the network was shown
   std::optional<LipSeam> seam = {};  ///< where its lips meet, if that is seen
   std::optional<fsm::UnitTable> units = {};  ///< the face's own action units, if it has any
@@ -40,7 +40,7 @@ struct BaseHead {
   /// Where a point of the network lies on the head at rest.
   glm::vec3 AtRest(PointIndex i) const { return points[i].On(rest.position); }
   /// Where the network saw a point in `picture`, pixels.
-  glm::vec2 SeenAt(PointIndex i) const { return glm::vec2(seen[i]); }
+  glm::vec2 DetectedAt(PointIndex i) const { return glm::vec2(detected[i]); }
   /// From now on moved by these units. Its points stay: they were seen at rest.
   void MoveBy(const fsm::UnitTable& own);
 
@@ -49,9 +49,10 @@ struct BaseHead {
   static vm::Result<BaseHead> Observe(FaceNetworks& networks, const std::string& name);
   static vm::Result<BaseHead> Observe(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
                                       const std::string& name);
-  /// Likewise any head, whose points stay where they were seen.
-  static vm::Result<BaseHead> Observe(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                                      const std::string& name, Surface surface);
+  /// Likewise a head of any maker, whose points stay where the network saw them.
+  static vm::Result<BaseHead> ObserveForeign(FaceNetworks& networks,
+                                             std::unique_ptr<fsm::Head> head,
+                                             const std::string& name, Surface surface);
 };
 
 }  // namespace facefit

@@ -7,7 +7,6 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include "face_fit/find/head/base_head.h"
@@ -18,7 +17,6 @@
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/transferred_rig.h"
-#include "vm_protocol/core/or_throw.h"
 
 namespace facefit {
 namespace {
@@ -30,16 +28,19 @@ constexpr glm::mat3 kTurns[] = {{1, 0, 0, 0, 1, 0, 0, 0, 1},    // y up, towards
                                 {0, 0, 1, 0, 1, 0, -1, 0, 0},   // towards x
                                 {0, 0, -1, 0, 1, 0, 1, 0, 0}};  // towards -x
 
+/// How much of a file may be its head, from above: a head alone, a bust, two kinds of whole figure.
+constexpr float kHeadParts[] = {1, 0.8F, 0.28F, 0.15F};
+
 /// The head as large as ours and in the middle of the picture, the upper part of a whole figure.
 fsm::Similarity InitialPlacement(const fsm::ImportedHead& file, const glm::mat3& turn, float part) {
   fsm::Box box;
   for (const glm::vec3& p : file.position) box.Add(turn * p);
-  constexpr float kHeight = 290, kTop = 140;
+  constexpr float kHeightMm = 290, kTopMm = 140;  // our head, and its crown
   fsm::Similarity guess;
   guess.turn = turn;
-  guess.scale = kHeight / std::max(box.size().y * part, 1e-6F);
+  guess.scale = kHeightMm / std::max(box.size().y * part, 1e-6F);
   guess.move = -guess.scale * glm::vec3(box.centre().x, box.high.y, box.centre().z);
-  guess.move.y += kTop;
+  guess.move.y += kTopMm;
   return guess;
 }
 
@@ -95,29 +96,25 @@ void OntoLidEdges(const BaseHead& ours, std::vector<MeshPoint>& our_points, cons
 class HeadMatcher {
  public:
   HeadMatcher(FaceNetworks& networks, const fsm::ImportedHead& file, std::string name,
-              const std::string& face)
-      : networks_(networks),
-        file_(file),
-        name_(std::move(name)),
-        base_(vm::OrThrow(BaseHead::Observe(networks, face))) {}
+              BaseHead base)
+      : networks_(networks), file_(file), name_(std::move(name)), base_(std::move(base)) {}
   /// None if no face is seen on the head as `to_ours` has it stand.
   std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_ours) {
-    const auto seen = Observe(to_ours);
-    if (!seen) return {};
-    std::vector<MeshPoint> ours = base_.points, theirs = seen->points;
-    OntoLidEdges(base_, ours, *seen, theirs);
-    const bool both = base_.seam && seen->seam;
+    const auto other = Observe(to_ours);
+    if (!other) return {};
+    std::vector<MeshPoint> ours = base_.points, theirs = other->points;
+    OntoLidEdges(base_, ours, *other, theirs);
+    const bool both = base_.seam && other->seam;
     if (both) {
       SpreadAlongSeam(*base_.seam, ours);
-      SpreadAlongSeam(*seen->seam, theirs);
+      SpreadAlongSeam(*other->seam, theirs);
     }
     std::vector<fsm::PointPair> found;
     for (const PointIndex i : point::kForFit) {
       // Where both lips meet a point of the network may come to lie on either.
       const bool corner = i == point::kMouthRight || i == point::kMouthLeft;
       if (OnInnerLips(i) ? !both : both && corner) continue;
-      const glm::vec3 at = theirs[i].On(seen->rest.position);
-      const glm::vec3 raw = to_ours.Inverse(at);
+      const glm::vec3 raw = to_ours.Inverse(theirs[i].On(other->rest.position));
       found.push_back({ours[i].On(base_.rest.position), raw, PartOf(i)});
     }
     return found;
@@ -131,8 +128,8 @@ class HeadMatcher {
     for (const fsm::Bone bone : model.bone) {
       surface.is_eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
-    return BaseHead::Observe(networks_, fsm::MakeMeshHead(std::move(model)), name_,
-                             std::move(surface));
+    return BaseHead::ObserveForeign(networks_, fsm::MakeMeshHead(std::move(model)), name_,
+                                    std::move(surface));
   }
 
   FaceNetworks& networks_;
@@ -144,14 +141,14 @@ class HeadMatcher {
 /// What was found on a head that stood one way.
 struct HeadMatch {
   std::vector<fsm::PointPair> pairs;
-  float off_mm;  ///< median distance of the pairs, once the head is laid over ours
+  float gap_mm;  ///< median distance of the pairs, once the head is laid over ours
 };
 
 /// The median distance of the pairs' places once `to_ours` has brought them together, millimetres.
 float MedianDistanceMm(const fsm::Similarity& to_ours, std::span<const fsm::PointPair> pairs) {
-  std::vector<float> off;
-  for (const auto& pair : pairs) off.push_back(glm::distance(to_ours(pair.to), pair.from));
-  return Median(off);
+  std::vector<float> gaps;
+  for (const auto& pair : pairs) gaps.push_back(glm::distance(to_ours(pair.to), pair.from));
+  return Median(std::move(gaps));
 }
 
 float DegreesBetween(const glm::mat3& a, const glm::mat3& b) {
@@ -168,8 +165,7 @@ float DegreesBetween(const glm::mat3& a, const glm::mat3& b) {
 /// 7.4 mm, from elsewhere by 8 degrees or more, with 7.3 to 40 mm.
 std::optional<HeadMatch> MatchFrom(HeadMatcher& matcher, const fsm::Similarity& guess,
                                    bool& face_seen) {
-  constexpr float kStraight = 5;  // degrees
-  constexpr float kMostOff = 12;  // millimetres
+  constexpr float kStraightDeg = 5, kMaxGapMm = 12;
   auto first = matcher.PairsAt(guess);
   if (first.empty()) return std::nullopt;
   face_seen = true;
@@ -180,33 +176,38 @@ std::optional<HeadMatch> MatchFrom(HeadMatcher& matcher, const fsm::Similarity& 
   std::vector<fsm::PointPair> kept = pairs;
   RejectOutliers(kept);
   const fsm::Similarity fit = fsm::FitSimilarity(kept);
-  const float off_mm = MedianDistanceMm(fit, pairs);
-  if (DegreesBetween(fit.turn, stood.turn) > kStraight || off_mm > kMostOff) return std::nullopt;
-  return HeadMatch{std::move(kept), off_mm};
+  const float gap_mm = MedianDistanceMm(fit, pairs);
+  if (DegreesBetween(fit.turn, stood.turn) > kStraightDeg || gap_mm > kMaxGapMm) {
+    return std::nullopt;
+  }
+  return HeadMatch{std::move(kept), gap_mm};
 }
 
 }  // namespace
 
-fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::ImportedHead& file,
-                               const std::string& name, const std::string& face) {
-  HeadMatcher matcher(networks, file, name, face);
+vm::Result<fsm::HeadPoints> FindHeadPoints(FaceNetworks& networks, const fsm::ImportedHead& file,
+                                           const std::string& name, const std::string& face) {
+  auto base = BaseHead::Observe(networks, face);
+  if (!base) return std::unexpected(base.error());
+  HeadMatcher matcher(networks, file, name, std::move(*base));
   bool face_seen = false;
-  for (const float part : {1.0F, 0.8F, 0.28F, 0.15F}) {
+  for (const float part : kHeadParts) {
     std::optional<HeadMatch> best;
     for (const glm::mat3& turn : kTurns) {
       auto look = MatchFrom(matcher, InitialPlacement(file, turn, part), face_seen);
-      if (look && (!best || look->off_mm < best->off_mm)) best = std::move(look);
+      if (look && (!best || look->gap_mm < best->gap_mm)) best = std::move(look);
     }
     if (!best) continue;
     Symmetrise(fsm::FitSimilarity(best->pairs), best->pairs);
-    return {face, std::move(best->pairs)};
+    return fsm::HeadPoints{face, std::move(best->pairs)};
   }
-  throw std::runtime_error(
+  return vm::Fail(
+      vm::Errc::kBadValue,
       (face_seen ? "the face of '" + name +
                        "' is not seen from the front however it is turned: it should face z with y "
                        "up; points"
                  : "no face is seen on '" + name + "' from any side; points") +
-      " can also be written by hand (docs/heads.md)");
+          " can also be written by hand (docs/heads.md)");
 }
 
 }  // namespace facefit

@@ -8,9 +8,10 @@ namespace facefit {
 /// Finds eyes, nose and mouth of somebody else's head as on a photo: both heads are drawn, the
 /// landmark network looks at both, and its points are followed back onto the meshes. The head may
 /// face z, -z, x or -x with y up, or -y with z up: all are tried, and the one is taken from which
-/// it looks most like ours. `face`: the built-in head of the pairs. Throws std::runtime_error if no
-/// face is seen from any side, or none from the front, or if the file is none of a head.
-fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::ImportedHead& file,
-                               const std::string& name, const std::string& face);
+/// it looks most like ours. `face`: the built-in head of the pairs. Error: kBadValue, no face is
+/// seen from any side, or none from the front. Throws std::runtime_error if the file is not one of
+/// a head, or if nothing can be drawn with.
+vm::Result<fsm::HeadPoints> FindHeadPoints(FaceNetworks& networks, const fsm::ImportedHead& file,
+                                           const std::string& name, const std::string& face);
 
 }  // namespace facefit

@@ -11,28 +11,28 @@
 namespace facefit {
 namespace {
 
-/// Half the window looked at, millimetres.
-constexpr glm::vec2 kHalf(34, 24);
+/// Half the window looked at.
+constexpr glm::vec2 kHalfWindowMm(34, 24);
 
 /// 1 where an eyeball is foremost, of what is connected there with the point nearest to `centre`.
 FloatImage EyeballMask(const VisibleSurface& surface, const std::vector<bool>& eye,
                        glm::vec2 centre) {
-  constexpr float kFarthest = 12;  // millimetres
+  constexpr float kFarthestMm = 12;
   FloatImage open(surface.grid().columns, surface.grid().rows);
   glm::ivec2 seed(0);
-  float nearest = kFarthest;
+  float nearest = kFarthestMm;
   for (int row = 0; row < open.height; ++row) {
     for (int column = 0; column < open.width; ++column) {
-      const std::uint32_t* t = surface.Triangle(column, row);
-      if (!t || !eye[*t]) continue;
+      const MeshTriangle* triangle = surface.Triangle(column, row);
+      if (!triangle || !eye[triangle->corner[0]]) continue;
       open(column, row) = 1;
-      const float far = glm::distance(surface.grid().Point(column, row), centre);
-      if (far >= nearest) continue;
-      nearest = far;
+      const float distance = glm::distance(surface.grid().Point(column, row), centre);
+      if (distance >= nearest) continue;
+      nearest = distance;
       seed = {column, row};
     }
   }
-  if (nearest == kFarthest) return FloatImage(open.width, open.height);
+  if (nearest == kFarthestMm) return FloatImage(open.width, open.height);
   KeepConnected(seed, open);
   return open;
 }
@@ -60,12 +60,12 @@ struct Columns {
   int first, last;
 };
 std::optional<Columns> EndsOf(const std::vector<RowSpan>& rows) {
-  constexpr float kNarrowest = 10, kWidest = 60;  // millimetres
+  constexpr float kNarrowestMm = 10, kWidestMm = 60;
   const auto first = std::ranges::find_if_not(rows, &RowSpan::IsEmpty);
   auto end = rows.end();
   while (end != first && (end - 1)->IsEmpty()) --end;
   const float width = kFrontStepMm * static_cast<float>(end - first);
-  if (width < kNarrowest || width > kWidest) return std::nullopt;
+  if (width < kNarrowestMm || width > kWidestMm) return std::nullopt;
   return Columns{static_cast<int>(first - rows.begin()), static_cast<int>(end - rows.begin()) - 1};
 }
 
@@ -75,8 +75,8 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
                                      const std::vector<glm::vec3>& position,
                                      const std::vector<bool>& eye, glm::vec3 centre,
                                      float outward) {
-  const VisibleSurface surface =
-      SeenFromFront(topology, position, glm::vec2(centre) - kHalf, glm::vec2(centre) + kHalf);
+  const VisibleSurface surface = VisibleFromFront(
+      topology, position, glm::vec2(centre) - kHalfWindowMm, glm::vec2(centre) + kHalfWindowMm);
   const std::vector<RowSpan> rows = RowsOf(EyeballMask(surface, eye, centre));
   const auto ends = EndsOf(rows);
   if (!ends) return std::nullopt;
@@ -85,8 +85,8 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
   const auto beyond = [&](int column, int row, int right, int up) -> std::optional<MeshPoint> {
     for (int k = 1; k <= kGap; ++k) {
       const int x = column + k * right, y = row + k * up;
-      const std::uint32_t* t = surface.Triangle(x, y);
-      if (t && !eye[*t]) return surface.Place(x, y);
+      const MeshTriangle* triangle = surface.Triangle(x, y);
+      if (triangle && !eye[triangle->corner[0]]) return surface.Place(x, y);
     }
     return std::nullopt;
   };

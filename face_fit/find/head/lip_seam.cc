@@ -5,32 +5,31 @@
 #include <utility>
 
 #include "face_fit/picture/plane.h"
-#include "face_fit/surface/triangles.h"
 #include "face_fit/surface/visible_surface.h"
 #include "fsm/mesh/surface_index.h"
 
 namespace facefit {
 namespace {
 
-constexpr float kReach = 40;                        // of ways along the surface, millimetres
-constexpr float kLeastWidth = 20, kMostWidth = 90;  // of a mouth, millimetres
+constexpr float kReachMm = 40;                       // of ways along the surface
+constexpr float kMinWidthMm = 20, kMaxWidthMm = 90;  // of a mouth
+constexpr glm::vec2 kMarginMm(15, 3);                // of the window, beside the lips
 
 /// Where a column of the view goes over from the upper lip to the lower.
 struct Crossing {
   int above = -1, below = -1;  ///< rows
-  float jump = 0;              ///< of the way from the upper lip, millimetres
+  float jump_mm = 0;           ///< of the way from the upper lip
 };
 
 /// For each column of the view the row where the surface goes over from the upper to the lower lip.
 /// `from_upper`, `from_lower`: distances along the surface from both lips to each vertex.
-std::vector<Crossing> FindCrossings(const fsm::HeadTopology& topology, const VisibleSurface& view,
-                                    const fsm::WeldedSurface& surface,
+std::vector<Crossing> FindCrossings(const VisibleSurface& view, const fsm::WeldedSurface& surface,
                                     std::span<const float> from_upper,
                                     std::span<const float> from_lower) {
   // Of what is seen at a point, if that is skin: neither teeth nor the mouth's lining.
   const auto distances = [&](int column, int row) -> std::optional<glm::vec2> {
-    const std::uint32_t* t = view.Triangle(column, row);
-    if (!t || MaterialOf(topology, t) == fsm::Material::kMouthInside) return std::nullopt;
+    const MeshTriangle* triangle = view.Triangle(column, row);
+    if (!triangle || triangle->material == fsm::Material::kMouthInside) return std::nullopt;
     const MeshPoint place = view.Place(column, row);
     glm::vec2 sum(0);
     for (int k = 0; k < 3; ++k) {
@@ -51,7 +50,7 @@ std::vector<Crossing> FindCrossings(const fsm::HeadTopology& topology, const Vis
       if (before && before->x < before->y && here->x >= here->y) {
         const float apart = kFrontStepMm * static_cast<float>(row_before - row);
         const float jump = std::min(here->x - before->x, before->y - here->y) - apart;
-        if (jump > crossing.jump) crossing = {row_before, row, jump};
+        if (jump > crossing.jump_mm) crossing = {row_before, row, jump};
       }
       before = here;
       row_before = row;
@@ -64,11 +63,11 @@ std::vector<Crossing> FindCrossings(const fsm::HeadTopology& topology, const Vis
 /// First and last column of the mouth, the longest run of columns whose surface jumps: near a
 /// corner the way round it is short, and the jump ends there. (0, -1) if there is none.
 std::pair<int, int> MouthColumns(const std::vector<Crossing>& crossings) {
-  constexpr float kLeastJump = 2;  // millimetres
-  constexpr int kHole = 8;         // columns
+  constexpr float kMinJumpMm = 2;
+  constexpr int kHole = 8;  // columns
   int first = 0, last = -1, begin = -1, end = -1;
   for (int column = 0; column < static_cast<int>(crossings.size()); ++column) {
-    if (crossings[static_cast<std::size_t>(column)].jump < kLeastJump) continue;
+    if (crossings[static_cast<std::size_t>(column)].jump_mm < kMinJumpMm) continue;
     if (begin < 0 || column - end > kHole) begin = column;
     end = column;
     if (end - begin > last - first) {
@@ -92,22 +91,20 @@ std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
   for (const auto& list : {upper, lower}) {
     for (const glm::vec3& p : list) lips.Add(p);
   }
-  const glm::vec2 margin(15, 3);  // millimetres
   const VisibleSurface view =
-      SeenFromFront(topology, position, lips.low - margin, lips.high + margin);
-  const auto crossings =
-      FindCrossings(topology, view, surface, surface.DistancesFrom(upper, kReach),
-                    surface.DistancesFrom(lower, kReach));
+      VisibleFromFront(topology, position, lips.low - kMarginMm, lips.high + kMarginMm);
+  const auto crossings = FindCrossings(view, surface, surface.DistancesFrom(upper, kReachMm),
+                                       surface.DistancesFrom(lower, kReachMm));
   const auto [first, last] = MouthColumns(crossings);
   const float width = kFrontStepMm * static_cast<float>(last - first);
-  if (width < kLeastWidth || width > kMostWidth) return std::nullopt;
+  if (width < kMinWidthMm || width > kMaxWidthMm) return std::nullopt;
   LipSeam seam;
   for (int column = first; column <= last; ++column) {
     // A column without a crossing has that of the next one.
-    int with = column;
-    while (crossings[static_cast<std::size_t>(with)].above < 0) ++with;
-    const Crossing& crossing = crossings[static_cast<std::size_t>(with)];
-    seam.columns.push_back({view.Place(with, crossing.above), view.Place(with, crossing.below)});
+    int next = column;
+    while (crossings[static_cast<std::size_t>(next)].above < 0) ++next;
+    const Crossing& crossing = crossings[static_cast<std::size_t>(next)];
+    seam.columns.push_back({view.Place(next, crossing.above), view.Place(next, crossing.below)});
   }
   return seam;
 }

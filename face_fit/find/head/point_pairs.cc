@@ -16,11 +16,11 @@ constexpr glm::vec3 kMirror(-1, 1, 1);
 /// The pair on the other side of our face, or none.
 const fsm::PointPair* MirroredPair(const fsm::PointPair& pair,
                                    std::span<const fsm::PointPair> pairs) {
-  constexpr float kSame = 5;  // millimetres
+  constexpr float kSameMm = 5;
   const auto nearest = std::ranges::min_element(pairs, {}, [&](const fsm::PointPair& other) {
     return other.part == pair.part ? glm::distance(kMirror * other.from, pair.from) : 1e9F;
   });
-  return glm::distance(kMirror * nearest->from, pair.from) > kSame ? nullptr : &*nearest;
+  return glm::distance(kMirror * nearest->from, pair.from) > kSameMm ? nullptr : &*nearest;
 }
 
 /// What a head is symmetric about.
@@ -32,11 +32,11 @@ struct MirrorPlane {
 /// Found from the medians of the directions from one side to the other and of their middles: a few
 /// points that are off do not change those.
 MirrorPlane FindMirrorPlane(std::span<const fsm::PointPair> pairs) {
-  constexpr float kApart = 20;  // millimetres
+  constexpr float kApartMm = 20;
   std::vector<float> up, ahead, middles;
   for (const auto& pair : pairs) {
     const auto* other = MirroredPair(pair, pairs);
-    if (!other || pair.to.x - other->to.x < kApart) continue;
+    if (!other || pair.to.x - other->to.x < kApartMm) continue;
     const glm::vec3 across = pair.to - other->to;
     up.push_back(across.y / across.x);
     ahead.push_back(across.z / across.x);
@@ -53,7 +53,7 @@ MirrorPlane FindMirrorPlane(std::span<const fsm::PointPair> pairs) {
 }  // namespace
 
 void RejectOutliers(std::vector<fsm::PointPair>& pairs) {
-  constexpr float kLeast = 8, kTimes = 3;  // millimetres; of the middle of all distances
+  constexpr float kMinLimitMm = 8, kTimes = 3;  // the second: of the median of all distances
   constexpr int kRounds = 6;
   std::vector<fsm::PointPair> kept = pairs;
   for (int round = 0; round < kRounds; ++round) {
@@ -63,7 +63,7 @@ void RejectOutliers(std::vector<fsm::PointPair>& pairs) {
     };
     std::vector<float> distances;
     for (const auto& pair : pairs) distances.push_back(off(pair));
-    const float limit = std::max(kLeast, kTimes * Median(std::move(distances)));
+    const float limit = std::max(kMinLimitMm, kTimes * Median(std::move(distances)));
     kept.clear();
     std::ranges::copy_if(pairs, std::back_inserter(kept),
                          [&](const auto& pair) { return off(pair) <= limit; });
@@ -72,17 +72,17 @@ void RejectOutliers(std::vector<fsm::PointPair>& pairs) {
 }
 
 void Symmetrise(const fsm::Similarity& to_ours, std::vector<fsm::PointPair>& pairs) {
-  constexpr float kNear = 7;  // millimetres
-  std::vector<fsm::PointPair> seen = pairs;
-  for (auto& pair : seen) pair.to = to_ours(pair.to);
-  const MirrorPlane mirror = FindMirrorPlane(seen);
+  constexpr float kNearMm = 7;
+  std::vector<fsm::PointPair> placed = pairs;
+  for (auto& pair : placed) pair.to = to_ours(pair.to);
+  const MirrorPlane mirror = FindMirrorPlane(placed);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto* mirrored = MirroredPair(seen[i], seen);
+    const auto* mirrored = MirroredPair(placed[i], placed);
     if (!mirrored) continue;
     const glm::vec3 there = mirror.Mirrored(mirrored->to);
-    if (glm::distance(there, seen[i].to) > kNear) continue;
-    pairs[i].from = 0.5F * (seen[i].from + kMirror * mirrored->from);
-    const glm::vec3 to = 0.5F * (seen[i].to + there);
+    if (glm::distance(there, placed[i].to) > kNearMm) continue;
+    pairs[i].from = 0.5F * (placed[i].from + kMirror * mirrored->from);
+    const glm::vec3 to = 0.5F * (placed[i].to + there);
     pairs[i].to = to_ours.Inverse(to);
   }
 }

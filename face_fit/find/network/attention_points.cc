@@ -33,7 +33,8 @@ constexpr PointIndex kLeftEye[] = {
 
 }  // namespace
 
-AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image, const Crop& crop) {
+AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image,
+                                  const NetworkCrop& crop) {
   attention.Run(crop.Sample(image, kPointsPixels, 0, 1));
   const auto place = [&](AttentionOutput output, std::size_t i) {
     const auto xy = attention.output(output);
@@ -41,7 +42,7 @@ AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image, c
   };
   AttentiveFace found;
   found.face.crop = crop;
-  found.face.certainty = op::Logistic::Of(attention.output(kAttentionFlag)[0]);
+  found.face.certainty = tflite::op::Logistic::Of(attention.output(kAttentionFlag)[0]);
   found.face.points = PointsInPicture(attention.output(kAttentionMesh), crop);
   const auto refine = [&](AttentionOutput output, std::span<const PointIndex> points) {
     for (std::size_t i = 0; i < points.size(); ++i) {

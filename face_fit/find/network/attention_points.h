@@ -18,6 +18,7 @@ struct AttentiveFace {
 };
 
 /// `attention`: what LoadAttentionLandmarks gave. Looks once, at `crop`.
-AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image, const Crop& crop);
+AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image,
+                                  const NetworkCrop& crop);
 
 }  // namespace facefit

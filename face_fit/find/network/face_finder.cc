@@ -13,8 +13,8 @@
 namespace facefit {
 namespace {
 
-constexpr float kLeastScore = 0.5F;
-constexpr float kLeastFace = 8;  // pixels; the landmark network sees nothing in smaller ones
+constexpr float kMinScore = 0.5F;
+constexpr float kMinFacePx = 8;  // the landmark network sees nothing in smaller ones
 /// Two boxes are of one face if so much is common to both, by both together or by the smaller one.
 constexpr float kSameUnion = 0.3F, kSameSmaller = 0.6F;
 /// The detector was made for faces that fill at least a fifth of what it is shown. One seen so in
@@ -61,15 +61,16 @@ bool OfOneFace(const FaceBox& a, const FaceBox& b) {
          both / std::max(std::min(a.Area(), b.Area()), 1e-6F) > kSameSmaller;
 }
 
-std::vector<FaceBox> Detect(FaceNetworks& networks, const fsm::Image& image, const Crop& crop) {
+std::vector<FaceBox> Detect(FaceNetworks& networks, const fsm::Image& image,
+                            const NetworkCrop& crop) {
   static const std::vector<glm::vec2> anchors = Anchors();
   networks.detector.Run(crop.Sample(image, kDetectorPixels, -1, 1));
   const auto boxes = networks.detector.output(0);
   const auto scores = networks.detector.output(1);
   std::vector<FaceBox> found;
   for (std::size_t i = 0; i < anchors.size(); ++i) {
-    const float score = op::Logistic::Of(scores[i]);
-    if (!(score >= kLeastScore)) continue;
+    const float score = tflite::op::Logistic::Of(scores[i]);
+    if (!(score >= kMinScore)) continue;
     const float* box = &boxes[16 * i];
     const auto place = [&](int k) {
       return crop.ToPicture(anchors[i] + glm::vec2(box[k], box[k + 1]) / float{kDetectorPixels});
@@ -78,7 +79,7 @@ std::vector<FaceBox> Detect(FaceNetworks& networks, const fsm::Image& image, con
                  .size = glm::abs(glm::vec2(box[2], box[3])) / float{kDetectorPixels} * crop.size,
                  .score = score,
                  .eyes = {place(4), place(6)}};
-    if (std::min(face.size.x, face.size.y) >= kLeastFace) found.push_back(face);
+    if (std::min(face.size.x, face.size.y) >= kMinFacePx) found.push_back(face);
   }
   return found;
 }
@@ -142,9 +143,9 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
                           std::atan2(eyes.y, eyes.x)}};
   // The first look says where the face is; the others see it upright and as large as in training.
   for (int look = 0; look < 3; ++look) {
-    if (look > 0) face.crop = CropAround(face.points, face.crop.angle);
+    if (look > 0) face.crop = CropAround(face.points, face.crop.angle_rad);
     networks.landmarks.Run(face.crop.Sample(image, kPointsPixels, 0, 1));
-    face.certainty = op::Logistic::Of(networks.landmarks.output(1)[0]);
+    face.certainty = tflite::op::Logistic::Of(networks.landmarks.output(1)[0]);
     face.points = PointsInPicture(networks.landmarks.output(0), face.crop);
   }
   return face;
@@ -169,13 +170,15 @@ std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image
   const float longer = std::max(size.x, size.y);
   ScaledDetector scan(networks, image);
   scan.Look(size * 0.5F, longer, true);
-  for (Detection& seen : scan.found) {
-    seen.rank += seen.face.size.x > kWellSeen * longer ? kWellSeenRank : kWholeRank;
+  for (Detection& detection : scan.found) {
+    detection.rank += detection.face.size.x > kWellSeen * longer ? kWellSeenRank : kWholeRank;
   }
   // A face that fills the picture is too large for the network, one in a crowd too small.
   if (scan.found.empty()) scan.Look(size * 0.5F, longer * kZoomedOut, true);
   float largest = 0;
-  for (const Detection& seen : scan.found) largest = std::max(largest, seen.face.size.x);
+  for (const Detection& detection : scan.found) {
+    largest = std::max(largest, detection.face.size.x);
+  }
   for (const int parts : kParts) {
     if (largest > kFillsPart * longer / static_cast<float>(parts)) break;
     const float part = longer / static_cast<float>(parts) * kPartOverlap;
@@ -197,7 +200,7 @@ std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image
   return faces;
 }
 
-std::vector<glm::vec3> PointsInPicture(std::span<const float> raw, const Crop& crop) {
+std::vector<glm::vec3> PointsInPicture(std::span<const float> raw, const NetworkCrop& crop) {
   std::vector<glm::vec3> points;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
     const glm::vec3 at =
@@ -207,14 +210,16 @@ std::vector<glm::vec3> PointsInPicture(std::span<const float> raw, const Crop& c
   return points;
 }
 
-Crop CropAround(std::span<const glm::vec3> points, float axes) {
-  const Crop turned{glm::vec2(0), 1, axes};
+NetworkCrop CropAround(std::span<const glm::vec3> points, float axes_rad) {
+  const NetworkCrop turned{glm::vec2(0), 1, axes_rad};
   Box2 box;
   for (const glm::vec3& p : points) box.Add(turned.FromPicture(glm::vec2(p)));
   return {turned.ToPicture(box.Middle()), kCropMargin * std::max(box.Size().x, box.Size().y),
           EyeAngle(points)};
 }
 
-Crop CropAround(std::span<const glm::vec3> points) { return CropAround(points, EyeAngle(points)); }
+NetworkCrop CropAround(std::span<const glm::vec3> points) {
+  return CropAround(points, EyeAngle(points));
+}
 
 }  // namespace facefit

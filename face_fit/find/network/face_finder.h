@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "face_fit/find/network/crop.h"
 #include "face_fit/find/network/face_networks.h"
+#include "face_fit/find/network/network_crop.h"
 #include "face_fit/find/network/network_points.h"
 
 namespace facefit {
@@ -17,7 +17,7 @@ struct FoundFace {
   std::vector<glm::vec3> points;  ///< kNetworkPoints
   float certainty = 0;            ///< 0..1 that the points lie on a face
   float score = 1;                ///< 0..1 the detector's, which sees no face upside down
-  Crop crop;                      ///< around the points
+  NetworkCrop crop;               ///< around the points
   glm::vec2 At(PointIndex i) const { return glm::vec2(points[i]); }
   std::vector<glm::vec2> Line(std::span<const PointIndex> of) const {
     std::vector<glm::vec2> line;
@@ -36,11 +36,11 @@ std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image
 
 /// What a landmark network says of the crop it was shown (x, y, z of each point, in pixels of
 /// kPointsPixels), as FoundFace has it.
-std::vector<glm::vec3> PointsInPicture(std::span<const float> raw, const Crop& crop);
+std::vector<glm::vec3> PointsInPicture(std::span<const float> raw, const NetworkCrop& crop);
 
 /// The square around a face's points, upright as its eyes are, as the landmark network is shown it.
-/// `axes`: radians, of the box the points are measured with.
-Crop CropAround(std::span<const glm::vec3> points, float axes);
-Crop CropAround(std::span<const glm::vec3> points);  ///< measured along the eyes
+/// `axes_rad`: of the box the points are measured with.
+NetworkCrop CropAround(std::span<const glm::vec3> points, float axes_rad);
+NetworkCrop CropAround(std::span<const glm::vec3> points);  ///< measured along the eyes
 
 }  // namespace facefit

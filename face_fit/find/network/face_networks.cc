@@ -12,14 +12,14 @@
 namespace facefit {
 namespace {
 
-constexpr std::size_t kMostBytes = 64U << 20;
+constexpr std::size_t kMaxBytes = 64U << 20;
 
 /// The package keeps its files one after the other in one; its loader lists where each begins.
-Bytes Packed(const std::string& script, const std::string& data, const std::string& name) {
+tflite::Bytes Packed(const std::string& script, const std::string& data, const std::string& name) {
   const std::string key = "\"files\": [";
   const auto begin = script.find(key);
   const auto end = begin == std::string::npos ? begin : script.find(']', begin);
-  if (end == std::string::npos) throw BadModel("the package's loader lists no files");
+  if (end == std::string::npos) throw tflite::BadModel("the package's loader lists no files");
   const auto list =
       nlohmann::json::parse(script.substr(begin + key.size() - 1, end - begin - key.size() + 2));
   for (const auto& entry : list) {
@@ -29,7 +29,7 @@ Bytes Packed(const std::string& script, const std::string& data, const std::stri
     if (first > last || last > data.size()) break;
     return fsm::BytesOf(data).subspan(first, last - first);
   }
-  throw BadModel("the package holds no " + name);
+  throw tflite::BadModel("the package holds no " + name);
 }
 
 /// The package @mediapipe/face_mesh as it is unpacked.
@@ -38,13 +38,15 @@ struct FaceMeshPackage {
 
   static std::optional<FaceMeshPackage> Read(const std::string& where) {
     const std::string package = where + "/face_mesh/face_mesh_solution_packed_assets";
-    auto loader = vm::ReadTextFile(package + "_loader.js", kMostBytes);
-    auto data = vm::ReadTextFile(package + ".data", kMostBytes);
+    auto loader = vm::ReadTextFile(package + "_loader.js", kMaxBytes);
+    auto data = vm::ReadTextFile(package + ".data", kMaxBytes);
     if (!loader || !data) return std::nullopt;
     return FaceMeshPackage{std::move(*loader), std::move(*data)};
   }
   /// Throws an exception if it cannot be used.
-  Network Open(const char* name) const { return Network(Model::Read(Packed(loader, data, name))); }
+  Network Open(const char* name) const {
+    return Network(tflite::Model::Read(Packed(loader, data, name)));
+  }
 };
 
 std::unexpected<vm::Error> NotThere(const std::string& where) {
@@ -65,7 +67,7 @@ Network Expect(Network network, std::size_t side, std::initializer_list<std::siz
       network.input_shape().count() == side * side * 3 && network.outputs() == outputs.size();
   std::size_t i = 0;
   for (const std::size_t n : outputs) fits = fits && network.output(i++).size() == n;
-  if (!fits) throw BadModel("a network of another kind");
+  if (!fits) throw tflite::BadModel("a network of another kind");
   return network;
 }
 
@@ -80,14 +82,14 @@ vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
   const std::string where = folder.empty() ? NetworksFolder() : folder;
   const auto package = FaceMeshPackage::Read(where);
   const auto figure =
-      vm::ReadTextFile(where + "/selfie_segmentation/selfie_segmentation.tflite", kMostBytes);
+      vm::ReadTextFile(where + "/selfie_segmentation/selfie_segmentation.tflite", kMaxBytes);
   if (!package || !figure) return NotThere(where);
   try {
     return FaceNetworks{.detector = Expect(package->Open("face_detection_short_range.tflite"),
                                            kDetectorPixels, {896 * 16, 896}),
                         .landmarks = Expect(package->Open("face_landmark.tflite"), kPointsPixels,
                                             {3 * kNetworkPoints, 1}),
-                        .segmentation = Expect(Network(Model::Read(fsm::BytesOf(*figure))),
+                        .segmentation = Expect(Network(tflite::Model::Read(fsm::BytesOf(*figure))),
                                                kFigurePixels, {kFigurePixels * kFigurePixels})};
   } catch (const std::exception& error) {
     return NotUsable(where, error);

@@ -7,6 +7,8 @@
 
 namespace facefit {
 
+using tflite::Network;
+
 /// The sides of the square pictures that the networks are shown, in pixels: those that find faces,
 /// their points, and figures.
 inline constexpr int kDetectorPixels = 128, kPointsPixels = 192, kFigurePixels = 256;

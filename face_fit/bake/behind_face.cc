@@ -1,0 +1,66 @@
+#include "face_fit/bake/behind_face.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "face_fit/bake/chin.h"
+#include "face_fit/bake/skin_surface.h"
+#include "face_fit/picture/filters.h"
+#include "face_fit/picture/grain.h"
+#include "face_fit/picture/pixels.h"
+#include "face_fit/tables/photo_look.h"
+
+namespace facefit {
+namespace {
+
+/// A picture whose unknown pixels are filled from around, with grain.
+fsm::Image FilledIn(fsm::Image image, const FloatImage& known, float pixels_per_mm) {
+  PushPullInpaint(image, known);
+  const int grain = std::max(static_cast<int>(PhotoLook()("hole_grain") * pixels_per_mm), 2);
+  // In a small photo a pixel is as coarse as grain: none is added.
+  const float amount = Ramp(PhotoLook().Pair("hole_grain_pixels"), pixels_per_mm);
+  AddGrain(known, FloatImage(image.width, image.height, amount), grain, image);
+  return image;
+}
+
+}  // namespace
+
+fsm::Image BehindFace(const FittedHead& fitted, const FigureCutout& figure) {
+  const int width = figure.colours.width, height = figure.colours.height;
+  const Chin chin(fitted);
+  FloatImage face =
+      VisibleSkin(fitted, fitted.pose, {glm::vec2(0.5F), 1, width, height}, chin.SkinBottom())
+          .Covered();
+  FillHoles(face);
+  // Somewhat smaller than the skin, whose edge shows the same as the sheet's there. Forehead and
+  // temples are mostly hair already, so the hole begins at the brows. Before the neck it is as
+  // large as the skin, or the chin would be seen a second time.
+  const float pixels_per_mm = fitted.pose.PixelsPerMm();
+  const float face_hole = PhotoLook()("hole_face"), neck_hole = PhotoLook()("hole_neck");
+  const glm::vec2 hole_edge = PhotoLook().Pair("hole_edge");
+  const glm::vec2 neck_edge = PhotoLook().Pair("hole_neck_edge");
+  const FloatImage soft =
+      Blurred(face, std::max(static_cast<int>(PhotoLook()("hole_soft") * pixels_per_mm), 1));
+  FloatImage keep(width, height, 1), beside(width, height, 1), below(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
+      const glm::vec3 place = fitted.pose.PlaceAt(pixel, kBesideFaceDepth);
+      const std::size_t i = keep.Index(x, y);
+      const float hole = glm::mix(face_hole, neck_hole, chin.BeforeNeck(place));
+      keep.values[i] = Ramp(hole + hole_edge, soft.values[i]);
+      beside.values[i] = Ramp(neck_hole + neck_edge, soft.values[i]);
+      below.values[i] = chin.Below(place);
+    }
+  }
+  fsm::Image out = FilledIn(figure.colours, keep, pixels_per_mm);
+  // Behind the jaw lies what is below it, not what is on it.
+  const fsm::Image neck = FilledIn(figure.colours, beside, pixels_per_mm);
+  for (std::size_t i = 0; i < keep.values.size(); ++i) {
+    const float blend = below.values[i] * (1 - keep.values[i]);
+    if (blend > 0) SetRgb(out, i, glm::mix(Rgb(out, i), Rgb(neck, i), blend));
+  }
+  return out;
+}
+
+}  // namespace facefit

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cmath>
+#include <glm/vec3.hpp>
+
+#include "face_fit/fit/fitted_head.h"
+#include "face_fit/tables/photo_look.h"
+
+namespace facefit {
+
+/// The chin of the fitted head, and what lies about it, in the head's frame.
+class Chin {
+ public:
+  explicit Chin(const FittedHead& fitted) : place_(fitted.At(point::kChin)) {}
+  float height() const { return place_.y; }
+  /// Below it the neck of the photo takes over from the skin.
+  float SkinBottom() const { return place_.y - PhotoLook()("skin_below_chin"); }
+  /// 1 well below the chin, 0 above it.
+  float Below(glm::vec3 p) const { return Ramp(place_.y + below_, p.y); }
+  /// 1 below the chin, behind which the neck lies, 0 where the skin goes on to neck, ear and hair.
+  float BeforeNeck(glm::vec3 p) const { return Below(p) * Ramp(before_neck_, std::abs(p.x)); }
+
+ private:
+  glm::vec3 place_;
+  glm::vec2 below_ = PhotoLook().Pair("below_chin"), before_neck_ = PhotoLook().Pair("before_neck");
+};
+
+/// Depth of what lies beside the face, camera's frame, millimetres: near enough to tell what of the
+/// head a pixel lies over.
+inline constexpr float kBesideFaceDepth = 20;
+
+}  // namespace facefit

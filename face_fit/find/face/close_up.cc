@@ -1,0 +1,57 @@
+#include "face_fit/find/face/close_up.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "face_fit/picture/filters.h"
+#include "face_fit/picture/photo.h"
+
+namespace facefit {
+namespace {
+
+constexpr float kAsideMm = 330, kAboveMm = 300, kBelowMm = 430;  // from the nose
+/// More of a photo than that is all of it.
+constexpr float kNearlyAll = 0.95F;
+
+/// Measured between the outer corners of the eyes and from forehead to chin; the larger of the two
+/// is seen less at a slant.
+float PixelsPerMm(const FoundFace& face) {
+  constexpr float kHeightMm = 132;  // of the built-in head
+  return std::max(
+      glm::distance(face.points[point::kEyeOuterRight], face.points[point::kEyeOuterLeft]) /
+          kEyesApartMm,
+      glm::distance(face.points[point::kForehead], face.points[point::kChin]) / kHeightMm);
+}
+
+}  // namespace
+
+CloseUp CloseUpOf(const fsm::Image& photo, const fsm::Image& finest, const FoundFace& face) {
+  const glm::vec2 size(photo.width, photo.height), all(finest.width, finest.height);
+  const glm::vec2 finer = all / size;
+  const float pixels_per_mm = PixelsPerMm(face);
+  const glm::vec2 nose = face.At(point::kNoseTip);
+  const glm::vec2 low =
+      glm::clamp(nose - pixels_per_mm * glm::vec2(kAsideMm, kAboveMm), glm::vec2(0), size);
+  const glm::vec2 high =
+      glm::clamp(nose + pixels_per_mm * glm::vec2(kAsideMm, kBelowMm), glm::vec2(0), size);
+  // Scaled to the finest photo and rounded up, its edge may come to lie beyond it.
+  const glm::ivec2 from = glm::floor(low * finer);
+  const glm::ivec2 to = glm::min(glm::ceil(high * finer), all);
+  const glm::ivec2 part = to - from;
+  const glm::vec2 share = glm::vec2(part) / all;
+  const bool whole = std::min(share.x, share.y) > kNearlyAll;
+  if (whole || std::min(part.x, part.y) < 1) return {photo, face, 1};
+  fsm::Image close = ScaledToFit(Cropped(finest, from.x, from.y, part.x, part.y), kWorkingSize);
+  const glm::vec2 scale = glm::vec2(close.width, close.height) / glm::vec2(part);
+  const auto place = [&](glm::vec2 p) { return (p * finer - glm::vec2(from)) * scale; };
+  const float larger = finer.x * scale.x;
+  FoundFace there = face;
+  for (glm::vec3& p : there.points) p = glm::vec3(place(glm::vec2(p)), p.z * larger);
+  there.crop.centre = place(face.crop.centre);
+  there.crop.size *= larger;
+  return {std::move(close), std::move(there), larger};
+}
+
+}  // namespace facefit

@@ -1,0 +1,23 @@
+#include "face_fit/fit/side_photo.h"
+
+#include <utility>
+
+#include "face_fit/find/face/upright.h"
+#include "face_fit/picture/photo.h"
+
+namespace facefit {
+
+vm::Result<void> CheckSidePhotoCount(std::size_t count) {
+  if (count <= kMaxSidePhotos) return {};
+  return vm::Fail(vm::Errc::kLimit,
+                  "at most " + std::to_string(kMaxSidePhotos) + " photos from the side are used");
+}
+
+vm::Result<SidePhoto> ReadSidePhoto(FaceNetworks& networks, const std::string& path) {
+  auto photo = ReadPhoto(path);
+  if (!photo) return std::unexpected(photo.error());
+  UprightPhoto upright = SetUpright(networks, std::move(*photo));
+  return SidePhoto{path, std::move(upright.photo), std::move(upright.faces)};
+}
+
+}  // namespace facefit

@@ -1,0 +1,60 @@
+#include "face_fit/fit/stereo_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "face_fit/fit/stereo.h"
+
+namespace facefit {
+namespace {
+
+constexpr int kStereoRounds = 2;
+constexpr float kMiddleMm = 12;        // from the face's middle: there the nose hides no cheek
+constexpr float kMaxDepthStepMm = 10;  // in one round
+// Some single patches are mistaken: those that differ by more than kMistakenMm from what their
+// neighbours say, evened out by kRoughSmoothMm, are left out. With fewer than kMinDepths left
+// nothing is done; these are evened out by kDepthSmoothMm (both as of fsm::Warp).
+constexpr float kMistakenMm = 2, kRoughSmoothMm = 60, kDepthSmoothMm = 12;
+constexpr std::size_t kMinDepths = 20;
+
+/// What the far cheek hides is taken to be as the near one.
+std::vector<fsm::WarpPoint> OnBothCheeks(std::vector<fsm::WarpPoint> depths, glm::vec3 towards) {
+  const std::size_t count = depths.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [place, depth] = depths[i];
+    if (place.x * towards.x > 0 && std::abs(place.x) > kMiddleMm) {
+      depths.push_back({place * glm::vec3(-1, 1, 1), depth});
+    }
+  }
+  return depths;
+}
+
+}  // namespace
+
+CorrectedFit CorrectDepthByStereo(const Fit& fit, const fsm::Image& front, const fsm::Image& side,
+                                  const PoseFit& pose) {
+  CorrectedFit corrected{fit, pose};
+  for (int round = 0; round < kStereoRounds; ++round) {
+    const FittedHead& head = corrected.fit.head;
+    StereoDepths stereo = CompareDepth(head, front, side, corrected.side.pose);
+    corrected.side.pose = stereo.side_pose;
+    if (stereo.depths.empty()) break;
+    auto depths = OnBothCheeks(std::move(stereo.depths), stereo.side_pose.TowardsCamera());
+    const fsm::Warp rough(depths, kRoughSmoothMm);
+    std::erase_if(depths, [&](const fsm::WarpPoint& point) {
+      return std::abs(rough.Motion(point.at).z - point.by.z) > kMistakenMm;
+    });
+    if (depths.size() < kMinDepths) break;
+    const fsm::Warp depth(depths, kDepthSmoothMm);
+    std::vector<LandmarkConstraint> constraints = corrected.fit.targets.constraints;
+    for (LandmarkConstraint& constraint : constraints) {
+      constraint.z_mm += std::clamp(depth.Motion(constraint.on_head.On(head.base->rest.position)).z,
+                                    -kMaxDepthStepMm, kMaxDepthStepMm);
+    }
+    corrected.fit = WithConstraints(corrected.fit, std::move(constraints));
+  }
+  return corrected;
+}
+
+}  // namespace facefit

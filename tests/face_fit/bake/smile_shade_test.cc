@@ -1,0 +1,166 @@
+// A photo of a smile brought to rest: the light on its cheeks.
+
+#include "face_fit/bake/smile_shade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "tests/face_fit/network_fixture.h"
+
+namespace facefit {
+namespace {
+
+/// The built-in head as if a photo of 300 pixels showed it, and a map of one skin with grain, with
+/// a band across the cheeks that shines, and the forehead as well. Where the map's skin lies is
+/// worked out once; each test has a map of its own.
+class SmileShadeTest : public NetworkTest {
+ protected:
+  static constexpr int kPhoto = 300;
+  static void TearDownTestSuite() {
+    placed_.reset();
+    NetworkTest::TearDownTestSuite();
+  }
+  void SetUp() override {
+    NetworkTest::SetUp();
+    if (IsSkipped()) return;
+    if (!placed_) {
+      FittedHead fitted;
+      fitted.base = &Galatea();
+      fitted.pose.focal = 760;
+      fitted.pose.centre = {kPhoto / 2, kPhoto / 2};
+      fitted.posed_vertices = Galatea().rest.position;
+      placed_.emplace(ProjectSkin(fitted, fitted.pose, SelfHidden::kNotSeen));
+    }
+    map_ = {.width = kMapSize, .height = kMapSize, .rgba = {}};
+    for (std::size_t i = 0; i < placed_->values.size(); ++i) {
+      const float y = Height(i);
+      const bool band = std::abs(y - middle()) < 5 || placed_->values[i].above_brows_mm > 10;
+      const int grain = static_cast<int>(i * 7919 % 13) - 6;
+      const auto c = static_cast<std::uint8_t>((band ? 190 : 150) + grain);
+      map_.rgba.insert(map_.rgba.end(), {c, c, c, 255});
+    }
+  }
+  glm::vec3 Place(std::size_t point) const {
+    return Galatea().points[point].On(Galatea().rest.position);
+  }
+  float Height(std::size_t i) const {
+    return placed_->values[i].above_brows_mm + Galatea().head->Landmark("nasion").y + kBrowsEndMm;
+  }
+  /// Between nose and mouth, on the cheeks.
+  float middle() const { return 0.5F * (Place(2).y + Place(61).y); }
+  /// The mean over cheeks at one height.
+  float Mean(float y) const {
+    float sum = 0, count = 0;
+    for (std::size_t i = 0; i < placed_->values.size(); ++i) {
+      const float x = std::abs(placed_->values[i].x_mm);
+      if (x < 30 || x > 42 || std::abs(Height(i) - y) > 1 || placed_->values[i].facing < 0.2F)
+        continue;
+      sum += map_.rgba[4 * i];
+      ++count;
+    }
+    return sum / count;
+  }
+
+  static inline std::optional<SkinTexels> placed_;
+  fsm::Image map_;
+  FloatImage seen_{kMapSize, kMapSize, 1};
+};
+
+TEST_F(SmileShadeTest, SkinIsHiddenAsThePoseGivenSeesItNotAsThatOfTheFit) {
+  FittedHead fitted;
+  fitted.base = &Galatea();
+  fitted.pose.focal = 760;
+  fitted.pose.centre = {kPhoto / 2, kPhoto / 2};
+  fitted.posed_vertices = Galatea().rest.position;
+  CameraPose aside = fitted.pose;
+  aside.turn_rad.y = 0.9F;
+  const SkinTexels seen = ProjectSkin(fitted, aside, SelfHidden::kNotSeen);
+  fitted.pose = aside;
+  const SkinTexels fitted_so = ProjectSkin(fitted, aside, SelfHidden::kNotSeen);
+  EXPECT_TRUE(std::ranges::equal(seen.values, fitted_so.values, {}, &SkinTexel::facing,
+                                 &SkinTexel::facing));
+}
+
+TEST_F(SmileShadeTest, ABandOfShineIsEvenedOutAndGrainStays) {
+  const fsm::Image before = map_;
+  EXPECT_GT(Mean(middle()) - Mean(middle() - 9), 35);
+  RemoveSmileShading(Galatea(), *placed_, seen_, 1, map_);
+  EXPECT_LT(std::abs(Mean(middle()) - Mean(middle() - 9)), 16);
+  // Neighbours differ as before.
+  float rough = 0, was = 0;
+  for (std::size_t i = 1; i < placed_->values.size(); ++i) {
+    if (std::abs(std::abs(placed_->values[i].x_mm) - 36) > 6 || std::abs(Height(i) - middle()) > 1)
+      continue;
+    rough += static_cast<float>(std::abs(map_.rgba[4 * i] - map_.rgba[4 * i - 4]));
+    was += static_cast<float>(std::abs(before.rgba[4 * i] - before.rgba[4 * i - 4]));
+  }
+  EXPECT_GT(rough, 0.7F * was);
+}
+
+TEST_F(SmileShadeTest, ForeheadEyesNoseAndLipsStayAsTheyAre) {
+  const fsm::Image before = map_;
+  RemoveSmileShading(Galatea(), *placed_, seen_, 1, map_);
+  for (std::size_t i = 0; i < placed_->values.size(); ++i) {
+    const bool nose = std::abs(placed_->values[i].x_mm) < 10 && Height(i) > Place(2).y;
+    const bool other =
+        Height(i) > Place(145).y - 8 || nose || placed_->values[i].within_lips_mm > -1;
+    if (other) {
+      ASSERT_EQ(map_.rgba[4 * i], before.rgba[4 * i]) << i;
+    }
+  }
+}
+
+TEST_F(SmileShadeTest, WhatThePhotoDoesNotShowStays) {
+  // The photo shows one cheek only; beyond is what was filled in.
+  for (std::size_t i = 0; i < placed_->values.size(); ++i)
+    seen_.values[i] = placed_->values[i].x_mm < 0 ? 1 : 0;
+  const fsm::Image before = map_;
+  RemoveSmileShading(Galatea(), *placed_, seen_, 1, map_);
+  int changed = 0;
+  for (std::size_t i = 0; i < placed_->values.size(); ++i) {
+    if (placed_->values[i].x_mm > 6) {
+      ASSERT_EQ(map_.rgba[4 * i], before.rgba[4 * i]) << i;
+    }
+    changed += map_.rgba[4 * i] != before.rgba[4 * i];
+  }
+  EXPECT_GT(changed, 1000) << "the other cheek is evened out";
+}
+
+TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
+  fsm::Image flat = map_;
+  FloatImage smooth(kMapSize, kMapSize);
+  const auto spot = [&](std::size_t i) {
+    return std::abs(std::abs(placed_->values[i].x_mm) - 30) < 4 &&
+           std::abs(Height(i) - middle() + 12) < 3;
+  };
+  for (std::size_t i = 0; i < placed_->values.size(); ++i) {
+    if (!spot(i)) continue;
+    smooth.values[i] = 1;
+    for (std::size_t c = 0; c < 3; ++c) flat.rgba[4 * i + c] = 150;
+  }
+  const fsm::Image before = flat;
+  GrainFromCheeks(smooth, flat);
+  float rough = 0, sum = 0, count = 0;
+  for (std::size_t i = 1; i < placed_->values.size(); ++i) {
+    if (!spot(i)) {
+      ASSERT_EQ(flat.rgba[4 * i], before.rgba[4 * i]) << "nothing else changes";
+      continue;
+    }
+    rough += std::abs(static_cast<float>(flat.rgba[4 * i]) - 150);
+    sum += flat.rgba[4 * i];
+    ++count;
+  }
+  EXPECT_GT(rough / count, 1.5F);
+  EXPECT_NEAR(sum / count, 150, 2) << "no colour changes on the mean";
+}
+
+TEST_F(SmileShadeTest, WithoutASmileNothingChanges) {
+  const fsm::Image before = map_;
+  RemoveSmileShading(Galatea(), *placed_, seen_, 0, map_);
+  EXPECT_EQ(map_.rgba, before.rgba);
+}
+
+}  // namespace
+}  // namespace facefit

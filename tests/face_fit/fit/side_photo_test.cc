@@ -1,0 +1,16 @@
+#include "face_fit/fit/side_photo.h"
+
+#include <gtest/gtest.h>
+
+namespace facefit {
+namespace {
+
+TEST(SidePhotoTest, SoManyAreUsedAndNoMore) {
+  EXPECT_TRUE(CheckSidePhotoCount(kMaxSidePhotos));
+  const auto more = CheckSidePhotoCount(kMaxSidePhotos + 1);
+  ASSERT_FALSE(more);
+  EXPECT_EQ(more.error().code, vm::Errc::kLimit);
+}
+
+}  // namespace
+}  // namespace facefit
