@@ -161,14 +161,15 @@ std::optional<RigData> RigOfShapes(const ImportedHead& file, const Alignment& al
 
 std::vector<ExportedShape> ArkitShapes(const MotionTables& tables) {
   std::vector<ExportedShape> shapes;
+  FaceMotion motion(tables, 1);
+  MotionSettings settings;
+  settings.gaze_distance_mm = 0;
+  motion.Apply(0ms, settings);
   for (const auto& [name, units] : tables.blend_shapes) {
-    FaceMotion motion(tables, 1);
-    MotionSettings settings;
-    settings.gaze_distance_mm = 0;
-    motion.Apply(0ms, settings);
     if (!motion.blend_shapes.Set(0ms, name, 1, 0ms)) continue;
     shapes.push_back({name, motion.StateAt(5s)});
     shapes.back().state.asymmetry = 0;  // left and right shapes are each other's image
+    static_cast<void>(motion.blend_shapes.Set(0ms, name, 0, 0ms));
   }
   return shapes;
 }

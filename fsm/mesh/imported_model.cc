@@ -100,8 +100,10 @@ class HeadBuilder {
   }
 
   [[noreturn]] void Refuse(const std::string& what) const {
-    throw std::runtime_error(file_.name + ": " + what +
-                             " comes to lie farther than 10 km from the head: do its landmarks "
+    constexpr float kMmInKm = 1e6F;
+    throw std::runtime_error(file_.name + ": " + what + " comes to lie farther than " +
+                             std::to_string(static_cast<int>(kMaxMeshReach / kMmInKm)) +
+                             " km from the head: do its landmarks "
                              "(.points) or eyes belong to it?");
   }
 

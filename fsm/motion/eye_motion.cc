@@ -80,7 +80,7 @@ void EyeMotion::Think(vm::Time now) {
 }
 
 void EyeMotion::Blink(vm::Time now, std::size_t pattern, int count) {
-  const BlinkPattern& blink = patterns_.blinks[pattern - 1];
+  const BlinkPattern& blink = PatternAt(patterns_.blinks, pattern);
   for (int i = 0; i < count; ++i) {
     const vm::Time start = now + i * LengthOf(blink);
     std::erase_if(blinks_,

@@ -105,10 +105,11 @@ void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
   if (own.pattern == 0) return;
   const double weight = own.weight.At(t);
   if (!patterns_.auto_move_files.empty()) {
-    Add(out, Looped(patterns_.auto_move_files[own.pattern - 1], InMs(t - own.since)), weight);
+    Add(out, Looped(PatternAt(patterns_.auto_move_files, own.pattern), InMs(t - own.since)),
+        weight);
     return;
   }
-  const AutoMove& move = patterns_.auto_moves[own.pattern - 1];
+  const AutoMove& move = PatternAt(patterns_.auto_moves, own.pattern);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double slow = InMs(t) / move.period_ms + 0.37 * static_cast<double>(axis);
     const double fast = slow * gestures_.wander.faster;
@@ -122,7 +123,7 @@ void IdleBehaviour::AddNods(vm::Time t, Angles& out) const {
   const Switch& own = Of(IdleKind::kNods);
   const double weight = own.weight.At(t);
   if (own.pattern == 0 || weight <= 0) return;
-  const AutoNods& nods = patterns_.auto_nods[own.pattern - 1];
+  const AutoNods& nods = PatternAt(patterns_.auto_nods, own.pattern);
   const double ms = InMs(t - own.since);
   const auto k = static_cast<std::int64_t>(std::floor(ms / nods.interval_ms));
   if (ms < 0) return;
@@ -143,12 +144,13 @@ void IdleBehaviour::Contribute(vm::Time t, MotionLayers& layers) const {
   MotionLayer& layer = layers.Layer("idle");
   AddMove(t, layer.head);
   if (const Switch& own = Of(IdleKind::kUserdef); own.pattern > 0) {
-    Add(layer.head, Looped(patterns_.auto_userdef[own.pattern - 1], InMs(t - own.since)),
+    Add(layer.head, Looped(PatternAt(patterns_.auto_userdef, own.pattern), InMs(t - own.since)),
         own.weight.At(t));
   }
   if (const Switch& own = Of(IdleKind::kBreath); own.pattern > 0) {
     const double breath = BreathAt(t);
-    layer.head[kDown] -= static_cast<float>(patterns_.auto_breaths[own.pattern - 1].pitch * breath);
+    layer.head[kDown] -=
+        static_cast<float>(PatternAt(patterns_.auto_breaths, own.pattern).pitch * breath);
     const auto nostrils = static_cast<float>(gestures_.breath.nostrils * breath);
     layer.units.au.left[kNostrilDilator] = layer.units.au.right[kNostrilDilator] = nostrils;
   }
@@ -156,7 +158,8 @@ void IdleBehaviour::Contribute(vm::Time t, MotionLayers& layers) const {
   layer.lids_shut = static_cast<float>(LidsShutAt(t));
   AddNods(t, layers.Layer("nods").head);
   if (const Switch& own = Of(IdleKind::kFace); own.pattern > 0) {
-    AddTo(layers.Layer("idle_face").units, patterns_.auto_faces[own.pattern - 1], own.weight.At(t));
+    AddTo(layers.Layer("idle_face").units, PatternAt(patterns_.auto_faces, own.pattern),
+          own.weight.At(t));
   }
 }
 
@@ -164,7 +167,7 @@ double IdleBehaviour::BreathAt(vm::Time t) const {
   const Switch& own = Of(IdleKind::kBreath);
   if (own.pattern == 0) return 0;
   const double ms = std::max(0.0, InMs(t - own.since));
-  const double u = std::fmod(ms / patterns_.auto_breaths[own.pattern - 1].period_ms, 1.0);
+  const double u = std::fmod(ms / PatternAt(patterns_.auto_breaths, own.pattern).period_ms, 1.0);
   const double in = gestures_.breath.in, out = gestures_.breath.out;
   return own.weight.At(t) * (u < in ? Eased(u / in) : 1 - Eased((u - in) / out));
 }
@@ -172,7 +175,7 @@ double IdleBehaviour::BreathAt(vm::Time t) const {
 EyeAngles IdleBehaviour::EyesAt(vm::Time t) const {
   const Switch& own = Of(IdleKind::kGaze);
   if (own.pattern == 0) return {};
-  const AutoGaze& gaze = patterns_.auto_gazes[own.pattern - 1];
+  const AutoGaze& gaze = PatternAt(patterns_.auto_gazes, own.pattern);
   const double weight = own.weight.At(t);
   if (weight <= 0) return {};
   // One jump in each interval: fixations of very different lengths.
@@ -198,7 +201,7 @@ EyeAngles IdleBehaviour::EyesAt(vm::Time t) const {
 vm::Time IdleBehaviour::BlinkInterval(std::int64_t index) const {
   // Intervals between blinks are skewed: many short, some long. exp of a sum of three even numbers
   // (nearly normal) is nearly log-normal; bounded to half and one and a half of the mean.
-  const double mean = patterns_.auto_blinks[Of(IdleKind::kBlink).pattern - 1].interval_ms;
+  const double mean = PatternAt(patterns_.auto_blinks, Of(IdleKind::kBlink).pattern).interval_ms;
   const std::int64_t n = 3 * index;
   const double normal = Random(RandomStream::kBlinkTime, n) +
                         Random(RandomStream::kBlinkTime, n + 1) +
@@ -224,7 +227,7 @@ IdleBehaviour::Blink IdleBehaviour::LastBlink(vm::Time t) const {
 double IdleBehaviour::LidsShutAt(vm::Time t) const {
   const Switch& own = Of(IdleKind::kBlink);
   if (own.pattern == 0) return 0;
-  const AutoBlink& blinks = patterns_.auto_blinks[own.pattern - 1];
+  const AutoBlink& blinks = PatternAt(patterns_.auto_blinks, own.pattern);
   const double weight = own.weight.At(t);
   if (weight <= 0) return 0;
   const Blink blink = LastBlink(t);
@@ -243,7 +246,7 @@ std::optional<vm::Time> IdleBehaviour::NextActivity(vm::Time t) const {
   const std::optional<vm::Time> next = MotionSource::NextActivity(t);
   if (next && *next <= t) return t;
   if (!On(IdleKind::kBlink)) return next;
-  const AutoBlink& blinks = patterns_.auto_blinks[Of(IdleKind::kBlink).pattern - 1];
+  const AutoBlink& blinks = PatternAt(patterns_.auto_blinks, Of(IdleKind::kBlink).pattern);
   const vm::Time length = LengthOf(patterns_.blinks[blinks.blink]);
   // The earliest blink that is not over: the one that follows the last which was over by now.
   const Blink over = LastBlink(t - length);

@@ -103,7 +103,13 @@ std::optional<IdleKind> IdleKindNamed(std::string_view name);
 /// Patterns by kind.
 using IdleProfile = std::array<std::size_t, kIdleKindNames.size()>;
 
-/// Everything the face does by pattern number; pattern n is element n - 1.
+/// The pattern of a number, which commands and tables count from 1. REQUIRES: it is there.
+template <typename T>
+const T& PatternAt(const std::vector<T>& patterns, std::size_t number) {
+  return patterns[number - 1];
+}
+
+/// Everything the face does by pattern number (PatternAt).
 struct MotionPatterns {
   std::map<std::string, std::vector<HeadCurve>, std::less<>> head;  ///< NOD REFUSE LISTEN USERDEF
   std::vector<BlinkPattern> blinks;

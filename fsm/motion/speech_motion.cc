@@ -90,7 +90,7 @@ SpeechMotion::Mouth SpeechMotion::MouthAt(vm::Time t) const {
 
 const AutoAvert* SpeechMotion::Avert() const {
   const std::size_t pattern = idle_.Pattern(IdleKind::kAvert);
-  return pattern == 0 ? nullptr : &tables_.motions.auto_averts[pattern - 1];
+  return pattern == 0 ? nullptr : &PatternAt(tables_.motions.auto_averts, pattern);
 }
 
 double SpeechMotion::GesturesOf(const Utterance& one, vm::Time t) const {
@@ -101,7 +101,7 @@ double SpeechMotion::GesturesOf(const Utterance& one, vm::Time t) const {
 void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {
   const std::size_t pattern = idle_.Pattern(IdleKind::kSpeech);
   if (pattern == 0) return;
-  const AutoSpeech& size = tables_.motions.auto_speeches[pattern - 1];
+  const AutoSpeech& size = PatternAt(tables_.motions.auto_speeches, pattern);
   const double weight = idle_.Weight(IdleKind::kSpeech, t);
   double brow = 0;
   for (const Utterance& one : said_) {
@@ -123,7 +123,7 @@ void SpeechMotion::ShowLooks(vm::Time t, MotionLayer& layer) const {
   const std::size_t pattern = idle_.Pattern(IdleKind::kText);
   if (pattern == 0) return;
   const double size =
-      tables_.motions.auto_texts[pattern - 1].size * idle_.Weight(IdleKind::kText, t);
+      PatternAt(tables_.motions.auto_texts, pattern).size * idle_.Weight(IdleKind::kText, t);
   for (const Utterance& one : said_) {
     const double stays = size * GesturesOf(one, t);
     if (stays <= 0) continue;

@@ -9,10 +9,11 @@
 namespace fsm {
 namespace {
 
-/// What the program of a step reads of its vertices: records of one size, and behind them what is
-/// not of one size, as the shader says at each step. The struct that is packed into a record gives
-/// the shader its size.
-struct ListRecord {  // `from` and `to`: where its entries lie behind the records
+// What stands in RigItems::words, of 32-bit numbers without gaps: the shader reads the members in
+// this order, and is told the sizes.
+
+/// Of a vertex with a list: its entries lie in `from`..`to`, behind the records.
+struct ListRecord {
   std::uint32_t vertex, from, to;
 };
 struct PlaceRecord {
