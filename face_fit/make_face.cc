@@ -70,14 +70,11 @@ vm::Result<FoundFace> ChooseFace(std::span<const FoundFace> faces, int number) {
 vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const BaseHead& base, fsm::Image photo,
                                     const FaceChoice& choice, PhotoPart part,
                                     const StepDone& done) {
-  const auto tell = [&done](const char* step) {
-    if (done) done(step);
-  };
   const int given_longer = std::max(photo.width, photo.height);
   fsm::Image working = part == PhotoPart::kWhole ? photo : ScaledToFit(photo, kWorkingSize);
   auto found = std::visit(FaceSearch{networks, base, std::move(photo), std::move(working)}, choice);
   if (!found) return std::unexpected(found.error());
-  tell("faces and their points found");
+  done("faces and their points found");
   const glm::ivec2 whole_size(found->working.width, found->working.height);
   const glm::vec2 nose = found->face ? found->face->At(point::kNoseTip) : glm::vec2(0);
   float scale =
@@ -92,7 +89,7 @@ vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const BaseHead& base
   FigureCutout figure = CutOutFigure(found->working, SegmentPerson(networks, found->working, face));
   Occlusion occlusion;
   if (face) occlusion = DetectOcclusion(networks, base, *face, found->working);
-  tell("figure cut out");
+  done("figure cut out");
   return FrontPhoto{.photo = std::move(found->working),
                     .face = std::move(found->face),
                     .figure = std::move(figure),
@@ -107,16 +104,13 @@ vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const BaseHead& base
 vm::Result<MadeFace> MakeFace(const BaseHead& base, const FrontPhoto& front, const FoundFace& face,
                               const std::optional<SidePhotos>& sides, std::optional<bool> glasses,
                               const StepDone& done) {
-  const auto tell = [&done](const char* step) {
-    if (done) done(step);
-  };
   if (sides) {
     if (auto few = CheckSidePhotoCount(sides->photos.size()); !few) {
       return std::unexpected(few.error());
     }
   }
   Fit fit = FitFace(base, face, &front.photo);
-  tell("head fitted");
+  done("head fitted");
   std::vector<SideView> views;
   std::vector<MadeFace::LeftOut> left_out;
   for (const SidePhoto* side : sides ? sides->photos : std::vector<const SidePhoto*>{}) {
@@ -127,10 +121,10 @@ vm::Result<MadeFace> MakeFace(const BaseHead& base, const FrontPhoto& front, con
       left_out.push_back({side->path, corrected.error().text});
     }
   }
-  if (!views.empty()) tell("seen from the side, too");
+  if (!views.empty()) done("seen from the side, too");
   TextureBake bake = BakeTexture(face, fit, front.photo, front.figure, views);
   if (glasses) bake.head.glasses = *glasses;
-  tell("photo put on");
+  done("photo put on");
   std::string report = Report(face, fit, front.photo, bake, front.faces, front.occlusion);
   return MadeFace{std::move(fit), std::move(bake), std::move(report), std::move(left_out)};
 }

@@ -53,9 +53,9 @@ struct FrontPhoto {
 /// looks for what is before the face. The face may be uncertain: who relies on it compares its
 /// certainty with kCertainFace. Error: kBadValue, there are fewer faces than the number asked for,
 /// but some.
-vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const BaseHead& base, fsm::Image photo,
-                                    const FaceChoice& choice, PhotoPart part,
-                                    const StepDone& done = {});
+vm::Result<FrontPhoto> PrepareFront(
+    FaceNetworks& networks, const BaseHead& base, fsm::Image photo, const FaceChoice& choice,
+    PhotoPart part, const StepDone& done = [](const char*) {});
 
 /// Photos of the person from the side, and the networks they are looked at with.
 struct SidePhotos {
@@ -77,8 +77,9 @@ struct MadeFace {
 /// photos from the side, and bakes them onto it. `face`: front.face, or what a user made of it.
 /// `glasses`: whether the person wears them, else that is looked for. Error: of
 /// CheckSidePhotoCount. Throws std::runtime_error if nothing can be drawn with.
-vm::Result<MadeFace> MakeFace(const BaseHead& base, const FrontPhoto& front, const FoundFace& face,
-                              const std::optional<SidePhotos>& sides = {},
-                              std::optional<bool> glasses = {}, const StepDone& done = {});
+vm::Result<MadeFace> MakeFace(
+    const BaseHead& base, const FrontPhoto& front, const FoundFace& face,
+    const std::optional<SidePhotos>& sides = {}, std::optional<bool> glasses = {},
+    const StepDone& done = [](const char*) {});
 
 }  // namespace facefit

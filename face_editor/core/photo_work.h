@@ -58,7 +58,7 @@ struct BuiltFace {
 };
 /// Takes most of a second, and about one more for each photo from the side; for those `sight` is
 /// looked with, which only one thread may do. Error: kBadValue if the points do not make a face.
-/// REQUIRES: work.base
+/// REQUIRES: work.base; `sight`, if there are `sides`.
 vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
                                                        const PointMap& points,
                                                        FaceSight* sight = nullptr,

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
 
 namespace facefit {
 namespace {
+
+/// How much redder than skin a colour is whose red is not a flash, and whose red all is.
+constexpr glm::vec2 kRedderThanSkin{1, 1.15F};
 
 float RedShare(glm::vec3 c) { return c.r / std::max(0.5F * (c.g + c.b), 1.0F); }
 float Blueness(glm::vec3 c) { return c.b / std::max(c.g, 1.0F); }
@@ -22,8 +26,8 @@ float RedEye::Likelihood(glm::vec3 colour) const {
 
 glm::vec3 RedEye::Without(glm::vec3 colour, float near) const {
   // A pupil is dark; what else shines in it is left a little brighter.
-  const float part = near * glm::smoothstep(1.0F, 1.15F, Redder(colour, skin_));
-  return glm::mix(colour, glm::vec3(pupil_ * 0.5F * (colour.g + colour.b)), part);
+  const float share = near * Ramp(kRedderThanSkin, Redder(colour, skin_));
+  return glm::mix(colour, glm::vec3(pupil_ * 0.5F * (colour.g + colour.b)), share);
 }
 
 }  // namespace facefit

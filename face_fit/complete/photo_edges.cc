@@ -67,9 +67,8 @@ class EdgeClassifier {
   std::optional<glm::vec3> hair_;
 };
 
-/// The rows of a photo near its lower edge, by how far they lie below the chin, and how far aside
-/// of it a column lies: millimetres.
-struct BelowChin {
+/// Where rows and columns of a photo lie beside the chin, millimetres.
+struct ChinFrame {
   glm::vec2 chin;  ///< pixel
   float pixels_per_mm;
   float Below(int row) const { return (static_cast<float>(row) - chin.y) / pixels_per_mm; }
@@ -149,15 +148,16 @@ struct RunRule {
   EdgeKind hanging, standing;
 };
 constexpr RunRule kRunRules[] = {
-    {RunStuff::kClothOnNeck, EdgeKind::kSkin, EdgeKind::kSkin},    // the shade on a bare neck
-    {RunStuff::kClothBesideNeck, EdgeKind::kTip, EdgeKind::kTip},  // nothing else stands there
-    {RunStuff::kBeyondNeck, EdgeKind::kHair,
-     EdgeKind::kTip},  // a lock hangs in some columns at least
+    // clang-format off
+    {RunStuff::kClothOnNeck,     EdgeKind::kSkin, EdgeKind::kSkin},  // the shade on a bare neck
+    {RunStuff::kClothBesideNeck, EdgeKind::kTip,  EdgeKind::kTip},   // nothing else stands there
+    {RunStuff::kBeyondNeck,      EdgeKind::kHair, EdgeKind::kTip},   // a lock hangs in some column
+    // clang-format on
 };
 
 /// Splits the lower edge of a photo that ends above the shoulders; `below_mm`: how far it shows
 /// what is below the chin.
-std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const BelowChin& place,
+std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const ChinFrame& place,
                         float below_mm) {
   const auto& look = PhotoLook();
   const float neck_mm = look("edge_neck");
@@ -189,7 +189,7 @@ std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const BelowChin& 
   return runs;
 }
 
-std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const BelowChin& place,
+std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const ChinFrame& place,
                                    glm::ivec2 size, int band) {
   const auto& look = PhotoLook();
   const float hang_from = static_cast<float>(size.y) - look("edge_hangs") * place.pixels_per_mm;
@@ -261,7 +261,7 @@ PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure, glm
   const glm::ivec2 size(figure.opacity.width, figure.opacity.height);
   const EdgeClassifier classifier(figure, fitted.pose.Pixel(fitted.At(point::kForehead)).y, skin);
   const EdgeReader reader(figure, classifier);
-  const BelowChin place{fitted.pose.Pixel(fitted.At(point::kChin)), fitted.pose.PixelsPerMm()};
+  const ChinFrame place{fitted.pose.Pixel(fitted.At(point::kChin)), fitted.pose.PixelsPerMm()};
   const glm::ivec2 band =
       glm::clamp(glm::ivec2(static_cast<int>(PhotoLook()("edge_band") * place.pixels_per_mm)),
                  glm::ivec2(1), size);

@@ -31,15 +31,15 @@ void AddGrain(const FloatImage& weight, const FloatImage& where, int reach, fsm:
   std::vector<Transfer> transfers;
   for (std::size_t i = 0; i < weight.values.size(); ++i) {
     if (weight.values[i] >= kKnown || where.values[i] <= 0) continue;
-    const glm::ivec2 here = PlaceOf(weight, i), edge = PlaceOf(weight, nearest[i]);
-    const glm::ivec2 beyond = 2 * edge - here;
+    const glm::ivec2 pixel = PlaceOf(weight, i), edge = PlaceOf(weight, nearest[i]);
+    const glm::ivec2 beyond = 2 * edge - pixel;
     if (beyond.x < 0 || beyond.y < 0 || beyond.x >= weight.width || beyond.y >= weight.height) {
       continue;
     }
     const std::size_t from = weight.Index(beyond.x, beyond.y);
-    const float off = glm::length(glm::vec2(edge - here));
+    const float distance_px = glm::length(glm::vec2(edge - pixel));
     const float amount = where.values[i] * weight.values[from] * (1 - weight.values[i]) *
-                         glm::smoothstep(farthest, 0.5F * farthest, off);
+                         glm::smoothstep(farthest, 0.5F * farthest, distance_px);
     if (amount > 0) transfers.push_back({i, from, amount});
   }
   const VectorImage colours = Colours(image), even = Blurred(colours, reach);

@@ -1,6 +1,8 @@
 #include "face_fit/watch/face_measures.h"
 
+#include <array>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "face_fit/fit/camera_pose.h"
 #include "fsm/mesh/head_points.h"
@@ -14,14 +16,17 @@ glm::vec3 Middle(std::span<const glm::vec3> points, std::span<const PointIndex> 
   return sum / static_cast<float>(of.size());
 }
 
-/// How far an opening is open, the mean of three places about its middle. `upper`, `lower`: where
-/// its middle is in the lists of its edges' points; `step`: 1 if the lower one runs along the upper
-/// one, -1 if it runs back.
-float MeanGap(std::span<const glm::vec3> points, std::span<const PointIndex>::iterator upper,
-              std::span<const PointIndex>::iterator lower, int step) {
+/// Points of the upper and the lower edge of an opening that lie over each other, about its middle.
+using EdgePairs = std::array<std::pair<PointIndex, PointIndex>, 3>;
+constexpr EdgePairs kLips = {{{82, 87}, {13, 14}, {312, 317}}};
+constexpr fsm::Sided<EdgePairs> kLids = {{{{160, 144}, {159, 145}, {158, 153}}},
+                                         {{{387, 373}, {386, 374}, {385, 380}}}};
+
+/// How far an opening is open, the mean of those places.
+float MeanGap(std::span<const glm::vec3> points, const EdgePairs& pairs) {
   float sum = 0;
-  for (const int k : {-1, 0, 1}) {
-    sum += glm::length(glm::vec2(points[upper[k]] - points[lower[step * k]]));
+  for (const auto& [upper, lower] : pairs) {
+    sum += glm::length(glm::vec2(points[upper] - points[lower]));
   }
   return sum / 3;
 }
@@ -34,8 +39,8 @@ glm::vec2 GazeOf(const AttentiveFace& found) {
                     b = found.face.At(EyeOutline(side)[kInnerCorner]);
     const glm::vec2 across = side == fsm::Side::kRight ? b - a : a - b;
     const glm::vec2 iris = found.iris[side][0];
-    const glm::vec2 off = (iris - 0.5F * (a + b)) / glm::dot(across, across);
-    sum += glm::vec2(glm::dot(off, across), off.x * across.y - off.y * across.x);
+    const glm::vec2 gaze = (iris - 0.5F * (a + b)) / glm::dot(across, across);
+    sum += glm::vec2(glm::dot(gaze, across), gaze.x * across.y - gaze.y * across.x);
   }
   return 0.5F * sum;
 }
@@ -58,21 +63,17 @@ FaceMeasures Measure(const AttentiveFace& found, std::span<const glm::vec3> firs
   for (glm::vec3& p : points) p = back(p);
 
   FaceMeasures measures{.certainty = found.face.certainty};
-  const auto middle = [](std::span<const PointIndex> list) {
-    return list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2);
-  };
-  measures.gap = MeanGap(points, middle(point::kUpperInnerLip), middle(point::kLowerInnerLip), 1);
-  measures.width = glm::distance(points[point::kMouthRight], points[point::kMouthLeft]);
-  measures.jaw = points[point::kNoseBottom].y - points[point::kChin].y;
+  measures.gap_mm = MeanGap(points, kLips);
+  measures.width_mm = glm::distance(points[point::kMouthRight], points[point::kMouthLeft]);
+  measures.jaw_mm = points[point::kNoseBottom].y - points[point::kChin].y;
   const float eyes = 0.25F * (points[point::kEyeOuterRight].y + points[point::kEyeInnerRight].y +
                               points[point::kEyeInnerLeft].y + points[point::kEyeOuterLeft].y);
   constexpr fsm::Sided<PointIndex> kCorner{point::kMouthRight, point::kMouthLeft};
   for (const fsm::Side side : fsm::kSides) {
-    const auto lids = EyeOutline(side).begin();
-    measures.corner_up[side] = points[kCorner[side]].y - points[point::kNoseBottom].y;
-    measures.eye[side] = MeanGap(points, lids + kUpperMiddle, lids + kLowerMiddle, -1);
-    measures.brow_inner[side] = Middle(points, point::kBrowInner[side]).y - eyes;
-    measures.brow_outer[side] = Middle(points, point::kBrowOuter[side]).y - eyes;
+    measures.corner_up_mm[side] = points[kCorner[side]].y - points[point::kNoseBottom].y;
+    measures.eye_mm[side] = MeanGap(points, kLids[side]);
+    measures.brow_inner_mm[side] = Middle(points, point::kBrowInner[side]).y - eyes;
+    measures.brow_outer_mm[side] = Middle(points, point::kBrowOuter[side]).y - eyes;
   }
   const auto [down, across, tilted] = AnglesOf(glm::transpose(back.turn));
   measures.turn_deg = {down, across, tilted};

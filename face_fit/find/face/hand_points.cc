@@ -118,7 +118,7 @@ vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::Pnt
       {point::kNoseRight, {3, 18}},     {point::kNoseLeft, {3, 22}},
       {point::kMouthRight, {1, 33}},    {point::kMouthLeft, {2, 33}},
       {point::kChin, fsm::kChin}};
-  if (auto there = fsm::CheckPoints(name, wireframe); !there) return std::unexpected(there.error());
+  if (auto whole = fsm::CheckPoints(name, wireframe); !whole) return std::unexpected(whole.error());
   HandPoints points;
   for (const auto& [point, of] : kSame) {
     const glm::vec3 p = wireframe.at[wireframe.index.at(of)];

@@ -43,8 +43,9 @@ class IrisSearch {
     for (float x = 0.06F; x < 0.95F; x += 0.03F) {
       const auto [upper, lower] = lids_.At(x);
       for (float part = kUpperRim; part < kLowerRim; part += 0.095F) {
-        const glm::vec2 at = lids_.PointAt(x, glm::mix(upper, lower, part));
-        samples_.push_back({at, Brightness(ColourAt(photo, at)) / 255, std::abs(lower - upper)});
+        const glm::vec2 pixel = lids_.PointAt(x, glm::mix(upper, lower, part));
+        samples_.push_back(
+            {pixel, Brightness(ColourAt(photo, pixel)) / 255, std::abs(lower - upper)});
         all.push_back(samples_.back().light);
       }
     }
@@ -61,15 +62,15 @@ class IrisSearch {
     float most = 0;
     for (int x = -kStepsAlong; x <= kStepsAlong; ++x) {
       for (int y = -kStepsDown; y <= kStepsDown; ++y) {
-        const glm::vec2 off(static_cast<float>(x) * kStepAlong, static_cast<float>(y) * kStepDown);
-        const glm::vec2 at =
-            eye_.middle + lids_.wide() * (off.x * lids_.along() + off.y * lids_.down());
-        const float edge = EdgeContrast(at, radius);
-        const float score = (edge + kSeparationWeight * Separation(at, radius)) *
-                            (1 - kAwayAlong * off.x * off.x - kAwayDown * off.y * off.y);
+        const glm::vec2 away(static_cast<float>(x) * kStepAlong, static_cast<float>(y) * kStepDown);
+        const glm::vec2 centre =
+            eye_.middle + lids_.wide() * (away.x * lids_.along() + away.y * lids_.down());
+        const float edge = EdgeContrast(centre, radius);
+        const float score = (edge + kSeparationWeight * Separation(centre, radius)) *
+                            (1 - kAwayAlong * away.x * away.x - kAwayDown * away.y * away.y);
         if (score <= most) continue;
         most = score;
-        best = {.centre = at, .radius = radius, .contrast = edge};
+        best = {.centre = centre, .radius = radius, .contrast = edge};
       }
     }
     return {best, most};
@@ -104,8 +105,8 @@ class IrisSearch {
     return std::min(step[0], step[1]) + kBetterSide * std::max(step[0], step[1]);
   }
 
-  float Light(glm::vec2 at) const {
-    return std::min(Brightness(ColourAt(photo_, at)) / 255, brightest_);
+  float Light(glm::vec2 pixel) const {
+    return std::min(Brightness(ColourAt(photo_, pixel)) / 255, brightest_);
   }
 
   /// How well the circle parts dark from bright: the deviation between the two (Otsu 1979), 0 where

@@ -118,8 +118,8 @@ std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& f
   for (auto& column : cost) {
     for (int o = 0; o < kOffsets; ++o) {
       float& value = column[static_cast<std::size_t>(o)];
-      const float off = static_cast<float>(o - kOffsets / 2) / (kOffsets / 2);
-      value = (value - least) / range + kStray * off * off;
+      const float stray = static_cast<float>(o - kOffsets / 2) / (kOffsets / 2);
+      value = (value - least) / range + kStray * stray * stray;
     }
   }
   const auto path = CheapestPath(cost);

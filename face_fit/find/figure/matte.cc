@@ -71,8 +71,8 @@ class MattingLaplacian {
         glm::mat3 spread(0);
         for (const std::size_t j : around) window.mean += colour_[j] / 9.0F;
         for (const std::size_t j : around) {
-          const glm::vec3 off = colour_[j] - window.mean;
-          spread += glm::outerProduct(off, off) / 9.0F;
+          const glm::vec3 deviation = colour_[j] - window.mean;
+          spread += glm::outerProduct(deviation, deviation) / 9.0F;
         }
         window.inverse = Inverse(spread, kLaplacianNoise);
         windows_.push_back(window);

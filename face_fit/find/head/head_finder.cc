@@ -158,29 +158,27 @@ float DegreesBetween(const glm::mat3& a, const glm::mat3& b) {
 }
 
 /// Looks once as guessed, and once more, as large and straight as our own head was looked at.
-/// Nothing if no face is seen, or one that was not looked at from the front: the networks take a
+/// No match if no face is seen, or one that was not looked at from the front: the networks take a
 /// profile for a face, too, but place its points so badly that the second look has the head stand
 /// another way again. Measured on two heads, and on one of them made wider, taller, deeper and
 /// flatter: from the front the second look turns the head by at most 1 degree and leaves 3.7 to
 /// 7.4 mm, from elsewhere by 8 degrees or more, with 7.3 to 40 mm.
-std::optional<HeadMatch> MatchFrom(HeadMatcher& matcher, const fsm::Similarity& guess,
-                                   bool& face_seen) {
+struct Look {
+  bool face_seen = false;  ///< at all
+  std::optional<HeadMatch> match;
+};
+Look LookFrom(HeadMatcher& matcher, const fsm::Similarity& guess) {
   constexpr float kStraightDeg = 5, kMaxGapMm = 12;
-  auto first = matcher.PairsAt(guess);
-  if (first.empty()) return std::nullopt;
-  face_seen = true;
-  RejectOutliers(first);
-  const fsm::Similarity stood = fsm::FitSimilarity(first);
-  const std::vector<fsm::PointPair> pairs = matcher.PairsAt(stood);
-  if (pairs.empty()) return std::nullopt;
-  std::vector<fsm::PointPair> kept = pairs;
-  RejectOutliers(kept);
+  const auto first = matcher.PairsAt(guess);
+  if (first.empty()) return {};
+  const fsm::Similarity stood = fsm::FitSimilarity(RejectOutliers(first));
+  const auto pairs = matcher.PairsAt(stood);
+  if (pairs.empty()) return {true, {}};
+  std::vector<fsm::PointPair> kept = RejectOutliers(pairs);
   const fsm::Similarity fit = fsm::FitSimilarity(kept);
   const float gap_mm = MedianDistanceMm(fit, pairs);
-  if (DegreesBetween(fit.turn, stood.turn) > kStraightDeg || gap_mm > kMaxGapMm) {
-    return std::nullopt;
-  }
-  return HeadMatch{std::move(kept), gap_mm};
+  if (DegreesBetween(fit.turn, stood.turn) > kStraightDeg || gap_mm > kMaxGapMm) return {true, {}};
+  return {true, HeadMatch{std::move(kept), gap_mm}};
 }
 
 }  // namespace
@@ -194,12 +192,13 @@ vm::Result<fsm::HeadPoints> FindHeadPoints(FaceNetworks& networks, const fsm::Im
   for (const float part : kHeadParts) {
     std::optional<HeadMatch> best;
     for (const glm::mat3& turn : kTurns) {
-      auto look = MatchFrom(matcher, InitialPlacement(file, turn, part), face_seen);
-      if (look && (!best || look->gap_mm < best->gap_mm)) best = std::move(look);
+      Look look = LookFrom(matcher, InitialPlacement(file, turn, part));
+      face_seen = face_seen || look.face_seen;
+      if (look.match && (!best || look.match->gap_mm < best->gap_mm)) best = std::move(look.match);
     }
     if (!best) continue;
-    Symmetrise(fsm::FitSimilarity(best->pairs), best->pairs);
-    return fsm::HeadPoints{face, std::move(best->pairs)};
+    const fsm::Similarity to_ours = fsm::FitSimilarity(best->pairs);
+    return fsm::HeadPoints{face, Symmetrise(to_ours, std::move(best->pairs))};
   }
   return vm::Fail(
       vm::Errc::kBadValue,

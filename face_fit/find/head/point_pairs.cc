@@ -52,26 +52,27 @@ MirrorPlane FindMirrorPlane(std::span<const fsm::PointPair> pairs) {
 
 }  // namespace
 
-void RejectOutliers(std::vector<fsm::PointPair>& pairs) {
+std::vector<fsm::PointPair> RejectOutliers(std::span<const fsm::PointPair> pairs) {
   constexpr float kMinLimitMm = 8, kTimes = 3;  // the second: of the median of all distances
   constexpr int kRounds = 6;
-  std::vector<fsm::PointPair> kept = pairs;
+  std::vector<fsm::PointPair> kept(pairs.begin(), pairs.end());
   for (int round = 0; round < kRounds; ++round) {
     const auto to_ours = fsm::FitSimilarity(kept);
-    const auto off = [&to_ours](const fsm::PointPair& pair) {
+    const auto gap_mm = [&to_ours](const fsm::PointPair& pair) {
       return glm::distance(to_ours(pair.to), pair.from);
     };
     std::vector<float> distances;
-    for (const auto& pair : pairs) distances.push_back(off(pair));
+    for (const auto& pair : pairs) distances.push_back(gap_mm(pair));
     const float limit = std::max(kMinLimitMm, kTimes * Median(std::move(distances)));
     kept.clear();
     std::ranges::copy_if(pairs, std::back_inserter(kept),
-                         [&](const auto& pair) { return off(pair) <= limit; });
+                         [&](const auto& pair) { return gap_mm(pair) <= limit; });
   }
-  pairs = std::move(kept);
+  return kept;
 }
 
-void Symmetrise(const fsm::Similarity& to_ours, std::vector<fsm::PointPair>& pairs) {
+std::vector<fsm::PointPair> Symmetrise(const fsm::Similarity& to_ours,
+                                       std::vector<fsm::PointPair> pairs) {
   constexpr float kNearMm = 7;
   std::vector<fsm::PointPair> placed = pairs;
   for (auto& pair : placed) pair.to = to_ours(pair.to);
@@ -79,12 +80,13 @@ void Symmetrise(const fsm::Similarity& to_ours, std::vector<fsm::PointPair>& pai
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto* mirrored = MirroredPair(placed[i], placed);
     if (!mirrored) continue;
-    const glm::vec3 there = mirror.Mirrored(mirrored->to);
-    if (glm::distance(there, placed[i].to) > kNearMm) continue;
+    const glm::vec3 opposite = mirror.Mirrored(mirrored->to);
+    if (glm::distance(opposite, placed[i].to) > kNearMm) continue;
     pairs[i].from = 0.5F * (placed[i].from + kMirror * mirrored->from);
-    const glm::vec3 to = 0.5F * (placed[i].to + there);
+    const glm::vec3 to = 0.5F * (placed[i].to + opposite);
     pairs[i].to = to_ours.Inverse(to);
   }
+  return pairs;
 }
 
 }  // namespace facefit

@@ -38,12 +38,12 @@ class FaceWatchTest : public AttentionNetworkTest {
 };
 
 TEST_F(FaceWatchTest, TheGapOfTheLipsIsSeenToAThird) {
-  EXPECT_LT(rest_.gap, 0.5F) << "closed";
+  EXPECT_LT(rest_.gap_mm, 0.5F) << "closed";
   for (const float jaw : {3.0F, 6.0F, 10.0F}) {
     fsm::FaceState state;
     state.mouth[fsm::kJawY] = jaw;
     const float told = Galatea().head->MeasureMouth(state).gap_mm;
-    EXPECT_NEAR(See(state).gap, told, 0.35F * told) << jaw;
+    EXPECT_NEAR(See(state).gap_mm, told, 0.35F * told) << jaw;
   }
 }
 
@@ -53,7 +53,7 @@ TEST_F(FaceWatchTest, TheWidthOfTheMouthIsSeen) {
   narrow.mouth[fsm::kCornerX] = -5;
   const float told =
       Galatea().head->MeasureMouth(wide).width_mm - Galatea().head->MeasureMouth(narrow).width_mm;
-  EXPECT_NEAR(See(wide).width - See(narrow).width, told, 0.3F * told);
+  EXPECT_NEAR(See(wide).width_mm - See(narrow).width_mm, told, 0.3F * told);
 }
 
 TEST_F(FaceWatchTest, ShutEyesAreSeen) {
@@ -61,12 +61,12 @@ TEST_F(FaceWatchTest, ShutEyesAreSeen) {
   state.blink.left = state.blink.right = 1;
   const FaceMeasures shut = See(state);
   for (const fsm::Side side : fsm::kSides) {
-    EXPECT_GT(rest_.eye[side], 8);
-    EXPECT_LT(shut.eye[side], 0.4F * rest_.eye[side]);
+    EXPECT_GT(rest_.eye_mm[side], 8);
+    EXPECT_LT(shut.eye_mm[side], 0.4F * rest_.eye_mm[side]);
   }
   state.blink.left = 0;
   const FaceMeasures wink = See(state);
-  EXPECT_LT(wink.eye.right, 0.6F * wink.eye.left);
+  EXPECT_LT(wink.eye_mm.right, 0.6F * wink.eye_mm.left);
 }
 
 TEST_F(FaceWatchTest, TurnsOfTheHeadHaveTheirSignsAndSizes) {
@@ -79,7 +79,7 @@ TEST_F(FaceWatchTest, TurnsOfTheHeadHaveTheirSignsAndSizes) {
         EXPECT_NEAR(seen.turn_deg[other], other == axis ? by : 0, 4)
             << "axis " << axis << ", " << by;
       }
-      EXPECT_LT(seen.gap, 1) << "lips stay closed while the head turns";
+      EXPECT_LT(seen.gap_mm, 1) << "lips stay closed while the head turns";
     }
   }
 }
@@ -90,17 +90,17 @@ TEST_F(FaceWatchTest, BrowsAndCornersMoveAsUnitsSay) {
   smile.au.left[12] = 1;
   const FaceMeasures raised = See(brows), smiling = See(smile);
   for (const fsm::Side side : fsm::kSides) {
-    EXPECT_GT(raised.brow_inner[side], rest_.brow_inner[side] + 2) << fsm::SignOf(side);
-    EXPECT_GT(raised.brow_outer[side], rest_.brow_outer[side] + 2) << fsm::SignOf(side);
+    EXPECT_GT(raised.brow_inner_mm[side], rest_.brow_inner_mm[side] + 2) << fsm::SignOf(side);
+    EXPECT_GT(raised.brow_outer_mm[side], rest_.brow_outer_mm[side] + 2) << fsm::SignOf(side);
   }
-  EXPECT_GT(smiling.corner_up.left, rest_.corner_up.left + 3);
-  EXPECT_LT(smiling.corner_up.right, rest_.corner_up.right + 2);
+  EXPECT_GT(smiling.corner_up_mm.left, rest_.corner_up_mm.left + 3);
+  EXPECT_LT(smiling.corner_up_mm.right, rest_.corner_up_mm.right + 2);
 }
 
 TEST_F(FaceWatchTest, AFaceThatGoesAndComesBackIsFoundAgain) {
   EXPECT_FALSE(watch_->Look(fsm::FilledImage(400, 400)));
   EXPECT_FALSE(watch_->last());
-  EXPECT_LT(See({}).gap, 0.5F);
+  EXPECT_LT(See({}).gap_mm, 0.5F);
 }
 
 /// The program: frames in, a line each out.

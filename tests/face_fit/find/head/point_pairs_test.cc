@@ -51,7 +51,7 @@ TEST(PointPairsTest, PointsThatMissTheCheekAreLeftOutAndDoNotTurnTheHead) {
     ++strays;
   }
   ASSERT_EQ(strays, 4);
-  RejectOutliers(faces.pairs);
+  faces.pairs = RejectOutliers(faces.pairs);
   EXPECT_EQ(faces.pairs.size(), all - 4);
   const auto place = fsm::FitSimilarity(faces.pairs);
   const glm::vec3 ahead = place.turn * (faces.turn * glm::vec3(0, 0, 1));
@@ -64,7 +64,7 @@ TEST(PointPairsTest, AWideFaceKeepsAllItsPoints) {
   for (auto& pair : faces.pairs) {
     pair.to = 0.01F * (faces.turn * (glm::vec3(1.1F, 0.94F, 1.05F) * pair.from));
   }
-  RejectOutliers(faces.pairs);
+  faces.pairs = RejectOutliers(faces.pairs);
   EXPECT_EQ(faces.pairs.size(), all);
 }
 
@@ -72,7 +72,7 @@ TEST(PointPairsTest, PointsAreBalancedAboutTheHeadsOwnMiddleWhereverOneThoughtIt
   Faces faces;
   const auto before = faces.pairs;
   // The sides of a head that is looked at from three degrees beside are no mirror images in x.
-  Symmetrise(faces.Place(3), faces.pairs);
+  faces.pairs = Symmetrise(faces.Place(3), faces.pairs);
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_LT(glm::distance(faces.pairs[i].to, before[i].to), 0.001F) << i;  // a tenth millimetre
   }
@@ -84,7 +84,7 @@ TEST(PointPairsTest, APointAndItsOppositeShareWhatOneOfThemIsOff) {
   faces.pairs[20].to += 0.01F * (faces.turn * glm::vec3(0, 3, 0));
   const std::size_t other = 21;
   ASSERT_EQ(faces.pairs[20].from.x, -faces.pairs[other].from.x);
-  Symmetrise(faces.Place(), faces.pairs);
+  faces.pairs = Symmetrise(faces.Place(), faces.pairs);
   for (const std::size_t i : {std::size_t{20}, other}) {
     const glm::vec3 off =
         100.0F * (glm::transpose(faces.turn) * (faces.pairs[i].to - before[i].to));
@@ -96,7 +96,7 @@ TEST(PointPairsTest, OppositesThatDisagreeByFarStayAsTheyAre) {
   Faces faces;
   faces.pairs[20].to += 0.01F * (faces.turn * glm::vec3(0, 0, -20));
   const auto before = faces.pairs;
-  Symmetrise(faces.Place(), faces.pairs);
+  faces.pairs = Symmetrise(faces.Place(), faces.pairs);
   EXPECT_LT(glm::distance(faces.pairs[20].to, before[20].to), 0.001F);
   EXPECT_LT(glm::distance(faces.pairs[21].to, before[21].to), 0.001F);
 }
