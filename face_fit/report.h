@@ -10,7 +10,7 @@
 namespace facefit {
 
 /// What was measured, a line each, and warnings of what will look worse than it could. `bake`: what
-/// was made of them; its picture is not looked at.
+/// BakeTexture made of the face, the fit and the photo; `faces`: how many were found.
 std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
                    const TextureBake& bake, int faces, const Occlusion& occlusion = {});
 

@@ -20,9 +20,10 @@ namespace facefit {
 namespace {
 
 constexpr float kMinIrisPx = 3;  // radius of what is worth showing
-/// What is seen of an iris whose texel counts as its own.
+/// How open a texel must be (Texel::open) for its colour to count as the iris's own.
 constexpr float kOpenTexel = 0.9F;
-/// Part of a flash's red runs over the edge of the pupil: so far, in radii of the iris.
+/// The red of a flash runs over the edge of the pupil; it is looked for so far round a texel, in
+/// radii of the iris.
 constexpr float kRedRuns = 0.22F;
 /// The least width of the shade at a lid's edge, pixels.
 constexpr float kMinShadePx = 0.7F;
@@ -170,8 +171,8 @@ struct EyeSquares {
   fsm::Image iris, ball;
 };
 
-/// Whose picture each eye shows: its own, or that of the other where it is not seen. None where
-/// neither is seen well enough.
+/// Whose picture each eye shows: its own, or that of the other where it is not seen. Returns
+/// nothing where neither is seen well enough.
 std::optional<fsm::Sided<fsm::Side>> ShownEyes(const PhotoIrises& irises) {
   // What stands for both is no half shut eye.
   constexpr float kForBoth = 0.1F;

@@ -112,7 +112,7 @@ class EdgeReader {
   bool HangsDown(std::size_t x, float from) const {
     return MostOf(x, from, [](std::size_t) { return true; });
   }
-  /// Likewise and is hair by its colour.
+  /// Whether most of it belongs to the figure and is hair by its colour.
   bool HairHangsDown(std::size_t x, float from) const {
     return MostOf(x, from, [this](std::size_t i) { return KindOf(i) == EdgeKind::kHair; });
   }

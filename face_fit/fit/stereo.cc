@@ -167,10 +167,10 @@ class PatchMatcher {
   std::vector<float> light_;  // of one patch, kept for its memory
 };
 
-// How far beside where the fit has it a patch is looked for, and in which steps.
+// A patch is looked for so far beside where the fit has it, in steps of a millimetre.
 constexpr int kReachAcrossMm = 6, kReachDownMm = 4;
-// Likewise along the line of sight of the first photo. Of places that correlate alike the nearest
-// is taken: a square millimetre costs as much correlation.
+// Then it is looked for along the line of sight of the first photo. Of places that correlate alike
+// the nearest is taken: each square millimetre costs some correlation.
 constexpr float kDepthStepMm = 0.75F, kCorrelationPerMm2 = 0.0012F;
 constexpr int kDepthSteps = 14;
 constexpr int kPoseRefinements = 2;

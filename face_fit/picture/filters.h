@@ -35,7 +35,7 @@ void PushPullInpaint(fsm::Image& image, const FloatImage& weight);
 void FillHoles(FloatImage& image);
 
 /// Sets to 0 what is not connected to a pixel by its eight neighbours through pixels of at least
-/// 0.1; nothing if that pixel is less. A pixel outside counts as the nearest one within.
+/// 0.1. Does nothing if that pixel is less. A pixel outside counts as the nearest one within.
 void KeepConnected(glm::ivec2 to, FloatImage& image);
 
 /// For each pixel the index of the nearest one that is at least `threshold`, its own included.

@@ -10,7 +10,7 @@ namespace facefit {
 struct MeshPoint {
   std::array<std::uint32_t, 3> corner{};
   glm::vec3 weight{1, 0, 0};  ///< of each corner, sum 1
-  /// The value there of what each vertex has one of.
+  /// The value at this place, between those of the corners.
   template <typename Values>
   auto On(const Values& of_vertex) const {
     return of_vertex[corner[0]] * weight.x + of_vertex[corner[1]] * weight.y +

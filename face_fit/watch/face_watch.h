@@ -14,7 +14,7 @@ class FaceWatch {
   FaceWatch(FaceNetworks& networks, Network& attention)
       : networks_(networks), attention_(attention) {}
 
-  /// Nothing where no face is seen.
+  /// Returns nothing where no face is seen.
   std::optional<FaceMeasures> Look(const fsm::Image& picture);
   /// The points of the last face that was seen.
   const std::optional<AttentiveFace>& last() const { return last_; }

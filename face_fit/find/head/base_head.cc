@@ -28,7 +28,7 @@ VisibleSurface SkinIn(const fsm::HeadTopology& topology, const std::vector<glm::
 }
 
 /// The places of the skin seen at some points of a picture; beside the skin the nearest that is
-/// seen and no farther back than the ears. Empty if none is.
+/// seen and no farther back than the ears. Returns none if no skin is seen.
 std::vector<MeshPoint> PlacesUnder(const VisibleSurface& skin, const std::vector<glm::vec3>& screen,
                                    std::span<const glm::vec3> points) {
   constexpr float kFarthestBackMm = -20;

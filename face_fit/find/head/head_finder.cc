@@ -98,7 +98,7 @@ class HeadMatcher {
   HeadMatcher(FaceNetworks& networks, const fsm::ImportedHead& file, std::string name,
               BaseHead base)
       : networks_(networks), file_(file), name_(std::move(name)), base_(std::move(base)) {}
-  /// None if no face is seen on the head as `to_ours` has it stand.
+  /// Returns none if no face is seen on the head as `to_ours` has it stand.
   std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_ours) {
     const auto other = Observe(to_ours);
     if (!other) return {};

@@ -22,8 +22,8 @@ struct LidEdges {
 };
 
 /// `eye`: of each vertex, whether it is an eyeball's; `centre`: of that eye, `outward`: -1 for the
-/// agent's right, 1 for the left. The head looks to +z, millimetres. Nothing if no opening of
-/// 10 to 60 mm is there.
+/// agent's right, 1 for the left. The head looks to +z, millimetres. Returns nothing if there
+/// is no opening of 10 to 60 mm.
 std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
                                      const std::vector<glm::vec3>& position,
                                      const std::vector<bool>& eye, glm::vec3 centre, float outward);

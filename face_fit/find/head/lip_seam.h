@@ -27,7 +27,7 @@ struct LipSeam {
 
 /// `skin_triangles`: those of skin, lips and mouth; `has_uv_seams` as for fsm::TransferSurface;
 /// `upper`, `lower`: some places on the outer edges of both lips. The head looks to +z,
-/// millimetres. Nothing if no seam of 20 to 90 mm is there.
+/// millimetres. Returns nothing if there is no seam of 20 to 90 mm.
 std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
                                    const std::vector<glm::vec3>& position,
                                    const std::vector<std::uint32_t>& skin_triangles,
