@@ -229,6 +229,20 @@ TEST(InitTest, AFilmEndsWithWhatWasSaidBefore) {
   EXPECT_EQ(fsm.Say("set#1 Window = 100 100"), "rep#1 Window = 100 100");
 }
 
+TEST(InitTest, AFilmHasTheRateOfTheStartAgain) {
+  FsmStage fsm;
+  const auto frames = [&fsm](const char* film, double until_ms) {
+    fsm.Say(std::string("set Record = ") + film);
+    fsm.Until(until_ms);
+    fsm.Say("set Record = STOP");
+    return fsm.backend.films[film].jaws.size();
+  };
+  fsm.Say("set Record.fps = 10");
+  EXPECT_EQ(frames("slow.mp4", 990), 10U);
+  fsm.Say("set Run = INIT");
+  EXPECT_EQ(frames("usual.mp4", 990 + 990), 30U);
+}
+
 TEST(InitTest, AWindowHasItsSizeAgainAndFillsTheScreenNoMore) {
   FsmStage fsm({}, true);
   fsm.Say("set Window = 320 240");
