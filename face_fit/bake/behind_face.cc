@@ -16,9 +16,9 @@ namespace {
 /// A picture whose unknown pixels are filled from around, with grain.
 fsm::Image FilledIn(fsm::Image image, const FloatImage& known, float pixels_per_mm) {
   PushPullInpaint(image, known);
-  const int grain = std::max(static_cast<int>(PhotoLook()("hole_grain") * pixels_per_mm), 2);
+  const int grain = std::max(static_cast<int>(PhotoLook().hole_grain * pixels_per_mm), 2);
   // In a small photo a pixel is as coarse as grain: none is added.
-  const float amount = Ramp(PhotoLook().Pair("hole_grain_pixels"), pixels_per_mm);
+  const float amount = Ramp(PhotoLook().hole_grain_pixels, pixels_per_mm);
   AddGrain(known, FloatImage(image.width, image.height, amount), grain, image);
   return image;
 }
@@ -36,11 +36,11 @@ fsm::Image BehindFace(const FittedHead& fitted, const FigureCutout& figure) {
   // temples are mostly hair already, so the hole begins at the brows. Before the neck it is as
   // large as the skin, or the chin would be seen a second time.
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
-  const float face_hole = PhotoLook()("hole_face"), neck_hole = PhotoLook()("hole_neck");
-  const glm::vec2 hole_edge = PhotoLook().Pair("hole_edge");
-  const glm::vec2 neck_edge = PhotoLook().Pair("hole_neck_edge");
+  const float face_hole = PhotoLook().hole_face, neck_hole = PhotoLook().hole_neck;
+  const glm::vec2 hole_edge = PhotoLook().hole_edge;
+  const glm::vec2 neck_edge = PhotoLook().hole_neck_edge;
   const FloatImage soft =
-      Blurred(face, std::max(static_cast<int>(PhotoLook()("hole_soft") * pixels_per_mm), 1));
+      Blurred(face, std::max(static_cast<int>(PhotoLook().hole_soft * pixels_per_mm), 1));
   FloatImage keep(width, height, 1), beside(width, height, 1), below(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {

@@ -14,7 +14,7 @@ class Chin {
   explicit Chin(const FittedHead& fitted) : place_(fitted.At(point::kChin)) {}
   float height() const { return place_.y; }
   /// Below it the neck of the photo takes over from the skin.
-  float SkinBottom() const { return place_.y - PhotoLook()("skin_below_chin"); }
+  float SkinBottom() const { return place_.y - PhotoLook().skin_below_chin; }
   /// 1 well below the chin, 0 above it.
   float Below(glm::vec3 p) const { return Ramp(place_.y + below_, p.y); }
   /// 1 below the chin, behind which the neck lies, 0 where the skin goes on to neck, ear and hair.
@@ -22,7 +22,7 @@ class Chin {
 
  private:
   glm::vec3 place_;
-  glm::vec2 below_ = PhotoLook().Pair("below_chin"), before_neck_ = PhotoLook().Pair("before_neck");
+  glm::vec2 below_ = PhotoLook().below_chin, before_neck_ = PhotoLook().before_neck;
 };
 
 /// Depth of what lies beside the face, camera's frame, millimetres: near enough to tell what of the

@@ -57,9 +57,9 @@ float SkinLight(const FoundFace& face, const fsm::Image& photo) {
 }  // namespace
 
 EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fsm::Image& photo) {
-  const fsm::NumberTable& look = PhotoLook();
-  const glm::vec2 iris_part = look.Pair("iris_part");
-  const float white_from = look("white_from");
+  const PhotoLookNumbers& look = PhotoLook();
+  const glm::vec2 iris_part = look.iris_part;
+  const float white_from = look.white_from;
   std::vector<glm::vec3> iris, white;
   for (const fsm::Side side : fsm::kSides) {
     const std::vector<glm::vec2> outline = face.Line(EyeOutline(side));
@@ -79,22 +79,21 @@ EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fs
   }
   // Drawn, an iris is darker than its base colour on the mean, where it meets pupil and rim.
   // In weak light it keeps its hue: brightened channel by channel a brown one would turn grey.
-  const glm::vec3 tint =
-      Linear(Typical(iris, kIrisRank, look.Vector("iris_unseen"))) * look("iris_gain");
+  const glm::vec3 tint = Linear(Typical(iris, kIrisRank, look.iris_unseen)) * look.iris_gain;
   const glm::vec3 shown =
-      glm::clamp(tint * std::max(1.0F, look("iris_darkest") / std::max(Brightness(tint), 1e-4F)),
+      glm::clamp(tint * std::max(1.0F, look.iris_darkest / std::max(Brightness(tint), 1e-4F)),
                  kIrisLight.x, kIrisLight.y);
   // Whites are paler than what is seen of them, but have the hue of the light; and in whatever
   // shade they are not much darker than the skin beside them.
-  glm::vec3 ball = Linear(Typical(white, kWhiteRank, look.Vector("white_unseen")));
-  const float least = look("white_least") * SkinLight(face, photo);
-  ball = glm::mix(ball, glm::vec3(Brightness(ball)), look("white_greyed"));
+  glm::vec3 ball = Linear(Typical(white, kWhiteRank, look.white_unseen));
+  const float least = look.white_least * SkinLight(face, photo);
+  ball = glm::mix(ball, glm::vec3(Brightness(ball)), look.white_greyed);
   ball *= std::max(1.0F, least / std::max(Brightness(ball), 1e-3F));
   return {.iris = shown, .white = glm::clamp(ball, kWhiteLight.x, kWhiteLight.y)};
 }
 
 MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
-  const fsm::NumberTable& look = PhotoLook();
+  const PhotoLookNumbers& look = PhotoLook();
   // Along the middle of the lower lip, where it is widest.
   constexpr std::size_t kFirst = 2, kLast = 6;
   glm::vec3 lip(0);
@@ -104,8 +103,8 @@ MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
     lip += Linear(ColourAt(photo, pixel)) / float{kLast - kFirst + 1};
   }
   // The inner rim lies in shade.
-  const glm::vec2 inner = look.Pair("lip_inner");
-  const glm::vec3 teeth = look.Vector("teeth_light");
+  const glm::vec2 inner = look.lip_inner;
+  const glm::vec3 teeth = look.teeth_light;
   return {.lip = inner.x * glm::pow(lip, glm::vec3(inner.y)),
           .teeth = std::min(teeth.x + teeth.y * SkinLight(face, photo), teeth.z)};
 }

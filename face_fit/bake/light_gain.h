@@ -10,7 +10,7 @@ namespace facefit {
 /// What a colour is multiplied by, channel by channel, to stand in another light: that of `to`,
 /// where `from` is of its own. Within light_gain of the table.
 inline glm::vec3 LightGain(glm::vec3 to, glm::vec3 from) {
-  const glm::vec2 limit = PhotoLook().Pair("light_gain");
+  const glm::vec2 limit = PhotoLook().light_gain;
   return glm::clamp(to / from, limit.x, limit.y);
 }
 

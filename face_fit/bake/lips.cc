@@ -37,11 +37,11 @@ Tone MeanTone(std::vector<glm::vec3> texels, glm::vec2 ranks) {
 }  // namespace
 
 void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
-  const fsm::NumberTable& look = PhotoLook();
-  const float inside_mm = look("lip_inside"), soft_mm = look("lip_soft");
-  const float reddened = look("lip_reddened");
-  const glm::vec2 beside_mm = look.Pair("lip_beside");
-  const glm::vec2 shine = look.Pair("lip_shine"), gap = look.Pair("lip_gap");
+  const PhotoLookNumbers& look = PhotoLook();
+  const float inside_mm = look.lip_inside, soft_mm = look.lip_soft;
+  const float reddened = look.lip_reddened;
+  const glm::vec2 beside_mm = look.lip_beside;
+  const glm::vec2 shine = look.lip_shine, gap = look.lip_gap;
   constexpr float kMinDifference = 0.05F;  // of redness, between lips and skin
   std::vector<glm::vec3> lips, beside;
   for (std::size_t i = 0; i < texels.values.size(); ++i) {
@@ -50,11 +50,11 @@ void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
     if (within_mm > beside_mm.x && within_mm < beside_mm.y) beside.push_back(Rgb(map, i));
   }
   if (lips.empty() || beside.empty()) return;
-  const Tone lip = MeanTone(std::move(lips), look.Pair("lip_ranks")),
-             skin = MeanTone(std::move(beside), look.Pair("lip_beside_ranks"));
+  const Tone lip = MeanTone(std::move(lips), look.lip_ranks),
+             skin = MeanTone(std::move(beside), look.lip_beside_ranks);
   if (lip.redness - skin.redness < kMinDifference) return;
   const glm::vec3 hue = lip.colour / lip.brightness;
-  const float darker = glm::clamp(lip.brightness / skin.brightness, look("lip_darkest"), 1.0F);
+  const float darker = glm::clamp(lip.brightness / skin.brightness, look.lip_darkest, 1.0F);
   for (std::size_t i = 0; i < texels.values.size(); ++i) {
     if (texels.values[i].within_lips_mm <= 0) continue;
     const glm::vec3 c = Rgb(map, i);

@@ -15,9 +15,9 @@ namespace facefit {
 constexpr glm::vec2 kMinRimPx{0.8F, 1};
 
 PhotoOpenings::PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool lips_apart) {
-  const fsm::NumberTable& look = PhotoLook();
+  const PhotoLookNumbers& look = PhotoLook();
   // The dark line of the lashes stays on the rims of the lids.
-  const float lash = look("lash_rim") * pixels_per_mm;
+  const float lash = look.lash_rim * pixels_per_mm;
   for (const fsm::Side side : fsm::kSides) {
     openings_.push_back({face.Line(EyeOutline(side)), -lash, -lash});
   }
@@ -25,7 +25,7 @@ PhotoOpenings::PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool li
     std::vector<PointIndex> mouth(point::kUpperInnerLip.begin(), point::kUpperInnerLip.end());
     mouth.insert(mouth.end(), point::kLowerInnerLip.rbegin(), point::kLowerInnerLip.rend());
     // Teeth shine through the blurred edge of the lips, in a small photo over more of them.
-    const glm::vec2 rim = glm::max(look.Pair("mouth_rim") * pixels_per_mm, kMinRimPx);
+    const glm::vec2 rim = glm::max(look.mouth_rim * pixels_per_mm, kMinRimPx);
     openings_.push_back({face.Line(mouth), rim.x, rim.x + rim.y});
   }
   for (Opening& opening : openings_) {

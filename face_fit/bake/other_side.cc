@@ -78,8 +78,8 @@ void CompleteByMirroring(const std::vector<bool>& skin, fsm::Image& map, FloatIm
   const FloatImage covered_around =
       Blurred(own_coverage, std::max(TexelsOf(kAroundMm, map.width), 1));
   constexpr float kAny = 50;  // so much brighter nothing is
-  const glm::vec2 near_light = PhotoLook().Pair("other_side_light");
-  const glm::vec2 held_by = PhotoLook().Pair("other_side_held");
+  const glm::vec2 near_light = PhotoLook().other_side_light;
+  const glm::vec2 held_by = PhotoLook().other_side_held;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const std::size_t i = coverage.Index(x, y), j = coverage.Index(map.width - 1 - x, y);

@@ -20,10 +20,10 @@ class RedEye {
   glm::vec3 Without(glm::vec3 colour, float near) const;
 
  private:
-  const glm::vec2 redder_ = PhotoLook().Pair("flash_redder");
-  const glm::vec2 bluer_ = PhotoLook().Pair("flash_bluer");
-  const glm::vec2 bright_ = PhotoLook().Pair("flash_bright");
-  const float pupil_ = PhotoLook()("flash_pupil");
+  const glm::vec2 redder_ = PhotoLook().flash_redder;
+  const glm::vec2 bluer_ = PhotoLook().flash_bluer;
+  const glm::vec2 bright_ = PhotoLook().flash_bright;
+  const float pupil_ = PhotoLook().flash_pupil;
   glm::vec3 skin_;
 };
 

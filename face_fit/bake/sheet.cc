@@ -18,7 +18,7 @@
 namespace facefit {
 namespace {
 
-// Numbers of the sheet that are not to be tuned by eye; the others are in tables/appearance.txt.
+// Numbers of the sheet that are not to be tuned by eye; the others are in tables/photo_look.txt.
 constexpr float kMaxDepthMm = 60;   // camera's frame: no point of the sheet stands before the face
 constexpr float kMinCellMm = 4.5F;  // between its points
 constexpr float kMaxPoints = 14000;
@@ -63,8 +63,8 @@ class HeadOpenings {
     using namespace point;
     constexpr std::array<std::pair<PointIndex, PointIndex>, 2> kEyes = {
         std::pair(kEyeOuterRight, kEyeInnerRight), std::pair(kEyeInnerLeft, kEyeOuterLeft)};
-    const glm::vec2 beyond = PhotoLook().Pair("opening_beyond_corner");
-    const glm::vec2 mouth = PhotoLook().Pair("opening_mouth");
+    const glm::vec2 beyond = PhotoLook().opening_beyond_corner;
+    const glm::vec2 mouth = PhotoLook().opening_mouth;
     for (std::size_t i = 0; i < kEyes.size(); ++i) {
       const glm::vec3 right = fitted.At(kEyes[i].first), left = fitted.At(kEyes[i].second);
       const float half = 0.5F * std::abs(left.x - right.x) + beyond.x;
@@ -174,7 +174,7 @@ Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure) {
   const VisibleSurface surface = VisibleSkin(fitted, fitted.pose, grid, chin.SkinBottom());
   const GridSkin skin(
       surface,
-      std::max(static_cast<int>(std::lround(PhotoLook()("sheet_rim") * pixels_per_mm / grid.step)),
+      std::max(static_cast<int>(std::lround(PhotoLook().sheet_rim * pixels_per_mm / grid.step)),
                1));
   // Hair and neck beside the skin go with it.
   const VectorImage motion =

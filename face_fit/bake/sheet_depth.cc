@@ -9,7 +9,7 @@
 namespace facefit {
 namespace {
 
-// Numbers that are not to be tuned by eye; the others are in tables/appearance.txt.
+// Numbers that are not to be tuned by eye; the others are in tables/photo_look.txt.
 constexpr int kPoissonSteps = 400;
 constexpr float kInnerWithin = 0.62F;  // of what is around is skin: from here on skin is inner
 constexpr float kDeepWithin = 0.95F;   // of what is around: the skin there keeps its whole distance
@@ -20,7 +20,7 @@ constexpr glm::vec2 kFadeDepth{0, 0.25F};  // over how much of what is around th
 /// Fills what is not fixed with the solution of Poisson's equation for an even, slight curvature:
 /// as a skin of soap would span it, but a little rounder. By Gauss and Seidel, not to the end.
 FloatImage Spanned(const FloatImage& fixed, FloatImage depth) {
-  const float round = PhotoLook()("sheet_round");
+  const float round = PhotoLook().sheet_round;
   for (int step = 0; step < kPoissonSteps; ++step) {
     for (int y = 0; y < depth.height; ++y) {
       for (int x = 0; x < depth.width; ++x) {
@@ -54,8 +54,8 @@ class UnderSkin {
  private:
   const Chin& chin_;
   const GridSkin& skin_;
-  const glm::vec2 distance_mm_ = PhotoLook().Pair("sheet_under_skin");
-  const glm::vec2 before_neck_mm_ = PhotoLook().Pair("sheet_at_neck");
+  const glm::vec2 distance_mm_ = PhotoLook().sheet_under_skin;
+  const glm::vec2 before_neck_mm_ = PhotoLook().sheet_at_neck;
 };
 
 /// At the outline and somewhat beyond it; the outline itself would waver as the grid's points lie
@@ -83,8 +83,8 @@ class AtOutline {
  private:
   const Chin& chin_;
   FloatImage beside_, share_;  // the depth of inner skin nearby, and how much there is of it, 0..1
-  const float hair_mm_ = PhotoLook()("hair_depth"), shoulder_mm_ = PhotoLook()("shoulder_depth");
-  const float turns_mm_ = PhotoLook()("sheet_turns");
+  const float hair_mm_ = PhotoLook().hair_depth, shoulder_mm_ = PhotoLook().shoulder_depth;
+  const float turns_mm_ = PhotoLook().sheet_turns;
 };
 
 }  // namespace

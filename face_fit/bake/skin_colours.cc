@@ -29,7 +29,7 @@ float Saturation(const fsm::Image& map, const FloatImage& coverage) {
     sum += brightest - std::min({c.r, c.g, c.b});
     light += brightest;
   }
-  return Ramp(PhotoLook().Pair("colour_difference"), sum / std::max(light, 1.0F));
+  return Ramp(PhotoLook().colour_difference, sum / std::max(light, 1.0F));
 }
 
 FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_coverage) {
@@ -41,7 +41,7 @@ FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_coverage) 
   FloatImage likeness(map.width, map.height, 1);
   if (channels[0].empty()) return likeness;
   std::array<float, 3> middle{};
-  const glm::vec2 hair = PhotoLook().Pair("hair_darker");
+  const glm::vec2 hair = PhotoLook().hair_darker;
   constexpr float kDark = 8;  // steps of brightness that make no difference
   for (std::size_t c = 0; c < 3; ++c) {
     middle[c] = Median(std::move(channels[c])) + kDark;
@@ -74,7 +74,7 @@ float Roughness(const fsm::Image& map, const FloatImage& face_coverage) {
 
 FloatImage CutAtHairline(const SkinTexels& texels, FloatImage likeness) {
   const FloatImage wide = Blurred(likeness, TexelsOf(kFringeMm, likeness.width));
-  const glm::vec2 edge = PhotoLook().Pair("hair_edge");
+  const glm::vec2 edge = PhotoLook().hair_edge;
   FloatImage skin(likeness.width, likeness.height, 1);
   for (int x = 0; x < likeness.width; ++x) {
     float least = 1;

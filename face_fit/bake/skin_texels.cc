@@ -116,8 +116,8 @@ std::optional<Triangle2> OnMap(const fsm::HeadTopology& topology, const MeshTria
 
 SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, SelfHidden self_hidden) {
   const BaseHead& base = *fitted.base;
-  const glm::vec2 across = PhotoLook().Pair("aside_across");
-  const glm::vec2 above_chin = PhotoLook().Pair("aside_above_chin");
+  const glm::vec2 across = PhotoLook().aside_across;
+  const glm::vec2 above_chin = PhotoLook().aside_above_chin;
   constexpr float kSlack = 0.02F;
   constexpr glm::vec3 kEye(0, 0, kCameraZ);
   std::optional<SelfOcclusion> hides;

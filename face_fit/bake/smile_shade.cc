@@ -48,13 +48,13 @@ class Cheeks {
   float Height(const SkinTexels& texels, std::size_t i) const {
     return texels.values[i].above_brows_mm + brows_;
   }
-  const glm::vec2 below_eyes_ = PhotoLook().Pair("shade_below_eyes");
-  const glm::vec2 above_chin_ = PhotoLook().Pair("shade_above_chin");
-  const glm::vec2 beside_middle_ = PhotoLook().Pair("shade_beside_middle");
-  const glm::vec2 beside_wings_ = PhotoLook().Pair("shade_beside_wings");
-  const glm::vec2 below_nose_ = PhotoLook().Pair("shade_below_nose");
-  const float below_nose_part_ = PhotoLook()("shade_below_nose_part");
-  const glm::vec2 outside_lips_ = PhotoLook().Pair("shade_outside_lips");
+  const glm::vec2 below_eyes_ = PhotoLook().shade_below_eyes;
+  const glm::vec2 above_chin_ = PhotoLook().shade_above_chin;
+  const glm::vec2 beside_middle_ = PhotoLook().shade_beside_middle;
+  const glm::vec2 beside_wings_ = PhotoLook().shade_beside_wings;
+  const glm::vec2 below_nose_ = PhotoLook().shade_below_nose;
+  const float below_nose_part_ = PhotoLook().shade_below_nose_part;
+  const glm::vec2 outside_lips_ = PhotoLook().shade_outside_lips;
   float brows_, eyes_ = 0, wing_ = 0, nose_ = 0, chin_ = 0;
 };
 
@@ -89,7 +89,7 @@ class WeightedMeans {
 void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const FloatImage& coverage,
                         float smile, fsm::Image& map) {
   if (smile <= 0) return;
-  const glm::ivec2 reach(PhotoLook().Pair("shade_texels"));
+  const glm::ivec2 reach(PhotoLook().shade_texels);
   const Cheeks cheeks(base);
   FloatImage weight(kMapSize, kMapSize);
   for (std::size_t i = 0; i < weight.values.size(); ++i) {
@@ -108,10 +108,10 @@ void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const Fl
 
 void GrainFromCheeks(const FloatImage& smooth, fsm::Image& map) {
   if (std::ranges::none_of(smooth.values, [](float s) { return s > 0; })) return;
-  const glm::ivec2 from_texel(PhotoLook().Pair("grain_from"));
+  const glm::ivec2 from_texel(PhotoLook().grain_from);
   const int outward = from_texel.x, up = from_texel.y;
-  const int reach = static_cast<int>(PhotoLook()("grain_texels"));
-  const float most = PhotoLook()("grain_most");
+  const int reach = static_cast<int>(PhotoLook().grain_texels);
+  const float most = PhotoLook().grain_most;
   const VectorImage colours = Colours(map), means = Blurred(Blurred(colours, reach), reach);
   for (int y = up; y < kMapSize; ++y) {
     for (int x = outward; x < kMapSize - outward; ++x) {

@@ -57,9 +57,9 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
     side_sum += ColourAt(colours, texels.values[i].pixel);
   }
   const glm::vec3 gain = LightGain(front_sum, side_sum);
-  const fsm::NumberTable& look = PhotoLook();
-  const glm::vec2 facing = look.Pair("extra_facing"), across = look.Pair("extra_across");
-  const glm::vec2 facing_front = look.Pair("extra_facing_front");
+  const PhotoLookNumbers& look = PhotoLook();
+  const glm::vec2 facing = look.extra_facing, across = look.extra_across;
+  const glm::vec2 facing_front = look.extra_facing_front;
   for (std::size_t i = 0; i < coverage.values.size(); ++i) {
     // Too slanted a texel is drawn from a line of pixels.
     if (texels.values[i].facing < facing.x || !IsInside(colours, texels.values[i].pixel)) continue;
@@ -87,12 +87,12 @@ struct PaintedMap {
 /// What the photo shows, but not what is between lids and lips.
 PaintedMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTexels& texels,
                       bool open, fsm::Image colours) {
-  const fsm::NumberTable& look = PhotoLook();
-  const float least_on_face = look("facing_least"), least_aside = look("facing_least_aside");
-  const float soft = look("facing_soft");
+  const PhotoLookNumbers& look = PhotoLook();
+  const float least_on_face = look.facing_least, least_aside = look.facing_least_aside;
+  const float soft = look.facing_soft;
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const FloatImage filled =
-      FillSmileFolds(face, look("smile_folds_filled") * Smile(fitted), pixels_per_mm, colours);
+      FillSmileFolds(face, look.smile_folds_filled * Smile(fitted), pixels_per_mm, colours);
   const PhotoOpenings openings(face, pixels_per_mm, open);
   PaintedMap map;
   for (std::size_t i = 0; i < texels.values.size(); ++i) {
@@ -111,10 +111,9 @@ PaintedMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const Ski
 
 /// Where lips that were apart now meet there is a dark line, reddish where the photo has colour.
 void DrawMouthLine(const SkinTexels& texels, float saturation, fsm::Image& map) {
-  const fsm::NumberTable& look = PhotoLook();
-  const glm::vec3 dark =
-      glm::mix(look.Vector("mouth_line_grey"), look.Vector("mouth_line_colour"), saturation);
-  const glm::vec2 width = look.Pair("mouth_line_width");
+  const PhotoLookNumbers& look = PhotoLook();
+  const glm::vec3 dark = glm::mix(look.mouth_line_grey, look.mouth_line_colour, saturation);
+  const glm::vec2 width = look.mouth_line_width;
   for (std::size_t i = 0; i < texels.values.size(); ++i) {
     const float line = Ramp(width, texels.values[i].off_seam_mm);
     if (line > 0) SetRgb(map, i, Rgb(map, i) * (1.0F - dark * line));
@@ -155,11 +154,11 @@ struct SkinLook {
 
 /// Completes the map where the photo does not show it, and says in its alpha what is skin.
 SkinLook FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool open, PaintedMap& map) {
-  const fsm::NumberTable& look = PhotoLook();
+  const PhotoLookNumbers& look = PhotoLook();
   const float saturation = Saturation(map.image, map.coverage);
   CompleteByMirroring(map.skin, map.image, map.coverage);
   PushPullInpaint(map.image, map.coverage);
-  RemoveSmileShading(*fitted.base, texels, map.coverage, look("smile_shade_evened") * Smile(fitted),
+  RemoveSmileShading(*fitted.base, texels, map.coverage, look.smile_shade_evened * Smile(fitted),
                      map.image);
   GrainFromCheeks(map.smooth, map.image);
   const auto aside =
@@ -170,14 +169,14 @@ SkinLook FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool open
     DrawMouthLine(texels, saturation, map.image);
   }
   const FloatImage face_coverage = CoverageOfFace(texels, map.coverage);
-  const glm::vec2 range = look.Pair("roughness");
+  const glm::vec2 range = look.roughness;
   const float rough = (Roughness(map.image, face_coverage) - range.x) / (range.y - range.x);
   const FloatImage likeness = CutAtHairline(texels, SkinLikeness(map.image, face_coverage));
   for (std::size_t i = 0; i < likeness.values.size(); ++i) {
     map.image.rgba[4 * i + 3] = Byte(255 * likeness.values[i]);
   }
   return {.saturation = saturation,
-          .lined = glm::mix(look("crease_smooth"), 1.0F, glm::clamp(rough, 0.0F, 1.0F))};
+          .lined = glm::mix(look.crease_smooth, 1.0F, glm::clamp(rough, 0.0F, 1.0F))};
 }
 
 /// The map on the left, the figure on the right.

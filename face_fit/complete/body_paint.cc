@@ -62,14 +62,13 @@ BodyPaint::Joint BodyPaint::Join(PhotoEdge edge) const {
   }
   const float bust_half_width =
       bust_.HalfWidth(edge, joint.row + static_cast<float>(canvas_.photo_origin.y) - 0.5F);
-  glm::vec2 limit = PhotoLook().Pair("body_wider");
+  glm::vec2 limit = PhotoLook().body_wider;
   // At the height of the jaw the figure is wider than its neck, but not for long; above the chin
   // the bust has a jaw of its own.
-  const glm::vec2 fade_mm = PhotoLook().Pair("body_joint");
+  const glm::vec2 fade_mm = PhotoLook().body_joint;
   const float below_chin = (joint.row - canvas_.chin.y) / canvas_.pixels_per_mm;
-  if (below_chin < 0) limit.y = std::min(limit.y, PhotoLook()("body_jaw_wider"));
-  joint.fade_mm =
-      glm::mix(fade_mm.x, fade_mm.y, Ramp(PhotoLook().Pair("body_neck_begins"), below_chin));
+  if (below_chin < 0) limit.y = std::min(limit.y, PhotoLook().body_jaw_wider);
+  joint.fade_mm = glm::mix(fade_mm.x, fade_mm.y, Ramp(PhotoLook().body_neck_begins, below_chin));
   joint.width_ratio = glm::clamp(half_width / bust_half_width, hidden ? 1.0F : limit.x, limit.y);
   if (joint.cut) joint.slope = OutlineSlope(edge, joint.row);
   return joint;
@@ -79,7 +78,7 @@ float BodyPaint::OutlineSlope(PhotoEdge edge, float row) const {
   // How far the outline falls towards the edge, over the last part of the photo.
   const int inward = std::max(canvas_.photo_size.x / 16, 1);
   const int x = edge == PhotoEdge::kLeft ? inward : canvas_.photo_size.x - 1 - inward;
-  const glm::vec2 limit = PhotoLook().Pair("shoulder_fall");
+  const glm::vec2 limit = PhotoLook().shoulder_fall;
   int y = static_cast<int>(row);
   while (y > 0 && opacity_(x, y - 1) > 0.5F) --y;
   return std::clamp((row - static_cast<float>(y)) / static_cast<float>(inward), limit.x, limit.y);
@@ -98,15 +97,14 @@ glm::vec3 BodyPaint::ClothColour() const {
       add(edges_.aside(edge, y));
     }
   }
-  if (sum.w >= PhotoLook()("body_cloth_seen") * canvas_.pixels_per_mm)
-    return glm::vec3(sum) / sum.w;
+  if (sum.w >= PhotoLook().body_cloth_seen * canvas_.pixels_per_mm) return glm::vec3(sum) / sum.w;
   // Cloth of our own stands in the light that skin stands in: it is tinted like that, and grey in a
   // grey photo.
-  const glm::vec3 skin = 255.0F * light_.skin(), usual = PhotoLook().Vector("body_usual_skin");
+  const glm::vec3 skin = 255.0F * light_.skin(), usual = PhotoLook().body_usual_skin;
   const float brightest = std::max({skin.r, skin.g, skin.b, 1.0F});
-  const float colour = glm::smoothstep(0.0F, PhotoLook()("body_grey"),
+  const float colour = glm::smoothstep(0.0F, PhotoLook().body_grey,
                                        1 - std::min({skin.r, skin.g, skin.b}) / brightest);
-  const glm::vec3 cloth = PhotoLook().Vector("body_cloth");
+  const glm::vec3 cloth = PhotoLook().body_cloth;
   return glm::clamp(glm::mix(glm::vec3(Brightness(cloth) * Brightness(skin) / Brightness(usual)),
                              cloth * skin / usual, colour),
                     0.0F, 255.0F);

@@ -37,7 +37,7 @@ struct Canvas {
   glm::ivec2 photo_size;    ///< pixels, as `size`
   glm::ivec2 size;
   float pixels_per_mm;
-  glm::vec2 chin;       ///< place
+  glm::vec2 chin;  ///< place
 
   Beyond BeyondPhoto(glm::vec2 p) const {
     const glm::vec2 end(photo_size);

@@ -38,9 +38,9 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
       top_(TopSpan()),
       aside_{SpanAside(PhotoEdge::kLeft), SpanAside(PhotoEdge::kRight)} {
   const auto& look = PhotoLook();
-  const float most = look("hair_beside") * canvas.pixels_per_mm;
+  const float most = look.hair_beside * canvas.pixels_per_mm;
   for (const PhotoEdge edge : kPhotoEdges) {
-    bulge_[edge] = std::min(look("hair_bulge") * aside_[edge].Length(), most);
+    bulge_[edge] = std::min(look.hair_bulge * aside_[edge].Length(), most);
     // What touches a corner goes on above it.
     if (bulge_[edge] <= 0 || aside_[edge].from > 1 || top_.Length() <= 0) continue;
     if (edge == PhotoEdge::kLeft && top_.from < 1) top_.from -= bulge_[edge];
@@ -48,7 +48,7 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
       top_.to += bulge_[edge];
     }
   }
-  const glm::vec2 rounded = look.Pair("hair_dome");
+  const glm::vec2 rounded = look.hair_dome;
   if (top_.Length() > 0)
     dome_ = std::clamp(-crown, rounded.x * top_.Length(), rounded.y * top_.Length());
   cut_ = dome_ > 0 || bulge_.left + bulge_.right > 0;
@@ -57,8 +57,8 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
     below_.Add(sample.colour, sample.kind == EdgeKind::kHair ? 1 : 0);
   }
   // Single dark columns below the chin are wrinkles.
-  const float chin = look("hair_beard_half") * canvas.pixels_per_mm;
-  bearded_ = below_.Around(canvas.chin.x, chin).w > look("hair_beard_least");
+  const float chin = look.hair_beard_half * canvas.pixels_per_mm;
+  bearded_ = below_.Around(canvas.chin.x, chin).w > look.hair_beard_least;
 }
 
 HairPaint::EdgeSpan HairPaint::TopSpan() const {

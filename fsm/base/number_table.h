@@ -5,7 +5,6 @@
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <map>
 #include <span>
 #include <string>
@@ -32,9 +31,6 @@ class NumberTable {
 
   /// The numbers behind a name. REQUIRES, here and below: the built-in table has it, and as many.
   const std::vector<float>& operator[](std::string_view name) const;
-  float operator()(std::string_view name) const { return (*this)[name].at(0); }
-  glm::vec2 Pair(std::string_view name) const { return {(*this)[name].at(0), (*this)[name].at(1)}; }
-  glm::vec3 Vector(std::string_view name) const { return {Pair(name), (*this)[name].at(2)}; }
   void Get(std::string_view name, float& out) const { Copy(name, {&out, 1}); }
   template <glm::length_t N>
   void Get(std::string_view name, glm::vec<N, float>& out) const {

@@ -47,8 +47,8 @@ struct PictureRect {
 /// The whole picture, and more around a face that fills it: the network knows figures with
 /// shoulders, and in pictures of little more than a face takes the wall for one.
 PictureRect WholeFor(glm::vec2 picture, const Box2& face) {
-  const glm::vec2 larger = glm::max(picture, face.Size() / PhotoLook()("figure_face"));
-  return {(picture - larger) * glm::vec2(0.5F, PhotoLook()("figure_above")), larger};
+  const glm::vec2 larger = glm::max(picture, face.Size() / PhotoLook().figure_face);
+  return {(picture - larger) * glm::vec2(0.5F, PhotoLook().figure_above), larger};
 }
 
 Box2 BoxOf(const FoundFace& face) {
@@ -69,8 +69,7 @@ NetworkCrop HeadSquare(const Box2& face, glm::vec2 picture) {
 float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
   const float right = std::abs(glm::dot(face.At(point::kCheekRight) - middle, across));
   const float left = std::abs(glm::dot(face.At(point::kCheekLeft) - middle, across));
-  return Ramp(PhotoLook().Pair("figure_frontal"),
-              std::min(right, left) / std::max({right, left, 1.0F}));
+  return Ramp(PhotoLook().figure_frontal, std::min(right, left) / std::max({right, left, 1.0F}));
 }
 
 }  // namespace
@@ -82,7 +81,7 @@ FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image,
   const glm::vec2 down = glm::normalize(chin - top), across(-down.y, down.x);
   const float height = glm::distance(top, chin), nearby = kNearby * height;
   // Ears and hats, not what stands behind a shoulder.
-  const glm::vec2 aside = PhotoLook().Pair("figure_mirrored") * height;
+  const glm::vec2 aside = PhotoLook().figure_mirrored * height;
   const float frontal = Frontal(face, chin, across);
   const auto unlike = [&](glm::vec2 p, glm::vec2 q) {
     float least = 1;

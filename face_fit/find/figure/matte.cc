@@ -155,7 +155,7 @@ void SuppressWideDoubt(FloatImage& opacity, int reach) {
 }
 
 FloatImage SolveOpacity(const fsm::Image& image, const FloatImage& person) {
-  const glm::vec2 sure = PhotoLook().Pair("outline_doubt");
+  const glm::vec2 sure = PhotoLook().outline_doubt;
   const int reach = std::max(image.width, image.height) / kOutlinePart + kOutlinePixels;
   const FloatImage around = Blurred(person, reach);
   FloatImage out(person.width, person.height);

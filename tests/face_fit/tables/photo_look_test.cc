@@ -10,7 +10,7 @@ namespace {
 
 std::string Error(const std::string& text) {
   try {
-    fsm::NumberTable("t", text, &PhotoLook());
+    PhotoLookOf("t", text);
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -18,9 +18,9 @@ std::string Error(const std::string& text) {
 }
 
 TEST(PhotoLookTest, TheBuiltInTableIsComplete) {
-  const fsm::NumberTable& look = PhotoLook();
-  EXPECT_GT(look("fold_reach"), 0);
-  EXPECT_LT(look.Pair("light_gain").x, look.Pair("light_gain").y);
+  const PhotoLookNumbers& look = PhotoLook();
+  EXPECT_GT(look.fold_reach, 0);
+  EXPECT_LT(look.light_gain.x, look.light_gain.y);
 }
 
 TEST(PhotoLookTest, WhatIsWrongIsSaidWithItsLine) {
