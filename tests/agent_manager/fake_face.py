@@ -14,7 +14,7 @@ PICTURE = base64.b64decode(
     "AAAAAAAAAAAAAAD/wAARCAAQABADASIAAhEAAxEA/9oADAMBAAIRAxEA/wCLAFF/f//Z")
 connection, stop = None, threading.Event()
 values = {"Clock": "0", "Picture.to": "NONE", "Record": "STOP", "Run": "LIVE", "Frames": "ON",
-          "MaskSet": "galatea,pygmalion", "NowMask": "galatea"}
+          "MaskSet": "galatea,pygmalion", "NowMask": "galatea", "FaceExp": "ANGRY 1 60 0"}
 
 
 def send_pictures(to):

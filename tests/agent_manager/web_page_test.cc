@@ -253,6 +253,26 @@ TEST_F(WebPageTest, WhatHasGoneSaysSoAndWhatComesBackIsAsItWasChosen) {
   EXPECT_EQ(page->ReadLine(), "pygmalion");
 }
 
+TEST_F(WebPageTest, AModuleComesBackAsThePageFoundIt) {
+  hub_->WriteLine("to @FSM set Mask = pygmalion");
+  ASSERT_TRUE(hub_->Expect("tell wears pygmalion"));
+  const auto page = Browse({"wait:document.querySelector('#pick-face').value == 'pygmalion'",
+                            "wait:document.querySelector('#pick-emotion').value == 'ANGRY'",
+                            "print:document.querySelector('#strength').textContent", Tell("found"),
+                            "wait:document.querySelector('#stage.off')", Tell("seen to go"),
+                            "wait:!document.querySelector('#stage.off')",
+                            "wait:!document.querySelector('#pick-face').disabled",
+                            "print:document.querySelector('#pick-face').value"});
+  ASSERT_TRUE(hub_->Expect("tell found")) << page->ErrorText();
+  hub_->WriteLine("set Stop = FSM");
+  ASSERT_TRUE(hub_->Expect("tell seen to go")) << page->ErrorText();
+  hub_->WriteLine("set Start = FSM");
+  EXPECT_TRUE(hub_->Expect("tell wears pygmalion")) << "though nobody has chosen it here";
+  EXPECT_EQ(page->Wait(support::Millis(120000)), 0) << page->ErrorText() << hub_->ErrorText();
+  EXPECT_EQ(page->ReadLine(), "60 %");
+  EXPECT_EQ(page->ReadLine(), "pygmalion");
+}
+
 TEST_F(WebPageTest, AnOpenPageGoesOnWhenTheHubHasBeenStartedAnew) {
   const support::TempDir state;
   const unsigned short port = FreePort();

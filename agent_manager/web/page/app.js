@@ -17,9 +17,11 @@ const clock = new SessionClock(hub);
 const delay = new Delay();
 
 // ---- face and voice
+// What a refusal means to somebody who talks; null: nothing is known.
+const told = why => why == null ? text('unknown_why') : /there is no @|has gone/.test(why) ? text('module_away') : why;
 const face = new FacePlayer($('face'), clock, delay, why => {
   $('stage').classList.toggle('off', why !== '');
-  if (why !== '') put($('face-off'), 'no_face', {why: why ?? text('unknown_why')});
+  if (why !== '') put($('face-off'), 'no_face', {why: told(why)});
 });
 let lost_voice = '', sink = 'null', loud = true;
 const voice = new VoicePlayer(clock, delay, why => {
@@ -33,7 +35,7 @@ function showSound() {
   const state = $('sound-state');
   if (sink !== 'null' && !loud) put(state, 'sound_twice', {sink});
   else if (!voice.allowed) put(state, 'sound_blocked');
-  else if (lost_voice !== '') put(state, 'no_voice', {why: lost_voice ?? text('unknown_why')});
+  else if (lost_voice !== '') put(state, 'no_voice', {why: told(lost_voice)});
   else state.replaceChildren(), delete state.dataset.text;
 }
 voice.context.onstatechange = showSound;
@@ -88,7 +90,10 @@ hub.onFlow = entry => engineer.flow(entry);
 hub.onState = async on => {
   put($('link'), on ? 'connected' : 'away');
   $('link').className = `state ${on ? 'on' : 'off'}`;
-  if (!on) return presence.leave();
+  if (!on) {
+    presence.leave();
+    return pickers.leave();
+  }
   hub.send('set Subscribe = *');
   engineer.connect();
   await clock.start();

@@ -89,7 +89,7 @@ export class Engineer {
     if (!ending && !log) return [];
     const lines = log.split(' | ').map(line => element('div', {className: line.split(' ')[0], textContent: line}));
     const details = element('details', {open: this.opened.has(name)},
-        element('summary', {className: ending ? 'why' : '',
+        element('summary', {className: ending && ending !== 'ended with code 0' ? 'why' : '',
                             textContent: ending ? `${name} ended before: ${ending}` : `what ${name} has said`}), ...lines);
     details.ontoggle = () => { details.open ? this.opened.add(name) : this.opened.delete(name); };
     return [element('tr', {className: 'said'}, element('td', {colSpan: 4}, details))];

@@ -1,5 +1,5 @@
-// Which face and voice, which language, which emotion and how strong. What was chosen here is chosen again when the
-// module comes back.
+// Which face and voice, which language, which emotion and how strong. What was chosen here, or what a module showed
+// when this page found it, is chosen again when the module comes back.
 import {element, put, text, useLanguage} from './texts.js';
 
 const kEmotions = ['NEUTRAL', 'HAPPY', 'SAD', 'ANGRY', 'SURPRISED', 'DISGUSTED', 'FEARED'];
@@ -18,6 +18,7 @@ export class Pickers {
   constructor(hub, presence, nodes, onError) {
     Object.assign(this, {hub, presence, nodes, onError});
     this.chosen = JSON.parse(sessionStorage.getItem('chosen') || '{}');
+    this.shown = {};  // face and voice as they are, as long as the hub is the same
     const emotions = kEmotions.map(value => {
       const option = element('option', {value});
       put(option, value);
@@ -59,8 +60,8 @@ export class Pickers {
     const {chosen, nodes} = this;
     const emotion = nodes.emotion.value === 'NEUTRAL' ? 'NEUTRAL' : `${nodes.emotion.value} ${nodes.strength.value}`;
     const [module, line] = {
-      face: ['FSM', `set Mask = ${chosen.face}`],
-      voice: ['SSM', `set Speaker = ${chosen.voice}`],
+      face: ['FSM', `set Mask = ${nodes.face.value}`],
+      voice: ['SSM', `set Speaker = ${nodes.voice.value}`],
       language: ['CHAT', `set Language = ${chosen.language}`],
       emotion: ['AM-MCL', `set Emotion = ${emotion}`],
     }[what];
@@ -70,26 +71,45 @@ export class Pickers {
 
   async come(name) {
     const list = async line => (await this.hub.ask(line).catch(() => '')).replace(/"/g, '');
+    // What there is to choose from, and the way to ask which of them it is.
+    const restore = async (what, values, question) => {
+      const node = this.nodes[what], now = await list(question), wanted = this.chosen[what] ?? this.shown[what];
+      const others = wanted !== now && values.includes(wanted);
+      fill(node, values, others ? wanted : now);
+      if (others) {
+        await this.set(what);
+        fill(node, values, await list(question));
+      }
+      this.shown[what] = node.value;
+    };
     if (name === 'FSM') {
       const faces = (await list('to @FSM inq MaskSet')).split(',').map(face => face.trim()).filter(Boolean);
-      if (this.chosen.face && faces.includes(this.chosen.face)) await this.set('face');
+      await restore('face', faces, 'to @FSM inq NowMask');
       if (this.chosen.emotion) await this.set('emotion');
-      fill(this.nodes.face, faces, await list('to @FSM inq NowMask'));
+      else this.showExpression(await list('to @FSM inq FaceExp'));
     }
     if (name === 'SSM') {
       const voices = (await list('to @SSM inq Speaker.all')).split(/\s+/).filter(Boolean);
-      if (this.chosen.voice && voices.includes(this.chosen.voice)) await this.set('voice');
-      fill(this.nodes.voice, voices, await list('to @SSM inq Speaker'));
+      await restore('voice', voices, 'to @SSM inq Speaker');
     }
     if (name === 'CHAT' && this.chosen.language) await this.set('language');
     this.show();
   }
+  // "ANGRY 1 60 0": its name, pattern and strength.
+  showExpression(words) {
+    const [name, , strength] = words.split(/\s+/);
+    if (!kEmotions.includes(name)) return;
+    this.nodes.emotion.value = name;
+    if (name !== 'NEUTRAL' && strength) this.nodes.strength.value = strength;
+  }
+  // The hub has gone; one that is started anew may have another face.
+  leave() { this.shown = {}; }
   go(name) {
     if (name === 'FSM') this.nodes.face.disabled = true;
     if (name === 'SSM') this.nodes.voice.disabled = true;
   }
   // Somebody else has chosen.
   hear({from, slot, value}) {
-    if (from === 'SSM' && slot === 'Speaker' && !this.nodes.voice.disabled) this.nodes.voice.value = value;
+    if (from === 'SSM' && slot === 'Speaker' && !this.nodes.voice.disabled) this.shown.voice = this.nodes.voice.value = value;
   }
 }
