@@ -120,10 +120,8 @@ class Run {
       if (head) ui_.page = editor::Page::kExpressions;
       return;
     }
-    vm::OrThrow(editor_->OpenPhoto(options_.photo));
+    vm::OrThrow(editor::OpenFile(ui_, options_.photo));
     if (!options_.points.empty()) vm::OrThrow(editor_->LoadPoints(options_.points));
-    ui_.photo_path = options_.photo;
-    ui_.Tell(editor_->work()->notice);
   }
 
   /// A face's own table of units goes before that of the folder of tables.

@@ -395,7 +395,7 @@ if [ -n "$heard" ]; then
     echo "set Wait = IDLE"
   } >"$work/script"
   draw
-  if error=$(grep -E 'rep#(input|said|film) [A-Za-z.]+\.error' "$work/said"); then
+  if error=$(grep -m 1 -E 'rep#(input|said|film) [A-Za-z.]+\.error' "$work/said"); then
     fail "${error#*error = }"
   fi
   echo "run_agent: wrote $out"
@@ -408,7 +408,7 @@ if [ -n "$say" ]; then
   # One script for both ways: the film is made on the virtual clock, the window lives on the real one.
   {
     clear_background
-    [ -z "$film" ] || echo "to @AM-MCL set Record = $out"
+    [ -z "$film" ] || echo "to @AM-MCL set#film Record = $out"
     echo "to @FSM set FaceExp.onset = NATURAL"
     [ -z "$film" ] && echo "set Wait = 600" || echo "set Wait = 300"
     [ -z "$emotion" ] || echo "to @AM-MCL set Emotion = $emotion"
@@ -424,7 +424,7 @@ if [ -n "$say" ]; then
   else
     "$hub_program" --config "$config" <"$work/script" >"$work/said" || { cat "$work/said" >&2; fail "the hub ended with an error"; }
   fi
-  if error=$(grep -E 'rep#(said|film) [A-Za-z.]+\.error' "$work/said"); then
+  if error=$(grep -m 1 -E 'rep#(said|film) [A-Za-z.]+\.error' "$work/said"); then
     fail "${error#*error = }"
   fi
   [ -z "$film" ] || echo "run_agent: wrote $out"
@@ -435,7 +435,7 @@ if [ -n "$chat" ] && [ -n "$film" ]; then
   # A film of a conversation: on the virtual clock, each line of the user's when the one before has been answered.
   {
     clear_background
-    echo "to @AM-MCL set Record = $out"
+    echo "to @AM-MCL set#film Record = $out"
     echo "to @FSM set FaceExp.onset = NATURAL"
     echo "to @SRM set Input.wordtime = 250"
     echo "set Wait = 500"
@@ -449,7 +449,7 @@ if [ -n "$chat" ] && [ -n "$film" ]; then
     echo "set Wait = IDLE"
   } >"$work/script"
   draw
-  if error=$(grep -E 'rep#(heard|film) [A-Za-z.]+\.error' "$work/said"); then
+  if error=$(grep -m 1 -E 'rep#(heard|film) [A-Za-z.]+\.error' "$work/said"); then
     fail "${error#*error = }"
   fi
   sed -n -e 's/^From @CHAT rep Heard = /You: /p' -e 's/^From @CHAT rep Reply.sentence = /Galatea: /p' "$work/said"
@@ -477,7 +477,11 @@ await() { # PROGRAM COMMAND...
   done
   "${@:2}"
 }
-await "$hub" test -S "$work/hub" || { cat "$work/hub.log" >&2; fail "the hub did not start"; }
+if ! await "$hub" test -S "$work/hub"; then
+  grep -q "Address already in use" "$work/hub.log" && fail "port $web is taken, perhaps by another agent; --web PORT takes another"
+  cat "$work/hub.log" >&2
+  fail "the hub did not start"
+fi
 if [ -n "$gateway" ]; then
   # A voice of its own, so that what other programs have it say is not heard here.
   "$bin/gateway" --at "tcp:127.0.0.1:$gateway" \
