@@ -49,7 +49,7 @@ vm::Result<void> MaskSlots::Wear(const std::string& face) {
 }
 
 void MaskSlots::Reset() {
-  if (auto worn = Wear(first_); !worn) core_.slots.ReportError("Mask", worn.error());
+  if (auto worn = Wear(first_); !worn) return core_.slots.ReportError("Mask", worn.error());
   core_.slots.Store("NowMask", first_);
 }
 

@@ -23,6 +23,7 @@ class Checker {
     if (vertices_ == 0) Refuse("rig.rest: no vertices");
     CheckTopology(asset_.topology);
     CheckRig(asset_.rig);
+    if (asset_.view) Positive(asset_.view->half_mm, "view.half_mm");
     CheckLips(asset_.rig.lips);
   }
 
@@ -47,6 +48,10 @@ class Checker {
   template <typename List>
   void VerticesOf(const List& list, const char* member) const {
     for (std::size_t i = 0; i < list.size(); ++i) Vertex(list[i].vertex, Place(member, i));
+  }
+  static void Positive(float value, const char* member) {
+    if (value > 0) return;  // false for not-a-number
+    Refuse(fmt::format("{}: {} found where more than 0 was expected", member, value));
   }
   template <typename List>
   void Triangles(const List& list, const char* member) const {
@@ -109,6 +114,15 @@ class Checker {
     VerticesOf(rig.ball_lids.vertices, "rig.ball_lids");
     VerticesOf(rig.teeth.contacts, "rig.teeth_contacts");
     CheckSprings(rig);
+    // What is divided by.
+    if (const auto& ranges = rig.eyes.gaze_ranges) {
+      for (const GazeRange& range : {ranges->inner, ranges->outer, ranges->up, ranges->down})
+        Positive(range.gaze_deg, "rig.gaze_ranges.gaze_deg");
+    }
+    if (!rig.teeth.contacts.empty()) {
+      Positive(rig.teeth.upper.half_width, "rig.upper_teeth.half_width");
+      Positive(rig.teeth.lower.half_width, "rig.lower_teeth.half_width");
+    }
   }
 
   static void CheckSteps(const std::vector<RigStep>& steps) {

@@ -17,6 +17,7 @@
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/transferred_rig.h"
 #include "fsm/motion/face_motion.h"
+#include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 
@@ -66,7 +67,7 @@ std::vector<ShapeMeaning> Meanings(const MotionTables& tables) {
 
 /// The head of a file that ExportHead has written; null if it is of another kind.
 std::unique_ptr<Head> AssetOfFile(const std::string& path) {
-  if (!path.ends_with(".glb")) return nullptr;
+  if (vm::LowerCase(std::filesystem::path(path).extension().string()) != ".glb") return nullptr;
   const auto bytes = vm::ReadTextFile(path, kMaxMeshBytes);
   if (!bytes || !IsAsset(*bytes)) return nullptr;
   return std::make_unique<Head>(vm::OrThrow(ParseAsset(path, *bytes)));

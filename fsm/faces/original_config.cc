@@ -191,12 +191,8 @@ vm::Result<void> OriginalConfig::ApplyTo(MotionTables& tables) const {
     *out = std::move(*curves);
   }
   for (const auto& [name, looks] : expressions) {
-    auto& own = tables.emotions[name].patterns;
-    for (const auto& [pattern, look] : looks) {
-      const auto index = static_cast<std::size_t>(pattern - 1);
-      own.resize(std::max(own.size(), index + 1));
-      own[index] = look;
-    }
+    for (const auto& [pattern, look] : looks)
+      tables.emotions[name].Redefine(static_cast<std::size_t>(pattern), look);
   }
   if (!blinks_ms.empty()) patterns.blinks.clear();
   for (const double ms : blinks_ms) {

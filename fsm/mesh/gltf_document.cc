@@ -341,7 +341,9 @@ vm::Result<std::vector<std::uint32_t>> GltfDocument::Indices(std::int64_t access
   if (!read) return std::unexpected(read.error());
   std::vector<std::uint32_t> out;
   out.reserve(read->size());
-  for (const double v : *read) out.push_back(v >= 0 ? static_cast<std::uint32_t>(v) : 0xffffffffU);
+  constexpr std::uint32_t kNone = 0xffffffff;
+  for (const double v : *read)
+    out.push_back(v >= 0 && v < kNone ? static_cast<std::uint32_t>(v) : kNone);
   return out;
 }
 

@@ -61,13 +61,20 @@ std::vector<std::uint32_t> NormalTwins(const std::vector<glm::vec3>& position,
   std::vector<std::uint32_t> twin(order.size());
   std::iota(twin.begin(), twin.end(), 0U);
   constexpr float kFacesTheSameWay = 0.5F;  // cosine
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    for (std::size_t j = k; j-- > 0;) {
-      const std::uint32_t one = order[k], other = order[j];
-      if (position[one] != position[other]) break;
-      if (twin[other] != other || glm::dot(normal[one], normal[other]) < kFacesTheSameWay) continue;
-      twin[one] = other;
-      break;
+  // The vertices of one place that are no twins of others there. They face different ways, so there
+  // are few; where a damaged file has more they stay alone.
+  constexpr std::size_t kMostWays = 64;
+  std::vector<std::uint32_t> firsts;
+  for (const std::uint32_t one : order) {
+    if (!firsts.empty() && position[firsts.front()] != position[one]) firsts.clear();
+    const auto same_way = [&](std::uint32_t other) {
+      return glm::dot(normal[one], normal[other]) >= kFacesTheSameWay;
+    };
+    const auto found = std::ranges::find_if(firsts.rbegin(), firsts.rend(), same_way);
+    if (found != firsts.rend()) {
+      twin[one] = *found;
+    } else if (firsts.size() < kMostWays) {
+      firsts.push_back(one);
     }
   }
   return twin;

@@ -46,6 +46,12 @@ void ReadBegins(const TableRow& row, const UnitNames& names, EmotionTable& emoti
 
 }  // namespace
 
+void Emotion::Redefine(std::size_t pattern, const ActionUnits& look) {
+  patterns.resize(std::max(patterns.size(), pattern));
+  patterns[pattern - 1] = look;
+  if (pattern <= begins.size()) begins[pattern - 1] = {};
+}
+
 ActionUnits Emotion::LookAt(int pattern, double strength) const {
   const auto index = static_cast<std::size_t>(pattern - 1);
   ActionUnits look;

@@ -26,6 +26,8 @@ struct Emotion {
 
   /// What a pattern looks like at a strength. REQUIRES: there is that pattern.
   ActionUnits LookAt(int pattern, double strength) const;
+  /// Makes or changes a pattern; all of it takes part from the start. REQUIRES: 1 or more.
+  void Redefine(std::size_t pattern, const ActionUnits& look);
 };
 using EmotionTable = std::map<std::string, Emotion, std::less<>>;
 /// Looks of whole expressions by FaceExp's name and pattern number.

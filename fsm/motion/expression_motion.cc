@@ -133,9 +133,7 @@ vm::Result<void> ExpressionMotion::Define(std::string_view name, int pattern,
   if (have == 0 && tables_.emotions.size() >= kMostExpressions) {
     return vm::Fail(vm::Errc::kLimit, fmt::format("more than {} expressions", kMostExpressions));
   }
-  auto& patterns = tables_.emotions[std::string(name)].patterns;
-  patterns.resize(std::max(have, static_cast<std::size_t>(pattern)));
-  patterns[static_cast<std::size_t>(pattern - 1)] = *units;
+  tables_.emotions[std::string(name)].Redefine(static_cast<std::size_t>(pattern), *units);
   return {};
 }
 

@@ -57,7 +57,7 @@ TEST_F(WebPageTest, AnEngineerSeesModulesSlotsAndMessages) {
        "wait:document.querySelector('#flow').textContent.includes('set#u')",
        "do:document.querySelector('[aria-label=\"Restart FSM\"]').click()",
        "wait:document.querySelector('#answer').textContent == 'READY'",
-       "wait:document.querySelector('#modules .why').textContent.includes('ended with')",
+       "wait:document.querySelector('#modules summary').textContent.includes('ended with')",
        "do:document.querySelector('#whose').value = 'AM'; "
        "document.querySelector('#whose').onchange()",
        "wait:[...document.querySelectorAll('#slots summary')].some(s => "

@@ -312,6 +312,24 @@ TEST(CheckAssetTest, AChannelWhoseLimitsAreTheWrongWayRoundIsRefused) {
   EXPECT_FALSE(CheckAsset(asset));
 }
 
+TEST(CheckAssetTest, WhatIsDividedByIsMoreThanNothing) {
+  const auto flaw = [](const auto& spoil) {
+    HeadAsset asset = BallAsset();
+    spoil(asset);
+    const auto checked = CheckAsset(asset);
+    return checked ? "" : checked.error().text;
+  };
+  EXPECT_EQ(flaw([](HeadAsset& asset) { asset.rig.eyes.gaze_ranges.emplace().up.gaze_deg = 0; }),
+            "rig.gaze_ranges.gaze_deg: 0 found where more than 0 was expected");
+  EXPECT_EQ(flaw([](HeadAsset& asset) { asset.view.emplace().half_mm = 0; }),
+            "view.half_mm: 0 found where more than 0 was expected");
+  EXPECT_EQ(flaw([](HeadAsset& asset) {
+              asset.rig.teeth.contacts.emplace_back();
+              asset.rig.teeth.upper.half_width = std::nanf("");
+            }),
+            "rig.upper_teeth.half_width: nan found where more than 0 was expected");
+}
+
 TEST(RigTest, AMouthIsMeasuredWhicheverStepsThereAre) {
   HeadAsset asset = BallAsset();
   asset.rig.lips.measured = {{600, 800, 610, 620}};
