@@ -187,14 +187,18 @@ void FaceOfPhoto(const Options& options) {
   }
   progress.Say("photo read");
   Workshop workshop(options, progress);
-  const auto front = vm::OrThrow(facefit::PrepareFront(
-      workshop.networks, workshop.base, std::move(photo), choice, facefit::PhotoPart::kCloseUp,
-      [&](const char* step) { progress.Say(step); }));
-  if (front.orientation != 1) {
+  const auto front = facefit::PrepareFront(workshop.networks, workshop.base, std::move(photo),
+                                           choice, facefit::PhotoPart::kCloseUp,
+                                           [&](const char* step) { progress.Say(step); });
+  if (!front) {
+    const std::string& of = options.points.empty() ? options.photo : options.points;
+    throw std::runtime_error(of + ": " + front.error().text);
+  }
+  if (front->orientation != 1) {
     Notice("the photo lies on its side or head, whatever its file says; it was set upright");
   }
-  RequireFace(options, front);
-  WriteFace(options, workshop, front, progress);
+  RequireFace(options, *front);
+  WriteFace(options, workshop, *front, progress);
 }
 
 void FaceOfOriginal(const Options& options) {

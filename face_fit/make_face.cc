@@ -50,6 +50,9 @@ struct FaceSearch {
     return found;
   }
   vm::Result<PhotoWithFace> operator()(const HandPoints& choice) {
+    if (auto within = CheckWithin(choice, working.width, working.height); !within) {
+      return std::unexpected(within.error());
+    }
     return PhotoWithFace{.finest = std::move(finest),
                          .working = std::move(working),
                          .face = FaceFromHand(base, choice)};

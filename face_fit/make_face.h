@@ -52,7 +52,7 @@ struct FrontPhoto {
 /// Finds the face in a photo, takes the part of the photo to work on, cuts the figure out, and
 /// looks for what is before the face. The face may be uncertain: who relies on it compares its
 /// certainty with kCertainFace. Error: kBadValue, there are fewer faces than the number asked for,
-/// but some.
+/// but some; or as CheckWithin.
 vm::Result<FrontPhoto> PrepareFront(
     FaceNetworks& networks, const BaseHead& base, fsm::Image photo, const FaceChoice& choice,
     PhotoPart part, const StepDone& done = [](const char*) {});

@@ -55,6 +55,10 @@ vm::Result<void> Editor::LoadPoints(const std::string& path) {
   if (!text) return std::unexpected(text.error());
   auto points = facefit::ParseHandPoints(path, *text);
   if (!points) return std::unexpected(points.error());
+  const fsm::Image& photo = work_->front.photo;
+  if (auto within = facefit::CheckWithin(*points, photo.width, photo.height); !within) {
+    return Fail(within.error().code, path + ": " + within.error().text);
+  }
   PointMap at;
   for (const auto& [i, place] : *points) at[static_cast<int>(i)] = glm::vec3(place, 0);
   if (work_->base) {

@@ -1,9 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
+#include <string>
 
+#include "face_editor/core/editor.h"
 #include "face_editor/core/face_points.h"
 #include "face_fit/find/face/hand_points.h"
+#include "fsm/image/image_file.h"
 
 namespace editor {
 namespace {
@@ -90,6 +96,24 @@ TEST(FacePointsTest, WhatIsWrittenIsWhatFaceFitReads) {
   for (const auto& [i, at] : *read) {
     EXPECT_LT(glm::distance(at, glm::vec2(face.at(static_cast<int>(i)))), 0.01F) << i;
   }
+}
+
+TEST(FacePointsTest, PointsOfAnotherPhotoAreNotLaidBesideThisOne) {
+  std::string folder = testing::TempDir() + "/points_XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  ASSERT_TRUE(fsm::WriteImage(fsm::FilledImage(80, 64), folder + "/small.png"));
+  auto editor = *Editor::Make("");
+  ASSERT_TRUE(editor->OpenPhoto(folder + "/small.png", 1));
+  const std::string path = folder + "/points.txt";
+  std::ofstream(path) << WritePoints(PlainPoints(4000, 3000));
+  const auto loaded = editor->LoadPoints(path);
+  ASSERT_FALSE(loaded);
+  EXPECT_EQ(loaded.error().text,
+            path +
+                ": none of the points lies in the photo, which is 80 x 64 pixels where points "
+                "are set");
+  EXPECT_TRUE(editor->state().points == PlainPoints(80, 64)) << "those there were stay";
+  std::filesystem::remove_all(folder);
 }
 
 TEST(FacePointsTest, UnknownNamesAreRefusedWithThoseThereAre) {

@@ -40,6 +40,16 @@ TEST_F(MakeFaceTest, WhereNoFaceIsFoundTheFigureAloneIsCutOut) {
   }
 }
 
+TEST_F(MakeFaceTest, PointsSetByHandBesideThePhotoAreRefused) {
+  const HandPoints points{{point::kEyeOuterRight, {600, 300}}, {point::kEyeOuterLeft, {720, 300}},
+                          {point::kNoseTip, {662, 365}},       {point::kMouthRight, {625, 410}},
+                          {point::kMouthLeft, {695, 410}},     {point::kChin, {660, 480}}};
+  const auto front = PrepareFront(*networks_, Galatea(), GreyPhoto(), points, PhotoPart::kCloseUp);
+  ASSERT_FALSE(front);
+  EXPECT_TRUE(front.error().text.starts_with("none of the points lies in the photo"))
+      << front.error().text;
+}
+
 TEST_F(MakeFaceTest, MorePhotosFromTheSideThanAreUsedAreRefused) {
   const SidePhoto side;
   const SidePhotos sides{*networks_, std::vector<const SidePhoto*>(kMaxSidePhotos + 1, &side)};

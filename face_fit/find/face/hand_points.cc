@@ -3,8 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
 
-#include "face_fit/picture/pixels.h"
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/head/warp.h"
@@ -77,6 +78,22 @@ PointIndex PointAt(const fsm::TableRow& row) {
   return *number;
 }
 
+/// What makes no face of points: the size of a face is measured between the corners of its eyes,
+/// and the line of its lips along that between those of the mouth. Nothing if it is a face.
+std::optional<std::string> WhyNoFace(const HandPoints& points) {
+  constexpr float kNearest = 4;  // pixels
+  const auto apart = [&](PointIndex a, PointIndex b) {
+    return glm::distance(points.at(a), points.at(b)) >= kNearest;
+  };
+  if (!apart(point::kEyeOuterRight, point::kEyeOuterLeft)) {
+    return "the outer corners of the eyes lie in one place";
+  }
+  if (!apart(point::kMouthRight, point::kMouthLeft)) {
+    return "the corners of the mouth lie in one place";
+  }
+  return {};
+}
+
 }  // namespace
 
 std::span<const HandPointName> HandPointList() { return kNames; }
@@ -94,16 +111,32 @@ vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view
     HandPoints points;
     for (const fsm::TableRow& row : table.rows()) {
       if (row.size() != 3) row.Fail("NAME X Y expected, as: chin 320 455");
-      points[PointAt(row)] = {row.Within(1, -kFarthest, kFarthest),
-                              row.Within(2, -kFarthest, kFarthest)};
+      const glm::vec2 at(row.Within(1, -kFarthest, kFarthest),
+                         row.Within(2, -kFarthest, kFarthest));
+      if (!points.emplace(PointAt(row), at).second) {
+        row.Fail("'" + row.key() + "' is set a second time");
+      }
     }
     for (const HandPointName& named : kNames) {
       if (named.needed && !points.contains(named.point)) {
         table.Fail(std::string(named.name) + " is missing");
       }
     }
+    if (const auto why = WhyNoFace(points)) table.Fail(*why);
     return points;
   });
+}
+
+vm::Result<void> CheckWithin(const HandPoints& points, int width, int height) {
+  const glm::vec2 size(width, height);
+  const bool some = std::ranges::any_of(points, [&](const auto& point) {
+    const glm::vec2 at = point.second;
+    return at.x >= 0 && at.y >= 0 && at.x <= size.x && at.y <= size.y;
+  });
+  if (some) return {};
+  return vm::Fail(vm::Errc::kBadValue, "none of the points lies in the photo, which is " +
+                                           std::to_string(width) + " x " + std::to_string(height) +
+                                           " pixels where points are set");
 }
 
 vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::PntFile& wireframe,
@@ -124,6 +157,9 @@ vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::Pnt
     const glm::vec3 p = wireframe.at[wireframe.index.at(of)];
     points[point] = {0.5F * (p.x + 1) * static_cast<float>(width),
                      0.5F * (1 - p.y) * static_cast<float>(height)};
+  }
+  if (const auto why = WhyNoFace(points)) {
+    return vm::Fail(vm::Errc::kBadValue, name + ": " + *why);
   }
   return points;
 }

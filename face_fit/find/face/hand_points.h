@@ -17,8 +17,11 @@ using HandPoints = std::map<PointIndex, glm::vec2>;
 
 /// A table of lines `NAME X Y`, NAME one of HandPointNames() or a number of MediaPipe's face mesh;
 /// `#` begins a comment. Needed are both outer eye corners, nose_tip, both mouth corners and chin.
-/// Errors: kBadValue "NAME:LINE: what was expected", without the line for a point that is missing.
+/// Errors: kBadValue "NAME:LINE: what was expected", also for a point that is set twice; without
+/// the line for a point that is missing, and for corners of the eyes or of the mouth in one place.
 vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view text);
+/// Error: kBadValue, no point lies in a photo of that size.
+vm::Result<void> CheckWithin(const HandPoints& points, int width, int height);
 /// A point people can name; `needed`: a file of points must have it.
 struct HandPointName {
   std::string_view name;
@@ -30,7 +33,8 @@ std::span<const HandPointName> HandPointList();
 std::string HandPointNames();
 
 /// The points that a wireframe of the original, fitted to a photo of that size, gives. Error:
-/// kBadValue if the wireframe is not one of the original's standard head.
+/// kBadValue if the wireframe is not one of the original's standard head, or its points lie in one
+/// place.
 vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::PntFile& wireframe,
                                          int width, int height);
 

@@ -51,5 +51,42 @@ TEST(HandPointsTest, DamageIsToldWithItsLine) {
   }
 }
 
+const std::string kFace =
+    "right_eye_outer 200 300\nleft_eye_outer 320 300\nnose_tip 262 365\nmouth_right 225 410\n"
+    "mouth_left 295 410\nchin 260 480\n";
+
+TEST(HandPointsTest, APointThatIsSetTwiceIsRefused) {
+  for (const std::string again : {"chin", "152"}) {  // the same point
+    const auto points = ParseHandPoints("p", kFace + again + " 1 2\n");
+    ASSERT_FALSE(points) << again;
+    EXPECT_EQ(points.error().text, "p:7: '" + again + "' is set a second time");
+  }
+}
+
+TEST(HandPointsTest, CornersInOnePlaceAreRefused) {
+  const std::string rest = "nose_tip 262 365\nchin 260 480\n";
+  for (const auto& [corners, words] :
+       {std::pair("right_eye_outer 9 9\nleft_eye_outer 9 9\nmouth_right 9 9\nmouth_left 9 9\n",
+                  "p: the outer corners of the eyes lie in one place"),
+        std::pair("right_eye_outer 200 300\nleft_eye_outer 320 300\nmouth_right 260 410\n"
+                  "mouth_left 262 410\n",
+                  "p: the corners of the mouth lie in one place")}) {
+    const auto points = ParseHandPoints("p", corners + rest);
+    ASSERT_FALSE(points) << corners;
+    EXPECT_EQ(points.error().text, words);
+  }
+}
+
+TEST(HandPointsTest, PointsOfWhichNoneLiesInThePhotoAreRefused) {
+  const auto points = ParseHandPoints("p", kFace);
+  ASSERT_TRUE(points) << points.error().text;
+  EXPECT_TRUE(CheckWithin(*points, 640, 480));
+  EXPECT_TRUE(CheckWithin(*points, 210, 310)) << "a face that is cut off";
+  const auto none = CheckWithin(*points, 160, 120);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().text,
+            "none of the points lies in the photo, which is 160 x 120 pixels where points are set");
+}
+
 }  // namespace
 }  // namespace facefit
