@@ -18,25 +18,28 @@ EyeLine EyesOf(const FoundFace& face) {
 
 }  // namespace
 
-bool FaceWatch::Find(const fsm::Image& picture) {
+void FaceWatch::See(const fsm::Image& picture, const NetworkCrop& crop) {
+  last_ = FindAttentivePoints(attention_, picture, crop);
+  if (last_->face.certainty < kCertainFace) last_.reset();
+}
+
+void FaceWatch::Find(const fsm::Image& picture) {
   const auto faces = FindFaces(networks_, picture);
-  if (faces.empty() || faces.front().certainty < kCertainFace) return false;
+  if (faces.empty() || faces.front().certainty < kCertainFace) return;
   const FoundFace& face = faces.front();
   const EyeLine eyes = EyesOf(face);
   eyes_to_middle_ = Rotated(face.crop.centre - eyes.middle, -eyes.angle);
   size_ = face.crop.size;
-  last_ = FindAttentivePoints(attention_, picture, face.crop);
-  return true;
+  See(picture, face.crop);
 }
 
 std::optional<FaceMeasures> FaceWatch::Look(const fsm::Image& picture) {
   if (last_) {
     const EyeLine eyes = EyesOf(last_->face);
-    const NetworkCrop crop{eyes.middle + Rotated(eyes_to_middle_, eyes.angle), size_, eyes.angle};
-    last_ = FindAttentivePoints(attention_, picture, crop);
-    if (last_->face.certainty < kCertainFace) last_.reset();
+    See(picture, {eyes.middle + Rotated(eyes_to_middle_, eyes.angle), size_, eyes.angle});
   }
-  if (!last_ && !Find(picture)) return std::nullopt;
+  if (!last_) Find(picture);
+  if (!last_) return std::nullopt;
   if (first_.empty()) first_ = PointsInMm(last_->face);
   return Measure(*last_, first_);
 }

@@ -14,13 +14,16 @@ class FaceWatch {
   FaceWatch(FaceNetworks& networks, Network& attention)
       : networks_(networks), attention_(attention) {}
 
-  /// Returns nothing where no face is seen.
+  /// Returns nothing where no face is seen, or none that is certain (kCertainFace).
   std::optional<FaceMeasures> Look(const fsm::Image& picture);
-  /// The points of the last face that was seen.
+  /// The points of the face in the last picture; nothing where Look returned nothing.
   const std::optional<AttentiveFace>& last() const { return last_; }
 
  private:
-  bool Find(const fsm::Image& picture);
+  /// Looks for the largest face, and for its points.
+  void Find(const fsm::Image& picture);
+  /// Looks for the points of a face in that part of a picture; sets `last_` to what it saw.
+  void See(const fsm::Image& picture, const NetworkCrop& crop);
 
   FaceNetworks& networks_;
   Network& attention_;

@@ -5,13 +5,29 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "face_fit/find/head/portrait_view.h"
 #include "tests/face_fit/network_fixture.h"
+#include "tests/face_fit/tflite/one_step.h"
 #include "tests/support/process.h"
 
 namespace facefit {
 namespace {
+
+/// A network with the outputs of that with attention, which sees a face nowhere.
+Network SeesNoFace() {
+  const tflite::Shape picture{{1, kPointsPixels, kPointsPixels, 3}};
+  tflite::Model model = tflite::OneStep(tflite::op::Logistic{}, picture, {}, picture);
+  model.outputs.clear();
+  for (const int count : {3 * static_cast<int>(kNetworkPoints), 160, 142, 142, 10, 10, 1}) {
+    model.outputs.push_back(static_cast<int>(model.tensors.size()));
+    std::vector<float> values(static_cast<std::size_t>(count), -5);
+    model.tensors.push_back(tflite::Constant({{1, 1, 1, count}}, std::move(values)));
+  }
+  return Network(std::move(model));
+}
 
 class FaceWatchTest : public AttentionNetworkTest {
  protected:
@@ -101,6 +117,15 @@ TEST_F(FaceWatchTest, AFaceThatGoesAndComesBackIsFoundAgain) {
   EXPECT_FALSE(watch_->Look(fsm::FilledImage(400, 400)));
   EXPECT_FALSE(watch_->last());
   EXPECT_LT(See({}).gap_mm, 0.5F);
+}
+
+TEST_F(FaceWatchTest, AFaceWhosePointsAreUncertainIsNotSeen) {
+  Network blind = SeesNoFace();
+  FaceWatch watch(*networks_, blind);
+  for (int frame = 0; frame < 2; ++frame) {
+    EXPECT_FALSE(watch.Look(Draw({})));
+    EXPECT_FALSE(watch.last());
+  }
 }
 
 /// The program: frames in, a line each out.
