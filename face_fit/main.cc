@@ -224,36 +224,43 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Makes a face from a photo: fsm --mask NAME wears it");
   app.set_version_flag("--version", "face_fit (Galatea) " GALATEA_VERSION);
-  app.add_option("photo", options.photo, "The photo, JPEG or PNG");
-  app.add_option("--name", options.name, "What the face is called");
-  app.add_option("--head", options.head,
-                 "Instead: finds eyes, nose and mouth of a head (.obj, .glb, .gltf, .vrm) and "
-                 "writes HEAD.points, which fsm --head reads (--out: another file)");
+  auto* photo = app.add_option("photo", options.photo, "The photo, JPEG or PNG");
+  auto* name = app.add_option("--name", options.name, "What the face is called");
+  auto* head =
+      app.add_option("--head", options.head,
+                     "Instead: finds eyes, nose and mouth of a head (.obj, .glb, .gltf, .vrm) and "
+                     "writes HEAD.points, which fsm --head reads (--out: another file)");
   app.add_option("--out", options.out,
                  "Where its folder is made (default: $GALATEA_FACES or the user's data folder)");
-  app.add_option("--face", options.face, "Which of several faces, 1 = the largest");
-  app.add_option(
-         "--view,--profile", options.views,
-         "Another photo of the same person turned by 20 to 60 degrees, or in full profile; may be "
-         "repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--points", options.points,
-                 "Points set by hand, lines NAME X Y in pixels, where no face is found");
-  app.add_option(
+  auto* face = app.add_option("--face", options.face, "Which of several faces, 1 = the largest");
+  auto* view = app.add_option("--view,--profile", options.views,
+                              "Another photo of the same person turned by 20 to 60 degrees, or in "
+                              "full profile; may be repeated")
+                   ->expected(1)
+                   ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  auto* points =
+      app.add_option("--points", options.points,
+                     "Points set by hand, lines NAME X Y in pixels, where no face is found");
+  auto* galatea = app.add_option(
       "--galatea", options.galatea,
       "Instead of a photo: a configuration of the original, whose face NAME is made ours");
   app.add_option("--base", options.base, "The built-in face that is warped (default galatea)");
-  app.add_option(
+  auto* tables = app.add_option(
       "--tables", options.tables,
       "A folder of tables: its action_units.txt says what the photo's expression does to "
       "the face, as fsm --tables");
   app.add_option("--networks", options.networks,
                  "Where the networks are (default: where scripts/face_networks.sh puts them)");
-  app.add_option(
-         "--glasses", options.glasses,
-         "Whether the person wears glasses, yes or no (default: what a look at the nose says)")
-      ->check(CLI::IsMember({"yes", "no"}));
+  auto* glasses = app.add_option("--glasses", options.glasses,
+                                 "Whether the person wears glasses, yes or no (default: what a "
+                                 "look at the nose says)")
+                      ->check(CLI::IsMember({"yes", "no"}));
+  // What a way of use has no use for is refused rather than ignored.
+  for (CLI::Option* other : {photo, name, galatea, face, view, points, tables, glasses}) {
+    head->excludes(other);
+  }
+  for (CLI::Option* other : {photo, face, points}) galatea->excludes(other);
+  face->excludes(points);
   app.add_flag("--quiet", options.quiet, "Does not tell what is being done");
   CLI11_PARSE(app, argc, argv);
   try {
