@@ -6,7 +6,7 @@
 
 #include "face_editor/core/table_writer.h"
 #include "face_fit/find/face/hand_points.h"
-#include "face_fit/fit/side_pose.h"
+#include "face_fit/fit/side_view.h"
 #include "face_fit/picture/photo.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
@@ -102,8 +102,8 @@ vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& s
     auto side = facefit::ReadSidePhoto(sight.networks, path);
     if (!side) return std::unexpected(side.error());
     const auto fit = facefit::FitFace(*work.base, FoundFrom(points), &work.front.photo);
-    if (auto placed = facefit::FitSidePose(sight.networks, fit.head, *side); !placed) {
-      return vm::Fail(placed.error().code, path + ": " + placed.error().text);
+    if (auto used = facefit::CorrectDepthBy(sight.networks, work.front.photo, *side, fit); !used) {
+      return vm::Fail(used.error().code, path + ": " + used.error().text);
     }
     return std::make_shared<const facefit::SidePhoto>(std::move(*side));
   } catch (const std::exception& error) {

@@ -39,8 +39,9 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
                                                        int face);
 
 using SidePhotos = std::vector<std::shared_ptr<const facefit::SidePhoto>>;
-/// A photo from the side, if it shows the person whose face these points make. Error: kBadValue
-/// "PATH: why not". REQUIRES: work.base
+/// A photo from the side, if MakeFace would use it for the face that these points make: it shows
+/// the same person, turned or in full profile. Takes about a second. Error: kBadValue "PATH: why
+/// not". REQUIRES: work.base
 vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& sight,
                                                                     const PhotoWork& work,
                                                                     const PointMap& points,

@@ -1,0 +1,55 @@
+#include "face_editor/core/photo_work.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "fsm/head/make_head.h"
+#include "fsm/image/image_file.h"
+#include "fsm/render/renderer.h"
+
+namespace editor {
+namespace {
+
+/// A picture of a built-in head, drawn into a file.
+void DrawHead(const std::string& path, float turned_degrees) {
+  constexpr int kSide = 500;
+  const auto head = fsm::MakeHead("pygmalion", false);
+  fsm::HeadVertices vertices;
+  head->Evaluate({}, vertices);
+  const auto context = fsm::RenderContext::MakeHeadless(kSide, kSide);
+  const auto renderer = fsm::Renderer::Make(*context);
+  fsm::Scene scene;
+  scene.camera.angle_degrees = turned_degrees;
+  renderer->Draw(*head, vertices, {}, scene);
+  fsm::Image image;
+  renderer->Read(image);
+  ASSERT_TRUE(fsm::WriteImage(image, path));
+}
+
+TEST(PhotoWorkTest, AFullProfileIsTakenAndTheFrontIsNot) {
+  const auto sight = LoadSight("", "");
+  if (!sight) GTEST_SKIP() << sight.error().text;
+  std::string folder = testing::TempDir() + "/work_XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  DrawHead(folder + "/front.png", 0);
+  const auto work = OpenPhoto(sight->get(), folder + "/front.png", 1);
+  ASSERT_TRUE(work) << work.error().text;
+  const auto open = [&](const std::string& name) {
+    return OpenSidePhoto(**sight, **work, (*work)->found, folder + "/" + name);
+  };
+  for (const float turned : {-90.0F, 90.0F}) {
+    DrawHead(folder + "/side.png", turned);
+    const auto side = open("side.png");
+    EXPECT_TRUE(side) << turned << ": " << side.error().text;
+  }
+  const auto front = open("front.png");
+  ASSERT_FALSE(front);
+  EXPECT_TRUE(front.error().text.starts_with(folder + "/front.png: ")) << front.error().text;
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace editor
