@@ -72,8 +72,8 @@ float TableRow::Within(std::size_t index, float low, float high) const {
 
 int TableRow::Integer(std::size_t index) const {
   const float value = Number(index);
-  constexpr float kMost = 1 << 24;  // up to there a float holds every whole number
-  if (value != std::floor(value) || std::abs(value) > kMost) {
+  constexpr float kMostWhole = 1 << 24;  // up to there a float holds every whole number
+  if (value != std::floor(value) || std::abs(value) > kMostWhole) {
     Fail("'" + Word(index) + "' found where a whole number was expected");
   }
   return static_cast<int>(value);
