@@ -58,7 +58,8 @@ while(NOT open STREQUAL "")
 endwhile()
 
 get_filename_component(table ${INPUT} NAME)
-file(WRITE ${HEADER} "// Written by cmake/NumbersScript.cmake from ${table}, where each number is explained.
+# Where only a number has changed both stay as they are, and nothing that includes them is compiled anew.
+file(CONFIGURE OUTPUT ${HEADER} @ONLY CONTENT "// Written by cmake/NumbersScript.cmake from ${table}, where each number is explained.
 #pragma once
 
 #include <array>
@@ -76,7 +77,7 @@ explicit ${STRUCT}(const fsm::NumberTable& numbers);
 ${members}};
 }
 ")
-file(WRITE ${SOURCE} "#include \"embedded/${NAME}.h\"
+file(CONFIGURE OUTPUT ${SOURCE} @ONLY CONTENT "#include \"embedded/${NAME}.h\"
 
 namespace ${NAMESPACE} {
 ${STRUCT}::${STRUCT}(const fsm::NumberTable& numbers) {
