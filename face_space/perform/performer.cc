@@ -33,10 +33,12 @@ std::vector<std::uint32_t> LidSites(const fsm::RigData& rig) {
   std::vector<std::uint32_t> sites;
   for (const fsm::Side side : fsm::kSides) {
     for (const bool upper : {true, false}) {
-      const auto part = [upper](const fsm::LidRig::Vertex& v) { return upper ? v.upper : v.lower; };
+      const auto part = [upper](const fsm::LidRig::Vertex& v) {
+        return upper ? v.at.upper : v.at.lower;
+      };
       std::vector<fsm::LidRig::Vertex> lid;
       for (const fsm::LidRig::Vertex& v : rig.lids.vertices) {
-        if (v.side == side && part(v) > 0.5F && v.opening > 0.4F) lid.push_back(v);
+        if (v.side == side && part(v) > 0.5F && v.at.opening > 0.4F) lid.push_back(v);
       }
       std::ranges::stable_sort(lid,
                                [&](const auto& a, const auto& b) { return part(a) > part(b); });

@@ -186,14 +186,14 @@ template <typename V>
 void Members(V& v, Like<LidRig::Vertex> auto& lid) {
   v("vertex", lid.vertex);
   v("side", lid.side);
-  v("upper", lid.upper);
-  v("lower", lid.lower);
-  v("upper_angle", lid.upper_angle);
-  v("lower_angle", lid.lower_angle);
-  v("meet_angle", lid.meet_angle);
-  v("opening", lid.opening);
-  v("y", lid.y);
-  v("z", lid.z);
+  v("upper", lid.at.upper);
+  v("lower", lid.at.lower);
+  v("upper_angle", lid.at.upper_angle);
+  v("lower_angle", lid.at.lower_angle);
+  v("meet_angle", lid.at.meet_angle);
+  v("opening", lid.at.opening);
+  v("y", lid.at.y);
+  v("z", lid.at.z);
   v("proper", lid.proper);
 }
 

@@ -55,7 +55,7 @@ float EyeAnatomy::AngleOf(float x, float y) const {
 float EyeAnatomy::CorneaCentre() const {
   const float edge = 1.06f * iris_;
   return std::sqrt(radius_ * radius_ - edge * edge) -
-         std::sqrt(kCorneaRadius * kCorneaRadius - edge * edge);
+         std::sqrt(step::kCorneaRadius * step::kCorneaRadius - edge * edge);
 }
 
 float EyeAnatomy::InnerRadius(float x) const {
@@ -112,12 +112,12 @@ MouthAnatomy::MouthAnatomy(const Table& table)
 // it.
 ToothArch MouthAnatomy::UpperTeeth() const {
   const float y = LineY(0) - 2.6f;
-  return {LineZ(0) - 7.0f, 40, 27, y, y + 17};
+  return {LineZ(0) - 7.0f, 40, 27, y, y + 17, 0, 0};
 }
 
 ToothArch MouthAnatomy::LowerTeeth() const {
   const float y = LineY(0) - 1.3f;
-  return {LineZ(0) - 9.6f, 40, 26, y, y - 15};
+  return {LineZ(0) - 9.6f, 40, 26, y, y - 15, 0, 0};
 }
 
 glm::vec3 MouthAnatomy::Red(int side, float x, float part) const {

@@ -57,8 +57,8 @@ void BuildEyes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh) 
       const float c = eye.CorneaCentre();
       const float cosine = std::cos(angle);
       const float dome =
-          c * cosine +
-          std::sqrt(std::max(0.0f, kCorneaRadius * kCorneaRadius - c * c * (1 - cosine * cosine)));
+          c * cosine + std::sqrt(std::max(0.0f, step::kCorneaRadius * step::kCorneaRadius -
+                                                    c * c * (1 - cosine * cosine)));
       const float r = std::max(eye.radius(), dome);
       return centre + r * glm::vec3(std::sin(angle) * std::cos(around),
                                     std::sin(angle) * std::sin(around), std::cos(angle));

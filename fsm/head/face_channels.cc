@@ -88,14 +88,14 @@ LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
     rig.vertices.push_back(
         {.vertex = static_cast<std::uint32_t>(i),
          .side = side,
-         .upper = vertex.lid_upper,
-         .lower = vertex.lid_lower,
-         .upper_angle = upper,
-         .lower_angle = lower,
-         .meet_angle = eye.MeetAngle(x),
-         .opening = (eye.UpperY(x) - eye.LowerY(x)) / widest,
-         .y = from_ball.y,
-         .z = from_ball.z + eye.centre().z - eye.LidAxisZ(x),
+         .at = {.upper = vertex.lid_upper,
+                .lower = vertex.lid_lower,
+                .upper_angle = upper,
+                .lower_angle = lower,
+                .meet_angle = eye.MeetAngle(x),
+                .opening = (eye.UpperY(x) - eye.LowerY(x)) / widest,
+                .y = from_ball.y,
+                .z = from_ball.z + eye.centre().z - eye.LidAxisZ(x)},
          .proper = glm::length(rest[i] - rig.ball[side]) > transform.size * kOnBall});
   }
   return rig;
@@ -108,8 +108,9 @@ TeethRig BakeTeeth(const ToothArch& upper, const ToothArch& lower, std::span<con
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (!weights[i].by_teeth) continue;
     const glm::vec3 p = rest[i];
-    rig.contacts.push_back({static_cast<std::uint32_t>(i), std::min(kLeast, p.z - upper.At(p.x)),
-                            std::min(kLeast, p.z - lower.At(p.x))});
+    rig.contacts.push_back({static_cast<std::uint32_t>(i),
+                            std::min(kLeast, p.z - step::ArchZ(upper, p.x)),
+                            std::min(kLeast, p.z - step::ArchZ(lower, p.x))});
   }
   return rig;
 }

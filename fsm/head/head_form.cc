@@ -52,8 +52,8 @@ float HeadForm::TeethTooFar(const HeadMesh& base) const {
     for (std::size_t i = 0; i < base.position.size(); ++i) {
       if (base.bone[i] != Bone::kSkin || !base.weights[i].by_teeth) continue;
       const glm::vec3 p = base.position[i], q = p + Motion(p);
-      const float room = std::min(kRoom, p.z - arch.At(p.x));
-      most = std::max(most, room - (q.z - arch.Moved(teeth_).At(q.x)));
+      const float room = std::min(kRoom, p.z - step::ArchZ(arch, p.x));
+      most = std::max(most, room - (q.z - step::ArchZ(Moved(arch, teeth_), q.x)));
     }
   }
   return std::min(most, kMost);

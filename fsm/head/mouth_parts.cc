@@ -20,11 +20,11 @@ glm::vec3 AlongArch(const ToothArch& arch, float arc, float y) {
   float length = 0;
   const float side = arc < 0 ? -1.0f : 1.0f;
   while (length < std::abs(arc)) {
-    const float slope = arch.Slope(x);
+    const float slope = ArchSlope(arch, x);
     x += 0.25f / std::sqrt(1 + slope * slope);
     length += 0.25f;
   }
-  return {side * x, y, arch.At(x)};
+  return {side * x, y, step::ArchZ(arch, x)};
 }
 
 /// Draws one row of teeth and its gum.

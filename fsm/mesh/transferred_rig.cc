@@ -110,14 +110,14 @@ class RigResampler {
         const LidRig::Vertex* one = lids[from];
         if (!one) continue;
         const float share = part / sum;
-        mean.upper += part * one->upper;
-        mean.lower += part * one->lower;
-        mean.upper_angle += share * one->upper_angle;
-        mean.lower_angle += share * one->lower_angle;
-        mean.meet_angle += share * one->meet_angle;
-        mean.opening += share * one->opening;
-        mean.y += share * one->y;
-        mean.z += share * one->z;
+        mean.at.upper += part * one->at.upper;
+        mean.at.lower += part * one->at.lower;
+        mean.at.upper_angle += share * one->at.upper_angle;
+        mean.at.lower_angle += share * one->at.lower_angle;
+        mean.at.meet_angle += share * one->at.meet_angle;
+        mean.at.opening += share * one->at.opening;
+        mean.at.y += share * one->at.y;
+        mean.at.z += share * one->at.z;
         left += one->side == Side::kLeft ? share : 0;
         proper += one->proper ? part : 0;
       }

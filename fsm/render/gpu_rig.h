@@ -12,17 +12,17 @@
 
 namespace fsm {
 
-struct RigItems;
+struct RigRecords;
 
-/// The programs of shaders/rig_steps.glsl, compiled when a head first needs them and shared by all
-/// heads of a context. Destroy while it is current.
+/// The programs of shaders/rig_kernels.glsl, compiled when a head first needs them and shared by
+/// all heads of a context. Destroy while it is current.
 class RigPrograms {
  public:
   explicit RigPrograms(const GlFunctions& gl) : gl_(gl) {}
   /// Whether the driver has what they need: compute shaders and buffers for them, OpenGL 4.3.
   static bool Supported(const GlFunctions& gl) { return gl.has_compute; }
-  /// The program that reads such items. Throws std::runtime_error with the compiler's words.
-  const GlProgram& Of(const RigItems& items);
+  /// The program that reads such records. Throws std::runtime_error with the compiler's words.
+  const GlProgram& Of(const RigRecords& records);
 
  private:
   const GlFunctions& gl_;
@@ -30,8 +30,8 @@ class RigPrograms {
 };
 
 /// Moves a head on a graphics card by the steps of its Rig, any number of its faces in one call:
-/// what never changes lies in buffers there, a frame brings a pose for each face, and places and
-/// normals stay where they are drawn from. Equal to Rig::Evaluate within 0.05 mm
+/// what never changes lies in buffers there, a frame brings a StepState for each face, and places
+/// and normals stay where they are drawn from. Equal to Rig::Evaluate within 0.05 mm
 /// (tests/fsm/render_gpu_rig_test.cc; a card may fuse a multiplication with an addition). Destroy
 /// while its context is current.
 class GpuRig {
@@ -58,17 +58,21 @@ class GpuRig {
   void Read(std::size_t face, HeadVertices& out) const;
 
  private:
-  enum Buffer { kPositions, kNormals, kPoses, kBuffers };
+  /// In the order of their bindings in rig_kernels.glsl.
+  enum Buffer { kPositions, kNormals, kStates, kStrengths, kSwings, kGaps, kBuffers };
   struct Kernel {
     const GlProgram* program;
-    GLuint items;
+    std::array<GLuint, 2> buffers;  // records and entries, whose bindings follow
     std::uint32_t count;
   };
-  void Add(const RigItems& items);
+  void Add(const RigRecords& records);
+  /// Makes a buffer as long as `bytes` with those in it; one byte at least, as a driver wants.
+  template <typename T>
+  void Fill(GLuint buffer, const std::vector<T>& values, GLenum usage) const;
 
   const GlFunctions& gl_;
   RigPrograms& programs_;
-  const std::size_t vertex_count_, spring_count_, seam_count_;
+  const std::size_t vertex_count_, channel_count_, spring_count_, seam_count_;
   std::vector<Kernel> kernels_;  // in the order of the steps
   std::array<GLuint, kBuffers> buffers_{};
   std::size_t room_ = 0;  // faces that the buffers hold

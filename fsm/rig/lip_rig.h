@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,9 @@ struct LipRig {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;
   /// How far the two of each pair lie apart in a closed mouth, millimetres; or none at all.
   std::vector<glm::vec3> apart_at_rest;
+  glm::vec3 ApartAtRest(std::size_t pair) const {
+    return apart_at_rest.empty() ? glm::vec3(0) : apart_at_rest[pair];
+  }
   struct Follower {
     std::uint32_t vertex;
     std::uint32_t pair;  ///< index into `seam`: the one that moves it
@@ -31,9 +33,5 @@ struct LipRig {
   enum Measured : std::size_t { kUpperLip, kLowerLip, kCornerLeft, kCornerRight };
   std::optional<std::array<std::uint32_t, 4>> measured;
 };
-
-/// `seal`: 0 = only lips that have crossed are pushed back to touch, 1 = the gap is taken away in
-/// all directions.
-void CloseLips(const LipRig& rig, float seal, std::span<glm::vec3> position);
 
 }  // namespace fsm

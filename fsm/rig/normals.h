@@ -17,7 +17,7 @@ struct NormalRig {
 
   std::uint32_t Owner(std::uint32_t vertex) const { return twin.empty() ? vertex : twin[vertex]; }
 };
-/// `soft`: the corners of the soft triangles, each once.
+/// Fills the normals of `soft`, the corners of the soft triangles, each once.
 void FindNormals(const NormalRig& rig, std::span<const std::uint32_t> soft,
                  std::span<const glm::vec3> position, std::span<glm::vec3> normal);
 

@@ -56,9 +56,9 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
   const float slide_mm = Bound(effects.jaw_slide_mm + Bound(state.mouth[kJawZ], -6, 10), -4, 12);
   pose.mouth[kJawY] = degrees - Bound(effects.jaw_degrees, 0, 28);
   pose.mouth[kJawZ] = slide_mm - Bound(effects.jaw_slide_mm, -4, 12);
-  pose.SetJaw({.open_rad = glm::radians(degrees),
-               .slide_mm = slide_mm,
-               .sway_mm = Bound(effects.jaw_sway_mm, -10, 10)});
+  pose.jaw = {.open_rad = glm::radians(degrees),
+              .slide_mm = slide_mm,
+              .sway_mm = Bound(effects.jaw_sway_mm, -10, 10)};
   pose.seal = Bound(std::max(effects.seal, Bound(state.lip_seal, 0, 1)), 0, 1);
   pose.tongue_raise = Bound(effects.tongue_raise + Bound(state.tongue, 0, 1), 0, 1);
   pose.tongue_out_mm = Bound(effects.tongue_out_mm, 0, 30);
@@ -78,39 +78,6 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
   pose.head = HeadTurn(state);
   pose.head_forward_mm = HeadForward(state);
   return pose;
-}
-
-void Pose::SetJaw(const JawMove& move) {
-  jaw = move;
-  jaw_cos = std::cos(move.open_rad);
-  jaw_sin = std::sin(move.open_rad);
-}
-
-// Twins of TurnJaw and IntoJaw: those in fsm/render/shaders/rig_steps.glsl.
-glm::vec3 TurnJaw(glm::vec3 p, const Pose& pose, float weight) {
-  const float angle = pose.jaw.open_rad * weight;
-  const float c = weight == 1 ? pose.jaw_cos : std::cos(angle);
-  const float s = weight == 1 ? pose.jaw_sin : std::sin(angle);
-  const float y = p.y - pose.hinge.y;
-  const float z = p.z - pose.hinge.z;
-  // Sideways the jaw takes more of the lips along: corners 5 and upper lip 1.6 mm of a chin's 8.6.
-  const float sway = pose.jaw.sway_mm == 0 ? 0.0f : std::sqrt(weight) * pose.jaw.sway_mm;
-  return {p.x + sway, pose.hinge.y + y * c - z * s,
-          pose.hinge.z + z * c + y * s + weight * pose.jaw.slide_mm};
-}
-
-glm::vec3 IntoJaw(glm::vec3 p, const Pose& pose) {
-  const float c = pose.jaw_cos;
-  const float s = pose.jaw_sin;
-  const float y = p.y - pose.hinge.y;
-  const float z = p.z - pose.hinge.z - pose.jaw.slide_mm;
-  return {p.x - pose.jaw.sway_mm, pose.hinge.y + y * c + z * s, pose.hinge.z + z * c - y * s};
-}
-
-glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight) {
-  glm::vec3 turned = kNeckPivot + pose.head * (p - kNeckPivot);
-  turned.z += pose.head_forward_mm;
-  return p + weight * (turned - p);
 }
 
 EyeAngles GazeOf(const glm::mat3& eye) {

@@ -21,15 +21,11 @@ struct Pose {
   Sided<float> blink;                         ///< lids close by it beyond the units
   Sided<UnitEffects::Lids> lids;              ///< gaze and blink included
   JawMove jaw;
-  float jaw_cos = 1, jaw_sin = 0;  ///< of jaw.open_rad
-  glm::vec3 hinge = kJawHinge;
   float seal = 0;
   float tongue_raise = 0, tongue_out_mm = 0;
   Sided<glm::mat3> eye;
   glm::mat3 head;
   float head_forward_mm = 0;
-
-  void SetJaw(const JawMove& move);
 };
 /// `value` within limits; what is no number counts as 0.
 float Bound(float value, float least, float most);
@@ -38,11 +34,6 @@ glm::mat3 HeadTurn(const FaceState& state);
 float HeadForward(const FaceState& state);
 /// Clamps `state` to what anatomy allows; anything not a number counts as 0.
 Pose MakePose(const FaceState& state, const UnitTable& units);
-
-glm::vec3 TurnJaw(glm::vec3 p, const Pose& pose, float weight);
-/// Where a point would lie in the jaw at rest.
-glm::vec3 IntoJaw(glm::vec3 p, const Pose& pose);
-glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight);
 
 /// The gaze of an eye with this rotation, and the rotation for a gaze.
 EyeAngles GazeOf(const glm::mat3& eye);

@@ -41,9 +41,10 @@ struct GazeRanges {
 /// A new step is
 /// - here an enumerator, and in RigData what it knows; if that names vertices, also in
 /// OnlyVertices;
-/// - in rig.cc its name (NameOf) and a case of Rig::Take;
-/// - its twin for graphics cards: STEP_name in fsm/render/shaders/rig_steps.glsl, and a case of
-///   ItemsOfSteps with a struct for its records; render_gpu_rig_test.cc compares both;
+/// - in steps.glsl what becomes of one vertex, once for the processor and graphics cards;
+/// - in rig_steps.cc its name (NameOf) and a case of Take, which goes through the vertices;
+/// - for graphics cards STEP_name in fsm/render/shaders/rig_kernels.glsl, which goes through them
+///   there, and a case of RecordsOfSteps; render_gpu_rig_test.cc compares both;
 /// - what it needs in CheckAsset; its members in asset_members.h; the last enumerator in kValuesOf.
 enum class RigStep : std::uint8_t {
   // These shape the skin of a head that looks ahead. They write positions only.

@@ -2,7 +2,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "fsm/rig/step_constants.h"
+#include "fsm/rig/steps.h"
 
 namespace fsm {
 
@@ -14,35 +14,23 @@ struct TeethTransform {
   glm::vec3 operator()(glm::vec3 p) const { return p + shift + glm::vec3(0, 0, slope * p.x); }
 };
 
-/// One row of teeth: the outer faces lie on a parabola, flattened in front by a part of fourth
-/// order (dental arches are nearer to a U than to a V).
-struct ToothArch {
-  float front_z, depth, half_width;
-  float edge_y;  ///< of the middle incisors
-  float root_y;  ///< where the gum ends
-  float middle_x = 0;
-  float turn = 0;  ///< as TeethTransform::slope
-  /// Twin: ArchAt in fsm/render/shaders/rig_steps.glsl.
-  float At(float x) const {
-    const float off = x - middle_x;
-    const float t = (off / half_width) * (off / half_width);
-    return front_z + turn * off - depth * t * (step::kArchSquare + step::kArchFourth * t);
-  }
-  ToothArch Moved(const TeethTransform& to) const {
-    ToothArch moved = *this;
-    moved.front_z += to.shift.z;
-    moved.edge_y += to.shift.y;
-    moved.root_y += to.shift.y;
-    moved.middle_x += to.shift.x;
-    moved.turn += to.slope;
-    return moved;
-  }
-  float Slope(float x) const {
-    const float off = x - middle_x;
-    const float t = (off / half_width) * (off / half_width);
-    const float steep = 2 * step::kArchSquare + 4 * step::kArchFourth * t;
-    return depth * steep * off / (half_width * half_width) - turn;
-  }
-};
+using step::ToothArch;
+
+inline ToothArch Moved(ToothArch arch, const TeethTransform& to) {
+  arch.front_z += to.shift.z;
+  arch.edge_y += to.shift.y;
+  arch.root_y += to.shift.y;
+  arch.middle_x += to.shift.x;
+  arch.turn += to.slope;
+  return arch;
+}
+
+/// How steeply step::ArchZ falls back at `x`, outwards.
+inline float ArchSlope(const ToothArch& arch, float x) {
+  const float off = x - arch.middle_x;
+  const float t = (off / arch.half_width) * (off / arch.half_width);
+  const float steep = 2 * step::kArchSquare + 4 * step::kArchFourth * t;
+  return arch.depth * steep * off / (arch.half_width * arch.half_width) - arch.turn;
+}
 
 }  // namespace fsm

@@ -78,7 +78,8 @@ TEST(MotionTablesTest, AUnitThatBeginsLaterIsLeftOutBelowThatStrengthAndWholeAtF
   EXPECT_FLOAT_EQ(glad.LookAt(1, 1).au.left[25], 0.5F);
   EXPECT_FLOAT_EQ(glad.LookAt(1, 1).au.right[25], 0);
   glad.Redefine(1, ActionUnits(glad.patterns[0]));
-  EXPECT_FLOAT_EQ(glad.LookAt(1, 0.4).au.left[25], 0.2F) << "of a look that is made anew all begins";
+  EXPECT_FLOAT_EQ(glad.LookAt(1, 0.4).au.left[25], 0.2F)
+      << "of a look that is made anew all begins";
 }
 
 TEST(MotionTablesTest, ADamagedRowOfBeginsIsReportedWithFileAndLine) {

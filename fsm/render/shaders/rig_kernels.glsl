@@ -1,0 +1,200 @@
+// The steps of a rig (RigStep) on a graphics card, one program for each: gpu_rig.cc puts before this
+// the version, which step it is, a SmoothStep and fsm/rig/steps.glsl, which has the arithmetic. An
+// invocation moves one vertex of one face. `records` holds what a step knows of its vertices. Where
+// several things act on a vertex, its record says from where to where `entries` they stand.
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) buffer Positions { Point positions[]; };
+layout(std430, binding = 1) buffer Normals { Point normals[]; };
+layout(std430, binding = 2) buffer States { StepState states[]; };  // by face
+layout(std430, binding = 3) readonly buffer Strengths { float strengths[]; };
+layout(std430, binding = 4) readonly buffer Swings { Point swings[]; };
+layout(std430, binding = 5) buffer Gaps { Point gaps[]; };  // of the lips, for STEP_lips
+#define RECORDS(Type) layout(std430, binding = 6) readonly buffer Records { Type records[]; }
+#define ENTRIES(Type) layout(std430, binding = 7) readonly buffer Entries { Type entries[]; }
+// Of a head, and so of a face's part of the buffers above.
+uniform int vertex_count, channel_count, spring_count, seam_count;
+
+uint Face() { return gl_GlobalInvocationID.y; }
+uint OfFace(uint vertex) { return Face() * uint(vertex_count) + vertex; }
+vec3 Position(uint vertex) { return Vec(positions[OfFace(vertex)]); }
+void SetPosition(uint vertex, vec3 p) { positions[OfFace(vertex)] = PointAt(p); }
+vec3 Normal(uint vertex) { return Vec(normals[OfFace(vertex)]); }
+void SetNormal(uint vertex, vec3 n) { normals[OfFace(vertex)] = PointAt(n); }
+
+#ifdef STEP_begin  // record: a vertex
+RECORDS(PlaceRecord);
+void Take(uint vertex) {
+  SetPosition(vertex, Vec(records[vertex].position));
+  SetNormal(vertex, Vec(records[vertex].normal));
+}
+#endif
+
+#ifdef STEP_channels
+RECORDS(ListRecord);
+ENTRIES(ChannelEntry);
+void Take(uint record) {
+  ListRecord list = records[record];
+  vec3 p = Position(list.vertex);
+  for (uint i = list.from; i < list.to; ++i)
+    p += strengths[Face() * uint(channel_count) + entries[i].channel] * Vec(entries[i].by);
+  SetPosition(list.vertex, p);
+}
+#endif
+
+#ifdef STEP_lids
+RECORDS(LidRecord);
+void Take(uint record) {
+  LidRecord lid = records[record];
+  Eye eye = states[Face()].eyes[lid.side];
+  vec3 p = WithLids(lid.at, eye, Position(lid.vertex));
+  SetPosition(lid.vertex, lid.proper != 0u ? OverCornea(eye, p) : p);
+}
+#endif
+
+#ifdef STEP_lids_on_balls
+RECORDS(BallLidRecord);
+void Take(uint record) {
+  BallLidRecord lid = records[record];
+  vec3 ball = Vec(states[Face()].eyes[lid.side].ball);
+  SetPosition(lid.vertex, OutOfBall(ball, lid.least, Position(lid.vertex)));
+}
+#endif
+
+#ifdef STEP_jaw
+RECORDS(JawRecord);
+void Take(uint record) {
+  JawRecord skin = records[record];
+  SetPosition(skin.vertex, WithJaw(states[Face()].mouth.jaw, Position(skin.vertex), skin.weight));
+}
+#endif
+
+#ifdef STEP_jaw_by_chin  // one record
+RECORDS(ChinRecord);
+void Take(uint record) {
+  ChinRecord chin = records[record];
+  states[Face()].mouth.jaw = JawByChin(states[Face()].mouth.jaw, Vec(chin.rest), Position(chin.vertex));
+}
+#endif
+
+#ifdef STEP_teeth
+RECORDS(ContactRecord);
+void Take(uint record) {
+  ContactRecord lip = records[record];
+  vec3 p = Position(lip.vertex);
+  SetPosition(lip.vertex, OffTeeth(states[Face()].mouth, p, lip.upper_gap, lip.lower_gap));
+}
+#endif
+
+#ifdef STEP_lip_gaps  // comes before STEP_lips
+RECORDS(GapRecord);
+void Take(uint record) {
+  GapRecord pair = records[record];
+  gaps[Face() * uint(seam_count) + record] =
+      PointAt(LipGap(states[Face()].mouth.seal, Position(pair.upper), Position(pair.lower),
+                     Vec(pair.apart_at_rest)));
+}
+#endif
+
+#ifdef STEP_lips
+RECORDS(ListRecord);
+ENTRIES(LipEntry);
+void Take(uint record) {
+  ListRecord list = records[record];
+  vec3 p = Position(list.vertex);
+  for (uint i = list.from; i < list.to; ++i)
+    p -= entries[i].share * Vec(gaps[Face() * uint(seam_count) + entries[i].pair]);
+  SetPosition(list.vertex, p);
+}
+#endif
+
+#ifdef STEP_own_form  // record: a vertex
+RECORDS(Point);
+void Take(uint vertex) { SetPosition(vertex, Position(vertex) + Vec(records[vertex])); }
+#endif
+
+#ifdef STEP_tongue  // entries: the pairs of the lips, from -x to +x
+RECORDS(TongueRecord);
+ENTRIES(SeamEntry);
+vec3 Upper(uint k) { return Position(entries[k].upper); }
+vec3 Lower(uint k) { return Position(entries[k].lower); }
+void Take(uint record) {
+  TongueRecord tongue = records[record];
+  Mouth mouth = states[Face()].mouth;
+  uint count = uint(seam_count);
+  TonguePath path = PathPastTeeth(mouth);
+  for (uint k = 0u; k < count; ++k) path = LipsOnPath(path, Upper(k), Lower(k));
+  float out_mm = ComesOut(path, mouth);
+  float through = SmoothStep(0.0, kTongueOut, out_mm);
+  SetNormal(tongue.vertex, NormalWithJaw(mouth.jaw, Vec(tongue.rest), Vec(tongue.rest_normal)));
+  vec3 p = RaisedTongue(mouth, out_mm, Vec(tongue.rest), tongue.tip);
+  if (count > 0u) {
+    vec3 within = BehindTeeth(mouth, p);
+    vec3 narrow = NarrowTongue(path, p);
+    uint right = 0u;
+    while (right < count && Upper(right).x < narrow.x) ++right;
+    uint b = min(right, count - 1u);
+    uint a = right == 0u ? 0u : right - 1u;
+    float t = a == b ? 0.0 : (narrow.x - Upper(a).x) / max(Upper(b).x - Upper(a).x, 1e-3);
+    vec3 between = BetweenLips(path, mouth, narrow, LowerTeethZ(mouth, p.x),
+                               mix(Upper(a), Upper(b), t), mix(Lower(a), Lower(b), t));
+    p = mix(within, between, through);
+  }
+  SetPosition(tongue.vertex, p);
+}
+#endif
+
+#ifdef STEP_bones
+RECORDS(BoneRecord);
+void Take(uint record) {
+  uint vertex = records[record].vertex;
+  uint bone = records[record].bone;
+  vec3 p = Position(vertex);
+  vec3 n = Normal(vertex);
+  if (bone == kJawBone) {
+    Jaw jaw = states[Face()].mouth.jaw;
+    SetNormal(vertex, NormalWithJaw(jaw, p, n));
+    SetPosition(vertex, WithJaw(jaw, p, 1.0));
+  } else {
+    Eye eye = states[Face()].eyes[bone];
+    SetNormal(vertex, Turned(eye.gaze, n));
+    SetPosition(vertex, WithGaze(eye, p));
+  }
+}
+#endif
+
+#ifdef STEP_neck  // record: a vertex
+RECORDS(NeckRecord);
+void Take(uint vertex) {
+  Neck neck = states[Face()].neck;
+  SetPosition(vertex, WithNeck(neck, Position(vertex), records[vertex].weight));
+  if (records[vertex].turns_normal != 0u) SetNormal(vertex, Turned(neck.turn, Normal(vertex)));
+}
+#endif
+
+#ifdef STEP_springs
+RECORDS(ListRecord);
+ENTRIES(SpringEntry);
+void Take(uint record) {
+  ListRecord list = records[record];
+  vec3 p = Position(list.vertex);
+  for (uint i = list.from; i < list.to; ++i)
+    p += entries[i].weight * Vec(swings[Face() * uint(spring_count) + entries[i].spring]);
+  SetPosition(list.vertex, p);
+}
+#endif
+
+#ifdef STEP_normals
+RECORDS(ListRecord);
+ENTRIES(TriangleEntry);
+void Take(uint record) {
+  ListRecord list = records[record];
+  vec3 sum = vec3(0.0);
+  for (uint i = list.from; i < list.to; ++i)
+    sum += TriangleNormal(Position(entries[i].a), Position(entries[i].b), Position(entries[i].c));
+  SetNormal(list.vertex, UnitNormal(sum));
+}
+#endif
+
+void main() {
+  if (gl_GlobalInvocationID.x < uint(records.length())) Take(gl_GlobalInvocationID.x);
+}

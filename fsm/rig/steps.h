@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "fsm/base/smooth_step.h"
+
+/// The arithmetic of the steps: steps.glsl, which a graphics card compiles, too.
+namespace fsm::step {
+
+using glm::atan, glm::clamp, glm::cos, glm::cross, glm::dot, glm::length, glm::max, glm::min,
+    glm::normalize, glm::sin, glm::sqrt, glm::vec3;
+
+#define FUNCTION inline
+#include "fsm/rig/steps.glsl"
+#undef FUNCTION
+
+inline Turn TurnOf(const glm::mat3& m) { return {PointAt(m[0]), PointAt(m[1]), PointAt(m[2])}; }
+
+}  // namespace fsm::step
