@@ -19,7 +19,7 @@ constexpr std::pair<std::string_view, Material> kSurfaces[] = {
 std::string ConstantOf(const TableRow& row) {
   const std::size_t count = row.size() - 1;
   const std::string type = count == 1 ? "float" : "vec" + std::to_string(count);
-  std::string text = "const " + type + " " + row.key() + " = " + type + "(";
+  std::string text = "const " + type + " look_" + row.key() + " = " + type + "(";
   for (std::size_t i = 1; i <= count; ++i) text += (i > 1 ? ", " : "") + row.Word(i);
   return text + ");\n";
 }

@@ -29,9 +29,6 @@ out vec4 colour;
 
 const float kCorner = 1.1;  // how far the corners of the eye are beside its middle, in radii of the ball
 
-// From 0 at the first number of an edge to 1 at the second.
-float Ramp(vec2 edge, float x) { return smoothstep(edge.x, edge.y, x); }
-
 // What a pixel shows of an eyeball.
 struct Place {
   int side;
@@ -60,8 +57,8 @@ Place FindPlace() {
   p.normal = normalize(p.from_centre);
   // The cornea: a smaller sphere standing out of the ball; the white keeps the ball's own normal.
   p.from_axis = length(p.from_centre - p.axis * dot(p.from_centre, p.axis)) / iris_radius;
-  vec3 cornea = normalize(world_position - (centre + p.axis * p.radius * cornea_centre));
-  p.wet = normalize(mix(cornea, p.normal, Ramp(cornea_edge, p.from_axis)));
+  vec3 cornea = normalize(world_position - (centre + p.axis * p.radius * look_cornea_centre));
+  p.wet = normalize(mix(cornea, p.normal, Ramp(look_cornea_edge, p.from_axis)));
   p.right = normalize(cross(vec3(0.0, 1.0, 0.0), p.axis) + vec3(1e-5, 0.0, 0.0));
   p.up = cross(p.axis, p.right);
   vec2 lids = lid_heights[p.side].xy;
@@ -78,13 +75,14 @@ vec3 Iris(vec2 p, float r, float toward_light) {
   float turn = atan(p.y, p.x) / 6.2831853;
   float fibre = textureLod(noise, vec2(turn * 0.25, r * 0.010), 0.0).b * 0.6 +
                 textureLod(noise, vec2(turn * 0.75, r * 0.024 + 0.4), 0.0).a * 0.5;
-  vec3 base = iris_colour * (iris_between + iris_fibre * fibre);
-  float collar = Ramp(iris_collar_edge, r + iris_collar_ragged * (fibre - 0.5));
-  base = mix(base, base * iris_collar + iris_collar_least, collar * iris_collar_part);
+  vec3 base = iris_colour * (look_iris_between + look_iris_fibre * fibre);
+  float collar = Ramp(look_iris_collar_edge, r + look_iris_collar_ragged * (fibre - 0.5));
+  base = mix(base, base * look_iris_collar + look_iris_collar_least, collar * look_iris_collar_part);
   // Light falls in through the cornea and gathers on the far side.
-  base *= iris_light + iris_gathered * max(-toward_light, 0.0) * Ramp(iris_gathered_edge, r);
-  base *= mix(1.0, beside_photo ? photo_iris_rim : iris_rim, Ramp(iris_rim_edge, r));
-  return mix(vec3(pupil_color), base, smoothstep(pupil_share + pupil_edge.x, pupil_share + pupil_edge.y, r + pupil_ragged * (fibre - 0.5)));
+  base *= look_iris_light + look_iris_gathered * max(-toward_light, 0.0) * Ramp(look_iris_gathered_edge, r);
+  base *= mix(1.0, beside_photo ? look_photo_iris_rim : look_iris_rim, Ramp(look_iris_rim_edge, r));
+  float ragged = r + look_pupil_ragged * (fibre - 0.5);
+  return mix(vec3(look_pupil_color), base, Ramp(pupil_share + look_pupil_edge, ragged));
 }
 
 vec3 Photographed(vec4 rect, vec2 from_middle) {
@@ -102,17 +100,18 @@ vec3 PhotographedWhite(Place p) {
 
 // Reddish towards the corners, shaded at the edge of the iris, with a few fine vessels.
 vec3 White(Place p) {
-  float corner = Ramp(white_corner_edge, abs(p.normal.x - p.axis.x));
-  vec3 white = white_colour * mix(vec3(1.0), mix(vec3(white_corner_grey), white_corner, flesh_red), corner);
-  white *= mix(white_at_iris, 1.0, Ramp(white_at_iris_edge, p.from_axis));
+  float corner = Ramp(look_white_corner_edge, abs(p.normal.x - p.axis.x));
+  vec3 at_corner = mix(vec3(look_white_corner_grey), look_white_corner, flesh_red);
+  vec3 white = white_colour * mix(vec3(1.0), at_corner, corner);
+  white *= mix(look_white_at_iris, 1.0, Ramp(look_white_at_iris_edge, p.from_axis));
   // The flesh of the tear corner.
   float inward = p.side == 0 ? p.normal.x - p.axis.x : p.axis.x - p.normal.x;
-  white = mix(white, white_colour * mix(vec3(tear_flesh_grey), tear_flesh, flesh_red),
-              tear_flesh_part * Ramp(tear_flesh_edge, inward));
+  white = mix(white, white_colour * mix(vec3(look_tear_flesh_grey), look_tear_flesh, flesh_red),
+              look_tear_flesh_part * Ramp(look_tear_flesh_edge, inward));
   float vessel = texture(noise, vec2(p.normal.y * 0.11, p.normal.x * 0.025) + p.axis.xy * 0.01).b - 0.5;
-  return white * (1.0 - flesh_red * vec3(0.0, vessel_redness, vessel_redness) *
-                            Ramp(vessel_edge, vessel) *
-                            Ramp(vessels_from_iris, p.from_axis));
+  return white * (1.0 - flesh_red * vec3(0.0, look_vessel_redness, look_vessel_redness) *
+                            Ramp(look_vessel_edge, vessel) *
+                            Ramp(look_vessels_from_iris, p.from_axis));
 }
 
 // The line of sight bends at the cornea and meets the plane of the iris behind it.
@@ -126,14 +125,16 @@ vec3 IrisSeen(Place p) {
   vec3 l = lamp_directions[0];
   vec3 iris = Iris(at, r, dot(at / max(r, 1e-3), vec2(dot(l, p.right), dot(l, p.up))));
   // Where the line of sight misses the iris it meets the white beside it, in the rim's shadow.
-  return mix(iris, white_colour * white_past_iris, Ramp(white_past_iris_edge, r));
+  return mix(iris, white_colour * look_white_past_iris, Ramp(look_white_past_iris_edge, r));
 }
 
 // The upper lid and its lashes shade the ball below them. Its rim falls and the lower one rises to the corners.
 float LidShade(Place p) {
-  float shade = mix(upper_lid_shade, 1.0, Ramp(upper_lid_edge, p.below_upper - upper_lid_falls * p.narrower)) *
-                mix(lower_lid_shade, 1.0, Ramp(lower_lid_edge, p.above_lower - lower_lid_rises * p.narrower));
-  return beside_photo ? photo_lid_least + (1.0 - photo_lid_least) * shade : shade;
+  float below = p.below_upper - look_upper_lid_falls * p.narrower;
+  float above = p.above_lower - look_lower_lid_rises * p.narrower;
+  float shade = mix(look_upper_lid_shade, 1.0, Ramp(look_upper_lid_edge, below)) *
+                mix(look_lower_lid_shade, 1.0, Ramp(look_lower_lid_edge, above));
+  return beside_photo ? look_photo_lid_least + (1.0 - look_photo_lid_least) * shade : shade;
 }
 
 // The photo has its shade, but not where it was completed and where the eye opens wider than in it.
@@ -142,19 +143,20 @@ float PhotoShade(Place p, float edge, inout vec3 base) {
   vec4 lid = photo_lid_heights[p.side];
   vec2 q = (world_to_head * p.from_centre).xy;
   float aside = q.x / (p.radius * kCorner / figure_scale);
-  float rim = lid.z - aside * aside * photo_lid_falls * (lid.z - lid.y);
-  float shade = mix(mix(photo_lid_on_white, photo_lid_on_iris, edge), 1.0,
-                    Ramp(photo_upper_lid_edge, rim - q.y)) *
-                mix(photo_lower_lid, 1.0, Ramp(photo_lower_lid_edge, p.above_lower));
+  float rim = lid.z - aside * aside * look_photo_lid_falls * (lid.z - lid.y);
+  float shade = mix(mix(look_photo_lid_on_white, look_photo_lid_on_iris, edge), 1.0,
+                    Ramp(look_photo_upper_lid_edge, rim - q.y)) *
+                mix(look_photo_lower_lid, 1.0, Ramp(look_photo_lower_lid_edge, p.above_lower));
   // A lower lid that squints brings its lashes and its shade along, most in the middle.
   float raised = (lid_heights[p.side].y - ball[p.side].y) / figure_scale - lid.y;
-  shade *= 1.0 - photo_squint * Ramp(photo_squint_raised, raised) *
-                     smoothstep(photo_squint_edge.x - photo_squint_aside * aside * aside, photo_squint_edge.y, p.above_lower);
+  shade *= 1.0 - look_photo_squint * Ramp(look_photo_squint_raised, raised) *
+                     smoothstep(look_photo_squint_edge.x - look_photo_squint_aside * aside * aside,
+                                look_photo_squint_edge.y, p.above_lower);
   // Its wet rim is soft and pale.
-  vec3 rim_colour = white_colour * mix(vec3(photo_wet_rim_grey), photo_wet_rim, flesh_red);
+  vec3 rim_colour = white_colour * mix(vec3(look_photo_wet_rim_grey), look_photo_wet_rim, flesh_red);
   base = mix(base, rim_colour / max(shade, 0.3),
-             photo_wet_rim_part * Ramp(photo_wet_rim_raised, raised) *
-                 Ramp(photo_wet_rim_edge, p.above_lower));
+             look_photo_wet_rim_part * Ramp(look_photo_wet_rim_raised, raised) *
+                 Ramp(look_photo_wet_rim_edge, p.above_lower));
   return shade;
 }
 
@@ -163,40 +165,40 @@ void AddMirrored(Place p, float shade, vec3 light, inout vec3 seen) {
   // What a photographed eye mirrors is seen in it.
   // One drawn into a photo mirrors as little light as there is.
   float bright = clamp(dot(white_colour, vec3(0.3, 0.5, 0.2)) / 0.4, 0.15, 1.0);
-  float gloss = beside_photo ? (pictured ? 0.0 : photo_gloss * bright) : 1.0;
+  float gloss = beside_photo ? (pictured ? 0.0 : look_photo_gloss * bright) : 1.0;
   vec3 mirrored = reflect(-p.to_viewer, p.wet);
-  vec2 pane = vec2(dot(mirrored, window_across), dot(mirrored, cross(window_at, window_across)));
-  vec2 inside = smoothstep(window_outer, window_inner, abs(pane));
-  float window = inside.x * inside.y * step(0.0, dot(mirrored, window_at)) *
-                 mix(mirrored_bar, 1.0, Ramp(window_bar_edge, abs(pane.x - window_bar_at)));
+  vec2 pane = vec2(dot(mirrored, look_window_across), dot(mirrored, cross(look_window_at, look_window_across)));
+  vec2 inside = smoothstep(look_window_outer, look_window_inner, abs(pane));
+  float window = inside.x * inside.y * step(0.0, dot(mirrored, look_window_at)) *
+                 mix(look_mirrored_bar, 1.0, Ramp(look_window_bar_edge, abs(pane.x - look_window_bar_at)));
   if (beside_photo) {
-    window = photo_lamp * Ramp(photo_lamp_edge, length(pane)) * step(0.0, dot(mirrored, window_at));
+    window = look_photo_lamp * Ramp(look_photo_lamp_edge, length(pane)) * step(0.0, dot(mirrored, look_window_at));
   }
-  float soft_box = pow(max(dot(mirrored, lamp_directions[1]), 0.0), mirrored_box_narrow);
-  seen += gloss * mirrored_window * lamp_colours[0] * window *
-          mix(1.0, window_on_white, Ramp(window_white_edge, p.from_axis)) * sqrt(shade);
-  seen += gloss * lamp_colours[1] * mirrored_box * soft_box * shade;
+  float soft_box = pow(max(dot(mirrored, lamp_directions[1]), 0.0), look_mirrored_box_narrow);
+  seen += gloss * look_mirrored_window * lamp_colours[0] * window *
+          mix(1.0, look_window_on_white, Ramp(look_window_white_edge, p.from_axis)) * sqrt(shade);
+  seen += gloss * lamp_colours[1] * look_mirrored_box * soft_box * shade;
   // Tears stand along the lower lid and catch the light from above.
-  float tears = Ramp(tears_edge, p.above_lower - lower_lid_rises * p.narrower) *
-                Ramp(tears_beside, abs(p.beside));
-  seen += gloss * mirrored_tears * tears * light;
-  seen += gloss * Ambient(mirrored) * Fresnel(dot(p.wet, p.to_viewer)) * shade * mirrored_room;
+  float tears = Ramp(look_tears_edge, p.above_lower - look_lower_lid_rises * p.narrower) *
+                Ramp(look_tears_beside, abs(p.beside));
+  seen += gloss * look_mirrored_tears * tears * light;
+  seen += gloss * Ambient(mirrored) * Fresnel(dot(p.wet, p.to_viewer)) * shade * look_mirrored_room;
 }
 
 void main() {
   Place p = FindPlace();
   vec3 base = pictured ? PhotographedWhite(p) : White(p);
   // A photo shows the soft edge of the iris, too.
-  float edge = pictured ? Ramp(photo_iris_edge, p.from_axis)
-                        : Ramp(iris_edge, p.from_axis);
+  float edge = pictured ? Ramp(look_photo_iris_edge, p.from_axis)
+                        : Ramp(look_iris_edge, p.from_axis);
   if (edge > 0.0) base = mix(base, IrisSeen(p), edge);
   float shade = pictured ? PhotoShade(p, edge, base) : LidShade(p);
 
-  vec3 light = Ambient(p.normal) * eye_room;
-  light += lamp_colours[0] * Wrapped(dot(p.normal, lamp_directions[0]), vec3(eye_wrap)) * eye_key;
-  light += lamp_colours[1] * Wrapped(dot(p.normal, lamp_directions[1]), vec3(eye_wrap));
+  vec3 light = Ambient(p.normal) * look_eye_room;
+  light += lamp_colours[0] * Wrapped(dot(p.normal, lamp_directions[0]), vec3(look_eye_wrap)) * look_eye_key;
+  light += lamp_colours[1] * Wrapped(dot(p.normal, lamp_directions[1]), vec3(look_eye_wrap));
   light = beside_photo ? vec3(1.0) : light;
-  vec3 seen = base * light * shade * mix(openness, 1.0, eye_open);
+  vec3 seen = base * light * shade * mix(openness, 1.0, look_eye_open);
   AddMirrored(p, shade, light, seen);
   seen = max(seen, 0.0);
   colour = vec4(beside_photo ? photo_brightness * FromLinear(seen) : ToScreen(seen), 1.0);

@@ -31,21 +31,22 @@ void main() {
   fray = vec2(along_and_density.w, across_lock);
 
   // Light falls on a strand by the sine of its angle to it (Kajiya and Kay 1989).
-  float shadow = mix(openness, 1.0, 0.25) * mix(KeyShadow(world), 1.0, 0.3);
+  float shadow = mix(openness, 1.0, look_hair_open_least) * mix(KeyShadow(world), 1.0, look_hair_lit_least);
   float t_dot_l = dot(strand, lamp_directions[0]);
-  float across = 0.4 + 0.6 * sqrt(max(1.0 - t_dot_l * t_dot_l, 0.0));
-  vec3 soft = albedo * openness *
-              (Ambient(n) + lamp_colours[1] * max((dot(n, lamp_directions[1]) + 0.35) / 1.82, 0.0));
-  float rim = clamp(dot(n, lamp_directions[2]) * 0.8 + 0.3, 0.0, 1.0);
+  float across = look_hair_end_on + (1.0 - look_hair_end_on) * sqrt(max(1.0 - t_dot_l * t_dot_l, 0.0));
+  float fill = max((dot(n, lamp_directions[1]) + look_hair_wrap.x) / look_hair_wrap.y, 0.0);
+  vec3 soft = albedo * openness * (Ambient(n) + lamp_colours[1] * fill);
+  float rim = clamp(dot(n, lamp_directions[2]) * look_hair_rim_wrap.x + look_hair_rim_wrap.y, 0.0, 1.0);
   float away = 1.0 - max(dot(n, v), 0.0);
   // Dark hairs (lashes) must not glitter where seen edgewise.
-  vec3 sheen = min(vec3(hair_rim_sheen), albedo) * away * away;
-  soft += lamp_colours[2] * openness * rim * (albedo * hair_rim + sheen);
+  vec3 sheen = min(vec3(look_hair_rim_sheen), albedo) * away * away;
+  soft += lamp_colours[2] * openness * rim * (albedo * look_hair_rim + sheen);
   float n_dot_l = dot(n, lamp_directions[0]);
-  vec3 key = lamp_colours[0] * shadow * albedo * max((n_dot_l + 0.35) / 1.82, 0.0) * across;
+  vec3 key = lamp_colours[0] * shadow * albedo * max((n_dot_l + look_hair_wrap.x) / look_hair_wrap.y, 0.0) * across;
   light = soft + key;
-  key_light = shine * sleek * hair_through_part * key;
+  key_light = shine * sleek * look_hair_through_part * key;
   gleam = vec4(shine * sleek * lamp_colours[0], streaks);
   vec3 h = normalize(lamp_directions[0] + v);
-  tilt = vec3(dot(strand, h), dot(n, h), hair_mirrored_part * shadow * clamp(n_dot_l * 1.7 + 0.3, 0.0, 1.0));
+  float lit = clamp(n_dot_l * look_hair_mirrored_rise.x + look_hair_mirrored_rise.y, 0.0, 1.0);
+  tilt = vec3(dot(strand, h), dot(n, h), look_hair_mirrored_part * shadow * lit);
 }

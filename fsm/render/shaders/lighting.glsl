@@ -1,7 +1,10 @@
 // The head of every shader that lights something: lamps, shadows, and the way to the screen. World
 // coordinates in millimetres, linear light. Before it stand the version and, as constants, the numbers
-// of tables/appearance.txt: sky_color, exposure, ...
+// of tables/appearance.txt: look_sky_color, look_exposure, ...
 uniform vec3 eye;
+
+// From 0 at the first number of an edge of the table to 1 at the second.
+float Ramp(vec2 edge, float x) { return smoothstep(edge.x, edge.y, x); }
 
 // Two ellipsoids that stand in for shadows the head throws on itself: the head, on neck and
 // shoulders, and the nose, on a cheek. Each matrix takes the world to where its ellipsoid is the
@@ -13,7 +16,7 @@ uniform vec3 occluder_lights[2];
 uniform vec3 lamp_directions[3];
 uniform vec3 lamp_colours[3];
 
-const float kShadowDepth[2] = float[2](head_shadow, nose_shadow);
+const float kShadowDepth[2] = float[2](look_head_shadow, look_nose_shadow);
 
 // How much of the key light comes past the ellipsoids: the nearer the ray to one, the less, with
 // the broad edge of a large lamp's shadow.
@@ -24,12 +27,12 @@ float KeyShadow(vec3 world) {
     float ahead = -dot(p, occluder_lights[i]);
     float nearest = sqrt(max(dot(p, p) - ahead * ahead, 0.0));
     lit *= 1.0 - kShadowDepth[i] * smoothstep(0.05, 0.5, ahead) *
-                     (1.0 - smoothstep(shadow_edge.y, shadow_edge.x, nearest));
+                     (1.0 - Ramp(look_shadow_edge.yx, nearest));
   }
   return lit;
 }
 
-vec3 Ambient(vec3 n) { return mix(ground_color, sky_color, 0.5 + 0.5 * n.y); }
+vec3 Ambient(vec3 n) { return mix(look_ground_color, look_sky_color, 0.5 + 0.5 * n.y); }
 
 // Light that has gone round under the surface, further for red than for blue; `wrap` says how far.
 // Divided by the sum, so that softer does not mean brighter. It fades out softly: an edge in its slope
@@ -51,7 +54,7 @@ float Fresnel(float cosine) {
 // Linear light to the screen. A filmic curve (Narkowicz's fit of ACES) followed by sRGB's, fitted
 // together by one ratio over the square root of light; within 0.006 of the two, at a fifth of the cost.
 vec3 ToScreen(vec3 light) {
-  vec3 x = light * exposure;
+  vec3 x = light * look_exposure;
   vec3 s = sqrt(x);
   return (5.547 * x - 0.0477 * s) / (1.0 - 0.6045 * s + 5.653 * x);
 }

@@ -13,8 +13,6 @@ uniform vec3 lips[2 * kColumns];     // the upper edge from -x to +x, then the l
 uniform vec4 mouth_edges;            // x of the corners (y = z = 0), heights of upper and lower teeth's
 uniform vec3 mouth_key;              // towards the key light, in the mouth's frame
 
-const float kBehindTeeth = 9.0;  // behind the lips
-
 vec3 RingAt(int i, float deep) {
   if (i == 0) return vec3(mouth_edges.x, 0.0, 0.0);
   if (i == kColumns + 1) return vec3(mouth_edges.y, 0.0, 0.0);
@@ -67,23 +65,24 @@ void main() {
   float height = clamp((p.y - lower.x) / max(upper.x - lower.x, 1.0), 0.0, 1.0);
   float inward = mix(lower.y, upper.y, height) - p.z;
   // Nostrils are lined like the mouth.
-  float out_of_mouth = max(smoothstep(1.0, -3.0, inward), smoothstep(8.0, 11.0, p.y - upper.x));
-  float deep = smoothstep(kBehindTeeth, kBehindTeeth + 6.0, inward);
+  float out_of_mouth = max(Ramp(look_nostril_before, inward), Ramp(look_nostril_above, p.y - upper.x));
+  float deep = Ramp(look_mouth_deep_edge, inward);
 
   vec3 flow = mix(ThroughLips(p, deep), vec3(0.0, 0.0, 1.0), out_of_mouth);
   float amount = length(flow);
   vec3 from = amount > 1e-4 ? flow / amount : vec3(0.0, 0.0, 1.0);
   // The room before the mouth, lit by the lamps as the face is.
-  vec3 sky = Ambient(mouth_to_world * from) + mouth_room * (lamp_colours[0] + lamp_colours[1]);
+  vec3 sky = Ambient(mouth_to_world * from) + look_mouth_room * (lamp_colours[0] + lamp_colours[1]);
   vec3 soft = sky * amount * Wrapped(dot(from, n), wrap);
   // What goes round between the walls is red.
-  vec3 bounced = sky * through_flesh * sqrt(amount + mouth_seeps) * mouth_bounced *
-                 mix(0.35, 1.0, smoothstep(3.0, 12.0, inward)) *
-                 mix(1.0, 0.5, smoothstep(14.0, 40.0, inward)) * (1.0 - out_of_mouth);
+  vec3 bounced = sky * look_through_flesh * sqrt(amount + look_mouth_seeps) * look_mouth_bounced *
+                 mix(look_mouth_bounced_front, 1.0, Ramp(look_mouth_bounced_front_edge, inward)) *
+                 mix(1.0, look_mouth_bounced_throat, Ramp(look_mouth_bounced_throat_edge, inward)) *
+                 (1.0 - out_of_mouth);
 
   // The key lamp shines in past the lips' edges, which throw a soft shadow.
   vec2 reach = max(vec2(upper.y, lower.y) - p.z, 0.0) / max(mouth_key.z, 0.3);
-  vec2 blur = 0.7 + 0.2 * reach;
+  vec2 blur = look_lip_shadow_blur.x + look_lip_shadow_blur.y * reach;
   upper = EdgeAt(0, p.x + mouth_key.x * reach.x);
   lower = EdgeAt(kColumns, p.x + mouth_key.x * reach.y);
   upper.x = mix(upper.x, min(upper.x, mouth_edges.z), deep);
@@ -97,18 +96,17 @@ void main() {
   vec3 key = lamp_colours[0] * shadow * Wrapped(n_dot_l, wrap);
 
   vec3 total = soft + key;
-  // What turns away from the viewer, wet and soft, has no hard outline.
-  float facing = smoothstep(-0.1, 0.55, dot(n_world, v));
-  float outline = lining ? 1.0 : 0.4 + 0.6 * facing;
-  float open = mix(mix(sqrt(openness), 1.0, lining ? 0.5 : 0.0), openness * openness, out_of_mouth);
-  light = Albedo() * (total * open * outline + bounced * mix(0.4, 1.0, open)) *
-          mix(front_gain, deep_gain, smoothstep(2.0, 9.0, inward));
+  float facing = Ramp(look_mouth_outline_edge, dot(n_world, v));
+  float outline = lining ? 1.0 : mix(look_mouth_outline, 1.0, facing);
+  float open = mix(mix(sqrt(openness), 1.0, lining ? look_lining_open : 0.0), openness * openness, out_of_mouth);
+  light = Albedo() * (total * open * outline + bounced * mix(look_mouth_bounced_shut, 1.0, open)) *
+          mix(front_gain, deep_gain, Ramp(look_mouth_front_edge, inward));
 
-  float power =
-      lamp_colours[0].g * shadow * smoothstep(-0.35, 0.15, n_dot_l) * 0.8 / max(total.g, 1e-3);
+  float power = lamp_colours[0].g * shadow * Ramp(look_relief_edge, n_dot_l) * look_relief_power /
+                max(total.g, 1e-3);
   vec3 h = normalize(mouth_to_world * mouth_key + v);
   SetSlopes(n_world, h, power);
-  shine.x = Fresnel(dot(h, v)) * openness * openness * shadow * smoothstep(0.0, 0.3, dot(n_world, h));
+  shine.x = Fresnel(dot(h, v)) * openness * openness * shadow * Ramp(look_mirror_edge, dot(n_world, h));
   shine.yz = vec2(0.0);
   place = rest_position.xz * planar;
 }

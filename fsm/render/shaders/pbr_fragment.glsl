@@ -87,6 +87,6 @@ void main() {
   vec3 room = f0 * (-1.04 * e + q.z) + (1.04 * e + q.w);
   light += l.a * (Ambient(n) * scatters + Ambient(reflect(-v, n)) * room);
   light *= kPlate;
-  light += glow * ToLinear(l.rgb) / exposure;
+  light += glow * ToLinear(l.rgb) / look_exposure;
   colour = vec4(ToScreen(light), 1.0);
 }

@@ -22,18 +22,21 @@ void main() {
   if (kCreased) {
     vec2 slope = texture(relief, place).zw - 0.5;
     // Of the skin's map opacity says how much of it is skin: hair over it does not crease.
-    shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (photo_crease + photo_crease_slope * dot(slope, vec2(-0.5, 0.85)));
+    float furrow = look_photo_crease + look_photo_crease_slope * dot(slope, vec2(-0.5, 0.85));
+    shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * furrow;
     // Furrows are seen by their shadows; their rims hardly shine.
-    shade = clamp(shade > 1.0 ? 1.0 + 0.35 * (shade - 1.0) : shade, photo_crease_range.x, photo_crease_range.y);
+    if (shade > 1.0) shade = mix(1.0, shade, look_photo_crease_rim);
+    shade = clamp(shade, look_photo_crease_range.x, look_photo_crease_range.y);
   }
   vec3 painted = paint;
   if (kDetailed && grain_from.z > 0.0) {
     float grain = dot(texture(photo, grain_from.xy).rgb, vec3(0.3, 0.6, 0.1));
-    painted *= mix(1.0, clamp(grain / grain_from.w, 0.5, 1.6), photo_grain * grain_from.z);
+    float factor = clamp(grain / grain_from.w, look_photo_grain_range.x, look_photo_grain_range.y);
+    painted *= mix(1.0, factor, look_photo_grain * grain_from.z);
   }
   vec3 seen = mix(painted, p.rgb, texcoord.z);
   // Light that reaches skin in the shade has gone through skin.
-  float skin = photo_shade_redness * clamp(1.0 - seen.b / max(seen.r, 0.05), 0.0, 1.0);
+  float skin = look_photo_shade_redness * clamp(1.0 - seen.b / max(seen.r, 0.05), 0.0, 1.0);
   vec3 shaded = vec3(shadow) + skin * shadow * (1.0 - shadow) * vec3(1.0, 0.0, -0.4);
   colour = vec4(seen * shade * shaded * settings.x, mix(1.0, opacity, settings.z));
 }

@@ -38,31 +38,34 @@ void main() {
   float lid = photo_texcoord.w;
   float closed = rest_position.x < 0.0 ? lids_shut[0] : lids_shut[1];
   // The rim of the lower lid, which has no way to go, is reached last.
-  float shut = lid_grain.zw == vec2(0.0) ? smoothstep(0.8, 1.0, closed) : smoothstep(0.1, 0.4, closed);
+  float shut = lid_grain.zw == vec2(0.0) ? Ramp(look_photo_lower_lid_shuts, closed)
+                                           : Ramp(look_photo_lid_shuts, closed);
   texcoord = vec3(photo_texcoord.xy + closed * lid_grain.zw, photo_texcoord.z * (1.0 - lid * shut));
   bool of_lid = lid_skin.x > 0.5;
   grain_from = of_lid ? vec4(lid_grain.xy, 1.0, lid_skin.y) : vec4(photo_texcoord.xy, 0.0, 1.0);
   // A lip that rolls inward is paint in part, and the more so as it turns away.
-  float roll = smoothstep(0.0, 0.3, 1.0 - photo_texcoord.z);
-  float facing = smoothstep(-0.05, 0.6, dot(WorldNormal(), normalize(eye - world)));
+  float roll = Ramp(look_photo_lip_roll, 1.0 - photo_texcoord.z);
+  float facing = Ramp(look_photo_lip_facing, dot(WorldNormal(), normalize(eye - world)));
   texcoord.z *= mix(1.0, facing, roll);
   if (photo_texcoord.z > 0.0 && roll > 0.0) texcoord.z = mix(1.0, texcoord.z, lips_apart);
-  // The shadow that a dropped chin throws on the neck, which goes with it. The jaw's line rises to the sides.
-  float below = chin_y + 0.012 * rest_position.x * rest_position.x - rest_position.y;
-  shadow = 1.0 - chin_shadow * float(ragged) * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *
-                     exp(-max(below, 0.0) / 14.0) * smoothstep(59.0, 36.0, abs(rest_position.x));
+  // The shadow that a dropped chin throws on the neck, which goes with it.
+  float below = chin_y + look_chin_shadow_rise * rest_position.x * rest_position.x - rest_position.y;
+  shadow = 1.0 - look_chin_shadow * float(ragged) * Ramp(look_chin_shadow_drop, chin_drop) *
+                     Ramp(look_chin_shadow_edge, below) * exp(-max(below, 0.0) / look_chin_shadow_fades) *
+                     Ramp(look_chin_shadow_sides, abs(rest_position.x));
   // The photo has the light on the face at rest; what turns with an expression is lit as it faces then
   // (an expression ratio image, Liu, Shan and Zhang 2001).
   float follows = length(rest_normal);
   if (follows > 0.0) {
     vec3 n = normalize(transpose(rest_to_world) * WorldNormal());
     vec2 light = vec2(dot(photo_light.xyz, n), dot(photo_light.xyz, rest_normal / follows)) + photo_light.w;
-    light = max(light, 0.15 * (length(photo_light.xyz) + abs(photo_light.w)));
+    light = max(light, look_photo_light_least * (length(photo_light.xyz) + abs(photo_light.w)));
     float change = sqrt(light.x / light.y) - 1.0;
-    shadow *= 1.0 + follows * change / (1.0 + 3.0 * abs(change));
+    shadow *= 1.0 + follows * change / (1.0 + look_photo_light_held * abs(change));
   }
-  covering = opacity * (lashes ? smoothstep(0.4, 0.9, closed) : 1.0);
+  covering = opacity * (lashes ? Ramp(look_photo_lashes_shut, closed) : 1.0);
   // The sheet shows what is beside the face.
   crease = ragged ? 0.0 : CreaseDepth();
-  paint = sqrt(max(albedo_openness.rgb * (of_lid ? 1.0 : albedo_openness.a), 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
+  paint = sqrt(max(albedo_openness.rgb * (of_lid ? 1.0 : albedo_openness.a), 0.0)) *
+          mix(1.0, mix(look_photo_lip_away, 1.0, facing), roll);
 }

@@ -15,9 +15,9 @@ void main() {
 
   // Corners shut off from light glow red, because what light there is came through skin.
   float root = sqrt(openness);
-  vec3 open = mix(vec3(1.0), vec3(1.0, sqrt(root), root), occlusion_redness) * openness;
+  vec3 open = mix(vec3(1.0), vec3(1.0, sqrt(root), root), look_occlusion_redness) * openness;
   vec3 shadow = vec3(KeyShadow(world));
-  shadow.gb *= shadow.gb * 0.08 + 0.92;
+  shadow.gb *= shadow.gb * look_shadow_redness + (1.0 - look_shadow_redness);
 
   // The edge of the shadow is warm: there most of what is seen went some way under the skin.
   float n_dot_l = dot(n, lamp_directions[0]);
@@ -25,24 +25,26 @@ void main() {
   vec3 key = key_open * Wrapped(n_dot_l, wrap);
   // The lamp behind only reaches the outline: folds that face it are shut off by the head.
   float away = 1.0 - max(dot(n, v), 0.0);
-  vec3 behind = lamp_colours[2] * Wrapped(dot(n, lamp_directions[2]), wrap * 0.6);
+  vec3 behind = lamp_colours[2] * Wrapped(dot(n, lamp_directions[2]), wrap * look_rim_wrap);
   vec3 soft = Ambient(n) + lamp_colours[1] * Wrapped(dot(n, lamp_directions[1]), wrap) +
-              behind * rim_on_skin * mix(rim_facing, rim_at_outline, smoothstep(0.25, 0.85, away));
+              behind * look_rim_on_skin *
+                  mix(look_rim_facing, look_rim_at_outline, Ramp(look_rim_outline_edge, away));
   vec3 total = soft * open + key;
 
   vec3 h = normalize(lamp_directions[0] + v);
-  float power = key_open.g * smoothstep(-0.35, 0.15, n_dot_l) * 0.8 / max(total.g, 1e-3);
+  float power = key_open.g * Ramp(look_relief_edge, n_dot_l) * look_relief_power / max(total.g, 1e-3);
   SetSlopes(n, h, power);
   shine.x = Fresnel(dot(h, v)) * openness * openness * shadow.g *
-            clamp(n_dot_l * 4.0 + 0.2, 0.0, 1.0) * smoothstep(0.0, 0.3, dot(n, h));
+            clamp(n_dot_l * look_mirror_rise.x + look_mirror_rise.y, 0.0, 1.0) *
+            Ramp(look_mirror_edge, dot(n, h));
   shine.y = crease;
 
   float g = max(dot(n, normalize(lamp_directions[1] + v)), 0.0);
   float g4 = g * g * g * g;
-  shine.z = (lamp_colours[1].g * down_fill * g4 * g4 * g4 * g4 +
-             (behind.g * down_rim + Ambient(n).g * down_room) * away * away * away) *
+  shine.z = (lamp_colours[1].g * look_down_fill * g4 * g4 * g4 * g4 +
+             (behind.g * look_down_rim + Ambient(n).g * look_down_room) * away * away * away) *
             openness * openness * sheen;
 
-  light = Albedo() * total * (1.0 - crease_darkens * crease);
+  light = Albedo() * total * (1.0 - look_crease_darkens * crease);
   place = planar > 0.0 ? rest_position.xy * planar : unrolled;
 }
