@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 namespace fsm {
 
@@ -8,6 +9,13 @@ namespace fsm {
 inline float SmoothStep(float from, float to, float x) {
   const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
   return t * t * (3 - 2 * t);
+}
+
+/// About exp(-(x / width)^2), and 0 from two widths on; of a width of 0 or less 0 all over.
+inline float Bell(float x, float width) {
+  if (!(std::abs(x) < 2 * width)) return 0;
+  const float t = std::max(1 - x * x / (4 * width * width), 0.0F);
+  return t * t * t * t;
 }
 
 }  // namespace fsm

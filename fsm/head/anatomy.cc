@@ -102,22 +102,24 @@ MouthAnatomy::MouthAnatomy(const Table& table)
   border_z_upper_ = table.Only("border_z").Number(1);
   border_z_lower_ = table.Only("border_z").Number(2);
   column_x_ = table.Only("column_x").Numbers(1);
+  const auto teeth = [&](std::string_view key) {
+    const TableRow& row = table.Only(key);
+    if (row.Number(3) <= 0) row.Fail("half the width must be positive");
+    const float edge_y = LineY(0) - row.Number(4);
+    return ToothArch{.front_z = LineZ(0) - row.Number(1),
+                     .depth = row.Number(2),
+                     .half_width = row.Number(3),
+                     .edge_y = edge_y,
+                     .root_y = edge_y + row.Number(5),
+                     .middle_x = 0,
+                     .turn = 0};
+  };
+  upper_teeth_ = teeth("upper_teeth");
+  lower_teeth_ = teeth("lower_teeth");
   for (const TableRow& row : table.RowsOf("bag_ring")) {
     bag_rings_.push_back(
         {row.Number(1), row.Number(2), row.Number(3), row.Number(4), row.Number(5)});
   }
-}
-
-// The upper incisors end 2.6 mm below the line of the lips and overlap the lower ones by half of
-// it.
-ToothArch MouthAnatomy::UpperTeeth() const {
-  const float y = LineY(0) - 2.6f;
-  return {LineZ(0) - 7.0f, 40, 27, y, y + 17, 0, 0};
-}
-
-ToothArch MouthAnatomy::LowerTeeth() const {
-  const float y = LineY(0) - 1.3f;
-  return {LineZ(0) - 9.6f, 40, 26, y, y - 15, 0, 0};
 }
 
 glm::vec3 MouthAnatomy::Red(int side, float x, float part) const {

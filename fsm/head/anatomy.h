@@ -79,8 +79,8 @@ class MouthAnatomy {
   float LineZ(float x) const { return line_z_(x); }
   /// Height of the red above (side +1) or below (side -1, negative) the line; 0 from the corner on.
   float BorderY(int side, float x) const { return side > 0 ? upper_(x) : lower_(x); }
-  ToothArch UpperTeeth() const;
-  ToothArch LowerTeeth() const;
+  const ToothArch& upper_teeth() const { return upper_teeth_; }
+  const ToothArch& lower_teeth() const { return lower_teeth_; }
   /// A point of the red: part 0 = seam, 1 = border.
   glm::vec3 Red(int side, float x, float part) const;
   const std::vector<float>& column_x() const { return column_x_; }
@@ -90,6 +90,7 @@ class MouthAnatomy {
   glm::vec3 corner_{};
   Curve line_y_, line_z_, upper_, lower_, upper_full_, lower_full_;
   float border_z_upper_ = 0, border_z_lower_ = 0;
+  ToothArch upper_teeth_{}, lower_teeth_{};
   std::vector<float> column_x_;     // of the cage, from the middle to the corner
   std::vector<BagRing> bag_rings_;  // from the end of the bag to the lips
 };

@@ -48,7 +48,7 @@ glm::vec3 HeadForm::Motion(glm::vec3 p) const {
 float HeadForm::TeethTooFar(const HeadMesh& base) const {
   constexpr float kRoom = 1.3f, kMost = 8;
   float most = 0;
-  for (const ToothArch& arch : {mouth_.UpperTeeth(), mouth_.LowerTeeth()}) {
+  for (const ToothArch& arch : {mouth_.upper_teeth(), mouth_.lower_teeth()}) {
     for (std::size_t i = 0; i < base.position.size(); ++i) {
       if (base.bone[i] != Bone::kSkin || !base.weights[i].by_teeth) continue;
       const glm::vec3 p = base.position[i], q = p + Motion(p);

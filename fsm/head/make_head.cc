@@ -215,8 +215,8 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& pa
   std::ranges::move(MouthChannels(from.mouth, soft), std::back_inserter(rig.channels));
   rig.lids = BakeLids(from.eye, head.eyes, rig.rest, soft);
   rig.lips = BakeLips(skin.mouth, soft);
-  rig.teeth = BakeTeeth(Moved(from.mouth.UpperTeeth(), head.teeth),
-                        Moved(from.mouth.LowerTeeth(), head.teeth), rig.rest, soft);
+  rig.teeth = BakeTeeth(Moved(from.mouth.upper_teeth(), head.teeth),
+                        Moved(from.mouth.lower_teeth(), head.teeth), rig.rest, soft);
   for (const Side side : kSides) rig.eyes.pivot[side] = topology.eyes[side].centre;
   for (std::size_t i = 0; i < topology.indices.size(); i += 3) {
     const std::uint32_t* const corner = &topology.indices[i];

@@ -170,13 +170,13 @@ void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& m
   const Features& features = identity.UsedFeatures();
   const glm::vec3 tooth = identity.palette.tooth;
   ToothRow(
-      {mouth.UpperTeeth(), 1, Bone::kSkull, features.upper_tooth_widths,
+      {mouth.upper_teeth(), 1, Bone::kSkull, features.upper_tooth_widths,
        features.upper_tooth_heights, features.upper_tooth_short, features.teeth_light.upper, tooth},
       identity, mesh)
       .Add();
   // The lower ones stand farther back, in the shade of lip and upper row.
   const glm::vec3 shaded = tooth * features.lower_teeth_colour;
-  ToothRow({mouth.LowerTeeth(), -1, Bone::kJaw, features.lower_tooth_widths,
+  ToothRow({mouth.lower_teeth(), -1, Bone::kJaw, features.lower_tooth_widths,
             features.lower_tooth_heights, features.lower_tooth_short, features.teeth_light.lower,
             shaded},
            identity, mesh)

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsm/render/skin_texture.h"
+#include "fsm/render/skin_creases.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {

@@ -14,6 +14,7 @@
 #include "fsm/render/gl_functions.h"
 #include "fsm/render/mouth_finder.h"
 #include "fsm/render/shadow_finder.h"
+#include "fsm/render/skin_creases.h"
 #include "fsm/render/skin_texture.h"
 #include "fsm/render/vertex_attributes.h"
 #include "fsm/rig/head.h"

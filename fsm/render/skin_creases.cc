@@ -1,10 +1,12 @@
+#include "fsm/render/skin_creases.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "fsm/render/skin_parts.h"
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 

@@ -1,9 +1,11 @@
+#include "fsm/render/skin_regions.h"
+
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include "fsm/base/random.h"
-#include "fsm/render/skin_parts.h"
+#include "fsm/base/smooth_step.h"
 
 namespace fsm {
 namespace {

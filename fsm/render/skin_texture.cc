@@ -8,8 +8,11 @@
 #include <thread>
 
 #include "fsm/base/random.h"
+#include "fsm/base/smooth_step.h"
+#include "fsm/render/painted_hairs.h"
+#include "fsm/render/skin_creases.h"
 #include "fsm/render/skin_map.h"
-#include "fsm/render/skin_parts.h"
+#include "fsm/render/skin_regions.h"
 
 namespace fsm {
 namespace {

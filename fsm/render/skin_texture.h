@@ -31,11 +31,4 @@ struct SkinTexture {
 SkinTexture PaintSkin(const HeadTopology& topology, const HeadVertices& rest,
                       const FaceLandmarks& landmarks, const Appearance& appearance);
 
-/// How much each crease shows at the vertices, 0..1.
-struct CreaseWeights {
-  std::vector<glm::vec4> face;           ///< forehead, glabella, crow's feet, nasolabial
-  std::vector<glm::vec2> nose_and_left;  ///< nose; to which part it is the left side that creases
-};
-CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& landmarks);
-
 }  // namespace fsm

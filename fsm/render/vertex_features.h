@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "fsm/render/skin_texture.h"
+#include "fsm/render/skin_creases.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {

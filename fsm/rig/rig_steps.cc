@@ -70,9 +70,8 @@ struct Lips {
 /// The lips at `x`, between the pairs of the seam, which go from -x to +x.
 Lips LipsAt(float x, const LipRig& rig, std::span<const glm::vec3> position) {
   const auto pair = [&](auto at) { return Lips{position[at->first], position[at->second]}; };
-  const auto right = std::ranges::lower_bound(rig.seam, x, {}, [&](const auto& vertices) {
-    return position[vertices.first].x;
-  });
+  const auto right = std::ranges::lower_bound(
+      rig.seam, x, {}, [&](const auto& vertices) { return position[vertices.first].x; });
   if (right == rig.seam.begin()) return pair(right);
   if (right == rig.seam.end()) return pair(right - 1);
   const Lips a = pair(right - 1), b = pair(right);

@@ -111,7 +111,8 @@ MouthAnatomy SomeMouth() {
       Table("mouth.txt",
             "corner 25 -42 78\nline_x 0 25\nline_y -43 -42\nline_z 88 78\nupper_x 0 25\n"
             "upper_y 8 0\nlower_x 0 25\nlower_y -9 0\nupper_full 0 .3 0\nlower_full 0 .3 0\n"
-            "border_z 3 1\ncolumn_x 0 4 8 12 17 21 25\n"
+            "border_z 3 1\nupper_teeth 7 40 27 2.6 17\nlower_teeth 9.6 40 26 1.3 -15\ncolumn_x 0 4 "
+            "8 12 17 21 25\n"
             "bag_ring 0 62 .5 0 0\nbag_ring 12 48 1 0 0\nbag_ring 15 26 1 0 0\n"
             "bag_ring 11 11 1 0 0\nbag_ring 4 5 1 0 1\nbag_ring 0 3 1 0 1\n"));
 }

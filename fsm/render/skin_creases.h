@@ -1,34 +1,15 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <span>
 #include <vector>
 
-#include "fsm/base/smooth_step.h"
 #include "fsm/render/appearance.h"
-#include "fsm/render/skin_map.h"
-#include "fsm/render/skin_texture.h"
+#include "fsm/render/face_landmarks.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
-
-/// About exp(-(x / width)^2), and 0 from two widths on; of a width of 0 or less 0 all over.
-inline float Bell(float x, float width) {
-  if (!(std::abs(x) < 2 * width)) return 0;
-  const float t = std::max(1 - x * x / (4 * width * width), 0.0F);
-  return t * t * t * t;
-}
-
-/// What changes slowly over the skin, one for each cell of a SkinMap.
-struct SkinRegion {
-  glm::vec4 tint{1.0F};  ///< factors on colour and on highlights
-  float pores = 0;       ///< how strongly they show, 0..1
-  float cracks = 0;      ///< the same of the lines of lips
-};
-std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceLandmarks& landmarks,
-                                     const Appearance& appearance);
 
 /// The creases of expression as a relief on the skin of a face. What it is made of outlives it.
 class CreaseRelief {
@@ -54,7 +35,11 @@ class CreaseRelief {
   const decltype(Appearance::skin)& skin_;
 };
 
-/// Draws hairs into the tint, each a bent line that ends in a point.
-void PaintHairs(std::span<const SkinHair> hairs, SkinTexture& out);
+/// How much each crease shows at the vertices, 0..1.
+struct CreaseWeights {
+  std::vector<glm::vec4> face;           ///< forehead, glabella, crow's feet, nasolabial
+  std::vector<glm::vec2> nose_and_left;  ///< nose; to which part it is the left side that creases
+};
+CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& landmarks);
 
 }  // namespace fsm

@@ -1,9 +1,9 @@
+#include "fsm/render/painted_hairs.h"
+
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-
-#include "fsm/render/skin_parts.h"
 
 namespace fsm {
 namespace {
