@@ -85,9 +85,9 @@ TEST(AppearanceTest, NumbersReachSurfacesAndShaders) {
   const Appearance mine("mine", "wrap cloth 0.75 0.25 0.25\nexposure 0.5\nsky_color 0.25 0.5 1\n");
   EXPECT_EQ(mine.surface(Material::kCloth).wrap, glm::vec3(0.75F, 0.25F, 0.25F));
   EXPECT_EQ(Appearance::BuiltIn().surface(Material::kCloth).wrap, glm::vec3(0.25F));
-  EXPECT_NE(mine.constants().find("const vec3 sky_color = vec3(0.25, 0.5, 1);\n"),
+  EXPECT_NE(mine.constants().find("const vec3 look_sky_color = vec3(0.25, 0.5, 1);\n"),
             std::string::npos);
-  EXPECT_NE(mine.constants().find("const float exposure = float(0.5);\n"), std::string::npos);
+  EXPECT_NE(mine.constants().find("const float look_exposure = float(0.5);\n"), std::string::npos);
 }
 
 TEST(AppearanceTest, ATableOfOnesOwnChangesThePicture) {
