@@ -7,7 +7,7 @@
 
 #include "fsm/app/frame_queue.h"
 #include "fsm/app/frame_series.h"
-#include "fsm/app/render_backend.h"
+#include "fsm/app/media_files.h"
 #include "vm_protocol/core/timer.h"
 
 namespace fsm {
@@ -32,13 +32,15 @@ class Capture {
   using Draw = std::function<vm::Result<void>(long number, vm::Time at)>;
   /// Told once all pictures of an utterance are written; by an error, if they are not.
   using OnEnd = std::function<void(const vm::Result<void>&)>;
-  Capture(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnEnd on_end)
-      : Capture(clock, backend, std::move(draw), std::move(on_end), Limits{}) {}
-  Capture(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnEnd on_end, Limits limits)
-      : backend_(backend),
+  /// Lifetime: clock, view and files outlive it.
+  Capture(vm::Scheduler& clock, FaceView& view, const MediaFiles& files, Draw draw, OnEnd on_end)
+      : Capture(clock, view, files, std::move(draw), std::move(on_end), Limits{}) {}
+  Capture(vm::Scheduler& clock, FaceView& view, const MediaFiles& files, Draw draw, OnEnd on_end,
+          Limits limits)
+      : files_(files),
         draw_(std::move(draw)),
         on_end_(std::move(on_end)),
-        queue_(backend, [this](const Image& picture, long) { return Write(picture); }),
+        queue_(view, [this](const Image& picture, long) { return Write(picture); }),
         limits_(limits),
         timer_(clock) {}
   ~Capture() { Cancel(); }
@@ -58,7 +60,7 @@ class Capture {
   void WaitOrFinish();
   bool IsOver() const { return end_ && series_.TimeOf(next_) > *end_; }
 
-  RenderBackend& backend_;
+  const MediaFiles& files_;
   Draw draw_;
   OnEnd on_end_;
   FrameQueue queue_;

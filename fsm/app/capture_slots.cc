@@ -7,10 +7,11 @@ namespace fsm {
 
 CaptureSlots::CaptureSlots(FsmCore& core, Capture::Draw draw)
     : core_(core),
-      capture_(core.clock, core.backend, std::move(draw), [this](const vm::Result<void>& done) {
-        core_.slots.Report("Capture", "DISABLE");
-        if (!done) core_.slots.ReportError("Capture", done.error());
-      }) {
+      capture_(core.clock, core.view, core.files, std::move(draw),
+               [this](const vm::Result<void>& done) {
+                 core_.slots.Report("Capture", "DISABLE");
+                 if (!done) core_.slots.ReportError("Capture", done.error());
+               }) {
   core_.slots.Declare(
       {.name = "Capture",
        .grammar = "STOP | <word> <word> <number 0.1..120> [ BMP | PNG ]",

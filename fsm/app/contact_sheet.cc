@@ -120,8 +120,8 @@ vm::Result<Sheet> MakeSheet(const std::string& kind, const MotionTables& tables,
                                            "'; aus, emotions, visemes or identities expected");
 }
 
-vm::Result<Image> DrawSheet(RenderBackend& backend, const Sheet& sheet, bool labels) {
-  if (auto sized = backend.Resize(kCellWidth, kCellHeight); !sized) {
+vm::Result<Image> DrawSheet(FaceView& view, Wardrobe& wardrobe, const Sheet& sheet, bool labels) {
+  if (auto sized = view.Resize(kCellWidth, kCellHeight); !sized) {
     return std::unexpected(sized.error());
   }
   const int count = static_cast<int>(sheet.cells.size());
@@ -132,14 +132,14 @@ vm::Result<Image> DrawSheet(RenderBackend& backend, const Sheet& sheet, bool lab
   for (int i = 0; i < count; ++i) {
     const SheetCell& cell = sheet.cells[static_cast<std::size_t>(i)];
     if (!cell.face.empty()) {
-      if (auto worn = backend.Wear(cell.face); !worn) return std::unexpected(worn.error());
+      if (auto worn = wardrobe.Wear(cell.face); !worn) return std::unexpected(worn.error());
     }
-    if (auto drawn = backend.Draw(cell.state, Scene{}, nullptr); !drawn) {
+    if (auto drawn = view.Draw(cell.state, Scene{}, nullptr); !drawn) {
       return std::unexpected(drawn.error());
     }
     const int x = kGap + (i % sheet.columns) * (kCellWidth + kGap);
     const int y = kGap + (i / sheet.columns) * cell_height;
-    const Image& image = backend.Read();
+    const Image& image = view.Read();
     if (image.width == kCellWidth && image.height == kCellHeight) Paste(image, picture, x, y);
     if (!labels) continue;
     const int scale = TextWidth(2, cell.label) <= kCellWidth ? 2 : 1;

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "fsm/app/render_backend.h"
+#include "fsm/app/face_view.h"
+#include "fsm/app/wardrobe.h"
 #include "fsm/motion/motion_tables.h"
 
 namespace fsm {
@@ -12,7 +13,7 @@ namespace fsm {
 struct SheetCell {
   std::string label;
   FaceState state;
-  std::string face;  ///< "" = the backend's first
+  std::string face;  ///< "" = the one that is worn
 };
 struct Sheet {
   std::vector<SheetCell> cells;
@@ -26,7 +27,7 @@ vm::Result<Sheet> MakeSheet(const std::string& kind, const MotionTables& tables,
                             const std::vector<std::string>& faces, const std::string& face);
 
 inline constexpr int kCellWidth = 220, kCellHeight = 260;
-/// Draws it; the backend gets the size of a cell. Errors: as the backend's.
-vm::Result<Image> DrawSheet(RenderBackend& backend, const Sheet& sheet, bool labels);
+/// Draws it; the view gets the size of a cell. Errors: as those of view and wardrobe.
+vm::Result<Image> DrawSheet(FaceView& view, Wardrobe& wardrobe, const Sheet& sheet, bool labels);
 
 }  // namespace fsm

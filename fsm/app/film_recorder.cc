@@ -7,19 +7,20 @@ namespace {
 constexpr long kMostRepeatsAtOnce = 4;
 }
 
-FilmRecorder::FilmRecorder(vm::Scheduler& clock, RenderBackend& backend, Draw draw,
+FilmRecorder::FilmRecorder(vm::Scheduler& clock, FaceView& view, const MediaFiles& files, Draw draw,
                            OnFailure on_failure)
     : clock_(clock),
-      backend_(backend),
+      view_(view),
+      files_(files),
       draw_(std::move(draw)),
       on_failure_(std::move(on_failure)),
-      queue_(backend, [this](const Image& frame, long times) { return Write(frame, times); }) {}
+      queue_(view, [this](const Image& frame, long times) { return Write(frame, times); }) {}
 
 vm::Result<void> FilmRecorder::Start(const std::string& path, int frames_per_second) {
   if (recording()) {
     return vm::Fail(vm::Errc::kBusy, "recording " + path_ + "; set Record = STOP first");
   }
-  auto writer = backend_.OpenFilm(path, backend_.width(), backend_.height(), frames_per_second);
+  auto writer = files_.open_film(path, view_.width(), view_.height(), frames_per_second, "");
   if (!writer) return std::unexpected(writer.error());
   writer_ = std::move(*writer);
   path_ = path;

@@ -6,8 +6,7 @@
 
 #include "fsm/app/frame_queue.h"
 #include "fsm/app/frame_series.h"
-#include "fsm/app/render_backend.h"
-#include "fsm/film/film_writer.h"
+#include "fsm/app/media_files.h"
 #include "vm_protocol/core/timer.h"
 
 namespace fsm {
@@ -17,11 +16,13 @@ namespace fsm {
 /// virtual clock that never happens. Thread: the scheduler's; a timer is pending while recording.
 class FilmRecorder {
  public:
-  /// Draws frame `number` as the face is at `at`; the picture is then read from the backend.
+  /// Draws frame `number` as the face is at `at`; the picture is then read from the view.
   using Draw = std::function<vm::Result<void>(long number, vm::Time at)>;
   /// Told when recording ended by itself because of an error.
   using OnFailure = std::function<void(const vm::Error&)>;
-  FilmRecorder(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnFailure on_failure);
+  /// Lifetime: clock, view and files outlive it.
+  FilmRecorder(vm::Scheduler& clock, FaceView& view, const MediaFiles& files, Draw draw,
+               OnFailure on_failure);
 
   /// Errors: kBusy while recording; kUnavailable if the film cannot be opened.
   vm::Result<void> Start(const std::string& path, int frames_per_second);
@@ -47,7 +48,8 @@ class FilmRecorder {
   vm::Result<void> Write(const Image& frame, long times);
 
   vm::Scheduler& clock_;
-  RenderBackend& backend_;
+  FaceView& view_;
+  const MediaFiles& files_;
   Draw draw_;
   OnFailure on_failure_;
   std::unique_ptr<FilmWriter> writer_;

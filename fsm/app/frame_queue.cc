@@ -3,7 +3,7 @@
 namespace fsm {
 
 vm::Result<void> FrameQueue::Add(bool wait) {
-  waiting_.push_back({backend_.BeginRead(), 1});
+  waiting_.push_back({view_.BeginRead(), 1});
   if (!wait) return Flush();
   return waiting_.size() > kMostWaiting ? HandOnFirst() : vm::Result<void>{};
 }
@@ -21,14 +21,14 @@ vm::Result<void> FrameQueue::Flush() {
 }
 
 void FrameQueue::Clear() {
-  for (const Waiting& one : waiting_) backend_.DropRead(one.frame);
+  for (const Waiting& one : waiting_) view_.DropRead(one.frame);
   waiting_.clear();
 }
 
 vm::Result<void> FrameQueue::HandOnFirst() {
   const Waiting first = waiting_.front();
   waiting_.pop_front();
-  auto taken = backend_.EndRead(first.frame, last_);
+  auto taken = view_.EndRead(first.frame, last_);
   if (taken) taken = take_(last_, first.times);
   if (!taken) Clear();
   return taken;

@@ -66,7 +66,7 @@ void FrameSlots::Report(long number, vm::Time at) {
   const std::string worn = core_.slots.Value("Mask");
   if (worn == unmeasured_mask_) return;
   const FaceState state = core_.motion->StateAt(at);
-  const auto mouth = core_.backend.Measure(state);
+  const auto mouth = core_.wardrobe.Measure(state);
   if (!mouth) {
     unmeasured_mask_ = worn;
     return core_.slots.ReportError("Frame", mouth.error());

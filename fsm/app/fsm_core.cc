@@ -19,8 +19,8 @@ void Clamp(vm::SetValue& value, int least, int most) {
 }  // namespace
 
 vm::Result<void> FsmCore::DrawAt(vm::Time t) {
-  const RenderBackend::StateHistory history{t, [this](vm::Time at) { return motion->StateAt(at); }};
-  return backend.Draw(motion->StateAt(t), scene, simulates ? &history : nullptr);
+  const FaceView::StateHistory history{t, [this](vm::Time at) { return motion->StateAt(at); }};
+  return view.Draw(motion->StateAt(t), scene, simulates ? &history : nullptr);
 }
 
 void FsmCore::Declare(Declaration slot) {

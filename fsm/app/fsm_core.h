@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/app/render_backend.h"
+#include "fsm/app/face_view.h"
+#include "fsm/app/media_files.h"
+#include "fsm/app/wardrobe.h"
 #include "fsm/motion/face_motion.h"
 #include "vm_protocol/core/scheduler.h"
 #include "vm_protocol/core/slot_machine.h"
@@ -18,7 +20,9 @@ namespace fsm {
 /// What the parts of the face module share. Lifetime: owned by FsmModule, outlives the parts.
 struct FsmCore {
   vm::Scheduler& clock;
-  RenderBackend& backend;
+  FaceView& view;
+  Wardrobe& wardrobe;
+  MediaFiles files;
   /// A configuration of the original was given: its clients speak, so places of the figure count
   /// half views and z+ leans to the viewer's left, as there.
   bool original = false;

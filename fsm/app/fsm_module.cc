@@ -19,9 +19,14 @@ constexpr const char* kProtocolVersion =
 
 }  // namespace
 
-FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions options)
+FsmModule::FsmModule(vm::Scheduler& clock, FaceView& view, Wardrobe& wardrobe, MediaFiles files,
+                     FsmOptions options)
     : options_(std::move(options)),
-      core_{.clock = clock, .backend = backend, .original = !options_.config.path.empty()} {
+      core_{.clock = clock,
+            .view = view,
+            .wardrobe = wardrobe,
+            .files = std::move(files),
+            .original = !options_.config.path.empty()} {
   tables_ = vm::OrThrow(MotionTables::Load(options_.tables));
   ApplyConfig(options_.config);
   MakeMotion();
@@ -120,7 +125,8 @@ void FsmModule::Changed() {
 
 vm::Time FsmModule::FrameAfter(vm::Time t) const {
   // Frames without a film stand on a grid of the clock, so the same input gives the same reports.
-  const double rate = core_.backend.has_window() ? frame_rate_ : record_->frames_per_second();
+  const bool shown = core_.view.window() != nullptr;
+  const double rate = shown ? frame_rate_ : record_->frames_per_second();
   const FrameSeries grid{vm::Time(0), rate};
   auto k = static_cast<long>(std::floor(static_cast<double>(t.count()) * rate / 1e6));
   while (grid.TimeOf(k) <= t) ++k;
@@ -128,14 +134,14 @@ vm::Time FsmModule::FrameAfter(vm::Time t) const {
 }
 
 void FsmModule::ArmFrames() {
-  const bool window = core_.backend.has_window();
+  const bool window = core_.view.window() != nullptr;
   const bool reported = frames_->is_reported() && !record_->recording();
   const bool wanted = window || reported || frames_->is_told();
   const vm::Time now = core_.Now();
   std::optional<vm::Time> due;
   if (wanted) {
     // What has just been said is shown at the next frame, even if it moves nothing by itself.
-    const auto active = core_.backend.Swings() ? now : core_.motion->NextActivity(now);
+    const auto active = core_.view.Swings() ? now : core_.motion->NextActivity(now);
     if (active) due = FrameAfter(std::max(now, *active));
     if (window) due = std::min(due.value_or(now + kWindowEvents), now + kWindowEvents);
   }
@@ -147,15 +153,15 @@ void FsmModule::ArmFrames() {
 
 void FsmModule::OnFrame() {
   const vm::Time now = core_.Now();
-  if (core_.backend.has_window()) {
+  if (ViewWindow* const window = core_.view.window()) {
     if (auto drawn = core_.DrawAt(now); !drawn) {
       core_.slots.ReportError("", drawn.error());
       exit_requested_ = true;
       options_.on_failure();
       return;
     }
-    core_.backend.Show();
-    if (core_.backend.close_requested()) exit_requested_ = true;
+    window->Show();
+    if (window->close_requested()) exit_requested_ = true;
   }
   if (!record_->recording()) frames_->ReportShown(now);
   frames_->Tell(now);

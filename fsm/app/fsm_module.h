@@ -23,7 +23,7 @@ namespace fsm {
 struct FsmOptions {
   std::uint64_t seed = 1;  ///< of everything the face does by itself
   std::string tables;      ///< folder of tables that replace the built-in ones
-  std::string mask;        ///< face worn at the start, "" = the backend's first
+  std::string mask;        ///< face worn at the start, "" = the wardrobe's first
   std::string background;  ///< as slot Background at the start, "" = the configuration's first
   std::string life;        ///< profile of Life at the start, "" = OFF
   OriginalConfig config;   ///< path "" = none
@@ -32,15 +32,16 @@ struct FsmOptions {
   std::function<void()> on_failure = [] {};
 };
 
-/// The face synthesis module: all its slots over FaceMotion and a RenderBackend.
+/// The face synthesis module: all its slots over FaceMotion, a view and a wardrobe.
 /// Drawing: with a window, whenever something moves (at most at the frame rate) and a few times a
 /// second otherwise; without one, only for pictures, films and Frame reports. No timer is pending
 /// while nothing moves and nothing is recorded or sent (but for the window's events).
-/// Lifetime: scheduler and backend outlive it. Thread: the scheduler's.
+/// Lifetime: scheduler, view and wardrobe outlive it. Thread: the scheduler's.
 class FsmModule final : public vm::Module {
  public:
   /// Throws std::runtime_error with a sentence if tables or configuration are damaged.
-  FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions options);
+  FsmModule(vm::Scheduler& clock, FaceView& view, Wardrobe& wardrobe, MediaFiles files,
+            FsmOptions options);
 
   vm::SlotMachine& slots() override { return core_.slots; }
   std::vector<vm::Message> Greeting() override;

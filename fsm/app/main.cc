@@ -15,7 +15,7 @@
 
 #include "fsm/app/contact_sheet.h"
 #include "fsm/app/fsm_module.h"
-#include "fsm/app/gl_render_backend.h"
+#include "fsm/app/gl_face_view.h"
 #include "fsm/asset/describe.h"
 #include "fsm/base/large_pages.h"
 #include "fsm/base/notice.h"
@@ -25,6 +25,7 @@
 #include "fsm/faces/head_of_file.h"
 #include "fsm/faces/original_faces.h"
 #include "fsm/faces/table_folder.h"
+#include "fsm/head/identity.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/runtime/module_main.h"
 
@@ -189,41 +190,40 @@ void ExportOrDescribe(const Options& options) {
   }
 }
 
-fsm::GlRenderBackend::Options RenderBackendOptions(const Options& options) {
-  fsm::GlRenderBackend::Options backend;
-  backend.width = options.module.config.width.value_or(backend.width);
-  backend.height = options.module.config.height.value_or(backend.height);
+fsm::GlFaceView::Options ViewOptions(const Options& options) {
+  fsm::GlFaceView::Options view;
+  view.width = options.module.config.width.value_or(view.width);
+  view.height = options.module.config.height.value_or(view.height);
   if (!options.size_pair.empty()) {
-    backend.width = options.size_pair[0];
-    backend.height = options.size_pair[1];
+    view.width = options.size_pair[0];
+    view.height = options.size_pair[1];
   }
   if (!options.size.empty()) {
     char end = '\0';
-    if (std::sscanf(options.size.c_str(), "%dx%d%c", &backend.width, &backend.height, &end) != 2) {
+    if (std::sscanf(options.size.c_str(), "%dx%d%c", &view.width, &view.height, &end) != 2) {
       throw std::runtime_error("--size " + options.size + " is not WIDTHxHEIGHT, as 640x480");
     }
   }
   const auto fits = [](int side) { return side >= 16 && side <= fsm::kMaxImageSide; };
-  if (!fits(backend.width) || !fits(backend.height)) {
+  if (!fits(view.width) || !fits(view.height)) {
     throw std::runtime_error("the view must be 16 to " + std::to_string(fsm::kMaxImageSide) +
                              " pixels wide and high");
   }
-  backend.off_screen = OffScreenWanted(options);
-  backend.rig = RigWanted(options);
+  view.off_screen = OffScreenWanted(options);
+  view.rig = RigWanted(options);
   const fsm::OriginalConfig& config = options.module.config;
-  if (config.x && config.y) backend.position = {*config.x, *config.y};
-  if (!options.position.empty()) backend.position = {options.position[0], options.position[1]};
-  backend.more_faces = MoreFaces(options, options.module.config);
-  backend.tables = options.module.tables;
+  if (config.x && config.y) view.position = {*config.x, *config.y};
+  if (!options.position.empty()) view.position = {options.position[0], options.position[1]};
+  view.tables = options.module.tables;
   // They are read here only so that damaged ones end the start.
-  static_cast<void>(fsm::UnitsIn(backend.tables));
-  static_cast<void>(fsm::FeaturesIn(backend.tables));
-  using Where = fsm::GlRenderBackend::Options::Where;
+  static_cast<void>(fsm::UnitsIn(view.tables));
+  static_cast<void>(fsm::FeaturesIn(view.tables));
+  using Where = fsm::GlFaceView::Options::Where;
   const bool must = options.window || options.context == "window";
-  backend.where = must && WindowWanted(options) ? Where::kWindow
-                  : WindowWanted(options)       ? Where::kWindowIfPossible
-                                                : Where::kHeadless;
-  return backend;
+  view.where = must && WindowWanted(options) ? Where::kWindow
+               : WindowWanted(options)       ? Where::kWindowIfPossible
+                                             : Where::kHeadless;
+  return view;
 }
 
 /// Tells what is odd about the folder of --tables.
@@ -251,18 +251,18 @@ void DrawSheet(const Options& options) {
   fsm::OriginalConfig config;
   if (!options.config.empty()) config = vm::OrThrow(fsm::OriginalConfig::Read(options.config));
   const auto more = MoreFaces(options, config);
-  fsm::GlRenderBackend backend({.width = fsm::kCellWidth,
-                                .height = fsm::kCellHeight,
-                                .off_screen = OffScreenWanted(options),
-                                .rig = RigWanted(options),
-                                .more_faces = more,
-                                .tables = options.module.tables});
+  fsm::HeadWardrobe wardrobe(more, options.module.tables);
+  fsm::GlFaceView view(wardrobe, {.width = fsm::kCellWidth,
+                                  .height = fsm::kCellHeight,
+                                  .off_screen = OffScreenWanted(options),
+                                  .rig = RigWanted(options),
+                                  .tables = options.module.tables});
   const std::string& face = options.module.mask;
-  if (!face.empty()) vm::OrThrow(backend.Wear(face));
+  if (!face.empty()) vm::OrThrow(wardrobe.Wear(face));
   const auto sheet =
       vm::OrThrow(fsm::MakeSheet(options.sheet, tables, FacesShown(face, more), face));
-  const auto picture = vm::OrThrow(fsm::DrawSheet(backend, sheet, !options.no_labels));
-  vm::OrThrow(backend.WritePicture(picture, options.out));
+  const auto picture = vm::OrThrow(fsm::DrawSheet(view, wardrobe, sheet, !options.no_labels));
+  vm::OrThrow(fsm::WriteImage(picture, options.out));
 }
 
 /// The exit code of a run that reads no lines; -1 if the options ask for none.
@@ -290,7 +290,9 @@ int main(int argc, char** argv) {
   Options options;
   bool failed = false;
   options.module.on_failure = [&failed] { failed = true; };
-  std::optional<fsm::GlRenderBackend> backend;  // outlives the module
+  // Both outlive the module.
+  std::optional<fsm::HeadWardrobe> wardrobe;
+  std::optional<fsm::GlFaceView> view;
   std::string position = "--position";
   std::vector<char*> words = WithPlaceNamed(argc, argv, position);
   const int code = vm::RunModule(
@@ -303,16 +305,19 @@ int main(int argc, char** argv) {
        .add_options = [&options](CLI::App& app) { AddOptions(app, options); },
        .before_start = [&options] { return RunOnce(options); },
        .needs_real_clock = [&options] { return WindowWanted(options); },
-       .make = [&options, &backend](vm::Scheduler& clock,
-                                    boost::asio::io_context&) -> std::unique_ptr<vm::Module> {
+       .make = [&options, &wardrobe, &view](
+                   vm::Scheduler& clock, boost::asio::io_context&) -> std::unique_ptr<vm::Module> {
          if (!options.config.empty()) {
            auto config = vm::OrThrow(fsm::OriginalConfig::Read(options.config));
            config.expressions = fsm::LooksOfExpressions(config.shared);
            options.module.config = std::move(config);
            options.module.announce_config = true;
          }
-         backend.emplace(RenderBackendOptions(options));
-         return std::make_unique<fsm::FsmModule>(clock, *backend, options.module);
+         const auto view_options = ViewOptions(options);
+         wardrobe.emplace(MoreFaces(options, options.module.config), options.module.tables);
+         view.emplace(*wardrobe, view_options);
+         return std::make_unique<fsm::FsmModule>(clock, *view, *wardrobe, fsm::MediaFiles{},
+                                                 options.module);
        }});
   return code == 0 && failed ? 1 : code;
 }

@@ -21,7 +21,7 @@ std::string Joined(const std::vector<std::string>& names, const std::vector<std:
 
 MaskSlots::MaskSlots(FsmCore& core, std::string first, const std::vector<std::string>& listed)
     : core_(core), first_(std::move(first)) {
-  const std::vector<std::string> all = core_.backend.Faces();
+  const std::vector<std::string> all = core_.wardrobe.Faces();
   if (first_.empty()) first_ = all.front();
   std::string names = Joined(listed, all);
   if (names.empty()) names = Joined(all, all);
@@ -43,7 +43,7 @@ MaskSlots::MaskSlots(FsmCore& core, std::string first, const std::vector<std::st
 }
 
 vm::Result<void> MaskSlots::Wear(const std::string& face) {
-  if (auto worn = core_.backend.Wear(face); !worn) return worn;
+  if (auto worn = core_.wardrobe.Wear(face); !worn) return worn;
   core_.motion->expression.SetPerson(HashOf(face));
   return {};
 }

@@ -7,9 +7,9 @@ namespace fsm {
 PictureSlots::PictureSlots(FsmCore& core)
     : core_(core),
       pictures_(
-          core.clock, core.backend, [this](vm::Time at) { return core_.DrawAt(at); },
+          core.clock, core.view, [this](vm::Time at) { return core_.DrawAt(at); },
           [this](vm::Time from, vm::Time to) {
-            return core_.backend.Swings() ||
+            return core_.view.Swings() ||
                    core_.motion->NextActivity(from).value_or(to + vm::Time(1)) <= to;
           },
           [this](const vm::Error& error) { core_.slots.ReportError("Picture.to", error); }) {

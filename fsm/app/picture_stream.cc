@@ -8,10 +8,10 @@ namespace {
 constexpr const char* kNobody = "NONE";
 }
 
-PictureStream::PictureStream(vm::Scheduler& clock, RenderBackend& backend, Draw draw, Moves moves,
+PictureStream::PictureStream(vm::Scheduler& clock, FaceView& view, Draw draw, Moves moves,
                              OnFailure on_failure)
     : clock_(clock),
-      backend_(backend),
+      view_(view),
       draw_(std::move(draw)),
       moves_(std::move(moves)),
       on_failure_(std::move(on_failure)),
@@ -63,7 +63,7 @@ bool PictureStream::DrawAndSend(vm::Time at) {
     on_failure_(drawn.error());
     return false;
   }
-  sender_->Send(backend_.Read(), at);
+  sender_->Send(view_.Read(), at);
   touched_ = false;
   sent_ = at;
   return true;

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "fsm/app/face_view.h"
 #include "fsm/app/frame_series.h"
-#include "fsm/app/render_backend.h"
 #include "fsm/film/picture_sender.h"
 #include "vm_protocol/core/timer.h"
 
@@ -23,8 +23,7 @@ class PictureStream {
   /// Whether the face may look otherwise at the second instant than at the first.
   using Moves = std::function<bool(vm::Time from, vm::Time to)>;
   using OnFailure = std::function<void(const vm::Error&)>;
-  PictureStream(vm::Scheduler& clock, RenderBackend& backend, Draw draw, Moves moves,
-                OnFailure on_failure);
+  PictureStream(vm::Scheduler& clock, FaceView& view, Draw draw, Moves moves, OnFailure on_failure);
 
   /// "unix:PATH" of a socket somebody listens at, or "NONE"; the receiver before is let go.
   /// Errors: kBadValue, kUnavailable; there is no receiver then.
@@ -41,7 +40,7 @@ class PictureStream {
   void LetGo();
 
   vm::Scheduler& clock_;
-  RenderBackend& backend_;
+  FaceView& view_;
   Draw draw_;
   Moves moves_;
   OnFailure on_failure_;

@@ -8,7 +8,8 @@
 namespace fsm {
 
 RecordSlots::RecordSlots(FsmCore& core, FilmRecorder::Draw draw)
-    : core_(core), film_(core.clock, core.backend, std::move(draw), [this](const vm::Error& error) {
+    : core_(core),
+      film_(core.clock, core.view, core.files, std::move(draw), [this](const vm::Error& error) {
         core_.slots.Report("Record", "STOP");
         core_.slots.ReportError("Record", error);
       }) {

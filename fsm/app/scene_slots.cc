@@ -48,8 +48,8 @@ SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::st
       first_(!first.empty()         ? first
              : backgrounds_.empty() ? kPlain
                                     : backgrounds_.front().first),
-      start_width_(core_.backend.width()),
-      start_height_(core_.backend.height()) {
+      start_width_(core_.view.width()),
+      start_height_(core_.view.height()) {
   core_.scene = FirstScene();
   DeclareBackgrounds();
   DeclareView();
@@ -119,7 +119,7 @@ vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
                     "there is no background '" + name + "'; " + core_.slots.Value("BackgroundSet") +
                         ", transparent, a .png, .bmp or .rgb file or #rrggbb expected");
   }
-  auto picture = core_.backend.ReadPicture(named == backgrounds_.end() ? name : named->second);
+  auto picture = core_.files.read_picture(named == backgrounds_.end() ? name : named->second);
   if (!picture) return std::unexpected(picture.error());
   core_.scene.background_image = std::make_shared<const Image>(std::move(*picture));
   ShowBackground(false);
@@ -172,8 +172,8 @@ void SceneSlots::DeclareView() {
                            "a film of this size is recorded; set Record = STOP first");
          }
          if (value.size() == 1) return FillScreen(value.word(0) == "FULLSCREEN");
-         return core_.backend.Resize(static_cast<int>(value.number(0)),
-                                     static_cast<int>(value.number(1)));
+         return core_.view.Resize(static_cast<int>(value.number(0)),
+                                  static_cast<int>(value.number(1)));
        },
        .initial = std::to_string(start_width_) + " " + std::to_string(start_height_)});
 }
@@ -246,7 +246,7 @@ void SceneSlots::DeclareSaveImage() {
          const vm::Time now = core_.Now();
          const vm::Time at = std::min(core_.motion->OnsetsSettled(now), now + kLongestSettling);
          auto done = core_.DrawAt(at);
-         if (done) done = core_.backend.WritePicture(core_.backend.Read(), value.word(0));
+         if (done) done = core_.files.write_picture(core_.view.Read(), value.word(0));
          core_.changed();
          if (!done) return reply.Fail(done.error());
          reply.Ok(value.word(0));
@@ -254,18 +254,22 @@ void SceneSlots::DeclareSaveImage() {
 }
 
 vm::Result<void> SceneSlots::FillScreen(bool fill) {
-  auto done = core_.backend.FillScreen(fill);
-  if (done) fills_screen_ = fill;
-  return done;
+  ViewWindow* const window = core_.view.window();
+  if (window == nullptr) {
+    return vm::Fail(vm::Errc::kUnavailable, "there is no window to fill the screen with");
+  }
+  window->FillScreen(fill);
+  fills_screen_ = fill;
+  return {};
 }
 
 vm::Result<void> SceneSlots::ResetSize() {
   if (fills_screen_) {
     if (auto done = FillScreen(false); !done) return done;
   }
-  // A headless backend makes a new context for another size.
-  if (core_.backend.width() == start_width_ && core_.backend.height() == start_height_) return {};
-  return core_.backend.Resize(start_width_, start_height_);
+  // A headless view makes a new context for another size.
+  if (core_.view.width() == start_width_ && core_.view.height() == start_height_) return {};
+  return core_.view.Resize(start_width_, start_height_);
 }
 
 void SceneSlots::Reset() {

@@ -108,14 +108,14 @@ TEST_F(ActionsTest, LifeAndGazeAreSetByName) {
 }
 
 TEST_F(ActionsTest, MasksAreWornAndTakenOffByInit) {
-  EXPECT_EQ(fsm.backend.face, "galatea");
+  EXPECT_EQ(fsm.world.face, "galatea");
   fsm.Say("prop NowMask = AutoOutput");
   EXPECT_EQ(fsm.Say("set Mask = pygmalion"), "rep NowMask = \"pygmalion\"");
-  EXPECT_EQ(fsm.backend.face, "pygmalion");
+  EXPECT_EQ(fsm.world.face, "pygmalion");
   EXPECT_NE(Refusal("set#1 Mask = man01").find("there is no face 'man01'"), std::string::npos);
   EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"pygmalion\"");
   fsm.Say("set Run = INIT");
-  EXPECT_EQ(fsm.backend.face, "galatea");
+  EXPECT_EQ(fsm.world.face, "galatea");
   EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"galatea\"");
 }
 
@@ -141,13 +141,13 @@ TEST(SheetTest, EverySheetHasItsCells) {
   EXPECT_EQ(count("visemes"), 42u);
   EXPECT_EQ(count("identities"), 8u);
   EXPECT_FALSE(MakeSheet("hats", tables, {"galatea"}, ""));
-  FakeRenderBackend backend;
+  FakeWorld world;
   const auto picture =
-      DrawSheet(backend, MakeSheet("emotions", tables, {"galatea"}, "").value(), true);
+      DrawSheet(world, world, MakeSheet("emotions", tables, {"galatea"}, "").value(), true);
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->rgba.size(), 4u * static_cast<std::size_t>(picture->width) *
                                       static_cast<std::size_t>(picture->height));
-  EXPECT_EQ(backend.draws, 7);
+  EXPECT_EQ(world.draws, 7);
 }
 
 }  // namespace

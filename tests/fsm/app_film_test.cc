@@ -42,16 +42,16 @@ class LateClock final : public vm::Scheduler {
 struct FilmTest : testing::Test {
   FilmTest()
       : film(
-            clock, backend,
+            clock, world, world.files,
             [this](long number, vm::Time at) {
               drawn.emplace_back(number, at);
               clock.now += drawing_takes;
-              return backend.Draw(FaceState{}, Scene{}, nullptr);
+              return world.Draw(FaceState{}, Scene{}, nullptr);
             },
             [](const vm::Error&) {}) {}
 
   LateClock clock;
-  FakeRenderBackend backend;
+  FakeWorld world;
   std::vector<std::pair<long, vm::Time>> drawn;
   vm::Time drawing_takes{0};
   FilmRecorder film;
@@ -73,8 +73,8 @@ TEST_F(FilmTest, SlowDrawingRepeatsFramesSoThatTheFilmKeepsStep) {
   ASSERT_TRUE(report);
   EXPECT_NEAR(static_cast<double>(report->frames), 3.0 * 30, 4);
   EXPECT_GT(report->repeated, 50);
-  EXPECT_EQ(backend.films["a.mp4"].jaws.size(), static_cast<std::size_t>(report->frames));
-  EXPECT_EQ(backend.films["a.mp4"].sound, "voice.wav");
+  EXPECT_EQ(world.films["a.mp4"].jaws.size(), static_cast<std::size_t>(report->frames));
+  EXPECT_EQ(world.films["a.mp4"].sound, "voice.wav");
 }
 
 TEST_F(FilmTest, VerySlowDrawingStillShowsSomethingNewAndLetsInputIn) {
@@ -95,13 +95,13 @@ TEST_F(FilmTest, FramesArriveInOrderAndRepeatedOnesAfterThatWhichTheyRepeat) {
   std::vector<float> expected;
   FaceState state;
   FilmRecorder moving(
-      clock, backend,
+      clock, world, world.files,
       [&](long number, vm::Time) {
         expected.resize(static_cast<std::size_t>(number), expected.empty() ? 0 : expected.back());
         state.mouth[kJawY] = static_cast<float>(number % 20);
         expected.push_back(state.mouth[kJawY]);
         clock.now += number % 7 == 3 ? 150ms : 10ms;
-        return backend.Draw(state, Scene{}, nullptr);
+        return world.Draw(state, Scene{}, nullptr);
       },
       [](const vm::Error&) {});
   ASSERT_TRUE(moving.Start("a.mp4", 30));
@@ -109,28 +109,25 @@ TEST_F(FilmTest, FramesArriveInOrderAndRepeatedOnesAfterThatWhichTheyRepeat) {
   const auto report = moving.Stop("");
   ASSERT_TRUE(report);
   EXPECT_GT(report->repeated, 5);
-  EXPECT_EQ(backend.films["a.mp4"].jaws, expected);
-  EXPECT_TRUE(
-      std::ranges::all_of(backend.readings, [](auto& image) { return image.rgba.empty(); }));
+  EXPECT_EQ(world.films["a.mp4"].jaws, expected);
+  EXPECT_TRUE(std::ranges::all_of(world.readings, [](auto& image) { return image.rgba.empty(); }));
 }
 
 TEST_F(FilmTest, AFilmThatFailsLeavesNoFrameBehind) {
   ASSERT_TRUE(film.Start("a.mp4", 30));
   clock.RunNext();
-  backend.no_drawing = "lost";
+  world.no_drawing = "lost";
   clock.RunNext();
   EXPECT_FALSE(film.recording());
-  EXPECT_TRUE(backend.readings.at(0).rgba.empty());
+  EXPECT_TRUE(world.readings.at(0).rgba.empty());
 }
 
 /// Writes pictures of 1000 bytes.
-class PictureFiles final : public FakeRenderBackend {
- public:
-  vm::Result<void> WritePicture(const Image&, const std::string& path) override {
-    std::ofstream(path) << std::string(1000, 'x');
-    return {};
-  }
-};
+const MediaFiles kPictureFiles{
+    .write_picture = [](const Image&, const std::string& path) -> vm::Result<void> {
+      std::ofstream(path) << std::string(1000, 'x');
+      return {};
+    }};
 
 struct CaptureTest : testing::Test {
   CaptureTest() {
@@ -142,11 +139,11 @@ struct CaptureTest : testing::Test {
 
   Capture Make(Capture::Limits limits = {}) {
     return Capture(
-        clock, backend,
+        clock, world, kPictureFiles,
         [this](long, vm::Time at) {
           drawn.push_back(at);
           clock.now += drawing_takes;
-          return backend.Draw(FaceState{}, Scene{}, nullptr);
+          return world.Draw(FaceState{}, Scene{}, nullptr);
         },
         [this](const vm::Result<void>& done) {
           ends.push_back(done ? "" : vm::FormatError(done.error()));
@@ -159,7 +156,7 @@ struct CaptureTest : testing::Test {
   }
 
   LateClock clock;
-  PictureFiles backend;
+  FakeWorld world;
   std::filesystem::path folder;
   std::vector<vm::Time> drawn;
   std::vector<std::string> ends;

@@ -192,9 +192,9 @@ TEST(InitTest, EverySlotIsAsInAFreshProgram) {
   used.Say("set Run = INIT");
   fresh.Until(1500);
   EXPECT_EQ(Difference(used, fresh), "");
-  EXPECT_EQ(used.backend.face, fresh.backend.face);
-  EXPECT_EQ(used.backend.width(), fresh.backend.width());
-  EXPECT_EQ(used.backend.height(), fresh.backend.height());
+  EXPECT_EQ(used.world.face, fresh.world.face);
+  EXPECT_EQ(used.world.width(), fresh.world.width());
+  EXPECT_EQ(used.world.height(), fresh.world.height());
   EXPECT_FALSE(used.module.Busy());
   EXPECT_FALSE(used.clock.Next().has_value()) << "something is still to come";
   EXPECT_EQ(Performance(used), Performance(fresh));
@@ -209,7 +209,7 @@ TEST(InitTest, TheNextFilmHasNotTheSoundOfTheOneBefore) {
   fsm.Say("set Record = next.mp4");
   fsm.Until(500);
   fsm.Say("set Record = STOP");
-  EXPECT_EQ(fsm.backend.films["next.mp4"].sound, "");
+  EXPECT_EQ(fsm.world.films["next.mp4"].sound, "");
 }
 
 TEST(InitTest, AFilmEndsWithWhatWasSaidBefore) {
@@ -220,7 +220,7 @@ TEST(InitTest, AFilmEndsWithWhatWasSaidBefore) {
   fsm.Say("set Speak = NOW");
   fsm.Until(990);
   fsm.Say("set Run = INIT");
-  const auto& film = fsm.backend.films["film.mp4"];
+  const auto& film = fsm.world.films["film.mp4"];
   EXPECT_TRUE(film.finished);
   EXPECT_EQ(film.sound, "voice.wav");
   ASSERT_EQ(film.jaws.size(), 30U);  // 30 a second, up to now
@@ -235,7 +235,7 @@ TEST(InitTest, AFilmHasTheRateOfTheStartAgain) {
     fsm.Say(std::string("set Record = ") + film);
     fsm.Until(until_ms);
     fsm.Say("set Record = STOP");
-    return fsm.backend.films[film].jaws.size();
+    return fsm.world.films[film].jaws.size();
   };
   fsm.Say("set Record.fps = 10");
   EXPECT_EQ(frames("slow.mp4", 990), 10U);
@@ -247,10 +247,10 @@ TEST(InitTest, AWindowHasItsSizeAgainAndFillsTheScreenNoMore) {
   FsmStage fsm({}, true);
   fsm.Say("set Window = 320 240");
   fsm.Say("set Window = FULLSCREEN");
-  ASSERT_TRUE(fsm.backend.fills_screen);
+  ASSERT_TRUE(fsm.world.fills_screen);
   fsm.Say("set Run = INIT");
-  EXPECT_FALSE(fsm.backend.fills_screen);
-  EXPECT_EQ(fsm.backend.width(), 640);
+  EXPECT_FALSE(fsm.world.fills_screen);
+  EXPECT_EQ(fsm.world.width(), 640);
   EXPECT_EQ(fsm.Say("inq Window"), "rep Window = 640 480");
 }
 
@@ -269,7 +269,7 @@ TEST(InitTest, WhatTheCommandLineAndTheConfigurationSayHoldsAgain) {
   used.Say("set Run = INIT");
   EXPECT_EQ(Difference(used, fresh), "");
   EXPECT_EQ(used.Say("inq Life"), "rep Life = CALM");
-  EXPECT_EQ(used.backend.face, "pygmalion");
+  EXPECT_EQ(used.world.face, "pygmalion");
   EXPECT_TRUE(used.module.motion().NextActivity(FromMs(5000)).has_value()) << "it lives";
 }
 
@@ -301,13 +301,13 @@ TEST(InitTest, FramesAreCountedFromTheStart) {
 
 TEST(FrameTest, AHeadThatCannotBeMadeIsOneErrorAndAllElseGoesOn) {
   FsmStage fsm;
-  fsm.backend.no_head = "cannot measure: there is no such file";
+  fsm.world.no_head = "cannot measure: there is no such file";
   fsm.Say("prop Frame = AutoOutput");
   fsm.Say("set FaceMot = NOD 1");
   EXPECT_EQ(fsm.Until(1000).find("rep Frame"), std::string::npos);
-  EXPECT_EQ(fsm.errors, std::vector<std::string>{"UNAVAILABLE " + fsm.backend.no_head});
+  EXPECT_EQ(fsm.errors, std::vector<std::string>{"UNAVAILABLE " + fsm.world.no_head});
   EXPECT_EQ(fsm.Say("inq Mask"), "rep Mask = galatea");
-  fsm.backend.no_head.clear();
+  fsm.world.no_head.clear();
   fsm.Say("set Mask = pygmalion");
   fsm.Say("set FaceMot = NOD 1");
   EXPECT_NE(fsm.Until(2000).find("rep Frame"), std::string::npos) << "another head is measured";

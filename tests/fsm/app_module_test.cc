@@ -132,9 +132,9 @@ TEST(FsmModuleTest, ASavedImageShowsTheSettledExpressionWhateverComesNext) {
   EXPECT_EQ(fsm.Say("set#5 SaveImage = happy.png"), "rep#5 SaveImage = happy.png");
   fsm.Say("set FaceExp = SAD 1 100 0");
   fsm.Say("set SaveImage = sad.png");
-  EXPECT_FLOAT_EQ(fsm.backend.pictures["happy.png"].au.left[12], 0.8f);
-  EXPECT_FLOAT_EQ(fsm.backend.pictures["sad.png"].au.left[12], 0);
-  EXPECT_FLOAT_EQ(fsm.backend.pictures["sad.png"].au.left[15], 0.7f);
+  EXPECT_FLOAT_EQ(fsm.world.pictures["happy.png"].au.left[12], 0.8f);
+  EXPECT_FLOAT_EQ(fsm.world.pictures["sad.png"].au.left[12], 0);
+  EXPECT_FLOAT_EQ(fsm.world.pictures["sad.png"].au.left[15], 0.7f);
 }
 
 TEST(FsmModuleTest, BusyLastsAsLongAsSomethingWithAnEndMoves) {
@@ -153,7 +153,7 @@ TEST(FsmModuleTest, BusyLastsAsLongAsSomethingWithAnEndMoves) {
   EXPECT_FALSE(fsm.module.Busy());
   fsm.Say("set Autonomous = BLINK 1");  // has no end
   EXPECT_FALSE(fsm.module.Busy());
-  EXPECT_EQ(fsm.backend.draws, 0);
+  EXPECT_EQ(fsm.world.draws, 0);
 }
 
 TEST(FsmModuleTest, AFilmHasAFrameForEveryInstant) {
@@ -170,7 +170,7 @@ TEST(FsmModuleTest, AFilmHasAFrameForEveryInstant) {
   fsm.Until(1017);
   EXPECT_EQ(fsm.Say("set#3 Record = STOP"), "rep#3 Record = STOP");
   EXPECT_EQ(fsm.Say("inq Record.start"), "rep Record.start = ");
-  const auto& film = fsm.backend.films["a.mp4"];
+  const auto& film = fsm.world.films["a.mp4"];
   EXPECT_EQ(film.jaws.size(), 31u);  // both ends
   EXPECT_EQ(film.sound, "voice.wav");
   EXPECT_FLOAT_EQ(film.jaws[0], 0);
@@ -184,8 +184,8 @@ TEST(FsmModuleTest, AnUnfinishedFilmIsFinishedAtTheEnd) {
   fsm.Say("set Record = a.mp4");
   fsm.Until(500);
   fsm.module.Shutdown();
-  EXPECT_TRUE(fsm.backend.films["a.mp4"].finished);
-  EXPECT_EQ(fsm.backend.films["a.mp4"].jaws.size(), 16u);
+  EXPECT_TRUE(fsm.world.films["a.mp4"].finished);
+  EXPECT_EQ(fsm.world.films["a.mp4"].jaws.size(), 16u);
 }
 
 TEST(FsmModuleTest, TheSameInputGivesTheSameFrames) {
@@ -210,7 +210,7 @@ TEST(FsmModuleTest, FramesWithoutAFilmAreReportedWhileSomethingMoves) {
   const std::string said = fsm.Until(3000);
   EXPECT_TRUE(said.starts_with("rep Frame = 6 1033.333 - 0.00 0.00 50.00")) << said;
   EXPECT_FALSE(fsm.clock.Next().has_value());
-  EXPECT_EQ(fsm.backend.draws, 0);
+  EXPECT_EQ(fsm.world.draws, 0);
 }
 
 TEST(FsmModuleTest, AModuleIsToldEachFrameWithoutDrawing) {
@@ -225,7 +225,7 @@ TEST(FsmModuleTest, AModuleIsToldEachFrameWithoutDrawing) {
   EXPECT_TRUE(said.starts_with("to @VMC set FaceFrame = 33.333 0 0 ")) << said;
   EXPECT_EQ(std::count(said.begin(), said.end(), '@'), 6) << "a nod of 0.2 s";
   EXPECT_FALSE(fsm.clock.Next().has_value()) << "nothing is told while nothing moves";
-  EXPECT_EQ(fsm.backend.draws, 0);
+  EXPECT_EQ(fsm.world.draws, 0);
   fsm.Say("set Frame.to = NONE");
   fsm.Say("set FaceMot = NOD 1");
   EXPECT_EQ(fsm.Until(6000), "");
@@ -240,18 +240,18 @@ TEST(FsmModuleTest, CaptureWritesNumberedPicturesOfOneUtterance) {
   EXPECT_EQ(fsm.Say("set Capture = " + folder + " frame 10"), "rep Capture = ENABLE");
   EXPECT_EQ(fsm.Say("inq Capture"), "rep Capture = ENABLE");
   fsm.Until(100);
-  EXPECT_TRUE(fsm.backend.pictures.empty());
+  EXPECT_TRUE(fsm.world.pictures.empty());
   fsm.Say("set LipSync.pho = a 300 pau 200");
   fsm.Say("set Speak = NOW");
   EXPECT_EQ(fsm.Until(600), "rep Capture = DISABLE");
-  EXPECT_EQ(fsm.backend.pictures.size(), 6u);  // 0 100 .. 500
-  EXPECT_TRUE(fsm.backend.pictures.contains(folder + "/frame00001.bmp"));
-  EXPECT_TRUE(fsm.backend.pictures.contains(folder + "/frame00006.bmp"));
+  EXPECT_EQ(fsm.world.pictures.size(), 6u);  // 0 100 .. 500
+  EXPECT_TRUE(fsm.world.pictures.contains(folder + "/frame00001.bmp"));
+  EXPECT_TRUE(fsm.world.pictures.contains(folder + "/frame00006.bmp"));
   fsm.Say("set Capture = " + folder + " f 10 PNG");
   fsm.Say("set LipSync.pho = a 50");
   fsm.Say("set Speak = NOW");
   fsm.Until(1000);
-  EXPECT_TRUE(fsm.backend.pictures.contains(folder + "/f00001.png"));
+  EXPECT_TRUE(fsm.world.pictures.contains(folder + "/f00001.png"));
   std::filesystem::remove_all(name);
 }
 
@@ -261,12 +261,12 @@ TEST(FsmModuleTest, NothingIsCapturedOrDrawnAfterTheEnd) {
   fsm.Say("set LipSync.pho = a 60000");
   fsm.Say("set Speak = NOW");
   fsm.Until(1000);
-  const int drawn = fsm.backend.draws;
+  const int drawn = fsm.world.draws;
   fsm.module.Shutdown();
-  EXPECT_EQ(fsm.backend.pictures.size(), 11u) << "0 100 .. 1000, those still being read among them";
+  EXPECT_EQ(fsm.world.pictures.size(), 11u) << "0 100 .. 1000, those still being read among them";
   fsm.Until(2000);
-  EXPECT_EQ(fsm.backend.pictures.size(), 11u);
-  EXPECT_EQ(fsm.backend.draws, drawn);
+  EXPECT_EQ(fsm.world.pictures.size(), 11u);
+  EXPECT_EQ(fsm.world.draws, drawn);
   std::filesystem::remove_all(testing::TempDir() + "/end_of_capture");
 }
 
@@ -293,13 +293,13 @@ TEST(FsmModuleTest, InitResetsEverythingWithoutAWord) {
 TEST(FsmModuleTest, AWindowIsDrawnWhileSomethingMovesAndElseNowAndThen) {
   FsmStage fsm({}, true);
   fsm.Until(1000);
-  const int still = fsm.backend.shown;
+  const int still = fsm.world.shown;
   EXPECT_LE(still, 6);
   fsm.Say("set FaceMot = NOD 3");
   fsm.Until(1800);
-  EXPECT_GE(fsm.backend.shown - still, 46);
-  EXPECT_LE(fsm.backend.shown - still, 50);
-  fsm.backend.closed = true;
+  EXPECT_GE(fsm.world.shown - still, 46);
+  EXPECT_LE(fsm.world.shown - still, 50);
+  fsm.world.closed = true;
   fsm.Until(2100);
   EXPECT_TRUE(fsm.module.ExitRequested());
 }
@@ -307,26 +307,26 @@ TEST(FsmModuleTest, AWindowIsDrawnWhileSomethingMovesAndElseNowAndThen) {
 TEST(FsmModuleTest, AWindowIsDrawnUntilNothingSwings) {
   FsmStage fsm({}, true);
   fsm.Until(1000);
-  EXPECT_TRUE(fsm.backend.simulated);
-  fsm.backend.swings = true;
-  const int before = fsm.backend.shown;
+  EXPECT_TRUE(fsm.world.simulated);
+  fsm.world.swings = true;
+  const int before = fsm.world.shown;
   fsm.Until(2000);
-  EXPECT_GE(fsm.backend.shown - before, 45);
-  fsm.backend.swings = false;
+  EXPECT_GE(fsm.world.shown - before, 45);
+  fsm.world.swings = false;
   fsm.Until(2100);
-  const int still = fsm.backend.shown;
+  const int still = fsm.world.shown;
   fsm.Until(3100);
-  EXPECT_LE(fsm.backend.shown - still, 6);
+  EXPECT_LE(fsm.world.shown - still, 6);
 }
 
 TEST(FsmModuleTest, SimulationCanBeSwitchedOff) {
   FsmStage fsm({}, true);
   fsm.Say("set Simulation = DISABLE");
   fsm.Until(500);
-  EXPECT_FALSE(fsm.backend.simulated);
+  EXPECT_FALSE(fsm.world.simulated);
   fsm.Say("set Run = INIT");
   fsm.Until(1000);
-  EXPECT_TRUE(fsm.backend.simulated);
+  EXPECT_TRUE(fsm.world.simulated);
 }
 
 TEST(FsmModuleTest, AWindowThatCannotBeDrawnIsAFailure) {
@@ -336,11 +336,11 @@ TEST(FsmModuleTest, AWindowThatCannotBeDrawnIsAFailure) {
   FsmStage fsm(options, true);
   fsm.Until(300);
   EXPECT_FALSE(failed);
-  fsm.backend.no_drawing = "cannot draw: face 'man01': there is none";
+  fsm.world.no_drawing = "cannot draw: face 'man01': there is none";
   fsm.Until(1000);
   EXPECT_TRUE(fsm.module.ExitRequested());
   EXPECT_TRUE(failed);
-  EXPECT_EQ(fsm.errors, std::vector<std::string>{"UNAVAILABLE " + fsm.backend.no_drawing});
+  EXPECT_EQ(fsm.errors, std::vector<std::string>{"UNAVAILABLE " + fsm.world.no_drawing});
 }
 
 TEST(FsmModuleTest, TheOriginalsConfigurationIsTaken) {
@@ -422,18 +422,18 @@ TEST(FsmModuleTest, ClientsOfTheOriginalLeanAndMoveByItsMeasures) {
       stage->Say(line);
     }
   }
-  const FaceState there = fsm.backend.last_state, here = ours.backend.last_state;
+  const FaceState there = fsm.world.last_state, here = ours.world.last_state;
   EXPECT_EQ(here.head_rotation, (std::array<float, 3>{1, 2, 18}));
   EXPECT_EQ(there.head_rotation, (std::array<float, 3>{1, 2, -18}));
   EXPECT_EQ(here.figure.rotation, (std::array<float, 3>{4, 5, 6}));
   EXPECT_EQ(there.figure.rotation, (std::array<float, 3>{4, 5, -6}));
   EXPECT_EQ(there.figure.translation, here.figure.translation);
-  EXPECT_FALSE(ours.backend.last_scene.camera.moves_by_half_views);
-  EXPECT_TRUE(fsm.backend.last_scene.camera.moves_by_half_views);
-  EXPECT_TRUE(fsm.backend.last_scene.wire_on_black);
+  EXPECT_FALSE(ours.world.last_scene.camera.moves_by_half_views);
+  EXPECT_TRUE(fsm.world.last_scene.camera.moves_by_half_views);
+  EXPECT_TRUE(fsm.world.last_scene.wire_on_black);
   fsm.Say("set Run = INIT");
   fsm.Say("set SaveImage = a.png");
-  EXPECT_TRUE(fsm.backend.last_scene.camera.moves_by_half_views);
+  EXPECT_TRUE(fsm.world.last_scene.camera.moves_by_half_views);
   EXPECT_EQ(fsm.Say("inq HeadRotAbs.1"), "rep HeadRotAbs.1 = 0 0 0");
 }
 

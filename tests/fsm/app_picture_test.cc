@@ -45,7 +45,7 @@ TEST(PictureStreamTest, AFilmGoesOnBesideIt) {
   stage.Say("set Record = a.mp4");
   stage.Until(1000);
   stage.Say("set Record = STOP");
-  EXPECT_EQ(stage.backend.films["a.mp4"].jaws.size(), 31u) << "from 0 to 1000 ms";
+  EXPECT_EQ(stage.world.films["a.mp4"].jaws.size(), 31u) << "from 0 to 1000 ms";
   EXPECT_TRUE(onlooker.Next());
   EXPECT_TRUE(stage.errors.empty());
 }
@@ -54,11 +54,11 @@ TEST(PictureStreamTest, AFaceThatStandsStillIsDrawnTwiceASecond) {
   Onlooker onlooker;
   FsmStage stage;
   stage.Until(1000);
-  const int before = stage.backend.draws;
+  const int before = stage.world.draws;
   stage.Say("set Picture.to = unix:" + onlooker.path());
   stage.Until(6000);
-  EXPECT_GE(stage.backend.draws - before, 1);
-  EXPECT_LE(stage.backend.draws - before, 12);
+  EXPECT_GE(stage.world.draws - before, 1);
+  EXPECT_LE(stage.world.draws - before, 12);
 }
 
 TEST(PictureStreamTest, WhoDoesNotListenAndWhatIsNoPlaceAreErrors) {
@@ -79,16 +79,16 @@ TEST(PictureStreamTest, OneWhoHasGoneIsForgotten) {
   ASSERT_TRUE(onlooker.Next());
   onlooker.Close();
   EXPECT_EQ(stage.Say("inq Picture.to"), "rep Picture.to = NONE");
-  const int before = stage.backend.draws;
+  const int before = stage.world.draws;
   stage.Until(2000);
-  EXPECT_EQ(stage.backend.draws, before) << "nothing is drawn for nobody";
+  EXPECT_EQ(stage.world.draws, before) << "nothing is drawn for nobody";
 }
 
 TEST(PictureStreamTest, AFaceThatCannotBeDrawnSaysSoAndEndsIt) {
   Onlooker onlooker;
   FsmStage stage;
   stage.Say("set Picture.to = unix:" + onlooker.path());
-  stage.backend.no_drawing = "lost";
+  stage.world.no_drawing = "lost";
   stage.Until(1);
   ASSERT_EQ(stage.errors.size(), 1u);
   EXPECT_NE(stage.errors[0].find("lost"), std::string::npos);

@@ -12,8 +12,8 @@
 
 namespace fsm {
 
-/// A backend in memory: pictures are one pixel that says how far the jaw is open.
-class FakeRenderBackend : public RenderBackend {
+/// View, wardrobe and files in memory: pictures are one pixel that says how far the jaw is open.
+class FakeWorld final : public FaceView, public Wardrobe, private ViewWindow {
  public:
   struct FakeFilm {
     std::vector<float> jaws;
@@ -64,28 +64,25 @@ class FakeRenderBackend : public RenderBackend {
     return {};
   }
   bool Swings() const override { return swings; }
-  bool has_window() const override { return window; }
-  vm::Result<void> FillScreen(bool fill) override {
-    if (!window) return RenderBackend::FillScreen(fill);
-    fills_screen = fill;
-    return {};
-  }
-  void Show() override { ++shown; }
-  bool close_requested() const override { return closed; }
-  vm::Result<void> WritePicture(const Image& image, const std::string& path) override {
-    if (!path.ends_with(".png") && !path.ends_with(".bmp") && !path.ends_with(".rgb")) {
-      return vm::Fail(vm::Errc::kBadValue, path + " ends in none of .png .bmp .rgb");
-    }
-    pictures[path] = last_state;
-    (void)image;
-    return {};
-  }
-  vm::Result<Image> ReadPicture(const std::string& path) override {
-    if (path == "missing.png") return vm::Fail(vm::Errc::kUnavailable, "cannot read " + path);
-    return Image{1, 1, {1, 2, 3, 255}};
-  }
-  vm::Result<std::unique_ptr<FilmWriter>> OpenFilm(const std::string& path, int, int, int) override;
+  ViewWindow* window() override { return has_window ? this : nullptr; }
 
+  MediaFiles files{
+      .write_picture = [this](const Image&, const std::string& path) -> vm::Result<void> {
+        if (!path.ends_with(".png") && !path.ends_with(".bmp") && !path.ends_with(".rgb")) {
+          return vm::Fail(vm::Errc::kBadValue, path + " ends in none of .png .bmp .rgb");
+        }
+        pictures[path] = last_state;
+        return {};
+      },
+      .read_picture = [](const std::string& path) -> vm::Result<Image> {
+        if (path == "missing.png") return vm::Fail(vm::Errc::kUnavailable, "cannot read " + path);
+        return Image{1, 1, {1, 2, 3, 255}};
+      },
+      .open_film = [this](const std::string& path, int, int, double,
+                          const std::string&) -> vm::Result<std::unique_ptr<FilmWriter>> {
+        if (!path.ends_with(".mp4")) return vm::Fail(vm::Errc::kBadValue, path + " is not .mp4");
+        return std::make_unique<FakeFilmWriter>(films[path]);
+      }};
   std::map<std::string, FaceState> pictures;
   std::map<std::string, FakeFilm> films;
   FaceState last_state;
@@ -94,7 +91,7 @@ class FakeRenderBackend : public RenderBackend {
   std::vector<Image> readings;  ///< of BeginRead, emptied by EndRead and DropRead
   int draws = 0;
   int shown = 0;
-  bool window = false;
+  bool has_window = false;
   bool simulated = false;  ///< the picture drawn last
   bool swings = false;
   bool fills_screen = false;
@@ -103,38 +100,36 @@ class FakeRenderBackend : public RenderBackend {
   std::string no_drawing;  ///< the reason why nothing can be drawn, "" = all can
 
  private:
+  class FakeFilmWriter final : public FilmWriter {
+   public:
+    explicit FakeFilmWriter(FakeFilm& film) : film_(film) {}
+    vm::Result<void> Add(const Image& frame) override {
+      film_.jaws.push_back(static_cast<float>(frame.rgba[0]) / 10);
+      return {};
+    }
+    vm::Result<void> Finish(const std::string& sound) override {
+      film_.sound = sound;
+      film_.finished = true;
+      return {};
+    }
+
+   private:
+    FakeFilm& film_;
+  };
+
+  void FillScreen(bool fill) override { fills_screen = fill; }
+  void Show() override { ++shown; }
+  bool close_requested() const override { return closed; }
+
   Image image_;
   int width_ = 640;
   int height_ = 480;
 };
 
-class FakeMovieWriter final : public FilmWriter {
- public:
-  explicit FakeMovieWriter(FakeRenderBackend::FakeFilm& film) : film_(film) {}
-  vm::Result<void> Add(const Image& frame) override {
-    film_.jaws.push_back(static_cast<float>(frame.rgba[0]) / 10);
-    return {};
-  }
-  vm::Result<void> Finish(const std::string& sound) override {
-    film_.sound = sound;
-    film_.finished = true;
-    return {};
-  }
-
- private:
-  FakeRenderBackend::FakeFilm& film_;
-};
-
-inline vm::Result<std::unique_ptr<FilmWriter>> FakeRenderBackend::OpenFilm(const std::string& path,
-                                                                           int, int, int) {
-  if (!path.ends_with(".mp4")) return vm::Fail(vm::Errc::kBadValue, path + " is not .mp4");
-  return std::make_unique<FakeMovieWriter>(films[path]);
-}
-
 /// The module on a virtual clock, and what it said.
 struct FsmStage {
   explicit FsmStage(FsmOptions options = {}, bool window = false)
-      : module((backend.window = window, clock), backend, std::move(options)) {
+      : module((world.has_window = window, clock), world, world, world.files, std::move(options)) {
     module.slots().set_output([this](vm::PeerId, const vm::Message& message) {
       said.push_back(vm::FormatMessage(message));
     });
@@ -163,7 +158,7 @@ struct FsmStage {
   FaceState Now() { return module.motion().StateAt(clock.Now()); }
 
   vm::VirtualScheduler clock;
-  FakeRenderBackend backend;
+  FakeWorld world;
   FsmModule module;
   std::vector<std::string> said;
   std::vector<std::string> errors;

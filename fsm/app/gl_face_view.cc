@@ -1,0 +1,117 @@
+#include "fsm/app/gl_face_view.h"
+
+#include <future>
+#include <stdexcept>
+
+#include "fsm/base/notice.h"
+#include "fsm/faces/face_of_name.h"
+#include "fsm/faces/table_folder.h"
+
+namespace fsm {
+namespace {
+
+/// How things look, in place of fsm/render/tables/appearance.txt: the file of that name in a folder
+/// of tables; nothing if there is none. Throws std::runtime_error naming file and line.
+std::optional<Appearance> AppearanceIn(const std::string& folder) {
+  const auto text = TableIn(folder, kAppearanceFile);
+  if (!text) return std::nullopt;
+  return Appearance(folder + "/" + kAppearanceFile, *text);
+}
+
+}  // namespace
+
+GlFaceView::GlFaceView(HeadWardrobe& wardrobe, const Options& options)
+    : wardrobe_(wardrobe), options_(options), appearance_(AppearanceIn(options.tables)) {
+  if (options_.where == Options::Where::kHeadless) return;
+  try {
+    context_ = RenderContext::MakeWindow(options_.width, options_.height, options_.title);
+    if (options_.position) context_->Move(options_.position->first, options_.position->second);
+  } catch (const std::exception& error) {
+    if (options_.where == Options::Where::kWindow) throw;
+    Notice("no window (" + std::string(error.what()) + "), drawing headless");
+  }
+}
+
+GlFaceView::~GlFaceView() {
+  if (context_) context_->MakeCurrent();
+}
+
+void GlFaceView::MakeRenderer() {
+  if (!context_) {
+    context_ = RenderContext::MakeHeadless(options_.width, options_.height, options_.off_screen);
+  }
+  context_->MakeCurrent();
+  if (!renderer_) {
+    const Appearance& appearance = appearance_ ? *appearance_ : Appearance::BuiltIn();
+    renderer_ = Renderer::Make(*context_, 1, appearance, options_.rig);
+    renderer_->SetFormError(appearance.form_error);
+  }
+}
+
+/// How far springs are from where the head carries them.
+std::span<const glm::vec3> GlFaceView::Swing(const Head& head, const StateHistory* history) {
+  if (history == nullptr || head.rig().data().swing.springs.empty()) {
+    simulation_.reset();
+    return {};
+  }
+  if (!simulation_ || simulated_ != head.serial()) {
+    simulation_.emplace(head.rig().data().swing.springs);
+    simulated_ = head.serial();
+  }
+  simulation_->RunTo(history->now, history->state_at);
+  return simulation_->offsets();
+}
+
+vm::Result<void> GlFaceView::Draw(const FaceState& state, const Scene& scene,
+                                  const StateHistory* history) {
+  try {
+    // The head is made while the driver starts; both take a good part of the first frame.
+    std::future<void> made;
+    if (!renderer_) {
+      made = std::async(std::launch::async, [this] { static_cast<void>(wardrobe_.head()); });
+    }
+    MakeRenderer();
+    if (made.valid()) made.get();
+    const Head& head = wardrobe_.head();
+    Scene seen = scene;
+    seen.camera.parallel = head.view();
+    renderer_->Draw(head, state, Swing(head, history), seen);
+    return {};
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kUnavailable, std::string("cannot draw: ") + error.what());
+  }
+}
+
+const Image& GlFaceView::Read() {
+  renderer_->Read(image_);
+  return image_;
+}
+
+std::uint64_t GlFaceView::BeginRead() {
+  context_->MakeCurrent();
+  return renderer_->BeginRead();
+}
+
+vm::Result<void> GlFaceView::EndRead(std::uint64_t frame, Image& out) {
+  try {
+    context_->MakeCurrent();
+    renderer_->EndRead(frame, out);
+    return {};
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kUnavailable, error.what());
+  }
+}
+
+void GlFaceView::DropRead(std::uint64_t frame) {
+  context_->MakeCurrent();
+  renderer_->DropRead(frame);
+}
+
+vm::Result<void> GlFaceView::Resize(int width, int height) {
+  options_.width = width;
+  options_.height = height;
+  if (context_) context_->Resize(width, height);
+  return {};
+}
+
+}  // namespace fsm

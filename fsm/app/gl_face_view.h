@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "fsm/app/face_view.h"
+#include "fsm/app/head_wardrobe.h"
+#include "fsm/render/appearance.h"
+#include "fsm/render/renderer.h"
+
+namespace fsm {
+
+/// Draws the head that is worn with OpenGL: in a window, or headless with a context made at the
+/// first need. Lifetime: the wardrobe outlives it.
+class GlFaceView final : public FaceView, private ViewWindow {
+ public:
+  struct Options {
+    int width = 640;
+    int height = 480;
+    enum class Where { kHeadless, kWindow, kWindowIfPossible } where = Where::kHeadless;
+    std::string title = "Galatea";
+    OffScreen off_screen = OffScreen::kOsMesa;  ///< of the context without a window
+    RigOn rig = RigOn::kBest;
+    std::optional<std::pair<int, int>> position = {};  ///< of the window's upper left corner
+    /// A folder that may have an appearance of one's own.
+    std::string tables = {};
+  };
+  /// Throws std::runtime_error with a sentence if a window is asked for and cannot be had, or if
+  /// appearance.txt is wrong.
+  GlFaceView(HeadWardrobe& wardrobe, const Options& options);
+  ~GlFaceView() override;
+
+  vm::Result<void> Draw(const FaceState& state, const Scene& scene,
+                        const StateHistory* history) override;
+  bool Swings() const override { return simulation_ && !simulation_->Still(); }
+  const Image& Read() override;
+  std::uint64_t BeginRead() override;
+  vm::Result<void> EndRead(std::uint64_t frame, Image& out) override;
+  void DropRead(std::uint64_t frame) override;
+  int width() const override { return context_ ? context_->width() : options_.width; }
+  int height() const override { return context_ ? context_->height() : options_.height; }
+  vm::Result<void> Resize(int width, int height) override;
+  ViewWindow* window() override { return context_ && context_->is_window() ? this : nullptr; }
+
+ private:
+  void FillScreen(bool fill) override { context_->SetFullScreen(fill); }
+  void Show() override { context_->Present(); }
+  bool close_requested() const override { return context_->close_requested(); }
+
+  void MakeRenderer();
+  std::span<const glm::vec3> Swing(const Head& head, const StateHistory* history);
+
+  HeadWardrobe& wardrobe_;
+  Options options_;
+  std::optional<Appearance> appearance_;  // in place of the built-in one
+  std::unique_ptr<RenderContext> context_;
+  std::unique_ptr<Renderer> renderer_;  // lives in the context
+  /// Moves the springs of the head drawn last; none if nothing is to swing.
+  std::optional<Simulation> simulation_;
+  std::uint64_t simulated_ = 0;  // serial of that head
+  Image image_;
+};
+
+}  // namespace fsm
