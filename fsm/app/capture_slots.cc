@@ -43,9 +43,4 @@ vm::Result<std::string> CaptureSlots::Set(const vm::SetValue& value) {
   return "ENABLE";
 }
 
-void CaptureSlots::Reset() {
-  capture_.Cancel();
-  core_.slots.Store("Capture", "DISABLE");
-}
-
 }  // namespace fsm

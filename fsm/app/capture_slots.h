@@ -8,11 +8,11 @@
 namespace fsm {
 
 /// Numbered pictures of an utterance: the slot Capture.
-class CaptureSlots {
+class CaptureSlots final : public ModulePart {
  public:
   /// Declares the slot. `core` outlives this, and so does what `draw` uses.
   CaptureSlots(FsmCore& core, Capture::Draw draw);
-  void Reset();  ///< for `Run = INIT`
+  void End() override { capture_.Cancel(); }
   Capture& capture() { return capture_; }
   const Capture& capture() const { return capture_; }
 

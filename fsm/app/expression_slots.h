@@ -1,13 +1,36 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
+#include <vector>
+
 #include "fsm/app/fsm_core.h"
 
 namespace fsm {
 
 /// FaceExp.NAME.PATTERN, what each expression looks like: asked, set, saved. `def FaceExp.NAME =
 /// LOOK` (pattern 1) and `def FaceExp.NAME.PATTERN = LOOK` make new ones, `del FaceExp.NAME` takes
-/// an own one away and brings a changed one back. `Run = INIT` forgets them. At most 200 own names
-/// between two of these.
-void DeclareExpressionSlots(FsmCore& core);
+/// an own one away and brings a changed one back. `Run = INIT` forgets them.
+/// Limit: kMostOwnSlots own names between two of these.
+class ExpressionSlots final : public ModulePart {
+ public:
+  static constexpr std::size_t kMostOwnSlots = 200;
+  struct Name {
+    std::string expression;
+    int pattern = 1;
+  };
+  /// Declares the slots. `core` outlives this.
+  explicit ExpressionSlots(FsmCore& core);
+  void Reset() override;
+
+ private:
+  void Declare(const Name& name, const std::string& look);
+  std::string LookOf(const Name& name) const;
+  vm::Result<std::string> Define(const Name& name, const std::string& look);
+  void Forget(const std::string& expression);
+
+  FsmCore& core_;
+  std::vector<std::string> own_;  // slots that were defined
+};
 
 }  // namespace fsm

@@ -33,63 +33,57 @@ void DeclareUnits(FsmCore& core) {
   for (std::size_t i = 0; i < list.units.size(); ++i) {
     const std::string what = list.units[i] > 0 ? "action unit " + std::to_string(list.units[i])
                                                : "expression " + list.emotions[i];
-    core.Declare({.name = "Face." + std::to_string(i + 1),
-                  .grammar = "<number>",
-                  .help = "Strength of " + what + " in per cent, 0 to 200.",
-                  .action =
-                      [&core](const vm::SetValue& value) {
-                        return core.motion->SetFace(core.Now(), NumberOf(value.slot),
-                                                    value.number(0) / 100);
-                      },
-                  .initial = "0",
-                  .least = 0,
-                  .most = 200});
+    core.slots.Declare({.name = "Face." + std::to_string(i + 1),
+                        .grammar = "<number>",
+                        .initial = "0",
+                        .help = "Strength of " + what + " in per cent, 0 to 200.",
+                        .on_set = core.Clamped(0, 200, [&core](const vm::SetValue& value) {
+                          return core.motion->SetFace(core.Now(), NumberOf(value.slot),
+                                                      value.number(0) / 100);
+                        })});
   }
   for (std::size_t i = 1; i <= kMouthParameters; ++i) {
-    core.Declare(
+    core.slots.Declare(
         {.name = "Mouth." + std::to_string(i),
          .grammar = "<number>",
-         .help = "Strength of mouth parameter " + std::to_string(i) + " in per cent, 0 to 200.",
-         .action =
-             [&core](const vm::SetValue& value) {
-               return core.motion->mouth.Set(core.Now(), NumberOf(value.slot),
-                                             value.number(0) / 100);
-             },
          .initial = "0",
-         .least = 0,
-         .most = 200});
+         .help = "Strength of mouth parameter " + std::to_string(i) + " in per cent, 0 to 200.",
+         .on_set = core.Clamped(0, 200, [&core](const vm::SetValue& value) {
+           return core.motion->mouth.Set(core.Now(), NumberOf(value.slot), value.number(0) / 100);
+         })});
   }
-  core.Declare(
+  core.slots.Declare(
       {.name = "AU",
        .grammar = "<text>",
+       .access = vm::Access::kWriteOnly,
        .help = "Moves action units: number (or name) with L or R for one side, then the strength "
                "(0 to 2, 1 = full, or a letter A to E), as many as wanted; at the end the ms it "
                "takes (60). 30 and 46 (a wink) are of one side, the agent's left if none is named. "
                "51-58 "
                "move the head, 61-66 the eyes. `12L 0.7 6 C 200`",
-       .action =
-           [&core](const vm::SetValue& value) {
-             return core.motion->units.Set(core.Now(), value.text);
-           },
-       .readable = false});
-  core.Declare(
+       .on_set = core.Command([&core](const vm::SetValue& value) {
+         return core.motion->units.Set(core.Now(), value.text);
+       })});
+  core.slots.Declare(
       {.name = "ARKit",
        .grammar = "( <word> <number 0..1> )... [ <ms> ]",
+       .access = vm::Access::kWriteOnly,
        .help = "Moves blend shapes of ARKit's names: name and weight, as many as wanted, and the "
                "ms it takes (60).",
-       .action = [&core](const vm::SetValue& value) { return SetBlendShapes(core, value); },
-       .readable = false});
+       .on_set = core.Command(
+           [&core](const vm::SetValue& value) { return SetBlendShapes(core, value); })});
 }
 
 void DeclareExpressions(FsmCore& core) {
-  core.Declare(
+  core.slots.Declare(
       {.name = "FaceExp",
        .grammar =
            "NEUTRAL [ <int> <number> <ms> ] | <word> [ <int 1..> [ <number 0..200> [ <ms> ] ] ]",
+       .initial = "NEUTRAL",
        .help = "An expression: HAPPY ANGRY DISGUSTED SAD SURPRISED FEARED or USERDEF, its pattern "
                "(1 to 5), its strength in per cent and its duration in ms (0 = until the next), "
                "left out 1 100 0; or NEUTRAL.",
-       .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
+       .on_set = core.Command([&core](const vm::SetValue& value) -> vm::Result<void> {
          if (value.word(0) == "NEUTRAL") {
            core.motion->expression.Neutral(core.Now());
            return {};
@@ -100,16 +94,16 @@ void DeclareExpressions(FsmCore& core) {
          return core.motion->expression.Show(core.Now(), value.word(0),
                                              static_cast<int>(number(1, 1)), number(2, 100) / 100,
                                              FromMs(number(3, 0)));
-       },
-       .initial = "NEUTRAL"});
-  core.Declare(
+       })});
+  core.slots.Declare(
       {.name = "FaceExp.point",
        .grammar = "<number -2..2> <number -2..2> <number -2..2> [ <ms> ]",
+       .initial = "0 0 0",
        .help = "An expression as a point of the emotion space, and the ms it takes to get there "
                "(as FaceExp.onset says); 0 0 0 = at rest. +x happy, -x sad, +y surprised, -y "
                "disgusted, +z angry, -z feared; 1 from the middle is full strength. What was set "
                "last counts, this or FaceExp.",
-       .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
+       .on_set = core.Command([&core](const vm::SetValue& value) -> vm::Result<void> {
          const auto number = [&value](std::size_t i) {
            return static_cast<float>(value.number(i));
          };
@@ -117,67 +111,60 @@ void DeclareExpressions(FsmCore& core) {
              core.Now(), {number(0), number(1), number(2)},
              value.size() > 3 ? std::optional(FromMs(value.number(3))) : std::nullopt);
          return {};
-       },
-       .initial = "0 0 0"});
-  core.Declare(
+       })});
+  core.slots.Declare(
       {.name = "Mood",
        .grammar = "NEUTRAL | <word> <number 0..100>",
+       .initial = "NEUTRAL",
        .help = "A slight look that stays until the next, and its strength in per cent: AROUSED or "
                "LOW (MOOD lines of motions.txt), as vdm tells it of a voice; or NEUTRAL. "
                "Expressions cover it.",
-       .action =
-           [&core](const vm::SetValue& value) {
-             return core.motion->mood.Set(core.Now(), value.word(0),
-                                          value.size() > 1 ? value.number(1) / 100 : 0);
-           },
-       .initial = "NEUTRAL"});
+       .on_set = core.Command([&core](const vm::SetValue& value) {
+         return core.motion->mood.Set(core.Now(), value.word(0),
+                                      value.size() > 1 ? value.number(1) / 100 : 0);
+       })});
   const MotionSettings& settings = core.motion->settings();
-  core.Declare(
+  core.slots.Declare(
       {.name = "FaceExp.onset",
        .grammar = "POSED | ELICITED | NATURAL | <ms>",
+       .initial = settings.onset == Onset::kFixed ? vm::FormatMs(settings.expression) : "POSED",
        .help = "How long an expression takes to come: as measured on people who show (POSED, or "
                "NATURAL) or feel (ELICITED) it, each emotion by itself; or so many ms.",
-       .action = core.Setting([](MotionSettings& changed, const vm::SetValue& value) {
+       .on_set = core.Setting([](MotionSettings& changed, const vm::SetValue& value) {
          changed.onset = value.word(0) == "POSED" || value.word(0) == "NATURAL" ? Onset::kPosed
                          : value.word(0) == "ELICITED"                          ? Onset::kElicited
                                                                                 : Onset::kFixed;
          if (changed.onset == Onset::kFixed) changed.expression = FromMs(value.number(0));
-       }),
-       .initial = settings.onset == Onset::kFixed ? vm::FormatMs(settings.expression) : "POSED"});
+       })});
 }
 
 void DeclareHead(FsmCore& core) {
   const std::string axes =
       "x y z in degrees, -90 to 90: x+ = down, y+ = to the viewer's right, z+ = tilt there (with "
       "-C to his left, as in the original).";
-  core.Declare({.name = "HeadRotAbs.1",
-                .grammar = "<number> <number> <number>",
-                .help = "Turns the head to " + axes,
-                .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->head.TurnTo(core.Now(), AnglesOf(core, value));
-                  return {};
-                },
-                .initial = "0 0 0",
-                .least = -90,
-                .most = 90});
-  core.Declare({.name = "HeadRotRel.1",
-                .grammar = "<number> <number> <number>",
-                .help = "Turns the head further by " + axes,
-                .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->head.TurnBy(core.Now(), AnglesOf(core, value));
-                  return {};
-                },
-                .readable = false,
-                .least = -90,
-                .most = 90});
-  core.Declare(
+  core.slots.Declare({.name = "HeadRotAbs.1",
+                      .grammar = "<number> <number> <number>",
+                      .initial = "0 0 0",
+                      .help = "Turns the head to " + axes,
+                      .on_set = core.Clamped(-90, 90, [&core](const vm::SetValue& value) {
+                        core.motion->head.TurnTo(core.Now(), AnglesOf(core, value));
+                      })});
+  core.slots.Declare({.name = "HeadRotRel.1",
+                      .grammar = "<number> <number> <number>",
+                      .access = vm::Access::kWriteOnly,
+                      .help = "Turns the head further by " + axes,
+                      .on_set = core.Clamped(-90, 90, [&core](const vm::SetValue& value) {
+                        core.motion->head.TurnBy(core.Now(), AnglesOf(core, value));
+                      })});
+  core.slots.Declare(
       {.name = "FaceMot",
        .grammar = "NOMOVE [ <int> ] | ( NOD | REFUSE | SHAKE | LISTEN | TILT | BLINK | USERDEF ) "
                   "<int 1..> "
                   "[ <number 0..300> [ <int 1..20> ] ]",
+       .access = vm::Access::kWriteOnly,
        .help = "One movement and its pattern, its strength in per cent (100) and how many times "
                "(1), or NOMOVE to end what is moving. SHAKE is REFUSE, TILT is LISTEN.",
-       .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
+       .on_set = core.Command([&core](const vm::SetValue& value) -> vm::Result<void> {
          if (value.word(0) == "NOMOVE") {
            core.motion->StopMoves(core.Now());
            return {};
@@ -185,25 +172,24 @@ void DeclareHead(FsmCore& core) {
          return core.motion->Move(core.Now(), value.word(0), static_cast<int>(value.number(1)),
                                   value.size() > 2 ? value.number(2) / 100 : 1,
                                   value.size() > 3 ? static_cast<int>(value.number(3)) : 1);
-       },
-       .readable = false});
+       })});
 }
 
 void DeclareEyes(FsmCore& core) {
   const auto eyes = [&core](const std::string& name, bool left, bool right, const char* which) {
-    core.Declare({.name = name,
-                  .grammar = "<number -90..90> <number -90..90> <ms>",
-                  .help = std::string("Turns ") + which +
-                          " by x y degrees (x+ = down, y+ = to the viewer's right) for so many ms; "
-                          "0 = until the next.",
-                  .action = [&core, left, right](const vm::SetValue& value) -> vm::Result<void> {
-                    core.motion->eyes.Turn(
-                        core.Now(), left, right,
-                        {static_cast<float>(value.number(0)), static_cast<float>(value.number(1))},
-                        FromMs(value.number(2)));
-                    return {};
-                  },
-                  .readable = false});
+    core.slots.Declare(
+        {.name = name,
+         .grammar = "<number -90..90> <number -90..90> <ms>",
+         .access = vm::Access::kWriteOnly,
+         .help = std::string("Turns ") + which +
+                 " by x y degrees (x+ = down, y+ = to the viewer's right) for so many ms; "
+                 "0 = until the next.",
+         .on_set = core.Command([&core, left, right](const vm::SetValue& value) {
+           core.motion->eyes.Turn(
+               core.Now(), left, right,
+               {static_cast<float>(value.number(0)), static_cast<float>(value.number(1))},
+               FromMs(value.number(2)));
+         })});
   };
   eyes("EyeRot", true, true, "both eyes");
   eyes("EyeRotRight", false, true, "the agent's right eye");
@@ -222,14 +208,13 @@ void DeclareFaceSlots(FsmCore& core) {
 void DeclareFigureSlots(FsmCore& core) {
   const auto declare = [&core](const char* name, const char* grammar, const char* help,
                                const char* initial, auto change) {
-    core.Declare({.name = name,
-                  .grammar = grammar,
-                  .help = help,
-                  .action = [&core, change](const vm::SetValue& value) -> vm::Result<void> {
-                    change(core.motion->figure, value);
-                    return {};
-                  },
-                  .initial = initial});
+    core.slots.Declare({.name = name,
+                        .grammar = grammar,
+                        .initial = initial,
+                        .help = help,
+                        .on_set = core.Command([&core, change](const vm::SetValue& value) {
+                          change(core.motion->figure, value);
+                        })});
   };
   declare("AgentEnable", "ENABLE | DISABLE", "Whether the agent is drawn.", "ENABLE",
           [](Figure& figure, const vm::SetValue& value) {

@@ -17,16 +17,17 @@ FrameSlots::FrameSlots(FsmCore& core) : core_(core) {
                            "The frame drawn last: NUMBER TIME_MS PHONEME JAW_DEG GAP_MM WIDTH_MM. "
                            "With AutoOutput every frame is reported; the number counts from 0 in "
                            "a film."});
-  core_.Declare(
+  core_.slots.Declare(
       {.name = "Frame.to",
        .grammar = "NONE | <word>",
+       .initial = "NONE",
        .help =
            "The module that is told each frame, by its slot FaceFrame, while something moves: "
            "TIME_MS on this module's clock, 17 mouth parameters, SEAL, TONGUE, the head's DOWN "
            "RIGHT TILT, DOWN RIGHT of the left and of the right eye in degrees, how far the left "
            "and the right lids are closed, then UNIT:STRENGTH of every action unit that is not at "
            "rest (12L:0.7).",
-       .action = [this](const vm::SetValue& value) -> vm::Result<void> {
+       .on_set = core_.Command([this](const vm::SetValue& value) -> vm::Result<void> {
          const std::string name = value.word(0);
          if (name != "NONE" && !vm::IsModuleName(name)) {
            return vm::Fail(vm::Errc::kBadValue, "'" + name + "' is no name of a module");
@@ -34,8 +35,7 @@ FrameSlots::FrameSlots(FsmCore& core) : core_(core) {
          to_ = name == "NONE" ? "" : name;
          Tell(core_.Now());
          return {};
-       },
-       .initial = "NONE"});
+       })});
 }
 
 void FrameSlots::Tell(vm::Time at) {
@@ -85,7 +85,6 @@ vm::Result<void> FrameSlots::Draw(long number, vm::Time at) {
 
 void FrameSlots::Reset() {
   shown_ = 0;
-  core_.slots.Store("Frame", "");
   unmeasured_mask_.reset();
   to_.clear();
 }

@@ -9,11 +9,11 @@ namespace fsm {
 
 /// What is told of each frame: the slot Frame of what is drawn, and Frame.to, another module that
 /// learns how the face is moved.
-class FrameSlots {
+class FrameSlots final : public ModulePart {
  public:
   /// Declares the slots. `core` outlives this.
   explicit FrameSlots(FsmCore& core);
-  void Reset();  ///< for `Run = INIT`
+  void Reset() override;
 
   /// Draws the face as it is at `at`, and reports it as frame `number`.
   vm::Result<void> Draw(long number, vm::Time at);

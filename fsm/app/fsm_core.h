@@ -4,8 +4,6 @@
 #include <memory>
 #include <string>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 #include "fsm/app/face_view.h"
 #include "fsm/app/media_files.h"
@@ -17,7 +15,9 @@
 
 namespace fsm {
 
-/// What the parts of the face module share. Lifetime: owned by FsmModule, outlives the parts.
+/// What the parts of the face module share. Slots are declared with slots.Declare; Command, Clamped
+/// and Setting make their on_set.
+/// Lifetime: owned by FsmModule, outlives the parts.
 struct FsmCore {
   vm::Scheduler& clock;
   FaceView& view;
@@ -32,59 +32,71 @@ struct FsmCore {
   bool simulates = true;  ///< what hangs on springs swings
   /// Called after every command, because something may move now, or look different.
   std::function<void()> changed = [] {};
-  /// Every slot declared with Declare, with its value at start, for `Run = INIT`.
-  std::vector<std::pair<std::string, std::string>> initial_values{};
-  std::size_t declared_at_start = 0;  ///< how many of them the module itself has
 
   vm::Time Now() const { return clock.Now(); }
 
   /// Draws the face as it is at `t`.
   vm::Result<void> DrawAt(vm::Time t);
 
-  using Action = std::function<vm::Result<void>(const vm::SetValue&)>;
-  struct Declaration {
-    std::string name;
-    std::string grammar;
-    std::string help;
-    Action action;
-    std::string initial = "";
-    bool readable = true;  ///< false: the slot is an action and has no value to ask for
-    bool quoted = false;
-    /// Numbers are clamped to least..most, as the original does, unless both are 0.
-    int least = 0, most = 0;
-    /// How the value is told; null: as it came.
-    std::string (*told)(const vm::SetValue&) = nullptr;
-  };
-  /// A slot whose value is stored as it came if the action accepts it.
-  void Declare(Declaration slot);
-
-  /// The action of a slot that is a setting: `change(settings, value)` changes it or returns why
+  /// SlotSpec::on_set.
+  using OnSet = std::function<vm::Result<std::string>(const vm::SetValue&)>;
+  /// Of a slot whose value is stored as it came: `act(value)` does what it asks for, or returns why
   /// not.
-  template <typename Change>
-  Action Setting(Change change) {
-    return [this, change](const vm::SetValue& value) -> vm::Result<void> {
-      MotionSettings settings = motion->settings();
-      if constexpr (std::is_void_v<decltype(change(settings, value))>) {
-        change(settings, value);
-      } else if (auto done = change(settings, value); !done) {
-        return done;
-      }
-      motion->Apply(Now(), settings);
-      return {};
+  template <typename Act>
+  OnSet Command(Act act) {
+    return [this, act](const vm::SetValue& value) -> vm::Result<std::string> {
+      if (auto done = ResultOf(act, value); !done) return std::unexpected(done.error());
+      changed();
+      return value.text;
     };
+  }
+  /// The same with numbers clamped to least..most, as the original does.
+  template <typename Act>
+  OnSet Clamped(int least, int most, Act act) {
+    return [least, most, command = Command(act)](vm::SetValue value) {
+      ClampNumbers(value, least, most);
+      return command(value);
+    };
+  }
+  /// Of a slot that is a setting: `change(settings, value)` changes it, or returns why not.
+  template <typename Change>
+  OnSet Setting(Change change) {
+    return Command([this, change](const vm::SetValue& value) {
+      MotionSettings settings = motion->settings();
+      auto done = ResultOf(change, settings, value);
+      if (done) motion->Apply(Now(), settings);
+      return done;
+    });
   }
 
   vm::Time InstantOf(const vm::StartTime& start) const {
     return vm::Resolve(start, Now(), vm::WallSinceMidnight());
   }
 
-  /// A slot that tells what the module knows, with SlotMachine::Report or Store.
-  void DeclareReadOnly(std::string name, std::string initial, std::string help,
-                       bool quoted = false);
+ private:
+  static void ClampNumbers(vm::SetValue& value, int least, int most);
+  /// What a function says that returns a vm::Result<void>, or nothing.
+  template <typename Function, typename... Arguments>
+  static vm::Result<void> ResultOf(const Function& function, Arguments&&... arguments) {
+    if constexpr (std::is_void_v<std::invoke_result_t<const Function&, Arguments...>>) {
+      function(arguments...);
+      return {};
+    } else {
+      return function(arguments...);
+    }
+  }
+};
 
-  /// Takes back the slots declared after the module's own, for `Run = INIT`. Not from within one of
-  /// their callbacks.
-  void ForgetSlotsSinceStart();
+/// A part of the module that remembers something between two commands.
+class ModulePart {
+ public:
+  virtual ~ModulePart() = default;
+  /// Ends what goes on in time, as films do: for `Run = INIT`, while the face is as it was, and at
+  /// the end of the module.
+  virtual void End() {}
+  /// Forgets what was said, for `Run = INIT`: the motion is new, and every slot has its initial
+  /// value again.
+  virtual void Reset() {}
 };
 
 }  // namespace fsm

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "fsm/app/expression_slots.h"
 #include "fsm/app/face_slots.h"
 #include "fsm/app/idle_slots.h"
 #include "fsm/app/lip_slots.h"
@@ -36,8 +35,8 @@ FsmModule::FsmModule(vm::Scheduler& clock, FaceView& view, Wardrobe& wardrobe, M
                                        .on_init = [this] { Initialise(); },
                                        .on_exit = [this] { exit_requested_ = true; }});
   DeclareFaceSlots(core_);
-  DeclareExpressionSlots(core_);
-  DeclareIdleSlots(core_);
+  expressions_ = std::make_unique<ExpressionSlots>(core_);
+  DeclareIdleSlots(core_, options_.life);
   speech_ = std::make_unique<SpeechSlots>(core_);
   DeclareLipSlots(core_);
   DeclareMouthStreamSlots(core_);
@@ -49,8 +48,8 @@ FsmModule::FsmModule(vm::Scheduler& clock, FaceView& view, Wardrobe& wardrobe, M
   pictures_ = std::make_unique<PictureSlots>(core_);
   capture_ = std::make_unique<CaptureSlots>(core_, draw);
   frames_ = std::make_unique<FrameSlots>(core_);
-  vm::OrThrow(BeginLife());
-  core_.declared_at_start = core_.initial_values.size();
+  parts_ = {expressions_.get(), speech_.get(),   mask_.get(),    scene_.get(),
+            record_.get(),      pictures_.get(), capture_.get(), frames_.get()};
   Connect();
   Changed();
 }
@@ -82,28 +81,16 @@ void FsmModule::ApplyConfig(const OriginalConfig& config) {
 void FsmModule::MakeMotion() {
   core_.motion = std::make_unique<FaceMotion>(tables_, options_.seed);
   core_.motion->Apply(core_.Now(), start_settings_);
-}
-
-vm::Result<void> FsmModule::BeginLife() {
-  if (options_.life.empty()) return {};
-  if (auto set = core_.motion->idle.SetProfile(core_.Now(), options_.life); !set) return set;
-  core_.slots.Store("Life", options_.life);
-  return {};
+  vm::OrThrow(core_.motion->idle.SetProfile(core_.Now(), options_.life));
 }
 
 void FsmModule::Initialise() {
   core_.slots.Store("Error", "");
-  record_->Reset();  // a film shows the face as it was until now, with the sound named until now
-  capture_->Reset();
-  pictures_->Reset();
+  // A film shows the face as it was until now, with the sound named until now.
+  for (ModulePart* part : parts_) part->End();
   MakeMotion();
-  speech_->Reset();
-  core_.ForgetSlotsSinceStart();
-  for (const auto& [name, value] : core_.initial_values) core_.slots.Store(name, value);
-  mask_->Reset();
-  scene_->Reset();
-  if (auto set = BeginLife(); !set) core_.slots.ReportError("Life", set.error());
-  frames_->Reset();
+  core_.slots.StoreInitialValues();
+  for (ModulePart* part : parts_) part->Reset();
   Changed();
 }
 
@@ -190,10 +177,8 @@ bool FsmModule::Busy() const {
 void FsmModule::Shutdown() {
   // The runtime calls what is still due before it ends. Where drawing takes longer than the time
   // between two pictures, a capture would always have a next one due.
-  capture_->capture().Cancel();
-  pictures_->End();
+  for (ModulePart* part : parts_) part->End();
   frame_timer_.Cancel();
-  record_->End();
 }
 
 }  // namespace fsm

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fsm/app/capture_slots.h"
+#include "fsm/app/expression_slots.h"
 #include "fsm/app/frame_slots.h"
 #include "fsm/app/fsm_core.h"
 #include "fsm/app/mask_slots.h"
@@ -21,12 +22,12 @@
 namespace fsm {
 
 struct FsmOptions {
-  std::uint64_t seed = 1;  ///< of everything the face does by itself
-  std::string tables;      ///< folder of tables that replace the built-in ones
-  std::string mask;        ///< face worn at the start, "" = the wardrobe's first
-  std::string background;  ///< as slot Background at the start, "" = the configuration's first
-  std::string life;        ///< profile of Life at the start, "" = OFF
-  OriginalConfig config;   ///< path "" = none
+  std::uint64_t seed = 1;    ///< of everything the face does by itself
+  std::string tables;        ///< folder of tables that replace the built-in ones
+  std::string mask;          ///< face worn at the start, "" = the wardrobe's first
+  std::string background;    ///< as slot Background at the start, "" = the configuration's first
+  std::string life = "OFF";  ///< profile of Life at the start
+  OriginalConfig config;     ///< path "" = none
   bool announce_config = false;  ///< greet as the original does: tell detected: -C flag: FILE
   /// Called when the window cannot be drawn any more, which ends the module.
   std::function<void()> on_failure = [] {};
@@ -53,9 +54,8 @@ class FsmModule final : public vm::Module {
  private:
   void ApplyConfig(const OriginalConfig& config);
   void MakeMotion();
-  vm::Result<void> BeginLife();  // as FsmOptions::life says
-  void Initialise();             // Run = INIT
-  void Connect();                // what parts tell each other, once all are there
+  void Initialise();  // Run = INIT
+  void Connect();     // what parts tell each other, once all are there
   void Changed();
   void ArmFrames();
   void ArmEnd();
@@ -67,13 +67,15 @@ class FsmModule final : public vm::Module {
   MotionTables tables_;
   MotionSettings start_settings_;
   FsmCore core_;
+  std::unique_ptr<ExpressionSlots> expressions_;
+  std::unique_ptr<SpeechSlots> speech_;
   std::unique_ptr<MaskSlots> mask_;
   std::unique_ptr<SceneSlots> scene_;
-  std::unique_ptr<SpeechSlots> speech_;
   std::unique_ptr<FrameSlots> frames_;  // outlives those that draw by it
   std::unique_ptr<RecordSlots> record_;
   std::unique_ptr<CaptureSlots> capture_;
   std::unique_ptr<PictureSlots> pictures_;
+  std::vector<ModulePart*> parts_;  // all of these; in any order
   double frame_rate_ = 60;
   vm::Timer frame_timer_{core_.clock};
   vm::Time frame_due_{0};

@@ -18,14 +18,15 @@ std::string Kinds() {
 }
 
 void DeclareGaze(FsmCore& core) {
-  core.Declare(
+  core.slots.Declare(
       {.name = "Gaze",
        .grammar = "USER | THINK | <number -60..60> <number -60..60> [ <ms> ]",
+       .initial = "0 0",
        .help = "Looks at the user and stays there while the head turns; looks away here and there "
                "as one who thinks; or looks x y degrees away (x+ = down, y+ = to the viewer's "
                "right) with the eyes, and with the head where that is far, for so many ms; without "
                "them until the next.",
-       .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
+       .on_set = core.Command([&core](const vm::SetValue& value) {
          const vm::Time now = core.Now();
          if (value.word(0) == "USER") {
            core.motion->eyes.LookAtUser(now);
@@ -36,48 +37,43 @@ void DeclareGaze(FsmCore& core) {
                now, {static_cast<float>(value.number(0)), static_cast<float>(value.number(1))},
                FromMs(value.size() > 2 ? value.number(2) : 0));
          }
-         return {};
-       },
-       .initial = "0 0"});
-  core.Declare(
+       })});
+  core.slots.Declare(
       {.name = "Gaze.distance",
        .grammar = "FAR | <number 100..10000>",
+       .initial = "700",
        .help = "How far away what Gaze looks at is, in mm: the eyes converge on it. FAR = they are "
                "parallel. For the next Gaze.",
-       .action = core.Setting([](MotionSettings& settings, const vm::SetValue& value) {
+       .on_set = core.Setting([](MotionSettings& settings, const vm::SetValue& value) {
          settings.gaze_distance_mm = value.word(0) == "FAR" ? 0 : value.number(0);
-       }),
-       .initial = "700"});
+       })});
 }
 
 }  // namespace
 
-void DeclareIdleSlots(FsmCore& core) {
-  core.Declare(
+void DeclareIdleSlots(FsmCore& core, const std::string& life) {
+  core.slots.Declare(
       {.name = "Autonomous",
        .grammar = "( " + Kinds() + " ) <int 0..>",
+       .access = vm::Access::kWriteOnly,
        .help = "What the face does by itself, and its pattern; 0 stops it. BLINK; MOVE, the head "
                "drifts; GAZE, small saccades; BREATH; NODS of a listener; SPEECH, head and brows "
                "move with the stress; AVERT, the eyes leave the user while beginning to speak; "
                "FACE, a slight look that stays; GAZEBLINK and ENDBLINK, blinks at shifts of the "
                "gaze and at the end of speech; ASYMMETRY of expressions; TEXT, looks of sentences "
                "by their words; USERDEF, files.",
-       .action =
-           [&core](const vm::SetValue& value) {
-             return core.motion->idle.Set(core.Now(), value.word(0),
-                                          static_cast<int>(value.number(1)));
-           },
-       .readable = false});
-  core.Declare({.name = "Life",
-                .grammar = "<word>",
-                .help = "All of Autonomous at once: " + Profiles(core) +
-                        ". What a profile does not name is "
-                        "switched off; single parts can be switched afterwards.",
-                .action =
-                    [&core](const vm::SetValue& value) {
-                      return core.motion->idle.SetProfile(core.Now(), value.word(0));
-                    },
-                .initial = "OFF"});
+       .on_set = core.Command([&core](const vm::SetValue& value) {
+         return core.motion->idle.Set(core.Now(), value.word(0), static_cast<int>(value.number(1)));
+       })});
+  core.slots.Declare({.name = "Life",
+                      .grammar = "<word>",
+                      .initial = life,
+                      .help = "All of Autonomous at once: " + Profiles(core) +
+                              ". What a profile does not name is "
+                              "switched off; single parts can be switched afterwards.",
+                      .on_set = core.Command([&core](const vm::SetValue& value) {
+                        return core.motion->idle.SetProfile(core.Now(), value.word(0));
+                      })});
   DeclareGaze(core);
 }
 

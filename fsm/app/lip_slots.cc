@@ -54,62 +54,65 @@ glm::vec2 ScaleOf(const GestureNumbers& gestures, const vm::SetValue& value) {
 
 void DeclareStyle(FsmCore& core) {
   const std::string engines = EngineList(core.motion->tables().engines);
-  core.Declare({.name = "LipSync.mode",
-                .grammar = "DOMINANCE | SINUSOID | LINEAR",
-                .help = "How lips go from sound to sound: by overlapping dominance curves with "
-                        "anticipation, by the original's sinusoids, or by straight lines.",
-                .action = core.Setting([](MotionSettings& settings, const vm::SetValue& value) {
-                  settings.lips.mode = ModeOf(value.word(0));
-                }),
-                .initial = "DOMINANCE"});
-  core.Declare({.name = "LipSync.shapes",
-                .grammar = "<int 14..28>",
-                .help = "Which mouth shapes: 28 of English and Japanese, or the original's 14.",
-                .action = core.Setting(SetShapes),
-                .initial = "28"});
-  core.Declare(
+  core.slots.Declare(
+      {.name = "LipSync.mode",
+       .grammar = "DOMINANCE | SINUSOID | LINEAR",
+       .initial = "DOMINANCE",
+       .help = "How lips go from sound to sound: by overlapping dominance curves with "
+               "anticipation, by the original's sinusoids, or by straight lines.",
+       .on_set = core.Setting([](MotionSettings& settings, const vm::SetValue& value) {
+         settings.lips.mode = ModeOf(value.word(0));
+       })});
+  core.slots.Declare(
+      {.name = "LipSync.shapes",
+       .grammar = "<int 14..28>",
+       .initial = "28",
+       .help = "Which mouth shapes: 28 of English and Japanese, or the original's 14.",
+       .on_set = core.Setting(SetShapes)});
+  core.slots.Declare(
       {.name = "LipSync.names",
        .grammar = "<word>",
+       .initial = "AUTO",
        .help = "Whose names the phonemes have: AUTO (whichever knows most of the list) or one "
                "of " +
                engines + ".",
-       .action = core.Setting(
+       .on_set = core.Setting(
            [names = "AUTO " + engines](MotionSettings& settings, const vm::SetValue& value) {
              return SetNames(names, settings, value.word(0));
-           }),
-       .initial = "AUTO"});
-  core.Declare(
+           })});
+  core.slots.Declare(
       {.name = "LipSync.scale",
        .grammar = "MUMBLED | SOFT | NORMAL | CLEAR | SHOUTED | <number 0..300> [ <number 0..300> ]",
+       .initial = "NORMAL",
        .help = "How large the next utterances are articulated: a way of speaking, or per cent for "
                "the jaw and for the lips. Closures stay closed.",
-       .action = core.Setting([&core](MotionSettings& settings, const vm::SetValue& value) {
+       .on_set = core.Setting([&core](MotionSettings& settings, const vm::SetValue& value) {
          const glm::vec2 scale = ScaleOf(core.motion->tables().gestures, value);
          settings.lips.jaw = scale.x / 100;
          settings.lips.lips = scale.y / 100;
-       }),
-       .initial = "NORMAL"});
+       })});
 }
 
 void DeclareShapes(FsmCore& core, ShapeSet set) {
   for (const Viseme& shape : core.motion->shapes(set)) {
-    core.Declare(
+    core.slots.Declare(
         {.name = SlotOf(set, shape.name),
          .grammar = "<number>...",
+         .initial = FormatShapeValues(shape),
          .help = "Mouth shape '" + shape.name + "' of the " + std::to_string(CountOf(set)) +
                  ": 17 mouth parameters [seal [tongue [hold]]], see face.md.",
-         .action = [&core, set, name = shape.name](const vm::SetValue& value) -> vm::Result<void> {
-           std::vector<std::string> words;
-           for (std::size_t i = 0; i < value.size(); ++i) words.push_back(value.word(i));
-           Visemes shapes = core.motion->shapes(set);
-           for (Viseme& edited : shapes) {
-             if (edited.name != name) continue;
-             if (auto read = ReadShapeValues(words, 0, edited); !read) return read;
-           }
-           core.motion->SetShapes(set, std::move(shapes));
-           return {};
-         },
-         .initial = FormatShapeValues(shape)});
+         .on_set = core.Command(
+             [&core, set, name = shape.name](const vm::SetValue& value) -> vm::Result<void> {
+               std::vector<std::string> words;
+               for (std::size_t i = 0; i < value.size(); ++i) words.push_back(value.word(i));
+               Visemes shapes = core.motion->shapes(set);
+               for (Viseme& edited : shapes) {
+                 if (edited.name != name) continue;
+                 if (auto read = ReadShapeValues(words, 0, edited); !read) return read;
+               }
+               core.motion->SetShapes(set, std::move(shapes));
+               return {};
+             })});
   }
 }
 
@@ -148,21 +151,21 @@ vm::Result<void> SaveShapes(FsmCore& core, ShapeSet set, const std::string& path
 }
 
 void DeclareShapeFiles(FsmCore& core) {
-  core.Declare(
+  core.slots.Declare(
       {.name = "MouthShapes",
        .grammar = "<file>",
+       .access = vm::Access::kWriteOnly,
        .help = "Loads a table of mouth shapes, all 14 or all 28; rows as in mouth_shapes.txt.",
-       .action = [&core](const vm::SetValue& value) { return LoadShapes(core, value.word(0)); },
-       .readable = false});
-  core.Declare(
+       .on_set = core.Command(
+           [&core](const vm::SetValue& value) { return LoadShapes(core, value.word(0)); })});
+  core.slots.Declare(
       {.name = "SaveMouthShapes",
        .grammar = "<int 14..28> <word>",
+       .access = vm::Access::kWriteOnly,
        .help = "Writes the 14 or the 28 mouth shapes to a file, as MouthShapes loads them.",
-       .action =
-           [&core](const vm::SetValue& value) {
-             return SaveShapes(core, SetOfCount(value.number(0)), value.word(1));
-           },
-       .readable = false});
+       .on_set = core.Command([&core](const vm::SetValue& value) {
+         return SaveShapes(core, SetOfCount(value.number(0)), value.word(1));
+       })});
 }
 
 }  // namespace

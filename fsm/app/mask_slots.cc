@@ -25,32 +25,46 @@ MaskSlots::MaskSlots(FsmCore& core, std::string first, const std::vector<std::st
   if (first_.empty()) first_ = all.front();
   std::string names = Joined(listed, all);
   if (names.empty()) names = Joined(all, all);
-  core_.DeclareReadOnly("MaskSet", names, "The faces there are, with commas between them.", true);
-  core_.DeclareReadOnly("NowMask", first_, "The face worn now.", true);
-  core_.Declare({.name = "Mask",
-                 .grammar = "<text>",
-                 .help = "Wears one of the faces of MaskSet.",
-                 .action = [this](const vm::SetValue& value) -> vm::Result<void> {
-                   // Names may hold blanks; at the end, as the original's clients send them, not.
-                   const std::string name =
-                       value.text.substr(0, value.text.find_last_not_of(' ') + 1);
-                   if (auto worn = Wear(name); !worn) return worn;
-                   core_.slots.Report("NowMask", name);
-                   return {};
-                 },
-                 .initial = first_});
+  core_.slots.Declare({.name = "MaskSet",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .initial = names,
+                       .help = "The faces there are, with commas between them.",
+                       .quoted = true});
+  core_.slots.Declare({.name = "NowMask",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .initial = first_,
+                       .help = "The face worn now.",
+                       .quoted = true});
+  core_.slots.Declare(
+      {.name = "Mask",
+       .grammar = "<text>",
+       .initial = first_,
+       .help = "Wears one of the faces of MaskSet.",
+       .on_set = core_.Command([this](const vm::SetValue& value) -> vm::Result<void> {
+         // Names may hold blanks; at the end, as the original's clients send them, not.
+         const std::string name = value.text.substr(0, value.text.find_last_not_of(' ') + 1);
+         if (auto worn = Wear(name); !worn) return worn;
+         core_.slots.Report("NowMask", name);
+         return {};
+       })});
   vm::OrThrow(Wear(first_));
 }
 
 vm::Result<void> MaskSlots::Wear(const std::string& face) {
   if (auto worn = core_.wardrobe.Wear(face); !worn) return worn;
-  core_.motion->expression.SetPerson(HashOf(face));
+  worn_ = face;
+  core_.motion->expression.SetPerson(HashOf(worn_));
   return {};
 }
 
 void MaskSlots::Reset() {
-  if (auto worn = Wear(first_); !worn) return core_.slots.ReportError("Mask", worn.error());
-  core_.slots.Store("NowMask", first_);
+  if (auto worn = Wear(first_); !worn) {
+    core_.slots.ReportError("Mask", worn.error());
+    core_.motion->expression.SetPerson(HashOf(worn_));
+    for (const char* slot : {"Mask", "NowMask"}) core_.slots.Store(slot, worn_);
+  }
 }
 
 }  // namespace fsm

@@ -8,20 +8,21 @@
 namespace fsm {
 
 /// Which face is worn: MaskSet, NowMask and Mask.
-class MaskSlots {
+class MaskSlots final : public ModulePart {
  public:
   /// `first`: the face at the start, "" = the wardrobe's first. `listed`: the names that MaskSet
   /// reports. Names that the wardrobe does not have are left out, and if none remains, all faces
   /// are reported. Every face of the wardrobe can be worn, listed or not. Throws std::runtime_error
   /// with a sentence if the wardrobe has no face `first`. `core` outlives this.
   MaskSlots(FsmCore& core, std::string first, const std::vector<std::string>& listed = {});
-  void Reset();  ///< for `Run = INIT`; the motion is new
+  void Reset() override;
 
  private:
   vm::Result<void> Wear(const std::string& face);
 
   FsmCore& core_;
   std::string first_;
+  std::string worn_;
 };
 
 }  // namespace fsm

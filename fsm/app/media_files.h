@@ -15,8 +15,9 @@ struct MediaFiles {
   std::function<vm::Result<void>(const Image&, const std::string& path)> write_picture = WriteImage;
   std::function<vm::Result<Image>(const std::string& path)> read_picture = ReadImage;
   /// As FilmWriter::Open; no comment: nothing is written into the film's metadata.
-  std::function<vm::Result<std::unique_ptr<FilmWriter>>(
-      const std::string& path, int width, int height, double per_second, const std::string& comment)>
+  std::function<vm::Result<std::unique_ptr<FilmWriter>>(const std::string& path, int width,
+                                                        int height, double per_second,
+                                                        const std::string& comment)>
       open_film = FilmWriter::Open;
 };
 

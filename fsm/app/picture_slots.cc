@@ -13,14 +13,14 @@ PictureSlots::PictureSlots(FsmCore& core)
                    core_.motion->NextActivity(from).value_or(to + vm::Time(1)) <= to;
           },
           [this](const vm::Error& error) { core_.slots.ReportError("Picture.to", error); }) {
-  core_.Declare({.name = "Picture.fps",
-                 .grammar = "<int 1..60>",
-                 .help = "Pictures a second of what Picture.to asks for, from its next setting on.",
-                 .action = [this](const vm::SetValue& value) -> vm::Result<void> {
-                   per_second_ = static_cast<int>(value.number(0));
-                   return {};
-                 },
-                 .initial = std::to_string(kPerSecond)});
+  core_.slots.Declare(
+      {.name = "Picture.fps",
+       .grammar = "<int 1..60>",
+       .initial = std::to_string(kPerSecond),
+       .help = "Pictures a second of what Picture.to asks for, from its next setting on.",
+       .on_set = core_.Command([this](const vm::SetValue& value) {
+         per_second_ = static_cast<int>(value.number(0));
+       })});
   core_.slots.Declare(
       {.name = "Picture.to",
        .grammar = "NONE | <file>",
@@ -35,12 +35,6 @@ PictureSlots::PictureSlots(FsmCore& core)
        },
        .on_inq = [this] { return pictures_.to(); },
        .saved = false});
-}
-
-void PictureSlots::Reset() {
-  End();
-  core_.slots.Store("Picture.to", "NONE");
-  per_second_ = kPerSecond;
 }
 
 }  // namespace fsm

@@ -6,12 +6,12 @@
 namespace fsm {
 
 /// Pictures for another program: Picture.to and Picture.fps.
-class PictureSlots {
+class PictureSlots final : public ModulePart {
  public:
   /// Declares the slots. `core` outlives this.
   explicit PictureSlots(FsmCore& core);
-  void Reset();  ///< for `Run = INIT`
-  void End() { static_cast<void>(pictures_.SendTo("NONE", 1)); }
+  void End() override { static_cast<void>(pictures_.SendTo("NONE", 1)); }
+  void Reset() override { per_second_ = kPerSecond; }
   /// Something was said to the face, which may look otherwise now.
   void Touch() { pictures_.Touch(); }
 

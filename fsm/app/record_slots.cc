@@ -13,19 +13,18 @@ RecordSlots::RecordSlots(FsmCore& core, FilmRecorder::Draw draw)
         core_.slots.Report("Record", "STOP");
         core_.slots.ReportError("Record", error);
       }) {
-  core_.Declare(
+  core_.slots.Declare(
       {.name = "Record.sound",
        .grammar = "<text>",
        .help = "A WAV file that becomes the film's sound when it is stopped; empty = silent.",
-       .action = [](const vm::SetValue&) -> vm::Result<void> { return {}; }});
-  core_.Declare({.name = "Record.fps",
-                 .grammar = "<int 1..120>",
-                 .help = "Frames a second of films and of Frame reports.",
-                 .action = [this](const vm::SetValue& value) -> vm::Result<void> {
-                   frames_per_second_ = static_cast<int>(value.number(0));
-                   return {};
-                 },
-                 .initial = std::to_string(kFramesPerSecond)});
+       .on_set = core_.Command([](const vm::SetValue&) {})});
+  core_.slots.Declare({.name = "Record.fps",
+                       .grammar = "<int 1..120>",
+                       .initial = std::to_string(kFramesPerSecond),
+                       .help = "Frames a second of films and of Frame reports.",
+                       .on_set = core_.Command([this](const vm::SetValue& value) {
+                         frames_per_second_ = static_cast<int>(value.number(0));
+                       })});
   core_.slots.Declare({.name = "Record.start",
                        .grammar = "<text>",
                        .access = vm::Access::kReadOnly,
@@ -69,11 +68,6 @@ vm::Result<std::string> RecordSlots::Stop() {
 void RecordSlots::End() {
   if (!film_.recording()) return;
   if (auto stopped = Stop(); !stopped) core_.slots.ReportError("Record", stopped.error());
-}
-
-void RecordSlots::Reset() {
-  End();
-  frames_per_second_ = kFramesPerSecond;
 }
 
 }  // namespace fsm

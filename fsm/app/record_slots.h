@@ -8,13 +8,13 @@
 namespace fsm {
 
 /// Films of the face: Record and its settings.
-class RecordSlots {
+class RecordSlots final : public ModulePart {
  public:
   /// Declares the slots. `core` outlives this, and so does what `draw` uses.
   RecordSlots(FsmCore& core, FilmRecorder::Draw draw);
-  void Reset();  ///< for `Run = INIT`, while the motion is the old one
   /// Ends the film, if there is one; an error is reported.
-  void End();
+  void End() override;
+  void Reset() override { frames_per_second_ = kFramesPerSecond; }
 
   bool recording() const { return film_.recording(); }
   int frames_per_second() const { return frames_per_second_; }

@@ -62,8 +62,7 @@ SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::st
     if (!first.empty()) throw std::runtime_error(set.error().text);
     // The face is shown all the same when the configuration's picture is missing.
     Notice("background " + first_ + ": " + set.error().text + "; the plain one is shown");
-    core_.slots.Store("Background", kPlain);
-    core_.slots.Store("NowBackground", kPlain);
+    StorePlain();
   }
 }
 
@@ -81,20 +80,29 @@ void SceneSlots::DeclareBackgrounds() {
   std::string names =
       core_.original && !backgrounds_.empty() ? "" : std::string(kPlain) + "," + kStudio;
   for (const auto& [name, file] : backgrounds_) names += (names.empty() ? "" : ",") + name;
-  core_.DeclareReadOnly("BackgroundSet", names,
-                        "The backgrounds that have names, with commas between them.", true);
-  core_.DeclareReadOnly("NowBackground", first_, "The background shown now.", true);
-  core_.Declare(
+  core_.slots.Declare({.name = "BackgroundSet",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .initial = names,
+                       .help = "The backgrounds that have names, with commas between them.",
+                       .quoted = true});
+  core_.slots.Declare({.name = "NowBackground",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .initial = first_,
+                       .help = "The background shown now.",
+                       .quoted = true});
+  core_.slots.Declare(
       {.name = "Background",
        .grammar = "<file>",
+       .initial = first_,
        .help = "What is behind the agent: a name of BackgroundSet, a picture (.png .bmp .rgb), a "
                "colour, #rrggbb, or transparent: pictures then have an alpha channel, 0 there.",
-       .action = [this](const vm::SetValue& value) -> vm::Result<void> {
+       .on_set = core_.Command([this](const vm::SetValue& value) -> vm::Result<void> {
          if (auto set = SetBackground(value.word(0)); !set) return set;
          core_.slots.Report("NowBackground", value.word(0));
          return {};
-       },
-       .initial = first_});
+       })});
 }
 
 vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
@@ -126,47 +134,49 @@ vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
   return {};
 }
 
+void SceneSlots::StorePlain() {
+  for (const char* slot : {"Background", "NowBackground"}) core_.slots.Store(slot, kPlain);
+}
+
 void SceneSlots::ShowBackground(bool transparent) {
   transparent_ = transparent;
   core_.scene.show_background = background_enabled_ && !transparent_;
 }
 
 void SceneSlots::DeclareView() {
-  core_.Declare({.name = "ViewMode",
-                 .grammar = "TEXTURE | TEXTURE_WITH_WIREFRAME | WIREFRAME",
-                 .help = "How the face is drawn.",
-                 .action = [this](const vm::SetValue& value) -> vm::Result<void> {
-                   core_.scene.view_mode = value.word(0) == "TEXTURE" ? ViewMode::kTexture
-                                           : value.word(0) == "WIREFRAME"
-                                               ? ViewMode::kWireframe
-                                               : ViewMode::kTextureWithWireframe;
-                   return {};
-                 },
-                 .initial = "TEXTURE"});
-  core_.Declare(
+  core_.slots.Declare({.name = "ViewMode",
+                       .grammar = "TEXTURE | TEXTURE_WITH_WIREFRAME | WIREFRAME",
+                       .initial = "TEXTURE",
+                       .help = "How the face is drawn.",
+                       .on_set = core_.Command([this](const vm::SetValue& value) {
+                         core_.scene.view_mode = value.word(0) == "TEXTURE" ? ViewMode::kTexture
+                                                 : value.word(0) == "WIREFRAME"
+                                                     ? ViewMode::kWireframe
+                                                     : ViewMode::kTextureWithWireframe;
+                       })});
+  core_.slots.Declare(
       {.name = "ViewBackground",
        .grammar = "ENABLE | DISABLE",
+       .initial = "ENABLE",
        .help = "Whether the background is drawn; without it pictures are transparent there.",
-       .action = [this](const vm::SetValue& value) -> vm::Result<void> {
+       .on_set = core_.Command([this](const vm::SetValue& value) {
          background_enabled_ = value.word(0) == "ENABLE";
          ShowBackground(transparent_);
-         return {};
-       },
-       .initial = "ENABLE"});
-  core_.Declare({.name = "Simulation",
-                 .grammar = "ENABLE | DISABLE",
-                 .help = "Whether what is soft swings as the head moves, as long hair does.",
-                 .action = [this](const vm::SetValue& value) -> vm::Result<void> {
-                   core_.simulates = value.word(0) == "ENABLE";
-                   return {};
-                 },
-                 .initial = "ENABLE"});
-  core_.Declare(
+       })});
+  core_.slots.Declare({.name = "Simulation",
+                       .grammar = "ENABLE | DISABLE",
+                       .initial = "ENABLE",
+                       .help = "Whether what is soft swings as the head moves, as long hair does.",
+                       .on_set = core_.Command([this](const vm::SetValue& value) {
+                         core_.simulates = value.word(0) == "ENABLE";
+                       })});
+  core_.slots.Declare(
       {.name = "Window",
        .grammar = "FULLSCREEN | WINDOWED | <int 16..8192> <int 16..8192>",
+       .initial = std::to_string(start_width_) + " " + std::to_string(start_height_),
        .help =
            "Width and height of the view in pixels; or the window fills the screen, or no more.",
-       .action = [this](const vm::SetValue& value) -> vm::Result<void> {
+       .on_set = core_.Command([this](const vm::SetValue& value) -> vm::Result<void> {
          if (size_locked_ && size_locked_()) {
            return vm::Fail(vm::Errc::kBusy,
                            "a film of this size is recorded; set Record = STOP first");
@@ -174,21 +184,21 @@ void SceneSlots::DeclareView() {
          if (value.size() == 1) return FillScreen(value.word(0) == "FULLSCREEN");
          return core_.view.Resize(static_cast<int>(value.number(0)),
                                   static_cast<int>(value.number(1)));
-       },
-       .initial = std::to_string(start_width_) + " " + std::to_string(start_height_)});
+       })});
 }
 
 void SceneSlots::DeclareCamera() {
-  core_.Declare(
+  core_.slots.Declare(
       {.name = "Camera",
        .grammar =
            "<number 0.2..10> [ <number -500..500> ] [ <number 5..90> ] [ <number -180..180> ]",
+       .initial = "1 0 25 0",
        .help =
            "Where the viewer stands: distance (1 = head and shoulders fill the view), mm above the "
            "middle of the portrait (0), field of view in degrees (25; the head stays as large), "
            "degrees "
            "round the head to the viewer's right (0).",
-       .action = [this](const vm::SetValue& value) -> vm::Result<void> {
+       .on_set = core_.Command([this](const vm::SetValue& value) {
          Camera camera = FirstScene().camera;
          float* const fields[] = {&camera.distance, &camera.height_mm, &camera.field_degrees,
                                   &camera.angle_degrees};
@@ -196,20 +206,19 @@ void SceneSlots::DeclareCamera() {
            *fields[i] = static_cast<float>(value.number(i));
          }
          core_.scene.camera = camera;
-         return {};
-       },
-       .initial = "1 0 25 0"});
+       })});
 }
 
 void SceneSlots::DeclareLight(const std::string& name, const std::string& what,
                               DirectionalLight Scene::*lamp) {
-  core_.Declare(
+  core_.slots.Declare(
       {.name = name,
        .grammar = "<number 0..10> [ <number -180..180> <number -90..90> ] [ <word> ]",
+       .initial = "1",
        .help = what +
                ": its strength (1 = as usual), where it stands (degrees to the viewer's right, "
                "degrees up; left out = as usual), and its colour, #rrggbb (left out = as usual).",
-       .action = [this, lamp](const vm::SetValue& value) -> vm::Result<void> {
+       .on_set = core_.Command([this, lamp](const vm::SetValue& value) -> vm::Result<void> {
          DirectionalLight set;
          set.strength = static_cast<float>(value.number(0));
          if (value.size() >= 3) {
@@ -228,8 +237,7 @@ void SceneSlots::DeclareLight(const std::string& name, const std::string& what,
          }
          core_.scene.*lamp = set;
          return {};
-       },
-       .initial = "1"});
+       })});
 }
 
 void SceneSlots::DeclareSaveImage() {
@@ -280,10 +288,8 @@ void SceneSlots::Reset() {
   if (auto sized = ResetSize(); !sized) core_.slots.ReportError("Window", sized.error());
   if (auto set = SetBackground(first_); !set) {
     core_.slots.ReportError("Background", set.error());
-    for (const char* slot : {"Background", "NowBackground"}) core_.slots.Store(slot, kPlain);
-    return;
+    StorePlain();
   }
-  core_.slots.Store("NowBackground", first_);
 }
 
 }  // namespace fsm

@@ -10,14 +10,14 @@ namespace fsm {
 
 /// What is around the face: backgrounds, the way it is drawn, camera and lamps, the size of the
 /// view, and single pictures of it (SaveImage).
-class SceneSlots {
+class SceneSlots final : public ModulePart {
  public:
   /// `backgrounds`: names and files of the configuration; its first, or else the plain one, is
   /// shown at the start where `first` is empty. Throws std::runtime_error where `first` cannot be
   /// shown. `core` outlives this.
   SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds,
              const std::string& first);
-  void Reset();  ///< for `Run = INIT`; no film is recorded
+  void Reset() override;
   /// The size cannot be changed while this says so (a film is recorded).
   void set_size_locked(std::function<bool()> locked) { size_locked_ = std::move(locked); }
 
@@ -30,6 +30,7 @@ class SceneSlots {
                     DirectionalLight Scene::*lamp);
   void DeclareSaveImage();
   vm::Result<void> SetBackground(const std::string& name);
+  void StorePlain();  // where the first background could not be shown
   void ShowBackground(bool transparent);
   vm::Result<void> FillScreen(bool fill);
   vm::Result<void> ResetSize();

@@ -65,13 +65,19 @@ void SpeechSlots::DeclareListSlots() {
 }
 
 void SpeechSlots::DeclareSpeakSlots() {
-  core_.DeclareReadOnly("Speak.text", kNothing, "The names of the phonemes to speak.");
-  core_.DeclareReadOnly("Speak.pho", kNothing, "The phonemes to speak with their ms.");
-  core_.DeclareReadOnly("Speak.dur", "0", "Their duration in ms.");
-  core_.DeclareReadOnly("Speak.utt", kNothing,
-                        "The phonemes spoken before, as far as they were spoken.");
-  core_.DeclareReadOnly("Speak.len", "0", "How many ms of them were spoken.");
-  core_.DeclareReadOnly("Speak.stat", "IDLE", "IDLE, PROCESSING, READY or SPEAKING.");
+  const auto told = [this](const char* name, const char* initial, const char* help) {
+    core_.slots.Declare({.name = name,
+                         .grammar = "<text>",
+                         .access = vm::Access::kReadOnly,
+                         .initial = initial,
+                         .help = help});
+  };
+  told("Speak.text", kNothing, "The names of the phonemes to speak.");
+  told("Speak.pho", kNothing, "The phonemes to speak with their ms.");
+  told("Speak.dur", "0", "Their duration in ms.");
+  told("Speak.utt", kNothing, "The phonemes spoken before, as far as they were spoken.");
+  told("Speak.len", "0", "How many ms of them were spoken.");
+  told("Speak.stat", "IDLE", "IDLE, PROCESSING, READY or SPEAKING.");
   core_.slots.Declare(
       {.name = "Speak",
        .grammar = "NOW | STOP | <time>",
@@ -104,17 +110,16 @@ void SpeechSlots::DeclareSettings() {
   const auto setting = [this](const char* name, const char* grammar, const char* help,
                               const std::string& initial, auto apply,
                               std::string (*told)(const vm::SetValue&) = nullptr) {
-    core_.Declare({.name = name,
-                   .grammar = grammar,
-                   .help = help,
-                   .action =
-                       [this, set = core_.Setting(apply)](const vm::SetValue& value) {
-                         auto done = set(value);
-                         if (stat_ == Stat::kSpeaking) WaitForEnd();
-                         return done;
-                       },
-                   .initial = initial,
-                   .told = told});
+    core_.slots.Declare(
+        {.name = name,
+         .grammar = grammar,
+         .initial = initial,
+         .help = help,
+         .on_set = [this, set = core_.Setting(apply), told](const vm::SetValue& value) {
+           auto done = set(value);
+           if (stat_ == Stat::kSpeaking) WaitForEnd();
+           return done && told != nullptr ? told(value) : done;
+         }});
   };
   setting("Speak.syncoffset", "<number -10000..10000>",
           "ms added to what the voice reports in Speak.sync.", "0",
@@ -265,16 +270,7 @@ void SpeechSlots::Reset() {
   spoken_.clear();
   start_asked_ = false;
   text_.clear();
-  for (const char* name : {"Speak.text", "Speak.pho", "Speak.utt", "LipSync.pho", "LipSync.text"}) {
-    core_.slots.Store(name, kNothing);
-  }
-  for (const char* name : {"Speak.dur", "Speak.len", "LipSync.dur"}) core_.slots.Store(name, "0");
-  if (was_busy) {
-    core_.slots.Report("Speak.stat", "IDLE");
-    if (listener_.ended) listener_.ended();
-  } else {
-    core_.slots.Store("Speak.stat", "IDLE");
-  }
+  if (was_busy) core_.slots.Report("Speak.stat", "IDLE");
 }
 
 void SpeechSlots::SetStat(Stat stat) {

@@ -17,12 +17,12 @@ namespace fsm {
 ///
 /// `Speak` before the list is remembered and carried out as soon as the list is there. LipSync.pho
 /// while SPEAKING is refused. The end and STOP always report len, utt and IDLE.
-class SpeechSlots {
+class SpeechSlots final : public ModulePart {
  public:
   struct Listener {
     /// SPEAKING was reached; the utterance stands from `start` on, now or just before.
     std::function<void(vm::Time start)> begun = [](vm::Time) {};
-    std::function<void()> ended = [] {};  ///< IDLE was reached
+    std::function<void()> ended = [] {};  ///< IDLE was reached, but not by `Run = INIT`
   };
   /// Declares the slots. `core` outlives this.
   explicit SpeechSlots(FsmCore& core);
@@ -30,8 +30,7 @@ class SpeechSlots {
 
   /// Speaking, or about to at a time that is known.
   bool Busy() const { return stat_ == Stat::kSpeaking || (stat_ == Stat::kReady && start_asked_); }
-  /// Back to IDLE without a word, for `Run = INIT`; the motion is new.
-  void Reset();
+  void Reset() override;
 
  private:
   enum class Stat { kIdle, kProcessing, kReady, kSpeaking };

@@ -287,6 +287,18 @@ TEST(InitTest, AConfiguredBackgroundThatIsGoneLeavesThePlainOne) {
   EXPECT_EQ(used.Say("inq Background"), "rep Background = plain");
 }
 
+TEST(InitTest, AFaceThatIsGoneLeavesTheOneWorn) {
+  FsmStage fsm, worn;
+  for (FsmStage* each : {&fsm, &worn}) each->Say("set Mask = pygmalion");
+  fsm.world.gone = "galatea";
+  fsm.Say("set Run = INIT");
+  EXPECT_EQ(fsm.Say("inq Error"), "rep Error = UNAVAILABLE galatea cannot be made");
+  EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"pygmalion\"");
+  EXPECT_EQ(fsm.Say("inq Mask"), "rep Mask = pygmalion");
+  EXPECT_EQ(Performance(fsm), Performance(worn))
+      << "the sides are as unlike as the face worn has it";
+}
+
 TEST(InitTest, FramesAreCountedFromTheStart) {
   FsmStage fsm;
   fsm.Say("prop Frame = AutoOutput");

@@ -53,6 +53,7 @@ class FakeWorld final : public FaceView, public Wardrobe, private ViewWindow {
       return vm::Fail(vm::Errc::kBadValue,
                       "there is no face '" + name + "'; galatea pygmalion expected");
     }
+    if (name == gone) return vm::Fail(vm::Errc::kUnavailable, name + " cannot be made");
     face = name;
     return {};
   }
@@ -88,6 +89,7 @@ class FakeWorld final : public FaceView, public Wardrobe, private ViewWindow {
   FaceState last_state;
   Scene last_scene;
   std::string face;
+  std::string gone;             ///< the face that cannot be made
   std::vector<Image> readings;  ///< of BeginRead, emptied by EndRead and DropRead
   int draws = 0;
   int shown = 0;

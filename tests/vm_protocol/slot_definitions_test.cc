@@ -67,6 +67,18 @@ TEST_F(DefinitionsTest, SaveKeepsAndRestBringsBack) {
   EXPECT_EQ(LastError(), Errc::kUnknownSlot);
 }
 
+TEST_F(DefinitionsTest, InitialValuesComeBackAndUsersKeepTheirs) {
+  Say("def Own = 3");
+  Say("set A = 5");
+  Say("set B = y");
+  Say("set C = z");
+  slots_.StoreInitialValues();
+  EXPECT_EQ(slots_.Value("A"), "1");
+  EXPECT_EQ(slots_.Value("B"), "x");
+  EXPECT_EQ(slots_.Value("Own"), "3");
+  EXPECT_NE(slots_.Value("Error"), "") << "what was refused is still told";
+}
+
 TEST_F(DefinitionsTest, SaveTakesAListOfSlots) {
   Say("save only = A");
   Say("set A = 5");

@@ -317,6 +317,12 @@ void SlotMachine::Store(std::string_view slot_name, std::string value) {
   slot->value = std::move(value);
 }
 
+void SlotMachine::StoreInitialValues() {
+  for (const auto& slot : slots_) {
+    if (!slot->user_made && slot->spec.name != kErrorSlot) slot->value = slot->spec.initial;
+  }
+}
+
 std::string SlotMachine::Value(std::string_view slot_name) const {
   const Slot* slot = Find(slot_name);
   assert(slot != nullptr);

@@ -133,6 +133,9 @@ class SlotMachine {
   void Report(std::string_view slot, std::string value);
   /// Stores without reporting.
   void Store(std::string_view slot, std::string value);
+  /// Gives every slot of the module its SlotSpec::initial again, without reporting, but for Error.
+  /// Slots that users have defined keep their values.
+  void StoreInitialValues();
   std::string Value(std::string_view slot) const;  ///< as `inq` would say it, unquoted
   bool AutoOutput(std::string_view slot) const;
   /// `tell TEXT` to everyone.
