@@ -96,7 +96,7 @@ void FsmModule::Initialise() {
 
 std::vector<vm::Message> FsmModule::Greeting() {
   std::vector<vm::Message> lines = {vm::Rep("Run", "LIVE")};
-  if (options_.announce_config) {
+  if (core_.original) {  // as the original greets
     lines.push_back(vm::Tell("detected: -C flag: " + options_.config.path));
   }
   return lines;

@@ -27,8 +27,7 @@ struct FsmOptions {
   std::string mask;          ///< face worn at the start, "" = the wardrobe's first
   std::string background;    ///< as slot Background at the start, "" = the configuration's first
   std::string life = "OFF";  ///< profile of Life at the start
-  OriginalConfig config;     ///< path "" = none
-  bool announce_config = false;  ///< greet as the original does: tell detected: -C flag: FILE
+  OriginalConfig config;     ///< path "" = none; another is told at the start
   /// Called when the window cannot be drawn any more, which ends the module.
   std::function<void()> on_failure = [] {};
 };

@@ -80,6 +80,7 @@ vm::Result<std::vector<std::string>> CheckTables(const std::string& folder) try 
   std::vector<std::string> notices;
   std::error_code code;
   if (folder.empty() || !std::filesystem::is_directory(folder, code)) return notices;
+  static_cast<void>(FeaturesIn(folder));
   const std::vector<std::string> known = TableNames();
   if (const auto unknown = UnknownFiles(folder, known); !unknown.empty()) {
     notices.push_back(

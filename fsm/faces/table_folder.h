@@ -16,7 +16,8 @@ std::optional<std::string> TableIn(const std::string& folder, const std::string&
 /// carries. Notices, a line each: which files have no table's name and so are not read, and which
 /// units have no rows in action_units.txt and so move nothing. At most kMostListed are named of
 /// each. Folder "": nothing. Errors: kBadValue "FILE:LINE: ..." where action_units.txt has a row of
-/// a number that is no unit in action_unit_names.txt, or either is damaged; kUnavailable.
+/// a number that is no unit in action_unit_names.txt, or either or features.txt is damaged;
+/// kUnavailable.
 vm::Result<std::vector<std::string>> CheckTables(const std::string& folder);
 
 /// "a, b, c and 4 more", for notices: at most kMostListed words, each of at most 60 bytes. Names

@@ -358,7 +358,6 @@ TEST(FsmModuleTest, TheOriginalsConfigurationIsTaken) {
   EXPECT_EQ(config->width, 512);
   FsmOptions options;
   options.config = *config;
-  options.announce_config = true;
   FsmStage fsm(options);
   EXPECT_EQ(vm::FormatMessage(fsm.module.Greeting().at(1)),
             "tell detected: -C flag: " + (folder / "config.txt").string());

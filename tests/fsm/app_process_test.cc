@@ -254,6 +254,22 @@ TEST_F(FsmProcessTest, AFilmWithoutBackgroundIsTransparentBesideTheHead) {
   EXPECT_GE(alpha(80, 60), 254) << "the nose";
 }
 
+TEST_F(FsmProcessTest, RunsThatEndAtOnceFollowTheConfiguration) {
+  std::ofstream(folder / "rest") << "";
+  std::ofstream(folder / "faces.txt")
+      << "DEF_WFM_PNT rest\nDEF_WFM_LNK rest\nMaskFile a rest a.pnt\n";
+  std::ofstream(folder / "a.pnt") << "junk\n";
+  for (const char* face : {"", "--mask a "}) {
+    for (const char* work : {"--describe", "--export a.glb", "--sheet emotions --out a.png"}) {
+      EXPECT_EQ(Run(std::string("-C faces.txt ") + face + work, ""), 1) << work;
+      EXPECT_NE(err.find("face 'a': "), std::string::npos) << work << ": " << err;
+    }
+  }
+  std::ofstream(folder / "moves.txt") << "FaceMotNod nowhere.mot\n";
+  EXPECT_EQ(Run("-C moves.txt --sheet emotions --out b.png", ""), 1);
+  EXPECT_NE(err.find("nowhere.mot"), std::string::npos) << err;
+}
+
 TEST_F(FsmProcessTest, AnOutputWithoutASheetIsRefused) {
   EXPECT_NE(Run("--headless --out film.mp4", "inq Run\n"), 0);
   EXPECT_NE(err.find("--out requires --sheet"), std::string::npos) << err;
