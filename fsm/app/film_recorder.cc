@@ -1,5 +1,7 @@
 #include "fsm/app/film_recorder.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 namespace fsm {
@@ -20,7 +22,9 @@ vm::Result<void> FilmRecorder::Start(const std::string& path, int frames_per_sec
   if (recording()) {
     return vm::Fail(vm::Errc::kBusy, "recording " + path_ + "; set Record = STOP first");
   }
-  auto writer = files_.open_film(path, view_.width(), view_.height(), frames_per_second, "");
+  width_ = view_.width();
+  height_ = view_.height();
+  auto writer = files_.open_film(path, width_, height_, frames_per_second, "");
   if (!writer) return std::unexpected(writer.error());
   writer_ = std::move(*writer);
   path_ = path;
@@ -56,6 +60,11 @@ vm::Result<void> FilmRecorder::AddUpTo(vm::Time now, long most_repeats) {
     ++repeated_;
   }
   if (auto drawn = draw_(next_, series_.TimeOf(next_)); !drawn) return drawn;
+  if (view_.width() != width_ || view_.height() != height_) {  // the user has resized the window
+    return vm::Fail(vm::Errc::kUnavailable,
+                    fmt::format("the film {} of {} x {} has ended, for the view is {} x {} now",
+                                path_, width_, height_, view_.width(), view_.height()));
+  }
   ++next_;
   return queue_.Add(!writer_->is_live());
 }

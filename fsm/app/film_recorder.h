@@ -13,7 +13,8 @@ namespace fsm {
 
 /// Records a film of the face: frame k is the face at start + k / rate exactly. When drawing falls
 /// behind the clock, the frame before is repeated so that the film keeps step with time; on the
-/// virtual clock that never happens. Thread: the scheduler's; a timer is pending while recording.
+/// virtual clock that never happens. A view that gets another size ends the film as a failure.
+/// Thread: the scheduler's; a timer is pending while recording.
 class FilmRecorder {
  public:
   /// Draws frame `number` as the face is at `at`; the picture is then read from the view.
@@ -55,6 +56,7 @@ class FilmRecorder {
   std::unique_ptr<FilmWriter> writer_;
   FrameQueue queue_;
   std::string path_;
+  int width_ = 0, height_ = 0;  // of the film
   FrameSeries series_;
   long next_ = 0;
   long repeated_ = 0;

@@ -32,8 +32,8 @@ void WriteSheet(const Options& options, const MotionTables& tables, HeadWardrobe
   cell.width = kCellWidth;
   cell.height = kCellHeight;
   GlFaceView view(wardrobe, cell);
-  const auto sheet = vm::OrThrow(
-      MakeSheet(options.sheet, tables, FacesShown(options), options.module.mask));
+  const auto sheet =
+      vm::OrThrow(MakeSheet(options.sheet, tables, FacesShown(options), options.module.mask));
   const Image picture = vm::OrThrow(DrawSheet(view, wardrobe, sheet, options.labels));
   vm::OrThrow(WriteImage(picture, options.sheet_file));
 }

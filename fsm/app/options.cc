@@ -94,8 +94,8 @@ NamedFace GivenFace(const Options& options) {
   for (char& c : name) {
     if (!IsFaceName(std::string_view(&c, 1))) c = '_';
   }
-  return {name.empty() ? "head" : name, [file = options.head, tables = options.module.tables,
-                                         cache = HeadCache(options.cache)] {
+  return {name.empty() ? "head" : name,
+          [file = options.head, tables = options.module.tables, cache = HeadCache(options.cache)] {
             return cache.HeadOfFile(file, tables);
           }};
 }

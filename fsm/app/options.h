@@ -42,8 +42,8 @@ void AddOptions(CLI::App& app, Options& options);
 
 /// Reads what the words name: the configuration goes into options.module, and what it says of the
 /// view holds where the words say nothing; the faces are those of --head and of the configuration.
-/// Tells on stderr what is odd about them and the folder of --tables. Throws std::runtime_error with
-/// a sentence.
+/// Tells on stderr what is odd about them and the folder of --tables. Throws std::runtime_error
+/// with a sentence.
 void Complete(Options& options);
 
 }  // namespace fsm

@@ -131,6 +131,14 @@ Words SoundWords(const FilmKind& kind, const std::string& film, const std::strin
   return words;
 }
 
+vm::Result<void> CheckFrame(const Image& frame, int width, int height, const std::string& path) {
+  assert(frame.IsWhole());
+  if (frame.width == width && frame.height == height) return {};
+  return vm::Fail(vm::Errc::kBadValue, "a frame of " + SizeText(frame.width, frame.height) +
+                                           " does not fit into the film '" + path + "' of " +
+                                           SizeText(width, height));
+}
+
 class FfmpegFilmWriter : public FilmWriter {
  public:
   FfmpegFilmWriter(const FilmKind& kind, std::string comment, std::string path, std::string draft,
@@ -152,7 +160,7 @@ class FfmpegFilmWriter : public FilmWriter {
   }
 
   vm::Result<void> Add(const Image& frame) override {
-    assert(frame.width == width_ && frame.height == height_ && frame.IsWhole());
+    if (auto fits = CheckFrame(frame, width_, height_, path_); !fits) return fits;
     if (!ffmpeg_) return vm::Fail(vm::Errc::kUnavailable, "the film '" + path_ + "' has ended");
     auto bytes = feeder_->TakeSpare();
     if (kind_.as_rgba) {
@@ -223,11 +231,12 @@ class FfmpegFilmWriter : public FilmWriter {
 /// Raw frames, as they come, into a file or a pipe.
 class RawFilmWriter : public FilmWriter {
  public:
-  RawFilmWriter(std::string path, int fd, bool is_pipe)
-      : path_(std::move(path)), fd_(fd), is_pipe_(is_pipe) {}
+  RawFilmWriter(std::string path, int width, int height, int fd, bool is_pipe)
+      : path_(std::move(path)), width_(width), height_(height), fd_(fd), is_pipe_(is_pipe) {}
   ~RawFilmWriter() override { Close(); }
 
   vm::Result<void> Add(const Image& frame) override {
+    if (auto fits = CheckFrame(frame, width_, height_, path_); !fits) return fits;
     for (std::span<const std::uint8_t> left(frame.rgba); fd_ >= 0 && !left.empty();) {
       const auto written = write(fd_, left.data(), left.size());
       if (written > 0) {
@@ -263,11 +272,13 @@ class RawFilmWriter : public FilmWriter {
   }
 
   std::string path_;
+  int width_;
+  int height_;
   int fd_;
   bool is_pipe_;
 };
 
-vm::Result<std::unique_ptr<FilmWriter>> OpenRaw(const std::string& path) {
+vm::Result<std::unique_ptr<FilmWriter>> OpenRaw(const std::string& path, int width, int height) {
   struct stat state {};
   const bool is_pipe = stat(path.c_str(), &state) == 0 && S_ISFIFO(state.st_mode);
   if (!is_pipe) {
@@ -281,7 +292,7 @@ vm::Result<std::unique_ptr<FilmWriter>> OpenRaw(const std::string& path) {
         "cannot write frames to '" + path + "': " +
             (errno == ENXIO ? "nobody reads that pipe" : std::generic_category().message(errno)));
   }
-  return std::make_unique<RawFilmWriter>(path, fd, is_pipe);
+  return std::make_unique<RawFilmWriter>(path, width, height, fd, is_pipe);
 }
 
 /// An empty file beside the film's place, under a name nobody else has; made before the first
@@ -320,7 +331,7 @@ vm::Result<std::unique_ptr<FilmWriter>> FilmWriter::Open(const std::string& path
                     "a film cannot be " + std::to_string(width) + " x " + std::to_string(height) +
                         " at " + fmt::format("{:g}", frames_per_second) + " per second");
   }
-  if (IsRaw(path)) return OpenRaw(path);
+  if (IsRaw(path)) return OpenRaw(path, width, height);
   if (auto fit = vm::CheckWritable(path); !fit) return std::unexpected(std::move(fit.error()));
   const FilmKind& kind = *KindOf(path);
   auto draft = MakeDraft(path);

@@ -29,11 +29,12 @@ class FilmWriter {
   /// Whether the name ends as one of these. Error: kBadValue, as of Open.
   static vm::Result<void> CheckName(const std::string& path);
   virtual ~FilmWriter() = default;
-  /// REQUIRES: the frame has the size given at Open. For ffmpeg the frame is handed on by another
-  /// thread: the call blocks only while FrameFeeder::kMostWaiting frames wait, and an error may
-  /// belong to a frame before. An .rgba frame is written by the caller's thread: the call blocks
-  /// until the file or the reader of the pipe has taken all of it. A reader that takes nothing for
-  /// five seconds is an error. Error: kUnavailable; the film has then ended.
+  /// Adds a frame. For ffmpeg it is handed on by another thread: the call blocks only while
+  /// FrameFeeder::kMostWaiting frames wait, and an error may belong to a frame before. An .rgba
+  /// frame is written by the caller's thread: the call blocks until the file or the reader of the
+  /// pipe has taken all of it. A reader that takes nothing for five seconds is an error. Errors:
+  /// kBadValue for a frame of another size than that given at Open, which is left out;
+  /// kUnavailable, and the film has then ended.
   virtual vm::Result<void> Add(const Image& frame) = 0;
   /// Ends the film; `sound_wav` (may be empty) is added as its sound from the start. The result is
   /// moved to the path only when complete. Errors: kUnavailable; when only the sound is at fault

@@ -48,12 +48,13 @@ struct FilmTest : testing::Test {
               clock.now += drawing_takes;
               return world.Draw(FaceState{}, Scene{}, nullptr);
             },
-            [](const vm::Error&) {}) {}
+            [this](const vm::Error& error) { failure = error.text; }) {}
 
   LateClock clock;
   FakeWorld world;
   std::vector<std::pair<long, vm::Time>> drawn;
   vm::Time drawing_takes{0};
+  std::string failure;
   FilmRecorder film;
 };
 
@@ -120,6 +121,17 @@ TEST_F(FilmTest, AFilmThatFailsLeavesNoFrameBehind) {
   clock.RunNext();
   EXPECT_FALSE(film.recording());
   EXPECT_TRUE(world.readings.at(0).rgba.empty());
+}
+
+TEST_F(FilmTest, AViewOfAnotherSizeEndsTheFilm) {
+  ASSERT_TRUE(film.Start("a.mp4", 30));
+  clock.RunNext();
+  ASSERT_TRUE(world.Resize(641, 480));
+  clock.RunNext();
+  EXPECT_FALSE(film.recording());
+  EXPECT_NE(failure.find("640 x 480 has ended, for the view is 641 x 480"), std::string::npos)
+      << failure;
+  EXPECT_LE(world.films["a.mp4"].jaws.size(), 1U) << "nothing of another size was written";
 }
 
 /// Writes pictures of 1000 bytes.

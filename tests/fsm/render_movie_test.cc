@@ -251,6 +251,21 @@ TEST_F(MovieTest, PipeWithoutAReaderIsRefused) {
   EXPECT_NE(writer.error().text.find("nobody reads"), std::string::npos) << writer.error().text;
 }
 
+TEST_F(MovieTest, AFrameOfAnotherSizeIsRefusedAndLeftOut) {
+  for (const char* name : {"film.mp4", "film.rgba"}) {
+    auto writer = FilmWriter::Open(folder_ / name, 64, 48, kFps);
+    ASSERT_TRUE(writer);
+    ASSERT_TRUE((*writer)->Add(Pattern(64, 48, 0)));
+    const auto added = (*writer)->Add(Pattern(48, 64, 0));
+    ASSERT_FALSE(added) << name;
+    EXPECT_EQ(added.error().code, vm::Errc::kBadValue);
+    EXPECT_NE(added.error().text.find("a frame of 48x64"), std::string::npos) << added.error().text;
+    EXPECT_TRUE((*writer)->Add(Pattern(64, 48, 5)));
+    EXPECT_TRUE((*writer)->Finish(""));
+  }
+  EXPECT_EQ(std::filesystem::file_size(folder_ / "film.rgba"), 2U * 64 * 48 * 4);
+}
+
 TEST_F(MovieTest, UnfinishedFilmLeavesNoFile) {
   {
     auto movie = FilmWriter::Open(film_, 64, 48, kFps);
