@@ -93,8 +93,12 @@ class GltfReader {
       Refuse(document_, "meshes[" + std::to_string(place.mesh) + "]: " + kPackedMesh);
     }
     // Primitives of a mesh often share their vertices.
-    const auto [known, fresh] = runs_.try_emplace({place.node, position});
-    if (fresh) known->second = ReadVertices(primitive, place, names);
+    const GltfUv uv = paint_.UvOfMaterial(JsonInteger(primitive, "material"));
+    const json sources =
+        json::array({place.node, attributes, JsonMember(primitive, "targets"), uv.set, uv.move.x,
+                     uv.move.y, uv.size.x, uv.size.y, uv.turn_rad});
+    const auto [known, fresh] = runs_.try_emplace(sources.dump());
+    if (fresh) known->second = ReadVertices(primitive, place, uv, names);
     ImportedHead::Part part;
     part.name = name;
     part.indices = TrianglesOf(primitive, place, known->second);
@@ -104,7 +108,7 @@ class GltfReader {
     if (!part.indices.empty()) head_.parts.push_back(std::move(part));
   }
 
-  /// Vertices of the head that one accessor of positions has become, under one node.
+  /// Vertices of the head that one set of attributes has become, under one node.
   struct VertexRun {
     std::size_t first = 0, count = 0;
     bool mirrored = false;  // by the node: its triangles are seen from the other side
@@ -132,7 +136,7 @@ class GltfReader {
     return indices;
   }
 
-  VertexRun ReadVertices(const json& primitive, const GltfPlace& place,
+  VertexRun ReadVertices(const json& primitive, const GltfPlace& place, const GltfUv& uv,
                          const std::vector<std::string>& names) {
     const json& attributes = JsonMember(primitive, "attributes");
     const std::int64_t position = JsonInteger(attributes, "POSITION");
@@ -162,7 +166,6 @@ class GltfReader {
       springs_.Bind(static_cast<std::uint32_t>(first + vertex), head_.position[first + vertex],
                     node, weight, head_.swing.weights);
     }
-    const GltfUv uv = paint_.UvOfMaterial(JsonInteger(primitive, "material"));
     ReadTexcoords(attributes, uv, first);
     if (attributes.contains("COLOR_0")) ReadTints(JsonInteger(attributes, "COLOR_0"), first, count);
     targets_.Read(primitive, place, transforms, first, names);
@@ -223,7 +226,7 @@ class GltfReader {
   GltfPaint paint_;
   GltfTargets targets_;
   std::map<std::int64_t, GltfSkin> skins_;
-  std::map<std::pair<std::int64_t, std::int64_t>, VertexRun> runs_;  // by node and accessor
+  std::map<std::string, VertexRun> runs_;  // by node, accessors and place of the picture, as JSON
   std::size_t triangles_ = 0;
 };
 

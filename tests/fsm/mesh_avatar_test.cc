@@ -94,6 +94,22 @@ TEST(GltfPlaceTest, ShapesOfShortsWithOneVertexNamedMoveThatVertex) {
   ExpectPlace(file.position[2], {0, 2, 0});
 }
 
+TEST(GltfPlaceTest, PrimitivesShareVerticesOnlyWhereAllAttributesAreTheSame) {
+  GltfMaker maker;
+  const std::string place = R"({"attributes":{"POSITION":)" + Number(maker.Places(kTriangle));
+  const std::string red =
+      place + R"(,"COLOR_0":)" + Number(maker.Places({1, 0, 0, 1, 0, 0, 1, 0, 0})) + "}}";
+  const std::string green =
+      place + R"(,"COLOR_0":)" + Number(maker.Places({0, 1, 0, 0, 1, 0, 0, 1, 0})) + "}}";
+  const ImportedHead file = Read(maker.File(R"("nodes":[{"mesh":0}],"meshes":[{"primitives":[)" +
+                                            red + "," + red + "," + green + "]}]"));
+  ASSERT_EQ(file.parts.size(), 3U);
+  EXPECT_EQ(file.parts[0].indices, file.parts[1].indices);
+  ASSERT_EQ(file.tint.size(), 6U);
+  EXPECT_EQ(file.tint[file.parts[0].indices[0]], glm::vec3(1, 0, 0));
+  EXPECT_EQ(file.tint[file.parts[2].indices[0]], glm::vec3(0, 1, 0));
+}
+
 TEST(GltfPlaceTest, PackedGeometryIsRefusedByName) {
   for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
     const auto file = ParseGltfHead("a.glb", std::string(R"({"asset":{"version":"2.0"},)") +
