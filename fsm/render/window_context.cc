@@ -1,6 +1,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -94,7 +96,12 @@ class WindowContext : public SwitchedContext {
   void Move(int x, int y) override { glfwSetWindowPos(window_, x, y); }
   void Resize(int width, int height) override {
     SetFullScreen(false);
-    glfwSetWindowSize(window_, width, height);
+    // GLFW sets the size in screen coordinates, of which one is several pixels on a dense screen.
+    const auto [pixels_wide, pixels_high] = Size();
+    int wide = 0;
+    int high = 0;
+    glfwGetWindowSize(window_, &wide, &high);
+    glfwSetWindowSize(window_, Scaled(width, wide, pixels_wide), Scaled(height, high, pixels_high));
     glfwPollEvents();
   }
   bool close_requested() const override { return glfwWindowShouldClose(window_) != 0; }
@@ -102,6 +109,11 @@ class WindowContext : public SwitchedContext {
  private:
   void Bind() override { glfwMakeContextCurrent(window_); }
   void Release() override { glfwMakeContextCurrent(nullptr); }
+
+  /// pixels * coordinates / all, at least 1.
+  static int Scaled(int pixels, int coordinates, int all) {
+    return std::max(1, static_cast<int>(std::lround(1.0 * pixels * coordinates / all)));
+  }
 
   /// At least 1 x 1: a minimised window has no pixels, and drawing must go on.
   std::pair<int, int> Size() const {
