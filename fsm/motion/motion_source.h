@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -31,9 +32,7 @@ struct MotionLayer {
 /// outlive it.
 class MotionLayers {
  public:
-  MotionLayers() { layers_.reserve(20); }
-
-  /// The layer of that name, at rest when it is asked for first; valid until the next call.
+  /// The layer of that name, at rest when it is asked for first; valid as long as this.
   MotionLayer& Layer(std::string_view name) {
     const auto found = std::ranges::find(layers_, name, &NamedLayer::first);
     return found != layers_.end() ? found->second
@@ -44,7 +43,7 @@ class MotionLayers {
   }
 
   using NamedLayer = std::pair<std::string_view, MotionLayer>;
-  const std::vector<NamedLayer>& all() const { return layers_; }
+  const std::deque<NamedLayer>& all() const { return layers_; }
   double Signal(std::string_view name) const {
     double greatest = 0;
     for (const auto& [signal, value01] : signals_) {
@@ -54,7 +53,7 @@ class MotionLayers {
   }
 
  private:
-  std::vector<NamedLayer> layers_;
+  std::deque<NamedLayer> layers_;  // which moves none when one is added
   std::vector<std::pair<std::string_view, double>> signals_;
 };
 

@@ -1,5 +1,7 @@
 #include "fsm/motion/phoneme_names.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "fsm/base/table_reader.h"
@@ -65,11 +67,11 @@ vm::Result<std::vector<EngineNames>> ReadPhonemeNames(const std::string& name,
 }
 
 std::string EngineList(const std::vector<EngineNames>& engines) {
-  std::string list = "FLITE OPEN_JTALK";
+  std::vector<std::string> list{"FLITE", "OPEN_JTALK"};
   for (const EngineNames& names : engines) {
-    if (list.find(names.engine) == std::string::npos) list += " " + names.engine;
+    if (std::ranges::find(list, names.engine) == list.end()) list.push_back(names.engine);
   }
-  return list;
+  return fmt::format("{}", fmt::join(list, " "));
 }
 
 PhonemeReader::PhonemeReader(const vm::PhonemeList& phonemes, const MouthSet& set,

@@ -170,6 +170,12 @@ TEST(PhonemeNamesTest, ALanguageOrAnEngineCanBeInsistedOn) {
   EXPECT_TRUE(english("k 10 a 10 t 10", Language::kAuto, "ESPEAK"));
 }
 
+TEST(PhonemeNamesTest, AnEngineWhoseNameIsWithinAnothersIsListed) {
+  EXPECT_EQ(
+      EngineList({{"JTALK", false, {}, {}}, {"FLITE", true, {}, {}}, {"JTALK", true, {}, {}}}),
+      "FLITE OPEN_JTALK JTALK");
+}
+
 TEST(PhonemeTablesTest, BothSetsKnowTheSamePhonemes) {
   for (const auto& [name, look] : Tables().set28.english) {
     EXPECT_TRUE(Tables().set14.english.contains(name)) << name;

@@ -38,6 +38,15 @@ MotionTables With(const std::string& file, const std::string& rows) {
   return tables ? *tables : MotionTables::Load().value();
 }
 
+TEST(MotionLayersTest, ALayerStaysWhereItIsWhileOthersCome) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 100; ++i) names.push_back("layer" + std::to_string(i));
+  MotionLayers layers;
+  MotionLayer* const first = &layers.Layer("first");
+  for (const std::string& name : names) layers.Layer(name);
+  EXPECT_EQ(&layers.Layer("first"), first);
+}
+
 TEST(MotionSourceTest, ASourceFromOutsideIsMixedWithTheOthersWithoutARowOfItsOwn) {
   FaceMotion motion(MotionTables::Load().value(), 1);
   motion.Add(std::make_unique<Turning>());
