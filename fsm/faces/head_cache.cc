@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -120,16 +121,20 @@ void HeadCache::Keep(const std::string& entry, const std::string& made_from,
 }
 
 void HeadCache::DropOldest() const {
-  std::vector<std::pair<fs::file_time_type, fs::path>> kept;
+  // One of the two files may be missing: a run that was ended between them left the other.
+  std::map<fs::path, fs::file_time_type> entries;
   for (const fs::directory_entry& file : fs::directory_iterator(folder_)) {
-    if (file.path().filename().string().ends_with(std::string(kEntry) + ".txt"))
-      kept.emplace_back(file.last_write_time(), file.path());
+    const fs::path ending = file.path().extension();
+    if ((ending != ".txt" && ending != ".glb") || !file.path().stem().string().ends_with(kEntry))
+      continue;
+    fs::file_time_type& time = entries[folder_ / file.path().stem()];
+    time = std::max(time, file.last_write_time());
   }
-  if (kept.size() < kMostHeads) return;
+  std::vector<std::pair<fs::file_time_type, fs::path>> kept;
+  for (const auto& [entry, time] : entries) kept.emplace_back(time, entry);
   std::ranges::sort(kept);
   for (std::size_t i = 0; i + kMostHeads <= kept.size(); ++i) {
-    fs::remove(kept[i].second);
-    fs::remove(kept[i].second.replace_extension(".glb"));
+    for (const char* ending : {".txt", ".glb"}) fs::remove(kept[i].second.string() + ending);
   }
 }
 

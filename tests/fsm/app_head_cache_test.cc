@@ -147,6 +147,17 @@ TEST_F(HeadCacheTest, OnlyTheLastHeadsAreKept) {
   EXPECT_EQ(Kept(".txt"), HeadCache::kMostHeads + 40);
 }
 
+TEST_F(HeadCacheTest, HalvesOfHeadsThatWereLeftAreDropped) {
+  Make();
+  const std::string name = std::filesystem::path(OnlyKept()).filename().string();
+  for (int i = 0; i < 40; ++i) {
+    std::ofstream(cache_ + "/" + std::to_string(10 + i) + name.substr(2)) << "cut";
+  }
+  WriteHead("b.obj", 2);
+  Make("b.obj");
+  EXPECT_LE(Kept(".glb"), HeadCache::kMostHeads);
+}
+
 TEST_F(HeadCacheTest, WhereNothingCanBeKeptTheHeadIsThereAllTheSame) {
   std::ofstream(folder_ / "file") << "in the way";
   cache_ = folder_ / "file";
