@@ -127,7 +127,8 @@ class Run {
   /// A face's own table of units goes before that of the folder of tables.
   void OpenUnitsOfMask() {
     if (options_.mask.empty() || !options_.head.empty()) return;
-    const std::string path = fsm::FacesFolder() + "/" + options_.mask + "/" + fsm::kUnitsFile;
+    const std::string path =
+        fsm::FacesFolder() + "/" + options_.mask + "/" + std::string(fsm::TableFolder::kUnits);
     std::error_code code;
     if (!fsm::IsFaceName(options_.mask) || !std::filesystem::exists(path, code)) return;
     vm::OrThrow(editor_->Load(editor::Part::kUnits, path));

@@ -137,7 +137,7 @@ struct Workshop {
       : folder(options.out.empty() ? fsm::FacesFolder() : options.out),
         networks(vm::OrThrow(facefit::FaceNetworks::Load(options.networks))),
         base(vm::OrThrow(facefit::BaseHead::Observe(networks, options.base))) {
-    const std::string own = fsm::UnitsFolder(folder + "/" + options.name, options.tables);
+    const fsm::TableFolder own = fsm::UnitsFolder(folder + "/" + options.name, options.tables);
     if (const auto units = fsm::UnitsIn(own)) base.MoveBy(*units);
     progress.Say("networks read, head looked at");
   }

@@ -15,6 +15,7 @@
 #include "fsm/app/record_slots.h"
 #include "fsm/app/scene_slots.h"
 #include "fsm/app/speech_slots.h"
+#include "fsm/base/table_folder.h"
 #include "fsm/faces/original_config.h"
 #include "vm_protocol/core/module.h"
 #include "vm_protocol/core/timer.h"
@@ -23,7 +24,7 @@ namespace fsm {
 
 struct FsmOptions {
   std::uint64_t seed = 1;    ///< of everything the face does by itself
-  std::string tables;        ///< folder of tables that replace the built-in ones
+  TableFolder tables;        ///< in place of those of the program
   std::string mask;          ///< face worn at the start, "" = the wardrobe's first
   std::string background;    ///< as slot Background at the start, "" = the configuration's first
   std::string life = "OFF";  ///< profile of Life at the start

@@ -4,18 +4,17 @@
 #include <stdexcept>
 
 #include "fsm/base/notice.h"
-#include "fsm/faces/face_of_name.h"
-#include "fsm/faces/table_folder.h"
+#include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
 namespace {
 
-/// How things look, in place of fsm/render/tables/appearance.txt: the file of that name in a folder
-/// of tables; nothing if there is none. Throws std::runtime_error naming file and line.
-std::optional<Appearance> AppearanceIn(const std::string& folder) {
-  const auto text = TableIn(folder, kAppearanceFile);
-  if (!text) return std::nullopt;
-  return Appearance(folder + "/" + kAppearanceFile, *text);
+/// How things look, in place of fsm/render/tables/appearance.txt; nothing if the folder does not
+/// say it. Throws std::runtime_error naming file and line.
+std::optional<Appearance> AppearanceIn(const TableFolder& folder) {
+  const auto own = vm::OrThrow(folder.Find(TableFolder::kAppearance));
+  if (!own) return std::nullopt;
+  return Appearance(own->path, own->text);
 }
 
 }  // namespace

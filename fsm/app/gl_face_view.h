@@ -8,6 +8,7 @@
 
 #include "fsm/app/face_view.h"
 #include "fsm/app/head_wardrobe.h"
+#include "fsm/base/table_folder.h"
 #include "fsm/render/appearance.h"
 #include "fsm/render/renderer.h"
 
@@ -25,8 +26,7 @@ class GlFaceView final : public FaceView, private ViewWindow {
     OffScreen off_screen = OffScreen::kOsMesa;  ///< of the context without a window
     RigOn rig = RigOn::kBest;
     std::optional<std::pair<int, int>> position = {};  ///< of the window's upper left corner
-    /// A folder that may have an appearance of one's own.
-    std::string tables = {};
+    TableFolder tables = {};  ///< which may have an appearance of one's own
   };
   /// Throws std::runtime_error with a sentence if a window is asked for and cannot be had, or if
   /// appearance.txt is wrong.

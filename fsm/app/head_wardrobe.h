@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fsm/app/wardrobe.h"
+#include "fsm/base/table_folder.h"
 #include "fsm/faces/original_faces.h"
 #include "fsm/rig/head.h"
 
@@ -13,9 +14,8 @@ namespace fsm {
 /// Faces that are heads of ours: those given, the built-in ones and those of the folder of faces.
 class HeadWardrobe final : public Wardrobe {
  public:
-  /// `more`: faces beside the others, listed before them. `tables`: a folder that may have units
-  /// and features (see MakeHeadOfName).
-  HeadWardrobe(std::vector<NamedFace> more, std::string tables)
+  /// `more`: faces beside the others, listed before them. `tables`: of MakeHeadOfName.
+  HeadWardrobe(std::vector<NamedFace> more, TableFolder tables)
       : more_(std::move(more)), tables_(std::move(tables)) {}
 
   std::vector<std::string> Faces() const override;
@@ -30,7 +30,7 @@ class HeadWardrobe final : public Wardrobe {
   std::unique_ptr<Head> Make(const std::string& face) const;
 
   const std::vector<NamedFace> more_;
-  const std::string tables_;
+  const TableFolder tables_;
   std::string worn_;            // "" = the first
   std::unique_ptr<Head> head_;  // made at the first need, as drawing may never be asked for
 };

@@ -13,7 +13,7 @@
 #include "fsm/base/notice.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/head_cache.h"
-#include "fsm/faces/table_folder.h"
+#include "fsm/faces/table_check.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
@@ -155,8 +155,8 @@ void AddOptions(CLI::App& app, Options& options) {
       "--position", [&options](const auto& place) { options.view.position = place; },
       "Place of the window, X Y; -p X Y, too");
   app.add_option("-C", options.config, "A configuration file of the original (config.txt)");
-  app.add_option(
-      "--tables", options.module.tables,
+  app.add_option_function<std::string>(
+      "--tables", [&options](const std::string& path) { options.module.tables = path; },
       "A folder of tables (mouth_shapes.txt, emotions.txt, ...) in place of the built-in");
   app.add_option("--mask", options.module.mask, "The face worn at the start (default galatea)");
   app.add_option("--head", options.head,
@@ -181,7 +181,7 @@ void AddOptions(CLI::App& app, Options& options) {
 }
 
 void Complete(Options& options) {
-  const std::string& tables = options.module.tables;
+  const TableFolder& tables = options.module.tables;
   for (const std::string& notice : vm::OrThrow(CheckTables(tables))) Notice(notice);
   if (!options.config.empty()) {
     options.module.config = vm::OrThrow(OriginalConfig::Read(options.config));

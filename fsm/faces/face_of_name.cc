@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "fsm/faces/face_folder.h"
-#include "fsm/faces/table_folder.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
@@ -23,47 +22,44 @@ std::string ReadText(const std::string& path) {
 
 }  // namespace
 
-std::optional<UnitTable> UnitsIn(const std::string& folder) {
-  const auto text = TableIn(folder, kUnitsFile);
-  if (!text) return std::nullopt;
-  return UnitTable(Table(folder + "/" + kUnitsFile, *text));
+std::optional<UnitTable> UnitsIn(const TableFolder& folder) {
+  const auto own = vm::OrThrow(folder.Find(TableFolder::kUnits));
+  if (!own) return std::nullopt;
+  return UnitTable(Table(own->path, own->text));
 }
 
-std::shared_ptr<const Features> FeaturesIn(const std::string& folder) {
-  const auto text = TableIn(folder, kFeaturesFile);
-  return text ? std::make_shared<Features>(folder + "/" + kFeaturesFile, *text) : nullptr;
+std::shared_ptr<const Features> FeaturesIn(const TableFolder& folder) {
+  const auto own = vm::OrThrow(folder.Find(TableFolder::kFeatures));
+  return own ? std::make_shared<Features>(own->path, own->text) : nullptr;
 }
 
 std::unique_ptr<Head> WithUnits(const std::optional<UnitTable>& units, std::unique_ptr<Head> head) {
   return units ? head->WithUnits(*units) : std::move(head);
 }
 
-std::unique_ptr<Head> WithUnitsOf(const std::string& tables, std::unique_ptr<Head> head) {
-  return WithUnits(UnitsIn(tables), std::move(head));
-}
-
-std::string UnitsFolder(const std::string& folder, const std::string& tables) {
+TableFolder UnitsFolder(const std::string& folder, const TableFolder& tables) {
   std::error_code error;
-  return std::filesystem::exists(folder + "/" + kUnitsFile, error) ? folder : tables;
+  const bool own = std::filesystem::exists(folder + "/" + std::string(TableFolder::kUnits), error);
+  return own ? TableFolder(folder) : tables;
 }
 
-std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const std::string& tables) {
+std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const TableFolder& tables) {
   const auto make = [features = FeaturesIn(tables)](Identity identity) {
     identity.features = features;
     return MakeHead(std::move(identity));
   };
-  if (IsBuiltIn(face)) return WithUnitsOf(tables, make(BuiltInIdentity(face)));
+  if (IsBuiltIn(face)) return WithUnits(UnitsIn(tables), make(BuiltInIdentity(face)));
   const std::string folder = FacesFolder() + "/" + face;
-  const std::string units = UnitsFolder(folder, tables);
+  const auto units = UnitsIn(UnitsFolder(folder, tables));
   const std::string own = folder + "/identity.txt";
   std::error_code error;
   if (std::filesystem::exists(own, error)) {
-    return WithUnitsOf(units, make(ReadOwnIdentity(own, ReadText(own))));
+    return WithUnits(units, make(ReadOwnIdentity(own, ReadText(own))));
   }
   PhotoHead head = ReadPhotoHead(folder + "/face.txt", ReadText(folder + "/face.txt"));
   head.features = FeaturesIn(tables);
   head.photo = std::make_shared<Image>(vm::OrThrow(ReadImage(folder + "/photo.png")));
-  return WithUnitsOf(units, MakeHead(head));
+  return WithUnits(units, MakeHead(head));
 }
 
 }  // namespace fsm

@@ -36,14 +36,15 @@ std::string LineOf(const fs::path& path) {
 }
 
 /// What every head of this file is made from, by size and time; "" if that cannot be said.
-std::string SourcesOf(const std::string& path, const std::string& tables) {
+std::string SourcesOf(const std::string& path, const TableFolder& tables) {
   std::error_code code;
   const fs::path file = fs::canonical(path, code);
   if (code) return "";
   std::vector<std::string> lines{LineOf("/proc/self/exe"), LineOf(file),
                                  LineOf(file.string() + ".points")};
   if (!tables.empty()) {
-    for (fs::directory_iterator at(tables, code), end; !code && at != end; at.increment(code)) {
+    for (fs::directory_iterator at(tables.path(), code), end; !code && at != end;
+         at.increment(code)) {
       if (lines.size() > kMostTables) return "";
       if (at->is_regular_file(code)) lines.push_back(LineOf(at->path()));
     }
@@ -79,7 +80,7 @@ std::string ReadAll(const std::string& path) {
 }  // namespace
 
 std::unique_ptr<Head> HeadCache::HeadOfFile(const std::string& path,
-                                            const std::string& tables) const {
+                                            const TableFolder& tables) const {
   const std::string sources = folder_.empty() ? "" : SourcesOf(path, tables);
   const std::string entry = folder_ + "/" + EntryName(sources);
   if (auto kept = sources.empty() ? nullptr : Find(entry, sources)) return kept;

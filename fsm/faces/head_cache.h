@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "fsm/base/table_folder.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
@@ -22,7 +23,7 @@ class HeadCache {
   explicit HeadCache(std::string folder) : folder_(std::move(folder)) {}
   /// The head of MakeHeadOfFile, kept or made by it. Trouble with what is kept is a notice on
   /// stderr.
-  std::unique_ptr<Head> HeadOfFile(const std::string& path, const std::string& tables) const;
+  std::unique_ptr<Head> HeadOfFile(const std::string& path, const TableFolder& tables) const;
 
  private:
   static std::unique_ptr<Head> Find(const std::string& entry, const std::string& sources);

@@ -7,7 +7,7 @@
 #include "fsm/asset/asset_reader.h"
 #include "fsm/base/box.h"
 #include "fsm/faces/face_of_name.h"
-#include "fsm/faces/table_folder.h"
+#include "fsm/faces/table_check.h"
 #include "fsm/head/anatomy.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/blendshape_rig.h"
@@ -175,7 +175,7 @@ std::vector<ExportedShape> ArkitShapes(const MotionTables& tables) {
   return shapes;
 }
 
-FileHead MakeHeadOfFile(const std::string& path, const std::string& tables_folder,
+FileHead MakeHeadOfFile(const std::string& path, const TableFolder& tables_folder,
                         const std::optional<UnitTable>& given_units) {
   const std::optional<UnitTable> units = given_units ? given_units : UnitsIn(tables_folder);
   FileHead made;

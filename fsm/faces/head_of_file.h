@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fsm/asset/asset_writer.h"
+#include "fsm/base/table_folder.h"
 #include "fsm/motion/motion_tables.h"
 #include "fsm/rig/head.h"
 
@@ -23,7 +24,7 @@ struct FileHead {
 /// other is moved by its own shapes where their names are ARKit's or VRM's, else by ours carried
 /// over with the points of `path`.points; without either only head, eyes and jaw move, and the
 /// notice says so. `units`: in place of those of `tables`. Throws std::runtime_error.
-FileHead MakeHeadOfFile(const std::string& path, const std::string& tables,
+FileHead MakeHeadOfFile(const std::string& path, const TableFolder& tables,
                         const std::optional<UnitTable>& units = {});
 
 /// Every ARKit shape of the tables as a state of the face.

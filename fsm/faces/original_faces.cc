@@ -27,7 +27,7 @@ MouthUnitSizes UnitSizes(const MotionTables& tables) {
 }
 
 std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
-                                   const OriginalSharedFiles& shared, const std::string& tables) {
+                                   const OriginalSharedFiles& shared, const TableFolder& tables) {
   const auto face = ReadOriginalFace(files, shared);
   if (!face) throw std::runtime_error("face '" + files.name + "': " + face.error().text);
   const MotionTables motion = vm::OrThrow(MotionTables::Load(tables));
@@ -40,7 +40,7 @@ std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
   for (const Viseme& viseme : motion.set14.shapes) mouths.push_back(viseme.pose.mouth);
   MeshModel model = ModelOfOriginal(*face);
   RigData skin = RigOfOriginal(*face, model, mouths, UnitSizes(motion));
-  return WithUnitsOf(tables, MakeMeshHead(std::move(model), std::move(skin)));
+  return WithUnits(UnitsIn(tables), MakeMeshHead(std::move(model), std::move(skin)));
 }
 
 /// The first file that is missing; "" if none is.
@@ -61,7 +61,7 @@ std::string Missing(const OriginalFaceFiles& files, const OriginalSharedFiles& s
 }  // namespace
 
 OriginalFaceList OriginalFaces(std::span<const OriginalFaceFiles> faces,
-                               const OriginalSharedFiles& shared, const std::string& tables) {
+                               const OriginalSharedFiles& shared, const TableFolder& tables) {
   OriginalFaceList found;
   for (const OriginalFaceFiles& files : faces) {
     const std::string missing = Missing(files, shared);

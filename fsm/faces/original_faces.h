@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fsm/base/table_folder.h"
 #include "fsm/mesh/original_files.h"
 #include "fsm/motion/motion_tables.h"
 #include "fsm/rig/head.h"
@@ -24,9 +25,8 @@ struct OriginalFaceList {
   std::vector<NamedFace> faces;
   std::vector<std::string> left_out;  ///< a sentence for each face whose files are not there
 };
-/// `tables`: folder of tables that replace the built-in ones.
 OriginalFaceList OriginalFaces(std::span<const OriginalFaceFiles> faces,
-                               const OriginalSharedFiles& shared, const std::string& tables);
+                               const OriginalSharedFiles& shared, const TableFolder& tables);
 
 /// Looks of whole expressions by FaceExp's name and pattern: those of the files beside the standard
 /// wireframe (AU31.pnt ..., user*.pnt, userdef*.pnt), so that FaceExp shows them on every face.

@@ -1,7 +1,6 @@
 #include "fsm/motion/motion_tables.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <optional>
 
@@ -31,32 +30,20 @@ namespace {
 /// Reads one table after the other and remembers the first thing that went wrong.
 class Loader {
  public:
-  Loader(std::string folder, std::vector<std::string>* files)
-      : folder_(std::move(folder)), files_(files) {
-    std::error_code code;
-    if (!folder_.empty() && !std::filesystem::is_directory(folder_, code)) {
-      error_ = vm::Error{vm::Errc::kUnavailable, "'" + folder_ + "' is not a folder of tables"};
-    }
-  }
+  explicit Loader(const TableFolder& folder) : folder_(folder) {}
 
   /// `read(name, text, others...)` gives vm::Result<T>.
   template <typename T, typename Read, typename... Others>
   void Get(T& out, const std::string& file, std::string_view built_in, const Read& read,
            Others&&... others) {
-    if (files_ != nullptr) files_->push_back(file);
     if (error_) return;
-    const std::string path = folder_.empty() ? file : folder_ + "/" + file;
-    std::string text(built_in);
-    std::error_code code;
-    if (!folder_.empty() && std::filesystem::exists(path, code)) {
-      auto own = ReadTableFile(path);
-      if (!own) {
-        error_ = own.error();
-        return;
-      }
-      text = std::move(*own);
+    const auto own = folder_.Find(file);
+    if (!own) {
+      error_ = own.error();
+      return;
     }
-    auto table = read(path, text, others...);
+    auto table =
+        *own ? read((*own)->path, (*own)->text, others...) : read(file, built_in, others...);
     if (table) {
       out = std::move(*table);
     } else {
@@ -66,8 +53,7 @@ class Loader {
   const std::optional<vm::Error>& error() const { return error_; }
 
  private:
-  std::string folder_;
-  std::vector<std::string>* files_;
+  const TableFolder& folder_;
   std::optional<vm::Error> error_;
 };
 
@@ -113,10 +99,9 @@ vm::Result<GestureNumbers> ReadGestures(const std::string& name, std::string_vie
 
 }  // namespace
 
-vm::Result<MotionTables> MotionTables::Load(const std::string& folder,
-                                            std::vector<std::string>* files) {
+vm::Result<MotionTables> MotionTables::Load(const TableFolder& folder) {
   MotionTables out;
-  Loader loader(folder, files);
+  Loader loader(folder);
   LoadMouth(loader, out);
   loader.Get(out.unit_names, "action_unit_names.txt", embedded::action_unit_names(), ReadUnitNames);
   const UnitNames& names = out.unit_names;

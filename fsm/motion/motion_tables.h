@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "embedded/gesture_numbers.h"
+#include "fsm/base/table_folder.h"
 #include "fsm/motion/action_units.h"
 #include "fsm/motion/emotion_space.h"
 #include "fsm/motion/emotion_table.h"
@@ -34,11 +35,9 @@ struct MotionTables {
   MouthSet& mouths(ShapeSet set) { return set == ShapeSet::k14 ? set14 : set28; }
   const MouthSet& mouths(ShapeSet set) const { return set == ShapeSet::k14 ? set14 : set28; }
 
-  /// The tables the program carries; with a `folder`, each file found there replaces its own.
-  /// Errors: kBadValue with file and line; kUnavailable if the folder or a file cannot be read.
-  /// `files`: gets the names of what is looked for.
-  static vm::Result<MotionTables> Load(const std::string& folder = "",
-                                       std::vector<std::string>* files = nullptr);
+  /// The tables the program carries, but for those that the folder replaces. Errors: kBadValue with
+  /// file and line; kUnavailable if the folder or a file cannot be read.
+  static vm::Result<MotionTables> Load(const TableFolder& folder = {});
 };
 
 }  // namespace fsm
