@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 #include "fsm/app/contact_sheet_font.h"
+#include "fsm/app/slot_words.h"
 #include "fsm/motion/face_motion.h"
 #include "vm_protocol/core/or_throw.h"
 
@@ -36,59 +38,70 @@ FaceState After(const MotionTables& tables, const Command& command) {
   return motion.StateAt(5s);
 }
 
-// What must go along for a unit to be seen at all.
+/// What must go along for a unit to be seen at all.
+constexpr std::pair<int, const char*> kCompanions[] = {
+    {8, " 26 0.5"}, {19, " 25 0.6 26 0.5"}, {37, " 25 0.6 26 0.5"}};
+constexpr const char* kEmotions[] = {"HAPPY", "SAD", "SURPRISED", "FEARED", "ANGRY", "DISGUSTED"};
+
 std::string Companions(int unit) {
-  if (unit == 19 || unit == 37) return " 25 0.6 26 0.5";
-  if (unit == 8) return " 26 0.5";
-  return "";
+  const auto found = std::ranges::find(kCompanions, unit, &std::pair<int, const char*>::first);
+  return found == std::end(kCompanions) ? "" : found->second;
 }
 
-Sheet Units(const MotionTables& tables, const std::string& face) {
+/// What MakeSheet is given.
+struct Wanted {
+  const MotionTables& tables;
+  const std::vector<std::string>& faces;
+  const std::string& face;
+};
+
+Sheet Units(const Wanted& wanted) {
   Sheet sheet{{}, 10};
-  sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), face});
-  for (const auto& [number, name] : tables.unit_names.names) {
+  sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), wanted.face});
+  for (const auto& [number, name] : wanted.tables.unit_names.names) {
     const std::string text = std::to_string(number) + " 1" + Companions(number);
     const FaceState state =
-        After(tables, [&](FaceMotion& motion) { vm::OrThrow(motion.units.Set(0ms, text)); });
-    sheet.cells.push_back({std::to_string(number) + " " + name, Framed(state, kWholeFace), face});
+        After(wanted.tables, [&](FaceMotion& motion) { vm::OrThrow(motion.units.Set(0ms, text)); });
+    sheet.cells.push_back(
+        {std::to_string(number) + " " + name, Framed(state, kWholeFace), wanted.face});
   }
   return sheet;
 }
 
-Sheet Emotions(const MotionTables& tables, const std::string& face) {
+Sheet Emotions(const Wanted& wanted) {
   Sheet sheet{{}, 4};
-  sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), face});
-  for (const char* name : {"HAPPY", "SAD", "SURPRISED", "FEARED", "ANGRY", "DISGUSTED"}) {
-    if (!tables.emotions.contains(name)) continue;
-    const FaceState state = After(tables, [&](FaceMotion& motion) {
+  sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), wanted.face});
+  for (const char* name : kEmotions) {
+    if (!wanted.tables.emotions.contains(name)) continue;
+    const FaceState state = After(wanted.tables, [&](FaceMotion& motion) {
       vm::OrThrow(motion.expression.Show(0ms, name, 1, 1, 0ms));
     });
-    sheet.cells.push_back({name, Framed(state, kWholeFace), face});
+    sheet.cells.push_back({name, Framed(state, kWholeFace), wanted.face});
   }
   return sheet;
 }
 
-Sheet VisemeSheet(const MotionTables& tables, const std::string& face) {
+Sheet VisemeSheet(const Wanted& wanted) {
   Sheet sheet{{}, 7};
   for (const ShapeSet set : {ShapeSet::k28, ShapeSet::k14}) {
     const std::string prefix = std::to_string(CountOf(set)) + " ";
-    for (const Viseme& shape : tables.mouths(set).shapes) {
+    for (const Viseme& shape : wanted.tables.mouths(set).shapes) {
       FaceState state;
       state.mouth = shape.pose.mouth;
       state.lip_seal = shape.pose.seal;
       state.tongue = shape.pose.tongue;
-      sheet.cells.push_back({prefix + shape.name, Framed(state, kMouth), face});
+      sheet.cells.push_back({prefix + shape.name, Framed(state, kMouth), wanted.face});
     }
   }
   return sheet;
 }
 
-Sheet Identities(const MotionTables& tables, const std::vector<std::string>& faces) {
+Sheet Identities(const Wanted& wanted) {
   Sheet sheet{{}, 4};
-  const FaceState smile = After(tables, [](FaceMotion& motion) {
+  const FaceState smile = After(wanted.tables, [](FaceMotion& motion) {
     static_cast<void>(motion.expression.Show(0ms, "HAPPY", 1, 1, 0ms));  // without it: at rest
   });
-  for (const std::string& face : faces) {
+  for (const std::string& face : wanted.faces) {
     for (const float turn : {0.0f, 35.0f, 85.0f}) {
       FaceState state;
       state.figure.rotation = {0, turn, 0};
@@ -99,6 +112,9 @@ Sheet Identities(const MotionTables& tables, const std::vector<std::string>& fac
   }
   return sheet;
 }
+
+constexpr SlotWord<Sheet (*)(const Wanted&)> kKinds[] = {
+    {"aus", Units}, {"emotions", Emotions}, {"visemes", VisemeSheet}, {"identities", Identities}};
 
 void Paste(const Image& from, Image& to, int x, int y) {
   for (int row = 0; row < from.height; ++row) {
@@ -112,12 +128,9 @@ void Paste(const Image& from, Image& to, int x, int y) {
 
 vm::Result<Sheet> MakeSheet(const std::string& kind, const MotionTables& tables,
                             const std::vector<std::string>& faces, const std::string& face) {
-  if (kind == "aus") return Units(tables, face);
-  if (kind == "emotions") return Emotions(tables, face);
-  if (kind == "visemes") return VisemeSheet(tables, face);
-  if (kind == "identities") return Identities(tables, faces);
-  return vm::Fail(vm::Errc::kBadValue, "there is no sheet '" + kind +
-                                           "'; aus, emotions, visemes or identities expected");
+  if (const auto make = ValueOf(kKinds, kind)) return (*make)({tables, faces, face});
+  return vm::Fail(vm::Errc::kBadValue,
+                  "there is no sheet '" + kind + "'; " + GrammarOf(kKinds) + " expected");
 }
 
 vm::Result<Image> DrawSheet(FaceView& view, Wardrobe& wardrobe, const Sheet& sheet, bool labels) {

@@ -1,7 +1,12 @@
 #include "fsm/app/face_slots.h"
 
+#include "fsm/app/slot_words.h"
+
 namespace fsm {
 namespace {
+
+constexpr SlotWord<Onset> kOnsets[] = {
+    {"POSED", Onset::kPosed}, {"ELICITED", Onset::kElicited}, {"NATURAL", Onset::kPosed}};
 
 /// Ours lean to the viewer's right with z+, those of the original to his left.
 Angles AnglesOf(const FsmCore& core, const vm::SetValue& value) {
@@ -126,14 +131,13 @@ void DeclareExpressions(FsmCore& core) {
   const MotionSettings& settings = core.motion->settings();
   core.slots.Declare(
       {.name = "FaceExp.onset",
-       .grammar = "POSED | ELICITED | NATURAL | <ms>",
-       .initial = settings.onset == Onset::kFixed ? vm::FormatMs(settings.expression) : "POSED",
+       .grammar = GrammarOf(kOnsets) + " | <ms>",
+       .initial = settings.onset == Onset::kFixed ? vm::FormatMs(settings.expression)
+                                                  : WordOf(kOnsets, settings.onset),
        .help = "How long an expression takes to come: as measured on people who show (POSED, or "
                "NATURAL) or feel (ELICITED) it, each emotion by itself; or so many ms.",
        .on_set = core.Setting([](MotionSettings& changed, const vm::SetValue& value) {
-         changed.onset = value.word(0) == "POSED" || value.word(0) == "NATURAL" ? Onset::kPosed
-                         : value.word(0) == "ELICITED"                          ? Onset::kElicited
-                                                                                : Onset::kFixed;
+         changed.onset = ValueOf(kOnsets, value.word(0)).value_or(Onset::kFixed);
          if (changed.onset == Onset::kFixed) changed.expression = FromMs(value.number(0));
        })});
 }

@@ -1,7 +1,10 @@
 #include "fsm/app/lip_slots.h"
 
 #include <fstream>
+#include <glm/vec2.hpp>
+#include <tuple>
 
+#include "fsm/app/slot_words.h"
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
 #include "vm_protocol/core/file_kind.h"
@@ -14,10 +17,18 @@ std::string SlotOf(ShapeSet set, const std::string& shape) {
   return (set == ShapeSet::k28 ? "MouthShape28." : "MouthShape.") + shape;
 }
 
-LipMode ModeOf(const std::string& word) {
-  return word == "SINUSOID" ? LipMode::kSinusoid
-         : word == "LINEAR" ? LipMode::kLinear
-                            : LipMode::kDominance;
+constexpr SlotWord<LipMode> kModes[] = {{"DOMINANCE", LipMode::kDominance},
+                                        {"SINUSOID", LipMode::kSinusoid},
+                                        {"LINEAR", LipMode::kLinear}};
+
+/// Ways of speaking: movements of the jaw and of the lips in per cent.
+std::vector<SlotWord<glm::vec2>> WaysOfSpeaking(const GestureNumbers& gestures) {
+  const auto& [jaw, lips] = std::tie(gestures.jaw, gestures.lips);
+  return {{"MUMBLED", {jaw.MUMBLED, lips.MUMBLED}},
+          {"SOFT", {jaw.SOFT, lips.SOFT}},
+          {"NORMAL", {jaw.NORMAL, lips.NORMAL}},
+          {"CLEAR", {jaw.CLEAR, lips.CLEAR}},
+          {"SHOUTED", {jaw.SHOUTED, lips.SHOUTED}}};
 }
 
 vm::Result<void> SetShapes(MotionSettings& settings, const vm::SetValue& value) {
@@ -40,28 +51,17 @@ vm::Result<void> SetNames(const std::string& names, MotionSettings& settings,
   return {};
 }
 
-/// Movements of the jaw and of the lips in per cent: of a way of speaking, or two numbers or one.
-glm::vec2 ScaleOf(const GestureNumbers& gestures, const vm::SetValue& value) {
-  const auto& [jaw, lips] = std::tie(gestures.jaw, gestures.lips);
-  const std::string& word = value.word(0);
-  if (word == "MUMBLED") return {jaw.MUMBLED, lips.MUMBLED};
-  if (word == "SOFT") return {jaw.SOFT, lips.SOFT};
-  if (word == "NORMAL") return {jaw.NORMAL, lips.NORMAL};
-  if (word == "CLEAR") return {jaw.CLEAR, lips.CLEAR};
-  if (word == "SHOUTED") return {jaw.SHOUTED, lips.SHOUTED};
-  return {value.number(0), value.number(value.size() > 1 ? 1 : 0)};
-}
-
 void DeclareStyle(FsmCore& core) {
   const std::string engines = EngineList(core.motion->tables().engines);
+  const auto ways = WaysOfSpeaking(core.motion->tables().gestures);
   core.slots.Declare(
       {.name = "LipSync.mode",
-       .grammar = "DOMINANCE | SINUSOID | LINEAR",
+       .grammar = GrammarOf(kModes),
        .initial = "DOMINANCE",
        .help = "How lips go from sound to sound: by overlapping dominance curves with "
                "anticipation, by the original's sinusoids, or by straight lines.",
        .on_set = core.Setting([](MotionSettings& settings, const vm::SetValue& value) {
-         settings.lips.mode = ModeOf(value.word(0));
+         settings.lips.mode = *ValueOf(kModes, value.word(0));
        })});
   core.slots.Declare(
       {.name = "LipSync.shapes",
@@ -82,12 +82,14 @@ void DeclareStyle(FsmCore& core) {
            })});
   core.slots.Declare(
       {.name = "LipSync.scale",
-       .grammar = "MUMBLED | SOFT | NORMAL | CLEAR | SHOUTED | <number 0..300> [ <number 0..300> ]",
+       .grammar = GrammarOf(ways) + " | <number 0..300> [ <number 0..300> ]",
        .initial = "NORMAL",
        .help = "How large the next utterances are articulated: a way of speaking, or per cent for "
                "the jaw and for the lips. Closures stay closed.",
-       .on_set = core.Setting([&core](MotionSettings& settings, const vm::SetValue& value) {
-         const glm::vec2 scale = ScaleOf(core.motion->tables().gestures, value);
+       .on_set = core.Setting([ways](MotionSettings& settings, const vm::SetValue& value) {
+         const glm::vec2 scale =
+             ValueOf(ways, value.word(0))
+                 .value_or(glm::vec2(value.number(0), value.number(value.size() > 1 ? 1 : 0)));
          settings.lips.jaw = scale.x / 100;
          settings.lips.lips = scale.y / 100;
        })});

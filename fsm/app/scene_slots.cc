@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "fsm/app/slot_words.h"
 #include "fsm/base/notice.h"
 #include "fsm/image/colour_space.h"
 
@@ -20,6 +21,11 @@ constexpr const char* kPlain = "plain";              // the background without a
 constexpr const char* kStudio = "studio";            // a wall that is brighter behind the head
 constexpr const char* kTransparent = "transparent";  // no background
 constexpr vm::Time kLongestSettling = 2000ms;  // what a picture waits for movements, on their clock
+
+constexpr SlotWord<ViewMode> kViewModes[] = {
+    {"TEXTURE", ViewMode::kTexture},
+    {"TEXTURE_WITH_WIREFRAME", ViewMode::kTextureWithWireframe},
+    {"WIREFRAME", ViewMode::kWireframe}};
 
 std::optional<glm::vec3> ParseColour(std::string_view text) {
   if (text.size() != 7 || text[0] != '#') return std::nullopt;
@@ -145,14 +151,11 @@ void SceneSlots::ShowBackground(bool transparent) {
 
 void SceneSlots::DeclareView() {
   core_.slots.Declare({.name = "ViewMode",
-                       .grammar = "TEXTURE | TEXTURE_WITH_WIREFRAME | WIREFRAME",
+                       .grammar = GrammarOf(kViewModes),
                        .initial = "TEXTURE",
                        .help = "How the face is drawn.",
                        .on_set = core_.Command([this](const vm::SetValue& value) {
-                         core_.scene.view_mode = value.word(0) == "TEXTURE" ? ViewMode::kTexture
-                                                 : value.word(0) == "WIREFRAME"
-                                                     ? ViewMode::kWireframe
-                                                     : ViewMode::kTextureWithWireframe;
+                         core_.scene.view_mode = *ValueOf(kViewModes, value.word(0));
                        })});
   core_.slots.Declare(
       {.name = "ViewBackground",

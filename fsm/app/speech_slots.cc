@@ -1,11 +1,15 @@
 #include "fsm/app/speech_slots.h"
 
+#include "fsm/app/slot_words.h"
 #include "vm_protocol/core/start_time.h"
 
 namespace fsm {
 namespace {
 
 constexpr const char* kNothing = "non";  // the original's word for it
+
+constexpr SlotWord<Language> kLanguages[] = {
+    {"AUTO", Language::kAuto}, {"JP", Language::kJapanese}, {"EN", Language::kEnglish}};
 
 std::string NamesOf(const vm::PhonemeList& list) {
   std::string names;
@@ -107,7 +111,7 @@ void SpeechSlots::DeclareSpeakSlots() {
 }
 
 void SpeechSlots::DeclareSettings() {
-  const auto setting = [this](const char* name, const char* grammar, const char* help,
+  const auto setting = [this](const char* name, const std::string& grammar, const char* help,
                               const std::string& initial, auto apply,
                               std::string (*told)(const vm::SetValue&) = nullptr) {
     core_.slots.Declare(
@@ -135,15 +139,11 @@ void SpeechSlots::DeclareSettings() {
       [](const vm::SetValue& value) { return std::to_string(value.number(0)); });
   setting("LipSync.lead", "<number -1000..1000>", "The mouth is ahead of the voice by so many ms.",
           "40", [](MotionSettings& s, const vm::SetValue& v) { s.lead_ms = v.number(0); });
-  setting("LipSync.language", "AUTO | JP | EN",
+  setting("LipSync.language", GrammarOf(kLanguages),
           "Whose mouth shapes phonemes have; AUTO looks at each list.",
-          core_.motion->settings().lips.language == Language::kAuto      ? "AUTO"
-          : core_.motion->settings().lips.language == Language::kEnglish ? "EN"
-                                                                         : "JP",
+          WordOf(kLanguages, core_.motion->settings().lips.language),
           [](MotionSettings& s, const vm::SetValue& v) {
-            s.lips.language = v.word(0) == "JP"   ? Language::kJapanese
-                              : v.word(0) == "EN" ? Language::kEnglish
-                                                  : Language::kAuto;
+            s.lips.language = *ValueOf(kLanguages, v.word(0));
           });
   setting("MouthScale", "<number 0..200>",
           "Size of the mouth's movements in the original's per cent: 30 is natural speech, 40 full "

@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
+#include "embedded/vrm.h"
 #include "fsm/asset/asset_reader.h"
 #include "fsm/base/box.h"
+#include "fsm/base/table_reader.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/table_check.h"
 #include "fsm/head/anatomy.h"
@@ -26,41 +28,36 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// VRM's expressions, as mouth shapes of the set of 14 and emotions.
-constexpr std::pair<const char*, const char*> kVrmMouths[] = {
-    {"vrma", "a"},  {"vrmi", "i"},  {"vrmu", "u"},  {"vrme", "e"},  {"vrmo", "o"},
-    {"vrmaa", "a"}, {"vrmih", "i"}, {"vrmou", "u"}, {"vrmee", "e"}, {"vrmoh", "o"}};
-constexpr std::pair<const char*, const char*> kVrmEmotions[] = {
-    {"vrmjoy", "HAPPY"},  {"vrmhappy", "HAPPY"}, {"vrmangry", "ANGRY"},
-    {"vrmsorrow", "SAD"}, {"vrmsad", "SAD"},     {"vrmsurprised", "SURPRISED"}};
-constexpr std::tuple<const char*, bool, bool> kVrmBlinks[] = {{"vrmblink", true, true},
-                                                              {"vrmblinkr", true, false},
-                                                              {"vrmblinkl", false, true},
-                                                              {"vrmblinkright", true, false},
-                                                              {"vrmblinkleft", false, true}};
+/// What a row of tables/vrm.txt shows; nothing if the motion's tables have no such shape or
+/// expression.
+std::optional<FaceState> ShownBy(const TableRow& row, const MotionTables& tables) {
+  const std::string &kind = row.Word(1), &what = row.Word(2);
+  FaceState state;
+  if (kind == "mouth") {
+    const Viseme* shape = FindShape(tables.set14.shapes, what);
+    if (!shape) return std::nullopt;
+    state.mouth = shape->pose.mouth;
+  } else if (kind == "expression") {
+    FaceMotion motion(tables, 1);
+    if (!motion.expression.Show(0ms, what, 1, 1, 0ms)) return std::nullopt;
+    state = motion.StateAt(5s);
+  } else if (kind == "blink") {
+    state.blink.left = what.contains('L') ? 1 : 0;
+    state.blink.right = what.contains('R') ? 1 : 0;
+  } else {
+    row.Fail("mouth, expression or blink expected");
+  }
+  return state;
+}
 
 std::vector<ShapeMeaning> Meanings(const MotionTables& tables) {
   std::vector<ShapeMeaning> meanings;
   for (ExportedShape& shape : ArkitShapes(tables)) {
     meanings.push_back({PlainShapeName(shape.name), shape.state});
   }
-  for (const auto& [name, mouth] : kVrmMouths) {
-    const Viseme* shape = FindShape(tables.set14.shapes, mouth);
-    if (!shape) continue;
-    FaceState state;
-    state.mouth = shape->pose.mouth;
-    meanings.push_back({name, state});
-  }
-  for (const auto& [name, emotion] : kVrmEmotions) {
-    FaceMotion motion(tables, 1);
-    if (!motion.expression.Show(0ms, emotion, 1, 1, 0ms)) continue;
-    meanings.push_back({name, motion.StateAt(5s)});
-  }
-  for (const auto& [name, right, left] : kVrmBlinks) {
-    FaceState state;
-    state.blink.right = right ? 1 : 0;
-    state.blink.left = left ? 1 : 0;
-    meanings.push_back({name, state});
+  static const Table vrm("tables/vrm.txt", embedded::vrm());
+  for (const TableRow& row : vrm.rows()) {
+    if (const auto state = ShownBy(row, tables)) meanings.push_back({row.key(), *state});
   }
   return meanings;
 }

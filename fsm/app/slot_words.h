@@ -1,0 +1,39 @@
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace fsm {
+
+/// A word of a slot's grammar and what it stands for. Lists of them are in the grammar's order.
+template <typename Value>
+using SlotWord = std::pair<std::string_view, Value>;
+
+/// "A | B | C".
+std::string GrammarOf(const auto& words) {
+  std::string grammar;
+  for (const auto& [word, value] : words) {
+    grammar += (grammar.empty() ? "" : " | ") + std::string(word);
+  }
+  return grammar;
+}
+
+/// What a word stands for; nothing if it is none of them.
+auto ValueOf(const auto& words, std::string_view word)
+    -> std::optional<decltype(std::begin(words)->second)> {
+  const auto found = std::ranges::find(words, word, [](const auto& each) { return each.first; });
+  if (found == std::end(words)) return std::nullopt;
+  return found->second;
+}
+
+/// The first word that stands for a value. REQUIRES: there is one.
+std::string WordOf(const auto& words, const auto& value) {
+  return std::string(
+      std::ranges::find(words, value, [](const auto& each) { return each.second; })->first);
+}
+
+}  // namespace fsm
