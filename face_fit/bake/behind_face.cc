@@ -16,9 +16,9 @@ namespace {
 /// A picture whose unknown pixels are filled from around, with grain.
 fsm::Image FilledIn(fsm::Image image, const FloatImage& known, float pixels_per_mm) {
   PushPullInpaint(image, known);
-  const int grain = std::max(static_cast<int>(PhotoLook().hole_grain * pixels_per_mm), 2);
+  const int grain = std::max(static_cast<int>(PhotoLook().grain.coarsest_mm * pixels_per_mm), 2);
   // In a small photo a pixel is as coarse as grain: none is added.
-  const float amount = Ramp(PhotoLook().hole_grain_pixels, pixels_per_mm);
+  const float amount = fsm::SmoothStep(PhotoLook().grain.pixels_per_mm, pixels_per_mm);
   AddGrain(known, FloatImage(image.width, image.height, amount), grain, image);
   return image;
 }
@@ -36,20 +36,18 @@ fsm::Image BehindFace(const FittedHead& fitted, const FigureCutout& figure) {
   // temples are mostly hair already, so the hole begins at the brows. Before the neck it is as
   // large as the skin, or the chin would be seen a second time.
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
-  const float face_hole = PhotoLook().hole_face, neck_hole = PhotoLook().hole_neck;
-  const glm::vec2 hole_edge = PhotoLook().hole_edge;
-  const glm::vec2 neck_edge = PhotoLook().hole_neck_edge;
+  const auto& look = PhotoLook().behind_face;
   const FloatImage soft =
-      Blurred(face, std::max(static_cast<int>(PhotoLook().hole_soft * pixels_per_mm), 1));
+      Blurred(face, std::max(static_cast<int>(look.around_mm * pixels_per_mm), 1));
   FloatImage keep(width, height, 1), beside(width, height, 1), below(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
       const glm::vec3 place = fitted.pose.PlaceAt(pixel, kBesideFaceDepth);
       const std::size_t i = keep.Index(x, y);
-      const float hole = glm::mix(face_hole, neck_hole, chin.BeforeNeck(place));
-      keep.values[i] = Ramp(hole + hole_edge, soft.values[i]);
-      beside.values[i] = Ramp(neck_hole + neck_edge, soft.values[i]);
+      const float hole = glm::mix(look.face_part, look.neck_part, chin.BeforeNeck(place));
+      keep.values[i] = fsm::SmoothStep(hole + look.edge_part, soft.values[i]);
+      beside.values[i] = fsm::SmoothStep(look.neck_part + look.neck_edge_part, soft.values[i]);
       below.values[i] = chin.Below(place);
     }
   }

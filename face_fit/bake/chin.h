@@ -14,15 +14,18 @@ class Chin {
   explicit Chin(const FittedHead& fitted) : place_(fitted.At(point::kChin)) {}
   float height() const { return place_.y; }
   /// Below it the neck of the photo takes over from the skin.
-  float SkinBottom() const { return place_.y - PhotoLook().skin_below_chin; }
+  float SkinBottom() const { return place_.y - PhotoLook().chin.skin_goes_on_mm; }
   /// 1 well below the chin, 0 above it.
-  float Below(glm::vec3 p) const { return Ramp(place_.y + below_, p.y); }
+  float Below(glm::vec3 p) const {
+    return fsm::SmoothStep(place_.y + PhotoLook().chin.below_it_mm, p.y);
+  }
   /// 1 below the chin, behind which the neck lies, 0 where the skin goes on to neck, ear and hair.
-  float BeforeNeck(glm::vec3 p) const { return Below(p) * Ramp(before_neck_, std::abs(p.x)); }
+  float BeforeNeck(glm::vec3 p) const {
+    return Below(p) * fsm::SmoothStep(PhotoLook().chin.before_neck_mm, std::abs(p.x));
+  }
 
  private:
   glm::vec3 place_;
-  glm::vec2 below_ = PhotoLook().below_chin, before_neck_ = PhotoLook().before_neck;
 };
 
 /// Depth of what lies beside the face, camera's frame, millimetres: near enough to tell what of the

@@ -104,7 +104,8 @@ struct PhotoEye {
 /// `skin`: its colour below the eye.
 fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin, const fsm::Image& photo) {
   // The shade of the lid's edge and its lashes.
-  const float edge = std::max(PhotoLook().lid_shade * eye.iris.radius, kMinShadePx);
+  const float edge =
+      std::max(PhotoLook().eye_picture.lid_shade_radii * eye.iris.radius, kMinShadePx);
   const RedEye flash(skin);
   const auto texels = Square(kIrisPixels, [&](glm::vec2 p) {
     p *= fsm::kIrisSpan;
@@ -146,18 +147,19 @@ fsm::Image BallPicture(const PhotoEye& eye, const LidLines& rest, float radius,
         eye.lids.PointAt(part, glm::mix(upper_shown, lower_shown, glm::clamp(between, 0.0F, 1.0F))),
         between);
   });
-  const auto beside_iris = [&eye, range = PhotoLook().beside_iris](glm::vec2 pixel) {
-    return Ramp(range, glm::distance(pixel, eye.iris.centre) / eye.iris.radius);
+  const auto& look = PhotoLook().eye_picture;
+  const auto beside_iris = [&](glm::vec2 pixel) {
+    return fsm::SmoothStep(look.beside_iris_radii,
+                           glm::distance(pixel, eye.iris.centre) / eye.iris.radius);
   };
   // Behind the iris lies what is seen beside it, but not the lids' shade and lashes.
   fsm::Image out = fsm::FilledImage(kBallPixels, kBallPixels);
   FloatImage weight(kBallPixels, kBallPixels);
-  const glm::vec2 upper_lid = PhotoLook().beside_upper_lid;
-  const glm::vec2 lower_lid = PhotoLook().beside_lower_lid;
   for (std::size_t i = 0; i < places.values.size(); ++i) {
     const auto [pixel, between] = places.values[i];
     SetRgb(out, i, ColourAt(photo, pixel));
-    weight.values[i] = beside_iris(pixel) * Ramp(upper_lid, between) * Ramp(lower_lid, between);
+    weight.values[i] = beside_iris(pixel) * fsm::SmoothStep(look.upper_lid_part, between) *
+                       fsm::SmoothStep(look.lower_lid_part, between);
   }
   PushPullInpaint(out, weight);
   for (std::size_t i = 0; i < places.values.size(); ++i) {

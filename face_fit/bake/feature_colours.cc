@@ -58,8 +58,7 @@ float SkinLight(const FoundFace& face, const fsm::Image& photo) {
 
 EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fsm::Image& photo) {
   const PhotoLookNumbers& look = PhotoLook();
-  const glm::vec2 iris_part = look.iris_part;
-  const float white_from = look.white_from;
+  const glm::vec2 iris_radii = look.iris.sampled_radii;
   std::vector<glm::vec3> iris, white;
   for (const fsm::Side side : fsm::kSides) {
     const std::vector<glm::vec2> outline = face.Line(EyeOutline(side));
@@ -72,22 +71,22 @@ EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fs
         if (SignedDistance(outline, pixel) > -kFromLids * width) continue;
         const float radii = glm::distance(pixel, circle.centre) / circle.radius;
         const glm::vec3 colour = ColourAt(photo, pixel);
-        if (radii > iris_part.x && radii < iris_part.y) iris.push_back(colour);
-        if (radii > white_from) white.push_back(colour);
+        if (radii > iris_radii.x && radii < iris_radii.y) iris.push_back(colour);
+        if (radii > look.white.sampled_from_radii) white.push_back(colour);
       }
     }
   }
   // Drawn, an iris is darker than its base colour on the mean, where it meets pupil and rim.
   // In weak light it keeps its hue: brightened channel by channel a brown one would turn grey.
-  const glm::vec3 tint = Linear(Typical(iris, kIrisRank, look.iris_unseen)) * look.iris_gain;
+  const glm::vec3 tint = Linear(Typical(iris, kIrisRank, look.iris.unseen_colour)) * look.iris.gain;
   const glm::vec3 shown =
-      glm::clamp(tint * std::max(1.0F, look.iris_darkest / std::max(Brightness(tint), 1e-4F)),
+      glm::clamp(tint * std::max(1.0F, look.iris.darkest / std::max(Brightness(tint), 1e-4F)),
                  kIrisLight.x, kIrisLight.y);
   // Whites are paler than what is seen of them, but have the hue of the light; and in whatever
   // shade they are not much darker than the skin beside them.
-  glm::vec3 ball = Linear(Typical(white, kWhiteRank, look.white_unseen));
-  const float least = look.white_least * SkinLight(face, photo);
-  ball = glm::mix(ball, glm::vec3(Brightness(ball)), look.white_greyed);
+  glm::vec3 ball = Linear(Typical(white, kWhiteRank, look.white.unseen_colour));
+  const float least = look.white.darkest_by_skin * SkinLight(face, photo);
+  ball = glm::mix(ball, glm::vec3(Brightness(ball)), look.white.greyed_part);
   ball *= std::max(1.0F, least / std::max(Brightness(ball), 1e-3F));
   return {.iris = shown, .white = glm::clamp(ball, kWhiteLight.x, kWhiteLight.y)};
 }
@@ -103,10 +102,11 @@ MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
     lip += Linear(ColourAt(photo, pixel)) / float{kLast - kFirst + 1};
   }
   // The inner rim lies in shade.
-  const glm::vec2 inner = look.lip_inner;
-  const glm::vec3 teeth = look.teeth_light;
-  return {.lip = inner.x * glm::pow(lip, glm::vec3(inner.y)),
-          .teeth = std::min(teeth.x + teeth.y * SkinLight(face, photo), teeth.z)};
+  const auto& inner = look.lips.inner;
+  const auto& teeth = look.teeth;
+  return {
+      .lip = inner.brightness * glm::pow(lip, glm::vec3(inner.power)),
+      .teeth = std::min(teeth.in_the_dark + teeth.by_skin * SkinLight(face, photo), teeth.most)};
 }
 
 }  // namespace facefit

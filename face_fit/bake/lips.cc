@@ -37,24 +37,20 @@ Tone MeanTone(std::vector<glm::vec3> texels, glm::vec2 ranks) {
 }  // namespace
 
 void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
-  const PhotoLookNumbers& look = PhotoLook();
-  const float inside_mm = look.lip_inside, soft_mm = look.lip_soft;
-  const float reddened = look.lip_reddened;
-  const glm::vec2 beside_mm = look.lip_beside;
-  const glm::vec2 shine = look.lip_shine, gap = look.lip_gap;
+  const auto& look = PhotoLook().lips;
   constexpr float kMinDifference = 0.05F;  // of redness, between lips and skin
   std::vector<glm::vec3> lips, beside;
   for (std::size_t i = 0; i < texels.values.size(); ++i) {
     const float within_mm = texels.values[i].within_lips_mm;
-    if (within_mm > inside_mm) lips.push_back(Rgb(map, i));
-    if (within_mm > beside_mm.x && within_mm < beside_mm.y) beside.push_back(Rgb(map, i));
+    if (within_mm > look.surely_inside_mm) lips.push_back(Rgb(map, i));
+    if (within_mm > look.skin_mm.x && within_mm < look.skin_mm.y) beside.push_back(Rgb(map, i));
   }
   if (lips.empty() || beside.empty()) return;
-  const Tone lip = MeanTone(std::move(lips), look.lip_ranks),
-             skin = MeanTone(std::move(beside), look.lip_beside_ranks);
+  const Tone lip = MeanTone(std::move(lips), look.typical_part),
+             skin = MeanTone(std::move(beside), look.typical_skin_part);
   if (lip.redness - skin.redness < kMinDifference) return;
   const glm::vec3 hue = lip.colour / lip.brightness;
-  const float darker = glm::clamp(lip.brightness / skin.brightness, look.lip_darkest, 1.0F);
+  const float darker = glm::clamp(lip.brightness / skin.brightness, look.darkest, 1.0F);
   for (std::size_t i = 0; i < texels.values.size(); ++i) {
     if (texels.values[i].within_lips_mm <= 0) continue;
     const glm::vec3 c = Rgb(map, i);
@@ -62,9 +58,10 @@ void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
     const float lacks =
         glm::clamp((lip.redness - LogRedness(c)) / (lip.redness - skin.redness), 0.0F, 1.0F);
     // What shines, and what is dark between the lips, has a colour of its own.
-    const float blend = reddened * lacks *
-                        glm::smoothstep(0.0F, soft_mm, texels.values[i].within_lips_mm) *
-                        Ramp(shine, bright / skin.brightness) * Ramp(gap, bright / skin.brightness);
+    const float blend = look.reddened_part * lacks *
+                        glm::smoothstep(0.0F, look.fades_in_mm, texels.values[i].within_lips_mm) *
+                        fsm::SmoothStep(look.shine, bright / skin.brightness) *
+                        fsm::SmoothStep(look.gap, bright / skin.brightness);
     SetRgb(map, i, glm::mix(c, hue * bright * darker, blend));
   }
 }

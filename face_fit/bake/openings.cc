@@ -11,13 +11,13 @@
 
 namespace facefit {
 
-/// The least that mouth_rim is in a small photo: the blur of its own pixels.
+/// The least that either width round the mouth is in a small photo: the blur of its own pixels.
 constexpr glm::vec2 kMinRimPx{0.8F, 1};
 
 PhotoOpenings::PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool lips_apart) {
   const PhotoLookNumbers& look = PhotoLook();
   // The dark line of the lashes stays on the rims of the lids.
-  const float lash = look.lash_rim * pixels_per_mm;
+  const float lash = look.opening.lashes_mm * pixels_per_mm;
   for (const fsm::Side side : fsm::kSides) {
     openings_.push_back({face.Line(EyeOutline(side)), -lash, -lash});
   }
@@ -25,7 +25,9 @@ PhotoOpenings::PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool li
     std::vector<PointIndex> mouth(point::kUpperInnerLip.begin(), point::kUpperInnerLip.end());
     mouth.insert(mouth.end(), point::kLowerInnerLip.rbegin(), point::kLowerInnerLip.rend());
     // Teeth shine through the blurred edge of the lips, in a small photo over more of them.
-    const glm::vec2 rim = glm::max(look.mouth_rim * pixels_per_mm, kMinRimPx);
+    const glm::vec2 rim = glm::max(pixels_per_mm * glm::vec2(look.opening.no_skin_round_mouth_mm,
+                                                             look.opening.fades_round_mouth_mm),
+                                   kMinRimPx);
     openings_.push_back({face.Line(mouth), rim.x, rim.x + rim.y});
   }
   for (Opening& opening : openings_) {

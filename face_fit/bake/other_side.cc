@@ -78,8 +78,7 @@ void CompleteByMirroring(const std::vector<bool>& skin, fsm::Image& map, FloatIm
   const FloatImage covered_around =
       Blurred(own_coverage, std::max(TexelsOf(kAroundMm, map.width), 1));
   constexpr float kAny = 50;  // so much brighter nothing is
-  const glm::vec2 near_light = PhotoLook().other_side_light;
-  const glm::vec2 held_by = PhotoLook().other_side_held;
+  const auto& look = PhotoLook().other_side;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const std::size_t i = coverage.Index(x, y), j = coverage.Index(map.width - 1 - x, y);
@@ -87,11 +86,11 @@ void CompleteByMirroring(const std::vector<bool>& skin, fsm::Image& map, FloatIm
       if (part <= 0 || !skin[i]) continue;
       const float sum = own_coverage.values[i] + part;
       const glm::vec3 gain = gain_of_side.At(x, y);
-      const float held = Ramp(held_by, covered_around.values[i]);
+      const float held = fsm::SmoothStep(look.held_by_seen_part, covered_around.values[i]);
       const glm::vec3 beside = Rgb(around, i);
-      const glm::vec3 brightest = glm::min(glm::mix(kAny, near_light.y, held) * beside, 255.0F);
+      const glm::vec3 brightest = glm::min(glm::mix(kAny, look.brightest, held) * beside, 255.0F);
       const glm::vec3 taken =
-          glm::clamp(gain * Rgb(one_side, j), held * near_light.x * beside, brightest);
+          glm::clamp(gain * Rgb(one_side, j), held * look.darkest * beside, brightest);
       SetRgb(map, i, (own_coverage.values[i] * Rgb(one_side, i) + taken * part) / sum);
       coverage.values[i] = sum;
     }

@@ -4,6 +4,8 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
+#include "face_fit/tables/photo_look.h"
+
 namespace facefit {
 namespace {
 
@@ -21,13 +23,16 @@ float Redder(glm::vec3 colour, glm::vec3 skin) {
 float RedEye::Likelihood(glm::vec3 colour) const {
   const float bluer = Blueness(colour) / std::max(Blueness(skin_), 0.1F);
   const float bright = colour.r / std::max(skin_.r, 1.0F);
-  return Ramp(redder_, Redder(colour, skin_)) * Ramp(bluer_, bluer) * Ramp(bright_, bright);
+  const auto& flash = PhotoLook().flash;
+  return fsm::SmoothStep(flash.redder, Redder(colour, skin_)) *
+         fsm::SmoothStep(flash.bluer, bluer) * fsm::SmoothStep(flash.bright, bright);
 }
 
 glm::vec3 RedEye::Without(glm::vec3 colour, float near) const {
   // A pupil is dark; what else shines in it is left a little brighter.
-  const float share = near * Ramp(kRedderThanSkin, Redder(colour, skin_));
-  return glm::mix(colour, glm::vec3(pupil_ * 0.5F * (colour.g + colour.b)), share);
+  const float share = near * fsm::SmoothStep(kRedderThanSkin, Redder(colour, skin_));
+  return glm::mix(colour, glm::vec3(PhotoLook().flash.pupil_part * 0.5F * (colour.g + colour.b)),
+                  share);
 }
 
 }  // namespace facefit

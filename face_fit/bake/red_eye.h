@@ -2,8 +2,6 @@
 
 #include <glm/vec3.hpp>
 
-#include "face_fit/tables/photo_look.h"
-
 namespace facefit {
 
 /// A flash that the back of an eye reflects. Colours are 0..255.
@@ -20,10 +18,6 @@ class RedEye {
   glm::vec3 Without(glm::vec3 colour, float near) const;
 
  private:
-  const glm::vec2 redder_ = PhotoLook().flash_redder;
-  const glm::vec2 bluer_ = PhotoLook().flash_bluer;
-  const glm::vec2 bright_ = PhotoLook().flash_bright;
-  const float pupil_ = PhotoLook().flash_pupil;
   glm::vec3 skin_;
 };
 

@@ -31,7 +31,8 @@ VectorImage Spread(const VectorImage& motion, const FloatImage& covered, int rea
   const FloatImage share = Blurred(covered, reach);
   VectorImage out = Blurred(motion, reach);
   for (std::size_t i = 0; i < out.values.size(); ++i) {
-    out.values[i] *= Ramp(kFadeMotion, share.values[i]) / std::max(share.values[i], 1e-3F);
+    out.values[i] *=
+        fsm::SmoothStep(kFadeMotion, share.values[i]) / std::max(share.values[i], 1e-3F);
   }
   return out;
 }
@@ -63,16 +64,15 @@ class HeadOpenings {
     using namespace point;
     constexpr std::array<std::pair<PointIndex, PointIndex>, 2> kEyes = {
         std::pair(kEyeOuterRight, kEyeInnerRight), std::pair(kEyeInnerLeft, kEyeOuterLeft)};
-    const glm::vec2 beyond = PhotoLook().opening_beyond_corner;
-    const glm::vec2 mouth = PhotoLook().opening_mouth;
+    const auto& look = PhotoLook().sheet_hole;
     for (std::size_t i = 0; i < kEyes.size(); ++i) {
       const glm::vec3 right = fitted.At(kEyes[i].first), left = fitted.At(kEyes[i].second);
-      const float half = 0.5F * std::abs(left.x - right.x) + beyond.x;
+      const float half = 0.5F * std::abs(left.x - right.x) + look.beyond_eye_mm;
       ovals_[i] = {0.5F * (left + right), half, half, half};
     }
     const glm::vec3 right = fitted.At(kInnerMouthRight), left = fitted.At(kInnerMouthLeft);
-    ovals_[2] = {0.5F * (left + right), 0.5F * std::abs(left.x - right.x) + beyond.y, mouth.x,
-                 mouth.y};
+    ovals_[2] = {0.5F * (left + right), 0.5F * std::abs(left.x - right.x) + look.beyond_mouth_mm,
+                 look.above_mouth_mm, look.below_mouth_mm};
   }
   /// `p`: in the head's frame.
   bool BehindMouth(glm::vec3 p) const { return Behind(ovals_[2], p); }
@@ -174,7 +174,7 @@ Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure) {
   const VisibleSurface surface = VisibleSkin(fitted, fitted.pose, grid, chin.SkinBottom());
   const GridSkin skin(
       surface,
-      std::max(static_cast<int>(std::lround(PhotoLook().sheet_rim * pixels_per_mm / grid.step)),
+      std::max(static_cast<int>(std::lround(PhotoLook().sheet.rim_mm * pixels_per_mm / grid.step)),
                1));
   // Hair and neck beside the skin go with it.
   const VectorImage motion =

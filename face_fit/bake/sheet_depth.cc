@@ -20,7 +20,7 @@ constexpr glm::vec2 kFadeDepth{0, 0.25F};  // over how much of what is around th
 /// Fills what is not fixed with the solution of Poisson's equation for an even, slight curvature:
 /// as a skin of soap would span it, but a little rounder. By Gauss and Seidel, not to the end.
 FloatImage Spanned(const FloatImage& fixed, FloatImage depth) {
-  const float round = PhotoLook().sheet_round;
+  const float round = PhotoLook().sheet.round_mm;
   for (int step = 0; step < kPoissonSteps; ++step) {
     for (int y = 0; y < depth.height; ++y) {
       for (int x = 0; x < depth.width; ++x) {
@@ -45,17 +45,17 @@ class UnderSkin {
   float At(std::size_t i, glm::vec3 place) const {
     // At the skin's edge the sheet goes on from it, further in it keeps out of its way.
     const float inward = glm::smoothstep(kInnerWithin, kDeepWithin, skin_.within.values[i]);
-    const float under = skin_.depth.values[i] - glm::mix(distance_mm_.x, distance_mm_.y, inward);
+    const auto& look = PhotoLook().sheet;
+    const float under =
+        skin_.depth.values[i] - glm::mix(look.under_skin_edge_mm, look.under_skin_mm, inward);
     // Behind the lower face lies the neck; the jaw has room to open.
-    return glm::mix(under, std::min(under, before_neck_mm_.x), chin_.BeforeNeck(place)) -
-           before_neck_mm_.y * chin_.Below(place);
+    return glm::mix(under, std::min(under, look.before_neck_most_mm), chin_.BeforeNeck(place)) -
+           look.below_chin_back_mm * chin_.Below(place);
   }
 
  private:
   const Chin& chin_;
   const GridSkin& skin_;
-  const glm::vec2 distance_mm_ = PhotoLook().sheet_under_skin;
-  const glm::vec2 before_neck_mm_ = PhotoLook().sheet_at_neck;
 };
 
 /// At the outline and somewhat beyond it; the outline itself would waver as the grid's points lie
@@ -73,18 +73,18 @@ class AtOutline {
   float At(std::size_t i, glm::vec3 place) const {
     // Hair stands before the ears, shoulders lie in their plane. Beside the cheek the sheet stays
     // near the cheek's depth, or its last pixels would be drawn long.
+    const auto& look = PhotoLook().sheet;
     const float outline =
-        glm::mix(hair_mm_, shoulder_mm_,
+        glm::mix(look.hair_depth_mm, look.shoulder_depth_mm,
                  glm::smoothstep(chin_.height(), chin_.height() - kToShouldersMm, place.y));
-    const float cheek = beside_.values[i] / std::max(share_.values[i], 1e-3F) - turns_mm_;
-    return glm::mix(outline, std::max(cheek, outline), Ramp(kFadeDepth, share_.values[i]));
+    const float cheek = beside_.values[i] / std::max(share_.values[i], 1e-3F) - look.falls_back_mm;
+    return glm::mix(outline, std::max(cheek, outline),
+                    fsm::SmoothStep(kFadeDepth, share_.values[i]));
   }
 
  private:
   const Chin& chin_;
   FloatImage beside_, share_;  // the depth of inner skin nearby, and how much there is of it, 0..1
-  const float hair_mm_ = PhotoLook().hair_depth, shoulder_mm_ = PhotoLook().shoulder_depth;
-  const float turns_mm_ = PhotoLook().sheet_turns;
 };
 
 }  // namespace

@@ -29,7 +29,7 @@ float Saturation(const fsm::Image& map, const FloatImage& coverage) {
     sum += brightest - std::min({c.r, c.g, c.b});
     light += brightest;
   }
-  return Ramp(PhotoLook().colour_difference, sum / std::max(light, 1.0F));
+  return fsm::SmoothStep(PhotoLook().colour.difference, sum / std::max(light, 1.0F));
 }
 
 FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_coverage) {
@@ -41,7 +41,7 @@ FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_coverage) 
   FloatImage likeness(map.width, map.height, 1);
   if (channels[0].empty()) return likeness;
   std::array<float, 3> middle{};
-  const glm::vec2 hair = PhotoLook().hair_darker;
+  const glm::vec2 hair = PhotoLook().hairy.darker_log;
   constexpr float kDark = 8;  // steps of brightness that make no difference
   for (std::size_t c = 0; c < 3; ++c) {
     middle[c] = Median(std::move(channels[c])) + kDark;
@@ -52,7 +52,7 @@ FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_coverage) 
       darker =
           std::max(darker, std::log(middle[c] / (static_cast<float>(map.rgba[4 * i + c]) + kDark)));
     }
-    likeness.values[i] = Ramp(hair, darker);
+    likeness.values[i] = fsm::SmoothStep(hair, darker);
   }
   return Blurred(likeness, TexelsOf(kHairEdgeMm, map.width));
 }
@@ -74,12 +74,13 @@ float Roughness(const fsm::Image& map, const FloatImage& face_coverage) {
 
 FloatImage CutAtHairline(const SkinTexels& texels, FloatImage likeness) {
   const FloatImage wide = Blurred(likeness, TexelsOf(kFringeMm, likeness.width));
-  const glm::vec2 edge = PhotoLook().hair_edge;
+  const glm::vec2 edge = PhotoLook().hairy.skin_around_part;
   FloatImage skin(likeness.width, likeness.height, 1);
   for (int x = 0; x < likeness.width; ++x) {
     float least = 1;
     for (int y = likeness.height - 1; y >= 0; --y) {
-      if (texels(x, y).above_brows_mm > 0) least = std::min(least, Ramp(edge, wide(x, y)));
+      if (texels(x, y).above_brows_mm > 0)
+        least = std::min(least, fsm::SmoothStep(edge, wide(x, y)));
       skin(x, y) = least;
     }
   }

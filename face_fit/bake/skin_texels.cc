@@ -116,8 +116,7 @@ std::optional<Triangle2> OnMap(const fsm::HeadTopology& topology, const MeshTria
 
 SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, SelfHidden self_hidden) {
   const BaseHead& base = *fitted.base;
-  const glm::vec2 across = PhotoLook().aside_across;
-  const glm::vec2 above_chin = PhotoLook().aside_above_chin;
+  const auto& aside = PhotoLook().aside;
   constexpr float kSlack = 0.02F;
   constexpr glm::vec3 kEye(0, 0, kCameraZ);
   std::optional<SelfOcclusion> hides;
@@ -141,15 +140,15 @@ SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, SelfHid
       const glm::vec3 q = place.On(camera);
       const glm::vec3 n = place.On(normal) + glm::vec3(0, 0, 1e-9F);
       const bool hidden = hides && (*hides)(q);
-      out(x, y) = {
-          .pixel = pose.Project(q),
-          .facing = hidden ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q)),
-          .outward_mm2 = outward_mm2,
-          .x_mm = rest.x,
-          .above_brows_mm = rest.y - brows,
-          .off_seam_mm = lips.OffSeam(rest),
-          .within_lips_mm = lips.Within(rest),
-          .aside = std::max(Ramp(across, std::abs(rest.x)), Ramp(above_chin, rest.y - chin))};
+      out(x, y) = {.pixel = pose.Project(q),
+                   .facing = hidden ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q)),
+                   .outward_mm2 = outward_mm2,
+                   .x_mm = rest.x,
+                   .above_brows_mm = rest.y - brows,
+                   .off_seam_mm = lips.OffSeam(rest),
+                   .within_lips_mm = lips.Within(rest),
+                   .aside = std::max(fsm::SmoothStep(aside.across_mm, std::abs(rest.x)),
+                                     fsm::SmoothStep(aside.above_chin_mm, rest.y - chin))};
     });
   });
   return out;

@@ -28,7 +28,7 @@ float DistanceToLine(glm::vec2 p, std::span<const glm::vec2> line) {
 /// `smooth` becomes how much of each pixel was filled, 0..1.
 void FillFold(std::span<const glm::vec2> line, float smile, float pixels_per_mm, int valley_px,
               fsm::Image& photo, FloatImage& smooth) {
-  const float reach_mm = PhotoLook().fold_reach;
+  const float reach_mm = PhotoLook().smile.folds.reach_mm;
   Box2 box;
   for (const glm::vec2 p : line) box.Add(p);
   const float margin = reach_mm * pixels_per_mm + 2 * static_cast<float>(valley_px);
@@ -59,7 +59,8 @@ void FillFold(std::span<const glm::vec2> line, float smile, float pixels_per_mm,
 FloatImage FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm,
                           fsm::Image& photo) {
   FloatImage smooth(photo.width, photo.height);
-  const int valley_px = static_cast<int>(std::lround(PhotoLook().fold_half_width * pixels_per_mm));
+  const int valley_px =
+      static_cast<int>(std::lround(PhotoLook().smile.folds.half_width_mm * pixels_per_mm));
   if (smile <= 0 || valley_px < 1) return smooth;
   for (const fsm::Side side : fsm::kSides) {
     FillFold(face.Line(point::kSmileFold[side]), smile, pixels_per_mm, valley_px, photo, smooth);

@@ -32,10 +32,13 @@ class Cheeks {
   }
   float At(const SkinTexels& texels, std::size_t i) const {
     const float y = Height(texels, i), x = std::abs(texels.values[i].x_mm);
-    return Ramp(eyes_ + below_eyes_, y) * Ramp(chin_ + above_chin_, y) * Ramp(beside_middle_, x) *
-           std::max(Ramp(wing_ + beside_wings_, x),
-                    below_nose_part_ * Ramp(nose_ + below_nose_, y)) *
-           Ramp(outside_lips_, texels.values[i].within_lips_mm);
+    const auto& look = PhotoLook().smile.shade;
+    return fsm::SmoothStep(eyes_ + look.below_eyes_mm, y) *
+           fsm::SmoothStep(chin_ + look.above_chin_mm, y) *
+           fsm::SmoothStep(look.beside_middle_mm, x) *
+           std::max(fsm::SmoothStep(wing_ + look.beside_wings_mm, x),
+                    look.below_nose_part * fsm::SmoothStep(nose_ + look.below_nose_mm, y)) *
+           fsm::SmoothStep(look.outside_lips_mm, texels.values[i].within_lips_mm);
   }
   /// Whether it is skin that can stand for the cheeks: no lips, no nose.
   bool Skin(const SkinTexels& texels, std::size_t i) const {
@@ -48,13 +51,6 @@ class Cheeks {
   float Height(const SkinTexels& texels, std::size_t i) const {
     return texels.values[i].above_brows_mm + brows_;
   }
-  const glm::vec2 below_eyes_ = PhotoLook().shade_below_eyes;
-  const glm::vec2 above_chin_ = PhotoLook().shade_above_chin;
-  const glm::vec2 beside_middle_ = PhotoLook().shade_beside_middle;
-  const glm::vec2 beside_wings_ = PhotoLook().shade_beside_wings;
-  const glm::vec2 below_nose_ = PhotoLook().shade_below_nose;
-  const float below_nose_part_ = PhotoLook().shade_below_nose_part;
-  const glm::vec2 outside_lips_ = PhotoLook().shade_outside_lips;
   float brows_, eyes_ = 0, wing_ = 0, nose_ = 0, chin_ = 0;
 };
 
@@ -89,17 +85,18 @@ class WeightedMeans {
 void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const FloatImage& coverage,
                         float smile, fsm::Image& map) {
   if (smile <= 0) return;
-  const glm::ivec2 reach(PhotoLook().shade_texels);
+  const auto& shade = PhotoLook().smile.shade;
   const Cheeks cheeks(base);
   FloatImage weight(kMapSize, kMapSize);
   for (std::size_t i = 0; i < weight.values.size(); ++i) {
     weight.values[i] = cheeks.Skin(texels, i) ? coverage.values[i] * coverage.values[i] : 0.0F;
   }
-  const WeightedMeans fine(weight, reach.x), wide(weight, reach.y);
+  const WeightedMeans fine(weight, static_cast<int>(shade.fine_texels)),
+      wide(weight, static_cast<int>(shade.wide_texels));
   const VectorImage colours = Colours(map), fine_mean = fine.Of(colours),
                     wide_mean = wide.Of(colours);
   for (std::size_t i = 0; i < colours.values.size(); ++i) {
-    const float part = smile * cheeks.At(texels, i) * Ramp(kKnownCheek, fine.Known(i));
+    const float part = smile * cheeks.At(texels, i) * fsm::SmoothStep(kKnownCheek, fine.Known(i));
     if (part <= 0) continue;
     const glm::vec3 even = (wide_mean.values[i] + 1.0F) / (fine_mean.values[i] + 1.0F);
     SetRgb(map, i, colours.values[i] * glm::mix(glm::vec3(1), even, part));
@@ -108,10 +105,9 @@ void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const Fl
 
 void GrainFromCheeks(const FloatImage& smooth, fsm::Image& map) {
   if (std::ranges::none_of(smooth.values, [](float s) { return s > 0; })) return;
-  const glm::ivec2 from_texel(PhotoLook().grain_from);
-  const int outward = from_texel.x, up = from_texel.y;
-  const int reach = static_cast<int>(PhotoLook().grain_texels);
-  const float most = PhotoLook().grain_most;
+  const auto& look = PhotoLook().smile.grain;
+  const int outward = static_cast<int>(look.outward_texels), up = static_cast<int>(look.up_texels);
+  const int reach = static_cast<int>(look.coarsest_texels);
   const VectorImage colours = Colours(map), means = Blurred(Blurred(colours, reach), reach);
   for (int y = up; y < kMapSize; ++y) {
     for (int x = outward; x < kMapSize - outward; ++x) {
@@ -120,7 +116,8 @@ void GrainFromCheeks(const FloatImage& smooth, fsm::Image& map) {
       const std::size_t from = smooth.Index(x < kMapSize / 2 ? x - outward : x + outward, y - up);
       const glm::vec3 grain = (colours.values[from] + 1.0F) / (means.values[from] + 1.0F) - 1.0F;
       SetRgb(map, i,
-             colours.values[i] * (1.0F + smooth.values[i] * glm::clamp(grain, -most, most)));
+             colours.values[i] *
+                 (1.0F + smooth.values[i] * glm::clamp(grain, -look.most_part, look.most_part)));
     }
   }
 }

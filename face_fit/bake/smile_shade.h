@@ -8,9 +8,9 @@ namespace facefit {
 
 /// Removes the shading of a smile from the cheeks of the skin's map, from the wings of the nose to
 /// beside the chin. Cheeks that bulge shine, and the skin below them lies in shade: brightness that
-/// varies over shade_texels of the table is replaced by what varies over more. Pores and spots are
-/// finer and stay.
-/// `smile`: how much of it, 0..1. `coverage`: of each texel, how well the photo shows it.
+/// varies over fine_texels to wide_texels of the table is replaced by what varies over more. Pores
+/// and spots are finer and stay. `smile`: how much of it, 0..1. `coverage`: of each texel, how well
+/// the photo shows it.
 void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const FloatImage& coverage,
                         float smile, fsm::Image& map);
 

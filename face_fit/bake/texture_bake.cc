@@ -57,15 +57,15 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
     side_sum += ColourAt(colours, texels.values[i].pixel);
   }
   const glm::vec3 gain = LightGain(front_sum, side_sum);
-  const PhotoLookNumbers& look = PhotoLook();
-  const glm::vec2 facing = look.extra_facing, across = look.extra_across;
-  const glm::vec2 facing_front = look.extra_facing_front;
+  const auto& look = PhotoLook().side_photo;
   for (std::size_t i = 0; i < coverage.values.size(); ++i) {
     // Too slanted a texel is drawn from a line of pixels.
-    if (texels.values[i].facing < facing.x || !IsInside(colours, texels.values[i].pixel)) continue;
-    const float side =
-        Ramp(facing, texels.values[i].facing) * Ramp(across, towards * front.values[i].x_mm);
-    const float own = coverage.values[i] * Ramp(facing_front, front.values[i].facing);
+    if (texels.values[i].facing < look.facing_cos.x || !IsInside(colours, texels.values[i].pixel))
+      continue;
+    const float side = fsm::SmoothStep(look.facing_cos, texels.values[i].facing) *
+                       fsm::SmoothStep(look.across_mm, towards * front.values[i].x_mm);
+    const float own =
+        coverage.values[i] * fsm::SmoothStep(look.front_facing_cos, front.values[i].facing);
     const float sum = own + (1 - own) * side;
     if (sum <= coverage.values[i] * 0.01F || side <= 0) continue;
     const float blend = (1 - own) * side / std::max(sum, 1e-4F);
@@ -88,21 +88,21 @@ struct PaintedMap {
 PaintedMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTexels& texels,
                       bool open, fsm::Image colours) {
   const PhotoLookNumbers& look = PhotoLook();
-  const float least_on_face = look.facing_least, least_aside = look.facing_least_aside;
-  const float soft = look.facing_soft;
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const FloatImage filled =
-      FillSmileFolds(face, look.smile_folds_filled * Smile(fitted), pixels_per_mm, colours);
+      FillSmileFolds(face, look.smile.folds.filled_part * Smile(fitted), pixels_per_mm, colours);
   const PhotoOpenings openings(face, pixels_per_mm, open);
   PaintedMap map;
   for (std::size_t i = 0; i < texels.values.size(); ++i) {
     const glm::vec2 p = texels.values[i].pixel;
     // Near the head's outline the photo shows more of what lies beside it than of its skin.
-    const float least = glm::mix(least_on_face, least_aside, texels.values[i].aside);
+    const float least =
+        glm::mix(look.seen.face_from_cos, look.seen.aside_from_cos, texels.values[i].aside);
     if (!IsInside(colours, p) || texels.values[i].facing < least) continue;
     const float skin = openings.SkinWeight(p);
     map.skin[i] = skin >= 1;
-    map.coverage.values[i] = skin * glm::smoothstep(least, least + soft, texels.values[i].facing);
+    map.coverage.values[i] =
+        skin * glm::smoothstep(least, least + look.seen.wholly_after_cos, texels.values[i].facing);
     map.smooth.values[i] = filled.Between(p.x, p.y);
     SetRgb(map.image, i, SharpColourAt(colours, p));
   }
@@ -111,11 +111,10 @@ PaintedMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const Ski
 
 /// Where lips that were apart now meet there is a dark line, reddish where the photo has colour.
 void DrawMouthLine(const SkinTexels& texels, float saturation, fsm::Image& map) {
-  const PhotoLookNumbers& look = PhotoLook();
-  const glm::vec3 dark = glm::mix(look.mouth_line_grey, look.mouth_line_colour, saturation);
-  const glm::vec2 width = look.mouth_line_width;
+  const auto& look = PhotoLook().mouth_line;
+  const glm::vec3 dark = glm::mix(look.takes_from_grey, look.takes_from_colour, saturation);
   for (std::size_t i = 0; i < texels.values.size(); ++i) {
-    const float line = Ramp(width, texels.values[i].off_seam_mm);
+    const float line = fsm::SmoothStep(look.off_seam_mm, texels.values[i].off_seam_mm);
     if (line > 0) SetRgb(map, i, Rgb(map, i) * (1.0F - dark * line));
   }
 }
@@ -158,8 +157,8 @@ SkinLook FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool open
   const float saturation = Saturation(map.image, map.coverage);
   CompleteByMirroring(map.skin, map.image, map.coverage);
   PushPullInpaint(map.image, map.coverage);
-  RemoveSmileShading(*fitted.base, texels, map.coverage, look.smile_shade_evened * Smile(fitted),
-                     map.image);
+  RemoveSmileShading(*fitted.base, texels, map.coverage,
+                     look.smile.shade.evened_part * Smile(fitted), map.image);
   GrainFromCheeks(map.smooth, map.image);
   const auto aside =
       FloatImage::From(kMapSize, kMapSize, [&](int x, int y) { return texels(x, y).aside; });
@@ -169,14 +168,14 @@ SkinLook FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool open
     DrawMouthLine(texels, saturation, map.image);
   }
   const FloatImage face_coverage = CoverageOfFace(texels, map.coverage);
-  const glm::vec2 range = look.roughness;
+  const glm::vec2 range = look.lined.roughness;
   const float rough = (Roughness(map.image, face_coverage) - range.x) / (range.y - range.x);
   const FloatImage likeness = CutAtHairline(texels, SkinLikeness(map.image, face_coverage));
   for (std::size_t i = 0; i < likeness.values.size(); ++i) {
     map.image.rgba[4 * i + 3] = Byte(255 * likeness.values[i]);
   }
   return {.saturation = saturation,
-          .lined = glm::mix(look.crease_smooth, 1.0F, glm::clamp(rough, 0.0F, 1.0F))};
+          .lined = glm::mix(look.lined.smooth_creases_part, 1.0F, glm::clamp(rough, 0.0F, 1.0F))};
 }
 
 /// The map on the left, the figure on the right.

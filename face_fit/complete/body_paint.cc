@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "face_fit/picture/pixels.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
@@ -62,13 +63,13 @@ BodyPaint::Joint BodyPaint::Join(PhotoEdge edge) const {
   }
   const float bust_half_width =
       bust_.HalfWidth(edge, joint.row + static_cast<float>(canvas_.photo_origin.y) - 0.5F);
-  glm::vec2 limit = PhotoLook().body_wider;
+  const auto& look = PhotoLook().bust;
+  glm::vec2 limit = look.width_ratio;
   // At the height of the jaw the figure is wider than its neck, but not for long; above the chin
   // the bust has a jaw of its own.
-  const glm::vec2 fade_mm = PhotoLook().body_joint;
   const float below_chin = (joint.row - canvas_.chin.y) / canvas_.pixels_per_mm;
-  if (below_chin < 0) limit.y = std::min(limit.y, PhotoLook().body_jaw_wider);
-  joint.fade_mm = glm::mix(fade_mm.x, fade_mm.y, Ramp(PhotoLook().body_neck_begins, below_chin));
+  if (below_chin < 0) limit.y = std::min(limit.y, look.width_ratio_at_jaw);
+  joint.fade_mm = fsm::Between(look.fades_mm, fsm::SmoothStep(look.neck_mm, below_chin));
   joint.width_ratio = glm::clamp(half_width / bust_half_width, hidden ? 1.0F : limit.x, limit.y);
   if (joint.cut) joint.slope = OutlineSlope(edge, joint.row);
   return joint;
@@ -78,7 +79,7 @@ float BodyPaint::OutlineSlope(PhotoEdge edge, float row) const {
   // How far the outline falls towards the edge, over the last part of the photo.
   const int inward = std::max(canvas_.photo_size.x / 16, 1);
   const int x = edge == PhotoEdge::kLeft ? inward : canvas_.photo_size.x - 1 - inward;
-  const glm::vec2 limit = PhotoLook().shoulder_fall;
+  const glm::vec2 limit = PhotoLook().shoulder.fall_per_px;
   int y = static_cast<int>(row);
   while (y > 0 && opacity_(x, y - 1) > 0.5F) --y;
   return std::clamp((row - static_cast<float>(y)) / static_cast<float>(inward), limit.x, limit.y);
@@ -97,17 +98,18 @@ glm::vec3 BodyPaint::ClothColour() const {
       add(edges_.aside(edge, y));
     }
   }
-  if (sum.w >= PhotoLook().body_cloth_seen * canvas_.pixels_per_mm) return glm::vec3(sum) / sum.w;
+  const auto& look = PhotoLook().cloth;
+  if (sum.w >= look.seen_mm * canvas_.pixels_per_mm) return glm::vec3(sum) / sum.w;
   // Cloth of our own stands in the light that skin stands in: it is tinted like that, and grey in a
   // grey photo.
-  const glm::vec3 skin = 255.0F * light_.skin(), usual = PhotoLook().body_usual_skin;
+  const glm::vec3 skin = 255.0F * light_.skin(), usual = look.usual_skin_colour;
   const float brightest = std::max({skin.r, skin.g, skin.b, 1.0F});
-  const float colour = glm::smoothstep(0.0F, PhotoLook().body_grey,
+  const float colour = glm::smoothstep(0.0F, look.grey_photo_part,
                                        1 - std::min({skin.r, skin.g, skin.b}) / brightest);
-  const glm::vec3 cloth = PhotoLook().body_cloth;
-  return glm::clamp(glm::mix(glm::vec3(Brightness(cloth) * Brightness(skin) / Brightness(usual)),
-                             cloth * skin / usual, colour),
-                    0.0F, 255.0F);
+  return glm::clamp(
+      glm::mix(glm::vec3(Brightness(look.colour) * Brightness(skin) / Brightness(usual)),
+               look.colour * skin / usual, colour),
+      0.0F, 255.0F);
 }
 
 glm::vec2 BodyPaint::FindNeckline() const {
@@ -135,7 +137,7 @@ BodyPaint::BustSample BodyPaint::SampleAt(glm::vec2 place) const {
 
 glm::vec3 BodyPaint::BustColour(const BustSample& body, Stuff stuff) const {
   const float shade = light_.On(body.normal) / light_.On({0, 0, 1});
-  return shade * glm::mix(1.0F, body.openness, shade_kept_) *
+  return shade * glm::mix(1.0F, body.openness, PhotoLook().bust.shade_part) *
          (stuff == kCloth ? cloth_colour_ : 255.0F * light_.skin());
 }
 
@@ -148,7 +150,7 @@ void BodyPaint::AddDifference(const EdgeSample& edge, glm::vec2 place, Differenc
 }
 
 float BodyPaint::ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) const {
-  const float reach_px = known_reach_mm_ * canvas_.pixels_per_mm;
+  const float reach_px = PhotoLook().beyond_edge.told_within_mm * canvas_.pixels_per_mm;
   const bool below = beyond.below > 0;
   const Differences& differences = below ? below_ : aside_[beyond.edge];
   const float along_px = below ? place.x : place.y;
@@ -159,20 +161,24 @@ float BodyPaint::ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) c
   if (!below) return at_edge;
   // An open neckline that the photo cuts closes farther down in a round line.
   const float half_widths = (place.x - neckline_.x) / neckline_.y;
-  const float depth_mm =
-      neckline_depth_mm_ * std::sqrt(std::max(1 - half_widths * half_widths, 0.0F));
-  return std::max(at_edge, on_bust * glm::smoothstep(depth_mm - hem_mm_, depth_mm + hem_mm_,
+  const auto& look = PhotoLook().neckline;
+  const float depth_mm = look.closes_mm * std::sqrt(std::max(1 - half_widths * half_widths, 0.0F));
+  return std::max(at_edge, on_bust * glm::smoothstep(depth_mm - look.hem_mm, depth_mm + look.hem_mm,
                                                      beyond.below / canvas_.pixels_per_mm));
 }
 
 glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond, Stuff stuff) const {
-  const glm::vec2 spread = spread_[stuff];
+  const auto& look = PhotoLook().beyond_edge;
+  const bool cloth = stuff == kCloth;
+  const float spread_mm = cloth ? look.cloth.spread_mm : look.skin.spread_mm;
+  const float spread_per_mm = cloth ? look.cloth.spread_per_mm : look.skin.spread_per_mm;
+  const float lasts_mm = cloth ? look.cloth.lasts_mm : look.skin.lasts_mm;
   const auto difference = [&](const EdgeMeans& edge, float along_px, float away_px) {
     const float away_mm = away_px / canvas_.pixels_per_mm;
     const glm::vec4 mean =
-        edge.Around(along_px, (spread.x + spread.y * away_mm) * canvas_.pixels_per_mm);
-    return std::exp(-away_mm / lasts_mm_[stuff]) *
-           glm::mix(edge.All(), glm::vec3(mean), mean.w / (mean.w + doubt_));
+        edge.Around(along_px, (spread_mm + spread_per_mm * away_mm) * canvas_.pixels_per_mm);
+    return std::exp(-away_mm / lasts_mm) *
+           glm::mix(edge.All(), glm::vec3(mean), mean.w / (mean.w + look.half_trusted_part));
   };
   glm::vec3 sum(0);
   const float beyond_px = beyond.below + beyond.aside;
@@ -181,8 +187,8 @@ glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond, Stuff
   }
   if (beyond.aside > 0) {
     // A sleeve falls with its shoulder.
-    const float row = std::clamp(place.y - sleeve_falls_ * beyond.aside, joint_[beyond.edge].row,
-                                 static_cast<float>(canvas_.photo_size.y));
+    const float row = std::clamp(place.y - PhotoLook().shoulder.sleeve_fall_per_px * beyond.aside,
+                                 joint_[beyond.edge].row, static_cast<float>(canvas_.photo_size.y));
     sum += beyond.aside / beyond_px * difference(aside_[beyond.edge][stuff], row, beyond.aside);
   }
   return sum;
@@ -200,9 +206,9 @@ Paint BodyPaint::At(glm::vec2 place) const {
     // A shoulder that the photo's edge cuts goes on as it falls there and bends down into the arm.
     const Joint& joint = joint_[beyond.edge];
     if (joint.cut) {
-      const float line =
-          joint.row + joint.slope * beyond.aside +
-          beyond.aside * beyond.aside / (2 * shoulder_round_mm_ * canvas_.pixels_per_mm);
+      const float line = joint.row + joint.slope * beyond.aside +
+                         beyond.aside * beyond.aside /
+                             (2 * PhotoLook().shoulder.radius_mm * canvas_.pixels_per_mm);
       opacity = glm::smoothstep(-1.0F, 1.0F, place.y - line);
     } else if (beyond.below <= 0) {
       opacity = 0;

@@ -8,7 +8,6 @@
 #include "face_fit/complete/canvas.h"
 #include "face_fit/complete/edge_means.h"
 #include "face_fit/complete/photo_edges.h"
-#include "face_fit/tables/photo_look.h"
 #include "fsm/head/face_light.h"
 
 namespace facefit {
@@ -53,18 +52,6 @@ class BodyPaint {
   glm::vec3 BustColour(const BustSample& body, Stuff stuff) const;
   float ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) const;
   glm::vec3 EdgeDifference(glm::vec2 place, const Beyond& beyond, Stuff stuff) const;
-
-  // Numbers of the table that are asked for at each pixel.
-  const float shade_kept_ = PhotoLook().body_shade;
-  const float neckline_depth_mm_ = PhotoLook().body_neckline;
-  const float hem_mm_ = PhotoLook().body_hem;
-  const float shoulder_round_mm_ = PhotoLook().shoulder_round;
-  const float sleeve_falls_ = PhotoLook().edge_falls;
-  const float known_reach_mm_ = PhotoLook().edge_stuff_reach;
-  const float doubt_ = PhotoLook().edge_doubt;
-  const std::array<glm::vec2, 2> spread_{PhotoLook().edge_spread_skin,
-                                         PhotoLook().edge_spread_cloth};
-  const glm::vec2 lasts_mm_ = PhotoLook().edge_lasts;
 
   const Canvas& canvas_;
   const PhotoEdges& edges_;

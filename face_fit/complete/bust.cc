@@ -18,7 +18,7 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
   pose.turn_rad = {};
   const float chin = base.AtRest(point::kChin).y;
   const glm::vec3 lower(0, chin - fitted.At(point::kChin).y, 0);
-  const float highest = chin + PhotoLook().bust_above_chin;
+  const float highest = chin + PhotoLook().bust.above_chin_mm;
   const fsm::HeadTopology& topology = base.head->topology();
   std::vector<glm::vec3> place = base.rest.position;
   for (glm::vec3& p : place) p -= lower;

@@ -26,7 +26,7 @@ float CrownRow(const FittedHead& fitted) {
   ForSkinTriangles(fitted.base->head->topology(), [&](const MeshTriangle& triangle) {
     highest = std::min(highest, fitted.pose.Pixel(fitted.posed_vertices[triangle.corner[0]]).y);
   });
-  return highest - PhotoLook().hair_on_crown * fitted.pose.PixelsPerMm();
+  return highest - PhotoLook().hair.on_crown_mm * fitted.pose.PixelsPerMm();
 }
 
 /// Room for the photo, for head and shoulders below its chin, and for hair above it.
@@ -34,10 +34,11 @@ Canvas CanvasFor(const FigureCutout& figure, const FittedHead& fitted, glm::vec2
                  float crown) {
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const glm::vec2 size(figure.opacity.width, figure.opacity.height);
-  const glm::vec2 reach = PhotoLook().canvas_from_chin * pixels_per_mm;
-  const float wide = size.x + 2 * PhotoLook().hair_beside * pixels_per_mm;
-  const glm::vec2 dome = wide * PhotoLook().hair_dome;
-  const float above = std::clamp(-crown, dome.x, dome.y) + PhotoLook().canvas_above * pixels_per_mm;
+  const auto& look = PhotoLook().canvas;
+  const glm::vec2 reach = pixels_per_mm * glm::vec2(look.aside_of_chin_mm, look.below_chin_mm);
+  const float wide = size.x + 2 * PhotoLook().hair.bulge_most_mm * pixels_per_mm;
+  const glm::vec2 dome = wide * PhotoLook().hair.dome_by_width;
+  const float above = std::clamp(-crown, dome.x, dome.y) + look.above_photo_mm * pixels_per_mm;
   const glm::vec2 low = glm::floor(glm::min(chin - glm::vec2(reach.x, 0), glm::vec2(0, -above)));
   const glm::vec2 high = glm::ceil(glm::max(chin + reach, size));
   return {.photo_origin = glm::ivec2(-low),
@@ -52,7 +53,7 @@ Canvas CanvasFor(const FigureCutout& figure, const FittedHead& fitted, glm::vec2
 FigureCutout WithoutTips(const PhotoEdges& edges, float pixels_per_mm, FigureCutout figure) {
   const int height = figure.opacity.height;
   const int highest =
-      std::max(height - static_cast<int>(PhotoLook().edge_hangs * pixels_per_mm), 0);
+      std::max(height - static_cast<int>(PhotoLook().neck.hangs_mm * pixels_per_mm), 0);
   constexpr float kBackground = 0.3F;  // the matte is in doubt beside such tips
   for (int x = 0; x < figure.opacity.width; ++x) {
     if (edges.bottom(x).kind != EdgeKind::kTip) continue;
@@ -96,7 +97,7 @@ void CopyPhoto(const Canvas& canvas, const FigureCutout& photo, const FigureCuto
 /// The matte is in doubt at the very edge: where the body goes on below, the figure does.
 void CloseSeam(const Canvas& canvas, const FigureCutout& figure, const BodyPaint& body,
                FloatImage& opacity) {
-  const int seam = std::max(static_cast<int>(PhotoLook().edge_band * canvas.pixels_per_mm), 1);
+  const int seam = std::max(static_cast<int>(PhotoLook().edge.band_mm * canvas.pixels_per_mm), 1);
   const int above = canvas.photo_size.y - 1 - 2 * seam;
   if (above < 0) return;
   for (int y = canvas.photo_size.y - seam; y < canvas.photo_size.y; ++y) {
@@ -143,9 +144,10 @@ CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& pho
   PaintBeyond(canvas, body, hair, out);
   // Colours go on beyond the outline, where they are mixed into it.
   PushPullInpaint(out.figure.colours, out.coloured);
-  const int grain = std::max(static_cast<int>(PhotoLook().hole_grain * canvas.pixels_per_mm), 2);
+  const int grain =
+      std::max(static_cast<int>(PhotoLook().grain.coarsest_mm * canvas.pixels_per_mm), 2);
   AddGrain(out.known, out.drawn, grain, out.figure.colours);
-  const float neck = canvas.chin.y + PhotoLook().completed_neck * canvas.pixels_per_mm;
+  const float neck = canvas.chin.y + PhotoLook().bust.reported_below_chin_mm * canvas.pixels_per_mm;
   return {std::move(out.figure), std::move(on_canvas),
           Completed{.neck = static_cast<float>(canvas.photo_size.y) < neck,
                     .shoulders = body.CutsShoulder(),

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 
 #include "face_fit/picture/resample.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
@@ -37,10 +38,10 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
       figure_(figure),
       top_(TopSpan()),
       aside_{SpanAside(PhotoEdge::kLeft), SpanAside(PhotoEdge::kRight)} {
-  const auto& look = PhotoLook();
-  const float most = look.hair_beside * canvas.pixels_per_mm;
+  const auto& look = PhotoLook().hair;
+  const float most = look.bulge_most_mm * canvas.pixels_per_mm;
   for (const PhotoEdge edge : kPhotoEdges) {
-    bulge_[edge] = std::min(look.hair_bulge * aside_[edge].Length(), most);
+    bulge_[edge] = std::min(look.bulge_by_length * aside_[edge].Length(), most);
     // What touches a corner goes on above it.
     if (bulge_[edge] <= 0 || aside_[edge].from > 1 || top_.Length() <= 0) continue;
     if (edge == PhotoEdge::kLeft && top_.from < 1) top_.from -= bulge_[edge];
@@ -48,17 +49,19 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
       top_.to += bulge_[edge];
     }
   }
-  const glm::vec2 rounded = look.hair_dome;
-  if (top_.Length() > 0)
-    dome_ = std::clamp(-crown, rounded.x * top_.Length(), rounded.y * top_.Length());
+  if (top_.Length() > 0) {
+    const glm::vec2 dome = top_.Length() * look.dome_by_width;
+    dome_ = std::clamp(-crown, dome.x, dome.y);
+  }
   cut_ = dome_ > 0 || bulge_.left + bulge_.right > 0;
   for (int x = 0; x < edges.width(); ++x) {
     const EdgeSample& sample = edges.bottom(x);
     below_.Add(sample.colour, sample.kind == EdgeKind::kHair ? 1 : 0);
   }
   // Single dark columns below the chin are wrinkles.
-  const float chin = look.hair_beard_half * canvas.pixels_per_mm;
-  bearded_ = below_.Around(canvas.chin.x, chin).w > look.hair_beard_least;
+  const auto& beard = PhotoLook().beard;
+  bearded_ =
+      below_.Around(canvas.chin.x, beard.half_width_mm * canvas.pixels_per_mm).w > beard.hair_part;
 }
 
 HairPaint::EdgeSpan HairPaint::TopSpan() const {
@@ -104,7 +107,7 @@ float HairPaint::BulgeWidth(PhotoEdge edge, float y) const {
   // The photo's corners are no ends.
   const float from = span.from < 1 ? -dome_ : span.from;
   const bool goes_on = span.to > static_cast<float>(canvas_.photo_size.y) - 1;
-  const float to = goes_on ? span.to + falls_mm_ * canvas_.pixels_per_mm : span.to;
+  const float to = goes_on ? span.to + PhotoLook().hair.falls_mm * canvas_.pixels_per_mm : span.to;
   return bulge * Arc((2 * y - from - to) / (to - from));
 }
 
@@ -124,8 +127,8 @@ glm::vec3 HairPaint::Colour(glm::vec2 place) const {
     pixel.x = std::clamp(beyond.edge == PhotoEdge::kLeft ? inward_px : size.x - inward_px, 0.5F,
                          size.x - 0.5F);
   }
-  const float mirrored =
-      glm::smoothstep(0.0F, enough_mm_ * canvas_.pixels_per_mm, static_cast<float>(depth_px));
+  const float mirrored = glm::smoothstep(0.0F, PhotoLook().hair.enough_mm * canvas_.pixels_per_mm,
+                                         static_cast<float>(depth_px));
   return glm::mix(edges_.hair(), ColourAt(figure_.colours, pixel), mirrored);
 }
 
@@ -133,14 +136,18 @@ Paint HairPaint::HairBelow(glm::vec2 place, float below_px) const {
   const glm::vec2 size(canvas_.photo_size);
   const float below_mm = below_px / canvas_.pixels_per_mm;
   const float x = place.x < 0 ? -place.x : place.x > size.x ? 2 * size.x - place.x : place.x;
-  const glm::vec4 hair = below_.Around(x, spread_.x + spread_.y * below_px);
+  const auto& look = PhotoLook().hair;
+  const auto& beard = PhotoLook().beard;
+  const glm::vec4 hair = below_.Around(x, look.spread_px + look.spread_per_px * below_px);
   // Below a bearded chin it is the beard, which ends at once.
   const float aside_mm = std::abs(x - canvas_.chin.x) / canvas_.pixels_per_mm;
-  const float falls_mm = bearded_ ? glm::mix(beard_falls_mm_, falls_mm_, Ramp(beard_mm_, aside_mm))
-                                  : falls_mm_ * Ramp(aside_mm_, aside_mm);
+  const float falls_mm = bearded_ ? glm::mix(beard.falls_mm, look.falls_mm,
+                                             fsm::SmoothStep(beard.ends_aside_mm, aside_mm))
+                                  : look.falls_mm * fsm::SmoothStep(look.falls_aside_mm, aside_mm);
   const float end_mm = falls_mm * (0.5F + 0.5F * StrandNoise(place.x / canvas_.pixels_per_mm));
   if (below_mm >= end_mm) return {glm::vec3(hair), 0};
-  return {glm::vec3(hair), hair.w * glm::smoothstep(end_mm, whole_part_ * end_mm, below_mm)};
+  return {glm::vec3(hair),
+          hair.w * glm::smoothstep(end_mm, look.strand_whole_part * end_mm, below_mm)};
 }
 
 Paint HairPaint::At(glm::vec2 place) const {
@@ -155,7 +162,7 @@ Paint HairPaint::At(glm::vec2 place) const {
     return hair;
   }
   const float dome_px = DomeHeight(place.x), bulge_px = BulgeWidth(beyond.edge, place.y);
-  const float soft_px = soft_mm_ * canvas_.pixels_per_mm *
+  const float soft_px = PhotoLook().hair.outline_mm * canvas_.pixels_per_mm *
                         (0.5F + StrandNoise((place.x + place.y) / canvas_.pixels_per_mm));
   float within = 1;
   if (beyond.above > 0) within = std::min(within, (dome_px - beyond.above) / soft_px);

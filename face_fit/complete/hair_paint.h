@@ -5,7 +5,6 @@
 #include "face_fit/complete/canvas.h"
 #include "face_fit/complete/edge_means.h"
 #include "face_fit/complete/photo_edges.h"
-#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 
@@ -35,15 +34,6 @@ class HairPaint {
   };
   EdgeSpan TopSpan() const;
   EdgeSpan SpanAside(PhotoEdge edge) const;
-
-  // Numbers of the table that are asked for at each pixel.
-  const float falls_mm_ = PhotoLook().hair_falls, enough_mm_ = PhotoLook().hair_enough;
-  const float soft_mm_ = PhotoLook().hair_soft;
-  const glm::vec2 spread_ = PhotoLook().hair_spread;
-  const float whole_part_ = PhotoLook().hair_whole;
-  const float beard_falls_mm_ = PhotoLook().hair_beard_falls;
-  const glm::vec2 beard_mm_ = PhotoLook().hair_beard;
-  const glm::vec2 aside_mm_ = PhotoLook().hair_aside;
 
   const Canvas& canvas_;
   const PhotoEdges& edges_;

@@ -44,14 +44,15 @@ class EdgeClassifier {
     const float from_hair =
         hair_ ? glm::distance(colour, *hair_) : std::numeric_limits<float>::infinity();
     if (IsSkin(colour) && glm::distance(colour, skin_) < from_hair) return EdgeKind::kSkin;
-    return from_hair < hair_reach_ ? EdgeKind::kHair : EdgeKind::kCloth;
+    return from_hair < PhotoLook().edge.hair_colour ? EdgeKind::kHair : EdgeKind::kCloth;
   }
 
  private:
   bool IsSkin(glm::vec3 colour) const {
     const float part = Brightness(colour) / std::max(Brightness(skin_), 1.0F);
-    return glm::distance(Hue(colour), Hue(skin_)) < hue_reach_ && part > bright_.x &&
-           part < bright_.y;
+    const auto& look = PhotoLook().edge;
+    return glm::distance(Hue(colour), Hue(skin_)) < look.skin_hue &&
+           part > look.skin_brightness.x && part < look.skin_brightness.y;
   }
   /// Colour without brightness; of the dark, where it is noise, grey.
   static glm::vec3 Hue(glm::vec3 colour) {
@@ -59,10 +60,6 @@ class EdgeClassifier {
     return (colour + kDark) / (Brightness(colour) + kDark);
   }
 
-  // Numbers of the table that are asked for at each pixel.
-  const float hair_reach_ = PhotoLook().edge_hair_colour;
-  const float hue_reach_ = PhotoLook().edge_skin_hue;
-  const glm::vec2 bright_ = PhotoLook().edge_skin_bright;
   glm::vec3 skin_;
   std::optional<glm::vec3> hair_;
 };
@@ -160,16 +157,16 @@ constexpr RunRule kRunRules[] = {
 std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const ChinFrame& place,
                         float below_mm) {
   const auto& look = PhotoLook();
-  const float neck_mm = look.edge_neck;
+  const float neck_mm = look.neck.half_width_mm;
   int cloth = 0, neck = 0;
   for (std::size_t x = 0; x < bottom.size(); ++x) {
     if (place.Aside(x) > neck_mm) continue;
     cloth += bottom[x].kind == EdgeKind::kCloth;
     ++neck;
   }
-  const bool collar = below_mm > look.edge_at_chin && 2 * cloth > neck;
-  const bool at_jaw = below_mm < look.edge_at_jaw;
-  const float beyond_mm = look.edge_beside_neck + (at_jaw ? look.edge_jaw : 0);
+  const bool collar = below_mm > look.neck.collar_mm && 2 * cloth > neck;
+  const bool at_jaw = below_mm < look.neck.jaw_mm;
+  const float beyond_mm = look.neck.ends_mm + (at_jaw ? look.neck.jaw_wider_mm : 0);
   const auto stuff_of = [&](std::size_t x) {
     const EdgeKind kind = bottom[x].kind;
     if (kind == EdgeKind::kNothing) return RunStuff::kOther;
@@ -192,7 +189,7 @@ std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const ChinFrame& 
 std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const ChinFrame& place,
                                    glm::ivec2 size, int band) {
   const auto& look = PhotoLook();
-  const float hang_from = static_cast<float>(size.y) - look.edge_hangs * place.pixels_per_mm;
+  const float hang_from = static_cast<float>(size.y) - look.neck.hangs_mm * place.pixels_per_mm;
   std::vector<EdgeSample> bottom;
   for (int x = 0; x < size.x; ++x) {
     EdgeSample& sample = bottom.emplace_back(reader.Sample({x, size.y - band}, {1, band}));
@@ -202,7 +199,7 @@ std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const ChinFrame& pl
     }
   }
   const float below_mm = place.Below(size.y);
-  if (below_mm >= look.edge_above_shoulders) return bottom;
+  if (below_mm >= look.neck.no_shoulders_mm) return bottom;
   for (const auto& [from, to, stuff] : RunsOf(bottom, place, below_mm)) {
     const auto* rule = std::ranges::find(kRunRules, stuff, &RunRule::stuff);
     if (rule == std::end(kRunRules)) continue;
@@ -252,7 +249,7 @@ glm::vec3 HairBeside(const PerEdge<std::vector<UpperEdgeSample>>& aside, float c
       if (side[y].kind != EdgeKind::kNothing) sum += glm::vec4(side[y].colour, 1);
     }
   }
-  return sum.w > 0 ? glm::vec3(sum) / sum.w : PhotoLook().hair_by_skin * skin;
+  return sum.w > 0 ? glm::vec3(sum) / sum.w : PhotoLook().hair.unseen_by_skin * skin;
 }
 
 }  // namespace
@@ -263,7 +260,7 @@ PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure, glm
   const EdgeReader reader(figure, classifier);
   const ChinFrame place{fitted.pose.Pixel(fitted.At(point::kChin)), fitted.pose.PixelsPerMm()};
   const glm::ivec2 band =
-      glm::clamp(glm::ivec2(static_cast<int>(PhotoLook().edge_band * place.pixels_per_mm)),
+      glm::clamp(glm::ivec2(static_cast<int>(PhotoLook().edge.band_mm * place.pixels_per_mm)),
                  glm::ivec2(1), size);
   bottom_ = ReadBottom(reader, place, size, band.y);
   top_ = ReadTop(reader, size, band.y);

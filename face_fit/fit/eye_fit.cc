@@ -139,7 +139,7 @@ std::vector<LandmarkConstraint> ShiftLidsToIrises(const BaseHead& base, const Ph
 }
 
 fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted) {
-  const float kept = PhotoLook().squint_kept;
+  const float kept = PhotoLook().squint_kept_part;
   const BaseHead& base = *fitted.base;
   fsm::HeadVertices posed;
   base.head->Evaluate(fitted.expression.State(), posed);

@@ -152,7 +152,8 @@ std::vector<LandmarkConstraint> ConstrainToMouthLine(const BaseHead& base, const
     for (LandmarkConstraint& constraint : constraints) {
       if (constraint.point != corner && !OfOuterLips(constraint)) continue;
       constraint.pixel +=
-          shift_px * Ramp(kGoesWithCorner, std::abs(along(constraint.on_head) - corner_part));
+          shift_px *
+          fsm::SmoothStep(kGoesWithCorner, std::abs(along(constraint.on_head) - corner_part));
     }
   }
   const auto constrain = [&](const MeshPoint& p) {

@@ -3,22 +3,11 @@
 #include "embedded/photo_look.h"
 
 namespace facefit {
-namespace {
-
-const fsm::NumberTable& BuiltIn() {
-  static const fsm::NumberTable table("tables/photo_look.txt", embedded::photo_look());
-  return table;
-}
-
-}  // namespace
 
 const PhotoLookNumbers& PhotoLook() {
-  static const PhotoLookNumbers look(BuiltIn());
+  static const PhotoLookNumbers look(
+      fsm::NumberTable("tables/photo_look.txt", embedded::photo_look()));
   return look;
-}
-
-PhotoLookNumbers PhotoLookOf(const std::string& name, std::string_view text) {
-  return PhotoLookNumbers(fsm::NumberTable(name, text, &BuiltIn()));
 }
 
 }  // namespace facefit

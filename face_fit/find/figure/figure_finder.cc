@@ -47,8 +47,8 @@ struct PictureRect {
 /// The whole picture, and more around a face that fills it: the network knows figures with
 /// shoulders, and in pictures of little more than a face takes the wall for one.
 PictureRect WholeFor(glm::vec2 picture, const Box2& face) {
-  const glm::vec2 larger = glm::max(picture, face.Size() / PhotoLook().figure_face);
-  return {(picture - larger) * glm::vec2(0.5F, PhotoLook().figure_above), larger};
+  const glm::vec2 larger = glm::max(picture, face.Size() / PhotoLook().figure.face_most_part);
+  return {(picture - larger) * glm::vec2(0.5F, PhotoLook().figure.above_part), larger};
 }
 
 Box2 BoxOf(const FoundFace& face) {
@@ -69,7 +69,8 @@ NetworkCrop HeadSquare(const Box2& face, glm::vec2 picture) {
 float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
   const float right = std::abs(glm::dot(face.At(point::kCheekRight) - middle, across));
   const float left = std::abs(glm::dot(face.At(point::kCheekLeft) - middle, across));
-  return Ramp(PhotoLook().figure_frontal, std::min(right, left) / std::max({right, left, 1.0F}));
+  return fsm::SmoothStep(PhotoLook().figure.frontal,
+                         std::min(right, left) / std::max({right, left, 1.0F}));
 }
 
 }  // namespace
@@ -81,7 +82,7 @@ FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image,
   const glm::vec2 down = glm::normalize(chin - top), across(-down.y, down.x);
   const float height = glm::distance(top, chin), nearby = kNearby * height;
   // Ears and hats, not what stands behind a shoulder.
-  const glm::vec2 aside = PhotoLook().figure_mirrored * height;
+  const glm::vec2 aside = PhotoLook().figure.mirrored_by_face * height;
   const float frontal = Frontal(face, chin, across);
   const auto unlike = [&](glm::vec2 p, glm::vec2 q) {
     float least = 1;
@@ -97,12 +98,12 @@ FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image,
       const glm::vec2 p = glm::vec2(x, y) + 0.5F;
       if (glm::dot(p - chin, down) > 0) continue;
       const float from_axis = glm::dot(p - chin, across);
-      const float mirrored = frontal * Ramp(aside, std::abs(from_axis));
+      const float mirrored = frontal * fsm::SmoothStep(aside, std::abs(from_axis));
       const glm::vec2 q = p - 2 * from_axis * across;
       if (mirrored <= 0 || !IsInside(image, q)) continue;
       const float own = person(x, y), other = person(static_cast<int>(q.x), static_cast<int>(q.y));
       if (own > kSameOnBoth * other) continue;
-      const float alike = Ramp(kAlike, unlike(p, q));
+      const float alike = fsm::SmoothStep(kAlike, unlike(p, q));
       doubted(x, y) = std::max(own, mirrored * glm::mix(kDoubt, kRather, alike) * other);
     }
   }
@@ -129,7 +130,7 @@ FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const 
     const glm::vec2 p = glm::vec2(x, y) + 0.5F;
     // The mean where both see well: what one of them doubts is looked at by its colours.
     const glm::vec2 in_square = head.FromPicture(p), from_middle = glm::abs(in_square - 0.5F);
-    const float share = 0.5F * Ramp(kSquareEdge, std::max(from_middle.x, from_middle.y));
+    const float share = 0.5F * fsm::SmoothStep(kSquareEdge, std::max(from_middle.x, from_middle.y));
     const float person = person_in_whole(p);
     return share > 0 ? glm::mix(person, PersonAt(near, in_square), share) : person;
   });

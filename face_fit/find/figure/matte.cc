@@ -138,7 +138,7 @@ void ConjugateGradients(const MattingLaplacian& laplacian, const PixelVector& op
 }
 
 /// Towards 0 and 1 where it says which, not where it says half.
-float Sharpened(float v) { return Ramp(kSharpen, v); }
+float Sharpened(float v) { return fsm::SmoothStep(kSharpen, v); }
 
 /// Nothing is half there over a wide area: that is doubt, not an edge.
 void SuppressWideDoubt(FloatImage& opacity, int reach) {
@@ -149,13 +149,13 @@ void SuppressWideDoubt(FloatImage& opacity, int reach) {
     const float m = mean.values[i], most = m * (1 - m);
     if (most < 1e-3F) continue;
     const float even = 1 - (mean_square.values[i] - m * m) / most;
-    const float sure = Ramp(kDecide, opacity.values[i]);
-    opacity.values[i] = glm::mix(opacity.values[i], sure, Ramp(kEven, even));
+    const float sure = fsm::SmoothStep(kDecide, opacity.values[i]);
+    opacity.values[i] = glm::mix(opacity.values[i], sure, fsm::SmoothStep(kEven, even));
   }
 }
 
 FloatImage SolveOpacity(const fsm::Image& image, const FloatImage& person) {
-  const glm::vec2 sure = PhotoLook().outline_doubt;
+  const glm::vec2 sure = PhotoLook().figure.outline_doubt_part;
   const int reach = std::max(image.width, image.height) / kOutlinePart + kOutlinePixels;
   const FloatImage around = Blurred(person, reach);
   FloatImage out(person.width, person.height);
