@@ -131,12 +131,12 @@ void CheckOptions(const Options& options) {
 struct Workshop {
   std::string folder;
   facefit::FaceNetworks networks;
-  facefit::BaseHead base;
+  facefit::ObservedHead base;
 
   Workshop(const Options& options, Progress& progress)
       : folder(options.out.empty() ? fsm::FacesFolder() : options.out),
         networks(vm::OrThrow(facefit::FaceNetworks::Load(options.networks))),
-        base(vm::OrThrow(facefit::BaseHead::Observe(networks, options.base))) {
+        base(vm::OrThrow(facefit::ObservedHead::BuiltIn(networks, options.base))) {
     const fsm::TableFolder own = fsm::UnitsFolder(folder + "/" + options.name, options.tables);
     if (const auto units = fsm::UnitsIn(own)) base.MoveBy(*units);
     progress.Say("networks read, head looked at");

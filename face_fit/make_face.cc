@@ -25,7 +25,7 @@ struct PhotoWithFace {
 /// Looks for the face that is meant, in a way for each kind of choice.
 struct FaceSearch {
   FaceNetworks& networks;
-  const BaseHead& base;
+  const ObservedHead& base;
   fsm::Image finest, working;
 
   vm::Result<PhotoWithFace> operator()(const FaceNumber& choice) {
@@ -44,7 +44,7 @@ struct FaceSearch {
     const auto faces = FindFaces(networks, working);
     PhotoWithFace found{std::move(finest), std::move(working), 1, static_cast<int>(faces.size())};
     const auto nearest = std::ranges::min_element(faces, {}, [&](const FoundFace& face) {
-      return glm::distance(face.At(point::kNoseTip), scale * choice.nose);
+      return glm::distance(face.PixelOf(point::kNoseTip), scale * choice.nose);
     });
     if (nearest != faces.end()) found.face = *nearest;
     return found;
@@ -70,8 +70,8 @@ vm::Result<FoundFace> ChooseFace(std::span<const FoundFace> faces, int number) {
   return faces[static_cast<std::size_t>(number - 1)];
 }
 
-vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const BaseHead& base, fsm::Image photo,
-                                    const FaceChoice& choice, PhotoPart part,
+vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const ObservedHead& base,
+                                    fsm::Image photo, const FaceChoice& choice, PhotoPart part,
                                     const StepDone& done) {
   const int given_longer = std::max(photo.width, photo.height);
   fsm::Image working = part == PhotoPart::kWhole ? photo : ScaledToFit(photo, kWorkingSize);
@@ -79,7 +79,7 @@ vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const BaseHead& base
   if (!found) return std::unexpected(found.error());
   done("faces and their points found");
   const glm::ivec2 whole_size(found->working.width, found->working.height);
-  const glm::vec2 nose = found->face ? found->face->At(point::kNoseTip) : glm::vec2(0);
+  const glm::vec2 nose = found->face ? found->face->PixelOf(point::kNoseTip) : glm::vec2(0);
   float scale =
       static_cast<float>(std::max(whole_size.x, whole_size.y)) / static_cast<float>(given_longer);
   if (found->face && part == PhotoPart::kCloseUp) {
@@ -104,9 +104,9 @@ vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const BaseHead& base
                     .whole_size = whole_size};
 }
 
-vm::Result<MadeFace> MakeFace(const BaseHead& base, const FrontPhoto& front, const FoundFace& face,
-                              const std::optional<SidePhotos>& sides, std::optional<bool> glasses,
-                              const StepDone& done) {
+vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
+                              const FoundFace& face, const std::optional<SidePhotos>& sides,
+                              std::optional<bool> glasses, const StepDone& done) {
   if (sides) {
     if (auto few = CheckSidePhotoCount(sides->photos.size()); !few) {
       return std::unexpected(few.error());

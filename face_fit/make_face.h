@@ -54,7 +54,7 @@ struct FrontPhoto {
 /// certainty with kCertainFace. Error: kBadValue, there are fewer faces than the number asked for,
 /// but some; or as CheckWithin.
 vm::Result<FrontPhoto> PrepareFront(
-    FaceNetworks& networks, const BaseHead& base, fsm::Image photo, const FaceChoice& choice,
+    FaceNetworks& networks, const ObservedHead& base, fsm::Image photo, const FaceChoice& choice,
     PhotoPart part, const StepDone& done = [](const char*) {});
 
 /// Photos of the person from the side, and the networks they are looked at with.
@@ -78,7 +78,7 @@ struct MadeFace {
 /// `glasses`: whether the person wears them, else that is looked for. Error: of
 /// CheckSidePhotoCount. Throws std::runtime_error if nothing can be drawn with.
 vm::Result<MadeFace> MakeFace(
-    const BaseHead& base, const FrontPhoto& front, const FoundFace& face,
+    const ObservedHead& base, const FrontPhoto& front, const FoundFace& face,
     const std::optional<SidePhotos>& sides = {}, std::optional<bool> glasses = {},
     const StepDone& done = [](const char*) {});
 

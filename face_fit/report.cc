@@ -35,7 +35,7 @@ float SideLight(const FoundFace& face, const fsm::Image& photo) {
   fsm::Sided<float> light{1, 1};
   for (const fsm::Side side : fsm::kSides) {
     for (const PointIndex i : point::kCheeks[side]) {
-      light[side] += Brightness(ColourAt(photo, face.At(i)));
+      light[side] += Brightness(ColourAt(photo, face.PixelOf(i)));
     }
   }
   return light.left / light.right;
@@ -111,10 +111,11 @@ std::string WarnOfCompletion(const Completed& completed) {
 std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
                    const TextureBake& bake, int faces, const Occlusion& occlusion) {
   const glm::vec3 turn_deg = glm::degrees(fit.head.pose.turn_rad);
-  const float eyes = glm::distance(face.At(point::kEyeOuterRight), face.At(point::kEyeOuterLeft));
+  const float eyes =
+      glm::distance(face.PixelOf(point::kEyeOuterRight), face.PixelOf(point::kEyeOuterLeft));
   const Expression& shown = fit.head.expression;
   const auto& irises = fit.irises.circles;
-  const float side = SideLight(face, photo);
+  const float left_by_right = SideLight(face, photo);
   std::string out = fmt::format(
       "photo       {} x {} pixels, eyes {:.0f} pixels apart at their outer corners\n"
       "faces       {}\n"
@@ -135,7 +136,7 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
   if (eyes < kSmallEyesPx) out += "warning: the face is small; details will be soft\n";
   out += WarnOfTurn(turn_deg) + WarnOfEyes(fit.irises);
   if (Sharpness(face, photo) < kBlurred) out += "warning: the photo is blurred\n";
-  if (side > kLitAside || side < kShadedAside)
+  if (left_by_right > kLitAside || left_by_right < kShadedAside)
     out += "warning: strong light from one side stays in the skin\n";
   if (shown.smile > kPosing || shown.jaw + shown.parted > kPosing) {
     out += "warning: not a neutral face; some folds of the expression stay in the skin\n";

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/find/face/hand_points.h"
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 
 namespace editor {
 namespace {

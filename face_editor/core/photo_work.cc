@@ -40,13 +40,13 @@ vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder,
   if (!networks) return std::unexpected(networks.error());
   auto sight = std::make_shared<FaceSight>(FaceSight{std::move(*networks), nullptr, {}});
   try {
-    auto base = facefit::BaseHead::Observe(sight->networks, "galatea");
+    auto base = facefit::ObservedHead::BuiltIn(sight->networks, "galatea");
     if (!base) return std::unexpected(base.error());
     if (const auto units = fsm::UnitsIn(tables)) base->MoveBy(*units);
     std::vector<glm::vec3> places;
-    for (const auto& place : base->points) places.push_back(place.On(base->rest.position));
+    for (const auto& place : base->places()) places.push_back(place.On(base->rest().position));
     sight->mirror = MirrorOf(places);
-    sight->base = std::make_shared<const facefit::BaseHead>(std::move(*base));
+    sight->base = std::make_shared<const facefit::ObservedHead>(std::move(*base));
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kUnavailable, error.what());
   }

@@ -13,7 +13,7 @@ namespace editor {
 /// The networks and the built-in head as they see it: the same for every photo.
 struct FaceSight {
   facefit::FaceNetworks networks;
-  std::shared_ptr<const facefit::BaseHead> base;
+  std::shared_ptr<const facefit::ObservedHead> base;
   Mirror mirror;
 };
 /// `folder` as of FaceNetworks::Load; `tables`: a folder whose units, if it has any, move the head
@@ -31,7 +31,7 @@ struct PhotoWork {
   std::string notice;  ///< what the user should know, a sentence; may be empty
   Mirror mirror;
   // Not there without the networks: then points can be set, but no face be made of them.
-  std::shared_ptr<const facefit::BaseHead> base;
+  std::shared_ptr<const facefit::ObservedHead> base;
 };
 /// `sight` may be nullptr; `face` counts from 1, the largest. Errors: as facefit::ReadPhoto;
 /// kBadValue if there are fewer faces.
@@ -53,7 +53,7 @@ PointMap AllPoints(const PhotoWork& work, const PointMap& known);
 
 /// The head of the person, fitted to points on the photo.
 struct BuiltFace {
-  std::shared_ptr<const facefit::BaseHead> base;  ///< the fit refers to it
+  std::shared_ptr<const facefit::ObservedHead> base;  ///< the fit refers to it
   facefit::MadeFace made;
   std::shared_ptr<const fsm::Head> head;
 };

@@ -11,7 +11,7 @@ namespace facefit {
 /// The chin of the fitted head, and what lies about it, in the head's frame.
 class Chin {
  public:
-  explicit Chin(const FittedHead& fitted) : place_(fitted.At(point::kChin)) {}
+  explicit Chin(const FittedHead& fitted) : place_(fitted.PlaceOf(point::kChin)) {}
   float height() const { return place_.y; }
   /// Below it the neck of the photo takes over from the skin.
   float SkinBottom() const { return place_.y - PhotoLook().chin.skin_goes_on_mm; }

@@ -75,7 +75,7 @@ std::array<glm::vec3, kRings> MedianByRing(const std::vector<Texel>& texels) {
 }
 
 /// Of each texel of a square `value(place)`; (-1, 1) is its upper left corner.
-auto Square(int size, auto value) {
+auto MakeSquare(int size, auto value) {
   return Raster<decltype(value(glm::vec2()))>::From(size, size, [&](int x, int y) {
     const glm::vec2 p = 2.0F * (glm::vec2(x, y) + 0.5F) / static_cast<float>(size) - 1.0F;
     return value(glm::vec2(p.x, -p.y));
@@ -107,10 +107,10 @@ fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin, const fsm::Image& ph
   const float edge =
       std::max(PhotoLook().eye_picture.lid_shade_radii * eye.iris.radius, kMinShadePx);
   const RedEye flash(skin);
-  const auto texels = Square(kIrisPixels, [&](glm::vec2 p) {
+  const auto texels = MakeSquare(kIrisPixels, [&](glm::vec2 p) {
     p *= fsm::kIrisSpan;
     const glm::vec2 pixel = eye.iris.centre + eye.iris.radius * (p.x * eye.right + p.y * eye.up);
-    const auto [upper, lower] = eye.lids.At(eye.lids.Part(pixel));
+    const auto [upper, lower] = eye.lids.LidsAt(eye.lids.Part(pixel));
     const float within = std::min(eye.lids.Down(pixel) - upper, lower - eye.lids.Down(pixel));
     float red = 0;
     for (int k = 0; k < 9; ++k) {
@@ -137,12 +137,12 @@ fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin, const fsm::Image& ph
 /// centre.
 fsm::Image BallPicture(const PhotoEye& eye, const LidLines& rest, float radius,
                        const fsm::Image& photo) {
-  const auto places = Square(kBallPixels, [&](glm::vec2 p) {
+  const auto places = MakeSquare(kBallPixels, [&](glm::vec2 p) {
     p *= fsm::kBallSpan * radius;
     const float part = glm::clamp(rest.Part(p), 0.0F, 1.0F);
-    const auto [upper, lower] = rest.At(part);
+    const auto [upper, lower] = rest.LidsAt(part);
     const float between = (rest.Down(p) - upper) / std::max(lower - upper, 0.05F);
-    const auto [upper_shown, lower_shown] = eye.lids.At(part);
+    const auto [upper_shown, lower_shown] = eye.lids.LidsAt(part);
     return std::pair(
         eye.lids.PointAt(part, glm::mix(upper_shown, lower_shown, glm::clamp(between, 0.0F, 1.0F))),
         between);
@@ -195,7 +195,7 @@ glm::vec3 LightBeside(const FoundFace& face, const fsm::Image& photo, fsm::Side 
   glm::vec3 light(1);
   const auto& below = point::kBelowEye[side];
   for (const PointIndex i : below)
-    light += ColourAt(photo, face.At(i)) / static_cast<float>(below.size());
+    light += ColourAt(photo, face.PixelOf(i)) / static_cast<float>(below.size());
   return light;
 }
 
@@ -207,8 +207,8 @@ fsm::Image Mirrored(const fsm::Image& square, glm::vec3 gain) {
 }
 
 /// The lids of an eye of the head at rest, millimetres round the middle of its ball.
-LidLines LidsAtRest(const BaseHead& base, fsm::Side side, const fsm::EyeTransform& transform) {
-  const glm::vec3 centre = base.head->topology().eyes[side].centre;
+LidLines LidsAtRest(const ObservedHead& base, fsm::Side side, const fsm::EyeTransform& transform) {
+  const glm::vec3 centre = base.head().topology().eyes[side].centre;
   EyePoints rest;
   for (std::size_t i = 0; i < rest.size(); ++i) {
     rest[i] = glm::vec2(base.AtRest(EyeOutline(side)[i]) - centre);
@@ -229,7 +229,7 @@ LidLines LidsAtRest(const BaseHead& base, fsm::Side side, const fsm::EyeTransfor
 std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, const Fit& fit,
                                                      const fsm::Sided<fsm::EyeTransform>& at_rest,
                                                      const fsm::Image& photo, fsm::Image& picture) {
-  const BaseHead& base = *fit.head.base;
+  const ObservedHead& base = *fit.head.base;
   const auto shown = ShownEyes(fit.irises);
   if (!shown) return std::nullopt;
   const glm::mat3 turned = fit.head.pose.Rotation();
@@ -239,9 +239,9 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
     if ((*shown)[k] != k) continue;
     EyePoints outline;
     std::ranges::transform(EyeOutline(k), outline.begin(),
-                           [&](PointIndex p) { return face.At(p); });
+                           [&](PointIndex p) { return face.PixelOf(p); });
     const PhotoEye eye{fit.irises.circles[k], LidLines(outline), right, {right.y, -right.x}};
-    const float radius = at_rest[k].size * base.head->topology().eyes[k].ball_radius;
+    const float radius = at_rest[k].size * base.head().topology().eyes[k].ball_radius;
     squares[k] = {IrisPicture(eye, LightBeside(face, photo, k), photo),
                   BallPicture(eye, LidsAtRest(base, k, at_rest[k]), radius, photo)};
   }

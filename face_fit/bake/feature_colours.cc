@@ -49,7 +49,7 @@ glm::vec3 Typical(std::vector<glm::vec3> colours, float rank, glm::vec3 otherwis
 float SkinLight(const FoundFace& face, const fsm::Image& photo) {
   float light = 0;
   for (const PointIndex i : point::kBareSkin) {
-    light += Brightness(Linear(ColourAt(photo, face.At(i)))) / point::kBareSkin.size();
+    light += Brightness(Linear(ColourAt(photo, face.PixelOf(i)))) / point::kBareSkin.size();
   }
   return light;
 }
@@ -98,7 +98,7 @@ MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
   glm::vec3 lip(0);
   for (std::size_t k = kFirst; k <= kLast; ++k) {
     const glm::vec2 pixel =
-        0.5F * (face.At(point::kLowerOuterLip[k]) + face.At(point::kLowerInnerLip[k]));
+        0.5F * (face.PixelOf(point::kLowerOuterLip[k]) + face.PixelOf(point::kLowerInnerLip[k]));
     lip += Linear(ColourAt(photo, pixel)) / float{kLast - kFirst + 1};
   }
   // The inner rim lies in shade.

@@ -2,7 +2,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 #include "face_fit/find/network/face_finder.h"
 #include "face_fit/fit/fitted_head.h"
 

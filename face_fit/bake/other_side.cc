@@ -55,9 +55,9 @@ class SideGain {
       }
     }
   }
-  glm::vec3 At(int x, int y) const {
-    return gain_.Between((static_cast<float>(x) + 0.5F) / kCell,
-                         (static_cast<float>(y) + 0.5F) / kCell);
+  glm::vec3 GainAt(int x, int y) const {
+    return gain_.SampleAt((static_cast<float>(x) + 0.5F) / kCell,
+                          (static_cast<float>(y) + 0.5F) / kCell);
   }
 
  private:
@@ -85,7 +85,7 @@ void CompleteByMirroring(const std::vector<bool>& skin, fsm::Image& map, FloatIm
       const float part = std::max(own_coverage.values[j] - own_coverage.values[i], 0.0F) * 0.5F;
       if (part <= 0 || !skin[i]) continue;
       const float sum = own_coverage.values[i] + part;
-      const glm::vec3 gain = gain_of_side.At(x, y);
+      const glm::vec3 gain = gain_of_side.GainAt(x, y);
       const float held = fsm::SmoothStep(look.held_by_seen_part, covered_around.values[i]);
       const glm::vec3 beside = Rgb(around, i);
       const glm::vec3 brightest = glm::min(glm::mix(kAny, look.brightest, held) * beside, 255.0F);

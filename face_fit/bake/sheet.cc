@@ -66,11 +66,13 @@ class HeadOpenings {
         std::pair(kEyeOuterRight, kEyeInnerRight), std::pair(kEyeInnerLeft, kEyeOuterLeft)};
     const auto& look = PhotoLook().sheet_hole;
     for (std::size_t i = 0; i < kEyes.size(); ++i) {
-      const glm::vec3 right = fitted.At(kEyes[i].first), left = fitted.At(kEyes[i].second);
+      const glm::vec3 right = fitted.PlaceOf(kEyes[i].first),
+                      left = fitted.PlaceOf(kEyes[i].second);
       const float half = 0.5F * std::abs(left.x - right.x) + look.beyond_eye_mm;
       ovals_[i] = {0.5F * (left + right), half, half, half};
     }
-    const glm::vec3 right = fitted.At(kInnerMouthRight), left = fitted.At(kInnerMouthLeft);
+    const glm::vec3 right = fitted.PlaceOf(kInnerMouthRight),
+                    left = fitted.PlaceOf(kInnerMouthLeft);
     ovals_[2] = {0.5F * (left + right), 0.5F * std::abs(left.x - right.x) + look.beyond_mouth_mm,
                  look.above_mouth_mm, look.below_mouth_mm};
   }
@@ -181,7 +183,7 @@ Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure) {
       Spread(MotionOn(surface, MotionToRest(fitted)), skin.covered, skin.rim);
   const auto shown = FloatImage::From(grid.columns, grid.rows, [&](int x, int y) {
     const glm::vec2 pixel = grid.Point(x, y);
-    return figure.opacity.Between(pixel.x, pixel.y);
+    return figure.opacity.SampleAt(pixel.x, pixel.y);
   });
   const FloatImage depth = SheetDepth(fitted, grid, chin, skin, Blurred(shown, 2));
   const glm::vec2 size(figure.colours.width, figure.colours.height);

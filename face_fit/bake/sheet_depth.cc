@@ -38,11 +38,11 @@ FloatImage Spanned(const FloatImage& fixed, FloatImage depth) {
 }
 
 /// Under the inner skin.
-class UnderSkin {
+class UnderSkinDepth {
  public:
-  UnderSkin(const Chin& chin, const GridSkin& skin) : chin_(chin), skin_(skin) {}
+  UnderSkinDepth(const Chin& chin, const GridSkin& skin) : chin_(chin), skin_(skin) {}
   /// `place`: about where the point of the grid lies, head's frame.
-  float At(std::size_t i, glm::vec3 place) const {
+  float DepthAt(std::size_t i, glm::vec3 place) const {
     // At the skin's edge the sheet goes on from it, further in it keeps out of its way.
     const float inward = glm::smoothstep(kInnerWithin, kDeepWithin, skin_.within.values[i]);
     const auto& look = PhotoLook().sheet;
@@ -60,17 +60,17 @@ class UnderSkin {
 
 /// At the outline and somewhat beyond it; the outline itself would waver as the grid's points lie
 /// within it or not.
-class AtOutline {
+class OutlineDepth {
  public:
-  AtOutline(const Chin& chin, const GridSkin& skin)
+  OutlineDepth(const Chin& chin, const GridSkin& skin)
       : chin_(chin), beside_(skin.depth), share_(Blurred(skin.inner, skin.rim)) {
     for (std::size_t i = 0; i < beside_.values.size(); ++i) {
       beside_.values[i] *= skin.inner.values[i];
     }
     beside_ = Blurred(beside_, skin.rim);
   }
-  /// `place`: as of UnderSkin.
-  float At(std::size_t i, glm::vec3 place) const {
+  /// `place`: as of UnderSkinDepth.
+  float DepthAt(std::size_t i, glm::vec3 place) const {
     // Hair stands before the ears, shoulders lie in their plane. Beside the cheek the sheet stays
     // near the cheek's depth, or its last pixels would be drawn long.
     const auto& look = PhotoLook().sheet;
@@ -102,8 +102,8 @@ GridSkin::GridSkin(const VisibleSurface& surface, int rim_cells)
 
 FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Chin& chin,
                       const GridSkin& skin, const FloatImage& shown) {
-  const UnderSkin under_skin(chin, skin);
-  const AtOutline at_outline(chin, skin);
+  const UnderSkinDepth under_skin(chin, skin);
+  const OutlineDepth at_outline(chin, skin);
   FloatImage depth(grid.columns, grid.rows), fixed(depth);
   for (int y = 0; y < grid.rows; ++y) {
     for (int x = 0; x < grid.columns; ++x) {
@@ -112,7 +112,7 @@ FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Ch
       const bool inner = skin.inner.values[i] > 0;
       const bool outside = skin.covered.values[i] <= 0 && shown.values[i] < kShownLeast;
       if (!inner && !outside) continue;
-      depth.values[i] = inner ? under_skin.At(i, place) : at_outline.At(i, place);
+      depth.values[i] = inner ? under_skin.DepthAt(i, place) : at_outline.DepthAt(i, place);
       fixed.values[i] = 1;
     }
   }

@@ -16,8 +16,8 @@ VisibleSurface VisibleSkin(const FittedHead& fitted, const CameraPose& pose, con
   const auto beyond = [&](std::uint32_t v) {
     return posed[v].y < bottom_mm || posed[v].z < fsm::JawLine(posed[v].y - bottom_mm);
   };
-  VisibleSurface surface(grid, pose.Screen(posed));
-  ForSkinTriangles(fitted.base->head->topology(), [&](const MeshTriangle& triangle) {
+  VisibleSurface surface(grid, pose.ToScreen(posed));
+  ForSkinTriangles(fitted.base->head().topology(), [&](const MeshTriangle& triangle) {
     if (std::ranges::any_of(triangle.corner, beyond)) return;
     const glm::vec3 normal = triangle.Normal(posed);
     if (glm::dot(normal, axis) > kMinFacing * glm::length(normal)) surface.Draw(triangle);

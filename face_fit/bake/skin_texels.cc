@@ -52,7 +52,7 @@ class SelfOcclusion {
 /// Where the lips of the base head at rest meet and end, in millimetres.
 class LipLines {
  public:
-  explicit LipLines(const BaseHead& base)
+  explicit LipLines(const ObservedHead& base)
       : seam_(Line(base, point::kUpperInnerLip, {})),
         upper_(Line(base, point::kUpperOuterLip, kCorners)),
         lower_(Line(base, point::kLowerOuterLip, kCorners)) {}
@@ -75,7 +75,7 @@ class LipLines {
     constexpr float kFrontMm = 60;  // behind it lies the mouth's inside
     return p.x >= line.front().x && p.x <= line.back().x && p.z >= kFrontMm;
   }
-  static std::vector<glm::vec3> Line(const BaseHead& base, std::span<const PointIndex> points,
+  static std::vector<glm::vec3> Line(const ObservedHead& base, std::span<const PointIndex> points,
                                      std::span<const PointIndex> ends) {
     std::vector<PointIndex> all(points.begin(), points.end());
     if (!ends.empty()) {
@@ -115,17 +115,17 @@ std::optional<Triangle2> OnMap(const fsm::HeadTopology& topology, const MeshTria
 }  // namespace
 
 SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, SelfHidden self_hidden) {
-  const BaseHead& base = *fitted.base;
+  const ObservedHead& base = *fitted.base;
   const auto& aside = PhotoLook().aside;
   constexpr float kSlack = 0.02F;
   constexpr glm::vec3 kEye(0, 0, kCameraZ);
   std::optional<SelfOcclusion> hides;
   if (self_hidden == SelfHidden::kNotSeen) hides.emplace(fitted, pose);
-  const auto& topology = base.head->topology();
+  const auto& topology = base.head().topology();
   std::vector<glm::vec3> camera;
   for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(pose.ToCamera(p));
   const std::vector<glm::vec3> normal = SkinNormals(topology, camera);
-  const float brows = base.head->Landmark("nasion").y + kBrowsEndMm;
+  const float brows = base.head().Landmark("nasion").y + kBrowsEndMm;
   const float chin = base.AtRest(point::kChin).y;
   const LipLines lips(base);
   SkinTexels out(kMapSize, kMapSize);
@@ -134,7 +134,7 @@ SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, SelfHid
     if (!on_map) return;
     Rasterize(*on_map, kMapSize, kMapSize, kSlack, [&](int x, int y, glm::vec3 weights) {
       const MeshPoint place{triangle.corner, weights};
-      const glm::vec3 rest = place.On(base.rest.position);
+      const glm::vec3 rest = place.On(base.rest().position);
       const float outward_mm2 = rest.x * rest.x + rest.z * rest.z;
       if (outward_mm2 <= out(x, y).outward_mm2) return;
       const glm::vec3 q = place.On(camera);

@@ -22,7 +22,8 @@ constexpr glm::vec2 kKnownCheek{0.1F, 0.5F};
 /// the wings of the nose and, less, below it.
 class Cheeks {
  public:
-  explicit Cheeks(const BaseHead& base) : brows_(base.head->Landmark("nasion").y + kBrowsEndMm) {
+  explicit Cheeks(const ObservedHead& base)
+      : brows_(base.head().Landmark("nasion").y + kBrowsEndMm) {
     using namespace point;
     const auto at = [&base](PointIndex i) { return base.AtRest(i); };
     eyes_ = 0.5F * (at(kEyeBottomRight).y + at(kEyeBottomLeft).y);
@@ -30,7 +31,7 @@ class Cheeks {
     nose_ = at(kNoseBottom).y;
     chin_ = at(kChin).y;
   }
-  float At(const SkinTexels& texels, std::size_t i) const {
+  float ShadeAt(const SkinTexels& texels, std::size_t i) const {
     const float y = Height(texels, i), x = std::abs(texels.values[i].x_mm);
     const auto& look = PhotoLook().smile.shade;
     return fsm::SmoothStep(eyes_ + look.below_eyes_mm, y) *
@@ -61,7 +62,7 @@ class WeightedMeans {
       : weight_(weight), reach_(reach), sum_(Soft(weight)) {}
   /// How much there is to go by near a texel, 0..1.
   float Known(std::size_t i) const { return sum_.values[i]; }
-  VectorImage Of(VectorImage colours) const {
+  VectorImage MeansOf(VectorImage colours) const {
     for (std::size_t i = 0; i < colours.values.size(); ++i) colours.values[i] *= weight_.values[i];
     colours = Soft(colours);
     for (std::size_t i = 0; i < colours.values.size(); ++i) {
@@ -82,8 +83,8 @@ class WeightedMeans {
 
 }  // namespace
 
-void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const FloatImage& coverage,
-                        float smile, fsm::Image& map) {
+void RemoveSmileShading(const ObservedHead& base, const SkinTexels& texels,
+                        const FloatImage& coverage, float smile, fsm::Image& map) {
   if (smile <= 0) return;
   const auto& shade = PhotoLook().smile.shade;
   const Cheeks cheeks(base);
@@ -93,10 +94,11 @@ void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const Fl
   }
   const WeightedMeans fine(weight, static_cast<int>(shade.fine_texels)),
       wide(weight, static_cast<int>(shade.wide_texels));
-  const VectorImage colours = Colours(map), fine_mean = fine.Of(colours),
-                    wide_mean = wide.Of(colours);
+  const VectorImage colours = Colours(map), fine_mean = fine.MeansOf(colours),
+                    wide_mean = wide.MeansOf(colours);
   for (std::size_t i = 0; i < colours.values.size(); ++i) {
-    const float part = smile * cheeks.At(texels, i) * fsm::SmoothStep(kKnownCheek, fine.Known(i));
+    const float part =
+        smile * cheeks.ShadeAt(texels, i) * fsm::SmoothStep(kKnownCheek, fine.Known(i));
     if (part <= 0) continue;
     const glm::vec3 even = (wide_mean.values[i] + 1.0F) / (fine_mean.values[i] + 1.0F);
     SetRgb(map, i, colours.values[i] * glm::mix(glm::vec3(1), even, part));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "face_fit/bake/skin_texels.h"
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 #include "face_fit/picture/float_image.h"
 
 namespace facefit {
@@ -11,8 +11,8 @@ namespace facefit {
 /// varies over fine_texels to wide_texels of the table is replaced by what varies over more. Pores
 /// and spots are finer and stay. `smile`: how much of it, 0..1. `coverage`: of each texel, how well
 /// the photo shows it.
-void RemoveSmileShading(const BaseHead& base, const SkinTexels& texels, const FloatImage& coverage,
-                        float smile, fsm::Image& map);
+void RemoveSmileShading(const ObservedHead& base, const SkinTexels& texels,
+                        const FloatImage& coverage, float smile, fsm::Image& map);
 
 /// Gives back to skin that was smoothed the grain that the cheek has above it and farther out.
 /// `smooth`: how much of its own each texel of the map lost, 0..1.

@@ -32,7 +32,7 @@ constexpr float kMouthOpen = 0.1F;
 /// Skin that varies over no more than this is grain.
 constexpr float kGrainMm = 1.5F;
 
-float Smile(const FittedHead& fitted) { return glm::clamp(fitted.expression.smile, 0.0F, 1.0F); }
+float SmileOf(const FittedHead& fitted) { return glm::clamp(fitted.expression.smile, 0.0F, 1.0F); }
 
 // What of the skin both photos show well, so that their light can be compared: coverage by the
 // first one, cosines of the slant to both, distance from the middle of the face.
@@ -90,7 +90,7 @@ PaintedMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const Ski
   const PhotoLookNumbers& look = PhotoLook();
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const FloatImage filled =
-      FillSmileFolds(face, look.smile.folds.filled_part * Smile(fitted), pixels_per_mm, colours);
+      FillSmileFolds(face, look.smile.folds.filled_part * SmileOf(fitted), pixels_per_mm, colours);
   const PhotoOpenings openings(face, pixels_per_mm, open);
   PaintedMap map;
   for (std::size_t i = 0; i < texels.values.size(); ++i) {
@@ -103,7 +103,7 @@ PaintedMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const Ski
     map.skin[i] = skin >= 1;
     map.coverage.values[i] =
         skin * glm::smoothstep(least, least + look.seen.wholly_after_cos, texels.values[i].facing);
-    map.smooth.values[i] = filled.Between(p.x, p.y);
+    map.smooth.values[i] = filled.SampleAt(p.x, p.y);
     SetRgb(map.image, i, SharpColourAt(colours, p));
   }
   return map;
@@ -158,7 +158,7 @@ SkinLook FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool open
   CompleteByMirroring(map.skin, map.image, map.coverage);
   PushPullInpaint(map.image, map.coverage);
   RemoveSmileShading(*fitted.base, texels, map.coverage,
-                     look.smile.shade.evened_part * Smile(fitted), map.image);
+                     look.smile.shade.evened_part * SmileOf(fitted), map.image);
   GrainFromCheeks(map.smooth, map.image);
   const auto aside =
       FloatImage::From(kMapSize, kMapSize, [&](int x, int y) { return texels(x, y).aside; });
@@ -225,8 +225,8 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
   Sheet sheet = MakeSheet(whole.head, whole.figure);
   // Half a texel within, so that the halves do not run into each other.
   constexpr float kHalf = 0.25F / kMapSize;
-  fsm::PhotoHead head{.base = fitted.base->name,
-                      .points = fitted.points,
+  fsm::PhotoHead head{.base = fitted.base->name(),
+                      .points = fitted.warp_points,
                       .smooth = fitted.smooth_mm,
                       .eyes = eyes,
                       .iris_colour = eye_colours.iris,

@@ -131,8 +131,8 @@ BodyPaint::BustSample BodyPaint::SampleAt(glm::vec2 place) const {
                 : glm::mix(1.0F, joint.width_ratio, std::exp(-below_mm / joint.fade_mm));
   const float x = bust_.axis + (pixel.x - bust_.axis) / width_ratio;
   if (x < 0 || x > static_cast<float>(bust_.opacity.width)) return {};
-  return {bust_.opacity.Between(x, pixel.y), bust_.cloth.Between(x, pixel.y),
-          bust_.openness.Between(x, pixel.y), bust_.normal.Between(x, pixel.y)};
+  return {bust_.opacity.SampleAt(x, pixel.y), bust_.cloth.SampleAt(x, pixel.y),
+          bust_.openness.SampleAt(x, pixel.y), bust_.normal.SampleAt(x, pixel.y)};
 }
 
 glm::vec3 BodyPaint::BustColour(const BustSample& body, Stuff stuff) const {
@@ -154,8 +154,8 @@ float BodyPaint::ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) c
   const bool below = beyond.below > 0;
   const Differences& differences = below ? below_ : aside_[beyond.edge];
   const float along_px = below ? place.x : place.y;
-  const float skin = differences[kSkin].Around(along_px, reach_px).w,
-              cloth = differences[kCloth].Around(along_px, reach_px).w;
+  const float skin = differences[kSkin].MeanAround(along_px, reach_px).w,
+              cloth = differences[kCloth].MeanAround(along_px, reach_px).w;
   if (skin + cloth <= 0) return on_bust;
   const float at_edge = cloth / (skin + cloth);
   if (!below) return at_edge;
@@ -176,7 +176,7 @@ glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond, Stuff
   const auto difference = [&](const EdgeMeans& edge, float along_px, float away_px) {
     const float away_mm = away_px / canvas_.pixels_per_mm;
     const glm::vec4 mean =
-        edge.Around(along_px, (spread_mm + spread_per_mm * away_mm) * canvas_.pixels_per_mm);
+        edge.MeanAround(along_px, (spread_mm + spread_per_mm * away_mm) * canvas_.pixels_per_mm);
     return std::exp(-away_mm / lasts_mm) *
            glm::mix(edge.All(), glm::vec3(mean), mean.w / (mean.w + look.half_trusted_part));
   };
@@ -194,7 +194,7 @@ glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond, Stuff
   return sum;
 }
 
-Paint BodyPaint::At(glm::vec2 place) const {
+Paint BodyPaint::PaintAt(glm::vec2 place) const {
   const Beyond beyond = canvas_.BeyondPhoto(place);
   const BustSample body = SampleAt(place);
   float opacity = body.opacity;

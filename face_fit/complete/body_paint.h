@@ -22,7 +22,7 @@ class BodyPaint {
   /// Whether the left or right edge of the photo cuts the shoulder.
   bool CutsShoulder() const { return joint_.left.cut || joint_.right.cut; }
   /// REQUIRES: beyond the photo, or at its lower edge.
-  Paint At(glm::vec2 place) const;
+  Paint PaintAt(glm::vec2 place) const;
 
  private:
   /// Index of what is kept once for skin and once for cloth.

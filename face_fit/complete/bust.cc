@@ -13,22 +13,22 @@ namespace {
 
 /// `pose`: as large as the pictures.
 Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) {
-  const BaseHead& base = *fitted.base;
+  const ObservedHead& base = *fitted.base;
   // Upright below the fitted head, whose chin may be lower than the built-in one's.
   pose.turn_rad = {};
   const float chin = base.AtRest(point::kChin).y;
-  const glm::vec3 lower(0, chin - fitted.At(point::kChin).y, 0);
+  const glm::vec3 lower(0, chin - fitted.PlaceOf(point::kChin).y, 0);
   const float highest = chin + PhotoLook().bust.above_chin_mm;
-  const fsm::HeadTopology& topology = base.head->topology();
-  std::vector<glm::vec3> place = base.rest.position;
+  const fsm::HeadTopology& topology = base.head().topology();
+  std::vector<glm::vec3> place = base.rest().position;
   for (glm::vec3& p : place) p -= lower;
-  VisibleSurface surface({glm::vec2(0.5F), 1, width, height}, pose.Screen(place));
+  VisibleSurface surface({glm::vec2(0.5F), 1, width, height}, pose.ToScreen(place));
   const auto body = [](fsm::Material m) {
     return m == fsm::Material::kCloth || m == fsm::Material::kSkin;
   };
   ForTriangles(topology, body, [&](const MeshTriangle& triangle) {
     const bool above = std::ranges::any_of(
-        triangle.corner, [&](std::uint32_t v) { return base.rest.position[v].y > highest; });
+        triangle.corner, [&](std::uint32_t v) { return base.rest().position[v].y > highest; });
     if (!above) surface.DrawFront(triangle);
   });
   const FloatImage none(width, height);
@@ -38,7 +38,7 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
       const MeshTriangle* triangle = surface.Triangle(x, y);
       if (!triangle) continue;
       const MeshPoint place_on_base = surface.Place(x, y);
-      const glm::vec3 normal = place_on_base.On(base.rest.normal);
+      const glm::vec3 normal = place_on_base.On(base.rest().normal);
       if (normal.z <= 0) continue;  // at the very outline the smooth normal may turn away
       bust.opacity(x, y) = 1;
       bust.cloth(x, y) = triangle->material == fsm::Material::kCloth ? 1.0F : 0.0F;

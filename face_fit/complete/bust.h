@@ -3,7 +3,7 @@
 #include <glm/vec3.hpp>
 
 #include "face_fit/complete/canvas.h"
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 #include "face_fit/fit/fitted_head.h"
 #include "face_fit/picture/float_image.h"
 

@@ -23,7 +23,7 @@ namespace {
 /// The row of the top of the head with hair on it.
 float CrownRow(const FittedHead& fitted) {
   float highest = std::numeric_limits<float>::infinity();
-  ForSkinTriangles(fitted.base->head->topology(), [&](const MeshTriangle& triangle) {
+  ForSkinTriangles(fitted.base->head().topology(), [&](const MeshTriangle& triangle) {
     highest = std::min(highest, fitted.pose.Pixel(fitted.posed_vertices[triangle.corner[0]]).y);
   });
   return highest - PhotoLook().hair.on_crown_mm * fitted.pose.PixelsPerMm();
@@ -103,7 +103,7 @@ void CloseSeam(const Canvas& canvas, const FigureCutout& figure, const BodyPaint
   for (int y = canvas.photo_size.y - seam; y < canvas.photo_size.y; ++y) {
     for (int x = 0; x < canvas.photo_size.x; ++x) {
       float& pixel = opacity(x + canvas.photo_origin.x, y + canvas.photo_origin.y);
-      const float below = body.At(glm::vec2(x, y) + 0.5F).opacity;
+      const float below = body.PaintAt(glm::vec2(x, y) + 0.5F).opacity;
       pixel = std::max(pixel, std::min(figure.opacity(x, above), below));
     }
   }
@@ -115,7 +115,7 @@ void PaintBeyond(const Canvas& canvas, const BodyPaint& body, const HairPaint& h
       const glm::ivec2 pixel = glm::ivec2(x, y) - canvas.photo_origin;
       if (pixel == glm::clamp(pixel, glm::ivec2(0), canvas.photo_size - 1)) continue;
       const glm::vec2 place = glm::vec2(pixel) + 0.5F;
-      const Paint under = body.At(place), over = hair.At(place);
+      const Paint under = body.PaintAt(place), over = hair.PaintAt(place);
       const std::size_t i = out.drawn.Index(x, y);
       SetRgb(out.figure.colours, i, glm::mix(under.colour, over.colour, over.opacity));
       out.drawn.values[i] = over.opacity + (1 - over.opacity) * under.opacity;
@@ -129,7 +129,8 @@ void PaintBeyond(const Canvas& canvas, const BodyPaint& body, const HairPaint& h
 
 CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& photo) {
   const float crown = CrownRow(fitted);
-  const Canvas canvas = CanvasFor(photo, fitted, fitted.pose.Pixel(fitted.At(point::kChin)), crown);
+  const Canvas canvas =
+      CanvasFor(photo, fitted, fitted.pose.Pixel(fitted.PlaceOf(point::kChin)), crown);
   const fsm::FaceLight light = LightOnFace(fitted, photo);
   const PhotoEdges edges(fitted, photo, 255.0F * light.skin());
   const FigureCutout figure = WithoutTips(edges, canvas.pixels_per_mm, photo);

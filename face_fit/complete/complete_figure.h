@@ -1,7 +1,7 @@
 #pragma once
 
 #include "face_fit/find/figure/matte.h"
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 #include "face_fit/fit/fitted_head.h"
 
 namespace facefit {

@@ -18,7 +18,7 @@ class EdgeMeans {
   }
   /// The mean over up to `reach` pixels to either side, what is nearer counting more, 0 where
   /// nothing is known; and how much is known, 0..1.
-  glm::vec4 Around(float at, float reach) const {
+  glm::vec4 MeanAround(float at, float reach) const {
     glm::vec4 sum(0);
     for (const float part : {1.0F, 0.6F, 0.3F}) sum += Sum(at, part * reach) / 3.0F;
     return {glm::vec3(sum) / std::max(sum.w, 1e-4F), sum.w};

@@ -60,8 +60,8 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
   }
   // Single dark columns below the chin are wrinkles.
   const auto& beard = PhotoLook().beard;
-  bearded_ =
-      below_.Around(canvas.chin.x, beard.half_width_mm * canvas.pixels_per_mm).w > beard.hair_part;
+  bearded_ = below_.MeanAround(canvas.chin.x, beard.half_width_mm * canvas.pixels_per_mm).w >
+             beard.hair_part;
 }
 
 HairPaint::EdgeSpan HairPaint::TopSpan() const {
@@ -138,7 +138,7 @@ Paint HairPaint::HairBelow(glm::vec2 place, float below_px) const {
   const float x = place.x < 0 ? -place.x : place.x > size.x ? 2 * size.x - place.x : place.x;
   const auto& look = PhotoLook().hair;
   const auto& beard = PhotoLook().beard;
-  const glm::vec4 hair = below_.Around(x, look.spread_px + look.spread_per_px * below_px);
+  const glm::vec4 hair = below_.MeanAround(x, look.spread_px + look.spread_per_px * below_px);
   // Below a bearded chin it is the beard, which ends at once.
   const float aside_mm = std::abs(x - canvas_.chin.x) / canvas_.pixels_per_mm;
   const float falls_mm = bearded_ ? glm::mix(beard.falls_mm, look.falls_mm,
@@ -150,7 +150,7 @@ Paint HairPaint::HairBelow(glm::vec2 place, float below_px) const {
           hair.w * glm::smoothstep(end_mm, look.strand_whole_part * end_mm, below_mm)};
 }
 
-Paint HairPaint::At(glm::vec2 place) const {
+Paint HairPaint::PaintAt(glm::vec2 place) const {
   const Beyond beyond = canvas_.BeyondPhoto(place);
   if (beyond.below > 0) {
     Paint hair = HairBelow(place, beyond.below);

@@ -19,7 +19,7 @@ class HairPaint {
   /// Whether the photo cuts hair above or aside.
   bool Cut() const { return cut_; }
   /// REQUIRES: beyond the photo.
-  Paint At(glm::vec2 place) const;
+  Paint PaintAt(glm::vec2 place) const;
 
  private:
   float DomeHeight(float x) const;

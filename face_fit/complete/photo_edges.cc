@@ -40,7 +40,7 @@ class EdgeClassifier {
   }
   /// The mean of hair or hat; nothing where none is seen.
   std::optional<glm::vec3> hair() const { return hair_; }
-  EdgeKind Of(glm::vec3 colour) const {
+  EdgeKind KindOf(glm::vec3 colour) const {
     const float from_hair =
         hair_ ? glm::distance(colour, *hair_) : std::numeric_limits<float>::infinity();
     if (IsSkin(colour) && glm::distance(colour, skin_) < from_hair) return EdgeKind::kSkin;
@@ -91,7 +91,7 @@ class EdgeReader {
         sample.opacity += share * figure_.opacity.values[i];
       }
     }
-    if (sample.opacity > kMostly) sample.kind = classifier_.Of(sample.colour);
+    if (sample.opacity > kMostly) sample.kind = classifier_.KindOf(sample.colour);
     return sample;
   }
   /// How many pixels, at most `most`, follow each other from one on that are the figure's but no
@@ -115,7 +115,7 @@ class EdgeReader {
   }
 
  private:
-  EdgeKind KindOf(std::size_t i) const { return classifier_.Of(Rgb(figure_.colours, i)); }
+  EdgeKind KindOf(std::size_t i) const { return classifier_.KindOf(Rgb(figure_.colours, i)); }
   bool MostOf(std::size_t x, float from, auto counts) const {
     int hanging = 0, rows = 0;
     for (int y = std::max(static_cast<int>(from), 0); y < figure_.opacity.height; ++y, ++rows) {
@@ -256,9 +256,10 @@ glm::vec3 HairBeside(const PerEdge<std::vector<UpperEdgeSample>>& aside, float c
 
 PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure, glm::vec3 skin) {
   const glm::ivec2 size(figure.opacity.width, figure.opacity.height);
-  const EdgeClassifier classifier(figure, fitted.pose.Pixel(fitted.At(point::kForehead)).y, skin);
+  const EdgeClassifier classifier(figure, fitted.pose.Pixel(fitted.PlaceOf(point::kForehead)).y,
+                                  skin);
   const EdgeReader reader(figure, classifier);
-  const ChinFrame place{fitted.pose.Pixel(fitted.At(point::kChin)), fitted.pose.PixelsPerMm()};
+  const ChinFrame place{fitted.pose.Pixel(fitted.PlaceOf(point::kChin)), fitted.pose.PixelsPerMm()};
   const glm::ivec2 band =
       glm::clamp(glm::ivec2(static_cast<int>(PhotoLook().edge.band_mm * place.pixels_per_mm)),
                  glm::ivec2(1), size);

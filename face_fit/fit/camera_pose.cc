@@ -38,7 +38,7 @@ glm::vec3 CameraPose::Unproject(glm::vec2 pixel, float z) const {
   const glm::vec2 d = (pixel - centre) * ((kCameraZ - z) / focal);
   return {d.x, -d.y, z};
 }
-std::vector<glm::vec3> CameraPose::Screen(std::span<const glm::vec3> places) const {
+std::vector<glm::vec3> CameraPose::ToScreen(std::span<const glm::vec3> places) const {
   std::vector<glm::vec3> screen;
   for (const glm::vec3& p : places) {
     const glm::vec3 q = ToCamera(p);

@@ -37,7 +37,7 @@ struct CameraPose {
   glm::vec2 Pixel(glm::vec3 p) const { return Project(ToCamera(p)); }
   glm::vec3 PlaceAt(glm::vec2 pixel, float z) const { return FromCamera(Unproject(pixel, z)); }
   /// Pixels of many places, with their depths in the camera's frame as third coordinates.
-  std::vector<glm::vec3> Screen(std::span<const glm::vec3> places) const;
+  std::vector<glm::vec3> ToScreen(std::span<const glm::vec3> places) const;
   float PixelsPerMm() const;  ///< at the depth of the face
 };
 

@@ -23,10 +23,10 @@ constexpr float kFreeRestMm = 0.5F, kMaxShiftMm = 3;
 
 float Within(glm::vec2 range, float v) { return std::clamp(v, range.x, range.y); }
 
-fsm::EyeTransform FitEye(const BaseHead& base, const std::map<PointIndex, glm::vec3>& to,
+fsm::EyeTransform FitEye(const ObservedHead& base, const std::map<PointIndex, glm::vec3>& to,
                          fsm::Side side) {
   const auto outline = EyeOutline(side);
-  const glm::vec3 centre = base.head->topology().eyes[side].centre;
+  const glm::vec3 centre = base.head().topology().eyes[side].centre;
   const auto place = [&](std::size_t k) { return base.AtRest(outline[k]); };
   const float inner = place(kInnerCorner).x, outer = place(kOuterCorner).x;
   // Unknown: shift x and y, size times cosine and sine of the turn, raise of upper and lower lid.
@@ -70,10 +70,10 @@ struct IrisPlacement {
   glm::vec2 centre;
   float pixels_per_mm;
 };
-IrisPlacement ExpectedIris(const BaseHead& base, const LidSpan& photo, fsm::Side side) {
+IrisPlacement ExpectedIris(const ObservedHead& base, const LidSpan& photo, fsm::Side side) {
   const LidSpan own = LidSpanOf(
       side, [&base](PointIndex i) { return glm::vec2(1, -1) * glm::vec2(base.AtRest(i)); });
-  const glm::vec3 ball = base.head->topology().eyes[side].centre;
+  const glm::vec3 ball = base.head().topology().eyes[side].centre;
   const glm::vec2 from = own.inner - own.outer, to = photo.inner - photo.outer;
   const float pixels_per_mm = glm::length(to) / std::max(glm::length(from), 1e-3F);
   const float turn_rad = std::atan2(to.y, to.x) - std::atan2(from.y, from.x);
@@ -83,20 +83,21 @@ IrisPlacement ExpectedIris(const BaseHead& base, const LidSpan& photo, fsm::Side
 
 }  // namespace
 
-fsm::Sided<fsm::EyeTransform> FitEyes(const BaseHead& base,
+fsm::Sided<fsm::EyeTransform> FitEyes(const ObservedHead& base,
                                       const std::map<PointIndex, glm::vec3>& to) {
   return {FitEye(base, to, fsm::Side::kRight), FitEye(base, to, fsm::Side::kLeft)};
 }
 
-PhotoIrises FindPhotoIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo) {
+PhotoIrises FindPhotoIrises(const ObservedHead& base, const FoundFace& face,
+                            const fsm::Image* photo) {
   PhotoIrises irises;
   fsm::Sided<OpenEye> eyes;
   for (const fsm::Side side : fsm::kSides) {
-    const auto place = [&face](PointIndex i) { return face.At(i); };
+    const auto place = [&face](PointIndex i) { return face.PixelOf(i); };
     const IrisPlacement iris = ExpectedIris(base, LidSpanOf(side, place), side);
     std::ranges::transform(EyeOutline(side), eyes[side].lids.begin(), place);
     eyes[side].middle = iris.centre;
-    eyes[side].expected_radius = iris.pixels_per_mm * base.head->topology().eyes[side].iris_radius;
+    eyes[side].expected_radius = iris.pixels_per_mm * base.head().topology().eyes[side].iris_radius;
     irises.circles[side] = {
         .centre = iris.centre, .radius = eyes[side].expected_radius, .contrast = 0};
   }
@@ -114,7 +115,8 @@ PhotoIrises FindPhotoIrises(const BaseHead& base, const FoundFace& face, const f
   return irises;
 }
 
-std::vector<LandmarkConstraint> ShiftLidsToIrises(const BaseHead& base, const PhotoIrises& irises,
+std::vector<LandmarkConstraint> ShiftLidsToIrises(const ObservedHead& base,
+                                                  const PhotoIrises& irises,
                                                   std::vector<LandmarkConstraint> constraints) {
   for (const fsm::Side side : fsm::kSides) {
     const IrisCircle& iris = irises.circles[side];
@@ -140,14 +142,14 @@ std::vector<LandmarkConstraint> ShiftLidsToIrises(const BaseHead& base, const Ph
 
 fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted) {
   const float kept = PhotoLook().squint_kept_part;
-  const BaseHead& base = *fitted.base;
+  const ObservedHead& base = *fitted.base;
   fsm::HeadVertices posed;
-  base.head->Evaluate(fitted.expression.State(), posed);
+  base.head().Evaluate(fitted.expression.State(), posed);
   fsm::Sided<fsm::EyeTransform> transforms = fitted.eyes;
   for (const fsm::Side side : fsm::kSides) {
     const auto raised = [&](std::size_t k) {
-      const MeshPoint& lid = base.points[EyeOutline(side)[k]];
-      return lid.On(posed.position).y - lid.On(base.rest.position).y;
+      const MeshPoint& lid = base.places()[EyeOutline(side)[k]];
+      return lid.On(posed.position).y - lid.On(base.rest().position).y;
     };
     transforms[side].upper_mm += kept * std::min(raised(kUpperMiddle), 0.0F);
     transforms[side].lower_mm += kept * std::max(raised(kLowerMiddle), 0.0F);

@@ -25,7 +25,7 @@ Expression ExpressionOf(const Parameters& p) {
 }
 
 struct FitProblem {
-  const BaseHead& base;
+  const ObservedHead& base;
   const FoundFace& face;
   std::vector<float> depth_bias;  ///< true minus seen, of the base head, mean removed
   bool lips_apart;
@@ -34,14 +34,14 @@ struct FitProblem {
 std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& parameters) {
   const CameraPose pose = PoseOf(parameters);
   fsm::HeadVertices vertices;
-  problem.base.head->Evaluate(ExpressionOf(parameters).State(), vertices);
+  problem.base.head().Evaluate(ExpressionOf(parameters).State(), vertices);
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<double> out;
   std::vector<float> depth;
   float mean = 0;
   for (const PointIndex k : point::kForFit) {
-    const glm::vec3 q = pose.ToCamera(problem.base.points[k].On(vertices.position));
-    const glm::vec2 offset = (pose.Project(q) - problem.face.At(k)) * mm_per_pixel;
+    const glm::vec3 q = pose.ToCamera(problem.base.places()[k].On(vertices.position));
+    const glm::vec2 offset = (pose.Project(q) - problem.face.PixelOf(k)) * mm_per_pixel;
     out.push_back(static_cast<double>(offset.x));
     out.push_back(static_cast<double>(offset.y));
     depth.push_back(q.z - problem.face.points[k].z * mm_per_pixel - problem.depth_bias[k]);
@@ -72,11 +72,11 @@ Parameters Refine(const FitProblem& problem, const CameraPose& start) {
 }
 
 /// What the network sees of depth too much or too little on the base head; mean 0, millimetres.
-std::vector<float> DepthBias(const BaseHead& base) {
+std::vector<float> DepthBias(const ObservedHead& base) {
   std::vector<float> bias;
   float mean = 0;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-    bias.push_back(base.AtRest(i).z - base.detected[i].z);
+    bias.push_back(base.AtRest(i).z - base.detected()[i].z);
     mean += bias.back() / static_cast<float>(kNetworkPoints);
   }
   for (float& b : bias) b -= mean;
@@ -84,15 +84,15 @@ std::vector<float> DepthBias(const BaseHead& base) {
 }
 
 /// Size, position and tilt by the outer corners of the eyes and the root of the nose.
-CameraPose InitialPose(const BaseHead& base, const FoundFace& face) {
+CameraPose InitialPose(const ObservedHead& base, const FoundFace& face) {
   using namespace point;
-  const glm::vec2 right = face.At(kEyeOuterRight), left = face.At(kEyeOuterLeft);
+  const glm::vec2 right = face.PixelOf(kEyeOuterRight), left = face.PixelOf(kEyeOuterLeft);
   const float width_mm = glm::distance(base.AtRest(kEyeOuterRight), base.AtRest(kEyeOuterLeft));
   const float pixels_per_mm = glm::distance(right, left) / width_mm;
   const glm::vec3 root = base.AtRest(kNoseBridge);
   return {.turn_rad = {0, 0, -std::atan2(left.y - right.y, left.x - right.x)},
           .focal = pixels_per_mm * (kCameraZ - kFaceZ),
-          .centre = face.At(kNoseBridge) + pixels_per_mm * glm::vec2(-root.x, root.y)};
+          .centre = face.PixelOf(kNoseBridge) + pixels_per_mm * glm::vec2(-root.x, root.y)};
 }
 
 /// How mouths at rest differ from the built-in one looks like some smile. Of a closed mouth that
@@ -113,10 +113,10 @@ std::vector<LandmarkConstraint> ConstraintsOf(const FitProblem& problem, const C
   std::vector<float> depth_gaps;
   float mean = 0;
   for (const PointIndex k : point::kForFit) {
-    const glm::vec3 q = pose.ToCamera(problem.base.points[k].On(now));
+    const glm::vec3 q = pose.ToCamera(problem.base.places()[k].On(now));
     depth_gaps.push_back(problem.face.points[k].z * mm_per_pixel + problem.depth_bias[k] - q.z);
     mean += depth_gaps.back() / static_cast<float>(std::size(point::kForFit));
-    constraints.push_back({k, problem.base.points[k], problem.face.At(k), q.z});
+    constraints.push_back({k, problem.base.places()[k], problem.face.PixelOf(k), q.z});
   }
   for (std::size_t i = 0; i < depth_gaps.size(); ++i) {
     constraints[i].z_mm +=
@@ -129,22 +129,22 @@ std::vector<LandmarkConstraint> ConstraintsOf(const FitProblem& problem, const C
 float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
   float sum = 0;
   for (const PointIndex k : point::kForFit) {
-    const glm::vec3 q = fitted.pose.ToCamera(fitted.At(k));
-    sum += glm::distance(fitted.pose.Project(q), face.At(k));
+    const glm::vec3 q = fitted.pose.ToCamera(fitted.PlaceOf(k));
+    sum += glm::distance(fitted.pose.Project(q), face.PixelOf(k));
   }
   return sum / fitted.pose.PixelsPerMm() / static_cast<float>(std::size(point::kForFit));
 }
 
 }  // namespace
 
-Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo) {
+Fit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image* photo) {
   const FitProblem problem{base, face, DepthBias(base), LipsApart(face)};
   const Parameters settled = Refine(problem, InitialPose(base, face));
   const CameraPose pose = PoseOf(settled);
   Expression expression = ExpressionOf(settled);
   expression.smile = SmileBeyondRest(expression.smile, problem.lips_apart);
   fsm::HeadVertices now;
-  base.head->Evaluate(expression.State(), now);
+  base.head().Evaluate(expression.State(), now);
   const PhotoIrises irises = FindPhotoIrises(base, face, photo);
   auto constraints = ShiftLidsToIrises(base, irises, ConstraintsOf(problem, pose, now.position));
   if (photo && !problem.lips_apart) {

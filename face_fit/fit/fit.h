@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 #include "face_fit/find/network/face_finder.h"
 #include "face_fit/fit/fitted_head.h"
 #include "face_fit/fit/pose_fit.h"
@@ -20,7 +20,7 @@ struct Fit {
 /// by a warp. `photo`, if given, shows the irises and the line where closed lips meet, which the
 /// points miss by some pixels. Pure; thread: any. REQUIRES: face.points has kNetworkPoints; `base`
 /// outlives the result.
-Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo = nullptr);
+Fit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image* photo = nullptr);
 
 /// The fit with other constraints: its head is warped again, its residual stays that of the first
 /// warp.

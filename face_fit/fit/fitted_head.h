@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "face_fit/find/face/iris.h"
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 #include "face_fit/fit/camera_pose.h"
 #include "fsm/head/warp.h"
 #include "fsm/rig/eye_transform.h"
@@ -52,16 +52,16 @@ struct PhotoIrises {
 
 /// The base head brought into the form, pose and expression of the photo.
 struct FittedHead {
-  const BaseHead* base = nullptr;  ///< outlives this
+  const ObservedHead* base = nullptr;  ///< outlives this
   CameraPose pose;
   Expression expression;
-  std::vector<fsm::WarpPoint> points;  ///< base face at rest -> person at rest
-  float smooth_mm = 1;                 ///< how much noise of them is evened out, see fsm::Warp
+  std::vector<fsm::WarpPoint> warp_points;  ///< base face at rest -> person at rest
+  float smooth_mm = 1;                      ///< how much noise of them is evened out, see fsm::Warp
   fsm::Sided<fsm::EyeTransform> eyes;
   /// Every vertex of the base as it lies in the photo, head's frame.
   std::vector<glm::vec3> posed_vertices;
   /// Where a point of the network lies on it in the photo's expression, head's frame.
-  glm::vec3 At(PointIndex i) const { return base->points[i].On(posed_vertices); }
+  glm::vec3 PlaceOf(PointIndex i) const { return base->places()[i].On(posed_vertices); }
 };
 
 }  // namespace facefit

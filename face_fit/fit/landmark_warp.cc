@@ -36,14 +36,14 @@ std::optional<fsm::Side> EyeOf(const LandmarkConstraint& c) {
   return std::nullopt;
 }
 
-std::uint32_t NearestLip(const BaseHead& base, glm::vec3 p) {
+std::uint32_t NearestLip(const ObservedHead& base, glm::vec3 p) {
   std::uint32_t nearest = 0;
   float distance = 1e9F;
-  const auto& topology = base.head->topology();
+  const auto& topology = base.head().topology();
   for (const auto& part : topology.parts) {
     if (part.material != fsm::Material::kLip) continue;
     for (const std::uint32_t v : topology.Corners(part)) {
-      const float other = glm::distance(base.rest.position[v], p);
+      const float other = glm::distance(base.rest().position[v], p);
       if (other >= distance) continue;
       distance = other;
       nearest = v;
@@ -77,7 +77,7 @@ struct WarpPoints {
   std::vector<Correctable> correctable;
 };
 /// The points of the warp as the constraints say; `now`: the vertices with the expression.
-WarpPoints PlaceWarpPoints(const BaseHead& base, const CameraPose& pose,
+WarpPoints PlaceWarpPoints(const ObservedHead& base, const CameraPose& pose,
                            const PhotoTargets& targets, const fsm::Sided<fsm::EyeTransform>& eyes,
                            const std::vector<glm::vec3>& now) {
   WarpPoints placed;
@@ -85,10 +85,10 @@ WarpPoints PlaceWarpPoints(const BaseHead& base, const CameraPose& pose,
     const LandmarkConstraint& constraint = targets.constraints[i];
     // At rest both inner lips are one line, which cannot follow two that are apart in the photo.
     if (targets.lips_apart && OnInnerLips(constraint.point)) continue;
-    const glm::vec3 rest = constraint.on_head.On(base.rest.position);
+    const glm::vec3 rest = constraint.on_head.On(base.rest().position);
     if (const auto side = EyeOf(constraint)) {
       // Lids go with the eye: the skin around them must, too.
-      const glm::vec3 centre = base.head->topology().eyes[*side].centre;
+      const glm::vec3 centre = base.head().topology().eyes[*side].centre;
       placed.points.push_back({rest, eyes[*side].Placed(centre, rest) - rest});
     } else {
       placed.correctable.push_back({placed.points.size(), i});
@@ -99,7 +99,7 @@ WarpPoints PlaceWarpPoints(const BaseHead& base, const CameraPose& pose,
 }
 
 /// The eyes that the constraints show; `now`: as of PlaceWarpPoints.
-fsm::Sided<fsm::EyeTransform> EyesOf(const BaseHead& base, const CameraPose& pose,
+fsm::Sided<fsm::EyeTransform> EyesOf(const ObservedHead& base, const CameraPose& pose,
                                      const PhotoTargets& targets,
                                      const std::vector<glm::vec3>& now) {
   std::map<PointIndex, glm::vec3> outlines;
@@ -107,7 +107,7 @@ fsm::Sided<fsm::EyeTransform> EyesOf(const BaseHead& base, const CameraPose& pos
     if (!EyeOf(constraint)) continue;
     outlines[constraint.point] =
         TargetOf(pose, constraint) -
-        (constraint.on_head.On(now) - constraint.on_head.On(base.rest.position));
+        (constraint.on_head.On(now) - constraint.on_head.On(base.rest().position));
   }
   return FitEyes(base, outlines);
 }
@@ -115,30 +115,30 @@ fsm::Sided<fsm::EyeTransform> EyesOf(const BaseHead& base, const CameraPose& pos
 }  // namespace
 
 std::vector<glm::vec3> SkinWith(const FittedHead& fitted, const fsm::FaceState& state) {
-  const BaseHead& base = *fitted.base;
+  const ObservedHead& base = *fitted.base;
   fsm::PhotoHead head;
-  head.base = base.name;
-  head.points = fitted.points;
+  head.base = base.name();
+  head.points = fitted.warp_points;
   head.smooth = fitted.smooth_mm;
   head.eyes = fitted.eyes;
   const fsm::Rig skin = fsm::MakeSkinRig(head);
   fsm::HeadVertices vertices;
-  (base.units ? skin.WithUnits(*base.units) : skin).Evaluate(state, vertices);
+  (base.units() ? skin.WithUnits(*base.units()) : skin).Evaluate(state, vertices);
   return vertices.position;
 }
 
-std::vector<LandmarkConstraint> ConstrainToMouthLine(const BaseHead& base, const FoundFace& face,
-                                                     const CameraPose& pose,
+std::vector<LandmarkConstraint> ConstrainToMouthLine(const ObservedHead& base,
+                                                     const FoundFace& face, const CameraPose& pose,
                                                      std::span<const glm::vec3> now,
                                                      const fsm::Image& photo,
                                                      std::vector<LandmarkConstraint> constraints) {
-  const glm::vec3 right = base.head->Landmark("cheilion_right");
-  const glm::vec3 left = base.head->Landmark("cheilion_left");
+  const glm::vec3 right = base.head().Landmark("cheilion_right");
+  const glm::vec3 left = base.head().Landmark("cheilion_left");
   const auto along = [&](const MeshPoint& p) {
-    return (p.On(base.rest.position).x - right.x) / (left.x - right.x);
+    return (p.On(base.rest().position).x - right.x) / (left.x - right.x);
   };
-  const auto line = FindMouthLine(photo, face, along(base.points[point::kMouthRight]),
-                                  along(base.points[point::kMouthLeft]));
+  const auto line = FindMouthLine(photo, face, along(base.places()[point::kMouthRight]),
+                                  along(base.places()[point::kMouthLeft]));
   std::erase_if(constraints, [](const auto& c) { return OnInnerLips(c.point); });
   const auto on_line = [&](float part) {
     const float step = glm::clamp(part, 0.0F, 1.0F) * (kMouthLinePoints - 1);
@@ -147,8 +147,8 @@ std::vector<LandmarkConstraint> ConstrainToMouthLine(const BaseHead& base, const
   };
   // Where the network misplaced a corner it misplaced the outer lips beside it, too.
   for (const PointIndex corner : {point::kMouthRight, point::kMouthLeft}) {
-    const float corner_part = along(base.points[corner]);
-    const glm::vec2 shift_px = on_line(corner_part) - face.At(corner);
+    const float corner_part = along(base.places()[corner]);
+    const glm::vec2 shift_px = on_line(corner_part) - face.PixelOf(corner);
     for (LandmarkConstraint& constraint : constraints) {
       if (constraint.point != corner && !OfOuterLips(constraint)) continue;
       constraint.pixel +=
@@ -160,7 +160,7 @@ std::vector<LandmarkConstraint> ConstrainToMouthLine(const BaseHead& base, const
     constraints.push_back({kNoPoint, p, on_line(along(p)), pose.ToCamera(p.On(now)).z});
   };
   const std::span upper(point::kUpperInnerLip);
-  for (const PointIndex i : upper.subspan(1, upper.size() - 2)) constrain(base.points[i]);
+  for (const PointIndex i : upper.subspan(1, upper.size() - 2)) constrain(base.places()[i]);
   for (const glm::vec3 corner : {right, left}) {
     const std::uint32_t v = NearestLip(base, corner);
     constrain({{v, v, v}, {1, 0, 0}});
@@ -168,22 +168,22 @@ std::vector<LandmarkConstraint> ConstrainToMouthLine(const BaseHead& base, const
   return constraints;
 }
 
-FittedHead WarpToLandmarks(const BaseHead& base, const CameraPose& pose,
+FittedHead WarpToLandmarks(const ObservedHead& base, const CameraPose& pose,
                            const Expression& expression, const PhotoTargets& targets) {
   fsm::HeadVertices posed;
-  base.head->Evaluate(expression.State(), posed);
+  base.head().Evaluate(expression.State(), posed);
   const std::vector<glm::vec3>& now = posed.position;
   const auto eyes = EyesOf(base, pose, targets, now);
   WarpPoints placed = PlaceWarpPoints(base, pose, targets, eyes, now);
   FittedHead fitted{.base = &base,
                     .pose = pose,
                     .expression = expression,
-                    .points = std::move(placed.points),
+                    .warp_points = std::move(placed.points),
                     .eyes = eyes,
                     .posed_vertices = now};
-  const fsm::Warp warp(fitted.points, fitted.smooth_mm);
+  const fsm::Warp warp(fitted.warp_points, fitted.smooth_mm);
   for (std::size_t i = 0; i < now.size(); ++i) {
-    fitted.posed_vertices[i] += warp.Motion(base.rest.position[i]);
+    fitted.posed_vertices[i] += warp.Motion(base.rest().position[i]);
   }
   // What the head then makes of its units, lids and lips moves points a little off; once more with
   // that taken into account.
@@ -192,7 +192,7 @@ FittedHead WarpToLandmarks(const BaseHead& base, const CameraPose& pose,
     const LandmarkConstraint& constraint = targets.constraints[of];
     const glm::vec3 q = pose.ToCamera(constraint.on_head.On(fitted.posed_vertices));
     const glm::vec3 target = pose.PlaceAt(constraint.pixel, q.z);
-    fitted.points[warp_point].by += kCorrectionGain * (target - pose.FromCamera(q));
+    fitted.warp_points[warp_point].by += kCorrectionGain * (target - pose.FromCamera(q));
   }
   fitted.posed_vertices = PosedSkin(fitted);
   return fitted;

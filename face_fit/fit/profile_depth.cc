@@ -24,7 +24,7 @@ constexpr int kProfileRounds = 3, kPlacingRounds = 6;
 std::optional<float> DepthGap(const FloatImage& opacity, const CameraPose& pose, glm::vec3 place) {
   const auto inside = [&](float depth) {
     const glm::vec2 pixel = pose.Pixel(place + glm::vec3(0, 0, depth));
-    return opacity.Between(pixel.x, pixel.y) - 0.5F;
+    return opacity.SampleAt(pixel.x, pixel.y) - 0.5F;
   };
   if (inside(kReachMm) > 0) return {};
   for (float depth = kReachMm - kReachStepMm; depth >= -kReachMm; depth -= kReachStepMm) {
@@ -82,7 +82,7 @@ class DepthGaps {
       if (const auto gap = DepthGap(opacity, pose, p)) gaps_.emplace_back(p.y, *gap);
     }
   }
-  float At(float height) const {
+  float GapAt(float height) const {
     float sum = 0, weights = 1e-3F;
     for (const auto& [y, gap] : gaps_) {
       const float sigmas = (y - height) / kEvenMm;
@@ -104,7 +104,7 @@ Fit WithoutGaps(const DepthGaps& gaps, const Fit& fit) {
   for (LandmarkConstraint& constraint : constraints) {
     const glm::vec3 p = constraint.on_head.On(fit.head.posed_vertices);
     const float weight = std::exp(-p.x * p.x / (kWideMm * kWideMm));
-    constraint.z_mm += weight * std::clamp(gaps.At(p.y), -kMaxCorrectionMm, kMaxCorrectionMm);
+    constraint.z_mm += weight * std::clamp(gaps.GapAt(p.y), -kMaxCorrectionMm, kMaxCorrectionMm);
   }
   return WithConstraints(fit, std::move(constraints));
 }

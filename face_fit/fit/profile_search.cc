@@ -172,11 +172,11 @@ std::optional<ProfileMatch> SearchOutline(const std::vector<glm::vec3>& line,
 }  // namespace
 
 std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin_mm) {
-  const float low = fitted.At(point::kChin).y - below_chin_mm;
-  const float high = fitted.At(point::kNasion).y + kAboveNasionMm;
+  const float low = fitted.PlaceOf(point::kChin).y - below_chin_mm;
+  const float high = fitted.PlaceOf(point::kNasion).y + kAboveNasionMm;
   const auto count = static_cast<std::size_t>(std::max(high - low, kLineStepMm) / kLineStepMm) + 1;
   std::vector<std::optional<float>> foremost(count);
-  ForSkinTriangles(fitted.base->head->topology(), [&](const MeshTriangle& triangle) {
+  ForSkinTriangles(fitted.base->head().topology(), [&](const MeshTriangle& triangle) {
     for (std::size_t c = 0; c < 3; ++c) {
       const glm::vec3 a = fitted.posed_vertices[triangle.corner[c]],
                       b = fitted.posed_vertices[triangle.corner[(c + 1) % 3]];

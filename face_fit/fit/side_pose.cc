@@ -36,7 +36,7 @@ struct ComparedPoint {
 
 std::vector<ComparedPoint> ComparedPoints(const FittedHead& fitted) {
   std::vector<ComparedPoint> points;
-  for (const PointIndex i : point::kForFit) points.push_back({i, fitted.At(i)});
+  for (const PointIndex i : point::kForFit) points.push_back({i, fitted.PlaceOf(i)});
   return points;
 }
 
@@ -45,8 +45,8 @@ std::vector<PointMatch> MatchesOf(const std::vector<ComparedPoint>& points, cons
                                   const CameraPose& pose) {
   std::vector<PointMatch> matches;
   for (const ComparedPoint& point : points) {
-    matches.push_back(
-        {point.place, face.At(point.point) - point.bias_mm * pose.PixelsPerMm(), point.weight});
+    matches.push_back({point.place, face.PixelOf(point.point) - point.bias_mm * pose.PixelsPerMm(),
+                       point.weight});
   }
   return matches;
 }
@@ -61,15 +61,16 @@ std::optional<std::vector<ComparedPoint>> MeasuredBias(FaceNetworks& networks,
   fsm::HeadVertices turned;
   for (const glm::vec3& p : fitted.posed_vertices) turned.position.push_back(pose.ToCamera(p));
   turned.normal =
-      fsm::Normals(fitted.base->head->topology().indices, turned.position, turned.position.size());
+      fsm::Normals(fitted.base->head().topology().indices, turned.position, turned.position.size());
   const PortraitView portrait(kDrawnSize);
-  const fsm::Image picture = portrait.Draw(*fitted.base->head, turned, {});
+  const fsm::Image picture = portrait.Draw(fitted.base->head(), turned, {});
   const auto faces = FindFaces(networks, picture);
   if (faces.empty()) return std::nullopt;
   for (ComparedPoint& point : points) {
-    const MeshPoint& on_head = fitted.base->points[point.point];
-    point.bias_mm = (faces.front().At(point.point) - portrait.Pixel(on_head.On(turned.position))) *
-                    portrait.mm_per_pixel();
+    const MeshPoint& on_head = fitted.base->places()[point.point];
+    point.bias_mm =
+        (faces.front().PixelOf(point.point) - portrait.Pixel(on_head.On(turned.position))) *
+        portrait.mm_per_pixel();
     point.weight = on_head.On(turned.normal).z > kToldFacing ? 1.0F : kGuessedWeight;
   }
   return points;
@@ -78,8 +79,9 @@ std::optional<std::vector<ComparedPoint>> MeasuredBias(FaceNetworks& networks,
 /// Refined from several turns; the best.
 CameraPose FindPose(const FittedHead& fitted, const FoundFace& face,
                     const std::vector<ComparedPoint>& points) {
-  const glm::vec2 top = face.At(point::kNasion), chin = face.At(point::kChin);
-  const float height_mm = glm::distance(fitted.At(point::kNasion), fitted.At(point::kChin));
+  const glm::vec2 top = face.PixelOf(point::kNasion), chin = face.PixelOf(point::kChin);
+  const float height_mm =
+      glm::distance(fitted.PlaceOf(point::kNasion), fitted.PlaceOf(point::kChin));
   const float focal =
       fitted.pose.focal / fitted.pose.PixelsPerMm() * glm::distance(top, chin) / height_mm;
   const glm::vec2 down = chin - top;
@@ -88,7 +90,8 @@ CameraPose FindPose(const FittedHead& fitted, const FoundFace& face,
   std::optional<CameraPose> best;
   for (const float turn_deg : kStartTurnsDeg) {
     CameraPose start{.turn_rad = {0, glm::radians(turn_deg), tilt_rad}, .focal = focal};
-    start.centre = face.At(point::kNoseBridge) - start.Pixel(fitted.At(point::kNoseBridge));
+    start.centre =
+        face.PixelOf(point::kNoseBridge) - start.Pixel(fitted.PlaceOf(point::kNoseBridge));
     const auto matches = MatchesOf(points, face, start);
     const CameraPose pose = RefinePose(matches, start);
     if (!best || MeanDistanceMm(pose, matches) < MeanDistanceMm(*best, matches)) best = pose;

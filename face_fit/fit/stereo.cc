@@ -36,12 +36,12 @@ using StereoSamples = Raster<StereoSample>;
 /// What of the fitted skin the first photo shows.
 VisibleSurface SkinInFront(const FittedHead& fitted) {
   Box2 box;
-  for (const PointIndex i : point::kForFit) box.Add(fitted.pose.Pixel(fitted.At(i)));
+  for (const PointIndex i : point::kForFit) box.Add(fitted.pose.Pixel(fitted.PlaceOf(i)));
   const float step = kCellMm * fitted.pose.PixelsPerMm();
   const glm::ivec2 points = glm::clamp(glm::ivec2(box.Size() / step), 1, kMaxSamples);
   VisibleSurface surface({box.low, step, points.x, points.y},
-                         fitted.pose.Screen(fitted.posed_vertices));
-  ForSkinTriangles(fitted.base->head->topology(),
+                         fitted.pose.ToScreen(fitted.posed_vertices));
+  ForSkinTriangles(fitted.base->head().topology(),
                    [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
 }
@@ -58,7 +58,7 @@ StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front,
     const MeshPoint place = surface.Place(x, y);
     const glm::vec3 normal = glm::normalize(triangle->Normal(posed));
     return {.camera = fitted.pose.ToCamera(place.On(posed)),
-            .rest = place.On(fitted.base->rest.position),
+            .rest = place.On(fitted.base->rest().position),
             .light = Brightness(ColourAt(front, grid.Point(x, y))),
             .facing = glm::dot(normal, to_front),
             .facing_side = glm::dot(normal, to_side)};

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 #include "face_fit/fit/fitted_head.h"
 
 namespace facefit {

@@ -49,8 +49,9 @@ CorrectedFit CorrectDepthByStereo(const Fit& fit, const fsm::Image& front, const
     const fsm::Warp depth(depths, kDepthSmoothMm);
     std::vector<LandmarkConstraint> constraints = corrected.fit.targets.constraints;
     for (LandmarkConstraint& constraint : constraints) {
-      constraint.z_mm += std::clamp(depth.Motion(constraint.on_head.On(head.base->rest.position)).z,
-                                    -kMaxDepthStepMm, kMaxDepthStepMm);
+      constraint.z_mm +=
+          std::clamp(depth.Motion(constraint.on_head.On(head.base->rest().position)).z,
+                     -kMaxDepthStepMm, kMaxDepthStepMm);
     }
     corrected.fit = WithConstraints(corrected.fit, std::move(constraints));
   }

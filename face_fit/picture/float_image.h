@@ -46,7 +46,7 @@ struct Raster {
   T& operator()(int x, int y) { return values[Index(x, y)]; }
   const T& operator()(int x, int y) const { return values[Index(x, y)]; }
   /// Bilinear interpolation, as FourPixels.
-  T Between(float x, float y) const {
+  T SampleAt(float x, float y) const {
     return FourPixels(width, height, x, y).Mean([this](std::size_t i) { return values[i]; });
   }
 };

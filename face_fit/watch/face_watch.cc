@@ -12,7 +12,8 @@ struct EyeLine {
   float angle;
 };
 EyeLine EyesOf(const FoundFace& face) {
-  const glm::vec2 right = face.At(point::kEyeOuterRight), left = face.At(point::kEyeOuterLeft);
+  const glm::vec2 right = face.PixelOf(point::kEyeOuterRight),
+                  left = face.PixelOf(point::kEyeOuterLeft);
   return {0.5F * (right + left), std::atan2(left.y - right.y, left.x - right.x)};
 }
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 #include "face_track/model/look.h"
 #include "fsm/render/camera.h"
 #include "fsm/render/renderer.h"

@@ -10,7 +10,7 @@
 
 namespace facetrack {
 
-using facefit::BaseHead;
+using facefit::ObservedHead;
 
 std::unique_ptr<fsm::Head> SomeHead(std::size_t number) {
   constexpr const char* kBases[] = {"galatea", "pygmalion"};
@@ -31,14 +31,14 @@ Sitter::Sitter(std::unique_ptr<fsm::Head> head, facefit::FaceNetworks& networks,
                facefit::Network& attention, HeadPainter& painter)
     : attention_(attention),
       painter_(painter),
-      base_(vm::OrThrow(BaseHead::Observe(networks, std::move(head), "head"))) {
+      base_(vm::OrThrow(ObservedHead::BuiltIn(networks, std::move(head), "head"))) {
   scale_ = 1;
   for (int round = 0; round < 3; ++round) {
     const Sight sight = Look({});
     rest_.clear();
     for (std::size_t i = 0; i < kPoints; ++i) {
       rest_.push_back(sight.pose.Inverse(painter_.lens().Unproject(
-          sight.places[i], scale_ * DepthOf(i, base_.rest) + sight.pose.place.z)));
+          sight.places[i], scale_ * DepthOf(i, base_.rest()) + sight.pose.place.z)));
     }
     scale_ *= SeenFace::kEyesApart / glm::distance(rest_[33], rest_[263]);
     depth_ = sight.depth;
@@ -47,18 +47,18 @@ Sitter::Sitter(std::unique_ptr<fsm::Head> head, facefit::FaceNetworks& networks,
 
 Sitter::Sight Sitter::Look(const fsm::FaceState& state) {
   Sight sight;
-  base_.head->Evaluate(state, sight.vertices);
+  base_.head().Evaluate(state, sight.vertices);
   std::vector<fsm::PointPair> pairs;
   if (state.head_rotation != fsm::Angles{}) {
     for (const facefit::PointIndex i : facefit::point::kStill) {
-      pairs.push_back({base_.points[i].On(sight.vertices.position), base_.AtRest(i)});
+      pairs.push_back({base_.places()[i].On(sight.vertices.position), base_.AtRest(i)});
     }
   }
   const fsm::Similarity moved = pairs.empty() ? fsm::Similarity{} : fsm::FitSimilarity(pairs);
   const Pose rest = painter_.rest();
   sight.pose = {.turn = rest.turn * moved.turn, .place = scale_ * (rest(moved.move))};
   const facefit::NetworkCrop crop = CropOf(painter_.lens(), sight.pose);
-  sight.picture = painter_.Draw(*base_.head, state);
+  sight.picture = painter_.Draw(base_.head(), state);
   const auto found = facefit::FindAttentivePoints(attention_, sight.picture, crop);
   if (found.face.certainty < facefit::kCertainFace) throw std::runtime_error("a face is lost");
   sight.places = PlacesOf(found);
@@ -84,17 +84,17 @@ Points Sitter::Motion(const Channel& channel, float dose) {
   Points motion;
   for (std::size_t i = 0; i < kPoints; ++i) {
     const float z =
-        sight.pose(rest_[i]).z + scale_ * (DepthOf(i, sight.vertices) - DepthOf(i, base_.rest));
+        sight.pose(rest_[i]).z + scale_ * (DepthOf(i, sight.vertices) - DepthOf(i, base_.rest()));
     motion.push_back(sight.pose.Inverse(painter_.lens().Unproject(sight.places[i], z)) - rest_[i]);
   }
   return motion;
 }
 
 float Sitter::DepthOf(std::size_t point, const fsm::HeadVertices& vertices) const {
-  if (point < kIris) return base_.points[point].On(vertices.position).z;
+  if (point < kIris) return base_.places()[point].On(vertices.position).z;
   const fsm::Side side = point == kIris ? fsm::Side::kRight : fsm::Side::kLeft;
   constexpr float kIrisBefore = 10;  // mm, of the middle of the eyeball
-  return base_.head->topology().eyes[side].centre.z + kIrisBefore;
+  return base_.head().topology().eyes[side].centre.z + kIrisBefore;
 }
 
 fsm::FaceState StateOf(const Channel& channel, float dose) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 #include "face_track/learn/head_painter.h"
 
 namespace facetrack {
@@ -41,7 +41,7 @@ class Sitter {
 
   facefit::Network& attention_;
   HeadPainter& painter_;
-  facefit::BaseHead base_;
+  facefit::ObservedHead base_;
   float scale_ = 1;
   Points rest_;
   std::vector<float> depth_;

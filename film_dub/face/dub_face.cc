@@ -28,7 +28,7 @@ vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networ
                                                    const fsm::Image& picture,
                                                    std::span<const glm::vec2> places) {
   try {
-    auto base = facefit::BaseHead::Observe(networks, "galatea");
+    auto base = facefit::ObservedHead::BuiltIn(networks, "galatea");
     if (!base) return std::unexpected(base.error());
     const auto front = facefit::PrepareFront(networks, *base, picture,
                                              facefit::FaceNear{places[facefit::point::kNoseTip]},
@@ -49,7 +49,7 @@ vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networ
   }
 }
 
-DubFace::DubFace(facefit::BaseHead base, const facefit::MadeFace& made, int side)
+DubFace::DubFace(facefit::ObservedHead base, const facefit::MadeFace& made, int side)
     : base_(std::move(base)),
       head_(fsm::MakeHead(made.bake.head)),
       held_(facetrack::AnglesOf(made.fit.head.pose.Rotation())),
@@ -73,9 +73,9 @@ const fsm::Image& DubFace::Draw() {
 
 std::vector<glm::vec2> DubFace::Points() const {
   std::vector<glm::vec2> points;
-  points.reserve(base_.points.size());
+  points.reserve(base_.places().size());
   const glm::mat4 to_clip = view_.world_to_clip * view_.figure_to_world;
-  for (const facefit::MeshPoint& point : base_.points) {
+  for (const facefit::MeshPoint& point : base_.places()) {
     const glm::vec4 clip = to_clip * glm::vec4(point.On(vertices_.position), 1);
     points.push_back(0.5F * static_cast<float>(side_) *
                      glm::vec2(1 + clip.x / clip.w, 1 - clip.y / clip.w));

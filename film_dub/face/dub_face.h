@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 #include "face_fit/make_face.h"
 #include "fsm/render/camera.h"
 #include "fsm/render/renderer.h"
@@ -33,9 +33,9 @@ class DubFace {
   std::vector<glm::vec2> Points() const;
 
  private:
-  DubFace(facefit::BaseHead base, const facefit::MadeFace& made, int side);
+  DubFace(facefit::ObservedHead base, const facefit::MadeFace& made, int side);
 
-  const facefit::BaseHead base_;
+  const facefit::ObservedHead base_;
   const std::unique_ptr<fsm::Head> head_;
   const fsm::Angles held_;
   const int side_;

@@ -20,9 +20,9 @@ class BuiltInFigureTest : public NetworkTest {
     fitted_.base = &Galatea();
     fitted_.pose.focal = 760;
     fitted_.pose.centre = {kPhoto / 2, kPhoto / 2};
-    fitted_.posed_vertices = Galatea().rest.position;
+    fitted_.posed_vertices = Galatea().rest().position;
     for (const glm::vec3 at : {glm::vec3(0), {50, 0, 0}, {0, 50, 0}, {0, 0, 50}, {50, 50, 20}}) {
-      fitted_.points.push_back({at, glm::vec3(0)});
+      fitted_.warp_points.push_back({at, glm::vec3(0)});
     }
     for (int y = 0; y < kPhoto; ++y) {
       for (int x = 0; x < kPhoto; ++x) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 #include "face_fit/find/network/face_networks.h"
 #include "vm_protocol/core/or_throw.h"
 
@@ -29,8 +29,8 @@ class NetworkTest : public testing::Test {
   void SetUp() override {
     if (!networks_) GTEST_SKIP() << missing_;
   }
-  static const BaseHead& Galatea() {
-    if (!base_) base_.emplace(vm::OrThrow(BaseHead::Observe(*networks_, "galatea")));
+  static const ObservedHead& Galatea() {
+    if (!base_) base_.emplace(vm::OrThrow(ObservedHead::BuiltIn(*networks_, "galatea")));
     return *base_;
   }
 
@@ -38,7 +38,7 @@ class NetworkTest : public testing::Test {
 
  private:
   static inline std::string missing_;
-  static inline std::optional<BaseHead> base_;
+  static inline std::optional<ObservedHead> base_;
 };
 
 /// A test that needs the finer network of landmarks, too.

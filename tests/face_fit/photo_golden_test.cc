@@ -13,7 +13,7 @@ namespace facefit {
 namespace {
 
 /// The head that the program makes of a photo of one person.
-std::unique_ptr<fsm::Head> WornBy(FaceNetworks& networks, const BaseHead& base,
+std::unique_ptr<fsm::Head> WornBy(FaceNetworks& networks, const ObservedHead& base,
                                   const fsm::Image& photo) {
   const auto front =
       vm::OrThrow(PrepareFront(networks, base, photo, FaceNumber{}, PhotoPart::kCloseUp));

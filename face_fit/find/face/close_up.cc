@@ -31,7 +31,7 @@ CloseUp CloseUpOf(const fsm::Image& photo, const fsm::Image& finest, const Found
   const glm::vec2 size(photo.width, photo.height), all(finest.width, finest.height);
   const glm::vec2 finer = all / size;
   const float pixels_per_mm = PixelsPerMm(face);
-  const glm::vec2 nose = face.At(point::kNoseTip);
+  const glm::vec2 nose = face.PixelOf(point::kNoseTip);
   const glm::vec2 low =
       glm::clamp(nose - pixels_per_mm * glm::vec2(kAsideMm, kAboveMm), glm::vec2(0), size);
   const glm::vec2 high =

@@ -28,8 +28,8 @@ constexpr float kTurnsRad[] = {-0.1F, 0, 0.1F}, kBarAsideMm[] = {-2, 0, 2};
 /// How much a bar across the bridge of the nose stands out, as BridgeContrast, looked for so far to
 /// the left of the middle, and turned.
 float BarAcross(const FoundFace& face, const fsm::Image& photo, float aside_mm, float turn_rad) {
-  const glm::vec2 right = face.At(point::kEyeInnerRight), left = face.At(point::kEyeInnerLeft),
-                  middle = 0.5F * (right + left);
+  const glm::vec2 right = face.PixelOf(point::kEyeInnerRight),
+                  left = face.PixelOf(point::kEyeInnerLeft), middle = 0.5F * (right + left);
   const float pixels_per_mm = std::max(glm::distance(right, left) / kInnerCornersMm, 1e-3F);
   const glm::vec2 level = (left - right) / (kInnerCornersMm * pixels_per_mm);
   const glm::vec2 across = Rotated(level, turn_rad), down(-across.y, across.x);

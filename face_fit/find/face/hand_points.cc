@@ -43,7 +43,7 @@ constexpr HandPointName kNames[] = {{"right_eye_outer", point::kEyeOuterRight, t
 /// squares (Umeyama 1991).
 class ToPhoto {
  public:
-  ToPhoto(const BaseHead& base, const HandPoints& points) {
+  ToPhoto(const ObservedHead& base, const HandPoints& points) {
     const auto count = static_cast<Eigen::Index>(points.size());
     Eigen::MatrixXd from(2, count), to(2, count);
     Eigen::Index column = 0;
@@ -164,7 +164,7 @@ vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::Pnt
   return points;
 }
 
-FoundFace FaceFromHand(const BaseHead& base, const HandPoints& points) {
+FoundFace FaceFromHand(const ObservedHead& base, const HandPoints& points) {
   const ToPhoto to_photo(base, points);
   std::vector<fsm::WarpPoint> bends;
   for (const auto& [i, at] : points) {
@@ -179,7 +179,7 @@ FoundFace FaceFromHand(const BaseHead& base, const HandPoints& points) {
     const glm::vec3 p = base.AtRest(i);
     const glm::vec2 pixel =
         to_photo(glm::vec2(p)) + to_photo.pixels_per_mm() * glm::vec2(warp.Motion(p));
-    face.points.emplace_back(pixel, to_photo.pixels_per_mm() * base.detected[i].z);
+    face.points.emplace_back(pixel, to_photo.pixels_per_mm() * base.detected()[i].z);
   }
   face.crop = CropAround(face.points);
   return face;

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 #include "face_fit/find/network/face_finder.h"
 #include "fsm/mesh/pnt_file.h"
 
@@ -40,6 +40,6 @@ vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::Pnt
 
 /// Completes a face of which some points are known: the others lie relative to them as on the
 /// built-in head. REQUIRES: at least the points that ParseHandPoints needs.
-FoundFace FaceFromHand(const BaseHead& base, const HandPoints& points);
+FoundFace FaceFromHand(const ObservedHead& base, const HandPoints& points);
 
 }  // namespace facefit

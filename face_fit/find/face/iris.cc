@@ -41,7 +41,7 @@ class IrisSearch {
       : photo_(photo), eye_(eye), lids_(eye.lids) {
     std::vector<float> all;
     for (float x = 0.06F; x < 0.95F; x += 0.03F) {
-      const auto [upper, lower] = lids_.At(x);
+      const auto [upper, lower] = lids_.LidsAt(x);
       for (float part = kUpperRim; part < kLowerRim; part += 0.095F) {
         const glm::vec2 pixel = lids_.PointAt(x, glm::mix(upper, lower, part));
         samples_.push_back(
@@ -92,7 +92,7 @@ class IrisSearch {
       for (const float angle : kAngles) {
         const glm::vec2 way = outward * std::cos(angle) + lids_.down() * std::sin(angle);
         const glm::vec2 rim = centre + radius * way;
-        const auto [upper, lower] = lids_.At(lids_.Part(rim));
+        const auto [upper, lower] = lids_.LidsAt(lids_.Part(rim));
         const float y = lids_.Down(rim);
         if (y < glm::mix(upper, lower, kShadow) || y > lower) continue;
         step[side] +=

@@ -43,7 +43,7 @@ class LidLines {
     return points_[0] + part * wide_ * along_ + down * down_;
   }
   /// How far down upper and lower lid lie.
-  std::pair<float, float> At(float part) const {
+  std::pair<float, float> LidsAt(float part) const {
     const auto between = [this, part](std::size_t a, std::size_t b) {
       const float from = Part(points_[a]), to = Part(points_[b % points_.size()]);
       const float way = glm::clamp((part - from) / std::max(to - from, 1e-4F), 0.0F, 1.0F);

@@ -33,8 +33,8 @@ std::array<glm::vec2, kInnerPoints + 2> ExpectedLine(const FoundFace& face, glm:
   std::array<glm::vec2, kInnerPoints + 2> line{};
   line.back() = {1, 0};
   for (std::size_t k = 0; k < kInnerPoints; ++k) {
-    const glm::vec2 upper = face.At(point::kUpperInnerLip[k + 1]),
-                    lower = face.At(point::kLowerInnerLip[k]);
+    const glm::vec2 upper = face.PixelOf(point::kUpperInnerLip[k + 1]),
+                    lower = face.PixelOf(point::kLowerInnerLip[k]);
     const glm::vec2 middle = 0.5F * (upper + lower) - begin;
     line[k + 1] = {glm::dot(middle, along) / width, glm::dot(middle, down)};
   }
@@ -74,7 +74,7 @@ std::array<int, kMouthLinePoints> CheapestPath(Strip<float>& cost) {
 
 bool LipsApart(const FoundFace& face) {
   const auto apart = [&face](PointIndex a, PointIndex b) {
-    return glm::distance(face.At(a), face.At(b));
+    return glm::distance(face.PixelOf(a), face.PixelOf(b));
   };
   // Between the middles of the inner lips, by the width of the mouth.
   constexpr float kMinGap = 0.06F;
@@ -84,7 +84,7 @@ bool LipsApart(const FoundFace& face) {
 
 std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& face, float first,
                                      float last) {
-  const glm::vec2 right = face.At(point::kMouthRight), left = face.At(point::kMouthLeft);
+  const glm::vec2 right = face.PixelOf(point::kMouthRight), left = face.PixelOf(point::kMouthLeft);
   const glm::vec2 axis = (left - right) / (last - first);
   const glm::vec2 begin = right - first * axis;
   const float width = glm::length(axis);

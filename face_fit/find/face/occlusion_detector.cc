@@ -57,10 +57,10 @@ constexpr float kSure = 14;
 /// McPhail and Warren 2006).
 class PhotoToBase {
  public:
-  PhotoToBase(const FoundFace& face, const BaseHead& base) {
+  PhotoToBase(const FoundFace& face, const ObservedHead& base) {
     for (const PointIndex i : point::kForFit) {
       pairs_.push_back(
-          {face.crop.FromPicture(face.At(i)) * float{kPointsPixels}, base.DetectedAt(i)});
+          {face.crop.FromPicture(face.PixelOf(i)) * float{kPointsPixels}, base.DetectedAt(i)});
     }
   }
 
@@ -102,7 +102,7 @@ struct WarpedHead {
   std::vector<glm::vec3> colour;  // 0..1
 };
 
-WarpedHead WarpBaseHead(const BaseHead& base, const FoundFace& face) {
+WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
   // Smooth as the way is, every fourth pixel will do.
   constexpr int kStep = 4, kCells = kPointsPixels / kStep + 1;
   const PhotoToBase onto(face, base);
@@ -126,7 +126,7 @@ WarpedHead WarpBaseHead(const BaseHead& base, const FoundFace& face) {
                    glm::mix(coarse[k + kCells], coarse[k + kCells + 1], t.x), t.y);
       const glm::vec2 from_nasion = mm_per_pixel * (on_base - base.DetectedAt(point::kNasion));
       warped.place.push_back(on_face(point::kNasion) + glm::vec2(from_nasion.x, -from_nasion.y));
-      warped.colour.push_back(ColourAt(base.picture, on_base) / 255.0F);
+      warped.colour.push_back(ColourAt(base.picture(), on_base) / 255.0F);
     }
   }
   return warped;
@@ -172,7 +172,7 @@ float PatchWeight(const FacePatch& patch, glm::vec2 place) {
 
 }  // namespace
 
-Occlusion DetectOcclusion(FaceNetworks& networks, const BaseHead& base, const FoundFace& face,
+Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, const FoundFace& face,
                           const fsm::Image& photo) {
   const auto sure = [&networks](std::span<const float> input) {
     networks.landmarks.Run(input);
@@ -180,7 +180,7 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const BaseHead& base, const Fo
   };
   const std::vector<float> network_pixels = face.crop.Sample(photo, kPointsPixels, 0, 1);
   const float before = sure(network_pixels);
-  const WarpedHead warped = MatchSkinColour(network_pixels, WarpBaseHead(base, face));
+  const WarpedHead warped = MatchSkinColour(network_pixels, WarpBuiltInHead(base, face));
   Occlusion occlusion;
   float most = -std::numeric_limits<float>::infinity();
   for (const FacePatch& patch : kPatches) {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 
 namespace facefit {
 
@@ -16,7 +16,7 @@ struct Occlusion {
 /// Each part of the face in turn is replaced by the same part of the built-in head, in the photo's
 /// skin colour; if the network is much surer then, the photo shows something else there. Beards,
 /// creases, glasses, hair on the forehead and shade hardly change how sure it is.
-Occlusion DetectOcclusion(FaceNetworks& networks, const BaseHead& base, const FoundFace& face,
+Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, const FoundFace& face,
                           const fsm::Image& photo);
 
 }  // namespace facefit

@@ -21,7 +21,7 @@ struct Clearness {
 Clearness ClearnessOf(std::span<const FoundFace> faces) {
   Clearness clear;
   for (const FoundFace& face : faces) {
-    const glm::vec2 eyes = face.At(point::kEyeOuterLeft) - face.At(point::kEyeOuterRight);
+    const glm::vec2 eyes = face.PixelOf(point::kEyeOuterLeft) - face.PixelOf(point::kEyeOuterRight);
     const float upright = face.certainty * std::max(std::cos(std::atan2(eyes.y, eyes.x)), 0.0F);
     clear.upright += upright;
     clear.detected += face.score * upright;

@@ -36,7 +36,7 @@ FloatImage RunSegmentation(FaceNetworks& networks, const std::vector<float>& inp
 
 /// How much a place of the network's square, 0..1 on both axes, belongs to a person.
 float PersonAt(const FloatImage& figure, glm::vec2 place) {
-  return figure.Between(place.x * kFigurePixels, place.y * kFigurePixels);
+  return figure.SampleAt(place.x * kFigurePixels, place.y * kFigurePixels);
 }
 
 /// A rectangle of a picture, or beyond it.
@@ -67,8 +67,8 @@ NetworkCrop HeadSquare(const Box2& face, glm::vec2 picture) {
 
 /// How nearly a face looks into the camera, 0..1: then its cheeks are as far from its middle.
 float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
-  const float right = std::abs(glm::dot(face.At(point::kCheekRight) - middle, across));
-  const float left = std::abs(glm::dot(face.At(point::kCheekLeft) - middle, across));
+  const float right = std::abs(glm::dot(face.PixelOf(point::kCheekRight) - middle, across));
+  const float left = std::abs(glm::dot(face.PixelOf(point::kCheekLeft) - middle, across));
   return fsm::SmoothStep(PhotoLook().figure.frontal,
                          std::min(right, left) / std::max({right, left, 1.0F}));
 }
@@ -77,7 +77,7 @@ float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
 
 FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image,
                           const FloatImage& person) {
-  const glm::vec2 top = face.At(point::kForehead), chin = face.At(point::kChin);
+  const glm::vec2 top = face.PixelOf(point::kForehead), chin = face.PixelOf(point::kChin);
   if (glm::distance(top, chin) < 1) return person;
   const glm::vec2 down = glm::normalize(chin - top), across(-down.y, down.x);
   const float height = glm::distance(top, chin), nearby = kNearby * height;
@@ -134,7 +134,7 @@ FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const 
     const float person = person_in_whole(p);
     return share > 0 ? glm::mix(person, PersonAt(near, in_square), share) : person;
   });
-  KeepConnected(glm::ivec2(face->At(point::kNoseTip)), out);
+  KeepConnected(glm::ivec2(face->PixelOf(point::kNoseTip)), out);
   return DoubtAsymmetry(*face, image, out);
 }
 

@@ -217,10 +217,10 @@ FloatImage GuidedUpsampling(const fsm::Image& small, const FloatImage& opacity,
       glm::vec2(small.width, small.height) / glm::vec2(large.width, large.height);
   return FloatImage::From(large.width, large.height, [&](int x, int y) {
     const glm::vec2 p = (glm::vec2(x, y) + 0.5F) * scale;
-    const float plain = opacity.Between(p.x, p.y);
+    const float plain = opacity.SampleAt(p.x, p.y);
     if (plain <= 0 || plain >= 1) return plain;
     const glm::vec3 colour = Colour(large, large.Index(x, y));
-    return glm::clamp(glm::dot(fit.slope.Between(p.x, p.y), colour) + fit.base.Between(p.x, p.y),
+    return glm::clamp(glm::dot(fit.slope.SampleAt(p.x, p.y), colour) + fit.base.SampleAt(p.x, p.y),
                       0.0F, 1.0F);
   });
 }

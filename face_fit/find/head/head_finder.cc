@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "face_fit/find/head/base_head.h"
 #include "face_fit/find/head/lid_edges.h"
+#include "face_fit/find/head/observed_head.h"
 #include "face_fit/find/head/point_pairs.h"
 #include "face_fit/picture/pixels.h"
 #include "fsm/base/box.h"
@@ -58,25 +58,24 @@ fsm::FacePart PartOf(PointIndex i) {
 
 /// Moves the points of the inner lips onto a seam, at even steps.
 void SpreadAlongSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
-  points[point::kInnerMouthRight] = seam.At(0).upper;
-  points[point::kInnerMouthLeft] = seam.At(1).upper;
+  points[point::kInnerMouthRight] = seam.EdgesAt(0).upper;
+  points[point::kInnerMouthLeft] = seam.EdgesAt(1).upper;
   const std::size_t count = point::kLowerInnerLip.size();
   for (std::size_t k = 0; k < count; ++k) {
     const LipSeam::Edges& edges =
-        seam.At(static_cast<float>(k + 1) / static_cast<float>(count + 1));
+        seam.EdgesAt(static_cast<float>(k + 1) / static_cast<float>(count + 1));
     points[point::kUpperInnerLip[k + 1]] = edges.upper;
     points[point::kLowerInnerLip[k]] = edges.lower;
   }
 }
 
 /// Moves the points of the eyes' outlines in both lists onto the edges, where both heads show them.
-void OntoLidEdges(const BaseHead& ours, std::vector<MeshPoint>& our_points, const BaseHead& theirs,
-                  std::vector<MeshPoint>& their_points) {
+void OntoLidEdges(const ObservedHead& ours, std::vector<MeshPoint>& our_points,
+                  const ObservedHead& theirs, std::vector<MeshPoint>& their_points) {
   for (const fsm::Side side : fsm::kSides) {
-    const auto find = [side](const BaseHead& head) {
-      const auto& topology = head.head->topology();
-      return FindLidEdges(topology, head.rest.position, head.surface.is_eye,
-                          topology.eyes[side].centre, fsm::SignOf(side));
+    const auto find = [side](const ObservedHead& observed) {
+      return FindLidEdges(observed.head().topology(), observed.rest().position,
+                          observed.surface().is_eye, side);
     };
     const auto a = find(ours), b = find(theirs);
     if (!a || !b) continue;
@@ -96,46 +95,46 @@ void OntoLidEdges(const BaseHead& ours, std::vector<MeshPoint>& our_points, cons
 class HeadMatcher {
  public:
   HeadMatcher(FaceNetworks& networks, const fsm::ImportedHead& file, std::string name,
-              BaseHead base)
+              ObservedHead base)
       : networks_(networks), file_(file), name_(std::move(name)), base_(std::move(base)) {}
   /// Returns none if no face is seen on the head as `to_ours` has it stand.
   std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_ours) {
     const auto other = Observe(to_ours);
     if (!other) return {};
-    std::vector<MeshPoint> ours = base_.points, theirs = other->points;
+    std::vector<MeshPoint> ours = base_.places(), theirs = other->places();
     OntoLidEdges(base_, ours, *other, theirs);
-    const bool both = base_.seam && other->seam;
+    const bool both = base_.seam() && other->seam();
     if (both) {
-      SpreadAlongSeam(*base_.seam, ours);
-      SpreadAlongSeam(*other->seam, theirs);
+      SpreadAlongSeam(*base_.seam(), ours);
+      SpreadAlongSeam(*other->seam(), theirs);
     }
     std::vector<fsm::PointPair> found;
     for (const PointIndex i : point::kForFit) {
       // Where both lips meet a point of the network may come to lie on either.
       const bool corner = i == point::kMouthRight || i == point::kMouthLeft;
       if (OnInnerLips(i) ? !both : both && corner) continue;
-      const glm::vec3 raw = to_ours.Inverse(theirs[i].On(other->rest.position));
-      found.push_back({ours[i].On(base_.rest.position), raw, PartOf(i)});
+      const glm::vec3 raw = to_ours.Inverse(theirs[i].On(other->rest().position));
+      found.push_back({ours[i].On(base_.rest().position), raw, PartOf(i)});
     }
     return found;
   }
 
  private:
   /// The head as the network sees it. Error: no face is seen.
-  vm::Result<BaseHead> Observe(const fsm::Similarity& to_ours) {
+  vm::Result<ObservedHead> Observe(const fsm::Similarity& to_ours) {
     fsm::MeshModel model = fsm::ModelOfImport(file_, to_ours, fsm::kUsualMouthY);
-    BaseHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
+    ObservedHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
     for (const fsm::Bone bone : model.bone) {
       surface.is_eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
-    return BaseHead::ObserveForeign(networks_, fsm::MakeMeshHead(std::move(model)), name_,
-                                    std::move(surface));
+    return ObservedHead::Foreign(networks_, fsm::MakeMeshHead(std::move(model)), name_,
+                                 std::move(surface));
   }
 
   FaceNetworks& networks_;
   const fsm::ImportedHead& file_;
   std::string name_;
-  BaseHead base_;
+  ObservedHead base_;
 };
 
 /// What was found on a head that stood one way.
@@ -185,7 +184,7 @@ Look LookFrom(HeadMatcher& matcher, const fsm::Similarity& guess) {
 
 vm::Result<fsm::HeadPoints> FindHeadPoints(FaceNetworks& networks, const fsm::ImportedHead& file,
                                            const std::string& name, const std::string& face) {
-  auto base = BaseHead::Observe(networks, face);
+  auto base = ObservedHead::BuiltIn(networks, face);
   if (!base) return std::unexpected(base.error());
   HeadMatcher matcher(networks, file, name, std::move(*base));
   bool face_seen = false;

@@ -15,7 +15,7 @@ namespace {
 constexpr glm::vec2 kHalfWindowMm(34, 24);
 
 /// 1 where an eyeball is foremost, of what is connected there with the point nearest to `centre`.
-FloatImage EyeballMask(const VisibleSurface& surface, const std::vector<bool>& eye,
+FloatImage EyeballMask(const VisibleSurface& surface, const std::vector<bool>& is_eye,
                        glm::vec2 centre) {
   constexpr float kFarthestMm = 12;
   FloatImage open(surface.grid().columns, surface.grid().rows);
@@ -24,7 +24,7 @@ FloatImage EyeballMask(const VisibleSurface& surface, const std::vector<bool>& e
   for (int row = 0; row < open.height; ++row) {
     for (int column = 0; column < open.width; ++column) {
       const MeshTriangle* triangle = surface.Triangle(column, row);
-      if (!triangle || !eye[triangle->corner[0]]) continue;
+      if (!triangle || !is_eye[triangle->corner[0]]) continue;
       open(column, row) = 1;
       const float distance = glm::distance(surface.grid().Point(column, row), centre);
       if (distance >= nearest) continue;
@@ -73,11 +73,11 @@ std::optional<Columns> EndsOf(const std::vector<RowSpan>& rows) {
 
 std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
                                      const std::vector<glm::vec3>& position,
-                                     const std::vector<bool>& eye, glm::vec3 centre,
-                                     float outward) {
+                                     const std::vector<bool>& is_eye, fsm::Side side) {
+  const glm::vec3 centre = topology.eyes[side].centre;
   const VisibleSurface surface = VisibleFromFront(
       topology, position, glm::vec2(centre) - kHalfWindowMm, glm::vec2(centre) + kHalfWindowMm);
-  const std::vector<RowSpan> rows = RowsOf(EyeballMask(surface, eye, centre));
+  const std::vector<RowSpan> rows = RowsOf(EyeballMask(surface, is_eye, centre));
   const auto ends = EndsOf(rows);
   if (!ends) return std::nullopt;
   // A step or two of gap between eyeball and lid may show what lies behind.
@@ -86,7 +86,7 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
     for (int k = 1; k <= kGap; ++k) {
       const int x = column + k * right, y = row + k * up;
       const MeshTriangle* triangle = surface.Triangle(x, y);
-      if (triangle && !eye[triangle->corner[0]]) return surface.Place(x, y);
+      if (triangle && !is_eye[triangle->corner[0]]) return surface.Place(x, y);
     }
     return std::nullopt;
   };
@@ -95,9 +95,10 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
     return beyond(column, (span.low + span.high) / 2, right, 0);
   };
   LidEdges edges;
-  const int out = outward > 0 ? ends->last : ends->first;
-  const int in = outward > 0 ? ends->first : ends->last;
-  const auto outer = corner(out, outward > 0 ? 1 : -1), inner = corner(in, outward > 0 ? -1 : 1);
+  // The agent's left is where x is positive.
+  const bool left = side == fsm::Side::kLeft;
+  const int out = left ? ends->last : ends->first, in = left ? ends->first : ends->last;
+  const auto outer = corner(out, left ? 1 : -1), inner = corner(in, left ? -1 : 1);
   if (!outer || !inner) return std::nullopt;
   edges.outer = *outer;
   edges.inner = *inner;
@@ -115,9 +116,9 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
 }
 
 std::vector<bool> EyeVertices(const fsm::HeadTopology& topology) {
-  std::vector<bool> eye(topology.albedo.size(), false);
-  for (const std::uint32_t v : fsm::EyeballTriangles(topology)) eye[v] = true;
-  return eye;
+  std::vector<bool> is_eye(topology.albedo.size(), false);
+  for (const std::uint32_t v : fsm::EyeballTriangles(topology)) is_eye[v] = true;
+  return is_eye;
 }
 
 }  // namespace facefit

@@ -21,12 +21,11 @@ struct LidEdges {
   std::array<MeshPoint, kBetween> upper, lower;
 };
 
-/// `eye`: of each vertex, whether it is an eyeball's; `centre`: of that eye, `outward`: -1 for the
-/// agent's right, 1 for the left. The head looks to +z, millimetres. Returns nothing if there
-/// is no opening of 10 to 60 mm.
+/// The opening of the eye on that side. `is_eye`: of each vertex, whether it is an eyeball's. The
+/// head looks to +z, millimetres. Returns nothing if there is no opening of 10 to 60 mm.
 std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
                                      const std::vector<glm::vec3>& position,
-                                     const std::vector<bool>& eye, glm::vec3 centre, float outward);
+                                     const std::vector<bool>& is_eye, fsm::Side side);
 
 /// For each vertex of a head whether it is an eyeball's by its material.
 std::vector<bool> EyeVertices(const fsm::HeadTopology& topology);

@@ -19,7 +19,7 @@ struct LipSeam {
   };
   std::vector<Edges> columns;  ///< at even steps from the agent's right corner to the left one
   /// `along`: 0 at the right corner, 1 at the left one.
-  const Edges& At(float along) const {
+  const Edges& EdgesAt(float along) const {
     return columns[static_cast<std::size_t>(
         std::lround(along * static_cast<float>(columns.size() - 1)))];
   }

@@ -18,10 +18,10 @@ struct FoundFace {
   float certainty = 0;            ///< 0..1 that the points lie on a face
   float score = 1;                ///< 0..1 the detector's, which sees no face upside down
   NetworkCrop crop;               ///< around the points
-  glm::vec2 At(PointIndex i) const { return glm::vec2(points[i]); }
+  glm::vec2 PixelOf(PointIndex i) const { return glm::vec2(points[i]); }
   std::vector<glm::vec2> Line(std::span<const PointIndex> of) const {
     std::vector<glm::vec2> line;
-    for (const PointIndex i : of) line.push_back(At(i));
+    for (const PointIndex i : of) line.push_back(PixelOf(i));
     return line;
   }
 };

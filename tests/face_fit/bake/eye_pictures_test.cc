@@ -17,17 +17,16 @@ namespace {
 TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   // The built-in head as it would be seen by a camera of four pixels to the millimetre, whose eyes
   // look at it and are half hidden by their upper lids.
-  BaseHead base;
-  base.head = fsm::MakeHead("galatea");
-  base.head->Evaluate({}, base.rest);
-  base.points.resize(kNetworkPoints);
+  auto head = fsm::MakeHead("galatea");
+  fsm::HeadVertices rest;
+  head->Evaluate({}, rest);
+  std::vector<MeshPoint> places(kNetworkPoints);
   FoundFace face;
   face.points.assign(kNetworkPoints, glm::vec3(0));
   Fit fit;
-  fit.head.base = &base;
   std::vector<glm::vec2> centres;
   for (const fsm::Side side : fsm::kSides) {
-    const glm::vec3 ball = base.head->topology().eyes[side].centre;
+    const glm::vec3 ball = head->topology().eyes[side].centre;
     const glm::vec2 centre(500 + 4 * ball.x, 300 - 4 * ball.y);
     centres.push_back(centre);
     fit.irises.circles[side] = {.centre = centre, .radius = 24, .contrast = 0.4F};
@@ -39,15 +38,17 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
       face.points[point] = glm::vec3(centre + 4.0F * glm::vec2(x, -open), 0);
       // The nearest vertex of the skin stands for the place on the mesh.
       float nearest = 1e9F;
-      for (std::uint32_t v = 0; v < base.rest.position.size(); ++v) {
-        const glm::vec3 off = base.rest.position[v] - ball;
+      for (std::uint32_t v = 0; v < rest.position.size(); ++v) {
+        const glm::vec3 off = rest.position[v] - ball;
         const float far = glm::distance(glm::vec2(off), {x, open}) + (off.z < 4 ? 100.0F : 0.0F);
         if (far >= nearest) continue;
         nearest = far;
-        base.points[point].corner = {v, v, v};
+        places[point].corner = {v, v, v};
       }
     }
   }
+  const ObservedHead base = ObservedHead::Exact(std::move(head), "galatea", std::move(places));
+  fit.head.base = &base;
   const fsm::Image photo = GreyPicture(1000, [&](glm::vec2 p) {
     for (const glm::vec2 centre : centres) {
       const glm::vec2 off = p - centre;
@@ -72,9 +73,9 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     EXPECT_NEAR(shown(eye.ball, {0.2F, 0.55F}), 220, 12);
   }
   // Nothing of the face is painted there.
-  const auto& uv = base.head->topology().uv;
+  const auto& uv = base.head().topology().uv;
   for (std::size_t v = 0; v < uv.size(); ++v) {
-    if (base.rest.position[v].y < -90 || base.rest.position[v].z < 0) continue;
+    if (base.rest().position[v].y < -90 || base.rest().position[v].z < 0) continue;
     EXPECT_GT(uv[v].y, 0.14F);
   }
   // Hair before one eye: the other stands in for it, but not if that is hardly open.

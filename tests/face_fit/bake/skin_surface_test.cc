@@ -19,13 +19,11 @@ namespace {
 class SkinSurfaceTest : public testing::Test {
  protected:
   void SetUp() override {
-    base_.head = fsm::MakeHead("galatea");
-    base_.head->Evaluate({}, base_.rest);
     fitted_.base = &base_;
-    fitted_.posed_vertices = base_.rest.position;
+    fitted_.posed_vertices = base_.rest().position;
     fitted_.pose.focal = 760;
     fitted_.pose.centre = {150, 150};
-    bottom_ = base_.head->Landmark("gnathion").y - 8;
+    bottom_ = base_.head().Landmark("gnathion").y - 8;
     skin_.emplace(VisibleSkin(fitted_, fitted_.pose, grid_, bottom_));
   }
   /// By its depth, not as the surface names it.
@@ -42,7 +40,7 @@ class SkinSurfaceTest : public testing::Test {
     }
   }
 
-  BaseHead base_;
+  ObservedHead base_ = ObservedHead::Exact(fsm::MakeHead("galatea"), "galatea", {});
   FittedHead fitted_;
   float bottom_ = 0;
   SampleGrid grid_{.origin = {10, 10}, .step = 2, .columns = 140, .rows = 140};
@@ -64,7 +62,7 @@ TEST_F(SkinSurfaceTest, EndsBelowTheChinAndAtTheLineOfTheJaw) {
 
 TEST_F(SkinSurfaceTest, NamesThePlaceThatIsForemost) {
   ForCovered([&](int x, int y) {
-    const glm::vec3 named = skin_->Place(x, y).On(base_.rest.position);
+    const glm::vec3 named = skin_->Place(x, y).On(base_.rest().position);
     EXPECT_LT(glm::distance(named, Place(x, y)), 0.3F) << x << ' ' << y;
   });
 }

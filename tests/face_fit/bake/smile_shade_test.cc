@@ -30,7 +30,7 @@ class SmileShadeTest : public NetworkTest {
       fitted.base = &Galatea();
       fitted.pose.focal = 760;
       fitted.pose.centre = {kPhoto / 2, kPhoto / 2};
-      fitted.posed_vertices = Galatea().rest.position;
+      fitted.posed_vertices = Galatea().rest().position;
       placed_.emplace(ProjectSkin(fitted, fitted.pose, SelfHidden::kNotSeen));
     }
     map_ = {.width = kMapSize, .height = kMapSize, .rgba = {}};
@@ -43,10 +43,10 @@ class SmileShadeTest : public NetworkTest {
     }
   }
   glm::vec3 Place(std::size_t point) const {
-    return Galatea().points[point].On(Galatea().rest.position);
+    return Galatea().places()[point].On(Galatea().rest().position);
   }
   float Height(std::size_t i) const {
-    return placed_->values[i].above_brows_mm + Galatea().head->Landmark("nasion").y + kBrowsEndMm;
+    return placed_->values[i].above_brows_mm + Galatea().head().Landmark("nasion").y + kBrowsEndMm;
   }
   /// Between nose and mouth, on the cheeks.
   float middle() const { return 0.5F * (Place(2).y + Place(61).y); }
@@ -73,7 +73,7 @@ TEST_F(SmileShadeTest, SkinIsHiddenAsThePoseGivenSeesItNotAsThatOfTheFit) {
   fitted.base = &Galatea();
   fitted.pose.focal = 760;
   fitted.pose.centre = {kPhoto / 2, kPhoto / 2};
-  fitted.posed_vertices = Galatea().rest.position;
+  fitted.posed_vertices = Galatea().rest().position;
   CameraPose aside = fitted.pose;
   aside.turn_rad.y = 0.9F;
   const SkinTexels seen = ProjectSkin(fitted, aside, SelfHidden::kNotSeen);

@@ -187,16 +187,16 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
   }
   /// The points of the truth themselves, with no more of depth than the built-in head has.
   static FoundFace ExactFace(const TrueCamera& camera) {
-    const BaseHead& base = Galatea();
+    const ObservedHead& base = Galatea();
     const float pixels = camera.focal() / camera.distance;
     FoundFace face;
     face.certainty = 1;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-      const float bias = base.AtRest(i).z - base.detected[i].z;
+      const float bias = base.AtRest(i).z - base.detected()[i].z;
       face.points.emplace_back(camera.Pixel(truth().points[i]),
                                pixels * (camera.Placed(base.AtRest(i)).z - bias));
     }
-    face.crop = {face.At(1), 1.5F * glm::distance(face.At(10), face.At(152)), 0};
+    face.crop = {face.PixelOf(1), 1.5F * glm::distance(face.PixelOf(10), face.PixelOf(152)), 0};
     return face;
   }
   static FitError ErrorOf(const TrueCamera& camera, const Fit& fit) {
@@ -205,7 +205,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     FitError error;
     std::vector<fsm::PointPair> pairs;
     for (const NamedPoint& named : kNamed) {
-      const glm::vec3 fitted = fit.head.At(named.point);
+      const glm::vec3 fitted = fit.head.PlaceOf(named.point);
       const glm::vec2 shown = fit.head.pose.Pixel(fitted);
       error.shown += glm::distance(camera.Pixel(points[named.point]), shown) / eyes /
                      static_cast<float>(std::size(kNamed));
@@ -239,10 +239,10 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
  private:
   /// The vertices of the base head's skin at the front of its ears.
   static std::array<std::size_t, 2> BaseEars() {
-    const BaseHead& base = Galatea();
-    const glm::vec3 at[] = {base.head->Landmark("tragion_right"),
-                            base.head->Landmark("tragion_left")};
-    return {Nearest(*base.head, base.rest, at[0]), Nearest(*base.head, base.rest, at[1])};
+    const ObservedHead& base = Galatea();
+    const glm::vec3 at[] = {base.head().Landmark("tragion_right"),
+                            base.head().Landmark("tragion_left")};
+    return {Nearest(base.head(), base.rest(), at[0]), Nearest(base.head(), base.rest(), at[1])};
   }
   static std::size_t Nearest(const fsm::Head& head, const fsm::HeadVertices& rest, glm::vec3 to) {
     const auto skin = fsm::SkinTriangles(head.topology());
@@ -265,7 +265,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     }
     const fsm::Warp warp(moves, 0);
     for (glm::vec3& p : made.rest.position) p += warped ? warp.Motion(p) : glm::vec3(0);
-    for (const MeshPoint& place : Galatea().points) {
+    for (const MeshPoint& place : Galatea().places()) {
       made.points.push_back(place.On(made.rest.position));
     }
     for (const std::size_t side : {0U, 1U}) {
@@ -280,22 +280,23 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     const auto found = vm::OrThrow(FindHeadPoints(*networks_, *file, name, "galatea"));
     const fsm::Similarity place = fsm::FitSimilarity(found.pairs);
     fsm::MeshModel model = fsm::ModelOfImport(*file, place, -43);
-    BaseHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
-    BaseHead other = vm::OrThrow(BaseHead::ObserveForeign(
-        *networks_, fsm::MakeMeshHead(std::move(model)), name, std::move(surface)));
+    ObservedHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
+    const ObservedHead other = vm::OrThrow(ObservedHead::Foreign(
+        *networks_, fsm::MakeMeshHead(fsm::MeshModel(model)), name, std::move(surface)));
     TrueHead made;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
       // At the outline the network may miss the cheek and see an ear or the neck, centimetres
       // behind: then the point lies where the built-in head has it, on this head's surface.
       constexpr float kStrayMm = 15;
       const glm::vec3 usual = Galatea().AtRest(i), at = other.AtRest(i);
-      made.points.push_back(glm::distance(at, usual) < kStrayMm
-                                ? at
-                                : other.rest.position[Nearest(*other.head, other.rest, usual)]);
+      made.points.push_back(
+          glm::distance(at, usual) < kStrayMm
+              ? at
+              : other.rest().position[Nearest(other.head(), other.rest(), usual)]);
     }
     for (const std::size_t side : {0U, 1U}) made.ears[side] = place(kEars.at(name)[side]);
-    made.head = std::move(other.head);
-    made.rest = std::move(other.rest);
+    made.head = fsm::MakeMeshHead(std::move(model));
+    made.rest = other.rest();
     return made;
   }
 

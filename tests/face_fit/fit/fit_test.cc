@@ -34,40 +34,38 @@ FoundFace DetectedOf(const std::vector<MeshPoint>& places, const std::vector<glm
 }
 
 /// The head as a network would see it whose depth is true.
-BaseHead Exact(const BaseHead& base) {
-  BaseHead exact{base.name, fsm::MakeHead("galatea", false), {}, base.rest, base.points, {}};
-  for (const MeshPoint& place : base.points) exact.detected.push_back(place.On(base.rest.position));
-  return exact;
+ObservedHead Exact(const ObservedHead& base) {
+  return ObservedHead::Exact(fsm::MakeHead("galatea", false), base.name(), base.places());
 }
 
 TEST_F(FitTest, TheBuiltInHeadFittedToItselfHardlyMoves) {
-  const BaseHead& base = Galatea();
-  const FoundFace face = DetectedOf(base.points, base.rest.position);
-  const BaseHead exact = Exact(base);
+  const ObservedHead& base = Galatea();
+  const FoundFace face = DetectedOf(base.places(), base.rest().position);
+  const ObservedHead exact = Exact(base);
   const Fit fit = FitFace(exact, face);
   EXPECT_LT(glm::distance(fit.head.pose.turn_rad, SomePose().turn_rad), 0.01F);
   EXPECT_NEAR(fit.head.pose.focal, SomePose().focal, 10);
-  for (const auto& point : fit.head.points) EXPECT_LT(glm::length(point.by), 1.0F);
+  for (const auto& point : fit.head.warp_points) EXPECT_LT(glm::length(point.by), 1.0F);
 }
 
 TEST_F(FitTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
-  const BaseHead& base = Galatea();
+  const ObservedHead& base = Galatea();
   // Corners that rise steeply without going outward.
   const fsm::UnitTable own(fsm::Table("own.txt",
                                       "field 12 25 -42 22 25 both 0 11 0\n"
                                       "field 25 7 -38 20 11 above 0 1.4 0.2\n"
                                       "field 25 7 -45 24 16 below 0 -8 0\n"));
-  BaseHead built_in = Exact(base), moved = Exact(base);
+  ObservedHead built_in = Exact(base), moved = Exact(base);
   moved.MoveBy(own);
   Expression smiling;
   smiling.smile = 0.9F;
   smiling.parted = 0.9F;
   fsm::HeadVertices vertices;
-  moved.head->Evaluate(smiling.State(), vertices);
-  const FoundFace face = DetectedOf(base.points, vertices.position);
+  moved.head().Evaluate(smiling.State(), vertices);
+  const FoundFace face = DetectedOf(base.places(), vertices.position);
   const auto most = [](const Fit& fit) {
     float far = 0;
-    for (const auto& point : fit.head.points) far = std::max(far, glm::length(point.by));
+    for (const auto& point : fit.head.warp_points) far = std::max(far, glm::length(point.by));
     return far;
   };
   const Fit fit = FitFace(moved, face);
@@ -76,7 +74,8 @@ TEST_F(FitTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
   EXPECT_GT(most(FitFace(built_in, face)), 4) << "else this would say nothing";
   // The head as worn in the photo smiles by the same table.
   const std::size_t corner = 291;
-  EXPECT_LT(glm::distance(fit.head.At(corner), base.points[corner].On(vertices.position)), 2);
+  EXPECT_LT(glm::distance(fit.head.PlaceOf(corner), base.places()[corner].On(vertices.position)),
+            2);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ fsm::Image PhotoOf(const fsm::Head& head, float turn, const fsm::Warp* warp = nu
 
 std::unique_ptr<fsm::Head> HeadOf(const Fit& fit) {
   fsm::PhotoHead set;
-  set.points = fit.head.points;
+  set.points = fit.head.warp_points;
   set.smooth = fit.head.smooth_mm;
   set.eyes = fit.head.eyes;
   set.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {0, 0, 0, 255}});
@@ -166,9 +166,9 @@ TEST_P(TruthTest, LandmarksAndDepthComeNearTheHeadThatWasDrawn) {
 }
 
 TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemThoughTheNetworkSaysHigher) {
-  const BaseHead& base = Galatea();
+  const ObservedHead& base = Galatea();
   const auto corners = [&](const Fit& fit) {
-    return std::pair(fit.head.At(61).y, fit.head.At(291).y);
+    return std::pair(fit.head.PlaceOf(61).y, fit.head.PlaceOf(291).y);
   };
   const auto said = corners(front().fit);
   FoundFace face = front().face;

@@ -34,7 +34,7 @@ TEST(ResampleTest, ColoursGoThroughTheirPixelsAndContoursAreStraight) {
     }
     return most;
   };
-  const float plain = waver([&](float x, float y) { return steps.Between(x, y); });
+  const float plain = waver([&](float x, float y) { return steps.SampleAt(x, y); });
   const float smooth = waver([&](float x, float y) { return SmoothAt(steps, {x, y}); });
   EXPECT_LT(smooth, 0.8F * plain);
 }

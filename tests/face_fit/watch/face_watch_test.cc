@@ -39,8 +39,8 @@ class FaceWatchTest : public AttentionNetworkTest {
   }
   fsm::Image Draw(const fsm::FaceState& state) {
     fsm::HeadVertices vertices;
-    Galatea().head->Evaluate(state, vertices);
-    return portrait_.Draw(*Galatea().head, vertices, state);
+    Galatea().head().Evaluate(state, vertices);
+    return portrait_.Draw(Galatea().head(), vertices, state);
   }
   FaceMeasures See(const fsm::FaceState& state) {
     const auto seen = watch_->Look(Draw(state));
@@ -58,7 +58,7 @@ TEST_F(FaceWatchTest, TheGapOfTheLipsIsSeenToAThird) {
   for (const float jaw : {3.0F, 6.0F, 10.0F}) {
     fsm::FaceState state;
     state.mouth[fsm::kJawY] = jaw;
-    const float told = Galatea().head->MeasureMouth(state).gap_mm;
+    const float told = Galatea().head().MeasureMouth(state).gap_mm;
     EXPECT_NEAR(See(state).gap_mm, told, 0.35F * told) << jaw;
   }
 }
@@ -68,7 +68,7 @@ TEST_F(FaceWatchTest, TheWidthOfTheMouthIsSeen) {
   wide.mouth[fsm::kCornerX] = 3.5F;
   narrow.mouth[fsm::kCornerX] = -5;
   const float told =
-      Galatea().head->MeasureMouth(wide).width_mm - Galatea().head->MeasureMouth(narrow).width_mm;
+      Galatea().head().MeasureMouth(wide).width_mm - Galatea().head().MeasureMouth(narrow).width_mm;
   EXPECT_NEAR(See(wide).width_mm - See(narrow).width_mm, told, 0.3F * told);
 }
 

@@ -19,7 +19,7 @@ TEST(HandPointsTest, SixPlacesPutTheFaceWhereTheyAre) {
                                       "nose_tip 262 365\nmouth_right 225 410\nmouth_left 295 410\n"
                                       "chin 260 480\n");
   ASSERT_TRUE(points) << points.error().text;
-  const BaseHead base = vm::OrThrow(BaseHead::Observe(*networks, "galatea"));
+  const ObservedHead base = vm::OrThrow(ObservedHead::BuiltIn(*networks, "galatea"));
   const FoundFace face = FaceFromHand(base, *points);
   for (const auto& [i, at] : *points) {
     EXPECT_LT(glm::distance(glm::vec2(face.points[i]), at), 4) << i;

@@ -27,7 +27,8 @@ TEST_F(UprightTest, APhotoThatLiesIsSetUpright) {
     EXPECT_EQ(found.orientation, upright) << lying;
     EXPECT_EQ(found.photo.rgba, photo->rgba) << lying;
     ASSERT_EQ(found.faces.size(), 1U) << lying;
-    EXPECT_LT(found.faces[0].At(point::kForehead).y, found.faces[0].At(point::kChin).y) << lying;
+    EXPECT_LT(found.faces[0].PixelOf(point::kForehead).y, found.faces[0].PixelOf(point::kChin).y)
+        << lying;
   }
 }
 

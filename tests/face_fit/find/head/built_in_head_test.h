@@ -22,8 +22,7 @@ class BuiltInHeadTest : public testing::Test {
 
   std::optional<LidEdges> Lids(const fsm::HeadVertices& at, fsm::Side side) const {
     const auto& topology = head_->topology();
-    return FindLidEdges(topology, at.position, EyeVertices(topology), topology.eyes[side].centre,
-                        fsm::SignOf(side));
+    return FindLidEdges(topology, at.position, EyeVertices(topology), side);
   }
   std::optional<LipSeam> Seam(const fsm::HeadVertices& at) const {
     // Skin above and below the lips, wherever it is now.

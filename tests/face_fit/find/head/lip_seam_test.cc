@@ -20,16 +20,16 @@ TEST_F(LipSeamTest, SeamTellsTheLipsApart) {
   open.au.left[27] = open.au.right[27] = 1;
   const auto moved = Shown(open);
   for (float along = 0.1F; along < 0.95F; along += 0.1F) {
-    const auto& [upper, lower] = seam->At(along);
+    const auto& [upper, lower] = seam->EdgesAt(along);
     EXPECT_LT(
         glm::distance(glm::vec2(upper.On(rest_.position)), glm::vec2(lower.On(rest_.position))), 1)
         << "they meet";
     EXPECT_GT(Fall(lower, moved), Fall(upper, moved) + 2) << along;
   }
-  const auto& [upper, lower] = seam->At(0.5F);
+  const auto& [upper, lower] = seam->EdgesAt(0.5F);
   EXPECT_GT(Fall(lower, moved), Fall(upper, moved) + 20);
-  const glm::vec3 right = seam->At(0).upper.On(rest_.position),
-                  left = seam->At(1).upper.On(rest_.position);
+  const glm::vec3 right = seam->EdgesAt(0).upper.On(rest_.position),
+                  left = seam->EdgesAt(1).upper.On(rest_.position);
   const float width = head_->MeasureMouth({}).width_mm;
   EXPECT_NEAR(left.x - right.x, width, 0.2F * width);
 }
@@ -41,7 +41,7 @@ TEST_F(LipSeamTest, PartedLipsHaveTwoEdges) {
   const auto moved = Shown(open);
   const auto seam = Seam(moved);
   ASSERT_TRUE(seam);
-  const auto& [upper, lower] = seam->At(0.5F);
+  const auto& [upper, lower] = seam->EdgesAt(0.5F);
   const float gap = upper.On(moved.position).y - lower.On(moved.position).y;
   EXPECT_GT(gap, 3);
   EXPECT_NEAR(gap, head_->MeasureMouth(open).gap_mm, 3);

@@ -38,7 +38,7 @@ TEST_F(AttentionTest, IrisesOfPhotosLieOnTheIrises) {
       float radius = 0;
       for (std::size_t k = 1; k < 5; ++k) radius += 0.25F * glm::distance(iris[0], iris[k]);
       // An iris is 11.5 to 12 mm wide where outer corners of eyes are 88 to 91 mm apart.
-      const float eyes = glm::distance(seen.face.At(33), seen.face.At(263));
+      const float eyes = glm::distance(seen.face.PixelOf(33), seen.face.PixelOf(263));
       EXPECT_NEAR(2 * radius / eyes, 11.7F / 90, 0.03F) << name << " " << fsm::SignOf(side);
       // The disc is darker than what lies beside it on either side, within the eye; but for
       // Lincoln, whose left eye is pale in the shade.
@@ -47,7 +47,7 @@ TEST_F(AttentionTest, IrisesOfPhotosLieOnTheIrises) {
         const glm::vec3 c = ColourAt(*photo, p);
         return c.x + c.y + c.z;
       };
-      const glm::vec2 across = glm::normalize(seen.face.At(263) - seen.face.At(33));
+      const glm::vec2 across = glm::normalize(seen.face.PixelOf(263) - seen.face.PixelOf(33));
       float within = 0, beside = 0;
       for (const float at : {-0.6F, -0.3F, 0.0F, 0.3F, 0.6F})
         within += bright(iris[0] + at * radius * across) / 5;
@@ -58,15 +58,15 @@ TEST_F(AttentionTest, IrisesOfPhotosLieOnTheIrises) {
 }
 
 TEST_F(AttentionTest, PointsOfTheLipsLieOnTheSeamOfAHead) {
-  const BaseHead& base = Galatea();
-  const AttentiveFace seen = See(base.picture);
+  const ObservedHead& base = Galatea();
+  const AttentiveFace seen = See(base.picture());
   EXPECT_GT(seen.face.certainty, 0.95F);
-  const PortraitView portrait(base.picture.width);
+  const PortraitView portrait(base.picture().width);
   // Along the seam both may differ; across it, from the line between the two neighbours there.
   const auto off_mm = [&](std::span<const PointIndex> line) {
     float most = 0;
     for (const PointIndex i : line) {
-      const glm::vec2 at = seen.face.At(i);
+      const glm::vec2 at = seen.face.PixelOf(i);
       float nearest = 1e9F;
       for (std::size_t k = 0; k + 1 < line.size(); ++k) {
         const glm::vec2 a = portrait.Pixel(base.AtRest(line[k]));

@@ -1,4 +1,4 @@
-#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/observed_head.h"
 
 #include <algorithm>
 #include <glm/common.hpp>
@@ -50,23 +50,25 @@ std::vector<MeshPoint> PlacesUnder(const VisibleSurface& skin, const std::vector
   return places;
 }
 
-std::optional<LipSeam> SeamOf(const BaseHead& base) {
-  const auto places = [&base](std::span<const PointIndex> points) {
-    std::vector<glm::vec3> at;
-    for (const PointIndex i : points) at.push_back(base.AtRest(i));
-    return at;
+std::optional<LipSeam> SeamOf(const ObservedHead& base) {
+  const auto outer_lip = [&base](std::span<const PointIndex> points) {
+    std::vector<glm::vec3> at_rest;
+    for (const PointIndex i : points) at_rest.push_back(base.AtRest(i));
+    return at_rest;
   };
-  return FindLipSeam(base.head->topology(), base.rest.position, base.surface.skin_triangles,
-                     base.surface.has_uv_seams, places(point::kUpperOuterLip),
-                     places(point::kLowerOuterLip));
+  return FindLipSeam(base.head().topology(), base.rest().position, base.surface().skin_triangles,
+                     base.surface().has_uv_seams, outer_lip(point::kUpperOuterLip),
+                     outer_lip(point::kLowerOuterLip));
 }
 
 /// Moves the points of the inner lips up or down onto the seam, but not the corners.
 void SnapToSeam(const std::vector<glm::vec3>& position, const LipSeam& seam,
                 std::vector<MeshPoint>& points) {
-  const float right = seam.At(0).upper.On(position).x, left = seam.At(1).upper.On(position).x;
+  const float right = seam.EdgesAt(0).upper.On(position).x,
+              left = seam.EdgesAt(1).upper.On(position).x;
   const auto edges = [&](PointIndex i) {
-    return seam.At(glm::clamp((points[i].On(position).x - right) / (left - right), 0.0F, 1.0F));
+    return seam.EdgesAt(
+        glm::clamp((points[i].On(position).x - right) / (left - right), 0.0F, 1.0F));
   };
   const std::span upper(point::kUpperInnerLip);
   for (const PointIndex i : upper.subspan(1, upper.size() - 2)) points[i] = edges(i).upper;
@@ -75,50 +77,63 @@ void SnapToSeam(const std::vector<glm::vec3>& position, const LipSeam& seam,
 
 }  // namespace
 
-void BaseHead::MoveBy(const fsm::UnitTable& own) {
-  units = own;
-  head = head->WithUnits(own);
+ObservedHead::ObservedHead(std::unique_ptr<fsm::Head> head, const std::string& name,
+                           Surface surface)
+    : name_(name), head_(std::move(head)), surface_(std::move(surface)) {
+  head_->Evaluate({}, rest_);
 }
 
-vm::Result<BaseHead> BaseHead::Observe(FaceNetworks& networks, const std::string& name) {
-  return Observe(networks, fsm::MakeHead(name), name);
+ObservedHead ObservedHead::Exact(std::unique_ptr<fsm::Head> head, const std::string& name,
+                                 std::vector<MeshPoint> places) {
+  ObservedHead exact(std::move(head), name, {});
+  exact.places_ = std::move(places);
+  for (const MeshPoint& place : exact.places_) {
+    exact.detected_.push_back(place.On(exact.rest_.position));
+  }
+  return exact;
 }
 
-vm::Result<BaseHead> BaseHead::Observe(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                                       const std::string& name) {
+vm::Result<ObservedHead> ObservedHead::BuiltIn(FaceNetworks& networks, const std::string& name) {
+  return BuiltIn(networks, fsm::MakeHead(name), name);
+}
+
+vm::Result<ObservedHead> ObservedHead::BuiltIn(FaceNetworks& networks,
+                                               std::unique_ptr<fsm::Head> head,
+                                               const std::string& name) {
   Surface surface{.skin_triangles = fsm::SkinTriangles(head->topology()),
                   .has_uv_seams = false,
                   .is_eye = EyeVertices(head->topology())};
-  auto base = ObserveForeign(networks, std::move(head), name, std::move(surface));
-  if (base && base->seam) SnapToSeam(base->rest.position, *base->seam, base->points);
+  auto base = Foreign(networks, std::move(head), name, std::move(surface));
+  if (base && base->seam_) SnapToSeam(base->rest_.position, *base->seam_, base->places_);
   return base;
 }
 
-vm::Result<BaseHead> BaseHead::ObserveForeign(FaceNetworks& networks,
-                                              std::unique_ptr<fsm::Head> head,
-                                              const std::string& name, Surface surface) {
-  BaseHead base;
-  base.name = name;
-  base.head = std::move(head);
-  base.surface = std::move(surface);
-  const fsm::FaceState state;
-  base.head->Evaluate(state, base.rest);
+vm::Result<ObservedHead> ObservedHead::Foreign(FaceNetworks& networks,
+                                               std::unique_ptr<fsm::Head> head,
+                                               const std::string& name, Surface surface) {
+  ObservedHead observed(std::move(head), name, std::move(surface));
   const PortraitView portrait(kPortraitSize);
-  base.picture = portrait.Draw(*base.head, base.rest, state);
+  observed.picture_ = portrait.Draw(observed.head(), observed.rest_, {});
   std::vector<glm::vec3> screen;
-  for (const glm::vec3& p : base.rest.position) screen.emplace_back(portrait.Pixel(p), p.z);
-  const auto faces = FindFaces(networks, base.picture);
+  for (const glm::vec3& p : observed.rest_.position) screen.emplace_back(portrait.Pixel(p), p.z);
+  const auto faces = FindFaces(networks, observed.picture_);
   if (!faces.empty()) {
-    base.points = PlacesUnder(SkinIn(base.head->topology(), screen), screen, faces.front().points);
+    observed.places_ =
+        PlacesUnder(SkinIn(observed.head().topology(), screen), screen, faces.front().points);
   }
-  if (base.points.empty()) {
+  if (observed.places_.empty()) {
     return vm::Fail(vm::Errc::kBadValue, "no face is seen on the head '" + name + "'");
   }
   for (const glm::vec3& p : faces.front().points) {
-    base.detected.emplace_back(p.x, p.y, p.z * portrait.mm_per_pixel());
+    observed.detected_.emplace_back(p.x, p.y, p.z * portrait.mm_per_pixel());
   }
-  base.seam = SeamOf(base);
-  return base;
+  observed.seam_ = SeamOf(observed);
+  return observed;
+}
+
+void ObservedHead::MoveBy(const fsm::UnitTable& own) {
+  units_ = own;
+  head_ = head_->WithUnits(own);
 }
 
 }  // namespace facefit
