@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "face_fit/find/face/close_up.h"
+#include "face_fit/find/face/cut_off.h"
 #include "face_fit/find/face/upright.h"
 #include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/picture/filters.h"
@@ -111,6 +112,9 @@ vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
     if (auto few = CheckSidePhotoCount(sides->photos.size()); !few) {
       return std::unexpected(few.error());
     }
+  }
+  if (auto shown = CheckFeaturesShown(face, front.photo); !shown) {
+    return std::unexpected(shown.error());
   }
   Fit fit = FitFace(base, face, &front.photo);
   done("head fitted");

@@ -75,8 +75,9 @@ struct MadeFace {
 };
 /// Fits the base head, which outlives the result, to a face of a photo, corrects its depth by
 /// photos from the side, and bakes them onto it. `face`: front.face, or what a user made of it.
-/// `glasses`: whether the person wears them, else that is looked for. Error: of
-/// CheckSidePhotoCount. Throws std::runtime_error if nothing can be drawn with.
+/// `glasses`: whether the person wears them, else that is looked for. Errors:
+/// of CheckSidePhotoCount and CheckFeaturesShown. Throws std::runtime_error if nothing can be drawn
+/// with.
 vm::Result<MadeFace> MakeFace(
     const ObservedHead& base, const FrontPhoto& front, const FoundFace& face,
     const std::optional<SidePhotos>& sides = {}, std::optional<bool> glasses = {},

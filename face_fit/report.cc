@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "face_fit/find/face/cut_off.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
 
@@ -89,6 +90,15 @@ std::string WarnOfOcclusion(const Occlusion& occlusion) {
                    "; what is before the face becomes part of it\n";
 }
 
+/// The network guesses what it does not see, as certain of it as of the rest.
+std::string WarnOfCutOff(const FoundFace& face, const fsm::Image& photo) {
+  const std::string parts = NamesOf(CutOffParts(face, photo));
+  if (parts.empty()) return "";
+  return "warning: the photo cuts off part of the head: " + parts +
+         "; what it does not show has the form of the toolkit's own head, in colours guessed from "
+         "the rest; a photo of the whole head is needed for a likeness\n";
+}
+
 /// What the photo cuts off is the toolkit's own.
 std::string WarnOfCompletion(const Completed& completed) {
   std::string parts;
@@ -146,7 +156,7 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
         "warning: glasses stay as they are, and so does the skin round the eyes; --glasses no if "
         "there are none\n";
   }
-  out += WarnOfCompletion(bake.completed) + WarnOfOcclusion(occlusion);
+  out += WarnOfCutOff(face, photo) + WarnOfCompletion(bake.completed) + WarnOfOcclusion(occlusion);
   if (faces > 1) out += "warning: several faces; --face N takes another\n";
   return out;
 }

@@ -30,14 +30,14 @@ float CrownRow(const FittedHead& fitted) {
 }
 
 /// Room for the photo, for head and shoulders below its chin, and for hair above it.
-Canvas CanvasFor(const FigureCutout& figure, const FittedHead& fitted, glm::vec2 chin,
-                 float crown) {
+Canvas CanvasFor(const FigureCutout& figure, const FittedHead& fitted, const PhotoEdges& edges,
+                 glm::vec2 chin, float crown) {
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const glm::vec2 size(figure.opacity.width, figure.opacity.height);
   const auto& look = PhotoLook().canvas;
   const glm::vec2 reach = pixels_per_mm * glm::vec2(look.aside_of_chin_mm, look.below_chin_mm);
   const float wide = size.x + 2 * PhotoLook().hair.bulge_most_mm * pixels_per_mm;
-  const glm::vec2 dome = wide * PhotoLook().hair.dome_by_width;
+  const glm::vec2 dome = wide * edges.DomeByWidth();
   const float above = std::clamp(-crown, dome.x, dome.y) + look.above_photo_mm * pixels_per_mm;
   const glm::vec2 low = glm::floor(glm::min(chin - glm::vec2(reach.x, 0), glm::vec2(0, -above)));
   const glm::vec2 high = glm::ceil(glm::max(chin + reach, size));
@@ -129,10 +129,10 @@ void PaintBeyond(const Canvas& canvas, const BodyPaint& body, const HairPaint& h
 
 CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& photo) {
   const float crown = CrownRow(fitted);
-  const Canvas canvas =
-      CanvasFor(photo, fitted, fitted.pose.Pixel(fitted.PlaceOf(point::kChin)), crown);
   const fsm::FaceLight light = LightOnFace(fitted, photo);
   const PhotoEdges edges(fitted, photo, 255.0F * light.skin());
+  const Canvas canvas = CanvasFor(photo, fitted, edges,
+                                  fitted.pose.Pixel(fitted.PlaceOf(point::kChin)), crown);
   const FigureCutout figure = WithoutTips(edges, canvas.pixels_per_mm, photo);
   FittedHead on_canvas = fitted;
   on_canvas.pose.centre += glm::vec2(canvas.photo_origin);

@@ -50,7 +50,7 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
     }
   }
   if (top_.Length() > 0) {
-    const glm::vec2 dome = top_.Length() * look.dome_by_width;
+    const glm::vec2 dome = top_.Length() * edges.DomeByWidth();
     dome_ = std::clamp(-crown, dome.x, dome.y);
   }
   cut_ = dome_ > 0 || bulge_.left + bulge_.right > 0;

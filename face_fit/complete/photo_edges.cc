@@ -254,6 +254,14 @@ glm::vec3 HairBeside(const PerEdge<std::vector<UpperEdgeSample>>& aside, float c
 
 }  // namespace
 
+glm::vec2 PhotoEdges::DomeByWidth() const {
+  const auto& look = PhotoLook().hair;
+  // An edge that the figure touches from corner to corner cuts the widest part of the head.
+  const bool all = std::ranges::none_of(
+      top_, [](EdgeKind kind) { return kind == EdgeKind::kNothing; }, &UpperEdgeSample::kind);
+  return {all ? look.dome_of_whole_edge : look.dome_by_width.x, look.dome_by_width.y};
+}
+
 PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure, glm::vec3 skin) {
   const glm::ivec2 size(figure.opacity.width, figure.opacity.height);
   const EdgeClassifier classifier(figure, fitted.pose.Pixel(fitted.PlaceOf(point::kForehead)).y,

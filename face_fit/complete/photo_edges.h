@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -36,6 +37,8 @@ class PhotoEdges {
   const UpperEdgeSample& aside(PhotoEdge edge, int y) const {
     return aside_[edge][static_cast<std::size_t>(y)];
   }
+  /// How high what the upper edge cuts is rounded off, by the width that it cuts: least and most.
+  glm::vec2 DomeByWidth() const;
   /// The mean colour of what is head, but no skin: hair or a hat.
   glm::vec3 hair() const { return hair_; }
 

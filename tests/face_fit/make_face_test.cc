@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "face_fit/picture/filters.h"
+#include "face_fit/picture/pixels.h"
 #include "fsm/head/make_head.h"
 #include "fsm/render/renderer.h"
 #include "tests/face_fit/network_fixture.h"
@@ -56,6 +58,44 @@ TEST_F(MakeFaceTest, MorePhotosFromTheSideThanAreUsedAreRefused) {
   const auto made = MakeFace(Galatea(), {}, {}, sides);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().code, vm::Errc::kLimit);
+}
+
+/// The built-in head as the networks see it, or a part of it.
+fsm::Image PartOfPortrait(const ObservedHead& head, glm::vec2 low, glm::vec2 high) {
+  const glm::ivec2 from(low), size(high - low);
+  return Cropped(head.picture(), from.x, from.y, size.x, size.y);
+}
+
+TEST_F(MakeFaceTest, OfAPhotoThatShowsOnlyTheInnerFaceTheRestIsDrawnAndNamed) {
+  const glm::vec2 right = Galatea().DetectedAt(point::kCheekRight),
+                  left = Galatea().DetectedAt(point::kCheekLeft),
+                  brow = Galatea().DetectedAt(point::kBrowRight),
+                  chin = Galatea().DetectedAt(point::kChin);
+  const auto front = vm::OrThrow(
+      PrepareFront(*networks_, Galatea(),
+                   PartOfPortrait(Galatea(), {right.x + 5, brow.y - 15}, {left.x - 5, chin.y + 2}),
+                   FaceNumber{}, PhotoPart::kCloseUp));
+  ASSERT_TRUE(front.face);
+  const auto made = vm::OrThrow(MakeFace(Galatea(), front, *front.face));
+  EXPECT_NE(
+      made.report.find("cuts off part of the head: the forehead, the right ear, the left ear"),
+      std::string::npos)
+      << made.report;
+  // The face is painted in the photo's colours, not in the black of a figure that was not found.
+  const fsm::Image& map = *made.bake.head.photo;
+  EXPECT_GT(Brightness(Rgb(map, map.Index(map.width / 4, map.height / 2))), 60);
+}
+
+TEST_F(MakeFaceTest, APhotoWithoutTheMouthIsRefused) {
+  const glm::vec2 nose = Galatea().DetectedAt(point::kNoseBottom);
+  const fsm::Image& portrait = Galatea().picture();
+  auto front =
+      vm::OrThrow(PrepareFront(*networks_, Galatea(), portrait, FaceNumber{}, PhotoPart::kWhole));
+  ASSERT_TRUE(front.face);
+  front.photo = PartOfPortrait(Galatea(), {0, 0}, {portrait.width, nose.y + 4});
+  const auto made = MakeFace(Galatea(), front, *front.face);
+  ASSERT_FALSE(made);
+  EXPECT_TRUE(made.error().text.starts_with("the photo cuts off the mouth; ")) << made.error().text;
 }
 
 TEST_F(MakeFaceTest, APhotoThatDoesNotHelpIsLeftOutWithItsReasonAndTheRestIsMade) {

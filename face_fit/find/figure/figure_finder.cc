@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "face_fit/find/face/cut_off.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/plane.h"
@@ -25,6 +26,11 @@ constexpr float kDoubt = 0.5F, kRather = 0.85F;  // of the other side, where unl
 constexpr float kHeadSquare = 2.3F, kHeadHigher = 0.1F;
 // Towards the edge of that square, 0.5 from its middle, the whole picture takes over.
 constexpr glm::vec2 kSquareEdge{0.48F, 0.38F};
+
+/// Below that mean over the points of a face the network saw nobody there.
+constexpr float kNobody = 0.5F;
+/// Half the width of a neck, by the way from the root of the nose to the chin.
+constexpr float kHalfNeck = 0.35F;
 
 /// What the network says of the picture it was given.
 FloatImage RunSegmentation(FaceNetworks& networks, const std::vector<float>& input) {
@@ -71,6 +77,39 @@ float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
   const float left = std::abs(glm::dot(face.PixelOf(point::kCheekLeft) - middle, across));
   return fsm::SmoothStep(PhotoLook().figure.frontal,
                          std::min(right, left) / std::max({right, left, 1.0F}));
+}
+
+/// What lies within the outline of the face is the person, and the neck below it. The network knows
+/// figures, and of a photo that shows nothing but a face may say that nobody is in it; of a photo
+/// that cuts an ear off it sees a strip beside the cheek, which looks like anything. In both cases
+/// what lies beside the face is left out, all of it or that strip, and the head's own ear is seen
+/// there.
+void TrustFaceOutline(const FoundFace& face, const fsm::Image& image, FloatImage& person) {
+  float seen = 0, count = 0;
+  for (const PointIndex i : point::kForFit) {
+    const glm::vec2 p = face.PixelOf(i);
+    if (!IsInside(image, p)) continue;
+    seen += person(static_cast<int>(p.x), static_cast<int>(p.y));
+    ++count;
+  }
+  const bool nobody = seen < kNobody * count;
+  const CutOff cut = CutOffParts(face, image);
+  if (!nobody && !cut.ears.right && !cut.ears.left) return;
+  const std::vector<glm::vec2> outline = face.Line(point::kFaceOutline);
+  const glm::vec2 eyes = face.PixelOf(point::kNasion), chin = face.PixelOf(point::kChin);
+  const glm::vec2 down = chin - eyes, to_left(down.y, -down.x);
+  const float half_neck = kHalfNeck * glm::dot(down, down);
+  for (int y = 0; y < person.height; ++y) {
+    for (int x = 0; x < person.width; ++x) {
+      const glm::vec2 p = glm::vec2(x, y) + 0.5F;
+      const float way_down = glm::dot(p - eyes, down) / glm::dot(down, down);
+      const bool left = glm::dot(p - eyes, to_left) > 0;
+      const bool strip = way_down > 0 && way_down < 1 && (left ? cut.ears.left : cut.ears.right);
+      if (!nobody && !strip) continue;
+      const bool neck = way_down > 1 && std::abs(glm::dot(p - eyes, to_left)) < half_neck;
+      person(x, y) = neck || SignedDistance(outline, p) < 0 ? 1.0F : 0.0F;
+    }
+  }
 }
 
 }  // namespace
@@ -135,7 +174,9 @@ FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const 
     return share > 0 ? glm::mix(person, PersonAt(near, in_square), share) : person;
   });
   KeepConnected(glm::ivec2(face->PixelOf(point::kNoseTip)), out);
-  return DoubtAsymmetry(*face, image, out);
+  out = DoubtAsymmetry(*face, image, out);
+  TrustFaceOutline(*face, image, out);
+  return out;
 }
 
 }  // namespace facefit

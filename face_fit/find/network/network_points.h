@@ -73,6 +73,9 @@ inline constexpr PointIndex kForFit[] = {
     // forehead, cheeks, chin
     151, 9, 8, 108, 337, 104, 333, 50, 280, 205, 425, 116, 345, 187, 411, 207, 427, 199, 18, 200,
     192, 416, 214, 434};
+/// The outline of the face, closed, from the forehead round by the person's left: the first of
+/// them.
+inline constexpr std::span kFaceOutline = std::span(kForFit).first<36>();
 }  // namespace point
 
 /// Between the outer corners of the eyes, of the built-in head (Farkas 1994: 91.2 and 87.8 for men

@@ -1,0 +1,62 @@
+#include "face_fit/find/face/cut_off.h"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <span>
+#include <utility>
+
+#include "face_fit/picture/pixels.h"
+
+namespace facefit {
+namespace {
+
+/// So far an ear reaches aside of the cheek before it.
+constexpr float kEarMm = 10;
+
+std::string Joined(std::initializer_list<std::pair<bool, const char*>> parts) {
+  std::string names;
+  for (const auto& [named, name] : parts) {
+    if (named) names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+CutOff CutOffParts(const FoundFace& face, const fsm::Image& photo) {
+  const glm::vec2 right_eye = face.PixelOf(point::kEyeOuterRight);
+  const glm::vec2 left_eye = face.PixelOf(point::kEyeOuterLeft);
+  const glm::vec2 ear = kEarMm / kEyesApartMm * (left_eye - right_eye);
+  const auto cut = [&](glm::vec2 pixel) { return !IsInside(photo, pixel); };
+  return {.forehead = cut(face.PixelOf(point::kForehead)),
+          .chin = cut(face.PixelOf(point::kChin)),
+          .ears = {cut(face.PixelOf(point::kCheekRight) - ear),
+                   cut(face.PixelOf(point::kCheekLeft) + ear)}};
+}
+
+std::string NamesOf(const CutOff& cut) {
+  return Joined({{cut.forehead, "the forehead"},
+                 {cut.ears.right, "the right ear"},
+                 {cut.ears.left, "the left ear"},
+                 {cut.chin, "the chin"}});
+}
+
+vm::Result<void> CheckFeaturesShown(const FoundFace& face, const fsm::Image& photo) {
+  const auto cut = [&](std::span<const PointIndex> points) {
+    return std::ranges::any_of(
+        points, [&](PointIndex i) { return !IsInside(photo, face.PixelOf(i)); });
+  };
+  const std::string names = Joined({{cut(EyeOutline(fsm::Side::kRight)), "the right eye"},
+                                    {cut(EyeOutline(fsm::Side::kLeft)), "the left eye"},
+                                    {cut(std::array{point::kNoseTip, point::kNoseBottom}), "the nose"},
+                                    {cut(point::kUpperOuterLip) || cut(point::kLowerOuterLip),
+                                     "the mouth"}});
+  if (names.empty()) return {};
+  return vm::Fail(vm::Errc::kBadValue,
+                  "the photo cuts off " + names +
+                      "; a face needs both eyes, the nose and the mouth, and better all of the "
+                      "head");
+}
+
+}  // namespace facefit
