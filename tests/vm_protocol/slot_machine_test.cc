@@ -245,6 +245,13 @@ TEST_F(SlotMachineTest, AMistypedSlotIsGuessed) {
   EXPECT_NE(Say("inq#1 volum")[0].find("did you mean 'Volume'?"), std::string::npos);
 }
 
+TEST_F(SlotMachineTest, AValueInPlaceOfASlotIsGuessed) {
+  slots_.Declare({.name = "FaceMot", .grammar = "NOD | BLINK <int 1..>"});
+  EXPECT_EQ(Say("set#1 Blnik = 1"), Strings{"1:rep#1 Blnik.error = UNKNOWN_SLOT module FSM has no "
+                                            "slot 'Blnik', did you mean 'FaceMot = BLINK'?"});
+  EXPECT_NE(Say("inq#1 Blizzard")[0].find("(inq Slots lists them)"), std::string::npos);
+}
+
 TEST_F(SlotMachineTest, ABlankAtTheEndIsPartOfTextsOnly) {
   Say("set Mask = bob \t");
   EXPECT_EQ(Say("inq Mask"), Strings{"1:rep Mask = \"bob\""});

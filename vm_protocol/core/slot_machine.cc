@@ -369,10 +369,25 @@ void SlotMachine::RefuseTagged(const std::string& place, const std::string& tag,
   Emit(peer, std::move(answer));
 }
 
+std::string SlotMachine::GuessValue(const std::string& name) const {
+  std::vector<std::string> words;
+  std::vector<const Slot*> takers;  // of each of them
+  for (const auto& slot : slots_) {
+    if (slot->spec.access == Access::kReadOnly) continue;
+    for (std::string& word : slot->grammar.Words()) words.push_back(std::move(word));
+    takers.resize(words.size(), slot.get());
+  }
+  const std::string_view nearest = NearestWord(name, words);
+  if (nearest.empty() || nearest.size() > name.size() + 1) return "";
+  const auto at = static_cast<std::size_t>(std::ranges::find(words, nearest) - words.begin());
+  return ", did you mean '" + takers[at]->spec.name + " = " + words[at] + "'?";
+}
+
 Error SlotMachine::UnknownSlot(const std::string& name) const {
   std::vector<std::string> names;
   for (const auto& slot : slots_) names.push_back(slot->spec.name);
-  const std::string guess = DidYouMean(name, names);
+  std::string guess = DidYouMean(name, names);
+  if (guess.empty()) guess = GuessValue(name);
   return {Errc::kUnknownSlot,
           "module " + module_name_ + " has no slot '" + name + "'" +
               (guess.empty() ? " (inq Slots lists them)" : guess),

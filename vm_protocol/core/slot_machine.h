@@ -179,6 +179,9 @@ class SlotMachine {
   /// Accounts for something kept for users that grows or shrinks. kLimit over kMaxKeptBytes.
   Result<void> Keep(std::size_t before, std::size_t after);
   Error UnknownSlot(const std::string& name) const;
+  /// For the end of an error's text: whoever wrote a word that is a value may have meant the slot
+  /// that takes it. Empty: none.
+  std::string GuessValue(const std::string& name) const;
 
   std::string module_name_;
   Output output_;

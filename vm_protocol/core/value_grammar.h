@@ -55,10 +55,11 @@ class ValueGrammar {
   /// True if part of a value can name a file, or is a text in which every blank counts.
   bool has_file() const;
   bool has_text() const;
+  /// The literal words of it.
+  std::vector<std::string> Words() const;
 
  private:
   struct Node;
-  std::vector<std::string> Words() const;
   ValueGrammar(std::string_view text, std::unique_ptr<Node> root);
   std::string text_;
   std::unique_ptr<Node> root_;
