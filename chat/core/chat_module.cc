@@ -361,6 +361,8 @@ void ChatModule::EndTurn() {
   turn_.reset();
   clock_.Cancel(std::exchange(cut_timer_, 0));
   history_.AddAgent(speaker_.heard());
+  // The user has been told that there is no answer, so the next request must not ask it again.
+  if (turn.error) history_.DropUnanswered();
   const std::string heard(vm::CutUtf8(speaker_.heard(), kMaxShown));
   slots_.Report("Reply", heard);
   SetBusy("IDLE");

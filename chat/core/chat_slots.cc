@@ -132,8 +132,10 @@ void ChatModule::DeclareModel() {
 void ChatModule::DeclareHistory() {
   slots_.Declare({.name = "History",
                   .grammar = "CLEAR",
-                  .help = "What both have said, in JSON: a list of role (user, assistant) and "
-                          "content. Of a reply only what was heard. CLEAR: nothing was said.",
+                  .help =
+                      "What both have said, in JSON: a list of role (user, assistant) and "
+                      "content. Of a reply only what was heard; what the model did not answer is "
+                      "left out. CLEAR: nothing was said.",
                   .on_set = [this](const vm::SetValue&) -> vm::Result<std::string> {
                     history_.Clear();
                     for (Rules& rules : options_.rules) rules.Forget();

@@ -18,6 +18,10 @@ void History::Add(bool user, std::string_view text) {
   Trim();
 }
 
+void History::DropUnanswered() {
+  if (!entries_.empty() && entries_.back().user) entries_.pop_back();
+}
+
 void History::set_turns(std::size_t turns) {
   turns_ = turns;
   Trim();

@@ -20,6 +20,8 @@ class History {
   /// take turns.
   void AddUser(std::string_view text) { Add(true, text); }
   void AddAgent(std::string_view text) { Add(false, text); }
+  /// What the user said last is forgotten, unless the agent has answered it.
+  void DropUnanswered();
   void Clear() { entries_.clear(); }
   /// A turn is what the user says with its answer.
   void set_turns(std::size_t turns);

@@ -182,7 +182,7 @@ TEST(ChatModuleTest, ErrorsAreToldOnceApologisedForAndForgotten) {
     ASSERT_EQ(world.errors.size(), 1u);
     EXPECT_TRUE(world.errors[0].starts_with(one.error)) << world.errors[0];
     EXPECT_FALSE(world.errors[0].contains("sk-1"));
-    EXPECT_EQ(world.History(), R"([{"content":"Hi","role":"user"}])");
+    EXPECT_EQ(world.History(), "[]");
   }
 }
 
@@ -200,7 +200,9 @@ TEST(ChatModuleTest, NothingIsSentBeforeTheEndpointWantsIt) {
   EXPECT_TRUE(world.Lines("Speak =").empty());
   world.Until(30'001);
   world.Tell("set#3 Input.text = Hi");
-  EXPECT_EQ(world.net.calls.size(), 2u);
+  ASSERT_EQ(world.net.calls.size(), 2u);
+  EXPECT_TRUE(world.net.last().request.body.contains(R"({"content":"Hi","role":"user"})"))
+      << "what nobody has answered is asked again: " << world.net.last().request.body;
 }
 
 TEST(ChatModuleTest, WhatCameBeforeAnErrorIsSpokenAndKept) {
