@@ -82,8 +82,9 @@ void SoundKeep::Keep(std::span<const std::int16_t> samples, bool longest) {
   file << wav;
   file.close();
   if (!file) {
-    return slots_.ReportError("Listen.keep",
-                              {vm::Errc::kUnavailable, path + ": cannot be written", 0});
+    return slots_.ReportError(
+        "Listen.keep",
+        {vm::Errc::kUnavailable, path + ": cannot be written" + vm::RemovePart(path), 0});
   }
   files_.emplace_back(path, wav.size());
   bytes_ += wav.size();

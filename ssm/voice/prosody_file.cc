@@ -71,7 +71,9 @@ vm::Result<void> WriteProsody(const Prosody& prosody, const std::string& path) {
   file << "-----\n";
   file.close();
   if (file) return {};
-  return vm::Fail(vm::Errc::kUnavailable, "cannot write '" + path + "': " + std::strerror(errno));
+  const std::string why = std::strerror(errno);
+  return vm::Fail(vm::Errc::kUnavailable,
+                  "cannot write '" + path + "': " + why + vm::RemovePart(path));
 }
 
 vm::Result<Prosody> ReadProsody(const std::string& path) {

@@ -13,10 +13,17 @@ vm::Result<std::unique_ptr<Tape>> Tape::Start(const std::string& path, vm::Time 
   return std::unique_ptr<Tape>(new Tape(std::move(*file), now));
 }
 
+vm::Result<void> Tape::Told(vm::Result<void> written) const {
+  if (!written)
+    written.error().text +=
+        "; the recording ends after " + std::to_string(ToMs(file_->frames()).count()) + " ms";
+  return written;
+}
+
 vm::Result<void> Tape::SilenceUntil(std::size_t frame) {
   frame = std::min(frame, FramesIn(kMaxLength));
   if (frame <= file_->frames()) return {};
-  return file_->WriteSilence(frame - file_->frames());
+  return Told(file_->WriteSilence(frame - file_->frames()));
 }
 
 vm::Result<void> Tape::Add(vm::Time at, std::span<const std::int16_t> heard) {
@@ -27,7 +34,7 @@ vm::Result<void> Tape::Add(vm::Time at, std::span<const std::int16_t> heard) {
   const std::size_t begin = FramesIn(offset);
   const std::size_t before = FramesIn(-offset);
   const std::size_t skip = std::min(before + file_->frames() - begin, heard.size());
-  return file_->Write(heard.subspan(skip));
+  return Told(file_->Write(heard.subspan(skip)));
 }
 
 vm::Result<void> Tape::Close(vm::Time now) {

@@ -12,7 +12,7 @@ namespace ssm {
 /// What was heard from one instant to another, as a WAV file whose frame 0 is that instant: speech
 /// where it was played, silence between. On a virtual clock exact to the sample.
 /// Limits: kMaxLength; what is heard later is not kept.
-/// Errors: kUnavailable from the file.
+/// Errors: kUnavailable from the file, which keeps what was written of it: the text says how much.
 class Tape {
  public:
   static constexpr vm::Time kMaxLength = std::chrono::hours(24);
@@ -27,6 +27,7 @@ class Tape {
 
  private:
   Tape(std::unique_ptr<WavWriter> file, vm::Time start) : file_(std::move(file)), start_(start) {}
+  vm::Result<void> Told(vm::Result<void> written) const;
   vm::Result<void> SilenceUntil(std::size_t frame);
   std::unique_ptr<WavWriter> file_;
   const vm::Time start_;

@@ -41,10 +41,10 @@ vm::Result<void> SaveUtterance(const Utterance& utterance, const std::string& pa
   }
   info << "-----\n";
   info.close();
-  if (!info) {
-    return std::unexpected(InfoError(vm::Errc::kUnavailable, path, std::strerror(errno)));
-  }
-  return {};
+  if (info) return {};
+  const std::string why = std::strerror(errno);
+  return std::unexpected(
+      InfoError(vm::Errc::kUnavailable, path, why + vm::RemovePart(path + ".info")));
 }
 
 vm::Result<void> SaveLabels(const Utterance& utterance, const std::string& path) {
@@ -59,7 +59,9 @@ vm::Result<void> SaveLabels(const Utterance& utterance, const std::string& path)
   }
   file.close();
   if (file) return {};
-  return vm::Fail(vm::Errc::kUnavailable, "cannot write '" + path + "': " + std::strerror(errno));
+  const std::string why = std::strerror(errno);
+  return vm::Fail(vm::Errc::kUnavailable,
+                  "cannot write '" + path + "': " + why + vm::RemovePart(path));
 }
 
 vm::Result<InfoFile> ReadInfo(const std::string& path) {

@@ -51,11 +51,10 @@ vm::Result<std::unique_ptr<WavWriter>> WavWriter::Open(const std::string& path) 
 
 vm::Result<void> WavWriter::Write(std::span<const std::int16_t> samples) {
   const auto wanted = static_cast<sf_count_t>(samples.size());
-  if (sf_writef_short(file_->handle, samples.data(), wanted) != wanted) {
-    return std::unexpected(CannotWrite(file_->path, sf_strerror(file_->handle)));
-  }
-  frames_ += samples.size();
-  return {};
+  const sf_count_t written = sf_writef_short(file_->handle, samples.data(), wanted);
+  frames_ += static_cast<std::size_t>(std::max<sf_count_t>(written, 0));
+  if (written == wanted) return {};
+  return std::unexpected(CannotWrite(file_->path, sf_strerror(file_->handle)));
 }
 
 vm::Result<void> WavWriter::WriteSilence(std::size_t frames) {
@@ -77,7 +76,9 @@ vm::Result<void> WriteWav(const std::string& path, std::span<const std::int16_t>
   if (auto fit = vm::CheckWritable(path); !fit) return fit;
   auto writer = WavWriter::Open(path);
   if (!writer) return std::unexpected(writer.error());
-  return (*writer)->Write(samples);
+  auto written = (*writer)->Write(samples);
+  if (!written) written.error().text += vm::RemovePart(path);
+  return written;
 }
 
 vm::Result<void> WriteRaw(const std::string& path, std::span<const std::int16_t> samples) {
@@ -92,8 +93,9 @@ vm::Result<void> WriteRaw(const std::string& path, std::span<const std::int16_t>
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
-  if (!file) return std::unexpected(CannotWrite(path, std::strerror(errno)));
-  return {};
+  if (file) return {};
+  const std::string why = std::strerror(errno);
+  return std::unexpected(CannotWrite(path, why + vm::RemovePart(path)));
 }
 
 vm::Result<std::vector<std::int16_t>> ReadWav(const std::string& path) {

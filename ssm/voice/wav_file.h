@@ -32,6 +32,7 @@ class WavWriter {
   std::size_t frames_ = 0;
 };
 
+/// A file that could not be finished, as on a full disk, is removed, which the error says.
 vm::Result<void> WriteWav(const std::string& path, std::span<const std::int16_t> samples);
 /// Whether a file can be read as sound, of any kind libsndfile knows.
 bool IsSoundFile(const std::string& path);

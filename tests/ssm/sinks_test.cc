@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
+#include <filesystem>
 #include <stdexcept>
 
 #include "ssm/sinks/file_sink.h"
@@ -106,6 +109,60 @@ TEST(WavFileTest, OtherFormatsAreRefusedWithAReason) {
   EXPECT_EQ(ReadWav(dir / "none.wav").error().code, vm::Errc::kUnavailable);
   ASSERT_TRUE(WriteRaw(dir / "junk.wav", std::vector<std::int16_t>(100, 7)));
   EXPECT_EQ(ReadWav(dir / "junk.wav").error().code, vm::Errc::kUnavailable);
+}
+
+/// No file grows beyond `bytes`, as on a full disk, while this lives.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit less{.rlim_cur = bytes, .rlim_max = before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &less);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*const handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
+};
+
+TEST(WavFileTest, WhatDoesNotFitOnTheDiskIsRemovedAndThatIsSaid) {
+  const support::TempDir dir;
+  const std::vector<std::int16_t> second(kSampleRateHz, 7);
+  vm::Result<void> wav, raw;
+  {
+    const FullDisk full(20'000);
+    wav = WriteWav(dir / "x.wav", second);
+    raw = WriteRaw(dir / "x.raw", second);
+  }
+  for (const auto& [written, path] : {std::pair(wav, dir / "x.wav"), {raw, dir / "x.raw"}}) {
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, vm::Errc::kUnavailable);
+    EXPECT_TRUE(written.error().text.contains("File too large")) << written.error().text;
+    EXPECT_TRUE(written.error().text.ends_with("; the part that was written is removed"))
+        << written.error().text;
+    EXPECT_FALSE(std::filesystem::exists(path)) << path;
+  }
+}
+
+TEST(TapeTest, OnAFullDiskItKeepsWhatFittedAndSaysHowMuch) {
+  const support::TempDir dir;
+  auto tape = Tape::Start(dir / "tape.wav", vm::Time(0));
+  ASSERT_TRUE(tape);
+  vm::Result<void> added;
+  {
+    const FullDisk full(20'000);
+    added = (*tape)->Add(vm::Time(0), std::vector<std::int16_t>(kSampleRateHz, 7));
+    tape->reset();
+  }
+  ASSERT_FALSE(added);
+  EXPECT_TRUE(added.error().text.ends_with("; the recording ends after 623 ms"))
+      << added.error().text;
+  EXPECT_EQ(ReadWav(dir / "tape.wav")->size(), 9978u) << "44 bytes are the header";
 }
 
 TEST(SinkChoiceTest, FormsAreReadAndOthersRefused) {

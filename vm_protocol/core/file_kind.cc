@@ -1,6 +1,7 @@
 #include "vm_protocol/core/file_kind.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -42,6 +43,13 @@ Result<void> CheckReadable(const std::string& path, std::size_t max_bytes) {
   struct stat state {};
   if (stat(path.c_str(), &state) != 0) return Cannot("read", path, errno);
   return CheckRegular(path, state, max_bytes);
+}
+
+std::string RemovePart(const std::string& path) {
+  struct stat state {};
+  if (stat(path.c_str(), &state) != 0 || !S_ISREG(state.st_mode)) return "";
+  return unlink(path.c_str()) == 0 ? "; the part that was written is removed"
+                                   : "; a part of it was written and cannot be removed";
 }
 
 Result<void> CheckWritable(const std::string& path) {

@@ -22,6 +22,10 @@ Result<void> CheckReadable(const std::string& path,
 /// It must be a regular file, /dev/null, or not there yet.
 Result<void> CheckWritable(const std::string& path);
 
+/// Removes what was written of a file that could not be finished, as on a full disk; never what is
+/// no regular file. Returns the end of the error's text, which says what became of it.
+std::string RemovePart(const std::string& path);
+
 /// CheckReadable of a file whose state is known; and its last error.
 Result<void> CheckRegular(const std::string& path, const struct stat& state, std::size_t max_bytes);
 Error FileTooLong(const std::string& path, std::size_t max_bytes);
