@@ -83,9 +83,9 @@ void Listening::Declare(const std::string& module_version) {
 
 void Listening::Start() {
   if (std::exchange(on_, true)) return;
+  if (hooks_.started) hooks_.started();
   slots_.Report("Listen.stat", "LISTENING");
   Arm();
-  if (hooks_.started) hooks_.started();
 }
 
 void Listening::Stop() {

@@ -20,7 +20,8 @@ using Millis = std::chrono::milliseconds;
 class Listening {
  public:
   struct Hooks {
-    std::function<void()> started{};  ///< after LISTENING is reported
+    std::function<void()>
+        started{};  ///< before LISTENING is reported: an engine may have to be loaded
     std::function<void()> stopped{};  ///< before OFF is reported
     std::function<void()> exit{};     ///< Run = EXIT
     std::function<bool()> hearing{};  ///< somebody is speaking just now

@@ -165,6 +165,7 @@ class RecognizerTest : public testing::Test {
               return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "'");
             },
             .open_decoder = [this]() -> vm::Result<std::unique_ptr<srm::SpeechDecoder>> {
+              on_load_();
               return std::make_unique<ToldDecoder>(text_, fit_, calls_);
             },
             .open_spotter = []() -> vm::Result<std::unique_ptr<srm::KeywordSpotter>> {
@@ -191,6 +192,7 @@ class RecognizerTest : public testing::Test {
   std::vector<std::int16_t> sound_;
   std::string text_ = "yes please";
   double fit_ = 0;
+  std::function<void()> on_load_ = [] {};
   Lines calls_, said_, errors_;
   std::unique_ptr<srm::RecognizerModule> module_;
 };
@@ -209,6 +211,14 @@ TEST_F(RecognizerTest, SpeechBecomesPartialAndFinalResultsWithTheirMeaning) {
   EXPECT_EQ(errors_, Lines{});
   EXPECT_EQ(module_->slots().Value("Result.words").substr(0, 11), "yes please[");
   EXPECT_FALSE(module_->Busy());
+}
+
+TEST_F(RecognizerTest, ItSaysThatItListensOnceItsEngineIsLoaded) {
+  on_load_ = [this] { said_.push_back("loaded"); };
+  Tell("set Input = wav:a");
+  Tell("set Run = START");
+  EXPECT_EQ(Said(), (Lines{"rep Input = wav:a", "rep Run = START", "loaded",
+                           "rep Listen.stat = LISTENING"}));
 }
 
 TEST_F(RecognizerTest, AWholePhraseEndsSoonerAndOneThatGoesOnDoesNot) {
