@@ -131,8 +131,8 @@ CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& pho
   const float crown = CrownRow(fitted);
   const fsm::FaceLight light = LightOnFace(fitted, photo);
   const PhotoEdges edges(fitted, photo, 255.0F * light.skin());
-  const Canvas canvas = CanvasFor(photo, fitted, edges,
-                                  fitted.pose.Pixel(fitted.PlaceOf(point::kChin)), crown);
+  const Canvas canvas =
+      CanvasFor(photo, fitted, edges, fitted.pose.Pixel(fitted.PlaceOf(point::kChin)), crown);
   const FigureCutout figure = WithoutTips(edges, canvas.pixels_per_mm, photo);
   FittedHead on_canvas = fitted;
   on_canvas.pose.centre += glm::vec2(canvas.photo_origin);

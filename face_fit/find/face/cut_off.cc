@@ -44,14 +44,14 @@ std::string NamesOf(const CutOff& cut) {
 
 vm::Result<void> CheckFeaturesShown(const FoundFace& face, const fsm::Image& photo) {
   const auto cut = [&](std::span<const PointIndex> points) {
-    return std::ranges::any_of(
-        points, [&](PointIndex i) { return !IsInside(photo, face.PixelOf(i)); });
+    return std::ranges::any_of(points,
+                               [&](PointIndex i) { return !IsInside(photo, face.PixelOf(i)); });
   };
-  const std::string names = Joined({{cut(EyeOutline(fsm::Side::kRight)), "the right eye"},
-                                    {cut(EyeOutline(fsm::Side::kLeft)), "the left eye"},
-                                    {cut(std::array{point::kNoseTip, point::kNoseBottom}), "the nose"},
-                                    {cut(point::kUpperOuterLip) || cut(point::kLowerOuterLip),
-                                     "the mouth"}});
+  const std::string names =
+      Joined({{cut(EyeOutline(fsm::Side::kRight)), "the right eye"},
+              {cut(EyeOutline(fsm::Side::kLeft)), "the left eye"},
+              {cut(std::array{point::kNoseTip, point::kNoseBottom}), "the nose"},
+              {cut(point::kUpperOuterLip) || cut(point::kLowerOuterLip), "the mouth"}});
   if (names.empty()) return {};
   return vm::Fail(vm::Errc::kBadValue,
                   "the photo cuts off " + names +

@@ -8,8 +8,8 @@
 
 namespace facefit {
 
-/// Which parts of a head lie beyond the edges of its photo: the network guesses their points all the
-/// same, and is as certain of them as of those it sees.
+/// Which parts of a head lie beyond the edges of its photo: the network guesses their points all
+/// the same, and is as certain of them as of those it sees.
 struct CutOff {
   bool forehead = false, chin = false;
   fsm::Sided<bool> ears;

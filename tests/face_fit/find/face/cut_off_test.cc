@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 namespace facefit {
 namespace {
 
@@ -29,9 +28,7 @@ FoundFace Shifted(FoundFace face, float left, float top) {
   return face;
 }
 
-fsm::Image Photo(int width, int height) {
-  return {.width = width, .height = height, .rgba = {}};
-}
+fsm::Image Photo(int width, int height) { return {.width = width, .height = height, .rgba = {}}; }
 
 TEST(CutOffTest, AWholeHeadHasNothingCutOff) {
   EXPECT_EQ(NamesOf(CutOffParts(SomeFace(), Photo(200, 200))), "");
