@@ -1,5 +1,7 @@
 #include "fsm/app/idle_slots.h"
 
+#include "fsm/motion/idle_kinds.h"
+
 namespace fsm {
 namespace {
 
@@ -9,12 +11,14 @@ std::string Profiles(const FsmCore& core) {
   return names;
 }
 
-std::string Kinds() {
-  std::string names;
-  for (const std::string_view name : kIdleKindNames) {
-    names += (names.empty() ? "" : " | ") + std::string(name);
+/// What `text_of` says of each kind, with a separator between them.
+template <typename TextOf>
+std::string Kinds(const std::string& separator, const TextOf& text_of) {
+  std::string text;
+  for (const IdleKindRow& row : IdleKinds()) {
+    text += (text.empty() ? "" : separator) + text_of(row);
   }
-  return names;
+  return text;
 }
 
 void DeclareGaze(FsmCore& core) {
@@ -54,14 +58,16 @@ void DeclareGaze(FsmCore& core) {
 void DeclareIdleSlots(FsmCore& core, const std::string& life) {
   core.slots.Declare(
       {.name = "Autonomous",
-       .grammar = "( " + Kinds() + " ) <int 0..>",
+       .grammar = "( " +
+                  Kinds(" | ", [](const IdleKindRow& row) { return std::string(row.name); }) +
+                  " ) <int 0..>",
        .access = vm::Access::kWriteOnly,
-       .help = "What the face does by itself, and its pattern; 0 stops it. BLINK; MOVE, the head "
-               "drifts; GAZE, small saccades; BREATH; NODS of a listener; SPEECH, head and brows "
-               "move with the stress; AVERT, the eyes leave the user while beginning to speak; "
-               "FACE, a slight look that stays; GAZEBLINK and ENDBLINK, blinks at shifts of the "
-               "gaze and at the end of speech; ASYMMETRY of expressions; TEXT, looks of sentences "
-               "by their words; USERDEF, files.",
+       .help = "What the face does by itself, and its pattern; 0 stops it. " +
+               Kinds("; ",
+                     [](const IdleKindRow& row) {
+                       return std::string(row.name) + std::string(row.help);
+                     }) +
+               ".",
        .on_set = core.Command([&core](const vm::SetValue& value) {
          return core.motion->idle.Set(core.Now(), value.word(0), static_cast<int>(value.number(1)));
        })});

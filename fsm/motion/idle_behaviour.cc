@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 
+#include "fsm/motion/idle_kinds.h"
 #include "fsm/motion/motion_errors.h"
 
 namespace fsm {
 namespace {
-
-using namespace std::chrono_literals;
-constexpr vm::Time kIdleFade = 400ms;
-constexpr vm::Time kQuickFade = 60ms;
 
 Angles Looped(const HeadCurve& curve, double ms) {
   return curve.At(std::fmod(std::max(0.0, ms), curve.length_ms()));
@@ -41,23 +39,20 @@ void IdleBehaviour::Set(vm::Time now, IdleKind kind, std::size_t pattern) {
     own.since = now;
   }
   own.on = pattern > 0;
-  const bool quick = kind == IdleKind::kBlink || kind == IdleKind::kGaze;
-  const bool at_once =
-      kind == IdleKind::kAsymmetry || kind == IdleKind::kGazeBlink || kind == IdleKind::kEndBlink;
-  const vm::Time fade = at_once ? vm::Time(0) : quick ? kQuickFade : kIdleFade;
-  own.weight.MoveTo(now, own.on ? 1.0f : 0.0f, fade);
+  own.weight.MoveTo(now, own.on ? 1.0f : 0.0f, RowOf(kind).fade);
   if (kind == IdleKind::kBlink && own.on) blink_ = {};
 }
 
 vm::Result<void> IdleBehaviour::Set(vm::Time now, std::string_view kind, int pattern) {
   const auto named = IdleKindNamed(kind);
   if (!named) {
-    return vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' is nothing the face does by itself; {} "
-                                                     "expected",
-                                                     kind, fmt::join(kIdleKindNames, " ")));
+    return vm::Fail(
+        vm::Errc::kBadValue,
+        fmt::format("'{}' is nothing the face does by itself; {} expected", kind,
+                    fmt::join(IdleKinds() | std::views::transform(&IdleKindRow::name), " ")));
   }
   if (pattern != 0) {
-    const std::size_t count = patterns_.Count(*named);
+    const std::size_t count = RowOf(*named).count(patterns_);
     if (auto fits = CheckPattern(kind, pattern, 0, count); !fits) return fits;
   }
   Set(now, *named, static_cast<std::size_t>(pattern));
@@ -110,12 +105,14 @@ void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
     return;
   }
   const AutoMove& move = PatternAt(patterns_.auto_moves, own.pattern);
+  const Angles amplitude{static_cast<float>(move.down), static_cast<float>(move.right),
+                         static_cast<float>(move.tilt)};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double slow = InMs(t) / move.period_ms + 0.37 * static_cast<double>(axis);
     const double fast = slow * gestures_.wander.faster;
     const double way = gestures_.wander.slow * Wander(2 * axis, slow) +
                        gestures_.wander.fast * Wander(2 * axis + 1, fast);
-    out[axis] += static_cast<float>(weight * way * move.amplitude[axis]);
+    out[axis] += static_cast<float>(weight * way * amplitude[axis]);
   }
 }
 
@@ -239,9 +236,8 @@ double IdleBehaviour::LidsShutAt(vm::Time t) const {
 }
 
 std::optional<vm::Time> IdleBehaviour::NextActivity(vm::Time t) const {
-  for (const IdleKind kind :
-       {IdleKind::kMove, IdleKind::kUserdef, IdleKind::kGaze, IdleKind::kBreath, IdleKind::kNods}) {
-    if (On(kind)) return t;
+  for (const IdleKindRow& row : IdleKinds()) {
+    if (row.moves_always && On(row.kind)) return t;
   }
   const std::optional<vm::Time> next = MotionSource::NextActivity(t);
   if (next && *next <= t) return t;

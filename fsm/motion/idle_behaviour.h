@@ -70,7 +70,7 @@ class IdleBehaviour : public MotionSource {
   const MotionPatterns& patterns_;
   const GestureNumbers& gestures_;
   std::uint64_t seed_;
-  std::array<Switch, kIdleKindNames.size()> switches_;
+  std::array<Switch, kIdleKindCount> switches_;
   /// The blink that was asked for last. A blink's place is the sum of all intervals before it, but
   /// each interval follows from its number alone: from here the next one asked for, before or
   /// after, is a few steps away. What is found does not depend on where this stands.

@@ -58,30 +58,4 @@ double LidsAt(const BlinkPattern& pattern, vm::Time since) {
   return 1 - Eased(opening / pattern.opening_ms);
 }
 
-std::optional<IdleKind> IdleKindNamed(std::string_view name) {
-  const auto found = std::ranges::find(kIdleKindNames, name);
-  if (found == kIdleKindNames.end()) return std::nullopt;
-  return static_cast<IdleKind>(found - kIdleKindNames.begin());
-}
-
-std::size_t MotionPatterns::Count(IdleKind kind) const {
-  const std::size_t moves = auto_move_files.empty() ? auto_moves.size() : auto_move_files.size();
-  constexpr std::size_t kSwitch = 1;  // only on or off
-  const std::array patterns{auto_blinks.size(),
-                            moves,
-                            auto_userdef.size(),
-                            auto_gazes.size(),
-                            auto_breaths.size(),
-                            auto_nods.size(),
-                            auto_speeches.size(),
-                            auto_averts.size(),
-                            auto_faces.size(),
-                            kSwitch,
-                            kSwitch,
-                            kSwitch,
-                            auto_texts.size()};
-  static_assert(std::is_same_v<decltype(patterns), const IdleProfile>, "one for each kind");
-  return patterns[static_cast<std::size_t>(kind)];
-}
-
 }  // namespace fsm

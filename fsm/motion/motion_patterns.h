@@ -2,7 +2,6 @@
 
 #include <array>
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,7 +9,6 @@
 
 #include "fsm/motion/action_units.h"
 #include "fsm/motion/motion_source.h"
-#include "vm_protocol/core/result.h"
 
 namespace fsm {
 
@@ -49,7 +47,7 @@ struct AutoBlink {
   bool varied = true;     ///< half of them incomplete, as people's are
 };
 struct AutoMove {
-  Angles amplitude{};
+  double down = 0, right = 0, tilt = 0;  ///< degrees, as Angles
   double period_ms = 2500;
 };
 struct AutoGaze {
@@ -79,8 +77,7 @@ struct AutoText {
   double size = 1;  ///< of the looks of text_cues.txt
 };
 
-/// What the face does by itself; each is switched by name. Names and MotionPatterns::Count have the
-/// same order.
+/// What the face does by itself; each is switched by name. More about each: idle_kinds.h.
 enum class IdleKind : std::size_t {
   kBlink,
   kMove,
@@ -96,12 +93,9 @@ enum class IdleKind : std::size_t {
   kAsymmetry,
   kText
 };
-inline constexpr std::array<std::string_view, 13> kIdleKindNames = {
-    "BLINK", "MOVE", "USERDEF",   "GAZE",     "BREATH",    "NODS", "SPEECH",
-    "AVERT", "FACE", "GAZEBLINK", "ENDBLINK", "ASYMMETRY", "TEXT"};
-std::optional<IdleKind> IdleKindNamed(std::string_view name);
-/// Patterns by kind.
-using IdleProfile = std::array<std::size_t, kIdleKindNames.size()>;
+inline constexpr std::size_t kIdleKindCount = static_cast<std::size_t>(IdleKind::kText) + 1;
+/// Patterns by kind; 0 = off.
+using IdleProfile = std::array<std::size_t, kIdleKindCount>;
 
 /// The pattern of a number, which commands and tables count from 1. REQUIRES: it is there.
 template <typename T>
@@ -126,8 +120,6 @@ struct MotionPatterns {
   std::map<std::string, IdleProfile, std::less<>> profiles;
   std::vector<HeadCurve> auto_move_files;  ///< if not empty, these are Autonomous MOVE n, in a loop
   std::vector<HeadCurve> auto_userdef;     ///< Autonomous USERDEF n, in a loop
-
-  std::size_t Count(IdleKind kind) const;  ///< how many there are of a kind
 };
 
 }  // namespace fsm

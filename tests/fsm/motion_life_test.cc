@@ -10,6 +10,7 @@
 #include "fsm/base/random.h"
 #include "fsm/motion/face_motion.h"
 #include "fsm/motion/idle_behaviour.h"
+#include "fsm/motion/idle_kinds.h"
 #include "tests/fsm/motion_support.h"
 
 namespace fsm {
@@ -282,8 +283,8 @@ TEST_F(IdleBehaviourTest, ProfilesSwitchEverythingAtOnceAndPartsRemainSwitchable
   }
   ASSERT_TRUE(motion.idle.SetProfile(0ms, "LISTENING"));
   EXPECT_GT(motion.StateAt(2s).au.left[12], 0.05f) << "friendly";
-  for (const std::string_view kind : kIdleKindNames) {
-    ASSERT_TRUE(motion.idle.Set(3s, kind, 0)) << kind;
+  for (const IdleKindRow& row : IdleKinds()) {
+    ASSERT_TRUE(motion.idle.Set(3s, row.name, 0)) << row.name;
   }
   EXPECT_FALSE(motion.NextActivity(10s).has_value());
   const FaceState state = motion.StateAt(10s);
