@@ -89,7 +89,7 @@ bool ShapeSliders(Ui& ui, fsm::Viseme& shape, std::string& merge) {
 
 fsm::FaceState MouthPage(Ui& ui) {
   Shapes(ui);
-  const fsm::Viseme* found = fsm::FindShape(ui.editor.shapes(ui.bilingual), ui.shape);
+  const fsm::Viseme* found = fsm::FindViseme(ui.editor.shapes(ui.bilingual), ui.shape);
   if (!found) return {};
   fsm::Viseme shape = *found;
   if (ui.stage.head()) {

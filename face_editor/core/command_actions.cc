@@ -137,7 +137,7 @@ Answer SetTiming(Editor& editor, const Words& words) {
 }
 
 Answer SetMouth(Editor& editor, const Words& words, bool bilingual) {
-  const fsm::Viseme* found = fsm::FindShape(editor.shapes(bilingual), words[0]);
+  const fsm::Viseme* found = fsm::FindViseme(editor.shapes(bilingual), words[0]);
   fsm::Viseme shape;
   if (found) shape = *found;
   shape.name = words[0];
@@ -258,9 +258,9 @@ Answer GetMotion(Editor& editor, const Words& words) {
 }
 
 Answer GetMouth(Editor& editor, const Words& words, bool bilingual) {
-  const fsm::Viseme* shape = fsm::FindShape(editor.shapes(bilingual), words[0]);
+  const fsm::Viseme* shape = fsm::FindViseme(editor.shapes(bilingual), words[0]);
   if (!shape) return vm::Fail(Errc::kBadValue, "there is no mouth shape '" + words[0] + "'");
-  return fsm::FormatShapeValues(*shape);
+  return fsm::FormatVisemeValues(*shape);
 }
 
 Answer GetUnsaved(Editor& editor, const Words&) {

@@ -212,16 +212,16 @@ vm::Result<void> Editor::RemovePattern(std::string_view name, int pattern) {
 
 vm::Result<void> Editor::SetShape(bool bilingual, const fsm::Viseme& shape,
                                   std::string_view merge) {
-  if (!fsm::FindShape(shapes(bilingual), shape.name)) {
+  if (!fsm::FindViseme(shapes(bilingual), shape.name)) {
     std::string names;
     for (const auto& other : shapes(bilingual)) names += " " + other.name;
     return Fail(Errc::kBadValue, fmt::format("there is no mouth shape '{}'; one of{} expected",
                                              shape.name.substr(0, 40), names));
   }
   // The same bounds as those of the table.
-  const fsm::Table table("shape", fsm::FormatShapeValues(shape));
+  const fsm::Table table("shape", fsm::FormatVisemeValues(shape));
   fsm::Viseme checked = shape;
-  if (auto fits = fsm::ReadShapeValues(table.rows().front().words(), 0, checked); !fits) {
+  if (auto fits = fsm::ReadVisemeValues(table.rows().front().words(), 0, checked); !fits) {
     return std::unexpected(fits.error());
   }
   history_.Change(Part::kMouth, "mouth shape " + shape.name, merge, [&](State& state) {

@@ -77,8 +77,8 @@ vm::Result<void> Editor::LoadTables(const std::string& folder) {
   };
   put(Part::kEmotions, [this](State& state) { state.emotions = tables_.emotions; });
   put(Part::kMouth, [this](State& state) {
-    state.shapes14 = tables_.set14.shapes;
-    state.shapes28 = tables_.set28.shapes;
+    state.shapes14 = tables_.set14.visemes;
+    state.shapes28 = tables_.set28.visemes;
   });
   put(Part::kUnits, [&](State& state) { state.units = *units; });
   put(Part::kMotions, [this](State& state) {
@@ -102,8 +102,8 @@ vm::Result<std::shared_ptr<const Units>> Editor::UnitsIn(const std::string& fold
 fsm::MotionTables Editor::Tables() const {
   fsm::MotionTables tables = tables_;
   tables.emotions = state().emotions;
-  tables.set14.shapes = state().shapes14;
-  tables.set28.shapes = state().shapes28;
+  tables.set14.visemes = state().shapes14;
+  tables.set28.visemes = state().shapes28;
   for (const auto& [kind, curves] : state().curves) tables.motions.head[kind] = curves;
   return tables;
 }
@@ -122,7 +122,8 @@ vm::Result<void> Editor::Load(Part part, const std::string& path, bool bilingual
     emotions_text_ = std::move(*text);
     put("expressions read", [&](State& state) { state.emotions = std::move(*read); });
   } else if (part == Part::kMouth) {
-    auto read = fsm::ReadVisemes(path, *text, bilingual ? fsm::ShapeSet::k28 : fsm::ShapeSet::k14);
+    auto read =
+        fsm::ReadVisemes(path, *text, bilingual ? fsm::VisemeSetId::k28 : fsm::VisemeSetId::k14);
     if (!read) return std::unexpected(read.error());
     // Phonemes and dominances know shapes by name and place.
     for (std::size_t i = 0; i < read->size(); ++i) {

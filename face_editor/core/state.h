@@ -11,7 +11,7 @@
 #include "face_editor/core/unit_rows.h"
 #include "fsm/motion/emotion_table.h"
 #include "fsm/motion/motion_patterns.h"
-#include "fsm/motion/mouth_tables.h"
+#include "fsm/motion/viseme_tables.h"
 
 namespace editor {
 

@@ -117,16 +117,17 @@ bool Same(const fsm::HeadCurve& curve, const std::vector<Line>& lines, std::size
 std::string WriteVisemes(std::string_view text, const fsm::Visemes& shapes) {
   std::vector<std::string> out;
   for (const Line& line : TableLinesOf(text)) {
-    const fsm::Viseme* shape = line.words.empty() ? nullptr : fsm::FindShape(shapes, line.words[0]);
+    const fsm::Viseme* shape =
+        line.words.empty() ? nullptr : fsm::FindViseme(shapes, line.words[0]);
     if (!shape) {
       out.push_back(line.text);
       continue;
     }
     fsm::Viseme old;
-    const bool same = fsm::ReadShapeValues(line.words, 1, old).has_value() &&
-                      fsm::FormatShapeValues(old) == fsm::FormatShapeValues(*shape);
+    const bool same = fsm::ReadVisemeValues(line.words, 1, old).has_value() &&
+                      fsm::FormatVisemeValues(old) == fsm::FormatVisemeValues(*shape);
     out.push_back(same ? line.text
-                       : fmt::format("{:<5} {}{}", shape->name, fsm::FormatShapeValues(*shape),
+                       : fmt::format("{:<5} {}{}", shape->name, fsm::FormatVisemeValues(*shape),
                                      line.comment));
   }
   return Joined(out);

@@ -83,14 +83,14 @@ Sheet Emotions(const Wanted& wanted) {
 
 Sheet VisemeSheet(const Wanted& wanted) {
   Sheet sheet{{}, 7};
-  for (const ShapeSet set : {ShapeSet::k28, ShapeSet::k14}) {
+  for (const VisemeSetId set : {VisemeSetId::k28, VisemeSetId::k14}) {
     const std::string prefix = std::to_string(CountOf(set)) + " ";
-    for (const Viseme& shape : wanted.tables.mouths(set).shapes) {
+    for (const Viseme& viseme : wanted.tables.set(set).visemes) {
       FaceState state;
-      state.mouth = shape.pose.mouth;
-      state.lip_seal = shape.pose.seal;
-      state.tongue = shape.pose.tongue;
-      sheet.cells.push_back({prefix + shape.name, Framed(state, kMouth), wanted.face});
+      state.mouth = viseme.pose.mouth;
+      state.lip_seal = viseme.pose.seal;
+      state.tongue = viseme.pose.tongue;
+      sheet.cells.push_back({prefix + viseme.name, Framed(state, kMouth), wanted.face});
     }
   }
   return sheet;

@@ -12,9 +12,9 @@
 namespace fsm {
 namespace {
 
-ShapeSet SetOfCount(double count) { return count == 28 ? ShapeSet::k28 : ShapeSet::k14; }
-std::string SlotOf(ShapeSet set, const std::string& shape) {
-  return (set == ShapeSet::k28 ? "MouthShape28." : "MouthShape.") + shape;
+VisemeSetId SetOfCount(double count) { return count == 28 ? VisemeSetId::k28 : VisemeSetId::k14; }
+std::string SlotOf(VisemeSetId set, const std::string& viseme) {
+  return (set == VisemeSetId::k28 ? "MouthShape28." : "MouthShape.") + viseme;
 }
 
 constexpr SlotWord<LipMode> kModes[] = {{"DOMINANCE", LipMode::kDominance},
@@ -31,12 +31,12 @@ std::vector<SlotWord<glm::vec2>> WaysOfSpeaking(const GestureNumbers& gestures) 
           {"SHOUTED", {jaw.SHOUTED, lips.SHOUTED}}};
 }
 
-vm::Result<void> SetShapes(MotionSettings& settings, const vm::SetValue& value) {
+vm::Result<void> ChooseVisemes(MotionSettings& settings, const vm::SetValue& value) {
   if (value.number(0) != 14 && value.number(0) != 28) {
     return vm::Fail(vm::Errc::kBadValue,
                     "there are sets of 14 and of 28 mouth shapes; 14 or 28 expected");
   }
-  settings.lips.shapes = SetOfCount(value.number(0));
+  settings.lips.visemes = SetOfCount(value.number(0));
   return {};
 }
 
@@ -68,7 +68,7 @@ void DeclareStyle(FsmCore& core) {
        .grammar = "<int 14..28>",
        .initial = "28",
        .help = "Which mouth shapes: 28 of English and Japanese, or the original's 14.",
-       .on_set = core.Setting(SetShapes)});
+       .on_set = core.Setting(ChooseVisemes)});
   core.slots.Declare(
       {.name = "LipSync.names",
        .grammar = "<word>",
@@ -95,78 +95,78 @@ void DeclareStyle(FsmCore& core) {
        })});
 }
 
-void DeclareShapes(FsmCore& core, ShapeSet set) {
-  for (const Viseme& shape : core.motion->shapes(set)) {
+void DeclareVisemes(FsmCore& core, VisemeSetId set) {
+  for (const Viseme& viseme : core.motion->visemes(set)) {
     core.slots.Declare(
-        {.name = SlotOf(set, shape.name),
+        {.name = SlotOf(set, viseme.name),
          .grammar = "<number>...",
-         .initial = FormatShapeValues(shape),
-         .help = "Mouth shape '" + shape.name + "' of the " + std::to_string(CountOf(set)) +
+         .initial = FormatVisemeValues(viseme),
+         .help = "Mouth shape '" + viseme.name + "' of the " + std::to_string(CountOf(set)) +
                  ": 17 mouth parameters [seal [tongue [hold]]], see face.md.",
          .on_set = core.Command(
-             [&core, set, name = shape.name](const vm::SetValue& value) -> vm::Result<void> {
+             [&core, set, name = viseme.name](const vm::SetValue& value) -> vm::Result<void> {
                std::vector<std::string> words;
                for (std::size_t i = 0; i < value.size(); ++i) words.push_back(value.word(i));
-               Visemes shapes = core.motion->shapes(set);
-               for (Viseme& edited : shapes) {
+               Visemes visemes = core.motion->visemes(set);
+               for (Viseme& edited : visemes) {
                  if (edited.name != name) continue;
-                 if (auto read = ReadShapeValues(words, 0, edited); !read) return read;
+                 if (auto read = ReadVisemeValues(words, 0, edited); !read) return read;
                }
-               core.motion->SetShapes(set, std::move(shapes));
+               core.motion->SetVisemes(set, std::move(visemes));
                return {};
              })});
   }
 }
 
 // A table of 14 or of 28 rows, told apart by their count.
-vm::Result<void> LoadShapes(FsmCore& core, const std::string& path) {
+vm::Result<void> LoadVisemes(FsmCore& core, const std::string& path) {
   const auto text = ReadTableFile(path);
   if (!text) return std::unexpected(text.error());
-  const ShapeSet set = SetOfCount(static_cast<double>(Table(path, *text).rows().size()));
-  auto shapes = ReadVisemes(path, *text, set);
-  if (!shapes) return std::unexpected(shapes.error());
-  const Visemes& now = core.motion->shapes(set);
+  const VisemeSetId set = SetOfCount(static_cast<double>(Table(path, *text).rows().size()));
+  auto visemes = ReadVisemes(path, *text, set);
+  if (!visemes) return std::unexpected(visemes.error());
+  const Visemes& now = core.motion->visemes(set);
   for (std::size_t i = 0; i < now.size(); ++i) {
-    if ((*shapes)[i].name != now[i].name) {
+    if ((*visemes)[i].name != now[i].name) {
       return vm::Fail(vm::Errc::kBadValue, path + ": shape " + std::to_string(i + 1) + " is '" +
-                                               (*shapes)[i].name + "', '" + now[i].name +
+                                               (*visemes)[i].name + "', '" + now[i].name +
                                                "' expected");
     }
   }
-  core.motion->SetShapes(set, std::move(*shapes));
-  for (const Viseme& shape : core.motion->shapes(set)) {
-    core.slots.Report(SlotOf(set, shape.name), FormatShapeValues(shape));
+  core.motion->SetVisemes(set, std::move(*visemes));
+  for (const Viseme& viseme : core.motion->visemes(set)) {
+    core.slots.Report(SlotOf(set, viseme.name), FormatVisemeValues(viseme));
   }
   return {};
 }
 
-vm::Result<void> SaveShapes(FsmCore& core, ShapeSet set, const std::string& path) {
+vm::Result<void> SaveVisemes(FsmCore& core, VisemeSetId set, const std::string& path) {
   if (auto fit = vm::CheckWritable(path); !fit) return fit;
   std::ofstream out(path, std::ios::binary);
   out << "# Mouth shapes: name, the 17 mouth parameters, seal, tongue, hold (docs/face.md).\n";
-  for (const Viseme& shape : core.motion->shapes(set)) {
-    out << shape.name << " " << FormatShapeValues(shape) << "\n";
+  for (const Viseme& viseme : core.motion->visemes(set)) {
+    out << viseme.name << " " << FormatVisemeValues(viseme) << "\n";
   }
   out.close();
   if (!out) return vm::Fail(vm::Errc::kUnavailable, "cannot write " + path);
   return {};
 }
 
-void DeclareShapeFiles(FsmCore& core) {
+void DeclareVisemeFiles(FsmCore& core) {
   core.slots.Declare(
       {.name = "MouthShapes",
        .grammar = "<file>",
        .access = vm::Access::kWriteOnly,
        .help = "Loads a table of mouth shapes, all 14 or all 28; rows as in mouth_shapes.txt.",
        .on_set = core.Command(
-           [&core](const vm::SetValue& value) { return LoadShapes(core, value.word(0)); })});
+           [&core](const vm::SetValue& value) { return LoadVisemes(core, value.word(0)); })});
   core.slots.Declare(
       {.name = "SaveMouthShapes",
        .grammar = "<int 14..28> <word>",
        .access = vm::Access::kWriteOnly,
        .help = "Writes the 14 or the 28 mouth shapes to a file, as MouthShapes loads them.",
        .on_set = core.Command([&core](const vm::SetValue& value) {
-         return SaveShapes(core, SetOfCount(value.number(0)), value.word(1));
+         return SaveVisemes(core, SetOfCount(value.number(0)), value.word(1));
        })});
 }
 
@@ -174,8 +174,8 @@ void DeclareShapeFiles(FsmCore& core) {
 
 void DeclareLipSlots(FsmCore& core) {
   DeclareStyle(core);
-  for (const ShapeSet set : kShapeSets) DeclareShapes(core, set);
-  DeclareShapeFiles(core);
+  for (const VisemeSetId set : kVisemeSets) DeclareVisemes(core, set);
+  DeclareVisemeFiles(core);
 }
 
 }  // namespace fsm

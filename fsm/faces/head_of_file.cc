@@ -34,7 +34,7 @@ std::optional<FaceState> ShownBy(const TableRow& row, const MotionTables& tables
   const std::string &kind = row.Word(1), &what = row.Word(2);
   FaceState state;
   if (kind == "mouth") {
-    const Viseme* shape = FindShape(tables.set14.shapes, what);
+    const Viseme* shape = FindViseme(tables.set14.visemes, what);
     if (!shape) return std::nullopt;
     state.mouth = shape->pose.mouth;
   } else if (kind == "expression") {
@@ -73,7 +73,7 @@ std::unique_ptr<Head> AssetOfFile(const std::string& path) {
 /// The mouths of both sets at full articulation.
 std::vector<FaceState> VisemeStates(const MotionTables& tables) {
   std::vector<FaceState> states;
-  for (const Visemes* shapes : {&tables.set14.shapes, &tables.set28.shapes}) {
+  for (const Visemes* shapes : {&tables.set14.visemes, &tables.set28.visemes}) {
     for (const Viseme& viseme : *shapes) {
       FaceState& state = states.emplace_back();
       state.mouth = viseme.pose.mouth;

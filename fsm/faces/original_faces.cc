@@ -34,10 +34,10 @@ std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
   // Its visemes are numbered as the shapes of the set of 28, but for silence, which is 0 there and
   // the last here.
   VisemeMouths mouths;
-  for (std::size_t i = 0; i < kOriginalVisemes && i < motion.set28.shapes.size(); ++i) {
-    mouths.push_back(motion.set28.shapes[i].pose.mouth);
+  for (std::size_t i = 0; i < kOriginalVisemes && i < motion.set28.visemes.size(); ++i) {
+    mouths.push_back(motion.set28.visemes[i].pose.mouth);
   }
-  for (const Viseme& viseme : motion.set14.shapes) mouths.push_back(viseme.pose.mouth);
+  for (const Viseme& viseme : motion.set14.visemes) mouths.push_back(viseme.pose.mouth);
   MeshModel model = ModelOfOriginal(*face);
   RigData skin = RigOfOriginal(*face, model, mouths, UnitSizes(motion));
   return WithUnits(UnitsIn(tables), MakeMeshHead(std::move(model), std::move(skin)));

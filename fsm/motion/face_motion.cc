@@ -49,14 +49,14 @@ void FaceMotion::StopMoves(vm::Time now) {
   eyes.StopBlinks();
 }
 
-void FaceMotion::SetShapes(ShapeSet set, Visemes shapes) {
-  Visemes& own = tables_.mouths(set).shapes;
-  assert(shapes.size() == own.size());
+void FaceMotion::SetVisemes(VisemeSetId set, Visemes visemes) {
+  Visemes& own = tables_.set(set).visemes;
+  assert(visemes.size() == own.size());
   for (std::size_t i = 0; i < own.size(); ++i) {
     const float contact = own[i].pose.contact;
-    own[i].pose = shapes[i].pose;
+    own[i].pose = visemes[i].pose;
     own[i].pose.contact = contact;
-    own[i].hold = shapes[i].hold;
+    own[i].hold = visemes[i].hold;
   }
 }
 

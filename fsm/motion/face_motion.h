@@ -50,10 +50,10 @@ class FaceMotion {
                         int count = 1);
   void StopMoves(vm::Time now);  ///< FaceMot = NOMOVE
 
-  // Mouth shapes, from the next utterance on.
-  const Visemes& shapes(ShapeSet set) const { return tables_.mouths(set).shapes; }
+  // Visemes, from the next utterance on.
+  const Visemes& visemes(VisemeSetId set) const { return tables_.set(set).visemes; }
   /// REQUIRES: the same names in the same order. How they dominate each other is kept.
-  void SetShapes(ShapeSet set, Visemes shapes);
+  void SetVisemes(VisemeSetId set, Visemes visemes);
 
   // Settings. Those of speech act at once, without a jump.
   const MotionSettings& settings() const { return settings_; }

@@ -58,24 +58,26 @@ class Loader {
 };
 
 void LoadMouth(Loader& loader, MotionTables& out) {
-  Visemes& shapes14 = out.set14.shapes;
-  Visemes& shapes28 = out.set28.shapes;
-  loader.Get(shapes14, "mouth_shapes.txt", embedded::mouth_shapes(), ReadVisemes, ShapeSet::k14);
-  loader.Get(shapes28, "mouth_shapes_28.txt", embedded::mouth_shapes_28(), ReadVisemes,
-             ShapeSet::k28);
-  loader.Get(out.reach, "dominance.txt", embedded::dominance(), ReadDominance, shapes14, shapes28);
+  Visemes& visemes14 = out.set14.visemes;
+  Visemes& visemes28 = out.set28.visemes;
+  loader.Get(visemes14, "mouth_shapes.txt", embedded::mouth_shapes(), ReadVisemes,
+             VisemeSetId::k14);
+  loader.Get(visemes28, "mouth_shapes_28.txt", embedded::mouth_shapes_28(), ReadVisemes,
+             VisemeSetId::k28);
+  loader.Get(out.reach, "dominance.txt", embedded::dominance(), ReadDominance, visemes14,
+             visemes28);
   const auto phonemes = [&loader](PhonemeTable& table, const char* file, std::string_view built_in,
-                                  const Visemes& shapes) {
-    loader.Get(table, file, built_in, ReadPhonemeTable, shapes);
+                                  const Visemes& visemes) {
+    loader.Get(table, file, built_in, ReadPhonemeTable, visemes);
   };
-  phonemes(out.set14.japanese, "phonemes_ja.txt", embedded::phonemes_ja(), shapes14);
-  phonemes(out.set14.english, "phonemes_en.txt", embedded::phonemes_en(), shapes14);
-  phonemes(out.set28.japanese, "phonemes28_ja.txt", embedded::phonemes28_ja(), shapes28);
-  phonemes(out.set28.english, "phonemes28_en.txt", embedded::phonemes28_en(), shapes28);
-  for (const ShapeSet which : kShapeSets) {
-    MouthSet& set = out.mouths(which);
-    const Viseme* const rest = FindShape(set.shapes, "rest");
-    if (rest != nullptr) set.rest = static_cast<std::size_t>(rest - set.shapes.data());
+  phonemes(out.set14.japanese, "phonemes_ja.txt", embedded::phonemes_ja(), visemes14);
+  phonemes(out.set14.english, "phonemes_en.txt", embedded::phonemes_en(), visemes14);
+  phonemes(out.set28.japanese, "phonemes28_ja.txt", embedded::phonemes28_ja(), visemes28);
+  phonemes(out.set28.english, "phonemes28_en.txt", embedded::phonemes28_en(), visemes28);
+  for (const VisemeSetId which : kVisemeSets) {
+    VisemeSet& set = out.set(which);
+    const Viseme* const rest = FindViseme(set.visemes, "rest");
+    if (rest != nullptr) set.rest = static_cast<std::size_t>(rest - set.visemes.data());
   }
   loader.Get(out.engines, "phoneme_names.txt", embedded::phoneme_names(), ReadPhonemeNames,
              out.set28);

@@ -10,16 +10,16 @@
 #include "fsm/motion/emotion_table.h"
 #include "fsm/motion/mixer.h"
 #include "fsm/motion/motion_patterns.h"
-#include "fsm/motion/mouth_tables.h"
 #include "fsm/motion/phoneme_names.h"
 #include "fsm/motion/text_cues.h"
 #include "fsm/motion/unit_names.h"
+#include "fsm/motion/viseme_tables.h"
 
 namespace fsm {
 
 /// Everything that is known about moving, read from the tables. A plain value.
 struct MotionTables {
-  MouthSet set14, set28;
+  VisemeSet set14, set28;
   std::vector<EngineNames> engines;
   Reach reach;
   EmotionTable emotions;
@@ -32,8 +32,8 @@ struct MotionTables {
   TextCues text_cues;
   GestureNumbers gestures;  ///< gestures.txt, where each number is explained
 
-  MouthSet& mouths(ShapeSet set) { return set == ShapeSet::k14 ? set14 : set28; }
-  const MouthSet& mouths(ShapeSet set) const { return set == ShapeSet::k14 ? set14 : set28; }
+  VisemeSet& set(VisemeSetId id) { return id == VisemeSetId::k14 ? set14 : set28; }
+  const VisemeSet& set(VisemeSetId id) const { return id == VisemeSetId::k14 ? set14 : set28; }
 
   /// The tables the program carries, but for those that the folder replaces. Errors: kBadValue with
   /// file and line; kUnavailable if the folder or a file cannot be read.

@@ -46,7 +46,7 @@ void ReadPairs(const TableRow& row, const PhonemeTable& known, EngineNames& name
 }  // namespace
 
 vm::Result<std::vector<EngineNames>> ReadPhonemeNames(const std::string& name,
-                                                      std::string_view text, const MouthSet& set) {
+                                                      std::string_view text, const VisemeSet& set) {
   return ReadTable(name, text, [&set](const Table& table) {
     std::vector<EngineNames> engines;
     for (const TableRow& row : table.rows()) {
@@ -74,7 +74,7 @@ std::string EngineList(const std::vector<EngineNames>& engines) {
   return fmt::format("{}", fmt::join(list, " "));
 }
 
-PhonemeReader::PhonemeReader(const vm::PhonemeList& phonemes, const MouthSet& set,
+PhonemeReader::PhonemeReader(const vm::PhonemeList& phonemes, const VisemeSet& set,
                              const std::vector<EngineNames>& engines, Language language,
                              std::string_view engine)
     : set_(set), english_(language == Language::kEnglish) {
@@ -83,7 +83,7 @@ PhonemeReader::PhonemeReader(const vm::PhonemeList& phonemes, const MouthSet& se
     if (language != Language::kAuto && english != (language == Language::kEnglish)) return;
     if (!engine.empty() && engine != "AUTO" && engine != called) return;
     const auto known = std::ranges::count_if(phonemes, [&](const vm::Phoneme& phoneme) {
-      return ShapesIn(names, english, phoneme.name) != nullptr;
+      return VisemesIn(names, english, phoneme.name) != nullptr;
     });
     if (known <= most) return;
     most = known;
@@ -95,18 +95,18 @@ PhonemeReader::PhonemeReader(const vm::PhonemeList& phonemes, const MouthSet& se
   for (const EngineNames& names : engines) consider(&names, names.english, names.engine);
 }
 
-const PhonemeShapes* PhonemeReader::ShapesIn(const EngineNames* names, bool english,
-                                             std::string_view name) const {
+const PhonemeVisemes* PhonemeReader::VisemesIn(const EngineNames* names, bool english,
+                                               std::string_view name) const {
   const std::string_view ours = names == nullptr ? name : names->Ours(name);
   const PhonemeTable& table = english ? set_.english : set_.japanese;
   const auto found = table.find(ours);
   return found == table.end() ? nullptr : &found->second;
 }
 
-const PhonemeShapes* PhonemeReader::ShapesOf(std::string_view name) const {
-  if (const PhonemeShapes* shapes = ShapesIn(names_, english_, name)) return shapes;
-  if (const PhonemeShapes* shapes = ShapesIn(nullptr, english_, name)) return shapes;
-  return ShapesIn(nullptr, !english_, name);
+const PhonemeVisemes* PhonemeReader::VisemesOf(std::string_view name) const {
+  if (const PhonemeVisemes* visemes = VisemesIn(names_, english_, name)) return visemes;
+  if (const PhonemeVisemes* visemes = VisemesIn(nullptr, english_, name)) return visemes;
+  return VisemesIn(nullptr, !english_, name);
 }
 
 }  // namespace fsm

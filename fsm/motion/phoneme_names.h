@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/motion/mouth_tables.h"
+#include "fsm/motion/viseme_tables.h"
 #include "vm_protocol/core/phonemes.h"
 
 namespace fsm {
@@ -29,7 +29,7 @@ struct EngineNames {
 /// Reads tables/phoneme_names.txt: every name must lead to a phoneme of `set`.
 /// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<std::vector<EngineNames>> ReadPhonemeNames(const std::string& name,
-                                                      std::string_view text, const MouthSet& set);
+                                                      std::string_view text, const VisemeSet& set);
 
 /// The names of engines that can be asked for: FLITE and OPEN_JTALK, whose names are ours, and
 /// those of the table.
@@ -40,19 +40,19 @@ std::string EngineList(const std::vector<EngineNames>& engines);
 class PhonemeReader {
  public:
   /// `engine` "" or AUTO = any. The set and the names outlive the reader.
-  PhonemeReader(const vm::PhonemeList& phonemes, const MouthSet& set,
+  PhonemeReader(const vm::PhonemeList& phonemes, const VisemeSet& set,
                 const std::vector<EngineNames>& engines, Language language,
                 std::string_view engine);
 
   /// nullptr if no list has the name.
-  const PhonemeShapes* ShapesOf(std::string_view name) const;
+  const PhonemeVisemes* VisemesOf(std::string_view name) const;
   bool english() const { return english_; }
 
  private:
-  const PhonemeShapes* ShapesIn(const EngineNames* names, bool english,
-                                std::string_view name) const;
+  const PhonemeVisemes* VisemesIn(const EngineNames* names, bool english,
+                                  std::string_view name) const;
 
-  const MouthSet& set_;
+  const VisemeSet& set_;
   const EngineNames* names_ = nullptr;  // nullptr = our own
   bool english_ = false;
 };

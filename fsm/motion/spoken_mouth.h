@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fsm/motion/motion_source.h"
-#include "fsm/motion/mouth_tables.h"
+#include "fsm/motion/viseme_tables.h"
 
 namespace fsm {
 

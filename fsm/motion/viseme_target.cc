@@ -10,8 +10,8 @@ namespace {
 constexpr double kLongMs = 200;          // from here on a phoneme holds and then moves
 constexpr double kFirstPartShare = 0.3;  // of a diphthong
 
-MouthPose Scaled(const Viseme& shape, double strength, const LipStyle& style) {
-  MouthPose pose = shape.pose;
+MouthPose Scaled(const Viseme& viseme, double strength, const LipStyle& style) {
+  MouthPose pose = viseme.pose;
   // A contact is the same however large the movements are; a weak one is still a contact, so the
   // seal is left alone.
   const double most = pose.contact > 0 ? 1 : 3;
@@ -25,18 +25,18 @@ MouthPose Scaled(const Viseme& shape, double strength, const LipStyle& style) {
 struct TimedPhase {
   double start_ms;
   double length_ms;
-  PhonemeShapes::Phase phase;
+  PhonemeVisemes::Phase phase;
   bool holds;
 };
 
 // "next" takes over what follows; at the end, or before a closure of the lips, there is only rest.
-void ResolveNext(std::vector<TimedPhase>& phases, const MouthSet& set) {
+void ResolveNext(std::vector<TimedPhase>& phases, const VisemeSet& set) {
   for (std::size_t i = phases.size(); i-- > 0;) {
-    PhonemeShapes::Phase& phase = phases[i].phase;
-    if (phase.shape != PhonemeShapes::kNext) continue;
+    PhonemeVisemes::Phase& phase = phases[i].phase;
+    if (phase.viseme != PhonemeVisemes::kNext) continue;
     const bool follows = i + 1 < phases.size();
-    phase.shape = follows ? phases[i + 1].phase.shape : static_cast<int>(set.rest);
-    const bool closes = set.shapes[static_cast<std::size_t>(phase.shape)].pose.seal > 0;
+    phase.viseme = follows ? phases[i + 1].phase.viseme : static_cast<int>(set.rest);
+    const bool closes = set.visemes[static_cast<std::size_t>(phase.viseme)].pose.seal > 0;
     phase.strength *= follows && !closes ? phases[i + 1].phase.strength : 0;
   }
 }
@@ -44,24 +44,24 @@ void ResolveNext(std::vector<TimedPhase>& phases, const MouthSet& set) {
 /// The phases of all phonemes, a diphthong's two; also says how long they are together, and which
 /// phonemes are unknown.
 std::vector<TimedPhase> PhasesOf(const vm::PhonemeList& phonemes, const PhonemeReader& reader,
-                                 const MouthSet& set, VisemeTargets& out) {
-  const PhonemeShapes closed{{{static_cast<int>(set.rest), 1}}};
+                                 const VisemeSet& set, VisemeTargets& out) {
+  const PhonemeVisemes closed{{{static_cast<int>(set.rest), 1}}};
   std::vector<TimedPhase> phases;
   for (const vm::Phoneme& phoneme : phonemes) {
     const double length = InMs(phoneme.duration);
-    const PhonemeShapes* shapes = reader.ShapesOf(phoneme.name);
-    if (shapes == nullptr) {
-      shapes = &closed;
+    const PhonemeVisemes* visemes = reader.VisemesOf(phoneme.name);
+    if (visemes == nullptr) {
+      visemes = &closed;
       if (std::ranges::find(out.unknown, phoneme.name) == out.unknown.end()) {
         out.unknown.push_back(phoneme.name);
       }
     }
-    const bool diphthong = shapes->phases.size() == 2;
+    const bool diphthong = visemes->phases.size() == 2;
     const double split = diphthong ? length * kFirstPartShare : length;
     const bool holds = length >= kLongMs;
-    phases.push_back({out.length_ms, split, shapes->phases[0], holds && !diphthong});
+    phases.push_back({out.length_ms, split, visemes->phases[0], holds && !diphthong});
     if (diphthong) {
-      phases.push_back({out.length_ms + split, length - split, shapes->phases[1], holds});
+      phases.push_back({out.length_ms + split, length - split, visemes->phases[1], holds});
     }
     out.length_ms += length;
   }
@@ -69,7 +69,7 @@ std::vector<TimedPhase> PhasesOf(const vm::PhonemeList& phonemes, const PhonemeR
   return phases;
 }
 
-/// How many ms the shape stands before it moves on.
+/// How many ms the viseme stands before it moves on.
 double HoldOf(const TimedPhase& phase, double share, bool pause) {
   if (phase.holds) return phase.length_ms - kApproachMs;
   const double hold_ms = share * phase.length_ms;
@@ -82,19 +82,19 @@ double HoldOf(const TimedPhase& phase, double share, bool pause) {
 
 VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTables& tables,
                                 const LipStyle& style) {
-  const MouthSet& set = tables.mouths(style.shapes);
+  const VisemeSet& set = tables.set(style.visemes);
   const PhonemeReader reader(phonemes, set, tables.engines, style.language, style.engine);
   VisemeTargets out;
-  out.rest = set.shapes[set.rest].pose;
-  out.rest_dominance = set.shapes[set.rest].dominance;
+  out.rest = set.visemes[set.rest].pose;
+  out.rest_dominance = set.visemes[set.rest].dominance;
   for (const TimedPhase& timed : PhasesOf(phonemes, reader, set, out)) {
     if (timed.length_ms <= 0) continue;
-    const auto index = static_cast<std::size_t>(timed.phase.shape);
-    const Viseme& shape = set.shapes[index];
+    const auto index = static_cast<std::size_t>(timed.phase.viseme);
+    const Viseme& viseme = set.visemes[index];
     const bool pause = index == set.rest;
     out.targets.push_back({timed.start_ms, timed.length_ms,
-                           Scaled(shape, timed.phase.strength, style),
-                           HoldOf(timed, shape.hold, pause), shape.dominance, pause});
+                           Scaled(viseme, timed.phase.strength, style),
+                           HoldOf(timed, viseme.hold, pause), viseme.dominance, pause});
   }
   return out;
 }

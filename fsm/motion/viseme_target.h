@@ -11,26 +11,26 @@ namespace fsm {
 /// How lips go from sound to sound.
 enum class LipMode {
   kDominance,  ///< overlapping dominance curves with anticipation
-  kSinusoid,   ///< the original's: key shapes joined by half a cosine
-  kLinear,     ///< key shapes joined by straight lines, for comparison
+  kSinusoid,   ///< the original's: key visemes joined by half a cosine
+  kLinear,     ///< key visemes joined by straight lines, for comparison
 };
 
 /// How an utterance is to be articulated; taken when it begins.
 struct LipStyle {
   LipMode mode = LipMode::kDominance;
-  ShapeSet shapes = ShapeSet::k28;
+  VisemeSetId visemes = VisemeSetId::k28;
   Language language = Language::kAuto;
   std::string engine = "AUTO";  ///< whose phoneme names, see PhonemeReader
   double jaw = 1;               ///< size of the jaw's opening, 0 (mumbled) .. 3
   double lips = 1;              ///< size of the lips' movements, the same
 };
 
-/// A mouth shape with its strength, in time: what one phoneme, or one half of a diphthong, asks.
+/// A viseme with its strength, in time: what one phoneme, or one half of a diphthong, asks.
 struct VisemeTarget {
   double start_ms = 0;
   double length_ms = 0;
   MouthPose target;    ///< strength and style applied
-  double hold_ms = 0;  ///< how long a key shape stands
+  double hold_ms = 0;  ///< how long a key viseme stands
   Dominance dominance;
   bool pause = false;
 };

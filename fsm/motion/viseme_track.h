@@ -14,11 +14,12 @@ namespace fsm {
 ///
 /// DOMINANCE: see DominanceCurves.
 ///
-/// SINUSOID: the key shape of a phoneme stands at the phoneme's start, and key shapes are joined by
+/// SINUSOID: the key viseme of a phoneme stands at the phoneme's start, and key visemes are joined
+/// by
 ///
 ///     M(t) = W (V0 - V1) + (V0 + V1)/2,  W = cos(pi (t - t0)/(t1 - t0)) / 2
 ///
-/// A phoneme of 200 ms or more is split into (d - 92) + 92, so it holds and then moves; a shape
+/// A phoneme of 200 ms or more is split into (d - 92) + 92, so it holds and then moves; a viseme
 /// with a hold (closed lips) stands for that share of a shorter one; p, b and m at least for about
 /// one frame at 30 a second, so that the closure is seen. LINEAR: the same with straight lines.
 ///
@@ -48,7 +49,7 @@ class VisemeTrack {
   LipMode mode_;
   VisemeTargets visemes_;
   std::vector<Span> spans_;
-  std::vector<Key> keys_;                  // of the modes with key shapes
+  std::vector<Key> keys_;                  // of the modes with key visemes
   std::optional<DominanceCurves> curves_;  // of the other
 };
 

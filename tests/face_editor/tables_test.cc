@@ -42,9 +42,9 @@ TEST(TableWriterTest, UnchangedTablesAreWrittenByteForByte) {
   ASSERT_TRUE(tables);
   EXPECT_EQ(WriteEmotions(Carried("emotions.txt"), tables->emotions, tables->unit_names),
             Carried("emotions.txt"));
-  EXPECT_EQ(WriteVisemes(Carried("mouth_shapes.txt"), tables->set14.shapes),
+  EXPECT_EQ(WriteVisemes(Carried("mouth_shapes.txt"), tables->set14.visemes),
             Carried("mouth_shapes.txt"));
-  EXPECT_EQ(WriteVisemes(Carried("mouth_shapes_28.txt"), tables->set28.shapes),
+  EXPECT_EQ(WriteVisemes(Carried("mouth_shapes_28.txt"), tables->set28.visemes),
             Carried("mouth_shapes_28.txt"));
   const auto& head = tables->motions.head;
   EXPECT_EQ(WriteCurves(Carried("motions.txt"), HeadCurves(head.begin(), head.end())),
@@ -86,7 +86,7 @@ TEST(TableWriterTest, ChangedExpressionsAreReadAgainAndTheRestStays) {
 
 TEST(TableWriterTest, AChangedMouthShapeIsOneLine) {
   auto tables = fsm::MotionTables::Load();
-  auto& shapes = tables->set14.shapes;
+  auto& shapes = tables->set14.visemes;
   shapes[9].pose.mouth[fsm::kJawY] = 12.5F;
   shapes[9].hold = 0.2;
   const std::string before = Carried("mouth_shapes.txt");
@@ -95,7 +95,7 @@ TEST(TableWriterTest, AChangedMouthShapeIsOneLine) {
   const auto read = fsm::ReadVisemes("m", text);
   ASSERT_TRUE(read) << read.error().text;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    EXPECT_EQ(fsm::FormatShapeValues((*read)[i]), fsm::FormatShapeValues(shapes[i]));
+    EXPECT_EQ(fsm::FormatVisemeValues((*read)[i]), fsm::FormatVisemeValues(shapes[i]));
   }
   EXPECT_NE(text.find("# a A: jaw 9"), std::string::npos);
 }

@@ -28,7 +28,7 @@ TEST(LipSlotsTest, ModeShapesNamesAndScaleAreAskedAndSet) {
   EXPECT_EQ(fsm.Say("set#1 LipSync.mode = sinusoid"), "rep#1 LipSync.mode = sinusoid");
   EXPECT_EQ(fsm.module.motion().settings().lips.mode, LipMode::kSinusoid);
   EXPECT_EQ(fsm.Say("set#1 LipSync.shapes = 14"), "rep#1 LipSync.shapes = 14");
-  EXPECT_EQ(fsm.module.motion().settings().lips.shapes, ShapeSet::k14);
+  EXPECT_EQ(fsm.module.motion().settings().lips.visemes, VisemeSetId::k14);
   EXPECT_NE(fsm.Say("set#1 LipSync.shapes = 20").find("14 or 28 expected"), std::string::npos);
   EXPECT_NE(fsm.Say("set#1 LipSync.names = KLINGON")
                 .find("'KLINGON' is no list of phoneme names; AUTO FLITE OPEN_JTALK JULIUS ARPABET "

@@ -22,7 +22,7 @@ const MotionTables& Tables() {
   return tables;
 }
 VisemeTrack Track28(const char* text) { return {List(text), Tables(), LipStyle{}}; }
-const MouthPose& Shape(const char* name) { return FindShape(Tables().set28.shapes, name)->pose; }
+const MouthPose& Shape(const char* name) { return FindViseme(Tables().set28.visemes, name)->pose; }
 
 TEST(DominanceTest, ALongVowelReachesAndHoldsItsShape) {
   const VisemeTrack track = Track28("pau 200 aa 300 pau 200");
@@ -187,12 +187,12 @@ TEST(PhonemeTablesTest, BothSetsKnowTheSamePhonemes) {
 
 TEST(PhonemeTablesTest, JapaneseConsonantsAreSixtyPerCentOfTheEnglishShape) {
   for (const char* name : {"t", "n", "k", "s", "sh", "w", "m"}) {
-    const PhonemeShapes& shapes = Tables().set28.japanese.at(name);
+    const PhonemeVisemes& shapes = Tables().set28.japanese.at(name);
     EXPECT_DOUBLE_EQ(shapes.phases[0].strength, 0.6) << name;
-    EXPECT_EQ(shapes.phases[0].shape, Tables().set28.english.at(name).phases[0].shape) << name;
+    EXPECT_EQ(shapes.phases[0].viseme, Tables().set28.english.at(name).phases[0].viseme) << name;
   }
   EXPECT_DOUBLE_EQ(Tables().set28.japanese.at("U").phases[0].strength, 0.6);
-  EXPECT_EQ(Tables().set28.japanese.at("h").phases[0].shape, PhonemeShapes::kNext);
+  EXPECT_EQ(Tables().set28.japanese.at("h").phases[0].viseme, PhonemeVisemes::kNext);
 }
 
 // ---- on the head

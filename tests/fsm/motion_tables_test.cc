@@ -17,12 +17,12 @@ namespace {
 TEST(MotionTablesTest, TheFourteenShapesStandInTheirOrder) {
   const MotionTables tables = BuiltIn();
   std::string names;
-  for (const Viseme& shape : tables.set14.shapes) names += shape.name + " ";
+  for (const Viseme& shape : tables.set14.visemes) names += shape.name + " ";
   EXPECT_EQ(names, "rest r m t n k f s w a i u e o ");
 }
 
 TEST(MotionTablesTest, VowelJawsAreOrderedAsMeasuredInSpeech) {
-  const auto shapes = BuiltIn().set14.shapes;
+  const auto shapes = BuiltIn().set14.visemes;
   const auto jaw = [&](std::size_t i) { return shapes[i].pose.mouth[kJawY]; };
   EXPECT_GT(jaw(9), jaw(12));   // a > e
   EXPECT_GT(jaw(12), jaw(13));  // e > o
@@ -31,7 +31,7 @@ TEST(MotionTablesTest, VowelJawsAreOrderedAsMeasuredInSpeech) {
 }
 
 TEST(MotionTablesTest, OnlyRestAndTheLipClosuresSeal) {
-  for (const Viseme& shape : BuiltIn().set14.shapes) {
+  for (const Viseme& shape : BuiltIn().set14.visemes) {
     EXPECT_EQ(shape.pose.seal, shape.name == "rest" || shape.name == "m" ? 1 : 0) << shape.name;
   }
 }
@@ -107,7 +107,7 @@ TEST(MotionTablesTest, AWrongShapeIsReportedWithFileAndLine) {
 }
 
 TEST(MotionTablesTest, WrongWordsNameWhatWasExpected) {
-  const auto shapes = BuiltIn().set14.shapes;
+  const auto shapes = BuiltIn().set14.visemes;
   const UnitNames& names = UnitNames::BuiltIn();
   const auto expect = [](const auto& result, const std::string& text) {
     ASSERT_FALSE(result);
@@ -142,7 +142,7 @@ TEST(MotionTablesTest, AFolderReplacesOnlyTheTablesItHas) {
   const auto tables = MotionTables::Load(folder.string());
   ASSERT_TRUE(tables) << tables.error().text;
   EXPECT_EQ(tables->emotions.size(), 1u);
-  EXPECT_EQ(tables->set14.shapes.size(), CountOf(ShapeSet::k14));
+  EXPECT_EQ(tables->set14.visemes.size(), CountOf(VisemeSetId::k14));
   std::ofstream(folder / "emotions.txt") << "\nBORED\n";
   const auto wrong = MotionTables::Load(folder.string());
   ASSERT_FALSE(wrong);

@@ -1,4 +1,4 @@
-#include "fsm/motion/mouth_tables.h"
+#include "fsm/motion/viseme_tables.h"
 
 #include <fmt/format.h>
 
@@ -39,8 +39,8 @@ MouthPose Mix(const MouthPose& a, const MouthPose& b, double share_of_b) {
           Mix(a.tongue, b.tongue, share_of_b), Mix(a.contact, b.contact, share_of_b)};
 }
 
-vm::Result<void> ReadShapeValues(const std::vector<std::string>& words, std::size_t first,
-                                 Viseme& shape) {
+vm::Result<void> ReadVisemeValues(const std::vector<std::string>& words, std::size_t first,
+                                  Viseme& viseme) {
   const std::size_t count = words.size() - std::min(first, words.size());
   if (count < kMouthParameters || count > kShapeValues) {
     return vm::Fail(vm::Errc::kBadValue,
@@ -48,7 +48,7 @@ vm::Result<void> ReadShapeValues(const std::vector<std::string>& words, std::siz
                                 "seal, tongue and hold, expected",
                                 count));
   }
-  Viseme out = shape;
+  Viseme out = viseme;
   for (std::size_t i = 0; i < count; ++i) {
     const auto [what, lowest, highest] = ValueAt(i);
     const auto value = ParseNumber(words[first + i]);
@@ -62,19 +62,19 @@ vm::Result<void> ReadShapeValues(const std::vector<std::string>& words, std::siz
     if (i == kMouthParameters + 1) out.pose.tongue = static_cast<float>(*value);
     if (i == kMouthParameters + 2) out.hold = *value;
   }
-  shape = std::move(out);
+  viseme = std::move(out);
   return {};
 }
 
-std::string FormatShapeValues(const Viseme& shape) {
+std::string FormatVisemeValues(const Viseme& viseme) {
   std::string text;
-  for (const float value : shape.pose.mouth) text += fmt::format("{:g} ", value);
-  return text + fmt::format("{:g} {:g} {:g}", shape.pose.seal, shape.pose.tongue, shape.hold);
+  for (const float value : viseme.pose.mouth) text += fmt::format("{:g} ", value);
+  return text + fmt::format("{:g} {:g} {:g}", viseme.pose.seal, viseme.pose.tongue, viseme.hold);
 }
 
-const Viseme* FindShape(const Visemes& shapes, std::string_view name) {
-  const auto found = std::ranges::find(shapes, name, &Viseme::name);
-  return found == shapes.end() ? nullptr : &*found;
+const Viseme* FindViseme(const Visemes& visemes, std::string_view name) {
+  const auto found = std::ranges::find(visemes, name, &Viseme::name);
+  return found == visemes.end() ? nullptr : &*found;
 }
 
 namespace {
@@ -86,48 +86,48 @@ Viseme ReadViseme(const TableRow& row) {
                     "expected",
                     row.size()));
   }
-  Viseme shape;
-  shape.name = row.key();
-  if (auto read = ReadShapeValues(row.words(), 1, shape); !read) row.Fail(read.error().text);
-  return shape;
+  Viseme viseme;
+  viseme.name = row.key();
+  if (auto read = ReadVisemeValues(row.words(), 1, viseme); !read) row.Fail(read.error().text);
+  return viseme;
 }
 
-int ShapeAt(const TableRow& row, std::size_t word, const Visemes& shapes) {
+int VisemeAt(const TableRow& row, std::size_t word, const Visemes& visemes) {
   const std::string& name = row.Word(word);
-  if (name == "next") return PhonemeShapes::kNext;
-  const Viseme* const shape = FindShape(shapes, name);
-  if (shape == nullptr) row.Fail("'" + name + "' is neither a mouth shape nor 'next'");
-  return static_cast<int>(shape - shapes.data());
+  if (name == "next") return PhonemeVisemes::kNext;
+  const Viseme* const viseme = FindViseme(visemes, name);
+  if (viseme == nullptr) row.Fail("'" + name + "' is neither a mouth shape nor 'next'");
+  return static_cast<int>(viseme - visemes.data());
 }
 
-PhonemeShapes ReadPhonemeShapes(const TableRow& row, const Visemes& shapes) {
+PhonemeVisemes ReadPhonemeVisemes(const TableRow& row, const Visemes& visemes) {
   if (row.size() != 3 && row.size() != 5) {
     row.Fail("a phoneme, then one or two pairs of shape and strength expected");
   }
-  PhonemeShapes out;
+  PhonemeVisemes out;
   for (std::size_t i = 1; i < row.size(); i += 2) {
-    out.phases.push_back({ShapeAt(row, i, shapes), row.Number(i + 1, "a strength", 0, 2)});
+    out.phases.push_back({VisemeAt(row, i, visemes), row.Number(i + 1, "a strength", 0, 2)});
   }
   return out;
 }
 
 /// Reads KIND JAW LIPS ROUND TONGUE EARLY CONTACT from word 3 on.
-void ReadDominanceOf(const TableRow& row, Viseme& shape) {
+void ReadDominanceOf(const TableRow& row, Viseme& viseme) {
   const std::string& kind = row.Word(3);
   if (kind != "vowel" && kind != "consonant" && kind != "pause") {
     row.Fail("'" + kind + "' found; vowel, consonant or pause expected");
   }
   const auto dominance = [&](std::size_t word) { return row.Number(word, "a dominance", 0, 1); };
-  shape.dominance = {.jaw = dominance(4),
-                     .lips = dominance(5),
-                     .round = dominance(6),
-                     .tongue = dominance(7),
-                     .early_ms = std::max(1.0, row.Number(8, "ms of anticipation", 0, 500)),
-                     .vowel = kind == "vowel"};
-  shape.pose.contact = static_cast<float>(row.Number(9, "a contact", 0, 1));
+  viseme.dominance = {.jaw = dominance(4),
+                      .lips = dominance(5),
+                      .round = dominance(6),
+                      .tongue = dominance(7),
+                      .early_ms = std::max(1.0, row.Number(8, "ms of anticipation", 0, 500)),
+                      .vowel = kind == "vowel"};
+  viseme.pose.contact = static_cast<float>(row.Number(9, "a contact", 0, 1));
 }
 
-/// Reads a row of a shape into the shape, which it returns.
+/// Reads the row of a viseme into it, and returns it.
 const Viseme* ReadShapeRow(const TableRow& row, Visemes& set14, Visemes& set28) {
   if (row.key() != "shape" || row.size() != 10) {
     row.Fail(
@@ -137,42 +137,42 @@ const Viseme* ReadShapeRow(const TableRow& row, Visemes& set14, Visemes& set28) 
   const std::string& count = row.Word(1);
   if (count != "14" && count != "28") row.Fail("'" + count + "' found; set 14 or 28 expected");
   Visemes& set = count == "14" ? set14 : set28;
-  const auto shape = std::ranges::find(set, row.Word(2), &Viseme::name);
-  if (shape == set.end()) {
+  const auto viseme = std::ranges::find(set, row.Word(2), &Viseme::name);
+  if (viseme == set.end()) {
     row.Fail("there is no mouth shape '" + row.Word(2) + "' in set " + count);
   }
-  ReadDominanceOf(row, *shape);
-  return &*shape;
+  ReadDominanceOf(row, *viseme);
+  return &*viseme;
 }
 
 }  // namespace
 
-vm::Result<Visemes> ReadVisemes(const std::string& name, std::string_view text, ShapeSet set) {
+vm::Result<Visemes> ReadVisemes(const std::string& name, std::string_view text, VisemeSetId set) {
   return ReadTable(name, text, [set](const Table& table) {
-    Visemes shapes;
+    Visemes visemes;
     for (const TableRow& row : table.rows()) {
-      Viseme shape = ReadViseme(row);
-      if (FindShape(shapes, shape.name) != nullptr) {
-        row.Fail("there is a shape '" + shape.name + "' already");
+      Viseme viseme = ReadViseme(row);
+      if (FindViseme(visemes, viseme.name) != nullptr) {
+        row.Fail("there is a shape '" + viseme.name + "' already");
       }
-      shapes.push_back(std::move(shape));
+      visemes.push_back(std::move(viseme));
     }
-    if (shapes.size() != CountOf(set)) {
-      table.Fail(fmt::format("{} shapes found, {} expected", shapes.size(), CountOf(set)));
+    if (visemes.size() != CountOf(set)) {
+      table.Fail(fmt::format("{} shapes found, {} expected", visemes.size(), CountOf(set)));
     }
-    if (FindShape(shapes, "rest") == nullptr) {
+    if (FindViseme(visemes, "rest") == nullptr) {
       table.Fail("no shape 'rest', which is the mouth of pauses");
     }
-    return shapes;
+    return visemes;
   });
 }
 
 vm::Result<PhonemeTable> ReadPhonemeTable(const std::string& name, std::string_view text,
-                                          const Visemes& shapes) {
-  return ReadTable(name, text, [&shapes](const Table& table) {
+                                          const Visemes& visemes) {
+  return ReadTable(name, text, [&visemes](const Table& table) {
     PhonemeTable phonemes;
     for (const TableRow& row : table.rows()) {
-      if (!phonemes.emplace(row.key(), ReadPhonemeShapes(row, shapes)).second) {
+      if (!phonemes.emplace(row.key(), ReadPhonemeVisemes(row, visemes)).second) {
         row.Fail("the phoneme '" + row.key() + "' is here twice");
       }
     }
@@ -194,8 +194,8 @@ vm::Result<Reach> ReadDominance(const std::string& name, std::string_view text, 
       }
     }
     for (const Visemes* set : {&set14, &set28}) {
-      for (const Viseme& shape : *set) {
-        if (!done.contains(&shape)) table.Fail("no row for the mouth shape '" + shape.name + "'");
+      for (const Viseme& viseme : *set) {
+        if (!done.contains(&viseme)) table.Fail("no row for the mouth shape '" + viseme.name + "'");
       }
     }
     return reach;

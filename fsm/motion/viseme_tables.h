@@ -22,7 +22,7 @@ struct MouthPose {
 };
 MouthPose Mix(const MouthPose& a, const MouthPose& b, double share_of_b);
 
-/// How strongly a shape insists on its targets while sounds overlap; see tables/dominance.txt.
+/// How strongly a viseme insists on its targets while sounds overlap; see tables/dominance.txt.
 struct Dominance {
   double jaw = 1;
   double lips = 1;
@@ -32,59 +32,59 @@ struct Dominance {
   bool vowel = false;
 };
 
-/// One key shape of the mouth, at full articulation.
+/// A mouth shape of speech, at full articulation.
 struct Viseme {
   std::string name;
   MouthPose pose;
-  double hold = 0;  ///< share of a phoneme for which the shape stands before it moves on
+  double hold = 0;  ///< share of a phoneme for which the viseme stands before it moves on
   Dominance dominance;
 };
 
-/// Shapes by their numbers. Each set has one named `rest`: the mouth of pauses.
+/// Visemes by their numbers. Each set has one named `rest`: the mouth of pauses.
 using Visemes = std::vector<Viseme>;
 /// The sets there are, each called by its count: the original's, and that of the English and
 /// Japanese translation system.
-enum class ShapeSet { k14 = 14, k28 = 28 };
-inline constexpr std::array kShapeSets = {ShapeSet::k14, ShapeSet::k28};
-constexpr std::size_t CountOf(ShapeSet set) { return static_cast<std::size_t>(set); }
+enum class VisemeSetId { k14 = 14, k28 = 28 };
+inline constexpr std::array kVisemeSets = {VisemeSetId::k14, VisemeSetId::k28};
+constexpr std::size_t CountOf(VisemeSetId set) { return static_cast<std::size_t>(set); }
 /// The 17 parameters, then seal, tongue and hold, which may be left out at the end (they then stay
-/// as `shape` has them). Values: finite; parameters within +-60, seal and tongue 0..1, hold 0..0.9.
-/// Error: kBadValue, and `shape` stays as it was.
-vm::Result<void> ReadShapeValues(const std::vector<std::string>& words, std::size_t first,
-                                 Viseme& shape);
+/// as `viseme` has them). Values: finite; parameters within +-60, seal and tongue 0..1, hold
+/// 0..0.9. Error: kBadValue, and `viseme` stays as it was.
+vm::Result<void> ReadVisemeValues(const std::vector<std::string>& words, std::size_t first,
+                                  Viseme& viseme);
 /// The 20 numbers in the form of a row of the table.
-std::string FormatShapeValues(const Viseme& shape);
-/// Reads a table of all shapes of a set, one of them `rest`. This and the readers below:
+std::string FormatVisemeValues(const Viseme& viseme);
+/// Reads a table of all visemes of a set, one of them `rest`. This and the readers below:
 /// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<Visemes> ReadVisemes(const std::string& name, std::string_view text,
-                                ShapeSet set = ShapeSet::k14);
+                                VisemeSetId set = VisemeSetId::k14);
 /// nullptr if there is none of that name.
-const Viseme* FindShape(const Visemes& shapes, std::string_view name);
+const Viseme* FindViseme(const Visemes& visemes, std::string_view name);
 
-/// What a phoneme looks like: one shape, or two for a diphthong.
-struct PhonemeShapes {
-  static constexpr int kNext = -1;  ///< takes the shape of what follows
+/// What a phoneme looks like: one viseme, or two for a diphthong.
+struct PhonemeVisemes {
+  static constexpr int kNext = -1;  ///< takes the viseme of what follows
   struct Phase {
-    int shape = 0;  ///< index into Visemes, or kNext
+    int viseme = 0;  ///< index into Visemes, or kNext
     double strength = 1;
   };
   std::vector<Phase> phases;  ///< one or two
 };
 /// By phoneme name; names differ in case (N is not n).
-using PhonemeTable = std::map<std::string, PhonemeShapes, std::less<>>;
+using PhonemeTable = std::map<std::string, PhonemeVisemes, std::less<>>;
 vm::Result<PhonemeTable> ReadPhonemeTable(const std::string& name, std::string_view text,
-                                          const Visemes& shapes);
+                                          const Visemes& visemes);
 
-/// A set of mouth shapes and what the phonemes of each language look like in it.
-struct MouthSet {
-  Visemes shapes;
+/// A set of visemes and what the phonemes of each language look like in it.
+struct VisemeSet {
+  Visemes visemes;
   PhonemeTable japanese;
   PhonemeTable english;
-  std::size_t rest = 0;  ///< index of the shape of pauses
+  std::size_t rest = 0;  ///< index of the viseme of pauses
 };
 
-/// Dominances of the shapes of both sets, which are written into them. `reach_ms`: before and after
-/// a sound's own time, see tables/dominance.txt. Every shape must have its row.
+/// Dominances of the visemes of both sets, which are written into them. `reach_ms`: before and
+/// after a sound's own time, see tables/dominance.txt. Every viseme must have its row.
 struct Reach {
   double before_ms = 40;
   double after_ms = 45;
