@@ -11,7 +11,7 @@ film() { # MASK TURN EMOTION MS TEXT: the still is what is seen so many ms after
   local still=$work/$1.png
   build/bin/agent_manager --config examples/agents/film.json >/dev/null 2>&1 <<END
 to @FSM set Mask = $1
-to @FSM set Camera = 0.95 0 0 $2
+to @FSM set Camera = 0.95 0 25 $2
 to @FSM set FaceExp.onset = NATURAL
 to @AM-MCL set Record = $work/$1.mp4
 to @AM-MCL set Emotion = $3

@@ -74,7 +74,6 @@ vm::Result<void> GlFaceView::Draw(const FaceState& state, const Scene& scene,
     const Head& head = wardrobe_.head();
     Scene seen = scene;
     seen.camera.parallel = head.view();
-    if (!seen.camera.field_degrees) seen.camera.field_degrees = head.field_degrees();
     renderer_->Draw(head, state, Swing(head, history), seen);
     return {};
   } catch (const std::exception& error) {

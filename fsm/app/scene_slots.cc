@@ -194,22 +194,20 @@ void SceneSlots::DeclareCamera() {
   core_.slots.Declare(
       {.name = "Camera",
        .grammar =
-           "<number 0.2..10> [ <number -500..500> ] [ <number 0..90> ] [ <number -180..180> ]",
-       .initial = "1 0 0 0",
+           "<number 0.2..10> [ <number -500..500> ] [ <number 5..90> ] [ <number -180..180> ]",
+       .initial = "1 0 25 0",
        .help =
            "Where the viewer stands: distance (1 = head and shoulders fill the view), mm above the "
-           "middle of the portrait (0), field of view in degrees (0 = the face's own, else at "
-           "least "
-           "5; the head stays as large), degrees round the head to the viewer's right (0).",
+           "middle of the portrait (0), field of view in degrees (25; the head stays as large), "
+           "degrees "
+           "round the head to the viewer's right (0).",
        .on_set = core_.Command([this](const vm::SetValue& value) {
          Camera camera = FirstScene().camera;
-         float field = 0;
-         float* const fields[] = {&camera.distance, &camera.height_mm, &field,
+         float* const fields[] = {&camera.distance, &camera.height_mm, &camera.field_degrees,
                                   &camera.angle_degrees};
          for (std::size_t i = 0; i < value.size(); ++i) {
            *fields[i] = static_cast<float>(value.number(i));
          }
-         if (field > 0) camera.field_degrees = field;
          core_.scene.camera = camera;
        })});
 }

@@ -250,8 +250,6 @@ HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
   read("rig", asset.rig);
   read("landmarks", asset.landmarks);
   read("view", asset.view);
-  // Files of before it was thought of have none.
-  if (from.contains("field_degrees")) read("field_degrees", asset.field_degrees);
   asset.rig.units = UnitTable(Table("rig.units", JsonText(from["rig"], "units")));
   if (asset.rig.asymmetry_seed) asset.rig.units.MakeAsymmetric(*asset.rig.asymmetry_seed);
   vm::OrThrow(CheckAsset(asset));

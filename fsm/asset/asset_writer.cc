@@ -309,7 +309,6 @@ std::string WriteAsset(const Head& head, std::span<const ExportedShape> shapes) 
   extension["rig"]["units"] = head.rig().data().units.Text();
   extension["landmarks"] = writer.Write(head.landmarks());
   extension["view"] = writer.Write(head.view());
-  extension["field_degrees"] = writer.Write(head.field_degrees());
   ForeignView(gltf, head, extension).Write(shapes);
   gltf.document["asset"] = {{"version", "2.0"}, {"generator", "Galatea " GALATEA_VERSION}};
   gltf.document["extensionsUsed"] = {kAssetExtension};

@@ -24,7 +24,6 @@ class Checker {
     CheckTopology(asset_.topology);
     CheckRig(asset_.rig);
     if (asset_.view) Positive(asset_.view->half_mm, "view.half_mm");
-    Positive(asset_.field_degrees, "field_degrees");
     CheckLips(asset_.rig.lips);
   }
 

@@ -256,8 +256,6 @@ std::unique_ptr<Head> Bake(const Ingredients& from) {
   asset.topology = TopologyOf(from, skin, parts, formed);
   asset.rig = RigOf(from, skin, parts, formed, asset.topology);
   FindIncisors(asset.rig.rest, asset.rig.bone, asset.topology);
-  // Where a photo shows the face it is shaped for the usual lens.
-  if (!from.photo) asset.field_degrees = from.identity.UsedFeatures().lens_degrees;
   if (from.photo) Wear(from, skin, formed, asset);
   asset.landmarks = NameLandmarks(skin.cage, skin.fine, asset.rig.rest, from.eye, formed.eyes,
                                   from.identity.UsedFeatures());

@@ -15,7 +15,6 @@ constexpr float kFramedTop = 158.0F;
 /// The least width kept in view: the head with its hair.
 constexpr float kFramedWidth = 250.0F;
 constexpr float kFaceDepth = 50.0F;
-constexpr float kUsualField = 25.0F;
 /// The figure turns and grows about the root of the neck, so that it does so on the spot.
 constexpr glm::vec3 kPivot{0.0F, -60.0F, 0.0F};
 
@@ -64,8 +63,7 @@ View ViewOfPortrait(const Figure& placed, const Camera& camera, int width, int h
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   if (camera.parallel) return FrameParallel(placed, camera, aspect, height);
   const float framed_height = std::max(kFramedTop - kFramedBottom, kFramedWidth / aspect);
-  const float field = camera.field_degrees.value_or(kUsualField);
-  const float half_angle = glm::radians(std::clamp(field, 5.0F, 90.0F) / 2);
+  const float half_angle = glm::radians(std::clamp(camera.field_degrees, 5.0F, 90.0F) / 2);
   const float portrait = framed_height / 2 / std::tan(half_angle);
   const float distance = portrait * DistanceOf(camera);
   const float middle = (kFramedTop + kFramedBottom) / 2 + camera.height_mm;

@@ -21,11 +21,10 @@ struct DirectionalLight {
 
 /// Where the viewer stands.
 struct Camera {
-  float distance = 1;   ///< as part of that from which head and shoulders fill the view
-  float height_mm = 0;  ///< above the middle of the portrait, of viewer and aim
-  /// Seen from below to above; nothing: as the head says. The head stays as large.
-  std::optional<float> field_degrees = {};
-  float angle_degrees = 0;  ///< round the head, positive = to the viewer's right
+  float distance = 1;        ///< as part of that from which head and shoulders fill the view
+  float height_mm = 0;       ///< above the middle of the portrait, of viewer and aim
+  float field_degrees = 25;  ///< seen from below to above; the head stays as large
+  float angle_degrees = 0;   ///< round the head, positive = to the viewer's right
   std::optional<ParallelView> parallel =
       {};  ///< instead of the portrait; the field means nothing then
   /// Figure::translation counts half the longer side of the view, not millimetres.

@@ -9,14 +9,12 @@ Head::Head(HeadAsset asset)
     : topology_(std::make_shared<const HeadTopology>(std::move(asset.topology))),
       landmarks_(std::move(asset.landmarks)),
       view_(asset.view),
-      field_degrees_(asset.field_degrees),
       rig_(std::move(asset.rig)) {}
 
 Head::Head(const Head& other, Rig rig)
     : topology_(other.topology_),
       landmarks_(other.landmarks_),
       view_(other.view_),
-      field_degrees_(other.field_degrees_),
       rig_(std::move(rig)) {}
 
 std::unique_ptr<Head> Head::WithUnits(const UnitTable& units) const {

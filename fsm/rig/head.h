@@ -46,8 +46,6 @@ class Head {
   const Landmarks& landmarks() const { return landmarks_; }
   /// HeadAsset::view.
   const std::optional<ParallelView>& view() const { return view_; }
-  /// HeadAsset::field_degrees.
-  float field_degrees() const { return field_degrees_; }
   /// A number that no other head of this process has or had. What is kept of a head elsewhere, as
   /// on a graphics card, goes by it and not by the address, where another head may be made later.
   std::uint64_t serial() const { return serial_; }
@@ -60,7 +58,6 @@ class Head {
   std::shared_ptr<const HeadTopology> topology_;
   Landmarks landmarks_;
   std::optional<ParallelView> view_;
-  float field_degrees_;
   Rig rig_;
 };
 

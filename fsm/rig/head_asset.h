@@ -176,9 +176,6 @@ struct HeadAsset {
   Landmarks landmarks;
   /// How the head is meant to be seen; nothing: in perspective, as the camera stands.
   std::optional<ParallelView> view;
-  /// The field of view of the lens in that perspective, from below to above, unless the camera has
-  /// one of its own; the head stays as large. 5..90 degrees.
-  float field_degrees = 25;
 };
 
 }  // namespace fsm

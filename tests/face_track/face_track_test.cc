@@ -78,7 +78,7 @@ class FaceTrackTest : public testing::Test {
   static void Film(const std::string& head) {
     support::Process fsm({GALATEA_BIN_DIR "/fsm", "--headless", "--clock", "virtual", "--size",
                           "400x400", "--mask", head});
-    fsm.Write("set Camera = 1 0 25\nset Record.fps = " + std::to_string(kRate) +
+    fsm.Write("set Record.fps = " + std::to_string(kRate) +
               "\nset Record = " + Path(head + ".mp4") +
               "\nset Wait = 1200\nset HeadRotAbs.1 = 0 20 0\nset Wait = 800\n"
               "set HeadRotAbs.1 = 0 0 0\nset Wait = 600\nset AU = 43 1 60\nset Wait = 600\n"

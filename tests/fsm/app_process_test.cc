@@ -83,19 +83,6 @@ TEST_F(FsmProcessTest, APipedBatchLeavesAHappyFace) {
   EXPECT_NE(happy, ReadAll(folder / "neutral.png"));
 }
 
-TEST_F(FsmProcessTest, AFaceIsSeenByItsOwnLensUnlessTheCameraHasOne) {
-  EXPECT_EQ(Run("--headless --size 160x120",
-                "set SaveImage = own.png\nset Camera = 1 0 15\nset SaveImage = long.png\n"
-                "set Camera = 1 0 25\nset SaveImage = usual.png\nset Camera = 1 0 0 0\n"
-                "set SaveImage = again.png\n"),
-            0)
-      << err;
-  const std::string own = ReadAll(folder / "own.png");
-  EXPECT_EQ(own, ReadAll(folder / "long.png"));
-  EXPECT_NE(own, ReadAll(folder / "usual.png"));
-  EXPECT_EQ(own, ReadAll(folder / "again.png"));
-}
-
 TEST_F(FsmProcessTest, ExitWaitsForAnExpressionAndForNothingElse) {
   support::Process program({GALATEA_BIN_DIR "/fsm", "--headless"});
   program.Write("set FaceExp = HAPPY\nset Run = EXIT\n");

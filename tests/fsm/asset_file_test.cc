@@ -88,17 +88,15 @@ TEST(AssetFileTest, AHeadThatWearsAPhotoComesBackAsItWas) {
   EXPECT_EQ(read.topology().textures.image->rgba, head->topology().textures.image->rgba);
 }
 
-TEST(AssetFileTest, TheViewTheLensAndAMaterialComeBack) {
+TEST(AssetFileTest, AParallelViewAndAMaterialComeBack) {
   const BallHead ball([](HeadAsset& asset) {
     asset.view = ParallelView{{1, 2, 3}, 44};
-    asset.field_degrees = 12;
     asset.topology.pbr_materials.push_back({.kind = PbrMaterial::Kind::kToon, .roughness = 0.3F});
     asset.topology.parts[0].pbr = 0;
   });
   const Head read = ReadAgain(ball);
   ASSERT_TRUE(read.view());
   EXPECT_EQ(read.view()->half_mm, 44);
-  EXPECT_EQ(read.field_degrees(), 12);
   ASSERT_EQ(read.topology().pbr_materials.size(), 1U);
   EXPECT_EQ(read.topology().pbr_materials[0].kind, PbrMaterial::Kind::kToon);
   EXPECT_EQ(read.topology().parts[0].pbr, 0);
