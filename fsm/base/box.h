@@ -7,7 +7,7 @@
 
 namespace fsm {
 
-/// The smallest box along the axes that holds every place added to it.
+/// The smallest axis-aligned box that contains every point added to it.
 struct Box {
   glm::vec3 low{std::numeric_limits<float>::max()}, high{-low};
 

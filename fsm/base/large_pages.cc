@@ -16,7 +16,7 @@ namespace fsm {
 void UseLargePages() {
   constexpr int kHeapGrowsBy = 64 << 20;
   mallopt(M_ARENA_MAX, 1);
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most there is
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest value that glibc accepts
   mallopt(M_TOP_PAD, kHeapGrowsBy);
   auto* const begin = static_cast<std::byte*>(sbrk(0));
   void* volatile grown = std::malloc(1 << 20);

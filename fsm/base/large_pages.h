@@ -2,11 +2,11 @@
 
 namespace fsm {
 
-/// Has the memory of this process come in pages of 2 MB as far as the kernel has them, from one
-/// heap that keeps what was freed. The first picture touches 60 MB, and each of 15 000 small pages
-/// is a trap when it is touched first, which costs most in a virtual machine. Only advice: without
-/// glibc, or where the kernel gives no such pages, nothing changes. To be called once, before the
-/// first thread is made.
+/// Asks the kernel to back this process's memory with 2 MB pages, and glibc to serve it from one
+/// heap that keeps freed memory. The first picture touches 60 MB; with small pages that is 15 000
+/// page faults, which are most expensive in a virtual machine. This is advice only: without glibc,
+/// or where the kernel offers no such pages, nothing changes. Call it once, before the first thread
+/// is created.
 void UseLargePages();
 
 }  // namespace fsm

@@ -5,7 +5,7 @@
 
 namespace fsm {
 
-/// Tells people, on stderr, what is odd but no reason to stop.
+/// Prints a warning to stderr: something is unusual, but the program can go on.
 inline void Notice(const std::string& text) { std::cerr << "fsm: notice: " << text << "\n"; }
 
 }  // namespace fsm

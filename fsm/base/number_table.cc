@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kMost = 1000;
 
-/// Number of the words before the first that could be a number.
+/// Returns the number of leading words that cannot be read as a number.
 std::size_t NameWordsOf(const TableRow& row) {
   constexpr std::string_view kNumberBegins = "+-.0123456789";
   std::size_t words = 1;

@@ -8,8 +8,8 @@
 
 namespace fsm {
 
-/// The finite decimal number that fills the whole word; a + may stand before it. Nothing for other
-/// words and for numbers that the type cannot hold.
+/// Parses a finite decimal number that fills the whole word; a leading + is allowed. Returns
+/// nothing for other words and for numbers that the type cannot hold.
 template <typename T = double>
 std::optional<T> ParseNumber(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);

@@ -4,7 +4,7 @@
 
 namespace fsm {
 
-/// Half a turn in radians.
+/// 180 degrees in radians.
 inline constexpr float kPi = std::numbers::pi_v<float>;
 
 }  // namespace fsm

@@ -5,17 +5,17 @@
 
 namespace fsm {
 
-// Numbers that depend on nothing but their arguments and are the same on every machine: films
-// repeat, and any instant can be asked for in any order. Pure; thread: any.
+// These numbers depend on their arguments only and are the same on every machine, so films repeat
+// and any instant can be evaluated in any order. Pure; thread: any.
 
-/// FNV-1a of a text (Fowler, Noll and Vo): the same everywhere, which std::hash does not promise.
+/// The FNV-1a hash of a text (Fowler, Noll and Vo). Unlike std::hash it is the same everywhere.
 constexpr std::uint64_t HashOf(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   return hash;
 }
 
-/// The finalizer of SplitMix64 (Steele, Lea and Flood 2014): every bit of the input matters.
+/// The finalizer of SplitMix64 (Steele, Lea and Flood 2014): each input bit affects all the result.
 inline std::uint64_t Scramble(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -23,19 +23,19 @@ inline std::uint64_t Scramble(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// In -1..1. `stream` keeps things that vary apart.
+/// Returns a pseudo-random number in -1..1. Different `stream`s are independent of each other.
 inline double RandomAt(std::uint64_t seed, std::uint64_t stream, std::int64_t index) {
   const std::uint64_t bits =
       Scramble(Scramble(seed * 1024 + stream) ^ static_cast<std::uint64_t>(index));
   return static_cast<double>(bits >> 11) * 0x1p-52 - 1;
 }
 
-/// The i-th of a series, in 0..1.
+/// Returns the i-th pseudo-random number of a series, in 0..1.
 inline float Chance(std::uint64_t series, std::uint64_t i) {
   return static_cast<float>(Scramble(series << 40 ^ i) >> 40) * 0x1p-24F;
 }
 
-/// The noise at a point of a lattice, in -1..1.
+/// Returns the noise at the lattice point (i, j), in -1..1.
 inline float NoiseAt(int i, int j) {
   std::uint32_t h =
       static_cast<std::uint32_t>(i) * 0x9E3779B1u ^ static_cast<std::uint32_t>(j) * 0x85EBCA77u;

@@ -5,13 +5,13 @@
 
 namespace fsm {
 
-/// The agent's own sides, in this order wherever one of two is counted. Its right is to the
-/// viewer's left, where x is negative.
+/// One of the agent's own sides; arrays over both sides have this order. The agent's right is on
+/// the viewer's left, where x is negative.
 enum class Side : std::uint8_t { kRight, kLeft };
 
 inline constexpr std::array kSides{Side::kRight, Side::kLeft};
 
-/// The sign of x on that side.
+/// Returns the sign of x on that side.
 constexpr float SignOf(Side side) { return side == Side::kRight ? -1.0f : 1.0f; }
 
 /// A value for each side.
@@ -21,7 +21,7 @@ struct Sided {
 
   constexpr T& operator[](Side side) { return side == Side::kRight ? right : left; }
   constexpr const T& operator[](Side side) const { return side == Side::kRight ? right : left; }
-  /// In the order of kSides.
+  /// Returns both values in the order of kSides.
   constexpr std::array<T, 2> InOrder() const { return {right, left}; }
   friend bool operator==(const Sided&, const Sided&) = default;
 };

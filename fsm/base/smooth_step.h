@@ -5,13 +5,13 @@
 
 namespace fsm {
 
-/// 0 below `from`, 1 above `to`, smooth between; `from` may exceed `to`.
+/// Returns 0 below `from`, 1 above `to`, and a smooth cubic between; `from` may exceed `to`.
 inline float SmoothStep(float from, float to, float x) {
   const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
   return t * t * (3 - 2 * t);
 }
 
-/// About exp(-(x / width)^2), and 0 from two widths on; of a width of 0 or less 0 all over.
+/// About exp(-(x / width)^2), cut to 0 from two widths on. A width of 0 or less gives 0.
 inline float Bell(float x, float width) {
   if (!(std::abs(x) < 2 * width)) return 0;
   const float t = std::max(1 - x * x / (4 * width * width), 0.0F);

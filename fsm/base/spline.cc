@@ -9,7 +9,7 @@ SplineBasis::SplineBasis(std::vector<float> knots) : knots_(std::move(knots)) {
   const std::size_t n = knots_.size();
   assert(n >= 2 && std::ranges::is_sorted(knots_));
   second_.assign(n * n, 0.0f);
-  // The tridiagonal system of the natural spline, solved once per unit sample (Thomas algorithm).
+  // Solves the tridiagonal system of the natural spline once per unit sample (Thomas algorithm).
   std::vector<float> ratio(n, 0.0f);
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const float h0 = knots_[i] - knots_[i - 1];

@@ -5,13 +5,13 @@
 
 namespace fsm {
 
-/// The natural cubic spline over fixed knots, as weights: value(t) = sum of weight[i] * sample[i].
-/// Keeping the weights apart from the samples lets one basis serve every row of a cage.
+/// The weights of a natural cubic spline over fixed knots: value(t) = sum of weight[i] * sample[i].
+/// They do not depend on the samples, so one basis serves every row of a cage.
 class SplineBasis {
  public:
   /// REQUIRES: at least two knots, strictly ascending.
   explicit SplineBasis(std::vector<float> knots);
-  /// Weights of all knots at `t`, clamped to the knots' span. `weights` has knots().size() entries.
+  /// Fills `weights`, one for each knot, at `t`, which is clamped to the span of the knots.
   void Weights(float t, std::span<float> weights) const;
   const std::vector<float>& knots() const { return knots_; }
 
@@ -21,11 +21,11 @@ class SplineBasis {
   std::vector<float> second_;
 };
 
-/// A function y(x) through given points, for named curves of the face.
+/// A named curve of the face: the natural cubic spline y(x) through given points.
 class Curve {
  public:
   Curve() : Curve({0, 1}, {0, 0}) {}
-  /// REQUIRES: x strictly ascending, as many y. Outside the span the end value holds.
+  /// REQUIRES: x is strictly ascending; y has its size. Outside the span the end value holds.
   Curve(std::vector<float> x, std::vector<float> y);
   float operator()(float x) const;
   float begin_x() const { return basis_.knots().front(); }

@@ -19,7 +19,7 @@ std::string Shown(const std::string& text) {
   std::string shown = text.size() <= kShown ? text
                                             : text.substr(0, kShown / 2) + "..." +
                                                   text.substr(text.size() - kShown / 2);
-  return Printable(std::move(shown));  // shortening may cut a character of several bytes
+  return Printable(std::move(shown));  // shortening may have cut a character of several bytes
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ float TableRow::Within(std::size_t index, float low, float high) const {
 
 int TableRow::Integer(std::size_t index) const {
   const float value = Number(index);
-  constexpr float kMostWhole = 1 << 24;  // up to there a float holds every whole number
+  constexpr float kMostWhole = 1 << 24;  // up to here a float represents every whole number
   if (value != std::floor(value) || std::abs(value) > kMostWhole) {
     Fail("'" + Word(index) + "' found where a whole number was expected");
   }

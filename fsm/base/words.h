@@ -9,7 +9,7 @@
 
 namespace fsm {
 
-/// The first words of a line, at most `most`; words stand between blanks. Lifetime: of `line`.
+/// Returns the first words of `line`, at most `most`; blanks separate them. Lifetime: of `line`.
 inline std::vector<std::string_view> WordsOf(std::string_view line, std::size_t most = SIZE_MAX) {
   std::vector<std::string_view> words;
   for (std::size_t at = 0; words.size() < most;) {
@@ -22,8 +22,8 @@ inline std::vector<std::string_view> WordsOf(std::string_view line, std::size_t 
   return words;
 }
 
-/// Takes off a text what stands before the first of `endings`, which goes, too; or all of it.
-/// Lifetime: of `text`.
+/// Removes from `text` its part before the first character of `endings`, and that character; or all
+/// of it if there is none. Returns the removed part. Lifetime: of `text`.
 inline std::string_view TakeUntil(std::string_view endings, std::string_view& text) {
   const std::string_view taken = text.substr(0, text.find_first_of(endings));
   text.remove_prefix(std::min(taken.size() + 1, text.size()));
