@@ -5,12 +5,12 @@
 
 namespace fsm {
 
-/// How heads, eyes and figures are turned: degrees, counted alike on the wire, in tables, by
-/// movement and in states. Positive is down, to the viewer's right, and tilted towards it.
+/// Rotation angles of heads, eyes and figures in degrees, signed alike on the wire, in tables, in
+/// motion and in states: positive is down, to the viewer's right, and tilted that way.
 using Angles = std::array<float, 3>;
-/// The angles of an eye, which does not tilt.
+/// Rotation angles of an eye, which does not tilt.
 using EyeAngles = std::array<float, 2>;
-/// The order of the numbers.
+/// Indices into Angles and EyeAngles.
 enum Turn : std::size_t { kDown, kToRight, kTilted };
 
 }  // namespace fsm

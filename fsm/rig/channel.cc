@@ -14,7 +14,7 @@ namespace {
 float ValueOf(const Drive& drive, const FaceState& state, const Pose& pose) {
   using enum Drive::Kind;
   const std::size_t number = drive.number;
-  constexpr float kMostMouth = 30;  // millimetres, of the jaw degrees
+  constexpr float kMostMouth = 30;  // in millimetres, and in degrees for the jaw
   const auto whole = [&](Side side) {
     switch (drive.kind) {
       case kUnit:
@@ -50,8 +50,8 @@ float ValueOf(const Drive& drive, const FaceState& state, const Pose& pose) {
 
 std::vector<Channel> UnitChannels(const UnitTable& units, std::span<const Bone> bones,
                                   std::span<const SkinWeights> weights) {
-  constexpr float kLeast = 1e-3f;                       // millimetres
-  std::map<int, std::vector<UnitTable::Field>> fields;  // of each unit
+  constexpr float kLeast = 1e-3f;                       // smaller displacements (mm) are dropped
+  std::map<int, std::vector<UnitTable::Field>> fields;  // by unit
   for (const UnitTable::Field& field : units.fields()) fields[field.unit].push_back(field);
   std::vector<Channel> channels;
   std::vector<glm::vec3> sum;  // by vertex
@@ -91,7 +91,7 @@ ChannelDrives::ChannelDrives(std::span<const Channel> channels) {
 
 void ChannelDrives::FindStrengths(std::span<const Channel> channels, const FaceState& state,
                                   const Pose& pose, std::vector<float>& out) const {
-  thread_local std::vector<float> values;  // of the drives; kept from frame to frame
+  thread_local std::vector<float> values;  // by drive; kept from frame to frame
   values.clear();
   for (const Drive& drive : drives_) values.push_back(ValueOf(drive, state, pose));
   auto from = driver_from_.begin();

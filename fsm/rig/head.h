@@ -14,40 +14,41 @@
 
 namespace fsm {
 
-/// A head: what it looks like and how it moves. A pure function from FaceState to vertices, head
-/// rotation included, Figure and camera not. Immutable after construction; safe
+/// A head: how it looks and how it moves. It is a pure function from FaceState to vertices, which
+/// applies the rotation of the head but not Figure and camera. Immutable after construction; safe
 /// to share.
 class Head {
  public:
-  /// REQUIRES: the arrays of `asset` fit together, as the bakers make them.
+  /// REQUIRES: the arrays of `asset` have matching sizes and indices, as the bakers make them.
   explicit Head(HeadAsset asset);
   Head(const Head&) = delete;
   Head& operator=(const Head&) = delete;
 
   const HeadTopology& topology() const { return *topology_; }
-  /// The same, for what may outlive the head.
+  /// Returns the topology for users that may outlive the head.
   const std::shared_ptr<const HeadTopology>& shared_topology() const { return topology_; }
   const Rig& rig() const { return rig_; }
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
-  /// `swings`: as of Rig::Evaluate.
+  /// `swings` is that of Rig::Evaluate.
   void Evaluate(const FaceState& state, HeadVertices& out,
                 std::span<const glm::vec3> swings = {}) const {
     rig_.Evaluate(state, out, swings);
   }
-  /// The same head, of the same topology, whose units move it as another table says (UnitTable),
-  /// as far as they are not the head's own.
+  /// Returns the same head with the same topology whose action units move as another table says;
+  /// displacements that are the head's own (RigData::units_by_place) stay.
   std::unique_ptr<Head> WithUnits(const UnitTable& units) const;
-  /// The mouth of a state, measured on the vertices Evaluate would give.
+  /// Measures the mouth on the vertices that Evaluate would give for `state`.
   MouthMeasure MeasureMouth(const FaceState& state) const { return rig_.MeasureMouth(state); }
-  /// Where a named landmark lies at rest, after Farkas: "nasion", "pronasale", "subnasale",
-  /// "stomion", "gnathion", "trichion"; with _left or _right: "cheilion", "endocanthion",
-  /// "exocanthion", "pupil", "alare", "zygion", "gonion", "tragion". Throws std::out_of_range.
+  /// Returns the rest position of a landmark named after Farkas: "nasion", "pronasale",
+  /// "subnasale", "stomion", "gnathion", "trichion"; with _left or _right: "cheilion",
+  /// "endocanthion", "exocanthion", "pupil", "alare", "zygion", "gonion", "tragion". Throws
+  /// std::out_of_range.
   glm::vec3 Landmark(std::string_view name) const;
   const Landmarks& landmarks() const { return landmarks_; }
-  /// HeadAsset::view.
+  /// Returns HeadAsset::view.
   const std::optional<ParallelView>& view() const { return view_; }
-  /// A number that no other head of this process has or had. What is kept of a head elsewhere, as
-  /// on a graphics card, goes by it and not by the address, where another head may be made later.
+  /// Returns a number that no other head of this process has or had. Caches of a head, as on a
+  /// graphics card, use it as their key: an address may be reused for a later head.
   std::uint64_t serial() const { return serial_; }
 
  private:

@@ -19,7 +19,7 @@
 
 namespace fsm {
 
-/// What a part of the mesh is made of; the renderer chooses its shading by it.
+/// The material of a part of the mesh, by which the renderer chooses its shading.
 enum class Material {
   kSkin,
   kLip,
@@ -33,19 +33,19 @@ enum class Material {
   kLash,
   kHair,
   kCloth,
-  kPhoto,     ///< a sheet that shows the photo and nothing else
-  kShutLash,  ///< of lids that wear a photo of open eyes: seen as they shut
-  kMatte  ///< what has a plain colour beside skin that may show a picture: lashes, hair, clothes
+  kPhoto,     ///< a sheet that shows the photo only
+  kShutLash,  ///< lashes of lids that wear a photo of open eyes; they appear as the lids shut
+  kMatte      ///< plain-coloured parts (lashes, hair, clothes) beside skin that may show a picture
 };
 
 constexpr bool IsHair(Material material) {
   return material == Material::kHair || material == Material::kLash;
 }
 
-/// One eye at rest. The cap of the ball in Material::kIris is the cornea's outer surface, which
-/// bulges; iris and pupil lie behind it and are drawn by parallax.
+/// One eye at rest. The cap of the eyeball in Material::kIris is the outer surface of the bulging
+/// cornea; iris and pupil lie behind it and are drawn by parallax.
 struct EyeGeometry {
-  glm::vec3 centre{};  ///< of the ball, millimetres
+  glm::vec3 centre{};  ///< of the eyeball, millimetres
   float ball_radius = 12;
   float iris_radius = 6;
   float pupil_radius = 2;
@@ -53,101 +53,101 @@ struct EyeGeometry {
   glm::vec3 white_colour{0.66f, 0.64f, 0.62f};  ///< of the sclera
 };
 
-/// Where a photo shows an eye: squares as left, top, right and bottom, 0..1, v down.
+/// Where a photo shows an eye: squares as left, top, right, bottom in the photo, 0..1, v down.
 struct EyePicture {
-  glm::vec4 iris{};  ///< to kIrisSpan radii of the iris from its middle
-  /// What lies between the lids beside the iris, from the front: to kBallSpan radii of the ball
-  /// from its centre.
+  glm::vec4 iris{};  ///< kIrisSpan radii of the iris to either side of its centre
+  /// The area between the lids beside the iris, seen from the front: kBallSpan radii of the eyeball
+  /// to either side of its centre.
   glm::vec4 ball{};
 };
 inline constexpr float kIrisSpan = 1.25f;
 inline constexpr float kBallSpan = 1.4f;
 
-/// How hairs run at a vertex of hair, brows or lashes.
+/// How the hairs run at a vertex of hair, brows or lashes.
 struct Strand {
-  glm::vec3 along{0, -1, 0};  ///< from root to tip at rest; its length, 0..1: how sleek it is
-  float density = 1;          ///< 1 = dense, 0 = none: hairs thin out where a lock ends
-  float across = 0;           ///< -1..1 over the width of a lock whose sides fray, 0 elsewhere
-  glm::vec2 tile_mm{};        ///< across and along the hairs: which of them are seen here
+  glm::vec3 along{0, -1, 0};  ///< from root to tip at rest; length 0..1: how sleek it is
+  float density = 1;          ///< 1 = dense, 0 = no hairs: they thin out where a lock ends
+  float across = 0;           ///< -1..1 across a lock whose sides fray, 0 elsewhere
+  glm::vec2 tile_mm{};        ///< position across and along the hairs, selecting hairs
 };
 
-/// What a vertex of a lid looks like when the lid is shut, on a head that wears a photo of open
-/// eyes: what the photo shows at TextureMaps::texcoord gives way to it as the lid shuts.
+/// How a lid's vertex looks when the lid is shut, on a head that wears a photo of open eyes. This
+/// look replaces what the photo shows at TextureMaps::texcoord as the lid shuts.
 struct ShutLid {
   std::uint32_t vertex;
   glm::vec3 colour;    ///< linear RGB
-  float weight;        ///< opacity of the lid's colour, 0..1: less where it blends into other skin
-  glm::vec2 grain_at;  ///< texture coordinate of the skin whose grain the lid takes
+  float weight;        ///< opacity of the lid's colour, 0..1; lower where it blends into other skin
+  glm::vec2 grain_at;  ///< texture coordinate of the skin that the lid takes its grain from
   float grain_light;   ///< mean screen brightness around it, 0..1
-  glm::vec2 slide;     ///< from the vertex's texcoord to where in the photo it comes to lie
+  glm::vec2 slide;     ///< from texcoord to the point of the photo that it moves to
 };
 
-/// A fine hair that lies on the skin and is painted into its texture: of the brows. Places are
-/// those of HeadTopology::uv.
+/// A fine hair of the brows that is painted into the skin's texture. Its points are texture
+/// coordinates in HeadTopology::uv.
 struct SkinHair {
   glm::vec2 root, middle, tip;
-  float width_mm;  ///< at the root; it ends in a point
+  float width_mm;  ///< at the root; the hair tapers to a point
   glm::vec3 tint;  ///< factor on the skin's colour
 };
 
-/// Where the lips part, by vertices: light comes into the mouth there. Teeth bound it further in.
+/// The opening between the lips, by which light enters the mouth. Teeth bound it further in.
 struct MouthSlit {
-  /// Edges of the upper and the lower lip, from -x to +x, corners excluded; may be empty.
+  /// Pairs of upper and lower lip vertices, from -x to +x without the corners; may be empty.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;
-  std::uint32_t corner_right = 0, corner_left = 0;     ///< the agent's
-  std::uint32_t upper_incisor = 0, lower_incisor = 0;  ///< at their edges
-  std::uint32_t upper_root = 0;                        ///< right above upper_incisor
+  std::uint32_t corner_right = 0, corner_left = 0;     ///< of the agent's sides
+  std::uint32_t upper_incisor = 0, lower_incisor = 0;  ///< at the incisal edges
+  std::uint32_t upper_root = 0;                        ///< directly above upper_incisor
 };
 
-/// The picture on a head: the photo of a person, or what a file has.
+/// The picture on a head: the photo of a person or the texture of a file.
 struct TextureMaps {
-  std::shared_ptr<const Image> image;  ///< nothing: skin is painted and lit
-  /// Laid out as the image; nothing where no material needs it. Of `normal_map` red and green are
-  /// the normal's x and y (v up) about 128, blue and alpha factors of roughness and metal; of
-  /// `emissive_map` the colour is that of what glows (toon: of the shade), alpha how open to light.
+  std::shared_ptr<const Image> image;  ///< null: skin is painted and lit
+  /// Laid out as `image`; null where no material needs it. `normal_map`: red and green are the
+  /// normal's x and y (v up) about 128, blue and alpha factors on roughness and metal.
+  /// `emissive_map`: the colour is the emission (toon: the shade), alpha the openness to light.
   std::shared_ptr<const Image> normal_map, emissive_map;
-  /// Per vertex where there is an image: its place there, 0..1, v down, and the image's part in the
-  /// colour, 0..1.
+  /// Per vertex where there is an image: its texture coordinate, 0..1, v down, and the weight of
+  /// the image in the colour, 0..1.
   std::vector<glm::vec2> texcoord;
   std::vector<float> weight;
 };
 
-/// Data of a head with the photo of a person, beside the picture.
+/// Data that a head with the photo of a person has beside the picture.
 struct Portrait {
   std::vector<ShutLid> shut_lids;
-  /// The light in the photo, as FaceLight::coefficients().
+  /// The light in the photo as spherical harmonics: FaceLight::coefficients().
   glm::vec4 light{0, 0, 0, 1};
-  /// Per vertex, 0..1: how much its light changes as an expression turns it. May be empty.
+  /// Per vertex, 0..1: how much its shading changes as an expression turns it. May be empty.
   std::vector<float> relit;
-  std::optional<Sided<EyePicture>> eyes;  ///< if the photo shows them; else they are drawn
-  /// Saturation of what is lit beside a photo, 0..1: our lamps are coloured, a grey photo is not.
+  std::optional<Sided<EyePicture>> eyes;  ///< none if the photo shows no eyes: they are drawn
+  /// Saturation of parts lit beside a photo, 0..1: our lamps are coloured, but a grey photo is not.
   float saturation = 1;
 };
 
-/// The part of a head that never changes while it moves.
+/// The part of a head that does not change while it moves.
 struct HeadTopology {
   struct Part {
     Material material;
     std::uint32_t first_index;  ///< into `indices`
     std::uint32_t index_count;  ///< multiple of 3
-    int pbr = -1;               ///< into `pbr_materials`; -1: as its material is
+    int pbr = -1;               ///< index into `pbr_materials`; -1: the shading of `material`
     bool two_sided = false;
   };
   std::vector<std::uint32_t> indices;  ///< triangles, counter-clockwise seen from outside
   std::vector<Part> parts;
-  /// The vertices of a part's triangles, three for each.
+  /// Returns the vertices of a part's triangles, three for each.
   std::span<const std::uint32_t> Corners(const Part& part) const {
     return std::span(indices).subspan(part.first_index, part.index_count);
   }
   std::vector<glm::vec3> albedo;  ///< per vertex, linear RGB 0..1
-  std::vector<float> openness;    ///< per vertex, to light: 0 = fully shut off, 1 = open
-  std::vector<float> opacity;     ///< per vertex, 0..1: how much it hides; empty: all
-  /// Per vertex, 0..1, v up: the base identity's rest form unrolled about a vertical axis, with the
-  /// front (60 degrees to either side) widened to 60 % of the width. For skin, lips and brows; may
-  /// be empty.
+  std::vector<float> openness;    ///< per vertex, to ambient light: 0 = fully occluded, 1 = open
+  std::vector<float> opacity;     ///< per vertex, 0..1; empty: all opaque
+  /// Texture coordinates per vertex, 0..1, v up, of skin, lips and brows: the base identity's rest
+  /// form unrolled about a vertical axis, with the front (60 degrees to either side) widened to
+  /// 60 % of the width. May be empty.
   std::vector<glm::vec2> uv;
   std::vector<SkinHair> skin_hairs;
-  std::vector<Strand> strands;  ///< per vertex, meaningful where there is hair; may be empty
+  std::vector<Strand> strands;  ///< per vertex, meaningful on hair only; may be empty
   std::vector<PbrMaterial> pbr_materials;
   TextureMaps textures;
   Portrait portrait;
@@ -155,26 +155,26 @@ struct HeadTopology {
   Sided<EyeGeometry> eyes;
 };
 
-/// A window onto a face that is meant to be seen without perspective, as those of the original:
-/// what its middle shows, and how far it is from there to the edges of its longer side.
+/// The view of a face that is meant to be seen in parallel projection, as those of the original:
+/// the point at its centre and the distance from there to the edges of the longer side.
 /// Millimetres.
 struct ParallelView {
   glm::vec3 centre{0};
   float half_mm = 100;
 };
 
-/// Where a head has what the tables call by name, at rest; millimetres. See Head::Landmark.
+/// Rest positions of named landmarks, in millimetres. See Head::Landmark.
 using Landmarks = std::map<std::string, glm::vec3, std::less<>>;
 
 /// One description of any head, wherever it comes from: how it looks and how it moves. The bakers
-/// make it (head/: built-in heads and those of a photo; mesh/: heads of files); Head moves it, and
-/// the renderer draws it. Neither knows where it came from. All arrays that are said to be per
-/// vertex have the length of `rig.rest`, or are empty where that is allowed.
+/// make it (head/: built-in heads and those of a photo; mesh/: heads of files); Head moves it and
+/// the renderer draws it, and neither knows its origin. All arrays that are said to be per vertex
+/// have the length of `rig.rest`, or are empty where that is allowed.
 struct HeadAsset {
   HeadTopology topology;
   RigData rig;
   Landmarks landmarks;
-  /// How the head is meant to be seen; nothing: in perspective, as the camera stands.
+  /// How the head is meant to be seen; none: in perspective from the camera.
   std::optional<ParallelView> view;
 };
 

@@ -10,29 +10,29 @@
 
 namespace fsm {
 
-/// Lids that turn about the axes of the eyes.
+/// Lids that rotate about the transverse axes of the eyes.
 struct LidRig {
   struct Vertex {
     std::uint32_t vertex = 0;
     Side side{};
     step::LidPoint at{};
-    bool proper = false;  ///< of the lid itself, not of the fold behind it
+    bool proper = false;  ///< true for the lid itself, false for the fold behind it
   };
   std::vector<Vertex> vertices;
   Sided<EyeTransform> eyes;
-  Sided<glm::vec3> ball;    ///< their centres
-  float cornea_centre = 0;  ///< how far it lies before the ball's, millimetres
+  Sided<glm::vec3> ball;    ///< centres of the eyeballs
+  float cornea_centre = 0;  ///< from the ball's centre to the cornea's, millimetres
 };
 
-/// Lids that stay outside the eyeballs, whatever moves them.
+/// Lids that are kept outside the eyeballs, whatever moves them.
 struct BallLids {
   struct Vertex {
     std::uint32_t vertex;
     Side side;
-    float least;  ///< distance from the ball's centre, millimetres
+    float least;  ///< least distance from the ball's centre, millimetres
   };
   std::vector<Vertex> vertices;
-  Sided<glm::vec3> centre;  ///< of the balls
+  Sided<glm::vec3> centre;  ///< of the eyeballs
 };
 
 }  // namespace fsm

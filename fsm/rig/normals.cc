@@ -7,8 +7,8 @@
 namespace fsm {
 namespace {
 
-/// Adds the normals of triangles, by their areas, to those of their corners. `owner` says which
-/// vertex keeps the normal of another.
+/// Adds the area-weighted normals of triangles to those of their corners. `owner` maps a vertex to
+/// the one that accumulates its normal.
 void AddNormals(std::span<const std::uint32_t> triangles, std::span<const glm::vec3> position,
                 std::span<glm::vec3> normal, const auto& owner) {
   for (std::size_t k = 0; k + 2 < triangles.size(); k += 3) {

@@ -8,20 +8,20 @@
 
 namespace fsm {
 
-/// Some vertices of a head, moved on the processor as all of them would be: for what must be known
-/// of a state whose other vertices are moved on a graphics card. Immutable; thread: any.
+/// Some vertices of a head, moved on the processor exactly as Rig would move them. It serves
+/// queries about a state whose other vertices are moved on a graphics card. Immutable; thread: any.
 class PartialRig {
  public:
-  /// `vertices`: indices of the head's, in any order, also twice.
+  /// `vertices`: indices into the head's vertices, in any order; repetitions are allowed.
   PartialRig(const Rig& whole, std::vector<std::uint32_t> vertices);
-  /// As Rig::Evaluate, but fills only the positions of those vertices in `out`, which has the whole
-  /// head's size, and no normals.
+  /// Does what Rig::Evaluate does, but fills only the positions of those vertices in `out`, which
+  /// gets the whole head's size, and no normals.
   void Evaluate(const FaceState& state, HeadVertices& out,
                 std::span<const glm::vec3> swings = {}) const;
 
  private:
   std::size_t whole_size_;
-  std::vector<std::uint32_t> vertices_;  // of the head, ascending
+  std::vector<std::uint32_t> vertices_;  // indices into the whole head, ascending
   Rig rig_;
 };
 

@@ -23,8 +23,8 @@ glm::mat3 TurnZ(float angle) {
   return {c, s, 0, -s, c, 0, 0, 0, 1};
 }
 
-// Lids follow the gaze: looking 25 degrees down lowers the upper lid 6.3 mm and the lower 1.7,
-// looking up raises them 3.3 and 1.3.
+// The lids follow the gaze: looking 25 degrees down lowers the upper lid by 6.3 mm and the lower by
+// 1.7 mm, looking as far up raises them by 3.3 mm and 1.3 mm.
 void FollowGaze(float down_degrees, UnitEffects::Lids& lids) {
   const float part = -down_degrees / 25;
   lids.upper_mm += part * (part < 0 ? 6.3f : 3.3f);
@@ -49,9 +49,9 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
   Pose pose{};
   pose.units = table.Combine(state);
   const UnitEffects effects = table.Effects(pose.units);
-  // Limits of the 17 mouth parameters: what lips can do, in millimetres; jaw apart.
+  // The mouth parameters are limited to what lips can do, in millimetres; the jaw is apart.
   for (std::size_t p = 0; p < kMouthParameters; ++p) pose.mouth[p] = Bound(state.mouth[p], -14, 14);
-  // A mandible opens 25-30 degrees and slides about a millimetre forward for every three of them.
+  // A mandible opens 25-30 degrees and slides about 1 mm forward for every three degrees.
   const float degrees = Bound(effects.jaw_degrees + Bound(state.mouth[kJawY], -30, 30), 0, 28);
   const float slide_mm = Bound(effects.jaw_slide_mm + Bound(state.mouth[kJawZ], -6, 10), -4, 12);
   pose.mouth[kJawY] = degrees - Bound(effects.jaw_degrees, 0, 28);
@@ -87,7 +87,7 @@ EyeAngles GazeOf(const glm::mat3& eye) {
 }
 
 glm::mat3 EyeTo(const EyeAngles& gaze) {
-  // Up first, then to the side: the third column is where the eye looks.
+  // The eye turns up first, then sideways; the third column of the matrix is the line of sight.
   return TurnY(glm::radians(gaze[kToRight])) * TurnX(glm::radians(gaze[kDown]));
 }
 

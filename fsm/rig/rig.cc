@@ -10,12 +10,12 @@
 namespace fsm {
 namespace {
 
-/// The rotation of an eyeball: by the gaze angle, or scaled as GazeRanges say.
+/// Returns the rotation of an eyeball: the gaze angles, mapped by GazeRanges if there are any.
 glm::mat3 EyeTurn(const EyeRig& eyes, const Pose& pose, Side side) {
   const auto& ranges = eyes.gaze_ranges;
   if (!ranges) return pose.eye[side];
   const EyeAngles gaze = GazeOf(pose.eye[side]);
-  // To the viewer's right is outward of the agent's left eye.
+  // A gaze to the viewer's right is outward for the agent's left eye.
   const bool outward = (gaze[kToRight] > 0) == (side == Side::kLeft);
   const auto turned = [](float angle, const GazeRange& range) {
     return std::copysign(std::min(std::abs(angle) / range.gaze_deg, 1.0f) * range.turn, angle);
@@ -27,7 +27,7 @@ glm::mat3 EyeTurn(const EyeRig& eyes, const Pose& pose, Side side) {
 step::Eye EyeOf(const RigData& data, const Pose& pose, Side side) {
   const EyeTransform& eye = data.lids.eyes[side];
   const UnitEffects::Lids& lids = pose.lids[side];
-  const glm::vec3 across = eye.Turned({0, 1, 0});  // -sin, cos
+  const glm::vec3 across = eye.Turned({0, 1, 0});  // (-sin, cos) times the eye's size
   const glm::vec3 ahead = pose.eye[side][2];
   return {
       .gaze = step::TurnOf(EyeTurn(data.eyes, pose, side)),
@@ -97,7 +97,7 @@ MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
   std::vector<glm::vec3> position = data_.Start();
   StepWork work{inputs.state, inputs.strengths, {}, position, {}};
   for (const RigStep step : data_.steps) {
-    if (!ShapesSkin(step)) break;  // the others write normals, and move no lips
+    if (!ShapesSkin(step)) break;  // the later steps do not change the mouth's shape
     Take(step, data_, moved_, work);
   }
   const auto [upper, lower, left, right] = *data_.lips.measured;

@@ -16,7 +16,7 @@ std::vector<std::uint32_t> StepVertices(const RigData& data) {
 
 RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertices) {
   constexpr std::uint32_t kLeftOut = ~0u;
-  std::vector<std::uint32_t> now(data.rest.size(), kLeftOut);  // by the vertex before
+  std::vector<std::uint32_t> now(data.rest.size(), kLeftOut);  // new index by old index
   for (std::uint32_t i = 0; i < vertices.size(); ++i) now[vertices[i]] = i;
   const auto chosen = [&](const auto& all) {
     std::remove_cvref_t<decltype(all)> some;

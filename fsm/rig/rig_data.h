@@ -19,13 +19,13 @@
 
 namespace fsm {
 
-/// The hinge of the built-in heads' jaw: an axis along x.
+/// The hinge of the built-in heads' jaw: a point on an axis along x.
 inline constexpr glm::vec3 kJawHinge{0, -4, -3};
-/// The point the head turns about, in the upper neck.
+/// The point in the upper neck that the head turns about.
 inline constexpr glm::vec3 kNeckPivot{0, -85, -28};
 
-/// The rotation of an eye grows with the gaze up to `gaze_deg`, where it is `turn` (degrees; the
-/// weight of a shape where shapes turn the eyes). VRM 0.x and 1.0, "lookAt".
+/// An eye's rotation grows linearly with the gaze up to `gaze_deg`, where it is `turn` (degrees;
+/// the weight of a blend shape where shapes turn the eyes). VRM 0.x and 1.0, "lookAt".
 struct GazeRange {
   float gaze_deg = 90, turn = 10;
 };
@@ -34,91 +34,91 @@ struct GazeRanges {
 };
 
 /// The steps that compute vertices from a state; RigData::steps lists those of a head in order.
-/// Each works on the result of the steps before it. All of them rely on the arrays of RigData that
-/// are per vertex; what a step relies on beside these stands after "Needs". CheckAsset checks all
-/// of it in a head that comes from a file.
+/// Each step works on the result of the steps before it. All of them read the arrays of RigData
+/// that are per vertex; "Needs" names what a step reads beside these. CheckAsset checks these needs
+/// in a head that comes from a file.
 ///
-/// A new step is
-/// - here an enumerator, and in RigData what it knows; if that names vertices, also in
-/// OnlyVertices;
-/// - in steps.glsl what becomes of one vertex, once for the processor and graphics cards;
-/// - in rig_steps.cc its name (NameOf) and a case of Take, which goes through the vertices;
-/// - for graphics cards STEP_name in fsm/render/shaders/rig_kernels.glsl, which goes through them
+/// A new step requires
+/// - here an enumerator, and in RigData its data; if that contains vertex indices, also code in
+///   OnlyVertices;
+/// - in steps.glsl what happens to one vertex, once for the processor and graphics cards;
+/// - in rig_steps.cc its name (NameOf) and a case of Take, which loops over the vertices;
+/// - for graphics cards STEP_name in fsm/render/shaders/rig_kernels.glsl, which loops over them
 ///   there, and a case of RecordsOfSteps; render_gpu_rig_test.cc compares both;
-/// - what it needs in CheckAsset; its members in asset_members.h; the last enumerator in kValuesOf.
+/// - its needs in CheckAsset; its members in asset_members.h; the last enumerator in kValuesOf.
 enum class RigStep : std::uint8_t {
-  // These shape the skin of a head that looks ahead. They write positions only.
-  /// Units and mouth parameters displace vertices. Needs: the number of each Drive is one that its
-  /// kind has; Channel::least is not above Channel::most; moves name vertices.
+  // These steps shape the skin of a head that looks ahead. They write positions only.
+  /// Action units and mouth parameters displace vertices. Needs: the number of each Drive is valid
+  /// for its kind; Channel::least is not above Channel::most; moves name vertices.
   kChannels,
-  kLids,         ///< lids turn about the eyes, over the cornea. Needs: `lids` names vertices
-  kLidsOnBalls,  ///< what was outside an eyeball stays outside. Needs: `ball_lids` names vertices
-  kJaw,          ///< skin goes with the jaw, by its weights
-  /// The jaw opens and sways as far as JawRig::chin has gone. Needs: that is a vertex.
+  kLids,         ///< lids rotate about the eyes, over the cornea. Needs: `lids` names vertices
+  kLidsOnBalls,  ///< lid skin stays outside the eyeballs. Needs: `ball_lids` names vertices
+  kJaw,          ///< skin follows the jaw by its weights
+  /// The jaw opens and sways as far as JawRig::chin has moved. Needs: `chin` is a vertex.
   kJawByChin,
-  kTeeth,  ///< lips are held off the teeth. Needs: TeethRig::contacts names vertices
-  /// Lips that would cross meet, and close as far as they are sealed. Needs: the seam and the
-  /// followers name vertices, each follower a pair of the seam; apart_at_rest is empty or has one
-  /// element for each pair.
+  kTeeth,  ///< lips are pushed off the teeth. Needs: TeethRig::contacts names vertices
+  /// Lips that would cross meet instead, and sealed lips close. Needs: seam and followers name
+  /// vertices, each follower a pair of the seam; apart_at_rest is empty or has one element for each
+  /// pair.
   kLips,
-  kOwnForm,  ///< vertices go by ProxyForm::to_own. Needs: it is empty or per vertex
+  kOwnForm,  ///< adds ProxyForm::to_own. Needs: it is empty or per vertex
 
-  // These write normals, too, but for kSprings.
-  kTongue,  ///< the tongue finds its way between teeth and lips. Needs: the seam names vertices
-  kBones,   ///< jaw and eyes turn, with what is fixed to them
+  // These steps write normals as well, except kSprings.
+  kTongue,  ///< the tongue passes between teeth and lips. Needs: the seam names vertices
+  kBones,   ///< jaw and eyes rotate, with all that is fixed to them
   kNeck,    ///< the head turns and goes forward
-  /// What is soft swings, where a simulation says how far. Needs: the weights of SpringRig name
-  /// vertices and springs; the simulation is of the same springs.
+  /// Soft parts swing by the offsets of a simulation. Needs: the weights of SpringRig name vertices
+  /// and springs; the simulation was made from the same springs.
   kSprings,
-  /// Normals are found from the moved skin. Needs: soft_triangles are three vertices each; twin is
-  /// empty, or per vertex and names vertices.
+  /// Normals are computed from the moved skin. Needs: soft_triangles has three vertices for each
+  /// triangle; twin is empty, or per vertex and names vertices.
   kNormals
 };
 
-/// Whether a step shapes the skin, rather than what comes after: tongue, bones, neck and normals.
+/// Tells whether a step shapes the skin; the others move tongue, bones, neck and normals.
 constexpr bool ShapesSkin(RigStep step) { return step < RigStep::kTongue; }
 
-/// The jaw: its axis goes through the hinge along x.
+/// The jaw, which rotates about an axis through `hinge` along x.
 struct JawRig {
   glm::vec3 hinge = kJawHinge;
-  std::uint32_t chin = 0;  ///< the vertex that kJawByChin looks at
+  std::uint32_t chin = 0;  ///< the vertex that kJawByChin measures
 };
 
-/// What the eyes turn about, and how far.
+/// The centres of the eyes' rotation and its range.
 struct EyeRig {
   Sided<glm::vec3> pivot;
-  std::optional<GazeRanges> gaze_ranges;  ///< none: the eyes turn by the gaze angle
+  std::optional<GazeRanges> gaze_ranges;  ///< none: the eyes rotate by the gaze angles
 };
 
-/// The other head that a transferred rig was taken from. Both arrays are per vertex, and empty
-/// where the rig is the head's own.
+/// The other head that a transferred rig was taken from (its proxy). Both arrays are per vertex,
+/// and empty where the rig is the head's own.
 struct ProxyForm {
-  /// Position on the other head; the steps before kOwnForm move it there.
+  /// Rest position on the proxy, which the steps before kOwnForm start from.
   std::vector<glm::vec3> rest;
-  /// Offset from the proxy's neutral position to this head's rest.
+  /// Offset from the proxy's neutral position to this head's rest position.
   std::vector<glm::vec3> to_own;
 };
 
-/// How the skin creases, Crease by Crease.
+/// How the skin creases; arrays are in the order of Crease.
 struct CreaseRig {
-  std::optional<std::array<float, kLastingCreases>> at_rest;  ///< none: no creases are shown
-  float depth = 1;                                            ///< a factor on all of them
+  std::optional<std::array<float, kLastingCreases>> at_rest;  ///< none: creases are not shown
+  float depth = 1;                                            ///< factor on all depths
 };
 
 /// How a head moves: plain data, in the frame of HeadVertices. Members that all steps read come
-/// before those of single steps.
+/// first, then those of single steps.
 struct RigData {
-  /// First those that shape the skin (ShapesSkin), in any order, also several times. Then the
-  /// others in the order of RigStep, each at most once. At most kMostSteps.
+  /// First the steps that shape the skin (ShapesSkin), in any order and any number of times; then
+  /// the others in the order of RigStep, each at most once. At most kMostSteps.
   std::vector<RigStep> steps;
   static constexpr std::size_t kMostSteps = 32;
   std::vector<glm::vec3> rest, rest_normal;  ///< per vertex
   std::vector<Bone> bone;                    ///< per vertex
   std::vector<SkinWeights> weights;          ///< per vertex
-  UnitTable units;  ///< how units combine, and what they do beside displacing skin
-  std::optional<int> asymmetry_seed;  ///< of UnitTable::MakeAsymmetric; none: both sides alike
-  /// Whether the displacements of units follow from `units` and `weights` (UnitChannels); else
-  /// they are the head's own.
+  UnitTable units;  ///< how action units combine, and their effects other than displacing skin
+  std::optional<int> asymmetry_seed;  ///< for UnitTable::MakeAsymmetric; none: both sides alike
+  /// Whether UnitChannels computes the displacements of the action units from `units` and
+  /// `weights`; otherwise they are the head's own.
   bool units_by_place = false;
   CreaseRig creases;
 
@@ -133,17 +133,17 @@ struct RigData {
   SpringRig swing;
   NormalRig normals;
 
-  /// The positions that the steps start from.
+  /// Returns the positions that the steps start from.
   const std::vector<glm::vec3>& Start() const { return proxy.rest.empty() ? rest : proxy.rest; }
 };
 
-/// The rig of some of the vertices, in the order of `vertices`, which holds those that steps look
-/// at (StepVertices). Normals of soft triangles are left at rest.
+/// Returns the rig of some of the vertices, in the order of `vertices`, which must include
+/// StepVertices. No normals are computed (NormalRig is empty).
 RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertices);
-/// The vertices by whose places the steps find those of others: where lips meet, the chin.
+/// Returns the vertices from which steps derive the positions of others: the lip seam and the chin.
 std::vector<std::uint32_t> StepVertices(const RigData& data);
 
-/// The rig of vertices that stay where they are.
+/// Returns a rig whose vertices never move.
 RigData MakeStillRig(std::vector<glm::vec3> position, std::vector<glm::vec3> normal);
 
 }  // namespace fsm

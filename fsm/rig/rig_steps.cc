@@ -6,7 +6,7 @@
 namespace fsm {
 namespace {
 
-// Each function goes through the vertices of a step; what becomes of one stands in steps.glsl.
+// Each function loops over the vertices of a step; steps.glsl says what happens to one of them.
 
 void AddChannels(const std::vector<Channel>& channels, StepWork& work) {
   for (std::size_t k = 0; k < channels.size(); ++k) {
@@ -62,12 +62,12 @@ void AddOwnForm(std::span<const glm::vec3> to_own, StepWork& work) {
   for (std::size_t i = 0; i < to_own.size(); ++i) work.position[i] += to_own[i];
 }
 
-/// The places of a pair of lips, or of what lies between two.
+/// The positions of a pair of lip vertices, or of a point interpolated between two pairs.
 struct Lips {
   glm::vec3 upper, lower;
 };
 
-/// The lips at `x`, between the pairs of the seam, which go from -x to +x.
+/// Interpolates the lips at `x` between the pairs of the seam, which go from -x to +x.
 Lips LipsAt(float x, const LipRig& rig, std::span<const glm::vec3> position) {
   const auto pair = [&](auto at) { return Lips{position[at->first], position[at->second]}; };
   const auto right = std::ranges::lower_bound(
@@ -85,7 +85,7 @@ void MoveTongue(const RigData& data, std::span<const std::uint32_t> tongue, Step
   for (const auto& [upper, lower] : data.lips.seam)
     path = step::LipsOnPath(path, work.position[upper], work.position[lower]);
   const float out_mm = step::ComesOut(path, mouth);
-  const float through = SmoothStep(0, step::kTongueOut, out_mm);  // rather than within the mouth
+  const float through = SmoothStep(0, step::kTongueOut, out_mm);  // 0 = within the mouth, 1 = out
   for (const std::uint32_t i : tongue) {
     const glm::vec3 rest = data.rest[i];
     work.normal[i] = step::NormalWithJaw(mouth.jaw, rest, data.rest_normal[i]);

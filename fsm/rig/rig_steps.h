@@ -11,28 +11,28 @@
 
 namespace fsm {
 
-/// Which vertices the jaw, a bone, the tongue and the step kNormals move: found once from a rig.
+/// Vertex lists of the steps jaw, bones, tongue and kNormals, found once for a rig.
 struct MovedVertices {
   explicit MovedVertices(const RigData& data);
   std::vector<std::uint32_t> jawed, rigid, tongue, soft;
 };
 
-/// What the steps read and write while they make vertices of one state.
+/// What the steps read and write while they compute the vertices of one state.
 struct StepWork {
   step::StepState state;
-  std::span<const float> strengths;  ///< of each channel
+  std::span<const float> strengths;  ///< by channel
   std::span<const glm::vec3> swings;
   std::span<glm::vec3> position;
-  std::span<glm::vec3> normal;  ///< empty where only steps that shape the skin are taken
+  std::span<glm::vec3> normal;  ///< empty if only steps that shape the skin are taken
 };
 
 /// Takes one step on the processor.
 void Take(RigStep step, const RigData& data, const MovedVertices& moved, StepWork& work);
 
-/// The name of a step, as `fsm --describe` shows it and as rig_kernels.glsl has it after STEP_.
+/// Returns the step's name, as `fsm --describe` shows it and rig_kernels.glsl has it after STEP_.
 std::string_view NameOf(RigStep step);
 
-/// Whether the jaw carries a vertex as skin.
+/// Tells whether a vertex is skin that the jaw moves.
 inline bool MovesWithJaw(const RigData& data, std::uint32_t vertex) {
   return data.bone[vertex] == Bone::kSkin && data.weights[vertex].jaw > 0.001F;
 }

@@ -17,10 +17,10 @@ std::int64_t StepAt(Simulation::Time t) {
   return t.count() * Simulation::kStepsPerSecond / 1'000'000;
 }
 
-/// How the head carries things in one state.
+/// How the head carries a spring's points in one state.
 struct Carrier {
   explicit Carrier(const FaceState& state) : turn(HeadTurn(state)), by(HeadForward(state)) {
-    // `upright` is the part of the turn about the vertical axis.
+    // `upright` is the rotation's component about the vertical axis (yaw).
     const glm::vec3 ahead = turn[2];
     const float length = std::hypot(ahead.x, ahead.z);
     const float c = length > 1e-3f ? ahead.z / length : 1,
@@ -30,7 +30,7 @@ struct Carrier {
   glm::vec3 Carried(glm::vec3 p) const {
     return kNeckPivot + turn * (p - kNeckPivot) + glm::vec3(0, 0, by);
   }
-  /// Where the spring would come to rest, from where the head carries it.
+  /// Returns the offset of a spring's equilibrium from the place where the head carries it.
   glm::vec3 Hanging(const Spring& spring) const {
     const glm::vec3 below = spring.rest - spring.root;
     return spring.hang * (upright * below - turn * below);
@@ -104,7 +104,7 @@ void Simulation::FindOffsets(const FaceState& state, float ahead_s) {
     glm::vec3 offset = carrier.Hanging(spring) + away;
     const glm::vec3 outward = carrier.turn * spring.outward;
     offset -= std::min(glm::dot(offset, outward), 0.0f) * outward;
-    // The nearer to its limit, the less an offset grows.
+    // An offset saturates: the closer to its limit, the less it grows.
     const float length = glm::length(offset);
     offsets_[i] = offset * (spring.most_mm / std::hypot(spring.most_mm, length));
   }

@@ -13,13 +13,13 @@
 
 namespace fsm {
 
-/// The stage of the rig that remembers: what springs have done up to now, in steps of fixed length
-/// that stand on a grid of the clock. So the same course of states gives the same offsets, however
-/// often and when they are asked for. Rig::Evaluate lays them on a state.
+/// The part of the rig that has a memory: the motion of springs, integrated in steps of fixed
+/// length on a fixed grid of time. The same course of states therefore gives the same offsets,
+/// however often and when they are asked for. Rig::Evaluate adds the offsets to a state.
 ///
 /// Each spring follows x'' = w^2 (goal - x) - 2 d w (x' - goal'), w = 2 pi frequency, d = damping:
 /// a damped oscillator (Meirovitch, Fundamentals of Vibrations, 2001, section 3.2) about a goal
-/// that moves evenly within a step, for which each step is exact and no length of it unstable.
+/// that moves uniformly within a step. Steps are exact solutions, hence stable at any length.
 ///
 /// Thread: one at a time.
 class Simulation {
@@ -27,28 +27,28 @@ class Simulation {
   using Time = std::chrono::microseconds;
   using StateAt = std::function<FaceState(Time)>;
   static constexpr int kStepsPerSecond = 120;
-  /// What lies further back counts as still: after a longer pause the steps begin anew there.
+  /// Motion further back is ignored: after a longer pause the integration restarts from stillness.
   static constexpr Time kMemory = std::chrono::seconds(3);
 
   explicit Simulation(std::vector<Spring> springs);
 
-  /// Takes the steps up to `now`. `state_at` is asked for times from kMemory before `now` on, not
-  /// below 0. A `now` before that of the last call begins anew.
+  /// Integrates up to `now`. `state_at` is called for times from `now` - kMemory on, never below 0.
+  /// A `now` before that of the last call restarts the simulation.
   void RunTo(Time now, const StateAt& state_at);
-  /// How far each spring is from where the head carries it, millimetres. None before the
-  /// first RunTo.
+  /// Returns how far each spring is from where the head carries it, in millimetres. Empty before
+  /// the first RunTo.
   std::span<const glm::vec3> offsets() const { return offsets_; }
-  /// Whether nothing swings so far that it would be seen.
+  /// Tells whether no spring swings visibly.
   bool Still() const;
 
  private:
-  /// One step of one spring: its distance from the goal and its speed become
+  /// The exact propagator of one spring over one step: offset from the goal and speed become
   /// {a * away + b * speed, c * away + d * speed}.
   struct Step {
     float a, b, c, d;
   };
   struct Swing {
-    glm::vec3 away{0}, speed{0};  // from the goal; millimetres, and per second
+    glm::vec3 away{0}, speed{0};  // relative to the goal; millimetres and mm/s
     glm::vec3 goal{0}, goal_speed{0};
   };
   static Step StepOf(const Spring& spring, float seconds);
@@ -60,7 +60,7 @@ class Simulation {
   std::vector<Step> steps_;
   std::vector<Swing> swings_;
   std::vector<glm::vec3> offsets_;
-  std::optional<std::int64_t> taken_;  // number of the last step, at taken_ / kStepsPerSecond
+  std::optional<std::int64_t> taken_;  // number of the last step; its time: / kStepsPerSecond
 };
 
 }  // namespace fsm

@@ -8,11 +8,11 @@
 
 namespace fsm {
 
-/// What carries a vertex. Skin follows the action units, the mouth, the lids and the jaw; the
-/// others move as rigid bodies (the tongue bends a little).
+/// What carries a vertex. Skin follows action units, mouth, lids and jaw; the others move as rigid
+/// bodies (the tongue bends a little).
 enum class Bone : std::uint8_t { kSkin, kSkull, kJaw, kTongue, kEyeLeft, kEyeRight };
 
-/// The eye that a bone is, if it is one, and the bone of an eye.
+/// EyeOf returns the side of an eye's bone, or nothing for other bones; BoneOf is its inverse.
 constexpr std::optional<Side> EyeOf(Bone bone) {
   if (bone == Bone::kEyeRight) return Side::kRight;
   if (bone == Bone::kEyeLeft) return Side::kLeft;
@@ -20,14 +20,14 @@ constexpr std::optional<Side> EyeOf(Bone bone) {
 }
 constexpr Bone BoneOf(Side eye) { return eye == Side::kRight ? Bone::kEyeRight : Bone::kEyeLeft; }
 
-/// How a vertex of skin takes part in the motions; all weights 0..1.
+/// How much a skin vertex takes part in each motion; all weights are 0..1.
 struct SkinWeights {
-  glm::vec2 domain{};        ///< where on the face: nearly (x, y) at rest
+  glm::vec2 domain{};        ///< position on the face in millimetres: nearly (x, y) at rest
   float above_mouth = 0.5f;  ///< 1 = moves with the upper lip's side, 0 = with the lower's
   float jaw = 0;
-  float neck = 1;  ///< part of the head's turn it makes
-  /// How free it is of what holds it: the part of the action units' motion that skin takes (lid
-  /// rims take none), and of the tongue's bending (its root takes none).
+  float neck = 1;  ///< the vertex's part of the head's rotation
+  /// How free the vertex is of what holds it: the part of the action units' displacement that skin
+  /// takes (0 at lid margins), and of the tongue's bending (0 at its root).
   float free = 1;
 };
 

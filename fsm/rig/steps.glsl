@@ -1,31 +1,30 @@
-// The arithmetic of the steps of a rig (RigStep in fsm/rig/rig_data.h), written once in what C++ and
-// GLSL have in common: fsm/rig/steps.h compiles it for the processor, gpu_rig.cc puts it before
-// render/shaders/rig_kernels.glsl for a graphics card. FUNCTION is "inline" in C++ and nothing in
-// GLSL. Members of structs have 32 bits each, so that they lie alike in memory (std430).
-// Lengths are millimetres and angles radians where nothing else is said.
+// The arithmetic of the steps of a rig (RigStep in fsm/rig/rig_data.h), written once in the common subset of C++ and
+// GLSL: fsm/rig/steps.h compiles it for the processor, gpu_rig.cc prepends it to render/shaders/rig_kernels.glsl for
+// a graphics card. FUNCTION is "inline" in C++ and empty in GLSL. Members of structs have 32 bits each, so that both
+// lay them out alike (std430). Lengths are in millimetres and angles in radians unless stated otherwise.
 
-const float kCorneaRadius = 8.0f;  // outer
-const float kLidRadius = 13.35f;   // turns millimetres at a lid's edge into an angle
-const float kLidThickness = 0.35f;  // of a lid over the cornea
-const float kMostOpen = 0.5f;       // of a jaw that follows the chin
-// How much of a push by the teeth counts, by the height over their edge: none, all.
+const float kCorneaRadius = 8.0f;  // of the outer surface
+const float kLidRadius = 13.35f;   // converts millimetres at a lid's edge to an angle
+const float kLidThickness = 0.35f;  // where the lid covers the cornea
+const float kMostOpen = 0.5f;       // limit for a jaw that follows the chin
+// A push by the teeth fades with the height from their edge towards the root: 0 below the first, 1 above the second.
 const float kPastTeeth = -2.2f, kBesideTeeth = 0.2f;
-// How far a row of teeth curves back, by the square and the fourth power of the place along it.
+// Coefficients of the parabola and the quartic by which a row of teeth curves back.
 const float kArchSquare = 0.45f, kArchFourth = 0.55f;
 
-const float kTongueRaise = 13.0f;  // of the tip
-const float kTongueOffJaw = 0.8f;  // a raised tip stays when the jaw drops
-const float kTongueNoRoom = 2.5f, kTongueRoom = 5.5f;  // between teeth and lips
-const float kTongueSkin = 0.6f;     // kept between the tongue and what it touches
-const float kTongueEdges = 0.9f;    // teeth are not all of one height
-const float kBehindTeeth = 3.5f;    // of the arch, which is their outer face
-const float kTongueOut = 1.5f;      // put out this far it goes over the teeth
+const float kTongueRaise = 13.0f;  // height of the raised tip
+const float kTongueOffJaw = 0.8f;  // fraction of the jaw's rotation that a raised tip resists
+const float kTongueNoRoom = 2.5f, kTongueRoom = 5.5f;  // least and full height of its way out
+const float kTongueSkin = 0.6f;     // clearance between the tongue and what it touches
+const float kTongueEdges = 0.9f;    // clearance for teeth of unequal height
+const float kBehindTeeth = 3.5f;    // distance behind the dental arch, which is the teeth's outer face
+const float kTongueOut = 1.5f;      // from this protrusion on the tongue goes over the teeth
 const float kTongueWidest = 17.0f;  // half its width at rest
-const float kTongueInArch = 11.0f;  // and what goes through between the canines
-const float kTongueInLips = 0.35f;  // of the width between the lips, half the tongue's
-// It is made narrow enough for the lips this far behind the front teeth: not at all, wholly.
+const float kTongueInArch = 11.0f;  // half the width that fits between the canines
+const float kTongueInLips = 0.35f;  // half the tongue's width as a fraction of the width between the lips
+// The tongue narrows to fit the lips over this range behind the front teeth: from not at all to fully.
 const float kTongueWide = 16.0f, kTongueNarrow = 5.0f;
-// Teeth and lips hold it this far before and behind them: not at all, wholly.
+// Teeth and lips hold the tongue over this range before and behind them: from not at all to fully.
 const float kTongueFree = 15.0f, kTongueHeld = 9.0f;
 
 struct Point {
@@ -34,13 +33,13 @@ struct Point {
 FUNCTION vec3 Vec(Point p) { return vec3(p.x, p.y, p.z); }
 FUNCTION Point PointAt(vec3 p) { return Point(p.x, p.y, p.z); }
 
-// A rotation: where it takes the three axes.
+// A rotation: the images of the three axes (columns of its matrix).
 struct Turn {
   Point x, y, z;
 };
 FUNCTION vec3 Turned(Turn turn, vec3 p) { return Vec(turn.x) * p.x + Vec(turn.y) * p.y + Vec(turn.z) * p.z; }
 
-// ---- The jaw: it turns about a hinge along x, slides forward and sways to the viewer's right.
+// ---- The jaw rotates about a hinge along x, slides forward and sways to the viewer's right.
 
 struct Jaw {
   float open, slide, sway;
@@ -52,8 +51,8 @@ FUNCTION Jaw JawAt(float open, float slide, float sway, float hinge_y, float hin
   return Jaw(open, slide, sway, cos(open), sin(open), hinge_y, hinge_z);
 }
 
-// Where a point goes that takes part in the jaw's motion by `weight`. Sideways the jaw takes more of
-// the lips along: corners 5 and upper lip 1.6 mm of a chin's 8.6.
+// Moves a point with the jaw by `weight`. Sideways the jaw takes more of the lips along (sqrt): mouth corners move
+// 5 mm and the upper lip 1.6 mm when the chin moves 8.6 mm.
 FUNCTION vec3 WithJaw(Jaw jaw, vec3 p, float weight) {
   float angle = jaw.open * weight;
   float c = weight == 1.0f ? jaw.cosine : cos(angle);
@@ -64,7 +63,7 @@ FUNCTION vec3 WithJaw(Jaw jaw, vec3 p, float weight) {
   return vec3(p.x + sway, jaw.hinge_y + y * c - z * s, jaw.hinge_z + z * c + y * s + weight * jaw.slide);
 }
 
-// Where a point would lie in the jaw at rest.
+// Maps a point into the frame of the jaw at rest: the inverse of WithJaw with weight 1.
 FUNCTION vec3 IntoJaw(Jaw jaw, vec3 p) {
   float y = p.y - jaw.hinge_y;
   float z = p.z - jaw.hinge_z - jaw.slide;
@@ -72,12 +71,12 @@ FUNCTION vec3 IntoJaw(Jaw jaw, vec3 p) {
               jaw.hinge_z + z * jaw.cosine - y * jaw.sine);
 }
 
-// The normal at `p` of what is fixed to the jaw.
+// Rotates the normal at `p` of a part that is fixed to the jaw.
 FUNCTION vec3 NormalWithJaw(Jaw jaw, vec3 p, vec3 normal) {
   return normalize(WithJaw(jaw, p + normal, 1.0f) - WithJaw(jaw, p, 1.0f));
 }
 
-// The jaw as far open as the chin has gone, from `before` to `after`.
+// Returns the jaw opened as far as the chin has moved, from `before` to `after`.
 FUNCTION Jaw JawByChin(Jaw jaw, vec3 before, vec3 after) {
   float was = atan(jaw.hinge_y - before.y, before.z - jaw.hinge_z);
   float now = atan(jaw.hinge_y - after.y, after.z - jaw.hinge_z);
@@ -86,30 +85,29 @@ FUNCTION Jaw JawByChin(Jaw jaw, vec3 before, vec3 after) {
 
 // ---- Lids and eyes.
 
-// What a vertex of the lids is to them: a place in the frame of the eye before its EyeTransform;
-// angles up from straight ahead.
+// A lid's vertex in the frame of the eye before its EyeTransform. Angles are upward from straight ahead.
 struct LidPoint {
-  float upper, lower;              // part in each lid's turn, 0..1
-  float upper_angle, lower_angle;  // of the rims at rest
+  float upper, lower;              // part in each lid's rotation, 0..1
+  float upper_angle, lower_angle;  // of the lid margins at rest
   float meet_angle;                // where the closed lids meet
-  float opening;                   // how far the lids stand apart here, of the widest place
-  float y, z;                      // at rest from the axis of the lids
+  float opening;                   // height of the eye's opening here as a fraction of the widest
+  float y, z;                      // at rest, from the axis of the lids
 };
 
 struct Eye {
-  Turn gaze;         // of the eyeball, about `pivot`
+  Turn gaze;         // rotation of the eyeball, about `pivot`
   Point pivot;
-  Point ball;        // the centre of the ball that lids stay outside of
-  Point cornea;      // its centre
-  float size;        // the eye's, of the table's
-  float tilt_cosine, tilt_sine;  // of the eye in the face, about the line of sight, times `size`
-  float upper_open, lower_open;  // how far the rims stand above those of the table
+  Point ball;        // centre of the ball that lids stay outside of
+  Point cornea;      // centre of its sphere
+  float size;        // relative to the table's eye
+  float tilt_cosine, tilt_sine;  // of the eye's roll in the face, times `size`
+  float upper_open, lower_open;  // how far the margins stand above those of the table
   float lower_raised;
   float close;       // 0 = not at all, 1 = the lids meet
 };
 
-// The angle by which a vertex turns about the axis of the lids. A lower lid that is raised goes up
-// nearly as far beside the middle, so that it stays a curve.
+// Returns the angle by which a vertex rotates about the axis of the lids. A raised lower lid goes up nearly as far
+// beside the middle (sqrt), so that it stays a curve.
 FUNCTION float LidTurn(LidPoint lid, Eye eye) {
   float upper = lid.upper_angle + lid.opening * eye.upper_open / kLidRadius;
   float raised = eye.lower_raised * (eye.lower_raised > 0.0f ? sqrt(lid.opening) : lid.opening);
@@ -129,7 +127,7 @@ FUNCTION vec3 WithLids(LidPoint lid, Eye eye, vec3 p) {
   return p + vec3(-eye.tilt_sine * y, eye.tilt_cosine * y, eye.size * (lid.z * c - lid.y * s - lid.z));
 }
 
-// A point pushed out of a ball. What is near the centre is not of the lid, and stays.
+// Pushes a point out of a ball. A point within 1 mm of the centre is not of the lid and stays.
 FUNCTION vec3 OutOfBall(vec3 centre, float radius, vec3 p) {
   vec3 off = p - centre;
   float distance = length(off);
@@ -140,21 +138,21 @@ FUNCTION vec3 WithGaze(Eye eye, vec3 p) {
   return Vec(eye.pivot) + Turned(eye.gaze, p - Vec(eye.pivot));
 }
 
-// The cornea bulges the lid it rolls under.
+// The cornea bulges the lid that it moves under.
 FUNCTION vec3 OverCornea(Eye eye, vec3 p) {
   return OutOfBall(Vec(eye.cornea), eye.size * (kCorneaRadius + kLidThickness), p);
 }
 
 // ---- Teeth.
 
-// One row of teeth: the outer faces lie on a parabola, flattened in front by a part of fourth order
-// (dental arches are nearer to a U than to a V).
+// One row of teeth: the outer faces lie on a parabola, flattened in front by a quartic term (dental arches are nearer
+// to a U than to a V).
 struct ToothArch {
   float front_z, depth, half_width;
-  float edge_y;  // of the middle incisors
-  float root_y;  // where the gum ends
+  float edge_y;  // height of the central incisors' edges
+  float root_y;  // height where the gum begins
   float middle_x;
-  float turn;    // forward for each millimetre to the left
+  float turn;    // forward slope per millimetre to the left
 };
 
 FUNCTION float ArchZ(ToothArch arch, float x) {
@@ -163,7 +161,7 @@ FUNCTION float ArchZ(ToothArch arch, float x) {
   return arch.front_z + arch.turn * off - arch.depth * t * (kArchSquare + kArchFourth * t);
 }
 
-// How much of a push counts, by height: all beside the crowns, fading past the edge.
+// Returns the fraction of a push at height y: 1 beside the crowns, fading out past the edge.
 FUNCTION float BesideCrowns(ToothArch arch, float y) {
   float down = arch.root_y > arch.edge_y ? 1.0f : -1.0f;
   return SmoothStep(kPastTeeth, kBesideTeeth, down * (y - arch.edge_y));
@@ -177,7 +175,7 @@ struct Mouth {
   float tongue_out;
 };
 
-// A point of the lips held off the teeth: by these gaps at least off either arch.
+// Pushes a point of the lips off both rows of teeth, to these distances at least.
 FUNCTION vec3 OffTeeth(Mouth mouth, vec3 p, float upper_gap, float lower_gap) {
   float upper = ArchZ(mouth.upper, p.x) + upper_gap - p.z;
   if (upper > 0.0f) p.z += upper * BesideCrowns(mouth.upper, p.y);
@@ -188,7 +186,7 @@ FUNCTION vec3 OffTeeth(Mouth mouth, vec3 p, float upper_gap, float lower_gap) {
   return WithJaw(mouth.jaw, q, 1.0f);
 }
 
-// ---- Lips: by how much a pair that meets in a closed mouth is too far apart, or has crossed.
+// ---- Lips: the correction of a pair of vertices that is too far apart while sealed, or has crossed.
 
 FUNCTION vec3 LipGap(float seal, vec3 upper, vec3 lower, vec3 apart_at_rest) {
   vec3 apart = upper - lower - apart_at_rest;
@@ -197,16 +195,16 @@ FUNCTION vec3 LipGap(float seal, vec3 upper, vec3 lower, vec3 apart_at_rest) {
   return gap;
 }
 
-// ---- The tongue. It is soft and takes the form of what it goes through: between the edges of the
-// teeth, then between the lips. Where there is no room it stays behind the teeth.
+// ---- The tongue is soft and adapts to what it passes: the edges of the teeth, then the lips. Where there is no room
+// it stays behind the teeth.
 
 struct TonguePath {
   float teeth_low, teeth_high, front_z;
-  float room;                // between lips and teeth, at the widest place
-  float open_from, open_to;  // the open part of the lips, by x
+  float room;                // greatest free height between lips and teeth
+  float open_from, open_to;  // x range where the lips are open
 };
 
-// The way of the tongue past the teeth; LipsOnPath adds each pair of the lips that meet.
+// Returns the tongue's path past the teeth; LipsOnPath then adds each pair of lip vertices.
 FUNCTION TonguePath PathPastTeeth(Mouth mouth) {
   vec3 edge = WithJaw(mouth.jaw, vec3(0.0f, mouth.lower.edge_y, mouth.lower.front_z), 1.0f);
   return TonguePath(edge.y, mouth.upper.edge_y, max(mouth.upper.front_z, edge.z), 0.0f, 0.0f, 0.0f);
@@ -220,20 +218,20 @@ FUNCTION TonguePath LipsOnPath(TonguePath path, vec3 upper, vec3 lower) {
   return path;
 }
 
-// How far a tongue comes out that is asked to: by how far the mouth is open.
+// Returns how far the tongue comes out: the protrusion asked for, limited by the mouth's opening.
 FUNCTION float ComesOut(TonguePath path, Mouth mouth) {
   float room = min(path.room, path.teeth_high - path.teeth_low);
   return mouth.tongue_out * SmoothStep(kTongueNoRoom, kTongueRoom, room);
 }
 
-// A place of the tongue raised, put out by `out_mm` and moved with the jaw. `tip`: 0 = root, 1 = tip.
+// Moves a point of the tongue: raised, put out by `out_mm`, then with the jaw. `tip`: 0 = root, 1 = tip.
 FUNCTION vec3 RaisedTongue(Mouth mouth, float out_mm, vec3 p, float tip) {
   p.z += out_mm * tip;
   p.y += mouth.tongue_raise * kTongueRaise * tip * tip;
   return WithJaw(mouth.jaw, p, 1.0f - kTongueOffJaw * mouth.tongue_raise * tip);
 }
 
-// The front face of the lower teeth beside a place of the tongue.
+// Returns z of the lower teeth's front face beside a point of the tongue.
 FUNCTION float LowerTeethZ(Mouth mouth, float x) {
   x -= mouth.jaw.sway;
   return WithJaw(mouth.jaw, vec3(x, mouth.lower.edge_y, ArchZ(mouth.lower, x)), 1.0f).z;
@@ -244,7 +242,7 @@ FUNCTION vec3 BehindTeeth(Mouth mouth, vec3 p) {
   return vec3(p.x, p.y, min(p.z, teeth_z - kBehindTeeth));
 }
 
-// A place narrowed to what fits between canines and lips.
+// Narrows the tongue at a point to the width that fits between canines and lips.
 FUNCTION vec3 NarrowTongue(TonguePath path, vec3 p) {
   float middle_x = 0.5f * (path.open_from + path.open_to);
   float width = min(kTongueInArch, kTongueInLips * (path.open_to - path.open_from)) / kTongueWidest;
@@ -253,15 +251,15 @@ FUNCTION vec3 NarrowTongue(TonguePath path, vec3 p) {
   return p;
 }
 
-// How firmly what lies at `z` holds the tongue at `tongue_z`, a little before and behind it, too, as
-// its surface is made of triangles.
+// Returns how firmly an obstacle at `z` holds the tongue at `tongue_z`, 0..1. It also acts a little before and behind
+// it, since the surface consists of triangles.
 FUNCTION float Held(float tongue_z, float z) {
   return SmoothStep(z - kTongueFree, z - kTongueHeld, tongue_z) *
          SmoothStep(z + kTongueFree, z + kTongueHeld, tongue_z);
 }
 
-// A place of the narrowed tongue over the lower teeth and lip and under the upper ones; `high` and
-// `low` are the lips at its x. Lips come last: they are seen. `lower_z`: LowerTeethZ before it was narrowed.
+// Keeps a point of the narrowed tongue above the lower teeth and lip and below the upper ones; `high` and `low` are
+// the lips at its x. Lips come last, since they are visible. `lower_z`: LowerTeethZ before narrowing.
 FUNCTION vec3 BetweenLips(TonguePath path, Mouth mouth, vec3 p, float lower_z, vec3 high, vec3 low) {
   p.y += Held(p.z, lower_z) * max(0.0f, path.teeth_low + kTongueEdges - p.y);
   p.y += Held(p.z, ArchZ(mouth.upper, p.x)) * min(0.0f, path.teeth_high - kTongueEdges - p.y);
@@ -285,7 +283,7 @@ FUNCTION vec3 WithNeck(Neck neck, vec3 p, float weight) {
   return p + weight * (turned - p);
 }
 
-// ---- All that the steps read of one state.
+// ---- All values that the steps read of one state.
 
 struct StepState {
   Mouth mouth;
@@ -295,16 +293,16 @@ struct StepState {
 
 // ---- Normals of skin.
 
-// Of a triangle, as long as its area is large.
+// Returns the normal of a triangle; its length is twice the area.
 FUNCTION vec3 TriangleNormal(vec3 a, vec3 b, vec3 c) { return cross(b - a, c - a); }
 FUNCTION vec3 UnitNormal(vec3 sum) {
   float squared = dot(sum, sum);
   return squared > 1e-12f ? sum / sqrt(squared) : vec3(0.0f, 0.0f, 1.0f);
 }
 
-// ---- What a graphics card is told of vertices (fsm/render/rig_records.h packs it).
+// ---- Records of vertices for a graphics card (fsm/render/rig_records.h packs them).
 
-// Of a vertex with a list of entries: from `from` to before `to`.
+// A vertex with a list of entries, from index `from` up to but excluding `to`.
 struct ListRecord {
   uint vertex, from, to;
 };
@@ -354,7 +352,7 @@ struct SeamEntry {
 };
 const uint kJawBone = 2u;
 struct BoneRecord {
-  uint vertex, bone;  // the Side of an eye, or kJawBone
+  uint vertex, bone;  // bone: the Side of an eye, or kJawBone
 };
 struct NeckRecord {
   float weight;

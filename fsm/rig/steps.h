@@ -10,7 +10,7 @@
 
 #include "fsm/base/smooth_step.h"
 
-/// The arithmetic of the steps: steps.glsl, which a graphics card compiles, too.
+/// Compiles steps.glsl, the arithmetic of the steps, for the processor.
 namespace fsm::step {
 
 using glm::atan, glm::clamp, glm::cos, glm::cross, glm::dot, glm::length, glm::max, glm::min,

@@ -7,11 +7,11 @@
 
 namespace fsm {
 
-/// Lips that are held off the teeth.
+/// Lips that are pushed off the teeth.
 struct TeethRig {
   struct Contact {
     std::uint32_t vertex;
-    float upper_gap, lower_gap;  ///< least distances from either arch, by the distance at rest
+    float upper_gap, lower_gap;  ///< least distances from either arch, from those at rest
   };
   ToothArch upper{}, lower{};
   std::vector<Contact> contacts;

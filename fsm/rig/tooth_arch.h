@@ -6,11 +6,11 @@
 
 namespace fsm {
 
-/// Where teeth and tongue lie in a face, from the base head's places: moved, and turned towards a
-/// side so far as its lips are, which for so small an angle is a shear.
+/// Moves teeth and tongue from their place in the base head to that in a face: a shift, and a
+/// rotation towards a side as of the face's lips, which a shear replaces at so small an angle.
 struct TeethTransform {
   glm::vec3 shift{0};
-  float slope = 0;  ///< forward for each millimetre to the left
+  float slope = 0;  ///< forward, per millimetre to the left
   glm::vec3 operator()(glm::vec3 p) const { return p + shift + glm::vec3(0, 0, slope * p.x); }
 };
 
@@ -25,7 +25,7 @@ inline ToothArch Moved(ToothArch arch, const TeethTransform& to) {
   return arch;
 }
 
-/// How steeply step::ArchZ falls back at `x`, outwards.
+/// Returns how steeply the arch (step::ArchZ) falls back at `x`, per millimetre outward.
 inline float ArchSlope(const ToothArch& arch, float x) {
   const float off = x - arch.middle_x;
   const float t = (off / arch.half_width) * (off / arch.half_width);

@@ -48,8 +48,8 @@ UnitTable::Field ReadField(const TableRow& row) {
   return field;
 }
 
-/// Rows of effects, by UnitTable::Effect::Kind: their first word, and how far the one or two
-/// numbers behind the unit may be from 0.
+/// A kind of row that gives an effect, in the order of UnitTable::Effect::Kind: its key word, and
+/// the limits on the absolute values of the one or two numbers after the unit.
 struct EffectRow {
   std::string_view key;
   float most_first, most_second = 0;
@@ -57,8 +57,8 @@ struct EffectRow {
 constexpr std::array<EffectRow, 6> kEffectRows{
     {{"lid", 20, 20}, {"close", 1}, {"jaw", 60, 30}, {"sway", 30}, {"seal", 1}, {"tongue", 1, 60}}};
 
-/// Rows of rules, by UnitTable::Rule::Kind: their first word, and whether a part stands behind the
-/// two units.
+/// A kind of row that gives a rule, in the order of UnitTable::Rule::Kind: its key word, and
+/// whether a number (Rule::part) follows the two units.
 struct RuleRow {
   std::string_view key;
   bool has_part = false;
@@ -160,7 +160,7 @@ Sided<UnitValues> UnitTable::Combine(const FaceState& state) const {
   }
   for (UnitValues* const side : {&units.right, &units.left}) {
     UnitValues& acting = *side;
-    const auto before = acting;  // rules look at what was asked, so their order does not matter
+    const auto before = acting;  // rules read what was asked, so their order does not matter
     for (const Rule& rule : rules_) {
       const float a = before[At(rule.a)];
       const float b = before[At(rule.b)];
@@ -219,11 +219,11 @@ UnitEffects UnitTable::Effects(const Sided<UnitValues>& units) const {
 glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& weights, Side side) {
   const float x = SignOf(side) * weights.domain.x;
   if (std::abs(weights.domain.y - field.at.y) >= field.radius.y) return glm::vec3(0);
-  // Both sides act at the median, half each, so that left and right together make the whole.
+  // Both sides act at the median, half each, so that left and right add up to the whole.
   const float own_side = SmoothStep(-7, 7, x);
   if (own_side <= 0) return glm::vec3(0);
   float weight = 0;
-  // A field that reaches over the median meets its mirror image there: the stronger counts.
+  // A field that reaches over the median overlaps its mirror image; the stronger one counts.
   for (const float image : {1.0f, -1.0f}) {
     const float dx = (x - image * field.at.x) / field.radius.x;
     const float dy = (weights.domain.y - field.at.y) / field.radius.y;
@@ -235,14 +235,14 @@ glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& weights, Side
   if (field.lip == Lip::kLower) weight *= 1 - weights.above_mouth;
   weight *= own_side * weights.free;
   glm::vec3 by = field.by;
-  // The sideways part turns over smoothly at the median instead of tearing it.
+  // The sideways component changes sign smoothly at the median, so that the skin does not tear.
   by.x *= std::clamp(x / 4, -1.0f, 1.0f) * SignOf(side);
   return weight * by;
 }
 
 Creases CreaseDepths(const Sided<UnitValues>& units,
                      const std::array<float, kLastingCreases>& at_rest) {
-  /// How deep a unit at full strength makes a crease. Ours, by eye.
+  /// How much depth a unit at full strength adds to a crease. The numbers are ours, judged by eye.
   struct Share {
     Crease crease;
     ActionUnit unit;

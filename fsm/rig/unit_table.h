@@ -12,7 +12,7 @@
 
 namespace fsm {
 
-/// What the active units do, in sum, beside moving skin.
+/// The summed effects of the active units other than displacing skin.
 struct UnitEffects {
   struct Lids {
     float upper_mm = 0, lower_mm = 0, close = 0;
@@ -23,38 +23,38 @@ struct UnitEffects {
   float tongue_raise = 0, tongue_out_mm = 0;
 };
 
-/// The table of action units: knowledge only, no vertices. Immutable.
+/// The table of action units: plain knowledge without vertices. Immutable.
 class UnitTable {
  public:
   struct Field {
     int unit;
     glm::vec2 at, radius;
-    enum class Lip { kUpper, kLower, kBoth } lip;  ///< whose side of the mouth moves
+    enum class Lip { kUpper, kLower, kBoth } lip;  ///< the lip whose side of the mouth moves
     glm::vec3 by;
   };
 
-  /// No units at all.
+  /// Makes a table without units.
   UnitTable() = default;
-  /// Throws std::runtime_error naming file and line if the table is damaged, if a number is beyond
+  /// Throws std::runtime_error naming file and line if the table is damaged, if a number exceeds
   /// what a face can do, or if there are more than kMostRows.
   explicit UnitTable(const Table& table);
   static constexpr std::size_t kMostRows = 1000;
 
-  /// Gives every unit but those of the lids a slightly different strength on either side, the same
-  /// for the same `seed`.
+  /// Gives every unit but those of lids and jaw slightly different strengths on the two sides; the
+  /// same `seed` gives the same strengths.
   void MakeAsymmetric(int seed);
 
-  /// The rows of the table, one a line, as the constructor reads them; without asymmetry.
+  /// Returns the table as text that the constructor can read, one row a line; without asymmetry.
   std::string Text() const;
 
   const std::vector<Field>& fields() const { return fields_; }
-  /// The units that do anything, in ascending order.
+  /// Returns the numbers of the units that have any effect, ascending.
   std::vector<int> Numbers() const;
-  /// The strengths that really act: clamped to 0..2, above 1 at half rate (tissue stops
-  /// stretching), and corrected for units that act together. Not-a-number counts as 0.
+  /// Returns the strengths that really act: clamped to 0..2, above 1 at half rate (tissue stops
+  /// stretching), and corrected for units that act together. A non-finite value becomes 0.
   Sided<UnitValues> Combine(const FaceState& state) const;
   UnitEffects Effects(const Sided<UnitValues>& units) const;
-  /// The motion of a field, which the table has for the left, at a vertex of either half.
+  /// Returns how far a field, which the table has for the left, moves a vertex on `side`, in mm.
   static glm::vec3 Motion(const Field& field, const SkinWeights& weights, Side side);
 
  private:
@@ -68,21 +68,21 @@ class UnitTable {
     int unit;
     float first, second;
   };
-  /// Relative extra strength per side; 0.03 = 3 % stronger.
+  /// Extra strength per side as a fraction; 0.03 = 3 % stronger.
   Sided<UnitValues> lean_;
   std::vector<Field> fields_;
   std::vector<Rule> rules_;
   std::vector<Effect> effects_;
 };
 
-/// Where skin creases with expression.
+/// Regions where expressions crease the skin.
 enum class Crease { kForehead, kGlabella, kCrowsFeet, kNasolabial, kNose };
 inline constexpr std::size_t kCreases = 5;
-/// The first so many may be there at rest, too.
+/// This many of the first creases may exist at rest, too.
 inline constexpr std::size_t kLastingCreases = 4;
-/// How deep each of them is, 0..1.
+/// Depths by Crease, 0..1.
 using Creases = std::array<Sided<float>, kCreases>;
-/// The depths in a state: `at_rest` and what the units add to it.
+/// Returns the depths in a state: `at_rest` plus what the action units add.
 Creases CreaseDepths(const Sided<UnitValues>& units,
                      const std::array<float, kLastingCreases>& at_rest);
 

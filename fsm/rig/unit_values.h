@@ -8,14 +8,14 @@
 
 namespace fsm {
 
-/// FACS of 1978 numbers its action units 1..46 (3 and 40 unused); a table of this size has room
-/// for all of them by number.
+/// The action units of FACS (1978) have numbers 1..46 (3 and 40 are unused); a table of this size
+/// is indexed by them directly.
 inline constexpr std::size_t kActionUnits = 47;
-/// Numbers that FACS leaves free, in which residuals of the original's expressions travel
-/// (mesh/original_expressions.h): no table has them, and heads other than the original's have no
-/// channel for them.
+/// Numbers that FACS leaves free. Residuals of the original's expressions travel in them
+/// (mesh/original_expressions.h): no table has them, and only heads of the original have channels
+/// for them.
 inline constexpr std::array<std::size_t, 3> kResidualUnits{3, 40, 0};
-/// The units that code looks at by itself, by their names in FACS.
+/// The units that code refers to, by their names in FACS.
 enum ActionUnit : std::size_t {
   kInnerBrowRaiser = 1,
   kOuterBrowRaiser = 2,
@@ -33,9 +33,9 @@ enum ActionUnit : std::size_t {
   kEyesClosed = 43
 };
 
-/// Strengths of the action units of one side by number: 0 = rest, 1 = full. The units of FACS are
-/// always there; a unit with a higher number exists from when it is first written on, and reads 0
-/// before. A plain value; up to number 46 it needs no memory of its own.
+/// Strengths of the action units of one side by number: 0 = rest, 1 = full. The units of FACS
+/// always exist; a unit with a higher number exists once it has been written, and reads 0 before. A
+/// plain value; it allocates only for numbers above 46.
 /// Limits: kMost; writing beyond it throws std::out_of_range.
 /// Lifetime: references and iterators are valid until a higher number is written.
 class UnitValues {
@@ -47,7 +47,7 @@ class UnitValues {
     if (unit < kActionUnits && more_.empty()) return first_[unit];
     return AtHigh(unit);
   }
-  /// One above the highest number that is there.
+  /// Returns one above the highest number that exists.
   std::size_t size() const { return more_.empty() ? first_.size() : more_.size(); }
   const float* begin() const { return more_.empty() ? first_.data() : more_.data(); }
   const float* end() const { return begin() + size(); }
@@ -58,7 +58,7 @@ class UnitValues {
   bool AtRest() const {
     return std::all_of(begin(), end(), [](float strength) { return strength == 0; });
   }
-  /// True if every number reads the same.
+  /// Compares as if both had every number; missing ones are 0.
   friend bool operator==(const UnitValues& a, const UnitValues& b) {
     for (std::size_t unit = 0; unit < std::max(a.size(), b.size()); ++unit) {
       if (a[unit] != b[unit]) return false;
@@ -75,7 +75,7 @@ class UnitValues {
   }
 
   std::array<float, kActionUnits> first_{};
-  std::vector<float> more_;  // all of them, once one above FACS has been written; else empty
+  std::vector<float> more_;  // all strengths, once a number above FACS has been written; else empty
 };
 
 }  // namespace fsm
