@@ -11,27 +11,27 @@
 
 namespace fsm {
 
-/// How things look: what tables/appearance.txt says, where each number is explained. Constant after
-/// construction; thread: any.
+/// The look of all materials and lamps, read from tables/appearance.txt, which explains each
+/// number. Constant after construction; thread: any.
 class Appearance : public AppearanceNumbers {
  public:
-  /// How a surface takes light; the names are those of the uniforms in surface_*.glsl.
+  /// How a surface reflects light; the members are named after the uniforms in surface_*.glsl.
   struct Surface {
     glm::vec3 wrap{0};
     glm::vec3 lobes{0};
     float key_through = 0, sheen = 0, saturation = 1, bump = 0, planar = 0;
   };
 
-  /// In place of the built-in table; `name` is for messages. Throws as NumberTable, and where a
-  /// lamp stands nowhere.
+  /// Reads a table that overrides the built-in one; `name` appears in error messages. Throws as
+  /// NumberTable does, and for a lamp whose direction is zero.
   Appearance(const std::string& name, std::string_view text)
       : Appearance(NumberTable(name, text, &BuiltIn().table_)) {}
   static const Appearance& BuiltIn();
 
-  /// REQUIRES: a material with rows in the table.
+  /// REQUIRES: the table has rows for this material.
   const Surface& surface(Material material) const { return surfaces_.at(material); }
-  /// The rows whose name is one word as constants of GLSL: "const vec3 sky_color = vec3(...);". A
-  /// compiler folds them, so a number in the table costs no more than one in a shader.
+  /// Returns the rows with names of one word as GLSL constants: "const vec3 sky_color =
+  /// vec3(...);". The compiler folds them, so a number of the table costs nothing extra.
   const std::string& constants() const { return constants_; }
 
  private:

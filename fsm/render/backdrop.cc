@@ -8,7 +8,7 @@
 namespace fsm {
 namespace {
 
-/// Whether a scene shows a picture behind the figure.
+/// Tells whether a scene shows a picture behind the figure.
 bool IsPictured(const Scene& scene) {
   return scene.show_background && scene.background_image && !scene.background_image->rgba.empty();
 }
@@ -40,7 +40,7 @@ void Backdrop::Draw(const Scene& scene, int width, int height) {
     gl_.ActiveTexture(NameOf(TextureUnit::kPass));
     gl_.BindTexture(GL_TEXTURE_2D, texture_);
     Upload(scene.background_image);
-    // A picture of the view's own size is shown pixel by pixel.
+    // A picture of the view's own size is shown without filtering, pixel by pixel.
     const bool same = uploaded_->width == width && uploaded_->height == height;
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
                       same ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
@@ -59,7 +59,7 @@ void Backdrop::Veil(const Scene& scene, float opacity) {
     gl_.BindTexture(GL_TEXTURE_2D, texture_);
   }
   gl_.Enable(GL_BLEND);
-  // Where there is no background nothing is added, and colours and opacity become less.
+  // Without a background nothing is added; colours and opacity only decrease.
   gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA,
                         scene.show_background ? GL_ONE : GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
   Cover(scene, opacity);

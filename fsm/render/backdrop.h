@@ -8,9 +8,8 @@
 
 namespace fsm {
 
-/// What stands behind the figure: nothing, a colour, the wall of a studio or
-/// a picture. Destroy while its context is
-/// current.
+/// The background behind the figure: nothing, a colour, a studio wall or a picture. Destroy while
+/// its context is current.
 class Backdrop {
  public:
   Backdrop(const GlFunctions& gl, const Appearance& appearance);
@@ -18,12 +17,12 @@ class Backdrop {
   Backdrop(const Backdrop&) = delete;
   Backdrop& operator=(const Backdrop&) = delete;
 
-  /// Covers the target bound at present, which becomes a picture of `width` x `height`. The
-  /// background's picture is uploaded when it is another than before.
+  /// Draws the background over the bound target, which is a picture of `width` x `height` pixels.
+  /// The background's picture is uploaded only if it has changed.
   void Draw(const Scene& scene, int width, int height);
-  /// Lays the background over what was drawn before it, which so fades: `opacity` 1 leaves nothing
-  /// of it. Over no background its colours, which are multiplied by its opacity, fade alike.
-  /// REQUIRES: the last Draw was of this scene into the target bound now; no depth test.
+  /// Blends the background over what was drawn before, which thereby fades; `opacity` 1 hides it
+  /// fully. Without a background the premultiplied colours fade with the opacity. REQUIRES: the
+  /// last Draw was of this scene into the target that is bound now; depth test off.
   void Veil(const Scene& scene, float opacity);
 
  private:
@@ -34,7 +33,7 @@ class Backdrop {
   GlProgram program_;
   GLuint array_ = 0;
   GLuint texture_ = 0;
-  float wide_ = 1;  // width of the view, 1 = its height
+  float wide_ = 1;  // aspect ratio of the view, width / height
   std::shared_ptr<const Image> uploaded_;
 };
 

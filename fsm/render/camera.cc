@@ -9,18 +9,18 @@
 namespace fsm {
 namespace {
 
-/// What the picture shows at the depth of the face: from below the collar to above the hair.
+/// Vertical range in view at the depth of the face, mm: from below the collar to above the hair.
 constexpr float kFramedBottom = -172.0F;
 constexpr float kFramedTop = 158.0F;
-/// The least width kept in view: the head with its hair.
+/// Least width that stays in view, mm: the head with its hair.
 constexpr float kFramedWidth = 250.0F;
 constexpr float kFaceDepth = 50.0F;
-/// The figure turns and grows about the root of the neck, so that it does so on the spot.
+/// The figure turns and scales about the root of the neck, so that it stays in its place.
 constexpr glm::vec3 kPivot{0.0F, -60.0F, 0.0F};
 
 constexpr glm::vec3 kXAxis{1, 0, 0}, kYAxis{0, 1, 0}, kZAxis{0, 0, 1};
 
-/// Turns of the figure about an axis; z+ leans to the viewer's right.
+/// Rotates about one axis of the figure; positive z leans to the viewer's right.
 glm::mat4 Turned(const glm::mat4& from, const Figure& placed, int axis) {
   const glm::vec3 axes[] = {kXAxis, kYAxis, -kZAxis};
   const auto i = static_cast<std::size_t>(axis);
@@ -30,14 +30,14 @@ glm::mat4 Turned(const glm::mat4& from, const Figure& placed, int axis) {
 float ScaleOf(const Figure& placed) { return std::clamp(placed.scale, 0.01F, 100.0F); }
 float DistanceOf(const Camera& camera) { return std::clamp(camera.distance, 0.2F, 10.0F); }
 
-/// Where the figure is moved. `half_view`: millimetres from the view's middle to its farther edges.
+/// Returns the figure's translation; `half_view` is half the view's longer side in millimetres.
 glm::vec3 MovedBy(const Figure& placed, const Camera& camera, float half_view) {
   const float unit = camera.moves_by_half_views ? half_view : 1.0F;
   return {unit * placed.translation[0], unit * placed.translation[1], 0.0F};
 }
 
 View FrameParallel(const Figure& placed, const Camera& camera, float aspect, int height) {
-  constexpr float kFar = 20000.0F;  // whence light falls and gleams as from a viewer far away
+  constexpr float kFar = 20000.0F;  // so far that light and highlights are almost parallel
   const glm::vec3 centre = camera.parallel->centre;
   const float half = camera.parallel->half_mm * DistanceOf(camera);
   const float half_width = half * std::min(aspect, 1.0F),
@@ -69,7 +69,7 @@ View ViewOfPortrait(const Figure& placed, const Camera& camera, int width, int h
   const float middle = (kFramedTop + kFramedBottom) / 2 + camera.height_mm;
   const float angle = glm::radians(camera.angle_degrees);
 
-  // Seen from the side it is the head's own axis that stays in the middle.
+  // From the side, the head's own axis stays in the middle of the view.
   View view;
   const glm::vec3 outward(std::sin(angle), 0.0F, std::cos(angle));
   view.eye = glm::vec3(0.0F, middle, 0.0F) + outward * (kFaceDepth + distance);

@@ -12,15 +12,15 @@
 namespace fsm {
 namespace {
 
-/// A part of a head's mesh that loses vertices one by one: each is drawn onto one beside it (a
-/// half-edge collapse, after Kobbelt, Campagna and Seidel 1998, "A general framework for mesh
-/// decimation"), so that those that stay are where they were.
+/// A part of a head's mesh whose vertices are removed one by one: each is merged into a neighbour
+/// (half-edge collapse, after Kobbelt, Campagna and Seidel 1998, "A general framework for mesh
+/// decimation"), so the remaining vertices keep their positions.
 class PartDecimator {
  public:
-  /// `open`: vertices of its border may go, too, along the border.
+  /// `open`: vertices on the part's border may be removed, too, along the border.
   PartDecimator(const VertexFeatures& features, std::span<const std::uint32_t> corners, bool open)
       : features_(features), open_(open) {
-    std::vector<std::uint32_t> own;  // of the head's vertices, the index in vertices_ and one more
+    std::vector<std::uint32_t> own;  // 1 + index into vertices_, by the head's vertex
     for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
       Corners triangle{};
       for (std::size_t c = 0; c < 3; ++c) {
@@ -48,7 +48,7 @@ class PartDecimator {
         Vertex& vertex = vertices_[v];
         if (vertex.triangles.empty()) continue;
         if (vertex.tried_at >= std::max(first_pass, vertex.changed_at)) continue;
-        // A vertex that has lost a neighbour waits for the next pass, so that vertices go evenly.
+        // A vertex that has lost a neighbour waits for the next pass, so that removal is even.
         if (vertex.changed_at > pass_) {
           any = true;
           continue;
@@ -56,7 +56,7 @@ class PartDecimator {
         vertex.tried_at = pass_;
         FindRing(v, ring_);
         if (!MayGo()) continue;
-        // Short edges first, so that no slivers come about.
+        // The shortest edges collapse first, which avoids slivers.
         for (Neighbour& n : ring_) n.far = glm::distance(vertex.place, vertices_[n.vertex].place);
         std::ranges::sort(ring_, {}, [](const Neighbour& n) { return std::pair(n.far, n.vertex); });
         const auto to =
@@ -80,20 +80,20 @@ class PartDecimator {
   using Corners = std::array<std::uint32_t, 3>;  // indices into vertices_
   struct Triangle {
     Corners corners;
-    glm::vec3 normal;  // of twice the triangle's area
-    float length;      // of the normal
+    glm::vec3 normal;  // its length is twice the triangle's area
+    float length;      // of `normal`
     bool Has(std::uint32_t v) const { return std::ranges::find(corners, v) != corners.end(); }
   };
   struct Vertex {
-    std::uint32_t number;  // in the head
+    std::uint32_t number;  // index in the head
     glm::vec3 place;
-    std::vector<std::uint32_t> triangles{};  // that it is a corner of
-    std::uint32_t tried_at = 0;              // the pass in which it was last found to be needed
-    std::uint32_t changed_at = 0;            // and the first after something beside it changed
+    std::vector<std::uint32_t> triangles{};  // the triangles around it
+    std::uint32_t tried_at = 0;              // the last pass that could not remove it
+    std::uint32_t changed_at = 0;            // the first pass after a neighbourhood change
   };
   struct Neighbour {
     std::uint32_t vertex;
-    int triangles;  // that meet at the edge to it; at a border one
+    int triangles;  // triangles at the edge to it; one at a border
     float far = 0;
   };
 
@@ -119,16 +119,16 @@ class PartDecimator {
     }
   }
 
-  /// Whether the vertex of `ring_` may. Where more than two triangles meet at an edge both of its
-  /// ends stay.
+  /// Tells whether the vertex in the middle of `ring_` may be removed. Both ends of an edge stay if
+  /// more than two triangles meet there.
   bool MayGo() const {
     const auto ends = std::ranges::count(ring_, 1, &Neighbour::triangles);
     return (ends == 0 || (open_ && ends == 2)) &&
            std::ranges::none_of(ring_, [](const Neighbour& n) { return n.triangles > 2; });
   }
 
-  /// Whether `v`, whose ring is `ring_`, may be drawn onto `to`; then `after_` says what becomes of
-  /// its triangles.
+  /// Tells whether `v`, whose ring is `ring_`, may be merged into `to`; if so, `after_` holds the
+  /// resulting triangles.
   bool Fits(std::uint32_t v, const Neighbour& to, float error) {
     const bool on_border = std::ranges::count(ring_, 1, &Neighbour::triangles) > 0;
     if (on_border && to.triangles != 1) return false;
@@ -145,7 +145,7 @@ class PartDecimator {
     }
     const auto settle = [&](std::uint32_t vertex) { return Settle(vertex, error); };
     if (!settle(vertices_[v].number)) return false;
-    // More common neighbours than triangles at the edge: the surface would be pinched.
+    // With more common neighbours than triangles at the edge the surface would be pinched.
     FindRing(to.vertex, other_ring_);
     const auto common = std::ranges::count_if(other_ring_, [this](const Neighbour& n) {
       return std::ranges::find(ring_, n.vertex, &Neighbour::vertex) != ring_.end();
@@ -156,8 +156,8 @@ class PartDecimator {
     });
   }
 
-  /// Adds to `moved_` the one of `after_` on which a vertex is shown best; false if the error is
-  /// greater.
+  /// Finds the triangle of `after_` that represents a vertex best and adds the pair to `moved_`;
+  /// returns false if the error exceeds `error`.
   bool Settle(std::uint32_t vertex, float error) {
     const glm::vec3 p = features_.RestOf(vertex);
     float best = error * error;
@@ -171,7 +171,7 @@ class PartDecimator {
       const float bb = glm::dot(b, b), bc = glm::dot(b, c), cc = glm::dot(c, c);
       const float pb = glm::dot(p - a, b), pc = glm::dot(p - a, c);
       const float whole = std::max(bb * cc - bc * bc, 1e-12F);
-      // A place beside the triangle counts as one on its edge near the nearest, so that the error
+      // A point beside the triangle is moved to its edge, near the closest point, so that the error
       // is not underestimated.
       glm::vec3 weights(0, (cc * pb - bc * pc) / whole, (bb * pc - bc * pb) / whole);
       weights.x = 1 - weights.y - weights.z;
@@ -209,12 +209,12 @@ class PartDecimator {
   bool open_;
   std::vector<Vertex> vertices_;
   std::vector<Triangle> triangles_;
-  std::vector<std::vector<std::uint32_t>> left_out_;  // numbers of vertices that lie on each
-  std::vector<bool> gone_;                            // triangles
-  // Of the vertex tried last its neighbours, and of the collapse tried last those of the other end.
+  std::vector<std::vector<std::uint32_t>> left_out_;  // vertices merged into each triangle
+  std::vector<bool> gone_;                            // by triangle
+  // The neighbours of the last vertex tried, and those of the other end of the last collapse tried.
   std::vector<Neighbour> ring_, other_ring_;
-  // What Fits found for the collapse tried last: the triangles that get another corner, as they
-  // would be, and for each vertex that is left out the triangle that takes it over.
+  // The result of Fits for the last collapse tried: the triangles that get another corner, in their
+  // new form, and for each removed vertex the triangle that then represents it.
   std::vector<std::pair<std::uint32_t, Triangle>> after_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> moved_;  // vertex, triangle
   std::uint32_t pass_ = 0;
@@ -228,7 +228,7 @@ HeadTriangles CoarseTriangles(const Head& head, const CreaseWeights& creases, fl
   HeadTriangles coarse;
   for (HeadTopology::Part part : topology.parts) {
     PartDecimator shrinking(features, topology.Corners(part), IsHair(part.material));
-    // The vertices that are missed least go first.
+    // The least important vertices are removed first.
     for (const float share : {0.25F, 0.5F, 1.0F}) shrinking.Shrink(share * error_mm);
     part.first_index = static_cast<std::uint32_t>(coarse.indices.size());
     shrinking.Append(coarse.indices);

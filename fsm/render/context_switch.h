@@ -4,11 +4,11 @@
 
 namespace fsm {
 
-/// Keeps the kinds of contexts apart. All of Mesa's front ends in a process (OSMesa, GLX, EGL)
-/// share one per-thread record of the current context, but each also trusts its own memory of it;
-/// going from one to another without letting go of the first leaves one drawing with the other's
-/// state, and crashes. So: one current at most, and it is released by its own kind before the next
-/// is taken.
+/// Prevents contexts of different kinds from being current at once. All of Mesa's front ends in a
+/// process (OSMesa, GLX, EGL) share one per-thread record of the current context, but each also
+/// keeps its own; switching between kinds without releasing the first makes one draw with the
+/// other's state, and crashes. Therefore at most one context is current, and its own kind releases
+/// it before the next is bound.
 class SwitchedContext : public RenderContext {
  public:
   void MakeCurrent() final {
@@ -20,9 +20,9 @@ class SwitchedContext : public RenderContext {
   }
 
  protected:
-  /// For destructors, around the end of the GL side: leaves the thread without any current context,
-  /// because the driver makes a dying context current for a moment by its own means. Returns the
-  /// other context that was current, if any, for `Resume`.
+  /// For destructors, around the end of the GL side: leaves the thread without a current context,
+  /// because the driver itself makes a dying context current for a moment. Returns the other
+  /// context that was current, if any, for Resume.
   SwitchedContext* Leave() {
     SwitchedContext* other = current_ == this ? nullptr : current_;
     if (current_) current_->Release();
@@ -40,7 +40,7 @@ class SwitchedContext : public RenderContext {
   static inline thread_local SwitchedContext* current_ = nullptr;
 };
 
-/// A context that shows nothing. Its size is a number: the renderer draws into targets of its own.
+/// A context without a window. Its size is only stored: the renderer draws into its own targets.
 class OffScreenContext : public SwitchedContext {
  public:
   OffScreenContext(int width, int height) : width_(width), height_(height) {}

@@ -10,7 +10,7 @@
 namespace fsm {
 namespace {
 
-/// Whether nothing is seen through a triangle. `cut_out`: it is not there where the photo is not.
+/// Tells whether a triangle is opaque. `cut_out`: it is discarded where the photo is transparent.
 bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> triangle, bool cut_out) {
   glm::vec2 low(1e9F), high(-1e9F);
   for (const std::uint32_t v : triangle) {
@@ -57,7 +57,7 @@ class OrderMaker {
   }
 
  private:
-  /// Triangles that are mixed with what lies behind them.
+  /// Triangles that are blended with what lies behind them.
   struct Layer {
     HeadTopology::Part part{};
     std::vector<std::uint32_t> corners;
@@ -81,7 +81,7 @@ class OrderMaker {
     for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
       const auto t = corners.subspan(k, 3);
       SkinDetail detail = std::max({detail_[t[0]], detail_[t[1]], detail_[t[2]]});
-      // The sheet shows what is beside the face, and that does not crease.
+      // The sheet shows what surrounds the face, which does not crease.
       if (detail == SkinDetail::kCreased && part.material == Material::kPhoto) {
         detail = SkinDetail::kPlain;
       }
@@ -93,7 +93,7 @@ class OrderMaker {
     }
   }
 
-  /// All parts but hair and lashes. Fills the layers with what is mixed with what lies behind it.
+  /// Adds all parts but hair and lashes; blended triangles go to the layers instead.
   void AddFace(Layer& sheet, Layer& skin) {
     for (const auto& part : triangles_.parts) {
       if (part.material == Material::kHair || part.material == Material::kShutLash) continue;
@@ -118,12 +118,12 @@ class OrderMaker {
     }
   }
 
-  /// Corners of the triangles of hair; `before_ears`: how many of them come first. Locks lie on the
-  /// shell of the hair and come before it; equals are sorted by their corners, so that the order is
-  /// the same everywhere.
+  /// Returns the triangles of hair, front to back; the first `before_ears` corners lie before the
+  /// ears. Locks come before the shell of hair they lie on; ties are sorted by vertex index, so
+  /// that the order is the same everywhere.
   std::vector<std::uint32_t> SortedHair(std::span<const glm::vec3> rest,
                                         std::size_t& before_ears) const {
-    constexpr float kBehind = 0.0F;  // the plane of the ears
+    constexpr float kBehind = 0.0F;  // z of the plane of the ears
     using Triangle = std::array<std::uint32_t, 3>;
     std::vector<Triangle> hair;
     for (const auto& part : triangles_.parts) {

@@ -9,17 +9,17 @@
 
 namespace fsm {
 
-/// Which shader variant a part needs. Each step makes its pixels noticeably slower to draw.
+/// The shader variant that a part needs. Each step makes its pixels noticeably slower to draw.
 enum class SkinDetail : std::uint8_t {
-  kPlain,    ///< the colour, or the photo, alone
-  kCreased,  ///< and creases of expression
-  kDetailed  ///< and grain from elsewhere, and pixels that are left out or mixed with those behind
+  kPlain,    ///< colour or photo only
+  kCreased,  ///< adds creases of expression
+  kDetailed  ///< adds grain from elsewhere, and discarded or blended pixels
 };
 
-/// A part as it is drawn.
+/// A part of the head as it is drawn.
 struct DrawnPart {
-  HeadTopology::Part part;  ///< indices as uploaded
-  bool soft = false;        ///< mixed with what is behind it
+  HeadTopology::Part part;  ///< indices into the uploaded buffer
+  bool soft = false;        ///< alpha-blended
   SkinDetail detail = SkinDetail::kDetailed;
 };
 
@@ -28,15 +28,15 @@ struct DrawOrder {
   std::vector<std::uint32_t> indices;
 };
 
-/// The triangles of a head in the order to draw them. Pixels found to be hidden cost nearly
-/// nothing, so the hair before the ears comes first, then the face, then the hair behind it, each
-/// from the front to the back of a head that looks at the viewer. That is the best order most of
-/// the time; where it is not, only time is lost. What is mixed with what lies behind it comes after
-/// that. `triangles`: all of the topology or fewer; `detail`: of every vertex.
+/// Orders a head's triangles for drawing. Hidden pixels cost almost nothing, so hair before the
+/// ears comes first, then the face, then the hair behind it, each from front to back of a head that
+/// looks at the viewer. That is the best order most of the time; where it is not, only time is
+/// lost. Blended triangles come last. `triangles`: all of the topology or fewer; `detail`: per
+/// vertex.
 DrawOrder OrderToDraw(const HeadTopology& topology, const HeadTriangles& triangles,
                       std::span<const glm::vec3> rest, std::span<const SkinDetail> detail);
 
-/// Whether a head wears a photo in layers, from back to front with soft edges.
+/// Tells whether a head wears a photo in layers with soft edges, blended from back to front.
 inline bool HasSoftLayers(const HeadTopology& topology) {
   return topology.textures.image && !topology.opacity.empty();
 }

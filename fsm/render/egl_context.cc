@@ -30,7 +30,7 @@ bool ClientHas(std::string_view name) {
   return Lists(eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS), name);
 }
 
-/// A display that is open as long as one of its users is there; the last one out closes it.
+/// A display that stays open while it has users; the last one closes it.
 class Display {
  public:
   Display(EGLDisplay display, std::string name) : display_(display), name_(std::move(name)) {
@@ -52,13 +52,13 @@ class Display {
   const std::string& name() const { return name_; }
 
  private:
-  // Contexts belong to one thread, as their header says.
+  // Unguarded, since all contexts belong to one thread (RenderContext).
   static inline std::map<EGLDisplay, int> users_;
   EGLDisplay display_;
   std::string name_;
 };
 
-/// OpenGL without any surface: the renderer brings its own framebuffer.
+/// OpenGL without a surface; the renderer brings its own framebuffer.
 class EglContext : public OffScreenContext {
  public:
   EglContext(int width, int height, EGLDisplay display, const std::string& name)
@@ -86,7 +86,7 @@ class EglContext : public OffScreenContext {
   }
 
  private:
-  /// Some drivers (NVIDIA's) give the very version that is asked for, and compute shaders need 4.3.
+  /// Some drivers (NVIDIA's) return exactly the version asked for; compute shaders need 4.3.
   EGLContext Create(EGLConfig config, EGLint major, EGLint minor) {
     const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION,
                               major,

@@ -9,9 +9,9 @@
 namespace fsm {
 namespace {
 
-/// Skin this near to the ball's surface, in millimetres, may be a lid.
+/// Skin within this distance (mm) of the eyeball's surface may be a lid.
 constexpr float kLidReach = 4.0F;
-/// Only rims straight above and below the pupil matter, within this distance to its sides.
+/// Only lid margins above and below the pupil count, within this distance (mm) to its sides.
 constexpr float kRimHalfWidth = 4.5F;
 
 std::vector<std::uint32_t> VerticesOf(const HeadTopology& topology, Material material) {
@@ -33,8 +33,8 @@ glm::vec3 Centroid(std::span<const std::uint32_t> points, const HeadVertices& ve
   return points.empty() ? sum : sum / static_cast<float>(points.size());
 }
 
-/// The sphere through points, by least squares: |p|^2 = 2 c.p + (r^2 - |c|^2) is linear in the
-/// centre c and in the bracket. Positions are taken from their centroid to keep the numbers small.
+/// Fits a sphere to points by least squares: |p|^2 = 2 c.p + (r^2 - |c|^2) is linear in the centre
+/// c and in the bracket. Positions are relative to their centroid for precision.
 void FitSphere(std::span<const std::uint32_t> points, const HeadVertices& vertices, EyePose& out) {
   const glm::dvec3 origin = Centroid(points, vertices);
   glm::dmat4 normal(0.0);
@@ -55,7 +55,7 @@ void FitSphere(std::span<const std::uint32_t> points, const HeadVertices& vertic
   out.radius = static_cast<float>(std::sqrt(std::max(solution.w + glm::dot(centre, centre), 1.0)));
 }
 
-/// The height of the lowest or the highest of the points; `otherwise` if there are none.
+/// Returns the height of the lowest or highest point; `otherwise` if there are none.
 float Extreme(std::span<const std::uint32_t> points, const HeadVertices& vertices, bool lowest,
               float otherwise) {
   if (points.empty()) return otherwise;

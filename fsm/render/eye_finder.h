@@ -8,27 +8,27 @@
 
 namespace fsm {
 
-/// What the eye shader must know of one eyeball, in the frame of the vertices measured.
+/// What the eye shader needs to know of one eyeball, in the frame of the measured vertices.
 struct EyePose {
   glm::vec3 centre{0.0F};
   float radius = 12.0F;
-  glm::vec3 gaze{0.0F, 0.0F, 1.0F};  ///< unit, from the centre through the pupil
+  glm::vec3 gaze{0.0F, 0.0F, 1.0F};  ///< unit vector from the centre through the pupil
   float iris_radius = 5.8F;
-  float upper_lid_y = 0;  ///< height of the rims above and below the pupil
+  float upper_lid_y = 0;  ///< heights of the lid margins above and below the pupil
   float lower_lid_y = 0;
 };
 
-/// Finds eyeballs and lid rims in a head's mesh, whoever made it: balls are fitted to the white's
-/// vertices, rims are the skin nearest to them. Made once per head, used every frame.
+/// Finds eyeballs and lid margins in any head's mesh: balls are fitted to the sclera's vertices,
+/// margins are the skin closest to them. Made once per head, used every frame.
 class EyeFinder {
  public:
   EyeFinder() = default;
-  /// `rest` belongs to `topology`. A head without a kSclera part has no eyes.
+  /// REQUIRES: `rest` belongs to `topology`. A head without a kSclera part has no eyes.
   EyeFinder(const HeadTopology& topology, const HeadVertices& rest);
   bool found() const { return !white_.right.empty() && !white_.left.empty(); }
   /// REQUIRES: found().
   Sided<EyePose> Measure(const HeadVertices& vertices) const;
-  /// The vertices that Measure looks at.
+  /// Appends the vertices that Measure reads.
   void AppendVertices(std::vector<std::uint32_t>& out) const;
 
  private:

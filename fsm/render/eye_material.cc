@@ -19,8 +19,8 @@ void EyeMaterial::Begin(const MaterialFrame& frame) const {
   if (!frame.head.eyes().found()) return;
   const auto eyes = frame.head.eyes().Measure(frame.vertices);
   const HeadTopology& topology = frame.head.topology();
-  const EyeGeometry& geometry = topology.eyes.right;  // sizes and colours, which both eyes share
-  // The white of a grey photo is grey, and so is the flesh beside it.
+  const EyeGeometry& geometry = topology.eyes.right;  // both eyes share sizes and colours
+  // On a grey photo the sclera is grey, and so is the caruncle beside it.
   const glm::vec3 white = geometry.white_colour;
   const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02F * white.g;
   const bool pictured = frame.head.photo() && topology.portrait.eyes;
@@ -52,7 +52,7 @@ void EyeMaterial::SetEyeballs(const View& view, const Sided<EyePose>& eyes,
     lid_heights[i].x = to_world({front.x, eye.upper_lid_y, front.z}).y;
     lid_heights[i].y = to_world({front.x, eye.lower_lid_y, front.z}).y;
   }
-  const EyePose& first = eyes.right;  // both are as large
+  const EyePose& first = eyes.right;  // both have the same size
   const float plane = std::sqrt(
       std::max(first.radius * first.radius - first.iris_radius * first.iris_radius, 1.0F));
   program_.Set("ball", balls);

@@ -4,13 +4,13 @@
 
 namespace fsm {
 
-/// Eyeballs, whose white, iris and pupil are found per pixel (shaders/eye_fragment.glsl). Destroy
-/// while its context is current.
+/// Eyeballs whose sclera, iris and pupil are computed per pixel (shaders/eye_fragment.glsl).
+/// Destroy while its context is current.
 class EyeMaterial {
  public:
   EyeMaterial(const GlFunctions& gl, const Appearance& appearance);
   const GlProgram& program() const { return program_; }
-  /// Hands over how the eyes stand and look. Nothing for a head without eyes.
+  /// Sets the uniforms for position and gaze of the eyes. Does nothing for a head without eyes.
   void Begin(const MaterialFrame& frame) const;
 
  private:

@@ -7,12 +7,12 @@
 
 namespace fsm {
 
-/// Where things are on a face, from the head's landmarks; millimetres at rest.
+/// Positions of the features of a face, from the head's landmarks; millimetres at rest.
 struct FaceLandmarks {
   glm::vec3 nasion, pronasale, subnasale, stomion, gnathion, trichion;
   Sided<glm::vec3> cheilion, endocanthion, exocanthion, pupil, alare, zygion;
 
-  /// Nothing for a head that does not name all of them.
+  /// Returns nothing for a head that lacks one of them.
   static std::optional<FaceLandmarks> Of(const Head& head);
 };
 

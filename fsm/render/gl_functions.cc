@@ -10,7 +10,7 @@
 namespace fsm {
 namespace {
 
-/// Whether the context's version, as "4.5 (Core Profile) Mesa 22.3.6", is that or a later one.
+/// Tells whether the context's version, such as "4.5 (Core Profile) Mesa 22.3.6", is at least that.
 bool IsAtLeast(const GlFunctions& gl, int major, int minor) {
   const auto* version = reinterpret_cast<const char*>(gl.GetString(GL_VERSION));
   int found_major = 0, found_minor = 0;
@@ -20,7 +20,7 @@ bool IsAtLeast(const GlFunctions& gl, int major, int minor) {
 
 template <typename Function>
 void Fetch(RenderContext& context, const char* name, Function& function) {
-  // POSIX promises that a data pointer from such a lookup may be turned into a function pointer.
+  // POSIX guarantees that such a data pointer can be converted to a function pointer.
   function = reinterpret_cast<Function>(context.GetProcAddress(name));
   if (!function) {
     throw std::runtime_error(std::string("OpenGL 3.3 is needed, but this driver has no ") + name);

@@ -6,9 +6,9 @@ namespace fsm {
 
 class RenderContext;
 
-/// The OpenGL 3.3 core functions the renderer calls, fetched from one context. Nothing of ours
-/// calls a `gl...` symbol by name: libOSMesa and the system's libGL both define them, and a program
-/// that holds a headless context and a window at once must reach the right one of the two.
+/// The OpenGL 3.3 core functions that the renderer calls, fetched from one context. Our code calls
+/// no `gl...` symbol by name: libOSMesa and the system's libGL both define them, and a program that
+/// has a headless context and a window at once must reach the right one of the two.
 #define FSM_GL_FUNCTIONS(X)                                    \
   X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                     \
   X(PFNGLATTACHSHADERPROC, AttachShader)                       \
@@ -78,7 +78,7 @@ class RenderContext;
   X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)         \
   X(PFNGLVIEWPORTPROC, Viewport)
 
-/// Functions of OpenGL 4.3, which not every driver has.
+/// Functions of OpenGL 4.3; not every driver has them.
 #define FSM_GL_COMPUTE_FUNCTIONS(X)              \
   X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)     \
   X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)   \
@@ -90,9 +90,9 @@ struct GlFunctions {
   FSM_GL_FUNCTIONS(FSM_GL_MEMBER)
   FSM_GL_COMPUTE_FUNCTIONS(FSM_GL_MEMBER)
 #undef FSM_GL_MEMBER
-  bool has_compute = false;  ///< whether FSM_GL_COMPUTE_FUNCTIONS are there
+  bool has_compute = false;  ///< whether FSM_GL_COMPUTE_FUNCTIONS were found
 
-  /// REQUIRES: `context` is current. Throws std::runtime_error naming the function that is missing.
+  /// REQUIRES: `context` is current. Throws std::runtime_error naming a missing function.
   static GlFunctions Load(RenderContext& context);
 };
 

@@ -6,7 +6,7 @@
 namespace fsm {
 namespace {
 
-/// The message log of a shader or a program, through its two differently named pairs of getters.
+/// Returns the log of a shader or program, through its two differently named pairs of getters.
 template <typename GetNumber, typename GetText>
 std::string Log(GLuint object, GetNumber get_number, GetText get_text) {
   GLint length = 0;
@@ -87,7 +87,7 @@ GlTarget::GlTarget(const GlFunctions& gl, int width, int height)
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, across, up, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_, 0);
-  // Depth as a number with a point: the rasterizer computes it so and need not convert.
+  // The rasterizer computes depth as floating point, so this format needs no conversion.
   gl.GenRenderbuffers(1, &depth_);
   gl.BindRenderbuffer(GL_RENDERBUFFER, depth_);
   gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, across, up);
@@ -118,7 +118,7 @@ void GlTarget::ReadRows(int from, int to, void* samples) const {
 }
 
 void GlTarget::Read(Image& out, bool soft) {
-  // Few rows at a time, so that what is read stays in the cache until it is averaged.
+  // Reads few rows at a time, so that they stay in the cache until they are averaged.
   constexpr int kRowsAtOnce = 16;
   const std::size_t row = samples_in_row();
   out.width = width_;
@@ -140,7 +140,7 @@ void GlTarget::Read(Image& out, bool soft) {
 
 void GlTarget::Show(int x, int y) const {
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
-  // Halving with a linear filter takes the average of exactly four.
+  // A linear filter at half size averages exactly four samples.
   gl_.BlitFramebuffer(0, 0, width_ * kSamplesAlong, height_ * kSamplesAlong, x, y, x + width_,
                       y + height_, GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }

@@ -23,7 +23,7 @@ namespace fsm {
 /// A linked shader program. Destroy while its context is current.
 class GlProgram {
  public:
-  /// Throws std::runtime_error with the compiler's words if a source is wrong; `name` is for them.
+  /// Throws std::runtime_error with the compiler's log, prefixed by `name`, if a source is wrong.
   GlProgram(const GlFunctions& gl, const char* name, std::string_view vertex,
             std::string_view fragment);
   /// Makes a program of a compute shader. REQUIRES: GlFunctions::has_compute.
@@ -35,8 +35,8 @@ class GlProgram {
   GlProgram& operator=(const GlProgram&) = delete;
 
   void Use() const { gl_.UseProgram(id_); }
-  /// Sets a uniform, or an array of them; one that the program does not have is ignored.
-  /// REQUIRES of all: the program is in use, `name` is a literal.
+  /// Sets a uniform or an array of uniforms; a name that the program does not have is ignored.
+  /// REQUIRES for all: the program is in use, `name` is a string literal.
   void Set(const char* name, float value) const { Set(name, std::span(&value, 1)); }
   void Set(const char* name, GLint value) const {
     if (const auto at = Changed(name, std::as_bytes(std::span(&value, 1)))) {
@@ -76,13 +76,13 @@ class GlProgram {
 
  private:
   struct Uniform {
-    GLint at;  ///< -1: the program has none of that name
+    GLint at;  ///< location; -1: the program has no such uniform
     std::vector<std::byte> value;
   };
-  /// Where a uniform is, if it is there and has another value than that: a driver takes far longer
-  /// to find a name or to note a value than this does to see that it need not.
+  /// Returns the location of a uniform if it exists and has another value: this check is far
+  /// cheaper than a driver's look-up of a name or store of a value.
   std::optional<GLint> Changed(const char* name, std::span<const std::byte> value) const;
-  /// Links what has been attached and lets the shaders go.
+  /// Links the attached shaders and deletes them.
   void Link(const char* name, std::initializer_list<GLuint> shaders);
 
   const GlFunctions& gl_;
@@ -90,13 +90,13 @@ class GlProgram {
   mutable std::unordered_map<std::string_view, Uniform> uniforms_;  // those set so far
 };
 
-/// Where a frame is drawn: colour and depth of twice the picture's size in each direction, averaged
-/// 2 x 2 on the way out. Four samples like multisampling, but in software it is faster and better:
-/// llvmpipe shades hidden pixels and blends every sample of a multisampled target one by one, and
-/// of the small triangles of a face every one pays for that. Destroy while its context is current.
+/// The framebuffer of a frame: colour and depth at twice the picture's size in each direction,
+/// averaged 2 x 2 on read-out. In software that is faster and better than multisampling: llvmpipe
+/// shades hidden pixels and blends each sample of a multisampled target separately, for which the
+/// many small triangles of a face all pay. Destroy while its context is current.
 class GlTarget {
  public:
-  /// Throws std::runtime_error if the driver cannot make it. Sizes: the finished picture's.
+  /// Throws std::runtime_error if the driver cannot make it. Sizes are the finished picture's.
   GlTarget(const GlFunctions& gl, int width, int height);
   ~GlTarget() { Delete(); }
   GlTarget(const GlTarget&) = delete;
@@ -104,25 +104,25 @@ class GlTarget {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Makes it the one drawn into, all of it.
+  /// Binds the whole framebuffer for drawing.
   void Bind() const;
   std::size_t samples_in_row() const { return static_cast<std::size_t>(width_) * kSamplesAlong; }
-  /// The averaged picture; `soft` as of AverageSamples.
+  /// Reads the averaged picture; `soft`: see AverageSamples.
   void Read(Image& out, bool soft);
-  GLuint samples() const { return colour_; }  ///< a texture of RGBA8, the lowest row first
-  /// Averages into the framebuffer bound as GL_DRAW_FRAMEBUFFER, its lower left corner at (x, y).
+  GLuint samples() const { return colour_; }  ///< an RGBA8 texture, lowest row first
+  /// Averages into the bound GL_DRAW_FRAMEBUFFER, with the lower left corner at (x, y).
   void Show(int x, int y) const;
 
  private:
   void Delete();
-  /// RGBA8 samples of the rows from .. to, the lowest first.
+  /// Reads the RGBA8 samples of the rows from .. to, lowest first.
   void ReadRows(int from, int to, void* samples) const;
 
   const GlFunctions& gl_;
   int width_;
   int height_;
   GLuint frame_ = 0, colour_ = 0, depth_ = 0;
-  std::vector<std::uint32_t> samples_;  // some rows of RGBA8, as they are read
+  std::vector<std::uint32_t> samples_;  // some rows of RGBA8 samples being read
 };
 
 }  // namespace fsm

@@ -15,7 +15,7 @@
 namespace fsm {
 namespace {
 
-/// What stands before steps.glsl: what C++ has it from elsewhere.
+/// GLSL that precedes steps.glsl: definitions that C++ takes from other headers.
 constexpr std::string_view kBeforeSteps = R"(
 #define FUNCTION
 float SmoothStep(float from, float to, float x) {

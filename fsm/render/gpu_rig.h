@@ -14,14 +14,14 @@ namespace fsm {
 
 struct RigRecords;
 
-/// The programs of shaders/rig_kernels.glsl, compiled when a head first needs them and shared by
-/// all heads of a context. Destroy while it is current.
+/// The programs of shaders/rig_kernels.glsl, each compiled when a head first needs it and shared by
+/// all heads of a context. Destroy while that context is current.
 class RigPrograms {
  public:
   explicit RigPrograms(const GlFunctions& gl) : gl_(gl) {}
-  /// Whether the driver has what they need: compute shaders and buffers for them, OpenGL 4.3.
+  /// Tells whether the driver has compute shaders and storage buffers (OpenGL 4.3).
   static bool Supported(const GlFunctions& gl) { return gl.has_compute; }
-  /// The program that reads such records. Throws std::runtime_error with the compiler's words.
+  /// Returns the program for such records. Throws std::runtime_error with the compiler's log.
   const GlProgram& Of(const RigRecords& records);
 
  private:
@@ -30,13 +30,13 @@ class RigPrograms {
 };
 
 /// Moves a head on a graphics card by the steps of its Rig, any number of its faces in one call:
-/// what never changes lies in buffers there, a frame brings a StepState for each face, and places
-/// and normals stay where they are drawn from. Equal to Rig::Evaluate within 0.05 mm
-/// (tests/fsm/render_gpu_rig_test.cc; a card may fuse a multiplication with an addition). Destroy
-/// while its context is current.
+/// constant data stays in buffers on the card, a frame uploads a StepState for each face, and
+/// positions and normals stay where they are drawn from. Agrees with Rig::Evaluate within 0.05 mm
+/// (tests/fsm/render_gpu_rig_test.cc; a card may fuse multiply and add). Destroy while its context
+/// is current.
 class GpuRig {
  public:
-  /// `rig` is copied from; `programs` outlives this. REQUIRES: RigPrograms::Supported.
+  /// Copies from `rig`; `programs` must outlive this. REQUIRES: RigPrograms::Supported.
   GpuRig(const GlFunctions& gl, RigPrograms& programs, const Rig& rig);
   ~GpuRig();
   GpuRig(const GpuRig&) = delete;
@@ -46,27 +46,27 @@ class GpuRig {
     const FaceState* state;  ///< borrowed for the call
     std::span<const glm::vec3> swings = {};
   };
-  /// REQUIRES: `rig` is that of construction.
+  /// REQUIRES: `rig` is the one given to the constructor.
   void Evaluate(const Rig& rig, std::span<const Input> faces);
-  /// The buffers of all faces' places and normals, three floats each, and where a face's begin.
+  /// The buffers of all faces' positions and normals (three floats each); a face's offset in them.
   GLuint positions() const { return buffers_[kPositions]; }
   GLuint normals() const { return buffers_[kNormals]; }
   std::size_t OffsetBytes(std::size_t face) const {
     return face * vertex_count_ * sizeof(glm::vec3);
   }
-  /// Waits for the card and reads back places and normals.
+  /// Waits for the card and reads positions and normals back.
   void Read(std::size_t face, HeadVertices& out) const;
 
  private:
-  /// In the order of their bindings in rig_kernels.glsl.
+  /// Indices in the order of the bindings in rig_kernels.glsl.
   enum Buffer { kPositions, kNormals, kStates, kStrengths, kSwings, kGaps, kBuffers };
   struct Kernel {
     const GlProgram* program;
-    std::array<GLuint, 2> buffers;  // records and entries, whose bindings follow
+    std::array<GLuint, 2> buffers;  // records and entries, at the next bindings
     std::uint32_t count;
   };
   void Add(const RigRecords& records);
-  /// Makes a buffer as long as `bytes` with those in it; one byte at least, as a driver wants.
+  /// Makes a buffer with the bytes of `values`; at least one byte, as drivers require.
   template <typename T>
   void Fill(GLuint buffer, const std::vector<T>& values, GLenum usage) const;
 
@@ -75,7 +75,7 @@ class GpuRig {
   const std::size_t vertex_count_, channel_count_, spring_count_, seam_count_;
   std::vector<Kernel> kernels_;  // in the order of the steps
   std::array<GLuint, kBuffers> buffers_{};
-  std::size_t room_ = 0;  // faces that the buffers hold
+  std::size_t room_ = 0;  // number of faces that the buffers hold
 };
 
 }  // namespace fsm

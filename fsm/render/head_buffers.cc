@@ -13,7 +13,7 @@ namespace {
 
 const glm::vec4 kNone(0);
 
-/// Per vertex, the attributes kDetailPlace, kDetail and kDetailMore.
+/// The vertex attributes kDetailPlace, kDetail and kDetailMore, per vertex.
 struct DetailAttributes {
   std::vector<glm::vec2> place;
   std::vector<glm::vec4> detail;
@@ -38,7 +38,7 @@ DetailAttributes DetailOf(const HeadTopology& topology, const CreaseWeights& cre
   return detail;
 }
 
-/// Per vertex, the attributes kAlbedoOpenness, kTexcoord, kLidGrain, kOpacity and kLidSkin.
+/// The vertex attributes kAlbedoOpenness, kTexcoord, kLidGrain, kOpacity and kLidSkin, per vertex.
 struct PaintAttributes {
   std::vector<glm::vec4> colour, texcoord, lid_grain;
   std::vector<float> opacity;
@@ -75,8 +75,8 @@ std::vector<SkinDetail> SkinDetailOf(const PaintAttributes& paint, const DetailA
   return out;
 }
 
-/// How fine the photo lies on what faces the viewer, as seen from there: the square root of texels
-/// to square millimetres.
+/// Returns the photo's resolution on surfaces that face the viewer, as seen from the front: the
+/// square root of texels per square millimetre.
 float TexelsPerMm(const HeadTopology& topology, const HeadVertices& rest) {
   const Image* image = topology.textures.image.get();
   const auto& texcoord = topology.textures.texcoord;
@@ -218,7 +218,7 @@ void HeadBuffers::AddLevel(int level, const HeadTriangles& triangles,
 }
 
 const std::vector<DrawnPart>& HeadBuffers::PartsWithin(const Head& head, float error_mm) {
-  // Finer than the first nothing is left out; coarser than the last skin comes through short hair.
+  // Below kFirst nothing is removed; above kLast skin shows through short hair.
   constexpr int kFirst = -6, kLast = -1;
   const auto error_of = [](int level) { return std::exp2(0.5F * static_cast<float>(level)); };
   if (error_mm < error_of(kFirst)) return FinestParts();

@@ -10,7 +10,7 @@
 namespace fsm {
 namespace {
 
-/// An RGBA picture at twice its size, as a linear filter would show it.
+/// Returns an RGBA picture at twice its size, with linear interpolation.
 Image Doubled(const Image& image) {
   Image out{2 * image.width, 2 * image.height, {}};
   out.rgba.reserve(4 * out.Index(0, out.height));
@@ -57,9 +57,9 @@ HeadTextures::HeadTextures(const GlFunctions& gl, const HeadTopology& topology) 
 
 HeadTextures::~HeadTextures() { gl_.DeleteTextures(kTextures, textures_); }
 
-// Pictures are scaled until a texel is about as large as a sample, and the nearest texel is taken:
-// with four samples to a pixel that is smooth, and in software a filtered fetch costs as much as
-// everything else of a pixel. They are filtered where a face is so near that texels would show.
+// Pictures are scaled until a texel is about as large as a sample, and the nearest texel is used:
+// with four samples to a pixel that is smooth, while in software a filtered fetch costs as much as
+// the rest of a pixel. Close to a face, where texels would be visible, they are filtered.
 void HeadTextures::Load(HeadBuffers& head, float samples_per_mm) {
   LoadSkin(head, std::max(samples_per_mm, 1e-3F));
   if (head.photo()) LoadPhoto(head, std::max(samples_per_mm, 1e-3F));
@@ -83,13 +83,13 @@ void HeadTextures::LoadSkin(HeadBuffers& head, float samples_per_mm) {
 }
 
 HeadTextures::Sampling HeadTextures::SamplingOf(const Image& photo, float texels_per_sample) {
-  // A photo has edges: with fewer texels to a sample those are seen to be cut out.
+  // A photo has sharp edges, which look cut out with fewer texels per sample.
   constexpr float kFewest = 0.9F;
   constexpr int kMostDoubled = 1 << 21;  // texels
   const int level =
       static_cast<int>(std::floor(std::log2(std::max(texels_per_sample, 0.01F) / kFewest)));
   if (level >= 0) return {level, GL_NEAREST};
-  // A doubled photo costs memory, a filtered one nearly as much time as everything else of a pixel.
+  // Doubling a photo costs memory; filtering it nearly doubles the time for a pixel.
   if (level == -1 && 4 * photo.width * photo.height <= kMostDoubled) return {level, GL_NEAREST};
   return {0, GL_LINEAR};
 }

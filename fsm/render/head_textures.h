@@ -8,7 +8,7 @@
 
 namespace fsm {
 
-/// The textures of one head: its skin and its pictures, as fine as the view can show them. Destroy
+/// The textures of one head, its skin and its pictures, as fine as the view can show them. Destroy
 /// while its context is current.
 class HeadTextures {
  public:
@@ -17,11 +17,11 @@ class HeadTextures {
   HeadTextures(const HeadTextures&) = delete;
   HeadTextures& operator=(const HeadTextures&) = delete;
 
-  /// Fills the textures of the skin and of the photo, where the head has them, as fine as samples
-  /// are. Waits until the skin is painted, which is plain until then.
+  /// Fills the textures of skin and photo, where the head has them, at the samples' resolution.
+  /// Blocks until the skin is painted; before this call it is drawn plain.
   void Load(HeadBuffers& head, float samples_per_mm);
 
-  /// GL names; 0 for what the head does not have.
+  /// GL names; 0 for a texture that the head does not have.
   GLuint tint() const { return skin_ ? textures_[kTint] : 0; }
   GLuint skin_relief() const { return skin_ ? textures_[kSkinRelief] : 0; }
   GLuint photo() const { return photo_ ? textures_[kPhoto] : 0; }
@@ -31,7 +31,7 @@ class HeadTextures {
  private:
   enum Texture { kTint, kSkinRelief, kPhoto, kNormal, kEmissive, kTextures };
 
-  /// How a picture is loaded: halved so often (-1: doubled), and filtered or not.
+  /// How a picture is loaded: halved `level` times (-1: doubled), with this GL filter.
   struct Sampling {
     int level;
     GLint filter;
@@ -43,11 +43,10 @@ class HeadTextures {
 
   const GlFunctions& gl_;
   GLuint textures_[kTextures] = {};
-  std::optional<Sampling> skin_, photo_;  // as they are loaded
+  std::optional<Sampling> skin_, photo_;  // as currently loaded
 };
 
-/// Fills a texture with a picture that repeats, its row 0 at v = 0. `filter`: GL_NEAREST or
-/// GL_LINEAR.
+/// Fills a texture with a repeating picture, row 0 at v = 0. `filter`: GL_NEAREST or GL_LINEAR.
 void FillTexture(const GlFunctions& gl, GLuint texture, const Image& picture, GLint filter);
 
 }  // namespace fsm

@@ -12,8 +12,8 @@ namespace {
 
 using Make = std::function<std::unique_ptr<RenderContext>(int, int)>;
 
-/// The order in which ways to draw off screen are tried, from left to right; those that this
-/// program was built without are passed over.
+/// Returns the ways to make an off-screen context in the order in which they are tried, from left
+/// to right; those that this program was built without are skipped.
 ///
 /// | asked for | first                   | then                | last   |
 /// | kOsMesa   | OSMesa                  | Mesa's EGL software |        |

@@ -10,12 +10,12 @@
 namespace fsm {
 namespace {
 
-/// The lamps of the table, changed as a scene wants them.
+/// Returns the lamps of the table with the changes that a scene asks for.
 Lamps LampsOf(const Appearance& appearance, const Scene& scene) {
   Lamps out;
   const auto set = [&out](std::size_t i, const auto& row, const DirectionalLight& wanted) {
     out.directions[i] = glm::normalize(wanted.direction.value_or(row.direction));
-    // White is as bright as the lamp is by itself.
+    // A white tint keeps the lamp's own brightness.
     const float mean = (row.light.r + row.light.g + row.light.b) / 3.0F;
     out.colours[i] = wanted.strength * (wanted.tint ? *wanted.tint * mean : row.light);
   };

@@ -113,7 +113,7 @@ void Materials::SetSurface(const GlProgram& program, const MaterialFrame& frame)
 }
 
 bool Materials::IsHidden(const DrawnPart& part) const {
-  // Nostrils have the mouth's lining, too.
+  // The lining of the mouth also lines the nostrils.
   return mouth_.lips_shut() && IsOfMouth(part.part.material) &&
          part.part.material != Material::kMouthInside;
 }
@@ -145,7 +145,7 @@ void Materials::Use(const DrawnPart& drawn) {
 
 void Materials::UseSurface(const DrawnPart& drawn) {
   const Material material = drawn.part.material;
-  // What is plain is as dull as the lining of a mouth, which the table has.
+  // Matte parts are as dull as the lining of the mouth, which the table describes.
   const Appearance::Surface& surface =
       appearance_.surface(material == Material::kMatte ? Material::kMouthInside : material);
   const bool inside = mouth_.has_opening() && IsOfMouth(material);
@@ -155,7 +155,7 @@ void Materials::UseSurface(const DrawnPart& drawn) {
   const GlProgram& program = inside ? mouth_.program() : relief ? surface_ : smooth_;
   program.Use();
   program.Set("wrap", surface.wrap);
-  program.Set("lobes", 2.0F * surface.lobes);  // of a texture in which one half stands for 1
+  program.Set("lobes", 2.0F * surface.lobes);  // the texture's value 0.5 stands for 1
   if (inside) {
     program.Set("lining", material == Material::kMouthInside);
   } else {

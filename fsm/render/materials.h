@@ -8,35 +8,35 @@
 
 namespace fsm {
 
-/// Which shader program, with which numbers and textures, draws which material; the same for all
-/// heads that are drawn in a context. Destroy while its context is current.
+/// Selects shader program, uniforms and textures for each material; shared by all heads of a
+/// context. Destroy while its context is current.
 class Materials {
  public:
-  /// `gl` and `appearance` outlive it.
+  /// `gl` and `appearance` must outlive it.
   Materials(const GlFunctions& gl, const Appearance& appearance);
   ~Materials();
   Materials(const Materials&) = delete;
   Materials& operator=(const Materials&) = delete;
 
-  /// Hands camera, eyes and the like to every program. `vertices` are in the head's own frame;
-  /// `head` and `textures` are that head's, until the next call.
+  /// Sets the uniforms of every program for a frame. `vertices` are in the head's own frame; `head`
+  /// and `textures` belong to that head and stay in use until the next call.
   void BeginFrame(const View& view, const HeadBuffers& head, const HeadTextures& textures,
                   const HeadVertices& vertices, const Scene& scene);
-  /// Whether nothing of a part is seen in this frame: teeth, gums and tongue behind lips that are
-  /// shut.
+  /// Tells whether nothing of a part is visible in this frame: teeth, gums and tongue behind closed
+  /// lips.
   bool IsHidden(const DrawnPart& part) const;
   void Use(const DrawnPart& part);
-  /// Whether the creased variants of shaders are used: what BeginFrame found, until it is set.
+  /// Whether the creased shader variants are used: BeginFrame decides, SetCreased overrides.
   bool creased() const { return creased_; }
   void SetCreased(bool creased) { creased_ = creased; }
-  /// A plain colour, for lines and for passes whose colour is not kept.
+  /// Selects a plain colour, for lines and for passes whose colour is discarded.
   void UseLine(const glm::vec4& colour);
 
  private:
   enum Texture { kNoise, kWeave, kStrands, kPlain, kTextures };
 
   void Bind(GLuint texture, TextureUnit unit);
-  /// 0: of one colour.
+  /// Binds a plain texture in place of name 0.
   void BindOrPlain(GLuint texture, TextureUnit unit);
   void SetSurface(const GlProgram& program, const MaterialFrame& frame) const;
   void UseSurface(const DrawnPart& part);
@@ -46,18 +46,18 @@ class Materials {
   const GlFunctions& gl_;
   const Appearance& appearance_;
   GlProgram surface_;
-  GlProgram smooth_;  // the same without relief
+  GlProgram smooth_;  // like surface_, without relief
   GlProgram hair_;
   GlProgram line_;
-  std::optional<GlProgram> pbr_;  // made for the first head that has any
+  std::optional<GlProgram> pbr_;  // compiled for the first head that needs it
   MouthMaterial mouth_;
   EyeMaterial eye_;
   PhotoMaterial photo_;
   GLuint shared_textures_[kTextures] = {};
-  const HeadBuffers* head_ = nullptr;  // of the last BeginFrame
+  const HeadBuffers* head_ = nullptr;  // that of the last BeginFrame
   const HeadTextures* head_textures_ = nullptr;
-  bool creased_ = false;  // any skin, in the last BeginFrame
-  bool pores_ = false;    // are seen
+  bool creased_ = false;  // whether any skin creases in this frame
+  bool pores_ = false;    // whether pores are visible
 };
 
 }  // namespace fsm

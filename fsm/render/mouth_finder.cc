@@ -22,7 +22,7 @@ std::optional<MouthFinder::Opening> MouthFinder::Measure(const HeadVertices& ver
   const auto at = [&vertices](std::uint32_t i) { return vertices.position[i]; };
   const glm::vec3 right = at(slit_->corner_right), left = at(slit_->corner_left);
   const glm::vec3 middle = 0.5F * (right + left);
-  // Teeth stand upright in the skull, whatever the lips do.
+  // The teeth's frame is upright in the skull, whatever the lips do.
   const auto unit = [](glm::vec3 v, glm::vec3 otherwise) {
     return glm::length(v) > 1 ? glm::normalize(v) : otherwise;
   };
@@ -37,7 +37,7 @@ std::optional<MouthFinder::Opening> MouthFinder::Measure(const HeadVertices& ver
     return glm::vec3(opening.to_mouth * glm::vec4(at(i), 1));
   };
   for (std::size_t k = 0; k < kColumns; ++k) {
-    // The middles of equal parts of the row.
+    // Takes the middle vertex of each of kColumns equal sections of the seam.
     const auto [upper, lower] = slit_->seam[(2 * k + 1) * slit_->seam.size() / (2 * kColumns)];
     opening.lips[k] = place(upper);
     opening.lips[k + kColumns] = place(lower);
@@ -48,9 +48,9 @@ std::optional<MouthFinder::Opening> MouthFinder::Measure(const HeadVertices& ver
 }
 
 bool MouthFinder::Opening::IsShut() const {
-  constexpr float kShut = 0.02F;  // millimetres: less than a sample of any picture
+  constexpr float kShut = 0.02F;  // millimetres; less than a sample of any picture
   for (std::size_t k = 0; k < kColumns; ++k) {
-    // Lips that meet lie at the same depth.
+    // Lips that touch have the same depth.
     const glm::vec3 apart = lips[k] - lips[k + kColumns];
     if (apart.y > kShut || std::abs(apart.z) > kShut) return false;
   }

@@ -12,8 +12,8 @@
 
 namespace fsm {
 
-/// The opening through which light comes into the mouth: how lips and teeth stand in a frame. Made
-/// once per head, used every frame.
+/// Measures the opening through which light enters the mouth: lips and teeth in a frame. Made once
+/// per head, used every frame.
 class MouthFinder {
  public:
   static constexpr int kColumns = 11;
@@ -21,20 +21,20 @@ class MouthFinder {
   MouthFinder() = default;
   explicit MouthFinder(const HeadTopology& topology);
 
-  /// In the mouth's own frame, millimetres: x from the agent's right corner (-) to the left one, y
-  /// up along the upper incisors, origin midway between the corners.
+  /// The opening in the mouth's own frame, millimetres: x from the agent's right corner (-) to the
+  /// left one, y up along the upper incisors, origin midway between the corners.
   struct Opening {
     glm::mat4 to_mouth;  ///< from the frame of the vertices
-    /// Places on the edge of the upper lip from -x to +x, then of the lower one likewise.
+    /// Points on the edge of the upper lip from -x to +x, then on the lower lip likewise.
     std::array<glm::vec3, std::size_t{2} * kColumns> lips;
-    glm::vec2 corners;  ///< x of the right and the left one; both lie at y = z = 0
+    glm::vec2 corners;  ///< x of the right and the left corner; both lie at y = z = 0
     glm::vec2 teeth;    ///< heights of the upper and the lower incisors' edges
-    /// Whether the lips meet in every column.
+    /// Tells whether the lips touch in every column.
     bool IsShut() const;
   };
-  /// Nothing where the head does not say where its lips part.
+  /// Returns nothing if the head has no seam of the lips (MouthSlit).
   std::optional<Opening> Measure(const HeadVertices& vertices) const;
-  /// The vertices that Measure looks at.
+  /// Appends the vertices that Measure reads.
   void AppendVertices(std::vector<std::uint32_t>& out) const;
 
  private:

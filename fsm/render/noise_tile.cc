@@ -27,7 +27,7 @@ Image MakeNoiseTile() {
     for (int x = 0; x < kNoiseCells; ++x) {
       int sum = 0;
       for (int k = 0; k < 9; ++k) sum += own[Cell(x + k % 3 - 1, y + k / 3 - 1)];
-      // The mean of nine spreads a third as far as each.
+      // The mean of nine cells has a third of a cell's standard deviation; this restores it.
       smooth[Cell(x, y)] = std::clamp(128 + (sum - 9 * 128) / 4, 0, 255);
     }
   }
@@ -46,7 +46,7 @@ Image MakeNoiseTile() {
 
 Image MakeStrandTile() {
   constexpr int kStrandsAcross = 512, kStrandsAlong = 256;
-  constexpr int kKnots = 16;  // along a strand, with straight lines between them
+  constexpr int kKnots = 16;  // linearly interpolated along a strand
   constexpr int kApart = kStrandsAlong / kKnots;
   constexpr std::uint64_t kHair = 41;
   constexpr std::uint64_t kLock = 42;
@@ -57,7 +57,7 @@ Image MakeStrandTile() {
     };
     const float t = static_cast<float>(y % kApart) / kApart;
     const float along = knot(y / kApart) * (1 - t) + knot(y / kApart + 1) * t;
-    // Half of it is the strand's own from root to tip.
+    // Half of the value is constant along the strand.
     return 0.5F * along + 0.5F * Chance(series + 2, static_cast<std::uint64_t>(strand));
   };
   constexpr int kHairs = 6;

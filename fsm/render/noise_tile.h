@@ -4,15 +4,15 @@
 
 namespace fsm {
 
-// Tileable pictures, always of the same bytes.
+// Tileable pictures; their bytes never change.
 
-/// Noise, 256 x 256: every cell's own value in alpha, a mean over 3 x 3 cells, stretched to the
-/// same spread, in blue, and half the difference of that along x and y in red and green, both about
+/// Makes 256 x 256 cells of noise: alpha has a cell's own value; blue the mean over 3 x 3 cells,
+/// stretched to the same spread; red and green half the differences of blue along x and y, about
 /// 128.
 Image MakeNoiseTile();
 
-/// Strands, 512 across and 256 along them: how light each hair is in alpha, each lock of some 6
-/// hairs in blue, both about 128 and changing slowly along the strand; red and green are 128.
+/// Makes a tile of hair, 512 strands across, 256 texels along: the lightness of each hair in alpha,
+/// of each lock of about 6 hairs in blue, both about 128 and changing slowly along the strand.
 Image MakeStrandTile();
 
 }  // namespace fsm

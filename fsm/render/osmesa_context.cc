@@ -10,12 +10,12 @@
 namespace fsm {
 namespace {
 
-/// The functions of OSMesa. Its library is loaded when a context is first made and then stays: it
-/// brings LLVM, which takes as long to load as a head takes to be baked. That is done meanwhile,
-/// and programs that draw nothing do without.
+/// The functions of OSMesa. The library is loaded when a context is first made, and stays loaded:
+/// it brings LLVM, which takes as long to load as a head takes to bake. The two run in parallel,
+/// and programs that draw nothing do not load it.
 class OsMesa {
  public:
-  /// Throws std::runtime_error with the loader's sentence.
+  /// Throws std::runtime_error with the text of dlerror().
   OsMesa() {
     void* const library = dlopen("libOSMesa.so.8", RTLD_LAZY);
     const auto fetch = [library]<typename Function>(const char* name, Function& function) {
@@ -34,8 +34,8 @@ class OsMesa {
   decltype(&OSMesaGetProcAddress) get_proc_address = nullptr;
 };
 
-/// Software OpenGL into memory. The renderer draws into framebuffer objects of its own; OSMesa
-/// insists on memory to bind, and one pixel is enough.
+/// Software OpenGL to memory. The renderer draws into its own framebuffer objects, but OSMesa
+/// requires memory to bind; one pixel is enough.
 class OsMesaContext : public OffScreenContext {
  public:
   OsMesaContext(int width, int height) : OffScreenContext(width, height) {
@@ -91,8 +91,8 @@ std::unique_ptr<RenderContext> MakeOsMesaContext(int width, int height) {
 
 }  // namespace fsm
 
-// OSMesa keeps a few kilobytes of its own until the process ends; the leak checker of a sanitized
-// build is told so in every program that can hold such a context.
+// OSMesa keeps a few kilobytes until the process ends. This tells the leak checker of a sanitized
+// build, in every program that may hold such a context.
 #if defined(__has_feature)
 #define FSM_HAS_FEATURE(feature) __has_feature(feature)
 #else

@@ -8,7 +8,7 @@
 namespace fsm {
 namespace {
 
-/// Where a point is beside a line: how far from it, and how far along, 0..1.
+/// Returns the distance of a point from a segment, and the position along the segment, 0..1.
 glm::vec2 Beside(glm::vec2 p, glm::vec2 from, glm::vec2 to) {
   const glm::vec2 line = to - from;
   const float t =
@@ -40,7 +40,7 @@ void PaintHair(const SkinHair& hair, SkinTexture& out) {
       if (cover <= 0) continue;
       std::uint8_t* tint = &out.tint.rgba[4 * out.tint.Index(x, y)];
       for (int k = 0; k < 4; ++k) {
-        // Hairs that lie on hairs do not make each other darker; all are duller than skin.
+        // Overlapping hairs do not darken each other; all are duller than skin.
         const float own = 128 * (k < 3 ? std::min(hair.tint[k], 1.0F) : 0.4F);
         const auto skin = static_cast<float>(tint[k]);
         tint[k] = static_cast<std::uint8_t>(skin + cover * (std::min(own, skin) - skin) + 0.5F);

@@ -7,7 +7,7 @@
 
 namespace fsm {
 
-/// Draws hairs into the tint, each a bent line that ends in a point.
+/// Draws hairs into the tint texture, each as a bent line that tapers to a point.
 void PaintHairs(std::span<const SkinHair> hairs, SkinTexture& out);
 
 }  // namespace fsm

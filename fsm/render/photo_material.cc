@@ -44,11 +44,11 @@ void PhotoMaterial::Begin(const MaterialFrame& frame, const MouthMaterial& mouth
 }
 
 void PhotoMaterial::Use(const DrawnPart& part, const HeadBuffers& head, bool creased) const {
-  // Skin that does not crease in this frame is the photo and nothing else.
+  // Skin that does not crease in this frame shows the plain photo.
   const bool plain = part.detail == SkinDetail::kCreased && !creased && programs_[0];
   const GlProgram& program = *programs_[plain ? 0 : static_cast<std::size_t>(part.detail)];
   const bool ragged = part.part.material == Material::kPhoto;
-  // Where the sheet goes on from the skin the skin is seen, however coarse the sheet.
+  // Where the sheet continues the skin, the skin wins, however coarse the sheet is.
   constexpr float kYieldsMm = 5;
   program.Use();
   program.Set("lashes", part.part.material == Material::kShutLash);

@@ -7,20 +7,20 @@
 
 namespace fsm {
 
-/// What wears a photo, which brought its own light (shaders/photo_fragment.glsl): skin, lips, the
-/// sheet beside them, lashes of shut lids. Its programs are made for the first head that needs
+/// Parts that wear a photo, which includes its own light (shaders/photo_fragment.glsl): skin, lips,
+/// the sheet beside them, lashes of shut lids. Programs are compiled for the first head that needs
 /// them. Destroy while its context is current.
 class PhotoMaterial {
  public:
-  /// `gl` and `appearance` outlive it.
+  /// `gl` and `appearance` must outlive it.
   PhotoMaterial(const GlFunctions& gl, const Appearance& appearance)
       : gl_(gl), appearance_(appearance) {}
-  /// Whether a part of a head is drawn by it.
+  /// Tells whether it draws this material of a head.
   static bool Draws(Material material, const HeadBuffers& head);
   void Prepare(const HeadBuffers& head);
-  /// Those that were made, by SkinDetail.
+  /// The programs compiled so far, by SkinDetail.
   const std::array<std::optional<GlProgram>, 3>& programs() const { return programs_; }
-  /// REQUIRES: Prepare of the frame's head.
+  /// REQUIRES: Prepare was called for the frame's head.
   void Begin(const MaterialFrame& frame, const MouthMaterial& mouth) const;
   void Use(const DrawnPart& part, const HeadBuffers& head, bool creased) const;
 

@@ -25,7 +25,7 @@
 namespace fsm {
 namespace {
 
-/// What stands behind the figure.
+/// Returns the scene whose background is drawn behind the figure.
 Scene Behind(const Scene& scene) {
   Scene behind = scene;
   if (scene.view_mode == ViewMode::kWireframe && scene.wire_on_black) {
@@ -42,15 +42,15 @@ bool IsDrawnFromBothSides(const HeadTopology::Part& part) {
          material == kMatte;
 }
 
-/// Whether the processor draws: Mesa's drivers for that.
+/// Tells whether the processor draws, through one of Mesa's software drivers.
 bool IsSoftware(const GlFunctions& gl) {
   const auto* renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
   const std::string_view name = renderer ? renderer : "";
   return name.starts_with("llvmpipe") || name.starts_with("softpipe");
 }
 
-/// A head that a graphics card moves. What the frame must know of its vertices is found on the
-/// processor, which is faster than to read it back.
+/// A head that a graphics card moves. The vertices that the frame needs to know are computed on the
+/// processor as well, which is faster than reading them back.
 class CardRig {
  public:
   CardRig(const GlFunctions& gl, RigPrograms& programs, const Head& head,
@@ -61,8 +61,7 @@ class CardRig {
     for (const Renderer::Pane& pane : panes) faces_.push_back({pane.state, pane.swings});
     rig_.Evaluate(head.rig(), faces_);
   }
-  /// Has the buffers use the vertices of one of the faces moved last; gives the places that are
-  /// measured.
+  /// Binds `buffers` to one of the faces moved last; returns the positions that are measured.
   const HeadVertices& Use(std::size_t face, HeadBuffers& buffers) {
     buffers.Use(rig_.positions(), rig_.normals(), rig_.OffsetBytes(face));
     partial_.Evaluate(*faces_[face].state, seen_, faces_[face].swings);
@@ -72,7 +71,7 @@ class CardRig {
  private:
   GpuRig rig_;
   PartialRig partial_;
-  std::vector<GpuRig::Input> faces_;  // moved last
+  std::vector<GpuRig::Input> faces_;  // those moved last
   HeadVertices seen_;
 };
 
@@ -114,7 +113,7 @@ class GlRenderer : public Renderer {
   }
 
   void Draw(std::span<const Pane> panes, const std::function<void(std::size_t)>& drawn) override {
-    constexpr std::ptrdiff_t kMostAtOnce = 256;  // each takes some 0.3 MB of the card
+    constexpr std::ptrdiff_t kMostAtOnce = 256;  // each takes about 0.3 MB on the card
     const Viewport before = viewport_;
     std::size_t done = 0;
     while (done < panes.size()) {
@@ -148,14 +147,14 @@ class GlRenderer : public Renderer {
   void DropRead(std::uint64_t frame) override { reader_.Drop(frame); }
 
  private:
-  /// What the card holds of a head.
+  /// What the card holds for one head.
   struct HeadOnCard {
     HeadOnCard(const GlFunctions& gl, const Head& head, const Appearance& appearance)
         : buffers(gl, head, appearance), textures(gl, head.topology()) {}
     HeadBuffers buffers;
     HeadTextures textures;
     std::optional<CardRig> rig;
-    std::uint64_t drawn = 0;  ///< the number of the last frame with it
+    std::uint64_t drawn = 0;  ///< number of the last frame that showed it
   };
 
   void Move(const Head& head, std::span<const Pane> panes) {
@@ -165,7 +164,7 @@ class GlRenderer : public Renderer {
     on_card.rig->Move(head, panes);
   }
 
-  /// `moved`: which of the faces of the head that were moved last it is.
+  /// `moved`: index among the faces of the head that were moved last.
   void DrawOne(const Head& head, const Pane& pane, std::size_t moved) {
     if (!rig_on_card_) {
       head.Evaluate(*pane.state, vertices_, pane.swings);
@@ -176,13 +175,13 @@ class GlRenderer : public Renderer {
     });
   }
 
-  /// `move`: has the buffers use the vertices of the frame, and gives those that are measured.
+  /// `move`: binds the buffers to the frame's vertices and returns those that are measured.
   void DrawFrame(const Head& head, const FaceState& state, const Scene& scene, const auto& move) {
     const int width = viewport_.width > 0 ? viewport_.width : context_.width();
     const int height = viewport_.width > 0 ? viewport_.height : context_.height();
     FindTarget(width, height);
     target_->Bind();
-    // A photo is soft, so hard edges beside it would be seen.
+    // A photo is soft, so hard edges beside it would stand out.
     soft_ = HasSoftLayers(head.topology());
     transparent_ = !scene.show_background;
     const Scene behind = Behind(scene);
@@ -190,7 +189,8 @@ class GlRenderer : public Renderer {
     const float alpha = std::clamp(state.figure.alpha, 0.0F, 1.0F);
     if (state.figure.enabled && alpha > 0) {
       DrawFigure(head, state, scene, move);
-      // It fades as one picture. Each of its layers drawn in part would show what is behind them.
+      // The figure fades as one picture; blending each of its layers would show what is behind
+      // them.
       if (alpha < 1) backdrop_.Veil(behind, 1 - alpha);
     }
     if (context_.is_window()) {
@@ -214,7 +214,7 @@ class GlRenderer : public Renderer {
     return *found->second;
   }
 
-  /// Panes of several sizes take turns, so the targets of the last few sizes are kept.
+  /// Panes of several sizes alternate, so the targets of the last few sizes are kept.
   void FindTarget(int width, int height) {
     constexpr std::size_t kMost = 4;
     const auto fits = [&](const auto& target) {
@@ -252,14 +252,14 @@ class GlRenderer : public Renderer {
       gl_.CullFace(GL_BACK);
       for (const DrawnPart& part : parts) {
         if (materials_.IsHidden(part)) continue;
-        // Lashes have two sides; everything else is the skin of something closed, or of hair, which
-        // has an inside of its own where it hangs.
+        // Lashes are two-sided. All other parts are closed surfaces, or hair, which has its own
+        // inner side where it hangs.
         (IsDrawnFromBothSides(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
         materials_.Use(part);
         if (part.soft) BeginBlending();
         DrawPart(part.part);
         if (part.soft) gl_.Disable(GL_BLEND);
-        // A software driver draws on threads of its own, but begins when told to.
+        // A software driver draws on its own threads, but starts only when flushed.
         if (!draws_on_card_ && &part == &parts.front()) gl_.Flush();
       }
       gl_.Disable(GL_CULL_FACE);
@@ -270,9 +270,9 @@ class GlRenderer : public Renderer {
     gl_.Disable(GL_DEPTH_TEST);
   }
 
-  /// A software driver compiles a shader when it first draws with it, which takes far longer than a
-  /// frame. So that is done while the skin is being painted: one triangle of each part, unseen,
-  /// with creases and without.
+  /// A software driver compiles a shader on first use, which takes far longer than a frame. It is
+  /// made to do so while the skin is painted: one invisible triangle of each part, with and without
+  /// creases.
   void WarmUp(const std::vector<DrawnPart>& parts) {
     gl_.Viewport(0, 0, 0, 0);
     gl_.CullFace(GL_BACK);
@@ -327,13 +327,13 @@ class GlRenderer : public Renderer {
   Backdrop backdrop_;
   std::map<std::uint64_t, std::unique_ptr<HeadOnCard>> heads_;  // by Head::serial
   std::uint64_t frames_ = 0;
-  std::vector<std::unique_ptr<GlTarget>> targets_;  // the one used last first
+  std::vector<std::unique_ptr<GlTarget>> targets_;  // last used first
   const bool draws_on_card_;
   FrameReader reader_;
   RigPrograms rig_programs_;
   const bool rig_on_card_;
-  HeadVertices vertices_;  // where the processor makes them; reused
-  // The size of the frame drawn last.
+  HeadVertices vertices_;  // result of moving a head on the processor; reused
+  // The target of the last frame.
   GlTarget* target_ = nullptr;
   bool soft_ = false;
   bool transparent_ = false;

@@ -17,47 +17,47 @@ namespace fsm {
 
 class Appearance;
 
-/// What moves the vertices of a head that is drawn by its state.
+/// The device that moves the vertices of a head that is drawn from its state.
 enum class RigOn {
-  kBest,  ///< the graphics card where one draws and has compute shaders (OpenGL 4.3)
+  kBest,  ///< the graphics card if one draws and has compute shaders (OpenGL 4.3)
   kProcessor,
-  kCard  ///< also where a card is only software's
+  kCard  ///< even if the "card" is a software driver
 };
 
-/// Part of what a context draws into, in pixels from its upper left corner; width 0: all of it.
+/// A rectangle of the context's drawable in pixels from its upper left corner; width 0: all of it.
 struct Viewport {
   int x = 0, y = 0;
   int width = 0, height = 0;
 };
 
-/// Draws heads, any number of them one after the other, each where SetViewport says: so one window
-/// shows several faces. Programs and targets are shared by all of them; of the heads drawn last it
-/// keeps what never changes. Owns its GL objects; the context outlives it and is current in every
-/// call. 4x antialiased. The same head, state, scene and size give the same picture, whatever was
-/// drawn before.
+/// Draws any number of heads one after the other, each in the current viewport, so that one window
+/// can show several faces. All heads share programs and targets; the constant data of the heads
+/// drawn last is kept. Owns its GL objects; the context must outlive it and be current in every
+/// call. Antialiased with 4 samples. The same head, state, scene and size give the same picture,
+/// whatever was drawn before.
 class Renderer {
  public:
-  /// `heads`: how many are kept at most, 1 or more, each with some 20 MB of textures; one more
-  /// takes the place of the one that was not drawn for longest.
+  /// `heads`: number of heads kept, at least 1, each with about 20 MB of textures; the next head
+  /// replaces the one that has not been drawn for the longest time.
   static std::unique_ptr<Renderer> Make(RenderContext& context, std::size_t heads = 8);
-  /// `appearance` in place of the built-in one; it outlives the renderer. Throws std::runtime_error
-  /// if `rig` is kCard and the driver cannot do it.
+  /// `appearance` replaces the built-in one and must outlive the renderer. Throws
+  /// std::runtime_error if `rig` is kCard and the driver cannot do it.
   static std::unique_ptr<Renderer> Make(RenderContext& context, std::size_t heads,
                                         const Appearance& appearance, RigOn rig = RigOn::kBest);
   virtual ~Renderer() = default;
-  /// Where the next frames go; at first everywhere.
+  /// Sets where the next frames are drawn; initially everywhere.
   virtual void SetViewport(const Viewport& viewport) = 0;
-  /// By how many pixels a face may be off at most, so that small ones are drawn with fewer
-  /// triangles (CoarseTriangles); at first 0: all are drawn, which pictures to be measured need.
+  /// Sets by how many pixels a face may be off, so that small ones are drawn with fewer triangles
+  /// (CoarseTriangles). Initially 0: all triangles, as measurements on pictures need.
   virtual void SetFormError(float pixels) = 0;
-  /// `vertices` belong to `head` (Evaluate of `state`).
+  /// REQUIRES: `vertices` belong to `head` (Evaluate of `state`).
   virtual void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
                     const Scene& scene) = 0;
-  /// Draws the vertices that the head's rig makes of `state` and `swings` (Rig::Evaluate). A card
-  /// makes them itself (GpuRig), equal within what GpuRig says.
+  /// Draws the vertices that the head's rig computes from `state` and `swings` (Rig::Evaluate). A
+  /// card computes them itself (GpuRig), with the accuracy stated there.
   virtual void Draw(const Head& head, const FaceState& state, std::span<const glm::vec3> swings,
                     const Scene& scene) = 0;
-  /// One face of many, borrowed for the call.
+  /// One face of many; its pointers are borrowed for the call.
   struct Pane {
     const Head* head;
     const FaceState* state;
@@ -65,18 +65,18 @@ class Renderer {
     Viewport viewport = {};
     std::span<const glm::vec3> swings = {};
   };
-  /// Draws each in its viewport as above, and calls `drawn`, which may read but not draw, with its
-  /// number when it is the frame drawn last. A card moves faces of one head that follow each other
-  /// in one go. The viewport is afterwards what it was.
+  /// Draws each pane in its viewport and then calls `drawn` with its index, which may read the
+  /// frame but not draw. A card moves consecutive faces of one head in one call. Afterwards the
+  /// viewport is the previous one again.
   virtual void Draw(std::span<const Pane> panes,
                     const std::function<void(std::size_t)>& drawn = {}) = 0;
-  /// The frame drawn last, of the viewport's size.
+  /// Reads the last frame drawn, of the viewport's size.
   virtual void Read(Image& out) = 0;
-  /// Begins to bring the frame drawn last to memory while others are drawn, which a graphics card
-  /// does by itself; each frame under way holds 16 bytes a pixel there. Two or three keep it busy.
-  /// Returns what EndRead and DropRead know the frame by.
+  /// Starts reading the last frame drawn; a graphics card does so while others are drawn. Each
+  /// pending frame holds 16 bytes per pixel on the card; two or three keep it busy. Returns the
+  /// handle for EndRead and DropRead.
   virtual std::uint64_t BeginRead() = 0;
-  /// The same bytes as Read; waits until they are there. Frames may end in any order.
+  /// Waits for the frame and returns the bytes of Read. Frames may end in any order.
   virtual void EndRead(std::uint64_t frame, Image& out) = 0;
   virtual void DropRead(std::uint64_t frame) = 0;
 };

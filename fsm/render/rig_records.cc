@@ -28,14 +28,14 @@ RigRecords RecordsOf(const char* step, const std::vector<Record>& records,
           .entries = BytesOf(entries)};
 }
 
-/// What acts on each vertex, as lists. Entries keep their order, so that sums are taken in the same
-/// order as on the processor.
+/// Lists of the entries that act on each vertex. Entries keep their order, so that sums are
+/// computed in the same order as on the processor.
 template <typename Entry>
 class VertexLists {
  public:
   explicit VertexLists(std::size_t vertices) : lists_(vertices) {}
   std::vector<Entry>& operator[](std::uint32_t vertex) { return lists_[vertex]; }
-  /// A record for each vertex on which something acts.
+  /// Returns a record for each vertex with a non-empty list.
   RigRecords Records(const char* step) const {
     std::vector<step::ListRecord> records;
     std::vector<Entry> entries;
@@ -113,7 +113,7 @@ RigRecords LipRecords(const RigData& data) {
   return lists.Records("lips");
 }
 
-/// The vertices of the tongue; the entries are the pairs of the seam.
+/// Records are the vertices of the tongue; entries are the pairs of the lip seam.
 RigRecords TongueRecords(const RigData& data) {
   std::vector<step::TongueRecord> records;
   for (std::uint32_t i = 0; i < data.rest.size(); ++i) {
@@ -149,7 +149,7 @@ RigRecords SpringRecords(const RigData& data) {
   return lists.Records("springs");
 }
 
-/// A vertex gathers from all triangles about it, and about those it shares its normal with.
+/// Each vertex lists all triangles around it and around the vertices that share its normal.
 RigRecords NormalRecords(const RigData& data) {
   const NormalRig& normals = data.normals;
   const std::vector<std::uint32_t>& t = normals.soft_triangles;

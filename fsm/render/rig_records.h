@@ -7,16 +7,16 @@
 
 namespace fsm {
 
-/// What a program of shaders/rig_kernels.glsl reads of the vertices of a head: records, and entries
-/// where records have lists, both structs of fsm/rig/steps.glsl as they lie in memory.
+/// The vertex data that a program of shaders/rig_kernels.glsl reads: records, and entries where
+/// records have lists. Both hold structs of fsm/rig/steps.glsl in their memory layout.
 struct RigRecords {
-  const char* step;       ///< the name after STEP_
-  std::size_t count = 0;  ///< of records: what the program is run for
+  const char* step;       ///< the step's name after STEP_
+  std::size_t count = 0;  ///< number of records, which is the number of invocations
   std::vector<std::byte> records;
   std::vector<std::byte> entries;
 };
 
-/// Of all programs that move a head, in their order; those that would do nothing are left out.
+/// Returns the records of all programs that move a head, in order, without those that do nothing.
 std::vector<RigRecords> RecordsOfSteps(const RigData& data);
 
 }  // namespace fsm

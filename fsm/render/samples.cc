@@ -8,9 +8,8 @@
 namespace fsm {
 namespace {
 
-/// The average of every 2 x 2 of two rows of samples that follow each other, rounded to the
-/// nearest. Bytes 0 and 2 of a sample are added in one word, 1 and 3 in another, with room for the
-/// carry.
+/// Averages each 2 x 2 block of two consecutive rows of samples, rounded to nearest. Bytes 0 and 2
+/// of a sample are added in one word, 1 and 3 in another, which leaves room for the carry.
 void AverageRow(const std::uint32_t* samples, std::size_t row, std::uint8_t* rgba) {
   constexpr std::uint32_t kEven = 0x00ff00ff;
   constexpr std::uint32_t kHalf = 0x00020002;
@@ -27,16 +26,15 @@ void AverageRow(const std::uint32_t* samples, std::size_t row, std::uint8_t* rgb
   }
 }
 
-/// Likewise of every 4 x 4 of four rows, the inner samples three times as heavy as the outer ones
-/// in either direction: pixels share what lies between them. `sums`: room for 4 * (row + 2)
-/// numbers.
+/// Averages each 4 x 4 block of four rows, with three times the weight for the inner samples in
+/// either direction, so neighbouring pixels share samples. `sums`: space for 4 * (row + 2) numbers.
 void SoftRow(const std::array<const std::uint32_t*, 4>& rows, std::size_t row, std::uint16_t* sums,
              std::uint8_t* rgba) {
   const auto bytes = [&rows](std::size_t k) {
     return reinterpret_cast<const std::uint8_t*>(rows[k]);
   };
   const std::uint8_t *below = bytes(0), *low = bytes(1), *high = bytes(2), *above = bytes(3);
-  std::uint16_t* inside = sums + 4;  // one sample more at either end
+  std::uint16_t* inside = sums + 4;  // one more sample at either end
   for (std::size_t i = 0; i < 4 * row; ++i) {
     inside[i] = static_cast<std::uint16_t>(below[i] + above[i] + 3 * (low[i] + high[i]));
   }

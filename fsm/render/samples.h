@@ -10,21 +10,21 @@ namespace fsm {
 /// Samples along each side of a pixel.
 inline constexpr int kSamplesAlong = 2;
 
-/// Rows of RGBA8 samples as GL hands them out, the lowest first.
+/// Rows of RGBA8 samples as GL returns them, lowest first.
 struct SampleRows {
   const std::uint32_t* first;
-  std::size_t row;  ///< samples in each
-  int from, to;     ///< which rows of the target these are, both included
+  std::size_t row;  ///< samples in each row
+  int from, to;     ///< index of first and last row in the target
 };
 
-/// The averages of the samples of `rows` rows of pixels from the `first` on, counted from below,
-/// into 4 bytes each, the upper row first. `soft`: over 4 x 4 samples, the outer ones in part, as a
-/// camera would; edges that are nearly level then do not look like stairs. It takes one row of
-/// samples below and above, too, where `samples` has them.
+/// Averages the samples of `rows` rows of pixels, counted from below, beginning with `first`, into
+/// 4 bytes for each pixel, upper row first. `soft`: averages over 4 x 4 samples with less weight on
+/// the outer ones, as a camera does, so that nearly horizontal edges show no stairs. It then also
+/// uses one row of samples below and above, where `samples` has them.
 void AverageSamples(const SampleRows& samples, int first, int rows, bool soft, std::uint8_t* rgba);
 
-/// Blending and averaging over transparent black leave colours already multiplied by their opacity;
-/// picture files want them whole.
+/// Divides colours by their opacity: blending and averaging over transparent black leave them
+/// premultiplied, but picture files expect them straight.
 void Unmultiply(Image& image);
 
 }  // namespace fsm

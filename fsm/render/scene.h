@@ -11,37 +11,37 @@ namespace fsm {
 
 enum class ViewMode { kTexture, kTextureWithWireframe, kWireframe };
 
-/// A lamp far away. What is not said is as tables/appearance.txt has it.
+/// A directional lamp. Members that are not set are those of tables/appearance.txt.
 struct DirectionalLight {
-  /// Towards the lamp: x to the viewer's right, y up, z to the viewer.
+  /// Direction towards the lamp: x to the viewer's right, y up, z to the viewer.
   std::optional<glm::vec3> direction = {};
-  std::optional<glm::vec3> tint = {};  ///< linear RGB; white is as bright as the lamp of the table
+  std::optional<glm::vec3> tint = {};  ///< linear RGB; white is as bright as the table's lamp
   float strength = 1;
 };
 
-/// Where the viewer stands.
+/// The position of the viewer.
 struct Camera {
-  float distance = 1;        ///< as part of that from which head and shoulders fill the view
-  float height_mm = 0;       ///< above the middle of the portrait, of viewer and aim
-  float field_degrees = 25;  ///< seen from below to above; the head stays as large
-  float angle_degrees = 0;   ///< round the head, positive = to the viewer's right
+  float distance = 1;        ///< 1: head and shoulders fill the view
+  float height_mm = 0;       ///< of viewer and aim, above the middle of the portrait
+  float field_degrees = 25;  ///< vertical field of view; the head's size stays
+  float angle_degrees = 0;   ///< around the head, positive = to the viewer's right
   std::optional<ParallelView> parallel =
-      {};  ///< instead of the portrait; the field means nothing then
-  /// Figure::translation counts half the longer side of the view, not millimetres.
+      {};  ///< instead of the portrait; field_degrees is then ignored
+  /// If true, Figure::translation counts halves of the view's longer side instead of millimetres.
   bool moves_by_half_views = false;
 };
 
-/// Everything in a picture but the head.
+/// Everything in a picture except the head.
 struct Scene {
-  glm::vec3 background{0.35f, 0.42f, 0.48f};  ///< sRGB 0..1, when there is no picture
-  bool studio = false;  ///< instead of that colour, a wall that is brighter behind the head
-  /// Stretched over the view; another picture is another object.
+  glm::vec3 background{0.35f, 0.42f, 0.48f};  ///< sRGB 0..1, used without a picture
+  bool studio = false;  ///< replaces `background` by a wall that is brighter behind the head
+  /// Stretched over the view. A changed picture must be another object.
   std::shared_ptr<const Image> background_image = {};
-  bool show_background = true;  ///< off: transparent black
+  bool show_background = true;  ///< false: transparent black
   ViewMode view_mode = ViewMode::kTexture;
   Camera camera;
-  glm::vec3 wire{0.10f, 0.55f, 0.42f};  ///< sRGB, of the lines of ViewMode::kWireframe
-  bool wire_on_black = false;           ///< which have no background then
+  glm::vec3 wire{0.10f, 0.55f, 0.42f};  ///< sRGB, line colour of ViewMode::kWireframe
+  bool wire_on_black = false;           ///< black background for ViewMode::kWireframe
   DirectionalLight key, fill, rim;
 };
 

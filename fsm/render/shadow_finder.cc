@@ -7,13 +7,13 @@
 namespace fsm {
 namespace {
 
-// In the rest frame, millimetres. What faces the light has an ellipsoid behind it, never before it,
-// so these need not lie inside the surface to leave it unshaded.
+// In the rest frame, millimetres. A surface that faces the light has its ellipsoid behind it, so
+// the ellipsoids may reach through the surface without shading it.
 constexpr glm::vec3 kSkullCentre{0.0F, -10.0F, 18.0F};
 constexpr glm::vec3 kSkullRadii{66.0F, 108.0F, 80.0F};
-constexpr glm::vec3 kNoseInset{0.0F, 3.0F, -13.0F};  // of its centre from the tip
+constexpr glm::vec3 kNoseInset{0.0F, 3.0F, -13.0F};  // of the centre from the tip of the nose
 constexpr glm::vec3 kNoseRadii{9.0F, 11.0F, 13.0F};
-/// Anchors at the sides are looked for between these heights.
+/// Anchors at the sides are searched between these heights, millimetres.
 constexpr float kLowestSide = 0.0F;
 constexpr float kHighestSide = 60.0F;
 
@@ -46,7 +46,7 @@ glm::mat4 ShadowFinder::SpaceOf(const HeadVertices& vertices) const {
   const glm::vec3 middle = (right + left) / 2.0F;
   glm::vec3 x = left - right;
   glm::vec3 z = vertices.position[anchors_->nose] - middle;
-  // A degenerate head keeps the axes it was given in.
+  // A degenerate head keeps the given axes.
   x = glm::length(x) > 1 ? glm::normalize(x) : glm::vec3(1.0F, 0.0F, 0.0F);
   z -= x * glm::dot(x, z);
   z = glm::length(z) > 1 ? glm::normalize(z) : glm::vec3(0.0F, 0.0F, 1.0F);

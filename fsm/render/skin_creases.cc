@@ -10,7 +10,7 @@
 
 namespace fsm {
 
-/// A narrow furrow between two low swellings.
+/// Returns the profile of a narrow furrow between two low swellings.
 float CreaseRelief::Furrow(float off, float width) const {
   if (std::abs(off) > 5.2F * width) return 0;
   return -Bell(off, width) + skin_.crease.swelling * (Bell(off - 2.2F * width, 1.5F * width) +
@@ -29,8 +29,8 @@ float CreaseRelief::HeightAt(const glm::vec3& p) const {
   return height;
 }
 
-/// Lines that follow the brow, rising a little to the sides of the middle. The waves of each begin
-/// elsewhere and differ in length, so that no line is quite like another.
+/// Adds lines that follow the brow, rising a little beside the middle. The waves of each have their
+/// own phase and length, so that no line equals another.
 void CreaseRelief::AddForehead(const glm::vec3& p, float side, float& height) const {
   const auto& lines = skin_.forehead_lines;
   const auto places = ListOf(lines.places);
@@ -50,7 +50,7 @@ void CreaseRelief::AddForehead(const glm::vec3& p, float side, float& height) co
   }
 }
 
-/// Two upright lines between the brows, and one across the root of the nose, which is the nose's.
+/// Adds two vertical lines between the brows, and the nose's one across the nasion.
 void CreaseRelief::AddGlabella(const glm::vec3& p, float side, float& height) const {
   const auto& lines = skin_.glabella_lines;
   const auto& across = skin_.nasion_line;
@@ -61,7 +61,7 @@ void CreaseRelief::AddGlabella(const glm::vec3& p, float side, float& height) co
             Bell(side, across.reach);
 }
 
-/// Short lines beside the bridge of the nose that slant down and outward.
+/// Adds short lines beside the bridge of the nose that slant down and outward.
 void CreaseRelief::AddBridge(const glm::vec3& p, float side, float& height) const {
   const auto& lines = skin_.bridge_lines;
   if (side >= 16 || p.y >= landmarks_.nasion.y - 2) return;
@@ -73,7 +73,7 @@ void CreaseRelief::AddBridge(const glm::vec3& p, float side, float& height) cons
   }
 }
 
-/// Lines that fan out from the outer corner of the eye.
+/// Adds lines that fan out from the outer corner of the eye.
 void CreaseRelief::AddCrowsFeet(const glm::vec3& p, float side, float& height) const {
   const auto& lines = skin_.crows_feet;
   const glm::vec2 out(side - landmarks_.exocanthion.left.x - 2,
@@ -89,7 +89,7 @@ void CreaseRelief::AddCrowsFeet(const glm::vec3& p, float side, float& height) c
   }
 }
 
-/// The fold from above the wing of the nose past the corner of the mouth.
+/// Adds the fold from above the wing of the nose past the corner of the mouth.
 void CreaseRelief::AddNasolabial(const glm::vec3& p, float side, float& height) const {
   const auto& fold = skin_.nasolabial_fold;
   const glm::vec3 wing = landmarks_.alare.left, corner = landmarks_.cheilion.left;
@@ -98,7 +98,7 @@ void CreaseRelief::AddNasolabial(const glm::vec3& p, float side, float& height) 
   const float fold_x =
       glm::mix(wing.x + fold.nose, corner.x + fold.mouth, std::clamp(t, 0.0F, 1.3F)) +
       fold.bow * std::sin(std::clamp(t, 0.0F, 1.0F) * 3.1416F);
-  // Measured along x a slanting fold is wider.
+  // A slanting fold is wider if measured along x.
   height += fold.depth * Furrow((side - fold_x) * fold.slants, fold.width) *
             SmoothStep(fold.begin, t) * SmoothStep(fold.end, t);
 }

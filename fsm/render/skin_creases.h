@@ -11,20 +11,19 @@
 
 namespace fsm {
 
-/// The creases of expression as a relief on the skin of a face. What it is made of outlives it.
+/// The creases of expression as a relief on a face's skin. Borrows its constructor's arguments.
 class CreaseRelief {
  public:
   CreaseRelief(const FaceLandmarks& landmarks, const Appearance& appearance)
       : landmarks_(landmarks), skin_(appearance.skin) {}
-  /// How high above the skin a place lies when all creases are at their deepest, millimetres.
+  /// Returns the height above the skin, in millimetres, when all creases are at their deepest.
   float HeightAt(const glm::vec3& place) const;
-  /// False where no crease is within a few millimetres.
+  /// Returns false where no crease is within a few millimetres.
   bool MayCrease(const glm::vec3& place) const;
 
  private:
   float Furrow(float off, float width) const;
-  // The creases of one region; `side` is how far the place is from the median. Each adds to what
-  // there is.
+  // Each adds the creases of one region; `side` is the distance from the median, millimetres.
   void AddForehead(const glm::vec3& p, float side, float& height) const;
   void AddGlabella(const glm::vec3& p, float side, float& height) const;
   void AddBridge(const glm::vec3& p, float side, float& height) const;
@@ -35,10 +34,10 @@ class CreaseRelief {
   const decltype(Appearance::skin)& skin_;
 };
 
-/// How much each crease shows at the vertices, 0..1.
+/// How much each crease shows at each vertex, 0..1.
 struct CreaseWeights {
   std::vector<glm::vec4> face;           ///< forehead, glabella, crow's feet, nasolabial
-  std::vector<glm::vec2> nose_and_left;  ///< nose; to which part it is the left side that creases
+  std::vector<glm::vec2> nose_and_left;  ///< nose; the left side's part in the depth
 };
 CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& landmarks);
 

@@ -34,7 +34,7 @@ void SkinMap::Fill(const HeadTopology& topology, const HeadVertices& rest,
   const float area = e1.x * e2.y - e1.y * e2.x;
   const auto [left, right] = std::minmax({uv[0].x, uv[1].x, uv[2].x});
   const auto [low, high] = std::minmax({uv[0].y, uv[1].y, uv[2].y});
-  // A triangle over the seam at the back would smear over the whole map.
+  // A triangle across the seam at the back would smear over the whole map.
   if (std::abs(area) < 1e-6F || right - left > static_cast<float>(kCells) / 2) return;
   const int x0 = std::max(static_cast<int>(std::ceil(left)), 0);
   const int x1 = std::min(static_cast<int>(std::floor(right)), kCells - 1);
@@ -45,7 +45,7 @@ void SkinMap::Fill(const HeadTopology& topology, const HeadVertices& rest,
       const glm::vec2 d = glm::vec2(static_cast<float>(x), static_cast<float>(y)) - uv[0];
       const float b = (d.x * e2.y - d.y * e2.x) / area;
       const float c = (e1.x * d.y - e1.y * d.x) / area;
-      // A little beyond the edges, so that no texel between two triangles is left out.
+      // The test reaches a little beyond the edges, so that no texel between triangles is missed.
       if (b < -0.02F || c < -0.02F || b + c > 1.02F) continue;
       const glm::vec3 at = p[0] + b * (p[1] - p[0]) + c * (p[2] - p[0]);
       const float outward = std::hypot(at.x, at.z);
@@ -73,7 +73,7 @@ glm::vec3 SkinMap::PlaceAt(float u, float v) const {
   const float s = x - static_cast<float>(cx);
   const float t = y - static_cast<float>(cy);
   const auto i = Index(cx, cy);
-  // Beside a hole only the nearest cell counts.
+  // Beside a hole only the nearest cell is used.
   if (kind[i] == kNone || kind[i + 1] == kNone || kind[i + kCells] == kNone ||
       kind[i + kCells + 1] == kNone) {
     return place[Index(static_cast<int>(x + 0.5F), static_cast<int>(y + 0.5F))];

@@ -10,8 +10,8 @@
 namespace fsm {
 namespace {
 
-/// Smoothed random numbers about 0, one row of a SkinMap at a time; `cell` cells from one number to
-/// the next.
+/// Smoothed random numbers about 0, one row of a SkinMap at a time; `cell` is the distance between
+/// two numbers, in cells.
 class NoiseRow {
  public:
   NoiseRow(int cell, std::uint64_t series) : cell_(cell), series_(series) {}
@@ -54,13 +54,13 @@ class NoiseRow {
   std::vector<float> out_ = std::vector<float>(SkinMap::kCells);
 };
 
-/// The regions of one head's face, by its landmarks.
+/// Computes the skin regions of one face from its landmarks.
 class RegionPainter {
  public:
   RegionPainter(const FaceLandmarks& landmarks, const Appearance& appearance)
       : landmarks_(landmarks), skin_(appearance.skin) {}
 
-  /// `broad`, `fine`: of the patches there, about 0.
+  /// `broad`, `fine`: noise of the patches at this place, about 0.
   SkinRegion At(SkinMap::Kind kind, const glm::vec3& p, float broad, float fine) const {
     SkinRegion out;
     const float patch = skin_.patches.broad * broad + skin_.patches.fine * fine;
@@ -151,7 +151,7 @@ std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceLandmarks& la
                                      const Appearance& appearance) {
   const RegionPainter painter(landmarks, appearance);
   std::vector<SkinRegion> out(map.kind.size());
-  NoiseRow broad(16, 1);  // patches of 20 and of 5 millimetres
+  NoiseRow broad(16, 1);  // patches of 20 mm and of 5 mm
   NoiseRow fine(4, 2);
   for (int y = 0; y < SkinMap::kCells; ++y) {
     const auto& b = broad.At(y);

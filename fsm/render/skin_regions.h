@@ -9,11 +9,11 @@
 
 namespace fsm {
 
-/// What changes slowly over the skin, one for each cell of a SkinMap.
+/// Slowly varying properties of the skin, one element for each cell of a SkinMap.
 struct SkinRegion {
   glm::vec4 tint{1.0F};  ///< factors on colour and on highlights
   float pores = 0;       ///< how strongly they show, 0..1
-  float cracks = 0;      ///< the same of the lines of lips
+  float cracks = 0;      ///< strength of the lines of the lips, 0..1
 };
 std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceLandmarks& landmarks,
                                      const Appearance& appearance);

@@ -32,7 +32,7 @@ std::uint8_t Byte(float value) {
 constexpr int kTile = 256;
 
 struct Fine {
-  float pore = 0, crack = 0, grain = 0;  // darkness of a pore, of a line of a lip; colour
+  float pore = 0, crack = 0, grain = 0;  // darkness of pores and lip lines; noise of colour
   glm::vec2 pore_slope{0.0F}, crack_slope{0.0F};
 };
 
@@ -40,7 +40,7 @@ std::size_t InTile(int x, int y) {
   return static_cast<std::size_t>((y & (kTile - 1)) * kTile + (x & (kTile - 1)));
 }
 
-/// Pores a millimetre and a half apart, each a pit; upright lines of lips.
+/// Makes pores about 1.5 mm apart, each a pit, and vertical lines of the lips.
 std::vector<Fine> MakeFineTile(const Appearance& appearance) {
   constexpr int kApart = 4;
   std::vector<Fine> tile(static_cast<std::size_t>(kTile) * kTile);
@@ -75,7 +75,7 @@ std::vector<Fine> MakeFineTile(const Appearance& appearance) {
           0.5F;
     }
   }
-  const float between = 2 / SkinTexture::kTexelsPerMm;  // millimetres from neighbour to neighbour
+  const float between = 2 / SkinTexture::kTexelsPerMm;  // millimetres between the two neighbours
   const float pore_mm = appearance.skin.pore.depth;
   const float crack_mm = appearance.skin.lip_lines.depth;
   for (int y = 0; y < kTile; ++y) {
@@ -97,7 +97,7 @@ SkinRegion Between(const SkinRegion& a, const SkinRegion& b, float t) {
           a.cracks + (b.cracks - a.cracks) * t};
 }
 
-/// Rows of both pictures but for the creases.
+/// Paints rows of both pictures, except the creases.
 void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& tile,
                const Appearance& appearance, int first, int last, SkinTexture& out) {
   constexpr int kCells = SkinMap::kCells;
@@ -107,7 +107,7 @@ void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& 
   const glm::vec4 grain_tint = appearance.skin.grain.tint;
   std::vector<SkinRegion> row(kCells + 1);
   for (int y = first; y < last; ++y) {
-    // Cells count for their middles.
+    // A cell's value applies at its centre.
     const float at_y = (static_cast<float>(y) + 0.5F) / kStep - 0.5F;
     const int cy = std::clamp(static_cast<int>(std::floor(at_y)), 0, kCells - 2);
     const float ty = std::clamp(at_y - static_cast<float>(cy), 0.0F, 1.0F);
@@ -139,7 +139,7 @@ void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& 
 
 // ---- creases
 
-/// Slopes of the creases, where there are any, by blocks of texels.
+/// Paints the slopes of the creases, block by block of texels.
 void PaintCreases(const SkinMap& map, const CreaseRelief& creases, int first, int last,
                   SkinTexture& out) {
   constexpr int kBlock = 8;
@@ -175,8 +175,8 @@ void Tint(SkinTexture& out, std::size_t texel, const glm::vec4& factor) {
   }
 }
 
-/// Calls `paint(texel, weight)` for the texels of a round spot, its weight falling to 0 at
-/// `radius`, at most kMostRadius.
+/// Calls `paint(texel, weight)` for the texels of a round spot. The weight falls to 0 at `radius`,
+/// which is clamped to kMostRadius.
 template <typename Paint>
 void Stamp(float x, float y, float radius, Paint paint) {
   constexpr float kMostRadius = 16;
@@ -194,7 +194,7 @@ void Stamp(float x, float y, float radius, Paint paint) {
   }
 }
 
-/// Faint brown freckles over nose and cheeks, a few darker moles.
+/// Paints faint brown freckles over nose and cheeks, and a few darker moles.
 void PaintFreckles(const SkinMap& map, const FaceLandmarks& landmarks, const Appearance& appearance,
                    SkinTexture& out) {
   const auto& skin = appearance.skin;
@@ -217,7 +217,7 @@ void PaintFreckles(const SkinMap& map, const FaceLandmarks& landmarks, const App
   }
 }
 
-/// Fine vessels beside the nose and on the cheeks: short walks that wander.
+/// Paints fine vessels beside the nose and on the cheeks, as short random walks.
 void PaintVessels(const SkinMap& map, const FaceLandmarks& landmarks, const Appearance& appearance,
                   SkinTexture& out) {
   const auto& skin = appearance.skin;
@@ -257,7 +257,7 @@ SkinTexture PaintSkin(const HeadTopology& topology, const HeadVertices& rest,
     PaintRows(regions, tile, appearance, first, last, out);
     PaintCreases(map, creases, first, last, out);
   };
-  // The face lies in the upper two thirds.
+  // The face lies in the upper two thirds of the picture.
   constexpr int kMiddle = kSide * 5 / 8;
   std::thread upper([&paint] { paint(kMiddle, kSide); });
   paint(0, kMiddle);

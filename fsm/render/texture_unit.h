@@ -6,7 +6,7 @@ namespace fsm {
 
 /// The unit that each texture of the shaders is bound to: GL_TEXTURE0 + unit.
 enum class TextureUnit : GLint {
-  kPass,  ///< what a pass that draws no head reads: background, samples
+  kPass,  ///< read by passes that draw no head: background, samples
   kNoise,
   kStrands,
   kPhoto,
@@ -14,7 +14,7 @@ enum class TextureUnit : GLint {
   kRelief,  ///< of skin, or the weave of cloth
   kNormalMap,
   kEmissiveMap,
-  kUpload  ///< which no shader reads: those of the frame stay bound
+  kUpload  ///< for uploads only, so that the frame's textures stay bound
 };
 
 constexpr GLenum NameOf(TextureUnit unit) { return GL_TEXTURE0 + static_cast<GLenum>(unit); }

@@ -6,25 +6,25 @@
 
 namespace fsm {
 
-/// What a vertex brings to the shaders, at the locations by which shaders/*.glsl ask for it. Skin
-/// and hair, which have shaders of their own, put different things at three of them.
+/// The vertex attributes, at the locations that shaders/*.glsl declare. Skin and hair, which have
+/// separate shaders, use three locations differently.
 struct VertexAttribute {
   enum Location : GLuint {
     kPosition,        ///< millimetres
-    kNormal,          ///< unit
+    kNormal,          ///< unit length
     kRestPosition,    ///< millimetres
-    kAlbedoOpenness,  ///< linear RGB, of lids ShutLid::colour; openness to light, 0..1
+    kAlbedoOpenness,  ///< linear RGB (on lids ShutLid::colour); openness to light, 0..1
     kDetailPlace,     ///< skin: HeadTopology::uv; hair: Strand::tile_mm
     kDetail,          ///< skin: CreaseWeights::face; hair: Strand::along and density
     kDetailMore,      ///< skin: CreaseWeights::nose_and_left; hair: Strand::across
     kTexcoord,        ///< TextureMaps::texcoord and weight; ShutLid::weight
     kLidGrain,        ///< ShutLid::grain_at and slide
     kOpacity,         ///< HeadTopology::opacity
-    kRelitNormal,     ///< the normal at rest, as long as Portrait::relit
+    kRelitNormal,     ///< rest normal, scaled by Portrait::relit
     kLidSkin,         ///< 1 where there is a ShutLid, else 0; its grain_light
     kCount
   };
-  /// Numbers of each.
+  /// Number of components of each attribute.
   static constexpr std::array<GLint, kCount> kWidth{3, 3, 3, 4, 2, 4, 2, 4, 4, 1, 3, 2};
 };
 

@@ -7,20 +7,20 @@
 namespace fsm {
 namespace {
 
-// As how many millimetres of error a difference of what a vertex shows counts.
-constexpr float kNormalMm = 3;      // of a radian
-constexpr float kColourMm = 3;      // from a colour to one e times as bright, as eyes compare
-constexpr float kOpenMm = 4;        // from shut off from light to open, from transparent to opaque
-constexpr float kUnrolledMm = 150;  // once across the skin's texture, which is some 310 mm wide
-constexpr float kCreaseMm = 2;      // from no crease to a whole one
-constexpr float kStrandMm = 2;      // from none to dense hair, from a lock's middle to its side
-constexpr float kTileMm = 0.5F;     // of a millimetre along or across the hairs
-constexpr float kPhotoMm = 0.5F;    // of a millimetre in the photo
-constexpr float kPhotoWidth = 300;  // millimetres across a photo, about
-/// What a blink moves so far is a lid, whose error counts so many times.
+// Weights that convert a difference between two vertices to millimetres of error.
+constexpr float kNormalMm = 3;      // per radian
+constexpr float kColourMm = 3;      // per factor of e in brightness, as eyes compare
+constexpr float kOpenMm = 4;        // from occluded to open, from transparent to opaque
+constexpr float kUnrolledMm = 150;  // across the skin's texture, which is about 310 mm wide
+constexpr float kCreaseMm = 2;      // from no crease to a full one
+constexpr float kStrandMm = 2;      // from no to dense hair; from a lock's middle to its side
+constexpr float kTileMm = 0.5F;     // per millimetre along or across the hairs
+constexpr float kPhotoMm = 0.5F;    // per millimetre in the photo
+constexpr float kPhotoWidth = 300;  // assumed width of a photo, millimetres
+/// A vertex that a blink moves this far (mm) is on a lid, and its error counts this many times.
 constexpr float kLidMoves = 1, kLidCare = 3;
 
-/// States that move the face far, each in another way.
+/// Returns states that move the face far, each in another way.
 std::vector<FaceState> FarStates() {
   std::vector<FaceState> states(1);  // at rest
   const auto add = [&states](std::initializer_list<std::size_t> units, float jaw, float blink) {
@@ -42,7 +42,7 @@ std::vector<FaceState> FarStates() {
 
 VertexFeatures::VertexFeatures(const Head& head, const CreaseWeights& creases) {
   const HeadTopology& topology = head.topology();
-  // Lids lie close to the eyes, which must not come through them.
+  // Lids lie close to the eyeballs, which must not show through them.
   FaceState shut;
   shut.blink.left = shut.blink.right = 1;
   HeadVertices asleep;
@@ -65,7 +65,7 @@ VertexFeatures::VertexFeatures(const Head& head, const CreaseWeights& creases) {
     auto& column = columns.emplace_back(vertices);
     for (std::size_t i = 0; i < vertices; ++i) column[i] = value(i);
   };
-  constexpr float kDarkest = 0.02F;  // darker than this is all the same
+  constexpr float kDarkest = 0.02F;  // darker colours count as equal
   add(true, [&](std::size_t i) { return kColourMm * glm::log(topology.albedo[i] + kDarkest); });
   add(true, [&](std::size_t i) {
     return kOpenMm * glm::vec3(topology.openness[i],

@@ -13,16 +13,16 @@
 
 namespace fsm {
 
-/// What is seen at the vertices of a head, as vectors whose differences count as millimetres of
-/// error: position and normal in far-reaching states of the face, colour, openness to light, places
-/// in textures, creases, hairs.
+/// What is visible at the vertices of a head, as vectors whose differences count as millimetres of
+/// error: position and normal in extreme states of the face, colour, openness to light, texture
+/// coordinates, creases, hairs.
 class VertexFeatures {
  public:
-  /// `creases`: of the head, or empty.
+  /// `creases`: those of the head, or empty.
   VertexFeatures(const Head& head, const CreaseWeights& creases);
   const glm::vec3& RestOf(std::uint32_t vertex) const { return Of(vertex)[0]; }
-  /// The square of how far a vertex is from what is shown between three others. Stops counting
-  /// beyond `most`.
+  /// Returns the square of the distance of a vertex from the point interpolated between three
+  /// others. It stops when the result exceeds `most`.
   float Difference(std::uint32_t vertex, const std::array<std::uint32_t, 3>& corners,
                    glm::vec3 weights, float most) const {
     const glm::vec3* own = Of(vertex);
@@ -39,9 +39,9 @@ class VertexFeatures {
 
  private:
   const glm::vec3* Of(std::uint32_t vertex) const { return values_.data() + vertex * count_; }
-  std::size_t count_ = 0;  // of each vertex
+  std::size_t count_ = 0;  // per vertex
   std::vector<glm::vec3> values_;
-  std::vector<float> care_;  // of each vertex: the factor on its differences
+  std::vector<float> care_;  // by vertex: factor on its differences
 };
 
 }  // namespace fsm

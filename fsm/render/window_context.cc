@@ -18,8 +18,8 @@ std::string LastGlfwError() {
   return text ? text : "no reason given";
 }
 
-/// GLFW is one library-wide state; the last window out closes it. Windows belong to the main
-/// thread.
+/// GLFW is initialized once for all windows; the last window to close terminates it. Windows belong
+/// to the main thread.
 int open_windows = 0;
 
 void OpenLibrary() {
@@ -39,11 +39,11 @@ class WindowContext : public SwitchedContext {
     OpenLibrary();
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    // The renderer has a depth buffer and samples of its own.
+    // The renderer has its own depth buffer and samples.
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_SAMPLES, 0);
-    // Some drivers give the very version that is asked for, and compute shaders need 4.3.
+    // Some drivers return exactly the version asked for; compute shaders need 4.3.
     for (const int major : {4, 3}) {
       glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, major);
       glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
@@ -56,7 +56,7 @@ class WindowContext : public SwitchedContext {
       throw std::runtime_error("cannot open a window with OpenGL 3.3: " + reason);
     }
     MakeCurrent();
-    // The caller's frame clock sets the pace; waiting here for the screen would stall its input.
+    // The caller's frame clock sets the pace; waiting here for vertical sync would stall its input.
     glfwSwapInterval(0);
   }
   ~WindowContext() override {
@@ -96,7 +96,7 @@ class WindowContext : public SwitchedContext {
   void Move(int x, int y) override { glfwSetWindowPos(window_, x, y); }
   void Resize(int width, int height) override {
     SetFullScreen(false);
-    // GLFW sets the size in screen coordinates, of which one is several pixels on a dense screen.
+    // GLFW sets the size in screen coordinates, one of which is several pixels on a dense screen.
     const auto [pixels_wide, pixels_high] = Size();
     int wide = 0;
     int high = 0;
@@ -110,12 +110,12 @@ class WindowContext : public SwitchedContext {
   void Bind() override { glfwMakeContextCurrent(window_); }
   void Release() override { glfwMakeContextCurrent(nullptr); }
 
-  /// pixels * coordinates / all, at least 1.
+  /// Returns pixels * coordinates / all, but at least 1.
   static int Scaled(int pixels, int coordinates, int all) {
     return std::max(1, static_cast<int>(std::lround(1.0 * pixels * coordinates / all)));
   }
 
-  /// At least 1 x 1: a minimised window has no pixels, and drawing must go on.
+  /// Returns at least 1 x 1: a minimised window has no pixels, but drawing must go on.
   std::pair<int, int> Size() const {
     int width = 0;
     int height = 0;
@@ -124,7 +124,7 @@ class WindowContext : public SwitchedContext {
   }
 
   GLFWwindow* window_ = nullptr;
-  int windowed_[4] = {};  // place and size before it filled the screen
+  int windowed_[4] = {};  // position and size before full screen
 };
 
 }  // namespace

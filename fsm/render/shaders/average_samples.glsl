@@ -1,10 +1,10 @@
 #version 430
-// Averages the samples of each pixel as samples.cc does, to the bit, into RGBA8 as it lies in memory, the
-// upper row of the picture first. An invocation makes one pixel.
+// Averages the samples of each pixel exactly as samples.cc does, into RGBA8 bytes, the picture's upper row first. One
+// invocation computes one pixel.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) writeonly buffer Pixels { uint pixels[]; };
-uniform sampler2D samples;  // the lowest row first
-uniform bool soft;          // over 4 x 4, the outer ones in part
+uniform sampler2D samples;  // lowest row first
+uniform bool soft;          // average over 4 x 4 samples with less weight on the outer ones
 
 ivec4 At(ivec2 at) {
   at = clamp(at, ivec2(0), textureSize(samples, 0) - 1);

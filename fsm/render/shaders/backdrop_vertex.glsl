@@ -1,5 +1,5 @@
 #version 330 core
-// One triangle over the whole view; picture row 0 is the top.
+// One triangle covers the whole view; picture row 0 is the top.
 out vec2 place;
 void main() {
   vec2 corner = vec2(float((gl_VertexID & 1) << 2), float((gl_VertexID & 2) << 1)) - 1.0;

@@ -1,8 +1,8 @@
-// How skin creases with expression, for the vertex shaders of skin; transform.glsl stands before it.
-layout(location = 5) in vec4 creases;        // how much each shows here
-layout(location = 6) in vec2 nose_and_left;  // that of the nose; to which part the left side creases
+// Creases of expression for the vertex shaders of skin; transform.glsl precedes it.
+layout(location = 5) in vec4 creases;        // weight of each crease at this vertex
+layout(location = 6) in vec2 nose_and_left;  // weight of the nose's crease; part of the left side in the depth
 
-uniform vec4 crease_depths[2];  // right, left: forehead, glabella, crow's feet, nasolabial
+uniform vec4 crease_depths[2];  // right, left; by crease: forehead, glabella, crow's feet, nasolabial
 uniform float nose_creases[2];
 
 float CreaseDepth() {

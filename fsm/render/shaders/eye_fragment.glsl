@@ -1,49 +1,49 @@
-// Eyeballs: white, iris and pupil are all found per pixel, so that they are round whatever the mesh.
-// Everything is seen through a wet surface whose highlight comes from a sphere of its own.
+// Eyeballs: sclera, iris and pupil are computed per pixel, so that they are round whatever the mesh. They are seen
+// through a wet surface whose highlight comes from a sphere of its own, the cornea.
 in vec3 world_position;
 in float openness;
 
 uniform sampler2D noise;
-uniform vec4 ball[2];         // centre in world coordinates, radius; left of the picture, right
-uniform vec3 gaze[2];         // unit, from the ball's centre through the pupil
-uniform vec4 lid_heights[2];  // world y of the upper and the lower rim at the pupil, unused
+uniform vec4 ball[2];         // centre in world coordinates, radius; index 0: left in the picture
+uniform vec3 gaze[2];         // unit vector from the ball's centre through the pupil
+uniform vec4 lid_heights[2];  // world y of upper and lower lid margin at the pupil; z, w unused
 uniform float iris_radius;
-uniform float pupil_share;    // of that radius
-uniform float iris_depth;     // how far the plane of the iris lies before the centre
+uniform float pupil_share;    // pupil's radius as a fraction of the iris's
+uniform float iris_depth;     // distance of the plane of the iris before the centre
 uniform vec3 iris_colour;
 uniform vec3 white_colour;
 uniform float figure_scale;
-uniform float flesh_red;         // 0: flesh and vessels are grey, as in a grey photo
-uniform bool beside_photo;       // whose colours are shown as they are
-uniform float photo_brightness;  // of that photo
-uniform bool pictured;           // the photo shows the eyes; the rest is meaningful then:
-uniform float iris_span;            // its picture of the iris reaches so many radii
+uniform float flesh_red;         // 0: caruncle and vessels are grey, as in a grey photo
+uniform bool beside_photo;       // the face wears a photo, whose colours are shown unlit
+uniform float photo_brightness;  // factor on that photo
+uniform bool pictured;           // the photo shows the eyes; only then the following apply:
+uniform float iris_span;            // radii of the iris that its picture reaches
 uniform vec4 photo_iris_rect[2];    // left, top, right, bottom in the photo
 uniform vec4 photo_ball_rect[2];
-uniform vec4 photo_lid_heights[2];  // over the centre: upper and lower at rest, upper now; how far the
-                                    // picture of the ball reaches
+uniform vec4 photo_lid_heights[2];  // relative to the centre: upper and lower margin at rest, upper margin now; how
+                                    // far the picture of the ball reaches
 uniform mat3 world_to_head;         // to millimetres
 uniform sampler2D photo;
 
 out vec4 colour;
 
-const float kCorner = 1.1;  // how far the corners of the eye are beside its middle, in radii of the ball
+const float kCorner = 1.1;  // distance of the eye's corners from its middle, in radii of the ball
 
-// What a pixel shows of an eyeball.
+// The point of an eyeball that a pixel shows.
 struct Place {
   int side;
   float radius;       // of the ball
-  vec3 axis;          // of the gaze
+  vec3 axis;          // direction of the gaze
   vec3 from_centre;
   vec3 to_viewer;
   vec3 normal;        // of the ball
-  vec3 wet;           // of the wet surface
-  vec3 right, up;     // across the axis
+  vec3 wet;           // normal of the wet surface
+  vec3 right, up;     // perpendicular to `axis`
   float from_axis;    // in radii of the iris
-  float below_upper;  // millimetres from the lids
+  float below_upper;  // millimetres from the lid margins
   float above_lower;
-  float beside;       // the middle, -1..1 from corner to corner
-  float narrower;     // millimetres by which the lids are nearer to each other than in the middle
+  float beside;       // -1..1 from corner to corner
+  float narrower;     // millimetres by which the lids are closer together than in the middle
 };
 
 Place FindPlace() {
@@ -55,7 +55,7 @@ Place FindPlace() {
   p.from_centre = world_position - centre;
   p.to_viewer = normalize(eye - world_position);
   p.normal = normalize(p.from_centre);
-  // The cornea: a smaller sphere standing out of the ball; the white keeps the ball's own normal.
+  // The cornea is a smaller sphere that protrudes from the ball; the sclera keeps the ball's normal.
   p.from_axis = length(p.from_centre - p.axis * dot(p.from_centre, p.axis)) / iris_radius;
   vec3 cornea = normalize(world_position - (centre + p.axis * p.radius * look_cornea_centre));
   p.wet = normalize(mix(cornea, p.normal, Ramp(look_cornea_edge, p.from_axis)));
@@ -69,7 +69,7 @@ Place FindPlace() {
   return p;
 }
 
-// The iris at a place of its plane, in units of its radius: fibres run from the pupil to the rim,
+// Returns the iris's colour at a point of its plane, in units of its radius: fibres run from the pupil to the rim,
 // which is dark (the limbal ring).
 vec3 Iris(vec2 p, float r, float toward_light) {
   float turn = atan(p.y, p.x) / 6.2831853;
@@ -78,7 +78,7 @@ vec3 Iris(vec2 p, float r, float toward_light) {
   vec3 base = iris_colour * (look_iris_between + look_iris_fibre * fibre);
   float collar = Ramp(look_iris_collar_edge, r + look_iris_collar_ragged * (fibre - 0.5));
   base = mix(base, base * look_iris_collar + look_iris_collar_least, collar * look_iris_collar_part);
-  // Light falls in through the cornea and gathers on the far side.
+  // Light enters through the cornea and gathers on the far side.
   base *= look_iris_light + look_iris_gathered * max(-toward_light, 0.0) * Ramp(look_iris_gathered_edge, r);
   base *= mix(1.0, beside_photo ? look_photo_iris_rim : look_iris_rim, Ramp(look_iris_rim_edge, r));
   float ragged = r + look_pupil_ragged * (fibre - 0.5);
@@ -90,7 +90,7 @@ vec3 Photographed(vec4 rect, vec2 from_middle) {
   return ToLinear(texture(photo, mix(rect.xy, rect.zw, part)).rgb);
 }
 
-// The white in a photo. The shade of the lid goes with it where the eye opens wider.
+// Returns the sclera in the photo. The lid's shadow is stretched with it where the eye opens wider.
 vec3 PhotographedWhite(Place p) {
   vec4 lid = photo_lid_heights[p.side];
   vec2 q = (world_to_head * p.from_centre).xy;
@@ -98,13 +98,13 @@ vec3 PhotographedWhite(Place p) {
   return Photographed(photo_ball_rect[p.side], q / lid.w);
 }
 
-// Reddish towards the corners, shaded at the edge of the iris, with a few fine vessels.
+// Returns the painted sclera: reddish towards the corners, darker at the limbus, with a few fine vessels.
 vec3 White(Place p) {
   float corner = Ramp(look_white_corner_edge, abs(p.normal.x - p.axis.x));
   vec3 at_corner = mix(vec3(look_white_corner_grey), look_white_corner, flesh_red);
   vec3 white = white_colour * mix(vec3(1.0), at_corner, corner);
   white *= mix(look_white_at_iris, 1.0, Ramp(look_white_at_iris_edge, p.from_axis));
-  // The flesh of the tear corner.
+  // The caruncle, in the inner corner.
   float inward = p.side == 0 ? p.normal.x - p.axis.x : p.axis.x - p.normal.x;
   white = mix(white, white_colour * mix(vec3(look_tear_flesh_grey), look_tear_flesh, flesh_red),
               look_tear_flesh_part * Ramp(look_tear_flesh_edge, inward));
@@ -114,7 +114,7 @@ vec3 White(Place p) {
                             Ramp(look_vessels_from_iris, p.from_axis));
 }
 
-// The line of sight bends at the cornea and meets the plane of the iris behind it.
+// The line of sight is refracted at the cornea and meets the plane of the iris behind it.
 vec3 IrisSeen(Place p) {
   vec3 ray = refract(-p.to_viewer, p.wet, 1.0 / 1.336);
   float depth = dot(p.from_centre, p.axis) - iris_depth;
@@ -124,11 +124,11 @@ vec3 IrisSeen(Place p) {
   float r = length(at);
   vec3 l = lamp_directions[0];
   vec3 iris = Iris(at, r, dot(at / max(r, 1e-3), vec2(dot(l, p.right), dot(l, p.up))));
-  // Where the line of sight misses the iris it meets the white beside it, in the rim's shadow.
+  // Where the line of sight misses the iris it meets the sclera beside it, in the rim's shadow.
   return mix(iris, white_colour * look_white_past_iris, Ramp(look_white_past_iris_edge, r));
 }
 
-// The upper lid and its lashes shade the ball below them. Its rim falls and the lower one rises to the corners.
+// The upper lid and its lashes shade the ball. Towards the corners its margin falls and the lower one rises.
 float LidShade(Place p) {
   float below = p.below_upper - look_upper_lid_falls * p.narrower;
   float above = p.above_lower - look_lower_lid_rises * p.narrower;
@@ -137,8 +137,8 @@ float LidShade(Place p) {
   return beside_photo ? look_photo_lid_least + (1.0 - look_photo_lid_least) * shade : shade;
 }
 
-// The photo has its shade, but not where it was completed and where the eye opens wider than in it.
-// `edge`: how much of `base`, the colour, is iris.
+// The photo includes the lids' shade, except where it was completed and where the eye opens wider than in it. `edge`:
+// how much of `base`, the colour, is iris.
 float PhotoShade(Place p, float edge, inout vec3 base) {
   vec4 lid = photo_lid_heights[p.side];
   vec2 q = (world_to_head * p.from_centre).xy;
@@ -147,12 +147,12 @@ float PhotoShade(Place p, float edge, inout vec3 base) {
   float shade = mix(mix(look_photo_lid_on_white, look_photo_lid_on_iris, edge), 1.0,
                     Ramp(look_photo_upper_lid_edge, rim - q.y)) *
                 mix(look_photo_lower_lid, 1.0, Ramp(look_photo_lower_lid_edge, p.above_lower));
-  // A lower lid that squints brings its lashes and its shade along, most in the middle.
+  // A squinting lower lid carries its lashes and its shade along, most in the middle.
   float raised = (lid_heights[p.side].y - ball[p.side].y) / figure_scale - lid.y;
   shade *= 1.0 - look_photo_squint * Ramp(look_photo_squint_raised, raised) *
                      smoothstep(look_photo_squint_edge.x - look_photo_squint_aside * aside * aside,
                                 look_photo_squint_edge.y, p.above_lower);
-  // Its wet rim is soft and pale.
+  // Its wet margin is soft and pale.
   vec3 rim_colour = white_colour * mix(vec3(look_photo_wet_rim_grey), look_photo_wet_rim, flesh_red);
   base = mix(base, rim_colour / max(shade, 0.3),
              look_photo_wet_rim_part * Ramp(look_photo_wet_rim_raised, raised) *
@@ -160,10 +160,10 @@ float PhotoShade(Place p, float edge, inout vec3 base) {
   return shade;
 }
 
-// Adds what the wet surface mirrors. `light`: on the ball.
+// Adds the reflections of the wet surface. `light`: light on the ball.
 void AddMirrored(Place p, float shade, vec3 light, inout vec3 seen) {
-  // What a photographed eye mirrors is seen in it.
-  // One drawn into a photo mirrors as little light as there is.
+  // A photographed eye already shows its reflections; an eye drawn into a photo reflects in proportion to the light
+  // there is.
   float bright = clamp(dot(white_colour, vec3(0.3, 0.5, 0.2)) / 0.4, 0.15, 1.0);
   float gloss = beside_photo ? (pictured ? 0.0 : look_photo_gloss * bright) : 1.0;
   vec3 mirrored = reflect(-p.to_viewer, p.wet);
@@ -178,7 +178,7 @@ void AddMirrored(Place p, float shade, vec3 light, inout vec3 seen) {
   seen += gloss * look_mirrored_window * lamp_colours[0] * window *
           mix(1.0, look_window_on_white, Ramp(look_window_white_edge, p.from_axis)) * sqrt(shade);
   seen += gloss * lamp_colours[1] * look_mirrored_box * soft_box * shade;
-  // Tears stand along the lower lid and catch the light from above.
+  // The tear meniscus along the lower lid catches light from above.
   float tears = Ramp(look_tears_edge, p.above_lower - look_lower_lid_rises * p.narrower) *
                 Ramp(look_tears_beside, abs(p.beside));
   seen += gloss * look_mirrored_tears * tears * light;
@@ -188,7 +188,7 @@ void AddMirrored(Place p, float shade, vec3 light, inout vec3 seen) {
 void main() {
   Place p = FindPlace();
   vec3 base = pictured ? PhotographedWhite(p) : White(p);
-  // A photo shows the soft edge of the iris, too.
+  // The edge of the iris is soft in a photo, too.
   float edge = pictured ? Ramp(look_photo_iris_edge, p.from_axis)
                         : Ramp(look_iris_edge, p.from_axis);
   if (edge > 0.0) base = mix(base, IrisSeen(p), edge);

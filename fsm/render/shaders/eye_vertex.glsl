@@ -1,4 +1,4 @@
-// Eyeballs, which are shaded per pixel, and lines, which are not shaded at all.
+// Vertices of eyeballs, which are shaded per pixel, and of lines, which are not shaded.
 out vec3 world_position;
 out float openness;
 

@@ -11,15 +11,15 @@ out vec4 colour;
 
 void main() {
   vec4 fine = texture(strands, streak_place) - 0.5;
-  // Where hair thins out some hairs are gone and some are left.
+  // Where hair thins out, some hairs are missing and others remain.
   float density = look_hair_closed * fray.x * min(2.2 - 2.2 * abs(fray.y), 1.0);
-  // Ends and edges thin out softly: each of the samples of a pixel asks for another density.
+  // Ends and edges thin out softly, because each sample of a pixel compares with another density.
   vec2 odd = mod(floor(gl_FragCoord.xy), 2.0);
   float asks = 0.35 * (0.5 * odd.x + 0.25 * odd.y - odd.x * odd.y);
   if (density < 0.5 - fine.a + asks) discard;
   float streak = (look_hair_differs * fine.a + look_lock_differs * fine.b) * gleam.a;
-  // Highlights lie across the strands. Two of them, shifted along the strand: light mirrored by the
-  // surface towards the root, light that went through and took its colour towards the tip.
+  // Highlights run across the strands. There are two, shifted along the strand: light reflected by the surface,
+  // shifted to the root, and light that passed through and took its colour, shifted to the tip.
   float a = tilt.x + tilt.y * (look_hair_mirrored_shift + 0.25 * streak);
   float b = tilt.x - tilt.y * (look_hair_through_shift - 0.25 * streak);
   vec2 lobe = max(1.0 - vec2(a * a * look_hair_mirrored_narrow, b * b * look_hair_through_narrow), 0.0);

@@ -1,25 +1,25 @@
 // Hair, brows and lashes.
-layout(location = 4) in vec2 among_hairs;       // millimetres across and along
-layout(location = 5) in vec4 along_and_density;   // direction at rest, as long as it is sleek, 0..1;
-                                                  // 1 = dense .. 0 = none
+layout(location = 4) in vec2 among_hairs;       // millimetres across and along the hairs
+layout(location = 5) in vec4 along_and_density;   // direction at rest, whose length tells how sleek the hair is,
+                                                  // 0..1; density, 1 = dense .. 0 = none
 layout(location = 6) in float across_lock;      // -1..1
 
-uniform mat3 rest_to_world;  // how the head is turned
-uniform float streaks;       // how strongly strands differ, 0 for lashes
+uniform mat3 rest_to_world;  // rotation of the head
+uniform float streaks;       // how strongly strands differ; 0 for lashes
 uniform float shine;
 
 out vec2 streak_place;
-out vec2 fray;      // density, place across the lock
-out vec3 light;     // scattered, with the hair's colour
-out vec3 key_light; // of the key lamp, gone through hair
-out vec3 tilt;      // of the half vector along the strand and along the normal; how much is mirrored
-flat out vec4 gleam;  // light that is mirrored; how strongly strands differ
+out vec2 fray;      // density, position across the lock
+out vec3 light;     // scattered light, with the hair's colour
+out vec3 key_light; // light of the key lamp that passed through hair
+out vec3 tilt;      // half vector along the strand and along the normal; strength of the reflection
+flat out vec4 gleam;  // reflected light; how strongly strands differ
 
 void main() {
   vec3 world = TransformVertex();
   vec3 n = WorldNormal();
   vec3 v = normalize(eye - world);
-  // Sheets are seen from both sides; at the outline they keep the side they face.
+  // Sheets are visible from both sides; at the outline they keep the side they face.
   n -= 2.0 * min(dot(n, v), 0.0) * v;
   vec3 albedo = albedo_openness.rgb;
   float openness = albedo_openness.a;
@@ -30,7 +30,7 @@ void main() {
   streak_place = among_hairs * vec2(1.0 / 268.0, 1.0 / 256.0);
   fray = vec2(along_and_density.w, across_lock);
 
-  // Light falls on a strand by the sine of its angle to it (Kajiya and Kay 1989).
+  // Light on a strand is proportional to the sine of its angle to it (Kajiya and Kay 1989).
   float shadow = mix(openness, 1.0, look_hair_open_least) * mix(KeyShadow(world), 1.0, look_hair_lit_least);
   float t_dot_l = dot(strand, lamp_directions[0]);
   float across = look_hair_end_on + (1.0 - look_hair_end_on) * sqrt(max(1.0 - t_dot_l * t_dot_l, 0.0));
@@ -38,7 +38,7 @@ void main() {
   vec3 soft = albedo * openness * (Ambient(n) + lamp_colours[1] * fill);
   float rim = clamp(dot(n, lamp_directions[2]) * look_hair_rim_wrap.x + look_hair_rim_wrap.y, 0.0, 1.0);
   float away = 1.0 - max(dot(n, v), 0.0);
-  // Dark hairs (lashes) must not glitter where seen edgewise.
+  // Dark hairs (lashes) must not glitter at grazing angles.
   vec3 sheen = min(vec3(look_hair_rim_sheen), albedo) * away * away;
   soft += lamp_colours[2] * openness * rim * (albedo * look_hair_rim + sheen);
   float n_dot_l = dot(n, lamp_directions[0]);

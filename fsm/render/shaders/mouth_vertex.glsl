@@ -1,32 +1,32 @@
-// Teeth, gums, tongue and the lining of the mouth. Light comes in between the lips, and deeper between
-// the teeth: how much of it, from where, is worked out here for the mouth as it stands. Detail and
-// highlights are those of surface_fragment.glsl.
+// Teeth, gums, tongue and lining of the mouth. Light enters between the lips, and deeper between the teeth; this
+// shader computes how much of it arrives, and from where, for the current shape of the mouth. surface_fragment.glsl
+// adds detail and highlights.
 const int kColumns = 11;
 const int kRing = 2 * kColumns + 2;
 
-uniform bool lining;                 // of the walls, which are seen from within
-uniform float front_gain;            // how much more light there is than the lamps bring in: on the
-uniform float deep_gain;             // teeth, and deeper
+uniform bool lining;                 // walls, which are seen from within
+uniform float front_gain;            // factors on the light that the lamps bring in: on the teeth,
+uniform float deep_gain;             // and behind them
 uniform mat4 to_mouth;               // from the figure's frame: x along the lips, y up, z out
-uniform mat3 mouth_to_world;         // directions
-uniform vec3 lips[2 * kColumns];     // the upper edge from -x to +x, then the lower one
-uniform vec4 mouth_edges;            // x of the corners (y = z = 0), heights of upper and lower teeth's
+uniform mat3 mouth_to_world;         // for directions
+uniform vec3 lips[2 * kColumns];     // upper edge from -x to +x, then the lower one
+uniform vec4 mouth_edges;            // x of the corners (y = z = 0), heights of the upper and lower teeth's edges
 uniform vec3 mouth_key;              // towards the key light, in the mouth's frame
 
 vec3 RingAt(int i, float deep) {
   if (i == 0) return vec3(mouth_edges.x, 0.0, 0.0);
   if (i == kColumns + 1) return vec3(mouth_edges.y, 0.0, 0.0);
-  // One index for both edges: NVIDIA's compiler unrolls the loop and refuses an index that is out of
-  // bounds where it would not be reached.
+  // One index serves both edges: NVIDIA's compiler unrolls the loop and rejects an index that is out of bounds even
+  // where it is never reached.
   bool upper = i > kColumns;
   vec3 p = lips[upper ? kRing - 1 - i : kColumns + i - 1];
   float behind = upper ? min(p.y, mouth_edges.z) : max(p.y, mouth_edges.w);
   return vec3(p.x, mix(p.y, behind, deep), p.z);
 }
 
-// Light from all sides through the opening, as a vector: with a surface's normal it gives the light on
-// it, 1 where that sees nothing but the outside. After Lambert (1760): the sum over the edges of the
-// angle each fills, along the normal of its plane with the place.
+// Returns the irradiance from all directions through the opening, as a vector: its dot product with a normal is the
+// light on that surface, 1 if it sees the outside only. After Lambert (1760): sum over the polygon's edges of the
+// angle each subtends, along the normal of the plane through the edge and the point.
 vec3 ThroughLips(vec3 p, float deep) {
   vec3 sum = vec3(0.0);
   vec3 a = normalize(RingAt(kRing - 1, deep) - p);
@@ -40,8 +40,8 @@ vec3 ThroughLips(vec3 p, float deep) {
   return sum / 6.2831853;
 }
 
-// Where the upper edge (first = 0) or the lower one (kColumns) is at one x: y, z; in the third how much
-// of it there is.
+// Returns y and z of the upper edge (first = 0) or the lower edge (kColumns) at one x; the third component is the
+// total weight of the samples.
 vec3 EdgeAt(int first, float x) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < kColumns; ++i) {
@@ -64,23 +64,23 @@ void main() {
   vec3 lower = EdgeAt(kColumns, p.x);
   float height = clamp((p.y - lower.x) / max(upper.x - lower.x, 1.0), 0.0, 1.0);
   float inward = mix(lower.y, upper.y, height) - p.z;
-  // Nostrils are lined like the mouth.
+  // Nostrils have the lining of the mouth.
   float out_of_mouth = max(Ramp(look_nostril_before, inward), Ramp(look_nostril_above, p.y - upper.x));
   float deep = Ramp(look_mouth_deep_edge, inward);
 
   vec3 flow = mix(ThroughLips(p, deep), vec3(0.0, 0.0, 1.0), out_of_mouth);
   float amount = length(flow);
   vec3 from = amount > 1e-4 ? flow / amount : vec3(0.0, 0.0, 1.0);
-  // The room before the mouth, lit by the lamps as the face is.
+  // The space before the mouth, lit by the lamps as the face is.
   vec3 sky = Ambient(mouth_to_world * from) + look_mouth_room * (lamp_colours[0] + lamp_colours[1]);
   vec3 soft = sky * amount * Wrapped(dot(from, n), wrap);
-  // What goes round between the walls is red.
+  // Light that bounces between the walls is red.
   vec3 bounced = sky * look_through_flesh * sqrt(amount + look_mouth_seeps) * look_mouth_bounced *
                  mix(look_mouth_bounced_front, 1.0, Ramp(look_mouth_bounced_front_edge, inward)) *
                  mix(1.0, look_mouth_bounced_throat, Ramp(look_mouth_bounced_throat_edge, inward)) *
                  (1.0 - out_of_mouth);
 
-  // The key lamp shines in past the lips' edges, which throw a soft shadow.
+  // The key lamp shines in past the edges of the lips, which cast a soft shadow.
   vec2 reach = max(vec2(upper.y, lower.y) - p.z, 0.0) / max(mouth_key.z, 0.3);
   vec2 blur = look_lip_shadow_blur.x + look_lip_shadow_blur.y * reach;
   upper = EdgeAt(0, p.x + mouth_key.x * reach.x);

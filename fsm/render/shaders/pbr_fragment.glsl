@@ -1,32 +1,31 @@
-// Metal and roughness (glTF 2.0, appendix B: Lambert and GGX), or the two colours of a drawn figure
+// Metallic-roughness shading (glTF 2.0, appendix B: Lambert and GGX), or the two colours of a toon material
 // (VRMC_materials_mtoon 1.0, "Lighting").
 in vec3 at;
 in vec3 facing;
-in vec3 texcoord;  // u, v down; z > 0: the colour is there
-in vec3 tint;  // on the picture, or the colour where there is none
+in vec3 texcoord;  // u, v down; z > 0: the picture has the colour
+in vec3 tint;  // factor on the picture, or the colour without one
 
 uniform float brightness;
-uniform bool ragged;       // what is transparent is left out
-uniform bool toon;         // two colours
+uniform bool ragged;       // alpha test: transparent pixels are discarded
+uniform bool toon;         // two-colour shading
 uniform float metallic;
 uniform float roughness;
-uniform float shade_to;    // cosines: shade up to here,
-uniform float light_from;  // light from here
+uniform float shade_to;    // cosines of the light's angle: shade colour up to here,
+uniform float light_from;  // lit colour from here
 uniform vec3 glow;
 uniform vec3 shade;
 uniform sampler2D photo;
-uniform sampler2D normal_map;   // normal's x and y, roughness, metallic
-uniform sampler2D emissive_map; // what glows, or the picture of the shade; a: open to light
+uniform sampler2D normal_map;   // xy of the normal, roughness, metallic
+uniform sampler2D emissive_map; // emission, or the toon's shade colour; a: openness to light
 
 out vec4 colour;
 
-// Colours of materials are meant for light that white sends back as white; of our lamps and room a
-// white plate that faces the viewer sends back twice as much.
+// Materials expect light in which white appears white; under our lamps and room a white plate that faces the viewer
+// appears twice as bright.
 const float kPlate = 0.52;
 
-// The normal bent as the map says, in the frame in which the picture lies on the surface: found
-// from how both change from pixel to pixel (Schueler, "Followup: Normal Mapping Without Precomputed
-// Tangents", 2013).
+// Returns the normal bent by the map, in the tangent frame found from the screen-space derivatives of position and
+// texture coordinate (Schueler, "Followup: Normal Mapping Without Precomputed Tangents", 2013).
 vec3 Bent(vec3 n, vec2 slope) {
   vec3 dx = dFdx(at), dy = dFdy(at);
   vec2 ux = dFdx(texcoord.xy), uy = dFdy(texcoord.xy);
@@ -38,7 +37,7 @@ vec3 Bent(vec3 n, vec2 slope) {
   return normalize(right * size * slope.x - down * size * slope.y + n * z);
 }
 
-// What a surface mirrors of a lamp, without its Fresnel part: GGX with Smith's shadowing.
+// Specular reflection of a lamp without its Fresnel term: GGX with Smith's shadowing.
 float Mirrored(float n_h, float n_l, float n_v, float a2) {
   float d = n_h * n_h * (a2 - 1.0) + 1.0;
   float v = n_l * sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * sqrt(n_l * n_l * (1.0 - a2) + a2);
@@ -76,12 +75,12 @@ void main() {
     vec3 h = normalize(lamp_directions[i] + v);
     float c = 1.0 - clamp(dot(h, v), 0.0, 1.0);
     vec3 fresnel = f0 + (1.0 - f0) * c * c * c * c * c;
-    // Lamps are given by what white that faces them sends back.
+    // A lamp's colour is the light that white reflects when it faces the lamp.
     vec3 falls = lamp_colours[i] * n_l * (i == 0 ? shadow : 1.0);
     light += falls * ((1.0 - fresnel) * scatters +
                       fresnel * Mirrored(max(dot(n, h), 0.0), n_l, n_v, a2));
   }
-  // Of the room a rough surface mirrors little (Lazarov's fit of the split sum, 2013).
+  // A rough surface reflects little of the room (Lazarov's fit of the split sum, 2013).
   vec4 q = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
   float e = min(q.x * q.x, exp2(-9.28 * n_v)) * q.x + q.y;
   vec3 room = f0 * (-1.04 * e + q.z) + (1.04 * e + q.w);

@@ -1,5 +1,5 @@
-// The photo brought its own light: it is shown as it is, but for creases that the face makes now.
-// kCreased and kDetailed, which stand before this text: as SkinDetail says; what is detailed is creased, too.
+// The photo includes its own light: it is shown as it is, except for creases that the face makes now. kCreased and
+// kDetailed precede this text and follow SkinDetail; detailed skin is creased, too.
 in vec2 place;
 in vec3 texcoord;
 in vec3 paint;
@@ -7,7 +7,7 @@ in vec4 grain_from;
 in float crease;
 in float shadow;
 in float covering;
-flat in vec3 settings;  // brightness, whether it is ragged, whether it blends
+flat in vec3 settings;  // brightness, ragged, blends
 
 uniform sampler2D photo;
 uniform sampler2D relief;
@@ -21,10 +21,10 @@ void main() {
   float shade = 1.0;
   if (kCreased) {
     vec2 slope = texture(relief, place).zw - 0.5;
-    // Of the skin's map opacity says how much of it is skin: hair over it does not crease.
+    // Alpha is the share of skin in the skin's map: hair over skin does not crease.
     float furrow = look_photo_crease + look_photo_crease_slope * dot(slope, vec2(-0.5, 0.85));
     shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * furrow;
-    // Furrows are seen by their shadows; their rims hardly shine.
+    // Furrows are visible by their shadows; their rims hardly shine.
     if (shade > 1.0) shade = mix(1.0, shade, look_photo_crease_rim);
     shade = clamp(shade, look_photo_crease_range.x, look_photo_crease_range.y);
   }
@@ -35,7 +35,7 @@ void main() {
     painted *= mix(1.0, factor, look_photo_grain * grain_from.z);
   }
   vec3 seen = mix(painted, p.rgb, texcoord.z);
-  // Light that reaches skin in the shade has gone through skin.
+  // Light that reaches shaded skin has passed through skin.
   float skin = look_photo_shade_redness * clamp(1.0 - seen.b / max(seen.r, 0.05), 0.0, 1.0);
   vec3 shaded = vec3(shadow) + skin * shadow * (1.0 - shadow) * vec3(1.0, 0.0, -0.4);
   colour = vec4(seen * shade * shaded * settings.x, mix(1.0, opacity, settings.z));

@@ -1,7 +1,7 @@
-// The steps of a rig (RigStep) on a graphics card, one program for each: gpu_rig.cc puts before this
-// the version, which step it is, a SmoothStep and fsm/rig/steps.glsl, which has the arithmetic. An
-// invocation moves one vertex of one face. `records` holds what a step knows of its vertices. Where
-// several things act on a vertex, its record says from where to where `entries` they stand.
+// The steps of a rig (RigStep) on a graphics card, one program for each. gpu_rig.cc prepends the version, the name of
+// the step, a SmoothStep and fsm/rig/steps.glsl, which has the arithmetic. One invocation moves one vertex of one
+// face. `records` holds a step's data about its vertices. If several things act on a vertex, its record gives the
+// range of `entries` that lists them.
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Positions { Point positions[]; };
 layout(std430, binding = 1) buffer Normals { Point normals[]; };
@@ -11,7 +11,7 @@ layout(std430, binding = 4) readonly buffer Swings { Point swings[]; };
 layout(std430, binding = 5) buffer Gaps { Point gaps[]; };  // of the lips, for STEP_lips
 #define RECORDS(Type) layout(std430, binding = 6) readonly buffer Records { Type records[]; }
 #define ENTRIES(Type) layout(std430, binding = 7) readonly buffer Entries { Type entries[]; }
-// Of a head, and so of a face's part of the buffers above.
+// Sizes of one head, and so the stride of a face in the buffers above.
 uniform int vertex_count, channel_count, spring_count, seam_count;
 
 uint Face() { return gl_GlobalInvocationID.y; }
@@ -21,7 +21,7 @@ void SetPosition(uint vertex, vec3 p) { positions[OfFace(vertex)] = PointAt(p); 
 vec3 Normal(uint vertex) { return Vec(normals[OfFace(vertex)]); }
 void SetNormal(uint vertex, vec3 n) { normals[OfFace(vertex)] = PointAt(n); }
 
-#ifdef STEP_begin  // record: a vertex
+#ifdef STEP_begin  // one record for each vertex
 RECORDS(PlaceRecord);
 void Take(uint vertex) {
   SetPosition(vertex, Vec(records[vertex].position));
@@ -107,7 +107,7 @@ void Take(uint record) {
 }
 #endif
 
-#ifdef STEP_own_form  // record: a vertex
+#ifdef STEP_own_form  // one record for each vertex
 RECORDS(Point);
 void Take(uint vertex) { SetPosition(vertex, Position(vertex) + Vec(records[vertex])); }
 #endif
@@ -162,7 +162,7 @@ void Take(uint record) {
 }
 #endif
 
-#ifdef STEP_neck  // record: a vertex
+#ifdef STEP_neck  // one record for each vertex
 RECORDS(NeckRecord);
 void Take(uint vertex) {
   Neck neck = states[Face()].neck;

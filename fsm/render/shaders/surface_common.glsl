@@ -1,26 +1,26 @@
-// What surface_vertex.glsl and mouth_vertex.glsl hand to surface_fragment.glsl; it stands before both.
-uniform vec3 wrap;           // how far light goes round, per channel
+// Outputs of surface_vertex.glsl and mouth_vertex.glsl to surface_fragment.glsl; this text precedes both.
+uniform vec3 wrap;           // how far light wraps around, per channel
 uniform float saturation;
 uniform vec3 lobes;          // strengths of a broad, a middle and a tight highlight
 uniform float bump;          // depth of pores or threads
-uniform float chroma;        // of the colour on the screen, less than 1 beside a faded photo
-uniform float planar;        // repeats of the detail per millimetre; 0: detail by the unrolled place
+uniform float chroma;        // saturation on the screen, below 1 beside a faded photo
+uniform float planar;        // repeats of the detail per millimetre; 0: detail by skin uv
 uniform vec3 head_up;        // unit, the direction of growing v on the skin
 
-out vec2 place;   // in the detail textures
-out vec3 light;   // all that is scattered, with the surface's colour
-out vec4 slopes;  // what a slope to the right and up adds to light; the half vector's slopes
+out vec2 place;   // texture coordinate of the detail
+out vec3 light;   // all scattered light, with the surface's colour
+out vec4 slopes;  // change of light by a slope to the right and up; slopes of the half vector
 out vec3 shine;   // strength of highlights, depth of creases, light at the edge
-// In software a uniform costs a pixel more than what its triangle brings along.
+// In software a uniform costs each pixel more than a flat varying.
 flat out vec4 finish;  // strengths of the highlights, depth of detail
-flat out vec4 gleam;   // light that gleams; chroma
+flat out vec4 gleam;   // light for highlights; chroma
 
 vec3 Albedo() {
   vec3 albedo = albedo_openness.rgb;
   return max(mix(vec3(dot(albedo, vec3(0.3, 0.6, 0.1))), albedo, saturation), 0.0);
 }
 
-// `power`: of the key light against all light; `h`: halfway between it and the viewer.
+// `power`: key light as a fraction of all light; `h`: half vector of key light and viewer.
 void SetSlopes(vec3 n, vec3 h, float power) {
   vec3 right = normalize(cross(head_up, n) + vec3(1e-5, 0.0, 0.0));
   vec3 up = cross(n, right);

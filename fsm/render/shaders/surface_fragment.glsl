@@ -1,4 +1,4 @@
-// kRelief, which stands before this text: whether fine slopes and creases are seen.
+// kRelief precedes this text: whether fine slopes and creases are visible.
 in vec2 place;
 in vec3 light;
 in vec4 slopes;
@@ -6,8 +6,8 @@ in vec3 shine;
 flat in vec4 finish;
 flat in vec4 gleam;
 
-uniform sampler2D tint;   // on the colour in rgb, on highlights in a; both about half
-uniform sampler2D relief; // slopes to the right and up of fine detail in rg, of creases in ba
+uniform sampler2D tint;   // factors on colour in rgb, on highlights in a; 0.5 stands for 1
+uniform sampler2D relief; // slopes to the right and up: fine detail in rg, creases in ba
 
 out vec4 colour;
 
@@ -18,8 +18,8 @@ void main() {
     vec4 r = texture(relief, place) - 0.5;
     slope = r.xy * finish.w + r.zw * shine.y;
   }
-  // Highlights fall with the distance of the half vector from the normal, both as slopes; the lobes are
-  // powers 20, 64 and 144 of its cosine, as products (pow costs as much as a lamp in software).
+  // Highlights decrease with the distance of the half vector from the normal, both as slopes; the lobes are powers
+  // 20, 64 and 144 of its cosine, as products (pow costs as much as a lamp in software).
   vec2 h = slopes.zw + slope;
   float d = dot(h, h);
   vec3 lobe = max(1.0 - d * vec3(2.5, 8.0, 18.0), 0.0);

@@ -1,10 +1,10 @@
-// Skin, lips, cloth, and the inside of mouths that do not say where they open (others:
-// mouth_vertex.glsl). Light is worked out here and only bent per pixel: the mesh is so fine that a
-// software rasterizer shades several pixels beside every triangle for each one in it.
+// Skin, lips, cloth, and the inside of mouths without a known opening (others: mouth_vertex.glsl). Light is computed
+// per vertex and only perturbed per pixel: the mesh is so fine that a software rasterizer shades several pixels
+// outside every triangle for each one inside.
 layout(location = 4) in vec2 unrolled;
 
-uniform float key_through;   // how much of the key light reaches occluded places all the same
-uniform float sheen;         // down that catches light at the edges
+uniform float key_through;   // part of the key light that reaches occluded places anyway
+uniform float sheen;         // strength of down (vellus hair), which catches light at the edges
 
 void main() {
   vec3 world = TransformVertex();
@@ -13,17 +13,17 @@ void main() {
   float openness = albedo_openness.a;
   float crease = CreaseDepth();
 
-  // Corners shut off from light glow red, because what light there is came through skin.
+  // Occluded corners glow red, because the light that reaches them has passed through skin.
   float root = sqrt(openness);
   vec3 open = mix(vec3(1.0), vec3(1.0, sqrt(root), root), look_occlusion_redness) * openness;
   vec3 shadow = vec3(KeyShadow(world));
   shadow.gb *= shadow.gb * look_shadow_redness + (1.0 - look_shadow_redness);
 
-  // The edge of the shadow is warm: there most of what is seen went some way under the skin.
+  // The edge of the shadow is warm: most of the light there has travelled under the skin.
   float n_dot_l = dot(n, lamp_directions[0]);
   vec3 key_open = lamp_colours[0] * shadow * mix(open, vec3(1.0), key_through);
   vec3 key = key_open * Wrapped(n_dot_l, wrap);
-  // The lamp behind only reaches the outline: folds that face it are shut off by the head.
+  // The rim lamp reaches the outline only: the head occludes folds that face it.
   float away = 1.0 - max(dot(n, v), 0.0);
   vec3 behind = lamp_colours[2] * Wrapped(dot(n, lamp_directions[2]), wrap * look_rim_wrap);
   vec3 soft = Ambient(n) + lamp_colours[1] * Wrapped(dot(n, lamp_directions[1]), wrap) +

@@ -1,5 +1,5 @@
-// The head's vertices, and where they are: shared by all vertex shaders, because depth is compared for
-// equality between passes and every program must place a vertex alike.
+// The head's vertices and their positions, shared by all vertex shaders: depth is compared for equality between
+// passes, so every program must transform a vertex in the same way.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 rest_position;
@@ -10,12 +10,12 @@ uniform mat4 world_to_clip;
 
 invariant gl_Position;
 
-// Sets gl_Position and returns the place in the world.
+// Sets gl_Position and returns the position in the world.
 vec3 TransformVertex() {
   vec4 world = figure_to_world * vec4(position, 1.0);
   gl_Position = world_to_clip * world;
   return world.xyz;
 }
 
-// The figure is only turned, moved and scaled evenly, so normals need no matrix of their own.
+// The figure is only rotated, moved and scaled uniformly, so normals need no matrix of their own.
 vec3 WorldNormal() { return normalize(mat3(figure_to_world) * normal); }
