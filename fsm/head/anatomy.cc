@@ -61,7 +61,7 @@ float EyeAnatomy::CorneaCentre() const {
 float EyeAnatomy::InnerRadius(float x) const {
   const float dx = x - centre_.x;
   const float ball = std::sqrt(std::max(0.0f, radius_ * radius_ - dx * dx));
-  // The axis of the lids recedes outward, the ball's does not.
+  // The lids' axis recedes outward; the ball's axis does not.
   return std::min(LidRadius(x) - 0.6f, std::max(ball + 0.25f - shear_ * dx, LidRadius(x) - 2.6f));
 }
 

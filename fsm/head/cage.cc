@@ -43,7 +43,7 @@ glm::vec3 ParsePlace(const TableRow& row, std::string_view word) {
   return p;
 }
 
-/// A spline through points, one parameter value each.
+/// Evaluates a spline through points with one parameter value each.
 glm::vec3 SplineAt(const std::vector<float>& at, const std::vector<glm::vec3>& p, float t) {
   const SplineBasis basis(at);
   std::vector<float> weights(at.size());
@@ -105,7 +105,7 @@ void AddPolygon(Cage& cage, std::vector<std::uint32_t> corner, SkinKind kind, bo
   if (kept.size() >= 3) cage.polygons.push_back({std::move(kept), kind, fine});
 }
 
-/// The rows of a strip: its curves with the bands between them filled in.
+/// Returns the rows of a strip: its curves, with the bands between them filled in.
 std::vector<std::vector<std::uint32_t>> StripRows(const TableRow& row, Cage& cage) {
   std::vector<const std::vector<std::uint32_t>*> curves;
   std::vector<int> bands;
@@ -123,7 +123,7 @@ std::vector<std::vector<std::uint32_t>> StripRows(const TableRow& row, Cage& cag
   }
   if (curves.size() < 2 || bands.size() + 1 != curves.size()) row.Fail("CURVE n CURVE expected");
   const std::size_t count = curves.front()->size();
-  // Lengths along each column are the parameter, so that uneven rows make no waves.
+  // The parameter is the length along each column, so that uneven rows make no waves.
   std::vector<std::vector<float>> at(count, {0.0f});
   std::vector<std::vector<glm::vec3>> through(count);
   for (std::size_t c = 0; c < count; ++c) {
@@ -135,7 +135,7 @@ std::vector<std::vector<std::uint32_t>> StripRows(const TableRow& row, Cage& cag
   }
   std::vector<std::vector<std::uint32_t>> rows;
   for (std::size_t k = 0; k < curves.size(); ++k) {
-    // 0 bands: the curve only shapes what follows.
+    // A curve with 0 bands only shapes the rows that follow.
     if (k + 1 < curves.size() && bands[k] == 0) continue;
     rows.push_back(*curves[k]);
     if (k + 1 == curves.size()) break;
@@ -180,8 +180,8 @@ void ReadPatchRow(const TableRow& row, Cage& cage) {
   }
 }
 
-/// Turns all polygons the same way round as their neighbours, and then so that the skin as a whole
-/// is seen from outside.
+/// Orients all polygons like their neighbours, and then the skin as a whole so that its front faces
+/// outward.
 void Orient(Cage& cage, const Table& patches) {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   std::map<Edge, std::vector<std::size_t>> by_edge;
@@ -231,7 +231,7 @@ void Orient(Cage& cage, const Table& patches) {
   }
 }
 
-/// The skin round the mouth takes a falling part in what closes the lips.
+/// Gives the skin around the mouth a part in closing the lips that decreases with the distance.
 void TieSkinToLips(Cage& cage, const Table& table) {
   for (const auto& [name, hold] : {std::pair{"lip_a", 0.8f}, {"lip_b", 0.45f}, {"lip_c", 0.12f}}) {
     const auto found = cage.curves.find(name);
@@ -269,7 +269,7 @@ Cage ReadCage(const Table& curves, const Table& patches, const EyeAnatomy& eye,
   bool lids = false;
   for (const TableRow& row : curves.rows()) {
     if (row.key() != "curve") row.Fail(fmt::format("unknown word '{}'", row.key()));
-    // The outer rings of the lids lean on the orbit, so they are made once it is known.
+    // The outer rings of the lids depend on the curve `orbit`, so they are made once it is known.
     if (!lids && row.Word(1) != "orbit") {
       AddLidCurves(eye, cage);
       lids = true;

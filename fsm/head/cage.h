@@ -11,22 +11,22 @@
 
 namespace fsm {
 
-/// What a part of the skin is, where that decides its paint or material.
+/// The kind of a part of the skin, which determines its paint or material.
 enum class SkinKind : std::uint8_t { kSkin, kRim, kLip, kInside };
 
-/// What a point of the cage knows of the moving openings it belongs to; interpolated when the cage
-/// is subdivided.
+/// The relation of a cage point to the openings (lids, lips, nostrils) around it. Tags are
+/// interpolated when the cage is subdivided.
 struct CageTag {
-  float eye = 0;        ///< 1 on the lids, 0 from the edge of the socket on
-  float lid_upper = 0;  ///< part it takes in the turn of each lid
+  float eye = 0;        ///< 1 on the lids, 0 from the edge of the socket outward
+  float lid_upper = 0;  ///< part in the rotation of each lid
   float lid_lower = 0;
-  float margin = -1;     ///< distance from the lid's margin in mm at least; < 0: no lid
-  float lip_hold = 0;    ///< part it takes in closing the lips
-  float lip_side = 0;    ///< +1 upper lip, -1 lower lip, 0 corner
+  float margin = -1;     ///< distance from the lid's margin, mm; < 0: not on a lid
+  float lip_hold = 0;    ///< part in closing the lips
+  float lip_side = 0;    ///< +1 upper lip, -1 lower lip, 0 corner of the mouth
   float lip_column = 0;  ///< 0 at the median .. kLipColumns at the corner
-  float red = -1;        ///< 0 at the seam .. 1 at the border; < 0: not on the red
-  float deep = 0;        ///< how far into the bag of the mouth, 0..1
-  float hole = 0;        ///< how deep in a nostril
+  float red = -1;        ///< 0 at the seam .. 1 at the vermilion border; < 0: not on the red
+  float deep = 0;        ///< depth in the bag of the mouth, 0..1
+  float hole = 0;        ///< depth in a nostril, 0..1
   float seam = 0;        ///< 1 on the line where the lips meet
 };
 inline constexpr int kLipColumns = 6;
@@ -45,16 +45,15 @@ struct Cage {
   std::map<std::string, std::vector<std::uint32_t>, std::less<>> curves;
 };
 
-/// Reads curves.txt and patches.txt; curves of lids and mouth are made from their anatomies.
-/// Polygons are turned so that they are seen from outside. Throws std::runtime_error naming file
-/// and line.
+/// Reads curves.txt and patches.txt; the curves of lids and mouth are made from their anatomies.
+/// Polygons are oriented to face outward. Throws std::runtime_error naming file and line.
 Cage ReadCage(const Table& curves, const Table& patches, const EyeAnatomy& eye,
               const MouthAnatomy& mouth);
 
-/// The point a table means by "CURVE.i"; throws naming the line of `row` if there is none.
+/// Returns the point that "CURVE.i" names; throws naming the line of `row` if there is none.
 std::uint32_t CagePoint(const Cage& cage, const TableRow& row, std::string_view word);
 
-/// The number of rings of mouth curves, and which of them is the seam.
+/// Number of rings of mouth curves, and index of the seam among them.
 inline constexpr int kMouthRings = 10;
 inline constexpr int kSeamRing = 6;
 

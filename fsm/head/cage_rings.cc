@@ -19,7 +19,7 @@ void Add(Cage& cage, const std::string& curve, glm::vec3 p, const CageTag& tag) 
   cage.tag.push_back(tag);
 }
 
-/// Where point i of a lid curve lies: x, and on which lid; corners count as the upper one.
+/// The position of point i of a lid curve: x, and the lid it is on; corners count as upper lid.
 struct LidPoint {
   float x;
   bool upper;
@@ -31,14 +31,14 @@ LidPoint PointOnLid(const EyeAnatomy& eye, int i) {
   const bool upper = i <= kHalf;
   const int along = upper ? i : kLidPoints - i;  // 0 inner corner .. kHalf outer corner
   const float t = static_cast<float>(along) / kHalf;
-  // Closer together towards the corners, where lids bend most.
+  // Points are denser towards the corners, where the lids bend most.
   const float part = 0.5f - 0.5f * std::cos(kPi * (0.12f + 0.76f * t));
   const float from = 0.5f - 0.5f * std::cos(kPi * 0.12f);
   const float x = glm::mix(eye.inner_x(), eye.outer_x(), (part - from) / (1 - 2 * from));
   return {x, upper, along == 0 || along == kHalf};
 }
 
-/// `edge`: the point of the socket's edge there.
+/// `edge`: the corresponding point on the edge of the socket.
 glm::vec3 PointOfRing(const EyeAnatomy& eye, const LidPoint& at, const LidRing& ring,
                       glm::vec3 edge) {
   const float margin = at.upper ? eye.UpperAngle(at.x) : eye.LowerAngle(at.x);
@@ -47,7 +47,7 @@ glm::vec3 PointOfRing(const EyeAnatomy& eye, const LidPoint& at, const LidRing& 
   const float reach = std::min(1.0f, radius / 9);
   glm::vec3 p = eye.OnLid(at.x, margin + mm * reach / std::max(radius, 5.0f), radius);
   if (at.corner || radius < 7) {
-    // Beside the ball the rings simply walk out to the socket's edge.
+    // Beside the ball the rings are interpolated to the edge of the socket.
     const glm::vec3 walked = glm::mix(eye.OnLid(at.x, margin, radius), edge, std::abs(mm) / 13.0f);
     p = glm::mix(p, walked, at.corner ? 1.0f : SmoothStep(7, 3, radius));
   }
@@ -59,8 +59,8 @@ glm::vec3 PointOfRing(const EyeAnatomy& eye, const LidPoint& at, const LidRing& 
   return p;
 }
 
-/// Where point k of a mouth curve lies: from the middle of the upper lip round the corner to the
-/// middle of the lower lip; the corner counts as the upper lip.
+/// The position of point k of a mouth curve: from the middle of the upper lip around the corner to
+/// the middle of the lower lip; the corner counts as upper lip.
 struct LipPoint {
   int column;
   float x;  ///< millimetres from the middle
@@ -75,10 +75,10 @@ LipPoint PointOnLips(const MouthAnatomy& mouth, int k) {
   return {column, mouth.column_x()[static_cast<std::size_t>(column)], upper, side};
 }
 
-/// `red`: 0 at the seam, 1 at the border.
+/// Returns a point on the red of the lips; `red`: 0 at the seam, 1 at the vermilion border.
 glm::vec3 PointOfRed(const MouthAnatomy& mouth, const LipPoint& at, float red) {
   glm::vec3 p = mouth.Red(at.upper ? 1 : -1, at.x, red);
-  // Rings go round the corner, side by side.
+  // The rings pass around the corner side by side.
   p += glm::vec3(1.0f, 0, -0.7f) * (red * 2.0f * SmoothStep(17, 25, at.x));
   p.y += at.side * 0.5f * red * SmoothStep(14, 22, at.x);
   return p;
@@ -110,7 +110,7 @@ void AddLidCurves(const EyeAnatomy& eye, Cage& cage) {
     tag.margin = 0;
     tag.lid_upper = at.corner ? 0.5f : at.upper ? 1.0f : 0.0f;
     tag.lid_lower = 1 - tag.lid_upper;
-    // The wet edge behind the rim, then back onto the ball.
+    // First the wet edge behind the margin, then a point back on the ball.
     const float inside = eye.InnerRadius(at.x);
     const glm::vec3 behind = eye.OnLid(at.x, margin + (at.upper ? 0.35f : -0.35f), inside - 0.2f);
     glm::vec3 from_ball = behind - eye.centre();
@@ -123,8 +123,7 @@ void AddLidCurves(const EyeAnatomy& eye, Cage& cage) {
       CageTag lid = tag;
       lid.margin = at.upper ? ring.upper_mm : ring.lower_mm;
       lid.eye = at.upper ? ring.upper_hold : ring.lower_hold;
-      // Outward of the ball lids turn about an axis that is near: what lies farther off keeps
-      // still.
+      // Outward of the ball the lids' axis is close, so points far from it must not move.
       if (r >= 2 && !at.corner && at.x > eye.centre().x) {
         lid.eye *= std::min(1.0f, eye.LidRadius(at.x) / 9);
       }
@@ -145,7 +144,7 @@ void AddMouthCurves(const MouthAnatomy& mouth, Cage& cage) {
     const std::string name = "mouth" + std::to_string(ring);
     for (int k = 0; k <= 2 * kLipColumns; ++k) {
       const LipPoint at = PointOnLips(mouth, k);
-      if (ring == 0 && !at.upper) {  // the bag's end: both halves meet
+      if (ring == 0 && !at.upper) {  // both halves meet at the bag's end
         cage.curves[name].push_back(cage.curves[name][static_cast<std::size_t>(at.column)]);
         continue;
       }

@@ -5,7 +5,7 @@
 
 namespace fsm {
 
-/// Adds the curves eye0..eye5 and mouth0..mouth9.
+/// Add the curves eye0..eye5 and mouth0..mouth9.
 void AddLidCurves(const EyeAnatomy& eye, Cage& cage);
 void AddMouthCurves(const MouthAnatomy& mouth, Cage& cage);
 

@@ -13,9 +13,9 @@
 namespace fsm {
 namespace {
 
-constexpr int kPoints = 8;  // of a half ring
+constexpr int kPoints = 8;  // points of a half ring
 
-/// A half ring of the shirt, from the median in front by the agent's left to the median behind.
+/// A half ring of the shirt, from the median in front over the agent's left to the median behind.
 struct ClothRing {
   float open;
   std::array<glm::vec3, kPoints> points;
@@ -28,7 +28,7 @@ ClothRing ClothRingOf(const std::array<float, 1 + 3 * kPoints>& n) {
   return ring;
 }
 
-/// The collar keeps light off the skin beside it.
+/// The collar shades the skin beside it.
 void ShadeNeck(const Features& features, std::span<const glm::vec3> collar, std::size_t skin,
                HeadMesh& mesh) {
   const float reach = features.shirt_shade.reach;
@@ -45,14 +45,14 @@ void ShadeNeck(const Features& features, std::span<const glm::vec3> collar, std:
 
 void BuildCloth(const Identity& identity, HeadMesh& mesh) {
   const Features& features = identity.UsedFeatures();
-  constexpr int kHalf = 13;  // columns of a half
-  // The first ring is row -1, the collar's foot 0.
+  constexpr int kHalf = 13;  // columns of one half
+  // The first ring is row -1; the foot of the collar is row 0.
   constexpr std::array kRows = {-1.0f, 0.0f, 0.75f, 1.0f, 2.2f, 2.26f, 2.32f,
                                 2.62f, 2.9f, 3.2f,  3.6f, 4.2f, 6.0f};
   constexpr std::size_t kCollar = 2, kSeam = 5;
   constexpr int kAround = 2 * kHalf + 1;
   std::vector<float> around_at, down_at;
-  // Mirrored neighbours at both ends keep the surface smooth over the medians.
+  // Mirrored neighbours at both ends keep the surface smooth across the median.
   for (int i = -1; i <= kPoints; ++i) around_at.push_back(static_cast<float>(i));
   std::vector<ClothRing> rings;
   for (const auto* row : {&features.shirt_inside, &features.shirt_collar_foot,
@@ -77,7 +77,7 @@ void BuildCloth(const Identity& identity, HeadMesh& mesh) {
     float open = 0;
     for (std::size_t k = 0; k < rings.size(); ++k) open += wd[k] * rings[k].open;
     for (int c = 0; c < kAround; ++c) {
-      // From the back over the agent's left to the front, over the right and back again.
+      // From the back over the agent's left to the front, then over the right to the back.
       const bool left = c <= kHalf;
       const int k = left ? kHalf - c : c - kHalf;
       around.Weights(static_cast<float>(k) * (kPoints - 1) / kHalf, wa);

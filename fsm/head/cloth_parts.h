@@ -5,8 +5,8 @@
 
 namespace fsm {
 
-/// The shoulders, which move as skin: to be added before the rigid parts, so that such vertices
-/// stay one run.
+/// Adds the shoulders. They move as skin and must be added before the rigid parts, so that the
+/// vertices that move as skin are contiguous.
 void BuildCloth(const Identity& identity, HeadMesh& mesh);
 
 }  // namespace fsm

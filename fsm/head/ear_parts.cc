@@ -29,8 +29,8 @@ float Ridge(float distance, float width) {
   return std::exp(-0.5f * distance * distance / (width * width));
 }
 
-/// The outer ear in its own plane, seen from the agent's left: u backwards, v upwards from the
-/// tragus, millimetres. Heights are off the side of the head.
+/// The outer ear in its own plane, seen from the agent's left: u backward and v upward from the
+/// tragus, in millimetres. Heights are measured outward from the side of the head.
 class Ear {
  public:
   explicit Ear(const Features& features) : features_(features) {
@@ -64,13 +64,13 @@ class Ear {
   }
 
   glm::vec2 middle() const { return middle_; }
-  /// Leans back at the top; the front lies in the skin of the cheek.
+  /// Maps a point into the head: the ear leans back at the top; its front lies in the cheek.
   glm::vec3 Place(glm::vec2 p, float height) const {
     return {features_.ear_place.aside + height,
             features_.ear_place.height * p.y + features_.ear_place.back_higher * p.x,
             features_.ear_place.forward - p.x - features_.ear_place.top_back * p.y};
   }
-  /// The outline at part `turn` of the way round.
+  /// Returns the outline at fraction `turn` of the way around.
   glm::vec2 Outline(float turn) const {
     std::vector<float> weights(outline_.size() + 6);
     around_.Weights(3 + turn * static_cast<float>(outline_.size()), weights);
@@ -113,7 +113,7 @@ std::array<std::pair<const char*, glm::vec3>, 4> EarLandmarks(const Features& fe
 
 namespace {
 
-/// One ear as rings of vertices from its middle to the rim and round its back into the head.
+/// One ear as rings of vertices from its middle to the rim, then around its back into the head.
 class EarBuilder {
  public:
   EarBuilder(const Identity& identity, Side side, HeadMesh& mesh)
@@ -147,7 +147,7 @@ class EarBuilder {
   static constexpr std::size_t kAround = 24;
   using Ring = std::array<std::uint32_t, kAround>;
 
-  /// `part` of the way from the middle to the outline.
+  /// Returns the point at fraction `part` of the way from the middle to the outline.
   glm::vec2 On(std::size_t k, float part) const {
     return glm::mix(ear_.middle(), ear_.Outline(static_cast<float>(k) / kAround), part);
   }

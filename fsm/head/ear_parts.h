@@ -9,9 +9,9 @@
 
 namespace fsm {
 
-/// Adds both ears.
 void BuildEars(const Identity& identity, HeadMesh& mesh);
-/// Highest, lowest, foremost and hindmost point of the base head's left ear in its own plane.
+/// Returns the highest, lowest, foremost and rearmost point of the base head's left ear in
+/// its own plane.
 std::array<std::pair<const char*, glm::vec3>, 4> EarLandmarks(const Features& features);
 
 }  // namespace fsm

@@ -10,8 +10,8 @@
 namespace fsm {
 namespace {
 
-// One ring of the ball about its optical axis: the angle from the axis, colour, and material of the
-// band between it and the ring before.
+// A ring of the eyeball about its optical axis: the angle from the axis, the colour, and the
+// material of the band between this ring and the previous one.
 struct BallRing {
   float angle;
   glm::vec3 colour;
@@ -53,7 +53,7 @@ void BuildEyes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh) 
     const Bone bone = BoneOf(side);
     const glm::vec3 centre = eye.CentreOf(side);
     const auto point = [&](float angle, float around) {
-      // The cornea: a smaller sphere through the iris's edge, whose pole stands out of the ball.
+      // The cornea is a smaller sphere through the limbus, whose pole protrudes from the ball.
       const float c = eye.CorneaCentre();
       const float cosine = std::cos(angle);
       const float dome =
@@ -71,7 +71,7 @@ void BuildEyes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh) 
       for (int s = 0; s < kSegments; ++s) {
         const float around = 2 * kPi * static_cast<float>(s) / kSegments;
         glm::vec3 colour = rings[k].colour;
-        // Fibres of the iris: light and dark rays.
+        // The fibres of the iris are light and dark rays.
         if (k >= 2 && k <= 4)
           colour *= 1 + fibres * NoiseAt(side == Side::kRight ? -s : s, static_cast<int>(k / 2));
         now[static_cast<std::size_t>(s)] =

@@ -6,7 +6,6 @@
 
 namespace fsm {
 
-/// Adds both eyeballs.
 void BuildEyes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh);
 
 }  // namespace fsm

@@ -33,7 +33,7 @@ std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
     if (vertex.free <= 0 || a > 56 || vertex.domain.y > -14 || vertex.domain.y < -84) continue;
     const float side_x = vertex.domain.x < 0 ? -1.0f : 1.0f;
 
-    // The corner's field: linear along the lips, fading into the cheek.
+    // The corner's displacement grows linearly along the lips and fades into the cheek.
     const float height = std::abs(vertex.domain.y - line);
     const float corner =
         (a < corner_x ? std::pow(a / corner_x, 1.3f) : SmoothStep(56, corner_x, a)) *
@@ -42,7 +42,7 @@ std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
     add(kCornerY, i, {0, corner, 0});
     add(kCornerZ, i, {0, 0, corner});
 
-    // The lips' four rings: full in the middle, nothing at the corner.
+    // The four rings of the lips move fully at the median and not at the corner.
     if (a >= corner_x || vertex.lip_weight == 0) continue;
     const bool upper = vertex.lip_weight > 0;
     const float along = 1 - (a / corner_x) * (a / corner_x);
@@ -64,7 +64,7 @@ std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
 
 LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
                 std::span<const glm::vec3> rest, std::span<const BakeWeights> weights) {
-  constexpr float kOnBall = 12.05f;  // nearer than that lies the fold behind the lids
+  constexpr float kOnBall = 12.05f;  // mm; closer than that is the fold behind the lids
   LidRig rig;
   rig.eyes = eyes;
   rig.cornea_centre = eye.CorneaCentre();
@@ -103,7 +103,7 @@ LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
 
 TeethRig BakeTeeth(const ToothArch& upper, const ToothArch& lower, std::span<const glm::vec3> rest,
                    std::span<const BakeWeights> weights) {
-  constexpr float kLeast = 1.3f;  // the crowns bulge out of the parabola by about 0.9
+  constexpr float kLeast = 1.3f;  // the crowns protrude from the parabola by about 0.9
   TeethRig rig{.upper = upper, .lower = lower, .contacts = {}};
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (!weights[i].by_teeth) continue;

@@ -10,18 +10,18 @@
 
 namespace fsm {
 
-/// The units of tables/action_units.txt, both sides alike. Made at the first call; thread: any.
+/// Returns the units of tables/action_units.txt without asymmetry. Made on first call; thread: any.
 const UnitTable& BuiltInUnits();
 
-// Parts of a built-in head's rig, baked from its anatomy. `weights` are those of the vertices that
-// come first in `rest`: skin, and what moves as skin does.
+// The functions below bake parts of a built-in head's rig from its anatomy. `weights` are those of
+// the first vertices of `rest`: skin, and parts that move as skin does.
 
-/// What each of the 17 mouth parameters displaces.
+/// Returns the displacements of each of the 17 mouth parameters.
 std::vector<Channel> MouthChannels(const MouthAnatomy& mouth, std::span<const BakeWeights> weights);
-/// `eyes`: where the right and the left eye sit.
+/// `eyes`: the placement of the right and the left eye.
 LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
                 std::span<const glm::vec3> rest, std::span<const BakeWeights> weights);
-/// `upper`, `lower`: the arches of this head.
+/// `upper`, `lower`: the dental arches of this head.
 TeethRig BakeTeeth(const ToothArch& upper, const ToothArch& lower, std::span<const glm::vec3> rest,
                    std::span<const BakeWeights> weights);
 LipRig BakeLips(const MouthSlit& mouth, std::span<const BakeWeights> weights);

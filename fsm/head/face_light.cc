@@ -13,8 +13,8 @@ float ScreenBrightness(glm::vec3 screen) {
 }
 
 FaceLight::FaceLight(std::span<const Patch> skin) {
-  constexpr int kRounds = 4;       // the first takes all patches alike
-  constexpr float kSpread = 0.6f;  // of the logarithm of light, beyond which a patch is no skin
+  constexpr int kRounds = 4;       // the first round weights all patches equally
+  constexpr float kSpread = 0.6f;  // of the logarithm of light; patches beyond are not skin
   constexpr float kLeast = 1e-3f;
   for (int round = 0; round < kRounds && !skin.empty(); ++round) {
     glm::mat4 spread(1e-3f);

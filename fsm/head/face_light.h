@@ -6,31 +6,31 @@
 
 namespace fsm {
 
-/// Brightness on the screen (sRGB, 0..1), a little above 0 so that it can be divided by.
+/// Returns the screen brightness of a colour (sRGB, 0..1), slightly above 0 to allow division.
 float ScreenBrightness(glm::vec3 screen);
 
-/// Linear light of what a screen shows, nearly its square.
+/// Converts screen colour to linear light with an exponent of 2, close to sRGB's curve.
 template <typename Colour>
 Colour FromScreen(Colour screen) {
   return screen * screen;
 }
 
-/// How a photo's light falls on skin, by the direction the skin faces: a part that comes from
-/// everywhere and one that grows along one direction (spherical harmonics up to the first order),
-/// fitted to what the photo shows of a face. Beards, brows and shine are left out by the fit.
+/// The light of a photo on skin as a function of the skin's normal: an ambient part and one that
+/// grows along one direction (spherical harmonics up to the first order), fitted to the colours of
+/// a face. The fit leaves out beards, brows and highlights.
 class FaceLight {
  public:
   struct Patch {
-    glm::vec3 normal;  ///< unit
-    glm::vec3 screen;  ///< what the photo shows of it, 0..1
+    glm::vec3 normal;  ///< unit length
+    glm::vec3 screen;  ///< the patch's screen colour in the photo, 0..1
   };
-  /// Without patches all directions are lit alike.
+  /// Without patches all directions get the same light.
   explicit FaceLight(std::span<const Patch> skin);
 
-  /// Brightness on the screen of usual skin that faces so; at least a tenth.
+  /// Returns the screen brightness of typical skin with this normal; at least 0.1.
   float On(glm::vec3 normal) const;
 
-  /// The mean of what was taken for skin, on the screen.
+  /// Returns the mean screen colour of the patches that count as skin.
   glm::vec3 skin() const { return skin_; }
   /// Light on a normal n: dot(xyz, n) + w.
   glm::vec4 coefficients() const { return light_; }

@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::string_view kCurves[] = {"brow_middle", "brow_half_height", "brow_growth",
                                         "lid_fold_height", "hairline"};
-/// Within what all numbers of a row must lie.
+/// Limits for all numbers of a row.
 struct Limits {
   std::string_view name;
   float least, most;
 };
 constexpr float kMostHairs = 200;                     // in one row
-constexpr float kLeastSize = 0.01f, kMostSize = 100;  // of what is divided by
+constexpr float kLeastSize = 0.01f, kMostSize = 100;  // limits of divisors
 constexpr Limits kLimits[] = {
     {"upper_lashes count", 1, kMostHairs},
     {"lower_lashes count", 1, kMostHairs},
@@ -56,7 +56,7 @@ Features::Features(NumberTable numbers) : FeatureNumbers(numbers), table_(std::m
     for (const Limits& limits : kLimits) {
       if (name == limits.name) within(limits.least, limits.most);
     }
-    // half_size, half_width, half_height
+    // These are names with half_size, half_width and half_height.
     if (name.contains(" half_")) within(kLeastSize, kMostSize);
     if (name == "crop_crown" && crop_crown == glm::vec3(0)) row.Fail("a crown that is nowhere");
   }

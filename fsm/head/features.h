@@ -12,12 +12,12 @@
 
 namespace fsm {
 
-/// What eyeballs, teeth, tongue, ears, lashes, brows, hair, shirt and skin are like:
-/// tables/features.txt, where each number is explained. Constant after construction; thread: any.
+/// The look of eyeballs, teeth, tongue, ears, lashes, brows, hair, shirt and skin, read from
+/// tables/features.txt, which explains each number. Constant after construction; thread: any.
 class Features : public FeatureNumbers {
  public:
-  /// In place of the built-in table. Throws as NumberTable, and if the x of a curve do not ascend
-  /// or a number is beyond its limits.
+  /// Reads a table that overrides the built-in one. Throws as NumberTable does, and if the x of a
+  /// curve do not ascend or a number exceeds its limits.
   Features(const std::string& file, std::string_view text)
       : Features(NumberTable(file, text, &BuiltIn().table_)) {}
   static const Features& BuiltIn();
@@ -29,7 +29,7 @@ class Features : public FeatureNumbers {
   NumberTable table_;
 };
 
-/// Of a row that is a list of x and y.
+/// Read a row that is a list of pairs x y.
 std::vector<glm::vec2> PairsOf(std::span<const float> row);
 Curve CurveOf(std::span<const float> row);
 

@@ -7,16 +7,16 @@
 
 namespace fsm {
 
-/// Adds short hair all round. REQUIRES: identity.crop.
+/// Adds short hair all around. REQUIRES: identity.crop.
 void BuildCroppedHair(const Identity& identity, HeadMesh& mesh);
-/// Adds hair that is parted and hangs.
+/// Adds parted hair that hangs down.
 void BuildLongHair(const Identity& identity, HeadMesh& mesh);
 inline void BuildHair(const Identity& identity, HeadMesh& mesh) {
   identity.crop ? BuildCroppedHair(identity, mesh) : BuildLongHair(identity, mesh);
 }
 
-/// Single hairs on the skin beside the edge of the hair, so that it does not begin on a line.
-/// `mesh`: the skin before it takes the identity's form.
+/// Returns single hairs on the skin beside the edge of the hair, so that it does not begin at a
+/// line. `mesh`: the skin before it takes the identity's form.
 std::vector<SkinHair> CroppedHairline(const Identity& identity, HeadMesh& mesh);
 std::vector<SkinHair> LongHairline(const Identity& identity, HeadMesh& mesh);
 inline std::vector<SkinHair> Hairline(const Identity& identity, HeadMesh& mesh) {

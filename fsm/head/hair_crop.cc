@@ -38,7 +38,7 @@ class CroppedHair {
     std::vector<SkinHair> hairs;
     for (int k = 0; k < static_cast<int>(features_.crop_hairline.count); ++k) {
       const float azimuth = features_.crop_hairline.azimuth * NoiseAt(k, 91);
-      // Most grow near the line, few before it.
+      // Most hairs grow close to the line, few in front of it.
       const float off = NoiseAt(k, 92);
       const float up =
           features_.crop_hairline.up + features_.crop_hairline.spread * off * std::abs(off);
@@ -46,7 +46,7 @@ class CroppedHair {
       if (scalp_.Over(root, 0).y < features_.crop_hairline.lowest) continue;
       SkinHair hair = look_.OnSkin(scalp_, root, Flow(root, Forehead(azimuth, 0.1f)),
                                    std::min(1.0f, 1 + off), k);
-      // What is curled reaches less far.
+      // Curled hair reaches less far.
       const float reach = 1 - features_.crop_curl_shorter * style_.curl;
       hair.middle = glm::mix(hair.root, hair.middle, reach);
       hair.tip = glm::mix(hair.root, hair.tip, reach);
@@ -65,13 +65,13 @@ class CroppedHair {
                          features_.crop_wander.narrow * std::sin(0.61f * azimuth);
     const float line = look_.HairlineElevation(azimuth) + recede + wander;
     const glm::vec3 low = HairDirection(azimuth, line);
-    // Along the great circle from the hairline to the crown.
+    // Interpolates along the great circle from the hairline to the crown.
     const float angle = std::acos(std::clamp(glm::dot(low, crown_), -1.0f, 1.0f));
     return (std::sin((1 - up) * angle) * low + std::sin(up * angle) * crown_) /
            std::max(std::sin(angle), 1e-3f);
   }
 
-  /// `up` of a direction.
+  /// Returns `up` of a direction: the inverse of Direction.
   float Up(glm::vec3 d) const {
     const glm::vec3 low = Direction(std::atan2(d.x, d.z) * 180 / kPi, 0);
     const auto angle = [this](glm::vec3 v) {
@@ -80,14 +80,14 @@ class CroppedHair {
     return std::clamp(1 - angle(d) / std::max(angle(low), 1e-3f), 0.0f, 1.0f);
   }
 
-  /// How much hair there lies over the forehead, 0..1.
+  /// Returns how much a place counts as hair over the forehead, 0..1.
   float Forehead(float azimuth, float up) const {
     return SmoothStep(features_.crop_forehead.azimuth, std::abs(azimuth)) *
            SmoothStep(features_.crop_forehead.up, up);
   }
 
-  /// Which way hair lies: away from the crown, forward on top, down at the sides and behind; over
-  /// the forehead it is combed back.
+  /// Returns the direction of the hair: away from the crown, forward on top, down at the sides and
+  /// behind; over the forehead it is combed back.
   glm::vec3 Flow(glm::vec3 root, float forehead) const {
     glm::vec3 away = root - crown_;
     away -= root * glm::dot(away, root);
@@ -97,11 +97,11 @@ class CroppedHair {
     return glm::normalize(along + glm::vec3(0, -1e-3f, 0));
   }
 
-  /// Which way single hairs go, as long as they are sleek: curls mirror light every way.
+  /// Returns the direction of hairs; its length tells how sleek they are, and curls are dull.
   glm::vec3 Along(glm::vec3 root, float forehead) const {
     return Flow(root, forehead) * (1 - features_.crop_curl_dull * style_.curl);
   }
-  /// Millimetres across and along strands: those of curls are small and as long as wide.
+  /// Returns the millimetres across and along strands; curls are small and about round.
   glm::vec2 Curled(glm::vec2 mm) const {
     return mm * glm::mix(glm::vec2(1), features_.crop_curl_smaller, style_.curl);
   }
@@ -123,7 +123,7 @@ class CroppedHair {
     for (std::size_t r = 0; r < kUp.size(); ++r) {
       for (int k = 0; k <= kAround; ++k) {
         const float azimuth = -180 + 360 * static_cast<float>(k) / kAround;
-        // An uneven edge: hair does not end on a drawn line.
+        // An uneven edge, because hair does not end at a drawn line.
         const float ragged = r == 0 ? features_.crop_ragged * NoiseAt(k % kAround, 61) : 0.0f;
         const glm::vec3 d = Direction(azimuth, kUp[r] + ragged);
         const float uneven =
@@ -144,7 +144,7 @@ class CroppedHair {
   }
 
   void Lock(int k) {
-    // Spread evenly over the scalp by the golden ratio.
+    // The golden ratio spreads locks evenly over the scalp.
     const float turn =
         360 * (0.618034f * static_cast<float>(k) - std::floor(0.618034f * static_cast<float>(k)));
     const float azimuth = turn - 180;
@@ -174,7 +174,7 @@ class CroppedHair {
       const float v = static_cast<float>(s) / kSteps;
       const float swing = style_.wave_mm * std::sin(waves * kPi * v + static_cast<float>(k));
       const glm::vec3 d = glm::normalize(root + (along * (length * v) + side * swing * v) / 100.0f);
-      const float over = Depth(d, Up(d));  // along the shell
+      const float over = Depth(d, Up(d));  // follows the shell
       path.push_back(
           scalp_.Over(d, 1.02f * over + lift * v * (1 - 0.75f * v) + features_.crop_lock_off));
     }

@@ -15,8 +15,8 @@ namespace {
 
 constexpr float kEnd = 1.0f;
 
-// Strands start along the parting, sweep over the skull and hang. Those at the face's edge frame
-// the forehead in a round arch, a little off the skin.
+// Strands start along the parting, sweep over the skull and hang down. Those at the face's edge
+// frame the forehead in a round arch, slightly off the skin.
 class LongHair {
  public:
   LongHair(const Identity& identity, HeadMesh& mesh)
@@ -58,7 +58,7 @@ class LongHair {
   }
 
  private:
-  // `i` runs from the face's edge (0) to the middle of the back (1), `t` from the parting (0) over
+  // `i` runs from the face's edge (0) to the middle of the back (1); `t` from the parting (0) over
   // the end of the skull (kCap) to the ends (1).
   static constexpr float kCap = 0.58f;
 
@@ -74,7 +74,7 @@ class LongHair {
         OnParting(Between(features_.long_parting, std::pow(i, features_.long_crowd.parting)));
     const float azimuth = Between(features_.long_round, std::pow(i, features_.long_crowd.round));
     const float edge = SmoothStep(features_.long_edge_nearer.over, i);
-    // The side away from the parting has the longer way round the forehead.
+    // On the side away from the parting the way around the forehead is longer.
     const float away = side < 0 ? 1.0f : 0.0f;
     const float nearer =
         features_.long_edge_nearer.part - features_.long_edge_nearer.less_away * away;
@@ -116,7 +116,7 @@ class LongHair {
       const glm::vec3 out = glm::normalize(glm::vec3(d.x, 0, d.z));
       const float front = SmoothStep(0.35f, 0, i);
       p.y = glm::mix(p.y, EndY(i, side), hang);
-      // It goes on round the skull for a little, so that it does not break where that ends.
+      // It continues around the skull for a little, so that it has no kink where that ends.
       constexpr float kStep = 0.04f;
       const glm::vec3 on =
           (d - Direction(i, side, 1 - kStep)) * radius * (1 - kCap) / (kCap * kStep);
@@ -127,14 +127,14 @@ class LongHair {
                   Between(features_.long_inward, SmoothStep(0, 0.6f, i)) * hang * hang * hang) +
            Wave(i, side, hang, out);
       p.z += front * features_.long_forward * hang * (1 - 0.4f * hang);
-      // At the face it follows the cheek.
+      // Beside the face it follows the cheek.
       p.x -=
           side * front * features_.long_cheek * std::sin(std::min(1.0f, 1.5f * hang) * kPi * 0.5f);
     }
     return p;
   }
 
-  // What hangs swings round the head and, less, off it; neighbours swing nearly alike.
+  // Returns the wave of hanging hair: around the head and, less, off it; neighbours move alike.
   glm::vec3 Wave(float i, float side, float hang, glm::vec3 out) const {
     const float phase = 2 * kPi * features_.long_waves.count * hang +
                         features_.long_waves.round * i + features_.long_waves.sides * side;
@@ -143,7 +143,7 @@ class LongHair {
                     features_.long_waves.off * std::cos(phase) * out);
   }
 
-  // By how much the ear lifts what hangs over it.
+  // Returns how far the ear lifts the hair that hangs over it.
   float OverEar(float i, float y) const {
     const float round = (i - features_.long_over_ear.round) / features_.long_over_ear.half_width;
     const float up = (y - features_.long_over_ear.y) / features_.long_over_ear.half_height;
@@ -153,7 +153,7 @@ class LongHair {
   glm::vec3 Along(float i, float side, float t) const {
     const glm::vec3 along = glm::normalize(Point(i, side, t + 0.02f, 0) -
                                            Point(i, side, t - 0.02f, 0) + glm::vec3(0, -1e-3f, 0));
-    // At the parting hairs of both sides rise alike, or light would break off there.
+    // At the parting the hairs of both sides rise alike, or the shading would have an edge there.
     const float off = SmoothStep(0, features_.long_parting_soft, t);
     return glm::normalize(glm::mix(features_.long_parting_along, along, off));
   }
@@ -166,7 +166,7 @@ class LongHair {
            SmoothStep(features_.long_ridges.round, i);
   }
 
-  /// By how much a column ends higher than its neighbours.
+  /// Returns how much higher a column ends than its neighbours.
   float Pointed(int column, float t) const {
     return column % 2 == 0 ? 0.0f : features_.long_points * SmoothStep(0.8f, kEnd, t);
   }
@@ -189,15 +189,15 @@ class LongHair {
 
   void Shell(float side) {
     constexpr int kStrands = 27;
-    constexpr int kCapRows = 15;  // the skull is round, what hangs nearly straight
+    constexpr int kCapRows = 15;  // the skull is round; hanging hair is nearly straight
     constexpr int kRows = 24;
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
-      // Closer together at the face, where the edge is seen.
+      // Strands are denser at the face, where the edge is visible.
       const float u = static_cast<float>(k) / kStrands;
       const float i = glm::mix(u * u, u, 0.45f);
       for (int row = 0; row <= kRows; ++row) {
-        // The first two rows are the parting, where the scalp is seen.
+        // The first two rows are the parting, where the scalp is visible.
         const float t =
             row == 1 ? features_.long_parting_line
             : row <= kCapRows
@@ -224,14 +224,14 @@ class LongHair {
     mesh_.Grid(Material::kHair, first, kStrands + 1, kRows + 1, side > 0);
   }
 
-  // The dark inside of the hair, seen beside the neck and beyond the far temple.
+  // Adds the dark inside of the hair, visible beside the neck and beyond the far temple.
   void Lining(float side) {
     constexpr int kStrands = 11;
     constexpr int kRows = 6;
     const auto& insets = features_.long_lining.inset;
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
-      // Beside the face it reaches up to the forehead: there one looks under the hair.
+      // Beside the face it reaches up to the forehead, where one looks under the hair.
       const float u = static_cast<float>(k) / kStrands;
       const float i = glm::mix(0.005f, 1.0f, glm::mix(u * u, u, 0.4f));
       const float behind = SmoothStep(0.06f, 0.3f, i);
@@ -275,7 +275,7 @@ class LongHair {
     }
   }
 
-  // Single hairs that stand off the others.
+  // Adds single hairs that stand off the others.
   void Flyaways(float side) {
     for (int k = 0; k < static_cast<int>(features_.long_flyaways.count); ++k) {
       const int seed = k + (side > 0 ? 1700 : 1500);

@@ -18,7 +18,7 @@ Scalp::Scalp(const HeadMesh& mesh) {
     const glm::vec3 d = mesh.position[i] - kHairCentre;
     const float length = glm::length(d);
     if (mesh.bone[i] != Bone::kSkin || mesh.position[i].y < -70 || length < 45) continue;
-    if (mesh.position[i].y < 5 && mesh.position[i].z > 45) continue;  // the face's features
+    if (mesh.position[i].y < 5 && mesh.position[i].z > 45) continue;  // facial features
     if (mesh.weights[i].neck <= 0) continue;                          // cloth
     points_.push_back({d / length, length});
   }
@@ -53,7 +53,7 @@ glm::vec3 HairLook::StrandColour(int strand, int row) const {
   const float fine = NoiseAt(strand * 7, 3);
   const float broad = NoiseAt(strand / 4, 11);
   const float along = features_.hair_streaks.along * NoiseAt(strand, row + 40);
-  // Dark hair shows its streaks, light hair is more even.
+  // Dark hair shows its streaks; light hair is more even.
   const float strength =
       1 - features_.hair_even.part * SmoothStep(features_.hair_even.green, palette_.hair.g);
   const float light = 1 + strength * (features_.hair_streaks.strand * fine +
@@ -149,7 +149,7 @@ void HairLook::LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3>
   for (std::size_t i = 0; i < place.size(); ++i) {
     const glm::vec3 from = place[i] - kHairCentre;
     const glm::vec3 outward = glm::normalize(from * glm::vec3(1, from.y > 0 ? 1.0f : below, 1));
-    if (glm::dot(normal[i], outward) < 0) continue;  // the lining
+    if (glm::dot(normal[i], outward) < 0) continue;  // lining
     normal[i] = glm::normalize(glm::mix(normal[i], outward, part));
   }
 }

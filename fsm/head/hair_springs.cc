@@ -14,7 +14,7 @@ namespace {
 
 struct SpringRow {
   float y;
-  Spring spring;  // but for its places
+  Spring spring;  // its positions are not set
 };
 
 class HairSprings {
@@ -65,7 +65,8 @@ class HairSprings {
   void HangVertex(std::uint32_t v, RigData& rig) {
     const glm::vec3 p = rig.rest[v];
     if (p.y >= still_ || rows_.empty()) return;
-    // From the row above, or from where hair stands still, to the row below.
+    // The weight blends from the row above, or the height where hair stands still, to the row
+    // below.
     std::size_t below = 0;
     while (below + 1 < rows_.size() && p.y < rows_[below].y) ++below;
     const float above_y = below == 0 ? still_ : rows_[below - 1].y;
@@ -102,7 +103,7 @@ class HairSprings {
   float still_ = 0;
   std::vector<SpringRow> rows_;
   std::map<std::pair<std::size_t, int>, std::uint32_t> at_;
-  std::vector<float> hung_;  // on each spring, the sum of weights
+  std::vector<float> hung_;  // sum of the weights on each spring
 };
 
 }  // namespace

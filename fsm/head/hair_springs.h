@@ -7,9 +7,9 @@
 
 namespace fsm {
 
-/// Attaches the vertices of `rig.rest` from index `first` on to the springs of hair_springs.txt,
-/// which describes its layout. Weights blend between rows, and within a row between springs;
-/// springs without hair are left out. Throws std::runtime_error naming file and line.
+/// Attaches the vertices of `rig.rest` from index `first` on to the springs described by
+/// hair_springs.txt. Weights are interpolated between rows, and within a row between springs;
+/// springs without hair are removed. Throws std::runtime_error naming file and line.
 void AddHairSprings(const Table& table, std::size_t first, RigData& rig);
 
 }  // namespace fsm

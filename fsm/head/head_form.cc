@@ -17,7 +17,7 @@ HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Slide
   } else {
     constexpr glm::vec3 kMirror(-1, 1, 1);
     const glm::vec3 by = 0.5f * (Motion(eye_.centre()) + kMirror * Motion(eye_.centre() * kMirror));
-    // A larger ball lies deeper: its front stays where it was.
+    // A larger ball lies deeper, so that its front stays in place.
     const glm::vec3 deeper(0, 0, (1 - left_eye.size) * eye_.radius());
     eye_transforms_ = {left_eye, left_eye};
     eye_transforms_.left.shift = by + deeper;
@@ -29,12 +29,12 @@ HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Slide
   };
   teeth_.shift = lips(0) * (warp_ ? glm::vec3(0, 1, 1) : glm::vec3(0, 0.5f, 0.5f));
   if (warp_) {
-    // A person's mouth may lie beside the middle and look to a side.
+    // A person's mouth may be off the median and turned to one side.
     constexpr float kAside = 18, kSteepest = 0.35f;
     const glm::vec3 left = lips(kAside), right = lips(-kAside);
     teeth_.shift.x = 0.5f * (left.x + right.x);
     teeth_.slope = std::clamp((left.z - right.z) / (2 * kAside), -kSteepest, kSteepest);
-    // Lips that part show them, women's more than 3 mm, men's 2 (Vig and Brundo 1978).
+    // Parted lips show the upper teeth: more than 3 mm in women, 2 mm in men (Vig and Brundo 1978).
     teeth_.shift.y -= 1.0f;
     teeth_.shift.z -= TeethTooFar(base);
   }

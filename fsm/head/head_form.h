@@ -12,19 +12,19 @@
 
 namespace fsm {
 
-/// Brings the base head into the form of one identity or of the person in a photo. Eyes with what
-/// touches them, and teeth with the tongue, move rigidly. What it is made of outlives it.
+/// Deforms the base head to the form of one identity or a person in a photo. Eyes with what touches
+/// them, and teeth with the tongue, move rigidly. Borrows its constructor's arguments.
 class HeadForm {
  public:
-  /// `warp`: of a face from a photo, or null. `eye_transforms`: of its right and left eye if they
-  /// are known; otherwise eyes are like `left_eye` and go where the skin goes. `base`: the head
-  /// before it takes this form.
+  /// `warp`: that of a face from a photo, or null. `eye_transforms`: those of its eyes if known;
+  /// otherwise both eyes are like `left_eye` and follow the skin. `base`: the head before it takes
+  /// this form.
   HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const SliderWarp& sliders,
            const Warp* warp, const std::optional<Sided<EyeTransform>>& eye_transforms,
            const HeadMesh& base, const EyeTransform& left_eye = {});
 
-  /// Moves all vertices but those from `fixed_first` to before `fixed_end`. What moves with the
-  /// skull is ears from `ears_first` on, teeth and gums before.
+  /// Moves all vertices except those in [fixed_first, fixed_end). Vertices on Bone::kSkull are ears
+  /// from `ears_first` on, teeth and gums before.
   void Shape(std::size_t fixed_first, std::size_t fixed_end, std::size_t ears_first,
              HeadMesh& mesh) const;
 
@@ -33,8 +33,8 @@ class HeadForm {
 
  private:
   glm::vec3 Motion(glm::vec3 p) const;
-  /// How far the teeth must go back, millimetres, for the lips of a warped head to have the room
-  /// they have on the base head.
+  /// Returns how far the teeth must move back, in millimetres, for the lips of a warped head to
+  /// have the same room as on the base head.
   float TeethTooFar(const HeadMesh& base) const;
 
   const EyeAnatomy& eye_;
@@ -45,7 +45,7 @@ class HeadForm {
   TeethTransform teeth_;
 };
 
-/// Moves a place on the table's eye to the face's own eye of that side.
+/// Maps a point on the table's eye to the face's own eye on that side.
 glm::vec3 PlaceInFace(const EyeAnatomy& eye, const Sided<EyeTransform>& eye_transforms, Side side,
                       glm::vec3 p);
 

@@ -69,11 +69,11 @@ BakeWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y) {
   const float below = mouth_line_y - domain.y;  // millimetres below the line of the mouth
   const float beyond = std::max(0.0f, a - 25.0f);
 
-  // Along the slit the lower lip is all jaw in the middle, the upper hardly any, and the corner
-  // takes almost half; both go there along a quarter of an ellipse, so an open mouth is an oval.
-  // After ICT-FaceKit's jawOpen: the upper lip 7 % of the lower in the middle, 10 % at
-  // 10 mm, the corner 43 %; the lower lip 88 % at 10 mm, 75 % at 18.
-  constexpr float kApart = 24.4f;  // millimetres from the middle; beyond they stay together
+  // Along the slit the lower lip follows the jaw fully at the median, the upper lip hardly, and the
+  // corner almost by half; both reach it along a quarter ellipse, so that an open mouth is oval.
+  // After ICT-FaceKit's jawOpen: the upper lip moves 7 % as far as the lower at the median, 10 % at
+  // 10 mm, the corner 43 %; the lower lip 88 % at 10 mm, 75 % at 18 mm.
+  constexpr float kApart = 24.4f;  // millimetres from the median; beyond, the lips stay together
   const float apart = std::sqrt(std::max(0.0f, 1 - a * a / (kApart * kApart)));
   const float upper_seam = 0.06f + 0.40f * (1 - apart * apart);
   const float lower_seam = upper_seam + (1 - upper_seam) * apart;
@@ -90,10 +90,10 @@ BakeWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y) {
     const float half = 0.5f * (side > 0 ? (1 - SmoothStep(25, 19, a)) : 1.0f);
     weights.above_mouth = 1 - half * (1 - SmoothStep(0, 8 + 0.3f * beyond, -below));
   }
-  // The jaw's skin ends at the throat and before the ear.
+  // The skin of the jaw ends at the throat and in front of the ear.
   weights.jaw *= SmoothStep(-138, -84, domain.y) * SmoothStep(112, 62, a);
 
-  // The neck twists: all of the turn at the jaw, none at the shoulders.
+  // The neck twists: it turns fully at the jaw and not at the shoulders.
   weights.neck = SmoothStep(-168, -96, domain.y);
   return weights;
 }

@@ -13,17 +13,17 @@
 
 namespace fsm {
 
-/// The weights of a vertex while its head is made, and which lid, lip and teeth touch it, which
+/// The weights of a vertex while its head is made: also its parts in lids, lips and teeth, which
 /// face_channels.h bakes into the rig.
 struct BakeWeights : SkinWeights {
-  std::optional<Side> eye;  ///< whose lids are near
+  std::optional<Side> eye;  ///< the side of the lids near it
   float lid_upper = 0, lid_lower = 0;
-  std::int16_t lip_column = -1;  ///< index of the pair of seam vertices that corrects it
-  bool by_teeth = false;         ///< may touch the teeth: held off them
+  std::int16_t lip_column = -1;  ///< index of the seam pair that corrects it
+  bool by_teeth = false;         ///< may touch the teeth, and is then pushed off them
   float lip_weight = 0;          ///< > 0 upper lip, < 0 lower lip
 };
 
-/// A mesh under construction: vertices with their paint and their rig, triangles by material.
+/// A mesh under construction: vertices with paint and rig, triangles by material.
 struct HeadMesh {
   std::vector<glm::vec3> position;
   std::vector<glm::vec3> albedo;
@@ -31,33 +31,33 @@ struct HeadMesh {
   std::vector<float> opacity;
   std::vector<Bone> bone;
   std::vector<BakeWeights> weights;  ///< meaningful where bone is kSkin
-  std::vector<Strand> strands;       ///< meaningful where there is hair
+  std::vector<Strand> strands;       ///< meaningful on hair only
 
   struct Batch {
     Material material;
     std::vector<std::uint32_t> indices;
-    int pbr = -1;  ///< see HeadTopology::Part, two_sided too
+    int pbr = -1;  ///< as in HeadTopology::Part; also two_sided
     bool two_sided = false;
   };
   std::vector<Batch> batches;
-  /// The triangles of that material which take light so.
+  /// Returns the batch of triangles with this material and shading.
   Batch& BatchOf(Material material, int pbr = -1, bool two_sided = false);
 
   std::uint32_t Add(glm::vec3 p, glm::vec3 colour, float open, Bone b,
                     const BakeWeights& vertex_weights = {});
-  /// A quad with corners counter-clockwise from outside; degenerate halves are left out.
+  /// Adds a quad with corners counter-clockwise from outside, without degenerate halves.
   void Quad(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
   void Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c,
                 bool flip = false);
-  /// Quads over a grid of `rows` x `columns` vertices that begin at `first`, row after row.
+  /// Adds quads over a grid of `rows` x `columns` vertices, row by row from `first`.
   void Grid(Material material, std::uint32_t first, int rows, int columns, bool flip = false);
 };
 
-/// Makes the triangles and parts of a topology that has none.
+/// Fills the triangles and parts of a topology that has none.
 void SetParts(std::span<const HeadMesh::Batch> batches, HeadTopology& topology);
 
-/// Fills the weights that follow from a place on the face alone. `side`: +1 above the mouth's slit,
-/// -1 below it, 0 where the cheek joins both.
+/// Computes the weights that depend only on the position on the face. `side`: +1 above the mouth's
+/// slit, -1 below it, 0 where the cheek joins both.
 BakeWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y);
 
 }  // namespace fsm

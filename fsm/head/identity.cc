@@ -49,7 +49,7 @@ Palette ReadBasePalette(const Table& table) {
   return palette;
 }
 
-/// The place of a name in Identities(); throws std::runtime_error listing the names.
+/// Returns the index of a name in Identities(); throws std::runtime_error listing the names.
 std::size_t IdentityIndex(std::string_view name) {
   const std::vector<std::string>& names = Identities();
   const auto found = std::ranges::find(names, name);
@@ -211,7 +211,7 @@ SliderWarp::SliderWarp(const Table& table,
 glm::vec3 SliderWarp::Motion(glm::vec3 p) const {
   glm::vec3 sum(0);
   for (const Field& field : fields_) {
-    // Its mirror image acts, too; a sideways part turns over at the median.
+    // The mirror image acts, too; its sideways component is reversed.
     for (const float image : {1.0f, -1.0f}) {
       if (image < 0 && field.at.x == 0) continue;
       const glm::vec3 d = (glm::vec3(image * p.x, p.y, p.z) - field.at) / field.radius;

@@ -17,95 +17,95 @@
 
 namespace fsm {
 
-/// The names of the built-in faces, blocks of tables/identities.txt; the default one first. Valid
-/// as long as the program runs.
+/// Returns the names of the built-in faces (blocks of tables/identities.txt), the default one
+/// first. Valid as long as the program runs.
 const std::vector<std::string>& Identities();
 bool IsBuiltIn(std::string_view name);
 
-/// Colours of a head, linear RGB; see BasePalette.
+/// The colours of a head, linear RGB; see BasePalette.
 struct Palette {
   glm::vec3 skin{}, blush{}, lip{}, hair{}, brow{}, lash{}, iris{}, cloth{}, tooth{}, sclera{};
   glm::vec3 lip_inside{}, lid_rim{}, mouth{}, tongue{}, gum{};
-  float beard = 0;  ///< how far a shaved beard shows, 0..1
+  float beard = 0;  ///< visibility of a shaved beard, 0..1
 };
 
-/// The colours of the base head: the rows of tables/identities.txt that stand before any face.
+/// Returns the base head's colours: the rows of tables/identities.txt that precede all faces.
 const Palette& BasePalette();
 
-/// Short hair all round.
+/// Short hair all around.
 struct CropStyle {
-  float side_mm, top_mm;  ///< of the shell over the skin
+  float side_mm, top_mm;  ///< thickness of the shell over the skin
   int locks;
   float lock_mm;   ///< length of a lock
-  float lift_mm;   ///< of its tip over the shell
+  float lift_mm;   ///< height of a lock's tip over the shell
   float wave_mm;   ///< sideways swing of a lock
   float front_up;  ///< how far locks over the forehead stand up, 0..1
-  float recede;    ///< degrees the hairline is drawn back at the temples
-  float curl = 0;  ///< 0: hairs lie along the head; 1: tight curls, which stand off it
+  float recede;    ///< degrees by which the hairline recedes at the temples
+  float curl = 0;  ///< 0: hairs lie along the head; 1: tight curls that stand off it
 };
 
-/// Hair that is parted and hangs.
+/// Parted hair that hangs down.
 struct LongStyle {
-  float parting = 0.17f;  ///< to the agent's left, as part of the hair's half width
-  float full_mm = 0;      ///< more volume over the skull than usual
-  float front_y = -84;    ///< height of the ends beside the face, millimetres
-  float back_y = -112;    ///< of those behind
-  float wave_mm = 2.2f;   ///< sideways swing of what hangs
+  float parting = 0.17f;  ///< to the agent's left, as a fraction of the hair's half width
+  float full_mm = 0;      ///< additional thickness over the skull
+  float front_y = -84;    ///< y of the ends beside the face, millimetres
+  float back_y = -112;    ///< y of the ends behind
+  float wave_mm = 2.2f;   ///< sideways swing of hanging hair
 };
 
-/// What makes one face differ from the base head; a block of tables/identities.txt.
+/// The differences of a face from the base head; a block of tables/identities.txt.
 struct Identity {
-  std::size_t index = 0;  ///< in Identities()
+  std::size_t index = 0;  ///< index in Identities()
   Palette palette = BasePalette();
   std::vector<std::pair<std::string, float>> sliders;
-  std::optional<CropStyle> crop;  ///< long hair if empty
+  std::optional<CropStyle> crop;  ///< none: long hair
   LongStyle long_hair;
-  EyeTransform eyes;  ///< the left one; `shift` is what the sliders make it
-  /// The furrow over the upper lid, compared with the base head's.
+  EyeTransform eyes;  ///< of the left eye; `shift` follows from the sliders
+  /// The fold of the upper lid, relative to the base head's.
   struct LidFold {
-    float inner_mm = 0, outer_mm = 0;  ///< how much higher it lies at the eye's two corners
-    float dark = 1;                    ///< factor on how dark it is
-    float full_mm = 0;                 ///< how much thicker the skin is, there and above
+    float inner_mm = 0, outer_mm = 0;  ///< additional height at the eye's two corners
+    float dark = 1;                    ///< factor on its darkness
+    float full_mm = 0;                 ///< additional thickness of the skin there and above
   };
   LidFold fold;
   float lashes = 1;
   struct Brows {
     float thickness = 1, height_mm = 0;
-    float arch = 1;     ///< how much they bend: 0 = straight from end to end
-    float density = 1;  ///< how many of their hairs there are, and how dark the skin between is
+    float arch = 1;     ///< curvature: 0 = straight from end to end
+    float density = 1;  ///< number of hairs, and darkness of the skin between them
   };
   Brows brows;
   std::array<float, kLastingCreases> creases{};  ///< by Crease
-  std::shared_ptr<const Features> features{};    ///< in place of the built-in ones
+  std::shared_ptr<const Features> features{};    ///< null: the built-in ones
 
-  /// `features`, or else the built-in ones.
+  /// Returns `features`, or the built-in ones if it is null.
   const Features& UsedFeatures() const { return features ? *features : Features::BuiltIn(); }
 };
 
-/// Throws std::runtime_error listing the names for an unknown one, or naming file and line for a
-/// damaged table.
+/// Throws std::runtime_error listing the names if `name` is unknown, or naming file and line if the
+/// table is damaged.
 Identity ReadIdentity(const Table& table, std::string_view name);
-/// One line of a face's block; a slider takes the place of one of the same name.
+/// Reads one line of a face's block; a slider replaces an earlier one of the same name.
 void ReadIdentityRow(const TableRow& row, Identity& identity);
 
-/// A built-in face as its table has it. Throws as ReadIdentity.
+/// Returns a built-in face as its table describes it. Throws as ReadIdentity does.
 Identity BuiltInIdentity(std::string_view name);
-/// The sliders there are, in the order of their table.
+/// Returns the names of all sliders, in the order of their table.
 std::vector<std::string> SliderNames();
 
-/// A face of one's own, the file identity.txt in its folder: `base FACE`, then lines as in
-/// tables/identities.txt that change it. `name` is for messages. Throws std::runtime_error naming
-/// file and line. Limit: kMostSlider either way.
+/// Reads a user's own face, the file identity.txt in its folder: `base FACE`, then lines as in
+/// tables/identities.txt that modify it. `name` appears in error messages. Throws
+/// std::runtime_error naming file and line. Limit: kMostSlider in absolute value.
 Identity ReadOwnIdentity(const std::string& name, std::string_view text);
-/// Such a file with sliders only.
+/// Returns the text of such a file with sliders only.
 std::string WriteOwnIdentity(std::string_view base,
                              const std::map<std::string, float, std::less<>>& sliders);
 inline constexpr float kMostSlider = 10;
 
-/// The sliders as a displacement of space.
+/// The sliders as a displacement field.
 class SliderWarp {
  public:
-  /// Throws std::runtime_error if a slider asked for is not in the table or a line is damaged.
+  /// Throws std::runtime_error if a slider is not in the table or a line is damaged.
   SliderWarp(const Table& table, const std::vector<std::pair<std::string, float>>& values);
   glm::vec3 Motion(glm::vec3 p) const;
 

@@ -50,7 +50,7 @@ Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const 
 }
 
 glm::vec2 Unroll(glm::vec3 p) {
-  const float turn = std::atan2(p.x, p.z) / kPi;  // -1..1, 0 to the front
+  const float turn = std::atan2(p.x, p.z) / kPi;  // -1..1, 0 at the front
   const float part = std::abs(turn);
   constexpr float kFront = 1.0f / 3;
   const float wide = part < kFront ? 0.6f * part / kFront : 0.6f + 0.6f * (part - kFront);

@@ -13,13 +13,13 @@
 
 namespace fsm {
 
-/// The points of tables/landmarks.txt and those of eyes and ears at rest; `rest` begins with the
-/// vertices of `fine`. Throws std::runtime_error naming file and line if the table is damaged.
+/// Returns the points of tables/landmarks.txt and those of eyes and ears, at rest; `rest` begins
+/// with the vertices of `fine`. Throws std::runtime_error naming file and line for a damaged table.
 Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const glm::vec3> rest,
                         const EyeAnatomy& eye, const Sided<EyeTransform>& eye_transforms,
                         const Features& features);
 
-/// Texture coordinates of a place of the base head, see HeadTopology::uv.
+/// Returns the texture coordinates of a base head's point; see HeadTopology::uv.
 glm::vec2 Unroll(glm::vec3 p);
 
 }  // namespace fsm

@@ -45,7 +45,7 @@ class LashBuilder {
 
  private:
   float X(float along) const { return glm::mix(eye_.inner_x(), eye_.outer_x(), along); }
-  /// Of a row, that for the upper lid, the lower lid, or lids of a photo.
+  /// Selects from a row the number for the upper lid, the lower lid, or the lids of a photo.
   float ByLid(const auto& row) const {
     return of_photo_ ? row.photo : upper_ ? row.upper : row.lower;
   }
@@ -63,7 +63,7 @@ class LashBuilder {
     mesh_.Triangle(of_photo_ ? Material::kShutLash : Material::kLash, a, b, c, side_ < 0);
   }
 
-  // The roots together: a thin dark line on the upper rim, thickening outward.
+  // Adds the roots as a thin dark line on the upper margin that thickens outward.
   void Line() {
     constexpr int kSteps = 14;
     std::array<std::uint32_t, 2> before{};
@@ -94,7 +94,7 @@ class LashBuilder {
     const float angle = Angle(x);
     const float up = upper_ ? 1.0f : -1.0f;
     const float radius = eye_.LidRadius(x) + 0.05f;
-    // Neighbours lean together in threes.
+    // Neighbouring lashes lean together in threes.
     const float clump = features_.lash_clump.threes * (static_cast<float>(1 - i % 3)) +
                         features_.lash_clump.each * NoiseAt(i, 5) +
                         (of_photo_ ? features_.lash_clump.photo * NoiseAt(i, 6) : 0.0f);
@@ -106,12 +106,12 @@ class LashBuilder {
                         : features_.lower_lash_length * (1 + differs));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
     const float width = ByLid(features_.lash_width);
-    // Lower hairs are thin: much of the skin shows between them.
+    // Lower lashes are thin, and much of the skin shows between them.
     const float dark = ByLid(features_.lash_darkness) +
                        (of_photo_ ? features_.lash_photo_dark * NoiseAt(i, 4) : 0.0f);
     const float rise = ByLid(features_.lash_rise);
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
-    // Out and then up (the lower ones down): a curved card of two segments.
+    // A lash is a curved card of two segments: outward, then up (the lower ones down).
     const glm::vec3 middle = root + length * (0.5f * out + glm::vec3(0, 0.06f * up, 0));
     const glm::vec3 tip = root + length * (0.72f * out + glm::vec3(0, rise, 0));
     const std::uint32_t a = Add(root - glm::vec3(width, 0, 0), x, dark);

@@ -6,9 +6,9 @@
 
 namespace fsm {
 
-/// Lashes of both sides. They move as skin and must be added before the rigid parts, so that such
-/// vertices stay one run. `of_photo`: those of the upper lids alone, with how dark they are in
-/// HeadMesh::opacity.
+/// Adds the lashes of both sides. They move as skin and must be added before the rigid parts, so
+/// that the vertices that move as skin are contiguous. `of_photo`: only those of the upper lids,
+/// with their darkness in HeadMesh::opacity.
 void BuildLashes(const EyeAnatomy& eye, const Identity& identity, bool of_photo, HeadMesh& mesh);
 
 }  // namespace fsm

@@ -36,13 +36,13 @@
 #include "fsm/head/subdivide.h"
 #include "fsm/head/warp.h"
 
-// A head is made in stages, each of which gives a value to the next: its ingredients; the skin from
-// its cage; the parts laid on it; all brought into the head's form; what it looks like; the rig.
+// A head is made in stages, each of which passes a value to the next: its ingredients; the skin
+// from its cage; the parts added to it; all deformed to the head's form; its look; the rig.
 
 namespace fsm {
 namespace {
 
-/// What a head is made of: an identity, or the built-in face that a person's photo is warped from.
+/// What a head is made of: an identity, or the built-in face that a photo is warped from.
 struct Ingredients {
   Ingredients(Identity own, bool sides_differ)
       : identity(std::move(own)),
@@ -62,9 +62,9 @@ struct Ingredients {
   EyeAnatomy eye = EyeAnatomy::BuiltIn();
   const MouthAnatomy& mouth = MouthAnatomy::BuiltIn();
   SliderWarp sliders;
-  bool asymmetric;                   ///< the two sides do not move quite alike
-  const PhotoHead* photo = nullptr;  ///< worn, if there is one
-  std::optional<Warp> warp;          ///< to the person in it
+  bool asymmetric;                   ///< whether the two sides move slightly differently
+  const PhotoHead* photo = nullptr;  ///< the photo it wears, or null
+  std::optional<Warp> warp;          ///< from the base face to the person in the photo
 };
 
 /// The skin of the base head.
@@ -84,8 +84,8 @@ BaseSkin MakeSkin(const Ingredients& from) {
   return skin;
 }
 
-/// The base head without what lies on its skull: vertices of skin, then those of the figure, which
-/// move as skin does, as do all before `soft_end`, then eyes, teeth and tongue, then ears.
+/// The base head without hair. The order of vertices is: skin; shirt or a photo's sheet; lashes,
+/// the last that move as skin; eyes, teeth and tongue; ears.
 struct BaseParts {
   HeadMesh mesh;
   std::size_t skin_end, figure_end, soft_end, ears_first;
@@ -115,14 +115,14 @@ BaseParts LayParts(const Ingredients& from, const BaseSkin& skin) {
                       std::back_inserter(parts.skin_hairs));
     std::ranges::move(Hairline(identity, mesh), std::back_inserter(parts.skin_hairs));
   }
-  // A photo shows the lashes of open eyes: only those of shut lids are added.
+  // A photo shows the lashes of open eyes, so only those of shut lids are added.
   BuildLashes(from.eye, identity, from.photo != nullptr, mesh);
   parts.soft_end = mesh.position.size();
   BuildEyes(from.eye, identity, mesh);
   BuildTeeth(from.mouth, identity, mesh);
   BuildTongue(from.mouth, identity, mesh);
   parts.ears_first = mesh.position.size();
-  // Long hair covers ears; a photo shows them.
+  // Long hair covers the ears; a photo shows them.
   if (identity.crop && !from.photo) BuildEars(identity, mesh);
   return parts;
 }
@@ -130,10 +130,10 @@ BaseParts LayParts(const Ingredients& from, const BaseSkin& skin) {
 /// The head in its own form, with hair.
 struct FormedHead {
   HeadMesh mesh;
-  std::vector<glm::vec3> base;  ///< the base head's rest form, for texture coordinates
+  std::vector<glm::vec3> base;  ///< rest form of the base head, for texture coordinates
   std::size_t hair_first;
   Sided<EyeTransform> eyes;
-  TeethTransform teeth;  ///< from the base head's
+  TeethTransform teeth;  ///< relative to the base head
 };
 
 void AddHair(const Ingredients& from, const BaseSkin& skin, HeadMesh& mesh) {
@@ -152,7 +152,7 @@ FormedHead TakeForm(const Ingredients& from, const BaseSkin& skin, const BasePar
                       from.photo ? EyeTransform{} : from.identity.eyes);
   FormedHead head{parts.mesh, parts.mesh.position, parts.mesh.position.size(),
                   form.eye_transforms(), form.teeth()};
-  // The sheet of a photo is where it belongs already.
+  // The sheet of a photo is in its final place already.
   form.Shape(parts.skin_end, from.photo ? parts.figure_end : parts.skin_end, parts.ears_first,
              head.mesh);
   AddHair(from, skin, head.mesh);
@@ -194,7 +194,7 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& pa
   using enum RigStep;
   const Identity& identity = from.identity;
   RigData rig;
-  // Lips meet where the teeth let them, and what then follows them is held off the teeth again.
+  // Lips meet where the teeth let them; skin that follows them is pushed off the teeth again.
   rig.steps = {kChannels, kLids,  kJaw,  kTeeth,   kLips,   kTeeth,
                kTongue,   kBones, kNeck, kSprings, kNormals};
   rig.rest = head.mesh.position;
@@ -230,7 +230,7 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& pa
   return rig;
 }
 
-/// Maps the photo onto the skin, using the lids open and shut.
+/// Maps the photo onto the skin, evaluated with lids open and shut.
 void Wear(const Ingredients& from, const BaseSkin& skin, const FormedHead& formed,
           HeadAsset& asset) {
   const std::size_t count = skin.mesh.position.size();

@@ -14,7 +14,7 @@
 namespace fsm {
 namespace {
 
-/// The point of an arch at an arc length from the median, followed in small steps.
+/// Returns the point of an arch at an arc length from the median, found in small steps.
 glm::vec3 AlongArch(const ToothArch& arch, float arc, float y) {
   float x = 0;
   float length = 0;
@@ -27,17 +27,17 @@ glm::vec3 AlongArch(const ToothArch& arch, float arc, float y) {
   return {side * x, y, step::ArchZ(arch, x)};
 }
 
-/// Draws one row of teeth and its gum.
+/// Builds one row of teeth and its gum.
 class ToothRow {
  public:
   using TeethRow = decltype(Features::upper_tooth_widths);
   struct Jaw {
     ToothArch arch;
-    float upward;  // +1: crowns grow upwards from the edge (upper jaw)
+    float upward;  // +1: crowns grow upward from the edge (upper jaw)
     Bone bone;
-    TeethRow widths, heights, shorter;  // of each tooth from the middle on
-    float light;                        // on the teeth in the middle
-    glm::vec3 tooth;                    // colour
+    TeethRow widths, heights, shorter;  // by tooth, from the median outward
+    float light;                        // light on the central teeth
+    glm::vec3 tooth;                    // enamel colour
   };
   ToothRow(Jaw jaw, const Identity& identity, HeadMesh& mesh)
       : jaw_(std::move(jaw)),
@@ -54,7 +54,7 @@ class ToothRow {
 
  private:
   void AddCrowns() {
-    // Rows from behind the chewing edge over the front of the crown to the gum.
+    // Rows go from behind the incisal edge over the front of the crown to the gum.
     constexpr std::array kRows = {-0.5f, -0.15f, 0.0f, 0.1f, 0.3f, 0.55f, 0.8f, 1.0f};
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     const auto depths = ListOf(features_.crown_depths);
@@ -82,7 +82,7 @@ class ToothRow {
     mesh_.Grid(Material::kGum, first, static_cast<int>(kRows.size()), Columns(), jaw_.upward > 0);
   }
 
-  // Closer together where two teeth meet.
+  // Columns are denser where two teeth meet.
   static constexpr std::array kWithin = {0.0f, 0.12f, 0.31f, 0.5f, 0.69f, 0.88f};
   static constexpr int kPerTooth = kWithin.size();
   static constexpr int kCanine = 2;
@@ -105,7 +105,7 @@ class ToothRow {
     const int place = step - tooth * kPerTooth;
     const float within = place < kPerTooth ? kWithin[static_cast<std::size_t>(place)] : 1.0f;
     arc += within * jaw_.widths[t];
-    // Canines come to a point, the others are round at their corners.
+    // Canines are pointed; the others have round corners.
     const float off_middle = std::abs(2 * within - 1);
     const float corner = tooth == kCanine
                              ? features_.tooth_corners.canine * off_middle
@@ -124,7 +124,7 @@ class ToothRow {
     return AlongArch(jaw_.arch, column.arc, jaw_.arch.edge_y + jaw_.upward * (up + rise));
   }
 
-  /// `depth` of the row behind the front.
+  /// `depth`: distance of the row behind the front.
   void AddCrown(const Column& column, float row, float depth) {
     const float up = row < -0.3f ? 0.6f * column.height
                      : row < 0   ? 0.3f + column.shorter
@@ -134,7 +134,7 @@ class ToothRow {
                         std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
     p.z += curve - depth - features_.tooth_bulge.between * (1 - column.bump);
     p.x *= 1 - 0.012f * depth;
-    // Deep between the teeth and in the corners of the mouth there is little light.
+    // Little light reaches the gaps between the teeth and the corners of the mouth.
     const float between = features_.light_between_teeth;
     const float crevice = between + (1 - between) * SmoothStep(0.0f, 0.75f, column.bump);
     const float dark =
@@ -143,8 +143,8 @@ class ToothRow {
               jaw_.bone);
   }
 
-  /// Enamel is thin and grey at the edge and lets the warm dentine through towards the gum, most in
-  /// a canine; no two teeth are of one shade.
+  /// Returns the colour of a tooth. Enamel is thin and grey at the edge and lets the warm dentine
+  /// show through towards the gum, most in a canine; no two teeth have the same shade.
   glm::vec3 Enamel(int tooth, float row) const {
     const float warm = features_.dentine_shows.middle +
                        features_.dentine_shows.outward * static_cast<float>(tooth) +
@@ -174,7 +174,7 @@ void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& m
        features.upper_tooth_heights, features.upper_tooth_short, features.teeth_light.upper, tooth},
       identity, mesh)
       .Add();
-  // The lower ones stand farther back, in the shade of lip and upper row.
+  // The lower teeth are farther back, in the shade of the lip and of the upper row.
   const glm::vec3 shaded = tooth * features.lower_teeth_colour;
   ToothRow({mouth.lower_teeth(), -1, Bone::kJaw, features.lower_tooth_widths,
             features.lower_tooth_heights, features.lower_tooth_short, features.teeth_light.lower,
@@ -186,8 +186,8 @@ void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& m
 void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh) {
   const Features& features = identity.UsedFeatures();
   const Palette& palette = identity.palette;
-  // A rounded back over a flat belly along the floor of the mouth; its row number is its way to the
-  // tip, which lies low behind the lower teeth.
+  // A rounded back over a flat underside along the floor of the mouth. The row's number gives the
+  // fraction of the way to the tip, which lies low behind the lower teeth.
   constexpr int kAlong = 17;
   constexpr int kAround = 20;
   const float tip_z = mouth.LineZ(0) - features.tongue_place.behind;
@@ -210,14 +210,14 @@ void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& 
       const float up = std::sin(around);
       const float groove = features.tongue_groove * taper * std::pow(std::max(0.0f, up), 12.0f);
       const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * up - groove, z);
-      // The sides lie in the shade of the teeth beside them, the root in that of the palate.
-      // The underside of a raised tip is seen, too.
+      // The teeth shade the sides, the palate shades the root. The underside of a raised tip is
+      // visible, too.
       const float shown = std::max(SmoothStep(0, 1, up), 0.8f * SmoothStep(0.55f, 0.9f, part));
       const float lit = SmoothStep(-0.2f, 1.0f, part) * shown *
                         SmoothStep(0.8f, 0.2f, std::abs(std::cos(around)));
       BakeWeights weights;
-      weights.free = part;  // the tip bends, the root stays
-      // Its outline is lost in the dark of the mouth.
+      weights.free = part;  // the tip bends, the root does not
+      // The outline disappears in the dark of the mouth.
       const glm::vec3 colour = glm::mix(palette.mouth, palette.tongue, SmoothStep(0, 0.5f, lit));
       mesh.Add(p, colour, Linear(features.tongue_light, lit), Bone::kTongue, weights);
     }
@@ -227,7 +227,7 @@ void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& 
 
 void FindIncisors(std::span<const glm::vec3> rest, std::span<const Bone> bone,
                   HeadTopology& topology) {
-  constexpr float kMiddle = 3;  // millimetres to either side
+  constexpr float kMiddle = 3;  // millimetres to either side of the median
   MouthSlit& mouth = topology.mouth;
   std::array<float, 3> best = {1e9f, 1e9f, 1e9f};
   const auto keep = [&best](std::size_t which, float y, std::uint32_t i, std::uint32_t& found) {

@@ -11,8 +11,8 @@ namespace fsm {
 
 void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh);
 void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh);
-/// Fills the incisors of `topology.mouth`: the middle of either row of teeth at its edge, and of
-/// the upper one at its root. `rest` and `bone` of all its vertices.
+/// Finds the incisors of `topology.mouth`: the middle of each row of teeth at its edge, and of the
+/// upper row at its root. `rest` and `bone` are those of all vertices.
 void FindIncisors(std::span<const glm::vec3> rest, std::span<const Bone> bone,
                   HeadTopology& topology);
 

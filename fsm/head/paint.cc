@@ -65,7 +65,7 @@ PaintedSkin SkinPainter::At(glm::vec3 place) const {
   const bool front = place.z > 40;
   if (front) AddSpots(half, paint);
   paint.albedo *= glm::mix(glm::vec3(1), features_.beard_colour, Beard(half, place.z));
-  // Under the jaw, down to the throat.
+  // Darkens the skin under the jaw, down to the throat.
   const float under = SmoothStep(-80, -92, place.y) * SmoothStep(-150, -108, place.y) *
                       SmoothStep(64, 52, place.z + 0.4f * (place.y + 88));
   paint.openness *= 1 - features_.throat_shade * under * SmoothStep(-30, 10, place.z);

@@ -11,16 +11,16 @@ namespace fsm {
 
 struct PaintedSkin {
   glm::vec3 albedo;
-  float openness;  ///< HeadTopology::openness
+  float openness;  ///< as HeadTopology::openness
 };
 
-/// Paints the skin of the base identity's face (both sides alike). What it is made of outlives it.
+/// Paints the skin of the base identity's face, both sides alike. Borrows its arguments.
 class SkinPainter {
  public:
   SkinPainter(const Identity& identity, const EyeAnatomy& eye);
   PaintedSkin At(glm::vec3 place) const;
-  /// How far a shaved beard shows there, 0..1: on upper lip, chin, jaw up to before the ear, and
-  /// some of the throat. `at.x`: 0 or more.
+  /// Returns how far a shaved beard shows, 0..1: on upper lip, chin, jaw up to the front of the
+  /// ear, and part of the throat. REQUIRES: at.x >= 0.
   float Beard(glm::vec2 at, float z) const;
 
  private:

@@ -33,7 +33,7 @@ Side SideOf(const TableRow& row) {
   return side == "left" ? Side::kLeft : Side::kRight;
 }
 
-/// eye SIDE DX DY DZ TURN SIZE UPPER LOWER
+/// Reads "eye SIDE DX DY DZ TURN SIZE UPPER LOWER".
 void ReadEye(const TableRow& row, PhotoHead& head) {
   const EyeTransform eye{.shift = row.Vector(2),
                          .turn = glm::radians(row.Number(5)),
@@ -45,7 +45,7 @@ void ReadEye(const TableRow& row, PhotoHead& head) {
   (*head.eyes)[SideOf(row)] = eye;
 }
 
-/// eye_picture SIDE, then left, top, right and bottom of iris and ball
+/// Reads "eye_picture SIDE", then left, top, right and bottom of iris and ball.
 EyePicture ReadEyePicture(const TableRow& row) {
   const EyePicture eye{{Pair(row, 2), Pair(row, 4)}, {Pair(row, 6), Pair(row, 8)}};
   for (const glm::vec4& p : {eye.iris, eye.ball}) {
@@ -67,7 +67,7 @@ void ReadSkin(const TableRow& row, PhotoHead& head) {
   head.skin_bottom_y = row.Number(5);
 }
 
-/// quad A B C D, numbers of vertices before it
+/// Reads "quad A B C D": indices of vertices in rows before it.
 void ReadQuad(const TableRow& row, PhotoHead& head) {
   std::array<std::uint32_t, 4> corner{};
   for (std::size_t k = 0; k < 4; ++k) {
@@ -88,7 +88,7 @@ float Clamped(const TableRow& row, float least, float most) {
   return std::clamp(row.Number(1), least, most);
 }
 
-/// What each row does to a head, by its first word.
+/// The function that applies each kind of row to a head, by key word.
 const std::map<std::string_view, void (*)(const TableRow&, PhotoHead&)> kRows = {
     {"smooth", [](auto& row, auto& head) { head.smooth = std::max(row.Number(1), 0.0f); }},
     {"iris", ReadIris},
@@ -148,7 +148,7 @@ PhotoHead ReadPhotoHead(const std::string& name, std::string_view text) {
 
 namespace {
 
-/// The numbers of a vector, with blanks between them.
+/// Returns the components of a vector, separated by blanks.
 template <typename Vector>
 auto Words(const Vector& v) {
   return fmt::join(&v[0], &v[0] + Vector::length(), " ");

@@ -15,15 +15,15 @@
 namespace fsm {
 namespace {
 
-/// Skin near an eye: what the photo shows of it.
+/// A place of the skin near an eye and its appearance in the photo.
 struct PhotoSpot {
   glm::vec2 at;        ///< on the face, millimetres
   glm::vec2 texcoord;  ///< in the photo
   glm::vec3 screen;
-  float lit;  ///< how bright usual skin is that faces as this does
+  float lit;  ///< brightness of typical skin with this normal
 };
 
-/// Means with weights that fall off with the distance from `at`, millimetres.
+/// Returns means of `places`, weighted by the distance from `at`, which falls off over `reach` mm.
 PhotoSpot Around(std::span<const PhotoSpot> places, glm::vec2 at, float reach) {
   PhotoSpot mean{at, glm::vec2(0), glm::vec3(0), 0};
   float weight = 1e-9f;
@@ -41,7 +41,7 @@ PhotoSpot Around(std::span<const PhotoSpot> places, glm::vec2 at, float reach) {
   return mean;
 }
 
-/// The height of a line of places at x; 0 if there are none.
+/// Returns the height of a line of points at x; 0 if there are none.
 float HeightAt(std::span<const glm::vec2> line, float x) {
   float sum = 0, weight = 1e-9f;
   for (const glm::vec2 p : line) {
@@ -53,19 +53,19 @@ float HeightAt(std::span<const glm::vec2> line, float x) {
   return sum / weight;
 }
 
-constexpr float kHighest = 14;  // that a lid comes to lie above the rim of the lower, millimetres
+constexpr float kHighest = 14;  // most that a lid comes to lie above the lower margin, mm
 
-/// A distance folded to and fro within the little skin there is between an eye and a rim of
+/// Folds a distance back and forth into the narrow strip of skin between an eye and a rim of
 /// glasses.
 float Folded(float away) {
-  constexpr float kThere = 5;  // millimetres
+  constexpr float kThere = 5;  // width of the strip, millimetres
   const float part = std::fmod(away, 2 * kThere);
   return kThere - std::abs(part - kThere);
 }
 
-/// How texture coordinates go with places on the face: the plane through them.
+/// The affine map from points on the face to texture coordinates, fitted to spots.
 struct PhotoPlane {
-  glm::vec2 at{0}, texcoord{0};  ///< the middle
+  glm::vec2 at{0}, texcoord{0};  ///< centroid
   glm::mat2 slope{0};
   glm::vec2 operator()(glm::vec2 p) const { return texcoord + slope * (p - at); }
 };
@@ -95,7 +95,7 @@ class LidPainter {
         features_(features),
         light_(light),
         side_(side) {
-    // What the photo shows about the eye, and where the rims of the lids are.
+    // Collects what the photo shows around the eye, and the margins of the lids.
     std::vector<SkinSample> samples;
     std::vector<glm::vec2> rims;
     for (std::size_t i = 0; i < skin.weights.size(); ++i) {
@@ -121,15 +121,15 @@ class LidPainter {
                   [&](const PhotoSpot& l) { return l.at.y > HeightAt(lower_rim_, l.at.x) - 0.5f; });
     if (!below_.empty()) grain_by_face_ = PhotoByFace(below_);
     for (SkinSample& s : samples) {
-      // Along the rims the photo shows lashes.
+      // Along the margins the photo shows lashes.
       float away = 100;
       for (const glm::vec2 rim : rims) away = std::min(away, glm::distance(rim, s.at));
       s.near = away < (glasses ? 6.0f : 8.0f);
       s.known = s.above ? SmoothStep(1.0f, 3.0f, away) : SmoothStep(0.6f, 1.6f, away);
     }
-    // Only skin is bright above an eye, unless glasses shine there.
+    // Only skin is bright above an eye, unless glasses reflect light there.
     DoubtOddSkin(samples, glasses ? 0.5f : 0.65f);
-    // Below an eye skin is thin and bluish: half of the hue is the face's. Lenses have their own.
+    // Skin below an eye is thin and bluish: half of the hue is the face's. Lenses add their own.
     skin_below_ = MeanBelow(samples);
     const glm::vec3 face_hue = light.skin() / ScreenBrightness(light.skin());
     skin_below_ = glm::mix(
@@ -148,29 +148,29 @@ class LidPainter {
   }
 
  private:
-  /// Along the eye, -1..1.
+  /// Returns the position along the eye, -1..1.
   float Along(glm::vec2 at) const {
     return (2 * at.x - rim_from_ - rim_to_) / std::max(rim_to_ - rim_from_, 1.0f);
   }
-  /// Lashes are densest and longest outward.
+  /// Returns how far outward a place is, 0..1: lashes are densest and longest there.
   float Outward(glm::vec2 at) const { return SmoothStep(-0.8f, 0.7f, Along(at) * SignOf(side_)); }
 
-  /// Skin under lashes that take `dark` of its light, 0..1: they are brown where there is colour.
+  /// Returns skin under lashes that absorb `dark` of its light, 0..1; with colour they are brown.
   glm::vec3 Lashed(glm::vec3 skin, float dark) const {
     const float chroma = std::max(skin.r - skin.b, 0.0f) / std::max(skin.r, 0.01f);
     const glm::vec3 brown = glm::vec3(1) + std::min(2 * chroma, 1.0f) * features_.photo_lash_brown;
     return skin * glm::pow(glm::vec3(1 - dark), brown);
   }
 
-  /// Skin that gets less light: what reaches it has gone through skin.
+  /// Returns skin that gets less light, which has passed through skin.
   glm::vec3 Shaded(glm::vec3 skin, float light) const {
     const float chroma = std::clamp(1 - skin.b / std::max(skin.r, 0.05f), 0.0f, 1.0f);
     return skin * light * (1.0f + (1 - light) * chroma * features_.photo_lid_shade_hue);
   }
 
-  /// `colour` with the hue of `skin`, that below the eye: a lid has the same, while what the photo
-  /// shows above the eye may be the shine of glasses, a rim, or lashes. Skin in the shade is
-  /// redder, because light has gone through it.
+  /// Returns `colour` with the hue of `skin`, which lies below the eye: a lid has the same hue,
+  /// while the photo may show reflections of glasses, a rim or lashes above the eye. Shaded skin is
+  /// redder, because light has passed through it.
   glm::vec3 OfHue(glm::vec3 colour, glm::vec3 skin) const {
     const float dim = ScreenBrightness(colour) / ScreenBrightness(skin);
     const float red = features_.photo_lid_hue.redder * (skin.r - skin.b) / std::max(skin.r, 0.01f);
@@ -179,8 +179,8 @@ class LidPainter {
     return glm::mix(colour, shaded, features_.photo_lid_hue.below);
   }
 
-  /// Where the lid begins it lies as deep as the skin round it; downward the ball bulges it into
-  /// the light.
+  /// Returns the lid's colour: where the lid begins it is as deep as the skin around it; lower down
+  /// the eyeball bulges it into the light.
   glm::vec3 Skin(std::uint32_t i, glm::vec2 at) const {
     const glm::vec3 deep = OfHue(eyeless_->At(at), skin_below_);
     const float rim = HeightAt(upper_rim_, at.x), meet = HeightAt(lower_rim_, at.x);
@@ -189,13 +189,13 @@ class LidPainter {
     const glm::vec3 lit =
         features_.photo_lid_in_socket.light * turned * OfHue(eyeless_->At(below), skin_below_);
     const float down = SmoothStep(rim + 2, meet, at.y);
-    // The frame of glasses shades what lies behind it.
+    // The frame of glasses shades the skin behind it.
     if (glasses_) {
       const glm::vec3 skin = glm::mix(deep, skin_below_, features_.photo_lid_behind_glasses.below);
       return glm::mix(features_.photo_lid_behind_glasses.light * skin, lit,
                       features_.photo_lid_behind_glasses.rim * down);
     }
-    // Out of a deep socket, which is dark, it does not come all the way.
+    // A lid in a deep, dark socket does not come out of the shade fully.
     const float out =
         glm::mix(features_.photo_lid_in_socket.out, 1.0f,
                  SmoothStep(0.4f, 0.8f, ScreenBrightness(deep) / ScreenBrightness(lit)));
@@ -207,12 +207,12 @@ class LidPainter {
   }
 
   ShutLid Lower(std::uint32_t i) const {
-    // The lashes of the upper lid lie over the rim of the lower.
+    // The lashes of the upper lid lie over the margin of the lower lid.
     const glm::vec2 at(skin_.shut.position[i]);
     const float outward = Outward(at);
     const float held = skin_.weights[i].lid_lower;
     const float lashes = SmoothStep(0.96f - 0.08f * outward, 1.0f, held);
-    // The wet rim of the open eye is hidden.
+    // The wet margin of the open eye is hidden.
     const float rim = SmoothStep(0.92f, 0.97f, held);
     return {.vertex = i,
             .colour = FromScreen(Lashed(Skin(i, at), features_.photo_lower_lashes.dark * lashes)),
@@ -228,12 +228,12 @@ class LidPainter {
     const float held = skin_.weights[i].lid_upper;
     const float rim = HeightAt(upper_rim_, at.x), meet = HeightAt(lower_rim_, at.x);
     const float inside = std::min(Along(at) * Along(at), 1.0f);
-    // A soft furrow where the lid slips under the skin.
+    // A soft furrow where the lid slides under the skin.
     const float deep =
         (at.y - rim - features_.photo_lid_furrow.above) / features_.photo_lid_furrow.width;
     const float furrow =
         1 - features_.photo_lid_furrow.dark * (1 - inside) * std::exp(-deep * deep);
-    // It turns away at its ends, and its lashes shade it.
+    // The lid turns away at its ends, and its lashes shade it.
     const float shade = (1 - features_.photo_lid_shade.ends * inside) *
                         (1 - features_.photo_lid_shade.rim * SmoothStep(2, 0, at.y - meet));
     const glm::vec3 skin = Shaded(Skin(i, at), furrow * shade);
@@ -242,7 +242,7 @@ class LidPainter {
     const float height = std::max(at.y - lowest_, 0.0f);
     const float down = glasses_ ? Folded(height) : std::abs(kHighest - height);
     const glm::vec2 source(at.x, lowest_ - 1.5f - down);
-    // Near a rim of glasses skin darkens within millimetres: that is no grain.
+    // Close to a rim of glasses skin darkens within millimetres, which is no grain.
     const PhotoSpot wide = Around(below_, source, glasses_ ? 1.2f : 4.0f);
     return {.vertex = i,
             .colour = FromScreen(glm::clamp(Lashed(skin, lashes), 0.0f, 1.0f)),
@@ -252,13 +252,13 @@ class LidPainter {
             .slide = photo_by_face_.slope * (at - glm::vec2(skin_.open.position[i]))};
   }
 
-  /// How much is lid: from a little above the eye's rim on, and where its lashes were.
+  /// Returns the lid's opacity: from a little above the eye's margin on, and over the old lashes.
   float Share(glm::vec2 at, float rim, glm::vec3 skin) const {
-    const float beyond = std::max(rim_from_ - at.x, at.x - rim_to_);  // the corners, millimetres
+    const float beyond = std::max(rim_from_ - at.x, at.x - rim_to_);  // past the corners, mm
     const glm::vec2 above = rim + features_.photo_lid_above;
     const float lid = SmoothStep(above.x, above.y, at.y) * SmoothStep(3, 0, beyond);
     const float shown = ScreenBrightness(Around(around_, at, 1.5f).screen) / ScreenBrightness(skin);
-    // What a lens mirrors lies before the lid.
+    // A reflection on a lens lies in front of the lid.
     if (glasses_) return lid * SmoothStep(1.7f, 1.3f, shown);
     const float dark = SmoothStep(0.05f, 0.2f, 1 - shown);
     return std::max(lid, features_.photo_lashes_hidden * dark *
@@ -291,7 +291,7 @@ glm::vec3 PhotoColour(const Image& photo, glm::vec2 place) {
 }
 
 FaceLight FitFaceLight(const PhotoMapping& mapping, const SkinPose& open) {
-  constexpr float kSquarely = 0.3f, kFront = 45;  // millimetres: no neck, no ears
+  constexpr float kSquarely = 0.3f, kFront = 45;  // of the normal's z; mm, without neck and ears
   std::vector<FaceLight::Patch> seen;
   for (std::size_t i = 0; i < open.normal.size(); ++i) {
     const bool squarely = open.normal[i].z > kSquarely && open.position[i].z > kFront;

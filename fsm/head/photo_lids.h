@@ -13,41 +13,41 @@
 
 namespace fsm {
 
-/// Where vertices of the skin lie and which way they face.
+/// Positions and normals of the skin's vertices.
 struct SkinPose {
   std::span<const glm::vec3> position;  ///< millimetres
-  std::span<const glm::vec3> normal;    ///< unit
+  std::span<const glm::vec3> normal;    ///< unit length
 };
 
-/// A photo, and where it shows the skin: TextureMaps::texcoord and weight.
+/// A photo and its mapping to the skin: TextureMaps::texcoord and weight.
 struct PhotoMapping {
   const Image& photo;
   std::span<const glm::vec2> texcoord;
   std::span<const float> weight;
 };
 
-/// What a photo shows at a place (u, v down), on the screen, 0..1.
+/// Returns the photo's screen colour (0..1) at a texture coordinate, v down.
 glm::vec3 PhotoColour(const Image& photo, glm::vec2 place);
 
-/// The skin of a face as a photo of open eyes shows it: its vertices, all of one length.
+/// The skin of a face as a photo of open eyes shows it; all spans are per vertex, of one length.
 struct PhotoSkin {
   std::span<const BakeWeights> weights;
   std::span<const CageTag> tags;
-  SkinPose open, shut;  ///< with lids at rest and shut
+  SkinPose open, shut;  ///< with lids at rest and with lids shut
 };
 
-/// Paints the shut lids of a face that wears a photo of open eyes; `features` says how they look.
-/// `glasses`: the person wears them, so nothing above the eye is taken for lashes.
+/// Paints the shut lids of a face that wears a photo of open eyes; `features` describes their look.
+/// `glasses`: the person wears glasses, so nothing above the eye counts as lashes.
 ///
 /// A shutting lid slides out from under the skin above it. That skin keeps its place in the photo,
 /// but the lashes of the open eye do not, and the eye is covered by skin with the grain of the
-/// lower lid. At its upper edge the lid has the colour of the skin round the eye; places there that
-/// are darker or brighter than most (glasses, brows, reflections) do not count. Further down the
-/// lid takes the light that falls on the face.
+/// lower lid. At its upper edge the lid has the colour of the skin around the eye, ignoring places
+/// that are unusually dark or bright (glasses, brows, reflections). Lower down it takes the light
+/// that falls on the face.
 std::vector<ShutLid> PaintLids(const PhotoMapping& mapping, const PhotoSkin& skin, bool glasses,
                                const Features& features, const FaceLight& light);
 
-/// The light of a photo, from the front of the face that wears it.
+/// Fits the light of a photo to the front of the face that wears it.
 FaceLight FitFaceLight(const PhotoMapping& mapping, const SkinPose& open);
 
 }  // namespace fsm

@@ -13,7 +13,7 @@
 namespace fsm {
 namespace {
 
-/// Greys the colours of what a grey photo does not show.
+/// Desaturates the colours of parts that a photo does not show.
 void Desaturate(Palette& palette, float saturation) {
   for (glm::vec3* colour : {&palette.tooth, &palette.lip_inside, &palette.lid_rim, &palette.mouth,
                             &palette.tongue, &palette.gum}) {
@@ -22,7 +22,7 @@ void Desaturate(Palette& palette, float saturation) {
   }
 }
 
-/// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
+/// Reddens lips where they are wet and thin-skinned, as far as the photo has colours.
 glm::vec3 Wetter(const PhotoHead& head, glm::vec3 lip, float part) {
   return lip * glm::mix(glm::vec3(1), head.UsedFeatures().photo_lips_wet, part * head.saturation);
 }
@@ -45,12 +45,12 @@ void DarkenNostrils(std::span<const CageTag> tags, HeadMesh& mesh) {
   }
 }
 
-/// A photo of a closed mouth does not show where the lips roll inward: as they part, from beside
-/// the line where they met on, their own colour turns redder and darker until it is the lining's.
+/// A photo of a closed mouth does not show where the lips roll inward. As they part, their own
+/// colour becomes redder and darker from the line where they met, until it is that of the lining.
 void RollLips(const PhotoHead& head, std::span<const CageTag> tags, glm::vec3 lip_inside,
               HeadTopology& topology) {
-  constexpr float kRed = 8, kDeep = 14;         // millimetres of what the tags count
-  constexpr float kPhoto = 1.8f, kWet = -2.0f;  // outward of the line: all photo, all paint
+  constexpr float kRed = 8, kDeep = 14;         // scale of the tags in millimetres
+  constexpr float kPhoto = 1.8f, kWet = -2.0f;  // outward of the line: photo only, paint only
   const glm::vec3 lip = head.lip_colour.value_or(lip_inside);
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const CageTag& tag = tags[i];
@@ -58,14 +58,14 @@ void RollLips(const PhotoHead& head, std::span<const CageTag> tags, glm::vec3 li
     // The lower lip shows more of its inside.
     const float outward =
         (tag.deep > 0 ? -kDeep * tag.deep : kRed * tag.red) - (tag.lip_side < 0 ? 0.9f : 0.0f);
-    if (outward >= kPhoto + 4) continue;  // beyond it colours still run into the triangles there
-    // Corners stay together: there the photo's own line is seen.
+    if (outward >= kPhoto + 4) continue;  // farther out, colours would bleed into the triangles
+    // The corners stay together, so the photo's own line is visible there.
     const float at_corner = SmoothStep(4.0f, 5.2f, tag.lip_column);
-    // Beyond the end of the opening they do so however wide it is.
+    // Beyond the end of the opening the lips stay together however wide it is.
     const float opens = tag.deep > 0 ? 1.0f : SmoothStep(5.5f, 4.7f, tag.lip_column);
     const float wet = opens * SmoothStep(glm::mix(kPhoto, 1.3f, at_corner), kWet, outward);
     const glm::vec3 dry = glm::mix(topology.albedo[i], lip, 0.3f + 0.7f * wet);
-    // Within the mouth what light there is has gone through flesh.
+    // Light within the mouth has passed through flesh.
     const float inside = SmoothStep(0.5f, -4.0f, outward);
     topology.albedo[i] = Wetter(head, Wetter(head, dry, 1), inside);
     topology.openness[i] = glm::mix(1.0f, 0.4f, inside);
@@ -73,11 +73,11 @@ void RollLips(const PhotoHead& head, std::span<const CageTag> tags, glm::vec3 li
   }
 }
 
-/// How much the photo's light follows the skin: not round the eyes, which fold more than their
-/// light tells, and nothing beside the skin.
+/// Returns how much the photo's light follows the skin's normal: not around the eyes, where folds
+/// exceed the change of light, and not beside the skin.
 std::vector<float> RelitParts(const PhotoSkin& skin) {
-  constexpr float kNone = 14, kAll = 26;  // millimetres from the middle of an eye
-  Sided<glm::vec3> eye;                   // sums and number
+  constexpr float kNone = 14, kAll = 26;  // millimetres from the centre of an eye
+  Sided<glm::vec3> eye;                   // sum of x and y, and count
   for (std::size_t i = 0; i < skin.weights.size(); ++i) {
     const BakeWeights& weights = skin.weights[i];
     if (!weights.eye || weights.lid_upper + weights.lid_lower < 0.95f) continue;
@@ -95,7 +95,7 @@ std::vector<float> RelitParts(const PhotoSkin& skin) {
   return parts;
 }
 
-/// Lashes grow thin and pale with age, of which creases tell.
+/// Lashes become thin and pale with age, for which creases are the evidence.
 void ThinLashes(const PhotoHead& head, HeadTopology& topology) {
   constexpr float kLost = 0.5f;
   const Features& features = head.UsedFeatures();
@@ -111,9 +111,8 @@ void ThinLashes(const PhotoHead& head, HeadTopology& topology) {
   }
 }
 
-/// How much the sheet goes with the jaw: what touches the chin and the line of the jaw nearly
-/// wholly, so that nothing comes out from behind them; farther down skin and clothes are pushed
-/// together.
+/// Returns the sheet's weight of the jaw: almost 1 beside the chin and the jaw line, so that
+/// nothing comes out from behind them; farther down skin and clothes are compressed.
 float JawPart(glm::vec3 p, float skin_bottom) {
   constexpr float kMost = 0.9f, kChin = 8;  // millimetres above the skin's bottom
   const float line = skin_bottom + kChin + 0.012f * p.x * p.x;
@@ -121,15 +120,15 @@ float JawPart(glm::vec3 p, float skin_bottom) {
          SmoothStep(78, 46, std::abs(p.x));
 }
 
-/// How much of the skin at a place hides the sheet, which shows the same beside it: it fades where
-/// the photo did not see it squarely.
+/// Returns the opacity of skin over the sheet, which shows the same beside it: skin fades where the
+/// cameras saw it at a grazing angle.
 float SeenSkin(const PhotoHead& head, glm::vec3 p, glm::vec3 normal) {
   const float above = p.y - head.skin_bottom_y;
-  // Within the face all stays: lids and nostrils turn every way.
+  // Within the face all skin stays: lids and nostrils face all directions.
   if (p.z > 45 && above > 14) return 1;
   float faces = glm::dot(normal, head.seen_from);
   for (const glm::vec3 camera : head.also_seen) faces = std::max(faces, glm::dot(normal, camera));
-  // Behind the chin the sheet keeps off: what it hides of its own underside is seen from the side.
+  // Behind the chin skin stays opaque: it covers the sheet's underside, visible from the side.
   const float chin = SmoothStep(60, 45, above) * SmoothStep(40, 25, std::abs(p.x)) *
                      SmoothStep(0.0f, -0.25f, normal.y);
   const float line = JawLine(above);
@@ -145,12 +144,12 @@ void TakeColours(const PhotoHead& head, Palette& palette) {
   palette.sclera = head.white_colour;
   Desaturate(palette, head.saturation);
   if (head.lip_colour) {
-    // Where the lips turn inward the mouth is painted: it begins in their colour.
+    // Where the lips roll inward the mouth is painted, beginning in their colour.
     palette.lip_inside = *head.lip_colour / features.photo_lips_light;
     palette.mouth = features.photo_mouth * Wetter(head, palette.lip_inside, 0.5f);
   }
-  // Teeth stand in the light whose hue the whites of the eyes show. It comes from the front, where
-  // the photographer's lamp is, and reaches into the mouth.
+  // Teeth are in light whose hue the sclera shows. It comes from the front, where the
+  // photographer's lamp is, and reaches into the mouth.
   const glm::vec3 white = head.white_colour;
   palette.tooth *= features.photo_teeth * head.teeth *
                    glm::mix(glm::vec3(1), white / std::max({white.r, white.g, white.b, 1e-3f}),
@@ -166,7 +165,7 @@ void AddSheet(const PhotoHead& head, HeadMesh& mesh) {
     BakeWeights weights;
     weights.free = 0;
     weights.domain = vertex.position;
-    // Shoulders follow a turning head a little.
+    // The shoulders follow a turning head a little.
     constexpr float kFollows = 0.15f;
     weights.neck = glm::mix(kFollows, 1.0f, SmoothStep(-166, -98, vertex.position.y));
     weights.jaw = JawPart(vertex.position, head.skin_bottom_y);
@@ -179,7 +178,7 @@ void AddSheet(const PhotoHead& head, HeadMesh& mesh) {
 }
 
 void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh) {
-  // How far a large lens with its rim reaches from the eye, millimetres.
+  // Extent of a large lens with its rim from the eye, millimetres.
   constexpr float kAside = 37, kUp = 19, kDown = 29;
   for (std::size_t i = 0; i < skin_count; ++i) {
     BakeWeights& weights = mesh.weights[i];
@@ -223,12 +222,12 @@ void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_insid
     topology.textures.texcoord[skin_count + i] = head.sheet[i].texcoord;
   }
   std::fill_n(topology.textures.weight.begin(), skin_count + head.sheet.size(), 1.0f);
-  // The photo ends at the lips: what lies within the mouth is painted.
+  // The photo ends at the lips; the inside of the mouth is painted.
   for (const auto& part : topology.parts) {
     if (part.material != Material::kMouthInside) continue;
     for (const std::uint32_t v : topology.Corners(part)) topology.textures.weight[v] = 0;
   }
-  // Where paint begins it goes over from the photo's colour.
+  // Where paint begins, it blends from the photo's colour.
   for (std::size_t i = 0; i < skin_count; ++i) {
     if (topology.textures.weight[i] <= 0) continue;
     topology.albedo[i] = FromScreen(PhotoColour(*head.photo, topology.textures.texcoord[i]));

@@ -13,29 +13,29 @@
 
 namespace fsm {
 
-/// Takes the colours of what the photo does not show from `head`.
+/// Takes the colours of parts that the photo does not show from `head`.
 void TakeColours(const PhotoHead& head, Palette& palette);
 
-/// The sheet that carries hair, neck and clothes of a photo. It turns with the head as skin does.
+/// Adds the sheet with hair, neck and clothes of a photo. It turns with the head as skin does.
 void AddSheet(const PhotoHead& head, HeadMesh& mesh);
 
-/// Glasses are in the photo on the skin. It stays where they rest, or they would bend with it.
-/// `eye`: centre of the left one at rest, (x, y) of the base identity.
+/// Keeps the skin still where glasses rest, which the photo shows on the skin, or they would bend.
+/// `eye`: centre of the left eye at rest, (x, y) of the base identity.
 void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh);
 
-/// How far forward (z, millimetres) the neck reaches at a height above PhotoHead::skin_bottom_y:
-/// skin behind that faces the camera again, but is not the face's. What covers a photo with skin
-/// (face_fit) and what leaves skin out where the sheet is go by the same line.
+/// Returns how far forward (z, millimetres) the neck reaches at a height above
+/// PhotoHead::skin_bottom_y. Skin behind this line may face the camera but is not the face's. The
+/// code that maps a photo to skin (face_fit) and the code that removes skin over the sheet share
+/// it.
 float JawLine(float above_bottom);
 
-/// Skin the photo does not show, behind the outline and below the jaw, where the sheet is: it goes,
-/// and what is beside it fades (HeadMesh::opacity). The nostrils, which are lined like the mouth,
-/// become skin: the photo shows how dark they are. `tags`: of the skin's vertices, the mesh's
-/// first.
+/// Removes skin that the photo does not show, behind the outline and below the jaw, where the sheet
+/// is, and fades the skin beside it (HeadMesh::opacity). The nostrils' lining becomes skin, since
+/// the photo shows how dark they are. `tags`: those of the skin's vertices, the first of the mesh.
 void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, HeadMesh& mesh);
 
-/// Gives every vertex of skin and sheet its place in the photo, lids and lips their own paint.
-/// `lip_inside`: the colour of lips that roll inward if `head` has none.
+/// Gives every vertex of skin and sheet its texture coordinate in the photo, and lids and lips
+/// their own paint. `lip_inside`: colour of lips that roll inward if `head` has none.
 void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
                HeadTopology& topology);
 

@@ -13,7 +13,7 @@
 namespace fsm {
 namespace {
 
-// Where brows lie: middle line and half height over x, on the base identity's face.
+// The place of the brows: middle line and half height over x, on the base identity's face.
 class BrowPlace {
  public:
   explicit BrowPlace(const Identity& identity)
@@ -21,14 +21,14 @@ class BrowPlace {
         middle_(CurveOf(identity.UsedFeatures().brow_middle)),
         half_(CurveOf(identity.UsedFeatures().brow_half_height)) {}
 
-  // `level` -1 at the lower edge .. 1 at the upper.
+  // `level`: -1 at the lower edge .. 1 at the upper.
   float Y(float x, float level) const {
     const float straight = glm::mix(middle_(kFrom), middle_(kTo), (x - kFrom) / (kTo - kFrom));
     return glm::mix(straight, middle_(x), brows_.arch) + brows_.thickness * half_(x) * level -
            0.8f + brows_.height_mm;
   }
   float Density() const { return brows_.density; }
-  // How densely the skin is covered, 0..1.
+  // Returns how densely hair covers the skin, 0..1.
   float Cover(glm::vec2 at) const {
     const float x = std::abs(at.x);
     if (x < 6 || x > 60) return 0;
@@ -39,12 +39,12 @@ class BrowPlace {
   }
 
  private:
-  static constexpr float kFrom = 9, kTo = 56;  // of its table, millimetres from the middle
+  static constexpr float kFrom = 9, kTo = 56;  // x range of the table, mm
   const Identity::Brows brows_;
   Curve middle_, half_;
 };
 
-/// The hairs of both brows.
+/// Builds the hairs of both brows.
 class BrowBuilder {
  public:
   BrowBuilder(const SkinFront& front, const Identity& identity, const BrowPlace& place)
@@ -70,13 +70,13 @@ class BrowBuilder {
   }
 
  private:
-  /// `level` as BrowPlace::Y.
+  /// `level`: as for BrowPlace::Y.
   void AddHair(Side side, float x, float level, int seed) {
     const float ends = SmoothStep(7, 20, x) * SmoothStep(59, 47, x);
-    // Sparse where it begins.
+    // The brow is sparse where it begins.
     if (0.5f + 0.5f * NoiseAt(seed, 26) > place_.Density() * (0.35f + 0.65f * ends)) return;
     const glm::vec2 root(x, place_.Y(x, 0.9f * level - 0.1f));
-    // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
+    // Upper hairs lean down and lower ones up, so that they meet in the middle of the brow.
     const float angle = (grow_(x) - features_.brow_lean.edge * level +
                          features_.brow_lean.uneven * NoiseAt(seed, 23)) *
                         kPi / 180;
@@ -106,7 +106,7 @@ class BrowBuilder {
 
 std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh) {
   const BrowPlace place(identity);
-  // The soft tone between the hairs.
+  // The soft tone of the skin between the hairs.
   const float tone = identity.UsedFeatures().brow_tone;
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 p = mesh.position[i];
@@ -178,7 +178,7 @@ std::vector<SkinHair> BuildStubble(const SkinFront& front, const SkinPainter& pa
       return front.PointAt(half + part * length * glm::vec2(lean, -1));
     };
     const glm::vec3 tip = along(1);
-    if (glm::length(tip - root) > 3 * length) continue;  // past an edge
+    if (glm::length(tip - root) > 3 * length) continue;  // across an edge
     const auto on_skin = [&](glm::vec3 p) {
       p.x = std::copysign(p.x, at.x);
       return Unroll(p);

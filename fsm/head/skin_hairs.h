@@ -10,12 +10,12 @@
 
 namespace fsm {
 
-/// Tones the skin under the brows and returns their hairs, which are painted on it.
+/// Tones the skin under the brows and returns their hairs, which are to be painted on it.
 std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh);
-/// The furrow over each upper lid, as strokes painted on the skin.
+/// Returns the fold of each upper lid, as strokes to be painted on the skin.
 std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye,
                                     const Identity& identity);
-/// A shaved beard's hairs, painted on the skin as densely as `painter` tones it.
+/// Returns the hairs of a shaved beard, as dense as `painter` tones the skin.
 std::vector<SkinHair> BuildStubble(const SkinFront& front, const SkinPainter& painter,
                                    const Identity& identity);
 

@@ -10,10 +10,10 @@
 namespace fsm {
 namespace {
 
-constexpr float kStep = 0.75f;  // of the membrane's cells, millimetres
+constexpr float kStep = 0.75f;  // size of the membrane's cells, millimetres
 
-/// The quantile `part` of the brightness of the samples that `which` accepts; 0.5 if it accepts
-/// none.
+/// Returns the quantile `part` of the brightness of the samples that `which` accepts; 0.5 if it
+/// accepts none.
 template <typename Which>
 float UsualBrightness(std::span<const SkinSample> samples, float part, Which which) {
   std::vector<float> all;
@@ -30,10 +30,10 @@ float UsualBrightness(std::span<const SkinSample> samples, float part, Which whi
 }  // namespace
 
 void DoubtOddSkin(std::span<SkinSample> samples, float usual_above) {
-  // Spreads of the logarithm of brightness. Above the eye lie lashes and the shade of the brow.
+  // Spreads of the logarithm of brightness. Above the eye there are lashes and the brow's shade.
   constexpr float kSpreadAbove = 0.3f, kSpreadBelow = 0.6f;
-  constexpr float kDarkest = 3;  // times darker than most a socket may be, unlike lashes
-  constexpr float kOwn = 0.85f;  // how far either side's own brightness is believed
+  constexpr float kDarkest = 3;  // a socket, unlike lashes, is at most this many times darker
+  constexpr float kOwn = 0.85f;  // weight of the brightness of the sample's own side
   const float usual =
       UsualBrightness(samples, 0.5f, [](const SkinSample& s) { return s.known > 0; });
   const auto mostly = [&](bool above) {
@@ -62,8 +62,8 @@ glm::vec3 MeanBelow(std::span<const SkinSample> samples) {
 }
 
 SkinMembrane::SkinMembrane(std::span<const SkinSample> samples) {
-  constexpr float kMost = 150;     // cells each way
-  constexpr float kStiff = 0.15f;  // against what is known at a cell
+  constexpr float kMost = 150;     // cells in each direction
+  constexpr float kStiff = 0.15f;  // stiffness relative to what is known at a cell
   constexpr int kRounds = 300;
   glm::vec2 low(1e9f), high(-1e9f);
   for (const SkinSample& s : samples) {

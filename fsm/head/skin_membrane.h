@@ -8,24 +8,24 @@
 
 namespace fsm {
 
-/// What a photo shows at a place round an eye.
+/// What a photo shows at a place near an eye.
 struct SkinSample {
   glm::vec2 at;      ///< on the face, millimetres
   glm::vec3 screen;  ///< 0..1
-  bool above;        ///< the eye, rather than below
-  float known;       ///< how surely it is skin, 0..1
-  bool near;         ///< beside the lid rather than the brow
+  bool above;        ///< above the eye rather than below
+  float known;       ///< confidence that it is skin, 0..1
+  bool near;         ///< close to the lid rather than to the brow
 };
 
-/// Makes samples less sure that are darker or brighter than most of the skin on their side of the
-/// eye: lashes, brows, rims of glasses, reflections. `usual_above`: which part of what is near
-/// above the eye is darker than skin is there, 0.5 where nothing is known.
+/// Lowers the confidence of samples that are darker or brighter than most skin on their side of the
+/// eye: lashes, brows, rims of glasses, reflections. `usual_above`: the quantile of brightness that
+/// counts as skin near the eye above it; 0.5 if nothing is known.
 void DoubtOddSkin(std::span<SkinSample> samples, float usual_above);
 
-/// The mean of the skin below an eye.
+/// Returns the mean screen colour of the skin below an eye.
 glm::vec3 MeanBelow(std::span<const SkinSample> samples);
 
-/// What would be seen where the eye is if there were none: a membrane held by the skin round it.
+/// The skin that would be visible without the eye: a membrane held by the skin around the eye.
 class SkinMembrane {
  public:
   explicit SkinMembrane(std::span<const SkinSample> samples);

@@ -16,7 +16,7 @@ namespace {
 
 float Sign(float v) { return v > 0 ? 1.0f : v < 0 ? -1.0f : 0.0f; }
 
-/// Twice the columns of the cage; signed, 0 at the median.
+/// Returns twice the cage's column; signed, 0 at the median.
 int FineColumn(const CageTag& tag, float x) {
   return static_cast<int>(std::lround(2 * tag.lip_column * Sign(x)));
 }
@@ -28,7 +28,7 @@ BakeWeights MakeSkinWeights(const CageTag& tag, glm::vec3 p, const MouthAnatomy&
   const float corner_x = mouth.corner().x;
   const bool lips = tag.lip_hold > 0 || tag.deep > 0;
   const int side = lips ? static_cast<int>(Sign(tag.lip_side)) : 0;
-  // Off to the side of the head distances along the skin exceed those in the picture.
+  // At the side of the head distances along the skin exceed those in the frontal view.
   const float round = a + 0.9f * std::max(0.0f, 45 - p.z);
   glm::vec2 domain(p.x < 0 ? -round : round, p.y);
   if (tag.deep > 0) domain.y = mouth.LineY(std::min(a, corner_x));
@@ -76,14 +76,14 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
         features.lip_red.middle * SmoothStep(1.1f, 0.6f, tag.red) *
         (1 - features.lip_red.less_aside * SmoothStep(features.lip_red.aside, aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip, reddened);
-    // The edge of the red is soft, the middle of the lips wet.
+    // The edge of the red is soft; the middle of the lips is wet.
     const float wet = SmoothStep(0.35f, 0, tag.red) *
                       (1 - features.lip_wet.less_aside * SmoothStep(features.lip_wet.aside, aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip_inside, features.lip_wet.middle * wet);
     paint.openness *= 1 - features.lip_wet.shade * wet;
-    // Corners lie deep.
+    // The corners lie deep.
     paint.openness *= 1 - features.lip_corner.shade * SmoothStep(features.lip_corner.aside, aside);
-    // The lower lip rolls into the mouth: its edge is in its own shade.
+    // The lower lip rolls into the mouth, so its edge is in its own shade.
     if (tag.lip_side < 0)
       paint.openness *= 1 - features.lip_wet.lower_edge * SmoothStep(0.3f, 0, tag.red);
   }
@@ -99,7 +99,7 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
   return paint;
 }
 
-/// Whether the scalp at `p` is hidden by hair of any kind.
+/// Tells whether hair of any style hides the scalp at `p`.
 bool HairCovers(const HairLook& hair, glm::vec3 p) { return hair.AboveHairline(p) > 16; }
 
 }  // namespace
@@ -178,7 +178,7 @@ glm::vec3 SkinFront::PointAt(glm::vec2 xy) const {
   if (best.z > -1e8f) return best;
 
   glm::vec3 nearest(0);
-  float least = 900;  // within 30 mm
+  float least = 900;  // square of 30 mm
   for (const std::uint32_t i : front_) {
     const glm::vec3 a = skin_.position[skin_.triangles[i].corner[0]];
     const float d2 = (a.x - xy.x) * (a.x - xy.x) + (a.y - xy.y) * (a.y - xy.y);

@@ -10,19 +10,19 @@
 
 namespace fsm {
 
-/// Adds the subdivided skin to an empty mesh with paint and rig; vertex i of the skin becomes
-/// vertex i of the mesh. Returns where the lips part: the median is the middle of the seam. The
-/// teeth are still to be found (FindIncisors).
+/// Adds the subdivided skin with paint and rig to an empty mesh; vertex i of the skin becomes
+/// vertex i of the mesh. Returns the slit of the mouth, with the median in the middle of the seam.
+/// FindIncisors must still add the teeth.
 MouthSlit BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
                     const Identity& identity, HeadMesh& mesh);
 
-/// The skin's front as seen from the viewer, for what is laid on it.
+/// The front of the skin as seen from the viewer, on which other parts are placed.
 class SkinFront {
  public:
   explicit SkinFront(const FineSkin& skin);
-  /// The foremost point at (x, y); the nearest vertex where there is no skin.
+  /// Returns the frontmost point at (x, y), or the closest vertex if there is no skin.
   glm::vec3 PointAt(glm::vec2 xy) const;
-  /// The texture coordinates of that point, or of its mirror image on the right.
+  /// Returns the texture coordinates of that point, or of its mirror image on the right.
   glm::vec2 UvAt(glm::vec2 xy, Side side) const;
 
  private:
@@ -32,7 +32,7 @@ class SkinFront {
 
   const FineSkin& skin_;
   std::vector<std::uint32_t> front_;               ///< triangles that face the viewer
-  std::vector<std::vector<std::uint32_t>> cells_;  ///< those that touch a cell, row after row
+  std::vector<std::vector<std::uint32_t>> cells_;  ///< those that touch a cell, row by row
 };
 
 }  // namespace fsm

@@ -105,7 +105,7 @@ glm::vec3 VertexPoint(const Mesh& mesh, const std::vector<glm::vec3>& p, std::ui
   return (centres / n + 2.0f * middles / n + (n - 3) * p[v]) / n;
 }
 
-/// Moves the cage so that its vertex points come to lie where the cage was.
+/// Moves the cage so that its subdivided vertices lie where the cage was.
 std::vector<glm::vec3> Corrected(const Mesh& mesh) {
   std::vector<glm::vec3> p = mesh.position;
   for (int round = 0; round < 6; ++round) {
@@ -205,7 +205,7 @@ class Subdivider {
       if (middle != kNone) outline.push_back(middle);
     }
     if (face.corner.size() == 4 && outline.size() == 4) {
-      // The mirrored half runs the other way round: its diagonal is the image of the first half's.
+      // The mirrored half has the opposite orientation; its diagonal mirrors the first half's.
       const std::size_t from = f < first_mirrored_ ? 0 : 1;
       AddTriangle(outline[from], outline[from + 1], outline[from + 2], face.kind);
       AddTriangle(outline[from], outline[from + 2], outline[(from + 3) % 4], face.kind);
@@ -235,7 +235,7 @@ class Subdivider {
 
   Mesh mesh_;
   std::size_t first_mirrored_, cage_;  // faces of the first half, points of the cage
-  std::vector<glm::vec3> p_;           // of the mesh, corrected
+  std::vector<glm::vec3> p_;           // positions of the mesh, corrected
   std::vector<std::uint32_t> vertex_id_, edge_id_;
   FineSkin out_;
 };

@@ -4,7 +4,7 @@
 
 namespace fsm {
 
-/// A whole skin as triangles.
+/// A complete skin as triangles.
 struct FineSkin {
   struct Triangle {
     std::array<std::uint32_t, 3> corner;
@@ -13,13 +13,13 @@ struct FineSkin {
   std::vector<glm::vec3> position;
   std::vector<CageTag> tag;
   std::vector<Triangle> triangles;
-  /// For points of the cage on the left half: the vertex that stands where the table put it.
+  /// By cage point of the left half: the vertex that lies where the table put the point.
   std::vector<std::uint32_t> of_cage;
 };
 
-/// The cage and its mirror image after one step of Catmull and Clark (1978), sharp along the seam
-/// of the lips and open edges. The cage is first corrected, so that the result goes through the
-/// cage's points. Plain faces are only triangulated.
+/// Subdivides the cage and its mirror image by one step of Catmull and Clark (1978), with creases
+/// along the lip seam and open edges. The cage is corrected first, so that the result interpolates
+/// its points. Plain faces are only triangulated.
 FineSkin Subdivide(const Cage& half);
 
 }  // namespace fsm

@@ -10,7 +10,7 @@ namespace {
 
 using Row = std::vector<double>;
 
-/// Gaussian elimination; the last three columns are right-hand sides and hold the solution after.
+/// Gaussian elimination; the last three columns are right-hand sides and receive the solution.
 void Solve(std::vector<Row>& m) {
   const std::size_t n = m.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -41,8 +41,8 @@ Warp::Warp(std::span<const WarpPoint> points, float smooth) {
   if (n < 4) throw std::runtime_error("a warp needs at least four points");
   std::vector<Row> m(n + 4, Row(n + 7, 0.0));
   for (std::size_t i = 0; i < n; ++i) {
-    // The negative distance is positive definite beside an affine part, so that what is added to
-    // the diagonal smooths.
+    // The negative distance is positive definite beside an affine part, so that an addition to the
+    // diagonal smooths.
     for (std::size_t j = 0; j < n; ++j) {
       m[i][j] = -static_cast<double>(glm::distance(points[i].at, points[j].at));
     }

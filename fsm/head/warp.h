@@ -7,24 +7,24 @@
 
 namespace fsm {
 
-/// A point of the base head and where it goes.
+/// A point of the base head and its displacement.
 struct WarpPoint {
   glm::vec3 at, by;
 };
 
-/// A displacement of space that takes points nearly where they should go and everything else
-/// smoothly along: radial functions phi(r) = r and an affine part.
+/// A displacement field that moves given points almost to their targets and all others smoothly:
+/// radial basis functions phi(r) = r and an affine part.
 class Warp {
  public:
   Warp() = default;
-  /// `smooth`: millimetres by which noise of the points is evened out, 0 = exactly through them.
+  /// `smooth`: millimetres of noise of the points that are evened out, 0 = exact interpolation.
   /// Throws std::runtime_error if the points lie in a plane or are fewer than four.
   Warp(std::span<const WarpPoint> points, float smooth);
   glm::vec3 Motion(glm::vec3 p) const;
 
  private:
   std::vector<glm::vec3> at_, weight_;
-  std::array<glm::vec3, 4> affine_{};  // constant, then for x, y and z
+  std::array<glm::vec3, 4> affine_{};  // constant term, then those of x, y and z
 };
 
 }  // namespace fsm
