@@ -4,9 +4,9 @@
 namespace fsm {
 namespace {
 
-// Windows bitmaps: a 14-byte file header ("BM", file size, 4 unused, offset of the pixels), then an
-// information header that begins with its own size. Rows are padded to 4 bytes and go upwards
-// unless the height is negative; pixels are blue, green, red.
+// Windows bitmaps: a 14-byte file header ("BM", file size, 4 unused bytes, offset of the pixels),
+// then an information header that begins with its own size. Rows are padded to 4 bytes and run
+// upward unless the height is negative; pixels are blue, green, red.
 constexpr std::uint32_t kFileHeader = 14;
 constexpr std::uint32_t kInfoHeader = 40;
 constexpr std::uint32_t kUncompressed = 0;
@@ -16,7 +16,7 @@ std::size_t Stride(int width, std::size_t bytes_per_pixel) {
   return (static_cast<std::size_t>(width) * bytes_per_pixel + 3) / 4 * 4;
 }
 
-/// Bit fields are allowed when they say what uncompressed 32-bit pixels mean anyway.
+/// Tells whether bit fields, if present, are the usual masks of uncompressed 32-bit pixels.
 bool UsualMasks(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kMasks = kFileHeader + kInfoHeader;
   return bytes.size() >= kMasks + 12 && LittleEndian(bytes, kMasks, 4) == 0x00ff0000 &&
@@ -41,9 +41,9 @@ std::vector<std::uint8_t> EncodeBmp(const Image& image) {
   AppendLittleEndian(out, 24, 2);  // bits per pixel
   AppendLittleEndian(out, kUncompressed, 4);
   AppendLittleEndian(out, static_cast<std::uint32_t>(pixels), 4);
-  AppendLittleEndian(out, 2835, 4);  // pixels per metre across and down: 72 per inch
+  AppendLittleEndian(out, 2835, 4);  // pixels per metre in x and y: 72 per inch
   AppendLittleEndian(out, 2835, 4);
-  AppendLittleEndian(out, 0, 4);  // no palette, and none of its colours important
+  AppendLittleEndian(out, 0, 4);  // no palette and no important colours
   AppendLittleEndian(out, 0, 4);
   for (int y = image.height - 1; y >= 0; --y) {
     const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width);
@@ -89,7 +89,7 @@ vm::Result<Image> DecodeBmp(std::span<const std::uint8_t> bytes) {
     const std::size_t row = downwards ? y : static_cast<std::size_t>(height) - 1 - y;
     const auto line = bytes.subspan(start + row * stride, stride);
     for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
-      // The fourth byte of 32-bit pixels is left out: most programs write zero there.
+      // The fourth byte of 32-bit pixels is ignored: most programs write zero there.
       auto* pixel = &image.rgba[(y * static_cast<std::size_t>(width) + x) * 4];
       for (std::size_t c = 0; c < 3; ++c) pixel[c] = line[x * bits / 8 + 2 - c];
     }

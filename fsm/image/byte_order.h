@@ -8,12 +8,12 @@
 
 namespace fsm {
 
-/// The bytes of a text; valid as long as it is.
+/// Returns the bytes of a text. Lifetime: that of the text.
 inline std::span<const std::uint8_t> BytesOf(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-/// Unsigned numbers of `count` bytes at `offset`. REQUIRES: offset + count <= bytes.size().
+/// Read unsigned numbers of `count` bytes at `offset`. REQUIRES: offset + count <= bytes.size().
 inline std::uint32_t LittleEndian(std::span<const std::uint8_t> bytes, std::size_t offset,
                                   std::size_t count) {
   std::uint32_t value = 0;

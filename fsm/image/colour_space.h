@@ -4,7 +4,7 @@
 
 namespace fsm {
 
-/// The transfer curve of sRGB (IEC 61966-2-1), both ways, for one channel in 0..1. Pure.
+/// The transfer curve of sRGB (IEC 61966-2-1) and its inverse, for one channel in 0..1. Pure.
 inline float SrgbToLinear(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }

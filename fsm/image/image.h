@@ -7,13 +7,13 @@
 
 namespace fsm {
 
-/// 8-bit RGBA, row 0 at the top, no padding.
+/// An 8-bit RGBA picture, row 0 at the top, without padding.
 struct Image {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgba;  ///< width * height * 4
 
-  /// The number of a pixel; its bytes begin at four times that.
+  /// Returns the index of a pixel; its bytes begin at four times that index.
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
@@ -22,7 +22,7 @@ struct Image {
 };
 
 inline constexpr std::array<std::uint8_t, 4> kBlack = {0, 0, 0, 255};
-/// A picture of one colour, by default opaque white.
+/// Returns a picture of one colour, by default opaque white.
 inline Image FilledImage(int width, int height,
                          std::array<std::uint8_t, 4> colour = {255, 255, 255, 255}) {
   Image image{width, height, {}};
@@ -31,7 +31,7 @@ inline Image FilledImage(int width, int height,
   return image;
 }
 
-/// The longest side of a picture read, written or drawn.
+/// Longest side of a picture that is read, written or drawn, in pixels.
 inline constexpr int kMaxImageSide = 8192;
 
 }  // namespace fsm

@@ -18,7 +18,7 @@
 namespace fsm {
 namespace {
 
-/// More than an uncompressed picture of the largest size needs.
+/// This exceeds an uncompressed picture of the largest size.
 constexpr std::size_t kMaxFileBytes = 300U << 20;
 
 struct Format {
@@ -60,7 +60,7 @@ class File {
   File& operator=(const File&) = delete;
   bool open() const { return fd_ >= 0; }
   int get() const { return fd_; }
-  /// False if the system reports, only now, that a write failed.
+  /// Returns false if the system reports only now that a write failed.
   bool Close() { return close(std::exchange(fd_, -1)) == 0; }
 
  private:
@@ -85,7 +85,7 @@ vm::Result<void> WriteImage(const Image& image, const std::string& path) {
   if (!format || !format->encode) return BadEnding(path);
   if (auto fit = vm::CheckWritable(path); !fit) return fit;
   const auto bytes = format->encode(image);
-  // Written beside its place and then moved there, so that nobody ever reads half a picture.
+  // The file is written under a temporary name and then renamed, so nobody reads half a picture.
   const std::string beside = path + ".part" + std::to_string(getpid());
   if (auto fit = vm::CheckWritable(beside); !fit) return fit;
   File file(open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-// Only after the standard's headers, whose names they use.
+// This must follow the standard's headers, whose names it uses.
 #include <jerror.h>
 #include <jpeglib.h>
 
@@ -12,7 +12,7 @@
 namespace fsm {
 namespace {
 
-/// A progressive picture of more rounds than that is a trap, not a photo: each is a pass over all.
+/// A progressive file with more scans is an attack, not a photo: each is a pass over all pixels.
 constexpr int kMostScans = 100;
 
 struct Failure {
@@ -29,7 +29,7 @@ void Fail(j_common_ptr info) {
   std::longjmp(failure->back, 1);
 }
 
-/// libjpeg goes on after damage and fills the rest with grey; notes what it met.
+/// Records libjpeg's warnings: after damage it continues and fills the rest with grey.
 void Note(j_common_ptr info, int level) {
   if (level >= 0) return;
   auto* failure = reinterpret_cast<Failure*>(info->err);
@@ -37,7 +37,7 @@ void Note(j_common_ptr info, int level) {
     case JWRN_JPEG_EOF:
       failure->cut_off = true;
       break;
-    case JWRN_EXTRANEOUS_DATA:  // bytes between the parts, as some cameras leave them
+    case JWRN_EXTRANEOUS_DATA:  // bytes between segments, as left by some cameras
     case JWRN_ADOBE_XFORM:
     case JWRN_JFIF_MAJOR:
     case JWRN_TOO_MUCH_DATA:
@@ -58,7 +58,7 @@ void CountScans(j_common_ptr info) {
 
 enum class Outcome { kDone, kDamaged, kTooLarge };
 
-/// Only plain data lives here: a damaged file leaves by a long jump, past destructors.
+/// Only plain data may live here: on a damaged file longjmp skips destructors.
 Outcome Decode(jpeg_decompress_struct& info, Failure& failure, std::span<const std::uint8_t> bytes,
                JpegWish& wish, Image& out) {
   if (setjmp(failure.back)) return Outcome::kDamaged;
@@ -80,7 +80,7 @@ Outcome Decode(jpeg_decompress_struct& info, Failure& failure, std::span<const s
     info.scale_denom *= 2;
   }
   const bool inked = info.jpeg_color_space == JCS_CMYK || info.jpeg_color_space == JCS_YCCK;
-  // Adobe's files hold inks inverted, which is what nearly all files of this kind are.
+  // Adobe's files, which are nearly all files of this kind, store inverted inks.
   const bool inverted = info.saw_Adobe_marker;
   info.out_color_space = inked ? JCS_CMYK : JCS_RGB;
   jpeg_start_decompress(&info);
@@ -89,7 +89,7 @@ Outcome Decode(jpeg_decompress_struct& info, Failure& failure, std::span<const s
   out.rgba.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 4,
                   255);
   const auto components = static_cast<std::size_t>(info.output_components);
-  // libjpeg's own memory, so that it goes with the decoder.
+  // libjpeg's own memory is freed with the decoder.
   JSAMPARRAY row =
       (*info.mem->alloc_sarray)(reinterpret_cast<j_common_ptr>(&info), JPOOL_IMAGE,
                                 info.output_width * static_cast<JDIMENSION>(components), 1);
@@ -109,7 +109,7 @@ Outcome Decode(jpeg_decompress_struct& info, Failure& failure, std::span<const s
   return Outcome::kDone;
 }
 
-/// Only plain data lives here, as in Decode. `bytes`: libjpeg's, to be freed.
+/// Only plain data may live here, as in Decode. The caller frees `bytes`, which libjpeg allocates.
 bool Encode(jpeg_compress_struct& info, Failure& failure, const Image& image, int quality,
             unsigned char*& bytes, unsigned long& size) {
   if (setjmp(failure.back)) return false;

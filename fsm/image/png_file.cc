@@ -16,8 +16,8 @@ void AppendBytes(png_structp png, png_bytep data, std::size_t size) {
 }  // namespace
 
 std::vector<std::uint8_t> EncodePng(const Image& image) {
-  // Only want of memory can fail here; libpng's default handler would abort the program, which is
-  // what running out of memory does anyway.
+  // Only a lack of memory can fail here; libpng's default handler would then abort the program, as
+  // any lack of memory does.
   std::vector<std::uint8_t> out;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
@@ -26,7 +26,7 @@ std::vector<std::uint8_t> EncodePng(const Image& image) {
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
                static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  // Pictures are taken while the face moves: a little larger and several times faster.
+  // Pictures are taken while the face moves: files are slightly larger, encoding much faster.
   png_set_compression_level(png, 3);
   png_set_filter(png, 0, PNG_FILTER_SUB | PNG_FILTER_UP);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
@@ -41,7 +41,7 @@ std::vector<std::uint8_t> EncodePng(const Image& image) {
 }
 
 vm::Result<Image> DecodePng(std::span<const std::uint8_t> bytes) {
-  // The simplified interface keeps libpng's long jumps inside libpng.
+  // The simplified interface keeps longjmp inside libpng.
   png_image header;
   std::memset(&header, 0, sizeof header);
   header.version = PNG_IMAGE_VERSION;
@@ -56,7 +56,7 @@ vm::Result<Image> DecodePng(std::span<const std::uint8_t> bytes) {
   Image image =
       FilledImage(static_cast<int>(header.width), static_cast<int>(header.height), kBlack);
   if (!png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr)) {
-    png_image_free(&header);  // which leaves the message
+    png_image_free(&header);  // keeps the message
     return vm::Fail(vm::Errc::kBadValue, header.message);
   }
   return image;

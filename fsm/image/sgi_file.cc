@@ -4,9 +4,9 @@
 namespace fsm {
 namespace {
 
-// SGI images (Haeberli, "The SGI Image File Format", version 1.00): a 512-byte header, numbers big
-// end first, then the channels one after the other, each from the lowest row up. Run-length
-// packed files hold, after the header, tables of each row's start and length.
+// SGI images (Haeberli, "The SGI Image File Format", version 1.00): a 512-byte header, big-endian
+// numbers, then the channels one after the other, each from the lowest row up. Run-length encoded
+// files have tables of each row's start and length after the header.
 constexpr std::size_t kHeader = 512;
 constexpr std::uint32_t kMagic = 474;
 
@@ -37,7 +37,7 @@ vm::Result<Header> ReadHeader(std::span<const std::uint8_t> bytes) {
   return header;
 }
 
-/// Unpacks one row; false if the packed bytes say anything but a whole row.
+/// Unpacks one row; returns false if the packed bytes are not exactly one row.
 bool UnpackRow(std::span<const std::uint8_t> packed, std::span<std::uint8_t> row) {
   std::size_t at = 0;
   std::size_t filled = 0;
@@ -107,7 +107,7 @@ vm::Result<Image> DecodeSgi(std::span<const std::uint8_t> bytes) {
         return vm::Fail(vm::Errc::kBadValue, "it ends too early or its packing is damaged");
       }
       auto* line = &image.rgba[(header->height - 1 - y) * header->width * 4];
-      // One channel is grey, a second one its opacity.
+      // A single channel is grey; a second one is alpha.
       const bool grey = header->channels < 3;
       for (std::size_t x = 0; x < header->width; ++x) {
         auto* pixel = line + x * 4;

@@ -8,7 +8,7 @@
 namespace fsm {
 namespace {
 
-/// Old pixels along a side, `count` of them from `first` on, and how much each gives to a new one.
+/// The source pixels along one side, from `first` on, and their weights in one target pixel.
 struct Taps {
   int first;
   std::vector<float> weights;

@@ -4,10 +4,10 @@
 
 namespace fsm {
 
-/// The same picture at a size that is no larger, 1 x 1 or more: every pixel is the mean of what it
-/// covers. Colours are taken as they are, whatever their opacity.
+/// Returns the picture at a smaller or equal size, at least 1 x 1: each pixel is the mean of the
+/// area it covers. Colours are averaged without regard to alpha.
 Image Shrunk(const Image& image, int width, int height);
-/// At half the width and height, rounded down but 1 or more: every pixel is the mean of 2 x 2.
+/// Returns half the width and height, rounded down to at least 1: each pixel is the mean of 2 x 2.
 Image Halved(const Image& image);
 
 }  // namespace fsm
