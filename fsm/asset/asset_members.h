@@ -7,16 +7,16 @@
 
 namespace fsm {
 
-/// The extension of glTF that holds what only we need of a head, and the version of its members
-/// that is written. Version 1, which is read too, called some of them otherwise (asset_reader.cc).
+/// The glTF extension with the data of a head that only we need, and the version that is written.
+/// Version 1 can be read as well; it has other names for some members (asset_reader.cc).
 inline constexpr const char* kAssetExtension = "GALATEA_head";
 inline constexpr int kAssetVersion = 2;
 
-/// Names every member of a head's description once; what writes, reads and checks an asset file
-/// walks these lists, so that a new member is one line here. `v` is called as
-/// `v("name", object.member)`, in the order of the lists, for a const object or one to be filled.
-/// Names are those of the members; what HeadTopology and RigData hold in structs of a few members
-/// stands flat beside the others, by the struct's name where its own would not be clear.
+/// These lists name every member of a head's description once; the writer, the reader and the check
+/// of asset files all walk them, so that a new member is one line here. `v` is called as
+/// `v("name", object.member)` in the order of the lists, for a const object or one to be filled.
+/// Names are those of the members. Small structs within HeadTopology and RigData are flattened;
+/// their members get the struct's name where their own would be ambiguous.
 
 template <typename T, typename U>
 concept Like = std::same_as<std::remove_const_t<T>, U>;
@@ -263,7 +263,7 @@ void Members(V& v, Like<SpringWeight> auto& weight) {
   v("weight", weight.weight);
 }
 
-/// All but `units`, which stand as the text of their table.
+/// Lists all members except `units`, which are stored as the text of their table.
 template <typename V>
 void Members(V& v, Like<RigData> auto& rig) {
   v("steps", rig.steps);
@@ -301,14 +301,14 @@ void Members(V& v, Like<ParallelView> auto& view) {
   v("half_mm", view.half_mm);
 }
 
-/// What stands in a file as one column for each member rather than as one object for each element.
+/// Types of which a file stores one column for each member, not one object for each element.
 template <typename T>
 concept Tabular = Like<T, SkinHair> || Like<T, ShutLid> || Like<T, Strand> ||
     Like<T, SkinWeights> || Like<T, Displacement> || Like<T, LidRig::Vertex> ||
     Like<T, LipRig::Follower> || Like<T, BallLids::Vertex> || Like<T, TeethRig::Contact> ||
     Like<T, Spring> || Like<T, SpringWeight>;
 
-/// The number of an enumeration's values, which go from 0 on.
+/// Number of values of an enumeration that starts at 0.
 template <typename E>
 inline constexpr int kValuesOf = 0;
 template <>

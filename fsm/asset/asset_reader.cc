@@ -22,13 +22,13 @@ namespace {
 
 using nlohmann::json;
 
-/// How many numbers an element of a column has.
+/// Number of components of one element of a column.
 template <typename M>
 constexpr std::size_t kWidth = 1;
 template <glm::length_t L>
 constexpr std::size_t kWidth<glm::vec<L, float>> = L;
 
-/// What version 1 called the members that have other names now.
+/// The names that version 1 used for members that have been renamed.
 struct OldName {
   std::string_view place, name;
 };
@@ -44,7 +44,7 @@ constexpr OldName kNamesOfVersion1[] = {{"topology.openness", "occlusion"},
                                         {"rig.asymmetry_seed", "person"},
                                         {"rig.gaze_ranges", "look"}};
 
-/// Reads what asset_writer.cc has written, by the same lists of members.
+/// Reads a file of asset_writer.cc, by the same lists of members.
 class Reader {
  public:
   [[noreturn]] static void Refuse(const std::string& what) {
@@ -90,7 +90,7 @@ class Reader {
       Refuse(fmt::format("{}: a list of {} expected", place, size));
     }
   }
-  /// The document's errors begin with the name of the file, which ParseAsset says, too.
+  /// Returns the value, or refuses without the file's name in the error, as ParseAsset adds it.
   template <typename T>
   T OrRefuse(const std::string& place, vm::Result<T> read) const {
     if (!read) Refuse(place + read.error().text.substr(gltf_.name().size()));
@@ -171,7 +171,7 @@ class Reader {
     return *found;
   }
 
-  /// The numbers of an accessor.
+  /// Returns the numbers of an accessor.
   std::vector<double> Column(const std::string& place, const json& from, int width) const {
     return OrRefuse(place,
                     gltf_.Values(Whole(place, from, 0, std::numeric_limits<int>::max()), width));
@@ -269,7 +269,7 @@ vm::Result<HeadAsset> ParseAsset(const std::string& name, std::string_view bytes
   const json& extension = JsonMember(JsonMember(gltf->root(), "extensions"), kAssetExtension);
   try {
     return ReadAsset(*gltf, extension);
-  } catch (const std::runtime_error& error) {  // vm::Failure, or TableError of the units
+  } catch (const std::runtime_error& error) {  // vm::Failure, or TableError from the units
     return gltf->Wrong(std::string(kAssetExtension) + ": " + error.what());
   }
 }

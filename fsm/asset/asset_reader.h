@@ -8,11 +8,11 @@
 
 namespace fsm {
 
-/// True if the file is glTF with our extension; nothing else about it is looked at.
+/// Tells whether the file is glTF with our extension; checks nothing else.
 bool IsAsset(std::string_view bytes);
 
-/// The head of a file that WriteAsset has made. `name` is for messages. Nothing outside the bytes
-/// is read. Errors: kBadValue and kLimit, naming file and member.
+/// Returns the head of a file made by WriteAsset. `name` appears in error messages. Nothing outside
+/// `bytes` is read. Errors: kBadValue and kLimit, naming file and member.
 vm::Result<HeadAsset> ParseAsset(const std::string& name, std::string_view bytes);
 
 }  // namespace fsm

@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 constexpr float kMetres = 0.001F;
-constexpr float kLeastMm = 0.01F;  ///< a shape leaves out vertices that it moves by less
+constexpr float kLeastMm = 0.01F;  ///< a morph target leaves out smaller displacements
 
 template <typename T>
 constexpr GltfType TypeOf() {
@@ -29,7 +29,7 @@ constexpr GltfType TypeOf() {
   return GltfType::kUint8;
 }
 
-/// What a number is stored as in a column.
+/// The type in which a column stores a number.
 template <typename T>
 using Stored = std::conditional_t<std::is_same_v<T, bool> || std::is_enum_v<T>, std::uint8_t,
                                   std::conditional_t<std::is_same_v<T, int>, std::int16_t, T>>;
@@ -37,7 +37,7 @@ using Stored = std::conditional_t<std::is_same_v<T, bool> || std::is_enum_v<T>, 
 template <typename T>
 concept Number = std::is_enum_v<T> || std::is_arithmetic_v<T>;
 
-/// The numbers of one element of a column.
+/// Returns the numbers of one element of a column.
 template <Number T>
 std::array<Stored<T>, 1> NumbersOf(T value) {
   return {static_cast<Stored<T>>(value)};
@@ -52,7 +52,7 @@ std::array<float, L> NumbersOf(const glm::vec<L, float>& v) {
   return numbers;
 }
 
-/// An accessor in the making: elements of one type.
+/// An accessor under construction: elements of one type.
 class Column {
  public:
   template <typename T>
@@ -75,12 +75,12 @@ class Column {
   GltfType type_{};
 };
 
-/// Writes members as JSON, and arrays of numbers as accessors that the JSON names by index.
+/// Writes members as JSON, and arrays of numbers as accessors that the JSON refers to by index.
 class Writer {
  public:
   explicit Writer(GltfBuilder& gltf) : gltf_(gltf) {}
 
-  /// The JSON of anything that Members knows, or of a part of it.
+  /// Returns the JSON of any type that Members accepts, or of a part of it.
   template <typename T>
   json Write(const T& value) {
     if constexpr (std::is_enum_v<T>) {
@@ -152,7 +152,7 @@ class Writer {
     return members;
   }
 
-  /// One column for each member.
+  /// Writes one column for each member.
   template <typename T>
   json WriteTable(const std::vector<T>& items) {
     std::vector<std::pair<const char*, Column>> columns;
@@ -173,7 +173,7 @@ class Writer {
   std::map<const Image*, std::size_t> images_;
 };
 
-/// The part of the file that other programs draw.
+/// The part of the file that other programs display.
 class ForeignView {
  public:
   ForeignView(GltfBuilder& gltf, const Head& head, const json& extension)
@@ -197,7 +197,7 @@ class ForeignView {
     json& document = gltf_.document;
     json primitives = json::array();
     for (const HeadTopology::Part& part : topology_.parts) {
-      // A shut lid's lashes are seen by no one who cannot fade them in.
+      // Programs that cannot fade in the lashes of shut lids must not show them.
       if (part.material == Material::kShutLash || part.index_count == 0) continue;
       primitives.push_back(Primitive(part, topology["indices"]));
       if (!targets.empty()) primitives.back()["targets"] = targets;
@@ -228,7 +228,7 @@ class ForeignView {
     gltf_.document["textures"] = json::array({{{"source", image}}});
   }
 
-  /// Whether a part shows the photo, in most of its vertices.
+  /// Tells whether most vertices of a part show the photo.
   bool ShowsPhoto(const HeadTopology::Part& part) const {
     if (!topology_.textures.image) return false;
     const auto shown = std::ranges::count_if(topology_.Corners(part), [this](std::uint32_t vertex) {
@@ -261,7 +261,7 @@ class ForeignView {
             {"material", gltf_.document["materials"].size() - 1}};
   }
 
-  /// A sparse accessor of what a state moves.
+  /// Adds a sparse accessor of the vertices that a state moves; returns its index.
   std::size_t Target(const HeadVertices& rest, const HeadVertices& moved) {
     std::vector<std::uint32_t> which;
     std::vector<glm::vec3> by;
@@ -271,7 +271,7 @@ class ForeignView {
       which.push_back(i);
       by.push_back(d);
     }
-    if (which.empty()) {  // a sparse accessor has one element at least
+    if (which.empty()) {  // a sparse accessor needs at least one element
       which.push_back(0);
       by.emplace_back(0.0F);
     }
@@ -285,7 +285,7 @@ class ForeignView {
         {"indices",
          {{"bufferView", indices}, {"componentType", static_cast<int>(GltfType::kUint32)}}},
         {"values", {{"bufferView", values}}}};
-    by.emplace_back(0.0F);  // where it does not move
+    by.emplace_back(0.0F);  // for the vertices that do not move
     MarkBounds(by, accessor);
     gltf_.document["accessors"].push_back(std::move(accessor));
     return gltf_.document["accessors"].size() - 1;

@@ -44,7 +44,7 @@ class Checker {
   void Vertices(const List& list, const char* member) const {
     for (std::size_t i = 0; i < list.size(); ++i) Vertex(list[i], Place(member, i));
   }
-  /// Every element must name a vertex that there is.
+  /// Checks that every element names an existing vertex.
   template <typename List>
   void VerticesOf(const List& list, const char* member) const {
     for (std::size_t i = 0; i < list.size(); ++i) Vertex(list[i].vertex, Place(member, i));
@@ -114,7 +114,7 @@ class Checker {
     VerticesOf(rig.ball_lids.vertices, "rig.ball_lids");
     VerticesOf(rig.teeth.contacts, "rig.teeth_contacts");
     CheckSprings(rig);
-    // What is divided by.
+    // Checks divisors.
     if (const auto& ranges = rig.eyes.gaze_ranges) {
       for (const GazeRange& range : {ranges->inner, ranges->outer, ranges->up, ranges->down})
         Positive(range.gaze_deg, "rig.gaze_ranges.gaze_deg");

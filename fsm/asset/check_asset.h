@@ -5,9 +5,9 @@
 
 namespace fsm {
 
-/// Whether an asset is as Head requires it: arrays fit together, every index is within what it
-/// points into, and the rig has what RigData and its steps (RigStep) say they need. Errors:
-/// kBadValue naming the member, "rig.lips.seam[3]: vertex 900 of 800".
+/// Checks that an asset meets the requirements of Head: arrays match in size, every index is in
+/// range, and the rig has what RigData and its steps (RigStep) need. Error: kBadValue naming the
+/// member, as "rig.lips.seam[3]: vertex 900 of 800".
 vm::Result<void> CheckAsset(const HeadAsset& asset);
 
 }  // namespace fsm

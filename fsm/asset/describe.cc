@@ -12,7 +12,7 @@
 namespace fsm {
 namespace {
 
-/// Adds up the bytes of a head's arrays.
+/// Sums up the bytes of a head's arrays.
 class MemorySum {
  public:
   template <typename T>
@@ -98,7 +98,7 @@ class Description {
   }
 
   void Channels() {
-    std::map<std::string_view, std::set<int>> drives;  // numbers of each kind
+    std::map<std::string_view, std::set<int>> drives;  // numbers, by kind
     std::size_t moves = 0;
     for (const Channel& channel : rig_.channels) {
       for (const Channel::Driver& driver : channel.drivers) {

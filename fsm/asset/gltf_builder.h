@@ -9,13 +9,13 @@
 
 namespace fsm {
 
-/// Puts a binary glTF 2.0 file together: one buffer, and the views and accessors into it.
+/// Builds a binary glTF 2.0 file: one buffer, and views and accessors into it.
 class GltfBuilder {
  public:
-  /// The JSON, to be filled by the caller but for buffers, bufferViews and accessors.
+  /// The JSON; the caller fills all of it except buffers, bufferViews and accessors.
   nlohmann::json document = nlohmann::json::object();
 
-  /// The index of a new view on these bytes.
+  /// Adds a view of these bytes and returns its index.
   std::size_t AddView(std::span<const std::byte> bytes) {
     buffer_.resize((buffer_.size() + 3) / 4 * 4, '\0');
     document["bufferViews"].push_back(
@@ -27,7 +27,7 @@ class GltfBuilder {
   std::size_t AddView(std::span<const T> items) {
     return AddView(std::as_bytes(items));
   }
-  /// The index of a new accessor. `width`: numbers of each element, 1 to 4.
+  /// Adds an accessor and returns its index. `width`: components of each element, 1 to 4.
   std::size_t AddAccessor(std::size_t view, std::size_t count, int width, GltfType type,
                           std::size_t byte_offset = 0) {
     static constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -40,7 +40,7 @@ class GltfBuilder {
     return document["accessors"].size() - 1;
   }
 
-  /// The whole file. The builder is of no more use then.
+  /// Returns the complete file. The builder cannot be used afterwards.
   std::string Finish() {
     document["buffers"] = nlohmann::json::array({{{"byteLength", buffer_.size()}}});
     std::string text = document.dump();

@@ -6,7 +6,7 @@
 
 namespace fsm {
 
-/// What a material is called in files and descriptions.
+/// Returns the name of a material in files and descriptions.
 inline const char* NameOf(Material material) {
   static constexpr std::array<const char*, kValuesOf<Material>> kNames{
       "skin",  "lips",   "eye_white", "eye_iris", "eye_pupil", "teeth",       "gums", "tongue",
