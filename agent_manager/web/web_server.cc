@@ -83,6 +83,13 @@ class PageSession final : public vm::WebSession {
  private:
   bool HasToken() const override {
     if (WebSession::HasToken()) return true;
+    return vm::ShowsToken(ShownCookie().value_or(""), "", server_->visitors.token());
+  }
+  bool ShowsSomeToken() const override {
+    return WebSession::ShowsSomeToken() || ShownCookie().has_value();
+  }
+  /// The token in the cookie of this page's address; nothing if there is no such cookie.
+  std::optional<string_view> ShownCookie() const {
     const std::string name = CookieOf(server_->door->host());
     string_view cookies = vm::WebHeader(request(), http::field::cookie);
     while (!cookies.empty()) {
@@ -90,9 +97,9 @@ class PageSession final : public vm::WebSession {
       string_view cookie = cookies.substr(0, end);
       cookies.remove_prefix(std::min(end + 1, cookies.size()));
       while (cookie.starts_with(' ')) cookie.remove_prefix(1);
-      if (vm::ShowsToken(cookie, name, server_->visitors.token())) return true;
+      if (cookie.starts_with(name)) return cookie.substr(name.size());
     }
-    return false;
+    return {};
   }
 
   void Route() override {
@@ -131,9 +138,11 @@ class PageSession final : public vm::WebSession {
     Refuse(Status::not_found, "a request for '" + path.substr(0, 100) + "'");
   }
 
-  std::pair<std::string, std::string> ErrorBody(Status status, const std::string&) const override {
+  std::pair<std::string, std::string> ErrorBody(Status status,
+                                                const std::string& what) const override {
     const auto reason = http::obsolete_reason(status);
-    return {"text/plain; charset=utf-8", std::string(reason.data(), reason.size()) + "\n"};
+    return {"text/plain; charset=utf-8",
+            std::string(reason.data(), reason.size()) + ": " + what + "\n"};
   }
 
   const std::shared_ptr<WebServer::Impl> server_;

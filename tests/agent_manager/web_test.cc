@@ -26,6 +26,23 @@ TEST_F(WebTest, OnlyTheTokenOpensThePage) {
   EXPECT_TRUE(page->Expect("<title>Galatea</title>"));
 }
 
+TEST_F(WebTest, WhoShowsNoTokenIsToldWhereThereIsOne) {
+  const auto stranger = Open("/", Host());
+  EXPECT_TRUE(stranger->Expect("WWW-Authenticate: Bearer")) << stranger->Seen();
+  EXPECT_TRUE(
+      stranger->Expect("Unauthorized: a request without the token; the program that serves "
+                       "this prints its address, which ends in ?token=TOKEN"))
+      << stranger->Seen();
+  for (const std::string& shown :
+       {"/?token=wrong HTTP/1.1\r\n" + Host(),
+        "/ HTTP/1.1\r\n" + Host() + "Cookie: " + CookieName() + "=old\r\n",
+        "/ HTTP/1.1\r\n" + Host() + "Authorization: Bearer old\r\n"}) {
+    auto client = SocketClient::Tcp(port_);
+    client->Write("GET " + shown + "\r\n");
+    EXPECT_TRUE(client->Expect("a request with a wrong token; the program")) << client->Seen();
+  }
+}
+
 TEST_F(WebTest, NoPathLeadsOutOfThePage) {
   for (const char* path :
        {"/../../../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "//etc/passwd", "/..\\etc\\passwd",

@@ -225,6 +225,12 @@ TEST_F(GatewayTest, OnlyWhoeverShowsTheTokenMayCome) {
             "403");
   EXPECT_EQ(StatusOf("/v1/mouth", host + "X: " + std::string(20'000, 'x') + "\r\n"), "413");
   EXPECT_TRUE(Post("{}", {}).first.starts_with("status 401 ")) << "the voice is no one's either";
+  auto stranger = SocketClient::Tcp(port_);
+  stranger->Write("GET /v1/mouth HTTP/1.1\r\n" + host + "\r\n");
+  EXPECT_TRUE(
+      stranger->Expect("\"message\":\"a request without the token; the program that serves "
+                       "this prints its address, which ends in ?token=TOKEN"))
+      << stranger->Seen();
 }
 
 TEST_F(GatewayTest, WhoAsksBeforeItSendsIsTold) {

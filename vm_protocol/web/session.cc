@@ -15,6 +15,9 @@ using boost::system::error_code;
 
 constexpr auto kRequestLimit = std::chrono::seconds(10);
 constexpr std::size_t kWatchedBytes = 1024;  // read at a time while an answer is waited for
+constexpr const char* kWhereTheTokenIs =
+    "; the program that serves this prints its address, which ends in ?token=TOKEN, when it "
+    "starts: open that address, or send the header 'Authorization: Bearer TOKEN'";
 constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
 
 }  // namespace
@@ -87,12 +90,18 @@ bool WebSession::MayCome() {
   } else if (request_.method() == http::verb::options && !Header("Origin").empty()) {
     Reply(Status::ok, "text/plain", "");
   } else if (!HasToken()) {
-    Refuse(Status::unauthorized, "a request without the token");
+    Refuse(Status::unauthorized,
+           ShowsSomeToken() ? "a request with a wrong token" : "a request without the token",
+           kWhereTheTokenIs);
   } else {
     stranger_.reset();
     return true;
   }
   return false;
+}
+
+bool WebSession::ShowsSomeToken() const {
+  return !Header("Authorization").empty() || WebParameter(Target(), "token");
 }
 
 std::string WebSession::Path() const { return std::string(Target().substr(0, Target().find('?'))); }
@@ -133,12 +142,14 @@ void WebSession::Reply(Status status, std::string_view type, std::string body,
   Write(status, type, std::move(body), more, good && request_.keep_alive());
 }
 
-void WebSession::Refuse(Status status, const std::string& what) {
+void WebSession::Refuse(Status status, const std::string& what, const std::string& advice) {
   error_code ignored;
   const auto from = stream_.socket().remote_endpoint(ignored);
   site_->on_refusal("refused " + what + " from " + from.address().to_string());
-  const auto [type, body] = ErrorBody(status, what);
-  Write(status, type, body, {}, false);
+  const auto [type, body] = ErrorBody(status, what + advice);
+  Headers more;
+  if (status == Status::unauthorized) more["WWW-Authenticate"] = "Bearer";
+  Write(status, type, body, more, false);
 }
 
 void WebSession::Write(Status status, std::string_view type, std::string body, const Headers& more,

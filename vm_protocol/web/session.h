@@ -57,6 +57,8 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   virtual std::pair<std::string, std::string> ErrorBody(Status status,
                                                         const std::string& what) const = 0;
   virtual bool HasToken() const { return site_->visitors.HasToken(request_); }
+  /// Whether the request shows a token at all, be it a wrong one.
+  virtual bool ShowsSomeToken() const;
 
   const WebRequest& request() const { return request_; }
   std::string Header(std::string_view name) const { return std::string(request_[name]); }
@@ -70,7 +72,8 @@ class WebSession : public std::enable_shared_from_this<WebSession> {
   boost::beast::tcp_stream TakeStream();
   /// Without effect once the client has gone.
   void Reply(Status status, std::string_view type, std::string body, const Headers& more = {});
-  void Refuse(Status status, const std::string& what);
+  /// `what` is also logged; `advice` is for the client alone.
+  void Refuse(Status status, const std::string& what, const std::string& advice = "");
 
  private:
   void Read();
