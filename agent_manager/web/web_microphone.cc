@@ -19,13 +19,18 @@ using boost::system::error_code;
 
 constexpr int kRate = 16000;
 constexpr std::size_t kMaxSoundBytes = 64u * 1024;
-constexpr std::size_t kMaxWaitingSoundBytes = 2 * 2 * kRate;  // two seconds; more is dropped
+// Of sound that waits, so much is kept and the rest dropped: 20 s while the ear makes itself ready,
+// which may have to load its models first, and 2 s once it takes sound.
+constexpr std::size_t kMaxKeptSoundBytes = 20 * 2 * kRate;
+constexpr std::size_t kMaxWaitingSoundBytes = 2 * 2 * kRate;
+/// What the browser is told once the ear takes sound.
+constexpr std::string_view kReady = "READY";
 constexpr const char* kEar = "SRM";
 
 /// One browser's microphone. Sets the ear's Input to a socket and restores the old value at the
 /// end. Lifetime: kept alive by its pending operations. Thread: the context's. Limits:
-/// kMaxSoundBytes a message; samples beyond kMaxWaitingSoundBytes waiting for the ear are dropped.
-/// Errors: closes the WebSocket with the reason, and reports it.
+/// kMaxSoundBytes a message, kMaxKeptSoundBytes and kMaxWaitingSoundBytes.
+/// Errors: closes the WebSocket with the reason, a code and a text, and reports it.
 class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession> {
  public:
   MicrophoneSession(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream)
@@ -54,36 +59,41 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
   }
 
   void AskEar() {
-    if (!folder_.Make("ear", "sound")) return Refuse("no folder for the sound");
+    if (!folder_.Make("ear", "sound")) return Refuse(Unavailable("no folder for the sound"));
     Ask(vm::Inq("Input"), [this](const vm::Result<std::string>& input) {
-      if (!input) return Refuse(input.error().text);
+      if (!input) return Refuse(input.error());
       before_ = *input;
       Ask(vm::Set("Input", "unix@" + std::to_string(kRate) + ":" + folder_.file()),
           [this](const vm::Result<std::string>& set) {
-            if (!set) return Refuse(set.error().text);
-            ear_.async_connect(
-                folder_.file(), [self = shared_from_this()](const error_code& error) {
-                  if (self->ended_) return;
-                  if (error) return self->Refuse("the ear does not take sound: " + error.message());
-                  self->connected_ = true;
-                  self->Write();
-                });
+            if (!set) return Refuse(set.error());
+            ear_.async_connect(folder_.file(), [self =
+                                                    shared_from_this()](const error_code& error) {
+              if (self->ended_) return;
+              if (error)
+                return self->Refuse(Unavailable("the ear does not take sound: " + error.message()));
+              self->connected_ = true;
+              self->socket_.Write("", kReady, false, [self](const error_code&) {});
+              self->Write();
+            });
           });
     });
   }
 
-  void Refuse(const std::string& why) {
-    server_->on_refusal("no microphone: " + why);
-    socket_.Close(why, [self = shared_from_this()](const error_code&) { self->End(); });
+  static vm::Error Unavailable(std::string why) {
+    return {vm::Errc::kUnavailable, std::move(why), 0};
+  }
+  void Refuse(const vm::Error& why) {
+    server_->on_refusal("no microphone: " + why.text);
+    socket_.Close(vm::FormatError(why),
+                  [self = shared_from_this()](const error_code&) { self->End(); });
   }
 
   void Read() {
     socket_.Read([self = shared_from_this()](const error_code& error, const std::string& samples,
                                              bool binary) {
       if (error || self->server_->closed) return self->End();
-      if (binary && self->waiting_.size() + samples.size() <= kMaxWaitingSoundBytes) {
-        self->waiting_ += samples;
-      }
+      const std::size_t most = self->connected_ ? kMaxWaitingSoundBytes : kMaxKeptSoundBytes;
+      if (binary && self->waiting_.size() + samples.size() <= most) self->waiting_ += samples;
       self->Write();
       self->Read();
     });

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """An ear that says which tone it hears: a stand-in for srm where only the sound's way matters.
 
-Slots: Input (unix@RATE:PATH, or NONE), Listen, Deaf (YES: it answers no question for Input). Once it has half a second of sound that is not
+Slots: Input (unix@RATE:PATH, or NONE), Listen, Deaf (YES: it answers no question for Input), Slow (YES: it takes 1.5 s to open one). Once it has half a second of sound that is not
 silence, it reports  Result = FREQUENCY  in Hz, from the crossings of zero.
 """
 import array
@@ -10,6 +10,7 @@ import re
 import select
 import socket
 import sys
+import time
 
 slots = {"Run": "LIVE", "Input": "NONE", "Listen": "STOP", "Listen.stat": "OFF", "Slots": "Input Listen", "Clock.busy": "IDLE"}
 listener, talkers, sound, rate = None, [], array.array("h"), 16000
@@ -41,8 +42,8 @@ def hear(connection):
     sound.frombytes(more[:len(more) // 2 * 2])
     while sound and max(abs(sample) for sample in sound[:100]) < 1000:
         del sound[:100]
-    if len(sound) >= rate // 2 and slots["Listen"] == "START":
-        piece, sound = sound[:rate // 2], array.array("h")
+    while len(sound) >= rate // 2 and slots["Listen"] == "START":
+        piece, sound = sound[:rate // 2], sound[rate // 2:]
         crossings = sum(1 for a, b in zip(piece, piece[1:]) if a < 0 <= b)
         say(f"rep Result = {crossings * 2}")
 
@@ -59,6 +60,7 @@ def obey(line):
     if command == "set":
         slots[slot] = value
         if slot == "Input":
+            time.sleep(1.5 if slots.get("Slow") == "YES" else 0)
             open_input(value)
     if slot == "Input" and slots.get("Deaf") == "YES":
         return

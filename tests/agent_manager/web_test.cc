@@ -226,6 +226,22 @@ TEST_F(WebTest, AMicrophoneBecomesTheEarsInputAndThenNoMore) {
   EXPECT_EQ(StatusOf("/microphone", Host() + Cookie() + Socket("http://evil.example")), "403");
 }
 
+TEST_F(WebTest, WhatIsSaidWhileTheEarMakesItselfReadyIsKept) {
+  hub_->WriteLine("to @SRM set#1 Listen = START");
+  hub_->WriteLine("to @SRM set#2 Slow = YES");
+  ASSERT_TRUE(hub_->Expect("rep#2 Slow = YES"));
+  const auto microphone = Open("/microphone", Host() + Cookie() + Socket("http://" + host_));
+  ASSERT_TRUE(microphone->Expect("101 Switching")) << hub_->ErrorText();
+  std::string second;
+  for (int i = 0; i < 16000; ++i)
+    second += i % 16 < 8 ? std::string("\0\x20", 2) : std::string("\0\xe0", 2);
+  std::string frame = Frame(second);
+  frame[0] = '\x82';  // binary
+  for (int i = 0; i < 4; ++i) microphone->Write(frame);
+  for (int half = 0; half < 8; ++half)
+    EXPECT_TRUE(hub_->Expect("From @SRM rep Result = 998")) << half << hub_->Seen();
+}
+
 TEST_F(WebTest, AMicrophoneThatGoesWhileTheEarIsSilentLeavesItsPlaceToTheNext) {
   const std::string headers = Host() + Cookie() + Socket("http://" + host_);
   hub_->WriteLine("to @SRM set#1 Deaf = YES");

@@ -1,5 +1,13 @@
 // The protocol in a page: one WebSocket, one line a message. A page is a client like any other, or,
 // with a name and slots of its own, a module.
+// A refusal, "CODE text", as an error that has both apart.
+export class Refusal extends Error {
+  constructor(value) {
+    super(value);
+    [, this.code, this.words] = value.match(/^([A-Z_0-9]+) (.*)$/) ?? [null, '', value];
+  }
+}
+
 export class Galatea {
   constructor() {
     this.pending = new Map();
@@ -63,7 +71,7 @@ export class Galatea {
       const asked = tag && this.pending.get(tag);
       if (asked && slot.endsWith('.error')) {
         this.pending.delete(tag);
-        asked.reject(new Error(value));
+        asked.reject(new Refusal(value));
       } else if (asked) {
         this.pending.delete(tag);
         asked.resolve(value);
