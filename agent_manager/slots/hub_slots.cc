@@ -220,7 +220,8 @@ void HubSlots::DeclareLimits() {
 void HubSlots::DeclareModules(const std::set<std::string>& names) {
   for (const std::string& name : modules_) {
     if (names.contains(name)) continue;
-    for (const char* const slot : {".state", ".pid", ".starts", ".ending", ".output", ".log"})
+    for (const char* const slot :
+         {".state", ".pid", ".starts", ".ending", ".failed", ".output", ".log"})
       slots_.Remove(kModuleSlots + name + slot);
   }
   for (const std::string& name : names) {
@@ -234,7 +235,8 @@ void HubSlots::DeclareModule(const std::string& module) {
     for (ModuleStatus& known : supervisor_.Status()) {
       if (known.name == module) return std::move(known);
     }
-    return ModuleStatus{.name = module, .state = "REMOVED", .starts = 0, .ending = ""};
+    return ModuleStatus{
+        .name = module, .state = "REMOVED", .starts = 0, .ending = "", .failed = false};
   };
   const auto declare = [&](const std::string& name, const std::string& help,
                            std::function<std::string()> inq) {
@@ -251,6 +253,8 @@ void HubSlots::DeclareModule(const std::string& module) {
   declare(".starts", "How often it was started.",
           [status] { return std::to_string(status().starts); });
   declare(".ending", "How it ended the last time.", [status] { return status().ending; });
+  declare(".failed", "Whether it failed then: YES, or NO also where it has not ended yet.",
+          [status] { return status().failed ? "YES" : "NO"; });
   declare(".output", "The last line of its stderr, with its level: ERROR, WARNING or INFO.",
           nullptr);
   declare(".log", "The last lines of its stderr, with | between.", [this, module] {

@@ -40,7 +40,7 @@ ManagedModule::ManagedModule(boost::asio::io_context& io, Hub& hub, ChildReaper&
       hold_timer_(io) {}
 
 ModuleStatus ManagedModule::Status() const {
-  return {config_.name, StateName(state_), run_ ? run_->pid() : -1, starts_, ending_};
+  return {config_.name, StateName(state_), run_ ? run_->pid() : -1, starts_, ending_, failed_};
 }
 
 ModuleRun::Events ManagedModule::RunEvents() {
@@ -67,6 +67,7 @@ vm::Result<void> ManagedModule::Start(bool watch_health) {
   if (started) return {};
   run_.reset();
   ending_ = started.error().text;
+  failed_ = true;
   events_.on_notice(ending_);
   if (started.error().code == Errc::kBusy) {
     RestartByPolicy(ending_, true, {});
@@ -140,6 +141,7 @@ void ManagedModule::OnEnded(const ModuleRun::Ending& ending) {
   const bool at_start = state_ == State::kStarting && is_process;
   failed_starts_ = at_start ? failed_starts_ + 1 : 0;
   ending_ = ending.how;
+  failed_ = ending.failed;
   failed_start_ =
       at_start && ending.exited_with_error && SteadyClock::now() - started_ < kFirstSeconds;
   spoke_ = spoke_ || ending.spoke || !failed_start_;

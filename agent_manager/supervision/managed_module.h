@@ -23,6 +23,7 @@ struct ModuleStatus {
   pid_t pid = -1;       ///< -1: no process
   unsigned starts = 0;  ///< in all
   std::string ending;   ///< how it ended the last time; empty = it never did
+  bool failed = false;  ///< that was a failure
 };
 
 /// One module of the configuration over all its runs: its state, its restarts by policy, and those
@@ -125,6 +126,7 @@ class ManagedModule : public std::enable_shared_from_this<ManagedModule> {
   unsigned starts_ = 0;
   unsigned failed_starts_ = 0;  // since it was ready the last time
   std::string ending_;
+  bool failed_ = false;
   ModuleOutput output_;
   std::vector<Done> wait_for_stop_, wait_for_ready_;
   std::optional<ModuleConfig> replacement_;

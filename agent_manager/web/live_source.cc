@@ -16,6 +16,8 @@ using boost::system::error_code;
 constexpr const char* kNobody = "NONE";
 constexpr std::size_t kReadBytes = 64u * 1024;
 
+vm::Error Unavailable(std::string why) { return {vm::Errc::kUnavailable, std::move(why), 0}; }
+
 }  // namespace
 
 const LiveSource::Origin LiveSource::kFace{.module = "FSM",
@@ -55,7 +57,7 @@ unsigned LiveSource::Join(Audience::Member member) {
 
 void LiveSource::Leave(unsigned member) {
   members_.Leave(member);
-  if (members_.empty()) End("");
+  if (members_.empty()) End({});
 }
 
 void LiveSource::Ask(const vm::Message& message, std::function<void(const std::string&)> next) {
@@ -63,7 +65,7 @@ void LiveSource::Ask(const vm::Message& message, std::function<void(const std::s
            [this, weak = std::weak_ptr(connection_),
             next = std::move(next)](const vm::Result<std::string>& answer) {
              if (weak.expired()) return;  // nobody follows any more
-             if (!answer) return End(answer.error().text);
+             if (!answer) return End(answer.error());
              next(*answer);
            });
 }
@@ -71,19 +73,21 @@ void LiveSource::Ask(const vm::Message& message, std::function<void(const std::s
 void LiveSource::Begin() {
   connection_ = std::make_shared<Connection>(io_, origin_);
   Connection& here = *connection_;
-  if (!here.folder.Make("live", "socket")) return End("no folder for a socket");
+  if (!here.folder.Make("live", "socket")) return End(Unavailable("no folder for a socket"));
   error_code error;
   here.acceptor.open(asio::local::stream_protocol(), error);
   if (!error) here.acceptor.bind(here.folder.file(), error);
   if (!error) here.acceptor.listen(1, error);
-  if (error) return End("no socket: " + error.message());
+  if (error) return End(Unavailable("no socket: " + error.message()));
   here.acceptor.async_accept(here.socket,
                              [this, weak = std::weak_ptr(connection_)](const error_code& failed) {
                                if (weak.expired() || failed) return;
                                Read();
                              });
   Ask(vm::Inq(origin_.slot), [this](const std::string& to) {
-    if (to != kNobody) return End(std::string(origin_.who) + " sends to " + to + " already");
+    if (to != kNobody)
+      return End(
+          vm::Error{vm::Errc::kBusy, std::string(origin_.who) + " sends to " + to + " already", 0});
     connection_->asked = true;
     Ask(vm::Set(origin_.slot, "unix:" + connection_->folder.file()), [](const std::string&) {});
   });
@@ -95,9 +99,9 @@ void LiveSource::Read() {
       [this, weak = std::weak_ptr(connection_)](const error_code& error, std::size_t size) {
         const auto here = weak.lock();
         if (!here) return;
-        if (error) return End(std::string(origin_.who) + " sends no more");
+        if (error) return End(Unavailable(std::string(origin_.who) + " sends no more"));
         here->records.Add({here->piece.data(), size});
-        if (const auto taken = TakeRecords(); !taken) return End(taken.error().text);
+        if (const auto taken = TakeRecords(); !taken) return End(taken.error());
         if (connection_ == here) Read();  // who follows may have been the last one and left
       });
 }
@@ -114,12 +118,12 @@ vm::Result<void> LiveSource::TakeRecords() {
   return {};
 }
 
-void LiveSource::End(const std::string& why) {
+void LiveSource::End(const std::optional<vm::Error>& why) {
   if (const auto here = std::exchange(connection_, nullptr);
       here && here->asked && hub_.directory().IsPresent(origin_.module)) {
     hub_.Ask(own_name::kHub, vm::To(origin_.module, vm::Set(origin_.slot, kNobody)), IgnoreAnswer);
   }
-  members_.End(why);
+  members_.End(why ? vm::FormatError(*why) : "");
 }
 
 }  // namespace am

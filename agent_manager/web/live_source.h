@@ -3,6 +3,7 @@
 #include <boost/asio/io_context.hpp>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "agent_manager/routing/hub.h"
@@ -16,8 +17,8 @@ namespace am {
 /// other programs; docs/speech.md, Sound for other programs), and no more once the last has left.
 /// Lifetime: `io` and `hub` outlive it. Thread: the context's.
 /// Limits: those of vm::LiveRecords, with Origin::max_bytes.
-/// Errors end it with a sentence: no module, one without the slot or that sends elsewhere already,
-/// a record that is none.
+/// Errors end it with a code and a sentence (vm::FormatError): no module, one without the slot or
+/// that sends elsewhere already, a record that is none.
 class LiveSource {
  public:
   struct Origin {
@@ -44,7 +45,8 @@ class LiveSource {
   void Read();
   /// Takes whole records out of what has come. An error is a sentence.
   vm::Result<void> TakeRecords();
-  void End(const std::string& why);
+  /// Nothing: it was asked to.
+  void End(const std::optional<vm::Error>& why);
 
   boost::asio::io_context& io_;
   Hub& hub_;

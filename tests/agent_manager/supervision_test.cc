@@ -81,6 +81,7 @@ TEST_F(SupervisionTest, AModuleThatStopsAnsweringIsEndedAndStartedAgain) {
   EXPECT_TRUE(hub.Expect("rep#2 X = 2")) << hub.Seen() << hub.ErrorText();
   EXPECT_EQ(Ask(hub, "Module.TEST.starts"), "2");
   EXPECT_NE(Ask(hub, "Module.TEST.ending").find("did not answer"), std::string::npos);
+  EXPECT_EQ(Ask(hub, "Module.TEST.failed"), "YES");
 }
 
 TEST_F(SupervisionTest, AModuleThatAlwaysDiesIsGivenUp) {

@@ -1,7 +1,7 @@
 // The hub's page: a conversation with the agent, and the engineer's view of it.
 import {Conversation} from './conversation.js';
 import {Engineer} from './engineer.js';
-import {Galatea} from './galatea.js';
+import {Galatea, Refusal} from './galatea.js';
 import {Listening} from './listening.js';
 import {Pickers} from './pickers.js';
 import {Delay, FacePlayer, SessionClock, VoicePlayer} from './playback.js';
@@ -18,10 +18,15 @@ const delay = new Delay();
 
 // ---- face and voice
 // What a refusal means to somebody who talks; null: nothing is known.
-const told = why => why == null ? text('unknown_why') : /there is no @|has gone/.test(why) ? text('module_away') : why;
+function told(why, module) {
+  if (why == null) return text('unknown_why');
+  const {code, words} = new Refusal(why);
+  const away = code === 'UNKNOWN_MODULE' || (code === 'UNAVAILABLE' && !presence.has(module));
+  return away ? text('module_away') : words;
+}
 const face = new FacePlayer($('face'), clock, delay, why => {
   $('stage').classList.toggle('off', why !== '');
-  if (why !== '') put($('face-off'), 'no_face', {why: told(why)});
+  if (why !== '') put($('face-off'), 'no_face', {why: told(why, 'FSM')});
 });
 let lost_voice = '', sink = 'null', loud = true;
 const voice = new VoicePlayer(clock, delay, why => {
@@ -35,7 +40,7 @@ function showSound() {
   const state = $('sound-state');
   if (sink !== 'null' && !loud) put(state, 'sound_twice', {sink});
   else if (!voice.allowed) put(state, 'sound_blocked');
-  else if (lost_voice !== '') put(state, 'no_voice', {why: told(lost_voice)});
+  else if (lost_voice !== '') put(state, 'no_voice', {why: told(lost_voice, 'SSM')});
   else state.replaceChildren(), delete state.dataset.text;
 }
 voice.context.onstatechange = showSound;

@@ -102,11 +102,11 @@ export class Conversation {
     if (way !== 'voice') this.hearUser(words);
     if (!line) return this.fail(text(`way_${way}`));
     // Chat answers when the reply is over; that it was stopped is no failure.
-    this.hub.ask(`${line} = ${words}`, 'u').catch(error => {
-      if (error.message.startsWith('STOPPED')) return;
+    this.hub.ask(`${line} = ${words}`, 'u').catch(async error => {
+      if (error.code === 'STOPPED') return;
       // The refusal may be here before the news that the module has gone.
-      const gone = way === 'chat' && /@CHAT has gone|there is no @CHAT/.test(error.message);
-      this.fail(gone ? text('way_no_chat') : error.message);
+      if (['UNKNOWN_MODULE', 'UNAVAILABLE'].includes(error.code)) await this.presence.look();
+      this.fail(way === 'chat' && !this.presence.has('CHAT') ? text('way_no_chat') : error.message);
     });
   }
   clearStatus() {

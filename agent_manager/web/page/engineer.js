@@ -70,7 +70,7 @@ export class Engineer {
   }
   async rowsOf(name) {
     const of = slot => this.hub.ask(`inq Module.${name}.${slot}`).catch(() => '');
-    const [state, pid, starts, ending, log] = await Promise.all(['state', 'pid', 'starts', 'ending', 'log'].map(of));
+    const [state, pid, starts, ending, failed, log] = await Promise.all(['state', 'pid', 'starts', 'ending', 'failed', 'log'].map(of));
     const act = word => element('button', {
       textContent: word, ariaLabel: `${word} ${name}`,
       onclick: () => this.ask(`set ${word} = ${name}`).catch(() => {}).then(() => this.showModules()),
@@ -83,13 +83,13 @@ export class Engineer {
         element('th', {scope: 'row', textContent: name}),
         element('td', {className: state, textContent: state}),
         element('td', {textContent: pid > 0 ? `pid ${pid}, start ${starts}` : ''}),
-        element('td', {}, act('Start'), ' ', act('Stop'), ' ', act('Restart'))), ...this.whyOf(name, ending, log)];
+        element('td', {}, act('Start'), ' ', act('Stop'), ' ', act('Restart'))), ...this.whyOf(name, ending, failed === 'YES', log)];
   }
-  whyOf(name, ending, log) {
+  whyOf(name, ending, failed, log) {
     if (!ending && !log) return [];
     const lines = log.split(' | ').map(line => element('div', {className: line.split(' ')[0], textContent: line}));
     const details = element('details', {open: this.opened.has(name)},
-        element('summary', {className: ending && ending !== 'ended with code 0' ? 'why' : '',
+        element('summary', {className: failed ? 'why' : '',
                             textContent: ending ? `${name} ended before: ${ending}` : `what ${name} has said`}), ...lines);
     details.ontoggle = () => { details.open ? this.opened.add(name) : this.opened.delete(name); };
     return [element('tr', {className: 'said'}, element('td', {colSpan: 4}, details))];

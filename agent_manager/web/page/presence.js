@@ -31,11 +31,7 @@ export class Presence {
     this.onLook();
   }
   hear({from, slot, value}) {
-    const gone = from === 'AM' && slot === '' && value.match(/^@(\S+) has gone/);
-    if (gone) {
-      this.go(gone[1]);
-      this.look();
-    }
+    if (from === 'AM' && slot === '') this.look();  // the hub tells of an event: perhaps somebody has gone
     if (slot === 'Run' && value === 'LIVE' && from) this.come(from);
   }
   come(name) {
