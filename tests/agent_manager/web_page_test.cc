@@ -106,6 +106,28 @@ TEST_F(WebPageTest, ATypedLineGoesToWhoAnswersAndTheLogHasWhatBothSay) {
   EXPECT_EQ(page->ReadLine(), "You Hello there Galatea Good day.");
 }
 
+TEST_F(WebPageTest, APageOpenedAnewShowsWhatWasSaidAndGreetsWhereNothingWas) {
+  const std::string log =
+      "print:document.querySelector('#log').innerText.replace(/\\s+/g, ' ').trim()";
+  const auto page =
+      Browse({Tell("here"), "wait:document.querySelector('#log p')", log, "do:location.reload()",
+              "wait:document.querySelector('#log p.you')",
+              "wait:document.querySelector('#status').textContent == 'thinking …'", log});
+  ASSERT_TRUE(hub_->Expect("tell here")) << page->ErrorText();
+  const auto chat = JoinAsChat();
+  ASSERT_TRUE(chat->Expect("inq History")) << page->ErrorText();
+  chat->WriteLine("rep History = []");
+  ASSERT_TRUE(chat->Expect("inq History")) << page->ErrorText();
+  chat->WriteLine(
+      R"(rep History = [{"content":"Hello","role":"user"},{"content":"Good day.","role":"assistant"},)"
+      R"({"content":"And\nnow?","role":"user"}])");
+  ASSERT_TRUE(chat->Expect("inq Busy")) << page->ErrorText();
+  chat->WriteLine("rep Busy = THINKING");
+  EXPECT_EQ(page->Wait(support::Millis(120000)), 0) << page->ErrorText() << hub_->ErrorText();
+  EXPECT_EQ(page->ReadLine(), "Galatea is here. Ask something.");
+  EXPECT_EQ(page->ReadLine(), "You Hello Galatea Good day. You And You now?");
+}
+
 TEST_F(WebPageTest, AnAnswerIsReadWhereTheVoiceIsAwayAndNobodyToAnswerIsNamed) {
   const auto page = Browse(
       {Tell("here"), "wait:document.querySelector('#way').dataset.text == 'way_chat'",

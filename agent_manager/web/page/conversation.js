@@ -2,6 +2,7 @@
 import {element, put, text} from './texts.js';
 
 const kMostLines = 300;
+const kMostRecalled = 40;  // entries of the history
 const kSameMs = 20000;  // within which what was typed is heard
 const kMostHeld = 20, kMostHeldMs = 15000, kLookAgainMs = 500;  // so many lines wait so long for modules that are being started
 
@@ -127,6 +128,18 @@ export class Conversation {
   fail(why) { this.add('note', why); }
 
   // ---- a dialogue that is held here (scripts/web_dialog.py): it begins with the first page, and again when it is asked to
+  // A page that is opened anew shows what both have said before; where nothing was said, it greets.
+  async recall() {
+    const empty = () => this.nodes.log.childElementCount === 0;
+    if (!empty()) return;
+    const history = await this.hub.ask('to @CHAT inq History');
+    if (!empty()) return;
+    const said = JSON.parse(history).slice(-kMostRecalled);
+    for (const {role, content} of said)
+      for (const words of content.split('\n')) this.add(role === 'user' ? 'you' : 'agent', words);
+    if (said.length === 0) this.add('event', text('welcome'));
+    if (await this.hub.ask('to @CHAT inq Busy') === 'THINKING') put(this.nodes.status, 'thinking');
+  }
   startDialog(who) { this.hub.ask('to @DIALOG set Dialog = START', who).catch(error => this.fail(error.message)); }
   showDialog(state) {
     const was = this.dialog;
@@ -213,6 +226,7 @@ export class Conversation {
       this.showDialog(await this.hub.ask('to @DIALOG inq Dialog').catch(() => ''));
       if (this.dialog === 'WAITING') this.startDialog('w');
     }
+    if (name === 'CHAT') this.recall().catch(() => {});  // not awaited: the page goes on without it
     if (name === 'CHAT') this.chat_listens = (await this.hub.ask('to @CHAT inq Listen').catch(() => 'ON')) === 'ON';
     this.showWay();
   }
