@@ -79,6 +79,15 @@ void ChatModule::DeclareInput() {
                   .initial = "AUTO",
                   .help = "Of rules and apologies: en, ja, or by the signs of what was said.",
                   .on_set = Word});
+  std::string languages;
+  for (const Rules& rules : options_.rules)
+    languages += (languages.empty() ? "" : " ") + rules.language();
+  slots_.Declare({.name = "Language.all",
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .initial = UsesModel() ? "*" : languages,
+                  .help = "The languages of its answers, by their codes: those of the rules, or * "
+                          "where a model answers."});
   slots_.Declare({.name = "Apology",
                   .grammar = "ON | OFF",
                   .initial = "ON",

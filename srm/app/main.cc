@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "ear/grammar/grammar_limits.h"
 #include "sound/sources.h"
@@ -22,17 +23,21 @@ namespace {
 
 constexpr std::size_t kMaxConfigBytes = 64 << 10;
 
-std::unique_ptr<srm::Transcriber> OpenServer(const std::string& config, vm::ClockScheduler& clock,
-                                             boost::asio::io_context& io) {
-  if (config.empty()) return nullptr;
+srm::HttpEarSettings ReadServer(const std::string& config) {
   const auto text = vm::ReadTextFile(config, kMaxConfigBytes);
   if (!text) throw std::runtime_error(text.error().text);
   const std::string folder = std::filesystem::path(config).parent_path().string();
   auto settings = srm::ParseHttpEar(*text, folder.empty() ? "." : folder);
   if (!settings) throw std::runtime_error(config + ": " + settings.error().text);
+  return std::move(*settings);
+}
+
+std::unique_ptr<srm::Transcriber> OpenServer(srm::HttpEarSettings settings,
+                                             vm::ClockScheduler& clock,
+                                             boost::asio::io_context& io) {
   auto transport = std::make_shared<vm::CurlTransport>(
-      io, clock, [&clock] { return clock.real(); }, settings->server.ca_file);
-  return std::make_unique<srm::HttpTranscriber>(clock, std::move(transport), std::move(*settings));
+      io, clock, [&clock] { return clock.real(); }, settings.server.ca_file);
+  return std::make_unique<srm::HttpTranscriber>(clock, std::move(transport), std::move(settings));
 }
 
 }  // namespace
@@ -69,10 +74,19 @@ int main(int argc, char** argv) {
        .make =
            [&](vm::Scheduler& scheduler, boost::asio::io_context& io) {
              auto& clock = dynamic_cast<vm::ClockScheduler&>(scheduler);
+             // Debian's model is of English; of another one nothing tells its language.
+             std::string languages = engine.model == srm::PocketsphinxOptions{}.model ? "en" : "*";
+             std::unique_ptr<srm::Transcriber> transcriber;
+             if (!server.empty()) {
+               auto settings = ReadServer(server);
+               languages = settings.language.empty() ? "*" : settings.language;
+               transcriber = OpenServer(std::move(settings), clock, io);
+             }
              return std::make_unique<srm::RecognizerModule>(
                  scheduler,
                  srm::RecognizerModule::Options{
                      .module_version = "Galatea SRM " GALATEA_VERSION,
+                     .languages = std::move(languages),
                      .read_file =
                          [](const std::string& path) {
                            return vm::ReadTextFile(path, ear::kMaxGrammarBytes);
@@ -82,7 +96,7 @@ int main(int argc, char** argv) {
                        return srm::OpenPocketsphinx(engine);
                      },
                      .open_spotter = [&engine] { return srm::OpenSpotter(engine); },
-                     .transcriber = OpenServer(server, clock, io),
+                     .transcriber = std::move(transcriber),
                      .open_source = [&](const std::string& name)
                          -> vm::Result<std::unique_ptr<sound::AudioSource>> {
                        if (name.ends_with(":-") && !stdin_free) {

@@ -23,6 +23,7 @@ RecognizerModule::RecognizerModule(vm::Scheduler& scheduler, Options options)
       keep_(slots_) {
   listening_.Declare(options_.module_version);
   DeclareListen();
+  DeclareLanguages();
   DeclareAgent();
   DeclareGrammar();
   DeclareInput();

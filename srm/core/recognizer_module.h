@@ -28,6 +28,7 @@ class RecognizerModule final : public vm::Module {
  public:
   struct Options {
     std::string module_version{};
+    std::string languages = "*";  ///< Listen.languages
     std::function<vm::Result<std::string>(const std::string& path)> read_file{};
     /// The engines, made when first needed.
     std::function<vm::Result<std::unique_ptr<SpeechDecoder>>()> open_decoder{};
@@ -51,6 +52,7 @@ class RecognizerModule final : public vm::Module {
   enum class Echo { kHalf, kOpen, kCancel };
   // recognizer_slots.cc
   void DeclareListen();
+  void DeclareLanguages();
   void DeclareAgent();
   void DeclareGrammar();
   void DeclareInput();

@@ -61,6 +61,15 @@ void RecognizerModule::DeclareListen() {
                   }});
 }
 
+void RecognizerModule::DeclareLanguages() {
+  slots_.Declare({.name = "Listen.languages",
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .initial = options_.languages,
+                  .help = "The languages understood without a grammar, by their codes; * where it "
+                          "is not known or the server finds out."});
+}
+
 void RecognizerModule::DeclareAgent() {
   slots_.Declare({.name = "Agent",
                   .grammar = "SPEAKING | SILENT",

@@ -1,6 +1,8 @@
 // Who speaks and how: Speaker, Rate, Pitch, Volume, Emotion.
 
+#include <algorithm>
 #include <charconv>
+#include <utility>
 
 #include "ssm/voice/voice_module.h"
 
@@ -12,6 +14,19 @@ std::string FormatFactor(double factor) {
   char buffer[32];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, factor).ptr;
   return {buffer, end};
+}
+
+/// "en slt rms; de espeak-de", in the order of the voices.
+std::string SpeakersByLanguage(const std::vector<VoiceInfo>& voices) {
+  std::vector<std::pair<std::string, std::string>> lists;
+  for (const VoiceInfo& voice : voices) {
+    auto list = std::ranges::find(lists, voice.language, [](const auto& one) { return one.first; });
+    if (list == lists.end()) list = lists.insert(list, {voice.language, voice.language});
+    list->second += " " + voice.name;
+  }
+  std::string text;
+  for (const auto& [language, list] : lists) text += (text.empty() ? "" : "; ") + list;
+  return text;
 }
 
 }  // namespace
@@ -44,6 +59,12 @@ void VoiceModule::DeclareManner() {
                   .help = "Every name Speaker takes, with the voices of other languages, which "
                           "SpeakerSet leaves out.",
                   .on_inq = [this] { return speakers_.AllNames(); }});
+  slots_.Declare({.name = "Speaker.languages",
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .help = "Which speakers there are for which language: CODE SPEAKER..., with ; "
+                          "between, as in: en slt rms; de espeak-de.",
+                  .on_inq = [this] { return SpeakersByLanguage(engine_->voices()); }});
   slots_.Declare({.name = "Speaker.language",
                   .grammar = "<word> <word>",
                   .access = vm::Access::kWriteOnly,

@@ -12,7 +12,7 @@ import socket
 import sys
 import time
 
-slots = {"Run": "LIVE", "Input": "NONE", "Listen": "STOP", "Listen.stat": "OFF", "Slots": "Input Listen", "Clock.busy": "IDLE"}
+slots = {"Run": "LIVE", "Input": "NONE", "Listen": "STOP", "Listen.stat": "OFF", "Listen.languages": "en", "Slots": "Input Listen", "Clock.busy": "IDLE"}
 listener, talkers, sound, rate = None, [], array.array("h"), 16000
 
 

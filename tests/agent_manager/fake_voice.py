@@ -9,7 +9,7 @@ import socket
 import sys
 
 to, connection = "NONE", None
-values = {"Clock": "0", "Sink": "null", "Speaker": "anna", "Speaker.all": "anna ben"}
+values = {"Clock": "0", "Sink": "null", "Speaker": "anna", "Speaker.all": "anna ben carl", "Speaker.languages": "en anna; ja ben; de carl"}
 for line in sys.stdin:
     found = re.match(r"(set|inq|prop)(#\S+)? (\S+)(?: = (.*))?$", line.rstrip("\n"))
     if not found:

@@ -128,6 +128,23 @@ TEST_F(WebPageTest, APageOpenedAnewShowsWhatWasSaidAndGreetsWhereNothingWas) {
   EXPECT_EQ(page->ReadLine(), "You Hello Galatea Good day. You And You now?");
 }
 
+TEST_F(WebPageTest, TheLanguagesAreThoseOfTheVoiceAndOfWhoAnswers) {
+  const std::string codes =
+      "[...document.querySelector('#pick-language').options].map(o => o.value).join()";
+  const auto page = Browse({"wait:" + codes + " == 'AUTO,en,ja'", Tell("own"),
+                            "wait:" + codes + " == 'AUTO,en,ja,de'",
+                            "print:[...document.querySelector('#pick-language').options].map(o => "
+                            "o.textContent).join()",
+                            Choose("language", "de")});
+  ASSERT_TRUE(hub_->Expect("tell own")) << page->ErrorText();
+  const auto chat = JoinAsChat();
+  ASSERT_TRUE(chat->Expect("inq Language.all")) << page->ErrorText() << chat->Seen();
+  chat->WriteLine("rep Language.all = *");
+  EXPECT_TRUE(hub_->Expect("tell speaks as carl")) << page->ErrorText();
+  EXPECT_EQ(page->Wait(support::Millis(120000)), 0) << page->ErrorText() << hub_->ErrorText();
+  EXPECT_EQ(page->ReadLine(), "automatic,English,日本語 (typed only),Deutsch (typed only)");
+}
+
 TEST_F(WebPageTest, AnAnswerIsReadWhereTheVoiceIsAwayAndNobodyToAnswerIsNamed) {
   const auto page = Browse(
       {Tell("here"), "wait:document.querySelector('#way').dataset.text == 'way_chat'",

@@ -3,7 +3,8 @@
 import {element, put, text, useLanguage} from './texts.js';
 
 const kEmotions = ['NEUTRAL', 'HAPPY', 'SAD', 'ANGRY', 'SURPRISED', 'DISGUSTED', 'FEARED'];
-const kLanguages = [['AUTO', 'automatic'], ['en', 'English'], ['ja', '日本語']];
+const kOwnLanguages = ['en', 'ja'];  // the page's own, which are there whatever runs
+const kByScript = 'ja';              // the voice finds by itself who speaks it
 const kFullStrength = 100;
 
 function fill(select, values, now) {
@@ -12,6 +13,9 @@ function fill(select, values, now) {
   select.value = now;
   select.disabled = values.length === 0;
 }
+
+// "en ja" as a list; null where any language is meant, or none is told.
+const codesOf = words => words === '*' || words === '' ? null : words.split(/\s+/);
 
 export class Pickers {
   // `nodes`: face, voice, language, emotion (select), strength (range), strength_value, and canvas, which is named after them.
@@ -25,15 +29,13 @@ export class Pickers {
       return option;
     });
     nodes.emotion.replaceChildren(...emotions);
-    nodes.language.replaceChildren(...kLanguages.map(([value, name]) => {
-      const option = element('option', {value, textContent: name});
-      if (value === 'AUTO') put(option, name);
-      return option;
-    }));
+    this.speakers = new Map();    // of each language of the voice
+    this.answers = kOwnLanguages; // the languages of the module that answers; null: any
+    this.understood = null;       // those of the ear; null: any
     nodes.emotion.value = this.chosen.emotion || 'NEUTRAL';
     nodes.strength.value = this.chosen.strength ?? kFullStrength;
-    nodes.language.value = this.chosen.language || 'AUTO';
-    useLanguage(nodes.language.value);
+    useLanguage(this.chosen.language || 'AUTO');
+    this.showLanguages();
     for (const [what, node] of [['face', nodes.face], ['voice', nodes.voice], ['language', nodes.language],
                                 ['emotion', nodes.emotion], ['strength', nodes.strength]]) {
       node.onchange = () => this.choose(what, node.value);
@@ -43,12 +45,43 @@ export class Pickers {
     this.show();
   }
 
+  // Those that are both answered in and spoken; which of them the ear does not understand is said.
+  showLanguages() {
+    const {language} = this.nodes, now = this.chosen.language || 'AUTO';
+    const spoken = [...this.speakers.keys()];
+    const codes = spoken.length === 0 ? kOwnLanguages : this.answers ? this.answers.filter(code => spoken.includes(code)) : spoken;
+    const options = [...new Set(['AUTO', ...codes, now])].map(value => element('option', {value}));
+    language.replaceChildren(...options);
+    language.value = now;
+    this.nameLanguages();
+  }
+  nameLanguages() {
+    for (const option of this.nodes.language.options) {
+      const {value} = option;
+      if (value === 'AUTO') {
+        put(option, 'automatic');
+        continue;
+      }
+      const name = new Intl.DisplayNames([value], {type: 'language'}).of(value) ?? value;
+      const heard = !this.understood || this.understood.includes(value);
+      option.textContent = heard ? name : text('typed_only', {language: name});
+    }
+  }
+  // Latin letters are read in the speaker's own language, so that has to be the one chosen.
+  async speakIn(language) {
+    const names = this.speakers.get(language);
+    if (!names || language === kByScript || names.includes(this.nodes.voice.value)) return;
+    this.nodes.voice.value = names[0];
+    this.choose('voice', names[0]);
+  }
+
   choose(what, value) {
     this.chosen[what] = value;
     sessionStorage.setItem('chosen', JSON.stringify(this.chosen));
-    if (what === 'language') useLanguage(value);
+    if (what === 'language') useLanguage(value), this.nameLanguages();
     this.show();
     this.set(what === 'strength' ? 'emotion' : what);
+    if (what === 'language') this.speakIn(value);
   }
   show() {
     const {strength, strength_value, emotion, canvas, face} = this.nodes;
@@ -93,7 +126,20 @@ export class Pickers {
       await restore('voice', voices, 'to @SSM inq Speaker');
     }
     if (name === 'CHAT' && this.chosen.language) await this.set('language');
+    this.learnLanguages(name, list);  // not awaited: the page goes on without them
     this.show();
+  }
+  async learnLanguages(name, list) {
+    const question = {SSM: 'Speaker.languages', SRM: 'Listen.languages', CHAT: 'Language.all'}[name];
+    if (!question) return;
+    const words = await list(`to @${name} inq ${question}`);
+    if (name === 'SSM') {
+      const languages = words.split(';').map(part => part.trim().split(/\s+/)).filter(([code]) => code);
+      this.speakers = new Map(languages.map(([code, ...names]) => [code, names]));
+    }
+    if (name === 'SRM') this.understood = codesOf(words);
+    if (name === 'CHAT') this.answers = codesOf(words);
+    this.showLanguages();
   }
   // "ANGRY 1 60 0": its name, pattern and strength.
   showExpression(words) {

@@ -34,7 +34,7 @@ const kTexts = {
     mic_denied: 'The browser was told not to give the microphone.', mic_missing: 'This computer has no microphone.',
     not_understood: 'not understood: {what}', deaf: 'The ear does not listen.',
     settings: 'Face and voice', pick_face: 'Face', pick_voice: 'Voice', pick_language: 'Language',
-    pick_emotion: 'Emotion', pick_strength: 'Strength', automatic: 'automatic',
+    pick_emotion: 'Emotion', pick_strength: 'Strength', automatic: 'automatic', typed_only: '{language} (typed only)',
     NEUTRAL: 'neutral', HAPPY: 'happy', SAD: 'sad', ANGRY: 'angry', SURPRISED: 'surprised', DISGUSTED: 'disgusted', FEARED: 'afraid',
   },
   ja: {
@@ -71,7 +71,7 @@ const kTexts = {
     mic_denied: 'ブラウザーでマイクが許可されていません。', mic_missing: 'この機械にはマイクがありません。',
     not_understood: 'わかりませんでした：{what}', deaf: '耳は今聞いていません。',
     settings: '顔と声', pick_face: '顔', pick_voice: '声', pick_language: '言語',
-    pick_emotion: '感情', pick_strength: '強さ', automatic: '自動',
+    pick_emotion: '感情', pick_strength: '強さ', automatic: '自動', typed_only: '{language}（文字のみ）',
     NEUTRAL: 'ふつう', HAPPY: '喜び', SAD: '悲しみ', ANGRY: '怒り', SURPRISED: '驚き', DISGUSTED: '嫌悪', FEARED: '恐れ',
   },
 };
