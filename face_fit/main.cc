@@ -96,15 +96,15 @@ void NoticeLeftOut(const std::string& path, const std::string& why) {
 std::vector<facefit::SidePhoto> ReadSidePhotos(const Options& options,
                                                facefit::FaceNetworks& networks) {
   vm::OrThrow(facefit::CheckSidePhotoCount(options.views.size()));
-  std::vector<facefit::SidePhoto> sides;
+  std::vector<facefit::SidePhoto> side_photos;
   for (const std::string& path : options.views) {
-    if (auto side = facefit::ReadSidePhoto(networks, path)) {
-      sides.push_back(std::move(*side));
+    if (auto side_photo = facefit::ReadSidePhoto(networks, path)) {
+      side_photos.push_back(std::move(*side_photo));
     } else {
-      NoticeLeftOut(path, side.error().text);
+      NoticeLeftOut(path, side_photo.error().text);
     }
   }
-  return sides;
+  return side_photos;
 }
 
 /// Where in the whole photo the face lies, in the pixels of --points.
@@ -146,9 +146,9 @@ struct Workshop {
 /// Makes the face that a photo shows and writes it. REQUIRES: front.face
 void WriteFace(const Options& options, Workshop& workshop, const facefit::FrontPhoto& front,
                Progress& progress) {
-  const std::vector<facefit::SidePhoto> sides = ReadSidePhotos(options, workshop.networks);
+  const std::vector<facefit::SidePhoto> read = ReadSidePhotos(options, workshop.networks);
   facefit::SidePhotos side_photos{workshop.networks, {}};
-  for (const facefit::SidePhoto& side : sides) side_photos.photos.push_back(&side);
+  for (const facefit::SidePhoto& side_photo : read) side_photos.photos.push_back(&side_photo);
   std::optional<bool> glasses;
   if (!options.glasses.empty()) glasses = options.glasses == "yes";
   const auto made =

@@ -106,10 +106,10 @@ vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const ObservedHead& 
 }
 
 vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
-                              const FoundFace& face, const std::optional<SidePhotos>& sides,
+                              const FoundFace& face, const std::optional<SidePhotos>& side_photos,
                               std::optional<bool> glasses, const StepDone& done) {
-  if (sides) {
-    if (auto few = CheckSidePhotoCount(sides->photos.size()); !few) {
+  if (side_photos) {
+    if (auto few = CheckSidePhotoCount(side_photos->photos.size()); !few) {
       return std::unexpected(few.error());
     }
   }
@@ -120,12 +120,12 @@ vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
   done("head fitted");
   std::vector<SideView> views;
   std::vector<MadeFace::LeftOut> left_out;
-  for (const SidePhoto* side : sides ? sides->photos : std::vector<const SidePhoto*>{}) {
-    if (auto corrected = CorrectDepthBy(sides->networks, front.photo, *side, fit)) {
-      fit = std::move(corrected->fit);
-      views.push_back(std::move(corrected->view));
+  for (const SidePhoto* side_photo :
+       side_photos ? side_photos->photos : std::vector<const SidePhoto*>{}) {
+    if (auto view = CorrectDepthBy(side_photos->networks, front.photo, *side_photo, fit)) {
+      views.push_back(std::move(*view));
     } else {
-      left_out.push_back({side->path, corrected.error().text});
+      left_out.push_back({side_photo->path, view.error().text});
     }
   }
   if (!views.empty()) done("seen from the side, too");

@@ -80,7 +80,7 @@ struct MadeFace {
 /// with.
 vm::Result<MadeFace> MakeFace(
     const ObservedHead& base, const FrontPhoto& front, const FoundFace& face,
-    const std::optional<SidePhotos>& sides = {}, std::optional<bool> glasses = {},
+    const std::optional<SidePhotos>& side_photos = {}, std::optional<bool> glasses = {},
     const StepDone& done = [](const char*) {});
 
 }  // namespace facefit

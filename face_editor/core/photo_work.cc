@@ -99,13 +99,12 @@ vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& s
                                                                     const PointMap& points,
                                                                     const std::string& path) {
   try {
-    auto side = facefit::ReadSidePhoto(sight.networks, path);
-    if (!side) return std::unexpected(side.error());
-    const auto fit = facefit::FitFace(*work.base, FoundFrom(points), &work.front.photo);
-    if (auto used = facefit::CorrectDepthBy(sight.networks, work.front.photo, *side, fit); !used) {
-      return vm::Fail(used.error().code, path + ": " + used.error().text);
-    }
-    return std::make_shared<const facefit::SidePhoto>(std::move(*side));
+    auto side_photo = facefit::ReadSidePhoto(sight.networks, path);
+    if (!side_photo) return std::unexpected(side_photo.error());
+    auto fit = facefit::FitFace(*work.base, FoundFrom(points), &work.front.photo);
+    const auto view = facefit::CorrectDepthBy(sight.networks, work.front.photo, *side_photo, fit);
+    if (!view) return vm::Fail(view.error().code, path + ": " + view.error().text);
+    return std::make_shared<const facefit::SidePhoto>(std::move(*side_photo));
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue, path + ": " + error.what());
   }

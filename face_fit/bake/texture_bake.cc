@@ -62,13 +62,13 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
     // Too slanted a texel is drawn from a line of pixels.
     if (texels.values[i].facing < look.facing_cos.x || !IsInside(colours, texels.values[i].pixel))
       continue;
-    const float side = fsm::SmoothStep(look.facing_cos, texels.values[i].facing) *
+    const float seen = fsm::SmoothStep(look.facing_cos, texels.values[i].facing) *
                        fsm::SmoothStep(look.across_mm, towards * front.values[i].x_mm);
     const float own =
         coverage.values[i] * fsm::SmoothStep(look.front_facing_cos, front.values[i].facing);
-    const float sum = own + (1 - own) * side;
-    if (sum <= coverage.values[i] * 0.01F || side <= 0) continue;
-    const float blend = (1 - own) * side / std::max(sum, 1e-4F);
+    const float sum = own + (1 - own) * seen;
+    if (sum <= coverage.values[i] * 0.01F || seen <= 0) continue;
+    const float blend = (1 - own) * seen / std::max(sum, 1e-4F);
     const glm::vec3 colour = glm::min(gain * ColourAt(colours, texels.values[i].pixel), 255.0F);
     SetRgb(map, i, glm::mix(Rgb(map, i), colour, blend));
     coverage.values[i] = std::max(coverage.values[i], sum);
@@ -203,13 +203,13 @@ fsm::Image SideBySide(const fsm::Image& map, const fsm::Image& back, const Float
 }  // namespace
 
 TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-                        const FigureCutout& figure, std::span<const SideView> sides) {
+                        const FigureCutout& figure, std::span<const SideView> side_views) {
   const FittedHead& fitted = fit.head;
   const SkinTexels texels = ProjectSkin(fitted, fitted.pose, SelfHidden::kNotSeen);
   const bool open = fitted.expression.jaw + fitted.expression.parted > kMouthOpen;
   PaintedMap map = PaintPhoto(face, fitted, texels, open, figure.colours);
   std::vector<glm::vec3> also_seen;
-  for (const SideView& view : sides) {
+  for (const SideView& view : side_views) {
     if (view.outline_only) continue;
     BlendSideView(fitted, view, texels, map.image, map.coverage);
     also_seen.push_back(view.pose.TowardsCamera());

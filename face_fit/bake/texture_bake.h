@@ -15,9 +15,9 @@ struct TextureBake {
   Completed completed;  ///< what of the figure it does not
 };
 
-/// `figure`: of `photo`; `sides`: photos of the same person from the side, may be empty. Pure;
+/// `figure`: of `photo`; `side_views`: photos of the same person from the side, may be empty. Pure;
 /// thread: any.
 TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-                        const FigureCutout& figure, std::span<const SideView> sides);
+                        const FigureCutout& figure, std::span<const SideView> side_views);
 
 }  // namespace facefit

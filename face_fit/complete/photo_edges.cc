@@ -223,19 +223,19 @@ std::vector<UpperEdgeSample> ReadTop(const EdgeReader& reader, glm::ivec2 size, 
 std::vector<UpperEdgeSample> ReadSide(const EdgeReader& reader, PhotoEdge edge, float chin,
                                       glm::ivec2 size, int band) {
   const bool left = edge == PhotoEdge::kLeft;
-  std::vector<UpperEdgeSample> side;
+  std::vector<UpperEdgeSample> samples;
   for (int y = 0; y < size.y; ++y) {
-    side.push_back({reader.Sample({left ? 0 : size.x - band, y}, {band, 1}),
-                    reader.HairDepth({left ? 0 : size.x - 1, y}, {left ? 1 : -1, 0}, size.x)});
+    samples.push_back({reader.Sample({left ? 0 : size.x - band, y}, {band, 1}),
+                       reader.HairDepth({left ? 0 : size.x - 1, y}, {left ? 1 : -1, 0}, size.x)});
   }
   // Hair hangs down from the head: dark cloth below a gap is none.
   bool gap = false;
   for (int y = std::max(static_cast<int>(chin), 0); y < size.y; ++y) {
-    EdgeKind& kind = side[static_cast<std::size_t>(y)].kind;
+    EdgeKind& kind = samples[static_cast<std::size_t>(y)].kind;
     gap = gap || kind == EdgeKind::kNothing;
     if (gap && kind == EdgeKind::kHair) kind = EdgeKind::kCloth;
   }
-  return side;
+  return samples;
 }
 
 /// The mean colour of the figure at both sides above the chin, which is hair or hat whatever its
@@ -244,9 +244,9 @@ glm::vec3 HairBeside(const PerEdge<std::vector<UpperEdgeSample>>& aside, float c
                      glm::vec3 skin) {
   glm::vec4 sum(0);
   for (const PhotoEdge edge : kPhotoEdges) {
-    const auto& side = aside[edge];
-    for (std::size_t y = 0; y < side.size() && static_cast<float>(y) < chin; ++y) {
-      if (side[y].kind != EdgeKind::kNothing) sum += glm::vec4(side[y].colour, 1);
+    const auto& samples = aside[edge];
+    for (std::size_t y = 0; y < samples.size() && static_cast<float>(y) < chin; ++y) {
+      if (samples[y].kind != EdgeKind::kNothing) sum += glm::vec4(samples[y].colour, 1);
     }
   }
   return sum.w > 0 ? glm::vec3(sum) / sum.w : PhotoLook().hair.unseen_by_skin * skin;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "face_fit/find/face/lid_lines.h"
 #include "face_fit/fit/least_squares.h"
 #include "face_fit/picture/plane.h"
 #include "face_fit/tables/photo_look.h"
@@ -16,11 +17,7 @@ namespace {
 // Plausible limits. Sizes are relative to the built-in eye, the turn in radians, the raise of the
 // lids in millimetres.
 constexpr glm::vec2 kSize{0.82F, 1.2F}, kTurn{-0.25F, 0.25F}, kUpperRaise{-6, 0.7F},
-    kLowerRaise{-2.5F, 3.5F}, kIrisSize{0.8F, 1.12F};
-/// How far an iris may lie above or below the middle between the lids: so differently do eyes rest;
-/// and by how much the lids are moved at most.
-constexpr float kFreeRestMm = 0.5F, kMaxShiftMm = 3;
-
+    kLowerRaise{-2.5F, 3.5F};
 float Within(glm::vec2 range, float v) { return std::clamp(v, range.x, range.y); }
 
 fsm::EyeTransform FitEye(const ObservedHead& base, const std::map<PointIndex, glm::vec3>& to,
@@ -54,90 +51,11 @@ fsm::EyeTransform FitEye(const ObservedHead& base, const std::map<PointIndex, gl
   return transform;
 }
 
-/// An eye's outline in the photo: corners and the middle between the lids.
-struct LidSpan {
-  glm::vec2 outer, inner, middle;
-};
-template <typename Place>
-LidSpan LidSpanOf(fsm::Side side, Place place) {
-  const auto outline = EyeOutline(side);
-  // The lids' middles lie as far from the corner on either side.
-  return {place(outline[kOuterCorner]), place(outline[kInnerCorner]),
-          0.5F * (place(outline[kUpperMiddle]) + place(outline[kLowerMiddle]))};
-}
-/// Where the iris is expected; millimetres are those of the base head's eye.
-struct IrisPlacement {
-  glm::vec2 centre;
-  float pixels_per_mm;
-};
-IrisPlacement ExpectedIris(const ObservedHead& base, const LidSpan& photo, fsm::Side side) {
-  const LidSpan own = LidSpanOf(
-      side, [&base](PointIndex i) { return glm::vec2(1, -1) * glm::vec2(base.AtRest(i)); });
-  const glm::vec3 ball = base.head().topology().eyes[side].centre;
-  const glm::vec2 from = own.inner - own.outer, to = photo.inner - photo.outer;
-  const float pixels_per_mm = glm::length(to) / std::max(glm::length(from), 1e-3F);
-  const float turn_rad = std::atan2(to.y, to.x) - std::atan2(from.y, from.x);
-  const glm::vec2 from_middle = glm::vec2(ball.x, -ball.y) - own.middle;
-  return {photo.middle + pixels_per_mm * Rotated(from_middle, turn_rad), pixels_per_mm};
-}
-
 }  // namespace
 
 fsm::Sided<fsm::EyeTransform> FitEyes(const ObservedHead& base,
                                       const std::map<PointIndex, glm::vec3>& to) {
   return {FitEye(base, to, fsm::Side::kRight), FitEye(base, to, fsm::Side::kLeft)};
-}
-
-PhotoIrises FindPhotoIrises(const ObservedHead& base, const FoundFace& face,
-                            const fsm::Image* photo) {
-  PhotoIrises irises;
-  fsm::Sided<OpenEye> eyes;
-  for (const fsm::Side side : fsm::kSides) {
-    const auto place = [&face](PointIndex i) { return face.PixelOf(i); };
-    const IrisPlacement iris = ExpectedIris(base, LidSpanOf(side, place), side);
-    std::ranges::transform(EyeOutline(side), eyes[side].lids.begin(), place);
-    eyes[side].middle = iris.centre;
-    eyes[side].expected_radius = iris.pixels_per_mm * base.head().topology().eyes[side].iris_radius;
-    irises.circles[side] = {
-        .centre = iris.centre, .radius = eyes[side].expected_radius, .contrast = 0};
-  }
-  if (!photo) return irises;
-  const auto found = FindIrises(*photo, std::array{eyes.right, eyes.left});
-  float size = 0, count = 0;
-  for (const fsm::Side side : fsm::kSides) {
-    const IrisCircle& iris = found[static_cast<std::size_t>(side)];
-    if (iris.contrast < kClearIris) continue;
-    irises.circles[side] = iris;
-    size += iris.radius / eyes[side].expected_radius;
-    count += 1;
-  }
-  if (count > 0) irises.size = Within(kIrisSize, size / count);
-  return irises;
-}
-
-std::vector<LandmarkConstraint> ShiftLidsToIrises(const ObservedHead& base,
-                                                  const PhotoIrises& irises,
-                                                  std::vector<LandmarkConstraint> constraints) {
-  for (const fsm::Side side : fsm::kSides) {
-    const IrisCircle& iris = irises.circles[side];
-    if (iris.contrast <= 0) continue;
-    const LidSpan span = LidSpanOf(side, [&constraints](PointIndex i) {
-      return std::ranges::find(constraints, i, &LandmarkConstraint::point)->pixel;
-    });
-    const IrisPlacement expected = ExpectedIris(base, span, side);
-    const glm::vec2 axis = glm::normalize(span.inner - span.outer);
-    const glm::vec2 across(-axis.y, axis.x);
-    const float free_px = kFreeRestMm * expected.pixels_per_mm;
-    const float max_px = kMaxShiftMm * expected.pixels_per_mm;
-    const float shift_px =
-        std::clamp(glm::dot(iris.centre - expected.centre, across), -max_px, max_px);
-    if (std::abs(shift_px) <= free_px) continue;
-    for (LandmarkConstraint& constraint : constraints) {
-      if (!Contains(EyeOutline(side), constraint.point)) continue;
-      constraint.pixel += (shift_px - std::copysign(free_px, shift_px)) * across;
-    }
-  }
-  return constraints;
 }
 
 fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted) {

@@ -5,9 +5,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "face_fit/find/face/mouth_line.h"
-#include "face_fit/fit/eye_fit.h"
 #include "face_fit/fit/landmark_warp.h"
+#include "face_fit/fit/pose_fit.h"
 
 namespace facefit {
 namespace {
@@ -23,13 +22,6 @@ Expression ExpressionOf(const Parameters& p) {
   };
   return {.smile = strength(kSmile), .jaw = strength(kJaw), .parted = strength(kParted)};
 }
-
-struct FitProblem {
-  const ObservedHead& base;
-  const FoundFace& face;
-  std::vector<float> depth_bias;  ///< true minus seen, of the base head, mean removed
-  bool lips_apart;
-};
 
 std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& parameters) {
   const CameraPose pose = PoseOf(parameters);
@@ -71,18 +63,6 @@ Parameters Refine(const FitProblem& problem, const CameraPose& start) {
                             unknowns, kPoseRounds);
 }
 
-/// What the network sees of depth too much or too little on the base head; mean 0, millimetres.
-std::vector<float> DepthBias(const ObservedHead& base) {
-  std::vector<float> bias;
-  float mean = 0;
-  for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-    bias.push_back(base.AtRest(i).z - base.detected()[i].z);
-    mean += bias.back() / static_cast<float>(kNetworkPoints);
-  }
-  for (float& b : bias) b -= mean;
-  return bias;
-}
-
 /// Size, position and tilt by the outer corners of the eyes and the root of the nose.
 CameraPose InitialPose(const ObservedHead& base, const FoundFace& face) {
   using namespace point;
@@ -104,27 +84,6 @@ float SmileBeyondRest(float smile, bool lips_apart) {
   return std::max(smile - kUsualClosed, 0.0F);
 }
 
-/// Where the network sees the points of the face, their depth mostly as the head's own form has it.
-std::vector<LandmarkConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
-                                              const std::vector<glm::vec3>& now) {
-  constexpr float kTrustDepth = 0.3F, kMaxDepthGapMm = 15;
-  const float mm_per_pixel = 1 / pose.PixelsPerMm();
-  std::vector<LandmarkConstraint> constraints;
-  std::vector<float> depth_gaps;
-  float mean = 0;
-  for (const PointIndex k : point::kForFit) {
-    const glm::vec3 q = pose.ToCamera(problem.base.places()[k].On(now));
-    depth_gaps.push_back(problem.face.points[k].z * mm_per_pixel + problem.depth_bias[k] - q.z);
-    mean += depth_gaps.back() / static_cast<float>(std::size(point::kForFit));
-    constraints.push_back({k, problem.base.places()[k], problem.face.PixelOf(k), q.z});
-  }
-  for (std::size_t i = 0; i < depth_gaps.size(); ++i) {
-    constraints[i].z_mm +=
-        kTrustDepth * std::clamp(depth_gaps[i] - mean, -kMaxDepthGapMm, kMaxDepthGapMm);
-  }
-  return constraints;
-}
-
 /// Mean distance of the network's points from those of the fitted head, millimetres.
 float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
   float sum = 0;
@@ -138,20 +97,13 @@ float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
 }  // namespace
 
 Fit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image* photo) {
-  const FitProblem problem{base, face, DepthBias(base), LipsApart(face)};
+  const FitProblem problem(base, face);
   const Parameters settled = Refine(problem, InitialPose(base, face));
   const CameraPose pose = PoseOf(settled);
   Expression expression = ExpressionOf(settled);
   expression.smile = SmileBeyondRest(expression.smile, problem.lips_apart);
-  fsm::HeadVertices now;
-  base.head().Evaluate(expression.State(), now);
   const PhotoIrises irises = FindPhotoIrises(base, face, photo);
-  auto constraints = ShiftLidsToIrises(base, irises, ConstraintsOf(problem, pose, now.position));
-  if (photo && !problem.lips_apart) {
-    constraints =
-        ConstrainToMouthLine(base, face, pose, now.position, *photo, std::move(constraints));
-  }
-  PhotoTargets targets{std::move(constraints), problem.lips_apart};
+  PhotoTargets targets = TargetsOf(problem, pose, expression, irises, photo);
   FittedHead head = WarpToLandmarks(base, pose, expression, targets);
   const float residual_mm = ResidualMm(face, head);
   return {std::move(head), std::move(targets), irises, residual_mm};

@@ -5,7 +5,7 @@
 #include "face_fit/find/head/observed_head.h"
 #include "face_fit/find/network/face_finder.h"
 #include "face_fit/fit/fitted_head.h"
-#include "face_fit/fit/pose_fit.h"
+#include "face_fit/fit/photo_targets.h"
 
 namespace facefit {
 
@@ -25,11 +25,5 @@ Fit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image* p
 /// The fit with other constraints: its head is warped again, its residual stays that of the first
 /// warp.
 Fit WithConstraints(const Fit& fit, std::vector<LandmarkConstraint> constraints);
-
-/// A fit whose depth another photo of the person has corrected, and how that photo was taken.
-struct CorrectedFit {
-  Fit fit;
-  PoseFit side;
-};
 
 }  // namespace facefit

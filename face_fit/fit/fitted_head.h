@@ -3,7 +3,6 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/find/face/iris.h"
 #include "face_fit/find/head/observed_head.h"
 #include "face_fit/fit/camera_pose.h"
 #include "fsm/head/warp.h"
@@ -28,26 +27,6 @@ struct Expression {
     }
     return state;
   }
-};
-
-/// A point of the head, where the photo shows it, and its depth.
-struct LandmarkConstraint {
-  PointIndex point;  ///< of the network, or kNoPoint
-  MeshPoint on_head;
-  glm::vec2 pixel;
-  float z_mm;  ///< in the camera's frame, towards it
-};
-
-/// What the photo says of the form of the head.
-struct PhotoTargets {
-  std::vector<LandmarkConstraint> constraints;
-  bool lips_apart = false;
-};
-
-/// The irises in the photo.
-struct PhotoIrises {
-  fsm::Sided<IrisCircle> circles;
-  float size = 1;  ///< iris radius relative to the built-in head's, after scaling by the eye's size
 };
 
 /// The base head brought into the form, pose and expression of the photo.

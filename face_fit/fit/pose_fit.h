@@ -41,12 +41,7 @@ CameraPose RefinePose(std::span<const PointMatch> matches, const CameraPose& sta
 /// The pose that shows places nearest to pixels, with the turn as given.
 CameraPose PoseWithTurn(const std::vector<glm::vec3>& places, const std::vector<glm::vec2>& pixels,
                         glm::vec3 turn_rad);
-/// A pose, and the mean distance between the matches and where it projects them.
-struct PoseFit {
-  CameraPose pose;
-  float residual_mm = 0;
-};
-/// That mean distance, each match by its weight.
+/// The mean distance between the matches and where a pose projects them, each by its weight.
 float MeanDistanceMm(const CameraPose& pose, std::span<const PointMatch> matches);
 
 }  // namespace facefit

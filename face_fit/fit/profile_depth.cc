@@ -6,6 +6,7 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "face_fit/fit/pose_fit.h"
 #include "face_fit/fit/profile_search.h"
 
 namespace facefit {
@@ -110,7 +111,7 @@ Fit WithoutGaps(const DepthGaps& gaps, const Fit& fit) {
 }
 
 /// The pose that shows the profile where it was found.
-CameraPose PoseAt(const ProfilePlacement& placement, const std::vector<glm::vec3>& line) {
+CameraPose PoseOf(const ProfilePlacement& placement, const std::vector<glm::vec3>& line) {
   std::vector<glm::vec2> pixels;
   for (const glm::vec3& p : line) pixels.push_back(placement.PixelOf(p));
   return PoseWithTurn(
@@ -120,20 +121,19 @@ CameraPose PoseAt(const ProfilePlacement& placement, const std::vector<glm::vec3
 
 }  // namespace
 
-std::optional<CorrectedFit> CorrectDepthByProfile(const Fit& fit, const FloatImage& opacity) {
+std::optional<CameraPose> CorrectDepthByProfile(const FloatImage& opacity, Fit& fit) {
   const auto placement = FindProfile(fit.head, opacity);
   if (!placement) return std::nullopt;
   std::vector<glm::vec3> line = ProfileOf(fit.head, kProfileBelowChinMm);
-  CameraPose pose = FitPoseToOutline(opacity, PoseAt(*placement, line), line);
-  const float residual_mm = MeanDepthGap(opacity, pose, line);
-  if (residual_mm > kMaxProfileGapMm) return std::nullopt;
-  Fit corrected = WithoutGaps(DepthGaps(opacity, pose, line), fit);
+  CameraPose pose = FitPoseToOutline(opacity, PoseOf(*placement, line), line);
+  if (MeanDepthGap(opacity, pose, line) > kMaxProfileGapMm) return std::nullopt;
+  fit = WithoutGaps(DepthGaps(opacity, pose, line), fit);
   for (int round = 1; round < kProfileRounds; ++round) {
-    line = ProfileOf(corrected.head, kProfileBelowChinMm);
+    line = ProfileOf(fit.head, kProfileBelowChinMm);
     pose = FitPoseToOutline(opacity, pose, line);
-    corrected = WithoutGaps(DepthGaps(opacity, pose, line), corrected);
+    fit = WithoutGaps(DepthGaps(opacity, pose, line), fit);
   }
-  return CorrectedFit{std::move(corrected), {pose, residual_mm}};
+  return pose;
 }
 
 }  // namespace facefit

@@ -35,7 +35,7 @@ constexpr float kOutlierMm = 8;           // a place farther off than this count
 constexpr float kScorePerMm = 0.05F;      // concordance that a millimetre of distance is worth
 
 /// The figure's outermost column of each row, to the right (direction 1) or to the left; -1: none.
-std::vector<float> Outline(const FloatImage& opacity, int direction) {
+std::vector<float> OutlineColumns(const FloatImage& opacity, int direction) {
   std::vector<float> columns(static_cast<std::size_t>(opacity.height), -1);
   for (int y = 0; y < opacity.height; ++y) {
     for (int k = 0; k < opacity.width; ++k) {
@@ -85,7 +85,7 @@ float Concordance(std::vector<float> a, std::vector<float> b) {
 
 /// How like the outline the profile is with that size, tilt and row, in the column where both are
 /// nearest; nothing if it does not fit the picture or lies too far from the outline.
-std::optional<ProfileMatch> MatchAt(const std::vector<glm::vec3>& line,
+std::optional<ProfileMatch> MatchOf(const std::vector<glm::vec3>& line,
                                     const std::vector<float>& columns, ProfilePlacement placement) {
   placement.pixel.x = 0;
   std::vector<float> profile, gaps;
@@ -125,7 +125,7 @@ ProfileMatch RefinedMatch(const std::vector<glm::vec3>& line, const std::vector<
         other.pixels_per_mm *= 1 + kFirstScale * step * direction.x;
         other.pixel.y += kRowStepMm * other.pixels_per_mm * step * direction.y;
         other.tilt_rad += glm::radians(kFirstDegrees * step) * direction.z;
-        const auto match = MatchAt(line, columns, other);
+        const auto match = MatchOf(line, columns, other);
         if (match && match->Score() > best.Score()) best = *match;
       }
     }
@@ -155,7 +155,7 @@ std::optional<ProfileMatch> SearchOutline(const std::vector<glm::vec3>& line,
     for (const float degrees : kLeanDegrees) {
       const float step = std::max(kRowStepMm * pixels_per_mm, 1.0F);
       for (float row = rows.top; row < rows.bottom; row += step) {
-        const auto match = MatchAt(line, columns,
+        const auto match = MatchOf(line, columns,
                                    {.direction = direction,
                                     .pixels_per_mm = pixels_per_mm,
                                     .tilt_rad = glm::radians(degrees),
@@ -205,7 +205,7 @@ std::optional<ProfilePlacement> FindProfile(const FittedHead& fitted, const Floa
   const std::vector<glm::vec3> line = ProfileOf(fitted, kThroatMm);
   std::optional<ProfileMatch> best;
   for (const int direction : {1, -1}) {
-    const std::vector<float> columns = Outline(opacity, direction);
+    const std::vector<float> columns = OutlineColumns(opacity, direction);
     const FigureRows rows = FigureRowsOf(columns);
     if (rows.Height() < kMinHeightPx || line.size() < kMinPlaces) return {};
     const auto match = SearchOutline(line, columns, direction, rows);

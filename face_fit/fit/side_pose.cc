@@ -40,7 +40,7 @@ std::vector<ComparedPoint> ComparedPoints(const FittedHead& fitted) {
   return points;
 }
 
-/// As matches of a pose, without the bias.
+/// The points as matches for RefinePose, the bias taken off.
 std::vector<PointMatch> MatchesOf(const std::vector<ComparedPoint>& points, const FoundFace& face,
                                   const CameraPose& pose) {
   std::vector<PointMatch> matches;
@@ -101,10 +101,10 @@ CameraPose FindPose(const FittedHead& fitted, const FoundFace& face,
 
 }  // namespace
 
-vm::Result<PoseFit> FitSidePose(FaceNetworks& networks, const FittedHead& fitted,
-                                const SidePhoto& side) {
-  if (side.faces.empty()) return vm::Fail(vm::Errc::kBadValue, "no face is found in it");
-  const FoundFace& face = side.faces.front();
+vm::Result<CameraPose> FitSidePose(FaceNetworks& networks, const FittedHead& fitted,
+                                   const SidePhoto& side_photo) {
+  if (side_photo.faces.empty()) return vm::Fail(vm::Errc::kBadValue, "no face is found in it");
+  const FoundFace& face = side_photo.faces.front();
   if (face.certainty < kMinCertainty) {
     return vm::Fail(vm::Errc::kBadValue,
                     "no eyes, nose and mouth can be told apart in it; turned by 20 to 60 degrees "
@@ -132,7 +132,7 @@ vm::Result<PoseFit> FitSidePose(FaceNetworks& networks, const FittedHead& fitted
                                 "apart); is it the same person?",
                                 residual_mm));
   }
-  return PoseFit{pose, residual_mm};
+  return pose;
 }
 
 }  // namespace facefit

@@ -10,7 +10,7 @@ namespace facefit {
 /// that pose and shown to the same network: what the network gets wrong of the drawn head is
 /// subtracted from what it says of the photo. Errors (kBadValue, in words): no face; from the front
 /// again; turned too far; not this face.
-vm::Result<PoseFit> FitSidePose(FaceNetworks& networks, const FittedHead& fitted,
-                                const SidePhoto& side);
+vm::Result<CameraPose> FitSidePose(FaceNetworks& networks, const FittedHead& fitted,
+                                   const SidePhoto& side_photo);
 
 }  // namespace facefit

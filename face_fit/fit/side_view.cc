@@ -9,20 +9,19 @@
 
 namespace facefit {
 
-vm::Result<SideCorrection> CorrectDepthBy(FaceNetworks& networks, const fsm::Image& front,
-                                          const SidePhoto& side, const Fit& fit) {
-  FigureCutout figure = CutOutFigure(side.photo, SegmentPerson(networks, side.photo));
-  const auto pose = FitSidePose(networks, fit.head, side);
-  if (pose) {
-    CorrectedFit corrected = CorrectDepthByStereo(fit, front, side.photo, *pose);
-    return SideCorrection{std::move(corrected.fit), {corrected.side.pose, std::move(figure)}};
+vm::Result<SideView> CorrectDepthBy(FaceNetworks& networks, const fsm::Image& front_image,
+                                    const SidePhoto& side_photo, Fit& fit) {
+  FigureCutout figure = CutOutFigure(side_photo.photo, SegmentPerson(networks, side_photo.photo));
+  auto side_pose = FitSidePose(networks, fit.head, side_photo);
+  if (side_pose) {
+    CorrectDepthByStereo(front_image, side_photo.photo, *side_pose, fit);
+    return SideView{*side_pose, std::move(figure)};
   }
   // In full profile the network finds no face, or places its points at will.
-  if (auto corrected = CorrectDepthByProfile(fit, figure.opacity)) {
-    return SideCorrection{std::move(corrected->fit),
-                          {corrected->side.pose, std::move(figure), true}};
+  if (const auto profile_pose = CorrectDepthByProfile(figure.opacity, fit)) {
+    return SideView{*profile_pose, std::move(figure), true};
   }
-  return std::unexpected(pose.error());
+  return std::unexpected(side_pose.error());
 }
 
 }  // namespace facefit

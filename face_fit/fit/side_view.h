@@ -15,14 +15,9 @@ struct SideView {
   bool outline_only = false;
 };
 
-/// A fit whose depth a photo from the side has corrected, and that photo.
-struct SideCorrection {
-  Fit fit;
-  SideView view;
-};
-/// Corrects the depth of a fit by a photo of the person from the side. `front`: the photo of the
-/// fit. Errors: as FitSidePose.
-vm::Result<SideCorrection> CorrectDepthBy(FaceNetworks& networks, const fsm::Image& front,
-                                          const SidePhoto& side, const Fit& fit);
+/// Corrects the depth of a fit by a photo of the person from the side, turned or in full profile.
+/// `front_image`: the photo of the fit. Errors, with which the fit stays as it is: as FitSidePose.
+vm::Result<SideView> CorrectDepthBy(FaceNetworks& networks, const fsm::Image& front_image,
+                                    const SidePhoto& side_photo, Fit& fit);
 
 }  // namespace facefit

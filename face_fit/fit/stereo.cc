@@ -46,11 +46,11 @@ VisibleSurface SkinInFront(const FittedHead& fitted) {
   return surface;
 }
 
-StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front,
-                         const CameraPose& side) {
+StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front_image,
+                         const CameraPose& side_pose) {
   const VisibleSurface surface = SkinInFront(fitted);
   const SampleGrid& grid = surface.grid();
-  const glm::vec3 to_front = fitted.pose.TowardsCamera(), to_side = side.TowardsCamera();
+  const glm::vec3 to_front = fitted.pose.TowardsCamera(), to_side = side_pose.TowardsCamera();
   const auto& posed = fitted.posed_vertices;
   return StereoSamples::From(grid.columns, grid.rows, [&](int x, int y) -> StereoSample {
     const MeshTriangle* triangle = surface.Triangle(x, y);
@@ -59,7 +59,7 @@ StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front,
     const glm::vec3 normal = glm::normalize(triangle->Normal(posed));
     return {.camera = fitted.pose.ToCamera(place.On(posed)),
             .rest = place.On(fitted.base->rest().position),
-            .light = Brightness(ColourAt(front, grid.Point(x, y))),
+            .light = Brightness(ColourAt(front_image, grid.Point(x, y))),
             .facing = glm::dot(normal, to_front),
             .facing_side = glm::dot(normal, to_side)};
   });
@@ -150,20 +150,20 @@ Peak FindPeak(int reach, F value) {
 /// Compares patches with what lies at some pixels of the second photo.
 class PatchMatcher {
  public:
-  explicit PatchMatcher(const fsm::Image& side) : side_(side) {}
+  explicit PatchMatcher(const fsm::Image& image) : image_(image) {}
   /// `pixel(i)`: where the i-th sample of the patch would lie.
   template <typename Pixel>
   float Match(const Patch& patch, Pixel pixel) {
     light_.clear();
     for (std::size_t i = 0; i < patch.camera.size(); ++i) {
-      light_.push_back(Brightness(ColourAt(side_, pixel(i))));
+      light_.push_back(Brightness(ColourAt(image_, pixel(i))));
     }
     RemovePlane(light_);
     return Correlation(patch.light, light_);
   }
 
  private:
-  const fsm::Image& side_;
+  const fsm::Image& image_;
   std::vector<float> light_;  // of one patch, kept for its memory
 };
 
@@ -176,12 +176,14 @@ constexpr int kDepthSteps = 14;
 constexpr int kPoseRefinements = 2;
 
 /// Where whole patches lie in the second photo, whatever their depth.
-std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPose& front,
-                                    const CameraPose& side, PatchMatcher& matcher) {
+std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPose& front_pose,
+                                    const CameraPose& side_pose, PatchMatcher& matcher) {
   std::vector<PointMatch> matches;
   std::vector<glm::vec2> pixels;
-  const float pixels_per_mm = side.PixelsPerMm();
-  const auto pixel_of = [&](const glm::vec3& q) { return side.Pixel(front.FromCamera(q)); };
+  const float pixels_per_mm = side_pose.PixelsPerMm();
+  const auto pixel_of = [&](const glm::vec3& q) {
+    return side_pose.Pixel(front_pose.FromCamera(q));
+  };
   for (const Patch& patch : PatchesOf(samples)) {
     // Projected once: turning a head takes longer than looking up a pixel.
     pixels.clear();
@@ -200,21 +202,22 @@ std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPo
     }
     if (best <= kMinCorrelation) continue;
     const glm::vec3 q = samples.values[patch.middle].camera;
-    matches.push_back({front.FromCamera(q), pixel_of(q) + best_shift_px, 1});
+    matches.push_back({front_pose.FromCamera(q), pixel_of(q) + best_shift_px, 1});
   }
   return matches;
 }
 
 /// How much nearer to the first camera each patch lies, where that is seen clearly.
-std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const CameraPose& front,
-                                       const CameraPose& side, PatchMatcher& matcher) {
+std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const CameraPose& front_pose,
+                                       const CameraPose& side_pose, PatchMatcher& matcher) {
   std::vector<fsm::WarpPoint> depths;
   for (const Patch& patch : PatchesOf(samples)) {
     const Peak peak = FindPeak(kDepthSteps, [&](int step) {
       const float nearer_mm = kDepthStepMm * static_cast<float>(step);
       const float correlation = matcher.Match(patch, [&](std::size_t i) {
         const glm::vec3& q = patch.camera[i];
-        return side.Pixel(front.FromCamera(front.Unproject(front.Project(q), q.z + nearer_mm)));
+        return side_pose.Pixel(
+            front_pose.FromCamera(front_pose.Unproject(front_pose.Project(q), q.z + nearer_mm)));
       });
       return correlation - kCorrelationPerMm2 * nearer_mm * nearer_mm;
     });
@@ -227,20 +230,19 @@ std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const Camer
 
 }  // namespace
 
-StereoDepths CompareDepth(const FittedHead& fitted, const fsm::Image& front, const fsm::Image& side,
-                          const CameraPose& side_pose) {
-  PatchMatcher matcher(side);
-  StereoDepths found{side_pose, {}};
+std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front_image,
+                                         const fsm::Image& side_image, CameraPose& side_pose) {
+  PatchMatcher matcher(side_image);
   for (int round = 0; round < kPoseRefinements; ++round) {
-    const auto matches = FindPatches(SampleSkin(fitted, front, found.side_pose), fitted.pose,
-                                     found.side_pose, matcher);
-    if (matches.size() < kMinPatches) return found;
-    found.side_pose = RefinePose(matches, found.side_pose);
+    const auto matches =
+        FindPatches(SampleSkin(fitted, front_image, side_pose), fitted.pose, side_pose, matcher);
+    if (matches.size() < kMinPatches) return {};
+    side_pose = RefinePose(matches, side_pose);
   }
   auto depths =
-      FindDepths(SampleSkin(fitted, front, found.side_pose), fitted.pose, found.side_pose, matcher);
-  if (depths.size() >= kMinPatches) found.depths = std::move(depths);
-  return found;
+      FindDepths(SampleSkin(fitted, front_image, side_pose), fitted.pose, side_pose, matcher);
+  if (depths.size() < kMinPatches) depths.clear();
+  return depths;
 }
 
 }  // namespace facefit

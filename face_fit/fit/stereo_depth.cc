@@ -32,30 +32,26 @@ std::vector<fsm::WarpPoint> OnBothCheeks(std::vector<fsm::WarpPoint> depths, glm
 
 }  // namespace
 
-CorrectedFit CorrectDepthByStereo(const Fit& fit, const fsm::Image& front, const fsm::Image& side,
-                                  const PoseFit& pose) {
-  CorrectedFit corrected{fit, pose};
+void CorrectDepthByStereo(const fsm::Image& front_image, const fsm::Image& side_image,
+                          CameraPose& side_pose, Fit& fit) {
   for (int round = 0; round < kStereoRounds; ++round) {
-    const FittedHead& head = corrected.fit.head;
-    StereoDepths stereo = CompareDepth(head, front, side, corrected.side.pose);
-    corrected.side.pose = stereo.side_pose;
-    if (stereo.depths.empty()) break;
-    auto depths = OnBothCheeks(std::move(stereo.depths), stereo.side_pose.TowardsCamera());
+    const auto measured = CompareDepth(fit.head, front_image, side_image, side_pose);
+    if (measured.empty()) break;
+    auto depths = OnBothCheeks(measured, side_pose.TowardsCamera());
     const fsm::Warp rough(depths, kRoughSmoothMm);
     std::erase_if(depths, [&](const fsm::WarpPoint& point) {
       return std::abs(rough.Motion(point.at).z - point.by.z) > kMistakenMm;
     });
     if (depths.size() < kMinDepths) break;
     const fsm::Warp depth(depths, kDepthSmoothMm);
-    std::vector<LandmarkConstraint> constraints = corrected.fit.targets.constraints;
+    const std::vector<glm::vec3>& rest = fit.head.base->rest().position;
+    std::vector<LandmarkConstraint> constraints = fit.targets.constraints;
     for (LandmarkConstraint& constraint : constraints) {
-      constraint.z_mm +=
-          std::clamp(depth.Motion(constraint.on_head.On(head.base->rest().position)).z,
-                     -kMaxDepthStepMm, kMaxDepthStepMm);
+      constraint.z_mm += std::clamp(depth.Motion(constraint.on_head.On(rest)).z, -kMaxDepthStepMm,
+                                    kMaxDepthStepMm);
     }
-    corrected.fit = WithConstraints(corrected.fit, std::move(constraints));
+    fit = WithConstraints(fit, std::move(constraints));
   }
-  return corrected;
 }
 
 }  // namespace facefit

@@ -13,7 +13,6 @@ namespace facefit {
 /// (mediapipe/modules/face_geometry/data/canonical_face_model_uv_visualization.png).
 using PointIndex = std::size_t;
 inline constexpr PointIndex kNetworkPoints = 468;
-inline constexpr PointIndex kNoPoint = kNetworkPoints;
 
 /// The points that have names; right and left are the person's.
 namespace point {

@@ -206,14 +206,15 @@ TEST_P(TruthTest, ASecondPhotoFromTheSideBringsDepthNearer) {
     const float without = DepthError(truth, front);
     for (const float turn : {-40.0F, 25.0F, 40.0F, 55.0F}) {
       const fsm::Image side = truth.Photo(turn);
-      const auto pose = FitSidePose(*networks_, front.head, SideOf(side));
+      auto pose = FitSidePose(*networks_, front.head, SideOf(side));
       ASSERT_TRUE(pose) << turn << ": " << pose.error().text;
-      const CorrectedFit corrected = CorrectDepthByStereo(front, photo, side, *pose);
-      const float with = DepthError(truth, corrected.fit);
+      Fit corrected = front;
+      CorrectDepthByStereo(photo, side, *pose, corrected);
+      const float with = DepthError(truth, corrected);
       std::printf("%-9s %+.0f turned %+.0f (found %+.0f): depth %.2f mm off, front alone %.2f\n",
                   GetParam(), static_cast<double>(strength), static_cast<double>(turn),
-                  static_cast<double>(glm::degrees(corrected.side.pose.turn_rad.y)),
-                  static_cast<double>(with), static_cast<double>(without));
+                  static_cast<double>(glm::degrees(pose->turn_rad.y)), static_cast<double>(with),
+                  static_cast<double>(without));
       all_without += without;
       all_with += with;
       count += 1;
@@ -247,14 +248,14 @@ TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
     const auto& [photo, faces, face, front] = FrontOf(truth, strength);
     const float without = DepthError(truth, front);
     for (const float turn : {-90.0F, 90.0F}) {
-      const auto corrected = CorrectDepthByProfile(front, FigureOf(truth.Photo(turn)));
-      ASSERT_TRUE(corrected) << turn;
-      EXPECT_EQ(corrected->side.pose.turn_rad.y > 0, turn > 0);
-      const float with = DepthError(truth, corrected->fit);
-      std::printf("%-9s %+.0f profile %+.0f (%.2f mm off): depth %.2f mm off, front alone %.2f\n",
-                  GetParam(), static_cast<double>(strength), static_cast<double>(turn),
-                  static_cast<double>(corrected->side.residual_mm), static_cast<double>(with),
-                  static_cast<double>(without));
+      Fit corrected = front;
+      const auto pose = CorrectDepthByProfile(FigureOf(truth.Photo(turn)), corrected);
+      ASSERT_TRUE(pose) << turn;
+      EXPECT_EQ(pose->turn_rad.y > 0, turn > 0);
+      const float with = DepthError(truth, corrected);
+      std::printf("%-9s %+.0f profile %+.0f: depth %.2f mm off, front alone %.2f\n", GetParam(),
+                  static_cast<double>(strength), static_cast<double>(turn),
+                  static_cast<double>(with), static_cast<double>(without));
       EXPECT_LT(with, 1.05F * without);
       all_with += with;
       all_without += without;
@@ -273,15 +274,15 @@ TEST_P(TruthTest, AnOutlineThatIsNoProfileCorrectsNothing) {
   }
   for (const FloatImage& figure :
        {box, round, FloatImage(300, 400), FloatImage(300, 400, 1), FloatImage(1, 1, 1)}) {
-    const auto corrected = CorrectDepthByProfile(front().fit, figure);
-    EXPECT_FALSE(corrected) << corrected->side.residual_mm;
+    Fit fit = front().fit;
+    EXPECT_FALSE(CorrectDepthByProfile(figure, fit));
   }
 }
 
 TEST_P(TruthTest, APhotoThatDoesNotHelpIsRefusedInWords) {
   const auto refusal = [&](const fsm::Image& photo) {
     const auto view = FitSidePose(*networks_, front().fit.head, SideOf(photo));
-    return view ? "points " + std::to_string(view->residual_mm) : view.error().text;
+    return view ? "it is taken" : view.error().text;
   };
   const fsm::Image grey{
       .width = 300, .height = 300, .rgba = std::vector<std::uint8_t>(300 * 300 * 4, 128)};
