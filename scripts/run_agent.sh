@@ -182,7 +182,9 @@ needed() {
   [ -z "$chat" ] || example=chat
   [ -z "$heard" ] || example=voice
   echo agent_manager ssm_espeak
-  grep -o 'build/bin/[a-z_]*' "$data/examples/agents/$example.json" | cut -d/ -f3
+  # In a browser the ear is the one that takes sound, unless its model is missing.
+  grep -o 'build/bin/[a-z_]*' "$data/examples/agents/$example.json" | cut -d/ -f3 |
+    { [ -n "$web" ] && [ -d /usr/share/pocketsphinx/model/en-us ] && grep -vx srm_stub || cat; }
   [ "$voice" = ssm ] || echo "$voice"
   [ -z "$web" ] || echo srm
   [ -z "$dialog" ] || echo task_manager
@@ -339,6 +341,8 @@ if [ -z "$config" ]; then
     # The ear that takes sound, where it has a model.
     if echo "set Listen = START" | timeout 30 "$bin/srm" --strict >/dev/null 2>&1; then
       sed -i -e 's#\["srm_stub"#["srm", "--live"#' "$config"
+    elif [ -z "$installed" ]; then
+      "$root/scripts/build.sh" --only srm_stub </dev/null >&2 || fail "the build failed"
     fi
   fi
   if [ -n "$lends" ]; then

@@ -33,7 +33,7 @@ struct WebSocket::Stream : std::enable_shared_from_this<Stream> {
     });
   }
 
-  websocket::stream<beast::tcp_stream> socket;
+  websocket::stream<beast::tcp_stream, false> socket;  // without compression, which nobody asks for
   const Limits limits;
   asio::steady_timer write_timer;
   beast::flat_buffer buffer;
