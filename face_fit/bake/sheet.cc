@@ -137,13 +137,14 @@ class DrawnCells {
   glm::vec3 PlaceOf(glm::ivec2 p) const {
     return fitted_.pose.PlaceAt(grid_.Point(p.x, p.y), depth_(p.x, p.y));
   }
-  /// Whether any of the figure is near: its corners, and the points to the left and above.
+  /// Whether any of the figure is near: at its corners or the points next to them.
   bool IsShown(glm::ivec2 cell) const {
-    const auto opaque = [this](glm::ivec2 p) {
-      return shown_(std::max(p.x, 0), std::max(p.y, 0)) > 0;
-    };
-    return !All(cell, [&](glm::ivec2 p) { return !opaque(p); }) ||
-           opaque(cell - glm::ivec2(1, 0)) || opaque(cell - glm::ivec2(0, 1));
+    for (int y = std::max(cell.y - 1, 0); y <= std::min(cell.y + 2, shown_.height - 1); ++y) {
+      for (int x = std::max(cell.x - 1, 0); x <= std::min(cell.x + 2, shown_.width - 1); ++x) {
+        if (shown_(x, y) > 0) return true;
+      }
+    }
+    return false;
   }
   /// Nothing is drawn behind the middle of the face: there are the mouth and the eyes.
   bool IsHidden(glm::ivec2 p) const {

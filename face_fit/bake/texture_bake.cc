@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <utility>
 
 #include "face_fit/bake/behind_face.h"
 #include "face_fit/bake/eye_pictures.h"
@@ -27,8 +28,6 @@
 namespace facefit {
 namespace {
 
-/// Strength of jaw and parting lips from which the photo shows an open mouth.
-constexpr float kMouthOpen = 0.1F;
 /// Skin that varies over no more than this is grain.
 constexpr float kGrainMm = 1.5F;
 
@@ -38,11 +37,15 @@ float SmileOf(const FittedHead& fitted) { return glm::clamp(fitted.expression.sm
 // first one, cosines of the slant to both, distance from the middle of the face.
 constexpr float kCoveredFront = 0.9F, kFacingFront = 0.4F, kFacingSide = 0.5F, kFromMiddleMm = 5;
 
+/// Coverage by both photos, as part of that by the first one alone.
+constexpr float kHardly = 0.01F;
+
 /// Lays a view from the side over what the first photo saw at a slant or not at all.
 void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTexels& front,
                    fsm::Image& map, FloatImage& coverage) {
+  // What it shows is of the side towards it: the other cheek lies behind the nose, and is left out
+  // by across_mm of the table, so that what the head itself hides need not be found.
   const SkinTexels texels = ProjectSkin(fitted, view.pose, SelfHidden::kIgnored);
-  // What it shows is of the side towards it: the other cheek lies behind the nose.
   const float towards = view.pose.TowardsCamera().x > 0 ? 1.0F : -1.0F;
   const fsm::Image& colours = view.figure.colours;
   // The same skin in another light: a gain for each channel makes it match.
@@ -67,7 +70,8 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
     const float own =
         coverage.values[i] * fsm::SmoothStep(look.front_facing_cos, front.values[i].facing);
     const float sum = own + (1 - own) * seen;
-    if (sum <= coverage.values[i] * 0.01F || seen <= 0) continue;
+    // What the view hardly shows either is left to the first photo, however slanted it was there.
+    if (seen <= 0 || sum <= kHardly * coverage.values[i]) continue;
     const float blend = (1 - own) * seen / std::max(sum, 1e-4F);
     const glm::vec3 colour = glm::min(gain * ColourAt(colours, texels.values[i].pixel), 255.0F);
     SetRgb(map, i, glm::mix(Rgb(map, i), colour, blend));
@@ -151,7 +155,13 @@ struct SkinLook {
   float saturation, lined;
 };
 
-/// Completes the map where the photo does not show it, and says in its alpha what is skin.
+/// Completes the map where the photo does not show it, and says in its alpha what is skin. The
+/// order of the passes matters:
+/// - the other side lends its own skin before anything is filled in from around;
+/// - a smile's shading is evened out when no hole is left, because it is told by what is around;
+/// - grain goes on what was filled in, after colours are what they stay;
+/// - lips and the line between them are painted over all of that, as neither is skin;
+/// - what is skin is told by the finished colours.
 SkinLook FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool open, PaintedMap& map) {
   const PhotoLookNumbers& look = PhotoLook();
   const float saturation = Saturation(map.image, map.coverage);
@@ -206,7 +216,8 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
                         const FigureCutout& figure, std::span<const SideView> side_views) {
   const FittedHead& fitted = fit.head;
   const SkinTexels texels = ProjectSkin(fitted, fitted.pose, SelfHidden::kNotSeen);
-  const bool open = fitted.expression.jaw + fitted.expression.parted > kMouthOpen;
+  // The same says whether the lips were fitted apart or to the line where they meet.
+  const bool open = fit.targets.lips_apart;
   PaintedMap map = PaintPhoto(face, fitted, texels, open, figure.colours);
   std::vector<glm::vec3> also_seen;
   for (const SideView& view : side_views) {
@@ -220,6 +231,7 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
   fsm::Image picture = SideBySide(map.image, BehindFace(whole.head, whole.figure),
                                   whole.figure.opacity, fitted.pose.PixelsPerMm());
   const auto eyes = EyesAtRest(fitted);
+  auto eye_pictures = PaintEyes(face, fit, eyes, photo, picture);
   const EyeColours eye_colours = SampleEyes(face, fit.irises, photo);
   const MouthColours mouth = SampleMouth(face, photo);
   Sheet sheet = MakeSheet(whole.head, whole.figure);
@@ -235,7 +247,7 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
                       .teeth = mouth.teeth,
                       .glasses = BridgeContrast(face, photo) > kGlassesContrast,
                       .lip_colour = mouth.lip,
-                      .eye_pictures = PaintEyes(face, fit, eyes, photo, picture),
+                      .eye_pictures = std::move(eye_pictures),
                       .saturation = skin.saturation,
                       .lined = skin.lined,
                       .skin_low = {kHalf, 1},

@@ -34,6 +34,31 @@ TEST_F(SheetTest, IsWrittenFromBackToFront) {
   }
 }
 
+TEST_F(SheetTest, GoesOnByACellBeyondTheFigureOnAllSides) {
+  // A figure whose edges lie within the photo.
+  constexpr int kFrom = 40, kTo = 260;
+  for (int y = 0; y < kPhoto; ++y) {
+    for (int x = 0; x < kPhoto; ++x) {
+      figure_.opacity(x, y) = std::min(x, y) >= kFrom && std::max(x, y) < kTo ? 1.0F : 0.0F;
+    }
+  }
+  const Sheet set = Made();
+  glm::vec2 low(kPhoto), high(0);
+  for (const std::uint32_t i : set.triangles) {
+    // Where the photo shows it, by its place in the picture's right half.
+    const glm::vec2 texcoord = set.vertices[i].texcoord;
+    const glm::vec2 pixel = glm::vec2(2 * texcoord.x - 1, texcoord.y) * float{kPhoto};
+    low = glm::min(low, pixel);
+    high = glm::max(high, pixel);
+  }
+  const float cell = 2 * (set.vertices[2].texcoord.x - set.vertices[1].texcoord.x) * kPhoto;
+  EXPECT_GT(cell, 4);
+  for (const float beyond : {kFrom - low.x, kFrom - low.y, high.x - kTo, high.y - kTo}) {
+    EXPECT_GT(beyond, 0.9F * cell);
+    EXPECT_LT(beyond, 2.1F * cell);
+  }
+}
+
 TEST_F(SheetTest, GoesWithTheFaceFromItsExpressionToRest) {
   const Sheet still = Made();
   // In the photo the whole face is 6 mm higher than at rest.
