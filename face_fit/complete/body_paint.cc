@@ -24,7 +24,7 @@ BodyPaint::BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const FloatI
       opacity_(opacity),
       light_(light),
       bust_(std::move(bust)),
-      joint_{Join(PhotoEdge::kLeft), Join(PhotoEdge::kRight)},
+      joint_{JointOf(PhotoEdge::kLeft), JointOf(PhotoEdge::kRight)},
       cloth_colour_(ClothColour()),
       neckline_(FindNeckline()) {
   const glm::vec2 size(canvas.photo_size);
@@ -41,7 +41,7 @@ BodyPaint::BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const FloatI
   }
 }
 
-BodyPaint::Joint BodyPaint::Join(PhotoEdge edge) const {
+BodyPaint::Joint BodyPaint::JointOf(PhotoEdge edge) const {
   const float end = static_cast<float>(canvas_.photo_size.y);
   Joint joint{.row = end, .width_ratio = 1, .cut = false};
   // Up along the photo's edge as far as that cuts the body.
@@ -135,17 +135,17 @@ BodyPaint::BustSample BodyPaint::SampleAt(glm::vec2 place) const {
           bust_.openness.SampleAt(x, pixel.y), bust_.normal.SampleAt(x, pixel.y)};
 }
 
-glm::vec3 BodyPaint::BustColour(const BustSample& body, Stuff stuff) const {
+glm::vec3 BodyPaint::BustColour(const BustSample& body, Covering covering) const {
   const float shade = light_.On(body.normal) / light_.On({0, 0, 1});
   return shade * glm::mix(1.0F, body.openness, PhotoLook().bust.shade_part) *
-         (stuff == kCloth ? cloth_colour_ : 255.0F * light_.skin());
+         (covering == kCloth ? cloth_colour_ : 255.0F * light_.skin());
 }
 
 void BodyPaint::AddDifference(const EdgeSample& edge, glm::vec2 place, Differences& to) const {
   const BustSample body = SampleAt(place);
-  for (const Stuff stuff : {kSkin, kCloth}) {
-    const bool known = edge.kind == (stuff == kCloth ? EdgeKind::kCloth : EdgeKind::kSkin);
-    to[stuff].Add(edge.colour - BustColour(body, stuff), known ? 1 : 0);
+  for (const Covering covering : {kSkin, kCloth}) {
+    const bool known = edge.kind == (covering == kCloth ? EdgeKind::kCloth : EdgeKind::kSkin);
+    to[covering].Add(edge.colour - BustColour(body, covering), known ? 1 : 0);
   }
 }
 
@@ -167,9 +167,10 @@ float BodyPaint::ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) c
                                                      beyond.below / canvas_.pixels_per_mm));
 }
 
-glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond, Stuff stuff) const {
+glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond,
+                                    Covering covering) const {
   const auto& look = PhotoLook().beyond_edge;
-  const bool cloth = stuff == kCloth;
+  const bool cloth = covering == kCloth;
   const float spread_mm = cloth ? look.cloth.spread_mm : look.skin.spread_mm;
   const float spread_per_mm = cloth ? look.cloth.spread_per_mm : look.skin.spread_per_mm;
   const float lasts_mm = cloth ? look.cloth.lasts_mm : look.skin.lasts_mm;
@@ -183,13 +184,13 @@ glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond, Stuff
   glm::vec3 sum(0);
   const float beyond_px = beyond.below + beyond.aside;
   if (beyond.below > 0) {
-    sum += beyond.below / beyond_px * difference(below_[stuff], place.x, beyond.below);
+    sum += beyond.below / beyond_px * difference(below_[covering], place.x, beyond.below);
   }
   if (beyond.aside > 0) {
     // A sleeve falls with its shoulder.
     const float row = std::clamp(place.y - PhotoLook().shoulder.sleeve_fall_per_px * beyond.aside,
                                  joint_[beyond.edge].row, static_cast<float>(canvas_.photo_size.y));
-    sum += beyond.aside / beyond_px * difference(aside_[beyond.edge][stuff], row, beyond.aside);
+    sum += beyond.aside / beyond_px * difference(aside_[beyond.edge][covering], row, beyond.aside);
   }
   return sum;
 }

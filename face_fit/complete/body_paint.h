@@ -25,8 +25,8 @@ class BodyPaint {
   Paint PaintAt(glm::vec2 place) const;
 
  private:
-  /// Index of what is kept once for skin and once for cloth.
-  enum Stuff { kSkin, kCloth };
+  /// What covers the body: the index of what is kept once for each.
+  enum Covering { kSkin, kCloth };
   /// The bust at a place; `cloth`: how much of what is covered is cloth.
   struct BustSample {
     float opacity = 0, cloth = 0, openness = 1;
@@ -39,19 +39,19 @@ class BodyPaint {
     bool cut = false;                ///< by the photo's left or right edge
     float slope = 0;                 ///< if it is: how steeply the outline falls there
   };
-  /// Of one edge, by Stuff: by how much the photo differs from what is drawn there.
+  /// Of one edge, by Covering: by how much the photo differs from what is drawn there.
   using Differences = std::array<EdgeMeans, 2>;
 
   float Axis() const { return bust_.axis - static_cast<float>(canvas_.photo_origin.x); }
-  Joint Join(PhotoEdge edge) const;
+  Joint JointOf(PhotoEdge edge) const;
   float OutlineSlope(PhotoEdge edge, float row) const;
   glm::vec3 ClothColour() const;
   glm::vec2 FindNeckline() const;
   void AddDifference(const EdgeSample& edge, glm::vec2 place, Differences& to) const;
   BustSample SampleAt(glm::vec2 place) const;
-  glm::vec3 BustColour(const BustSample& body, Stuff stuff) const;
+  glm::vec3 BustColour(const BustSample& body, Covering covering) const;
   float ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) const;
-  glm::vec3 EdgeDifference(glm::vec2 place, const Beyond& beyond, Stuff stuff) const;
+  glm::vec3 EdgeDifference(glm::vec2 place, const Beyond& beyond, Covering covering) const;
 
   const Canvas& canvas_;
   const PhotoEdges& edges_;

@@ -138,7 +138,8 @@ Paint HairPaint::HairBelow(glm::vec2 place, float below_px) const {
   const float x = place.x < 0 ? -place.x : place.x > size.x ? 2 * size.x - place.x : place.x;
   const auto& look = PhotoLook().hair;
   const auto& beard = PhotoLook().beard;
-  const glm::vec4 hair = below_.MeanAround(x, look.spread_px + look.spread_per_px * below_px);
+  const glm::vec4 hair = below_.MeanAround(
+      x, (look.spread_mm + look.spread_per_mm * below_mm) * canvas_.pixels_per_mm);
   // Below a bearded chin it is the beard, which ends at once.
   const float aside_mm = std::abs(x - canvas_.chin.x) / canvas_.pixels_per_mm;
   const float falls_mm = bearded_ ? glm::mix(beard.falls_mm, look.falls_mm,

@@ -134,21 +134,22 @@ class EdgeReader {
 // bare or in a collar. So the lower edge is split into runs, which are told by their places.
 
 /// What a run of the lower edge consists of; of kOther the kinds are as the colours say.
-enum class RunStuff { kOther, kClothOnNeck, kClothBesideNeck, kBeyondNeck };
+enum class RunKind { kOther, kClothOnNeck, kClothBesideNeck, kBeyondNeck };
 struct Run {
   std::size_t from, to;  ///< columns from..to - 1
-  RunStuff stuff;
+  RunKind kind;
 };
-/// What becomes of a run, some column of which hangs down, and of another.
+/// What the samples of such a run are: where something hangs down in any of its columns, and where
+/// nothing does.
 struct RunRule {
-  RunStuff stuff;
+  RunKind run;
   EdgeKind hanging, standing;
 };
 constexpr RunRule kRunRules[] = {
     // clang-format off
-    {RunStuff::kClothOnNeck,     EdgeKind::kSkin, EdgeKind::kSkin},  // the shade on a bare neck
-    {RunStuff::kClothBesideNeck, EdgeKind::kTip,  EdgeKind::kTip},   // nothing else stands there
-    {RunStuff::kBeyondNeck,      EdgeKind::kHair, EdgeKind::kTip},   // a lock hangs in some column
+    {RunKind::kClothOnNeck,     EdgeKind::kSkin, EdgeKind::kSkin},  // the shade on a bare neck
+    {RunKind::kClothBesideNeck, EdgeKind::kTip,  EdgeKind::kTip},   // nothing else stands there
+    {RunKind::kBeyondNeck,      EdgeKind::kHair, EdgeKind::kTip},   // a lock hangs in some column
     // clang-format on
 };
 
@@ -167,20 +168,20 @@ std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const ChinFrame& 
   const bool collar = below_mm > look.neck.collar_mm && 2 * cloth > neck;
   const bool at_jaw = below_mm < look.neck.jaw_mm;
   const float beyond_mm = look.neck.ends_mm + (at_jaw ? look.neck.jaw_wider_mm : 0);
-  const auto stuff_of = [&](std::size_t x) {
+  const auto kind_of = [&](std::size_t x) {
     const EdgeKind kind = bottom[x].kind;
-    if (kind == EdgeKind::kNothing) return RunStuff::kOther;
+    if (kind == EdgeKind::kNothing) return RunKind::kOther;
     if (place.Aside(x) > beyond_mm) {
       // Lower down than the jaw skin beside the neck may be a raised shoulder.
-      return kind == EdgeKind::kSkin && !at_jaw ? RunStuff::kOther : RunStuff::kBeyondNeck;
+      return kind == EdgeKind::kSkin && !at_jaw ? RunKind::kOther : RunKind::kBeyondNeck;
     }
-    if (kind != EdgeKind::kCloth || collar) return RunStuff::kOther;
-    return place.Aside(x) > neck_mm ? RunStuff::kClothBesideNeck : RunStuff::kClothOnNeck;
+    if (kind != EdgeKind::kCloth || collar) return RunKind::kOther;
+    return place.Aside(x) > neck_mm ? RunKind::kClothBesideNeck : RunKind::kClothOnNeck;
   };
   std::vector<Run> runs;
   for (std::size_t x = 0; x < bottom.size(); ++x) {
-    const RunStuff stuff = stuff_of(x);
-    if (runs.empty() || runs.back().stuff != stuff) runs.push_back({x, x, stuff});
+    const RunKind kind = kind_of(x);
+    if (runs.empty() || runs.back().kind != kind) runs.push_back({x, x, kind});
     runs.back().to = x + 1;
   }
   return runs;
@@ -200,8 +201,8 @@ std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const ChinFrame& pl
   }
   const float below_mm = place.Below(size.y);
   if (below_mm >= look.neck.no_shoulders_mm) return bottom;
-  for (const auto& [from, to, stuff] : RunsOf(bottom, place, below_mm)) {
-    const auto* rule = std::ranges::find(kRunRules, stuff, &RunRule::stuff);
+  for (const auto& [from, to, run_kind] : RunsOf(bottom, place, below_mm)) {
+    const auto* rule = std::ranges::find(kRunRules, run_kind, &RunRule::run);
     if (rule == std::end(kRunRules)) continue;
     bool hangs = false;
     for (std::size_t x = from; x < to; ++x) hangs = hangs || reader.HangsDown(x, hang_from);
@@ -212,18 +213,18 @@ std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const ChinFrame& pl
   return bottom;
 }
 
-std::vector<UpperEdgeSample> ReadTop(const EdgeReader& reader, glm::ivec2 size, int band) {
-  std::vector<UpperEdgeSample> top;
+std::vector<EdgeSampleWithHair> ReadTop(const EdgeReader& reader, glm::ivec2 size, int band) {
+  std::vector<EdgeSampleWithHair> top;
   for (int x = 0; x < size.x; ++x) {
     top.push_back({reader.Sample({x, 0}, {1, band}), reader.HairDepth({x, 0}, {0, 1}, size.y)});
   }
   return top;
 }
 
-std::vector<UpperEdgeSample> ReadSide(const EdgeReader& reader, PhotoEdge edge, float chin,
-                                      glm::ivec2 size, int band) {
+std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, PhotoEdge edge, float chin,
+                                         glm::ivec2 size, int band) {
   const bool left = edge == PhotoEdge::kLeft;
-  std::vector<UpperEdgeSample> samples;
+  std::vector<EdgeSampleWithHair> samples;
   for (int y = 0; y < size.y; ++y) {
     samples.push_back({reader.Sample({left ? 0 : size.x - band, y}, {band, 1}),
                        reader.HairDepth({left ? 0 : size.x - 1, y}, {left ? 1 : -1, 0}, size.x)});
@@ -240,7 +241,7 @@ std::vector<UpperEdgeSample> ReadSide(const EdgeReader& reader, PhotoEdge edge, 
 
 /// The mean colour of the figure at both sides above the chin, which is hair or hat whatever its
 /// colour: grey and blond hair have the skin's brightness and hue. Dark skin's if there is none.
-glm::vec3 HairBeside(const PerEdge<std::vector<UpperEdgeSample>>& aside, float chin,
+glm::vec3 HairBeside(const PerEdge<std::vector<EdgeSampleWithHair>>& aside, float chin,
                      glm::vec3 skin) {
   glm::vec4 sum(0);
   for (const PhotoEdge edge : kPhotoEdges) {
@@ -258,7 +259,7 @@ glm::vec2 PhotoEdges::DomeByWidth() const {
   const auto& look = PhotoLook().hair;
   // An edge that the figure touches from corner to corner cuts the widest part of the head.
   const bool all = std::ranges::none_of(
-      top_, [](EdgeKind kind) { return kind == EdgeKind::kNothing; }, &UpperEdgeSample::kind);
+      top_, [](EdgeKind kind) { return kind == EdgeKind::kNothing; }, &EdgeSampleWithHair::kind);
   return {all ? look.dome_of_whole_edge : look.dome_by_width.x, look.dome_by_width.y};
 }
 

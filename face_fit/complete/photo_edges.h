@@ -20,7 +20,7 @@ struct EdgeSample {
   EdgeKind kind = EdgeKind::kNothing;
 };
 /// At an edge beyond which hair is mirrored.
-struct UpperEdgeSample : EdgeSample {
+struct EdgeSampleWithHair : EdgeSample {
   int hair_depth_px = 0;  ///< so far inward no skin is seen
 };
 
@@ -33,8 +33,8 @@ class PhotoEdges {
   int width() const { return static_cast<int>(bottom_.size()); }
   int height() const { return static_cast<int>(aside_.left.size()); }
   const EdgeSample& bottom(int x) const { return bottom_[static_cast<std::size_t>(x)]; }
-  const UpperEdgeSample& top(int x) const { return top_[static_cast<std::size_t>(x)]; }
-  const UpperEdgeSample& aside(PhotoEdge edge, int y) const {
+  const EdgeSampleWithHair& top(int x) const { return top_[static_cast<std::size_t>(x)]; }
+  const EdgeSampleWithHair& aside(PhotoEdge edge, int y) const {
     return aside_[edge][static_cast<std::size_t>(y)];
   }
   /// How high what the upper edge cuts is rounded off, by the width that it cuts: least and most.
@@ -44,8 +44,8 @@ class PhotoEdges {
 
  private:
   std::vector<EdgeSample> bottom_;
-  std::vector<UpperEdgeSample> top_;
-  PerEdge<std::vector<UpperEdgeSample>> aside_;
+  std::vector<EdgeSampleWithHair> top_;
+  PerEdge<std::vector<EdgeSampleWithHair>> aside_;
   glm::vec3 hair_;
 };
 
