@@ -16,6 +16,7 @@
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/find/head/head_finder.h"
 #include "face_fit/make_face.h"
+#include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
@@ -80,7 +81,9 @@ OriginalFace ReadOriginal(const Options& options) {
                              (names.empty() ? " none" : ":" + names));
   }
   OriginalFace face;
-  face.photo = vm::OrThrow(fsm::ReadImage(mask->picture));
+  // Points are in pixels of a photo of at most that size.
+  face.photo =
+      facefit::ScaledToFit(vm::OrThrow(fsm::ReadImage(mask->picture)), facefit::kWorkingSize);
   const auto wireframe = vm::OrThrow(fsm::ReadPnt(mask->wireframe));
   face.points = vm::OrThrow(
       facefit::PointsOfWireframe(mask->wireframe, wireframe, face.photo.width, face.photo.height));

@@ -122,9 +122,9 @@ std::uint32_t NearestLip(const ObservedHead& base, glm::vec3 p) {
   return nearest;
 }
 
-/// Replaces the constraints of closed inner lips by the line where the photo shows them to meet, and
-/// moves those of the outer lips beside a corner along. `posed`: the base head's vertices with the
-/// photo's expression.
+/// Replaces the constraints of closed inner lips by the line where the photo shows them to meet,
+/// and moves those of the outer lips beside a corner along. `posed`: the base head's vertices with
+/// the photo's expression.
 void ConstrainToMouthLine(const FitProblem& problem, const CameraPose& pose,
                           std::span<const glm::vec3> posed, const fsm::Image& photo,
                           std::vector<LandmarkConstraint>& constraints) {
@@ -149,8 +149,8 @@ void ConstrainToMouthLine(const FitProblem& problem, const CameraPose& pose,
     const float corner_part = along(base.places()[corner]);
     const glm::vec2 shift_px = on_line(corner_part) - problem.face.PixelOf(corner);
     for (LandmarkConstraint& constraint : constraints) {
-      const bool outer_lip = constraint.IsAmong(point::kUpperOuterLip) ||
-                             constraint.IsAmong(point::kLowerOuterLip);
+      const bool outer_lip =
+          constraint.IsAmong(point::kUpperOuterLip) || constraint.IsAmong(point::kLowerOuterLip);
       if (constraint.point != corner && !outer_lip) continue;
       constraint.pixel +=
           shift_px *

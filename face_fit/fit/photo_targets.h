@@ -48,9 +48,10 @@ struct FitProblem {
   bool lips_apart;
 };
 
-/// The targets of the warp, for a pose and an expression that are found: the network's points, their
-/// depth mostly as the head's own form has it. Eyes whose irises lie elsewhere are moved up or down
-/// with them. Closed lips meet where the photo, if there is one, shows the dark line between them.
+/// The targets of the warp, for a pose and an expression that are found: the network's points,
+/// their depth mostly as the head's own form has it. Eyes whose irises lie elsewhere are moved up
+/// or down with them. Closed lips meet where the photo, if there is one, shows the dark line
+/// between them.
 PhotoTargets TargetsOf(const FitProblem& problem, const CameraPose& pose,
                        const Expression& expression, const PhotoIrises& irises,
                        const fsm::Image* photo);

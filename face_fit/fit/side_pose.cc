@@ -85,8 +85,7 @@ CameraPose FindPose(const FittedHead& fitted, const FoundFace& face,
   const float focal =
       fitted.pose.focal / fitted.pose.PixelsPerMm() * glm::distance(top, chin) / height_mm;
   const glm::vec2 down = chin - top;
-  float tilt_rad = std::atan2(-down.x, -down.y) + (down.y > 0 ? glm::radians(180.0F) : 0);
-  if (tilt_rad > glm::radians(180.0F)) tilt_rad -= glm::radians(360.0F);
+  const float tilt_rad = std::atan2(down.x, down.y);
   std::optional<CameraPose> best;
   for (const float turn_deg : kStartTurnsDeg) {
     CameraPose start{.turn_rad = {0, glm::radians(turn_deg), tilt_rad}, .focal = focal};

@@ -43,7 +43,7 @@ glm::vec3 AfterSmile(int x, int y) {
   return x > 40 && x < 80 ? kRed : kSkin;
 }
 
-TEST(RedLipsTest, WhatASmileDrewThinIsRedAgainUpToTheCorners) {
+TEST(LipsTest, WhatASmileDrewThinIsRedAgainUpToTheCorners) {
   Lips lips(AfterSmile);
   RestoreLipColour(lips.texels, lips.map);
   for (const int x : {10, 30, 90, 110}) {
@@ -59,7 +59,7 @@ TEST(RedLipsTest, WhatASmileDrewThinIsRedAgainUpToTheCorners) {
   }
 }
 
-TEST(RedLipsTest, TheBorderIsSoft) {
+TEST(LipsTest, TheBorderIsSoft) {
   Lips lips(AfterSmile);
   RestoreLipColour(lips.texels, lips.map);
   const float edge = lips.At(20, 37).g, inside = lips.At(20, 34).g;
@@ -67,14 +67,14 @@ TEST(RedLipsTest, TheBorderIsSoft) {
   EXPECT_LT(edge, kSkin.g - 3);
 }
 
-TEST(RedLipsTest, LipsNoRedderThanSkinStayAsTheyAre) {
+TEST(LipsTest, LipsNoRedderThanSkinStayAsTheyAre) {
   Lips lips([](int x, int) { return x > 40 && x < 80 ? glm::vec3(120) : glm::vec3(160); });
   const auto before = lips.map.rgba;
   RestoreLipColour(lips.texels, lips.map);
   EXPECT_EQ(lips.map.rgba, before);
 }
 
-TEST(RedLipsTest, AMapWithoutLipsStaysAsItIs) {
+TEST(LipsTest, AMapWithoutLipsStaysAsItIs) {
   Lips lips(AfterSmile);
   const auto before = lips.map.rgba;
   RestoreLipColour(SkinTexels(kWide, kHigh), lips.map);

@@ -37,7 +37,7 @@ FoundFace FaceAt(glm::vec2 nose, float eyes) {
   return face;
 }
 
-TEST(CutToFaceTest, OfASmallFaceWhatIsNearItIsCutFromTheFinestPhoto) {
+TEST(CloseUpTest, OfASmallFaceWhatIsNearItIsCutFromTheFinestPhoto) {
   // Two pixels of the finest photo to one of that the face was found in, half a millimetre each.
   const fsm::Image photo = Map(1600, 1000), finest = Map(3200, 2000);
   const FoundFace face = FaceAt({500, 400}, 45);
@@ -55,7 +55,7 @@ TEST(CutToFaceTest, OfASmallFaceWhatIsNearItIsCutFromTheFinestPhoto) {
   }
 }
 
-TEST(CutToFaceTest, AtTheEdgeOfAPhotoLessIsCut) {
+TEST(CloseUpTest, AtTheEdgeOfAPhotoLessIsCut) {
   const fsm::Image photo = Map(1600, 1000);
   const auto [near, there, scale] = CloseUpOf(photo, photo, FaceAt({100, 950}, 45));
   EXPECT_NEAR(near.width, 100 + 165, 2);
@@ -63,7 +63,7 @@ TEST(CutToFaceTest, AtTheEdgeOfAPhotoLessIsCut) {
   EXPECT_LT(glm::distance(glm::vec2(there.points[1]), glm::vec2(100, 150)), 1.5F);
 }
 
-TEST(CutToFaceTest, AFaceAtTheEdgeIsCutWhateverTheScalesRoundTo) {
+TEST(CloseUpTest, AFaceAtTheEdgeIsCutWhateverTheScalesRoundTo) {
   // 1600 times 1920 / 1600, and other such products, come out a little above the width.
   for (const int wide : {1920, 1937, 2048, 2500, 3001}) {
     for (const int high : {1350, 1398, 1537, 1999}) {
@@ -76,7 +76,7 @@ TEST(CutToFaceTest, AFaceAtTheEdgeIsCutWhateverTheScalesRoundTo) {
   }
 }
 
-TEST(CutToFaceTest, APortraitStaysAsItIs) {
+TEST(CloseUpTest, APortraitStaysAsItIs) {
   const fsm::Image photo = Map(300, 400);
   const FoundFace face = FaceAt({150, 180}, 60);
   const auto [near, there, scale] = CloseUpOf(photo, photo, face);
@@ -84,7 +84,7 @@ TEST(CutToFaceTest, APortraitStaysAsItIs) {
   EXPECT_EQ(there.points, face.points);
 }
 
-TEST(CutToFaceTest, NoMoreIsCutThanIsWorkedOn) {
+TEST(CloseUpTest, NoMoreIsCutThanIsWorkedOn) {
   const fsm::Image photo = Map(1600, 1600), finest = Map(4000, 4000);
   const auto [near, there, scale] = CloseUpOf(photo, finest, FaceAt({800, 700}, 160));
   EXPECT_LE(std::max(near.width, near.height), kWorkingSize);
