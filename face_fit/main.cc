@@ -22,7 +22,7 @@
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/original_config.h"
 #include "fsm/image/image_file.h"
-#include "fsm/mesh/pnt_file.h"
+#include "fsm/mesh/original/pnt_file.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 

@@ -13,16 +13,16 @@
 #include <vector>
 
 #include "fsm/image/image_codec.h"
-#include "fsm/mesh/gltf_head.h"
+#include "fsm/mesh/gltf/gltf_head.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/mesh_reach.h"
-#include "fsm/mesh/obj_file.h"
-#include "fsm/mesh/original_face.h"
-#include "fsm/mesh/pnt_file.h"
-#include "fsm/mesh/transferred_rig.h"
+#include "fsm/mesh/obj/obj_file.h"
+#include "fsm/mesh/original/original_face.h"
+#include "fsm/mesh/original/pnt_file.h"
+#include "fsm/mesh/transfer/transferred_rig.h"
 
 namespace {
 

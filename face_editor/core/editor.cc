@@ -8,7 +8,7 @@
 #include "face_fit/find/face/hand_points.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/faces/face_folder.h"
-#include "fsm/mesh/pnt_file.h"
+#include "fsm/mesh/original/pnt_file.h"
 #include "fsm/motion/motion_errors.h"
 #include "vm_protocol/core/text_file.h"
 

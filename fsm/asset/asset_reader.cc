@@ -14,7 +14,7 @@
 #include "fsm/asset/check_asset.h"
 #include "fsm/image/byte_order.h"
 #include "fsm/image/image_codec.h"
-#include "fsm/mesh/gltf_document.h"
+#include "fsm/mesh/gltf/gltf_document.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "fsm/mesh/gltf_document.h"
+#include "fsm/mesh/gltf/gltf_document.h"
 
 namespace fsm {
 

@@ -16,13 +16,29 @@ namespace fsm {
 class TableFolder {
  public:
   static constexpr std::string_view kUnits = "action_units.txt", kAppearance = "appearance.txt",
-                                    kFeatures = "features.txt", kUnitNames = "action_unit_names.txt";
+                                    kFeatures = "features.txt",
+                                    kUnitNames = "action_unit_names.txt";
   /// The tables that can be replaced, in alphabetical order.
-  static constexpr std::array kTables = std::to_array<std::string_view>(
-      {"action_unit_list.txt", kUnitNames, kUnits, kAppearance, "arkit.txt", "dominance.txt",
-       "emotion_space.txt", "emotions.txt", kFeatures, "gestures.txt", "mixing.txt", "motions.txt",
-       "mouth_shapes.txt", "mouth_shapes_28.txt", "phoneme_names.txt", "phonemes28_en.txt",
-       "phonemes28_ja.txt", "phonemes_en.txt", "phonemes_ja.txt", "text_cues.txt"});
+  static constexpr std::array kTables = std::to_array<std::string_view>({"action_unit_list.txt",
+                                                                         kUnitNames,
+                                                                         kUnits,
+                                                                         kAppearance,
+                                                                         "arkit.txt",
+                                                                         "dominance.txt",
+                                                                         "emotion_space.txt",
+                                                                         "emotions.txt",
+                                                                         kFeatures,
+                                                                         "gestures.txt",
+                                                                         "mixing.txt",
+                                                                         "motions.txt",
+                                                                         "mouth_shapes.txt",
+                                                                         "mouth_shapes_28.txt",
+                                                                         "phoneme_names.txt",
+                                                                         "phonemes28_en.txt",
+                                                                         "phonemes28_ja.txt",
+                                                                         "phonemes_en.txt",
+                                                                         "phonemes_ja.txt",
+                                                                         "text_cues.txt"});
 
   /// With an empty `path` no table is replaced. Implicit: a path is a folder.
   TableFolder(std::string path = {}) : path_(std::move(path)) {}

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/mesh/original_files.h"
+#include "fsm/mesh/original/original_files.h"
 #include "fsm/motion/face_motion.h"
 
 namespace fsm {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fsm/base/table_folder.h"
-#include "fsm/mesh/original_files.h"
+#include "fsm/mesh/original/original_files.h"
 #include "fsm/motion/motion_tables.h"
 #include "fsm/rig/head.h"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/mesh/deformation_transfer.h"
+#include "fsm/mesh/transfer/deformation_transfer.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {

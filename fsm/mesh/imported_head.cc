@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "fsm/mesh/gltf_head.h"
-#include "fsm/mesh/obj_head.h"
+#include "fsm/mesh/gltf/gltf_head.h"
+#include "fsm/mesh/obj/obj_head.h"
 #include "vm_protocol/core/lower_case.h"
 
 namespace fsm {

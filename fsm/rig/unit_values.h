@@ -12,8 +12,8 @@ namespace fsm {
 /// is indexed by them directly.
 inline constexpr std::size_t kActionUnits = 47;
 /// Numbers that FACS leaves free. Residuals of the original's expressions travel in them
-/// (mesh/original_expressions.h): no table has them, and only heads of the original have channels
-/// for them.
+/// (mesh/original/original_expressions.h): no table has them, and only heads of the original have
+/// channels for them.
 inline constexpr std::array<std::size_t, 3> kResidualUnits{3, 40, 0};
 /// The units that code refers to, by their names in FACS.
 enum ActionUnit : std::size_t {

@@ -16,7 +16,7 @@
 #include "fsm/asset/describe.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
-#include "fsm/mesh/gltf_document.h"
+#include "fsm/mesh/gltf/gltf_document.h"
 #include "tests/fsm/ball_head.h"
 
 namespace fsm {

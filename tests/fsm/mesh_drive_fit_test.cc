@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "fsm/mesh/drive_fit.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/mesh_model.h"
+#include "fsm/mesh/transfer/drive_fit.h"
 
 namespace fsm {
 namespace {

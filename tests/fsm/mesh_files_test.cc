@@ -6,9 +6,9 @@
 #include <limits>
 #include <string>
 
-#include "fsm/mesh/obj_file.h"
-#include "fsm/mesh/original_face.h"
-#include "fsm/mesh/pnt_file.h"
+#include "fsm/mesh/obj/obj_file.h"
+#include "fsm/mesh/original/original_face.h"
+#include "fsm/mesh/original/pnt_file.h"
 
 namespace fsm {
 namespace {

@@ -7,12 +7,12 @@
 
 #include "fsm/asset/asset_writer.h"
 #include "fsm/head/make_head.h"
-#include "fsm/mesh/blendshape_rig.h"
-#include "fsm/mesh/gltf_document.h"
-#include "fsm/mesh/gltf_head.h"
+#include "fsm/mesh/gltf/gltf_document.h"
+#include "fsm/mesh/gltf/gltf_head.h"
 #include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/transfer/blendshape_rig.h"
 #include "fsm/rig/unit_table.h"
 #include "tests/fsm/ball_head.h"
 

@@ -12,12 +12,12 @@
 #include "fsm/head/make_head.h"
 #include "fsm/image/image_file.h"
 #include "fsm/mesh/mesh_head.h"
-#include "fsm/mesh/nnls_solver.h"
-#include "fsm/mesh/original_expressions.h"
-#include "fsm/mesh/original_face.h"
-#include "fsm/mesh/original_model.h"
-#include "fsm/mesh/original_motion.h"
-#include "fsm/mesh/original_points.h"
+#include "fsm/mesh/original/original_expressions.h"
+#include "fsm/mesh/original/original_face.h"
+#include "fsm/mesh/original/original_model.h"
+#include "fsm/mesh/original/original_motion.h"
+#include "fsm/mesh/original/original_points.h"
+#include "fsm/mesh/transfer/nnls_solver.h"
 #include "tests/support/test_data.h"
 
 namespace fsm {

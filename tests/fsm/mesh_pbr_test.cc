@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fsm/image/image_codec.h"
-#include "fsm/mesh/gltf_head.h"
+#include "fsm/mesh/gltf/gltf_head.h"
 #include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/texture_atlas.h"

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "fsm/mesh/deformation_transfer.h"
-#include "fsm/mesh/gltf_head.h"
+#include "fsm/mesh/gltf/gltf_head.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/imported_model.h"
-#include "fsm/mesh/surface_index.h"
+#include "fsm/mesh/transfer/deformation_transfer.h"
+#include "fsm/mesh/transfer/surface_index.h"
 #include "tests/fsm/gltf_maker.h"
 
 namespace fsm {

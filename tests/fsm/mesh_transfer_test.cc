@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "fsm/head/make_head.h"
-#include "fsm/mesh/deformation_transfer.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/mesh_head.h"
-#include "fsm/mesh/surface_index.h"
-#include "fsm/mesh/transferred_rig.h"
+#include "fsm/mesh/transfer/deformation_transfer.h"
+#include "fsm/mesh/transfer/surface_index.h"
+#include "fsm/mesh/transfer/transferred_rig.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {

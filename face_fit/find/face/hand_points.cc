@@ -9,7 +9,7 @@
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/head/warp.h"
-#include "fsm/mesh/original_points.h"
+#include "fsm/mesh/original/original_points.h"
 
 namespace facefit {
 namespace {
@@ -141,7 +141,7 @@ vm::Result<void> CheckWithin(const HandPoints& points, int width, int height) {
 
 vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::PntFile& wireframe,
                                          int width, int height) {
-  // What lies where on the original's standard head: see fsm/mesh/original_points.h.
+  // What lies where on the original's standard head: see fsm/mesh/original/original_points.h.
   constexpr std::pair<PointIndex, fsm::PointName> kSame[] = {
       {point::kEyeOuterRight, {4, 23}}, {point::kEyeInnerRight, {4, 17}},
       {point::kEyeTopRight, {4, 20}},   {point::kEyeBottomRight, {4, 26}},

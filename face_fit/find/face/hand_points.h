@@ -7,7 +7,7 @@
 
 #include "face_fit/find/head/observed_head.h"
 #include "face_fit/find/network/face_finder.h"
-#include "fsm/mesh/pnt_file.h"
+#include "fsm/mesh/original/pnt_file.h"
 
 namespace facefit {
 

@@ -16,7 +16,7 @@
 #include "fsm/base/box.h"
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
-#include "fsm/mesh/transferred_rig.h"
+#include "fsm/mesh/transfer/transferred_rig.h"
 
 namespace facefit {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "face_fit/picture/filters.h"
 #include "face_fit/surface/visible_surface.h"
-#include "fsm/mesh/transferred_rig.h"
+#include "fsm/mesh/transfer/transferred_rig.h"
 
 namespace facefit {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "face_fit/picture/plane.h"
 #include "face_fit/surface/visible_surface.h"
-#include "fsm/mesh/surface_index.h"
+#include "fsm/mesh/transfer/surface_index.h"
 
 namespace facefit {
 namespace {

@@ -12,7 +12,7 @@
 #include "face_fit/surface/triangles.h"
 #include "face_fit/surface/visible_surface.h"
 #include "fsm/head/make_head.h"
-#include "fsm/mesh/transferred_rig.h"
+#include "fsm/mesh/transfer/transferred_rig.h"
 
 namespace facefit {
 namespace {

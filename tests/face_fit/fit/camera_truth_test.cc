@@ -25,7 +25,7 @@
 #include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
-#include "fsm/mesh/transferred_rig.h"
+#include "fsm/mesh/transfer/transferred_rig.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
 

@@ -11,7 +11,7 @@
 #include "face_fit/find/head/lid_edges.h"
 #include "face_fit/find/head/lip_seam.h"
 #include "fsm/head/make_head.h"
-#include "fsm/mesh/transferred_rig.h"
+#include "fsm/mesh/transfer/transferred_rig.h"
 
 namespace facefit {
 

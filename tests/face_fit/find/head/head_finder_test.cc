@@ -21,8 +21,8 @@
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
-#include "fsm/mesh/obj_file.h"
-#include "fsm/mesh/transferred_rig.h"
+#include "fsm/mesh/obj/obj_file.h"
+#include "fsm/mesh/transfer/transferred_rig.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
 
@@ -124,7 +124,7 @@ TEST_F(HeadFinderTest, ShapesOfAnotherMakerComeBackFromOurHeadNearlyAsTheyWent) 
     const auto flesh = fsm::SkinTriangles(ours->topology());
     std::vector<fsm::PointPair> back = subject.pairs;
     for (auto& pair : back) std::swap(pair.from, pair.to);
-    // As the program does it (fsm/mesh/transferred_rig.cc).
+    // As the program does it (fsm/mesh/transfer/transferred_rig.cc).
     const auto eyes = fsm::EyeballTriangles(ours->topology());
     const fsm::TransferSurface own{rest.position, flesh, false, eyes};
     const fsm::TransferSurface theirs{subject.model.position, subject.flesh,

@@ -1,0 +1,107 @@
+#include "fsm/mesh/gltf/gltf_material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <nlohmann/json.hpp>
+#include <span>
+
+namespace fsm {
+namespace {
+
+using nlohmann::json;
+
+float Share(const json& of, const char* key, double otherwise) {
+  return static_cast<float>(std::clamp(JsonNumber(of, key, otherwise), 0.0, 1.0));
+}
+
+glm::vec3 ColourOf(const json& of, const char* key, glm::vec3 colour) {
+  JsonNumbers(of, key, std::span(&colour.x, 3));
+  return glm::clamp(colour, 0.0F, 16.0F);
+}
+
+GltfMaterial::Texture TextureOf(const json& of, const char* key, const char* strength = "") {
+  const json& given = JsonMember(of, key);
+  return {JsonInteger(given, "index"),
+          static_cast<float>(std::clamp(JsonNumber(given, strength, 1), -4.0, 4.0)), &given};
+}
+
+/// Between which cosines a drawn figure goes from shade to light: below -1 + toony - shift it is
+/// all shade, above 1 - toony - shift all light (VRMC_materials_mtoon 1.0, "Lighting").
+void SetEdges(double toony, double shift, PbrMaterial& pbr) {
+  pbr.shade_to = static_cast<float>(-1 + toony - shift);
+  pbr.light_from = static_cast<float>(1 - toony - shift);
+}
+
+void ReadToon(const json& toon, GltfMaterial& out) {
+  PbrMaterial& pbr = out.pbr.emplace();
+  pbr.kind = PbrMaterial::Kind::kToon;
+  pbr.shade = ColourOf(toon, "shadeColorFactor", glm::vec3(1));
+  SetEdges(std::clamp(JsonNumber(toon, "shadingToonyFactor", 0.9), 0.0, 1.0),
+           std::clamp(JsonNumber(toon, "shadingShiftFactor", 0), -1.0, 1.0), pbr);
+  out.glow = TextureOf(toon, "shadeMultiplyTexture");
+}
+
+/// Properties of the shader of Unity's MToon as VRM 0.x has them. Its numbers lie between the shade
+/// threshold and that moved towards 1 by what is not toony; colours are those of the screen.
+void ReadOldToon(const json& properties, GltfMaterial& out) {
+  PbrMaterial& pbr = out.pbr.emplace();
+  pbr.kind = PbrMaterial::Kind::kToon;
+  const json& numbers = JsonMember(properties, "floatProperties");
+  const float shift =
+      static_cast<float>(std::clamp(JsonNumber(numbers, "_ShadeShift", 0), -1.0, 1.0));
+  pbr.shade_to = shift;
+  pbr.light_from = shift + (1 - shift) * (1 - Share(numbers, "_ShadeToony", 0.9));
+  const glm::vec3 shown =
+      ColourOf(JsonMember(properties, "vectorProperties"), "_ShadeColor", glm::vec3(1));
+  for (int k = 0; k < 3; ++k) pbr.shade[k] = std::pow(shown[k], 2.2F);
+  out.glow.index = JsonInteger(JsonMember(properties, "textureProperties"), "_ShadeTexture");
+}
+
+const json& OldProperties(const GltfDocument& document, std::int64_t material) {
+  static const json none;
+  const json& list = JsonMember(JsonMember(JsonMember(document.root(), "extensions"), "VRM"),
+                                "materialProperties");
+  const auto index = static_cast<std::size_t>(material);
+  return material >= 0 && list.is_array() && index < list.size() ? list[index] : none;
+}
+
+}  // namespace
+
+GltfMaterial ReadMaterial(const GltfDocument& document, std::int64_t material) {
+  GltfMaterial out;
+  if (material < 0) return out;
+  const json& given = document.At("materials", material);
+  const std::string mode = JsonText(given, "alphaMode");
+  out.alpha = mode == "MASK"    ? GltfMaterial::Alpha::kMask
+              : mode == "BLEND" ? GltfMaterial::Alpha::kBlend
+                                : GltfMaterial::Alpha::kOpaque;
+  const json& extensions = JsonMember(given, "extensions");
+  const json& old = OldProperties(document, material);
+  const std::string shader = JsonText(old, "shader");
+  // Drawn figures often say that they are unlit, too, for programs that do not know MToon.
+  if (extensions.contains("VRMC_materials_mtoon")) {
+    ReadToon(JsonMember(extensions, "VRMC_materials_mtoon"), out);
+  } else if (shader == "VRM/MToon") {
+    ReadOldToon(old, out);
+  } else if (extensions.contains("KHR_materials_unlit") || shader.starts_with("VRM/Unlit")) {
+    return out;
+  } else {
+    PbrMaterial& pbr = out.pbr.emplace();
+    const json& metal = JsonMember(given, "pbrMetallicRoughness");
+    pbr.metallic = Share(metal, "metallicFactor", 1);
+    pbr.roughness = Share(metal, "roughnessFactor", 1);
+    out.surface = TextureOf(metal, "metallicRoughnessTexture");
+    out.open = TextureOf(given, "occlusionTexture", "strength");
+    out.glow = TextureOf(given, "emissiveTexture");
+  }
+  out.normal = TextureOf(given, "normalTexture", "scale");
+  out.pbr->glow = ColourOf(given, "emissiveFactor", glm::vec3(0));
+  const double strength =
+      JsonNumber(JsonMember(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
+  out.pbr->glow *= static_cast<float>(std::clamp(strength, 0.0, 16.0));
+  out.pbr->cut_out = out.alpha != GltfMaterial::Alpha::kOpaque;
+  return out;
+}
+
+}  // namespace fsm

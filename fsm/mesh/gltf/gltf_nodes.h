@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/mat4x4.hpp>
+#include <span>
+#include <vector>
+
+#include "fsm/mesh/gltf/gltf_document.h"
+
+namespace fsm {
+
+/// Where the nodes of a glTF file stand at rest.
+class GltfNodes {
+ public:
+  /// Errors: kBadValue "NAME: nodes[I]: nodes that are their own parents".
+  static vm::Result<GltfNodes> Read(const GltfDocument& document);
+  bool Has(std::int64_t node) const {
+    return node >= 0 && static_cast<std::size_t>(node) < world_.size();
+  }
+  /// The identity if there is no such node.
+  const glm::mat4& World(std::int64_t node) const;
+  /// The nodes of the file's scene, parents before children; all there are if it has no scene.
+  std::span<const std::int64_t> shown() const { return shown_; }
+
+ private:
+  vm::Result<void> Place(const GltfDocument& document, std::int64_t node, const glm::mat4& above,
+                         int depth);
+  void Show(const GltfDocument& document, std::int64_t node, std::vector<bool>& seen);
+  std::vector<glm::mat4> world_;
+  std::vector<bool> placed_;
+  std::vector<std::int64_t> shown_;
+};
+
+/// A skin at rest: how each of its bones takes a vertex from where the mesh was made to where the
+/// bone holds it. Exporters that scale or turn the skeleton make the two differ.
+class GltfSkin {
+ public:
+  /// Errors: as GltfDocument's, of the inverse bind matrices.
+  static vm::Result<GltfSkin> Read(const GltfDocument& document, const GltfNodes& nodes,
+                                   std::int64_t skin);
+  /// The matrix of every vertex of a primitive; those without weights go by `transform`. `main`:
+  /// the node of the bone with the largest part, -1 for none.
+  struct Skinned {
+    struct Influence {
+      std::size_t vertex;
+      std::int64_t node;
+      float weight;
+    };
+    std::vector<glm::mat4> transform;
+    std::vector<std::int64_t> main;
+    std::vector<Influence> watched;  ///< all influences of the nodes that were asked for
+  };
+  vm::Result<Skinned> Apply(const GltfDocument& document, const nlohmann::json& attributes,
+                            std::size_t count, const glm::mat4& transform,
+                            const std::function<bool(std::int64_t node)>& watched) const;
+
+ private:
+  std::vector<glm::mat4> joint_transform_;
+  std::vector<std::int64_t> node_;
+};
+
+}  // namespace fsm

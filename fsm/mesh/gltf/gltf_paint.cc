@@ -1,0 +1,246 @@
+#include "fsm/mesh/gltf/gltf_paint.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "fsm/image/byte_order.h"
+#include "fsm/image/colour_space.h"
+#include "fsm/image/image_codec.h"
+#include "fsm/mesh/texture_atlas.h"
+#include "vm_protocol/core/lower_case.h"
+
+namespace fsm {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMaxPictures = 64;
+constexpr std::size_t kMaxDetailed = 16;  // materials whose light has pictures
+constexpr int kOpaque = -1, kSmooth = 256;
+
+glm::vec4 FactorOf(const json& material) {
+  glm::vec4 factor(1);
+  JsonNumbers(JsonMember(material, "pbrMetallicRoughness"), "baseColorFactor",
+              std::span(&factor.x, 4));
+  return glm::clamp(factor, 0.0f, 1.0f);
+}
+
+const json& TextureOf(const json& material) {
+  return JsonMember(JsonMember(material, "pbrMetallicRoughness"), "baseColorTexture");
+}
+
+/// A picture's byte times a factor of light.
+std::array<std::uint8_t, 256> Dimmed(float factor) {
+  std::array<std::uint8_t, 256> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const float shown = static_cast<float>(i) / 255;
+    const float out = LinearToSrgb(factor * SrgbToLinear(shown));
+    table[i] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(out, 0.0f, 1.0f)));
+  }
+  return table;
+}
+
+void Dim(Image& picture, glm::vec4 factor, int cut) {
+  const std::array<std::array<std::uint8_t, 256>, 3> dim{Dimmed(factor.r), Dimmed(factor.g),
+                                                         Dimmed(factor.b)};
+  for (std::size_t i = 0; i + 3 < picture.rgba.size(); i += 4) {
+    for (std::size_t c = 0; c < 3; ++c) picture.rgba[i + c] = dim[c][picture.rgba[i + c]];
+    const float alpha = factor.a * static_cast<float>(picture.rgba[i + 3]);
+    picture.rgba[i + 3] =
+        cut == kOpaque   ? 255
+        : cut == kSmooth ? static_cast<std::uint8_t>(std::lround(alpha))
+                         : static_cast<std::uint8_t>(alpha >= static_cast<float>(cut) ? 255 : 0);
+  }
+}
+
+GltfUv UvOf(const json& texture) {
+  GltfUv uv;
+  uv.set = JsonInteger(texture, "texCoord", 0);
+  const json& by = JsonMember(JsonMember(texture, "extensions"), "KHR_texture_transform");
+  uv.set = JsonInteger(by, "texCoord", uv.set);
+  JsonNumbers(by, "offset", std::span(&uv.move.x, 2));
+  JsonNumbers(by, "scale", std::span(&uv.size.x, 2));
+  uv.turn_rad = static_cast<float>(JsonNumber(by, "rotation", 0));
+  return uv;
+}
+
+Image Sized(Image image, int width, int height) {
+  if (image.width == width && image.height == height) return image;
+  Image out{width, height, {}};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t from = 4 * image.Index(x * image.width / width, y * image.height / height);
+      out.rgba.insert(out.rgba.end(), &image.rgba[from], &image.rgba[from] + 4);
+    }
+  }
+  return out;
+}
+
+/// Scales two pictures to one size: the larger width and the larger height of the two. A missing
+/// picture is filled with the colour that stands for it, `a_otherwise` or `b_otherwise`. Returns
+/// false, and changes nothing, if both are missing.
+bool Pair(std::optional<Image>& a, std::optional<Image>& b,
+          const std::array<std::uint8_t, 4>& a_otherwise,
+          const std::array<std::uint8_t, 4>& b_otherwise) {
+  if (!a && !b) return false;
+  if (!a) a = Image{1, 1, {a_otherwise.begin(), a_otherwise.end()}};
+  if (!b) b = Image{1, 1, {b_otherwise.begin(), b_otherwise.end()}};
+  const int width = std::max(a->width, b->width), height = std::max(a->height, b->height);
+  a = Sized(std::move(*a), width, height);
+  b = Sized(std::move(*b), width, height);
+  return true;
+}
+
+}  // namespace
+
+glm::vec2 GltfUv::operator()(glm::vec2 uv) const {
+  const float c = std::cos(turn_rad), s = std::sin(turn_rad);
+  const glm::vec2 at = size * uv;
+  return move + glm::vec2(c * at.x + s * at.y, c * at.y - s * at.x);
+}
+
+GltfUv GltfPaint::UvOfMaterial(std::int64_t material) const {
+  const json& base = TextureOf(document_.At("materials", material));
+  if (base.contains("index")) return UvOf(base);
+  const GltfMaterial given = ReadMaterial(document_, material);
+  for (const auto* one : {&given.normal, &given.surface, &given.open, &given.glow}) {
+    if (one->index >= 0 && one->where) return UvOf(*one->where);
+  }
+  return {};
+}
+
+std::int64_t GltfPaint::ImageOf(std::int64_t texture) {
+  const json& given = document_.At("textures", texture);
+  if (const std::int64_t own = JsonInteger(given, "source"); own >= 0) return own;
+  for (const char* kind : {"EXT_texture_webp", "KHR_texture_basisu", "EXT_texture_avif"}) {
+    const std::int64_t other =
+        JsonInteger(JsonMember(JsonMember(given, "extensions"), kind), "source");
+    if (other >= 0) return other;
+  }
+  return -1;
+}
+
+void GltfPaint::ApplyMaterial(std::int64_t index, ImportedHead::Part& part) {
+  using Alpha = GltfMaterial::Alpha;
+  const json& material = document_.At("materials", index);
+  part.name += " " + JsonText(material, "name");
+  const glm::vec4 factor = FactorOf(material);
+  if (index >= 0) part.colour = glm::vec3(factor);
+  part.two_sided = material.contains("doubleSided") && material["doubleSided"] == json(true);
+  const GltfMaterial given = ReadMaterial(document_, index);
+  part.cut_out = given.alpha != Alpha::kOpaque;
+  if (given.pbr) {
+    const auto [known, fresh] =
+        pbr_index_.try_emplace(index, static_cast<int>(head_.pbr_materials.size()));
+    if (fresh) head_.pbr_materials.push_back(*given.pbr);
+    part.pbr = known->second;
+  }
+  const std::int64_t texture = JsonInteger(TextureOf(material), "index");
+  const bool detailed = given.normal.index >= 0 || given.surface.index >= 0 ||
+                        given.open.index >= 0 || given.glow.index >= 0;
+  if (texture < 0 && !detailed) return;
+  const double cut_off = std::clamp(JsonNumber(material, "alphaCutoff", 0.5), 0.0, 1.0);
+  const int cut = given.alpha == Alpha::kMask    ? static_cast<int>(std::lround(255 * cut_off))
+                  : given.alpha == Alpha::kBlend ? kSmooth
+                                                 : kOpaque;
+  std::uint32_t steps = 0;
+  for (int k = 0; k < 4; ++k) {
+    steps = steps << 8 | static_cast<std::uint32_t>(std::lround(255 * factor[k]));
+  }
+  const Key key{texture < 0 ? -1 : ImageOf(texture), steps, cut, detailed ? index : -1};
+  if (const auto known = picture_of_.find(key); known != picture_of_.end()) {
+    part.picture = known->second;
+    return;
+  }
+  part.picture = Picture(key, factor,
+                         detailed ? DetailOf(given, UvOfMaterial(index)) : ImportedHead::Detail{});
+}
+
+std::optional<Image> GltfPaint::Decode(std::int64_t image) {
+  const auto bytes = document_.ImageBytes(image);
+  vm::Result<Image> picture =
+      bytes ? DecodePicture(BytesOf(*bytes)) : std::unexpected(bytes.error());
+  if (!picture) {
+    head_.notices.push_back("images[" + std::to_string(image) +
+                            "] is left out: " + picture.error().text);
+    return std::nullopt;
+  }
+  Shrink(*picture, TextureAtlas::kMaxSide);
+  return std::move(*picture);
+}
+
+ImportedHead::Detail GltfPaint::DetailOf(const GltfMaterial& given, const GltfUv& uv) {
+  ImportedHead::Detail detail;
+  if (++detailed_ > kMaxDetailed) {
+    if (detailed_ == kMaxDetailed + 1) {
+      head_.notices.push_back("pictures of light of more than " + std::to_string(kMaxDetailed) +
+                              " materials are left out");
+    }
+    return detail;
+  }
+  const auto read = [&](const GltfMaterial::Texture& texture) -> std::optional<Image> {
+    if (texture.index < 0) return std::nullopt;
+    if (texture.where && UvOf(*texture.where) != uv) {
+      head_.notices.push_back("textures[" + std::to_string(texture.index) +
+                              "] is left out: it lies on the mesh otherwise than the colour");
+      return std::nullopt;
+    }
+    return Decode(ImageOf(texture.index));
+  };
+  auto normal = read(given.normal), surface = read(given.surface);
+  if (Pair(normal, surface, {128, 128, 255, 255}, {255, 255, 255, 255})) {
+    const auto bent = [&](std::uint8_t byte) {
+      const float off = given.normal.strength * (static_cast<float>(byte) - 128);
+      return static_cast<std::uint8_t>(std::clamp(128 + off, 1.0f, 255.0f));
+    };
+    for (std::size_t i = 0; i < normal->rgba.size(); i += 4) {
+      std::uint8_t* n = &normal->rgba[i];
+      n[0] = bent(n[0]);
+      n[1] = bent(n[1]);
+      n[2] = surface->rgba[i + 1];
+      n[3] = surface->rgba[i + 2];
+    }
+    detail.normal_map = std::move(*normal);
+  }
+  auto glow = read(given.glow), open = read(given.open);
+  if (Pair(glow, open, {255, 255, 255, 255}, {255, 255, 255, 255})) {
+    for (std::size_t i = 0; i < glow->rgba.size(); i += 4) {
+      const float shut = given.open.strength * static_cast<float>(255 - open->rgba[i]);
+      glow->rgba[i + 3] = static_cast<std::uint8_t>(std::clamp(255 - shut, 0.0f, 255.0f));
+    }
+    detail.emissive_map = std::move(*glow);
+  }
+  return detail;
+}
+
+int GltfPaint::Picture(const Key& key, glm::vec4 factor, ImportedHead::Detail detail) {
+  int& known = picture_of_.emplace(key, -1).first->second;
+  if (head_.pictures.size() >= kMaxPictures) return known;
+  // A picture that cannot be read leaves the colour; the form is still worth showing.
+  std::optional<Image> picture;
+  if (const std::int64_t image = std::get<0>(key); image >= 0) {
+    picture = Decode(image);
+  } else {
+    const Image& larger = detail.normal_map.width > detail.emissive_map.width ? detail.normal_map
+                                                                              : detail.emissive_map;
+    if (larger.width > 0) {
+      picture =
+          Image{larger.width, larger.height, std::vector<std::uint8_t>(larger.rgba.size(), 255)};
+    }
+  }
+  if (!picture) return known;
+  Dim(*picture, factor, std::get<2>(key));
+  known = static_cast<int>(head_.pictures.size());
+  head_.pictures.push_back(std::move(*picture));
+  if (!detail.normal_map.rgba.empty() || !detail.emissive_map.rgba.empty()) {
+    head_.details.resize(head_.pictures.size());
+    head_.details.back() = std::move(detail);
+  }
+  return known;
+}
+
+}  // namespace fsm

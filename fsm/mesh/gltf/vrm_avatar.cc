@@ -1,0 +1,103 @@
+#include "fsm/mesh/gltf/vrm_avatar.h"
+
+#include <nlohmann/json.hpp>
+
+#include "fsm/mesh/imported_head.h"
+
+namespace fsm {
+namespace {
+
+using nlohmann::json;
+
+/// Degrees; what is no angle of an eye is left as it was.
+void ReadRange(const json& range, const char* from, const char* to, GazeRange& out) {
+  const double gaze = JsonNumber(range, from, -1), turn = JsonNumber(range, to, -1);
+  if (gaze <= 0 || gaze > 360 || turn < 0 || turn > 360) return;
+  out = {static_cast<float>(gaze), static_cast<float>(turn)};
+}
+
+void ReadOld(const json& vrm, VrmAvatar& avatar) {
+  avatar.looks_back = true;
+  for (const json& bone : JsonMember(JsonMember(vrm, "humanoid"), "humanBones")) {
+    const std::string name = JsonText(bone, "bone");
+    if (name == "rightEye") avatar.eye_bone.right = JsonInteger(bone, "node");
+    if (name == "leftEye") avatar.eye_bone.left = JsonInteger(bone, "node");
+  }
+  const json& person = JsonMember(vrm, "firstPerson");
+  avatar.says_gaze_ranges = person.contains("lookAtTypeName");
+  avatar.gaze_by_shape = JsonText(person, "lookAtTypeName") == "BlendShape";
+  for (const auto& [key, range] : {std::pair("lookAtHorizontalInner", &avatar.gaze_ranges.inner),
+                                   {"lookAtHorizontalOuter", &avatar.gaze_ranges.outer},
+                                   {"lookAtVerticalDown", &avatar.gaze_ranges.down},
+                                   {"lookAtVerticalUp", &avatar.gaze_ranges.up}}) {
+    ReadRange(JsonMember(person, key), "xRange", "yRange", *range);
+  }
+  for (const json& group : JsonMember(JsonMember(vrm, "blendShapeMaster"), "blendShapeGroups")) {
+    VrmAvatar::Expression expression{JsonText(group, "presetName"), {}};
+    if (expression.name.empty() || expression.name == "unknown") {
+      expression.name = JsonText(group, "name");
+    }
+    for (const json& bind : JsonMember(group, "binds")) {
+      expression.binds.push_back({JsonInteger(bind, "mesh"), -1, JsonInteger(bind, "index"),
+                                  JsonNumber(bind, "weight", 0) / 100});
+    }
+    avatar.expressions.push_back(std::move(expression));
+  }
+}
+
+void ReadNew(const GltfDocument& document, const json& vrm, VrmAvatar& avatar) {
+  const json& bones = JsonMember(JsonMember(vrm, "humanoid"), "humanBones");
+  avatar.eye_bone = {JsonInteger(JsonMember(bones, "rightEye"), "node"),
+                     JsonInteger(JsonMember(bones, "leftEye"), "node")};
+  const json& look = JsonMember(vrm, "lookAt");
+  avatar.says_gaze_ranges = look.contains("type");
+  avatar.gaze_by_shape = JsonText(look, "type") == "expression";
+  for (const auto& [key, range] : {std::pair("rangeMapHorizontalInner", &avatar.gaze_ranges.inner),
+                                   {"rangeMapHorizontalOuter", &avatar.gaze_ranges.outer},
+                                   {"rangeMapVerticalDown", &avatar.gaze_ranges.down},
+                                   {"rangeMapVerticalUp", &avatar.gaze_ranges.up}}) {
+    ReadRange(JsonMember(look, key), "inputMaxValue", "outputScale", *range);
+  }
+  for (const char* kind : {"preset", "custom"}) {
+    const json& given = JsonMember(JsonMember(vrm, "expressions"), kind);
+    if (!given.is_object()) continue;
+    for (const auto& [name, of] : given.items()) {
+      VrmAvatar::Expression expression{name, {}};
+      for (const json& bind : JsonMember(of, "morphTargetBinds")) {
+        const std::int64_t node = JsonInteger(bind, "node");
+        expression.binds.push_back({JsonInteger(document.At("nodes", node), "mesh"), node,
+                                    JsonInteger(bind, "index"), JsonNumber(bind, "weight", 0)});
+      }
+      avatar.expressions.push_back(std::move(expression));
+    }
+  }
+}
+
+/// Bones called "LeftEye", "Eye_L", "mixamorig:RightEye" and the like.
+void FindByName(const GltfDocument& document, VrmAvatar& avatar) {
+  for (std::size_t s = 0; s < document.Count("skins"); ++s) {
+    const json& skin = document.At("skins", static_cast<std::int64_t>(s));
+    for (const std::int64_t node : JsonIntegers(skin, "joints")) {
+      const std::string name = PlainShapeName(JsonText(document.At("nodes", node), "name"));
+      if (name.ends_with("righteye") || name.ends_with("eyeright")) avatar.eye_bone.right = node;
+      if (name.ends_with("lefteye") || name.ends_with("eyeleft")) avatar.eye_bone.left = node;
+    }
+  }
+}
+
+}  // namespace
+
+VrmAvatar ReadVrm(const GltfDocument& document) {
+  VrmAvatar avatar;
+  const json& extensions = JsonMember(document.root(), "extensions");
+  if (extensions.contains("VRMC_vrm")) {
+    ReadNew(document, JsonMember(extensions, "VRMC_vrm"), avatar);
+  } else if (extensions.contains("VRM")) {
+    ReadOld(JsonMember(extensions, "VRM"), avatar);
+  } else {
+    FindByName(document, avatar);
+  }
+  return avatar;
+}
+
+}  // namespace fsm

@@ -1,0 +1,138 @@
+#include "fsm/mesh/gltf/vrm_springs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace fsm {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kStepsPerSecond = 60;
+constexpr float kShortest = 0.01f;   // metres
+constexpr float kEndLength = 0.07f;  // of the last joint of a chain of VRM 0.x, metres
+constexpr int kMostJoints = 100;     // of a chain
+
+Spring SpringOf(glm::vec3 from, glm::vec3 tail, double stiffness, double gravity, double drag,
+                bool collides) {
+  constexpr double kSoftest = 0.02, kMostDrag = 0.99, kReach = 0.8;
+  stiffness = std::clamp(stiffness, 0.0, 100.0);
+  gravity = std::clamp(gravity, 0.0, 100.0);
+  const double length = std::max(glm::distance(from, tail), kShortest);
+  const double force = std::max(stiffness + gravity, kSoftest);
+  const double w = std::sqrt(kStepsPerSecond * force / length);
+  const double decay = -kStepsPerSecond * std::log(1 - std::clamp(drag, 0.0, kMostDrag)) / 2;
+  const auto within = [](double value, float low, float high) {
+    return std::clamp(static_cast<float>(value), low, high);
+  };
+  return {.rest = tail,
+          .root = from,
+          .outward = collides ? glm::vec3(0, -1, 0) : glm::vec3(0),
+          .frequency_hz = within(w / (2 * std::numbers::pi), Spring::kLeastHz, Spring::kMostHz),
+          .damping = within(decay / w, Spring::kLeastDamping, Spring::kMostDamping),
+          .hang = static_cast<float>(gravity / force),
+          .most_mm = static_cast<float>(kReach * length)};
+}
+
+}  // namespace
+
+VrmSprings::VrmSprings(const GltfDocument& document, const GltfNodes& nodes)
+    : document_(&document), nodes_(&nodes) {
+  const json& extensions = JsonMember(document.root(), "extensions");
+  if (extensions.contains("VRMC_springBone")) {
+    ReadNew(JsonMember(extensions, "VRMC_springBone"));
+  } else {
+    ReadOld(JsonMember(JsonMember(extensions, "VRM"), "secondaryAnimation"));
+  }
+  document_ = nullptr;
+  nodes_ = nullptr;
+}
+
+VrmSprings::Joint VrmSprings::AddJoint(std::int64_t node, const Joint* above, glm::vec3 tail,
+                                       const Manner& manner) {
+  Joint joint{.from = PlaceOf(node)};
+  joint.chain_from = above != nullptr ? above->chain_from : joint.from;
+  joint.before = above != nullptr ? above->spring : -1;
+  joint.spring = static_cast<int>(springs_.size());
+  springs_.push_back(SpringOf(joint.chain_from, tail, manner.stiffness, manner.gravity, manner.drag,
+                              manner.collides));
+  joints_.emplace(node, joint);
+  return joint;
+}
+
+void VrmSprings::ReadNew(const json& extension) {
+  for (const json& chain : JsonMember(extension, "springs")) {
+    const bool collides = !JsonMember(chain, "colliderGroups").empty();
+    const json& joints = JsonMember(chain, "joints");
+    if (!joints.is_array()) continue;
+    Joint above;
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      const std::int64_t node = JsonInteger(joints[k], "node");
+      if (!nodes_->Has(node) || joints_.contains(node) || springs_.size() >= kMostSprings) break;
+      if (k + 1 == joints.size()) {  // the last one only says where the one before ends
+        if (k > 0) joints_.emplace(node, Joint{.spring = above.spring, .before = above.spring});
+        break;
+      }
+      const std::int64_t next = JsonInteger(joints[k + 1], "node");
+      if (!nodes_->Has(next)) break;
+      above = AddJoint(node, k > 0 ? &above : nullptr, PlaceOf(next),
+                       {.stiffness = JsonNumber(joints[k], "stiffness", 1),
+                        .gravity = JsonNumber(joints[k], "gravityPower", 0),
+                        .drag = JsonNumber(joints[k], "dragForce", 0.5),
+                        .collides = collides});
+    }
+  }
+}
+
+void VrmSprings::ReadOld(const json& animation) {
+  for (const json& group : JsonMember(animation, "boneGroups")) {
+    const Manner manner{.stiffness = JsonNumber(group, "stiffiness", 1),  // spelt so in the format
+                        .gravity = JsonNumber(group, "gravityPower", 0),
+                        .drag = JsonNumber(group, "dragForce", 0.4),
+                        .collides = !JsonMember(group, "colliderGroups").empty()};
+    for (const std::int64_t bone : JsonIntegers(group, "bones"))
+      AddBranch(bone, nullptr, manner, 0);
+  }
+}
+
+void VrmSprings::AddBranch(std::int64_t node, const Joint* above, const Manner& manner, int depth) {
+  if (!nodes_->Has(node) || joints_.contains(node)) return;
+  if (depth > kMostJoints || springs_.size() >= kMostSprings) return;
+  const auto children = JsonIntegers(document_->At("nodes", node), "children");
+  const glm::vec3 from = PlaceOf(node);
+  glm::vec3 tail = from;
+  if (!children.empty()) {
+    tail = PlaceOf(children.front());
+  } else if (above != nullptr && glm::distance(from, above->from) > 1e-6f) {
+    tail += kEndLength * glm::normalize(from - above->from);
+  } else {
+    tail.y -= kEndLength;
+  }
+  const Joint joint = AddJoint(node, above, tail, manner);
+  for (const std::int64_t child : children) AddBranch(child, &joint, manner, depth + 1);
+}
+
+void VrmSprings::Bind(std::uint32_t vertex, glm::vec3 p, std::int64_t node, float weight,
+                      std::vector<SpringWeight>& weights) const {
+  const auto found = joints_.find(node);
+  if (found == joints_.end()) return;
+  const Joint& joint = found->second;
+  const auto add = [&](int spring, float part) {
+    if (spring >= 0 && part > 1e-3f)
+      weights.push_back({vertex, static_cast<std::uint32_t>(spring), part});
+  };
+  if (joint.before == joint.spring) {  // the end of a chain goes with the joint before
+    add(joint.spring, weight);
+    return;
+  }
+  const glm::vec3 along = springs_[static_cast<std::size_t>(joint.spring)].rest - joint.from;
+  const float length = std::max(glm::dot(along, along), kShortest * kShortest);
+  const float part = std::clamp(glm::dot(p - joint.from, along) / length, 0.0f, 1.0f);
+  add(joint.spring, weight * part);
+  add(joint.before, weight * (1 - part));
+}
+
+}  // namespace fsm

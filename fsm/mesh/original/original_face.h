@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fsm/image/image.h"
+#include "fsm/mesh/mesh_model.h"
+#include "fsm/mesh/obj/obj_file.h"
+#include "fsm/mesh/original/original_files.h"
+#include "fsm/mesh/original/pnt_file.h"
+#include "fsm/rig/face_state.h"
+
+namespace fsm {
+
+/// Where eyeballs sit, a .def_e file: 29 little-endian doubles, for the right and the left eye
+/// place, turn and scale, the same again within the ball, and the scale of the picture on it. The
+/// original draws by the first place and scale, the second turn and the picture's scale; the other
+/// numbers are left over from its editor, which did not initialise all of them, and are not read.
+struct EyeDef {
+  struct Eye {
+    glm::vec3 place{0}, turn_degrees{0};
+    float scale = 1;
+  };
+  Sided<Eye> eye;
+  float picture_scale = 1;
+};
+vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes);
+/// The colour of the teeth, a .def_t file: three numbers 0..1.
+vm::Result<glm::vec3> ParseTeethDef(const std::string& name, std::string_view text);
+
+inline constexpr std::size_t kOriginalUnits = 30;
+/// FACS numbers of the original's units, in its order (its manual's list; action_unit_list.txt).
+inline constexpr std::array<int, kOriginalUnits> kUnitNumbers{
+    1,  2,  4,  5,  6,  7,  9,  10, 11, 12, 13, 14, 15, 16, 17,
+    18, 20, 22, 23, 24, 25, 26, 27, 28, 29, 30, 35, 41, 42, 43};
+inline constexpr std::size_t kOriginalVisemes = 27;
+
+/// A face of the original, read.
+struct OriginalFace {
+  std::string name;
+  PntFile wireframe, standard;
+  LnkFile link;
+  Image picture;
+  std::optional<Image> eye_picture;
+  std::optional<EyeDef> eye_def;
+  glm::vec3 teeth{0.8f};
+  glm::vec3 mouth{0.25f, 0.07f, 0.06f};
+  std::optional<ObjFile> upper_teeth, lower_teeth, eye;
+  /// Offsets at full strength in the wireframe's units, by its vertices.
+  std::vector<std::vector<glm::vec3>> units, mouth_units, visemes;
+  std::vector<std::vector<glm::vec3>>
+      expression_residuals;  ///< by channel, see OriginalExpressions
+};
+/// Error: kBadValue naming the file, and the line or byte where there is one. A file "" is left
+/// out; wireframe, picture, standard, link and offsets must be there.
+vm::Result<OriginalFace> ReadOriginalFace(const OriginalFaceFiles& files,
+                                          const OriginalSharedFiles& shared);
+
+}  // namespace fsm

@@ -1,0 +1,237 @@
+#include "fsm/mesh/original/original_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "fsm/base/box.h"
+#include "fsm/base/pi.h"
+#include "fsm/base/smooth_step.h"
+#include "fsm/image/colour_space.h"
+#include "fsm/mesh/original/original_points.h"
+#include "fsm/mesh/texture_atlas.h"
+
+namespace fsm {
+namespace {
+
+/// Builds the model part by part, in our space.
+class OriginalBuilder {
+ public:
+  explicit OriginalBuilder(const OriginalFace& face) : face_(face), space_(face.wireframe) {}
+
+  MeshModel Build() {
+    const std::size_t picture = atlas_.Add(face_.picture);
+    std::size_t eye_picture = 0;
+    if (face_.eye_picture) eye_picture = atlas_.Add(*face_.eye_picture);
+    model_.textures.image = atlas_.Make();
+    AddFace(picture);
+    AddMouth();
+    AddEyes(eye_picture);
+    AddSockets();
+    if (face_.upper_teeth) AddTeeth(*face_.upper_teeth, Bone::kSkull);
+    if (face_.lower_teeth) AddTeeth(*face_.lower_teeth, Bone::kJaw);
+    NamePlaces();
+    return std::move(model_);
+  }
+
+ private:
+  std::uint32_t Vertex(PointName name) const {
+    return static_cast<std::uint32_t>(face_.wireframe.index.at(name));
+  }
+  glm::vec3 Place(PointName name) const { return model_.position[Vertex(name)]; }
+
+  void AddFace(std::size_t picture) {
+    // The picture covers -1..1 of the wireframe at rest in both directions.
+    const float chin = space_.Place(face_.wireframe, kChin).y;
+    for (const glm::vec3& p : face_.wireframe.at) {
+      const glm::vec2 place =
+          atlas_.rect(picture).At(glm::clamp(glm::vec2(p.x + 1, 1 - p.y) / 2.0F, 0.0F, 1.0F));
+      const glm::vec3 at = space_.ToMm(p);
+      model_.Add(at, Bone::kSkin, face_.mouth, place, SmoothStep(chin - 42, chin - 4, at.y));
+    }
+    for (const auto& triangle : face_.link.triangles) {
+      if (!IsDrawn(triangle.group)) continue;
+      model_.Triangle(Material::kSkin, Vertex(triangle.corner[0]), Vertex(triangle.corner[1]),
+                      Vertex(triangle.corner[2]));
+    }
+    for (const auto& [upper, lower] : kLipPairs) {
+      model_.seam.emplace_back(Vertex(upper), Vertex(lower));
+      ShutAtRest(model_.position[Vertex(upper)], model_.position[Vertex(lower)]);
+    }
+  }
+
+  /// Wireframes leave a slit of a hair between lips that are shut, or let them cross by one; teeth
+  /// would be seen through it.
+  static void ShutAtRest(glm::vec3& upper, glm::vec3& lower) {
+    constexpr float kHairMm = 0.8F;
+    if (std::abs(upper.y - lower.y) > kHairMm) return;
+    const glm::vec2 middle = 0.5F * (glm::vec2(upper) + glm::vec2(lower));
+    upper = glm::vec3(middle, upper.z);
+    lower = glm::vec3(middle, lower.z);
+  }
+
+  /// A bag behind the lips' rim, its upper half of the skull, its lower half of the jaw.
+  void AddMouth() {
+    std::vector<std::uint32_t> rim;
+    for (const PointName& name : kLipRim) rim.push_back(Vertex(name));
+    const glm::vec3 middle = 0.5F * (Place(kLipCorners.right) + Place(kLipCorners.left));
+    struct Ring {
+      float back, high, wide;
+    };
+    constexpr Ring kRings[] = {{5, 9, 0.97F}, {25, 16, 0.95F}, {48, 12, 0.7F}};
+    std::vector<std::uint32_t> outer = rim;
+    for (const Ring& ring : kRings) {
+      std::vector<std::uint32_t> inner;
+      for (std::size_t i = 0; i < rim.size(); ++i) {
+        const glm::vec3 p = model_.position[rim[i]];
+        // Points 0 and 10 of the rim's 20 are the corners, 1 to 9 the upper lip.
+        const float round = std::sin(kPi * static_cast<float>(i % 10) / 10);
+        const float up = i < 10 ? round : -round;
+        const glm::vec3 at(middle.x + (p.x - middle.x) * ring.wide, p.y + up * ring.high,
+                           p.z - ring.back);
+        inner.push_back(model_.Add(at, i <= 10 ? Bone::kSkull : Bone::kJaw,
+                                   face_.mouth * (1 - 0.012F * ring.back)));
+      }
+      for (std::size_t i = 0; i < rim.size(); ++i) {
+        const std::size_t j = (i + 1) % rim.size();
+        model_.Triangle(Material::kMouthInside, outer[i], outer[j], inner[j]);
+        model_.Triangle(Material::kMouthInside, outer[i], inner[j], inner[i]);
+      }
+      outer = std::move(inner);
+    }
+    const std::uint32_t end =
+        model_.Add(middle - glm::vec3(0, 0, 55), Bone::kSkull, face_.mouth * 0.3F);
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+      model_.Triangle(Material::kMouthInside, outer[i], outer[(i + 1) % outer.size()], end);
+    }
+  }
+
+  void AddEyes(std::size_t picture) {
+    model_.has_eyes = true;
+    for (const Side side : kSides) {
+      EyeGeometry& eye = model_.eyes[side];
+      eye.iris_colour = {0.10F, 0.055F, 0.03F};
+      if (face_.eye_def && face_.eye) {
+        AddOwnEye(side, picture);
+        continue;
+      }
+      eye.centre = space_.EyeOpening(face_.wireframe, side) - glm::vec3(0, 0, 12.6F);
+      eye.ball_radius = 12.4F;
+      model_.AddBall(side);
+    }
+  }
+
+  /// The eyeball of the configuration. Its picture is laid on it from the front.
+  void AddOwnEye(Side side, std::size_t picture) {
+    const EyeDef& def = *face_.eye_def;
+    // Right and left are told apart by where they lie, not by what the file calls them.
+    const bool right = (def.eye.right.place.x < def.eye.left.place.x) == (side == Side::kRight);
+    const EyeDef::Eye& eye = right ? def.eye.right : def.eye.left;
+    const glm::vec3 turn = glm::radians(eye.turn_degrees);
+    glm::mat4 turned(1.0F);
+    turned = glm::rotate(turned, turn.x, {1, 0, 0});
+    turned = glm::rotate(turned, turn.y, {0, 1, 0});
+    turned = glm::rotate(turned, turn.z, {0, 0, 1});
+    const Box box = Box::Of(face_.eye->positions);
+    const glm::vec3 size = glm::max(box.size(), 1e-6F), middle = box.centre();
+    model_.eyes[side].centre = space_.ToMm(eye.place);
+    model_.eyes[side].ball_radius = 0.5F * size.x * eye.scale * space_.mm();
+    model_.eyes[side].iris_radius = 0.48F * model_.eyes[side].ball_radius;
+    const Bone carrier = BoneOf(side);
+    const auto first = static_cast<std::uint32_t>(model_.position.size());
+    for (const glm::vec3& p : face_.eye->positions) {
+      const glm::vec2 flat = 0.5F + def.picture_scale * glm::vec2(p - middle) / glm::vec2(size);
+      const glm::vec2 place =
+          atlas_.rect(picture).At(glm::clamp(glm::vec2(flat.x, 1 - flat.y), 0.0F, 1.0F));
+      const glm::vec3 at = eye.place + eye.scale * glm::vec3(turned * glm::vec4(p, 1));
+      model_.Add(space_.ToMm(at), carrier, glm::vec3(0.5F), place);
+    }
+    for (const auto& group : face_.eye->groups) {
+      for (const auto& t : group.triangles) {
+        model_.Triangle(Material::kPhoto, first + t[0].position, first + t[1].position,
+                        first + t[2].position);
+      }
+    }
+  }
+
+  /// Behind each rim of lids, so that nothing is seen past the ball.
+  void AddSockets() {
+    for (const Side side : kSides) {
+      const glm::vec3 centre = model_.eyes[side].centre;
+      std::vector<std::uint32_t> rim, back;
+      for (const PointName& name : LidRim(side)) {
+        rim.push_back(Vertex(name));
+        const glm::vec3 p = Place(name);
+        back.push_back(model_.Add(
+            {p.x + 0.15F * (p.x - centre.x), p.y + 0.3F * (p.y - centre.y), centre.z - 4},
+            Bone::kSkull, {0.20F, 0.07F, 0.05F}));
+      }
+      for (std::size_t i = 0; i < rim.size(); ++i) {
+        const std::size_t j = (i + 1) % rim.size();
+        model_.Triangle(Material::kMouthInside, rim[i], rim[j], back[j]);
+        model_.Triangle(Material::kMouthInside, rim[i], back[j], back[i]);
+      }
+    }
+  }
+
+  /// Teeth fill the mouth as in the original: an arch as wide as the jaw, each row as high as the
+  /// gum behind its lip has room, front teeth at the depth of the mouth's corners, and both rows
+  /// meet just above the upper lip's edge. The original leaves the arch as deep as its object is,
+  /// which no face shows; here it shrinks with the width, so that it stays within narrow jaws.
+  void AddTeeth(const ObjFile& teeth, Bone bone) {
+    const auto at = [this](PointName name) {
+      return face_.wireframe.at[face_.wireframe.index.at(name)];
+    };
+    const bool upper = bone == Bone::kSkull;
+    const TeethPoints& places = upper ? kUpperTeeth : kLowerTeeth;
+    const Box box = Box::Of(teeth.positions);
+    const glm::vec3 size = glm::max(box.size(), 1e-6F);
+    const float wide = std::abs(at(kJawAtTeeth.left).x - at(kJawAtTeeth.right).x) / size.x;
+    const float tall = std::abs(at(places.top).y - at(places.bottom).y) / size.y;
+    const float edge = 0.5F * (at(kUpperLipFront).y + at(kLipMiddle).y);
+    const glm::vec3 from(box.centre().x, upper ? box.low.y : box.high.y, box.high.z);
+    const glm::vec3 to(at(kUpperLipFront).x, edge, at(places.front).z);
+    const auto first = static_cast<std::uint32_t>(model_.position.size());
+    for (const glm::vec3& p : teeth.positions) {
+      const glm::vec3 place = to + glm::vec3(wide, tall, wide) * (p - from);
+      model_.Add(space_.ToMm(place), bone, ShownTeeth());
+    }
+    for (const auto& group : teeth.groups) {
+      for (const auto& t : group.triangles) {
+        model_.Triangle(Material::kTeeth, first + t[0].position, first + t[1].position,
+                        first + t[2].position);
+      }
+    }
+  }
+
+  /// The original's lamp shows four fifths of the teeth's colour at three quarters of its distance,
+  /// and a little of its own (GL's default material), as values of the screen; ours is linear.
+  glm::vec3 ShownTeeth() const {
+    glm::vec3 shown;
+    for (int i = 0; i < 3; ++i) {
+      shown[i] = SrgbToLinear(std::min(0.8F / 0.75F * face_.teeth[i] + 0.04F, 1.0F));
+    }
+    return shown;
+  }
+
+  void NamePlaces() {
+    for (const auto& [name, point] : kNamedPoints) model_.landmarks[name] = Place(point);
+    model_.landmarks["stomion"] = 0.5F * (Place(kLipMiddle) + Place({1, 37}));
+    const glm::vec3 middle = space_.ToMm(glm::vec3(0));
+    model_.view = ParallelView{middle, space_.ToMm(glm::vec3(1, 0, 0)).x - middle.x};
+  }
+
+  const OriginalFace& face_;
+  OriginalSpace space_;
+  TextureAtlas atlas_;
+  MeshModel model_;
+};
+
+}  // namespace
+
+MeshModel ModelOfOriginal(const OriginalFace& face) { return OriginalBuilder(face).Build(); }
+
+}  // namespace fsm

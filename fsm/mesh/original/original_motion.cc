@@ -1,0 +1,146 @@
+#include "fsm/mesh/original/original_motion.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <glm/geometric.hpp>
+
+#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/original/lip_seal.h"
+#include "fsm/mesh/original/original_expressions.h"
+#include "fsm/mesh/original/original_points.h"
+#include "fsm/mesh/transfer/drive_fit.h"
+#include "fsm/mesh/transfer/nnls_solver.h"
+
+namespace fsm {
+namespace {
+
+/// The part of a viseme's offsets that full articulation shows. The original shows all of them at a
+/// MouthScale of 100; its default of 30 counts as three quarters of full articulation here.
+constexpr float kVisemePart = 0.4f;
+
+class OriginalRigBaker {
+ public:
+  OriginalRigBaker(const OriginalFace& face, const MeshModel& model)
+      : face_(face), model_(model), own_(face.wireframe) {
+    // Units belong to the standard wireframe and grow with the face, so that its lids meet: across
+    // with the distance of the eyes, up and down with the height from eyes to mouth. Mouths are
+    // added as they are, as in the original: those of small faces move more.
+    const OriginalSpace standard(face.standard);
+    const auto height = [](const OriginalSpace& space, const PntFile& file) {
+      return space.EyeOpening(file, Side::kRight).y - space.Place(file, kLipMiddle).y;
+    };
+    const float tall = height(own_, face.wireframe) / height(standard, face.standard);
+    unit_scale_ = standard.mm() * glm::vec3(1, std::clamp(tall, 0.5f, 2.0f), 1);
+  }
+
+  RigData Bake(const VisemeMouths& mouths, const MouthUnitSizes& unit_sizes) {
+    rig_ = MakeStillSkin();
+    rig_.steps = {RigStep::kChannels, RigStep::kLips, RigStep::kJawByChin};
+    rig_.lips = LipsOf(model_, face_.wireframe.at.size());
+    rig_.jaw.chin = static_cast<std::uint32_t>(face_.wireframe.index.at(kChin));
+    AddUnits();
+    for (std::size_t k = 0; k < face_.expression_residuals.size(); ++k) {
+      const auto [unit, side] = ResidualChannelOf(k);
+      Add(Moves(face_.expression_residuals[k], unit_scale_), {{Asked(unit, side)}});
+    }
+    AddVisemes(mouths);
+    for (std::size_t k = 0; k < face_.mouth_units.size(); ++k) {
+      if (unit_sizes[k] == 0) continue;
+      Channel& channel =
+          Add(Moves(face_.mouth_units[k], glm::vec3(own_.mm())),
+              {{{.kind = Drive::Kind::kHandMouth, .number = static_cast<std::uint16_t>(k)},
+                1 / unit_sizes[k]}});
+      channel.least = 0;
+      channel.most = 2;
+    }
+    return std::move(rig_);
+  }
+
+ private:
+  static Drive Asked(std::size_t unit, Side side) {
+    return {.kind = Drive::Kind::kAskedUnit,
+            .number = static_cast<std::uint16_t>(unit),
+            .side = Drive::OnlyOf(side)};
+  }
+
+  static std::vector<Displacement> Moves(const std::vector<glm::vec3>& offsets,
+                                         const glm::vec3& scale) {
+    constexpr float kLeast = 0.02f;  // millimetres
+    std::vector<Displacement> moves;
+    for (std::uint32_t i = 0; i < offsets.size(); ++i) {
+      const glm::vec3 by = offsets[i] * scale;
+      if (glm::length(by) > kLeast) moves.push_back({i, by});
+    }
+    return moves;
+  }
+
+  Channel& Add(std::vector<Displacement> moves, std::vector<Channel::Driver> drivers) {
+    Channel& channel = rig_.channels.emplace_back();
+    channel.drivers = std::move(drivers);
+    channel.moves = std::move(moves);
+    return channel;
+  }
+
+  /// Units as they are asked for: the original's add up, ours damp and oppose each other.
+  void AddUnits() {
+    const float middle = 0.5f * (own_.Place(face_.wireframe, kLipCorners.right).x +
+                                 own_.Place(face_.wireframe, kLipCorners.left).x);
+    for (std::size_t k = 0; k < face_.units.size(); ++k) {
+      const std::vector<Displacement> both = Moves(face_.units[k], unit_scale_);
+      for (const Side side : kSides) {
+        std::vector<Displacement> moves = both;
+        for (Displacement& d : moves) {
+          const float part = LeftPartAt(model_.position[d.vertex].x - middle);
+          d.by *= side == Side::kLeft ? part : 1 - part;
+        }
+        const auto number = static_cast<std::size_t>(kUnitNumbers[k]);
+        Channel& channel = Add(std::move(moves), {{Asked(number, side)}});
+        if (number != kEyesClosed) continue;
+        channel.drivers.push_back({{.kind = Drive::Kind::kBlink, .side = Drive::OnlyOf(side)}});
+      }
+    }
+  }
+
+  void AddVisemes(const VisemeMouths& mouths) {
+    constexpr float kMostOfViseme = 1.5f;
+    const std::size_t count = std::min(face_.visemes.size(), mouths.size());
+    MouthFit mouth(count);
+    std::vector<NnlsSolver::Row> keys;
+    for (std::size_t k = 0; k < count; ++k) {
+      MouthFit::Weights weights(count, 0.0f);
+      weights[k] = kVisemePart;
+      mouth.AddViseme(mouths[k], std::move(weights));
+      for (float& value : keys.emplace_back(mouths[k].begin(), mouths[k].end())) {
+        value /= kVisemePart;
+      }
+    }
+    const NnlsSolver mix(std::move(keys));
+    mouth.AddParameters([&mix](const FaceState& state) { return mix.Solve(state.mouth).weights; });
+    for (std::size_t i = count; i < mouths.size(); ++i) {
+      mouth.AddViseme(mouths[i], mix.Solve(mouths[i]).weights);
+    }
+    DriveFit fit(count);
+    mouth.AddTo(fit, Drive::Kind::kSpokenMouth);
+    const auto drivers = fit.TakeDrivers();
+    for (std::size_t k = 0; k < count; ++k) {
+      Channel& channel = Add(Moves(face_.visemes[k], glm::vec3(own_.mm())), drivers[k]);
+      channel.least = 0;
+      channel.most = kMostOfViseme;
+    }
+  }
+
+  const OriginalFace& face_;
+  const MeshModel& model_;
+  OriginalSpace own_;
+  glm::vec3 unit_scale_{1};
+  RigData rig_;
+};
+
+}  // namespace
+
+RigData RigOfOriginal(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths,
+                      const MouthUnitSizes& unit_sizes) {
+  return OriginalRigBaker(face, model).Bake(mouths, unit_sizes);
+}
+
+}  // namespace fsm

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <span>
+#include <utility>
+
+#include "fsm/base/side.h"
+#include "fsm/mesh/original/pnt_file.h"
+
+namespace fsm {
+
+/// Points of the original's wireframe by what they lie on, found by looking at fheadv2.pnt and
+/// .lnk: the mouth's rim is the open edge of groups 1 and 2, the lids' rims are those of 4 and 5.
+inline constexpr PointName kChin{18, 20}, kLipMiddle{1, 36};
+inline constexpr Sided<PointName> kLipCorners{{1, 33}, {2, 33}};
+
+/// The rim of the mouth from the agent's right corner over the upper lip and back over the lower.
+inline constexpr std::array<PointName, 20> kLipRim{
+    {{1, 33}, {1, 14}, {1, 13}, {1, 12}, {1, 11}, {1, 36}, {2, 11}, {2, 12}, {2, 13}, {2, 14},
+     {2, 33}, {2, 18}, {2, 17}, {2, 16}, {2, 15}, {1, 37}, {1, 15}, {1, 16}, {1, 17}, {1, 18}}};
+/// What bounds the teeth: the jaw right and left of them, the upper lip's front above its edge, and
+/// of each row the top, the bottom and how far forward its front is.
+inline constexpr Sided<PointName> kJawAtTeeth{{12, 15}, {13, 15}};
+inline constexpr PointName kUpperLipFront{1, 35};
+struct TeethPoints {
+  PointName top, bottom, front;
+};
+inline constexpr TeethPoints kUpperTeeth{{12, 17}, kLipMiddle, {1, 10}};
+inline constexpr TeethPoints kLowerTeeth{{1, 37}, {1, 40}, {1, 22}};
+
+/// Points of upper and lower lip that meet, from the agent's right corner to the left.
+inline constexpr std::array<std::pair<PointName, PointName>, 11> kLipPairs{{{{1, 33}, {1, 33}},
+                                                                            {{1, 14}, {1, 18}},
+                                                                            {{1, 13}, {1, 17}},
+                                                                            {{1, 12}, {1, 16}},
+                                                                            {{1, 11}, {1, 15}},
+                                                                            {{1, 36}, {1, 37}},
+                                                                            {{2, 11}, {2, 15}},
+                                                                            {{2, 12}, {2, 16}},
+                                                                            {{2, 13}, {2, 17}},
+                                                                            {{2, 14}, {2, 18}},
+                                                                            {{2, 33}, {2, 33}}}};
+/// The rim of the lids, inner corner first.
+std::span<const PointName> LidRim(Side side);
+
+/// Places with the names of Head::Landmark.
+inline constexpr std::pair<const char*, PointName> kNamedPoints[] = {
+    {"pronasale", {3, 15}},
+    {"subnasale", {3, 25}},
+    {"gnathion", kChin},
+    {"cheilion_right", {1, 33}},
+    {"cheilion_left", {2, 33}},
+    {"endocanthion_right", {4, 17}},
+    {"endocanthion_left", {5, 17}},
+    {"exocanthion_right", {4, 23}},
+    {"exocanthion_left", {5, 23}},
+    {"nasion", {3, 1}},
+    {"alare_right", {3, 18}},
+    {"alare_left", {3, 22}}};
+
+/// Groups that are shown: the face, hair round it, throat and shoulders. The others are the back of
+/// the head and the inside of eyes and mouth, which the original keeps but does not draw.
+constexpr bool IsDrawn(int group) {
+  return (group >= 1 && group <= 19) || group == 30 || group == 31;
+}
+
+/// Takes a face's wireframe to our frame: the openings of its eyes to where ours are.
+class OriginalSpace {
+ public:
+  /// REQUIRES: the points of both rims are there.
+  explicit OriginalSpace(const PntFile& wireframe);
+  glm::vec3 ToMm(glm::vec3 p) const { return (p - middle_) * mm_ + kOpening; }
+  glm::vec3 Place(const PntFile& file, PointName name) const {
+    return ToMm(file.at[file.index.at(name)]);
+  }
+  glm::vec3 EyeOpening(const PntFile& file, Side side) const;
+  float mm() const { return mm_; }
+
+ private:
+  /// Between the middles of our own lids' rims.
+  static constexpr glm::vec3 kOpening{0, 21.5f, 74};
+  static constexpr float kOpeningsApart = 59.8f;
+  glm::vec3 middle_{0};
+  float mm_ = 1;
+};
+
+/// Error kBadValue naming the first of the points above that `file` lacks.
+vm::Result<void> CheckPoints(const std::string& name, const PntFile& file);
+
+}  // namespace fsm

@@ -1,0 +1,238 @@
+#include "fsm/mesh/transfer/deformation_transfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "fsm/base/smooth_step.h"
+#include "fsm/head/warp.h"
+#include "fsm/mesh/mesh_reach.h"
+#include "fsm/mesh/transfer/surface_index.h"
+
+namespace fsm {
+namespace {
+
+/// Marks a surface's lips and lids by the distances along it from the point pairs on them.
+void MarkParts(WeldedSurface& surface, std::span<const PointPair> pairs, bool from) {
+  const auto seeds = [&](FacePart part) {
+    std::vector<glm::vec3> places;
+    for (const PointPair& pair : pairs) {
+      if (pair.part == part) places.push_back(from ? pair.from : pair.to);
+    }
+    return places;
+  };
+  const auto mark = [&](FacePart upper, FacePart lower, float reach, float clear,
+                        std::vector<float>& out) {
+    const auto above = seeds(upper), below = seeds(lower);
+    if (above.empty() || below.empty()) return;
+    const auto up = surface.DistancesFrom(above, reach), down = surface.DistancesFrom(below, reach);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const float here = std::clamp((down[i] - up[i]) / clear, -1.0f, 1.0f);
+      // Farther from the opening a place counts as neither upper nor lower.
+      out[i] = here * SmoothStep(reach, 0.5f * reach, std::min(up[i], down[i]));
+    }
+  };
+  mark(FacePart::kUpperLip, FacePart::kLowerLip, 40, 12, surface.lip);
+  mark(FacePart::kUpperLid, FacePart::kLowerLid, 20, 8, surface.lid);
+}
+
+/// Spreads values over a surface: vertices without a weight of their own take their neighbours'.
+template <typename T>
+void Spread(const WeldedSurface& surface, std::vector<T>& value, std::vector<float> weight,
+            int rounds) {
+  for (int round = 0; round < rounds; ++round) {
+    const std::vector<T> old = value;
+    const std::vector<float> old_weight = weight;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      T sum = old[i] * old_weight[i];
+      float total = old_weight[i];
+      for (const std::uint32_t j : surface.next[i]) {
+        sum += old[j] * old_weight[j];
+        total += old_weight[j];
+      }
+      if (total > 1e-6f) value[i] = sum * (1 / total);
+      weight[i] = total / static_cast<float>(surface.next[i].size() + 1);
+    }
+  }
+}
+
+void CheckPlaces(std::span<const PointPair> pairs) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (WithinReach(pairs[i].from) && WithinReach(pairs[i].to)) continue;
+    throw std::runtime_error("place " + std::to_string(i + 1) +
+                             " of those that both faces have lies farther away than 10 km");
+  }
+}
+
+void CheckVertices(std::span<const glm::vec3> at, const char* whose) {
+  const auto lost = std::ranges::find_if_not(at, WithinReach);
+  if (lost == at.end()) return;
+  throw std::runtime_error("vertex " + std::to_string(lost - at.begin()) + " of " + whose +
+                           " lies farther away than 10 km");
+}
+
+/// Moves the lids' edges, with a few millimetres around them, by what the warp has left undone.
+/// They are known better than other places (skin ends there before the eyeball), and an eye closes
+/// by them.
+class EdgePull {
+ public:
+  EdgePull(std::span<const PointPair> pairs, const Warp& warp) {
+    for (const PointPair& pair : pairs) {
+      if (pair.part != FacePart::kUpperLid && pair.part != FacePart::kLowerLid) continue;
+      const glm::vec3 at = pair.from + warp.Motion(pair.from);
+      left_.push_back({at, pair.to - at});
+    }
+  }
+  glm::vec3 Pulled(glm::vec3 p) const {
+    constexpr float kNear = 4;  // millimetres
+    glm::vec3 sum(0);
+    float total = 0, most = 0;
+    for (const WarpPoint& point : left_) {
+      const glm::vec3 off = (p - point.at) / kNear;
+      const float weight = std::exp(-0.5f * glm::dot(off, off));
+      sum += weight * point.by;
+      total += weight;
+      most = std::max(most, weight);
+    }
+    return total > 1e-6f ? p + (most / total) * sum : p;
+  }
+
+ private:
+  std::vector<WarpPoint> left_;
+};
+
+/// The surface warped by the point pairs.
+WeldedSurface Carried(const WeldedSurface& rest, std::span<const PointPair> pairs) {
+  std::vector<WarpPoint> points;
+  for (const PointPair& pair : pairs) points.push_back({pair.from, pair.to - pair.from});
+  // Landmarks lie a millimetre or two off, and a warp through each of them tears lids and lips. So
+  // it goes near them, and PullTowards does the rest.
+  constexpr float kSmooth = 80;
+  const Warp warp(points, kSmooth);
+  const EdgePull edges(pairs, warp);
+  WeldedSurface carried = rest;
+  for (glm::vec3& p : carried.at) p = edges.Pulled(p + warp.Motion(p));
+  // Points nearly in one plane do not determine the warp away from it.
+  CheckVertices(carried.at, "the face, where the places that both faces have take it,");
+  carried.FindNormals();
+  return carried;
+}
+
+/// Pulls a surface towards those places of `target` that are within `reach` millimetres, in pieces
+/// of about `rounds` triangles across.
+void PullTowards(WeldedSurface& pulled, const WeldedSurface& target, float reach, int rounds) {
+  const SurfaceIndex there(target, reach);
+  std::vector<glm::vec3> by(pulled.at.size(), glm::vec3(0));
+  std::vector<float> weight(pulled.at.size(), 0);
+  for (std::size_t i = 0; i < pulled.at.size(); ++i) {
+    const auto hit = there.Find(pulled, i);
+    if (!hit) continue;
+    // Only along the normal: the landmarks have said where a place lies sideways, and the nearest
+    // place, which changes its triangle from round to round, would drift.
+    by[i] = glm::dot(hit->at - pulled.at[i], pulled.normal[i]) * pulled.normal[i];
+    weight[i] = SmoothStep(reach, 0.4f * reach, hit->far);
+  }
+  Spread(pulled, by, weight, rounds);
+  for (std::size_t i = 0; i < pulled.at.size(); ++i) pulled.at[i] += 0.8f * by[i];
+  pulled.FindNormals();
+}
+
+}  // namespace
+
+DeformationTransfer::DeformationTransfer(const TransferSurface& from, const TransferSurface& to,
+                                         std::span<const PointPair> pairs) {
+  if (pairs.size() < 8) {
+    throw std::runtime_error("at least eight places that both faces have are needed");
+  }
+  CheckPlaces(pairs);
+  CheckVertices(from.position, "the face that is carried");
+  CheckVertices(to.position, "the head it is carried to");
+  const auto prepared = [&pairs](const TransferSurface& face, bool is_from) {
+    WeldedSurface surface(face.position, face.triangles, face.has_uv_seams);
+    MarkParts(surface, pairs, is_from);
+    surface.FindSeen(face.position, face.eyes);
+    return surface;
+  };
+  const WeldedSurface rest = prepared(from, true);
+  WeldedSurface target = prepared(to, false);
+
+  WeldedSurface pulled = Carried(rest, pairs);
+  // The surface is pulled onto the other in rounds, first as a whole, in the end in detail. Necks
+  // and backs of heads, which have no landmarks, lie far apart at first.
+  constexpr std::pair<float, int> kRounds[] = {{30, 40}, {26, 24}, {22, 14},
+                                               {18, 8},  {14, 5},  {14, 3}};
+  for (const auto& [reach, rounds] : kRounds) PullTowards(pulled, target, reach, rounds);
+  MakeRows(Bind(rest, pulled, target), target);
+}
+
+std::vector<DeformationTransfer::BarycentricBinding> DeformationTransfer::Bind(
+    const WeldedSurface& rest, const WeldedSurface& pulled, const WeldedSurface& target) {
+  constexpr float kReach = 20;
+  const SurfaceIndex own(pulled, kReach);
+  std::vector<BarycentricBinding> bindings(target.at.size());
+  std::vector<std::uint32_t> open;
+  std::vector<bool> bound(target.at.size(), false);
+  for (std::uint32_t w = 0; w < target.at.size(); ++w) {
+    const auto hit = own.Find(target, w);
+    if (!hit) continue;
+    const auto& t = pulled.triangles[hit->triangle];
+    bindings[w] = {{rest.first[t[0]], rest.first[t[1]], rest.first[t[2]]}, hit->part};
+    bound[w] = true;
+    open.push_back(w);
+  }
+  // Vertices that match no place of the first face, as in a mouth's lining, go with their
+  // neighbours.
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    for (const std::uint32_t w : target.next[open[k]]) {
+      if (bound[w]) continue;
+      bindings[w] = bindings[open[k]];
+      bound[w] = true;
+      open.push_back(w);
+    }
+  }
+  for (std::size_t w = 0; w < bindings.size(); ++w) {
+    if (!bound[w]) bindings[w].part = glm::vec3(0);
+  }
+  return bindings;
+}
+
+void DeformationTransfer::MakeRows(std::span<const BarycentricBinding> bindings,
+                                   const WeldedSurface& target) {
+  // Neighbours may be bound to places that lie apart: each takes a share of its neighbours' mean.
+  // That evens out what is smaller than a few millimetres; those of a coarse mesh lie farther.
+  constexpr float kMost = 0.25f, kNear = 2.5f;
+  rows_.resize(target.of.size());
+  std::map<std::uint32_t, float> row;
+  const auto add = [&](const BarycentricBinding& binding, float share) {
+    for (int c = 0; c < 3; ++c) {
+      const float part = share * binding.part[c];
+      if (part != 0) row[binding.corner[static_cast<std::size_t>(c)]] += part;
+    }
+  };
+  for (std::size_t v = 0; v < target.of.size(); ++v) {
+    const std::uint32_t w = target.of[v];
+    if (w == WeldedSurface::kNone) continue;
+    const auto& next = target.next[w];
+    const float count = std::max(static_cast<float>(next.size()), 1.0f);
+    float edge = 0;
+    for (const std::uint32_t n : next) edge += glm::distance(target.at[w], target.at[n]) / count;
+    const float part = std::min(1.0f, kNear / std::max(edge, 1e-6f));
+    const float share = next.empty() ? 0 : kMost * part * part;
+    row.clear();
+    add(bindings[w], 1 - share);
+    for (const std::uint32_t n : next) add(bindings[n], share / count);
+    rows_[v].assign(row.begin(), row.end());
+  }
+}
+
+void DeformationTransfer::Apply(std::span<const glm::vec3> from_by,
+                                std::span<glm::vec3> to_by) const {
+  for (std::size_t v = 0; v < rows_.size(); ++v) {
+    for (const auto& [from, part] : rows_[v]) to_by[v] += part * from_by[from];
+  }
+}
+
+}  // namespace fsm

@@ -1,0 +1,48 @@
+#include "fsm/mesh/transfer/mesh_paths.h"
+
+#include <algorithm>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <queue>
+#include <tuple>
+
+namespace fsm {
+
+Neighbours NeighboursAlongEdges(std::size_t vertices,
+                                std::span<const std::array<std::uint32_t, 3>> triangles) {
+  Neighbours next(vertices);
+  for (const auto& t : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      next[t[k]].push_back(t[(k + 1) % 3]);
+      next[t[(k + 1) % 3]].push_back(t[k]);
+    }
+  }
+  for (auto& list : next) {
+    std::ranges::sort(list);
+    const auto doubled = std::ranges::unique(list);
+    list.erase(doubled.begin(), doubled.end());
+  }
+  return next;
+}
+
+MeshPaths ShortestPaths(const Neighbours& next, std::span<const glm::vec3> at,
+                        std::span<const std::uint32_t> seeds, float reach) {
+  MeshPaths paths{std::vector<float>(at.size(), reach), std::vector<std::uint32_t>(at.size())};
+  using Way = std::tuple<float, std::uint32_t, std::uint32_t>;  // its length, the seed, the end
+  std::priority_queue<Way, std::vector<Way>, std::greater<>> open;
+  for (std::uint32_t k = 0; k < seeds.size(); ++k) open.emplace(0.0F, k, seeds[k]);
+  while (!open.empty()) {
+    const auto [length, seed, v] = open.top();
+    open.pop();
+    if (length >= paths.length[v]) continue;
+    paths.length[v] = length;
+    paths.seed[v] = seed;
+    for (const std::uint32_t w : next[v]) {
+      const float on = length + glm::distance(at[v], at[w]);
+      if (on < paths.length[w]) open.emplace(on, seed, w);
+    }
+  }
+  return paths;
+}
+
+}  // namespace fsm

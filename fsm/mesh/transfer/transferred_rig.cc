@@ -1,0 +1,299 @@
+#include "fsm/mesh/transfer/transferred_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <initializer_list>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "fsm/head/identity.h"
+
+namespace fsm {
+namespace {
+
+std::vector<std::uint32_t> TrianglesOf(const HeadTopology& topology,
+                                       std::initializer_list<Material> materials) {
+  std::vector<std::uint32_t> out;
+  for (const auto& part : topology.parts) {
+    if (std::ranges::find(materials, part.material) == materials.end()) continue;
+    const auto corners = topology.Corners(part);
+    out.insert(out.end(), corners.begin(), corners.end());
+  }
+  return out;
+}
+
+using Row = DeformationTransfer::Row;
+
+/// Lays the rig of one head on the vertices of another: each has the attributes of the place of the
+/// first head that it follows.
+class RigResampler {
+ public:
+  /// `rows`: of all vertices. `rig` and `rows` outlive this.
+  RigResampler(const RigData& source, std::span<const Row> rows, RigData& rig)
+      : source_(source), rows_(rows), rig_(rig) {}
+
+  /// The steps' data but for the seam of the lips, whose vertices are others.
+  void Resample(std::span<const glm::vec3> rest) {
+    rig_.weights.resize(rows_.size(), Still());
+    rig_.proxy.rest.assign(rest.begin(), rest.end());
+    for (std::size_t v = 0; v < rows_.size(); ++v) ResampleVertex(v);
+    ResampleMouthChannels();
+    ResampleLids();
+    ResampleFollowers();
+    ResampleContacts();
+  }
+
+ private:
+  static SkinWeights Still() {
+    SkinWeights weights;
+    weights.free = 0;
+    return weights;
+  }
+
+  /// By vertex of the source, the element that belongs to it; nothing for most.
+  template <typename T>
+  std::vector<const T*> ByVertex(const std::vector<T>& all) const {
+    std::vector<const T*> by(source_.rest.size(), nullptr);
+    for (const T& one : all) by[one.vertex] = &one;
+    return by;
+  }
+
+  void ResampleVertex(std::size_t v) {
+    float sum = 0;
+    for (const auto& [from, part] : rows_[v]) sum += part;
+    if (sum <= 0) return;
+    SkinWeights& mean = rig_.weights[v];
+    glm::vec3 place(0);
+    mean.above_mouth = 0;
+    for (const auto& [from, part] : rows_[v]) {
+      const SkinWeights& one = source_.weights[from];
+      place += part / sum * source_.rest[from];
+      mean.domain += part / sum * one.domain;
+      mean.above_mouth += part / sum * one.above_mouth;
+      mean.jaw += part * one.jaw;
+      mean.free += part * one.free;
+    }
+    rig_.proxy.rest[v] = place;
+  }
+
+  void ResampleMouthChannels() {
+    constexpr float kLeast = 1e-3f;  // millimetres
+    std::vector<glm::vec3> by(source_.rest.size());
+    for (const Channel& channel : source_.channels) {
+      if (!channel.IsLedBy(Drive::Kind::kMouth)) continue;
+      std::ranges::fill(by, glm::vec3(0));
+      for (const Displacement& d : channel.moves) by[d.vertex] = d.by;
+      Channel& own = rig_.channels.emplace_back(channel);
+      own.moves.clear();
+      for (std::uint32_t v = 0; v < rows_.size(); ++v) {
+        glm::vec3 sum(0);
+        for (const auto& [from, part] : rows_[v]) sum += part * by[from];
+        if (glm::length(sum) > kLeast) own.moves.push_back({v, sum});
+      }
+    }
+  }
+
+  void ResampleLids() {
+    rig_.lids = {.vertices = {},
+                 .eyes = source_.lids.eyes,
+                 .ball = source_.lids.ball,
+                 .cornea_centre = source_.lids.cornea_centre};
+    const auto lids = ByVertex(source_.lids.vertices);
+    for (std::uint32_t v = 0; v < rows_.size(); ++v) {
+      LidRig::Vertex mean{.vertex = v};
+      float sum = 0, left = 0, proper = 0;
+      for (const auto& [from, part] : rows_[v]) sum += lids[from] ? part : 0;
+      if (sum <= 0) continue;
+      for (const auto& [from, part] : rows_[v]) {
+        const LidRig::Vertex* one = lids[from];
+        if (!one) continue;
+        const float share = part / sum;
+        mean.at.upper += part * one->at.upper;
+        mean.at.lower += part * one->at.lower;
+        mean.at.upper_angle += share * one->at.upper_angle;
+        mean.at.lower_angle += share * one->at.lower_angle;
+        mean.at.meet_angle += share * one->at.meet_angle;
+        mean.at.opening += share * one->at.opening;
+        mean.at.y += share * one->at.y;
+        mean.at.z += share * one->at.z;
+        left += one->side == Side::kLeft ? share : 0;
+        proper += one->proper ? part : 0;
+      }
+      mean.side = left > 0.5f ? Side::kLeft : Side::kRight;
+      mean.proper = proper > 0.5f;
+      rig_.lids.vertices.push_back(mean);
+    }
+  }
+
+  void ResampleFollowers() {
+    std::map<std::uint32_t, std::vector<LipRig::Follower>> followers;
+    for (const LipRig::Follower& f : source_.lips.followers) followers[f.vertex].push_back(f);
+    for (std::uint32_t v = 0; v < rows_.size(); ++v) {
+      std::map<std::pair<std::uint32_t, bool>, float> parts;  // by pair, of the upper lip or not
+      for (const auto& [from, part] : rows_[v]) {
+        const auto found = followers.find(from);
+        if (found == followers.end()) continue;
+        for (const auto& f : found->second) parts[{f.pair, f.part > 0}] += part * f.part;
+      }
+      for (const auto& [of, part] : parts) rig_.lips.followers.push_back({v, of.first, part});
+    }
+  }
+
+  void ResampleContacts() {
+    rig_.teeth.upper = source_.teeth.upper;
+    rig_.teeth.lower = source_.teeth.lower;
+    const auto contacts = ByVertex(source_.teeth.contacts);
+    for (std::uint32_t v = 0; v < rows_.size(); ++v) {
+      float sum = 0, upper = 0, lower = 0;
+      for (const auto& [from, part] : rows_[v]) {
+        if (!contacts[from]) continue;
+        sum += part;
+        upper += part * contacts[from]->upper_gap;
+        lower += part * contacts[from]->lower_gap;
+      }
+      if (sum > 0.5f) rig_.teeth.contacts.push_back({v, upper / sum, lower / sum});
+    }
+  }
+
+  const RigData& source_;
+  std::span<const Row> rows_;
+  RigData& rig_;
+};
+
+/// The source's lips are among the model's vertices, unseen: they say where lips cross.
+std::vector<Row> AddLips(const RigData& source, std::span<const Row> rows, MeshModel& model,
+                         LipRig& lips) {
+  std::vector<Row> all(rows.begin(), rows.end());
+  std::map<std::uint32_t, std::uint32_t> known;
+  const auto own = [&](std::uint32_t v) {
+    const auto [at, fresh] = known.try_emplace(v, 0);
+    if (fresh) {
+      at->second = model.Add(source.rest[v], Bone::kSkin, glm::vec3(0));
+      all.push_back({{v, 1.0f}});
+    }
+    return at->second;
+  };
+  for (const auto& [upper, lower] : source.lips.seam) {
+    const std::uint32_t own_upper = own(upper);
+    lips.seam.emplace_back(own_upper, own(lower));
+  }
+  lips.apart_at_rest = source.lips.apart_at_rest;
+  lips.measured = source.lips.measured;
+  if (lips.measured) {
+    for (std::uint32_t& v : *lips.measured) v = own(v);
+  }
+  return all;
+}
+
+/// A head without pictures has lips, and their inside, as red beside its skin as the source has.
+void RedLips(const Head& source, std::span<const Row> rows, MeshModel& model) {
+  if (model.textures.image) return;
+  const HeadTopology& topology = source.topology();
+  std::vector<bool> lip(topology.albedo.size(), false);
+  for (const std::uint32_t v : TrianglesOf(topology, {Material::kLip, Material::kMouthInside})) {
+    lip[v] = true;
+  }
+  const glm::vec3 skin = BasePalette().skin;
+  for (std::size_t v = 0; v < rows.size(); ++v) {
+    glm::vec3 red(0);
+    float part = 0;
+    for (const auto& [from, share] : rows[v]) {
+      if (!lip[from]) continue;
+      red += share * topology.albedo[from] / skin;
+      part += share;
+    }
+    if (part > 0) model.albedo[v] *= red + glm::vec3(1 - std::min(part, 1.0f));
+  }
+}
+
+/// The offset of each vertex from where the rig leaves it at rest to where the file has it.
+std::vector<glm::vec3> OwnForm(const RigData& rig, const MeshModel& model,
+                               std::span<const Row> rows) {
+  RigData proxy = rig;
+  proxy.rest = rig.proxy.rest;
+  proxy.proxy.rest.clear();
+  proxy.rest_normal.assign(proxy.rest.size(), glm::vec3(0, 0, 1));
+  proxy.bone = model.bone;
+  HeadVertices still;
+  Rig(std::move(proxy)).Evaluate({}, still);
+  std::vector<glm::vec3> form(rows.size(), glm::vec3(0));
+  for (std::size_t v = 0; v < rows.size(); ++v) {
+    if (!rows[v].empty()) form[v] = model.position[v] - still.position[v];
+  }
+  return form;
+}
+
+/// The unseen lips come to lie where the head has its own; pairs stay together.
+void MoveLips(const LipRig& lips, const MeshModel& model, std::span<const PointPair> pairs,
+              std::vector<glm::vec3>& form) {
+  const auto off = [&](glm::vec3 at) {
+    constexpr float kNear = 3;  // millimetres
+    glm::vec3 sum(0);
+    float weight = 1e-9f;
+    for (const PointPair& pair : pairs) {
+      if (pair.part != FacePart::kUpperLip && pair.part != FacePart::kLowerLip) continue;
+      const float far = glm::distance(pair.from, at) / kNear;
+      const float one = std::exp(-far * far);
+      sum += one * (pair.to - pair.from);
+      weight += one;
+    }
+    return sum / weight;
+  };
+  for (const auto& [upper, lower] : lips.seam) {
+    form[upper] = form[lower] = off(0.5f * (model.position[upper] + model.position[lower]));
+  }
+  if (!lips.measured) return;
+  for (const std::uint32_t corner :
+       {(*lips.measured)[LipRig::kCornerLeft], (*lips.measured)[LipRig::kCornerRight]}) {
+    form[corner] = off(model.position[corner]);
+  }
+}
+
+DeformationTransfer TransferBetween(const Head& source, const MeshModel& model,
+                                    std::span<const PointPair> pairs) {
+  HeadVertices rest;
+  source.Evaluate({}, rest);
+  try {
+    return {{rest.position, SkinTriangles(source.topology()), false,
+             EyeballTriangles(source.topology())},
+            {model.position, model.SkinTriangles(), model.has_uv_seams, model.EyeTriangles()},
+            pairs};
+  } catch (const std::runtime_error& error) {
+    if (model.name.empty()) throw;
+    throw std::runtime_error(model.name + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> SkinTriangles(const HeadTopology& topology) {
+  return TrianglesOf(topology, {Material::kSkin, Material::kLip, Material::kMouthInside});
+}
+
+std::vector<std::uint32_t> EyeballTriangles(const HeadTopology& topology) {
+  return TrianglesOf(topology, {Material::kSclera, Material::kIris, Material::kPupil});
+}
+
+RigData TransferRig(MeshModel& model, const Head& source, std::span<const PointPair> pairs) {
+  using enum RigStep;
+  const RigData& from = source.rig().data();
+  const DeformationTransfer transfer = TransferBetween(source, model, pairs);
+  RigData rig;
+  const std::vector<Row> rows = AddLips(from, transfer.rows(), model, rig.lips);
+  RigResampler(from, rows, rig).Resample(model.position);
+  rig.units = from.units;
+  rig.asymmetry_seed = from.asymmetry_seed;
+  rig.units_by_place = true;
+  std::ranges::move(UnitChannels(rig.units, model.bone, rig.weights),
+                    std::back_inserter(rig.channels));
+  rig.steps = {kChannels, kLids, kJaw, kTeeth, kLips, kTeeth};  // twice, as in make_head.cc
+  rig.proxy.to_own = OwnForm(rig, model, rows);
+  MoveLips(rig.lips, model, pairs, rig.proxy.to_own);
+  RedLips(source, rows, model);
+  rig.steps.push_back(kOwnForm);
+  return rig;
+}
+
+}  // namespace fsm
