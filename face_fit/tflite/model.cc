@@ -94,6 +94,9 @@ Tensor ReadTensor(const FlatTable& model, const FlatTable& table) {
     expect(4);
     tensor.values.resize(count);
     std::memcpy(tensor.values.data(), data.data(), data.size());
+    if (!std::ranges::all_of(tensor.values, [](float v) { return std::isfinite(v); })) {
+      throw BadModel("a weight is not a number");
+    }
   } else if (type == kFloat16) {
     expect(2);
     tensor.values.resize(count);

@@ -88,7 +88,10 @@ vm::Result<FilmRecorder::Report> FilmRecorder::Stop(const std::string& sound) {
   if (added) added = queue_.Flush();
   Report report{path_, next_, repeated_};
   const auto writer = std::move(writer_);
-  if (!added) return std::unexpected(added.error());
+  if (!added) {
+    queue_.Clear();
+    return std::unexpected(added.error());
+  }
   if (auto finished = writer->Finish(sound); !finished) return std::unexpected(finished.error());
   return report;
 }

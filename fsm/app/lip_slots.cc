@@ -165,7 +165,10 @@ void DeclareVisemeFiles(FsmCore& core) {
        .grammar = "<int 14..28> <word>",
        .access = vm::Access::kWriteOnly,
        .help = "Writes the 14 or the 28 mouth shapes to a file, as MouthShapes loads them.",
-       .on_set = core.Command([&core](const vm::SetValue& value) {
+       .on_set = core.Command([&core](const vm::SetValue& value) -> vm::Result<void> {
+         if (value.number(0) != 14 && value.number(0) != 28) {
+           return vm::Fail(vm::Errc::kBadValue, "14 or 28 mouth shapes expected");
+         }
          return SaveVisemes(core, SetOfCount(value.number(0)), value.word(1));
        })});
 }

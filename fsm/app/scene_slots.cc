@@ -11,6 +11,7 @@
 #include "fsm/app/slot_words.h"
 #include "fsm/base/notice.h"
 #include "fsm/image/colour_space.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace fsm {
 namespace {
@@ -42,7 +43,8 @@ glm::vec3 Linear(const glm::vec3& srgb) {
 }
 
 bool IsPictureName(const std::string& name) {
-  return name.ends_with(".png") || name.ends_with(".bmp") || name.ends_with(".rgb");
+  const std::string lower = vm::LowerCase(name);
+  return lower.ends_with(".png") || lower.ends_with(".bmp") || lower.ends_with(".rgb");
 }
 
 }  // namespace

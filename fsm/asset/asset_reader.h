@@ -12,7 +12,7 @@ namespace fsm {
 bool IsAsset(std::string_view bytes);
 
 /// Returns the head of a file made by WriteAsset. `name` appears in error messages. Nothing outside
-/// `bytes` is read. Errors: kBadValue and kLimit, naming file and member.
+/// `bytes` is read. Errors: kBadValue, naming file and member.
 vm::Result<HeadAsset> ParseAsset(const std::string& name, std::string_view bytes);
 
 }  // namespace fsm

@@ -91,7 +91,7 @@ std::vector<float> TableRow::Numbers(std::size_t index) const {
 
 const std::string& TableRow::Name(std::size_t index, std::string_view what) const {
   constexpr std::size_t kLongest = 40;
-  const std::string& name = words_[index];
+  const std::string& name = Word(index);
   const auto letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
   const auto inner = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; };
   if (name.size() > kLongest || !letter(name[0]) || !std::ranges::all_of(name, inner)) {

@@ -26,10 +26,12 @@ bool IsFaceName(std::string_view name) {
 std::vector<std::string> FacesIn(const std::string& folder) {
   std::vector<std::string> names;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    std::string name = entry.path().filename().string();
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::string name = entry->path().filename().string();
     const auto has = [&](const char* file) {
-      return std::filesystem::exists(entry.path() / file, error);
+      std::error_code unreadable;
+      return std::filesystem::exists(entry->path() / file, unreadable);
     };
     if (IsFaceName(name) && (has("face.txt") || has("identity.txt"))) {
       names.push_back(std::move(name));

@@ -75,6 +75,8 @@ vm::Result<std::vector<std::string>> CheckTables(const TableFolder& folder) try 
                                   Listed(still)));
   }
   return notices;
+} catch (const vm::Failure& failure) {
+  return std::unexpected(failure.error);
 } catch (const std::runtime_error& error) {
   return vm::Fail(vm::Errc::kBadValue, error.what());
 }

@@ -81,12 +81,8 @@ void EyeMotion::Think(vm::Time now) {
 
 void EyeMotion::Blink(vm::Time now, std::size_t pattern, int count) {
   const BlinkPattern& blink = PatternAt(patterns_.blinks, pattern);
-  for (int i = 0; i < count; ++i) {
-    const vm::Time start = now + i * LengthOf(blink);
-    std::erase_if(blinks_,
-                  [&](const Blinking& b) { return b.start + LengthOf(b.pattern) <= start; });
-    blinks_.push_back({blink, start});
-  }
+  std::erase_if(blinks_, [&](const Blinking& b) { return b.start + LengthOf(b.pattern) <= now; });
+  for (int i = 0; i < count; ++i) blinks_.push_back({blink, now + i * LengthOf(blink)});
 }
 
 // ---- as a source

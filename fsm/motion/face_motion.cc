@@ -22,6 +22,10 @@ vm::Result<void> FaceMotion::SetFace(vm::Time now, int position, double strength
       expression.SetEmotion(now, index, strength);
       return {};
     }
+    return vm::Fail(vm::Errc::kBadValue,
+                    fmt::format("position {} of the list of units is {}, which is no emotion of "
+                                "the tables",
+                                position, list.emotions[index]));
   }
   return vm::Fail(vm::Errc::kBadValue,
                   fmt::format("the list of units has no position {}", position));

@@ -73,7 +73,9 @@ vm::Result<void> IdleBehaviour::SetProfile(vm::Time now, std::string_view profil
   }
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const auto kind = static_cast<IdleKind>(i);
-    if (wanted[i] != (On(kind) ? Pattern(kind) : 0)) Set(now, kind, wanted[i]);
+    // A configuration of the original may have fewer patterns than the tables of the profiles.
+    const std::size_t pattern = std::min(wanted[i], RowOf(kind).count(patterns_));
+    if (pattern != (On(kind) ? Pattern(kind) : 0)) Set(now, kind, pattern);
   }
   return {};
 }

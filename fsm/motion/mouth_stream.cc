@@ -1,6 +1,7 @@
 #include "fsm/motion/mouth_stream.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fsm/motion/easing.h"
 #include "fsm/motion/speech_motion.h"
@@ -28,11 +29,13 @@ vm::Result<void> MouthStream::Add(vm::Time now, vm::Time at, const MouthPose& po
 void MouthStream::Stop(vm::Time now) {
   const SpokenMouth mouth = MouthAt(now);
   const HeadShare head = HeadAt(now);
+  const bool cut = !frames_.empty() && frames_.back().at > now;
   while (!frames_.empty() && frames_.back().at > now) frames_.pop_back();
-  // Without this frame it would go back to the last one before holding there.
-  if (!frames_.empty() && mouth.share == 1 && frames_.back().at < now) {
-    frames_.push_back({now, frames_.back().run_start, mouth.pose,
-                       head.share > 0 ? std::optional(head.pose) : std::nullopt});
+  // Without this frame it would go back to the last one before holding there, or jump to rest where
+  // a run was about to take it over.
+  if ((cut ? mouth.share > 0 : mouth.share == 1) && (frames_.empty() || frames_.back().at < now)) {
+    frames_.push_back({now, frames_.empty() ? now : frames_.back().run_start, mouth.pose,
+                       head.share > 0 ? std::optional(head.pose) : std::nullopt, mouth.share});
   }
 }
 
@@ -43,9 +46,11 @@ SpokenMouth MouthStream::MouthAt(vm::Time t) const {
     const Frame& last = *(next - 1);
     const bool within = next != frames_.end() && next->run_start != next->at;
     if (within) {
-      return {1, Mix(last.pose, next->pose, Progress(t, last.at, next->at - last.at))};
+      const double progress = Progress(t, last.at, next->at - last.at);
+      return {std::lerp(last.share, next->share, progress), Mix(last.pose, next->pose, progress)};
     }
-    mouth.share = 1 - Eased(Progress(t, last.at + kHold + kClose, SpeechMotion::kRelease));
+    mouth.share =
+        last.share * (1 - Eased(Progress(t, last.at + kHold + kClose, SpeechMotion::kRelease)));
     mouth.pose = Mix(last.pose, ClosedMouth(), Eased(Progress(t, last.at + kHold, kClose)));
   }
   if (next != frames_.end()) {  // the first frame of a run is near

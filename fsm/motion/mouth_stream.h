@@ -64,6 +64,7 @@ class MouthStream : public MotionSource {
     vm::Time run_start;
     MouthPose pose;
     std::optional<StreamHead> head;
+    double share = 1;  // how far mouth and head have been taken over
   };
   SpokenMouth MouthAt(vm::Time t) const;
   struct HeadShare {
@@ -72,7 +73,7 @@ class MouthStream : public MotionSource {
   };
   HeadShare HeadAt(vm::Time t) const;
   static HeadShare HeadOf(const Frame& frame) {
-    return {frame.head ? 1.0 : 0.0, frame.head.value_or(StreamHead{})};
+    return {frame.head ? frame.share : 0.0, frame.head.value_or(StreamHead{})};
   }
   static HeadShare Between(const HeadShare& a, const HeadShare& b, double share_of_b) {
     return {a.share + (b.share - a.share) * share_of_b, fsm::Mix(a.pose, b.pose, share_of_b)};

@@ -68,12 +68,15 @@ class Track : public MoveTimes {
   Track() = default;
   explicit Track(T rest) : base_(std::move(rest)) {}
 
-  /// Plans a move that begins at `start` (not before `now`). Moves planned to begin at `start` or
-  /// later are forgotten. After this call, `At` is good for times from `now` on.
+  /// Plans a move that begins at `start` (not before `now`). Moves that begin at `start` or later
+  /// are forgotten, but for jumps (of no duration) at `now`, which have been made. After this call,
+  /// `At` is good for times from `now` on.
   void Plan(vm::Time now, T target, vm::Time start, vm::Time duration) {
     Prune(now);
     for (std::size_t i = spans_.size(); i-- > 0;) {
-      if (spans_[i].start < start || spans_[i].start <= now) continue;
+      const bool made =
+          spans_[i].start < now || (spans_[i].start == now && spans_[i].duration <= vm::Time(0));
+      if (spans_[i].start < start || made) continue;
       Erase(i, i + 1);
     }
     spans_.push_back({start, duration});

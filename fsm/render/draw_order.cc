@@ -22,8 +22,12 @@ bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> trian
   const Image& photo = *topology.textures.image;
   const glm::ivec2 last(photo.width - 1, photo.height - 1);
   const glm::vec2 size(photo.width, photo.height);
-  const auto from = glm::clamp(glm::ivec2(low * size) - 1, glm::ivec2(0), last);
-  const auto to = glm::clamp(glm::ivec2(high * size) + 1, glm::ivec2(0), last);
+  // Coordinates of a file may be anything, also no numbers: those count as 1.
+  const auto texel = [&size](glm::vec2 uv) {
+    return glm::ivec2(glm::max(glm::vec2(0), glm::min(glm::vec2(1), uv)) * size);
+  };
+  const auto from = glm::clamp(texel(low) - 1, glm::ivec2(0), last);
+  const auto to = glm::clamp(texel(high) + 1, glm::ivec2(0), last);
   for (int y = from.y; y <= to.y; ++y) {
     for (int x = from.x; x <= to.x; ++x) {
       if (photo.rgba[4 * photo.Index(x, y) + 3] < 250) return false;

@@ -140,7 +140,8 @@ struct RigData {
 /// Returns the rig of some of the vertices, in the order of `vertices`, which must include
 /// StepVertices. No normals are computed (NormalRig is empty).
 RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertices);
-/// Returns the vertices from which steps derive the positions of others: the lip seam and the chin.
+/// Returns the vertices from which steps derive the positions of others, or by which
+/// the mouth is measured: the lip seam, its measured vertices and the chin.
 std::vector<std::uint32_t> StepVertices(const RigData& data);
 
 /// Returns a rig whose vertices never move.

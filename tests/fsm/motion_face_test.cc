@@ -183,6 +183,26 @@ TEST_F(FaceMotionTest, ABlinkShutsTheLidsAndOpensThem) {
   EXPECT_FALSE(motion.NextActivity(220ms).has_value());
 }
 
+TEST_F(FaceMotionTest, SeveralBlinksFollowOneAnother) {
+  ASSERT_TRUE(motion.Move(0ms, "BLINK", 1, 1, 3));
+  const BlinkPattern& blink = motion.tables().motions.blinks.front();
+  const vm::Time length = FromMs(blink.closing_ms + blink.shut_ms + blink.opening_ms);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_GT(motion.StateAt(i * length + FromMs(blink.closing_ms)).blink.left, 0.9F) << i;
+    EXPECT_LT(motion.StateAt(i * length).blink.left, 0.1F) << i;
+  }
+}
+
+TEST_F(FaceMotionTest, OfTwoMovesAtOneInstantTheFirstIsNotSeen) {
+  Track<float> track(0);
+  track.MoveTo(100ms, 1, 200ms);
+  track.MoveTo(100ms, 0, 200ms);
+  for (vm::Time t = 100ms; t < 400ms; t += 20ms) EXPECT_EQ(track.At(t), 0) << InMs(t);
+  track.MoveTo(400ms, 1, 0ms);
+  track.MoveTo(400ms, 0, 200ms);
+  EXPECT_EQ(track.At(400ms), 1) << "a jump has been made";
+}
+
 TEST_F(FaceMotionTest, AutonomousBlinksAreTwoToSixSecondsApart) {
   ASSERT_TRUE(motion.idle.Set(0ms, "BLINK", 1));
   std::optional<vm::Time> last;

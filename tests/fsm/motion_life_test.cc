@@ -42,6 +42,17 @@ TEST_F(IdleBehaviourTest, NothingMovesUntilItIsSwitchedOn) {
   }
 }
 
+TEST_F(IdleBehaviourTest, AProfileTakesTheLastPatternWhereTheTablesHaveFewer) {
+  MotionTables tables = MotionTables::Load().value();
+  tables.motions.auto_blinks.resize(1);
+  tables.motions.auto_moves.resize(1);
+  FaceMotion few(tables, 7);
+  ASSERT_TRUE(few.idle.SetProfile(0ms, "LIVELY"));
+  EXPECT_EQ(few.idle.Pattern(IdleKind::kMove), 1U);
+  EXPECT_EQ(few.idle.Pattern(IdleKind::kBlink), 1U);
+  for (vm::Time t = 0ms; t < 20s; t += 500ms) few.StateAt(t);
+}
+
 TEST_F(IdleBehaviourTest, OnsetsAreSlowFastSlow) {
   ASSERT_TRUE(motion.expression.Show(0ms, "HAPPY", 1, 1, 0ms));
   const auto smile = [&](double part) {

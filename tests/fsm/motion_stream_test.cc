@@ -77,6 +77,17 @@ TEST_F(MouthStreamTest, StopClosesFromWhereItIs) {
   EXPECT_LT(motion_.FiniteEnd(1490ms), vm::Time(2100ms));
 }
 
+TEST_F(MouthStreamTest, StopWhileARunTakesTheMouthOverLetsGoFromThere) {
+  Add(1000ms, 8);
+  Add(1020ms, 8);
+  const float before = Jaw(970ms);
+  ASSERT_GT(before, 0.5F);
+  motion_.mouth_stream.Stop(970ms);
+  EXPECT_NEAR(Jaw(970ms), before, 1e-4);
+  for (vm::Time t = 970ms; t < 1500ms; t += 10ms) EXPECT_LT(std::abs(Jaw(t + 10ms) - Jaw(t)), 1.5F);
+  EXPECT_NEAR(Jaw(1500ms), 0, 1e-3);
+}
+
 TEST_F(MouthStreamTest, TheMouthOfATextGivesWay) {
   motion_.speech.Start(0ms, vm::ParsePhonemes("aa 3000").value(), 0ms);
   const float text = Jaw(1000ms);

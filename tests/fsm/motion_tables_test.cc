@@ -85,6 +85,7 @@ TEST(MotionTablesTest, AUnitThatBeginsLaterIsLeftOutBelowThatStrengthAndWholeAtF
 TEST(MotionTablesTest, ADamagedRowOfBeginsIsReportedWithFileAndLine) {
   for (const auto& [row, expected] : std::map<std::string, std::string>{
            {"begins GLAD 2 25:0.4", "e.txt:2: a pattern that stands above expected"},
+           {"begins", "e.txt:2: 'begins' needs at least 1 values after it, found 0"},
            {"begins GLAD 1 25:0.95", "e.txt:2: strengths from 0 to 0.9 expected"},
            {"begins GLAD 1 gaze:1,2", "e.txt:2: action units expected, and no gaze"}}) {
     const auto read = ReadEmotions("e.txt", "GLAD 1 12:0.8\n" + row, UnitNames::BuiltIn());

@@ -37,6 +37,18 @@ TEST(ModelTest, AFileThatEndsEarlyIsRefused) {
   }
 }
 
+TEST(ModelTest, AWeightThatIsNoNumberIsRefused) {
+  const std::string file = maker::EveryOperator();
+  const std::string weight = maker::BytesOf(std::vector{0.25F});
+  const std::size_t at = file.find(weight);
+  ASSERT_NE(at, std::string::npos);
+  for (const float bad : {NAN, INFINITY}) {
+    std::string damaged = file;
+    damaged.replace(at, weight.size(), maker::BytesOf(std::vector{bad}));
+    EXPECT_THROW(Model::Read({damaged.begin(), damaged.end()}), BadModel) << bad;
+  }
+}
+
 TEST(ModelTest, BytesThatAreNoModelAreRefused) {
   EXPECT_THROW(Model::Read({}), BadModel);
   std::vector<std::uint8_t> bytes(64, 0xff);
