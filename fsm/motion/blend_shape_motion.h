@@ -9,14 +9,16 @@
 
 namespace fsm {
 
-/// Blend shapes by ARKit's names, on the layer `blend_shapes`. The table outlives it.
+/// Moves the face by ARKit's blend shapes, on the layer `blend_shapes`. Lifetime: `shapes` outlives
+/// this.
 class BlendShapeMotion : public MotionSource {
  public:
   explicit BlendShapeMotion(const BlendShapes& shapes) : shapes_(shapes) {}
 
-  /// kBadValue with what there is.
+  /// Checks that a shape exists. Error: kBadValue listing the names.
   vm::Result<void> Check(std::string_view name) const;
-  /// kBadValue as Check, and for a weight outside 0..2.
+  /// Moves the weight of a shape to `weight` (0..2, 1 = full) within `move`. Errors: kBadValue as
+  /// Check, and for a weight out of range.
   vm::Result<void> Set(vm::Time now, std::string_view name, double weight, vm::Time move);
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;
@@ -26,7 +28,7 @@ class BlendShapeMotion : public MotionSource {
 
  private:
   const BlendShapes& shapes_;
-  std::map<std::string, Track<float>, std::less<>> weights_;  // of those ever set
+  std::map<std::string, Track<float>, std::less<>> weights_;  // of the shapes set so far
 };
 
 }  // namespace fsm

@@ -7,35 +7,36 @@
 
 #include "vm_protocol/core/scheduler.h"
 
-/// The curves by which things move. All go from 0 at u = 0 to 1 at u = 1 and stay there outside;
-/// all begin and end with zero speed, because nothing in a face starts or stops at once.
+/// Easing curves. All go from 0 at u = 0 to 1 at u = 1 and are constant outside; all begin and end
+/// with zero speed, because nothing in a face starts or stops abruptly.
 namespace fsm {
 
 inline double Clamp01(double u) { return std::clamp(u, 0.0, 1.0); }
 
-/// 3u^2 - 2u^3.
+/// Returns 3u^2 - 2u^3.
 inline double Eased(double u) {
   u = Clamp01(u);
   return u * u * (3 - 2 * u);
 }
 
-/// 6u^5 - 15u^4 + 10u^3, the minimum-jerk curve: also without acceleration at both ends.
+/// Returns 6u^5 - 15u^4 + 10u^3, the minimum-jerk curve, whose acceleration is zero at both ends as
+/// well.
 inline double SmootherStep(double u) {
   u = Clamp01(u);
   return u * u * u * (u * (6 * u - 15) + 10);
 }
 
-/// The share of the second key shape in the original's interpolation between key shapes,
-/// M(t) = W (V0 - V1) + (V0 + V1) / 2 with W = cos(pi u) / 2.
+/// Returns the share of V1 in the original's interpolation between key shapes, M(t) = W (V0 - V1) +
+/// (V0 + V1) / 2 with W = cos(pi u) / 2.
 inline double Sinusoid(double u) { return (1 - std::cos(std::numbers::pi * Clamp01(u))) / 2; }
 
 using vm::InMs;
 
-/// The nearest microsecond.
+/// Rounds to the nearest microsecond.
 inline vm::Time FromMs(double ms) { return vm::Time(std::llround(ms * 1000)); }
 
-/// How far `t` is on the way from `start` to `start + duration`, 0..1; a duration of zero is a
-/// step.
+/// Returns the part of `duration` that has passed at `t` since `start`, clamped to 0..1; a duration
+/// of zero is a step.
 inline double Progress(vm::Time t, vm::Time start, vm::Time duration) {
   if (t >= start + duration) return 1;
   if (t <= start) return 0;

@@ -10,30 +10,32 @@
 
 namespace fsm {
 
-/// An emotion: its looks by pattern number, and how it comes about.
+/// An emotion: what its patterns look like, and how fast it appears.
 struct Emotion {
   std::vector<ActionUnits> patterns;  ///< at full strength; pattern 1 is patterns[0]
-  /// Of each pattern, the strength from which on a unit takes part, 0..0.9: a slight smile is shut.
+  /// Per pattern, the strength of the emotion above which a unit takes part, 0..0.9: a slight smile
+  /// keeps the mouth closed.
   std::vector<ActionUnits> begins;
-  /// How it comes about: ms from neutral to the peak, and by how much each part of the face begins
-  /// later than the first.
+  /// How an emotion appears: the time from neutral to the peak, and the delay with which each
+  /// region of the face begins.
   struct Timing {
     double onset_ms = 450;
     std::array<double, kRegions> lag_ms{0, 8, 14};
   };
-  Timing posed;     ///< shown on purpose
-  Timing elicited;  ///< felt
+  Timing posed;     ///< of an expression shown deliberately
+  Timing elicited;  ///< of a spontaneous expression
 
-  /// What a pattern looks like at a strength. REQUIRES: there is that pattern.
+  /// Returns the action units of a pattern at a strength. REQUIRES: the pattern exists.
   ActionUnits LookAt(int pattern, double strength) const;
-  /// Makes or changes a pattern; all of it takes part from the start. REQUIRES: 1 or more.
+  /// Adds or changes a pattern; all its units take part from strength 0. REQUIRES: `pattern` is 1
+  /// or more.
   void Redefine(std::size_t pattern, const ActionUnits& look);
 };
 using EmotionTable = std::map<std::string, Emotion, std::less<>>;
-/// Looks of whole expressions by FaceExp's name and pattern number.
+/// The action units of expressions, by name and pattern number as in the slot FaceExp.
 using ExpressionLooks = std::map<std::string, std::map<int, ActionUnits>>;
 
-/// Reads tables/emotions.txt: every emotion needs its patterns numbered from 1 without gaps.
+/// Reads tables/emotions.txt. The patterns of an emotion must be numbered from 1 without gaps.
 /// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view text,
                                       const UnitNames& names);

@@ -14,35 +14,35 @@
 
 namespace fsm {
 
-/// Expressions, on the layer `expression`: one at a time, crossfaded into the next; each part of
-/// the face begins by its own lag, and one side of it may begin later than the other. And the
-/// emotions of the list of units (Face.31 and on), on the layer `emotions`: each by itself.
-/// It gives the signal `expression`: how much of either is shown.
-/// It also keeps the expressions that are defined while running, in the tables.
-/// Lifetime: what it is made with outlives it. Commands come in order of time.
-/// Errors: kBadValue with what there is; kLimit for too many expressions.
+/// Moves the face by expressions, on the layer `expression`: one at a time, crossfaded into the
+/// next; each region of the face begins with a delay, and one side may begin later than the other.
+/// Also by the emotions of the list of units (Face.31 and on), on the layer `emotions`, each
+/// independently of the others. Gives the signal `expression`: how strongly either is shown. Stores
+/// expressions that are defined at run time in the tables.
+/// Lifetime: the references given to the constructor outlive this. Commands come in order of time.
+/// Errors: kBadValue listing what exists; kLimit for too many expressions.
 class ExpressionMotion : public MotionSource {
  public:
   ExpressionMotion(MotionTables& tables, const MotionSettings& settings, const IdleBehaviour& idle,
                    std::uint64_t seed);
 
-  /// With a `duration` (not zero) the expression is gone `duration` after now: for short ones onset
-  /// and offset take half of it each.
+  /// Shows an expression. If `duration` is not zero, the face is neutral again that long after
+  /// `now`; onset and offset of a short expression take half of it each.
   vm::Result<void> Show(vm::Time now, std::string_view name, int pattern, double strength,
                         vm::Time duration);
-  /// The expression at a point of the tables' emotion space, there within `move` or, without it, as
-  /// long as expressions take.
+  /// Shows the expression at a point of the emotion space, reached within `move`, by default within
+  /// the usual onset of expressions.
   void ShowPoint(vm::Time now, const EmotionSpace::Point& point, std::optional<vm::Time> move);
   void Neutral(vm::Time now);
-  /// REQUIRES: the list of units has an emotion there, from 0.
+  /// Moves an emotion to `strength`. REQUIRES: element `index` of UnitList::emotions is an emotion.
   void SetEmotion(vm::Time now, std::size_t index, double strength);
-  /// Makes or changes one pattern of an expression; a new expression begins with pattern 1, a new
-  /// pattern is the next. The name: letters, digits and _.
+  /// Adds or changes a pattern of an expression. `pattern` is at most one more than those that
+  /// exist. `name` consists of letters, digits and _.
   vm::Result<void> Define(std::string_view name, int pattern, std::string_view look);
-  /// Back to what the tables say: a changed expression is what it was, an own one is gone.
+  /// Undoes Define: restores an expression of the tables and removes one that they do not have.
   void Forget(std::string_view name);
-  /// Whose face it is: by how much one side of it begins later than the other, always the same: 20
-  /// to 40 ms. How much weaker one side is belongs to the head.
+  /// Sets the delay of one side of the face, 20 to 40 ms, which is always the same for a `person`.
+  /// (How much weaker one side is belongs to the head.)
   void SetPerson(std::uint64_t person) { DrawLags(Scramble(seed_ ^ person)); }
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;
@@ -59,17 +59,17 @@ class ExpressionMotion : public MotionSource {
             vm::Time duration);
 
   MotionTables& tables_;
-  const EmotionTable table_emotions_;  // as they were at the start
+  const EmotionTable table_emotions_;  // as read from the tables
   const MotionSettings& settings_;
   const IdleBehaviour& idle_;
   std::uint64_t seed_;
   Sided<double> side_lags_ms_;
-  // By part; of each only its side's units are used.
+  // By region; of each only the units of its side are used.
   Sided<std::array<Track<ActionUnits>, kRegions>> parts_;
-  Track<float> shown_;                  // how much an expression is shown, 0..1
-  std::vector<Track<float>> emotions_;  // by position in the list of units
+  Track<float> shown_;                  // how strongly an expression is shown, 0..1
+  std::vector<Track<float>> emotions_;  // indexed as UnitList::emotions
   vm::Time onset_end_{0};
-  std::optional<vm::Time> end_;  // of a timed expression
+  std::optional<vm::Time> end_;  // of an expression with a duration
 };
 
 }  // namespace fsm

@@ -11,22 +11,24 @@
 
 namespace fsm {
 
-/// Where the eyes are turned, and blinks on demand, on the layer `eyes`. The signal `at_user` says
-/// how far the eyes are kept on the viewer. Lifetime: what it is made with outlives it.
+/// Turns the eyes and blinks on command, on the layer `eyes`. Gives the signal `at_user`, 0..1: how
+/// far the eyes are held on the viewer. Lifetime: the references given to the constructor outlive
+/// this.
 class EyeMotion : public MotionSource {
  public:
   EyeMotion(const MotionPatterns& patterns, const GestureNumbers& gestures,
             const MotionSettings& settings, const IdleBehaviour& idle, std::uint64_t seed)
       : patterns_(patterns), gestures_(gestures), settings_(settings), idle_(idle), seed_(seed) {}
 
-  /// The eyes that are true turn there, and with a `duration` (not zero) are back after it.
+  /// Turns the left, the right or both eyes to `angles`. If `duration` is not zero, they are back
+  /// at rest after it.
   void Turn(vm::Time now, bool left, bool right, const EyeAngles& angles, vm::Time duration);
-  /// Looks somewhere with eyes and head: the eyes are there at once, the head takes its share of a
-  /// large angle more slowly and the eyes give it back meanwhile.
+  /// Looks in a direction with eyes and head: the eyes jump there, the head follows more slowly
+  /// with its share of a large angle, and the eyes turn back by as much.
   void Gaze(vm::Time now, const EyeAngles& angles, vm::Time duration);
   void LookAtUser(vm::Time now);
   void Think(vm::Time now);
-  /// `count` blinks, one after the other. REQUIRES: the pattern exists; counted from 1.
+  /// Blinks `count` times in succession. REQUIRES: the pattern, counted from 1, exists.
   void Blink(vm::Time now, std::size_t pattern, int count = 1);
   void StopBlinks() { blinks_.clear(); }
 
@@ -38,11 +40,11 @@ class EyeMotion : public MotionSource {
   void ForEachTrack(const TrackVisitor& visit) const override;
 
  private:
-  enum class Aim { kPlace, kUser, kNothing };  // of the gaze; a thinker looks at nothing
+  enum class Aim { kPlace, kUser, kNothing };  // the target of the gaze; kNothing while thinking
   void LookAt(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time duration);
-  /// What the head turns of a gaze, by one angle.
+  /// Returns the head's share of one angle of a gaze.
   float HeadShareOf(float angle) const;
-  /// About where a thinker looks.
+  /// Returns the mean direction of the eyes while thinking.
   EyeAngles Thinking() const;
   void BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to);
   EyeAngles ThinkingAt(vm::Time t) const;
@@ -59,13 +61,13 @@ class EyeMotion : public MotionSource {
   const IdleBehaviour& idle_;
   std::uint64_t seed_;
   Sided<Track<EyeAngles>> turned_;
-  Track<EyeAngles> gaze_;        // both eyes, in space
+  Track<EyeAngles> gaze_;        // of both eyes, relative to the body
   Track<EyeAngles> head_share_;  // of the gaze
   Track<float> on_user_, thinking_, vergence_deg_;
   vm::Time thinking_since_{0};
   std::int64_t shifts_ = 0;  // of the gaze
   std::vector<Blinking> blinks_;
-  struct Ends {  // when what is turned will be home; past where it is not timed
+  struct Ends {  // when a turn with a duration will be over; in the past for others
     Sided<vm::Time> turned;
     vm::Time gaze{0};
   };

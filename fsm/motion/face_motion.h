@@ -25,52 +25,55 @@
 
 namespace fsm {
 
-/// The face in time: takes commands with the instant they are given, and yields the state of the
-/// face at any instant from the last command on. Pure in time: the same commands with the same
-/// times give the same states, on any clock, however often and in whatever order it is asked.
-/// Each kind of movement is a MotionSource with commands of its own; tables/mixing.txt says how
-/// they become one face.
-/// Errors: kBadValue with what there is, for names and patterns the tables do not have, and for
-/// strengths that are no numbers or out of range. Thread: none of its own; not even const calls may
-/// run at once.
+/// The motion of the face: takes commands, each with its time, and returns the state of the face at
+/// any instant from the last command on. Pure in time: the same commands at the same times give the
+/// same states, however often and in whatever order states are asked for. Each kind of movement is
+/// a MotionSource with its own commands; tables/mixing.txt defines how Mixer combines them.
+/// Errors: kBadValue for names and patterns that the tables do not have (the text lists what
+/// exists), and for strengths that are not numbers or are out of range. Thread: one at a time,
+/// const calls included.
 class FaceMotion {
  public:
   FaceMotion(MotionTables tables, std::uint64_t seed) : tables_(std::move(tables)), seed_(seed) {}
   FaceMotion(const FaceMotion&) = delete;  // sources refer to the tables
 
-  /// Another source of movement, mixed with those there are; see docs/extending.md.
+  /// Adds a source of movement; see docs/extending.md.
   void Add(std::unique_ptr<MotionSource> source) { sources_.push_back(std::move(source)); }
 
-  // What concerns more than one source.
+  // Commands for more than one source.
 
-  /// Face.N. A strength of 1 is full, up to 2.
+  /// Sets Face.N; see UnitList for `position`. `strength`: 0..2, 1 = full.
   vm::Result<void> SetFace(vm::Time now, int position, double strength);
-  /// FaceMot: SHAKE is another name for REFUSE, TILT for LISTEN. `count` times (1..20).
+  /// Plays a movement of the slot FaceMot `count` times (1..20). SHAKE is another name for REFUSE,
+  /// TILT for LISTEN.
   vm::Result<void> Move(vm::Time now, std::string_view kind, int pattern, double strength = 1,
                         int count = 1);
   void StopMoves(vm::Time now);  ///< FaceMot = NOMOVE
 
-  // Visemes, from the next utterance on.
+  // Visemes; a change applies from the next utterance on.
   const Visemes& visemes(VisemeSetId set) const { return tables_.set(set).visemes; }
-  /// REQUIRES: the same names in the same order. How they dominate each other is kept.
+  /// Replaces the poses and hold times of a set; dominances are kept. REQUIRES: the same names in
+  /// the same order.
   void SetVisemes(VisemeSetId set, Visemes visemes);
 
-  // Settings. Those of speech act at once, without a jump.
+  // Settings. Those of speech apply at once, without a jump.
   const MotionSettings& settings() const { return settings_; }
   void Apply(vm::Time now, const MotionSettings& settings);
 
   FaceState StateAt(vm::Time t) const;
 
-  /// `t` while anything moves, else when something will begin by itself; none = all is still.
+  /// Returns `t` while anything moves, else when a movement will begin by itself; none: the face is
+  /// still until the next command.
   std::optional<vm::Time> NextActivity(vm::Time t) const;
-  /// When the onsets begun by `t` (expressions, units, eyes, head) will have settled.
+  /// Returns when the onsets begun by `t` (expressions, units, eyes, head) will be complete.
   vm::Time OnsetsSettled(vm::Time t) const;
-  /// When everything with an end (timed expressions, movements, blinks, turns) will be over.
+  /// Returns when everything that has an end (expressions and turns with a duration, movements,
+  /// blinks) will be over.
   vm::Time FiniteEnd(vm::Time t) const;
 
   const MotionTables& tables() const { return tables_; }
 
-  // What does not move but is there at once.
+  // These change at once, without a movement.
   Figure figure;
   float asymmetry = 1;  ///< FaceState::asymmetry
 
@@ -89,7 +92,7 @@ class FaceMotion {
   std::vector<std::unique_ptr<MotionSource>> sources_;
 
  public:
-  // The sources the face has from the start. They take what they need as references to the above.
+  // The built-in sources. They refer to the members above.
   IdleBehaviour& idle = Make<IdleBehaviour>(tables_.motions, tables_.gestures, seed_);
   ExpressionMotion& expression = Make<ExpressionMotion>(tables_, settings_, idle, seed_);
   UnitMotion& units = Make<UnitMotion>(tables_.unit_names);

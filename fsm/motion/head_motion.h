@@ -10,17 +10,18 @@
 
 namespace fsm {
 
-/// Where the head is turned, on the layer `head`: a direction it was told, and movements (nods)
-/// added to it. The patterns outlive it.
+/// Turns the head, on the layer `head`: to a commanded direction, to which movements (nods) are
+/// added. Lifetime: `patterns` outlives this.
 class HeadMotion : public MotionSource {
  public:
   explicit HeadMotion(const MotionPatterns& patterns) : patterns_(patterns) {}
 
   void TurnTo(vm::Time now, const Angles& angles);
-  /// From where the last turn leads; each angle stays within +-90 degrees.
+  /// Turns by `angles` from the target of the last turn; each angle is clamped to +-90 degrees.
   void TurnBy(vm::Time now, const Angles& angles);
-  /// A movement `count` times, each time 15 % smaller; `strength` multiplies its angles. It takes
-  /// the place of the one in hand, which fades within 80 ms. kBadValue for a pattern there is not.
+  /// Plays a movement `count` times, each time 15 % smaller; `strength` multiplies its angles. It
+  /// replaces the current movement, which fades out within 80 ms. Error: kBadValue for an unknown
+  /// pattern.
   vm::Result<void> Play(vm::Time now, std::string_view kind, int pattern, double strength,
                         int count);
   void StopMoves(vm::Time now);

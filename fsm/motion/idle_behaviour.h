@@ -12,26 +12,28 @@
 
 namespace fsm {
 
-/// What a face does by itself: small movements of head and eyes, breath and blinks on the layer
-/// `idle`, a listener's nods on `nods`, a slight look that stays on `idle_face`. Everything is a
-/// function of the seed and the time, with no state but what is switched on, so any instant can be
-/// asked for in any order. The kinds that belong to commands or to speech are only switched here;
-/// other sources ask for them. The patterns outlive it. Errors: kBadValue with what there is.
+/// Moves the face without commands: small movements of head and eyes, breath and blinks on the
+/// layer `idle`, a listener's nods on `nods`, a constant slight expression on `idle_face`.
+/// Everything is a function of seed and time; the only state is which kinds are on. Instants may
+/// therefore be asked for in any order. Kinds that belong to commands or to speech are only
+/// switched here; other sources query them. Lifetime: the references given to the constructor
+/// outlive this. Errors: kBadValue listing what exists.
 class IdleBehaviour : public MotionSource {
  public:
-  /// ASYMMETRY is on, everything else is off.
+  /// Switches ASYMMETRY on and everything else off.
   IdleBehaviour(const MotionPatterns& patterns, const GestureNumbers& gestures, std::uint64_t seed);
 
-  /// A kind by its name; pattern 0 switches off.
+  /// Switches a kind, given by name, to a pattern; 0 switches it off.
   vm::Result<void> Set(vm::Time now, std::string_view kind, int pattern);
-  /// Everything as a profile says; OFF is as it is at the start.
+  /// Switches all kinds as a profile says; OFF restores the state after construction.
   vm::Result<void> SetProfile(vm::Time now, std::string_view profile);
-  /// Pattern 0 switches off. REQUIRES: pattern at most MotionPatterns::Count.
+  /// Switches a kind to a pattern; 0 switches it off. REQUIRES: `pattern` is at most
+  /// IdleKindRow::count.
   void Set(vm::Time now, IdleKind kind, std::size_t pattern);
   bool On(IdleKind kind) const { return Of(kind).on; }
-  /// The pattern in force or switched off last, from 1; 0 = never on.
+  /// Returns the current pattern, or the last one if the kind is off, from 1; 0 = never on.
   std::size_t Pattern(IdleKind kind) const { return Of(kind).pattern; }
-  /// 0..1 while it is switched.
+  /// Returns how far a kind has faded in, 0..1.
   double Weight(IdleKind kind, vm::Time t) const { return Of(kind).weight.At(t); }
 
   double LidsShutAt(vm::Time t) const;
@@ -54,26 +56,27 @@ class IdleBehaviour : public MotionSource {
   double Wander(std::size_t wave, double periods) const;         // 0..5; smooth, -1..1
   void AddMove(vm::Time t, Angles& out) const;
   void AddNods(vm::Time t, Angles& out) const;
-  double BreathAt(vm::Time t) const;  // 0 = out, 1 = in; times the switch's weight
+  double BreathAt(
+      vm::Time t) const;  // 0 = exhaled, 1 = inhaled; multiplied by the weight of the switch
   EyeAngles EyesAt(vm::Time t) const;
-  /// A blink since the switch: its number, from 0, and when it begins.
+  /// A blink: its number since blinking was switched on, from 0, and when it begins.
   struct Blink {
     std::int64_t index = -1;
     vm::Time start{0};
   };
-  /// From the beginning of the blink before to that of blink `index`; of the first, from the
-  /// switch.
+  /// Returns the time from the start of the previous blink to that of blink `index`; for the first
+  /// blink, from switching on.
   vm::Time BlinkInterval(std::int64_t index) const;
-  /// The last blink that has begun by `t`; its index is -1 before the first.
+  /// Returns the last blink that has begun by `t`; its index is -1 before the first.
   Blink LastBlink(vm::Time t) const;
 
   const MotionPatterns& patterns_;
   const GestureNumbers& gestures_;
   std::uint64_t seed_;
   std::array<Switch, kIdleKindCount> switches_;
-  /// The blink that was asked for last. A blink's place is the sum of all intervals before it, but
-  /// each interval follows from its number alone: from here the next one asked for, before or
-  /// after, is a few steps away. What is found does not depend on where this stands.
+  /// A cache: the blink that was asked for last. A blink begins after the sum of all intervals
+  /// before it, and each interval depends on its number only, so a nearby blink, earlier or later,
+  /// is found from here in a few steps. The result does not depend on the cache.
   mutable Blink blink_;
 };
 

@@ -10,21 +10,22 @@
 
 namespace fsm {
 
-/// One kind of what the face does by itself: all that is known about it, but for what it does to
-/// the face, which is in IdleBehaviour, or in SpeechMotion if it goes with speech.
+/// The properties of a kind of idle behaviour. Its effect on the face is in IdleBehaviour, or in
+/// SpeechMotion if it accompanies speech.
 struct IdleKindRow {
   IdleKind kind;
-  std::string_view name;  ///< of Autonomous and LIFE; its patterns are AUTO lines: AUTOBLINK
-  std::string_view help;  ///< what follows the name in a list of them
-  /// How many patterns there are; 1 of what is only on or off.
+  std::string_view
+      name;  ///< as in the slot Autonomous and LIFE lines; AUTO lines (AUTOBLINK) have its patterns
+  std::string_view help;  ///< the text after the name in the help
+  /// Returns the number of patterns; 1 for a kind that is only on or off.
   std::size_t (*count)(const MotionPatterns&);
-  /// Reads one of its AUTO lines with TableRow::Fail; null if it has none.
+  /// Reads one of its AUTO lines; an error is reported by TableRow::Fail. Null if it has none.
   void (*read)(const TableRow&, const UnitNames&, MotionPatterns&);
-  vm::Time fade;              ///< in which it is switched on or off
+  vm::Time fade;              ///< the time in which it fades in or out
   bool moves_always = false;  ///< the face never stands still while it is on
 };
 
-/// All of them, in the order of IdleKind.
+/// Returns the rows of all kinds, in the order of IdleKind.
 std::span<const IdleKindRow, kIdleKindCount> IdleKinds();
 const IdleKindRow& RowOf(IdleKind kind);
 std::optional<IdleKind> IdleKindNamed(std::string_view name);

@@ -14,20 +14,21 @@
 
 namespace fsm {
 
-/// Makes one face of what all sources ask at an instant, by the rules of tables/mixing.txt.
-/// A value, constant once it is read; const calls may run at once.
+/// Combines the layers of all sources at one instant into a state of the face, by the rules of
+/// tables/mixing.txt. A value, constant after Read; thread: any.
 class Mixer {
  public:
-  /// kBadValue "NAME:LINE: ..." for a row that is none, and for names that no row above declares.
+  /// Reads the rules. Errors: kBadValue "NAME:LINE: ..." for a malformed row, and for names that no
+  /// earlier row declares.
   static vm::Result<Mixer> Read(const std::string& name, std::string_view text);
 
-  /// Sets the units, mouth, head, eyes and lids of `state`; the rest stays as it is. `units` says
-  /// which group a unit belongs to.
+  /// Sets the units, mouth, head, eyes and lids of `state`; the rest is unchanged. `units` gives
+  /// the group of each unit.
   void Mix(const MotionLayers& layers, const UnitList& units, FaceState& state) const;
 
  private:
   class Reader;
-  /// What can be weighed: the channels, then groups within the units.
+  /// What a rule can weight: the channels, then groups within the units.
   enum Target {
     kUnits,
     kMouth,
@@ -46,7 +47,7 @@ class Mixer {
   static constexpr std::size_t kChannels = kEyeUnits;
 
   struct ChannelRule {
-    bool greatest = false;  // else the sum
+    bool greatest = false;  // takes the greatest value; else the sum
     float lowest = -std::numeric_limits<float>::infinity();
     float highest = std::numeric_limits<float>::infinity();
 

@@ -8,15 +8,15 @@
 
 namespace fsm {
 
-/// A mood: a slight look that another program gives and takes away (vdm, of a voice), on the layer
-/// `mood`. Expressions cover it (tables/mixing.txt), so that it never competes with what somebody
-/// asked for. The patterns outlive it. Errors: kBadValue with what there is.
+/// Shows a mood, a slight expression set by another program (such as vdm, from a voice), on the
+/// layer `mood`. Expressions override it (tables/mixing.txt), so that it never competes with a
+/// command. Lifetime: `patterns` outlives this. Errors: kBadValue listing what exists.
 class MoodMotion : public MotionSource {
  public:
-  static constexpr vm::Time kTakes{1'200'000};  ///< from one mood to another
+  static constexpr vm::Time kTakes{1'200'000};  ///< the time of a change of mood
 
   explicit MoodMotion(const MotionPatterns& patterns) : patterns_(patterns) {}
-  /// Shows a mood of the patterns, or NEUTRAL; `strength` 1 is full.
+  /// Shows a mood of MotionPatterns::moods, or none (NEUTRAL); `strength`: 1 = full.
   vm::Result<void> Set(vm::Time now, std::string_view name, double strength);
   void Contribute(vm::Time t, MotionLayers& layers) const override;
 

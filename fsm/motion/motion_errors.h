@@ -9,10 +9,10 @@
 
 #include "vm_protocol/core/result.h"
 
-/// Refusals which FaceMotion's commands share.
+/// Checks and error texts that the commands of FaceMotion share.
 namespace fsm {
 
-/// The keys of a map, with blanks between them.
+/// Returns the keys of a map, separated by blanks.
 template <typename Map>
 std::string KeysOf(const Map& map) {
   std::vector<std::string> keys;
@@ -30,7 +30,7 @@ inline vm::Result<void> CheckPattern(std::string_view kind, int pattern, int low
                                                    pattern, lowest, count));
 }
 
-/// A strength as commands may give it.
+/// Checks that a strength is within 0..2.
 inline vm::Result<void> CheckStrength(double strength) {
   if (strength >= 0 && strength <= 2) return {};
   return vm::Fail(vm::Errc::kBadValue,

@@ -12,9 +12,9 @@
 
 namespace fsm {
 
-/// A movement of the head through key frames, from 0 0 0 at 0 ms. Between keys it follows a cubic
-/// that never overshoots and stands still at turning points (Fritsch and Carlson, SIAM J. Numer.
-/// Anal. 17, 1980, with harmonic means for the slopes).
+/// A movement of the head through key frames, from 0 0 0 at 0 ms. Keys are interpolated by a
+/// monotone cubic, which does not overshoot and has slope zero at turning points (Fritsch and
+/// Carlson, SIAM J. Numer. Anal. 17, 1980, with harmonic means for the slopes).
 class HeadCurve {
  public:
   struct Key {
@@ -23,14 +23,14 @@ class HeadCurve {
   };
   /// REQUIRES: times rise strictly from above 0.
   explicit HeadCurve(std::vector<Key> keys);
-  Angles At(double ms) const;  ///< the last key's angles after the end
+  Angles At(double ms) const;  ///< after the end, the angles of the last key
   double length_ms() const { return keys_.back().ms; }
   /// The keys that the constructor was given.
   std::span<const Key> keys() const { return std::span(keys_).subspan(1); }
 
  private:
   std::vector<Key> keys_;       // the first is 0 0 0 at 0
-  std::vector<Angles> slopes_;  // degrees a millisecond
+  std::vector<Angles> slopes_;  // degrees per millisecond
 };
 
 struct BlinkPattern {
@@ -38,13 +38,13 @@ struct BlinkPattern {
   double shut_ms = 20;
   double opening_ms = 140;
 };
-/// How far lids are shut `since` after a blink of that pattern began, 0..1.
+/// Returns how far the lids are shut, 0..1, `since` after the start of a blink.
 double LidsAt(const BlinkPattern& pattern, vm::Time since);
 vm::Time LengthOf(const BlinkPattern& pattern);
 struct AutoBlink {
   double interval_ms = 4000;
   std::size_t blink = 0;  ///< index of the blink pattern
-  bool varied = true;     ///< half of them incomplete, as people's are
+  bool varied = true;     ///< half of the blinks are incomplete, as in people
 };
 struct AutoMove {
   double down = 0, right = 0, tilt = 0;  ///< degrees, as Angles
@@ -70,14 +70,14 @@ struct AutoSpeech {
 };
 struct AutoAvert {
   double angle = 10;
-  double shortest_ms = 1800;  ///< of an utterance in which it happens
+  double shortest_ms = 1800;  ///< the eyes are averted only in utterances at least this long
 };
 
 struct AutoText {
-  double size = 1;  ///< of the looks of text_cues.txt
+  double size = 1;  ///< factor on the looks of text_cues.txt
 };
 
-/// What the face does by itself; each is switched by name. More about each: idle_kinds.h.
+/// The kinds of idle behaviour, each switched by name; their properties are in idle_kinds.cc.
 enum class IdleKind : std::size_t {
   kBlink,
   kMove,
@@ -94,16 +94,16 @@ enum class IdleKind : std::size_t {
   kText
 };
 inline constexpr std::size_t kIdleKindCount = static_cast<std::size_t>(IdleKind::kText) + 1;
-/// Patterns by kind; 0 = off.
+/// The pattern number of each kind; 0 = off.
 using IdleProfile = std::array<std::size_t, kIdleKindCount>;
 
-/// The pattern of a number, which commands and tables count from 1. REQUIRES: it is there.
+/// Returns a pattern by its number; commands and tables count from 1. REQUIRES: it exists.
 template <typename T>
 const T& PatternAt(const std::vector<T>& patterns, std::size_t number) {
   return patterns[number - 1];
 }
 
-/// Everything the face does by pattern number (PatternAt).
+/// All patterns of movement, numbered from 1 (PatternAt).
 struct MotionPatterns {
   std::map<std::string, std::vector<HeadCurve>, std::less<>> head;  ///< NOD REFUSE LISTEN USERDEF
   std::vector<BlinkPattern> blinks;
@@ -118,8 +118,9 @@ struct MotionPatterns {
   std::vector<AutoText> auto_texts;
   std::map<std::string, ActionUnits, std::less<>> moods;  ///< by name; see MoodMotion
   std::map<std::string, IdleProfile, std::less<>> profiles;
-  std::vector<HeadCurve> auto_move_files;  ///< if not empty, these are Autonomous MOVE n, in a loop
-  std::vector<HeadCurve> auto_userdef;     ///< Autonomous USERDEF n, in a loop
+  std::vector<HeadCurve>
+      auto_move_files;  ///< if not empty, Autonomous MOVE n loops these instead of auto_moves
+  std::vector<HeadCurve> auto_userdef;  ///< looped by Autonomous USERDEF n
 };
 
 }  // namespace fsm

@@ -7,7 +7,8 @@
 
 namespace fsm {
 
-/// Reads the original's motion file: `//` comments, the number of keys, then `ms x y z` a line.
+/// Reads a motion file of the original: `//` comments, the number of keys, then a line `ms x y z`
+/// for each key.
 /// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<HeadCurve> ReadMotionFile(const std::string& name, std::string_view text);
 

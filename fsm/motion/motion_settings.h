@@ -5,22 +5,24 @@
 
 namespace fsm {
 
-/// How expressions come about: as measured on people, shown or felt, or in a fixed time.
+/// The timing of onsets of expressions: as measured on people for deliberate (kPosed) or
+/// spontaneous (kElicited) expressions, or a fixed time.
 enum class Onset { kPosed, kElicited, kFixed };
 
-/// Times of movements which the original keeps in its configuration, and settings of speech.
+/// Durations of movements, which the original has in its configuration, and settings of speech.
 struct MotionSettings {
   Onset onset = Onset::kPosed;
-  vm::Time expression = std::chrono::milliseconds(100);  ///< EXPRESSION_DURATION, of kFixed
+  vm::Time expression = std::chrono::milliseconds(100);  ///< EXPRESSION_DURATION; used by kFixed
   vm::Time eye_move = std::chrono::milliseconds(70);     ///< EYEMOVE_DURATION
-  double lead_ms = 40;                                   ///< the mouth is ahead of the voice
-  double offset_ms = 0;                                  ///< delays the mouth
-  double sync_offset_ms = 0;                             ///< added to what the voice reports
-  double sync_rate = 0.25;  ///< how fast a difference is worked off, ms a ms
-  /// The original's unit for the size of mouth movements; kFullMouthScale gives the full
-  /// articulation of the shape table, the default 30 the three quarters of natural speech.
+  double lead_ms = 40;        ///< by which the mouth is ahead of the voice
+  double offset_ms = 0;       ///< added delay of the mouth
+  double sync_offset_ms = 0;  ///< added to the position that the voice reports
+  double sync_rate = 0.25;    ///< how fast a difference is corrected, ms per ms
+  /// The size of mouth movements in the original's unit: kFullMouthScale is the full articulation
+  /// of the viseme table; the default 30 is three quarters of it, as in natural speech.
   double mouth_scale = 30;
-  double gaze_distance_mm = 700;  ///< of what the eyes look at; 0 = far, the eyes are parallel
+  double gaze_distance_mm =
+      700;  ///< distance of the point looked at; 0 = infinite, the eyes are parallel
   LipStyle lips;
 };
 inline constexpr double kFullMouthScale = 40;

@@ -14,25 +14,26 @@
 
 namespace fsm {
 
-/// What one layer of movement asks of the face at one instant; at rest when it is made.
+/// The contribution of one layer of movement to the face at one instant; at rest by default.
 struct MotionLayer {
-  ActionUnits units;                            ///< 1 = full strength, and where the eyes go
-  std::array<float, kMouthParameters> mouth{};  ///< as FaceState::mouth
+  ActionUnits units;  ///< strengths, 1 = full, and the rotation of the eyes
+  std::array<float, kMouthParameters> mouth{};          ///< as FaceState::mouth
   std::array<float, kMouthParameters> mouth_by_hand{};  ///< as FaceState::mouth_by_hand
   float seal = 0;                                       ///< of the lips, 0..1
-  float tongue = 0;                                     ///< height of its tip, 0..1
+  float tongue = 0;                                     ///< height of the tip of the tongue, 0..1
   Angles head{};
   float head_forward_mm = 0;
   float lids_shut = 0;  ///< 0..1
 };
 
-/// What all sources ask of the face at one instant: layers, and signals by which the mixer weighs
-/// them (see tables/mixing.txt). A layer that the table does not name counts in full; a signal that
-/// nobody gives is 0, of one that several give the greatest counts. Names are string literals or
-/// outlive it.
+/// The contributions of all sources at one instant: layers, and signals by which Mixer weights them
+/// (see tables/mixing.txt). A layer that the table does not name has weight 1. A signal is the
+/// greatest of the values given for it, 0 if there are none. Lifetime: names are string literals or
+/// outlive this.
 class MotionLayers {
  public:
-  /// The layer of that name, at rest when it is asked for first; valid as long as this.
+  /// Returns the layer of that name, which is created at rest by the first call. Valid as long as
+  /// this object.
   MotionLayer& Layer(std::string_view name) {
     const auto found = std::ranges::find(layers_, name, &NamedLayer::first);
     return found != layers_.end() ? found->second
@@ -53,37 +54,39 @@ class MotionLayers {
   }
 
  private:
-  std::deque<NamedLayer> layers_;  // which moves none when one is added
+  std::deque<NamedLayer> layers_;  // a deque: adding a layer keeps references valid
   std::vector<std::pair<std::string_view, double>> signals_;
 };
 
-/// One source of movement. Pure in time: what it asks follows from the commands it was given and
-/// from the instant, so instants may be asked for in any order, from the last command on.
-/// Thread: none of its own; not even const calls may run at once.
+/// A source of movement. Pure in time: the contribution depends only on the commands given and on
+/// the instant, so instants may be asked for in any order, from the last command on.
+/// Thread: one at a time, const calls included.
 class MotionSource {
  public:
   virtual ~MotionSource() = default;
 
-  /// Adds what it asks at `t` to its layers.
+  /// Adds the contribution at `t` to layers and signals.
   virtual void Contribute(vm::Time t, MotionLayers& layers) const = 0;
-  /// `t` while it moves, else when it will begin to by itself; none = it is still until a command.
+  /// Returns `t` while it moves, else when it will begin to move by itself; none: still until the
+  /// next command.
   virtual std::optional<vm::Time> NextActivity(vm::Time t) const {
     std::optional<vm::Time> next;
     ForEachTrack([&](const MoveTimes& track) { next = Earlier(next, track.NextActivity(t)); });
     return next;
   }
-  /// When the changes begun by `t` will have settled; `t` if they have.
+  /// Returns when the changes begun by `t` will be complete; `t` if they are.
   virtual vm::Time SettledAt(vm::Time t) const {
     vm::Time settled = t;
     ForEachTrack([&](const MoveTimes& track) { settled = std::max(settled, track.SettledAt(t)); });
     return settled;
   }
-  /// When everything in it that has an end will be over; `t` if it is.
+  /// Returns when everything that has an end will be over; `t` if nothing has.
   virtual vm::Time FiniteEnd(vm::Time t) const { return t; }
 
  protected:
   using TrackVisitor = std::function<void(const MoveTimes&)>;
-  /// Shows the tracks it consists of: they answer for the times above.
+  /// Calls the visitor for each of the tracks, from which the default implementations above compute
+  /// their times.
   virtual void ForEachTrack(const TrackVisitor&) const {}
 
   MotionSource() = default;

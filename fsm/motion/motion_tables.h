@@ -17,7 +17,7 @@
 
 namespace fsm {
 
-/// Everything that is known about moving, read from the tables. A plain value.
+/// The contents of all tables of motion. A plain value.
 struct MotionTables {
   VisemeSet set14, set28;
   std::vector<EngineNames> engines;
@@ -30,13 +30,13 @@ struct MotionTables {
   BlendShapes blend_shapes;
   Mixer mixer;
   TextCues text_cues;
-  GestureNumbers gestures;  ///< gestures.txt, where each number is explained
+  GestureNumbers gestures;  ///< gestures.txt explains each number
 
   VisemeSet& set(VisemeSetId id) { return id == VisemeSetId::k14 ? set14 : set28; }
   const VisemeSet& set(VisemeSetId id) const { return id == VisemeSetId::k14 ? set14 : set28; }
 
-  /// The tables the program carries, but for those that the folder replaces. Errors: kBadValue with
-  /// file and line; kUnavailable if the folder or a file cannot be read.
+  /// Loads the tables: those in `folder`, and the built-in ones for the rest. Errors: kBadValue
+  /// with file and line; kUnavailable if the folder or a file cannot be read.
   static vm::Result<MotionTables> Load(const TableFolder& folder = {});
 };
 

@@ -7,10 +7,11 @@
 
 namespace fsm {
 
-/// The mouth parameters as commands set them (Mouth.N), on the layer `mouth`.
+/// Moves the mouth by its parameters (slots Mouth.N), on the layer `mouth`.
 class MouthMotion : public MotionSource {
  public:
-  /// `parameter` from 1. kBadValue for one there is not, and for a strength outside 0..2.
+  /// Moves a parameter, counted from 1, to `strength`. Errors: kBadValue for an unknown parameter,
+  /// and for a strength outside 0..2.
   vm::Result<void> Set(vm::Time now, int parameter, double strength);
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;

@@ -10,7 +10,7 @@
 
 namespace fsm {
 
-/// What head and brows do with a mouth that another program gives.
+/// Head and brows of a frame of MouthStream.
 struct StreamHead {
   Angles angles{};
   float brow = 0;  ///< strength of units 1 and 2, 0..1
@@ -19,39 +19,39 @@ inline StreamHead Mix(const StreamHead& a, const StreamHead& b, double share_of_
   return {Mix(a.angles, b.angles, share_of_b), Mix(a.brow, b.brow, share_of_b)};
 }
 
-/// The mouth as another program gives it, frame by frame, each with its time (MouthFrame): of a
-/// voice that nobody told the text of, or of a film. It is on the layer `mouth_stream` and gives
-/// the signals of speech, `speaking`, `lips_taken` and `contact`, and `stream_taken`, by which the
-/// mouth of a text gives way. Frames may say what head and brows do with it too: that is on the
-/// layer `stream_gestures`, and `head_taken` says that it is so.
+/// Moves the mouth by frames that another program sends, each with its time (slot MouthFrame), for
+/// instance from a film or from a voice whose text is unknown. The mouth is on the layer
+/// `mouth_stream`. Gives the signals `speaking`, `lips_taken` and `contact` as SpeechMotion does,
+/// and `stream_taken`, by which the mouth of SpeechMotion is reduced. Frames may move head and
+/// brows as well, on the layer `stream_gestures`; the signal `head_taken` is then above 0.
 ///
-/// Between two frames up to kLongestGap apart it goes straight from one to the other; such frames
-/// are a run. A run takes the mouth over within kTakeOver before its first frame. After its last
-/// frame the mouth holds for kHold, closes within kClose and is let go: so it rests when no frames
-/// come any more, for whatever reason. Head and brows go home within kHeadHome.
-/// Commands come in order of time; queries are for now or later.
-/// Limits: kMostFrames that are still to come.
+/// Frames at most kLongestGap apart form a run, within which frames are interpolated linearly. A
+/// run fades in during the kTakeOver before its first frame. After its last frame the mouth holds
+/// for kHold, closes within kClose and is released; it therefore rests whenever frames stop, for
+/// whatever reason. Head and brows return to rest within kHeadHome. Commands come in order of time;
+/// queries are for the time of the last command or later.
+/// Limits: kMostFrames frames in the future.
 class MouthStream : public MotionSource {
  public:
   static constexpr vm::Time kLongestGap{200'000};
   static constexpr vm::Time kTakeOver{60'000};
   static constexpr vm::Time kHold{120'000};
   static constexpr vm::Time kClose{110'000};
-  static constexpr vm::Time kHeadHome{700'000};        ///< as after the speech of a text
-  static constexpr std::size_t kMostFrames = 180'000;  ///< an hour at 50 a second
+  static constexpr vm::Time kHeadHome{700'000};        ///< as SpeechGestures::kFadeMs
+  static constexpr std::size_t kMostFrames = 180'000;  ///< an hour at 50 frames per second
 
-  /// A frame for the instant `at`, at full articulation; frames for that instant and later that
-  /// came before are forgotten. Error: kLimit.
+  /// Adds a frame for the instant `at`, its pose at full articulation; drops earlier added frames
+  /// for that instant or later. Error: kLimit.
   vm::Result<void> Add(vm::Time now, vm::Time at, const MouthPose& pose,
                        const std::optional<StreamHead>& head = std::nullopt);
-  /// The instant from which those who give frames count their times.
+  /// The instant at which the times of frames begin, for the sender's use.
   vm::Time start() const { return start_; }
   void set_start(vm::Time start) { start_ = start; }
-  /// Another MouthScale comes about without a jump.
+  /// Changes MotionSettings::mouth_scale without a jump.
   void SetMouthScale(vm::Time now, double mouth_scale) {
     mouth_scale_.MoveTo(now, static_cast<float>(mouth_scale), kMouthScaleMove);
   }
-  /// Forgets the frames after `now`; the mouth holds, closes and is let go from there.
+  /// Drops the frames after `now`; from there the mouth holds, closes and is released.
   void Stop(vm::Time now);
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;
@@ -68,8 +68,8 @@ class MouthStream : public MotionSource {
   };
   SpokenMouth MouthAt(vm::Time t) const;
   struct HeadShare {
-    double share = 0;  // how much it is said by frames, 0..1
-    StreamHead pose;   // times the share already
+    double share = 0;  // how far frames control head and brows, 0..1
+    StreamHead pose;   // premultiplied by the share
   };
   HeadShare HeadAt(vm::Time t) const;
   static HeadShare HeadOf(const Frame& frame) {

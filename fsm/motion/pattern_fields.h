@@ -10,7 +10,7 @@
 
 namespace fsm {
 
-/// A number of a line in motions.txt and the member it becomes; none is below 0.
+/// A number of a line in motions.txt and the member that stores it.
 template <typename Pattern>
 struct PatternField {
   std::string_view name;
@@ -18,10 +18,10 @@ struct PatternField {
   double least = 0;
 };
 
-/// Refuses a line KIND PATTERN ... whose pattern is not that after the `have` before it.
+/// Checks that the pattern number of a line KIND PATTERN ... is `have` + 1. Throws TableError.
 void CheckPattern(const TableRow& row, std::size_t have);
 
-/// Reads a line KIND PATTERN NUMBER ..., a number for each field.
+/// Reads a line KIND PATTERN NUMBER ..., with one number for each field. Throws TableError.
 template <typename Pattern, std::size_t kCount>
 void ReadPattern(const TableRow& row, std::vector<Pattern>& patterns,
                  const std::array<PatternField<Pattern>, kCount>& fields) {

@@ -11,40 +11,41 @@
 namespace fsm {
 
 enum class Language {
-  kAuto,  ///< that of the names the list uses
+  kAuto,  ///< detected from the names in the list
   kJapanese,
   kEnglish,
 };
 
-/// One engine's names for phonemes in one language; see tables/phoneme_names.txt.
+/// The phoneme names of a speech engine in one language; see tables/phoneme_names.txt.
 struct EngineNames {
   std::string engine;
   bool english = false;
   std::vector<std::string> endings;
   std::map<std::string, std::string, std::less<>> ours;
 
-  /// Our name for the engine's, endings taken off if need be; "" if it has none.
+  /// Returns our name for an engine's phoneme, if necessary without one of the `endings`; "" if
+  /// unknown.
   std::string_view Ours(std::string_view name) const;
 };
-/// Reads tables/phoneme_names.txt: every name must lead to a phoneme of `set`.
+/// Reads tables/phoneme_names.txt: every name must map to a phoneme of `set`.
 /// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<std::vector<EngineNames>> ReadPhonemeNames(const std::string& name,
                                                       std::string_view text, const VisemeSet& set);
 
-/// The names of engines that can be asked for: FLITE and OPEN_JTALK, whose names are ours, and
-/// those of the table.
+/// Returns the engine names that PhonemeReader accepts: FLITE and OPEN_JTALK, whose phoneme names
+/// are ours, and those of the table.
 std::string EngineList(const std::vector<EngineNames>& engines);
 
-/// Finds what phonemes look like: the list of names which knows most of an utterance is used (the
-/// Japanese one if several know as many), and the others help out.
+/// Finds the visemes of phonemes. Uses the list of names that knows most phonemes of an utterance
+/// (the Japanese one if several know equally many), and the others for names it lacks.
 class PhonemeReader {
  public:
-  /// `engine` "" or AUTO = any. The set and the names outlive the reader.
+  /// `engine`: "" or AUTO = any. Lifetime: `set` and `engines` outlive the reader.
   PhonemeReader(const vm::PhonemeList& phonemes, const VisemeSet& set,
                 const std::vector<EngineNames>& engines, Language language,
                 std::string_view engine);
 
-  /// nullptr if no list has the name.
+  /// Returns nullptr if no list has the name.
   const PhonemeVisemes* VisemesOf(std::string_view name) const;
   bool english() const { return english_; }
 

@@ -6,8 +6,8 @@
 
 namespace fsm {
 
-/// What varies by itself: each takes numbers of its own out of one seed. The values decide what a
-/// seed looks like, so they stay.
+/// Independent streams of pseudo-random numbers from one seed, one for each quantity that varies.
+/// Changing a value would change the behaviour of existing seeds.
 enum class RandomStream : std::uint64_t {
   // IdleBehaviour
   kBlinkTime = 0,
@@ -39,7 +39,7 @@ enum class RandomStream : std::uint64_t {
   kAvertBlink = 312
 };
 
-/// In -1..1.
+/// Returns element `index` of a stream, in -1..1.
 inline double RandomAt(std::uint64_t seed, RandomStream stream, std::int64_t index) {
   return RandomAt(seed, static_cast<std::uint64_t>(stream), index);
 }

@@ -12,19 +12,20 @@
 
 namespace fsm {
 
-/// What head, brows and eyes do with one utterance, as functions of the position in it (ms): nods
-/// on the vowels that carry the stress, the brows raised on the strongest, a pose of the head for
-/// each phrase, the eyes turned away while the speaker begins and back before the end. Speakers'
-/// heads and brows do move with the stress (Hadar et al., Head movement correlates of juncture and
-/// stress at sentence level, 1983; Graf et al., Visual prosody, 2002); sizes are the table's.
-/// Stress is judged by length: a vowel's against the utterance's mean, more if it is open. All at
-/// rest before the start and 700 ms after the end. Seeded; a value.
+/// Movements of head, brows and eyes that accompany an utterance, as functions of the position in
+/// it (ms): nods on stressed vowels, raised brows on the most stressed, a pose of the head for each
+/// phrase, and gaze averted at the beginning and returned before the end. Heads and brows of
+/// speakers do move with stress (Hadar et al., Head movement correlates of juncture and stress at
+/// sentence level, 1983; Graf et al., Visual prosody, 2002); gestures.txt has the sizes. Stress is
+/// estimated from a vowel's length relative to the mean of the utterance, and is greater for open
+/// vowels. Everything is at rest before the start and from kFadeMs after the end. Deterministic for
+/// a seed. A value.
 class SpeechGestures {
  public:
   /// `sizes`: gestures.txt.
   SpeechGestures(const VisemeTargets& visemes, const GestureNumbers& sizes, std::uint64_t seed);
 
-  /// In parts of the table's greatest angles, about -1..1.
+  /// Relative to the greatest angles of the table, about -1..1.
   struct At {
     double nod = 0;   ///< down
     double turn = 0;  ///< to the viewer's right
@@ -33,9 +34,11 @@ class SpeechGestures {
   };
   At HeadAt(double position_ms) const;
 
-  /// In parts of the angle of aversion: down, right. Zero in utterances shorter than `shortest_ms`.
+  /// Returns the averted gaze, down and right, relative to AutoAvert::angle. Zero in utterances
+  /// shorter than `shortest_ms`.
   std::array<double, 2> AvertAt(double position_ms, double shortest_ms) const;
-  /// When the eyes jump away and back (ms); {0, 0} in such utterances.
+  /// Returns when the eyes jump away and back (ms); {0, 0} in utterances shorter than
+  /// `shortest_ms`.
   std::array<double, 2> AvertTimes(double shortest_ms) const;
 
   static constexpr double kFadeMs = 700;  ///< after the end

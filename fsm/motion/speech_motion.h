@@ -18,41 +18,44 @@
 
 namespace fsm {
 
-/// Utterances: begun, followed, corrected, stopped. The mouth is on the layer `speech`, what head,
-/// brows, eyes and lids do with it on `gestures`, the looks of its text on `text`. It gives the
-/// signals `speaking`, `lips_taken` and `contact`. An utterance that was stopped fades under the
-/// next one. Lifetime: what it is made with outlives it. Commands come in order of time; queries
-/// are for now or later.
+/// Moves the face with utterances: the mouth on the layer `speech`, head, brows, eyes and lids on
+/// `gestures`, the looks of the text (TextCues) on `text`. Gives the signals `speaking`,
+/// `lips_taken` and `contact`. A stopped utterance fades out beneath the next one. Lifetime: the
+/// references given to the constructor outlive this. Commands come in order of time; queries are
+/// for the time of the last command or later.
 class SpeechMotion : public MotionSource {
  public:
-  static constexpr vm::Time kRelease = std::chrono::milliseconds(300);  ///< the mouth lets go
-  static constexpr double kInnerBrow = 1, kOuterBrow = 0.8;  ///< of units 1 and 2, with the stress
+  static constexpr vm::Time kRelease = std::chrono::milliseconds(300);  ///< the mouth is released
+  static constexpr double kInnerBrow = 1,
+                          kOuterBrow = 0.8;  ///< strengths of units 1 and 2 on stressed vowels
 
   SpeechMotion(const MotionTables& tables, const MotionSettings& settings,
                const IdleBehaviour& idle, std::uint64_t seed)
       : tables_(tables), settings_(settings), idle_(idle), seed_(seed) {}
 
-  /// The voice starts at `start`; the mouth begins up to 92 ms before that, and is ahead by the
-  /// lead. `text`: what is said, if it is known: it gives sentences slight looks.
+  /// Starts an utterance whose voice starts at `start`; the mouth begins up to 92 ms before that,
+  /// and leads the voice by MotionSettings::lead_ms. `text`: the spoken text, if known; TextCues
+  /// derives looks from it.
   void Start(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start,
              std::string_view text = {});
-  /// The lips are closed 110 ms later.
+  /// Stops the utterance; the lips are closed 110 ms later.
   void Stop(vm::Time now);
-  /// The voice says it is at `voice_ms` now. Ignored when nothing is spoken.
+  /// Takes a report that the voice is at `voice_ms` now; ignored when nothing is spoken.
   void Sync(vm::Time now, double voice_ms);
-  /// The settings are about to become `next`: lead and size go there without a jump.
+  /// Moves lead and size to those of `next` without a jump. To be called before the settings
+  /// change.
   void Adjust(vm::Time now, const MotionSettings& next);
 
-  /// Phonemes no table has, once each: the mouth closes on them.
+  /// Returns the phonemes that no table has, once each: the mouth closes on them.
   std::vector<std::string> UnknownPhonemes(const vm::PhonemeList& phonemes) const {
     return MakeVisemeTargets(phonemes, tables_, settings_.lips).unknown;
   }
 
   bool active() const { return !said_.empty() && !said_.back().stopped; }
-  /// When the utterance in hand will be over, for voice and mouth; none if there is none.
+  /// Returns when the current utterance will be over, for voice and mouth; none if there is none.
   std::optional<vm::Time> End() const;
   double VoicePositionAt(vm::Time t) const;        ///< 0 if nothing is spoken
-  const std::string& PhonemeAt(vm::Time t) const;  ///< on the mouth; "" = none
+  const std::string& PhonemeAt(vm::Time t) const;  ///< the phoneme that the mouth shows; "" = none
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;
   std::optional<vm::Time> NextActivity(vm::Time t) const override;
@@ -67,7 +70,7 @@ class SpeechMotion : public MotionSource {
     std::optional<vm::Time> stopped;
   };
   struct Mouth : SpokenMouth {
-    double over_emotion = 0;  // how far emotion gives way; slower than `share` to be soft
+    double over_emotion = 0;  // how far emotion is reduced; changes more slowly than `share`
   };
   Mouth MouthAt(vm::Time t) const;
   void MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const;
@@ -75,7 +78,8 @@ class SpeechMotion : public MotionSource {
   void AvertEyes(vm::Time t, MotionLayer& layer) const;
   double LidsShutAt(vm::Time t) const;
   const AutoAvert* Avert() const;  // nullptr while it is off
-  /// How much of an utterance's gestures is left after it was stopped; 0 outside of it.
+  /// Returns the remaining weight of an utterance's gestures, which fade once it is stopped; 0
+  /// outside it.
   double GesturesOf(const Utterance& one, vm::Time t) const;
   vm::Time EndOf(const Utterance& one) const;
   vm::Time GoneAt(const Utterance& one) const;

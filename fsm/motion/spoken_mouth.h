@@ -5,20 +5,21 @@
 
 namespace fsm {
 
-/// Lips that rest on each other.
+/// Returns the mouth with closed lips.
 MouthPose ClosedMouth();
 
-/// How long another MouthScale takes to come about.
+/// The duration of a change of MotionSettings::mouth_scale.
 inline constexpr vm::Time kMouthScaleMove{100'000};
 
-/// The mouth that speech asks for at one instant.
+/// The mouth of speech at one instant.
 struct SpokenMouth {
-  double share = 0;  ///< of the mouth, 0..1; the rest is left to other movements
+  double share = 0;  ///< weight, 0..1; the rest is left to other movements
   MouthPose pose;    ///< at full articulation
 
-  /// Lets another mouth come over it by `other_share`, 0..1.
+  /// Blends `other` over this mouth with the weight `other_share`, 0..1.
   void Cover(const MouthPose& other, double other_share);
-  /// Puts it on a layer, in the size of that MouthScale, and gives `lips_taken` and `contact`.
+  /// Adds the mouth, scaled by `mouth_scale`, to a layer, and gives the signals `lips_taken` and
+  /// `contact`.
   void Contribute(double mouth_scale, std::string_view layer, MotionLayers& layers) const;
 };
 

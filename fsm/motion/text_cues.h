@@ -11,40 +11,41 @@ namespace fsm {
 
 struct VisemeTargets;
 
-/// A slight look of a sentence; see tables/text_cues.txt.
+/// A slight expression that accompanies a sentence; see tables/text_cues.txt.
 struct TextLook {
   std::string name;
-  bool at_end = false;  ///< of the sentence, else all through it
+  bool at_end = false;  ///< shown at the end of the sentence, else throughout
   Angles head{};
   ActionUnits units;
 };
 
-/// Looks, and the words that bring them about. A plain value.
+/// Looks, and the words that cause them. A plain value.
 struct TextCues {
   struct Cue {
     std::size_t look = 0;
-    std::vector<std::string> phrases;  ///< small letters
+    std::vector<std::string> phrases;  ///< in lower case
   };
   std::vector<TextLook> looks;
   std::vector<Cue> cues;
 };
 
-/// At most 100 looks and 1000 cues. kBadValue "NAME:LINE: ...".
+/// Reads tables/text_cues.txt. Limits: 100 looks, 1000 cues. Error: kBadValue "NAME:LINE: ...".
 vm::Result<TextCues> ReadTextCues(const std::string& name, std::string_view text,
                                   const UnitNames& names);
 
-/// A look of one sentence of an utterance, by its times in the utterance.
+/// A look with its times in an utterance.
 struct TimedLook {
   const TextLook* look = nullptr;
   double start_ms = 0, end_ms = 0;
 
-  /// 0 .. 1: it comes and goes softly.
+  /// Returns the strength, 0..1, which fades in and out.
   double At(double position_ms) const;
 };
 
-/// The looks of a text that is spoken as `visemes` say, each once a sentence; sentences end at
-/// . ! ? and their Japanese forms. Where a sentence ends in time follows from the letters before
-/// it, and from the pause of 110 ms or more nearest to there. `cues` outlives them.
+/// Returns the looks of a text that is spoken as `visemes`, each at most once per sentence;
+/// sentences end at . ! ? and their Japanese forms. The time at which a sentence ends is estimated
+/// from the number of letters before it, and moved to the nearest pause of 110 ms or more.
+/// Lifetime: `cues` outlives the result.
 std::vector<TimedLook> LooksOf(const TextCues& cues, std::string_view text,
                                const VisemeTargets& visemes);
 

@@ -21,17 +21,17 @@ std::array<float, N> Mix(const std::array<float, N>& a, const std::array<float, 
   return out;
 }
 
-/// The earlier of two times of which either may be missing.
+/// Returns the earlier of two times, either of which may be missing.
 inline std::optional<vm::Time> Earlier(std::optional<vm::Time> a, std::optional<vm::Time> b) {
   if (!a) return b;
   if (!b) return a;
   return std::min(*a, *b);
 }
 
-/// When the moves of a track begin, and how long they take.
+/// The starts and durations of the moves of a track.
 class MoveTimes {
  public:
-  /// When the moves begun by `t` will have ended; `t` if they have.
+  /// Returns when the moves begun by `t` will have ended; `t` if they have.
   vm::Time SettledAt(vm::Time t) const {
     vm::Time settled = t;
     for (const Span& move : spans_) {
@@ -40,7 +40,7 @@ class MoveTimes {
     return settled;
   }
 
-  /// `t` while it moves, else when the next planned move begins; none = it stays as it is.
+  /// Returns `t` while it moves, else when the next planned move begins; none: no more moves.
   std::optional<vm::Time> NextActivity(vm::Time t) const {
     std::optional<vm::Time> next;
     for (const Span& move : spans_) {
@@ -58,10 +58,10 @@ class MoveTimes {
   std::vector<Span> spans_;
 };
 
-/// A value that is told to go somewhere else, again and again, and never jumps: each move is a
-/// crossfade from wherever the earlier moves would be by then to its target. So a new move in the
-/// middle of another one is smooth in value and in speed.
-/// T needs `T Mix(const T&, const T&, double)`. A plain value; times of commands never go back.
+/// A value that moves from target to target without jumps: each move is a crossfade from the value
+/// that the earlier moves give to its own target. A move that begins during another one is
+/// therefore smooth in value and in speed. REQUIRES: `T Mix(const T&, const T&, double)` exists;
+/// the times of commands never decrease. A plain value.
 template <typename T>
 class Track : public MoveTimes {
  public:
@@ -97,7 +97,7 @@ class Track : public MoveTimes {
     return value;
   }
 
-  /// Where it will be when every move begun by `t` has ended.
+  /// Returns the value when every move begun by `t` will have ended.
   T TargetAt(vm::Time t) const {
     T value = base_;
     for (std::size_t i = 0; i < spans_.size(); ++i) {
@@ -107,7 +107,8 @@ class Track : public MoveTimes {
   }
 
  private:
-  // The first move after the last that has ended by `t`: that one hides everything before it.
+  // Returns the index of the first move after the last that has ended by `t`, which hides all moves
+  // before it.
   std::size_t RunningFrom(vm::Time t) const {
     std::size_t first = spans_.size();
     while (first > 0 && spans_[first - 1].start + spans_[first - 1].duration > t) --first;
@@ -131,7 +132,7 @@ class Track : public MoveTimes {
   }
 
   T base_{};
-  std::vector<T> targets_;  // of each of the moves
+  std::vector<T> targets_;  // indexed as spans_
 };
 
 }  // namespace fsm

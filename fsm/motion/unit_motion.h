@@ -8,15 +8,16 @@
 
 namespace fsm {
 
-/// Action units, and codes of head and eyes, as commands set them, on the layer `units`.
-/// Lifetime: the names outlive it. Errors: kBadValue, see ParseUnitCommand.
+/// Moves the face by action units and by the codes of head and eyes (UnitCode), on the layer
+/// `units`.
+/// Lifetime: `names` outlives this. Errors: kBadValue, see ParseUnitCommand.
 class UnitMotion : public MotionSource {
  public:
   explicit UnitMotion(const UnitNames& names) : names_(names) {}
 
-  /// Sets one unit, `12L`; strength 0..2.
+  /// Moves one unit, such as `12L`, to a strength of 0..2.
   vm::Result<void> Set(vm::Time now, std::string_view unit, double strength, vm::Time move);
-  /// Sets the units that a text names, see ParseUnitCommand.
+  /// Sets the units of a command, see ParseUnitCommand.
   vm::Result<void> Set(vm::Time now, std::string_view text);
   /// Sets a unit on both sides within 60 ms, as Face.N does.
   void Set(vm::Time now, int unit, double strength);
@@ -30,7 +31,7 @@ class UnitMotion : public MotionSource {
   void SetOne(vm::Time now, const UnitSetting& unit, vm::Time move);
 
   const UnitNames& names_;
-  // The units ever set, by number. A code has one strength for both sides.
+  // The units and codes set so far, by number. A code has one strength for both sides.
   std::map<int, Sided<Track<float>>> units_;
 };
 

@@ -11,18 +11,18 @@
 
 namespace fsm {
 
-/// What speech does to the mouth at one instant: the speech part of FaceState, same units.
+/// The mouth of speech at one instant, in the units of FaceState.
 struct MouthPose {
   std::array<float, kMouthParameters> mouth{};
   float seal = 0;
   float tongue = 0;
-  /// How much the sound needs the lips at each other or at the teeth, 0..1: whatever else opens the
-  /// mouth has to give way by so much.
+  /// How strongly the sound needs the lips in contact with each other or with the teeth, 0..1;
+  /// other movements that open the mouth are reduced by that share.
   float contact = 0;
 };
 MouthPose Mix(const MouthPose& a, const MouthPose& b, double share_of_b);
 
-/// How strongly a viseme insists on its targets while sounds overlap; see tables/dominance.txt.
+/// The weights of a viseme's targets where sounds overlap; see tables/dominance.txt.
 struct Dominance {
   double jaw = 1;
   double lips = 1;
@@ -32,50 +32,51 @@ struct Dominance {
   bool vowel = false;
 };
 
-/// A mouth shape of speech, at full articulation.
+/// A mouth shape of speech at full articulation.
 struct Viseme {
   std::string name;
   MouthPose pose;
-  double hold = 0;  ///< share of a phoneme for which the viseme stands before it moves on
+  double hold = 0;  ///< share of a phoneme during which its viseme is held
   Dominance dominance;
 };
 
-/// Visemes by their numbers. Each set has one named `rest`: the mouth of pauses.
+/// Visemes, indexed by number. Each set has one named `rest`, the mouth of pauses.
 using Visemes = std::vector<Viseme>;
-/// The sets there are, each called by its count: the original's, and that of the English and
+/// The sets of visemes, named by their counts: that of the original, and that of the English and
 /// Japanese translation system.
 enum class VisemeSetId { k14 = 14, k28 = 28 };
 inline constexpr std::array kVisemeSets = {VisemeSetId::k14, VisemeSetId::k28};
 constexpr std::size_t CountOf(VisemeSetId set) { return static_cast<std::size_t>(set); }
-/// The 17 parameters, then seal, tongue and hold, which may be left out at the end (they then stay
-/// as `viseme` has them). Values: finite; parameters within +-60, seal and tongue 0..1, hold
-/// 0..0.9. Error: kBadValue, and `viseme` stays as it was.
+/// Reads the values of a viseme from the words from index `first` on: 17 parameters, then seal,
+/// tongue and hold, of which the last ones may be omitted (they are then unchanged). Values:
+/// finite; parameters within +-60, seal and tongue 0..1, hold 0..0.9. Error: kBadValue, and
+/// `viseme` is unchanged.
 vm::Result<void> ReadVisemeValues(const std::vector<std::string>& words, std::size_t first,
                                   Viseme& viseme);
-/// The 20 numbers in the form of a row of the table.
+/// Formats the 20 numbers as in a row of the table.
 std::string FormatVisemeValues(const Viseme& viseme);
-/// Reads a table of all visemes of a set, one of them `rest`. This and the readers below:
+/// Reads a table of all visemes of a set, one of them `rest`. Of this reader and those below:
 /// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<Visemes> ReadVisemes(const std::string& name, std::string_view text,
                                 VisemeSetId set = VisemeSetId::k14);
-/// nullptr if there is none of that name.
+/// Returns nullptr if there is no viseme of that name.
 const Viseme* FindViseme(const Visemes& visemes, std::string_view name);
 
-/// What a phoneme looks like: one viseme, or two for a diphthong.
+/// The visemes of a phoneme: one, or two for a diphthong.
 struct PhonemeVisemes {
-  static constexpr int kNext = -1;  ///< takes the viseme of what follows
+  static constexpr int kNext = -1;  ///< stands for the viseme of the next phoneme
   struct Phase {
     int viseme = 0;  ///< index into Visemes, or kNext
     double strength = 1;
   };
   std::vector<Phase> phases;  ///< one or two
 };
-/// By phoneme name; names differ in case (N is not n).
+/// Visemes by phoneme name; names are case-sensitive (N is not n).
 using PhonemeTable = std::map<std::string, PhonemeVisemes, std::less<>>;
 vm::Result<PhonemeTable> ReadPhonemeTable(const std::string& name, std::string_view text,
                                           const Visemes& visemes);
 
-/// A set of visemes and what the phonemes of each language look like in it.
+/// A set of visemes, and the phonemes of each language in it.
 struct VisemeSet {
   Visemes visemes;
   PhonemeTable japanese;
@@ -83,12 +84,12 @@ struct VisemeSet {
   std::size_t rest = 0;  ///< index of the viseme of pauses
 };
 
-/// Dominances of the visemes of both sets, which are written into them. `reach_ms`: before and
-/// after a sound's own time, see tables/dominance.txt. Every viseme must have its row.
+/// How far the dominance of a sound reaches before its start and after its end.
 struct Reach {
   double before_ms = 40;
   double after_ms = 45;
 };
+/// Reads tables/dominance.txt and writes the dominances, one for each viseme, into both sets.
 vm::Result<Reach> ReadDominance(const std::string& name, std::string_view text, Visemes& set14,
                                 Visemes& set28);
 

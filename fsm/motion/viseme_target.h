@@ -8,46 +8,47 @@
 
 namespace fsm {
 
-/// How lips go from sound to sound.
+/// The interpolation of the lips between sounds.
 enum class LipMode {
   kDominance,  ///< overlapping dominance curves with anticipation
-  kSinusoid,   ///< the original's: key visemes joined by half a cosine
+  kSinusoid,   ///< that of the original: key visemes joined by half a cosine
   kLinear,     ///< key visemes joined by straight lines, for comparison
 };
 
-/// How an utterance is to be articulated; taken when it begins.
+/// How utterances are articulated; a change applies from the next utterance on.
 struct LipStyle {
   LipMode mode = LipMode::kDominance;
   VisemeSetId visemes = VisemeSetId::k28;
   Language language = Language::kAuto;
-  std::string engine = "AUTO";  ///< whose phoneme names, see PhonemeReader
-  double jaw = 1;               ///< size of the jaw's opening, 0 (mumbled) .. 3
-  double lips = 1;              ///< size of the lips' movements, the same
+  std::string engine = "AUTO";  ///< whose phoneme names are used, see PhonemeReader
+  double jaw = 1;               ///< factor on the jaw's opening, 0 (mumbled) .. 3
+  double lips = 1;              ///< factor on the lips' movements, 0..3
 };
 
-/// A viseme with its strength, in time: what one phoneme, or one half of a diphthong, asks.
+/// The viseme of one phoneme, or of one half of a diphthong, with its strength and time.
 struct VisemeTarget {
   double start_ms = 0;
   double length_ms = 0;
   MouthPose target;    ///< strength and style applied
-  double hold_ms = 0;  ///< how long a key viseme stands
+  double hold_ms = 0;  ///< how long a key viseme is held
   Dominance dominance;
   bool pause = false;
 };
 
-/// What a sentence asks of the mouth.
+/// The viseme targets of an utterance.
 struct VisemeTargets {
-  std::vector<VisemeTarget> targets;  ///< in time, without those of no length
+  std::vector<VisemeTarget> targets;  ///< in order of time, none of length 0
   MouthPose rest;
   Dominance rest_dominance;
   double length_ms = 0;
-  std::vector<std::string> unknown;  ///< phonemes no table has, once each: lips close on them
+  std::vector<std::string>
+      unknown;  ///< phonemes that no table has, once each; the lips close on them
 };
 VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTables& tables,
                                 const LipStyle& style);
 
-inline constexpr double kApproachMs = 92;      ///< the original's time of transition
-inline constexpr double kSeenMs = 34;          ///< just over one frame at 30 a second
-inline constexpr double kPhrasePauseMs = 110;  ///< a pause from here on ends a phrase
+inline constexpr double kApproachMs = 92;      ///< the transition time of the original
+inline constexpr double kSeenMs = 34;          ///< slightly more than a frame at 30 per second
+inline constexpr double kPhrasePauseMs = 110;  ///< a pause at least this long ends a phrase
 
 }  // namespace fsm

@@ -9,28 +9,28 @@
 
 namespace fsm {
 
-/// The mouth of one utterance as a function of the position in it; rest before the start (with an
-/// approach of 92 ms) and soon after the end. By mode:
+/// The mouth of one utterance as a function of the position in it. It rests until 92 ms before the
+/// start and again soon after the end. LipStyle::mode selects the interpolation:
 ///
 /// DOMINANCE: see DominanceCurves.
 ///
-/// SINUSOID: the key viseme of a phoneme stands at the phoneme's start, and key visemes are joined
-/// by
+/// SINUSOID: the key viseme of a phoneme is reached at the phoneme's start, and key visemes are
+/// interpolated by
 ///
 ///     M(t) = W (V0 - V1) + (V0 + V1)/2,  W = cos(pi (t - t0)/(t1 - t0)) / 2
 ///
-/// A phoneme of 200 ms or more is split into (d - 92) + 92, so it holds and then moves; a viseme
-/// with a hold (closed lips) stands for that share of a shorter one; p, b and m at least for about
-/// one frame at 30 a second, so that the closure is seen. LINEAR: the same with straight lines.
+/// A phoneme of d >= 200 ms is held for d - 92 ms and then moves; in a shorter one a viseme with a
+/// hold (closed lips) is held for that share of it; p, b and m are held for at least about one
+/// frame at 30 per second, so that the closure is seen. LINEAR: the same with linear interpolation.
 ///
-/// Phonemes no table knows close the mouth.
+/// The mouth closes on phonemes that no table has.
 class VisemeTrack {
  public:
   VisemeTrack(const vm::PhonemeList& phonemes, const MotionTables& tables, const LipStyle& style);
 
-  /// Full articulation, times the style's scales.
+  /// Returns the mouth at full articulation, multiplied by the factors of LipStyle.
   MouthPose At(double position_ms) const;
-  /// The phoneme sounding at a position; "" outside the utterance.
+  /// Returns the phoneme at a position; "" outside the utterance.
   const std::string& PhonemeAt(double position_ms) const;
   double length_ms() const { return visemes_.length_ms; }
   const VisemeTargets& visemes() const { return visemes_; }
@@ -49,8 +49,8 @@ class VisemeTrack {
   LipMode mode_;
   VisemeTargets visemes_;
   std::vector<Span> spans_;
-  std::vector<Key> keys_;                  // of the modes with key visemes
-  std::optional<DominanceCurves> curves_;  // of the other
+  std::vector<Key> keys_;                  // used by SINUSOID and LINEAR
+  std::optional<DominanceCurves> curves_;  // used by DOMINANCE
 };
 
 }  // namespace fsm
