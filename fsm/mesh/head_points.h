@@ -13,18 +13,18 @@
 
 namespace fsm {
 
-/// Places that a built-in face and somebody else's head both have: the file HEAD.points.
+/// Corresponding points of a built-in face and an imported head, as in a file HEAD.points.
 struct HeadPoints {
-  std::string face = "galatea";  ///< the built-in one
-  /// from: on the built-in face, our frame; to: on the other head, its own frame and unit.
+  std::string face = "galatea";  ///< the name of the built-in face
+  /// from: on the built-in face, in our frame; to: on the imported head, in its own frame and unit.
   std::vector<PointPair> pairs;
 };
-/// A table of lines `face NAME` and `point PART X Y Z  X Y Z`, PART one of plain, upper_lip,
+/// Parses lines `face NAME` and `point PART X Y Z X Y Z`, where PART is one of plain, upper_lip,
 /// lower_lip, upper_lid, lower_lid. Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<HeadPoints> ParseHeadPoints(const std::string& name, std::string_view text);
 std::string FormatHeadPoints(const HeadPoints& points);
 
-/// Turn, scale and translation.
+/// A similarity transformation: rotation, scale and translation.
 struct Similarity {
   glm::mat3 turn{1.0f};
   float scale = 1;
@@ -32,8 +32,8 @@ struct Similarity {
   glm::vec3 operator()(glm::vec3 p) const { return scale * (turn * p) + move; }
   glm::vec3 Inverse(glm::vec3 p) const { return glm::transpose(turn) * ((p - move) / scale); }
 };
-/// What takes the pairs' `to` nearest to their `from`, by least squares. REQUIRES: three pairs or
-/// more, not all in a line.
+/// Returns the transformation from the pairs' `to` to their `from` with the least sum of squared
+/// distances. REQUIRES: three pairs or more, not all collinear.
 Similarity FitSimilarity(std::span<const PointPair> pairs);
 
 }  // namespace fsm

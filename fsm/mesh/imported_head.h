@@ -15,22 +15,22 @@
 
 namespace fsm {
 
-/// Somebody else's head as its file has it: own unit and frame, y up.
+/// A head as read from a file, in the file's unit and frame; y points up.
 struct ImportedHead {
   struct Part {
-    std::string name;  ///< of group, mesh and material (PartNames)
+    std::string name;  ///< the names of group, mesh and material, joined (PartNames)
     std::vector<std::uint32_t> indices;
     glm::vec3 colour{0.6f, 0.42f, 0.33f};  ///< linear
     int picture = -1;                      ///< index into pictures
-    bool cut_out = false;                  ///< what is transparent in the picture is left out
+    bool cut_out = false;                  ///< transparent pixels of the picture are not drawn
     bool two_sided = false;
-    int pbr = -1;  ///< index into pbr_materials; -1: shown as it is
+    int pbr = -1;  ///< index into pbr_materials; -1: unlit
   };
-  /// How the light on a picture differs from place to place: see TextureMaps::normal_map.
+  /// The textures that belong to a picture; see TextureMaps::normal_map.
   struct Detail {
     Image normal_map, emissive_map;  ///< either may be empty
   };
-  /// A shape of its own: what it is called there, and by how much it moves which vertices.
+  /// A blend shape of the file: its name there, and the displacements of vertices at weight 1.
   struct Shape {
     struct Delta {
       std::uint32_t vertex;
@@ -39,35 +39,35 @@ struct ImportedHead {
     std::string name;
     std::vector<Delta> deltas;
   };
-  std::string name;                 ///< of the file, for messages
+  std::string name;                 ///< the file name in messages
   std::vector<glm::vec3> position;  ///< all within kMaxMeshReach
-  std::vector<glm::vec2>
-      texcoord;                 ///< in the part's picture, v down; of each vertex, or none at all
-  std::vector<glm::vec3> tint;  ///< linear, on the part's colour; of each vertex, or none at all
+  std::vector<glm::vec2> texcoord;  ///< in the part's picture, v down; per vertex, or empty
+  std::vector<glm::vec3> tint;      ///< linear, factor on the part's colour; per vertex, or empty
   std::vector<Part> parts;
   std::vector<Image> pictures;
-  std::vector<Detail> details;  ///< of the first pictures
+  std::vector<Detail> details;  ///< detail i belongs to picture i; may be shorter than `pictures`
   std::vector<PbrMaterial> pbr_materials;
   std::vector<Shape> shapes;
-  std::vector<std::optional<Side>> eye;  ///< the one that a vertex is of; or none at all
-  /// What those turn about, right and left, where the file says it.
+  std::vector<std::optional<Side>> eye;  ///< the eye that a vertex belongs to; per vertex, or empty
+  /// The centres of rotation of the eyes, if the file has them.
   std::optional<Sided<glm::vec3>> eye_pivot;
-  std::optional<GazeRanges> gaze_ranges;  ///< how the eyes follow a gaze, where the file says it
+  std::optional<GazeRanges> gaze_ranges;  ///< the eyes' range, if the file has it
   SpringRig swing;                        ///< see VrmSprings
-  bool gaze_by_shape = false;             ///< not by turning, but by shapes vrmlookleft and so on
-  std::vector<std::string> notices;       ///< what was left out
-  std::vector<std::string> named_files;   ///< paths of other files it names, there or not
-  bool metres = false;                    ///< the file's kind says so
+  bool gaze_by_shape = false;  ///< shapes (vrmlookleft ...) move the eyes, which do not rotate
+  std::vector<std::string> notices;      ///< sentences about what was left out
+  std::vector<std::string> named_files;  ///< paths of files that it refers to, existing or not
+  bool metres = false;                   ///< the unit is the metre, by the file format
 };
 
-/// Reads .obj, .gltf, .glb or .vrm. Pictures and buffers beside the file are read from its folder
-/// only. Errors: kUnavailable, kLimit, kBadValue naming file and place.
+/// Reads .obj, .gltf, .glb or .vrm. Pictures and buffers that the file names are read from its
+/// folder only. Errors: kUnavailable, kLimit, kBadValue naming file and place.
 vm::Result<ImportedHead> ReadImportedHead(const std::string& path);
-/// A file that `path` names by `name`; nothing if that leads out of its folder.
+/// Returns the path of a file that the file `path` refers to as `name`; nothing if that is outside
+/// its folder.
 std::optional<std::string> FileBeside(const std::string& path, const std::string& name);
 
-/// A name in small letters without anything but letters and digits; _L and _R at its end become
-/// left and right, so that names of different makers are the same.
+/// Normalises a shape name, so that those of different tools agree: lower case, letters and digits
+/// only; _L and _R at the end become left and right.
 std::string PlainShapeName(std::string_view name);
 
 }  // namespace fsm

@@ -6,11 +6,11 @@
 
 namespace fsm {
 
-/// A rig whose skin only turns with the head. It has the units of the built-in heads.
+/// Returns a rig whose skin moves only with the head. It has the units of the built-in heads.
 RigData MakeStillSkin();
-/// Makes a head of `model`. `skin` holds the steps that shape its skin (ShapesSkin) and what these
-/// need, by the model's vertices; the steps of eyes, jaw, neck, springs and normals are added, and
-/// how open each vertex is to light. Throws std::runtime_error if the model has no triangles.
+/// Makes a head from `model`. `skin` has the steps that shape its skin (ShapesSkin) and their data,
+/// indexed by the model's vertices. Adds the steps of eyes, jaw, neck, springs and normals, and the
+/// ambient occlusion of each vertex. Throws std::runtime_error if the model has no triangles.
 std::unique_ptr<Head> MakeMeshHead(MeshModel model, RigData skin = MakeStillSkin());
 
 }  // namespace fsm

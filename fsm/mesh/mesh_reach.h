@@ -5,13 +5,12 @@
 
 namespace fsm {
 
-/// How far from the origin places may lie, on each axis: those of a file in its own unit and with
-/// all its transformations made, and those of a head placed in our frame in millimetres (10 km).
-/// Squares and products of such numbers are still floats, and cells of a few millimetres between
-/// them can be numbered; nobody's head is as large.
+/// The greatest absolute value of a coordinate: of a file's positions in its unit after all
+/// transformations, and of a head in our frame in millimetres (10 km). Squares and products of such
+/// numbers do not overflow a float, and grid cells of a few millimetres can be indexed.
 inline constexpr float kMaxMeshReach = 1e7F;
 
-/// False too for what is no finite number.
+/// Returns false also for numbers that are not finite.
 inline bool WithinReach(glm::vec3 p) {
   return std::abs(p.x) <= kMaxMeshReach && std::abs(p.y) <= kMaxMeshReach &&
          std::abs(p.z) <= kMaxMeshReach;

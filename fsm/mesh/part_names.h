@@ -9,17 +9,17 @@
 
 namespace fsm {
 
-/// What a part of a head from elsewhere is.
+/// The kinds of parts of an imported head.
 enum class PartKind { kSkin, kEye, kTeeth, kGum, kTongue, kMouth, kHair, kLash, kOther };
 
-/// Tells parts by their names, as tables/part_names.txt says. Immutable; thread: any.
+/// Classifies parts by their names, using tables/part_names.txt. Immutable; thread: any.
 class PartNames {
  public:
-  /// Throws TableError for a row that is none.
+  /// Throws TableError for a malformed row.
   explicit PartNames(const Table& table);
   static const PartNames& BuiltIn();
 
-  /// `name`: of group, mesh and material, with anything between them that is no letter.
+  /// `name`: the names of group, mesh and material, separated by anything but letters.
   PartKind KindOf(std::string_view name) const;
 
  private:

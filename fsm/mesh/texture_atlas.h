@@ -13,11 +13,11 @@ namespace fsm {
 /// Halves a picture until neither side is longer than `side`.
 void Shrink(Image& picture, int side);
 
-/// Puts several pictures into one, because a head wears one photo.
+/// Packs several pictures into one, because a head has one texture.
 class TextureAtlas {
  public:
-  static constexpr int kMaxSide = 2048;  ///< of one picture
-  /// Where a picture lies on the atlas: its corners, 0..1, v down.
+  static constexpr int kMaxSide = 2048;  ///< of a picture, in pixels
+  /// The rectangle of a picture in the atlas: its corners, 0..1, v down.
   struct Rect {
     glm::vec2 low{0}, high{1};
     glm::vec2 At(glm::vec2 uv) const { return low + uv * (high - low); }
@@ -35,7 +35,7 @@ class TextureAtlas {
   const Rect& rect(std::size_t picture) const { return rects_[picture]; }
 
  private:
-  static constexpr int kMaxAtlas = 8192;  ///< of the atlas
+  static constexpr int kMaxAtlas = 8192;  ///< of the atlas, in pixels
   struct Spot {
     int x, y;
   };

@@ -24,12 +24,12 @@ enum class GltfType {
   kFloat = 5126
 };
 
-/// A glTF 2.0 file taken apart: its JSON, and its buffers, every access to them checked. We read it
-/// ourselves because tinygltf 2.7, the version to be had, trusts the offsets of a hostile file.
+/// A parsed glTF 2.0 file: its JSON and its buffers, with every access checked. We do not use
+/// tinygltf because 2.7, the version available, trusts the offsets in a hostile file.
 class GltfDocument {
  public:
-  /// `beside`: the bytes of a file named by a relative URI; nothing for those not allowed or not
-  /// there. Errors: kBadValue naming what is damaged; kLimit.
+  /// `beside` returns the bytes of a file named by a relative URI; nothing if it is missing or not
+  /// allowed. Errors: kBadValue naming what is damaged; kLimit.
   static vm::Result<GltfDocument> Parse(
       const std::string& name, std::string_view bytes,
       const std::function<std::optional<std::string>(const std::string&)>& beside);
@@ -38,17 +38,18 @@ class GltfDocument {
   ~GltfDocument();
 
   const nlohmann::json& root() const { return *json_; }
-  /// Element `index` of the array `key` at the top; an empty object if there is none.
+  /// Returns element `index` of the top-level array `key`; an empty object if there is none.
   const nlohmann::json& At(const char* key, std::int64_t index) const;
   std::size_t Count(const char* key) const;
 
-  /// As Numbers, without loss for integers of 32 bits.
+  /// As Numbers, but exact for integers of 32 bits.
   vm::Result<std::vector<double>> Values(std::int64_t accessor, int width) const;
-  /// Numbers of an accessor: `width` for each of its elements, normalised integers as 0..1, sparse
-  /// ones filled in. Errors: kBadValue "NAME: accessors[I]: ...", kLimit.
+  /// Returns the numbers of an accessor, `width` for each element. Normalised integers are
+  /// converted to 0..1 (-1..1 if signed), sparse values are substituted. Errors: kBadValue "NAME:
+  /// accessors[I]: ...", kLimit.
   vm::Result<std::vector<float>> Numbers(std::int64_t accessor, int width) const;
   vm::Result<std::vector<std::uint32_t>> Indices(std::int64_t accessor) const;
-  /// The bytes of images[index], wherever they are.
+  /// Returns the bytes of images[index], from a bufferView, a data URI or a file.
   vm::Result<std::string> ImageBytes(std::int64_t index) const;
 
   const std::string& name() const { return name_; }
@@ -57,15 +58,15 @@ class GltfDocument {
  private:
   struct BufferView {
     std::span<const std::uint8_t> bytes;
-    std::size_t stride = 0;  // 0 = tight
+    std::size_t stride = 0;  // 0 = tightly packed
   };
-  /// The JSON of a binary file and the buffer it carries, if any.
+  /// The chunks of a binary file: JSON, and the buffer if there is one.
   struct Chunks {
     std::string_view json;
     std::optional<std::string_view> buffer;
   };
-  /// Elements of `width` numbers each, where `where` names a bufferView and a byteOffset.
-  /// REQUIRES: a known component type.
+  /// Elements of `width` numbers each; `where` has their bufferView and byteOffset. REQUIRES: a
+  /// known component type.
   struct Elements {
     const nlohmann::json& where;
     std::int64_t component;
@@ -78,10 +79,10 @@ class GltfDocument {
   vm::Result<Chunks> SplitBinary(std::string_view bytes) const;
   vm::Result<void> ParseJson(std::string_view text);
   vm::Result<void> ReadBuffers(std::optional<std::string_view> own);
-  /// `place`: in the document, for messages.
+  /// `place`: where in the document they are, for messages.
   vm::Result<void> ReadElements(const Elements& elements, const std::string& place,
                                 const Take& take) const;
-  /// Puts the sparse numbers of an accessor in place.
+  /// Overwrites the values of `out` that the accessor's `sparse` replaces.
   vm::Result<void> FillSparse(const Elements& own, const std::string& place,
                               std::vector<double>& out) const;
   vm::Result<BufferView> ViewOf(std::int64_t view) const;
@@ -93,20 +94,21 @@ class GltfDocument {
   std::function<std::optional<std::string>(const std::string&)> beside_;
 };
 
-/// What to say of geometry that is packed in a way not read here.
+/// The error text for geometry in an unsupported compression.
 inline constexpr const char* kPackedMesh =
     "its geometry is compressed (Draco or meshopt), which is not read; export it uncompressed";
 
-/// An integer member, or `otherwise` if it is missing or no integer.
+/// Returns an integer member, or `otherwise` if it is missing or not an integer.
 std::int64_t JsonInteger(const nlohmann::json& object, const char* key,
                          std::int64_t otherwise = -1);
 double JsonNumber(const nlohmann::json& object, const char* key, double otherwise);
 std::string JsonText(const nlohmann::json& object, const char* key);
-/// A member that is an array or object, else an empty one.
+/// Returns a member that is an array or object; an empty one if it is missing or of another type.
 const nlohmann::json& JsonMember(const nlohmann::json& object, const char* key);
-/// The integers of a list.
+/// Returns the integers of an array member.
 std::vector<std::int64_t> JsonIntegers(const nlohmann::json& object, const char* key);
-/// Puts a list's numbers into `out`, place by place; what is no number leaves its place as it was.
+/// Copies the numbers of an array member into `out`; elements that are not numbers leave theirs
+/// unchanged.
 void JsonNumbers(const nlohmann::json& object, const char* key, std::span<float> out);
 
 }  // namespace fsm

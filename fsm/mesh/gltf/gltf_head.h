@@ -7,9 +7,10 @@
 
 namespace fsm {
 
-/// A .gltf, .glb or .vrm file. Errors: as ReadImportedHead.
+/// Reads a .gltf, .glb or .vrm file. Errors: as ReadImportedHead.
 vm::Result<ImportedHead> ReadGltfHead(const std::string& path);
-/// From memory; nothing outside it is read. `name` is for messages.
+/// Reads such a file from memory; files that it names are not opened. `name`: the file name in
+/// messages.
 vm::Result<ImportedHead> ParseGltfHead(const std::string& name, std::string_view bytes);
 
 }  // namespace fsm

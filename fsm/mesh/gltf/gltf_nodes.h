@@ -10,7 +10,7 @@
 
 namespace fsm {
 
-/// Where the nodes of a glTF file stand at rest.
+/// The transformations of the nodes of a glTF file at rest.
 class GltfNodes {
  public:
   /// Errors: kBadValue "NAME: nodes[I]: nodes that are their own parents".
@@ -18,9 +18,9 @@ class GltfNodes {
   bool Has(std::int64_t node) const {
     return node >= 0 && static_cast<std::size_t>(node) < world_.size();
   }
-  /// The identity if there is no such node.
+  /// Returns a node's transformation to the scene; the identity if there is no such node.
   const glm::mat4& World(std::int64_t node) const;
-  /// The nodes of the file's scene, parents before children; all there are if it has no scene.
+  /// The nodes of the file's scene, parents before children; all nodes if it has no scene.
   std::span<const std::int64_t> shown() const { return shown_; }
 
  private:
@@ -32,15 +32,15 @@ class GltfNodes {
   std::vector<std::int64_t> shown_;
 };
 
-/// A skin at rest: how each of its bones takes a vertex from where the mesh was made to where the
-/// bone holds it. Exporters that scale or turn the skeleton make the two differ.
+/// A skin at rest: the matrices that take vertices from the mesh's bind pose to the rest pose of
+/// the nodes. The two differ in files of exporters that scale or rotate the skeleton.
 class GltfSkin {
  public:
   /// Errors: as GltfDocument's, of the inverse bind matrices.
   static vm::Result<GltfSkin> Read(const GltfDocument& document, const GltfNodes& nodes,
                                    std::int64_t skin);
-  /// The matrix of every vertex of a primitive; those without weights go by `transform`. `main`:
-  /// the node of the bone with the largest part, -1 for none.
+  /// The result of Apply. `transform`: the matrix of each vertex, the argument `transform` for
+  /// those without weights. `main`: the node of the joint with the greatest weight, -1 for none.
   struct Skinned {
     struct Influence {
       std::size_t vertex;
@@ -49,7 +49,8 @@ class GltfSkin {
     };
     std::vector<glm::mat4> transform;
     std::vector<std::int64_t> main;
-    std::vector<Influence> watched;  ///< all influences of the nodes that were asked for
+    std::vector<Influence>
+        watched;  ///< all influences of the nodes for which the argument `watched` is true
   };
   vm::Result<Skinned> Apply(const GltfDocument& document, const nlohmann::json& attributes,
                             std::size_t count, const glm::mat4& transform,

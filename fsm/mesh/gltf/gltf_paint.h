@@ -12,8 +12,7 @@
 
 namespace fsm {
 
-/// Where a material's picture lies on a mesh: v = turn * (size * uv) + move
-/// (KHR_texture_transform).
+/// The texture coordinates of a material: turn * (size * uv) + move (KHR_texture_transform).
 struct GltfUv {
   std::int64_t set = 0;  ///< TEXCOORD_set
   glm::vec2 move{0}, size{1};
@@ -22,31 +21,32 @@ struct GltfUv {
   bool operator==(const GltfUv&) const = default;
 };
 
-/// Gives the parts of a head the colours and pictures of a glTF file's materials. What a material
-/// does to its picture (factor, cut-off, no transparency) is done to a copy, so that a part needs
-/// nothing but its picture; the pictures of light (GltfMaterial) are put together to two beside it.
+/// Sets the colours and pictures of a head's parts from the materials of a glTF file. Factor, alpha
+/// cut-off and opacity of a material are applied to a copy of its picture, so that a part needs
+/// nothing but that copy; the other textures (GltfMaterial) are combined into ImportedHead::Detail.
 class GltfPaint {
  public:
-  /// `document` and `head` outlive it.
+  /// Lifetime: `document` and `head` outlive this.
   GltfPaint(const GltfDocument& document, ImportedHead& head) : document_(document), head_(head) {}
   void ApplyMaterial(std::int64_t material, ImportedHead::Part& part);
-  /// The settings of a material's picture.
+  /// Returns the texture coordinates of a material's picture.
   GltfUv UvOfMaterial(std::int64_t material) const;
 
  private:
-  /// Image, factor in steps of 1/255, cut-off (-1 opaque, 256 smooth), material if its light has
-  /// pictures of its own.
+  /// Image, factor in steps of 1/255, alpha cut-off (-1 opaque, 256 blended), and the material if
+  /// it has textures beside its picture.
   using Key = std::tuple<std::int64_t, std::uint32_t, int, std::int64_t>;
   int Picture(const Key& key, glm::vec4 factor, ImportedHead::Detail detail);
   std::int64_t ImageOf(std::int64_t texture);
   std::optional<Image> Decode(std::int64_t image);
-  /// The pictures of light, where they lie on the mesh as `uv` says.
+  /// Combines the textures of a material beside its picture; those with texture coordinates other
+  /// than `uv` are left out.
   ImportedHead::Detail DetailOf(const GltfMaterial& given, const GltfUv& uv);
 
   const GltfDocument& document_;
   ImportedHead& head_;
   std::map<Key, int> picture_of_;
-  std::map<std::int64_t, int> pbr_index_;  // of materials
+  std::map<std::int64_t, int> pbr_index_;  // by material
   std::size_t detailed_ = 0;
 };
 

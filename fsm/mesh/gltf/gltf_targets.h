@@ -14,35 +14,37 @@
 
 namespace fsm {
 
-/// Where something of a glTF file stands: indices of its mesh, node and skin.
+/// The indices of a mesh, its node and its skin in a glTF file.
 struct GltfPlace {
   std::int64_t mesh, node, skin;
 };
 
-/// What a reader of a glTF file throws, as vm::Failure.
+/// Throws the error of a damaged file as vm::Failure. This and the functions below name the file.
 [[noreturn]] void Refuse(const GltfDocument& document, const std::string& what);
-/// Of what lies out of kMaxMeshReach; `what` is the sentence's subject.
+/// Throws for positions beyond kMaxMeshReach; `what` is the subject of the sentence.
 [[noreturn]] void RefuseReach(const GltfDocument& document, const std::string& what);
-[[noreturn]] void RefuseSize(const GltfDocument& document);  ///< more than is read
+[[noreturn]] void RefuseSize(
+    const GltfDocument& document);  ///< throws for a file with more data than the limits allow
 std::string VertexAt(const GltfPlace& place, std::size_t vertex);
 
-/// Makes shapes of a head of the morph targets of its file, and of VRM's expressions, which are
-/// weighted sums of targets. What is wrong is thrown as a vm::Failure.
+/// Makes the shapes of a head from the morph targets of its file, and from VRM expressions, which
+/// are weighted sums of targets. Throws vm::Failure.
 class GltfTargets {
  public:
-  /// `document` and `head` outlive it.
+  /// Lifetime: `document` and `head` outlive this.
   GltfTargets(const GltfDocument& document, ImportedHead& head)
       : document_(document), head_(head) {}
-  /// Those of a primitive whose vertices are the head's from `first` on, each with its transform.
-  /// `names`: of the mesh's targets; targets of one name, of whatever mesh, are one shape.
+  /// Adds the targets of a primitive whose vertices are the head's from `first` on; `transforms`
+  /// has a matrix for each. `names`: those of the mesh's targets; targets of the same name in
+  /// different meshes form one shape.
   void Read(const nlohmann::json& primitive, const GltfPlace& place,
             std::span<const glm::mat4> transforms, std::size_t first,
             const std::vector<std::string>& names);
-  /// A shape called vrmNAME of the targets read before.
+  /// Adds a shape named vrmNAME, made from targets read before.
   void AddExpression(const VrmAvatar::Expression& expression);
 
  private:
-  /// What a morph target moves: vertices of a shape's.
+  /// The deltas of a shape, first..end, that come from one morph target.
   struct Moved {
     std::size_t shape;
     std::int64_t node;

@@ -10,12 +10,12 @@
 
 namespace fsm {
 
-/// What a file says of an avatar's face: the extensions VRM (0.x) and VRMC_vrm (1.0) in one form,
-/// and of other files the bones called as eyes are.
+/// What a file says about an avatar's face: the extensions VRM (0.x) and VRMC_vrm (1.0) in one
+/// form; for other glTF files, the bones with names of eyes.
 struct VrmAvatar {
-  /// A morph target and how much of it.
+  /// A morph target and its weight.
   struct Bind {
-    std::int64_t mesh, node;  ///< node -1: wherever the mesh is
+    std::int64_t mesh, node;  ///< node -1: every node with the mesh
     std::int64_t target;
     double weight;
   };
@@ -24,10 +24,10 @@ struct VrmAvatar {
     std::vector<Bind> binds;
   };
   Sided<std::int64_t> eye_bone{-1, -1};  ///< nodes; -1: none
-  /// Avatars of VRM 0.x look to -z, those of 1.0 and other glTF to +z.
+  /// Whether the avatar faces -z, as in VRM 0.x; in VRM 1.0 and other glTF it faces +z.
   bool looks_back = false;
-  bool says_gaze_ranges = false;  ///< `gaze_ranges` is the file's
-  bool gaze_by_shape = false;     ///< gaze is a matter of expressions, not of bones
+  bool says_gaze_ranges = false;  ///< whether `gaze_ranges` is from the file
+  bool gaze_by_shape = false;     ///< whether expressions, not bones, move the eyes
   GazeRanges gaze_ranges;
   std::vector<Expression> expressions;
 };

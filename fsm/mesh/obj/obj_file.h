@@ -13,7 +13,7 @@
 
 namespace fsm {
 
-/// A Wavefront file: polygons by group and material, cut into triangles.
+/// A Wavefront .obj file: polygons by group and material, split into triangles.
 struct ObjFile {
   static constexpr std::uint32_t kNone = 0xffffffffU;
   struct Corner {
@@ -24,14 +24,14 @@ struct ObjFile {
     std::vector<std::array<Corner, 3>> triangles;
   };
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec2> texcoords;  ///< texture coordinates, v up
-  std::vector<Group> groups;         ///< each name and material once, empty ones left out
+  std::vector<glm::vec2> texcoords;  ///< v up
+  std::vector<Group> groups;         ///< none empty, no two with the same name and material
   std::vector<std::string> libraries;
 };
 
-/// A surface of an .mtl file.
+/// A material of an .mtl file.
 struct ObjMaterial {
-  glm::vec3 colour{0.8f};  ///< screen colour, 0..1
+  glm::vec3 colour{0.8f};  ///< sRGB, 0..1
   std::string picture;     ///< "" = none
 };
 
@@ -39,11 +39,12 @@ inline constexpr std::size_t kMaxMeshVertices = 400000;
 inline constexpr std::size_t kMaxMeshTriangles = 800000;
 inline constexpr std::size_t kMaxMeshBytes = 200U << 20;
 
-/// Reads `v`, `vt` (and the original's `tv`), `f`, `g`, `o`, `usemtl` and `mtllib`; other lines
-/// mean nothing here. Errors: kBadValue "NAME:LINE: what was expected", kLimit.
+/// Reads `v`, `vt` (and the original's `tv`), `f`, `g`, `o`, `usemtl` and `mtllib`; ignores other
+/// lines. Errors: kBadValue "NAME:LINE: what was expected", kLimit.
 vm::Result<ObjFile> ParseObj(const std::string& name, std::string_view text);
 vm::Result<ObjFile> ReadObj(const std::string& path);
-/// `newmtl`, `Kd` and `map_Kd` of an .mtl file, by name. Damaged numbers leave the colour.
+/// Reads `newmtl`, `Kd` and `map_Kd` of an .mtl file; returns materials by name. Malformed numbers
+/// leave the default colour.
 std::map<std::string, ObjMaterial> ParseMtl(std::string_view text);
 
 }  // namespace fsm

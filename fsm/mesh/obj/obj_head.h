@@ -6,7 +6,7 @@
 
 namespace fsm {
 
-/// An .obj file with its materials and pictures. Errors: as ReadImportedHead.
+/// Reads an .obj file with its materials and pictures. Errors: as ReadImportedHead.
 vm::Result<ImportedHead> ReadObjHead(const std::string& path);
 
 }  // namespace fsm

@@ -7,8 +7,8 @@
 
 namespace fsm {
 
-/// Keeps the lips of a mesh from crossing, and closes them on demand. Knows them by model.seam, and
-/// without it does nothing. Of the vertices the first `count` are considered.
+/// Makes the rig of a mesh's lips, which keeps them from crossing and closes them on demand, from
+/// model.seam and the first `count` vertices. Returns an empty rig if there is no seam.
 LipRig LipsOf(const MeshModel& model, std::size_t count);
 
 }  // namespace fsm

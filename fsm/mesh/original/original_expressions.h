@@ -11,12 +11,12 @@
 
 namespace fsm {
 
-/// Whole expressions are files of offsets in the original, AU31.pnt to AU36.pnt and those of users,
-/// but action units here. Each file is taken apart into units of the agent's right and left side;
-/// what they leave is kept, as a residual, and shown with it.
+/// The original has whole expressions as files of offsets, AU31.pnt to AU36.pnt and those of users;
+/// here an expression is a set of action units. Each file is decomposed (NnlsSolver) into units of
+/// the agent's right and left side and a residual, which is shown with them.
 ///
-/// An expression comes to the face as a look of FaceState::au alone, so the strength of a residual
-/// is one of kResidualUnits there, on one side.
+/// An expression reaches the face in FaceState::au only, so the strength of a residual is that of
+/// one of kResidualUnits on one side.
 struct ResidualChannel {
   std::size_t unit;
   Side side;
@@ -28,27 +28,27 @@ constexpr ResidualChannel ResidualChannelOf(std::size_t channel) {
 }
 
 struct OriginalExpression {
-  std::string name;                                    ///< of FaceExp
-  int pattern = 1;                                     ///< from 1
-  Sided<std::array<float, kOriginalUnits>> strengths;  ///< by the original's list of units
-  std::optional<std::size_t> channel;                  ///< of its residual; none: not shown
+  std::string name;                                    ///< as in the slot FaceExp
+  int pattern = 1;                                     ///< counted from 1
+  Sided<std::array<float, kOriginalUnits>> strengths;  ///< indexed as kUnitNumbers
+  std::optional<std::size_t> channel;  ///< of its residual; none: the residual is not shown
 };
 
 struct OriginalExpressions {
   std::vector<OriginalExpression> all;
-  std::vector<PntFile>
-      residuals;  ///< by channel, at most kResidualChannels; offsets as the files have them
-  /// Expressions whose residual found no channel left: their units alone are shown.
+  std::vector<PntFile> residuals;  ///< indexed by channel, at most kResidualChannels; offsets in
+                                   ///< the unit of the files
+  /// Expressions for whose residual no channel was left; only their units are shown.
   std::vector<std::string> without_residual;
 };
 
-/// Reads those of the folder that holds _AU_Datas; a file that is not there is passed over.
-/// `standard`: the wireframe they belong to. Errors: as ReadOriginalFace.
+/// Reads the expressions of a folder that contains _AU_Datas; skips missing files. `standard`: the
+/// wireframe that the offsets belong to. Errors: as ReadOriginalFace.
 vm::Result<OriginalExpressions> ReadOriginalExpressions(const std::string& folder,
                                                         const std::string& standard);
 
-/// How much a vertex `x_mm` to the viewer's right of the mouth's middle goes with units of the
-/// agent's left side.
+/// Returns the weight, 0..1, with which units of the agent's left side move a vertex that is `x_mm`
+/// to the viewer's right of the middle of the mouth.
 float LeftPartAt(float x_mm);
 
 }  // namespace fsm

@@ -16,10 +16,11 @@
 
 namespace fsm {
 
-/// Where eyeballs sit, a .def_e file: 29 little-endian doubles, for the right and the left eye
-/// place, turn and scale, the same again within the ball, and the scale of the picture on it. The
-/// original draws by the first place and scale, the second turn and the picture's scale; the other
-/// numbers are left over from its editor, which did not initialise all of them, and are not read.
+/// The placement of the eyeballs, from a .def_e file: 29 little-endian doubles; for the right and
+/// the left eye position, rotation and scale, then the same three within the ball, and finally the
+/// scale of the picture on the balls. The original draws with the first position and scale, the
+/// second rotation and the picture's scale. The other numbers are remnants of its editor, some of
+/// them uninitialised, and are ignored.
 struct EyeDef {
   struct Eye {
     glm::vec3 place{0}, turn_degrees{0};
@@ -29,7 +30,7 @@ struct EyeDef {
   float picture_scale = 1;
 };
 vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes);
-/// The colour of the teeth, a .def_t file: three numbers 0..1.
+/// Parses the colour of the teeth, a .def_t file: three numbers 0..1.
 vm::Result<glm::vec3> ParseTeethDef(const std::string& name, std::string_view text);
 
 inline constexpr std::size_t kOriginalUnits = 30;
@@ -39,7 +40,7 @@ inline constexpr std::array<int, kOriginalUnits> kUnitNumbers{
     18, 20, 22, 23, 24, 25, 26, 27, 28, 29, 30, 35, 41, 42, 43};
 inline constexpr std::size_t kOriginalVisemes = 27;
 
-/// A face of the original, read.
+/// The contents of the files of a face of the original.
 struct OriginalFace {
   std::string name;
   PntFile wireframe, standard;
@@ -50,13 +51,13 @@ struct OriginalFace {
   glm::vec3 teeth{0.8f};
   glm::vec3 mouth{0.25f, 0.07f, 0.06f};
   std::optional<ObjFile> upper_teeth, lower_teeth, eye;
-  /// Offsets at full strength in the wireframe's units, by its vertices.
+  /// Offsets at full strength in the wireframe's unit, indexed by its vertices.
   std::vector<std::vector<glm::vec3>> units, mouth_units, visemes;
   std::vector<std::vector<glm::vec3>>
-      expression_residuals;  ///< by channel, see OriginalExpressions
+      expression_residuals;  ///< indexed by channel, see OriginalExpressions
 };
-/// Error: kBadValue naming the file, and the line or byte where there is one. A file "" is left
-/// out; wireframe, picture, standard, link and offsets must be there.
+/// Error: kBadValue naming the file, and the line or byte where there is one. A file whose name is
+/// "" is skipped; wireframe, picture, standard, link and offsets are required.
 vm::Result<OriginalFace> ReadOriginalFace(const OriginalFaceFiles& files,
                                           const OriginalSharedFiles& shared);
 

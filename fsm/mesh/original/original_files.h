@@ -9,7 +9,7 @@ struct OriginalFaceFiles {
   std::string name, picture, wireframe, eye_picture, eye_def, teeth_def;
 };
 
-/// What all faces of a configuration share; "" = not named.
+/// The files that all faces of a configuration share; "" = not named.
 struct OriginalSharedFiles {
   std::string standard, link;  ///< DEF_WFM_PNT, DEF_WFM_LNK
   std::string upper_teeth, lower_teeth, eye, mouth_picture;

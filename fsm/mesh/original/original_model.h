@@ -5,10 +5,9 @@
 
 namespace fsm {
 
-/// The face as a mesh of our frame; vertex i of the wireframe is vertex i of the model. Its
-/// view is the window the original shows a face through, without
-/// perspective: its middle is the origin of the wireframe, and half its longer side is one of the
-/// wireframe's units.
+/// Converts a face to a mesh in our frame; vertex i of the wireframe becomes vertex i of the model.
+/// The model's view is the orthographic one of the original's window: its centre is the origin of
+/// the wireframe, and half its longer side is one unit of the wireframe.
 MeshModel ModelOfOriginal(const OriginalFace& face);
 
 }  // namespace fsm

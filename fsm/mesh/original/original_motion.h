@@ -8,15 +8,16 @@
 
 namespace fsm {
 
-/// The mouth of each viseme 1..27 at full articulation, in FaceState's parameters, and then those
-/// that speech shows by other sets of visemes: mixed of these.
+/// The mouth parameters (FaceState::mouth) of each viseme 1..27 at full articulation, followed by
+/// mouths of other sets of visemes, which are reproduced as combinations of the 27.
 using VisemeMouths = std::vector<std::array<float, kMouthParameters>>;
-/// What Mouth.N asks of its parameter at 100 per cent; 0 = that it moves nothing.
+/// The value of each mouth parameter when the slot Mouth.N is at 100 per cent; 0 = it moves
+/// nothing.
 using MouthUnitSizes = std::array<float, kMouthParameters>;
 
-/// The rig of a face from its own shapes: action units by their FACS number, visemes by what speech
-/// asks of the mouth, and mouth units by what is asked by hand (Mouth.N): each shows the one of its
-/// number, whatever that is (in the data of the original, mostly vowels).
+/// Makes the rig of a face from its own shapes. Action units are driven by FaceState::au, visemes
+/// by FaceState::mouth, and mouth unit N by parameter N of FaceState::mouth_by_hand (slot Mouth.N),
+/// whatever that unit shows (in the data of the original, mostly vowels).
 RigData RigOfOriginal(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths,
                       const MouthUnitSizes& unit_sizes = {});
 

@@ -10,8 +10,8 @@
 
 namespace fsm {
 
-/// Points of the original's wireframe by what they lie on, found by looking at fheadv2.pnt and
-/// .lnk: the mouth's rim is the open edge of groups 1 and 2, the lids' rims are those of 4 and 5.
+/// Named points of the original's wireframe, identified by inspecting fheadv2.pnt and .lnk: the rim
+/// of the mouth is the open edge of groups 1 and 2, the rims of the lids are those of 4 and 5.
 inline constexpr PointName kChin{18, 20}, kLipMiddle{1, 36};
 inline constexpr Sided<PointName> kLipCorners{{1, 33}, {2, 33}};
 
@@ -19,8 +19,8 @@ inline constexpr Sided<PointName> kLipCorners{{1, 33}, {2, 33}};
 inline constexpr std::array<PointName, 20> kLipRim{
     {{1, 33}, {1, 14}, {1, 13}, {1, 12}, {1, 11}, {1, 36}, {2, 11}, {2, 12}, {2, 13}, {2, 14},
      {2, 33}, {2, 18}, {2, 17}, {2, 16}, {2, 15}, {1, 37}, {1, 15}, {1, 16}, {1, 17}, {1, 18}}};
-/// What bounds the teeth: the jaw right and left of them, the upper lip's front above its edge, and
-/// of each row the top, the bottom and how far forward its front is.
+/// Points that bound the teeth: the jaw on both sides, the front of the upper lip above its edge,
+/// and for each row its top, its bottom and its front.
 inline constexpr Sided<PointName> kJawAtTeeth{{12, 15}, {13, 15}};
 inline constexpr PointName kUpperLipFront{1, 35};
 struct TeethPoints {
@@ -44,7 +44,7 @@ inline constexpr std::array<std::pair<PointName, PointName>, 11> kLipPairs{{{{1,
 /// The rim of the lids, inner corner first.
 std::span<const PointName> LidRim(Side side);
 
-/// Places with the names of Head::Landmark.
+/// Points with the names of Head::Landmark.
 inline constexpr std::pair<const char*, PointName> kNamedPoints[] = {
     {"pronasale", {3, 15}},
     {"subnasale", {3, 25}},
@@ -59,16 +59,18 @@ inline constexpr std::pair<const char*, PointName> kNamedPoints[] = {
     {"alare_right", {3, 18}},
     {"alare_left", {3, 22}}};
 
-/// Groups that are shown: the face, hair round it, throat and shoulders. The others are the back of
-/// the head and the inside of eyes and mouth, which the original keeps but does not draw.
+/// Tells whether a group is drawn: face, surrounding hair, throat and shoulders are. The others,
+/// the back of the head and the inside of eyes and mouth, are in the original's data but not drawn
+/// by it either.
 constexpr bool IsDrawn(int group) {
   return (group >= 1 && group <= 19) || group == 30 || group == 31;
 }
 
-/// Takes a face's wireframe to our frame: the openings of its eyes to where ours are.
+/// Transforms a wireframe to our frame, so that its eye openings coincide with those of the
+/// built-in heads.
 class OriginalSpace {
  public:
-  /// REQUIRES: the points of both rims are there.
+  /// REQUIRES: `wireframe` has the points of both LidRim.
   explicit OriginalSpace(const PntFile& wireframe);
   glm::vec3 ToMm(glm::vec3 p) const { return (p - middle_) * mm_ + kOpening; }
   glm::vec3 Place(const PntFile& file, PointName name) const {
@@ -78,14 +80,14 @@ class OriginalSpace {
   float mm() const { return mm_; }
 
  private:
-  /// Between the middles of our own lids' rims.
+  /// The midpoint between the centres of the built-in heads' lid rims.
   static constexpr glm::vec3 kOpening{0, 21.5f, 74};
   static constexpr float kOpeningsApart = 59.8f;
   glm::vec3 middle_{0};
   float mm_ = 1;
 };
 
-/// Error kBadValue naming the first of the points above that `file` lacks.
+/// Checks that `file` has all points above. Error: kBadValue naming the first that is missing.
 vm::Result<void> CheckPoints(const std::string& name, const PntFile& file);
 
 }  // namespace fsm

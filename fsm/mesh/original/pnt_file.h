@@ -16,17 +16,17 @@ namespace fsm {
 /// A vertex of the original's wireframe is named by its group (a part of the face) and its number
 /// in the group.
 using PointName = std::pair<int, int>;
-/// "point 12 of group 4", for messages.
+/// Returns "point 12 of group 4", for messages.
 std::string InWords(const PointName& point);
 
-/// The original's wireframe, or offsets over one: places by name, in the order of the file.
+/// A wireframe of the original, or offsets from one: positions by name, in the order of the file.
 struct PntFile {
   std::vector<PointName> names;
   std::vector<glm::vec3> at;
-  std::map<PointName, std::size_t> index;  ///< of a name in both
+  std::map<PointName, std::size_t> index;  ///< index into `names` and `at`
 };
 
-/// The wireframe's triangles, each in a group of its own.
+/// The triangles of a wireframe, each with the number of its group.
 struct LnkFile {
   struct Triangle {
     int group;
@@ -36,15 +36,16 @@ struct LnkFile {
 };
 
 inline constexpr std::size_t kMaxWireframe = 20000;    ///< points, and triangles
-inline constexpr std::size_t kMaxPntBytes = 4U << 20;  ///< of a file
+inline constexpr std::size_t kMaxPntBytes = 4U << 20;  ///< per file
 
-/// A .pnt file: `#N`, then N - 1 lines `INDEX GROUP NUMBER X Y Z`. Errors: kBadValue "NAME:LINE:
-/// what was expected", kLimit.
+/// Parses a .pnt file: `#N`, then N - 1 lines `INDEX GROUP NUMBER X Y Z`. Errors: kBadValue
+/// "NAME:LINE: what was expected", kLimit.
 vm::Result<PntFile> ParsePnt(const std::string& name, std::string_view text);
-/// A .lnk file: `#N`, then N - 1 lines `INDEX GROUP NUMBER` and three times `GROUP NUMBER`.
+/// Parses a .lnk file: `#N`, then N - 1 lines `INDEX GROUP NUMBER` followed by three times `GROUP
+/// NUMBER`. Errors: as ParsePnt.
 vm::Result<LnkFile> ParseLnk(const std::string& name, std::string_view text);
 
-/// Both from a file. Errors: also those of vm::ReadTextFile.
+/// Read such files. Errors: also those of vm::ReadTextFile.
 vm::Result<PntFile> ReadPnt(const std::string& path);
 vm::Result<LnkFile> ReadLnk(const std::string& path);
 

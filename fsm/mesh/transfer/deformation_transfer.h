@@ -11,43 +11,45 @@ namespace fsm {
 
 class WeldedSurface;
 
-/// What lies so near to its opposite that the nearest place may be the wrong one.
+/// Parts of a face that lie so near to an opposite part that the nearest point may be on the wrong
+/// one.
 enum class FacePart : std::uint8_t { kPlain, kUpperLip, kLowerLip, kUpperLid, kLowerLid };
 
-/// The same place on two faces, millimetres.
+/// Corresponding points of two faces, millimetres.
 struct PointPair {
   glm::vec3 from, to;
   FacePart part = FacePart::kPlain;
 };
 
-/// A face to carry motion from or to. Both lie in the same frame, nearly over each other.
+/// The source or the target of a transfer. Both are in the same frame, roughly aligned.
 struct TransferSurface {
   std::span<const glm::vec3> position;       ///< all vertices, at rest
   std::span<const std::uint32_t> triangles;  ///< of flesh, outside counter-clockwise
-  /// Vertices are doubled where the texture is sewn together. Else two at one place are two, as
-  /// where closed lips meet.
+  /// Whether vertices are duplicated along texture seams. If not, two vertices at one position are
+  /// distinct, as where closed lips meet.
   bool has_uv_seams = false;
-  std::span<const std::uint32_t> eyes = {};  ///< triangles of the eyeballs: sockets are behind them
+  std::span<const std::uint32_t> eyes = {};  ///< triangles of the eyeballs, which hide the sockets
 };
 
-/// Carries displacements of one face over to another, whatever its mesh: landmarks guide a radial
-/// warp, the warped surface is then pulled onto the other, and every vertex follows the place of
-/// the first face it came to lie on (expression cloning, Noh and Neumann 2001). Motion keeps its
-/// size and direction: turned and stretched with the local surface, as in that paper, the large
-/// motions of a jaw tear, and shapes brought to another head and back came out a third smaller.
-/// Upper and lower lips and lids are told apart along the surface, so that they are never taken for
-/// each other. Immutable; thread: any.
+/// Transfers displacements from one face to another with any mesh (expression cloning, Noh and
+/// Neumann 2001): landmarks define a radial warp, the warped source is projected onto the target,
+/// and each target vertex follows the source point nearest to it. Unlike in that paper,
+/// displacements keep their size and direction: with local rotation and scaling, the large motions
+/// of the jaw tore the skin, and shapes transferred to another head and back came out a third
+/// smaller. Upper and lower lips and lids are distinguished by distances along the surface, so that
+/// neither is matched with the other. Immutable; thread: any.
 class DeformationTransfer {
  public:
-  /// Throws std::runtime_error if there are fewer than eight pairs or they lie (nearly) in a plane,
-  /// if a place or a vertex lies out of kMaxMeshReach, and as WeldedSurface and SurfaceIndex.
+  /// Throws std::runtime_error if there are fewer than eight pairs or they are (nearly) coplanar,
+  /// if a point or a vertex exceeds kMaxMeshReach, and as WeldedSurface and SurfaceIndex.
   DeformationTransfer(const TransferSurface& from, const TransferSurface& to,
                       std::span<const PointPair> pairs);
-  /// For each vertex of the second face the vertices of the first whose motions it takes, and the
-  /// part of each; parts add up to 1, where nothing moves it there are none.
+  /// For a target vertex, the source vertices that it follows and their weights, which add up to 1;
+  /// empty if it follows none.
   using Row = std::vector<std::pair<std::uint32_t, float>>;
   std::span<const Row> rows() const { return rows_; }
-  /// Adds to `to_by` what `from_by` means there; both by vertex.
+  /// Adds the transferred displacements of the source, `from_by`, to those of the target; both are
+  /// indexed by vertex.
   void Apply(std::span<const glm::vec3> from_by, std::span<glm::vec3> to_by) const;
 
  private:
@@ -55,7 +57,7 @@ class DeformationTransfer {
     std::array<std::uint32_t, 3> corner{};
     glm::vec3 part{1, 0, 0};
   };
-  /// For each vertex of the second face, doubled ones counted once.
+  /// Returns the binding of each welded vertex of the target.
   static std::vector<BarycentricBinding> Bind(const WeldedSurface& rest,
                                               const WeldedSurface& pulled,
                                               const WeldedSurface& target);

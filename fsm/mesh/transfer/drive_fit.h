@@ -10,47 +10,49 @@
 
 namespace fsm {
 
-/// Finds, while a head is baked, by which numbers of a state each of its targets (shapes) is
-/// driven: the targets' weights in some states are given, and drivers that say the same are made of
-/// them.
+/// Computes the drivers of a head's targets (shapes) when it is baked: given the weights of the
+/// targets in some states, finds gains of numbers of the state that reproduce these weights.
 class DriveFit {
  public:
   using Weights = std::vector<float>;  ///< of every target
 
   explicit DriveFit(std::size_t targets) : drivers_(targets) {}
 
-  /// A number that both sides have. `weights` says what the targets are where it is `full` on the
-  /// right side, on the left, or on both, and 0 elsewhere; all three are met, whether a target goes
-  /// with one side, with the sum of both or with the stronger one.
+  /// Adds drivers by a number that both sides have. `weights` returns the weights of the targets
+  /// where that number is `full` on the right side, on the left, or on both, and 0 elsewhere. All
+  /// three are reproduced, whether a target follows one side, the sum of both or the greater of
+  /// them.
   void AddSided(const Drive& drive, float full,
                 const std::function<Weights(bool right, bool left)>& weights);
   void Add(std::size_t target, const Drive& drive, float gain);
 
-  /// The drivers of every target; they are moved out.
+  /// Moves out the drivers of every target.
   std::vector<std::vector<Channel::Driver>> TakeDrivers() { return std::move(drivers_); }
 
  private:
   std::vector<std::vector<Channel::Driver>> drivers_;
 };
 
-/// Least-squares gains from the mouth's parameters, raised and lowered apart, to targets. Starts
-/// from the answers of AddParameters and changes them as little as possible so that every viseme is
-/// reproduced. The change is slightly damped because visemes may be nearly the same.
+/// Fits gains from the mouth's parameters to targets by least squares; raising and lowering a
+/// parameter have separate gains. Starts from the gains of AddParameters and changes them as little
+/// as possible so that every viseme is reproduced. The change is slightly damped because visemes
+/// may be nearly equal.
 class MouthFit {
  public:
   using Weights = DriveFit::Weights;
 
   explicit MouthFit(std::size_t targets) : gain_(targets) {}
 
-  /// What each parameter asks by itself; without this, nothing.
+  /// Sets the gains of each parameter acting alone from `weights`, which returns those of the
+  /// targets in a state. Without this call they are 0.
   void AddParameters(const std::function<Weights(const FaceState&)>& weights);
   void AddViseme(const std::array<float, kMouthParameters>& mouth, Weights weights);
-  /// `kind`: by which drive the parameters come.
+  /// Adds the gains to `fit` as drivers of that kind.
   void AddTo(DriveFit& fit, Drive::Kind kind) const;
 
  private:
   static constexpr std::size_t kHalves = 2 * kMouthParameters;
-  using Halves = std::array<double, kHalves>;  // raised, then lowered, in parts of full strength
+  using Halves = std::array<double, kHalves>;  // raised, then lowered, relative to full strength
   static Halves Split(const std::array<float, kMouthParameters>& mouth);
 
   struct KnownMouth {
@@ -60,7 +62,7 @@ class MouthFit {
   struct Equations;
   void Demand(const KnownMouth& viseme, double importance, Equations& equations) const;
 
-  std::vector<Halves> gain_;  // by target, as each parameter asks by itself
+  std::vector<Halves> gain_;  // indexed by target; of each parameter acting alone
   std::vector<KnownMouth> known_;
 };
 

@@ -8,14 +8,14 @@
 
 namespace fsm {
 
-/// For each vertex those it shares an edge with, in order.
+/// For each vertex the vertices that it shares an edge with, in ascending order.
 using Neighbours = std::vector<std::vector<std::uint32_t>>;
 Neighbours NeighboursAlongEdges(std::size_t vertices,
                                 std::span<const std::array<std::uint32_t, 3>> triangles);
 
-/// By vertex: how long the way along edges is to the nearest seed, and the number of that seed.
+/// Per vertex, the length of the shortest path along edges to a seed, and the index of that seed.
 struct MeshPaths {
-  std::vector<float> length;  ///< `reach` where no seed is nearer
+  std::vector<float> length;  ///< `reach` if no seed is nearer
   std::vector<std::uint32_t> seed;
 };
 MeshPaths ShortestPaths(const Neighbours& next, std::span<const glm::vec3> at,

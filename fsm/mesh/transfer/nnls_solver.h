@@ -5,8 +5,8 @@
 
 namespace fsm {
 
-/// Tells of which key shapes something is mixed: the least squares with no negative part. What
-/// they cannot explain is given back. All are rows of numbers of one length and one measure.
+/// Decomposes a vector into a sum of key vectors with non-negative weights by least squares (NNLS),
+/// and returns weights and residual. All vectors have the same length and unit.
 class NnlsSolver {
  public:
   using Row = std::vector<float>;
@@ -14,14 +14,14 @@ class NnlsSolver {
   explicit NnlsSolver(std::vector<Row> keys);
 
   struct Parts {
-    std::vector<float> weights;  ///< of each key, 0..1.5
-    Row residual;                ///< what they leave
+    std::vector<float> weights;  ///< one for each key, 0..1.5
+    Row residual;                ///< the vector minus the weighted keys
   };
   Parts Solve(std::span<const float> row) const;
 
  private:
   std::vector<Row> keys_;
-  std::vector<Row> products_;  // of each two keys
+  std::vector<Row> products_;  // dot products of each two keys
 };
 
 }  // namespace fsm

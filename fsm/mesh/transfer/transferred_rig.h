@@ -9,14 +9,14 @@
 
 namespace fsm {
 
-/// The triangles of a built-in head's skin, lips and mouth.
+/// Returns the triangles of a built-in head's skin, lips and mouth.
 std::vector<std::uint32_t> SkinTriangles(const HeadTopology& topology);
-/// The triangles of its eyeballs.
+/// Returns the triangles of a built-in head's eyeballs.
 std::vector<std::uint32_t> EyeballTriangles(const HeadTopology& topology);
 
-/// The rig of skin that moves as `source`, a built-in head, would; `pairs` in our frame. Adds
-/// unseen vertices to `model`, the source's lips. Throws as DeformationTransfer, with the model's
-/// name before the sentence.
+/// Makes a rig whose skin moves like that of `source`, a built-in head; `pairs` are in our frame.
+/// Adds the lips of the source to `model` as vertices that are not drawn. Throws as
+/// DeformationTransfer, with the model's name before the text.
 RigData TransferRig(MeshModel& model, const Head& source, std::span<const PointPair> pairs);
 
 }  // namespace fsm

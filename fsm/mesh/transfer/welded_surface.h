@@ -10,36 +10,36 @@
 
 namespace fsm {
 
-/// A surface with what tells its places apart beside where they are. Vertices at one place that
-/// belong to one sheet (a seam of the texture) are one here.
+/// A surface with features by which points are matched: normals, the side of lips and lids, and
+/// visibility. Vertices duplicated along texture seams are merged.
 class WeldedSurface {
  public:
-  /// `weld`: whether vertices at one place are made one; else only triangles are taken over.
+  /// `weld`: whether to merge vertices at the same position; else only the triangles are copied.
   WeldedSurface(std::span<const glm::vec3> position, std::span<const std::uint32_t> triangles,
                 bool weld);
 
   std::vector<glm::vec3> at, normal;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   Neighbours next;
-  std::vector<std::uint32_t> of;  ///< welded vertex of each given one, kNone if no triangle has it
-  std::vector<std::uint32_t> first;  ///< a given vertex of each welded one
-  /// Where the vertex lies between opposites: 1 = upper, -1 = lower, 0 = neither.
+  std::vector<std::uint32_t> of;     ///< given vertex -> welded one; kNone if it is in no triangle
+  std::vector<std::uint32_t> first;  ///< welded vertex -> one of the given
+  /// Per vertex, whether it belongs to upper (1) or lower (-1) lip and lid, 0 = neither.
   std::vector<float> lip, lid;
-  /// 1 = seen from the front, 0 = more than a few millimetres behind what is seen there, as the
-  /// linings of mouths and eye sockets. Filled by FindSeen.
+  /// Per vertex, the visibility from the front: 1 = visible, 0 = more than a few millimetres behind
+  /// a visible surface, as the linings of mouths and eye sockets. Set by FindSeen.
   std::vector<float> seen;
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
   void FindNormals();
-  /// `eyes`: triangles of the eyeballs, which hide what lies behind them; of the vertices
-  /// `position`. A triangle whose box covers more than a square metre hides nothing.
-  /// Throws std::runtime_error if all of them together cover more than kMaxCovered, as triangles
-  /// do that lie in hundreds of layers. REQUIRES: all lies within kMaxMeshReach.
-  static constexpr std::int64_t kMaxCovered = 1 << 28;  ///< square millimetres of their boxes
+  /// Computes `seen`. `eyes`: triangles of the eyeballs, indices into `position`, which hide what
+  /// is behind them. A triangle whose bounding box covers more than a square metre hides nothing.
+  /// Throws std::runtime_error if the boxes together cover more than kMaxCovered, as hundreds of
+  /// layers of triangles would. REQUIRES: everything is within kMaxMeshReach.
+  static constexpr std::int64_t kMaxCovered = 1 << 28;  ///< square millimetres
   void FindSeen(std::span<const glm::vec3> position, std::span<const std::uint32_t> eyes);
   std::uint32_t Nearest(glm::vec3 p) const;
-  /// Distances along edges from the vertices nearest to the seeds, up to `reach`; beyond it
-  /// `reach`.
+  /// Returns, per vertex, the distance along edges to the nearest of the vertices closest to the
+  /// seeds, clamped to `reach`.
   std::vector<float> DistancesFrom(std::span<const glm::vec3> seeds, float reach) const;
 };
 
