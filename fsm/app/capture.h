@@ -12,15 +12,15 @@
 
 namespace fsm {
 
-/// Numbered pictures of one utterance: DIR/PREFIX00001.bmp and on, from its begin to its end, at a
-/// given rate. Picture k shows the face at begin + k / rate exactly; none is left out, and none
-/// stands for an instant after the end, however late the machine is. Each is drawn in a turn of the
-/// scheduler of its own, so that commands and signals are heard between two of them.
-/// Limits: those of Limits, then it ends as a failure. Thread: the scheduler's.
+/// Writes numbered pictures of one utterance, DIR/PREFIX00001.bmp and on, from its begin to its
+/// end, at a given rate. Picture k shows the face at begin + k / rate exactly; none is skipped, and
+/// none is later than the end, however slow the machine is. Each is drawn in a separate task of the
+/// scheduler, so that commands and signals are handled between pictures.
+/// Limits: those of Limits; exceeding one ends the capture with an error. Thread: the scheduler's.
 class Capture {
  public:
   struct Limits {
-    long pictures = 36'000;             ///< 20 minutes at 30 a second
+    long pictures = 36'000;             ///< 20 minutes at 30 per second
     std::uintmax_t bytes = 8ULL << 30;  ///< on the disk: 10,000 pictures of 512 x 512
   };
   struct Order {
@@ -30,9 +30,9 @@ class Capture {
     std::string ending = ".bmp";
   };
   using Draw = std::function<vm::Result<void>(long number, vm::Time at)>;
-  /// Told once all pictures of an utterance are written; by an error, if they are not.
+  /// Called once all pictures of an utterance are written, or with an error if they cannot be.
   using OnEnd = std::function<void(const vm::Result<void>&)>;
-  /// Lifetime: clock, view and files outlive it.
+  /// Lifetime: clock, view and files outlive this.
   Capture(vm::Scheduler& clock, FaceView& view, const MediaFiles& files, Draw draw, OnEnd on_end)
       : Capture(clock, view, files, std::move(draw), std::move(on_end), Limits{}) {}
   Capture(vm::Scheduler& clock, FaceView& view, const MediaFiles& files, Draw draw, OnEnd on_end,
@@ -46,11 +46,12 @@ class Capture {
   ~Capture() { Cancel(); }
 
   void Arm(Order order);
-  void Begin(vm::Time at);  ///< the utterance begins, now or just before; nothing if not armed
-  /// The utterance was over at `at`, now or before: the pictures due until then that are still
-  /// missing follow, then on_end is called. Nothing if none are being made.
+  void Begin(
+      vm::Time at);  ///< the utterance began at `at`, now or just before; no effect if not armed
+  /// Says that the utterance ended at `at`, now or before. The remaining pictures up to then are
+  /// drawn, then on_end is called. No effect if no capture is running.
   void End(vm::Time at);
-  void Cancel();  ///< without a word; the pictures drawn until then are written
+  void Cancel();  ///< does not call on_end; writes the pictures already drawn
   bool running() const { return running_; }
 
  private:
@@ -70,8 +71,8 @@ class Capture {
   bool armed_ = false;
   bool running_ = false;
   std::optional<vm::Time> end_;  // of the utterance, once it is known
-  long next_ = 0;                // to be drawn
-  long written_ = 0;             // and what they take
+  long next_ = 0;                // the next picture to draw
+  long written_ = 0;             // bytes_ counts their size
   std::uintmax_t bytes_ = 0;
   vm::Timer timer_;
 };

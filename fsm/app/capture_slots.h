@@ -7,7 +7,7 @@
 
 namespace fsm {
 
-/// Numbered pictures of an utterance: the slot Capture.
+/// The slot Capture: numbered pictures of an utterance.
 class CaptureSlots final : public ModulePart {
  public:
   /// Declares the slot. `core` outlives this, and so does what `draw` uses.

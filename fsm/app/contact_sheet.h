@@ -9,25 +9,25 @@
 
 namespace fsm {
 
-/// Contact sheets: many faces in one picture, to look at and to show people.
+/// Contact sheets: many faces in one picture.
 struct SheetCell {
   std::string label;
   FaceState state;
-  std::string face;  ///< "" = the one that is worn
+  std::string face;  ///< "" = the current face
 };
 struct Sheet {
   std::vector<SheetCell> cells;
   int columns = 1;
 };
 
-/// `kind`: aus (every unit and code at full strength), emotions (neutral and the six, pattern 1),
-/// visemes (the 28 mouth shapes, then the 14), identities (each of `faces`: front, three-quarter,
-/// profile, smiling). Error: kBadValue listing the kinds.
+/// Returns the cells of a sheet. `kind`: aus (every unit and code at full strength), emotions
+/// (neutral and the six, pattern 1), visemes (the 28 mouth shapes, then the 14), identities (each
+/// of `faces`: front, three-quarter, profile, smiling). Error: kBadValue listing the kinds.
 vm::Result<Sheet> MakeSheet(const std::string& kind, const MotionTables& tables,
                             const std::vector<std::string>& faces, const std::string& face);
 
 inline constexpr int kCellWidth = 220, kCellHeight = 260;
-/// Draws it; the view gets the size of a cell. Errors: as those of view and wardrobe.
+/// Draws a sheet; resizes the view to that of a cell. Errors: those of view and wardrobe.
 vm::Result<Image> DrawSheet(FaceView& view, Wardrobe& wardrobe, const Sheet& sheet, bool labels);
 
 }  // namespace fsm

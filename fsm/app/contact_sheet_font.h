@@ -6,11 +6,12 @@
 
 namespace fsm {
 
-/// Writes a line of text into a picture with our own letters, 5 x 7 points each, `scale` pixels a
-/// point, 6 points apart; its left upper corner at x, y. Letters of both cases, digits and
-/// . , - + % / _ : ( ); anything else is written as a box. What does not fit is cut off.
+/// Draws a line of text into a picture with its upper left corner at x, y, in a font of 5 x 7
+/// points, `scale` pixels per point, 6 points from letter to letter. The font has letters of both
+/// cases, digits and . , - + % / _ : ( ); any other character is drawn as a box. Text beyond the
+/// picture is clipped.
 void DrawText(Image& image, int x, int y, int scale, std::string_view text);
-/// Width in pixels.
+/// Returns the width of such a line in pixels.
 int TextWidth(int scale, std::string_view text);
 
 }  // namespace fsm

@@ -8,10 +8,10 @@
 
 namespace fsm {
 
-/// FaceExp.NAME.PATTERN, what each expression looks like: asked, set, saved. `def FaceExp.NAME =
-/// LOOK` (pattern 1) and `def FaceExp.NAME.PATTERN = LOOK` make new ones, `del FaceExp.NAME` takes
-/// an own one away and brings a changed one back. `Run = INIT` forgets them.
-/// Limit: kMostOwnSlots own names between two of these.
+/// The slots FaceExp.NAME.PATTERN, the looks of expressions, which can be queried, set and saved.
+/// `def FaceExp.NAME = LOOK` (pattern 1) and `def FaceExp.NAME.PATTERN = LOOK` define new ones;
+/// `del FaceExp.NAME` removes a new one and restores a changed one. `Run = INIT` undoes all.
+/// Limit: kMostOwnSlots new slots between two of these.
 class ExpressionSlots final : public ModulePart {
  public:
   static constexpr std::size_t kMostOwnSlots = 200;
@@ -30,7 +30,7 @@ class ExpressionSlots final : public ModulePart {
   void Forget(const std::string& expression);
 
   FsmCore& core_;
-  std::vector<std::string> own_;  // slots that were defined
+  std::vector<std::string> own_;  // names of slots defined by `def`
 };
 
 }  // namespace fsm

@@ -4,10 +4,12 @@
 
 namespace fsm {
 
-/// What moves the face: expressions, action units, mouth units, eyes, head and movements.
+/// Declares the slots that move the face: expressions, action units, mouth units, eyes, head and
+/// movements.
 void DeclareFaceSlots(FsmCore& core);
 
-/// What belongs to the whole figure: AgentEnable, AgentAlpha, AgentRot, AgentTrans, AgentScale.
+/// Declares the slots of the whole figure: AgentEnable, AgentAlpha, AgentRot, AgentTrans,
+/// AgentScale.
 void DeclareFigureSlots(FsmCore& core);
 
 }  // namespace fsm

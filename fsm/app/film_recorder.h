@@ -11,17 +11,17 @@
 
 namespace fsm {
 
-/// Records a film of the face: frame k is the face at start + k / rate exactly. When drawing falls
-/// behind the clock, the frame before is repeated so that the film keeps step with time; on the
-/// virtual clock that never happens. A view that gets another size ends the film as a failure.
+/// Records a film of the face: frame k shows the face at start + k / rate exactly. If drawing falls
+/// behind the clock, frames are repeated so that the film keeps pace; on the virtual clock that
+/// never happens. Resizing the view ends the film with an error.
 /// Thread: the scheduler's; a timer is pending while recording.
 class FilmRecorder {
  public:
-  /// Draws frame `number` as the face is at `at`; the picture is then read from the view.
+  /// Draws the face at `at` as frame `number`; the picture is then read from the view.
   using Draw = std::function<vm::Result<void>(long number, vm::Time at)>;
-  /// Told when recording ended by itself because of an error.
+  /// Called when an error has ended the recording.
   using OnFailure = std::function<void(const vm::Error&)>;
-  /// Lifetime: clock, view and files outlive it.
+  /// Lifetime: clock, view and files outlive this.
   FilmRecorder(vm::Scheduler& clock, FaceView& view, const MediaFiles& files, Draw draw,
                OnFailure on_failure);
 
@@ -32,8 +32,8 @@ class FilmRecorder {
     long frames = 0;
     long repeated = 0;
   };
-  /// Ends the film with the frames up to now and adds the sound (may be ""). Errors: kBadValue when
-  /// none is being recorded; kUnavailable as FilmWriter::Finish.
+  /// Ends the film with the frames up to now and adds the sound file (may be ""). Errors: kBadValue
+  /// when not recording; kUnavailable as FilmWriter::Finish.
   vm::Result<Report> Stop(const std::string& sound);
 
   bool recording() const { return writer_ != nullptr; }
@@ -45,7 +45,7 @@ class FilmRecorder {
   void Arm();
   void Tick();
   vm::Result<void> AddUpTo(vm::Time now, long most_repeats);
-  /// Hands a frame to the writer.
+  /// Adds a frame to the film `times` times.
   vm::Result<void> Write(const Image& frame, long times);
 
   vm::Scheduler& clock_;

@@ -9,29 +9,28 @@
 
 namespace fsm {
 
-/// The frames of a series on their way from the card: each is handed on once some more are drawn,
-/// or by Flush, all of them in order. Which frame is handed on when depends on nothing but the
-/// calls.
-/// Lifetime: `view` outlives it. Thread: the view's.
+/// Reads frames of a series back from the graphics card: passes each, in order, to `take` once
+/// kMostWaiting more are drawn, or by Flush. When a frame is passed on depends only on the calls.
+/// Lifetime: `view` outlives this. Thread: the view's.
 class FrameQueue {
  public:
   static constexpr std::size_t kMostWaiting = 2;
 
-  /// Takes a frame, `times` times; 1 or more. An error ends the series.
+  /// Receives a frame, which counts `times` times (1 or more). An error ends the series.
   using Take = std::function<vm::Result<void>(const Image& frame, long times)>;
   FrameQueue(FaceView& view, Take take) : view_(view), take_(std::move(take)) {}
   ~FrameQueue() { Clear(); }
   FrameQueue(const FrameQueue&) = delete;
   FrameQueue& operator=(const FrameQueue&) = delete;
 
-  /// The frame that the view drew last. `wait`: off, it is handed on at once, after those before
-  /// it. Error: that of handing on one or one before; those after it are dropped.
+  /// Adds the frame that the view drew last. If not `wait`, flushes. Error: that of reading or
+  /// `take`, for this or an earlier frame; all waiting frames are then dropped.
   vm::Result<void> Add(bool wait = true);
-  /// The frame added last once more. REQUIRES: there is one.
+  /// Adds the last frame once more. REQUIRES: there is one.
   vm::Result<void> Repeat();
-  /// Hands on what waits. Error: as Add.
+  /// Passes on all waiting frames. Error: as Add.
   vm::Result<void> Flush();
-  /// Drops what waits.
+  /// Drops all waiting frames.
   void Clear();
 
  private:
@@ -44,7 +43,7 @@ class FrameQueue {
   FaceView& view_;
   Take take_;
   std::deque<Waiting> waiting_;
-  Image last_;  // handed on
+  Image last_;  // the frame passed on last
 };
 
 }  // namespace fsm

@@ -4,8 +4,8 @@
 
 namespace fsm {
 
-/// The instants of a film: frame k stands for start + k / rate, exact to the microsecond however
-/// long the film is.
+/// The times of the frames of a film: frame k is at start + k / rate, exact to the microsecond for
+/// films of any length.
 struct FrameSeries {
   vm::Time start{0};
   double per_second = 30;

@@ -7,19 +7,19 @@
 
 namespace fsm {
 
-/// What is told of each frame: the slot Frame of what is drawn, and Frame.to, another module that
-/// learns how the face is moved.
+/// Reports on frames: the slot Frame reports each frame drawn; the module named by Frame.to is sent
+/// the state of the face (FaceFrame).
 class FrameSlots final : public ModulePart {
  public:
   /// Declares the slots. `core` outlives this.
   explicit FrameSlots(FsmCore& core);
   void Reset() override;
 
-  /// Draws the face as it is at `at`, and reports it as frame `number`.
+  /// Draws the face at `at` and reports it as frame `number`.
   vm::Result<void> Draw(long number, vm::Time at);
-  /// Reports a frame that belongs to no film, by its number since the start.
+  /// Reports a frame that belongs to no film, numbered from the start of the program.
   void ReportShown(vm::Time at) { Report(shown_++, at); }
-  /// Tells the module of Frame.to, if there is one.
+  /// Sends the message for the face at `at` to the module of Frame.to, if there is one.
   void Tell(vm::Time at);
   bool is_reported() const { return core_.slots.AutoOutput("Frame"); }
   bool is_told() const { return !to_.empty(); }
@@ -29,7 +29,7 @@ class FrameSlots final : public ModulePart {
 
   FsmCore& core_;
   long shown_ = 0;
-  std::string to_;                              // the module that is told each frame; empty: none
+  std::string to_;                              // the receiving module; empty: none
   std::optional<std::string> unmeasured_mask_;  // the face whose head could not be measured
 };
 

@@ -15,33 +15,33 @@
 
 namespace fsm {
 
-/// What the parts of the face module share. Slots are declared with slots.Declare; Command, Clamped
-/// and Setting make their on_set.
+/// The state that the parts of the face module share. Slots are declared by slots.Declare; Command,
+/// Clamped and Setting make their on_set.
 /// Lifetime: owned by FsmModule, outlives the parts.
 struct FsmCore {
   vm::Scheduler& clock;
   FaceView& view;
   Wardrobe& wardrobe;
   MediaFiles files;
-  /// A configuration of the original was given: its clients speak, so places of the figure count
-  /// half views and z+ leans to the viewer's left, as there.
+  /// Whether a configuration of the original was given. Positions of the figure are then in halves
+  /// of the view, and z+ leans to the viewer's left, as its clients expect.
   bool original = false;
   vm::SlotMachine slots{"FSM"};
   std::unique_ptr<FaceMotion> motion{};
   Scene scene{};
-  bool simulates = true;  ///< what hangs on springs swings
-  /// Called after every command, because something may move now, or look different.
+  bool simulates = true;  ///< whether springs move
+  /// Called after every command, because the face may now move or look different.
   std::function<void()> changed = [] {};
 
   vm::Time Now() const { return clock.Now(); }
 
-  /// Draws the face as it is at `t`.
+  /// Draws the face at `t`.
   vm::Result<void> DrawAt(vm::Time t);
 
   /// SlotSpec::on_set.
   using OnSet = std::function<vm::Result<std::string>(const vm::SetValue&)>;
-  /// Of a slot whose value is stored as it came: `act(value)` does what it asks for, or returns why
-  /// not.
+  /// Makes an on_set that executes `act(value)` and stores the value unchanged, or returns the
+  /// error of `act`.
   template <typename Act>
   OnSet Command(Act act) {
     return [this, act](const vm::SetValue& value) -> vm::Result<std::string> {
@@ -50,7 +50,7 @@ struct FsmCore {
       return value.text;
     };
   }
-  /// The same with numbers clamped to least..most, as the original does.
+  /// The same, but clamps numbers to least..most first, as the original does.
   template <typename Act>
   OnSet Clamped(int least, int most, Act act) {
     return [least, most, command = Command(act)](vm::SetValue value) {
@@ -58,7 +58,8 @@ struct FsmCore {
       return command(value);
     };
   }
-  /// Of a slot that is a setting: `change(settings, value)` changes it, or returns why not.
+  /// Makes an on_set that calls `change(settings, value)` and applies the settings, or returns its
+  /// error.
   template <typename Change>
   OnSet Setting(Change change) {
     return Command([this, change](const vm::SetValue& value) {
@@ -75,7 +76,7 @@ struct FsmCore {
 
  private:
   static void ClampNumbers(vm::SetValue& value, int least, int most);
-  /// What a function says that returns a vm::Result<void>, or nothing.
+  /// Returns the result of a function that returns vm::Result<void> or void.
   template <typename Function, typename... Arguments>
   static vm::Result<void> ResultOf(const Function& function, Arguments&&... arguments) {
     if constexpr (std::is_void_v<std::invoke_result_t<const Function&, Arguments...>>) {
@@ -87,15 +88,15 @@ struct FsmCore {
   }
 };
 
-/// A part of the module that remembers something between two commands.
+/// A part of the module with a state of its own.
 class ModulePart {
  public:
   virtual ~ModulePart() = default;
-  /// Ends what goes on in time, as films do: for `Run = INIT`, while the face is as it was, and at
+  /// Ends activities such as films. Called for `Run = INIT`, before the motion is replaced, and at
   /// the end of the module.
   virtual void End() {}
-  /// Forgets what was said, for `Run = INIT`: the motion is new, and every slot has its initial
-  /// value again.
+  /// Restores the initial state. Called for `Run = INIT`, after the motion has been replaced and
+  /// all slots have their initial values.
   virtual void Reset() {}
 };
 

@@ -23,24 +23,24 @@
 namespace fsm {
 
 struct FsmOptions {
-  std::uint64_t seed = 1;    ///< of everything the face does by itself
-  TableFolder tables;        ///< in place of those of the program
-  std::string mask;          ///< face worn at the start, "" = the wardrobe's first
-  std::string background;    ///< as slot Background at the start, "" = the configuration's first
-  std::string life = "OFF";  ///< profile of Life at the start
-  OriginalConfig config;     ///< path "" = none; another is told at the start
-  /// Called when the window cannot be drawn any more, which ends the module.
+  std::uint64_t seed = 1;  ///< of all idle and random behaviour
+  TableFolder tables;      ///< replace those of the program
+  std::string mask;        ///< initial face, "" = the wardrobe's first
+  std::string background;  ///< initial value of the slot Background, "" = the configuration's first
+  std::string life = "OFF";  ///< initial profile of the slot Life
+  OriginalConfig config;     ///< none if its path is ""; else reported in the greeting
+  /// Called when drawing in the window fails, which ends the module.
   std::function<void()> on_failure = [] {};
 };
 
-/// The face synthesis module: all its slots over FaceMotion, a view and a wardrobe.
-/// Drawing: with a window, whenever something moves (at most at the frame rate) and a few times a
-/// second otherwise; without one, only for pictures, films and Frame reports. No timer is pending
-/// while nothing moves and nothing is recorded or sent (but for the window's events).
+/// The face synthesis module: all slots, which control FaceMotion, a view and a wardrobe.
+/// Drawing: with a window, at the frame rate while something moves and a few times a second
+/// otherwise; without one, only for pictures, films and Frame reports. Without a window no timer is
+/// pending while nothing moves and nothing is recorded or sent.
 /// Lifetime: scheduler, view and wardrobe outlive it. Thread: the scheduler's.
 class FsmModule final : public vm::Module {
  public:
-  /// Throws std::runtime_error with a sentence if tables or configuration are damaged.
+  /// Throws std::runtime_error if tables or configuration are damaged.
   FsmModule(vm::Scheduler& clock, FaceView& view, Wardrobe& wardrobe, MediaFiles files,
             FsmOptions options);
 
@@ -55,7 +55,7 @@ class FsmModule final : public vm::Module {
   void ApplyConfig(const OriginalConfig& config);
   void MakeMotion();
   void Initialise();  // Run = INIT
-  void Connect();     // what parts tell each other, once all are there
+  void Connect();     // connects the parts to each other, once all exist
   void Changed();
   void ArmFrames();
   void ArmEnd();
@@ -71,11 +71,11 @@ class FsmModule final : public vm::Module {
   std::unique_ptr<SpeechSlots> speech_;
   std::unique_ptr<MaskSlots> mask_;
   std::unique_ptr<SceneSlots> scene_;
-  std::unique_ptr<FrameSlots> frames_;  // outlives those that draw by it
+  std::unique_ptr<FrameSlots> frames_;  // outlives the parts below, which draw through it
   std::unique_ptr<RecordSlots> record_;
   std::unique_ptr<CaptureSlots> capture_;
   std::unique_ptr<PictureSlots> pictures_;
-  std::vector<ModulePart*> parts_;  // all of these; in any order
+  std::vector<ModulePart*> parts_;  // all of the above, in any order
   double frame_rate_ = 60;
   vm::Timer frame_timer_{core_.clock};
   vm::Time frame_due_{0};

@@ -14,8 +14,8 @@
 
 namespace fsm {
 
-/// Draws the head that is worn with OpenGL: in a window, or headless with a context made at the
-/// first need. Lifetime: the wardrobe outlives it.
+/// Draws the current head with OpenGL, in a window or without one; the context of the latter is
+/// created by the first Draw. Lifetime: `wardrobe` outlives this.
 class GlFaceView final : public FaceView, private ViewWindow {
  public:
   struct Options {
@@ -23,13 +23,13 @@ class GlFaceView final : public FaceView, private ViewWindow {
     int height = 480;
     enum class Where { kHeadless, kWindow, kWindowIfPossible } where = Where::kHeadless;
     std::string title = "Galatea";
-    OffScreen off_screen = OffScreen::kOsMesa;  ///< of the context without a window
+    OffScreen off_screen = OffScreen::kOsMesa;  ///< used without a window
     RigOn rig = RigOn::kBest;
     std::optional<std::pair<int, int>> position = {};  ///< of the window's upper left corner
-    TableFolder tables = {};  ///< which may have an appearance of one's own
+    TableFolder tables = {};                           ///< may contain an appearance.txt
   };
-  /// Throws std::runtime_error with a sentence if a window is asked for and cannot be had, or if
-  /// appearance.txt is wrong.
+  /// Throws std::runtime_error if a required window cannot be opened, or if appearance.txt is
+  /// damaged.
   GlFaceView(HeadWardrobe& wardrobe, const Options& options);
   ~GlFaceView() override;
 
@@ -55,12 +55,12 @@ class GlFaceView final : public FaceView, private ViewWindow {
 
   HeadWardrobe& wardrobe_;
   Options options_;
-  std::optional<Appearance> appearance_;  // in place of the built-in one
+  std::optional<Appearance> appearance_;  // replaces the built-in one
   std::unique_ptr<RenderContext> context_;
-  std::unique_ptr<Renderer> renderer_;  // lives in the context
-  /// Moves the springs of the head drawn last; none if nothing is to swing.
+  std::unique_ptr<Renderer> renderer_;  // uses the context
+  /// The springs of the head drawn last; none if they do not move.
   std::optional<Simulation> simulation_;
-  std::uint64_t simulated_ = 0;  // serial of that head
+  std::uint64_t simulated_ = 0;  // the serial number of that head
   Image image_;
 };
 

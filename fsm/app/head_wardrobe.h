@@ -11,19 +11,18 @@
 
 namespace fsm {
 
-/// Faces that are heads of ours: those given, the built-in ones and those of the folder of faces.
+/// A wardrobe of heads: those given, the built-in ones and those in FacesFolder.
 class HeadWardrobe final : public Wardrobe {
  public:
-  /// `more`: faces beside the others, listed before them. `tables`: of MakeHeadOfName.
+  /// `more`: additional faces, listed first. `tables`: for MakeHeadOfName.
   HeadWardrobe(std::vector<NamedFace> more, TableFolder tables)
       : more_(std::move(more)), tables_(std::move(tables)) {}
 
   std::vector<std::string> Faces() const override;
   vm::Result<void> Wear(const std::string& face) override;
   vm::Result<MouthMeasure> Measure(const FaceState& state) override;
-  /// The head worn, made by the first call; valid until the next Wear. May be called on another
-  /// thread while nothing else uses this. Throws std::runtime_error with a sentence if it cannot be
-  /// made.
+  /// Returns the current head, made by the first call; valid until the next Wear. May be called on
+  /// another thread while nothing else uses this. Throws std::runtime_error if it cannot be made.
   const Head& head();
 
  private:
@@ -32,7 +31,7 @@ class HeadWardrobe final : public Wardrobe {
   const std::vector<NamedFace> more_;
   const TableFolder tables_;
   std::string worn_;            // "" = the first
-  std::unique_ptr<Head> head_;  // made at the first need, as drawing may never be asked for
+  std::unique_ptr<Head> head_;  // made by head(), since it may never be drawn
 };
 
 }  // namespace fsm

@@ -6,9 +6,8 @@
 
 namespace fsm {
 
-/// What makes the face alive: Autonomous (each part by name), Life (a profile of them), Gaze and
-/// Gaze.distance.
-/// `life`: the profile at the start.
+/// Declares the slots of idle behaviour: Autonomous (each kind by name), Life (profiles of kinds),
+/// Gaze and Gaze.distance. `life`: the initial profile.
 void DeclareIdleSlots(FsmCore& core, const std::string& life);
 
 }  // namespace fsm

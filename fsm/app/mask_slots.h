@@ -7,13 +7,13 @@
 
 namespace fsm {
 
-/// Which face is worn: MaskSet, NowMask and Mask.
+/// The slots that choose the face: MaskSet, NowMask and Mask.
 class MaskSlots final : public ModulePart {
  public:
-  /// `first`: the face at the start, "" = the wardrobe's first. `listed`: the names that MaskSet
+  /// `first`: the initial face, "" = the wardrobe's first. `listed`: the names that MaskSet
   /// reports. Names that the wardrobe does not have are left out, and if none remains, all faces
   /// are reported. Every face of the wardrobe can be worn, listed or not. Throws std::runtime_error
-  /// with a sentence if the wardrobe has no face `first`. `core` outlives this.
+  /// if the wardrobe has no face `first`. `core` outlives this.
   MaskSlots(FsmCore& core, std::string first, const std::vector<std::string>& listed = {});
   void Reset() override;
 

@@ -10,11 +10,11 @@
 
 namespace fsm {
 
-/// Pictures and films on disk. Tests put a world in memory in its place.
+/// Access to pictures and films on disk. Tests replace it by one to memory.
 struct MediaFiles {
   std::function<vm::Result<void>(const Image&, const std::string& path)> write_picture = WriteImage;
   std::function<vm::Result<Image>(const std::string& path)> read_picture = ReadImage;
-  /// As FilmWriter::Open; no comment: nothing is written into the film's metadata.
+  /// As FilmWriter::Open; an empty comment is not written into the film's metadata.
   std::function<vm::Result<std::unique_ptr<FilmWriter>>(const std::string& path, int width,
                                                         int height, double per_second,
                                                         const std::string& comment)>

@@ -4,7 +4,8 @@
 
 namespace fsm {
 
-/// MouthFrame and MouthFrame.start: the mouth frame by frame from another program (vdm).
+/// Declares MouthFrame and MouthFrame.start, by which another program (vdm) moves the mouth frame
+/// by frame.
 void DeclareMouthStreamSlots(FsmCore& core);
 
 }  // namespace fsm

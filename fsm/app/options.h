@@ -15,35 +15,35 @@ class App;
 
 namespace fsm {
 
-/// What the command line of the program says.
+/// The options of the program's command line.
 struct Options {
   FsmOptions module;
   GlFaceView::Options view;
-  std::vector<NamedFace> faces;  ///< beside the built-in ones, the one to be worn first of all
+  std::vector<NamedFace> faces;  ///< in addition to the built-in ones; the initial face comes first
 
-  // Runs that end at once; "" and false = not asked for.
+  // Options after which the program ends at once (RunOnce); "" and false = not given.
   std::string export_file;
   bool describe = false;
   std::string sheet, sheet_file;
-  bool labels = true;  ///< of the sheet
+  bool labels = true;  ///< whether the sheet has labels
 
-  // What Complete reads.
+  // The input of Complete.
   std::string config, head, cache, size;
   std::optional<std::pair<int, int>> size_pair;
 };
 
-/// The words of the command line with the original's `-p X Y`, the place of the window, as
-/// --position; `-p PORT` with one number stays what it is in all modules, its socket.
+/// Returns the arguments with `-p X Y`, the original's option for the window's position, replaced
+/// by --position. `-p PORT` with one number is unchanged: in all modules it is the port of the
+/// socket.
 std::vector<char*> WithPlaceNamed(int argc, char** argv);
 
-/// Adds the options to those of all modules. `options` is filled when the words are parsed; it
-/// outlives `app`.
+/// Adds the options to those that all modules have. Parsing fills `options`, which outlives `app`.
 void AddOptions(CLI::App& app, Options& options);
 
-/// Reads what the words name: the configuration goes into options.module, and what it says of the
-/// view holds where the words say nothing; the faces are those of --head and of the configuration.
-/// Tells on stderr what is odd about them and the folder of --tables. Throws std::runtime_error
-/// with a sentence.
+/// Reads the files that the options name: stores the configuration in options.module, uses its
+/// settings of the view for options not given, and adds the faces of --head and of the
+/// configuration. Reports anomalies in these and in the folder of --tables on stderr. Throws
+/// std::runtime_error.
 void Complete(Options& options);
 
 }  // namespace fsm

@@ -5,14 +5,14 @@
 
 namespace fsm {
 
-/// Pictures for another program: Picture.to and Picture.fps.
+/// The slots Picture.to and Picture.fps: pictures for another program.
 class PictureSlots final : public ModulePart {
  public:
   /// Declares the slots. `core` outlives this.
   explicit PictureSlots(FsmCore& core);
   void End() override { static_cast<void>(pictures_.SendTo("NONE", 1)); }
   void Reset() override { per_second_ = kPerSecond; }
-  /// Something was said to the face, which may look otherwise now.
+  /// Says that the face may look different after a command.
   void Touch() { pictures_.Touch(); }
 
  private:

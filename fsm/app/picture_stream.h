@@ -11,31 +11,32 @@
 
 namespace fsm {
 
-/// Pictures of the face for a program that looks on, beside any film: docs/face.md, Pictures for
-/// other programs. Picture k shows the face at start + k / rate; those for which the machine or the
-/// receiver is too late are left out, as are those that would look like the one before, down to one
-/// each kStillLimit. Thread: the scheduler's; a timer is pending while there is a receiver.
+/// Sends pictures of the face to another program, independently of films: docs/face.md, Pictures
+/// for other programs. Picture k shows the face at start + k / rate. Pictures are skipped if the
+/// machine or the receiver is too slow, or if they would look like the one before, but at least one
+/// per kStillLimit is sent. Thread: the scheduler's; a timer is pending while there is a receiver.
 class PictureStream {
  public:
   static constexpr vm::Time kStillLimit{500'000};
 
   using Draw = std::function<vm::Result<void>(vm::Time at)>;
-  /// Whether the face may look otherwise at the second instant than at the first.
+  /// Tells whether the face may look different at `to` than at `from`.
   using Moves = std::function<bool(vm::Time from, vm::Time to)>;
   using OnFailure = std::function<void(const vm::Error&)>;
   PictureStream(vm::Scheduler& clock, FaceView& view, Draw draw, Moves moves, OnFailure on_failure);
 
-  /// "unix:PATH" of a socket somebody listens at, or "NONE"; the receiver before is let go.
-  /// Errors: kBadValue, kUnavailable; there is no receiver then.
+  /// Closes the current connection and connects to `to`: "unix:PATH" of a listening socket, or
+  /// "NONE".
+  /// Errors: kBadValue, kUnavailable; there is then no receiver.
   vm::Result<void> SendTo(const std::string& to, int per_second);
-  /// The receiver as SendTo was given it; "NONE" once it has gone.
+  /// Returns the argument of SendTo; "NONE" once the receiver has closed.
   std::string to();
-  /// Something was said to the face, which may look otherwise now.
+  /// Says that the face may look different after a command.
   void Touch() { touched_ = true; }
 
  private:
   void Tick();
-  /// False if it failed, which has been told.
+  /// Returns false after an error, which has been reported.
   bool DrawAndSend(vm::Time at);
   void LetGo();
 

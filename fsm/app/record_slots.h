@@ -7,12 +7,12 @@
 
 namespace fsm {
 
-/// Films of the face: Record and its settings.
+/// The slot Record and its settings: films of the face.
 class RecordSlots final : public ModulePart {
  public:
   /// Declares the slots. `core` outlives this, and so does what `draw` uses.
   RecordSlots(FsmCore& core, FilmRecorder::Draw draw);
-  /// Ends the film, if there is one; an error is reported.
+  /// Ends the film, if there is one; an error is reported as of the slot.
   void End() override;
   void Reset() override { frames_per_second_ = kFramesPerSecond; }
 

@@ -8,21 +8,20 @@
 
 namespace fsm {
 
-/// What is around the face: backgrounds, the way it is drawn, camera and lamps, the size of the
-/// view, and single pictures of it (SaveImage).
+/// The slots of backgrounds, drawing style, camera, lamps, size of the view, and SaveImage.
 class SceneSlots final : public ModulePart {
  public:
-  /// `backgrounds`: names and files of the configuration; its first, or else the plain one, is
-  /// shown at the start where `first` is empty. Throws std::runtime_error where `first` cannot be
+  /// `backgrounds`: names and files of the configuration. `first`: the initial one; if empty, the
+  /// first of `backgrounds`, or the plain one. Throws std::runtime_error if `first` cannot be
   /// shown. `core` outlives this.
   SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds,
              const std::string& first);
   void Reset() override;
-  /// The size cannot be changed while this says so (a film is recorded).
+  /// Sets a function that returns true while the size must not change (a film is recorded).
   void set_size_locked(std::function<bool()> locked) { size_locked_ = std::move(locked); }
 
  private:
-  Scene FirstScene() const;  // with the original's measures and colours where they are asked for
+  Scene FirstScene() const;  // with the original's measures and colours if FsmCore::original
   void DeclareBackgrounds();
   void DeclareView();
   void DeclareCamera();
@@ -30,14 +29,14 @@ class SceneSlots final : public ModulePart {
                     DirectionalLight Scene::*lamp);
   void DeclareSaveImage();
   vm::Result<void> SetBackground(const std::string& name);
-  void StorePlain();  // where the first background could not be shown
+  void StorePlain();  // if the first background could not be shown
   void ShowBackground(bool transparent);
   vm::Result<void> FillScreen(bool fill);
   vm::Result<void> ResetSize();
 
   FsmCore& core_;
   std::vector<std::pair<std::string, std::string>> backgrounds_;
-  std::string first_;  // shown at the start
+  std::string first_;  // the initial background
 
   bool transparent_ = false;
   bool background_enabled_ = true;

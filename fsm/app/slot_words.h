@@ -9,11 +9,12 @@
 
 namespace fsm {
 
-/// A word of a slot's grammar and what it stands for. Lists of them are in the grammar's order.
+/// A word of a slot's grammar and the value it denotes. Lists of them are in the order of the
+/// grammar.
 template <typename Value>
 using SlotWord = std::pair<std::string_view, Value>;
 
-/// "A | B | C".
+/// Returns the words as "A | B | C".
 std::string GrammarOf(const auto& words) {
   std::string grammar;
   for (const auto& [word, value] : words) {
@@ -22,7 +23,7 @@ std::string GrammarOf(const auto& words) {
   return grammar;
 }
 
-/// What a word stands for; nothing if it is none of them.
+/// Returns the value of a word; nothing if it is not in the list.
 auto ValueOf(const auto& words, std::string_view word)
     -> std::optional<decltype(std::begin(words)->second)> {
   const auto found = std::ranges::find(words, word, [](const auto& each) { return each.first; });
@@ -30,7 +31,7 @@ auto ValueOf(const auto& words, std::string_view word)
   return found->second;
 }
 
-/// The first word that stands for a value. REQUIRES: there is one.
+/// Returns the first word with a value. REQUIRES: there is one.
 std::string WordOf(const auto& words, const auto& value) {
   return std::string(
       std::ranges::find(words, value, [](const auto& each) { return each.second; })->first);

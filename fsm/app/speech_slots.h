@@ -11,24 +11,24 @@
 
 namespace fsm {
 
-/// The speaking of the face as its slots tell it:
+/// The slots of speech, whose states are:
 ///
 ///     IDLE --LipSync.pho--> PROCESSING --> READY --Speak--> SPEAKING --end or STOP--> IDLE
 ///
-/// `Speak` before the list is remembered and carried out as soon as the list is there. LipSync.pho
-/// while SPEAKING is refused. The end and STOP always report len, utt and IDLE.
+/// `Speak` before LipSync.pho is stored and executed as soon as the phonemes arrive. LipSync.pho
+/// while SPEAKING is an error. The end and STOP always report len, utt and IDLE.
 class SpeechSlots final : public ModulePart {
  public:
   struct Listener {
-    /// SPEAKING was reached; the utterance stands from `start` on, now or just before.
+    /// SPEAKING was entered; the utterance begins at `start`, now or just before.
     std::function<void(vm::Time start)> begun = [](vm::Time) {};
-    std::function<void()> ended = [] {};  ///< IDLE was reached, but not by `Run = INIT`
+    std::function<void()> ended = [] {};  ///< IDLE was entered, but not by `Run = INIT`
   };
   /// Declares the slots. `core` outlives this.
   explicit SpeechSlots(FsmCore& core);
   void set_listener(Listener listener) { listener_ = std::move(listener); }
 
-  /// Speaking, or about to at a time that is known.
+  /// Tells whether it speaks, or will at a known time.
   bool Busy() const { return stat_ == Stat::kSpeaking || (stat_ == Stat::kReady && start_asked_); }
   void Reset() override;
 
@@ -51,11 +51,11 @@ class SpeechSlots final : public ModulePart {
   Listener listener_;
   Stat stat_ = Stat::kIdle;
   vm::PhonemeList list_;
-  std::string text_;               // of the list that comes, or has come and does not sound yet
-  bool start_asked_ = false;       // by Speak, and not over
-  std::optional<vm::Time> start_;  // asked for; none: as soon as the list is there
-  vm::PhonemeList spoken_;         // of the utterance before
-  vm::Timer timer_{core_.clock};   // the start or the end
+  std::string text_;               // of the next utterance, until it starts
+  bool start_asked_ = false;       // by Speak; until the utterance ends
+  std::optional<vm::Time> start_;  // given by Speak; none: as soon as the phonemes arrive
+  vm::PhonemeList spoken_;         // of the previous utterance
+  vm::Timer timer_{core_.clock};   // for the start or the end
 };
 
 }  // namespace fsm

@@ -8,16 +8,17 @@
 
 namespace fsm {
 
-/// The faces there are, and the one that is worn. Thread: the module's.
+/// The available faces, and the one in use ("worn"). Thread: the module's.
 class Wardrobe {
  public:
   virtual ~Wardrobe() = default;
-  /// The faces there are, the one worn at the start first; at least one.
+  /// Returns the available faces, the initial one first; at least one.
   virtual std::vector<std::string> Faces() const = 0;
-  /// Wears one of them from the next drawing or Measure on. Errors: kBadValue listing the names,
-  /// kUnavailable if it cannot be made; the face worn stays on.
+  /// Changes the face from the next drawing or Measure on. Errors: kBadValue listing the names,
+  /// kUnavailable if it cannot be made; the face is then unchanged.
   virtual vm::Result<void> Wear(const std::string& face) = 0;
-  /// What the mouth of a state measures. Error: kUnavailable if the head cannot be made.
+  /// Returns the dimensions of the mouth in a state. Error: kUnavailable if the head cannot be
+  /// made.
   virtual vm::Result<MouthMeasure> Measure(const FaceState& state) = 0;
 };
 
