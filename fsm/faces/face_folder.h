@@ -9,17 +9,17 @@
 
 namespace fsm {
 
-/// Faces from photos (face.txt) and those made of built-in ones (identity.txt) lie in folders of
-/// one folder: $GALATEA_FACES, else $XDG_DATA_HOME/galatea/faces, else
-/// ~/.local/share/galatea/faces.
+/// Returns the folder of faces: $GALATEA_FACES, else $XDG_DATA_HOME/galatea/faces, else
+/// ~/.local/share/galatea/faces. It has a subfolder for each face made from a photo (face.txt) or
+/// from a built-in face (identity.txt).
 std::string FacesFolder();
-/// Letters, digits, - and _, at most 64.
+/// Tells whether a name consists of at most 64 letters, digits, - and _.
 bool IsFaceName(std::string_view name);
-/// The names of those there are, in order; nothing if the folder is not there.
+/// Returns the names of the faces in a folder, sorted; empty if the folder does not exist.
 std::vector<std::string> FacesIn(const std::string& folder);
 
-/// Writes the folder of a face from a photo into `folder` ("" = FacesFolder()), and says where it
-/// is. Errors: kBadValue for another name, kUnavailable. REQUIRES: head.photo
+/// Writes the subfolder of a face from a photo into `folder` ("" = FacesFolder()) and returns its
+/// path. Errors: kBadValue if not IsFaceName, kUnavailable. REQUIRES: head.photo
 vm::Result<std::string> WriteFace(const PhotoHead& head, std::string_view report,
                                   const std::string& folder, const std::string& name);
 

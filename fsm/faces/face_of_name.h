@@ -11,21 +11,21 @@
 
 namespace fsm {
 
-/// How far each unit moves which skin, in place of fsm/head/tables/action_units.txt: what a folder
-/// of tables or of a face says; nothing if it does not. Throws std::runtime_error naming file and
-/// line.
+/// Reads the displacements of units, action_units.txt, from a folder of tables or of a face;
+/// nothing if it has none. They replace fsm/head/tables/action_units.txt. Throws std::runtime_error
+/// naming file and line.
 std::optional<UnitTable> UnitsIn(const TableFolder& folder);
-/// What teeth, ears, lashes and the like are like, in place of fsm/head/tables/features.txt: what a
-/// folder of tables says; null if it does not. Throws as UnitsIn.
+/// Reads the shapes of teeth, ears, lashes and so on, features.txt, from a folder of tables; null
+/// if it has none. They replace fsm/head/tables/features.txt. Throws as UnitsIn.
 std::shared_ptr<const Features> FeaturesIn(const TableFolder& folder);
-/// The same head, moved by other units if there are any.
+/// Returns the head with its units replaced by `units`, if given.
 std::unique_ptr<Head> WithUnits(const std::optional<UnitTable>& units, std::unique_ptr<Head> head);
-/// Whose units move the face kept in `folder`: its own if it has any, else those of `tables`.
+/// Returns the folder whose units apply to the face in `folder`: itself if it has any, else
+/// `tables`.
 TableFolder UnitsFolder(const std::string& folder, const TableFolder& tables);
 
-/// A built-in head, or one out of the folder of faces (FacesFolder). Its units are those of its own
-/// folder, else those of `tables`; its features are those of `tables`. Throws std::runtime_error
-/// with a sentence.
+/// Makes a built-in head or one from FacesFolder. Its units are those of its own folder, else those
+/// of `tables`; its features are those of `tables`. Throws std::runtime_error.
 std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const TableFolder& tables = {});
 
 }  // namespace fsm

@@ -10,19 +10,18 @@
 
 namespace fsm {
 
-/// A folder that keeps heads of files as they were baked, so that the next start need not bake
-/// them: of each a .glb (WriteAsset) and a .txt with what it was made from. A head is baked anew
-/// when that has another size or time: its file, its .points, the files it names, the tables, this
-/// program.
-/// Programs may share a folder; whatever else lies in it is left alone. Limit: kMostHeads, the
-/// oldest go first.
+/// A folder that caches baked heads of files, so that the next start need not bake them: for each a
+/// .glb (WriteAsset) and a .txt that lists its sources, which are its file, its .points, the files
+/// that it names, the tables and this program. A head is baked anew when the size or time of a
+/// source has changed. Programs may share a folder; other files in it are not touched. Limit:
+/// kMostHeads; the oldest are deleted first.
 class HeadCache {
  public:
   static constexpr std::size_t kMostHeads = 32;
-  /// "": nothing is kept. The folder is made when something is.
+  /// `folder`: "" = no caching; created when the first head is stored.
   explicit HeadCache(std::string folder) : folder_(std::move(folder)) {}
-  /// The head of MakeHeadOfFile, kept or made by it. Trouble with what is kept is a notice on
-  /// stderr.
+  /// Returns the head of MakeHeadOfFile, from the cache if possible. Errors of the cache are
+  /// reported on stderr only.
   std::unique_ptr<Head> HeadOfFile(const std::string& path, const TableFolder& tables) const;
 
  private:

@@ -12,22 +12,23 @@
 
 namespace fsm {
 
-/// A head of a file, and what there is to say about it.
+/// A head made from a file, with notices.
 struct FileHead {
   std::unique_ptr<Head> head;
-  std::string notice;                    ///< what it lacks; or nothing
+  std::string notice;                    ///< sentences about what the file lacks; or empty
   std::vector<std::string> named_files;  ///< ImportedHead::named_files
-  bool by_shapes = false;                ///< moved by its own shapes: other units need it made anew
+  bool by_shapes = false;  ///< moved by the file's shapes; for other units it must be made anew
 };
 
-/// A head out of .obj, .glb, .gltf or .vrm. One that ExportHead has written is what it was. Any
-/// other is moved by its own shapes where their names are ARKit's or VRM's, else by ours carried
-/// over with the points of `path`.points; without either only head, eyes and jaw move, and the
-/// notice says so. `units`: in place of those of `tables`. Throws std::runtime_error.
+/// Makes a head from an .obj, .glb, .gltf or .vrm file. A file of ExportHead gives the exported
+/// head. Any other head is moved by its own shapes if these have ARKit's or VRM's names, else by a
+/// rig transferred from a built-in head with the points of `path`.points; without either, only
+/// head, eyes and jaw move, and the notice says so. `units` replaces those of `tables`. Throws
+/// std::runtime_error.
 FileHead MakeHeadOfFile(const std::string& path, const TableFolder& tables,
                         const std::optional<UnitTable>& units = {});
 
-/// Every ARKit shape of the tables as a state of the face.
+/// Returns every ARKit shape of the tables as a state of the face.
 std::vector<ExportedShape> ArkitShapes(const MotionTables& tables);
 
 /// Writes a head with all ARKit shapes; see WriteAsset. Errors: kUnavailable.

@@ -13,8 +13,8 @@
 
 namespace fsm {
 
-/// A face that is made when it is worn. `make` throws std::runtime_error with a sentence; it may be
-/// called on another thread.
+/// A face that is made when it is first used. `make` throws std::runtime_error; it may be called on
+/// another thread.
 struct NamedFace {
   std::string name;
   std::function<std::unique_ptr<Head>()> make;
@@ -23,14 +23,14 @@ struct NamedFace {
 /// The faces of a configuration of the original.
 struct OriginalFaceList {
   std::vector<NamedFace> faces;
-  std::vector<std::string> left_out;  ///< a sentence for each face whose files are not there
+  std::vector<std::string> left_out;  ///< a sentence for each face whose files do not exist
 };
 OriginalFaceList OriginalFaces(std::span<const OriginalFaceFiles> faces,
                                const OriginalSharedFiles& shared, const TableFolder& tables);
 
-/// Looks of whole expressions by FaceExp's name and pattern: those of the files beside the standard
-/// wireframe (AU31.pnt ..., user*.pnt, userdef*.pnt), so that FaceExp shows them on every face.
-/// Those that cannot be read are left out, and a sentence on stderr says so.
+/// Returns the looks of whole expressions from the files beside the standard wireframe (AU31.pnt
+/// ..., user*.pnt, userdef*.pnt), so that FaceExp can show them on every face. Files that cannot be
+/// read are skipped and reported on stderr.
 ExpressionLooks LooksOfExpressions(const OriginalSharedFiles& shared);
 
 }  // namespace fsm
