@@ -14,9 +14,9 @@
 
 namespace fsm {
 
-/// One ffmpeg process: it takes bytes on its standard input, and the last line of its standard
-/// error is kept for messages. No shell is involved, and a process that dies is an error to the
-/// caller, never a signal.
+/// An ffmpeg process that reads bytes from its standard input; the last line of its standard error
+/// is kept for messages. No shell is involved. If the process dies, the caller gets an error, never
+/// a signal.
 /// Lifetime: the destructor kills and reaps a process that has not ended. Thread: one.
 /// Limits:   kStallLimit without taking a byte, or between the last byte and the end; of its
 ///           standard error the last kMaxLineBytes of the last line are kept.
@@ -32,19 +32,20 @@ class FfmpegProcess {
   FfmpegProcess(const FfmpegProcess&) = delete;
   FfmpegProcess& operator=(const FfmpegProcess&) = delete;
 
-  /// Hands all bytes over. Error: kUnavailable if the process ended or stalls; it is then over.
+  /// Writes all bytes to its standard input. Error: kUnavailable if the process has ended or
+  /// stalls; it is then killed.
   vm::Result<void> Write(std::span<const std::uint8_t> bytes);
   /// Makes a Write in another thread fail soon. Thread: any.
   void Abandon() { abandoned_ = true; }
-  /// Closes its input and waits for its end. Error: kUnavailable if it reports failure.
+  /// Closes its input and waits for its exit. Error: kUnavailable if it reports failure.
   vm::Result<void> Finish();
 
  private:
   using Deadline = std::chrono::steady_clock::time_point;
 
   FfmpegProcess(pid_t pid, int input, int errors) : pid_(pid), input_(input), errors_(errors) {}
-  /// Waits until there is something to read, or `for_writing` room to write. False at the deadline
-  /// and when abandoned.
+  /// Waits until standard error or, if `for_writing`, the input is ready. Returns false at the
+  /// deadline or when abandoned.
   bool Wait(bool for_writing, Deadline deadline);
   void ReadErrors();
   std::unexpected<vm::Error> Over(const std::string& what);

@@ -8,7 +8,7 @@
 
 namespace fsm {
 
-/// Writes a film through an ffmpeg process fed with raw frames; .rgba is written without one.
+/// Writes a film through an ffmpeg process that receives raw frames; .rgba is written without one.
 /// Lifetime: Finish() or the destructor ends the process. Without Finish nothing is left at the
 ///           path, but for .rgba, whose frames stand there as soon as they are written.
 /// Deterministic: the same frames give the same bytes (no time stamps, one encoder thread).
@@ -26,11 +26,11 @@ class FilmWriter {
   static vm::Result<std::unique_ptr<FilmWriter>> Open(const std::string& path, int width,
                                                       int height, double frames_per_second,
                                                       const std::string& comment = {});
-  /// Whether the name ends as one of these. Error: kBadValue, as of Open.
+  /// Checks that the path has one of these endings. Error: kBadValue, as of Open.
   static vm::Result<void> CheckName(const std::string& path);
   virtual ~FilmWriter() = default;
-  /// Adds a frame. For ffmpeg it is handed on by another thread: the call blocks only while
-  /// FrameFeeder::kMostWaiting frames wait, and an error may belong to a frame before. An .rgba
+  /// Adds a frame. Another thread passes it to ffmpeg: the call blocks only while
+  /// FrameFeeder::kMostWaiting frames wait, and an error may be that of an earlier frame. An .rgba
   /// frame is written by the caller's thread: the call blocks until the file or the reader of the
   /// pipe has taken all of it. A reader that takes nothing for five seconds is an error. Errors:
   /// kBadValue for a frame of another size than that given at Open, which is left out;
@@ -40,7 +40,8 @@ class FilmWriter {
   /// moved to the path only when complete. Errors: kUnavailable; when only the sound is at fault
   /// the silent film is at the path and the text says so. Takes as long as the encoder needs.
   virtual vm::Result<void> Finish(const std::string& sound_wav) = 0;
-  /// Whether somebody watches the frames as they come, so that none should wait for later ones.
+  /// Tells whether frames are consumed as they arrive, so that none should be delayed until later
+  /// ones.
   virtual bool is_live() const { return false; }
 };
 

@@ -13,26 +13,26 @@
 
 namespace fsm {
 
-/// Hands frames to an ffmpeg process from a thread of its own, so that drawing goes on while the
+/// Writes frames to an ffmpeg process from a separate thread, so that drawing continues while the
 /// encoder works. Frames arrive whole and in order.
 /// Lifetime: `ffmpeg` outlives this and is not to be touched until Close() or the destructor, which
 ///           end the thread. Thread: one caller.
-/// Limits:   kMostWaiting frames wait; Add blocks while there are so many.
+/// Limits: kMostWaiting frames wait; Add blocks while the queue is full.
 class FrameFeeder {
  public:
   static constexpr std::size_t kMostWaiting = 8;
 
   explicit FrameFeeder(FfmpegProcess& ffmpeg) : ffmpeg_(ffmpeg), thread_([this] { Run(); }) {}
-  /// Drops what still waits.
+  /// Drops the waiting frames.
   ~FrameFeeder();
   FrameFeeder(const FrameFeeder&) = delete;
   FrameFeeder& operator=(const FrameFeeder&) = delete;
 
-  /// An empty frame whose memory was used before.
+  /// Returns an empty frame, with the memory of an earlier one if possible.
   std::vector<std::uint8_t> TakeSpare();
-  /// Error: that of a frame before, kUnavailable.
+  /// Error: kUnavailable, which may be that of an earlier frame.
   vm::Result<void> Add(std::vector<std::uint8_t> frame);
-  /// Waits until all frames are handed over. Error as Add.
+  /// Waits until all frames are written. Error: as Add.
   vm::Result<void> Close();
 
  private:

@@ -17,11 +17,12 @@
 
 namespace fsm {
 
-/// Compresses pictures and says them to a program that listens at a Unix socket, from a thread of
-/// its own, so that nobody waits for the receiver: docs/face.md, Pictures for other programs.
+/// Compresses pictures as JPEG and sends them to a program that listens at a Unix socket, from a
+/// separate thread, so that the caller never waits for the receiver. The format is in docs/face.md,
+/// Pictures for other programs.
 /// Ownership: owns its end of the socket. Thread: one caller.
-/// Limits: one picture is being sent and one waits; a receiver that has taken nothing for `stall`
-/// is cut off.
+/// Limits: one picture is being sent and one waits; a receiver that reads nothing for `stall` is
+/// disconnected.
 class PictureSender {
  public:
   static constexpr std::chrono::milliseconds kStall{2000};
@@ -30,23 +31,23 @@ class PictureSender {
   /// Error: kUnavailable if nobody listens at `path`.
   static vm::Result<std::unique_ptr<PictureSender>> Connect(
       const std::string& path, std::chrono::milliseconds stall = kStall);
-  /// Drops what waits.
+  /// Drops the waiting picture.
   ~PictureSender();
   PictureSender(const PictureSender&) = delete;
   PictureSender& operator=(const PictureSender&) = delete;
 
-  /// A picture waits: another one would be late.
+  /// Tells whether a picture is waiting, so that another one would be late.
   bool full();
-  /// The receiver has closed, or was cut off.
+  /// Tells whether the receiver has closed the connection or was disconnected.
   bool gone();
-  /// The picture of the instant `at`, opaque. REQUIRES: not full.
+  /// Queues a picture of the instant `at`; alpha is ignored. REQUIRES: not full.
   void Send(const Image& picture, vm::Time at);
 
  private:
   PictureSender(int fd, std::chrono::milliseconds stall)
       : fd_(fd), stall_(stall), thread_([this] { Run(); }) {}
   void Run();
-  /// False once there is nobody to send to.
+  /// Returns false once the receiver is gone.
   bool SendAll(const std::vector<std::uint8_t>& bytes);
   bool closing();
 
@@ -56,7 +57,7 @@ class PictureSender {
   std::condition_variable changed_;
   // Guarded by mutex_.
   std::optional<std::pair<vm::Time, Image>> waiting_;
-  Image spare_;  // memory that was used before
+  Image spare_;  // reused memory
   bool closing_ = false;
   bool gone_ = false;
   std::thread thread_;  // last: it uses all of the above
