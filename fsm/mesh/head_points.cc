@@ -70,8 +70,8 @@ std::string FormatHeadPoints(const HeadPoints& points) {
 
 namespace {
 
-/// The unit eigenvector of a symmetric matrix with its largest eigenvalue, found by squaring the
-/// matrix: larger eigenvalues grow faster.
+/// Returns the unit eigenvector of a symmetric matrix for its largest eigenvalue, by repeated
+/// squaring (power iteration).
 glm::dvec4 LargestEigenvector(const glm::dmat4& n) {
   double bound = 0;
   for (int c = 0; c < 4; ++c) {

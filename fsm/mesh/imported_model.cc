@@ -18,7 +18,7 @@
 namespace fsm {
 namespace {
 
-/// Numbers of the connected pieces of a part's vertices.
+/// Returns, for each vertex, the number of its connected component.
 std::vector<std::uint32_t> Pieces(std::size_t count, std::span<const std::uint32_t> indices) {
   std::vector<std::uint32_t> parent(count);
   std::iota(parent.begin(), parent.end(), 0U);
@@ -51,7 +51,7 @@ class HeadBuilder {
     if (model_.textures.image) LayDetails();
     model_.has_uv_seams = !file_.texcoord.empty();
     for (const glm::vec3& p : at_) {
-      // The neck gives way below the chin, as ours does.
+      // The neck bends below the chin, as that of the built-in heads.
       model_.Add(p, Bone::kSkin, BasePalette().skin, {}, NeckWeight(p));
     }
     HangSprings();
@@ -73,9 +73,9 @@ class HeadBuilder {
 
   static float NeckWeight(glm::vec3 p) { return SmoothStep(-168, -96, p.y); }
 
-  /// Springs of the head; those of the body, which does not turn, are left out.
+  /// Copies the springs of the head; those of the body, which does not rotate, are left out.
   void HangSprings() {
-    constexpr glm::vec3 kAxis{0, 0, -14};  // of head and neck
+    constexpr glm::vec3 kAxis{0, 0, -14};  // x and z of the axis of head and neck
     std::vector<std::int64_t> number;
     for (Spring spring : file_.swing.springs) {
       spring.rest = to_ours_(spring.rest);
@@ -111,7 +111,7 @@ class HeadBuilder {
     return PartNames::BuiltIn().KindOf(part.name);
   }
 
-  /// Eyes are parts called so, or vertices the file's skeleton gives to eyes.
+  /// Finds the eyes: parts with such names, or vertices that the file's skeleton assigns to eyes.
   void FindEyes() {
     Sided<Box> box;
     eye_.assign(at_.size(), std::nullopt);
@@ -129,7 +129,7 @@ class HeadBuilder {
       const glm::vec3 radii = box[side].radii();
       EyeGeometry& eye = model_.eyes[side];
       eye.ball_radius = std::max(0.5f * (radii.x + radii.y), 1e-6f);
-      // Some files have only the front half of a ball.
+      // Some files have only the front half of an eyeball.
       eye.centre = box[side].centre();
       eye.centre.z = box[side].high.z - eye.ball_radius;
       eye.iris_radius = 0.5f * eye.ball_radius;
@@ -147,7 +147,7 @@ class HeadBuilder {
       }
     }
     for (const Side side : kSides) {
-      // A drawn eye is a disc that turns about a place deep in the head.
+      // The eye of a drawn figure is a disc that rotates about a point deep in the head.
       if (box[side].radii().z < 0.4f * model_.eyes[side].ball_radius) model_.round_eyes = false;
     }
   }
@@ -178,7 +178,7 @@ class HeadBuilder {
     const int pbr = PbrOf(kind, part, pictured);
     if (pbr >= 0) {
       for (const std::uint32_t v : part.indices) {
-        // The picture has the colour, so only the tint is left.
+        // The picture already has the colour, so only the tint is applied.
         const glm::vec3 tint = file_.tint.empty() ? glm::vec3(1) : file_.tint[v];
         model_.albedo[v] = pictured ? tint : tint * part.colour;
       }
@@ -189,8 +189,8 @@ class HeadBuilder {
                    part.indices.begin() + static_cast<std::ptrdiff_t>(part.indices.size() / 3 * 3));
   }
 
-  /// The index in the model of the part's PbrMaterial. Without pictures skin and mouth are lit as
-  /// ours, unless they are toon-shaded.
+  /// Returns the model's index of the part's PbrMaterial. Without pictures, skin and mouth are lit
+  /// as those of the built-in heads, unless they are toon-shaded.
   int PbrOf(PartKind kind, const ImportedHead::Part& part, bool pictured) {
     if (part.pbr < 0) return -1;
     const PbrMaterial& pbr = file_.pbr_materials[static_cast<std::size_t>(part.pbr)];
@@ -259,7 +259,7 @@ class HeadBuilder {
     }
   }
 
-  /// Balls of our own, because helper spheres have no iris; once for both sides.
+  /// Adds our own eyeballs, once for both sides, because helper spheres have no iris.
   void AddBalls() {
     if (balls_) return;
     balls_ = true;
@@ -275,7 +275,7 @@ class HeadBuilder {
   std::vector<glm::vec3> at_;
   std::vector<std::optional<Side>> eye_;  // by vertex
   TextureAtlas atlas_;
-  std::map<int, int> pbr_index_;  // of a material in the model, by that in the file
+  std::map<int, int> pbr_index_;  // file's index -> model's index of a material
   MeshModel model_;
   bool balls_ = false;
 };

@@ -31,7 +31,7 @@ HeadTopology TopologyOf(const MeshModel& model) {
   return topology;
 }
 
-/// Skin outside a ball at rest stays outside, whatever moves it.
+/// Returns the skin near the eyeballs that is outside them at rest, and must remain so.
 std::vector<BallLids::Vertex> LidsOf(const MeshModel& model) {
   constexpr float kReach = 8, kThickness = 0.6F;
   std::vector<BallLids::Vertex> lids;
@@ -48,8 +48,8 @@ std::vector<BallLids::Vertex> LidsOf(const MeshModel& model) {
   return lids;
 }
 
-/// Where a texture is sewn together vertices are doubled; light must not show that. Two at one
-/// place that face the same way share a normal.
+/// Returns for each vertex the one that it shares its normal with: vertices at the same position
+/// that face the same way, so that texture seams are not visible in the shading.
 std::vector<std::uint32_t> NormalTwins(const std::vector<glm::vec3>& position,
                                        const std::vector<glm::vec3>& normal) {
   std::vector<std::uint32_t> order(position.size());
@@ -61,8 +61,8 @@ std::vector<std::uint32_t> NormalTwins(const std::vector<glm::vec3>& position,
   std::vector<std::uint32_t> twin(order.size());
   std::iota(twin.begin(), twin.end(), 0U);
   constexpr float kFacesTheSameWay = 0.5F;  // cosine
-  // The vertices of one place that are no twins of others there. They face different ways, so there
-  // are few; where a damaged file has more they stay alone.
+  // The vertices at one position that are not twins of others there. They face different ways, so
+  // there are few; in a damaged file with more, the rest have no twins.
   constexpr std::size_t kMostWays = 64;
   std::vector<std::uint32_t> firsts;
   for (const std::uint32_t one : order) {
@@ -109,13 +109,13 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology, RigData rig)
   return rig;
 }
 
-/// Light comes into the mouth between the lips: where they part, and the teeth behind them. Less of
-/// it reaches what stands at the sides, and the lower teeth.
+/// Sets what is needed to light the mouth, which light enters between the lips: their gap, and the
+/// teeth behind it. Less light reaches the sides and the lower teeth.
 void FindMouth(const RigData& rig, HeadTopology& topology) {
   if (!rig.lips.measured || rig.lips.seam.empty()) return;
   FindIncisors(rig.rest, rig.bone, topology);
   MouthSlit& mouth = topology.mouth;
-  if (mouth.upper_incisor == mouth.lower_incisor) {  // there are no teeth
+  if (mouth.upper_incisor == mouth.lower_incisor) {  // no teeth
     mouth = {};
     return;
   }

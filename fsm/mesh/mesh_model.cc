@@ -19,7 +19,7 @@ std::uint32_t MeshModel::Add(glm::vec3 p, Bone b, glm::vec3 colour, std::optiona
 
 namespace {
 
-/// The triangles whose corners all belong to bones that `is` accepts.
+/// Returns the triangles whose corners all belong to bones that `is` accepts.
 template <typename Is>
 std::vector<std::uint32_t> TrianglesOf(const MeshModel& model, Is is) {
   std::vector<std::uint32_t> out;
@@ -45,7 +45,7 @@ std::vector<std::uint32_t> MeshModel::EyeTriangles() const {
 }
 
 void MeshModel::AddBall(Side side) {
-  // Rings about the line of sight, one of them the edge of the iris.
+  // Rings about the line of sight; one is the edge of the iris.
   constexpr int kSegments = 32, kIrisRings = 4, kRings = 14;
   const EyeGeometry& eye = eyes[side];
   const float edge = std::asin(std::min(eye.iris_radius / eye.ball_radius, 0.9F));

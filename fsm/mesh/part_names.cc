@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 9> kKindNames{"skin",  "eye",  "teeth", "
 constexpr bool IsCapital(char c) { return c >= 'A' && c <= 'Z'; }
 constexpr bool IsSmall(char c) { return c >= 'a' && c <= 'z'; }
 
-/// In small letters.
+/// Splits a name into words, in lower case.
 std::vector<std::string> WordsOfName(std::string_view name) {
   std::vector<std::string> words;
   char before = ' ';
@@ -32,7 +32,7 @@ std::vector<std::string> WordsOfName(std::string_view name) {
   return words;
 }
 
-/// `pattern`: with * at an end where more may stand.
+/// `pattern`: * at an end matches any text.
 bool Fits(std::string_view pattern, std::string_view word) {
   const bool open_begin = pattern.starts_with('*'), open_end = pattern.ends_with('*');
   if (open_begin) pattern.remove_prefix(1);

@@ -9,7 +9,8 @@
 namespace fsm {
 namespace {
 
-/// Copies a picture to a place of the atlas, in the size given, its edge pixels repeated around it.
+/// Copies a picture into the atlas, scaled to the given size, with its edge pixels repeated around
+/// it.
 void Lay(const Image& picture, glm::ivec2 at, glm::ivec2 size, int rim, Image& atlas) {
   for (int y = -rim; y < size.y + rim; ++y) {
     const int to_y = at.y + y;
@@ -38,8 +39,8 @@ std::size_t TextureAtlas::Add(Image picture) {
 
 std::shared_ptr<const Image> TextureAtlas::Make() {
   if (pictures_.empty()) return nullptr;
-  // In rows, each as high as its highest picture; a rim of repeated edge pixels around each keeps
-  // filtering from mixing neighbours.
+  // Pictures are placed in rows, each as high as its highest picture. A rim of repeated edge pixels
+  // around each prevents filtering from mixing neighbours.
   for (;;) {
     spots_.clear();
     width_ = height_ = 0;

@@ -14,8 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMaxNumbers = 4U << 20;  ///< of one accessor, all its elements together
-constexpr std::size_t kMaxDepth = 64;          ///< of the JSON
+constexpr std::size_t kMaxNumbers = 4U << 20;  ///< per accessor: elements times numbers per element
+constexpr std::size_t kMaxDepth = 64;          ///< nesting of the JSON
 
 const json kNothing = json::object();
 
@@ -25,7 +25,7 @@ std::uint32_t Word(std::string_view bytes, std::size_t at) {
 
 struct Kind {
   std::size_t bytes;
-  double scale;  // of a normalised one
+  double scale;  // divisor of normalised values
   bool sign;
 };
 
@@ -142,7 +142,7 @@ vm::Result<GltfDocument::Chunks> GltfDocument::SplitBinary(std::string_view byte
 }
 
 vm::Result<void> GltfDocument::ParseJson(std::string_view text) {
-  // Deep nesting is the one way JSON can cost more than its length.
+  // Deep nesting is limited because it costs stack, out of proportion to the length of the JSON.
   const auto shallow = [](int depth, json::parse_event_t, json&) {
     return depth <= static_cast<int>(kMaxDepth);
   };
@@ -290,7 +290,7 @@ vm::Result<std::vector<double>> GltfDocument::Values(std::int64_t index, int wid
     return Wrong(place + ": " + std::to_string(width) + " numbers of a known kind expected");
   }
   const auto numbers = static_cast<std::size_t>(width);
-  // A few bytes can announce any count: without a bufferView all of them are zeros.
+  // An accessor without a bufferView is all zeros, so a small file can declare any count.
   if (static_cast<std::size_t>(count) > kMaxNumbers / numbers) {
     return vm::Fail(vm::Errc::kLimit, name_ + ": " + place + ": more than " +
                                           std::to_string(kMaxNumbers) + " numbers");

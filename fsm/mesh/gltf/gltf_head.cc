@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Reads one document; what is wrong with it is thrown as a vm::Failure.
+/// Reads one document. Throws vm::Failure.
 class GltfReader {
  public:
   explicit GltfReader(GltfDocument document)
@@ -87,7 +87,7 @@ class GltfReader {
                      const std::vector<std::string>& names) {
     const json& attributes = JsonMember(primitive, "attributes");
     const std::int64_t position = JsonInteger(attributes, "POSITION");
-    // Without a fallback the accessors of packed geometry are there, but point to nothing.
+    // Without a fallback the accessors of compressed geometry exist, but have no data.
     if (JsonMember(primitive, "extensions").contains("KHR_draco_mesh_compression") &&
         !document_.At("accessors", position).contains("bufferView")) {
       Refuse(document_, "meshes[" + std::to_string(place.mesh) + "]: " + kPackedMesh);
@@ -108,13 +108,13 @@ class GltfReader {
     if (!part.indices.empty()) head_.parts.push_back(std::move(part));
   }
 
-  /// Vertices of the head that one set of attributes has become, under one node.
+  /// The vertices of the head made from one set of attributes under one node.
   struct VertexRun {
     std::size_t first = 0, count = 0;
-    bool mirrored = false;  // by the node: its triangles are seen from the other side
+    bool mirrored = false;  // the node's matrix mirrors, which reverses triangles
   };
 
-  /// The triangles of a primitive, counter-clockwise from outside.
+  /// Returns the triangles of a primitive, counter-clockwise from outside.
   std::vector<std::uint32_t> TrianglesOf(const json& primitive, const GltfPlace& place,
                                          const VertexRun& run) const {
     std::vector<std::uint32_t> indices(run.count);
@@ -172,7 +172,7 @@ class GltfReader {
     return {first, count, count > 0 && glm::determinant(glm::mat3(transforms[0])) < 0};
   }
 
-  /// Which eye a bone belongs to, as ImportedHead::eye says it.
+  /// Returns the eye that a bone belongs to.
   std::optional<Side> EyeOfBone(std::int64_t bone) const {
     if (bone < 0) return std::nullopt;
     const auto is = [this, bone](Side side) { return bone == avatar_.eye_bone[side]; };
@@ -226,7 +226,7 @@ class GltfReader {
   GltfPaint paint_;
   GltfTargets targets_;
   std::map<std::int64_t, GltfSkin> skins_;
-  std::map<std::string, VertexRun> runs_;  // by node, accessors and place of the picture, as JSON
+  std::map<std::string, VertexRun> runs_;  // by node, accessors and texture coordinates, as JSON
   std::size_t triangles_ = 0;
 };
 

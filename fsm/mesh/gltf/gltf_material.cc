@@ -26,8 +26,8 @@ GltfMaterial::Texture TextureOf(const json& of, const char* key, const char* str
           static_cast<float>(std::clamp(JsonNumber(given, strength, 1), -4.0, 4.0)), &given};
 }
 
-/// Between which cosines a drawn figure goes from shade to light: below -1 + toony - shift it is
-/// all shade, above 1 - toony - shift all light (VRMC_materials_mtoon 1.0, "Lighting").
+/// Sets the cosines between which toon shading changes from shade to light: below -1 + toony -
+/// shift it is all shade, above 1 - toony - shift all light (VRMC_materials_mtoon 1.0, "Lighting").
 void SetEdges(double toony, double shift, PbrMaterial& pbr) {
   pbr.shade_to = static_cast<float>(-1 + toony - shift);
   pbr.light_from = static_cast<float>(1 - toony - shift);
@@ -42,8 +42,8 @@ void ReadToon(const json& toon, GltfMaterial& out) {
   out.glow = TextureOf(toon, "shadeMultiplyTexture");
 }
 
-/// Properties of the shader of Unity's MToon as VRM 0.x has them. Its numbers lie between the shade
-/// threshold and that moved towards 1 by what is not toony; colours are those of the screen.
+/// Reads the properties of Unity's MToon shader in VRM 0.x. Its transition is from the shade
+/// threshold to that threshold moved towards 1 by 1 - toony; colours are sRGB.
 void ReadOldToon(const json& properties, GltfMaterial& out) {
   PbrMaterial& pbr = out.pbr.emplace();
   pbr.kind = PbrMaterial::Kind::kToon;
@@ -79,7 +79,7 @@ GltfMaterial ReadMaterial(const GltfDocument& document, std::int64_t material) {
   const json& extensions = JsonMember(given, "extensions");
   const json& old = OldProperties(document, material);
   const std::string shader = JsonText(old, "shader");
-  // Drawn figures often say that they are unlit, too, for programs that do not know MToon.
+  // Toon materials are often marked unlit as well, for programs without MToon.
   if (extensions.contains("VRMC_materials_mtoon")) {
     ReadToon(JsonMember(extensions, "VRMC_materials_mtoon"), out);
   } else if (shader == "VRM/MToon") {

@@ -34,7 +34,7 @@ glm::mat4 MatrixOf(const json& node) {
   return m;
 }
 
-/// What no number of a file may make of a place.
+/// Tells whether all numbers of a transformation are finite.
 bool Usable(const glm::mat4& m) {
   for (int c = 0; c < 4; ++c) {
     for (int r = 0; r < 4; ++r) {
@@ -96,7 +96,7 @@ vm::Result<void> GltfNodes::Place(const GltfDocument& document, std::int64_t nod
 }
 
 void GltfNodes::Show(const GltfDocument& document, std::int64_t node, std::vector<bool>& seen) {
-  // Those that go round in a ring stand under no root and were left out by Place.
+  // Nodes in a cycle are under no root, so Place did not reach them.
   if (node < 0 || static_cast<std::size_t>(node) >= seen.size()) return;
   const auto at = static_cast<std::size_t>(node);
   if (seen[at] || !placed_[at]) return;

@@ -19,7 +19,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMaxPictures = 64;
-constexpr std::size_t kMaxDetailed = 16;  // materials whose light has pictures
+constexpr std::size_t kMaxDetailed = 16;  // materials with textures beside their picture
 constexpr int kOpaque = -1, kSmooth = 256;
 
 glm::vec4 FactorOf(const json& material) {
@@ -33,7 +33,7 @@ const json& TextureOf(const json& material) {
   return JsonMember(JsonMember(material, "pbrMetallicRoughness"), "baseColorTexture");
 }
 
-/// A picture's byte times a factor of light.
+/// Returns, for each sRGB byte, the byte multiplied by a factor in linear light.
 std::array<std::uint8_t, 256> Dimmed(float factor) {
   std::array<std::uint8_t, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -220,7 +220,7 @@ ImportedHead::Detail GltfPaint::DetailOf(const GltfMaterial& given, const GltfUv
 int GltfPaint::Picture(const Key& key, glm::vec4 factor, ImportedHead::Detail detail) {
   int& known = picture_of_.emplace(key, -1).first->second;
   if (head_.pictures.size() >= kMaxPictures) return known;
-  // A picture that cannot be read leaves the colour; the form is still worth showing.
+  // If a picture cannot be read, the part keeps its colour; its shape is still shown.
   std::optional<Image> picture;
   if (const std::int64_t image = std::get<0>(key); image >= 0) {
     picture = Decode(image);

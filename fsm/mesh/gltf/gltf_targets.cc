@@ -89,10 +89,10 @@ void GltfTargets::AddBind(ImportedHead::Shape& shape, const VrmAvatar::Bind& bin
   for (const Moved& moved : found->second) {
     if (bind.node >= 0 && moved.node != bind.node) continue;
     for (const auto& delta : head_.shapes[moved.shape].deltas) {
-      // Targets of the same name on several meshes are one shape; only this mesh's is meant.
+      // Targets of the same name in several meshes form one shape; the bind is to this mesh only.
       if (delta.vertex < moved.first || delta.vertex >= moved.end) continue;
       if (++deltas_ > kMaxDeltas) return;
-      // VRM has weights from 0 to 1; what is far beyond is a damaged file, not a wish.
+      // Weights in VRM are from 0 to 1; values far beyond indicate a damaged file.
       const auto weight = static_cast<float>(std::clamp(bind.weight, -10.0, 10.0));
       shape.deltas.push_back({delta.vertex, weight * delta.by});
     }

@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Degrees; what is no angle of an eye is left as it was.
+/// Reads a range in degrees; leaves `out` unchanged if a number is not a valid angle.
 void ReadRange(const json& range, const char* from, const char* to, GazeRange& out) {
   const double gaze = JsonNumber(range, from, -1), turn = JsonNumber(range, to, -1);
   if (gaze <= 0 || gaze > 360 || turn < 0 || turn > 360) return;
@@ -73,7 +73,7 @@ void ReadNew(const GltfDocument& document, const json& vrm, VrmAvatar& avatar) {
   }
 }
 
-/// Bones called "LeftEye", "Eye_L", "mixamorig:RightEye" and the like.
+/// Finds eye bones by names such as "LeftEye", "Eye_L" or "mixamorig:RightEye".
 void FindByName(const GltfDocument& document, VrmAvatar& avatar) {
   for (std::size_t s = 0; s < document.Count("skins"); ++s) {
     const json& skin = document.At("skins", static_cast<std::int64_t>(s));

@@ -13,7 +13,7 @@ using nlohmann::json;
 
 constexpr double kStepsPerSecond = 60;
 constexpr float kShortest = 0.01f;   // metres
-constexpr float kEndLength = 0.07f;  // of the last joint of a chain of VRM 0.x, metres
+constexpr float kEndLength = 0.07f;  // metres; length of a chain's last joint in VRM 0.x
 constexpr int kMostJoints = 100;     // of a chain
 
 Spring SpringOf(glm::vec3 from, glm::vec3 tail, double stiffness, double gravity, double drag,
@@ -72,7 +72,7 @@ void VrmSprings::ReadNew(const json& extension) {
     for (std::size_t k = 0; k < joints.size(); ++k) {
       const std::int64_t node = JsonInteger(joints[k], "node");
       if (!nodes_->Has(node) || joints_.contains(node) || springs_.size() >= kMostSprings) break;
-      if (k + 1 == joints.size()) {  // the last one only says where the one before ends
+      if (k + 1 == joints.size()) {  // the last one only marks the end of the one before
         if (k > 0) joints_.emplace(node, Joint{.spring = above.spring, .before = above.spring});
         break;
       }
@@ -89,7 +89,7 @@ void VrmSprings::ReadNew(const json& extension) {
 
 void VrmSprings::ReadOld(const json& animation) {
   for (const json& group : JsonMember(animation, "boneGroups")) {
-    const Manner manner{.stiffness = JsonNumber(group, "stiffiness", 1),  // spelt so in the format
+    const Manner manner{.stiffness = JsonNumber(group, "stiffiness", 1),  // spelling of the format
                         .gravity = JsonNumber(group, "gravityPower", 0),
                         .drag = JsonNumber(group, "dragForce", 0.4),
                         .collides = !JsonMember(group, "colliderGroups").empty()};
@@ -124,7 +124,7 @@ void VrmSprings::Bind(std::uint32_t vertex, glm::vec3 p, std::int64_t node, floa
     if (spring >= 0 && part > 1e-3f)
       weights.push_back({vertex, static_cast<std::uint32_t>(spring), part});
   };
-  if (joint.before == joint.spring) {  // the end of a chain goes with the joint before
+  if (joint.before == joint.spring) {  // the end of a chain follows the joint before
     add(joint.spring, weight);
     return;
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxCorners = 64;
 
-/// The numbers after a line's first word.
+/// Parses the numbers after a line's first word. Returns false if they are too few or malformed.
 bool ReadReals(const std::vector<std::string_view>& words, std::span<float> out) {
   if (words.size() <= out.size()) return false;
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -24,7 +24,7 @@ bool ReadReals(const std::vector<std::string_view>& words, std::span<float> out)
   return true;
 }
 
-/// An index counted from 1, or from -1 backwards; kNone if it points nowhere.
+/// Parses an index counted from 1, or from -1 backwards; returns kNone if it is out of range.
 std::uint32_t Index(std::string_view word, std::size_t count) {
   const auto value = ParseNumber<long>(word);
   if (!value) return ObjFile::kNone;
@@ -86,7 +86,7 @@ class ObjReader {
     if (words.size() < 4 || words.size() > kMaxCorners + 1) {
       return Wrong("f with 3 to " + std::to_string(kMaxCorners) + " corners expected");
     }
-    // The original's teeth end in faces of zeros, which join nothing.
+    // The original's files of teeth end in faces of zeros, which refer to no vertices.
     if (words[1].substr(0, words[1].find('/')) == "0") return {};
     std::vector<ObjFile::Corner> corners;
     for (std::size_t i = 1; i < words.size(); ++i) {
@@ -129,7 +129,7 @@ class ObjReader {
   ObjFile file_;
   std::string group_, material_;
   std::map<std::pair<std::string, std::string>, std::size_t> known_;
-  ObjFile::Group* open_ = nullptr;  // valid until another group is made
+  ObjFile::Group* open_ = nullptr;  // valid until a group is added
   std::size_t triangles_ = 0;
   int line_ = 0;
 };

@@ -13,7 +13,7 @@ glm::vec3 Linear(glm::vec3 screen) {
   return screen * (screen * (screen * 0.305306f + 0.682171f) + 0.012523f);
 }
 
-/// Makes a head of an .obj file and what lies beside it.
+/// Makes a head from an .obj file, its materials and pictures.
 class ObjHead {
  public:
   ObjHead(const std::string& path, const ObjFile& obj) : path_(path), obj_(obj) {
@@ -32,7 +32,7 @@ class ObjHead {
       const auto beside = FileBeside(path_, library);
       if (!beside) continue;
       head_.named_files.push_back(*beside);
-      // A head without its library still has its form.
+      // A head without its material library still has its shape.
       if (const auto text = vm::ReadTextFile(*beside, 1U << 22)) materials_.merge(ParseMtl(*text));
     }
   }
@@ -53,7 +53,7 @@ class ObjHead {
 
   bool HasTexcoords() const { return !obj_.texcoords.empty(); }
 
-  /// The picture's index; -1 if it cannot be read or is one too many.
+  /// Returns the picture's index; -1 if it cannot be read or there are too many.
   int PictureOf(const std::string& file) {
     constexpr std::size_t kMostPictures = 64;
     const auto [known, fresh] = pictures_.try_emplace(file, -1);

@@ -14,7 +14,7 @@ LipRig LipsOf(const MeshModel& model, std::size_t count) {
   for (const auto& [upper, lower] : rig.seam) {
     rig.apart_at_rest.push_back(model.position[upper] - model.position[lower]);
   }
-  // Along the surface, because across the slit the other lip is as near.
+  // Measure along the surface, because across the slit the other lip is as near.
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (const auto& batch : model.batches) {
     if (batch.material != Material::kSkin && batch.material != Material::kLip) continue;
@@ -25,9 +25,9 @@ LipRig LipsOf(const MeshModel& model, std::size_t count) {
   const Neighbours next = NeighboursAlongEdges(model.position.size(), triangles);
   std::vector<std::uint32_t> pairs;
   for (std::uint32_t k = 0; k < rig.seam.size(); ++k) {
-    if (rig.seam[k].first != rig.seam[k].second) pairs.push_back(k);  // else a corner
+    if (rig.seam[k].first != rig.seam[k].second) pairs.push_back(k);  // equal at the corners
   }
-  constexpr float kReach = 11;  // millimetres from the seam
+  constexpr float kReach = 11;  // mm; greatest distance from the seam
   for (const bool upper : {true, false}) {
     std::vector<std::uint32_t> edge;
     for (const std::uint32_t k : pairs) {

@@ -15,10 +15,10 @@
 namespace fsm {
 namespace {
 
-/// An expression whose remainder moves no vertex so far gets no channel, millimetres.
+/// A residual that moves no vertex by at least this gets no channel, millimetres.
 constexpr float kLeastResidualMm = 0.4F;
 
-/// FaceExp's name, and how the files of its patterns begin and are numbered.
+/// The name of an expression, with the prefix and the numbers of its patterns' files.
 struct Files {
   const char* name;
   const char* stem;
@@ -43,7 +43,7 @@ class Reader {
   Reader(const std::string& folder, const std::string& path, PntFile standard)
       : folder_(folder), path_(path), standard_(std::move(standard)), space_(standard_) {}
 
-  /// Throws vm::Failure with what it cannot read.
+  /// Throws vm::Failure for a file that cannot be read.
   OriginalExpressions Read() {
     ReadUnits();
     for (const Files& files : kFiles) {
@@ -60,7 +60,7 @@ class Reader {
   }
 
  private:
-  /// Offsets by the standard wireframe's points, three numbers each, in millimetres.
+  /// Returns the offsets of the standard wireframe's points, three numbers each, in millimetres.
   NnlsSolver::Row Offsets(const std::string& path, const PntFile& file) const {
     NnlsSolver::Row row;
     row.reserve(3 * standard_.names.size());
@@ -95,10 +95,11 @@ class Reader {
     units_ = NnlsSolver(std::move(halves));
   }
 
-  /// Without its name.
+  /// Reads an expression; its name is not set.
   const OriginalExpression& ReadOne(const std::string& path) {
     std::string text = vm::OrThrow(vm::ReadTextFile(path, kMaxPntBytes));
-    // A user's expressions begin as copies of the standard ones.
+    // Identical files are read once, since the expressions of users begin as copies of the standard
+    // ones.
     if (const auto known = seen_.find(text); known != seen_.end()) return known->second;
     const PntFile file = vm::OrThrow(ParsePnt(path, text));
     return seen_.emplace(std::move(text), TakeApart(Offsets(path, file), path)).first->second;
@@ -135,8 +136,8 @@ class Reader {
   const std::string& path_;
   const PntFile standard_;
   const OriginalSpace space_;
-  NnlsSolver units_;                                // right and left half of each
-  std::map<std::string, OriginalExpression> seen_;  // by the content of their file
+  NnlsSolver units_;                                // the keys: right and left half of each unit
+  std::map<std::string, OriginalExpression> seen_;  // by file content
   OriginalExpressions out_;
 };
 

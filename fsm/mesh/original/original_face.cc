@@ -19,9 +19,9 @@ constexpr std::size_t kEyeDefBytes = 29 * sizeof(double);
 
 using Offsets = std::vector<std::vector<glm::vec3>>;
 
-// The readers below throw vm::Failure with what they cannot read.
+// The readers below throw vm::Failure for a file that cannot be read.
 
-/// The parts of the expressions that no units can show, brought to the face's vertices.
+/// Reads the residuals of the expressions, as offsets of the face's vertices.
 Offsets ReadResiduals(const PntFile& wireframe, const OriginalSharedFiles& shared) {
   Offsets all;
   const auto read = vm::OrThrow(ReadOriginalExpressions(shared.offsets, shared.standard));
@@ -35,7 +35,8 @@ Offsets ReadResiduals(const PntFile& wireframe, const OriginalSharedFiles& share
   return all;
 }
 
-/// The offset files of one folder, over the standard wireframe, brought to the face's vertices.
+/// Reads the offset files of one folder, which belong to the standard wireframe, as offsets of the
+/// face's vertices.
 Offsets ReadOffsets(const PntFile& wireframe, const std::string& stem, std::size_t count) {
   Offsets all;
   for (std::size_t i = 1; i <= count; ++i) {
@@ -80,10 +81,10 @@ void ReadMouth(const OriginalFaceFiles& files, const OriginalSharedFiles& shared
     sum += glm::dvec3(wall.rgba[i], wall.rgba[i + 1], wall.rgba[i + 2]);
   }
   const glm::vec3 mean(sum / (255.0 * static_cast<double>(wall.rgba.size() / 4)));
-  face.mouth = mean * mean;  // near enough to linear light
+  face.mouth = mean * mean;  // approximately linear light
 }
 
-/// Every corner of the triangles must be a point of the wireframe.
+/// Checks that every corner of the triangles is a point of the wireframe.
 void CheckCorners(const std::string& name, const PntFile& wireframe, const LnkFile& link,
                   const std::string& link_name) {
   for (const auto& triangle : link.triangles) {
@@ -96,7 +97,7 @@ void CheckCorners(const std::string& name, const PntFile& wireframe, const LnkFi
   }
 }
 
-/// Little-endian. REQUIRES: eight bytes from `at` on.
+/// Returns a little-endian double. REQUIRES: eight bytes from `at` on.
 double DoubleAt(std::string_view bytes, std::size_t at) {
   std::uint64_t bits = 0;
   for (std::size_t k = 8; k-- > 0;) {
@@ -114,7 +115,7 @@ vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes) 
                                              " bytes (29 doubles) are expected");
   }
   EyeDef def;
-  // The numbers that are read, by their index; an eye has seven of them in either half of the file.
+  // The numbers in use, with their index in the file, each half of which has seven for an eye.
   std::vector<std::pair<std::size_t, float*>> used{{28, &def.picture_scale}};
   for (const Side side : kSides) {
     EyeDef::Eye& eye = def.eye[side];

@@ -17,7 +17,7 @@
 namespace fsm {
 namespace {
 
-/// Builds the model part by part, in our space.
+/// Builds the model part by part, in our frame.
 class OriginalBuilder {
  public:
   explicit OriginalBuilder(const OriginalFace& face) : face_(face), space_(face.wireframe) {}
@@ -63,8 +63,8 @@ class OriginalBuilder {
     }
   }
 
-  /// Wireframes leave a slit of a hair between lips that are shut, or let them cross by one; teeth
-  /// would be seen through it.
+  /// Closes lips at rest: wireframes leave a gap or an overlap of less than a millimetre, through
+  /// which teeth would be visible.
   static void ShutAtRest(glm::vec3& upper, glm::vec3& lower) {
     constexpr float kHairMm = 0.8F;
     if (std::abs(upper.y - lower.y) > kHairMm) return;
@@ -73,7 +73,8 @@ class OriginalBuilder {
     lower = glm::vec3(middle, lower.z);
   }
 
-  /// A bag behind the lips' rim, its upper half of the skull, its lower half of the jaw.
+  /// Adds the inside of the mouth, a bag behind the rim of the lips: the upper half belongs to the
+  /// skull, the lower half to the jaw.
   void AddMouth() {
     std::vector<std::uint32_t> rim;
     for (const PointName& name : kLipRim) rim.push_back(Vertex(name));
@@ -124,10 +125,10 @@ class OriginalBuilder {
     }
   }
 
-  /// The eyeball of the configuration. Its picture is laid on it from the front.
+  /// Adds the eyeball of the configuration, with its picture projected from the front.
   void AddOwnEye(Side side, std::size_t picture) {
     const EyeDef& def = *face_.eye_def;
-    // Right and left are told apart by where they lie, not by what the file calls them.
+    // Right and left follow from the positions, not from the order in the file.
     const bool right = (def.eye.right.place.x < def.eye.left.place.x) == (side == Side::kRight);
     const EyeDef::Eye& eye = right ? def.eye.right : def.eye.left;
     const glm::vec3 turn = glm::radians(eye.turn_degrees);
@@ -157,7 +158,7 @@ class OriginalBuilder {
     }
   }
 
-  /// Behind each rim of lids, so that nothing is seen past the ball.
+  /// Adds a surface behind each lid rim, so that nothing is visible past the eyeball.
   void AddSockets() {
     for (const Side side : kSides) {
       const glm::vec3 centre = model_.eyes[side].centre;
@@ -177,10 +178,11 @@ class OriginalBuilder {
     }
   }
 
-  /// Teeth fill the mouth as in the original: an arch as wide as the jaw, each row as high as the
-  /// gum behind its lip has room, front teeth at the depth of the mouth's corners, and both rows
-  /// meet just above the upper lip's edge. The original leaves the arch as deep as its object is,
-  /// which no face shows; here it shrinks with the width, so that it stays within narrow jaws.
+  /// Adds a row of teeth, placed as in the original: an arch as wide as the jaw, each row as high
+  /// as the space behind its lip, the front teeth at the depth of the corners of the mouth; the
+  /// rows meet just above the edge of the upper lip. The original keeps the depth of the arch,
+  /// which is not visible; here it is scaled with the width, so that the arch fits into narrow
+  /// jaws.
   void AddTeeth(const ObjFile& teeth, Bone bone) {
     const auto at = [this](PointName name) {
       return face_.wireframe.at[face_.wireframe.index.at(name)];
@@ -207,8 +209,8 @@ class OriginalBuilder {
     }
   }
 
-  /// The original's lamp shows four fifths of the teeth's colour at three quarters of its distance,
-  /// and a little of its own (GL's default material), as values of the screen; ours is linear.
+  /// Returns the linear colour that teeth have in the original: its lamp gives four fifths of their
+  /// colour at three quarters of its distance, plus the ambient of GL's default material, in sRGB.
   glm::vec3 ShownTeeth() const {
     glm::vec3 shown;
     for (int i = 0; i < 3; ++i) {

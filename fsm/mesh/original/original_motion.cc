@@ -14,17 +14,17 @@
 namespace fsm {
 namespace {
 
-/// The part of a viseme's offsets that full articulation shows. The original shows all of them at a
-/// MouthScale of 100; its default of 30 counts as three quarters of full articulation here.
+/// The factor on a viseme's offsets at full articulation. The original applies the whole offsets at
+/// a MouthScale of 100; its default of 30 is three quarters of full articulation here.
 constexpr float kVisemePart = 0.4f;
 
 class OriginalRigBaker {
  public:
   OriginalRigBaker(const OriginalFace& face, const MeshModel& model)
       : face_(face), model_(model), own_(face.wireframe) {
-    // Units belong to the standard wireframe and grow with the face, so that its lids meet: across
-    // with the distance of the eyes, up and down with the height from eyes to mouth. Mouths are
-    // added as they are, as in the original: those of small faces move more.
+    // Units belong to the standard wireframe and are scaled with the face, so that its lids meet:
+    // in x with the distance of the eyes, in y with the height from eyes to mouth. Offsets of
+    // mouths are not scaled, as in the original: small faces move theirs relatively more.
     const OriginalSpace standard(face.standard);
     const auto height = [](const OriginalSpace& space, const PntFile& file) {
       return space.EyeOpening(file, Side::kRight).y - space.Place(file, kLipMiddle).y;
@@ -81,7 +81,8 @@ class OriginalRigBaker {
     return channel;
   }
 
-  /// Units as they are asked for: the original's add up, ours damp and oppose each other.
+  /// Adds the channels of units. They follow the commanded strengths, because the original's units
+  /// add up, while ours damp and oppose each other.
   void AddUnits() {
     const float middle = 0.5f * (own_.Place(face_.wireframe, kLipCorners.right).x +
                                  own_.Place(face_.wireframe, kLipCorners.left).x);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMaxName = 9999;
 
-/// Lines of numbers; ended by LF, CR or both.
+/// Reads lines of numbers, ended by LF, CR or both.
 class NumberLines {
  public:
   NumberLines(const std::string& name, std::string_view text) : name_(name), text_(text) {}
@@ -53,7 +53,7 @@ class NumberLines {
   }
 
  private:
-  /// The words of the next line that has any; none at the end.
+  /// Returns the words of the next line that has any; empty at the end.
   std::vector<std::string_view> Next() {
     constexpr std::size_t kMaxWords = 13;
     std::vector<std::string_view> words;

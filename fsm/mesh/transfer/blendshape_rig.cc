@@ -18,7 +18,7 @@ using Moves = std::vector<Displacement>;
 
 constexpr float kMostOfShape = 1.5f;
 
-/// What moves the face's skin.
+/// Returns the rig of a head with only the steps that move the face's skin.
 Rig FaceOnly(const Head& head) {
   using enum RigStep;
   RigData rig = head.rig().data();
@@ -28,10 +28,11 @@ Rig FaceOnly(const Head& head) {
   return Rig(std::move(rig));
 }
 
-/// Says how strong each shape must be to look like a head in a state. For baking: this is slow.
+/// Finds the weights of shapes that reproduce a head in a state. Slow; for baking.
 class ShapeSolver {
  public:
-  /// `source` says what the shapes look like, `moved`, of the same form, what the states do.
+  /// `source` defines the displacements of the shapes, `moved`, which has the same form, those of
+  /// the states.
   ShapeSolver(const Head& source, const Head& moved)
       : source_(FaceOnly(source)), moved_(FaceOnly(moved)) {
     HeadVertices vertices;
@@ -40,7 +41,7 @@ class ShapeSolver {
     ChooseProbes(SkinTriangles(source.topology()));
   }
 
-  /// The next shape looks as the source does in this state.
+  /// Adds a shape, which looks as `source` does in this state.
   void Add(const FaceState& meaning) {
     ProbeMotion motion = MotionOf(source_, meaning);
     opens_mm_.push_back(OpensOnlyMouth(motion.moves) ? motion.gap_mm : 0.0f);
@@ -48,7 +49,7 @@ class ShapeSolver {
     mix_.reset();
   }
   std::size_t count() const { return keys_.size(); }
-  /// Whether the shape opens the mouth and moves nothing else.
+  /// Tells whether a shape only opens the mouth.
   bool Opens(std::size_t shape) const { return opens_mm_[shape] > 0; }
 
   std::vector<float> Solve(const FaceState& state) {
@@ -58,7 +59,8 @@ class ShapeSolver {
     HoldShut(motion.gap_mm, weights);
     return weights;
   }
-  /// Which part of a state's movement the shapes can show together, 0..1 of its squares.
+  /// Returns the part of a state's movement that the shapes can reproduce, 0..1 of its sum of
+  /// squares.
   float PartShown(const FaceState& state) {
     if (!mix_) mix_.emplace(keys_);
     const NnlsSolver::Row moves = MotionOf(moved_, state).moves;
@@ -70,11 +72,11 @@ class ShapeSolver {
 
  private:
   struct ProbeMotion {
-    NnlsSolver::Row moves;  ///< of the probes
-    float gap_mm;           ///< between the lips
+    NnlsSolver::Row moves;  ///< displacements of the probes
+    float gap_mm;           ///< gap between the lips
   };
 
-  /// Some vertices of the face, a few millimetres from each other.
+  /// Selects vertices of the face that are a few millimetres apart.
   void ChooseProbes(std::span<const std::uint32_t> skin) {
     constexpr float kApart = 5;
     for (const std::uint32_t v : skin) {
@@ -102,7 +104,7 @@ class ShapeSolver {
     return motion;
   }
 
-  /// Whether all that a state moves lies below the nose.
+  /// Tells whether a state moves only vertices below the nose.
   bool OpensOnlyMouth(const NnlsSolver::Row& look) const {
     constexpr float kBelow = -10, kRest = 0.1f;
     float above = 0, all = 0;
@@ -113,8 +115,9 @@ class ShapeSolver {
     return above < kRest * all;
   }
 
-  /// Few shapes mixed to a mouth that is shut are as near to it a little open, but p, b and m must
-  /// shut: what opens nothing but the mouth opens it no wider than ours.
+  /// For a closed mouth, a combination with the lips slightly open may fit as well, but p, b and m
+  /// must close. Shapes that only open the mouth are therefore limited so that it opens no wider
+  /// than in `moved`.
   void HoldShut(float wanted_mm, std::vector<float>& weights) const {
     float open = 0;
     for (std::size_t k = 0; k < weights.size(); ++k) open += weights[k] * opens_mm_[k];
@@ -125,11 +128,11 @@ class ShapeSolver {
   }
 
   Rig source_, moved_;
-  HeadVertices vertices_;  // of the state looked at last
+  HeadVertices vertices_;  // of the state evaluated last
   std::vector<glm::vec3> rest_;
   std::vector<std::uint32_t> probes_;
   std::vector<NnlsSolver::Row> keys_;
-  std::vector<float> opens_mm_;  // of each shape that moves only the mouth, else 0
+  std::vector<float> opens_mm_;  // by shape; 0 unless it only opens the mouth
   std::optional<NnlsSolver> mix_;
 };
 
@@ -137,13 +140,13 @@ class ShapeSolver {
 struct KnownShapes {
   std::vector<std::string> names;
   std::vector<Moves> moves;
-  std::map<std::string, Moves, std::less<>> gazes;  ///< those by which eyes are turned
-  std::vector<std::string> unused;                  ///< names, as the file has them, of all others
+  std::map<std::string, Moves, std::less<>> gazes;  ///< shapes that move the eyes
+  std::vector<std::string> unused;                  ///< names, as in the file, of all others
 };
 
 constexpr const char* kGazeShapes[] = {"vrmlookleft", "vrmlookright", "vrmlookup", "vrmlookdown"};
 
-/// What one side of a face does in a state.
+/// Returns the state with only one side of the face active.
 FaceState OnlyOn(Side side, FaceState state) {
   const Side other = side == Side::kLeft ? Side::kRight : Side::kLeft;
   state.au[other] = {};
@@ -152,7 +155,7 @@ FaceState OnlyOn(Side side, FaceState state) {
   return state;
 }
 
-/// Finds what the shapes of a file stand for, by their plain names.
+/// Finds the meanings of a file's shapes by their normalised names.
 class MeaningFinder {
  public:
   MeaningFinder(const ImportedHead& file, std::span<const ShapeMeaning> meanings) {
@@ -163,12 +166,13 @@ class MeaningFinder {
 
   std::optional<FaceState> Of(const std::string& name) const {
     if (const auto found = states_.find(name); found != states_.end()) return *found->second;
-    // Avatars made for face tracking have expressions called as ARKit's shapes.
+    // Avatars made for face tracking have expressions with the names of ARKit's shapes.
     if (name.starts_with("vrm")) {
       const std::string own = name.substr(3);
       return Given(own) ? std::nullopt : Of(own);
     }
-    // The left or right half of a shape that ARKit has once, unless the file has the whole as well.
+    // The left or right half of a shape that ARKit does not split, unless the file has the whole
+    // too.
     for (const auto& [end, side] : {std::pair("left", Side::kLeft), {"right", Side::kRight}}) {
       if (!name.ends_with(end)) continue;
       const std::string whole = name.substr(0, name.size() - std::string_view(end).size());
@@ -189,7 +193,7 @@ KnownShapes Recognise(const ImportedHead& file, const Similarity& to_ours, const
   KnownShapes known;
   for (const auto& shape : file.shapes) {
     std::string name = PlainShapeName(shape.name);
-    // Eyes turn by themselves.
+    // The eyes rotate without shapes.
     const bool but_eyes = name.find("eyelook") != std::string::npos && model.has_eyes;
     Moves moves;
     for (const auto& [vertex, by] : shape.deltas) {
@@ -202,7 +206,7 @@ KnownShapes Recognise(const ImportedHead& file, const Similarity& to_ours, const
     }
     const auto meaning = finder.Of(name);
     if (!meaning) {
-      // An expression of VRM that only repeats a shape, or moves nothing, is not missed.
+      // A VRM expression that only repeats a shape, or moves nothing, is not reported as unused.
       const bool repeats = name.starts_with("vrm") && finder.Given(name.substr(3));
       const bool gazes = std::ranges::find(kGazeShapes, name) != std::end(kGazeShapes);
       if (!repeats && !gazes && !moves.empty()) {
@@ -217,7 +221,7 @@ KnownShapes Recognise(const ImportedHead& file, const Similarity& to_ours, const
   return known;
 }
 
-/// Teeth and tongues that the shapes move are not moved with the jaw as well.
+/// Detaches teeth and tongue from the jaw if shapes move them.
 void FreeWhatMoves(const ImportedHead& file, const KnownShapes& known, MeshModel& model) {
   std::vector<bool> moves(model.position.size(), false);
   for (const Moves& shape : known.moves) {
@@ -231,11 +235,11 @@ void FreeWhatMoves(const ImportedHead& file, const KnownShapes& known, MeshModel
   }
 }
 
-/// The drivers of every shape, found from states in which a single number is not 0, and from
+/// Finds the drivers of every shape from states in which a single number is not 0, and from
 /// visemes.
 std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const UnitTable& units,
                                                      std::span<const FaceState> visemes) {
-  // Shapes that show less of a unit than this only happen to move the same places.
+  // Shapes that reproduce less of a unit than this merely move the same vertices by chance.
   constexpr float kLeastShown = 0.2f;
   const auto solve = [&solver](const FaceState& state) { return solver.Solve(state); };
   DriveFit fit(solver.count());
@@ -247,7 +251,7 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
       state.au.left[number] = left ? 1 : 0;
       return state;
     };
-    // The two sides of the jaw's sway cancel each other, so each side is tried alone as well.
+    // The jaw's sway to both sides cancels out, so each side is also fitted alone.
     const float shown =
         std::max({solver.PartShown(state_of(true, true)), solver.PartShown(state_of(true, false)),
                   solver.PartShown(state_of(false, true))});
@@ -285,8 +289,8 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
   return fit.TakeDrivers();
 }
 
-/// Eyes that turn by shapes: both go with one, half by either; the agent's left is to the viewer's
-/// right.
+/// Adds drivers of shapes that move the eyes: one shape moves both eyes, so each eye's gaze drives
+/// it by half. The agent's left is the viewer's right.
 void AddGazeShapes(const KnownShapes& known, const GazeRanges& ranges,
                    std::vector<Channel>& channels) {
   using enum Drive::Kind;
@@ -332,8 +336,8 @@ std::optional<RigData> MakeBlendshapeRig(const ImportedHead& file, const Similar
   rig.steps = {RigStep::kChannels};
   rig.units = moved.rig().data().units;
   auto drivers = FitDrivers(solver, rig.units, visemes);
-  // ARKit's mouthClose closes what jawOpen opens, and means nothing without it; where it is there,
-  // lips are sealed by it, else by not opening them.
+  // ARKit's mouthClose closes the lips that jawOpen opens and has no meaning without it. If the
+  // file has it, it seals the lips; else sealing reduces their opening.
   const auto shape_of = [&known](const char* name) {
     return static_cast<std::size_t>(std::ranges::find(known.names, name) - known.names.begin());
   };

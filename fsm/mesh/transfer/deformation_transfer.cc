@@ -15,7 +15,7 @@
 namespace fsm {
 namespace {
 
-/// Marks a surface's lips and lids by the distances along it from the point pairs on them.
+/// Marks the lips and lids of a surface by the distances along it from their point pairs.
 void MarkParts(WeldedSurface& surface, std::span<const PointPair> pairs, bool from) {
   const auto seeds = [&](FacePart part) {
     std::vector<glm::vec3> places;
@@ -31,7 +31,7 @@ void MarkParts(WeldedSurface& surface, std::span<const PointPair> pairs, bool fr
     const auto up = surface.DistancesFrom(above, reach), down = surface.DistancesFrom(below, reach);
     for (std::size_t i = 0; i < out.size(); ++i) {
       const float here = std::clamp((down[i] - up[i]) / clear, -1.0f, 1.0f);
-      // Farther from the opening a place counts as neither upper nor lower.
+      // Vertices farther from the opening are neither upper nor lower.
       out[i] = here * SmoothStep(reach, 0.5f * reach, std::min(up[i], down[i]));
     }
   };
@@ -39,7 +39,7 @@ void MarkParts(WeldedSurface& surface, std::span<const PointPair> pairs, bool fr
   mark(FacePart::kUpperLid, FacePart::kLowerLid, 20, 8, surface.lid);
 }
 
-/// Spreads values over a surface: vertices without a weight of their own take their neighbours'.
+/// Diffuses values over a surface: vertices without a weight take the mean of their neighbours.
 template <typename T>
 void Spread(const WeldedSurface& surface, std::vector<T>& value, std::vector<float> weight,
             int rounds) {
@@ -74,9 +74,9 @@ void CheckVertices(std::span<const glm::vec3> at, const char* whose) {
                            " lies farther away than 10 km");
 }
 
-/// Moves the lids' edges, with a few millimetres around them, by what the warp has left undone.
-/// They are known better than other places (skin ends there before the eyeball), and an eye closes
-/// by them.
+/// Moves the lid edges, and the skin within a few millimetres of them, by the residual of the warp.
+/// Lid edges are known more precisely than other landmarks (the skin ends there, at the eyeball),
+/// and closing the eye depends on them.
 class EdgePull {
  public:
   EdgePull(std::span<const PointPair> pairs, const Warp& warp) {
@@ -104,12 +104,12 @@ class EdgePull {
   std::vector<WarpPoint> left_;
 };
 
-/// The surface warped by the point pairs.
+/// Returns the positions of a surface after the warp defined by the point pairs.
 WeldedSurface Carried(const WeldedSurface& rest, std::span<const PointPair> pairs) {
   std::vector<WarpPoint> points;
   for (const PointPair& pair : pairs) points.push_back({pair.from, pair.to - pair.from});
-  // Landmarks lie a millimetre or two off, and a warp through each of them tears lids and lips. So
-  // it goes near them, and PullTowards does the rest.
+  // Landmarks have errors of a millimetre or two, and an interpolating warp would tear lids and
+  // lips. The warp therefore approximates them, and PullTowards does the rest.
   constexpr float kSmooth = 80;
   const Warp warp(points, kSmooth);
   const EdgePull edges(pairs, warp);
@@ -121,8 +121,8 @@ WeldedSurface Carried(const WeldedSurface& rest, std::span<const PointPair> pair
   return carried;
 }
 
-/// Pulls a surface towards those places of `target` that are within `reach` millimetres, in pieces
-/// of about `rounds` triangles across.
+/// Moves a surface towards the points of `target` within `reach` millimetres; the movement is
+/// smoothed over about `rounds` triangles.
 void PullTowards(WeldedSurface& pulled, const WeldedSurface& target, float reach, int rounds) {
   const SurfaceIndex there(target, reach);
   std::vector<glm::vec3> by(pulled.at.size(), glm::vec3(0));
@@ -130,8 +130,8 @@ void PullTowards(WeldedSurface& pulled, const WeldedSurface& target, float reach
   for (std::size_t i = 0; i < pulled.at.size(); ++i) {
     const auto hit = there.Find(pulled, i);
     if (!hit) continue;
-    // Only along the normal: the landmarks have said where a place lies sideways, and the nearest
-    // place, which changes its triangle from round to round, would drift.
+    // Move only along the normal: the landmarks determine the tangential position, and the nearest
+    // point, whose triangle changes from round to round, would drift.
     by[i] = glm::dot(hit->at - pulled.at[i], pulled.normal[i]) * pulled.normal[i];
     weight[i] = SmoothStep(reach, 0.4f * reach, hit->far);
   }
@@ -160,8 +160,8 @@ DeformationTransfer::DeformationTransfer(const TransferSurface& from, const Tran
   WeldedSurface target = prepared(to, false);
 
   WeldedSurface pulled = Carried(rest, pairs);
-  // The surface is pulled onto the other in rounds, first as a whole, in the end in detail. Necks
-  // and backs of heads, which have no landmarks, lie far apart at first.
+  // Project the surface onto the other in rounds, from coarse to fine. Necks and backs of heads,
+  // which have no landmarks, are far apart at first.
   constexpr std::pair<float, int> kRounds[] = {{30, 40}, {26, 24}, {22, 14},
                                                {18, 8},  {14, 5},  {14, 3}};
   for (const auto& [reach, rounds] : kRounds) PullTowards(pulled, target, reach, rounds);
@@ -183,7 +183,7 @@ std::vector<DeformationTransfer::BarycentricBinding> DeformationTransfer::Bind(
     bound[w] = true;
     open.push_back(w);
   }
-  // Vertices that match no place of the first face, as in a mouth's lining, go with their
+  // Vertices that match no point of the source, as in the lining of the mouth, follow their
   // neighbours.
   for (std::size_t k = 0; k < open.size(); ++k) {
     for (const std::uint32_t w : target.next[open[k]]) {
@@ -201,8 +201,9 @@ std::vector<DeformationTransfer::BarycentricBinding> DeformationTransfer::Bind(
 
 void DeformationTransfer::MakeRows(std::span<const BarycentricBinding> bindings,
                                    const WeldedSurface& target) {
-  // Neighbours may be bound to places that lie apart: each takes a share of its neighbours' mean.
-  // That evens out what is smaller than a few millimetres; those of a coarse mesh lie farther.
+  // Neighbours may be bound to distant points, so each vertex is blended with the mean of its
+  // neighbours. That smooths differences over a few millimetres; neighbours in a coarse mesh are
+  // farther apart.
   constexpr float kMost = 0.25f, kNear = 2.5f;
   rows_.resize(target.of.size());
   std::map<std::uint32_t, float> row;

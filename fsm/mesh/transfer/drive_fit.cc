@@ -7,9 +7,9 @@
 namespace fsm {
 namespace {
 
-constexpr float kLeastGain = 5e-3f;  // of a target at full strength
+constexpr float kLeastGain = 5e-3f;  // drivers with less effect at full strength are dropped
 
-/// How far a parameter goes in speech: millimetres, of the jaw's opening degrees.
+/// The range of a parameter in speech: millimetres, degrees for the jaw's opening.
 constexpr float FullOf(std::size_t parameter) { return parameter == kJawY ? 10.0f : 4.0f; }
 
 /// Solves a x = b for a symmetric positive definite `a` by Cholesky's decomposition; `b` becomes x.
@@ -46,7 +46,7 @@ void DriveFit::AddSided(const Drive& drive, float full,
   const Weights right = weights(true, false), left = weights(false, true),
                 both = weights(true, true);
   for (std::size_t k = 0; k < drivers_.size(); ++k) {
-    // w = a max(r, l) + b r + c l goes through all three.
+    // w = a max(r, l) + b r + c l satisfies all three.
     const std::array<std::pair<Drive::WhichSide, float>, 3> parts{
         {{Drive::WhichSide::kStronger, right[k] + left[k] - both[k]},
          {Drive::WhichSide::kRight, both[k] - left[k]},
@@ -82,7 +82,7 @@ void MouthFit::AddViseme(const std::array<float, kMouthParameters>& mouth, Weigh
   known_.push_back({mouth, std::move(weights)});
 }
 
-/// The normal equations of the gains' change: `square` times it is `wanted`, by half and target.
+/// The normal equations of the change of the gains: square * change = wanted, by half and target.
 struct MouthFit::Equations {
   std::vector<std::vector<double>> square, wanted;
 };
@@ -105,7 +105,7 @@ void MouthFit::Demand(const KnownMouth& viseme, double importance, Equations& eq
 }
 
 void MouthFit::AddTo(DriveFit& fit, Drive::Kind kind) const {
-  constexpr double kDamping = 1e-3, kBetween = 0.01;  // importance of what lies between visemes
+  constexpr double kDamping = 1e-3, kBetween = 0.01;  // the weight of mouths between visemes
   Equations equations{.square{kHalves, std::vector<double>(kHalves, 0)},
                       .wanted{kHalves, std::vector<double>(gain_.size(), 0)}};
   for (std::size_t i = 0; i < kHalves; ++i) equations.square[i][i] = kDamping;

@@ -24,7 +24,8 @@ NnlsSolver::NnlsSolver(std::vector<Row> keys) : keys_(std::move(keys)) {
 }
 
 NnlsSolver::Parts NnlsSolver::Solve(std::span<const float> row) const {
-  // One key after another takes its best part; a small price on every part prefers few keys.
+  // Coordinate descent: each weight in turn is set to its optimum. A small penalty on the weights
+  // prefers few keys.
   constexpr int kRounds = 60;
   constexpr float kPrice = 0.05F, kMost = 1.5F, kLeast = 1e-3F;
   Parts parts;
@@ -33,7 +34,7 @@ NnlsSolver::Parts NnlsSolver::Solve(std::span<const float> row) const {
     if (!std::isfinite(v)) v = 0;
   }
   parts.weights.assign(keys_.size(), 0);
-  std::vector<float> slope;  // of the fit, by key
+  std::vector<float> slope;  // negative gradient of the error, by key
   float size = 0;
   for (const Row& key : keys_) {
     slope.push_back(Product(key, parts.residual));

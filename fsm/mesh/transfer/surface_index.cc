@@ -10,8 +10,8 @@
 namespace fsm {
 namespace {
 
-/// The point of a triangle nearest to p, as parts of its corners (Ericson, Real-Time Collision
-/// Detection, 5.1.5).
+/// Returns the barycentric coordinates of the point of a triangle nearest to p (Ericson, Real-Time
+/// Collision Detection, 5.1.5).
 glm::vec3 NearestPart(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
   const glm::vec3 ab = b - a, ac = c - a, ap = p - a;
   const float d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
@@ -71,16 +71,16 @@ SurfaceIndex::SurfaceIndex(const WeldedSurface& surface, float reach)
 }
 
 std::int64_t SurfaceIndex::Cell(glm::ivec3 c) {
-  // Cells farther away than 100,000 may share a number, which costs time and changes nothing.
+  // Cells beyond 100,000 may share a number, which costs time but does not change results.
   return ((static_cast<std::int64_t>(c.x) + 100000) * 200003 + c.y + 100000) * 200003 + c.z +
          100000;
 }
 
 std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(const WeldedSurface& other,
                                                     std::size_t vertex) const {
-  // Millimetres that a difference counts: turned away, on the other lip, on the other lid, hidden.
-  // Only opposites are kept apart: how clearly a place belongs to one, at a corner or within the
-  // mouth, differs from head to head.
+  // Penalties in millimetres: for facing away, the opposite lip, the opposite lid, hidden. Only
+  // opposites are penalised, because how clearly a point belongs to a lip, at a corner or within
+  // the mouth, differs between heads.
   constexpr float kTurned = 4, kLip = 28, kLid = 18, kHidden = 10;
   const glm::vec3 p = other.at[vertex], normal = other.normal[vertex];
   constexpr float kLeastFacing = 0.15f;
@@ -93,7 +93,7 @@ std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(const WeldedSurface& other,
         const auto found = cells_.find(Cell({x, y, z}));
         if (found == cells_.end()) continue;
         for (const std::uint32_t i : found->second) {
-          // No place of a triangle lies nearer than its box; the margin is for rounding.
+          // No point of a triangle is nearer than its bounding box; the margin is for rounding.
           const glm::vec3 off = glm::max(glm::max(low_[i] - p, p - high_[i]), 0.0f);
           if (glm::dot(off, off) > 1.001f * least + 1e-6f) continue;
           const auto& t = surface_.triangles[i];

@@ -26,15 +26,15 @@ std::vector<std::uint32_t> TrianglesOf(const HeadTopology& topology,
 
 using Row = DeformationTransfer::Row;
 
-/// Lays the rig of one head on the vertices of another: each has the attributes of the place of the
-/// first head that it follows.
+/// Resamples the rig of one head on the vertices of another: each vertex gets the attributes of the
+/// source point that it follows.
 class RigResampler {
  public:
-  /// `rows`: of all vertices. `rig` and `rows` outlive this.
+  /// `rows`: one for each target vertex. Lifetime: all arguments outlive this.
   RigResampler(const RigData& source, std::span<const Row> rows, RigData& rig)
       : source_(source), rows_(rows), rig_(rig) {}
 
-  /// The steps' data but for the seam of the lips, whose vertices are others.
+  /// Resamples the data of all steps except the seam of the lips, which has other vertices.
   void Resample(std::span<const glm::vec3> rest) {
     rig_.weights.resize(rows_.size(), Still());
     rig_.proxy.rest.assign(rest.begin(), rest.end());
@@ -52,7 +52,7 @@ class RigResampler {
     return weights;
   }
 
-  /// By vertex of the source, the element that belongs to it; nothing for most.
+  /// Returns, by source vertex, its element in `all`; null for most.
   template <typename T>
   std::vector<const T*> ByVertex(const std::vector<T>& all) const {
     std::vector<const T*> by(source_.rest.size(), nullptr);
@@ -131,7 +131,8 @@ class RigResampler {
     std::map<std::uint32_t, std::vector<LipRig::Follower>> followers;
     for (const LipRig::Follower& f : source_.lips.followers) followers[f.vertex].push_back(f);
     for (std::uint32_t v = 0; v < rows_.size(); ++v) {
-      std::map<std::pair<std::uint32_t, bool>, float> parts;  // by pair, of the upper lip or not
+      std::map<std::pair<std::uint32_t, bool>, float>
+          parts;  // by pair of the seam, and whether of the upper lip
       for (const auto& [from, part] : rows_[v]) {
         const auto found = followers.find(from);
         if (found == followers.end()) continue;
@@ -162,7 +163,8 @@ class RigResampler {
   RigData& rig_;
 };
 
-/// The source's lips are among the model's vertices, unseen: they say where lips cross.
+/// Adds the source's lips to the model as vertices that are not drawn, by which crossing lips are
+/// detected. Returns the rows of all vertices.
 std::vector<Row> AddLips(const RigData& source, std::span<const Row> rows, MeshModel& model,
                          LipRig& lips) {
   std::vector<Row> all(rows.begin(), rows.end());
@@ -187,7 +189,8 @@ std::vector<Row> AddLips(const RigData& source, std::span<const Row> rows, MeshM
   return all;
 }
 
-/// A head without pictures has lips, and their inside, as red beside its skin as the source has.
+/// Colours the lips, and their inside, of a head without pictures: as red relative to its skin as
+/// those of the source.
 void RedLips(const Head& source, std::span<const Row> rows, MeshModel& model) {
   if (model.textures.image) return;
   const HeadTopology& topology = source.topology();
@@ -208,7 +211,7 @@ void RedLips(const Head& source, std::span<const Row> rows, MeshModel& model) {
   }
 }
 
-/// The offset of each vertex from where the rig leaves it at rest to where the file has it.
+/// Returns the offset of each vertex from its position by the rig at rest to that in the file.
 std::vector<glm::vec3> OwnForm(const RigData& rig, const MeshModel& model,
                                std::span<const Row> rows) {
   RigData proxy = rig;
@@ -225,7 +228,7 @@ std::vector<glm::vec3> OwnForm(const RigData& rig, const MeshModel& model,
   return form;
 }
 
-/// The unseen lips come to lie where the head has its own; pairs stay together.
+/// Moves the undrawn lips to the head's lips; the vertices of a pair stay together.
 void MoveLips(const LipRig& lips, const MeshModel& model, std::span<const PointPair> pairs,
               std::vector<glm::vec3>& form) {
   const auto off = [&](glm::vec3 at) {

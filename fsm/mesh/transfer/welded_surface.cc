@@ -15,7 +15,7 @@
 namespace fsm {
 namespace {
 
-/// How far to the front the surface lies at the points of a grid over it.
+/// A depth buffer: the greatest z of the surface at the points of a grid.
 class FrontDepth {
  public:
   explicit FrontDepth(std::span<const glm::vec3> points) {
@@ -30,7 +30,7 @@ class FrontDepth {
 
   void Rasterize(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
     const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-    if (area <= 1e-6f) return;  // turned away
+    if (area <= 1e-6f) return;  // facing away
     const glm::vec2 least = glm::min(glm::vec2(a), glm::min(glm::vec2(b), glm::vec2(c)));
     const glm::vec2 most = glm::max(glm::vec2(a), glm::max(glm::vec2(b), glm::vec2(c)));
     const glm::ivec2 from(glm::max((least - low_) / kCell, 0.0f));
@@ -55,7 +55,8 @@ class FrontDepth {
     }
   }
 
-  /// The least of the four points around p: at a slope, and at the edge of an opening, p is seen.
+  /// Returns the least depth of the four points around p, so that p is visible on slopes and at
+  /// edges.
   float LeastAround(glm::vec3 p) {
     const glm::ivec2 cell = glm::min(glm::ivec2((glm::vec2(p) - low_) / kCell), size_ - 2);
     return std::min({At(cell.x, cell.y), At(cell.x + 1, cell.y), At(cell.x, cell.y + 1),
@@ -82,7 +83,7 @@ class FrontDepth {
 
 WeldedSurface::WeldedSurface(std::span<const glm::vec3> position,
                              std::span<const std::uint32_t> given, bool has_uv_seams) {
-  // A first guess of the normals tells a seam of the texture, where both sides run on, from lips
+  // Preliminary normals distinguish a texture seam, across which the surface continues, from lips
   // that touch.
   std::vector<glm::vec3> own(position.size(), glm::vec3(0));
   for (std::size_t i = 0; i + 2 < given.size(); i += 3) {
