@@ -34,7 +34,7 @@ void AddTo(ActionUnits& a, const ActionUnits& b, double weight) {
 
 namespace {
 
-/// "DOWN,RIGHT" in degrees.
+/// Parses "DOWN,RIGHT", degrees.
 std::optional<EyeAngles> ReadAngles(std::string_view word) {
   const std::size_t comma = word.find(',');
   if (comma == std::string_view::npos) return std::nullopt;
@@ -50,7 +50,7 @@ UnitName UnitOf(const TableRow& row, std::string_view word, const UnitNames& nam
   return *unit;
 }
 
-/// Calls `take(number)` for each unit that the row names from word `first` on.
+/// Calls `take(number)` for each unit in the words of the row from index `first` on.
 template <typename Take>
 void ReadNumbers(const TableRow& row, std::size_t first, const UnitNames& names, const Take& take) {
   for (std::size_t i = first; i < row.size(); ++i) {
@@ -70,7 +70,7 @@ void ReadPosition(const TableRow& row, const UnitNames& names, UnitList& list) {
   }
 }
 
-/// The units that a row has given a region.
+/// The units whose region a row has set.
 using RegionsGiven = std::set<std::size_t>;
 
 void ReadRegion(const TableRow& row, Region region, const UnitNames& names, UnitList& list,

@@ -11,14 +11,13 @@ namespace fsm {
 namespace {
 
 constexpr double kForever = 1e9;
-constexpr double kRise = 55;            // of a contact
-constexpr double kPauseEase = 60;       // lips meet in a pause, and part before its end
-constexpr double kShortestPause = 120;  // in which they do
-constexpr double kOver = 24;            // from one closure to the next
-constexpr double kJawGives = 0.75;      // of the jaw's way, where the lips close over it
+constexpr double kRise = 55;            // ms; longest approach to a contact
+constexpr double kPauseEase = 60;       // ms in which lips meet in a pause, and part before its end
+constexpr double kShortestPause = 120;  // ms; lips do not meet in shorter pauses
+constexpr double kOver = 24;            // ms; the transition between adjacent closures
+constexpr double kJawGives = 0.75;      // part of the jaw's opening that a lip closure removes
 
-// Which dominance rules each MouthParameter: the jaw, the lips' opening, or
-// their rounding.
+// The dominance that applies to each MouthParameter: that of jaw, opening of the lips, or rounding.
 enum Group : std::size_t { kJaw, kLips, kRound, kTongue, kGroups };
 constexpr std::array<Group, kMouthParameters> kGroupOf = {
     kLips,  kRound, kLips, kRound, kLips, kRound, kLips, kRound, kRound,
@@ -71,7 +70,7 @@ void DominanceCurves::PlaceContacts() {
     const double start = viseme.start_ms;
     Contact contact{};
     if (viseme.pause) {
-      // The lips come together after the sound before has ended, and part in time for the next.
+      // The lips meet after the end of the sound before, and part before the next one begins.
       contact = {start, start + kPauseEase, sound.end_ms - kPauseEase, sound.end_ms};
     } else {
       const double before = i == 0 ? kRise : sounds_[i - 1].viseme.length_ms;
@@ -79,8 +78,7 @@ void DominanceCurves::PlaceContacts() {
       contact = {start - std::clamp(0.7 * before, 12.0, kRise), start, to,
                  std::max(sound.end_ms, to + 20)};
     }
-    // From closure to closure the lips stay together; how they are pressed goes over from one to
-    // the other.
+    // Between adjacent closures the lips stay closed; their shape is blended from one to the other.
     if (closed_before) {
       contact.rise = start - kOver;
       contact.from = start;
@@ -93,7 +91,7 @@ void DominanceCurves::PlaceContacts() {
   }
 }
 
-/// The sounds that can be felt at one instant, and the contacts that are made then.
+/// Accumulates the sounds and contacts that contribute at one instant.
 class DominanceCurves::Blend {
  public:
   using Weights = std::array<double, kGroups>;
@@ -118,7 +116,7 @@ class DominanceCurves::Blend {
   }
 
   MouthPose Pose() const {
-    constexpr double kLeast = 1e-6;  // where nobody cares the mouth is at rest
+    constexpr double kLeast = 1e-6;  // below this sum of dominances the mouth is at rest
     MouthPose pose = pose_;
     for (std::size_t p = 0; p < kMouthParameters; ++p) {
       double value = mouth_[p] / (weight_[kGroupOf[p]] + kLeast);
@@ -136,7 +134,7 @@ class DominanceCurves::Blend {
   Weights weight_{};
   std::array<double, kMouthParameters> mouth_{};
   double tongue_ = 0;
-  MouthPose held_;  // the targets of contacts, summed by how far each is made
+  MouthPose held_;  // sum of the contacts' targets, weighted by Contact::At
   double contacts_ = 0;
   double jaw_gives_ = 0;
   MouthPose pose_;  // seal and contact
@@ -144,7 +142,7 @@ class DominanceCurves::Blend {
 
 MouthPose DominanceCurves::At(double position_ms) const {
   Blend blend;
-  // The first sound that can still be felt.
+  // Find the first sound within reach.
   const auto first = std::ranges::partition_point(
       sounds_, [&](const Sound& s) { return s.end_ms + longest_reach_ms_ * 3 < position_ms; });
   for (auto s = first; s != sounds_.end(); ++s) {

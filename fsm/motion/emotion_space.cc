@@ -60,7 +60,7 @@ void ReadWeights(const TableRow& row, EmotionSpace::Layer& layer) {
   layer.rows.push_back(std::move(weights));
 }
 
-/// Every layer must take what the one before it gives.
+/// Checks that each layer has as many inputs as the one before has outputs.
 void CheckLayers(const Table& table, const char* key,
                  const std::vector<EmotionSpace::Layer>& layers, std::size_t inputs,
                  std::size_t outputs) {
@@ -92,7 +92,7 @@ std::vector<float> EmotionSpace::RatiosAt(const Point& point) const {
 }
 
 ActionUnits EmotionSpace::LookAt(const Point& point) const {
-  constexpr float kSeen = 0.02F;  // what is less is the network's noise
+  constexpr float kSeen = 0.02F;  // smaller strengths are noise of the network
   ActionUnits look;
   const std::vector<float> ratios = RatiosAt(point);
   for (std::size_t i = 0; i < units.size(); ++i) {

@@ -9,7 +9,7 @@
 namespace fsm {
 namespace {
 
-constexpr vm::Time kOffset = std::chrono::milliseconds(500);  // of an expression, natural
+constexpr vm::Time kOffset = std::chrono::milliseconds(500);  // natural offset duration
 constexpr int kMostPatterns = 20;
 constexpr std::size_t kMostExpressions = 200;
 
@@ -65,7 +65,7 @@ vm::Result<void> ExpressionMotion::Show(vm::Time now, std::string_view name, int
 
 void ExpressionMotion::ShowPoint(vm::Time now, const EmotionSpace::Point& point,
                                  std::optional<vm::Time> move) {
-  // No emotion's lags: what lies between two emotions has none of its own.
+  // Lags belong to emotions; a point between emotions has none.
   Emotion::Timing timing;
   if (move) timing.lag_ms = {};
   const vm::Time onset = move.value_or(OnsetOf({}));
@@ -81,7 +81,7 @@ void ExpressionMotion::Plan(vm::Time now, const ActionUnits& look, const Emotion
     const double side_lag_ms = idle_.On(IdleKind::kAsymmetry) ? side_lags_ms_[side] : 0;
     for (std::size_t part = 0; part < kRegions; ++part) {
       auto& track = parts_[side][part];
-      // A part that begins late is as quick as the rest of the time allows.
+      // A region that begins late moves within the remaining time.
       const vm::Time lag = std::min(FromMs(timing.lag_ms[part] + side_lag_ms), onset / 2);
       track.Plan(now, look, now + lag, onset - lag);
       if (timed) track.Plan(now, ActionUnits{}, now + duration - onset, onset);
@@ -162,7 +162,7 @@ void ExpressionMotion::Contribute(vm::Time t, MotionLayers& layers) const {
       out.au[side][unit] = std::as_const(now[side][region].au)[side][unit];
     }
   }
-  // Eyes move together, whichever side of the face is first.
+  // Both eyes move together, whichever side of the face begins first.
   out.gaze = now.left[static_cast<std::size_t>(Region::kEye)].gaze;
   for (std::size_t i = 0; i < emotions_.size(); ++i) {
     const float weight = emotions_[i].At(t);

@@ -11,7 +11,7 @@ namespace {
 constexpr vm::Time kHeadFollows = std::chrono::milliseconds(320);
 constexpr double kHalfPupilsMm = 31;  // half the distance between the pupils
 
-// There within `move`, and if timed, back when `duration` is over.
+// Moves to a target within `move`; if `duration` is not zero, returns to rest by its end.
 void ThereAndBack(Track<EyeAngles>& track, vm::Time now, const EyeAngles& there, vm::Time move,
                   vm::Time duration) {
   const bool timed = duration > vm::Time(0);
@@ -58,8 +58,8 @@ void EyeMotion::LookAt(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time 
 void EyeMotion::BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to) {
   if (!idle_.On(IdleKind::kGazeBlink) || patterns_.blinks.empty()) return;
   const double angle = std::hypot(to[kDown] - from[kDown], to[kToRight] - from[kToRight]);
-  // Nearly always with large shifts, seldom with small ones (Evinger et al., Not looking while
-  // leaping, 1994).
+  // Blinks accompany nearly all large gaze shifts and few small ones (Evinger et al., Not looking
+  // while leaping, 1994).
   const double chance = std::clamp(angle / 20, 0.0, 0.95);
   if ((RandomAt(seed_, RandomStream::kShiftBlink, ++shifts_) + 1) / 2 < chance) Blink(now, 1);
 }
@@ -98,7 +98,7 @@ EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
   auto k = static_cast<std::int64_t>(std::floor(ms / kStay));
   if (ms < jump_ms(k)) --k;
   if (ms >= jump_ms(k + 1)) ++k;
-  // Mostly up and to one side; which side is the person's own and changes now and then.
+  // Mostly up and to one side, which depends on the seed and changes occasionally.
   const double habit = RandomAt(seed_, RandomStream::kThinkSide, 0);
   const auto place = [&](std::int64_t index) -> std::array<double, 2> {
     if (index < 0) return {0, 0};

@@ -9,7 +9,7 @@ namespace fsm {
 namespace {
 constexpr vm::Time kTurn = std::chrono::milliseconds(120);  // quick, but not at once
 constexpr vm::Time kFade = std::chrono::milliseconds(80);
-constexpr double kSmaller = 0.85;  // a movement repeated, against the one before
+constexpr double kSmaller = 0.85;  // size of a repetition relative to the one before
 }  // namespace
 
 void HeadMotion::TurnTo(vm::Time now, const Angles& angles) { turn_.MoveTo(now, angles, kTurn); }

@@ -19,7 +19,7 @@ void Add(Angles& out, const Angles& more, double weight) {
   for (std::size_t i = 0; i < 3; ++i) out[i] += static_cast<float>(weight * more[i]);
 }
 
-// A wave that goes from 0 at u = 0 to 1 in the middle and back to 0 at u = 1.
+// Returns a bump that rises from 0 at u = 0 to 1 in the middle and falls to 0 at u = 1.
 double Swing(double u) {
   return u <= 0 || u >= 1 ? 0 : (1 - std::cos(u * 2 * std::numbers::pi)) / 2;
 }
@@ -177,7 +177,7 @@ EyeAngles IdleBehaviour::EyesAt(vm::Time t) const {
   const AutoGaze& gaze = PatternAt(patterns_.auto_gazes, own.pattern);
   const double weight = own.weight.At(t);
   if (weight <= 0) return {};
-  // One jump in each interval: fixations of very different lengths.
+  // One saccade at a random time in each interval, so that fixations vary widely in length.
   const auto jump_ms = [&](std::int64_t k) {
     return gaze.interval_ms *
            (static_cast<double>(k) + 0.5 + 0.45 * Random(RandomStream::kGazeTime, k));
@@ -210,7 +210,7 @@ vm::Time IdleBehaviour::BlinkInterval(std::int64_t index) const {
 }
 
 IdleBehaviour::Blink IdleBehaviour::LastBlink(vm::Time t) const {
-  // Before the first blink the switch itself stands for the one before.
+  // The first interval begins when blinking is switched on.
   if (blink_.index < 0) blink_ = {-1, Of(IdleKind::kBlink).since};
   while (blink_.index >= 0 && blink_.start > t) {
     blink_.start -= BlinkInterval(blink_.index);
@@ -231,7 +231,7 @@ double IdleBehaviour::LidsShutAt(vm::Time t) const {
   if (weight <= 0) return 0;
   const Blink blink = LastBlink(t);
   if (blink.index < 0) return 0;
-  // Half of people's blinks do not shut the eye quite.
+  // Half of people's blinks are incomplete.
   const double depth =
       blinks.varied ? std::min(1.0, 0.9 + 0.2 * Random(RandomStream::kBlinkDepth, blink.index)) : 1;
   return weight * depth * LidsAt(patterns_.blinks[blinks.blink], t - blink.start);
@@ -246,7 +246,7 @@ std::optional<vm::Time> IdleBehaviour::NextActivity(vm::Time t) const {
   if (!On(IdleKind::kBlink)) return next;
   const AutoBlink& blinks = PatternAt(patterns_.auto_blinks, Of(IdleKind::kBlink).pattern);
   const vm::Time length = LengthOf(patterns_.blinks[blinks.blink]);
-  // The earliest blink that is not over: the one that follows the last which was over by now.
+  // Find the earliest blink that is not over, which follows the last one that is.
   const Blink over = LastBlink(t - length);
   return Earlier(next, std::max(t, over.start + BlinkInterval(over.index + 1)));
 }

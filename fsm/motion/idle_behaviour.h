@@ -56,8 +56,8 @@ class IdleBehaviour : public MotionSource {
   double Wander(std::size_t wave, double periods) const;         // 0..5; smooth, -1..1
   void AddMove(vm::Time t, Angles& out) const;
   void AddNods(vm::Time t, Angles& out) const;
-  double BreathAt(
-      vm::Time t) const;  // 0 = exhaled, 1 = inhaled; multiplied by the weight of the switch
+  // 0 = exhaled, 1 = inhaled; multiplied by the weight of the switch.
+  double BreathAt(vm::Time t) const;
   EyeAngles EyesAt(vm::Time t) const;
   /// A blink: its number since blinking was switched on, from 0, and when it begins.
   struct Blink {

@@ -14,8 +14,8 @@ namespace fsm {
 /// SpeechMotion if it accompanies speech.
 struct IdleKindRow {
   IdleKind kind;
-  std::string_view
-      name;  ///< as in the slot Autonomous and LIFE lines; AUTO lines (AUTOBLINK) have its patterns
+  /// As in the slot Autonomous and LIFE lines; AUTO lines (AUTOBLINK) have its patterns.
+  std::string_view name;
   std::string_view help;  ///< the text after the name in the help
   /// Returns the number of patterns; 1 for a kind that is only on or off.
   std::size_t (*count)(const MotionPatterns&);

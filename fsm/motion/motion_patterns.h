@@ -118,8 +118,8 @@ struct MotionPatterns {
   std::vector<AutoText> auto_texts;
   std::map<std::string, ActionUnits, std::less<>> moods;  ///< by name; see MoodMotion
   std::map<std::string, IdleProfile, std::less<>> profiles;
-  std::vector<HeadCurve>
-      auto_move_files;  ///< if not empty, Autonomous MOVE n loops these instead of auto_moves
+  /// If not empty, Autonomous MOVE n loops these instead of auto_moves.
+  std::vector<HeadCurve> auto_move_files;
   std::vector<HeadCurve> auto_userdef;  ///< looped by Autonomous USERDEF n
 };
 

@@ -14,7 +14,7 @@ namespace fsm {
 namespace {
 
 constexpr std::size_t kMaxKeys = 100000;
-constexpr std::string_view kAuto = "AUTO";  // begins lines of patterns of an IdleKind
+constexpr std::string_view kAuto = "AUTO";  // prefix of lines with patterns of an IdleKind
 constexpr std::array kBlinkFields = {PatternField{"CLOSING", &BlinkPattern::closing_ms},
                                      PatternField{"SHUT", &BlinkPattern::shut_ms},
                                      PatternField{"OPENING", &BlinkPattern::opening_ms, 1}};
@@ -49,7 +49,8 @@ vm::Result<HeadCurve> ReadMotionFile(const std::string& name, std::string_view t
     std::vector<HeadCurve::Key> keys;
     bool count_seen = false;
     for (const TableRow& row : table.rows()) {
-      // Comments begin with // and are in any encoding; a line that is no number is one too.
+      // Comments begin with // and may be in any encoding; any line that is not a number is a
+      // comment too.
       if (!StartsWithNumber(row)) continue;
       if (!count_seen && row.size() == 1) {
         count_seen = true;
@@ -64,7 +65,7 @@ vm::Result<HeadCurve> ReadMotionFile(const std::string& name, std::string_view t
 
 namespace {
 
-/// Reads the rows of a table of motions, one after the other.
+/// Reads the rows of a table of motions in order.
 class MotionReader {
  public:
   MotionReader(const Table& table, const UnitNames& units) : rows_(table.rows()), units_(units) {}
@@ -105,7 +106,7 @@ class MotionReader {
                          row.key(), lines));
   }
 
-  /// Reads the key frames in the rows below this one, too.
+  /// Also reads the key frames in the rows below this one.
   void ReadCurve(const TableRow& row) {
     auto& curves = out_.head[row.key()];
     CheckPattern(row, curves.size());
@@ -137,7 +138,7 @@ class MotionReader {
 
   const std::vector<TableRow>& rows_;
   const UnitNames& units_;
-  std::size_t next_ = 0;  // the row after the one in hand
+  std::size_t next_ = 0;  // index of the row after the current one
   MotionPatterns out_;
 };
 

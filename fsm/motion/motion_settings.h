@@ -21,8 +21,8 @@ struct MotionSettings {
   /// The size of mouth movements in the original's unit: kFullMouthScale is the full articulation
   /// of the viseme table; the default 30 is three quarters of it, as in natural speech.
   double mouth_scale = 30;
-  double gaze_distance_mm =
-      700;  ///< distance of the point looked at; 0 = infinite, the eyes are parallel
+  /// Distance of the point looked at; 0 = infinite, the eyes are parallel.
+  double gaze_distance_mm = 700;
   LipStyle lips;
 };
 inline constexpr double kFullMouthScale = 40;

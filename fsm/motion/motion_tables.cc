@@ -27,12 +27,12 @@
 namespace fsm {
 namespace {
 
-/// Reads one table after the other and remembers the first thing that went wrong.
+/// Reads tables one after the other and stores the first error.
 class Loader {
  public:
   explicit Loader(const TableFolder& folder) : folder_(folder) {}
 
-  /// `read(name, text, others...)` gives vm::Result<T>.
+  /// `read(name, text, others...)` returns vm::Result<T>.
   template <typename T, typename Read, typename... Others>
   void Get(T& out, const std::string& file, std::string_view built_in, const Read& read,
            Others&&... others) {
@@ -88,7 +88,7 @@ vm::Result<GestureNumbers> ReadGestures(const std::string& name, std::string_vie
   try {
     const NumberTable gestures(name, text, &built_in);
     for (const TableRow& row : gestures.rows()) {
-      constexpr std::string_view kTimes[] = {"lasts", "rise", "fall"};  // are divided by
+      constexpr std::string_view kTimes[] = {"lasts", "rise", "fall"};  // rows used as divisors
       if (std::ranges::find(kTimes, row.Word(1)) != std::end(kTimes)) row.Within(2, 1, 1000);
       if (row.key() == "jaw" || row.key() == "lips") row.Within(2, 0, 300);
       if (row.Word(1) == "in" || row.Word(1) == "out") row.Within(2, 0.01f, 1);

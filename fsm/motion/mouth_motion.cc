@@ -7,7 +7,7 @@ namespace {
 
 constexpr vm::Time kMove = std::chrono::milliseconds(60);
 
-// What one unit of Mouth.N at 100 % means, mm or (jaw Y) degrees.
+// The value of each mouth parameter when Mouth.N is at 100 %: mm, for jaw Y degrees.
 constexpr std::array<float, kMouthParameters> kFull = {4, 4, 4,  4, -6, 4, -6, 4, 5,
                                                        5, 5, 15, 4, 1,  1, 1,  1};
 

@@ -53,7 +53,7 @@ SpokenMouth MouthStream::MouthAt(vm::Time t) const {
         last.share * (1 - Eased(Progress(t, last.at + kHold + kClose, SpeechMotion::kRelease)));
     mouth.pose = Mix(last.pose, ClosedMouth(), Eased(Progress(t, last.at + kHold, kClose)));
   }
-  if (next != frames_.end()) {  // the first frame of a run is near
+  if (next != frames_.end()) {  // the next run may be fading in
     mouth.Cover(next->pose, Eased(Progress(t, next->at - kTakeOver, kTakeOver)));
   }
   return mouth;

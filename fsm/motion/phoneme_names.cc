@@ -31,7 +31,7 @@ EngineNames ReadEngine(const TableRow& row) {
   return {row.Word(1), row.Word(2) == "EN", {}, {}};
 }
 
-/// Pairs of the engine's name and ours, which `known` has.
+/// Reads pairs of an engine's name and ours, which must be in `known`.
 void ReadPairs(const TableRow& row, const PhonemeTable& known, EngineNames& names) {
   if (row.size() % 2 != 0) row.Fail("pairs of an engine's name and ours expected");
   for (std::size_t i = 0; i < row.size(); i += 2) {

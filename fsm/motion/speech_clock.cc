@@ -8,7 +8,7 @@
 namespace fsm {
 namespace {
 
-constexpr double kLateReportMs = 25;  // a report may wait so long for a frame to be drawn
+constexpr double kLateReportMs = 25;  // a report may be delayed this long by the drawing of a frame
 constexpr int kLateReports = 3;
 
 }  // namespace
@@ -22,8 +22,8 @@ double SpeechClock::CorrectionAt(vm::Time t) const {
 double SpeechClock::PositionAt(vm::Time t) const { return InMs(t - start_) + CorrectionAt(t); }
 
 bool SpeechClock::IsJustLate(double difference_ms) {
-  // Two reports in a row may only have come late. After a third the voice counts as behind, by the
-  // least of them.
+  // Two consecutive reports may merely be late. From the third on the voice counts as behind, by
+  // the least difference.
   const double behind = to_ms_ - difference_ms;
   late_ = behind > 0 && behind < kLateReportMs ? late_ + 1 : 0;
   return late_ > 0 && late_ < kLateReports;

@@ -9,10 +9,10 @@
 namespace fsm {
 namespace {
 
-constexpr double kApartMs = 300;  // stressed vowels are at least so far apart
+constexpr double kApartMs = 300;  // least distance between stressed vowels
 
-/// From 0 to 1 and back; `row` says how long before the beat the peak is, and how long it rises and
-/// falls.
+/// Returns a bump from 0 to 1 and back; `row` has the time from its peak to the beat, and its rise
+/// and fall times.
 double Bump(const auto& row, double ms, double beat_ms) {
   const double after = ms - (beat_ms - row.before);
   return after <= 0 ? SmootherStep(1 + after / row.rise) : 1 - SmootherStep(after / row.fall);
@@ -64,7 +64,7 @@ void SpeechGestures::FindBeats(const VisemeTargets& visemes) {
       beats_.push_back(beat);
     }
   }
-  // The brows go up on the strongest of each second and a half.
+  // The brows rise on the strongest beat of each second and a half.
   double last = -1e9;
   for (std::size_t i = 0; i < beats_.size(); ++i) {
     const bool strongest = (i == 0 || beats_[i - 1].nod <= beats_[i].nod) &&
@@ -110,7 +110,7 @@ std::array<double, 2> SpeechGestures::AvertTimes(double shortest_ms) const {
 std::array<double, 2> SpeechGestures::AvertAt(double position_ms, double shortest_ms) const {
   const auto [away, back] = AvertTimes(shortest_ms);
   if (back <= away) return {};
-  // The jumps of the eyes take about 45 ms at ten degrees (main sequence).
+  // A saccade of ten degrees takes about 45 ms (main sequence).
   const double u =
       SmootherStep((position_ms - away) / 45) - SmootherStep((position_ms - back) / 45);
   const double side = RandomAt(seed_, RandomStream::kAvertSide, 0);

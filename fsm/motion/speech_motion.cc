@@ -9,11 +9,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr vm::Time kTakeOver = 60ms;  // the mouth comes under speech
+constexpr vm::Time kTakeOver = 60ms;  // speech takes control of the mouth
 constexpr vm::Time kEmotionYields = 150ms;
-constexpr vm::Time kClose = 110ms;      // after STOP; the promise is 120
-constexpr vm::Time kClosedFor = 120ms;  // before emotion may part the lips again
-constexpr vm::Time kHeadStops = 400ms;  // movement with the speech, after STOP
+constexpr vm::Time kClose = 110ms;      // closing after STOP; docs promise 120 ms
+constexpr vm::Time kClosedFor = 120ms;  // how long the lips then stay closed against emotions
+constexpr vm::Time kHeadStops = 400ms;  // fading of gestures after STOP
 
 }  // namespace
 
@@ -22,7 +22,7 @@ double SpeechMotion::MouthPosition(const Utterance& one, vm::Time t) const {
 }
 
 vm::Time SpeechMotion::EndOf(const Utterance& one) const {
-  // The voice's end, or the mouth's if that is later because the mouth is told to lag.
+  // The end of the voice, or of the mouth if offset_ms makes that later.
   const double lead = lead_ms_.At(one.clock.WhenAt(one.track->length_ms()));
   return one.clock.WhenAt(one.track->length_ms() + std::max(0.0, -lead));
 }
@@ -60,7 +60,7 @@ void SpeechMotion::Adjust(vm::Time now, const MotionSettings& next) {
   const double lead_ms = next.lead_ms - next.offset_ms;
   if (lead_ms != settings_.lead_ms - settings_.offset_ms) {
     const double way = std::abs(lead_ms - lead_ms_.At(now));
-    // At most a fifth faster or slower than time, so that the phonemes never run backwards.
+    // Limited to a fifth faster or slower than real time, so that the position never decreases.
     lead_ms_.MoveTo(now, static_cast<float>(lead_ms), active() ? FromMs(way * 10) : vm::Time(0));
   }
   if (next.mouth_scale != settings_.mouth_scale) {

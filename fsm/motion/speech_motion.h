@@ -26,8 +26,8 @@ namespace fsm {
 class SpeechMotion : public MotionSource {
  public:
   static constexpr vm::Time kRelease = std::chrono::milliseconds(300);  ///< the mouth is released
-  static constexpr double kInnerBrow = 1,
-                          kOuterBrow = 0.8;  ///< strengths of units 1 and 2 on stressed vowels
+  /// Strengths of units 1 and 2 on stressed vowels.
+  static constexpr double kInnerBrow = 1, kOuterBrow = 0.8;
 
   SpeechMotion(const MotionTables& tables, const MotionSettings& settings,
                const IdleBehaviour& idle, std::uint64_t seed)

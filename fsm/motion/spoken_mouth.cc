@@ -23,7 +23,7 @@ void SpokenMouth::Contribute(double mouth_scale, std::string_view layer_name,
   layers.AddSignal("contact", contact);
   MotionLayer& layer = layers.Layer(layer_name);
   double scale = mouth_scale / kFullMouthScale;
-  if (scale > 1) scale = 1 + (scale - 1) * (1 - contact);  // a contact is no larger than it is
+  if (scale > 1) scale = 1 + (scale - 1) * (1 - contact);  // a contact is not enlarged
   for (std::size_t i = 0; i < kMouthParameters; ++i) {
     layer.mouth[i] = static_cast<float>(share * scale * pose.mouth[i]);
   }

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t kMostLooks = 100, kMostCues = 1000;
 constexpr float kMostDegrees = 30;
-constexpr double kNearPauseMs = 600;  // a sentence ends at a pause that is no further away
+constexpr double kNearPauseMs = 600;  // greatest distance of the pause at which a sentence ends
 constexpr double kRiseMs = 350, kFallMs = 500, kAheadMs = 150;
-constexpr double kEndMs = 700;  // of looks at the end of a sentence
+constexpr double kEndMs = 700;  // duration of looks at the end of a sentence
 constexpr std::array<std::string_view, 6> kStops = {".", "!", "?", "。", "！", "？"};
 
 // ---- the table
@@ -59,7 +59,7 @@ TextCues::Cue ReadCue(const TableRow& row, const TextCues& cues) {
 
 // ---- sentences
 
-/// The text without its markup for speech synthesis, which stands between < and >.
+/// Returns the text without speech synthesis markup, which is enclosed in < and >.
 std::string WithoutMarkup(std::string_view text) {
   std::string out;
   bool in_mark = false;
@@ -89,7 +89,8 @@ bool ContainsPhrase(std::string_view sentence, std::string_view phrase) {
   return false;
 }
 
-/// The sentences of a text, each with its stop. A dot within a number or a word does not end one.
+/// Splits a text into sentences, each with its final mark. A dot within a number or word does not
+/// end one.
 std::vector<std::string_view> Sentences(std::string_view text) {
   std::vector<std::string_view> sentences;
   std::size_t begin = 0;
@@ -113,8 +114,8 @@ double Letters(std::string_view text) {
   return static_cast<double>(std::ranges::count_if(text, IsLetter));
 }
 
-/// The time at which `share` of the speech, pauses left out, has been spoken; the beginning of a
-/// pause if one is near.
+/// Returns the time at which `share` of the speech without pauses has been spoken, or the start of
+/// a nearby pause.
 double TimeOfShare(double share, const VisemeTargets& visemes) {
   if (share >= 1) return visemes.length_ms;
   double spoken = 0, passed = 0, at = visemes.length_ms;

@@ -7,7 +7,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr vm::Time kUnitMove = 60ms;   // units that are just set
+constexpr vm::Time kUnitMove = 60ms;   // units set without a time
 constexpr vm::Time kCodeMove = 120ms;  // heads and eyes take longer than skin
 
 }  // namespace

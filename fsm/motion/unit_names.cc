@@ -21,10 +21,10 @@ constexpr double kMostStrength = 2;
 
 struct Word {
   std::string_view text;
-  std::size_t column;  // from 1
+  std::size_t column;  // counted from 1
 };
 
-// Words between blanks; "12:0.7" is two of them, "gaze:6,0" one.
+// Splits a text at blanks; "12:0.7" gives two words, "gaze:6,0" one.
 std::vector<Word> UnitWordsOf(std::string_view text) {
   std::vector<Word> words;
   const auto add = [&](std::string_view word) {
@@ -49,7 +49,7 @@ std::optional<double> LetterOf(std::string_view word) {
   return kIntensity[static_cast<std::size_t>(word[0] - 'A')];
 }
 
-/// A unit with its side, and its strength if that is written on it (12C).
+/// A unit with its side, and its strength if the word has an intensity letter (12C).
 struct Named {
   UnitSetting unit;
   bool strength_given = false;
@@ -109,7 +109,7 @@ std::optional<Named> FindUnit(std::string_view word, const UnitNames& names) {
   return unit;
 }
 
-/// The numbers in use, "1-2, 4-39, 158".
+/// Returns the unit numbers in use as ranges, "1-2, 4-39, 158".
 std::string NumbersInUse(const UnitNames& names) {
   std::string text;
   for (auto at = names.names.begin(); at != names.names.end();) {
@@ -122,12 +122,12 @@ std::string NumbersInUse(const UnitNames& names) {
   return text;
 }
 
-/// Some names in use: those that begin most like the word, and among equals the last numbers, for
-/// units of one's own come last.
+/// Returns names similar to a word, for messages: those with the longest common prefix, of equals
+/// those with the greatest numbers, since user-defined units have these.
 std::string NamesLike(std::string_view word, const UnitNames& names) {
   constexpr std::size_t kMost = 5;
   const std::string wanted = vm::LowerCase(word);
-  std::vector<std::pair<std::ptrdiff_t, int>> ranked;  // letters in common, number
+  std::vector<std::pair<std::ptrdiff_t, int>> ranked;  // length of the common prefix, number
   for (const auto& [number, name] : names.names) {
     const std::string lower = vm::LowerCase(name);
     ranked.emplace_back(std::ranges::mismatch(wanted, lower).in1 - wanted.begin(), number);
@@ -140,7 +140,7 @@ std::string NamesLike(std::string_view word, const UnitNames& names) {
   return text;
 }
 
-/// What is expected where a unit stands.
+/// Returns the text of what is expected in place of a unit.
 std::string UnitsExpected(std::string_view word, const UnitNames& names) {
   return fmt::format(
       "a number ({}) or name of action_unit_names.txt (such as {}) expected, with L or R for one "
@@ -229,9 +229,9 @@ vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames&
                                          bool with_ms) {
   const std::vector<Word> words = UnitWordsOf(text);
   UnitCommand out;
-  bool lettered = false;  // the unit before the word has its strength written on it
+  bool lettered = false;  // the previous unit has an intensity letter
   for (std::size_t i = 0; i < words.size(); ++i) {
-    // A number that stands alone at the end, after at least one unit, is a time.
+    // A single number at the end, after at least one unit, is a time.
     if (with_ms && i > 0 && i + 1 == words.size()) {
       if (const auto ms = ParseNumber(words[i].text)) {
         if (lettered && *ms > 0 && *ms <= kMostStrength) {
@@ -301,7 +301,7 @@ vm::Result<ActionUnits> ParseLook(std::string_view text, const UnitNames& names)
       AddTo(look, *gaze, 1);
       continue;
     }
-    // Columns stay what they were.
+    // Columns must not change.
     units.resize(std::max(units.size(), word.column - 1), ' ');
     units += word.text;
   }

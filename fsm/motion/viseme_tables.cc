@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kShapeValues = kMouthParameters + 3;
 
-/// What the value at that place means, and its bounds.
+/// The name and the bounds of a value in a row.
 struct ShapeValue {
   std::string what;
   double lowest, highest;
@@ -111,7 +111,7 @@ PhonemeVisemes ReadPhonemeVisemes(const TableRow& row, const Visemes& visemes) {
   return out;
 }
 
-/// Reads KIND JAW LIPS ROUND TONGUE EARLY CONTACT from word 3 on.
+/// Reads KIND JAW LIPS ROUND TONGUE EARLY CONTACT from index 3 on.
 void ReadDominanceOf(const TableRow& row, Viseme& viseme) {
   const std::string& kind = row.Word(3);
   if (kind != "vowel" && kind != "consonant" && kind != "pause") {

@@ -7,13 +7,13 @@
 namespace fsm {
 namespace {
 
-constexpr double kLongMs = 200;          // from here on a phoneme holds and then moves
-constexpr double kFirstPartShare = 0.3;  // of a diphthong
+constexpr double kLongMs = 200;          // phonemes at least this long hold, then move
+constexpr double kFirstPartShare = 0.3;  // the share of a diphthong's first phase
 
 MouthPose Scaled(const Viseme& viseme, double strength, const LipStyle& style) {
   MouthPose pose = viseme.pose;
-  // A contact is the same however large the movements are; a weak one is still a contact, so the
-  // seal is left alone.
+  // A contact does not depend on the size of movements, and a weak one is still a contact, so the
+  // seal is not scaled.
   const double most = pose.contact > 0 ? 1 : 3;
   for (std::size_t i = 0; i < kMouthParameters; ++i) {
     const double scale = i == kJawY || i == kJawZ ? style.jaw : style.lips;
@@ -29,7 +29,7 @@ struct TimedPhase {
   bool holds;
 };
 
-// "next" takes over what follows; at the end, or before a closure of the lips, there is only rest.
+// "next" takes the viseme of the next phoneme, or rest at the end and before a closure of the lips.
 void ResolveNext(std::vector<TimedPhase>& phases, const VisemeSet& set) {
   for (std::size_t i = phases.size(); i-- > 0;) {
     PhonemeVisemes::Phase& phase = phases[i].phase;
@@ -41,8 +41,8 @@ void ResolveNext(std::vector<TimedPhase>& phases, const VisemeSet& set) {
   }
 }
 
-/// The phases of all phonemes, a diphthong's two; also says how long they are together, and which
-/// phonemes are unknown.
+/// Returns the phases of all phonemes, two for a diphthong, with their total length and the unknown
+/// phonemes.
 std::vector<TimedPhase> PhasesOf(const vm::PhonemeList& phonemes, const PhonemeReader& reader,
                                  const VisemeSet& set, VisemeTargets& out) {
   const PhonemeVisemes closed{{{static_cast<int>(set.rest), 1}}};
@@ -69,11 +69,11 @@ std::vector<TimedPhase> PhasesOf(const vm::PhonemeList& phonemes, const PhonemeR
   return phases;
 }
 
-/// How many ms the viseme stands before it moves on.
+/// Returns how long a viseme is held, ms.
 double HoldOf(const TimedPhase& phase, double share, bool pause) {
   if (phase.holds) return phase.length_ms - kApproachMs;
   const double hold_ms = share * phase.length_ms;
-  // A contact of the lips must be seen; a pause this short need not be.
+  // A contact of the lips must be visible; a short pause need not be.
   if (share <= 0 || pause) return hold_ms;
   return std::max(hold_ms, std::min(kSeenMs, 0.85 * phase.length_ms));
 }

@@ -41,8 +41,8 @@ struct VisemeTargets {
   MouthPose rest;
   Dominance rest_dominance;
   double length_ms = 0;
-  std::vector<std::string>
-      unknown;  ///< phonemes that no table has, once each; the lips close on them
+  /// Phonemes that no table has, once each; the lips close on them.
+  std::vector<std::string> unknown;
 };
 VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTables& tables,
                                 const LipStyle& style);
