@@ -49,8 +49,8 @@ class GltfSkin {
     };
     std::vector<glm::mat4> transform;
     std::vector<std::int64_t> main;
-    std::vector<Influence>
-        watched;  ///< all influences of the nodes for which the argument `watched` is true
+    /// All influences of the nodes for which the argument `watched` is true.
+    std::vector<Influence> watched;
   };
   vm::Result<Skinned> Apply(const GltfDocument& document, const nlohmann::json& attributes,
                             std::size_t count, const glm::mat4& transform,

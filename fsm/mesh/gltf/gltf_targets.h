@@ -23,8 +23,8 @@ struct GltfPlace {
 [[noreturn]] void Refuse(const GltfDocument& document, const std::string& what);
 /// Throws for positions beyond kMaxMeshReach; `what` is the subject of the sentence.
 [[noreturn]] void RefuseReach(const GltfDocument& document, const std::string& what);
-[[noreturn]] void RefuseSize(
-    const GltfDocument& document);  ///< throws for a file with more data than the limits allow
+/// Throws for a file with more data than the limits allow.
+[[noreturn]] void RefuseSize(const GltfDocument& document);
 std::string VertexAt(const GltfPlace& place, std::size_t vertex);
 
 /// Makes the shapes of a head from the morph targets of its file, and from VRM expressions, which

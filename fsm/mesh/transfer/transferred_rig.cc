@@ -131,8 +131,8 @@ class RigResampler {
     std::map<std::uint32_t, std::vector<LipRig::Follower>> followers;
     for (const LipRig::Follower& f : source_.lips.followers) followers[f.vertex].push_back(f);
     for (std::uint32_t v = 0; v < rows_.size(); ++v) {
-      std::map<std::pair<std::uint32_t, bool>, float>
-          parts;  // by pair of the seam, and whether of the upper lip
+      // By pair of the seam, and whether of the upper lip.
+      std::map<std::pair<std::uint32_t, bool>, float> parts;
       for (const auto& [from, part] : rows_[v]) {
         const auto found = followers.find(from);
         if (found == followers.end()) continue;
