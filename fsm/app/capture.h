@@ -46,8 +46,8 @@ class Capture {
   ~Capture() { Cancel(); }
 
   void Arm(Order order);
-  void Begin(
-      vm::Time at);  ///< the utterance began at `at`, now or just before; no effect if not armed
+  /// The utterance began at `at`, now or just before; no effect if not armed.
+  void Begin(vm::Time at);
   /// Says that the utterance ended at `at`, now or before. The remaining pictures up to then are
   /// drawn, then on_end is called. No effect if no capture is running.
   void End(vm::Time at);

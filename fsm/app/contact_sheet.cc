@@ -18,7 +18,7 @@ constexpr int kLabelHeight = 22;
 constexpr int kGap = 2;
 constexpr std::uint8_t kPaper = 235;
 
-/// How a figure fills its cell: size, and how far up it is moved (mm at the face).
+/// The scale of a figure in its cell, and its shift upward (mm at the face).
 struct Framing {
   float scale, up;
 };
@@ -30,7 +30,7 @@ FaceState Framed(FaceState state, const Framing& framing) {
   return state;
 }
 
-/// The settled state after one command to a face at rest.
+/// Returns the final state after one command to a face at rest.
 template <typename Command>
 FaceState After(const MotionTables& tables, const Command& command) {
   FaceMotion motion(tables, 1);
@@ -38,7 +38,7 @@ FaceState After(const MotionTables& tables, const Command& command) {
   return motion.StateAt(5s);
 }
 
-/// What must go along for a unit to be seen at all.
+/// Units that must be set as well for a unit to be visible.
 constexpr std::pair<int, const char*> kCompanions[] = {
     {8, " 26 0.5"}, {19, " 25 0.6 26 0.5"}, {37, " 25 0.6 26 0.5"}};
 constexpr const char* kEmotions[] = {"HAPPY", "SAD", "SURPRISED", "FEARED", "ANGRY", "DISGUSTED"};
@@ -48,7 +48,7 @@ std::string Companions(int unit) {
   return found == std::end(kCompanions) ? "" : found->second;
 }
 
-/// What MakeSheet is given.
+/// The arguments of MakeSheet.
 struct Wanted {
   const MotionTables& tables;
   const std::vector<std::string>& faces;
@@ -99,7 +99,7 @@ Sheet VisemeSheet(const Wanted& wanted) {
 Sheet Identities(const Wanted& wanted) {
   Sheet sheet{{}, 4};
   const FaceState smile = After(wanted.tables, [](FaceMotion& motion) {
-    static_cast<void>(motion.expression.Show(0ms, "HAPPY", 1, 1, 0ms));  // without it: at rest
+    static_cast<void>(motion.expression.Show(0ms, "HAPPY", 1, 1, 0ms));  // without HAPPY: at rest
   });
   for (const std::string& face : wanted.faces) {
     for (const float turn : {0.0f, 35.0f, 85.0f}) {

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kWide = 5, kHigh = 7, kStep = 6;
 
-/// Seven rows from the top, each of five points; 1 is ink.
+/// Seven rows of five points, from the top; 1 is ink.
 struct Letter {
   char name;
   std::array<const char*, kHigh> rows;

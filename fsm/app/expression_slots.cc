@@ -10,7 +10,7 @@ constexpr std::string_view kPrefix = "FaceExp.";
 
 using Name = ExpressionSlots::Name;
 
-// "FaceExp.SMIRK" or "FaceExp.SMIRK.2"; none for other slots.
+// Parses "FaceExp.SMIRK" or "FaceExp.SMIRK.2"; nothing for other slots.
 std::optional<Name> NameOf(std::string_view slot) {
   if (!slot.starts_with(kPrefix) || slot == "FaceExp.onset" || slot == "FaceExp.point") {
     return std::nullopt;

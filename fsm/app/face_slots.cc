@@ -8,21 +8,22 @@ namespace {
 constexpr SlotWord<Onset> kOnsets[] = {
     {"POSED", Onset::kPosed}, {"ELICITED", Onset::kElicited}, {"NATURAL", Onset::kPosed}};
 
-/// Ours lean to the viewer's right with z+, those of the original to his left.
+/// Converts the value of a slot to angles: z+ leans to the viewer's right here, to the left in the
+/// original.
 Angles AnglesOf(const FsmCore& core, const vm::SetValue& value) {
   const double z = core.original ? -value.number(2) : value.number(2);
   return {static_cast<float>(value.number(0)), static_cast<float>(value.number(1)),
           static_cast<float>(z)};
 }
 
-// Face.12 -> 12.
+// Returns 12 for "Face.12".
 int NumberOf(const std::string& slot) { return std::stoi(slot.substr(slot.find('.') + 1)); }
 
 vm::Result<void> SetBlendShapes(FsmCore& core, const vm::SetValue& value) {
   const vm::Time now = core.Now();
   const bool timed = value.size() % 2 == 1;
   const vm::Time move = FromMs(timed ? value.number(value.size() - 1) : 60);
-  // All names are looked at before anything moves.
+  // Check all names before anything moves.
   for (std::size_t i = 0; i + 1 < value.size(); i += 2) {
     if (auto known = core.motion->blend_shapes.Check(value.word(i)); !known) return known;
   }

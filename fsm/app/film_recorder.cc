@@ -40,7 +40,8 @@ void FilmRecorder::Arm() {
 }
 
 void FilmRecorder::Tick() {
-  // A slow encoder must not keep the module from its input: the rest comes right after that.
+  // With a slow encoder the module must still handle its input, so the remaining frames follow
+  // after that.
   if (auto added = AddUpTo(clock_.Now(), kMostRepeatsAtOnce); !added) {
     queue_.Clear();
     writer_.reset();
@@ -51,7 +52,7 @@ void FilmRecorder::Tick() {
 }
 
 vm::Result<void> FilmRecorder::AddUpTo(vm::Time now, long most_repeats) {
-  // A frame is too late to be drawn when the next one is due as well.
+  // A frame whose successor is due too is not drawn; the frame before is repeated.
   const long first = next_;
   while (next_ > 0 && series_.TimeOf(next_ + 1) <= now) {
     if (next_ - first == most_repeats) break;

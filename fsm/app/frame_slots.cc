@@ -62,7 +62,7 @@ void FrameSlots::Tell(vm::Time at) {
 
 void FrameSlots::Report(long number, vm::Time at) {
   if (!is_reported()) return;
-  // A head that cannot be made is one error, not one for each frame; another may be worn later.
+  // Report a head that cannot be made once, not for each frame; the face may be changed later.
   const std::string worn = core_.slots.Value("Mask");
   if (worn == unmeasured_mask_) return;
   const FaceState state = core_.motion->StateAt(at);

@@ -14,7 +14,7 @@ namespace {
 constexpr vm::Time kWindowEvents = std::chrono::milliseconds(200);
 constexpr const char* kModuleVersion = "Module Ver. Galatea FSM " GALATEA_VERSION;
 constexpr const char* kProtocolVersion =
-    "Protocol Ver. 2.06";  // the original's last, which this one contains
+    "Protocol Ver. 2.06";  // the last version of the original, which this protocol includes
 
 }  // namespace
 
@@ -60,7 +60,7 @@ void FsmModule::Connect() {
   speech_->set_listener({.begun = [this](vm::Time start) { capture_->capture().Begin(start); },
                          .ended =
                              [this] {
-                               // On a busy machine the end is noticed late.
+                               // On a busy machine the end is detected late.
                                const vm::Time now = core_.Now();
                                capture_->capture().End(
                                    std::min(now, core_.motion->speech.End().value_or(now)));
@@ -86,7 +86,7 @@ void FsmModule::MakeMotion() {
 
 void FsmModule::Initialise() {
   core_.slots.Store("Error", "");
-  // A film shows the face as it was until now, with the sound named until now.
+  // Films end first, with the face and the sound file from before INIT.
   for (ModulePart* part : parts_) part->End();
   MakeMotion();
   core_.slots.StoreInitialValues();
@@ -111,7 +111,8 @@ void FsmModule::Changed() {
 }
 
 vm::Time FsmModule::FrameAfter(vm::Time t) const {
-  // Frames without a film stand on a grid of the clock, so the same input gives the same reports.
+  // Frames outside a film are on a fixed grid of the clock, so that the same input gives the same
+  // reports.
   const bool shown = core_.view.window() != nullptr;
   const double rate = shown ? frame_rate_ : record_->frames_per_second();
   const FrameSeries grid{vm::Time(0), rate};
@@ -127,7 +128,7 @@ void FsmModule::ArmFrames() {
   const vm::Time now = core_.Now();
   std::optional<vm::Time> due;
   if (wanted) {
-    // What has just been said is shown at the next frame, even if it moves nothing by itself.
+    // The effect of the last command is shown in the next frame, even if nothing moves.
     const auto active = core_.view.Swings() ? now : core_.motion->NextActivity(now);
     if (active) due = FrameAfter(std::max(now, *active));
     if (window) due = std::min(due.value_or(now + kWindowEvents), now + kWindowEvents);
@@ -161,8 +162,8 @@ vm::Time FsmModule::BusyUntil() const {
 }
 
 void FsmModule::ArmEnd() {
-  // A timer stands at the end of what moves: whoever waits for it is woken then, and the virtual
-  // clock only goes to times at which there is a timer.
+  // Set a timer at the end of all movement: it wakes those who wait for that, and the virtual clock
+  // only advances to times of timers.
   const vm::Time end = BusyUntil();
   if (end_timer_.pending() && end == end_due_) return;
   if (end <= core_.Now()) return end_timer_.Cancel();
@@ -175,8 +176,8 @@ bool FsmModule::Busy() const {
 }
 
 void FsmModule::Shutdown() {
-  // The runtime calls what is still due before it ends. Where drawing takes longer than the time
-  // between two pictures, a capture would always have a next one due.
+  // The runtime runs due timers before it ends. If drawing takes longer than the interval between
+  // pictures, a capture would always have another one due.
   for (ModulePart* part : parts_) part->End();
   frame_timer_.Cancel();
 }

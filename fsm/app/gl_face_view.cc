@@ -9,8 +9,8 @@
 namespace fsm {
 namespace {
 
-/// How things look, in place of fsm/render/tables/appearance.txt; nothing if the folder does not
-/// say it. Throws std::runtime_error naming file and line.
+/// Reads the folder's appearance.txt, which replaces fsm/render/tables/appearance.txt; nothing if
+/// it has none. Throws std::runtime_error naming file and line.
 std::optional<Appearance> AppearanceIn(const TableFolder& folder) {
   const auto own = vm::OrThrow(folder.Find(TableFolder::kAppearance));
   if (!own) return std::nullopt;
@@ -47,7 +47,7 @@ void GlFaceView::MakeRenderer() {
   }
 }
 
-/// How far springs are from where the head carries them.
+/// Simulates the springs and returns their offsets (Simulation::offsets).
 std::span<const glm::vec3> GlFaceView::Swing(const Head& head, const StateHistory* history) {
   if (history == nullptr || head.rig().data().swing.springs.empty()) {
     simulation_.reset();
@@ -64,7 +64,7 @@ std::span<const glm::vec3> GlFaceView::Swing(const Head& head, const StateHistor
 vm::Result<void> GlFaceView::Draw(const FaceState& state, const Scene& scene,
                                   const StateHistory* history) {
   try {
-    // The head is made while the driver starts; both take a good part of the first frame.
+    // Make the head while the graphics driver starts, since both take long.
     std::future<void> made;
     if (!renderer_) {
       made = std::async(std::launch::async, [this] { static_cast<void>(wardrobe_.head()); });

@@ -25,7 +25,7 @@ const Head& HeadWardrobe::head() {
   return *head_;
 }
 
-/// One of those given, a built-in head, or one out of the folder of faces; "" = the first.
+/// Makes one of the given faces, a built-in head, or one of FacesFolder; "" = the first.
 std::unique_ptr<Head> HeadWardrobe::Make(const std::string& face) const {
   for (const NamedFace& more : more_) {
     if (face.empty() || more.name == face) return more.make();

@@ -11,7 +11,7 @@ std::string Profiles(const FsmCore& core) {
   return names;
 }
 
-/// What `text_of` says of each kind, with a separator between them.
+/// Joins the results of `text_of` for all kinds with a separator.
 template <typename TextOf>
 std::string Kinds(const std::string& separator, const TextOf& text_of) {
   std::string text;

@@ -21,7 +21,7 @@ constexpr SlotWord<LipMode> kModes[] = {{"DOMINANCE", LipMode::kDominance},
                                         {"SINUSOID", LipMode::kSinusoid},
                                         {"LINEAR", LipMode::kLinear}};
 
-/// Ways of speaking: movements of the jaw and of the lips in per cent.
+/// Returns the values of LipSync.scale: the sizes of jaw and lip movements in per cent.
 std::vector<SlotWord<glm::vec2>> WaysOfSpeaking(const GestureNumbers& gestures) {
   const auto& [jaw, lips] = std::tie(gestures.jaw, gestures.lips);
   return {{"MUMBLED", {jaw.MUMBLED, lips.MUMBLED}},
@@ -40,7 +40,7 @@ vm::Result<void> ChooseVisemes(MotionSettings& settings, const vm::SetValue& val
   return {};
 }
 
-/// `names`: of all lists, with blanks between them.
+/// `names`: the names of all lists, separated by blanks.
 vm::Result<void> SetNames(const std::string& names, MotionSettings& settings,
                           const std::string& word) {
   if ((" " + names + " ").find(" " + word + " ") == std::string::npos) {
@@ -118,7 +118,7 @@ void DeclareVisemes(FsmCore& core, VisemeSetId set) {
   }
 }
 
-// A table of 14 or of 28 rows, told apart by their count.
+// Loads a table of 14 or 28 rows; the number of rows determines the set.
 vm::Result<void> LoadVisemes(FsmCore& core, const std::string& path) {
   const auto text = ReadTableFile(path);
   if (!text) return std::unexpected(text.error());

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   fsm::Options options;
   bool failed = false;
   options.module.on_failure = [&failed] { failed = true; };
-  // Both outlive the module.
+  // These outlive the module.
   std::optional<fsm::HeadWardrobe> wardrobe;
   std::optional<fsm::GlFaceView> view;
   std::vector<char*> words = fsm::WithPlaceNamed(argc, argv);

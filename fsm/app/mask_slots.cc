@@ -8,7 +8,7 @@
 namespace fsm {
 namespace {
 
-/// The names that are among `known`, with commas between them.
+/// Joins the names that are in `known` with commas.
 std::string Joined(const std::vector<std::string>& names, const std::vector<std::string>& known) {
   std::string text;
   for (const std::string& name : names) {
@@ -43,7 +43,8 @@ MaskSlots::MaskSlots(FsmCore& core, std::string first, const std::vector<std::st
        .initial = first_,
        .help = "Wears one of the faces of MaskSet.",
        .on_set = core_.Command([this](const vm::SetValue& value) -> vm::Result<void> {
-         // Names may hold blanks; at the end, as the original's clients send them, not.
+         // Names may contain blanks; those at the end, which clients of the original send, are
+         // removed.
          const std::string name = value.text.substr(0, value.text.find_last_not_of(' ') + 1);
          if (auto worn = Wear(name); !worn) return worn;
          core_.slots.Report("NowMask", name);

@@ -7,7 +7,7 @@
 namespace fsm {
 namespace {
 
-constexpr double kMostMm = 60;  // as in the tables of mouth shapes
+constexpr double kMostMm = 60;  // the limit of the viseme tables
 constexpr std::size_t kValues = 1 + kMouthParameters + 2;
 constexpr std::size_t kHeadValues = 4;
 constexpr double kMostDegrees = 90;
@@ -41,7 +41,7 @@ vm::Result<MouthPose> PoseOf(const vm::SetValue& value) {
   return pose;
 }
 
-/// Head and brows of a value that PoseOf takes; nothing where the value ends before them.
+/// Returns head and brows of a value that PoseOf accepts; nothing if the value does not have them.
 vm::Result<std::optional<StreamHead>> HeadOf(const vm::SetValue& value) {
   if (value.size() == kValues) return std::nullopt;
   StreamHead head;

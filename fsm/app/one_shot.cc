@@ -15,8 +15,9 @@
 namespace fsm {
 namespace {
 
-/// The faces of a sheet of identities: the one asked for, else the built-in ones and those of the
-/// command line. Faces kept in the user's folder are private, and may be damaged.
+/// Returns the faces of a sheet of identities: the one of --mask, else the built-in ones and those
+/// of the command line. Faces in the user's folder are left out, because they are private and may
+/// be damaged.
 std::vector<std::string> FacesShown(const Options& options) {
   if (!options.module.mask.empty()) return {options.module.mask};
   std::vector<std::string> names;

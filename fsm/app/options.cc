@@ -37,10 +37,10 @@ bool DisplayNamed() {
   return (x11 != nullptr && *x11 != '\0') || (wayland != nullptr && *wayland != '\0');
 }
 
-/// --version says on stderr what would draw, too; the version alone is on stdout, as of every
+/// Makes --version also print the renderer, on stderr; stdout has only the version, as in every
 /// program.
 void TellRenderer(CLI::App& app, const Options& options) {
-  // The runtime adds its own flag after our options, so it is replaced when parsing begins.
+  // The runtime adds its own flag after our options, so it is replaced just before parsing.
   app.preparse_callback([&app, &options](std::size_t) {
     app.set_version_flag("--version", [&options]() -> std::string {
       std::cerr << "fsm: renderer off screen: " << DescribeOffScreen(options.view.off_screen)
@@ -50,8 +50,8 @@ void TellRenderer(CLI::App& app, const Options& options) {
   });
 }
 
-/// What draws, and where. CLI11 calls back in the order of these lines: of those that are given the
-/// last one counts.
+/// Adds the options of the renderer. CLI11 runs callbacks in the order of these lines, so the last
+/// of the given options wins.
 void AddDrawing(CLI::App& app, GlFaceView::Options& view) {
   view.where = DisplayNamed() ? Where::kWindowIfPossible : Where::kHeadless;
   app.add_flag_callback(
@@ -88,7 +88,7 @@ void AddSheet(CLI::App& app, Options& options) {
       ->needs(sheet);
 }
 
-/// The face of --head. REQUIRES: it names a file.
+/// Returns the face of --head. REQUIRES: --head was given.
 NamedFace GivenFace(const Options& options) {
   std::string name = std::filesystem::path(options.head).stem().string();
   for (char& c : name) {

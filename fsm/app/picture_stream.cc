@@ -48,7 +48,7 @@ void PictureStream::LetGo() {
 
 void PictureStream::Tick() {
   if (sender_->gone()) return LetGo();
-  // A picture is too late to be sent when the next one is due as well.
+  // Skip pictures whose successor is due too.
   const vm::Time now = clock_.Now();
   while (series_.TimeOf(next_ + 1) <= now) ++next_;
   const vm::Time at = series_.TimeOf(next_++);

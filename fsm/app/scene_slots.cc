@@ -19,9 +19,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr const char* kPlain = "plain";              // the background without a picture
-constexpr const char* kStudio = "studio";            // a wall that is brighter behind the head
+constexpr const char* kStudio = "studio";            // a wall, brighter behind the head
 constexpr const char* kTransparent = "transparent";  // no background
-constexpr vm::Time kLongestSettling = 2000ms;  // what a picture waits for movements, on their clock
+constexpr vm::Time kLongestSettling = 2000ms;        // how far a picture may be ahead
 
 constexpr SlotWord<ViewMode> kViewModes[] = {
     {"TEXTURE", ViewMode::kTexture},
@@ -68,7 +68,7 @@ SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::st
   DeclareSaveImage();
   if (auto set = SetBackground(first_); !set) {
     if (!first.empty()) throw std::runtime_error(set.error().text);
-    // The face is shown all the same when the configuration's picture is missing.
+    // A missing picture of the configuration is not an error.
     Notice("background " + first_ + ": " + set.error().text + "; the plain one is shown");
     StorePlain();
   }
@@ -254,8 +254,8 @@ void SceneSlots::DeclareSaveImage() {
            "Writes a picture of the face, .png, .bmp or .rgb by the name: as it will be when the "
            "changes begun before this command have settled, at most 2 s ahead.",
        .on_set_later = [this](const vm::SetValue& value, const vm::Reply& reply) {
-         // The state is a function of time, so the settled face can be drawn at once, and commands
-         // which follow cannot spoil it.
+         // The state is a function of time, so the face can be drawn at once as it will be after
+         // its onsets, unaffected by later commands.
          const vm::Time now = core_.Now();
          const vm::Time at = std::min(core_.motion->OnsetsSettled(now), now + kLongestSettling);
          auto done = core_.DrawAt(at);
@@ -280,7 +280,7 @@ vm::Result<void> SceneSlots::ResetSize() {
   if (fills_screen_) {
     if (auto done = FillScreen(false); !done) return done;
   }
-  // A headless view makes a new context for another size.
+  // Avoid resizing, for which a view without a window makes a new context.
   if (core_.view.width() == start_width_ && core_.view.height() == start_height_) return {};
   return core_.view.Resize(start_width_, start_height_);
 }

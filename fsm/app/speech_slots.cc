@@ -6,7 +6,7 @@
 namespace fsm {
 namespace {
 
-constexpr const char* kNothing = "non";  // the original's word for it
+constexpr const char* kNothing = "non";  // the original's word for an empty value
 
 constexpr SlotWord<Language> kLanguages[] = {
     {"AUTO", Language::kAuto}, {"JP", Language::kJapanese}, {"EN", Language::kEnglish}};
@@ -135,7 +135,7 @@ void SpeechSlots::DeclareSettings() {
   setting(
       "Offset", "<number -10000..10000>", "Delays the mouth by so many ms.", "0.000000",
       [](MotionSettings& s, const vm::SetValue& v) { s.offset_ms = v.number(0); },
-      // The original writes it so: 100.000000.
+      // The format of the original: 100.000000.
       [](const vm::SetValue& value) { return std::to_string(value.number(0)); });
   setting("LipSync.lead", "<number -1000..1000>", "The mouth is ahead of the voice by so many ms.",
           "40", [](MotionSettings& s, const vm::SetValue& v) { s.lead_ms = v.number(0); });
@@ -160,7 +160,7 @@ vm::Result<std::string> SpeechSlots::Prepare(const std::string& text) {
   if (!list) return std::unexpected(list.error());
   timer_.Cancel();
   if (core_.motion->speech.active())
-    core_.motion->speech.Stop(core_.Now());  // its start was to come
+    core_.motion->speech.Stop(core_.Now());  // it had not started yet
   list_ = std::move(*list);
   const std::string written = vm::FormatPhonemesFace(list_);
   core_.slots.Store("LipSync.dur", LengthOf(list_));
@@ -171,7 +171,7 @@ vm::Result<std::string> SpeechSlots::Prepare(const std::string& text) {
   core_.slots.Report("Speak.len", LengthOf(spoken_));
   SetStat(Stat::kProcessing);
   SetStat(Stat::kReady);
-  // A list with unknown phonemes is reported and spoken all the same, as by the original.
+  // Unknown phonemes are reported, but the list is spoken nevertheless, as in the original.
   for (const std::string& name : core_.motion->speech.UnknownPhonemes(list_)) {
     core_.slots.ReportError("LipSync.pho", {vm::Errc::kBadValue,
                                             "the phoneme '" + name +
@@ -196,7 +196,7 @@ vm::Result<void> SpeechSlots::Speak(const vm::SetValue& value) {
   const auto start = vm::ParseStartTime(value.text);
   if (!start) return std::unexpected(start.error());
   start_asked_ = true;
-  // NOW means as soon as the list is there, however late that is.
+  // NOW means as soon as the phonemes have arrived, however late.
   start_.reset();
   if (start->kind != vm::StartTime::Kind::kNow) start_ = core_.InstantOf(*start);
   if (stat_ == Stat::kReady) Begin();
@@ -227,7 +227,7 @@ void SpeechSlots::TellSpeaking() {
 void SpeechSlots::WaitForEnd() {
   const vm::Time end = core_.motion->speech.End().value_or(core_.Now());
   timer_.At(end, [this] {
-    // Settings may have moved the end meanwhile.
+    // Changed settings may have moved the end.
     if (core_.motion->speech.End().value_or(vm::Time(0)) > core_.Now()) return WaitForEnd();
     End(list_);
     core_.changed();
@@ -255,7 +255,7 @@ void SpeechSlots::End(vm::PhonemeList spoken) {
   spoken_ = std::move(spoken);
   list_.clear();
   start_asked_ = false;
-  // As in the original they are reported with the next list; the end is told by IDLE alone.
+  // As in the original, these are reported with the next list; only IDLE reports the end.
   core_.slots.Store("Speak.len", LengthOf(spoken_));
   core_.slots.Store("Speak.utt", spoken_.empty() ? kNothing : vm::FormatPhonemesFace(spoken_));
   SetStat(Stat::kIdle);
