@@ -14,7 +14,8 @@
 namespace fsm {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = 16u << 20;  // thirty times a face of a large photo
+// Thirty times the size of a face from a large photo.
+constexpr std::size_t kMaxFileBytes = 16u << 20;
 
 std::string ReadText(const std::string& path) {
   return vm::OrThrow(vm::ReadTextFile(path, kMaxFileBytes));

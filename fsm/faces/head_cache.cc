@@ -23,9 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostTables = 1000;  // files in a folder of tables
+constexpr std::size_t kMostTables = 1000;  // greatest number of files in a folder of tables
 constexpr std::string_view kNoticesFollow = "notices:\n";
-/// Begins our files' names, so that whatever else lies in the folder is left alone.
+/// The prefix of our files' names; other files in the folder are not touched.
 constexpr const char* kEntry = ".galatea_head";
 
 std::string LineOf(const fs::path& path) {
@@ -35,7 +35,8 @@ std::string LineOf(const fs::path& path) {
   return std::to_string(size) + " " + std::to_string(time) + " " + path.string() + "\n";
 }
 
-/// What every head of this file is made from, by size and time; "" if that cannot be said.
+/// Returns the sources of a file's head with their sizes and times; "" if they cannot be
+/// determined.
 std::string SourcesOf(const std::string& path, const TableFolder& tables) {
   std::error_code code;
   const fs::path file = fs::canonical(path, code);
@@ -55,7 +56,7 @@ std::string SourcesOf(const std::string& path, const TableFolder& tables) {
   return code ? "" : sources;
 }
 
-/// Whether all files of these lines are as they were.
+/// Tells whether all files in these lines have the same size and time as then.
 bool Unchanged(std::string_view lines) {
   while (!lines.empty()) {
     const std::string line(lines.substr(0, lines.find('\n') + 1));
@@ -122,7 +123,7 @@ void HeadCache::Keep(const std::string& entry, const std::string& made_from,
 }
 
 void HeadCache::DropOldest() const {
-  // One of the two files may be missing: a run that was ended between them left the other.
+  // One of the two files may be missing if a program was killed between writing them.
   std::map<fs::path, fs::file_time_type> entries;
   for (const fs::directory_entry& file : fs::directory_iterator(folder_)) {
     const fs::path ending = file.path().extension();

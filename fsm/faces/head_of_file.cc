@@ -28,8 +28,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What a row of tables/vrm.txt shows; nothing if the motion's tables have no such shape or
-/// expression.
+/// Returns the state of a row of tables/vrm.txt; nothing if the tables of motion have no such shape
+/// or expression.
 std::optional<FaceState> ShownBy(const TableRow& row, const MotionTables& tables) {
   const std::string &kind = row.Word(1), &what = row.Word(2);
   FaceState state;
@@ -62,7 +62,7 @@ std::vector<ShapeMeaning> Meanings(const MotionTables& tables) {
   return meanings;
 }
 
-/// The head of a file that ExportHead has written; null if it is of another kind.
+/// Reads the head of a file that ExportHead has written; null if it is another file.
 std::unique_ptr<Head> AssetOfFile(const std::string& path) {
   if (vm::LowerCase(std::filesystem::path(path).extension().string()) != ".glb") return nullptr;
   const auto bytes = vm::ReadTextFile(path, kMaxMeshBytes);
@@ -70,7 +70,7 @@ std::unique_ptr<Head> AssetOfFile(const std::string& path) {
   return std::make_unique<Head>(vm::OrThrow(ParseAsset(path, *bytes)));
 }
 
-/// The mouths of both sets at full articulation.
+/// Returns the visemes of both sets at full articulation.
 std::vector<FaceState> VisemeStates(const MotionTables& tables) {
   std::vector<FaceState> states;
   for (const Visemes* shapes : {&tables.set14.visemes, &tables.set28.visemes}) {
@@ -83,11 +83,11 @@ std::vector<FaceState> VisemeStates(const MotionTables& tables) {
   return states;
 }
 
-/// How a head from elsewhere comes to lie over ours.
+/// The transformation that aligns an imported head with the built-in ones.
 struct Alignment {
   Similarity to_ours;
   float mouth_y = kUsualMouthY;
-  std::vector<PointPair> pairs;  // in our frame; none where the file has no points
+  std::vector<PointPair> pairs;  // in our frame; empty if there is no .points file
   std::string face = "galatea";
 };
 
@@ -108,13 +108,13 @@ Alignment AlignByPoints(const HeadPoints& points) {
   return alignment;
 }
 
-/// Scales about `from`, which comes to lie at `to`.
+/// Returns the similarity that scales and moves `from` to `to`.
 Similarity ScaledAbout(glm::vec3 from, float scale, glm::vec3 to) {
   return {.scale = scale, .move = to - scale * from};
 }
 
-/// Aligns a head by its eyes, which come to lie where ours do, else by its outline; of a file much
-/// higher than wide the upper part is taken for the head.
+/// Aligns a head by its eyes, or without eyes by its bounding box; of a file much higher than wide
+/// the upper part is taken as the head.
 Alignment AlignByOutline(const ImportedHead& file) {
   Alignment alignment;
   const MeshModel raw = ModelOfImport(file, {}, 0);
@@ -135,7 +135,7 @@ Alignment AlignByOutline(const ImportedHead& file) {
   return alignment;
 }
 
-/// By the points that lie beside the file, else by the outline.
+/// Aligns a head by the .points file, if there is one, else by the outline.
 Alignment AlignmentOf(const ImportedHead& file, const std::string& points) {
   std::error_code none;
   if (!std::filesystem::exists(points, none)) return AlignByOutline(file);
@@ -143,7 +143,7 @@ Alignment AlignmentOf(const ImportedHead& file, const std::string& points) {
   return AlignByPoints(vm::OrThrow(ParseHeadPoints(points, text)));
 }
 
-/// The rig of a file's own shapes; nothing if too few have names with a meaning.
+/// Makes the rig from the file's own shapes; nothing if too few names are known.
 std::optional<RigData> RigOfShapes(const ImportedHead& file, const Alignment& alignment,
                                    const MotionTables& tables,
                                    const std::optional<UnitTable>& units, MeshModel& model,
@@ -166,7 +166,7 @@ std::vector<ExportedShape> ArkitShapes(const MotionTables& tables) {
   for (const auto& [name, units] : tables.blend_shapes) {
     if (!motion.blend_shapes.Set(0ms, name, 1, 0ms)) continue;
     shapes.push_back({name, motion.StateAt(5s)});
-    shapes.back().state.asymmetry = 0;  // left and right shapes are each other's image
+    shapes.back().state.asymmetry = 0;  // left and right shapes are mirror images
     static_cast<void>(motion.blend_shapes.Set(0ms, name, 0, 0ms));
   }
   return shapes;

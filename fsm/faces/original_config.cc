@@ -10,7 +10,7 @@
 namespace fsm {
 namespace {
 
-/// Files of all faces, by their key.
+/// The files that all faces share, by key.
 const std::map<std::string, std::string OriginalSharedFiles::*, std::less<>> kSharedFiles = {
     {"DEF_WFM_PNT", &OriginalSharedFiles::standard},
     {"DEF_WFM_LNK", &OriginalSharedFiles::link},
@@ -19,7 +19,7 @@ const std::map<std::string, std::string OriginalSharedFiles::*, std::less<>> kSh
     {"EYE_OBJ_NAME", &OriginalSharedFiles::eye},
     {"M_WALL_TEXTURE", &OriginalSharedFiles::mouth_picture}};
 
-/// Keys with one number: its bounds, and where it goes.
+/// A key with one number: its bounds, and a function that stores it.
 struct NumberKey {
   double lowest, highest;
   void (*take)(OriginalConfig&, double);
@@ -38,13 +38,13 @@ const std::map<std::string, NumberKey, std::less<>> kNumbers = {
     {"MaxFrameRate", {1, 240, [](OriginalConfig& c, double v) { c.max_frame_rate = v; }}},
     {"FaceMotBlink", {1, 60000, [](OriginalConfig& c, double v) { c.blinks_ms.push_back(v); }}}};
 
-/// Movement files, by their key: what FaceMot calls them.
+/// Keys of movement files -> kinds of FaceMot.
 const std::map<std::string, std::string, std::less<>> kMotions = {{"FaceMotNod", "NOD"},
                                                                   {"FaceMotRefuse", "REFUSE"},
                                                                   {"FaceMotListen", "LISTEN"},
                                                                   {"FaceMotUserDef", "USERDEF"}};
 
-/// Takes the rows of a configuration one by one.
+/// Reads the rows of a configuration one by one.
 class ConfigReader {
  public:
   explicit ConfigReader(const std::string& path)
@@ -96,7 +96,7 @@ class ConfigReader {
     }
     OriginalFaceFiles* mask = &MaskOf(row);
     if (key == "MaskFile") {
-      if (mask->wireframe.empty()) {  // other lines may name it before its own does
+      if (mask->wireframe.empty()) {  // it may occur in other lines before its own
         std::rotate(mask, mask + 1, config_.masks.data() + config_.masks.size());
         mask = &config_.masks.back();
       }
@@ -110,7 +110,7 @@ class ConfigReader {
     }
   }
 
-  /// The mask that the row names, made if need be. Valid until the next call.
+  /// Returns the mask that the row names, added if it is new. Valid until the next call.
   OriginalFaceFiles& MaskOf(const TableRow& row) {
     const std::string& name = row.Word(1);
     const auto found = std::ranges::find(config_.masks, name, &OriginalFaceFiles::name);
@@ -127,7 +127,7 @@ class ConfigReader {
   static double Number(const TableRow& row, std::size_t i, double lowest, double highest) {
     return row.Number(i, "a value of " + row.key(), lowest, highest);
   }
-  /// A file as named, if it is there, else from the folder of the configuration.
+  /// Returns a file's path as given if it exists, else relative to the configuration's folder.
   std::string File(const TableRow& row, std::size_t i) const {
     const std::string name = Word(row, i);
     std::error_code code;
@@ -196,7 +196,7 @@ vm::Result<void> OriginalConfig::ApplyTo(MotionTables& tables) const {
   }
   if (!blinks_ms.empty()) patterns.blinks.clear();
   for (const double ms : blinks_ms) {
-    // Two fifths closing, as lids close faster than they open.
+    // Two fifths are for closing, because lids close faster than they open.
     patterns.blinks.push_back({0.4 * ms, 0.05 * ms, 0.55 * ms});
   }
   if (!auto_blinks.empty()) patterns.auto_blinks.clear();
@@ -205,12 +205,12 @@ vm::Result<void> OriginalConfig::ApplyTo(MotionTables& tables) const {
       return vm::Fail(vm::Errc::kBadValue, path + ": AutonomousBlink names blink pattern " +
                                                std::to_string(pattern) + ", which there is not");
     }
-    // The original draws lots for every frame, 30 a second.
+    // The original decides randomly in every frame, at 30 per second.
     constexpr double kFrameMs = 1000.0 / 30;
     patterns.auto_blinks.push_back(
         {std::max(500.0, kFrameMs * 100 / percent), static_cast<std::size_t>(pattern) - 1, false});
   }
-  // Built-in autonomous blinks may now point past the patterns the file gave.
+  // Indices of built-in autonomous blinks may now exceed the patterns of the file.
   for (AutoBlink& blink : patterns.auto_blinks) {
     blink.blink = std::min(blink.blink, patterns.blinks.size() - 1);
   }

@@ -17,8 +17,8 @@ struct OriginalConfig {
   std::optional<double> expression_ms, eye_move_ms, max_frame_rate;
   std::optional<Language> language;
   std::vector<std::pair<std::string, std::string>> backgrounds;  ///< name, file, in order
-  std::map<std::string, std::vector<std::string>>
-      motions;  ///< kind (NOD ...) -> files, indexed by pattern
+  /// Kind (NOD ...) -> files, indexed by pattern.
+  std::map<std::string, std::vector<std::string>> motions;
   std::vector<double> blinks_ms;
   std::vector<std::pair<double, int>> auto_blinks;  ///< per cent per frame, blink pattern
   std::vector<std::string> auto_moves, auto_userdefs;

@@ -17,7 +17,7 @@
 namespace fsm {
 namespace {
 
-/// What each Mouth.N asks of its parameter.
+/// Returns the value of each mouth parameter when Mouth.N is at 100 per cent.
 MouthUnitSizes UnitSizes(const MotionTables& tables) {
   FaceMotion motion(tables, 1);
   for (int i = 1; i <= static_cast<int>(kMouthParameters); ++i) {
@@ -31,8 +31,8 @@ std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
   const auto face = ReadOriginalFace(files, shared);
   if (!face) throw std::runtime_error("face '" + files.name + "': " + face.error().text);
   const MotionTables motion = vm::OrThrow(MotionTables::Load(tables));
-  // Its visemes are numbered as the shapes of the set of 28, but for silence, which is 0 there and
-  // the last here.
+  // The original numbers its visemes as the set of 28, except silence, which is 0 there and the
+  // last here.
   VisemeMouths mouths;
   for (std::size_t i = 0; i < kOriginalVisemes && i < motion.set28.visemes.size(); ++i) {
     mouths.push_back(motion.set28.visemes[i].pose.mouth);
@@ -43,7 +43,7 @@ std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
   return WithUnits(UnitsIn(tables), MakeMeshHead(std::move(model), std::move(skin)));
 }
 
-/// The first file that is missing; "" if none is.
+/// Returns the first missing file; "" if none is missing.
 std::string Missing(const OriginalFaceFiles& files, const OriginalSharedFiles& shared) {
   std::error_code code;
   for (const std::string* file :

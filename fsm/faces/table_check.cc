@@ -14,7 +14,7 @@
 namespace fsm {
 namespace {
 
-/// Every row must speak of units that there are. REQUIRES: rows that a UnitTable was made of.
+/// Throws TableError for a row with an unknown unit. REQUIRES: a UnitTable was made from the table.
 void CheckRows(const Table& table, const UnitNames& names) {
   for (const TableRow& row : table.rows()) {
     const bool rule = row.key() == "damp" || row.key() == "oppose" || row.key() == "strongest";
