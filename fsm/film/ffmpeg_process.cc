@@ -31,8 +31,8 @@ std::unexpected<vm::Error> CannotStart(int error) {
 
 vm::Result<std::unique_ptr<FfmpegProcess>> FfmpegProcess::Start(
     const std::vector<std::string>& arguments) {
-  // A socket and not a pipe for its input: only with a socket can a write to a process that died
-  // be told not to raise SIGPIPE.
+  // Its input is a socket, not a pipe, because only for sockets can SIGPIPE be suppressed in a
+  // write to a dead process.
   int input[2];
   int errors[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input) != 0) return CannotStart(errno);
@@ -100,13 +100,13 @@ vm::Result<void> FfmpegProcess::Finish() {
 }
 
 bool FfmpegProcess::Wait(bool for_writing, Deadline deadline) {
-  constexpr std::chrono::milliseconds kLook{100};  // how often for abandonment
+  constexpr std::chrono::milliseconds kLook{100};  // how often abandoned_ is checked
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
         deadline - std::chrono::steady_clock::now());
     if (left.count() <= 0 || abandoned_) return false;
     pollfd wanted[2] = {{errors_, POLLIN, 0}, {for_writing ? input_ : -1, POLLOUT, 0}};
-    // Negative descriptors are passed over by poll, so the end of either is no special case.
+    // poll ignores negative descriptors, so closed ones need no special case.
     if (poll(wanted, 2, static_cast<int>(std::min(left, kLook).count())) == 0) continue;
     if (wanted[0].revents != 0) ReadErrors();
     return true;
@@ -137,7 +137,7 @@ std::unexpected<vm::Error> FfmpegProcess::Over(const std::string& what) {
   CloseFd(input_);
   int status = -1;
   if (pid_ > 0) {
-    // A process that closed its input is given a moment to say why before it is ended.
+    // A process that closed its input gets some time to print the reason before it is killed.
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(2);
     while (errors_ >= 0 && Wait(false, deadline)) {
     }

@@ -24,29 +24,28 @@ namespace fsm {
 namespace {
 
 constexpr int kMaxFramesPerSecond = 1000;
-constexpr int kMaxDrafts = 1000;  // left behind by programs that were killed
+constexpr int kMaxDrafts = 1000;  // limit of files left by killed programs
 
 using Words = std::vector<std::string>;
 
-/// A path as ffmpeg takes it: the protocol named, so that no path is read as an option or an
-/// address.
+/// Returns a path as a URL, so that ffmpeg cannot read it as an option or as another protocol.
 std::string FileUrl(const std::string& path) { return "file:" + path; }
 
 void Append(Words& words, std::initializer_list<std::string> more) {
   words.insert(words.end(), more);
 }
 
-/// Quiet, asking nothing, and telling nothing about itself in the file.
+/// Returns the first arguments: no banner, no questions, only errors.
 Words Opening() { return {"-hide_banner", "-nostdin", "-loglevel", "error", "-y"}; }
 
-/// A kind of film, told by its name's ending.
+/// A kind of film, selected by the ending of its name.
 struct FilmKind {
   std::string_view ending;
-  bool as_rgba;  ///< pictures are handed over as they are, not as YuvPlanes
+  bool as_rgba;  ///< frames are passed to ffmpeg as RGBA, not as YuvPlanes
   const char* muxer;
-  const char* pixels;    ///< ffmpeg's name of their form
-  Words encoder, sound;  ///< of pictures and of sound
-  bool is_rgb = false;   ///< as the pictures are: nothing is lost
+  const char* pixels;    ///< ffmpeg's name of the pixel format
+  Words encoder, sound;  ///< arguments of the video and audio encoders
+  bool is_rgb = false;   ///< the film stores RGB, without loss
 };
 
 const FilmKind* KindOf(std::string_view path) {
@@ -58,7 +57,7 @@ const FilmKind* KindOf(std::string_view path) {
        {"libx264", "-preset", "superfast", "-crf", "18"},
        {"aac", "-b:a", "160k"}},
       {".mov", true, "mov", "yuva444p10le", {"prores_ks", "-profile:v", "4444"}, {"pcm_s16le"}},
-      // The encoder has no alternate reference frames beside transparency.
+      // The encoder does not support alternate reference frames with transparency.
       {".webm",
        true,
        "webm",
@@ -95,7 +94,7 @@ Words EncodeWords(const FilmKind& kind, int width, int height, double frames_per
                   const std::string& comment, const std::string& path) {
   Words words = Opening();
   Append(words, {"-f", "rawvideo", "-pixel_format", kind.as_rgba ? "rgba" : "yuv420p"});
-  // Sides are made even: by YuvPlanes, or, where the pictures go as they are, by ffmpeg.
+  // Sides are made even by YuvPlanes, or by ffmpeg for RGBA.
   Append(words, {"-video_size", kind.as_rgba ? SizeText(width, height)
                                              : SizeText(width + width % 2, height + height % 2)});
   Append(words, {"-framerate", fmt::format("{:.10g}", frames_per_second), "-i", "pipe:0", "-an"});
@@ -106,8 +105,8 @@ Words EncodeWords(const FilmKind& kind, int width, int height, double frames_per
                        std::string(kind.pixels)});
   }
   if (!kind.is_rgb) {
-    // The numbers of the HD standard are named in the file; players guess differently where they
-    // are left out, and skin turns orange or green.
+    // Name the BT.709 matrix, primaries and transfer in the file: without them players guess
+    // differently, and skin turns orange or green.
     Append(words, {"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
                    "-color_range", "tv"});
   }
@@ -194,7 +193,7 @@ class FfmpegFilmWriter : public FilmWriter {
   }
 
  private:
-  /// Replaces the draft by one with sound; on failure the silent one stays.
+  /// Replaces the draft by one with sound; on failure the silent one is kept.
   vm::Result<void> AddSound(const std::string& sound) {
     const std::string with_sound = draft_ + ".sound";
     vm::Result<void> done = vm::CheckReadable(sound);
@@ -217,7 +216,7 @@ class FfmpegFilmWriter : public FilmWriter {
     return std::unexpected(std::move(error));
   }
 
-  const FilmKind& kind_;  // of a table that stays
+  const FilmKind& kind_;  // in a static table
   const std::string comment_;
   std::string path_;
   std::string draft_;  // empty once moved to the path
@@ -225,10 +224,10 @@ class FfmpegFilmWriter : public FilmWriter {
   int height_;
   int frames_ = 0;
   std::unique_ptr<FfmpegProcess> ffmpeg_;  // null once ended
-  std::optional<FrameFeeder> feeder_;      // while there is a process
+  std::optional<FrameFeeder> feeder_;      // exists as long as the process
 };
 
-/// Raw frames, as they come, into a file or a pipe.
+/// Writes raw frames at once to a file or a pipe.
 class RawFilmWriter : public FilmWriter {
  public:
   RawFilmWriter(std::string path, int width, int height, int fd, bool is_pipe)
@@ -284,7 +283,7 @@ vm::Result<std::unique_ptr<FilmWriter>> OpenRaw(const std::string& path, int wid
   if (!is_pipe) {
     if (auto fit = vm::CheckWritable(path); !fit) return std::unexpected(std::move(fit.error()));
   }
-  // Without waiting: a pipe that nobody reads is an error at once.
+  // Non-blocking, so that a pipe without a reader is an error at once.
   const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666);
   if (fd < 0) {
     return vm::Fail(
@@ -295,8 +294,8 @@ vm::Result<std::unique_ptr<FilmWriter>> OpenRaw(const std::string& path, int wid
   return std::make_unique<RawFilmWriter>(path, width, height, fd, is_pipe);
 }
 
-/// An empty file beside the film's place, under a name nobody else has; made before the first
-/// picture, so that a place that cannot be written is known at once.
+/// Creates an empty file with a unique name beside the film's path, before the first frame, so that
+/// an unwritable folder is an error at once.
 vm::Result<std::string> MakeDraft(const std::string& path) {
   for (int number = 1;; ++number) {
     std::string draft = path + "." + std::to_string(number) + ".part";

@@ -13,10 +13,9 @@
 namespace fsm {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{
-    50};  // how often a thread that waits for the receiver looks whether to end
+constexpr std::chrono::milliseconds kLook{50};  // between checks of closing_
 
-/// Head and picture; empty if it cannot be compressed.
+/// Returns header and JPEG; empty if the picture cannot be compressed.
 std::vector<std::uint8_t> Record(vm::Time at, const Image& picture) {
   const auto jpeg = EncodeJpeg(picture, PictureSender::kQuality);
   if (jpeg.empty()) return {};
@@ -58,7 +57,7 @@ bool PictureSender::closing() {
 }
 
 bool PictureSender::gone() {
-  // A receiver says nothing: whatever there is to read is its end.
+  // A receiver sends nothing, so only the end of the stream can be read.
   char byte;
   if (recv(fd_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0) return true;
   const std::lock_guard lock(mutex_);

@@ -23,7 +23,7 @@ std::uint8_t Luma(const Rgb& c) {
   return static_cast<std::uint8_t>(16 + ((11966 * c.r + 40254 * c.g + 4064 * c.b + kHalf) >> 16));
 }
 
-/// Cb of four pixels, given the sum of their colours.
+/// Returns Cb of four pixels from the sum of their colours.
 std::uint8_t BlueDifference(const Rgb& sum) {
   return static_cast<std::uint8_t>(
       128 + ((-6596 * sum.r - 22188 * sum.g + 28784 * sum.b + 2 * kHalf * 2) >> 18));
