@@ -36,8 +36,8 @@ struct OriginalExpression {
 
 struct OriginalExpressions {
   std::vector<OriginalExpression> all;
-  std::vector<PntFile> residuals;  ///< indexed by channel, at most kResidualChannels; offsets in
-                                   ///< the unit of the files
+  /// Indexed by channel, at most kResidualChannels; offsets in the unit of the files.
+  std::vector<PntFile> residuals;
   /// Expressions for whose residual no channel was left; only their units are shown.
   std::vector<std::string> without_residual;
 };
