@@ -37,7 +37,7 @@ class ExpressionMotion : public MotionSource {
   /// Moves an emotion to `strength`. REQUIRES: element `index` of UnitList::emotions is an emotion.
   void SetEmotion(vm::Time now, std::size_t index, double strength);
   /// Adds or changes a pattern of an expression. `pattern` is at most one more than those that
-  /// exist. `name` consists of letters, digits and _.
+  /// exist. `name` consists of at most 40 letters, digits and _.
   vm::Result<void> Define(std::string_view name, int pattern, std::string_view look);
   /// Undoes Define: restores an expression of the tables and removes one that they do not have.
   void Forget(std::string_view name);

@@ -52,8 +52,8 @@ class FaceMotion {
 
   // Visemes; a change applies from the next utterance on.
   const Visemes& visemes(VisemeSetId set) const { return tables_.set(set).visemes; }
-  /// Replaces the poses and hold times of a set; dominances are kept. REQUIRES: the same names in
-  /// the same order.
+  /// Replaces the poses and hold times of a set; dominances and contacts are kept. REQUIRES: the
+  /// same names in the same order.
   void SetVisemes(VisemeSetId set, Visemes visemes);
 
   // Settings. Those of speech apply at once, without a jump.

@@ -44,7 +44,7 @@ class MouthStream : public MotionSource {
   /// for that instant or later. Error: kLimit.
   vm::Result<void> Add(vm::Time now, vm::Time at, const MouthPose& pose,
                        const std::optional<StreamHead>& head = std::nullopt);
-  /// The instant at which the times of frames begin, for the sender's use.
+  /// The instant from which senders count the times of frames; Add does not use it.
   vm::Time start() const { return start_; }
   void set_start(vm::Time start) { start_ = start; }
   /// Changes MotionSettings::mouth_scale without a jump.

@@ -23,8 +23,7 @@ struct EngineNames {
   std::vector<std::string> endings;
   std::map<std::string, std::string, std::less<>> ours;
 
-  /// Returns our name for an engine's phoneme, if necessary without one of the `endings`; "" if
-  /// unknown.
+  /// Returns our name for an engine's phoneme, removing `endings` if necessary; "" if unknown.
   std::string_view Ours(std::string_view name) const;
 };
 /// Reads tables/phoneme_names.txt: every name must map to a phoneme of `set`.

@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 constexpr vm::Time kTakeOver = 60ms;  // speech takes control of the mouth
 constexpr vm::Time kEmotionYields = 150ms;
 constexpr vm::Time kClose = 110ms;      // closing after STOP; docs promise 120 ms
-constexpr vm::Time kClosedFor = 120ms;  // how long the lips then stay closed against emotions
+constexpr vm::Time kClosedFor = 120ms;  // after STOP, until emotions may part the lips
 constexpr vm::Time kHeadStops = 400ms;  // fading of gestures after STOP
 
 }  // namespace
