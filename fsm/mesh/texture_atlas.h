@@ -27,8 +27,8 @@ class TextureAtlas {
   /// Lays all pictures out on one. Returns nullptr if there are none.
   std::shared_ptr<const Image> Make();
   /// Makes a second atlas of other pictures, at half the size and with the same layout: `others[i]`
-  /// lies where picture i does. Where one is missing or empty the atlas has the colour `neutral`.
-  /// Returns nullptr if all are missing or empty. REQUIRES: Make was called.
+  /// has the rectangle of picture i. Where one is missing or empty the atlas has the colour
+  /// `neutral`. Returns nullptr if all are missing or empty. REQUIRES: Make was called.
   std::shared_ptr<const Image> MakeBeside(std::vector<Image> others,
                                           std::array<std::uint8_t, 4> neutral) const;
   /// Valid after Make.
