@@ -18,8 +18,8 @@ namespace fsm {
 /// is kept for messages. No shell is involved. If the process dies, the caller gets an error, never
 /// a signal.
 /// Lifetime: the destructor kills and reaps a process that has not ended. Thread: one.
-/// Limits:   kStallLimit without taking a byte, or between the last byte and the end; of its
-///           standard error the last kMaxLineBytes of the last line are kept.
+/// Limits:   kStallLimit without reading a byte, or between the last byte and the exit; the last
+///           kMaxLineBytes of the last line of standard error are kept.
 class FfmpegProcess {
  public:
   static constexpr std::chrono::minutes kStallLimit{5};

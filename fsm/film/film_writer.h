@@ -9,8 +9,8 @@
 namespace fsm {
 
 /// Writes a film through an ffmpeg process that receives raw frames; .rgba is written without one.
-/// Lifetime: Finish() or the destructor ends the process. Without Finish nothing is left at the
-///           path, but for .rgba, whose frames stand there as soon as they are written.
+/// Lifetime: Finish() or the destructor ends the process. Without Finish no file is left at
+///           the path, except for .rgba, whose frames are written to it at once.
 /// Deterministic: the same frames give the same bytes (no time stamps, one encoder thread).
 class FilmWriter {
  public:
