@@ -45,7 +45,8 @@ TEST(ModelTest, AWeightThatIsNoNumberIsRefused) {
   for (const float bad : {NAN, INFINITY}) {
     std::string damaged = file;
     damaged.replace(at, weight.size(), maker::BytesOf(std::vector{bad}));
-    EXPECT_THROW(Model::Read({damaged.begin(), damaged.end()}), BadModel) << bad;
+    const std::vector<std::uint8_t> bytes(damaged.begin(), damaged.end());
+    EXPECT_THROW(Model::Read(bytes), BadModel) << bad;
   }
 }
 
