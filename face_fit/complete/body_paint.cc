@@ -44,7 +44,7 @@ BodyPaint::BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const FloatI
 BodyPaint::Joint BodyPaint::JointOf(PhotoEdge edge) const {
   const float end = static_cast<float>(canvas_.photo_size.y);
   Joint joint{.row = end, .width_ratio = 1, .cut = false};
-  // Up along the photo's edge as far as that cuts the body.
+  // Follow the photo's edge upward while it cuts the body.
   while (joint.row > std::max(canvas_.chin.y, 0.0F) + 1 &&
          IsBody(edges_.aside(edge, static_cast<int>(joint.row) - 1))) {
     --joint.row;
@@ -54,7 +54,7 @@ BodyPaint::Joint BodyPaint::JointOf(PhotoEdge edge) const {
       edge == PhotoEdge::kLeft ? Axis() : static_cast<float>(canvas_.photo_size.x) - Axis();
   bool hidden = false;
   if (!joint.cut) {
-    // Else along the lower edge as far as the body goes; hair may hide more of it.
+    // Otherwise follow the lower edge outward while it cuts the body; hair may hide the rest of it.
     int x = std::clamp(static_cast<int>(Axis()), 0, edges_.width() - 1);
     const auto on_edge = [&] { return x >= 0 && x < edges_.width(); };
     while (on_edge() && IsBody(edges_.bottom(x))) x += edge == PhotoEdge::kLeft ? -1 : 1;
@@ -65,8 +65,8 @@ BodyPaint::Joint BodyPaint::JointOf(PhotoEdge edge) const {
       bust_.HalfWidth(edge, joint.row + static_cast<float>(canvas_.photo_origin.y) - 0.5F);
   const auto& look = PhotoLook().bust;
   glm::vec2 limit = look.width_ratio;
-  // At the height of the jaw the figure is wider than its neck, but not for long; above the chin
-  // the bust has a jaw of its own.
+  // A photo that ends at the jaw is wider there than the neck below it, so the ratio is limited;
+  // above the chin the bust has a jaw of its own.
   const float below_chin = (joint.row - canvas_.chin.y) / canvas_.pixels_per_mm;
   if (below_chin < 0) limit.y = std::min(limit.y, look.width_ratio_at_jaw);
   joint.fade_mm = fsm::Between(look.fades_mm, fsm::SmoothStep(look.neck_mm, below_chin));
@@ -76,7 +76,7 @@ BodyPaint::Joint BodyPaint::JointOf(PhotoEdge edge) const {
 }
 
 float BodyPaint::OutlineSlope(PhotoEdge edge, float row) const {
-  // How far the outline falls towards the edge, over the last part of the photo.
+  // The fall of the outline over the outermost sixteenth of the photo.
   const int inward = std::max(canvas_.photo_size.x / 16, 1);
   const int x = edge == PhotoEdge::kLeft ? inward : canvas_.photo_size.x - 1 - inward;
   const glm::vec2 limit = PhotoLook().shoulder.fall_per_px;
@@ -100,8 +100,8 @@ glm::vec3 BodyPaint::ClothColour() const {
   }
   const auto& look = PhotoLook().cloth;
   if (sum.w >= look.seen_mm * canvas_.pixels_per_mm) return glm::vec3(sum) / sum.w;
-  // Cloth of our own stands in the light that skin stands in: it is tinted like that, and grey in a
-  // grey photo.
+  // Drawn cloth is lit as the skin is: it takes the tint of that light, and is grey in a grey
+  // photo.
   const glm::vec3 skin = 255.0F * light_.skin(), usual = look.usual_skin_colour;
   const float brightest = std::max({skin.r, skin.g, skin.b, 1.0F});
   const float colour = glm::smoothstep(0.0F, look.grey_photo_part,
@@ -159,7 +159,7 @@ float BodyPaint::ClothAt(glm::vec2 place, const Beyond& beyond, float on_bust) c
   if (skin + cloth <= 0) return on_bust;
   const float at_edge = cloth / (skin + cloth);
   if (!below) return at_edge;
-  // An open neckline that the photo cuts closes farther down in a round line.
+  // An open neckline that the lower edge cuts closes below it along half an ellipse.
   const float half_widths = (place.x - neckline_.x) / neckline_.y;
   const auto& look = PhotoLook().neckline;
   const float depth_mm = look.closes_mm * std::sqrt(std::max(1 - half_widths * half_widths, 0.0F));
@@ -187,7 +187,7 @@ glm::vec3 BodyPaint::EdgeDifference(glm::vec2 place, const Beyond& beyond,
     sum += beyond.below / beyond_px * difference(below_[covering], place.x, beyond.below);
   }
   if (beyond.aside > 0) {
-    // A sleeve falls with its shoulder.
+    // The colours of a sleeve continue downward along its fall, not along rows.
     const float row = std::clamp(place.y - PhotoLook().shoulder.sleeve_fall_per_px * beyond.aside,
                                  joint_[beyond.edge].row, static_cast<float>(canvas_.photo_size.y));
     sum += beyond.aside / beyond_px * difference(aside_[beyond.edge][covering], row, beyond.aside);
@@ -200,11 +200,11 @@ Paint BodyPaint::PaintAt(glm::vec2 place) const {
   const BustSample body = SampleAt(place);
   float opacity = body.opacity;
   if (beyond.aside <= 0) {
-    // Below a shoulder that the photo's edge cuts all is body.
+    // Below the photo everything on the side of a cut shoulder is body.
     if (beyond.above > 0) return {};
     if ((place.x < Axis() ? joint_.left : joint_.right).cut) opacity = 1;
   } else {
-    // A shoulder that the photo's edge cuts goes on as it falls there and bends down into the arm.
+    // A cut shoulder continues at its slope and bends down into the arm along a parabola.
     const Joint& joint = joint_[beyond.edge];
     if (joint.cut) {
       const float line = joint.row + joint.slope * beyond.aside +

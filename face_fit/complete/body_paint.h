@@ -12,34 +12,41 @@
 
 namespace facefit {
 
-/// Neck, shoulders and clothes below a photo and beside it: the bust, made as wide as the figure is
-/// where the photo ends, in the colours found along that edge and lit by the photo's light.
+/// Paints neck, shoulders and clothes below a photo and beside it: the bust, scaled to the figure's
+/// width where the photo ends, in the colours found along the photo's edge, lit by the photo's
+/// light. canvas.h has a picture of the regions.
 class BodyPaint {
  public:
-  /// `opacity`: of the figure in the photo; `bust`: drawn on the canvas. All others outlive it.
+  /// `opacity`: of the figure, photo pixels. `bust`: drawn on the canvas. The references must
+  /// outlive this object.
   BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const FloatImage& opacity,
             const fsm::FaceLight& light, Bust bust);
-  /// Whether the left or right edge of the photo cuts the shoulder.
+  /// Returns whether the left or right edge of the photo cuts a shoulder.
   bool CutsShoulder() const { return joint_.left.cut || joint_.right.cut; }
-  /// REQUIRES: beyond the photo, or at its lower edge.
+  /// Returns the body's colour and opacity at a place. REQUIRES: it lies beyond the photo or in it
+  /// beside the lower edge.
   Paint PaintAt(glm::vec2 place) const;
 
  private:
-  /// What covers the body: the index of what is kept once for each.
+  /// What covers the body; also the index into Differences.
   enum Covering { kSkin, kCloth };
-  /// The bust at a place; `cloth`: how much of what is covered is cloth.
+  /// The bust at a place. `cloth`: the share of cloth in what is covered, 0..1; `openness`: the
+  /// part of the ambient light that arrives, 0..1.
   struct BustSample {
     float opacity = 0, cloth = 0, openness = 1;
     glm::vec3 normal{0, 0, 1};
   };
-  /// Where one half of the figure and that of the bust are made to meet.
+  /// The row in which one half of the bust is joined to the same half of the figure, and how it is
+  /// scaled there.
   struct Joint {
-    float row = 0, width_ratio = 1;  ///< the figure's half width there by the bust's
-    float fade_mm = 1;               ///< over how many millimetres downward that fades
-    bool cut = false;                ///< by the photo's left or right edge
-    float slope = 0;                 ///< if it is: how steeply the outline falls there
+    /// row in photo pixels; half width of the figure divided by that of the bust
+    float row = 0, width_ratio = 1;
+    float fade_mm = 1;  ///< distance downward in which the ratio decays to 1 (1/e)
+    bool cut = false;   ///< the photo's left or right edge cuts the shoulder
+    float slope = 0;    ///< if `cut`: the outline's fall at the edge, pixels down per pixel outward
   };
-  /// Of one edge, by Covering: by how much the photo differs from what is drawn there.
+  /// Along one edge, indexed by Covering: the photo's colour less the colour of the drawn bust,
+  /// 0..255.
   using Differences = std::array<EdgeMeans, 2>;
 
   float Axis() const { return bust_.axis - static_cast<float>(canvas_.photo_origin.x); }
@@ -57,11 +64,12 @@ class BodyPaint {
   const PhotoEdges& edges_;
   const FloatImage& opacity_;
   const fsm::FaceLight& light_;
-  // Each is found by those above it: their order is that of the constructor.
+  // Each of these is computed from those above it; the constructor initialises them in this order.
   Bust bust_;
   PerEdge<Joint> joint_;
   glm::vec3 cloth_colour_;  ///< 0..255
-  glm::vec2 neckline_;      ///< middle and half width of the skin that the lower edge cuts, pixels
+  /// x of the middle and half width of the skin that the lower edge cuts, pixels
+  glm::vec2 neckline_;
   Differences below_;
   PerEdge<Differences> aside_;
 };

@@ -11,10 +11,11 @@
 namespace facefit {
 namespace {
 
-/// `pose`: as large as the pictures.
+/// `pose`: projects to pixels of pictures of that size.
 Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) {
   const ObservedHead& base = *fitted.base;
-  // Upright below the fitted head, whose chin may be lower than the built-in one's.
+  // The bust stands upright; it is lowered where the fitted head's chin lies lower than the
+  // built-in one's.
   pose.turn_rad = {};
   const float chin = base.AtRest(point::kChin).y;
   const glm::vec3 lower(0, chin - fitted.PlaceOf(point::kChin).y, 0);
@@ -39,7 +40,7 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
       if (!triangle) continue;
       const MeshPoint place_on_base = surface.Place(x, y);
       const glm::vec3 normal = place_on_base.On(base.rest().normal);
-      if (normal.z <= 0) continue;  // at the very outline the smooth normal may turn away
+      if (normal.z <= 0) continue;  // interpolated normals at the outline may point away
       bust.opacity(x, y) = 1;
       bust.cloth(x, y) = triangle->material == fsm::Material::kCloth ? 1.0F : 0.0F;
       bust.openness(x, y) = place_on_base.On(topology.openness);
@@ -60,7 +61,7 @@ float Bust::HalfWidth(PhotoEdge towards, float row) const {
 }
 
 Bust DrawBust(const FittedHead& fitted, int width, int height) {
-  // Of a small photo a pixel is wide: several samples to each soften the outlines.
+  // A pixel of a small photo covers much of the outline, so each is the mean of several samples.
   constexpr float kSamplesPerMm = 3;
   const int finer =
       std::clamp(static_cast<int>(std::ceil(kSamplesPerMm / fitted.pose.PixelsPerMm())), 1, 4);

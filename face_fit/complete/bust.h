@@ -9,16 +9,18 @@
 
 namespace facefit {
 
-/// The toolkit's own neck, shoulders and clothes, as the photo's camera would see them below the
-/// head if the person stood upright. Each picture is as large as the one they are drawn for.
+/// The toolkit's own neck, shoulders and clothes, rendered with the photo's camera below the head
+/// of an upright person. The pictures are as large as the canvas.
 struct Bust {
-  FloatImage opacity;   ///< how much of a pixel it covers, 0..1
-  FloatImage cloth;     ///< how much of a pixel is cloth; the rest of what is covered is skin
-  FloatImage openness;  ///< how much light from all around arrives, 0..1
-  VectorImage normal;   ///< unit; where nothing is, towards the camera
-  float axis;           ///< pixels from the left: the middle of the body
+  FloatImage opacity;  ///< coverage of each pixel, 0..1
+  /// part of each pixel that is cloth, 0..1; the rest of what is covered is skin
+  FloatImage cloth;
+  FloatImage openness;  ///< part of the ambient light that arrives, 0..1
+  VectorImage normal;   ///< unit; (0, 0, 1), towards the camera, where nothing is drawn
+  float axis;           ///< x of the body's middle, pixels
 
-  /// How far it reaches from its axis in a row, pixels, to the left or to the right.
+  /// Returns the half width in a row: the distance from `axis` to the outline on the left or on the
+  /// right, pixels, at least 1.
   float HalfWidth(PhotoEdge towards, float row) const;
 };
 

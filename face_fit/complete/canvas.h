@@ -25,13 +25,31 @@ struct PerEdge {
   const T& operator[](PhotoEdge edge) const { return edge == PhotoEdge::kLeft ? left : right; }
 };
 
-/// A place beyond a photo: how far below or above it and how far aside, pixels, not negative.
+/// Where a place lies beside a photo: its distances from the photo, pixels, 0 where it is not
+/// beyond that edge. A place at a corner has two of them above 0.
 struct Beyond {
   float below, above, aside;
-  PhotoEdge edge;  ///< the nearer one
+  PhotoEdge edge;  ///< the edge that `aside` counts from; kRight where `aside` is 0
 };
 
-/// A photo on a larger canvas. Places are in the photo's pixels, also beyond it.
+/// A photo on a larger canvas. Places are in the photo's pixels, y down, also beyond the photo.
+/// What each region of the canvas is filled with (drawn for a photo that cuts hair on the left and
+/// a shoulder on the right):
+///
+/// +------------------- canvas -------------------+
+/// |               ,-~~~~~~~-.                    |  above: hair, rounded off (HairPaint, dome)
+/// |      +-------'-----------`--------+          |  <- upper edge, cuts hair
+/// |    ,-|    hair ,-------. hair     |          |  aside: hair bulges (HairPaint)
+/// |   (  |   hair |  skin   | hair    |          |
+/// |    `-|   hair  \       /  hair    |          |
+/// |      |   hair   `-chin'           |          |
+/// |      |   hair   | neck | ,--------+-.        |  <- joint row: here the right edge cuts
+/// |      |   hair ,-'\skin/`-' cloth  |  `.      |  aside: the shoulder falls and bends into
+/// |      |   hair/cloth\ / cloth      |    `.    |         the arm (BodyPaint)
+/// |      +-----------------------------+      \   |  <- lower edge
+/// |       )hair | cloth  `hem'  cloth         |  |  below: strands of hair fall and end;
+/// |        `-'  | cloth         cloth         |  |         the neckline closes, the body goes on
+/// +----------------------------------------------+
 struct Canvas {
   glm::ivec2 photo_origin;  ///< the pixel of the canvas that shows the photo's first
   glm::ivec2 photo_size;    ///< pixels, as `size`

@@ -20,7 +20,7 @@
 namespace facefit {
 namespace {
 
-/// The row of the top of the head with hair on it.
+/// Returns the row of the top of the head with hair on it, photo pixels; it may be negative.
 float CrownRow(const FittedHead& fitted) {
   float highest = std::numeric_limits<float>::infinity();
   ForSkinTriangles(fitted.base->head().topology(), [&](const MeshTriangle& triangle) {
@@ -29,7 +29,8 @@ float CrownRow(const FittedHead& fitted) {
   return highest - PhotoLook().hair.on_crown_mm * fitted.pose.PixelsPerMm();
 }
 
-/// Room for the photo, for head and shoulders below its chin, and for hair above it.
+/// Returns a canvas with room for the photo, for head and shoulders below its chin, and for hair
+/// above it.
 Canvas CanvasFor(const FigureCutout& figure, const FittedHead& fitted, const PhotoEdges& edges,
                  glm::vec2 chin, float crown) {
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
@@ -48,13 +49,13 @@ Canvas CanvasFor(const FigureCutout& figure, const FittedHead& fitted, const Pho
           .chin = chin};
 }
 
-/// Takes away the tips of a collar, which would float beside the neck that is drawn: where the
-/// background begins a little above the edge, or it would leave a hole.
+/// Makes tips of a collar transparent, which would float beside the drawn neck. Tips with no
+/// background within neck.hangs_mm above the edge stay: removing them would leave a hole.
 FigureCutout WithoutTips(const PhotoEdges& edges, float pixels_per_mm, FigureCutout figure) {
   const int height = figure.opacity.height;
   const int highest =
       std::max(height - static_cast<int>(PhotoLook().neck.hangs_mm * pixels_per_mm), 0);
-  constexpr float kBackground = 0.3F;  // the matte is in doubt beside such tips
+  constexpr float kBackground = 0.3F;  // opacity; the matte is uncertain beside such tips
   for (int x = 0; x < figure.opacity.width; ++x) {
     if (edges.bottom(x).kind != EdgeKind::kTip) continue;
     int gap = height - 1;
@@ -67,10 +68,10 @@ FigureCutout WithoutTips(const PhotoEdges& edges, float pixels_per_mm, FigureCut
   return figure;
 }
 
-/// A figure on its canvas while it is completed.
+/// The figure on its canvas while parts are painted.
 struct Painted {
   FigureCutout figure;
-  FloatImage known, drawn;  ///< the opacities that the photo tells, and those that are drawn
+  FloatImage known, drawn;  ///< opacity from the photo; opacity of what is painted beyond it
   FloatImage coloured;      ///< 1 where a colour is known
 
   explicit Painted(glm::ivec2 size)
@@ -80,7 +81,8 @@ struct Painted {
         coloured(known) {}
 };
 
-/// `photo`: its whole figure, `figure`: what is left of it without tips.
+/// Copies the photo's figure onto the canvas. `photo`: the whole figure; `figure`: the figure
+/// without tips of collars, whose colours count as unknown.
 void CopyPhoto(const Canvas& canvas, const FigureCutout& photo, const FigureCutout& figure,
                Painted& out) {
   for (int y = 0; y < canvas.photo_size.y; ++y) {
@@ -94,7 +96,8 @@ void CopyPhoto(const Canvas& canvas, const FigureCutout& photo, const FigureCuto
   }
 }
 
-/// The matte is in doubt at the very edge: where the body goes on below, the figure does.
+/// Raises the opacity of the lowest rows to that above them where the drawn body continues below:
+/// the matte is uncertain at the very edge.
 void CloseSeam(const Canvas& canvas, const FigureCutout& figure, const BodyPaint& body,
                FloatImage& opacity) {
   const int seam = std::max(static_cast<int>(PhotoLook().edge.band_mm * canvas.pixels_per_mm), 1);
@@ -143,7 +146,7 @@ CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& pho
   CopyPhoto(canvas, photo, figure, out);
   CloseSeam(canvas, figure, body, out.figure.opacity);
   PaintBeyond(canvas, body, hair, out);
-  // Colours go on beyond the outline, where they are mixed into it.
+  // Fill the colours outside the figure from inside: interpolation mixes them into the outline.
   PushPullInpaint(out.figure.colours, out.coloured);
   const int grain =
       std::max(static_cast<int>(PhotoLook().grain.coarsest_mm * canvas.pixels_per_mm), 2);

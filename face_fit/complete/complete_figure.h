@@ -6,24 +6,27 @@
 
 namespace facefit {
 
-/// What of a figure a photo did not show.
+/// Which parts of a figure lay beyond its photo and were drawn.
 struct Completed {
-  bool neck = false;       ///< it ends above the shoulders: neck, shoulders and clothes are drawn
-  bool shoulders = false;  ///< it cuts the shoulders: they go on beyond its edges
-  bool hair = false;       ///< it cuts the hair above or at a side
+  bool neck = false;  ///< the photo ends above the shoulders: neck, shoulders and clothes are drawn
+  bool shoulders = false;  ///< an edge cuts the shoulders: they are continued beyond it
+  bool hair = false;       ///< the upper, left or right edge cuts hair: it is continued beyond it
 };
 
 /// A figure on a canvas that is large enough for head and shoulders.
 struct CompletedFigure {
   FigureCutout figure;
-  FittedHead head;  ///< its pose is that in the canvas
+  FittedHead head;  ///< its pose projects to pixels of the canvas
   Completed completed;
 };
 
-/// Draws what the photo cuts off: below and beside it the toolkit's neck, shoulders and clothes, as
-/// wide as the figure where the photo ends, in the colours found there and lit by the photo's
-/// light; above and beside the head hair. Strands that the lower edge cuts fall on and end softly.
-/// Within the photo nothing changes.
+/// Draws what the photo cuts off; canvas.h has a picture of the regions. Below the photo and beside
+/// it the toolkit's neck, shoulders and clothes continue the figure at its width, in the colours
+/// found along the photo's edge and lit by the photo's light. Hair is continued above and beside
+/// the head; strands that the lower edge cuts hang on and end softly. Within the photo colours stay
+/// where the figure is seen, and opacity changes in two places: tips of a collar beside a neck
+/// become transparent, and in the lowest edge.band_mm (tables/photo_look.txt) opacity rises where
+/// the drawn body continues below.
 CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& figure);
 
 }  // namespace facefit

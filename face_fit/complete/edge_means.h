@@ -9,25 +9,25 @@
 
 namespace facefit {
 
-/// Colours along an edge, as means over any part of it.
+/// Values along an edge, averaged over any part of it in constant time (prefix sums).
 class EdgeMeans {
  public:
-  /// The next pixel of the edge; what has no weight is not known.
+  /// Appends the next pixel of the edge. `weight`: 0..1; 0 means that the value is unknown.
   void Add(glm::vec3 value, float weight) {
     sums_.push_back(sums_.back() + glm::vec4(value * weight, weight));
   }
-  /// The mean over up to `reach` pixels to either side, what is nearer counting more, 0 where
-  /// nothing is known; and how much is known, 0..1.
+  /// Returns in x, y, z the mean over `reach` pixels to either side of pixel `at`, near pixels
+  /// weighing more, or 0 if none is known; in w the known part of these pixels, 0..1.
   glm::vec4 MeanAround(float at, float reach) const {
     glm::vec4 sum(0);
     for (const float part : {1.0F, 0.6F, 0.3F}) sum += Sum(at, part * reach) / 3.0F;
     return {glm::vec3(sum) / std::max(sum.w, 1e-4F), sum.w};
   }
-  /// The mean of all.
+  /// Returns the mean of all known pixels, 0 if there are none.
   glm::vec3 All() const { return glm::vec3(sums_.back()) / std::max(sums_.back().w, 1e-4F); }
 
  private:
-  /// The sum divided by the number of pixels.
+  /// Returns sums over the pixels within reach, divided by their number.
   glm::vec4 Sum(float at, float reach) const {
     const int count = static_cast<int>(sums_.size()) - 1;
     if (count < 1) return glm::vec4(0);

@@ -10,11 +10,11 @@
 namespace facefit {
 namespace {
 
-/// Hair that falls beside the photo is whole up to this part of its width.
+/// Hair below and beside the photo is fully opaque up to this part of the bulge's width.
 constexpr float kWholeBulge = 0.8F;
 
-/// A number 0..1 that varies from strand to strand, without a period; `at`: millimetres along an
-/// edge.
+/// Returns a number of about 0..1 that varies from strand to strand without a visible period. `at`:
+/// millimetres along an edge.
 float StrandNoise(float at) {
   return 0.5F + 0.17F * (std::sin(at * 1.31F) + std::sin(at * 0.43F + 1.3F) +
                          std::sin(at * 0.171F + 0.4F));
@@ -26,7 +26,7 @@ float PingPong(float way, float length) {
   return std::min(rest, 2 * length - rest);
 }
 
-/// An arc over -1..1: 1 in its middle, 0 beyond its ends.
+/// Half a circle over -1..1: 1 in the middle, 0 at the ends and beyond.
 float Arc(float part) { return std::sqrt(std::max(1 - part * part, 0.0F)); }
 
 }  // namespace
@@ -42,7 +42,7 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
   const float most = look.bulge_most_mm * canvas.pixels_per_mm;
   for (const PhotoEdge edge : kPhotoEdges) {
     bulge_[edge] = std::min(look.bulge_by_length * aside_[edge].Length(), most);
-    // What touches a corner goes on above it.
+    // Where the upper edge cuts hair up to a corner, the dome extends over the bulge beside it.
     if (bulge_[edge] <= 0 || aside_[edge].from > 1 || top_.Length() <= 0) continue;
     if (edge == PhotoEdge::kLeft && top_.from < 1) top_.from -= bulge_[edge];
     if (edge == PhotoEdge::kRight && top_.to > static_cast<float>(canvas.photo_size.x) - 1) {
@@ -58,14 +58,14 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
     const EdgeSample& sample = edges.bottom(x);
     below_.Add(sample.colour, sample.kind == EdgeKind::kHair ? 1 : 0);
   }
-  // Single dark columns below the chin are wrinkles.
+  // A mean, because single dark columns below the chin are wrinkles.
   const auto& beard = PhotoLook().beard;
   bearded_ = below_.MeanAround(canvas.chin.x, beard.half_width_mm * canvas.pixels_per_mm).w >
              beard.hair_part;
 }
 
 HairPaint::EdgeSpan HairPaint::TopSpan() const {
-  // The longest part of the upper edge that the figure touches.
+  // The longest run of the upper edge that cuts the figure.
   EdgeSpan longest, span;
   for (int x = 0; x < edges_.width(); ++x) {
     if (edges_.top(x).kind == EdgeKind::kNothing) {
@@ -79,8 +79,8 @@ HairPaint::EdgeSpan HairPaint::TopSpan() const {
 }
 
 HairPaint::EdgeSpan HairPaint::SpanAside(PhotoEdge edge) const {
-  // Beside the head all that is cut is taken for hair or hat, whatever its colour; farther down
-  // only what looks like hair.
+  // Above the chin everything cut at a side is hair or a hat, whatever its colour; below the chin
+  // only what has the hair's colour.
   EdgeSpan longest, span;
   for (int y = 0; y < edges_.height(); ++y) {
     const EdgeKind kind = edges_.aside(edge, y).kind;
@@ -104,7 +104,7 @@ float HairPaint::BulgeWidth(PhotoEdge edge, float y) const {
   const EdgeSpan& span = aside_[edge];
   const float bulge = bulge_[edge];
   if (bulge <= 0) return 0;
-  // The photo's corners are no ends.
+  // Hair cut at a corner of the photo does not end there.
   const float from = span.from < 1 ? -dome_ : span.from;
   const bool goes_on = span.to > static_cast<float>(canvas_.photo_size.y) - 1;
   const float to = goes_on ? span.to + PhotoLook().hair.falls_mm * canvas_.pixels_per_mm : span.to;
@@ -118,7 +118,7 @@ glm::vec3 HairPaint::Colour(glm::vec2 place) const {
   const bool above = beyond.above > 0;
   const int depth_px = above ? edges_.top(static_cast<int>(pixel.x)).hair_depth_px
                              : edges_.aside(beyond.edge, static_cast<int>(pixel.y)).hair_depth_px;
-  // Back and forth within the hair: no skin below it is mirrored.
+  // Mirrored back and forth within the hair, so that no skin is repeated.
   const float inward_px =
       PingPong(above ? beyond.above : beyond.aside, static_cast<float>(depth_px));
   if (above) {

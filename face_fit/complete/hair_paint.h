@@ -8,17 +8,18 @@
 
 namespace facefit {
 
-/// Hair (or a hat) beyond a photo that cuts it: above the head it is rounded off, beside the head
-/// it goes on a little, both as a mirror image of the hair within, or in the hair's usual colour
-/// where skin reaches the edge; what the lower edge cuts falls on in the colours of that edge and
-/// ends in strands.
+/// Paints hair (or a hat) beyond a photo that cuts it; canvas.h has a picture of the regions. Above
+/// the head it is rounded off, beside the head it bulges a little; both show the mirror image of
+/// the hair within, or the mean colour of the hair where skin reaches the edge. Hair at the lower
+/// edge hangs on in the colours of that edge and ends in strands.
 class HairPaint {
  public:
-  /// `crown`: the row of the top of the skull with its hair. The references outlive this.
+  /// `crown`: row of the top of the skull with its hair, photo pixels. The references must outlive
+  /// this object.
   HairPaint(const Canvas& canvas, const PhotoEdges& edges, const FigureCutout& figure, float crown);
-  /// Whether the photo cuts hair above or aside.
+  /// Returns whether the photo cuts hair above, on the left or on the right.
   bool Cut() const { return cut_; }
-  /// REQUIRES: beyond the photo.
+  /// Returns the hair's colour and opacity at a place. REQUIRES: the place lies beyond the photo.
   Paint PaintAt(glm::vec2 place) const;
 
  private:
@@ -27,7 +28,7 @@ class HairPaint {
   glm::vec3 Colour(glm::vec2 place) const;
   Paint HairBelow(glm::vec2 place, float below_px) const;
 
-  /// A part of an edge that cuts the hair, pixels.
+  /// A part of an edge along which it cuts the hair, pixels.
   struct EdgeSpan {
     float from = 0, to = 0;
     float Length() const { return to - from; }
@@ -40,9 +41,9 @@ class HairPaint {
   const FigureCutout& figure_;
   EdgeSpan top_;
   PerEdge<EdgeSpan> aside_;
-  float dome_ = 0;        ///< how high the top is rounded off, pixels
-  PerEdge<float> bulge_;  ///< how far it goes on beside, pixels
-  EdgeMeans below_;       ///< the hair along the lower edge
+  float dome_ = 0;        ///< height of the dome above the photo, pixels
+  PerEdge<float> bulge_;  ///< width of the bulge beside the photo, pixels
+  EdgeMeans below_;       ///< the hair's colours along the lower edge
   bool bearded_ = false, cut_ = false;
 };
 

@@ -6,7 +6,8 @@
 
 namespace facefit {
 
-/// The light that falls on the skin of a face, and the usual colour of that skin.
+/// Estimates the light that falls on the skin of a face, and the mean colour of that skin, from the
+/// pixels of the figure that show the front of the face.
 fsm::FaceLight LightOnFace(const FittedHead& fitted, const FigureCutout& figure);
 
 }  // namespace facefit

@@ -15,15 +15,16 @@
 namespace facefit {
 namespace {
 
-constexpr float kMostly = 0.5F;       // opacity from which a pixel belongs to the figure
-constexpr float kWholly = 0.9F;       // and from which its colour is the figure's own
-constexpr float kEnoughPixels = 20;   // for a mean colour of hair
-constexpr float kHangingPart = 0.8F;  // of a column, which then hangs down
+constexpr float kMostly = 0.5F;       // opacity above which a pixel belongs to the figure
+constexpr float kWholly = 0.9F;       // opacity from which a pixel's colour is the figure's alone
+constexpr float kEnoughPixels = 20;   // pixels that a mean colour of hair needs
+constexpr float kHangingPart = 0.8F;  // part of a column that must be figure for it to hang down
 
 /// Tells hair and clothes from skin by their colours.
 class EdgeClassifier {
  public:
-  /// `brows`: the row above which a figure is head, hair or hat. `skin`: 0..255.
+  /// `brows`: row of the upper end of the forehead; everything above it is head, hair or hat.
+  /// `skin`: colour, 0..255.
   EdgeClassifier(const FigureCutout& figure, float brows, glm::vec3 skin) : skin_(skin) {
     glm::vec3 sum(0);
     float count = 0;
@@ -38,7 +39,7 @@ class EdgeClassifier {
     }
     if (count > kEnoughPixels) hair_ = sum / count;
   }
-  /// The mean of hair or hat; nothing where none is seen.
+  /// Returns the mean colour of hair or hat; nothing where none is seen.
   std::optional<glm::vec3> hair() const { return hair_; }
   EdgeKind KindOf(glm::vec3 colour) const {
     const float from_hair =
@@ -54,7 +55,7 @@ class EdgeClassifier {
     return glm::distance(Hue(colour), Hue(skin_)) < look.skin_hue &&
            part > look.skin_brightness.x && part < look.skin_brightness.y;
   }
-  /// Colour without brightness; of the dark, where it is noise, grey.
+  /// Returns the colour divided by its brightness; dark colours, whose hue is noise, tend to grey.
   static glm::vec3 Hue(glm::vec3 colour) {
     constexpr float kDark = 8;  // of 255
     return (colour + kDark) / (Brightness(colour) + kDark);
@@ -64,7 +65,7 @@ class EdgeClassifier {
   std::optional<glm::vec3> hair_;
 };
 
-/// Where rows and columns of a photo lie beside the chin, millimetres.
+/// Converts rows and columns of a photo to millimetres below the chin and beside it.
 struct ChinFrame {
   glm::vec2 chin;  ///< pixel
   float pixels_per_mm;
@@ -74,13 +75,13 @@ struct ChinFrame {
   }
 };
 
-/// Reads the edges of a figure, as yet by colour alone.
+/// Samples the edges of a figure and classifies them by colour alone.
 class EdgeReader {
  public:
   EdgeReader(const FigureCutout& figure, const EdgeClassifier& classifier)
       : figure_(figure), classifier_(classifier) {}
 
-  /// The mean over a rectangle.
+  /// Returns the mean over a rectangle of pixels.
   EdgeSample Sample(glm::ivec2 from, glm::ivec2 size) const {
     EdgeSample sample;
     const float share = 1 / static_cast<float>(size.x * size.y);
@@ -94,8 +95,8 @@ class EdgeReader {
     if (sample.opacity > kMostly) sample.kind = classifier_.KindOf(sample.colour);
     return sample;
   }
-  /// How many pixels, at most `most`, follow each other from one on that are the figure's but no
-  /// skin.
+  /// Counts the pixels from `from` on in direction `step`, at most `most`, that belong to the
+  /// figure and are not skin.
   int HairDepth(glm::ivec2 from, glm::ivec2 step, int most) const {
     int count = 0;
     for (glm::ivec2 p = from; count < most; p += step, ++count) {
@@ -104,12 +105,13 @@ class EdgeReader {
     }
     return count;
   }
-  /// Whether most of a column from a row down to the photo's lower edge belongs to the figure: what
-  /// hangs from the head, no collar.
+  /// Returns whether most of a column between row `from` and the lower edge belongs to the figure,
+  /// so that something hangs from the head and is not a collar.
   bool HangsDown(std::size_t x, float from) const {
     return MostOf(x, from, [](std::size_t) { return true; });
   }
-  /// Whether most of it belongs to the figure and is hair by its colour.
+  /// Returns whether most of that part of the column belongs to the figure and has the hair's
+  /// colour.
   bool HairHangsDown(std::size_t x, float from) const {
     return MostOf(x, from, [this](std::size_t i) { return KindOf(i) == EdgeKind::kHair; });
   }
@@ -129,18 +131,20 @@ class EdgeReader {
   const EdgeClassifier& classifier_;
 };
 
-// By colour alone brown hair is skin in warm light, and the shade on a neck is cloth. Above the
-// shoulders only hair hangs beside the neck, and tips of a collar stand there; the neck itself is
-// bare or in a collar. So the lower edge is split into runs, which are told by their places.
+// By colour alone brown hair would be skin in warm light, and the shade on a neck cloth. Above the
+// shoulders only hair hangs beside the neck, and only tips of a collar stand there; the neck itself
+// is bare or in a collar. So the lower edge is split into runs, which are classified by their
+// places.
 
-/// What a run of the lower edge consists of; of kOther the kinds are as the colours say.
+/// What a run of the lower edge consists of; the samples of kOther keep the kinds that their
+/// colours give.
 enum class RunKind { kOther, kClothOnNeck, kClothBesideNeck, kBeyondNeck };
 struct Run {
   std::size_t from, to;  ///< columns from..to - 1
   RunKind kind;
 };
-/// What the samples of such a run are: where something hangs down in any of its columns, and where
-/// nothing does.
+/// The kind that the samples of such a run get if something hangs down in any of its columns, and
+/// if nothing does.
 struct RunRule {
   RunKind run;
   EdgeKind hanging, standing;
@@ -153,8 +157,8 @@ constexpr RunRule kRunRules[] = {
     // clang-format on
 };
 
-/// Splits the lower edge of a photo that ends above the shoulders; `below_mm`: how far it shows
-/// what is below the chin.
+/// Splits the lower edge of a photo that ends above the shoulders. `below_mm`: distance from the
+/// chin to the lower edge.
 std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const ChinFrame& place,
                         float below_mm) {
   const auto& look = PhotoLook();
@@ -172,7 +176,7 @@ std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const ChinFrame& 
     const EdgeKind kind = bottom[x].kind;
     if (kind == EdgeKind::kNothing) return RunKind::kOther;
     if (place.Aside(x) > beyond_mm) {
-      // Lower down than the jaw skin beside the neck may be a raised shoulder.
+      // Below the jaw skin beside the neck may be a raised shoulder.
       return kind == EdgeKind::kSkin && !at_jaw ? RunKind::kOther : RunKind::kBeyondNeck;
     }
     if (kind != EdgeKind::kCloth || collar) return RunKind::kOther;
@@ -229,7 +233,7 @@ std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, PhotoEdge edg
     samples.push_back({reader.Sample({left ? 0 : size.x - band, y}, {band, 1}),
                        reader.HairDepth({left ? 0 : size.x - 1, y}, {left ? 1 : -1, 0}, size.x)});
   }
-  // Hair hangs down from the head: dark cloth below a gap is none.
+  // Hair hangs from the head without a gap: dark pixels below a gap are cloth.
   bool gap = false;
   for (int y = std::max(static_cast<int>(chin), 0); y < size.y; ++y) {
     EdgeKind& kind = samples[static_cast<std::size_t>(y)].kind;
@@ -239,8 +243,9 @@ std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, PhotoEdge edg
   return samples;
 }
 
-/// The mean colour of the figure at both sides above the chin, which is hair or hat whatever its
-/// colour: grey and blond hair have the skin's brightness and hue. Dark skin's if there is none.
+/// Returns the mean colour of the figure at both sides above the chin. That is hair or hat even
+/// where it has the skin's brightness and hue, as grey and blond hair do. Returns darkened skin if
+/// the figure does not touch the sides.
 glm::vec3 HairBeside(const PerEdge<std::vector<EdgeSampleWithHair>>& aside, float chin,
                      glm::vec3 skin) {
   glm::vec4 sum(0);
@@ -257,7 +262,8 @@ glm::vec3 HairBeside(const PerEdge<std::vector<EdgeSampleWithHair>>& aside, floa
 
 glm::vec2 PhotoEdges::DomeByWidth() const {
   const auto& look = PhotoLook().hair;
-  // An edge that the figure touches from corner to corner cuts the widest part of the head.
+  // A figure that touches the upper edge from corner to corner is cut at the widest part of the
+  // head.
   const bool all = std::ranges::none_of(
       top_, [](EdgeKind kind) { return kind == EdgeKind::kNothing; }, &EdgeSampleWithHair::kind);
   return {all ? look.dome_of_whole_edge : look.dome_by_width.x, look.dome_by_width.y};

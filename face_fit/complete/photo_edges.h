@@ -10,24 +10,25 @@
 
 namespace facefit {
 
-/// What the edge of a photo cuts; a tip is one of a collar, beside a neck.
+/// What the edge of a photo cuts. kTip: the tip of a collar beside a bare neck.
 enum class EdgeKind { kNothing, kSkin, kHair, kCloth, kTip };
 
-/// What a photo shows of its figure at one pixel of an edge.
+/// The figure at one pixel of an edge, averaged over edge.band_mm inward.
 struct EdgeSample {
   glm::vec3 colour{0};  ///< 0..255
   float opacity = 0;    ///< of the figure, 0..1
   EdgeKind kind = EdgeKind::kNothing;
 };
-/// At an edge beyond which hair is mirrored.
+/// A sample of an edge beyond which hair is continued as a mirror image.
 struct EdgeSampleWithHair : EdgeSample {
-  int hair_depth_px = 0;  ///< so far inward no skin is seen
+  int hair_depth_px = 0;  ///< length of the run inward from the edge without skin or background
 };
 
-/// What the edges of a photo show of its figure, column by column and row by row.
+/// Classifies the figure along the edges of a photo: lower and upper edge column by column, left
+/// and right edge row by row.
 class PhotoEdges {
  public:
-  /// `skin`: 0..255. REQUIRES: `figure` has a pixel.
+  /// `skin`: colour of the face's skin, 0..255. REQUIRES: `figure` has a pixel.
   PhotoEdges(const FittedHead& fitted, const FigureCutout& figure, glm::vec3 skin);
 
   int width() const { return static_cast<int>(bottom_.size()); }
@@ -37,9 +38,10 @@ class PhotoEdges {
   const EdgeSampleWithHair& aside(PhotoEdge edge, int y) const {
     return aside_[edge][static_cast<std::size_t>(y)];
   }
-  /// How high what the upper edge cuts is rounded off, by the width that it cuts: least and most.
+  /// Returns the least and the greatest height of the dome above the photo, as parts of the width
+  /// that the upper edge cuts.
   glm::vec2 DomeByWidth() const;
-  /// The mean colour of what is head, but no skin: hair or a hat.
+  /// Returns the mean colour of hair or hat, 0..255.
   glm::vec3 hair() const { return hair_; }
 
  private:
