@@ -7,7 +7,7 @@
 
 namespace facefit {
 
-constexpr glm::vec3 kMiddle{0, -10, 20};  ///< the head is turned about it
+constexpr glm::vec3 kMiddle{0, -10, 20};  ///< centre of the head's rotation
 
 fsm::Angles AnglesOf(const glm::mat3& turn) {
   return {glm::degrees(std::asin(std::clamp(-turn[2][1], -1.0F, 1.0F))),

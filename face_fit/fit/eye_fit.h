@@ -9,14 +9,15 @@
 
 namespace facefit {
 
-/// How both eyes must be moved, turned and sized, and their lids raised, so that the outlines of
-/// the open eyes lie as in the photo. `to`: by point of the network, millimetres in the head's
-/// frame. REQUIRES: it has the points of both EyeOutlines.
+/// Returns how both eyes must be moved, turned and sized, and their lids raised, so that the
+/// outlines of the open eyes lie as in the photo. `to`: places by point of the network, head's
+/// frame, millimetres. REQUIRES: it has the points of both EyeOutlines.
 fsm::Sided<fsm::EyeTransform> FitEyes(const ObservedHead& base,
                                       const std::map<PointIndex, glm::vec3>& to);
 
-/// The eyes at rest. A part of a smile's squint is kept (squint_kept of the table): the photo does
-/// not show how wide the eyes would be without it, and eyes that are too wide stare.
+/// Returns the eyes at rest, which keep part of a smile's squint (row squint_kept_part of
+/// tables/photo_look.txt): the photo does not show how wide they would be without it, and eyes that
+/// are too wide stare.
 fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted);
 
 }  // namespace facefit

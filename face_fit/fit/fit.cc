@@ -11,7 +11,7 @@
 namespace facefit {
 namespace {
 
-/// Unknowns of the fit: those of the pose, and the strengths of Expression.
+/// Unknowns of the fit: the pose's, then the strengths of Expression.
 enum FitParameter : std::size_t { kSmile = kPoseParameters, kJaw, kParted, kFitParameters };
 constexpr double kMaxExpression = 1.5;
 using Parameters = std::vector<double>;
@@ -40,12 +40,12 @@ std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& par
     mean += depth.back();
   }
   mean /= static_cast<float>(depth.size());
-  // The network is less sure of depth than of place.
+  // The network's depth is less reliable than its x and y.
   constexpr double kDepthWeight = 0.4;
   for (const float d : depth) out.push_back(kDepthWeight * static_cast<double>(d - mean));
-  // People mostly hold still for a photo: what is not clearly seen is not assumed. Without teeth to
-  // see a mouth's form is taken for the person's own rather than for a smile, and a jaw that has
-  // dropped or parted lips are ruled out. Residuals, in millimetres, of a unit at full strength.
+  // Priors, as the residual in millimetres of a unit at full strength: people mostly hold still for
+  // a photo. Without visible teeth the form of a mouth is taken for the person's own rather than
+  // for a smile, and a dropped jaw or parted lips are ruled out.
   constexpr double kApartMm = 6, kClosedSmileMm = 40, kRuledOutMm = 1e4;
   out.push_back((problem.lips_apart ? kApartMm : kClosedSmileMm) * parameters[kSmile]);
   for (const FitParameter i : {kJaw, kParted}) {
@@ -63,7 +63,7 @@ Parameters Refine(const FitProblem& problem, const CameraPose& start) {
                             unknowns, kPoseRounds);
 }
 
-/// Size, position and tilt by the outer corners of the eyes and the root of the nose.
+/// Computes size, position and tilt from the outer corners of the eyes and the root of the nose.
 CameraPose InitialPose(const ObservedHead& base, const FoundFace& face) {
   using namespace point;
   const glm::vec2 right = face.PixelOf(kEyeOuterRight), left = face.PixelOf(kEyeOuterLeft);
@@ -75,16 +75,16 @@ CameraPose InitialPose(const ObservedHead& base, const FoundFace& face) {
           .centre = face.PixelOf(kNoseBridge) + pixels_per_mm * glm::vec2(-root.x, root.y)};
 }
 
-/// How mouths at rest differ from the built-in one looks like some smile. Of a closed mouth that
-/// much is not a smile, whatever comes on top: taken away it would leave a grim face. Between
-/// parted lips teeth show, so that what is more than a little is a smile, all of it.
+/// Returns the strength of a smile without the part that mouths at rest have: they differ from the
+/// built-in one as if they smiled. Of a closed mouth that part is always subtracted, since removing
+/// it would leave a grim face. Parted lips show teeth, so more than a little is a smile as a whole.
 float SmileBeyondRest(float smile, bool lips_apart) {
   constexpr float kUsualApart = 0.12F, kUsualClosed = 0.45F;
   if (lips_apart) return smile < kUsualApart ? 0 : smile;
   return std::max(smile - kUsualClosed, 0.0F);
 }
 
-/// Mean distance of the network's points from those of the fitted head, millimetres.
+/// Returns the mean distance of the face's points from those of the fitted head, millimetres.
 float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
   float sum = 0;
   for (const PointIndex k : point::kForFit) {

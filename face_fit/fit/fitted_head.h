@@ -11,7 +11,7 @@
 
 namespace facefit {
 
-/// What the face in the photo does: strengths of action units, 0 to 1.5.
+/// The expression in the photo: strengths of action units, 0 to 1.5.
 struct Expression {
   float smile = 0;   ///< AU 12 with 6
   float jaw = 0;     ///< AU 26
@@ -34,12 +34,12 @@ struct FittedHead {
   const ObservedHead* base = nullptr;  ///< outlives this
   CameraPose pose;
   Expression expression;
-  std::vector<fsm::WarpPoint> warp_points;  ///< base face at rest -> person at rest
-  float smooth_mm = 1;                      ///< how much noise of them is evened out, see fsm::Warp
+  std::vector<fsm::WarpPoint> warp_points;  ///< base head at rest -> person at rest
+  float smooth_mm = 1;                      ///< smoothing of these, see fsm::Warp
   fsm::Sided<fsm::EyeTransform> eyes;
-  /// Every vertex of the base as it lies in the photo, head's frame.
+  /// Every vertex of the base in the photo's expression and the person's form, head's frame.
   std::vector<glm::vec3> posed_vertices;
-  /// Where a point of the network lies on it in the photo's expression, head's frame.
+  /// Returns the place of a point of the network in the photo's expression, head's frame.
   glm::vec3 PlaceOf(PointIndex i) const { return base->places()[i].On(posed_vertices); }
 };
 

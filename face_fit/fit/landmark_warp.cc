@@ -16,11 +16,11 @@
 namespace facefit {
 namespace {
 
-/// What part of the way to its target a point of the warp is moved the second time: all of it would
-/// overshoot, because its neighbours move as well.
+/// Part of the remaining way that points of the warp are moved in the second pass. The whole way
+/// would overshoot, because neighbouring points move as well.
 constexpr float kCorrectionGain = 0.8F;
 
-/// Whose outline has the point; none if it is no eye's.
+/// Returns the eye whose outline has the point; none if no eye's has.
 std::optional<fsm::Side> EyeOf(const LandmarkConstraint& c) {
   for (const fsm::Side side : fsm::kSides) {
     if (c.IsAmong(EyeOutline(side))) return side;
@@ -28,8 +28,8 @@ std::optional<fsm::Side> EyeOf(const LandmarkConstraint& c) {
   return std::nullopt;
 }
 
-/// The posed vertices with the base head's skin replaced by the fitted head's in the photo's
-/// expression.
+/// Returns the posed vertices with the base head's skin replaced by the fitted head's in the
+/// photo's expression.
 std::vector<glm::vec3> PosedSkin(const FittedHead& fitted) {
   const auto skin = SkinWith(fitted, fitted.expression.State());
   std::vector<glm::vec3> posed = fitted.posed_vertices;
@@ -38,12 +38,12 @@ std::vector<glm::vec3> PosedSkin(const FittedHead& fitted) {
   return posed;
 }
 
-/// Where the photo shows the point of a constraint.
+/// Returns where the photo shows the point of a constraint, head's frame.
 glm::vec3 TargetOf(const CameraPose& pose, const LandmarkConstraint& constraint) {
   return pose.PlaceAt(constraint.pixel, constraint.z_mm);
 }
 
-/// A point of the warp that goes where its constraint says, by their indices.
+/// A point of the warp and the constraint it follows, by their indices.
 struct Correctable {
   std::size_t warp_point, constraint;
 };
@@ -52,18 +52,19 @@ struct WarpPoints {
   std::vector<fsm::WarpPoint> points;
   std::vector<Correctable> correctable;
 };
-/// The points of the warp as the constraints say; `now`: the vertices with the expression.
+/// Returns the points of the warp that the constraints ask for; `now`: the vertices with the
+/// expression.
 WarpPoints PlaceWarpPoints(const ObservedHead& base, const CameraPose& pose,
                            const PhotoTargets& targets, const fsm::Sided<fsm::EyeTransform>& eyes,
                            const std::vector<glm::vec3>& now) {
   WarpPoints placed;
   for (std::size_t i = 0; i < targets.constraints.size(); ++i) {
     const LandmarkConstraint& constraint = targets.constraints[i];
-    // At rest both inner lips are one line, which cannot follow two that are apart in the photo.
+    // At rest both inner lips are one line, which cannot be moved to two separate ones.
     if (targets.lips_apart && constraint.point && OnInnerLips(*constraint.point)) continue;
     const glm::vec3 rest = constraint.on_head.On(base.rest().position);
     if (const auto side = EyeOf(constraint)) {
-      // Lids go with the eye: the skin around them must, too.
+      // Lids move with the eye, and the skin around them must follow.
       const glm::vec3 centre = base.head().topology().eyes[*side].centre;
       placed.points.push_back({rest, eyes[*side].Placed(centre, rest) - rest});
     } else {
@@ -74,7 +75,7 @@ WarpPoints PlaceWarpPoints(const ObservedHead& base, const CameraPose& pose,
   return placed;
 }
 
-/// The eyes that the constraints show; `now`: as of PlaceWarpPoints.
+/// Returns the eyes that the constraints show; `now`: as for PlaceWarpPoints.
 fsm::Sided<fsm::EyeTransform> EyesOf(const ObservedHead& base, const CameraPose& pose,
                                      const PhotoTargets& targets,
                                      const std::vector<glm::vec3>& now) {
@@ -120,8 +121,8 @@ FittedHead WarpToLandmarks(const ObservedHead& base, const CameraPose& pose,
   for (std::size_t i = 0; i < now.size(); ++i) {
     fitted.posed_vertices[i] += warp.Motion(base.rest().position[i]);
   }
-  // What the head then makes of its units, lids and lips moves points a little off; once more with
-  // that taken into account.
+  // The warped head's own units, lids and lips move points slightly off; a second pass corrects
+  // that.
   fitted.posed_vertices = PosedSkin(fitted);
   for (const auto& [warp_point, of] : placed.correctable) {
     const LandmarkConstraint& constraint = targets.constraints[of];

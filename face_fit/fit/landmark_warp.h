@@ -8,11 +8,11 @@
 
 namespace facefit {
 
-/// Positions of the vertices of the fitted head's skin as fsm will show it in a state, millimetres.
-/// They are the first vertices of that head and have the numbers of those of the base head.
+/// Returns the positions of the fitted head's skin as fsm will show it in a state, head's frame,
+/// millimetres: the first vertices of that head, numbered as in the base head.
 std::vector<glm::vec3> SkinWith(const FittedHead& fitted, const fsm::FaceState& state);
 
-/// The base head, which outlives the result, warped until it shows its points where the photo does.
+/// Warps the base head, which outlives the result, until its points lie where the photo shows them.
 FittedHead WarpToLandmarks(const ObservedHead& base, const CameraPose& pose,
                            const Expression& expression, const PhotoTargets& targets);
 

@@ -14,13 +14,13 @@ Eigen::Map<const VectorXd> View(const std::vector<double>& v) {
   return {v.data(), static_cast<Eigen::Index>(v.size())};
 }
 
-/// Column i: how the residuals change with unknown i.
+/// The Jacobian: column i is the derivative by unknown i.
 MatrixXd Derivatives(const Residuals& residuals, const std::vector<double>& at,
                      const VectorXd& here, const std::vector<Unknown>& unknowns) {
   MatrixXd slopes(here.size(), static_cast<Eigen::Index>(at.size()));
   for (std::size_t i = 0; i < at.size(); ++i) {
     auto moved = at;
-    // Inward at a bound: beyond it residuals may not change.
+    // At a bound the difference is taken inward: beyond it residuals may not change.
     const double step =
         at[i] + unknowns[i].step > unknowns[i].high ? -unknowns[i].step : unknowns[i].step;
     moved[i] += step;

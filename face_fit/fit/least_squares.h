@@ -7,15 +7,15 @@
 
 namespace facefit {
 
-// Least squares. Eigen does the algebra; only least_squares.cc includes it. Pure; thread: any.
+// Least squares with Eigen, which only least_squares.cc includes. Pure; thread: any.
 
-/// Equations row . x = value, to be solved so that the sum of the squares of what is missing is
-/// least. REQUIRES: all rows have one length, that of x.
+/// Linear equations row . x = value, solved for the least sum of squared residuals. REQUIRES: all
+/// rows have one length, that of x.
 class LinearLeastSquares {
  public:
   void Add(std::initializer_list<double> row, double value);
-  /// `ridge` (> 0) is added to the diagonal of the normal equations: it keeps unknowns near 0 that
-  /// no equation tells anything about.
+  /// Returns x. `ridge` (> 0) is added to the diagonal of the normal equations; it keeps unknowns
+  /// near 0 that no equation determines. REQUIRES: at least one equation.
   std::vector<double> Solve(double ridge) const;
 
  private:
@@ -24,18 +24,18 @@ class LinearLeastSquares {
 
 /// One unknown of a non-linear problem.
 struct Unknown {
-  double start;  ///< brought within the bounds
-  double step;   ///< over which derivatives are taken
+  double start;  ///< clamped to the bounds
+  double step;   ///< for numerical derivatives
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
 };
-/// The numbers to be made small, for values of the unknowns. REQUIRES: always of one length.
+/// Returns the residuals for values of the unknowns. REQUIRES: always the same count.
 using Residuals = std::function<std::vector<double>(const std::vector<double>&)>;
 
-/// Makes the sum of the squares of the residuals small by Levenberg's and Marquardt's method
-/// (Marquardt, An Algorithm for Least-Squares Estimation of Nonlinear Parameters, 1963): a step is
-/// taken only if it makes the sum smaller, else it is tried again with more damping. An unknown
-/// that is pushed against its bound stays there while the others move. At most `rounds` steps.
+/// Minimises the sum of squared residuals by the method of Levenberg and Marquardt (Marquardt, An
+/// Algorithm for Least-Squares Estimation of Nonlinear Parameters, 1963): a step that does not
+/// lessen the sum is tried again with more damping. An unknown that is pushed against its bound
+/// stays there while the others move. At most `rounds` steps.
 std::vector<double> LevenbergMarquardt(const Residuals& residuals,
                                        const std::vector<Unknown>& unknowns, int rounds);
 

@@ -13,17 +13,17 @@
 namespace facefit {
 namespace {
 
-/// How far an iris may lie above or below the middle between the lids: so differently do eyes rest;
-/// and by how much the lids are moved at most.
+/// Distance of an iris above or below the middle between the lids that counts as normal, since eyes
+/// rest differently; and the most by which lids are moved.
 constexpr float kFreeRestMm = 0.5F, kMaxShiftMm = 3;
 
 /// Plausible limits of an iris, relative to the built-in one.
 constexpr glm::vec2 kIrisSize{0.8F, 1.12F};
-/// How far from a corner of the mouth, by the mouth's width, the outer lips no longer go with it,
-/// and up to where they go all the way.
+/// Distance from a corner of the mouth, divided by the mouth's width: beyond the first the outer
+/// lips do not follow the corner, below the second they follow it wholly.
 constexpr glm::vec2 kGoesWithCorner{0.3F, 0.05F};
 
-/// What the network sees of depth too much or too little on the base head; mean 0, millimetres.
+/// Returns FitProblem::depth_bias.
 std::vector<float> DepthBias(const ObservedHead& base) {
   std::vector<float> bias;
   float mean = 0;
@@ -35,7 +35,8 @@ std::vector<float> DepthBias(const ObservedHead& base) {
   return bias;
 }
 
-/// Where the network sees the points of the face. `posed`: as of ConstrainToMouthLine.
+/// Returns constraints to where the network sees the points of the face. `posed`: as for
+/// ConstrainToMouthLine.
 std::vector<LandmarkConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
                                               const std::vector<glm::vec3>& posed) {
   constexpr float kTrustDepth = 0.3F, kMaxDepthGapMm = 15;
@@ -66,7 +67,7 @@ LidSpan LidSpanOf(fsm::Side side, Place place) {
   return {place(outline[kOuterCorner]), place(outline[kInnerCorner]),
           0.5F * (place(outline[kUpperMiddle]) + place(outline[kLowerMiddle]))};
 }
-/// Where the iris is expected; millimetres are those of the base head's eye.
+/// Where the iris is expected; the scale is relative to the base head's eye.
 struct IrisPlacement {
   glm::vec2 centre;
   float pixels_per_mm;
@@ -122,9 +123,9 @@ std::uint32_t NearestLip(const ObservedHead& base, glm::vec3 p) {
   return nearest;
 }
 
-/// Replaces the constraints of closed inner lips by the line where the photo shows them to meet,
-/// and moves those of the outer lips beside a corner along. `posed`: the base head's vertices with
-/// the photo's expression.
+/// Replaces the constraints of closed inner lips by the line along which they meet in the photo,
+/// and moves the outer lips beside a corner with it. `posed`: the base head's vertices in the
+/// photo's expression.
 void ConstrainToMouthLine(const FitProblem& problem, const CameraPose& pose,
                           std::span<const glm::vec3> posed, const fsm::Image& photo,
                           std::vector<LandmarkConstraint>& constraints) {
@@ -144,7 +145,7 @@ void ConstrainToMouthLine(const FitProblem& problem, const CameraPose& pose,
     const auto k = std::min(static_cast<std::size_t>(step), kMouthLinePoints - 2);
     return glm::mix(line[k], line[k + 1], step - static_cast<float>(k));
   };
-  // Where the network misplaced a corner it misplaced the outer lips beside it, too.
+  // Where the network misplaces a corner it misplaces the outer lips beside it, too.
   for (const PointIndex corner : {point::kMouthRight, point::kMouthLeft}) {
     const float corner_part = along(base.places()[corner]);
     const glm::vec2 shift_px = on_line(corner_part) - problem.face.PixelOf(corner);

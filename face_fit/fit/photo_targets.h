@@ -12,18 +12,18 @@
 
 namespace facefit {
 
-/// A point of the head, where the photo shows it, and its depth.
+/// A place on the head that must appear at a pixel of the photo, at a depth.
 struct LandmarkConstraint {
-  std::optional<PointIndex> point;  ///< of the network, if it is one
+  std::optional<PointIndex> point;  ///< if it is a point of the network
   MeshPoint on_head;
   glm::vec2 pixel;
-  float z_mm;  ///< in the camera's frame, towards it
+  float z_mm;  ///< depth in the camera's frame, towards the camera
   bool IsAmong(std::span<const PointIndex> points) const {
     return point && Contains(points, *point);
   }
 };
 
-/// What the photo says of the form of the head.
+/// What the photo tells about the form of the head.
 struct PhotoTargets {
   std::vector<LandmarkConstraint> constraints;
   bool lips_apart = false;
@@ -34,24 +34,24 @@ struct PhotoIrises {
   fsm::Sided<IrisCircle> circles;
   float size = 1;  ///< iris radius relative to the built-in head's, after scaling by the eye's size
 };
-/// Without a photo irises lie where the eyes' outlines say, with a contrast of 0.
+/// Without a photo irises are placed by the outlines of the eyes, with a contrast of 0.
 PhotoIrises FindPhotoIrises(const ObservedHead& base, const FoundFace& face,
                             const fsm::Image* photo);
 
-/// A face that a head is fitted to. Both outlive this.
+/// A face and the head that is fitted to it. Both must outlive this object.
 struct FitProblem {
   FitProblem(const ObservedHead& base_head, const FoundFace& found_face);
   const ObservedHead& base;
   const FoundFace& face;
-  /// What the network sees of depth too little on the base head; mean 0, millimetres.
+  /// By point of the network: the depth on the base head less the depth that the network reports
+  /// for it, mean 0, millimetres. Added to what it reports of a photo.
   std::vector<float> depth_bias;
   bool lips_apart;
 };
 
-/// The targets of the warp, for a pose and an expression that are found: the network's points,
-/// their depth mostly as the head's own form has it. Eyes whose irises lie elsewhere are moved up
-/// or down with them. Closed lips meet where the photo, if there is one, shows the dark line
-/// between them.
+/// Returns the targets of the warp for a pose and an expression: the network's points, whose depth
+/// is mostly the head's own. Eyes whose irises the photo shows elsewhere are moved up or down with
+/// them. Closed lips meet where the photo, if there is one, shows the dark line between them.
 PhotoTargets TargetsOf(const FitProblem& problem, const CameraPose& pose,
                        const Expression& expression, const PhotoIrises& irises,
                        const fsm::Image* photo);

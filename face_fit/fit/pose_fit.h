@@ -16,8 +16,8 @@ struct PointMatch {
   float weight = 1;
 };
 
-/// A pose as unknowns of a least-squares fit. Of the focal length the logarithm is taken, so that
-/// it stays above 0.
+/// The unknowns of a pose in a least-squares fit. The focal length is represented by its logarithm,
+/// so that it stays positive.
 enum PoseParameter : std::size_t {
   kTurnX,
   kTurnY,
@@ -27,21 +27,21 @@ enum PoseParameter : std::size_t {
   kCentreY,
   kPoseParameters
 };
-/// Those unknowns, in that order; no turn goes beyond `max_turn_rad` to either side.
+/// Returns these unknowns in this order; turns are limited to +-max_turn_rad.
 std::vector<Unknown> PoseUnknowns(const CameraPose& start,
                                   double max_turn_rad = std::numeric_limits<double>::infinity());
-/// REQUIRES: kPoseParameters numbers or more.
+/// Returns the pose. REQUIRES: at least kPoseParameters numbers.
 CameraPose PoseOf(std::span<const double> parameters);
-/// So many steps settle a pose, with and without an expression.
+/// Steps in which a fit of a pose converges, with or without an expression.
 inline constexpr int kPoseRounds = 20;
 
-/// The pose that shows the matches nearest to where the photo shows them, starting from `start`.
-/// Matches more than 3 mm off count by their distance, not by its square.
+/// Returns the pose that projects the matches nearest to their pixels, starting from `start`.
+/// Distances above 3 mm count linearly, others squared.
 CameraPose RefinePose(std::span<const PointMatch> matches, const CameraPose& start);
-/// The pose that shows places nearest to pixels, with the turn as given.
+/// Returns the pose with the given turn that projects places nearest to pixels.
 CameraPose PoseWithTurn(const std::vector<glm::vec3>& places, const std::vector<glm::vec2>& pixels,
                         glm::vec3 turn_rad);
-/// The mean distance between the matches and where a pose projects them, each by its weight.
+/// Returns the weighted mean distance between the matches' pixels and projected places.
 float MeanDistanceMm(const CameraPose& pose, std::span<const PointMatch> matches);
 
 }  // namespace facefit

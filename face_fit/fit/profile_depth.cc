@@ -12,16 +12,18 @@
 namespace facefit {
 namespace {
 
-constexpr float kReachMm = 13;  // before and behind the line, where the outline is looked for
+// distance before and behind the profile in which the outline is searched
+constexpr float kReachMm = 13;
 constexpr float kReachStepMm = 0.5F;
-constexpr float kEvenMm = 2.2F;        // height over which gaps are evened out (Gaussian sigma)
-constexpr float kWideMm = 24;          // from the middle of the face: there 1/e of the gap counts
-constexpr float kMaxCorrectionMm = 6;  // in one round
-constexpr float kProfileBelowChinMm = 1;  // the line ends there: the throat has no targets
+constexpr float kEvenMm = 2.2F;  // sigma of the Gaussian over height that smooths gaps
+// distance from the middle of the face at which 1/e of a gap is corrected
+constexpr float kWideMm = 24;
+constexpr float kMaxCorrectionMm = 6;     // in one round
+constexpr float kProfileBelowChinMm = 1;  // the profile ends there: the throat has no targets
 constexpr int kProfileRounds = 3, kPlacingRounds = 6;
 
-/// How far before (or behind) a place of the profile the outline lies, millimetres of depth;
-/// nothing beyond reach.
+/// Returns how far before a place of the profile the outline lies (negative: behind), millimetres
+/// of depth; nothing beyond kReachMm.
 std::optional<float> DepthGap(const FloatImage& opacity, const CameraPose& pose, glm::vec3 place) {
   const auto inside = [&](float depth) {
     const glm::vec2 pixel = pose.Pixel(place + glm::vec3(0, 0, depth));
@@ -47,7 +49,7 @@ float MeanDepthGap(const FloatImage& opacity, const CameraPose& pose,
   return sum;
 }
 
-/// Scale, place and lean of the profile once more, from where the outline really is.
+/// Refines scale, place and lean of the profile by the outline found near it.
 CameraPose FitPoseToOutline(const FloatImage& opacity, CameraPose pose,
                             const std::vector<glm::vec3>& line) {
   for (int round = 0; round < kPlacingRounds; ++round) {
@@ -75,7 +77,7 @@ CameraPose FitPoseToOutline(const FloatImage& opacity, CameraPose pose,
   return pose;
 }
 
-/// What depth lacks at heights along the profile, evened out.
+/// Missing depth as a function of height along the profile, smoothed.
 class DepthGaps {
  public:
   DepthGaps(const FloatImage& opacity, const CameraPose& pose, const std::vector<glm::vec3>& line) {
@@ -98,8 +100,8 @@ class DepthGaps {
   std::vector<std::pair<float, float>> gaps_;  // heights and depths, millimetres
 };
 
-/// The fit with its targets moved forward or back by the gaps, the less the farther they lie beside
-/// the middle of the face.
+/// Returns the fit with its targets moved forward or back by the gaps, less with distance from the
+/// middle of the face.
 Fit WithoutGaps(const DepthGaps& gaps, const Fit& fit) {
   std::vector<LandmarkConstraint> constraints = fit.targets.constraints;
   for (LandmarkConstraint& constraint : constraints) {
@@ -110,7 +112,7 @@ Fit WithoutGaps(const DepthGaps& gaps, const Fit& fit) {
   return WithConstraints(fit, std::move(constraints));
 }
 
-/// The pose that shows the profile where it was found.
+/// Returns the pose that projects the profile to where it was found.
 CameraPose PoseOf(const ProfilePlacement& placement, const std::vector<glm::vec3>& line) {
   std::vector<glm::vec2> pixels;
   for (const glm::vec3& p : line) pixels.push_back(placement.PixelOf(p));

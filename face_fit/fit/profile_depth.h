@@ -7,10 +7,10 @@
 
 namespace facefit {
 
-/// Finds the line of brow, nose, lips and chin of the fitted head on the outline of a figure
+/// Finds the profile of the fitted head (brow, nose, lips, chin) on the outline of a figure
 /// (`opacity`: 1 = figure), and corrects the depth of the fit's constraints near the middle of the
-/// face until both lines agree. Returns how the figure's photo was taken; nothing, and `fit` stays
-/// as it is, if the figure has no outline like it.
+/// face until the two agree. Returns how the figure's photo was taken. Returns nothing, and leaves
+/// `fit` unchanged, if no part of the outline resembles the profile.
 std::optional<CameraPose> CorrectDepthByProfile(const FloatImage& opacity, Fit& fit);
 
 }  // namespace facefit

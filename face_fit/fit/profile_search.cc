@@ -15,26 +15,28 @@ namespace facefit {
 namespace {
 
 // The profile line of the head.
-constexpr float kLineStepMm = 2;      // between two places, in height
-constexpr float kHalfWidthMm = 13;    // of the middle of the face, which alone makes the outline
-constexpr float kThroatMm = 16;       // below the chin: there the outline goes back
+constexpr float kLineStepMm = 2;  // between two places, in height
+// half width of the strip along the middle of the face that forms the outline
+constexpr float kHalfWidthMm = 13;
+constexpr float kThroatMm = 16;       // below the chin, where the outline goes back
 constexpr float kAboveNasionMm = 16;  // higher up there may be hair
 
-// Where it is looked for: the person reaches from above the head to the throat at least, to the
-// elbows at most. People lean a photo's camera no farther.
+// The range of scales: the picture's figure reaches at least from above the head to the throat, at
+// most to the elbows. The range of tilts: people hold cameras no more askew.
 constexpr float kMinHeightPx = 60;      // smaller figures show no profile
-constexpr std::size_t kMinPlaces = 30;  // of the line, some 6 cm
+constexpr std::size_t kMinPlaces = 30;  // of the profile, about 6 cm
 constexpr float kHeadMm = 180, kElbowsMm = 620;
 constexpr float kScaleStep = 1.05F;  // from one scale to the next
-constexpr float kRowStepMm = 1.5F;   // and from one row
+constexpr float kRowStepMm = 1.5F;   // and between rows
 constexpr std::array kLeanDegrees = {-24.0F, -16.0F, -8.0F, 0.0F, 8.0F, 16.0F, 24.0F};
 
-// What counts as the same line.
-constexpr float kMinConcordance = 0.92F;  // of both lines without their slopes
-constexpr float kOutlierMm = 8;           // a place farther off than this counts as this
-constexpr float kScorePerMm = 0.05F;      // concordance that a millimetre of distance is worth
+// When outline and profile count as the same line.
+constexpr float kMinConcordance = 0.92F;  // of both lines with their linear trends removed
+constexpr float kOutlierMm = 8;           // distances are clamped to this
+constexpr float kScorePerMm = 0.05F;  // concordance that a millimetre of mean distance outweighs
 
-/// The figure's outermost column of each row, to the right (direction 1) or to the left; -1: none.
+/// Returns for each row the figure's outermost column on the right (direction 1) or on the left
+/// (-1); -1 where there is none.
 std::vector<float> OutlineColumns(const FloatImage& opacity, int direction) {
   std::vector<float> columns(static_cast<std::size_t>(opacity.height), -1);
   for (int y = 0; y < opacity.height; ++y) {
@@ -48,16 +50,16 @@ std::vector<float> OutlineColumns(const FloatImage& opacity, int direction) {
   return columns;
 }
 
-/// A placement and how like the outline the profile is there.
+/// A placement and how well the profile matches the outline there.
 struct ProfileMatch {
   ProfilePlacement placement;
   float gap_mm;       ///< mean distance
-  float concordance;  ///< of both lines without their slopes, -1..1
+  float concordance;  ///< with linear trends removed, -1..1
   float Score() const { return concordance - kScorePerMm * gap_mm; }
 };
 
-/// Concordance of two lines with as many places, means and slopes taken off (Lin, A concordance
-/// correlation coefficient to evaluate reproducibility, Biometrics 1989): 1 = the same.
+/// Returns the concordance of two lines of equal length with means and slopes removed (Lin, A
+/// concordance correlation coefficient to evaluate reproducibility, Biometrics 1989): 1 = equal.
 float Concordance(std::vector<float> a, std::vector<float> b) {
   const auto flatten = [](std::vector<float>& v) {
     const float half = 0.5F * static_cast<float>(v.size() - 1);
@@ -83,8 +85,8 @@ float Concordance(std::vector<float> a, std::vector<float> b) {
   return 2 * ab / (aa + bb);
 }
 
-/// How like the outline the profile is with that size, tilt and row, in the column where both are
-/// nearest; nothing if it does not fit the picture or lies too far from the outline.
+/// Returns how well the profile of that size, tilt and row matches the outline, in the column where
+/// the two are nearest; nothing if it does not fit the picture or lies too far from the outline.
 std::optional<ProfileMatch> MatchOf(const std::vector<glm::vec3>& line,
                                     const std::vector<float>& columns, ProfilePlacement placement) {
   placement.pixel.x = 0;
@@ -133,7 +135,7 @@ ProfileMatch RefinedMatch(const std::vector<glm::vec3>& line, const std::vector<
   return best;
 }
 
-/// The rows a figure reaches from and to.
+/// Returns the first and the last row of a figure.
 struct FigureRows {
   float top, bottom;
   float Height() const { return bottom - top; }
@@ -145,7 +147,7 @@ FigureRows FigureRowsOf(const std::vector<float>& columns) {
   return {static_cast<float>(top), static_cast<float>(below - columns.begin() - 1)};
 }
 
-/// The best of all placements on one outline, `direction` as of ProfilePlacement.
+/// Returns the best of all placements on one outline; `direction`: as of ProfilePlacement.
 std::optional<ProfileMatch> SearchOutline(const std::vector<glm::vec3>& line,
                                           const std::vector<float>& columns, int direction,
                                           const FigureRows& rows) {
@@ -211,7 +213,8 @@ std::optional<ProfilePlacement> FindProfile(const FittedHead& fitted, const Floa
     const auto match = SearchOutline(line, columns, direction, rows);
     if (match && (!best || match->Score() >= best->Score())) best = match;
   }
-  // A throat or the back of a head lies as near the line as another's nose; but it has no nose.
+  // A throat or the back of a head may lie as near to the profile as another person's nose, but its
+  // form differs.
   if (!best || best->concordance < kMinConcordance) return {};
   return best->placement;
 }

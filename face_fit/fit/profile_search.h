@@ -10,24 +10,25 @@
 
 namespace facefit {
 
-/// The profile of the fitted head from `below_chin_mm` below the chin up: heights in even steps,
-/// and how far forward.
+/// Returns the profile of the fitted head upward from `below_chin_mm` below the chin: the foremost
+/// places at equal steps of height, head's frame.
 std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin_mm);
 
-/// Mean distance of outline and profile: another person's face lies farther off.
+/// Greatest mean distance of outline and profile; other people's faces mostly exceed it.
 inline constexpr float kMaxProfileGapMm = 4;
 
-/// Where the profile may lie in a picture.
+/// A place of the profile in a picture.
 struct ProfilePlacement {
-  int direction = 1;  ///< 1: it looks to the right, -1: to the left
+  int direction = 1;  ///< 1: the face looks to the right, -1: to the left
   float pixels_per_mm = 1;
   float tilt_rad = 0;
-  glm::vec2 pixel{0};   ///< where `middle` is seen
-  glm::vec3 middle{0};  ///< of the profile, head's frame
+  glm::vec2 pixel{0};   ///< the projection of `middle`
+  glm::vec3 middle{0};  ///< middle of the profile, head's frame
   glm::vec2 PixelOf(glm::vec3 place) const;
 };
 
-/// Where the outline of a figure (`opacity`: 1 = figure) is like the profile of the fitted head.
+/// Returns where the outline of a figure (`opacity`: 1 = figure) resembles the fitted head's
+/// profile most; nothing if it does nowhere.
 std::optional<ProfilePlacement> FindProfile(const FittedHead& fitted, const FloatImage& opacity);
 
 }  // namespace facefit

@@ -8,7 +8,7 @@
 
 namespace facefit {
 
-/// As many photos from the side are used for one face at most.
+/// The most photos from the side that are used for one face.
 inline constexpr std::size_t kMaxSidePhotos = 6;
 /// Error: kLimit, there are more.
 vm::Result<void> CheckSidePhotoCount(std::size_t count);
@@ -19,7 +19,7 @@ struct SidePhoto {
   fsm::Image photo;
   std::vector<FoundFace> faces;
 };
-/// Reads a photo and sets it upright by what is seen in it. Errors: as ReadPhoto.
+/// Reads a photo, turns it upright by what it shows, and finds its faces. Errors: as ReadPhoto.
 vm::Result<SidePhoto> ReadSidePhoto(FaceNetworks& networks, const std::string& path);
 
 }  // namespace facefit

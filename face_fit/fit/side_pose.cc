@@ -14,19 +14,22 @@ namespace facefit {
 namespace {
 
 constexpr int kDrawnSize = 640;
-/// Below it a photo tells no more of depth than the first one did; beyond it the network guesses.
+/// Range of turns relative to the first photo: a smaller turn adds no information on depth, at a
+/// larger one the network guesses.
 constexpr float kMinTurnDeg = 12, kMaxTurnDeg = 80;
-/// Of a turned face the network is less sure than of one from the front (kCertainFace).
+/// The network is less certain of a turned face than of one from the front (kCertainFace).
 constexpr float kMinCertainty = 0.5F;
-/// Points of the same face drawn and seen lie nearer than that, those of another mostly do not.
+/// Greatest mean distance between points seen and drawn of the same face; other faces mostly exceed
+/// it.
 constexpr float kMaxResidualMm = 2.6F;
-/// From that cosine of the slant on the network tells where a point lies, below it guesses.
+/// Cosine of the angle to the camera above which the network sees a point; weight of those below
+/// it, which it guesses.
 constexpr float kToldFacing = 0.1F, kGuessedWeight = 0.15F;
-/// Turns from which a pose is looked for: near enough to each other that one leads to the best.
+/// Turns from which a pose is refined, close enough that one converges to the best.
 constexpr float kStartTurnsDeg[] = {-60, -30, 0, 30, 60};
 
-/// What can be compared: points of the network with the place of the posed head, and how far beside
-/// it the network sees them (millimetres to the right and down, as the camera has it).
+/// A point of the network, its place on the posed head, and the network's error there (millimetres
+/// right and down in the picture).
 struct ComparedPoint {
   PointIndex point;
   glm::vec3 place;
@@ -40,7 +43,7 @@ std::vector<ComparedPoint> ComparedPoints(const FittedHead& fitted) {
   return points;
 }
 
-/// The points as matches for RefinePose, the bias taken off.
+/// Returns the points as matches for RefinePose, with the network's errors subtracted.
 std::vector<PointMatch> MatchesOf(const std::vector<ComparedPoint>& points, const FoundFace& face,
                                   const CameraPose& pose) {
   std::vector<PointMatch> matches;
@@ -51,9 +54,8 @@ std::vector<PointMatch> MatchesOf(const std::vector<ComparedPoint>& points, cons
   return matches;
 }
 
-/// Draws the posed head turned as in the pose and lets the network look at it. Returns the points
-/// with how far beside their places it sees them, those that are turned away with little weight;
-/// nothing if it sees no face.
+/// Measures the network's errors on the posed head drawn in a pose. Returns the points with errors
+/// and weights, small for those turned away; nothing if the network sees no face.
 std::optional<std::vector<ComparedPoint>> MeasuredBias(FaceNetworks& networks,
                                                        const FittedHead& fitted,
                                                        const CameraPose& pose,
@@ -76,7 +78,7 @@ std::optional<std::vector<ComparedPoint>> MeasuredBias(FaceNetworks& networks,
   return points;
 }
 
-/// Refined from several turns; the best.
+/// Returns the best of the poses refined from several turns.
 CameraPose FindPose(const FittedHead& fitted, const FoundFace& face,
                     const std::vector<ComparedPoint>& points) {
   const glm::vec2 top = face.PixelOf(point::kNasion), chin = face.PixelOf(point::kChin);

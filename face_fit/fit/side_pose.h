@@ -6,10 +6,10 @@
 
 namespace facefit {
 
-/// Finds the pose of the fitted head in a photo of the person from the side. The head is drawn in
-/// that pose and shown to the same network: what the network gets wrong of the drawn head is
-/// subtracted from what it says of the photo. Errors (kBadValue, in words): no face; from the front
-/// again; turned too far; not this face.
+/// Finds the pose of the fitted head in a photo of the person from the side; of several faces in it
+/// the largest is taken. The network's error is measured on the head drawn in that pose and
+/// subtracted from its points in the photo. Errors (kBadValue, with a sentence): no face; seen from
+/// the front again; turned too far; another person's face.
 vm::Result<CameraPose> FitSidePose(FaceNetworks& networks, const FittedHead& fitted,
                                    const SidePhoto& side_photo);
 

@@ -17,7 +17,7 @@ vm::Result<SideView> CorrectDepthBy(FaceNetworks& networks, const fsm::Image& fr
     CorrectDepthByStereo(front_image, side_photo.photo, *side_pose, fit);
     return SideView{*side_pose, std::move(figure)};
   }
-  // In full profile the network finds no face, or places its points at will.
+  // In full profile the network finds no face, or misplaces its points.
   if (const auto profile_pose = CorrectDepthByProfile(figure.opacity, fit)) {
     return SideView{*profile_pose, std::move(figure), true};
   }

@@ -14,18 +14,19 @@
 namespace facefit {
 namespace {
 
-constexpr float kCellMm = 1.4F;          // between samples of the first photo
+constexpr float kCellMm = 1.4F;          // step between samples of the first photo
 constexpr int kPatch = 5;                // samples to each side of a patch's middle
 constexpr int kPatchStep = 4;            // samples between the middles of patches
 constexpr float kMinCorrelation = 0.7F;  // correlation from which a patch counts as found
 constexpr std::size_t kMinPatches = 25;
 constexpr int kMaxSamples = 400;  // to a side
-/// Of every sample of a patch: cosines of the slant to the cameras of both photos, and how far its
-/// depth may be from that of the middle. Beyond them a patch looks too different in
-/// both photos, or lies on two parts of the face.
+/// Limits for every sample of a patch: cosines of the skin's angle to both cameras, and difference
+/// of its depth from the middle's. Beyond them a patch looks too different in the two photos, or
+/// lies on two parts of the face.
 constexpr float kMinFacing = 0.25F, kMinFacingSide = 0.2F, kMaxDepthStepInPatchMm = 25;
 
-/// A place of the fitted skin as the first photo shows it; without skin `facing` is negative.
+/// A place of the fitted skin as the first photo shows it; `facing` is negative where there is
+/// none.
 struct StereoSample {
   glm::vec3 camera{0}, rest{0};  // in the camera's frame; on the base head
   float light = 0;
@@ -33,7 +34,7 @@ struct StereoSample {
 };
 using StereoSamples = Raster<StereoSample>;
 
-/// What of the fitted skin the first photo shows.
+/// Returns the part of the fitted skin that the first photo shows.
 VisibleSurface SkinInFront(const FittedHead& fitted) {
   Box2 box;
   for (const PointIndex i : point::kForFit) box.Add(fitted.pose.Pixel(fitted.PlaceOf(i)));
@@ -65,7 +66,7 @@ StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front_image
   });
 }
 
-/// Takes mean and slopes off a patch: how light falls changes them when a head turns.
+/// Subtracts mean and linear slope from a patch: light changes them when a head turns.
 void RemovePlane(std::vector<float>& patch) {
   float mean = 0, across = 0, down = 0, squares = 0;
   std::size_t i = 0;
@@ -86,7 +87,7 @@ void RemovePlane(std::vector<float>& patch) {
   }
 }
 
-/// Correlation of two flattened patches, -1..1; 0 where one shows hardly anything.
+/// Returns the correlation of two flattened patches, -1..1; 0 where one has too little contrast.
 float Correlation(std::span<const float> a, std::span<const float> b) {
   constexpr float kMin = 1.5F;  // of 255, root of the mean square
   float aa = 0, bb = 0, ab = 0;
@@ -130,7 +131,7 @@ std::vector<Patch> PatchesOf(const StereoSamples& samples) {
   return patches;
 }
 
-/// The best of values at even steps, refined by the parabola through its neighbours.
+/// Finds the greatest of equally spaced values, refined by the parabola through its neighbours.
 struct Peak {
   float step, value;
 };
@@ -147,11 +148,11 @@ Peak FindPeak(int reach, F value) {
   return {step, *best};
 }
 
-/// Compares patches with what lies at some pixels of the second photo.
+/// Compares patches with pixels of the second photo.
 class PatchMatcher {
  public:
   explicit PatchMatcher(const fsm::Image& image) : image_(image) {}
-  /// `pixel(i)`: where the i-th sample of the patch would lie.
+  /// `pixel(i)`: the pixel for the i-th sample of the patch.
   template <typename Pixel>
   float Match(const Patch& patch, Pixel pixel) {
     light_.clear();
@@ -164,18 +165,18 @@ class PatchMatcher {
 
  private:
   const fsm::Image& image_;
-  std::vector<float> light_;  // of one patch, kept for its memory
+  std::vector<float> light_;  // of one patch; kept to save allocations
 };
 
-// A patch is looked for so far beside where the fit has it, in steps of a millimetre.
+// Reach of the first search, in the picture around where the fit has the patch, steps of 1 mm.
 constexpr int kReachAcrossMm = 6, kReachDownMm = 4;
-// Then it is looked for along the line of sight of the first photo. Of places that correlate alike
-// the nearest is taken: each square millimetre costs some correlation.
+// The second search runs along the first photo's line of sight. The correlation is lowered by
+// kCorrelationPerMm2 for each square millimetre, so that of similar places the nearest wins.
 constexpr float kDepthStepMm = 0.75F, kCorrelationPerMm2 = 0.0012F;
 constexpr int kDepthSteps = 14;
 constexpr int kPoseRefinements = 2;
 
-/// Where whole patches lie in the second photo, whatever their depth.
+/// Returns where patches are found in the second photo, whatever their depth.
 std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPose& front_pose,
                                     const CameraPose& side_pose, PatchMatcher& matcher) {
   std::vector<PointMatch> matches;
@@ -185,7 +186,7 @@ std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPo
     return side_pose.Pixel(front_pose.FromCamera(q));
   };
   for (const Patch& patch : PatchesOf(samples)) {
-    // Projected once: turning a head takes longer than looking up a pixel.
+    // Projected once: the projection costs more than reading a pixel.
     pixels.clear();
     for (const glm::vec3& q : patch.camera) pixels.push_back(pixel_of(q));
     float best = kMinCorrelation;
@@ -207,7 +208,7 @@ std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPo
   return matches;
 }
 
-/// How much nearer to the first camera each patch lies, where that is seen clearly.
+/// Returns how much nearer to the first camera each patch lies, where that is seen clearly.
 std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const CameraPose& front_pose,
                                        const CameraPose& side_pose, PatchMatcher& matcher) {
   std::vector<fsm::WarpPoint> depths;

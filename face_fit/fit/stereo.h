@@ -7,11 +7,11 @@
 
 namespace facefit {
 
-/// Measures depth by finding small patches of skin of the first photo in the one from the side: of
-/// a turned face the network mostly tells what faces are like in general, patches tell how far this
-/// one stands forward. `side_pose`: how `side_image` was taken, which is refined. Returns places of
-/// the base head at rest, and by how many millimetres each lies nearer to the first photo's camera
-/// than the fit has it; none if fewer than 25 patches are found.
+/// Measures depth by finding small patches of skin of the first photo in a photo from the side: of
+/// a turned face the network mostly reports what faces have in common. `side_pose`: how
+/// `side_image` was taken; refined. Returns places of the base head at rest, and by how many
+/// millimetres each lies nearer to the first photo's camera than in the fit; empty if fewer than 25
+/// patches are found.
 std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front_image,
                                          const fsm::Image& side_image, CameraPose& side_pose);
 

@@ -10,15 +10,16 @@ namespace facefit {
 namespace {
 
 constexpr int kStereoRounds = 2;
-constexpr float kMiddleMm = 12;        // from the face's middle: there the nose hides no cheek
+// distance from the face's middle within which the nose hides no cheek
+constexpr float kMiddleMm = 12;
 constexpr float kMaxDepthStepMm = 10;  // in one round
-// Some single patches are mistaken: those that differ by more than kMistakenMm from what their
-// neighbours say, evened out by kRoughSmoothMm, are left out. With fewer than kMinDepths left
-// nothing is done; these are evened out by kDepthSmoothMm (both as of fsm::Warp).
+// Outliers: depths that differ by more than kMistakenMm from a warp of all depths, smoothed by
+// kRoughSmoothMm, are dropped. At least kMinDepths must remain; they are smoothed by kDepthSmoothMm
+// (both as in fsm::Warp).
 constexpr float kMistakenMm = 2, kRoughSmoothMm = 60, kDepthSmoothMm = 12;
 constexpr std::size_t kMinDepths = 20;
 
-/// What the far cheek hides is taken to be as the near one.
+/// Copies depths of the near cheek to the far one, which the photo hides.
 std::vector<fsm::WarpPoint> OnBothCheeks(std::vector<fsm::WarpPoint> depths, glm::vec3 towards) {
   const std::size_t count = depths.size();
   for (std::size_t i = 0; i < count; ++i) {
