@@ -16,13 +16,13 @@ glm::vec3 Middle(std::span<const glm::vec3> points, std::span<const PointIndex> 
   return sum / static_cast<float>(of.size());
 }
 
-/// Points of the upper and the lower edge of an opening that lie over each other, about its middle.
+/// Pairs of points on the upper and lower edge of an opening, above each other near its middle.
 using EdgePairs = std::array<std::pair<PointIndex, PointIndex>, 3>;
 constexpr EdgePairs kLips = {{{82, 87}, {13, 14}, {312, 317}}};
 constexpr fsm::Sided<EdgePairs> kLids = {{{{160, 144}, {159, 145}, {158, 153}}},
                                          {{{387, 373}, {386, 374}, {385, 380}}}};
 
-/// How far an opening is open, the mean of those places.
+/// Returns the mean distance of these pairs.
 float MeanGap(std::span<const glm::vec3> points, const EdgePairs& pairs) {
   float sum = 0;
   for (const auto& [upper, lower] : pairs) {
@@ -31,7 +31,7 @@ float MeanGap(std::span<const glm::vec3> points, const EdgePairs& pairs) {
   return sum / 3;
 }
 
-/// Where both irises look: from the middle between the corners of their eyes.
+/// Returns FaceMeasures::gaze.
 glm::vec2 GazeOf(const AttentiveFace& found) {
   glm::vec2 sum(0);
   for (const fsm::Side side : fsm::kSides) {

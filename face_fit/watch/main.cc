@@ -1,4 +1,4 @@
-// Says what a face in a film does, frame by frame, as MediaPipe's networks see it.
+// Prints what a face in a film does, frame by frame, as MediaPipe's networks see it.
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ struct Options {
   bool points = false;
 };
 
-/// "WIDTHxHEIGHT".
+/// Returns a picture of the size "WIDTHxHEIGHT".
 fsm::Image PictureOfSize(const std::string& text) {
   int width = 0, height = 0, end = 0;
   const int read = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &end);
@@ -34,7 +34,7 @@ fsm::Image PictureOfSize(const std::string& text) {
   return fsm::FilledImage(width, height);
 }
 
-/// A column of the CSV after that of the time.
+/// A column of the CSV; the time comes before the first.
 struct Column {
   const char* name;
   float (*get)(const FaceMeasures&);
@@ -68,7 +68,7 @@ void PrintRow(long number, double rate, const std::optional<FaceMeasures>& measu
   std::cout << "\n";
 }
 
-/// x and y of the 468 points, then of the right and the left iris, five each.
+/// Prints x and y of the 468 points, then of the right and the left iris, five each.
 void PrintPoints(const std::optional<facefit::AttentiveFace>& face) {
   std::string row;
   const auto add = [&row](float x, float y) {

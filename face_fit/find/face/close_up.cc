@@ -11,14 +11,14 @@
 namespace facefit {
 namespace {
 
-constexpr float kAsideMm = 330, kAboveMm = 300, kBelowMm = 430;  // from the nose
-/// More of a photo than that is all of it.
+constexpr float kAsideMm = 330, kAboveMm = 300, kBelowMm = 430;  // reach from the nose
+/// Part of a photo above which a close-up counts as all of it.
 constexpr float kNearlyAll = 0.95F;
 
-/// Measured between the outer corners of the eyes and from forehead to chin; the larger of the two
-/// is seen less at a slant.
+/// Returns pixels per millimetre, measured between the outer corners of the eyes and from forehead
+/// to chin; the larger value is the one less foreshortened.
 float PixelsPerMm(const FoundFace& face) {
-  constexpr float kHeightMm = 132;  // of the built-in head
+  constexpr float kHeightMm = 132;  // forehead to chin of the built-in head
   return std::max(
       glm::distance(face.points[point::kEyeOuterRight], face.points[point::kEyeOuterLeft]) /
           kEyesApartMm,
@@ -36,7 +36,7 @@ CloseUp CloseUpOf(const fsm::Image& photo, const fsm::Image& finest, const Found
       glm::clamp(nose - pixels_per_mm * glm::vec2(kAsideMm, kAboveMm), glm::vec2(0), size);
   const glm::vec2 high =
       glm::clamp(nose + pixels_per_mm * glm::vec2(kAsideMm, kBelowMm), glm::vec2(0), size);
-  // Scaled to the finest photo and rounded up, its edge may come to lie beyond it.
+  // Rounding up may put the edge beyond the finest photo.
   const glm::ivec2 from = glm::floor(low * finer);
   const glm::ivec2 to = glm::min(glm::ceil(high * finer), all);
   const glm::ivec2 part = to - from;

@@ -4,19 +4,18 @@
 
 namespace facefit {
 
-/// The part of a photo that a head made from one of its faces shows: the face, its hair, neck
-/// and shoulders.
+/// The part of a photo that a head made from a face in it shows: the face, its hair, neck and
+/// shoulders.
 struct CloseUp {
   fsm::Image photo;
-  FoundFace face;   ///< in pixels of that part
-  float scale = 1;  ///< its pixels by one of the photo as it was worked on
+  FoundFace face;   ///< in pixels of `photo`
+  float scale = 1;  ///< pixels of `photo` for each pixel of the photo it was cut from
 };
 
-/// Cuts a photo to some 33 centimetres to either side of a face, 30 above its nose and 43 below, at
-/// most kWorkingSize on a side. Of a group or a whole figure little else is left, and what is left
-/// is as fine as the photo has it.
-/// `finest`: the same photo with all its pixels, or `photo` itself. Where nothing would be cut off
-/// and nothing gained it is `photo` as it is.
+/// Cuts a photo to about 33 cm on either side of a face, 30 cm above its nose and 43 cm below,
+/// scaled down to at most kWorkingSize on a side. Pixels come from `finest`, which is the same
+/// photo with all its pixels, or `photo` itself. Returns `photo` unchanged if nothing would be cut
+/// off and no resolution gained.
 CloseUp CloseUpOf(const fsm::Image& photo, const fsm::Image& finest, const FoundFace& face);
 
 }  // namespace facefit

@@ -11,7 +11,7 @@
 namespace facefit {
 namespace {
 
-/// So far an ear reaches aside of the cheek before it.
+/// Distance from the network's cheek point to the outer edge of the ear.
 constexpr float kEarMm = 10;
 
 std::string Joined(std::initializer_list<std::pair<bool, const char*>> parts) {

@@ -8,18 +8,18 @@
 
 namespace facefit {
 
-/// Which parts of a head lie beyond the edges of its photo: the network guesses their points all
-/// the same, and is as certain of them as of those it sees.
+/// Which parts of a head lie beyond the edges of its photo. The network guesses their points, and
+/// is as certain of these as of those it sees.
 struct CutOff {
   bool forehead = false, chin = false;
   fsm::Sided<bool> ears;
 };
 CutOff CutOffParts(const FoundFace& face, const fsm::Image& photo);
-/// The parts in words, with commas between them; "" if nothing is cut off.
+/// Returns the names of the parts that are cut off, separated by commas; "" if there are none.
 std::string NamesOf(const CutOff& cut);
 
-/// A face cannot be made of less than both eyes, the nose and the mouth. Error: kBadValue, which of
-/// them the photo cuts off.
+/// Checks that the photo shows both eyes, the nose and the mouth, without which no face can be
+/// made. Error: kBadValue, which of them the photo cuts off.
 vm::Result<void> CheckFeaturesShown(const FoundFace& face, const fsm::Image& photo);
 
 }  // namespace facefit

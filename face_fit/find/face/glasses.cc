@@ -12,21 +12,20 @@
 namespace facefit {
 namespace {
 
-constexpr float kInnerCornersMm = 32;  // between the inner corners of the eyes, nearly
-// Where a bar may lie: columns of samples across the bridge, from above the brows down; and how far
-// above and below it skin is compared with it.
+constexpr float kInnerCornersMm = 32;  // distance of the inner corners of the eyes, roughly
+// Grid of samples in which a bar is searched: columns across the bridge, rows from kTopMm
+// (negative: above the eyes) down; and rows of skin above and below that a bar is compared with.
 constexpr int kBarColumns = 9, kBarRows = 60;
 constexpr float kBarColumnStepMm = 1.25F, kBarRowStepMm = 0.5F, kTopMm = -14;
 constexpr std::size_t kBesideRows = 5, kMinBarRows = 4, kMaxBarRows = 18, kBarStepRows = 2;
-/// The contrast is a part of the skin's brightness, and of at least this, of 255: in the dark it is
-/// noise.
+/// The least brightness, 0..255, that contrast is divided by: in the dark it is noise.
 constexpr float kDarkestSkin = 20;
-// Which places a bar is looked for at. It is seen whichever way one looks across it, a crease only
-// along its line; and a point that lies a pixel elsewhere must not decide.
+// Turns and offsets at which a bar is searched; the median counts. A bar shows at all of them, a
+// crease only along its line, and a point that is a pixel off must not decide.
 constexpr float kTurnsRad[] = {-0.1F, 0, 0.1F}, kBarAsideMm[] = {-2, 0, 2};
 
-/// How much a bar across the bridge of the nose stands out, as BridgeContrast, looked for so far to
-/// the left of the middle, and turned.
+/// Returns the contrast of a bar as BridgeContrast does, for one offset to the person's left and
+/// one turn.
 float BarAcross(const FoundFace& face, const fsm::Image& photo, float aside_mm, float turn_rad) {
   const glm::vec2 right = face.PixelOf(point::kEyeInnerRight),
                   left = face.PixelOf(point::kEyeInnerLeft), middle = 0.5F * (right + left);
@@ -54,12 +53,12 @@ float BarAcross(const FoundFace& face, const fsm::Image& photo, float aside_mm, 
         const glm::vec3 above = mean(c, top - kBesideRows, top);
         const glm::vec3 bar = mean(c, top, top + width);
         const glm::vec3 below = mean(c, top + width, top + width + kBesideRows);
-        // On either side the bar differs in the same way.
+        // The bar must differ from both sides in the same direction.
         const glm::vec3 a = bar - above, b = bar - below;
         const float least = glm::dot(a, b) > 0 ? std::min(glm::length(a), glm::length(b)) : 0.0F;
         steps.push_back(least / std::max(glm::length(0.5F * (above + below)), kDarkestSkin));
       }
-      // Nearly all the way across.
+      // All columns but one must show the bar.
       std::ranges::nth_element(steps, steps.begin() + 1);
       most = std::max(most, steps[1]);
     }

@@ -4,8 +4,9 @@
 
 namespace facefit {
 
-/// How much a bar across the nose between the eyes differs from the skin above and below it, as
-/// part of their brightness: where glasses rest. Beyond kGlassesContrast there are some.
+/// Returns the contrast of a bar across the bridge of the nose, where glasses rest, to the skin
+/// above and below it, divided by the skin's brightness. Above kGlassesContrast the face wears
+/// glasses.
 float BridgeContrast(const FoundFace& face, const fsm::Image& photo);
 inline constexpr float kGlassesContrast = 0.11F;
 

@@ -39,7 +39,7 @@ constexpr HandPointName kNames[] = {{"right_eye_outer", point::kEyeOuterRight, t
                                     {"cheek_left", point::kCheekLeft, false},
                                     {"forehead", point::kForehead, false}};
 
-/// From the front of the base head, millimetres with y up, to pixels: size, tilt and place by least
+/// Maps the front of the base head (millimetres, y up) to pixels by a similarity found by least
 /// squares (Umeyama 1991).
 class ToPhoto {
  public:
@@ -78,8 +78,8 @@ PointIndex PointAt(const fsm::TableRow& row) {
   return *number;
 }
 
-/// What makes no face of points: the size of a face is measured between the corners of its eyes,
-/// and the line of its lips along that between those of the mouth. Nothing if it is a face.
+/// Returns why points form no face, or nothing if they do: the corners of the eyes must lie apart,
+/// because they give a face's size, and those of the mouth, because lips are measured along them.
 std::optional<std::string> WhyNoFace(const HandPoints& points) {
   constexpr float kNearest = 4;  // pixels
   const auto apart = [&](PointIndex a, PointIndex b) {
@@ -141,7 +141,7 @@ vm::Result<void> CheckWithin(const HandPoints& points, int width, int height) {
 
 vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::PntFile& wireframe,
                                          int width, int height) {
-  // What lies where on the original's standard head: see fsm/mesh/original/original_points.h.
+  // For the points of the original's standard head see fsm/mesh/original/original_points.h.
   constexpr std::pair<PointIndex, fsm::PointName> kSame[] = {
       {point::kEyeOuterRight, {4, 23}}, {point::kEyeInnerRight, {4, 17}},
       {point::kEyeTopRight, {4, 20}},   {point::kEyeBottomRight, {4, 26}},

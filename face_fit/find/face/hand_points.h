@@ -11,35 +11,36 @@
 
 namespace facefit {
 
-/// Points set by hand: by number of the landmark network, in pixels of the upright photo scaled to
-/// at most kWorkingSize.
+/// Points set by hand, by number of the landmark network: pixels of the upright photo scaled down
+/// to at most kWorkingSize.
 using HandPoints = std::map<PointIndex, glm::vec2>;
 
-/// A table of lines `NAME X Y`, NAME one of HandPointNames() or a number of MediaPipe's face mesh;
-/// `#` begins a comment. Needed are both outer eye corners, nose_tip, both mouth corners and chin.
-/// Errors: kBadValue "NAME:LINE: what was expected", also for a point that is set twice; without
-/// the line for a point that is missing, and for corners of the eyes or of the mouth in one place.
+/// Parses lines `NAME X Y`, where NAME is one of HandPointNames() or a number of MediaPipe's face
+/// mesh; `#` begins a comment. Required are both outer eye corners, nose_tip, both mouth corners
+/// and chin. Errors: kBadValue "NAME:LINE: what was expected", also for a point that is set twice;
+/// without a line number for a missing point, and for corners of the eyes or of the mouth that
+/// coincide.
 vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view text);
 /// Error: kBadValue, no point lies in a photo of that size.
 vm::Result<void> CheckWithin(const HandPoints& points, int width, int height);
-/// A point people can name; `needed`: a file of points must have it.
+/// A point with a name; `needed`: ParseHandPoints requires it.
 struct HandPointName {
   std::string_view name;
   PointIndex point;
   bool needed;
 };
 std::span<const HandPointName> HandPointList();
-/// The names, with blanks between them.
+/// Returns all names, separated by blanks.
 std::string HandPointNames();
 
-/// The points that a wireframe of the original, fitted to a photo of that size, gives. Error:
-/// kBadValue if the wireframe is not one of the original's standard head, or its points lie in one
-/// place.
+/// Returns the points of a wireframe of the original that was fitted to a photo of that size.
+/// Error: kBadValue if the wireframe is not one of the original's standard head, or if its points
+/// coincide.
 vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::PntFile& wireframe,
                                          int width, int height);
 
-/// Completes a face of which some points are known: the others lie relative to them as on the
-/// built-in head. REQUIRES: at least the points that ParseHandPoints needs.
+/// Completes a face from some of its points; the others are placed relative to them as on the
+/// built-in head. REQUIRES: at least the points that ParseHandPoints requires.
 FoundFace FaceFromHand(const ObservedHead& base, const HandPoints& points);
 
 }  // namespace facefit

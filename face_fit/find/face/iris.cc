@@ -12,29 +12,29 @@
 namespace facefit {
 namespace {
 
-// What is tried. Radii are by the expected one, places by the width of the eye, angles in radians.
+// The candidates: radii relative to the expected one, offsets relative to the width of the eye,
+// angles in radians.
 constexpr std::array<float, 7> kSizes = {0.68F, 0.76F, 0.84F, 0.92F, 1.0F, 1.08F, 1.16F};
-constexpr float kUsualSize = 0.92F, kSizeSpread = 0.6F;  // irises of people are nearly of one size
+constexpr float kUsualSize = 0.92F, kSizeSpread = 0.6F;  // people's irises vary little in size
 constexpr float kStepAlong = 0.02F, kStepDown = 0.015F;
-constexpr int kStepsAlong = 9, kStepsDown = 7;  // to either side of the expected place
-/// How fast a place counts less the farther it is from there, by the square of the distance: eyes
-/// mostly look into the camera.
+constexpr int kStepsAlong = 9, kStepsDown = 7;  // steps to either side of the expected place
+/// Loss of score with the squared offset from the expected place: eyes mostly look into the camera.
 constexpr float kAwayAlong = 5, kAwayDown = 40;
 
-// The step from dark to bright at the circle's sides: where it is looked for, as angles from the
-// axis of the eye; radii within and outside, by that of the circle.
+// Where the step of brightness at the circle's left and right is sampled: angles from the axis of
+// the eye; radii inside and outside, relative to the circle's.
 constexpr std::array<float, 9> kAngles = {-0.8F, -0.6F, -0.4F, -0.2F, 0, 0.2F, 0.4F, 0.6F, 0.8F};
 constexpr float kWithin = 0.82F, kOutside = 1.18F;
-constexpr float kMinSeen = 3;         // of the angles; with fewer there is no step
-constexpr float kBetterSide = 0.35F;  // weight of the side with the larger step, beside 1
-// What the parts of the circle's score weigh, beside the step.
+constexpr float kMinSeen = 3;         // number of visible samples that a side needs
+constexpr float kBetterSide = 0.35F;  // weight of the side with the greater step; the other has 1
+// Weights of the other parts of a circle's score; the edge has 1.
 constexpr float kSeparationWeight = 1.5F, kPupilWeight = 0.7F;
-constexpr float kPupil = 0.3F;  // square of its radius by that of the iris, at most
+constexpr float kPupil = 0.3F;  // square of the largest pupil's radius, iris = 1
 
-// Between the lids, by the distance between them: their rims' shade and lashes are left out.
+// Positions between upper lid (0) and lower lid (1) that leave out the rims' shade and lashes.
 constexpr float kUpperRim = 0.22F, kLowerRim = 0.9F, kShadow = 0.15F;
 
-/// The part of a photo between the lids of an eye.
+/// Searches the part of a photo between the lids of an eye.
 class IrisSearch {
  public:
   IrisSearch(const fsm::Image& photo, const OpenEye& eye)
@@ -49,14 +49,14 @@ class IrisSearch {
         all.push_back(samples_.back().light);
       }
     }
-    // What the eye mirrors is no brighter than its white.
+    // Clamp reflections to the brightness of the white.
     const auto bright = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 9 / 10);
     std::ranges::nth_element(all, bright);
     brightest_ = *bright;
     for (Sample& s : samples_) s.light = std::min(s.light, brightest_);
   }
 
-  /// The circle of this size that fits best, and how well.
+  /// Returns the best circle of this size, and its score.
   std::pair<IrisCircle, float> BestCircle(float radius) const {
     IrisCircle best{.centre = eye_.middle, .radius = radius, .contrast = 0};
     float most = 0;
@@ -82,8 +82,8 @@ class IrisSearch {
     float light, weight;
   };
 
-  /// The step at the circle's sides. The worse of both counts most, so that the shadow of a lid or
-  /// a brow is not taken for an iris.
+  /// Returns the step of brightness at the circle's sides. The smaller one counts most, so that the
+  /// shadow of a lid or a brow is not taken for an iris.
   float EdgeContrast(glm::vec2 centre, float radius) const {
     std::array<float, 2> step{};
     for (const std::size_t side : {0U, 1U}) {
@@ -109,10 +109,11 @@ class IrisSearch {
     return std::min(Brightness(ColourAt(photo_, pixel)) / 255, brightest_);
   }
 
-  /// How well the circle parts dark from bright: the deviation between the two (Otsu 1979), 0 where
-  /// it is brighter within; and how much darker than all its inner half is, where the pupil lies.
+  /// Returns how well the circle separates dark from bright: the between-class deviation (Otsu
+  /// 1979), 0 if the inside is brighter; plus how much darker than the whole its centre is, where
+  /// the pupil lies.
   float Separation(glm::vec2 centre, float radius) const {
-    // Pupil, the rest of the iris, what is beside it.
+    // Zones: pupil, rest of the iris, white.
     std::array<float, 3> sum{}, weight{1e-4F, 1e-4F, 1e-4F};
     for (const Sample& s : samples_) {
       const glm::vec2 offset = s.pixel - centre;

@@ -12,21 +12,23 @@ namespace facefit {
 /// The edge between an iris and the white, as seen in a photo.
 struct IrisCircle {
   glm::vec2 centre;
-  float radius = 0;    ///< pixels
-  float contrast = 0;  ///< how much brighter the white is, 0..1; below kClearIris nothing was seen
+  float radius = 0;  ///< pixels
+  /// contrast of the edge: least of both sides + 0.35 x the greatest, each the white's brightness
+  /// less the iris's, 0..1, so -1.35..1.35; below kClearIris no iris was seen
+  float contrast = 0;
 };
 inline constexpr float kClearIris = 0.06F;
 
 /// An open eye in a photo, pixels.
 struct OpenEye {
   EyePoints lids;
-  glm::vec2 middle;           ///< of the iris where eyes look into the camera
-  float expected_radius = 0;  ///< by the head's form
+  glm::vec2 middle;           ///< expected centre of the iris if the eye looks into the camera
+  float expected_radius = 0;  ///< by the form of the head, pixels
 };
 
-/// Finds the irises of the eyes given: the circle that best separates dark from bright between the
-/// lids, and whose left and right sides have the strongest edge. Irises of one person have one
-/// size, so all eyes are searched together. Returns a circle for each eye, in their order.
+/// Finds the irises of the given eyes: for each the circle that best separates dark from bright
+/// between the lids and has the strongest edges on its left and right. All eyes share one relative
+/// size, as those of a person do. Returns a circle for each eye, in their order.
 std::vector<IrisCircle> FindIrises(const fsm::Image& photo, std::span<const OpenEye> eyes);
 
 }  // namespace facefit

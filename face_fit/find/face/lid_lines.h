@@ -11,19 +11,20 @@
 
 namespace facefit {
 
-/// The points of EyeOutline: from the outer corner along the upper lid to the inner one, and back
-/// along the lower lid; those of the lids lie over each other.
+/// The points of EyeOutline: from the outer corner along the upper lid to the inner corner, and
+/// back along the lower lid; points of both lids lie above each other.
 using EyePoints = std::array<glm::vec2, 16>;
 
-/// How far a place between the corners of an eye goes along with a lid that is raised: 1 in the
-/// middle, 0 at the corners and beyond. All are x.
+/// Returns the share of a lid's movement at `x` between the corners of an eye: 1 in the middle, 0
+/// at the corners and beyond. All arguments are x coordinates.
 inline float LidOpening(float x, float inner, float outer) {
   const float along = 2 * (x - inner) / (outer - inner) - 1;
   return std::max(1 - along * along, 0.0F);
 }
 
-/// The lines of the lids between the corners of an eye, whichever way its axes point. Ways: `part`
-/// of the way from the outer corner to the inner one; `down` from that line towards the lower lid.
+/// The lines of both lids in coordinates of the eye: `part` of the way from the outer corner (0) to
+/// the inner one (1); `down`, the distance from the line between the corners towards the lower lid.
+/// Works in pixels (y down) and in millimetres (y up).
 class LidLines {
  public:
   explicit LidLines(const EyePoints& points) : points_(points) {
@@ -42,7 +43,7 @@ class LidLines {
   glm::vec2 PointAt(float part, float down) const {
     return points_[0] + part * wide_ * along_ + down * down_;
   }
-  /// How far down upper and lower lid lie.
+  /// Returns `down` of the upper and of the lower lid.
   std::pair<float, float> LidsAt(float part) const {
     const auto between = [this, part](std::size_t a, std::size_t b) {
       const float from = Part(points_[a]), to = Part(points_[b % points_.size()]);

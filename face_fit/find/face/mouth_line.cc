@@ -13,21 +13,21 @@
 namespace facefit {
 namespace {
 
-constexpr std::size_t kInnerPoints = 9;  // of either inner lip, without corners
-constexpr int kOffsets = 25;  // looked at on the line across each place, half of them to each side
-/// How far to each side the line is looked for, as part of the mouth's width.
+constexpr std::size_t kInnerPoints = 9;  // points of an inner lip without its corners
+constexpr int kOffsets = 25;             // offsets across the mouth that are tried at each place
+/// Largest offset to either side, divided by the mouth's width.
 constexpr float kLineReach = 0.08F;
-/// Each place is the mean of three so far from each other, as part of the mouth's width: a hair or
-/// a chapped spot is narrower.
+/// Distance, divided by the mouth's width, of three samples whose mean is taken; hairs and chapped
+/// spots are narrower.
 constexpr float kLineBeside = 0.012F;
 
 /// A value for each place along the mouth and each offset across it.
 template <typename T>
 using Strip = std::array<std::array<T, kOffsets>, kMouthLinePoints>;
 
-/// Where the network sees the lips meet: x is the part of the way from the right to the left
-/// corner, y how far below the straight line between them, pixels. `begin`: the right corner;
-/// `along`, `down`: unit; `width`: of the mouth, pixels.
+/// Returns where the network sees the lips meet: x is the position along the mouth, y the distance
+/// below the line between its ends, pixels. `begin`: the right end; `along`, `down`: unit; `width`:
+/// of the mouth, pixels.
 std::array<glm::vec2, kInnerPoints + 2> ExpectedLine(const FoundFace& face, glm::vec2 begin,
                                                      glm::vec2 along, glm::vec2 down, float width) {
   std::array<glm::vec2, kInnerPoints + 2> line{};
@@ -41,8 +41,8 @@ std::array<glm::vec2, kInnerPoints + 2> ExpectedLine(const FoundFace& face, glm:
   return line;
 }
 
-/// Among all paths along a strip the one with the least sum, in which each step across costs by its
-/// square (dynamic programming): an offset for each place. `cost` is used up.
+/// Returns for each place the offset of the path with the least sum of costs, where each step
+/// across adds a cost that grows with its square (dynamic programming). `cost` is overwritten.
 std::array<int, kMouthLinePoints> CheapestPath(Strip<float>& cost) {
   constexpr int kMaxStep = 3;
   constexpr float kBend = 0.03F;
@@ -76,7 +76,7 @@ bool LipsApart(const FoundFace& face) {
   const auto apart = [&face](PointIndex a, PointIndex b) {
     return glm::distance(face.PixelOf(a), face.PixelOf(b));
   };
-  // Between the middles of the inner lips, by the width of the mouth.
+  // Distance of the middles of the inner lips, divided by the mouth's width.
   constexpr float kMinGap = 0.06F;
   return apart(point::kInnerLipTop, point::kInnerLipBottom) >
          kMinGap * apart(point::kMouthRight, point::kMouthLeft);
@@ -98,7 +98,7 @@ std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& f
                         step * static_cast<float>(offset - kOffsets / 2);
     return begin + t * axis + below * down;
   };
-  // The path from corner to corner that is dark, smooth and near to what was expected.
+  // Search the path from end to end that is dark, smooth and near the expected line.
   Strip<float> cost{};
   float least = 1e9F, most = 0;
   const glm::vec2 beside = along * (kLineBeside * width);
@@ -113,7 +113,7 @@ std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& f
       most = std::max(most, dark);
     }
   }
-  constexpr float kMinRange = 8, kStray = 0.25F;  // of 255; what the farthest offset costs
+  constexpr float kMinRange = 8, kStray = 0.25F;  // of 255; cost of the farthest offset
   const float range = std::max(most - least, kMinRange);
   for (auto& column : cost) {
     for (int o = 0; o < kOffsets; ++o) {

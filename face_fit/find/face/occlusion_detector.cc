@@ -16,17 +16,17 @@
 namespace facefit {
 namespace {
 
-constexpr float kDarkest = 0.02F;  // 0..1: darker skin says nothing of its colour
+constexpr float kDarkest = 0.02F;  // 0..1; the colour of darker skin is unknown
 constexpr std::size_t kPixels = static_cast<std::size_t>(kPointsPixels) * kPointsPixels;
 
 struct Ellipse {
   glm::vec2 middle, radii;  // millimetres on the built-in face: x to its left, y up
 };
 
-/// A patch of the face, and by how much surer the network may become (of a logit) where nothing is
-/// before it. The limits are 1.3 times the most seen on 57 pictures of three uncovered faces (1.45
-/// times round the mouth, where beards differ), left and right alike: as they are, in other light,
-/// colours and sharpness, with beards and glasses drawn on.
+/// A patch of the face, and the increase of the network's certainty (a logit) that it may cause
+/// where nothing is before the face. The limits are 1.3 times the most seen on 57 pictures of three
+/// uncovered faces (1.45 times round the mouth, where beards differ), left and right alike: the
+/// photos as they are, in other light, colours and sharpness, with beards and glasses drawn on.
 struct FacePatch {
   const char* name;
   float limit;
@@ -49,11 +49,12 @@ constexpr FacePatch kPatches[] = {
     {"the left side of the face",   7.4F, {{{{36, -5}, {32, 70}}, kNone, kNone}}},
     // clang-format on
 };
-/// The least certain of the same pictures had 15.7.
+/// Certainty (a logit) below which a face counts as hidden; the least of the same pictures was
+/// 15.7.
 constexpr float kSure = 14;
 
-/// Takes pixels of what the network sees of the photo to the picture of the built-in head: near
-/// each by the affine map that suits the points around it best (moving least squares; Schaefer,
+/// Maps pixels of the network's crop of the photo to the picture of the built-in head: at each
+/// pixel by the affine map that fits the points nearby best (moving least squares; Schaefer,
 /// McPhail and Warren 2006).
 class PhotoToBase {
  public:
@@ -96,21 +97,21 @@ class PhotoToBase {
   std::vector<Pair> pairs_;
 };
 
-/// The built-in head as it would look in place of the face, a pixel each of what the network sees.
+/// The built-in head warped to the place of the face, for each pixel of the network's crop.
 struct WarpedHead {
   std::vector<glm::vec2> place;   // on the built-in face, millimetres
   std::vector<glm::vec3> colour;  // 0..1
 };
 
 WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
-  // Smooth as the way is, every fourth pixel will do.
+  // The map is smooth, so every fourth pixel is enough.
   constexpr int kStep = 4, kCells = kPointsPixels / kStep + 1;
   const PhotoToBase onto(face, base);
   std::vector<glm::vec2> coarse;
   for (int y = 0; y < kCells; ++y) {
     for (int x = 0; x < kCells; ++x) coarse.push_back(onto(float{kStep} * glm::vec2(x, y)));
   }
-  // From pixels of the head's picture to millimetres, about the root of the nose.
+  // From pixels of the head's picture to millimetres from the root of the nose.
   const auto on_face = [&](PointIndex i) { return glm::vec2(base.AtRest(i)); };
   const float mm_per_pixel =
       glm::distance(on_face(point::kEyeOuterRight), on_face(point::kEyeOuterLeft)) /
@@ -132,7 +133,7 @@ WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
   return warped;
 }
 
-/// Whether a place of the built-in face is on cheeks, nose or forehead and not by an eye.
+/// Returns whether a place of the built-in face is on cheeks, nose or forehead and not near an eye.
 bool IsBareSkin(glm::vec2 mm) {
   constexpr glm::vec2 kEye(31, 25);
   constexpr float kEyeReach = 18, kAside = 45, kLow = -20, kHigh = 60;
@@ -141,8 +142,8 @@ bool IsBareSkin(glm::vec2 mm) {
   return std::abs(mm.x) <= kAside && mm.y >= kLow && mm.y <= kHigh && !eye;
 }
 
-/// Makes the built-in head's skin as bright and coloured as the photo's, by the middle of what both
-/// show on cheeks, nose and forehead.
+/// Matches the colour of the built-in head's skin to the photo's by the medians over cheeks, nose
+/// and forehead.
 WarpedHead MatchSkinColour(std::span<const float> network_pixels, WarpedHead warped) {
   for (int c = 0; c < 3; ++c) {
     std::vector<float> gain;
@@ -158,7 +159,7 @@ WarpedHead MatchSkinColour(std::span<const float> network_pixels, WarpedHead war
   return warped;
 }
 
-/// How much of a pixel is replaced: softly at the patch's edge, which lies about its radii.
+/// Returns the weight of a patch at a pixel; it fades around the patch's radii.
 float PatchWeight(const FacePatch& patch, glm::vec2 place) {
   constexpr float kPatchEnd = 1.15F, kPatchEdge = 0.3F;
   float weight = 0;
@@ -194,7 +195,7 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, cons
     }
     const float surer = sure(changed) - before, measure = surer / patch.limit;
     occlusion.measure = std::max(occlusion.measure, measure);
-    // Among parts beyond their limits the one farthest beyond, else the one nearest to its limit.
+    // Report the part farthest beyond its limit, or else the one nearest to it.
     const float score = measure >= 1 ? surer - patch.limit : measure - 1;
     if (score <= most) continue;
     most = score;

@@ -9,11 +9,11 @@
 namespace facefit {
 namespace {
 
-/// How clearly faces are seen upright: each counts 0..1, upside down nothing. All are counted: in a
+/// How clearly faces are seen upright. Each face counts 0..1, upside down 0. All faces count: in a
 /// group the largest may lean far to one side.
 struct Clearness {
-  float upright = 0;  ///< the sum of what each counts
-  /// The same, weighed by how sure the detector is; the landmark network alone draws an upright
+  float upright = 0;  ///< sum over the faces
+  /// The sum weighted by the detector's score, because the landmark network alone draws an upright
   /// face onto one that stands on its head.
   float detected = 0;
 };
@@ -29,10 +29,10 @@ Clearness ClearnessOf(std::span<const FoundFace> faces) {
   return clear;
 }
 
-/// The part of the faces that must be clear for the photo to stand upright: some of several people
-/// may lean, but not all to the same side.
+/// Sum for each face above which the photo counts as upright, for one face and for several: some of
+/// several people may lean, but not all to the same side.
 constexpr float kUprightOne = 0.93F, kUprightGroup = 0.75F;
-/// By how much for each face another orientation must be clearer: a photo that lies is rare.
+/// By how much for each face another orientation must be better: photos that lie are rare.
 constexpr float kClearer = 0.04F;
 
 }  // namespace

@@ -7,12 +7,12 @@ namespace facefit {
 /// A photo in which people stand upright, and the faces it shows.
 struct UprightPhoto {
   fsm::Image photo;
-  int orientation = 1;  ///< EXIF's of the photo as it was: 1, 3, 6 or 8; 1 = it stood upright
-  std::vector<FoundFace> faces;  ///< as of FindFaces
+  int orientation = 1;           ///< EXIF orientation of the given photo: 1, 3, 6 or 8; 1 = upright
+  std::vector<FoundFace> faces;  ///< as returned by FindFaces
 };
 
-/// Finds the faces of a photo and turns it until the people in it stand upright, whatever its file
-/// says. Turned copies are looked at only if nobody is seen clearly and upright as it is.
+/// Finds the faces of a photo and turns it until people stand upright, whatever its file says.
+/// Turned copies are searched only if no face is seen clearly and upright in the photo as given.
 UprightPhoto SetUpright(FaceNetworks& networks, fsm::Image photo);
 
 }  // namespace facefit

@@ -14,25 +14,25 @@
 namespace facefit {
 namespace {
 
-// Where one side of a head belongs to the person and the other does not. Lengths by the height of
-// the face.
-constexpr float kNearby = 0.03F;     // the other side's colour is looked for so far round its place
-constexpr float kSameOnBoth = 0.8F;  // of the other side's opacity: then both sides agree
-constexpr glm::vec2 kAlike{0.3F, 0.05F};  // difference of colours, 0..1, from other to the same
-constexpr float kDoubt = 0.5F, kRather = 0.85F;  // of the other side, where unlike and where alike
+// DoubtAsymmetry; lengths are divided by the height of the face.
+constexpr float kNearby = 0.03F;     // reach in which the other side's colour is searched
+constexpr float kSameOnBoth = 0.8F;  // ratio to the other side's opacity above which both agree
+constexpr glm::vec2 kAlike{0.3F, 0.05F};  // difference of colours, 0..1, from unlike to alike
+// new opacity, divided by the other side's: unlike, alike
+constexpr float kDoubt = 0.5F, kRather = 0.85F;
 
-// How the surroundings of the head are looked at: by the size of the face, how large a square, and
-// how much higher than the face its middle lies, because hair lies above and only a neck below.
+// The second look at the head, relative to the size of the face: side of the square, and how far
+// its middle lies above the face's, because there is hair above and only a neck below.
 constexpr float kHeadSquare = 2.3F, kHeadHigher = 0.1F;
-// Towards the edge of that square, 0.5 from its middle, the whole picture takes over.
+// Distance from the square's middle (its side = 1) over which the first look takes over again.
 constexpr glm::vec2 kSquareEdge{0.48F, 0.38F};
 
-/// Below that mean over the points of a face the network saw nobody there.
+/// Mean over the points of a face below which the network saw nobody there.
 constexpr float kNobody = 0.5F;
-/// Half the width of a neck, by the way from the root of the nose to the chin.
+/// Half the width of a neck, divided by the distance from the root of the nose to the chin.
 constexpr float kHalfNeck = 0.35F;
 
-/// What the network says of the picture it was given.
+/// Runs the network on a picture.
 FloatImage RunSegmentation(FaceNetworks& networks, const std::vector<float>& input) {
   networks.segmentation.Run(input);
   FloatImage out(kFigurePixels, kFigurePixels);
@@ -40,18 +40,18 @@ FloatImage RunSegmentation(FaceNetworks& networks, const std::vector<float>& inp
   return out;
 }
 
-/// How much a place of the network's square, 0..1 on both axes, belongs to a person.
+/// Returns how much a place of the network's square, 0..1 on both axes, belongs to a person.
 float PersonAt(const FloatImage& figure, glm::vec2 place) {
   return figure.SampleAt(place.x * kFigurePixels, place.y * kFigurePixels);
 }
 
-/// A rectangle of a picture, or beyond it.
+/// A rectangle of a picture; it may extend beyond it.
 struct PictureRect {
   glm::vec2 corner, size;
 };
 
-/// The whole picture, and more around a face that fills it: the network knows figures with
-/// shoulders, and in pictures of little more than a face takes the wall for one.
+/// Returns the whole picture, extended around a face that fills it: the network was trained on
+/// figures with shoulders, and takes the wall for one where it sees little more than a face.
 PictureRect WholeFor(glm::vec2 picture, const Box2& face) {
   const glm::vec2 larger = glm::max(picture, face.Size() / PhotoLook().figure.face_most_part);
   return {(picture - larger) * glm::vec2(0.5F, PhotoLook().figure.above_part), larger};
@@ -63,7 +63,7 @@ Box2 BoxOf(const FoundFace& face) {
   return box;
 }
 
-/// A square round the head, within the picture.
+/// Returns a square round the head, within the picture.
 NetworkCrop HeadSquare(const Box2& face, glm::vec2 picture) {
   const float face_size = std::max(face.Size().x, face.Size().y);
   const float size = std::min({kHeadSquare * face_size, picture.x, picture.y});
@@ -71,7 +71,8 @@ NetworkCrop HeadSquare(const Box2& face, glm::vec2 picture) {
   return {glm::clamp(middle, glm::vec2(size / 2), picture - size / 2), size, 0};
 }
 
-/// How nearly a face looks into the camera, 0..1: then its cheeks are as far from its middle.
+/// Returns how nearly a face looks into the camera, 0..1, by the distances of its cheeks from its
+/// middle.
 float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
   const float right = std::abs(glm::dot(face.PixelOf(point::kCheekRight) - middle, across));
   const float left = std::abs(glm::dot(face.PixelOf(point::kCheekLeft) - middle, across));
@@ -79,11 +80,10 @@ float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
                          std::min(right, left) / std::max({right, left, 1.0F}));
 }
 
-/// What lies within the outline of the face is the person, and the neck below it. The network knows
-/// figures, and of a photo that shows nothing but a face may say that nobody is in it; of a photo
-/// that cuts an ear off it sees a strip beside the cheek, which looks like anything. In both cases
-/// what lies beside the face is left out, all of it or that strip, and the head's own ear is seen
-/// there.
+/// Sets the inside of the face's outline and the neck to 1, and the rest to 0, where the network
+/// cannot be trusted: everywhere if it sees nobody on the face, as in photos of nothing but a face;
+/// beside a cheek if the photo cuts off that ear, where it sees a narrow strip. The head's own ear
+/// shows there instead.
 void TrustFaceOutline(const FoundFace& face, const fsm::Image& image, FloatImage& person) {
   float seen = 0, count = 0;
   for (const PointIndex i : point::kForFit) {
@@ -120,7 +120,7 @@ FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image,
   if (glm::distance(top, chin) < 1) return person;
   const glm::vec2 down = glm::normalize(chin - top), across(-down.y, down.x);
   const float height = glm::distance(top, chin), nearby = kNearby * height;
-  // Ears and hats, not what stands behind a shoulder.
+  // Reaches ears and hats, but not what stands behind a shoulder.
   const glm::vec2 aside = PhotoLook().figure.mirrored_by_face * height;
   const float frontal = Frontal(face, chin, across);
   const auto unlike = [&](glm::vec2 p, glm::vec2 q) {
@@ -151,7 +151,7 @@ FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image,
 
 FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundFace* face) {
   const glm::vec2 size(image.width, image.height);
-  // The network takes a rectangle stretched to a square.
+  // The network expects the rectangle stretched to a square.
   const PictureRect all = face ? WholeFor(size, BoxOf(*face)) : PictureRect{{0, 0}, size};
   const FloatImage whole = RunSegmentation(
       networks,
@@ -167,7 +167,7 @@ FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const 
   const FloatImage near = RunSegmentation(networks, head.Sample(image, kFigurePixels, 0, 1));
   auto out = FloatImage::From(image.width, image.height, [&](int x, int y) {
     const glm::vec2 p = glm::vec2(x, y) + 0.5F;
-    // The mean where both see well: what one of them doubts is looked at by its colours.
+    // The mean, so that what either look doubts is left to the matting.
     const glm::vec2 in_square = head.FromPicture(p), from_middle = glm::abs(in_square - 0.5F);
     const float share = 0.5F * fsm::SmoothStep(kSquareEdge, std::max(from_middle.x, from_middle.y));
     const float person = person_in_whole(p);

@@ -5,17 +5,21 @@
 
 namespace facefit {
 
-/// How much each pixel belongs to a person, 0..1, as fine as the network's 256 x 256. If `face` is
-/// given, the surroundings of the head are looked at a second time from nearer, and DoubtAsymmetry
-/// corrects the result.
+/// Returns how much each pixel belongs to a person, 0..1, with the detail of the network's 256 x
+/// 256. If `face` is given, the result is refined for that person:
+/// - the surroundings of the head are segmented a second time from nearer;
+/// - what is not connected to the tip of the nose becomes 0;
+/// - DoubtAsymmetry corrects the sides of the head;
+/// - where the network sees nobody on the face, the outline of the face and the neck below it
+///   become 1 and everything else 0; beside a cheek whose ear the photo cuts off likewise.
 FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image,
                          const FoundFace* face = nullptr);
 
-/// Heads are nearly symmetric: where one side of a face that looks into the camera belongs to the
-/// person and its mirror image does not, as with an ear or half a hat, the network may have missed
-/// the latter. Returns `person`, where pixels belong to a person, with such pixels set to doubt, or
-/// to nearly as much as on the other side where both have one colour. Only near the head: what
-/// stands behind it is of one colour with it often enough.
+/// Returns `person`, 0..1, with the sides of the head made more alike. Heads are nearly symmetric:
+/// where one side of a face that looks into the camera belongs to the person and its mirror image
+/// does not (an ear, half a hat), the network may have missed the latter. Such pixels become
+/// uncertain, or nearly as certain as the other side where both have one colour. Only near the
+/// head, since what stands behind it often has its colour.
 FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image, const FloatImage& person);
 
 }  // namespace facefit

@@ -19,42 +19,46 @@
 namespace facefit {
 namespace {
 
-/// Longest side of the picture that is solved; larger ones take what was found for a smaller copy.
+/// Longest side of a picture that is solved; the matte of a larger one is upsampled from a smaller
+/// copy.
 constexpr int kSolvedSize = 720;
-/// How far, by the longer side and in pixels beside it, the outline of the person may be off.
+/// Reach in which the rough outline may be wrong: longer side divided by the first, plus the
+/// second, pixels.
 constexpr int kOutlinePart = 90, kOutlinePixels = 2;
-/// Noise of colours, as a variance of 0..1: of the matting Laplacian, and of the guided filter.
+/// Regularisation of colour covariances (variance of values 0..1) in the matting Laplacian and in
+/// the guided filter.
 constexpr float kLaplacianNoise = 2e-5F, kGuideNoise = 2e-4F;
-/// How strongly a pixel is held to the opacity it has: always, and more if that is 0 or 1.
+/// Weight that holds a pixel to its opacity: for every pixel, and the addition where that is 0 or
+/// 1.
 constexpr float kPull = 0.003F, kPullDecided = 0.03F;
-/// Opacities this near to 0 and 1 become 0 and 1.
+/// Opacities this close to 0 and 1 become 0 and 1.
 constexpr float kNearlyNone = 0.04F;
-/// Over how much foreground colours are taken from around, first from afar, then from near: parts
-/// of the longer side, and pixels beside that.
+/// Passes of the foreground estimation, wide first: the reach is the longer side divided by the
+/// first number, plus the second, pixels.
 constexpr std::pair<int, int> kForegroundReach[] = {{16, 2}, {150, 1}};
-/// Opacity below which the figure's own colour is hardly known, and from which it is.
+/// Opacity below which the figure's own colour is unknown, and from which it is known.
 constexpr float kUnknown = 0.05F, kKnown = 0.6F;
 
-/// Rough opacity that is taken for 0 and for 1, as an edge of the network is blurred.
+/// Rough opacity that becomes 0 and 1, because the network blurs edges.
 constexpr glm::vec2 kSharpen{0.08F, 0.92F};
-/// Opacity that is doubt, and how even it is around (0 = an edge, 1 = the same everywhere) for it
-/// to be decided one way or the other: not at all, and wholly.
+/// SuppressWideDoubt: range of uncertain opacity, and evenness of the surroundings (0 = an edge, 1
+/// = the same everywhere) from which opacity is decided: not at all, and wholly.
 constexpr glm::vec2 kDecide{0.3F, 0.7F}, kEven{0.35F, 0.7F};
 
-using PixelVector = Eigen::ArrayXf;  // of each pixel
+using PixelVector = Eigen::ArrayXf;  // one value for each pixel
 
-/// 0..1.
+/// Returns a pixel's colour, 0..1.
 glm::vec3 Colour(const fsm::Image& image, std::size_t i) { return Rgb(image, i) / 255.0F; }
 
-/// The inverse of a covariance of colours with noise added. Grey pictures have them all on one
-/// line, where single precision does not reach.
+/// Returns the inverse of a regularised covariance of colours. In double precision, because grey
+/// pictures have a nearly singular one.
 glm::mat3 Inverse(const glm::mat3& spread, float noise) {
   return glm::mat3(glm::inverse(glm::dmat3(spread) + glm::dmat3(static_cast<double>(noise))));
 }
 
-/// The opacity of a picture whose colours, of figure and background each, lie on a line in every
-/// window of 3 x 3 (Levin, Lischinski and Weiss, A Closed Form Solution to Natural Image Matting,
-/// 2006): what it cannot explain, as a matrix that is never written out.
+/// The matting Laplacian (Levin, Lischinski and Weiss, A Closed Form Solution to Natural Image
+/// Matting, 2006), never written out as a matrix: its quadratic form is what remains unexplained if
+/// opacity is a linear function of the colours in every window of 3 x 3.
 class MattingLaplacian {
  public:
   MattingLaplacian(const fsm::Image& image, const PixelVector& open) : width_(image.width) {
@@ -80,7 +84,7 @@ class MattingLaplacian {
     }
   }
 
-  /// The matrix times x.
+  /// Returns the matrix times x.
   PixelVector Times(const PixelVector& x) const {
     PixelVector out = PixelVector::Zero(x.size());
     for (const Window& window : windows_) {
@@ -115,11 +119,12 @@ class MattingLaplacian {
   std::vector<Window> windows_;
 };
 
-/// Conjugate gradients on the open pixels; `pull` holds each to `x` as it is at the beginning.
+/// Runs conjugate gradients on the undecided pixels (`open` = 1); `pull` holds each to its initial
+/// `x`.
 void ConjugateGradients(const MattingLaplacian& laplacian, const PixelVector& open,
                         const PixelVector& pull, PixelVector& x) {
   constexpr int kRounds = 120;
-  constexpr double kEnough = 1e-5;  // of the residual's squared norm at the beginning
+  constexpr double kEnough = 1e-5;  // part of the residual's initial squared norm
   const auto square = [](const PixelVector& v) { return v.matrix().cast<double>().squaredNorm(); };
   PixelVector residual = -open * laplacian.Times(x);
   PixelVector direction = residual;
@@ -137,10 +142,10 @@ void ConjugateGradients(const MattingLaplacian& laplacian, const PixelVector& op
   }
 }
 
-/// Towards 0 and 1 where it says which, not where it says half.
+/// Moves opacity towards 0 and 1 unless it is near 0.5.
 float Sharpened(float v) { return fsm::SmoothStep(kSharpen, v); }
 
-/// Nothing is half there over a wide area: that is doubt, not an edge.
+/// Decides pixels that are half opaque over a wide area, which is doubt and not an edge.
 void SuppressWideDoubt(FloatImage& opacity, int reach) {
   FloatImage square = opacity;
   for (float& v : square.values) v *= v;
@@ -167,7 +172,8 @@ FloatImage SolveOpacity(const fsm::Image& image, const FloatImage& person) {
     out.values[i] = doubt ? Sharpened(person.values[i]) : std::round(around.values[i]);
   }
   const MattingLaplacian laplacian(image, open);
-  // Then once more from what was found: where colours say nothing it settles on one or the other.
+  // The second round starts from the first result, so that pixels whose colours tell nothing settle
+  // on 0 or 1.
   for (int round = 0; round < 2; ++round) {
     PixelVector opacity = Eigen::Map<const PixelVector>(out.values.data(), count);
     const PixelVector pull = kPull + kPullDecided * (2 * opacity - 1).square();
@@ -184,7 +190,7 @@ struct OpacityGuide {
   FloatImage base;
 };
 
-/// By least squares over 3 x 3 pixels (guided filter; He, Sun and Tang 2010).
+/// Fits by least squares over 3 x 3 pixels (guided filter; He, Sun and Tang 2010).
 OpacityGuide FitGuide(const fsm::Image& image, const FloatImage& opacity) {
   constexpr int kReach = 1;
   VectorImage mean(image.width, image.height), product = mean;
@@ -209,7 +215,7 @@ OpacityGuide FitGuide(const fsm::Image& image, const FloatImage& opacity) {
   return {Blurred(fit.slope, kReach), Blurred(fit.base, kReach)};
 }
 
-/// The small picture's opacity, brought to the large one by its colours.
+/// Upsamples the small picture's opacity, guided by the large picture's colours.
 FloatImage GuidedUpsampling(const fsm::Image& small, const FloatImage& opacity,
                             const fsm::Image& large) {
   const OpacityGuide fit = FitGuide(small, opacity);
@@ -243,8 +249,8 @@ FloatImage Matte(const fsm::Image& photo, const FloatImage& person) {
 }
 
 fsm::Image ForegroundColours(const fsm::Image& photo, const FloatImage& opacity) {
-  // Blurred figure and background mixed as the opacity says, and what then is still missing
-  // (Forte, Approximate Fast Foreground Colour Estimation, 2021); first from afar, then from near.
+  // Blurred foreground and background colours, corrected by the remaining difference to the photo
+  // (Forte, Approximate Fast Foreground Colour Estimation, 2021).
   const int longer = std::max(photo.width, photo.height);
   fsm::Image out = photo;
   std::vector<std::size_t> edge;
@@ -274,7 +280,7 @@ fsm::Image ForegroundColours(const fsm::Image& photo, const FloatImage& opacity)
     }
   }
   for (const std::size_t i : edge) SetRgb(out, i, figure.values[i]);
-  // Where the figure is nearly transparent its colour is hardly known and is taken from around.
+  // The colour of nearly transparent pixels is hardly known and is filled in from around.
   FloatImage known = opacity;
   for (float& v : known.values) v = glm::smoothstep(kUnknown, kKnown, v);
   PushPullInpaint(out, known);

@@ -21,21 +21,23 @@
 namespace facefit {
 namespace {
 
-/// Ways a file may have its head stand, each as the turn that sets it upright to the viewer.
+/// Rotations that set the head of a file upright, facing the viewer.
 constexpr glm::mat3 kTurns[] = {{1, 0, 0, 0, 1, 0, 0, 0, 1},    // y up, towards z
                                 {-1, 0, 0, 0, 1, 0, 0, 0, -1},  // towards -z
                                 {1, 0, 0, 0, 0, -1, 0, 1, 0},   // z up, towards -y
                                 {0, 0, 1, 0, 1, 0, -1, 0, 0},   // towards x
                                 {0, 0, -1, 0, 1, 0, 1, 0, 0}};  // towards -x
 
-/// How much of a file may be its head, from above: a head alone, a bust, two kinds of whole figure.
+/// Part of the file's height, from the top, that may be the head: a head alone, a bust, two kinds
+/// of whole figures.
 constexpr float kHeadParts[] = {1, 0.8F, 0.28F, 0.15F};
 
-/// The head as large as ours and in the middle of the picture, the upper part of a whole figure.
+/// Returns the transform that scales the head to our size and centres it, if it is the given upper
+/// part of the file.
 fsm::Similarity InitialPlacement(const fsm::ImportedHead& file, const glm::mat3& turn, float part) {
   fsm::Box box;
   for (const glm::vec3& p : file.position) box.Add(turn * p);
-  constexpr float kHeightMm = 290, kTopMm = 140;  // our head, and its crown
+  constexpr float kHeightMm = 290, kTopMm = 140;  // height of our head, y of its crown
   fsm::Similarity guess;
   guess.turn = turn;
   guess.scale = kHeightMm / std::max(box.size().y * part, 1e-6F);
@@ -45,7 +47,7 @@ fsm::Similarity InitialPlacement(const fsm::ImportedHead& file, const glm::mat3&
 }
 
 fsm::FacePart PartOf(PointIndex i) {
-  // Not those of the inner lips: where both meet, the nearest vertex may be the other's.
+  // Inner lips are kPlain: where the lips meet, the nearest vertex may be the other lip's.
   if (Contains(point::kUpperOuterLip, i)) return fsm::FacePart::kUpperLip;
   if (Contains(point::kLowerOuterLip, i)) return fsm::FacePart::kLowerLip;
   for (const fsm::Side side : fsm::kSides) {
@@ -56,7 +58,7 @@ fsm::FacePart PartOf(PointIndex i) {
   return fsm::FacePart::kPlain;
 }
 
-/// Moves the points of the inner lips onto a seam, at even steps.
+/// Moves the points of the inner lips onto a seam, at equal steps.
 void SpreadAlongSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
   points[point::kInnerMouthRight] = seam.EdgesAt(0).upper;
   points[point::kInnerMouthLeft] = seam.EdgesAt(1).upper;
@@ -69,7 +71,8 @@ void SpreadAlongSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
   }
 }
 
-/// Moves the points of the eyes' outlines in both lists onto the edges, where both heads show them.
+/// Moves the points of the eyes' outlines in both lists onto the edges of the lids, where both
+/// heads show them.
 void OntoLidEdges(const ObservedHead& ours, std::vector<MeshPoint>& our_points,
                   const ObservedHead& theirs, std::vector<MeshPoint>& their_points) {
   for (const fsm::Side side : fsm::kSides) {
@@ -91,13 +94,13 @@ void OntoLidEdges(const ObservedHead& ours, std::vector<MeshPoint>& our_points,
   }
 }
 
-/// Looks at a head and pairs its places with those of the built-in one.
+/// Observes a head and pairs its places with those of the built-in one.
 class HeadMatcher {
  public:
   HeadMatcher(FaceNetworks& networks, const fsm::ImportedHead& file, std::string name,
               ObservedHead base)
       : networks_(networks), file_(file), name_(std::move(name)), base_(std::move(base)) {}
-  /// Returns none if no face is seen on the head as `to_ours` has it stand.
+  /// Returns none if no face is seen on the head when `to_ours` is applied.
   std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_ours) {
     const auto other = Observe(to_ours);
     if (!other) return {};
@@ -110,7 +113,7 @@ class HeadMatcher {
     }
     std::vector<fsm::PointPair> found;
     for (const PointIndex i : point::kForFit) {
-      // Where both lips meet a point of the network may come to lie on either.
+      // A point where the lips meet may lie on either lip.
       const bool corner = i == point::kMouthRight || i == point::kMouthLeft;
       if (OnInnerLips(i) ? !both : both && corner) continue;
       const glm::vec3 raw = to_ours.Inverse(theirs[i].On(other->rest().position));
@@ -120,7 +123,7 @@ class HeadMatcher {
   }
 
  private:
-  /// The head as the network sees it. Error: no face is seen.
+  /// Observes the head. Error: no face is seen.
   vm::Result<ObservedHead> Observe(const fsm::Similarity& to_ours) {
     fsm::MeshModel model = fsm::ModelOfImport(file_, to_ours, fsm::kUsualMouthY);
     ObservedHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
@@ -137,13 +140,13 @@ class HeadMatcher {
   ObservedHead base_;
 };
 
-/// What was found on a head that stood one way.
+/// The pairs found with one rotation of the head.
 struct HeadMatch {
   std::vector<fsm::PointPair> pairs;
-  float gap_mm;  ///< median distance of the pairs, once the head is laid over ours
+  float gap_mm;  ///< median distance of the pairs after alignment
 };
 
-/// The median distance of the pairs' places once `to_ours` has brought them together, millimetres.
+/// Returns the median distance of the pairs' places after `to_ours` is applied, millimetres.
 float MedianDistanceMm(const fsm::Similarity& to_ours, std::span<const fsm::PointPair> pairs) {
   std::vector<float> gaps;
   for (const auto& pair : pairs) gaps.push_back(glm::distance(to_ours(pair.to), pair.from));
@@ -156,14 +159,14 @@ float DegreesBetween(const glm::mat3& a, const glm::mat3& b) {
   return glm::degrees(std::acos(std::clamp(cosine, -1.0F, 1.0F)));
 }
 
-/// Looks once as guessed, and once more, as large and straight as our own head was looked at.
-/// No match if no face is seen, or one that was not looked at from the front: the networks take a
-/// profile for a face, too, but place its points so badly that the second look has the head stand
-/// another way again. Measured on two heads, and on one of them made wider, taller, deeper and
-/// flatter: from the front the second look turns the head by at most 1 degree and leaves 3.7 to
-/// 7.4 mm, from elsewhere by 8 degrees or more, with 7.3 to 40 mm.
+/// Observes the head as guessed, and again scaled and turned as our own head was. There is no match
+/// if no face is seen, or if it was not seen from the front: the networks take a profile for a
+/// face, too, but misplace its points, so that the second look turns the head again. Measured on
+/// two heads, and on one of them made wider, taller, deeper and flatter: from the front the second
+/// look turns the head by at most 1 degree and leaves 3.7 to 7.4 mm, from elsewhere by 8 degrees or
+/// more, with 7.3 to 40 mm.
 struct Look {
-  bool face_seen = false;  ///< at all
+  bool face_seen = false;  ///< from any side
   std::optional<HeadMatch> match;
 };
 Look LookFrom(HeadMatcher& matcher, const fsm::Similarity& guess) {

@@ -11,10 +11,10 @@
 namespace facefit {
 namespace {
 
-/// Half the window looked at.
+/// Half the size of the window that is searched.
 constexpr glm::vec2 kHalfWindowMm(34, 24);
 
-/// 1 where an eyeball is foremost, of what is connected there with the point nearest to `centre`.
+/// Returns 1 where an eyeball is foremost and connected to its point nearest to `centre`, else 0.
 FloatImage EyeballMask(const VisibleSurface& surface, const std::vector<bool>& is_eye,
                        glm::vec2 centre) {
   constexpr float kFarthestMm = 12;
@@ -37,7 +37,7 @@ FloatImage EyeballMask(const VisibleSurface& surface, const std::vector<bool>& i
   return open;
 }
 
-/// The rows of a column in which an opening lies.
+/// The rows of the opening in one column.
 struct RowSpan {
   int low, high;
   bool IsEmpty() const { return high < low; }
@@ -55,7 +55,7 @@ std::vector<RowSpan> RowsOf(const FloatImage& open) {
   return rows;
 }
 
-/// The first and the last column of an opening; nothing if that is not as wide as eyes are.
+/// Returns the first and the last column of an opening; nothing if its width is not an eye's.
 struct Columns {
   int first, last;
 };
@@ -80,7 +80,7 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
   const std::vector<RowSpan> rows = RowsOf(EyeballMask(surface, is_eye, centre));
   const auto ends = EndsOf(rows);
   if (!ends) return std::nullopt;
-  // A step or two of gap between eyeball and lid may show what lies behind.
+  // A gap of a few steps between eyeball and lid may show what lies behind.
   constexpr int kGap = 8;
   const auto beyond = [&](int column, int row, int right, int up) -> std::optional<MeshPoint> {
     for (int k = 1; k <= kGap; ++k) {

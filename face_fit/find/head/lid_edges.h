@@ -11,23 +11,23 @@
 
 namespace facefit {
 
-/// The opening of an eye as it is seen from the front: where flesh ends and the eyeball begins. On
-/// a head of triangles that is known exactly, whereas the landmark network guesses it from a
-/// picture and is off by a good part of a lid.
+/// The opening of an eye seen from the front: where flesh ends and the eyeball begins. On a mesh it
+/// is known exactly; the landmark network guesses it from a picture and is off by a good part of a
+/// lid.
 struct LidEdges {
   static constexpr std::size_t kBetween = 7;
   MeshPoint outer, inner;  ///< corners
-  /// At equal parts of the way from the outer to the inner corner.
+  /// At equal steps from the outer to the inner corner.
   std::array<MeshPoint, kBetween> upper, lower;
 };
 
-/// The opening of the eye on that side. `is_eye`: of each vertex, whether it is an eyeball's. The
-/// head looks to +z, millimetres. Returns nothing if there is no opening of 10 to 60 mm.
+/// Returns the opening of an eye, or nothing if there is none of 10 to 60 mm. `is_eye`: for each
+/// vertex whether it belongs to an eyeball. The head faces +z, millimetres.
 std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
                                      const std::vector<glm::vec3>& position,
                                      const std::vector<bool>& is_eye, fsm::Side side);
 
-/// For each vertex of a head whether it is an eyeball's by its material.
+/// Returns for each vertex whether it belongs to an eyeball by its material.
 std::vector<bool> EyeVertices(const fsm::HeadTopology& topology);
 
 }  // namespace facefit

@@ -11,22 +11,22 @@
 namespace facefit {
 namespace {
 
-constexpr float kReachMm = 40;                       // of ways along the surface
-constexpr float kMinWidthMm = 20, kMaxWidthMm = 90;  // of a mouth
-constexpr glm::vec2 kMarginMm(15, 3);                // of the window, beside the lips
+constexpr float kReachMm = 40;                       // greatest distance measured along the surface
+constexpr float kMinWidthMm = 20, kMaxWidthMm = 90;  // widths of mouths
+constexpr glm::vec2 kMarginMm(15, 3);                // margin of the window beside the lips
 
-/// Where a column of the view goes over from the upper lip to the lower.
+/// The rows where a column of the view crosses from the upper to the lower lip.
 struct Crossing {
   int above = -1, below = -1;  ///< rows
-  float jump_mm = 0;           ///< of the way from the upper lip
+  float jump_mm = 0;           ///< jump of the distance along the surface
 };
 
-/// For each column of the view the row where the surface goes over from the upper to the lower lip.
-/// `from_upper`, `from_lower`: distances along the surface from both lips to each vertex.
+/// Returns the crossing of each column of the view. `from_upper`, `from_lower`: distance along the
+/// surface from either lip to each vertex.
 std::vector<Crossing> FindCrossings(const VisibleSurface& view, const fsm::WeldedSurface& surface,
                                     std::span<const float> from_upper,
                                     std::span<const float> from_lower) {
-  // Of what is seen at a point, if that is skin: neither teeth nor the mouth's lining.
+  // Distances at a point of the view if it shows skin, and not teeth or the mouth's lining.
   const auto distances = [&](int column, int row) -> std::optional<glm::vec2> {
     const MeshTriangle* triangle = view.Triangle(column, row);
     if (!triangle || triangle->material == fsm::Material::kMouthInside) return std::nullopt;
@@ -60,8 +60,8 @@ std::vector<Crossing> FindCrossings(const VisibleSurface& view, const fsm::Welde
   return crossings;
 }
 
-/// First and last column of the mouth, the longest run of columns whose surface jumps: near a
-/// corner the way round it is short, and the jump ends there. (0, -1) if there is none.
+/// Returns the first and last column of the mouth, the longest run of columns with a jump (near a
+/// corner the way round is short, and jumps end there); (0, -1) if there is none.
 std::pair<int, int> MouthColumns(const std::vector<Crossing>& crossings) {
   constexpr float kMinJumpMm = 2;
   constexpr int kHole = 8;  // columns
@@ -100,7 +100,7 @@ std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
   if (width < kMinWidthMm || width > kMaxWidthMm) return std::nullopt;
   LipSeam seam;
   for (int column = first; column <= last; ++column) {
-    // A column without a crossing has that of the next one.
+    // A column without a crossing uses the next one's.
     int next = column;
     while (crossings[static_cast<std::size_t>(next)].above < 0) ++next;
     const Crossing& crossing = crossings[static_cast<std::size_t>(next)];

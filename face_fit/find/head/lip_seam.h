@@ -11,23 +11,23 @@
 
 namespace facefit {
 
-/// The line where closed lips meet, as it is seen from the front: two places side by side in the
-/// view that lie far apart along the surface. Parted lips have an upper and a lower edge.
+/// The line where closed lips meet, seen from the front: places that are neighbours in the view but
+/// far apart along the surface. Parted lips have an upper and a lower edge.
 struct LipSeam {
   struct Edges {
     MeshPoint upper, lower;
   };
-  std::vector<Edges> columns;  ///< at even steps from the agent's right corner to the left one
-  /// `along`: 0 at the right corner, 1 at the left one.
+  std::vector<Edges> columns;  ///< at equal steps from the head's right corner to its left
+  /// Returns the edges at a position: 0 = right corner, 1 = left corner.
   const Edges& EdgesAt(float along) const {
     return columns[static_cast<std::size_t>(
         std::lround(along * static_cast<float>(columns.size() - 1)))];
   }
 };
 
-/// `skin_triangles`: those of skin, lips and mouth; `has_uv_seams` as for fsm::TransferSurface;
-/// `upper`, `lower`: some places on the outer edges of both lips. The head looks to +z,
-/// millimetres. Returns nothing if there is no seam of 20 to 90 mm.
+/// Finds the seam of a head that faces +z, millimetres; nothing if there is none of 20 to 90 mm.
+/// `skin_triangles`: of skin, lips and mouth; `has_uv_seams`: as for fsm::TransferSurface; `upper`,
+/// `lower`: places on the outer edges of the lips.
 std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
                                    const std::vector<glm::vec3>& position,
                                    const std::vector<std::uint32_t>& skin_triangles,

@@ -19,16 +19,16 @@ namespace {
 
 constexpr int kPortraitSize = 720;
 
-/// What of the skin is seen foremost at each pixel of a portrait of kPortraitSize pixels to a side.
-/// `screen`: of each vertex, pixels with y down, and depth towards the viewer in millimetres.
+/// Returns the skin visible at each pixel of a portrait of kPortraitSize pixels to a side.
+/// `screen`: for each vertex pixels with y down, and depth towards the viewer, millimetres.
 VisibleSurface SkinIn(const fsm::HeadTopology& topology, const std::vector<glm::vec3>& screen) {
   VisibleSurface surface({glm::vec2(0.5F), 1, kPortraitSize, kPortraitSize}, screen);
   ForSkinTriangles(topology, [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
 }
 
-/// The places of the skin seen at some points of a picture; beside the skin the nearest that is
-/// seen and no farther back than the ears. Returns none if no skin is seen.
+/// Returns the places of the skin at some points of a picture; for points beside the skin the
+/// nearest visible place that is no farther back than the ears. Returns none if no skin is visible.
 std::vector<MeshPoint> PlacesUnder(const VisibleSurface& skin, const std::vector<glm::vec3>& screen,
                                    std::span<const glm::vec3> points) {
   constexpr float kFarthestBackMm = -20;
@@ -40,7 +40,7 @@ std::vector<MeshPoint> PlacesUnder(const VisibleSurface& skin, const std::vector
     const std::size_t own = skin.depth().Index(pixel.x, pixel.y), i = nearest[own];
     MeshPoint place =
         skin.Place(static_cast<int>(i % kPortraitSize), static_cast<int>(i / kPortraitSize));
-    // Within the pixel, to where the point lies.
+    // Refine the place within the pixel.
     const auto& t = place.corner;
     if (i == own) {
       place.weight = Triangle2{screen[t[0]], screen[t[1]], screen[t[2]]}.WeightsAt(glm::vec2(p));
@@ -61,7 +61,7 @@ std::optional<LipSeam> SeamOf(const ObservedHead& base) {
                      outer_lip(point::kLowerOuterLip));
 }
 
-/// Moves the points of the inner lips up or down onto the seam, but not the corners.
+/// Moves the points of the inner lips, except the corners, up or down onto the seam.
 void SnapToSeam(const std::vector<glm::vec3>& position, const LipSeam& seam,
                 std::vector<MeshPoint>& points) {
   const float right = seam.EdgesAt(0).upper.On(position).x,

@@ -18,26 +18,27 @@
 
 namespace facefit {
 
-/// A head as the landmark network sees it: it is drawn, the network looks at the picture, and the
-/// points it finds are followed back onto the mesh. So what the network is used to get wrong, it
-/// gets wrong alike on this head and on a photo.
+/// A head as the landmark network sees it: it is drawn, the network finds points in the picture,
+/// and these are projected back onto the mesh. So the network's systematic errors are the same on
+/// this head and on a photo.
 class ObservedHead {
  public:
   struct Surface {
-    std::vector<std::uint32_t> skin_triangles;  ///< of skin, lips and mouth
+    std::vector<std::uint32_t> skin_triangles;  ///< skin, lips and mouth
     bool has_uv_seams = false;                  ///< as for fsm::TransferSurface
-    std::vector<bool> is_eye;                   ///< for each vertex, whether it is an eyeball's
+    std::vector<bool> is_eye;  ///< for each vertex whether it belongs to an eyeball
   };
 
-  /// A built-in head; the points of its inner lips are moved onto the seam. Error: kBadValue, no
-  /// face is seen on it. Throws std::runtime_error if it cannot be drawn.
+  /// Observes a built-in head and moves the points of its inner lips onto the seam. Error:
+  /// kBadValue, no face is seen on it. Throws std::runtime_error if rendering is impossible.
   static vm::Result<ObservedHead> BuiltIn(FaceNetworks& networks, const std::string& name);
   static vm::Result<ObservedHead> BuiltIn(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
                                           const std::string& name);
-  /// Likewise a head of any maker, whose points stay where the network saw them.
+  /// Observes a head of any maker; its points stay where the network saw them. Errors: as BuiltIn.
   static vm::Result<ObservedHead> Foreign(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
                                           const std::string& name, Surface surface);
-  /// A head of which `places` are known, as if a network without faults had seen the points there.
+  /// Returns a head whose points are known exactly, for comparison. It has no picture and no
+  /// surface, and `detected` holds places on the head, millimetres: not for DetectOcclusion.
   static ObservedHead Exact(std::unique_ptr<fsm::Head> head, const std::string& name,
                             std::vector<MeshPoint> places);
 
@@ -45,21 +46,21 @@ class ObservedHead {
   const fsm::Head& head() const { return *head_; }
   const fsm::HeadVertices& rest() const { return rest_; }
   const Surface& surface() const { return surface_; }
-  /// Where the network's points lie on the head.
+  /// Returns the places of the network's points on the head.
   const std::vector<MeshPoint>& places() const { return places_; }
-  /// Where it saw them: x, y pixels of `picture`, z millimetres.
+  /// Returns where the network saw them: x, y pixels of `picture`, z millimetres.
   const std::vector<glm::vec3>& detected() const { return detected_; }
   const fsm::Image& picture() const { return picture_; }  ///< what the network was shown
-  /// Where its lips meet, if that is seen.
+  /// Returns the line where the lips meet, if it was found.
   const std::optional<LipSeam>& seam() const { return seam_; }
-  /// The face's own action units, if it has any.
+  /// Returns the face's own action units, if it has any.
   const std::optional<fsm::UnitTable>& units() const { return units_; }
 
-  /// Where a point of the network lies on the head at rest.
+  /// Returns the place of a point on the head at rest, millimetres.
   glm::vec3 AtRest(PointIndex i) const { return places_[i].On(rest_.position); }
-  /// Where the network saw a point in `picture`, pixels.
+  /// Returns the pixel of `picture` at which the network saw a point.
   glm::vec2 DetectedAt(PointIndex i) const { return glm::vec2(detected_[i]); }
-  /// From now on moved by these units. Its points stay: they were seen at rest.
+  /// Replaces the action units. Points stay, since they were observed at rest.
   void MoveBy(const fsm::UnitTable& own);
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr glm::vec3 kMirror(-1, 1, 1);
 
-/// The pair on the other side of our face, or none.
+/// Returns the mirrored pair on the other side of our face, or nullptr.
 const fsm::PointPair* MirroredPair(const fsm::PointPair& pair,
                                    std::span<const fsm::PointPair> pairs) {
   constexpr float kSameMm = 5;
@@ -23,14 +23,14 @@ const fsm::PointPair* MirroredPair(const fsm::PointPair& pair,
   return glm::distance(kMirror * nearest->from, pair.from) > kSameMm ? nullptr : &*nearest;
 }
 
-/// What a head is symmetric about.
+/// The plane of symmetry of a head.
 struct MirrorPlane {
   glm::vec3 at, normal;
   glm::vec3 Mirrored(glm::vec3 p) const { return p - 2 * glm::dot(p - at, normal) * normal; }
 };
 
-/// Found from the medians of the directions from one side to the other and of their middles: a few
-/// points that are off do not change those.
+/// Uses medians of the directions from side to side and of their middles, which a few outliers do
+/// not change.
 MirrorPlane FindMirrorPlane(std::span<const fsm::PointPair> pairs) {
   constexpr float kApartMm = 20;
   std::vector<float> up, ahead, middles;
@@ -53,7 +53,7 @@ MirrorPlane FindMirrorPlane(std::span<const fsm::PointPair> pairs) {
 }  // namespace
 
 std::vector<fsm::PointPair> RejectOutliers(std::span<const fsm::PointPair> pairs) {
-  constexpr float kMinLimitMm = 8, kTimes = 3;  // the second: of the median of all distances
+  constexpr float kMinLimitMm = 8, kTimes = 3;  // the second is a multiple of the median distance
   constexpr int kRounds = 6;
   std::vector<fsm::PointPair> kept(pairs.begin(), pairs.end());
   for (int round = 0; round < kRounds; ++round) {

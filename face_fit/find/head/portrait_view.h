@@ -9,14 +9,14 @@
 
 namespace facefit {
 
-/// A head as the renderer shows it from the front, in a square picture, for networks to look at.
+/// Draws a head from the front in a square picture, for networks to look at.
 class PortraitView {
  public:
   explicit PortraitView(int size);
-  /// Throws std::runtime_error if nothing can be drawn with.
+  /// Throws std::runtime_error if rendering is impossible.
   fsm::Image Draw(const fsm::Head& head, const fsm::HeadVertices& vertices,
                   const fsm::FaceState& state) const;
-  /// Where a place of the head's frame, in millimetres, is seen; y runs down.
+  /// Returns the pixel of a place in the head's frame, millimetres; y runs down.
   glm::vec2 Pixel(glm::vec3 place) const;
   float mm_per_pixel() const { return 2 / view_.samples_per_mm; }  // two samples to a pixel
 

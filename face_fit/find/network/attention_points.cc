@@ -5,7 +5,7 @@
 namespace facefit {
 namespace {
 
-// Which points of the face the network sees again, in the order of its outputs
+// The points of the face that the network refines, in the order of its outputs
 // (mediapipe/modules/face_landmark/tensors_to_face_landmarks_with_attention.pbtxt).
 constexpr PointIndex kLips[] = {
     // outer border: the lower lip with both corners, the upper without

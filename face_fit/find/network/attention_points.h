@@ -7,17 +7,16 @@
 
 namespace facefit {
 
-/// A face as MediaPipe's landmark network with attention sees it: it looks a second time, closer,
-/// at lips and eyes, whose points x and y are finer than those of the plain network; z is that of
-/// its first look.
+/// A face found by MediaPipe's landmark network with attention, which looks a second time, closer,
+/// at lips and eyes: their x and y are finer than the plain network's; z is the first look's.
 struct AttentiveFace {
   FoundFace face;
-  /// Of the person's right and left eye: the iris' middle, then four places on its edge, a quarter
-  /// of a turn apart. Pixels of the picture.
+  /// For each eye: the centre of the iris, then four points of its edge, a quarter turn apart.
+  /// Pixels of the picture.
   fsm::Sided<std::array<glm::vec2, 5>> iris;
 };
 
-/// `attention`: what LoadAttentionLandmarks gave. Looks once, at `crop`.
+/// Runs the network once, on `crop`. `attention`: from LoadAttentionLandmarks.
 AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image,
                                   const NetworkCrop& crop);
 

@@ -14,23 +14,25 @@ namespace facefit {
 namespace {
 
 constexpr float kMinScore = 0.5F;
-constexpr float kMinFacePx = 8;  // the landmark network sees nothing in smaller ones
-/// Two boxes are of one face if so much is common to both, by both together or by the smaller one.
+constexpr float kMinFacePx = 8;  // smaller faces show no landmarks
+/// Overlap above which two boxes show one face: intersection divided by the union, or by the
+/// smaller box.
 constexpr float kSameUnion = 0.3F, kSameSmaller = 0.6F;
-/// The detector was made for faces that fill at least a fifth of what it is shown. One seen so in
-/// the whole picture is believed rather than all seen in its parts, a smaller one a little.
+/// The detector was trained on faces that fill at least a fifth of the picture. Such a face found
+/// in the whole picture outranks those found in parts; a smaller one outranks them slightly.
 constexpr float kWellSeen = 0.2F, kWellSeenRank = 1, kWholeRank = 0.15F;
-/// A face too large for the detector is looked for with this much around the picture.
+/// A face too large for the detector is searched with the picture's surroundings, this factor
+/// larger.
 constexpr float kZoomedOut = 1.6F;
-/// The picture is searched in so many parts on its longer side, which overlap, unless the largest
-/// face found fills this much of one: those of people beside it, further back or turned, are up to
-/// three times smaller.
+/// Numbers of overlapping parts along the longer side that are searched, unless the largest face
+/// found fills kFillsPart of a part: faces beside it, farther back or turned, are up to three times
+/// smaller.
 constexpr int kParts[] = {2, 4};
 constexpr float kPartOverlap = 1.4F, kFillsPart = 0.85F;
-/// How much larger than a face's box the picture is which the landmark network was trained on.
+/// Size of the crop the landmark network was trained on, divided by that of the face's box.
 constexpr float kCropMargin = 1.5F;
 
-/// A face the detector sees.
+/// A face found by the detector.
 struct FaceBox {
   glm::vec2 centre;
   glm::vec2 size;
@@ -39,7 +41,7 @@ struct FaceBox {
   float Area() const { return size.x * size.y; }
 };
 
-/// Middles of the detector's cells: 16 x 16 with two boxes each, then 8 x 8 with six.
+/// Returns the centres of the detector's cells: 16 x 16 with two boxes each, then 8 x 8 with six.
 std::vector<glm::vec2> Anchors() {
   std::vector<glm::vec2> anchors;
   for (const auto& [cells, boxes] : {std::pair(16, 2), std::pair(8, 6)}) {
@@ -51,7 +53,7 @@ std::vector<glm::vec2> Anchors() {
   return anchors;
 }
 
-/// Whether two boxes are of one face, by the area of their intersection.
+/// Returns whether two boxes show one face, by the area of their intersection.
 bool OfOneFace(const FaceBox& a, const FaceBox& b) {
   const glm::vec2 low = glm::max(a.centre - a.size * 0.5F, b.centre - b.size * 0.5F);
   const glm::vec2 high = glm::min(a.centre + a.size * 0.5F, b.centre + b.size * 0.5F);
@@ -84,20 +86,20 @@ std::vector<FaceBox> Detect(FaceNetworks& networks, const fsm::Image& image,
   return found;
 }
 
-/// Each pixel the mean of four; an odd last row or column is left out.
+/// Halves a picture; each pixel is the mean of four. Drops an odd last row or column.
 fsm::Image Halved(const fsm::Image& image) {
   const int width = image.width / 2, height = image.height / 2;
   return ScaledDown(Cropped(image, 0, 0, 2 * width, 2 * height), width, height);
 }
 
-/// What was taken for a face, and how much rather it is believed than another of the same face.
+/// A box, and its rank among boxes of the same face.
 struct Detection {
   FaceBox face;
   float rank;
 };
 
-/// A picture that is looked at in squares of many sizes: each is cut from a copy that is hardly
-/// finer than the detector sees it, which takes a tenth of the time.
+/// Runs the detector on squares of many sizes of a picture. Each is cut from a copy hardly finer
+/// than the detector sees it, which takes a tenth of the time.
 class ScaledDetector {
  public:
   ScaledDetector(FaceNetworks& networks, const fsm::Image& image) : networks_(networks) {
@@ -107,7 +109,7 @@ class ScaledDetector {
     }
   }
 
-  /// `whole`: from the picture itself, as exactly as it can be seen.
+  /// `whole`: cut it from the picture itself, for full accuracy.
   void Look(glm::vec2 centre, float size, bool whole = false) {
     float scale = 1;
     std::size_t copy = 0;
@@ -141,7 +143,7 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
                  .score = box.score,
                  .crop = {box.centre, kCropMargin * std::max(box.size.x, box.size.y),
                           std::atan2(eyes.y, eyes.x)}};
-  // The first look says where the face is; the others see it upright and as large as in training.
+  // The first look locates the face; the others see it upright and as large as in training.
   for (int look = 0; look < 3; ++look) {
     if (look > 0) face.crop = CropAround(face.points, face.crop.angle_rad);
     networks.landmarks.Run(face.crop.Sample(image, kPointsPixels, 0, 1));
@@ -151,7 +153,7 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
   return face;
 }
 
-/// One of each face, that of the highest rank.
+/// Returns one box for each face, that of the highest rank.
 std::vector<FaceBox> SuppressNonMaxima(std::vector<Detection> found) {
   std::ranges::sort(found, std::greater<>(), &Detection::rank);
   std::vector<FaceBox> kept;
@@ -173,7 +175,7 @@ std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image
   for (Detection& detection : scan.found) {
     detection.rank += detection.face.size.x > kWellSeen * longer ? kWellSeenRank : kWholeRank;
   }
-  // A face that fills the picture is too large for the network, one in a crowd too small.
+  // A face that fills the picture is too large for the detector, one in a crowd too small.
   if (scan.found.empty()) scan.Look(size * 0.5F, longer * kZoomedOut, true);
   float largest = 0;
   for (const Detection& detection : scan.found) {

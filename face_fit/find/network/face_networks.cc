@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMaxBytes = 64U << 20;
 
-/// The package keeps its files one after the other in one; its loader lists where each begins.
+/// The package stores its files concatenated in one; its loader lists where each begins.
 tflite::Bytes Packed(const std::string& script, const std::string& data, const std::string& name) {
   const std::string key = "\"files\": [";
   const auto begin = script.find(key);
@@ -32,7 +32,7 @@ tflite::Bytes Packed(const std::string& script, const std::string& data, const s
   throw tflite::BadModel("the package holds no " + name);
 }
 
-/// The package @mediapipe/face_mesh as it is unpacked.
+/// The unpacked package @mediapipe/face_mesh.
 struct FaceMeshPackage {
   std::string loader, data;
 
@@ -43,7 +43,7 @@ struct FaceMeshPackage {
     if (!loader || !data) return std::nullopt;
     return FaceMeshPackage{std::move(*loader), std::move(*data)};
   }
-  /// Throws an exception if it cannot be used.
+  /// Throws if it cannot be used.
   Network Open(const char* name) const {
     return Network(tflite::Model::Read(Packed(loader, data, name)));
   }
@@ -61,7 +61,7 @@ std::unexpected<vm::Error> NotUsable(const std::string& where, const std::except
                   "the networks in '" + where + "' cannot be used: " + error.what());
 }
 
-/// `side`: of the square that the network is shown, pixels.
+/// `side`: of the network's square input, pixels.
 Network Expect(Network network, std::size_t side, std::initializer_list<std::size_t> outputs) {
   bool fits =
       network.input_shape().count() == side * side * 3 && network.outputs() == outputs.size();

@@ -9,27 +9,26 @@ namespace facefit {
 
 using tflite::Network;
 
-/// The sides of the square pictures that the networks are shown, in pixels: those that find faces,
-/// their points, and figures.
+/// Sides of the networks' square inputs, pixels: detector, landmarks, segmentation.
 inline constexpr int kDetectorPixels = 128, kPointsPixels = 192, kFigurePixels = 256;
 
-/// The networks of the npm packages @mediapipe/face_mesh and @mediapipe/selfie_segmentation, read
-/// as they are unpacked (both Apache-2.0).
+/// The networks of the npm packages @mediapipe/face_mesh and @mediapipe/selfie_segmentation (both
+/// Apache-2.0), read from the unpacked packages.
 struct FaceNetworks {
   Network detector;      ///< 128 x 128 in -1..1 -> 896 boxes and their scores
   Network landmarks;     ///< 192 x 192 in 0..1 -> 468 points in pixels, and whether there is a face
   Network segmentation;  ///< 256 x 256 in 0..1 -> how much each pixel belongs to a person
 
-  /// From `folder`, "" = where scripts/face_networks.sh puts them. Errors: kUnavailable (says how
-  /// to install them), kBadValue (the files are not what they should be).
+  /// Loads them from `folder`; "" = NetworksFolder(). Errors: kUnavailable (says how to install
+  /// them), kBadValue (the files are damaged).
   static vm::Result<FaceNetworks> Load(const std::string& folder);
 };
 
-/// The landmark network with attention, of the same package: 192 x 192 in 0..1 -> the outputs
-/// below. Slower than the plain one, finer at lips and eyes. Errors as of FaceNetworks::Load.
+/// Loads the landmark network with attention of the same package: 192 x 192 in 0..1 -> the outputs
+/// below. Slower than the plain one, finer at lips and eyes. Errors: as FaceNetworks::Load.
 vm::Result<Network> LoadAttentionLandmarks(const std::string& folder);
-/// Its outputs: 468 points (x, y, z), then points (x, y) of the lips, the eyes and the irises, all
-/// in pixels of what it was shown, and whether there is a face. Right and left are the person's.
+/// Its outputs: 468 points (x, y, z), then points (x, y) of lips, eyes and irises, all in pixels of
+/// its input, and whether there is a face. Right and left are the person's.
 enum AttentionOutput : std::size_t {
   kAttentionMesh,
   kAttentionLips,
@@ -40,7 +39,8 @@ enum AttentionOutput : std::size_t {
   kAttentionFlag
 };
 
-/// $GALATEA_NETWORKS, else $XDG_CACHE_HOME/galatea/networks, else ~/.cache/galatea/networks.
+/// Returns $GALATEA_NETWORKS, else $XDG_CACHE_HOME/galatea/networks, else
+/// ~/.cache/galatea/networks.
 std::string NetworksFolder();
 
 }  // namespace facefit

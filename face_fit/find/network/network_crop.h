@@ -7,16 +7,16 @@
 
 namespace facefit {
 
-/// A turned square of a picture, as a network is shown it. Pure; thread: any.
+/// A rotated square of a picture, as it is shown to a network. Pure; thread: any.
 struct NetworkCrop {
   glm::vec2 centre;
   float size = 0;
-  float angle_rad = 0;  ///< of the square's x axis in the picture, whose y runs down
+  float angle_rad = 0;  ///< angle of the square's x axis in the picture, y down
 
-  /// From the square, 0..1 on both axes, to the picture and back.
+  /// Transforms from the square, 0..1 on both axes, to the picture and back.
   glm::vec2 ToPicture(glm::vec2 p) const;
   glm::vec2 FromPicture(glm::vec2 p) const;
-  /// `pixels` x `pixels` RGB, each in low..high; outside the picture `low`.
+  /// Returns `pixels` x `pixels` RGB values in low..high; `low` outside the picture.
   std::vector<float> Sample(const fsm::Image& image, int pixels, float low, float high) const;
 };
 

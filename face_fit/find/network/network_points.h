@@ -32,19 +32,19 @@ template <std::size_t n>
 using Group = std::array<PointIndex, n>;
 inline constexpr fsm::Sided<Group<3>> kCheeks{{50, 205, 187}, {280, 425, 411}},
     kBrowInner{{107, 66, 55}, {336, 296, 285}}, kBrowOuter{{70, 63, 46}, {300, 293, 276}};
-/// Skin below an eye and beside it.
+/// Skin below and beside an eye.
 inline constexpr fsm::Sided<Group<4>> kBelowEye{{119, 118, 117, 101}, {348, 347, 346, 330}};
 /// Along the fold of a smile, from the wing of the nose to beside the chin.
 inline constexpr fsm::Sided<Group<5>> kSmileFold{{129, 203, 206, 216, 212},
                                                  {358, 423, 426, 436, 432}};
 /// Skin without hair on most faces: cheeks, forehead and chin.
 inline constexpr Group<7> kBareSkin{50, 280, 205, 425, 151, 9, 199};
-/// Points that neither speech nor brows nor lids move much: the nose's bridge, both corners of both
-/// eyes, temples, the sides of the face above the jaw.
+/// Points that neither speech nor brows nor lids move much: bridge of the nose, corners of the
+/// eyes, temples, sides of the face above the jaw.
 inline constexpr Group<20> kStill{168, 6,   197, 195, 33,  133, 362, 263, 127, 356,
                                   234, 454, 162, 389, 139, 368, 34,  264, 143, 372};
-/// Borders of the lips from the person's right to left; of the four only the upper inner one has
-/// the corners.
+/// Borders of the lips from the person's right to left; only the upper inner one includes the
+/// corners.
 inline constexpr Group<9> kUpperOuterLip{185, 40, 39, 37, 0, 267, 269, 270, 409};
 inline constexpr Group<9> kLowerOuterLip{146, 91, 181, 84, 17, 314, 405, 321, 375};
 inline constexpr Group<11> kUpperInnerLip{78, 191, 80, 81, 82, 13, 312, 311, 310, 415, 308};
@@ -54,7 +54,7 @@ inline constexpr Group<9> kLowerInnerLip{95, 88, 178, 87, 14, 317, 402, 318, 324
 inline constexpr fsm::Sided<Group<16>> kEyeOutline{
     {33, 246, 161, 160, 159, 158, 157, 173, 133, 155, 154, 153, 145, 144, 163, 7},
     {263, 466, 388, 387, 386, 385, 384, 398, 362, 382, 381, 380, 374, 373, 390, 249}};
-/// Those the fit uses.
+/// The points that the fit uses.
 inline constexpr PointIndex kForFit[] = {
     // outline from the forehead round by the person's left
     10, 338, 297, 332, 284, 251, 389, 356, 454, 323, 361, 288, 397, 365, 379, 378, 400, 377, 152,
@@ -72,26 +72,26 @@ inline constexpr PointIndex kForFit[] = {
     // forehead, cheeks, chin
     151, 9, 8, 108, 337, 104, 333, 50, 280, 205, 425, 116, 345, 187, 411, 207, 427, 199, 18, 200,
     192, 416, 214, 434};
-/// The outline of the face, closed, from the forehead round by the person's left: the first of
-/// them.
+/// The closed outline of the face, from the forehead round by the person's left: the first of
+/// kForFit.
 inline constexpr std::span kFaceOutline = std::span(kForFit).first<36>();
 }  // namespace point
 
-/// Between the outer corners of the eyes, of the built-in head (Farkas 1994: 91.2 and 87.8 for men
-/// and women).
+/// Distance of the outer corners of the eyes of the built-in head (Farkas 1994: 91.2 and 87.8 for
+/// men and women).
 inline constexpr float kEyesApartMm = 90;
 
 inline bool Contains(std::span<const PointIndex> list, PointIndex i) {
   return std::ranges::find(list, i) != list.end();
 }
 
-/// The corners are among them.
+/// Returns whether a point lies on the inner lips, corners included.
 inline bool OnInnerLips(PointIndex i) {
   return Contains(point::kUpperInnerLip, i) || Contains(point::kLowerInnerLip, i);
 }
 
 inline std::span<const PointIndex> EyeOutline(fsm::Side side) { return point::kEyeOutline[side]; }
-/// Places in that list: corners and the middles of the lids.
+/// Indices into EyeOutline: the corners and the middles of the lids.
 inline constexpr std::size_t kOuterCorner = 0, kUpperMiddle = 4, kInnerCorner = 8,
                              kLowerMiddle = 12;
 
