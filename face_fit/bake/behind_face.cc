@@ -13,11 +13,11 @@
 namespace facefit {
 namespace {
 
-/// A picture whose unknown pixels are filled from around, with grain.
+/// Returns a picture with unknown pixels inpainted and grain added.
 fsm::Image FilledIn(fsm::Image image, const FloatImage& known, float pixels_per_mm) {
   PushPullInpaint(image, known);
   const int grain = std::max(static_cast<int>(PhotoLook().grain.coarsest_mm * pixels_per_mm), 2);
-  // In a small photo a pixel is as coarse as grain: none is added.
+  // Pixels of a small photo are as coarse as grain, so none is added.
   const float amount = fsm::SmoothStep(PhotoLook().grain.pixels_per_mm, pixels_per_mm);
   AddGrain(known, FloatImage(image.width, image.height, amount), grain, image);
   return image;
@@ -32,9 +32,9 @@ fsm::Image BehindFace(const FittedHead& fitted, const FigureCutout& figure) {
       VisibleSkin(fitted, fitted.pose, {glm::vec2(0.5F), 1, width, height}, chin.SkinBottom())
           .Covered();
   FillHoles(face);
-  // Somewhat smaller than the skin, whose edge shows the same as the sheet's there. Forehead and
-  // temples are mostly hair already, so the hole begins at the brows. Before the neck it is as
-  // large as the skin, or the chin would be seen a second time.
+  // The hole is slightly smaller than the skin, whose edge looks like the sheet's there. Forehead
+  // and temples are mostly hair already, so the hole begins at the brows. Before the neck it is as
+  // large as the skin, or the chin would show twice.
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const auto& look = PhotoLook().behind_face;
   const FloatImage soft =
@@ -52,7 +52,7 @@ fsm::Image BehindFace(const FittedHead& fitted, const FigureCutout& figure) {
     }
   }
   fsm::Image out = FilledIn(figure.colours, keep, pixels_per_mm);
-  // Behind the jaw lies what is below it, not what is on it.
+  // Behind the jaw, fill from the neck below and not from the jaw.
   const fsm::Image neck = FilledIn(figure.colours, beside, pixels_per_mm);
   for (std::size_t i = 0; i < keep.values.size(); ++i) {
     const float blend = below.values[i] * (1 - keep.values[i]);

@@ -5,8 +5,8 @@
 
 namespace facefit {
 
-/// The figure's colours with the face taken out and the gap filled from around it: this shows
-/// beside the face when the head turns.
+/// Returns the figure's colours with the face removed and the gap inpainted from its surroundings;
+/// they show beside the face when the head turns.
 fsm::Image BehindFace(const FittedHead& fitted, const FigureCutout& figure);
 
 }  // namespace facefit

@@ -8,18 +8,19 @@
 
 namespace facefit {
 
-/// The chin of the fitted head, and what lies about it, in the head's frame.
+/// The chin of the fitted head and the regions around it, head's frame.
 class Chin {
  public:
   explicit Chin(const FittedHead& fitted) : place_(fitted.PlaceOf(point::kChin)) {}
   float height() const { return place_.y; }
-  /// Below it the neck of the photo takes over from the skin.
+  /// Returns the height below which the photo's neck replaces the skin.
   float SkinBottom() const { return place_.y - PhotoLook().chin.skin_goes_on_mm; }
-  /// 1 well below the chin, 0 above it.
+  /// Returns 1 well below the chin, 0 above it.
   float Below(glm::vec3 p) const {
     return fsm::SmoothStep(place_.y + PhotoLook().chin.below_it_mm, p.y);
   }
-  /// 1 below the chin, behind which the neck lies, 0 where the skin goes on to neck, ear and hair.
+  /// Returns 1 below the chin, behind which the neck lies, 0 where skin continues to neck, ear and
+  /// hair.
   float BeforeNeck(glm::vec3 p) const {
     return Below(p) * fsm::SmoothStep(PhotoLook().chin.before_neck_mm, std::abs(p.x));
   }
@@ -28,8 +29,8 @@ class Chin {
   glm::vec3 place_;
 };
 
-/// Depth of what lies beside the face, camera's frame, millimetres: near enough to tell what of the
-/// head a pixel lies over.
+/// Approximate depth of what lies beside the face, camera's frame, millimetres: accurate enough to
+/// tell which part of the head a pixel covers.
 inline constexpr float kBesideFaceDepth = 20;
 
 }  // namespace facefit

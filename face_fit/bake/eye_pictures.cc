@@ -19,17 +19,17 @@
 namespace facefit {
 namespace {
 
-constexpr float kMinIrisPx = 3;  // radius of what is worth showing
-/// How open a texel must be (Texel::open) for its colour to count as the iris's own.
+constexpr float kMinIrisPx = 3;  // radius below which an iris is not worth showing
+/// Texel::open from which a texel's colour counts as the iris's own.
 constexpr float kOpenTexel = 0.9F;
-/// The red of a flash runs over the edge of the pupil; it is looked for so far round a texel, in
-/// radii of the iris.
+/// Reach around a texel, in radii of the iris, in which the red of a flash is searched, since it
+/// runs over the edge of the pupil.
 constexpr float kRedRuns = 0.22F;
 /// The least width of the shade at a lid's edge, pixels.
 constexpr float kMinShadePx = 0.7F;
 
-// Squares side by side in the lower left corner of the picture: below the neck the skin's map is
-// not looked at. Texels between them, so that they do not run into each other.
+// Squares side by side in the lower left corner of the picture, where the skin's map shows the neck
+// and is not used, with kMargin texels between them against bleeding.
 constexpr int kIrisPixels = 64;
 constexpr int kBallPixels = 128;
 constexpr int kMargin = 4;
@@ -37,11 +37,11 @@ constexpr int kRings = 24;
 
 struct Texel {
   glm::vec3 colour{0};
-  float open = 0;    ///< 0..1, not hidden by a lid
-  float radius = 0;  ///< in radii of the iris
+  float open = 0;    ///< part that no lid hides, 0..1
+  float radius = 0;  ///< distance from the centre, in radii of the iris
 };
 
-/// The median colour at each distance from the middle, from where it is seen.
+/// Returns the median colour at each distance from the iris's centre over the visible texels.
 std::array<glm::vec3, kRings> MedianByRing(const std::vector<Texel>& texels) {
   std::array<std::vector<glm::vec3>, kRings> rings;
   const auto ring_of = [](float radius) {
@@ -52,7 +52,7 @@ std::array<glm::vec3, kRings> MedianByRing(const std::vector<Texel>& texels) {
   }
   const auto light = [](glm::vec3 c) { return c.r + c.g + c.b; };
   std::array<glm::vec3, kRings> median;
-  // Where all of an iris is hidden, the texel that is hidden least is the best there is.
+  // If the whole iris is hidden, use the texel that is hidden least.
   median.fill(std::ranges::max_element(texels, {}, &Texel::open)->colour);
   int last = -1;
   for (int k = 0; k < kRings; ++k) {
@@ -60,7 +60,7 @@ std::array<glm::vec3, kRings> MedianByRing(const std::vector<Texel>& texels) {
     if (ring.empty()) continue;
     const auto middle = ring.begin() + static_cast<std::ptrdiff_t>(ring.size() / 2);
     std::ranges::nth_element(ring, middle, {}, light);
-    // Rings that are nowhere seen are as those within them, the innermost as those round them.
+    // Hidden rings take the colour of the next ring inward, the innermost of the next outward.
     for (int empty = last < 0 ? 0 : last + 1; empty < k; ++empty) {
       median[static_cast<std::size_t>(empty)] =
           last < 0 ? *middle : median[static_cast<std::size_t>(last)];
@@ -74,7 +74,7 @@ std::array<glm::vec3, kRings> MedianByRing(const std::vector<Texel>& texels) {
   return median;
 }
 
-/// Of each texel of a square `value(place)`; (-1, 1) is its upper left corner.
+/// Returns a square of `value(place)` for each texel; (-1, 1) is the upper left corner.
 auto MakeSquare(int size, auto value) {
   return Raster<decltype(value(glm::vec2()))>::From(size, size, [&](int x, int y) {
     const glm::vec2 p = 2.0F * (glm::vec2(x, y) + 0.5F) / static_cast<float>(size) - 1.0F;
@@ -82,7 +82,7 @@ auto MakeSquare(int size, auto value) {
   });
 }
 
-/// Its place in the picture: left, top, right, bottom.
+/// Copies a square into the picture. Returns its place: left, top, right, bottom, each 0..1.
 glm::vec4 Insert(const fsm::Image& square, int left, fsm::Image& picture) {
   const int size = square.width;
   const int top = picture.height - kMargin - size;
@@ -101,9 +101,9 @@ struct PhotoEye {
   glm::vec2 right, up;  ///< the head's axes in the photo, unit
 };
 
-/// `skin`: its colour below the eye.
+/// Returns the picture of an iris. `skin`: colour of the skin below the eye.
 fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin, const fsm::Image& photo) {
-  // The shade of the lid's edge and its lashes.
+  // Width of the lid's shade and lashes.
   const float edge =
       std::max(PhotoLook().eye_picture.lid_shade_radii * eye.iris.radius, kMinShadePx);
   const RedEye flash(skin);
@@ -133,8 +133,8 @@ fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin, const fsm::Image& ph
   return out;
 }
 
-/// `rest`: the lids of the eye at rest; `radius`: of its ball; both in millimetres round its
-/// centre.
+/// Returns the picture of the eyeball beside the iris. `rest`: the lids of the eye at rest;
+/// `radius`: of the ball; both in millimetres about its centre.
 fsm::Image BallPicture(const PhotoEye& eye, const LidLines& rest, float radius,
                        const fsm::Image& photo) {
   const auto places = MakeSquare(kBallPixels, [&](glm::vec2 p) {
@@ -152,7 +152,7 @@ fsm::Image BallPicture(const PhotoEye& eye, const LidLines& rest, float radius,
     return fsm::SmoothStep(look.beside_iris_radii,
                            glm::distance(pixel, eye.iris.centre) / eye.iris.radius);
   };
-  // Behind the iris lies what is seen beside it, but not the lids' shade and lashes.
+  // Fill the area behind the iris from what is beside it, except the lids' shade and lashes.
   fsm::Image out = fsm::FilledImage(kBallPixels, kBallPixels);
   FloatImage weight(kBallPixels, kBallPixels);
   for (std::size_t i = 0; i < places.values.size(); ++i) {
@@ -173,10 +173,10 @@ struct EyeSquares {
   fsm::Image iris, ball;
 };
 
-/// Whose picture each eye shows: its own, or that of the other where it is not seen. Returns
-/// nothing where neither is seen well enough.
+/// Returns whose picture each eye shows: its own, or the other eye's if it is not seen clearly;
+/// nothing if neither is.
 std::optional<fsm::Sided<fsm::Side>> ShownEyes(const PhotoIrises& irises) {
-  // What stands for both is no half shut eye.
+  // An eye that is shown on both sides must not be half shut.
   constexpr float kForBoth = 0.1F;
   const auto clear = [&irises](fsm::Side k, float contrast) {
     return irises.circles[k].contrast >= contrast && irises.circles[k].radius >= kMinIrisPx;
@@ -190,7 +190,7 @@ std::optional<fsm::Sided<fsm::Side>> ShownEyes(const PhotoIrises& irises) {
   return std::nullopt;
 }
 
-/// The skin below an eye and beside it.
+/// Returns the mean colour of the skin below and beside an eye.
 glm::vec3 LightBeside(const FoundFace& face, const fsm::Image& photo, fsm::Side side) {
   glm::vec3 light(1);
   const auto& below = point::kBelowEye[side];
@@ -199,14 +199,14 @@ glm::vec3 LightBeside(const FoundFace& face, const fsm::Image& photo, fsm::Side 
   return light;
 }
 
-/// Right and left exchanged, in another light.
+/// Returns the mirror image of a square, multiplied by a gain.
 fsm::Image Mirrored(const fsm::Image& square, glm::vec3 gain) {
   fsm::Image out = Turned(square, 2);
   for (std::size_t i = 0; i < out.rgba.size() / 4; ++i) SetRgb(out, i, Rgb(out, i) * gain);
   return out;
 }
 
-/// The lids of an eye of the head at rest, millimetres round the middle of its ball.
+/// Returns the lids of an eye of the head at rest, millimetres from the centre of its ball.
 LidLines LidsAtRest(const ObservedHead& base, fsm::Side side, const fsm::EyeTransform& transform) {
   const glm::vec3 centre = base.head().topology().eyes[side].centre;
   EyePoints rest;

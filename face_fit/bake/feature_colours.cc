@@ -16,23 +16,25 @@
 namespace facefit {
 namespace {
 
-/// Linear RGB of a colour of the photo, which is sRGB 0..255.
+/// Converts a colour from sRGB 0..255 to linear RGB 0..1.
 glm::vec3 Linear(glm::vec3 encoded) {
   const auto linear = [](float v) { return fsm::SrgbToLinear(v / 255); };
   return {linear(encoded.r), linear(encoded.g), linear(encoded.b)};
 }
 
-// Where an eye's colours are taken, by the distance of its corners: a rectangle round their middle,
-// but not so near to the lids, whose lashes and shade lie there.
+// Region where an eye's colours are sampled, divided by the distance of its corners: half size of a
+// rectangle about their middle, step of samples, and distance from the lids, because of lashes and
+// shade.
 constexpr float kHalfWidth = 0.5F, kHalfHeight = 0.25F, kSampleStep = 0.02F, kFromLids = 0.05F;
-// What stands for all of them, by rank of brightness: of the iris the middle; of the white somewhat
-// more, because lids and lashes throw shade on it.
+// Ranks by brightness of the colours that represent all samples: for the iris the median; for the
+// white a higher one, because lids and lashes shade it.
 constexpr float kIrisRank = 0.5F, kWhiteRank = 0.6F;
 constexpr std::size_t kRanksTogether = 7, kMinSamples = 8;
-// Linear light of irises and whites that eyes have.
+// Plausible linear light of irises and whites.
 constexpr glm::vec2 kIrisLight{0.0005F, 0.6F}, kWhiteLight{0.04F, 0.8F};
 
-/// The mean of the colours round a rank of brightness, 0..1; `otherwise` if there are too few.
+/// Returns the mean of the colours around a rank of brightness, 0..1; `otherwise` if there are too
+/// few.
 glm::vec3 Typical(std::vector<glm::vec3> colours, float rank, glm::vec3 otherwise) {
   if (colours.size() < kMinSamples) return otherwise;
   std::ranges::sort(colours, {}, Brightness);
@@ -45,7 +47,7 @@ glm::vec3 Typical(std::vector<glm::vec3> colours, float rank, glm::vec3 otherwis
   return sum / float{kRanksTogether};
 }
 
-/// Mean brightness of the skin, linear.
+/// Returns the mean brightness of the skin, linear.
 float SkinLight(const FoundFace& face, const fsm::Image& photo) {
   float light = 0;
   for (const PointIndex i : point::kBareSkin) {
@@ -76,14 +78,14 @@ EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fs
       }
     }
   }
-  // Drawn, an iris is darker than its base colour on the mean, where it meets pupil and rim.
-  // In weak light it keeps its hue: brightened channel by channel a brown one would turn grey.
+  // The gain makes up for pupil and rim, which darken the drawn iris. In weak light brightness is
+  // raised for all channels alike: raised one by one, a brown iris would turn grey.
   const glm::vec3 tint = Linear(Typical(iris, kIrisRank, look.iris.unseen_colour)) * look.iris.gain;
   const glm::vec3 shown =
       glm::clamp(tint * std::max(1.0F, look.iris.darkest / std::max(Brightness(tint), 1e-4F)),
                  kIrisLight.x, kIrisLight.y);
-  // Whites are paler than what is seen of them, but have the hue of the light; and in whatever
-  // shade they are not much darker than the skin beside them.
+  // Whites are paler than the photo shows them, but keep the hue of the light, and even in shade
+  // they are not much darker than the skin around.
   glm::vec3 ball = Linear(Typical(white, kWhiteRank, look.white.unseen_colour));
   const float least = look.white.darkest_by_skin * SkinLight(face, photo);
   ball = glm::mix(ball, glm::vec3(Brightness(ball)), look.white.greyed_part);
@@ -93,7 +95,7 @@ EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fs
 
 MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
   const PhotoLookNumbers& look = PhotoLook();
-  // Along the middle of the lower lip, where it is widest.
+  // Sampled along the middle of the lower lip, where it is thickest.
   constexpr std::size_t kFirst = 2, kLast = 6;
   glm::vec3 lip(0);
   for (std::size_t k = kFirst; k <= kLast; ++k) {
@@ -101,7 +103,7 @@ MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
         0.5F * (face.PixelOf(point::kLowerOuterLip[k]) + face.PixelOf(point::kLowerInnerLip[k]));
     lip += Linear(ColourAt(photo, pixel)) / float{kLast - kFirst + 1};
   }
-  // The inner rim lies in shade.
+  // The inner rim is in shade.
   const auto& inner = look.lips.inner;
   const auto& teeth = look.teeth;
   return {

@@ -14,7 +14,7 @@ struct EyeColours {
 };
 EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fsm::Image& photo);
 
-/// PhotoHead::lip_colour and PhotoHead::teeth, by the light on the skin.
+/// PhotoHead::lip_colour (linear RGB) and PhotoHead::teeth.
 struct MouthColours {
   glm::vec3 lip;
   float teeth;

@@ -7,8 +7,8 @@
 
 namespace facefit {
 
-/// What a colour is multiplied by, channel by channel, to stand in another light: that of `to`,
-/// where `from` is of its own. Within light_gain of the table.
+/// Returns the gain of each channel that moves a colour from one light to another: the ratio of
+/// `to` to `from`, colours of similar skin in either light, clamped to light_gain of the table.
 inline glm::vec3 LightGain(glm::vec3 to, glm::vec3 from) {
   const glm::vec2 limit = PhotoLook().light_gain;
   return glm::clamp(to / from, limit.x, limit.y);

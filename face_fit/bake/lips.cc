@@ -22,8 +22,7 @@ struct Tone {
   float redness, brightness;
 };
 
-/// The mean of the texels whose ranks by redness, 0 for the least red and 1 for the reddest, are in
-/// a range.
+/// Returns the mean of the texels whose ranks by redness (0 least, 1 most) lie in a range.
 Tone MeanTone(std::vector<glm::vec3> texels, glm::vec2 ranks) {
   std::ranges::sort(texels, {}, LogRedness);
   const auto index = [&](float rank) {
@@ -38,7 +37,7 @@ Tone MeanTone(std::vector<glm::vec3> texels, glm::vec2 ranks) {
 
 void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
   const auto& look = PhotoLook().lips;
-  constexpr float kMinDifference = 0.05F;  // of redness, between lips and skin
+  constexpr float kMinDifference = 0.05F;  // difference of redness between lips and skin
   std::vector<glm::vec3> lips, beside;
   for (std::size_t i = 0; i < texels.values.size(); ++i) {
     const float within_mm = texels.values[i].within_lips_mm;
@@ -57,7 +56,7 @@ void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
     const float bright = Brightness(c);
     const float lacks =
         glm::clamp((lip.redness - LogRedness(c)) / (lip.redness - skin.redness), 0.0F, 1.0F);
-    // What shines, and what is dark between the lips, has a colour of its own.
+    // Highlights and the dark gap between the lips keep their colour.
     const float blend = look.reddened_part * lacks *
                         glm::smoothstep(0.0F, look.fades_in_mm, texels.values[i].within_lips_mm) *
                         fsm::SmoothStep(look.shine, bright / skin.brightness) *

@@ -4,11 +4,10 @@
 
 namespace facefit {
 
-/// Reddens lips that a smile has drawn thin: towards the corners a photo shows little of their red,
-/// and where the mouth is brought back to rest skin would show there. Texels less red than most of
-/// the lips take their hue, and their darkness relative to the skin beside them; texels far
-/// outside the lips are ignored. Nothing changes if lips are no redder than skin, as in a grey
-/// photo.
+/// Restores the red of lips that a smile has stretched: a photo shows little of it towards the
+/// corners, and a mouth brought back to rest would show skin there. Texels of the lips less red
+/// than most take the hue of the lips, and their darkness relative to the skin beside them. Changes
+/// nothing if lips are no redder than skin, as in a grey photo.
 void RestoreLipColour(const SkinTexels& texels, fsm::Image& map);
 
 }  // namespace facefit

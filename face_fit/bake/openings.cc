@@ -11,7 +11,7 @@
 
 namespace facefit {
 
-/// The least that either width round the mouth is in a small photo: the blur of its own pixels.
+/// Least value of either width round the mouth: the blur of a small photo's pixels.
 constexpr glm::vec2 kMinRimPx{0.8F, 1};
 
 PhotoOpenings::PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool lips_apart) {
@@ -24,7 +24,7 @@ PhotoOpenings::PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool li
   if (lips_apart) {
     std::vector<PointIndex> mouth(point::kUpperInnerLip.begin(), point::kUpperInnerLip.end());
     mouth.insert(mouth.end(), point::kLowerInnerLip.rbegin(), point::kLowerInnerLip.rend());
-    // Teeth shine through the blurred edge of the lips, in a small photo over more of them.
+    // The blurred edge of the lips mixes with teeth, more so in a small photo.
     const glm::vec2 rim = glm::max(pixels_per_mm * glm::vec2(look.opening.no_skin_round_mouth_mm,
                                                              look.opening.fades_round_mouth_mm),
                                    kMinRimPx);

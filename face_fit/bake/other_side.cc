@@ -13,16 +13,16 @@
 namespace facefit {
 namespace {
 
-/// The gain is one number for each channel of a square of so many texels to a side.
+/// Side, in texels, of the squares that share a gain.
 constexpr int kCell = 8;
-/// Over how much of the face both sides are compared, from wide to narrow: what lies nearest counts
-/// most, where enough of it was seen.
+/// Reaches over which both sides are compared, from wide to narrow; the narrowest with enough known
+/// texels (kEnoughSeen, a part) counts most.
 constexpr float kLightReachMm[] = {128, 32, 12, 6};
 constexpr float kEnoughSeen = 0.1F;
-/// What lies around a texel lies within this.
+/// Reach of a texel's surroundings.
 constexpr float kAroundMm = 5;
 
-/// The light that falls on each place of a map, as part of that on the mirrored place.
+/// The light on each place of a map, divided by the light on the mirrored place.
 class SideGain {
  public:
   SideGain(const std::vector<bool>& skin, const fsm::Image& map, const FloatImage& coverage)
@@ -71,13 +71,13 @@ void CompleteByMirroring(const std::vector<bool>& skin, fsm::Image& map, FloatIm
   const SideGain gain_of_side(skin, map, coverage);
   const fsm::Image one_side = map;
   const FloatImage own_coverage = coverage;
-  // What shines or is in the shade on the other side alone, as a wing of the nose in the sun, is
-  // kept near to what lies around it here.
+  // Keep highlights and shade of the other side alone, as on a wing of the nose in the sun, close
+  // to the surrounding colours.
   fsm::Image around = map;
   PushPullInpaint(around, own_coverage);
   const FloatImage covered_around =
       Blurred(own_coverage, std::max(TexelsOf(kAroundMm, map.width), 1));
-  constexpr float kAny = 50;  // so much brighter nothing is
+  constexpr float kAny = 50;  // a ratio that nothing exceeds
   const auto& look = PhotoLook().other_side;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {

@@ -7,11 +7,11 @@
 
 namespace facefit {
 
-/// Completes one side of the skin's map from the other, mirrored. Colours are multiplied by the
-/// ratio of both sides' light nearby, where both were seen: otherwise a wing of the nose or an edge
-/// of the jaw would shine in the light of the other cheek. `skin`: texels within neither eyes nor
-/// mouth, which differ too much from side to side. `coverage`: how well the photo shows each
-/// texel, 0..1; grows where something was taken over.
+/// Completes each side of the skin's map from the mirror image of the other, multiplied by the
+/// ratio of both sides' light nearby, where both were seen: a wing of the nose would otherwise show
+/// the light of the other cheek. `skin`: texels outside eyes and mouth, which differ too much from
+/// side to side. `coverage`: how well the photo shows each texel, 0..1; raised where something was
+/// copied.
 void CompleteByMirroring(const std::vector<bool>& skin, fsm::Image& map, FloatImage& coverage);
 
 }  // namespace facefit

@@ -9,7 +9,8 @@
 namespace facefit {
 namespace {
 
-/// How much redder than skin a colour is whose red is not a flash, and whose red all is.
+/// Redness relative to the skin's at which a colour begins to be replaced, and from which it is
+/// replaced wholly.
 constexpr glm::vec2 kRedderThanSkin{1, 1.15F};
 
 float RedShare(glm::vec3 c) { return c.r / std::max(0.5F * (c.g + c.b), 1.0F); }
@@ -29,7 +30,7 @@ float RedEye::Likelihood(glm::vec3 colour) const {
 }
 
 glm::vec3 RedEye::Without(glm::vec3 colour, float near) const {
-  // A pupil is dark; what else shines in it is left a little brighter.
+  // A pupil is dark; other highlights in it stay slightly brighter.
   const float share = near * fsm::SmoothStep(kRedderThanSkin, Redder(colour, skin_));
   return glm::mix(colour, glm::vec3(PhotoLook().flash.pupil_part * 0.5F * (colour.g + colour.b)),
                   share);

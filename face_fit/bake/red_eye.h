@@ -4,17 +4,18 @@
 
 namespace facefit {
 
-/// A flash that the back of an eye reflects. Colours are 0..255.
+/// The reflection of a flash by the back of an eye. Colours are 0..255.
 class RedEye {
  public:
-  /// `skin`: below the eye.
+  /// `skin`: colour of the skin below the eye.
   explicit RedEye(glm::vec3 skin) : skin_(skin) {}
-  /// The probability, 0..1, that a colour in an iris is such a reflection: much redder than the
-  /// skin, about as bright, and with as much blue relative to green. Brown irises have less blue or
-  /// are darker.
+  /// Returns the likelihood, 0..1, that a colour in an iris is such a reflection: much redder than
+  /// the skin, about as bright, and with as much blue relative to green. Brown irises have less
+  /// blue or are darker.
   float Likelihood(glm::vec3 colour) const;
-  /// The colour with the red of a flash replaced by dark grey. `near`: the highest likelihood of
-  /// the pixel and those close to it, because in a photo red runs over the edge of the pupil.
+  /// Returns the colour with the red of a flash replaced by dark grey. `near`: the greatest
+  /// likelihood at the pixel and close to it, because in a photo red runs over the edge of the
+  /// pupil.
   glm::vec3 Without(glm::vec3 colour, float near) const;
 
  private:

@@ -18,15 +18,15 @@
 namespace facefit {
 namespace {
 
-// Numbers of the sheet that are not to be tuned by eye; the others are in tables/photo_look.txt.
-constexpr float kMaxDepthMm = 60;   // camera's frame: no point of the sheet stands before the face
-constexpr float kMinCellMm = 4.5F;  // between its points
+// Numbers of the sheet's method; those tuned by eye are in tables/photo_look.txt.
+constexpr float kMaxDepthMm = 60;   // camera's frame; no point of the sheet lies before the face
+constexpr float kMinCellMm = 4.5F;  // between points of the sheet
 constexpr float kMaxPoints = 14000;
-constexpr float kWholeWithin = 0.999F;     // of what is around is skin: there it is never seen
-constexpr float kBehindOpeningMm = 90;     // farther back there is the hair at the nape
-constexpr glm::vec2 kFadeMotion{0, 0.3F};  // over how much of what is around an edge fades
+constexpr float kWholeWithin = 0.999F;  // part of skin around a point above which it is never seen
+constexpr float kBehindOpeningMm = 90;  // farther back lies the hair at the nape
+constexpr glm::vec2 kFadeMotion{0, 0.3F};  // part of skin around a point over which motion begins
 
-/// The mean of what is covered around each point, ever less beyond its edge.
+/// Extends motion beyond the covered points: the mean of those nearby, fading out.
 VectorImage Spread(const VectorImage& motion, const FloatImage& covered, int reach) {
   const FloatImage share = Blurred(covered, reach);
   VectorImage out = Blurred(motion, reach);
@@ -37,7 +37,7 @@ VectorImage Spread(const VectorImage& motion, const FloatImage& covered, int rea
   return out;
 }
 
-/// How the skin moves from the photo's expression to rest, at each vertex of the base head.
+/// Returns for each vertex of the base head its motion from the photo's expression to rest.
 std::vector<glm::vec3> MotionToRest(const FittedHead& fitted) {
   const std::vector<glm::vec3> rest = SkinWith(fitted, {});
   std::vector<glm::vec3> motion(fitted.posed_vertices.size(), glm::vec3(0));
@@ -48,16 +48,16 @@ std::vector<glm::vec3> MotionToRest(const FittedHead& fitted) {
   return motion;
 }
 
-/// What moves each vertex, at the places of a surface; 0 where nothing is.
+/// Returns the vertices' motion at the visible places of a surface; 0 where there is none.
 VectorImage MotionOn(const VisibleSurface& surface, const std::vector<glm::vec3>& motion) {
   return VectorImage::From(surface.grid().columns, surface.grid().rows, [&](int x, int y) {
     return surface.Triangle(x, y) ? surface.Place(x, y).On(motion) : glm::vec3(0);
   });
 }
 
-/// The eyes and the mouth, which open: no part of the sheet may lie behind them. Of a turned head
-/// one eye and one corner of the mouth are near the edge of what the photo shows, where the sheet
-/// goes on from just under the skin.
+/// The openings of eyes and mouth, behind which no part of the sheet may lie. In a turned head one
+/// eye and one corner of the mouth are near the edge of the visible skin, where the sheet continues
+/// just below it.
 class HeadOpenings {
  public:
   explicit HeadOpenings(const FittedHead& fitted) {
@@ -76,7 +76,7 @@ class HeadOpenings {
     ovals_[2] = {0.5F * (left + right), 0.5F * std::abs(left.x - right.x) + look.beyond_mouth_mm,
                  look.above_mouth_mm, look.below_mouth_mm};
   }
-  /// `p`: in the head's frame.
+  /// `p`: head's frame.
   bool BehindMouth(glm::vec3 p) const { return Behind(ovals_[2], p); }
   bool Behind(glm::vec3 p) const {
     return std::ranges::any_of(ovals_, [p](const Oval& oval) { return Behind(oval, p); });
@@ -97,7 +97,7 @@ class HeadOpenings {
   std::array<Oval, 3> ovals_{};
 };
 
-/// The grid of the sheet, over the whole figure.
+/// Returns the grid of the sheet, over the whole figure.
 SampleGrid GridOver(const FigureCutout& figure, float pixels_per_mm) {
   const glm::vec2 extent(figure.colours.width, figure.colours.height);
   const float cell =
@@ -106,10 +106,10 @@ SampleGrid GridOver(const FigureCutout& figure, float pixels_per_mm) {
       {0, 0}, cell, static_cast<int>(extent.x / cell) + 2, static_cast<int>(extent.y / cell) + 2};
 }
 
-/// The corners of a cell of the grid: the point itself, and those beside and below it.
+/// Corners of a cell, as offsets from its upper left point, counter-clockwise.
 constexpr std::array<glm::ivec2, 4> kCellCorners = {{{0, 0}, {0, 1}, {1, 1}, {1, 0}}};
 
-/// Which cells of the sheet are drawn: those of the figure that nothing hides.
+/// Selects the cells of the sheet to draw: those of the figure that are not hidden.
 class DrawnCells {
  public:
   DrawnCells(const FittedHead& fitted, const SampleGrid& grid, const FloatImage& shown,
@@ -137,7 +137,7 @@ class DrawnCells {
   glm::vec3 PlaceOf(glm::ivec2 p) const {
     return fitted_.pose.PlaceAt(grid_.Point(p.x, p.y), depth_(p.x, p.y));
   }
-  /// Whether any of the figure is near: at its corners or the points next to them.
+  /// Returns whether the figure is visible at the cell's corners or at points next to them.
   bool IsShown(glm::ivec2 cell) const {
     for (int y = std::max(cell.y - 1, 0); y <= std::min(cell.y + 2, shown_.height - 1); ++y) {
       for (int x = std::max(cell.x - 1, 0); x <= std::min(cell.x + 2, shown_.width - 1); ++x) {
@@ -146,11 +146,11 @@ class DrawnCells {
     }
     return false;
   }
-  /// Nothing is drawn behind the middle of the face: there are the mouth and the eyes.
+  /// Returns whether a point is behind the middle of the face or behind an opening.
   bool IsHidden(glm::ivec2 p) const {
     return within_(p.x, p.y) > kWholeWithin || openings_.Behind(PlaceOf(p));
   }
-  /// In a photo of few pixels a cell may be wider than what is left between lips and cheek.
+  /// A cell of a small photo may be wider than the skin between lips and cheek.
   bool IsInMouth(glm::ivec2 cell) const {
     const auto corners = std::ranges::count_if(kCellCorners, [&](glm::ivec2 corner) {
       return openings_.BehindMouth(PlaceOf(cell + corner));
@@ -162,7 +162,7 @@ class DrawnCells {
   const SampleGrid& grid_;
   const FloatImage &shown_, &depth_;
   HeadOpenings openings_;
-  FloatImage within_;  // how much of what is around each point is face, 0..1
+  FloatImage within_;  // part of face around each point, 0..1
 };
 
 /// A cell of the sheet: its corners, counter-clockwise.
@@ -179,7 +179,7 @@ Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure) {
       surface,
       std::max(static_cast<int>(std::lround(PhotoLook().sheet.rim_mm * pixels_per_mm / grid.step)),
                1));
-  // Hair and neck beside the skin go with it.
+  // Hair and neck beside the skin move with it.
   const VectorImage motion =
       Spread(MotionOn(surface, MotionToRest(fitted)), skin.covered, skin.rim);
   const auto shown = FloatImage::From(grid.columns, grid.rows, [&](int x, int y) {
@@ -209,7 +209,7 @@ Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure) {
       });
     }
   }
-  // From back to front: soft edges show what lies behind them.
+  // From back to front, because soft edges show what lies behind them.
   std::ranges::sort(quads, {}, [&](const auto& quad) {
     return std::pair(out.vertices[quad[0]].position.z + out.vertices[quad[2]].position.z, quad);
   });

@@ -16,7 +16,7 @@ struct Sheet {
   std::vector<std::uint32_t> triangles;  ///< from back to front
   float skin_bottom_y;                   ///< PhotoHead::skin_bottom_y
 };
-/// A sheet just behind the face, from there gently back to the outline.
+/// Makes a sheet that lies just behind the face and recedes gently to the outline of the figure.
 Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure);
 
 }  // namespace facefit

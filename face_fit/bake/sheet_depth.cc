@@ -9,16 +9,18 @@
 namespace facefit {
 namespace {
 
-// Numbers that are not to be tuned by eye; the others are in tables/photo_look.txt.
+// Numbers of the method; those tuned by eye are in tables/photo_look.txt.
 constexpr int kPoissonSteps = 400;
-constexpr float kInnerWithin = 0.62F;  // of what is around is skin: from here on skin is inner
-constexpr float kDeepWithin = 0.95F;   // of what is around: the skin there keeps its whole distance
-constexpr float kShownLeast = 0.12F;   // opacity below which a point lies outside the figure
-constexpr float kToShouldersMm = 70;   // below the chin
-constexpr glm::vec2 kFadeDepth{0, 0.25F};  // over how much of what is around the skin's depth fades
+constexpr float kInnerWithin = 0.62F;  // part of skin around a point above which it is inner skin
+constexpr float kDeepWithin = 0.95F;   // part of skin from which the sheet keeps its full distance
+constexpr float kShownLeast = 0.12F;   // opacity below which a point is outside the figure
+constexpr float kToShouldersMm = 70;   // height of the chin above the shoulders
+// part of inner skin nearby over which its depth begins to count
+constexpr glm::vec2 kFadeDepth{0, 0.25F};
 
-/// Fills what is not fixed with the solution of Poisson's equation for an even, slight curvature:
-/// as a skin of soap would span it, but a little rounder. By Gauss and Seidel, not to the end.
+/// Fills points that are not fixed with the solution of Poisson's equation for a slight constant
+/// curvature: a soap film, a little rounder. Runs kPoissonSteps steps of Gauss and Seidel, not to
+/// convergence.
 FloatImage Spanned(const FloatImage& fixed, FloatImage depth) {
   const float round = PhotoLook().sheet.round_mm;
   for (int step = 0; step < kPoissonSteps; ++step) {
@@ -37,18 +39,18 @@ FloatImage Spanned(const FloatImage& fixed, FloatImage depth) {
   return depth;
 }
 
-/// Under the inner skin.
+/// Depth below the inner skin.
 class UnderSkinDepth {
  public:
   UnderSkinDepth(const Chin& chin, const GridSkin& skin) : chin_(chin), skin_(skin) {}
-  /// `place`: about where the point of the grid lies, head's frame.
+  /// `place`: approximate place of the grid's point, head's frame.
   float DepthAt(std::size_t i, glm::vec3 place) const {
-    // At the skin's edge the sheet goes on from it, further in it keeps out of its way.
+    // The sheet continues the skin at its edge and keeps a distance farther in.
     const float inward = glm::smoothstep(kInnerWithin, kDeepWithin, skin_.within.values[i]);
     const auto& look = PhotoLook().sheet;
     const float under =
         skin_.depth.values[i] - glm::mix(look.under_skin_edge_mm, look.under_skin_mm, inward);
-    // Behind the lower face lies the neck; the jaw has room to open.
+    // The neck lies behind the lower face, with room for the jaw to open.
     return glm::mix(under, std::min(under, look.before_neck_most_mm), chin_.BeforeNeck(place)) -
            look.below_chin_back_mm * chin_.Below(place);
   }
@@ -58,8 +60,8 @@ class UnderSkinDepth {
   const GridSkin& skin_;
 };
 
-/// At the outline and somewhat beyond it; the outline itself would waver as the grid's points lie
-/// within it or not.
+/// Depth at the outline and beyond it; on the outline alone it would depend on which points of the
+/// grid lie inside.
 class OutlineDepth {
  public:
   OutlineDepth(const Chin& chin, const GridSkin& skin)
@@ -69,10 +71,10 @@ class OutlineDepth {
     }
     beside_ = Blurred(beside_, skin.rim);
   }
-  /// `place`: as of UnderSkinDepth.
+  /// `place`: as in UnderSkinDepth.
   float DepthAt(std::size_t i, glm::vec3 place) const {
-    // Hair stands before the ears, shoulders lie in their plane. Beside the cheek the sheet stays
-    // near the cheek's depth, or its last pixels would be drawn long.
+    // Hair lies before the ears, shoulders in their plane. Beside the cheek the sheet stays near
+    // its depth, or the sheet's last pixels would be stretched.
     const auto& look = PhotoLook().sheet;
     const float outline =
         glm::mix(look.hair_depth_mm, look.shoulder_depth_mm,
@@ -84,7 +86,7 @@ class OutlineDepth {
 
  private:
   const Chin& chin_;
-  FloatImage beside_, share_;  // the depth of inner skin nearby, and how much there is of it, 0..1
+  FloatImage beside_, share_;  // mean depth and part of inner skin nearby, 0..1
 };
 
 }  // namespace
@@ -117,7 +119,7 @@ FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Ch
     }
   }
   const FloatImage spanned = Spanned(fixed, std::move(depth));
-  // A steep fall, as from the jaw to the neck, would fold when the head turns.
+  // A steep step, as from jaw to neck, would fold when the head turns.
   FloatImage smooth = Blurred(Blurred(spanned, 1), 1);
   for (std::size_t i = 0; i < smooth.values.size(); ++i) {
     if (skin.inner.values[i] > 0) smooth.values[i] = std::min(smooth.values[i], spanned.values[i]);

@@ -7,19 +7,20 @@
 
 namespace facefit {
 
-/// The skin on the sheet's grid.
+/// The visible skin on the sheet's grid.
 struct GridSkin {
-  /// `rim_cells`: how far behind the skin's edge the sheet goes on.
+  /// `rim_cells`: width of the sheet's rim behind the edge of the skin.
   GridSkin(const VisibleSurface& surface, int rim_cells);
   int rim;             ///< cells
   FloatImage depth;    ///< towards the camera, millimetres
   FloatImage covered;  ///< 1 where there is skin
-  FloatImage within;   ///< how much of what is nearer than the rim is skin, 0..1
-  FloatImage inner;  ///< 1 where skin is not near its edge, where each point has a depth of its own
+  FloatImage within;   ///< part of skin within `rim` of each point, 0..1
+  /// 1 for skin away from its edge; only there each point has a depth of its own
+  FloatImage inner;
 };
 
-/// Depth of the sheet, millimetres towards the camera: just under the skin, from there gently back
-/// to the outline. `shown`: the figure's opacity, 0..1.
+/// Returns the depth of the sheet, millimetres towards the camera, camera's frame: just below the
+/// skin, and from there gently back to the outline. `shown`: opacity of the figure, 0..1.
 FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Chin& chin,
                       const GridSkin& skin, const FloatImage& shown);
 

@@ -14,8 +14,8 @@ namespace facefit {
 namespace {
 
 constexpr float kWellCovered = 0.9F;  // coverage from which a texel shows the photo's own colour
-// Lengths on the face. Edges of hair fade over kHairEdgeMm. A line of the forehead is narrower than
-// kFringeMm, a fringe is not. Lines of the skin are wider than kFineMm and lie closer than kWideMm.
+// Lengths on the face. Edges of hair fade over kHairEdgeMm. Lines of the forehead are narrower than
+// kFringeMm, a fringe is wider. Wrinkles are wider than kFineMm and closer than kWideMm.
 constexpr float kHairEdgeMm = 1.5F, kFringeMm = 2.5F, kFineMm = 0.5F, kWideMm = 2.5F;
 
 }  // namespace
@@ -42,7 +42,7 @@ FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_coverage) 
   if (channels[0].empty()) return likeness;
   std::array<float, 3> middle{};
   const glm::vec2 hair = PhotoLook().hairy.darker_log;
-  constexpr float kDark = 8;  // steps of brightness that make no difference
+  constexpr float kDark = 8;  // of 255; differences in the dark that do not count
   for (std::size_t c = 0; c < 3; ++c) {
     middle[c] = Median(std::move(channels[c])) + kDark;
   }

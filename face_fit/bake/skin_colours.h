@@ -4,22 +4,22 @@
 
 namespace facefit {
 
-// `coverage`: how well the photo shows each texel of a map, 0..1; only those near 1 are asked.
+// `coverage`: how well the photo shows each texel of a map, 0..1; only texels near 1 are used.
 
-/// How coloured a photo is: 0 for a grey one, 1 for one in colour, by the mean difference of the
+/// Returns the saturation of a photo, 0 = grey, 1 = coloured, by the mean difference of its
 /// channels.
 float Saturation(const fsm::Image& map, const FloatImage& coverage);
 
-/// How much of each texel is skin rather than hair, 0..1: hair is much darker than the median of
-/// the face.
+/// Returns how much of each texel is skin rather than hair, 0..1: hair is much darker than the
+/// face's median.
 FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_coverage);
 
-/// The likeness without bright strands of a fringe: going up from the brows, it ends where the hair
-/// begins.
+/// Returns the likeness without bright strands of a fringe: going up from the brows, skin ends
+/// where hair begins.
 FloatImage CutAtHairline(const SkinTexels& texels, FloatImage likeness);
 
-/// How wrinkled the skin is: the median of the steps of brightness within some millimetres,
-/// relative to the brightness; about 0.01 for smooth skin, 0.03 for old skin.
+/// Returns how wrinkled the skin is: the median difference of brightness between a fine and a wide
+/// average, divided by the brightness; about 0.01 for smooth skin, 0.03 for old skin.
 float Roughness(const fsm::Image& map, const FloatImage& face_coverage);
 
 }  // namespace facefit

@@ -10,7 +10,7 @@ namespace facefit {
 
 VisibleSurface VisibleSkin(const FittedHead& fitted, const CameraPose& pose, const SampleGrid& grid,
                            float bottom_mm) {
-  constexpr float kMinFacing = 0.1F;  // cosine of the slant to the camera's axis
+  constexpr float kMinFacing = 0.1F;  // cosine of the normal's angle to the camera's axis
   const auto& posed = fitted.posed_vertices;
   const glm::vec3 axis = pose.TowardsCamera();
   const auto beyond = [&](std::uint32_t v) {

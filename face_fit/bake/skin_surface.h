@@ -5,9 +5,8 @@
 
 namespace facefit {
 
-/// What of the skin of the fitted head a camera in `pose` sees on a grid of pixels: above
-/// `bottom_mm` (height in the head's frame), in front of ears and neck, and not too much at a
-/// slant.
+/// Returns the skin of the fitted head that a camera in `pose` sees on a grid of pixels: above
+/// `bottom_mm` (height in the head's frame), in front of ears and neck, and not at a grazing angle.
 VisibleSurface VisibleSkin(const FittedHead& fitted, const CameraPose& pose, const SampleGrid& grid,
                            float bottom_mm);
 

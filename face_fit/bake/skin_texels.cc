@@ -18,7 +18,8 @@
 namespace facefit {
 namespace {
 
-/// Whether the head itself hides a place of its skin from the camera, as the jaw does the throat.
+/// Tells whether the head itself hides a place of its skin from the camera, as the jaw hides the
+/// throat.
 class SelfOcclusion {
  public:
   SelfOcclusion(const FittedHead& fitted, const CameraPose& pose) : pose_(pose) {
@@ -49,7 +50,7 @@ class SelfOcclusion {
   FloatImage nearest_;
 };
 
-/// Where the lips of the base head at rest meet and end, in millimetres.
+/// The seam and the outer borders of the base head's lips at rest, millimetres.
 class LipLines {
  public:
   explicit LipLines(const ObservedHead& base)
@@ -57,7 +58,7 @@ class LipLines {
         upper_(Line(base, point::kUpperOuterLip, kCorners)),
         lower_(Line(base, point::kLowerOuterLip, kCorners)) {}
   float OffSeam(glm::vec3 p) const {
-    // Towards its ends the line grows thin, as if it were farther off.
+    // A larger distance near its ends makes the line thinner.
     constexpr float kThinMm = 7, kThinner = 0.2F;
     if (!Spans(seam_, p)) return SkinTexel::kNotNear;
     const float gap_mm = std::abs(p.y - HeightAt<glm::vec3>(seam_, p.x));
@@ -72,7 +73,7 @@ class LipLines {
  private:
   static constexpr std::array kCorners = {point::kMouthRight, point::kMouthLeft};
   static bool Spans(std::span<const glm::vec3> line, glm::vec3 p) {
-    constexpr float kFrontMm = 60;  // behind it lies the mouth's inside
+    constexpr float kFrontMm = 60;  // behind it lies the inside of the mouth
     return p.x >= line.front().x && p.x <= line.back().x && p.z >= kFrontMm;
   }
   static std::vector<glm::vec3> Line(const ObservedHead& base, std::span<const PointIndex> points,
@@ -89,7 +90,7 @@ class LipLines {
   std::vector<glm::vec3> seam_, upper_, lower_;
 };
 
-/// Normals of the vertices of the skin, their lengths by the areas around.
+/// Returns the normals of the skin's vertices, not normalised, weighted by area.
 std::vector<glm::vec3> SkinNormals(const fsm::HeadTopology& topology,
                                    const std::vector<glm::vec3>& position) {
   std::vector<glm::vec3> normal(position.size(), glm::vec3(0));
@@ -99,12 +100,12 @@ std::vector<glm::vec3> SkinNormals(const fsm::HeadTopology& topology,
   return normal;
 }
 
-/// A triangle of the skin in texels of its map; nothing if it runs across the seam of the map.
+/// Returns a triangle of the skin in texels of the map; nothing if it crosses the seam of the map.
 std::optional<Triangle2> OnMap(const fsm::HeadTopology& topology, const MeshTriangle& triangle) {
   const auto texel = [&](std::uint32_t v) {
     return glm::vec2(topology.uv[v].x, 1 - topology.uv[v].y) * static_cast<float>(kMapSize) - 0.5F;
   };
-  constexpr float kAcrossSeam = kMapSize / 4.0F;  // so wide is no triangle on either side of it
+  constexpr float kAcrossSeam = kMapSize / 4.0F;  // wider than any triangle that does not cross it
   const auto& [a, b, c] = triangle.corner;
   const Triangle2 out{texel(a), texel(b), texel(c)};
   const float width = std::max({out.a.x, out.b.x, out.c.x}) - std::min({out.a.x, out.b.x, out.c.x});

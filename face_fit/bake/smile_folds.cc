@@ -24,8 +24,8 @@ float DistanceToLine(glm::vec2 p, std::span<const glm::vec2> line) {
   return nearest;
 }
 
-/// Fills what is dark near a line and narrower than twice `valley_px` as much as `smile` says;
-/// `smooth` becomes how much of each pixel was filled, 0..1.
+/// Fills dark valleys near a line that are narrower than twice `valley_px`, by the part `smile`.
+/// Raises `smooth` to the part by which each pixel was filled, 0..1.
 void FillFold(std::span<const glm::vec2> line, float smile, float pixels_per_mm, int valley_px,
               fsm::Image& photo, FloatImage& smooth) {
   const float reach_mm = PhotoLook().smile.folds.reach_mm;
@@ -36,7 +36,7 @@ void FillFold(std::span<const glm::vec2> line, float smile, float pixels_per_mm,
   const glm::ivec2 last = glm::min(glm::ivec2(box.high + margin) + 1, {photo.width, photo.height});
   if (last.x <= first.x || last.y <= first.y) return;
   const glm::ivec2 size = last - first;
-  // Each colour for itself: folds are redder than the skin beside them.
+  // Each channel separately: folds are redder than the skin beside them.
   const auto colours = VectorImage::From(size.x, size.y, [&](int x, int y) {
     return Rgb(photo, photo.Index(first.x + x, first.y + y));
   });

@@ -11,14 +11,14 @@
 namespace facefit {
 namespace {
 
-/// What stands for the cheeks: skin at least so far outside the lips, below eyes and nose, where no
-/// edge of theirs is blurred into it.
+/// Distances that reference skin of the cheeks keeps from lips, eyes and nose, whose blurred edges
+/// must not enter it.
 constexpr float kFromLipsMm = 2, kBelowEyesMm = 8, kBelowNoseMm = 2;
-/// How much of what is around must stand for the cheeks for their shade to be taken away: nothing
-/// happens below the first, all of it from the second on.
+/// Part of reference skin around a texel over which shading begins to be removed: none below the
+/// first, all from the second on.
 constexpr glm::vec2 kKnownCheek{0.1F, 0.5F};
 
-/// Where on the base face a smile shades the skin: from below the eyes to above the chin, beside
+/// The region of the base face that a smile shades: from below the eyes to above the chin, beside
 /// the wings of the nose and, less, below it.
 class Cheeks {
  public:
@@ -41,7 +41,7 @@ class Cheeks {
                     look.below_nose_part * fsm::SmoothStep(nose_ + look.below_nose_mm, y)) *
            fsm::SmoothStep(look.outside_lips_mm, texels.values[i].within_lips_mm);
   }
-  /// Whether it is skin that can stand for the cheeks: no lips, no nose.
+  /// Returns whether a texel is reference skin of the cheeks: neither lips nor nose.
   bool Skin(const SkinTexels& texels, std::size_t i) const {
     const float y = Height(texels, i), x = std::abs(texels.values[i].x_mm);
     return texels.values[i].within_lips_mm < -kFromLipsMm && y < eyes_ - kBelowEyesMm &&
@@ -55,12 +55,12 @@ class Cheeks {
   float brows_, eyes_ = 0, wing_ = 0, nose_ = 0, chin_ = 0;
 };
 
-/// Means of colours over a width, of what has weight.
+/// Weighted means of colours over a reach.
 class WeightedMeans {
  public:
   WeightedMeans(const FloatImage& weight, int reach)
       : weight_(weight), reach_(reach), sum_(Soft(weight)) {}
-  /// How much there is to go by near a texel, 0..1.
+  /// Returns the part of known texels around one, 0..1.
   float Known(std::size_t i) const { return sum_.values[i]; }
   VectorImage MeansOf(VectorImage colours) const {
     for (std::size_t i = 0; i < colours.values.size(); ++i) colours.values[i] *= weight_.values[i];

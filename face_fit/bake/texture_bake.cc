@@ -28,27 +28,27 @@
 namespace facefit {
 namespace {
 
-/// Skin that varies over no more than this is grain.
+/// Widest variation of brightness that counts as grain.
 constexpr float kGrainMm = 1.5F;
 
 float SmileOf(const FittedHead& fitted) { return glm::clamp(fitted.expression.smile, 0.0F, 1.0F); }
 
-// What of the skin both photos show well, so that their light can be compared: coverage by the
-// first one, cosines of the slant to both, distance from the middle of the face.
+// Limits for skin that both photos show well, so that their light can be compared: coverage by the
+// first photo, cosines of the angles to both cameras, distance from the middle of the face.
 constexpr float kCoveredFront = 0.9F, kFacingFront = 0.4F, kFacingSide = 0.5F, kFromMiddleMm = 5;
 
-/// Coverage by both photos, as part of that by the first one alone.
+/// Least combined coverage, divided by the first photo's alone.
 constexpr float kHardly = 0.01F;
 
-/// Lays a view from the side over what the first photo saw at a slant or not at all.
+/// Blends a view from the side over skin that the first photo saw at a grazing angle or not at all.
 void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTexels& front,
                    fsm::Image& map, FloatImage& coverage) {
-  // What it shows is of the side towards it: the other cheek lies behind the nose, and is left out
-  // by across_mm of the table, so that what the head itself hides need not be found.
+  // The view counts on its own side only. The far cheek, which the nose may hide, is left out by
+  // across_mm of the table, so that occlusion need not be computed.
   const SkinTexels texels = ProjectSkin(fitted, view.pose, SelfHidden::kIgnored);
   const float towards = view.pose.TowardsCamera().x > 0 ? 1.0F : -1.0F;
   const fsm::Image& colours = view.figure.colours;
-  // The same skin in another light: a gain for each channel makes it match.
+  // A gain for each channel matches the light of both photos.
   glm::vec3 front_sum(1), side_sum(1);
   for (std::size_t i = 0; i < coverage.values.size(); ++i) {
     if (coverage.values[i] < kCoveredFront || front.values[i].facing < kFacingFront ||
@@ -62,7 +62,7 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
   const glm::vec3 gain = LightGain(front_sum, side_sum);
   const auto& look = PhotoLook().side_photo;
   for (std::size_t i = 0; i < coverage.values.size(); ++i) {
-    // Too slanted a texel is drawn from a line of pixels.
+    // At a grazing angle a texel would be sampled from a line of pixels.
     if (texels.values[i].facing < look.facing_cos.x || !IsInside(colours, texels.values[i].pixel))
       continue;
     const float seen = fsm::SmoothStep(look.facing_cos, texels.values[i].facing) *
@@ -70,7 +70,7 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
     const float own =
         coverage.values[i] * fsm::SmoothStep(look.front_facing_cos, front.values[i].facing);
     const float sum = own + (1 - own) * seen;
-    // What the view hardly shows either is left to the first photo, however slanted it was there.
+    // Skin that the view hardly shows either stays as in the first photo.
     if (seen <= 0 || sum <= kHardly * coverage.values[i]) continue;
     const float blend = (1 - own) * seen / std::max(sum, 1e-4F);
     const glm::vec3 colour = glm::min(gain * ColourAt(colours, texels.values[i].pixel), 255.0F);
@@ -83,12 +83,13 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
 struct PaintedMap {
   fsm::Image image = fsm::FilledImage(kMapSize, kMapSize);
   FloatImage coverage{kMapSize, kMapSize};  ///< how well the photo shows each texel, 0..1
-  FloatImage smooth{kMapSize, kMapSize};    ///< how much of its grain it lost, 0..1
+  FloatImage smooth{kMapSize, kMapSize};    ///< part of its grain that each texel lost, 0..1
   std::vector<bool> skin =
-      std::vector<bool>(coverage.values.size(), true);  ///< not within eyes or mouth
+      /// whether a texel is outside eyes and mouth
+      std::vector<bool>(coverage.values.size(), true);
 };
 
-/// What the photo shows, but not what is between lids and lips.
+/// Paints what the photo shows, except what lies between lids and between lips.
 PaintedMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTexels& texels,
                       bool open, fsm::Image colours) {
   const PhotoLookNumbers& look = PhotoLook();
@@ -99,7 +100,7 @@ PaintedMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const Ski
   PaintedMap map;
   for (std::size_t i = 0; i < texels.values.size(); ++i) {
     const glm::vec2 p = texels.values[i].pixel;
-    // Near the head's outline the photo shows more of what lies beside it than of its skin.
+    // Near the head's outline a texel shows more of what lies beside the head than of its skin.
     const float least =
         glm::mix(look.seen.face_from_cos, look.seen.aside_from_cos, texels.values[i].aside);
     if (!IsInside(colours, p) || texels.values[i].facing < least) continue;
@@ -113,7 +114,7 @@ PaintedMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const Ski
   return map;
 }
 
-/// Where lips that were apart now meet there is a dark line, reddish where the photo has colour.
+/// Draws the dark line where lips that were apart now meet, reddish if the photo has colour.
 void DrawMouthLine(const SkinTexels& texels, float saturation, fsm::Image& map) {
   const auto& look = PhotoLook().mouth_line;
   const glm::vec3 dark = glm::mix(look.takes_from_grey, look.takes_from_colour, saturation);
@@ -123,15 +124,14 @@ void DrawMouthLine(const SkinTexels& texels, float saturation, fsm::Image& map) 
   }
 }
 
-/// Whether a texel belongs to what is counted as face: rows of the map from the hairline to the
-/// throat, where skin is.
+/// Returns whether a texel counts as face: skin in rows of the map from the hairline to the throat.
 bool OnFace(const SkinTexels& texels, std::size_t i) {
   constexpr std::size_t kHairline = kMapSize / 5, kThroat = kMapSize * 3 / 4;
   const std::size_t row = i / kMapSize;
   return texels.values[i].outward_mm2 > 0 && row > kHairline && row < kThroat;
 }
 
-/// The coverage of the face, 0 on the sides and the back of the head.
+/// Returns the coverage of the face, 0 on the sides and the back of the head.
 FloatImage CoverageOfFace(const SkinTexels& texels, FloatImage coverage) {
   for (std::size_t i = 0; i < coverage.values.size(); ++i) {
     if (!OnFace(texels, i)) coverage.values[i] = 0;
@@ -139,7 +139,7 @@ FloatImage CoverageOfFace(const SkinTexels& texels, FloatImage coverage) {
   return coverage;
 }
 
-/// The mean coverage of the face.
+/// Returns the mean coverage of the face.
 float MeanCoverage(const SkinTexels& texels, const FloatImage& coverage) {
   float count = 0, sum = 0;
   for (std::size_t i = 0; i < coverage.values.size(); ++i) {
@@ -155,13 +155,13 @@ struct SkinLook {
   float saturation, lined;
 };
 
-/// Completes the map where the photo does not show it, and says in its alpha what is skin. The
+/// Completes the map where the photo does not show it, and sets its alpha to how much is skin. The
 /// order of the passes matters:
-/// - the other side lends its own skin before anything is filled in from around;
-/// - a smile's shading is evened out when no hole is left, because it is told by what is around;
-/// - grain goes on what was filled in, after colours are what they stay;
-/// - lips and the line between them are painted over all of that, as neither is skin;
-/// - what is skin is told by the finished colours.
+/// - the other side is copied before anything is inpainted from around;
+/// - a smile's shading is removed when no hole is left, because it is estimated from around;
+/// - grain is added to what was filled in after its colours are final;
+/// - lips and the line between them, which are not skin, are painted over all of that;
+/// - skin is detected in the finished colours.
 SkinLook FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool open, PaintedMap& map) {
   const PhotoLookNumbers& look = PhotoLook();
   const float saturation = Saturation(map.image, map.coverage);
@@ -188,11 +188,11 @@ SkinLook FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool open
           .lined = glm::mix(look.lined.smooth_creases_part, 1.0F, glm::clamp(rough, 0.0F, 1.0F))};
 }
 
-/// The map on the left, the figure on the right.
+/// Returns the map on the left and the figure on the right in one picture.
 fsm::Image SideBySide(const fsm::Image& map, const fsm::Image& back, const FloatImage& opacity,
                       float pixels_per_mm) {
-  // An edge as wide as a pixel of a small photo would look blurred: screens show two and more
-  // pixels to a millimetre.
+  // Steepens the opacity of small photos, whose edges, a pixel wide, would look blurred on screens
+  // with two or more pixels to a millimetre.
   constexpr float kScreenPixelsPerMm = 2, kSteepest = 3;
   const float steep = glm::clamp(kScreenPixelsPerMm / pixels_per_mm, 1.0F, kSteepest);
   const glm::vec2 scale = glm::vec2(back.width, back.height) / static_cast<float>(kMapSize);
@@ -216,7 +216,7 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
                         const FigureCutout& figure, std::span<const SideView> side_views) {
   const FittedHead& fitted = fit.head;
   const SkinTexels texels = ProjectSkin(fitted, fitted.pose, SelfHidden::kNotSeen);
-  // The same says whether the lips were fitted apart or to the line where they meet.
+  // This decided also whether the lips were fitted apart or to the line where they meet.
   const bool open = fit.targets.lips_apart;
   PaintedMap map = PaintPhoto(face, fitted, texels, open, figure.colours);
   std::vector<glm::vec3> also_seen;
@@ -235,7 +235,7 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
   const EyeColours eye_colours = SampleEyes(face, fit.irises, photo);
   const MouthColours mouth = SampleMouth(face, photo);
   Sheet sheet = MakeSheet(whole.head, whole.figure);
-  // Half a texel within, so that the halves do not run into each other.
+  // Half a texel inward, so that the halves do not bleed into each other.
   constexpr float kHalf = 0.25F / kMapSize;
   fsm::PhotoHead head{.base = fitted.base->name(),
                       .points = fitted.warp_points,
