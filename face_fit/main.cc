@@ -28,7 +28,7 @@
 
 namespace {
 
-/// Tells on stderr what is being done and how long each step took.
+/// Prints each step and the time since the start to stderr.
 class Progress {
  public:
   explicit Progress(bool quiet) : quiet_(quiet) {}
@@ -46,12 +46,12 @@ class Progress {
 struct Options {
   std::vector<std::string> views;
   std::string photo, name, out, base = "galatea", networks, head, points, galatea, tables;
-  std::string glasses;  // yes, no, or empty: to be seen
+  std::string glasses;  // "yes", "no", or empty: to be detected
   int face = 1;
   bool quiet = false;
 };
 
-/// Looks for eyes, nose and mouth of a head from elsewhere and writes them beside it.
+/// Finds eyes, nose and mouth of a head from elsewhere and writes them to a file beside it.
 void WritePointsOfHead(const Options& options) {
   Progress progress(options.quiet);
   const fsm::ImportedHead file = vm::OrThrow(fsm::ReadImportedHead(options.head));
@@ -65,7 +65,7 @@ void WritePointsOfHead(const Options& options) {
   std::cout << "face_fit: wrote " << path << "\n";
 }
 
-/// A face of a configuration of the original, with the points its wireframe was fitted to.
+/// A face from a configuration of the original, and the points of its fitted wireframe.
 struct OriginalFace {
   fsm::Image photo;
   facefit::HandPoints points;
@@ -81,7 +81,7 @@ OriginalFace ReadOriginal(const Options& options) {
                              (names.empty() ? " none" : ":" + names));
   }
   OriginalFace face;
-  // Points are in pixels of a photo of at most that size.
+  // Points refer to a photo of at most that size.
   face.photo =
       facefit::ScaledToFit(vm::OrThrow(fsm::ReadImage(mask->picture)), facefit::kWorkingSize);
   const auto wireframe = vm::OrThrow(fsm::ReadPnt(mask->wireframe));
@@ -95,7 +95,7 @@ void NoticeLeftOut(const std::string& path, const std::string& why) {
   Notice("'" + path + "' is left out: " + why);
 }
 
-/// The photos from the side that can be read.
+/// Reads the photos from the side; prints a notice for each that cannot be read.
 std::vector<facefit::SidePhoto> ReadSidePhotos(const Options& options,
                                                facefit::FaceNetworks& networks) {
   vm::OrThrow(facefit::CheckSidePhotoCount(options.views.size()));
@@ -110,7 +110,7 @@ std::vector<facefit::SidePhoto> ReadSidePhotos(const Options& options,
   return side_photos;
 }
 
-/// Where in the whole photo the face lies, in the pixels of --points.
+/// Returns a line with the place of the face in the whole photo, in the pixels of --points.
 std::string PlaceInPhoto(const facefit::FrontPhoto& front) {
   const auto pixel = [](float v) { return std::to_string(std::lround(v)); };
   return "place       nose " + pixel(front.nose.x) + " pixels from the left, " +
@@ -118,7 +118,7 @@ std::string PlaceInPhoto(const facefit::FrontPhoto& front) {
          std::to_string(front.whole_size.y) + "\n";
 }
 
-/// Throws std::runtime_error that says what is missing.
+/// Throws std::runtime_error with what is missing.
 void CheckOptions(const Options& options) {
   if (options.photo.empty() == options.galatea.empty() || options.name.empty()) {
     throw std::runtime_error(
@@ -130,7 +130,7 @@ void CheckOptions(const Options& options) {
   }
 }
 
-/// Where faces lie, and what the face of that name is made with.
+/// The folder of faces, the networks and the base head of a face to be made.
 struct Workshop {
   std::string folder;
   facefit::FaceNetworks networks;
@@ -146,7 +146,7 @@ struct Workshop {
   }
 };
 
-/// Makes the face that a photo shows and writes it. REQUIRES: front.face
+/// Makes a face from a photo and writes it. REQUIRES: front.face
 void WriteFace(const Options& options, Workshop& workshop, const facefit::FrontPhoto& front,
                Progress& progress) {
   const std::vector<facefit::SidePhoto> read = ReadSidePhotos(options, workshop.networks);
@@ -165,7 +165,7 @@ void WriteFace(const Options& options, Workshop& workshop, const facefit::FrontP
   std::cout << report << "face_fit: wrote " << place << "\n";
 }
 
-/// Throws std::runtime_error if no face was found, or what was found may be none.
+/// Throws std::runtime_error if no face was found, or only an uncertain one.
 void RequireFace(const Options& options, const facefit::FrontPhoto& front) {
   const char* by_hand = "; --points FILE with a few points set by hand helps (docs/photo.md)";
   if (!front.face) {
@@ -258,7 +258,7 @@ int main(int argc, char** argv) {
                                  "Whether the person wears glasses, yes or no (default: what a "
                                  "look at the nose says)")
                       ->check(CLI::IsMember({"yes", "no"}));
-  // What a way of use has no use for is refused rather than ignored.
+  // Options that do not apply to a way of use are refused, not ignored.
   for (CLI::Option* other : {photo, name, galatea, face, view, points, tables, glasses}) {
     head->excludes(other);
   }

@@ -15,7 +15,7 @@
 namespace facefit {
 namespace {
 
-/// A photo as it was given and as it is worked on, and the face of it that is meant.
+/// A photo in its full and in its working size, and the chosen face.
 struct PhotoWithFace {
   fsm::Image finest, working;
   int orientation = 1;
@@ -23,7 +23,7 @@ struct PhotoWithFace {
   std::optional<FoundFace> face = {};
 };
 
-/// Looks for the face that is meant, in a way for each kind of choice.
+/// Finds the chosen face; one overload for each kind of choice.
 struct FaceSearch {
   FaceNetworks& networks;
   const ObservedHead& base;

@@ -14,50 +14,52 @@
 
 namespace facefit {
 
-/// What is done on the way, told at the end of each step.
+/// Is called with the name of each step when it is done.
 using StepDone = std::function<void(const char* step)>;
 
-/// The face of that number, 1 = the largest. Error: kBadValue, there are fewer.
+/// Returns the face of that number, 1 = the largest. Error: kBadValue, there are fewer.
 vm::Result<FoundFace> ChooseFace(std::span<const FoundFace> faces, int number);
 
-/// Which face of a photo is meant. One that is known by its number is looked for in the photo and
-/// in turned copies of it; one whose nose lies near a place (pixels) in the photo as it is; one of
-/// which points are set by hand is not looked for.
+/// How a face of a photo is chosen: FaceNumber, by its size, searched in the photo and in turned
+/// copies of it; FaceNear, as the face whose nose lies nearest to a pixel of the photo as it is, at
+/// any distance; HandPoints, from points set by hand, without a search.
 struct FaceNumber {
-  int number = 1;  ///< as of ChooseFace
+  int number = 1;  ///< as for ChooseFace
 };
 struct FaceNear {
   glm::vec2 nose;
 };
 using FaceChoice = std::variant<FaceNumber, FaceNear, HandPoints>;
 
-/// What of a photo is worked on: what a head made from the face shows, with all the photo's pixels
-/// (CloseUpOf), or the whole as it is given.
+/// The part of a photo that is worked on: the surroundings of the face with all the photo's pixels
+/// (CloseUpOf), or all of it as given.
 enum class PhotoPart { kCloseUp, kWhole };
 
-/// A photo from the front with what is seen in it before a head is fitted to points of its face.
+/// A photo from the front and what was found in it; no head is fitted yet.
 struct FrontPhoto {
-  fsm::Image photo;               ///< the part that is worked on, upright
-  std::optional<FoundFace> face;  ///< in pixels of `photo`; nothing if none was found
+  fsm::Image photo;  ///< the part that is worked on, upright
+  /// in pixels of `photo`; nothing if none was found. MakeFace takes the face as an argument
+  std::optional<FoundFace> face;
   FigureCutout figure;
   Occlusion occlusion;  ///< of the face
-  int faces = 0;        ///< how many were found
-  int orientation = 1;  ///< EXIF's of the photo as it was given
-  float scale = 1;      ///< pixels of `photo` by one of the photo as it was given
-  /// Where the nose lies in the upright photo when that is at most kWorkingSize pixels to a side,
-  /// and how large that is.
+  int faces = 0;        ///< number of faces found
+  int orientation = 1;  ///< EXIF orientation of the photo as given
+  float scale = 1;      ///< pixels of `photo` for each pixel of the photo as given
+  /// The pixel of the nose, and the size, of the whole upright photo scaled down to at most
+  /// kWorkingSize to a side.
   glm::vec2 nose{0};
   glm::ivec2 whole_size{0};
 };
-/// Finds the face in a photo, takes the part of the photo to work on, cuts the figure out, and
-/// looks for what is before the face. The face may be uncertain: who relies on it compares its
-/// certainty with kCertainFace. Error: kBadValue, there are fewer faces than the number asked for,
-/// but some; or as CheckWithin.
+/// Finds the face in a photo, selects the part to work on, cuts the figure out, and checks whether
+/// something hides the face. The face may be uncertain: callers compare its certainty with
+/// kCertainFace. Errors: kBadValue, there are faces but fewer than the number asked for; as
+/// CheckWithin.
 vm::Result<FrontPhoto> PrepareFront(
     FaceNetworks& networks, const ObservedHead& base, fsm::Image photo, const FaceChoice& choice,
     PhotoPart part, const StepDone& done = [](const char*) {});
 
-/// Photos of the person from the side, and the networks they are looked at with.
+/// Photos of the person from the side, and the networks to process them. Both must outlive the call
+/// of MakeFace.
 struct SidePhotos {
   FaceNetworks& networks;
   std::vector<const SidePhoto*> photos;
@@ -71,13 +73,13 @@ struct MadeFace {
   struct LeftOut {
     std::string path, why;
   };
-  std::vector<LeftOut> left_out;  ///< photos from the side that did not help
+  std::vector<LeftOut> left_out;  ///< photos from the side that were not used, and why
 };
 /// Fits the base head, which outlives the result, to a face of a photo, corrects its depth by
-/// photos from the side, and bakes them onto it. `face`: front.face, or what a user made of it.
-/// `glasses`: whether the person wears them, else that is looked for. Errors:
-/// of CheckSidePhotoCount and CheckFeaturesShown. Throws std::runtime_error if nothing can be drawn
-/// with.
+/// photos from the side, and bakes all photos onto it. `face`: front.face, or that with points the
+/// user moved. `glasses`: whether the person wears glasses; if empty, that is detected. Errors: as
+/// CheckSidePhotoCount and CheckFeaturesShown. Throws std::runtime_error if rendering is
+/// impossible.
 vm::Result<MadeFace> MakeFace(
     const ObservedHead& base, const FrontPhoto& front, const FoundFace& face,
     const std::optional<SidePhotos>& side_photos = {}, std::optional<bool> glasses = {},

@@ -14,10 +14,11 @@
 namespace facefit {
 namespace {
 
-/// Mean difference of neighbouring pixels over the middle of the face, as part of its brightness.
+/// Returns the mean difference of neighbouring pixels over the middle of the face, divided by its
+/// brightness.
 float Sharpness(const FoundFace& face, const fsm::Image& photo) {
-  constexpr int kSamples = 60;         // to a side of the middle half of the face
-  constexpr float kStep = 1 / 150.0F;  // of the face's size: finer than any feature
+  constexpr int kSamples = 60;         // on a side of the middle half of the face
+  constexpr float kStep = 1 / 150.0F;  // relative to the face's size: finer than any feature
   float sum = 0, light = 0;
   const float step = std::max(kStep * face.crop.size, 1.0F);
   for (int y = 0; y < kSamples; ++y) {
@@ -31,7 +32,7 @@ float Sharpness(const FoundFace& face, const fsm::Image& photo) {
   return sum / std::max(light, 1.0F);
 }
 
-/// Brightness of the person's left cheek as part of the right one's.
+/// Returns the brightness of the person's left cheek divided by the right one's.
 float SideLight(const FoundFace& face, const fsm::Image& photo) {
   fsm::Sided<float> light{1, 1};
   for (const fsm::Side side : fsm::kSides) {
@@ -42,13 +43,14 @@ float SideLight(const FoundFace& face, const fsm::Image& photo) {
   return light.left / light.right;
 }
 
-// From where on a report warns; by eye, on the faces the program was made with.
-constexpr float kTurnedDeg = 15, kTurnedFarDeg = 20;  // then much of one side is not seen
-constexpr float kSmallEyesPx = 80;  // between their outer corners: the map is finer
+// Limits from which the report warns, set by eye on the faces the program was developed with.
+constexpr float kTurnedDeg = 15, kTurnedFarDeg = 20;  // much of one side is not seen then
+// between their outer corners; the skin's map is finer than that
+constexpr float kSmallEyesPx = 80;
 constexpr float kBlurred = 0.012F;  // sharpness
 constexpr float kLitAside = 1.45F,
-                kShadedAside = 0.69F;  // brightness of the left cheek by the right
-constexpr float kPosing = 0.4F;        // strength of a unit: its folds are not taken away wholly
+                kShadedAside = 0.69F;  // brightness of the left cheek divided by the right
+constexpr float kPosing = 0.4F;        // strength of a unit whose folds are not removed completely
 
 std::string WarnOfTurn(glm::vec3 turn_deg) {
   std::string out;
@@ -77,9 +79,9 @@ std::string WarnOfEyes(const PhotoIrises& irises) {
                      : "";
 }
 
-/// Of 21 faces of people that the limits were not set on three were beyond 1.5, and two of these
-/// had hair before them. Of three between 1 and 1.5 none had: the detector was misled by paint, by
-/// hard light and by a turned head.
+/// The limit 1.5 was tested on 21 other faces: three exceeded it, two of these had hair before
+/// them. Of three between 1 and 1.5 none had anything: paint, hard light and a turned head misled
+/// the detector.
 std::string WarnOfOcclusion(const Occlusion& occlusion) {
   constexpr float kSurely = 1.5F;
   if (occlusion.measure < 1) return "";
@@ -90,7 +92,7 @@ std::string WarnOfOcclusion(const Occlusion& occlusion) {
                    "; what is before the face becomes part of it\n";
 }
 
-/// The network guesses what it does not see, as certain of it as of the rest.
+/// The network guesses what it does not see with the same certainty as the rest.
 std::string WarnOfCutOff(const FoundFace& face, const fsm::Image& photo) {
   const std::string parts = NamesOf(CutOffParts(face, photo));
   if (parts.empty()) return "";
@@ -99,7 +101,7 @@ std::string WarnOfCutOff(const FoundFace& face, const fsm::Image& photo) {
          "the rest; a photo of the whole head is needed for a likeness\n";
 }
 
-/// What the photo cuts off is the toolkit's own.
+/// Names the parts that the toolkit drew.
 std::string WarnOfCompletion(const Completed& completed) {
   std::string parts;
   const auto add = [&parts](const char* part) {

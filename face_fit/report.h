@@ -9,8 +9,8 @@
 
 namespace facefit {
 
-/// What was measured, a line each, and warnings of what will look worse than it could. `bake`: what
-/// BakeTexture made of the face, the fit and the photo; `faces`: how many were found.
+/// Returns the measurements, a line each, and warnings of what could look better. `bake`: what
+/// BakeTexture made of the face, the fit and the photo; `faces`: number of faces found.
 std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
                    const TextureBake& bake, int faces, const Occlusion& occlusion = {});
 
