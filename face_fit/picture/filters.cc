@@ -11,14 +11,14 @@
 namespace facefit {
 namespace {
 
-/// OpenCV would otherwise start threads of its own.
+/// Keeps OpenCV from starting threads of its own.
 void StayOnThisThread() {
   static const bool done = (cv::setNumThreads(1), true);
   (void)done;
 }
 
-/// Views of our pictures, which outlive them, and through which all that is done here goes; OpenCV
-/// does not write into those made from const.
+/// Returns a view of a picture, which must outlive it; every filter goes through these. OpenCV does
+/// not write into views of const pictures.
 template <typename T>
 cv::Mat View(const Raster<T>& image) {
   StayOnThisThread();
@@ -81,7 +81,7 @@ void PushPullInpaint(fsm::Image& image, const FloatImage& weight) {
     p = {weighted.r, weighted.g, weighted.b, weighted.w};
     ++i;
   }
-  // Push: each pixel the sum of four finer ones, brought down to a weight of 1.
+  // Push: each pixel is the sum of four finer ones, scaled down to a weight of at most 1.
   while (levels.back().total() > 1) {
     cv::Mat_<Pixel> even, coarse;
     cv::copyMakeBorder(levels.back(), even, 0, levels.back().rows % 2, 0, levels.back().cols % 2,
@@ -90,7 +90,7 @@ void PushPullInpaint(fsm::Image& image, const FloatImage& weight) {
     for (Pixel& mean : coarse) mean *= 1 / std::max(mean[3], 0.25F);
     levels.push_back(coarse);
   }
-  // Pull: what is lacking of a weight of 1 comes from the coarser level.
+  // Pull: what a pixel's weight lacks of 1 comes from the coarser level.
   for (std::size_t l = levels.size() - 1; l-- > 0;) {
     cv::Mat_<Pixel> from;
     cv::resize(levels[l + 1], from, levels[l + 1].size() * 2, 0, 0, cv::INTER_LINEAR);
@@ -106,7 +106,7 @@ void PushPullInpaint(fsm::Image& image, const FloatImage& weight) {
 }
 
 void FillHoles(FloatImage& image) {
-  // With a border of one pixel all that is outside is connected.
+  // A border of one pixel connects everything outside.
   cv::Mat covered;
   cv::copyMakeBorder(View(image) > 0, covered, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   constexpr int kOutside = 128;
@@ -185,7 +185,7 @@ fsm::Image Turned(const fsm::Image& image, int orientation) {
       fsm::FilledImage(swaps ? image.height : image.width, swaps ? image.width : image.height);
   cv::Mat turned = View(out);
   swaps ? cv::transpose(View(image), turned) : View(image).copyTo(turned);
-  // 2, 3, 7 and 8 run from right to left, 3, 4, 6 and 7 from below; for 5 to 8 as transposed.
+  // 2, 3, 7 and 8 are mirrored left to right, 3, 4, 6 and 7 upside down; 5 to 8 after transposing.
   const bool across = orientation == 2 || orientation == 3 || orientation == 6 || orientation == 7;
   const bool down = orientation == 3 || orientation == 4 || orientation == 7 || orientation == 8;
   if (across) cv::flip(turned, turned, 1);

@@ -7,20 +7,20 @@
 
 namespace facefit {
 
-/// The four pixels round a place and how much each counts, sum 1 (bilinear interpolation). Pixel
-/// centres lie at .5; outside the edge is repeated.
+/// The four pixels around a place and their weights, sum 1 (bilinear interpolation). Pixel centres
+/// lie at .5; outside, the edge is repeated.
 struct FourPixels {
   std::array<std::size_t, 4> index;
   std::array<float, 4> weight;
   FourPixels(int width, int height, float x, float y);
-  /// `value(index)`: of a pixel.
+  /// Returns the weighted mean of `value(index)` over the pixels.
   auto Mean(auto value) const {
     return (value(index[0]) * weight[0] + value(index[1]) * weight[1]) +
            (value(index[2]) * weight[2] + value(index[3]) * weight[3]);
   }
 };
 
-/// A value for each pixel of a picture, row 0 at the top. Also used for grids of other things.
+/// A value for each pixel of a picture, row 0 at the top. Also used for other grids.
 template <typename T>
 struct Raster {
   int width = 0, height = 0;
@@ -30,7 +30,7 @@ struct Raster {
       : width(w),
         height(h),
         values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value) {}
-  /// Of each pixel `value(x, y)`, row by row.
+  /// Returns a raster of `value(x, y)`, evaluated row by row.
   static Raster From(int w, int h, auto value) {
     Raster out(w, h);
     std::size_t i = 0;

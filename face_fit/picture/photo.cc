@@ -12,14 +12,14 @@ namespace facefit {
 namespace {
 
 constexpr std::uint8_t kPngStart[] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10};
-/// Below this nothing can be seen of a face.
+/// Shortest side, pixels; smaller photos show nothing of a face.
 constexpr int kMinSize = 64;
 
 bool StartsWith(std::span<const std::uint8_t> bytes, std::span<const std::uint8_t> start) {
   return bytes.size() >= start.size() && std::ranges::equal(bytes.first(start.size()), start);
 }
 
-/// If there are several EXIF blocks the last one with an orientation counts.
+/// Decodes a JPEG. Of several EXIF blocks the last one with an orientation counts.
 vm::Result<fsm::Image> DecodeJpegPhoto(std::span<const std::uint8_t> bytes, int most_size,
                                        int& orientation) {
   fsm::JpegWish wish{.most_pixels = kMaxPixels, .enough_side = most_size, .exif = {}};
@@ -32,7 +32,7 @@ vm::Result<fsm::Image> DecodeJpegPhoto(std::span<const std::uint8_t> bytes, int 
 }
 
 vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
-  // Width and height stand in the first chunk; they are looked at before anything is decoded.
+  // The first chunk holds width and height; they are checked before anything is decoded.
   if (bytes.size() < 24) return vm::Fail(vm::Errc::kBadValue, "the PNG file ends too early");
   const std::int64_t width = fsm::BigEndian(bytes, 16, 4), height = fsm::BigEndian(bytes, 20, 4);
   if (width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels) {
@@ -45,7 +45,7 @@ vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
   if (!image) {
     return vm::Fail(vm::Errc::kBadValue, "the PNG file cannot be read: " + image.error().text);
   }
-  // Transparent pixels show white behind them.
+  // Composite transparent pixels on white.
   for (std::size_t i = 0; i < image->rgba.size(); i += 4) {
     const unsigned a = image->rgba[i + 3];
     for (std::size_t c = 0; c < 3; ++c) {

@@ -20,7 +20,7 @@ inline glm::vec3 Rgb(const fsm::Image& image, std::size_t i) {
   return {p[0], p[1], p[2]};
 }
 
-/// A channel as it is stored: 0..255, rounded; what lies beyond is cut off.
+/// Rounds a channel to 0..255; values beyond are clamped.
 inline std::uint8_t Byte(float v) {
   return static_cast<std::uint8_t>(std::clamp(v, 0.0F, 255.0F) + 0.5F);
 }
@@ -28,23 +28,25 @@ inline void SetRgb(fsm::Image& image, std::size_t i, glm::vec3 colour) {
   for (int c = 0; c < 3; ++c) image.rgba[4 * i + static_cast<std::size_t>(c)] = Byte(colour[c]);
 }
 
-/// Whether a place lies in a picture.
+/// Returns whether a place lies in a picture.
 inline bool IsInside(const fsm::Image& image, glm::vec2 p) {
   return p.x >= 0 && p.y >= 0 && p.x < static_cast<float>(image.width) &&
          p.y < static_cast<float>(image.height);
 }
 
-/// How bright a colour is, in its own unit; red weighs more than in human vision, as faces are red.
+/// Returns the brightness of a colour, in its unit; red weighs more than in human vision, because
+/// faces are red.
 inline float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c.b; }
 
-/// The colours of all pixels, 0..255.
+/// Returns the colours of all pixels, 0..255.
 inline VectorImage Colours(const fsm::Image& image) {
   VectorImage out(image.width, image.height);
   for (std::size_t i = 0; i < out.values.size(); ++i) out.values[i] = Rgb(image, i);
   return out;
 }
 
-/// The upper of the two middle ones of an even number. REQUIRES: values are not empty.
+/// Returns the median; of an even number of values the upper middle one. REQUIRES: at least one
+/// value.
 inline float Median(std::vector<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);

@@ -11,13 +11,13 @@ namespace facefit {
 
 // Geometry in a plane. Pure; thread: any.
 
-/// Turned about (0, 0) from x towards y.
+/// Rotates a point about (0, 0) from x towards y.
 inline glm::vec2 Rotated(glm::vec2 p, float angle_rad) {
   const float c = std::cos(angle_rad), s = std::sin(angle_rad);
   return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
 
-/// The smallest rectangle around points; low > high as long as there is none.
+/// The bounding box of points; low > high while there are none.
 struct Box2 {
   glm::vec2 low{1e9F}, high{-1e9F};
   void Add(glm::vec2 p) {
@@ -34,8 +34,8 @@ inline float DistanceToSegment(glm::vec2 p, glm::vec2 a, glm::vec2 b) {
   return glm::distance(p, a + glm::clamp(t, 0.0F, 1.0F) * along);
 }
 
-/// The height at `x` of a line through points in the order of their x; beyond its ends that of the
-/// nearer end. REQUIRES: two points.
+/// Returns y at `x` of a polyline ordered by x; beyond its ends, y of the nearer end. REQUIRES: at
+/// least two points.
 template <typename Point>
 float HeightAt(std::span<const Point> line, float x) {
   std::size_t k = 1;

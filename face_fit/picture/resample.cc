@@ -22,7 +22,7 @@ std::array<float, 4> BSpline(float t) {
           t * t * t / 6};
 }
 
-/// Sums `get(index)` over 4 x 4 pixels of an image round a place; the edge goes on outside.
+/// Sums `get(index)` over the 4 x 4 pixels around a place; outside, the edge is repeated.
 template <typename Value, typename Picture, typename Weights, typename Get>
 Value Around(const Picture& image, glm::vec2 place, Weights weights, Get get) {
   const int width = image.width, height = image.height;

@@ -12,10 +12,10 @@ namespace facefit {
 struct Triangle2 {
   glm::vec2 a, b, c;
 
-  /// Twice the area; its sign says which way round the corners go.
+  /// Returns twice the area; the sign gives the orientation of the corners.
   float SignedArea() const { return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y); }
-  /// Barycentric coordinates of a point: of a, b and c, sum 1, negative beyond the opposite edge.
-  /// REQUIRES: SignedArea() is not 0.
+  /// Returns the barycentric coordinates of a point: of a, b and c, sum 1, negative beyond the
+  /// opposite edge. REQUIRES: SignedArea() is not 0.
   glm::vec3 WeightsAt(glm::vec2 p) const {
     const float area = SignedArea();
     const float u = ((p.x - a.x) * (c.y - a.y) - (c.x - a.x) * (p.y - a.y)) / area;
@@ -25,8 +25,8 @@ struct Triangle2 {
 };
 
 /// Calls `f(x, y, weights)` for each point with whole coordinates 0 <= x < columns, 0 <= y < rows
-/// in a triangle, whichever way round it goes. `slack`: by how much weights may fall short of 0, so
-/// that no point on an edge between two triangles is lost. Triangles without area have no points.
+/// in a triangle of either orientation. `slack`: how far weights may fall below 0, so that no point
+/// on an edge between two triangles is lost. Triangles without area have no points.
 template <typename F>
 void Rasterize(const Triangle2& triangle, int columns, int rows, float slack, F f) {
   constexpr float kMinArea = 1e-7F;

@@ -10,12 +10,11 @@
 
 namespace facefit {
 
-/// A triangle of a head: the numbers of its vertices, counter-clockwise from outside, and what it
-/// is of.
+/// A triangle of a head: indices of its vertices, counter-clockwise from outside, and its material.
 struct MeshTriangle {
   std::array<std::uint32_t, 3> corner{};
   fsm::Material material{};
-  /// Outward, as long as twice the area. `position`: of each vertex.
+  /// Returns the outward normal, whose length is twice the area. `position`: of each vertex.
   glm::vec3 Normal(const std::vector<glm::vec3>& position) const {
     return glm::cross(position[corner[1]] - position[corner[0]],
                       position[corner[2]] - position[corner[0]]);
@@ -34,7 +33,7 @@ void ForTriangles(const fsm::HeadTopology& topology, Keep keep_material, F f) {
   }
 }
 
-/// Likewise for skin and lips.
+/// Calls `f` with each triangle of skin and lips.
 template <typename F>
 void ForSkinTriangles(const fsm::HeadTopology& topology, F f) {
   ForTriangles(

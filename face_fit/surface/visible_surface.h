@@ -19,29 +19,28 @@ struct SampleGrid {
   glm::vec2 Point(int column, int row) const { return origin + step * glm::vec2(column, row); }
 };
 
-/// A depth buffer over a mesh: at each point of a grid it keeps the foremost place of the triangles
-/// that were drawn.
+/// A depth buffer: keeps at each point of a grid the foremost place of the triangles drawn.
 class VisibleSurface {
  public:
   static constexpr float kNothing = -1e9F;  ///< the depth where nothing was drawn
-  /// Which way the second coordinate of the grid's plane points: that of a picture down.
+  /// Whether the second coordinate of the grid's plane points up; that of a picture points down.
   enum class Upward { kNo, kYes };
-  /// `screen`: of each vertex x and y in the plane of the grid, z towards the viewer.
+  /// `screen`: for each vertex x and y in the grid's plane, z towards the viewer.
   VisibleSurface(const SampleGrid& grid, std::vector<glm::vec3> screen,
                  Upward upward = Upward::kNo);
-  /// Draws it whichever way it faces.
+  /// Draws a triangle of either orientation.
   void Draw(const MeshTriangle& triangle);
-  /// Draws it unless it is seen from behind.
+  /// Draws a triangle unless it is seen from behind.
   void DrawFront(const MeshTriangle& triangle);
 
   const SampleGrid& grid() const { return grid_; }
   const FloatImage& depth() const { return depth_; }
-  /// 1 where something was drawn.
+  /// Returns 1 where something was drawn, else 0.
   FloatImage Covered() const;
-  /// The triangle at a point; nullptr where there is none and outside the grid. It lives as long as
-  /// this and nothing more is drawn.
+  /// Returns the triangle at a point; nullptr where there is none and outside the grid. Valid until
+  /// the next Draw and as long as this object.
   const MeshTriangle* Triangle(int column, int row) const;
-  /// REQUIRES: a triangle there.
+  /// Returns the place at a point. REQUIRES: there is a triangle.
   MeshPoint Place(int column, int row) const;
 
  private:
@@ -56,8 +55,8 @@ class VisibleSurface {
   std::vector<Sample> samples_;
 };
 
-/// What is seen in a window before a head that looks to +z, in steps of kFrontStepMm, rows upward.
-/// Hair and lashes are seen through. Millimetres; at most 200 to a side.
+/// Returns the front view of a head that faces +z, in the window low..high, in steps of
+/// kFrontStepMm, rows upward, without hair and lashes. Millimetres; at most 200 to a side.
 inline constexpr float kFrontStepMm = 0.125F;
 VisibleSurface VisibleFromFront(const fsm::HeadTopology& topology,
                                 const std::vector<glm::vec3>& position, glm::vec2 low,

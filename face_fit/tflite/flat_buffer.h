@@ -9,7 +9,7 @@
 
 namespace facefit::tflite {
 
-/// Bytes that do not hold what they should.
+/// Thrown if bytes do not hold what they should.
 class BadModel : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -17,7 +17,7 @@ class BadModel : public std::runtime_error {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// A number of the machine's own format in a file; throws BadModel beyond its end.
+/// Returns a number at a place of a file; throws BadModel beyond the file's end.
 template <typename T>
 T Read(Bytes file, std::size_t at) {
   static_assert(std::endian::native == std::endian::little);
@@ -51,7 +51,7 @@ class FlatTable {
     return place == 0 ? otherwise : Read<T>(file_, place);
   }
 
-  /// A vector of scalars; empty if absent. The bytes need not be aligned.
+  /// Returns a vector of scalars; empty if absent. The bytes need not be aligned.
   Bytes Vector(std::size_t field, std::size_t item_bytes) const {
     const std::size_t place = Place(field);
     if (place == 0) return {};

@@ -13,7 +13,7 @@ std::size_t TargetWidth(unsigned packed) { return std::size_t{1} << (packed & 3U
 
 bool IsWidth(std::uint64_t bytes) { return bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8; }
 
-/// A whole number of `width` bytes. REQUIRES: IsWidth(width).
+/// Returns a whole number of `width` bytes. REQUIRES: IsWidth(width).
 template <typename Result, typename One, typename Two, typename Four>
 Result ReadWhole(Bytes bytes, std::size_t at, std::size_t width) {
   switch (width) {
@@ -30,14 +30,14 @@ Result ReadWhole(Bytes bytes, std::size_t at, std::size_t width) {
 constexpr auto ReadUnsigned = ReadWhole<std::uint64_t, std::uint8_t, std::uint16_t, std::uint32_t>;
 constexpr auto ReadSigned = ReadWhole<std::int64_t, std::int8_t, std::int16_t, std::int32_t>;
 
-/// What an offset at `at` points to: offsets count backwards.
+/// Returns the place an offset at `at` points to: offsets count backwards.
 std::size_t Behind(Bytes bytes, std::size_t at, std::size_t width) {
   const std::uint64_t back = ReadUnsigned(bytes, at, width);
   if (back > at) throw BadModel("an operator's options point outside themselves");
   return at - static_cast<std::size_t>(back);
 }
 
-/// How many items a vector has: the number stands before the first.
+/// Returns the number of items of a vector, which is stored before the first.
 std::size_t Count(Bytes bytes, std::size_t first, std::size_t width) {
   if (first < width) throw BadModel("an operator's options point outside themselves");
   const std::uint64_t count = ReadUnsigned(bytes, first - width, width);
@@ -67,7 +67,7 @@ FlexMap::FlexMap(Bytes bytes, const Value& map) : bytes_(bytes) {
 }
 
 FlexMap::Value FlexMap::Find(std::string_view key) const {
-  // Before the number of values stand the place of the keys and the width of their offsets.
+  // Before the number of values: the place of the keys and the width of their offsets.
   const std::size_t keys = Behind(bytes_, values_ - 3 * width_, width_);
   const std::uint64_t width = ReadUnsigned(bytes_, values_ - 2 * width_, width_);
   if (!IsWidth(width)) {

@@ -15,7 +15,7 @@ std::size_t At(const Shape& s, int row, int column) {
 
 using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The third input of a convolution; nullptr if it is left out.
+/// Returns the third input of a convolution; nullptr if it is left out.
 const float* BiasOf(Inputs inputs) {
   return inputs.size() > 2 && inputs[2] ? inputs[2]->values.data() : nullptr;
 }
@@ -29,8 +29,8 @@ void FillWithBias(Inputs inputs, Tensor& out) {
 }
 
 /// Calls f(pixel, from, row, column) for pixels first to end - 1 of the output, counted row by row,
-/// and every tap (row and column) of the filter that lies within the input, where the channels of
-/// what it sees begin at `from`.
+/// and each tap (row, column) of the filter that lies within the input; `from` is the index of the
+/// first channel under the tap.
 template <typename F>
 void ForEachTap(const op::Window& window, const Shape& in, const Shape& out, const Shape& filter,
                 Eigen::Index first, Eigen::Index end, F f) {
@@ -65,7 +65,8 @@ Padding PaddingOf(const op::Window& window, const Shape& in, const Shape& out, i
 void Run(const op::Convolution& convolution, Inputs inputs, Tensor& out) {
   const Tensor &in = *inputs[0], &filter = *inputs[1];
   const op::Window& window = convolution.window;
-  constexpr Eigen::Index kMaxNumbers = 1 << 20;  // of what several pixels see, side by side
+  // size of the patches of several pixels, side by side
+  constexpr Eigen::Index kMaxNumbers = 1 << 20;
   const Eigen::Index outs = out.shape.channels(), channels = in.shape.channels();
   const auto pixels = static_cast<Eigen::Index>(out.values.size()) / outs;
   const auto weights = static_cast<Eigen::Index>(filter.values.size()) / outs;
@@ -77,7 +78,7 @@ void Run(const op::Convolution& convolution, Inputs inputs, Tensor& out) {
     return;
   }
   const Eigen::Index together = std::clamp<Eigen::Index>(kMaxNumbers / weights, 1, pixels);
-  Rows patches(together, weights);  // of each pixel what the filter lies over
+  Rows patches(together, weights);  // for each pixel the inputs under the filter
   for (Eigen::Index first = 0; first < pixels; first += together) {
     const Eigen::Index count = std::min(together, pixels - first);
     patches.setZero();
@@ -240,7 +241,7 @@ void Run(const op::LandmarksToMatrix& options, Inputs inputs, Tensor& matrix) {
   const float angle_rad =
       std::atan2(y(options.right) - y(options.left), x(options.right) - x(options.left)) -
       options.angle_rad;
-  // The axes of the part as they lie in the whole: right = (c, s), down = (-s, c).
+  // The part's axes in the whole: right = (c, s), down = (-s, c).
   const float c = std::cos(angle_rad), s = std::sin(angle_rad);
   float left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
   for (const std::size_t i : options.points) {

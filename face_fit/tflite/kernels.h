@@ -9,17 +9,17 @@
 
 namespace facefit::tflite {
 
-/// The tensors that a step works on, in the order of the file; nullptr = left out.
+/// The input tensors of a step, in the order of the file; nullptr = left out.
 using Inputs = std::span<const Tensor* const>;
 
-/// Where a filter begins: rows and columns of zeros before the input.
+/// Rows and columns of zeros before the input.
 struct Padding {
   int rows = 0, columns = 0;
 };
 Padding PaddingOf(const op::Window& window, const Shape& in, const Shape& out, int filter_rows,
                   int filter_columns);
 
-// The operators' arithmetic. Sizes have been checked; `out` has its shape and its room.
+// The operators' arithmetic. Shapes are checked before; `out` has its shape and size.
 
 // Inputs of convolutions: what is filtered, the filter, and a bias, which may be left out.
 void Run(const op::Convolution& convolution, Inputs inputs, Tensor& out);
@@ -31,19 +31,19 @@ void Run(const op::ResizeBilinear& resize, Inputs inputs, Tensor& out);
 void Run(const op::Concatenation& concatenation, Inputs inputs, Tensor& out);
 /// The second input: how many zeros before and after each axis.
 void Run(const op::Pad& pad, Inputs inputs, Tensor& out);
-/// Takes of each axis places from the second input on, in steps of the fourth.
+/// Takes elements of each axis, from the second input on, in steps of the fourth.
 void Run(const op::StridedSlice& slice, Inputs inputs, Tensor& out);
 
-// MediaPipe's operators for looking closer at parts of a face. A matrix is 4 x 4, row by row, of
-// which the first two rows count: they take x, y, 0, 1 of the part to x and y of the whole.
+// MediaPipe's operators for looking closer at parts of a face. A matrix is 4 x 4, row-major; its
+// first two rows map (x, y, 0, 1) of the part to x and y of the whole.
 
 /// Input: x, y, z of each point.
 void Run(const op::LandmarksToMatrix& options, Inputs inputs, Tensor& matrix);
-/// Cuts a part out, bilinearly. Pixels are squares whose middles lie at halves; what lies beyond
-/// the middles of the outermost ones is 0. Inputs: the whole, a matrix.
+/// Crops a part, bilinearly. Pixel centres lie at .5; places beyond the outermost centres are 0.
+/// Inputs: the whole, a matrix.
 void Run(const op::TransformTensor& transform, Inputs inputs, Tensor& out);
-/// Takes points (x, y, or x, y, z with z left as it is) from the part to the whole. Inputs: the
-/// points, a matrix.
+/// Maps points (x, y, or x, y, z with z unchanged) from the part to the whole. Inputs: the points,
+/// a matrix.
 void Run(const op::TransformLandmarks& transform, Inputs inputs, Tensor& out);
 
 template <std::derived_from<op::OfEach> Each>

@@ -42,7 +42,7 @@ enum DepthwiseField : std::size_t {
 };
 enum PoolingField : std::size_t { kPoolingColumns = 3, kPoolingRows, kPoolingActivation };
 enum ConcatenationField : std::size_t { kConcatenationAxis, kConcatenationActivation };
-/// Of addition and multiplication.
+/// Options of addition and multiplication.
 enum PairField : std::size_t { kPairActivation };
 enum SliceField : std::size_t {
   kSliceBeginMask,
@@ -116,14 +116,14 @@ Tensor ReadTensor(const FlatTable& model, const FlatTable& table) {
   return tensor;
 }
 
-/// The options of a step; what a file leaves out has its default.
+/// Reads the options of a step; missing ones have their defaults.
 class Options {
  public:
   Options(std::optional<FlatTable> table, Bytes custom) : table_(table), custom_(custom) {}
   std::int32_t Number(std::size_t field) const { return Scalar<std::int32_t>(field, 0); }
   std::int8_t Small(std::size_t field) const { return Scalar<std::int8_t>(field, 0); }
   bool Flag(std::size_t field) const { return Small(field) != 0; }
-  /// A stride or size of a filter.
+  /// Returns a stride or size of a filter.
   int Size(std::size_t field) const {
     const int n = Scalar<std::int32_t>(field, 1);
     if (n < 1 || n > 4096) throw BadModel("a stride or filter of impossible size");
@@ -146,7 +146,7 @@ op::Window ReadWindow(const Options& options) {
           .stride_columns = options.Size(kWindowStrideColumns)};
 }
 
-/// `field`: of the first of two dilations.
+/// Throws BadModel if a filter is dilated. `field`: of the first of two dilations.
 void RefuseDilation(const Options& options, std::size_t field) {
   if (options.Size(field) != 1 || options.Size(field + 1) != 1) {
     throw BadModel("a dilated convolution");
@@ -164,7 +164,7 @@ Operator ReadConvolution(const Options& options) {
 }
 
 Operator ReadDepthwiseConvolution(const Options& options) {
-  // 0 stands for "as the shapes say", which are compared later.
+  // 0 means "as the shapes say", which are compared later.
   if (options.Number(kDepthwiseMultiplier) > 1)
     throw BadModel("a depthwise convolution of several filters");
   RefuseDilation(options, kDepthwiseDilation);
@@ -196,7 +196,7 @@ Operator ReadResizeBilinear(const Options& options) {
                             .half_pixel_centres = options.Flag(kResizeHalfPixelCentres)};
 }
 
-/// By the names that MediaPipe's TensorFlow Lite operation reads
+/// Reads options by the names of MediaPipe's TensorFlow Lite operation
 /// (mediapipe/util/tflite/operations, version 2).
 Operator ReadLandmarksToMatrix(const Options& options) {
   const auto within = [](std::int64_t n, std::int64_t most) {
@@ -222,7 +222,7 @@ Operator ReadLandmarksToMatrix(const Options& options) {
   return read;
 }
 
-/// How an operator is called in a file, and how its options are read.
+/// The identity of an operator in a file, and the function that reads its options.
 struct Reader {
   int number;          ///< of a built-in operator, or kCustom
   const char* custom;  ///< the name of one that is not

@@ -40,9 +40,9 @@ struct Tensor {
   std::vector<std::int32_t> counts;  ///< of a constant of whole numbers
 };
 
-/// A network read from a TensorFlow Lite file: of its operators those that the face networks of
-/// MediaPipe (the one with attention too) and its segmentation of persons use (Operator), in
-/// floating point with weights of 16 or 32 bits.
+/// A network read from a TensorFlow Lite file: floating point, weights of 16 or 32 bits, and only
+/// the operators (Operator) that MediaPipe's face networks (also the one with attention) and its
+/// segmentation of persons use.
 struct Model {
   std::vector<Tensor> tensors;
   std::vector<Step> steps;

@@ -17,13 +17,13 @@ int SizeAfter(const op::Window& window, int in, int stride, int filter) {
   return window.same_padding ? (in + stride - 1) / stride : (in - filter) / stride + 1;
 }
 
-/// Whether an operator's inputs, weights and output fit together. What does not throws BadModel.
+/// Checks that an operator's inputs, weights and output fit together; otherwise throws BadModel.
 class StepChecker {
  public:
   StepChecker(const Model& model, const Step& step)
       : model_(model), step_(step), in_(Of(step.inputs[0])), out_(Of(step.output).shape) {}
 
-  /// About how many multiplications each number of the output takes.
+  /// Returns the approximate number of multiplications for each number of the output.
   double Check() const {
     Require(in_.counts.empty(), "an operator works on whole numbers");
     Require(in_.shape.size[0] == 1 || std::holds_alternative<op::Dequantize>(step_.op),
@@ -98,7 +98,8 @@ class StepChecker {
     return 1;
   }
 
-  // Along the second axis of three, which is the third of four: whole blocks after each other.
+  // Supported along the second axis of three, which is the third of four: whole blocks follow each
+  // other.
   double CheckOf(const op::Concatenation& concatenation) const {
     std::size_t sum = 0;
     for (std::size_t i = 0; i < step_.inputs.size(); ++i) {

@@ -8,27 +8,27 @@
 
 namespace facefit::tflite {
 
-/// Runs a model. Immutable but for the tensors it works in; one thread at a time.
+/// Runs a model. Thread: one at a time, since runs share the tensors they work in.
 class Network {
  public:
   /// More multiplications than any of the networks needs, by some margin.
   static constexpr double kMaxWork = 4e9;
 
-  /// Throws BadModel if sizes do not match, if an operator is used in a way not known here, or if a
-  /// run takes more than about `most_work` multiplications: a network that was made can be run.
+  /// Throws BadModel if shapes do not match, if an operator is used in an unknown way, or if a run
+  /// takes more than about `most_work` multiplications: every network that was constructed can run.
   explicit Network(Model model, double most_work = kMaxWork);
 
   const Shape& input_shape() const { return Of(model_.inputs[0]).shape; }
   std::size_t outputs() const { return model_.outputs.size(); }
-  /// `input` holds input_shape().count() numbers.
+  /// Runs the model. REQUIRES: `input` holds input_shape().count() numbers.
   void Run(std::span<const float> input);
-  /// The output of the last run.
+  /// Returns an output of the last run.
   std::span<const float> output(std::size_t i) const { return Of(model_.outputs[i]).values; }
 
  private:
   const Tensor& Of(int i) const { return model_.tensors[static_cast<std::size_t>(i)]; }
   Tensor& Of(int i) { return model_.tensors[static_cast<std::size_t>(i)]; }
-  /// Weights of half precision have become floats when they were read: nothing is left to do.
+  /// Returns whether a step only widens weights of half precision, which reading has done already.
   bool IsRead(const Step& step) const {
     return std::holds_alternative<op::Dequantize>(step.op) && Of(step.inputs[0]).constant;
   }

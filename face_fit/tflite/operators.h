@@ -11,13 +11,13 @@
 /// (network.cc) and its arithmetic (kernels.h); the compiler asks for the last two.
 namespace facefit::tflite::op {
 
-/// How a filter or window moves over its input.
+/// Padding and strides of a filter or window.
 struct Window {
   bool same_padding = false;
   int stride_rows = 1, stride_columns = 1;
 };
 
-/// An operator that makes each number of the output from one number of its input, by `Of`.
+/// An elementwise operator of one input, computed by `Of`.
 struct OfEach {};
 struct Dequantize : OfEach {  ///< weights are read as what they stand for
   static float Of(float x) { return x; }
@@ -35,8 +35,8 @@ struct Relu : OfEach {
   static float Of(float x) { return std::max(x, 0.0F); }
 };
 
-/// An operator that makes each number of the output from one number of each of its two inputs, by
-/// `Of`. The second input has the shape of the first, or is one number for each channel, or one.
+/// An elementwise operator of two inputs, computed by `Of`. The second input has the shape of the
+/// first, or is one number for each channel, or one.
 struct OfPair {};
 struct Add : OfPair {
   static float Of(float a, float b) { return a + b; }
@@ -71,11 +71,11 @@ struct ResizeBilinear {
   bool align_corners = false, half_pixel_centres = false;
 };
 
-// MediaPipe's, for looking closer at parts of a face.
+// MediaPipe's operators for looking closer at parts of a face.
 
-/// Lays a picture of `columns` x `rows` over some points: it is turned until the line from point
-/// `left` to point `right` runs at `angle_rad`, and as large as the box round `points` times the
-/// scales.
+/// Computes the matrix of a picture of `columns` x `rows` over some points: rotated until the line
+/// from point `left` to point `right` runs at `angle_rad`, its size that of the box round `points`
+/// times the scales.
 struct LandmarksToMatrix {
   std::vector<std::size_t> points;
   std::size_t left = 0, right = 0;
