@@ -38,7 +38,7 @@ enum class PhotoPart { kCloseUp, kWhole };
 /// A photo from the front and what was found in it; no head is fitted yet.
 struct FrontPhoto {
   fsm::Image photo;  ///< the part that is worked on, upright
-  /// in pixels of `photo`; nothing if none was found. MakeFace takes the face as an argument
+  /// In pixels of `photo`; nothing if none was found. MakeFace takes a face as an argument.
   std::optional<FoundFace> face;
   FigureCutout figure;
   Occlusion occlusion;  ///< of the face
@@ -51,15 +51,13 @@ struct FrontPhoto {
   glm::ivec2 whole_size{0};
 };
 /// Finds the face in a photo, selects the part to work on, cuts the figure out, and checks whether
-/// something hides the face. The face may be uncertain: callers compare its certainty with
-/// kCertainFace. Errors: kBadValue, there are faces but fewer than the number asked for; as
-/// CheckWithin.
+/// something hides the face. The face may be uncertain: compare its certainty with kCertainFace.
+/// Errors: kBadValue, there are faces but fewer than the number asked for; as CheckWithin.
 vm::Result<FrontPhoto> PrepareFront(
     FaceNetworks& networks, const ObservedHead& base, fsm::Image photo, const FaceChoice& choice,
     PhotoPart part, const StepDone& done = [](const char*) {});
 
-/// Photos of the person from the side, and the networks to process them. Both must outlive the call
-/// of MakeFace.
+/// Photos of the person from the side, and the networks to process them; both outlive MakeFace.
 struct SidePhotos {
   FaceNetworks& networks;
   std::vector<const SidePhoto*> photos;

@@ -14,8 +14,7 @@
 namespace facefit {
 namespace {
 
-/// Returns the mean difference of neighbouring pixels over the middle of the face, divided by its
-/// brightness.
+/// Returns the mean difference of neighbouring pixels in the face, divided by its brightness.
 float Sharpness(const FoundFace& face, const fsm::Image& photo) {
   constexpr int kSamples = 60;         // on a side of the middle half of the face
   constexpr float kStep = 1 / 150.0F;  // relative to the face's size: finer than any feature
@@ -45,7 +44,7 @@ float SideLight(const FoundFace& face, const fsm::Image& photo) {
 
 // Limits from which the report warns, set by eye on the faces the program was developed with.
 constexpr float kTurnedDeg = 15, kTurnedFarDeg = 20;  // much of one side is not seen then
-// between their outer corners; the skin's map is finer than that
+// Between their outer corners; the skin's map is finer than that.
 constexpr float kSmallEyesPx = 80;
 constexpr float kBlurred = 0.012F;  // sharpness
 constexpr float kLitAside = 1.45F,

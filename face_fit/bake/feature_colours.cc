@@ -22,9 +22,8 @@ glm::vec3 Linear(glm::vec3 encoded) {
   return {linear(encoded.r), linear(encoded.g), linear(encoded.b)};
 }
 
-// Region where an eye's colours are sampled, divided by the distance of its corners: half size of a
-// rectangle about their middle, step of samples, and distance from the lids, because of lashes and
-// shade.
+// Where an eye's colours are sampled, divided by the distance of its corners: half size of a
+// rectangle about their middle, step, and distance from the lids with their lashes and shade.
 constexpr float kHalfWidth = 0.5F, kHalfHeight = 0.25F, kSampleStep = 0.02F, kFromLids = 0.05F;
 // Ranks by brightness of the colours that represent all samples: for the iris the median; for the
 // white a higher one, because lids and lashes shade it.
@@ -33,8 +32,7 @@ constexpr std::size_t kRanksTogether = 7, kMinSamples = 8;
 // Plausible linear light of irises and whites.
 constexpr glm::vec2 kIrisLight{0.0005F, 0.6F}, kWhiteLight{0.04F, 0.8F};
 
-/// Returns the mean of the colours around a rank of brightness, 0..1; `otherwise` if there are too
-/// few.
+/// Returns the mean colour around a rank of brightness, 0..1; `otherwise` if there are too few.
 glm::vec3 Typical(std::vector<glm::vec3> colours, float rank, glm::vec3 otherwise) {
   if (colours.size() < kMinSamples) return otherwise;
   std::ranges::sort(colours, {}, Brightness);

@@ -15,7 +15,7 @@ constexpr float kInnerWithin = 0.62F;  // part of skin around a point above whic
 constexpr float kDeepWithin = 0.95F;   // part of skin from which the sheet keeps its full distance
 constexpr float kShownLeast = 0.12F;   // opacity below which a point is outside the figure
 constexpr float kToShouldersMm = 70;   // height of the chin above the shoulders
-// part of inner skin nearby over which its depth begins to count
+// Part of inner skin nearby over which its depth begins to count.
 constexpr glm::vec2 kFadeDepth{0, 0.25F};
 
 /// Fills points that are not fixed with the solution of Poisson's equation for a slight constant

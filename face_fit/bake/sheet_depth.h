@@ -15,7 +15,7 @@ struct GridSkin {
   FloatImage depth;    ///< towards the camera, millimetres
   FloatImage covered;  ///< 1 where there is skin
   FloatImage within;   ///< part of skin within `rim` of each point, 0..1
-  /// 1 for skin away from its edge; only there each point has a depth of its own
+  /// 1 for skin away from its edge; only there each point has a depth of its own.
   FloatImage inner;
 };
 

@@ -85,7 +85,7 @@ struct PaintedMap {
   FloatImage coverage{kMapSize, kMapSize};  ///< how well the photo shows each texel, 0..1
   FloatImage smooth{kMapSize, kMapSize};    ///< part of its grain that each texel lost, 0..1
   std::vector<bool> skin =
-      /// whether a texel is outside eyes and mouth
+      /// Whether a texel is outside eyes and mouth.
       std::vector<bool>(coverage.values.size(), true);
 };
 

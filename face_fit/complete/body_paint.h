@@ -17,14 +17,12 @@ namespace facefit {
 /// light. canvas.h has a picture of the regions.
 class BodyPaint {
  public:
-  /// `opacity`: of the figure, photo pixels. `bust`: drawn on the canvas. The references must
-  /// outlive this object.
+  /// `opacity`: the figure's, in the photo. `bust`: drawn on the canvas. Others must outlive this.
   BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const FloatImage& opacity,
             const fsm::FaceLight& light, Bust bust);
   /// Returns whether the left or right edge of the photo cuts a shoulder.
   bool CutsShoulder() const { return joint_.left.cut || joint_.right.cut; }
-  /// Returns the body's colour and opacity at a place. REQUIRES: it lies beyond the photo or in it
-  /// beside the lower edge.
+  /// REQUIRES: the place lies beyond the photo, or in it beside the lower edge.
   Paint PaintAt(glm::vec2 place) const;
 
  private:
@@ -36,17 +34,15 @@ class BodyPaint {
     float opacity = 0, cloth = 0, openness = 1;
     glm::vec3 normal{0, 0, 1};
   };
-  /// The row in which one half of the bust is joined to the same half of the figure, and how it is
-  /// scaled there.
+  /// The row in which one half of the bust meets that half of the figure, and its scale there.
   struct Joint {
-    /// row in photo pixels; half width of the figure divided by that of the bust
+    /// Row in photo pixels; half width of the figure divided by that of the bust.
     float row = 0, width_ratio = 1;
     float fade_mm = 1;  ///< distance downward in which the ratio decays to 1 (1/e)
     bool cut = false;   ///< the photo's left or right edge cuts the shoulder
     float slope = 0;    ///< if `cut`: the outline's fall at the edge, pixels down per pixel outward
   };
-  /// Along one edge, indexed by Covering: the photo's colour less the colour of the drawn bust,
-  /// 0..255.
+  /// Along one edge, by Covering: the photo's colour less that of the drawn bust, 0..255.
   using Differences = std::array<EdgeMeans, 2>;
 
   float Axis() const { return bust_.axis - static_cast<float>(canvas_.photo_origin.x); }
@@ -68,7 +64,7 @@ class BodyPaint {
   Bust bust_;
   PerEdge<Joint> joint_;
   glm::vec3 cloth_colour_;  ///< 0..255
-  /// x of the middle and half width of the skin that the lower edge cuts, pixels
+  /// Middle (x) and half width of the skin that the lower edge cuts, pixels.
   glm::vec2 neckline_;
   Differences below_;
   PerEdge<Differences> aside_;

@@ -13,7 +13,7 @@ namespace facefit {
 /// of an upright person. The pictures are as large as the canvas.
 struct Bust {
   FloatImage opacity;  ///< coverage of each pixel, 0..1
-  /// part of each pixel that is cloth, 0..1; the rest of what is covered is skin
+  /// Part of each pixel that is cloth, 0..1; the rest of what is covered is skin.
   FloatImage cloth;
   FloatImage openness;  ///< part of the ambient light that arrives, 0..1
   VectorImage normal;   ///< unit; (0, 0, 1), towards the camera, where nothing is drawn

@@ -95,8 +95,7 @@ class EdgeReader {
     if (sample.opacity > kMostly) sample.kind = classifier_.KindOf(sample.colour);
     return sample;
   }
-  /// Counts the pixels from `from` on in direction `step`, at most `most`, that belong to the
-  /// figure and are not skin.
+  /// Counts the figure's pixels that are not skin from `from` on in direction `step`, up to `most`.
   int HairDepth(glm::ivec2 from, glm::ivec2 step, int most) const {
     int count = 0;
     for (glm::ivec2 p = from; count < most; p += step, ++count) {
@@ -110,8 +109,7 @@ class EdgeReader {
   bool HangsDown(std::size_t x, float from) const {
     return MostOf(x, from, [](std::size_t) { return true; });
   }
-  /// Returns whether most of that part of the column belongs to the figure and has the hair's
-  /// colour.
+  /// Returns whether most of that part of the column is figure in the hair's colour.
   bool HairHangsDown(std::size_t x, float from) const {
     return MostOf(x, from, [this](std::size_t i) { return KindOf(i) == EdgeKind::kHair; });
   }
@@ -133,18 +131,15 @@ class EdgeReader {
 
 // By colour alone brown hair would be skin in warm light, and the shade on a neck cloth. Above the
 // shoulders only hair hangs beside the neck, and only tips of a collar stand there; the neck itself
-// is bare or in a collar. So the lower edge is split into runs, which are classified by their
-// places.
+// is bare or in a collar. So the lower edge is split into runs, classified by their places.
 
-/// What a run of the lower edge consists of; the samples of kOther keep the kinds that their
-/// colours give.
+/// What a run of the lower edge consists of; samples of kOther keep the kinds of their colours.
 enum class RunKind { kOther, kClothOnNeck, kClothBesideNeck, kBeyondNeck };
 struct Run {
   std::size_t from, to;  ///< columns from..to - 1
   RunKind kind;
 };
-/// The kind that the samples of such a run get if something hangs down in any of its columns, and
-/// if nothing does.
+/// The kind of the samples of such a run if something hangs down in any of its columns, or if not.
 struct RunRule {
   RunKind run;
   EdgeKind hanging, standing;
@@ -262,8 +257,7 @@ glm::vec3 HairBeside(const PerEdge<std::vector<EdgeSampleWithHair>>& aside, floa
 
 glm::vec2 PhotoEdges::DomeByWidth() const {
   const auto& look = PhotoLook().hair;
-  // A figure that touches the upper edge from corner to corner is cut at the widest part of the
-  // head.
+  // A figure that touches the upper edge from corner to corner is cut where the head is widest.
   const bool all = std::ranges::none_of(
       top_, [](EdgeKind kind) { return kind == EdgeKind::kNothing; }, &EdgeSampleWithHair::kind);
   return {all ? look.dome_of_whole_edge : look.dome_by_width.x, look.dome_by_width.y};

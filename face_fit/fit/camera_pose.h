@@ -10,9 +10,8 @@
 
 namespace facefit {
 
-/// Depth of the plane of the face and of the camera, head's frame, millimetres. As in the renderer
-/// (its kFaceDepth), the camera is as far away as a lens of 25 degrees needs to show a portrait 330
-/// mm high.
+/// Depth of the face's plane and of the camera, head's frame, millimetres. As in the renderer (its
+/// kFaceDepth), a lens of 25 degrees shows a portrait 330 mm high from there.
 inline constexpr float kFaceZ = 50;
 inline constexpr float kCameraZ = kFaceZ + 744;
 
@@ -28,17 +27,15 @@ struct CameraPose {
   glm::vec2 centre{};    ///< pixel on the camera's axis
 
   glm::mat3 Rotation() const;
-  /// Transforms from the head's frame to the camera's, and back: millimetres, the same axes where
-  /// turn_rad is 0.
+  /// From the head's frame to the camera's, and back: millimetres, same axes where turn_rad is 0.
   glm::vec3 ToCamera(glm::vec3 p) const;
   glm::vec3 FromCamera(glm::vec3 q) const;
   /// Returns the direction from the head to the camera, head's frame, unit.
   glm::vec3 TowardsCamera() const;
   glm::vec2 Project(glm::vec3 q) const;  ///< from the camera's frame to pixels
-  /// from a pixel to the place at depth z, camera's frame
+  /// Returns the place of a pixel at depth z of the camera's frame.
   glm::vec3 Unproject(glm::vec2 pixel, float z) const;
-  /// Projects from the head's frame to a pixel, and back to the place at depth `z` of the camera's
-  /// frame.
+  /// From the head's frame to a pixel, and back to the place at depth `z` of the camera's frame.
   glm::vec2 Pixel(glm::vec3 p) const { return Project(ToCamera(p)); }
   glm::vec3 PlaceAt(glm::vec2 pixel, float z) const { return FromCamera(Unproject(pixel, z)); }
   /// Projects places; the third coordinate is the depth in the camera's frame.

@@ -12,11 +12,11 @@
 namespace facefit {
 namespace {
 
-// distance before and behind the profile in which the outline is searched
+// Distance before and behind the profile in which the outline is searched.
 constexpr float kReachMm = 13;
 constexpr float kReachStepMm = 0.5F;
 constexpr float kEvenMm = 2.2F;  // sigma of the Gaussian over height that smooths gaps
-// distance from the middle of the face at which 1/e of a gap is corrected
+// Distance from the middle of the face at which 1/e of a gap is corrected.
 constexpr float kWideMm = 24;
 constexpr float kMaxCorrectionMm = 6;     // in one round
 constexpr float kProfileBelowChinMm = 1;  // the profile ends there: the throat has no targets

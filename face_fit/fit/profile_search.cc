@@ -16,13 +16,13 @@ namespace {
 
 // The profile line of the head.
 constexpr float kLineStepMm = 2;  // between two places, in height
-// half width of the strip along the middle of the face that forms the outline
+// Half width of the strip along the middle of the face that forms the outline.
 constexpr float kHalfWidthMm = 13;
 constexpr float kThroatMm = 16;       // below the chin, where the outline goes back
 constexpr float kAboveNasionMm = 16;  // higher up there may be hair
 
-// The range of scales: the picture's figure reaches at least from above the head to the throat, at
-// most to the elbows. The range of tilts: people hold cameras no more askew.
+// The search: figures reach from above the head to the throat at least, to the elbows at most;
+// people hold cameras no more askew than this.
 constexpr float kMinHeightPx = 60;      // smaller figures show no profile
 constexpr std::size_t kMinPlaces = 30;  // of the profile, about 6 cm
 constexpr float kHeadMm = 180, kElbowsMm = 620;

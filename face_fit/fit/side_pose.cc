@@ -19,8 +19,7 @@ constexpr int kDrawnSize = 640;
 constexpr float kMinTurnDeg = 12, kMaxTurnDeg = 80;
 /// The network is less certain of a turned face than of one from the front (kCertainFace).
 constexpr float kMinCertainty = 0.5F;
-/// Greatest mean distance between points seen and drawn of the same face; other faces mostly exceed
-/// it.
+/// Greatest mean distance of points seen and drawn of one face; other faces mostly exceed it.
 constexpr float kMaxResidualMm = 2.6F;
 /// Cosine of the angle to the camera above which the network sees a point; weight of those below
 /// it, which it guesses.

@@ -10,7 +10,7 @@ namespace facefit {
 namespace {
 
 constexpr int kStereoRounds = 2;
-// distance from the face's middle within which the nose hides no cheek
+// Distance from the face's middle within which the nose hides no cheek.
 constexpr float kMiddleMm = 12;
 constexpr float kMaxDepthStepMm = 10;  // in one round
 // Outliers: depths that differ by more than kMistakenMm from a warp of all depths, smoothed by

@@ -5,9 +5,9 @@
 
 namespace facefit {
 
-/// What a face made from a photo looks like: tables/photo_look.txt, where each number is explained.
-/// The table is part of the program and no user replaces it, so these are constants, not a state
-/// that would have to be handed down. Thread: any.
+/// Returns the numbers of tables/photo_look.txt, where each is explained. The table is part of the
+/// program and no user replaces it, so these are constants, not a state that would have to be
+/// passed. Thread: any.
 const PhotoLookNumbers& PhotoLook();
 
 }  // namespace facefit

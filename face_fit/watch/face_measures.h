@@ -21,10 +21,10 @@ struct FaceMeasures {
   fsm::Sided<float> eye_mm{};         ///< between the edges of the lids, mean of three places
   fsm::Sided<float> brow_inner_mm{};  ///< above the line through the corners of both eyes
   fsm::Sided<float> brow_outer_mm{};
-  /// since the first picture: down, to the person's left, towards the left shoulder
+  /// Since the first picture: down, to the person's left, towards the left shoulder.
   glm::vec3 turn_deg{0};
-  /// offset of the iris from the middle of the eye, divided by the eye's width: to the viewer's
-  /// right, up; mean of both eyes
+  /// Offset of the iris from the middle of the eye, divided by the eye's width: to the viewer's
+  /// right, up; mean of both eyes.
   glm::vec2 gaze{0};
 };
 

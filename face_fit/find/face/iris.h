@@ -13,8 +13,8 @@ namespace facefit {
 struct IrisCircle {
   glm::vec2 centre;
   float radius = 0;  ///< pixels
-  /// contrast of the edge: least of both sides + 0.35 x the greatest, each the white's brightness
-  /// less the iris's, 0..1, so -1.35..1.35; below kClearIris no iris was seen
+  /// Contrast of the edge, -1.35..1.35: the lesser step of brightness of both sides + 0.35 times
+  /// the greater one. Below kClearIris no iris was seen.
   float contrast = 0;
 };
 inline constexpr float kClearIris = 0.06F;

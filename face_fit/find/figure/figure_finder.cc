@@ -18,7 +18,7 @@ namespace {
 constexpr float kNearby = 0.03F;     // reach in which the other side's colour is searched
 constexpr float kSameOnBoth = 0.8F;  // ratio to the other side's opacity above which both agree
 constexpr glm::vec2 kAlike{0.3F, 0.05F};  // difference of colours, 0..1, from unlike to alike
-// new opacity, divided by the other side's: unlike, alike
+// New opacity, divided by the other side's: unlike, alike.
 constexpr float kDoubt = 0.5F, kRather = 0.85F;
 
 // The second look at the head, relative to the size of the face: side of the square, and how far

@@ -15,11 +15,11 @@ namespace facefit {
 FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image,
                          const FoundFace* face = nullptr);
 
-/// Returns `person`, 0..1, with the sides of the head made more alike. Heads are nearly symmetric:
-/// where one side of a face that looks into the camera belongs to the person and its mirror image
-/// does not (an ear, half a hat), the network may have missed the latter. Such pixels become
-/// uncertain, or nearly as certain as the other side where both have one colour. Only near the
-/// head, since what stands behind it often has its colour.
+/// Returns `person`, 0..1, with the sides of the head made more alike: where one side of a face
+/// that looks into the camera belongs to the person and its mirror image does not (an ear, half a
+/// hat), the network may have missed the latter. Such pixels become uncertain, or nearly as certain
+/// as the other side where both have one colour. Only near the head, since things behind it often
+/// have its colour.
 FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image, const FloatImage& person);
 
 }  // namespace facefit

@@ -19,22 +19,17 @@
 namespace facefit {
 namespace {
 
-/// Longest side of a picture that is solved; the matte of a larger one is upsampled from a smaller
-/// copy.
+/// Longest side of a picture that is solved; mattes of larger ones are upsampled from a copy.
 constexpr int kSolvedSize = 720;
-/// Reach in which the rough outline may be wrong: longer side divided by the first, plus the
-/// second, pixels.
+/// Reach of errors of the rough outline: longer side / first + second, pixels.
 constexpr int kOutlinePart = 90, kOutlinePixels = 2;
-/// Regularisation of colour covariances (variance of values 0..1) in the matting Laplacian and in
-/// the guided filter.
+/// Regularisation of covariances of colours 0..1: matting Laplacian, guided filter.
 constexpr float kLaplacianNoise = 2e-5F, kGuideNoise = 2e-4F;
-/// Weight that holds a pixel to its opacity: for every pixel, and the addition where that is 0 or
-/// 1.
+/// Weight that holds a pixel to its opacity: any pixel, and in addition one of opacity 0 or 1.
 constexpr float kPull = 0.003F, kPullDecided = 0.03F;
 /// Opacities this close to 0 and 1 become 0 and 1.
 constexpr float kNearlyNone = 0.04F;
-/// Passes of the foreground estimation, wide first: the reach is the longer side divided by the
-/// first number, plus the second, pixels.
+/// Passes of the foreground estimation, wide first: reach is longer side / first + second, pixels.
 constexpr std::pair<int, int> kForegroundReach[] = {{16, 2}, {150, 1}};
 /// Opacity below which the figure's own colour is unknown, and from which it is known.
 constexpr float kUnknown = 0.05F, kKnown = 0.6F;
@@ -119,8 +114,7 @@ class MattingLaplacian {
   std::vector<Window> windows_;
 };
 
-/// Runs conjugate gradients on the undecided pixels (`open` = 1); `pull` holds each to its initial
-/// `x`.
+/// Runs conjugate gradients on undecided pixels (`open` = 1); `pull` holds each to its initial `x`.
 void ConjugateGradients(const MattingLaplacian& laplacian, const PixelVector& open,
                         const PixelVector& pull, PixelVector& x) {
   constexpr int kRounds = 120;
@@ -172,8 +166,7 @@ FloatImage SolveOpacity(const fsm::Image& image, const FloatImage& person) {
     out.values[i] = doubt ? Sharpened(person.values[i]) : std::round(around.values[i]);
   }
   const MattingLaplacian laplacian(image, open);
-  // The second round starts from the first result, so that pixels whose colours tell nothing settle
-  // on 0 or 1.
+  // The second round settles pixels whose colours tell nothing on 0 or 1.
   for (int round = 0; round < 2; ++round) {
     PixelVector opacity = Eigen::Map<const PixelVector>(out.values.data(), count);
     const PixelVector pull = kPull + kPullDecided * (2 * opacity - 1).square();

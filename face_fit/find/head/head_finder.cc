@@ -28,12 +28,10 @@ constexpr glm::mat3 kTurns[] = {{1, 0, 0, 0, 1, 0, 0, 0, 1},    // y up, towards
                                 {0, 0, 1, 0, 1, 0, -1, 0, 0},   // towards x
                                 {0, 0, -1, 0, 1, 0, 1, 0, 0}};  // towards -x
 
-/// Part of the file's height, from the top, that may be the head: a head alone, a bust, two kinds
-/// of whole figures.
+/// Part of the file's height, from the top, that may be the head: head, bust, whole figures.
 constexpr float kHeadParts[] = {1, 0.8F, 0.28F, 0.15F};
 
-/// Returns the transform that scales the head to our size and centres it, if it is the given upper
-/// part of the file.
+/// Returns the transform of that upper part of the file to our head's size and place.
 fsm::Similarity InitialPlacement(const fsm::ImportedHead& file, const glm::mat3& turn, float part) {
   fsm::Box box;
   for (const glm::vec3& p : file.position) box.Add(turn * p);
@@ -71,8 +69,7 @@ void SpreadAlongSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
   }
 }
 
-/// Moves the points of the eyes' outlines in both lists onto the edges of the lids, where both
-/// heads show them.
+/// Moves the points of the eyes' outlines onto the edges of the lids, where both heads show them.
 void OntoLidEdges(const ObservedHead& ours, std::vector<MeshPoint>& our_points,
                   const ObservedHead& theirs, std::vector<MeshPoint>& their_points) {
   for (const fsm::Side side : fsm::kSides) {
@@ -160,11 +157,11 @@ float DegreesBetween(const glm::mat3& a, const glm::mat3& b) {
 }
 
 /// Observes the head as guessed, and again scaled and turned as our own head was. There is no match
-/// if no face is seen, or if it was not seen from the front: the networks take a profile for a
-/// face, too, but misplace its points, so that the second look turns the head again. Measured on
-/// two heads, and on one of them made wider, taller, deeper and flatter: from the front the second
-/// look turns the head by at most 1 degree and leaves 3.7 to 7.4 mm, from elsewhere by 8 degrees or
-/// more, with 7.3 to 40 mm.
+/// if no face is seen, or not from the front: the networks find faces in profiles, too, but
+/// misplace their points, so that the second look turns the head again. Measured on two heads, and
+/// on one of them made wider, taller, deeper and flatter: from the front the second look turns the
+/// head by at most 1 degree and leaves 3.7 to 7.4 mm, from elsewhere by 8 degrees or more, with 7.3
+/// to 40 mm.
 struct Look {
   bool face_seen = false;  ///< from any side
   std::optional<HeadMatch> match;
