@@ -216,7 +216,7 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
                         const FigureCutout& figure, std::span<const SideView> side_views) {
   const FittedHead& fitted = fit.head;
   const SkinTexels texels = ProjectSkin(fitted, fitted.pose, SelfHidden::kNotSeen);
-  // This decided also whether the lips were fitted apart or to the line where they meet.
+  // The same flag decided whether the lips were fitted apart or to the line where they meet.
   const bool open = fit.targets.lips_apart;
   PaintedMap map = PaintPhoto(face, fitted, texels, open, figure.colours);
   std::vector<glm::vec3> also_seen;

@@ -140,7 +140,7 @@ Paint HairPaint::HairBelow(glm::vec2 place, float below_px) const {
   const auto& beard = PhotoLook().beard;
   const glm::vec4 hair = below_.MeanAround(
       x, (look.spread_mm + look.spread_per_mm * below_mm) * canvas_.pixels_per_mm);
-  // Below a bearded chin it is the beard, which ends at once.
+  // Below a bearded chin hangs the beard, which is short.
   const float aside_mm = std::abs(x - canvas_.chin.x) / canvas_.pixels_per_mm;
   const float falls_mm = bearded_ ? glm::mix(beard.falls_mm, look.falls_mm,
                                              fsm::SmoothStep(beard.ends_aside_mm, aside_mm))

@@ -10,8 +10,8 @@
 
 namespace facefit {
 
-/// Depth of the face's plane and of the camera, head's frame, millimetres. As in the renderer (its
-/// kFaceDepth), a lens of 25 degrees shows a portrait 330 mm high from there.
+/// Depth of the face's plane and of the camera, head's frame, millimetres. The camera is as far
+/// away as the renderer's (its kFaceDepth), whose lens of 25 degrees shows a portrait 330 mm high.
 inline constexpr float kFaceZ = 50;
 inline constexpr float kCameraZ = kFaceZ + 744;
 

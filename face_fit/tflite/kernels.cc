@@ -65,7 +65,7 @@ Padding PaddingOf(const op::Window& window, const Shape& in, const Shape& out, i
 void Run(const op::Convolution& convolution, Inputs inputs, Tensor& out) {
   const Tensor &in = *inputs[0], &filter = *inputs[1];
   const op::Window& window = convolution.window;
-  // size of the patches of several pixels, side by side
+  // Size of the patches of several pixels, side by side.
   constexpr Eigen::Index kMaxNumbers = 1 << 20;
   const Eigen::Index outs = out.shape.channels(), channels = in.shape.channels();
   const auto pixels = static_cast<Eigen::Index>(out.values.size()) / outs;

@@ -21,7 +21,7 @@ using HandPoints = std::map<PointIndex, glm::vec2>;
 /// without a line number for a missing point, and for corners of the eyes or of the mouth that
 /// coincide.
 vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view text);
-/// Error: kBadValue, no point lies in a photo of that size.
+/// Checks that a point lies in a photo of that size. Error: kBadValue, none does.
 vm::Result<void> CheckWithin(const HandPoints& points, int width, int height);
 /// A point with a name; `needed`: ParseHandPoints requires it.
 struct HandPointName {

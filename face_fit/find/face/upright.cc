@@ -29,10 +29,11 @@ Clearness ClearnessOf(std::span<const FoundFace> faces) {
   return clear;
 }
 
-/// Sum for each face above which the photo counts as upright, for one face and for several: some of
+/// Mean clearness above which a photo counts as upright, for one face and for several: some of
 /// several people may lean, but not all to the same side.
 constexpr float kUprightOne = 0.93F, kUprightGroup = 0.75F;
-/// By how much for each face another orientation must be better: photos that lie are rare.
+/// By how much for each face another orientation must be better: photos that lie on a side are
+/// rare.
 constexpr float kClearer = 0.04F;
 
 }  // namespace
