@@ -105,6 +105,7 @@ std::vector<vm::Message> FsmModule::Greeting() {
 // ---- time
 
 void FsmModule::Changed() {
+  changed_ = true;
   pictures_->Touch();
   ArmFrames();
   ArmEnd();
@@ -128,10 +129,15 @@ void FsmModule::ArmFrames() {
   const vm::Time now = core_.Now();
   std::optional<vm::Time> due;
   if (wanted) {
-    // The effect of the last command is shown in the next frame, even if nothing moves.
     const auto active = core_.view.Swings() ? now : core_.motion->NextActivity(now);
     if (active) due = FrameAfter(std::max(now, *active));
-    if (window) due = std::min(due.value_or(now + kWindowEvents), now + kWindowEvents);
+    if (window) {
+      // The effect of a command is shown in the next frame, even if nothing moves by it, and
+      // commands do not put off a frame that is due already.
+      const vm::Time next = changed_ ? FrameAfter(now) : now + kWindowEvents;
+      due = std::min(due.value_or(next), next);
+      if (frame_timer_.pending()) due = std::min(*due, frame_due_);
+    }
   }
   if (!due) return frame_timer_.Cancel();
   if (frame_timer_.pending() && *due == frame_due_) return;
@@ -149,6 +155,7 @@ void FsmModule::OnFrame() {
       return;
     }
     window->Show();
+    changed_ = false;
     if (window->close_requested()) exit_requested_ = true;
   }
   if (!record_->recording()) frames_->ReportShown(now);

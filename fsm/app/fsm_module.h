@@ -79,6 +79,7 @@ class FsmModule final : public vm::Module {
   double frame_rate_ = 60;
   vm::Timer frame_timer_{core_.clock};
   vm::Time frame_due_{0};
+  bool changed_ = false;  // by a command since the window was drawn last
   vm::Timer end_timer_{core_.clock};
   vm::Time end_due_{0};
   bool exit_requested_ = false;

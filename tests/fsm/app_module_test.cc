@@ -304,6 +304,17 @@ TEST(FsmModuleTest, AWindowIsDrawnWhileSomethingMovesAndElseNowAndThen) {
   EXPECT_TRUE(fsm.module.ExitRequested());
 }
 
+TEST(FsmModuleTest, AWindowShowsCommandsThatMoveNothingHoweverManyCome) {
+  FsmStage fsm({}, true);
+  fsm.Until(300);
+  const int before = fsm.world.shown;
+  for (int i = 1; i <= 50; ++i) {
+    fsm.Say("set AgentRot = 0 " + std::to_string(i % 20) + " 0");
+    fsm.Until(300 + i * 20);
+  }
+  EXPECT_GE(fsm.world.shown - before, 45) << "about one for each command, 20 ms apart";
+}
+
 TEST(FsmModuleTest, AWindowIsDrawnUntilNothingSwings) {
   FsmStage fsm({}, true);
   fsm.Until(1000);
