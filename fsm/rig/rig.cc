@@ -30,7 +30,7 @@ step::Eye EyeOf(const RigData& data, const Pose& pose, Side side) {
   const glm::vec3 across = eye.Turned({0, 1, 0});  // (-sin, cos) times the eye's size
   const glm::vec3 ahead = pose.eye[side][2];
   return {
-      .gaze = step::TurnOf(EyeTurn(data.eyes, pose, side)),
+      .gaze = step::RotationOf(EyeTurn(data.eyes, pose, side)),
       .pivot = step::PointAt(data.eyes.pivot[side]),
       .ball = step::PointAt(data.ball_lids.centre[side]),
       .cornea = step::PointAt(data.lids.ball[side] + eye.size * data.lids.cornea_centre * ahead),
@@ -52,7 +52,7 @@ step::StepState StateOf(const RigData& data, const Pose& pose) {
                     .tongue_raise = pose.tongue_raise,
                     .tongue_out = pose.tongue_out_mm},
           .eyes = {EyeOf(data, pose, Side::kRight), EyeOf(data, pose, Side::kLeft)},
-          .neck = {.turn = step::TurnOf(pose.head),
+          .neck = {.turn = step::RotationOf(pose.head),
                    .pivot = step::PointAt(kNeckPivot),
                    .forward = pose.head_forward_mm}};
 }

@@ -116,7 +116,7 @@ void MoveBones(const RigData& data, std::span<const std::uint32_t> rigid, StepWo
     } else if (const auto side = EyeOf(data.bone[i])) {
       const step::Eye& eye = work.state.eyes[static_cast<std::size_t>(*side)];
       p = step::WithGaze(eye, p);
-      n = step::Turned(eye.gaze, n);
+      n = step::Rotated(eye.gaze, n);
     }
   }
 }
@@ -125,7 +125,7 @@ void TurnNeck(const RigData& data, std::span<const std::uint32_t> rigid, StepWor
   const step::Neck& neck = work.state.neck;
   for (std::size_t i = 0; i < work.position.size(); ++i)
     work.position[i] = step::WithNeck(neck, work.position[i], data.weights[i].neck);
-  for (const std::uint32_t i : rigid) work.normal[i] = step::Turned(neck.turn, work.normal[i]);
+  for (const std::uint32_t i : rigid) work.normal[i] = step::Rotated(neck.turn, work.normal[i]);
 }
 
 void Swing(std::span<const SpringWeight> weights, StepWork& work) {

@@ -34,10 +34,10 @@ FUNCTION vec3 Vec(Point p) { return vec3(p.x, p.y, p.z); }
 FUNCTION Point PointAt(vec3 p) { return Point(p.x, p.y, p.z); }
 
 // A rotation: the images of the three axes (columns of its matrix).
-struct Turn {
+struct Rotation {
   Point x, y, z;
 };
-FUNCTION vec3 Turned(Turn turn, vec3 p) { return Vec(turn.x) * p.x + Vec(turn.y) * p.y + Vec(turn.z) * p.z; }
+FUNCTION vec3 Rotated(Rotation turn, vec3 p) { return Vec(turn.x) * p.x + Vec(turn.y) * p.y + Vec(turn.z) * p.z; }
 
 // ---- The jaw rotates about a hinge along x, slides forward and sways to the viewer's right.
 
@@ -95,7 +95,7 @@ struct LidPoint {
 };
 
 struct Eye {
-  Turn gaze;         // rotation of the eyeball, about `pivot`
+  Rotation gaze;     // of the eyeball, about `pivot`
   Point pivot;
   Point ball;        // centre of the ball that lids stay outside of
   Point cornea;      // centre of its sphere
@@ -135,7 +135,7 @@ FUNCTION vec3 OutOfBall(vec3 centre, float radius, vec3 p) {
 }
 
 FUNCTION vec3 WithGaze(Eye eye, vec3 p) {
-  return Vec(eye.pivot) + Turned(eye.gaze, p - Vec(eye.pivot));
+  return Vec(eye.pivot) + Rotated(eye.gaze, p - Vec(eye.pivot));
 }
 
 // The cornea bulges the lid that it moves under.
@@ -272,13 +272,13 @@ FUNCTION vec3 BetweenLips(TonguePath path, Mouth mouth, vec3 p, float lower_z, v
 // ---- The head turns about a point of the neck and goes forward.
 
 struct Neck {
-  Turn turn;
+  Rotation turn;
   Point pivot;
   float forward;
 };
 
 FUNCTION vec3 WithNeck(Neck neck, vec3 p, float weight) {
-  vec3 turned = Vec(neck.pivot) + Turned(neck.turn, p - Vec(neck.pivot));
+  vec3 turned = Vec(neck.pivot) + Rotated(neck.turn, p - Vec(neck.pivot));
   turned.z += neck.forward;
   return p + weight * (turned - p);
 }

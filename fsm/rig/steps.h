@@ -20,6 +20,8 @@ using glm::atan, glm::clamp, glm::cos, glm::cross, glm::dot, glm::length, glm::m
 #include "fsm/rig/steps.glsl"
 #undef FUNCTION
 
-inline Turn TurnOf(const glm::mat3& m) { return {PointAt(m[0]), PointAt(m[1]), PointAt(m[2])}; }
+inline Rotation RotationOf(const glm::mat3& m) {
+  return {PointAt(m[0]), PointAt(m[1]), PointAt(m[2])};
+}
 
 }  // namespace fsm::step

@@ -156,7 +156,7 @@ void Take(uint record) {
     SetPosition(vertex, WithJaw(jaw, p, 1.0));
   } else {
     Eye eye = states[Face()].eyes[bone];
-    SetNormal(vertex, Turned(eye.gaze, n));
+    SetNormal(vertex, Rotated(eye.gaze, n));
     SetPosition(vertex, WithGaze(eye, p));
   }
 }
@@ -167,7 +167,7 @@ RECORDS(NeckRecord);
 void Take(uint vertex) {
   Neck neck = states[Face()].neck;
   SetPosition(vertex, WithNeck(neck, Position(vertex), records[vertex].weight));
-  if (records[vertex].turns_normal != 0u) SetNormal(vertex, Turned(neck.turn, Normal(vertex)));
+  if (records[vertex].turns_normal != 0u) SetNormal(vertex, Rotated(neck.turn, Normal(vertex)));
 }
 #endif
 
