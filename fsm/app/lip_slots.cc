@@ -31,12 +31,19 @@ std::vector<SlotWord<glm::vec2>> WaysOfSpeaking(const GestureNumbers& gestures) 
           {"SHOUTED", {jaw.SHOUTED, lips.SHOUTED}}};
 }
 
-vm::Result<void> ChooseVisemes(MotionSettings& settings, const vm::SetValue& value) {
+/// Returns the set that the first number of a value names.
+vm::Result<VisemeSetId> SetNamed(const vm::SetValue& value) {
   if (value.number(0) != 14 && value.number(0) != 28) {
     return vm::Fail(vm::Errc::kBadValue,
                     "there are sets of 14 and of 28 mouth shapes; 14 or 28 expected");
   }
-  settings.lips.visemes = SetOfCount(value.number(0));
+  return SetOfCount(value.number(0));
+}
+
+vm::Result<void> ChooseVisemes(MotionSettings& settings, const vm::SetValue& value) {
+  const auto set = SetNamed(value);
+  if (!set) return std::unexpected(set.error());
+  settings.lips.visemes = *set;
   return {};
 }
 
@@ -166,10 +173,9 @@ void DeclareVisemeFiles(FsmCore& core) {
        .access = vm::Access::kWriteOnly,
        .help = "Writes the 14 or the 28 mouth shapes to a file, as MouthShapes loads them.",
        .on_set = core.Command([&core](const vm::SetValue& value) -> vm::Result<void> {
-         if (value.number(0) != 14 && value.number(0) != 28) {
-           return vm::Fail(vm::Errc::kBadValue, "14 or 28 mouth shapes expected");
-         }
-         return SaveVisemes(core, SetOfCount(value.number(0)), value.word(1));
+         const auto set = SetNamed(value);
+         if (!set) return std::unexpected(set.error());
+         return SaveVisemes(core, *set, value.word(1));
        })});
 }
 

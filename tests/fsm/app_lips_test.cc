@@ -74,6 +74,9 @@ TEST(LipSlotsTest, TablesOfShapesAreWrittenAndLoaded) {
   FsmStage fsm;
   fsm.Say(std::string("set MouthShape28.ja_a = ") + kWideA);
   EXPECT_EQ(fsm.Say("set#1 SaveMouthShapes = 28 " + file), "rep#1 SaveMouthShapes = 28 " + file);
+  EXPECT_EQ(fsm.Say("set#2 SaveMouthShapes = 20 " + file),
+            "rep#2 SaveMouthShapes.error = BAD_VALUE there are sets of 14 and of 28 mouth shapes; "
+            "14 or 28 expected");
   FsmStage other;
   EXPECT_EQ(other.Say("set#1 MouthShapes = " + file), "rep#1 MouthShapes = " + file);
   EXPECT_NEAR(JawOfLongA(other), 15, 0.1);

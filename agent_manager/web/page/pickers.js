@@ -15,6 +15,14 @@ function fill(select, values, now) {
 }
 
 // "en ja" as a list; null where any language is meant, or none is told.
+// The language's name in itself; the code where it is none, as any module may tell anything.
+function nameOf(code) {
+  try {
+    return new Intl.DisplayNames([code], {type: 'language'}).of(code) ?? code;
+  } catch {
+    return code;
+  }
+}
 const codesOf = words => words === '*' || words === '' ? null : words.split(/\s+/);
 
 export class Pickers {
@@ -62,7 +70,7 @@ export class Pickers {
         put(option, 'automatic');
         continue;
       }
-      const name = new Intl.DisplayNames([value], {type: 'language'}).of(value) ?? value;
+      const name = nameOf(value);
       const heard = !this.understood || this.understood.includes(value);
       option.textContent = heard ? name : text('typed_only', {language: name});
     }
