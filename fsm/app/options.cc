@@ -149,11 +149,13 @@ void AddOptions(CLI::App& app, Options& options) {
   AddDrawing(app, options.view);
   app.add_option("--size", options.size, "Size of the view, WxH (default 640x480)");
   app.add_option_function<std::pair<int, int>>(
-      "-s", [&options](const auto& size) { options.size_pair = size; },
-      "The same, as the original: -s W H");
+         "-s", [&options](const auto& size) { options.size_pair = size; },
+         "The same, as the original: -s W H")
+      ->type_name("W H");
   app.add_option_function<std::pair<int, int>>(
-      "--position", [&options](const auto& place) { options.view.position = place; },
-      "Place of the window, X Y; -p X Y, too");
+         "--position", [&options](const auto& place) { options.view.position = place; },
+         "Place of the window; -p X Y, too")
+      ->type_name("X Y");
   app.add_option("-C", options.config, "A configuration file of the original (config.txt)");
   app.add_option_function<std::string>(
       "--tables", [&options](const std::string& path) { options.module.tables = path; },
