@@ -17,6 +17,8 @@ if ! cmake -S "$root" -B "$folder" -G Ninja "$@" >"$log" 2>&1; then
   cat "$log" >&2
   exit 1
 fi
+# The compiler cache takes what a source depends on from the compiler and does not run the preprocessor by itself first.
+export CCACHE_DEPEND=1
 # Two compilers at once need about 2 GiB; more cores are used only where there is memory for them.
 jobs=$(nproc)
 memory_gib=$(awk '/MemAvailable/ {print int($2 / 1048576)}' /proc/meminfo)

@@ -35,7 +35,7 @@ RestartPolicy ReadRestart(const json& value, const std::string& key) {
   return policy;
 }
 
-ResourceLimits ReadLimits(const json& value, const std::string& key) {
+ResourceLimits ReadResourceLimits(const json& value, const std::string& key) {
   ResourceLimits limits;
   const auto into = [](unsigned long& target) {
     return [&target](const json& v, const std::string& k) {
@@ -131,7 +131,7 @@ ModuleConfig ReadModule(const json& object, const std::string& key) {
                   {"ready", [&](const json& v, const std::string& k) { ReadReady(v, k, module); }},
                   {"ready_within_ms", Into(module.ready_within, millis(100, 3600000))},
                   {"health", Into(module.health, ReadHealth)},
-                  {"limits", Into(module.limits, ReadLimits)},
+                  {"limits", Into(module.limits, ReadResourceLimits)},
                   {"stop_within_ms", Into(module.stop_within, millis(0, 600000))},
                   {"dialect", Into(module.dialect, dialect)},
                   {"framing", Into(module.framing, WordOf({"lf", "mmi"}))},

@@ -40,7 +40,7 @@ std::optional<std::string> LineSource::Next() {
 
 namespace {
 
-using Words = std::vector<std::string>;
+using LineWords = std::vector<std::string>;
 using Answer = vm::Result<std::string>;
 
 Answer Done(vm::Result<void> result) {
@@ -48,12 +48,12 @@ Answer Done(vm::Result<void> result) {
   return "";
 }
 
-int PatternIn(const Words& words, std::size_t at) {
+int PatternIn(const LineWords& words, std::size_t at) {
   const auto number = at < words.size() ? fsm::ParseNumber(words[at]) : 1.0;
   return number ? static_cast<int>(*number) : 0;
 }
 
-Answer Turn(Program& program, const Words& words) {
+Answer Turn(Program& program, const LineWords& words) {
   for (const PageName& page : kPages) {
     if (words.size() == 2 && words[1] == page.word) {
       program.ui.page = page.page;
@@ -67,7 +67,7 @@ Answer Turn(Program& program, const Words& words) {
               "points, units, fields, expressions, mouth, motions or identity expected");
 }
 
-Answer Play(Program& program, const Words& words) {
+Answer Play(Program& program, const LineWords& words) {
   Show show;
   const std::string kind = words.size() > 1 ? words[1] : "";
   if (kind == "expression" && words.size() > 2) {
@@ -91,7 +91,7 @@ Answer Play(Program& program, const Words& words) {
   return Done(program.ui.player.Start(show, program.ui.loop, program.ui.now));
 }
 
-Answer Choose(Program& program, const Words& words) {
+Answer Choose(Program& program, const LineWords& words) {
   Ui& ui = program.ui;
   const std::string kind = words.size() > 2 ? words[1] : "";
   if (kind == "expression") {
@@ -120,7 +120,7 @@ Answer Choose(Program& program, const Words& words) {
 }
 
 /// Where a point of the photo or a widget is in the window.
-vm::Result<ImVec2> Place(const Program& program, const Words& words) {
+vm::Result<ImVec2> Place(const Program& program, const LineWords& words) {
   std::string label;
   for (std::size_t i = 1; i < words.size(); ++i) label += (i > 1 ? " " : "") + words[i];
   const auto mark = program.ui.marks.find(label);
@@ -136,14 +136,14 @@ vm::Result<ImVec2> Place(const Program& program, const Words& words) {
   return Fail(Errc::kBadValue, "'" + label + "' is neither a widget nor a point that is shown");
 }
 
-Answer Click(Program& program, const Words& words) {
+Answer Click(Program& program, const LineWords& words) {
   const auto at = Place(program, words);
   if (!at) return std::unexpected(at.error());
   ClickAt(program, *at);
   return "";
 }
 
-Answer View(Program& program, const Words& words) {
+Answer View(Program& program, const LineWords& words) {
   const bool zoom = words[0] == "zoom";
   const auto v = Numbers(words, 1, zoom ? 1 : 2);
   if (!v) return std::unexpected(v.error());
@@ -158,7 +158,7 @@ Answer View(Program& program, const Words& words) {
   return "";
 }
 
-Answer Wait(Program& program, const Words& words) {
+Answer Wait(Program& program, const LineWords& words) {
   if (words.size() == 1) {
     static_cast<void>(program.settle());  // the bottom line tells
     return "";
@@ -170,7 +170,7 @@ Answer Wait(Program& program, const Words& words) {
   return "";
 }
 
-Answer RunWindowCommand(Program& program, const Words& words) {
+Answer RunWindowCommand(Program& program, const LineWords& words) {
   const std::string& name = words[0];
   Ui& ui = program.ui;
   if (name == "page") return Turn(program, words);

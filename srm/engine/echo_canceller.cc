@@ -8,16 +8,16 @@
 namespace srm {
 namespace {
 
-constexpr std::size_t kFrame = 16 * kFramesPerMs;
+constexpr std::size_t kEchoFrame = 16 * kFramesPerMs;
 constexpr std::size_t kMostAhead = 2000 * kFramesPerMs;
 constexpr auto kTailSamples = static_cast<int>(EchoCanceller::kTail.count()) * 16;
 
 }  // namespace
 
 struct EchoCanceller::State {
-  SpeexEchoState* echo = speex_echo_state_init(static_cast<int>(kFrame), kTailSamples);
+  SpeexEchoState* echo = speex_echo_state_init(static_cast<int>(kEchoFrame), kTailSamples);
   SpeexPreprocessState* rest =
-      speex_preprocess_state_init(static_cast<int>(kFrame), static_cast<int>(kSampleRateHz));
+      speex_preprocess_state_init(static_cast<int>(kEchoFrame), static_cast<int>(kSampleRateHz));
   State() {
     int rate = static_cast<int>(kSampleRateHz);
     int off = 0;
@@ -43,14 +43,14 @@ void EchoCanceller::Play(std::span<const std::int16_t> voice) {
 std::vector<std::int16_t> EchoCanceller::Clean(std::span<const std::int16_t> heard) {
   heard_.insert(heard_.end(), heard.begin(), heard.end());
   std::vector<std::int16_t> clean;
-  std::vector<std::int16_t> near(kFrame), far(kFrame), out(kFrame);
+  std::vector<std::int16_t> near(kEchoFrame), far(kEchoFrame), out(kEchoFrame);
   const auto take = [](std::deque<std::int16_t>& from, std::vector<std::int16_t>& to) {
-    const std::size_t count = std::min(from.size(), kFrame);
+    const std::size_t count = std::min(from.size(), kEchoFrame);
     std::fill(to.begin(), to.end(), std::int16_t{0});
     std::copy_n(from.begin(), count, to.begin());
     from.erase(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count));
   };
-  while (heard_.size() >= kFrame) {
+  while (heard_.size() >= kEchoFrame) {
     take(heard_, near);
     take(voice_, far);
     speex_echo_cancellation(state_->echo, near.data(), far.data(), out.data());

@@ -16,7 +16,7 @@ namespace {
 bool IsPause(const vm::Phoneme& phoneme) { return phoneme.name == "pau" || phoneme.name == "sil"; }
 
 /// A part of the plan as its engine made it.
-struct Part {
+struct SpokenPart {
   SpeechEngine* engine = nullptr;  ///< null: `samples`
   SpeechPlan plan;
   std::vector<std::int16_t> samples;
@@ -26,7 +26,7 @@ struct Part {
 };
 
 struct SetDetail : SpeechPlan::Detail {
-  std::vector<Part> parts;
+  std::vector<SpokenPart> parts;
 };
 
 bool EndsInSign(std::string_view text) {
@@ -40,7 +40,7 @@ bool EndsInSign(std::string_view text) {
 }
 
 /// The engine's silence at the end, beyond the joint, is left out.
-void CutEnd(Part& part, vm::PhonemeList& phonemes) {
+void CutEnd(SpokenPart& part, vm::PhonemeList& phonemes) {
   if (phonemes.size() < 2 || !IsPause(phonemes.back())) return;
   const Millis cut =
       phonemes.back().duration - std::min(phonemes.back().duration, EngineSet::kJoint);
@@ -48,7 +48,7 @@ void CutEnd(Part& part, vm::PhonemeList& phonemes) {
   part.length -= cut;
 }
 
-void CutBegin(Part& part, vm::PhonemeList& phonemes) {
+void CutBegin(SpokenPart& part, vm::PhonemeList& phonemes) {
   if (phonemes.size() < 2 || !IsPause(phonemes.front())) return;
   part.skip = phonemes.front().duration;
   part.length -= part.skip;
@@ -56,7 +56,7 @@ void CutBegin(Part& part, vm::PhonemeList& phonemes) {
 }
 
 /// Puts the parts' phonemes, words and marks one behind the other.
-void Join(SpeechPlan& whole, const Part& part, const SpeechPlan& plan, Millis start) {
+void Join(SpeechPlan& whole, const SpokenPart& part, const SpeechPlan& plan, Millis start) {
   const auto moved = [&](Millis at) {
     return start + std::clamp(at - part.skip, Millis{0}, part.length);
   };
@@ -101,12 +101,12 @@ std::vector<std::int16_t> Clipped(std::vector<std::int16_t> file, const SpeechSp
   return sound;
 }
 
-vm::Result<Part> PlayedFile(const SpeechSpan& span) {
+vm::Result<SpokenPart> PlayedFile(const SpeechSpan& span) {
   auto samples = ReadSoundFile(span.audio);
   if (!samples) return std::unexpected(samples.error());
   bool cut = false;
   *samples = Clipped(std::move(*samples), span.clip, cut);
-  Part part;
+  SpokenPart part;
   if (cut) {
     part.plan.unspoken = "'" + span.audio + "' is repeated for " +
                          std::to_string(kLongestPlayed.count() / 1000) + " s, the limit";
@@ -244,7 +244,7 @@ vm::Result<SpeechPlan> EngineSet::PlanRuns(const std::vector<Run>& runs,
                                            const std::atomic<bool>& cancelled) {
   auto detail = std::make_shared<SetDetail>();
   for (const Run& run : runs) {
-    Part part;
+    SpokenPart part;
     if (!run.spans.front().audio.empty()) {
       auto played = PlayedFile(run.spans.front());
       if (!played) return std::unexpected(played.error());
@@ -261,7 +261,7 @@ vm::Result<SpeechPlan> EngineSet::PlanRuns(const std::vector<Run>& runs,
   SpeechPlan whole;
   Millis at{0};
   for (std::size_t i = 0; i < detail->parts.size(); ++i) {
-    Part& part = detail->parts[i];
+    SpokenPart& part = detail->parts[i];
     SpeechPlan view = part.plan;
     if (i + 1 < runs.size() && runs[i + 1].joined) CutEnd(part, view.phonemes);
     if (runs[i].joined) CutBegin(part, view.phonemes);
@@ -279,7 +279,7 @@ vm::Result<SpeechPlan> EngineSet::PlanRuns(const std::vector<Run>& runs,
 vm::Result<void> EngineSet::Render(const SpeechPlan& plan, SampleBuffer& samples) {
   const auto* detail = dynamic_cast<const SetDetail*>(plan.detail.get());
   if (detail == nullptr) return vm::Fail(vm::Errc::kInternal, "not a plan of this set");
-  for (const Part& part : detail->parts) {
+  for (const SpokenPart& part : detail->parts) {
     if (samples.cancelled()) return vm::Fail(vm::Errc::kStopped, "stopped while sound was made");
     const bool whole = part.skip.count() == 0 && part.length == part.made;
     if (part.engine == nullptr) {

@@ -12,7 +12,7 @@ namespace {
 using Answer = EspeakLink::Answer;
 
 constexpr std::size_t kMaxSpokenFrames = 3600u * 48'000u;
-constexpr std::size_t kMaxLines = 100'000;
+constexpr std::size_t kMaxAnswerLines = 100'000;
 
 vm::Error BadAnswer(const std::string& what) {
   return {vm::Errc::kUnavailable, "the helper for espeak-ng answered '" + what + "'", 0};
@@ -90,7 +90,7 @@ vm::Result<EspeakLink::Answer> EspeakLink::ReadSound(const std::string& head,
   std::size_t frames = 0, lines = 0;
   Answer answer;
   if (!(words >> verb >> answer.rate >> frames >> lines) || verb != "sound" || answer.rate < 1000 ||
-      answer.rate > 200'000 || frames > kMaxSpokenFrames || lines > kMaxLines) {
+      answer.rate > 200'000 || frames > kMaxSpokenFrames || lines > kMaxAnswerLines) {
     return std::unexpected(BadAnswer(head.substr(0, 60)));
   }
   std::vector<std::pair<Millis, std::string>> starts;

@@ -13,7 +13,7 @@ namespace ssm {
 namespace {
 
 constexpr std::size_t kMaxHeadBytes = 64u << 10;
-constexpr std::size_t kMaxLines = 1000;
+constexpr std::size_t kMaxHeaderLines = 1000;
 
 /// "5804-25678", with commas between several: first and last byte after [DATA].
 bool LiesWithin(std::string_view places, std::uint64_t size) {
@@ -60,7 +60,7 @@ vm::Result<VoiceFileHead> ReadVoiceFileHead(const std::string& path) {
   std::size_t number = 0;
   std::istringstream lines(head.substr(0, data));
   for (std::string line; std::getline(lines, line);) {
-    if (++number > kMaxLines) return bad("its head has more than 1000 lines");
+    if (++number > kMaxHeaderLines) return bad("its head has more than 1000 lines");
     if (line.starts_with('[')) {
       in_places = line == "[POSITION]";
       continue;

@@ -21,14 +21,14 @@ constexpr float kDepth = 0.3F;  // millimetres that nobody sees
 /// Of everything at random, in one state of ten thousand: 0.68 mm.
 constexpr float kTeethAtRandom = 0.8F;
 
-const ContactProbe& Probe() {
+const ContactProbe& StateProbe() {
   static const ContactProbe probe;
   return probe;
 }
 
 /// True if the tongue, too, is outside everything. `teeth`: how far they may be in the lips.
 bool ExpectApart(const FaceState& state, const std::string& what, float teeth = kDepth) {
-  const Contacts c = Probe().Measure(state, Vertices(state));
+  const Contacts c = StateProbe().Measure(state, Vertices(state));
   EXPECT_LE(c.lips, kDepth) << what;
   EXPECT_LE(c.lids, kDepth) << what;
   EXPECT_LE(c.ball_in_lids, kDepth) << what;
@@ -39,8 +39,8 @@ bool ExpectApart(const FaceState& state, const std::string& what, float teeth = 
 bool IsUnit(std::size_t number) { return number != 3 && number != 40; }
 
 TEST(HeadStatesTest, WhatMeetsIsFound) {
-  EXPECT_GE(Probe().seam_pairs(), 15u);
-  EXPECT_GE(Probe().rim_pairs(), 12u);
+  EXPECT_GE(StateProbe().seam_pairs(), 15u);
+  EXPECT_GE(StateProbe().rim_pairs(), 12u);
 }
 
 /// The first unit of the pairs of one test, so that they can run side by side.
@@ -100,7 +100,7 @@ TEST_P(ClosedEyes, AreCoveredWhereverTheyLookAndWhateverElseActs) {
         if (closing == 0) state.blink.left = state.blink.right = 1;
         if (closing != 0) state.au.left[closing] = state.au.right[closing] = 1;
         state.gaze.left = state.gaze.right = {-up, right};
-        ASSERT_LE(Probe().Uncovered(state, Vertices(state)), 0.05F)
+        ASSERT_LE(StateProbe().Uncovered(state, Vertices(state)), 0.05F)
             << "AU " << other << " closed by " << closing << " looking up " << up << " right "
             << right;
       }

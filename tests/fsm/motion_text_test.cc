@@ -20,7 +20,7 @@ constexpr const char* kTable =
     "cue smile hello | good day | こんにちは\n"
     "cue ask ?\n";
 
-const MotionTables& Tables() {
+const MotionTables& BuiltInTables() {
   static const MotionTables tables = MotionTables::Load().value();
   return tables;
 }
@@ -31,7 +31,7 @@ VisemeTargets TwoSentences() {
       vm::ParsePhonemes("pau 100 aa 250 t 250 aa 250 t 250 pau 300 aa 250 t 250 aa 250 t 250 pau "
                         "100")
           .value(),
-      Tables(), {});
+      BuiltInTables(), {});
 }
 
 struct Seen {

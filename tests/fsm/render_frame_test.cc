@@ -15,8 +15,8 @@
 namespace fsm {
 namespace {
 
-constexpr int kWidth = 160;
-constexpr int kHeight = 120;
+constexpr int kFrameWidth = 160;
+constexpr int kFrameHeight = 120;
 
 using Pixel = std::array<int, 4>;
 
@@ -49,7 +49,7 @@ Image MakePicture(std::array<int, 3> upper, std::array<int, 3> lower) {
 class FrameTest : public ::testing::Test {
  protected:
   FrameTest()
-      : context_(RenderContext::MakeHeadless(kWidth, kHeight)),
+      : context_(RenderContext::MakeHeadless(kFrameWidth, kFrameHeight)),
         renderer_(Renderer::Make(*context_)) {
     head_.Evaluate(state_, vertices_);
     scene_.background = {0.2F, 0.4F, 0.6F};
@@ -73,13 +73,14 @@ class FrameTest : public ::testing::Test {
 
 TEST_F(FrameTest, HeadStandsInTheMiddleOfTheExactBackground) {
   const Image image = Draw();
-  ASSERT_EQ(image.width, kWidth);
-  ASSERT_EQ(image.height, kHeight);
-  for (const int x : {0, kWidth - 1}) EXPECT_EQ(At(image, x, 0), kBackground);
-  const Pixel skin = At(image, kWidth / 2, kHeight / 2);
+  ASSERT_EQ(image.width, kFrameWidth);
+  ASSERT_EQ(image.height, kFrameHeight);
+  for (const int x : {0, kFrameWidth - 1}) EXPECT_EQ(At(image, x, 0), kBackground);
+  const Pixel skin = At(image, kFrameWidth / 2, kFrameHeight / 2);
   EXPECT_GT(skin[0], skin[2] + 10) << "skin is redder than blue";
   EXPECT_EQ(skin[3], 255);
-  EXPECT_NE(At(image, kWidth / 2, kHeight - 1), kBackground) << "shoulders are at the bottom";
+  EXPECT_NE(At(image, kFrameWidth / 2, kFrameHeight - 1), kBackground)
+      << "shoulders are at the bottom";
 }
 
 TEST_F(FrameTest, SameInputGivesTheSameBytes) {
@@ -89,7 +90,7 @@ TEST_F(FrameTest, SameInputGivesTheSameBytes) {
   state_.figure.rotation[1] = 0;
   EXPECT_EQ(Draw().rgba, first.rgba);
   renderer_.reset();
-  context_ = RenderContext::MakeHeadless(kWidth, kHeight);
+  context_ = RenderContext::MakeHeadless(kFrameWidth, kFrameHeight);
   renderer_ = Renderer::Make(*context_);
   EXPECT_EQ(Draw().rgba, first.rgba) << "another context";
 }
@@ -97,8 +98,8 @@ TEST_F(FrameTest, SameInputGivesTheSameBytes) {
 TEST_F(FrameTest, DisabledFigureLeavesTheBackground) {
   state_.figure.enabled = false;
   const Image image = Draw();
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) ASSERT_EQ(At(image, x, y), kBackground);
+  for (int y = 0; y < kFrameHeight; ++y) {
+    for (int x = 0; x < kFrameWidth; ++x) ASSERT_EQ(At(image, x, y), kBackground);
   }
   state_.figure.enabled = true;
   state_.figure.alpha = 0;
@@ -110,8 +111,8 @@ TEST_F(FrameTest, AlphaLiesBetweenFigureAndBackground) {
   state_.figure.alpha = 0.5F;
   const Image half = Draw();
   for (const int y : {40, 60, 110}) {
-    const Pixel a = At(whole, kWidth / 2, y);
-    const Pixel b = At(half, kWidth / 2, y);
+    const Pixel a = At(whole, kFrameWidth / 2, y);
+    const Pixel b = At(half, kFrameWidth / 2, y);
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(b[c], (a[c] + kBackground[c]) / 2, 2) << y;
     EXPECT_EQ(b[3], 255);
   }
@@ -121,18 +122,19 @@ TEST_F(FrameTest, WithoutBackgroundTheFigureAloneIsOpaque) {
   scene_.show_background = false;
   const Image image = Draw();
   EXPECT_EQ(At(image, 0, 0), (Pixel{0, 0, 0, 0}));
-  EXPECT_EQ(At(image, kWidth / 2, kHeight / 2)[3], 255);
+  EXPECT_EQ(At(image, kFrameWidth / 2, kFrameHeight / 2)[3], 255);
   scene_.show_background = true;
   const Image before = Draw();
-  EXPECT_EQ(At(before, kWidth / 2, kHeight / 2), At(image, kWidth / 2, kHeight / 2));
+  EXPECT_EQ(At(before, kFrameWidth / 2, kFrameHeight / 2),
+            At(image, kFrameWidth / 2, kFrameHeight / 2));
 }
 
 TEST_F(FrameTest, FadedFigureWithoutBackgroundKeepsItsColours) {
   scene_.show_background = false;
   const Image whole = Draw();
   state_.figure.alpha = 0.25F;
-  const Pixel faded = At(Draw(), kWidth / 2, kHeight / 2);
-  const Pixel solid = At(whole, kWidth / 2, kHeight / 2);
+  const Pixel faded = At(Draw(), kFrameWidth / 2, kFrameHeight / 2);
+  const Pixel solid = At(whole, kFrameWidth / 2, kFrameHeight / 2);
   EXPECT_NEAR(faded[3], 64, 1);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(faded[c], solid[c], 6);
 }
@@ -141,12 +143,12 @@ TEST_F(FrameTest, TheStudiosWallIsBrightestBehindTheHeadAndEndsNowhere) {
   scene_.studio = true;
   state_.figure.enabled = false;
   const Image wall = Draw();
-  const Pixel middle = At(wall, kWidth / 2, kHeight * 2 / 5);
-  for (const int x : {0, kWidth - 1}) {
-    for (const int y : {0, kHeight - 1}) EXPECT_LT(At(wall, x, y)[1] + 20, middle[1]);
+  const Pixel middle = At(wall, kFrameWidth / 2, kFrameHeight * 2 / 5);
+  for (const int x : {0, kFrameWidth - 1}) {
+    for (const int y : {0, kFrameHeight - 1}) EXPECT_LT(At(wall, x, y)[1] + 20, middle[1]);
   }
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 1; x < kWidth; ++x) EXPECT_NEAR(At(wall, x, y)[1], At(wall, x - 1, y)[1], 3);
+  for (int y = 0; y < kFrameHeight; ++y) {
+    for (int x = 1; x < kFrameWidth; ++x) EXPECT_NEAR(At(wall, x, y)[1], At(wall, x - 1, y)[1], 3);
   }
   state_.figure.enabled = true;
   state_.figure.alpha = 0;
@@ -154,7 +156,7 @@ TEST_F(FrameTest, TheStudiosWallIsBrightestBehindTheHeadAndEndsNowhere) {
 }
 
 TEST_F(FrameTest, PictureOfTheSameSizeIsShownPixelByPixel) {
-  scene_.background_image = std::make_shared<const Image>(Pattern(kWidth, kHeight));
+  scene_.background_image = std::make_shared<const Image>(Pattern(kFrameWidth, kFrameHeight));
   state_.figure.enabled = false;
   EXPECT_EQ(Draw().rgba, scene_.background_image->rgba);
 }
@@ -166,10 +168,10 @@ TEST_F(FrameTest, PictureIsStretchedAndUpright) {
   show({255, 0, 0});
   state_.figure.enabled = false;
   const Image image = Draw();
-  EXPECT_EQ(At(image, kWidth / 2, 5), (Pixel{255, 0, 0, 255}));
-  EXPECT_EQ(At(image, kWidth / 2, kHeight - 5), (Pixel{0, 0, 255, 255}));
+  EXPECT_EQ(At(image, kFrameWidth / 2, 5), (Pixel{255, 0, 0, 255}));
+  EXPECT_EQ(At(image, kFrameWidth / 2, kFrameHeight - 5), (Pixel{0, 0, 255, 255}));
   show({0, 255, 0});
-  EXPECT_EQ(At(Draw(), kWidth / 2, 5), (Pixel{0, 255, 0, 255}));
+  EXPECT_EQ(At(Draw(), kFrameWidth / 2, 5), (Pixel{0, 255, 0, 255}));
 }
 
 TEST_F(FrameTest, ViewModesDiffer) {
@@ -193,8 +195,8 @@ TEST_F(FrameTest, FigureIsPlacedAsAsked) {
     double x_sum = 0;
     double y_sum = 0;
     double count = 0;
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kFrameHeight; ++y) {
+      for (int x = 0; x < kFrameWidth; ++x) {
         if (At(image, x, y)[3] == 0) continue;
         x_sum += x;
         y_sum += y;
@@ -223,7 +225,7 @@ TEST_F(FrameTest, AnotherHeadIsNoticedAndTheFirstOneToo) {
   renderer_->Draw(*other, vertices, state_, scene_);
   Image green;
   renderer_->Read(green);
-  const Pixel pixel = At(green, kWidth / 2, kHeight / 2);
+  const Pixel pixel = At(green, kFrameWidth / 2, kFrameHeight / 2);
   EXPECT_GT(pixel[1], pixel[0]);
   EXPECT_EQ(Draw().rgba, ball.rgba);
 }
@@ -323,7 +325,7 @@ TEST_F(FrameTest, HeadWithoutEyesOrPartsIsDrawn) {
   renderer_->Draw(nothing, vertices_, state_, scene_);
   Image image;
   renderer_->Read(image);
-  EXPECT_EQ(At(image, kWidth / 2, kHeight / 2), kBackground);
+  EXPECT_EQ(At(image, kFrameWidth / 2, kFrameHeight / 2), kBackground);
 }
 
 TEST(PortraitTest, HeadAndShouldersStayInViewInEveryShape) {
@@ -422,7 +424,7 @@ TEST(ContextTest, SizesFromOnePixelUpAreDrawn) {
 TEST(ContextTest, OsMesaAndEglDrawTheSame) {
   std::unique_ptr<RenderContext> other;
   try {
-    other = RenderContext::MakeHeadless(kWidth, kHeight, OffScreen::kEgl);
+    other = RenderContext::MakeHeadless(kFrameWidth, kFrameHeight, OffScreen::kEgl);
   } catch (const std::runtime_error& error) {
     GTEST_SKIP() << "needs EGL (Debian: libegl1, libegl-dev): " << error.what();
   }
@@ -433,7 +435,7 @@ TEST(ContextTest, OsMesaAndEglDrawTheSame) {
   auto other_renderer = Renderer::Make(*other);
   other_renderer->Draw(head, vertices, {}, {});
   other_renderer->Read(pictures[0]);
-  auto context = RenderContext::MakeHeadless(kWidth, kHeight);
+  auto context = RenderContext::MakeHeadless(kFrameWidth, kFrameHeight);
   auto renderer = Renderer::Make(*context);
   renderer->Draw(head, vertices, {}, {});
   renderer->Read(pictures[1]);
@@ -445,7 +447,7 @@ TEST(ContextTest, OsMesaAndEglDrawTheSame) {
     }
     different += most > 4;
   }
-  EXPECT_LE(different, kWidth * kHeight / 200);
+  EXPECT_LE(different, kFrameWidth * kFrameHeight / 200);
   renderer.reset();
   context.reset();
   other->MakeCurrent();
@@ -453,9 +455,9 @@ TEST(ContextTest, OsMesaAndEglDrawTheSame) {
 }
 
 TEST(ContextTest, TwoContextsTakeTurns) {
-  auto first = RenderContext::MakeHeadless(kWidth, kHeight);
+  auto first = RenderContext::MakeHeadless(kFrameWidth, kFrameHeight);
   auto first_renderer = Renderer::Make(*first);
-  auto second = RenderContext::MakeHeadless(kHeight, kWidth);
+  auto second = RenderContext::MakeHeadless(kFrameHeight, kFrameWidth);
   auto second_renderer = Renderer::Make(*second);
   BallHead head;
   HeadVertices vertices;
@@ -468,7 +470,7 @@ TEST(ContextTest, TwoContextsTakeTurns) {
   second->MakeCurrent();
   second_renderer->Draw(head, vertices, {}, {});
   second_renderer->Read(image);
-  EXPECT_EQ(image.width, kHeight);
+  EXPECT_EQ(image.width, kFrameHeight);
   second_renderer.reset();
   second.reset();
   first->MakeCurrent();

@@ -147,17 +147,17 @@ TEST(WindowTest, SeveralFacesShareAWindow) {
   gl.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
   gl.ReadPixels(0, 0, 64, 64, GL_RGBA, GL_UNSIGNED_BYTE, window.rgba.data());
   // GL's first row is the lowest.
-  using Pixel = std::array<int, 4>;
+  using Rgba = std::array<int, 4>;
   const auto shown = [&window](int x, int y) {
     const std::uint8_t* p = &window.rgba[4 * window.Index(x, 63 - y)];
-    return Pixel{p[0], p[1], p[2], p[3]};
+    return Rgba{p[0], p[1], p[2], p[3]};
   };
-  EXPECT_EQ(shown(1, 1), (Pixel{255, 0, 0, 255}));
-  EXPECT_EQ(shown(30, 1), (Pixel{255, 0, 0, 255}));
-  EXPECT_EQ(shown(33, 25), (Pixel{0, 0, 255, 255}));
-  EXPECT_EQ(shown(62, 25), (Pixel{0, 0, 255, 255}));
-  EXPECT_NE(shown(33, 22), (Pixel{0, 0, 255, 255}));  // above the right pane
-  EXPECT_NE(shown(16, 20), (Pixel{255, 0, 0, 255}));  // the left face
+  EXPECT_EQ(shown(1, 1), (Rgba{255, 0, 0, 255}));
+  EXPECT_EQ(shown(30, 1), (Rgba{255, 0, 0, 255}));
+  EXPECT_EQ(shown(33, 25), (Rgba{0, 0, 255, 255}));
+  EXPECT_EQ(shown(62, 25), (Rgba{0, 0, 255, 255}));
+  EXPECT_NE(shown(33, 22), (Rgba{0, 0, 255, 255}));  // above the right pane
+  EXPECT_NE(shown(16, 20), (Rgba{255, 0, 0, 255}));  // the left face
 
   auto alone_context = RenderContext::MakeHeadless(32, 40);
   auto alone = Renderer::Make(*alone_context);
