@@ -22,10 +22,10 @@ bool StartsWith(std::span<const std::uint8_t> bytes, std::span<const std::uint8_
 /// Decodes a JPEG. Of several EXIF blocks the last one with an orientation counts.
 vm::Result<fsm::Image> DecodeJpegPhoto(std::span<const std::uint8_t> bytes, int most_size,
                                        int& orientation) {
-  fsm::JpegWish wish{.most_pixels = kMaxPixels, .enough_side = most_size, .exif = {}};
-  auto image = fsm::DecodeJpegAs(wish, bytes);
+  fsm::JpegOptions options{.most_pixels = kMaxPixels, .enough_side = most_size, .exif = {}};
+  auto image = fsm::DecodeJpegAs(options, bytes);
   if (!image) return image;
-  for (const auto& block : wish.exif) {
+  for (const auto& block : options.exif) {
     if (const int found = ExifOrientation(block); found != 1) orientation = found;
   }
   return image;

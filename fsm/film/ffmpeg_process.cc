@@ -21,7 +21,7 @@ void CloseFd(int& fd) {
   if (fd >= 0) close(std::exchange(fd, -1));
 }
 
-std::unexpected<vm::Error> CannotStart(int error) {
+std::unexpected<vm::Error> FailToStart(int error) {
   std::string text = "cannot start ffmpeg: " + std::generic_category().message(error);
   if (error == ENOENT) text += " (ffmpeg must be installed and found along PATH)";
   return vm::Fail(vm::Errc::kUnavailable, std::move(text));
@@ -35,12 +35,12 @@ vm::Result<std::unique_ptr<FfmpegProcess>> FfmpegProcess::Start(
   // write to a dead process.
   int input[2];
   int errors[2];
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input) != 0) return CannotStart(errno);
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input) != 0) return FailToStart(errno);
   if (pipe2(errors, O_CLOEXEC) != 0) {
     const int error = errno;
     close(input[0]);
     close(input[1]);
-    return CannotStart(error);
+    return FailToStart(error);
   }
   std::vector<std::string> argv{"ffmpeg"};
   argv.insert(argv.end(), arguments.begin(), arguments.end());
@@ -55,7 +55,7 @@ vm::Result<std::unique_ptr<FfmpegProcess>> FfmpegProcess::Start(
   if (error != 0) {
     close(input[0]);
     close(errors[0]);
-    return CannotStart(error);
+    return FailToStart(error);
   }
   fcntl(input[0], F_SETFL, O_NONBLOCK);
   fcntl(errors[0], F_SETFL, O_NONBLOCK);
@@ -74,15 +74,15 @@ FfmpegProcess::~FfmpegProcess() {
 vm::Result<void> FfmpegProcess::Write(std::span<const std::uint8_t> bytes) {
   auto deadline = std::chrono::steady_clock::now() + kStallLimit;
   while (!bytes.empty()) {
-    if (input_ < 0) return Over("ended before the film did");
+    if (input_ < 0) return Fail("ended before the film did");
     const auto sent = send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (sent > 0) {
       bytes = bytes.subspan(static_cast<std::size_t>(sent));
       deadline = std::chrono::steady_clock::now() + kStallLimit;
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      if (!Wait(true, deadline)) return Over("stopped taking pictures");
+      if (!Wait(true, deadline)) return Fail("stopped taking pictures");
     } else if (errno != EINTR) {
-      return Over("ended before the film did");
+      return Fail("ended before the film did");
     }
   }
   return {};
@@ -92,22 +92,22 @@ vm::Result<void> FfmpegProcess::Finish() {
   CloseFd(input_);
   const auto deadline = std::chrono::steady_clock::now() + kStallLimit;
   while (errors_ >= 0) {
-    if (!Wait(false, deadline)) return Over("did not come to an end");
+    if (!Wait(false, deadline)) return Fail("did not come to an end");
   }
   const int status = Reap();
   if (status != -1 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  return Over("failed");
+  return Fail("failed");
 }
 
 bool FfmpegProcess::Wait(bool for_writing, Deadline deadline) {
-  constexpr std::chrono::milliseconds kLook{100};  // how often abandoned_ is checked
+  constexpr std::chrono::milliseconds kPollInterval{100};  // how often abandoned_ is checked
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
         deadline - std::chrono::steady_clock::now());
     if (left.count() <= 0 || abandoned_) return false;
     pollfd wanted[2] = {{errors_, POLLIN, 0}, {for_writing ? input_ : -1, POLLOUT, 0}};
     // poll ignores negative descriptors, so closed ones need no special case.
-    if (poll(wanted, 2, static_cast<int>(std::min(left, kLook).count())) == 0) continue;
+    if (poll(wanted, 2, static_cast<int>(std::min(left, kPollInterval).count())) == 0) continue;
     if (wanted[0].revents != 0) ReadErrors();
     return true;
   }
@@ -133,7 +133,7 @@ void FfmpegProcess::ReadErrors() {
   CloseFd(errors_);
 }
 
-std::unexpected<vm::Error> FfmpegProcess::Over(const std::string& what) {
+std::unexpected<vm::Error> FfmpegProcess::Fail(const std::string& what) {
   CloseFd(input_);
   int status = -1;
   if (pid_ > 0) {

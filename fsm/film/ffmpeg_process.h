@@ -48,7 +48,7 @@ class FfmpegProcess {
   /// deadline or when abandoned.
   bool Wait(bool for_writing, Deadline deadline);
   void ReadErrors();
-  std::unexpected<vm::Error> Over(const std::string& what);
+  std::unexpected<vm::Error> Fail(const std::string& what);
   /// The wait status, or -1 if somebody else reaped it.
   int Reap();
 

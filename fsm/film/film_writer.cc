@@ -6,16 +6,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cassert>
 #include <cerrno>
-#include <cmath>
 #include <optional>
 #include <span>
 #include <system_error>
 #include <utility>
 
 #include "fsm/film/ffmpeg_process.h"
+#include "fsm/film/film_kind.h"
 #include "fsm/film/frame_feeder.h"
 #include "fsm/film/yuv_planes.h"
 #include "vm_protocol/core/file_kind.h"
@@ -26,108 +25,9 @@ namespace {
 constexpr int kMaxFramesPerSecond = 1000;
 constexpr int kMaxDrafts = 1000;  // limit of files left by killed programs
 
-using Words = std::vector<std::string>;
-
-/// Returns a path as a URL, so that ffmpeg cannot read it as an option or as another protocol.
-std::string FileUrl(const std::string& path) { return "file:" + path; }
-
-void Append(Words& words, std::initializer_list<std::string> more) {
-  words.insert(words.end(), more);
-}
-
-/// Returns the first arguments: no banner, no questions, only errors.
-Words Opening() { return {"-hide_banner", "-nostdin", "-loglevel", "error", "-y"}; }
-
-/// A kind of film, selected by the ending of its name.
-struct FilmKind {
-  std::string_view ending;
-  bool as_rgba;  ///< frames are passed to ffmpeg as RGBA, not as YuvPlanes
-  const char* muxer;
-  const char* pixels;    ///< ffmpeg's name of the pixel format
-  Words encoder, sound;  ///< arguments of the video and audio encoders
-  bool is_rgb = false;   ///< the film stores RGB, without loss
-};
-
-const FilmKind* KindOf(std::string_view path) {
-  static const std::vector<FilmKind> kinds = {
-      {".mp4",
-       false,
-       "mp4",
-       "yuv420p",
-       {"libx264", "-preset", "superfast", "-crf", "18"},
-       {"aac", "-b:a", "160k"}},
-      {".mov", true, "mov", "yuva444p10le", {"prores_ks", "-profile:v", "4444"}, {"pcm_s16le"}},
-      // The encoder does not support alternate reference frames with transparency.
-      {".webm",
-       true,
-       "webm",
-       "yuva420p",
-       {"libvpx-vp9", "-deadline", "realtime", "-cpu-used", "6", "-crf", "20", "-b:v", "0",
-        "-auto-alt-ref", "0"},
-       {"libopus", "-b:a", "96k"}},
-      {".mkv", true, "matroska", "bgr0", {"ffv1", "-level", "3", "-slicecrc", "1"}, {"flac"}, true},
-  };
-  const auto found = std::ranges::find_if(kinds, [path](const FilmKind& kind) {
-    return path.size() > kind.ending.size() && path.ends_with(kind.ending);
-  });
-  return found == kinds.end() ? nullptr : &*found;
-}
-
 bool IsRaw(std::string_view path) {
   constexpr std::string_view kRaw = ".rgba";
   return path.size() > kRaw.size() && path.ends_with(kRaw);
-}
-
-void AppendOutput(Words& words, const FilmKind& kind, const std::string& comment,
-                  const std::string& path) {
-  Append(words, {"-map_metadata", "-1", "-fflags", "+bitexact"});
-  if (!comment.empty()) Append(words, {"-metadata", "comment=" + comment});
-  if (kind.ending == ".mp4" || kind.ending == ".mov") Append(words, {"-movflags", "+faststart"});
-  Append(words, {"-f", kind.muxer, FileUrl(path)});
-}
-
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
-
-Words EncodeWords(const FilmKind& kind, int width, int height, double frames_per_second,
-                  const std::string& comment, const std::string& path) {
-  Words words = Opening();
-  Append(words, {"-f", "rawvideo", "-pixel_format", kind.as_rgba ? "rgba" : "yuv420p"});
-  // Sides are made even by YuvPlanes, or by ffmpeg for RGBA.
-  Append(words, {"-video_size", kind.as_rgba ? SizeText(width, height)
-                                             : SizeText(width + width % 2, height + height % 2)});
-  Append(words, {"-framerate", fmt::format("{:.10g}", frames_per_second), "-i", "pipe:0", "-an"});
-  if (kind.as_rgba && !kind.is_rgb) {
-    Append(words, {"-vf",
-                   "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=black@0,"
-                   "scale=out_color_matrix=bt709:out_range=tv,format=" +
-                       std::string(kind.pixels)});
-  }
-  if (!kind.is_rgb) {
-    // Name the BT.709 matrix, primaries and transfer in the file: without them players guess
-    // differently, and skin turns orange or green.
-    Append(words, {"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
-                   "-color_range", "tv"});
-  }
-  Append(words, {"-c:v"});
-  words.insert(words.end(), kind.encoder.begin(), kind.encoder.end());
-  Append(words, {"-pix_fmt", kind.pixels, "-g",
-                 std::to_string(kind.is_rgb ? 1 : std::lround(frames_per_second * 2)), "-threads",
-                 "1", "-flags:v", "+bitexact"});
-  AppendOutput(words, kind, comment, path);
-  return words;
-}
-
-Words SoundWords(const FilmKind& kind, const std::string& film, const std::string& sound,
-                 const std::string& comment, const std::string& path) {
-  Words words = Opening();
-  Append(words, {"-i", FileUrl(film), "-i", FileUrl(sound), "-map", "0:v:0", "-map", "1:a:0",
-                 "-c:v", "copy", "-c:a"});
-  words.insert(words.end(), kind.sound.begin(), kind.sound.end());
-  Append(words, {"-threads", "1", "-flags:a", "+bitexact"});
-  AppendOutput(words, kind, comment, path);
-  return words;
 }
 
 vm::Result<void> CheckFrame(const Image& frame, int width, int height, const std::string& path) {
@@ -168,7 +68,7 @@ class FfmpegFilmWriter : public FilmWriter {
       YuvPlanes(frame, bytes);
     }
     if (auto added = feeder_->Add(std::move(bytes)); !added) {
-      return Fault(std::move(added.error()));
+      return Fail(std::move(added.error()));
     }
     ++frames_;
     return {};
@@ -177,16 +77,16 @@ class FfmpegFilmWriter : public FilmWriter {
   vm::Result<void> Finish(const std::string& sound_wav) override {
     if (!ffmpeg_) return vm::Fail(vm::Errc::kUnavailable, "the film '" + path_ + "' has ended");
     if (frames_ == 0) {
-      return Fault({vm::Errc::kUnavailable, "there is no picture in it"});
+      return Fail({vm::Errc::kUnavailable, "there is no picture in it"});
     }
-    if (auto closed = feeder_->Close(); !closed) return Fault(std::move(closed.error()));
-    if (auto ended = ffmpeg_->Finish(); !ended) return Fault(std::move(ended.error()));
+    if (auto closed = feeder_->Close(); !closed) return Fail(std::move(closed.error()));
+    if (auto ended = ffmpeg_->Finish(); !ended) return Fail(std::move(ended.error()));
     feeder_.reset();
     ffmpeg_.reset();
     vm::Result<void> sounded;
     if (!sound_wav.empty()) sounded = AddSound(sound_wav);
     if (rename(draft_.c_str(), path_.c_str()) != 0) {
-      return Fault({vm::Errc::kUnavailable, std::generic_category().message(errno)});
+      return Fail({vm::Errc::kUnavailable, std::generic_category().message(errno)});
     }
     draft_.clear();
     return sounded;
@@ -199,7 +99,8 @@ class FfmpegFilmWriter : public FilmWriter {
     vm::Result<void> done = vm::CheckReadable(sound);
     if (done) done = vm::CheckWritable(with_sound);
     if (done) {
-      auto ffmpeg = FfmpegProcess::Start(SoundWords(kind_, draft_, sound, comment_, with_sound));
+      auto ffmpeg =
+          FfmpegProcess::Start(SoundArguments(kind_, draft_, sound, comment_, with_sound));
       done = ffmpeg ? (*ffmpeg)->Finish() : std::unexpected(ffmpeg.error());
     }
     if (done && rename(with_sound.c_str(), draft_.c_str()) == 0) return {};
@@ -209,7 +110,7 @@ class FfmpegFilmWriter : public FilmWriter {
                         "': " + (done ? "it could not be put in place" : done.error().text));
   }
 
-  std::unexpected<vm::Error> Fault(vm::Error error) {
+  std::unexpected<vm::Error> Fail(vm::Error error) {
     feeder_.reset();
     ffmpeg_.reset();
     error.text = "cannot make the film '" + path_ + "': " + error.text;
@@ -242,9 +143,9 @@ class RawFilmWriter : public FilmWriter {
         left = left.subspan(static_cast<std::size_t>(written));
       } else if (errno == EAGAIN) {
         pollfd room{fd_, POLLOUT, 0};
-        if (poll(&room, 1, kReaderLimitMs) == 0) return Fault("nobody takes the frames");
+        if (poll(&room, 1, kReaderLimitMs) == 0) return Fail("nobody takes the frames");
       } else if (errno != EINTR) {
-        return Fault(std::generic_category().message(errno));
+        return Fail(std::generic_category().message(errno));
       }
     }
     if (fd_ < 0) return vm::Fail(vm::Errc::kUnavailable, "the film '" + path_ + "' has ended");
@@ -265,7 +166,7 @@ class RawFilmWriter : public FilmWriter {
   void Close() {
     if (fd_ >= 0) close(std::exchange(fd_, -1));
   }
-  std::unexpected<vm::Error> Fault(const std::string& why) {
+  std::unexpected<vm::Error> Fail(const std::string& why) {
     Close();
     return vm::Fail(vm::Errc::kUnavailable, "cannot write frames to '" + path_ + "': " + why);
   }
@@ -335,8 +236,8 @@ vm::Result<std::unique_ptr<FilmWriter>> FilmWriter::Open(const std::string& path
   const FilmKind& kind = *KindOf(path);
   auto draft = MakeDraft(path);
   if (!draft) return std::unexpected(std::move(draft.error()));
-  auto ffmpeg =
-      FfmpegProcess::Start(EncodeWords(kind, width, height, frames_per_second, comment, *draft));
+  auto ffmpeg = FfmpegProcess::Start(
+      EncodeArguments(kind, width, height, frames_per_second, comment, *draft));
   if (!ffmpeg) {
     unlink(draft->c_str());
     return vm::Fail(vm::Errc::kUnavailable,

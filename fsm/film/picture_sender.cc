@@ -13,10 +13,10 @@
 namespace fsm {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{50};  // between checks of closing_
+constexpr std::chrono::milliseconds kPollInterval{50};  // between checks of closing_
 
 /// Returns header and JPEG; empty if the picture cannot be compressed.
-std::vector<std::uint8_t> Record(vm::Time at, const Image& picture) {
+std::vector<std::uint8_t> PictureMessage(vm::Time at, const Image& picture) {
   const auto jpeg = EncodeJpeg(picture, PictureSender::kQuality);
   if (jpeg.empty()) return {};
   const std::string head = "picture " + vm::FormatMs(at) + " " + std::to_string(jpeg.size()) + "\n";
@@ -84,7 +84,7 @@ void PictureSender::Run() {
     if (closing_) return;
     auto [at, picture] = *std::exchange(waiting_, std::nullopt);
     lock.unlock();
-    const bool sent = SendAll(Record(at, picture));
+    const bool sent = SendAll(PictureMessage(at, picture));
     lock.lock();
     spare_ = std::move(picture);
     if (sent) continue;
@@ -106,7 +106,7 @@ bool PictureSender::SendAll(const std::vector<std::uint8_t>& bytes) {
     if (errno == EINTR) continue;
     if (errno != EAGAIN || closing() || waited >= stall_) return false;
     pollfd room{fd_, POLLOUT, 0};
-    if (poll(&room, 1, static_cast<int>(kLook.count())) == 0) waited += kLook;
+    if (poll(&room, 1, static_cast<int>(kPollInterval.count())) == 0) waited += kPollInterval;
   }
   return true;
 }

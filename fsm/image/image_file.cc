@@ -40,12 +40,12 @@ const Format* FormatOf(const std::string& path) {
   return found == std::end(kFormats) ? nullptr : found;
 }
 
-std::unexpected<vm::Error> BadEnding(const std::string& path, const char* more = "") {
+std::unexpected<vm::Error> FailByEnding(const std::string& path, const char* more = "") {
   return vm::Fail(vm::Errc::kBadValue,
                   "'" + path + "' is no picture's name: it must end in .png, .bmp or .rgb" + more);
 }
 
-std::unexpected<vm::Error> NotWritten(const std::string& path) {
+std::unexpected<vm::Error> FailToWrite(const std::string& path) {
   return vm::Fail(vm::Errc::kUnavailable,
                   "cannot write '" + path + "': " + std::generic_category().message(errno));
 }
@@ -82,25 +82,25 @@ bool WriteAll(int fd, std::span<const std::uint8_t> bytes) {
 vm::Result<void> WriteImage(const Image& image, const std::string& path) {
   assert(image.IsWhole());
   const Format* format = FormatOf(path);
-  if (!format || !format->encode) return BadEnding(path);
+  if (!format || !format->encode) return FailByEnding(path);
   if (auto fit = vm::CheckWritable(path); !fit) return fit;
   const auto bytes = format->encode(image);
   // The file is written under a temporary name and then renamed, so nobody reads half a picture.
   const std::string beside = path + ".part" + std::to_string(getpid());
   if (auto fit = vm::CheckWritable(beside); !fit) return fit;
   File file(open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (!file.open()) return NotWritten(path);
+  if (!file.open()) return FailToWrite(path);
   if (!WriteAll(file.get(), bytes) || !file.Close() || rename(beside.c_str(), path.c_str()) != 0) {
-    const auto refused = NotWritten(path);
+    const auto failed = FailToWrite(path);
     unlink(beside.c_str());
-    return refused;
+    return failed;
   }
   return {};
 }
 
 vm::Result<Image> ReadImage(const std::string& path) {
   const Format* format = FormatOf(path);
-  if (!format) return BadEnding(path, " (or .jpg, to be read)");
+  if (!format) return FailByEnding(path, " (or .jpg, to be read)");
   const auto bytes = vm::ReadTextFile(path, kMaxFileBytes);
   if (!bytes) return std::unexpected(bytes.error());
   auto image = format->decode(BytesOf(*bytes));

@@ -23,14 +23,14 @@ struct Failure {
   bool cut_off, torn, endless;
 };
 
-void Fail(j_common_ptr info) {
+void JumpBack(j_common_ptr info) {
   auto* failure = reinterpret_cast<Failure*>(info->err);
   info->err->format_message(info, failure->text);
   std::longjmp(failure->back, 1);
 }
 
 /// Records libjpeg's warnings: after damage it continues and fills the rest with grey.
-void Note(j_common_ptr info, int level) {
+void RecordWarning(j_common_ptr info, int level) {
   if (level >= 0) return;
   auto* failure = reinterpret_cast<Failure*>(info->err);
   switch (info->err->msg_code) {
@@ -60,23 +60,23 @@ enum class Outcome { kDone, kDamaged, kTooLarge };
 
 /// Only plain data may live here: on a damaged file longjmp skips destructors.
 Outcome Decode(jpeg_decompress_struct& info, Failure& failure, std::span<const std::uint8_t> bytes,
-               JpegWish& wish, Image& out) {
+               JpegOptions& options, Image& out) {
   if (setjmp(failure.back)) return Outcome::kDamaged;
   jpeg_mem_src(&info, bytes.data(), bytes.size());
   jpeg_save_markers(&info, JPEG_APP0 + 1, 0xffff);
   jpeg_read_header(&info, TRUE);
-  if (static_cast<std::int64_t>(info.image_width) * info.image_height > wish.most_pixels) {
+  if (static_cast<std::int64_t>(info.image_width) * info.image_height > options.most_pixels) {
     return Outcome::kTooLarge;
   }
   for (const jpeg_marker_struct* m = info.marker_list; m; m = m->next) {
-    wish.exif.emplace_back(m->data, m->data + m->data_length);
+    options.exif.emplace_back(m->data, m->data + m->data_length);
   }
   const unsigned longer =
       info.image_width > info.image_height ? info.image_width : info.image_height;
   info.scale_num = 1;
   info.scale_denom = 1;
-  while (wish.enough_side > 0 && info.scale_denom < 8 &&
-         longer / (2 * info.scale_denom) >= static_cast<unsigned>(wish.enough_side)) {
+  while (options.enough_side > 0 && info.scale_denom < 8 &&
+         longer / (2 * info.scale_denom) >= static_cast<unsigned>(options.enough_side)) {
     info.scale_denom *= 2;
   }
   const bool inked = info.jpeg_color_space == JCS_CMYK || info.jpeg_color_space == JCS_YCCK;
@@ -138,7 +138,7 @@ std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality) {
   unsigned char* bytes = nullptr;
   unsigned long size = 0;
   info.err = jpeg_std_error(&failure.manager);
-  failure.manager.error_exit = Fail;
+  failure.manager.error_exit = JumpBack;
   jpeg_create_compress(&info);
   std::vector<std::uint8_t> out;
   if (Encode(info, failure, image, quality, bytes, size)) out.assign(bytes, bytes + size);
@@ -147,23 +147,23 @@ std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality) {
   return out;
 }
 
-vm::Result<Image> DecodeJpegAs(JpegWish& wish, std::span<const std::uint8_t> bytes) {
+vm::Result<Image> DecodeJpegAs(JpegOptions& options, std::span<const std::uint8_t> bytes) {
   jpeg_decompress_struct info{};
   Failure failure{};
   info.err = jpeg_std_error(&failure.manager);
-  failure.manager.error_exit = Fail;
-  failure.manager.emit_message = Note;
+  failure.manager.error_exit = JumpBack;
+  failure.manager.emit_message = RecordWarning;
   failure.progress.progress_monitor = CountScans;
   Image out;
   jpeg_create_decompress(&info);
   info.progress = &failure.progress;
-  const Outcome outcome = Decode(info, failure, bytes, wish, out);
+  const Outcome outcome = Decode(info, failure, bytes, options, out);
   const std::string size =
       std::to_string(info.image_width) + " x " + std::to_string(info.image_height);
   jpeg_destroy_decompress(&info);
   std::string why;
   if (outcome == Outcome::kTooLarge) {
-    why = "it has " + size + " pixels; at most " + std::to_string(wish.most_pixels / 1'000'000) +
+    why = "it has " + size + " pixels; at most " + std::to_string(options.most_pixels / 1'000'000) +
           " million are read: scale it down";
   } else if (failure.endless) {
     why = "it is built of more than " + std::to_string(kMostScans) + " scans";
@@ -180,8 +180,8 @@ vm::Result<Image> DecodeJpegAs(JpegWish& wish, std::span<const std::uint8_t> byt
 }
 
 vm::Result<Image> DecodeJpeg(std::span<const std::uint8_t> bytes) {
-  JpegWish wish;
-  auto image = DecodeJpegAs(wish, bytes);
+  JpegOptions options;
+  auto image = DecodeJpegAs(options, bytes);
   if (!image) return image;
   if (auto fits = CheckSize(image->width, image->height); !fits) {
     return std::unexpected(fits.error());
