@@ -12,6 +12,7 @@ foreach(line IN LISTS lines)
   endif()
   set(name "${CMAKE_MATCH_1}")
   string(REGEX MATCHALL "[^ ]+" numbers "${CMAKE_MATCH_3}")
+  list(FILTER numbers EXCLUDE REGEX "[.][.]") # limits, LOW..HIGH
   string(REGEX REPLACE " +" " " name "${name}")
   list(LENGTH numbers count)
   list(APPEND rows "${name}|${count}")

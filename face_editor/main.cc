@@ -17,6 +17,7 @@
 #include "face_editor/app/script.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
+#include "fsm/faces/table_names.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace {
@@ -128,7 +129,7 @@ class Run {
   void OpenUnitsOfMask() {
     if (options_.mask.empty() || !options_.head.empty()) return;
     const std::string path =
-        fsm::FacesFolder() + "/" + options_.mask + "/" + std::string(fsm::TableFolder::kUnits);
+        fsm::FacesFolder() + "/" + options_.mask + "/" + std::string(fsm::kUnitsTable);
     std::error_code code;
     if (!fsm::IsFaceName(options_.mask) || !std::filesystem::exists(path, code)) return;
     vm::OrThrow(editor_->Load(editor::Part::kUnits, path));

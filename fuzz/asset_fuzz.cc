@@ -36,7 +36,7 @@ fsm::Head SmallHead() {
   rig.units = fsm::UnitTable(fsm::Table("units", "field 4 10 20 15 15 both 1 2 3\nclose 43 1"));
   rig.units_by_place = true;
   using Kind = fsm::Drive::Kind;
-  for (int kind = 0; kind <= static_cast<int>(Kind::kGazeRight); ++kind) {
+  for (int kind = 0; kind <= static_cast<int>(Kind::kResidual); ++kind) {
     fsm::Channel& channel = rig.channels.emplace_back();
     channel.drivers = {{{static_cast<Kind>(kind), 0, fsm::Drive::WhichSide::kStronger}, 0.5F}};
     channel.most = 2;

@@ -93,7 +93,7 @@ fsm::FaceState ExpressionsPage(Ui& ui) {
   found = ui.editor.state().emotions.find(ui.expression);
   if (found == ui.editor.state().emotions.end()) return {};
   ui.pattern = std::clamp(ui.pattern, 1, static_cast<int>(found->second.patterns.size()));
-  fsm::ActionUnits look = found->second.patterns[static_cast<std::size_t>(ui.pattern - 1)];
+  fsm::FaceLook look = found->second.patterns[static_cast<std::size_t>(ui.pattern - 1)];
   std::string merge;
   if (LookSliders(ui, look, true, &merge)) {
     ui.Check(ui.editor.SetExpression(ui.expression, ui.pattern, look, merge));

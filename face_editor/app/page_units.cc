@@ -6,14 +6,14 @@
 #include <cmath>
 
 #include "face_editor/app/ui.h"
-#include "fsm/motion/unit_names.h"
+#include "fsm/motion/expression/unit_names.h"
 
 namespace editor {
 namespace {
 
 constexpr const char* kRegionTitles[] = {"Eyes", "Brows", "Mouth and jaw"};
 
-bool SliderRow(Ui& ui, int unit, fsm::ActionUnits& look, std::string* merge) {
+bool SliderRow(Ui& ui, int unit, fsm::FaceLook& look, std::string* merge) {
   const auto i = static_cast<std::size_t>(unit);
   const auto& names = ui.editor.unit_names().names;
   const auto name = names.find(unit);
@@ -41,7 +41,7 @@ bool SliderRow(Ui& ui, int unit, fsm::ActionUnits& look, std::string* merge) {
   return changed;
 }
 
-std::vector<int> UnitOrder(const fsm::UnitNames& names, const fsm::ActionUnits& look,
+std::vector<int> UnitOrder(const fsm::UnitNames& names, const fsm::FaceLook& look,
                            bool used_first) {
   std::vector<int> order;
   for (const bool used : {true, false}) {
@@ -54,7 +54,7 @@ std::vector<int> UnitOrder(const fsm::UnitNames& names, const fsm::ActionUnits& 
   return order;
 }
 
-bool GazeRow(Ui& ui, fsm::ActionUnits& look, std::string* merge) {
+bool GazeRow(Ui& ui, fsm::FaceLook& look, std::string* merge) {
   Heading("Where the eyes look, degrees");
   bool changed = false;
   for (const std::size_t axis : {0U, 1U}) {
@@ -81,7 +81,7 @@ std::string Spaced(const std::string& name) {
   return text;
 }
 
-bool LookSliders(Ui& ui, fsm::ActionUnits& look, bool used_first, std::string* merge) {
+bool LookSliders(Ui& ui, fsm::FaceLook& look, bool used_first, std::string* merge) {
   Checkbox(ui, "Both sides together", &ui.linked);
   for (std::size_t r = 0; r < fsm::kRegions; ++r) {
     ImGui::SameLine();
@@ -111,7 +111,7 @@ bool LookSliders(Ui& ui, fsm::ActionUnits& look, bool used_first, std::string* m
 }
 
 fsm::FaceState UnitsPage(Ui& ui) {
-  fsm::ActionUnits look = ui.editor.state().look;
+  fsm::FaceLook look = ui.editor.state().look;
   std::string merge;
   if (LookSliders(ui, look, false, &merge)) {
     ui.editor.SetLook(look, "units", merge);

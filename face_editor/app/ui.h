@@ -159,7 +159,7 @@ void DrawTouched(Ui& ui, ImVec2 low, ImVec2 size);
 
 /// Sliders of the units of a look, by number or those that act before the others; true if one was
 /// moved. `merge` gets the name of the change.
-bool LookSliders(Ui& ui, fsm::ActionUnits& look, bool used_first, std::string* merge);
+bool LookSliders(Ui& ui, fsm::FaceLook& look, bool used_first, std::string* merge);
 /// "LipCornerPuller" as words.
 std::string Spaced(const std::string& name);
 /// Buttons that play expressions and speech on the preview.

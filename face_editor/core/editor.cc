@@ -134,11 +134,11 @@ vm::Result<void> Editor::SetUnit(int unit, bool left, bool right, float strength
   return {};
 }
 
-void Editor::SetLook(const fsm::ActionUnits& look, std::string what, std::string_view merge) {
+void Editor::SetLook(const fsm::FaceLook& look, std::string what, std::string_view merge) {
   history_.Change(Part::kLook, std::move(what), merge, [&](State& state) { state.look = look; });
 }
 
-std::vector<fsm::ActionUnits>* Editor::PatternsOf(State& state, std::string_view name) const {
+std::vector<fsm::FaceLook>* Editor::PatternsOf(State& state, std::string_view name) const {
   const auto found = state.emotions.find(name);
   return found == state.emotions.end() ? nullptr : &found->second.patterns;
 }
@@ -149,11 +149,11 @@ vm::Result<void> Editor::CheckPattern(std::string_view name, int pattern) const 
     return Fail(Errc::kBadValue, fmt::format("there is no expression '{}'; {} expected",
                                              name.substr(0, 40), fsm::KeysOf(state().emotions)));
   }
-  return fsm::CheckPattern(name, pattern, 1, found->second.patterns.size());
+  return fsm::CheckPatternNumber(name, pattern, 1, found->second.patterns.size());
 }
 
 vm::Result<void> Editor::SetExpression(std::string_view name, int pattern,
-                                       const fsm::ActionUnits& look, std::string_view merge) {
+                                       const fsm::FaceLook& look, std::string_view merge) {
   if (auto fits = CheckPattern(name, pattern); !fits) return fits;
   history_.Change(Part::kEmotions, fmt::format("{} {}", name, pattern), merge, [&](State& state) {
     (*PatternsOf(state, name))[static_cast<std::size_t>(pattern - 1)] = look;
@@ -193,7 +193,7 @@ vm::Result<void> Editor::AddPattern(std::string_view name) {
   }
   history_.Change(Part::kEmotions, "add a pattern of " + word, "", [&](State& state) {
     auto& patterns = state.emotions[word].patterns;
-    patterns.push_back(patterns.empty() ? fsm::ActionUnits{} : patterns.back());
+    patterns.push_back(patterns.empty() ? fsm::FaceLook{} : patterns.back());
   });
   return {};
 }

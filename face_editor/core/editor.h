@@ -57,8 +57,8 @@ class Editor {
   // Units and expressions. Strengths 0..2.
   vm::Result<void> SetUnit(int unit, bool left, bool right, float strength,
                            std::string_view merge = "");
-  void SetLook(const fsm::ActionUnits& look, std::string what, std::string_view merge = "");
-  vm::Result<void> SetExpression(std::string_view name, int pattern, const fsm::ActionUnits& look,
+  void SetLook(const fsm::FaceLook& look, std::string what, std::string_view merge = "");
+  vm::Result<void> SetExpression(std::string_view name, int pattern, const fsm::FaceLook& look,
                                  std::string_view merge = "");
   vm::Result<void> SetTiming(std::string_view name, bool posed, const fsm::Emotion::Timing& timing,
                              std::string_view merge = "");
@@ -109,7 +109,7 @@ class Editor {
  private:
   explicit Editor(fsm::MotionTables tables);
   void MarkSaved(Part part);
-  std::vector<fsm::ActionUnits>* PatternsOf(State& state, std::string_view name) const;
+  std::vector<fsm::FaceLook>* PatternsOf(State& state, std::string_view name) const;
   vm::Result<void> CheckPattern(std::string_view name, int pattern) const;
   vm::Result<void> CheckCurve(std::string_view kind, int pattern) const;
   vm::Result<std::size_t> RowOf(int unit, int row) const;

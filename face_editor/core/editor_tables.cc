@@ -14,8 +14,8 @@
 #include "face_editor/core/identity_head.h"
 #include "face_editor/core/table_writer.h"
 #include "fsm/base/table_reader.h"
+#include "fsm/motion/idle/motion_reader.h"
 #include "fsm/motion/motion_errors.h"
-#include "fsm/motion/motion_reader.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace editor {
@@ -241,7 +241,7 @@ vm::Result<void> Editor::CheckCurve(std::string_view kind, int pattern) const {
     return Fail(Errc::kBadValue, fmt::format("there is no movement '{}'; {} expected",
                                              kind.substr(0, 40), fsm::KeysOf(state().curves)));
   }
-  return fsm::CheckPattern(kind, pattern, 1, found->second.size());
+  return fsm::CheckPatternNumber(kind, pattern, 1, found->second.size());
 }
 
 vm::Result<void> Editor::SetCurve(std::string_view kind, int pattern, const Keys& keys,

@@ -58,7 +58,7 @@ vm::Result<void> Player::Plan() {
   vm::Time end = settled;
   if (!show_.motion.empty()) {
     auto done = cue(kLead, [show = show_](fsm::FaceMotion& motion) {
-      return motion.Move(kLead, show.motion, show.motion_pattern);
+      return motion.PlayMovement(kLead, show.motion, show.motion_pattern);
     });
     if (!done) return done;
     end = std::max(end, trial->FiniteEnd(kLead));
@@ -123,7 +123,7 @@ std::string Player::PhonemeAt(vm::Time now) {
   return motion_->speech.PhonemeAt(Local(now));
 }
 
-fsm::FaceState StateOf(const fsm::ActionUnits& look) {
+fsm::FaceState StateOf(const fsm::FaceLook& look) {
   fsm::FaceState state;
   state.au = look.au;
   state.gaze = look.gaze;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "face_editor/core/unit_rows.h"
-#include "fsm/motion/emotion_table.h"
-#include "fsm/motion/motion_patterns.h"
-#include "fsm/motion/viseme_tables.h"
+#include "fsm/motion/expression/emotion_table.h"
+#include "fsm/motion/idle/motion_patterns.h"
+#include "fsm/motion/speech/viseme_tables.h"
 
 namespace editor {
 
@@ -29,7 +29,7 @@ inline constexpr std::size_t kParts = 7;
 /// Everything that can be edited, at one instant. A plain value.
 struct State {
   PointMap points;
-  fsm::ActionUnits look;  ///< units as they are set on the face now
+  fsm::FaceLook look;  ///< units as they are set on the face now
   fsm::EmotionTable emotions;
   fsm::Visemes shapes14, shapes28;
   HeadCurves curves;

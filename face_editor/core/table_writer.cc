@@ -10,7 +10,7 @@
 
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
-#include "fsm/motion/unit_names.h"
+#include "fsm/motion/expression/unit_names.h"
 
 namespace editor {
 namespace {
@@ -64,7 +64,7 @@ std::string TimingRow(const char* kind, const std::string& name,
                      timing.lag_ms[0], timing.lag_ms[1], timing.lag_ms[2]);
 }
 
-std::string PatternRow(const std::string& name, std::size_t pattern, const fsm::ActionUnits& look,
+std::string PatternRow(const std::string& name, std::size_t pattern, const fsm::FaceLook& look,
                        const fsm::UnitNames& names) {
   return fmt::format("{} {:<3}{}", name, pattern,
                      std::string(std::max<std::size_t>(10, name.size()) - name.size(), ' ')) +
@@ -162,9 +162,9 @@ std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotio
     } else {
       const std::size_t pattern = PatternOf(line);
       if (pattern == 0 || pattern > emotion->second.patterns.size()) continue;
-      const fsm::ActionUnits& look = emotion->second.patterns[pattern - 1];
+      const fsm::FaceLook& look = emotion->second.patterns[pattern - 1];
       const auto old = fsm::ReadTable("", line.text, [&names](const fsm::Table& table) {
-        return fsm::ReadUnits(table.rows().front(), 2, names);
+        return fsm::ReadLook(table.rows().front(), 2, names);
       });
       const bool same = old && fsm::FormatLook(*old, names) == fsm::FormatLook(look, names);
       rows.emplace_back(same ? line.text : PatternRow(name, pattern, look, names) + line.comment,

@@ -69,7 +69,7 @@ BodyPaint::Joint BodyPaint::JointOf(PhotoEdge edge) const {
   // above the chin the bust has a jaw of its own.
   const float below_chin = (joint.row - canvas_.chin.y) / canvas_.pixels_per_mm;
   if (below_chin < 0) limit.y = std::min(limit.y, look.width_ratio_at_jaw);
-  joint.fade_mm = fsm::Between(look.fades_mm, fsm::SmoothStep(look.neck_mm, below_chin));
+  joint.fade_mm = fsm::Lerp(look.fades_mm, fsm::SmoothStep(look.neck_mm, below_chin));
   joint.width_ratio = glm::clamp(half_width / bust_half_width, hidden ? 1.0F : limit.x, limit.y);
   if (joint.cut) joint.slope = OutlineSlope(edge, joint.row);
   return joint;

@@ -121,7 +121,7 @@ vm::Result<Lessons> LessonsOf(const EmotionSpace& space, const fsm::EmotionTable
                                   axis.emotion));
     }
     auto& patterns = lessons.patterns.emplace_back();
-    for (const fsm::ActionUnits& look : found->second.patterns) {
+    for (const fsm::FaceLook& look : found->second.patterns) {
       const std::vector<float> ratios = RatiosOf(space, look);
       patterns.emplace_back(
           Eigen::VectorXf::Map(ratios.data(), static_cast<Eigen::Index>(ratios.size())));
@@ -136,7 +136,7 @@ std::vector<int> UnitsOf(const fsm::EmotionTable& emotions, const std::vector<Ax
   for (const Axis& axis : axes) {
     const auto found = emotions.find(axis.emotion);
     if (found == emotions.end()) continue;
-    for (const fsm::ActionUnits& look : found->second.patterns) {
+    for (const fsm::FaceLook& look : found->second.patterns) {
       for (const fsm::UnitValues* side : {&look.au.right, &look.au.left}) {
         for (std::size_t unit = 0; unit < side->size(); ++unit) {
           if ((*side)[unit] > 0) units.insert(static_cast<int>(unit));
@@ -192,7 +192,7 @@ const std::vector<Axis>& BuiltAxes() {
   return axes;
 }
 
-std::vector<float> RatiosOf(const EmotionSpace& space, const fsm::ActionUnits& look) {
+std::vector<float> RatiosOf(const EmotionSpace& space, const fsm::FaceLook& look) {
   std::vector<float> ratios;
   for (const int number : space.units) {
     const auto unit = static_cast<std::size_t>(number);

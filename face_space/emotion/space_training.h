@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "fsm/motion/emotion_space.h"
-#include "fsm/motion/emotion_table.h"
+#include "fsm/motion/expression/emotion_space.h"
+#include "fsm/motion/expression/emotion_table.h"
 #include "vm_protocol/core/result.h"
 
 namespace facespace {
@@ -53,6 +53,6 @@ std::vector<GivenBack> JudgeSpace(const fsm::EmotionSpace& space, const fsm::Emo
                                   const std::vector<Axis>& axes);
 
 /// The strengths of the space's units in a look, both sides' mean.
-std::vector<float> RatiosOf(const fsm::EmotionSpace& space, const fsm::ActionUnits& look);
+std::vector<float> RatiosOf(const fsm::EmotionSpace& space, const fsm::FaceLook& look);
 
 }  // namespace facespace

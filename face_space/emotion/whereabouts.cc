@@ -16,7 +16,7 @@ double Dot(const fsm::EmotionSpace::Point& a, const fsm::EmotionSpace::Point& b)
 
 }  // namespace
 
-Whereabouts WhereIs(const fsm::EmotionSpace& space, const fsm::ActionUnits& look) {
+Whereabouts WhereIs(const fsm::EmotionSpace& space, const fsm::FaceLook& look) {
   const std::vector<float> ratios = RatiosOf(space, look);
   Whereabouts out{.at = space.PointOf(ratios), .emotion = "NEUTRAL"};
   const double away = std::sqrt(Dot(out.at, out.at));

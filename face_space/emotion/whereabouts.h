@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "fsm/motion/emotion_space.h"
+#include "fsm/motion/expression/emotion_space.h"
 
 namespace facespace {
 
@@ -18,6 +18,6 @@ struct Whereabouts {
 inline constexpr double kNeutralWithin = 0.2;
 
 /// Both sides count half; units that the space does not have count as not given back.
-Whereabouts WhereIs(const fsm::EmotionSpace& space, const fsm::ActionUnits& look);
+Whereabouts WhereIs(const fsm::EmotionSpace& space, const fsm::FaceLook& look);
 
 }  // namespace facespace

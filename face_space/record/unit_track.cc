@@ -11,7 +11,7 @@ namespace facespace {
 namespace {
 
 /// What a column adds to a look at full strength; nothing for other columns.
-std::optional<fsm::ActionUnits> LookOf(const std::string& column, const fsm::MotionTables& tables) {
+std::optional<fsm::FaceLook> LookOf(const std::string& column, const fsm::MotionTables& tables) {
   std::string shape = column;
   if (!shape.empty()) shape[0] = vm::LowerCase(shape[0]);
   if (const auto found = tables.blend_shapes.find(shape); found != tables.blend_shapes.end()) {
@@ -20,7 +20,7 @@ std::optional<fsm::ActionUnits> LookOf(const std::string& column, const fsm::Mot
   if (!shape.starts_with("au") || shape.size() < 3) return std::nullopt;
   const auto unit = fsm::ParseUnitName(shape.substr(2), tables.unit_names);
   if (!unit) return std::nullopt;
-  fsm::ActionUnits look;
+  fsm::FaceLook look;
   const auto number = static_cast<std::size_t>(unit->number);
   if (unit->left) look.au.left[number] = 1;
   if (unit->right) look.au.right[number] = 1;
@@ -36,7 +36,7 @@ bool HasUnits(const Track& track, const fsm::MotionTables& tables) {
 
 vm::Result<UnitTrack> UnitsOf(const Track& track, const fsm::MotionTables& tables) {
   UnitTrack out{.name = track.name, .ms = track.ms, .looks = {}};
-  std::vector<std::pair<Eigen::Index, fsm::ActionUnits>> parts;
+  std::vector<std::pair<Eigen::Index, fsm::FaceLook>> parts;
   for (std::size_t i = 0; i < track.columns.size(); ++i) {
     if (const auto look = LookOf(track.columns[i], tables)) {
       parts.emplace_back(static_cast<Eigen::Index>(i), *look);
@@ -48,7 +48,7 @@ vm::Result<UnitTrack> UnitsOf(const Track& track, const fsm::MotionTables& table
         fmt::format("{}: no units found (columns au12L or ARKit's shapes as jawOpen)", track.name));
   }
   for (Eigen::Index t = 0; t < track.values.cols(); ++t) {
-    fsm::ActionUnits& look = out.looks.emplace_back();
+    fsm::FaceLook& look = out.looks.emplace_back();
     for (const auto& [row, part] : parts) {
       fsm::AddTo(look, part, std::clamp(track.values(row, t), 0.0, 2.0));
     }

@@ -13,7 +13,7 @@ namespace facespace {
 struct UnitTrack {
   std::string name;
   std::vector<double> ms;
-  std::vector<fsm::ActionUnits> looks;  ///< one a frame
+  std::vector<fsm::FaceLook> looks;  ///< one a frame
 };
 
 /// Whether the columns of a track are units (au12L, au26) or ARKit's shapes (jawOpen, also written

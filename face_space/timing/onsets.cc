@@ -162,7 +162,7 @@ void CountFromFirst(Onset& onset) {
 std::vector<ByRegion<double>> RegionCourses(const UnitTrack& track, const fsm::UnitList& units) {
   std::vector<ByRegion<double>> courses;
   courses.reserve(track.looks.size());
-  for (const fsm::ActionUnits& look : track.looks) {
+  for (const fsm::FaceLook& look : track.looks) {
     ByRegion<double>& parts = courses.emplace_back();
     for (const fsm::UnitValues* side : {&look.au.left, &look.au.right}) {
       for (std::size_t unit = 0; unit < side->size(); ++unit) {

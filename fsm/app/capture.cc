@@ -7,9 +7,9 @@
 
 namespace fsm {
 
-void Capture::Arm(Order order) {
+void Capture::Arm(Request request) {
   Cancel();
-  order_ = std::move(order);
+  request_ = std::move(request);
   armed_ = true;
 }
 
@@ -17,7 +17,7 @@ void Capture::Begin(vm::Time at) {
   if (!armed_) return;
   armed_ = false;
   running_ = true;
-  series_ = {at, order_.per_second};
+  series_ = {at, request_.per_second};
   end_.reset();
   next_ = 0;
   written_ = 0;
@@ -49,10 +49,10 @@ vm::Result<void> Capture::Write(const Image& picture) {
     return vm::Fail(vm::Errc::kLimit, fmt::format("Capture: the pictures in '{}' take more than {} "
                                                   "MiB; fewer a second, a smaller view or PNG "
                                                   "take less",
-                                                  order_.folder, limits_.bytes >> 20));
+                                                  request_.folder, limits_.bytes >> 20));
   }
   const std::string path =
-      fmt::format("{}/{}{:05}{}", order_.folder, order_.prefix, written_ + 1, order_.ending);
+      fmt::format("{}/{}{:05}{}", request_.folder, request_.prefix, written_ + 1, request_.ending);
   if (auto written = files_.write_picture(picture, path); !written) return written;
   std::error_code none;
   if (const auto size = std::filesystem::file_size(path, none); !none) bytes_ += size;

@@ -23,7 +23,7 @@ class Capture {
     long pictures = 36'000;             ///< 20 minutes at 30 per second
     std::uintmax_t bytes = 8ULL << 30;  ///< on the disk: 10,000 pictures of 512 x 512
   };
-  struct Order {
+  struct Request {
     std::string folder;
     std::string prefix;
     double per_second = 30;
@@ -45,7 +45,7 @@ class Capture {
         timer_(clock) {}
   ~Capture() { Cancel(); }
 
-  void Arm(Order order);
+  void Arm(Request request);
   /// The utterance began at `at`, now or just before; no effect if not armed.
   void Begin(vm::Time at);
   /// Says that the utterance ended at `at`, now or before. The remaining pictures up to then are
@@ -66,7 +66,7 @@ class Capture {
   OnEnd on_end_;
   FrameQueue queue_;
   const Limits limits_;
-  Order order_;
+  Request request_;
   FrameSeries series_;
   bool armed_ = false;
   bool running_ = false;

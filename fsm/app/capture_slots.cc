@@ -1,17 +1,20 @@
 #include "fsm/app/capture_slots.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 namespace fsm {
 
-CaptureSlots::CaptureSlots(FsmCore& core, Capture::Draw draw)
+CaptureSlots::CaptureSlots(FsmCore& core)
     : core_(core),
-      capture_(core.clock, core.view, core.files, std::move(draw),
-               [this](const vm::Result<void>& done) {
-                 core_.slots.Report("Capture", "DISABLE");
-                 if (!done) core_.slots.ReportError("Capture", done.error());
-               }) {
+      capture_(
+          core.clock, core.view, core.files,
+          [this](long number, vm::Time at) { return core_.DrawFrame(number, at); },
+          [this](const vm::Result<void>& done) {
+            core_.slots.Report("Capture", "DISABLE");
+            if (!done) core_.slots.ReportError("Capture", done.error());
+          }) {
   core_.slots.Declare(
       {.name = "Capture",
        .grammar = "STOP | <word> <word> <number 0.1..120> [ BMP | PNG ]",
@@ -22,6 +25,12 @@ CaptureSlots::CaptureSlots(FsmCore& core, Capture::Draw draw)
            "most 36000 of them and 8 GiB.",
        .on_set = [this](const vm::SetValue& value) { return Set(value); },
        .saved = false});
+}
+
+void CaptureSlots::OnSpeechEnd() {
+  // On a busy machine the end is detected late.
+  const vm::Time now = core_.Now();
+  capture_.End(std::min(now, core_.motion->speech.End().value_or(now)));
 }
 
 vm::Result<std::string> CaptureSlots::Set(const vm::SetValue& value) {

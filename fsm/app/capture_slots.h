@@ -10,11 +10,12 @@ namespace fsm {
 /// The slot Capture: numbered pictures of an utterance.
 class CaptureSlots final : public ModulePart {
  public:
-  /// Declares the slot. `core` outlives this, and so does what `draw` uses.
-  CaptureSlots(FsmCore& core, Capture::Draw draw);
+  /// Declares the slot. `core` outlives this.
+  explicit CaptureSlots(FsmCore& core);
   void End() override { capture_.Cancel(); }
-  Capture& capture() { return capture_; }
-  const Capture& capture() const { return capture_; }
+  void OnSpeechBegin(vm::Time start) override { capture_.Begin(start); }
+  void OnSpeechEnd() override;
+  bool Busy() const override { return capture_.running(); }
 
  private:
   vm::Result<std::string> Set(const vm::SetValue& value);

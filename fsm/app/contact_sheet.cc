@@ -49,59 +49,59 @@ std::string Companions(int unit) {
 }
 
 /// The arguments of MakeSheet.
-struct Wanted {
+struct SheetInput {
   const MotionTables& tables;
   const std::vector<std::string>& faces;
   const std::string& face;
 };
 
-Sheet Units(const Wanted& wanted) {
-  Sheet sheet{{}, 10};
-  sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), wanted.face});
-  for (const auto& [number, name] : wanted.tables.unit_names.names) {
+ContactSheet UnitSheet(const SheetInput& input) {
+  ContactSheet sheet{{}, 10};
+  sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), input.face});
+  for (const auto& [number, name] : input.tables.unit_names.names) {
     const std::string text = std::to_string(number) + " 1" + Companions(number);
     const FaceState state =
-        After(wanted.tables, [&](FaceMotion& motion) { vm::OrThrow(motion.units.Set(0ms, text)); });
+        After(input.tables, [&](FaceMotion& motion) { vm::OrThrow(motion.units.Set(0ms, text)); });
     sheet.cells.push_back(
-        {std::to_string(number) + " " + name, Framed(state, kWholeFace), wanted.face});
+        {std::to_string(number) + " " + name, Framed(state, kWholeFace), input.face});
   }
   return sheet;
 }
 
-Sheet Emotions(const Wanted& wanted) {
-  Sheet sheet{{}, 4};
-  sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), wanted.face});
+ContactSheet EmotionSheet(const SheetInput& input) {
+  ContactSheet sheet{{}, 4};
+  sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), input.face});
   for (const char* name : kEmotions) {
-    if (!wanted.tables.emotions.contains(name)) continue;
-    const FaceState state = After(wanted.tables, [&](FaceMotion& motion) {
+    if (!input.tables.emotions.contains(name)) continue;
+    const FaceState state = After(input.tables, [&](FaceMotion& motion) {
       vm::OrThrow(motion.expression.Show(0ms, name, 1, 1, 0ms));
     });
-    sheet.cells.push_back({name, Framed(state, kWholeFace), wanted.face});
+    sheet.cells.push_back({name, Framed(state, kWholeFace), input.face});
   }
   return sheet;
 }
 
-Sheet VisemeSheet(const Wanted& wanted) {
-  Sheet sheet{{}, 7};
+ContactSheet VisemeSheet(const SheetInput& input) {
+  ContactSheet sheet{{}, 7};
   for (const VisemeSetId set : {VisemeSetId::k28, VisemeSetId::k14}) {
     const std::string prefix = std::to_string(CountOf(set)) + " ";
-    for (const Viseme& viseme : wanted.tables.set(set).visemes) {
+    for (const Viseme& viseme : input.tables.set(set).visemes) {
       FaceState state;
       state.mouth = viseme.pose.mouth;
       state.lip_seal = viseme.pose.seal;
       state.tongue = viseme.pose.tongue;
-      sheet.cells.push_back({prefix + viseme.name, Framed(state, kMouth), wanted.face});
+      sheet.cells.push_back({prefix + viseme.name, Framed(state, kMouth), input.face});
     }
   }
   return sheet;
 }
 
-Sheet Identities(const Wanted& wanted) {
-  Sheet sheet{{}, 4};
-  const FaceState smile = After(wanted.tables, [](FaceMotion& motion) {
+ContactSheet IdentitySheet(const SheetInput& input) {
+  ContactSheet sheet{{}, 4};
+  const FaceState smile = After(input.tables, [](FaceMotion& motion) {
     static_cast<void>(motion.expression.Show(0ms, "HAPPY", 1, 1, 0ms));  // without HAPPY: at rest
   });
-  for (const std::string& face : wanted.faces) {
+  for (const std::string& face : input.faces) {
     for (const float turn : {0.0f, 35.0f, 85.0f}) {
       FaceState state;
       state.figure.rotation = {0, turn, 0};
@@ -113,8 +113,10 @@ Sheet Identities(const Wanted& wanted) {
   return sheet;
 }
 
-constexpr SlotWord<Sheet (*)(const Wanted&)> kKinds[] = {
-    {"aus", Units}, {"emotions", Emotions}, {"visemes", VisemeSheet}, {"identities", Identities}};
+constexpr SlotWord<ContactSheet (*)(const SheetInput&)> kKinds[] = {{"aus", UnitSheet},
+                                                                    {"emotions", EmotionSheet},
+                                                                    {"visemes", VisemeSheet},
+                                                                    {"identities", IdentitySheet}};
 
 void Paste(const Image& from, Image& to, int x, int y) {
   for (int row = 0; row < from.height; ++row) {
@@ -126,14 +128,15 @@ void Paste(const Image& from, Image& to, int x, int y) {
 
 }  // namespace
 
-vm::Result<Sheet> MakeSheet(const std::string& kind, const MotionTables& tables,
-                            const std::vector<std::string>& faces, const std::string& face) {
+vm::Result<ContactSheet> MakeSheet(const std::string& kind, const MotionTables& tables,
+                                   const std::vector<std::string>& faces, const std::string& face) {
   if (const auto make = ValueOf(kKinds, kind)) return (*make)({tables, faces, face});
   return vm::Fail(vm::Errc::kBadValue,
                   "there is no sheet '" + kind + "'; " + GrammarOf(kKinds) + " expected");
 }
 
-vm::Result<Image> DrawSheet(FaceView& view, Wardrobe& wardrobe, const Sheet& sheet, bool labels) {
+vm::Result<Image> DrawSheet(FaceView& view, Wardrobe& wardrobe, const ContactSheet& sheet,
+                            bool labels) {
   if (auto sized = view.Resize(kCellWidth, kCellHeight); !sized) {
     return std::unexpected(sized.error());
   }
@@ -143,7 +146,7 @@ vm::Result<Image> DrawSheet(FaceView& view, Wardrobe& wardrobe, const Sheet& she
   Image picture = FilledImage(sheet.columns * (kCellWidth + kGap) + kGap, rows * cell_height + kGap,
                               {kPaper, kPaper, kPaper, 255});
   for (int i = 0; i < count; ++i) {
-    const SheetCell& cell = sheet.cells[static_cast<std::size_t>(i)];
+    const ContactSheetCell& cell = sheet.cells[static_cast<std::size_t>(i)];
     if (!cell.face.empty()) {
       if (auto worn = wardrobe.Wear(cell.face); !worn) return std::unexpected(worn.error());
     }

@@ -10,24 +10,25 @@
 namespace fsm {
 
 /// Contact sheets: many faces in one picture.
-struct SheetCell {
+struct ContactSheetCell {
   std::string label;
   FaceState state;
   std::string face;  ///< "" = the current face
 };
-struct Sheet {
-  std::vector<SheetCell> cells;
+struct ContactSheet {
+  std::vector<ContactSheetCell> cells;
   int columns = 1;
 };
 
 /// Returns the cells of a sheet. `kind`: aus (every unit and code at full strength), emotions
 /// (neutral and the six, pattern 1), visemes (the 28 mouth shapes, then the 14), identities (each
 /// of `faces`: front, three-quarter, profile, smiling). Error: kBadValue listing the kinds.
-vm::Result<Sheet> MakeSheet(const std::string& kind, const MotionTables& tables,
-                            const std::vector<std::string>& faces, const std::string& face);
+vm::Result<ContactSheet> MakeSheet(const std::string& kind, const MotionTables& tables,
+                                   const std::vector<std::string>& faces, const std::string& face);
 
 inline constexpr int kCellWidth = 220, kCellHeight = 260;
 /// Draws a sheet; resizes the view to that of a cell. Errors: those of view and wardrobe.
-vm::Result<Image> DrawSheet(FaceView& view, Wardrobe& wardrobe, const Sheet& sheet, bool labels);
+vm::Result<Image> DrawSheet(FaceView& view, Wardrobe& wardrobe, const ContactSheet& sheet,
+                            bool labels);
 
 }  // namespace fsm

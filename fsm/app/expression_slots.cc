@@ -11,7 +11,7 @@ constexpr std::string_view kPrefix = "FaceExp.";
 using Name = ExpressionSlots::Name;
 
 // Parses "FaceExp.SMIRK" or "FaceExp.SMIRK.2"; nothing for other slots.
-std::optional<Name> NameOf(std::string_view slot) {
+std::optional<Name> ParseSlotName(std::string_view slot) {
   if (!slot.starts_with(kPrefix) || slot == "FaceExp.onset" || slot == "FaceExp.point") {
     return std::nullopt;
   }
@@ -43,7 +43,7 @@ ExpressionSlots::ExpressionSlots(FsmCore& core) : core_(core) {
   }
   core_.slots.set_definition_hook([this](const vm::Message& message, vm::PeerId,
                                          const vm::Reply& reply) {
-    const auto name = NameOf(message.slot);
+    const auto name = ParseSlotName(message.slot);
     if (!name) return false;
     if (message.command == vm::Command::kDef && message.relation == vm::Relation::kAssign) {
       const auto done = Define(*name, message.value);

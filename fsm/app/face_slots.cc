@@ -113,7 +113,7 @@ void DeclareExpressions(FsmCore& core) {
          const auto number = [&value](std::size_t i) {
            return static_cast<float>(value.number(i));
          };
-         core.motion->expression.ShowPoint(
+         core.motion->expression.ShowSpacePoint(
              core.Now(), {number(0), number(1), number(2)},
              value.size() > 3 ? std::optional(FromMs(value.number(3))) : std::nullopt);
          return {};
@@ -171,12 +171,13 @@ void DeclareHead(FsmCore& core) {
                "(1), or NOMOVE to end what is moving. SHAKE is REFUSE, TILT is LISTEN.",
        .on_set = core.Command([&core](const vm::SetValue& value) -> vm::Result<void> {
          if (value.word(0) == "NOMOVE") {
-           core.motion->StopMoves(core.Now());
+           core.motion->StopMovements(core.Now());
            return {};
          }
-         return core.motion->Move(core.Now(), value.word(0), static_cast<int>(value.number(1)),
-                                  value.size() > 2 ? value.number(2) / 100 : 1,
-                                  value.size() > 3 ? static_cast<int>(value.number(3)) : 1);
+         return core.motion->PlayMovement(core.Now(), value.word(0),
+                                          static_cast<int>(value.number(1)),
+                                          value.size() > 2 ? value.number(2) / 100 : 1,
+                                          value.size() > 3 ? static_cast<int>(value.number(3)) : 1);
        })});
 }
 
@@ -190,7 +191,7 @@ void DeclareEyes(FsmCore& core) {
                  " by x y degrees (x+ = down, y+ = to the viewer's right) for so many ms; "
                  "0 = until the next.",
          .on_set = core.Command([&core, left, right](const vm::SetValue& value) {
-           core.motion->eyes.Turn(
+           core.motion->eyes.Rotate(
                core.Now(), left, right,
                {static_cast<float>(value.number(0)), static_cast<float>(value.number(1))},
                FromMs(value.number(2)));

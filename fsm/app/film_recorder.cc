@@ -76,7 +76,7 @@ vm::Result<void> FilmRecorder::Write(const Image& frame, long times) {
   return added;
 }
 
-vm::Result<FilmRecorder::Report> FilmRecorder::Stop(const std::string& sound) {
+vm::Result<FilmRecorder::Summary> FilmRecorder::Stop(const std::string& sound) {
   if (!recording()) return vm::Fail(vm::Errc::kBadValue, "no film is being recorded");
   timer_.Cancel();
   // Frames that were due before now belong to the film; the one due right now does not, but a film
@@ -87,14 +87,14 @@ vm::Result<FilmRecorder::Report> FilmRecorder::Stop(const std::string& sound) {
     added = AddUpTo(stop - vm::Time(1), std::numeric_limits<long>::max());
   }
   if (added) added = queue_.Flush();
-  Report report{path_, next_, repeated_};
+  Summary summary{path_, next_, repeated_};
   const auto writer = std::move(writer_);
   if (!added) {
     queue_.Clear();
     return std::unexpected(added.error());
   }
   if (auto finished = writer->Finish(sound); !finished) return std::unexpected(finished.error());
-  return report;
+  return summary;
 }
 
 }  // namespace fsm

@@ -27,14 +27,14 @@ class FilmRecorder {
 
   /// Errors: kBusy while recording; kUnavailable if the film cannot be opened.
   vm::Result<void> Start(const std::string& path, int frames_per_second);
-  struct Report {
+  struct Summary {
     std::string path;
     long frames = 0;
     long repeated = 0;
   };
   /// Ends the film with the frames up to now and adds the sound file (may be ""). Errors: kBadValue
   /// when not recording; kUnavailable as FilmWriter::Finish.
-  vm::Result<Report> Stop(const std::string& sound);
+  vm::Result<Summary> Stop(const std::string& sound);
 
   bool recording() const { return writer_ != nullptr; }
   const std::string& path() const { return path_; }

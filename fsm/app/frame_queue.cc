@@ -5,7 +5,7 @@ namespace fsm {
 vm::Result<void> FrameQueue::Add(bool wait) {
   waiting_.push_back({view_.BeginRead(), 1});
   if (!wait) return Flush();
-  return waiting_.size() > kMostWaiting ? HandOnFirst() : vm::Result<void>{};
+  return waiting_.size() > kMostWaiting ? PassOnFirst() : vm::Result<void>{};
 }
 
 vm::Result<void> FrameQueue::Repeat() {
@@ -16,7 +16,7 @@ vm::Result<void> FrameQueue::Repeat() {
 
 vm::Result<void> FrameQueue::Flush() {
   vm::Result<void> taken;
-  while (taken && !waiting_.empty()) taken = HandOnFirst();
+  while (taken && !waiting_.empty()) taken = PassOnFirst();
   return taken;
 }
 
@@ -25,7 +25,7 @@ void FrameQueue::Clear() {
   waiting_.clear();
 }
 
-vm::Result<void> FrameQueue::HandOnFirst() {
+vm::Result<void> FrameQueue::PassOnFirst() {
   const Waiting first = waiting_.front();
   waiting_.pop_front();
   auto taken = view_.EndRead(first.frame, last_);

@@ -38,7 +38,7 @@ class FrameQueue {
     std::uint64_t frame;
     long times;
   };
-  vm::Result<void> HandOnFirst();
+  vm::Result<void> PassOnFirst();
 
   FaceView& view_;
   Take take_;

@@ -33,12 +33,12 @@ FrameSlots::FrameSlots(FsmCore& core) : core_(core) {
            return vm::Fail(vm::Errc::kBadValue, "'" + name + "' is no name of a module");
          }
          to_ = name == "NONE" ? "" : name;
-         Tell(core_.Now());
+         SendState(core_.Now());
          return {};
        })});
 }
 
-void FrameSlots::Tell(vm::Time at) {
+void FrameSlots::SendState(vm::Time at) {
   if (to_.empty()) return;
   const FaceState state = core_.motion->StateAt(at);
   std::string text = vm::FormatMs(at);
@@ -75,12 +75,6 @@ void FrameSlots::Report(long number, vm::Time at) {
   core_.slots.Report("Frame", fmt::format("{} {} {} {:.2f} {:.2f} {:.2f}", number, vm::FormatMs(at),
                                           phoneme.empty() ? "-" : phoneme, mouth->jaw_degrees,
                                           mouth->gap_mm, mouth->width_mm));
-}
-
-vm::Result<void> FrameSlots::Draw(long number, vm::Time at) {
-  auto drawn = core_.DrawAt(at);
-  if (drawn) Report(number, at);
-  return drawn;
 }
 
 void FrameSlots::Reset() {

@@ -15,14 +15,13 @@ class FrameSlots final : public ModulePart {
   explicit FrameSlots(FsmCore& core);
   void Reset() override;
 
-  /// Draws the face at `at` and reports it as frame `number`.
-  vm::Result<void> Draw(long number, vm::Time at);
+  void OnFrame(long number, vm::Time at) override { Report(number, at); }
   /// Reports a frame that belongs to no film, numbered from the start of the program.
   void ReportShown(vm::Time at) { Report(shown_++, at); }
   /// Sends the message for the face at `at` to the module of Frame.to, if there is one.
-  void Tell(vm::Time at);
+  void SendState(vm::Time at);
   bool is_reported() const { return core_.slots.AutoOutput("Frame"); }
-  bool is_told() const { return !to_.empty(); }
+  bool is_sent() const { return !to_.empty(); }
 
  private:
   void Report(long number, vm::Time at);

@@ -7,6 +7,12 @@ vm::Result<void> FsmCore::DrawAt(vm::Time t) {
   return view.Draw(motion->StateAt(t), scene, simulates ? &history : nullptr);
 }
 
+vm::Result<void> FsmCore::DrawFrame(long number, vm::Time t) {
+  if (auto drawn = DrawAt(t); !drawn) return drawn;
+  for (const auto& part : parts) part->OnFrame(number, t);
+  return {};
+}
+
 void FsmCore::ClampNumbers(vm::SetValue& value, int least, int most) {
   value.text.clear();
   for (auto& item : value.items) {

@@ -4,16 +4,43 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "fsm/app/face_view.h"
 #include "fsm/app/media_files.h"
 #include "fsm/app/wardrobe.h"
+#include "fsm/base/log.h"
 #include "fsm/motion/face_motion.h"
 #include "vm_protocol/core/scheduler.h"
 #include "vm_protocol/core/slot_machine.h"
 #include "vm_protocol/core/start_time.h"
 
 namespace fsm {
+
+/// A part of the module with a state of its own. It is told what concerns it.
+class ModulePart {
+ public:
+  virtual ~ModulePart() = default;
+  /// Ends activities such as films. Called for `Run = INIT`, before the motion is replaced, and at
+  /// the end of the module.
+  virtual void End() {}
+  /// Restores the initial state. Called for `Run = INIT`, after the motion has been replaced and
+  /// all slots have their initial values.
+  virtual void Reset() {}
+  /// Called after every command, because the face may now move or look different.
+  virtual void OnChange() {}
+  /// Called when an utterance has begun at `start`, now or just before.
+  virtual void OnSpeechBegin(vm::Time /*start*/) {}
+  /// Called when the utterance is over, but not by `Run = INIT`.
+  virtual void OnSpeechEnd() {}
+  /// Called when frame `number` of a film was drawn, which shows the face at `at`.
+  virtual void OnFrame(long /*number*/, vm::Time /*at*/) {}
+  /// Tells whether it is at work on a command.
+  virtual bool Busy() const { return false; }
+  /// Tells whether the size of the view must not change now.
+  virtual bool LocksSize() const { return false; }
+};
 
 /// The state that the parts of the face module share. Slots are declared by slots.Declare; Command,
 /// Clamped and Setting make their on_set.
@@ -23,6 +50,7 @@ struct FsmCore {
   FaceView& view;
   Wardrobe& wardrobe;
   MediaFiles files;
+  Log log;
   /// Whether a configuration of the original was given. Positions of the figure are then in halves
   /// of the view, and z+ leans to the viewer's left, as its clients expect.
   bool original = false;
@@ -30,13 +58,25 @@ struct FsmCore {
   std::unique_ptr<FaceMotion> motion{};
   Scene scene{};
   bool simulates = true;  ///< whether springs move
-  /// Called after every command, because the face may now move or look different.
+  /// Called after every command.
   std::function<void()> changed = [] {};
+  std::vector<std::unique_ptr<ModulePart>> parts{};
 
   vm::Time Now() const { return clock.Now(); }
 
   /// Draws the face at `t`.
   vm::Result<void> DrawAt(vm::Time t);
+  /// Draws the face at `t` as frame `number` of a film.
+  vm::Result<void> DrawFrame(long number, vm::Time t);
+
+  /// Makes a part of this core with the arguments `with`, and returns it.
+  template <typename Part, typename... With>
+  Part& Add(With&&... with) {
+    auto part = std::make_unique<Part>(*this, std::forward<With>(with)...);
+    Part& made = *part;
+    parts.push_back(std::move(part));
+    return made;
+  }
 
   /// SlotSpec::on_set.
   using OnSet = std::function<vm::Result<std::string>(const vm::SetValue&)>;
@@ -86,18 +126,6 @@ struct FsmCore {
       return function(arguments...);
     }
   }
-};
-
-/// A part of the module with a state of its own.
-class ModulePart {
- public:
-  virtual ~ModulePart() = default;
-  /// Ends activities such as films. Called for `Run = INIT`, before the motion is replaced, and at
-  /// the end of the module.
-  virtual void End() {}
-  /// Restores the initial state. Called for `Run = INIT`, after the motion has been replaced and
-  /// all slots have their initial values.
-  virtual void Reset() {}
 };
 
 }  // namespace fsm

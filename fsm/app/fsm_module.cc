@@ -1,11 +1,18 @@
 #include "fsm/app/fsm_module.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "fsm/app/capture_slots.h"
+#include "fsm/app/expression_slots.h"
 #include "fsm/app/face_slots.h"
 #include "fsm/app/idle_slots.h"
 #include "fsm/app/lip_slots.h"
+#include "fsm/app/mask_slots.h"
 #include "fsm/app/mouth_stream_slots.h"
+#include "fsm/app/picture_slots.h"
+#include "fsm/app/scene_slots.h"
+#include "fsm/app/speech_slots.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
@@ -25,6 +32,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, FaceView& view, Wardrobe& wardrobe, M
             .view = view,
             .wardrobe = wardrobe,
             .files = std::move(files),
+            .log = options_.log,
             .original = !options_.config.path.empty()} {
   tables_ = vm::OrThrow(MotionTables::Load(options_.tables));
   ApplyConfig(options_.config);
@@ -35,36 +43,20 @@ FsmModule::FsmModule(vm::Scheduler& clock, FaceView& view, Wardrobe& wardrobe, M
                                        .on_init = [this] { Initialise(); },
                                        .on_exit = [this] { exit_requested_ = true; }});
   DeclareFaceSlots(core_);
-  expressions_ = std::make_unique<ExpressionSlots>(core_);
+  core_.Add<ExpressionSlots>();
   DeclareIdleSlots(core_, options_.life);
-  speech_ = std::make_unique<SpeechSlots>(core_);
+  core_.Add<SpeechSlots>();
   DeclareLipSlots(core_);
   DeclareMouthStreamSlots(core_);
   DeclareFigureSlots(core_);
-  mask_ = std::make_unique<MaskSlots>(core_, options_.mask, options_.config.MaskNames());
-  scene_ = std::make_unique<SceneSlots>(core_, options_.config.backgrounds, options_.background);
-  const auto draw = [this](long number, vm::Time at) { return frames_->Draw(number, at); };
-  record_ = std::make_unique<RecordSlots>(core_, draw);
-  pictures_ = std::make_unique<PictureSlots>(core_);
-  capture_ = std::make_unique<CaptureSlots>(core_, draw);
-  frames_ = std::make_unique<FrameSlots>(core_);
-  parts_ = {expressions_.get(), speech_.get(),   mask_.get(),    scene_.get(),
-            record_.get(),      pictures_.get(), capture_.get(), frames_.get()};
-  Connect();
-  Changed();
-}
-
-void FsmModule::Connect() {
+  core_.Add<MaskSlots>(options_.mask, options_.config.MaskNames());
+  core_.Add<SceneSlots>(options_.config.backgrounds, options_.background);
+  record_ = &core_.Add<RecordSlots>();
+  core_.Add<PictureSlots>();
+  core_.Add<CaptureSlots>();
+  frames_ = &core_.Add<FrameSlots>();
   core_.changed = [this] { Changed(); };
-  scene_->set_size_locked([this] { return record_->recording(); });
-  speech_->set_listener({.begun = [this](vm::Time start) { capture_->capture().Begin(start); },
-                         .ended =
-                             [this] {
-                               // On a busy machine the end is detected late.
-                               const vm::Time now = core_.Now();
-                               capture_->capture().End(
-                                   std::min(now, core_.motion->speech.End().value_or(now)));
-                             }});
+  Changed();
 }
 
 void FsmModule::ApplyConfig(const OriginalConfig& config) {
@@ -81,16 +73,16 @@ void FsmModule::ApplyConfig(const OriginalConfig& config) {
 void FsmModule::MakeMotion() {
   core_.motion = std::make_unique<FaceMotion>(tables_, options_.seed);
   core_.motion->Apply(core_.Now(), start_settings_);
-  vm::OrThrow(core_.motion->idle.SetProfile(core_.Now(), options_.life));
+  vm::OrThrow(core_.motion->switches().SetProfile(core_.Now(), options_.life));
 }
 
 void FsmModule::Initialise() {
   core_.slots.Store("Error", "");
   // Films end first, with the face and the sound file from before INIT.
-  for (ModulePart* part : parts_) part->End();
+  for (const auto& part : core_.parts) part->End();
   MakeMotion();
   core_.slots.StoreInitialValues();
-  for (ModulePart* part : parts_) part->Reset();
+  for (const auto& part : core_.parts) part->Reset();
   Changed();
 }
 
@@ -106,7 +98,7 @@ std::vector<vm::Message> FsmModule::Greeting() {
 
 void FsmModule::Changed() {
   changed_ = true;
-  pictures_->Touch();
+  for (const auto& part : core_.parts) part->OnChange();
   ArmFrames();
   ArmEnd();
 }
@@ -125,7 +117,7 @@ vm::Time FsmModule::FrameAfter(vm::Time t) const {
 void FsmModule::ArmFrames() {
   const bool window = core_.view.window() != nullptr;
   const bool reported = frames_->is_reported() && !record_->recording();
-  const bool wanted = window || reported || frames_->is_told();
+  const bool wanted = window || reported || frames_->is_sent();
   const vm::Time now = core_.Now();
   std::optional<vm::Time> due;
   if (wanted) {
@@ -159,7 +151,7 @@ void FsmModule::OnFrame() {
     if (window->close_requested()) exit_requested_ = true;
   }
   if (!record_->recording()) frames_->ReportShown(now);
-  frames_->Tell(now);
+  frames_->SendState(now);
   ArmFrames();
 }
 
@@ -179,13 +171,14 @@ void FsmModule::ArmEnd() {
 }
 
 bool FsmModule::Busy() const {
-  return speech_->Busy() || capture_->capture().running() || BusyUntil() > core_.Now();
+  return BusyUntil() > core_.Now() ||
+         std::ranges::any_of(core_.parts, [](const auto& part) { return part->Busy(); });
 }
 
 void FsmModule::Shutdown() {
   // The runtime runs due timers before it ends. If drawing takes longer than the interval between
   // pictures, a capture would always have another one due.
-  for (ModulePart* part : parts_) part->End();
+  for (const auto& part : core_.parts) part->End();
   frame_timer_.Cancel();
 }
 

@@ -2,19 +2,13 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "fsm/app/capture_slots.h"
-#include "fsm/app/expression_slots.h"
 #include "fsm/app/frame_slots.h"
 #include "fsm/app/fsm_core.h"
-#include "fsm/app/mask_slots.h"
-#include "fsm/app/picture_slots.h"
 #include "fsm/app/record_slots.h"
-#include "fsm/app/scene_slots.h"
-#include "fsm/app/speech_slots.h"
+#include "fsm/base/log.h"
 #include "fsm/base/table_folder.h"
 #include "fsm/faces/original_config.h"
 #include "vm_protocol/core/module.h"
@@ -27,8 +21,9 @@ struct FsmOptions {
   TableFolder tables;      ///< replace those of the program
   std::string mask;        ///< initial face, "" = the wardrobe's first
   std::string background;  ///< initial value of the slot Background, "" = the configuration's first
-  std::string life = "OFF";  ///< initial profile of the slot Life
-  OriginalConfig config;     ///< none if its path is ""; else reported in the greeting
+  std::string life = "OFF";             ///< initial profile of the slot Life
+  OriginalConfig config;                ///< none if its path is ""; else reported in the greeting
+  Log log = [](const std::string&) {};  ///< takes lines for people
   /// Called when drawing in the window fails, which ends the module.
   std::function<void()> on_failure = [] {};
 };
@@ -55,7 +50,6 @@ class FsmModule final : public vm::Module {
   void ApplyConfig(const OriginalConfig& config);
   void MakeMotion();
   void Initialise();  // Run = INIT
-  void Connect();     // connects the parts to each other, once all exist
   void Changed();
   void ArmFrames();
   void ArmEnd();
@@ -67,15 +61,8 @@ class FsmModule final : public vm::Module {
   MotionTables tables_;
   MotionSettings start_settings_;
   FsmCore core_;
-  std::unique_ptr<ExpressionSlots> expressions_;
-  std::unique_ptr<SpeechSlots> speech_;
-  std::unique_ptr<MaskSlots> mask_;
-  std::unique_ptr<SceneSlots> scene_;
-  std::unique_ptr<FrameSlots> frames_;  // outlives the parts below, which draw through it
-  std::unique_ptr<RecordSlots> record_;
-  std::unique_ptr<CaptureSlots> capture_;
-  std::unique_ptr<PictureSlots> pictures_;
-  std::vector<ModulePart*> parts_;  // all of the above, in any order
+  RecordSlots* record_ = nullptr;  // of core_.parts, as is the next
+  FrameSlots* frames_ = nullptr;
   double frame_rate_ = 60;
   vm::Timer frame_timer_{core_.clock};
   vm::Time frame_due_{0};

@@ -3,7 +3,8 @@
 #include <future>
 #include <stdexcept>
 
-#include "fsm/base/notice.h"
+#include "fsm/base/caught.h"
+#include "fsm/faces/table_names.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
@@ -12,7 +13,7 @@ namespace {
 /// Reads the folder's appearance.txt, which replaces fsm/render/tables/appearance.txt; nothing if
 /// it has none. Throws std::runtime_error naming file and line.
 std::optional<Appearance> AppearanceIn(const TableFolder& folder) {
-  const auto own = vm::OrThrow(folder.Find(TableFolder::kAppearance));
+  const auto own = vm::OrThrow(folder.Find(kAppearanceTable));
   if (!own) return std::nullopt;
   return Appearance(own->path, own->text);
 }
@@ -27,7 +28,7 @@ GlFaceView::GlFaceView(HeadWardrobe& wardrobe, const Options& options)
     if (options_.position) context_->Move(options_.position->first, options_.position->second);
   } catch (const std::exception& error) {
     if (options_.where == Options::Where::kWindow) throw;
-    Notice("no window (" + std::string(error.what()) + "), drawing headless");
+    options_.log("notice: no window (" + std::string(error.what()) + "), drawing headless");
   }
 }
 
@@ -48,7 +49,8 @@ void GlFaceView::MakeRenderer() {
 }
 
 /// Simulates the springs and returns their offsets (Simulation::offsets).
-std::span<const glm::vec3> GlFaceView::Swing(const Head& head, const StateHistory* history) {
+std::span<const glm::vec3> GlFaceView::SpringOffsets(const Head& head,
+                                                     const StateHistory* history) {
   if (history == nullptr || head.rig().data().swing.springs.empty()) {
     simulation_.reset();
     return {};
@@ -63,7 +65,7 @@ std::span<const glm::vec3> GlFaceView::Swing(const Head& head, const StateHistor
 
 vm::Result<void> GlFaceView::Draw(const FaceState& state, const Scene& scene,
                                   const StateHistory* history) {
-  try {
+  return Caught("cannot draw: ", [&] {
     // Make the head while the graphics driver starts, since both take long.
     std::future<void> made;
     if (!renderer_) {
@@ -74,11 +76,8 @@ vm::Result<void> GlFaceView::Draw(const FaceState& state, const Scene& scene,
     const Head& head = wardrobe_.head();
     Scene seen = scene;
     seen.camera.parallel = head.view();
-    renderer_->Draw(head, state, Swing(head, history), seen);
-    return {};
-  } catch (const std::exception& error) {
-    return vm::Fail(vm::Errc::kUnavailable, std::string("cannot draw: ") + error.what());
-  }
+    renderer_->Draw(head, state, SpringOffsets(head, history), seen);
+  });
 }
 
 const Image& GlFaceView::Read() {
@@ -92,13 +91,10 @@ std::uint64_t GlFaceView::BeginRead() {
 }
 
 vm::Result<void> GlFaceView::EndRead(std::uint64_t frame, Image& out) {
-  try {
+  return Caught("", [&] {
     context_->MakeCurrent();
     renderer_->EndRead(frame, out);
-    return {};
-  } catch (const std::exception& error) {
-    return vm::Fail(vm::Errc::kUnavailable, error.what());
-  }
+  });
 }
 
 void GlFaceView::DropRead(std::uint64_t frame) {

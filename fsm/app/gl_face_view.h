@@ -27,6 +27,7 @@ class GlFaceView final : public FaceView, private ViewWindow {
     RigOn rig = RigOn::kBest;
     std::optional<std::pair<int, int>> position = {};  ///< of the window's upper left corner
     TableFolder tables = {};                           ///< may contain an appearance.txt
+    Log log = [](const std::string&) {};               ///< takes notices
   };
   /// Throws std::runtime_error if a required window cannot be opened, or if appearance.txt is
   /// damaged.
@@ -51,7 +52,7 @@ class GlFaceView final : public FaceView, private ViewWindow {
   bool close_requested() const override { return context_->close_requested(); }
 
   void MakeRenderer();
-  std::span<const glm::vec3> Swing(const Head& head, const StateHistory* history);
+  std::span<const glm::vec3> SpringOffsets(const Head& head, const StateHistory* history);
 
   HeadWardrobe& wardrobe_;
   Options options_;

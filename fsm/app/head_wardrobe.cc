@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "fsm/base/caught.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/head/identity.h"
@@ -41,21 +42,14 @@ vm::Result<void> HeadWardrobe::Wear(const std::string& face) {
     return vm::Fail(vm::Errc::kBadValue, "there is no face '" + face + "'; " + list + " expected");
   }
   if (face == (worn_.empty() ? names.front() : worn_)) return {};
-  try {
+  return Caught("", [&] {
     head_ = Make(face);
     worn_ = face;
-    return {};
-  } catch (const std::exception& error) {
-    return vm::Fail(vm::Errc::kUnavailable, error.what());
-  }
+  });
 }
 
 vm::Result<MouthMeasure> HeadWardrobe::Measure(const FaceState& state) {
-  try {
-    return head().MeasureMouth(state);
-  } catch (const std::exception& error) {
-    return vm::Fail(vm::Errc::kUnavailable, std::string("cannot measure: ") + error.what());
-  }
+  return Caught("cannot measure: ", [&] { return head().MeasureMouth(state); });
 }
 
 }  // namespace fsm

@@ -1,6 +1,6 @@
 #include "fsm/app/idle_slots.h"
 
-#include "fsm/motion/idle_kinds.h"
+#include "fsm/motion/idle/idle_kinds.h"
 
 namespace fsm {
 namespace {
@@ -33,7 +33,7 @@ void DeclareGaze(FsmCore& core) {
        .on_set = core.Command([&core](const vm::SetValue& value) {
          const vm::Time now = core.Now();
          if (value.word(0) == "USER") {
-           core.motion->eyes.LookAtUser(now);
+           core.motion->eyes.GazeAtUser(now);
          } else if (value.word(0) == "THINK") {
            core.motion->eyes.Think(now);
          } else {
@@ -69,7 +69,8 @@ void DeclareIdleSlots(FsmCore& core, const std::string& life) {
                      }) +
                ".",
        .on_set = core.Command([&core](const vm::SetValue& value) {
-         return core.motion->idle.Set(core.Now(), value.word(0), static_cast<int>(value.number(1)));
+         return core.motion->switches().Set(core.Now(), value.word(0),
+                                            static_cast<int>(value.number(1)));
        })});
   core.slots.Declare({.name = "Life",
                       .grammar = "<word>",
@@ -78,7 +79,7 @@ void DeclareIdleSlots(FsmCore& core, const std::string& life) {
                               ". What a profile does not name is "
                               "switched off; single parts can be switched afterwards.",
                       .on_set = core.Command([&core](const vm::SetValue& value) {
-                        return core.motion->idle.SetProfile(core.Now(), value.word(0));
+                        return core.motion->switches().SetProfile(core.Now(), value.word(0));
                       })});
   DeclareGaze(core);
 }

@@ -15,12 +15,13 @@
 int main(int argc, char** argv) {
   fsm::UseLargePages();
   fsm::Options options;
+  options.module.log = fsm::StderrLog("fsm");
   bool failed = false;
   options.module.on_failure = [&failed] { failed = true; };
   // These outlive the module.
   std::optional<fsm::HeadWardrobe> wardrobe;
   std::optional<fsm::GlFaceView> view;
-  std::vector<char*> words = fsm::WithPlaceNamed(argc, argv);
+  std::vector<char*> words = fsm::NamePositionOption(argc, argv);
   const int code = vm::RunModule(
       argc, words.data(),
       {.name = "fsm",
@@ -31,7 +32,7 @@ int main(int argc, char** argv) {
        .add_options = [&options](CLI::App& app) { fsm::AddOptions(app, options); },
        .before_start =
            [&options] {
-             fsm::Complete(options);
+             fsm::ResolveOptions(options);
              return fsm::RunOnce(options) ? 0 : -1;
            },
        .needs_real_clock =

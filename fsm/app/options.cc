@@ -10,7 +10,6 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "fsm/base/notice.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/head_cache.h"
 #include "fsm/faces/table_check.h"
@@ -43,8 +42,7 @@ void TellRenderer(CLI::App& app, const Options& options) {
   // The runtime adds its own flag after our options, so it is replaced just before parsing.
   app.preparse_callback([&app, &options](std::size_t) {
     app.set_version_flag("--version", [&options]() -> std::string {
-      std::cerr << "fsm: renderer off screen: " << DescribeOffScreen(options.view.off_screen)
-                << "\n";
+      options.module.log("renderer off screen: " + DescribeOffScreen(options.view.off_screen));
       return "fsm (Galatea) " GALATEA_VERSION;
     });
   });
@@ -94,8 +92,8 @@ NamedFace GivenFace(const Options& options) {
   for (char& c : name) {
     if (!IsFaceName(std::string_view(&c, 1))) c = '_';
   }
-  return {name.empty() ? "head" : name,
-          [file = options.head, tables = options.module.tables, cache = HeadCache(options.cache)] {
+  return {name.empty() ? "head" : name, [file = options.head, tables = options.module.tables,
+                                         cache = HeadCache(options.cache, options.module.log)] {
             return cache.HeadOfFile(file, tables);
           }};
 }
@@ -103,7 +101,7 @@ NamedFace GivenFace(const Options& options) {
 void FindFaces(Options& options) {
   const OriginalConfig& config = options.module.config;
   auto [faces, left_out] = OriginalFaces(config.masks, config.shared, options.module.tables);
-  for (const std::string& what : left_out) Notice(what);
+  for (const std::string& what : left_out) options.module.log("notice: " + what);
   options.faces = std::move(faces);
   if (options.head.empty()) return;
   if (!std::filesystem::is_regular_file(options.head)) {
@@ -133,7 +131,7 @@ void ChooseSize(Options& options) {
 
 }  // namespace
 
-std::vector<char*> WithPlaceNamed(int argc, char** argv) {
+std::vector<char*> NamePositionOption(int argc, char** argv) {
   static char position[] = "--position";
   std::vector<char*> words(argv, argv + argc);
   for (std::size_t i = 1; i + 2 < words.size(); ++i) {
@@ -182,14 +180,18 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--seed", options.module.seed, "Of what the face does by itself (default 1)");
 }
 
-void Complete(Options& options) {
+void ResolveOptions(Options& options) {
   const TableFolder& tables = options.module.tables;
-  for (const std::string& notice : vm::OrThrow(CheckTables(tables))) Notice(notice);
+  for (const std::string& notice : vm::OrThrow(CheckTables(tables))) {
+    options.module.log("notice: " + notice);
+  }
   if (!options.config.empty()) {
     options.module.config = vm::OrThrow(OriginalConfig::Read(options.config));
-    options.module.config.expressions = LooksOfExpressions(options.module.config.shared);
+    options.module.config.expressions =
+        LooksOfExpressions(options.module.config.shared, options.module.log);
   }
   options.view.tables = tables;
+  options.view.log = options.module.log;
   ChooseSize(options);
   FindFaces(options);
 }

@@ -27,7 +27,7 @@ struct Options {
   std::string sheet, sheet_file;
   bool labels = true;  ///< whether the sheet has labels
 
-  // The input of Complete.
+  // The input of ResolveOptions.
   std::string config, head, cache, size;
   std::optional<std::pair<int, int>> size_pair;
 };
@@ -35,15 +35,15 @@ struct Options {
 /// Returns the arguments with `-p X Y`, the original's option for the window's position, replaced
 /// by --position. `-p PORT` with one number is unchanged: in all modules it is the port of the
 /// socket.
-std::vector<char*> WithPlaceNamed(int argc, char** argv);
+std::vector<char*> NamePositionOption(int argc, char** argv);
 
 /// Adds the options to those that all modules have. Parsing fills `options`, which outlives `app`.
 void AddOptions(CLI::App& app, Options& options);
 
 /// Reads the files that the options name: stores the configuration in options.module, uses its
 /// settings of the view for options not given, and adds the faces of --head and of the
-/// configuration. Reports anomalies in these and in the folder of --tables on stderr. Throws
+/// configuration. Anomalies in these and in the folder of --tables go to options.module.log. Throws
 /// std::runtime_error.
-void Complete(Options& options);
+void ResolveOptions(Options& options);
 
 }  // namespace fsm

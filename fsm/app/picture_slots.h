@@ -12,8 +12,7 @@ class PictureSlots final : public ModulePart {
   explicit PictureSlots(FsmCore& core);
   void End() override { static_cast<void>(pictures_.SendTo("NONE", 1)); }
   void Reset() override { per_second_ = kPerSecond; }
-  /// Says that the face may look different after a command.
-  void Touch() { pictures_.Touch(); }
+  void OnChange() override { pictures_.Touch(); }
 
  private:
   static constexpr int kPerSecond = 25;

@@ -18,7 +18,7 @@ PictureStream::PictureStream(vm::Scheduler& clock, FaceView& view, Draw draw, Mo
       to_(kNobody) {}
 
 vm::Result<void> PictureStream::SendTo(const std::string& to, int per_second) {
-  LetGo();
+  Disconnect();
   if (to == kNobody) return {};
   constexpr std::string_view kUnix = "unix:";
   if (!to.starts_with(kUnix)) {
@@ -36,18 +36,18 @@ vm::Result<void> PictureStream::SendTo(const std::string& to, int per_second) {
 }
 
 std::string PictureStream::to() {
-  if (sender_ && sender_->gone()) LetGo();
+  if (sender_ && sender_->gone()) Disconnect();
   return to_;
 }
 
-void PictureStream::LetGo() {
+void PictureStream::Disconnect() {
   timer_.Cancel();
   sender_.reset();
   to_ = kNobody;
 }
 
 void PictureStream::Tick() {
-  if (sender_->gone()) return LetGo();
+  if (sender_->gone()) return Disconnect();
   // Skip pictures whose successor is due too.
   const vm::Time now = clock_.Now();
   while (series_.TimeOf(next_ + 1) <= now) ++next_;
@@ -59,7 +59,7 @@ void PictureStream::Tick() {
 
 bool PictureStream::DrawAndSend(vm::Time at) {
   if (auto drawn = draw_(at); !drawn) {
-    LetGo();
+    Disconnect();
     on_failure_(drawn.error());
     return false;
   }

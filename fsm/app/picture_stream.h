@@ -38,7 +38,7 @@ class PictureStream {
   void Tick();
   /// Returns false after an error, which has been reported.
   bool DrawAndSend(vm::Time at);
-  void LetGo();
+  void Disconnect();
 
   vm::Scheduler& clock_;
   FaceView& view_;

@@ -2,17 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <iostream>
 #include <utility>
 
 namespace fsm {
 
-RecordSlots::RecordSlots(FsmCore& core, FilmRecorder::Draw draw)
+RecordSlots::RecordSlots(FsmCore& core)
     : core_(core),
-      film_(core.clock, core.view, core.files, std::move(draw), [this](const vm::Error& error) {
-        core_.slots.Report("Record", "STOP");
-        core_.slots.ReportError("Record", error);
-      }) {
+      film_(
+          core.clock, core.view, core.files,
+          [this](long number, vm::Time at) { return core_.DrawFrame(number, at); },
+          [this](const vm::Error& error) {
+            core_.slots.Report("Record", "STOP");
+            core_.slots.ReportError("Record", error);
+          }) {
   core_.slots.Declare(
       {.name = "Record.sound",
        .grammar = "<text>",
@@ -56,12 +58,12 @@ vm::Result<std::string> RecordSlots::Set(const std::string& file) {
 }
 
 vm::Result<std::string> RecordSlots::Stop() {
-  const auto report = film_.Stop(core_.slots.Value("Record.sound"));
+  const auto summary = film_.Stop(core_.slots.Value("Record.sound"));
   core_.slots.Store("Record", "STOP");
   core_.changed();
-  if (!report) return std::unexpected(report.error());
-  std::cerr << fmt::format("fsm: {}: {} frames, {} of them repeated because drawing was late\n",
-                           report->path, report->frames, report->repeated);
+  if (!summary) return std::unexpected(summary.error());
+  core_.log(fmt::format("{}: {} frames, {} of them repeated because drawing was late",
+                        summary->path, summary->frames, summary->repeated));
   return "STOP";
 }
 

@@ -10,12 +10,13 @@ namespace fsm {
 /// The slot Record and its settings: films of the face.
 class RecordSlots final : public ModulePart {
  public:
-  /// Declares the slots. `core` outlives this, and so does what `draw` uses.
-  RecordSlots(FsmCore& core, FilmRecorder::Draw draw);
+  /// Declares the slots. `core` outlives this.
+  explicit RecordSlots(FsmCore& core);
   /// Ends the film, if there is one; an error is reported as of the slot.
   void End() override;
   void Reset() override { frames_per_second_ = kFramesPerSecond; }
 
+  bool LocksSize() const override { return film_.recording(); }
   bool recording() const { return film_.recording(); }
   int frames_per_second() const { return frames_per_second_; }
 

@@ -6,12 +6,11 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <optional>
-#include <stdexcept>
 
 #include "fsm/app/slot_words.h"
-#include "fsm/base/notice.h"
 #include "fsm/image/colour_space.h"
 #include "vm_protocol/core/lower_case.h"
+#include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
 namespace {
@@ -38,7 +37,7 @@ std::optional<glm::vec3> ParseColour(std::string_view text) {
          255.0f;
 }
 
-glm::vec3 Linear(const glm::vec3& srgb) {
+glm::vec3 LinearColour(const glm::vec3& srgb) {
   return {SrgbToLinear(srgb.r), SrgbToLinear(srgb.g), SrgbToLinear(srgb.b)};
 }
 
@@ -67,9 +66,10 @@ SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::st
   DeclareLight("Light.rim", "The lamp behind, for the edge of hair and shoulder", &Scene::rim);
   DeclareSaveImage();
   if (auto set = SetBackground(first_); !set) {
-    if (!first.empty()) throw std::runtime_error(set.error().text);
+    if (!first.empty()) vm::OrThrow(set);
     // A missing picture of the configuration is not an error.
-    Notice("background " + first_ + ": " + set.error().text + "; the plain one is shown");
+    core_.log("notice: background " + first_ + ": " + set.error().text +
+              "; the plain one is shown");
     StorePlain();
   }
 }
@@ -182,7 +182,7 @@ void SceneSlots::DeclareView() {
        .help =
            "Width and height of the view in pixels; or the window fills the screen, or no more.",
        .on_set = core_.Command([this](const vm::SetValue& value) -> vm::Result<void> {
-         if (size_locked_ && size_locked_()) {
+         if (std::ranges::any_of(core_.parts, [](const auto& part) { return part->LocksSize(); })) {
            return vm::Fail(vm::Errc::kBusy,
                            "a film of this size is recorded; set Record = STOP first");
          }
@@ -238,7 +238,7 @@ void SceneSlots::DeclareLight(const std::string& name, const std::string& what,
            if (!colour) {
              return vm::Fail(vm::Errc::kBadValue, "'" + text + "' is no colour; #rrggbb expected");
            }
-           set.tint = Linear(*colour);
+           set.tint = LinearColour(*colour);
          }
          core_.scene.*lamp = set;
          return {};

@@ -17,8 +17,6 @@ class SceneSlots final : public ModulePart {
   SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds,
              const std::string& first);
   void Reset() override;
-  /// Sets a function that returns true while the size must not change (a film is recorded).
-  void set_size_locked(std::function<bool()> locked) { size_locked_ = std::move(locked); }
 
  private:
   Scene FirstScene() const;  // with the original's measures and colours if FsmCore::original
@@ -42,7 +40,6 @@ class SceneSlots final : public ModulePart {
   bool background_enabled_ = true;
   int start_width_, start_height_;  // of the view
   bool fills_screen_ = false;
-  std::function<bool()> size_locked_;
 };
 
 }  // namespace fsm

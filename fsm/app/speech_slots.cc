@@ -6,7 +6,7 @@
 namespace fsm {
 namespace {
 
-constexpr const char* kNothing = "non";  // the original's word for an empty value
+constexpr const char* kEmptyValue = "non";  // the original's word for an empty value
 
 constexpr SlotWord<Language> kLanguages[] = {
     {"AUTO", Language::kAuto}, {"JP", Language::kJapanese}, {"EN", Language::kEnglish}};
@@ -32,7 +32,7 @@ SpeechSlots::SpeechSlots(FsmCore& core) : core_(core) {
 void SpeechSlots::DeclareListSlots() {
   core_.slots.Declare({.name = "LipSync.pho",
                        .grammar = "<text>",
-                       .initial = kNothing,
+                       .initial = kEmptyValue,
                        .help = "The phonemes to speak and their ms: `h 80 a 100`, `h[80] a[100]`. "
                                "Refused while SPEAKING. non: there are none.",
                        .on_set = [this](const vm::SetValue& value) { return Prepare(value.text); },
@@ -45,12 +45,12 @@ void SpeechSlots::DeclareListSlots() {
   core_.slots.Declare(
       {.name = "LipSync.text",
        .grammar = "<text>",
-       .initial = kNothing,
+       .initial = kEmptyValue,
        .help = "The words of the next LipSync.pho, given before it: greetings, thanks, questions "
                "and the like bring slight looks of the face (Autonomous' TEXT). They count for one "
                "utterance. non: they are not known.",
        .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
-         text_ = value.text == kNothing ? "" : value.text;
+         text_ = value.text == kEmptyValue ? "" : value.text;
          return value.text;
        },
        .saved = false});
@@ -69,19 +69,19 @@ void SpeechSlots::DeclareListSlots() {
 }
 
 void SpeechSlots::DeclareSpeakSlots() {
-  const auto told = [this](const char* name, const char* initial, const char* help) {
+  const auto read_only = [this](const char* name, const char* initial, const char* help) {
     core_.slots.Declare({.name = name,
                          .grammar = "<text>",
                          .access = vm::Access::kReadOnly,
                          .initial = initial,
                          .help = help});
   };
-  told("Speak.text", kNothing, "The names of the phonemes to speak.");
-  told("Speak.pho", kNothing, "The phonemes to speak with their ms.");
-  told("Speak.dur", "0", "Their duration in ms.");
-  told("Speak.utt", kNothing, "The phonemes spoken before, as far as they were spoken.");
-  told("Speak.len", "0", "How many ms of them were spoken.");
-  told("Speak.stat", "IDLE", "IDLE, PROCESSING, READY or SPEAKING.");
+  read_only("Speak.text", kEmptyValue, "The names of the phonemes to speak.");
+  read_only("Speak.pho", kEmptyValue, "The phonemes to speak with their ms.");
+  read_only("Speak.dur", "0", "Their duration in ms.");
+  read_only("Speak.utt", kEmptyValue, "The phonemes spoken before, as far as they were spoken.");
+  read_only("Speak.len", "0", "How many ms of them were spoken.");
+  read_only("Speak.stat", "IDLE", "IDLE, PROCESSING, READY or SPEAKING.");
   core_.slots.Declare(
       {.name = "Speak",
        .grammar = "NOW | STOP | <time>",
@@ -103,7 +103,7 @@ void SpeechSlots::DeclareSpeakSlots() {
                        .on_set_later = [this](const vm::SetValue& value, const vm::Reply& reply) {
                          if (value.number(0) > 0) {
                            core_.motion->speech.Sync(core_.Now(), value.number(0));
-                           if (stat_ == Stat::kSpeaking) WaitForEnd();
+                           if (state_ == State::kSpeaking) WaitForEnd();
                            core_.changed();
                          }
                          reply.Ok(value.text);
@@ -121,7 +121,7 @@ void SpeechSlots::DeclareSettings() {
          .help = help,
          .on_set = [this, set = core_.Setting(apply), told](const vm::SetValue& value) {
            auto done = set(value);
-           if (stat_ == Stat::kSpeaking) WaitForEnd();
+           if (state_ == State::kSpeaking) WaitForEnd();
            return done && told != nullptr ? told(value) : done;
          }});
   };
@@ -152,7 +152,7 @@ void SpeechSlots::DeclareSettings() {
 }
 
 vm::Result<std::string> SpeechSlots::Prepare(const std::string& text) {
-  if (stat_ == Stat::kSpeaking) {
+  if (state_ == State::kSpeaking) {
     return vm::Fail(vm::Errc::kBusy,
                     "speaking; wait for Speak.stat = IDLE or set Speak = STOP first");
   }
@@ -167,10 +167,10 @@ vm::Result<std::string> SpeechSlots::Prepare(const std::string& text) {
   core_.slots.Report("Speak.text", NamesOf(list_));
   core_.slots.Report("Speak.pho", written);
   core_.slots.Report("Speak.dur", LengthOf(list_));
-  core_.slots.Report("Speak.utt", spoken_.empty() ? kNothing : vm::FormatPhonemesFace(spoken_));
+  core_.slots.Report("Speak.utt", spoken_.empty() ? kEmptyValue : vm::FormatPhonemesFace(spoken_));
   core_.slots.Report("Speak.len", LengthOf(spoken_));
-  SetStat(Stat::kProcessing);
-  SetStat(Stat::kReady);
+  SetState(State::kProcessing);
+  SetState(State::kReady);
   // Unknown phonemes are reported, but the list is spoken nevertheless, as in the original.
   for (const std::string& name : core_.motion->speech.UnknownPhonemes(list_)) {
     core_.slots.ReportError("LipSync.pho", {vm::Errc::kBadValue,
@@ -190,7 +190,7 @@ vm::Result<void> SpeechSlots::Speak(const vm::SetValue& value) {
     core_.changed();
     return {};
   }
-  if (stat_ == Stat::kSpeaking) {
+  if (state_ == State::kSpeaking) {
     return vm::Fail(vm::Errc::kBusy, "speaking already; set Speak = STOP first");
   }
   const auto start = vm::ParseStartTime(value.text);
@@ -199,7 +199,7 @@ vm::Result<void> SpeechSlots::Speak(const vm::SetValue& value) {
   // NOW means as soon as the phonemes have arrived, however late.
   start_.reset();
   if (start->kind != vm::StartTime::Kind::kNow) start_ = core_.InstantOf(*start);
-  if (stat_ == Stat::kReady) Begin();
+  if (state_ == State::kReady) Begin();
   core_.changed();
   return {};
 }
@@ -209,7 +209,7 @@ void SpeechSlots::Begin() {
   const vm::Time start = start_.value_or(now);
   start_ = start;
   core_.motion->speech.Start(now, list_, start, std::exchange(text_, {}));
-  core_.slots.Store("LipSync.text", kNothing);
+  core_.slots.Store("LipSync.text", kEmptyValue);
   if (start > now) {
     timer_.At(start, [this] { TellSpeaking(); });
   } else {
@@ -218,8 +218,8 @@ void SpeechSlots::Begin() {
 }
 
 void SpeechSlots::TellSpeaking() {
-  SetStat(Stat::kSpeaking);
-  if (listener_.begun) listener_.begun(*start_);
+  SetState(State::kSpeaking);
+  for (const auto& part : core_.parts) part->OnSpeechBegin(*start_);
   WaitForEnd();
   core_.changed();
 }
@@ -238,14 +238,14 @@ void SpeechSlots::Stop() {
   timer_.Cancel();
   const vm::Time now = core_.Now();
   vm::PhonemeList spoken;
-  if (stat_ == Stat::kSpeaking) {
+  if (state_ == State::kSpeaking) {
     const auto heard = static_cast<std::int64_t>(core_.motion->speech.VoicePositionAt(now));
     spoken = vm::SpokenPart(list_, std::chrono::milliseconds(heard));
   }
   core_.motion->speech.Stop(now);
-  if (stat_ == Stat::kIdle) {
+  if (state_ == State::kIdle) {
     start_asked_ = false;
-    SetStat(Stat::kIdle);
+    SetState(State::kIdle);
     return;
   }
   End(std::move(spoken));
@@ -257,15 +257,15 @@ void SpeechSlots::End(vm::PhonemeList spoken) {
   start_asked_ = false;
   // As in the original, these are reported with the next list; only IDLE reports the end.
   core_.slots.Store("Speak.len", LengthOf(spoken_));
-  core_.slots.Store("Speak.utt", spoken_.empty() ? kNothing : vm::FormatPhonemesFace(spoken_));
-  SetStat(Stat::kIdle);
-  if (listener_.ended) listener_.ended();
+  core_.slots.Store("Speak.utt", spoken_.empty() ? kEmptyValue : vm::FormatPhonemesFace(spoken_));
+  SetState(State::kIdle);
+  for (const auto& part : core_.parts) part->OnSpeechEnd();
 }
 
 void SpeechSlots::Reset() {
   timer_.Cancel();
-  const bool was_busy = stat_ == Stat::kSpeaking;
-  stat_ = Stat::kIdle;
+  const bool was_busy = state_ == State::kSpeaking;
+  state_ = State::kIdle;
   list_.clear();
   spoken_.clear();
   start_asked_ = false;
@@ -273,10 +273,10 @@ void SpeechSlots::Reset() {
   if (was_busy) core_.slots.Report("Speak.stat", "IDLE");
 }
 
-void SpeechSlots::SetStat(Stat stat) {
+void SpeechSlots::SetState(State state) {
   static constexpr const char* kNames[] = {"IDLE", "PROCESSING", "READY", "SPEAKING"};
-  stat_ = stat;
-  core_.slots.Report("Speak.stat", kNames[static_cast<int>(stat)]);
+  state_ = state;
+  core_.slots.Report("Speak.stat", kNames[static_cast<int>(state)]);
 }
 
 }  // namespace fsm

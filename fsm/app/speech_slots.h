@@ -19,21 +19,17 @@ namespace fsm {
 /// while SPEAKING is an error. The end and STOP always report len, utt and IDLE.
 class SpeechSlots final : public ModulePart {
  public:
-  struct Listener {
-    /// SPEAKING was entered; the utterance begins at `start`, now or just before.
-    std::function<void(vm::Time start)> begun = [](vm::Time) {};
-    std::function<void()> ended = [] {};  ///< IDLE was entered, but not by `Run = INIT`
-  };
   /// Declares the slots. `core` outlives this.
   explicit SpeechSlots(FsmCore& core);
-  void set_listener(Listener listener) { listener_ = std::move(listener); }
 
   /// Tells whether it speaks, or will at a known time.
-  bool Busy() const { return stat_ == Stat::kSpeaking || (stat_ == Stat::kReady && start_asked_); }
+  bool Busy() const override {
+    return state_ == State::kSpeaking || (state_ == State::kReady && start_asked_);
+  }
   void Reset() override;
 
  private:
-  enum class Stat { kIdle, kProcessing, kReady, kSpeaking };
+  enum class State { kIdle, kProcessing, kReady, kSpeaking };
 
   void DeclareListSlots();
   void DeclareSpeakSlots();
@@ -45,11 +41,10 @@ class SpeechSlots final : public ModulePart {
   void WaitForEnd();
   void Stop();
   void End(vm::PhonemeList spoken);
-  void SetStat(Stat stat);
+  void SetState(State state);
 
   FsmCore& core_;
-  Listener listener_;
-  Stat stat_ = Stat::kIdle;
+  State state_ = State::kIdle;
   vm::PhonemeList list_;
   std::string text_;               // of the next utterance, until it starts
   bool start_asked_ = false;       // by Speak; until the utterance ends

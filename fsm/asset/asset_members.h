@@ -318,7 +318,7 @@ inline constexpr int kValuesOf<Bone> = static_cast<int>(Bone::kEyeRight) + 1;
 template <>
 inline constexpr int kValuesOf<RigStep> = static_cast<int>(RigStep::kNormals) + 1;
 template <>
-inline constexpr int kValuesOf<Drive::Kind> = static_cast<int>(Drive::Kind::kGazeRight) + 1;
+inline constexpr int kValuesOf<Drive::Kind> = static_cast<int>(Drive::Kind::kResidual) + 1;
 template <>
 inline constexpr int kValuesOf<Drive::WhichSide> = static_cast<int>(Drive::WhichSide::kStronger) +
                                                    1;

@@ -170,9 +170,9 @@ class Checker {
       using enum Drive::Kind;
       const Drive::Kind kind = driver.drive.kind;
       const std::size_t most = kind == kUnit || kind == kAskedUnit ? UnitValues::kMost
-                               : kind == kBlink || kind == kGazeUp || kind == kGazeRight
-                                   ? 0
-                                   : FaceState{}.mouth.size() - 1;
+                               : kind == kBlink || kind == kGazeUp || kind == kGazeRight ? 0
+                               : kind == kResidual ? Residuals{}.size() - 1
+                                                   : FaceState{}.mouth.size() - 1;
       if (driver.drive.number > most) {
         Refuse(fmt::format("{}: number {} above {}", place, driver.drive.number, most));
       }

@@ -120,8 +120,8 @@ class Description {
   }
   static std::string_view KindName(Drive::Kind kind) {
     static constexpr std::array<const char*, kValuesOf<Drive::Kind>> kNames{
-        "units",         "units as asked", "mouth",   "mouth of speech",
-        "mouth by hand", "blink",          "gaze up", "gaze right"};
+        "units", "units as asked", "mouth",      "mouth of speech", "mouth by hand",
+        "blink", "gaze up",        "gaze right", "residuals"};
     return kNames[static_cast<std::size_t>(kind)];
   }
 

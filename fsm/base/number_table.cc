@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <set>
-#include <utility>
+
+#include "fsm/base/parse_number.h"
 
 namespace fsm {
 namespace {
 
-constexpr float kMost = 1000;
+constexpr std::string_view kTo = "..";  // between the limits of a row
+constexpr glm::vec2 kUsualLimits{-1000, 1000};
 
 /// Returns the number of leading words that cannot be read as a number.
 std::size_t NameWordsOf(const TableRow& row) {
@@ -20,9 +21,20 @@ std::size_t NameWordsOf(const TableRow& row) {
   return words;
 }
 
+bool HasLimits(const TableRow& row) { return row.words().back().contains(kTo); }
+
+glm::vec2 LimitsOf(const TableRow& row) {
+  const std::string_view word = row.words().back();
+  const std::size_t to = word.find(kTo);
+  const auto low = ParseNumber<float>(word.substr(0, to));
+  const auto high = ParseNumber<float>(word.substr(to + kTo.size()));
+  if (!low || !high) row.Fail("limits LOW..HIGH expected");
+  return {*low, *high};
+}
+
 }  // namespace
 
-std::string NumberTable::NameOf(const TableRow& row) {
+std::string NumberTable::RowName(const TableRow& row) {
   std::string name = row.key();
   for (std::size_t i = 1; i < NameWordsOf(row); ++i) name += " " + row.Word(i);
   return name;
@@ -34,27 +46,29 @@ NumberTable::NumberTable(const std::string& file, std::string_view text,
   std::set<std::string> given;
   const Table table(file, text);
   for (const TableRow& row : table.rows()) {
-    const std::string name = NameOf(row);
-    std::vector<float> numbers = row.Numbers(NameWordsOf(row));
-    for (const float number : numbers) {
-      if (std::abs(number) > kMost) row.Fail("a number beyond -1000 to 1000");
-    }
+    const std::string name = RowName(row);
     if (!given.insert(name).second) row.Fail("'" + name + "' is there twice");
+    const std::size_t first = NameWordsOf(row);
+    const std::size_t end = row.size() - (HasLimits(row) ? 1 : 0);
+    for (std::size_t i = first; i < end; ++i)
+      row.Number(i);  // its error precedes that of the count
+    auto known = places_.find(name);
     if (built_in == nullptr) {
-      places_[name] = rows_.size();
+      known = places_.emplace(name, rows_.size()).first;
       rows_.push_back(row);
-      numbers_.push_back(std::move(numbers));
-      continue;
+      numbers_.emplace_back(end - first);
+      limits_.push_back(HasLimits(row) ? LimitsOf(row) : kUsualLimits);
+    } else if (known == places_.end()) {
+      row.Fail(built_in->NoRow(row.key(), name));
     }
-    const auto known = places_.find(name);
-    if (known == places_.end()) row.Fail(built_in->NoRow(row.key(), name));
     std::vector<float>& own = numbers_[known->second];
-    if (numbers.size() != own.size()) {
+    if (end - first != own.size()) {
       row.Fail("'" + name + "' needs " + std::to_string(own.size()) + " numbers after it, found " +
-               std::to_string(numbers.size()));
+               std::to_string(end - first));
     }
+    const glm::vec2 limits = limits_[known->second];
+    for (std::size_t i = first; i < end; ++i) own[i - first] = row.Within(i, limits.x, limits.y);
     rows_[known->second] = row;
-    own = std::move(numbers);
   }
 }
 

@@ -18,14 +18,16 @@ namespace fsm {
 
 /// Named numbers that can be edited without compiling. A row is a name (one word or more) and as
 /// many numbers as the built-in table of that kind has for it; each name occurs once, and rows that
-/// are left out are built in. Code does not look names up: galatea_numbers (cmake/Embed.cmake)
-/// turns rows into members of a struct that Get fills. Constant after construction; thread: any.
+/// are left out are built in. LOW..HIGH at the end of a built-in row are the limits of its numbers,
+/// for rows that replace it, too (whose own limits are ignored); without it they are -1000..1000.
+/// Code does not look names up: galatea_numbers (cmake/Embed.cmake) turns rows into members of a
+/// struct that Get fills. Constant after construction; thread: any.
 class NumberTable {
  public:
   NumberTable() = default;  ///< a table without names
   /// Reads a table that overrides rows of `built_in`, or a built-in table itself if that is null.
   /// Throws std::runtime_error naming file and line if a name is repeated or unknown, or if a row
-  /// has another count of numbers than the built-in one or a number outside -1000..1000.
+  /// has another count of numbers than the built-in one or a number beyond its limits.
   NumberTable(const std::string& file, std::string_view text,
               const NumberTable* built_in = nullptr);
 
@@ -43,7 +45,7 @@ class NumberTable {
 
   /// Returns the rows in the order of the built-in table.
   const std::vector<TableRow>& rows() const { return rows_; }
-  static std::string NameOf(const TableRow& row);
+  static std::string RowName(const TableRow& row);
 
  private:
   /// Returns the error text for an unknown `name`: it lists the rows whose name begins with `word`.
@@ -52,6 +54,7 @@ class NumberTable {
 
   std::vector<TableRow> rows_;
   std::vector<std::vector<float>> numbers_;                 // by row
+  std::vector<glm::vec2> limits_;                           // by row: lowest and highest number
   std::map<std::string, std::size_t, std::less<>> places_;  // row index by name
 };
 
@@ -63,7 +66,7 @@ std::span<const float> ListOf(const glm::vec<N, float>& row) {
 
 // The functions below read a row of two numbers as a range or as the coefficients of a line.
 /// Interpolates from the first number to the second; `part` is usually 0..1.
-inline float Between(glm::vec2 row, float part) { return glm::mix(row.x, row.y, part); }
+inline float Lerp(glm::vec2 row, float part) { return glm::mix(row.x, row.y, part); }
 /// Returns first + second * x.
 inline float Linear(glm::vec2 row, float x) { return row.x + row.y * x; }
 /// Runs SmoothStep with the first number as lower and the second as upper edge.

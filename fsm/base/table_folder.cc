@@ -1,7 +1,6 @@
 #include "fsm/base/table_folder.h"
 
 #include <algorithm>
-#include <cassert>
 #include <filesystem>
 
 #include "fsm/base/table_reader.h"
@@ -11,7 +10,6 @@ namespace fsm {
 namespace fs = std::filesystem;
 
 vm::Result<std::optional<TableFolder::File>> TableFolder::Find(std::string_view table) const {
-  assert(std::ranges::find(kTables, table) != kTables.end());
   if (path_.empty()) return std::nullopt;
   std::error_code code;
   if (!fs::is_directory(path_, code)) {
@@ -25,16 +23,16 @@ vm::Result<std::optional<TableFolder::File>> TableFolder::Find(std::string_view 
   return file;
 }
 
-std::vector<std::string> TableFolder::UnknownFiles() const {
-  std::vector<std::string> unknown;
+std::vector<std::string> TableFolder::FilesBeside(std::span<const std::string_view> tables) const {
+  std::vector<std::string> others;
   std::error_code code;
   for (fs::directory_iterator at(path_, code), end; !code && at != end; at.increment(code)) {
     std::string name = at->path().filename().string();
     if (name.starts_with('.') || !at->is_regular_file(code)) continue;
-    if (std::ranges::find(kTables, name) == kTables.end()) unknown.push_back(std::move(name));
+    if (std::ranges::find(tables, name) == tables.end()) others.push_back(std::move(name));
   }
-  std::ranges::sort(unknown);
-  return unknown;
+  std::ranges::sort(others);
+  return others;
 }
 
 }  // namespace fsm

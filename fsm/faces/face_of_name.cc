@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fsm/faces/face_folder.h"
+#include "fsm/faces/table_names.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
@@ -24,13 +25,13 @@ std::string ReadText(const std::string& path) {
 }  // namespace
 
 std::optional<UnitTable> UnitsIn(const TableFolder& folder) {
-  const auto own = vm::OrThrow(folder.Find(TableFolder::kUnits));
+  const auto own = vm::OrThrow(folder.Find(kUnitsTable));
   if (!own) return std::nullopt;
   return UnitTable(Table(own->path, own->text));
 }
 
 std::shared_ptr<const Features> FeaturesIn(const TableFolder& folder) {
-  const auto own = vm::OrThrow(folder.Find(TableFolder::kFeatures));
+  const auto own = vm::OrThrow(folder.Find(kFeaturesTable));
   return own ? std::make_shared<Features>(own->path, own->text) : nullptr;
 }
 
@@ -40,7 +41,7 @@ std::unique_ptr<Head> WithUnits(const std::optional<UnitTable>& units, std::uniq
 
 TableFolder UnitsFolder(const std::string& folder, const TableFolder& tables) {
   std::error_code error;
-  const bool own = std::filesystem::exists(folder + "/" + std::string(TableFolder::kUnits), error);
+  const bool own = std::filesystem::exists(folder + "/" + std::string(kUnitsTable), error);
   return own ? TableFolder(folder) : tables;
 }
 

@@ -12,7 +12,7 @@
 
 #include "fsm/asset/asset_reader.h"
 #include "fsm/asset/asset_writer.h"
-#include "fsm/base/notice.h"
+#include "fsm/base/caught.h"
 #include "fsm/base/random.h"
 #include "fsm/faces/head_of_file.h"
 #include "vm_protocol/core/or_throw.h"
@@ -28,7 +28,7 @@ constexpr std::string_view kNoticesFollow = "notices:\n";
 /// The prefix of our files' names; other files in the folder are not touched.
 constexpr const char* kEntry = ".galatea_head";
 
-std::string LineOf(const fs::path& path) {
+std::string SourceLine(const fs::path& path) {
   std::error_code code;
   const auto size = fs::file_size(path, code);
   const auto time = fs::last_write_time(path, code).time_since_epoch().count();
@@ -41,13 +41,13 @@ std::string SourcesOf(const std::string& path, const TableFolder& tables) {
   std::error_code code;
   const fs::path file = fs::canonical(path, code);
   if (code) return "";
-  std::vector<std::string> lines{LineOf("/proc/self/exe"), LineOf(file),
-                                 LineOf(file.string() + ".points")};
+  std::vector<std::string> lines{SourceLine("/proc/self/exe"), SourceLine(file),
+                                 SourceLine(file.string() + ".points")};
   if (!tables.empty()) {
     for (fs::directory_iterator at(tables.path(), code), end; !code && at != end;
          at.increment(code)) {
       if (lines.size() > kMostTables) return "";
-      if (at->is_regular_file(code)) lines.push_back(LineOf(at->path()));
+      if (at->is_regular_file(code)) lines.push_back(SourceLine(at->path()));
     }
   }
   std::ranges::sort(lines);
@@ -63,7 +63,7 @@ bool Unchanged(std::string_view lines) {
     lines.remove_prefix(line.size());
     const std::size_t path = line.find(' ', line.find(' ') + 1) + 1;
     if (path == 0 || line.size() < path + 1 ||
-        line != LineOf(line.substr(path, line.size() - path - 1)))
+        line != SourceLine(line.substr(path, line.size() - path - 1)))
       return false;
   }
   return true;
@@ -89,12 +89,12 @@ std::unique_ptr<Head> HeadCache::HeadOfFile(const std::string& path,
   if (!made.notice.empty()) Notice(made.notice);
   if (sources.empty()) return std::move(made.head);
   std::string made_from = sources;
-  for (const std::string& file : made.named_files) made_from += LineOf(file);
+  for (const std::string& file : made.named_files) made_from += SourceLine(file);
   Keep(entry, made_from + std::string(kNoticesFollow) + made.notice, *made.head);
   return std::move(made.head);
 }
 
-std::unique_ptr<Head> HeadCache::Find(const std::string& entry, const std::string& sources) {
+std::unique_ptr<Head> HeadCache::Find(const std::string& entry, const std::string& sources) const {
   const std::string made_from = ReadAll(entry + ".txt");
   const std::size_t notices = made_from.find(kNoticesFollow);
   if (!made_from.starts_with(sources) || notices == std::string::npos ||
@@ -112,14 +112,13 @@ std::unique_ptr<Head> HeadCache::Find(const std::string& entry, const std::strin
 
 void HeadCache::Keep(const std::string& entry, const std::string& made_from,
                      const Head& head) const {
-  try {
+  const auto kept = Caught("the head is not kept: ", [&] {
     fs::create_directories(folder_);
     DropOldest();
     vm::OrThrow(vm::WriteTextFile(entry + ".glb", WriteAsset(head, {})));
     vm::OrThrow(vm::WriteTextFile(entry + ".txt", made_from));
-  } catch (const std::exception& error) {
-    Notice(std::string("the head is not kept: ") + error.what());
-  }
+  });
+  if (!kept) Notice(kept.error().text);
 }
 
 void HeadCache::DropOldest() const {

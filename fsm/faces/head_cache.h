@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "fsm/base/log.h"
 #include "fsm/base/table_folder.h"
 #include "fsm/rig/head.h"
 
@@ -18,18 +19,20 @@ namespace fsm {
 class HeadCache {
  public:
   static constexpr std::size_t kMostHeads = 32;
-  /// `folder`: "" = no caching; created when the first head is stored.
-  explicit HeadCache(std::string folder) : folder_(std::move(folder)) {}
-  /// Returns the head of MakeHeadOfFile, from the cache if possible. Errors of the cache are
-  /// reported on stderr only.
+  /// `folder`: "" = no caching; created when the first head is stored. `log`: takes the notices of
+  /// heads and the errors of the cache.
+  HeadCache(std::string folder, Log log) : folder_(std::move(folder)), log_(std::move(log)) {}
+  /// Returns the head of MakeHeadOfFile, from the cache if possible.
   std::unique_ptr<Head> HeadOfFile(const std::string& path, const TableFolder& tables) const;
 
  private:
-  static std::unique_ptr<Head> Find(const std::string& entry, const std::string& sources);
+  std::unique_ptr<Head> Find(const std::string& entry, const std::string& sources) const;
+  void Notice(const std::string& text) const { log_("notice: " + text); }
   void Keep(const std::string& entry, const std::string& made_from, const Head& head) const;
   void DropOldest() const;
 
   std::string folder_;
+  Log log_;
 };
 
 }  // namespace fsm

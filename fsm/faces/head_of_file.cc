@@ -30,7 +30,7 @@ using namespace std::chrono_literals;
 
 /// Returns the state of a row of tables/vrm.txt; nothing if the tables of motion have no such shape
 /// or expression.
-std::optional<FaceState> ShownBy(const TableRow& row, const MotionTables& tables) {
+std::optional<FaceState> StateOfVrmRow(const TableRow& row, const MotionTables& tables) {
   const std::string &kind = row.Word(1), &what = row.Word(2);
   FaceState state;
   if (kind == "mouth") {
@@ -57,13 +57,13 @@ std::vector<ShapeMeaning> Meanings(const MotionTables& tables) {
   }
   static const Table vrm("tables/vrm.txt", embedded::vrm());
   for (const TableRow& row : vrm.rows()) {
-    if (const auto state = ShownBy(row, tables)) meanings.push_back({row.key(), *state});
+    if (const auto state = StateOfVrmRow(row, tables)) meanings.push_back({row.key(), *state});
   }
   return meanings;
 }
 
 /// Reads the head of a file that ExportHead has written; null if it is another file.
-std::unique_ptr<Head> AssetOfFile(const std::string& path) {
+std::unique_ptr<Head> ReadExportedHead(const std::string& path) {
   if (vm::LowerCase(std::filesystem::path(path).extension().string()) != ".glb") return nullptr;
   const auto bytes = vm::ReadTextFile(path, kMaxMeshBytes);
   if (!bytes || !IsAsset(*bytes)) return nullptr;
@@ -176,7 +176,7 @@ FileHead MakeHeadOfFile(const std::string& path, const TableFolder& tables_folde
                         const std::optional<UnitTable>& given_units) {
   const std::optional<UnitTable> units = given_units ? given_units : UnitsIn(tables_folder);
   FileHead made;
-  if (auto own = AssetOfFile(path)) {
+  if (auto own = ReadExportedHead(path)) {
     made.head = WithUnits(units, std::move(own));
     return made;
   }

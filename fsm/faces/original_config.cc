@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "fsm/base/table_reader.h"
-#include "fsm/motion/motion_reader.h"
+#include "fsm/motion/idle/motion_reader.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace fsm {
@@ -22,7 +22,7 @@ const std::map<std::string, std::string OriginalSharedFiles::*, std::less<>> kSh
 /// A key with one number: its bounds, and a function that stores it.
 struct NumberKey {
   double lowest, highest;
-  void (*take)(OriginalConfig&, double);
+  void (*store)(OriginalConfig&, double);
 };
 const std::map<std::string, NumberKey, std::less<>> kNumbers = {
     {"DEF_WINDOW_WIDTH",
@@ -37,6 +37,11 @@ const std::map<std::string, NumberKey, std::less<>> kNumbers = {
     {"EYEMOVE_DURATION", {0, 60000, [](OriginalConfig& c, double v) { c.eye_move_ms = v; }}},
     {"MaxFrameRate", {1, 240, [](OriginalConfig& c, double v) { c.max_frame_rate = v; }}},
     {"FaceMotBlink", {1, 60000, [](OriginalConfig& c, double v) { c.blinks_ms.push_back(v); }}}};
+
+/// Parts of a blink, of which the original has the length only: lids close faster than they open.
+constexpr double kClosing = 0.4, kShut = 0.05, kOpening = 0.55;
+constexpr double kOriginalFrameMs = 1000.0 / 30;  // in each of which it may blink
+constexpr double kShortestInterval = 500;         // between blinks, ms
 
 /// Keys of movement files -> kinds of FaceMot.
 const std::map<std::string, std::string, std::less<>> kMotions = {{"FaceMotNod", "NOD"},
@@ -63,7 +68,7 @@ class ConfigReader {
   void ReadRow(const TableRow& row) {
     const std::string& key = row.key();
     if (const auto known = kNumbers.find(key); known != kNumbers.end()) {
-      known->second.take(config_, Number(row, 1, known->second.lowest, known->second.highest));
+      known->second.store(config_, Number(row, 1, known->second.lowest, known->second.highest));
     } else if (key == "SetViseme") {
       const std::string word = Word(row, 1);
       if (word != "JP" && word != "EN") row.Fail("JP or EN expected");
@@ -72,7 +77,7 @@ class ConfigReader {
       if (row.size() < 3) row.Fail("a name and a file expected");
       config_.backgrounds.emplace_back(Word(row, 1), File(row, 2));
     } else if (key == "MaskFile" || key == "MaskEye" || key == "MaskTeeth") {
-      TakeMask(row);
+      ReadMask(row);
     } else if (const auto shared = kSharedFiles.find(key); shared != kSharedFiles.end()) {
       if (row.size() < 2) row.Fail("a file expected");
       config_.shared.*shared->second = File(row, 1);
@@ -88,7 +93,7 @@ class ConfigReader {
     }
   }
 
-  void TakeMask(const TableRow& row) {
+  void ReadMask(const TableRow& row) {
     const std::string& key = row.key();
     const std::size_t files = key == "MaskTeeth" ? 1 : 2;
     if (row.size() < files + 2) {
@@ -156,7 +161,7 @@ std::vector<std::string> OriginalConfig::MaskNames() const {
 
 namespace {
 
-HeadCurve LeaningAsOurs(const HeadCurve& curve) {
+HeadCurve MirroredTilt(const HeadCurve& curve) {
   std::vector<HeadCurve::Key> keys(curve.keys().begin(), curve.keys().end());
   for (HeadCurve::Key& key : keys) key.angles[kTilted] = -key.angles[kTilted];
   return HeadCurve(std::move(keys));
@@ -169,7 +174,7 @@ vm::Result<std::vector<HeadCurve>> ReadCurves(const std::vector<std::string>& fi
     if (!text) return std::unexpected(text.error());
     auto curve = ReadMotionFile(file, *text);
     if (!curve) return std::unexpected(curve.error());
-    curves.push_back(LeaningAsOurs(*curve));
+    curves.push_back(MirroredTilt(*curve));
   }
   return curves;
 }
@@ -196,8 +201,7 @@ vm::Result<void> OriginalConfig::ApplyTo(MotionTables& tables) const {
   }
   if (!blinks_ms.empty()) patterns.blinks.clear();
   for (const double ms : blinks_ms) {
-    // Two fifths are for closing, because lids close faster than they open.
-    patterns.blinks.push_back({0.4 * ms, 0.05 * ms, 0.55 * ms});
+    patterns.blinks.push_back({kClosing * ms, kShut * ms, kOpening * ms});
   }
   if (!auto_blinks.empty()) patterns.auto_blinks.clear();
   for (const auto& [percent, pattern] : auto_blinks) {
@@ -205,10 +209,8 @@ vm::Result<void> OriginalConfig::ApplyTo(MotionTables& tables) const {
       return vm::Fail(vm::Errc::kBadValue, path + ": AutonomousBlink names blink pattern " +
                                                std::to_string(pattern) + ", which there is not");
     }
-    // The original decides randomly in every frame, at 30 per second.
-    constexpr double kFrameMs = 1000.0 / 30;
-    patterns.auto_blinks.push_back(
-        {std::max(500.0, kFrameMs * 100 / percent), static_cast<std::size_t>(pattern) - 1, false});
+    patterns.auto_blinks.push_back({std::max(kShortestInterval, kOriginalFrameMs * 100 / percent),
+                                    static_cast<std::size_t>(pattern) - 1, false});
   }
   // Indices of built-in autonomous blinks may now exceed the patterns of the file.
   for (AutoBlink& blink : patterns.auto_blinks) {

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "fsm/base/notice.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/original/original_expressions.h"
@@ -76,28 +75,25 @@ OriginalFaceList OriginalFaces(std::span<const OriginalFaceFiles> faces,
   return found;
 }
 
-ExpressionLooks LooksOfExpressions(const OriginalSharedFiles& shared) {
+ExpressionLooks LooksOfExpressions(const OriginalSharedFiles& shared, const Log& log) {
   ExpressionLooks looks;
   std::error_code none;
   if (!std::filesystem::exists(shared.standard, none)) return looks;
   const auto read = ReadOriginalExpressions(shared.offsets, shared.standard);
   if (!read) {
-    Notice(read.error().text + "; expressions are our own");
+    log("notice: " + read.error().text + "; expressions are our own");
     return looks;
   }
   for (const std::string& path : read->without_residual) {
-    Notice(path + ": too many unlike expressions; this one is shown as far as units go");
+    log("notice: " + path + ": too many unlike expressions; this one is shown as far as units go");
   }
   for (const OriginalExpression& one : read->all) {
-    ActionUnits& look = looks[one.name][one.pattern];
+    FaceLook& look = looks[one.name][one.pattern];
     for (std::size_t i = 0; i < kOriginalUnits; ++i) {
       const auto unit = static_cast<std::size_t>(kUnitNumbers[i]);
       for (const Side side : kSides) look.au[side][unit] = one.strengths[side][i];
     }
-    if (one.channel) {
-      const auto [unit, side] = ResidualChannelOf(*one.channel);
-      look.au[side][unit] = 1;
-    }
+    if (one.residual) look.residuals[*one.residual] = 1;
   }
   return looks;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fsm/base/log.h"
 #include "fsm/base/table_folder.h"
 #include "fsm/mesh/original/original_files.h"
 #include "fsm/motion/motion_tables.h"
@@ -30,7 +31,7 @@ OriginalFaceList OriginalFaces(std::span<const OriginalFaceFiles> faces,
 
 /// Returns the looks of whole expressions from the files beside the standard wireframe (AU31.pnt
 /// ..., user*.pnt, userdef*.pnt), so that FaceExp can show them on every face. Files that cannot be
-/// read are skipped and reported on stderr.
-ExpressionLooks LooksOfExpressions(const OriginalSharedFiles& shared);
+/// read are skipped and reported to `log`.
+ExpressionLooks LooksOfExpressions(const OriginalSharedFiles& shared, const Log& log);
 
 }  // namespace fsm

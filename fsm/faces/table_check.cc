@@ -7,8 +7,9 @@
 
 #include "fsm/base/table_reader.h"
 #include "fsm/faces/face_of_name.h"
+#include "fsm/faces/table_names.h"
 #include "fsm/head/face_channels.h"
-#include "fsm/motion/unit_names.h"
+#include "fsm/motion/expression/unit_names.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
@@ -25,9 +26,9 @@ void CheckRows(const Table& table, const UnitNames& names) {
       row.Fail(names.names.contains(unit)
                    ? fmt::format("{} is a code of head or eyes in {}, which moves no skin; a unit "
                                  "expected",
-                                 unit, TableFolder::kUnitNames)
+                                 unit, kUnitNamesTable)
                    : fmt::format("no unit has the number {}; one of {} expected", unit,
-                                 TableFolder::kUnitNames));
+                                 kUnitNamesTable));
     }
   }
 }
@@ -46,18 +47,18 @@ std::string Listed(const std::vector<std::string>& words) {
 vm::Result<std::vector<std::string>> CheckTables(const TableFolder& folder) try {
   std::vector<std::string> notices;
   if (folder.empty()) return notices;
-  if (const auto unknown = folder.UnknownFiles(); !unknown.empty()) {
+  if (const auto unknown = folder.FilesBeside(kTableNames); !unknown.empty()) {
     notices.push_back(
         fmt::format("'{}' has files that are not read, for no table has their name: "
                     "{}; there are {}",
-                    folder.path(), Listed(unknown), fmt::join(TableFolder::kTables, ", ")));
+                    folder.path(), Listed(unknown), fmt::join(kTableNames, ", ")));
   }
   static_cast<void>(FeaturesIn(folder));
-  const auto own_names = vm::OrThrow(folder.Find(TableFolder::kUnitNames));
+  const auto own_names = vm::OrThrow(folder.Find(kUnitNamesTable));
   const UnitNames names = own_names ? vm::OrThrow(ReadUnitNames(own_names->path, own_names->text))
                                     : UnitNames::BuiltIn();
   std::vector<int> moving = BuiltInUnits().Numbers();
-  const auto own_units = vm::OrThrow(folder.Find(TableFolder::kUnits));
+  const auto own_units = vm::OrThrow(folder.Find(kUnitsTable));
   if (own_units) {
     const Table table(own_units->path, own_units->text);
     moving = UnitTable(table).Numbers();
@@ -69,10 +70,10 @@ vm::Result<std::vector<std::string>> CheckTables(const TableFolder& folder) try 
     still.push_back(fmt::format("{} {}", number, name));
   }
   if (!still.empty()) {
-    notices.push_back(fmt::format("units without rows in {} move nothing: {}",
-                                  own_units ? "'" + own_units->path + "'"
-                                            : fmt::format("the built-in {}", TableFolder::kUnits),
-                                  Listed(still)));
+    notices.push_back(fmt::format(
+        "units without rows in {} move nothing: {}",
+        own_units ? "'" + own_units->path + "'" : fmt::format("the built-in {}", kUnitsTable),
+        Listed(still)));
   }
   return notices;
 } catch (const vm::Failure& failure) {

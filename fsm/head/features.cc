@@ -46,7 +46,7 @@ bool Ascends(const std::vector<float>& pairs) {
 
 Features::Features(NumberTable numbers) : FeatureNumbers(numbers), table_(std::move(numbers)) {
   for (const TableRow& row : table_.rows()) {
-    const std::string name = NumberTable::NameOf(row);
+    const std::string name = NumberTable::RowName(row);
     const auto& n = table_[name];
     if (std::ranges::find(kCurves, name) != std::end(kCurves) && !Ascends(n))
       row.Fail("numbers of x that do not ascend");

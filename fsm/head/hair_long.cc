@@ -71,8 +71,8 @@ class LongHair {
 
   glm::vec3 Direction(float i, float side, float t) const {
     const glm::vec3 start =
-        OnParting(Between(features_.long_parting, std::pow(i, features_.long_crowd.parting)));
-    const float azimuth = Between(features_.long_round, std::pow(i, features_.long_crowd.round));
+        OnParting(Lerp(features_.long_parting, std::pow(i, features_.long_crowd.parting)));
+    const float azimuth = Lerp(features_.long_round, std::pow(i, features_.long_crowd.round));
     const float edge = SmoothStep(features_.long_edge_nearer.over, i);
     // On the side away from the parting the way around the forehead is longer.
     const float away = side < 0 ? 1.0f : 0.0f;
@@ -81,7 +81,7 @@ class LongHair {
     const float edge_bend = features_.long_bend.edge - features_.long_bend.less_away * away;
     const glm::vec3 bend = HairDirection(side * azimuth * glm::mix(1.0f, nearer, edge),
                                          glm::mix(features_.long_bend.behind, edge_bend, edge));
-    const glm::vec3 end = HairDirection(side * azimuth, Between(features_.long_skull_end, edge));
+    const glm::vec3 end = HairDirection(side * azimuth, Lerp(features_.long_skull_end, edge));
     return glm::normalize((1 - t) * (1 - t) * start + 2 * t * (1 - t) * bend + t * t * end);
   }
 
@@ -122,9 +122,8 @@ class LongHair {
           (d - Direction(i, side, 1 - kStep)) * radius * (1 - kCap) / (kCap * kStep);
       p += glm::vec3(on.x, 0, on.z) * hang * std::exp(-hang / features_.long_goes_on);
       const float full =
-          Between(features_.long_full, front) * std::sin(std::min(1.0f, 1.2f * hang) * kPi);
-      p += out * (full -
-                  Between(features_.long_inward, SmoothStep(0, 0.6f, i)) * hang * hang * hang) +
+          Lerp(features_.long_full, front) * std::sin(std::min(1.0f, 1.2f * hang) * kPi);
+      p += out * (full - Lerp(features_.long_inward, SmoothStep(0, 0.6f, i)) * hang * hang * hang) +
            Wave(i, side, hang, out);
       p.z += front * features_.long_forward * hang * (1 - 0.4f * hang);
       // Beside the face it follows the cheek.
@@ -211,7 +210,7 @@ class LongHair {
                                glm::mix(features_.long_light.edge, 1.0f,
                                         SmoothStep(features_.long_light.edge_over, i)) *
                                (1 + features_.long_light.ridges * Ridge(i, t)));
-        const glm::vec3 colour = look_.StrandColour(k * 3, row) * Between(features_.long_fade, t);
+        const glm::vec3 colour = look_.StrandColour(k * 3, row) * Lerp(features_.long_fade, t);
         mesh_.Add(p,
                   row > 0 ? colour : glm::mix(colour, palette_.skin, features_.long_parting_scalp),
                   open, Bone::kSkull);

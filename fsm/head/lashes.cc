@@ -39,7 +39,7 @@ class LashBuilder {
     const int hairs = static_cast<int>(count);
     for (int i = 0; i < hairs; ++i) {
       const float part = (static_cast<float>(i) + 0.5f) / static_cast<float>(hairs);
-      Hair(Between(along, part) + 0.008f * NoiseAt(i, 71), i);
+      Hair(Lerp(along, part) + 0.008f * NoiseAt(i, 71), i);
     }
   }
 
@@ -69,7 +69,7 @@ class LashBuilder {
     std::array<std::uint32_t, 2> before{};
     for (int i = 0; i <= kSteps; ++i) {
       const float part = static_cast<float>(i) / kSteps;
-      const float x = X(Between(features_.lash_line, part));
+      const float x = X(Lerp(features_.lash_line, part));
       const float thick =
           (0.35f + 0.65f * size_) * Linear(features_.lash_line_thickness,
                                            std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));

@@ -76,7 +76,7 @@ class ToothRow {
         const float scallop = row < 1 ? features_.gum_scallop * (1 - column.bump) : 0.0f;
         glm::vec3 p = Place(column, row * column.height - scallop);
         p.z += bulge[r];
-        mesh_.Add(p, gum_, Between(features_.gum_light, SmoothStep(6, 34, back)), jaw_.bone);
+        mesh_.Add(p, gum_, Lerp(features_.gum_light, SmoothStep(6, 34, back)), jaw_.bone);
       }
     }
     mesh_.Grid(Material::kGum, first, static_cast<int>(kRows.size()), Columns(), jaw_.upward > 0);

@@ -35,7 +35,7 @@ void SkinPainter::AddSpots(glm::vec2 at, PaintedSkin& paint) const {
 
 float SkinPainter::Beard(glm::vec2 at, float z) const {
   if (palette_.beard <= 0) return 0;
-  const float jaw_line = Between(features_.beard_line, SmoothStep(30, 62, at.x));
+  const float jaw_line = Lerp(features_.beard_line, SmoothStep(30, 62, at.x));
   const float low = SmoothStep(jaw_line + 6, jaw_line - 22, at.y) * SmoothStep(-128, -100, at.y);
   const float front = SmoothStep(-12, 8, z);
   const float under_nose = SmoothStep(-23, -27, at.y);

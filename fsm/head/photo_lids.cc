@@ -199,7 +199,7 @@ class LidPainter {
     const float out =
         glm::mix(features_.photo_lid_in_socket.out, 1.0f,
                  SmoothStep(0.4f, 0.8f, ScreenBrightness(deep) / ScreenBrightness(lit)));
-    return glm::mix(deep, lit, out * Between(features_.photo_lid_in_socket.lit, down));
+    return glm::mix(deep, lit, out * Lerp(features_.photo_lid_in_socket.lit, down));
   }
 
   static float GrainLight(const PhotoSpot& skin) {

@@ -14,7 +14,7 @@ namespace fsm {
 inline double Clamp01(double u) { return std::clamp(u, 0.0, 1.0); }
 
 /// Returns 3u^2 - 2u^3.
-inline double Eased(double u) {
+inline double SmoothStep(double u) {
   u = Clamp01(u);
   return u * u * (3 - 2 * u);
 }
@@ -28,7 +28,7 @@ inline double SmootherStep(double u) {
 
 /// Returns the share of V1 in the original's interpolation between key shapes, M(t) = W (V0 - V1) +
 /// (V0 + V1) / 2 with W = cos(pi u) / 2.
-inline double Sinusoid(double u) { return (1 - std::cos(std::numbers::pi * Clamp01(u))) / 2; }
+inline double CosineStep(double u) { return (1 - std::cos(std::numbers::pi * Clamp01(u))) / 2; }
 
 using vm::InMs;
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fsm/motion/motion_inputs.h"
 #include "fsm/motion/random_streams.h"
 
 namespace fsm {
@@ -10,17 +11,32 @@ namespace {
 
 constexpr vm::Time kHeadFollows = std::chrono::milliseconds(320);
 constexpr double kHalfPupilsMm = 31;  // half the distance between the pupils
+// Blinks accompany nearly all large gaze shifts and few small ones (Evinger et al., Not looking
+// while leaping, 1994).
+constexpr double kSureBlinkDegrees = 20, kMostBlinks = 0.95;
+// The gaze of one who thinks: mostly up and to one side, which depends on the seed and changes
+// occasionally. The numbers are ours.
+constexpr double kFixationMs = 1500, kFixationVaries = 0.35;  // and the part by which it varies
+constexpr double kSideVaries = 0.8;                           // against the habit, of -1..1
+constexpr double kThoughtSaccadeMs = 55;  // of fifteen degrees, by the main sequence
 
 // Moves to a target within `move`; if `duration` is not zero, returns to rest by its end.
-void ThereAndBack(Track<EyeAngles>& track, vm::Time now, const EyeAngles& there, vm::Time move,
-                  vm::Time duration) {
+void MoveAndReturn(Track<EyeAngles>& track, vm::Time now, const EyeAngles& target, vm::Time move,
+                   vm::Time duration) {
   const bool timed = duration > vm::Time(0);
   if (timed) move = std::min(move, duration / 2);
-  track.Plan(now, there, now, move);
+  track.Plan(now, target, now, move);
   if (timed) track.Plan(now, EyeAngles{}, now + duration - move, move);
 }
 
 }  // namespace
+
+EyeMotion::EyeMotion(const MotionInputs& in)
+    : patterns_(in.tables.motions),
+      gestures_(in.tables.gestures),
+      settings_(in.settings),
+      switches_(in.switches),
+      seed_(in.seed) {}
 
 float EyeMotion::HeadShareOf(float angle) const {
   const float beyond = std::max(0.0f, std::abs(angle) - gestures_.gaze.alone);
@@ -31,52 +47,50 @@ EyeAngles EyeMotion::Thinking() const { return {gestures_.think.down.x, gestures
 
 // ---- commands
 
-void EyeMotion::Turn(vm::Time now, bool left, bool right, const EyeAngles& angles,
-                     vm::Time duration) {
+void EyeMotion::Rotate(vm::Time now, bool left, bool right, const EyeAngles& angles,
+                       vm::Time duration) {
   for (const Side side : kSides) {
     if (!(side == Side::kLeft ? left : right)) continue;
-    ThereAndBack(turned_[side], now, angles, settings_.eye_move, duration);
-    ends_.turned[side] = duration > vm::Time(0) ? now + duration : now;
+    MoveAndReturn(rotation_[side], now, angles, settings_.eye_move, duration);
+    ends_.rotation[side] = duration > vm::Time(0) ? now + duration : now;
   }
 }
 
-void EyeMotion::LookAt(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time duration) {
+void EyeMotion::SetAim(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time duration) {
   on_user_.MoveTo(now, aim == Aim::kUser ? 1.0f : 0.0f, 2 * settings_.eye_move);
-  thinking_.MoveTo(now, aim == Aim::kNothing ? 1.0f : 0.0f, settings_.eye_move);
-  if (aim == Aim::kNothing) thinking_since_ = now;
+  thinking_.MoveTo(now, aim == Aim::kThought ? 1.0f : 0.0f, settings_.eye_move);
+  if (aim == Aim::kThought) thinking_since_ = now;
   const double near = settings_.gaze_distance_mm;
-  const double angle = aim == Aim::kNothing || near <= 0
+  const double angle = aim == Aim::kThought || near <= 0
                            ? 0
                            : std::atan2(kHalfPupilsMm, near) * 180 / std::numbers::pi;
   vergence_deg_.MoveTo(now, static_cast<float>(angle), 2 * settings_.eye_move);
-  ThereAndBack(gaze_, now, angles, settings_.eye_move, duration);
-  ThereAndBack(head_share_, now, {HeadShareOf(angles[kDown]), HeadShareOf(angles[kToRight])},
-               kHeadFollows, duration);
+  MoveAndReturn(gaze_, now, angles, settings_.eye_move, duration);
+  MoveAndReturn(head_share_, now, {HeadShareOf(angles[kDown]), HeadShareOf(angles[kToRight])},
+                kHeadFollows, duration);
   ends_.gaze = duration > vm::Time(0) ? now + duration : now;
 }
 
 void EyeMotion::BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to) {
-  if (!idle_.On(IdleKind::kGazeBlink) || patterns_.blinks.empty()) return;
+  if (!switches_[IdleKind::kGazeBlink].on || patterns_.blinks.empty()) return;
   const double angle = std::hypot(to[kDown] - from[kDown], to[kToRight] - from[kToRight]);
-  // Blinks accompany nearly all large gaze shifts and few small ones (Evinger et al., Not looking
-  // while leaping, 1994).
-  const double chance = std::clamp(angle / 20, 0.0, 0.95);
+  const double chance = std::clamp(angle / kSureBlinkDegrees, 0.0, kMostBlinks);
   if ((RandomAt(seed_, RandomStream::kShiftBlink, ++shifts_) + 1) / 2 < chance) Blink(now, 1);
 }
 
 void EyeMotion::Gaze(vm::Time now, const EyeAngles& angles, vm::Time duration) {
   BlinkAtShift(now, gaze_.TargetAt(now), angles);
-  LookAt(now, Aim::kPlace, angles, duration);
+  SetAim(now, Aim::kPlace, angles, duration);
 }
 
-void EyeMotion::LookAtUser(vm::Time now) {
+void EyeMotion::GazeAtUser(vm::Time now) {
   BlinkAtShift(now, thinking_.TargetAt(now) > 0 ? Thinking() : gaze_.TargetAt(now), {0, 0});
-  LookAt(now, Aim::kUser, {0, 0}, vm::Time(0));
+  SetAim(now, Aim::kUser, {0, 0}, vm::Time(0));
 }
 
 void EyeMotion::Think(vm::Time now) {
   BlinkAtShift(now, gaze_.TargetAt(now), Thinking());
-  LookAt(now, Aim::kNothing, {0, 0}, vm::Time(0));
+  SetAim(now, Aim::kThought, {0, 0}, vm::Time(0));
 }
 
 void EyeMotion::Blink(vm::Time now, std::size_t pattern, int count) {
@@ -88,29 +102,27 @@ void EyeMotion::Blink(vm::Time now, std::size_t pattern, int count) {
 // ---- as a source
 
 EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
-  constexpr double kStay = 1500;  // ms
-  const auto jump_ms = [&](std::int64_t k) {
+  const auto saccade_ms = [&](std::int64_t k) {
     return k == 0 ? 0
-                  : kStay * (static_cast<double>(k) +
-                             0.35 * RandomAt(seed_, RandomStream::kThinkTime, k));
+                  : kFixationMs * (static_cast<double>(k) +
+                                   kFixationVaries * RandomAt(seed_, RandomStream::kThinkTime, k));
   };
   const double ms = std::max(0.0, InMs(t - thinking_since_));
-  auto k = static_cast<std::int64_t>(std::floor(ms / kStay));
-  if (ms < jump_ms(k)) --k;
-  if (ms >= jump_ms(k + 1)) ++k;
-  // Mostly up and to one side, which depends on the seed and changes occasionally.
+  auto k = static_cast<std::int64_t>(std::floor(ms / kFixationMs));
+  if (ms < saccade_ms(k)) --k;
+  if (ms >= saccade_ms(k + 1)) ++k;
   const double habit = RandomAt(seed_, RandomStream::kThinkSide, 0);
   const auto place = [&](std::int64_t index) -> std::array<double, 2> {
     if (index < 0) return {0, 0};
-    const double side =
-        std::copysign(1, habit + 0.8 * RandomAt(seed_, RandomStream::kThinkSide, index + 1));
+    const double side = std::copysign(
+        1, habit + kSideVaries * RandomAt(seed_, RandomStream::kThinkSide, index + 1));
     const auto varied = [&](glm::vec2 row, std::int64_t at) {
       return Linear(row, static_cast<float>(RandomAt(seed_, RandomStream::kThinkHeight, at)));
     };
     return {varied(gestures_.think.down, index), side * varied(gestures_.think.aside, index + 50)};
   };
   const auto from = place(k - 1), to = place(k);
-  const double u = SmootherStep((ms - jump_ms(k)) / 55);
+  const double u = SmootherStep((ms - saccade_ms(k)) / kThoughtSaccadeMs);
   return {static_cast<float>(from[kDown] + u * (to[kDown] - from[kDown])),
           static_cast<float>(from[kToRight] + u * (to[kToRight] - from[kToRight]))};
 }
@@ -127,13 +139,13 @@ void EyeMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   MotionLayer& layer = layers.Layer("eyes");
   const float thinking = thinking_.At(t), vergence = vergence_deg_.At(t);
   const EyeAngles thought = thinking > 0 ? ThinkingAt(t) : EyeAngles{};
-  const EyeAngles left = turned_.left.At(t), right = turned_.right.At(t);
+  const EyeAngles left = rotation_.left.At(t), right = rotation_.right.At(t);
   const EyeAngles gaze = gaze_.At(t), head = head_share_.At(t);
-  for (const auto turn : {kDown, kToRight}) {
-    const float both = gaze[turn] - head[turn] + thinking * thought[turn];
-    layer.units.gaze.left[turn] = left[turn] + both;
-    layer.units.gaze.right[turn] = right[turn] + both;
-    layer.head[turn] = head[turn];
+  for (const auto axis : {kDown, kToRight}) {
+    const float both = gaze[axis] - head[axis] + thinking * thought[axis];
+    layer.units.gaze.left[axis] = left[axis] + both;
+    layer.units.gaze.right[axis] = right[axis] + both;
+    layer.head[axis] = head[axis];
   }
   layer.units.gaze.left[kToRight] -= vergence;
   layer.units.gaze.right[kToRight] += vergence;
@@ -148,7 +160,7 @@ vm::Time EyeMotion::BlinksEnd(vm::Time t) const {
 }
 
 vm::Time EyeMotion::FiniteEnd(vm::Time t) const {
-  return std::max({t, BlinksEnd(t), ends_.turned.left, ends_.turned.right, ends_.gaze});
+  return std::max({t, BlinksEnd(t), ends_.rotation.left, ends_.rotation.right, ends_.gaze});
 }
 
 std::optional<vm::Time> EyeMotion::NextActivity(vm::Time t) const {
@@ -157,7 +169,7 @@ std::optional<vm::Time> EyeMotion::NextActivity(vm::Time t) const {
 }
 
 void EyeMotion::ForEachTrack(const TrackVisitor& visit) const {
-  for (const auto* track : {&turned_.left, &turned_.right, &gaze_, &head_share_}) visit(*track);
+  for (const auto* track : {&rotation_.left, &rotation_.right, &gaze_, &head_share_}) visit(*track);
   for (const auto* track : {&on_user_, &thinking_, &vergence_deg_}) visit(*track);
 }
 

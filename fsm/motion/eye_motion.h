@@ -4,29 +4,30 @@
 #include <optional>
 #include <vector>
 
-#include "fsm/motion/idle_behaviour.h"
-#include "fsm/motion/motion_patterns.h"
+#include "embedded/gesture_numbers.h"
+#include "fsm/motion/idle/motion_patterns.h"
 #include "fsm/motion/motion_settings.h"
 #include "fsm/motion/motion_source.h"
 
 namespace fsm {
 
+class IdleSwitches;
+struct MotionInputs;
+
 /// Turns the eyes and blinks on command, on the layer `eyes`. Gives the signal `at_user`, 0..1: how
-/// far the eyes are held on the viewer. Lifetime: the references given to the constructor outlive
+/// far the eyes are held on the viewer. Lifetime: the inputs given to the constructor outlive
 /// this.
 class EyeMotion : public MotionSource {
  public:
-  EyeMotion(const MotionPatterns& patterns, const GestureNumbers& gestures,
-            const MotionSettings& settings, const IdleBehaviour& idle, std::uint64_t seed)
-      : patterns_(patterns), gestures_(gestures), settings_(settings), idle_(idle), seed_(seed) {}
+  explicit EyeMotion(const MotionInputs& in);
 
   /// Turns the left, the right or both eyes to `angles`. If `duration` is not zero, they are back
   /// at rest after it.
-  void Turn(vm::Time now, bool left, bool right, const EyeAngles& angles, vm::Time duration);
+  void Rotate(vm::Time now, bool left, bool right, const EyeAngles& angles, vm::Time duration);
   /// Looks in a direction with eyes and head: the eyes jump there, the head follows more slowly
   /// with its share of a large angle, and the eyes turn back by as much.
   void Gaze(vm::Time now, const EyeAngles& angles, vm::Time duration);
-  void LookAtUser(vm::Time now);
+  void GazeAtUser(vm::Time now);
   void Think(vm::Time now);
   /// Blinks `count` times in succession. REQUIRES: the pattern, counted from 1, exists.
   void Blink(vm::Time now, std::size_t pattern, int count = 1);
@@ -40,8 +41,12 @@ class EyeMotion : public MotionSource {
   void ForEachTrack(const TrackVisitor& visit) const override;
 
  private:
-  enum class Aim { kPlace, kUser, kNothing };  // the target of the gaze; kNothing while thinking
-  void LookAt(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time duration);
+  enum class Aim {
+    kPlace,
+    kUser,
+    kThought
+  };  // the target of the gaze; kThought: none, while thinking
+  void SetAim(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time duration);
   /// Returns the head's share of one angle of a gaze.
   float HeadShareOf(float angle) const;
   /// Returns the mean direction of the eyes while thinking.
@@ -58,9 +63,9 @@ class EyeMotion : public MotionSource {
   const MotionPatterns& patterns_;
   const GestureNumbers& gestures_;
   const MotionSettings& settings_;
-  const IdleBehaviour& idle_;
+  const IdleSwitches& switches_;
   std::uint64_t seed_;
-  Sided<Track<EyeAngles>> turned_;
+  Sided<Track<EyeAngles>> rotation_;
   Track<EyeAngles> gaze_;        // of both eyes, relative to the body
   Track<EyeAngles> head_share_;  // of the gaze
   Track<float> on_user_, thinking_, vergence_deg_;
@@ -68,7 +73,7 @@ class EyeMotion : public MotionSource {
   std::int64_t shifts_ = 0;  // of the gaze
   std::vector<Blinking> blinks_;
   struct Ends {  // when a turn with a duration will be over; in the past for others
-    Sided<vm::Time> turned;
+    Sided<vm::Time> rotation;
     vm::Time gaze{0};
   };
   Ends ends_;

@@ -7,18 +7,17 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/motion/blend_shape_motion.h"
-#include "fsm/motion/expression_motion.h"
+#include "fsm/motion/expression/blend_shape_motion.h"
+#include "fsm/motion/expression/expression_motion.h"
+#include "fsm/motion/expression/mood_motion.h"
+#include "fsm/motion/expression/unit_motion.h"
 #include "fsm/motion/eye_motion.h"
 #include "fsm/motion/head_motion.h"
-#include "fsm/motion/idle_behaviour.h"
-#include "fsm/motion/mood_motion.h"
-#include "fsm/motion/motion_settings.h"
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/idle/idle_behaviour.h"
+#include "fsm/motion/motion_inputs.h"
 #include "fsm/motion/mouth_motion.h"
-#include "fsm/motion/mouth_stream.h"
-#include "fsm/motion/speech_motion.h"
-#include "fsm/motion/unit_motion.h"
+#include "fsm/motion/speech/mouth_stream.h"
+#include "fsm/motion/speech/speech_motion.h"
 #include "fsm/rig/face_state.h"
 #include "vm_protocol/core/result.h"
 #include "vm_protocol/core/scheduler.h"
@@ -33,12 +32,28 @@ namespace fsm {
 /// exists), and for strengths that are not numbers or are out of range. Thread: one at a time,
 /// const calls included.
 class FaceMotion {
+  MotionInputs inputs_;  // comes first, since all sources refer to it
+
  public:
-  FaceMotion(MotionTables tables, std::uint64_t seed) : tables_(std::move(tables)), seed_(seed) {}
-  FaceMotion(const FaceMotion&) = delete;  // sources refer to the tables
+  FaceMotion(MotionTables tables, std::uint64_t seed) : inputs_(std::move(tables), seed) {}
+
+  // The built-in sources, each with its own commands. None refers to another.
+  IdleBehaviour idle{inputs_};
+  ExpressionMotion expression{inputs_};
+  UnitMotion units{inputs_.tables.unit_names};
+  MouthMotion mouth;
+  BlendShapeMotion blend_shapes{inputs_.tables.blend_shapes};
+  EyeMotion eyes{inputs_};
+  HeadMotion head{inputs_.tables.motions};
+  SpeechMotion speech{inputs_};
+  MoodMotion mood{inputs_.tables.motions};
+  MouthStream mouth_stream;
 
   /// Adds a source of movement; see docs/extending.md.
-  void Add(std::unique_ptr<MotionSource> source) { sources_.push_back(std::move(source)); }
+  void Add(std::unique_ptr<MotionSource> source) {
+    sources_.push_back(source.get());
+    added_.push_back(std::move(source));
+  }
 
   // Commands for more than one source.
 
@@ -46,19 +61,21 @@ class FaceMotion {
   vm::Result<void> SetFace(vm::Time now, int position, double strength);
   /// Plays a movement of the slot FaceMot `count` times (1..20). SHAKE is another name for REFUSE,
   /// TILT for LISTEN.
-  vm::Result<void> Move(vm::Time now, std::string_view kind, int pattern, double strength = 1,
-                        int count = 1);
-  void StopMoves(vm::Time now);  ///< FaceMot = NOMOVE
+  vm::Result<void> PlayMovement(vm::Time now, std::string_view kind, int pattern,
+                                double strength = 1, int count = 1);
+  void StopMovements(vm::Time now);  ///< FaceMot = NOMOVE
 
   // Visemes; a change applies from the next utterance on.
-  const Visemes& visemes(VisemeSetId set) const { return tables_.set(set).visemes; }
+  const Visemes& visemes(VisemeSetId set) const { return inputs_.tables.set(set).visemes; }
   /// Replaces the poses and hold times of a set; dominances and contacts are kept. REQUIRES: the
   /// same names in the same order.
   void SetVisemes(VisemeSetId set, Visemes visemes);
 
   // Settings. Those of speech apply at once, without a jump.
-  const MotionSettings& settings() const { return settings_; }
+  const MotionSettings& settings() const { return inputs_.settings; }
   void Apply(vm::Time now, const MotionSettings& settings);
+  /// Says what the face does by itself.
+  IdleSwitches& switches() { return inputs_.switches; }
 
   FaceState StateAt(vm::Time t) const;
 
@@ -71,38 +88,16 @@ class FaceMotion {
   /// blinks) will be over.
   vm::Time FiniteEnd(vm::Time t) const;
 
-  const MotionTables& tables() const { return tables_; }
+  const MotionTables& tables() const { return inputs_.tables; }
 
   // These change at once, without a movement.
   Figure figure;
   float asymmetry = 1;  ///< FaceState::asymmetry
 
  private:
-  template <typename Source, typename... With>
-  Source& Make(With&&... with) {
-    auto source = std::make_unique<Source>(std::forward<With>(with)...);
-    Source& made = *source;
-    Add(std::move(source));
-    return made;
-  }
-
-  MotionTables tables_;
-  MotionSettings settings_;
-  std::uint64_t seed_;
-  std::vector<std::unique_ptr<MotionSource>> sources_;
-
- public:
-  // The built-in sources. They refer to the members above.
-  IdleBehaviour& idle = Make<IdleBehaviour>(tables_.motions, tables_.gestures, seed_);
-  ExpressionMotion& expression = Make<ExpressionMotion>(tables_, settings_, idle, seed_);
-  UnitMotion& units = Make<UnitMotion>(tables_.unit_names);
-  MouthMotion& mouth = Make<MouthMotion>();
-  BlendShapeMotion& blend_shapes = Make<BlendShapeMotion>(tables_.blend_shapes);
-  EyeMotion& eyes = Make<EyeMotion>(tables_.motions, tables_.gestures, settings_, idle, seed_);
-  HeadMotion& head = Make<HeadMotion>(tables_.motions);
-  SpeechMotion& speech = Make<SpeechMotion>(tables_, settings_, idle, seed_);
-  MoodMotion& mood = Make<MoodMotion>(tables_.motions);
-  MouthStream& mouth_stream = Make<MouthStream>();
+  std::vector<const MotionSource*> sources_{&idle, &expression, &units,  &mouth, &blend_shapes,
+                                            &eyes, &head,       &speech, &mood,  &mouth_stream};
+  std::vector<std::unique_ptr<MotionSource>> added_;
 };
 
 }  // namespace fsm

@@ -20,39 +20,40 @@ void HeadMotion::TurnBy(vm::Time now, const Angles& angles) {
   TurnTo(now, target);
 }
 
-vm::Time HeadMotion::EndOf(const Move& move) {
-  const vm::Time end = move.start + FromMs(move.curve->length_ms() * move.count);
-  return move.stopped ? std::min(end, *move.stopped + kFade) : end;
+vm::Time HeadMotion::EndOf(const Movement& movement) {
+  const vm::Time end = movement.start + FromMs(movement.curve->length_ms() * movement.count);
+  return movement.stopped ? std::min(end, *movement.stopped + kFade) : end;
 }
 
 vm::Result<void> HeadMotion::Play(vm::Time now, std::string_view kind, int pattern, double strength,
                                   int count) {
   const auto found = patterns_.head.find(kind);
   const std::size_t patterns = found == patterns_.head.end() ? 0 : found->second.size();
-  if (auto fits = CheckPattern(kind, pattern, 1, patterns); !fits) return fits;
-  StopMoves(now);
+  if (auto fits = CheckPatternNumber(kind, pattern, 1, patterns); !fits) return fits;
+  StopMovements(now);
   const HeadCurve& curve = found->second[static_cast<std::size_t>(pattern - 1)];
-  moves_.push_back({&curve, strength, count, now, std::nullopt});
+  movements_.push_back({&curve, strength, count, now, std::nullopt});
   return {};
 }
 
-void HeadMotion::StopMoves(vm::Time now) {
-  std::erase_if(moves_, [&](const Move& move) { return EndOf(move) <= now; });
-  for (Move& move : moves_) {
-    if (!move.stopped) move.stopped = now;
+void HeadMotion::StopMovements(vm::Time now) {
+  std::erase_if(movements_, [&](const Movement& movement) { return EndOf(movement) <= now; });
+  for (Movement& movement : movements_) {
+    if (!movement.stopped) movement.stopped = now;
   }
 }
 
 void HeadMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   Angles& angles = layers.Layer("head").head;
   angles = turn_.At(t);
-  for (const Move& move : moves_) {
-    if (t >= EndOf(move)) continue;
-    const double ms = std::max(0.0, InMs(t - move.start));
-    const double times = std::floor(ms / move.curve->length_ms());
-    const Angles more = move.curve->At(ms - times * move.curve->length_ms());
-    const double stays = move.stopped ? 1 - Eased(Progress(t, *move.stopped, kFade)) : 1;
-    const double weight = stays * move.strength * std::pow(kSmaller, times);
+  for (const Movement& movement : movements_) {
+    if (t >= EndOf(movement)) continue;
+    const double ms = std::max(0.0, InMs(t - movement.start));
+    const double times = std::floor(ms / movement.curve->length_ms());
+    const Angles more = movement.curve->At(ms - times * movement.curve->length_ms());
+    const double fade =
+        movement.stopped ? 1 - SmoothStep(Progress(t, *movement.stopped, kFade)) : 1;
+    const double weight = fade * movement.strength * std::pow(kSmaller, times);
     for (std::size_t i = 0; i < 3; ++i) angles[i] += static_cast<float>(weight * more[i]);
   }
 }
@@ -63,7 +64,7 @@ std::optional<vm::Time> HeadMotion::NextActivity(vm::Time t) const {
 
 vm::Time HeadMotion::FiniteEnd(vm::Time t) const {
   vm::Time end = t;
-  for (const Move& move : moves_) end = std::max(end, EndOf(move));
+  for (const Movement& movement : movements_) end = std::max(end, EndOf(movement));
   return end;
 }
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/motion/motion_patterns.h"
+#include "fsm/motion/idle/motion_patterns.h"
 #include "fsm/motion/motion_source.h"
 #include "vm_protocol/core/result.h"
 
@@ -24,7 +24,7 @@ class HeadMotion : public MotionSource {
   /// pattern.
   vm::Result<void> Play(vm::Time now, std::string_view kind, int pattern, double strength,
                         int count);
-  void StopMoves(vm::Time now);
+  void StopMovements(vm::Time now);
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;
   std::optional<vm::Time> NextActivity(vm::Time t) const override;
@@ -34,18 +34,18 @@ class HeadMotion : public MotionSource {
   void ForEachTrack(const TrackVisitor& visit) const override { visit(turn_); }
 
  private:
-  struct Move {
+  struct Movement {
     const HeadCurve* curve;
     double strength;
     int count;
     vm::Time start;
     std::optional<vm::Time> stopped;
   };
-  static vm::Time EndOf(const Move& move);
+  static vm::Time EndOf(const Movement& movement);
 
   const MotionPatterns& patterns_;
   Track<Angles> turn_;
-  std::vector<Move> moves_;
+  std::vector<Movement> movements_;
 };
 
 }  // namespace fsm

@@ -115,11 +115,11 @@ vm::Result<Mixer> Mixer::Read(const std::string& name, std::string_view text) {
 // ---- mixing
 
 const Mixer::Rules& Mixer::RulesOf(std::string_view layer) const {
-  static const Rules kInFull;
+  static const Rules kNoRules;
   for (const auto& [name, rules] : layers_) {
     if (name == layer) return rules;
   }
-  return kInFull;
+  return kNoRules;
 }
 
 Mixer::Factors Mixer::FactorsOf(const Rules& rules, const MotionLayers& layers) {
@@ -131,40 +131,44 @@ Mixer::Factors Mixer::FactorsOf(const Rules& rules, const MotionLayers& layers) 
   return factors;
 }
 
-double Mixer::OfUnit(const Factors& factors, const UnitList& units, std::size_t unit) {
+double Mixer::UnitFactor(const Factors& factors, const UnitList& units, std::size_t unit) {
   constexpr std::array<Target, kRegions> kTargetOf = {kEyeUnits, kBrowUnits, kMouthUnits};
   const double own = factors[kTargetOf[static_cast<std::size_t>(units.RegionOf(unit))]];
   return factors[kUnits] * own * (units.Opens(unit) ? factors[kOpeningUnits] : 1);
 }
 
-void Mixer::Add(const MotionLayer& layer, const Rules& rules, const Factors& factors,
-                const UnitList& units, MotionLayer& total) const {
-  const bool in_full = rules.weights.empty();
-  const auto join = [&](Target target, auto& sum, const auto& asked) {
+void Mixer::AddLayer(const MotionLayer& layer, const Rules& rules, const Factors& factors,
+                     const UnitList& units, MotionLayer& total) const {
+  const bool unweighted = rules.weights.empty();
+  const auto accumulate = [&](Target target, auto& sum, const auto& asked) {
     for (std::size_t i = 0; i < sum.size(); ++i) {
-      channels_[target].Join(sum[i], factors[target] * asked[i]);
+      channels_[target].Accumulate(sum[i], factors[target] * asked[i]);
     }
   };
-  const auto join_units = [&](UnitValues& sum, const UnitValues& asked) {
+  const auto accumulate_units = [&](UnitValues& sum, const UnitValues& asked) {
     if (asked.AtRest()) return;
     const std::span strengths(asked.begin(), asked.size());
     for (std::size_t unit = 0; unit < strengths.size(); ++unit) {
       if (strengths[unit] == 0) continue;
-      const double weight = in_full ? 1 : OfUnit(factors, units, unit);
-      channels_[kUnits].Join(sum[unit], weight * strengths[unit]);
+      const double weight = unweighted ? 1 : UnitFactor(factors, units, unit);
+      channels_[kUnits].Accumulate(sum[unit], weight * strengths[unit]);
     }
   };
   for (const Side side : kSides) {
-    join_units(total.units.au[side], layer.units.au[side]);
-    join(kGaze, total.units.gaze[side], layer.units.gaze[side]);
+    accumulate_units(total.units.au[side], layer.units.au[side]);
+    accumulate(kGaze, total.units.gaze[side], layer.units.gaze[side]);
   }
-  join(kMouth, total.mouth, layer.mouth);
-  join(kMouth, total.mouth_by_hand, layer.mouth_by_hand);
-  channels_[kMouth].Join(total.seal, factors[kMouth] * layer.seal);
-  channels_[kMouth].Join(total.tongue, factors[kMouth] * layer.tongue);
-  join(kHead, total.head, layer.head);
-  channels_[kHead].Join(total.head_forward_mm, factors[kHead] * layer.head_forward_mm);
-  channels_[kLids].Join(total.lids_shut, factors[kLids] * layer.lids_shut);
+  for (std::size_t i = 0; i < total.units.residuals.size(); ++i) {
+    channels_[kUnits].Accumulate(total.units.residuals[i],
+                                 ResidualFactor(factors) * layer.units.residuals[i]);
+  }
+  accumulate(kMouth, total.mouth, layer.mouth);
+  accumulate(kMouth, total.mouth_by_hand, layer.mouth_by_hand);
+  channels_[kMouth].Accumulate(total.seal, factors[kMouth] * layer.seal);
+  channels_[kMouth].Accumulate(total.tongue, factors[kMouth] * layer.tongue);
+  accumulate(kHead, total.head, layer.head);
+  channels_[kHead].Accumulate(total.head_forward_mm, factors[kHead] * layer.head_forward_mm);
+  channels_[kLids].Accumulate(total.lids_shut, factors[kLids] * layer.lids_shut);
 }
 
 void Mixer::Mix(const MotionLayers& layers, const UnitList& units, FaceState& state) const {
@@ -172,45 +176,49 @@ void Mixer::Mix(const MotionLayers& layers, const UnitList& units, FaceState& st
   for (const auto& [name, layer] : layers.all()) {
     const Rules& rules = RulesOf(name);
     const Factors factors = FactorsOf(rules, layers);
-    Add(layer, rules, factors, units, total);
+    AddLayer(layer, rules, factors, units, total);
     if (!rules.steady) continue;
     const Steady& steady = *rules.steady;
     const double share = steady.signal.empty() ? 1 : layers.Signal(steady.signal);
     for (std::size_t axis = 0; axis < 2; ++axis) {
-      const auto turn = static_cast<float>(factors[kHead] * layer.head[axis]);
+      const auto rotation = static_cast<float>(factors[kHead] * layer.head[axis]);
       const auto back =
-          static_cast<float>(share * std::clamp(turn, -steady.limit_deg, steady.limit_deg));
+          static_cast<float>(share * std::clamp(rotation, -steady.limit_deg, steady.limit_deg));
       for (const Side side : kSides) total.units.gaze[side][axis] -= back;
     }
   }
-  Place(total, FactorsOf(result_, layers), units, state);
+  Store(total, FactorsOf(result_, layers), units, state);
 }
 
-void Mixer::Place(const MotionLayer& total, const Factors& factors, const UnitList& units,
+void Mixer::Store(const MotionLayer& total, const Factors& factors, const UnitList& units,
                   FaceState& state) const {
   const auto result = [&](Target target, float value) {
-    return static_cast<float>(factors[target] * channels_[target].Limited(value));
+    return static_cast<float>(factors[target] * channels_[target].Clamped(value));
   };
-  const auto place = [&](Target target, auto& to, const auto& values) {
+  const auto store = [&](Target target, auto& to, const auto& values) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] = result(target, values[i]);
   };
-  const auto place_units = [&](UnitValues& to, const UnitValues& values) {
+  const auto store_units = [&](UnitValues& to, const UnitValues& values) {
     std::size_t unit = 0;
-    Combine(to, values, [&](float& strength, float value) {
-      float limited = channels_[kUnits].Limited(value);
-      if (limited != 0) limited = static_cast<float>(OfUnit(factors, units, unit) * limited);
+    ForEachUnit(to, values, [&](float& strength, float value) {
+      float limited = channels_[kUnits].Clamped(value);
+      if (limited != 0) limited = static_cast<float>(UnitFactor(factors, units, unit) * limited);
       strength = limited;
       ++unit;
     });
   };
-  for (const Side side : kSides) place_units(state.au[side], total.units.au[side]);
-  place(kMouth, state.mouth, total.mouth);
-  place(kMouth, state.mouth_by_hand, total.mouth_by_hand);
+  for (const Side side : kSides) store_units(state.au[side], total.units.au[side]);
+  for (std::size_t i = 0; i < state.residuals.size(); ++i) {
+    state.residuals[i] = static_cast<float>(ResidualFactor(factors) *
+                                            channels_[kUnits].Clamped(total.units.residuals[i]));
+  }
+  store(kMouth, state.mouth, total.mouth);
+  store(kMouth, state.mouth_by_hand, total.mouth_by_hand);
   state.lip_seal = result(kMouth, total.seal);
   state.tongue = result(kMouth, total.tongue);
-  place(kHead, state.head_rotation, total.head);
+  store(kHead, state.head_rotation, total.head);
   state.head_forward = result(kHead, total.head_forward_mm);
-  for (const Side side : kSides) place(kGaze, state.gaze[side], total.units.gaze[side]);
+  for (const Side side : kSides) store(kGaze, state.gaze[side], total.units.gaze[side]);
   state.blink.left = state.blink.right = result(kLids, total.lids_shut);
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "fsm/motion/expression/unit_list.h"
 #include "fsm/motion/motion_source.h"
 #include "fsm/rig/face_state.h"
 #include "vm_protocol/core/result.h"
@@ -51,11 +52,11 @@ class Mixer {
     float lowest = -std::numeric_limits<float>::infinity();
     float highest = std::numeric_limits<float>::infinity();
 
-    void Join(float& total, double asked) const {
+    void Accumulate(float& total, double asked) const {
       const auto more = static_cast<float>(asked);
       total = greatest ? std::max(total, more) : total + more;
     }
-    float Limited(float total) const { return std::clamp(total, lowest, highest); }
+    float Clamped(float total) const { return std::clamp(total, lowest, highest); }
   };
   struct WeightRule {
     Target target;
@@ -74,10 +75,14 @@ class Mixer {
 
   const Rules& RulesOf(std::string_view layer) const;
   static Factors FactorsOf(const Rules& rules, const MotionLayers& layers);
-  static double OfUnit(const Factors& factors, const UnitList& units, std::size_t unit);
-  void Add(const MotionLayer& layer, const Rules& rules, const Factors& factors,
-           const UnitList& units, MotionLayer& total) const;
-  void Place(const MotionLayer& total, const Factors& factors, const UnitList& units,
+  /// Residuals are weighted as units of the mouth, which differs most from our units.
+  static double ResidualFactor(const Factors& factors) {
+    return factors[kUnits] * factors[kMouthUnits];
+  }
+  static double UnitFactor(const Factors& factors, const UnitList& units, std::size_t unit);
+  void AddLayer(const MotionLayer& layer, const Rules& rules, const Factors& factors,
+                const UnitList& units, MotionLayer& total) const;
+  void Store(const MotionLayer& total, const Factors& factors, const UnitList& units,
              FaceState& state) const;
 
   std::array<ChannelRule, kChannels> channels_;

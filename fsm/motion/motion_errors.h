@@ -20,8 +20,8 @@ std::string KeysOf(const Map& map) {
   return fmt::format("{}", fmt::join(keys, " "));
 }
 
-inline vm::Result<void> CheckPattern(std::string_view kind, int pattern, int lowest,
-                                     std::size_t count) {
+inline vm::Result<void> CheckPatternNumber(std::string_view kind, int pattern, int lowest,
+                                           std::size_t count) {
   if (pattern >= lowest && pattern <= static_cast<int>(count)) return {};
   if (count == 0) {
     return vm::Fail(vm::Errc::kBadValue, fmt::format("there is no pattern of {}", kind));

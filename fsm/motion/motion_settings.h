@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fsm/motion/viseme_target.h"
+#include "fsm/motion/speech/lip_style.h"
 #include "vm_protocol/core/scheduler.h"
 
 namespace fsm {

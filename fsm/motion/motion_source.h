@@ -9,14 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/motion/action_units.h"
+#include "fsm/motion/expression/face_look.h"
 #include "fsm/motion/track.h"
 
 namespace fsm {
 
 /// The contribution of one layer of movement to the face at one instant; at rest by default.
 struct MotionLayer {
-  ActionUnits units;  ///< strengths, 1 = full, and the rotation of the eyes
+  FaceLook units;  ///< strengths, 1 = full, and the rotation of the eyes
   std::array<float, kMouthParameters> mouth{};          ///< as FaceState::mouth
   std::array<float, kMouthParameters> mouth_by_hand{};  ///< as FaceState::mouth_by_hand
   float seal = 0;                                       ///< of the lips, 0..1

@@ -1,7 +1,5 @@
 #include "fsm/motion/motion_tables.h"
 
-#include <algorithm>
-#include <iterator>
 #include <optional>
 
 #include "embedded/action_unit_list.h"
@@ -22,7 +20,7 @@
 #include "embedded/phonemes_ja.h"
 #include "embedded/text_cues.h"
 #include "fsm/base/table_reader.h"
-#include "fsm/motion/motion_reader.h"
+#include "fsm/motion/idle/motion_reader.h"
 
 namespace fsm {
 namespace {
@@ -85,18 +83,8 @@ void LoadMouth(Loader& loader, MotionTables& out) {
 
 vm::Result<GestureNumbers> ReadGestures(const std::string& name, std::string_view text) {
   static const NumberTable built_in("tables/gestures.txt", embedded::gestures());
-  try {
-    const NumberTable gestures(name, text, &built_in);
-    for (const TableRow& row : gestures.rows()) {
-      constexpr std::string_view kTimes[] = {"lasts", "rise", "fall"};  // rows used as divisors
-      if (std::ranges::find(kTimes, row.Word(1)) != std::end(kTimes)) row.Within(2, 1, 1000);
-      if (row.key() == "jaw" || row.key() == "lips") row.Within(2, 0, 300);
-      if (row.Word(1) == "in" || row.Word(1) == "out") row.Within(2, 0.01f, 1);
-    }
-    return GestureNumbers(gestures);
-  } catch (const TableError& error) {
-    return vm::Fail(vm::Errc::kBadValue, error.what());
-  }
+  return ReadTable(
+      name, text, [&](const Table&) { return GestureNumbers(NumberTable(name, text, &built_in)); });
 }
 
 }  // namespace

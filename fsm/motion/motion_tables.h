@@ -5,15 +5,15 @@
 
 #include "embedded/gesture_numbers.h"
 #include "fsm/base/table_folder.h"
-#include "fsm/motion/action_units.h"
-#include "fsm/motion/emotion_space.h"
-#include "fsm/motion/emotion_table.h"
+#include "fsm/motion/expression/emotion_space.h"
+#include "fsm/motion/expression/emotion_table.h"
+#include "fsm/motion/expression/face_look.h"
+#include "fsm/motion/expression/unit_names.h"
+#include "fsm/motion/idle/motion_patterns.h"
 #include "fsm/motion/mixer.h"
-#include "fsm/motion/motion_patterns.h"
-#include "fsm/motion/phoneme_names.h"
-#include "fsm/motion/text_cues.h"
-#include "fsm/motion/unit_names.h"
-#include "fsm/motion/viseme_tables.h"
+#include "fsm/motion/speech/phoneme_names.h"
+#include "fsm/motion/speech/text_cues.h"
+#include "fsm/motion/speech/viseme_tables.h"
 
 namespace fsm {
 

@@ -29,7 +29,7 @@ std::string ConstantOf(const TableRow& row) {
 Appearance::Appearance(NumberTable numbers)
     : AppearanceNumbers(numbers), table_(std::move(numbers)) {
   for (const TableRow& row : table_.rows()) {
-    const std::string name = NumberTable::NameOf(row);
+    const std::string name = NumberTable::RowName(row);
     if (name == row.key()) constants_ += ConstantOf(row);
     if (name.ends_with(" direction") && std::ranges::count(table_[name], 0.0F) == 3)
       row.Fail("a lamp that stands nowhere");

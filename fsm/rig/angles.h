@@ -11,6 +11,6 @@ using Angles = std::array<float, 3>;
 /// Rotation angles of an eye, which does not tilt.
 using EyeAngles = std::array<float, 2>;
 /// Indices into Angles and EyeAngles.
-enum Turn : std::size_t { kDown, kToRight, kTilted };
+enum Axis : std::size_t { kDown, kToRight, kTilted };
 
 }  // namespace fsm

@@ -33,6 +33,8 @@ float ValueOf(const Drive& drive, const FaceState& state, const Pose& pose) {
         return -GazeOf(pose.eye[side])[kDown];
       case kGazeRight:
         return GazeOf(pose.eye[side])[kToRight];
+      case kResidual:
+        return Bound(state.residuals[number], 0, 2);
     }
     return 0.0f;
   };

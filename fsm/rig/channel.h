@@ -30,7 +30,8 @@ struct Drive {
     kHandMouth,    ///< `number`: index into FaceState::mouth_by_hand
     kBlink,        ///< how far the lids close beyond what action units ask for, 0..1
     kGazeUp,       ///< upward gaze of an eye, degrees
-    kGazeRight     ///< gaze of an eye to the viewer's right, degrees
+    kGazeRight,    ///< gaze of an eye to the viewer's right, degrees
+    kResidual      ///< `number`: index into FaceState::residuals
   };
   enum class WhichSide : std::uint8_t {
     kRight,

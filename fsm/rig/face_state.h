@@ -42,6 +42,10 @@ struct Figure {
   bool enabled = true;
 };
 
+/// Strengths of what action units cannot show of the original's whole expressions
+/// (mesh/original/original_expressions.h), 0..2; only heads of the original show them.
+using Residuals = std::array<float, 6>;
+
 /// Everything that decides how the face looks, at one instant. A plain value: motion makes it,
 /// the head turns it into vertices, the renderer draws them. Frame: x to the viewer's right (so the
 /// agent's LEFT side is at +x), y up, z to the viewer; millimetres.
@@ -49,6 +53,7 @@ struct FaceState {
   /// Strengths of the action units by FACS number: 0 = rest, 1 = full strength, up to 2 (the
   /// original's 200 %). Emotions arrive here as sums of their action units.
   Sided<UnitValues> au;
+  Residuals residuals{};
 
   /// Mouth parameters in the order of MouthParameter; they may be negative.
   std::array<float, kMouthParameters> mouth{};

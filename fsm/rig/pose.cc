@@ -25,10 +25,31 @@ glm::mat3 TurnZ(float angle) {
 
 // The lids follow the gaze: looking 25 degrees down lowers the upper lid by 6.3 mm and the lower by
 // 1.7 mm, looking as far up raises them by 3.3 mm and 1.3 mm.
+constexpr float kGazeOfLids = 25;  // degrees
+constexpr float kUpperLidDown = 6.3f, kUpperLidUp = 3.3f;
+constexpr float kLowerLidDown = 1.7f, kLowerLidUp = 1.3f;
+
+struct Range {
+  float least, most;
+};
+// What people can do; ours but for the jaw: a mandible opens 25-30 degrees and slides about 1 mm
+// forward for every three degrees.
+constexpr Range kHeadRightRange{-80, 80}, kHeadDownRange{-60, 60},
+    kHeadTiltRange{-50, 50};                                        // degrees
+constexpr Range kHeadForwardRange{-30, 45};                         // mm
+constexpr Range kGazeDownRange{-35, 35}, kGazeRightRange{-45, 45};  // degrees
+constexpr Range kMouthRange{-14, 14};                               // mm
+constexpr Range kJawOpenRange{0, 28}, kJawAskedRange{-30, 30};      // degrees
+constexpr Range kJawSlideRange{-4, 12}, kSlideAskedRange{-6, 10}, kJawSwayRange{-10, 10};  // mm
+constexpr Range kTongueOutRange{0, 30};                                                    // mm
+constexpr Range kUpperLidRange{-11, 4}, kLowerLidRange{-3, 4};  // mm above the rest
+
+float Within(float value, const Range& range) { return Bound(value, range.least, range.most); }
+
 void FollowGaze(float down_degrees, UnitEffects::Lids& lids) {
-  const float part = -down_degrees / 25;
-  lids.upper_mm += part * (part < 0 ? 6.3f : 3.3f);
-  lids.lower_mm += part * (part < 0 ? 1.7f : 1.3f);
+  const float part = -down_degrees / kGazeOfLids;
+  lids.upper_mm += part * (part < 0 ? kUpperLidDown : kUpperLidUp);
+  lids.lower_mm += part * (part < 0 ? kLowerLidDown : kLowerLidUp);
 }
 
 }  // namespace
@@ -38,39 +59,42 @@ float Bound(float value, float least, float most) {
 }
 
 glm::mat3 HeadTurn(const FaceState& state) {
-  return TurnY(glm::radians(Bound(state.head_rotation[kToRight], -80, 80))) *
-         TurnX(glm::radians(Bound(state.head_rotation[kDown], -60, 60))) *
-         TurnZ(-glm::radians(Bound(state.head_rotation[kTilted], -50, 50)));
+  return TurnY(glm::radians(Within(state.head_rotation[kToRight], kHeadRightRange))) *
+         TurnX(glm::radians(Within(state.head_rotation[kDown], kHeadDownRange))) *
+         TurnZ(-glm::radians(Within(state.head_rotation[kTilted], kHeadTiltRange)));
 }
 
-float HeadForward(const FaceState& state) { return Bound(state.head_forward, -30, 45); }
+float HeadForward(const FaceState& state) { return Within(state.head_forward, kHeadForwardRange); }
 
 Pose MakePose(const FaceState& state, const UnitTable& table) {
   Pose pose{};
   pose.units = table.Combine(state);
   const UnitEffects effects = table.Effects(pose.units);
-  // The mouth parameters are limited to what lips can do, in millimetres; the jaw is apart.
-  for (std::size_t p = 0; p < kMouthParameters; ++p) pose.mouth[p] = Bound(state.mouth[p], -14, 14);
-  // A mandible opens 25-30 degrees and slides about 1 mm forward for every three degrees.
-  const float degrees = Bound(effects.jaw_degrees + Bound(state.mouth[kJawY], -30, 30), 0, 28);
-  const float slide_mm = Bound(effects.jaw_slide_mm + Bound(state.mouth[kJawZ], -6, 10), -4, 12);
-  pose.mouth[kJawY] = degrees - Bound(effects.jaw_degrees, 0, 28);
-  pose.mouth[kJawZ] = slide_mm - Bound(effects.jaw_slide_mm, -4, 12);
+  for (std::size_t p = 0; p < kMouthParameters; ++p)
+    pose.mouth[p] = Within(state.mouth[p], kMouthRange);
+  const float degrees =
+      Within(effects.jaw_degrees + Within(state.mouth[kJawY], kJawAskedRange), kJawOpenRange);
+  const float slide_mm =
+      Within(effects.jaw_slide_mm + Within(state.mouth[kJawZ], kSlideAskedRange), kJawSlideRange);
+  pose.mouth[kJawY] = degrees - Within(effects.jaw_degrees, kJawOpenRange);
+  pose.mouth[kJawZ] = slide_mm - Within(effects.jaw_slide_mm, kJawSlideRange);
   pose.jaw = {.open_rad = glm::radians(degrees),
               .slide_mm = slide_mm,
-              .sway_mm = Bound(effects.jaw_sway_mm, -10, 10)};
+              .sway_mm = Within(effects.jaw_sway_mm, kJawSwayRange)};
   pose.seal = Bound(std::max(effects.seal, Bound(state.lip_seal, 0, 1)), 0, 1);
   pose.tongue_raise = Bound(effects.tongue_raise + Bound(state.tongue, 0, 1), 0, 1);
-  pose.tongue_out_mm = Bound(effects.tongue_out_mm, 0, 30);
+  pose.tongue_out_mm = Within(effects.tongue_out_mm, kTongueOutRange);
 
   for (const Side s : kSides) {
-    const float down = Bound(state.gaze[s][kDown], -35, 35);
-    const float right = Bound(state.gaze[s][kToRight], -45, 45);
+    const float down = Within(state.gaze[s][kDown], kGazeDownRange);
+    const float right = Within(state.gaze[s][kToRight], kGazeRightRange);
     pose.eye[s] = EyeTo({down, right});
     pose.lids[s] = effects.lids[s];
     FollowGaze(down, pose.lids[s]);
-    pose.lids[s].upper_mm = std::clamp(pose.lids[s].upper_mm, -11.0f, 4.0f);
-    pose.lids[s].lower_mm = std::clamp(pose.lids[s].lower_mm, -3.0f, 4.0f);
+    pose.lids[s].upper_mm =
+        std::clamp(pose.lids[s].upper_mm, kUpperLidRange.least, kUpperLidRange.most);
+    pose.lids[s].lower_mm =
+        std::clamp(pose.lids[s].lower_mm, kLowerLidRange.least, kLowerLidRange.most);
     const float open = 1 - std::min(1.0f, effects.lids[s].close);
     pose.blink[s] = open * Bound(state.blink[s], 0, 1);
     pose.lids[s].close = 1 - open + pose.blink[s];

@@ -13,12 +13,18 @@
 namespace fsm {
 namespace {
 
+constexpr float kMostLean = 0.035f;   // part by which a side may be stronger or weaker; ours
+constexpr float kMostAsymmetry = 5;   // factor on the lean
+constexpr float kMostStrength = 2;    // of a unit, the original's 200 %
+constexpr float kStretchRate = 0.5f;  // of a strength above 1, where tissue stops stretching
+constexpr float kSidesMeetMm = 7;     // from the median, up to which both sides act
+constexpr float kSidewaysMeetMm = 4;  // the same for movement across it
+
 std::size_t At(int unit) { return static_cast<std::size_t>(unit); }
 
 int ReadUnit(const TableRow& row, std::size_t index) {
   const int unit = row.Integer(index);
-  if (unit < 1 || unit > static_cast<int>(UnitValues::kMost) ||
-      std::ranges::find(kResidualUnits, At(unit)) != kResidualUnits.end()) {
+  if (unit < 1 || unit > static_cast<int>(UnitValues::kMost) || unit == 3 || unit == 40) {
     row.Fail("'" + row.Word(index) + "' is no action unit (1, 2, 4-39, 41-999)");
   }
   return unit;
@@ -73,8 +79,8 @@ std::string Digits(float number) {
 
 float Acting(float strength) {
   if (!(strength > 0)) return 0;
-  strength = std::min(strength, 2.0f);
-  return strength <= 1 ? strength : 1 + 0.5f * (strength - 1);
+  strength = std::min(strength, kMostStrength);
+  return strength <= 1 ? strength : 1 + kStretchRate * (strength - 1);
 }
 
 }  // namespace
@@ -132,10 +138,9 @@ std::string UnitTable::Text() const {
 }
 
 void UnitTable::MakeAsymmetric(int seed) {
-  constexpr float kPart = 0.035f;
   for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
     if (unit >= kLidDroop || unit == kJawDrop || unit == kMouthStretch) continue;
-    const float lean = kPart * NoiseAt(static_cast<int>(unit), 90 + seed);
+    const float lean = kMostLean * NoiseAt(static_cast<int>(unit), 90 + seed);
     lean_.right[unit] = lean;
     lean_.left[unit] = -lean;
   }
@@ -150,7 +155,8 @@ std::vector<int> UnitTable::Numbers() const {
 
 Sided<UnitValues> UnitTable::Combine(const FaceState& state) const {
   Sided<UnitValues> units;
-  const float shown = std::isfinite(state.asymmetry) ? std::clamp(state.asymmetry, 0.0f, 5.0f) : 0;
+  const float shown =
+      std::isfinite(state.asymmetry) ? std::clamp(state.asymmetry, 0.0f, kMostAsymmetry) : 0;
   for (const Side side : kSides) {
     for (std::size_t i = 1; i < state.au[side].size(); ++i) {
       const float acting = Acting(state.au[side][i]);
@@ -220,7 +226,7 @@ glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& weights, Side
   const float x = SignOf(side) * weights.domain.x;
   if (std::abs(weights.domain.y - field.at.y) >= field.radius.y) return glm::vec3(0);
   // Both sides act at the median, half each, so that left and right add up to the whole.
-  const float own_side = SmoothStep(-7, 7, x);
+  const float own_side = SmoothStep(-kSidesMeetMm, kSidesMeetMm, x);
   if (own_side <= 0) return glm::vec3(0);
   float weight = 0;
   // A field that reaches over the median overlaps its mirror image; the stronger one counts.
@@ -236,7 +242,7 @@ glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& weights, Side
   weight *= own_side * weights.free;
   glm::vec3 by = field.by;
   // The sideways component changes sign smoothly at the median, so that the skin does not tear.
-  by.x *= std::clamp(x / 4, -1.0f, 1.0f) * SignOf(side);
+  by.x *= std::clamp(x / kSidewaysMeetMm, -1.0f, 1.0f) * SignOf(side);
   return weight * by;
 }
 

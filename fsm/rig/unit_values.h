@@ -11,10 +11,6 @@ namespace fsm {
 /// The action units of FACS (1978) have numbers 1..46 (3 and 40 are unused); a table of this size
 /// is indexed by them directly.
 inline constexpr std::size_t kActionUnits = 47;
-/// Numbers that FACS leaves free. Residuals of the original's expressions travel in them
-/// (mesh/original/original_expressions.h): no table has them, and only heads of the original have
-/// channels for them.
-inline constexpr std::array<std::size_t, 3> kResidualUnits{3, 40, 0};
 /// The units that code refers to, by their names in FACS.
 enum ActionUnit : std::size_t {
   kInnerBrowRaiser = 1,

@@ -40,7 +40,7 @@ TEST_F(PlayerTest, WhatIsEditedWhileItPlaysIsSeenAtOnce) {
   show.expression = "HAPPY";
   ASSERT_TRUE(player_.Start(show, false, 0s));
   static_cast<void>(player_.At(900ms));
-  fsm::ActionUnits look;
+  fsm::FaceLook look;
   look.au.left[12] = 0.25F;
   ASSERT_TRUE(editor_->SetExpression("HAPPY", 1, look));
   EXPECT_FLOAT_EQ(player_.At(1s)->au.left[12], 0.25F);
@@ -77,7 +77,7 @@ TEST_F(PlayerTest, WhatTheTablesDoNotHaveIsRefusedAndTheOldPlaysOn) {
 }
 
 TEST(StateOfTest, LooksCountTheEyesDownAndStatesUp) {
-  fsm::ActionUnits look;
+  fsm::FaceLook look;
   look.au.right[4] = 0.5F;
   look.gaze.left = {6, -2};
   const auto state = StateOf(look);

@@ -10,8 +10,8 @@
 
 #include "face_editor/core/editor.h"
 #include "face_editor/core/table_writer.h"
-#include "fsm/motion/motion_reader.h"
-#include "fsm/motion/unit_names.h"
+#include "fsm/motion/expression/unit_names.h"
+#include "fsm/motion/idle/motion_reader.h"
 
 namespace editor {
 namespace {
@@ -131,7 +131,7 @@ TEST(EditorTablesTest, AFolderOfTablesIsWrittenAndReadByTheFace) {
   ASSERT_NE(mkdtemp(folder.data()), nullptr);
   auto editor = Editor::Make("");
   ASSERT_TRUE(editor);
-  fsm::ActionUnits look;
+  fsm::FaceLook look;
   look.au.left[12] = 0.75F;
   ASSERT_TRUE((*editor)->SetExpression("HAPPY", 1, look));
   EXPECT_TRUE((*editor)->Unsaved(Part::kEmotions));

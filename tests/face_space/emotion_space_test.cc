@@ -1,6 +1,6 @@
 // The emotion space: how it learns, what it gives back, and what fsm makes of a point.
 
-#include "fsm/motion/emotion_space.h"
+#include "fsm/motion/expression/emotion_space.h"
 
 #include <gtest/gtest.h>
 
@@ -130,7 +130,7 @@ TEST(EmotionSpaceTest, NeighboursBlendSmoothly) {
 
 TEST(EmotionSpaceTest, RecognisedExpressionsLandAtTheirEmotion) {
   for (const Axis& axis : BuiltAxes()) {
-    fsm::ActionUnits look = Tables().emotions.find(axis.emotion)->second.patterns[0];
+    fsm::FaceLook look = Tables().emotions.find(axis.emotion)->second.patterns[0];
     // As a tracker sees it: everything weaker, and something that is not there.
     for (fsm::UnitValues* side : {&look.au.right, &look.au.left}) {
       for (std::size_t unit = 1; unit < 47; ++unit) (*side)[unit] *= unit % 2 == 0 ? 0.6F : 0.8F;
@@ -147,7 +147,7 @@ TEST(EmotionSpaceTest, RecognisedExpressionsLandAtTheirEmotion) {
 
 TEST(EmotionSpaceTest, TheFaceGoesToAPointOfTheSpace) {
   fsm::FaceMotion motion(Tables(), 1);
-  motion.expression.ShowPoint(0s, {1, 0, 0}, 400ms);
+  motion.expression.ShowSpacePoint(0s, {1, 0, 0}, 400ms);
   const auto smile = [&motion](vm::Time t) {
     const fsm::FaceState state = motion.StateAt(t);
     return std::as_const(state.au.left)[12];
@@ -155,9 +155,9 @@ TEST(EmotionSpaceTest, TheFaceGoesToAPointOfTheSpace) {
   EXPECT_EQ(smile(0s), 0);
   EXPECT_GT(smile(220ms), 0.2F);
   EXPECT_NEAR(smile(500ms), 0.8F, 0.12F) << "as HAPPY has it";
-  motion.expression.ShowPoint(1s, {0.5F, 0, 0}, std::nullopt);
+  motion.expression.ShowSpacePoint(1s, {0.5F, 0, 0}, std::nullopt);
   EXPECT_NEAR(smile(3s), 0.4F, 0.07F);
-  motion.expression.ShowPoint(3s, {0, 0, 0}, 100ms);
+  motion.expression.ShowSpacePoint(3s, {0, 0, 0}, 100ms);
   EXPECT_EQ(smile(4s), 0);
 }
 

@@ -42,7 +42,7 @@ UnitTrack Film(const std::vector<Shown>& expressions, double rate, double noise 
         parts[region] += Strength(shown, region, ms);
     }
     track.ms.push_back(ms);
-    fsm::ActionUnits& look = track.looks.emplace_back();
+    fsm::FaceLook& look = track.looks.emplace_back();
     for (fsm::UnitValues* side : {&look.au.left, &look.au.right}) {
       const auto set = [&](std::size_t unit, double strength) {
         (*side)[unit] = static_cast<float>(strength + noise * by_chance(random));
@@ -92,7 +92,7 @@ TEST(OnsetsTest, AnOrdinaryFilmTellsLagsFinerThanItsFrames) {
 
 TEST(OnsetsTest, APartThatDoesNotMoveHasNoLag) {
   UnitTrack track = Film({{1000, 500, {0, 0, 0}}}, 100);
-  for (fsm::ActionUnits& look : track.looks) look.au.left[1] = look.au.right[1] = 0;
+  for (fsm::FaceLook& look : track.looks) look.au.left[1] = look.au.right[1] = 0;
   const auto onsets = FindOnsets(track, ShippedTables().units);
   ASSERT_EQ(onsets.size(), 1u);
   EXPECT_FALSE(onsets[0].lag_ms[static_cast<std::size_t>(fsm::Region::kBrow)]);
@@ -102,7 +102,7 @@ TEST(OnsetsTest, APartThatDoesNotMoveHasNoLag) {
 TEST(OnsetsTest, AFaceAtRestHasNoOnsets) {
   EXPECT_TRUE(FindOnsets(Film({{1e9, 500, {}}}, 0.00001), ShippedTables().units).empty());
   UnitTrack still = Film({{1000, 500, {}}}, 100);
-  for (fsm::ActionUnits& look : still.looks) look = {};
+  for (fsm::FaceLook& look : still.looks) look = {};
   EXPECT_TRUE(FindOnsets(still, ShippedTables().units).empty());
 }
 

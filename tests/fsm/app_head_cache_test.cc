@@ -35,9 +35,10 @@ class HeadCacheTest : public testing::Test {
     std::string said;
   };
   Made Make(const std::string& name = "a.obj") {
-    testing::internal::CaptureStderr();
-    const auto head = HeadCache(cache_).HeadOfFile(folder_ / ("heads/" + name), "");
-    return {head->rig().data().rest.size(), testing::internal::GetCapturedStderr()};
+    std::string said;
+    const HeadCache cache(cache_, [&said](const std::string& line) { said += line; });
+    const auto head = cache.HeadOfFile(folder_ / ("heads/" + name), "");
+    return {head->rig().data().rest.size(), said};
   }
 
   std::size_t Kept(const std::string& extension) const {
@@ -71,7 +72,8 @@ TEST_F(HeadCacheTest, AHeadIsBakedOnceAndItsNoticeToldEachTime) {
 TEST_F(HeadCacheTest, AKeptHeadIsTheBakedOne) {
   Make();
   const auto baked = MakeHeadOfFile(folder_ / "heads/a.obj", "").head;
-  const auto kept = HeadCache(cache_).HeadOfFile(folder_ / "heads/a.obj", "");
+  const auto kept =
+      HeadCache(cache_, [](const std::string&) {}).HeadOfFile(folder_ / "heads/a.obj", "");
   FaceState state;
   state.au.left[26] = state.au.right[26] = 1;
   state.head_rotation = {5, 10, 0};

@@ -41,7 +41,7 @@ TEST(SheetTest, UnitsAreSpelledAsTheirTableSpellsThem) {
   const auto sheet = MakeSheet("aus", tables, {"galatea"}, "");
   ASSERT_TRUE(sheet) << sheet.error().text;
   std::vector<std::string> labels;
-  for (const SheetCell& cell : sheet->cells) labels.push_back(cell.label);
+  for (const ContactSheetCell& cell : sheet->cells) labels.push_back(cell.label);
   EXPECT_EQ(labels, (std::vector<std::string>{"NEUTRAL", "12 LipCornerPuller", "158 58b"}));
 }
 

@@ -352,7 +352,7 @@ TEST(HeadTablesTest, FeaturesAreChecked) {
     const char *name, *row, *why;
   } cases[] = {
       {"gum_light", "gum_light 0.6", "'gum_light' needs 2 numbers after it, found 1"},
-      {"gum_light", "gum_light 0.6 2000", "a number beyond -1000 to 1000"},
+      {"gum_light", "gum_light 0.6 2000", "'2000' found where -1000 to 1000 was expected"},
       {"gum_light", "gum_lights 0.6 0.2", "'gum_lights' is not known"},
       {"gum_light", "gum_scallop 1", "'gum_scallop' is there twice"},
       {"brow_growth", "brow_growth 9 86 9 62 22 36 36 16 48 -12 56 -32", "do not ascend"},
@@ -391,8 +391,8 @@ TEST(HeadTablesTest, FeaturesLeftOutAreTheBuiltInOnes) {
   EXPECT_EQ(mine.gum_light, glm::vec2(0.6f, 0.25f));
   EXPECT_EQ(mine.table().rows().size(), Features::BuiltIn().table().rows().size());
   for (std::size_t i = 0; i < mine.table().rows().size(); ++i) {
-    const std::string name = NumberTable::NameOf(Features::BuiltIn().table().rows()[i]);
-    EXPECT_EQ(NumberTable::NameOf(mine.table().rows()[i]), name);
+    const std::string name = NumberTable::RowName(Features::BuiltIn().table().rows()[i]);
+    EXPECT_EQ(NumberTable::RowName(mine.table().rows()[i]), name);
     if (name == "gum_light" || name == "spot cheeks half_size") continue;
     EXPECT_EQ(mine.table()[name], Features::BuiltIn().table()[name]);
   }

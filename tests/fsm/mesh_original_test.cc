@@ -175,7 +175,7 @@ TEST(SmallOriginalFaceTest, WhatUnitsLeaveOfAnExpressionComesByItsChannel) {
   HeadVertices rest, moved;
   head->Evaluate({}, rest);
   FaceState state;
-  state.au.left[ResidualChannelOf(3).unit] = 2;
+  state.residuals[3] = 2;
   head->Evaluate(state, moved);
   EXPECT_NEAR(moved.position[nose].y - rest.position[nose].y,
               0.04F * OriginalSpace(face.wireframe).mm(), 0.05F);
@@ -338,10 +338,7 @@ TEST_F(StandardFaceTest, ExpressionsAreThoseOfTheFiles) {
       state.au.right[static_cast<std::size_t>(kUnitNumbers[i])] = one.strengths.right[i];
       state.au.left[static_cast<std::size_t>(kUnitNumbers[i])] = one.strengths.left[i];
     }
-    if (one.channel) {
-      const auto [unit, side] = ResidualChannelOf(*one.channel);
-      state.au[side][unit] = 1;
-    }
+    if (one.residual) state.residuals[*one.residual] = 1;
     const auto file = ReadPnt(Data() + "/_AU_Datas/AU" + std::to_string(31 + k) + ".pnt");
     ASSERT_TRUE(file);
     HeadVertices moved;

@@ -15,7 +15,7 @@ struct FaceMotionTest : testing::Test {
     auto settings = motion.settings();
     settings.onset = Onset::kFixed;
     motion.Apply(0ms, settings);
-    EXPECT_TRUE(motion.idle.Set(0ms, "ASYMMETRY", 0));
+    EXPECT_TRUE(motion.switches().Set(0ms, "ASYMMETRY", 0));
   }
   FaceMotion motion{MotionTables::Load().value(), 7};
 };
@@ -88,9 +88,10 @@ TEST_F(FaceMotionTest, UnknownNamesAreRefusedWithWhatThereIs) {
             "NEUTRAL expected");
   EXPECT_EQ(motion.expression.Show(0ms, "HAPPY", 9, 1, 0ms).error().text,
             "HAPPY has no pattern 9; 1 to 5 expected");
-  EXPECT_EQ(motion.Move(0ms, "NOD", 6).error().text, "NOD has no pattern 6; 1 to 5 expected");
-  EXPECT_FALSE(motion.idle.Set(0ms, "USERDEF", 1));
-  EXPECT_TRUE(motion.idle.Set(0ms, "USERDEF", 0));
+  EXPECT_EQ(motion.PlayMovement(0ms, "NOD", 6).error().text,
+            "NOD has no pattern 6; 1 to 5 expected");
+  EXPECT_FALSE(motion.switches().Set(0ms, "USERDEF", 1));
+  EXPECT_TRUE(motion.switches().Set(0ms, "USERDEF", 0));
   EXPECT_FALSE(motion.SetFace(0ms, 37, 1));
   EXPECT_FALSE(motion.mouth.Set(0ms, 18, 1));
   EXPECT_FALSE(motion.units.Set(0ms, "3", 1, 0ms));
@@ -130,20 +131,20 @@ TEST_F(FaceMotionTest, BlendShapesBecomeUnitsAndGaze) {
 }
 
 TEST_F(FaceMotionTest, EyesTurnAndComeBack) {
-  motion.eyes.Turn(0ms, true, true, {10, 20}, 1000ms);
+  motion.eyes.Rotate(0ms, true, true, {10, 20}, 1000ms);
   EXPECT_FLOAT_EQ(motion.StateAt(70ms).gaze.left[kDown], 10);
   EXPECT_FLOAT_EQ(motion.StateAt(70ms).gaze.right[kToRight], 20);
   EXPECT_FLOAT_EQ(motion.StateAt(1000ms).gaze.right[kToRight], 0);
-  motion.eyes.Turn(2000ms, true, false, {0, 15}, 0ms);
+  motion.eyes.Rotate(2000ms, true, false, {0, 15}, 0ms);
   EXPECT_FLOAT_EQ(motion.StateAt(9s).gaze.left[kToRight], 15);
   EXPECT_FLOAT_EQ(motion.StateAt(9s).gaze.right[kToRight], 0);
 }
 
 TEST_F(FaceMotionTest, ATimedTurnOfOneEyeEndsWhateverTheOtherDoes) {
-  motion.eyes.Turn(0ms, true, false, {10, 20}, 1000ms);
-  motion.eyes.Turn(100ms, false, true, {5, 5}, 0ms);
+  motion.eyes.Rotate(0ms, true, false, {10, 20}, 1000ms);
+  motion.eyes.Rotate(100ms, false, true, {5, 5}, 0ms);
   EXPECT_EQ(motion.FiniteEnd(200ms), vm::Time(1000ms));
-  motion.eyes.Turn(300ms, true, false, {5, 5}, 0ms);
+  motion.eyes.Rotate(300ms, true, false, {5, 5}, 0ms);
   EXPECT_EQ(motion.FiniteEnd(300ms), vm::Time(300ms));
 }
 
@@ -159,7 +160,7 @@ TEST_F(FaceMotionTest, ALargeGazeIsSharedByTheHead) {
 }
 
 TEST_F(FaceMotionTest, NodOneGoesTenDegreesDownAndBackIn200Ms) {
-  ASSERT_TRUE(motion.Move(0ms, "NOD", 1));
+  ASSERT_TRUE(motion.PlayMovement(0ms, "NOD", 1));
   EXPECT_FLOAT_EQ(motion.StateAt(100ms).head_rotation[0], 10);
   EXPECT_FLOAT_EQ(motion.StateAt(200ms).head_rotation[0], 0);
   EXPECT_EQ(motion.FiniteEnd(50ms), vm::Time(200ms));
@@ -169,22 +170,22 @@ TEST_F(FaceMotionTest, DirectionsAndMovementsAddUp) {
   motion.head.TurnTo(0ms, {5, 6, 7});
   motion.head.TurnBy(0ms, {1, 1, 1});
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_rotation[0], 6);
-  ASSERT_TRUE(motion.Move(1s, "NOD", 1));
+  ASSERT_TRUE(motion.PlayMovement(1s, "NOD", 1));
   EXPECT_FLOAT_EQ(motion.StateAt(1100ms).head_rotation[0], 16);
   EXPECT_FLOAT_EQ(motion.StateAt(1100ms).head_rotation[2], 8);
-  motion.StopMoves(1100ms);
+  motion.StopMovements(1100ms);
   EXPECT_FLOAT_EQ(motion.StateAt(1180ms).head_rotation[0], 6);
 }
 
 TEST_F(FaceMotionTest, ABlinkShutsTheLidsAndOpensThem) {
-  ASSERT_TRUE(motion.Move(0ms, "BLINK", 1));
+  ASSERT_TRUE(motion.PlayMovement(0ms, "BLINK", 1));
   EXPECT_FLOAT_EQ(motion.StateAt(90ms).blink.left, 1);
   EXPECT_FLOAT_EQ(motion.StateAt(220ms).blink.left, 0);
   EXPECT_FALSE(motion.NextActivity(220ms).has_value());
 }
 
 TEST_F(FaceMotionTest, SeveralBlinksFollowOneAnother) {
-  ASSERT_TRUE(motion.Move(0ms, "BLINK", 1, 1, 3));
+  ASSERT_TRUE(motion.PlayMovement(0ms, "BLINK", 1, 1, 3));
   const BlinkPattern& blink = motion.tables().motions.blinks.front();
   const vm::Time length = FromMs(blink.closing_ms + blink.shut_ms + blink.opening_ms);
   for (int i = 0; i < 3; ++i) {
@@ -204,7 +205,7 @@ TEST_F(FaceMotionTest, OfTwoMovesAtOneInstantTheFirstIsNotSeen) {
 }
 
 TEST_F(FaceMotionTest, AutonomousBlinksAreTwoToSixSecondsApart) {
-  ASSERT_TRUE(motion.idle.Set(0ms, "BLINK", 1));
+  ASSERT_TRUE(motion.switches().Set(0ms, "BLINK", 1));
   std::optional<vm::Time> last;
   int blinks = 0;
   bool shut = false;
@@ -225,14 +226,14 @@ TEST_F(FaceMotionTest, AutonomousBlinksAreTwoToSixSecondsApart) {
   // Between blinks nothing moves, and the next one is announced.
   const auto next = motion.NextActivity(300s);
   ASSERT_TRUE(next);
-  ASSERT_TRUE(motion.idle.Set(300s, "BLINK", 0));
+  ASSERT_TRUE(motion.switches().Set(300s, "BLINK", 0));
   EXPECT_FALSE(motion.NextActivity(301s).has_value());
 }
 
 TEST_F(FaceMotionTest, AutonomousMovementIsSmallSmoothAndSwitchable) {
   EXPECT_FLOAT_EQ(motion.StateAt(5s).head_rotation[1], 0);
-  ASSERT_TRUE(motion.idle.Set(0ms, "MOVE", 1));
-  ASSERT_TRUE(motion.idle.Set(0ms, "GAZE", 1));
+  ASSERT_TRUE(motion.switches().Set(0ms, "MOVE", 1));
+  ASSERT_TRUE(motion.switches().Set(0ms, "GAZE", 1));
   float most = 0;
   float before = 0;
   for (vm::Time t = 0ms; t < 60s; t += 20ms) {
@@ -245,14 +246,15 @@ TEST_F(FaceMotionTest, AutonomousMovementIsSmallSmoothAndSwitchable) {
   }
   EXPECT_GT(most, 0.5f);
   EXPECT_LE(most, 1.6f);
-  ASSERT_TRUE(motion.idle.Set(60s, "MOVE", 0));
+  ASSERT_TRUE(motion.switches().Set(60s, "MOVE", 0));
   EXPECT_FLOAT_EQ(motion.StateAt(61s).head_rotation[1], 0);
 }
 
 TEST_F(FaceMotionTest, TheSameSeedGivesTheSameLife) {
   FaceMotion same(MotionTables::Load().value(), 7);
   FaceMotion other(MotionTables::Load().value(), 8);
-  for (FaceMotion* face : {&motion, &same, &other}) ASSERT_TRUE(face->idle.Set(0ms, "MOVE", 1));
+  for (FaceMotion* face : {&motion, &same, &other})
+    ASSERT_TRUE(face->switches().Set(0ms, "MOVE", 1));
   EXPECT_EQ(motion.StateAt(7s).head_rotation, same.StateAt(7s).head_rotation);
   EXPECT_NE(motion.StateAt(7s).head_rotation, other.StateAt(7s).head_rotation);
 }
@@ -276,15 +278,15 @@ TEST_F(FaceMotionTest, StatesStayFiniteUnderManyCommands) {
         (void)motion.SetFace(t, 1 + random(36), random(200) / 100.0);
         break;
       case 2:
-        motion.eyes.Turn(t, true, random(2) == 0,
-                         {static_cast<float>(random(30)), static_cast<float>(random(30))},
-                         std::chrono::milliseconds(random(200)));
+        motion.eyes.Rotate(t, true, random(2) == 0,
+                           {static_cast<float>(random(30)), static_cast<float>(random(30))},
+                           std::chrono::milliseconds(random(200)));
         break;
       case 3:
         motion.head.TurnBy(t, {1, -2, 3});
         break;
       case 4:
-        (void)motion.Move(t, "REFUSE", 1 + random(3));
+        (void)motion.PlayMovement(t, "REFUSE", 1 + random(3));
         break;
       case 5:
         motion.speech.Start(t, vm::ParsePhonemes("a 80 m 60 i 300").value(), t + 20ms);

@@ -9,8 +9,8 @@
 
 #include "fsm/base/random.h"
 #include "fsm/motion/face_motion.h"
-#include "fsm/motion/idle_behaviour.h"
-#include "fsm/motion/idle_kinds.h"
+#include "fsm/motion/idle/idle_behaviour.h"
+#include "fsm/motion/idle/idle_kinds.h"
 #include "tests/fsm/motion_support.h"
 
 namespace fsm {
@@ -25,7 +25,7 @@ constexpr const char* kSentence =
 struct IdleBehaviourTest : testing::Test {
   FaceMotion motion{MotionTables::Load().value(), 7};
   void On(const char* kind, int pattern = 1) {
-    ASSERT_TRUE(motion.idle.Set(0ms, kind, pattern)) << kind;
+    ASSERT_TRUE(motion.switches().Set(0ms, kind, pattern)) << kind;
   }
   float Nod(vm::Time t) { return motion.StateAt(t).head_rotation[0]; }
 };
@@ -47,9 +47,9 @@ TEST_F(IdleBehaviourTest, AProfileTakesTheLastPatternWhereTheTablesHaveFewer) {
   tables.motions.auto_blinks.resize(1);
   tables.motions.auto_moves.resize(1);
   FaceMotion few(tables, 7);
-  ASSERT_TRUE(few.idle.SetProfile(0ms, "LIVELY"));
-  EXPECT_EQ(few.idle.Pattern(IdleKind::kMove), 1U);
-  EXPECT_EQ(few.idle.Pattern(IdleKind::kBlink), 1U);
+  ASSERT_TRUE(few.switches().SetProfile(0ms, "LIVELY"));
+  EXPECT_EQ(few.switches()[IdleKind::kMove].pattern, 1U);
+  EXPECT_EQ(few.switches()[IdleKind::kBlink].pattern, 1U);
   for (vm::Time t = 0ms; t < 20s; t += 500ms) few.StateAt(t);
 }
 
@@ -92,7 +92,7 @@ TEST_F(IdleBehaviourTest, OneSideBeginsALittleLaterAlwaysTheSame) {
     other_side = other_side || ahead(other) * first < 0;
   }
   EXPECT_TRUE(other_side);
-  ASSERT_TRUE(same.idle.Set(3s, "ASYMMETRY", 0));
+  ASSERT_TRUE(same.switches().Set(3s, "ASYMMETRY", 0));
   same.expression.Neutral(3s);
   ASSERT_TRUE(same.expression.Show(5s, "HAPPY", 1, 1, 0ms));
   EXPECT_EQ(same.StateAt(5200ms).au.left[12], same.StateAt(5200ms).au.right[12]);
@@ -156,7 +156,7 @@ TEST_F(IdleBehaviourTest, MostUtterancesEndWithABlink) {
 }
 
 TEST_F(IdleBehaviourTest, TheEyesStayOnTheUserWhileTheHeadMoves) {
-  motion.eyes.LookAtUser(0ms);
+  motion.eyes.GazeAtUser(0ms);
   motion.head.TurnTo(100ms, {5, 20, 0});
   const FaceState state = motion.StateAt(2s);
   EXPECT_FLOAT_EQ(state.head_rotation[1], 20);
@@ -165,7 +165,7 @@ TEST_F(IdleBehaviourTest, TheEyesStayOnTheUserWhileTheHeadMoves) {
 }
 
 TEST_F(IdleBehaviourTest, TheEyesConvergeOnWhatIsNear) {
-  motion.eyes.LookAtUser(0ms);
+  motion.eyes.GazeAtUser(0ms);
   const FaceState state = motion.StateAt(1s);
   // The agent's left eye is on the viewer's right: converging, it turns to the viewer's left.
   EXPECT_NEAR(state.gaze.left[kToRight], -2.54, 0.02);
@@ -173,12 +173,12 @@ TEST_F(IdleBehaviourTest, TheEyesConvergeOnWhatIsNear) {
   auto settings = motion.settings();
   settings.gaze_distance_mm = 0;
   motion.Apply(1s, settings);
-  motion.eyes.LookAtUser(1s);
+  motion.eyes.GazeAtUser(1s);
   EXPECT_NEAR(motion.StateAt(2s).gaze.left[kToRight], 0, 1e-3);
 }
 
 TEST_F(IdleBehaviourTest, AThinkerLooksAwayHereAndThereUntilTheNextGaze) {
-  motion.eyes.LookAtUser(0ms);
+  motion.eyes.GazeAtUser(0ms);
   motion.eyes.Think(1s);
   float least = 90;
   std::vector<float> seen;
@@ -191,7 +191,7 @@ TEST_F(IdleBehaviourTest, AThinkerLooksAwayHereAndThereUntilTheNextGaze) {
   }
   EXPECT_GT(least, 5);
   EXPECT_GE(seen.size(), 4u);
-  motion.eyes.LookAtUser(12s);
+  motion.eyes.GazeAtUser(12s);
   EXPECT_NEAR(motion.StateAt(13s).gaze.left[kDown], 0, 0.01);
   EXPECT_FALSE(motion.NextActivity(13s).has_value());
 }
@@ -273,43 +273,43 @@ TEST_F(IdleBehaviourTest, AListenerNodsButNotWhileSpeaking) {
 }
 
 TEST_F(IdleBehaviourTest, GesturesHaveStrengthAndCount) {
-  ASSERT_TRUE(motion.Move(0ms, "NOD", 1, 0.5, 3));
+  ASSERT_TRUE(motion.PlayMovement(0ms, "NOD", 1, 0.5, 3));
   EXPECT_NEAR(Nod(100ms), 5, 1e-3);
   EXPECT_NEAR(Nod(300ms), 5 * 0.85, 1e-3);
   EXPECT_NEAR(Nod(500ms), 5 * 0.85 * 0.85, 1e-3);
   EXPECT_FLOAT_EQ(Nod(600ms), 0);
   EXPECT_EQ(motion.FiniteEnd(0ms), vm::Time(600ms));
-  ASSERT_TRUE(motion.Move(1s, "SHAKE", 4));
+  ASSERT_TRUE(motion.PlayMovement(1s, "SHAKE", 4));
   EXPECT_GT(motion.StateAt(1180ms).head_rotation[1], 7);
-  ASSERT_TRUE(motion.Move(5s, "TILT", 4));
+  ASSERT_TRUE(motion.PlayMovement(5s, "TILT", 4));
   EXPECT_GT(motion.StateAt(6s).head_rotation[2], 8);
-  EXPECT_FALSE(motion.Move(5s, "NOD", 1, std::nan(""), 1));
-  EXPECT_FALSE(motion.Move(5s, "NOD", 1, 1, 1000));
+  EXPECT_FALSE(motion.PlayMovement(5s, "NOD", 1, std::nan(""), 1));
+  EXPECT_FALSE(motion.PlayMovement(5s, "NOD", 1, 1, 1000));
 }
 
 TEST_F(IdleBehaviourTest, ProfilesSwitchEverythingAtOnceAndPartsRemainSwitchable) {
   for (const char* profile : {"CALM", "LIVELY", "LISTENING", "STILL"}) {
-    ASSERT_TRUE(motion.idle.SetProfile(0ms, profile)) << profile;
+    ASSERT_TRUE(motion.switches().SetProfile(0ms, profile)) << profile;
     EXPECT_TRUE(motion.NextActivity(10s).has_value());
   }
-  ASSERT_TRUE(motion.idle.SetProfile(0ms, "LISTENING"));
+  ASSERT_TRUE(motion.switches().SetProfile(0ms, "LISTENING"));
   EXPECT_GT(motion.StateAt(2s).au.left[12], 0.05f) << "friendly";
   for (const IdleKindRow& row : IdleKinds()) {
-    ASSERT_TRUE(motion.idle.Set(3s, row.name, 0)) << row.name;
+    ASSERT_TRUE(motion.switches().Set(3s, row.name, 0)) << row.name;
   }
   EXPECT_FALSE(motion.NextActivity(10s).has_value());
   const FaceState state = motion.StateAt(10s);
   EXPECT_EQ(state.head_rotation, (std::array<float, 3>{}));
   EXPECT_EQ(state.au.left[12], 0);
-  EXPECT_FALSE(motion.idle.SetProfile(10s, "PARTY"));
+  EXPECT_FALSE(motion.switches().SetProfile(10s, "PARTY"));
 }
 
 TEST_F(IdleBehaviourTest, TheSameSeedLivesTheSameLife) {
   FaceMotion same(MotionTables::Load().value(), 7);
   FaceMotion other(MotionTables::Load().value(), 8);
   for (FaceMotion* face : {&motion, &same, &other}) {
-    ASSERT_TRUE(face->idle.SetProfile(0ms, "LIVELY"));
-    face->eyes.LookAtUser(0ms);
+    ASSERT_TRUE(face->switches().SetProfile(0ms, "LIVELY"));
+    face->eyes.GazeAtUser(0ms);
     face->speech.Start(1s, List(kSentence), 2s);
   }
   bool differs = false;
@@ -326,18 +326,14 @@ TEST_F(IdleBehaviourTest, TheSameSeedLivesTheSameLife) {
 struct BlinkTest : testing::Test {
   static constexpr std::uint64_t kSeed = 7;
   static constexpr vm::Time kSwitched = 1234ms;
-  const MotionTables tables{MotionTables::Load().value()};
+  MotionInputs inputs{MotionTables::Load().value(), kSeed};
 
-  IdleBehaviour Blinking() const {
-    IdleBehaviour autonomy(tables.motions, tables.gestures, kSeed);
-    autonomy.Set(kSwitched, IdleKind::kBlink, 1);
-    return autonomy;
-  }
+  BlinkTest() { EXPECT_TRUE(inputs.switches.Set(kSwitched, "BLINK", 1)); }
   /// When the first blinks begin: their intervals, each drawn by its number, added up one after the
   /// other.
   std::vector<vm::Time> Starts(std::int64_t count) const {
     constexpr std::uint64_t kStream = 0;
-    const double mean = tables.motions.auto_blinks[0].interval_ms;
+    const double mean = inputs.tables.motions.auto_blinks[0].interval_ms;
     std::vector<vm::Time> starts;
     for (std::int64_t k = 0; k < count; ++k) {
       double normal = 0;
@@ -355,7 +351,7 @@ struct BlinkTest : testing::Test {
 TEST_F(BlinkTest, BlinksAreTheSumOfTheirIntervalsInWhateverOrderTheyAreAskedFor) {
   constexpr std::int64_t kCount = 2000;
   const std::vector<vm::Time> starts = Starts(kCount);
-  const IdleBehaviour forward = Blinking(), back = Blinking(), jumping = Blinking();
+  const IdleBehaviour forward{inputs}, back{inputs}, jumping{inputs};
   const auto check = [&](const IdleBehaviour& autonomy, std::size_t k) {
     const vm::Time start = starts[k];
     // Long after the blink before, which takes no more than a quarter of a second.
@@ -375,7 +371,7 @@ TEST_F(BlinkTest, BlinksAreTheSumOfTheirIntervalsInWhateverOrderTheyAreAskedFor)
 
 TEST_F(BlinkTest, TheNextBlinkIsFoundAsFastAfterWeeksAsAtTheStart) {
   using Clock = std::chrono::steady_clock;
-  const IdleBehaviour autonomy = Blinking();
+  const IdleBehaviour autonomy{inputs};
   const auto took = [&](vm::Time from) {
     (void)autonomy.NextActivity(from);  // goes there
     const auto begin = Clock::now();

@@ -68,7 +68,7 @@ TEST(DominanceTest, AClosureIsCompleteFromThePhonemesStartForItsHold) {
   for (const int ms : {15, 25, 40, 60, 90, 150, 250}) {
     const vm::PhonemeList list = {{"aa", 90ms}, {"m", std::chrono::milliseconds(ms)}, {"aa", 90ms}};
     const VisemeTrack track(list, Tables(), LipStyle{});
-    const double hold = std::min(kSeenMs, 0.85 * ms);
+    const double hold = std::min(kShortestClosureMs, 0.85 * ms);
     for (double t = 90; t <= 90 + hold; t += 0.5) {
       ASSERT_FLOAT_EQ(track.At(t).seal, 1) << ms << " at " << t;
     }

@@ -214,7 +214,7 @@ TEST(SpeechTest, NothingJumpsFromUtteranceToUtterance) {
 
 TEST(SpeechTest, EmotionTintsTheMouthAndKeepsTheBrows) {
   FaceMotion motion(BuiltIn(), 1);
-  ASSERT_TRUE(motion.idle.Set(0ms, "ASYMMETRY", 0));
+  ASSERT_TRUE(motion.switches().Set(0ms, "ASYMMETRY", 0));
   ASSERT_TRUE(motion.expression.Show(0ms, "SURPRISED", 1, 1, 0ms));
   motion.speech.Start(500ms, List("aa 1000"), 500ms);
   const FaceState state = motion.StateAt(1000ms);

@@ -73,7 +73,7 @@ TEST_F(MouthStreamTest, StopClosesFromWhereItIs) {
   const float before = Jaw(1490ms);
   motion_.mouth_stream.Stop(1490ms);
   EXPECT_NEAR(Jaw(1490ms), before, 1e-4);
-  EXPECT_NEAR(Jaw(1490ms + MouthStream::kHold + MouthStream::kClose), 0, 1e-3);
+  EXPECT_NEAR(Jaw(1490ms + MouthStream::kHold + kMouthCloses), 0, 1e-3);
   EXPECT_LT(motion_.FiniteEnd(1490ms), vm::Time(2100ms));
 }
 
@@ -126,7 +126,7 @@ TEST_F(MouthStreamTest, TheHeadGoesWithTheFramesAndHomeAfterThem) {
 }
 
 TEST_F(MouthStreamTest, TheHeadOfATextGivesWayToOneThatIsHeard) {
-  ASSERT_TRUE(motion_.idle.Set(0ms, "SPEECH", 2));
+  ASSERT_TRUE(motion_.switches().Set(0ms, "SPEECH", 2));
   motion_.speech.Start(
       0ms, vm::ParsePhonemes("aa 300 m 100 aa 200 m 100 aa 400 m 100 aa 2000").value(), 0ms);
   bool moved = false;

@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "fsm/motion/motion_reader.h"
+#include "fsm/motion/idle/motion_reader.h"
 #include "tests/fsm/motion_support.h"
 
 namespace fsm {
@@ -72,13 +72,13 @@ TEST(MotionTablesTest, AUnitThatBeginsLaterIsLeftOutBelowThatStrengthAndWholeAtF
       ReadEmotions("e.txt", "GLAD 1 12:0.8 25L:0.5\nbegins GLAD 1 25:0.4", UnitNames::BuiltIn());
   ASSERT_TRUE(emotions) << emotions.error().text;
   Emotion glad = emotions->at("GLAD");
-  EXPECT_FLOAT_EQ(glad.LookAt(1, 0.4).au.left[12], 0.32F);
-  EXPECT_FLOAT_EQ(glad.LookAt(1, 0.4).au.left[25], 0);
-  EXPECT_FLOAT_EQ(glad.LookAt(1, 0.7).au.left[25], 0.25F);
-  EXPECT_FLOAT_EQ(glad.LookAt(1, 1).au.left[25], 0.5F);
-  EXPECT_FLOAT_EQ(glad.LookAt(1, 1).au.right[25], 0);
-  glad.Redefine(1, ActionUnits(glad.patterns[0]));
-  EXPECT_FLOAT_EQ(glad.LookAt(1, 0.4).au.left[25], 0.2F)
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 0.4).au.left[12], 0.32F);
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 0.4).au.left[25], 0);
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 0.7).au.left[25], 0.25F);
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 1).au.left[25], 0.5F);
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 1).au.right[25], 0);
+  glad.Redefine(1, FaceLook(glad.patterns[0]));
+  EXPECT_FLOAT_EQ(glad.LookOf(1, 0.4).au.left[25], 0.2F)
       << "of a look that is made anew all begins";
 }
 

@@ -111,7 +111,7 @@ struct TextMotionTest : testing::Test {
 };
 
 TEST_F(TextMotionTest, AGreetingIsFriendlyWhileItIsSaidAndNotAfterwards) {
-  ASSERT_TRUE(motion.idle.Set(0ms, "TEXT", 1));
+  ASSERT_TRUE(motion.switches().Set(0ms, "TEXT", 1));
   motion.speech.Start(0ms, phonemes, 1s, "Hello!");
   EXPECT_EQ(SmileAt(500ms), 0);
   EXPECT_GT(SmileAt(1600ms), 0.1F);
@@ -123,20 +123,20 @@ TEST_F(TextMotionTest, WithoutTheWordsOrSwitchedOffNothingIsSeen) {
   motion.speech.Start(0ms, phonemes, 1s, "Hello!");
   EXPECT_EQ(SmileAt(1600ms), 0) << "TEXT is off at the start";
   motion.speech.Stop(2s);
-  ASSERT_TRUE(motion.idle.Set(3s, "TEXT", 1));
+  ASSERT_TRUE(motion.switches().Set(3s, "TEXT", 1));
   motion.speech.Start(3s, phonemes, 4s);
   EXPECT_EQ(SmileAt(4600ms), 0);
 }
 
 TEST_F(TextMotionTest, ATagSaysMoreThanWords) {
-  ASSERT_TRUE(motion.idle.Set(0ms, "TEXT", 1));
+  ASSERT_TRUE(motion.switches().Set(0ms, "TEXT", 1));
   ASSERT_TRUE(motion.expression.Show(0ms, "SAD", 1, 1, 0ms));
   motion.speech.Start(0ms, phonemes, 1s, "Hello!");
   EXPECT_EQ(SmileAt(1600ms), 0);
 }
 
 TEST_F(TextMotionTest, ASpeechThatIsStoppedTakesItsLooksAway) {
-  ASSERT_TRUE(motion.idle.Set(0ms, "TEXT", 1));
+  ASSERT_TRUE(motion.switches().Set(0ms, "TEXT", 1));
   motion.speech.Start(0ms, phonemes, 1s, "Hello!");
   motion.speech.Stop(1500ms);
   EXPECT_GT(SmileAt(1500ms), 0.05F);

@@ -17,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 
 struct UnitsTest : testing::Test {
-  UnitsTest() { EXPECT_TRUE(motion.idle.Set(0ms, "ASYMMETRY", 0)); }
+  UnitsTest() { EXPECT_TRUE(motion.switches().Set(0ms, "ASYMMETRY", 0)); }
   FaceMotion motion{MotionTables::Load().value(), 1};
   FaceState After(const char* text) {
     const auto set = motion.units.Set(0ms, text);
@@ -201,7 +201,7 @@ TEST_F(UnitsTest, ThereIsAnEndToExpressions) {
 
 TEST_F(UnitsTest, LooksAreWrittenAsTheyAreRead) {
   for (const auto& [name, emotion] : motion.tables().emotions) {
-    for (const ActionUnits& look : emotion.patterns) {
+    for (const FaceLook& look : emotion.patterns) {
       const auto again =
           ParseLook(FormatLook(look, motion.tables().unit_names), motion.tables().unit_names);
       ASSERT_TRUE(again) << FormatLook(look, motion.tables().unit_names);

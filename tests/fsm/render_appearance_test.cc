@@ -61,7 +61,8 @@ TEST(AppearanceTest, BadRowsAreRefusedWithFileAndLine) {
       {"\nexposure            0.44", "\nexposure", "'exposure' needs 1 numbers after it, found 0"},
       {"\nexposure            0.44", "\nexposure 0.4 0.5", "'exposure' needs 1 numbers"},
       {"\nexposure            0.44", "\nexposure 1 nan", "'nan' found where a number"},
-      {"\nexposure            0.44", "\nexposure 1e9", "a number beyond -1000 to 1000"},
+      {"\nexposure            0.44", "\nexposure 1e9",
+       "'1e9' found where -1000 to 1000 was expected"},
       {"\nexposure            0.44", "\nexposures 0.44", "'exposures' is not known"},
       {"\nexposure            0.44", "\nsky_color 1 1 1", "'sky_color' is there twice"},
       {"\n" + Row("wrap skin"), "\nwrap wood 1 2 3",
@@ -71,7 +72,7 @@ TEST(AppearanceTest, BadRowsAreRefusedWithFileAndLine) {
        "a lamp that stands nowhere"},
       {"\n" + Row("skin pore dark"), "\nskin pore dark 1", "'skin pore dark' needs 2 numbers"},
       {"\n" + Row("skin moles one_in"), "\nskin moles one_in 100000",
-       "a number beyond -1000 to 1000"},
+       "'100000' found where -1000 to 1000 was expected"},
   };
   for (const Case& one : cases) {
     const std::string refused = Refusal(Changed(one.row, one.instead));

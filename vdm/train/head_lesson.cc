@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "fsm/motion/speech_gestures.h"
+#include "fsm/motion/speech/speech_gestures.h"
 #include "sound/sound_file.h"
 #include "vdm/mouth/mouth_tracker.h"
 #include "vdm/prosody/head_inputs.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fsm/motion/motion_tables.h"
-#include "fsm/motion/viseme_track.h"
+#include "fsm/motion/speech/viseme_track.h"
 #include "vdm/train/mouth_loss.h"
 #include "vm_protocol/core/phonemes.h"
 

@@ -15,7 +15,7 @@
 namespace fsm {
 namespace {
 
-/// A residual that moves no vertex by at least this gets no channel, millimetres.
+/// A residual that moves no vertex by at least this is not shown, millimetres.
 constexpr float kLeastResidualMm = 0.4F;
 
 /// The name of an expression, with the prefix and the numbers of its patterns' files.
@@ -123,11 +123,11 @@ class Reader {
     }
     residual.names = standard_.names;
     if (most < kLeastResidualMm) return made;
-    if (out_.residuals.size() == kResidualChannels) {
+    if (out_.residuals.size() == Residuals{}.size()) {
       out_.without_residual.push_back(path);
       return made;
     }
-    made.channel = out_.residuals.size();
+    made.residual = out_.residuals.size();
     out_.residuals.push_back(std::move(residual));
     return made;
   }

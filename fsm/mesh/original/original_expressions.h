@@ -14,31 +14,19 @@ namespace fsm {
 /// The original has whole expressions as files of offsets, AU31.pnt to AU36.pnt and those of users;
 /// here an expression is a set of action units. Each file is decomposed (NnlsSolver) into units of
 /// the agent's right and left side and a residual, which is shown with them.
-///
-/// An expression reaches the face in FaceState::au only, so the strength of a residual is that of
-/// one of kResidualUnits on one side.
-struct ResidualChannel {
-  std::size_t unit;
-  Side side;
-};
-inline constexpr std::size_t kResidualChannels = 2 * kResidualUnits.size();
-/// REQUIRES: `channel` < kResidualChannels.
-constexpr ResidualChannel ResidualChannelOf(std::size_t channel) {
-  return {kResidualUnits[channel / 2], kSides[channel % 2]};
-}
 
 struct OriginalExpression {
   std::string name;                                    ///< as in the slot FaceExp
   int pattern = 1;                                     ///< counted from 1
   Sided<std::array<float, kOriginalUnits>> strengths;  ///< indexed as kUnitNumbers
-  std::optional<std::size_t> channel;  ///< of its residual; none: the residual is not shown
+  std::optional<std::size_t> residual;  ///< index into Residuals; none: it is not shown
 };
 
 struct OriginalExpressions {
   std::vector<OriginalExpression> all;
-  /// Indexed by channel, at most kResidualChannels; offsets in the unit of the files.
+  /// At most as many as Residuals has; offsets in the unit of the files.
   std::vector<PntFile> residuals;
-  /// Expressions for whose residual no channel was left; only their units are shown.
+  /// Expressions for whose residual no number was left; only their units are shown.
   std::vector<std::string> without_residual;
 };
 

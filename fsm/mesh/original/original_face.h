@@ -53,8 +53,7 @@ struct OriginalFace {
   std::optional<ObjFile> upper_teeth, lower_teeth, eye;
   /// Offsets at full strength in the wireframe's unit, indexed by its vertices.
   std::vector<std::vector<glm::vec3>> units, mouth_units, visemes;
-  std::vector<std::vector<glm::vec3>>
-      expression_residuals;  ///< indexed by channel, see OriginalExpressions
+  std::vector<std::vector<glm::vec3>> expression_residuals;  ///< see OriginalExpressions
 };
 /// Error: kBadValue naming the file, and the line or byte where there is one. A file whose name is
 /// "" is skipped; wireframe, picture, standard, link and offsets are required.

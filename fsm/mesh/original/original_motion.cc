@@ -40,8 +40,8 @@ class OriginalRigBaker {
     rig_.jaw.chin = static_cast<std::uint32_t>(face_.wireframe.index.at(kChin));
     AddUnits();
     for (std::size_t k = 0; k < face_.expression_residuals.size(); ++k) {
-      const auto [unit, side] = ResidualChannelOf(k);
-      Add(Moves(face_.expression_residuals[k], unit_scale_), {{Asked(unit, side)}});
+      Add(Moves(face_.expression_residuals[k], unit_scale_),
+          {{{.kind = Drive::Kind::kResidual, .number = static_cast<std::uint16_t>(k)}}});
     }
     AddVisemes(mouths);
     for (std::size_t k = 0; k < face_.mouth_units.size(); ++k) {

@@ -1,0 +1,193 @@
+#include "fsm/motion/expression/expression_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fsm/motion/motion_errors.h"
+#include "fsm/motion/motion_inputs.h"
+
+namespace fsm {
+namespace {
+
+constexpr vm::Time kOffset = std::chrono::milliseconds(500);  // natural offset duration
+constexpr double kSideLagMs = 30, kSideLagVariesMs = 10;      // of the side that begins later
+constexpr int kMostPatterns = 20;
+constexpr std::size_t kMostExpressions = 200;
+
+}  // namespace
+
+ExpressionMotion::ExpressionMotion(MotionInputs& in)
+    : tables_(in.tables),
+      table_emotions_(in.tables.emotions),
+      settings_(in.settings),
+      switches_(in.switches),
+      seed_(in.seed),
+      emotions_(in.tables.units.emotions.size()) {
+  DrawLags(seed_);
+}
+
+void ExpressionMotion::DrawLags(std::uint64_t seed) {
+  side_lags_ms_ = {};
+  const Side late = RandomAt(seed, RandomStream::kLateSide, 0) < 0 ? Side::kLeft : Side::kRight;
+  side_lags_ms_[late] = kSideLagMs + kSideLagVariesMs * RandomAt(seed, RandomStream::kLag, 0);
+}
+
+// ---- commands
+
+vm::Time ExpressionMotion::OnsetOf(const Emotion& emotion) const {
+  switch (settings_.onset) {
+    case Onset::kPosed:
+      return FromMs(emotion.posed.onset_ms);
+    case Onset::kElicited:
+      return FromMs(emotion.elicited.onset_ms);
+    case Onset::kFixed:
+      break;
+  }
+  return settings_.expression;
+}
+
+vm::Result<void> ExpressionMotion::Show(vm::Time now, std::string_view name, int pattern,
+                                        double strength, vm::Time duration) {
+  const auto found = tables_.emotions.find(name);
+  if (found == tables_.emotions.end()) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    fmt::format("'{}' is no expression; {} or NEUTRAL expected", name,
+                                KeysOf(tables_.emotions)));
+  }
+  const Emotion& emotion = found->second;
+  if (auto fits = CheckPatternNumber(name, pattern, 1, emotion.patterns.size()); !fits) return fits;
+  if (auto fits = CheckStrength(strength); !fits) return fits;
+  Plan(now, emotion.LookOf(pattern, strength),
+       settings_.onset == Onset::kElicited ? emotion.elicited : emotion.posed, OnsetOf(emotion),
+       duration);
+  return {};
+}
+
+void ExpressionMotion::ShowSpacePoint(vm::Time now, const EmotionSpace::Point& point,
+                                      std::optional<vm::Time> move) {
+  // Lags belong to emotions; a point between emotions has none.
+  Emotion::Timing timing;
+  if (move) timing.lag_ms = {};
+  const vm::Time onset = move.value_or(OnsetOf({}));
+  Plan(now, tables_.emotion_space.LookOf(point), timing, onset, vm::Time(0));
+  shown_.MoveTo(now, std::min(1.0F, std::hypot(point[0], point[1], point[2])), onset);
+}
+
+void ExpressionMotion::Plan(vm::Time now, const FaceLook& look, const Emotion::Timing& timing,
+                            vm::Time onset, vm::Time duration) {
+  const bool timed = duration > vm::Time(0);
+  if (timed) onset = std::min(onset, duration / 2);
+  for (const Side side : kSides) {
+    const double side_lag_ms = switches_[IdleKind::kAsymmetry].on ? side_lags_ms_[side] : 0;
+    for (std::size_t part = 0; part < kRegions; ++part) {
+      auto& track = parts_[side][part];
+      // A region that begins late moves within the remaining time.
+      const vm::Time lag = std::min(FromMs(timing.lag_ms[part] + side_lag_ms), onset / 2);
+      track.Plan(now, look, now + lag, onset - lag);
+      if (timed) track.Plan(now, FaceLook{}, now + duration - onset, onset);
+    }
+  }
+  shown_.Plan(now, 1.0F, now, onset);
+  if (timed) shown_.Plan(now, 0.0F, now + duration - onset, onset);
+  onset_end_ = now + onset;
+  end_ = timed ? std::optional(now + duration) : std::nullopt;
+}
+
+void ExpressionMotion::Neutral(vm::Time now) {
+  const vm::Time offset = settings_.onset == Onset::kFixed ? settings_.expression : kOffset;
+  for (const Side side : kSides) {
+    for (auto& part : parts_[side]) part.Plan(now, FaceLook{}, now, offset);
+  }
+  shown_.MoveTo(now, 0.0F, offset);
+  onset_end_ = now + offset;
+  end_.reset();
+}
+
+void ExpressionMotion::SetEmotion(vm::Time now, std::size_t index, double strength) {
+  const Emotion& emotion = tables_.emotions.find(tables_.units.emotions[index])->second;
+  emotions_[index].MoveTo(now, static_cast<float>(strength), OnsetOf(emotion));
+}
+
+// ---- definitions
+
+vm::Result<void> ExpressionMotion::Define(std::string_view name, int pattern,
+                                          std::string_view look) {
+  const bool plain = !name.empty() && name.size() <= 40 && std::ranges::all_of(name, [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+  if (!plain || name == "NEUTRAL") {
+    return vm::Fail(
+        vm::Errc::kBadValue,
+        fmt::format("'{}' cannot be the name of an expression; up to 40 letters, digits "
+                    "and _ expected, and not NEUTRAL",
+                    name.substr(0, 60)));
+  }
+  auto units = ParseLook(look, tables_.unit_names);
+  if (!units) return std::unexpected(units.error());
+  const auto found = tables_.emotions.find(name);
+  const std::size_t have = found == tables_.emotions.end() ? 0 : found->second.patterns.size();
+  if (pattern < 1 || static_cast<std::size_t>(pattern) > have + 1 || pattern > kMostPatterns) {
+    return vm::Fail(vm::Errc::kBadValue, fmt::format("{} has {} patterns; pattern 1 to {} expected",
+                                                     name, have, have + 1));
+  }
+  if (have == 0 && tables_.emotions.size() >= kMostExpressions) {
+    return vm::Fail(vm::Errc::kLimit, fmt::format("more than {} expressions", kMostExpressions));
+  }
+  tables_.emotions[std::string(name)].Redefine(static_cast<std::size_t>(pattern), *units);
+  return {};
+}
+
+void ExpressionMotion::Forget(std::string_view name) {
+  if (const auto built_in = table_emotions_.find(name); built_in != table_emotions_.end()) {
+    tables_.emotions[built_in->first] = built_in->second;
+  } else if (const auto own = tables_.emotions.find(name); own != tables_.emotions.end()) {
+    tables_.emotions.erase(own);
+  }
+}
+
+// ---- as a source
+
+void ExpressionMotion::Contribute(vm::Time t, MotionLayers& layers) const {
+  Sided<std::array<FaceLook, kRegions>> now;
+  layers.AddSignal("expression", shown_.At(t));
+  FaceLook& out = layers.Layer("expression").units;
+  for (const Side side : kSides) {
+    std::size_t size = 0;
+    for (std::size_t part = 0; part < kRegions; ++part) {
+      now[side][part] = parts_[side][part].At(t);
+      size = std::max(size, now[side][part].au[side].size());
+    }
+    for (std::size_t unit = size; unit-- > 0;) {
+      const auto region = static_cast<std::size_t>(tables_.units.RegionOf(unit));
+      out.au[side][unit] = std::as_const(now[side][region].au)[side][unit];
+    }
+  }
+  // Residuals belong to the whole face; they and both eyes move together, whichever side begins.
+  out.residuals = now.left[static_cast<std::size_t>(Region::kMouth)].residuals;
+  out.gaze = now.left[static_cast<std::size_t>(Region::kEye)].gaze;
+  for (std::size_t i = 0; i < emotions_.size(); ++i) {
+    const float weight = emotions_[i].At(t);
+    if (weight == 0) continue;
+    layers.AddSignal("expression", std::min(1.0F, weight));
+    const auto found = tables_.emotions.find(tables_.units.emotions[i]);
+    if (found == tables_.emotions.end()) continue;
+    AddTo(layers.Layer("emotions").units, found->second.LookOf(1, weight), 1);
+  }
+}
+
+void ExpressionMotion::ForEachTrack(const TrackVisitor& visit) const {
+  for (const Side side : kSides) {
+    for (const auto& part : parts_[side]) visit(part);
+  }
+  visit(shown_);
+  for (const auto& emotion : emotions_) visit(emotion);
+}
+
+vm::Time ExpressionMotion::SettledAt(vm::Time t) const {
+  vm::Time settled = std::max(t, onset_end_);
+  for (const auto& emotion : emotions_) settled = std::max(settled, emotion.SettledAt(t));
+  return settled;
+}
+
+}  // namespace fsm

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "fsm/motion/expression/emotion_space.h"
+#include "fsm/motion/expression/emotion_table.h"
+#include "fsm/motion/motion_settings.h"
+#include "fsm/motion/motion_source.h"
+#include "fsm/motion/random_streams.h"
+
+namespace fsm {
+
+class IdleSwitches;
+struct MotionInputs;
+struct MotionTables;
+
+/// Moves the face by expressions, on the layer `expression`: one at a time, crossfaded into the
+/// next; each region of the face begins with a delay, and one side may begin later than the other.
+/// Also by the emotions of the list of units (Face.31 and on), on the layer `emotions`, each
+/// independently of the others. Gives the signal `expression`: how strongly either is shown. Stores
+/// expressions that are defined at run time in the tables.
+/// Lifetime: the inputs given to the constructor outlive this. Commands come in order of time.
+/// Errors: kBadValue listing what exists; kLimit for too many expressions.
+class ExpressionMotion : public MotionSource {
+ public:
+  explicit ExpressionMotion(MotionInputs& in);
+
+  /// Shows an expression. If `duration` is not zero, the face is neutral again that long after
+  /// `now`; onset and offset of a short expression take half of it each.
+  vm::Result<void> Show(vm::Time now, std::string_view name, int pattern, double strength,
+                        vm::Time duration);
+  /// Shows the expression at a point of the emotion space, reached within `move`, by default within
+  /// the usual onset of expressions.
+  void ShowSpacePoint(vm::Time now, const EmotionSpace::Point& point, std::optional<vm::Time> move);
+  void Neutral(vm::Time now);
+  /// Moves an emotion to `strength`. REQUIRES: element `index` of UnitList::emotions is an emotion.
+  void SetEmotion(vm::Time now, std::size_t index, double strength);
+  /// Adds or changes a pattern of an expression. `pattern` is at most one more than those that
+  /// exist. `name` consists of at most 40 letters, digits and _.
+  vm::Result<void> Define(std::string_view name, int pattern, std::string_view look);
+  /// Undoes Define: restores an expression of the tables and removes one that they do not have.
+  void Forget(std::string_view name);
+  /// Sets the delay of one side of the face, 20 to 40 ms, which is always the same for a `person`.
+  /// (How much weaker one side is belongs to the head.)
+  void SetPerson(std::uint64_t person) { DrawLags(Scramble(seed_ ^ person)); }
+
+  void Contribute(vm::Time t, MotionLayers& layers) const override;
+  vm::Time SettledAt(vm::Time t) const override;
+  vm::Time FiniteEnd(vm::Time t) const override { return end_.value_or(t); }
+
+ protected:
+  void ForEachTrack(const TrackVisitor& visit) const override;
+
+ private:
+  void DrawLags(std::uint64_t seed);
+  vm::Time OnsetOf(const Emotion& emotion) const;
+  void Plan(vm::Time now, const FaceLook& look, const Emotion::Timing& timing, vm::Time onset,
+            vm::Time duration);
+
+  MotionTables& tables_;
+  const EmotionTable table_emotions_;  // as read from the tables
+  const MotionSettings& settings_;
+  const IdleSwitches& switches_;
+  std::uint64_t seed_;
+  Sided<double> side_lags_ms_;
+  // By region; of each only the units of its side are used.
+  Sided<std::array<Track<FaceLook>, kRegions>> parts_;
+  Track<float> shown_;                  // how strongly an expression is shown, 0..1
+  std::vector<Track<float>> emotions_;  // indexed as UnitList::emotions
+  vm::Time onset_end_{0};
+  std::optional<vm::Time> end_;  // of an expression with a duration
+};
+
+}  // namespace fsm

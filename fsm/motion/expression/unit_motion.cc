@@ -1,0 +1,76 @@
+#include "fsm/motion/expression/unit_motion.h"
+
+#include "fsm/motion/motion_errors.h"
+
+namespace fsm {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr vm::Time kUnitMove = 60ms;   // units set without a time
+constexpr vm::Time kCodeMove = 120ms;  // heads and eyes take longer than skin
+
+}  // namespace
+
+void UnitMotion::SetOne(vm::Time now, const UnitSetting& unit, vm::Time move) {
+  auto& track = units_[unit.number];
+  if (unit.left) track.left.MoveTo(now, static_cast<float>(unit.strength), move);
+  if (unit.right) track.right.MoveTo(now, static_cast<float>(unit.strength), move);
+}
+
+vm::Result<void> UnitMotion::Set(vm::Time now, std::string_view unit, double strength,
+                                 vm::Time move) {
+  if (auto fits = CheckStrength(strength); !fits) return fits;
+  const auto command = ParseUnitCommand(fmt::format("{} {:.6f}", unit, strength), names_, false);
+  if (!command) return std::unexpected(command.error());
+  for (const UnitSetting& one : command->units) SetOne(now, one, move);
+  return {};
+}
+
+vm::Result<void> UnitMotion::Set(vm::Time now, std::string_view text) {
+  const auto command = ParseUnitCommand(text, names_, true);
+  if (!command) return std::unexpected(command.error());
+  for (const UnitSetting& one : command->units) {
+    const vm::Time usual = names_.IsUnit(one.number) ? kUnitMove : kCodeMove;
+    SetOne(now, one, command->ms ? FromMs(*command->ms) : usual);
+  }
+  return {};
+}
+
+void UnitMotion::Set(vm::Time now, int unit, double strength) {
+  UnitSetting setting;
+  setting.number = unit;
+  setting.right = !names_.IsOneSided(unit) || strength == 0;
+  setting.strength = strength;
+  SetOne(now, setting, kUnitMove);
+}
+
+void UnitMotion::Contribute(vm::Time t, MotionLayers& layers) const {
+  MotionLayer& layer = layers.Layer("units");
+  for (const auto& [number, track] : units_) {
+    const auto found = names_.codes.find(number);
+    if (found == names_.codes.end()) {
+      for (const Side side : kSides) {
+        layer.units.au[side][static_cast<std::size_t>(number)] = track[side].At(t);
+      }
+      continue;
+    }
+    const float strength = track.left.At(t);
+    const HeadEyeCode& code = found->second;
+    for (std::size_t i = 0; i < 3; ++i) layer.head[i] += strength * code.head[i];
+    for (const Side side : kSides) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        layer.units.gaze[side][i] += strength * code.gaze[side][i];
+      }
+    }
+    layer.head_forward_mm += strength * code.forward_mm;
+  }
+}
+
+void UnitMotion::ForEachTrack(const TrackVisitor& visit) const {
+  for (const auto& [number, track] : units_) {
+    for (const Side side : kSides) visit(track[side]);
+  }
+}
+
+}  // namespace fsm

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "fsm/motion/idle/motion_patterns.h"
+#include "fsm/motion/track.h"
+
+namespace fsm {
+
+/// Says which kinds of idle behaviour are on, and by which pattern. Commands change it; the sources
+/// that show a kind, or take it into account, read it.
+/// Lifetime: `patterns` outlives this. Errors: kBadValue listing what exists.
+class IdleSwitches {
+ public:
+  struct Switch {
+    std::size_t pattern = 0;  ///< from 1; while it is off, the last one; 0 = it was never on
+    bool on = false;
+    vm::Time since{0};    ///< when it was switched on
+    Track<float> weight;  ///< how far it has faded in, 0..1
+  };
+
+  /// Switches ASYMMETRY on and everything else off.
+  explicit IdleSwitches(const MotionPatterns& patterns);
+  /// Switches a kind, given by name, to a pattern; 0 switches it off.
+  vm::Result<void> Set(vm::Time now, std::string_view kind, int pattern);
+  /// Switches all kinds as a profile says; OFF restores the state after construction.
+  vm::Result<void> SetProfile(vm::Time now, std::string_view profile);
+
+  const Switch& operator[](IdleKind kind) const {
+    return switches_[static_cast<std::size_t>(kind)];
+  }
+  const std::array<Switch, kIdleKindCount>& all() const { return switches_; }
+
+ private:
+  void Set(vm::Time now, IdleKind kind, std::size_t pattern);
+
+  const MotionPatterns& patterns_;
+  std::array<Switch, kIdleKindCount> switches_;  // by IdleKind
+};
+
+}  // namespace fsm

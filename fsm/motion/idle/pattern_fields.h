@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fsm/base/table_reader.h"
+
+namespace fsm {
+
+/// A number of a line in motions.txt and the member that stores it.
+template <typename Pattern>
+struct PatternField {
+  std::string_view name;
+  double Pattern::*place;
+  double least = 0;
+};
+
+/// Checks that the pattern number of a line KIND PATTERN ... is `have` + 1. Throws TableError.
+void CheckNextPattern(const TableRow& row, std::size_t have);
+
+/// Reads a line KIND PATTERN NUMBER ..., with one number for each field. Throws TableError.
+template <typename Pattern, std::size_t kCount>
+void ReadPatternFields(const TableRow& row, std::vector<Pattern>& patterns,
+                       const std::array<PatternField<Pattern>, kCount>& fields) {
+  CheckNextPattern(row, patterns.size());
+  if (row.size() != kCount + 2) {
+    std::string names;
+    for (const auto& field : fields) names += " " + std::string(field.name);
+    row.Fail(row.key() + " PATTERN" + names + " expected");
+  }
+  constexpr double kMost = 3'600'000;
+  Pattern& pattern = patterns.emplace_back();
+  for (std::size_t i = 0; i < kCount; ++i) {
+    pattern.*fields[i].place = row.Number(2 + i, fields[i].name, fields[i].least, kMost);
+  }
+}
+
+}  // namespace fsm

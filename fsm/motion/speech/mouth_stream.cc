@@ -1,0 +1,111 @@
+#include "fsm/motion/speech/mouth_stream.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsm/motion/easing.h"
+#include "fsm/motion/speech/speech_timing.h"
+
+namespace fsm {
+
+vm::Time MouthStream::FadedAt(const Frame& last) {
+  const vm::Time mouth = kHold + kMouthCloses + kMouthFadeOut;
+  return last.at + (last.head ? std::max(mouth, kHeadReturns) : mouth);
+}
+
+vm::Result<void> MouthStream::Add(vm::Time now, vm::Time at, const MouthPose& pose,
+                                  const std::optional<StreamHead>& head) {
+  while (frames_.size() > 1 && FadedAt(frames_[1]) < now) frames_.pop_front();
+  while (!frames_.empty() && frames_.back().at >= at) frames_.pop_back();
+  if (frames_.size() >= kMostFrames) {
+    return vm::Fail(vm::Errc::kLimit, "more than " + std::to_string(kMostFrames) +
+                                          " frames of the mouth wait for their time");
+  }
+  const bool follows = !frames_.empty() && at - frames_.back().at <= kLongestGap;
+  frames_.push_back({at, follows ? frames_.back().run_start : at, pose, head});
+  return {};
+}
+
+void MouthStream::Stop(vm::Time now) {
+  const SpokenMouth mouth = MouthAt(now);
+  const WeightedHead head = HeadAt(now);
+  const bool cut = !frames_.empty() && frames_.back().at > now;
+  while (!frames_.empty() && frames_.back().at > now) frames_.pop_back();
+  // Without this frame it would go back to the last one before holding there, or jump to rest where
+  // a run was about to take it over.
+  if ((cut ? mouth.share > 0 : mouth.share == 1) && (frames_.empty() || frames_.back().at < now)) {
+    frames_.push_back({now, frames_.empty() ? now : frames_.back().run_start, mouth.pose,
+                       head.share > 0 ? std::optional(head.pose) : std::nullopt, mouth.share});
+  }
+}
+
+SpokenMouth MouthStream::MouthAt(vm::Time t) const {
+  SpokenMouth mouth;
+  const auto next = std::ranges::upper_bound(frames_, t, {}, &Frame::at);
+  if (next != frames_.begin()) {
+    const Frame& last = *(next - 1);
+    const bool within = next != frames_.end() && next->run_start != next->at;
+    if (within) {
+      const double progress = Progress(t, last.at, next->at - last.at);
+      return {std::lerp(last.share, next->share, progress), Mix(last.pose, next->pose, progress)};
+    }
+    mouth.share =
+        last.share * (1 - SmoothStep(Progress(t, last.at + kHold + kMouthCloses, kMouthFadeOut)));
+    mouth.pose =
+        Mix(last.pose, ClosedMouth(), SmoothStep(Progress(t, last.at + kHold, kMouthCloses)));
+  }
+  if (next != frames_.end()) {  // the next run may be fading in
+    mouth.BlendOver(next->pose, SmoothStep(Progress(t, next->at - kMouthFadeIn, kMouthFadeIn)));
+  }
+  return mouth;
+}
+
+MouthStream::WeightedHead MouthStream::HeadAt(vm::Time t) const {
+  WeightedHead head;
+  const auto next = std::ranges::upper_bound(frames_, t, {}, &Frame::at);
+  if (next != frames_.begin()) {
+    const Frame& last = *(next - 1);
+    if (next != frames_.end() && next->run_start != next->at) {
+      return MixHeads(HeadOf(last), HeadOf(*next), Progress(t, last.at, next->at - last.at));
+    }
+    head = MixHeads(HeadOf(last), WeightedHead{}, SmoothStep(Progress(t, last.at, kHeadReturns)));
+  }
+  if (next != frames_.end()) {
+    head = MixHeads(head, HeadOf(*next),
+                    SmoothStep(Progress(t, next->at - kMouthFadeIn, kMouthFadeIn)));
+  }
+  return head;
+}
+
+void MouthStream::Contribute(vm::Time t, MotionLayers& layers) const {
+  if (frames_.empty()) return;
+  if (const WeightedHead head = HeadAt(t); head.share > 0) {
+    layers.AddSignal("head_taken", head.share);
+    MotionLayer& gestures = layers.Layer("stream_gestures");
+    gestures.head = head.pose.angles;
+    for (const Side side : kSides) {
+      gestures.units.au[side][kInnerBrowRaiser] =
+          static_cast<float>(kInnerBrowRaise) * head.pose.brow;
+      gestures.units.au[side][kOuterBrowRaiser] =
+          static_cast<float>(kOuterBrowRaise) * head.pose.brow;
+    }
+  }
+  const SpokenMouth mouth = MouthAt(t);
+  if (mouth.share <= 0) return;
+  layers.AddSignal("speaking", mouth.share);
+  layers.AddSignal("stream_taken", mouth.share);
+  mouth.Contribute(mouth_scale_.At(t), "mouth_stream", layers);
+}
+
+std::optional<vm::Time> MouthStream::NextActivity(vm::Time t) const {
+  const auto next = std::ranges::upper_bound(frames_, t, {}, &Frame::at);
+  if (next != frames_.begin() && t < FadedAt(*(next - 1))) return t;
+  if (next == frames_.end()) return std::nullopt;
+  return std::max(t, next->at - kMouthFadeIn);
+}
+
+vm::Time MouthStream::FiniteEnd(vm::Time t) const {
+  return frames_.empty() ? t : std::max(t, FadedAt(frames_.back()));
+}
+
+}  // namespace fsm

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "fsm/motion/motion_settings.h"
+#include "fsm/motion/motion_source.h"
+#include "fsm/motion/speech/speech_timing.h"
+#include "fsm/motion/speech/spoken_mouth.h"
+#include "vm_protocol/core/result.h"
+
+namespace fsm {
+
+/// Head and brows of a frame of MouthStream.
+struct StreamHead {
+  Angles angles{};
+  float brow = 0;  ///< strength of units 1 and 2, 0..1
+};
+inline StreamHead Mix(const StreamHead& a, const StreamHead& b, double share_of_b) {
+  return {Mix(a.angles, b.angles, share_of_b), Mix(a.brow, b.brow, share_of_b)};
+}
+
+/// Moves the mouth by frames that another program sends, each with its time (slot MouthFrame), for
+/// instance from a film or from a voice whose text is unknown. The mouth is on the layer
+/// `mouth_stream`. Gives the signals `speaking`, `lips_taken` and `contact` as SpeechMotion does,
+/// and `stream_taken`, by which the mouth of SpeechMotion is reduced. Frames may move head and
+/// brows as well, on the layer `stream_gestures`; the signal `head_taken` is then above 0.
+///
+/// Frames at most kLongestGap apart form a run, within which frames are interpolated linearly. A
+/// run fades in during the kMouthFadeIn before its first frame. After its last frame the mouth
+/// holds for kHold, closes within kMouthCloses and fades out; it therefore rests whenever frames
+/// stop, for whatever reason. Head and brows return to rest within kHeadReturns. Commands come in
+/// order of time; queries are for the time of the last command or later. Limits: kMostFrames frames
+/// in the future.
+class MouthStream : public MotionSource {
+ public:
+  static constexpr vm::Time kLongestGap{200'000};
+  static constexpr vm::Time kHold{120'000};
+  static constexpr std::size_t kMostFrames = 180'000;  ///< an hour at 50 frames per second
+
+  /// Adds a frame for the instant `at`, its pose at full articulation; drops earlier added frames
+  /// for that instant or later. Error: kLimit.
+  vm::Result<void> Add(vm::Time now, vm::Time at, const MouthPose& pose,
+                       const std::optional<StreamHead>& head = std::nullopt);
+  /// The instant from which senders count the times of frames; Add does not use it.
+  vm::Time start() const { return start_; }
+  void set_start(vm::Time start) { start_ = start; }
+  /// Changes MotionSettings::mouth_scale without a jump.
+  void SetMouthScale(vm::Time now, double mouth_scale) {
+    mouth_scale_.MoveTo(now, static_cast<float>(mouth_scale), kMouthScaleMove);
+  }
+  /// Drops the frames after `now`; from there the mouth holds, closes and is released.
+  void Stop(vm::Time now);
+
+  void Contribute(vm::Time t, MotionLayers& layers) const override;
+  std::optional<vm::Time> NextActivity(vm::Time t) const override;
+  vm::Time FiniteEnd(vm::Time t) const override;
+
+ private:
+  struct Frame {
+    vm::Time at;
+    vm::Time run_start;
+    MouthPose pose;
+    std::optional<StreamHead> head;
+    double share = 1;  // how far mouth and head have been taken over
+  };
+  SpokenMouth MouthAt(vm::Time t) const;
+  struct WeightedHead {
+    double share = 0;  // how far frames control head and brows, 0..1
+    StreamHead pose;   // premultiplied by the share
+  };
+  WeightedHead HeadAt(vm::Time t) const;
+  static WeightedHead HeadOf(const Frame& frame) {
+    return {frame.head ? frame.share : 0.0, frame.head.value_or(StreamHead{})};
+  }
+  static WeightedHead MixHeads(const WeightedHead& a, const WeightedHead& b, double share_of_b) {
+    return {a.share + (b.share - a.share) * share_of_b, fsm::Mix(a.pose, b.pose, share_of_b)};
+  }
+  static vm::Time FadedAt(const Frame& last);
+
+  vm::Time start_{0};
+  Track<float> mouth_scale_{static_cast<float>(MotionSettings{}.mouth_scale)};
+  std::deque<Frame> frames_;  // by `at`
+};
+
+}  // namespace fsm

@@ -1,0 +1,230 @@
+#include "fsm/motion/speech/speech_motion.h"
+
+#include <cmath>
+
+#include "fsm/motion/motion_inputs.h"
+#include "fsm/motion/random_streams.h"
+#include "fsm/motion/speech/speech_timing.h"
+
+namespace fsm {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr vm::Time kEmotionFade = 150ms;
+constexpr vm::Time kClosedFor = 120ms;  // after STOP, until emotions may part the lips
+constexpr vm::Time kHeadStops = 400ms;  // fading of gestures after STOP
+// A blink at the end of most utterances, just before or after the last sound; numbers are ours.
+constexpr double kEndBlinkPart = 0.6;  // of -1..1: below it the utterance ends with a blink
+constexpr double kEndBlinkMs = 20, kEndBlinkVariesMs = 90;  // after the end, and by how much
+constexpr double kMsPerLeadMs = 10;  // for a change of the lead, so that the mouth never goes back
+
+}  // namespace
+
+SpeechMotion::SpeechMotion(const MotionInputs& in)
+    : tables_(in.tables), settings_(in.settings), switches_(in.switches), seed_(in.seed) {}
+
+double SpeechMotion::MouthPosition(const Utterance& one, vm::Time t) const {
+  return one.clock.PositionAt(t) + lead_ms_.At(t);
+}
+
+vm::Time SpeechMotion::EndOf(const Utterance& one) const {
+  // The end of the voice, or of the mouth if offset_ms makes that later.
+  const double lead = lead_ms_.At(one.clock.WhenAt(one.track->length_ms()));
+  return one.clock.WhenAt(one.track->length_ms() + std::max(0.0, -lead));
+}
+
+vm::Time SpeechMotion::FadedAt(const Utterance& one) const {
+  return (one.stopped ? *one.stopped + kClosedFor : EndOf(one)) +
+         std::max(kMouthFadeOut, kHeadReturns);
+}
+
+void SpeechMotion::Start(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start,
+                         std::string_view text) {
+  Stop(now);
+  std::erase_if(utterances_, [&](const Utterance& one) { return FadedAt(one) <= now; });
+  auto track = std::make_shared<const VisemeTrack>(phonemes, tables_, settings_.lips);
+  const std::uint64_t seed = Scramble(seed_ + static_cast<std::uint64_t>(++utterance_count_));
+  SpeechGestures gestures(track->visemes(), tables_.gestures, seed);
+  auto looks = LooksOf(tables_.text_cues, text, track->visemes());
+  const vm::Time ahead = FromMs(lead_ms_.At(now) + kTransitionMs);
+  utterances_.push_back({std::move(track), std::move(gestures), std::move(looks),
+                         SpeechClock(start), std::max(now, start - ahead), std::nullopt});
+}
+
+void SpeechMotion::Stop(vm::Time now) {
+  if (!active()) return;
+  if (now >= EndOf(utterances_.back())) return;
+  utterances_.back().stopped = now;
+}
+
+void SpeechMotion::Sync(vm::Time now, double voice_ms) {
+  if (!active()) return;
+  utterances_.back().clock.Correct(now, voice_ms + settings_.sync_offset_ms, settings_.sync_rate);
+}
+
+void SpeechMotion::Adjust(vm::Time now, const MotionSettings& next) {
+  const double lead_ms = next.lead_ms - next.offset_ms;
+  if (lead_ms != settings_.lead_ms - settings_.offset_ms) {
+    const double way = std::abs(lead_ms - lead_ms_.At(now));
+    lead_ms_.MoveTo(now, static_cast<float>(lead_ms),
+                    active() ? FromMs(way * kMsPerLeadMs) : vm::Time(0));
+  }
+  if (next.mouth_scale != settings_.mouth_scale) {
+    mouth_scale_.MoveTo(now, static_cast<float>(next.mouth_scale), kMouthScaleMove);
+  }
+}
+
+SpeechMotion::Mouth SpeechMotion::MouthAt(vm::Time t) const {
+  Mouth mouth;
+  for (const Utterance& one : utterances_) {
+    const vm::Time release = one.stopped ? *one.stopped + kClosedFor : EndOf(one);
+    const double remaining = 1 - SmoothStep(Progress(t, release, kMouthFadeOut));
+    const double share = SmoothStep(Progress(t, one.begin, kMouthFadeIn)) * remaining;
+    if (share <= 0) continue;
+    MouthPose pose = one.track->At(MouthPosition(one, t));
+    if (one.stopped) {
+      pose = Mix(pose, ClosedMouth(), SmoothStep(Progress(t, *one.stopped, kMouthCloses)));
+    }
+    mouth.BlendOver(pose, share);
+    const double reduction = SmoothStep(Progress(t, one.begin, kEmotionFade)) * remaining;
+    mouth.emotion_reduction = 1 - (1 - mouth.emotion_reduction) * (1 - reduction);
+  }
+  return mouth;
+}
+
+// ---- gestures
+
+const AutoAvert* SpeechMotion::Avert() const {
+  const std::size_t pattern = switches_[IdleKind::kAvert].pattern;
+  return pattern == 0 ? nullptr : &PatternAt(tables_.motions.auto_averts, pattern);
+}
+
+double SpeechMotion::GesturesOf(const Utterance& one, vm::Time t) const {
+  if (t < one.begin || t >= FadedAt(one)) return 0;
+  return one.stopped ? 1 - SmoothStep(Progress(t, *one.stopped, kHeadStops)) : 1;
+}
+
+void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {
+  const std::size_t pattern = switches_[IdleKind::kSpeech].pattern;
+  if (pattern == 0) return;
+  const AutoSpeech& size = PatternAt(tables_.motions.auto_speeches, pattern);
+  const double weight = switches_[IdleKind::kSpeech].weight.At(t);
+  double brow = 0;
+  for (const Utterance& one : utterances_) {
+    const double remaining = weight * GesturesOf(one, t);
+    if (remaining <= 0) continue;
+    const SpeechGestures::At head = one.gestures.HeadAt(MouthPosition(one, t));
+    layer.head[kDown] += static_cast<float>(remaining * size.nod * head.nod);
+    layer.head[kToRight] += static_cast<float>(remaining * size.turn * head.turn);
+    layer.head[kTilted] += static_cast<float>(remaining * size.tilt * head.tilt);
+    brow = std::max(brow, remaining * size.brow * head.brow);
+  }
+  for (const Side side : kSides) {
+    layer.units.au[side][kInnerBrowRaiser] = static_cast<float>(kInnerBrowRaise * brow);
+    layer.units.au[side][kOuterBrowRaiser] = static_cast<float>(kOuterBrowRaise * brow);
+  }
+}
+
+void SpeechMotion::ShowLooks(vm::Time t, MotionLayer& layer) const {
+  const std::size_t pattern = switches_[IdleKind::kText].pattern;
+  if (pattern == 0) return;
+  const double size =
+      PatternAt(tables_.motions.auto_texts, pattern).size * switches_[IdleKind::kText].weight.At(t);
+  for (const Utterance& one : utterances_) {
+    const double remaining = size * GesturesOf(one, t);
+    if (remaining <= 0) continue;
+    for (const TimedLook& timed : one.looks) {
+      const auto weight = static_cast<float>(remaining * timed.At(MouthPosition(one, t)));
+      if (weight <= 0) continue;
+      AddTo(layer.units, timed.look->units, weight);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        layer.head[axis] += weight * timed.look->head[axis];
+      }
+    }
+  }
+}
+
+void SpeechMotion::AvertEyes(vm::Time t, MotionLayer& layer) const {
+  const AutoAvert* avert = Avert();
+  if (avert == nullptr) return;
+  const double angle = avert->angle * switches_[IdleKind::kAvert].weight.At(t);
+  for (const Utterance& one : utterances_) {
+    const double remaining = angle * GesturesOf(one, t);
+    if (remaining == 0) continue;
+    const auto away = one.gestures.AvertedGazeAt(MouthPosition(one, t), avert->shortest_ms);
+    for (std::size_t i = 0; i < 2; ++i) {
+      layer.units.gaze.left[i] += static_cast<float>(remaining * away[i]);
+    }
+  }
+  layer.units.gaze.right = layer.units.gaze.left;
+}
+
+double SpeechMotion::LidsShutAt(vm::Time t) const {
+  const bool at_end = switches_[IdleKind::kEndBlink].on;
+  const bool at_shifts = switches_[IdleKind::kGazeBlink].on && switches_[IdleKind::kAvert].on;
+  if ((!at_end && !at_shifts) || tables_.motions.blinks.empty() || utterances_.empty()) return 0;
+  double shut = 0;
+  const auto blink = [&](vm::Time start) {
+    shut = std::max(shut, LidsAt(tables_.motions.blinks.front(), t - start));
+  };
+  const Utterance& last = utterances_.back();
+  if (at_end && RandomAt(seed_, RandomStream::kEndBlink, utterance_count_) < kEndBlinkPart) {
+    blink(last.stopped.value_or(EndOf(last)) +
+          FromMs(kEndBlinkMs + kEndBlinkVariesMs *
+                                   RandomAt(seed_, RandomStream::kEndBlinkTime, utterance_count_)));
+  }
+  if (!at_shifts) return shut;
+  const auto [away, back] = last.gestures.AversionTimes(Avert()->shortest_ms);
+  if (back <= away) return shut;
+  const double lead = lead_ms_.At(last.begin);
+  if (RandomAt(seed_, RandomStream::kAvertBlink, 2 * utterance_count_) < 0)
+    blink(last.clock.WhenAt(away - lead));
+  if (RandomAt(seed_, RandomStream::kAvertBlink, 2 * utterance_count_ + 1) < 0)
+    blink(last.clock.WhenAt(back - lead));
+  return shut;
+}
+
+// ---- as a source
+
+void SpeechMotion::Contribute(vm::Time t, MotionLayers& layers) const {
+  const Mouth mouth = MouthAt(t);
+  layers.AddSignal("speaking", mouth.emotion_reduction);
+  mouth.Contribute(mouth_scale_.At(t), "speech", layers);
+  MotionLayer& gestures = layers.Layer("gestures");
+  MoveHeadAndBrows(t, gestures);
+  AvertEyes(t, gestures);
+  ShowLooks(t, layers.Layer("text"));
+  gestures.lids_shut = static_cast<float>(LidsShutAt(t));
+}
+
+// ---- where it is
+
+std::optional<vm::Time> SpeechMotion::End() const {
+  if (!active()) return std::nullopt;
+  return EndOf(utterances_.back());
+}
+
+double SpeechMotion::VoicePositionAt(vm::Time t) const {
+  if (utterances_.empty()) return 0;
+  const Utterance& one = utterances_.back();
+  const double position = one.clock.PositionAt(std::min(t, one.stopped.value_or(t)));
+  return std::clamp(position, 0.0, one.track->length_ms());
+}
+
+const std::string& SpeechMotion::PhonemeAt(vm::Time t) const {
+  static const std::string kNone;
+  if (!active()) return kNone;
+  return utterances_.back().track->PhonemeAt(MouthPosition(utterances_.back(), t));
+}
+
+std::optional<vm::Time> SpeechMotion::NextActivity(vm::Time t) const {
+  std::optional<vm::Time> next = mouth_scale_.NextActivity(t);
+  for (const Utterance& one : utterances_) {
+    if (t >= FadedAt(one)) continue;
+    next = Earlier(next, std::max(t, one.begin));
+  }
+  return next;
+}
+
+}  // namespace fsm
