@@ -21,7 +21,7 @@ namespace fsm {
 struct MotionTables {
   VisemeSet set14, set28;
   std::vector<EngineNames> engines;
-  Reach reach;
+  DominanceReach reach;
   EmotionTable emotions;
   EmotionSpace emotion_space;
   MotionPatterns motions;

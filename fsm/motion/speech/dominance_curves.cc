@@ -40,7 +40,8 @@ double DominanceCurves::ContactEnvelope::At(double position_ms) const {
   return std::min(part(rise, from, position_ms), 1 - part(to, fall, position_ms));
 }
 
-DominanceCurves::DominanceCurves(const VisemeTargets& visemes, const Reach& reach) : reach_(reach) {
+DominanceCurves::DominanceCurves(const VisemeTargets& visemes, const DominanceReach& reach)
+    : reach_(reach) {
   VisemeTarget rest;
   rest.pose = visemes.rest;
   rest.dominance = visemes.rest_dominance;

@@ -27,7 +27,7 @@ namespace fsm {
 /// of 120 ms or more the lips meet.
 class DominanceCurves {
  public:
-  DominanceCurves(const VisemeTargets& visemes, const Reach& reach);
+  DominanceCurves(const VisemeTargets& visemes, const DominanceReach& reach);
   MouthPose At(double position_ms) const;
 
  private:
@@ -45,7 +45,7 @@ class DominanceCurves {
   void PlaceContacts();
 
   std::vector<Sound> sounds_;  // in order of time; the first and the last are rest and unbounded
-  Reach reach_;
+  DominanceReach reach_;
   double longest_reach_ms_ = 0;
 };
 

@@ -33,9 +33,10 @@ void MouthStream::Stop(vm::Time now) {
   while (!frames_.empty() && frames_.back().at > now) frames_.pop_back();
   // Without this frame it would go back to the last one before holding there, or jump to rest where
   // a run was about to take it over.
-  if ((cut ? mouth.share > 0 : mouth.share == 1) && (frames_.empty() || frames_.back().at < now)) {
+  if ((cut ? mouth.weight > 0 : mouth.weight == 1) &&
+      (frames_.empty() || frames_.back().at < now)) {
     frames_.push_back({now, frames_.empty() ? now : frames_.back().run_start, mouth.pose,
-                       head.share > 0 ? std::optional(head.pose) : std::nullopt, mouth.share});
+                       head.weight > 0 ? std::optional(head.pose) : std::nullopt, mouth.weight});
   }
 }
 
@@ -47,10 +48,10 @@ SpokenMouth MouthStream::MouthAt(vm::Time t) const {
     const bool within = next != frames_.end() && next->run_start != next->at;
     if (within) {
       const double progress = Progress(t, last.at, next->at - last.at);
-      return {std::lerp(last.share, next->share, progress), Mix(last.pose, next->pose, progress)};
+      return {std::lerp(last.weight, next->weight, progress), Mix(last.pose, next->pose, progress)};
     }
-    mouth.share =
-        last.share * (1 - SmoothStep(Progress(t, last.at + kHold + kMouthCloses, kMouthFadeOut)));
+    mouth.weight =
+        last.weight * (1 - SmoothStep(Progress(t, last.at + kHold + kMouthCloses, kMouthFadeOut)));
     mouth.pose =
         Mix(last.pose, ClosedMouth(), SmoothStep(Progress(t, last.at + kHold, kMouthCloses)));
   }
@@ -79,8 +80,8 @@ MouthStream::WeightedHead MouthStream::HeadAt(vm::Time t) const {
 
 void MouthStream::Contribute(vm::Time t, MotionLayers& layers) const {
   if (frames_.empty()) return;
-  if (const WeightedHead head = HeadAt(t); head.share > 0) {
-    layers.AddSignal("head_taken", head.share);
+  if (const WeightedHead head = HeadAt(t); head.weight > 0) {
+    layers.AddSignal("head_taken", head.weight);
     MotionLayer& gestures = layers.Layer("stream_gestures");
     gestures.head = head.pose.angles;
     for (const Side side : kSides) {
@@ -91,9 +92,9 @@ void MouthStream::Contribute(vm::Time t, MotionLayers& layers) const {
     }
   }
   const SpokenMouth mouth = MouthAt(t);
-  if (mouth.share <= 0) return;
-  layers.AddSignal("speaking", mouth.share);
-  layers.AddSignal("stream_taken", mouth.share);
+  if (mouth.weight <= 0) return;
+  layers.AddSignal("speaking", mouth.weight);
+  layers.AddSignal("stream_taken", mouth.weight);
   mouth.Contribute(mouth_scale_.At(t), "mouth_stream", layers);
 }
 

@@ -62,19 +62,19 @@ class MouthStream : public MotionSource {
     vm::Time run_start;
     MouthPose pose;
     std::optional<StreamHead> head;
-    double share = 1;  // how far mouth and head have been taken over
+    double weight = 1;  // how far mouth and head have been taken over
   };
   SpokenMouth MouthAt(vm::Time t) const;
   struct WeightedHead {
-    double share = 0;  // how far frames control head and brows, 0..1
-    StreamHead pose;   // premultiplied by the share
+    double weight = 0;  // how far frames control head and brows, 0..1
+    StreamHead pose;    // multiplied by the weight
   };
   WeightedHead HeadAt(vm::Time t) const;
   static WeightedHead HeadOf(const Frame& frame) {
-    return {frame.head ? frame.share : 0.0, frame.head.value_or(StreamHead{})};
+    return {frame.head ? frame.weight : 0.0, frame.head.value_or(StreamHead{})};
   }
   static WeightedHead MixHeads(const WeightedHead& a, const WeightedHead& b, double share_of_b) {
-    return {a.share + (b.share - a.share) * share_of_b, fsm::Mix(a.pose, b.pose, share_of_b)};
+    return {a.weight + (b.weight - a.weight) * share_of_b, fsm::Mix(a.pose, b.pose, share_of_b)};
   }
   static vm::Time FadedAt(const Frame& last);
 

@@ -96,8 +96,8 @@ void SpeechGestures::FindBeats(const VisemeTargets& visemes) {
   }
 }
 
-SpeechGestures::At SpeechGestures::HeadAt(double position_ms) const {
-  At out;
+SpeechGestures::HeadGesture SpeechGestures::HeadAt(double position_ms) const {
+  HeadGesture out;
   if (phrases_.empty()) return out;
   for (const Phrase& phrase : phrases_) {
     const double u = SmootherStep((position_ms - phrase.start_ms) / sizes_.phrase.lasts);

@@ -25,13 +25,13 @@ class SpeechGestures {
   SpeechGestures(const VisemeTargets& visemes, const GestureNumbers& sizes, std::uint64_t seed);
 
   /// Relative to the greatest angles of the table, about -1..1.
-  struct At {
+  struct HeadGesture {
     double nod = 0;   ///< down
     double turn = 0;  ///< to the viewer's right
     double tilt = 0;
     double brow = 0;  ///< 0..1
   };
-  At HeadAt(double position_ms) const;
+  HeadGesture HeadAt(double position_ms) const;
 
   /// Returns the averted gaze, down and right, relative to AutoAvert::angle. Zero in utterances
   /// shorter than `shortest_ms`.
@@ -48,7 +48,7 @@ class SpeechGestures {
   };
   struct Phrase {
     double start_ms;
-    At pose;
+    HeadGesture pose;
   };
   void FindBeats(const VisemeTargets& visemes);
 

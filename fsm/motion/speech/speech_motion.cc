@@ -114,7 +114,7 @@ void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {
   for (const Utterance& one : utterances_) {
     const double remaining = weight * GesturesOf(one, t);
     if (remaining <= 0) continue;
-    const SpeechGestures::At head = one.gestures.HeadAt(MouthPosition(one, t));
+    const SpeechGestures::HeadGesture head = one.gestures.HeadAt(MouthPosition(one, t));
     layer.head[kDown] += static_cast<float>(remaining * size.nod * head.nod);
     layer.head[kToRight] += static_cast<float>(remaining * size.turn * head.turn);
     layer.head[kTilted] += static_cast<float>(remaining * size.tilt * head.tilt);

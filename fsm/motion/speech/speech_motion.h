@@ -67,7 +67,7 @@ class SpeechMotion : public MotionSource {
     std::optional<vm::Time> stopped;
   };
   struct Mouth : SpokenMouth {
-    double emotion_reduction = 0;  // how far emotion is reduced; changes more slowly than `share`
+    double emotion_reduction = 0;  // how far emotion is reduced; changes more slowly than `weight`
   };
   Mouth MouthAt(vm::Time t) const;
   void MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const;

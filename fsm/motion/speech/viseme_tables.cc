@@ -181,10 +181,10 @@ vm::Result<PhonemeTable> ReadPhonemeTable(const std::string& name, std::string_v
   });
 }
 
-vm::Result<Reach> ReadDominance(const std::string& name, std::string_view text, Visemes& set14,
-                                Visemes& set28) {
+vm::Result<DominanceReach> ReadDominance(const std::string& name, std::string_view text,
+                                         Visemes& set14, Visemes& set28) {
   return ReadTable(name, text, [&](const Table& table) {
-    Reach reach;
+    DominanceReach reach;
     std::set<const Viseme*> done;
     for (const TableRow& row : table.rows()) {
       if (row.key() == "reach") {

@@ -81,12 +81,12 @@ struct VisemeSet {
 };
 
 /// How far the dominance of a sound reaches before its start and after its end.
-struct Reach {
+struct DominanceReach {
   double before_ms = 40;
   double after_ms = 45;
 };
 /// Reads tables/dominance.txt and writes the dominances, one for each viseme, into both sets.
-vm::Result<Reach> ReadDominance(const std::string& name, std::string_view text, Visemes& set14,
-                                Visemes& set28);
+vm::Result<DominanceReach> ReadDominance(const std::string& name, std::string_view text,
+                                         Visemes& set14, Visemes& set28);
 
 }  // namespace fsm
