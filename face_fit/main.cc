@@ -98,7 +98,6 @@ void NoticeLeftOut(const std::string& path, const std::string& why) {
 /// Reads the photos from the side; prints a notice for each that cannot be read.
 std::vector<facefit::SidePhoto> ReadSidePhotos(const Options& options,
                                                facefit::FaceNetworks& networks) {
-  vm::OrThrow(facefit::CheckSidePhotoCount(options.views.size()));
   std::vector<facefit::SidePhoto> side_photos;
   for (const std::string& path : options.views) {
     if (auto side_photo = facefit::ReadSidePhoto(networks, path)) {
@@ -110,8 +109,8 @@ std::vector<facefit::SidePhoto> ReadSidePhotos(const Options& options,
   return side_photos;
 }
 
-/// Returns a line with the place of the face in the whole photo, in the pixels of --points.
-std::string PlaceInPhoto(const facefit::FrontPhoto& front) {
+/// Returns a line that says where the face lies in the whole photo, in the pixels of --points.
+std::string LineOfNose(const facefit::FrontPhoto& front) {
   const auto pixel = [](float v) { return std::to_string(std::lround(v)); };
   return "place       nose " + pixel(front.nose.x) + " pixels from the left, " +
          pixel(front.nose.y) + " from the top, of " + std::to_string(front.whole_size.x) + " x " +
@@ -128,6 +127,7 @@ void CheckOptions(const Options& options) {
     throw std::runtime_error("--name '" + options.name +
                              "': letters, digits, - and _ expected, as anna");
   }
+  vm::OrThrow(facefit::CheckSidePhotoCount(options.views.size()));
 }
 
 /// The folder of faces, the networks and the base head of a face to be made.
@@ -150,19 +150,19 @@ struct Workshop {
 void WriteFace(const Options& options, Workshop& workshop, const facefit::FrontPhoto& front,
                Progress& progress) {
   const std::vector<facefit::SidePhoto> read = ReadSidePhotos(options, workshop.networks);
-  facefit::SidePhotos side_photos{workshop.networks, {}};
-  for (const facefit::SidePhoto& side_photo : read) side_photos.photos.push_back(&side_photo);
+  std::vector<const facefit::SidePhoto*> side_photos;
+  for (const facefit::SidePhoto& side_photo : read) side_photos.push_back(&side_photo);
   std::optional<bool> glasses;
   if (!options.glasses.empty()) glasses = options.glasses == "yes";
   const auto made =
-      vm::OrThrow(facefit::MakeFace(workshop.base, front, *front.face, side_photos, glasses,
-                                    [&](const char* step) { progress.Say(step); }));
+      vm::OrThrow(facefit::MakeFace(workshop.base, front, {&workshop.networks, side_photos},
+                                    glasses, [&](const char* step) { progress.Say(step); }));
   for (const auto& [path, why] : made.left_out) NoticeLeftOut(path, why);
-  const std::string report = PlaceInPhoto(front) + made.report;
-  const std::string place =
+  const std::string report = LineOfNose(front) + made.report;
+  const std::string folder =
       vm::OrThrow(fsm::WriteFace(made.bake.head, report, workshop.folder, options.name));
   progress.Say("written");
-  std::cout << report << "face_fit: wrote " << place << "\n";
+  std::cout << report << "face_fit: wrote " << folder << "\n";
 }
 
 /// Throws std::runtime_error if no face was found, or only an uncertain one.
@@ -191,7 +191,7 @@ void FaceOfPhoto(const Options& options) {
   progress.Say("photo read");
   Workshop workshop(options, progress);
   const auto front = facefit::PrepareFront(workshop.networks, workshop.base, std::move(photo),
-                                           choice, facefit::PhotoPart::kCloseUp,
+                                           choice, facefit::PhotoExtent::kCloseUp,
                                            [&](const char* step) { progress.Say(step); });
   if (!front) {
     const std::string& of = options.points.empty() ? options.photo : options.points;
@@ -211,7 +211,7 @@ void FaceOfOriginal(const Options& options) {
   Workshop workshop(options, progress);
   const auto front = vm::OrThrow(facefit::PrepareFront(
       workshop.networks, workshop.base, std::move(original.photo), original.points,
-      facefit::PhotoPart::kWhole, [&](const char* step) { progress.Say(step); }));
+      facefit::PhotoExtent::kWhole, [&](const char* step) { progress.Say(step); }));
   WriteFace(options, workshop, front, progress);
 }
 

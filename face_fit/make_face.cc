@@ -1,13 +1,16 @@
 #include "face_fit/make_face.h"
 
 #include <algorithm>
+#include <cassert>
 #include <glm/geometric.hpp>
 #include <utility>
 
 #include "face_fit/find/face/close_up.h"
 #include "face_fit/find/face/cut_off.h"
+#include "face_fit/find/face/glasses.h"
 #include "face_fit/find/face/upright.h"
 #include "face_fit/find/figure/figure_finder.h"
+#include "face_fit/fit/stereo.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
 #include "face_fit/report.h"
@@ -72,10 +75,10 @@ vm::Result<FoundFace> ChooseFace(std::span<const FoundFace> faces, int number) {
 }
 
 vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const ObservedHead& base,
-                                    fsm::Image photo, const FaceChoice& choice, PhotoPart part,
+                                    fsm::Image photo, const FaceChoice& choice, PhotoExtent extent,
                                     const StepDone& done) {
   const int given_longer = std::max(photo.width, photo.height);
-  fsm::Image working = part == PhotoPart::kWhole ? photo : ScaledToFit(photo, kWorkingSize);
+  fsm::Image working = extent == PhotoExtent::kWhole ? photo : ScaledToFit(photo, kWorkingSize);
   auto found = std::visit(FaceSearch{networks, base, std::move(photo), std::move(working)}, choice);
   if (!found) return std::unexpected(found.error());
   done("faces and their points found");
@@ -83,7 +86,7 @@ vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const ObservedHead& 
   const glm::vec2 nose = found->face ? found->face->PixelOf(point::kNoseTip) : glm::vec2(0);
   float scale =
       static_cast<float>(std::max(whole_size.x, whole_size.y)) / static_cast<float>(given_longer);
-  if (found->face && part == PhotoPart::kCloseUp) {
+  if (found->face && extent == PhotoExtent::kCloseUp) {
     CloseUp close_up = CloseUpOf(found->working, found->finest, *found->face);
     found->working = std::move(close_up.photo);
     found->face = std::move(close_up.face);
@@ -106,13 +109,13 @@ vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const ObservedHead& 
 }
 
 vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
-                              const FoundFace& face, const std::optional<SidePhotos>& side_photos,
-                              std::optional<bool> glasses, const StepDone& done) {
-  if (side_photos) {
-    if (auto few = CheckSidePhotoCount(side_photos->photos.size()); !few) {
-      return std::unexpected(few.error());
-    }
+                              const SidePhotos& side_photos, std::optional<bool> glasses,
+                              const StepDone& done) {
+  if (auto few = CheckSidePhotoCount(side_photos.photos.size()); !few) {
+    return std::unexpected(few.error());
   }
+  assert(front.face);
+  const FoundFace& face = *front.face;
   if (auto shown = CheckFeaturesShown(face, front.photo); !shown) {
     return std::unexpected(shown.error());
   }
@@ -120,17 +123,17 @@ vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
   done("head fitted");
   std::vector<SideView> views;
   std::vector<MadeFace::LeftOut> left_out;
-  for (const SidePhoto* side_photo :
-       side_photos ? side_photos->photos : std::vector<const SidePhoto*>{}) {
-    if (auto view = CorrectDepthBy(side_photos->networks, front.photo, *side_photo, fit)) {
-      views.push_back(std::move(*view));
-    } else {
+  for (const SidePhoto* side_photo : side_photos.photos) {
+    auto view = CorrectDepthBy(*side_photos.networks, front.photo, *side_photo, fit);
+    if (!view) {
       left_out.push_back({side_photo->path, view.error().text});
+    } else if (*view) {
+      views.push_back(std::move(**view));
     }
   }
-  if (!views.empty()) done("seen from the side, too");
+  if (left_out.size() < side_photos.photos.size()) done("seen from the side, too");
   TextureBake bake = BakeTexture(face, fit, front.photo, front.figure, views);
-  if (glasses) bake.head.glasses = *glasses;
+  bake.head.glasses = glasses ? *glasses : WearsGlasses(face, front.photo);
   done("photo put on");
   std::string report = Report(face, fit, front.photo, bake, front.faces, front.occlusion);
   return MadeFace{std::move(fit), std::move(bake), std::move(report), std::move(left_out)};

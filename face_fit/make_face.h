@@ -31,36 +31,37 @@ struct FaceNear {
 };
 using FaceChoice = std::variant<FaceNumber, FaceNear, HandPoints>;
 
-/// The part of a photo that is worked on: the surroundings of the face with all the photo's pixels
+/// How much of a photo is worked on: the surroundings of the face with all the photo's pixels
 /// (CloseUpOf), or all of it as given.
-enum class PhotoPart { kCloseUp, kWhole };
+enum class PhotoExtent { kCloseUp, kWhole };
 
 /// A photo from the front and what was found in it; no head is fitted yet.
 struct FrontPhoto {
-  fsm::Image photo;  ///< the part that is worked on, upright
-  /// In pixels of `photo`; nothing if none was found. MakeFace takes a face as an argument.
+  fsm::Image photo;  ///< what is worked on, upright
+  /// In pixels of `photo`; nothing if none was found. A user's points may replace it.
   std::optional<FoundFace> face;
   FigureCutout figure;
   Occlusion occlusion;  ///< of the face
   int faces = 0;        ///< number of faces found
   int orientation = 1;  ///< EXIF orientation of the photo as given
   float scale = 1;      ///< pixels of `photo` for each pixel of the photo as given
-  /// The pixel of the nose, and the size, of the whole upright photo scaled down to at most
-  /// kWorkingSize to a side.
+  /// The pixel of the nose, and the size, of the whole upright photo: as given for
+  /// PhotoExtent::kWhole, else scaled down to at most kWorkingSize to a side.
   glm::vec2 nose{0};
   glm::ivec2 whole_size{0};
 };
-/// Finds the face in a photo, selects the part to work on, cuts the figure out, and checks whether
+/// Finds the face in a photo, selects what to work on, cuts the figure out, and checks whether
 /// something hides the face. The face may be uncertain: compare its certainty with kCertainFace.
 /// Errors: kBadValue, there are faces but fewer than the number asked for; as CheckWithin.
 vm::Result<FrontPhoto> PrepareFront(
     FaceNetworks& networks, const ObservedHead& base, fsm::Image photo, const FaceChoice& choice,
-    PhotoPart part, const StepDone& done = [](const char*) {});
+    PhotoExtent extent, const StepDone& done = [](const char*) {});
 
-/// Photos of the person from the side, and the networks to process them; both outlive MakeFace.
+/// Photos of the person from the side, and the networks to process them, which are needed only if
+/// there are photos.
 struct SidePhotos {
-  FaceNetworks& networks;
-  std::vector<const SidePhoto*> photos;
+  FaceNetworks* networks = nullptr;
+  std::span<const SidePhoto* const> photos;
 };
 
 /// A face that fsm can wear, and what is known of it.
@@ -73,14 +74,12 @@ struct MadeFace {
   };
   std::vector<LeftOut> left_out;  ///< photos from the side that were not used, and why
 };
-/// Fits the base head, which outlives the result, to a face of a photo, corrects its depth by
-/// photos from the side, and bakes all photos onto it. `face`: front.face, or that with points the
-/// user moved. `glasses`: whether the person wears glasses; if empty, that is detected. Errors: as
-/// CheckSidePhotoCount and CheckFeaturesShown. Throws std::runtime_error if rendering is
-/// impossible.
+/// Fits the base head, which outlives the result, to the face of a photo, corrects its depth by
+/// photos from the side, and bakes all photos onto it. `glasses`: whether the person wears glasses;
+/// if empty, that is detected. REQUIRES: front.face. Errors: as CheckSidePhotoCount and
+/// CheckFeaturesShown. Throws std::runtime_error if rendering is impossible.
 vm::Result<MadeFace> MakeFace(
-    const ObservedHead& base, const FrontPhoto& front, const FoundFace& face,
-    const std::optional<SidePhotos>& side_photos = {}, std::optional<bool> glasses = {},
-    const StepDone& done = [](const char*) {});
+    const ObservedHead& base, const FrontPhoto& front, const SidePhotos& side_photos = {},
+    std::optional<bool> glasses = {}, const StepDone& done = [](const char*) {});
 
 }  // namespace facefit

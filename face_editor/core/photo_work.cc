@@ -43,9 +43,9 @@ vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder,
     auto base = facefit::ObservedHead::BuiltIn(sight->networks, "galatea");
     if (!base) return std::unexpected(base.error());
     if (const auto units = fsm::UnitsIn(tables)) base->MoveBy(*units);
-    std::vector<glm::vec3> places;
-    for (const auto& place : base->places()) places.push_back(place.On(base->rest().position));
-    sight->mirror = MirrorOf(places);
+    std::vector<glm::vec3> points;
+    for (std::size_t i = 0; i < facefit::kNetworkPoints; ++i) points.push_back(base->AtRest(i));
+    sight->mirror = MirrorOf(points);
     sight->base = std::make_shared<const facefit::ObservedHead>(std::move(*base));
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kUnavailable, error.what());
@@ -76,7 +76,7 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
   }
   try {
     auto front = facefit::PrepareFront(sight->networks, *sight->base, std::move(*photo),
-                                       facefit::FaceNumber{face}, facefit::PhotoPart::kWhole);
+                                       facefit::FaceNumber{face}, facefit::PhotoExtent::kWhole);
     if (!front) return std::unexpected(front.error());
     work->front = std::move(*front);
     work->base = sight->base;
@@ -114,12 +114,12 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
                                                        const PointMap& points, FaceSight* sight,
                                                        const SidePhotos& sides) {
   try {
-    std::optional<facefit::SidePhotos> side_photos;
-    if (sight) {
-      side_photos.emplace(sight->networks, std::vector<const facefit::SidePhoto*>{});
-      for (const auto& side : sides) side_photos->photos.push_back(side.get());
-    }
-    auto made = facefit::MakeFace(*work.base, work.front, FoundFrom(points), side_photos);
+    std::vector<const facefit::SidePhoto*> side_photos;
+    for (const auto& side : sides) side_photos.push_back(side.get());
+    facefit::FrontPhoto front = work.front;
+    front.face = FoundFrom(points);
+    auto made =
+        facefit::MakeFace(*work.base, front, {sight ? &sight->networks : nullptr, side_photos});
     if (!made) return std::unexpected(made.error());
     auto built = std::make_shared<BuiltFace>();
     built->base = work.base;

@@ -16,7 +16,8 @@ namespace {
 /// Returns a picture with unknown pixels inpainted and grain added.
 fsm::Image FilledIn(fsm::Image image, const FloatImage& known, float pixels_per_mm) {
   PushPullInpaint(image, known);
-  const int grain = std::max(static_cast<int>(PhotoLook().grain.coarsest_mm * pixels_per_mm), 2);
+  const int grain =
+      std::max(static_cast<int>(PhotoLook().grain.coarsest_on_figure_mm * pixels_per_mm), 2);
   // Pixels of a small photo are as coarse as grain, so none is added.
   const float amount = fsm::SmoothStep(PhotoLook().grain.pixels_per_mm, pixels_per_mm);
   AddGrain(known, FloatImage(image.width, image.height, amount), grain, image);
@@ -28,7 +29,7 @@ fsm::Image FilledIn(fsm::Image image, const FloatImage& known, float pixels_per_
 fsm::Image BehindFace(const FittedHead& fitted, const FigureCutout& figure) {
   const int width = figure.colours.width, height = figure.colours.height;
   const Chin chin(fitted);
-  FloatImage face =
+  Mask face =
       VisibleSkin(fitted, fitted.pose, {glm::vec2(0.5F), 1, width, height}, chin.SkinBottom())
           .Covered();
   FillHoles(face);
@@ -37,18 +38,17 @@ fsm::Image BehindFace(const FittedHead& fitted, const FigureCutout& figure) {
   // large as the skin, or the chin would show twice.
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const auto& look = PhotoLook().behind_face;
-  const FloatImage soft =
-      Blurred(face, std::max(static_cast<int>(look.around_mm * pixels_per_mm), 1));
+  const Mask soft = Blurred(face, std::max(static_cast<int>(look.around_mm * pixels_per_mm), 1));
   FloatImage keep(width, height, 1), beside(width, height, 1), below(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
-      const glm::vec3 place = fitted.pose.PlaceAt(pixel, kBesideFaceDepth);
+      const glm::vec3 position = fitted.pose.PositionAt(pixel, kBesideFaceDepth);
       const std::size_t i = keep.Index(x, y);
-      const float hole = glm::mix(look.face_part, look.neck_part, chin.BeforeNeck(place));
-      keep.values[i] = fsm::SmoothStep(hole + look.edge_part, soft.values[i]);
-      beside.values[i] = fsm::SmoothStep(look.neck_part + look.neck_edge_part, soft.values[i]);
-      below.values[i] = chin.Below(place);
+      const float hole = glm::mix(look.face_share, look.neck_share, chin.BeforeNeck(position));
+      keep.values[i] = fsm::SmoothStep(hole + look.edge_share, soft.values[i]);
+      beside.values[i] = fsm::SmoothStep(look.neck_share + look.neck_edge_share, soft.values[i]);
+      below.values[i] = chin.Below(position);
     }
   }
   fsm::Image out = FilledIn(figure.colours, keep, pixels_per_mm);

@@ -11,13 +11,13 @@ namespace facefit {
 /// The chin of the fitted head and the regions around it, head's frame.
 class Chin {
  public:
-  explicit Chin(const FittedHead& fitted) : place_(fitted.PlaceOf(point::kChin)) {}
-  float height() const { return place_.y; }
+  explicit Chin(const FittedHead& fitted) : position_(fitted.PositionOf(point::kChin)) {}
+  float height() const { return position_.y; }
   /// Returns the height below which the photo's neck replaces the skin.
-  float SkinBottom() const { return place_.y - PhotoLook().chin.skin_goes_on_mm; }
+  float SkinBottom() const { return position_.y - PhotoLook().chin.skin_goes_on_mm; }
   /// Returns 1 well below the chin, 0 above it.
   float Below(glm::vec3 p) const {
-    return fsm::SmoothStep(place_.y + PhotoLook().chin.below_it_mm, p.y);
+    return fsm::SmoothStep(position_.y + PhotoLook().chin.below_it_mm, p.y);
   }
   /// Returns 1 below the chin, behind which the neck lies, 0 where skin continues to neck, ear and
   /// hair.
@@ -26,7 +26,7 @@ class Chin {
   }
 
  private:
-  glm::vec3 place_;
+  glm::vec3 position_;
 };
 
 /// Approximate depth of what lies beside the face, camera's frame, millimetres: accurate enough to

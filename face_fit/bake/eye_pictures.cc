@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "face_fit/bake/head_picture.h"
 #include "face_fit/bake/light_gain.h"
 #include "face_fit/bake/red_eye.h"
 #include "face_fit/picture/filters.h"
@@ -20,25 +21,21 @@ namespace facefit {
 namespace {
 
 constexpr float kMinIrisPx = 3;  // radius below which an iris is not worth showing
-/// Texel::open from which a texel's colour counts as the iris's own.
-constexpr float kOpenTexel = 0.9F;
+/// Texel::visible from which a texel's colour counts as the iris's own.
+constexpr float kVisibleTexel = 0.9F;
 /// Reach around a texel, in radii of the iris, in which the red of a flash is searched, since it
 /// runs over the edge of the pupil.
 constexpr float kRedRuns = 0.22F;
 /// The least width of the shade at a lid's edge, pixels.
 constexpr float kMinShadePx = 0.7F;
 
-// Squares side by side in the lower left corner of the picture, where the skin's map shows the neck
-// and is not used, with kMargin texels between them against bleeding.
-constexpr int kIrisPixels = 64;
-constexpr int kBallPixels = 128;
-constexpr int kMargin = 4;
+constexpr int kIrisPixels = 64, kBallPixels = 128;  // to a side of the squares
 constexpr int kRings = 24;
 
 struct Texel {
   glm::vec3 colour{0};
-  float open = 0;    ///< part that no lid hides, 0..1
-  float radius = 0;  ///< distance from the centre, in radii of the iris
+  float visible = 0;  ///< share that no lid hides, 0..1
+  float radius = 0;   ///< distance from the centre, in radii of the iris
 };
 
 /// Returns the median colour at each distance from the iris's centre over the visible texels.
@@ -48,12 +45,13 @@ std::array<glm::vec3, kRings> MedianByRing(const std::vector<Texel>& texels) {
     return std::min(static_cast<int>(radius / fsm::kIrisSpan * kRings), kRings - 1);
   };
   for (const Texel& t : texels) {
-    if (t.open > kOpenTexel) rings[static_cast<std::size_t>(ring_of(t.radius))].push_back(t.colour);
+    if (t.visible > kVisibleTexel)
+      rings[static_cast<std::size_t>(ring_of(t.radius))].push_back(t.colour);
   }
   const auto light = [](glm::vec3 c) { return c.r + c.g + c.b; };
   std::array<glm::vec3, kRings> median;
   // If the whole iris is hidden, use the texel that is hidden least.
-  median.fill(std::ranges::max_element(texels, {}, &Texel::open)->colour);
+  median.fill(std::ranges::max_element(texels, {}, &Texel::visible)->colour);
   int last = -1;
   for (int k = 0; k < kRings; ++k) {
     auto& ring = rings[static_cast<std::size_t>(k)];
@@ -74,24 +72,12 @@ std::array<glm::vec3, kRings> MedianByRing(const std::vector<Texel>& texels) {
   return median;
 }
 
-/// Returns a square of `value(place)` for each texel; (-1, 1) is the upper left corner.
+/// Returns a square of `value(position)` for each texel; (-1, 1) is the upper left corner.
 auto MakeSquare(int size, auto value) {
   return Raster<decltype(value(glm::vec2()))>::From(size, size, [&](int x, int y) {
     const glm::vec2 p = 2.0F * (glm::vec2(x, y) + 0.5F) / static_cast<float>(size) - 1.0F;
     return value(glm::vec2(p.x, -p.y));
   });
-}
-
-/// Copies a square into the picture. Returns its place: left, top, right, bottom, each 0..1.
-glm::vec4 Insert(const fsm::Image& square, int left, fsm::Image& picture) {
-  const int size = square.width;
-  const int top = picture.height - kMargin - size;
-  for (int y = 0; y < size; ++y) {
-    std::copy_n(&square.rgba[4 * square.Index(0, y)], 4 * size,
-                &picture.rgba[4 * picture.Index(left, top + y)]);
-  }
-  const glm::vec2 whole(picture.width, picture.height);
-  return {glm::vec2(left, top) / whole, glm::vec2(left + size, top + size) / whole};
 }
 
 /// An eye as a photo shows it.
@@ -101,16 +87,16 @@ struct PhotoEye {
   glm::vec2 right, up;  ///< the head's axes in the photo, unit
 };
 
-/// Returns the picture of an iris. `skin`: colour of the skin below the eye.
-fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin, const fsm::Image& photo) {
+/// Returns the picture of an iris. `skin_colour`: of the skin below the eye.
+fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin_colour, const fsm::Image& photo) {
   // Width of the lid's shade and lashes.
   const float edge =
       std::max(PhotoLook().eye_picture.lid_shade_radii * eye.iris.radius, kMinShadePx);
-  const RedEye flash(skin);
+  const RedEye flash(skin_colour);
   const auto texels = MakeSquare(kIrisPixels, [&](glm::vec2 p) {
     p *= fsm::kIrisSpan;
     const glm::vec2 pixel = eye.iris.centre + eye.iris.radius * (p.x * eye.right + p.y * eye.up);
-    const auto [upper, lower] = eye.lids.LidsAt(eye.lids.Part(pixel));
+    const auto [upper, lower] = eye.lids.LidsAt(eye.lids.Along(pixel));
     const float within = std::min(eye.lids.Down(pixel) - upper, lower - eye.lids.Down(pixel));
     float red = 0;
     for (int k = 0; k < 9; ++k) {
@@ -128,7 +114,7 @@ fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin, const fsm::Image& ph
     const float ring = std::clamp(t.radius / fsm::kIrisSpan * kRings - 0.5F, 0.0F, kRings - 1.001F);
     const auto k = static_cast<std::size_t>(ring);
     const glm::vec3 usual = glm::mix(median[k], median[k + 1], ring - static_cast<float>(k));
-    SetRgb(out, i, glm::mix(usual, t.colour, t.open));
+    SetRgb(out, i, glm::mix(usual, t.colour, t.visible));
   }
   return out;
 }
@@ -137,15 +123,15 @@ fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin, const fsm::Image& ph
 /// `radius`: of the ball; both in millimetres about its centre.
 fsm::Image BallPicture(const PhotoEye& eye, const LidLines& rest, float radius,
                        const fsm::Image& photo) {
-  const auto places = MakeSquare(kBallPixels, [&](glm::vec2 p) {
+  const auto pixels = MakeSquare(kBallPixels, [&](glm::vec2 p) {
     p *= fsm::kBallSpan * radius;
-    const float part = glm::clamp(rest.Part(p), 0.0F, 1.0F);
-    const auto [upper, lower] = rest.LidsAt(part);
+    const float along = glm::clamp(rest.Along(p), 0.0F, 1.0F);
+    const auto [upper, lower] = rest.LidsAt(along);
     const float between = (rest.Down(p) - upper) / std::max(lower - upper, 0.05F);
-    const auto [upper_shown, lower_shown] = eye.lids.LidsAt(part);
-    return std::pair(
-        eye.lids.PointAt(part, glm::mix(upper_shown, lower_shown, glm::clamp(between, 0.0F, 1.0F))),
-        between);
+    const auto [upper_shown, lower_shown] = eye.lids.LidsAt(along);
+    return std::pair(eye.lids.PointAt(along, glm::mix(upper_shown, lower_shown,
+                                                      glm::clamp(between, 0.0F, 1.0F))),
+                     between);
   });
   const auto& look = PhotoLook().eye_picture;
   const auto beside_iris = [&](glm::vec2 pixel) {
@@ -155,15 +141,15 @@ fsm::Image BallPicture(const PhotoEye& eye, const LidLines& rest, float radius,
   // Fill the area behind the iris from what is beside it, except the lids' shade and lashes.
   fsm::Image out = fsm::FilledImage(kBallPixels, kBallPixels);
   FloatImage weight(kBallPixels, kBallPixels);
-  for (std::size_t i = 0; i < places.values.size(); ++i) {
-    const auto [pixel, between] = places.values[i];
+  for (std::size_t i = 0; i < pixels.values.size(); ++i) {
+    const auto [pixel, between] = pixels.values[i];
     SetRgb(out, i, ColourAt(photo, pixel));
-    weight.values[i] = beside_iris(pixel) * fsm::SmoothStep(look.upper_lid_part, between) *
-                       fsm::SmoothStep(look.lower_lid_part, between);
+    weight.values[i] = beside_iris(pixel) * fsm::SmoothStep(look.upper_lid_share, between) *
+                       fsm::SmoothStep(look.lower_lid_share, between);
   }
   PushPullInpaint(out, weight);
-  for (std::size_t i = 0; i < places.values.size(); ++i) {
-    const glm::vec2 pixel = places.values[i].first;
+  for (std::size_t i = 0; i < pixels.values.size(); ++i) {
+    const glm::vec2 pixel = pixels.values[i].first;
     SetRgb(out, i, glm::mix(Rgb(out, i), ColourAt(photo, pixel), beside_iris(pixel)));
   }
   return out;
@@ -218,7 +204,7 @@ LidLines LidsAtRest(const ObservedHead& base, fsm::Side side, const fsm::EyeTran
     const float raised = i % kInnerCorner == 0 ? 0
                          : i < kInnerCorner    ? transform.upper_mm
                                                : transform.lower_mm;
-    const float y = rest[i].y + LidOpening(rest[i].x, inner, outer) * raised;
+    const float y = rest[i].y + LidShare(rest[i].x, inner, outer) * raised;
     rest[i] = glm::vec2(transform.Turned(glm::vec3(rest[i].x, y, 0)));
   }
   return LidLines(rest);
@@ -245,7 +231,7 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
     squares[k] = {IrisPicture(eye, LightBeside(face, photo, k), photo),
                   BallPicture(eye, LidsAtRest(base, k, at_rest[k]), radius, photo)};
   }
-  int left = kMargin;
+  SquareRow row(picture);
   fsm::Sided<fsm::EyePicture> pictures;
   for (const fsm::Side k : fsm::kSides) {
     if (const fsm::Side other = (*shown)[k]; other != k) {
@@ -253,10 +239,8 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
           LightGain(LightBeside(face, photo, k), LightBeside(face, photo, other));
       squares[k] = {Mirrored(squares[other].iris, gain), Mirrored(squares[other].ball, gain)};
     }
-    pictures[k].iris = Insert(squares[k].iris, left, picture);
-    left += kIrisPixels + kMargin;
-    pictures[k].ball = Insert(squares[k].ball, left, picture);
-    left += kBallPixels + kMargin;
+    pictures[k].iris = row.Add(squares[k].iris);
+    pictures[k].ball = row.Add(squares[k].ball);
   }
   return pictures;
 }

@@ -86,7 +86,7 @@ EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fs
   // they are not much darker than the skin around.
   glm::vec3 ball = Linear(Typical(white, kWhiteRank, look.white.unseen_colour));
   const float least = look.white.darkest_by_skin * SkinLight(face, photo);
-  ball = glm::mix(ball, glm::vec3(Brightness(ball)), look.white.greyed_part);
+  ball = glm::mix(ball, glm::vec3(Brightness(ball)), look.white.greyed_share);
   ball *= std::max(1.0F, least / std::max(Brightness(ball), 1e-3F));
   return {.iris = shown, .white = glm::clamp(ball, kWhiteLight.x, kWhiteLight.y)};
 }

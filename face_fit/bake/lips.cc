@@ -45,8 +45,8 @@ void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
     if (within_mm > look.skin_mm.x && within_mm < look.skin_mm.y) beside.push_back(Rgb(map, i));
   }
   if (lips.empty() || beside.empty()) return;
-  const Tone lip = MeanTone(std::move(lips), look.typical_part),
-             skin = MeanTone(std::move(beside), look.typical_skin_part);
+  const Tone lip = MeanTone(std::move(lips), look.typical_share),
+             skin = MeanTone(std::move(beside), look.typical_skin_share);
   if (lip.redness - skin.redness < kMinDifference) return;
   const glm::vec3 hue = lip.colour / lip.brightness;
   const float darker = glm::clamp(lip.brightness / skin.brightness, look.darkest, 1.0F);
@@ -57,11 +57,20 @@ void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
     const float lacks =
         glm::clamp((lip.redness - LogRedness(c)) / (lip.redness - skin.redness), 0.0F, 1.0F);
     // Highlights and the dark gap between the lips keep their colour.
-    const float blend = look.reddened_part * lacks *
+    const float blend = look.reddened_share * lacks *
                         glm::smoothstep(0.0F, look.fades_in_mm, texels.values[i].within_lips_mm) *
                         fsm::SmoothStep(look.shine, bright / skin.brightness) *
                         fsm::SmoothStep(look.gap, bright / skin.brightness);
     SetRgb(map, i, glm::mix(c, hue * bright * darker, blend));
+  }
+}
+
+void DrawMouthLine(const SkinTexels& texels, float saturation, fsm::Image& map) {
+  const auto& look = PhotoLook().mouth_line;
+  const glm::vec3 dark = glm::mix(look.takes_from_grey, look.takes_from_colour, saturation);
+  for (std::size_t i = 0; i < texels.values.size(); ++i) {
+    const float line = fsm::SmoothStep(look.off_seam_mm, texels.values[i].off_seam_mm);
+    if (line > 0) SetRgb(map, i, Rgb(map, i) * (1.0F - dark * line));
   }
 }
 

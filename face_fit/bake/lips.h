@@ -10,4 +10,8 @@ namespace facefit {
 /// nothing if lips are no redder than skin, as in a grey photo.
 void RestoreLipColour(const SkinTexels& texels, fsm::Image& map);
 
+/// Draws the dark line where lips that were apart now meet, reddish if the photo has colour.
+/// `saturation`: of the photo, 0 = grey, 1 = coloured.
+void DrawMouthLine(const SkinTexels& texels, float saturation, fsm::Image& map);
+
 }  // namespace facefit

@@ -38,7 +38,7 @@ PhotoOpenings::PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool li
   }
 }
 
-float PhotoOpenings::SkinWeight(glm::vec2 pixel) const {
+float PhotoOpenings::SkinShare(glm::vec2 pixel) const {
   float skin = 1;
   for (const Opening& opening : openings_) {
     if (glm::distance(pixel, opening.middle) >= opening.radius) continue;

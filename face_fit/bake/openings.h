@@ -12,8 +12,8 @@ class PhotoOpenings {
  public:
   /// `pixels_per_mm`: on the face. `lips_apart`: the mouth is an opening, too.
   PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool lips_apart);
-  /// Returns the part of a pixel that is skin, 0..1.
-  float SkinWeight(glm::vec2 pixel) const;
+  /// Returns the share of a pixel that is skin, 0..1.
+  float SkinShare(glm::vec2 pixel) const;
 
  private:
   struct Opening {

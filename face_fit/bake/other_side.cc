@@ -16,16 +16,16 @@ namespace {
 /// Side, in texels, of the squares that share a gain.
 constexpr int kCell = 8;
 /// Reaches over which both sides are compared, from wide to narrow; the narrowest with enough known
-/// texels (kEnoughSeen, a part) counts most.
+/// texels (kEnoughSeen, a share) counts most.
 constexpr float kLightReachMm[] = {128, 32, 12, 6};
 constexpr float kEnoughSeen = 0.1F;
 /// Reach of a texel's surroundings.
 constexpr float kAroundMm = 5;
 
-/// The light on each place of a map, divided by the light on the mirrored place.
+/// The light on each texel of a map, divided by the light on the mirrored texel.
 class SideGain {
  public:
-  SideGain(const std::vector<bool>& skin, const fsm::Image& map, const FloatImage& coverage)
+  SideGain(const Mask& skin, const fsm::Image& map, const Mask& coverage)
       : width_((map.width + kCell - 1) / kCell),
         height_((map.height + kCell - 1) / kCell),
         gain_(width_, height_, glm::vec3(1)) {
@@ -34,7 +34,7 @@ class SideGain {
     for (int y = 0; y < map.height; ++y) {
       for (int x = 0; x < map.width; ++x) {
         const std::size_t i = coverage.Index(x, y), j = coverage.Index(map.width - 1 - x, y);
-        if (!skin[i] || !skin[j]) continue;
+        if (skin.values[i] < 1 || skin.values[j] < 1) continue;
         const float weight = coverage.values[i] * coverage.values[j];
         both(x / kCell, y / kCell) += weight / (kCell * kCell);
         own(x / kCell, y / kCell) += weight * Rgb(map, i);
@@ -67,31 +67,30 @@ class SideGain {
 
 }  // namespace
 
-void CompleteByMirroring(const std::vector<bool>& skin, fsm::Image& map, FloatImage& coverage) {
+void CompleteByMirroring(const Mask& skin, fsm::Image& map, Mask& coverage) {
   const SideGain gain_of_side(skin, map, coverage);
   const fsm::Image one_side = map;
-  const FloatImage own_coverage = coverage;
+  const Mask own_coverage = coverage;
   // Keep highlights and shade of the other side alone, as on a wing of the nose in the sun, close
   // to the surrounding colours.
   fsm::Image around = map;
   PushPullInpaint(around, own_coverage);
-  const FloatImage covered_around =
-      Blurred(own_coverage, std::max(TexelsOf(kAroundMm, map.width), 1));
+  const Mask covered_around = Blurred(own_coverage, std::max(TexelsOf(kAroundMm, map.width), 1));
   constexpr float kAny = 50;  // a ratio that nothing exceeds
   const auto& look = PhotoLook().other_side;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const std::size_t i = coverage.Index(x, y), j = coverage.Index(map.width - 1 - x, y);
-      const float part = std::max(own_coverage.values[j] - own_coverage.values[i], 0.0F) * 0.5F;
-      if (part <= 0 || !skin[i]) continue;
-      const float sum = own_coverage.values[i] + part;
+      const float weight = std::max(own_coverage.values[j] - own_coverage.values[i], 0.0F) * 0.5F;
+      if (weight <= 0 || skin.values[i] < 1) continue;
+      const float sum = own_coverage.values[i] + weight;
       const glm::vec3 gain = gain_of_side.GainAt(x, y);
-      const float held = fsm::SmoothStep(look.held_by_seen_part, covered_around.values[i]);
+      const float held = fsm::SmoothStep(look.held_by_seen_share, covered_around.values[i]);
       const glm::vec3 beside = Rgb(around, i);
       const glm::vec3 brightest = glm::min(glm::mix(kAny, look.brightest, held) * beside, 255.0F);
       const glm::vec3 taken =
           glm::clamp(gain * Rgb(one_side, j), held * look.darkest * beside, brightest);
-      SetRgb(map, i, (own_coverage.values[i] * Rgb(one_side, i) + taken * part) / sum);
+      SetRgb(map, i, (own_coverage.values[i] * Rgb(one_side, i) + taken * weight) / sum);
       coverage.values[i] = sum;
     }
   }

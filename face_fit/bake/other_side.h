@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "face_fit/picture/float_image.h"
 #include "fsm/image/image.h"
 
@@ -9,9 +7,9 @@ namespace facefit {
 
 /// Completes each side of the skin's map from the mirror image of the other, multiplied by the
 /// ratio of both sides' light nearby, where both were seen: a wing of the nose would otherwise show
-/// the light of the other cheek. `skin`: texels outside eyes and mouth, which differ too much from
-/// side to side. `coverage`: how well the photo shows each texel, 0..1; raised where something was
-/// copied.
-void CompleteByMirroring(const std::vector<bool>& skin, fsm::Image& map, FloatImage& coverage);
+/// the light of the other cheek. `skin`: 1 outside eyes and mouth, which differ too much from side
+/// to side, and are not copied. `coverage`: how well the photo shows each texel, 0..1; raised where
+/// something was copied.
+void CompleteByMirroring(const Mask& skin, fsm::Image& map, Mask& coverage);
 
 }  // namespace facefit

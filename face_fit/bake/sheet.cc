@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "face_fit/bake/head_picture.h"
 #include "face_fit/bake/sheet_depth.h"
 #include "face_fit/bake/skin_surface.h"
 #include "face_fit/bake/skin_texels.h"
@@ -22,13 +23,13 @@ namespace {
 constexpr float kMaxDepthMm = 60;   // camera's frame; no point of the sheet lies before the face
 constexpr float kMinCellMm = 4.5F;  // between points of the sheet
 constexpr float kMaxPoints = 14000;
-constexpr float kWholeWithin = 0.999F;  // part of skin around a point above which it is never seen
+constexpr float kWholeWithin = 0.999F;  // share of skin around a point above which it is never seen
 constexpr float kBehindOpeningMm = 90;  // farther back lies the hair at the nape
-constexpr glm::vec2 kFadeMotion{0, 0.3F};  // part of skin around a point over which motion begins
+constexpr glm::vec2 kFadeMotion{0, 0.3F};  // share of skin around a point over which motion begins
 
 /// Extends motion beyond the covered points: the mean of those nearby, fading out.
-VectorImage Spread(const VectorImage& motion, const FloatImage& covered, int reach) {
-  const FloatImage share = Blurred(covered, reach);
+VectorImage Spread(const VectorImage& motion, const Mask& covered, int reach) {
+  const Mask share = Blurred(covered, reach);
   VectorImage out = Blurred(motion, reach);
   for (std::size_t i = 0; i < out.values.size(); ++i) {
     out.values[i] *=
@@ -48,10 +49,10 @@ std::vector<glm::vec3> MotionToRest(const FittedHead& fitted) {
   return motion;
 }
 
-/// Returns the vertices' motion at the visible places of a surface; 0 where there is none.
+/// Returns the vertices' motion at the visible points of a surface; 0 where there is none.
 VectorImage MotionOn(const VisibleSurface& surface, const std::vector<glm::vec3>& motion) {
   return VectorImage::From(surface.grid().columns, surface.grid().rows, [&](int x, int y) {
-    return surface.Triangle(x, y) ? surface.Place(x, y).On(motion) : glm::vec3(0);
+    return surface.TriangleAt(x, y) ? surface.MeshPointAt(x, y).On(motion) : glm::vec3(0);
   });
 }
 
@@ -66,13 +67,13 @@ class HeadOpenings {
         std::pair(kEyeOuterRight, kEyeInnerRight), std::pair(kEyeInnerLeft, kEyeOuterLeft)};
     const auto& look = PhotoLook().sheet_hole;
     for (std::size_t i = 0; i < kEyes.size(); ++i) {
-      const glm::vec3 right = fitted.PlaceOf(kEyes[i].first),
-                      left = fitted.PlaceOf(kEyes[i].second);
+      const glm::vec3 right = fitted.PositionOf(kEyes[i].first),
+                      left = fitted.PositionOf(kEyes[i].second);
       const float half = 0.5F * std::abs(left.x - right.x) + look.beyond_eye_mm;
       ovals_[i] = {0.5F * (left + right), half, half, half};
     }
-    const glm::vec3 right = fitted.PlaceOf(kInnerMouthRight),
-                    left = fitted.PlaceOf(kInnerMouthLeft);
+    const glm::vec3 right = fitted.PositionOf(kInnerMouthRight),
+                    left = fitted.PositionOf(kInnerMouthLeft);
     ovals_[2] = {0.5F * (left + right), 0.5F * std::abs(left.x - right.x) + look.beyond_mouth_mm,
                  look.above_mouth_mm, look.below_mouth_mm};
   }
@@ -112,7 +113,7 @@ constexpr std::array<glm::ivec2, 4> kCellCorners = {{{0, 0}, {0, 1}, {1, 1}, {1,
 /// Selects the cells of the sheet to draw: those of the figure that are not hidden.
 class DrawnCells {
  public:
-  DrawnCells(const FittedHead& fitted, const SampleGrid& grid, const FloatImage& shown,
+  DrawnCells(const FittedHead& fitted, const SampleGrid& grid, const Mask& shown,
              const GridSkin& skin, const FloatImage& depth)
       : fitted_(fitted),
         grid_(grid),
@@ -126,7 +127,7 @@ class DrawnCells {
   }
 
  private:
-  static FloatImage WithoutHoles(FloatImage covered) {
+  static Mask WithoutHoles(Mask covered) {
     FillHoles(covered);
     return covered;
   }
@@ -134,8 +135,8 @@ class DrawnCells {
     return std::ranges::all_of(kCellCorners,
                                [&](glm::ivec2 corner) { return holds(cell + corner); });
   }
-  glm::vec3 PlaceOf(glm::ivec2 p) const {
-    return fitted_.pose.PlaceAt(grid_.Point(p.x, p.y), depth_(p.x, p.y));
+  glm::vec3 PositionOf(glm::ivec2 p) const {
+    return fitted_.pose.PositionAt(grid_.Point(p.x, p.y), depth_(p.x, p.y));
   }
   /// Returns whether the figure is visible at the cell's corners or at points next to them.
   bool IsShown(glm::ivec2 cell) const {
@@ -148,12 +149,12 @@ class DrawnCells {
   }
   /// Returns whether a point is behind the middle of the face or behind an opening.
   bool IsHidden(glm::ivec2 p) const {
-    return within_(p.x, p.y) > kWholeWithin || openings_.Behind(PlaceOf(p));
+    return within_(p.x, p.y) > kWholeWithin || openings_.Behind(PositionOf(p));
   }
   /// A cell of a small photo may be wider than the skin between lips and cheek.
   bool IsInMouth(glm::ivec2 cell) const {
     const auto corners = std::ranges::count_if(kCellCorners, [&](glm::ivec2 corner) {
-      return openings_.BehindMouth(PlaceOf(cell + corner));
+      return openings_.BehindMouth(PositionOf(cell + corner));
     });
     return corners >= 2;
   }
@@ -162,7 +163,7 @@ class DrawnCells {
   const SampleGrid& grid_;
   const FloatImage &shown_, &depth_;
   HeadOpenings openings_;
-  FloatImage within_;  // part of face around each point, 0..1
+  Mask within_;  // share of face around each point, 0..1
 };
 
 /// A cell of the sheet: its corners, counter-clockwise.
@@ -193,9 +194,9 @@ Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure) {
     for (int x = 0; x < grid.columns; ++x) {
       const glm::vec2 pixel = grid.Point(x, y);
       const std::size_t i = depth.Index(x, y);
-      const glm::vec2 part = glm::clamp(pixel / size, 0.5F / kMapSize, 1 - 0.5F / kMapSize);
-      const glm::vec3 place = fitted.pose.PlaceAt(pixel, std::min(depth.values[i], kMaxDepthMm));
-      out.vertices.push_back({place + motion.values[i], {0.5F + 0.5F * part.x, part.y}});
+      const glm::vec3 position =
+          fitted.pose.PositionAt(pixel, std::min(depth.values[i], kMaxDepthMm));
+      out.vertices.push_back({position + motion.values[i], OnFigureHalf(pixel / size)});
     }
   }
   const DrawnCells cells(fitted, grid, shown, skin, depth);

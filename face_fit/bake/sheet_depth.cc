@@ -11,17 +11,17 @@ namespace {
 
 // Numbers of the method; those tuned by eye are in tables/photo_look.txt.
 constexpr int kPoissonSteps = 400;
-constexpr float kInnerWithin = 0.62F;  // part of skin around a point above which it is inner skin
-constexpr float kDeepWithin = 0.95F;   // part of skin from which the sheet keeps its full distance
+constexpr float kInnerWithin = 0.62F;  // share of skin around a point above which it is inner skin
+constexpr float kDeepWithin = 0.95F;   // share of skin from which the sheet keeps its full distance
 constexpr float kShownLeast = 0.12F;   // opacity below which a point is outside the figure
 constexpr float kToShouldersMm = 70;   // height of the chin above the shoulders
-// Part of inner skin nearby over which its depth begins to count.
+// Share of inner skin nearby over which its depth begins to count.
 constexpr glm::vec2 kFadeDepth{0, 0.25F};
 
 /// Fills points that are not fixed with the solution of Poisson's equation for a slight constant
 /// curvature: a soap film, a little rounder. Runs kPoissonSteps steps of Gauss and Seidel, not to
 /// convergence.
-FloatImage Spanned(const FloatImage& fixed, FloatImage depth) {
+FloatImage Spanned(const Mask& fixed, FloatImage depth) {
   const float round = PhotoLook().sheet.round_mm;
   for (int step = 0; step < kPoissonSteps; ++step) {
     for (int y = 0; y < depth.height; ++y) {
@@ -43,16 +43,16 @@ FloatImage Spanned(const FloatImage& fixed, FloatImage depth) {
 class UnderSkinDepth {
  public:
   UnderSkinDepth(const Chin& chin, const GridSkin& skin) : chin_(chin), skin_(skin) {}
-  /// `place`: approximate place of the grid's point, head's frame.
-  float DepthAt(std::size_t i, glm::vec3 place) const {
+  /// `position`: approximate, of the grid's point, head's frame.
+  float DepthAt(std::size_t i, glm::vec3 position) const {
     // The sheet continues the skin at its edge and keeps a distance farther in.
     const float inward = glm::smoothstep(kInnerWithin, kDeepWithin, skin_.within.values[i]);
     const auto& look = PhotoLook().sheet;
     const float under =
         skin_.depth.values[i] - glm::mix(look.under_skin_edge_mm, look.under_skin_mm, inward);
     // The neck lies behind the lower face, with room for the jaw to open.
-    return glm::mix(under, std::min(under, look.before_neck_most_mm), chin_.BeforeNeck(place)) -
-           look.below_chin_back_mm * chin_.Below(place);
+    return glm::mix(under, std::min(under, look.before_neck_most_mm), chin_.BeforeNeck(position)) -
+           look.below_chin_back_mm * chin_.Below(position);
   }
 
  private:
@@ -71,14 +71,14 @@ class OutlineDepth {
     }
     beside_ = Blurred(beside_, skin.rim);
   }
-  /// `place`: as in UnderSkinDepth.
-  float DepthAt(std::size_t i, glm::vec3 place) const {
+  /// `position`: as in UnderSkinDepth.
+  float DepthAt(std::size_t i, glm::vec3 position) const {
     // Hair lies before the ears, shoulders in their plane. Beside the cheek the sheet stays near
     // its depth, or the sheet's last pixels would be stretched.
     const auto& look = PhotoLook().sheet;
     const float outline =
         glm::mix(look.hair_depth_mm, look.shoulder_depth_mm,
-                 glm::smoothstep(chin_.height(), chin_.height() - kToShouldersMm, place.y));
+                 glm::smoothstep(chin_.height(), chin_.height() - kToShouldersMm, position.y));
     const float cheek = beside_.values[i] / std::max(share_.values[i], 1e-3F) - look.falls_back_mm;
     return glm::mix(outline, std::max(cheek, outline),
                     fsm::SmoothStep(kFadeDepth, share_.values[i]));
@@ -86,7 +86,7 @@ class OutlineDepth {
 
  private:
   const Chin& chin_;
-  FloatImage beside_, share_;  // mean depth and part of inner skin nearby, 0..1
+  FloatImage beside_, share_;  // mean depth and share of inner skin nearby, 0..1
 };
 
 }  // namespace
@@ -103,18 +103,18 @@ GridSkin::GridSkin(const VisibleSurface& surface, int rim_cells)
 }
 
 FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Chin& chin,
-                      const GridSkin& skin, const FloatImage& shown) {
+                      const GridSkin& skin, const Mask& shown) {
   const UnderSkinDepth under_skin(chin, skin);
   const OutlineDepth at_outline(chin, skin);
   FloatImage depth(grid.columns, grid.rows), fixed(depth);
   for (int y = 0; y < grid.rows; ++y) {
     for (int x = 0; x < grid.columns; ++x) {
       const std::size_t i = depth.Index(x, y);
-      const glm::vec3 place = fitted.pose.PlaceAt(grid.Point(x, y), kBesideFaceDepth);
+      const glm::vec3 position = fitted.pose.PositionAt(grid.Point(x, y), kBesideFaceDepth);
       const bool inner = skin.inner.values[i] > 0;
       const bool outside = skin.covered.values[i] <= 0 && shown.values[i] < kShownLeast;
       if (!inner && !outside) continue;
-      depth.values[i] = inner ? under_skin.DepthAt(i, place) : at_outline.DepthAt(i, place);
+      depth.values[i] = inner ? under_skin.DepthAt(i, position) : at_outline.DepthAt(i, position);
       fixed.values[i] = 1;
     }
   }

@@ -11,17 +11,17 @@ namespace facefit {
 struct GridSkin {
   /// `rim_cells`: width of the sheet's rim behind the edge of the skin.
   GridSkin(const VisibleSurface& surface, int rim_cells);
-  int rim;             ///< cells
-  FloatImage depth;    ///< towards the camera, millimetres
-  FloatImage covered;  ///< 1 where there is skin
-  FloatImage within;   ///< part of skin within `rim` of each point, 0..1
+  int rim;           ///< cells
+  FloatImage depth;  ///< towards the camera, millimetres
+  Mask covered;      ///< 1 where there is skin
+  Mask within;       ///< share of skin within `rim` of each point, 0..1
   /// 1 for skin away from its edge; only there each point has a depth of its own.
-  FloatImage inner;
+  Mask inner;
 };
 
 /// Returns the depth of the sheet, millimetres towards the camera, camera's frame: just below the
 /// skin, and from there gently back to the outline. `shown`: opacity of the figure, 0..1.
 FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Chin& chin,
-                      const GridSkin& skin, const FloatImage& shown);
+                      const GridSkin& skin, const Mask& shown);
 
 }  // namespace facefit

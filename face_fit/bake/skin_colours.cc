@@ -20,7 +20,7 @@ constexpr float kHairEdgeMm = 1.5F, kFringeMm = 2.5F, kFineMm = 0.5F, kWideMm = 
 
 }  // namespace
 
-float Saturation(const fsm::Image& map, const FloatImage& coverage) {
+float Saturation(const fsm::Image& map, const Mask& coverage) {
   float sum = 0, light = 0;
   for (std::size_t i = 0; i < coverage.values.size(); ++i) {
     if (coverage.values[i] < kWellCovered) continue;
@@ -32,7 +32,7 @@ float Saturation(const fsm::Image& map, const FloatImage& coverage) {
   return fsm::SmoothStep(PhotoLook().colour.difference, sum / std::max(light, 1.0F));
 }
 
-FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_coverage) {
+Mask SkinLikeness(const fsm::Image& map, const Mask& face_coverage) {
   std::array<std::vector<float>, 3> channels;
   for (std::size_t i = 0; i < face_coverage.values.size(); ++i) {
     if (face_coverage.values[i] < kWellCovered) continue;
@@ -57,10 +57,12 @@ FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_coverage) 
   return Blurred(likeness, TexelsOf(kHairEdgeMm, map.width));
 }
 
-float Roughness(const fsm::Image& map, const FloatImage& face_coverage) {
+float Roughness(const fsm::Image& map, const Mask& face_coverage) {
+  // Weights as of human vision, which sees wrinkles; Brightness is for faces.
+  constexpr glm::vec3 kVision(0.3F, 0.6F, 0.1F);
   FloatImage light(map.width, map.height);
   for (std::size_t i = 0; i < light.values.size(); ++i) {
-    light.values[i] = glm::dot(Rgb(map, i), glm::vec3(0.3F, 0.6F, 0.1F));
+    light.values[i] = glm::dot(Rgb(map, i), kVision);
   }
   const FloatImage fine = Blurred(light, TexelsOf(kFineMm, map.width)),
                    wide = Blurred(light, TexelsOf(kWideMm, map.width));
@@ -72,21 +74,21 @@ float Roughness(const fsm::Image& map, const FloatImage& face_coverage) {
   return steps.empty() ? 0 : Median(std::move(steps));
 }
 
-FloatImage CutAtHairline(const SkinTexels& texels, FloatImage likeness) {
+Mask CutAtHairline(const SkinTexels& texels, Mask likeness) {
   const FloatImage wide = Blurred(likeness, TexelsOf(kFringeMm, likeness.width));
-  const glm::vec2 edge = PhotoLook().hairy.skin_around_part;
-  FloatImage skin(likeness.width, likeness.height, 1);
+  const glm::vec2 edge = PhotoLook().hairy.skin_around_share;
+  Mask below_hairline(likeness.width, likeness.height, 1);
   for (int x = 0; x < likeness.width; ++x) {
     float least = 1;
     for (int y = likeness.height - 1; y >= 0; --y) {
       if (texels(x, y).above_brows_mm > 0)
         least = std::min(least, fsm::SmoothStep(edge, wide(x, y)));
-      skin(x, y) = least;
+      below_hairline(x, y) = least;
     }
   }
-  skin = Blurred(skin, TexelsOf(kHairEdgeMm, likeness.width));
+  below_hairline = Blurred(below_hairline, TexelsOf(kHairEdgeMm, likeness.width));
   for (std::size_t i = 0; i < likeness.values.size(); ++i) {
-    likeness.values[i] = std::min(likeness.values[i], skin.values[i]);
+    likeness.values[i] = std::min(likeness.values[i], below_hairline.values[i]);
   }
   return likeness;
 }

@@ -8,18 +8,18 @@ namespace facefit {
 
 /// Returns the saturation of a photo, 0 = grey, 1 = coloured, by the mean difference of its
 /// channels.
-float Saturation(const fsm::Image& map, const FloatImage& coverage);
+float Saturation(const fsm::Image& map, const Mask& coverage);
 
 /// Returns how much of each texel is skin rather than hair, 0..1: hair is much darker than the
 /// face's median.
-FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_coverage);
+Mask SkinLikeness(const fsm::Image& map, const Mask& face_coverage);
 
 /// Returns the likeness without bright strands of a fringe: going up from the brows, skin ends
 /// where hair begins.
-FloatImage CutAtHairline(const SkinTexels& texels, FloatImage likeness);
+Mask CutAtHairline(const SkinTexels& texels, Mask likeness);
 
 /// Returns how wrinkled the skin is: the median difference of brightness between a fine and a wide
 /// average, divided by the brightness; about 0.01 for smooth skin, 0.03 for old skin.
-float Roughness(const fsm::Image& map, const FloatImage& face_coverage);
+float Roughness(const fsm::Image& map, const Mask& face_coverage);
 
 }  // namespace facefit

@@ -18,7 +18,7 @@
 namespace facefit {
 namespace {
 
-/// Tells whether the head itself hides a place of its skin from the camera, as the jaw hides the
+/// Tells whether the head itself hides a point of its skin from the camera, as the jaw hides the
 /// throat.
 class SelfOcclusion {
  public:
@@ -117,7 +117,7 @@ std::optional<Triangle2> OnMap(const fsm::HeadTopology& topology, const MeshTria
 
 SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, SelfHidden self_hidden) {
   const ObservedHead& base = *fitted.base;
-  const auto& aside = PhotoLook().aside;
+  const auto& head_side = PhotoLook().head_side;
   constexpr float kSlack = 0.02F;
   constexpr glm::vec3 kEye(0, 0, kCameraZ);
   std::optional<SelfOcclusion> hides;
@@ -134,22 +134,23 @@ SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, SelfHid
     const auto on_map = OnMap(topology, triangle);
     if (!on_map) return;
     Rasterize(*on_map, kMapSize, kMapSize, kSlack, [&](int x, int y, glm::vec3 weights) {
-      const MeshPoint place{triangle.corner, weights};
-      const glm::vec3 rest = place.On(base.rest().position);
+      const MeshPoint on_mesh{triangle.corner, weights};
+      const glm::vec3 rest = on_mesh.On(base.rest().position);
       const float outward_mm2 = rest.x * rest.x + rest.z * rest.z;
       if (outward_mm2 <= out(x, y).outward_mm2) return;
-      const glm::vec3 q = place.On(camera);
-      const glm::vec3 n = place.On(normal) + glm::vec3(0, 0, 1e-9F);
+      const glm::vec3 q = on_mesh.On(camera);
+      const glm::vec3 n = on_mesh.On(normal) + glm::vec3(0, 0, 1e-9F);
       const bool hidden = hides && (*hides)(q);
-      out(x, y) = {.pixel = pose.Project(q),
-                   .facing = hidden ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q)),
-                   .outward_mm2 = outward_mm2,
-                   .x_mm = rest.x,
-                   .above_brows_mm = rest.y - brows,
-                   .off_seam_mm = lips.OffSeam(rest),
-                   .within_lips_mm = lips.Within(rest),
-                   .aside = std::max(fsm::SmoothStep(aside.across_mm, std::abs(rest.x)),
-                                     fsm::SmoothStep(aside.above_chin_mm, rest.y - chin))};
+      out(x, y) = {
+          .pixel = pose.Project(q),
+          .facing = hidden ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q)),
+          .outward_mm2 = outward_mm2,
+          .x_mm = rest.x,
+          .above_brows_mm = rest.y - brows,
+          .off_seam_mm = lips.OffSeam(rest),
+          .within_lips_mm = lips.Within(rest),
+          .side_weight = std::max(fsm::SmoothStep(head_side.across_mm, std::abs(rest.x)),
+                                  fsm::SmoothStep(head_side.above_chin_mm, rest.y - chin))};
     });
   });
   return out;

@@ -19,7 +19,7 @@ inline int TexelsOf(float mm, int map_width) {
       std::lround(mm * kTexelsPerMm * static_cast<float>(map_width) / float{kMapSize}));
 }
 
-/// A texel of the skin's map: its place in a photo and on the base head at rest.
+/// A texel of the skin's map: its pixel in a photo and its position on the base head at rest.
 struct SkinTexel {
   static constexpr float kNotNear = 1e9F;  ///< stands for a distance to something that is not near
   glm::vec2 pixel{0};
@@ -29,7 +29,7 @@ struct SkinTexel {
   float above_brows_mm = -1;
   float off_seam_mm = kNotNear;      ///< distance from the line where the lips meet
   float within_lips_mm = -kNotNear;  ///< distance inside the border of the lips, negative outside
-  float aside = 0;  ///< 1 on the sides of the head and below the chin, 0 on the face
+  float side_weight = 0;  ///< 1 on the sides of the head and below the chin, 0 on the face
 };
 /// kMapSize texels to a side.
 using SkinTexels = Raster<SkinTexel>;
@@ -37,7 +37,7 @@ using SkinTexels = Raster<SkinTexel>;
 /// Whether skin that the head itself hides, as the jaw hides the throat, counts as not seen (facing
 /// -1).
 enum class SelfHidden { kIgnored, kNotSeen };
-/// Returns for each texel of the skin's map its place in a photo taken with `pose`. Texels that no
+/// Returns for each texel of the skin's map its pixel in a photo taken with `pose`. Texels that no
 /// triangle covers keep the values of a new SkinTexel.
 SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, SelfHidden self_hidden);
 

@@ -24,10 +24,10 @@ float DistanceToLine(glm::vec2 p, std::span<const glm::vec2> line) {
   return nearest;
 }
 
-/// Fills dark valleys near a line that are narrower than twice `valley_px`, by the part `smile`.
-/// Raises `smooth` to the part by which each pixel was filled, 0..1.
+/// Fills dark valleys near a line that are narrower than twice `valley_px`, by the share `smile`.
+/// Raises `filled_share` to the share by which each pixel was filled, 0..1.
 void FillFold(std::span<const glm::vec2> line, float smile, float pixels_per_mm, int valley_px,
-              fsm::Image& photo, FloatImage& smooth) {
+              fsm::Image& photo, Mask& filled_share) {
   const float reach_mm = PhotoLook().smile.folds.reach_mm;
   Box2 box;
   for (const glm::vec2 p : line) box.Add(p);
@@ -48,7 +48,7 @@ void FillFold(std::span<const glm::vec2> line, float smile, float pixels_per_mm,
       const float blend = smile * glm::smoothstep(reach_mm, 0.5F * reach_mm, gap_mm);
       const glm::vec3 lit = glm::max(filled(x, y), colours(x, y));
       if (lit != colours(x, y))
-        smooth(pixel.x, pixel.y) = std::max(smooth(pixel.x, pixel.y), blend);
+        filled_share(pixel.x, pixel.y) = std::max(filled_share(pixel.x, pixel.y), blend);
       SetRgb(photo, photo.Index(pixel.x, pixel.y), glm::mix(colours(x, y), lit, blend));
     }
   }
@@ -56,16 +56,16 @@ void FillFold(std::span<const glm::vec2> line, float smile, float pixels_per_mm,
 
 }  // namespace
 
-FloatImage FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm,
-                          fsm::Image& photo) {
-  FloatImage smooth(photo.width, photo.height);
+Mask FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm, fsm::Image& photo) {
+  FloatImage filled_share(photo.width, photo.height);
   const int valley_px =
       static_cast<int>(std::lround(PhotoLook().smile.folds.half_width_mm * pixels_per_mm));
-  if (smile <= 0 || valley_px < 1) return smooth;
+  if (smile <= 0 || valley_px < 1) return filled_share;
   for (const fsm::Side side : fsm::kSides) {
-    FillFold(face.Line(point::kSmileFold[side]), smile, pixels_per_mm, valley_px, photo, smooth);
+    FillFold(face.Line(point::kSmileFold[side]), smile, pixels_per_mm, valley_px, photo,
+             filled_share);
   }
-  return smooth;
+  return filled_share;
 }
 
 }  // namespace facefit

@@ -7,9 +7,8 @@ namespace facefit {
 
 /// Fills the folds that a smile makes from the wings of the nose past the corners of the mouth;
 /// they would stay dark on a face at rest. Dark valleys narrower than the table's smile.folds take
-/// the colour of what lies beside them. `smile`: part that is filled, 0..1. Returns for each pixel
+/// the colour of what lies beside them. `smile`: share that is filled, 0..1. Returns for each pixel
 /// how much it was filled, 0..1, and so lost its grain.
-FloatImage FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm,
-                          fsm::Image& photo);
+Mask FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm, fsm::Image& photo);
 
 }  // namespace facefit

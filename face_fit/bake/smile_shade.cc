@@ -14,7 +14,7 @@ namespace {
 /// Distances that reference skin of the cheeks keeps from lips, eyes and nose, whose blurred edges
 /// must not enter it.
 constexpr float kFromLipsMm = 2, kBelowEyesMm = 8, kBelowNoseMm = 2;
-/// Part of reference skin around a texel over which shading begins to be removed: none below the
+/// Share of reference skin around a texel over which shading begins to be removed: none below the
 /// first, all from the second on.
 constexpr glm::vec2 kKnownCheek{0.1F, 0.5F};
 
@@ -38,11 +38,11 @@ class Cheeks {
            fsm::SmoothStep(chin_ + look.above_chin_mm, y) *
            fsm::SmoothStep(look.beside_middle_mm, x) *
            std::max(fsm::SmoothStep(wing_ + look.beside_wings_mm, x),
-                    look.below_nose_part * fsm::SmoothStep(nose_ + look.below_nose_mm, y)) *
+                    look.below_nose_share * fsm::SmoothStep(nose_ + look.below_nose_mm, y)) *
            fsm::SmoothStep(look.outside_lips_mm, texels.values[i].within_lips_mm);
   }
   /// Returns whether a texel is reference skin of the cheeks: neither lips nor nose.
-  bool Skin(const SkinTexels& texels, std::size_t i) const {
+  bool IsReferenceSkin(const SkinTexels& texels, std::size_t i) const {
     const float y = Height(texels, i), x = std::abs(texels.values[i].x_mm);
     return texels.values[i].within_lips_mm < -kFromLipsMm && y < eyes_ - kBelowEyesMm &&
            (x > wing_ || y < nose_ - kBelowNoseMm);
@@ -58,9 +58,9 @@ class Cheeks {
 /// Weighted means of colours over a reach.
 class WeightedMeans {
  public:
-  WeightedMeans(const FloatImage& weight, int reach)
+  WeightedMeans(const Mask& weight, int reach)
       : weight_(weight), reach_(reach), sum_(Soft(weight)) {}
-  /// Returns the part of known texels around one, 0..1.
+  /// Returns the share of known texels around one, 0..1.
   float Known(std::size_t i) const { return sum_.values[i]; }
   VectorImage MeansOf(VectorImage colours) const {
     for (std::size_t i = 0; i < colours.values.size(); ++i) colours.values[i] *= weight_.values[i];
@@ -83,43 +83,44 @@ class WeightedMeans {
 
 }  // namespace
 
-void RemoveSmileShading(const ObservedHead& base, const SkinTexels& texels,
-                        const FloatImage& coverage, float smile, fsm::Image& map) {
+void RemoveSmileShading(const ObservedHead& base, const SkinTexels& texels, const Mask& coverage,
+                        float smile, fsm::Image& map) {
   if (smile <= 0) return;
   const auto& shade = PhotoLook().smile.shade;
   const Cheeks cheeks(base);
   FloatImage weight(kMapSize, kMapSize);
   for (std::size_t i = 0; i < weight.values.size(); ++i) {
-    weight.values[i] = cheeks.Skin(texels, i) ? coverage.values[i] * coverage.values[i] : 0.0F;
+    weight.values[i] =
+        cheeks.IsReferenceSkin(texels, i) ? coverage.values[i] * coverage.values[i] : 0.0F;
   }
-  const WeightedMeans fine(weight, static_cast<int>(shade.fine_texels)),
-      wide(weight, static_cast<int>(shade.wide_texels));
+  const WeightedMeans fine(weight, TexelsOf(shade.fine_mm, kMapSize)),
+      wide(weight, TexelsOf(shade.wide_mm, kMapSize));
   const VectorImage colours = Colours(map), fine_mean = fine.MeansOf(colours),
                     wide_mean = wide.MeansOf(colours);
   for (std::size_t i = 0; i < colours.values.size(); ++i) {
-    const float part =
+    const float evened =
         smile * cheeks.ShadeAt(texels, i) * fsm::SmoothStep(kKnownCheek, fine.Known(i));
-    if (part <= 0) continue;
+    if (evened <= 0) continue;
     const glm::vec3 even = (wide_mean.values[i] + 1.0F) / (fine_mean.values[i] + 1.0F);
-    SetRgb(map, i, colours.values[i] * glm::mix(glm::vec3(1), even, part));
+    SetRgb(map, i, colours.values[i] * glm::mix(glm::vec3(1), even, evened));
   }
 }
 
-void GrainFromCheeks(const FloatImage& smooth, fsm::Image& map) {
-  if (std::ranges::none_of(smooth.values, [](float s) { return s > 0; })) return;
+void GrainFromCheeks(const Mask& lost, fsm::Image& map) {
+  if (std::ranges::none_of(lost.values, [](float s) { return s > 0; })) return;
   const auto& look = PhotoLook().smile.grain;
-  const int outward = static_cast<int>(look.outward_texels), up = static_cast<int>(look.up_texels);
-  const int reach = static_cast<int>(look.coarsest_texels);
+  const int outward = TexelsOf(look.outward_mm, kMapSize), up = TexelsOf(look.up_mm, kMapSize);
+  const int reach = TexelsOf(look.coarsest_mm, kMapSize);
   const VectorImage colours = Colours(map), means = Blurred(Blurred(colours, reach), reach);
   for (int y = up; y < kMapSize; ++y) {
     for (int x = outward; x < kMapSize - outward; ++x) {
-      const std::size_t i = smooth.Index(x, y);
-      if (smooth.values[i] <= 0) continue;
-      const std::size_t from = smooth.Index(x < kMapSize / 2 ? x - outward : x + outward, y - up);
+      const std::size_t i = lost.Index(x, y);
+      if (lost.values[i] <= 0) continue;
+      const std::size_t from = lost.Index(x < kMapSize / 2 ? x - outward : x + outward, y - up);
       const glm::vec3 grain = (colours.values[from] + 1.0F) / (means.values[from] + 1.0F) - 1.0F;
       SetRgb(map, i,
              colours.values[i] *
-                 (1.0F + smooth.values[i] * glm::clamp(grain, -look.most_part, look.most_part)));
+                 (1.0F + lost.values[i] * glm::clamp(grain, -look.most_share, look.most_share)));
     }
   }
 }

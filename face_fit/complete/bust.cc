@@ -16,14 +16,14 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
   const ObservedHead& base = *fitted.base;
   // The bust stands upright; it is lowered where the fitted head's chin lies lower than the
   // built-in one's.
-  pose.turn_rad = {};
+  pose.rotation_rad = {};
   const float chin = base.AtRest(point::kChin).y;
-  const glm::vec3 lower(0, chin - fitted.PlaceOf(point::kChin).y, 0);
+  const glm::vec3 lower(0, chin - fitted.PositionOf(point::kChin).y, 0);
   const float highest = chin + PhotoLook().bust.above_chin_mm;
   const fsm::HeadTopology& topology = base.head().topology();
-  std::vector<glm::vec3> place = base.rest().position;
-  for (glm::vec3& p : place) p -= lower;
-  VisibleSurface surface({glm::vec2(0.5F), 1, width, height}, pose.ToScreen(place));
+  std::vector<glm::vec3> positions = base.rest().position;
+  for (glm::vec3& p : positions) p -= lower;
+  VisibleSurface surface({glm::vec2(0.5F), 1, width, height}, pose.ToScreen(positions));
   const auto body = [](fsm::Material m) {
     return m == fsm::Material::kCloth || m == fsm::Material::kSkin;
   };
@@ -36,14 +36,14 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
   Bust bust{none, none, none, VectorImage(width, height, {0, 0, 1}), pose.Project({}).x};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const MeshTriangle* triangle = surface.Triangle(x, y);
+      const MeshTriangle* triangle = surface.TriangleAt(x, y);
       if (!triangle) continue;
-      const MeshPoint place_on_base = surface.Place(x, y);
-      const glm::vec3 normal = place_on_base.On(base.rest().normal);
+      const MeshPoint on_base = surface.MeshPointAt(x, y);
+      const glm::vec3 normal = on_base.On(base.rest().normal);
       if (normal.z <= 0) continue;  // interpolated normals at the outline may point away
       bust.opacity(x, y) = 1;
       bust.cloth(x, y) = triangle->material == fsm::Material::kCloth ? 1.0F : 0.0F;
-      bust.openness(x, y) = place_on_base.On(topology.openness);
+      bust.openness(x, y) = on_base.On(topology.openness);
       bust.normal(x, y) = normal;
     }
   }
@@ -52,9 +52,9 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
 
 }  // namespace
 
-float Bust::HalfWidth(PhotoEdge towards, float row) const {
+float Bust::HalfWidth(PhotoSide side, float row) const {
   const int y = std::clamp(static_cast<int>(row), 0, opacity.height - 1);
-  const int step = towards == PhotoEdge::kLeft ? -1 : 1;
+  const int step = side == PhotoSide::kLeft ? -1 : 1;
   int x = std::clamp(static_cast<int>(axis), 0, opacity.width - 1);
   while (x >= 0 && x < opacity.width && opacity(x, y) > 0.5F) x += step;
   return std::max(std::abs(static_cast<float>(x) + 0.5F - axis), 1.0F);
@@ -70,7 +70,7 @@ Bust DrawBust(const FittedHead& fitted, int width, int height) {
   pose.centre *= static_cast<float>(finer);
   Bust bust = DrawWith(fitted, pose, finer * width, finer * height);
   bust.axis /= static_cast<float>(finer);
-  for (FloatImage* image : {&bust.opacity, &bust.cloth, &bust.openness}) {
+  for (Mask* image : {&bust.opacity, &bust.cloth, &bust.openness}) {
     *image = ScaledDown(*image, width, height);
   }
   bust.normal = ScaledDown(bust.normal, width, height);

@@ -12,16 +12,16 @@ namespace facefit {
 /// The toolkit's own neck, shoulders and clothes, rendered with the photo's camera below the head
 /// of an upright person. The pictures are as large as the canvas.
 struct Bust {
-  FloatImage opacity;  ///< coverage of each pixel, 0..1
-  /// Part of each pixel that is cloth, 0..1; the rest of what is covered is skin.
-  FloatImage cloth;
-  FloatImage openness;  ///< part of the ambient light that arrives, 0..1
-  VectorImage normal;   ///< unit; (0, 0, 1), towards the camera, where nothing is drawn
-  float axis;           ///< x of the body's middle, pixels
+  Mask opacity;  ///< coverage of each pixel, 0..1
+  /// Share of each pixel that is cloth, 0..1; the rest of what is covered is skin.
+  Mask cloth;
+  Mask openness;       ///< share of the ambient light that arrives, 0..1
+  VectorImage normal;  ///< unit; (0, 0, 1), towards the camera, where nothing is drawn
+  float axis;          ///< x of the body's middle, pixels of the canvas
 
   /// Returns the half width in a row: the distance from `axis` to the outline on the left or on the
   /// right, pixels, at least 1.
-  float HalfWidth(PhotoEdge towards, float row) const;
+  float HalfWidth(PhotoSide side, float row) const;
 };
 
 Bust DrawBust(const FittedHead& fitted, int width, int height);

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
 namespace facefit {
 
@@ -14,37 +15,39 @@ struct Paint {
   float opacity = 0;
 };
 
-enum class PhotoEdge { kLeft, kRight };
-inline constexpr std::array kPhotoEdges{PhotoEdge::kLeft, PhotoEdge::kRight};
+/// The left and the right edge of a photo, as its viewer sees them.
+enum class PhotoSide { kLeft, kRight };
+inline constexpr std::array kPhotoSides{PhotoSide::kLeft, PhotoSide::kRight};
 
 /// A value for the left and for the right edge of a photo.
 template <typename T>
-struct PerEdge {
+struct PerSide {
   T left{}, right{};
-  T& operator[](PhotoEdge edge) { return edge == PhotoEdge::kLeft ? left : right; }
-  const T& operator[](PhotoEdge edge) const { return edge == PhotoEdge::kLeft ? left : right; }
+  T& operator[](PhotoSide side) { return side == PhotoSide::kLeft ? left : right; }
+  const T& operator[](PhotoSide side) const { return side == PhotoSide::kLeft ? left : right; }
 };
 
-/// Where a place lies beside a photo: its distances from the photo, pixels, 0 where it is not
-/// beyond that edge. A place at a corner has two of them above 0.
+/// How far a pixel of the canvas lies beyond the edges of the photo, pixels; 0 where it is not
+/// beyond that edge. A pixel beyond a corner has two of them above 0.
 struct Beyond {
-  float below, above, aside;
-  PhotoEdge edge;  ///< the edge that `aside` counts from; kRight where `aside` is 0
+  float below, above, beside;
+  std::optional<PhotoSide> side;  ///< the edge that `beside` counts from, if it is above 0
 };
 
-/// A photo on a larger canvas. Places are in the photo's pixels, y down, also beyond the photo.
+/// A photo on a larger canvas. Where nothing else is said, pixels are the photo's, y down, also
+/// beyond the photo: its first pixel has its centre at (0.5, 0.5).
 /// What each region of the canvas is filled with (drawn for a photo that cuts hair on the left and
 /// a shoulder on the right):
 ///
 /// +------------------- canvas -------------------+
 /// |               ,-~~~~~~~-.                    |  above: hair, rounded off (HairPaint, dome)
 /// |      +-------'-----------`--------+          |  <- upper edge, cuts hair
-/// |    ,-|    hair ,-------. hair     |          |  aside: hair bulges (HairPaint)
+/// |    ,-|    hair ,-------. hair     |          |  beside: hair bulges (HairPaint)
 /// |   (  |   hair |  skin   | hair    |          |
 /// |    `-|   hair  \       /  hair    |          |
 /// |      |   hair   `-chin'           |          |
 /// |      |   hair   | neck | ,--------+-.        |  <- joint row: here the right edge cuts
-/// |      |   hair ,-'\skin/`-' cloth  |  `.      |  aside: the shoulder falls and bends into
+/// |      |   hair ,-'\skin/`-' cloth  |  `.      |  beside: the shoulder falls, bends into
 /// |      |   hair/cloth\ / cloth      |    `.    |         the arm (BodyPaint)
 /// |      +-----------------------------+      \   |  <- lower edge
 /// |       )hair | cloth  `hem'  cloth         |  |  below: strands of hair fall and end;
@@ -55,12 +58,14 @@ struct Canvas {
   glm::ivec2 photo_size;    ///< pixels, as `size`
   glm::ivec2 size;
   float pixels_per_mm;
-  glm::vec2 chin;  ///< place
+  glm::vec2 chin;  ///< a pixel
 
   Beyond BeyondPhoto(glm::vec2 p) const {
     const glm::vec2 end(photo_size);
-    return {std::max(p.y - end.y, 0.0F), std::max(-p.y, 0.0F), std::max({-p.x, p.x - end.x, 0.0F}),
-            p.x < 0 ? PhotoEdge::kLeft : PhotoEdge::kRight};
+    Beyond beyond{std::max(p.y - end.y, 0.0F), std::max(-p.y, 0.0F),
+                  std::max({-p.x, p.x - end.x, 0.0F}), std::nullopt};
+    if (beyond.beside > 0) beyond.side = p.x < 0 ? PhotoSide::kLeft : PhotoSide::kRight;
+    return beyond;
   }
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "face_fit/complete/body_paint.h"
+#include "face_fit/complete/body_shape.h"
 #include "face_fit/complete/canvas.h"
 #include "face_fit/complete/hair_paint.h"
 #include "face_fit/complete/light_on_face.h"
@@ -36,7 +37,7 @@ Canvas CanvasFor(const FigureCutout& figure, const FittedHead& fitted, const Pho
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const glm::vec2 size(figure.opacity.width, figure.opacity.height);
   const auto& look = PhotoLook().canvas;
-  const glm::vec2 reach = pixels_per_mm * glm::vec2(look.aside_of_chin_mm, look.below_chin_mm);
+  const glm::vec2 reach = pixels_per_mm * glm::vec2(look.beside_chin_mm, look.below_chin_mm);
   const float wide = size.x + 2 * PhotoLook().hair.bulge_most_mm * pixels_per_mm;
   const glm::vec2 dome = wide * edges.DomeByWidth();
   const float above = std::clamp(-crown, dome.x, dome.y) + look.above_photo_mm * pixels_per_mm;
@@ -71,8 +72,8 @@ FigureCutout WithoutTips(const PhotoEdges& edges, float pixels_per_mm, FigureCut
 /// The figure on its canvas while parts are painted.
 struct Painted {
   FigureCutout figure;
-  FloatImage known, drawn;  ///< opacity from the photo; opacity of what is painted beyond it
-  FloatImage coloured;      ///< 1 where a colour is known
+  Mask known, drawn;  ///< opacity from the photo; opacity of what is painted beyond it
+  Mask coloured;      ///< 1 where a colour is known
 
   explicit Painted(glm::ivec2 size)
       : figure{fsm::FilledImage(size.x, size.y), FloatImage(size.x, size.y)},
@@ -98,15 +99,16 @@ void CopyPhoto(const Canvas& canvas, const FigureCutout& photo, const FigureCuto
 
 /// Raises the opacity of the lowest rows to that above them where the drawn body continues below:
 /// the matte is uncertain at the very edge.
-void CloseSeam(const Canvas& canvas, const FigureCutout& figure, const BodyPaint& body,
-               FloatImage& opacity) {
+void CloseSeam(const Canvas& canvas, const FigureCutout& figure, const BodyShape& body,
+               Mask& opacity) {
   const int seam = std::max(static_cast<int>(PhotoLook().edge.band_mm * canvas.pixels_per_mm), 1);
   const int above = canvas.photo_size.y - 1 - 2 * seam;
   if (above < 0) return;
   for (int y = canvas.photo_size.y - seam; y < canvas.photo_size.y; ++y) {
     for (int x = 0; x < canvas.photo_size.x; ++x) {
       float& pixel = opacity(x + canvas.photo_origin.x, y + canvas.photo_origin.y);
-      const float below = body.PaintAt(glm::vec2(x, y) + 0.5F).opacity;
+      const glm::vec2 here = glm::vec2(x, y) + 0.5F;
+      const float below = body.OpacityAt(here, body.SampleAt(here));
       pixel = std::max(pixel, std::min(figure.opacity(x, above), below));
     }
   }
@@ -117,8 +119,8 @@ void PaintBeyond(const Canvas& canvas, const BodyPaint& body, const HairPaint& h
     for (int x = 0; x < canvas.size.x; ++x) {
       const glm::ivec2 pixel = glm::ivec2(x, y) - canvas.photo_origin;
       if (pixel == glm::clamp(pixel, glm::ivec2(0), canvas.photo_size - 1)) continue;
-      const glm::vec2 place = glm::vec2(pixel) + 0.5F;
-      const Paint under = body.PaintAt(place), over = hair.PaintAt(place);
+      const glm::vec2 centre = glm::vec2(pixel) + 0.5F;
+      const Paint under = body.PaintAt(centre), over = hair.PaintAt(centre);
       const std::size_t i = out.drawn.Index(x, y);
       SetRgb(out.figure.colours, i, glm::mix(under.colour, over.colour, over.opacity));
       out.drawn.values[i] = over.opacity + (1 - over.opacity) * under.opacity;
@@ -135,21 +137,21 @@ CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& pho
   const fsm::FaceLight light = LightOnFace(fitted, photo);
   const PhotoEdges edges(fitted, photo, 255.0F * light.skin());
   const Canvas canvas =
-      CanvasFor(photo, fitted, edges, fitted.pose.Pixel(fitted.PlaceOf(point::kChin)), crown);
+      CanvasFor(photo, fitted, edges, fitted.pose.Pixel(fitted.PositionOf(point::kChin)), crown);
   const FigureCutout figure = WithoutTips(edges, canvas.pixels_per_mm, photo);
   FittedHead on_canvas = fitted;
   on_canvas.pose.centre += glm::vec2(canvas.photo_origin);
-  const BodyPaint body(canvas, edges, figure.opacity, light,
+  const BodyShape body(canvas, edges, figure.opacity,
                        DrawBust(on_canvas, canvas.size.x, canvas.size.y));
   const HairPaint hair(canvas, edges, figure, crown);
   Painted out(canvas.size);
   CopyPhoto(canvas, photo, figure, out);
   CloseSeam(canvas, figure, body, out.figure.opacity);
-  PaintBeyond(canvas, body, hair, out);
+  PaintBeyond(canvas, BodyPaint(canvas, edges, light, body), hair, out);
   // Fill the colours outside the figure from inside: interpolation mixes them into the outline.
   PushPullInpaint(out.figure.colours, out.coloured);
   const int grain =
-      std::max(static_cast<int>(PhotoLook().grain.coarsest_mm * canvas.pixels_per_mm), 2);
+      std::max(static_cast<int>(PhotoLook().grain.coarsest_on_figure_mm * canvas.pixels_per_mm), 2);
   AddGrain(out.known, out.drawn, grain, out.figure.colours);
   const float neck = canvas.chin.y + PhotoLook().bust.reported_below_chin_mm * canvas.pixels_per_mm;
   return {std::move(out.figure), std::move(on_canvas),

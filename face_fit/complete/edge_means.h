@@ -9,7 +9,7 @@
 
 namespace facefit {
 
-/// Values along an edge, averaged over any part of it in constant time (prefix sums).
+/// Values along an edge, averaged over any piece of it in constant time (prefix sums).
 class EdgeMeans {
  public:
   /// Appends the next pixel of the edge. `weight`: 0..1; 0 means that the value is unknown.
@@ -17,10 +17,10 @@ class EdgeMeans {
     sums_.push_back(sums_.back() + glm::vec4(value * weight, weight));
   }
   /// Returns in x, y, z the mean over `reach` pixels to either side of pixel `at`, near pixels
-  /// weighing more, or 0 if none is known; in w the known part of these pixels, 0..1.
+  /// weighing more, or 0 if none is known; in w the known share of these pixels, 0..1.
   glm::vec4 MeanAround(float at, float reach) const {
     glm::vec4 sum(0);
-    for (const float part : {1.0F, 0.6F, 0.3F}) sum += Sum(at, part * reach) / 3.0F;
+    for (const float share : {1.0F, 0.6F, 0.3F}) sum += Sum(at, share * reach) / 3.0F;
     return {glm::vec3(sum) / std::max(sum.w, 1e-4F), sum.w};
   }
   /// Returns the mean of all known pixels, 0 if there are none.

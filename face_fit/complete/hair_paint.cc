@@ -10,7 +10,7 @@
 namespace facefit {
 namespace {
 
-/// Hair below and beside the photo is fully opaque up to this part of the bulge's width.
+/// Hair below and beside the photo is fully opaque up to this share of the bulge's width.
 constexpr float kWholeBulge = 0.8F;
 
 /// Returns a number of about 0..1 that varies from strand to strand without a visible period. `at`:
@@ -27,7 +27,7 @@ float PingPong(float way, float length) {
 }
 
 /// Half a circle over -1..1: 1 in the middle, 0 at the ends and beyond.
-float Arc(float part) { return std::sqrt(std::max(1 - part * part, 0.0F)); }
+float Arc(float radii) { return std::sqrt(std::max(1 - radii * radii, 0.0F)); }
 
 }  // namespace
 
@@ -37,16 +37,16 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
       edges_(edges),
       figure_(figure),
       top_(TopSpan()),
-      aside_{SpanAside(PhotoEdge::kLeft), SpanAside(PhotoEdge::kRight)} {
+      sides_{SpanOf(PhotoSide::kLeft), SpanOf(PhotoSide::kRight)} {
   const auto& look = PhotoLook().hair;
   const float most = look.bulge_most_mm * canvas.pixels_per_mm;
-  for (const PhotoEdge edge : kPhotoEdges) {
-    bulge_[edge] = std::min(look.bulge_by_length * aside_[edge].Length(), most);
+  for (const PhotoSide side : kPhotoSides) {
+    bulge_[side] = std::min(look.bulge_by_length * sides_[side].Length(), most);
     // Where the upper edge cuts hair up to a corner, the dome extends over the bulge beside it.
-    if (bulge_[edge] <= 0 || aside_[edge].from > 1 || top_.Length() <= 0) continue;
-    if (edge == PhotoEdge::kLeft && top_.from < 1) top_.from -= bulge_[edge];
-    if (edge == PhotoEdge::kRight && top_.to > static_cast<float>(canvas.photo_size.x) - 1) {
-      top_.to += bulge_[edge];
+    if (bulge_[side] <= 0 || sides_[side].from > 1 || top_.Length() <= 0) continue;
+    if (side == PhotoSide::kLeft && top_.from < 1) top_.from -= bulge_[side];
+    if (side == PhotoSide::kRight && top_.to > static_cast<float>(canvas.photo_size.x) - 1) {
+      top_.to += bulge_[side];
     }
   }
   if (top_.Length() > 0) {
@@ -61,7 +61,7 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
   // A mean, because single dark columns below the chin are wrinkles.
   const auto& beard = PhotoLook().beard;
   bearded_ = below_.MeanAround(canvas.chin.x, beard.half_width_mm * canvas.pixels_per_mm).w >
-             beard.hair_part;
+             beard.hair_share;
 }
 
 HairPaint::EdgeSpan HairPaint::TopSpan() const {
@@ -78,12 +78,12 @@ HairPaint::EdgeSpan HairPaint::TopSpan() const {
   return longest;
 }
 
-HairPaint::EdgeSpan HairPaint::SpanAside(PhotoEdge edge) const {
+HairPaint::EdgeSpan HairPaint::SpanOf(PhotoSide side) const {
   // Above the chin everything cut at a side is hair or a hat, whatever its colour; below the chin
   // only what has the hair's colour.
   EdgeSpan longest, span;
   for (int y = 0; y < edges_.height(); ++y) {
-    const EdgeKind kind = edges_.aside(edge, y).kind;
+    const EdgeKind kind = edges_.side(side, y).kind;
     const bool head = static_cast<float>(y) < canvas_.chin.y;
     if (kind == EdgeKind::kHair || (head && kind != EdgeKind::kNothing)) {
       span.to = static_cast<float>(y) + 1;
@@ -100,9 +100,9 @@ float HairPaint::DomeHeight(float x) const {
   return dome_ * Arc((x - 0.5F * (top_.from + top_.to)) / (0.5F * top_.Length()));
 }
 
-float HairPaint::BulgeWidth(PhotoEdge edge, float y) const {
-  const EdgeSpan& span = aside_[edge];
-  const float bulge = bulge_[edge];
+float HairPaint::BulgeWidth(PhotoSide side, float y) const {
+  const EdgeSpan& span = sides_[side];
+  const float bulge = bulge_[side];
   if (bulge <= 0) return 0;
   // Hair cut at a corner of the photo does not end there.
   const float from = span.from < 1 ? -dome_ : span.from;
@@ -111,67 +111,65 @@ float HairPaint::BulgeWidth(PhotoEdge edge, float y) const {
   return bulge * Arc((2 * y - from - to) / (to - from));
 }
 
-glm::vec3 HairPaint::Colour(glm::vec2 place) const {
+glm::vec3 HairPaint::Colour(glm::vec2 pixel) const {
   const glm::vec2 size(canvas_.photo_size);
-  const Beyond beyond = canvas_.BeyondPhoto(place);
-  glm::vec2 pixel = glm::clamp(place, glm::vec2(0.5F), size - 0.5F);
+  const Beyond beyond = canvas_.BeyondPhoto(pixel);
+  glm::vec2 mirrored = glm::clamp(pixel, glm::vec2(0.5F), size - 0.5F);
   const bool above = beyond.above > 0;
-  const int depth_px = above ? edges_.top(static_cast<int>(pixel.x)).hair_depth_px
-                             : edges_.aside(beyond.edge, static_cast<int>(pixel.y)).hair_depth_px;
+  const int reach_px = above
+                           ? edges_.top(static_cast<int>(mirrored.x)).hair_reach_px
+                           : edges_.side(*beyond.side, static_cast<int>(mirrored.y)).hair_reach_px;
   // Mirrored back and forth within the hair, so that no skin is repeated.
   const float inward_px =
-      PingPong(above ? beyond.above : beyond.aside, static_cast<float>(depth_px));
+      PingPong(above ? beyond.above : beyond.beside, static_cast<float>(reach_px));
   if (above) {
-    pixel.y = std::clamp(inward_px, 0.5F, size.y - 0.5F);
+    mirrored.y = std::clamp(inward_px, 0.5F, size.y - 0.5F);
   } else {
-    pixel.x = std::clamp(beyond.edge == PhotoEdge::kLeft ? inward_px : size.x - inward_px, 0.5F,
-                         size.x - 0.5F);
+    mirrored.x = std::clamp(*beyond.side == PhotoSide::kLeft ? inward_px : size.x - inward_px, 0.5F,
+                            size.x - 0.5F);
   }
-  const float mirrored = glm::smoothstep(0.0F, PhotoLook().hair.enough_mm * canvas_.pixels_per_mm,
-                                         static_cast<float>(depth_px));
-  return glm::mix(edges_.hair(), ColourAt(figure_.colours, pixel), mirrored);
+  const float enough = glm::smoothstep(0.0F, PhotoLook().hair.enough_mm * canvas_.pixels_per_mm,
+                                       static_cast<float>(reach_px));
+  return glm::mix(edges_.hair(), ColourAt(figure_.colours, mirrored), enough);
 }
 
-Paint HairPaint::HairBelow(glm::vec2 place, float below_px) const {
+Paint HairPaint::HairBelow(glm::vec2 pixel, float below_px) const {
   const glm::vec2 size(canvas_.photo_size);
   const float below_mm = below_px / canvas_.pixels_per_mm;
-  const float x = place.x < 0 ? -place.x : place.x > size.x ? 2 * size.x - place.x : place.x;
+  const float x = pixel.x < 0 ? -pixel.x : pixel.x > size.x ? 2 * size.x - pixel.x : pixel.x;
   const auto& look = PhotoLook().hair;
   const auto& beard = PhotoLook().beard;
   const glm::vec4 hair = below_.MeanAround(
       x, (look.spread_mm + look.spread_per_mm * below_mm) * canvas_.pixels_per_mm);
   // Below a bearded chin hangs the beard, which is short.
-  const float aside_mm = std::abs(x - canvas_.chin.x) / canvas_.pixels_per_mm;
-  const float falls_mm = bearded_ ? glm::mix(beard.falls_mm, look.falls_mm,
-                                             fsm::SmoothStep(beard.ends_aside_mm, aside_mm))
-                                  : look.falls_mm * fsm::SmoothStep(look.falls_aside_mm, aside_mm);
-  const float end_mm = falls_mm * (0.5F + 0.5F * StrandNoise(place.x / canvas_.pixels_per_mm));
+  const float beside_mm = std::abs(x - canvas_.chin.x) / canvas_.pixels_per_mm;
+  const float falls_mm =
+      bearded_ ? glm::mix(beard.falls_mm, look.falls_mm,
+                          fsm::SmoothStep(beard.ends_beside_chin_mm, beside_mm))
+               : look.falls_mm * fsm::SmoothStep(look.falls_beside_chin_mm, beside_mm);
+  const float end_mm = falls_mm * (0.5F + 0.5F * StrandNoise(pixel.x / canvas_.pixels_per_mm));
   if (below_mm >= end_mm) return {glm::vec3(hair), 0};
   return {glm::vec3(hair),
-          hair.w * glm::smoothstep(end_mm, look.strand_whole_part * end_mm, below_mm)};
+          hair.w * glm::smoothstep(end_mm, look.strand_whole_share * end_mm, below_mm)};
 }
 
-Paint HairPaint::PaintAt(glm::vec2 place) const {
-  const Beyond beyond = canvas_.BeyondPhoto(place);
+Paint HairPaint::PaintAt(glm::vec2 pixel) const {
+  const Beyond beyond = canvas_.BeyondPhoto(pixel);
   if (beyond.below > 0) {
-    Paint hair = HairBelow(place, beyond.below);
-    if (beyond.aside > 0) {
-      const float reach = BulgeWidth(beyond.edge, place.y);
+    Paint hair = HairBelow(pixel, beyond.below);
+    if (beyond.side) {
+      const float reach = BulgeWidth(*beyond.side, pixel.y);
       hair.opacity *=
-          glm::smoothstep(reach, kWholeBulge * reach, beyond.aside) * (reach > 0 ? 1.0F : 0.0F);
+          glm::smoothstep(reach, kWholeBulge * reach, beyond.beside) * (reach > 0 ? 1.0F : 0.0F);
     }
     return hair;
   }
-  const float dome_px = DomeHeight(place.x), bulge_px = BulgeWidth(beyond.edge, place.y);
+  const float inside_px = beyond.above > 0 ? DomeHeight(pixel.x) - beyond.above
+                                           : BulgeWidth(*beyond.side, pixel.y) - beyond.beside;
   const float soft_px = PhotoLook().hair.outline_mm * canvas_.pixels_per_mm *
-                        (0.5F + StrandNoise((place.x + place.y) / canvas_.pixels_per_mm));
-  float within = 1;
-  if (beyond.above > 0) within = std::min(within, (dome_px - beyond.above) / soft_px);
-  if (beyond.aside > 0 && beyond.above <= 0) {
-    within = std::min(within, (bulge_px - beyond.aside) / soft_px);
-  }
-  if (within <= 0) return {};
-  return {Colour(place), std::min(within, 1.0F)};
+                        (0.5F + StrandNoise((pixel.x + pixel.y) / canvas_.pixels_per_mm));
+  if (inside_px <= 0) return {};
+  return {Colour(pixel), std::min(inside_px / soft_px, 1.0F)};
 }
 
 }  // namespace facefit

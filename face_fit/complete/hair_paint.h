@@ -19,30 +19,30 @@ class HairPaint {
   HairPaint(const Canvas& canvas, const PhotoEdges& edges, const FigureCutout& figure, float crown);
   /// Returns whether the photo cuts hair above, on the left or on the right.
   bool Cut() const { return cut_; }
-  /// Returns the hair's colour and opacity at a place. REQUIRES: the place lies beyond the photo.
-  Paint PaintAt(glm::vec2 place) const;
+  /// Returns the hair's colour and opacity at a pixel. REQUIRES: it lies beyond the photo.
+  Paint PaintAt(glm::vec2 pixel) const;
 
  private:
   float DomeHeight(float x) const;
-  float BulgeWidth(PhotoEdge edge, float y) const;
-  glm::vec3 Colour(glm::vec2 place) const;
-  Paint HairBelow(glm::vec2 place, float below_px) const;
+  float BulgeWidth(PhotoSide side, float y) const;
+  glm::vec3 Colour(glm::vec2 pixel) const;
+  Paint HairBelow(glm::vec2 pixel, float below_px) const;
 
-  /// A part of an edge along which it cuts the hair, pixels.
+  /// A run of an edge along which it cuts the hair, pixels.
   struct EdgeSpan {
     float from = 0, to = 0;
     float Length() const { return to - from; }
   };
   EdgeSpan TopSpan() const;
-  EdgeSpan SpanAside(PhotoEdge edge) const;
+  EdgeSpan SpanOf(PhotoSide side) const;
 
   const Canvas& canvas_;
   const PhotoEdges& edges_;
   const FigureCutout& figure_;
   EdgeSpan top_;
-  PerEdge<EdgeSpan> aside_;
+  PerSide<EdgeSpan> sides_;
   float dome_ = 0;        ///< height of the dome above the photo, pixels
-  PerEdge<float> bulge_;  ///< width of the bulge beside the photo, pixels
+  PerSide<float> bulge_;  ///< width of the bulge beside the photo, pixels
   EdgeMeans below_;       ///< the hair's colours along the lower edge
   bool bearded_ = false, cut_ = false;
 };

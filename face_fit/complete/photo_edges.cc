@@ -15,20 +15,21 @@
 namespace facefit {
 namespace {
 
-constexpr float kMostly = 0.5F;       // opacity above which a pixel belongs to the figure
-constexpr float kWholly = 0.9F;       // opacity from which a pixel's colour is the figure's alone
-constexpr float kEnoughPixels = 20;   // pixels that a mean colour of hair needs
-constexpr float kHangingPart = 0.8F;  // part of a column that must be figure for it to hang down
+constexpr float kMostly = 0.5F;        // opacity above which a pixel belongs to the figure
+constexpr float kWholly = 0.9F;        // opacity from which a pixel's colour is the figure's alone
+constexpr float kEnoughPixels = 20;    // pixels that a mean colour of hair needs
+constexpr float kHangingShare = 0.8F;  // share of a column that must be figure for it to hang down
 
 /// Tells hair and clothes from skin by their colours.
 class EdgeClassifier {
  public:
-  /// `brows`: row of the upper end of the forehead; everything above it is head, hair or hat.
-  /// `skin`: colour, 0..255.
-  EdgeClassifier(const FigureCutout& figure, float brows, glm::vec3 skin) : skin_(skin) {
+  /// `forehead_top`: row of the upper end of the forehead; everything above it is head, hair or
+  /// hat. `skin_colour`: 0..255.
+  EdgeClassifier(const FigureCutout& figure, float forehead_top, glm::vec3 skin_colour)
+      : skin_colour_(skin_colour) {
     glm::vec3 sum(0);
     float count = 0;
-    for (int y = 0; y < std::min(figure.opacity.height, static_cast<int>(brows)); ++y) {
+    for (int y = 0; y < std::min(figure.opacity.height, static_cast<int>(forehead_top)); ++y) {
       for (int x = 0; x < figure.opacity.width; ++x) {
         const std::size_t i = figure.opacity.Index(x, y);
         const glm::vec3 colour = Rgb(figure.colours, i);
@@ -44,16 +45,16 @@ class EdgeClassifier {
   EdgeKind KindOf(glm::vec3 colour) const {
     const float from_hair =
         hair_ ? glm::distance(colour, *hair_) : std::numeric_limits<float>::infinity();
-    if (IsSkin(colour) && glm::distance(colour, skin_) < from_hair) return EdgeKind::kSkin;
+    if (IsSkin(colour) && glm::distance(colour, skin_colour_) < from_hair) return EdgeKind::kSkin;
     return from_hair < PhotoLook().edge.hair_colour ? EdgeKind::kHair : EdgeKind::kCloth;
   }
 
  private:
   bool IsSkin(glm::vec3 colour) const {
-    const float part = Brightness(colour) / std::max(Brightness(skin_), 1.0F);
+    const float brightness = Brightness(colour) / std::max(Brightness(skin_colour_), 1.0F);
     const auto& look = PhotoLook().edge;
-    return glm::distance(Hue(colour), Hue(skin_)) < look.skin_hue &&
-           part > look.skin_brightness.x && part < look.skin_brightness.y;
+    return glm::distance(Hue(colour), Hue(skin_colour_)) < look.skin_hue &&
+           brightness > look.skin_brightness.x && brightness < look.skin_brightness.y;
   }
   /// Returns the colour divided by its brightness; dark colours, whose hue is noise, tend to grey.
   static glm::vec3 Hue(glm::vec3 colour) {
@@ -61,17 +62,17 @@ class EdgeClassifier {
     return (colour + kDark) / (Brightness(colour) + kDark);
   }
 
-  glm::vec3 skin_;
+  glm::vec3 skin_colour_;
   std::optional<glm::vec3> hair_;
 };
 
 /// Converts rows and columns of a photo to millimetres below the chin and beside it.
 struct ChinFrame {
-  glm::vec2 chin;  ///< pixel
+  glm::vec2 pixel;  ///< of the chin
   float pixels_per_mm;
-  float Below(int row) const { return (static_cast<float>(row) - chin.y) / pixels_per_mm; }
-  float Aside(std::size_t x) const {
-    return std::abs(static_cast<float>(x) + 0.5F - chin.x) / pixels_per_mm;
+  float Below(int row) const { return (static_cast<float>(row) - pixel.y) / pixels_per_mm; }
+  float Beside(std::size_t x) const {
+    return std::abs(static_cast<float>(x) + 0.5F - pixel.x) / pixels_per_mm;
   }
 };
 
@@ -96,7 +97,7 @@ class EdgeReader {
     return sample;
   }
   /// Counts the figure's pixels that are not skin from `from` on in direction `step`, up to `most`.
-  int HairDepth(glm::ivec2 from, glm::ivec2 step, int most) const {
+  int HairReach(glm::ivec2 from, glm::ivec2 step, int most) const {
     int count = 0;
     for (glm::ivec2 p = from; count < most; p += step, ++count) {
       const std::size_t i = figure_.opacity.Index(p.x, p.y);
@@ -122,7 +123,7 @@ class EdgeReader {
       const std::size_t i = figure_.opacity.Index(static_cast<int>(x), y);
       hanging += figure_.opacity.values[i] > kMostly && counts(i);
     }
-    return static_cast<float>(hanging) >= kHangingPart * static_cast<float>(rows);
+    return static_cast<float>(hanging) >= kHangingShare * static_cast<float>(rows);
   }
 
   const FigureCutout& figure_;
@@ -154,13 +155,13 @@ constexpr RunRule kRunRules[] = {
 
 /// Splits the lower edge of a photo that ends above the shoulders. `below_mm`: distance from the
 /// chin to the lower edge.
-std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const ChinFrame& place,
+std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const ChinFrame& chin,
                         float below_mm) {
   const auto& look = PhotoLook();
   const float neck_mm = look.neck.half_width_mm;
   int cloth = 0, neck = 0;
   for (std::size_t x = 0; x < bottom.size(); ++x) {
-    if (place.Aside(x) > neck_mm) continue;
+    if (chin.Beside(x) > neck_mm) continue;
     cloth += bottom[x].kind == EdgeKind::kCloth;
     ++neck;
   }
@@ -170,12 +171,12 @@ std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const ChinFrame& 
   const auto kind_of = [&](std::size_t x) {
     const EdgeKind kind = bottom[x].kind;
     if (kind == EdgeKind::kNothing) return RunKind::kOther;
-    if (place.Aside(x) > beyond_mm) {
+    if (chin.Beside(x) > beyond_mm) {
       // Below the jaw skin beside the neck may be a raised shoulder.
       return kind == EdgeKind::kSkin && !at_jaw ? RunKind::kOther : RunKind::kBeyondNeck;
     }
     if (kind != EdgeKind::kCloth || collar) return RunKind::kOther;
-    return place.Aside(x) > neck_mm ? RunKind::kClothBesideNeck : RunKind::kClothOnNeck;
+    return chin.Beside(x) > neck_mm ? RunKind::kClothBesideNeck : RunKind::kClothOnNeck;
   };
   std::vector<Run> runs;
   for (std::size_t x = 0; x < bottom.size(); ++x) {
@@ -186,21 +187,21 @@ std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const ChinFrame& 
   return runs;
 }
 
-std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const ChinFrame& place,
-                                   glm::ivec2 size, int band) {
+std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const ChinFrame& chin, glm::ivec2 size,
+                                   int band) {
   const auto& look = PhotoLook();
-  const float hang_from = static_cast<float>(size.y) - look.neck.hangs_mm * place.pixels_per_mm;
+  const float hang_from = static_cast<float>(size.y) - look.neck.hangs_mm * chin.pixels_per_mm;
   std::vector<EdgeSample> bottom;
   for (int x = 0; x < size.x; ++x) {
     EdgeSample& sample = bottom.emplace_back(reader.Sample({x, size.y - band}, {1, band}));
     if (sample.kind == EdgeKind::kHair &&
-        !reader.HairHangsDown(static_cast<std::size_t>(x), std::min(place.chin.y, hang_from))) {
+        !reader.HairHangsDown(static_cast<std::size_t>(x), std::min(chin.pixel.y, hang_from))) {
       sample.kind = EdgeKind::kCloth;
     }
   }
-  const float below_mm = place.Below(size.y);
+  const float below_mm = chin.Below(size.y);
   if (below_mm >= look.neck.no_shoulders_mm) return bottom;
-  for (const auto& [from, to, run_kind] : RunsOf(bottom, place, below_mm)) {
+  for (const auto& [from, to, run_kind] : RunsOf(bottom, chin, below_mm)) {
     const auto* rule = std::ranges::find(kRunRules, run_kind, &RunRule::run);
     if (rule == std::end(kRunRules)) continue;
     bool hangs = false;
@@ -215,18 +216,18 @@ std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const ChinFrame& pl
 std::vector<EdgeSampleWithHair> ReadTop(const EdgeReader& reader, glm::ivec2 size, int band) {
   std::vector<EdgeSampleWithHair> top;
   for (int x = 0; x < size.x; ++x) {
-    top.push_back({reader.Sample({x, 0}, {1, band}), reader.HairDepth({x, 0}, {0, 1}, size.y)});
+    top.push_back({reader.Sample({x, 0}, {1, band}), reader.HairReach({x, 0}, {0, 1}, size.y)});
   }
   return top;
 }
 
-std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, PhotoEdge edge, float chin,
+std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, PhotoSide side, float chin,
                                          glm::ivec2 size, int band) {
-  const bool left = edge == PhotoEdge::kLeft;
+  const bool left = side == PhotoSide::kLeft;
   std::vector<EdgeSampleWithHair> samples;
   for (int y = 0; y < size.y; ++y) {
     samples.push_back({reader.Sample({left ? 0 : size.x - band, y}, {band, 1}),
-                       reader.HairDepth({left ? 0 : size.x - 1, y}, {left ? 1 : -1, 0}, size.x)});
+                       reader.HairReach({left ? 0 : size.x - 1, y}, {left ? 1 : -1, 0}, size.x)});
   }
   // Hair hangs from the head without a gap: dark pixels below a gap are cloth.
   bool gap = false;
@@ -241,16 +242,16 @@ std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, PhotoEdge edg
 /// Returns the mean colour of the figure at both sides above the chin. That is hair or hat even
 /// where it has the skin's brightness and hue, as grey and blond hair do. Returns darkened skin if
 /// the figure does not touch the sides.
-glm::vec3 HairBeside(const PerEdge<std::vector<EdgeSampleWithHair>>& aside, float chin,
-                     glm::vec3 skin) {
+glm::vec3 HairBeside(const PerSide<std::vector<EdgeSampleWithHair>>& sides, float chin,
+                     glm::vec3 skin_colour) {
   glm::vec4 sum(0);
-  for (const PhotoEdge edge : kPhotoEdges) {
-    const auto& samples = aside[edge];
+  for (const PhotoSide side : kPhotoSides) {
+    const auto& samples = sides[side];
     for (std::size_t y = 0; y < samples.size() && static_cast<float>(y) < chin; ++y) {
       if (samples[y].kind != EdgeKind::kNothing) sum += glm::vec4(samples[y].colour, 1);
     }
   }
-  return sum.w > 0 ? glm::vec3(sum) / sum.w : PhotoLook().hair.unseen_by_skin * skin;
+  return sum.w > 0 ? glm::vec3(sum) / sum.w : PhotoLook().hair.unseen_by_skin * skin_colour;
 }
 
 }  // namespace
@@ -263,21 +264,23 @@ glm::vec2 PhotoEdges::DomeByWidth() const {
   return {all ? look.dome_of_whole_edge : look.dome_by_width.x, look.dome_by_width.y};
 }
 
-PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure, glm::vec3 skin) {
+PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure,
+                       glm::vec3 skin_colour) {
   const glm::ivec2 size(figure.opacity.width, figure.opacity.height);
-  const EdgeClassifier classifier(figure, fitted.pose.Pixel(fitted.PlaceOf(point::kForehead)).y,
-                                  skin);
+  const EdgeClassifier classifier(figure, fitted.pose.Pixel(fitted.PositionOf(point::kForehead)).y,
+                                  skin_colour);
   const EdgeReader reader(figure, classifier);
-  const ChinFrame place{fitted.pose.Pixel(fitted.PlaceOf(point::kChin)), fitted.pose.PixelsPerMm()};
+  const ChinFrame chin{fitted.pose.Pixel(fitted.PositionOf(point::kChin)),
+                       fitted.pose.PixelsPerMm()};
   const glm::ivec2 band =
-      glm::clamp(glm::ivec2(static_cast<int>(PhotoLook().edge.band_mm * place.pixels_per_mm)),
+      glm::clamp(glm::ivec2(static_cast<int>(PhotoLook().edge.band_mm * chin.pixels_per_mm)),
                  glm::ivec2(1), size);
-  bottom_ = ReadBottom(reader, place, size, band.y);
+  bottom_ = ReadBottom(reader, chin, size, band.y);
   top_ = ReadTop(reader, size, band.y);
-  for (const PhotoEdge edge : kPhotoEdges) {
-    aside_[edge] = ReadSide(reader, edge, place.chin.y, size, band.x);
+  for (const PhotoSide side : kPhotoSides) {
+    sides_[side] = ReadSide(reader, side, chin.pixel.y, size, band.x);
   }
-  hair_ = classifier.hair() ? *classifier.hair() : HairBeside(aside_, place.chin.y, skin);
+  hair_ = classifier.hair() ? *classifier.hair() : HairBeside(sides_, chin.pixel.y, skin_colour);
 }
 
 }  // namespace facefit

@@ -21,24 +21,24 @@ struct EdgeSample {
 };
 /// A sample of an edge beyond which hair is continued as a mirror image.
 struct EdgeSampleWithHair : EdgeSample {
-  int hair_depth_px = 0;  ///< length of the run inward from the edge without skin or background
+  int hair_reach_px = 0;  ///< length of the run inward from the edge without skin or background
 };
 
 /// Classifies the figure along the edges of a photo: lower and upper edge column by column, left
 /// and right edge row by row.
 class PhotoEdges {
  public:
-  /// `skin`: colour of the face's skin, 0..255. REQUIRES: `figure` has a pixel.
-  PhotoEdges(const FittedHead& fitted, const FigureCutout& figure, glm::vec3 skin);
+  /// `skin_colour`: of the face, 0..255. REQUIRES: `figure` has a pixel.
+  PhotoEdges(const FittedHead& fitted, const FigureCutout& figure, glm::vec3 skin_colour);
 
   int width() const { return static_cast<int>(bottom_.size()); }
-  int height() const { return static_cast<int>(aside_.left.size()); }
+  int height() const { return static_cast<int>(sides_.left.size()); }
   const EdgeSample& bottom(int x) const { return bottom_[static_cast<std::size_t>(x)]; }
   const EdgeSampleWithHair& top(int x) const { return top_[static_cast<std::size_t>(x)]; }
-  const EdgeSampleWithHair& aside(PhotoEdge edge, int y) const {
-    return aside_[edge][static_cast<std::size_t>(y)];
+  const EdgeSampleWithHair& side(PhotoSide side, int y) const {
+    return sides_[side][static_cast<std::size_t>(y)];
   }
-  /// Returns the least and the greatest height of the dome above the photo, as parts of the width
+  /// Returns the least and the greatest height of the dome above the photo, as shares of the width
   /// that the upper edge cuts.
   glm::vec2 DomeByWidth() const;
   /// Returns the mean colour of hair or hat, 0..255.
@@ -47,7 +47,7 @@ class PhotoEdges {
  private:
   std::vector<EdgeSample> bottom_;
   std::vector<EdgeSampleWithHair> top_;
-  PerEdge<std::vector<EdgeSampleWithHair>> aside_;
+  PerSide<std::vector<EdgeSampleWithHair>> sides_;
   glm::vec3 hair_;
 };
 

@@ -9,16 +9,16 @@ namespace facefit {
 
 constexpr glm::vec3 kMiddle{0, -10, 20};  ///< centre of the head's rotation
 
-fsm::Angles AnglesOf(const glm::mat3& turn) {
-  return {glm::degrees(std::asin(std::clamp(-turn[2][1], -1.0F, 1.0F))),
-          glm::degrees(std::atan2(turn[2][0], turn[2][2])),
-          glm::degrees(std::atan2(-turn[0][1], turn[1][1]))};
+fsm::Angles HeadRotationOf(const glm::mat3& rotation) {
+  return {glm::degrees(std::asin(std::clamp(-rotation[2][1], -1.0F, 1.0F))),
+          glm::degrees(std::atan2(rotation[2][0], rotation[2][2])),
+          glm::degrees(std::atan2(-rotation[0][1], rotation[1][1]))};
 }
 
 glm::mat3 CameraPose::Rotation() const {
-  const float cx = std::cos(turn_rad.x), sx = std::sin(turn_rad.x);
-  const float cy = std::cos(turn_rad.y), sy = std::sin(turn_rad.y);
-  const float cz = std::cos(turn_rad.z), sz = std::sin(turn_rad.z);
+  const float cx = std::cos(rotation_rad.x), sx = std::sin(rotation_rad.x);
+  const float cy = std::cos(rotation_rad.y), sy = std::sin(rotation_rad.y);
+  const float cz = std::cos(rotation_rad.z), sz = std::sin(rotation_rad.z);
   const glm::mat3 x(1, 0, 0, 0, cx, sx, 0, -sx, cx);
   const glm::mat3 y(cy, 0, -sy, 0, 1, 0, sy, 0, cy);
   const glm::mat3 z(cz, sz, 0, -sz, cz, 0, 0, 0, 1);
@@ -38,9 +38,9 @@ glm::vec3 CameraPose::Unproject(glm::vec2 pixel, float z) const {
   const glm::vec2 d = (pixel - centre) * ((kCameraZ - z) / focal);
   return {d.x, -d.y, z};
 }
-std::vector<glm::vec3> CameraPose::ToScreen(std::span<const glm::vec3> places) const {
+std::vector<glm::vec3> CameraPose::ToScreen(std::span<const glm::vec3> positions) const {
   std::vector<glm::vec3> screen;
-  for (const glm::vec3& p : places) {
+  for (const glm::vec3& p : positions) {
     const glm::vec3 q = ToCamera(p);
     screen.emplace_back(Project(q), q.z);
   }

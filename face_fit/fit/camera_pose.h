@@ -10,36 +10,49 @@
 
 namespace facefit {
 
-/// Depth of the face's plane and of the camera, head's frame, millimetres. The camera is as far
-/// away as the renderer's (its kFaceDepth), whose lens of 25 degrees shows a portrait 330 mm high.
+// Frames. Both are right-handed, in millimetres; frames and pixels are said at every function.
+//
+//   head's frame     as of fsm::HeadVertices at rest: x to the person's left, which is the viewer's
+//                    right, y up, z forward out of the face; the origin is midway between the ears
+//   camera's frame   the head's frame where rotation_rad is 0; otherwise the head is rotated in it
+//                    about (0, -10, 20). The camera stands at (0, 0, kCameraZ) and looks along -z,
+//                    so that a greater z is nearer to it: z is the depth towards the camera
+//   pixel            x to the right, y down, the centre of the first at (0.5, 0.5)
+
+/// Depth of the face's plane and of the camera, camera's frame. The camera is as far away as the
+/// renderer's (its kFaceDepth), whose lens of 25 degrees shows a portrait 330 mm high.
 inline constexpr float kFaceZ = 50;
 inline constexpr float kCameraZ = kFaceZ + 744;
 
-/// Returns the angles, degrees, of a rotation that is the product of rotations about y, x and z, as
-/// FaceState::head_rotation.
-fsm::Angles AnglesOf(const glm::mat3& turn);
+/// Returns FaceState::head_rotation of a rotation: the inverse of fsm::HeadTurn. Not the angles of
+/// a CameraPose, which are in another order and tilt the other way.
+fsm::Angles HeadRotationOf(const glm::mat3& rotation);
 
-/// How a photo was taken: the head is rotated about its middle in front of a camera as far away as
-/// the renderer's, so that a fitted head looks the same there.
+/// How a photo was taken: the head is rotated in front of a camera as far away as the renderer's,
+/// so that a fitted head looks the same there.
 struct CameraPose {
-  glm::vec3 turn_rad{};  ///< about x, y, z
-  float focal = 1;       ///< pixels
-  glm::vec2 centre{};    ///< pixel on the camera's axis
+  /// Right-handed about the fixed axes of the camera's frame. Positive x bends the face down, y
+  /// turns it to the person's left, z tilts the head to its right, counter-clockwise for the
+  /// viewer.
+  glm::vec3 rotation_rad{};
+  float focal = 1;     ///< pixels
+  glm::vec2 centre{};  ///< pixel on the camera's axis
 
+  /// From the head's axes to the camera's: first about y, then x, then z, so z * x * y as matrices.
   glm::mat3 Rotation() const;
-  /// From the head's frame to the camera's, and back: millimetres, same axes where turn_rad is 0.
+  /// From the head's frame to the camera's, and back.
   glm::vec3 ToCamera(glm::vec3 p) const;
   glm::vec3 FromCamera(glm::vec3 q) const;
   /// Returns the direction from the head to the camera, head's frame, unit.
   glm::vec3 TowardsCamera() const;
   glm::vec2 Project(glm::vec3 q) const;  ///< from the camera's frame to pixels
-  /// Returns the place of a pixel at depth z of the camera's frame.
+  /// From a pixel to the position at depth `z`, camera's frame.
   glm::vec3 Unproject(glm::vec2 pixel, float z) const;
-  /// From the head's frame to a pixel, and back to the place at depth `z` of the camera's frame.
+  /// From the head's frame to a pixel, and back to the position at depth `z` of the camera's frame.
   glm::vec2 Pixel(glm::vec3 p) const { return Project(ToCamera(p)); }
-  glm::vec3 PlaceAt(glm::vec2 pixel, float z) const { return FromCamera(Unproject(pixel, z)); }
-  /// Projects places; the third coordinate is the depth in the camera's frame.
-  std::vector<glm::vec3> ToScreen(std::span<const glm::vec3> places) const;
+  glm::vec3 PositionAt(glm::vec2 pixel, float z) const { return FromCamera(Unproject(pixel, z)); }
+  /// From the head's frame to pixels; the third coordinate is the depth in the camera's frame.
+  std::vector<glm::vec3> ToScreen(std::span<const glm::vec3> positions) const;
   float PixelsPerMm() const;  ///< at the depth of the face
 };
 

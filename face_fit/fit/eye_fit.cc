@@ -24,30 +24,30 @@ fsm::EyeTransform FitEye(const ObservedHead& base, const std::map<PointIndex, gl
                          fsm::Side side) {
   const auto outline = EyeOutline(side);
   const glm::vec3 centre = base.head().topology().eyes[side].centre;
-  const auto place = [&](std::size_t k) { return base.AtRest(outline[k]); };
-  const float inner = place(kInnerCorner).x, outer = place(kOuterCorner).x;
+  const auto at_rest = [&](std::size_t k) { return base.AtRest(outline[k]); };
+  const float inner = at_rest(kInnerCorner).x, outer = at_rest(kOuterCorner).x;
   // Unknown: shift x and y, size times cosine and sine of the turn, raise of upper and lower lid.
   LinearLeastSquares sum;
   float forward = 0;
   for (std::size_t k = 0; k < outline.size(); ++k) {
-    const glm::vec3 p = place(k) - centre;
+    const glm::vec3 p = at_rest(k) - centre;
     const glm::vec3 q = to.at(outline[k]) - centre;
-    const double open = static_cast<double>(LidOpening(place(k).x, inner, outer));
+    const double share = static_cast<double>(LidShare(at_rest(k).x, inner, outer));
     const bool upper = k > 0 && k < kInnerCorner;
     const bool lower = k > kInnerCorner;
     const double px = static_cast<double>(p.x), py = static_cast<double>(p.y);
     sum.Add({1, 0, px, -py, 0, 0}, static_cast<double>(q.x));
-    sum.Add({0, 1, py, px, upper ? open : 0, lower ? open : 0}, static_cast<double>(q.y));
+    sum.Add({0, 1, py, px, upper ? share : 0, lower ? share : 0}, static_cast<double>(q.y));
     forward += (q.z - p.z) / static_cast<float>(outline.size());
   }
   const auto solved = sum.Solve(1e-6);
-  const auto part = [&solved](std::size_t i) { return static_cast<float>(solved[i]); };
+  const auto unknown = [&solved](std::size_t i) { return static_cast<float>(solved[i]); };
   fsm::EyeTransform transform;
-  transform.size = Within(kSize, std::hypot(part(2), part(3)));
-  transform.turn = Within(kTurn, std::atan2(part(3), part(2)));
-  transform.shift = {part(0), part(1), forward};
-  transform.upper_mm = Within(kUpperRaise, part(4) / transform.size);
-  transform.lower_mm = Within(kLowerRaise, part(5) / transform.size);
+  transform.size = Within(kSize, std::hypot(unknown(2), unknown(3)));
+  transform.turn = Within(kTurn, std::atan2(unknown(3), unknown(2)));
+  transform.shift = {unknown(0), unknown(1), forward};
+  transform.upper_mm = Within(kUpperRaise, unknown(4) / transform.size);
+  transform.lower_mm = Within(kLowerRaise, unknown(5) / transform.size);
   return transform;
 }
 
@@ -59,14 +59,14 @@ fsm::Sided<fsm::EyeTransform> FitEyes(const ObservedHead& base,
 }
 
 fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted) {
-  const float kept = PhotoLook().squint_kept_part;
+  const float kept = PhotoLook().squint_kept_share;
   const ObservedHead& base = *fitted.base;
   fsm::HeadVertices posed;
   base.head().Evaluate(fitted.expression.State(), posed);
   fsm::Sided<fsm::EyeTransform> transforms = fitted.eyes;
   for (const fsm::Side side : fsm::kSides) {
     const auto raised = [&](std::size_t k) {
-      const MeshPoint& lid = base.places()[EyeOutline(side)[k]];
+      const MeshPoint& lid = base.mesh_points()[EyeOutline(side)[k]];
       return lid.On(posed.position).y - lid.On(base.rest().position).y;
     };
     transforms[side].upper_mm += kept * std::min(raised(kUpperMiddle), 0.0F);

@@ -7,6 +7,7 @@
 
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/fit/pose_fit.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
@@ -24,7 +25,7 @@ Expression ExpressionOf(const Parameters& p) {
 }
 
 std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& parameters) {
-  const CameraPose pose = PoseOf(parameters);
+  const CameraPose pose = PoseFromParameters(parameters);
   fsm::HeadVertices vertices;
   problem.base.head().Evaluate(ExpressionOf(parameters).State(), vertices);
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
@@ -32,7 +33,7 @@ std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& par
   std::vector<float> depth;
   float mean = 0;
   for (const PointIndex k : point::kForFit) {
-    const glm::vec3 q = pose.ToCamera(problem.base.places()[k].On(vertices.position));
+    const glm::vec3 q = pose.ToCamera(problem.base.mesh_points()[k].On(vertices.position));
     const glm::vec2 offset = (pose.Project(q) - problem.face.PixelOf(k)) * mm_per_pixel;
     out.push_back(static_cast<double>(offset.x));
     out.push_back(static_cast<double>(offset.y));
@@ -54,7 +55,7 @@ std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& par
   return out;
 }
 
-Parameters Refine(const FitProblem& problem, const CameraPose& start) {
+Parameters FitPoseAndExpression(const FitProblem& problem, const CameraPose& start) {
   std::vector<Unknown> unknowns = PoseUnknowns(start);
   for (std::size_t i = kSmile; i < kFitParameters; ++i) {
     unknowns.push_back({.start = 0, .step = 0.05, .low = 0, .high = kMaxExpression});
@@ -70,25 +71,25 @@ CameraPose InitialPose(const ObservedHead& base, const FoundFace& face) {
   const float width_mm = glm::distance(base.AtRest(kEyeOuterRight), base.AtRest(kEyeOuterLeft));
   const float pixels_per_mm = glm::distance(right, left) / width_mm;
   const glm::vec3 root = base.AtRest(kNoseBridge);
-  return {.turn_rad = {0, 0, -std::atan2(left.y - right.y, left.x - right.x)},
+  return {.rotation_rad = {0, 0, -std::atan2(left.y - right.y, left.x - right.x)},
           .focal = pixels_per_mm * (kCameraZ - kFaceZ),
           .centre = face.PixelOf(kNoseBridge) + pixels_per_mm * glm::vec2(-root.x, root.y)};
 }
 
-/// Returns the strength of a smile without the part that mouths at rest have: they differ from the
-/// built-in one as if they smiled. Of a closed mouth that part is always subtracted, since removing
+/// Returns the strength of a smile without what mouths at rest have: they differ from the
+/// built-in one as if they smiled. Of a closed mouth that is always subtracted, since removing
 /// it would leave a grim face. Parted lips show teeth, so more than a little is a smile as a whole.
 float SmileBeyondRest(float smile, bool lips_apart) {
-  constexpr float kUsualApart = 0.12F, kUsualClosed = 0.45F;
-  if (lips_apart) return smile < kUsualApart ? 0 : smile;
-  return std::max(smile - kUsualClosed, 0.0F);
+  const auto& resting = PhotoLook().resting_smile;
+  if (lips_apart) return smile < resting.lips_apart ? 0 : smile;
+  return std::max(smile - resting.lips_closed, 0.0F);
 }
 
 /// Returns the mean distance of the face's points from those of the fitted head, millimetres.
 float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
   float sum = 0;
   for (const PointIndex k : point::kForFit) {
-    const glm::vec3 q = fitted.pose.ToCamera(fitted.PlaceOf(k));
+    const glm::vec3 q = fitted.pose.ToCamera(fitted.PositionOf(k));
     sum += glm::distance(fitted.pose.Project(q), face.PixelOf(k));
   }
   return sum / fitted.pose.PixelsPerMm() / static_cast<float>(std::size(point::kForFit));
@@ -98,8 +99,8 @@ float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
 
 Fit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image* photo) {
   const FitProblem problem(base, face);
-  const Parameters settled = Refine(problem, InitialPose(base, face));
-  const CameraPose pose = PoseOf(settled);
+  const Parameters settled = FitPoseAndExpression(problem, InitialPose(base, face));
+  const CameraPose pose = PoseFromParameters(settled);
   Expression expression = ExpressionOf(settled);
   expression.smile = SmileBeyondRest(expression.smile, problem.lips_apart);
   const PhotoIrises irises = FindPhotoIrises(base, face, photo);

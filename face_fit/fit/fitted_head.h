@@ -39,8 +39,8 @@ struct FittedHead {
   fsm::Sided<fsm::EyeTransform> eyes;
   /// Every vertex of the base in the photo's expression and the person's form, head's frame.
   std::vector<glm::vec3> posed_vertices;
-  /// Returns the place of a point of the network in the photo's expression, head's frame.
-  glm::vec3 PlaceOf(PointIndex i) const { return base->places()[i].On(posed_vertices); }
+  /// Returns the position of a point of the network in the photo's expression, head's frame.
+  glm::vec3 PositionOf(PointIndex i) const { return base->mesh_points()[i].On(posed_vertices); }
 };
 
 }  // namespace facefit

@@ -16,7 +16,7 @@
 namespace facefit {
 namespace {
 
-/// Part of the remaining way that points of the warp are moved in the second pass. The whole way
+/// Share of the remaining way that points of the warp are moved in the second pass. The whole way
 /// would overshoot, because neighbouring points move as well.
 constexpr float kCorrectionGain = 0.8F;
 
@@ -40,7 +40,7 @@ std::vector<glm::vec3> PosedSkin(const FittedHead& fitted) {
 
 /// Returns where the photo shows the point of a constraint, head's frame.
 glm::vec3 TargetOf(const CameraPose& pose, const LandmarkConstraint& constraint) {
-  return pose.PlaceAt(constraint.pixel, constraint.z_mm);
+  return pose.PositionAt(constraint.pixel, constraint.z_mm);
 }
 
 /// A point of the warp and the constraint it follows, by their indices.
@@ -54,10 +54,10 @@ struct WarpPoints {
 };
 /// Returns the points of the warp that the constraints ask for; `now`: the vertices with the
 /// expression.
-WarpPoints PlaceWarpPoints(const ObservedHead& base, const CameraPose& pose,
-                           const PhotoTargets& targets, const fsm::Sided<fsm::EyeTransform>& eyes,
-                           const std::vector<glm::vec3>& now) {
-  WarpPoints placed;
+WarpPoints MakeWarpPoints(const ObservedHead& base, const CameraPose& pose,
+                          const PhotoTargets& targets, const fsm::Sided<fsm::EyeTransform>& eyes,
+                          const std::vector<glm::vec3>& now) {
+  WarpPoints made;
   for (std::size_t i = 0; i < targets.constraints.size(); ++i) {
     const LandmarkConstraint& constraint = targets.constraints[i];
     // At rest both inner lips are one line, which cannot be moved to two separate ones.
@@ -66,16 +66,16 @@ WarpPoints PlaceWarpPoints(const ObservedHead& base, const CameraPose& pose,
     if (const auto side = EyeOf(constraint)) {
       // Lids move with the eye, and the skin around them must follow.
       const glm::vec3 centre = base.head().topology().eyes[*side].centre;
-      placed.points.push_back({rest, eyes[*side].Placed(centre, rest) - rest});
+      made.points.push_back({rest, eyes[*side].Placed(centre, rest) - rest});
     } else {
-      placed.correctable.push_back({placed.points.size(), i});
-      placed.points.push_back({rest, TargetOf(pose, constraint) - constraint.on_head.On(now)});
+      made.correctable.push_back({made.points.size(), i});
+      made.points.push_back({rest, TargetOf(pose, constraint) - constraint.on_head.On(now)});
     }
   }
-  return placed;
+  return made;
 }
 
-/// Returns the eyes that the constraints show; `now`: as for PlaceWarpPoints.
+/// Returns the eyes that the constraints show; `now`: as for MakeWarpPoints.
 fsm::Sided<fsm::EyeTransform> EyesOf(const ObservedHead& base, const CameraPose& pose,
                                      const PhotoTargets& targets,
                                      const std::vector<glm::vec3>& now) {
@@ -110,11 +110,11 @@ FittedHead WarpToLandmarks(const ObservedHead& base, const CameraPose& pose,
   base.head().Evaluate(expression.State(), posed);
   const std::vector<glm::vec3>& now = posed.position;
   const auto eyes = EyesOf(base, pose, targets, now);
-  WarpPoints placed = PlaceWarpPoints(base, pose, targets, eyes, now);
+  WarpPoints made = MakeWarpPoints(base, pose, targets, eyes, now);
   FittedHead fitted{.base = &base,
                     .pose = pose,
                     .expression = expression,
-                    .warp_points = std::move(placed.points),
+                    .warp_points = std::move(made.points),
                     .eyes = eyes,
                     .posed_vertices = now};
   const fsm::Warp warp(fitted.warp_points, fitted.smooth_mm);
@@ -124,10 +124,10 @@ FittedHead WarpToLandmarks(const ObservedHead& base, const CameraPose& pose,
   // The warped head's own units, lids and lips move points slightly off; a second pass corrects
   // that.
   fitted.posed_vertices = PosedSkin(fitted);
-  for (const auto& [warp_point, of] : placed.correctable) {
+  for (const auto& [warp_point, of] : made.correctable) {
     const LandmarkConstraint& constraint = targets.constraints[of];
     const glm::vec3 q = pose.ToCamera(constraint.on_head.On(fitted.posed_vertices));
-    const glm::vec3 target = pose.PlaceAt(constraint.pixel, q.z);
+    const glm::vec3 target = pose.PositionAt(constraint.pixel, q.z);
     fitted.warp_points[warp_point].by += kCorrectionGain * (target - pose.FromCamera(q));
   }
   fitted.posed_vertices = PosedSkin(fitted);

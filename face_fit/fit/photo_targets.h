@@ -4,15 +4,15 @@
 #include <span>
 #include <vector>
 
-#include "face_fit/find/face/iris.h"
 #include "face_fit/find/head/observed_head.h"
 #include "face_fit/find/network/face_finder.h"
 #include "face_fit/fit/camera_pose.h"
 #include "face_fit/fit/fitted_head.h"
+#include "face_fit/fit/photo_irises.h"
 
 namespace facefit {
 
-/// A place on the head that must appear at a pixel of the photo, at a depth.
+/// A point of the head that must appear at a pixel of the photo, at a depth.
 struct LandmarkConstraint {
   std::optional<PointIndex> point;  ///< if it is a point of the network
   MeshPoint on_head;
@@ -28,15 +28,6 @@ struct PhotoTargets {
   std::vector<LandmarkConstraint> constraints;
   bool lips_apart = false;
 };
-
-/// The irises in the photo.
-struct PhotoIrises {
-  fsm::Sided<IrisCircle> circles;
-  float size = 1;  ///< iris radius relative to the built-in head's, after scaling by the eye's size
-};
-/// Without a photo irises are placed by the outlines of the eyes, with a contrast of 0.
-PhotoIrises FindPhotoIrises(const ObservedHead& base, const FoundFace& face,
-                            const fsm::Image* photo);
 
 /// A face and the head that is fitted to it. Both must outlive this object.
 struct FitProblem {

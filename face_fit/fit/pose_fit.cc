@@ -8,19 +8,19 @@ namespace facefit {
 namespace {
 
 glm::vec2 OffsetMm(const CameraPose& pose, const PointMatch& match) {
-  return (pose.Pixel(match.place) - match.pixel) / pose.PixelsPerMm();
+  return (pose.Pixel(match.position) - match.pixel) / pose.PixelsPerMm();
 }
 
 }  // namespace
 
-std::vector<Unknown> PoseUnknowns(const CameraPose& start, double max_turn_rad) {
+std::vector<Unknown> PoseUnknowns(const CameraPose& start, double max_rotation_rad) {
   constexpr double kTurnStep = 1e-3, kFocalStep = 1e-3, kCentreStep = 0.5;
   std::vector<Unknown> unknowns;
   for (int axis = 0; axis < 3; ++axis) {
-    unknowns.push_back({.start = start.turn_rad[axis],
+    unknowns.push_back({.start = start.rotation_rad[axis],
                         .step = kTurnStep,
-                        .low = -max_turn_rad,
-                        .high = max_turn_rad});
+                        .low = -max_rotation_rad,
+                        .high = max_rotation_rad});
   }
   unknowns.push_back({.start = std::log(static_cast<double>(start.focal)), .step = kFocalStep});
   unknowns.push_back({.start = start.centre.x, .step = kCentreStep});
@@ -28,18 +28,18 @@ std::vector<Unknown> PoseUnknowns(const CameraPose& start, double max_turn_rad) 
   return unknowns;
 }
 
-CameraPose PoseOf(std::span<const double> parameters) {
+CameraPose PoseFromParameters(std::span<const double> parameters) {
   const auto value = [&](PoseParameter p) { return static_cast<float>(parameters[p]); };
-  return {.turn_rad = {value(kTurnX), value(kTurnY), value(kTurnZ)},
+  return {.rotation_rad = {value(kRotationX), value(kRotationY), value(kRotationZ)},
           .focal = std::exp(value(kLogFocal)),
           .centre = {value(kCentreX), value(kCentreY)}};
 }
 
-CameraPose RefinePose(std::span<const PointMatch> matches, const CameraPose& start) {
+CameraPose FitPose(std::span<const PointMatch> matches, const CameraPose& start) {
   constexpr float kPlainMm = 3;
   constexpr double kMaxTurn = 1.6;  // radians
   const auto residuals = [&](const std::vector<double>& parameters) {
-    const CameraPose pose = PoseOf(parameters);
+    const CameraPose pose = PoseFromParameters(parameters);
     std::vector<double> out;
     for (const PointMatch& match : matches) {
       const glm::vec2 offset = OffsetMm(pose, match);
@@ -51,15 +51,16 @@ CameraPose RefinePose(std::span<const PointMatch> matches, const CameraPose& sta
     }
     return out;
   };
-  return PoseOf(LevenbergMarquardt(residuals, PoseUnknowns(start, kMaxTurn), kPoseRounds));
+  return PoseFromParameters(
+      LevenbergMarquardt(residuals, PoseUnknowns(start, kMaxTurn), kPoseRounds));
 }
 
-CameraPose PoseWithTurn(const std::vector<glm::vec3>& places, const std::vector<glm::vec2>& pixels,
-                        glm::vec3 turn_rad) {
-  CameraPose pose{.turn_rad = turn_rad};
+CameraPose PoseWithRotation(const std::vector<glm::vec3>& positions,
+                            const std::vector<glm::vec2>& pixels, glm::vec3 rotation_rad) {
+  CameraPose pose{.rotation_rad = rotation_rad};
   LinearLeastSquares equations;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const glm::vec2 u = pose.Pixel(places[i]);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const glm::vec2 u = pose.Pixel(positions[i]);
     equations.Add({static_cast<double>(u.x), 1, 0}, static_cast<double>(pixels[i].x));
     equations.Add({static_cast<double>(u.y), 0, 1}, static_cast<double>(pixels[i].y));
   }

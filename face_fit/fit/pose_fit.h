@@ -11,7 +11,7 @@ namespace facefit {
 
 /// A point in the head's frame and where a photo shows it.
 struct PointMatch {
-  glm::vec3 place;
+  glm::vec3 position;
   glm::vec2 pixel;
   float weight = 1;
 };
@@ -19,29 +19,29 @@ struct PointMatch {
 /// The unknowns of a pose in a least-squares fit. The focal length is represented by its logarithm,
 /// so that it stays positive.
 enum PoseParameter : std::size_t {
-  kTurnX,
-  kTurnY,
-  kTurnZ,
+  kRotationX,
+  kRotationY,
+  kRotationZ,
   kLogFocal,
   kCentreX,
   kCentreY,
   kPoseParameters
 };
-/// Returns these unknowns in this order; turns are limited to +-max_turn_rad.
-std::vector<Unknown> PoseUnknowns(const CameraPose& start,
-                                  double max_turn_rad = std::numeric_limits<double>::infinity());
+/// Returns these unknowns in this order; rotations are limited to +-max_rotation_rad.
+std::vector<Unknown> PoseUnknowns(
+    const CameraPose& start, double max_rotation_rad = std::numeric_limits<double>::infinity());
 /// Returns the pose. REQUIRES: at least kPoseParameters numbers.
-CameraPose PoseOf(std::span<const double> parameters);
+CameraPose PoseFromParameters(std::span<const double> parameters);
 /// Steps in which a fit of a pose converges, with or without an expression.
 inline constexpr int kPoseRounds = 20;
 
 /// Returns the pose that projects the matches nearest to their pixels, starting from `start`.
 /// Distances above 3 mm count linearly, others squared.
-CameraPose RefinePose(std::span<const PointMatch> matches, const CameraPose& start);
-/// Returns the pose with the given turn that projects places nearest to pixels.
-CameraPose PoseWithTurn(const std::vector<glm::vec3>& places, const std::vector<glm::vec2>& pixels,
-                        glm::vec3 turn_rad);
-/// Returns the weighted mean distance between the matches' pixels and projected places.
+CameraPose FitPose(std::span<const PointMatch> matches, const CameraPose& start);
+/// Returns the pose with the given rotation that projects positions nearest to pixels.
+CameraPose PoseWithRotation(const std::vector<glm::vec3>& positions,
+                            const std::vector<glm::vec2>& pixels, glm::vec3 rotation_rad);
+/// Returns the weighted mean distance between the matches' pixels and projected positions.
 float MeanDistanceMm(const CameraPose& pose, std::span<const PointMatch> matches);
 
 }  // namespace facefit

@@ -20,13 +20,13 @@ constexpr float kEvenMm = 2.2F;  // sigma of the Gaussian over height that smoot
 constexpr float kWideMm = 24;
 constexpr float kMaxCorrectionMm = 6;     // in one round
 constexpr float kProfileBelowChinMm = 1;  // the profile ends there: the throat has no targets
-constexpr int kProfileRounds = 3, kPlacingRounds = 6;
+constexpr int kProfileRounds = 3, kOutlineRounds = 6;
 
-/// Returns how far before a place of the profile the outline lies (negative: behind), millimetres
+/// Returns how far before a point of the profile the outline lies (negative: behind), millimetres
 /// of depth; nothing beyond kReachMm.
-std::optional<float> DepthGap(const FloatImage& opacity, const CameraPose& pose, glm::vec3 place) {
+std::optional<float> DepthGap(const Mask& opacity, const CameraPose& pose, glm::vec3 position) {
   const auto inside = [&](float depth) {
-    const glm::vec2 pixel = pose.Pixel(place + glm::vec3(0, 0, depth));
+    const glm::vec2 pixel = pose.Pixel(position + glm::vec3(0, 0, depth));
     return opacity.SampleAt(pixel.x, pixel.y) - 0.5F;
   };
   if (inside(kReachMm) > 0) return {};
@@ -39,7 +39,7 @@ std::optional<float> DepthGap(const FloatImage& opacity, const CameraPose& pose,
   return {};
 }
 
-float MeanDepthGap(const FloatImage& opacity, const CameraPose& pose,
+float MeanDepthGap(const Mask& opacity, const CameraPose& pose,
                    const std::vector<glm::vec3>& line) {
   float sum = 0;
   for (const glm::vec3& p : line) {
@@ -49,24 +49,24 @@ float MeanDepthGap(const FloatImage& opacity, const CameraPose& pose,
   return sum;
 }
 
-/// Refines scale, place and lean of the profile by the outline found near it.
-CameraPose FitPoseToOutline(const FloatImage& opacity, CameraPose pose,
+/// Refines scale, position and lean of the profile by the outline found near it.
+CameraPose FitPoseToOutline(const Mask& opacity, CameraPose pose,
                             const std::vector<glm::vec3>& line) {
-  for (int round = 0; round < kPlacingRounds; ++round) {
-    std::vector<glm::vec3> places;
+  for (int round = 0; round < kOutlineRounds; ++round) {
+    std::vector<glm::vec3> positions;
     std::vector<glm::vec2> pixels;
     for (const glm::vec3& p : line) {
       const auto depth = DepthGap(opacity, pose, p);
       if (!depth) continue;
-      places.push_back(p);
+      positions.push_back(p);
       pixels.push_back(pose.Pixel(p + glm::vec3(0, 0, *depth)));
     }
-    if (places.size() < line.size() / 2) return pose;
+    if (positions.empty() || positions.size() < line.size() / 2) return pose;
     CameraPose best = pose;
     float best_gap = MeanDepthGap(opacity, pose, line);
     for (const float lean_deg : {-2.0F, -1.0F, -0.4F, 0.0F, 0.4F, 1.0F, 2.0F}) {
-      const CameraPose next =
-          PoseWithTurn(places, pixels, pose.turn_rad + glm::vec3(0, 0, glm::radians(lean_deg)));
+      const CameraPose next = PoseWithRotation(
+          positions, pixels, pose.rotation_rad + glm::vec3(0, 0, glm::radians(lean_deg)));
       const float gap = MeanDepthGap(opacity, next, line);
       if (gap >= best_gap) continue;
       best_gap = gap;
@@ -80,7 +80,7 @@ CameraPose FitPoseToOutline(const FloatImage& opacity, CameraPose pose,
 /// Missing depth as a function of height along the profile, smoothed.
 class DepthGaps {
  public:
-  DepthGaps(const FloatImage& opacity, const CameraPose& pose, const std::vector<glm::vec3>& line) {
+  DepthGaps(const Mask& opacity, const CameraPose& pose, const std::vector<glm::vec3>& line) {
     for (const glm::vec3& p : line) {
       if (const auto gap = DepthGap(opacity, pose, p)) gaps_.emplace_back(p.y, *gap);
     }
@@ -113,21 +113,21 @@ Fit WithoutGaps(const DepthGaps& gaps, const Fit& fit) {
 }
 
 /// Returns the pose that projects the profile to where it was found.
-CameraPose PoseOf(const ProfilePlacement& placement, const std::vector<glm::vec3>& line) {
+CameraPose PoseOfProfile(const ProfilePlacement& placement, const std::vector<glm::vec3>& line) {
   std::vector<glm::vec2> pixels;
   for (const glm::vec3& p : line) pixels.push_back(placement.PixelOf(p));
-  return PoseWithTurn(
+  return PoseWithRotation(
       line, pixels,
       {0, glm::radians(90.0F) * static_cast<float>(placement.direction), -placement.tilt_rad});
 }
 
 }  // namespace
 
-std::optional<CameraPose> CorrectDepthByProfile(const FloatImage& opacity, Fit& fit) {
+std::optional<CameraPose> CorrectDepthByProfile(const Mask& opacity, Fit& fit) {
   const auto placement = FindProfile(fit.head, opacity);
   if (!placement) return std::nullopt;
   std::vector<glm::vec3> line = ProfileOf(fit.head, kProfileBelowChinMm);
-  CameraPose pose = FitPoseToOutline(opacity, PoseOf(*placement, line), line);
+  CameraPose pose = FitPoseToOutline(opacity, PoseOfProfile(*placement, line), line);
   if (MeanDepthGap(opacity, pose, line) > kMaxProfileGapMm) return std::nullopt;
   fit = WithoutGaps(DepthGaps(opacity, pose, line), fit);
   for (int round = 1; round < kProfileRounds; ++round) {

@@ -15,7 +15,7 @@ namespace facefit {
 namespace {
 
 // The profile line of the head.
-constexpr float kLineStepMm = 2;  // between two places, in height
+constexpr float kLineStepMm = 2;  // between two points, in height
 // Half width of the strip along the middle of the face that forms the outline.
 constexpr float kHalfWidthMm = 13;
 constexpr float kThroatMm = 16;       // below the chin, where the outline goes back
@@ -24,7 +24,7 @@ constexpr float kAboveNasionMm = 16;  // higher up there may be hair
 // The search: figures reach from above the head to the throat at least, to the elbows at most;
 // people hold cameras no more askew than this.
 constexpr float kMinHeightPx = 60;      // smaller figures show no profile
-constexpr std::size_t kMinPlaces = 30;  // of the profile, about 6 cm
+constexpr std::size_t kMinPoints = 30;  // of the profile, about 6 cm
 constexpr float kHeadMm = 180, kElbowsMm = 620;
 constexpr float kScaleStep = 1.05F;  // from one scale to the next
 constexpr float kRowStepMm = 1.5F;   // and between rows
@@ -37,7 +37,7 @@ constexpr float kScorePerMm = 0.05F;  // concordance that a millimetre of mean d
 
 /// Returns for each row the figure's outermost column on the right (direction 1) or on the left
 /// (-1); -1 where there is none.
-std::vector<float> OutlineColumns(const FloatImage& opacity, int direction) {
+std::vector<float> OutlineColumns(const Mask& opacity, int direction) {
   std::vector<float> columns(static_cast<std::size_t>(opacity.height), -1);
   for (int y = 0; y < opacity.height; ++y) {
     for (int k = 0; k < opacity.width; ++k) {
@@ -114,8 +114,8 @@ std::optional<ProfileMatch> MatchOf(const std::vector<glm::vec3>& line,
 }
 
 /// Improves a placement in ever smaller steps of size, height and tilt (pattern search).
-ProfileMatch RefinedMatch(const std::vector<glm::vec3>& line, const std::vector<float>& columns,
-                          ProfileMatch best) {
+ProfileMatch BestNearby(const std::vector<glm::vec3>& line, const std::vector<float>& columns,
+                        ProfileMatch best) {
   constexpr float kFirstScale = 0.025F, kFirstDegrees = 3;
   for (float step = 1; step > 0.1F; step *= 0.6F) {
     for (int round = 0; round < 4; ++round) {
@@ -167,15 +167,15 @@ std::optional<ProfileMatch> SearchOutline(const std::vector<glm::vec3>& line,
       }
     }
   }
-  if (best) best = RefinedMatch(line, columns, *best);
+  if (best) best = BestNearby(line, columns, *best);
   return best;
 }
 
 }  // namespace
 
 std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin_mm) {
-  const float low = fitted.PlaceOf(point::kChin).y - below_chin_mm;
-  const float high = fitted.PlaceOf(point::kNasion).y + kAboveNasionMm;
+  const float low = fitted.PositionOf(point::kChin).y - below_chin_mm;
+  const float high = fitted.PositionOf(point::kNasion).y + kAboveNasionMm;
   const auto count = static_cast<std::size_t>(std::max(high - low, kLineStepMm) / kLineStepMm) + 1;
   std::vector<std::optional<float>> foremost(count);
   ForSkinTriangles(fitted.base->head().topology(), [&](const MeshTriangle& triangle) {
@@ -198,18 +198,19 @@ std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin_mm) 
   return line;
 }
 
-glm::vec2 ProfilePlacement::PixelOf(glm::vec3 place) const {
-  const glm::vec2 offset(static_cast<float>(direction) * (place.z - middle.z), middle.y - place.y);
+glm::vec2 ProfilePlacement::PixelOf(glm::vec3 position) const {
+  const glm::vec2 offset(static_cast<float>(direction) * (position.z - middle.z),
+                         middle.y - position.y);
   return pixel + pixels_per_mm * Rotated(offset, tilt_rad);
 }
 
-std::optional<ProfilePlacement> FindProfile(const FittedHead& fitted, const FloatImage& opacity) {
+std::optional<ProfilePlacement> FindProfile(const FittedHead& fitted, const Mask& opacity) {
   const std::vector<glm::vec3> line = ProfileOf(fitted, kThroatMm);
   std::optional<ProfileMatch> best;
   for (const int direction : {1, -1}) {
     const std::vector<float> columns = OutlineColumns(opacity, direction);
     const FigureRows rows = FigureRowsOf(columns);
-    if (rows.Height() < kMinHeightPx || line.size() < kMinPlaces) return {};
+    if (rows.Height() < kMinHeightPx || line.size() < kMinPoints) return {};
     const auto match = SearchOutline(line, columns, direction, rows);
     if (match && (!best || match->Score() >= best->Score())) best = match;
   }

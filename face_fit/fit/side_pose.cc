@@ -27,27 +27,28 @@ constexpr float kToldFacing = 0.1F, kGuessedWeight = 0.15F;
 /// Turns from which a pose is refined, close enough that one converges to the best.
 constexpr float kStartTurnsDeg[] = {-60, -30, 0, 30, 60};
 
-/// A point of the network, its place on the posed head, and the network's error there (millimetres
-/// right and down in the picture).
+/// A point of the network, its position on the posed head, head's frame, and the network's error
+/// there (millimetres right and down in the picture).
 struct ComparedPoint {
   PointIndex point;
-  glm::vec3 place;
+  glm::vec3 position;
   glm::vec2 bias_mm{0};
   float weight = 1;
 };
 
 std::vector<ComparedPoint> ComparedPoints(const FittedHead& fitted) {
   std::vector<ComparedPoint> points;
-  for (const PointIndex i : point::kForFit) points.push_back({i, fitted.PlaceOf(i)});
+  for (const PointIndex i : point::kForFit) points.push_back({i, fitted.PositionOf(i)});
   return points;
 }
 
-/// Returns the points as matches for RefinePose, with the network's errors subtracted.
+/// Returns the points as matches for FitPose, with the network's errors subtracted.
 std::vector<PointMatch> MatchesOf(const std::vector<ComparedPoint>& points, const FoundFace& face,
                                   const CameraPose& pose) {
   std::vector<PointMatch> matches;
   for (const ComparedPoint& point : points) {
-    matches.push_back({point.place, face.PixelOf(point.point) - point.bias_mm * pose.PixelsPerMm(),
+    matches.push_back({point.position,
+                       face.PixelOf(point.point) - point.bias_mm * pose.PixelsPerMm(),
                        point.weight});
   }
   return matches;
@@ -68,7 +69,7 @@ std::optional<std::vector<ComparedPoint>> MeasuredBias(FaceNetworks& networks,
   const auto faces = FindFaces(networks, picture);
   if (faces.empty()) return std::nullopt;
   for (ComparedPoint& point : points) {
-    const MeshPoint& on_head = fitted.base->places()[point.point];
+    const MeshPoint& on_head = fitted.base->mesh_points()[point.point];
     point.bias_mm =
         (faces.front().PixelOf(point.point) - portrait.Pixel(on_head.On(turned.position))) *
         portrait.mm_per_pixel();
@@ -82,18 +83,18 @@ CameraPose FindPose(const FittedHead& fitted, const FoundFace& face,
                     const std::vector<ComparedPoint>& points) {
   const glm::vec2 top = face.PixelOf(point::kNasion), chin = face.PixelOf(point::kChin);
   const float height_mm =
-      glm::distance(fitted.PlaceOf(point::kNasion), fitted.PlaceOf(point::kChin));
+      glm::distance(fitted.PositionOf(point::kNasion), fitted.PositionOf(point::kChin));
   const float focal =
       fitted.pose.focal / fitted.pose.PixelsPerMm() * glm::distance(top, chin) / height_mm;
   const glm::vec2 down = chin - top;
   const float tilt_rad = std::atan2(down.x, down.y);
   std::optional<CameraPose> best;
   for (const float turn_deg : kStartTurnsDeg) {
-    CameraPose start{.turn_rad = {0, glm::radians(turn_deg), tilt_rad}, .focal = focal};
+    CameraPose start{.rotation_rad = {0, glm::radians(turn_deg), tilt_rad}, .focal = focal};
     start.centre =
-        face.PixelOf(point::kNoseBridge) - start.Pixel(fitted.PlaceOf(point::kNoseBridge));
+        face.PixelOf(point::kNoseBridge) - start.Pixel(fitted.PositionOf(point::kNoseBridge));
     const auto matches = MatchesOf(points, face, start);
-    const CameraPose pose = RefinePose(matches, start);
+    const CameraPose pose = FitPose(matches, start);
     if (!best || MeanDistanceMm(pose, matches) < MeanDistanceMm(*best, matches)) best = pose;
   }
   return *best;
@@ -112,7 +113,7 @@ vm::Result<CameraPose> FitSidePose(FaceNetworks& networks, const FittedHead& fit
   }
   const std::vector<ComparedPoint> points = ComparedPoints(fitted);
   const CameraPose found = FindPose(fitted, face, points);
-  const float turn_deg = std::abs(glm::degrees(found.turn_rad.y - fitted.pose.turn_rad.y));
+  const float turn_deg = std::abs(glm::degrees(found.rotation_rad.y - fitted.pose.rotation_rad.y));
   if (turn_deg < kMinTurnDeg) {
     return vm::Fail(vm::Errc::kBadValue,
                     "it shows the face from the front like the first; 20 to 60 degrees help");
@@ -124,7 +125,7 @@ vm::Result<CameraPose> FitSidePose(FaceNetworks& networks, const FittedHead& fit
                     "the face is turned too far to be compared; 20 to 60 degrees can be");
   }
   const auto matches = MatchesOf(*measured, face, found);
-  const CameraPose pose = RefinePose(matches, found);
+  const CameraPose pose = FitPose(matches, found);
   const float residual_mm = MeanDistanceMm(pose, matches);
   if (residual_mm > kMaxResidualMm) {
     return vm::Fail(vm::Errc::kBadValue,

@@ -9,18 +9,17 @@
 
 namespace facefit {
 
-vm::Result<SideView> CorrectDepthBy(FaceNetworks& networks, const fsm::Image& front_image,
-                                    const SidePhoto& side_photo, Fit& fit) {
+vm::Result<std::optional<SideView>> CorrectDepthBy(FaceNetworks& networks,
+                                                   const fsm::Image& front_image,
+                                                   const SidePhoto& side_photo, Fit& fit) {
   FigureCutout figure = CutOutFigure(side_photo.photo, SegmentPerson(networks, side_photo.photo));
   auto side_pose = FitSidePose(networks, fit.head, side_photo);
   if (side_pose) {
     CorrectDepthByStereo(front_image, side_photo.photo, *side_pose, fit);
-    return SideView{*side_pose, std::move(figure)};
+    return SideView{&side_photo, *side_pose, std::move(figure)};
   }
   // In full profile the network finds no face, or misplaces its points.
-  if (const auto profile_pose = CorrectDepthByProfile(figure.opacity, fit)) {
-    return SideView{*profile_pose, std::move(figure), true};
-  }
+  if (CorrectDepthByProfile(figure.opacity, fit)) return std::nullopt;
   return std::unexpected(side_pose.error());
 }
 

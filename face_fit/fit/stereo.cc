@@ -22,10 +22,10 @@ constexpr std::size_t kMinPatches = 25;
 constexpr int kMaxSamples = 400;  // to a side
 /// Limits for every sample of a patch: cosines of the skin's angle to both cameras, and difference
 /// of its depth from the middle's. Beyond them a patch looks too different in the two photos, or
-/// lies on two parts of the face.
+/// lies on two features of the face.
 constexpr float kMinFacing = 0.25F, kMinFacingSide = 0.2F, kMaxDepthStepInPatchMm = 25;
 
-/// A place of the fitted skin as the first photo shows it; `facing` is negative where there is
+/// A point of the fitted skin as the first photo shows it; `facing` is negative where there is
 /// none.
 struct StereoSample {
   glm::vec3 camera{0}, rest{0};  // in the camera's frame; on the base head
@@ -34,10 +34,10 @@ struct StereoSample {
 };
 using StereoSamples = Raster<StereoSample>;
 
-/// Returns the part of the fitted skin that the first photo shows.
+/// Returns the fitted skin that the first photo shows.
 VisibleSurface SkinInFront(const FittedHead& fitted) {
   Box2 box;
-  for (const PointIndex i : point::kForFit) box.Add(fitted.pose.Pixel(fitted.PlaceOf(i)));
+  for (const PointIndex i : point::kForFit) box.Add(fitted.pose.Pixel(fitted.PositionOf(i)));
   const float step = kCellMm * fitted.pose.PixelsPerMm();
   const glm::ivec2 points = glm::clamp(glm::ivec2(box.Size() / step), 1, kMaxSamples);
   VisibleSurface surface({box.low, step, points.x, points.y},
@@ -54,12 +54,12 @@ StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front_image
   const glm::vec3 to_front = fitted.pose.TowardsCamera(), to_side = side_pose.TowardsCamera();
   const auto& posed = fitted.posed_vertices;
   return StereoSamples::From(grid.columns, grid.rows, [&](int x, int y) -> StereoSample {
-    const MeshTriangle* triangle = surface.Triangle(x, y);
+    const MeshTriangle* triangle = surface.TriangleAt(x, y);
     if (!triangle) return {};
-    const MeshPoint place = surface.Place(x, y);
+    const MeshPoint on_mesh = surface.MeshPointAt(x, y);
     const glm::vec3 normal = glm::normalize(triangle->Normal(posed));
-    return {.camera = fitted.pose.ToCamera(place.On(posed)),
-            .rest = place.On(fitted.base->rest().position),
+    return {.camera = fitted.pose.ToCamera(on_mesh.On(posed)),
+            .rest = on_mesh.On(fitted.base->rest().position),
             .light = Brightness(ColourAt(front_image, grid.Point(x, y))),
             .facing = glm::dot(normal, to_front),
             .facing_side = glm::dot(normal, to_side)};
@@ -171,7 +171,7 @@ class PatchMatcher {
 // Reach of the first search, in the picture around where the fit has the patch, steps of 1 mm.
 constexpr int kReachAcrossMm = 6, kReachDownMm = 4;
 // The second search runs along the first photo's line of sight. The correlation is lowered by
-// kCorrelationPerMm2 for each square millimetre, so that of similar places the nearest wins.
+// kCorrelationPerMm2 for each square millimetre, so that of similar ones the nearest wins.
 constexpr float kDepthStepMm = 0.75F, kCorrelationPerMm2 = 0.0012F;
 constexpr int kDepthSteps = 14;
 constexpr int kPoseRefinements = 2;
@@ -231,15 +231,22 @@ std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const Camer
 
 }  // namespace
 
-std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front_image,
-                                         const fsm::Image& side_image, CameraPose& side_pose) {
+bool RefineSidePose(const FittedHead& fitted, const fsm::Image& front_image,
+                    const fsm::Image& side_image, CameraPose& side_pose) {
   PatchMatcher matcher(side_image);
   for (int round = 0; round < kPoseRefinements; ++round) {
     const auto matches =
         FindPatches(SampleSkin(fitted, front_image, side_pose), fitted.pose, side_pose, matcher);
-    if (matches.size() < kMinPatches) return {};
-    side_pose = RefinePose(matches, side_pose);
+    if (matches.size() < kMinPatches) return false;
+    side_pose = FitPose(matches, side_pose);
   }
+  return true;
+}
+
+std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front_image,
+                                         const fsm::Image& side_image, CameraPose& side_pose) {
+  if (!RefineSidePose(fitted, front_image, side_image, side_pose)) return {};
+  PatchMatcher matcher(side_image);
   auto depths =
       FindDepths(SampleSkin(fitted, front_image, side_pose), fitted.pose, side_pose, matcher);
   if (depths.size() < kMinPatches) depths.clear();

@@ -23,9 +23,9 @@ constexpr std::size_t kMinDepths = 20;
 std::vector<fsm::WarpPoint> OnBothCheeks(std::vector<fsm::WarpPoint> depths, glm::vec3 towards) {
   const std::size_t count = depths.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const auto [place, depth] = depths[i];
-    if (place.x * towards.x > 0 && std::abs(place.x) > kMiddleMm) {
-      depths.push_back({place * glm::vec3(-1, 1, 1), depth});
+    const auto [position, depth] = depths[i];
+    if (position.x * towards.x > 0 && std::abs(position.x) > kMiddleMm) {
+      depths.push_back({position * glm::vec3(-1, 1, 1), depth});
     }
   }
   return depths;

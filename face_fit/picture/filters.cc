@@ -71,7 +71,7 @@ Raster<T> Closed(const Raster<T>& image, int reach) {
 template FloatImage Closed(const FloatImage& image, int reach);
 template VectorImage Closed(const VectorImage& image, int reach);
 
-void PushPullInpaint(fsm::Image& image, const FloatImage& weight) {
+void PushPullInpaint(fsm::Image& image, const Mask& weight) {
   StayOnThisThread();
   using Pixel = cv::Vec4f;  // colour times weight, weight
   std::vector<cv::Mat_<Pixel>> levels(1, cv::Mat_<Pixel>(image.height, image.width));
@@ -145,10 +145,10 @@ std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold) 
   return nearest;
 }
 
-float SignedDistance(std::span<const glm::vec2> outline, glm::vec2 place) {
+float SignedDistance(std::span<const glm::vec2> outline, glm::vec2 pixel) {
   const cv::Mat line(static_cast<int>(outline.size()), 1, CV_32FC2,
                      const_cast<glm::vec2*>(outline.data()));
-  return static_cast<float>(-cv::pointPolygonTest(line, {place.x, place.y}, true));
+  return static_cast<float>(-cv::pointPolygonTest(line, {pixel.x, pixel.y}, true));
 }
 
 fsm::Image ScaledDown(const fsm::Image& image, int width, int height) {
@@ -174,8 +174,8 @@ template VectorImage ScaledDown(const VectorImage& image, int width, int height)
 
 fsm::Image Cropped(const fsm::Image& image, int left, int top, int width, int height) {
   fsm::Image out = fsm::FilledImage(width, height);
-  cv::Mat part = View(out);
-  View(image)(cv::Rect(left, top, width, height)).copyTo(part);
+  cv::Mat cropped = View(out);
+  View(image)(cv::Rect(left, top, width, height)).copyTo(cropped);
   return out;
 }
 

@@ -20,7 +20,7 @@ template <typename T>
 Raster<T> Blurred(const Raster<T>& image, int reach);
 
 /// Returns the morphological closing of each channel by squares of `2 * reach + 1` pixels (Serra
-/// 1982): fills dark places that no such square fits into. For FloatImage and VectorImage.
+/// 1982): fills dark spots that no such square fits into. For FloatImage and VectorImage.
 template <typename T>
 Raster<T> Closed(const Raster<T>& image, int reach);
 
@@ -28,7 +28,7 @@ Raster<T> Closed(const Raster<T>& image, int reach);
 /// farther they are (push and pull through a pyramid of halved pictures; Gortler, Grzeszczuk,
 /// Szeliski and Cohen, The Lumigraph, 1996). Pixels of full weight stay. `weight`: 0..1, as large
 /// as `image`.
-void PushPullInpaint(fsm::Image& image, const FloatImage& weight);
+void PushPullInpaint(fsm::Image& image, const Mask& weight);
 
 /// Sets positive pixels and every hole in them to 1, and the rest to 0. Holes are 0s that no path
 /// of four-neighbours connects to the picture's edge.
@@ -43,8 +43,8 @@ void KeepConnected(glm::ivec2 to, FloatImage& image);
 /// REQUIRES: there is such a pixel.
 std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold);
 
-/// Returns the distance of a place outside a closed line, negative inside.
-float SignedDistance(std::span<const glm::vec2> outline, glm::vec2 place);
+/// Returns the distance of a pixel outside a closed line, negative inside.
+float SignedDistance(std::span<const glm::vec2> outline, glm::vec2 pixel);
 
 /// Scales a picture down; each pixel is the mean of those it covers. REQUIRES: 1 <= width <=
 /// image.width, likewise height.

@@ -7,7 +7,7 @@
 
 namespace facefit {
 
-/// The four pixels around a place and their weights, sum 1 (bilinear interpolation). Pixel centres
+/// The four pixels around a point and their weights, sum 1 (bilinear interpolation). Pixel centres
 /// lie at .5; outside, the edge is repeated.
 struct FourPixels {
   std::array<std::size_t, 4> index;
@@ -51,6 +51,9 @@ struct Raster {
   }
 };
 using FloatImage = Raster<float>;
+/// How much of each pixel is what the mask is named for: 0 nothing, 1 all. As alpha of an image it
+/// is 0..255.
+using Mask = FloatImage;
 using VectorImage = Raster<glm::vec3>;
 
 }  // namespace facefit

@@ -13,14 +13,14 @@ namespace {
 
 constexpr float kKnown = 0.95F;
 
-glm::ivec2 PlaceOf(const FloatImage& field, std::size_t i) {
+glm::ivec2 PixelOf(const FloatImage& field, std::size_t i) {
   const auto width = static_cast<std::size_t>(field.width);
   return {static_cast<int>(i % width), static_cast<int>(i / width)};
 }
 
 }  // namespace
 
-void AddGrain(const FloatImage& weight, const FloatImage& where, int reach, fsm::Image& image) {
+void AddGrain(const Mask& weight, const Mask& where, int reach, fsm::Image& image) {
   if (std::ranges::max(weight.values) < kKnown) return;
   const auto nearest = NearestAbove(weight, kKnown);
   const float farthest = 8 * static_cast<float>(reach);
@@ -31,7 +31,7 @@ void AddGrain(const FloatImage& weight, const FloatImage& where, int reach, fsm:
   std::vector<Transfer> transfers;
   for (std::size_t i = 0; i < weight.values.size(); ++i) {
     if (weight.values[i] >= kKnown || where.values[i] <= 0) continue;
-    const glm::ivec2 pixel = PlaceOf(weight, i), edge = PlaceOf(weight, nearest[i]);
+    const glm::ivec2 pixel = PixelOf(weight, i), edge = PixelOf(weight, nearest[i]);
     const glm::ivec2 beyond = 2 * edge - pixel;
     if (beyond.x < 0 || beyond.y < 0 || beyond.x >= weight.width || beyond.y >= weight.height) {
       continue;

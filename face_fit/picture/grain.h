@@ -5,10 +5,10 @@
 
 namespace facefit {
 
-/// Adds grain (pores, hair, beard) to inpainted pixels, which are too smooth, taken from the place
+/// Adds grain (pores, hair, beard) to inpainted pixels, which are too smooth, taken from the pixel
 /// mirrored at the edge of the known pixels. `weight`: 1 where a pixel was known, 0 where it was
 /// inpainted; `where`: amount of grain, 0..1; `reach`: pixels over which brightness varies as
 /// grain; grain is carried up to eight times as far.
-void AddGrain(const FloatImage& weight, const FloatImage& where, int reach, fsm::Image& image);
+void AddGrain(const Mask& weight, const Mask& where, int reach, fsm::Image& image);
 
 }  // namespace facefit

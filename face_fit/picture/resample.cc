@@ -22,11 +22,11 @@ std::array<float, 4> BSpline(float t) {
           t * t * t / 6};
 }
 
-/// Sums `get(index)` over the 4 x 4 pixels around a place; outside, the edge is repeated.
+/// Sums `get(index)` over the 4 x 4 pixels around a pixel; outside, the edge is repeated.
 template <typename Value, typename Picture, typename Weights, typename Get>
-Value Around(const Picture& image, glm::vec2 place, Weights weights, Get get) {
+Value Around(const Picture& image, glm::vec2 pixel, Weights weights, Get get) {
   const int width = image.width, height = image.height;
-  const glm::vec2 p = glm::clamp(place, glm::vec2(0), glm::vec2(width, height)) - 0.5F;
+  const glm::vec2 p = glm::clamp(pixel, glm::vec2(0), glm::vec2(width, height)) - 0.5F;
   const glm::vec2 first = glm::floor(p);
   const auto across = weights(p.x - first.x), down = weights(p.y - first.y);
   Value sum(0);

@@ -6,11 +6,11 @@
 
 namespace facefit {
 
-/// A place on a mesh, inside a triangle.
+/// A point on a mesh, inside a triangle.
 struct MeshPoint {
   std::array<std::uint32_t, 3> corner{};
   glm::vec3 weight{1, 0, 0};  ///< of each corner, sum 1
-  /// Returns the interpolated value of a vertex attribute at this place.
+  /// Returns the interpolated value of a vertex attribute there.
   template <typename Values>
   auto On(const Values& of_vertex) const {
     return of_vertex[corner[0]] * weight.x + of_vertex[corner[1]] * weight.y +

@@ -34,17 +34,17 @@ void VisibleSurface::DrawFront(const MeshTriangle& triangle) {
   if (front_sign_ * Triangle2{screen_[a], screen_[b], screen_[c]}.SignedArea() > 0) Draw(triangle);
 }
 
-FloatImage VisibleSurface::Covered() const {
+Mask VisibleSurface::Covered() const {
   return FloatImage::From(depth_.width, depth_.height,
                           [&](int x, int y) { return depth_(x, y) > kNothing ? 1.0F : 0.0F; });
 }
 
-const MeshTriangle* VisibleSurface::Triangle(int column, int row) const {
+const MeshTriangle* VisibleSurface::TriangleAt(int column, int row) const {
   if (column < 0 || row < 0 || column >= grid_.columns || row >= grid_.rows) return nullptr;
   return depth_(column, row) > kNothing ? &samples_[depth_.Index(column, row)].triangle : nullptr;
 }
 
-MeshPoint VisibleSurface::Place(int column, int row) const {
+MeshPoint VisibleSurface::MeshPointAt(int column, int row) const {
   const auto& [triangle, weights] = samples_[depth_.Index(column, row)];
   return {triangle.corner, weights};
 }

@@ -19,7 +19,7 @@ struct SampleGrid {
   glm::vec2 Point(int column, int row) const { return origin + step * glm::vec2(column, row); }
 };
 
-/// A depth buffer: keeps at each point of a grid the foremost place of the triangles drawn.
+/// A depth buffer: keeps at each point of a grid the foremost point of the triangles drawn.
 class VisibleSurface {
  public:
   static constexpr float kNothing = -1e9F;  ///< the depth where nothing was drawn
@@ -36,12 +36,12 @@ class VisibleSurface {
   const SampleGrid& grid() const { return grid_; }
   const FloatImage& depth() const { return depth_; }
   /// Returns 1 where something was drawn, else 0.
-  FloatImage Covered() const;
+  Mask Covered() const;
   /// Returns the triangle at a point; nullptr where there is none and outside the grid. Valid until
   /// the next Draw and as long as this object.
-  const MeshTriangle* Triangle(int column, int row) const;
-  /// Returns the place at a point. REQUIRES: there is a triangle.
-  MeshPoint Place(int column, int row) const;
+  const MeshTriangle* TriangleAt(int column, int row) const;
+  /// Returns the point of the mesh at a point of the grid. REQUIRES: there is a triangle.
+  MeshPoint MeshPointAt(int column, int row) const;
 
  private:
   struct Sample {

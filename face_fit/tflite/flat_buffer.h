@@ -17,7 +17,7 @@ class BadModel : public std::runtime_error {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Returns a number at a place of a file; throws BadModel beyond the file's end.
+/// Returns a number at an offset in a file; throws BadModel beyond the file's end.
 template <typename T>
 T Read(Bytes file, std::size_t at) {
   static_assert(std::endian::native == std::endian::little);
@@ -47,15 +47,15 @@ class FlatTable {
 
   template <typename T>
   T Scalar(std::size_t field, T otherwise) const {
-    const std::size_t place = Place(field);
-    return place == 0 ? otherwise : Read<T>(file_, place);
+    const std::size_t at = OffsetOf(field);
+    return at == 0 ? otherwise : Read<T>(file_, at);
   }
 
   /// Returns a vector of scalars; empty if absent. The bytes need not be aligned.
   Bytes Vector(std::size_t field, std::size_t item_bytes) const {
-    const std::size_t place = Place(field);
-    if (place == 0) return {};
-    const std::size_t start = place + Read<std::uint32_t>(file_, place);
+    const std::size_t at = OffsetOf(field);
+    if (at == 0) return {};
+    const std::size_t start = at + Read<std::uint32_t>(file_, at);
     const std::size_t count = Read<std::uint32_t>(file_, start);
     if (count > (file_.size() - start - 4) / item_bytes) {
       throw BadModel("a vector ends beyond the file");
@@ -70,11 +70,11 @@ class FlatTable {
     const auto here = static_cast<std::size_t>(items.data() - file_.data()) + 4 * index;
     return {file_, here + Read<std::uint32_t>(file_, here)};
   }
-  bool Has(std::size_t field) const { return Place(field) != 0; }
+  bool Has(std::size_t field) const { return OffsetOf(field) != 0; }
   FlatTable Table(std::size_t field) const {
-    const std::size_t place = Place(field);
-    if (place == 0) throw BadModel("a table is missing");
-    return {file_, place + Read<std::uint32_t>(file_, place)};
+    const std::size_t at = OffsetOf(field);
+    if (at == 0) throw BadModel("a table is missing");
+    return {file_, at + Read<std::uint32_t>(file_, at)};
   }
   std::string Text(std::size_t field) const {
     const Bytes text = Vector(field, 1);
@@ -82,7 +82,7 @@ class FlatTable {
   }
 
  private:
-  std::size_t Place(std::size_t field) const {
+  std::size_t OffsetOf(std::size_t field) const {
     const std::size_t slot = 4 + 2 * field;
     if (slot + 2 > field_bytes_) return 0;
     const auto offset = Read<std::uint16_t>(file_, fields_ + slot);

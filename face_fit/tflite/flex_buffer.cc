@@ -30,7 +30,7 @@ Result ReadWhole(Bytes bytes, std::size_t at, std::size_t width) {
 constexpr auto ReadUnsigned = ReadWhole<std::uint64_t, std::uint8_t, std::uint16_t, std::uint32_t>;
 constexpr auto ReadSigned = ReadWhole<std::int64_t, std::int8_t, std::int16_t, std::int32_t>;
 
-/// Returns the place an offset at `at` points to: offsets count backwards.
+/// Returns where an offset at `at` points to: offsets count backwards.
 std::size_t Behind(Bytes bytes, std::size_t at, std::size_t width) {
   const std::uint64_t back = ReadUnsigned(bytes, at, width);
   if (back > at) throw BadModel("an operator's options point outside themselves");
@@ -67,7 +67,7 @@ FlexMap::FlexMap(Bytes bytes, const Value& map) : bytes_(bytes) {
 }
 
 FlexMap::Value FlexMap::Find(std::string_view key) const {
-  // Before the number of values: the place of the keys and the width of their offsets.
+  // Before the number of values: where the keys are and the width of their offsets.
   const std::size_t keys = Behind(bytes_, values_ - 3 * width_, width_);
   const std::uint64_t width = ReadUnsigned(bytes_, values_ - 2 * width_, width_);
   if (!IsWidth(width)) {

@@ -23,7 +23,7 @@ class FlexMap {
 
  private:
   struct Value {
-    std::size_t at;     ///< offset of the number, or the place its offset counts from
+    std::size_t at;     ///< offset of the number, or where its offset counts from
     std::size_t width;  ///< bytes of the number or of the offset
     unsigned type;      ///< as packed: the kind above two bits of the width of what it points to
   };

@@ -162,21 +162,21 @@ void Run(const op::ResizeBilinear& resize, Inputs inputs, Tensor& out) {
   const auto channels = static_cast<std::size_t>(in.shape.channels());
   struct Between {
     int first, second;
-    float part;
+    float share;
   };
   const auto between = [&resize](int i, int size_in, int size_out) {
-    float place = 0;
+    float position = 0;
     if (resize.align_corners && size_out > 1) {
-      place = static_cast<float>(i) * static_cast<float>(size_in - 1) /
-              static_cast<float>(size_out - 1);
+      position = static_cast<float>(i) * static_cast<float>(size_in - 1) /
+                 static_cast<float>(size_out - 1);
     } else {
       const float scale = static_cast<float>(size_in) / static_cast<float>(size_out);
-      place = resize.half_pixel_centres ? (static_cast<float>(i) + 0.5F) * scale - 0.5F
-                                        : static_cast<float>(i) * scale;
+      position = resize.half_pixel_centres ? (static_cast<float>(i) + 0.5F) * scale - 0.5F
+                                           : static_cast<float>(i) * scale;
     }
-    place = std::clamp(place, 0.0F, static_cast<float>(size_in - 1));
-    const int first = static_cast<int>(place);
-    return Between{first, std::min(first + 1, size_in - 1), place - static_cast<float>(first)};
+    position = std::clamp(position, 0.0F, static_cast<float>(size_in - 1));
+    const int first = static_cast<int>(position);
+    return Between{first, std::min(first + 1, size_in - 1), position - static_cast<float>(first)};
   };
   for (int y = 0; y < out.shape.rows(); ++y) {
     const Between v = between(y, in.shape.rows(), out.shape.rows());
@@ -188,9 +188,9 @@ void Run(const op::ResizeBilinear& resize, Inputs inputs, Tensor& out) {
       const float* d = &in.values[At(in.shape, v.second, u.second)];
       float* to = &out.values[At(out.shape, y, x)];
       for (std::size_t k = 0; k < channels; ++k) {
-        const float top = a[k] + (b[k] - a[k]) * u.part;
-        const float bottom = c[k] + (d[k] - c[k]) * u.part;
-        to[k] = top + (bottom - top) * v.part;
+        const float top = a[k] + (b[k] - a[k]) * u.share;
+        const float bottom = c[k] + (d[k] - c[k]) * u.share;
+        to[k] = top + (bottom - top) * v.share;
       }
     }
   }

@@ -39,7 +39,7 @@ void Run(const op::StridedSlice& slice, Inputs inputs, Tensor& out);
 
 /// Input: x, y, z of each point.
 void Run(const op::LandmarksToMatrix& options, Inputs inputs, Tensor& matrix);
-/// Crops a part, bilinearly. Pixel centres lie at .5; places beyond the outermost centres are 0.
+/// Crops a part, bilinearly. Pixel centres lie at .5; positions beyond the outermost centres are 0.
 /// Inputs: the whole, a matrix.
 void Run(const op::TransformTensor& transform, Inputs inputs, Tensor& out);
 /// Maps points (x, y, or x, y, z with z unchanged) from the part to the whole. Inputs: the points,

@@ -14,11 +14,11 @@ namespace facefit {
 /// person's.
 struct FaceMeasures {
   float certainty = 0;                ///< confidence, 0..1, that there is a face
-  float gap_mm = 0;                   ///< between the inner edges of the lips, mean of three places
+  float gap_mm = 0;                   ///< between the inner edges of the lips, mean of three pairs
   float width_mm = 0;                 ///< from corner to corner of the lips
   float jaw_mm = 0;                   ///< from below the nose to the chin
   fsm::Sided<float> corner_up_mm{};   ///< corners of the lips above the point below the nose
-  fsm::Sided<float> eye_mm{};         ///< between the edges of the lids, mean of three places
+  fsm::Sided<float> eye_mm{};         ///< between the edges of the lids, mean of three pairs
   fsm::Sided<float> brow_inner_mm{};  ///< above the line through the corners of both eyes
   fsm::Sided<float> brow_outer_mm{};
   /// Since the first picture: down, to the person's left, towards the left shoulder.

@@ -19,7 +19,7 @@ EyeLine EyesOf(const FoundFace& face) {
 
 }  // namespace
 
-void FaceWatch::See(const fsm::Image& picture, const NetworkCrop& crop) {
+void FaceWatch::FindPointsIn(const fsm::Image& picture, const NetworkCrop& crop) {
   last_ = FindAttentivePoints(attention_, picture, crop);
   if (last_->face.certainty < kCertainFace) last_.reset();
 }
@@ -31,13 +31,13 @@ void FaceWatch::Find(const fsm::Image& picture) {
   const EyeLine eyes = EyesOf(face);
   eyes_to_middle_ = Rotated(face.crop.centre - eyes.middle, -eyes.angle);
   size_ = face.crop.size;
-  See(picture, face.crop);
+  FindPointsIn(picture, face.crop);
 }
 
-std::optional<FaceMeasures> FaceWatch::Look(const fsm::Image& picture) {
+std::optional<FaceMeasures> FaceWatch::MeasureNext(const fsm::Image& picture) {
   if (last_) {
     const EyeLine eyes = EyesOf(last_->face);
-    See(picture, {eyes.middle + Rotated(eyes_to_middle_, eyes.angle), size_, eyes.angle});
+    FindPointsIn(picture, {eyes.middle + Rotated(eyes_to_middle_, eyes.angle), size_, eyes.angle});
   }
   if (!last_) Find(picture);
   if (!last_) return std::nullopt;

@@ -15,15 +15,15 @@ class FaceWatch {
       : networks_(networks), attention_(attention) {}
 
   /// Measures the face in the next picture; nothing if none is seen with kCertainFace.
-  std::optional<FaceMeasures> Look(const fsm::Image& picture);
-  /// Returns the points of the face in the last picture; nothing where Look returned nothing.
+  std::optional<FaceMeasures> MeasureNext(const fsm::Image& picture);
+  /// Returns the points of the face in the last picture; nothing where MeasureNext did.
   const std::optional<AttentiveFace>& last() const { return last_; }
 
  private:
   /// Finds the largest face, its crop and its points.
   void Find(const fsm::Image& picture);
-  /// Finds the points of a face in a part of a picture; sets last_, or resets it if uncertain.
-  void See(const fsm::Image& picture, const NetworkCrop& crop);
+  /// Finds the points of a face in a crop of a picture; sets last_, or resets it if uncertain.
+  void FindPointsIn(const fsm::Image& picture, const NetworkCrop& crop);
 
   FaceNetworks& networks_;
   Network& attention_;

@@ -101,7 +101,7 @@ void Watch(const Options& options) {
           fmt::format("standard input ends within frame {}: it has {} of {} bytes ({} RGBA)",
                       number, got, picture.rgba.size(), options.size));
     }
-    const auto measures = watch.Look(picture);
+    const auto measures = watch.MeasureNext(picture);
     if (options.points) {
       PrintPoints(watch.last());
     } else {

@@ -51,7 +51,7 @@ Sitter::Sight Sitter::Look(const fsm::FaceState& state) {
   std::vector<fsm::PointPair> pairs;
   if (state.head_rotation != fsm::Angles{}) {
     for (const facefit::PointIndex i : facefit::point::kStill) {
-      pairs.push_back({base_.places()[i].On(sight.vertices.position), base_.AtRest(i)});
+      pairs.push_back({base_.mesh_points()[i].On(sight.vertices.position), base_.AtRest(i)});
     }
   }
   const fsm::Similarity moved = pairs.empty() ? fsm::Similarity{} : fsm::FitSimilarity(pairs);
@@ -91,7 +91,7 @@ Points Sitter::Motion(const Channel& channel, float dose) {
 }
 
 float Sitter::DepthOf(std::size_t point, const fsm::HeadVertices& vertices) const {
-  if (point < kIris) return base_.places()[point].On(vertices.position).z;
+  if (point < kIris) return base_.mesh_points()[point].On(vertices.position).z;
   const fsm::Side side = point == kIris ? fsm::Side::kRight : fsm::Side::kLeft;
   constexpr float kIrisBefore = 10;  // mm, of the middle of the eyeball
   return base_.head().topology().eyes[side].centre.z + kIrisBefore;

@@ -24,7 +24,7 @@ using Points = std::vector<glm::vec3>;  ///< kPoints of them, millimetres
 /// Degrees down, to the viewer's right and tilted towards it as a turn, and back: as
 /// FaceState::head_rotation.
 glm::mat3 TurnOf(const fsm::Angles& degrees);
-using facefit::AnglesOf;
+using facefit::HeadRotationOf;
 
 /// Something a face does, and what the network sees of it.
 struct Channel {

@@ -32,13 +32,13 @@ vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networ
     if (!base) return std::unexpected(base.error());
     const auto front = facefit::PrepareFront(networks, *base, picture,
                                              facefit::FaceNear{places[facefit::point::kNoseTip]},
-                                             facefit::PhotoPart::kCloseUp);
+                                             facefit::PhotoExtent::kCloseUp);
     if (!front) return std::unexpected(front.error());
     if (!front->face || front->face->certainty < facefit::kCertainFace) {
       return vm::Fail(vm::Errc::kBadValue,
                       "the face cannot be told apart in the picture where it is seen best");
     }
-    const auto made = facefit::MakeFace(*base, *front, *front->face);
+    const auto made = facefit::MakeFace(*base, *front);
     if (!made) return std::unexpected(made.error());
     const float film_pixels_per_mm = made->fit.head.pose.PixelsPerMm() / front->scale;
     const int side = std::clamp(static_cast<int>(std::lround(kViewMm * film_pixels_per_mm)),
@@ -52,7 +52,7 @@ vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networ
 DubFace::DubFace(facefit::ObservedHead base, const facefit::MadeFace& made, int side)
     : base_(std::move(base)),
       head_(fsm::MakeHead(made.bake.head)),
-      held_(facetrack::AnglesOf(made.fit.head.pose.Rotation())),
+      held_(facetrack::HeadRotationOf(made.fit.head.pose.Rotation())),
       side_(side),
       context_(fsm::RenderContext::MakeHeadless(side, side)),
       renderer_(fsm::Renderer::Make(*context_)),
@@ -73,9 +73,9 @@ const fsm::Image& DubFace::Draw() {
 
 std::vector<glm::vec2> DubFace::Points() const {
   std::vector<glm::vec2> points;
-  points.reserve(base_.places().size());
+  points.reserve(base_.mesh_points().size());
   const glm::mat4 to_clip = view_.world_to_clip * view_.figure_to_world;
-  for (const facefit::MeshPoint& point : base_.places()) {
+  for (const facefit::MeshPoint& point : base_.mesh_points()) {
     const glm::vec4 clip = to_clip * glm::vec4(point.On(vertices_.position), 1);
     points.push_back(0.5F * static_cast<float>(side_) *
                      glm::vec2(1 + clip.x / clip.w, 1 - clip.y / clip.w));

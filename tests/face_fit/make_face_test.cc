@@ -33,8 +33,8 @@ fsm::Image GreyPhoto() {
 
 TEST_F(MakeFaceTest, WhereNoFaceIsFoundTheFigureAloneIsCutOut) {
   for (const FaceChoice& choice : {FaceChoice(FaceNumber{}), FaceChoice(FaceNear{{100, 75}})}) {
-    const auto front =
-        vm::OrThrow(PrepareFront(*networks_, Galatea(), GreyPhoto(), choice, PhotoPart::kCloseUp));
+    const auto front = vm::OrThrow(
+        PrepareFront(*networks_, Galatea(), GreyPhoto(), choice, PhotoExtent::kCloseUp));
     EXPECT_FALSE(front.face);
     EXPECT_EQ(front.faces, 0);
     EXPECT_EQ(front.figure.opacity.width, 200);
@@ -46,7 +46,8 @@ TEST_F(MakeFaceTest, PointsSetByHandBesideThePhotoAreRefused) {
   const HandPoints points{{point::kEyeOuterRight, {600, 300}}, {point::kEyeOuterLeft, {720, 300}},
                           {point::kNoseTip, {662, 365}},       {point::kMouthRight, {625, 410}},
                           {point::kMouthLeft, {695, 410}},     {point::kChin, {660, 480}}};
-  const auto front = PrepareFront(*networks_, Galatea(), GreyPhoto(), points, PhotoPart::kCloseUp);
+  const auto front =
+      PrepareFront(*networks_, Galatea(), GreyPhoto(), points, PhotoExtent::kCloseUp);
   ASSERT_FALSE(front);
   EXPECT_TRUE(front.error().text.starts_with("none of the points lies in the photo"))
       << front.error().text;
@@ -54,8 +55,8 @@ TEST_F(MakeFaceTest, PointsSetByHandBesideThePhotoAreRefused) {
 
 TEST_F(MakeFaceTest, MorePhotosFromTheSideThanAreUsedAreRefused) {
   const SidePhoto side;
-  const SidePhotos sides{*networks_, std::vector<const SidePhoto*>(kMaxSidePhotos + 1, &side)};
-  const auto made = MakeFace(Galatea(), {}, {}, sides);
+  const std::vector<const SidePhoto*> sides(kMaxSidePhotos + 1, &side);
+  const auto made = MakeFace(Galatea(), {}, {&*networks_, sides});
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().code, vm::Errc::kLimit);
 }
@@ -74,9 +75,9 @@ TEST_F(MakeFaceTest, OfAPhotoThatShowsOnlyTheInnerFaceTheRestIsDrawnAndNamed) {
   const auto front = vm::OrThrow(
       PrepareFront(*networks_, Galatea(),
                    PartOfPortrait(Galatea(), {right.x + 5, brow.y - 15}, {left.x - 5, chin.y + 2}),
-                   FaceNumber{}, PhotoPart::kCloseUp));
+                   FaceNumber{}, PhotoExtent::kCloseUp));
   ASSERT_TRUE(front.face);
-  const auto made = vm::OrThrow(MakeFace(Galatea(), front, *front.face));
+  const auto made = vm::OrThrow(MakeFace(Galatea(), front));
   EXPECT_NE(
       made.report.find("cuts off part of the head: the forehead, the right ear, the left ear"),
       std::string::npos)
@@ -90,10 +91,10 @@ TEST_F(MakeFaceTest, APhotoWithoutTheMouthIsRefused) {
   const glm::vec2 nose = Galatea().DetectedAt(point::kNoseBottom);
   const fsm::Image& portrait = Galatea().picture();
   auto front =
-      vm::OrThrow(PrepareFront(*networks_, Galatea(), portrait, FaceNumber{}, PhotoPart::kWhole));
+      vm::OrThrow(PrepareFront(*networks_, Galatea(), portrait, FaceNumber{}, PhotoExtent::kWhole));
   ASSERT_TRUE(front.face);
   front.photo = PartOfPortrait(Galatea(), {0, 0}, {portrait.width, nose.y + 4});
-  const auto made = MakeFace(Galatea(), front, *front.face);
+  const auto made = MakeFace(Galatea(), front);
   ASSERT_FALSE(made);
   EXPECT_TRUE(made.error().text.starts_with("the photo cuts off the mouth; ")) << made.error().text;
 }
@@ -111,11 +112,11 @@ TEST_F(MakeFaceTest, APhotoThatDoesNotHelpIsLeftOutWithItsReasonAndTheRestIsMade
   std::string steps;
   const auto tell = [&](const char* step) { steps += std::string(step) + ";"; };
   const auto front = vm::OrThrow(
-      PrepareFront(*networks_, Galatea(), photo, FaceNumber{}, PhotoPart::kCloseUp, tell));
+      PrepareFront(*networks_, Galatea(), photo, FaceNumber{}, PhotoExtent::kCloseUp, tell));
   ASSERT_TRUE(front.face);
   const SidePhoto again{"again.png", photo, FindFaces(*networks_, photo)};
-  const auto made = vm::OrThrow(
-      MakeFace(Galatea(), front, *front.face, SidePhotos{*networks_, {&again}}, true, tell));
+  const std::vector<const SidePhoto*> sides{&again};
+  const auto made = vm::OrThrow(MakeFace(Galatea(), front, {&*networks_, sides}, true, tell));
   ASSERT_EQ(made.left_out.size(), 1U);
   EXPECT_EQ(made.left_out[0].path, "again.png");
   EXPECT_NE(made.left_out[0].why.find("from the front"), std::string::npos);

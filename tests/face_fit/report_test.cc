@@ -31,9 +31,9 @@ struct ReportTest : testing::Test {
 
 TEST_F(ReportTest, AHeadTurnedFarIsToldApartFromOneTurnedALittle) {
   EXPECT_FALSE(Says("turned"));
-  fit.head.pose.turn_rad.y = glm::radians(-17.0F);
+  fit.head.pose.rotation_rad.y = glm::radians(-17.0F);
   EXPECT_TRUE(Says("the head is turned; one side"));
-  fit.head.pose.turn_rad.y = glm::radians(27.0F);
+  fit.head.pose.rotation_rad.y = glm::radians(27.0F);
   EXPECT_TRUE(Says("the head is turned far"));
   EXPECT_FALSE(Says("bent"));
 }

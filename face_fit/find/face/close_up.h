@@ -12,10 +12,10 @@ struct CloseUp {
   float scale = 1;  ///< pixels of `photo` for each pixel of the photo it was cut from
 };
 
-/// Cuts a photo to about 33 cm on either side of a face, 30 cm above its nose and 43 cm below,
+/// Cuts a photo to about 33 cm on either side of a face's nose, 30 cm above it and 43 cm below,
 /// scaled down to at most kWorkingSize on a side. Pixels come from `finest`, which is the same
-/// photo with all its pixels, or `photo` itself. Returns `photo` unchanged if nothing would be cut
-/// off and no resolution gained.
+/// photo with all its pixels, or `photo` itself. Returns `photo` unchanged, however fine `finest`
+/// is, if more than 95 % of its width and of its height would be kept, or if the face lies outside.
 CloseUp CloseUpOf(const fsm::Image& photo, const fsm::Image& finest, const FoundFace& face);
 
 }  // namespace facefit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/geometric.hpp>
 #include <initializer_list>
 #include <span>
 #include <utility>
@@ -42,6 +43,20 @@ std::string NamesOf(const CutOff& cut) {
                  {cut.chin, "the chin"}});
 }
 
+std::optional<std::string> CoincidingCorners(const std::function<glm::vec2(PointIndex)>& pixel_of) {
+  constexpr float kNearestPx = 4;
+  const auto apart = [&](PointIndex a, PointIndex b) {
+    return glm::distance(pixel_of(a), pixel_of(b)) >= kNearestPx;
+  };
+  if (!apart(point::kEyeOuterRight, point::kEyeOuterLeft)) {
+    return "the outer corners of the eyes lie in one place";
+  }
+  if (!apart(point::kMouthRight, point::kMouthLeft)) {
+    return "the corners of the mouth lie in one place";
+  }
+  return std::nullopt;
+}
+
 vm::Result<void> CheckFeaturesShown(const FoundFace& face, const fsm::Image& photo) {
   const auto cut = [&](std::span<const PointIndex> points) {
     return std::ranges::any_of(points,
@@ -52,7 +67,11 @@ vm::Result<void> CheckFeaturesShown(const FoundFace& face, const fsm::Image& pho
               {cut(EyeOutline(fsm::Side::kLeft)), "the left eye"},
               {cut(std::array{point::kNoseTip, point::kNoseBottom}), "the nose"},
               {cut(point::kUpperOuterLip) || cut(point::kLowerOuterLip), "the mouth"}});
-  if (names.empty()) return {};
+  if (names.empty()) {
+    const auto why = CoincidingCorners([&](PointIndex i) { return face.PixelOf(i); });
+    if (why) return vm::Fail(vm::Errc::kBadValue, *why);
+    return {};
+  }
   return vm::Fail(vm::Errc::kBadValue,
                   "the photo cuts off " + names +
                       "; a face needs both eyes, the nose and the mouth, and better all of the "

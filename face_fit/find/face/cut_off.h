@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "face_fit/find/network/face_finder.h"
@@ -18,8 +20,13 @@ CutOff CutOffParts(const FoundFace& face, const fsm::Image& photo);
 /// Returns the names of the parts that are cut off, separated by commas; "" if there are none.
 std::string NamesOf(const CutOff& cut);
 
+/// Returns which corners of a face coincide, a clause, or nothing if none do: the outer corners of
+/// the eyes must lie apart, because they give a face's size, and those of the mouth, because lips
+/// are measured along them. `pixel_of`: the pixel of a point.
+std::optional<std::string> CoincidingCorners(const std::function<glm::vec2(PointIndex)>& pixel_of);
+
 /// Checks that the photo shows both eyes, the nose and the mouth, without which no face can be
-/// made. Error: kBadValue, which of them the photo cuts off.
+/// made. Error: kBadValue, which of them the photo cuts off, or CoincidingCorners.
 vm::Result<void> CheckFeaturesShown(const FoundFace& face, const fsm::Image& photo);
 
 }  // namespace facefit

@@ -20,22 +20,23 @@ constexpr float kBarColumnStepMm = 1.25F, kBarRowStepMm = 0.5F, kTopMm = -14;
 constexpr std::size_t kBesideRows = 5, kMinBarRows = 4, kMaxBarRows = 18, kBarStepRows = 2;
 /// The least brightness, 0..255, that contrast is divided by: in the dark it is noise.
 constexpr float kDarkestSkin = 20;
-// Turns and offsets at which a bar is searched; the median counts. A bar shows at all of them, a
-// crease only along its line, and a point that is a pixel off must not decide.
-constexpr float kTurnsRad[] = {-0.1F, 0, 0.1F}, kBarAsideMm[] = {-2, 0, 2};
+// Rotations and offsets at which a bar is searched; the median counts. A bar shows at all of them,
+// a crease only along its line, and a point that is a pixel off must not decide.
+constexpr float kRotationsRad[] = {-0.1F, 0, 0.1F}, kBarOffsetsMm[] = {-2, 0, 2};
 
 /// Returns the contrast of a bar as BridgeContrast does, for one offset to the person's left and
-/// one turn.
-float BarAcross(const FoundFace& face, const fsm::Image& photo, float aside_mm, float turn_rad) {
+/// one rotation.
+float BarAcross(const FoundFace& face, const fsm::Image& photo, float offset_mm,
+                float rotation_rad) {
   const glm::vec2 right = face.PixelOf(point::kEyeInnerRight),
                   left = face.PixelOf(point::kEyeInnerLeft), middle = 0.5F * (right + left);
   const float pixels_per_mm = std::max(glm::distance(right, left) / kInnerCornersMm, 1e-3F);
   const glm::vec2 level = (left - right) / (kInnerCornersMm * pixels_per_mm);
-  const glm::vec2 across = Rotated(level, turn_rad), down(-across.y, across.x);
+  const glm::vec2 across = Rotated(level, rotation_rad), down(-across.y, across.x);
   std::array<std::array<glm::vec3, kBarRows>, kBarColumns> colour{};
   for (std::size_t c = 0; c < kBarColumns; ++c) {
     for (std::size_t r = 0; r < kBarRows; ++r) {
-      const float x = aside_mm + kBarColumnStepMm * (static_cast<float>(c) - kBarColumns / 2),
+      const float x = offset_mm + kBarColumnStepMm * (static_cast<float>(c) - kBarColumns / 2),
                   y = kTopMm + kBarRowStepMm * static_cast<float>(r);
       colour[c][r] = ColourAt(photo, middle + pixels_per_mm * (x * across + y * down));
     }
@@ -70,9 +71,9 @@ float BarAcross(const FoundFace& face, const fsm::Image& photo, float aside_mm, 
 
 float BridgeContrast(const FoundFace& face, const fsm::Image& photo) {
   std::vector<float> contrasts;
-  for (const float turn_rad : kTurnsRad) {
-    for (const float aside_mm : kBarAsideMm) {
-      contrasts.push_back(BarAcross(face, photo, aside_mm, turn_rad));
+  for (const float rotation_rad : kRotationsRad) {
+    for (const float offset_mm : kBarOffsetsMm) {
+      contrasts.push_back(BarAcross(face, photo, offset_mm, rotation_rad));
     }
   }
   return Median(std::move(contrasts));

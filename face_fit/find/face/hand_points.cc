@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "face_fit/find/face/cut_off.h"
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/head/warp.h"
@@ -78,20 +79,8 @@ PointIndex PointAt(const fsm::TableRow& row) {
   return *number;
 }
 
-/// Returns why points form no face, or nothing if they do: the corners of the eyes must lie apart,
-/// because they give a face's size, and those of the mouth, because lips are measured along them.
 std::optional<std::string> WhyNoFace(const HandPoints& points) {
-  constexpr float kNearest = 4;  // pixels
-  const auto apart = [&](PointIndex a, PointIndex b) {
-    return glm::distance(points.at(a), points.at(b)) >= kNearest;
-  };
-  if (!apart(point::kEyeOuterRight, point::kEyeOuterLeft)) {
-    return "the outer corners of the eyes lie in one place";
-  }
-  if (!apart(point::kMouthRight, point::kMouthLeft)) {
-    return "the corners of the mouth lie in one place";
-  }
-  return {};
+  return CoincidingCorners([&](PointIndex i) { return points.at(i); });
 }
 
 }  // namespace
@@ -179,7 +168,7 @@ FoundFace FaceFromHand(const ObservedHead& base, const HandPoints& points) {
     const glm::vec3 p = base.AtRest(i);
     const glm::vec2 pixel =
         to_photo(glm::vec2(p)) + to_photo.pixels_per_mm() * glm::vec2(warp.Motion(p));
-    face.points.emplace_back(pixel, to_photo.pixels_per_mm() * base.detected()[i].z);
+    face.points.emplace_back(pixel, to_photo.pixels_per_mm() * base.DetectedDepthMm(i));
   }
   face.crop = CropAround(face.points);
   return face;

@@ -17,8 +17,9 @@ namespace {
 constexpr std::array<float, 7> kSizes = {0.68F, 0.76F, 0.84F, 0.92F, 1.0F, 1.08F, 1.16F};
 constexpr float kUsualSize = 0.92F, kSizeSpread = 0.6F;  // people's irises vary little in size
 constexpr float kStepAlong = 0.02F, kStepDown = 0.015F;
-constexpr int kStepsAlong = 9, kStepsDown = 7;  // steps to either side of the expected place
-/// Loss of score with the squared offset from the expected place: eyes mostly look into the camera.
+constexpr int kStepsAlong = 9, kStepsDown = 7;  // steps to either side of the expected centre
+/// Loss of score with the squared offset from the expected centre: eyes mostly look into the
+/// camera.
 constexpr float kAwayAlong = 5, kAwayDown = 40;
 
 // Where the step of brightness at the circle's left and right is sampled: angles from the axis of
@@ -27,30 +28,36 @@ constexpr std::array<float, 9> kAngles = {-0.8F, -0.6F, -0.4F, -0.2F, 0, 0.2F, 0
 constexpr float kWithin = 0.82F, kOutside = 1.18F;
 constexpr float kMinSeen = 3;         // number of visible samples that a side needs
 constexpr float kBetterSide = 0.35F;  // weight of the side with the greater step; the other has 1
-// Weights of the other parts of a circle's score; the edge has 1.
+// Weights of the other terms of a circle's score; the edge has 1.
 constexpr float kSeparationWeight = 1.5F, kPupilWeight = 0.7F;
 constexpr float kPupil = 0.3F;  // square of the largest pupil's radius, iris = 1
 
 // Positions between upper lid (0) and lower lid (1) that leave out the rims' shade and lashes.
 constexpr float kUpperRim = 0.22F, kLowerRim = 0.9F, kShadow = 0.15F;
+// The grid on which an eye is sampled: positions from the outer corner (0) to the inner one (1),
+// and steps along it and between the rims.
+constexpr float kOuterEnd = 0.06F, kInnerEnd = 0.95F, kSampleAlong = 0.03F, kSampleDown = 0.095F;
+/// Percent of the samples that are darker than the white; reflections are brighter than it.
+constexpr std::size_t kDarkerPercent = 90;
 
-/// Searches the part of a photo between the lids of an eye.
+/// Searches a photo between the lids of an eye.
 class IrisSearch {
  public:
-  IrisSearch(const fsm::Image& photo, const OpenEye& eye)
+  IrisSearch(const fsm::Image& photo, const ExpectedEye& eye)
       : photo_(photo), eye_(eye), lids_(eye.lids) {
     std::vector<float> all;
-    for (float x = 0.06F; x < 0.95F; x += 0.03F) {
-      const auto [upper, lower] = lids_.LidsAt(x);
-      for (float part = kUpperRim; part < kLowerRim; part += 0.095F) {
-        const glm::vec2 pixel = lids_.PointAt(x, glm::mix(upper, lower, part));
+    for (float along = kOuterEnd; along < kInnerEnd; along += kSampleAlong) {
+      const auto [upper, lower] = lids_.LidsAt(along);
+      for (float share = kUpperRim; share < kLowerRim; share += kSampleDown) {
+        const glm::vec2 pixel = lids_.PointAt(along, glm::mix(upper, lower, share));
         samples_.push_back(
             {pixel, Brightness(ColourAt(photo, pixel)) / 255, std::abs(lower - upper)});
         all.push_back(samples_.back().light);
       }
     }
     // Clamp reflections to the brightness of the white.
-    const auto bright = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 9 / 10);
+    const auto bright =
+        all.begin() + static_cast<std::ptrdiff_t>(all.size() * kDarkerPercent / 100);
     std::ranges::nth_element(all, bright);
     brightest_ = *bright;
     for (Sample& s : samples_) s.light = std::min(s.light, brightest_);
@@ -58,13 +65,13 @@ class IrisSearch {
 
   /// Returns the best circle of this size, and its score.
   std::pair<IrisCircle, float> BestCircle(float radius) const {
-    IrisCircle best{.centre = eye_.middle, .radius = radius, .contrast = 0};
+    IrisCircle best{.centre = eye_.iris_centre, .radius = radius, .contrast = 0};
     float most = 0;
     for (int x = -kStepsAlong; x <= kStepsAlong; ++x) {
       for (int y = -kStepsDown; y <= kStepsDown; ++y) {
         const glm::vec2 away(static_cast<float>(x) * kStepAlong, static_cast<float>(y) * kStepDown);
-        const glm::vec2 centre =
-            eye_.middle + lids_.wide() * (away.x * lids_.along() + away.y * lids_.down());
+        const glm::vec2 centre = eye_.iris_centre + lids_.width() * (away.x * lids_.along_axis() +
+                                                                     away.y * lids_.down_axis());
         const float edge = EdgeContrast(centre, radius);
         const float score = (edge + kSeparationWeight * Separation(centre, radius)) *
                             (1 - kAwayAlong * away.x * away.x - kAwayDown * away.y * away.y);
@@ -87,16 +94,16 @@ class IrisSearch {
   float EdgeContrast(glm::vec2 centre, float radius) const {
     std::array<float, 2> step{};
     for (const std::size_t side : {0U, 1U}) {
-      const glm::vec2 outward = side == 0 ? -lids_.along() : lids_.along();
+      const glm::vec2 outward = side == 0 ? -lids_.along_axis() : lids_.along_axis();
       float count = 0;
       for (const float angle : kAngles) {
-        const glm::vec2 way = outward * std::cos(angle) + lids_.down() * std::sin(angle);
-        const glm::vec2 rim = centre + radius * way;
-        const auto [upper, lower] = lids_.LidsAt(lids_.Part(rim));
+        const glm::vec2 direction = outward * std::cos(angle) + lids_.down_axis() * std::sin(angle);
+        const glm::vec2 rim = centre + radius * direction;
+        const auto [upper, lower] = lids_.LidsAt(lids_.Along(rim));
         const float y = lids_.Down(rim);
         if (y < glm::mix(upper, lower, kShadow) || y > lower) continue;
-        step[side] +=
-            Light(centre + kOutside * radius * way) - Light(centre + kWithin * radius * way);
+        step[side] += Light(centre + kOutside * radius * direction) -
+                      Light(centre + kWithin * radius * direction);
         count += 1;
       }
       if (count < kMinSeen) return 0;
@@ -131,7 +138,7 @@ class IrisSearch {
   }
 
   const fsm::Image& photo_;
-  const OpenEye& eye_;
+  const ExpectedEye& eye_;
   LidLines lids_;
   float brightest_ = 1;
   std::vector<Sample> samples_;
@@ -139,16 +146,16 @@ class IrisSearch {
 
 }  // namespace
 
-std::vector<IrisCircle> FindIrises(const fsm::Image& photo, std::span<const OpenEye> eyes) {
+std::vector<IrisCircle> FindIrises(const fsm::Image& photo, std::span<const ExpectedEye> eyes) {
   std::vector<IrisSearch> searches;
-  for (const OpenEye& eye : eyes) searches.emplace_back(photo, eye);
+  for (const ExpectedEye& eye : eyes) searches.emplace_back(photo, eye);
   std::vector<IrisCircle> best;
   float most = -1;
   for (const float size : kSizes) {
     std::vector<IrisCircle> circles;
     float score = 0;
     for (std::size_t i = 0; i < eyes.size(); ++i) {
-      const auto [circle, own] = searches[i].BestCircle(size * eyes[i].expected_radius);
+      const auto [circle, own] = searches[i].BestCircle(size * eyes[i].iris_radius);
       circles.push_back(circle);
       const float odd = (size - kUsualSize) / kSizeSpread;
       score += own * std::exp(-odd * odd);

@@ -19,16 +19,16 @@ struct IrisCircle {
 };
 inline constexpr float kClearIris = 0.06F;
 
-/// An open eye in a photo, pixels.
-struct OpenEye {
+/// Where a photo is expected to show an eye, pixels.
+struct ExpectedEye {
   EyePoints lids;
-  glm::vec2 middle;           ///< expected centre of the iris if the eye looks into the camera
-  float expected_radius = 0;  ///< by the form of the head, pixels
+  glm::vec2 iris_centre;  ///< if the eye looks into the camera
+  float iris_radius = 0;  ///< by the form of the head, pixels
 };
 
 /// Finds the irises of the given eyes: for each the circle that best separates dark from bright
 /// between the lids and has the strongest edges on its left and right. All eyes share one relative
 /// size, as those of a person do. Returns a circle for each eye, in their order.
-std::vector<IrisCircle> FindIrises(const fsm::Image& photo, std::span<const OpenEye> eyes);
+std::vector<IrisCircle> FindIrises(const fsm::Image& photo, std::span<const ExpectedEye> eyes);
 
 }  // namespace facefit

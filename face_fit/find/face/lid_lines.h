@@ -17,50 +17,51 @@ using EyePoints = std::array<glm::vec2, 16>;
 
 /// Returns the share of a lid's movement at `x` between the corners of an eye: 1 in the middle, 0
 /// at the corners and beyond. All arguments are x coordinates.
-inline float LidOpening(float x, float inner, float outer) {
+inline float LidShare(float x, float inner, float outer) {
   const float along = 2 * (x - inner) / (outer - inner) - 1;
   return std::max(1 - along * along, 0.0F);
 }
 
-/// The lines of both lids in coordinates of the eye: `part` of the way from the outer corner (0) to
-/// the inner one (1); `down`, the distance from the line between the corners towards the lower lid.
-/// Works in pixels (y down) and in millimetres (y up).
+/// The lines of both lids in coordinates of the eye: `along` the line between its corners, 0 at the
+/// outer and 1 at the inner one; `down`, the distance from that line towards the lower lid. Works
+/// in pixels (y down) and in millimetres (y up).
 class LidLines {
  public:
   explicit LidLines(const EyePoints& points) : points_(points) {
     const glm::vec2 axis = points[kInnerCorner] - points[0];
-    wide_ = std::max(glm::length(axis), 1e-3F);
-    along_ = axis / wide_;
-    down_ = {-along_.y, along_.x};
-    if (glm::dot(points[kLowerMiddle] - points[kUpperMiddle], down_) < 0) down_ = -down_;
+    width_ = std::max(glm::length(axis), 1e-3F);
+    along_axis_ = axis / width_;
+    down_axis_ = {-along_axis_.y, along_axis_.x};
+    if (glm::dot(points[kLowerMiddle] - points[kUpperMiddle], down_axis_) < 0)
+      down_axis_ = -down_axis_;
   }
-  float wide() const { return wide_; }
-  glm::vec2 along() const { return along_; }  ///< unit
-  glm::vec2 down() const { return down_; }    ///< unit
+  float width() const { return width_; }
+  glm::vec2 along_axis() const { return along_axis_; }  ///< unit
+  glm::vec2 down_axis() const { return down_axis_; }    ///< unit
 
-  float Part(glm::vec2 p) const { return glm::dot(p - points_[0], along_) / wide_; }
-  float Down(glm::vec2 p) const { return glm::dot(p - points_[0], down_); }
-  glm::vec2 PointAt(float part, float down) const {
-    return points_[0] + part * wide_ * along_ + down * down_;
+  float Along(glm::vec2 p) const { return glm::dot(p - points_[0], along_axis_) / width_; }
+  float Down(glm::vec2 p) const { return glm::dot(p - points_[0], down_axis_); }
+  glm::vec2 PointAt(float along, float down) const {
+    return points_[0] + along * width_ * along_axis_ + down * down_axis_;
   }
   /// Returns `down` of the upper and of the lower lid.
-  std::pair<float, float> LidsAt(float part) const {
-    const auto between = [this, part](std::size_t a, std::size_t b) {
-      const float from = Part(points_[a]), to = Part(points_[b % points_.size()]);
-      const float way = glm::clamp((part - from) / std::max(to - from, 1e-4F), 0.0F, 1.0F);
-      return glm::mix(Down(points_[a]), Down(points_[b % points_.size()]), way);
+  std::pair<float, float> LidsAt(float along) const {
+    const auto between = [this, along](std::size_t a, std::size_t b) {
+      const float from = Along(points_[a]), to = Along(points_[b % points_.size()]);
+      const float share = glm::clamp((along - from) / std::max(to - from, 1e-4F), 0.0F, 1.0F);
+      return glm::mix(Down(points_[a]), Down(points_[b % points_.size()]), share);
     };
     std::size_t upper = 1, lower = points_.size() - 1;
-    while (upper < kInnerCorner && Part(points_[upper]) < part) ++upper;
-    while (lower > kInnerCorner && Part(points_[lower]) < part) --lower;
+    while (upper < kInnerCorner && Along(points_[upper]) < along) ++upper;
+    while (lower > kInnerCorner && Along(points_[lower]) < along) --lower;
     return {between(upper - 1, upper),
             lower + 1 == points_.size() ? between(0, lower) : between(lower + 1, lower)};
   }
 
  private:
   EyePoints points_;
-  float wide_ = 1;
-  glm::vec2 along_, down_;
+  float width_ = 1;
+  glm::vec2 along_axis_, down_axis_;
 };
 
 }  // namespace facefit

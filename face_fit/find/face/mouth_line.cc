@@ -14,14 +14,14 @@ namespace facefit {
 namespace {
 
 constexpr std::size_t kInnerPoints = 9;  // points of an inner lip without its corners
-constexpr int kOffsets = 25;             // offsets across the mouth that are tried at each place
+constexpr int kOffsets = 25;             // offsets across the mouth that are tried at each step
 /// Largest offset to either side, divided by the mouth's width.
 constexpr float kLineReach = 0.08F;
 /// Distance, divided by the mouth's width, of three samples whose mean is taken; hairs and chapped
 /// spots are narrower.
 constexpr float kLineBeside = 0.012F;
 
-/// A value for each place along the mouth and each offset across it.
+/// A value for each step along the mouth and each offset across it.
 template <typename T>
 using Strip = std::array<std::array<T, kOffsets>, kMouthLinePoints>;
 
@@ -41,8 +41,9 @@ std::array<glm::vec2, kInnerPoints + 2> ExpectedLine(const FoundFace& face, glm:
   return line;
 }
 
-/// Returns for each place the offset of the path with the least sum of costs, where each step
-/// across adds a cost that grows with its square (dynamic programming). `cost` is overwritten.
+/// Returns for each step along the mouth the offset of the path with the least sum of costs, where
+/// each change of it adds a cost that grows with its square (dynamic programming). `cost` is
+/// overwritten.
 std::array<int, kMouthLinePoints> CheapestPath(Strip<float>& cost) {
   constexpr int kMaxStep = 3;
   constexpr float kBend = 0.03F;
@@ -92,7 +93,7 @@ std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& f
   const glm::vec2 down(-along.y, along.x);
   const auto expected = ExpectedLine(face, begin, along, down, width);
   const float step = 2 * kLineReach * width / (kOffsets - 1);
-  const auto place = [&](std::size_t i, int offset) {
+  const auto pixel_at = [&](std::size_t i, int offset) {
     const float t = static_cast<float>(i) / (kMouthLinePoints - 1);
     const float below = HeightAt(std::span<const glm::vec2>(expected), t) +
                         step * static_cast<float>(offset - kOffsets / 2);
@@ -104,7 +105,7 @@ std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& f
   const glm::vec2 beside = along * (kLineBeside * width);
   for (std::size_t i = 0; i < kMouthLinePoints; ++i) {
     for (int o = 0; o < kOffsets; ++o) {
-      const glm::vec2 pixel = place(i, o);
+      const glm::vec2 pixel = pixel_at(i, o);
       float& dark = cost[i][static_cast<std::size_t>(o)];
       for (const glm::vec2 p : {pixel, pixel - beside, pixel + beside}) {
         dark += Brightness(ColourAt(photo, p)) / 3;
@@ -124,7 +125,7 @@ std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& f
   }
   const auto path = CheapestPath(cost);
   std::vector<glm::vec2> line;
-  for (std::size_t i = 0; i < kMouthLinePoints; ++i) line.push_back(place(i, path[i]));
+  for (std::size_t i = 0; i < kMouthLinePoints; ++i) line.push_back(pixel_at(i, path[i]));
   return line;
 }
 

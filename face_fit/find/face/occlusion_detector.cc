@@ -97,10 +97,10 @@ class PhotoToBase {
   std::vector<Pair> pairs_;
 };
 
-/// The built-in head warped to the place of the face, for each pixel of the network's crop.
+/// The built-in head warped onto the face, for each pixel of the network's crop.
 struct WarpedHead {
-  std::vector<glm::vec2> place;   // on the built-in face, millimetres
-  std::vector<glm::vec3> colour;  // 0..1
+  std::vector<glm::vec2> on_face;  // on the built-in face, millimetres
+  std::vector<glm::vec3> colour;   // 0..1
 };
 
 WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
@@ -112,9 +112,9 @@ WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
     for (int x = 0; x < kCells; ++x) coarse.push_back(onto(float{kStep} * glm::vec2(x, y)));
   }
   // From pixels of the head's picture to millimetres from the root of the nose.
-  const auto on_face = [&](PointIndex i) { return glm::vec2(base.AtRest(i)); };
+  const auto at_rest = [&](PointIndex i) { return glm::vec2(base.AtRest(i)); };
   const float mm_per_pixel =
-      glm::distance(on_face(point::kEyeOuterRight), on_face(point::kEyeOuterLeft)) /
+      glm::distance(at_rest(point::kEyeOuterRight), at_rest(point::kEyeOuterLeft)) /
       glm::distance(base.DetectedAt(point::kEyeOuterRight), base.DetectedAt(point::kEyeOuterLeft));
   WarpedHead warped;
   for (int y = 0; y < kPointsPixels; ++y) {
@@ -126,20 +126,20 @@ WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
           glm::mix(glm::mix(coarse[k], coarse[k + 1], t.x),
                    glm::mix(coarse[k + kCells], coarse[k + kCells + 1], t.x), t.y);
       const glm::vec2 from_nasion = mm_per_pixel * (on_base - base.DetectedAt(point::kNasion));
-      warped.place.push_back(on_face(point::kNasion) + glm::vec2(from_nasion.x, -from_nasion.y));
+      warped.on_face.push_back(at_rest(point::kNasion) + glm::vec2(from_nasion.x, -from_nasion.y));
       warped.colour.push_back(ColourAt(base.picture(), on_base) / 255.0F);
     }
   }
   return warped;
 }
 
-/// Returns whether a place of the built-in face is on cheeks, nose or forehead and not near an eye.
+/// Returns whether a point of the built-in face is on cheeks, nose or forehead and not near an eye.
 bool IsBareSkin(glm::vec2 mm) {
   constexpr glm::vec2 kEye(31, 25);
-  constexpr float kEyeReach = 18, kAside = 45, kLow = -20, kHigh = 60;
+  constexpr float kEyeReach = 18, kBeside = 45, kLow = -20, kHigh = 60;
   const bool eye =
       std::abs(std::abs(mm.x) - kEye.x) < kEyeReach && std::abs(mm.y - kEye.y) < kEyeReach;
-  return std::abs(mm.x) <= kAside && mm.y >= kLow && mm.y <= kHigh && !eye;
+  return std::abs(mm.x) <= kBeside && mm.y >= kLow && mm.y <= kHigh && !eye;
 }
 
 /// Matches the colour of the built-in head's skin to the photo's by the medians over cheeks, nose
@@ -148,7 +148,7 @@ WarpedHead MatchSkinColour(std::span<const float> network_pixels, WarpedHead war
   for (int c = 0; c < 3; ++c) {
     std::vector<float> gain;
     for (std::size_t i = 0; i < kPixels; ++i) {
-      if (!IsBareSkin(warped.place[i])) continue;
+      if (!IsBareSkin(warped.on_face[i])) continue;
       gain.push_back(network_pixels[3 * i + static_cast<std::size_t>(c)] /
                      std::max(warped.colour[i][c], kDarkest));
     }
@@ -160,12 +160,12 @@ WarpedHead MatchSkinColour(std::span<const float> network_pixels, WarpedHead war
 }
 
 /// Returns the weight of a patch at a pixel; it fades around the patch's radii.
-float PatchWeight(const FacePatch& patch, glm::vec2 place) {
+float PatchWeight(const FacePatch& patch, glm::vec2 on_face) {
   constexpr float kPatchEnd = 1.15F, kPatchEdge = 0.3F;
   float weight = 0;
   for (const Ellipse& ellipse : patch.ellipses) {
     if (ellipse.radii.x <= 0) continue;
-    const float radii = glm::length((place - ellipse.middle) / ellipse.radii);
+    const float radii = glm::length((on_face - ellipse.middle) / ellipse.radii);
     weight = std::max(weight, glm::clamp((kPatchEnd - radii) / kPatchEdge, 0.0F, 1.0F));
   }
   return weight;
@@ -177,7 +177,7 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, cons
                           const fsm::Image& photo) {
   const auto sure = [&networks](std::span<const float> input) {
     networks.landmarks.Run(input);
-    return networks.landmarks.output(1)[0];
+    return networks.landmarks.output(kLandmarkCertainty)[0];
   };
   const std::vector<float> network_pixels = face.crop.Sample(photo, kPointsPixels, 0, 1);
   const float before = sure(network_pixels);
@@ -187,7 +187,7 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, cons
   for (const FacePatch& patch : kPatches) {
     std::vector<float> changed = network_pixels;
     for (std::size_t i = 0; i < kPixels; ++i) {
-      const float weight = PatchWeight(patch, warped.place[i]);
+      const float weight = PatchWeight(patch, warped.on_face[i]);
       for (std::size_t c = 0; c < 3 && weight > 0; ++c) {
         changed[3 * i + c] =
             glm::mix(changed[3 * i + c], warped.colour[i][static_cast<int>(c)], weight);

@@ -21,10 +21,10 @@ constexpr glm::vec2 kAlike{0.3F, 0.05F};  // difference of colours, 0..1, from u
 // New opacity, divided by the other side's: unlike, alike.
 constexpr float kDoubt = 0.5F, kRather = 0.85F;
 
-// The second look at the head, relative to the size of the face: side of the square, and how far
+// The second pass, over the head, relative to the size of the face: side of the square, and how far
 // its middle lies above the face's, because there is hair above and only a neck below.
 constexpr float kHeadSquare = 2.3F, kHeadHigher = 0.1F;
-// Distance from the square's middle (its side = 1) over which the first look takes over again.
+// Distance from the square's middle (its side = 1) over which the first pass takes over again.
 constexpr glm::vec2 kSquareEdge{0.48F, 0.38F};
 
 /// Mean over the points of a face below which the network saw nobody there.
@@ -33,16 +33,16 @@ constexpr float kNobody = 0.5F;
 constexpr float kHalfNeck = 0.35F;
 
 /// Runs the network on a picture.
-FloatImage RunSegmentation(FaceNetworks& networks, const std::vector<float>& input) {
+Mask RunSegmentation(FaceNetworks& networks, const std::vector<float>& input) {
   networks.segmentation.Run(input);
   FloatImage out(kFigurePixels, kFigurePixels);
-  std::ranges::copy(networks.segmentation.output(0), out.values.begin());
+  std::ranges::copy(networks.segmentation.output(kSegmentationPerson), out.values.begin());
   return out;
 }
 
-/// Returns how much a place of the network's square, 0..1 on both axes, belongs to a person.
-float PersonAt(const FloatImage& figure, glm::vec2 place) {
-  return figure.SampleAt(place.x * kFigurePixels, place.y * kFigurePixels);
+/// Returns how much a point of the network's square, 0..1 on both axes, belongs to a person.
+float PersonAt(const Mask& figure, glm::vec2 p) {
+  return figure.SampleAt(p.x * kFigurePixels, p.y * kFigurePixels);
 }
 
 /// A rectangle of a picture; it may extend beyond it.
@@ -53,8 +53,8 @@ struct PictureRect {
 /// Returns the whole picture, extended around a face that fills it: the network was trained on
 /// figures with shoulders, and takes the wall for one where it sees little more than a face.
 PictureRect WholeFor(glm::vec2 picture, const Box2& face) {
-  const glm::vec2 larger = glm::max(picture, face.Size() / PhotoLook().figure.face_most_part);
-  return {(picture - larger) * glm::vec2(0.5F, PhotoLook().figure.above_part), larger};
+  const glm::vec2 larger = glm::max(picture, face.Size() / PhotoLook().figure.face_most_share);
+  return {(picture - larger) * glm::vec2(0.5F, PhotoLook().figure.above_share), larger};
 }
 
 Box2 BoxOf(const FoundFace& face) {
@@ -84,7 +84,7 @@ float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
 /// cannot be trusted: everywhere if it sees nobody on the face, as in photos of nothing but a face;
 /// beside a cheek if the photo cuts off that ear, where it sees a narrow strip. The head's own ear
 /// shows there instead.
-void TrustFaceOutline(const FoundFace& face, const fsm::Image& image, FloatImage& person) {
+void TrustFaceOutline(const FoundFace& face, const fsm::Image& image, Mask& person) {
   float seen = 0, count = 0;
   for (const PointIndex i : point::kForFit) {
     const glm::vec2 p = face.PixelOf(i);
@@ -114,14 +114,13 @@ void TrustFaceOutline(const FoundFace& face, const fsm::Image& image, FloatImage
 
 }  // namespace
 
-FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image,
-                          const FloatImage& person) {
+Mask DoubtAsymmetry(const FoundFace& face, const fsm::Image& image, const Mask& person) {
   const glm::vec2 top = face.PixelOf(point::kForehead), chin = face.PixelOf(point::kChin);
   if (glm::distance(top, chin) < 1) return person;
   const glm::vec2 down = glm::normalize(chin - top), across(-down.y, down.x);
   const float height = glm::distance(top, chin), nearby = kNearby * height;
   // Reaches ears and hats, but not what stands behind a shoulder.
-  const glm::vec2 aside = PhotoLook().figure.mirrored_by_face * height;
+  const glm::vec2 mirrored_px = PhotoLook().figure.mirrored_by_face * height;
   const float frontal = Frontal(face, chin, across);
   const auto unlike = [&](glm::vec2 p, glm::vec2 q) {
     float least = 1;
@@ -131,13 +130,13 @@ FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image,
     }
     return least;
   };
-  FloatImage doubted = person;
+  Mask doubted = person;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const glm::vec2 p = glm::vec2(x, y) + 0.5F;
       if (glm::dot(p - chin, down) > 0) continue;
       const float from_axis = glm::dot(p - chin, across);
-      const float mirrored = frontal * fsm::SmoothStep(aside, std::abs(from_axis));
+      const float mirrored = frontal * fsm::SmoothStep(mirrored_px, std::abs(from_axis));
       const glm::vec2 q = p - 2 * from_axis * across;
       if (mirrored <= 0 || !IsInside(image, q)) continue;
       const float own = person(x, y), other = person(static_cast<int>(q.x), static_cast<int>(q.y));
@@ -149,11 +148,11 @@ FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image,
   return doubted;
 }
 
-FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundFace* face) {
+Mask SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundFace* face) {
   const glm::vec2 size(image.width, image.height);
   // The network expects the rectangle stretched to a square.
   const PictureRect all = face ? WholeFor(size, BoxOf(*face)) : PictureRect{{0, 0}, size};
-  const FloatImage whole = RunSegmentation(
+  const Mask whole = RunSegmentation(
       networks,
       Resampled(image, all.corner, glm::mat2(all.size.x, 0, 0, all.size.y), kFigurePixels, 0, 1));
   const auto person_in_whole = [&](glm::vec2 p) {
@@ -164,10 +163,10 @@ FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const 
                             [&](int x, int y) { return person_in_whole(glm::vec2(x, y) + 0.5F); });
   }
   const NetworkCrop head = HeadSquare(BoxOf(*face), size);
-  const FloatImage near = RunSegmentation(networks, head.Sample(image, kFigurePixels, 0, 1));
+  const Mask near = RunSegmentation(networks, head.Sample(image, kFigurePixels, 0, 1));
   auto out = FloatImage::From(image.width, image.height, [&](int x, int y) {
     const glm::vec2 p = glm::vec2(x, y) + 0.5F;
-    // The mean, so that what either look doubts is left to the matting.
+    // The mean, so that what either pass doubts is left to the matting.
     const glm::vec2 in_square = head.FromPicture(p), from_middle = glm::abs(in_square - 0.5F);
     const float share = 0.5F * fsm::SmoothStep(kSquareEdge, std::max(from_middle.x, from_middle.y));
     const float person = person_in_whole(p);

@@ -12,14 +12,14 @@ namespace facefit {
 /// - DoubtAsymmetry corrects the sides of the head;
 /// - where the network sees nobody on the face, the outline of the face and the neck below it
 ///   become 1 and everything else 0; beside a cheek whose ear the photo cuts off likewise.
-FloatImage SegmentPerson(FaceNetworks& networks, const fsm::Image& image,
-                         const FoundFace* face = nullptr);
+Mask SegmentPerson(FaceNetworks& networks, const fsm::Image& image,
+                   const FoundFace* face = nullptr);
 
 /// Returns `person`, 0..1, with the sides of the head made more alike: where one side of a face
 /// that looks into the camera belongs to the person and its mirror image does not (an ear, half a
 /// hat), the network may have missed the latter. Such pixels become uncertain, or nearly as certain
 /// as the other side where both have one colour. Only near the head, since things behind it often
 /// have its colour.
-FloatImage DoubtAsymmetry(const FoundFace& face, const fsm::Image& image, const FloatImage& person);
+Mask DoubtAsymmetry(const FoundFace& face, const fsm::Image& image, const Mask& person);
 
 }  // namespace facefit

@@ -22,7 +22,7 @@ namespace {
 /// Longest side of a picture that is solved; mattes of larger ones are upsampled from a copy.
 constexpr int kSolvedSize = 720;
 /// Reach of errors of the rough outline: longer side / first + second, pixels.
-constexpr int kOutlinePart = 90, kOutlinePixels = 2;
+constexpr int kOutlineDivisor = 90, kOutlinePixels = 2;
 /// Regularisation of covariances of colours 0..1: matting Laplacian, guided filter.
 constexpr float kLaplacianNoise = 2e-5F, kGuideNoise = 2e-4F;
 /// Weight that holds a pixel to its opacity: any pixel, and in addition one of opacity 0 or 1.
@@ -56,14 +56,14 @@ glm::mat3 Inverse(const glm::mat3& spread, float noise) {
 /// opacity is a linear function of the colours in every window of 3 x 3.
 class MattingLaplacian {
  public:
-  MattingLaplacian(const fsm::Image& image, const PixelVector& open) : width_(image.width) {
+  MattingLaplacian(const fsm::Image& image, const PixelVector& undecided) : width_(image.width) {
     colour_.reserve(image.rgba.size() / 4);
     for (std::size_t i = 0; i < image.rgba.size() / 4; ++i) colour_.push_back(Colour(image, i));
     for (int y = 1; y + 1 < image.height; ++y) {
       for (int x = 1; x + 1 < width_; ++x) {
         const std::size_t i = image.Index(x, y);
         const auto around = Around(i);
-        if (std::ranges::none_of(around, [&](std::size_t j) { return open[Index(j)] != 0; })) {
+        if (std::ranges::none_of(around, [&](std::size_t j) { return undecided[Index(j)] != 0; })) {
           continue;
         }
         Window window{i, glm::vec3(0), glm::mat3(0)};
@@ -114,18 +114,19 @@ class MattingLaplacian {
   std::vector<Window> windows_;
 };
 
-/// Runs conjugate gradients on undecided pixels (`open` = 1); `pull` holds each to its initial `x`.
-void ConjugateGradients(const MattingLaplacian& laplacian, const PixelVector& open,
+/// Runs conjugate gradients on undecided pixels (`undecided` = 1); `pull` holds each to its initial
+/// `x`.
+void ConjugateGradients(const MattingLaplacian& laplacian, const PixelVector& undecided,
                         const PixelVector& pull, PixelVector& x) {
   constexpr int kRounds = 120;
-  constexpr double kEnough = 1e-5;  // part of the residual's initial squared norm
+  constexpr double kEnough = 1e-5;  // share of the residual's initial squared norm
   const auto square = [](const PixelVector& v) { return v.matrix().cast<double>().squaredNorm(); };
-  PixelVector residual = -open * laplacian.Times(x);
+  PixelVector residual = -undecided * laplacian.Times(x);
   PixelVector direction = residual;
   double squared_norm = square(residual);
   const double enough = std::max(squared_norm * kEnough, 1e-9);
   for (int round = 0; round < kRounds && squared_norm > enough; ++round) {
-    const PixelVector product = open * (laplacian.Times(direction) + pull * direction);
+    const PixelVector product = undecided * (laplacian.Times(direction) + pull * direction);
     const double curvature = direction.matrix().cast<double>().dot(product.matrix().cast<double>());
     const auto alpha = static_cast<float>(squared_norm / std::max(curvature, 1e-12));
     x += alpha * direction;
@@ -140,7 +141,7 @@ void ConjugateGradients(const MattingLaplacian& laplacian, const PixelVector& op
 float Sharpened(float v) { return fsm::SmoothStep(kSharpen, v); }
 
 /// Decides pixels that are half opaque over a wide area, which is doubt and not an edge.
-void SuppressWideDoubt(FloatImage& opacity, int reach) {
+void SuppressWideDoubt(Mask& opacity, int reach) {
   FloatImage square = opacity;
   for (float& v : square.values) v *= v;
   const FloatImage mean = Blurred(opacity, reach), mean_square = Blurred(square, reach);
@@ -153,24 +154,24 @@ void SuppressWideDoubt(FloatImage& opacity, int reach) {
   }
 }
 
-FloatImage SolveOpacity(const fsm::Image& image, const FloatImage& person) {
-  const glm::vec2 sure = PhotoLook().figure.outline_doubt_part;
-  const int reach = std::max(image.width, image.height) / kOutlinePart + kOutlinePixels;
-  const FloatImage around = Blurred(person, reach);
+Mask SolveOpacity(const fsm::Image& image, const Mask& person) {
+  const glm::vec2 sure = PhotoLook().figure.outline_doubt_share;
+  const int reach = std::max(image.width, image.height) / kOutlineDivisor + kOutlinePixels;
+  const Mask around = Blurred(person, reach);
   FloatImage out(person.width, person.height);
   const auto count = static_cast<Eigen::Index>(out.values.size());
-  PixelVector open(count);
+  PixelVector undecided(count);
   for (std::size_t i = 0; i < out.values.size(); ++i) {
     const bool doubt = around.values[i] > sure.x && around.values[i] < sure.y;
-    open[static_cast<Eigen::Index>(i)] = doubt ? 1.0F : 0.0F;
+    undecided[static_cast<Eigen::Index>(i)] = doubt ? 1.0F : 0.0F;
     out.values[i] = doubt ? Sharpened(person.values[i]) : std::round(around.values[i]);
   }
-  const MattingLaplacian laplacian(image, open);
+  const MattingLaplacian laplacian(image, undecided);
   // The second round settles pixels whose colours tell nothing on 0 or 1.
   for (int round = 0; round < 2; ++round) {
     PixelVector opacity = Eigen::Map<const PixelVector>(out.values.data(), count);
     const PixelVector pull = kPull + kPullDecided * (2 * opacity - 1).square();
-    ConjugateGradients(laplacian, open, pull, opacity);
+    ConjugateGradients(laplacian, undecided, pull, opacity);
     Eigen::Map<PixelVector>(out.values.data(), count) = opacity.max(0).min(1);
     SuppressWideDoubt(out, reach);
   }
@@ -184,7 +185,7 @@ struct OpacityGuide {
 };
 
 /// Fits by least squares over 3 x 3 pixels (guided filter; He, Sun and Tang 2010).
-OpacityGuide FitGuide(const fsm::Image& image, const FloatImage& opacity) {
+OpacityGuide FitGuide(const fsm::Image& image, const Mask& opacity) {
   constexpr int kReach = 1;
   VectorImage mean(image.width, image.height), product = mean;
   Raster<glm::mat3> square(image.width, image.height);
@@ -209,8 +210,7 @@ OpacityGuide FitGuide(const fsm::Image& image, const FloatImage& opacity) {
 }
 
 /// Upsamples the small picture's opacity, guided by the large picture's colours.
-FloatImage GuidedUpsampling(const fsm::Image& small, const FloatImage& opacity,
-                            const fsm::Image& large) {
+Mask GuidedUpsampling(const fsm::Image& small, const Mask& opacity, const fsm::Image& large) {
   const OpacityGuide fit = FitGuide(small, opacity);
   const glm::vec2 scale =
       glm::vec2(small.width, small.height) / glm::vec2(large.width, large.height);
@@ -226,9 +226,9 @@ FloatImage GuidedUpsampling(const fsm::Image& small, const FloatImage& opacity,
 
 }  // namespace
 
-FloatImage Matte(const fsm::Image& photo, const FloatImage& person) {
+Mask Matte(const fsm::Image& photo, const Mask& person) {
   const int longer = std::max(photo.width, photo.height);
-  FloatImage out;
+  Mask out;
   if (longer <= kSolvedSize) {
     out = SolveOpacity(photo, person);
   } else {
@@ -241,7 +241,7 @@ FloatImage Matte(const fsm::Image& photo, const FloatImage& person) {
   return out;
 }
 
-fsm::Image ForegroundColours(const fsm::Image& photo, const FloatImage& opacity) {
+fsm::Image ForegroundColours(const fsm::Image& photo, const Mask& opacity) {
   // Blurred foreground and background colours, corrected by the remaining difference to the photo
   // (Forte, Approximate Fast Foreground Colour Estimation, 2021).
   const int longer = std::max(photo.width, photo.height);
@@ -250,17 +250,17 @@ fsm::Image ForegroundColours(const fsm::Image& photo, const FloatImage& opacity)
   for (std::size_t i = 0; i < opacity.values.size(); ++i) {
     if (opacity.values[i] > 0 && opacity.values[i] < 1) edge.push_back(i);
   }
-  FloatImage behind_opacity = opacity;
+  Mask behind_opacity = opacity;
   for (float& v : behind_opacity.values) v = 1 - v;
   VectorImage figure = Colours(photo), behind = figure;
-  for (const auto& [part, pixels] : kForegroundReach) {
-    const int reach = longer / part + pixels;
+  for (const auto& [divisor, pixels] : kForegroundReach) {
+    const int reach = longer / divisor + pixels;
     VectorImage figure_sum = figure, behind_sum = behind;
     for (std::size_t i = 0; i < figure_sum.values.size(); ++i) {
       figure_sum.values[i] *= opacity.values[i];
       behind_sum.values[i] *= behind_opacity.values[i];
     }
-    const FloatImage share = Blurred(opacity, reach), rest = Blurred(behind_opacity, reach);
+    const Mask share = Blurred(opacity, reach), rest = Blurred(behind_opacity, reach);
     figure_sum = Blurred(figure_sum, reach);
     behind_sum = Blurred(behind_sum, reach);
     for (const std::size_t i : edge) {
@@ -274,14 +274,14 @@ fsm::Image ForegroundColours(const fsm::Image& photo, const FloatImage& opacity)
   }
   for (const std::size_t i : edge) SetRgb(out, i, figure.values[i]);
   // The colour of nearly transparent pixels is hardly known and is filled in from around.
-  FloatImage known = opacity;
+  Mask known = opacity;
   for (float& v : known.values) v = glm::smoothstep(kUnknown, kKnown, v);
   PushPullInpaint(out, known);
   return out;
 }
 
-FigureCutout CutOutFigure(const fsm::Image& photo, const FloatImage& person) {
-  FloatImage opacity = Matte(photo, person);
+FigureCutout CutOutFigure(const fsm::Image& photo, const Mask& person) {
+  Mask opacity = Matte(photo, person);
   fsm::Image colours = ForegroundColours(photo, opacity);
   return {std::move(colours), std::move(opacity)};
 }

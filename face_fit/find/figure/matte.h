@@ -7,18 +7,18 @@ namespace facefit {
 
 /// Computes the alpha matte of a figure: 1 inside, 0 outside, between at soft edges and strands of
 /// hair. `person`: a rough estimate, 0..1; pixels far from its outline keep it.
-FloatImage Matte(const fsm::Image& photo, const FloatImage& person);
+Mask Matte(const fsm::Image& photo, const Mask& person);
 
 /// Returns the figure's colours without the background's light in its edge, continued beyond the
 /// edge.
-fsm::Image ForegroundColours(const fsm::Image& photo, const FloatImage& opacity);
+fsm::Image ForegroundColours(const fsm::Image& photo, const Mask& opacity);
 
 /// A figure cut out of a photo: its colours, continued beyond its outline, and its opacity, 0..1.
 struct FigureCutout {
   fsm::Image colours;
-  FloatImage opacity;
+  Mask opacity;
 };
 /// Runs Matte and ForegroundColours. `person`: as for Matte.
-FigureCutout CutOutFigure(const fsm::Image& photo, const FloatImage& person);
+FigureCutout CutOutFigure(const fsm::Image& photo, const Mask& person);
 
 }  // namespace facefit

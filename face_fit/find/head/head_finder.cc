@@ -28,17 +28,18 @@ constexpr glm::mat3 kTurns[] = {{1, 0, 0, 0, 1, 0, 0, 0, 1},    // y up, towards
                                 {0, 0, 1, 0, 1, 0, -1, 0, 0},   // towards x
                                 {0, 0, -1, 0, 1, 0, 1, 0, 0}};  // towards -x
 
-/// Part of the file's height, from the top, that may be the head: head, bust, whole figures.
-constexpr float kHeadParts[] = {1, 0.8F, 0.28F, 0.15F};
+/// Share of the file's height, from the top, that may be the head: head, bust, whole figures.
+constexpr float kHeadShares[] = {1, 0.8F, 0.28F, 0.15F};
 
-/// Returns the transform of that upper part of the file to our head's size and place.
-fsm::Similarity InitialPlacement(const fsm::ImportedHead& file, const glm::mat3& turn, float part) {
+/// Returns the transform of that upper part of the file to our head's size and position.
+fsm::Similarity InitialPlacement(const fsm::ImportedHead& file, const glm::mat3& turn,
+                                 float share) {
   fsm::Box box;
   for (const glm::vec3& p : file.position) box.Add(turn * p);
   constexpr float kHeightMm = 290, kTopMm = 140;  // height of our head, y of its crown
   fsm::Similarity guess;
   guess.turn = turn;
-  guess.scale = kHeightMm / std::max(box.size().y * part, 1e-6F);
+  guess.scale = kHeightMm / std::max(box.size().y * share, 1e-6F);
   guess.move = -guess.scale * glm::vec3(box.centre().x, box.high.y, box.centre().z);
   guess.move.y += kTopMm;
   return guess;
@@ -91,7 +92,7 @@ void OntoLidEdges(const ObservedHead& ours, std::vector<MeshPoint>& our_points,
   }
 }
 
-/// Observes a head and pairs its places with those of the built-in one.
+/// Observes a head and pairs its points with those of the built-in one.
 class HeadMatcher {
  public:
   HeadMatcher(FaceNetworks& networks, const fsm::ImportedHead& file, std::string name,
@@ -101,7 +102,7 @@ class HeadMatcher {
   std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_ours) {
     const auto other = Observe(to_ours);
     if (!other) return {};
-    std::vector<MeshPoint> ours = base_.places(), theirs = other->places();
+    std::vector<MeshPoint> ours = base_.mesh_points(), theirs = other->mesh_points();
     OntoLidEdges(base_, ours, *other, theirs);
     const bool both = base_.seam() && other->seam();
     if (both) {
@@ -143,7 +144,7 @@ struct HeadMatch {
   float gap_mm;  ///< median distance of the pairs after alignment
 };
 
-/// Returns the median distance of the pairs' places after `to_ours` is applied, millimetres.
+/// Returns the median distance of the pairs' positions after `to_ours` is applied, millimetres.
 float MedianDistanceMm(const fsm::Similarity& to_ours, std::span<const fsm::PointPair> pairs) {
   std::vector<float> gaps;
   for (const auto& pair : pairs) gaps.push_back(glm::distance(to_ours(pair.to), pair.from));
@@ -158,15 +159,15 @@ float DegreesBetween(const glm::mat3& a, const glm::mat3& b) {
 
 /// Observes the head as guessed, and again scaled and turned as our own head was. There is no match
 /// if no face is seen, or not from the front: the networks find faces in profiles, too, but
-/// misplace their points, so that the second look turns the head again. Measured on two heads, and
-/// on one of them made wider, taller, deeper and flatter: from the front the second look turns the
+/// misplace their points, so that the second pass turns the head again. Measured on two heads, and
+/// on one of them made wider, taller, deeper and flatter: from the front the second pass turns the
 /// head by at most 1 degree and leaves 3.7 to 7.4 mm, from elsewhere by 8 degrees or more, with 7.3
 /// to 40 mm.
-struct Look {
+struct Observation {
   bool face_seen = false;  ///< from any side
   std::optional<HeadMatch> match;
 };
-Look LookFrom(HeadMatcher& matcher, const fsm::Similarity& guess) {
+Observation ObserveAs(HeadMatcher& matcher, const fsm::Similarity& guess) {
   constexpr float kStraightDeg = 5, kMaxGapMm = 12;
   const auto first = matcher.PairsAt(guess);
   if (first.empty()) return {};
@@ -188,12 +189,13 @@ vm::Result<fsm::HeadPoints> FindHeadPoints(FaceNetworks& networks, const fsm::Im
   if (!base) return std::unexpected(base.error());
   HeadMatcher matcher(networks, file, name, std::move(*base));
   bool face_seen = false;
-  for (const float part : kHeadParts) {
+  for (const float share : kHeadShares) {
     std::optional<HeadMatch> best;
     for (const glm::mat3& turn : kTurns) {
-      Look look = LookFrom(matcher, InitialPlacement(file, turn, part));
-      face_seen = face_seen || look.face_seen;
-      if (look.match && (!best || look.match->gap_mm < best->gap_mm)) best = std::move(look.match);
+      Observation observed = ObserveAs(matcher, InitialPlacement(file, turn, share));
+      face_seen = face_seen || observed.face_seen;
+      if (observed.match && (!best || observed.match->gap_mm < best->gap_mm))
+        best = std::move(observed.match);
     }
     if (!best) continue;
     const fsm::Similarity to_ours = fsm::FitSimilarity(best->pairs);

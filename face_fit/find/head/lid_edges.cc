@@ -15,26 +15,25 @@ namespace {
 constexpr glm::vec2 kHalfWindowMm(34, 24);
 
 /// Returns 1 where an eyeball is foremost and connected to its point nearest to `centre`, else 0.
-FloatImage EyeballMask(const VisibleSurface& surface, const std::vector<bool>& is_eye,
-                       glm::vec2 centre) {
+Mask EyeballMask(const VisibleSurface& surface, const std::vector<bool>& is_eye, glm::vec2 centre) {
   constexpr float kFarthestMm = 12;
-  FloatImage open(surface.grid().columns, surface.grid().rows);
+  FloatImage eyeball(surface.grid().columns, surface.grid().rows);
   glm::ivec2 seed(0);
   float nearest = kFarthestMm;
-  for (int row = 0; row < open.height; ++row) {
-    for (int column = 0; column < open.width; ++column) {
-      const MeshTriangle* triangle = surface.Triangle(column, row);
+  for (int row = 0; row < eyeball.height; ++row) {
+    for (int column = 0; column < eyeball.width; ++column) {
+      const MeshTriangle* triangle = surface.TriangleAt(column, row);
       if (!triangle || !is_eye[triangle->corner[0]]) continue;
-      open(column, row) = 1;
+      eyeball(column, row) = 1;
       const float distance = glm::distance(surface.grid().Point(column, row), centre);
       if (distance >= nearest) continue;
       nearest = distance;
       seed = {column, row};
     }
   }
-  if (nearest == kFarthestMm) return FloatImage(open.width, open.height);
-  KeepConnected(seed, open);
-  return open;
+  if (nearest == kFarthestMm) return FloatImage(eyeball.width, eyeball.height);
+  KeepConnected(seed, eyeball);
+  return eyeball;
 }
 
 /// The rows of the opening in one column.
@@ -42,11 +41,11 @@ struct RowSpan {
   int low, high;
   bool IsEmpty() const { return high < low; }
 };
-std::vector<RowSpan> RowsOf(const FloatImage& open) {
-  std::vector<RowSpan> rows(static_cast<std::size_t>(open.width), {open.height, -1});
-  for (int row = 0; row < open.height; ++row) {
-    for (int column = 0; column < open.width; ++column) {
-      if (open(column, row) <= 0) continue;
+std::vector<RowSpan> RowsOf(const Mask& eyeball) {
+  std::vector<RowSpan> rows(static_cast<std::size_t>(eyeball.width), {eyeball.height, -1});
+  for (int row = 0; row < eyeball.height; ++row) {
+    for (int column = 0; column < eyeball.width; ++column) {
+      if (eyeball(column, row) <= 0) continue;
       RowSpan& span = rows[static_cast<std::size_t>(column)];
       span.low = std::min(span.low, row);
       span.high = row;
@@ -85,8 +84,8 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
   const auto beyond = [&](int column, int row, int right, int up) -> std::optional<MeshPoint> {
     for (int k = 1; k <= kGap; ++k) {
       const int x = column + k * right, y = row + k * up;
-      const MeshTriangle* triangle = surface.Triangle(x, y);
-      if (triangle && !is_eye[triangle->corner[0]]) return surface.Place(x, y);
+      const MeshTriangle* triangle = surface.TriangleAt(x, y);
+      if (triangle && !is_eye[triangle->corner[0]]) return surface.MeshPointAt(x, y);
     }
     return std::nullopt;
   };
@@ -103,9 +102,9 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
   edges.outer = *outer;
   edges.inner = *inner;
   for (std::size_t k = 0; k < LidEdges::kBetween; ++k) {
-    const float part = static_cast<float>(k + 1) / (LidEdges::kBetween + 1);
+    const float along = static_cast<float>(k + 1) / (LidEdges::kBetween + 1);
     const int column = static_cast<int>(
-        std::lround(static_cast<float>(out) + part * static_cast<float>(in - out)));
+        std::lround(static_cast<float>(out) + along * static_cast<float>(in - out)));
     const RowSpan& span = rows[static_cast<std::size_t>(column)];
     const auto upper = beyond(column, span.high, 0, 1), lower = beyond(column, span.low, 0, -1);
     if (span.IsEmpty() || !upper || !lower) return std::nullopt;

@@ -28,14 +28,14 @@ std::vector<Crossing> FindCrossings(const VisibleSurface& view, const fsm::Welde
                                     std::span<const float> from_lower) {
   // Distances at a point of the view if it shows skin, and not teeth or the mouth's lining.
   const auto distances = [&](int column, int row) -> std::optional<glm::vec2> {
-    const MeshTriangle* triangle = view.Triangle(column, row);
+    const MeshTriangle* triangle = view.TriangleAt(column, row);
     if (!triangle || triangle->material == fsm::Material::kMouthInside) return std::nullopt;
-    const MeshPoint place = view.Place(column, row);
+    const MeshPoint on_mesh = view.MeshPointAt(column, row);
     glm::vec2 sum(0);
     for (int k = 0; k < 3; ++k) {
-      const std::uint32_t v = surface.of[place.corner[static_cast<std::size_t>(k)]];
+      const std::uint32_t v = surface.of[on_mesh.corner[static_cast<std::size_t>(k)]];
       if (v == fsm::WeldedSurface::kNone) return std::nullopt;
-      sum += place.weight[k] * glm::vec2(from_upper[v], from_lower[v]);
+      sum += on_mesh.weight[k] * glm::vec2(from_upper[v], from_lower[v]);
     }
     return sum;
   };
@@ -104,7 +104,8 @@ std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
     int next = column;
     while (crossings[static_cast<std::size_t>(next)].above < 0) ++next;
     const Crossing& crossing = crossings[static_cast<std::size_t>(next)];
-    seam.columns.push_back({view.Place(next, crossing.above), view.Place(next, crossing.below)});
+    seam.columns.push_back(
+        {view.MeshPointAt(next, crossing.above), view.MeshPointAt(next, crossing.below)});
   }
   return seam;
 }

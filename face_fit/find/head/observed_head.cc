@@ -27,27 +27,28 @@ VisibleSurface SkinIn(const fsm::HeadTopology& topology, const std::vector<glm::
   return surface;
 }
 
-/// Returns the places of the skin at some points of a picture; for points beside the skin the
-/// nearest visible place that is no farther back than the ears. Returns none if no skin is visible.
-std::vector<MeshPoint> PlacesUnder(const VisibleSurface& skin, const std::vector<glm::vec3>& screen,
-                                   std::span<const glm::vec3> points) {
+/// Returns the points of the skin at some pixels of a picture; for pixels beside the skin the
+/// nearest visible point that is no farther back than the ears. Returns none if no skin is visible.
+std::vector<MeshPoint> SkinPointsAt(const VisibleSurface& skin,
+                                    const std::vector<glm::vec3>& screen,
+                                    std::span<const glm::vec3> points) {
   constexpr float kFarthestBackMm = -20;
-  std::vector<MeshPoint> places;
-  if (std::ranges::max(skin.depth().values) < kFarthestBackMm) return places;
+  std::vector<MeshPoint> found;
+  if (std::ranges::max(skin.depth().values) < kFarthestBackMm) return found;
   const auto nearest = NearestAbove(skin.depth(), kFarthestBackMm);
   for (const glm::vec3& p : points) {
     const glm::ivec2 pixel = glm::clamp(glm::ivec2(p), 0, kPortraitSize - 1);
     const std::size_t own = skin.depth().Index(pixel.x, pixel.y), i = nearest[own];
-    MeshPoint place =
-        skin.Place(static_cast<int>(i % kPortraitSize), static_cast<int>(i / kPortraitSize));
-    // Refine the place within the pixel.
-    const auto& t = place.corner;
+    MeshPoint point =
+        skin.MeshPointAt(static_cast<int>(i % kPortraitSize), static_cast<int>(i / kPortraitSize));
+    // Refine the point within the pixel.
+    const auto& t = point.corner;
     if (i == own) {
-      place.weight = Triangle2{screen[t[0]], screen[t[1]], screen[t[2]]}.WeightsAt(glm::vec2(p));
+      point.weight = Triangle2{screen[t[0]], screen[t[1]], screen[t[2]]}.WeightsAt(glm::vec2(p));
     }
-    places.push_back(place);
+    found.push_back(point);
   }
-  return places;
+  return found;
 }
 
 std::optional<LipSeam> SeamOf(const ObservedHead& base) {
@@ -84,11 +85,11 @@ ObservedHead::ObservedHead(std::unique_ptr<fsm::Head> head, const std::string& n
 }
 
 ObservedHead ObservedHead::Exact(std::unique_ptr<fsm::Head> head, const std::string& name,
-                                 std::vector<MeshPoint> places) {
+                                 std::vector<MeshPoint> points) {
   ObservedHead exact(std::move(head), name, {});
-  exact.places_ = std::move(places);
-  for (const MeshPoint& place : exact.places_) {
-    exact.detected_.push_back(place.On(exact.rest_.position));
+  exact.mesh_points_ = std::move(points);
+  for (const MeshPoint& point : exact.mesh_points_) {
+    exact.detected_depth_mm_.push_back(point.On(exact.rest_.position).z);
   }
   return exact;
 }
@@ -104,7 +105,7 @@ vm::Result<ObservedHead> ObservedHead::BuiltIn(FaceNetworks& networks,
                   .has_uv_seams = false,
                   .is_eye = EyeVertices(head->topology())};
   auto base = Foreign(networks, std::move(head), name, std::move(surface));
-  if (base && base->seam_) SnapToSeam(base->rest_.position, *base->seam_, base->places_);
+  if (base && base->seam_) SnapToSeam(base->rest_.position, *base->seam_, base->mesh_points_);
   return base;
 }
 
@@ -113,20 +114,22 @@ vm::Result<ObservedHead> ObservedHead::Foreign(FaceNetworks& networks,
                                                const std::string& name, Surface surface) {
   ObservedHead observed(std::move(head), name, std::move(surface));
   const PortraitView portrait(kPortraitSize);
-  observed.picture_ = portrait.Draw(observed.head(), observed.rest_, {});
+  Seen seen{portrait.Draw(observed.head(), observed.rest_, {}), {}};
   std::vector<glm::vec3> screen;
   for (const glm::vec3& p : observed.rest_.position) screen.emplace_back(portrait.Pixel(p), p.z);
-  const auto faces = FindFaces(networks, observed.picture_);
+  const auto faces = FindFaces(networks, seen.picture);
   if (!faces.empty()) {
-    observed.places_ =
-        PlacesUnder(SkinIn(observed.head().topology(), screen), screen, faces.front().points);
+    observed.mesh_points_ =
+        SkinPointsAt(SkinIn(observed.head().topology(), screen), screen, faces.front().points);
   }
-  if (observed.places_.empty()) {
+  if (observed.mesh_points_.empty()) {
     return vm::Fail(vm::Errc::kBadValue, "no face is seen on the head '" + name + "'");
   }
   for (const glm::vec3& p : faces.front().points) {
-    observed.detected_.emplace_back(p.x, p.y, p.z * portrait.mm_per_pixel());
+    seen.pixels.emplace_back(p);
+    observed.detected_depth_mm_.push_back(p.z * portrait.mm_per_pixel());
   }
+  observed.seen_ = std::move(seen);
   observed.seam_ = SeamOf(observed);
   return observed;
 }

@@ -37,29 +37,31 @@ class ObservedHead {
   /// Observes a head of any maker; its points stay where the network saw them. Errors: as BuiltIn.
   static vm::Result<ObservedHead> Foreign(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
                                           const std::string& name, Surface surface);
-  /// Returns a head whose points are known exactly, for comparison. It has no picture and no
-  /// surface, and `detected` holds places on the head, millimetres: not for DetectOcclusion.
+  /// Returns a head whose points are known exactly, for comparison: no network has seen it, and it
+  /// has no surface.
   static ObservedHead Exact(std::unique_ptr<fsm::Head> head, const std::string& name,
-                            std::vector<MeshPoint> places);
+                            std::vector<MeshPoint> points);
 
   const std::string& name() const { return name_; }
   const fsm::Head& head() const { return *head_; }
   const fsm::HeadVertices& rest() const { return rest_; }
   const Surface& surface() const { return surface_; }
-  /// Returns the places of the network's points on the head.
-  const std::vector<MeshPoint>& places() const { return places_; }
-  /// Returns where the network saw them: x, y pixels of `picture`, z millimetres.
-  const std::vector<glm::vec3>& detected() const { return detected_; }
-  const fsm::Image& picture() const { return picture_; }  ///< what the network was shown
+  /// Returns where the network's points lie on the head.
+  const std::vector<MeshPoint>& mesh_points() const { return mesh_points_; }
+  /// Returns the depth that the network reports of a point, millimetres; of an Exact head the true
+  /// one.
+  float DetectedDepthMm(PointIndex i) const { return detected_depth_mm_[i]; }
+  /// Returns what the network was shown. REQUIRES: not Exact.
+  const fsm::Image& picture() const { return seen_.value().picture; }
+  /// Returns the pixel of `picture` at which the network saw a point. REQUIRES: not Exact.
+  glm::vec2 DetectedAt(PointIndex i) const { return seen_.value().pixels[i]; }
   /// Returns the line where the lips meet, if it was found.
   const std::optional<LipSeam>& seam() const { return seam_; }
   /// Returns the face's own action units, if it has any.
   const std::optional<fsm::UnitTable>& units() const { return units_; }
 
-  /// Returns the place of a point on the head at rest, millimetres.
-  glm::vec3 AtRest(PointIndex i) const { return places_[i].On(rest_.position); }
-  /// Returns the pixel of `picture` at which the network saw a point.
-  glm::vec2 DetectedAt(PointIndex i) const { return glm::vec2(detected_[i]); }
+  /// Returns the position of a point on the head at rest, millimetres.
+  glm::vec3 AtRest(PointIndex i) const { return mesh_points_[i].On(rest_.position); }
   /// Replaces the action units. Points stay, since they were observed at rest.
   void MoveBy(const fsm::UnitTable& own);
 
@@ -70,9 +72,13 @@ class ObservedHead {
   std::unique_ptr<fsm::Head> head_;
   Surface surface_;
   fsm::HeadVertices rest_;
-  std::vector<MeshPoint> places_;
-  std::vector<glm::vec3> detected_;
-  fsm::Image picture_;
+  std::vector<MeshPoint> mesh_points_;
+  std::vector<float> detected_depth_mm_;
+  struct Seen {
+    fsm::Image picture;
+    std::vector<glm::vec2> pixels;  ///< of the points
+  };
+  std::optional<Seen> seen_;
   std::optional<LipSeam> seam_;
   std::optional<fsm::UnitTable> units_;
 };

@@ -74,16 +74,16 @@ std::vector<fsm::PointPair> RejectOutliers(std::span<const fsm::PointPair> pairs
 std::vector<fsm::PointPair> Symmetrise(const fsm::Similarity& to_ours,
                                        std::vector<fsm::PointPair> pairs) {
   constexpr float kNearMm = 7;
-  std::vector<fsm::PointPair> placed = pairs;
-  for (auto& pair : placed) pair.to = to_ours(pair.to);
-  const MirrorPlane mirror = FindMirrorPlane(placed);
+  std::vector<fsm::PointPair> aligned = pairs;
+  for (auto& pair : aligned) pair.to = to_ours(pair.to);
+  const MirrorPlane mirror = FindMirrorPlane(aligned);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto* mirrored = MirroredPair(placed[i], placed);
+    const auto* mirrored = MirroredPair(aligned[i], aligned);
     if (!mirrored) continue;
     const glm::vec3 opposite = mirror.Mirrored(mirrored->to);
-    if (glm::distance(opposite, placed[i].to) > kNearMm) continue;
-    pairs[i].from = 0.5F * (placed[i].from + kMirror * mirrored->from);
-    const glm::vec3 to = 0.5F * (placed[i].to + opposite);
+    if (glm::distance(opposite, aligned[i].to) > kNearMm) continue;
+    pairs[i].from = 0.5F * (aligned[i].from + kMirror * mirrored->from);
+    const glm::vec3 to = 0.5F * (aligned[i].to + opposite);
     pairs[i].to = to_ours.Inverse(to);
   }
   return pairs;

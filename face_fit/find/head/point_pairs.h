@@ -12,7 +12,7 @@ namespace facefit {
 /// aligned with ours. REQUIRES: as FitSimilarity.
 std::vector<fsm::PointPair> RejectOutliers(std::span<const fsm::PointPair> pairs);
 
-/// Returns the pairs with places averaged with their mirrored counterparts where the two nearly
+/// Returns the pairs with positions averaged with their mirrored counterparts where the two nearly
 /// agree: heads are symmetric, so the mean is more accurate. `to_ours` transforms the pairs' `to`
 /// into our frame, facing about +z.
 std::vector<fsm::PointPair> Symmetrise(const fsm::Similarity& to_ours,

@@ -36,17 +36,17 @@ constexpr PointIndex kLeftEye[] = {
 AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image,
                                   const NetworkCrop& crop) {
   attention.Run(crop.Sample(image, kPointsPixels, 0, 1));
-  const auto place = [&](AttentionOutput output, std::size_t i) {
+  const auto pixel = [&](AttentionOutput output, std::size_t i) {
     const auto xy = attention.output(output);
     return crop.ToPicture(glm::vec2(xy[2 * i], xy[2 * i + 1]) / float{kPointsPixels});
   };
   AttentiveFace found;
   found.face.crop = crop;
-  found.face.certainty = tflite::op::Logistic::Of(attention.output(kAttentionFlag)[0]);
-  found.face.points = PointsInPicture(attention.output(kAttentionMesh), crop);
+  found.face.certainty = tflite::op::Logistic::Of(attention.output(kAttentionCertainty)[0]);
+  found.face.points = PointsInPicture(attention.output(kAttentionPoints), crop);
   const auto refine = [&](AttentionOutput output, std::span<const PointIndex> points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const glm::vec2 at = place(output, i);
+      const glm::vec2 at = pixel(output, i);
       found.face.points[points[i]].x = at.x;
       found.face.points[points[i]].y = at.y;
     }
@@ -55,8 +55,8 @@ AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image,
   refine(kAttentionRightEye, kRightEye);
   refine(kAttentionLeftEye, kLeftEye);
   for (std::size_t i = 0; i < 5; ++i) {
-    found.iris.right[i] = place(kAttentionRightIris, i);
-    found.iris.left[i] = place(kAttentionLeftIris, i);
+    found.iris.right[i] = pixel(kAttentionRightIris, i);
+    found.iris.left[i] = pixel(kAttentionLeftIris, i);
   }
   return found;
 }

@@ -8,7 +8,7 @@
 namespace facefit {
 
 /// A face found by MediaPipe's landmark network with attention, which looks a second time, closer,
-/// at lips and eyes: their x and y are finer than the plain network's; z is the first look's.
+/// at lips and eyes: their x and y are finer than the plain network's; z is the first pass's.
 struct AttentiveFace {
   FoundFace face;
   /// For each eye: the centre of the iris, then four points of its edge, a quarter turn apart.

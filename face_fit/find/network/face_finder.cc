@@ -25,10 +25,10 @@ constexpr float kWellSeen = 0.2F, kWellSeenRank = 1, kWholeRank = 0.15F;
 /// larger.
 constexpr float kZoomedOut = 1.6F;
 /// Numbers of overlapping parts along the longer side that are searched, unless the largest face
-/// found fills kFillsPart of a part: faces beside it, farther back or turned, are up to three times
-/// smaller.
+/// found fills kFillsShare of a part: faces beside it, farther back or turned, are up to three
+/// times smaller.
 constexpr int kParts[] = {2, 4};
-constexpr float kPartOverlap = 1.4F, kFillsPart = 0.85F;
+constexpr float kPartOverlap = 1.4F, kFillsShare = 0.85F;
 /// Size of the crop the landmark network was trained on, divided by that of the face's box.
 constexpr float kCropMargin = 1.5F;
 
@@ -67,20 +67,21 @@ std::vector<FaceBox> Detect(FaceNetworks& networks, const fsm::Image& image,
                             const NetworkCrop& crop) {
   static const std::vector<glm::vec2> anchors = Anchors();
   networks.detector.Run(crop.Sample(image, kDetectorPixels, -1, 1));
-  const auto boxes = networks.detector.output(0);
-  const auto scores = networks.detector.output(1);
+  const auto boxes = networks.detector.output(kDetectorBoxes);
+  const auto scores = networks.detector.output(kDetectorScores);
   std::vector<FaceBox> found;
   for (std::size_t i = 0; i < anchors.size(); ++i) {
     const float score = tflite::op::Logistic::Of(scores[i]);
     if (!(score >= kMinScore)) continue;
-    const float* box = &boxes[16 * i];
-    const auto place = [&](int k) {
+    const float* box = &boxes[kBoxNumbers * i];
+    const auto pixel = [&](DetectorBox k) {
       return crop.ToPicture(anchors[i] + glm::vec2(box[k], box[k + 1]) / float{kDetectorPixels});
     };
-    FaceBox face{.centre = place(0),
-                 .size = glm::abs(glm::vec2(box[2], box[3])) / float{kDetectorPixels} * crop.size,
+    FaceBox face{.centre = pixel(kBoxCentre),
+                 .size = glm::abs(glm::vec2(box[kBoxSize], box[kBoxSize + 1])) /
+                         float{kDetectorPixels} * crop.size,
                  .score = score,
-                 .eyes = {place(4), place(6)}};
+                 .eyes = {pixel(kBoxRightEye), pixel(kBoxLeftEye)}};
     if (std::min(face.size.x, face.size.y) >= kMinFacePx) found.push_back(face);
   }
   return found;
@@ -110,7 +111,7 @@ class ScaledDetector {
   }
 
   /// `whole`: cut it from the picture itself, for full accuracy.
-  void Look(glm::vec2 centre, float size, bool whole = false) {
+  void Search(glm::vec2 centre, float size, bool whole = false) {
     float scale = 1;
     std::size_t copy = 0;
     while (!whole && copy + 1 < copies_.size() && size * scale > 2 * kDetectorPixels) {
@@ -143,12 +144,12 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
                  .score = box.score,
                  .crop = {box.centre, kCropMargin * std::max(box.size.x, box.size.y),
                           std::atan2(eyes.y, eyes.x)}};
-  // The first look locates the face; the others see it upright and as large as in training.
-  for (int look = 0; look < 3; ++look) {
-    if (look > 0) face.crop = CropAround(face.points, face.crop.angle_rad);
+  // The first pass locates the face; the others see it upright and as large as in training.
+  for (int pass = 0; pass < 3; ++pass) {
+    if (pass > 0) face.crop = CropAround(face.points, face.crop.angle_rad);
     networks.landmarks.Run(face.crop.Sample(image, kPointsPixels, 0, 1));
-    face.certainty = tflite::op::Logistic::Of(networks.landmarks.output(1)[0]);
-    face.points = PointsInPicture(networks.landmarks.output(0), face.crop);
+    face.certainty = tflite::op::Logistic::Of(networks.landmarks.output(kLandmarkCertainty)[0]);
+    face.points = PointsInPicture(networks.landmarks.output(kLandmarkPoints), face.crop);
   }
   return face;
 }
@@ -171,23 +172,23 @@ std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image
   const glm::vec2 size(image.width, image.height);
   const float longer = std::max(size.x, size.y);
   ScaledDetector scan(networks, image);
-  scan.Look(size * 0.5F, longer, true);
+  scan.Search(size * 0.5F, longer, true);
   for (Detection& detection : scan.found) {
     detection.rank += detection.face.size.x > kWellSeen * longer ? kWellSeenRank : kWholeRank;
   }
   // A face that fills the picture is too large for the detector, one in a crowd too small.
-  if (scan.found.empty()) scan.Look(size * 0.5F, longer * kZoomedOut, true);
+  if (scan.found.empty()) scan.Search(size * 0.5F, longer * kZoomedOut, true);
   float largest = 0;
   for (const Detection& detection : scan.found) {
     largest = std::max(largest, detection.face.size.x);
   }
   for (const int parts : kParts) {
-    if (largest > kFillsPart * longer / static_cast<float>(parts)) break;
+    if (largest > kFillsShare * longer / static_cast<float>(parts)) break;
     const float part = longer / static_cast<float>(parts) * kPartOverlap;
     for (int y = 0; y < 2 * parts; ++y) {
       for (int x = 0; x < 2 * parts; ++x) {
         const glm::vec2 centre = (glm::vec2(x, y) + 0.5F) * longer / static_cast<float>(2 * parts);
-        if (centre.x <= size.x && centre.y <= size.y) scan.Look(centre, part);
+        if (centre.x <= size.x && centre.y <= size.y) scan.Search(centre, part);
       }
     }
   }

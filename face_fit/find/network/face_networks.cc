@@ -61,7 +61,8 @@ std::unexpected<vm::Error> NotUsable(const std::string& where, const std::except
                   "the networks in '" + where + "' cannot be used: " + error.what());
 }
 
-/// `side`: of the network's square input, pixels.
+/// Checks a network's shapes. `side`: of its square input, pixels; `outputs`: count of the numbers
+/// of each output, in the order of the enumerations.
 Network Expect(Network network, std::size_t side, std::initializer_list<std::size_t> outputs) {
   bool fits =
       network.input_shape().count() == side * side * 3 && network.outputs() == outputs.size();
@@ -86,7 +87,7 @@ vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
   if (!package || !figure) return NotThere(where);
   try {
     return FaceNetworks{.detector = Expect(package->Open("face_detection_short_range.tflite"),
-                                           kDetectorPixels, {896 * 16, 896}),
+                                           kDetectorPixels, {896 * kBoxNumbers, 896}),
                         .landmarks = Expect(package->Open("face_landmark.tflite"), kPointsPixels,
                                             {3 * kNetworkPoints, 1}),
                         .segmentation = Expect(Network(tflite::Model::Read(fsm::BytesOf(*figure))),

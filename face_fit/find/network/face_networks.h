@@ -12,32 +12,53 @@ using tflite::Network;
 /// Sides of the networks' square inputs, pixels: detector, landmarks, segmentation.
 inline constexpr int kDetectorPixels = 128, kPointsPixels = 192, kFigurePixels = 256;
 
+// The outputs of the networks, by their order in the files. Right and left are the person's.
+
+/// Of the detector: for each of its cells a box (DetectorBox), and how certain it is of it (a
+/// logit).
+enum DetectorOutput : std::size_t { kDetectorBoxes, kDetectorScores };
+/// The numbers of one box: centre relative to the cell's and size, then x and y of six points, of
+/// which two are used. Pixels of the input.
+enum DetectorBox : std::size_t {
+  kBoxCentre = 0,
+  kBoxSize = 2,
+  kBoxRightEye = 4,
+  kBoxLeftEye = 6,
+  kBoxNumbers = 16
+};
+/// Of the landmark network: x, y, z of 468 points, pixels of its input, and how certain it is that
+/// they lie on a face (a logit).
+enum LandmarkOutput : std::size_t { kLandmarkPoints, kLandmarkCertainty };
+/// Of the segmentation: how much each pixel of its input belongs to a person, 0..1.
+enum SegmentationOutput : std::size_t { kSegmentationPerson };
+/// Of the landmark network with attention: 468 points (x, y, z), then points (x, y) of lips, eyes
+/// and irises, all in pixels of its input, and how certain it is that there is a face (a logit).
+enum AttentionOutput : std::size_t {
+  kAttentionPoints,
+  kAttentionLips,
+  kAttentionRightEye,
+  kAttentionLeftEye,
+  kAttentionRightIris,
+  kAttentionLeftIris,
+  kAttentionCertainty
+};
+
 /// The networks of the npm packages @mediapipe/face_mesh and @mediapipe/selfie_segmentation (both
 /// Apache-2.0), read from the unpacked packages.
 struct FaceNetworks {
-  Network detector;      ///< 128 x 128 in -1..1 -> 896 boxes and their scores
-  Network landmarks;     ///< 192 x 192 in 0..1 -> 468 points in pixels, and whether there is a face
-  Network segmentation;  ///< 256 x 256 in 0..1 -> how much each pixel belongs to a person
+  Network detector;      ///< 128 x 128 in -1..1 -> DetectorOutput
+  Network landmarks;     ///< 192 x 192 in 0..1 -> LandmarkOutput
+  Network segmentation;  ///< 256 x 256 in 0..1 -> SegmentationOutput
 
   /// Loads them from `folder`; "" = NetworksFolder(). Errors: kUnavailable (says how to install
   /// them), kBadValue (the files are damaged).
   static vm::Result<FaceNetworks> Load(const std::string& folder);
 };
 
-/// Loads the landmark network with attention of the same package: 192 x 192 in 0..1 -> the outputs
-/// below. Slower than the plain one, finer at lips and eyes. Errors: as FaceNetworks::Load.
+/// Loads the landmark network with attention of the same package: 192 x 192 in 0..1 ->
+/// AttentionOutput. Slower than the plain one, finer at lips and eyes. Errors: as
+/// FaceNetworks::Load.
 vm::Result<Network> LoadAttentionLandmarks(const std::string& folder);
-/// Its outputs: 468 points (x, y, z), then points (x, y) of lips, eyes and irises, all in pixels of
-/// its input, and whether there is a face. Right and left are the person's.
-enum AttentionOutput : std::size_t {
-  kAttentionMesh,
-  kAttentionLips,
-  kAttentionRightEye,
-  kAttentionLeftEye,
-  kAttentionRightIris,
-  kAttentionLeftIris,
-  kAttentionFlag
-};
 
 /// Returns $GALATEA_NETWORKS, else $XDG_CACHE_HOME/galatea/networks, else
 /// ~/.cache/galatea/networks.

@@ -11,14 +11,14 @@ TEST(PhotoOpeningsTest, TeethBetweenOpenLipsAreNoSkinAndTheLipsBesideThemOnlyInP
   FoundFace face = StraightMouth();
   for (const std::size_t i : point::kLowerInnerLip) face.points[i].y += 12;
   const PhotoOpenings open(face, 2, true);
-  EXPECT_EQ(open.SkinWeight({100, 106}), 0);
-  EXPECT_EQ(open.SkinWeight({100, 99}), 0) << "the blurred edge";
-  const float part = open.SkinWeight({100, 97.6F});
+  EXPECT_EQ(open.SkinShare({100, 106}), 0);
+  EXPECT_EQ(open.SkinShare({100, 99}), 0) << "the blurred edge";
+  const float part = open.SkinShare({100, 97.6F});
   EXPECT_GT(part, 0.1F);
   EXPECT_LT(part, 0.9F);
-  EXPECT_EQ(open.SkinWeight({100, 90}), 1);
-  EXPECT_EQ(open.SkinWeight({20, 20}), 1);
-  EXPECT_EQ(PhotoOpenings(face, 2, false).SkinWeight({100, 106}), 1) << "closed lips are all skin";
+  EXPECT_EQ(open.SkinShare({100, 90}), 1);
+  EXPECT_EQ(open.SkinShare({20, 20}), 1);
+  EXPECT_EQ(PhotoOpenings(face, 2, false).SkinShare({100, 106}), 1) << "closed lips are all skin";
 }
 
 }  // namespace

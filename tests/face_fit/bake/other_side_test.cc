@@ -48,7 +48,7 @@ struct OtherSideTest : testing::Test {
   static constexpr int kLow = 150, kHigh = 170;
   fsm::Image map{.width = kHalvedSide, .height = kHalvedSide, .rgba = {}};
   FloatImage seen{kHalvedSide, kHalvedSide, 1};
-  std::vector<bool> skin = std::vector<bool>(kHalvedSide * kHalvedSide, true);
+  Mask skin{kHalvedSide, kHalvedSide, 1};
 };
 
 TEST_F(OtherSideTest, WhatIsTakenFromTheOtherSideStandsInTheLightOfItsOwn) {
@@ -84,7 +84,7 @@ TEST_F(OtherSideTest, AHighlightOfTheOtherSideAloneIsNotTakenOver) {
 }
 
 TEST_F(OtherSideTest, NothingIsTakenWithinEyesAndMouth) {
-  skin.assign(skin.size(), false);
+  skin = Mask(kHalvedSide, kHalvedSide, 0);
   CompleteByMirroring(skin, map, seen);
   EXPECT_EQ(At(160, 160), glm::vec3(0));
 }

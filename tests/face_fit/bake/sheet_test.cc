@@ -64,7 +64,7 @@ TEST_F(SheetTest, GoesWithTheFaceFromItsExpressionToRest) {
   // In the photo the whole face is 6 mm higher than at rest.
   for (glm::vec3& p : fitted_.posed_vertices) p.y += p.z > 0 ? 6.0F : 0.0F;
   const Sheet moved = Made();
-  const glm::vec3 cheek = Galatea().places()[234].On(Galatea().rest().position);
+  const glm::vec3 cheek = Galatea().mesh_points()[234].On(Galatea().rest().position);
   const auto motion = [&](glm::vec2 near) {
     float nearest = 1e9F, by = 0;
     for (const auto& vertex : moved.vertices) {
@@ -75,7 +75,7 @@ TEST_F(SheetTest, GoesWithTheFaceFromItsExpressionToRest) {
       const glm::vec2 pixel =
           glm::vec2(2 * vertex.texcoord.x - 1, vertex.texcoord.y) * float{kPhoto};
       const glm::vec3 q = fitted_.pose.ToCamera(vertex.position);
-      by = vertex.position.y - fitted_.pose.PlaceAt(pixel, q.z).y;
+      by = vertex.position.y - fitted_.pose.PositionAt(pixel, q.z).y;
     }
     return by;
   };
@@ -85,10 +85,10 @@ TEST_F(SheetTest, GoesWithTheFaceFromItsExpressionToRest) {
 }
 
 TEST_F(SheetTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
-  fitted_.pose.turn_rad.y = glm::radians(25.0F);
+  fitted_.pose.rotation_rad.y = glm::radians(25.0F);
   const Sheet set = Made();
   const auto at = [&](std::size_t point) {
-    return Galatea().places()[point].On(Galatea().rest().position);
+    return Galatea().mesh_points()[point].On(Galatea().rest().position);
   };
   // Within the corners of the mouth, below them, and within the corners of the eyes.
   const glm::vec3 in(5, 0, 0), down(0, 9, 0);
@@ -108,10 +108,10 @@ TEST_F(SheetTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
 TEST_F(SheetTest, NothingOfItLiesBehindTheMouthWhereItsCellsAreWide) {
   // A head that is small in its photo: a cell is 9 mm wide.
   fitted_.pose.focal = 250;
-  fitted_.pose.turn_rad.y = glm::radians(15.0F);
+  fitted_.pose.rotation_rad.y = glm::radians(15.0F);
   const Sheet set = Made();
-  const glm::vec3 right = Galatea().places()[78].On(Galatea().rest().position),
-                  left = Galatea().places()[308].On(Galatea().rest().position);
+  const glm::vec3 right = Galatea().mesh_points()[78].On(Galatea().rest().position),
+                  left = Galatea().mesh_points()[308].On(Galatea().rest().position);
   for (std::size_t i = 0; i + 5 < set.triangles.size(); i += 6) {
     const glm::vec3 p = 0.5F * (set.vertices[set.triangles[i]].position +
                                 set.vertices[set.triangles[i + 2]].position);

@@ -27,15 +27,15 @@ class SkinSurfaceTest : public testing::Test {
     skin_.emplace(VisibleSkin(fitted_, fitted_.pose, grid_, bottom_));
   }
   /// By its depth, not as the surface names it.
-  glm::vec3 Place(int x, int y) const {
+  glm::vec3 PositionAt(int x, int y) const {
     const FloatImage& depth = skin_->depth();
-    return fitted_.pose.PlaceAt(grid_.Point(x, y), depth(x, y));
+    return fitted_.pose.PositionAt(grid_.Point(x, y), depth(x, y));
   }
   template <typename F>
   void ForCovered(F f) const {
     for (int y = 0; y < grid_.rows; ++y) {
       for (int x = 0; x < grid_.columns; ++x) {
-        if (skin_->Triangle(x, y)) f(x, y);
+        if (skin_->TriangleAt(x, y)) f(x, y);
       }
     }
   }
@@ -50,7 +50,7 @@ class SkinSurfaceTest : public testing::Test {
 TEST_F(SkinSurfaceTest, EndsBelowTheChinAndAtTheLineOfTheJaw) {
   int count = 0, low = 0;
   ForCovered([&](int x, int y) {
-    const glm::vec3 p = Place(x, y);
+    const glm::vec3 p = PositionAt(x, y);
     EXPECT_GT(p.y, bottom_ - 0.5F);
     EXPECT_GT(p.z, fsm::JawLine(p.y - bottom_) - 1.5F) << p.x << ' ' << p.y;
     ++count;
@@ -62,8 +62,8 @@ TEST_F(SkinSurfaceTest, EndsBelowTheChinAndAtTheLineOfTheJaw) {
 
 TEST_F(SkinSurfaceTest, NamesThePlaceThatIsForemost) {
   ForCovered([&](int x, int y) {
-    const glm::vec3 named = skin_->Place(x, y).On(base_.rest().position);
-    EXPECT_LT(glm::distance(named, Place(x, y)), 0.3F) << x << ' ' << y;
+    const glm::vec3 named = skin_->MeshPointAt(x, y).On(base_.rest().position);
+    EXPECT_LT(glm::distance(named, PositionAt(x, y)), 0.3F) << x << ' ' << y;
   });
 }
 

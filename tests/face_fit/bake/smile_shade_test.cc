@@ -43,7 +43,7 @@ class SmileShadeTest : public NetworkTest {
     }
   }
   glm::vec3 Place(std::size_t point) const {
-    return Galatea().places()[point].On(Galatea().rest().position);
+    return Galatea().mesh_points()[point].On(Galatea().rest().position);
   }
   float Height(std::size_t i) const {
     return placed_->values[i].above_brows_mm + Galatea().head().Landmark("nasion").y + kBrowsEndMm;
@@ -75,7 +75,7 @@ TEST_F(SmileShadeTest, SkinIsHiddenAsThePoseGivenSeesItNotAsThatOfTheFit) {
   fitted.pose.centre = {kPhoto / 2, kPhoto / 2};
   fitted.posed_vertices = Galatea().rest().position;
   CameraPose aside = fitted.pose;
-  aside.turn_rad.y = 0.9F;
+  aside.rotation_rad.y = 0.9F;
   const SkinTexels seen = ProjectSkin(fitted, aside, SelfHidden::kNotSeen);
   fitted.pose = aside;
   const SkinTexels fitted_so = ProjectSkin(fitted, aside, SelfHidden::kNotSeen);

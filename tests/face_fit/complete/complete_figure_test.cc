@@ -64,7 +64,7 @@ class CompleteFigureTest : public NetworkTest {
     FigureCutout figure = CutOutFigure(photo, SegmentPerson(*networks_, photo, &face));
     CompletedFigure whole = CompleteFigure(fit.head, figure);
     const glm::vec2 origin = glm::round(whole.head.pose.centre - fit.head.pose.centre);
-    const glm::vec2 chin = whole.head.pose.Pixel(whole.head.PlaceOf(point::kChin));
+    const glm::vec2 chin = whole.head.pose.Pixel(whole.head.PositionOf(point::kChin));
     return std::make_unique<Made>(std::move(photo), std::move(figure), std::move(whole), origin,
                                   chin, fit.head.pose.PixelsPerMm());
   }

@@ -18,8 +18,8 @@ class PhotoEdgesTest : public BuiltInFigureTest {
  protected:
   /// `colour(aside_mm)`: of the columns, from the chin down; hair is above the forehead.
   PhotoEdges EdgesOf(float below_chin_mm, auto colour) {
-    const glm::vec2 chin = fitted_.pose.Pixel(fitted_.PlaceOf(point::kChin));
-    const float forehead = fitted_.pose.Pixel(fitted_.PlaceOf(point::kForehead)).y;
+    const glm::vec2 chin = fitted_.pose.Pixel(fitted_.PositionOf(point::kChin));
+    const float forehead = fitted_.pose.Pixel(fitted_.PositionOf(point::kForehead)).y;
     const float pixels_per_mm = fitted_.pose.PixelsPerMm();
     const int height = static_cast<int>(chin.y + below_chin_mm * pixels_per_mm);
     FigureCutout figure{fsm::FilledImage(kPhoto, height), FloatImage(kPhoto, height, 1)};
@@ -52,7 +52,7 @@ TEST_F(PhotoEdgesTest, ColoursTellHairFromSkinAndCloth) {
   EXPECT_EQ(KindAt(edges, 60), EdgeKind::kCloth);
   EXPECT_LT(std::abs(edges.hair().r - kHairColour.r), 2);
   EXPECT_EQ(edges.top(kPhoto / 2).kind, EdgeKind::kHair);
-  EXPECT_GT(edges.top(kPhoto / 2).hair_depth_px, 5);
+  EXPECT_GT(edges.top(kPhoto / 2).hair_reach_px, 5);
 }
 
 TEST_F(PhotoEdgesTest, AboveTheShouldersTheShadeOnABareNeckIsSkin) {

@@ -6,6 +6,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "face_fit/find/head/portrait_view.h"
+#include "fsm/rig/pose.h"
 
 namespace facefit {
 namespace {
@@ -30,18 +31,36 @@ TEST(CameraPoseTest, TheCameraIsThatOfTheRenderer) {
 }
 
 TEST(CameraPoseTest, PlacesComeBackFromTheirPixels) {
-  const CameraPose pose{.turn_rad = {0.1F, -0.4F, 0.2F}, .focal = 900, .centre = {320, 240}};
+  const CameraPose pose{.rotation_rad = {0.1F, -0.4F, 0.2F}, .focal = 900, .centre = {320, 240}};
   const glm::vec3 place(30, -20, 40);
-  EXPECT_LT(glm::distance(pose.PlaceAt(pose.Pixel(place), pose.ToCamera(place).z), place), 1e-3F);
+  EXPECT_LT(glm::distance(pose.PositionAt(pose.Pixel(place), pose.ToCamera(place).z), place),
+            1e-3F);
 }
 
-TEST(CameraPoseTest, AnglesAreThoseOfTheTurn) {
-  const CameraPose pose{.turn_rad = glm::radians(glm::vec3(10, -20, 5))};
+TEST(CameraPoseTest, PositiveAnglesBendDownTurnToThePersonsLeftAndTiltToItsRight) {
+  const auto rotated = [](glm::vec3 degrees, glm::vec3 direction) {
+    return CameraPose{.rotation_rad = glm::radians(degrees)}.Rotation() * direction;
+  };
+  const glm::vec3 forward(0, 0, 1), left(1, 0, 0);
+  EXPECT_NEAR(rotated({30, 0, 0}, forward).y, -0.5F, 1e-5F);
+  EXPECT_NEAR(rotated({0, 30, 0}, forward).x, 0.5F, 1e-5F);
+  EXPECT_NEAR(rotated({0, 0, 30}, left).y, 0.5F, 1e-5F);
+  // About y first: a face turned by a right angle and bent looks past the camera still.
+  EXPECT_NEAR(rotated({30, 90, 0}, forward).x, 1, 1e-5F);
+  EXPECT_NEAR(rotated({30, 90, 0}, left).y, 0.5F, 1e-5F);
+  const CameraPose pose{.rotation_rad = glm::radians(glm::vec3(10, -20, 5))};
   EXPECT_GT(pose.TowardsCamera().x, 0.3F) << "turned to its right it shows its left side";
-  const CameraPose nod{.turn_rad = glm::radians(glm::vec3(10, 0, 0))};
-  EXPECT_NEAR(AnglesOf(nod.Rotation())[0], 10, 1e-3F);
-  const CameraPose turn{.turn_rad = glm::radians(glm::vec3(0, -20, 0))};
-  EXPECT_NEAR(AnglesOf(turn.Rotation())[1], -20, 1e-3F);
+}
+
+TEST(CameraPoseTest, HeadRotationsComeBackFromTheirMatrix) {
+  for (const fsm::Angles& told : {fsm::Angles{10, 0, 0}, {0, -20, 0}, {0, 0, 15}, {-25, 40, 30}}) {
+    fsm::FaceState state;
+    state.head_rotation = told;
+    const fsm::Angles found = HeadRotationOf(fsm::HeadTurn(state));
+    for (const fsm::Turn i : {fsm::kDown, fsm::kToRight, fsm::kTilted}) {
+      EXPECT_NEAR(found[i], told[i], 1e-3F) << told[0] << ' ' << told[1] << ' ' << told[2];
+    }
+  }
 }
 
 }  // namespace

@@ -192,7 +192,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     FoundFace face;
     face.certainty = 1;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-      const float bias = base.AtRest(i).z - base.detected()[i].z;
+      const float bias = base.AtRest(i).z - base.DetectedDepthMm(i);
       face.points.emplace_back(camera.Pixel(truth().points[i]),
                                pixels * (camera.Placed(base.AtRest(i)).z - bias));
     }
@@ -205,7 +205,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     FitError error;
     std::vector<fsm::PointPair> pairs;
     for (const NamedPoint& named : kNamed) {
-      const glm::vec3 fitted = fit.head.PlaceOf(named.point);
+      const glm::vec3 fitted = fit.head.PositionOf(named.point);
       const glm::vec2 shown = fit.head.pose.Pixel(fitted);
       error.shown += glm::distance(camera.Pixel(points[named.point]), shown) / eyes /
                      static_cast<float>(std::size(kNamed));
@@ -265,7 +265,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     }
     const fsm::Warp warp(moves, 0);
     for (glm::vec3& p : made.rest.position) p += warped ? warp.Motion(p) : glm::vec3(0);
-    for (const MeshPoint& place : Galatea().places()) {
+    for (const MeshPoint& place : Galatea().mesh_points()) {
       made.points.push_back(place.On(made.rest.position));
     }
     for (const std::size_t side : {0U, 1U}) {

@@ -18,7 +18,7 @@ CameraPose SomePose() {
   CameraPose pose;
   pose.focal = 1500;
   pose.centre = {400, 380};
-  pose.turn_rad = {0.05F, -0.1F, 0.07F};
+  pose.rotation_rad = {0.05F, -0.1F, 0.07F};
   return pose;
 }
 
@@ -35,15 +35,15 @@ FoundFace DetectedOf(const std::vector<MeshPoint>& places, const std::vector<glm
 
 /// The head as a network would see it whose depth is true.
 ObservedHead Exact(const ObservedHead& base) {
-  return ObservedHead::Exact(fsm::MakeHead("galatea", false), base.name(), base.places());
+  return ObservedHead::Exact(fsm::MakeHead("galatea", false), base.name(), base.mesh_points());
 }
 
 TEST_F(FitTest, TheBuiltInHeadFittedToItselfHardlyMoves) {
   const ObservedHead& base = Galatea();
-  const FoundFace face = DetectedOf(base.places(), base.rest().position);
+  const FoundFace face = DetectedOf(base.mesh_points(), base.rest().position);
   const ObservedHead exact = Exact(base);
   const Fit fit = FitFace(exact, face);
-  EXPECT_LT(glm::distance(fit.head.pose.turn_rad, SomePose().turn_rad), 0.01F);
+  EXPECT_LT(glm::distance(fit.head.pose.rotation_rad, SomePose().rotation_rad), 0.01F);
   EXPECT_NEAR(fit.head.pose.focal, SomePose().focal, 10);
   for (const auto& point : fit.head.warp_points) EXPECT_LT(glm::length(point.by), 1.0F);
 }
@@ -62,7 +62,7 @@ TEST_F(FitTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
   smiling.parted = 0.9F;
   fsm::HeadVertices vertices;
   moved.head().Evaluate(smiling.State(), vertices);
-  const FoundFace face = DetectedOf(base.places(), vertices.position);
+  const FoundFace face = DetectedOf(base.mesh_points(), vertices.position);
   const auto most = [](const Fit& fit) {
     float far = 0;
     for (const auto& point : fit.head.warp_points) far = std::max(far, glm::length(point.by));
@@ -74,8 +74,9 @@ TEST_F(FitTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
   EXPECT_GT(most(FitFace(built_in, face)), 4) << "else this would say nothing";
   // The head as worn in the photo smiles by the same table.
   const std::size_t corner = 291;
-  EXPECT_LT(glm::distance(fit.head.PlaceOf(corner), base.places()[corner].On(vertices.position)),
-            2);
+  EXPECT_LT(
+      glm::distance(fit.head.PositionOf(corner), base.mesh_points()[corner].On(vertices.position)),
+      2);
 }
 
 }  // namespace

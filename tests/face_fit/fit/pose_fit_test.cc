@@ -12,7 +12,8 @@ namespace {
 const std::vector<glm::vec3> kFacePlaces = {{-45, 30, 40},  {45, 30, 40},  {0, 0, 85},
                                             {-25, -42, 65}, {25, -42, 65}, {0, -90, 60},
                                             {0, 75, 60},    {-65, -20, 0}, {65, -20, 0}};
-constexpr CameraPose kTruth{.turn_rad = {0.1F, -0.35F, 0.15F}, .focal = 1400, .centre = {310, 260}};
+constexpr CameraPose kTruth{
+    .rotation_rad = {0.1F, -0.35F, 0.15F}, .focal = 1400, .centre = {310, 260}};
 
 std::vector<PointMatch> Matches() {
   std::vector<PointMatch> matches;
@@ -22,8 +23,8 @@ std::vector<PointMatch> Matches() {
 
 TEST(PoseFitTest, ThePoseThatShowsTheMatchesIsFound) {
   const auto matches = Matches();
-  const CameraPose found = RefinePose(matches, {.focal = 1000, .centre = {300, 300}});
-  EXPECT_LT(glm::distance(found.turn_rad, kTruth.turn_rad), 1e-3F);
+  const CameraPose found = FitPose(matches, {.focal = 1000, .centre = {300, 300}});
+  EXPECT_LT(glm::distance(found.rotation_rad, kTruth.rotation_rad), 1e-3F);
   EXPECT_NEAR(found.focal, kTruth.focal, 1);
   EXPECT_LT(MeanDistanceMm(found, matches), 1e-2F);
 }
@@ -31,14 +32,14 @@ TEST(PoseFitTest, ThePoseThatShowsTheMatchesIsFound) {
 TEST(PoseFitTest, AMatchFarOffCountsLittle) {
   auto matches = Matches();
   matches.back().pixel.x += 100;  // some 50 mm
-  const CameraPose found = RefinePose(matches, {.focal = 1000, .centre = {300, 300}});
-  EXPECT_LT(glm::distance(found.turn_rad, kTruth.turn_rad), 0.1F);
+  const CameraPose found = FitPose(matches, {.focal = 1000, .centre = {300, 300}});
+  EXPECT_LT(glm::distance(found.rotation_rad, kTruth.rotation_rad), 0.1F);
 }
 
 TEST(PoseFitTest, WithTheTurnGivenSizeAndPlaceAreFound) {
   std::vector<glm::vec2> pixels;
   for (const glm::vec3& place : kFacePlaces) pixels.push_back(kTruth.Pixel(place));
-  const CameraPose found = PoseWithTurn(kFacePlaces, pixels, kTruth.turn_rad);
+  const CameraPose found = PoseWithRotation(kFacePlaces, pixels, kTruth.rotation_rad);
   EXPECT_NEAR(found.focal, kTruth.focal, 0.5F);
   EXPECT_LT(glm::distance(found.centre, kTruth.centre), 0.5F);
 }

@@ -168,7 +168,7 @@ TEST_P(TruthTest, LandmarksAndDepthComeNearTheHeadThatWasDrawn) {
 TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemThoughTheNetworkSaysHigher) {
   const ObservedHead& base = Galatea();
   const auto corners = [&](const Fit& fit) {
-    return std::pair(fit.head.PlaceOf(61).y, fit.head.PlaceOf(291).y);
+    return std::pair(fit.head.PositionOf(61).y, fit.head.PositionOf(291).y);
   };
   const auto said = corners(front().fit);
   FoundFace face = front().face;
@@ -213,8 +213,8 @@ TEST_P(TruthTest, ASecondPhotoFromTheSideBringsDepthNearer) {
       const float with = DepthError(truth, corrected);
       std::printf("%-9s %+.0f turned %+.0f (found %+.0f): depth %.2f mm off, front alone %.2f\n",
                   GetParam(), static_cast<double>(strength), static_cast<double>(turn),
-                  static_cast<double>(glm::degrees(pose->turn_rad.y)), static_cast<double>(with),
-                  static_cast<double>(without));
+                  static_cast<double>(glm::degrees(pose->rotation_rad.y)),
+                  static_cast<double>(with), static_cast<double>(without));
       all_without += without;
       all_with += with;
       count += 1;
@@ -251,7 +251,7 @@ TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
       Fit corrected = front;
       const auto pose = CorrectDepthByProfile(FigureOf(truth.Photo(turn)), corrected);
       ASSERT_TRUE(pose) << turn;
-      EXPECT_EQ(pose->turn_rad.y > 0, turn > 0);
+      EXPECT_EQ(pose->rotation_rad.y > 0, turn > 0);
       const float with = DepthError(truth, corrected);
       std::printf("%-9s %+.0f profile %+.0f: depth %.2f mm off, front alone %.2f\n", GetParam(),
                   static_cast<double>(strength), static_cast<double>(turn),

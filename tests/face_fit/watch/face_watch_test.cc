@@ -43,7 +43,7 @@ class FaceWatchTest : public AttentionNetworkTest {
     return portrait_.Draw(Galatea().head(), vertices, state);
   }
   FaceMeasures See(const fsm::FaceState& state) {
-    const auto seen = watch_->Look(Draw(state));
+    const auto seen = watch_->MeasureNext(Draw(state));
     EXPECT_TRUE(seen) << "a face is seen";
     return seen.value_or(FaceMeasures{});
   }
@@ -114,7 +114,7 @@ TEST_F(FaceWatchTest, BrowsAndCornersMoveAsUnitsSay) {
 }
 
 TEST_F(FaceWatchTest, AFaceThatGoesAndComesBackIsFoundAgain) {
-  EXPECT_FALSE(watch_->Look(fsm::FilledImage(400, 400)));
+  EXPECT_FALSE(watch_->MeasureNext(fsm::FilledImage(400, 400)));
   EXPECT_FALSE(watch_->last());
   EXPECT_LT(See({}).gap_mm, 0.5F);
 }
@@ -123,7 +123,7 @@ TEST_F(FaceWatchTest, AFaceWhosePointsAreUncertainIsNotSeen) {
   Network blind = SeesNoFace();
   FaceWatch watch(*networks_, blind);
   for (int frame = 0; frame < 2; ++frame) {
-    EXPECT_FALSE(watch.Look(Draw({})));
+    EXPECT_FALSE(watch.MeasureNext(Draw({})));
     EXPECT_FALSE(watch.last());
   }
 }

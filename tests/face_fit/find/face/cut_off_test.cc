@@ -15,6 +15,8 @@ FoundFace SomeFace() {
   }
   put(point::kEyeOuterRight, 55, 70);
   put(point::kEyeOuterLeft, 145, 70);
+  put(point::kMouthRight, 80, 120);
+  put(point::kMouthLeft, 120, 120);
   put(point::kForehead, 100, 20);
   put(point::kChin, 100, 180);
   put(point::kCheekRight, 30, 90);
@@ -41,6 +43,17 @@ TEST(CutOffTest, WhatLiesBeyondTheEdgesIsNamed) {
   EXPECT_TRUE(cut.forehead && cut.chin && cut.ears.right);
   EXPECT_FALSE(cut.ears.left);
   EXPECT_EQ(NamesOf(cut), "the forehead, the right ear, the chin");
+}
+
+TEST(CutOffTest, AFaceWhoseCornersCoincideIsRefused) {
+  FoundFace no_width = SomeFace(), no_mouth = SomeFace();
+  no_width.points[point::kEyeOuterLeft] = no_width.points[point::kEyeOuterRight];
+  no_mouth.points[point::kMouthLeft] = no_mouth.points[point::kMouthRight];
+  for (const FoundFace& face : {no_width, no_mouth}) {
+    const auto shown = CheckFeaturesShown(face, Photo(200, 200));
+    ASSERT_FALSE(shown);
+    EXPECT_TRUE(shown.error().text.ends_with("lie in one place")) << shown.error().text;
+  }
 }
 
 TEST(CutOffTest, AFaceWithoutAnEyeOrTheMouthIsRefused) {

@@ -14,8 +14,8 @@ namespace {
 
 /// An open eye from x = 60 to 140 about y = 96, its lids 16 pixels apart; the outer corner at the
 /// left, or at the right.
-OpenEye EyeAcross(bool mirrored) {
-  OpenEye eye{.lids = {}, .middle = {100, 97}, .expected_radius = 15};
+ExpectedEye EyeAcross(bool mirrored) {
+  ExpectedEye eye{.lids = {}, .iris_centre = {100, 97}, .iris_radius = 15};
   for (std::size_t k = 0; k < eye.lids.size(); ++k) {
     const float part = static_cast<float>(k <= 8 ? k : 16 - k) / 8;
     const float open = k % 8 == 0 ? 0.0F : k < 8 ? -8.0F : 8.0F;
@@ -31,7 +31,7 @@ TEST(IrisTest, IsFoundBetweenLidsThatHideHalfOfIt) {
     return glm::distance(p, kCentre) < 13 ? 60 : 200;
   });
   for (const bool mirrored : {false, true}) {
-    const OpenEye eye = EyeAcross(mirrored);
+    const ExpectedEye eye = EyeAcross(mirrored);
     const IrisCircle ring = FindIrises(photo, std::span(&eye, 1)).at(0);
     EXPECT_GT(ring.contrast, kClearIris);
     EXPECT_LT(glm::distance(ring.centre, kCentre), 3.5F);
@@ -47,7 +47,7 @@ TEST(IrisTest, IsFoundBesideACornerInDeepShade) {
     // An iris that is hardly darker than the shade, round its pupil.
     return far < 5 ? 15 : far < 12 ? 70 : p.x < 88 ? 85 : 180;
   });
-  const OpenEye eye = EyeAcross(false);
+  const ExpectedEye eye = EyeAcross(false);
   const IrisCircle ring = FindIrises(photo, std::span(&eye, 1)).at(0);
   EXPECT_LT(glm::distance(ring.centre, kCentre), 3.5F) << ring.centre.x;
 }
@@ -63,7 +63,7 @@ TEST(IrisTest, IsWhereItIsDarkWithinNotBetweenTheShadowsOfTwoLashes) {
       if (far < 13) return far < 5 ? pupil : pale;
       return std::abs(std::abs(p.x - 82) - 11) < 1.6F ? 70 : 170;
     });
-    const OpenEye eye = EyeAcross(false);
+    const ExpectedEye eye = EyeAcross(false);
     const IrisCircle ring = FindIrises(photo, std::span(&eye, 1)).at(0);
     EXPECT_LT(glm::distance(ring.centre, kCentre), 4) << pupil << ": " << ring.centre.x;
   }
@@ -71,7 +71,7 @@ TEST(IrisTest, IsWhereItIsDarkWithinNotBetweenTheShadowsOfTwoLashes) {
 
 TEST(IrisTest, IsNotImaginedInAnEvenPatch) {
   const fsm::Image photo = GreyPicture(200, [](glm::vec2) { return 90; });
-  const OpenEye eye = EyeAcross(false);
+  const ExpectedEye eye = EyeAcross(false);
   EXPECT_LT(FindIrises(photo, std::span(&eye, 1)).at(0).contrast, kClearIris);
 }
 

@@ -1,0 +1,61 @@
+#include "face_fit/bake/side_blend.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "face_fit/bake/light_gain.h"
+#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/resample.h"
+#include "face_fit/tables/photo_look.h"
+
+namespace facefit {
+namespace {
+
+// Limits for skin that both photos show well, so that their light can be compared: coverage by the
+// first photo, cosines of the angles to both cameras, distance from the middle of the face.
+constexpr float kCoveredFront = 0.9F, kFacingFront = 0.4F, kFacingSide = 0.5F, kFromMiddleMm = 5;
+
+/// Least combined coverage, divided by the first photo's alone.
+constexpr float kHardly = 0.01F;
+
+}  // namespace
+
+void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTexels& front,
+                   SkinMap& map) {
+  // The view counts on its own side only. The far cheek, which the nose may hide, is left out by
+  // across_mm of the table, so that occlusion need not be computed.
+  const SkinTexels texels = ProjectSkin(fitted, view.pose, SelfHidden::kIgnored);
+  const float towards = view.pose.TowardsCamera().x > 0 ? 1.0F : -1.0F;
+  const fsm::Image& colours = view.figure.colours;
+  // A gain for each channel matches the light of both photos.
+  glm::vec3 front_sum(1), side_sum(1);
+  for (std::size_t i = 0; i < texels.values.size(); ++i) {
+    if (map.coverage.values[i] < kCoveredFront || front.values[i].facing < kFacingFront ||
+        texels.values[i].facing < kFacingSide || towards * front.values[i].x_mm < kFromMiddleMm ||
+        !IsInside(colours, texels.values[i].pixel)) {
+      continue;
+    }
+    front_sum += Rgb(map.image, i);
+    side_sum += ColourAt(colours, texels.values[i].pixel);
+  }
+  const glm::vec3 gain = LightGain(front_sum, side_sum);
+  const auto& look = PhotoLook().side_photo;
+  for (std::size_t i = 0; i < texels.values.size(); ++i) {
+    // At a grazing angle a texel would be sampled from a line of pixels.
+    const glm::vec2 pixel = texels.values[i].pixel;
+    if (texels.values[i].facing < look.facing_cos.x || !IsInside(colours, pixel)) continue;
+    float& coverage = map.coverage.values[i];
+    const float seen = fsm::SmoothStep(look.facing_cos, texels.values[i].facing) *
+                       fsm::SmoothStep(look.across_mm, towards * front.values[i].x_mm);
+    const float own = coverage * fsm::SmoothStep(look.front_facing_cos, front.values[i].facing);
+    const float sum = own + (1 - own) * seen;
+    // Skin that the view hardly shows either stays as in the first photo.
+    if (seen <= 0 || sum <= kHardly * coverage) continue;
+    const float blend = (1 - own) * seen / std::max(sum, 1e-4F);
+    const glm::vec3 colour = glm::min(gain * ColourAt(colours, pixel), 255.0F);
+    SetRgb(map.image, i, glm::mix(Rgb(map.image, i), colour, blend));
+    coverage = std::max(coverage, sum);
+  }
+}
+
+}  // namespace facefit

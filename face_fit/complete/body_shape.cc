@@ -1,0 +1,103 @@
+#include "face_fit/complete/body_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <utility>
+
+#include "face_fit/tables/photo_look.h"
+
+namespace facefit {
+namespace {
+
+bool IsBody(const EdgeSample& sample) {
+  return sample.kind == EdgeKind::kSkin || sample.kind == EdgeKind::kCloth;
+}
+
+/// Returns the fall of the outline over the outermost sixteenth of the photo above a row.
+float OutlineFall(const Canvas& canvas, const Mask& opacity, PhotoSide side, float row) {
+  const int inward = std::max(canvas.photo_size.x / 16, 1);
+  const int x = side == PhotoSide::kLeft ? inward : canvas.photo_size.x - 1 - inward;
+  const glm::vec2 limit = PhotoLook().shoulder.fall_per_px;
+  int y = static_cast<int>(row);
+  while (y > 0 && opacity(x, y - 1) > 0.5F) --y;
+  return std::clamp((row - static_cast<float>(y)) / static_cast<float>(inward), limit.x, limit.y);
+}
+
+/// `axis`: as BodyShape's.
+BodyJoint JointOf(const Canvas& canvas, const PhotoEdges& edges, const Mask& opacity,
+                  const Bust& bust, float axis, PhotoSide side) {
+  const float end = static_cast<float>(canvas.photo_size.y);
+  BodyJoint joint{.row = end, .shoulder_fall = {}};
+  // Follow the photo's edge upward while it cuts the body.
+  while (joint.row > std::max(canvas.chin.y, 0.0F) + 1 &&
+         IsBody(edges.side(side, static_cast<int>(joint.row) - 1))) {
+    --joint.row;
+  }
+  float half_width =
+      side == PhotoSide::kLeft ? axis : static_cast<float>(canvas.photo_size.x) - axis;
+  bool hidden = false;
+  if (joint.row < end) {
+    joint.shoulder_fall = OutlineFall(canvas, opacity, side, joint.row);
+  } else {
+    // Otherwise follow the lower edge outward while it cuts the body; hair may hide the rest of it.
+    int x = std::clamp(static_cast<int>(axis), 0, edges.width() - 1);
+    const auto on_edge = [&] { return x >= 0 && x < edges.width(); };
+    while (on_edge() && IsBody(edges.bottom(x))) x += side == PhotoSide::kLeft ? -1 : 1;
+    hidden = on_edge() && edges.bottom(x).kind == EdgeKind::kHair;
+    half_width = std::abs(static_cast<float>(x) + 0.5F - axis);
+  }
+  const float bust_half_width =
+      bust.HalfWidth(side, joint.row + static_cast<float>(canvas.photo_origin.y) - 0.5F);
+  const auto& look = PhotoLook().bust;
+  glm::vec2 limit = look.width_ratio;
+  // A photo that ends at the jaw is wider there than the neck below it, so the ratio is limited;
+  // above the chin the bust has a jaw of its own.
+  const float below_chin_mm = (joint.row - canvas.chin.y) / canvas.pixels_per_mm;
+  if (below_chin_mm < 0) limit.y = std::min(limit.y, look.width_ratio_at_jaw);
+  joint.fade_mm = fsm::Between(look.fades_mm, fsm::SmoothStep(look.neck_mm, below_chin_mm));
+  joint.width_ratio = glm::clamp(half_width / bust_half_width, hidden ? 1.0F : limit.x, limit.y);
+  return joint;
+}
+
+}  // namespace
+
+BodyShape::BodyShape(const Canvas& canvas, const PhotoEdges& edges, const Mask& opacity, Bust bust)
+    : canvas_(canvas),
+      bust_(std::move(bust)),
+      axis_(bust_.axis - static_cast<float>(canvas.photo_origin.x)) {
+  for (const PhotoSide side : kPhotoSides) {
+    joints_[side] = JointOf(canvas, edges, opacity, bust_, axis_, side);
+  }
+}
+
+BustSample BodyShape::SampleAt(glm::vec2 pixel) const {
+  const glm::vec2 on_canvas = pixel + glm::vec2(canvas_.photo_origin);
+  const BodyJoint& joint = on_canvas.x < bust_.axis ? joints_.left : joints_.right;
+  const float below_mm = std::max(pixel.y - joint.row, 0.0F) / canvas_.pixels_per_mm;
+  const float width_ratio =
+      joint.shoulder_fall ? joint.width_ratio
+                          : glm::mix(1.0F, joint.width_ratio, std::exp(-below_mm / joint.fade_mm));
+  const float x = bust_.axis + (on_canvas.x - bust_.axis) / width_ratio;
+  if (x < 0 || x > static_cast<float>(bust_.opacity.width)) return {};
+  return {bust_.opacity.SampleAt(x, on_canvas.y), bust_.cloth.SampleAt(x, on_canvas.y),
+          bust_.openness.SampleAt(x, on_canvas.y), bust_.normal.SampleAt(x, on_canvas.y)};
+}
+
+float BodyShape::OpacityAt(glm::vec2 pixel, const BustSample& sample) const {
+  const Beyond beyond = canvas_.BeyondPhoto(pixel);
+  if (!beyond.side) {
+    if (beyond.above > 0) return 0;
+    // Below the photo everything on the side of a cut shoulder is body.
+    return (pixel.x < axis_ ? joints_.left : joints_.right).shoulder_fall ? 1 : sample.opacity;
+  }
+  const BodyJoint& joint = joints_[*beyond.side];
+  if (!joint.shoulder_fall) return beyond.below > 0 ? sample.opacity : 0;
+  // A cut shoulder continues at its fall and bends down into the arm along a parabola.
+  const float outline =
+      joint.row + *joint.shoulder_fall * beyond.beside +
+      beyond.beside * beyond.beside / (2 * PhotoLook().shoulder.radius_mm * canvas_.pixels_per_mm);
+  return glm::smoothstep(-1.0F, 1.0F, pixel.y - outline);
+}
+
+}  // namespace facefit
