@@ -10,4 +10,8 @@ namespace facefit {
 /// passed. Thread: any.
 const PhotoLookNumbers& PhotoLook();
 
+/// Returns the numbers of a table of that kind. Throws std::runtime_error that names the row if a
+/// least value exceeds the greatest one that belongs to it.
+PhotoLookNumbers CheckedPhotoLook(const fsm::NumberTable& table);
+
 }  // namespace facefit
