@@ -4,6 +4,8 @@
 #include <glm/common.hpp>
 
 #include "face_fit/bake/light_gain.h"
+#include "face_fit/bake/openings.h"
+#include "face_fit/find/face/mouth_line.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
 #include "face_fit/tables/photo_look.h"
@@ -27,6 +29,8 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
   const SkinTexels texels = ProjectSkin(fitted, view.pose, SelfHidden::kIgnored);
   const float towards = view.pose.TowardsCamera().x > 0 ? 1.0F : -1.0F;
   const fsm::Image& colours = view.figure.colours;
+  const FoundFace& face = view.photo->faces.front();
+  const PhotoOpenings openings(face, view.pose.PixelsPerMm(), LipsApart(face));
   // A gain for each channel matches the light of both photos.
   glm::vec3 front_sum(1), side_sum(1);
   for (std::size_t i = 0; i < texels.values.size(); ++i) {
@@ -44,9 +48,11 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
     // At a grazing angle a texel would be sampled from a line of pixels.
     const glm::vec2 pixel = texels.values[i].pixel;
     if (texels.values[i].facing < look.facing_cos.x || !IsInside(colours, pixel)) continue;
+    if (map.outside_openings.values[i] < 1) continue;
     float& coverage = map.coverage.values[i];
     const float seen = fsm::SmoothStep(look.facing_cos, texels.values[i].facing) *
-                       fsm::SmoothStep(look.across_mm, towards * front.values[i].x_mm);
+                       fsm::SmoothStep(look.across_mm, towards * front.values[i].x_mm) *
+                       openings.SkinShare(pixel);
     const float own = coverage * fsm::SmoothStep(look.front_facing_cos, front.values[i].facing);
     const float sum = own + (1 - own) * seen;
     // Skin that the view hardly shows either stays as in the first photo.
