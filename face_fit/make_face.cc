@@ -131,6 +131,10 @@ vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
       views.push_back(std::move(**view));
     }
   }
+  // Later photos changed the depth that the poses of earlier ones were found on.
+  for (SideView& view : views) {
+    RefineSidePose(fit.head, front.photo, view.photo->photo, view.pose);
+  }
   if (left_out.size() < side_photos.photos.size()) done("seen from the side, too");
   TextureBake bake = BakeTexture(face, fit, front.photo, front.figure, views);
   bake.head.glasses = glasses ? *glasses : WearsGlasses(face, front.photo);
