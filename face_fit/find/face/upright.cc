@@ -44,11 +44,11 @@ UprightPhoto SetUpright(FaceNetworks& networks, fsm::Image photo) {
   const auto count = static_cast<float>(faces.size());
   const Clearness clear = ClearnessOf(faces);
   if (clear.upright <= count * (count > 1 ? kUprightGroup : kUprightOne)) {
-    float best = clear.detected;
+    float best = clear.detected + kClearer * std::max(count, 1.0F);
     for (const int other : {6, 8, 3}) {
       auto turned_faces = FindFaces(networks, Turned(photo, other));
       const float detected = ClearnessOf(turned_faces).detected;
-      if (detected <= best + kClearer * std::max(count, 1.0F)) continue;
+      if (detected <= best) continue;
       best = detected;
       orientation = other;
       faces = std::move(turned_faces);
