@@ -55,7 +55,7 @@ BodyJoint JointOf(const Canvas& canvas, const PhotoEdges& edges, const Mask& opa
   // above the chin the bust has a jaw of its own.
   const float below_chin_mm = (joint.row - canvas.chin.y) / canvas.pixels_per_mm;
   if (below_chin_mm < 0) limit.y = std::min(limit.y, look.width_ratio_at_jaw);
-  joint.fade_mm = fsm::Between(look.fades_mm, fsm::SmoothStep(look.neck_mm, below_chin_mm));
+  joint.fade_mm = fsm::Lerp(look.fades_mm, fsm::SmoothStep(look.neck_mm, below_chin_mm));
   joint.width_ratio = glm::clamp(half_width / bust_half_width, hidden ? 1.0F : limit.x, limit.y);
   return joint;
 }

@@ -57,7 +57,7 @@ TEST(CameraPoseTest, HeadRotationsComeBackFromTheirMatrix) {
     fsm::FaceState state;
     state.head_rotation = told;
     const fsm::Angles found = HeadRotationOf(fsm::HeadTurn(state));
-    for (const fsm::Turn i : {fsm::kDown, fsm::kToRight, fsm::kTilted}) {
+    for (const fsm::Axis i : {fsm::kDown, fsm::kToRight, fsm::kTilted}) {
       EXPECT_NEAR(found[i], told[i], 1e-3F) << told[0] << ' ' << told[1] << ' ' << told[2];
     }
   }
