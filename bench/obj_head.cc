@@ -186,7 +186,7 @@ class ObjHeadMaker {
       if (colour == colours.end()) continue;
       for (const auto i : indices) topology_.albedo[i] = colour->second;
     }
-    for (const Side side : kSides) AddBall(side);
+    for (const Side side : kSides) AddEyeball(side);
     for (const auto& [material, indices] : batches_) {
       topology_.parts.push_back({material, static_cast<std::uint32_t>(topology_.indices.size()),
                                  static_cast<std::uint32_t>(indices.size())});
@@ -207,7 +207,7 @@ class ObjHeadMaker {
   }
 
   /// Rings about the line of sight, one of them the edge of the iris.
-  void AddBall(Side side) {
+  void AddEyeball(Side side) {
     constexpr int kSegments = 32, kIrisRings = 4, kRings = 14;
     constexpr float kIrisMm = 5.9F;
     constexpr float kPi = std::numbers::pi_v<float>;

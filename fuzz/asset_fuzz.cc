@@ -53,8 +53,8 @@ fsm::Head SmallHead() {
   rig.teeth.upper = rig.teeth.lower = {70, 20, 25, -40, -30};
   rig.teeth.contacts = {{4, 1, 1}};
   rig.eyes.gaze_ranges.emplace();
-  rig.swing.springs.resize(1);
-  rig.swing.weights = {{8, 0, 0.5F}};
+  rig.spring_rig.springs.resize(1);
+  rig.spring_rig.weights = {{8, 0, 0.5F}};
   rig.creases.at_rest = {{0, 0.1F, 0, 0}};
   asset.topology.indices = {0, 1, 2, 3, 4, 5, 6, 7, 8};
   asset.topology.parts = {{fsm::Material::kSkin, 0, 6}, {fsm::Material::kHair, 6, 3, 0, true}};
@@ -101,7 +101,7 @@ void Move(const fsm::Head& head) {
   for (const fsm::FaceState& state : States()) {
     head.Evaluate(state, vertices);
     head.MeasureMouth(state);
-    fsm::Simulation simulation(head.rig().data().swing.springs);
+    fsm::Simulation simulation(head.rig().data().spring_rig.springs);
     for (const int ms : {0, 500, 530}) {
       simulation.RunTo(std::chrono::milliseconds(ms), [&state](auto) { return state; });
     }

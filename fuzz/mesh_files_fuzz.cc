@@ -18,11 +18,11 @@
 #include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
-#include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/obj/obj_file.h"
 #include "fsm/mesh/original/original_face.h"
 #include "fsm/mesh/original/pnt_file.h"
 #include "fsm/mesh/transfer/transferred_rig.h"
+#include "fsm/rig/reach.h"
 
 namespace {
 
@@ -71,7 +71,7 @@ std::unique_ptr<fsm::Head> HeadOf(const Ball& ball) {
     if (p.y < 0) fall.moves.push_back({v, glm::vec3(1, -2, 3)});
   }
   skin.channels = {fall};
-  model.BatchOf(fsm::Material::kSkin, -1, false).indices = ball.triangles;
+  model.mesh.BatchOf(fsm::Material::kSkin, -1, false).indices = ball.triangles;
   return fsm::MakeMeshHead(std::move(model), std::move(skin));
 }
 
@@ -82,12 +82,13 @@ void CarryOnto(const fsm::ImportedHead& file, const fsm::Similarity& place,
   static const std::unique_ptr<fsm::Head> source = HeadOf(Ball());
   try {
     fsm::MeshModel model = fsm::ModelOfImport(file, place, -43);
-    if (model.bone.size() != model.position.size()) __builtin_trap();
-    for (const glm::vec3& p : model.position) {
+    if (model.mesh.bone.size() != model.mesh.position.size()) __builtin_trap();
+    for (const glm::vec3& p : model.mesh.position) {
       if (!IsFinite(p)) __builtin_trap();
     }
     const auto flesh = model.SkinTriangles(), eyes = model.EyeTriangles();
-    if (model.position.size() > kMaxCarried || flesh.size() + eyes.size() > kMaxCarried) return;
+    if (model.mesh.position.size() > kMaxCarried || flesh.size() + eyes.size() > kMaxCarried)
+      return;
     fsm::RigData skin = fsm::TransferRig(model, *source, pairs);
     const auto head = fsm::MakeMeshHead(std::move(model), std::move(skin));
     fsm::FaceState state;

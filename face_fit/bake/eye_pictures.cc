@@ -205,7 +205,7 @@ LidLines LidsAtRest(const ObservedHead& base, fsm::Side side, const fsm::EyeTran
                          : i < kInnerCorner    ? transform.upper_mm
                                                : transform.lower_mm;
     const float y = rest[i].y + LidShare(rest[i].x, inner, outer) * raised;
-    rest[i] = glm::vec2(transform.Turned(glm::vec3(rest[i].x, y, 0)));
+    rest[i] = glm::vec2(transform.Rotated(glm::vec3(rest[i].x, y, 0)));
   }
   return LidLines(rest);
 }

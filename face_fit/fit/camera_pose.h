@@ -24,8 +24,8 @@ namespace facefit {
 inline constexpr float kFaceZ = 50;
 inline constexpr float kCameraZ = kFaceZ + 744;
 
-/// Returns FaceState::head_rotation of a rotation: the inverse of fsm::HeadTurn. Not the angles of
-/// a CameraPose, which are in another order and tilt the other way.
+/// Returns FaceState::head_rotation of a rotation: the inverse of fsm::HeadRotation. Not the angles
+/// of a CameraPose, which are in another order and tilt the other way.
 fsm::Angles HeadRotationOf(const glm::mat3& rotation);
 
 /// How a photo was taken: the head is rotated in front of a camera as far away as the renderer's,

@@ -16,7 +16,7 @@ namespace {
 
 // Plausible limits. Sizes are relative to the built-in eye, the turn in radians, the raise of the
 // lids in millimetres.
-constexpr glm::vec2 kSize{0.82F, 1.2F}, kTurn{-0.25F, 0.25F}, kUpperRaise{-6, 0.7F},
+constexpr glm::vec2 kSize{0.82F, 1.2F}, kRoll{-0.25F, 0.25F}, kUpperRaise{-6, 0.7F},
     kLowerRaise{-2.5F, 3.5F};
 float Within(glm::vec2 range, float v) { return std::clamp(v, range.x, range.y); }
 
@@ -44,7 +44,7 @@ fsm::EyeTransform FitEye(const ObservedHead& base, const std::map<PointIndex, gl
   const auto unknown = [&solved](std::size_t i) { return static_cast<float>(solved[i]); };
   fsm::EyeTransform transform;
   transform.size = Within(kSize, std::hypot(unknown(2), unknown(3)));
-  transform.turn = Within(kTurn, std::atan2(unknown(3), unknown(2)));
+  transform.roll = Within(kRoll, std::atan2(unknown(3), unknown(2)));
   transform.shift = {unknown(0), unknown(1), forward};
   transform.upper_mm = Within(kUpperRaise, unknown(4) / transform.size);
   transform.lower_mm = Within(kLowerRaise, unknown(5) / transform.size);

@@ -66,7 +66,7 @@ WarpPoints MakeWarpPoints(const ObservedHead& base, const CameraPose& pose,
     if (const auto side = EyeOf(constraint)) {
       // Lids move with the eye, and the skin around them must follow.
       const glm::vec3 centre = base.head().topology().eyes[*side].centre;
-      made.points.push_back({rest, eyes[*side].Placed(centre, rest) - rest});
+      made.points.push_back({rest, eyes[*side].PointInFace(centre, rest) - rest});
     } else {
       made.correctable.push_back({made.points.size(), i});
       made.points.push_back({rest, TargetOf(pose, constraint) - constraint.on_head.On(now)});

@@ -75,7 +75,7 @@ FaceMeasures Measure(const AttentiveFace& found, std::span<const glm::vec3> firs
     measures.brow_inner_mm[side] = Middle(points, point::kBrowInner[side]).y - eyes;
     measures.brow_outer_mm[side] = Middle(points, point::kBrowOuter[side]).y - eyes;
   }
-  const auto [down, across, tilted] = HeadRotationOf(glm::transpose(back.turn));
+  const auto [down, across, tilted] = HeadRotationOf(glm::transpose(back.rotation));
   measures.turn_deg = {down, across, tilted};
   measures.gaze = GazeOf(found);
   return measures;

@@ -206,7 +206,7 @@ std::vector<std::vector<Label>> Mixtures(const std::vector<std::string>& units, 
     }
     std::vector<Label> mixture;
     for (const std::string& unit : chosen) mixture.push_back({unit, 1});
-    const auto acting = table.Combine(StateOf(mixture));
+    const auto acting = table.ActingUnits(StateOf(mixture));
     const bool whole = std::ranges::all_of(
         mixture, [&](const Label& label) { return acting.left[std::stoul(label.unit)] > 0.999F; });
     if (apart && !whole) continue;

@@ -56,7 +56,7 @@ Sitter::Sight Sitter::Look(const fsm::FaceState& state) {
   }
   const fsm::Similarity moved = pairs.empty() ? fsm::Similarity{} : fsm::FitSimilarity(pairs);
   const Pose rest = painter_.rest();
-  sight.pose = {.turn = rest.turn * moved.turn, .place = scale_ * (rest(moved.move))};
+  sight.pose = {.turn = rest.turn * moved.rotation, .place = scale_ * (rest(moved.translation))};
   const facefit::NetworkCrop crop = CropOf(painter_.lens(), sight.pose);
   sight.picture = painter_.Draw(base_.head(), state);
   const auto found = facefit::FindAttentivePoints(attention_, sight.picture, crop);

@@ -51,12 +51,12 @@ void GlFaceView::MakeRenderer() {
 /// Simulates the springs and returns their offsets (Simulation::offsets).
 std::span<const glm::vec3> GlFaceView::SpringOffsets(const Head& head,
                                                      const StateHistory* history) {
-  if (history == nullptr || head.rig().data().swing.springs.empty()) {
+  if (history == nullptr || head.rig().data().spring_rig.springs.empty()) {
     simulation_.reset();
     return {};
   }
   if (!simulation_ || simulated_ != head.serial()) {
-    simulation_.emplace(head.rig().data().swing.springs);
+    simulation_.emplace(head.rig().data().spring_rig.springs);
     simulated_ = head.serial();
   }
   simulation_->RunTo(history->now, history->state_at);

@@ -8,9 +8,9 @@
 namespace fsm {
 
 /// The glTF extension with the data of a head that only we need, and the version that is written.
-/// Version 1 can be read as well; it has other names for some members (asset_reader.cc).
+/// Older versions can be read as well; they have other names for some members (asset_reader.cc).
 inline constexpr const char* kAssetExtension = "GALATEA_head";
-inline constexpr int kAssetVersion = 2;
+inline constexpr int kAssetVersion = 3;
 
 /// These lists name every member of a head's description once; the writer, the reader and the check
 /// of asset files all walk them, so that a new member is one line here. `v` is called as
@@ -62,8 +62,8 @@ void Members(V& v, Like<PbrMaterial> auto& material) {
   v("kind", material.kind);
   v("metallic", material.metallic);
   v("roughness", material.roughness);
-  v("glow", material.glow);
-  v("shade", material.shade);
+  v("emissive", material.emissive);
+  v("shade_colour", material.shade_colour);
   v("shade_to", material.shade_to);
   v("light_from", material.light_from);
   v("cut_out", material.cut_out);
@@ -162,7 +162,7 @@ void Members(V& v, Like<Channel> auto& channel) {
 template <typename V>
 void Members(V& v, Like<GazeRange> auto& range) {
   v("gaze_deg", range.gaze_deg);
-  v("turn", range.turn);
+  v("output", range.output);
 }
 
 template <typename V>
@@ -176,7 +176,7 @@ void Members(V& v, Like<GazeRanges> auto& ranges) {
 template <typename V>
 void Members(V& v, Like<EyeTransform> auto& eye) {
   v("shift", eye.shift);
-  v("turn", eye.turn);
+  v("roll", eye.roll);
   v("size", eye.size);
   v("upper_mm", eye.upper_mm);
   v("lower_mm", eye.lower_mm);
@@ -235,7 +235,7 @@ void Members(V& v, Like<ToothArch> auto& arch) {
   v("edge_y", arch.edge_y);
   v("root_y", arch.root_y);
   v("middle_x", arch.middle_x);
-  v("turn", arch.turn);
+  v("slope", arch.slope);
 }
 
 template <typename V>
@@ -291,8 +291,8 @@ void Members(V& v, Like<RigData> auto& rig) {
   v("gaze_ranges", rig.eyes.gaze_ranges);
   v("creases", rig.creases.at_rest);
   v("crease_depth", rig.creases.depth);
-  v("springs", rig.swing.springs);
-  v("spring_weights", rig.swing.weights);
+  v("springs", rig.spring_rig.springs);
+  v("spring_weights", rig.spring_rig.weights);
 }
 
 template <typename V>
@@ -316,7 +316,7 @@ inline constexpr int kValuesOf<Material> = static_cast<int>(Material::kMatte) + 
 template <>
 inline constexpr int kValuesOf<Bone> = static_cast<int>(Bone::kEyeRight) + 1;
 template <>
-inline constexpr int kValuesOf<RigStep> = static_cast<int>(RigStep::kNormals) + 1;
+inline constexpr int kValuesOf<RigStep> = static_cast<int>(kRigSteps);
 template <>
 inline constexpr int kValuesOf<Drive::Kind> = static_cast<int>(Drive::Kind::kResidual) + 1;
 template <>

@@ -28,21 +28,43 @@ constexpr std::size_t kWidth = 1;
 template <glm::length_t L>
 constexpr std::size_t kWidth<glm::vec<L, float>> = L;
 
-/// The names that version 1 used for members that have been renamed.
+/// A member that has been renamed: its place by the names of today, and what it was called up to
+/// and including a version of the format.
 struct OldName {
+  std::int64_t last_version;
   std::string_view place, name;
 };
-constexpr OldName kNamesOfVersion1[] = {{"topology.openness", "occlusion"},
-                                        {"topology.image", "photo"},
-                                        {"topology.portrait_light", "photo_light"},
-                                        {"topology.portrait_eyes", "eye_pictures"},
-                                        {"topology.strands.tile_mm", "place"},
-                                        {"topology.shut_lids.grain_at", "lender"},
-                                        {"topology.shut_lids.grain_light", "lender_light"},
-                                        {"topology.mouth.seam", "lips"},
-                                        {"rig.proxy_to_own", "own_form"},
-                                        {"rig.asymmetry_seed", "person"},
-                                        {"rig.gaze_ranges", "look"}};
+constexpr OldName kOldNames[] = {{1, "topology.openness", "occlusion"},
+                                 {1, "topology.image", "photo"},
+                                 {1, "topology.portrait_light", "photo_light"},
+                                 {1, "topology.portrait_eyes", "eye_pictures"},
+                                 {1, "topology.strands.tile_mm", "place"},
+                                 {1, "topology.shut_lids.grain_at", "lender"},
+                                 {1, "topology.shut_lids.grain_light", "lender_light"},
+                                 {1, "topology.mouth.seam", "lips"},
+                                 {1, "rig.proxy_to_own", "own_form"},
+                                 {1, "rig.asymmetry_seed", "person"},
+                                 {1, "rig.gaze_ranges", "look"},
+                                 {2, "rig.gaze_ranges.inner.output", "turn"},
+                                 {2, "rig.gaze_ranges.outer.output", "turn"},
+                                 {2, "rig.gaze_ranges.up.output", "turn"},
+                                 {2, "rig.gaze_ranges.down.output", "turn"},
+                                 {2, "rig.lids.eyes.roll", "turn"},
+                                 {2, "rig.upper_teeth.slope", "turn"},
+                                 {2, "rig.lower_teeth.slope", "turn"},
+                                 {2, "topology.pbr_materials.emissive", "glow"},
+                                 {2, "topology.pbr_materials.shade_colour", "shade"}};
+
+/// Returns what a version of the format calls a member, `name` today, at a place as
+/// "topology.pbr_materials[3].emissive".
+std::string_view NameIn(std::int64_t version, std::string place, std::string_view name) {
+  for (std::size_t from; (from = place.find('[')) != std::string::npos;)
+    place.erase(from, place.find(']') + 1 - from);
+  for (const OldName& old : kOldNames) {
+    if (version <= old.last_version && place == old.place) return old.name;
+  }
+  return name;
+}
 
 /// Reads a file of asset_writer.cc, by the same lists of members.
 class Reader {
@@ -93,7 +115,8 @@ class Reader {
   /// Returns the value, or refuses without the file's name in the error, as ParseAsset adds it.
   template <typename T>
   T OrRefuse(const std::string& place, vm::Result<T> read) const {
-    if (!read) Refuse(place + read.error().text.substr(gltf_.name().size()));
+    if (!read)
+      throw vm::Failure({read.error().code, place + read.error().text.substr(gltf_.name().size())});
     return std::move(*read);
   }
 
@@ -125,7 +148,7 @@ class Reader {
     const auto bytes =
         OrRefuse(place, gltf_.ImageBytes(Whole(place, from, 0, std::numeric_limits<int>::max())));
     auto decoded = DecodePng(BytesOf(bytes));
-    if (!decoded) Refuse(place + ": " + decoded.error().text);
+    if (!decoded) throw vm::Failure({decoded.error().code, place + ": " + decoded.error().text});
     image = std::make_shared<const Image>(std::move(*decoded));
   }
   template <typename T>
@@ -159,11 +182,7 @@ class Reader {
   }
 
   const json& MemberOf(const std::string& place, const json& from, std::string_view name) const {
-    if (version_ == 1) {
-      const auto* const old =
-          std::ranges::find(kNamesOfVersion1, fmt::format("{}.{}", place, name), &OldName::place);
-      if (old != std::end(kNamesOfVersion1)) name = old->name;
-    }
+    if (version_ < kAssetVersion) name = NameIn(version_, fmt::format("{}.{}", place, name), name);
     const auto found = from.is_object() ? from.find(name) : from.end();
     if (!from.is_object() || found == from.end()) {
       Refuse(fmt::format("{}: no member \"{}\"", place, name));
@@ -269,7 +288,10 @@ vm::Result<HeadAsset> ParseAsset(const std::string& name, std::string_view bytes
   const json& extension = JsonMember(JsonMember(gltf->root(), "extensions"), kAssetExtension);
   try {
     return ReadAsset(*gltf, extension);
-  } catch (const std::runtime_error& error) {  // vm::Failure, or TableError from the units
+  } catch (const vm::Failure& failure) {
+    return vm::Fail(failure.error.code,
+                    fmt::format("{}: {}: {}", name, kAssetExtension, failure.error.text));
+  } catch (const std::runtime_error& error) {  // TableError from the units
     return gltf->Wrong(std::string(kAssetExtension) + ": " + error.what());
   }
 }

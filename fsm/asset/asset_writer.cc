@@ -243,7 +243,7 @@ class ForeignView {
         gltf_.AddAccessor(all["bufferView"], part.index_count, 1, GltfType::kUint32,
                           sizeof(std::uint32_t) * part.first_index);
     const bool photo = ShowsPhoto(part);
-    json material = {{"name", NameOf(part.material)},
+    json material = {{"name", MaterialName(part.material)},
                      {"doubleSided", part.two_sided || IsHair(part.material) ||
                                          part.material == Material::kMouthInside ||
                                          part.material == Material::kMatte},

@@ -72,7 +72,7 @@ class Description {
     std::map<Material, std::size_t> triangles;
     for (const auto& part : topology_.parts) triangles[part.material] += part.index_count / 3;
     for (const auto& [material, count] : triangles)
-      Line("part", "{}, {} triangles", NameOf(material), count);
+      Line("part", "{}, {} triangles", MaterialName(material), count);
   }
 
   void Pictures() {
@@ -126,14 +126,14 @@ class Description {
   }
 
   void Springs() {
-    if (rig_.swing.springs.empty()) return;
-    Line("springs", "{}, moving vertices by {} weights", rig_.swing.springs.size(),
-         rig_.swing.weights.size());
+    if (rig_.spring_rig.springs.empty()) return;
+    Line("springs", "{}, moving vertices by {} weights", rig_.spring_rig.springs.size(),
+         rig_.spring_rig.weights.size());
   }
 
   void Steps() {
     std::vector<std::string_view> names;
-    for (const RigStep step : rig_.steps) names.push_back(NameOf(step));
+    for (const RigStep step : rig_.steps) names.push_back(DefinitionOf(step).name);
     Line("steps", "{}", fmt::join(names, ", "));
   }
 

@@ -7,7 +7,7 @@
 namespace fsm {
 
 /// Returns the name of a material in files and descriptions.
-inline const char* NameOf(Material material) {
+inline const char* MaterialName(Material material) {
   static constexpr std::array<const char*, kValuesOf<Material>> kNames{
       "skin",  "lips",   "eye_white", "eye_iris", "eye_pupil", "teeth",       "gums", "tongue",
       "mouth", "lashes", "hair",      "cloth",    "photo",     "shut_lashes", "matte"};

@@ -15,7 +15,7 @@
 #include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
-#include "fsm/mesh/obj/obj_file.h"
+#include "fsm/mesh/mesh_limits.h"
 #include "fsm/mesh/transfer/blendshape_rig.h"
 #include "fsm/mesh/transfer/transferred_rig.h"
 #include "fsm/motion/face_motion.h"
@@ -110,7 +110,7 @@ Alignment AlignByPoints(const HeadPoints& points) {
 
 /// Returns the similarity that scales and moves `from` to `to`.
 Similarity ScaledAbout(glm::vec3 from, float scale, glm::vec3 to) {
-  return {.scale = scale, .move = to - scale * from};
+  return {.scale = scale, .translation = to - scale * from};
 }
 
 /// Aligns a head by its eyes, or without eyes by its bounding box; of a file much higher than wide

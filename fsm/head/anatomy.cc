@@ -112,7 +112,7 @@ MouthAnatomy::MouthAnatomy(const Table& table)
                      .edge_y = edge_y,
                      .root_y = edge_y + row.Number(5),
                      .middle_x = 0,
-                     .turn = 0};
+                     .slope = 0};
   };
   upper_teeth_ = teeth("upper_teeth");
   lower_teeth_ = teeth("lower_teeth");

@@ -20,13 +20,13 @@ void Add(Cage& cage, const std::string& curve, glm::vec3 p, const CageTag& tag) 
 }
 
 /// The position of point i of a lid curve: x, and the lid it is on; corners count as upper lid.
-struct LidPoint {
+struct MarginPoint {
   float x;
   bool upper;
   bool corner;
 };
 
-LidPoint PointOnLid(const EyeAnatomy& eye, int i) {
+MarginPoint PointOnLid(const EyeAnatomy& eye, int i) {
   constexpr int kHalf = kLidPoints / 2;
   const bool upper = i <= kHalf;
   const int along = upper ? i : kLidPoints - i;  // 0 inner corner .. kHalf outer corner
@@ -39,7 +39,7 @@ LidPoint PointOnLid(const EyeAnatomy& eye, int i) {
 }
 
 /// `edge`: the corresponding point on the edge of the socket.
-glm::vec3 PointOfRing(const EyeAnatomy& eye, const LidPoint& at, const LidRing& ring,
+glm::vec3 PointOfRing(const EyeAnatomy& eye, const MarginPoint& at, const LidRing& ring,
                       glm::vec3 edge) {
   const float margin = at.upper ? eye.UpperAngle(at.x) : eye.LowerAngle(at.x);
   const float mm = at.upper ? ring.upper_mm : -ring.lower_mm;
@@ -103,7 +103,7 @@ void AddLidCurves(const EyeAnatomy& eye, Cage& cage) {
     throw std::runtime_error("tables/curves.txt: curve 'orbit' must have 18 points");
   }
   for (int i = 0; i < kLidPoints; ++i) {
-    const LidPoint at = PointOnLid(eye, i);
+    const MarginPoint at = PointOnLid(eye, i);
     const float margin = at.upper ? eye.UpperAngle(at.x) : eye.LowerAngle(at.x);
     CageTag tag;
     tag.eye = 1;

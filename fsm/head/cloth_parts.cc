@@ -65,7 +65,7 @@ void BuildCloth(const Identity& identity, HeadMesh& mesh) {
   const SplineBasis down(down_at);
   std::vector<float> wa(around_at.size()), wd(down_at.size());
   BakeWeights weights;
-  weights.free = weights.neck = weights.jaw = 0;
+  weights.skin.free = weights.skin.neck = weights.skin.jaw = 0;
   const float uneven = features.shirt_uneven;
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (std::size_t r = 0; r < kRows.size(); ++r) {

@@ -65,7 +65,7 @@ class Ear {
 
   glm::vec2 middle() const { return middle_; }
   /// Maps a point into the head: the ear leans back at the top; its front lies in the cheek.
-  glm::vec3 Place(glm::vec2 p, float height) const {
+  glm::vec3 PointAbove(glm::vec2 p, float height) const {
     return {features_.ear_place.aside + height,
             features_.ear_place.height * p.y + features_.ear_place.back_higher * p.x,
             features_.ear_place.forward - p.x - features_.ear_place.top_back * p.y};
@@ -102,7 +102,7 @@ class Ear {
 
 std::array<std::pair<const char*, glm::vec3>, 4> EarLandmarks(const Features& features) {
   const Ear ear(features);
-  const auto at = [&ear](glm::vec2 p) { return ear.Place(p, 0); };
+  const auto at = [&ear](glm::vec2 p) { return ear.PointAbove(p, 0); };
   const auto by_height = [](glm::vec2 p) { return p.y; };
   const auto by_depth = [](glm::vec2 p) { return p.x; };
   return {{{"superaurale", at(std::ranges::max(ear.corners(), {}, by_height))},
@@ -127,11 +127,11 @@ class EarBuilder {
   void Build() {
     const glm::vec2 centre = ear_.middle();
     const Ear::Relief deep = ear_.ReliefAt(centre);
-    const std::uint32_t middle = Add(ear_.Place(centre, deep.height), deep.open);
+    const std::uint32_t middle = Add(ear_.PointAbove(centre, deep.height), deep.open);
     AddFront();
     AddBack();
     const std::uint32_t inside =
-        Add(ear_.Place(centre, features_.ear_inside.aside), features_.ear_inside.light);
+        Add(ear_.PointAbove(centre, features_.ear_inside.aside), features_.ear_inside.light);
     for (std::size_t a = 0; a < kAround; ++a) {
       const std::size_t b = (a + 1) % kAround;
       Face(middle, rings_.front()[b], rings_.front()[a]);
@@ -158,7 +158,7 @@ class EarBuilder {
         const glm::vec2 p = On(k, part);
         const Ear::Relief relief = ear_.ReliefAt(p);
         const float in = part == 1.0f ? features_.ear_edge : 0;
-        ring[k] = Add(ear_.Place(p, relief.height - in), relief.open);
+        ring[k] = Add(ear_.PointAbove(p, relief.height - in), relief.open);
       }
     }
   }
@@ -168,7 +168,7 @@ class EarBuilder {
       Ring& ring = rings_.emplace_back();
       for (std::size_t k = 0; k < kAround; ++k) {
         const glm::vec2 p = On(k, rim[i]);
-        ring[k] = Add(ear_.Place(p, ear_.BackAt(p) - rim[i + 1]), rim[i + 2]);
+        ring[k] = Add(ear_.PointAbove(p, ear_.BackAt(p) - rim[i + 1]), rim[i + 2]);
       }
     }
   }

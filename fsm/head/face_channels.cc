@@ -28,16 +28,17 @@ std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
   };
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const BakeWeights& vertex = weights[i];
-    const float a = std::abs(vertex.domain.x);
+    const float a = std::abs(vertex.skin.domain.x);
     const float line = mouth.LineY(std::min(a, corner_x));
-    if (vertex.free <= 0 || a > 56 || vertex.domain.y > -14 || vertex.domain.y < -84) continue;
-    const float side_x = vertex.domain.x < 0 ? -1.0f : 1.0f;
+    if (vertex.skin.free <= 0 || a > 56 || vertex.skin.domain.y > -14 || vertex.skin.domain.y < -84)
+      continue;
+    const float side_x = vertex.skin.domain.x < 0 ? -1.0f : 1.0f;
 
     // The corner's displacement grows linearly along the lips and fades into the cheek.
-    const float height = std::abs(vertex.domain.y - line);
+    const float height = std::abs(vertex.skin.domain.y - line);
     const float corner =
         (a < corner_x ? std::pow(a / corner_x, 1.3f) : SmoothStep(56, corner_x, a)) *
-        SmoothStep(24, 0, height) * vertex.free;
+        SmoothStep(24, 0, height) * vertex.skin.free;
     add(kCornerX, i, {side_x * corner, 0, 0});
     add(kCornerY, i, {0, corner, 0});
     add(kCornerZ, i, {0, 0, corner});
@@ -78,13 +79,13 @@ LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const BakeWeights& vertex = weights[i];
     if (!vertex.eye) continue;
-    const float x = std::clamp(std::abs(vertex.domain.x), eye.inner_x(), eye.outer_x());
+    const float x = std::clamp(std::abs(vertex.skin.domain.x), eye.inner_x(), eye.outer_x());
     const float upper = eye.UpperAngle(x);
     const float lower = eye.LowerAngle(x);
     const Side side = *vertex.eye;
     const EyeTransform& transform = eyes[side];
-    const EyeTransform back{.turn = -transform.turn, .size = 1 / transform.size};
-    const glm::vec3 from_ball = back.Turned(rest[i] - rig.ball[side]);
+    const EyeTransform back{.roll = -transform.roll, .size = 1 / transform.size};
+    const glm::vec3 from_ball = back.Rotated(rest[i] - rig.ball[side]);
     rig.vertices.push_back(
         {.vertex = static_cast<std::uint32_t>(i),
          .side = side,

@@ -15,6 +15,27 @@ namespace {
 
 constexpr float kEnd = 1.0f;
 
+// What shapes the hair beside features.txt. Ranges are of `i`, of `cap` (0..1 from the parting to
+// the end of the skull), of `hang` (0..1 from there to the ends) or of millimetres on the head.
+constexpr struct {
+  glm::vec2 volume_over_edge{0, 0.17f};                     // i: it grows to the full volume,
+  glm::vec2 volume_on_cap{0.8f, 0.2f}, cap_over{0, 0.3f};   // line over cap: less at the parting
+  glm::vec2 temples_over{0.3f, 1};                          // cap
+  glm::vec2 front_over{0.35f, 0};                           // i: what hangs beside the face
+  glm::vec2 inward_over{0, 0.6f};                           // i
+  float fullest_at = 1.2f, cheek_at = 1.5f;                 // waves per `hang` in halves of a turn
+  float forward_ends = 0.4f;                                // less forward at the ends
+  float no_kink_step = 0.04f;                               // of cap: slope at the skull's end
+  glm::vec2 pointed_over{0.8f, kEnd};                       // t
+  glm::vec2 neck_shade_z{25, -20}, neck_shade_y{-40, -70};  // mm: shade on the neck,
+  glm::vec2 neck_shade_end{-30, 10};                        // mm above the hair's end
+  float shell_crowd = 0.45f, lining_crowd = 0.4f;           // 1: strands are evenly spaced
+  float lining_edge = 0.005f;                               // i: just behind the shell's edge
+  glm::vec2 lining_behind{0.06f, 0.3f};                     // i: from the face to the nape
+  float lining_top = 0.6f;                                  // of kCap: where it begins behind
+  glm::vec2 lock_arch{0.12f, 0.8f}, flyaway_arch{0.1f, 0.75f};  // line: halves of a sine
+} kLong{};
+
 // Strands start along the parting, sweep over the skull and hang down. Those at the face's edge
 // frame the forehead in a round arch, slightly off the skin.
 class LongHair {
@@ -97,14 +118,16 @@ class LongHair {
     const glm::vec3 scaled = d / volume_;
     const float volume = 1 / std::sqrt(glm::dot(scaled, scaled));
     const float skin = scalp_.Distance(d);
-    const float part = SmoothStep(0, 0.17f, i) * (0.8f + 0.2f * SmoothStep(0, 0.3f, cap));
+    const float part = SmoothStep(kLong.volume_over_edge, i) *
+                       Linear(kLong.volume_on_cap, SmoothStep(kLong.cap_over, cap));
     const float off = features_.long_fringe_off.ends;
     const float fringe =
         off + features_.long_fringe_off.middle * std::sin(kPi * SmoothStep(0, 1, cap));
     const float least = skin + glm::mix(fringe, features_.long_least_off.mm,
                                         SmoothStep(features_.long_least_off.over, i));
     float radius = std::max(
-        least, glm::mix(skin + off + features_.long_fringe_off.temples * SmoothStep(0.3f, 1, cap),
+        least, glm::mix(skin + off +
+                            features_.long_fringe_off.temples * SmoothStep(kLong.temples_over, cap),
                         volume, part));
     // The parting is a furrow in the hair.
     radius = glm::mix(skin + features_.long_furrow.part * (radius - skin), radius,
@@ -114,21 +137,21 @@ class LongHair {
     if (t > kCap) {
       const float hang = (t - kCap) / (kEnd - kCap);
       const glm::vec3 out = glm::normalize(glm::vec3(d.x, 0, d.z));
-      const float front = SmoothStep(0.35f, 0, i);
+      const float front = SmoothStep(kLong.front_over, i);
       p.y = glm::mix(p.y, EndY(i, side), hang);
       // It continues around the skull for a little, so that it has no kink where that ends.
-      constexpr float kStep = 0.04f;
-      const glm::vec3 on =
-          (d - Direction(i, side, 1 - kStep)) * radius * (1 - kCap) / (kCap * kStep);
+      const glm::vec3 on = (d - Direction(i, side, 1 - kLong.no_kink_step)) * radius * (1 - kCap) /
+                           (kCap * kLong.no_kink_step);
       p += glm::vec3(on.x, 0, on.z) * hang * std::exp(-hang / features_.long_goes_on);
-      const float full =
-          Lerp(features_.long_full, front) * std::sin(std::min(1.0f, 1.2f * hang) * kPi);
-      p += out * (full - Lerp(features_.long_inward, SmoothStep(0, 0.6f, i)) * hang * hang * hang) +
+      const float full = Lerp(features_.long_full, front) *
+                         std::sin(std::min(1.0f, kLong.fullest_at * hang) * kPi);
+      p += out * (full - Lerp(features_.long_inward, SmoothStep(kLong.inward_over, i)) * hang *
+                             hang * hang) +
            Wave(i, side, hang, out);
-      p.z += front * features_.long_forward * hang * (1 - 0.4f * hang);
+      p.z += front * features_.long_forward * hang * (1 - kLong.forward_ends * hang);
       // Beside the face it follows the cheek.
-      p.x -=
-          side * front * features_.long_cheek * std::sin(std::min(1.0f, 1.5f * hang) * kPi * 0.5f);
+      p.x -= side * front * features_.long_cheek *
+             std::sin(std::min(1.0f, kLong.cheek_at * hang) * kPi * 0.5f);
     }
     return p;
   }
@@ -167,7 +190,7 @@ class LongHair {
 
   /// Returns how much higher a column ends than its neighbours.
   float Pointed(int column, float t) const {
-    return column % 2 == 0 ? 0.0f : features_.long_points * SmoothStep(0.8f, kEnd, t);
+    return column % 2 == 0 ? 0.0f : features_.long_points * SmoothStep(kLong.pointed_over, t);
   }
 
   void Shade() {
@@ -180,8 +203,9 @@ class LongHair {
     for (std::size_t i = 0; i < mesh_.position.size(); ++i) {
       const glm::vec3 p = mesh_.position[i];
       if (mesh_.bone[i] != Bone::kSkin) continue;
-      const float behind = SmoothStep(25, -20, p.z) * SmoothStep(-40, -70, p.y) *
-                           SmoothStep(style_.back_y - 30, style_.back_y + 10, p.y);
+      const float behind = SmoothStep(kLong.neck_shade_z, p.z) *
+                           SmoothStep(kLong.neck_shade_y, p.y) *
+                           SmoothStep(style_.back_y + kLong.neck_shade_end, p.y);
       mesh_.openness[i] *= 1 - features_.long_neck_shade * behind;
     }
   }
@@ -194,7 +218,7 @@ class LongHair {
     for (int k = 0; k <= kStrands; ++k) {
       // Strands are denser at the face, where the edge is visible.
       const float u = static_cast<float>(k) / kStrands;
-      const float i = glm::mix(u * u, u, 0.45f);
+      const float i = glm::mix(u * u, u, kLong.shell_crowd);
       for (int row = 0; row <= kRows; ++row) {
         // The first two rows are the parting, where the scalp is visible.
         const float t =
@@ -232,10 +256,11 @@ class LongHair {
     for (int k = 0; k <= kStrands; ++k) {
       // Beside the face it reaches up to the forehead, where one looks under the hair.
       const float u = static_cast<float>(k) / kStrands;
-      const float i = glm::mix(0.005f, 1.0f, glm::mix(u * u, u, 0.4f));
-      const float behind = SmoothStep(0.06f, 0.3f, i);
+      const float i = glm::mix(kLong.lining_edge, 1.0f, glm::mix(u * u, u, kLong.lining_crowd));
+      const float behind = SmoothStep(kLong.lining_behind, i);
       for (int row = 0; row <= kRows; ++row) {
-        const float t = glm::mix(kCap * 0.6f * behind, kEnd, static_cast<float>(row) / kRows);
+        const float t =
+            glm::mix(kCap * kLong.lining_top * behind, kEnd, static_cast<float>(row) / kRows);
         const float inset =
             glm::mix(features_.long_lining.face, insets[static_cast<std::size_t>(row)], behind);
         const glm::vec3 p = Point(i, side, t, inset) + glm::vec3(0, Pointed(k, t), 0);
@@ -263,7 +288,7 @@ class LongHair {
         const float v = static_cast<float>(s) / kSteps;
         const float drift = features_.long_locks.drift * std::sin(4 * v + static_cast<float>(k));
         path.push_back(Point(std::clamp(i + drift, 0.0f, 1.0f), side, glm::mix(from, to, v),
-                             lift * std::sin(kPi * (0.12f + 0.8f * v))));
+                             lift * std::sin(kPi * Linear(kLong.lock_arch, v))));
       }
       look_.AddLock(path,
                     {.width_mm = Linear(features_.long_locks.width, NoiseAt(seed, 6)),
@@ -288,7 +313,7 @@ class LongHair {
       for (int s = 0; s <= kSteps; ++s) {
         const float v = static_cast<float>(s) / kSteps;
         path.push_back(Point(std::clamp(i + drift * v * v, 0.0f, 1.0f), side, from + length * v,
-                             off * std::sin(kPi * (0.1f + 0.75f * v))));
+                             off * std::sin(kPi * Linear(kLong.flyaway_arch, v))));
       }
       look_.AddLock(path,
                     {.width_mm = features_.long_flyaways.width,

@@ -19,7 +19,7 @@ Scalp::Scalp(const HeadMesh& mesh) {
     const float length = glm::length(d);
     if (mesh.bone[i] != Bone::kSkin || mesh.position[i].y < -70 || length < 45) continue;
     if (mesh.position[i].y < 5 && mesh.position[i].z > 45) continue;  // facial features
-    if (mesh.weights[i].neck <= 0) continue;                          // cloth
+    if (mesh.weights[i].skin.neck <= 0) continue;                     // cloth
     points_.push_back({d / length, length});
   }
 }
@@ -62,8 +62,8 @@ glm::vec3 HairLook::StrandColour(int strand, int row) const {
          glm::mix(glm::vec3(1), features_.hair_lightest, 0.5f + 0.5f * fine);
 }
 
-float HairLook::AboveHairline(glm::vec3 place) const {
-  const glm::vec3 d = place - kHairCentre;
+float HairLook::AboveHairline(glm::vec3 p) const {
+  const glm::vec3 d = p - kHairCentre;
   return glm::degrees(std::asin(d.y / glm::length(d))) -
          HairlineElevation(glm::degrees(std::atan2(d.x, d.z)));
 }
@@ -144,10 +144,10 @@ SkinHair HairLook::OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, f
           .tint = glm::mix(glm::vec3(1), palette_.hair / palette_.skin, cover)};
 }
 
-void HairLook::LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3> normal) const {
+void HairLook::LightAsOne(std::span<const glm::vec3> position, std::span<glm::vec3> normal) const {
   const float below = features_.hair_as_one.below, part = features_.hair_as_one.part;
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    const glm::vec3 from = place[i] - kHairCentre;
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const glm::vec3 from = position[i] - kHairCentre;
     const glm::vec3 outward = glm::normalize(from * glm::vec3(1, from.y > 0 ? 1.0f : below, 1));
     if (glm::dot(normal[i], outward) < 0) continue;  // lining
     normal[i] = glm::normalize(glm::mix(normal[i], outward, part));

@@ -48,8 +48,8 @@ class HairLook {
 
   /// Returns the elevation at which the hair begins on the skin, by azimuth; degrees.
   float HairlineElevation(float azimuth) const { return hairline_(std::abs(azimuth)); }
-  /// Returns how many degrees a place lies above that line.
-  float AboveHairline(glm::vec3 place) const;
+  /// Returns how many degrees a point lies above that line.
+  float AboveHairline(glm::vec3 p) const;
   /// Returns the colour of one strand, with lighter and darker streaks.
   glm::vec3 StrandColour(int strand, int row) const;
   /// Adds a lock: a card along `path` that frays at its sides and towards its tip.
@@ -62,8 +62,8 @@ class HairLook {
   SkinHair OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
                   int seed) const;
   /// Bends the normals of locks, which are flat cards, towards those of the whole head of hair, so
-  /// that they are lit alike. REQUIRES: `place` and `normal` have the same size.
-  void LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3> normal) const;
+  /// that they are lit alike. REQUIRES: `position` and `normal` have the same size.
+  void LightAsOne(std::span<const glm::vec3> position, std::span<glm::vec3> normal) const;
 
  private:
   const Features& features_;

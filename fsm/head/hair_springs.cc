@@ -35,12 +35,12 @@ class HairSprings {
     for (std::size_t v = first; v < rig.rest.size(); ++v) {
       HangVertex(static_cast<std::uint32_t>(v), rig);
     }
-    for (const auto& [vertex, spring, weight] : rig.swing.weights) {
-      rig.swing.springs[spring].rest += weight * rig.rest[vertex];
+    for (const auto& [vertex, spring, weight] : rig.spring_rig.weights) {
+      rig.spring_rig.springs[spring].rest += weight * rig.rest[vertex];
       hung_[spring] += weight;
     }
-    for (std::size_t i = 0; i < rig.swing.springs.size(); ++i) {
-      Spring& spring = rig.swing.springs[i];
+    for (std::size_t i = 0; i < rig.spring_rig.springs.size(); ++i) {
+      Spring& spring = rig.spring_rig.springs[i];
       spring.rest /= hung_[i];
       const glm::vec3 beside = (spring.rest - axis_) * glm::vec3(1, 0, 1);
       spring.outward = glm::normalize(beside + glm::vec3(0, 0, 1e-3f));
@@ -84,15 +84,15 @@ class HairSprings {
     for (const auto& [column, share] :
          {std::pair(one, 1 - part), std::pair((one + 1) % around_, part)}) {
       if (weight * share < kLeastWeight) continue;
-      rig.swing.weights.push_back({v, SpringAt(row, column, rig), weight * share});
+      rig.spring_rig.weights.push_back({v, SpringAt(row, column, rig), weight * share});
     }
   }
 
   std::uint32_t SpringAt(std::size_t row, int column, RigData& rig) {
-    const auto next = static_cast<std::uint32_t>(rig.swing.springs.size());
+    const auto next = static_cast<std::uint32_t>(rig.spring_rig.springs.size());
     const auto [at, fresh] = at_.try_emplace({row, column}, next);
     if (fresh) {
-      rig.swing.springs.push_back(rows_[row].spring);
+      rig.spring_rig.springs.push_back(rows_[row].spring);
       hung_.push_back(0);
     }
     return at->second;

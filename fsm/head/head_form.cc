@@ -22,7 +22,7 @@ HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Slide
     eye_transforms_ = {left_eye, left_eye};
     eye_transforms_.left.shift = by + deeper;
     eye_transforms_.right.shift = by * kMirror + deeper;
-    eye_transforms_.right.turn = -left_eye.turn;
+    eye_transforms_.right.roll = -left_eye.roll;
   }
   const auto lips = [&](float x) {
     return Motion({x, mouth_.LineY(std::abs(x)), mouth_.LineZ(std::abs(x))});
@@ -67,7 +67,7 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, std::size_t
     switch (mesh.bone[i]) {
       case Bone::kEyeLeft:
       case Bone::kEyeRight:
-        p = PlaceInFace(eye_, eye_transforms_, *EyeOf(mesh.bone[i]), p);
+        p = EyePointInFace(eye_, eye_transforms_, *SideOfEye(mesh.bone[i]), p);
         break;
       case Bone::kJaw:
       case Bone::kTongue:
@@ -81,7 +81,7 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, std::size_t
         glm::vec3 by = Motion(p);
         if (weights.eye) {
           const float hold = SmoothStep(0, 0.8f, weights.lid_upper + weights.lid_lower);
-          by = glm::mix(by, PlaceInFace(eye_, eye_transforms_, *weights.eye, p) - p, hold);
+          by = glm::mix(by, EyePointInFace(eye_, eye_transforms_, *weights.eye, p) - p, hold);
         }
         p += by;
         break;
@@ -90,9 +90,9 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, std::size_t
   }
 }
 
-glm::vec3 PlaceInFace(const EyeAnatomy& eye, const Sided<EyeTransform>& eye_transforms, Side side,
-                      glm::vec3 p) {
-  return eye_transforms[side].Placed(eye.CentreOf(side), p);
+glm::vec3 EyePointInFace(const EyeAnatomy& eye, const Sided<EyeTransform>& eye_transforms,
+                         Side side, glm::vec3 p) {
+  return eye_transforms[side].PointInFace(eye.CentreOf(side), p);
 }
 
 }  // namespace fsm

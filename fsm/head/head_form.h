@@ -46,7 +46,7 @@ class HeadForm {
 };
 
 /// Maps a point on the table's eye to the face's own eye on that side.
-glm::vec3 PlaceInFace(const EyeAnatomy& eye, const Sided<EyeTransform>& eye_transforms, Side side,
-                      glm::vec3 p);
+glm::vec3 EyePointInFace(const EyeAnatomy& eye, const Sided<EyeTransform>& eye_transforms,
+                         Side side, glm::vec3 p);
 
 }  // namespace fsm

@@ -62,8 +62,8 @@ void SetParts(std::span<const HeadMesh::Batch> batches, HeadTopology& topology) 
   }
 }
 
-BakeWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y) {
-  BakeWeights weights;
+SkinWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y) {
+  SkinWeights weights;
   weights.domain = domain;
   const float a = std::abs(domain.x);
   const float below = mouth_line_y - domain.y;  // millimetres below the line of the mouth

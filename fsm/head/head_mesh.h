@@ -13,10 +13,11 @@
 
 namespace fsm {
 
-/// The weights of a vertex while its head is made: also its parts in lids, lips and teeth, which
-/// face_channels.h bakes into the rig.
-struct BakeWeights : SkinWeights {
-  std::optional<Side> eye;  ///< the side of the lids near it
+/// The weights of a vertex while its head is made: those of the rig, and its parts in lids, lips
+/// and teeth, which face_channels.h bakes into the rig.
+struct BakeWeights {
+  SkinWeights skin{};
+  std::optional<Side> eye{};  ///< the side of the lids near it
   float lid_upper = 0, lid_lower = 0;
   std::int16_t lip_column = -1;  ///< index of the seam pair that corrects it
   bool by_teeth = false;         ///< may touch the teeth, and is then pushed off them
@@ -58,6 +59,6 @@ void SetParts(std::span<const HeadMesh::Batch> batches, HeadTopology& topology);
 
 /// Computes the weights that depend only on the position on the face. `side`: +1 above the mouth's
 /// slit, -1 below it, 0 where the cheek joins both.
-BakeWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y);
+SkinWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y);
 
 }  // namespace fsm

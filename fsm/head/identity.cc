@@ -90,7 +90,7 @@ void ReadIdentityRow(const TableRow& row, Identity& identity) {
     }
   } else if (key == "eyes") {
     identity.eyes.size = row.Within(1, 0.7f, 1.4f);
-    identity.eyes.turn = glm::radians(row.Within(2, -20, 20));
+    identity.eyes.roll = glm::radians(row.Within(2, -20, 20));
     identity.eyes.upper_mm = row.Within(3, -4, 3);
     identity.eyes.lower_mm = row.Within(4, -2, 4);
   } else if (key == "fold") {

@@ -33,7 +33,7 @@ Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const 
     const glm::vec3 mirror(SignOf(side), 1, 1);
     const auto put = [&](const char* name, glm::vec3 p) {
       landmarks[name + std::string(side == Side::kRight ? "_right" : "_left")] =
-          eye_transforms[side].Placed(mirror * eye.centre(), mirror * p);
+          eye_transforms[side].PointInFace(mirror * eye.centre(), mirror * p);
     };
     const auto on_lid = [&](float x, float y) {
       return glm::vec3(x, y, eye.LidAxisZ(x) + eye.LidRadius(x));

@@ -26,7 +26,7 @@ class LashBuilder {
         side_(SignOf(side)),
         mesh_(mesh) {
     weights_.eye = side;
-    weights_.free = 0;
+    weights_.skin.free = 0;
   }
 
   void Row(bool upper) {
@@ -52,7 +52,7 @@ class LashBuilder {
   float Angle(float x) const { return upper_ ? eye_.UpperAngle(x) : eye_.LowerAngle(x); }
 
   std::uint32_t Add(glm::vec3 p, float at_x, float dark) {
-    weights_.domain = {at_x * side_, eye_.centre().y};
+    weights_.skin.domain = {at_x * side_, eye_.centre().y};
     p.x *= side_;
     const glm::vec3 colour = glm::mix(palette_.skin, palette_.lash, of_photo_ ? 1.0f : dark);
     const std::uint32_t i = mesh_.Add(p, colour, 1, Bone::kSkin, weights_);

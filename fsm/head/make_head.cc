@@ -102,7 +102,7 @@ BaseParts LayParts(const Ingredients& from, const BaseSkin& skin) {
   BaseParts parts = OnlySkin(skin);
   HeadMesh& mesh = parts.mesh;
   if (from.photo) {
-    AddSheet(*from.photo, mesh);
+    AddPhotoSheet(*from.photo, mesh);
   } else {
     BuildCloth(identity, mesh);
   }
@@ -179,7 +179,7 @@ HeadTopology TopologyOf(const Ingredients& from, const BaseSkin& skin, const Bas
   for (const Side side : kSides) {
     const float size = head.eyes[side].size;
     topology.eyes[side] = {
-        .centre = PlaceInFace(from.eye, head.eyes, side, from.eye.CentreOf(side)),
+        .centre = EyePointInFace(from.eye, head.eyes, side, from.eye.CentreOf(side)),
         .ball_radius = size * from.eye.radius(),
         .iris_radius = size * from.eye.iris_radius(),
         .pupil_radius = size * from.eye.pupil_radius(),
@@ -202,7 +202,7 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& pa
   HairLook(identity).LightAsOne(std::span(rig.rest).subspan(head.hair_first),
                                 std::span(rig.rest_normal).subspan(head.hair_first));
   rig.bone = head.mesh.bone;
-  rig.weights.assign(head.mesh.weights.begin(), head.mesh.weights.end());
+  for (const BakeWeights& weights : head.mesh.weights) rig.weights.push_back(weights.skin);
   rig.units = BuiltInUnits();
   if (from.asymmetric) {
     rig.asymmetry_seed = static_cast<int>(identity.index);

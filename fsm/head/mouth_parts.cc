@@ -74,7 +74,7 @@ class ToothRow {
       for (const Column& column : columns_) {
         const float back = std::abs(column.arc);
         const float scallop = row < 1 ? features_.gum_scallop * (1 - column.bump) : 0.0f;
-        glm::vec3 p = Place(column, row * column.height - scallop);
+        glm::vec3 p = FacePoint(column, row * column.height - scallop);
         p.z += bulge[r];
         mesh_.Add(p, gum_, Lerp(features_.gum_light, SmoothStep(6, 34, back)), jaw_.bone);
       }
@@ -119,7 +119,7 @@ class ToothRow {
                    features_.tooth_uneven * (1 + NoiseAt(tooth, static_cast<int>(jaw_.upward)))};
   }
 
-  glm::vec3 Place(const Column& column, float up) const {
+  glm::vec3 FacePoint(const Column& column, float up) const {
     const float rise = features_.teeth_rise * std::abs(column.arc);
     return AlongArch(jaw_.arch, column.arc, jaw_.arch.edge_y + jaw_.upward * (up + rise));
   }
@@ -129,7 +129,7 @@ class ToothRow {
     const float up = row < -0.3f ? 0.6f * column.height
                      : row < 0   ? 0.3f + column.shorter
                                : row * column.height + column.shorter * SmoothStep(0.6f, 0.0f, row);
-    glm::vec3 p = Place(column, up);
+    glm::vec3 p = FacePoint(column, up);
     const float curve = features_.tooth_bulge.front *
                         std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
     p.z += curve - depth - features_.tooth_bulge.between * (1 - column.bump);
@@ -216,7 +216,7 @@ void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& 
       const float lit = SmoothStep(-0.2f, 1.0f, part) * shown *
                         SmoothStep(0.8f, 0.2f, std::abs(std::cos(around)));
       BakeWeights weights;
-      weights.free = part;  // the tip bends, the root does not
+      weights.skin.free = part;  // the tip bends, the root does not
       // The outline disappears in the dark of the mouth.
       const glm::vec3 colour = glm::mix(palette.mouth, palette.tongue, SmoothStep(0, 0.5f, lit));
       mesh.Add(p, colour, Linear(features.tongue_light, lit), Bone::kTongue, weights);

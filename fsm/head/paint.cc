@@ -59,16 +59,16 @@ void SkinPainter::AddLid(glm::vec2 at, PaintedSkin& paint) const {
   paint.openness *= 1 - features_.lid_fold_shade * fold;
 }
 
-PaintedSkin SkinPainter::At(glm::vec3 place) const {
-  const glm::vec2 half(std::abs(place.x), place.y);
+PaintedSkin SkinPainter::At(glm::vec3 p) const {
+  const glm::vec2 half(std::abs(p.x), p.y);
   PaintedSkin paint{palette_.skin, 1.0f};
-  const bool front = place.z > 40;
+  const bool front = p.z > 40;
   if (front) AddSpots(half, paint);
-  paint.albedo *= glm::mix(glm::vec3(1), features_.beard_colour, Beard(half, place.z));
+  paint.albedo *= glm::mix(glm::vec3(1), features_.beard_colour, Beard(half, p.z));
   // Darkens the skin under the jaw, down to the throat.
-  const float under = SmoothStep(-80, -92, place.y) * SmoothStep(-150, -108, place.y) *
-                      SmoothStep(64, 52, place.z + 0.4f * (place.y + 88));
-  paint.openness *= 1 - features_.throat_shade * under * SmoothStep(-30, 10, place.z);
+  const float under = SmoothStep(-80, -92, p.y) * SmoothStep(-150, -108, p.y) *
+                      SmoothStep(64, 52, p.z + 0.4f * (p.y + 88));
+  paint.openness *= 1 - features_.throat_shade * under * SmoothStep(-30, 10, p.z);
   if (front) AddLid(half, paint);
   return paint;
 }

@@ -18,7 +18,7 @@ struct PaintedSkin {
 class SkinPainter {
  public:
   SkinPainter(const Identity& identity, const EyeAnatomy& eye);
-  PaintedSkin At(glm::vec3 place) const;
+  PaintedSkin At(glm::vec3 p) const;
   /// Returns how far a shaved beard shows, 0..1: on upper lip, chin, jaw up to the front of the
   /// ear, and part of the throat. REQUIRES: at.x >= 0.
   float Beard(glm::vec2 at, float z) const;

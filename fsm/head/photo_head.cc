@@ -36,7 +36,7 @@ Side SideOf(const TableRow& row) {
 /// Reads "eye SIDE DX DY DZ TURN SIZE UPPER LOWER".
 void ReadEye(const TableRow& row, PhotoHead& head) {
   const EyeTransform eye{.shift = row.Vector(2),
-                         .turn = glm::radians(row.Number(5)),
+                         .roll = glm::radians(row.Number(5)),
                          .size = row.Number(6),
                          .upper_mm = row.Number(7),
                          .lower_mm = row.Number(8)};
@@ -162,7 +162,7 @@ std::string WriteEyes(const PhotoHead& head) {
     const EyeTransform& eye = (*head.eyes)[side];
     out +=
         fmt::format("eye {} {:.3f}  {:.2f} {:.4f}  {:.3f} {:.3f}\n", kNames[side], Words(eye.shift),
-                    glm::degrees(eye.turn), eye.size, eye.upper_mm, eye.lower_mm);
+                    glm::degrees(eye.roll), eye.size, eye.upper_mm, eye.lower_mm);
   }
   for (const Side side : kSides) {
     if (!head.eye_pictures) continue;

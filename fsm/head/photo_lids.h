@@ -27,7 +27,7 @@ struct PhotoMapping {
 };
 
 /// Returns the photo's screen colour (0..1) at a texture coordinate, v down.
-glm::vec3 PhotoColour(const Image& photo, glm::vec2 place);
+glm::vec3 PhotoColour(const Image& photo, glm::vec2 texcoord);
 
 /// The skin of a face as a photo of open eyes shows it; all spans are per vertex, of one length.
 struct PhotoSkin {

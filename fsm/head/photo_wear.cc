@@ -159,16 +159,16 @@ void TakeColours(const PhotoHead& head, Palette& palette) {
 
 float JawLine(float above_bottom) { return 30 * SmoothStep(48, 36, above_bottom); }
 
-void AddSheet(const PhotoHead& head, HeadMesh& mesh) {
+void AddPhotoSheet(const PhotoHead& head, HeadMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (const auto& vertex : head.sheet) {
     BakeWeights weights;
-    weights.free = 0;
-    weights.domain = vertex.position;
+    weights.skin.free = 0;
+    weights.skin.domain = vertex.position;
     // The shoulders follow a turning head a little.
     constexpr float kFollows = 0.15f;
-    weights.neck = glm::mix(kFollows, 1.0f, SmoothStep(-166, -98, vertex.position.y));
-    weights.jaw = JawPart(vertex.position, head.skin_bottom_y);
+    weights.skin.neck = glm::mix(kFollows, 1.0f, SmoothStep(-166, -98, vertex.position.y));
+    weights.skin.jaw = JawPart(vertex.position, head.skin_bottom_y);
     mesh.Add(vertex.position, glm::vec3(0.3f), 1, Bone::kSkin, weights);
   }
   const auto& t = head.sheet_triangles;
@@ -182,9 +182,10 @@ void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh) {
   constexpr float kAside = 37, kUp = 19, kDown = 29;
   for (std::size_t i = 0; i < skin_count; ++i) {
     BakeWeights& weights = mesh.weights[i];
-    const float up = weights.domain.y - eye.y;
-    const glm::vec2 off((std::abs(weights.domain.x) - eye.x) / kAside, up / (up > 0 ? kUp : kDown));
-    weights.free *= SmoothStep(1, 1.35f, glm::length(off));
+    const float up = weights.skin.domain.y - eye.y;
+    const glm::vec2 off((std::abs(weights.skin.domain.x) - eye.x) / kAside,
+                        up / (up > 0 ? kUp : kDown));
+    weights.skin.free *= SmoothStep(1, 1.35f, glm::length(off));
   }
 }
 

@@ -17,7 +17,7 @@ namespace fsm {
 void TakeColours(const PhotoHead& head, Palette& palette);
 
 /// Adds the sheet with hair, neck and clothes of a photo. It turns with the head as skin does.
-void AddSheet(const PhotoHead& head, HeadMesh& mesh);
+void AddPhotoSheet(const PhotoHead& head, HeadMesh& mesh);
 
 /// Keeps the skin still where glasses rest, which the photo shows on the skin, or they would bend.
 /// `eye`: centre of the left eye at rest, (x, y) of the base identity.

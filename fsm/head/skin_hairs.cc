@@ -14,9 +14,9 @@ namespace fsm {
 namespace {
 
 // The place of the brows: middle line and half height over x, on the base identity's face.
-class BrowPlace {
+class BrowShape {
  public:
-  explicit BrowPlace(const Identity& identity)
+  explicit BrowShape(const Identity& identity)
       : brows_(identity.brows),
         middle_(CurveOf(identity.UsedFeatures().brow_middle)),
         half_(CurveOf(identity.UsedFeatures().brow_half_height)) {}
@@ -47,11 +47,11 @@ class BrowPlace {
 /// Builds the hairs of both brows.
 class BrowBuilder {
  public:
-  BrowBuilder(const SkinFront& front, const Identity& identity, const BrowPlace& place)
+  BrowBuilder(const SkinFront& front, const Identity& identity, const BrowShape& shape)
       : front_(front),
         palette_(identity.palette),
         features_(identity.UsedFeatures()),
-        place_(place) {}
+        shape_(shape) {}
 
   std::vector<SkinHair> Build() {
     const int columns = static_cast<int>(features_.brow_hairs.columns);
@@ -70,12 +70,12 @@ class BrowBuilder {
   }
 
  private:
-  /// `level`: as for BrowPlace::Y.
+  /// `level`: as for BrowShape::Y.
   void AddHair(Side side, float x, float level, int seed) {
     const float ends = SmoothStep(7, 20, x) * SmoothStep(59, 47, x);
     // The brow is sparse where it begins.
-    if (0.5f + 0.5f * NoiseAt(seed, 26) > place_.Density() * (0.35f + 0.65f * ends)) return;
-    const glm::vec2 root(x, place_.Y(x, 0.9f * level - 0.1f));
+    if (0.5f + 0.5f * NoiseAt(seed, 26) > shape_.Density() * (0.35f + 0.65f * ends)) return;
+    const glm::vec2 root(x, shape_.Y(x, 0.9f * level - 0.1f));
     // Upper hairs lean down and lower ones up, so that they meet in the middle of the brow.
     const float angle = (grow_(x) - features_.brow_lean.edge * level +
                          features_.brow_lean.uneven * NoiseAt(seed, 23)) *
@@ -97,7 +97,7 @@ class BrowBuilder {
   const SkinFront& front_;
   const Palette& palette_;
   const Features& features_;
-  const BrowPlace& place_;
+  const BrowShape& shape_;
   const Curve grow_ = CurveOf(features_.brow_growth);
   std::vector<SkinHair> hairs_;
 };
@@ -105,16 +105,16 @@ class BrowBuilder {
 }  // namespace
 
 std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh) {
-  const BrowPlace place(identity);
+  const BrowShape shape(identity);
   // The soft tone of the skin between the hairs.
   const float tone = identity.UsedFeatures().brow_tone;
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 p = mesh.position[i];
     if (p.z < 30 || std::abs(p.y - 42) > 16) continue;
     mesh.albedo[i] =
-        glm::mix(mesh.albedo[i], identity.palette.brow, tone * place.Cover({p.x, p.y}));
+        glm::mix(mesh.albedo[i], identity.palette.brow, tone * shape.Cover({p.x, p.y}));
   }
-  return BrowBuilder(front, identity, place).Build();
+  return BrowBuilder(front, identity, shape).Build();
 }
 
 std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye,

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "fsm/base/number_table.h"
 #include "fsm/base/smooth_step.h"
 #include "fsm/head/hair_parts.h"
 #include "fsm/head/landmarks.h"
@@ -13,6 +14,29 @@
 
 namespace fsm {
 namespace {
+
+// How the skin hangs on skull, jaw, lids and lips: distances in millimetres, others are weights or
+// parts of a CageTag's values.
+constexpr struct {
+  float rounds_from_z = 45, rounds = 0.9f;        // behind it the skin is longer than it looks,
+  glm::vec2 free_z{-5, 25};                       // and behind this it does not follow the units
+  glm::vec2 neck_y{-166, -98};                    // from the shoulders to the head, along a line
+  float nape_z = -25, nape_slope = 0.35f;         // that rises behind this by so much per mm
+  float lid_hold = 1.1f;                          // how much of their freedom lids lose
+  float touches_teeth = 0.6f, past_teeth = 0.4f;  // least lip_hold, most depth in the bag
+  float bag_hold = 2.2f, bag_hold_less = 1.4f;    // of the freedom, less at the corners
+  glm::vec2 bag_jaw{0.2f, 0.7f};                  // depth over which the bag's half moves as
+  float lower_bag_jaw = 0.9f;                     // this part of the jaw (the upper: 0)
+  float bag_end = 0.95f, bag_end_jaw = 0.4f;      // and its end, from this depth on
+} kHold{};
+
+// What the paint of the skin has beside features.txt: ranges of CageTag::deep, red and margin.
+constexpr struct {
+  glm::vec2 dark_inside{0.15f, 0.8f};
+  glm::vec2 red_edge{1.1f, 0.6f}, wet{0.35f, 0}, lower_edge{0.3f, 0};
+  float lid_rim_mm = 0.2f;
+  float hidden_beyond = 16;  // degrees above the hairline: hair of any style hides the scalp
+} kPaint{};
 
 float Sign(float v) { return v > 0 ? 1.0f : v < 0 ? -1.0f : 0.0f; }
 
@@ -29,31 +53,34 @@ BakeWeights MakeSkinWeights(const CageTag& tag, glm::vec3 p, const MouthAnatomy&
   const bool lips = tag.lip_hold > 0 || tag.deep > 0;
   const int side = lips ? static_cast<int>(Sign(tag.lip_side)) : 0;
   // At the side of the head distances along the skin exceed those in the frontal view.
-  const float round = a + 0.9f * std::max(0.0f, 45 - p.z);
+  const float round = a + kHold.rounds * std::max(0.0f, kHold.rounds_from_z - p.z);
   glm::vec2 domain(p.x < 0 ? -round : round, p.y);
   if (tag.deep > 0) domain.y = mouth.LineY(std::min(a, corner_x));
-  BakeWeights weights = SkinWeightsAt(domain, side, mouth.LineY(std::min(a, corner_x)));
-  weights.free = SmoothStep(-5, 25, p.z);
-  weights.neck = SmoothStep(-166, -98, p.y - 0.35f * std::max(0.0f, -p.z - 25));
+  BakeWeights weights{.skin = SkinWeightsAt(domain, side, mouth.LineY(std::min(a, corner_x)))};
+  weights.skin.free = SmoothStep(kHold.free_z, p.z);
+  weights.skin.neck =
+      SmoothStep(kHold.neck_y, p.y - kHold.nape_slope * std::max(0.0f, kHold.nape_z - p.z));
   if (tag.eye > 0) {
     weights.eye = p.x < 0 ? Side::kRight : Side::kLeft;
     weights.lid_upper = tag.lid_upper;
     weights.lid_lower = tag.lid_lower;
-    weights.free = std::max(0.0f, 1 - 1.1f * tag.eye);
+    weights.skin.free = std::max(0.0f, 1 - kHold.lid_hold * tag.eye);
   }
   const int column = FineColumn(tag, p.x);
   if (tag.lip_hold > 0 && std::abs(column) <= kLastColumn && tag.lip_side != 0) {
     weights.lip_column = static_cast<std::int16_t>(column + kLastColumn);
     weights.lip_weight = tag.lip_hold * Sign(tag.lip_side);
   }
-  weights.by_teeth = (tag.red >= 0 || tag.lip_hold >= 0.6f) && tag.deep < 0.4f;
+  weights.by_teeth =
+      (tag.red >= 0 || tag.lip_hold >= kHold.touches_teeth) && tag.deep < kHold.past_teeth;
   if (tag.deep > 0) {
     const float open = std::sqrt(std::max(0.0f, 1 - a * a / (corner_x * corner_x)));
-    weights.free *= std::max(0.0f, 1 - (2.2f - 1.4f * (1 - open)) * tag.deep);
-    const float rigid = tag.lip_side >= 0 ? 0.0f : 0.9f;
-    weights.jaw = glm::mix(weights.jaw, rigid,
-                           SmoothStep(0.2f, 0.7f, tag.deep) * std::abs(Sign(tag.lip_side)));
-    if (tag.deep > 0.95f) weights.jaw = 0.4f;
+    weights.skin.free *=
+        std::max(0.0f, 1 - (kHold.bag_hold - kHold.bag_hold_less * (1 - open)) * tag.deep);
+    const float rigid = tag.lip_side >= 0 ? 0.0f : kHold.lower_bag_jaw;
+    weights.skin.jaw = glm::mix(weights.skin.jaw, rigid,
+                                SmoothStep(kHold.bag_jaw, tag.deep) * std::abs(Sign(tag.lip_side)));
+    if (tag.deep > kHold.bag_end) weights.skin.jaw = kHold.bag_end_jaw;
   }
   return weights;
 }
@@ -64,7 +91,8 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
   const Palette& palette = identity.palette;
   PaintedSkin paint = painter.At(p);
   if (tag.deep > 0) {
-    paint.albedo = glm::mix(palette.lip_inside, palette.mouth, SmoothStep(0.15f, 0.8f, tag.deep));
+    paint.albedo =
+        glm::mix(palette.lip_inside, palette.mouth, SmoothStep(kPaint.dark_inside, tag.deep));
     const float out = 1 - tag.deep;
     const glm::vec2 light = features.mouth_light;
     paint.openness = light.x + light.y * out * out;
@@ -73,11 +101,11 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
   if (tag.red >= 0 && kind == SkinKind::kLip) {
     const float aside = std::abs(p.x);
     const float reddened =
-        features.lip_red.middle * SmoothStep(1.1f, 0.6f, tag.red) *
+        features.lip_red.middle * SmoothStep(kPaint.red_edge, tag.red) *
         (1 - features.lip_red.less_aside * SmoothStep(features.lip_red.aside, aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip, reddened);
     // The edge of the red is soft; the middle of the lips is wet.
-    const float wet = SmoothStep(0.35f, 0, tag.red) *
+    const float wet = SmoothStep(kPaint.wet, tag.red) *
                       (1 - features.lip_wet.less_aside * SmoothStep(features.lip_wet.aside, aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip_inside, features.lip_wet.middle * wet);
     paint.openness *= 1 - features.lip_wet.shade * wet;
@@ -85,14 +113,14 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
     paint.openness *= 1 - features.lip_corner.shade * SmoothStep(features.lip_corner.aside, aside);
     // The lower lip rolls into the mouth, so its edge is in its own shade.
     if (tag.lip_side < 0)
-      paint.openness *= 1 - features.lip_wet.lower_edge * SmoothStep(0.3f, 0, tag.red);
+      paint.openness *= 1 - features.lip_wet.lower_edge * SmoothStep(kPaint.lower_edge, tag.red);
   }
   if (tag.hole > 0) {
     paint.albedo =
         glm::mix(paint.albedo, features.nostril_colour, features.nostril_dark.colour * tag.hole);
     paint.openness *= 1 - features.nostril_dark.shade * tag.hole;
   }
-  if (tag.margin >= 0 && tag.margin < 0.2f) {
+  if (tag.margin >= 0 && tag.margin < kPaint.lid_rim_mm) {
     paint.albedo = glm::mix(paint.albedo, palette.lid_rim, features.lid_rim.colour);
     paint.openness *= features.lid_rim.light;
   }
@@ -100,7 +128,9 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
 }
 
 /// Tells whether hair of any style hides the scalp at `p`.
-bool HairCovers(const HairLook& hair, glm::vec3 p) { return hair.AboveHairline(p) > 16; }
+bool HairCovers(const HairLook& hair, glm::vec3 p) {
+  return hair.AboveHairline(p) > kPaint.hidden_beyond;
+}
 
 }  // namespace
 

@@ -109,7 +109,8 @@ Outcome Decode(jpeg_decompress_struct& info, Failure& failure, std::span<const s
   return Outcome::kDone;
 }
 
-/// Only plain data may live here, as in Decode. The caller frees `bytes`, which libjpeg allocates.
+/// Only plain data may live here, as in Decode. After success the caller frees `bytes`,
+/// which libjpeg allocates.
 bool Encode(jpeg_compress_struct& info, Failure& failure, const Image& image, int quality,
             unsigned char*& bytes, unsigned long& size) {
   if (setjmp(failure.back)) return false;
@@ -141,9 +142,13 @@ std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality) {
   failure.manager.error_exit = JumpBack;
   jpeg_create_compress(&info);
   std::vector<std::uint8_t> out;
-  if (Encode(info, failure, image, quality, bytes, size)) out.assign(bytes, bytes + size);
+  // Without memory to grow, `bytes` may be a buffer that libjpeg has freed; the one it has left is
+  // lost.
+  if (Encode(info, failure, image, quality, bytes, size)) {
+    out.assign(bytes, bytes + size);
+    std::free(bytes);
+  }
   jpeg_destroy_compress(&info);
-  std::free(bytes);
   return out;
 }
 

@@ -9,7 +9,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "fsm/base/table_reader.h"
-#include "fsm/mesh/mesh_reach.h"
+#include "fsm/rig/reach.h"
 
 namespace fsm {
 namespace {
@@ -98,8 +98,8 @@ glm::dvec4 LargestEigenvector(const glm::dmat4& n) {
 }  // namespace
 
 Similarity FitSimilarity(std::span<const PointPair> pairs) {
-  // Horn, "Closed-form solution of absolute orientation using unit quaternions", 1987: the turn is
-  // the eigenvector of the largest eigenvalue of a 4 x 4 matrix.
+  // Horn, "Closed-form solution of absolute orientation using unit quaternions", 1987: the rotation
+  // is the eigenvector of the largest eigenvalue of a 4 x 4 matrix.
   glm::dvec3 from_mean(0), to_mean(0);
   for (const PointPair& pair : pairs) {
     from_mean += glm::dvec3(pair.from);
@@ -123,9 +123,9 @@ Similarity FitSimilarity(std::span<const PointPair> pairs) {
                      m(2, 0) + m(0, 2), m(1, 2) + m(2, 1), -m(0, 0) - m(1, 1) + m(2, 2));
   const glm::dvec4 axis = LargestEigenvector(n);
   Similarity fit;
-  fit.turn = glm::mat3(glm::mat3_cast(glm::dquat(axis[0], axis[1], axis[2], axis[3])));
+  fit.rotation = glm::mat3(glm::mat3_cast(glm::dquat(axis[0], axis[1], axis[2], axis[3])));
   fit.scale = static_cast<float>(std::sqrt(from_size / std::max(to_size, 1e-12)));
-  fit.move = glm::vec3(from_mean) - fit.scale * (fit.turn * glm::vec3(to_mean));
+  fit.translation = glm::vec3(from_mean) - fit.scale * (fit.rotation * glm::vec3(to_mean));
   return fit;
 }
 

@@ -26,11 +26,13 @@ std::string FormatHeadPoints(const HeadPoints& points);
 
 /// A similarity transformation: rotation, scale and translation.
 struct Similarity {
-  glm::mat3 turn{1.0f};
+  glm::mat3 rotation{1.0f};
   float scale = 1;
-  glm::vec3 move{0};
-  glm::vec3 operator()(glm::vec3 p) const { return scale * (turn * p) + move; }
-  glm::vec3 Inverse(glm::vec3 p) const { return glm::transpose(turn) * ((p - move) / scale); }
+  glm::vec3 translation{0};
+  glm::vec3 operator()(glm::vec3 p) const { return scale * (rotation * p) + translation; }
+  glm::vec3 Inverse(glm::vec3 p) const {
+    return glm::transpose(rotation) * ((p - translation) / scale);
+  }
 };
 /// Returns the transformation from the pairs' `to` to their `from` with the least sum of squared
 /// distances. REQUIRES: three pairs or more, not all collinear.

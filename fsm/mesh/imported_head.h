@@ -40,19 +40,18 @@ struct ImportedHead {
     std::vector<Delta> deltas;
   };
   std::string name;                 ///< the file name in messages
-  std::vector<glm::vec3> position;  ///< all within kMaxMeshReach
-  std::vector<glm::vec2> texcoord;  ///< in the part's picture, v down; per vertex, or empty
-  std::vector<glm::vec3> tint;      ///< linear, factor on the part's colour; per vertex, or empty
+  std::vector<glm::vec3> position;  ///< all within kMaxReach
+  std::vector<glm::vec2> texcoord;  ///< in the part's picture, v down, finite; per vertex, or empty
+  std::vector<glm::vec3>
+      vertex_colour;  ///< linear, factor on the part's colour; per vertex, or empty
   std::vector<Part> parts;
   std::vector<Image> pictures;
   std::vector<Detail> details;  ///< detail i belongs to picture i; may be shorter than `pictures`
   std::vector<PbrMaterial> pbr_materials;
   std::vector<Shape> shapes;
   std::vector<std::optional<Side>> eye;  ///< the eye that a vertex belongs to; per vertex, or empty
-  /// The centres of rotation of the eyes, if the file has them.
-  std::optional<Sided<glm::vec3>> eye_pivot;
-  std::optional<GazeRanges> gaze_ranges;  ///< the eyes' range, if the file has it
-  SpringRig swing;                        ///< see VrmSprings
+  EyeSetup eye_setup;
+  SpringRig spring_rig;        ///< see VrmSprings
   bool gaze_by_shape = false;  ///< shapes (vrmlookleft ...) move the eyes, which do not rotate
   std::vector<std::string> notices;      ///< sentences about what was left out
   std::vector<std::string> named_files;  ///< paths of files that it refers to, existing or not

@@ -11,9 +11,9 @@
 #include "fsm/base/box.h"
 #include "fsm/base/smooth_step.h"
 #include "fsm/head/identity.h"
-#include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/part_names.h"
 #include "fsm/mesh/texture_atlas.h"
+#include "fsm/rig/reach.h"
 
 namespace fsm {
 namespace {
@@ -77,7 +77,7 @@ class HeadBuilder {
   void HangSprings() {
     constexpr glm::vec3 kAxis{0, 0, -14};  // x and z of the axis of head and neck
     std::vector<std::int64_t> number;
-    for (Spring spring : file_.swing.springs) {
+    for (Spring spring : file_.spring_rig.springs) {
       spring.rest = to_ours_(spring.rest);
       spring.root = to_ours_(spring.root);
       spring.most_mm *= to_ours_.scale;
@@ -88,21 +88,21 @@ class HeadBuilder {
       const bool of_head = WithinReach(spring.rest) && WithinReach(spring.root) &&
                            NeckWeight(spring.root) > 0.5f && spring.most_mm >= Spring::kLeastMost &&
                            spring.most_mm <= Spring::kMostMost;
-      number.push_back(of_head ? static_cast<std::int64_t>(model_.swing.springs.size()) : -1);
-      if (of_head) model_.swing.springs.push_back(spring);
+      number.push_back(of_head ? static_cast<std::int64_t>(model_.spring_rig.springs.size()) : -1);
+      if (of_head) model_.spring_rig.springs.push_back(spring);
     }
-    for (SpringWeight weight : file_.swing.weights) {
+    for (SpringWeight weight : file_.spring_rig.weights) {
       const std::int64_t spring = number[weight.spring];
       if (spring < 0) continue;
       weight.spring = static_cast<std::uint32_t>(spring);
-      model_.swing.weights.push_back(weight);
+      model_.spring_rig.weights.push_back(weight);
     }
   }
 
   [[noreturn]] void Refuse(const std::string& what) const {
     constexpr float kMmInKm = 1e6F;
     throw std::runtime_error(file_.name + ": " + what + " comes to lie farther than " +
-                             std::to_string(static_cast<int>(kMaxMeshReach / kMmInKm)) +
+                             std::to_string(static_cast<int>(kMaxReach / kMmInKm)) +
                              " km from the head: do its landmarks "
                              "(.points) or eyes belong to it?");
   }
@@ -137,12 +137,12 @@ class HeadBuilder {
     }
     model_.has_eyes = std::ranges::all_of(
         kSides, [this](Side side) { return model_.eyes[side].ball_radius < 40; });
-    model_.gaze_ranges = file_.gaze_ranges;
-    if (file_.eye_pivot) {
-      model_.eye_pivot.emplace();
+    model_.eye_setup.gaze_ranges = file_.eye_setup.gaze_ranges;
+    if (file_.eye_setup.pivot) {
+      model_.eye_setup.pivot.emplace();
       for (const Side side : kSides) {
-        glm::vec3& pivot = (*model_.eye_pivot)[side];
-        pivot = to_ours_((*file_.eye_pivot)[side]);
+        glm::vec3& pivot = (*model_.eye_setup.pivot)[side];
+        pivot = to_ours_((*file_.eye_setup.pivot)[side]);
         if (!WithinReach(pivot)) Refuse("what an eye turns about");
       }
     }
@@ -156,7 +156,7 @@ class HeadBuilder {
     const PartKind kind = KindOf(part);
     const bool pictured = part.picture >= 0 && !file_.texcoord.empty();
     if (kind == PartKind::kEye && !pictured && model_.has_eyes) {
-      AddBalls();
+      AddEyeballs();
       return;
     }
     const auto pieces = kind == PartKind::kTeeth || kind == PartKind::kGum
@@ -167,8 +167,8 @@ class HeadBuilder {
       for (const std::uint32_t v : part.indices) piece[pieces[v]].Add(at_[v]);
     }
     for (const std::uint32_t v : part.indices) {
-      model_.bone[v] = BoneOfPart(kind, v, pieces.empty() ? nullptr : &piece[pieces[v]]);
-      model_.albedo[v] = ColourOf(kind, part, v);
+      model_.mesh.bone[v] = BoneOfPart(kind, v, pieces.empty() ? nullptr : &piece[pieces[v]]);
+      model_.mesh.albedo[v] = ColourOf(kind, part, v);
       if (!pictured) continue;
       const glm::vec2 uv = file_.texcoord[v];
       const glm::vec2 within(Wrapped(uv.x), Wrapped(uv.y));
@@ -179,12 +179,12 @@ class HeadBuilder {
     if (pbr >= 0) {
       for (const std::uint32_t v : part.indices) {
         // The picture already has the colour, so only the tint is applied.
-        const glm::vec3 tint = file_.tint.empty() ? glm::vec3(1) : file_.tint[v];
-        model_.albedo[v] = pictured ? tint : tint * part.colour;
+        const glm::vec3 tint = file_.vertex_colour.empty() ? glm::vec3(1) : file_.vertex_colour[v];
+        model_.mesh.albedo[v] = pictured ? tint : tint * part.colour;
       }
     }
     const Material material = MaterialOf(kind, pictured, part.cut_out);
-    auto& indices = model_.BatchOf(material, pbr, part.two_sided).indices;
+    auto& indices = model_.mesh.BatchOf(material, pbr, part.two_sided).indices;
     indices.insert(indices.end(), part.indices.begin(),
                    part.indices.begin() + static_cast<std::ptrdiff_t>(part.indices.size() / 3 * 3));
   }
@@ -223,7 +223,8 @@ class HeadBuilder {
 
   glm::vec3 ColourOf(PartKind kind, const ImportedHead::Part& part, std::uint32_t v) const {
     const Palette& palette = BasePalette();
-    if (!file_.tint.empty() && file_.tint[v] != glm::vec3(1)) return part.colour * file_.tint[v];
+    if (!file_.vertex_colour.empty() && file_.vertex_colour[v] != glm::vec3(1))
+      return part.colour * file_.vertex_colour[v];
     switch (kind) {
       case PartKind::kTeeth:
         return palette.tooth;
@@ -260,12 +261,12 @@ class HeadBuilder {
   }
 
   /// Adds our own eyeballs, once for both sides, because helper spheres have no iris.
-  void AddBalls() {
-    if (balls_) return;
-    balls_ = true;
+  void AddEyeballs() {
+    if (eyeballs_added_) return;
+    eyeballs_added_ = true;
     for (const Side side : kSides) {
       model_.eyes[side].iris_radius = 5.9f;
-      model_.AddBall(side);
+      model_.AddEyeball(side);
     }
   }
 
@@ -277,7 +278,7 @@ class HeadBuilder {
   TextureAtlas atlas_;
   std::map<int, int> pbr_index_;  // file's index -> model's index of a material
   MeshModel model_;
-  bool balls_ = false;
+  bool eyeballs_added_ = false;
 };
 
 }  // namespace

@@ -20,11 +20,11 @@ namespace {
 
 HeadTopology TopologyOf(const MeshModel& model) {
   HeadTopology topology;
-  SetParts(model.batches, topology);
+  SetParts(model.mesh.batches, topology);
   if (topology.indices.empty()) throw std::runtime_error("the head has no triangles");
-  topology.albedo = model.albedo;
-  topology.openness.assign(model.position.size(), 1);
-  for (const glm::vec3& p : model.position) topology.uv.push_back(Unroll(p));
+  topology.albedo = model.mesh.albedo;
+  topology.openness.assign(model.mesh.position.size(), 1);
+  for (const glm::vec3& p : model.mesh.position) topology.uv.push_back(Unroll(p));
   topology.textures = model.textures;
   topology.pbr_materials = model.pbr_materials;
   topology.eyes = model.eyes;
@@ -35,13 +35,13 @@ HeadTopology TopologyOf(const MeshModel& model) {
 std::vector<BallLids::Vertex> LidsOf(const MeshModel& model) {
   constexpr float kReach = 8, kThickness = 0.6F;
   std::vector<BallLids::Vertex> lids;
-  for (std::uint32_t i = 0; i < model.position.size(); ++i) {
-    if (model.bone[i] != Bone::kSkin) continue;
+  for (std::uint32_t i = 0; i < model.mesh.position.size(); ++i) {
+    if (model.mesh.bone[i] != Bone::kSkin) continue;
     for (const Side side : kSides) {
       const EyeGeometry& eye = model.eyes[side];
-      const float far = glm::distance(model.position[i], eye.centre);
+      const float far = glm::distance(model.mesh.position[i], eye.centre);
       if (far < eye.ball_radius - 0.5F || far > eye.ball_radius + kReach) continue;
-      if (model.position[i].z < eye.centre.z) continue;
+      if (model.mesh.position[i].z < eye.centre.z) continue;
       lids.push_back({i, side, std::min(far, eye.ball_radius + kThickness)});
     }
   }
@@ -84,23 +84,24 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology, RigData rig)
   using enum RigStep;
   for (const RigStep step : {kLidsOnBalls, kBones, kNeck, kSprings, kNormals})
     rig.steps.push_back(step);
-  rig.rest = model.position;
+  rig.rest = model.mesh.position;
   rig.rest_normal = Normals(topology.indices, rig.rest, rig.rest.size());
-  rig.bone = model.bone;
+  rig.bone = model.mesh.bone;
   rig.weights.resize(rig.rest.size());
   for (std::size_t i = 0; i < rig.rest.size(); ++i) {
-    rig.weights[i].neck = model.weights[i].neck;
+    rig.weights[i].neck = model.mesh.weights[i].skin.neck;
     if (rig.bone[i] == Bone::kTongue) rig.bone[i] = Bone::kJaw;
   }
   rig.normals.soft_triangles = topology.indices;
   if (!topology.pbr_materials.empty()) rig.normals.twin = NormalTwins(rig.rest, rig.rest_normal);
-  rig.jaw.hinge = model.hinge;
+  rig.jaw.hinge = model.jaw_hinge;
   for (const Side side : kSides) {
     rig.ball_lids.centre[side] = model.eyes[side].centre;
-    rig.eyes.pivot[side] = model.eye_pivot ? (*model.eye_pivot)[side] : rig.ball_lids.centre[side];
+    rig.eyes.pivot[side] =
+        model.eye_setup.pivot ? (*model.eye_setup.pivot)[side] : rig.ball_lids.centre[side];
   }
-  rig.eyes.gaze_ranges = model.gaze_ranges;
-  rig.swing = model.swing;
+  rig.eyes.gaze_ranges = model.eye_setup.gaze_ranges;
+  rig.spring_rig = model.spring_rig;
   if (model.has_eyes && model.round_eyes) rig.ball_lids.vertices = LidsOf(model);
   if (!rig.lips.measured && !model.seam.empty()) {
     const auto [upper, lower] = model.seam[model.seam.size() / 2];

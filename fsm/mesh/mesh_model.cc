@@ -9,12 +9,10 @@
 namespace fsm {
 
 std::uint32_t MeshModel::Add(glm::vec3 p, Bone b, glm::vec3 colour, std::optional<glm::vec2> at,
-                             float turn) {
-  BakeWeights vertex_weights;
-  vertex_weights.neck = turn;
+                             float neck) {
   textures.texcoord.push_back(at.value_or(glm::vec2(0)));
   textures.weight.push_back(at ? 1.0f : 0.0f);
-  return HeadMesh::Add(p, colour, 1, b, vertex_weights);
+  return mesh.Add(p, colour, 1, b, {.skin = {.neck = neck}});
 }
 
 namespace {
@@ -23,10 +21,10 @@ namespace {
 template <typename Is>
 std::vector<std::uint32_t> TrianglesOf(const MeshModel& model, Is is) {
   std::vector<std::uint32_t> out;
-  for (const auto& batch : model.batches) {
+  for (const auto& batch : model.mesh.batches) {
     for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
       const std::uint32_t* t = &batch.indices[i];
-      if (std::all_of(t, t + 3, [&](std::uint32_t v) { return is(model.bone[v]); })) {
+      if (std::all_of(t, t + 3, [&](std::uint32_t v) { return is(model.mesh.bone[v]); })) {
         out.insert(out.end(), t, t + 3);
       }
     }
@@ -41,16 +39,16 @@ std::vector<std::uint32_t> MeshModel::SkinTriangles() const {
 }
 
 std::vector<std::uint32_t> MeshModel::EyeTriangles() const {
-  return TrianglesOf(*this, [](Bone b) { return EyeOf(b).has_value(); });
+  return TrianglesOf(*this, [](Bone b) { return SideOfEye(b).has_value(); });
 }
 
-void MeshModel::AddBall(Side side) {
+void MeshModel::AddEyeball(Side side) {
   // Rings about the line of sight; one is the edge of the iris.
   constexpr int kSegments = 32, kIrisRings = 4, kRings = 14;
   const EyeGeometry& eye = eyes[side];
   const float edge = std::asin(std::min(eye.iris_radius / eye.ball_radius, 0.9F));
   const Bone carrier = BoneOf(side);
-  const auto first = static_cast<std::uint32_t>(position.size());
+  const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (int ring = 0; ring <= kRings; ++ring) {
     const float angle = ring <= kIrisRings
                             ? edge * static_cast<float>(ring) / kIrisRings
@@ -69,8 +67,8 @@ void MeshModel::AddBall(Side side) {
       const auto at = [&](int r, std::uint32_t s) {
         return first + static_cast<std::uint32_t>(r) * kSegments + s % kSegments;
       };
-      Triangle(material, at(ring, k), at(ring + 1, k), at(ring + 1, k + 1));
-      Triangle(material, at(ring, k), at(ring + 1, k + 1), at(ring, k + 1));
+      mesh.Triangle(material, at(ring, k), at(ring + 1, k), at(ring + 1, k + 1));
+      mesh.Triangle(material, at(ring, k), at(ring + 1, k + 1), at(ring, k + 1));
     }
   }
 }

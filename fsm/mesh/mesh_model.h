@@ -12,21 +12,27 @@
 
 namespace fsm {
 
+/// How the file of a head has its eyes rotate.
+struct EyeSetup {
+  std::optional<Sided<glm::vec3>> pivot;  ///< centres of rotation; none: those of the eyeballs
+  std::optional<GazeRanges> gaze_ranges;  ///< none: the eyes rotate by the gaze angles
+};
+
 /// A head that is not built in, at rest, in the frame of HeadVertices, millimetres. MakeMeshHead
 /// converts it to a Head, in which vertices of Bone::kSkin are moved by the given rig and the
-/// others by their bones. Of the weights only `neck` is used.
-struct MeshModel : HeadMesh {
+/// others by their bones.
+struct MeshModel {
   std::string name;  ///< the file name in messages; may be empty
+  HeadMesh mesh;     ///< of its weights only SkinWeights::neck is used
   TextureMaps textures;
   std::vector<PbrMaterial> pbr_materials;
   Sided<EyeGeometry> eyes;  ///< meaningful where has_eyes
   bool has_eyes = false;
-  std::optional<Sided<glm::vec3>> eye_pivot;  ///< centres of rotation, if not those of `eyes`
-  std::optional<GazeRanges> gaze_ranges;      ///< none: those of the built-in heads
-  bool round_eyes = true;                     ///< eyeballs are spheres, which lids must not enter
-  bool has_uv_seams = false;                  ///< see TransferSurface
-  glm::vec3 hinge = kJawHinge;                ///< a point on the jaw's axis, which is parallel to x
-  SpringRig swing;
+  EyeSetup eye_setup;
+  bool round_eyes = true;           ///< eyeballs are spheres, which lids must not enter
+  bool has_uv_seams = false;        ///< see TransferSurface
+  glm::vec3 jaw_hinge = kJawHinge;  ///< a point on the jaw's axis, which is parallel to x
+  SpringRig spring_rig;
   Landmarks landmarks;
   std::optional<ParallelView> view;  ///< the view that the file intends
   /// Pairs of vertices of upper and lower lip that meet when the mouth is closed, from the agent's
@@ -34,14 +40,14 @@ struct MeshModel : HeadMesh {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;
 
   /// Adds a vertex and returns its index. `at`: its texture coordinates; if missing, it has its own
-  /// colour. `turn`: the weight with which it follows the head's rotation.
+  /// colour. `neck`: SkinWeights::neck.
   std::uint32_t Add(glm::vec3 p, Bone b, glm::vec3 colour, std::optional<glm::vec2> at = {},
-                    float turn = 1);
+                    float neck = 1);
   /// Returns the triangles of flesh, three vertex indices each.
   std::vector<std::uint32_t> SkinTriangles() const;
   std::vector<std::uint32_t> EyeTriangles() const;  ///< the same of the eyeballs
   /// Adds an eyeball with an iris about eyes[side], in our own colours.
-  void AddBall(Side side);
+  void AddEyeball(Side side);
 };
 
 }  // namespace fsm

@@ -16,8 +16,7 @@ constexpr std::pair<std::string_view, Material> kSurfaces[] = {
     {"tongue", Material::kTongue}, {"mouth_inside", Material::kMouthInside},
     {"cloth", Material::kCloth}};
 
-std::string ConstantOf(const TableRow& row) {
-  const std::size_t count = row.size() - 1;
+std::string ConstantOf(const TableRow& row, std::size_t count) {
   const std::string type = count == 1 ? "float" : "vec" + std::to_string(count);
   std::string text = "const " + type + " look_" + row.key() + " = " + type + "(";
   for (std::size_t i = 1; i <= count; ++i) text += (i > 1 ? ", " : "") + row.Word(i);
@@ -30,7 +29,7 @@ Appearance::Appearance(NumberTable numbers)
     : AppearanceNumbers(numbers), table_(std::move(numbers)) {
   for (const TableRow& row : table_.rows()) {
     const std::string name = NumberTable::RowName(row);
-    if (name == row.key()) constants_ += ConstantOf(row);
+    if (name == row.key()) constants_ += ConstantOf(row, table_[name].size());
     if (name.ends_with(" direction") && std::ranges::count(table_[name], 0.0F) == 3)
       row.Fail("a lamp that stands nowhere");
   }
@@ -42,10 +41,10 @@ Appearance::Appearance(NumberTable numbers)
     get("wrap", surface.wrap);
     get("lobes", surface.lobes);
     get("key_through", surface.key_through);
-    get("down", surface.sheen);
+    get("sheen", surface.sheen);
     get("saturation", surface.saturation);
     get("bump", surface.bump);
-    get("repeats", surface.planar);
+    get("detail_per_mm", surface.detail_per_mm);
   }
 }
 

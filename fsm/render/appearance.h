@@ -19,7 +19,7 @@ class Appearance : public AppearanceNumbers {
   struct Surface {
     glm::vec3 wrap{0};
     glm::vec3 lobes{0};
-    float key_through = 0, sheen = 0, saturation = 1, bump = 0, planar = 0;
+    float key_through = 0, sheen = 0, saturation = 1, bump = 0, detail_per_mm = 0;
   };
 
   /// Reads a table that overrides the built-in one; `name` appears in error messages. Throws as

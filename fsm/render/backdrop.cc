@@ -37,7 +37,7 @@ void Backdrop::Draw(const Scene& scene, int width, int height) {
   }
   wide_ = static_cast<float>(width) / static_cast<float>(height);
   if (IsPictured(scene)) {
-    gl_.ActiveTexture(NameOf(TextureUnit::kPass));
+    gl_.ActiveTexture(GlUnit(TextureUnit::kPass));
     gl_.BindTexture(GL_TEXTURE_2D, texture_);
     Upload(scene.background_image);
     // A picture of the view's own size is shown without filtering, pixel by pixel.
@@ -55,7 +55,7 @@ void Backdrop::Draw(const Scene& scene, int width, int height) {
 
 void Backdrop::Veil(const Scene& scene, float opacity) {
   if (IsPictured(scene)) {
-    gl_.ActiveTexture(NameOf(TextureUnit::kPass));
+    gl_.ActiveTexture(GlUnit(TextureUnit::kPass));
     gl_.BindTexture(GL_TEXTURE_2D, texture_);
   }
   gl_.Enable(GL_BLEND);

@@ -57,7 +57,8 @@ class PartDecimator {
         FindRing(v, ring_);
         if (!MayGo()) continue;
         // The shortest edges collapse first, which avoids slivers.
-        for (Neighbour& n : ring_) n.far = glm::distance(vertex.place, vertices_[n.vertex].place);
+        for (Neighbour& n : ring_)
+          n.far = glm::distance(vertex.position, vertices_[n.vertex].position);
         std::ranges::sort(ring_, {}, [](const Neighbour& n) { return std::pair(n.far, n.vertex); });
         const auto to =
             std::ranges::find_if(ring_, [&](const Neighbour& n) { return Fits(v, n, error); });
@@ -86,7 +87,7 @@ class PartDecimator {
   };
   struct Vertex {
     std::uint32_t number;  // index in the head
-    glm::vec3 place;
+    glm::vec3 position;
     std::vector<std::uint32_t> triangles{};  // the triangles around it
     std::uint32_t tried_at = 0;              // the last pass that could not remove it
     std::uint32_t changed_at = 0;            // the first pass after a neighbourhood change
@@ -98,9 +99,9 @@ class PartDecimator {
   };
 
   Triangle Between(const Corners& corners) const {
-    const glm::vec3 a = vertices_[corners[0]].place;
+    const glm::vec3 a = vertices_[corners[0]].position;
     const glm::vec3 normal =
-        glm::cross(vertices_[corners[1]].place - a, vertices_[corners[2]].place - a);
+        glm::cross(vertices_[corners[1]].position - a, vertices_[corners[2]].position - a);
     return {corners, normal, glm::length(normal)};
   }
 
@@ -166,8 +167,8 @@ class PartDecimator {
     for (const auto& [triangle, after] : after_) {
       const Corners& t = after.corners;
       const std::array corners{&vertices_[t[0]], &vertices_[t[1]], &vertices_[t[2]]};
-      const glm::vec3 a = corners[0]->place;
-      const glm::vec3 b = corners[1]->place - a, c = corners[2]->place - a;
+      const glm::vec3 a = corners[0]->position;
+      const glm::vec3 b = corners[1]->position - a, c = corners[2]->position - a;
       const float bb = glm::dot(b, b), bc = glm::dot(b, c), cc = glm::dot(c, c);
       const float pb = glm::dot(p - a, b), pc = glm::dot(p - a, c);
       const float whole = std::max(bb * cc - bc * bc, 1e-12F);

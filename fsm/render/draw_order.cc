@@ -104,7 +104,7 @@ class OrderMaker {
       const Corners corners = CornersOf(part);
       const bool of_skin = part.material == Material::kSkin;
       const bool of_sheet = part.material == Material::kPhoto;
-      if (HasSoftLayers(topology_) && (of_skin || of_sheet)) {
+      if (HasBlendedLayers(topology_) && (of_skin || of_sheet)) {
         Layer& layer = of_sheet ? sheet : skin;
         layer.part = part;
         std::vector<std::uint32_t> whole;

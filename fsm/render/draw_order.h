@@ -19,7 +19,7 @@ enum class SkinDetail : std::uint8_t {
 /// A part of the head as it is drawn.
 struct DrawnPart {
   HeadTopology::Part part;  ///< indices into the uploaded buffer
-  bool soft = false;        ///< alpha-blended
+  bool blended = false;     ///< alpha
   SkinDetail detail = SkinDetail::kDetailed;
 };
 
@@ -37,7 +37,7 @@ DrawOrder OrderToDraw(const HeadTopology& topology, const HeadTriangles& triangl
                       std::span<const glm::vec3> rest, std::span<const SkinDetail> detail);
 
 /// Tells whether a head wears a photo in layers with soft edges, blended from back to front.
-inline bool HasSoftLayers(const HeadTopology& topology) {
+inline bool HasBlendedLayers(const HeadTopology& topology) {
   return topology.textures.image && !topology.opacity.empty();
 }
 

@@ -19,13 +19,12 @@ void EyeMaterial::Begin(const MaterialFrame& frame) const {
   if (!frame.head.eyes().found()) return;
   const auto eyes = frame.head.eyes().Measure(frame.vertices);
   const HeadTopology& topology = frame.head.topology();
-  const EyeGeometry& geometry = topology.eyes.right;  // both eyes share sizes and colours
   // On a grey photo the sclera is grey, and so is the caruncle beside it.
-  const glm::vec3 white = geometry.white_colour;
+  const glm::vec3 white = topology.eyes.right.white_colour;
   const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02F * white.g;
   const bool pictured = frame.head.photo() && topology.portrait.eyes;
   program_.Use();
-  SetEyeballs(frame.view, eyes, geometry);
+  SetEyeballs(frame.view, eyes, topology.eyes);
   program_.Set("flesh_red", grey ? 0.0F : 1.0F);
   program_.Set("beside_photo", frame.head.photo() != nullptr);
   program_.Set("photo_brightness", frame.photo_brightness);
@@ -35,11 +34,11 @@ void EyeMaterial::Begin(const MaterialFrame& frame) const {
 }
 
 void EyeMaterial::SetEyeballs(const View& view, const Sided<EyePose>& eyes,
-                              const EyeGeometry& geometry) const {
-  const glm::mat3 turn(view.figure_to_world);
-  const float scale = glm::length(turn[0]);
+                              const Sided<EyeGeometry>& geometry) const {
+  const glm::mat3 rotation(view.figure_to_world);
+  const float scale = glm::length(rotation[0]);
   std::array<glm::vec4, 2> balls, lid_heights{};
-  std::array<glm::vec3, 2> gazes;
+  std::array<glm::vec3, 2> gazes, iris_colours, white_colours;
   for (const Side side : kSides) {
     const EyePose& eye = eyes[side];
     const auto i = static_cast<std::size_t>(side);
@@ -47,7 +46,9 @@ void EyeMaterial::SetEyeballs(const View& view, const Sided<EyePose>& eyes,
       return glm::vec3(view.figure_to_world * glm::vec4(p, 1.0F));
     };
     balls[i] = glm::vec4(to_world(eye.centre), eye.radius * scale);
-    gazes[i] = turn * eye.gaze / scale;
+    gazes[i] = rotation * eye.gaze / scale;
+    iris_colours[i] = geometry[side].iris_colour;
+    white_colours[i] = geometry[side].white_colour;
     const glm::vec3 front = eye.centre + eye.gaze * eye.radius;
     lid_heights[i].x = to_world({front.x, eye.upper_lid_y, front.z}).y;
     lid_heights[i].y = to_world({front.x, eye.lower_lid_y, front.z}).y;
@@ -59,10 +60,10 @@ void EyeMaterial::SetEyeballs(const View& view, const Sided<EyePose>& eyes,
   program_.Set("gaze", gazes);
   program_.Set("lid_heights", lid_heights);
   program_.Set("iris_radius", first.iris_radius * scale);
-  program_.Set("pupil_share", geometry.pupil_radius / geometry.iris_radius);
+  program_.Set("pupil_share", geometry.right.pupil_radius / geometry.right.iris_radius);
   program_.Set("iris_depth", plane * scale);
-  program_.Set("iris_colour", geometry.iris_colour);
-  program_.Set("white_colour", geometry.white_colour);
+  program_.Set("iris_colour", iris_colours);
+  program_.Set("white_colour", white_colours);
   program_.Set("figure_scale", scale);
 }
 

@@ -14,7 +14,8 @@ class EyeMaterial {
   void Begin(const MaterialFrame& frame) const;
 
  private:
-  void SetEyeballs(const View& view, const Sided<EyePose>& eyes, const EyeGeometry& geometry) const;
+  void SetEyeballs(const View& view, const Sided<EyePose>& eyes,
+                   const Sided<EyeGeometry>& geometry) const;
   void SetPictures(const MaterialFrame& frame, const Sided<EyePose>& eyes) const;
 
   GlProgram program_;

@@ -70,7 +70,7 @@ void FrameReader::BeginAverage(const GlTarget& target, bool soft, Frame& frame) 
   if (std::exchange(buffer.bytes, BytesOf(image)) != BytesOf(image)) {
     gl_.BufferData(GL_SHADER_STORAGE_BUFFER, buffer.bytes, nullptr, GL_STREAM_READ);
   }
-  gl_.ActiveTexture(NameOf(TextureUnit::kPass));
+  gl_.ActiveTexture(GlUnit(TextureUnit::kPass));
   gl_.BindTexture(GL_TEXTURE_2D, target.samples());
   average_->Use();
   average_->Set("samples", TextureUnit::kPass);

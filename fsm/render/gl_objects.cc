@@ -82,7 +82,7 @@ GlTarget::GlTarget(const GlFunctions& gl, int width, int height)
   gl.GenFramebuffers(1, &frame_);
   gl.BindFramebuffer(GL_FRAMEBUFFER, frame_);
   gl.GenTextures(1, &colour_);
-  gl.ActiveTexture(NameOf(TextureUnit::kPass));
+  gl.ActiveTexture(GlUnit(TextureUnit::kPass));
   gl.BindTexture(GL_TEXTURE_2D, colour_);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, across, up, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);

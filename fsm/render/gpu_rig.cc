@@ -5,34 +5,21 @@
 #include <algorithm>
 #include <cassert>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "embedded/rig_kernels.h"
 #include "embedded/rig_steps.h"
-#include "fsm/render/rig_records.h"
+#include "fsm/rig/rig_records.h"
 
 namespace fsm {
-namespace {
-
-/// GLSL that precedes steps.glsl: definitions that C++ takes from other headers.
-constexpr std::string_view kBeforeSteps = R"(
-#define FUNCTION
-float SmoothStep(float from, float to, float x) {
-  float t = clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-)";
-
-}  // namespace
 
 const GlProgram& RigPrograms::Of(const RigRecords& records) {
-  auto& program = programs_[records.step];
+  auto& program = programs_[records.kernel];
   if (!program) {
     const std::string source =
-        fmt::format("#version 430\n#define STEP_{}\n{}{}{}", records.step, kBeforeSteps,
+        fmt::format("#version 430\n#define STEP_{}\n#define FUNCTION\n{}{}", records.kernel,
                     embedded::rig_steps(), embedded::rig_kernels());
-    program = std::make_unique<GlProgram>(gl_, records.step, source);
+    program = std::make_unique<GlProgram>(gl_, records.kernel, source);
   }
   return *program;
 }
@@ -42,10 +29,10 @@ GpuRig::GpuRig(const GlFunctions& gl, RigPrograms& programs, const Rig& rig)
       programs_(programs),
       vertex_count_(rig.data().rest.size()),
       channel_count_(rig.data().channels.size()),
-      spring_count_(rig.data().swing.springs.size()),
+      spring_count_(rig.data().spring_rig.springs.size()),
       seam_count_(rig.data().lips.seam.size()) {
   gl_.GenBuffers(kBuffers, buffers_.data());
-  for (const RigRecords& records : RecordsOfSteps(rig.data())) Add(records);
+  for (const RigRecords& records : PackRig(rig.data())) Add(records);
 }
 
 GpuRig::~GpuRig() {
@@ -75,18 +62,19 @@ void GpuRig::Evaluate(const Rig& rig, std::span<const Input> faces) {
   RigInputs inputs;
   std::vector<step::StepState> states;
   std::vector<float> strengths;
-  std::vector<glm::vec3> swings;
+  std::vector<glm::vec3> spring_offsets;
   for (const Input& face : faces) {
     rig.FindInputs(*face.state, inputs);
     states.push_back(inputs.state);
     strengths.insert(strengths.end(), inputs.strengths.begin(), inputs.strengths.end());
-    assert(face.swings.empty() || face.swings.size() == spring_count_);
-    swings.insert(swings.end(), face.swings.begin(), face.swings.end());
-    swings.resize(states.size() * spring_count_, glm::vec3(0));
+    assert(face.spring_offsets.empty() || face.spring_offsets.size() == spring_count_);
+    spring_offsets.insert(spring_offsets.end(), face.spring_offsets.begin(),
+                          face.spring_offsets.end());
+    spring_offsets.resize(states.size() * spring_count_, glm::vec3(0));
   }
   Fill(buffers_[kStates], states, GL_STREAM_DRAW);
   Fill(buffers_[kStrengths], strengths, GL_STREAM_DRAW);
-  Fill(buffers_[kSwings], swings, GL_STREAM_DRAW);
+  Fill(buffers_[kSpringOffsets], spring_offsets, GL_STREAM_DRAW);
   if (room_ < faces.size()) {
     room_ = faces.size();
     for (const auto& [which, count] : {std::pair(kPositions, vertex_count_),

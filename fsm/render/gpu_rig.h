@@ -44,7 +44,7 @@ class GpuRig {
 
   struct Input {
     const FaceState* state;  ///< borrowed for the call
-    std::span<const glm::vec3> swings = {};
+    std::span<const glm::vec3> spring_offsets = {};
   };
   /// REQUIRES: `rig` is the one given to the constructor.
   void Evaluate(const Rig& rig, std::span<const Input> faces);
@@ -59,7 +59,7 @@ class GpuRig {
 
  private:
   /// Indices in the order of the bindings in rig_kernels.glsl.
-  enum Buffer { kPositions, kNormals, kStates, kStrengths, kSwings, kGaps, kBuffers };
+  enum Buffer { kPositions, kNormals, kStates, kStrengths, kSpringOffsets, kGaps, kBuffers };
   struct Kernel {
     const GlProgram* program;
     std::array<GLuint, 2> buffers;  // records and entries, at the next bindings

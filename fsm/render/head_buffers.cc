@@ -13,9 +13,9 @@ namespace {
 
 const glm::vec4 kNone(0);
 
-/// The vertex attributes kDetailPlace, kDetail and kDetailMore, per vertex.
+/// The vertex attributes kDetailTexcoord, kDetail and kDetailMore, per vertex.
 struct DetailAttributes {
-  std::vector<glm::vec2> place;
+  std::vector<glm::vec2> texcoord;
   std::vector<glm::vec4> detail;
   std::vector<glm::vec2> more;
 };
@@ -23,14 +23,14 @@ struct DetailAttributes {
 DetailAttributes DetailOf(const HeadTopology& topology, const CreaseWeights& creases,
                           std::size_t count) {
   DetailAttributes detail{topology.uv, creases.face, creases.nose_and_left};
-  detail.place.resize(count);
+  detail.texcoord.resize(count);
   detail.detail.resize(count);
   detail.more.resize(count);
   for (const auto& part : topology.parts) {
     if (!IsHair(part.material)) continue;
     for (const std::uint32_t i : topology.Corners(part)) {
       const Strand strand = i < topology.strands.size() ? topology.strands[i] : Strand{};
-      detail.place[i] = strand.tile_mm;
+      detail.texcoord[i] = strand.tile_mm;
       detail.detail[i] = glm::vec4(strand.along, strand.density);
       detail.more[i] = glm::vec2(strand.across, 0);
     }
@@ -191,7 +191,7 @@ void HeadBuffers::UploadAttributes(const HeadVertices& rest) {
   }
   upload(VertexAttribute::kRestPosition, rest.position);
   upload(VertexAttribute::kAlbedoOpenness, paint.colour);
-  upload(VertexAttribute::kDetailPlace, detail.place);
+  upload(VertexAttribute::kDetailTexcoord, detail.texcoord);
   upload(VertexAttribute::kDetail, detail.detail);
   upload(VertexAttribute::kDetailMore, detail.more);
   upload(VertexAttribute::kTexcoord, paint.texcoord);

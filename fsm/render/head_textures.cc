@@ -34,7 +34,7 @@ Image Doubled(const Image& image) {
 
 void FillTexture(const GlFunctions& gl, GLuint texture, const Image& picture, GLint filter) {
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  gl.ActiveTexture(NameOf(TextureUnit::kUpload));
+  gl.ActiveTexture(GlUnit(TextureUnit::kUpload));
   gl.BindTexture(GL_TEXTURE_2D, texture);
   for (const int axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
     gl.TexParameteri(GL_TEXTURE_2D, static_cast<GLenum>(axis), GL_REPEAT);

@@ -39,7 +39,7 @@ MaterialFrame FrameOf(const Appearance& appearance, const View& view, const Head
       .vertices = vertices,
       .lamps = lamps,
       .shadows = shadows,
-      .rest_to_world = glm::mat3(view.figure_to_world) * shadows.turn,
+      .rest_to_world = glm::mat3(view.figure_to_world) * shadows.rotation,
       .photo_brightness = std::sqrt((lamps.colours[0].g + lamps.colours[1].g + room) / usual),
       .creases = {},
       .nose_creases = vertices.creases[static_cast<std::size_t>(Crease::kNose)]};

@@ -54,7 +54,7 @@ Materials::Materials(const GlFunctions& gl, const Appearance& appearance)
 Materials::~Materials() { gl_.DeleteTextures(kTextures, shared_textures_); }
 
 void Materials::Bind(GLuint texture, TextureUnit unit) {
-  gl_.ActiveTexture(NameOf(unit));
+  gl_.ActiveTexture(GlUnit(unit));
   gl_.BindTexture(GL_TEXTURE_2D, texture);
 }
 
@@ -149,7 +149,7 @@ void Materials::UseSurface(const DrawnPart& drawn) {
   const Appearance::Surface& surface =
       appearance_.surface(material == Material::kMatte ? Material::kMouthInside : material);
   const bool inside = mouth_.has_opening() && IsOfMouth(material);
-  const bool threads = surface.planar > 0;
+  const bool threads = surface.detail_per_mm > 0;
   const bool relief = threads ? surface.bump > 0 && pores_
                               : pores_ || (creased_ && drawn.detail != SkinDetail::kPlain);
   const GlProgram& program = inside ? mouth_.program() : relief ? surface_ : smooth_;
@@ -164,7 +164,7 @@ void Materials::UseSurface(const DrawnPart& drawn) {
   }
   program.Set("saturation", surface.saturation);
   program.Set("bump", surface.bump);
-  program.Set("planar", surface.planar);
+  program.Set("detail_per_mm", surface.detail_per_mm);
   program.Set("chroma", head_->topology().portrait.saturation);
   BindOrPlain(threads ? 0 : head_textures_->tint(), TextureUnit::kTint);
   BindOrPlain(threads ? shared_textures_[kWeave] : head_textures_->skin_relief(),
@@ -173,14 +173,14 @@ void Materials::UseSurface(const DrawnPart& drawn) {
 
 void Materials::UsePbr(const PbrMaterial& pbr) {
   pbr_->Use();
-  pbr_->Set("ragged", pbr.cut_out);
+  pbr_->Set("cut_out", pbr.cut_out);
   pbr_->Set("toon", pbr.kind == PbrMaterial::Kind::kToon);
   pbr_->Set("metallic", pbr.metallic);
   pbr_->Set("roughness", pbr.roughness);
   pbr_->Set("shade_to", pbr.shade_to);
   pbr_->Set("light_from", pbr.light_from);
-  pbr_->Set("glow", pbr.glow);
-  pbr_->Set("shade", pbr.shade);
+  pbr_->Set("emissive", pbr.emissive);
+  pbr_->Set("shade_colour", pbr.shade_colour);
   BindOrPlain(head_textures_->photo(), TextureUnit::kPhoto);
   Bind(head_textures_->normal_map(), TextureUnit::kNormalMap);
   Bind(head_textures_->emissive_map(), TextureUnit::kEmissiveMap);

@@ -33,17 +33,17 @@ std::optional<MouthFinder::Opening> MouthFinder::Measure(const HeadVertices& ver
                         glm::vec4(middle, 1));
   Opening opening{};
   opening.to_mouth = glm::inverse(frame);
-  const auto place = [&](std::uint32_t i) {
+  const auto in_mouth = [&](std::uint32_t i) {
     return glm::vec3(opening.to_mouth * glm::vec4(at(i), 1));
   };
   for (std::size_t k = 0; k < kColumns; ++k) {
     // Takes the middle vertex of each of kColumns equal sections of the seam.
     const auto [upper, lower] = slit_->seam[(2 * k + 1) * slit_->seam.size() / (2 * kColumns)];
-    opening.lips[k] = place(upper);
-    opening.lips[k + kColumns] = place(lower);
+    opening.lips[k] = in_mouth(upper);
+    opening.lips[k + kColumns] = in_mouth(lower);
   }
-  opening.corners = {place(slit_->corner_right).x, place(slit_->corner_left).x};
-  opening.teeth = {place(slit_->upper_incisor).y, place(slit_->lower_incisor).y};
+  opening.corners = {in_mouth(slit_->corner_right).x, in_mouth(slit_->corner_left).x};
+  opening.teeth = {in_mouth(slit_->upper_incisor).y, in_mouth(slit_->lower_incisor).y};
   return opening;
 }
 

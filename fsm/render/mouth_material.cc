@@ -31,9 +31,9 @@ float MouthMaterial::jaw_drop_mm() const {
 void MouthMaterial::Begin(const MaterialFrame& frame) {
   opening_ = frame.head.mouth().Measure(frame.vertices);
   if (!opening_) return;
-  const glm::mat3 turn(frame.view.figure_to_world);
+  const glm::mat3 rotation(frame.view.figure_to_world);
   const glm::mat3 to_world =
-      turn / glm::length(turn[0]) * glm::transpose(glm::mat3(opening_->to_mouth));
+      rotation / glm::length(rotation[0]) * glm::transpose(glm::mat3(opening_->to_mouth));
   const bool photo = frame.head.photo() != nullptr;
   const glm::vec3 key =
       glm::mix(glm::transpose(to_world) * frame.lamps.directions[0], appearance_.mouth_key_from,

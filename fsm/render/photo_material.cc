@@ -33,7 +33,7 @@ void PhotoMaterial::Begin(const MaterialFrame& frame, const MouthMaterial& mouth
     program->Set("lids_shut", frame.vertices.lids_shut.InOrder());
     program->Set("photo", TextureUnit::kPhoto);
     program->Set("relief", TextureUnit::kRelief);
-    program->Set("blends", HasSoftLayers(frame.head.topology()));
+    program->Set("blends", HasBlendedLayers(frame.head.topology()));
     program->Set("brightness", frame.photo_brightness);
     program->Set("rest_to_world", frame.rest_to_world);
     program->Set("photo_light", frame.head.topology().portrait.light);
@@ -46,14 +46,19 @@ void PhotoMaterial::Begin(const MaterialFrame& frame, const MouthMaterial& mouth
 void PhotoMaterial::Use(const DrawnPart& part, const HeadBuffers& head, bool creased) const {
   // Skin that does not crease in this frame shows the plain photo.
   const bool plain = part.detail == SkinDetail::kCreased && !creased && programs_[0];
-  const GlProgram& program = *programs_[plain ? 0 : static_cast<std::size_t>(part.detail)];
-  const bool ragged = part.part.material == Material::kPhoto;
+  std::size_t detail = plain ? 0 : static_cast<std::size_t>(part.detail);
+  // A coarse triangle may have less detail than all the fine ones it replaces, whose program draws
+  // it as well.
+  while (!programs_[detail]) ++detail;
+  const GlProgram& program = *programs_[detail];
+  const bool cut_out = part.part.material == Material::kPhoto;
   // Where the sheet continues the skin, the skin wins, however coarse the sheet is.
-  constexpr float kYieldsMm = 5;
+  constexpr float kDepthOffsetMm = 5;
   program.Use();
   program.Set("lashes", part.part.material == Material::kShutLash);
-  program.Set("ragged", ragged);
-  program.Set("yields", ragged && HasSoftLayers(head.topology()) ? kYieldsMm : 0.0F);
+  program.Set("cut_out", cut_out);
+  program.Set("depth_offset_mm",
+              cut_out && HasBlendedLayers(head.topology()) ? kDepthOffsetMm : 0.0F);
 }
 
 }  // namespace fsm

@@ -53,17 +53,17 @@ class Renderer {
   /// REQUIRES: `vertices` belong to `head` (Evaluate of `state`).
   virtual void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
                     const Scene& scene) = 0;
-  /// Draws the vertices that the head's rig computes from `state` and `swings` (Rig::Evaluate). A
-  /// card computes them itself (GpuRig), with the accuracy stated there.
-  virtual void Draw(const Head& head, const FaceState& state, std::span<const glm::vec3> swings,
-                    const Scene& scene) = 0;
+  /// Draws the vertices that the head's rig computes from `state` and `spring_offsets`
+  /// (Rig::Evaluate). A card computes them itself (GpuRig), with the accuracy stated there.
+  virtual void Draw(const Head& head, const FaceState& state,
+                    std::span<const glm::vec3> spring_offsets, const Scene& scene) = 0;
   /// One face of many; its pointers are borrowed for the call.
   struct Pane {
     const Head* head;
     const FaceState* state;
     const Scene* scene;
     Viewport viewport = {};
-    std::span<const glm::vec3> swings = {};
+    std::span<const glm::vec3> spring_offsets = {};
   };
   /// Draws each pane in its viewport and then calls `drawn` with its index, which may read the
   /// frame but not draw. A card moves consecutive faces of one head in one call. Afterwards the

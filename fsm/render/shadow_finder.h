@@ -22,7 +22,7 @@ class ShadowFinder {
   struct Occluders {
     glm::mat4 skull;
     glm::mat4 nose;
-    glm::mat3 turn;  ///< rotation of the head since the rest state
+    glm::mat3 rotation;  ///< of the head since the rest state
   };
   Occluders Measure(const HeadVertices& vertices) const;
   /// Appends the vertices that Measure reads.

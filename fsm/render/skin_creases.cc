@@ -6,9 +6,44 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "fsm/base/number_table.h"
 #include "fsm/base/smooth_step.h"
 
 namespace fsm {
+namespace {
+
+// Where each region of the face creases, in millimetres from its landmarks. The first line of each
+// bounds the lines that appearance.txt describes (MayCrease). The members fade_... are the ranges
+// over which the depth of a region rises from none to full (WeighCreases).
+constexpr struct {
+  float brow = 14, above_hairline = 2, side = 58;  // the brow: above the nasion
+  glm::vec2 fade_up{0, 8}, fade_side{60, 48};      // up from the brow
+} kForehead{};
+constexpr struct {
+  float below_nasion = 24, above_nasion = 32, side = 18;
+  glm::vec2 fade_up{24, 16}, fade_side{19, 12};  // up from the nasion
+} kGlabella{};
+constexpr struct {
+  glm::vec2 fade_up{0, 5}, fade_down{-26, -18};  // from the nasion
+} kNose{};
+constexpr struct {
+  float inside_corner = 4, up_and_down = 16;  // of the eye's outer corner
+  glm::vec2 fade_side{-2, 2};
+  float fade_height = 14;
+} kCrowsFeet{};
+constexpr struct {
+  float above_wing = 12, inside_wing = 6, beside_mouth = 22;  // the wing of the nose: alare
+  glm::vec2 fade_up{10, 3}, fade_side{-4, 1};                 // from the wing
+  float to_chin = 0.4F;  // part of the way from the mouth's corner to the chin, where it is full
+} kFold{};
+constexpr glm::vec2 kFrontZ{0, 20};  // no face behind it
+constexpr glm::vec2 kLeftX{-5, 5};   // from the right side's depth to the left side's
+
+float SmoothStepFrom(float origin, glm::vec2 range, float x) {
+  return SmoothStep(origin + range.x, origin + range.y, x);
+}
+
+}  // namespace
 
 /// Returns the profile of a narrow furrow between two low swellings.
 float CreaseRelief::Furrow(float off, float width) const {
@@ -105,43 +140,49 @@ void CreaseRelief::AddNasolabial(const glm::vec3& p, float side, float& height) 
 
 bool CreaseRelief::MayCrease(const glm::vec3& p) const {
   const float side = std::abs(p.x);
-  const bool fold = p.y < landmarks_.alare.left.y + 12 && p.y > landmarks_.gnathion.y &&
-                    side > landmarks_.alare.left.x - 6 && side < landmarks_.cheilion.left.x + 22;
-  const bool feet = side > landmarks_.exocanthion.left.x - 4 &&
-                    std::abs(p.y - landmarks_.exocanthion.left.y) < 16;
-  const bool glabella =
-      side < 18 && p.y > landmarks_.nasion.y - 24 && p.y < landmarks_.nasion.y + 32;
-  const bool forehead =
-      p.y > landmarks_.nasion.y + 14 && p.y < landmarks_.trichion.y + 2 && side < 58;
+  const glm::vec3 &nasion = landmarks_.nasion, &alare = landmarks_.alare.left,
+                  &eye = landmarks_.exocanthion.left;
+  const bool fold = p.y < alare.y + kFold.above_wing && p.y > landmarks_.gnathion.y &&
+                    side > alare.x - kFold.inside_wing &&
+                    side < landmarks_.cheilion.left.x + kFold.beside_mouth;
+  const bool feet =
+      side > eye.x - kCrowsFeet.inside_corner && std::abs(p.y - eye.y) < kCrowsFeet.up_and_down;
+  const bool glabella = side < kGlabella.side && p.y > nasion.y - kGlabella.below_nasion &&
+                        p.y < nasion.y + kGlabella.above_nasion;
+  const bool forehead = p.y > nasion.y + kForehead.brow &&
+                        p.y < landmarks_.trichion.y + kForehead.above_hairline &&
+                        side < kForehead.side;
   return p.z > 0 && (fold || feet || glabella || forehead);
 }
 
 CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& landmarks) {
+  const glm::vec3 &nasion = landmarks.nasion, &alare = landmarks.alare.left,
+                  &eye = landmarks.exocanthion.left;
+  const float chin_y = landmarks.gnathion.y;
+  const float full_fold_y =
+      (1 - kFold.to_chin) * landmarks.cheilion.left.y + kFold.to_chin * chin_y;
+  const float brow_y = nasion.y + kForehead.brow;
   CreaseWeights out;
   for (const glm::vec3& p : rest.position) {
     const float side = std::abs(p.x);
-    const float front = SmoothStep(0, 20, p.z);
-    const float brow_y = landmarks.nasion.y + 14;
-    const float between = SmoothStep(19, 12, side);
-    const float under_forehead = SmoothStep(landmarks.nasion.y + 24, landmarks.nasion.y + 16, p.y);
-    const float over_nose = SmoothStep(landmarks.nasion.y, landmarks.nasion.y + 5, p.y);
-    const glm::vec4 face =
-        front *
-        glm::vec4(
-            SmoothStep(brow_y, brow_y + 8, p.y) * SmoothStep(60, 48, side) *
-                (1 - between * under_forehead),
-            between * over_nose * under_forehead,
-            SmoothStep(landmarks.exocanthion.left.x - 2, landmarks.exocanthion.left.x + 2, side) *
-                Bell(p.y - landmarks.exocanthion.left.y, 14),
-            SmoothStep(landmarks.alare.left.y + 10, landmarks.alare.left.y + 3, p.y) *
-                SmoothStep(landmarks.gnathion.y,
-                           0.6F * landmarks.cheilion.left.y + 0.4F * landmarks.gnathion.y, p.y) *
-                SmoothStep(landmarks.alare.left.x - 4, landmarks.alare.left.x + 1, side));
-    const float nose = front * between * (1 - over_nose) *
-                       SmoothStep(landmarks.nasion.y - 26, landmarks.nasion.y - 18, p.y);
+    const float front = SmoothStep(kFrontZ, p.z);
+    const float between = SmoothStep(kGlabella.fade_side, side);
+    const float under_forehead = SmoothStepFrom(nasion.y, kGlabella.fade_up, p.y);
+    const float over_nose = SmoothStepFrom(nasion.y, kNose.fade_up, p.y);
+    const glm::vec4 face = front * glm::vec4(SmoothStepFrom(brow_y, kForehead.fade_up, p.y) *
+                                                 SmoothStep(kForehead.fade_side, side) *
+                                                 (1 - between * under_forehead),
+                                             between * over_nose * under_forehead,
+                                             SmoothStepFrom(eye.x, kCrowsFeet.fade_side, side) *
+                                                 Bell(p.y - eye.y, kCrowsFeet.fade_height),
+                                             SmoothStepFrom(alare.y, kFold.fade_up, p.y) *
+                                                 SmoothStep(chin_y, full_fold_y, p.y) *
+                                                 SmoothStepFrom(alare.x, kFold.fade_side, side));
+    const float nose =
+        front * between * (1 - over_nose) * SmoothStepFrom(nasion.y, kNose.fade_down, p.y);
     const bool creases = nose > 0 || face != glm::vec4(0);
     out.face.push_back(face);
-    out.nose_and_left.emplace_back(nose, creases ? SmoothStep(-5, 5, p.x) : 0.0F);
+    out.nose_and_left.emplace_back(nose, creases ? SmoothStep(kLeftX, p.x) : 0.0F);
   }
   return out;
 }

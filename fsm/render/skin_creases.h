@@ -17,9 +17,9 @@ class CreaseRelief {
   CreaseRelief(const FaceLandmarks& landmarks, const Appearance& appearance)
       : landmarks_(landmarks), skin_(appearance.skin) {}
   /// Returns the height above the skin, in millimetres, when all creases are at their deepest.
-  float HeightAt(const glm::vec3& place) const;
+  float HeightAt(const glm::vec3& p) const;
   /// Returns false where no crease is within a few millimetres.
-  bool MayCrease(const glm::vec3& place) const;
+  bool MayCrease(const glm::vec3& p) const;
 
  private:
   float Furrow(float off, float width) const;

@@ -10,7 +10,7 @@ namespace fsm {
 SkinMap::SkinMap(const HeadTopology& topology, const HeadVertices& rest) {
   constexpr auto count = static_cast<std::size_t>(kCells) * kCells;
   kind.assign(count, kNone);
-  place.resize(count);
+  position.resize(count);
   outward_.assign(count, -1.0F);
   for (const auto& part : topology.parts) {
     if (part.material != Material::kSkin && part.material != Material::kLip) continue;
@@ -53,7 +53,7 @@ void SkinMap::Fill(const HeadTopology& topology, const HeadVertices& rest,
       if (outward <= outward_[i]) continue;
       outward_[i] = outward;
       kind[i] = what;
-      place[i] = at;
+      position[i] = at;
     }
   }
 }
@@ -65,7 +65,7 @@ SkinMap::Kind SkinMap::KindAt(float u, float v) const {
   return kind[Index(x, y)];
 }
 
-glm::vec3 SkinMap::PlaceAt(float u, float v) const {
+glm::vec3 SkinMap::PositionAt(float u, float v) const {
   const float x = std::clamp(u * kCells - 0.5F, 0.0F, kCells - 1.001F);
   const float y = std::clamp(v * kCells - 0.5F, 0.0F, kCells - 1.001F);
   const int cx = static_cast<int>(x);
@@ -76,10 +76,10 @@ glm::vec3 SkinMap::PlaceAt(float u, float v) const {
   // Beside a hole only the nearest cell is used.
   if (kind[i] == kNone || kind[i + 1] == kNone || kind[i + kCells] == kNone ||
       kind[i + kCells + 1] == kNone) {
-    return place[Index(static_cast<int>(x + 0.5F), static_cast<int>(y + 0.5F))];
+    return position[Index(static_cast<int>(x + 0.5F), static_cast<int>(y + 0.5F))];
   }
-  return (place[i] * (1 - s) + place[i + 1] * s) * (1 - t) +
-         (place[i + kCells] * (1 - s) + place[i + kCells + 1] * s) * t;
+  return (position[i] * (1 - s) + position[i + 1] * s) * (1 - t) +
+         (position[i + kCells] * (1 - s) + position[i + kCells + 1] * s) * t;
 }
 
 }  // namespace fsm

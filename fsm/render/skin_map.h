@@ -23,10 +23,10 @@ struct SkinMap {
   /// Returns the kind of skin at uv; kNone outside.
   Kind KindAt(float u, float v) const;
   /// Returns the position at uv, interpolated between cells.
-  glm::vec3 PlaceAt(float u, float v) const;
+  glm::vec3 PositionAt(float u, float v) const;
 
   std::vector<Kind> kind;
-  std::vector<glm::vec3> place;  ///< positions, millimetres
+  std::vector<glm::vec3> position;  ///< millimetres
 
  private:
   void Fill(const HeadTopology& topology, const HeadVertices& rest, const std::uint32_t* corners,

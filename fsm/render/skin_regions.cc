@@ -160,7 +160,7 @@ std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceLandmarks& la
       const auto i = SkinMap::Index(x, y);
       const auto c = static_cast<std::size_t>(x);
       if (map.kind[i] != SkinMap::kNone) {
-        out[i] = painter.At(map.kind[i], map.place[i], b[c], f[c]);
+        out[i] = painter.At(map.kind[i], map.position[i], b[c], f[c]);
       }
     }
   }

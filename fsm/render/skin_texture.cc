@@ -148,10 +148,10 @@ void PaintCreases(const SkinMap& map, const CreaseRelief& creases, int first, in
   for (int by = first; by < last; by += kBlock) {
     for (int bx = kSide / 8; bx < kSide * 7 / 8; bx += kBlock) {
       if (map.KindAt(uv(bx + kBlock / 2), uv(by + kBlock / 2)) != SkinMap::kSkin) continue;
-      if (!creases.MayCrease(map.PlaceAt(uv(bx + kBlock / 2), uv(by + kBlock / 2)))) continue;
+      if (!creases.MayCrease(map.PositionAt(uv(bx + kBlock / 2), uv(by + kBlock / 2)))) continue;
       for (int k = 0; k < (kBlock + 1) * (kBlock + 1); ++k) {
         height[static_cast<std::size_t>(k)] =
-            creases.HeightAt(map.PlaceAt(uv(bx + k % (kBlock + 1)), uv(by + k / (kBlock + 1))));
+            creases.HeightAt(map.PositionAt(uv(bx + k % (kBlock + 1)), uv(by + k / (kBlock + 1))));
       }
       for (int y = 0; y < kBlock; ++y) {
         for (int x = 0; x < kBlock; ++x) {
@@ -202,7 +202,7 @@ void PaintFreckles(const SkinMap& map, const FaceLandmarks& landmarks, const App
     const float x = kSide * (0.18F + 0.64F * Chance(21, n));
     const float y = kSide * (0.25F + 0.6F * Chance(22, n));
     if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) continue;
-    const glm::vec3 p = map.PlaceAt(x / kSide, y / kSide);
+    const glm::vec3 p = map.PositionAt(x / kSide, y / kSide);
     const float near_cheek =
         Bell(std::abs(p.x) - skin.freckled_cheek.side, skin.freckled_cheek.width) *
         Bell(p.y - landmarks.pronasale.y - skin.freckled_cheek.above, skin.freckled_cheek.height);
@@ -230,7 +230,7 @@ void PaintVessels(const SkinMap& map, const FaceLandmarks& landmarks, const Appe
       x += std::cos(turn);
       y += std::sin(turn);
       if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) break;
-      const glm::vec3 p = map.PlaceAt(x / kSide, y / kSide);
+      const glm::vec3 p = map.PositionAt(x / kSide, y / kSide);
       const float ala = Bell(glm::length(glm::vec2(std::abs(p.x) - landmarks.alare.left.x,
                                                    p.y - landmarks.alare.left.y)),
                              skin.vessels.nose_width);

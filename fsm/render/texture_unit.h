@@ -17,6 +17,6 @@ enum class TextureUnit : GLint {
   kUpload  ///< for uploads only, so that the frame's textures stay bound
 };
 
-constexpr GLenum NameOf(TextureUnit unit) { return GL_TEXTURE0 + static_cast<GLenum>(unit); }
+constexpr GLenum GlUnit(TextureUnit unit) { return GL_TEXTURE0 + static_cast<GLenum>(unit); }
 
 }  // namespace fsm

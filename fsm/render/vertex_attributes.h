@@ -14,7 +14,7 @@ struct VertexAttribute {
     kNormal,          ///< unit length
     kRestPosition,    ///< millimetres
     kAlbedoOpenness,  ///< linear RGB (on lids ShutLid::colour); openness to light, 0..1
-    kDetailPlace,     ///< skin: HeadTopology::uv; hair: Strand::tile_mm
+    kDetailTexcoord,  ///< skin: HeadTopology::uv; hair: Strand::tile_mm
     kDetail,          ///< skin: CreaseWeights::face; hair: Strand::along and density
     kDetailMore,      ///< skin: CreaseWeights::nose_and_left; hair: Strand::across
     kTexcoord,        ///< TextureMaps::texcoord and weight; ShutLid::weight

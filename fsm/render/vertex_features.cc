@@ -49,7 +49,7 @@ VertexFeatures::VertexFeatures(const Head& head, const CreaseWeights& creases) {
   head.Evaluate(shut, asleep);
   for (std::size_t i = 0; i < asleep.position.size(); ++i) {
     const bool lid = glm::distance(asleep.position[i], head.rig().data().rest[i]) > kLidMoves;
-    care_.push_back(lid ? kLidCare : 1);
+    importance_.push_back(lid ? kLidCare : 1);
   }
   std::vector<std::vector<glm::vec3>> columns;
   for (const FaceState& state : FarStates()) {

@@ -27,7 +27,7 @@ class VertexFeatures {
                    glm::vec3 weights, float most) const {
     const glm::vec3* own = Of(vertex);
     const std::array between{Of(corners[0]), Of(corners[1]), Of(corners[2])};
-    const float weight = care_[vertex] * care_[vertex];
+    const float weight = importance_[vertex] * importance_[vertex];
     float worst = 0;
     for (std::size_t k = 0; k < count_ && worst <= most; ++k) {
       const glm::vec3 off = own[k] - weights.x * between[0][k] - weights.y * between[1][k] -
@@ -41,7 +41,7 @@ class VertexFeatures {
   const glm::vec3* Of(std::uint32_t vertex) const { return values_.data() + vertex * count_; }
   std::size_t count_ = 0;  // per vertex
   std::vector<glm::vec3> values_;
-  std::vector<float> care_;  // by vertex: factor on its differences
+  std::vector<float> importance_;  // by vertex: factor on its differences
 };
 
 }  // namespace fsm

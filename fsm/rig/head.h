@@ -29,10 +29,10 @@ class Head {
   const std::shared_ptr<const HeadTopology>& shared_topology() const { return topology_; }
   const Rig& rig() const { return rig_; }
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
-  /// `swings` is that of Rig::Evaluate.
+  /// `spring_offsets` is that of Rig::Evaluate.
   void Evaluate(const FaceState& state, HeadVertices& out,
-                std::span<const glm::vec3> swings = {}) const {
-    rig_.Evaluate(state, out, swings);
+                std::span<const glm::vec3> spring_offsets = {}) const {
+    rig_.Evaluate(state, out, spring_offsets);
   }
   /// Returns the same head with the same topology whose action units move as another table says;
   /// displacements that are the head's own (RigData::units_by_place) stay.

@@ -24,9 +24,9 @@ PartialRig::PartialRig(const Rig& whole, std::vector<std::uint32_t> vertices)
       rig_(OnlyVertices(whole.data(), vertices_)) {}
 
 void PartialRig::Evaluate(const FaceState& state, HeadVertices& out,
-                          std::span<const glm::vec3> swings) const {
+                          std::span<const glm::vec3> spring_offsets) const {
   thread_local HeadVertices some;  // kept from frame to frame
-  rig_.Evaluate(state, some, swings);
+  rig_.Evaluate(state, some, spring_offsets);
   out.position.resize(whole_size_);
   for (std::size_t i = 0; i < vertices_.size(); ++i) out.position[vertices_[i]] = some.position[i];
   out.creases = some.creases;

@@ -17,7 +17,7 @@ class PartialRig {
   /// Does what Rig::Evaluate does, but fills only the positions of those vertices in `out`, which
   /// gets the whole head's size, and no normals.
   void Evaluate(const FaceState& state, HeadVertices& out,
-                std::span<const glm::vec3> swings = {}) const;
+                std::span<const glm::vec3> spring_offsets = {}) const;
 
  private:
   std::size_t whole_size_;

@@ -13,8 +13,8 @@ struct PbrMaterial {
   };
   Kind kind = Kind::kLit;
   float metallic = 0, roughness = 1;
-  glm::vec3 glow{0};   ///< emitted light
-  glm::vec3 shade{1};  ///< toon: colour of the side that faces away from the light
+  glm::vec3 emissive{0};      ///< emitted light
+  glm::vec3 shade_colour{1};  ///< toon: colour of the side that faces away from the light
   /// Toon: cosines of the angle to the light where the shade colour ends and the lit colour begins.
   float shade_to = 0, light_from = 0;
   bool cut_out = false;  ///< alpha test: transparent pixels of the picture are discarded

@@ -7,17 +7,17 @@
 namespace fsm {
 namespace {
 
-glm::mat3 TurnX(float angle) {
+glm::mat3 RotationX(float angle) {
   const float c = std::cos(angle);
   const float s = std::sin(angle);
   return {1, 0, 0, 0, c, s, 0, -s, c};  // column-major
 }
-glm::mat3 TurnY(float angle) {
+glm::mat3 RotationY(float angle) {
   const float c = std::cos(angle);
   const float s = std::sin(angle);
   return {c, 0, -s, 0, 1, 0, s, 0, c};
 }
-glm::mat3 TurnZ(float angle) {
+glm::mat3 RotationZ(float angle) {
   const float c = std::cos(angle);
   const float s = std::sin(angle);
   return {c, s, 0, -s, c, 0, 0, 0, 1};
@@ -58,17 +58,17 @@ float Bound(float value, float least, float most) {
   return std::isfinite(value) ? std::clamp(value, least, most) : 0.0f;
 }
 
-glm::mat3 HeadTurn(const FaceState& state) {
-  return TurnY(glm::radians(Within(state.head_rotation[kToRight], kHeadRightRange))) *
-         TurnX(glm::radians(Within(state.head_rotation[kDown], kHeadDownRange))) *
-         TurnZ(-glm::radians(Within(state.head_rotation[kTilted], kHeadTiltRange)));
+glm::mat3 HeadRotation(const FaceState& state) {
+  return RotationY(glm::radians(Within(state.head_rotation[kToRight], kHeadRightRange))) *
+         RotationX(glm::radians(Within(state.head_rotation[kDown], kHeadDownRange))) *
+         RotationZ(-glm::radians(Within(state.head_rotation[kTilted], kHeadTiltRange)));
 }
 
 float HeadForward(const FaceState& state) { return Within(state.head_forward, kHeadForwardRange); }
 
 Pose MakePose(const FaceState& state, const UnitTable& table) {
   Pose pose{};
-  pose.units = table.Combine(state);
+  pose.units = table.ActingUnits(state);
   const UnitEffects effects = table.Effects(pose.units);
   for (std::size_t p = 0; p < kMouthParameters; ++p)
     pose.mouth[p] = Within(state.mouth[p], kMouthRange);
@@ -99,7 +99,7 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
     pose.blink[s] = open * Bound(state.blink[s], 0, 1);
     pose.lids[s].close = 1 - open + pose.blink[s];
   }
-  pose.head = HeadTurn(state);
+  pose.head = HeadRotation(state);
   pose.head_forward_mm = HeadForward(state);
   return pose;
 }
@@ -112,7 +112,7 @@ EyeAngles GazeOf(const glm::mat3& eye) {
 
 glm::mat3 EyeTo(const EyeAngles& gaze) {
   // The eye turns up first, then sideways; the third column of the matrix is the line of sight.
-  return TurnY(glm::radians(gaze[kToRight])) * TurnX(glm::radians(gaze[kDown]));
+  return RotationY(glm::radians(gaze[kToRight])) * RotationX(glm::radians(gaze[kDown]));
 }
 
 }  // namespace fsm

@@ -30,7 +30,7 @@ struct Pose {
 /// Clamps `value` to least..most; a value that is not finite becomes 0.
 float Bound(float value, float least, float most);
 /// The head's rotation about kNeckPivot, and how far the neck carries it forward, millimetres.
-glm::mat3 HeadTurn(const FaceState& state);
+glm::mat3 HeadRotation(const FaceState& state);
 float HeadForward(const FaceState& state);
 /// Makes the pose of `state`, clamped to what anatomy allows; a value that is not finite becomes 0.
 Pose MakePose(const FaceState& state, const UnitTable& units);

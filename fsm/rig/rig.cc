@@ -11,26 +11,26 @@ namespace fsm {
 namespace {
 
 /// Returns the rotation of an eyeball: the gaze angles, mapped by GazeRanges if there are any.
-glm::mat3 EyeTurn(const EyeRig& eyes, const Pose& pose, Side side) {
+glm::mat3 EyeRotation(const EyeRig& eyes, const Pose& pose, Side side) {
   const auto& ranges = eyes.gaze_ranges;
   if (!ranges) return pose.eye[side];
   const EyeAngles gaze = GazeOf(pose.eye[side]);
   // A gaze to the viewer's right is outward for the agent's left eye.
   const bool outward = (gaze[kToRight] > 0) == (side == Side::kLeft);
-  const auto turned = [](float angle, const GazeRange& range) {
-    return std::copysign(std::min(std::abs(angle) / range.gaze_deg, 1.0f) * range.turn, angle);
+  const auto mapped = [](float angle, const GazeRange& range) {
+    return std::copysign(std::min(std::abs(angle) / range.gaze_deg, 1.0f) * range.output, angle);
   };
-  return EyeTo({turned(gaze[kDown], gaze[kDown] < 0 ? ranges->up : ranges->down),
-                turned(gaze[kToRight], outward ? ranges->outer : ranges->inner)});
+  return EyeTo({mapped(gaze[kDown], gaze[kDown] < 0 ? ranges->up : ranges->down),
+                mapped(gaze[kToRight], outward ? ranges->outer : ranges->inner)});
 }
 
-step::Eye EyeOf(const RigData& data, const Pose& pose, Side side) {
+step::Eye EyeInState(const RigData& data, const Pose& pose, Side side) {
   const EyeTransform& eye = data.lids.eyes[side];
   const UnitEffects::Lids& lids = pose.lids[side];
-  const glm::vec3 across = eye.Turned({0, 1, 0});  // (-sin, cos) times the eye's size
+  const glm::vec3 across = eye.Rotated({0, 1, 0});  // (-sin, cos) times the eye's size
   const glm::vec3 ahead = pose.eye[side][2];
   return {
-      .gaze = step::RotationOf(EyeTurn(data.eyes, pose, side)),
+      .gaze = step::RotationOf(EyeRotation(data.eyes, pose, side)),
       .pivot = step::PointAt(data.eyes.pivot[side]),
       .ball = step::PointAt(data.ball_lids.centre[side]),
       .cornea = step::PointAt(data.lids.ball[side] + eye.size * data.lids.cornea_centre * ahead),
@@ -51,8 +51,8 @@ step::StepState StateOf(const RigData& data, const Pose& pose) {
                     .seal = pose.seal,
                     .tongue_raise = pose.tongue_raise,
                     .tongue_out = pose.tongue_out_mm},
-          .eyes = {EyeOf(data, pose, Side::kRight), EyeOf(data, pose, Side::kLeft)},
-          .neck = {.turn = step::RotationOf(pose.head),
+          .eyes = {EyeInState(data, pose, Side::kRight), EyeInState(data, pose, Side::kLeft)},
+          .neck = {.rotation = step::RotationOf(pose.head),
                    .pivot = step::PointAt(kNeckPivot),
                    .forward = pose.head_forward_mm}};
 }
@@ -62,13 +62,13 @@ step::StepState StateOf(const RigData& data, const Pose& pose) {
 Rig::Rig(RigData data) : data_(std::move(data)), moved_(data_), drives_(data_.channels) {}
 
 void Rig::Evaluate(const FaceState& state, HeadVertices& out,
-                   std::span<const glm::vec3> swings) const {
+                   std::span<const glm::vec3> spring_offsets) const {
   thread_local RigInputs inputs;  // kept from frame to frame
   FindInputs(state, inputs);
   out.position = data_.Start();
   out.normal = data_.rest_normal;
-  StepWork work{inputs.state, inputs.strengths, swings, out.position, out.normal};
-  for (const RigStep step : data_.steps) Take(step, data_, moved_, work);
+  StepWork work{inputs.state, inputs.strengths, spring_offsets, out.position, out.normal};
+  for (const RigStep step : data_.steps) DefinitionOf(step).take(data_, moved_, work);
   FindCreasesAndLids(inputs.pose, out);
 }
 
@@ -98,7 +98,7 @@ MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
   StepWork work{inputs.state, inputs.strengths, {}, position, {}};
   for (const RigStep step : data_.steps) {
     if (!ShapesSkin(step)) break;  // the later steps do not change the mouth's shape
-    Take(step, data_, moved_, work);
+    DefinitionOf(step).take(data_, moved_, work);
   }
   const auto [upper, lower, left, right] = *data_.lips.measured;
   return {.gap_mm = std::max(0.0f, position[upper].y - position[lower].y),

@@ -39,10 +39,10 @@ class Rig {
 
   const RigData& data() const { return data_; }
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
-  /// `swings`: Simulation::offsets() of SpringRig::springs, or empty if nothing swings. REQUIRES:
-  /// one swing for each spring, or none.
+  /// `spring_offsets`: Simulation::offsets() of SpringRig::springs, or empty if nothing swings.
+  /// REQUIRES: one offset for each spring, or none.
   void Evaluate(const FaceState& state, HeadVertices& out,
-                std::span<const glm::vec3> swings = {}) const;
+                std::span<const glm::vec3> spring_offsets = {}) const;
   /// Fills `inputs`, whose memory is reused from frame to frame.
   void FindInputs(const FaceState& state, RigInputs& inputs) const;
   /// Measures the mouth before the head turns. Returns zeros if the head has no LipRig::measured.

@@ -40,7 +40,7 @@ RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertice
   keep(some.ball_lids.vertices);
   keep(some.lips.followers);
   keep(some.teeth.contacts);
-  keep(some.swing.weights);
+  keep(some.spring_rig.weights);
   for (auto& [upper, lower] : some.lips.seam) upper = now[upper], lower = now[lower];
   if (some.lips.measured) {
     for (std::uint32_t& vertex : *some.lips.measured) vertex = now[vertex];

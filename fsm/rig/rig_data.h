@@ -24,10 +24,10 @@ inline constexpr glm::vec3 kJawHinge{0, -4, -3};
 /// The point in the upper neck that the head turns about.
 inline constexpr glm::vec3 kNeckPivot{0, -85, -28};
 
-/// An eye's rotation grows linearly with the gaze up to `gaze_deg`, where it is `turn` (degrees;
-/// the weight of a blend shape where shapes turn the eyes). VRM 0.x and 1.0, "lookAt".
+/// An eye's rotation grows linearly with the gaze up to `gaze_deg`, where it is `output` (degrees;
+/// the weight of a blend shape where shapes move the eyes). VRM 0.x and 1.0, "lookAt".
 struct GazeRange {
-  float gaze_deg = 90, turn = 10;
+  float gaze_deg = 90, output = 10;
 };
 struct GazeRanges {
   GazeRange inner, outer, up, down;
@@ -35,17 +35,10 @@ struct GazeRanges {
 
 /// The steps that compute vertices from a state; RigData::steps lists those of a head in order.
 /// Each step works on the result of the steps before it. All of them read the arrays of RigData
-/// that are per vertex; "Needs" names what a step reads beside these. CheckAsset checks these needs
+/// that are per vertex; "Needs" names what a step reads beside these. CheckRig checks these needs
 /// in a head that comes from a file.
 ///
-/// A new step requires
-/// - here an enumerator, and in RigData its data; if that contains vertex indices, also code in
-///   OnlyVertices;
-/// - in steps.glsl what happens to one vertex, once for the processor and graphics cards;
-/// - in rig_steps.cc its name (NameOf) and a case of Take, which loops over the vertices;
-/// - for graphics cards STEP_name in fsm/render/shaders/rig_kernels.glsl, which loops over them
-///   there, and a case of RecordsOfSteps; render_gpu_rig_test.cc compares both;
-/// - its needs in CheckAsset; its members in asset_members.h; the last enumerator in kValuesOf.
+/// docs/extending.md tells how to add a step.
 enum class RigStep : std::uint8_t {
   // These steps shape the skin of a head that looks ahead. They write positions only.
   /// Action units and mouth parameters displace vertices. Needs: the number of each Drive is valid
@@ -75,8 +68,11 @@ enum class RigStep : std::uint8_t {
   kNormals
 };
 
+inline constexpr std::size_t kRigSteps = static_cast<std::size_t>(RigStep::kNormals) + 1;
+inline constexpr auto kSkinSteps = static_cast<std::size_t>(RigStep::kTongue);
+
 /// Tells whether a step shapes the skin; the others move tongue, bones, neck and normals.
-constexpr bool ShapesSkin(RigStep step) { return step < RigStep::kTongue; }
+constexpr bool ShapesSkin(RigStep step) { return static_cast<std::size_t>(step) < kSkinSteps; }
 
 /// The jaw, which rotates about an axis through `hinge` along x.
 struct JawRig {
@@ -130,7 +126,7 @@ struct RigData {
   LipRig lips;
   ProxyForm proxy;
   EyeRig eyes;
-  SpringRig swing;
+  SpringRig spring_rig;
   NormalRig normals;
 
   /// Returns the positions that the steps start from.

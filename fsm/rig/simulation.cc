@@ -19,34 +19,35 @@ std::int64_t StepAt(Simulation::Time t) {
 
 /// How the head carries a spring's points in one state.
 struct Carrier {
-  explicit Carrier(const FaceState& state) : turn(HeadTurn(state)), by(HeadForward(state)) {
+  explicit Carrier(const FaceState& state)
+      : rotation(HeadRotation(state)), forward(HeadForward(state)) {
     // `upright` is the rotation's component about the vertical axis (yaw).
-    const glm::vec3 ahead = turn[2];
+    const glm::vec3 ahead = rotation[2];
     const float length = std::hypot(ahead.x, ahead.z);
     const float c = length > 1e-3f ? ahead.z / length : 1,
                 s = length > 1e-3f ? ahead.x / length : 0;
     upright = {c, 0, -s, 0, 1, 0, s, 0, c};
   }
   glm::vec3 Carried(glm::vec3 p) const {
-    return kNeckPivot + turn * (p - kNeckPivot) + glm::vec3(0, 0, by);
+    return kNeckPivot + rotation * (p - kNeckPivot) + glm::vec3(0, 0, forward);
   }
   /// Returns the offset of a spring's equilibrium from the place where the head carries it.
   glm::vec3 Hanging(const Spring& spring) const {
     const glm::vec3 below = spring.rest - spring.root;
-    return spring.hang * (upright * below - turn * below);
+    return spring.hang * (upright * below - rotation * below);
   }
-  glm::mat3 turn, upright{};
-  float by;
+  glm::mat3 rotation, upright{};
+  float forward;
 };
 
 }  // namespace
 
 Simulation::Simulation(std::vector<Spring> springs)
-    : springs_(std::move(springs)), swings_(springs_.size()) {
-  for (const Spring& spring : springs_) steps_.push_back(StepOf(spring, kStepSeconds));
+    : springs_(std::move(springs)), motions_(springs_.size()) {
+  for (const Spring& spring : springs_) propagators_.push_back(PropagatorOf(spring, kStepSeconds));
 }
 
-Simulation::Step Simulation::StepOf(const Spring& spring, float seconds) {
+Simulation::Propagator Simulation::PropagatorOf(const Spring& spring, float seconds) {
   const float w = 2 * kPi * spring.frequency_hz;
   const float decay = spring.damping * w;
   const float damped = w * std::sqrt(1 - spring.damping * spring.damping);
@@ -70,26 +71,26 @@ void Simulation::RunTo(Time now, const StateAt& state_at) {
 }
 
 void Simulation::Begin(std::int64_t step, const StateAt& state_at) {
-  std::ranges::fill(swings_, Swing{});
+  std::ranges::fill(motions_, SpringMotion{});
   taken_ = step - 1;
   TakeStep(step, state_at);
-  for (Swing& swing : swings_) {
-    swing.away = swing.speed = swing.goal_speed = glm::vec3(0);
+  for (SpringMotion& motion : motions_) {
+    motion.away = motion.speed = motion.goal_speed = glm::vec3(0);
   }
 }
 
 void Simulation::TakeStep(std::int64_t step, const StateAt& state_at) {
   const Carrier carrier(state_at(Time(step * 1'000'000 / kStepsPerSecond)));
   for (std::size_t i = 0; i < springs_.size(); ++i) {
-    Swing& swing = swings_[i];
+    SpringMotion& motion = motions_[i];
     const glm::vec3 goal = carrier.Carried(springs_[i].rest) + carrier.Hanging(springs_[i]);
-    const glm::vec3 goal_speed = (goal - swing.goal) / kStepSeconds;
-    const glm::vec3 away = swing.away, speed = swing.speed - (goal_speed - swing.goal_speed);
-    const auto [a, b, c, d] = steps_[i];
-    swing = {.away = a * away + b * speed,
-             .speed = c * away + d * speed,
-             .goal = goal,
-             .goal_speed = goal_speed};
+    const glm::vec3 goal_speed = (goal - motion.goal) / kStepSeconds;
+    const glm::vec3 away = motion.away, speed = motion.speed - (goal_speed - motion.goal_speed);
+    const auto [a, b, c, d] = propagators_[i];
+    motion = {.away = a * away + b * speed,
+              .speed = c * away + d * speed,
+              .goal = goal,
+              .goal_speed = goal_speed};
   }
   taken_ = step;
 }
@@ -99,10 +100,10 @@ void Simulation::FindOffsets(const FaceState& state, float ahead_s) {
   offsets_.resize(springs_.size());
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const Spring& spring = springs_[i];
-    const auto [a, b, c, d] = StepOf(spring, ahead_s);
-    const glm::vec3 away = a * swings_[i].away + b * swings_[i].speed;
+    const auto [a, b, c, d] = PropagatorOf(spring, ahead_s);
+    const glm::vec3 away = a * motions_[i].away + b * motions_[i].speed;
     glm::vec3 offset = carrier.Hanging(spring) + away;
-    const glm::vec3 outward = carrier.turn * spring.outward;
+    const glm::vec3 outward = carrier.rotation * spring.outward;
     offset -= std::min(glm::dot(offset, outward), 0.0f) * outward;
     // An offset saturates: the closer to its limit, the less it grows.
     const float length = glm::length(offset);
@@ -112,8 +113,8 @@ void Simulation::FindOffsets(const FaceState& state, float ahead_s) {
 
 bool Simulation::Still() const {
   constexpr float kSeenMm = 0.05f;
-  return std::ranges::all_of(swings_, [](const Swing& swing) {
-    return glm::length(swing.away) < kSeenMm && glm::length(swing.speed) < 10 * kSeenMm;
+  return std::ranges::all_of(motions_, [](const SpringMotion& motion) {
+    return glm::length(motion.away) < kSeenMm && glm::length(motion.speed) < 10 * kSeenMm;
   });
 }
 

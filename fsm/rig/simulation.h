@@ -44,21 +44,21 @@ class Simulation {
  private:
   /// The exact propagator of one spring over one step: offset from the goal and speed become
   /// {a * away + b * speed, c * away + d * speed}.
-  struct Step {
+  struct Propagator {
     float a, b, c, d;
   };
-  struct Swing {
+  struct SpringMotion {
     glm::vec3 away{0}, speed{0};  // relative to the goal; millimetres and mm/s
     glm::vec3 goal{0}, goal_speed{0};
   };
-  static Step StepOf(const Spring& spring, float seconds);
+  static Propagator PropagatorOf(const Spring& spring, float seconds);
   void Begin(std::int64_t step, const StateAt& state_at);
   void TakeStep(std::int64_t step, const StateAt& state_at);
   void FindOffsets(const FaceState& state, float ahead_s);
 
   std::vector<Spring> springs_;
-  std::vector<Step> steps_;
-  std::vector<Swing> swings_;
+  std::vector<Propagator> propagators_;
+  std::vector<SpringMotion> motions_;
   std::vector<glm::vec3> offsets_;
   std::optional<std::int64_t> taken_;  // number of the last step; its time: / kStepsPerSecond
 };

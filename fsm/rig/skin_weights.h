@@ -12,8 +12,8 @@ namespace fsm {
 /// bodies (the tongue bends a little).
 enum class Bone : std::uint8_t { kSkin, kSkull, kJaw, kTongue, kEyeLeft, kEyeRight };
 
-/// EyeOf returns the side of an eye's bone, or nothing for other bones; BoneOf is its inverse.
-constexpr std::optional<Side> EyeOf(Bone bone) {
+/// SideOfEye returns the side of an eye's bone, or nothing for other bones; BoneOf is its inverse.
+constexpr std::optional<Side> SideOfEye(Bone bone) {
   if (bone == Bone::kEyeRight) return Side::kRight;
   if (bone == Bone::kEyeLeft) return Side::kLeft;
   return std::nullopt;

@@ -1,7 +1,7 @@
 // The arithmetic of the steps of a rig (RigStep in fsm/rig/rig_data.h), written once in the common subset of C++ and
 // GLSL: fsm/rig/steps.h compiles it for the processor, gpu_rig.cc prepends it to render/shaders/rig_kernels.glsl for
-// a graphics card. FUNCTION is "inline" in C++ and empty in GLSL. Members of structs have 32 bits each, so that both
-// lay them out alike (std430). Lengths are in millimetres and angles in radians unless stated otherwise.
+// a graphics card. FUNCTION is "inline" in C++ and empty in GLSL. Members of structs in buffers have 32 bits each, so
+// that both lay them out alike (std430). Lengths are in millimetres and angles in radians unless stated otherwise.
 
 const float kCorneaRadius = 8.0f;  // of the outer surface
 const float kLidRadius = 13.35f;   // converts millimetres at a lid's edge to an angle
@@ -27,6 +27,12 @@ const float kTongueWide = 16.0f, kTongueNarrow = 5.0f;
 // Teeth and lips hold the tongue over this range before and behind them: from not at all to fully.
 const float kTongueFree = 15.0f, kTongueHeld = 9.0f;
 
+// Returns 0 below `from`, 1 above `to`, and a smooth cubic between; `from` may exceed `to`.
+FUNCTION float SmoothStep(float from, float to, float x) {
+  float t = clamp((x - from) / (to - from), 0.0f, 1.0f);
+  return t * t * (3.0f - 2.0f * t);
+}
+
 struct Point {
   float x, y, z;
 };
@@ -37,7 +43,7 @@ FUNCTION Point PointAt(vec3 p) { return Point(p.x, p.y, p.z); }
 struct Rotation {
   Point x, y, z;
 };
-FUNCTION vec3 Rotated(Rotation turn, vec3 p) { return Vec(turn.x) * p.x + Vec(turn.y) * p.y + Vec(turn.z) * p.z; }
+FUNCTION vec3 Rotated(Rotation by, vec3 p) { return Vec(by.x) * p.x + Vec(by.y) * p.y + Vec(by.z) * p.z; }
 
 // ---- The jaw rotates about a hinge along x, slides forward and sways to the viewer's right.
 
@@ -108,7 +114,7 @@ struct Eye {
 
 // Returns the angle by which a vertex rotates about the axis of the lids. A raised lower lid goes up nearly as far
 // beside the middle (sqrt), so that it stays a curve.
-FUNCTION float LidTurn(LidPoint lid, Eye eye) {
+FUNCTION float LidAngle(LidPoint lid, Eye eye) {
   float upper = lid.upper_angle + lid.opening * eye.upper_open / kLidRadius;
   float raised = eye.lower_raised * (eye.lower_raised > 0.0f ? sqrt(lid.opening) : lid.opening);
   float lower = lid.lower_angle + (lid.opening * eye.lower_open + raised) / kLidRadius;
@@ -119,10 +125,10 @@ FUNCTION float LidTurn(LidPoint lid, Eye eye) {
 }
 
 FUNCTION vec3 WithLids(LidPoint lid, Eye eye, vec3 p) {
-  float turn = LidTurn(lid, eye);
-  if (turn == 0.0f) return p;
-  float c = cos(turn);
-  float s = sin(turn);
+  float angle = LidAngle(lid, eye);
+  if (angle == 0.0f) return p;
+  float c = cos(angle);
+  float s = sin(angle);
   float y = lid.y * c + lid.z * s - lid.y;
   return p + vec3(-eye.tilt_sine * y, eye.tilt_cosine * y, eye.size * (lid.z * c - lid.y * s - lid.z));
 }
@@ -152,13 +158,13 @@ struct ToothArch {
   float edge_y;  // height of the central incisors' edges
   float root_y;  // height where the gum begins
   float middle_x;
-  float turn;    // forward slope per millimetre to the left
+  float slope;   // forward, per millimetre to the left
 };
 
 FUNCTION float ArchZ(ToothArch arch, float x) {
   float off = x - arch.middle_x;
   float t = (off / arch.half_width) * (off / arch.half_width);
-  return arch.front_z + arch.turn * off - arch.depth * t * (kArchSquare + kArchFourth * t);
+  return arch.front_z + arch.slope * off - arch.depth * t * (kArchSquare + kArchFourth * t);
 }
 
 // Returns the fraction of a push at height y: 1 beside the crowns, fading out past the edge.
@@ -198,6 +204,17 @@ FUNCTION vec3 LipGap(float seal, vec3 upper, vec3 lower, vec3 apart_at_rest) {
 // ---- The tongue is soft and adapts to what it passes: the edges of the teeth, then the lips. Where there is no room
 // it stays behind the teeth.
 
+// A pair of lip vertices, or a point interpolated between two pairs.
+struct LipPair {
+  vec3 upper, lower;
+};
+
+// Interpolates at `x` between neighbouring pairs, `a` on the side of -x; beyond them it is the nearer one.
+FUNCTION LipPair LipsBetween(LipPair a, LipPair b, float x) {
+  float t = clamp((x - a.upper.x) / max(b.upper.x - a.upper.x, 1e-3f), 0.0f, 1.0f);
+  return LipPair(mix(a.upper, b.upper, t), mix(a.lower, b.lower, t));
+}
+
 struct TonguePath {
   float teeth_low, teeth_high, front_z;
   float room;                // greatest free height between lips and teeth
@@ -209,17 +226,17 @@ FUNCTION TonguePath PathPastTeeth(Mouth mouth) {
   vec3 edge = WithJaw(mouth.jaw, vec3(0.0f, mouth.lower.edge_y, mouth.lower.front_z), 1.0f);
   return TonguePath(edge.y, mouth.upper.edge_y, max(mouth.upper.front_z, edge.z), 0.0f, 0.0f, 0.0f);
 }
-FUNCTION TonguePath LipsOnPath(TonguePath path, vec3 upper, vec3 lower) {
-  float gap = upper.y - lower.y;
-  path.room = max(path.room, min(gap, min(upper.y - path.teeth_low, path.teeth_high - lower.y)));
+FUNCTION TonguePath LipsOnPath(TonguePath path, LipPair lips) {
+  float gap = lips.upper.y - lips.lower.y;
+  path.room = max(path.room, min(gap, min(lips.upper.y - path.teeth_low, path.teeth_high - lips.lower.y)));
   if (gap <= kTongueNoRoom) return path;
-  path.open_from = min(path.open_from, upper.x);
-  path.open_to = max(path.open_to, upper.x);
+  path.open_from = min(path.open_from, lips.upper.x);
+  path.open_to = max(path.open_to, lips.upper.x);
   return path;
 }
 
-// Returns how far the tongue comes out: the protrusion asked for, limited by the mouth's opening.
-FUNCTION float ComesOut(TonguePath path, Mouth mouth) {
+// Returns how far the tongue comes out, millimetres: the protrusion asked for, limited by the mouth's opening.
+FUNCTION float TongueProtrusion(TonguePath path, Mouth mouth) {
   float room = min(path.room, path.teeth_high - path.teeth_low);
   return mouth.tongue_out * SmoothStep(kTongueNoRoom, kTongueRoom, room);
 }
@@ -258,29 +275,36 @@ FUNCTION float Held(float tongue_z, float z) {
          SmoothStep(z + kTongueFree, z + kTongueHeld, tongue_z);
 }
 
-// Keeps a point of the narrowed tongue above the lower teeth and lip and below the upper ones; `high` and `low` are
-// the lips at its x. Lips come last, since they are visible. `lower_z`: LowerTeethZ before narrowing.
-FUNCTION vec3 BetweenLips(TonguePath path, Mouth mouth, vec3 p, float lower_z, vec3 high, vec3 low) {
+// Keeps a point of the narrowed tongue above the lower teeth and lip and below the upper ones. Lips come last, since
+// they are visible. `lips`: at its x. `lower_z`: LowerTeethZ before narrowing.
+FUNCTION vec3 BetweenLips(TonguePath path, Mouth mouth, vec3 p, float lower_z, LipPair lips) {
   p.y += Held(p.z, lower_z) * max(0.0f, path.teeth_low + kTongueEdges - p.y);
   p.y += Held(p.z, ArchZ(mouth.upper, p.x)) * min(0.0f, path.teeth_high - kTongueEdges - p.y);
-  float middle_y = 0.5f * (low.y + high.y);
-  p.y += Held(p.z, low.z) * max(0.0f, min(low.y + kTongueSkin, middle_y) - p.y);
-  p.y += Held(p.z, high.z) * min(0.0f, max(high.y - kTongueSkin, middle_y) - p.y);
+  float middle_y = 0.5f * (lips.lower.y + lips.upper.y);
+  p.y += Held(p.z, lips.lower.z) * max(0.0f, min(lips.lower.y + kTongueSkin, middle_y) - p.y);
+  p.y += Held(p.z, lips.upper.z) * min(0.0f, max(lips.upper.y - kTongueSkin, middle_y) - p.y);
   return p;
+}
+
+// Moves a point of the raised tongue that is put out by `out_mm`, from behind the teeth to between the lips. `lips`:
+// at the x that the point has once NarrowTongue has moved it.
+FUNCTION vec3 TongueOverTeeth(TonguePath path, Mouth mouth, float out_mm, vec3 p, LipPair lips) {
+  vec3 out_point = BetweenLips(path, mouth, NarrowTongue(path, p), LowerTeethZ(mouth, p.x), lips);
+  return mix(BehindTeeth(mouth, p), out_point, SmoothStep(0.0f, kTongueOut, out_mm));
 }
 
 // ---- The head turns about a point of the neck and goes forward.
 
 struct Neck {
-  Rotation turn;
+  Rotation rotation;
   Point pivot;
   float forward;
 };
 
 FUNCTION vec3 WithNeck(Neck neck, vec3 p, float weight) {
-  vec3 turned = Vec(neck.pivot) + Rotated(neck.turn, p - Vec(neck.pivot));
-  turned.z += neck.forward;
-  return p + weight * (turned - p);
+  vec3 moved = Vec(neck.pivot) + Rotated(neck.rotation, p - Vec(neck.pivot));
+  moved.z += neck.forward;
+  return p + weight * (moved - p);
 }
 
 // ---- All values that the steps read of one state.
@@ -300,13 +324,13 @@ FUNCTION vec3 UnitNormal(vec3 sum) {
   return squared > 1e-12f ? sum / sqrt(squared) : vec3(0.0f, 0.0f, 1.0f);
 }
 
-// ---- Records of vertices for a graphics card (fsm/render/rig_records.h packs them).
+// ---- Records of vertices for a graphics card (rig_records.h packs them).
 
 // A vertex with a list of entries, from index `from` up to but excluding `to`.
 struct ListRecord {
   uint vertex, from, to;
 };
-struct PlaceRecord {
+struct RestRecord {
   Point position, normal;
 };
 struct ChannelEntry {

@@ -8,13 +8,11 @@
 #include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "fsm/base/smooth_step.h"
-
 /// Compiles steps.glsl, the arithmetic of the steps, for the processor.
 namespace fsm::step {
 
 using glm::atan, glm::clamp, glm::cos, glm::cross, glm::dot, glm::length, glm::max, glm::min,
-    glm::normalize, glm::sin, glm::sqrt, glm::vec3;
+    glm::mix, glm::normalize, glm::sin, glm::sqrt, glm::vec3;
 
 #define FUNCTION inline
 #include "fsm/rig/steps.glsl"

@@ -21,7 +21,7 @@ inline ToothArch Moved(ToothArch arch, const TeethTransform& to) {
   arch.edge_y += to.shift.y;
   arch.root_y += to.shift.y;
   arch.middle_x += to.shift.x;
-  arch.turn += to.slope;
+  arch.slope += to.slope;
   return arch;
 }
 
@@ -30,7 +30,7 @@ inline float ArchSlope(const ToothArch& arch, float x) {
   const float off = x - arch.middle_x;
   const float t = (off / arch.half_width) * (off / arch.half_width);
   const float steep = 2 * step::kArchSquare + 4 * step::kArchFourth * t;
-  return arch.depth * steep * off / (arch.half_width * arch.half_width) - arch.turn;
+  return arch.depth * steep * off / (arch.half_width * arch.half_width) - arch.slope;
 }
 
 }  // namespace fsm

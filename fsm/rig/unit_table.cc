@@ -153,7 +153,7 @@ std::vector<int> UnitTable::Numbers() const {
   return {numbers.begin(), numbers.end()};
 }
 
-Sided<UnitValues> UnitTable::Combine(const FaceState& state) const {
+Sided<UnitValues> UnitTable::ActingUnits(const FaceState& state) const {
   Sided<UnitValues> units;
   const float shown =
       std::isfinite(state.asymmetry) ? std::clamp(state.asymmetry, 0.0f, kMostAsymmetry) : 0;
@@ -222,7 +222,7 @@ UnitEffects UnitTable::Effects(const Sided<UnitValues>& units) const {
   return sum;
 }
 
-glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& weights, Side side) {
+glm::vec3 UnitTable::FieldDisplacement(const Field& field, const SkinWeights& weights, Side side) {
   const float x = SignOf(side) * weights.domain.x;
   if (std::abs(weights.domain.y - field.at.y) >= field.radius.y) return glm::vec3(0);
   // Both sides act at the median, half each, so that left and right add up to the whole.

@@ -52,10 +52,10 @@ class UnitTable {
   std::vector<int> Numbers() const;
   /// Returns the strengths that really act: clamped to 0..2, above 1 at half rate (tissue stops
   /// stretching), and corrected for units that act together. A non-finite value becomes 0.
-  Sided<UnitValues> Combine(const FaceState& state) const;
+  Sided<UnitValues> ActingUnits(const FaceState& state) const;
   UnitEffects Effects(const Sided<UnitValues>& units) const;
   /// Returns how far a field, which the table has for the left, moves a vertex on `side`, in mm.
-  static glm::vec3 Motion(const Field& field, const SkinWeights& weights, Side side);
+  static glm::vec3 FieldDisplacement(const Field& field, const SkinWeights& weights, Side side);
 
  private:
   struct Rule {

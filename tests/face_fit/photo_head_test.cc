@@ -52,7 +52,7 @@ TEST(PhotoHeadTest, ComesBackAsItWasWritten) {
         {glm::vec3(static_cast<float>(i)), glm::vec2(0.25F * static_cast<float>(i))});
   set.sheet_triangles = {0, 1, 2, 0, 2, 3};
   set.eyes.emplace();
-  set.eyes->left = {.shift = {1, 2, -3}, .turn = 0.1F, .size = 1.1F, .upper_mm = -2, .lower_mm = 1};
+  set.eyes->left = {.shift = {1, 2, -3}, .roll = 0.1F, .size = 1.1F, .upper_mm = -2, .lower_mm = 1};
   set.lip_colour = glm::vec3(0.2F, 0.1F, 0.05F);
   set.iris_size = 0.9F;
   set.glasses = true;
@@ -62,7 +62,7 @@ TEST(PhotoHeadTest, ComesBackAsItWasWritten) {
   const PhotoHead back = ReadPhotoHead("face.txt", WritePhotoHead(set));
   ASSERT_TRUE(back.eyes && back.lip_colour);
   EXPECT_EQ(back.eyes->left.shift, set.eyes->left.shift);
-  EXPECT_NEAR(back.eyes->left.turn, 0.1F, 1e-3F);
+  EXPECT_NEAR(back.eyes->left.roll, 0.1F, 1e-3F);
   EXPECT_EQ(back.eyes->left.upper_mm, -2);
   EXPECT_EQ(back.eyes->right.size, 1);
   EXPECT_EQ(*back.lip_colour, *set.lip_colour);

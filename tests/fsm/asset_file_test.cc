@@ -144,7 +144,7 @@ TEST(AssetFileTest, ADamagedFileIsRefusedByFileAndMember) {
   const std::string whole = WriteAsset(*MakeHead("galatea"), {});
   ASSERT_TRUE(ParseAsset("head.glb", Changed(whole, [](json&) {})));
   const std::pair<std::function<void(json&)>, const char*> faults[] = {
-      {[](json& e) { e["version"] = 3; }, "version: 1 to 2 expected"},
+      {[](json& e) { e["version"] = 4; }, "version: 1 to 3 expected"},
       {[](json& e) { e.erase("rig"); }, "no member \"rig\""},
       {[](json& e) { e["rig"]["steps"] = 7000000; }, "rig.steps"},
       {[](json& e) { e["rig"]["bone"] = e["rig"]["rest"]; }, "rig.bone: accessors["},
@@ -198,38 +198,69 @@ TEST(AssetFileTest, MembersThatAreNoMoreArePassedOver) {
   ExpectSameHead(Head(std::move(*asset)), *head);
 }
 
-/// The file as version 1 had it.
-std::string InVersion1(const std::string& file) {
+void Rename(nlohmann::json& object, const char* now, const char* before) {
+  ASSERT_TRUE(object.contains(now)) << now;
+  object[before] = std::move(object[now]);
+  object.erase(now);
+}
+
+/// The file as version 2 had it.
+std::string InVersion2(const std::string& file) {
   return Changed(file, [](nlohmann::json& e) {
-    e["version"] = 1;
-    const auto rename = [](nlohmann::json& object, const char* now, const char* before) {
-      ASSERT_TRUE(object.contains(now)) << now;
-      object[before] = std::move(object[now]);
-      object.erase(now);
-    };
-    nlohmann::json &topology = e["topology"], &rig = e["rig"];
-    rename(topology, "openness", "occlusion");
-    rename(topology, "image", "photo");
-    rename(topology, "portrait_light", "photo_light");
-    rename(topology, "portrait_eyes", "eye_pictures");
-    rename(topology["mouth"], "seam", "lips");
-    if (topology["strands"].is_object()) rename(topology["strands"], "tile_mm", "place");
-    if (topology["shut_lids"].is_object()) {
-      rename(topology["shut_lids"], "grain_at", "lender");
-      rename(topology["shut_lids"], "grain_light", "lender_light");
+    e["version"] = 2;
+    nlohmann::json& rig = e["rig"];
+    for (nlohmann::json& eye : rig["lids"]["eyes"]) Rename(eye, "roll", "turn");
+    for (const char* teeth : {"upper_teeth", "lower_teeth"}) Rename(rig[teeth], "slope", "turn");
+    for (nlohmann::json& range : rig["gaze_ranges"]) Rename(range, "output", "turn");
+    for (nlohmann::json& material : e["topology"]["pbr_materials"]) {
+      Rename(material, "emissive", "glow");
+      Rename(material, "shade_colour", "shade");
     }
-    rename(rig, "proxy_to_own", "own_form");
-    rename(rig, "asymmetry_seed", "person");
-    rename(rig, "gaze_ranges", "look");
   });
 }
 
-TEST(AssetFileTest, AFileOfVersion1IsRead) {
+/// The file as version 1 had it.
+std::string InVersion1(const std::string& file) {
+  return Changed(InVersion2(file), [](nlohmann::json& e) {
+    e["version"] = 1;
+    nlohmann::json &topology = e["topology"], &rig = e["rig"];
+    Rename(topology, "openness", "occlusion");
+    Rename(topology, "image", "photo");
+    Rename(topology, "portrait_light", "photo_light");
+    Rename(topology, "portrait_eyes", "eye_pictures");
+    Rename(topology["mouth"], "seam", "lips");
+    if (topology["strands"].is_object()) Rename(topology["strands"], "tile_mm", "place");
+    if (topology["shut_lids"].is_object()) {
+      Rename(topology["shut_lids"], "grain_at", "lender");
+      Rename(topology["shut_lids"], "grain_light", "lender_light");
+    }
+    Rename(rig, "proxy_to_own", "own_form");
+    Rename(rig, "asymmetry_seed", "person");
+    Rename(rig, "gaze_ranges", "look");
+  });
+}
+
+TEST(AssetFileTest, FilesOfOlderVersionsAreRead) {
   for (const auto& head : {MakeHead("galatea"), MakeHead(OneColour())}) {
-    auto asset = ParseAsset("head.glb", InVersion1(WriteAsset(*head, {})));
-    ASSERT_TRUE(asset) << asset.error().text;
-    ExpectSameHead(Head(std::move(*asset)), *head);
+    for (const auto& in_version : {InVersion1, InVersion2}) {
+      auto asset = ParseAsset("head.glb", in_version(WriteAsset(*head, {})));
+      ASSERT_TRUE(asset) << asset.error().text;
+      ExpectSameHead(Head(std::move(*asset)), *head);
+    }
   }
+}
+
+TEST(AssetFileTest, GazeRangesAndMaterialsOfVersion2AreRead) {
+  const BallHead ball([](HeadAsset& asset) {
+    asset.rig.eyes.gaze_ranges =
+        GazeRanges{.inner = {30, 1}, .outer = {40, 2}, .up = {50, 3}, .down = {60, 4}};
+    asset.topology.pbr_materials.push_back({.emissive = {0.1F, 0.2F, 0.3F}});
+  });
+  ExpectSameHead(ReadAgain(ball), ball);
+  const auto asset = ParseAsset("head.glb", InVersion2(WriteAsset(ball, {})));
+  ASSERT_TRUE(asset) << asset.error().text;
+  EXPECT_EQ(asset->rig.eyes.gaze_ranges->down.output, 4);
+  EXPECT_EQ(asset->topology.pbr_materials[0].emissive.z, 0.3F);
 }
 
 TEST(AssetFileTest, TheNamesOfVersion1AreNotTakenInVersion2) {
@@ -337,11 +368,11 @@ TEST(RigTest, AMouthIsMeasuredWhicheverStepsThereAre) {
   const float width = glm::distance(asset.rig.rest[610], asset.rig.rest[620]);
   FaceState state;
   state.head_rotation = {10, 20, 5};
-  for (int step = 0; step <= static_cast<int>(RigStep::kNormals); ++step) {
+  for (int step = 0; step < static_cast<int>(kRigSteps); ++step) {
     asset.rig.steps = {static_cast<RigStep>(step)};
     const Rig rig(asset.rig);
     EXPECT_NEAR(rig.MeasureMouth(state).width_mm, width, 1e-3F)
-        << NameOf(static_cast<RigStep>(step));
+        << DefinitionOf(static_cast<RigStep>(step)).name;
   }
 }
 

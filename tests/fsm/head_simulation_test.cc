@@ -175,7 +175,7 @@ TEST(SimulationTest, WhatHangsGoesStraightDownAsTheHeadLeans) {
 TEST(HairSpringsTest, LongHairSwingsAndNothingElseDoes) {
   const auto head = MakeHead("galatea");
   const RigData& rig = head->rig().data();
-  ASSERT_FALSE(rig.swing.springs.empty());
+  ASSERT_FALSE(rig.spring_rig.springs.empty());
   std::set<std::uint32_t> hair;
   for (const auto& part : head->topology().parts) {
     if (part.material != Material::kHair) continue;
@@ -184,7 +184,7 @@ TEST(HairSpringsTest, LongHairSwingsAndNothingElseDoes) {
   }
   HeadVertices still, swung;
   head->Evaluate({}, still);
-  const std::vector<glm::vec3> offsets(rig.swing.springs.size(), glm::vec3(3, 0, 0));
+  const std::vector<glm::vec3> offsets(rig.spring_rig.springs.size(), glm::vec3(3, 0, 0));
   head->Evaluate({}, swung, offsets);
   std::size_t moved = 0;
   for (std::uint32_t v = 0; v < still.position.size(); ++v) {
@@ -196,13 +196,13 @@ TEST(HairSpringsTest, LongHairSwingsAndNothingElseDoes) {
     moved += by > 2.9f ? 1 : 0;
   }
   EXPECT_GT(moved, 200u);
-  EXPECT_TRUE(MakeHead("pygmalion")->rig().data().swing.springs.empty());
+  EXPECT_TRUE(MakeHead("pygmalion")->rig().data().spring_rig.springs.empty());
 }
 
 TEST(HairSpringsTest, NeighboursGoAlong) {
   // No edge of the hair tears: vertices of a triangle swing nearly alike.
   const auto head = MakeHead("galatea");
-  Simulation simulation(head->rig().data().swing.springs);
+  Simulation simulation(head->rig().data().spring_rig.springs);
   const auto shaken = [](Time t) {
     return Turned(0, 25 * std::sin(static_cast<float>(t / 1ms) / 120), 0);
   };
@@ -230,7 +230,7 @@ TEST(HairSpringsTest, TheTableRefusesNonsenseByFileAndLine) {
     } catch (const std::runtime_error& error) {
       return error.what();
     }
-    return rig.swing.springs.empty() ? "no springs" : "";
+    return rig.spring_rig.springs.empty() ? "no springs" : "";
   };
   EXPECT_EQ(complaint("row -40 2 0.3 0.5 20\n"), "");
   EXPECT_EQ(complaint(""), "no springs");

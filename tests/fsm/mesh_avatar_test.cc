@@ -105,9 +105,9 @@ TEST(GltfPlaceTest, PrimitivesShareVerticesOnlyWhereAllAttributesAreTheSame) {
                                             red + "," + red + "," + green + "]}]"));
   ASSERT_EQ(file.parts.size(), 3U);
   EXPECT_EQ(file.parts[0].indices, file.parts[1].indices);
-  ASSERT_EQ(file.tint.size(), 6U);
-  EXPECT_EQ(file.tint[file.parts[0].indices[0]], glm::vec3(1, 0, 0));
-  EXPECT_EQ(file.tint[file.parts[2].indices[0]], glm::vec3(0, 1, 0));
+  ASSERT_EQ(file.vertex_colour.size(), 6U);
+  EXPECT_EQ(file.vertex_colour[file.parts[0].indices[0]], glm::vec3(1, 0, 0));
+  EXPECT_EQ(file.vertex_colour[file.parts[2].indices[0]], glm::vec3(0, 1, 0));
 }
 
 TEST(GltfPlaceTest, PackedGeometryIsRefusedByName) {
@@ -143,7 +143,7 @@ ImportedHead Painted(const std::string& material) {
                          Number(place) + R"(,"TEXCOORD_0":)" + Number(uv) + "}}]}]"));
 }
 
-TEST(GltfPaintTest, FactorIsPaintedIntoThePictureAsLight) {
+TEST(GltfTexturesTest, FactorIsPaintedIntoThePictureAsLight) {
   // 188 is half of the light (sRGB); half of that is 137.
   const ImportedHead file = Painted(
       R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"baseColorFactor":[0.5,1,0,1]}})");
@@ -155,7 +155,7 @@ TEST(GltfPaintTest, FactorIsPaintedIntoThePictureAsLight) {
   EXPECT_FALSE(file.parts[0].cut_out);
 }
 
-TEST(GltfPaintTest, WhatIsBelowTheCutOffIsLeftOut) {
+TEST(GltfTexturesTest, WhatIsBelowTheCutOffIsLeftOut) {
   const ImportedHead cut =
       Painted(R"({"alphaMode":"MASK","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
   EXPECT_EQ(cut.pictures.at(0).rgba[3], 255);
@@ -169,7 +169,7 @@ TEST(GltfPaintTest, WhatIsBelowTheCutOffIsLeftOut) {
   EXPECT_EQ(smooth.pictures.at(0).rgba[7], 100);
 }
 
-TEST(GltfPaintTest, PicturesMayBeMovedScaledAndTurned) {
+TEST(GltfTexturesTest, PicturesMayBeMovedScaledAndTurned) {
   const ImportedHead file =
       Painted(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":)"
               R"({"KHR_texture_transform":{"offset":[0.25,0.5],"scale":[0.5,0.25],)"
@@ -180,7 +180,14 @@ TEST(GltfPaintTest, PicturesMayBeMovedScaledAndTurned) {
   EXPECT_NEAR(file.texcoord.at(2).x, 0.5F, 1e-5F);
 }
 
-TEST(GltfPaintTest, PictureOfAnotherKindIsLeftOutWithANotice) {
+TEST(GltfTexturesTest, CoordinatesThatATransformMakesInfiniteCountAsZero) {
+  const ImportedHead file =
+      Painted(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":)"
+              R"({"KHR_texture_transform":{"offset":[3e38,0.5],"scale":[3e38,1]}}}}})");
+  for (const glm::vec2 uv : file.texcoord) EXPECT_TRUE(std::isfinite(uv.x) && std::isfinite(uv.y));
+}
+
+TEST(GltfTexturesTest, PictureOfAnotherKindIsLeftOutWithANotice) {
   GltfMaker maker;
   const int place = maker.Places(kTriangle);
   maker.Picture({'R', 'I', 'F', 'F', 0, 0, 0, 0, 'W', 'E', 'B', 'P'});
@@ -230,10 +237,10 @@ TEST(VrmTest, OldAvatarsAreTurnedToTheViewerWithBonesGazeAndExpressions) {
   ASSERT_EQ(file.eye.size(), 6U);
   EXPECT_EQ(file.eye[2], std::nullopt);
   EXPECT_EQ(file.eye[4], Side::kLeft);
-  ASSERT_TRUE(file.eye_pivot);
-  ASSERT_TRUE(file.gaze_ranges);
-  EXPECT_EQ(file.gaze_ranges->outer.gaze_deg, 60);
-  EXPECT_EQ(file.gaze_ranges->outer.turn, 12);
+  ASSERT_TRUE(file.eye_setup.pivot);
+  ASSERT_TRUE(file.eye_setup.gaze_ranges);
+  EXPECT_EQ(file.eye_setup.gaze_ranges->outer.gaze_deg, 60);
+  EXPECT_EQ(file.eye_setup.gaze_ranges->outer.output, 12);
   EXPECT_FALSE(file.gaze_by_shape);
   ASSERT_EQ(file.shapes.size(), 6U);
   EXPECT_EQ(file.shapes[4].name, "vrma");
@@ -281,7 +288,7 @@ std::string HairAvatar(const std::string& extensions) {
 /// By how much the springs of a file carry each of its vertices, in sum: 0, 1 and 2.
 std::vector<std::array<float, 3>> Hung(const ImportedHead& file) {
   std::vector<std::array<float, 3>> hung(file.position.size());
-  for (const auto& [vertex, spring, weight] : file.swing.weights)
+  for (const auto& [vertex, spring, weight] : file.spring_rig.weights)
     hung.at(vertex).at(spring) += weight;
   return hung;
 }
@@ -290,15 +297,16 @@ TEST(VrmTest, HairOfOldAvatarsSwingsByItsSecondaryAnimation) {
   const ImportedHead file = Read(
       HairAvatar(R"("VRM":{"secondaryAnimation":{"boneGroups":[{"stiffiness":1,"gravityPower":0,)"
                  R"("dragForce":0.4,"bones":[1],"colliderGroups":[0]}]}})"));
-  ASSERT_EQ(file.swing.springs.size(), 3U);
-  ExpectPlace(file.swing.springs[0].rest, {-0.1F, 1.5F, 0});
-  ExpectPlace(file.swing.springs[1].rest, {-0.1F, 1.4F, 0});
-  ExpectPlace(file.swing.springs[2].rest, {-0.1F, 1.33F, 0});
-  ExpectPlace(file.swing.springs[2].root, {-0.1F, 1.6F, 0});
-  EXPECT_NEAR(file.swing.springs[0].frequency_hz, 3.90F, 0.01F);  // sqrt(60 / 0.1) / 2 pi
-  EXPECT_NEAR(file.swing.springs[0].damping, 0.626F, 0.001F);     // 30 ln(1 / 0.6) / sqrt(60 / 0.1)
-  EXPECT_NEAR(file.swing.springs[1].frequency_hz, 3.90F / std::sqrt(2.0F), 0.01F);
-  EXPECT_EQ(file.swing.springs[0].hang, 0);
+  ASSERT_EQ(file.spring_rig.springs.size(), 3U);
+  ExpectPlace(file.spring_rig.springs[0].rest, {-0.1F, 1.5F, 0});
+  ExpectPlace(file.spring_rig.springs[1].rest, {-0.1F, 1.4F, 0});
+  ExpectPlace(file.spring_rig.springs[2].rest, {-0.1F, 1.33F, 0});
+  ExpectPlace(file.spring_rig.springs[2].root, {-0.1F, 1.6F, 0});
+  EXPECT_NEAR(file.spring_rig.springs[0].frequency_hz, 3.90F, 0.01F);  // sqrt(60 / 0.1) / 2 pi
+  EXPECT_NEAR(file.spring_rig.springs[0].damping, 0.626F,
+              0.001F);  // 30 ln(1 / 0.6) / sqrt(60 / 0.1)
+  EXPECT_NEAR(file.spring_rig.springs[1].frequency_hz, 3.90F / std::sqrt(2.0F), 0.01F);
+  EXPECT_EQ(file.spring_rig.springs[0].hang, 0);
   const auto hung = Hung(file);
   EXPECT_EQ(hung[0], (std::array<float, 3>{0, 0, 0})) << "where the chain begins";
   EXPECT_NEAR(hung[2][0], 0.5F, 1e-3F) << "between";
@@ -312,11 +320,12 @@ TEST(VrmTest, HairOfNewAvatarsSwingsByItsSpringBones) {
       R"({"joints":[{"node":1,"stiffness":0.5,"gravityPower":0.5,"dragForce":0.3},)"
       R"({"node":2,"stiffness":0.5,"dragForce":0.3},{"node":3}]},)"
       R"({"joints":[{"node":99},{"node":-5}]},{"joints":"none"}]})"));
-  ASSERT_EQ(file.swing.springs.size(), 2U) << "the last joint only says where the one before ends";
-  ExpectPlace(file.swing.springs[1].rest, {0.1F, 1.4F, 0});
-  EXPECT_EQ(file.swing.springs[0].hang, 0.5F);
-  EXPECT_EQ(file.swing.springs[1].hang, 0);
-  EXPECT_EQ(file.swing.springs[0].outward, glm::vec3(0)) << "nothing is in its way";
+  ASSERT_EQ(file.spring_rig.springs.size(), 2U)
+      << "the last joint only says where the one before ends";
+  ExpectPlace(file.spring_rig.springs[1].rest, {0.1F, 1.4F, 0});
+  EXPECT_EQ(file.spring_rig.springs[0].hang, 0.5F);
+  EXPECT_EQ(file.spring_rig.springs[1].hang, 0);
+  EXPECT_EQ(file.spring_rig.springs[0].outward, glm::vec3(0)) << "nothing is in its way";
   EXPECT_NEAR(Hung(file)[6][1], 1, 1e-3F) << "the end of the chain";
 }
 
@@ -325,11 +334,11 @@ TEST(VrmTest, HairOfAnAvatarSwingsAsItsHeadTurns) {
       R"("VRM":{"secondaryAnimation":{"boneGroups":[{"stiffiness":0.3,"dragForce":0.1,"bones":[1]},)"
       R"({"bones":[0]}]}})"));
   constexpr float kMillimetres = 1000;
-  const Similarity place{.scale = kMillimetres, .move = {0, -1500, 0}};
+  const Similarity place{.scale = kMillimetres, .translation = {0, -1500, 0}};
   const auto head = MakeMeshHead(ModelOfImport(file, place, -43));
   const RigData& rig = head->rig().data();
-  ASSERT_EQ(rig.swing.springs.size(), 4U);
-  Simulation simulation(rig.swing.springs);
+  ASSERT_EQ(rig.spring_rig.springs.size(), 4U);
+  Simulation simulation(rig.spring_rig.springs);
   const auto turning = [](Simulation::Time t) {
     FaceState state;
     state.head_rotation[1] = 30 * std::clamp(static_cast<float>(t.count()) / 2e5F, 0.0F, 1.0F);
@@ -347,8 +356,9 @@ TEST(VrmTest, HairOfAnAvatarSwingsAsItsHeadTurns) {
 TEST(VrmTest, SpringsOfTheBodyAreLeftOut) {
   const ImportedHead file = Read(
       HairAvatar(R"("VRM":{"secondaryAnimation":{"boneGroups":[{"stiffiness":1,"bones":[1]}]}})"));
-  const Similarity place{.scale = 1000, .move = {0, -2500, 0}};
-  EXPECT_TRUE(MakeMeshHead(ModelOfImport(file, place, -43))->rig().data().swing.springs.empty());
+  const Similarity place{.scale = 1000, .translation = {0, -2500, 0}};
+  EXPECT_TRUE(
+      MakeMeshHead(ModelOfImport(file, place, -43))->rig().data().spring_rig.springs.empty());
 }
 
 TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
@@ -356,12 +366,12 @@ TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
   model.has_eyes = true;
   model.eyes.right.centre = {-30, 0, 60};
   model.eyes.left.centre = {30, 0, 60};
-  model.eye_pivot = {glm::vec3(-30, 0, 40), glm::vec3(30, 0, 40)};
-  model.gaze_ranges.emplace().outer = {.gaze_deg = 40, .turn = 8};
+  model.eye_setup.pivot = {glm::vec3(-30, 0, 40), glm::vec3(30, 0, 40)};
+  model.eye_setup.gaze_ranges.emplace().outer = {.gaze_deg = 40, .output = 8};
   for (const glm::vec3 p : {glm::vec3(30, 0, 70), glm::vec3(31, 0, 70), glm::vec3(30, 1, 70)}) {
     model.Add(p, Bone::kEyeLeft, glm::vec3(1));
   }
-  model.Triangle(Material::kSkin, 0, 1, 2);
+  model.mesh.Triangle(Material::kSkin, 0, 1, 2);
   const auto head = MakeMeshHead(std::move(model));
   FaceState state;
   state.gaze.left[kToRight] = 20;  // to the viewer's right, outward for the agent's left eye
@@ -385,11 +395,11 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
   }
   file.shapes[0].deltas = {{0, {0, -10, 0}}, {1, {0, -10, 0}}, {2, {0, -10, 0}}};
   MeshModel model = ModelOfImport(file, {}, -30);
-  ASSERT_EQ(model.bone[0], Bone::kJaw);
+  ASSERT_EQ(model.mesh.bone[0], Bone::kJaw);
   const auto source = MakeHead("galatea", false);
   auto skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source);
   ASSERT_TRUE(skin);
-  EXPECT_EQ(model.bone[0], Bone::kSkin);
+  EXPECT_EQ(model.mesh.bone[0], Bone::kSkin);
   const auto head = MakeMeshHead(std::move(model), std::move(*skin));
   HeadVertices moved;
   head->Evaluate(meanings[0].state, moved);
@@ -536,7 +546,7 @@ TEST(OwnShapesTest, LipsThatAreShutWithUsAreNotOpenedByTheirShapes) {
   const auto source = FallingBall();
   auto skin = MakeBlendshapeRig(file, {}, model, {*source, meanings}, *source);
   ASSERT_TRUE(skin);
-  const float rest = model.position[0].y;
+  const float rest = model.mesh.position[0].y;
   const auto head = MakeMeshHead(std::move(model), std::move(*skin));
   const auto fall = [&](const FaceState& state) {
     HeadVertices moved;

@@ -19,8 +19,8 @@ std::unique_ptr<Head> HeadOf(std::vector<std::vector<Channel::Driver>> drivers) 
     channel.drivers = std::move(by);
     channel.moves = {{model.Add(glm::vec3(0), Bone::kSkin, glm::vec3(1)), glm::vec3(1, 0, 0)}};
   }
-  while (model.position.size() < 3) model.Add(glm::vec3(0), Bone::kSkin, glm::vec3(1));
-  model.Triangle(Material::kSkin, 0, 1, 2);
+  while (model.mesh.position.size() < 3) model.Add(glm::vec3(0), Bone::kSkin, glm::vec3(1));
+  model.mesh.Triangle(Material::kSkin, 0, 1, 2);
   return MakeMeshHead(std::move(model), std::move(skin));
 }
 

@@ -89,10 +89,10 @@ TEST(EyeDefTest, TwentyNineDoublesSayWhereBothEyesAre) {
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i);
   const auto def = ParseEyeDef("a.def_e", Doubles(values));
   ASSERT_TRUE(def) << def.error().text;
-  EXPECT_EQ(def->eye.left.place, glm::vec3(7, 8, 9));
+  EXPECT_EQ(def->eye.left.position, glm::vec3(7, 8, 9));
   EXPECT_EQ(def->eye.left.scale, 13);
-  EXPECT_EQ(def->eye.right.turn_degrees, glm::vec3(17, 18, 19));
-  EXPECT_EQ(def->eye.left.turn_degrees, glm::vec3(24, 25, 26));
+  EXPECT_EQ(def->eye.right.rotation_degrees, glm::vec3(17, 18, 19));
+  EXPECT_EQ(def->eye.left.rotation_degrees, glm::vec3(24, 25, 26));
   EXPECT_EQ(def->picture_scale, 28);
 }
 

@@ -263,7 +263,7 @@ TEST_F(StandardFaceTest, ASealClosesAnOpenMouth) {
 
 TEST_F(StandardFaceTest, TeethFillTheMouthAsInTheOriginalAndStayWithinNarrowJaws) {
   const OriginalSpace frame(face_.wireframe);
-  const auto at = [&](PointName name) { return frame.Place(face_.wireframe, name); };
+  const auto at = [&](PointName name) { return frame.PositionMm(face_.wireframe, name); };
   std::vector<glm::vec3> teeth;
   for (const auto& part : head_->topology().parts) {
     if (part.material != Material::kTeeth) continue;

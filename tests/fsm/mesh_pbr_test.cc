@@ -49,7 +49,7 @@ TEST(GltfMaterialTest, MetalAndRoughnessAreReadAndAreWholeIfNothingIsSaid) {
   EXPECT_EQ(said.kind, PbrMaterial::Kind::kLit);
   EXPECT_FLOAT_EQ(said.metallic, 0.25F);
   EXPECT_FLOAT_EQ(said.roughness, 0.5F);
-  EXPECT_FLOAT_EQ(said.glow.b, 0.6F);
+  EXPECT_FLOAT_EQ(said.emissive.b, 0.6F);
   EXPECT_TRUE(said.cut_out);
   const PbrMaterial silent = MaterialOf("{}");
   EXPECT_FLOAT_EQ(silent.metallic, 1);
@@ -66,7 +66,7 @@ TEST(GltfMaterialTest, UnlitStaysAsItIsButNotWhereItOnlyStandsInForMToon) {
                  R"("VRMC_materials_mtoon":{"shadeColorFactor":[0.5,0.25,0.125],)"
                  R"("shadingToonyFactor":0.75,"shadingShiftFactor":-0.25}}})");
   EXPECT_EQ(toon.kind, PbrMaterial::Kind::kToon);
-  EXPECT_FLOAT_EQ(toon.shade.g, 0.25F);
+  EXPECT_FLOAT_EQ(toon.shade_colour.g, 0.25F);
   EXPECT_FLOAT_EQ(toon.shade_to, 0);
   EXPECT_FLOAT_EQ(toon.light_from, 0.5F);
 }
@@ -79,7 +79,7 @@ TEST(GltfMaterialTest, OldAvatarsSayItInPropertiesOfTheShader) {
   };
   const PbrMaterial toon = MaterialOf("{}", old("VRM/MToon"));
   EXPECT_EQ(toon.kind, PbrMaterial::Kind::kToon);
-  EXPECT_NEAR(toon.shade.r, 0.218F, 2e-3F) << "a colour of the screen";
+  EXPECT_NEAR(toon.shade_colour.r, 0.218F, 2e-3F) << "a colour of the screen";
   EXPECT_FLOAT_EQ(toon.shade_to, -0.5F);
   EXPECT_FLOAT_EQ(toon.light_from, -0.2F);
   GltfMaker maker;
@@ -149,7 +149,7 @@ glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0
     model.textures.emissive_map = std::make_shared<Image>(Image{1, 1, plate.emissive_map});
   }
   model.pbr_materials = {plate.pbr};
-  auto& indices = model.BatchOf(Material::kSkin, 0, plate.two_sided).indices;
+  auto& indices = model.mesh.BatchOf(Material::kSkin, 0, plate.two_sided).indices;
   indices = plate.faces_away ? std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2}
                              : std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3};
   const auto head = MakeMeshHead(std::move(model));
@@ -176,7 +176,7 @@ TEST(PbrMaterialTest, WhatIsLitDarkensWithTheLampsAndWhatGlowsDoesNot) {
   const float bright = Seen(plate).g, dim = Seen(plate, 0).g;
   EXPECT_GT(bright, 1.6F * dim);
   EXPECT_GT(dim, 10) << "the room has some light";
-  plate.pbr.glow = glm::vec3(0.5F, 0, 0);
+  plate.pbr.emissive = glm::vec3(0.5F, 0, 0);
   const glm::vec3 glowing = Seen(plate, 0);
   EXPECT_GT(glowing.r, dim + 40);
   EXPECT_NEAR(glowing.g, dim, 2);
@@ -213,7 +213,7 @@ TEST(PbrMaterialTest, OccludedPlacesGetLessOfTheRoomsLightAndAllOfTheLamps) {
 }
 
 TEST(PbrMaterialTest, AToonHasTwoColoursWithAnEdgeBetween) {
-  PbrMaterial toon{.kind = PbrMaterial::Kind::kToon, .shade = {0.05F, 0.3F, 0.05F}};
+  PbrMaterial toon{.kind = PbrMaterial::Kind::kToon, .shade_colour = {0.05F, 0.3F, 0.05F}};
   toon.shade_to = 0.4F;
   toon.light_from = 0.5F;
   const auto at = [&toon](float cosine) {
@@ -242,7 +242,7 @@ TEST(PbrMaterialTest, WhereATextureIsSewnTogetherTheNormalIsOne) {
     model.Add(p, Bone::kSkull, glm::vec3(1));
   }
   model.pbr_materials.emplace_back();
-  model.BatchOf(Material::kSkin, 0, false).indices = {0, 1, 2, 3, 4, 5};
+  model.mesh.BatchOf(Material::kSkin, 0, false).indices = {0, 1, 2, 3, 4, 5};
   const auto head = MakeMeshHead(std::move(model));
   HeadVertices vertices;
   head->Evaluate({}, vertices);

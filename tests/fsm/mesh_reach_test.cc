@@ -1,7 +1,5 @@
 // What happens to heads whose numbers are far too large.
 
-#include "fsm/mesh/mesh_reach.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,6 +14,7 @@
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/transfer/deformation_transfer.h"
 #include "fsm/mesh/transfer/surface_index.h"
+#include "fsm/rig/reach.h"
 #include "tests/fsm/gltf_maker.h"
 
 namespace fsm {
@@ -78,10 +77,12 @@ TEST(MeshReachTest, LandmarksThatEnlargeAHeadBeyondReachAreRefusedWithItsName) {
     return "";
   };
   EXPECT_EQ(refused({}), "");
-  EXPECT_EQ(refused({.turn = glm::mat3(1.0F), .scale = 1e12F, .move = {}}).find("a.gltf: vertex 1"),
+  EXPECT_EQ(refused({.rotation = glm::mat3(1.0F), .scale = 1e12F, .translation = {}})
+                .find("a.gltf: vertex 1"),
             0U);
   // As eight landmarks at one place give it.
-  EXPECT_EQ(refused({.turn = glm::mat3(kNone), .scale = 1, .move = {}}).find("a.gltf: vertex 0"),
+  EXPECT_EQ(refused({.rotation = glm::mat3(kNone), .scale = 1, .translation = {}})
+                .find("a.gltf: vertex 0"),
             0U);
 }
 
@@ -145,7 +146,7 @@ void AddPatch(float x, float y, float z, float size, std::vector<glm::vec3>& pla
 WeldedSurface Welded(const std::vector<glm::vec3>& place,
                      const std::vector<std::uint32_t>& triangles) {
   WeldedSurface surface(place, triangles, false);
-  surface.FindSeen(place, {});
+  surface.FindVisibility(place, {});
   return surface;
 }
 
@@ -174,11 +175,11 @@ TEST(WeldedSurfaceTest, TrianglesInTooManyLayersAreRefused) {
     AddPatch(0, 0, static_cast<float>(i), 997, place, triangles);
   }
   WeldedSurface many(place, triangles, false);
-  EXPECT_THROW(many.FindSeen(place, {}), std::runtime_error);
+  EXPECT_THROW(many.FindVisibility(place, {}), std::runtime_error);
   // Larger ones than a square metre are looked at as quickly as they are many.
   for (glm::vec3& p : place) p *= 1000.0F;
   WeldedSurface large(place, triangles, false);
-  EXPECT_NO_THROW(large.FindSeen(place, {}));
+  EXPECT_NO_THROW(large.FindVisibility(place, {}));
 }
 
 TEST(SurfaceIndexTest, TrianglesInTooManyCellsAreRefused) {

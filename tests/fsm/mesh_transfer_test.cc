@@ -212,7 +212,7 @@ TEST_F(DeformationTransferTest, TheRigLaidOnAnotherFaceMovesItAsCarryingEverySta
   const auto onto = SkinTriangles(to_->topology());
   MeshModel model;
   for (const glm::vec3& p : to_rest_.position) model.Add(p, Bone::kSkin, glm::vec3(1));
-  model.BatchOf(Material::kSkin, -1, false).indices = onto;
+  model.mesh.BatchOf(Material::kSkin, -1, false).indices = onto;
   carry_ = std::make_unique<DeformationTransfer>(
       TransferSurface{from_rest_.position, flesh_, false, EyeballTriangles(from_->topology())},
       TransferSurface{to_rest_.position, onto, false, {}}, pairs_);
@@ -251,14 +251,14 @@ TEST_F(DeformationTransferTest, TheRigLaidOnAnotherFaceMovesItAsCarryingEverySta
 TEST_F(DeformationTransferTest, AHeadWithoutPicturesHasRedLipsAndSaysWhereTheyPart) {
   MeshModel model;
   for (const glm::vec3& p : to_rest_.position) model.Add(p, Bone::kSkin, glm::vec3(0.5F));
-  model.BatchOf(Material::kSkin, -1, false).indices = SkinTriangles(to_->topology());
+  model.mesh.BatchOf(Material::kSkin, -1, false).indices = SkinTriangles(to_->topology());
   const HeadTopology& known = to_->topology();
   for (const HeadTopology::Part& part : known.parts) {
     if (part.material != Material::kTeeth) continue;
     for (std::uint32_t k = 0; k < part.index_count; k += 3) {
       const std::uint32_t* t = &known.indices[part.first_index + k];
-      model.Triangle(Material::kTeeth, t[0], t[1], t[2]);
-      for (int c = 0; c < 3; ++c) model.bone[t[c]] = to_->rig().data().bone[t[c]];
+      model.mesh.Triangle(Material::kTeeth, t[0], t[1], t[2]);
+      for (int c = 0; c < 3; ++c) model.mesh.bone[t[c]] = to_->rig().data().bone[t[c]];
     }
   }
   RigData skin = TransferRig(model, *from_, pairs_);
@@ -358,11 +358,11 @@ TEST(WeldedSurfaceTest, WhatAnEyeballHidesIsNotSeen) {
   patch(22, 0, skin);
   for (const float x : {16.0F, 26.0F}) patch(x, 8, eye);
   WeldedSurface surface(place, skin, false);
-  surface.FindSeen(place, eye);
-  EXPECT_EQ(surface.seen[0], 1);
-  EXPECT_EQ(surface.seen[4], 0);
-  surface.FindSeen(place, {});
-  EXPECT_EQ(surface.seen[4], 1);
+  surface.FindVisibility(place, eye);
+  EXPECT_EQ(surface.visibility[0], 1);
+  EXPECT_EQ(surface.visibility[4], 0);
+  surface.FindVisibility(place, {});
+  EXPECT_EQ(surface.visibility[4], 1);
 }
 
 TEST(TransferRefusesTest, TooFewPlaces) {

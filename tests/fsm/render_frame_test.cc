@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "fsm/head/make_head.h"
 #include "fsm/render/camera.h"
 #include "fsm/render/gl_functions.h"
 #include "tests/fsm/ball_head.h"
@@ -70,6 +71,32 @@ class FrameTest : public ::testing::Test {
   FaceState state_;
   Scene scene_;
 };
+
+TEST(EyeColourTest, EachEyeHasItsOwn) {
+  const auto context = RenderContext::MakeHeadless(640, 480);
+  const auto renderer = Renderer::Make(*context);
+  const auto galatea = MakeHead("galatea");
+  const auto drawn = [&](glm::vec3 left, glm::vec3 right) {
+    HeadAsset asset{galatea->topology(), galatea->rig().data(), galatea->landmarks(), {}};
+    asset.topology.eyes.left.iris_colour = left;
+    asset.topology.eyes.right.iris_colour = right;
+    Image image;
+    renderer->Draw(Head(std::move(asset)), FaceState{}, std::span<const glm::vec3>(), Scene{});
+    renderer->Read(image);
+    return image;
+  };
+  const glm::vec3 blue(0.05F, 0.1F, 0.4F), brown(0.2F, 0.1F, 0.03F);
+  const Image same = drawn(blue, blue), other = drawn(blue, brown);
+  // The agent's right eye is in the left half of the picture.
+  int left_half = 0, right_half = 0;
+  for (int y = 0; y < 480; ++y) {
+    for (int x = 0; x < 640; ++x) {
+      (x < 320 ? left_half : right_half) += At(same, x, y) != At(other, x, y);
+    }
+  }
+  EXPECT_GT(left_half, 20);
+  EXPECT_EQ(right_half, 0);
+}
 
 TEST_F(FrameTest, HeadStandsInTheMiddleOfTheExactBackground) {
   const Image image = Draw();
@@ -251,7 +278,7 @@ void Comb(HeadTopology& topology, float density) {
 
 void Shine(HeadTopology& topology, glm::vec3 glow) {
   PbrMaterial pbr;
-  pbr.glow = glow;
+  pbr.emissive = glow;
   topology.pbr_materials = {pbr};
   topology.parts.front().pbr = 0;
   Wear(topology, 120, 120);

@@ -60,13 +60,14 @@ class GpuRigTest : public testing::Test {
   /// How far faces of these states, moved in one call, lie from those of the processor.
   void ExpectEqual(const Rig& rig, const std::vector<FaceState>& states) {
     GpuRig on_card(gl_, programs_, rig);
-    const std::vector<glm::vec3> swings(rig.data().swing.springs.size(), glm::vec3(1, -2, 3));
+    const std::vector<glm::vec3> spring_offsets(rig.data().spring_rig.springs.size(),
+                                                glm::vec3(1, -2, 3));
     std::vector<GpuRig::Input> faces;
-    for (const FaceState& state : states) faces.push_back({&state, swings});
+    for (const FaceState& state : states) faces.push_back({&state, spring_offsets});
     on_card.Evaluate(rig, faces);
     for (std::size_t face = 0; face < states.size(); ++face) {
       HeadVertices here, there;
-      rig.Evaluate(states[face], here, swings);
+      rig.Evaluate(states[face], here, spring_offsets);
       on_card.Read(face, there);
       ASSERT_EQ(here.position.size(), there.position.size());
       float farthest = 0, steepest = 1;
@@ -108,19 +109,19 @@ TEST_F(GpuRigTest, HeadsOfOtherKindsDoToo) {
 RigData WithAllSteps() {
   RigData data = MakeHead("galatea")->rig().data();
   data.steps.clear();
-  for (int step = 0; step <= static_cast<int>(RigStep::kNormals); ++step)
+  for (int step = 0; step < static_cast<int>(kRigSteps); ++step)
     data.steps.push_back(static_cast<RigStep>(step));
   data.proxy.rest = data.rest;
-  data.swing.springs.resize(3);
-  data.swing.weights.clear();
+  data.spring_rig.springs.resize(3);
+  data.spring_rig.weights.clear();
   data.normals.twin.resize(data.rest.size());
   for (std::uint32_t i = 0; i < data.rest.size(); ++i) {
     const auto wave = 0.3F * std::sin(static_cast<float>(i));
     data.proxy.to_own.emplace_back(wave, -wave, 0.5F);
     data.normals.twin[i] = i;
     if (data.rest[i].y > 60) {
-      data.swing.weights.push_back({i, i % 3, 0.5F});
-      data.swing.weights.push_back({i, (i + 1) % 3, 0.25F});
+      data.spring_rig.weights.push_back({i, i % 3, 0.5F});
+      data.spring_rig.weights.push_back({i, (i + 1) % 3, 0.25F});
     }
     // The vertex furthest down that the jaw wholly carries.
     if (data.weights[i].jaw > 0.99F && data.rest[i].y < data.rest[data.jaw.chin].y)
@@ -140,16 +141,16 @@ TEST_F(GpuRigTest, EveryStepIsThatOfTheProcessor) {
   ExpectEqual(Rig(all), Wilds(4));
   // One step fewer each time: no step is without effect, so none is compared with itself left out.
   for (std::size_t left_out = 0; left_out < all.steps.size(); ++left_out) {
-    SCOPED_TRACE(NameOf(all.steps[left_out]));
+    SCOPED_TRACE(DefinitionOf(all.steps[left_out]).name);
     RigData data = all;
     data.steps.erase(data.steps.begin() + static_cast<std::ptrdiff_t>(left_out));
     HeadVertices with, without;
     bool differs = false;
-    const std::vector<glm::vec3> swings(3, glm::vec3(1, 2, 3));
+    const std::vector<glm::vec3> spring_offsets(3, glm::vec3(1, 2, 3));
     const Rig whole(all), less(data);
     for (const FaceState& state : Wilds(3)) {
-      whole.Evaluate(state, with, swings);
-      less.Evaluate(state, without, swings);
+      whole.Evaluate(state, with, spring_offsets);
+      less.Evaluate(state, without, spring_offsets);
       differs = differs || with.position != without.position || with.normal != without.normal;
     }
     EXPECT_TRUE(differs);

@@ -74,7 +74,7 @@ TEST(ManyHeadsTest, FacesDrawnInOneCallLookAsOneByOne) {
     std::vector<Image> expected, drawn;
     for (const Renderer::Pane& pane : panes) {
       renderer->SetViewport(pane.viewport);
-      renderer->Draw(*pane.head, *pane.state, pane.swings, *pane.scene);
+      renderer->Draw(*pane.head, *pane.state, pane.spring_offsets, *pane.scene);
       renderer->Read(expected.emplace_back());
     }
     renderer->SetViewport({0, 0, 10, 20});

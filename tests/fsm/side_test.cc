@@ -14,7 +14,7 @@ TEST(SideTest, RightComesFirstAndLiesAtNegativeX) {
   EXPECT_EQ(both.InOrder(), (std::array{1, 2}));
   for (const Side side : kSides) {
     EXPECT_EQ(both.InOrder()[static_cast<std::size_t>(side)], both[side]);
-    EXPECT_EQ(EyeOf(BoneOf(side)), side);
+    EXPECT_EQ(SideOfEye(BoneOf(side)), side);
   }
   EXPECT_LT(SignOf(Side::kRight), 0);
   EXPECT_GT(SignOf(Side::kLeft), 0);
@@ -32,7 +32,7 @@ TEST(AnglesTest, AnEyeLooksDownAndToTheViewersRightByPositiveAngles) {
 TEST(AnglesTest, AHeadTurnsDownAndToTheViewersRightByPositiveAngles) {
   FaceState state;
   state.head_rotation = {20, 30, 0};
-  const glm::vec3 ahead = HeadTurn(state)[2];
+  const glm::vec3 ahead = HeadRotation(state)[2];
   EXPECT_LT(ahead.y, -0.3F);
   EXPECT_GT(ahead.x, 0.4F);
 }

@@ -38,10 +38,10 @@ fsm::Similarity InitialPlacement(const fsm::ImportedHead& file, const glm::mat3&
   for (const glm::vec3& p : file.position) box.Add(turn * p);
   constexpr float kHeightMm = 290, kTopMm = 140;  // height of our head, y of its crown
   fsm::Similarity guess;
-  guess.turn = turn;
+  guess.rotation = turn;
   guess.scale = kHeightMm / std::max(box.size().y * share, 1e-6F);
-  guess.move = -guess.scale * glm::vec3(box.centre().x, box.high.y, box.centre().z);
-  guess.move.y += kTopMm;
+  guess.translation = -guess.scale * glm::vec3(box.centre().x, box.high.y, box.centre().z);
+  guess.translation.y += kTopMm;
   return guess;
 }
 
@@ -125,7 +125,7 @@ class HeadMatcher {
   vm::Result<ObservedHead> Observe(const fsm::Similarity& to_ours) {
     fsm::MeshModel model = fsm::ModelOfImport(file_, to_ours, fsm::kUsualMouthY);
     ObservedHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
-    for (const fsm::Bone bone : model.bone) {
+    for (const fsm::Bone bone : model.mesh.bone) {
       surface.is_eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
     return ObservedHead::Foreign(networks_, fsm::MakeMeshHead(std::move(model)), name_,
@@ -177,7 +177,8 @@ Observation ObserveAs(HeadMatcher& matcher, const fsm::Similarity& guess) {
   std::vector<fsm::PointPair> kept = RejectOutliers(pairs);
   const fsm::Similarity fit = fsm::FitSimilarity(kept);
   const float gap_mm = MedianDistanceMm(fit, pairs);
-  if (DegreesBetween(fit.turn, stood.turn) > kStraightDeg || gap_mm > kMaxGapMm) return {true, {}};
+  if (DegreesBetween(fit.rotation, stood.rotation) > kStraightDeg || gap_mm > kMaxGapMm)
+    return {true, {}};
   return {true, HeadMatch{std::move(kept), gap_mm}};
 }
 

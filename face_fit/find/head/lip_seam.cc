@@ -33,7 +33,7 @@ std::vector<Crossing> FindCrossings(const VisibleSurface& view, const fsm::Welde
     const MeshPoint on_mesh = view.MeshPointAt(column, row);
     glm::vec2 sum(0);
     for (int k = 0; k < 3; ++k) {
-      const std::uint32_t v = surface.of[on_mesh.corner[static_cast<std::size_t>(k)]];
+      const std::uint32_t v = surface.welded_of[on_mesh.corner[static_cast<std::size_t>(k)]];
       if (v == fsm::WeldedSurface::kNone) return std::nullopt;
       sum += on_mesh.weight[k] * glm::vec2(from_upper[v], from_lower[v]);
     }

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fsm/image/byte_order.h"
-#include "fsm/mesh/obj/obj_file.h"
+#include "fsm/mesh/mesh_limits.h"
 #include "vm_protocol/runtime/base64.h"
 
 namespace fsm {

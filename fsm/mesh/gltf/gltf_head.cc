@@ -8,12 +8,12 @@
 
 #include "fsm/mesh/gltf/gltf_document.h"
 #include "fsm/mesh/gltf/gltf_nodes.h"
-#include "fsm/mesh/gltf/gltf_paint.h"
 #include "fsm/mesh/gltf/gltf_targets.h"
+#include "fsm/mesh/gltf/gltf_textures.h"
 #include "fsm/mesh/gltf/vrm_avatar.h"
 #include "fsm/mesh/gltf/vrm_springs.h"
-#include "fsm/mesh/mesh_reach.h"
-#include "fsm/mesh/obj/obj_file.h"
+#include "fsm/mesh/mesh_limits.h"
+#include "fsm/rig/reach.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 
@@ -30,22 +30,23 @@ class GltfReader {
         avatar_(ReadVrm(document_)),
         nodes_(vm::OrThrow(GltfNodes::Read(document_))),
         springs_(document_, nodes_),
-        paint_(document_, head_),
+        textures_(document_, head_),
         targets_(document_, head_) {}
 
   ImportedHead Read() {
     head_.name = document_.name();
     head_.metres = true;
-    head_.swing.springs = springs_.springs();
+    head_.spring_rig.springs = springs_.springs();
     for (const std::int64_t node : nodes_.shown()) ReadMesh(node);
     if (head_.parts.empty()) Refuse(document_, "no mesh of triangles is in it");
     for (const auto& expression : avatar_.expressions) targets_.AddExpression(expression);
     if (avatar_.eye_bone.right >= 0 && avatar_.eye_bone.left >= 0) ReadEyePivots();
-    if (avatar_.says_gaze_ranges) head_.gaze_ranges = avatar_.gaze_ranges;
+    head_.eye_setup.gaze_ranges = avatar_.gaze_ranges;
     head_.gaze_by_shape = avatar_.gaze_by_shape;
-    if (avatar_.looks_back) TurnRound();
+    if (avatar_.faces_minus_z) TurnAround();
     if (!head_.texcoord.empty()) head_.texcoord.resize(head_.position.size(), glm::vec2(0));
-    if (!head_.tint.empty()) head_.tint.resize(head_.position.size(), glm::vec3(1));
+    if (!head_.vertex_colour.empty())
+      head_.vertex_colour.resize(head_.position.size(), glm::vec3(1));
     head_.eye.resize(head_.position.size());
     if (std::ranges::none_of(head_.eye, [](const auto& e) { return e.has_value(); })) {
       head_.eye.clear();
@@ -55,11 +56,11 @@ class GltfReader {
 
  private:
   void ReadEyePivots() {
-    head_.eye_pivot.emplace();
+    head_.eye_setup.pivot.emplace();
     for (const Side side : kSides) {
       const std::int64_t bone = avatar_.eye_bone[side];
-      (*head_.eye_pivot)[side] = glm::vec3(nodes_.World(bone)[3]);
-      if (WithinReach((*head_.eye_pivot)[side])) continue;
+      (*head_.eye_setup.pivot)[side] = glm::vec3(nodes_.World(bone)[3]);
+      if (WithinReach((*head_.eye_setup.pivot)[side])) continue;
       RefuseReach(document_, "nodes[" + std::to_string(bone) + "]: the eye");
     }
   }
@@ -78,33 +79,34 @@ class GltfReader {
     }
     for (const json& primitive : JsonMember(mesh, "primitives")) {
       if (JsonInteger(primitive, "mode", 4) != 4) continue;
-      const GltfPlace place{.mesh = index, .node = node, .skin = skin};
-      ReadPrimitive(primitive, place, JsonText(of, "name") + " " + JsonText(mesh, "name"), names);
+      const GltfMeshInstance instance{.mesh = index, .node = node, .skin = skin};
+      ReadPrimitive(primitive, instance, JsonText(of, "name") + " " + JsonText(mesh, "name"),
+                    names);
     }
   }
 
-  void ReadPrimitive(const json& primitive, const GltfPlace& place, const std::string& name,
-                     const std::vector<std::string>& names) {
+  void ReadPrimitive(const json& primitive, const GltfMeshInstance& instance,
+                     const std::string& name, const std::vector<std::string>& names) {
     const json& attributes = JsonMember(primitive, "attributes");
     const std::int64_t position = JsonInteger(attributes, "POSITION");
     // Without a fallback the accessors of compressed geometry exist, but have no data.
     if (JsonMember(primitive, "extensions").contains("KHR_draco_mesh_compression") &&
         !document_.At("accessors", position).contains("bufferView")) {
-      Refuse(document_, "meshes[" + std::to_string(place.mesh) + "]: " + kPackedMesh);
+      Refuse(document_, "meshes[" + std::to_string(instance.mesh) + "]: " + kPackedMesh);
     }
     // Primitives of a mesh often share their vertices.
-    const GltfUv uv = paint_.UvOfMaterial(JsonInteger(primitive, "material"));
+    const GltfUvTransform uv = textures_.UvOfMaterial(JsonInteger(primitive, "material"));
     const json sources =
-        json::array({place.node, attributes, JsonMember(primitive, "targets"), uv.set, uv.move.x,
-                     uv.move.y, uv.size.x, uv.size.y, uv.turn_rad});
+        json::array({instance.node, attributes, JsonMember(primitive, "targets"), uv.set,
+                     uv.offset.x, uv.offset.y, uv.scale.x, uv.scale.y, uv.rotation_rad});
     const auto [known, fresh] = runs_.try_emplace(sources.dump());
-    if (fresh) known->second = ReadVertices(primitive, place, uv, names);
+    if (fresh) known->second = ReadVertices(primitive, instance, uv, names);
     ImportedHead::Part part;
     part.name = name;
-    part.indices = TrianglesOf(primitive, place, known->second);
+    part.indices = TrianglesOf(primitive, instance, known->second);
     if (triangles_ += part.indices.size() / 3; triangles_ > kMaxMeshTriangles)
       RefuseSize(document_);
-    paint_.ApplyMaterial(JsonInteger(primitive, "material"), part);
+    textures_.ApplyMaterial(JsonInteger(primitive, "material"), part);
     if (!part.indices.empty()) head_.parts.push_back(std::move(part));
   }
 
@@ -115,7 +117,7 @@ class GltfReader {
   };
 
   /// Returns the triangles of a primitive, counter-clockwise from outside.
-  std::vector<std::uint32_t> TrianglesOf(const json& primitive, const GltfPlace& place,
+  std::vector<std::uint32_t> TrianglesOf(const json& primitive, const GltfMeshInstance& instance,
                                          const VertexRun& run) const {
     std::vector<std::uint32_t> indices(run.count);
     std::iota(indices.begin(), indices.end(), 0u);
@@ -124,7 +126,7 @@ class GltfReader {
     }
     for (std::uint32_t& i : indices) {
       if (i >= run.count) {
-        Refuse(document_, "meshes[" + std::to_string(place.mesh) + "]: an index beyond its " +
+        Refuse(document_, "meshes[" + std::to_string(instance.mesh) + "]: an index beyond its " +
                               std::to_string(run.count) + " vertices");
       }
       i += static_cast<std::uint32_t>(run.first);
@@ -136,21 +138,21 @@ class GltfReader {
     return indices;
   }
 
-  VertexRun ReadVertices(const json& primitive, const GltfPlace& place, const GltfUv& uv,
-                         const std::vector<std::string>& names) {
+  VertexRun ReadVertices(const json& primitive, const GltfMeshInstance& instance,
+                         const GltfUvTransform& uv, const std::vector<std::string>& names) {
     const json& attributes = JsonMember(primitive, "attributes");
     const std::int64_t position = JsonInteger(attributes, "POSITION");
     const std::size_t first = head_.position.size();
     const auto numbers = vm::OrThrow(document_.Numbers(position, 3));
     const std::size_t count = numbers.size() / 3;
     if (first + count > kMaxMeshVertices) RefuseSize(document_);
-    std::vector<glm::mat4> transforms(count, nodes_.World(place.node));
+    std::vector<glm::mat4> transforms(count, nodes_.World(instance.node));
     std::vector<GltfSkin::Skinned::Influence> watched;
     head_.eye.resize(first);
-    if (place.skin >= 0) {
+    if (instance.skin >= 0) {
       GltfSkin::Skinned skinned =
-          vm::OrThrow(skins_.at(place.skin)
-                          .Apply(document_, attributes, count, nodes_.World(place.node),
+          vm::OrThrow(skins_.at(instance.skin)
+                          .Apply(document_, attributes, count, nodes_.World(instance.node),
                                  [this](std::int64_t bone) { return springs_.Has(bone); }));
       transforms = std::move(skinned.transform);
       watched = std::move(skinned.watched);
@@ -160,15 +162,16 @@ class GltfReader {
     for (std::size_t i = 0; i < count; ++i) {
       const glm::vec4 p(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2], 1);
       head_.position.push_back(glm::vec3(transforms[i] * p));
-      if (!WithinReach(head_.position.back())) RefuseReach(document_, VertexAt(place, i));
+      if (!WithinReach(head_.position.back())) RefuseReach(document_, VertexName(instance, i));
     }
     for (const auto& [vertex, node, weight] : watched) {
       springs_.Bind(static_cast<std::uint32_t>(first + vertex), head_.position[first + vertex],
-                    node, weight, head_.swing.weights);
+                    node, weight, head_.spring_rig.weights);
     }
     ReadTexcoords(attributes, uv, first);
-    if (attributes.contains("COLOR_0")) ReadTints(JsonInteger(attributes, "COLOR_0"), first, count);
-    targets_.Read(primitive, place, transforms, first, names);
+    if (attributes.contains("COLOR_0"))
+      ReadVertexColours(JsonInteger(attributes, "COLOR_0"), first, count);
+    targets_.Read(primitive, instance, transforms, first, names);
     return {first, count, count > 0 && glm::determinant(glm::mat3(transforms[0])) < 0};
   }
 
@@ -180,35 +183,38 @@ class GltfReader {
     return found == kSides.end() ? std::nullopt : std::optional(*found);
   }
 
-  void ReadTexcoords(const json& attributes, const GltfUv& to, std::size_t first) {
+  void ReadTexcoords(const json& attributes, const GltfUvTransform& to, std::size_t first) {
     const std::string set = "TEXCOORD_" + std::to_string(to.set);
     if (!attributes.contains(set)) return;
     const auto uv = vm::OrThrow(document_.Numbers(JsonInteger(attributes, set.c_str()), 2));
     head_.texcoord.resize(head_.position.size(), glm::vec2(0));
     for (std::size_t i = 0; i < std::min(head_.position.size() - first, uv.size() / 2); ++i) {
-      head_.texcoord[first + i] = to({uv[2 * i], uv[2 * i + 1]});
+      // A transform may overflow what the file's numbers do not.
+      const glm::vec2 at = to({uv[2 * i], uv[2 * i + 1]});
+      head_.texcoord[first + i] = WithinReach(glm::vec3(at, 0)) ? at : glm::vec2(0);
     }
   }
 
-  void ReadTints(std::int64_t accessor, std::size_t begin, std::size_t count) {
+  void ReadVertexColours(std::int64_t accessor, std::size_t begin, std::size_t count) {
     const std::size_t width =
         JsonText(document_.At("accessors", accessor), "type") == "VEC4" ? 4 : 3;
     const auto colours = vm::OrThrow(document_.Numbers(accessor, static_cast<int>(width)));
-    head_.tint.resize(head_.position.size(), glm::vec3(1));
+    head_.vertex_colour.resize(head_.position.size(), glm::vec3(1));
     for (std::size_t i = 0; i < std::min(count, colours.size() / width); ++i) {
       for (std::size_t c = 0; c < 3; ++c) {
-        head_.tint[begin + i][static_cast<int>(c)] = std::clamp(colours[width * i + c], 0.0f, 1.0f);
+        head_.vertex_colour[begin + i][static_cast<int>(c)] =
+            std::clamp(colours[width * i + c], 0.0f, 1.0f);
       }
     }
   }
 
-  void TurnRound() {
+  void TurnAround() {
     const glm::vec3 round(-1, 1, -1);
     for (glm::vec3& p : head_.position) p *= round;
-    if (head_.eye_pivot) {
-      for (const Side side : kSides) (*head_.eye_pivot)[side] *= round;
+    if (head_.eye_setup.pivot) {
+      for (const Side side : kSides) (*head_.eye_setup.pivot)[side] *= round;
     }
-    for (Spring& spring : head_.swing.springs) {
+    for (Spring& spring : head_.spring_rig.springs) {
       spring.rest *= round;
       spring.root *= round;
     }
@@ -223,7 +229,7 @@ class GltfReader {
   const VrmAvatar avatar_;
   const GltfNodes nodes_;
   const VrmSprings springs_;
-  GltfPaint paint_;
+  GltfTextures textures_;
   GltfTargets targets_;
   std::map<std::int64_t, GltfSkin> skins_;
   std::map<std::string, VertexRun> runs_;  // by node, accessors and texture coordinates, as JSON

@@ -20,7 +20,7 @@ glm::vec3 ColourOf(const json& of, const char* key, glm::vec3 colour) {
   return glm::clamp(colour, 0.0F, 16.0F);
 }
 
-GltfMaterial::Texture TextureOf(const json& of, const char* key, const char* strength = "") {
+GltfMaterial::Texture ReadTexture(const json& of, const char* key, const char* strength = "") {
   const json& given = JsonMember(of, key);
   return {JsonInteger(given, "index"),
           static_cast<float>(std::clamp(JsonNumber(given, strength, 1), -4.0, 4.0)), &given};
@@ -28,7 +28,7 @@ GltfMaterial::Texture TextureOf(const json& of, const char* key, const char* str
 
 /// Sets the cosines between which toon shading changes from shade to light: below -1 + toony -
 /// shift it is all shade, above 1 - toony - shift all light (VRMC_materials_mtoon 1.0, "Lighting").
-void SetEdges(double toony, double shift, PbrMaterial& pbr) {
+void SetToonEdges(double toony, double shift, PbrMaterial& pbr) {
   pbr.shade_to = static_cast<float>(-1 + toony - shift);
   pbr.light_from = static_cast<float>(1 - toony - shift);
 }
@@ -36,15 +36,15 @@ void SetEdges(double toony, double shift, PbrMaterial& pbr) {
 void ReadToon(const json& toon, GltfMaterial& out) {
   PbrMaterial& pbr = out.pbr.emplace();
   pbr.kind = PbrMaterial::Kind::kToon;
-  pbr.shade = ColourOf(toon, "shadeColorFactor", glm::vec3(1));
-  SetEdges(std::clamp(JsonNumber(toon, "shadingToonyFactor", 0.9), 0.0, 1.0),
-           std::clamp(JsonNumber(toon, "shadingShiftFactor", 0), -1.0, 1.0), pbr);
-  out.glow = TextureOf(toon, "shadeMultiplyTexture");
+  pbr.shade_colour = ColourOf(toon, "shadeColorFactor", glm::vec3(1));
+  SetToonEdges(std::clamp(JsonNumber(toon, "shadingToonyFactor", 0.9), 0.0, 1.0),
+               std::clamp(JsonNumber(toon, "shadingShiftFactor", 0), -1.0, 1.0), pbr);
+  out.emissive = ReadTexture(toon, "shadeMultiplyTexture");
 }
 
 /// Reads the properties of Unity's MToon shader in VRM 0.x. Its transition is from the shade
 /// threshold to that threshold moved towards 1 by 1 - toony; colours are sRGB.
-void ReadOldToon(const json& properties, GltfMaterial& out) {
+void ReadVrm0Toon(const json& properties, GltfMaterial& out) {
   PbrMaterial& pbr = out.pbr.emplace();
   pbr.kind = PbrMaterial::Kind::kToon;
   const json& numbers = JsonMember(properties, "floatProperties");
@@ -54,11 +54,11 @@ void ReadOldToon(const json& properties, GltfMaterial& out) {
   pbr.light_from = shift + (1 - shift) * (1 - Share(numbers, "_ShadeToony", 0.9));
   const glm::vec3 shown =
       ColourOf(JsonMember(properties, "vectorProperties"), "_ShadeColor", glm::vec3(1));
-  for (int k = 0; k < 3; ++k) pbr.shade[k] = std::pow(shown[k], 2.2F);
-  out.glow.index = JsonInteger(JsonMember(properties, "textureProperties"), "_ShadeTexture");
+  for (int k = 0; k < 3; ++k) pbr.shade_colour[k] = std::pow(shown[k], 2.2F);
+  out.emissive.index = JsonInteger(JsonMember(properties, "textureProperties"), "_ShadeTexture");
 }
 
-const json& OldProperties(const GltfDocument& document, std::int64_t material) {
+const json& Vrm0Properties(const GltfDocument& document, std::int64_t material) {
   static const json none;
   const json& list = JsonMember(JsonMember(JsonMember(document.root(), "extensions"), "VRM"),
                                 "materialProperties");
@@ -77,13 +77,13 @@ GltfMaterial ReadMaterial(const GltfDocument& document, std::int64_t material) {
               : mode == "BLEND" ? GltfMaterial::Alpha::kBlend
                                 : GltfMaterial::Alpha::kOpaque;
   const json& extensions = JsonMember(given, "extensions");
-  const json& old = OldProperties(document, material);
+  const json& old = Vrm0Properties(document, material);
   const std::string shader = JsonText(old, "shader");
   // Toon materials are often marked unlit as well, for programs without MToon.
   if (extensions.contains("VRMC_materials_mtoon")) {
     ReadToon(JsonMember(extensions, "VRMC_materials_mtoon"), out);
   } else if (shader == "VRM/MToon") {
-    ReadOldToon(old, out);
+    ReadVrm0Toon(old, out);
   } else if (extensions.contains("KHR_materials_unlit") || shader.starts_with("VRM/Unlit")) {
     return out;
   } else {
@@ -91,15 +91,15 @@ GltfMaterial ReadMaterial(const GltfDocument& document, std::int64_t material) {
     const json& metal = JsonMember(given, "pbrMetallicRoughness");
     pbr.metallic = Share(metal, "metallicFactor", 1);
     pbr.roughness = Share(metal, "roughnessFactor", 1);
-    out.surface = TextureOf(metal, "metallicRoughnessTexture");
-    out.open = TextureOf(given, "occlusionTexture", "strength");
-    out.glow = TextureOf(given, "emissiveTexture");
+    out.metallic_roughness = ReadTexture(metal, "metallicRoughnessTexture");
+    out.occlusion = ReadTexture(given, "occlusionTexture", "strength");
+    out.emissive = ReadTexture(given, "emissiveTexture");
   }
-  out.normal = TextureOf(given, "normalTexture", "scale");
-  out.pbr->glow = ColourOf(given, "emissiveFactor", glm::vec3(0));
+  out.normal = ReadTexture(given, "normalTexture", "scale");
+  out.pbr->emissive = ColourOf(given, "emissiveFactor", glm::vec3(0));
   const double strength =
       JsonNumber(JsonMember(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
-  out.pbr->glow *= static_cast<float>(std::clamp(strength, 0.0, 16.0));
+  out.pbr->emissive *= static_cast<float>(std::clamp(strength, 0.0, 16.0));
   out.pbr->cut_out = out.alpha != GltfMaterial::Alpha::kOpaque;
   return out;
 }

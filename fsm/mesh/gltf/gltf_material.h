@@ -14,10 +14,11 @@ struct GltfMaterial {
   struct Texture {
     std::int64_t index = -1;
     float strength = 1;
-    const nlohmann::json* where = nullptr;  ///< the reference to it, valid as long as the document
+    const nlohmann::json* reference =
+        nullptr;  ///< the reference to it, valid as long as the document
   };
   std::optional<PbrMaterial> pbr;  ///< none: unlit (KHR_materials_unlit, or no material)
-  Texture normal, surface, open, glow;
+  Texture normal, metallic_roughness, occlusion, emissive;
   enum class Alpha { kOpaque, kMask, kBlend } alpha = Alpha::kOpaque;
 };
 

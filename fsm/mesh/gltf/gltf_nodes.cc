@@ -50,7 +50,7 @@ vm::Result<GltfNodes> GltfNodes::Read(const GltfDocument& document) {
   GltfNodes nodes;
   const std::size_t count = document.Count("nodes");
   nodes.world_.assign(count, kIdentity);
-  nodes.placed_.assign(count, false);
+  nodes.computed_.assign(count, false);
   std::vector<bool> child(count, false);
   for (std::size_t i = 0; i < count; ++i) {
     const json& node = document.At("nodes", static_cast<std::int64_t>(i));
@@ -64,7 +64,7 @@ vm::Result<GltfNodes> GltfNodes::Read(const GltfDocument& document) {
   for (std::size_t i = 0; i < count; ++i) {
     if (child[i]) continue;
     roots.push_back(static_cast<std::int64_t>(i));
-    if (auto done = nodes.Place(document, roots.back(), kIdentity, 0); !done) {
+    if (auto done = nodes.ComputeWorld(document, roots.back(), kIdentity, 0); !done) {
       return std::unexpected(done.error());
     }
   }
@@ -77,20 +77,20 @@ vm::Result<GltfNodes> GltfNodes::Read(const GltfDocument& document) {
   return nodes;
 }
 
-vm::Result<void> GltfNodes::Place(const GltfDocument& document, std::int64_t node,
-                                  const glm::mat4& above, int depth) {
+vm::Result<void> GltfNodes::ComputeWorld(const GltfDocument& document, std::int64_t node,
+                                         const glm::mat4& above, int depth) {
   if (node < 0 || static_cast<std::size_t>(node) >= world_.size()) return {};
   const auto at = static_cast<std::size_t>(node);
-  if (depth > kMaxNodeDepth || placed_[at]) {
+  if (depth > kMaxNodeDepth || computed_[at]) {
     return document.Wrong("nodes[" + std::to_string(node) + "]: nodes that are their own parents");
   }
-  placed_[at] = true;
+  computed_[at] = true;
   world_[at] = above * MatrixOf(document.At("nodes", node));
   if (!Usable(world_[at])) {
     return document.Wrong("nodes[" + std::to_string(node) + "]: its place is no finite number");
   }
   for (const std::int64_t child : JsonIntegers(document.At("nodes", node), "children")) {
-    if (auto done = Place(document, child, world_[at], depth + 1); !done) return done;
+    if (auto done = ComputeWorld(document, child, world_[at], depth + 1); !done) return done;
   }
   return {};
 }
@@ -99,7 +99,7 @@ void GltfNodes::Show(const GltfDocument& document, std::int64_t node, std::vecto
   // Nodes in a cycle are under no root, so Place did not reach them.
   if (node < 0 || static_cast<std::size_t>(node) >= seen.size()) return;
   const auto at = static_cast<std::size_t>(node);
-  if (seen[at] || !placed_[at]) return;
+  if (seen[at] || !computed_[at]) return;
   seen[at] = true;
   shown_.push_back(node);
   for (const std::int64_t child : JsonIntegers(document.At("nodes", node), "children")) {

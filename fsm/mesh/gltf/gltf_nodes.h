@@ -24,11 +24,11 @@ class GltfNodes {
   std::span<const std::int64_t> shown() const { return shown_; }
 
  private:
-  vm::Result<void> Place(const GltfDocument& document, std::int64_t node, const glm::mat4& above,
-                         int depth);
+  vm::Result<void> ComputeWorld(const GltfDocument& document, std::int64_t node,
+                                const glm::mat4& above, int depth);
   void Show(const GltfDocument& document, std::int64_t node, std::vector<bool>& seen);
   std::vector<glm::mat4> world_;
-  std::vector<bool> placed_;
+  std::vector<bool> computed_;
   std::vector<std::int64_t> shown_;
 };
 

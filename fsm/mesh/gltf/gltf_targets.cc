@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "fsm/mesh/mesh_reach.h"
-#include "fsm/mesh/obj/obj_file.h"
+#include "fsm/mesh/mesh_limits.h"
+#include "fsm/rig/reach.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
@@ -21,15 +21,14 @@ void Refuse(const GltfDocument& document, const std::string& what) {
   throw vm::Failure(document.Wrong(what).error());
 }
 
-std::string VertexAt(const GltfPlace& place, std::size_t vertex) {
-  return "meshes[" + std::to_string(place.mesh) + "] of nodes[" + std::to_string(place.node) +
+std::string VertexName(const GltfMeshInstance& instance, std::size_t vertex) {
+  return "meshes[" + std::to_string(instance.mesh) + "] of nodes[" + std::to_string(instance.node) +
          "]: vertex " + std::to_string(vertex);
 }
 
 void RefuseReach(const GltfDocument& document, const std::string& what) {
   Refuse(document, what + " comes to lie farther than " +
-                       std::to_string(static_cast<long>(kMaxMeshReach)) +
-                       " metres from the origin");
+                       std::to_string(static_cast<long>(kMaxReach)) + " metres from the origin");
 }
 
 void RefuseSize(const GltfDocument& document) {
@@ -39,7 +38,7 @@ void RefuseSize(const GltfDocument& document) {
                                            std::to_string(kMaxShapes) + " shapes are read"});
 }
 
-void GltfTargets::Read(const json& primitive, const GltfPlace& place,
+void GltfTargets::Read(const json& primitive, const GltfMeshInstance& instance,
                        std::span<const glm::mat4> transforms, std::size_t first,
                        const std::vector<std::string>& names) {
   const json& targets = JsonMember(primitive, "targets");
@@ -47,8 +46,8 @@ void GltfTargets::Read(const json& primitive, const GltfPlace& place,
     if (!targets.is_array() || !targets[t].contains("POSITION")) continue;
     const auto by = vm::OrThrow(document_.Numbers(JsonInteger(targets[t], "POSITION"), 3));
     if (by.size() < 3 * transforms.size()) {
-      Refuse(document_, "meshes[" + std::to_string(place.mesh) + "]: target " + std::to_string(t) +
-                            " has fewer vertices than the mesh");
+      Refuse(document_, "meshes[" + std::to_string(instance.mesh) + "]: target " +
+                            std::to_string(t) + " has fewer vertices than the mesh");
     }
     const std::string name = t < names.size() ? names[t] : "target" + std::to_string(t);
     const auto [known, fresh] = shape_of_.try_emplace(name, head_.shapes.size());
@@ -56,10 +55,10 @@ void GltfTargets::Read(const json& primitive, const GltfPlace& place,
       if (head_.shapes.size() >= kMaxShapes) RefuseSize(document_);
       head_.shapes.push_back({name, {}});
     }
-    moved_[{place.mesh, t}].push_back({.shape = known->second,
-                                       .node = place.node,
-                                       .first = first,
-                                       .end = first + transforms.size()});
+    moved_[{instance.mesh, t}].push_back({.shape = known->second,
+                                          .node = instance.node,
+                                          .first = first,
+                                          .end = first + transforms.size()});
     auto& deltas = head_.shapes[known->second].deltas;
     for (std::size_t i = 0; i < transforms.size(); ++i) {
       const glm::vec3 d(by[3 * i], by[3 * i + 1], by[3 * i + 2]);
@@ -67,7 +66,7 @@ void GltfTargets::Read(const json& primitive, const GltfPlace& place,
       const glm::vec3 moved(transforms[i] * glm::vec4(d, 0));
       if (!WithinReach(moved)) {
         RefuseReach(document_,
-                    VertexAt(place, i) + " is moved by target " + std::to_string(t) + " and");
+                    VertexName(instance, i) + " is moved by target " + std::to_string(t) + " and");
       }
       deltas.push_back({static_cast<std::uint32_t>(first + i), moved});
       if (++deltas_ > kMaxDeltas) RefuseSize(document_);

@@ -15,17 +15,17 @@
 namespace fsm {
 
 /// The indices of a mesh, its node and its skin in a glTF file.
-struct GltfPlace {
+struct GltfMeshInstance {
   std::int64_t mesh, node, skin;
 };
 
 /// Throws the error of a damaged file as vm::Failure. This and the functions below name the file.
 [[noreturn]] void Refuse(const GltfDocument& document, const std::string& what);
-/// Throws for positions beyond kMaxMeshReach; `what` is the subject of the sentence.
+/// Throws for positions beyond kMaxReach; `what` is the subject of the sentence.
 [[noreturn]] void RefuseReach(const GltfDocument& document, const std::string& what);
 /// Throws for a file with more data than the limits allow.
 [[noreturn]] void RefuseSize(const GltfDocument& document);
-std::string VertexAt(const GltfPlace& place, std::size_t vertex);
+std::string VertexName(const GltfMeshInstance& instance, std::size_t vertex);
 
 /// Makes the shapes of a head from the morph targets of its file, and from VRM expressions, which
 /// are weighted sums of targets. Throws vm::Failure.
@@ -37,7 +37,7 @@ class GltfTargets {
   /// Adds the targets of a primitive whose vertices are the head's from `first` on; `transforms`
   /// has a matrix for each. `names`: those of the mesh's targets; targets of the same name in
   /// different meshes form one shape.
-  void Read(const nlohmann::json& primitive, const GltfPlace& place,
+  void Read(const nlohmann::json& primitive, const GltfMeshInstance& instance,
             std::span<const glm::mat4> transforms, std::size_t first,
             const std::vector<std::string>& names);
   /// Adds a shape named vrmNAME, made from targets read before.

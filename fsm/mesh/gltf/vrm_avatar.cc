@@ -11,27 +11,28 @@ using nlohmann::json;
 
 /// Reads a range in degrees; leaves `out` unchanged if a number is not a valid angle.
 void ReadRange(const json& range, const char* from, const char* to, GazeRange& out) {
-  const double gaze = JsonNumber(range, from, -1), turn = JsonNumber(range, to, -1);
-  if (gaze <= 0 || gaze > 360 || turn < 0 || turn > 360) return;
-  out = {static_cast<float>(gaze), static_cast<float>(turn)};
+  const double gaze = JsonNumber(range, from, -1), output = JsonNumber(range, to, -1);
+  if (gaze <= 0 || gaze > 360 || output < 0 || output > 360) return;
+  out = {static_cast<float>(gaze), static_cast<float>(output)};
 }
 
-void ReadOld(const json& vrm, VrmAvatar& avatar) {
-  avatar.looks_back = true;
+void ReadVrm0(const json& vrm, VrmAvatar& avatar) {
+  avatar.faces_minus_z = true;
   for (const json& bone : JsonMember(JsonMember(vrm, "humanoid"), "humanBones")) {
     const std::string name = JsonText(bone, "bone");
     if (name == "rightEye") avatar.eye_bone.right = JsonInteger(bone, "node");
     if (name == "leftEye") avatar.eye_bone.left = JsonInteger(bone, "node");
   }
   const json& person = JsonMember(vrm, "firstPerson");
-  avatar.says_gaze_ranges = person.contains("lookAtTypeName");
+  GazeRanges ranges;
   avatar.gaze_by_shape = JsonText(person, "lookAtTypeName") == "BlendShape";
-  for (const auto& [key, range] : {std::pair("lookAtHorizontalInner", &avatar.gaze_ranges.inner),
-                                   {"lookAtHorizontalOuter", &avatar.gaze_ranges.outer},
-                                   {"lookAtVerticalDown", &avatar.gaze_ranges.down},
-                                   {"lookAtVerticalUp", &avatar.gaze_ranges.up}}) {
+  for (const auto& [key, range] : {std::pair("lookAtHorizontalInner", &ranges.inner),
+                                   {"lookAtHorizontalOuter", &ranges.outer},
+                                   {"lookAtVerticalDown", &ranges.down},
+                                   {"lookAtVerticalUp", &ranges.up}}) {
     ReadRange(JsonMember(person, key), "xRange", "yRange", *range);
   }
+  if (person.contains("lookAtTypeName")) avatar.gaze_ranges = ranges;
   for (const json& group : JsonMember(JsonMember(vrm, "blendShapeMaster"), "blendShapeGroups")) {
     VrmAvatar::Expression expression{JsonText(group, "presetName"), {}};
     if (expression.name.empty() || expression.name == "unknown") {
@@ -45,19 +46,20 @@ void ReadOld(const json& vrm, VrmAvatar& avatar) {
   }
 }
 
-void ReadNew(const GltfDocument& document, const json& vrm, VrmAvatar& avatar) {
+void ReadVrm1(const GltfDocument& document, const json& vrm, VrmAvatar& avatar) {
   const json& bones = JsonMember(JsonMember(vrm, "humanoid"), "humanBones");
   avatar.eye_bone = {JsonInteger(JsonMember(bones, "rightEye"), "node"),
                      JsonInteger(JsonMember(bones, "leftEye"), "node")};
   const json& look = JsonMember(vrm, "lookAt");
-  avatar.says_gaze_ranges = look.contains("type");
+  GazeRanges ranges;
   avatar.gaze_by_shape = JsonText(look, "type") == "expression";
-  for (const auto& [key, range] : {std::pair("rangeMapHorizontalInner", &avatar.gaze_ranges.inner),
-                                   {"rangeMapHorizontalOuter", &avatar.gaze_ranges.outer},
-                                   {"rangeMapVerticalDown", &avatar.gaze_ranges.down},
-                                   {"rangeMapVerticalUp", &avatar.gaze_ranges.up}}) {
+  for (const auto& [key, range] : {std::pair("rangeMapHorizontalInner", &ranges.inner),
+                                   {"rangeMapHorizontalOuter", &ranges.outer},
+                                   {"rangeMapVerticalDown", &ranges.down},
+                                   {"rangeMapVerticalUp", &ranges.up}}) {
     ReadRange(JsonMember(look, key), "inputMaxValue", "outputScale", *range);
   }
+  if (look.contains("type")) avatar.gaze_ranges = ranges;
   for (const char* kind : {"preset", "custom"}) {
     const json& given = JsonMember(JsonMember(vrm, "expressions"), kind);
     if (!given.is_object()) continue;
@@ -91,9 +93,9 @@ VrmAvatar ReadVrm(const GltfDocument& document) {
   VrmAvatar avatar;
   const json& extensions = JsonMember(document.root(), "extensions");
   if (extensions.contains("VRMC_vrm")) {
-    ReadNew(document, JsonMember(extensions, "VRMC_vrm"), avatar);
+    ReadVrm1(document, JsonMember(extensions, "VRMC_vrm"), avatar);
   } else if (extensions.contains("VRM")) {
-    ReadOld(JsonMember(extensions, "VRM"), avatar);
+    ReadVrm0(JsonMember(extensions, "VRM"), avatar);
   } else {
     FindByName(document, avatar);
   }

@@ -25,10 +25,9 @@ struct VrmAvatar {
   };
   Sided<std::int64_t> eye_bone{-1, -1};  ///< nodes; -1: none
   /// Whether the avatar faces -z, as in VRM 0.x; in VRM 1.0 and other glTF it faces +z.
-  bool looks_back = false;
-  bool says_gaze_ranges = false;  ///< whether `gaze_ranges` is from the file
-  bool gaze_by_shape = false;     ///< whether expressions, not bones, move the eyes
-  GazeRanges gaze_ranges;
+  bool faces_minus_z = false;
+  bool gaze_by_shape = false;             ///< whether expressions, not bones, move the eyes
+  std::optional<GazeRanges> gaze_ranges;  ///< none: the file has none
   std::vector<Expression> expressions;
 };
 VrmAvatar ReadVrm(const GltfDocument& document);

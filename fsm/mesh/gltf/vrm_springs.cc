@@ -43,27 +43,27 @@ VrmSprings::VrmSprings(const GltfDocument& document, const GltfNodes& nodes)
     : document_(&document), nodes_(&nodes) {
   const json& extensions = JsonMember(document.root(), "extensions");
   if (extensions.contains("VRMC_springBone")) {
-    ReadNew(JsonMember(extensions, "VRMC_springBone"));
+    ReadVrm1(JsonMember(extensions, "VRMC_springBone"));
   } else {
-    ReadOld(JsonMember(JsonMember(extensions, "VRM"), "secondaryAnimation"));
+    ReadVrm0(JsonMember(JsonMember(extensions, "VRM"), "secondaryAnimation"));
   }
   document_ = nullptr;
   nodes_ = nullptr;
 }
 
 VrmSprings::Joint VrmSprings::AddJoint(std::int64_t node, const Joint* above, glm::vec3 tail,
-                                       const Manner& manner) {
-  Joint joint{.from = PlaceOf(node)};
+                                       const Dynamics& dynamics) {
+  Joint joint{.from = PositionOf(node)};
   joint.chain_from = above != nullptr ? above->chain_from : joint.from;
   joint.before = above != nullptr ? above->spring : -1;
   joint.spring = static_cast<int>(springs_.size());
-  springs_.push_back(SpringOf(joint.chain_from, tail, manner.stiffness, manner.gravity, manner.drag,
-                              manner.collides));
+  springs_.push_back(SpringOf(joint.chain_from, tail, dynamics.stiffness, dynamics.gravity,
+                              dynamics.drag, dynamics.collides));
   joints_.emplace(node, joint);
   return joint;
 }
 
-void VrmSprings::ReadNew(const json& extension) {
+void VrmSprings::ReadVrm1(const json& extension) {
   for (const json& chain : JsonMember(extension, "springs")) {
     const bool collides = !JsonMember(chain, "colliderGroups").empty();
     const json& joints = JsonMember(chain, "joints");
@@ -73,12 +73,12 @@ void VrmSprings::ReadNew(const json& extension) {
       const std::int64_t node = JsonInteger(joints[k], "node");
       if (!nodes_->Has(node) || joints_.contains(node) || springs_.size() >= kMostSprings) break;
       if (k + 1 == joints.size()) {  // the last one only marks the end of the one before
-        if (k > 0) joints_.emplace(node, Joint{.spring = above.spring, .before = above.spring});
+        if (k > 0) joints_.emplace(node, Joint{.spring = above.spring, .ends_chain = true});
         break;
       }
       const std::int64_t next = JsonInteger(joints[k + 1], "node");
       if (!nodes_->Has(next)) break;
-      above = AddJoint(node, k > 0 ? &above : nullptr, PlaceOf(next),
+      above = AddJoint(node, k > 0 ? &above : nullptr, PositionOf(next),
                        {.stiffness = JsonNumber(joints[k], "stiffness", 1),
                         .gravity = JsonNumber(joints[k], "gravityPower", 0),
                         .drag = JsonNumber(joints[k], "dragForce", 0.5),
@@ -87,32 +87,34 @@ void VrmSprings::ReadNew(const json& extension) {
   }
 }
 
-void VrmSprings::ReadOld(const json& animation) {
+void VrmSprings::ReadVrm0(const json& animation) {
   for (const json& group : JsonMember(animation, "boneGroups")) {
-    const Manner manner{.stiffness = JsonNumber(group, "stiffiness", 1),  // spelling of the format
-                        .gravity = JsonNumber(group, "gravityPower", 0),
-                        .drag = JsonNumber(group, "dragForce", 0.4),
-                        .collides = !JsonMember(group, "colliderGroups").empty()};
+    const Dynamics dynamics{
+        .stiffness = JsonNumber(group, "stiffiness", 1),  // spelling of the format
+        .gravity = JsonNumber(group, "gravityPower", 0),
+        .drag = JsonNumber(group, "dragForce", 0.4),
+        .collides = !JsonMember(group, "colliderGroups").empty()};
     for (const std::int64_t bone : JsonIntegers(group, "bones"))
-      AddBranch(bone, nullptr, manner, 0);
+      AddBranch(bone, nullptr, dynamics, 0);
   }
 }
 
-void VrmSprings::AddBranch(std::int64_t node, const Joint* above, const Manner& manner, int depth) {
+void VrmSprings::AddBranch(std::int64_t node, const Joint* above, const Dynamics& dynamics,
+                           int depth) {
   if (!nodes_->Has(node) || joints_.contains(node)) return;
   if (depth > kMostJoints || springs_.size() >= kMostSprings) return;
   const auto children = JsonIntegers(document_->At("nodes", node), "children");
-  const glm::vec3 from = PlaceOf(node);
+  const glm::vec3 from = PositionOf(node);
   glm::vec3 tail = from;
   if (!children.empty()) {
-    tail = PlaceOf(children.front());
+    tail = PositionOf(children.front());
   } else if (above != nullptr && glm::distance(from, above->from) > 1e-6f) {
     tail += kEndLength * glm::normalize(from - above->from);
   } else {
     tail.y -= kEndLength;
   }
-  const Joint joint = AddJoint(node, above, tail, manner);
-  for (const std::int64_t child : children) AddBranch(child, &joint, manner, depth + 1);
+  const Joint joint = AddJoint(node, above, tail, dynamics);
+  for (const std::int64_t child : children) AddBranch(child, &joint, dynamics, depth + 1);
 }
 
 void VrmSprings::Bind(std::uint32_t vertex, glm::vec3 p, std::int64_t node, float weight,
@@ -124,7 +126,7 @@ void VrmSprings::Bind(std::uint32_t vertex, glm::vec3 p, std::int64_t node, floa
     if (spring >= 0 && part > 1e-3f)
       weights.push_back({vertex, static_cast<std::uint32_t>(spring), part});
   };
-  if (joint.before == joint.spring) {  // the end of a chain follows the joint before
+  if (joint.ends_chain) {
     add(joint.spring, weight);
     return;
   }

@@ -37,21 +37,22 @@ class VrmSprings {
 
  private:
   /// The parameters of a chain or joint.
-  struct Manner {
+  struct Dynamics {
     double stiffness = 1, gravity = 0, drag = 0.5;
     bool collides = false;
   };
   struct Joint {
     glm::vec3 from{0};        // the centre of its rotation
-    int spring = -1;          // at its end; the last joint of a chain shares its predecessor's
+    int spring = -1;          // at its end
     int before = -1;          // the spring of its parent; -1: none, it is fixed to the head
+    bool ends_chain = false;  // it only marks the end of its predecessor, whose spring it has
     glm::vec3 chain_from{0};  // the start of its chain
   };
-  void ReadOld(const nlohmann::json& animation);
-  void ReadNew(const nlohmann::json& extension);
-  void AddBranch(std::int64_t node, const Joint* above, const Manner& manner, int depth);
-  Joint AddJoint(std::int64_t node, const Joint* above, glm::vec3 tail, const Manner& manner);
-  glm::vec3 PlaceOf(std::int64_t node) const { return glm::vec3(nodes_->World(node)[3]); }
+  void ReadVrm0(const nlohmann::json& animation);
+  void ReadVrm1(const nlohmann::json& extension);
+  void AddBranch(std::int64_t node, const Joint* above, const Dynamics& dynamics, int depth);
+  Joint AddJoint(std::int64_t node, const Joint* above, glm::vec3 tail, const Dynamics& dynamics);
+  glm::vec3 PositionOf(std::int64_t node) const { return glm::vec3(nodes_->World(node)[3]); }
 
   const GltfDocument* document_ = nullptr;  // while it is read
   const GltfNodes* nodes_ = nullptr;

@@ -5,7 +5,8 @@
 
 #include "fsm/base/parse_number.h"
 #include "fsm/base/words.h"
-#include "fsm/mesh/mesh_reach.h"
+#include "fsm/mesh/mesh_limits.h"
+#include "fsm/rig/reach.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace fsm {
@@ -18,7 +19,7 @@ bool ReadReals(const std::vector<std::string_view>& words, std::span<float> out)
   if (words.size() <= out.size()) return false;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const auto number = ParseNumber<float>(words[i + 1]);
-    if (!number || std::abs(*number) > kMaxMeshReach) return false;
+    if (!number || std::abs(*number) > kMaxReach) return false;
     out[i] = *number;
   }
   return true;

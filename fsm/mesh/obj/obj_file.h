@@ -35,12 +35,8 @@ struct ObjMaterial {
   std::string picture;     ///< "" = none
 };
 
-inline constexpr std::size_t kMaxMeshVertices = 400000;
-inline constexpr std::size_t kMaxMeshTriangles = 800000;
-inline constexpr std::size_t kMaxMeshBytes = 200U << 20;
-
 /// Reads `v`, `vt` (and the original's `tv`), `f`, `g`, `o`, `usemtl` and `mtllib`; ignores other
-/// lines. Errors: kBadValue "NAME:LINE: what was expected", kLimit.
+/// lines. Errors: kBadValue "NAME:LINE: what was expected", kLimit (mesh_limits.h).
 vm::Result<ObjFile> ParseObj(const std::string& name, std::string_view text);
 vm::Result<ObjFile> ReadObj(const std::string& path);
 /// Reads `newmtl`, `Kd` and `map_Kd` of an .mtl file; returns materials by name. Malformed numbers

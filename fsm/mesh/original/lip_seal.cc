@@ -12,17 +12,17 @@ LipRig LipsOf(const MeshModel& model, std::size_t count) {
   rig.seam = model.seam;
   if (rig.seam.empty()) return rig;
   for (const auto& [upper, lower] : rig.seam) {
-    rig.apart_at_rest.push_back(model.position[upper] - model.position[lower]);
+    rig.apart_at_rest.push_back(model.mesh.position[upper] - model.mesh.position[lower]);
   }
   // Measure along the surface, because across the slit the other lip is as near.
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (const auto& batch : model.batches) {
+  for (const auto& batch : model.mesh.batches) {
     if (batch.material != Material::kSkin && batch.material != Material::kLip) continue;
     for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
       triangles.push_back({batch.indices[i], batch.indices[i + 1], batch.indices[i + 2]});
     }
   }
-  const Neighbours next = NeighboursAlongEdges(model.position.size(), triangles);
+  const Neighbours next = NeighboursAlongEdges(model.mesh.position.size(), triangles);
   std::vector<std::uint32_t> pairs;
   for (std::uint32_t k = 0; k < rig.seam.size(); ++k) {
     if (rig.seam[k].first != rig.seam[k].second) pairs.push_back(k);  // equal at the corners
@@ -33,7 +33,7 @@ LipRig LipsOf(const MeshModel& model, std::size_t count) {
     for (const std::uint32_t k : pairs) {
       edge.push_back(upper ? rig.seam[k].first : rig.seam[k].second);
     }
-    const MeshPaths paths = ShortestPaths(next, model.position, edge, kReach);
+    const MeshPaths paths = ShortestPaths(next, model.mesh.position, edge, kReach);
     for (std::uint32_t v = 0; v < count; ++v) {
       const float part = SmoothStep(kReach, 0, paths.length[v]);
       if (part > 0) rig.followers.push_back({v, pairs[paths.seed[v]], upper ? part : -part});

@@ -77,8 +77,8 @@ class Reader {
   }
 
   void ReadUnits() {
-    const float middle = 0.5F * (space_.Place(standard_, kLipCorners.right).x +
-                                 space_.Place(standard_, kLipCorners.left).x);
+    const float middle = 0.5F * (space_.PositionMm(standard_, kLipCorners.right).x +
+                                 space_.PositionMm(standard_, kLipCorners.left).x);
     std::vector<float> left;
     for (const glm::vec3& p : standard_.at) left.push_back(LeftPartAt(space_.ToMm(p).x - middle));
     std::vector<NnlsSolver::Row> halves;

@@ -122,8 +122,8 @@ vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes) 
     const std::size_t first = side == Side::kRight ? 0 : 7;
     for (int i = 0; i < 3; ++i) {
       const auto axis = static_cast<std::size_t>(i);
-      used.emplace_back(first + axis, &eye.place[i]);
-      used.emplace_back(14 + first + 3 + axis, &eye.turn_degrees[i]);
+      used.emplace_back(first + axis, &eye.position[i]);
+      used.emplace_back(14 + first + 3 + axis, &eye.rotation_degrees[i]);
     }
     used.emplace_back(first + 6, &eye.scale);
   }

@@ -23,7 +23,7 @@ namespace fsm {
 /// them uninitialised, and are ignored.
 struct EyeDef {
   struct Eye {
-    glm::vec3 place{0}, turn_degrees{0};
+    glm::vec3 position{0}, rotation_degrees{0};
     float scale = 1;
   };
   Sided<Eye> eye;

@@ -33,7 +33,7 @@ class OriginalBuilder {
     AddSockets();
     if (face_.upper_teeth) AddTeeth(*face_.upper_teeth, Bone::kSkull);
     if (face_.lower_teeth) AddTeeth(*face_.lower_teeth, Bone::kJaw);
-    NamePlaces();
+    NameLandmarks();
     return std::move(model_);
   }
 
@@ -41,25 +41,25 @@ class OriginalBuilder {
   std::uint32_t Vertex(PointName name) const {
     return static_cast<std::uint32_t>(face_.wireframe.index.at(name));
   }
-  glm::vec3 Place(PointName name) const { return model_.position[Vertex(name)]; }
+  glm::vec3 PositionOf(PointName name) const { return model_.mesh.position[Vertex(name)]; }
 
   void AddFace(std::size_t picture) {
     // The picture covers -1..1 of the wireframe at rest in both directions.
-    const float chin = space_.Place(face_.wireframe, kChin).y;
+    const float chin = space_.PositionMm(face_.wireframe, kChin).y;
     for (const glm::vec3& p : face_.wireframe.at) {
-      const glm::vec2 place =
+      const glm::vec2 texcoord =
           atlas_.rect(picture).At(glm::clamp(glm::vec2(p.x + 1, 1 - p.y) / 2.0F, 0.0F, 1.0F));
       const glm::vec3 at = space_.ToMm(p);
-      model_.Add(at, Bone::kSkin, face_.mouth, place, SmoothStep(chin - 42, chin - 4, at.y));
+      model_.Add(at, Bone::kSkin, face_.mouth, texcoord, SmoothStep(chin - 42, chin - 4, at.y));
     }
     for (const auto& triangle : face_.link.triangles) {
       if (!IsDrawn(triangle.group)) continue;
-      model_.Triangle(Material::kSkin, Vertex(triangle.corner[0]), Vertex(triangle.corner[1]),
-                      Vertex(triangle.corner[2]));
+      model_.mesh.Triangle(Material::kSkin, Vertex(triangle.corner[0]), Vertex(triangle.corner[1]),
+                           Vertex(triangle.corner[2]));
     }
     for (const auto& [upper, lower] : kLipPairs) {
       model_.seam.emplace_back(Vertex(upper), Vertex(lower));
-      ShutAtRest(model_.position[Vertex(upper)], model_.position[Vertex(lower)]);
+      ShutAtRest(model_.mesh.position[Vertex(upper)], model_.mesh.position[Vertex(lower)]);
     }
   }
 
@@ -78,7 +78,7 @@ class OriginalBuilder {
   void AddMouth() {
     std::vector<std::uint32_t> rim;
     for (const PointName& name : kLipRim) rim.push_back(Vertex(name));
-    const glm::vec3 middle = 0.5F * (Place(kLipCorners.right) + Place(kLipCorners.left));
+    const glm::vec3 middle = 0.5F * (PositionOf(kLipCorners.right) + PositionOf(kLipCorners.left));
     struct Ring {
       float back, high, wide;
     };
@@ -87,7 +87,7 @@ class OriginalBuilder {
     for (const Ring& ring : kRings) {
       std::vector<std::uint32_t> inner;
       for (std::size_t i = 0; i < rim.size(); ++i) {
-        const glm::vec3 p = model_.position[rim[i]];
+        const glm::vec3 p = model_.mesh.position[rim[i]];
         // Points 0 and 10 of the rim's 20 are the corners, 1 to 9 the upper lip.
         const float round = std::sin(kPi * static_cast<float>(i % 10) / 10);
         const float up = i < 10 ? round : -round;
@@ -98,15 +98,15 @@ class OriginalBuilder {
       }
       for (std::size_t i = 0; i < rim.size(); ++i) {
         const std::size_t j = (i + 1) % rim.size();
-        model_.Triangle(Material::kMouthInside, outer[i], outer[j], inner[j]);
-        model_.Triangle(Material::kMouthInside, outer[i], inner[j], inner[i]);
+        model_.mesh.Triangle(Material::kMouthInside, outer[i], outer[j], inner[j]);
+        model_.mesh.Triangle(Material::kMouthInside, outer[i], inner[j], inner[i]);
       }
       outer = std::move(inner);
     }
     const std::uint32_t end =
         model_.Add(middle - glm::vec3(0, 0, 55), Bone::kSkull, face_.mouth * 0.3F);
     for (std::size_t i = 0; i < outer.size(); ++i) {
-      model_.Triangle(Material::kMouthInside, outer[i], outer[(i + 1) % outer.size()], end);
+      model_.mesh.Triangle(Material::kMouthInside, outer[i], outer[(i + 1) % outer.size()], end);
     }
   }
 
@@ -121,7 +121,7 @@ class OriginalBuilder {
       }
       eye.centre = space_.EyeOpening(face_.wireframe, side) - glm::vec3(0, 0, 12.6F);
       eye.ball_radius = 12.4F;
-      model_.AddBall(side);
+      model_.AddEyeball(side);
     }
   }
 
@@ -129,31 +129,32 @@ class OriginalBuilder {
   void AddOwnEye(Side side, std::size_t picture) {
     const EyeDef& def = *face_.eye_def;
     // Right and left follow from the positions, not from the order in the file.
-    const bool right = (def.eye.right.place.x < def.eye.left.place.x) == (side == Side::kRight);
+    const bool right =
+        (def.eye.right.position.x < def.eye.left.position.x) == (side == Side::kRight);
     const EyeDef::Eye& eye = right ? def.eye.right : def.eye.left;
-    const glm::vec3 turn = glm::radians(eye.turn_degrees);
-    glm::mat4 turned(1.0F);
-    turned = glm::rotate(turned, turn.x, {1, 0, 0});
-    turned = glm::rotate(turned, turn.y, {0, 1, 0});
-    turned = glm::rotate(turned, turn.z, {0, 0, 1});
+    const glm::vec3 angles = glm::radians(eye.rotation_degrees);
+    glm::mat4 rotation(1.0F);
+    rotation = glm::rotate(rotation, angles.x, {1, 0, 0});
+    rotation = glm::rotate(rotation, angles.y, {0, 1, 0});
+    rotation = glm::rotate(rotation, angles.z, {0, 0, 1});
     const Box box = Box::Of(face_.eye->positions);
     const glm::vec3 size = glm::max(box.size(), 1e-6F), middle = box.centre();
-    model_.eyes[side].centre = space_.ToMm(eye.place);
+    model_.eyes[side].centre = space_.ToMm(eye.position);
     model_.eyes[side].ball_radius = 0.5F * size.x * eye.scale * space_.mm();
     model_.eyes[side].iris_radius = 0.48F * model_.eyes[side].ball_radius;
     const Bone carrier = BoneOf(side);
-    const auto first = static_cast<std::uint32_t>(model_.position.size());
+    const auto first = static_cast<std::uint32_t>(model_.mesh.position.size());
     for (const glm::vec3& p : face_.eye->positions) {
       const glm::vec2 flat = 0.5F + def.picture_scale * glm::vec2(p - middle) / glm::vec2(size);
-      const glm::vec2 place =
+      const glm::vec2 texcoord =
           atlas_.rect(picture).At(glm::clamp(glm::vec2(flat.x, 1 - flat.y), 0.0F, 1.0F));
-      const glm::vec3 at = eye.place + eye.scale * glm::vec3(turned * glm::vec4(p, 1));
-      model_.Add(space_.ToMm(at), carrier, glm::vec3(0.5F), place);
+      const glm::vec3 at = eye.position + eye.scale * glm::vec3(rotation * glm::vec4(p, 1));
+      model_.Add(space_.ToMm(at), carrier, glm::vec3(0.5F), texcoord);
     }
     for (const auto& group : face_.eye->groups) {
       for (const auto& t : group.triangles) {
-        model_.Triangle(Material::kPhoto, first + t[0].position, first + t[1].position,
-                        first + t[2].position);
+        model_.mesh.Triangle(Material::kPhoto, first + t[0].position, first + t[1].position,
+                             first + t[2].position);
       }
     }
   }
@@ -165,15 +166,15 @@ class OriginalBuilder {
       std::vector<std::uint32_t> rim, back;
       for (const PointName& name : LidRim(side)) {
         rim.push_back(Vertex(name));
-        const glm::vec3 p = Place(name);
+        const glm::vec3 p = PositionOf(name);
         back.push_back(model_.Add(
             {p.x + 0.15F * (p.x - centre.x), p.y + 0.3F * (p.y - centre.y), centre.z - 4},
             Bone::kSkull, {0.20F, 0.07F, 0.05F}));
       }
       for (std::size_t i = 0; i < rim.size(); ++i) {
         const std::size_t j = (i + 1) % rim.size();
-        model_.Triangle(Material::kMouthInside, rim[i], rim[j], back[j]);
-        model_.Triangle(Material::kMouthInside, rim[i], back[j], back[i]);
+        model_.mesh.Triangle(Material::kMouthInside, rim[i], rim[j], back[j]);
+        model_.mesh.Triangle(Material::kMouthInside, rim[i], back[j], back[i]);
       }
     }
   }
@@ -196,15 +197,15 @@ class OriginalBuilder {
     const float edge = 0.5F * (at(kUpperLipFront).y + at(kLipMiddle).y);
     const glm::vec3 from(box.centre().x, upper ? box.low.y : box.high.y, box.high.z);
     const glm::vec3 to(at(kUpperLipFront).x, edge, at(places.front).z);
-    const auto first = static_cast<std::uint32_t>(model_.position.size());
+    const auto first = static_cast<std::uint32_t>(model_.mesh.position.size());
     for (const glm::vec3& p : teeth.positions) {
       const glm::vec3 place = to + glm::vec3(wide, tall, wide) * (p - from);
       model_.Add(space_.ToMm(place), bone, ShownTeeth());
     }
     for (const auto& group : teeth.groups) {
       for (const auto& t : group.triangles) {
-        model_.Triangle(Material::kTeeth, first + t[0].position, first + t[1].position,
-                        first + t[2].position);
+        model_.mesh.Triangle(Material::kTeeth, first + t[0].position, first + t[1].position,
+                             first + t[2].position);
       }
     }
   }
@@ -219,9 +220,9 @@ class OriginalBuilder {
     return shown;
   }
 
-  void NamePlaces() {
-    for (const auto& [name, point] : kNamedPoints) model_.landmarks[name] = Place(point);
-    model_.landmarks["stomion"] = 0.5F * (Place(kLipMiddle) + Place({1, 37}));
+  void NameLandmarks() {
+    for (const auto& [name, point] : kNamedPoints) model_.landmarks[name] = PositionOf(point);
+    model_.landmarks["stomion"] = 0.5F * (PositionOf(kLipMiddle) + PositionOf({1, 37}));
     const glm::vec3 middle = space_.ToMm(glm::vec3(0));
     model_.view = ParallelView{middle, space_.ToMm(glm::vec3(1, 0, 0)).x - middle.x};
   }

@@ -27,7 +27,7 @@ class OriginalRigBaker {
     // mouths are not scaled, as in the original: small faces move theirs relatively more.
     const OriginalSpace standard(face.standard);
     const auto height = [](const OriginalSpace& space, const PntFile& file) {
-      return space.EyeOpening(file, Side::kRight).y - space.Place(file, kLipMiddle).y;
+      return space.EyeOpening(file, Side::kRight).y - space.PositionMm(file, kLipMiddle).y;
     };
     const float tall = height(own_, face.wireframe) / height(standard, face.standard);
     unit_scale_ = standard.mm() * glm::vec3(1, std::clamp(tall, 0.5f, 2.0f), 1);
@@ -84,14 +84,14 @@ class OriginalRigBaker {
   /// Adds the channels of units. They follow the commanded strengths, because the original's units
   /// add up, while ours damp and oppose each other.
   void AddUnits() {
-    const float middle = 0.5f * (own_.Place(face_.wireframe, kLipCorners.right).x +
-                                 own_.Place(face_.wireframe, kLipCorners.left).x);
+    const float middle = 0.5f * (own_.PositionMm(face_.wireframe, kLipCorners.right).x +
+                                 own_.PositionMm(face_.wireframe, kLipCorners.left).x);
     for (std::size_t k = 0; k < face_.units.size(); ++k) {
       const std::vector<Displacement> both = Moves(face_.units[k], unit_scale_);
       for (const Side side : kSides) {
         std::vector<Displacement> moves = both;
         for (Displacement& d : moves) {
-          const float part = LeftPartAt(model_.position[d.vertex].x - middle);
+          const float part = LeftPartAt(model_.mesh.position[d.vertex].x - middle);
           d.by *= side == Side::kLeft ? part : 1 - part;
         }
         const auto number = static_cast<std::size_t>(kUnitNumbers[k]);

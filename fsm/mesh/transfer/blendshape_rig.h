@@ -5,17 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "fsm/mesh/imported_head.h"
-#include "fsm/mesh/mesh_model.h"
+#include "fsm/mesh/transfer/known_shapes.h"
 
 namespace fsm {
 
-/// The state of the face that a shape shows at weight 1. `name`: in lower case, as
-/// "mouthsmileleft".
-struct ShapeMeaning {
-  std::string name;
-  FaceState state;
-};
 /// What shapes mean: a shape looks as `source` does in the state given for its name.
 struct ShapeMeanings {
   const Head& source;
@@ -23,15 +16,16 @@ struct ShapeMeanings {
 };
 /// Makes a rig that moves the skin by those of the file's shapes whose names are in `meanings`.
 /// Units, the mouth's parameters and the other channels drive the shapes so that the face looks
-/// like `moved` when one of them acts alone, and in the states `visemes`. `moved`: the same head as
-/// `meanings.source`, perhaps with other units. A file may split a shape of both sides
+/// like `driven` when one of them acts alone, and in the states `visemes`. `driven`: the same head
+/// as `meanings.source`, perhaps with other units. A file may split a shape of both sides
 /// (browInnerUp) into two, with Left and Right after its name. A unit drives no shape if the shapes
 /// can reproduce hardly any of its movement. Vertices of `model` that the shapes move, teeth
 /// included, become flesh. Returns nothing if fewer than four shapes have a meaning. `unused`
 /// receives the names of shapes that move vertices but have no meaning.
 std::optional<RigData> MakeBlendshapeRig(const ImportedHead& file, const Similarity& to_ours,
                                          MeshModel& model, const ShapeMeanings& meanings,
-                                         const Head& moved, std::span<const FaceState> visemes = {},
+                                         const Head& driven,
+                                         std::span<const FaceState> visemes = {},
                                          std::vector<std::string>* unused = nullptr);
 
 }  // namespace fsm

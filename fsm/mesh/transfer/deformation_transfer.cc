@@ -9,8 +9,8 @@
 
 #include "fsm/base/smooth_step.h"
 #include "fsm/head/warp.h"
-#include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/transfer/surface_index.h"
+#include "fsm/rig/reach.h"
 
 namespace fsm {
 namespace {
@@ -49,12 +49,12 @@ void Spread(const WeldedSurface& surface, std::vector<T>& value, std::vector<flo
     for (std::size_t i = 0; i < value.size(); ++i) {
       T sum = old[i] * old_weight[i];
       float total = old_weight[i];
-      for (const std::uint32_t j : surface.next[i]) {
+      for (const std::uint32_t j : surface.neighbours[i]) {
         sum += old[j] * old_weight[j];
         total += old_weight[j];
       }
       if (total > 1e-6f) value[i] = sum * (1 / total);
-      weight[i] = total / static_cast<float>(surface.next[i].size() + 1);
+      weight[i] = total / static_cast<float>(surface.neighbours[i].size() + 1);
     }
   }
 }
@@ -133,7 +133,7 @@ void PullTowards(WeldedSurface& pulled, const WeldedSurface& target, float reach
     // Move only along the normal: the landmarks determine the tangential position, and the nearest
     // point, whose triangle changes from round to round, would drift.
     by[i] = glm::dot(hit->at - pulled.at[i], pulled.normal[i]) * pulled.normal[i];
-    weight[i] = SmoothStep(reach, 0.4f * reach, hit->far);
+    weight[i] = SmoothStep(reach, 0.4f * reach, hit->distance_mm);
   }
   Spread(pulled, by, weight, rounds);
   for (std::size_t i = 0; i < pulled.at.size(); ++i) pulled.at[i] += 0.8f * by[i];
@@ -153,7 +153,7 @@ DeformationTransfer::DeformationTransfer(const TransferSurface& from, const Tran
   const auto prepared = [&pairs](const TransferSurface& face, bool is_from) {
     WeldedSurface surface(face.position, face.triangles, face.has_uv_seams);
     MarkParts(surface, pairs, is_from);
-    surface.FindSeen(face.position, face.eyes);
+    surface.FindVisibility(face.position, face.eyes);
     return surface;
   };
   const WeldedSurface rest = prepared(from, true);
@@ -179,14 +179,15 @@ std::vector<DeformationTransfer::BarycentricBinding> DeformationTransfer::Bind(
     const auto hit = own.Find(target, w);
     if (!hit) continue;
     const auto& t = pulled.triangles[hit->triangle];
-    bindings[w] = {{rest.first[t[0]], rest.first[t[1]], rest.first[t[2]]}, hit->part};
+    bindings[w] = {{rest.given_of[t[0]], rest.given_of[t[1]], rest.given_of[t[2]]},
+                   hit->barycentric};
     bound[w] = true;
     open.push_back(w);
   }
   // Vertices that match no point of the source, as in the lining of the mouth, follow their
   // neighbours.
   for (std::size_t k = 0; k < open.size(); ++k) {
-    for (const std::uint32_t w : target.next[open[k]]) {
+    for (const std::uint32_t w : target.neighbours[open[k]]) {
       if (bound[w]) continue;
       bindings[w] = bindings[open[k]];
       bound[w] = true;
@@ -194,7 +195,7 @@ std::vector<DeformationTransfer::BarycentricBinding> DeformationTransfer::Bind(
     }
   }
   for (std::size_t w = 0; w < bindings.size(); ++w) {
-    if (!bound[w]) bindings[w].part = glm::vec3(0);
+    if (!bound[w]) bindings[w].barycentric = glm::vec3(0);
   }
   return bindings;
 }
@@ -205,18 +206,18 @@ void DeformationTransfer::MakeRows(std::span<const BarycentricBinding> bindings,
   // neighbours. That smooths differences over a few millimetres; neighbours in a coarse mesh are
   // farther apart.
   constexpr float kMost = 0.25f, kNear = 2.5f;
-  rows_.resize(target.of.size());
+  rows_.resize(target.welded_of.size());
   std::map<std::uint32_t, float> row;
   const auto add = [&](const BarycentricBinding& binding, float share) {
     for (int c = 0; c < 3; ++c) {
-      const float part = share * binding.part[c];
+      const float part = share * binding.barycentric[c];
       if (part != 0) row[binding.corner[static_cast<std::size_t>(c)]] += part;
     }
   };
-  for (std::size_t v = 0; v < target.of.size(); ++v) {
-    const std::uint32_t w = target.of[v];
+  for (std::size_t v = 0; v < target.welded_of.size(); ++v) {
+    const std::uint32_t w = target.welded_of[v];
     if (w == WeldedSurface::kNone) continue;
-    const auto& next = target.next[w];
+    const auto& next = target.neighbours[w];
     const float count = std::max(static_cast<float>(next.size()), 1.0f);
     float edge = 0;
     for (const std::uint32_t n : next) edge += glm::distance(target.at[w], target.at[n]) / count;

@@ -41,7 +41,7 @@ struct TransferSurface {
 class DeformationTransfer {
  public:
   /// Throws std::runtime_error if there are fewer than eight pairs or they are (nearly) coplanar,
-  /// if a point or a vertex exceeds kMaxMeshReach, and as WeldedSurface and SurfaceIndex.
+  /// if a point or a vertex exceeds kMaxReach, and as WeldedSurface and SurfaceIndex.
   DeformationTransfer(const TransferSurface& from, const TransferSurface& to,
                       std::span<const PointPair> pairs);
   /// For a target vertex, the source vertices that it follows and their weights, which add up to 1;
@@ -55,7 +55,7 @@ class DeformationTransfer {
  private:
   struct BarycentricBinding {
     std::array<std::uint32_t, 3> corner{};
-    glm::vec3 part{1, 0, 0};
+    glm::vec3 barycentric{1, 0, 0};
   };
   /// Returns the binding of each welded vertex of the target.
   static std::vector<BarycentricBinding> Bind(const WeldedSurface& rest,

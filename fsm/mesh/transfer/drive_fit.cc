@@ -87,7 +87,8 @@ struct MouthFit::Equations {
   std::vector<std::vector<double>> square, wanted;
 };
 
-void MouthFit::Demand(const KnownMouth& viseme, double importance, Equations& equations) const {
+void MouthFit::AddEquation(const KnownMouth& viseme, double importance,
+                           Equations& equations) const {
   const Halves halves = Split(viseme.mouth);
   for (std::size_t i = 0; i < kHalves; ++i) {
     if (halves[i] == 0) continue;
@@ -110,7 +111,7 @@ void MouthFit::AddTo(DriveFit& fit, Drive::Kind kind) const {
                       .wanted{kHalves, std::vector<double>(gain_.size(), 0)}};
   for (std::size_t i = 0; i < kHalves; ++i) equations.square[i][i] = kDamping;
   for (std::size_t i = 0; i < known_.size(); ++i) {
-    Demand(known_[i], 1, equations);
+    AddEquation(known_[i], 1, equations);
     for (std::size_t j = 0; j < i; ++j) {
       KnownMouth mean = known_[i];
       for (std::size_t p = 0; p < kMouthParameters; ++p) {
@@ -119,7 +120,7 @@ void MouthFit::AddTo(DriveFit& fit, Drive::Kind kind) const {
       for (std::size_t k = 0; k < gain_.size(); ++k) {
         mean.weights[k] = 0.5f * (mean.weights[k] + known_[j].weights[k]);
       }
-      Demand(mean, kBetween, equations);
+      AddEquation(mean, kBetween, equations);
     }
   }
   SolvePositive(equations.square, equations.wanted);

@@ -60,7 +60,7 @@ class MouthFit {
     Weights weights;
   };
   struct Equations;
-  void Demand(const KnownMouth& viseme, double importance, Equations& equations) const;
+  void AddEquation(const KnownMouth& viseme, double importance, Equations& equations) const;
 
   std::vector<Halves> gain_;  // indexed by target; of each parameter acting alone
   std::vector<KnownMouth> known_;

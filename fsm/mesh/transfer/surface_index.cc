@@ -12,7 +12,7 @@ namespace {
 
 /// Returns the barycentric coordinates of the point of a triangle nearest to p (Ericson, Real-Time
 /// Collision Detection, 5.1.5).
-glm::vec3 NearestPart(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+glm::vec3 NearestBarycentric(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
   const glm::vec3 ab = b - a, ac = c - a, ap = p - a;
   const float d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
@@ -98,7 +98,7 @@ std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(const WeldedSurface& other,
           if (glm::dot(off, off) > 1.001f * least + 1e-6f) continue;
           const auto& t = surface_.triangles[i];
           const glm::vec3 part =
-              NearestPart(p, surface_.at[t[0]], surface_.at[t[1]], surface_.at[t[2]]);
+              NearestBarycentric(p, surface_.at[t[0]], surface_.at[t[1]], surface_.at[t[2]]);
           const auto mix = [&](const auto& v) {
             return v[t[0]] * part.x + v[t[1]] * part.y + v[t[2]] * part.z;
           };
@@ -112,7 +112,7 @@ std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(const WeldedSurface& other,
           const auto opposite = [](float a, float b) { return std::max(-a * b, 0.0f); };
           const float lip = kLip * opposite(other.lip[vertex], mix(surface_.lip));
           const float lid = kLid * opposite(other.lid[vertex], mix(surface_.lid));
-          const float hidden = kHidden * (other.seen[vertex] - mix(surface_.seen));
+          const float hidden = kHidden * (other.visibility[vertex] - mix(surface_.visibility));
           cost += turned * turned + lip * lip + lid * lid + hidden * hidden;
           if (cost >= least) continue;
           least = cost;

@@ -20,15 +20,15 @@ class SurfaceIndex {
   /// The limit of the sum over all triangles. A face has one or two cells per triangle.
   static constexpr std::int64_t kMaxCells = 4 << 20;
   /// Throws std::runtime_error if there are more than kMaxCells. Lifetime: `surface` outlives this.
-  /// REQUIRES: the surface is within kMaxMeshReach.
+  /// REQUIRES: the surface is within kMaxReach.
   SurfaceIndex(const WeldedSurface& surface, float reach);
   struct Hit {
     std::uint32_t triangle;
-    glm::vec3 part, at;
-    float far;  ///< distance in millimetres
+    glm::vec3 barycentric, at;
+    float distance_mm;
   };
   /// Returns the point nearest to a vertex of another surface, at most `reach` away. REQUIRES:
-  /// FindSeen was called for both.
+  /// FindVisibility was called for both.
   std::optional<Hit> Find(const WeldedSurface& other, std::size_t vertex) const;
 
  private:

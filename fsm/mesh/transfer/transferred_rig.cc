@@ -207,7 +207,7 @@ void RedLips(const Head& source, std::span<const Row> rows, MeshModel& model) {
       red += share * topology.albedo[from] / skin;
       part += share;
     }
-    if (part > 0) model.albedo[v] *= red + glm::vec3(1 - std::min(part, 1.0f));
+    if (part > 0) model.mesh.albedo[v] *= red + glm::vec3(1 - std::min(part, 1.0f));
   }
 }
 
@@ -218,12 +218,12 @@ std::vector<glm::vec3> OwnForm(const RigData& rig, const MeshModel& model,
   proxy.rest = rig.proxy.rest;
   proxy.proxy.rest.clear();
   proxy.rest_normal.assign(proxy.rest.size(), glm::vec3(0, 0, 1));
-  proxy.bone = model.bone;
+  proxy.bone = model.mesh.bone;
   HeadVertices still;
   Rig(std::move(proxy)).Evaluate({}, still);
   std::vector<glm::vec3> form(rows.size(), glm::vec3(0));
   for (std::size_t v = 0; v < rows.size(); ++v) {
-    if (!rows[v].empty()) form[v] = model.position[v] - still.position[v];
+    if (!rows[v].empty()) form[v] = model.mesh.position[v] - still.position[v];
   }
   return form;
 }
@@ -245,12 +245,13 @@ void MoveLips(const LipRig& lips, const MeshModel& model, std::span<const PointP
     return sum / weight;
   };
   for (const auto& [upper, lower] : lips.seam) {
-    form[upper] = form[lower] = off(0.5f * (model.position[upper] + model.position[lower]));
+    form[upper] = form[lower] =
+        off(0.5f * (model.mesh.position[upper] + model.mesh.position[lower]));
   }
   if (!lips.measured) return;
   for (const std::uint32_t corner :
        {(*lips.measured)[LipRig::kCornerLeft], (*lips.measured)[LipRig::kCornerRight]}) {
-    form[corner] = off(model.position[corner]);
+    form[corner] = off(model.mesh.position[corner]);
   }
 }
 
@@ -261,7 +262,7 @@ DeformationTransfer TransferBetween(const Head& source, const MeshModel& model,
   try {
     return {{rest.position, SkinTriangles(source.topology()), false,
              EyeballTriangles(source.topology())},
-            {model.position, model.SkinTriangles(), model.has_uv_seams, model.EyeTriangles()},
+            {model.mesh.position, model.SkinTriangles(), model.has_uv_seams, model.EyeTriangles()},
             pairs};
   } catch (const std::runtime_error& error) {
     if (model.name.empty()) throw;
@@ -285,11 +286,11 @@ RigData TransferRig(MeshModel& model, const Head& source, std::span<const PointP
   const DeformationTransfer transfer = TransferBetween(source, model, pairs);
   RigData rig;
   const std::vector<Row> rows = AddLips(from, transfer.rows(), model, rig.lips);
-  RigResampler(from, rows, rig).Resample(model.position);
+  RigResampler(from, rows, rig).Resample(model.mesh.position);
   rig.units = from.units;
   rig.asymmetry_seed = from.asymmetry_seed;
   rig.units_by_place = true;
-  std::ranges::move(UnitChannels(rig.units, model.bone, rig.weights),
+  std::ranges::move(UnitChannels(rig.units, model.mesh.bone, rig.weights),
                     std::back_inserter(rig.channels));
   rig.steps = {kChannels, kLids, kJaw, kTeeth, kLips, kTeeth};  // twice, as in make_head.cc
   rig.proxy.to_own = OwnForm(rig, model, rows);

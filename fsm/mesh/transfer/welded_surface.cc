@@ -91,28 +91,28 @@ WeldedSurface::WeldedSurface(std::span<const glm::vec3> position,
     const glm::vec3 n = glm::cross(position[given[i + 1]] - a, position[given[i + 2]] - a);
     for (std::size_t k = 0; k < 3; ++k) own[given[i + k]] += n;
   }
-  of.assign(position.size(), kNone);
+  welded_of.assign(position.size(), kNone);
   std::map<std::tuple<long, long, long>, std::vector<std::uint32_t>> there;
   const auto weld = [&](std::uint32_t v) {
-    if (of[v] != kNone) return of[v];
+    if (welded_of[v] != kNone) return welded_of[v];
     const auto key = [](float x) { return std::lround(x * 200); };
     const glm::vec3 p = position[v];
     const glm::vec3 n = own[v] / std::max(glm::length(own[v]), 1e-12f);
     auto& same = there[{key(p.x), key(p.y), key(p.z)}];
     for (const std::uint32_t w : has_uv_seams ? same : std::vector<std::uint32_t>()) {
-      const glm::vec3 m = own[first[w]] / std::max(glm::length(own[first[w]]), 1e-12f);
-      if (glm::dot(n, m) > 0.9f) return of[v] = w;
+      const glm::vec3 m = own[given_of[w]] / std::max(glm::length(own[given_of[w]]), 1e-12f);
+      if (glm::dot(n, m) > 0.9f) return welded_of[v] = w;
     }
     at.push_back(p);
-    first.push_back(v);
+    given_of.push_back(v);
     same.push_back(static_cast<std::uint32_t>(at.size() - 1));
-    return of[v] = same.back();
+    return welded_of[v] = same.back();
   };
   for (std::size_t i = 0; i + 2 < given.size(); i += 3) {
     const std::array<std::uint32_t, 3> t{weld(given[i]), weld(given[i + 1]), weld(given[i + 2])};
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
   }
-  next = NeighboursAlongEdges(at.size(), triangles);
+  neighbours = NeighboursAlongEdges(at.size(), triangles);
   lip.assign(at.size(), 0);
   lid.assign(at.size(), 0);
   FindNormals();
@@ -127,17 +127,17 @@ void WeldedSurface::FindNormals() {
   for (glm::vec3& n : normal) n /= std::max(glm::length(n), 1e-12f);
 }
 
-void WeldedSurface::FindSeen(std::span<const glm::vec3> position,
-                             std::span<const std::uint32_t> eyes) {
+void WeldedSurface::FindVisibility(std::span<const glm::vec3> position,
+                                   std::span<const std::uint32_t> eyes) {
   constexpr float kClear = 0.5f, kBehind = 3;  // millimetres
   FrontDepth front(at);
   for (const auto& t : triangles) front.Rasterize(at[t[0]], at[t[1]], at[t[2]]);
   for (std::size_t k = 0; k + 2 < eyes.size(); k += 3) {
     front.Rasterize(position[eyes[k]], position[eyes[k + 1]], position[eyes[k + 2]]);
   }
-  seen.resize(at.size());
+  visibility.resize(at.size());
   for (std::size_t i = 0; i < at.size(); ++i) {
-    seen[i] = SmoothStep(kBehind, kClear, front.LeastAround(at[i]) - at[i].z);
+    visibility[i] = SmoothStep(kBehind, kClear, front.LeastAround(at[i]) - at[i].z);
   }
 }
 
@@ -159,7 +159,7 @@ std::vector<float> WeldedSurface::DistancesFrom(std::span<const glm::vec3> seeds
                                                 float reach) const {
   std::vector<std::uint32_t> from;
   for (const glm::vec3& seed : seeds) from.push_back(Nearest(seed));
-  return ShortestPaths(next, at, from, reach).length;
+  return ShortestPaths(neighbours, at, from, reach).length;
 }
 
 }  // namespace fsm

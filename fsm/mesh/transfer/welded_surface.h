@@ -20,23 +20,24 @@ class WeldedSurface {
 
   std::vector<glm::vec3> at, normal;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  Neighbours next;
-  std::vector<std::uint32_t> of;     ///< given vertex -> welded one; kNone if it is in no triangle
-  std::vector<std::uint32_t> first;  ///< welded vertex -> one of the given
+  Neighbours neighbours;
+  std::vector<std::uint32_t>
+      welded_of;  ///< given vertex -> welded one; kNone if it is in no triangle
+  std::vector<std::uint32_t> given_of;  ///< welded vertex -> one of the given
   /// Per vertex, whether it belongs to upper (1) or lower (-1) lip and lid, 0 = neither.
   std::vector<float> lip, lid;
   /// Per vertex, the visibility from the front: 1 = visible, 0 = more than a few millimetres behind
-  /// a visible surface, as the linings of mouths and eye sockets. Set by FindSeen.
-  std::vector<float> seen;
+  /// a visible surface, as the linings of mouths and eye sockets. Set by FindVisibility.
+  std::vector<float> visibility;
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
   void FindNormals();
-  /// Computes `seen`. `eyes`: triangles of the eyeballs, indices into `position`, which hide what
-  /// is behind them. A triangle whose bounding box covers more than a square metre hides nothing.
-  /// Throws std::runtime_error if the boxes together cover more than kMaxCovered, as hundreds of
-  /// layers of triangles would. REQUIRES: everything is within kMaxMeshReach.
+  /// Computes `visibility`. `eyes`: triangles of the eyeballs, indices into `position`, which hide
+  /// what is behind them. A triangle whose bounding box covers more than a square metre hides
+  /// nothing. Throws std::runtime_error if the boxes together cover more than kMaxCovered, as
+  /// hundreds of layers of triangles would. REQUIRES: everything is within kMaxReach.
   static constexpr std::int64_t kMaxCovered = 1 << 28;  ///< square millimetres
-  void FindSeen(std::span<const glm::vec3> position, std::span<const std::uint32_t> eyes);
+  void FindVisibility(std::span<const glm::vec3> position, std::span<const std::uint32_t> eyes);
   std::uint32_t Nearest(glm::vec3 p) const;
   /// Returns, per vertex, the distance along edges to the nearest of the vertices closest to the
   /// seeds, clamped to `reach`.

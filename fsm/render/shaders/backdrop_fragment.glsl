@@ -1,4 +1,4 @@
-in vec2 place;
+in vec2 view_uv;
 uniform sampler2D picture;
 uniform bool pictured;
 uniform bool studio;
@@ -8,7 +8,7 @@ uniform float opacity;  // over what has been drawn already
 out vec4 colour;
 
 vec3 Wall() {
-  float away = length((place - look_studio_middle) * vec2(wide, 1.0)) / look_studio_radius;
+  float away = length((view_uv - look_studio_middle) * vec2(wide, 1.0)) / look_studio_radius;
   // Dither by a level of noise, without which the eye sees the steps between levels of a screen.
   float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   return mix(look_studio_dark, look_studio_bright, exp(-away * away)) + (noise - 0.5) / 255.0;
@@ -16,6 +16,6 @@ vec3 Wall() {
 
 // All colours are screen colours (sRGB) already.
 void main() {
-  vec3 behind = pictured ? texture(picture, place).rgb : studio ? Wall() : plain;
+  vec3 behind = pictured ? texture(picture, view_uv).rgb : studio ? Wall() : plain;
   colour = vec4(behind, opacity);
 }

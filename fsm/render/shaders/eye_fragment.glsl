@@ -10,8 +10,8 @@ uniform vec4 lid_heights[2];  // world y of upper and lower lid margin at the pu
 uniform float iris_radius;
 uniform float pupil_share;    // pupil's radius as a fraction of the iris's
 uniform float iris_depth;     // distance of the plane of the iris before the centre
-uniform vec3 iris_colour;
-uniform vec3 white_colour;
+uniform vec3 iris_colour[2];
+uniform vec3 white_colour[2];
 uniform float figure_scale;
 uniform float flesh_red;         // 0: caruncle and vessels are grey, as in a grey photo
 uniform bool beside_photo;       // the face wears a photo, whose colours are shown unlit
@@ -30,7 +30,7 @@ out vec4 colour;
 const float kCorner = 1.1;  // distance of the eye's corners from its middle, in radii of the ball
 
 // The point of an eyeball that a pixel shows.
-struct Place {
+struct EyePoint {
   int side;
   float radius;       // of the ball
   vec3 axis;          // direction of the gaze
@@ -46,8 +46,8 @@ struct Place {
   float narrower;     // millimetres by which the lids are closer together than in the middle
 };
 
-Place FindPlace() {
-  Place p;
+EyePoint FindEyePoint() {
+  EyePoint p;
   p.side = distance(world_position, ball[0].xyz) < distance(world_position, ball[1].xyz) ? 0 : 1;
   vec3 centre = ball[p.side].xyz;
   p.radius = ball[p.side].w;
@@ -71,11 +71,11 @@ Place FindPlace() {
 
 // Returns the iris's colour at a point of its plane, in units of its radius: fibres run from the pupil to the rim,
 // which is dark (the limbal ring).
-vec3 Iris(vec2 p, float r, float toward_light) {
-  float turn = atan(p.y, p.x) / 6.2831853;
-  float fibre = textureLod(noise, vec2(turn * 0.25, r * 0.010), 0.0).b * 0.6 +
-                textureLod(noise, vec2(turn * 0.75, r * 0.024 + 0.4), 0.0).a * 0.5;
-  vec3 base = iris_colour * (look_iris_between + look_iris_fibre * fibre);
+vec3 Iris(int side, vec2 p, float r, float toward_light) {
+  float azimuth = atan(p.y, p.x) / 6.2831853;
+  float fibre = textureLod(noise, vec2(azimuth * 0.25, r * 0.010), 0.0).b * 0.6 +
+                textureLod(noise, vec2(azimuth * 0.75, r * 0.024 + 0.4), 0.0).a * 0.5;
+  vec3 base = iris_colour[side] * (look_iris_between + look_iris_fibre * fibre);
   float collar = Ramp(look_iris_collar_edge, r + look_iris_collar_ragged * (fibre - 0.5));
   base = mix(base, base * look_iris_collar + look_iris_collar_least, collar * look_iris_collar_part);
   // Light enters through the cornea and gathers on the far side.
@@ -91,7 +91,7 @@ vec3 Photographed(vec4 rect, vec2 from_middle) {
 }
 
 // Returns the sclera in the photo. The lid's shadow is stretched with it where the eye opens wider.
-vec3 PhotographedWhite(Place p) {
+vec3 PhotographedWhite(EyePoint p) {
   vec4 lid = photo_lid_heights[p.side];
   vec2 q = (world_to_head * p.from_centre).xy;
   q.y = lid.y + (q.y - lid.y) * min((lid.x - lid.y) / max(lid.z - lid.y, 0.1), 1.0);
@@ -99,14 +99,14 @@ vec3 PhotographedWhite(Place p) {
 }
 
 // Returns the painted sclera: reddish towards the corners, darker at the limbus, with a few fine vessels.
-vec3 White(Place p) {
+vec3 White(EyePoint p) {
   float corner = Ramp(look_white_corner_edge, abs(p.normal.x - p.axis.x));
   vec3 at_corner = mix(vec3(look_white_corner_grey), look_white_corner, flesh_red);
-  vec3 white = white_colour * mix(vec3(1.0), at_corner, corner);
+  vec3 white = white_colour[p.side] * mix(vec3(1.0), at_corner, corner);
   white *= mix(look_white_at_iris, 1.0, Ramp(look_white_at_iris_edge, p.from_axis));
   // The caruncle, in the inner corner.
   float inward = p.side == 0 ? p.normal.x - p.axis.x : p.axis.x - p.normal.x;
-  white = mix(white, white_colour * mix(vec3(look_tear_flesh_grey), look_tear_flesh, flesh_red),
+  white = mix(white, white_colour[p.side] * mix(vec3(look_tear_flesh_grey), look_tear_flesh, flesh_red),
               look_tear_flesh_part * Ramp(look_tear_flesh_edge, inward));
   float vessel = texture(noise, vec2(p.normal.y * 0.11, p.normal.x * 0.025) + p.axis.xy * 0.01).b - 0.5;
   return white * (1.0 - flesh_red * vec3(0.0, look_vessel_redness, look_vessel_redness) *
@@ -115,7 +115,7 @@ vec3 White(Place p) {
 }
 
 // The line of sight is refracted at the cornea and meets the plane of the iris behind it.
-vec3 IrisSeen(Place p) {
+vec3 IrisSeen(EyePoint p) {
   vec3 ray = refract(-p.to_viewer, p.wet, 1.0 / 1.336);
   float depth = dot(p.from_centre, p.axis) - iris_depth;
   vec3 hit = p.from_centre + ray * (max(depth, 0.0) / max(-dot(ray, p.axis), 0.2));
@@ -123,13 +123,13 @@ vec3 IrisSeen(Place p) {
   if (pictured) return Photographed(photo_iris_rect[p.side], at / iris_span);
   float r = length(at);
   vec3 l = lamp_directions[0];
-  vec3 iris = Iris(at, r, dot(at / max(r, 1e-3), vec2(dot(l, p.right), dot(l, p.up))));
+  vec3 iris = Iris(p.side, at, r, dot(at / max(r, 1e-3), vec2(dot(l, p.right), dot(l, p.up))));
   // Where the line of sight misses the iris it meets the sclera beside it, in the rim's shadow.
-  return mix(iris, white_colour * look_white_past_iris, Ramp(look_white_past_iris_edge, r));
+  return mix(iris, white_colour[p.side] * look_white_past_iris, Ramp(look_white_past_iris_edge, r));
 }
 
 // The upper lid and its lashes shade the ball. Towards the corners its margin falls and the lower one rises.
-float LidShade(Place p) {
+float LidShade(EyePoint p) {
   float below = p.below_upper - look_upper_lid_falls * p.narrower;
   float above = p.above_lower - look_lower_lid_rises * p.narrower;
   float shade = mix(look_upper_lid_shade, 1.0, Ramp(look_upper_lid_edge, below)) *
@@ -139,7 +139,7 @@ float LidShade(Place p) {
 
 // The photo includes the lids' shade, except where it was completed and where the eye opens wider than in it. `edge`:
 // how much of `base`, the colour, is iris.
-float PhotoShade(Place p, float edge, inout vec3 base) {
+float PhotoShade(EyePoint p, float edge, inout vec3 base) {
   vec4 lid = photo_lid_heights[p.side];
   vec2 q = (world_to_head * p.from_centre).xy;
   float aside = q.x / (p.radius * kCorner / figure_scale);
@@ -153,7 +153,7 @@ float PhotoShade(Place p, float edge, inout vec3 base) {
                      smoothstep(look_photo_squint_edge.x - look_photo_squint_aside * aside * aside,
                                 look_photo_squint_edge.y, p.above_lower);
   // Its wet margin is soft and pale.
-  vec3 rim_colour = white_colour * mix(vec3(look_photo_wet_rim_grey), look_photo_wet_rim, flesh_red);
+  vec3 rim_colour = white_colour[p.side] * mix(vec3(look_photo_wet_rim_grey), look_photo_wet_rim, flesh_red);
   base = mix(base, rim_colour / max(shade, 0.3),
              look_photo_wet_rim_part * Ramp(look_photo_wet_rim_raised, raised) *
                  Ramp(look_photo_wet_rim_edge, p.above_lower));
@@ -161,10 +161,10 @@ float PhotoShade(Place p, float edge, inout vec3 base) {
 }
 
 // Adds the reflections of the wet surface. `light`: light on the ball.
-void AddMirrored(Place p, float shade, vec3 light, inout vec3 seen) {
+void AddMirrored(EyePoint p, float shade, vec3 light, inout vec3 seen) {
   // A photographed eye already shows its reflections; an eye drawn into a photo reflects in proportion to the light
   // there is.
-  float bright = clamp(dot(white_colour, vec3(0.3, 0.5, 0.2)) / 0.4, 0.15, 1.0);
+  float bright = clamp(dot(white_colour[p.side], vec3(0.3, 0.5, 0.2)) / 0.4, 0.15, 1.0);
   float gloss = beside_photo ? (pictured ? 0.0 : look_photo_gloss * bright) : 1.0;
   vec3 mirrored = reflect(-p.to_viewer, p.wet);
   vec2 pane = vec2(dot(mirrored, look_window_across), dot(mirrored, cross(look_window_at, look_window_across)));
@@ -186,7 +186,7 @@ void AddMirrored(Place p, float shade, vec3 light, inout vec3 seen) {
 }
 
 void main() {
-  Place p = FindPlace();
+  EyePoint p = FindEyePoint();
   vec3 base = pictured ? PhotographedWhite(p) : White(p);
   // The edge of the iris is soft in a photo, too.
   float edge = pictured ? Ramp(look_photo_iris_edge, p.from_axis)

@@ -1,4 +1,4 @@
-in vec2 streak_place;
+in vec2 streak_uv;
 in vec2 fray;
 in vec3 light;
 in vec3 key_light;
@@ -10,7 +10,7 @@ uniform sampler2D strands;  // locks in b, hairs in a
 out vec4 colour;
 
 void main() {
-  vec4 fine = texture(strands, streak_place) - 0.5;
+  vec4 fine = texture(strands, streak_uv) - 0.5;
   // Where hair thins out, some hairs are missing and others remain.
   float density = look_hair_closed * fray.x * min(2.2 - 2.2 * abs(fray.y), 1.0);
   // Ends and edges thin out softly, because each sample of a pixel compares with another density.

@@ -8,7 +8,7 @@ uniform mat3 rest_to_world;  // rotation of the head
 uniform float streaks;       // how strongly strands differ; 0 for lashes
 uniform float shine;
 
-out vec2 streak_place;
+out vec2 streak_uv;
 out vec2 fray;      // density, position across the lock
 out vec3 light;     // scattered light, with the hair's colour
 out vec3 key_light; // light of the key lamp that passed through hair
@@ -27,7 +27,7 @@ void main() {
   vec3 strand = rest_to_world * along_and_density.xyz;
   float sleek = length(strand);
   strand = normalize(strand - n * dot(strand, n) + n * 1e-4);
-  streak_place = among_hairs * vec2(1.0 / 268.0, 1.0 / 256.0);
+  streak_uv = among_hairs * vec2(1.0 / 268.0, 1.0 / 256.0);
   fray = vec2(along_and_density.w, across_lock);
 
   // Light on a strand is proportional to the sine of its angle to it (Kajiya and Kay 1989).

@@ -108,5 +108,5 @@ void main() {
   SetSlopes(n_world, h, power);
   shine.x = Fresnel(dot(h, v)) * openness * openness * shadow * Ramp(look_mirror_edge, dot(n_world, h));
   shine.yz = vec2(0.0);
-  place = rest_position.xz * planar;
+  detail_uv = rest_position.xz * detail_per_mm;
 }

@@ -6,14 +6,14 @@ in vec3 texcoord;  // u, v down; z > 0: the picture has the colour
 in vec3 tint;  // factor on the picture, or the colour without one
 
 uniform float brightness;
-uniform bool ragged;       // alpha test: transparent pixels are discarded
+uniform bool cut_out;       // alpha test: transparent pixels are discarded
 uniform bool toon;         // two-colour shading
 uniform float metallic;
 uniform float roughness;
 uniform float shade_to;    // cosines of the light's angle: shade colour up to here,
 uniform float light_from;  // lit colour from here
-uniform vec3 glow;
-uniform vec3 shade;
+uniform vec3 emissive;
+uniform vec3 shade_colour;
 uniform sampler2D photo;
 uniform sampler2D normal_map;   // xy of the normal, roughness, metallic
 uniform sampler2D emissive_map; // emission, or the toon's shade colour; a: openness to light
@@ -46,7 +46,7 @@ float Mirrored(float n_h, float n_l, float n_v, float a2) {
 
 void main() {
   vec4 p = texture(photo, texcoord.xy);
-  if (texcoord.z > 0.0 && ragged && 1.0 - p.a > OpacityStep(gl_FragCoord.xy) && p.a < 0.98) discard;
+  if (texcoord.z > 0.0 && cut_out && 1.0 - p.a > OpacityStep(gl_FragCoord.xy) && p.a < 0.98) discard;
   vec3 base = texcoord.z > 0.0 ? ToLinear(p.rgb) * tint : tint;
   vec4 r = texcoord.z > 0.0 ? texture(normal_map, texcoord.xy) : vec4(0.5, 0.5, 1.0, 1.0);
   vec4 l = texcoord.z > 0.0 ? texture(emissive_map, texcoord.xy) : vec4(1.0);
@@ -58,7 +58,7 @@ void main() {
   if (toon) {
     float lit = clamp((dot(n, lamp_directions[0]) - shade_to) / max(light_from - shade_to, 1e-3),
                       0.0, 1.0);
-    vec3 drawn = mix(shade * ToLinear(l.rgb) * tint, base, lit) + glow;
+    vec3 drawn = mix(shade_colour * ToLinear(l.rgb) * tint, base, lit) + emissive;
     colour = vec4(FromLinear(drawn) * brightness, 1.0);
     return;
   }
@@ -86,6 +86,6 @@ void main() {
   vec3 room = f0 * (-1.04 * e + q.z) + (1.04 * e + q.w);
   light += l.a * (Ambient(n) * scatters + Ambient(reflect(-v, n)) * room);
   light *= kPlate;
-  light += glow * ToLinear(l.rgb) / look_exposure;
+  light += emissive * ToLinear(l.rgb) / look_exposure;
   colour = vec4(ToScreen(light), 1.0);
 }

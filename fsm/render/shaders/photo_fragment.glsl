@@ -1,13 +1,13 @@
 // The photo includes its own light: it is shown as it is, except for creases that the face makes now. kCreased and
 // kDetailed precede this text and follow SkinDetail; detailed skin is creased, too.
-in vec2 place;
+in vec2 detail_uv;
 in vec3 texcoord;
 in vec3 paint;
 in vec4 grain_from;
 in float crease;
 in float shadow;
 in float covering;
-flat in vec3 settings;  // brightness, ragged, blends
+flat in vec3 settings;  // brightness, cut_out, blends
 
 uniform sampler2D photo;
 uniform sampler2D relief;
@@ -20,7 +20,7 @@ void main() {
   if (kDetailed && opacity < 0.98 && 1.0 - opacity > mix(OpacityStep(gl_FragCoord.xy), 0.99, settings.z)) discard;
   float shade = 1.0;
   if (kCreased) {
-    vec2 slope = texture(relief, place).zw - 0.5;
+    vec2 slope = texture(relief, detail_uv).zw - 0.5;
     // Alpha is the share of skin in the skin's map: hair over skin does not crease.
     float furrow = look_photo_crease + look_photo_crease_slope * dot(slope, vec2(-0.5, 0.85));
     shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * furrow;

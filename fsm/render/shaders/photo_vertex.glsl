@@ -9,32 +9,32 @@ layout(location = 11) in vec2 lid_skin;     // 1 on a lid, else 0; mean brightne
 uniform float lids_shut[2];  // right, left
 uniform float chin_y;         // y of the chin's lowest point at rest, millimetres
 uniform float chin_drop;      // how far it has dropped, millimetres
-uniform bool ragged;          // the sheet, which is discarded where the photo is transparent
+uniform bool cut_out;          // the sheet, which is discarded where the photo is transparent
 uniform float brightness;
 uniform bool blends;          // alpha-blended over earlier layers; else alpha to coverage
 uniform vec4 photo_light;     // in the head's frame: directional part, ambient part
 uniform mat3 rest_to_world;   // rotation of the head, with the figure's scale
 uniform float lips_apart;    // 0: closed, as the photo shows them; 1: as without a photo
 uniform bool lashes;         // visible on shut lids; the photo shows those of open ones
-uniform float yields;        // depth offset in millimetres by which other surfaces win
+uniform float depth_offset_mm;  // away from the eye, so that other surfaces win
 
-out vec2 place;
+out vec2 detail_uv;
 out vec3 texcoord;
 out vec3 paint;
 out vec4 grain_from;  // texture coordinate, whether there is one, mean brightness around it
 out float crease;
 out float shadow;
 out float covering;
-flat out vec3 settings;  // brightness, ragged, blends (1 or 0): in software a uniform costs each pixel more
+flat out vec3 settings;  // brightness, cut_out, blends (1 or 0): in software a uniform costs each pixel more
 
 void main() {
   vec3 world = TransformVertex();
-  if (yields > 0.0) {
-    vec4 farther = world_to_clip * vec4(world + yields * normalize(world - eye), 1.0);
+  if (depth_offset_mm > 0.0) {
+    vec4 farther = world_to_clip * vec4(world + depth_offset_mm * normalize(world - eye), 1.0);
     gl_Position.z = farther.z / farther.w * gl_Position.w;
   }
-  settings = vec3(brightness, float(ragged), float(blends));
-  place = unrolled;
+  settings = vec3(brightness, float(cut_out), float(blends));
+  detail_uv = unrolled;
   float lid = photo_texcoord.w;
   float closed = rest_position.x < 0.0 ? lids_shut[0] : lids_shut[1];
   // The margin of the lower lid, which does not slide, is reached last.
@@ -50,7 +50,7 @@ void main() {
   if (photo_texcoord.z > 0.0 && roll > 0.0) texcoord.z = mix(1.0, texcoord.z, lips_apart);
   // The shadow that a dropped chin casts on the neck and that moves with it.
   float below = chin_y + look_chin_shadow_rise * rest_position.x * rest_position.x - rest_position.y;
-  shadow = 1.0 - look_chin_shadow * float(ragged) * Ramp(look_chin_shadow_drop, chin_drop) *
+  shadow = 1.0 - look_chin_shadow * float(cut_out) * Ramp(look_chin_shadow_drop, chin_drop) *
                      Ramp(look_chin_shadow_edge, below) * exp(-max(below, 0.0) / look_chin_shadow_fades) *
                      Ramp(look_chin_shadow_sides, abs(rest_position.x));
   // The photo includes the light on the face at rest; a surface that an expression turns is relit by its new normal
@@ -65,7 +65,7 @@ void main() {
   }
   covering = opacity * (lashes ? Ramp(look_photo_lashes_shut, closed) : 1.0);
   // The sheet shows what surrounds the face.
-  crease = ragged ? 0.0 : CreaseDepth();
+  crease = cut_out ? 0.0 : CreaseDepth();
   paint = sqrt(max(albedo_openness.rgb * (of_lid ? 1.0 : albedo_openness.a), 0.0)) *
           mix(1.0, mix(look_photo_lip_away, 1.0, facing), roll);
 }

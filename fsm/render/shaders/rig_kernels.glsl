@@ -1,5 +1,5 @@
 // The steps of a rig (RigStep) on a graphics card, one program for each. gpu_rig.cc prepends the version, the name of
-// the step, a SmoothStep and fsm/rig/steps.glsl, which has the arithmetic. One invocation moves one vertex of one
+// the step and fsm/rig/steps.glsl, which has the arithmetic. One invocation moves one vertex of one
 // face. `records` holds a step's data about its vertices. If several things act on a vertex, its record gives the
 // range of `entries` that lists them.
 layout(local_size_x = 64) in;
@@ -7,7 +7,7 @@ layout(std430, binding = 0) buffer Positions { Point positions[]; };
 layout(std430, binding = 1) buffer Normals { Point normals[]; };
 layout(std430, binding = 2) buffer States { StepState states[]; };  // by face
 layout(std430, binding = 3) readonly buffer Strengths { float strengths[]; };
-layout(std430, binding = 4) readonly buffer Swings { Point swings[]; };
+layout(std430, binding = 4) readonly buffer SpringOffsets { Point spring_offsets[]; };
 layout(std430, binding = 5) buffer Gaps { Point gaps[]; };  // of the lips, for STEP_lips
 #define RECORDS(Type) layout(std430, binding = 6) readonly buffer Records { Type records[]; }
 #define ENTRIES(Type) layout(std430, binding = 7) readonly buffer Entries { Type entries[]; }
@@ -22,7 +22,7 @@ vec3 Normal(uint vertex) { return Vec(normals[OfFace(vertex)]); }
 void SetNormal(uint vertex, vec3 n) { normals[OfFace(vertex)] = PointAt(n); }
 
 #ifdef STEP_begin  // one record for each vertex
-RECORDS(PlaceRecord);
+RECORDS(RestRecord);
 void Take(uint vertex) {
   SetPosition(vertex, Vec(records[vertex].position));
   SetNormal(vertex, Vec(records[vertex].normal));
@@ -115,29 +115,24 @@ void Take(uint vertex) { SetPosition(vertex, Position(vertex) + Vec(records[vert
 #ifdef STEP_tongue  // entries: the pairs of the lips, from -x to +x
 RECORDS(TongueRecord);
 ENTRIES(SeamEntry);
-vec3 Upper(uint k) { return Position(entries[k].upper); }
-vec3 Lower(uint k) { return Position(entries[k].lower); }
+LipPair Lips(uint k) { return LipPair(Position(entries[k].upper), Position(entries[k].lower)); }
+LipPair LipsAt(float x) {
+  uint last = uint(seam_count) - 1u;
+  uint right = 0u;
+  while (right <= last && Position(entries[right].upper).x < x) ++right;
+  return LipsBetween(Lips(right == 0u ? 0u : right - 1u), Lips(min(right, last)), x);
+}
 void Take(uint record) {
   TongueRecord tongue = records[record];
   Mouth mouth = states[Face()].mouth;
-  uint count = uint(seam_count);
   TonguePath path = PathPastTeeth(mouth);
-  for (uint k = 0u; k < count; ++k) path = LipsOnPath(path, Upper(k), Lower(k));
-  float out_mm = ComesOut(path, mouth);
-  float through = SmoothStep(0.0, kTongueOut, out_mm);
+  for (uint k = 0u; k < uint(seam_count); ++k) path = LipsOnPath(path, Lips(k));
+  float out_mm = TongueProtrusion(path, mouth);
   SetNormal(tongue.vertex, NormalWithJaw(mouth.jaw, Vec(tongue.rest), Vec(tongue.rest_normal)));
   vec3 p = RaisedTongue(mouth, out_mm, Vec(tongue.rest), tongue.tip);
-  if (count > 0u) {
-    vec3 within = BehindTeeth(mouth, p);
-    vec3 narrow = NarrowTongue(path, p);
-    uint right = 0u;
-    while (right < count && Upper(right).x < narrow.x) ++right;
-    uint b = min(right, count - 1u);
-    uint a = right == 0u ? 0u : right - 1u;
-    float t = a == b ? 0.0 : (narrow.x - Upper(a).x) / max(Upper(b).x - Upper(a).x, 1e-3);
-    vec3 between = BetweenLips(path, mouth, narrow, LowerTeethZ(mouth, p.x),
-                               mix(Upper(a), Upper(b), t), mix(Lower(a), Lower(b), t));
-    p = mix(within, between, through);
+  if (seam_count > 0) {
+    p = out_mm > 0.0 ? TongueOverTeeth(path, mouth, out_mm, p, LipsAt(NarrowTongue(path, p).x))
+                     : BehindTeeth(mouth, p);
   }
   SetPosition(tongue.vertex, p);
 }
@@ -167,7 +162,7 @@ RECORDS(NeckRecord);
 void Take(uint vertex) {
   Neck neck = states[Face()].neck;
   SetPosition(vertex, WithNeck(neck, Position(vertex), records[vertex].weight));
-  if (records[vertex].turns_normal != 0u) SetNormal(vertex, Rotated(neck.turn, Normal(vertex)));
+  if (records[vertex].turns_normal != 0u) SetNormal(vertex, Rotated(neck.rotation, Normal(vertex)));
 }
 #endif
 
@@ -178,7 +173,7 @@ void Take(uint record) {
   ListRecord list = records[record];
   vec3 p = Position(list.vertex);
   for (uint i = list.from; i < list.to; ++i)
-    p += entries[i].weight * Vec(swings[Face() * uint(spring_count) + entries[i].spring]);
+    p += entries[i].weight * Vec(spring_offsets[Face() * uint(spring_count) + entries[i].spring]);
   SetPosition(list.vertex, p);
 }
 #endif

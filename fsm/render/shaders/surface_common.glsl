@@ -4,10 +4,10 @@ uniform float saturation;
 uniform vec3 lobes;          // strengths of a broad, a middle and a tight highlight
 uniform float bump;          // depth of pores or threads
 uniform float chroma;        // saturation on the screen, below 1 beside a faded photo
-uniform float planar;        // repeats of the detail per millimetre; 0: detail by skin uv
+uniform float detail_per_mm;  // repeats of the detail textures per millimetre; 0: by skin uv
 uniform vec3 head_up;        // unit, the direction of growing v on the skin
 
-out vec2 place;   // texture coordinate of the detail
+out vec2 detail_uv;  // texture coordinate of the detail
 out vec3 light;   // all scattered light, with the surface's colour
 out vec4 slopes;  // change of light by a slope to the right and up; slopes of the half vector
 out vec3 shine;   // strength of highlights, depth of creases, light at the edge

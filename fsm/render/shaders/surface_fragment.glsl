@@ -1,5 +1,5 @@
 // kRelief precedes this text: whether fine slopes and creases are visible.
-in vec2 place;
+in vec2 detail_uv;
 in vec3 light;
 in vec4 slopes;
 in vec3 shine;
@@ -12,10 +12,10 @@ uniform sampler2D relief; // slopes to the right and up: fine detail in rg, crea
 out vec4 colour;
 
 void main() {
-  vec4 t = texture(tint, place);
+  vec4 t = texture(tint, detail_uv);
   vec2 slope = vec2(0.0);
   if (kRelief) {
-    vec4 r = texture(relief, place) - 0.5;
+    vec4 r = texture(relief, detail_uv) - 0.5;
     slope = r.xy * finish.w + r.zw * shine.y;
   }
   // Highlights decrease with the distance of the half vector from the normal, both as slopes; the lobes are powers

@@ -41,10 +41,10 @@ void main() {
 
   float g = max(dot(n, normalize(lamp_directions[1] + v)), 0.0);
   float g4 = g * g * g * g;
-  shine.z = (lamp_colours[1].g * look_down_fill * g4 * g4 * g4 * g4 +
-             (behind.g * look_down_rim + Ambient(n).g * look_down_room) * away * away * away) *
+  shine.z = (lamp_colours[1].g * look_sheen_fill * g4 * g4 * g4 * g4 +
+             (behind.g * look_sheen_rim + Ambient(n).g * look_sheen_room) * away * away * away) *
             openness * openness * sheen;
 
   light = Albedo() * total * (1.0 - look_crease_darkens * crease);
-  place = planar > 0.0 ? rest_position.xy * planar : unrolled;
+  detail_uv = detail_per_mm > 0.0 ? rest_position.xy * detail_per_mm : unrolled;
 }

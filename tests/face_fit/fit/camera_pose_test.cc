@@ -56,7 +56,7 @@ TEST(CameraPoseTest, HeadRotationsComeBackFromTheirMatrix) {
   for (const fsm::Angles& told : {fsm::Angles{10, 0, 0}, {0, -20, 0}, {0, 0, 15}, {-25, 40, 30}}) {
     fsm::FaceState state;
     state.head_rotation = told;
-    const fsm::Angles found = HeadRotationOf(fsm::HeadTurn(state));
+    const fsm::Angles found = HeadRotationOf(fsm::HeadRotation(state));
     for (const fsm::Axis i : {fsm::kDown, fsm::kToRight, fsm::kTilted}) {
       EXPECT_NEAR(found[i], told[i], 1e-3F) << told[0] << ' ' << told[1] << ' ' << told[2];
     }

@@ -218,7 +218,8 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     }
     // Frames of heads are nobody's truth: what counts is how the fitted face lies over the true
     // one.
-    const glm::mat3 turned = camera.Turn() * over.turn * glm::transpose(fit.head.pose.Rotation());
+    const glm::mat3 turned =
+        camera.Turn() * over.rotation * glm::transpose(fit.head.pose.Rotation());
     const float cosine = (turned[0][0] + turned[1][1] + turned[2][2] - 1) / 2;
     error.turn_degrees = glm::degrees(std::acos(glm::clamp(cosine, -1.0F, 1.0F)));
     return error;

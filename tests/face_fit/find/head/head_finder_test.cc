@@ -76,7 +76,7 @@ class HeadFinderTest : public NetworkTest {
       at[{p.x, p.y, p.z}].push_back(i);
     }
     for (const auto& entry : std::filesystem::directory_iterator(folder + "/delta")) {
-      std::vector<glm::vec3> by(subject.model.position.size(), glm::vec3(0));
+      std::vector<glm::vec3> by(subject.model.mesh.position.size(), glm::vec3(0));
       std::ifstream lines(entry.path());
       for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
@@ -84,7 +84,8 @@ class HeadFinderTest : public NetworkTest {
         glm::vec3 d;
         if (!(words >> index >> d.x >> d.y >> d.z) || index >= obj->positions.size()) continue;
         const glm::vec3 p = obj->positions[index];
-        for (const std::uint32_t v : at[{p.x, p.y, p.z}]) by[v] = place.scale * (place.turn * d);
+        for (const std::uint32_t v : at[{p.x, p.y, p.z}])
+          by[v] = place.scale * (place.rotation * d);
       }
       subject.shapes[entry.path().stem().string()] = std::move(by);
     }
@@ -99,7 +100,7 @@ float ErrorOf(const Subject& subject, const std::vector<glm::vec3>& truth,
               const std::vector<glm::vec3>& carried) {
   float most = 0, error = 0, motion = 0;
   std::vector<bool> skin(truth.size(), false);
-  for (const auto& batch : subject.model.batches) {
+  for (const auto& batch : subject.model.mesh.batches) {
     if (batch.material != fsm::Material::kSkin) continue;
     for (const std::uint32_t v : batch.indices) skin[v] = true;
   }
@@ -127,7 +128,7 @@ TEST_F(HeadFinderTest, ShapesOfAnotherMakerComeBackFromOurHeadNearlyAsTheyWent) 
     // As the program does it (fsm/mesh/transfer/transferred_rig.cc).
     const auto eyes = fsm::EyeballTriangles(ours->topology());
     const fsm::TransferSurface own{rest.position, flesh, false, eyes};
-    const fsm::TransferSurface theirs{subject.model.position, subject.flesh,
+    const fsm::TransferSurface theirs{subject.model.mesh.position, subject.flesh,
                                       subject.model.has_uv_seams, subject.eyes};
     const fsm::DeformationTransfer there(theirs, own, back), home(own, theirs, subject.pairs);
     float sum = 0, worst = 0;
@@ -163,13 +164,13 @@ TEST_F(HeadFinderTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
         std::size_t nearest = 0;
         float least = 1e9F;
         for (const std::uint32_t v : subject.flesh) {
-          const float far = glm::distance(subject.model.position[v], pair.to);
+          const float far = glm::distance(subject.model.mesh.position[v], pair.to);
           if (far < least) {
             least = far;
             nearest = v;
           }
         }
-        y += position[nearest].y - subject.model.position[nearest].y;
+        y += position[nearest].y - subject.model.mesh.position[nearest].y;
         count += 1;
       }
       return y / count;

@@ -33,9 +33,9 @@ struct Faces {
     const glm::mat3 more =
         glm::mat3_cast(glm::angleAxis(glm::radians(off_deg), glm::vec3(0, 1, 0)));
     fsm::Similarity place;
-    place.turn = more * glm::transpose(turn);
+    place.rotation = more * glm::transpose(turn);
     place.scale = 100;
-    place.move = -100.0F * (place.turn * glm::vec3(1, 2, 3));
+    place.translation = -100.0F * (place.rotation * glm::vec3(1, 2, 3));
     return place;
   }
 };
@@ -54,7 +54,7 @@ TEST(PointPairsTest, PointsThatMissTheCheekAreLeftOutAndDoNotTurnTheHead) {
   faces.pairs = RejectOutliers(faces.pairs);
   EXPECT_EQ(faces.pairs.size(), all - 4);
   const auto place = fsm::FitSimilarity(faces.pairs);
-  const glm::vec3 ahead = place.turn * (faces.turn * glm::vec3(0, 0, 1));
+  const glm::vec3 ahead = place.rotation * (faces.turn * glm::vec3(0, 0, 1));
   EXPECT_LT(std::abs(glm::degrees(std::atan2(ahead.x, ahead.z))), 0.05F);
 }
 

@@ -1,4 +1,4 @@
-#include "fsm/mesh/gltf/gltf_paint.h"
+#include "fsm/mesh/gltf/gltf_textures.h"
 
 #include <algorithm>
 #include <array>
@@ -22,19 +22,19 @@ constexpr std::size_t kMaxPictures = 64;
 constexpr std::size_t kMaxDetailed = 16;  // materials with textures beside their picture
 constexpr int kOpaque = -1, kSmooth = 256;
 
-glm::vec4 FactorOf(const json& material) {
+glm::vec4 BaseColourFactor(const json& material) {
   glm::vec4 factor(1);
   JsonNumbers(JsonMember(material, "pbrMetallicRoughness"), "baseColorFactor",
               std::span(&factor.x, 4));
   return glm::clamp(factor, 0.0f, 1.0f);
 }
 
-const json& TextureOf(const json& material) {
+const json& BaseColourTexture(const json& material) {
   return JsonMember(JsonMember(material, "pbrMetallicRoughness"), "baseColorTexture");
 }
 
 /// Returns, for each sRGB byte, the byte multiplied by a factor in linear light.
-std::array<std::uint8_t, 256> Dimmed(float factor) {
+std::array<std::uint8_t, 256> ScaledBytes(float factor) {
   std::array<std::uint8_t, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
     const float shown = static_cast<float>(i) / 255;
@@ -44,9 +44,9 @@ std::array<std::uint8_t, 256> Dimmed(float factor) {
   return table;
 }
 
-void Dim(Image& picture, glm::vec4 factor, int cut) {
-  const std::array<std::array<std::uint8_t, 256>, 3> dim{Dimmed(factor.r), Dimmed(factor.g),
-                                                         Dimmed(factor.b)};
+void ApplyFactor(Image& picture, glm::vec4 factor, int cut) {
+  const std::array<std::array<std::uint8_t, 256>, 3> dim{
+      ScaledBytes(factor.r), ScaledBytes(factor.g), ScaledBytes(factor.b)};
   for (std::size_t i = 0; i + 3 < picture.rgba.size(); i += 4) {
     for (std::size_t c = 0; c < 3; ++c) picture.rgba[i + c] = dim[c][picture.rgba[i + c]];
     const float alpha = factor.a * static_cast<float>(picture.rgba[i + 3]);
@@ -57,18 +57,18 @@ void Dim(Image& picture, glm::vec4 factor, int cut) {
   }
 }
 
-GltfUv UvOf(const json& texture) {
-  GltfUv uv;
+GltfUvTransform UvOf(const json& texture) {
+  GltfUvTransform uv;
   uv.set = JsonInteger(texture, "texCoord", 0);
   const json& by = JsonMember(JsonMember(texture, "extensions"), "KHR_texture_transform");
   uv.set = JsonInteger(by, "texCoord", uv.set);
-  JsonNumbers(by, "offset", std::span(&uv.move.x, 2));
-  JsonNumbers(by, "scale", std::span(&uv.size.x, 2));
-  uv.turn_rad = static_cast<float>(JsonNumber(by, "rotation", 0));
+  JsonNumbers(by, "offset", std::span(&uv.offset.x, 2));
+  JsonNumbers(by, "scale", std::span(&uv.scale.x, 2));
+  uv.rotation_rad = static_cast<float>(JsonNumber(by, "rotation", 0));
   return uv;
 }
 
-Image Sized(Image image, int width, int height) {
+Image Resized(Image image, int width, int height) {
   if (image.width == width && image.height == height) return image;
   Image out{width, height, {}};
   for (int y = 0; y < height; ++y) {
@@ -81,39 +81,40 @@ Image Sized(Image image, int width, int height) {
 }
 
 /// Scales two pictures to one size: the larger width and the larger height of the two. A missing
-/// picture is filled with the colour that stands for it, `a_otherwise` or `b_otherwise`. Returns
+/// picture is filled with the colour that stands for it, `a_default` or `b_default`. Returns
 /// false, and changes nothing, if both are missing.
-bool Pair(std::optional<Image>& a, std::optional<Image>& b,
-          const std::array<std::uint8_t, 4>& a_otherwise,
-          const std::array<std::uint8_t, 4>& b_otherwise) {
+bool ToOneSize(std::optional<Image>& a, std::optional<Image>& b,
+               const std::array<std::uint8_t, 4>& a_default,
+               const std::array<std::uint8_t, 4>& b_default) {
   if (!a && !b) return false;
-  if (!a) a = Image{1, 1, {a_otherwise.begin(), a_otherwise.end()}};
-  if (!b) b = Image{1, 1, {b_otherwise.begin(), b_otherwise.end()}};
+  if (!a) a = Image{1, 1, {a_default.begin(), a_default.end()}};
+  if (!b) b = Image{1, 1, {b_default.begin(), b_default.end()}};
   const int width = std::max(a->width, b->width), height = std::max(a->height, b->height);
-  a = Sized(std::move(*a), width, height);
-  b = Sized(std::move(*b), width, height);
+  a = Resized(std::move(*a), width, height);
+  b = Resized(std::move(*b), width, height);
   return true;
 }
 
 }  // namespace
 
-glm::vec2 GltfUv::operator()(glm::vec2 uv) const {
-  const float c = std::cos(turn_rad), s = std::sin(turn_rad);
-  const glm::vec2 at = size * uv;
-  return move + glm::vec2(c * at.x + s * at.y, c * at.y - s * at.x);
+glm::vec2 GltfUvTransform::operator()(glm::vec2 uv) const {
+  const float c = std::cos(rotation_rad), s = std::sin(rotation_rad);
+  const glm::vec2 scaled = scale * uv;
+  return offset + glm::vec2(c * scaled.x + s * scaled.y, c * scaled.y - s * scaled.x);
 }
 
-GltfUv GltfPaint::UvOfMaterial(std::int64_t material) const {
-  const json& base = TextureOf(document_.At("materials", material));
+GltfUvTransform GltfTextures::UvOfMaterial(std::int64_t material) const {
+  const json& base = BaseColourTexture(document_.At("materials", material));
   if (base.contains("index")) return UvOf(base);
   const GltfMaterial given = ReadMaterial(document_, material);
-  for (const auto* one : {&given.normal, &given.surface, &given.open, &given.glow}) {
-    if (one->index >= 0 && one->where) return UvOf(*one->where);
+  for (const auto* one :
+       {&given.normal, &given.metallic_roughness, &given.occlusion, &given.emissive}) {
+    if (one->index >= 0 && one->reference) return UvOf(*one->reference);
   }
   return {};
 }
 
-std::int64_t GltfPaint::ImageOf(std::int64_t texture) {
+std::int64_t GltfTextures::ImageOf(std::int64_t texture) {
   const json& given = document_.At("textures", texture);
   if (const std::int64_t own = JsonInteger(given, "source"); own >= 0) return own;
   for (const char* kind : {"EXT_texture_webp", "KHR_texture_basisu", "EXT_texture_avif"}) {
@@ -124,11 +125,11 @@ std::int64_t GltfPaint::ImageOf(std::int64_t texture) {
   return -1;
 }
 
-void GltfPaint::ApplyMaterial(std::int64_t index, ImportedHead::Part& part) {
+void GltfTextures::ApplyMaterial(std::int64_t index, ImportedHead::Part& part) {
   using Alpha = GltfMaterial::Alpha;
   const json& material = document_.At("materials", index);
   part.name += " " + JsonText(material, "name");
-  const glm::vec4 factor = FactorOf(material);
+  const glm::vec4 factor = BaseColourFactor(material);
   if (index >= 0) part.colour = glm::vec3(factor);
   part.two_sided = material.contains("doubleSided") && material["doubleSided"] == json(true);
   const GltfMaterial given = ReadMaterial(document_, index);
@@ -139,9 +140,9 @@ void GltfPaint::ApplyMaterial(std::int64_t index, ImportedHead::Part& part) {
     if (fresh) head_.pbr_materials.push_back(*given.pbr);
     part.pbr = known->second;
   }
-  const std::int64_t texture = JsonInteger(TextureOf(material), "index");
-  const bool detailed = given.normal.index >= 0 || given.surface.index >= 0 ||
-                        given.open.index >= 0 || given.glow.index >= 0;
+  const std::int64_t texture = JsonInteger(BaseColourTexture(material), "index");
+  const bool detailed = given.normal.index >= 0 || given.metallic_roughness.index >= 0 ||
+                        given.occlusion.index >= 0 || given.emissive.index >= 0;
   if (texture < 0 && !detailed) return;
   const double cut_off = std::clamp(JsonNumber(material, "alphaCutoff", 0.5), 0.0, 1.0);
   const int cut = given.alpha == Alpha::kMask    ? static_cast<int>(std::lround(255 * cut_off))
@@ -160,7 +161,7 @@ void GltfPaint::ApplyMaterial(std::int64_t index, ImportedHead::Part& part) {
                          detailed ? DetailOf(given, UvOfMaterial(index)) : ImportedHead::Detail{});
 }
 
-std::optional<Image> GltfPaint::Decode(std::int64_t image) {
+std::optional<Image> GltfTextures::Decode(std::int64_t image) {
   const auto bytes = document_.ImageBytes(image);
   vm::Result<Image> picture =
       bytes ? DecodePicture(BytesOf(*bytes)) : std::unexpected(bytes.error());
@@ -173,7 +174,7 @@ std::optional<Image> GltfPaint::Decode(std::int64_t image) {
   return std::move(*picture);
 }
 
-ImportedHead::Detail GltfPaint::DetailOf(const GltfMaterial& given, const GltfUv& uv) {
+ImportedHead::Detail GltfTextures::DetailOf(const GltfMaterial& given, const GltfUvTransform& uv) {
   ImportedHead::Detail detail;
   if (++detailed_ > kMaxDetailed) {
     if (detailed_ == kMaxDetailed + 1) {
@@ -184,40 +185,40 @@ ImportedHead::Detail GltfPaint::DetailOf(const GltfMaterial& given, const GltfUv
   }
   const auto read = [&](const GltfMaterial::Texture& texture) -> std::optional<Image> {
     if (texture.index < 0) return std::nullopt;
-    if (texture.where && UvOf(*texture.where) != uv) {
+    if (texture.reference && UvOf(*texture.reference) != uv) {
       head_.notices.push_back("textures[" + std::to_string(texture.index) +
                               "] is left out: it lies on the mesh otherwise than the colour");
       return std::nullopt;
     }
     return Decode(ImageOf(texture.index));
   };
-  auto normal = read(given.normal), surface = read(given.surface);
-  if (Pair(normal, surface, {128, 128, 255, 255}, {255, 255, 255, 255})) {
-    const auto bent = [&](std::uint8_t byte) {
+  auto normal = read(given.normal), metallic_roughness = read(given.metallic_roughness);
+  if (ToOneSize(normal, metallic_roughness, {128, 128, 255, 255}, {255, 255, 255, 255})) {
+    const auto scaled = [&](std::uint8_t byte) {
       const float off = given.normal.strength * (static_cast<float>(byte) - 128);
       return static_cast<std::uint8_t>(std::clamp(128 + off, 1.0f, 255.0f));
     };
     for (std::size_t i = 0; i < normal->rgba.size(); i += 4) {
       std::uint8_t* n = &normal->rgba[i];
-      n[0] = bent(n[0]);
-      n[1] = bent(n[1]);
-      n[2] = surface->rgba[i + 1];
-      n[3] = surface->rgba[i + 2];
+      n[0] = scaled(n[0]);
+      n[1] = scaled(n[1]);
+      n[2] = metallic_roughness->rgba[i + 1];
+      n[3] = metallic_roughness->rgba[i + 2];
     }
     detail.normal_map = std::move(*normal);
   }
-  auto glow = read(given.glow), open = read(given.open);
-  if (Pair(glow, open, {255, 255, 255, 255}, {255, 255, 255, 255})) {
-    for (std::size_t i = 0; i < glow->rgba.size(); i += 4) {
-      const float shut = given.open.strength * static_cast<float>(255 - open->rgba[i]);
-      glow->rgba[i + 3] = static_cast<std::uint8_t>(std::clamp(255 - shut, 0.0f, 255.0f));
+  auto emissive = read(given.emissive), occlusion = read(given.occlusion);
+  if (ToOneSize(emissive, occlusion, {255, 255, 255, 255}, {255, 255, 255, 255})) {
+    for (std::size_t i = 0; i < emissive->rgba.size(); i += 4) {
+      const float shut = given.occlusion.strength * static_cast<float>(255 - occlusion->rgba[i]);
+      emissive->rgba[i + 3] = static_cast<std::uint8_t>(std::clamp(255 - shut, 0.0f, 255.0f));
     }
-    detail.emissive_map = std::move(*glow);
+    detail.emissive_map = std::move(*emissive);
   }
   return detail;
 }
 
-int GltfPaint::Picture(const Key& key, glm::vec4 factor, ImportedHead::Detail detail) {
+int GltfTextures::Picture(const Key& key, glm::vec4 factor, ImportedHead::Detail detail) {
   int& known = picture_of_.emplace(key, -1).first->second;
   if (head_.pictures.size() >= kMaxPictures) return known;
   // If a picture cannot be read, the part keeps its colour; its shape is still shown.
@@ -233,7 +234,7 @@ int GltfPaint::Picture(const Key& key, glm::vec4 factor, ImportedHead::Detail de
     }
   }
   if (!picture) return known;
-  Dim(*picture, factor, std::get<2>(key));
+  ApplyFactor(*picture, factor, std::get<2>(key));
   known = static_cast<int>(head_.pictures.size());
   head_.pictures.push_back(std::move(*picture));
   if (!detail.normal_map.rgba.empty() || !detail.emissive_map.rgba.empty()) {

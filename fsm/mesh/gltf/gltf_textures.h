@@ -12,25 +12,26 @@
 
 namespace fsm {
 
-/// The texture coordinates of a material: turn * (size * uv) + move (KHR_texture_transform).
-struct GltfUv {
+/// The texture coordinates of a material: rotation * (scale * uv) + offset (KHR_texture_transform).
+struct GltfUvTransform {
   std::int64_t set = 0;  ///< TEXCOORD_set
-  glm::vec2 move{0}, size{1};
-  float turn_rad = 0;
+  glm::vec2 offset{0}, scale{1};
+  float rotation_rad = 0;
   glm::vec2 operator()(glm::vec2 uv) const;
-  bool operator==(const GltfUv&) const = default;
+  bool operator==(const GltfUvTransform&) const = default;
 };
 
 /// Sets the colours and pictures of a head's parts from the materials of a glTF file. Factor, alpha
 /// cut-off and opacity of a material are applied to a copy of its picture, so that a part needs
 /// nothing but that copy; the other textures (GltfMaterial) are combined into ImportedHead::Detail.
-class GltfPaint {
+class GltfTextures {
  public:
   /// Lifetime: `document` and `head` outlive this.
-  GltfPaint(const GltfDocument& document, ImportedHead& head) : document_(document), head_(head) {}
+  GltfTextures(const GltfDocument& document, ImportedHead& head)
+      : document_(document), head_(head) {}
   void ApplyMaterial(std::int64_t material, ImportedHead::Part& part);
   /// Returns the texture coordinates of a material's picture.
-  GltfUv UvOfMaterial(std::int64_t material) const;
+  GltfUvTransform UvOfMaterial(std::int64_t material) const;
 
  private:
   /// Image, factor in steps of 1/255, alpha cut-off (-1 opaque, 256 blended), and the material if
@@ -41,7 +42,7 @@ class GltfPaint {
   std::optional<Image> Decode(std::int64_t image);
   /// Combines the textures of a material beside its picture; those with texture coordinates other
   /// than `uv` are left out.
-  ImportedHead::Detail DetailOf(const GltfMaterial& given, const GltfUv& uv);
+  ImportedHead::Detail DetailOf(const GltfMaterial& given, const GltfUvTransform& uv);
 
   const GltfDocument& document_;
   ImportedHead& head_;

@@ -1,0 +1,231 @@
+// The steps that shape the skin of a head that looks ahead: each takes, checks and packs its data.
+// steps.glsl says what happens to one vertex.
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "fsm/rig/rig_records.h"
+#include "fsm/rig/rig_steps.h"
+#include "fsm/rig/vertex_checker.h"
+
+namespace fsm {
+namespace {
+
+using step::PointAt;
+
+void TakeChannels(const RigData& data, const MovedVertices&, StepWork& work) {
+  for (std::size_t k = 0; k < data.channels.size(); ++k) {
+    const float strength = work.strengths[k];
+    if (strength == 0) continue;
+    for (const Displacement& d : data.channels[k].moves) work.position[d.vertex] += strength * d.by;
+  }
+}
+
+/// Returns the highest `number` of a Drive of this kind.
+std::size_t HighestNumber(Drive::Kind kind) {
+  using enum Drive::Kind;
+  switch (kind) {
+    case kUnit:
+    case kAskedUnit:
+      return UnitValues::kMost;
+    case kMouth:
+    case kSpokenMouth:
+    case kHandMouth:
+      return kMouthParameters - 1;
+    case kResidual:
+      return Residuals{}.size() - 1;
+    case kBlink:
+    case kGazeUp:
+    case kGazeRight:
+      return 0;
+  }
+  return 0;
+}
+
+void CheckChannels(const RigData& data, const VertexChecker& checker) {
+  for (std::size_t i = 0; i < data.channels.size(); ++i) {
+    const Channel& channel = data.channels[i];
+    const std::string place = checker.Element("rig.channels", i);
+    for (const auto& [drive, gain] : channel.drivers) {
+      if (const std::size_t highest = HighestNumber(drive.kind); drive.number > highest)
+        checker.Refuse(fmt::format("{}: number {} above {}", place, drive.number, highest));
+    }
+    if (!(channel.least <= channel.most)) {  // true for not-a-number, too
+      checker.Refuse(
+          fmt::format("{}: least {} is above most {}", place, channel.least, channel.most));
+    }
+    checker.VerticesOf(channel.moves, place + ".moves");
+  }
+}
+
+void PackChannels(const RigData& data, const char* kernel, KernelRecords& out) {
+  VertexLists<step::ChannelEntry> lists(data.rest.size());
+  for (std::uint32_t k = 0; k < data.channels.size(); ++k) {
+    for (const Displacement& move : data.channels[k].moves)
+      lists[move.vertex].push_back({k, PointAt(move.by)});
+  }
+  lists.AddTo(out, kernel);
+}
+
+void TakeLids(const RigData& data, const MovedVertices&, StepWork& work) {
+  for (const LidRig::Vertex& lid : data.lids.vertices) {
+    const step::Eye& eye = work.state.eyes[static_cast<std::size_t>(lid.side)];
+    glm::vec3& p = work.position[lid.vertex];
+    p = step::WithLids(lid.at, eye, p);
+    if (lid.proper) p = step::OverCornea(eye, p);
+  }
+}
+
+void CheckLids(const RigData& data, const VertexChecker& checker) {
+  checker.VerticesOf(data.lids.vertices, "rig.lids.vertices");
+}
+
+void PackLids(const RigData& data, const char* kernel, KernelRecords& out) {
+  std::vector<step::LidRecord> records;
+  for (const LidRig::Vertex& lid : data.lids.vertices) {
+    records.push_back(
+        {lid.vertex, static_cast<std::uint32_t>(lid.side), lid.at, lid.proper ? 1U : 0U});
+  }
+  out.Add(kernel, records);
+}
+
+void TakeLidsOnBalls(const RigData& data, const MovedVertices&, StepWork& work) {
+  for (const auto& [vertex, side, least] : data.ball_lids.vertices) {
+    glm::vec3& p = work.position[vertex];
+    p = step::OutOfBall(data.ball_lids.centre[side], least, p);
+  }
+}
+
+void CheckLidsOnBalls(const RigData& data, const VertexChecker& checker) {
+  checker.VerticesOf(data.ball_lids.vertices, "rig.ball_lids");
+}
+
+void PackLidsOnBalls(const RigData& data, const char* kernel, KernelRecords& out) {
+  std::vector<step::BallLidRecord> records;
+  for (const BallLids::Vertex& lid : data.ball_lids.vertices)
+    records.push_back({lid.vertex, static_cast<std::uint32_t>(lid.side), lid.least});
+  out.Add(kernel, records);
+}
+
+void TakeJaw(const RigData& data, const MovedVertices& moved, StepWork& work) {
+  const step::Jaw& jaw = work.state.mouth.jaw;
+  if (jaw.open == 0 && jaw.slide == 0 && jaw.sway == 0) return;
+  for (const std::uint32_t i : moved.jawed)
+    work.position[i] = step::WithJaw(jaw, work.position[i], data.weights[i].jaw);
+}
+
+void PackJaw(const RigData& data, const char* kernel, KernelRecords& out) {
+  std::vector<step::JawRecord> records;
+  for (const std::uint32_t i : MovedVertices(data).jawed)
+    records.push_back({i, data.weights[i].jaw});
+  out.Add(kernel, records);
+}
+
+void TakeJawByChin(const RigData& data, const MovedVertices&, StepWork& work) {
+  step::Jaw& jaw = work.state.mouth.jaw;
+  jaw = step::JawByChin(jaw, data.rest[data.jaw.chin], work.position[data.jaw.chin]);
+}
+
+void CheckJawByChin(const RigData& data, const VertexChecker& checker) {
+  checker.Vertex(data.jaw.chin, "rig.chin");
+}
+
+void PackJawByChin(const RigData& data, const char* kernel, KernelRecords& out) {
+  const std::uint32_t chin = data.jaw.chin;
+  out.Add(kernel, std::vector<step::ChinRecord>{{chin, PointAt(data.rest[chin])}});
+}
+
+void TakeTeeth(const RigData& data, const MovedVertices&, StepWork& work) {
+  for (const auto& [vertex, upper_gap, lower_gap] : data.teeth.contacts) {
+    glm::vec3& p = work.position[vertex];
+    p = step::OffTeeth(work.state.mouth, p, upper_gap, lower_gap);
+  }
+}
+
+void CheckTeeth(const RigData& data, const VertexChecker& checker) {
+  checker.VerticesOf(data.teeth.contacts, "rig.teeth_contacts");
+  if (data.teeth.contacts.empty()) return;
+  checker.Positive(data.teeth.upper.half_width, "rig.upper_teeth.half_width");
+  checker.Positive(data.teeth.lower.half_width, "rig.lower_teeth.half_width");
+}
+
+void PackTeeth(const RigData& data, const char* kernel, KernelRecords& out) {
+  std::vector<step::ContactRecord> records;
+  for (const auto& [vertex, upper_gap, lower_gap] : data.teeth.contacts)
+    records.push_back({vertex, upper_gap, lower_gap});
+  out.Add(kernel, records);
+}
+
+void TakeLips(const RigData& data, const MovedVertices&, StepWork& work) {
+  const LipRig& rig = data.lips;
+  thread_local std::vector<glm::vec3> gaps;  // kept from frame to frame
+  gaps.clear();
+  for (std::size_t k = 0; k < rig.seam.size(); ++k) {
+    const auto& [upper, lower] = rig.seam[k];
+    gaps.push_back(step::LipGap(work.state.mouth.seal, work.position[upper], work.position[lower],
+                                rig.ApartAtRest(k)));
+  }
+  for (const LipRig::Follower& f : rig.followers)
+    work.position[f.vertex] -= LipRig::ShareOf(f) * gaps[f.pair];
+}
+
+void CheckLips(const RigData& data, const VertexChecker& checker) {
+  const LipRig& lips = data.lips;
+  checker.Pairs(lips.seam, "rig.lips.seam");
+  if (!lips.apart_at_rest.empty() && lips.apart_at_rest.size() != lips.seam.size())
+    checker.Refuse("rig.lips.apart_at_rest: not one for each pair of the seam");
+  checker.VerticesOf(lips.followers, "rig.lips.followers");
+  for (std::size_t i = 0; i < lips.followers.size(); ++i) {
+    if (lips.followers[i].pair < lips.seam.size()) continue;
+    checker.Refuse(fmt::format("rig.lips.followers[{}]: pair {} of {}", i, lips.followers[i].pair,
+                               lips.seam.size()));
+  }
+}
+
+void PackLips(const RigData& data, const char* kernel, KernelRecords& out) {
+  const LipRig& lips = data.lips;
+  std::vector<step::GapRecord> gaps;
+  for (std::size_t k = 0; k < lips.seam.size(); ++k)
+    gaps.push_back({lips.seam[k].first, lips.seam[k].second, PointAt(lips.ApartAtRest(k))});
+  out.Add("lip_gaps", gaps);
+  VertexLists<step::LipEntry> lists(data.rest.size());
+  for (const LipRig::Follower& f : lips.followers)
+    lists[f.vertex].push_back({f.pair, LipRig::ShareOf(f)});
+  lists.AddTo(out, kernel);
+}
+
+void TakeOwnForm(const RigData& data, const MovedVertices&, StepWork& work) {
+  const std::vector<glm::vec3>& to_own = data.proxy.to_own;
+  for (std::size_t i = 0; i < to_own.size(); ++i) work.position[i] += to_own[i];
+}
+
+void CheckOwnForm(const RigData& data, const VertexChecker& checker) {
+  checker.PerVertex(data.proxy.rest.size(), "rig.proxy_rest", true);
+  if (data.proxy.to_own.size() != data.proxy.rest.size())
+    checker.Refuse("rig.proxy_to_own: not one for each of rig.proxy_rest");
+}
+
+void PackOwnForm(const RigData& data, const char* kernel, KernelRecords& out) {
+  out.Add(kernel, data.proxy.to_own);
+}
+
+constexpr std::array kSkinTable{
+    StepDefinition{RigStep::kChannels, "channels", TakeChannels, CheckChannels, PackChannels},
+    StepDefinition{RigStep::kLids, "lids", TakeLids, CheckLids, PackLids},
+    StepDefinition{RigStep::kLidsOnBalls, "lids_on_balls", TakeLidsOnBalls, CheckLidsOnBalls,
+                   PackLidsOnBalls},
+    StepDefinition{RigStep::kJaw, "jaw", TakeJaw, nullptr, PackJaw},
+    StepDefinition{RigStep::kJawByChin, "jaw_by_chin", TakeJawByChin, CheckJawByChin,
+                   PackJawByChin},
+    StepDefinition{RigStep::kTeeth, "teeth", TakeTeeth, CheckTeeth, PackTeeth},
+    StepDefinition{RigStep::kLips, "lips", TakeLips, CheckLips, PackLips},
+    StepDefinition{RigStep::kOwnForm, "own_form", TakeOwnForm, CheckOwnForm, PackOwnForm}};
+
+static_assert(AreInOrder(kSkinTable, RigStep::kChannels) && kSkinTable.size() == kSkinSteps);
+
+}  // namespace
+
+std::span<const StepDefinition> SkinStepDefinitions() { return kSkinTable; }
+
+}  // namespace fsm
