@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -253,6 +254,22 @@ class Reader {
   const std::int64_t version_;
 };
 
+/// Up to version 2 the residuals of the original's expressions were driven by the strengths, right
+/// and left, of three units that no list has.
+void DriveResiduals(std::vector<Channel>& channels) {
+  constexpr std::array<std::uint16_t, 3> kUnitsOfResiduals{3, 40, 0};
+  for (Channel& channel : channels) {
+    for (auto& [drive, gain] : channel.drivers) {
+      const auto unit = std::ranges::find(kUnitsOfResiduals, drive.number);
+      if (drive.kind != Drive::Kind::kAskedUnit || unit == kUnitsOfResiduals.end()) continue;
+      const auto pair = static_cast<std::uint16_t>(unit - kUnitsOfResiduals.begin());
+      const bool left = drive.side == Drive::OnlyOf(Side::kLeft);
+      drive = {.kind = Drive::Kind::kResidual,
+               .number = static_cast<std::uint16_t>(2 * pair + (left ? 1 : 0))};
+    }
+  }
+}
+
 HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
   const std::int64_t version = JsonInteger(from, "version");
   if (version < 1 || version > kAssetVersion) {
@@ -269,6 +286,7 @@ HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
   read("rig", asset.rig);
   read("landmarks", asset.landmarks);
   read("view", asset.view);
+  if (version <= 2) DriveResiduals(asset.rig.channels);
   asset.rig.units = UnitTable(Table("rig.units", JsonText(from["rig"], "units")));
   if (asset.rig.asymmetry_seed) asset.rig.units.MakeAsymmetric(*asset.rig.asymmetry_seed);
   vm::OrThrow(CheckAsset(asset));

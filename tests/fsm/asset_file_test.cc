@@ -263,6 +263,25 @@ TEST(AssetFileTest, GazeRangesAndMaterialsOfVersion2AreRead) {
   EXPECT_EQ(asset->topology.pbr_materials[0].emissive.z, 0.3F);
 }
 
+TEST(AssetFileTest, ResidualsThatWereUnitsInVersion2AreResiduals) {
+  const BallHead ball([](HeadAsset& asset) {
+    for (const std::uint16_t unit : {12, 40}) {
+      asset.rig.channels.push_back({});
+      asset.rig.channels.back().drivers.push_back(
+          {{.kind = Drive::Kind::kAskedUnit, .number = unit, .side = Drive::WhichSide::kLeft}});
+    }
+  });
+  const auto asset = ParseAsset("head.glb", InVersion2(WriteAsset(ball, {})));
+  ASSERT_TRUE(asset) << asset.error().text;
+  const std::size_t last = asset->rig.channels.size() - 1;
+  const Drive &smile = asset->rig.channels[last - 1].drivers[0].drive,
+              &residual = asset->rig.channels[last].drivers[0].drive;
+  EXPECT_EQ(smile.kind, Drive::Kind::kAskedUnit);
+  EXPECT_EQ(smile.number, 12);
+  EXPECT_EQ(residual.kind, Drive::Kind::kResidual);
+  EXPECT_EQ(residual.number, 3);
+}
+
 TEST(AssetFileTest, TheNamesOfVersion1AreNotTakenInVersion2) {
   const std::string file = Changed(InVersion1(WriteAsset(*MakeHead("galatea"), {})),
                                    [](nlohmann::json& e) { e["version"] = 2; });
