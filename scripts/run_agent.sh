@@ -225,7 +225,7 @@ build() {
 if [ -z "$installed" ]; then
   cd "$root"
   [ -x "$bin/agent_manager" ] ||
-    echo "run_agent: the first start installs what is missing and compiles what it needs: about 10 minutes on two cores, once" >&2
+    echo "run_agent: the first start installs what is missing and compiles what it needs: about 5 minutes on two cores, once" >&2
   "$root/scripts/setup.sh" </dev/null
   build
 fi
