@@ -38,7 +38,7 @@ ExpressionSlots::ExpressionSlots(FsmCore& core) : core_(core) {
   for (const auto& [expression, emotion] : core_.motion->tables().emotions) {
     for (std::size_t i = 0; i < emotion.patterns.size(); ++i) {
       const Name name{expression, static_cast<int>(i) + 1};
-      Declare(name, LookOf(name));
+      Declare(name, LookOf(name).value_or(""));
     }
   }
   core_.slots.set_definition_hook([this](const vm::Message& message, vm::PeerId,
@@ -78,11 +78,11 @@ void ExpressionSlots::Declare(const Name& name, const std::string& look) {
        })});
 }
 
-std::string ExpressionSlots::LookOf(const Name& name) const {
+std::optional<std::string> ExpressionSlots::LookOf(const Name& name) const {
   const EmotionTable& emotions = core_.motion->tables().emotions;
   const auto found = emotions.find(name.expression);
   const auto index = static_cast<std::size_t>(name.pattern - 1);
-  if (found == emotions.end() || index >= found->second.patterns.size()) return "";
+  if (found == emotions.end() || index >= found->second.patterns.size()) return {};
   return FormatLook(found->second.patterns[index], core_.motion->tables().unit_names);
 }
 
@@ -100,7 +100,7 @@ vm::Result<std::string> ExpressionSlots::Define(const Name& name, const std::str
     Declare(name, "");
     own_.push_back(slot);
   }
-  const std::string written = LookOf(name);
+  const std::string written = LookOf(name).value_or("");
   core_.slots.Report(slot, written);
   core_.changed();
   return written;
@@ -109,8 +109,15 @@ vm::Result<std::string> ExpressionSlots::Define(const Name& name, const std::str
 void ExpressionSlots::Forget(const std::string& expression) {
   core_.motion->expression.Forget(expression);
   for (Name name{expression, 1}; core_.slots.Has(SlotOf(name)); ++name.pattern) {
-    core_.slots.Store(SlotOf(name), LookOf(name));
+    const std::string slot = SlotOf(name);
+    if (const auto look = LookOf(name)) {
+      core_.slots.Store(slot, *look);
+    } else {
+      core_.slots.Remove(slot);
+      std::erase(own_, slot);
+    }
   }
+  core_.changed();
 }
 
 }  // namespace fsm

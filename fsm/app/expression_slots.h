@@ -25,7 +25,7 @@ class ExpressionSlots final : public ModulePart {
 
  private:
   void Declare(const Name& name, const std::string& look);
-  std::string LookOf(const Name& name) const;
+  std::optional<std::string> LookOf(const Name& name) const;
   vm::Result<std::string> Define(const Name& name, const std::string& look);
   void Forget(const std::string& expression);
 

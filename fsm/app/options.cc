@@ -48,16 +48,10 @@ void TellRenderer(CLI::App& app, const Options& options) {
   });
 }
 
-/// Adds the options of the renderer. CLI11 runs callbacks in the order of these lines, so the last
-/// of the given options wins.
+/// Adds the options of the renderer. CLI11 runs callbacks in the order of these lines, so the flags
+/// override the environment, which may give --context.
 void AddDrawing(CLI::App& app, GlFaceView::Options& view) {
   view.where = DisplayNamed() ? Where::kWindowIfPossible : Where::kHeadless;
-  app.add_flag_callback(
-      "--headless", [&view] { view.where = Where::kHeadless; },
-      "Draw without a window, only what is asked for");
-  app.add_flag_callback(
-      "--window", [&view] { view.where = Where::kWindow; },
-      "Draw in a window (the default where there is a display)");
   app.add_option_function<std::string>(
          "--context",
          [&view](const std::string& word) {
@@ -69,6 +63,12 @@ void AddDrawing(CLI::App& app, GlFaceView::Options& view) {
          "graphics card, else what Mesa has), auto (egl, else osmesa) or window")
       ->envname("GALATEA_CONTEXT")
       ->check(CLI::IsMember({"osmesa", "egl", "auto", "window"}));
+  app.add_flag_callback(
+      "--headless", [&view] { view.where = Where::kHeadless; },
+      "Draw without a window, only what is asked for");
+  app.add_flag_callback(
+      "--window", [&view] { view.where = Where::kWindow; },
+      "Draw in a window (the default where there is a display)");
   app.add_option_function<std::string>(
          "--rig", [&view](const std::string& word) { view.rig = kRigs.at(word); },
          "What moves the face's vertices: processor, card (needs OpenGL 4.3) or best (the "

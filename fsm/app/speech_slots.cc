@@ -229,7 +229,7 @@ void SpeechSlots::WaitForEnd() {
   timer_.At(end, [this] {
     // Changed settings may have moved the end.
     if (core_.motion->speech.End().value_or(vm::Time(0)) > core_.Now()) return WaitForEnd();
-    End(list_);
+    EndSpeech(list_);
     core_.changed();
   });
 }
@@ -248,10 +248,10 @@ void SpeechSlots::Stop() {
     SetState(State::kIdle);
     return;
   }
-  End(std::move(spoken));
+  EndSpeech(std::move(spoken));
 }
 
-void SpeechSlots::End(vm::PhonemeList spoken) {
+void SpeechSlots::EndSpeech(vm::PhonemeList spoken) {
   spoken_ = std::move(spoken);
   list_.clear();
   start_asked_ = false;

@@ -40,7 +40,7 @@ class SpeechSlots final : public ModulePart {
   void TellSpeaking();
   void WaitForEnd();
   void Stop();
-  void End(vm::PhonemeList spoken);
+  void EndSpeech(vm::PhonemeList spoken);
   void SetState(State state);
 
   FsmCore& core_;

@@ -38,6 +38,7 @@ void ReadColour(const TableRow& row, Palette& palette) {
   const auto found = std::ranges::find(kColours, row.Word(1), &NamedColour::name);
   if (found == kColours.end()) row.Fail("no part of a face is called " + row.Word(1));
   palette.*found->colour = row.Vector(2);
+  row.EndsAt(5);
 }
 
 Palette ReadBasePalette(const Table& table) {
@@ -73,6 +74,7 @@ void ReadIdentityRow(const TableRow& row, Identity& identity) {
   } else if (key == "slider") {
     std::erase_if(identity.sliders, [&](const auto& other) { return other.first == row.Word(1); });
     identity.sliders.emplace_back(row.Word(1), row.Number(2));
+    row.EndsAt(3);
   } else if (key == "hair") {
     if (row.Word(1) == "crop") {
       identity.crop =
@@ -80,11 +82,13 @@ void ReadIdentityRow(const TableRow& row, Identity& identity) {
                     row.Number(5), row.Number(6), row.Number(7),
                     row.Number(8), row.Number(9), row.size() > 10 ? row.Within(10, 0, 1) : 0.0f};
       if (identity.crop->locks < 0 || identity.crop->locks > 500) row.Fail("0 to 500 locks");
+      row.EndsAt(11);
     } else if (row.Word(1) == "long") {
       identity.crop.reset();
       identity.long_hair = {row.Within(2, -0.6f, 0.6f), row.Within(3, -5, 30),
                             row.Within(4, -160, -20), row.Within(5, -160, -20),
                             row.Within(6, 0, 12)};
+      row.EndsAt(7);
     } else {
       row.Fail("long or crop expected");
     }
@@ -93,19 +97,25 @@ void ReadIdentityRow(const TableRow& row, Identity& identity) {
     identity.eyes.roll = glm::radians(row.Within(2, -20, 20));
     identity.eyes.upper_mm = row.Within(3, -4, 3);
     identity.eyes.lower_mm = row.Within(4, -2, 4);
+    row.EndsAt(5);
   } else if (key == "fold") {
     identity.fold = {row.Within(1, -4, 4), row.Within(2, -4, 4), row.Within(3, 0, 2),
                      row.Within(4, -2, 5)};
+    row.EndsAt(5);
   } else if (key == "beard") {
     identity.palette.beard = row.Number(1);
+    row.EndsAt(2);
   } else if (key == "lashes") {
     identity.lashes = row.Number(1);
+    row.EndsAt(2);
   } else if (key == "brows") {
     identity.brows = {row.Number(1), row.Number(2)};
     if (row.size() > 3) identity.brows.arch = row.Within(3, -0.5f, 2);
     if (row.size() > 4) identity.brows.density = row.Within(4, 0, 1.5f);
+    row.EndsAt(5);
   } else if (key == "creases") {
     for (std::size_t i = 0; i < kLastingCreases; ++i) identity.creases[i] = row.Number(i + 1);
+    row.EndsAt(kLastingCreases + 1);
   } else {
     row.Fail("unknown word '" + key + "'");
   }

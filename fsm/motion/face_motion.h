@@ -25,7 +25,8 @@
 namespace fsm {
 
 /// The motion of the face: takes commands, each with its time, and returns the state of the face at
-/// any instant from the last command on. Pure in time: the same commands at the same times give the
+/// any instant from the last command on, and of the head, which springs follow, from
+/// Track::kMemory before it. Pure in time: the same commands at the same times give the
 /// same states, however often and in whatever order states are asked for. Each kind of movement is
 /// a MotionSource with its own commands; tables/mixing.txt defines how Mixer combines them.
 /// Errors: kBadValue for names and patterns that the tables do not have (the text lists what

@@ -68,14 +68,21 @@ class Track : public MoveTimes {
   Track() = default;
   explicit Track(T rest) : base_(std::move(rest)) {}
 
+  /// What `At` remembers of the time before a command: springs are simulated from then on.
+  static constexpr vm::Time kMemory = std::chrono::seconds(3);
+  /// The most moves that are remembered after their end.
+  static constexpr std::size_t kMostEnded = 200;
+
   /// Plans a move that begins at `start` (not before `now`). Moves that begin at `start` or later
-  /// are forgotten, but for jumps (of no duration) at `now`, which have been made. After this call,
-  /// `At` is good for times from `now` on.
+  /// are forgotten, but for a jump (of no duration) at `now` before a move, which has been made.
+  /// After this call, `At` is good for times from `now` - kMemory on; earlier by less where more
+  /// than kMostEnded moves have ended since.
   void Plan(vm::Time now, T target, vm::Time start, vm::Time duration) {
     Prune(now);
+    const bool jump = start == now && duration <= vm::Time(0);
     for (std::size_t i = spans_.size(); i-- > 0;) {
-      const bool made =
-          spans_[i].start < now || (spans_[i].start == now && spans_[i].duration <= vm::Time(0));
+      const bool made = spans_[i].start < now ||
+                        (spans_[i].start == now && spans_[i].duration <= vm::Time(0) && !jump);
       if (spans_[i].start < start || made) continue;
       Erase(i, i + 1);
     }
@@ -115,8 +122,12 @@ class Track : public MoveTimes {
     return first;
   }
 
+  // Forgets the moves that are hidden since `now` - kMemory, and of those hidden now all but the
+  // last kMostEnded.
   void Prune(vm::Time now) {
-    const std::size_t first = RunningFrom(now);
+    const std::size_t ended = RunningFrom(now);
+    const std::size_t first =
+        std::max(RunningFrom(now - kMemory), ended > kMostEnded ? ended - kMostEnded : 0);
     if (first == 0) return;
     base_ = targets_[first - 1];
     Erase(0, first);

@@ -48,6 +48,10 @@ void TakeTongue(const RigData& data, const MovedVertices& moved, StepWork& work)
 
 void CheckTongue(const RigData& data, const VertexChecker& checker) {
   checker.Pairs(data.lips.seam, "rig.lips.seam");
+  if (data.lips.seam.empty() || std::ranges::find(data.bone, Bone::kTongue) == data.bone.end())
+    return;
+  checker.Positive(data.teeth.upper.half_width, "rig.upper_teeth.half_width");
+  checker.Positive(data.teeth.lower.half_width, "rig.lower_teeth.half_width");
 }
 
 /// Records are the vertices of the tongue; entries are the pairs of the lip seam.

@@ -49,6 +49,8 @@ TEST_F(ActionsTest, ExpressionsAreDefinedShownAskedAndDeleted) {
             std::string::npos);
   EXPECT_NE(Refusal("del#1 FaceExp.SMIRK").find("there is no expression 'SMIRK'"),
             std::string::npos);
+  Refusal("inq#1 FaceExp.SMIRK.1");
+  Refusal("inq#1 FaceExp.SMIRK.2");
   EXPECT_EQ(fsm.Say("def#1 FaceExp.SMIRK = 12R 0.5"), "rep#1 FaceExp.SMIRK = 12R:0.5");
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
@@ -265,7 +266,7 @@ TEST(AssetFileTest, GazeRangesAndMaterialsOfVersion2AreRead) {
 
 TEST(AssetFileTest, ResidualsThatWereUnitsInVersion2AreResiduals) {
   const BallHead ball([](HeadAsset& asset) {
-    for (const std::uint16_t unit : {12, 40}) {
+    for (const std::uint16_t unit : std::array<std::uint16_t, 2>{12, 40}) {
       asset.rig.channels.push_back({});
       asset.rig.channels.back().drivers.push_back(
           {{.kind = Drive::Kind::kAskedUnit, .number = unit, .side = Drive::WhichSide::kLeft}});
@@ -378,6 +379,13 @@ TEST(CheckAssetTest, WhatIsDividedByIsMoreThanNothing) {
               asset.rig.teeth.upper.half_width = std::nanf("");
             }),
             "rig.upper_teeth.half_width: nan found where more than 0 was expected");
+  EXPECT_EQ(flaw([](HeadAsset& asset) {
+              asset.rig.steps = {RigStep::kTongue};
+              asset.rig.bone[0] = Bone::kTongue;
+              asset.rig.lips.seam = {{0, 1}};
+              asset.rig.teeth.upper.half_width = 0;
+            }),
+            "rig.upper_teeth.half_width: 0 found where more than 0 was expected");
 }
 
 TEST(RigTest, AMouthIsMeasuredWhicheverStepsThereAre) {

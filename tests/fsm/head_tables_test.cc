@@ -174,6 +174,16 @@ TEST(HeadTablesTest, FacesHaveTheColoursOfTheBaseHeadButForThoseTheyName) {
   EXPECT_EQ(identity.palette.gum, glm::vec3(0.1f, 0.2f, 0.3f));
 }
 
+TEST(HeadTablesTest, AFaceRefusesAWordTooManyInARow) {
+  for (const char* row :
+       {"slider nose_width 0.6 x", "beard 0.6 x", "lashes 0.5 x", "eyes 1 0 0 0 x",
+        "fold 0 0 1 1 x", "brows 1 0 0.5 1 x", "creases 0 0 0 0 x", "hair long 0 4 -100 -100 1 x",
+        "hair crop 4 14 260 23 0.25 0.8 0.35 4 0 x", "colour gum 0.1 0.2 0.3 x"}) {
+    EXPECT_EQ(Complaint([&] { Changed("galatea", {row}); }), "i.txt:1: 'x' is one word too many")
+        << row;
+  }
+}
+
 std::string FeaturesText() {
   std::ifstream file(GALATEA_SOURCE_DIR "/fsm/head/tables/features.txt");
   return {std::istreambuf_iterator<char>(file), {}};

@@ -204,6 +204,19 @@ TEST_F(FaceMotionTest, OfTwoMovesAtOneInstantTheFirstIsNotSeen) {
   EXPECT_EQ(track.At(400ms), 1) << "a jump has been made";
 }
 
+TEST_F(FaceMotionTest, WhatACommandEndsIsRememberedForSprings) {
+  Track<float> track(0);
+  track.MoveTo(1s, 1, 200ms);
+  track.MoveTo(2s, 0, 200ms);
+  EXPECT_EQ(track.At(900ms), 0);
+  EXPECT_EQ(track.At(1100ms), 0.5F);
+  EXPECT_EQ(track.At(1500ms), 1);
+  EXPECT_EQ(track.At(2100ms), 0.5F);
+  for (int i = 0; i < 1000; ++i) track.MoveTo(5s, static_cast<float>(i), 0ms);
+  EXPECT_EQ(track.At(5s), 999) << "of jumps at one instant the last is kept";
+  EXPECT_EQ(track.At(2500ms), 0);
+}
+
 TEST_F(FaceMotionTest, AutonomousBlinksAreTwoToSixSecondsApart) {
   ASSERT_TRUE(motion.switches().Set(0ms, "BLINK", 1));
   std::optional<vm::Time> last;
