@@ -3,6 +3,8 @@
 # parsers of OSC.
 #     scripts/real_clients.sh FOLDER [BIN]
 # installs them by npm into FOLDER, which must lie outside of the repository, and runs scripts/real_clients/*.mjs.
+# OpenAI's client for Python, which Debian 12 does not have, is tried where OPENAI_PYTHON is the command of a Python
+# that has it (Debian 13: package python3-openai).
 set -euo pipefail
 . "$(dirname "$0")/npm_folder.sh"
 npm install --no-fund --no-audit openai @modelcontextprotocol/sdk @modelcontextprotocol/inspector osc osc-min
@@ -40,7 +42,12 @@ python3 "$root/tests/chat/stub_model.py" >"$work/model" &
 started+=($!)
 url=$(first_line "$work/gateway")
 url=${url%%/v1*}
-node openai.mjs "http${url#ws}" "$(cat "$work/token")" "http://127.0.0.1:$(first_line "$work/model")"
+doors=("http${url#ws}" "$(cat "$work/token")" "http://127.0.0.1:$(first_line "$work/model")")
+node openai.mjs "${doors[@]}"
+if [ -n "${OPENAI_PYTHON:-}" ]; then
+  read -ra python <<<"$OPENAI_PYTHON"
+  "${python[@]}" - "${doors[@]}" <"$root/scripts/real_clients/openai_client.py"
+fi
 
 cat >"$work/hub.json" <<END
 {"listen": ["unix:$work/hub"], "modules": [{"name": "SSM", "command": ["$bin/ssm_stub"]}]}

@@ -206,7 +206,8 @@ build() {
     [ ! -t 2 ] && [ $((seconds - shown)) -lt 30 ] && continue
     shown=$seconds
     left=""
-    [ "$seconds" -lt 10 ] || left=", about $((seconds * (total - done) / done / 60 + 1)) min left"
+    # The first steps are slow ones, from which more would be promised than comes.
+    [ "$seconds" -lt 10 ] || [ $((4 * done)) -lt "$total" ] || left=", about $((seconds * (total - done) / done / 60 + 1)) min left"
     [ ! -t 2 ] || lines="\r\033[K"
     printf "run_agent: building, %d of %d: %s%s$lines" "$done" "$total" "${line%%/CMakeFiles/*}" "$left" >&2
   done < <(NINJA_STATUS='[%f/%t %e] ' "$root/scripts/build.sh" --only "$(needed | tr '\n' ' ')" </dev/null 2>&1 || echo "build.sh: failed")
@@ -225,7 +226,7 @@ build() {
 if [ -z "$installed" ]; then
   cd "$root"
   [ -x "$bin/agent_manager" ] ||
-    echo "run_agent: the first start installs what is missing and compiles what it needs: about 5 minutes on two cores, once" >&2
+    echo "run_agent: the first start installs what is missing and compiles what it needs: 5 to 10 minutes on two cores, once" >&2
   "$root/scripts/setup.sh" </dev/null
   build
 fi

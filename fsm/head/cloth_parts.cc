@@ -8,8 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "fsm/base/random.h"
-
 namespace fsm {
 namespace {
 
@@ -45,7 +43,7 @@ void ShadeNeck(const Features& features, std::span<const glm::vec3> collar, std:
 
 void BuildCloth(const Identity& identity, HeadMesh& mesh) {
   const Features& features = identity.UsedFeatures();
-  constexpr int kHalf = 13;  // columns of one half
+  constexpr int kHalf = 17;  // columns of one half
   // The first ring is row -1; the foot of the collar is row 0.
   constexpr std::array kRows = {-1.0f, 0.0f, 0.75f, 1.0f, 2.2f, 2.26f, 2.32f,
                                 2.62f, 2.9f, 3.2f,  3.6f, 4.2f, 6.0f};
@@ -66,7 +64,6 @@ void BuildCloth(const Identity& identity, HeadMesh& mesh) {
   std::vector<float> wa(around_at.size()), wd(down_at.size());
   BakeWeights weights;
   weights.skin.free = weights.skin.neck = weights.skin.jaw = 0;
-  const float uneven = features.shirt_uneven;
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (std::size_t r = 0; r < kRows.size(); ++r) {
     const float row = kRows[r];
@@ -92,9 +89,8 @@ void BuildCloth(const Identity& identity, HeadMesh& mesh) {
       }
       if (k == 0 || k == kHalf) p.x = 0;
       if (!left) p.x = -p.x;
-      mesh.Add(
-          p, light * identity.palette.cloth * (1 + uneven * NoiseAt(c, static_cast<int>(10 * row))),
-          glm::clamp(open, 0.2f, 1.0f), Bone::kSkin, weights);
+      mesh.Add(p, light * identity.palette.cloth, glm::clamp(open, 0.2f, 1.0f), Bone::kSkin,
+               weights);
     }
   }
   ShadeNeck(features, std::span(mesh.position).subspan(first + kCollar * kAround, kAround), first,

@@ -72,7 +72,7 @@ void EyeMotion::SetAim(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time 
 }
 
 void EyeMotion::BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to) {
-  if (!switches_[IdleKind::kGazeBlink].on || patterns_.blinks.empty()) return;
+  if (!switches_[IdleKind::kGazeBlink].on() || patterns_.blinks.empty()) return;
   const double angle = std::hypot(to[kDown] - from[kDown], to[kToRight] - from[kToRight]);
   const double chance = std::clamp(angle / kSureBlinkDegrees, 0.0, kMostBlinks);
   if ((RandomAt(seed_, RandomStream::kShiftBlink, ++shifts_) + 1) / 2 < chance) Blink(now, 1);

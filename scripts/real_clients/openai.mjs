@@ -38,7 +38,7 @@ assert.ok(Math.abs(seen.frames.length - seen.duration * 25) <= 2);
 assert.equal(Buffer.from(seen.audio, "base64").length, wav.bytes.length);
 
 // Mistakes are the client's own classes, with our words.
-await assert.rejects(speech({ voice: "alloy" }), (e) => e instanceof OpenAI.BadRequestError && /alloy/.test(e.message));
+await assert.rejects(speech({ voice: "nobody" }), (e) => e instanceof OpenAI.BadRequestError && /nobody/.test(e.message));
 await assert.rejects(speech({ input: "x".repeat(9000) }), (e) => e.status === 413 && /8192/.test(e.message));
 await assert.rejects(speech({ response_format: "ogg" }), (e) => e.status === 400 && /response_format/.test(e.message));
 const stranger = new OpenAI({ baseURL: gateway + "/v1", apiKey: "wrong-wrong-wrong", maxRetries: 0 });

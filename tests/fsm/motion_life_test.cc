@@ -53,6 +53,45 @@ TEST_F(IdleBehaviourTest, AProfileTakesTheLastPatternWhereTheTablesHaveFewer) {
   for (vm::Time t = 0ms; t < 20s; t += 500ms) few.StateAt(t);
 }
 
+// Each value of what idle behaviour moves.
+std::vector<float> Moved(const FaceState& state) {
+  std::vector<float> all(state.head_rotation.begin(), state.head_rotation.end());
+  for (const Side side : kSides) {
+    all.insert(all.end(), state.au[side].begin(), state.au[side].end());
+    all.insert(all.end(), state.gaze[side].begin(), state.gaze[side].end());
+    all.push_back(state.blink[side]);
+  }
+  return all;
+}
+
+TEST_F(IdleBehaviourTest, APatternThatReplacesAnotherFadesInWhileThatFadesOut) {
+  // By kind, the most that a value changes in a millisecond; saccades are fast.
+  for (const auto& [kind, most] : {std::pair{"MOVE", 0.01F},
+                                   {"GAZE", 0.6F},
+                                   {"BREATH", 0.01F},
+                                   {"NODS", 0.05F},
+                                   {"FACE", 0.01F}}) {
+    FaceMotion face(MotionTables::Load().value(), 7);
+    ASSERT_TRUE(face.switches().Set(0ms, kind, 1));
+    const auto before = Moved(face.StateAt(10300ms)), earlier = Moved(face.StateAt(10100ms));
+    ASSERT_TRUE(face.switches().Set(10300ms, kind, 2));
+    EXPECT_EQ(Moved(face.StateAt(10100ms)), earlier) << kind << ": the past is what it was";
+    auto last = before;
+    for (vm::Time t = 10300ms; t < 12s; t += 1ms) {
+      const auto now = Moved(face.StateAt(t));
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        ASSERT_NEAR(now[i], last[i], most)
+            << kind << " value " << i << " at " << t.count() << " us";
+      }
+      last = now;
+    }
+    // Once it has faded, only the new one is seen.
+    FaceMotion only(MotionTables::Load().value(), 7);
+    ASSERT_TRUE(only.switches().Set(10300ms, kind, 2));
+    EXPECT_EQ(Moved(only.StateAt(20s)), Moved(face.StateAt(20s))) << kind;
+  }
+}
+
 TEST_F(IdleBehaviourTest, OnsetsAreSlowFastSlow) {
   ASSERT_TRUE(motion.expression.Show(0ms, "HAPPY", 1, 1, 0ms));
   const auto smile = [&](double part) {

@@ -79,7 +79,7 @@ void ExpressionMotion::Plan(vm::Time now, const FaceLook& look, const Emotion::T
   const bool timed = duration > vm::Time(0);
   if (timed) onset = std::min(onset, duration / 2);
   for (const Side side : kSides) {
-    const double side_lag_ms = switches_[IdleKind::kAsymmetry].on ? side_lags_ms_[side] : 0;
+    const double side_lag_ms = switches_[IdleKind::kAsymmetry].on() ? side_lags_ms_[side] : 0;
     for (std::size_t part = 0; part < kRegions; ++part) {
       auto& track = parts_[side][part];
       // A region that begins late moves within the remaining time.

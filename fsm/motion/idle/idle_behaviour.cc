@@ -46,7 +46,7 @@ IdleBehaviour::IdleBehaviour(const MotionInputs& in)
       seed_(in.seed) {}
 
 void IdleBehaviour::ForEachTrack(const TrackVisitor& visit) const {
-  for (const IdleSwitches::Switch& own : switches_.all()) visit(own.weight);
+  for (const IdleSwitches::Switch& own : switches_.all()) visit(own.runs);
 }
 
 double IdleBehaviour::Random(RandomStream stream, std::int64_t index) const {
@@ -63,34 +63,30 @@ double IdleBehaviour::Wander(std::size_t wave, double periods) const {
 }
 
 void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
-  const IdleSwitches::Switch& own = switches_[IdleKind::kMove];
-  if (own.pattern == 0) return;
-  const double weight = own.weight.At(t);
-  if (!patterns_.auto_move_files.empty()) {
-    Add(out, Looped(PatternAt(patterns_.auto_move_files, own.pattern), InMs(t - own.since)),
-        weight);
-    return;
-  }
-  const AutoMove& move = PatternAt(patterns_.auto_moves, own.pattern);
-  const Angles amplitude{static_cast<float>(move.down), static_cast<float>(move.right),
-                         static_cast<float>(move.tilt)};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double slow = InMs(t) / move.period_ms + kAxesApart * static_cast<double>(axis);
-    const double fast = slow * gestures_.wander.faster;
-    const double way = gestures_.wander.slow * Wander(2 * axis, slow) +
-                       gestures_.wander.fast * Wander(2 * axis + 1, fast);
-    out[axis] += static_cast<float>(weight * way * amplitude[axis]);
+  for (const IdleRun& run : switches_[IdleKind::kMove].runs.At(t)) {
+    if (!patterns_.auto_move_files.empty()) {
+      Add(out, Looped(PatternAt(patterns_.auto_move_files, run.pattern), InMs(t - run.since)),
+          run.weight);
+      continue;
+    }
+    const AutoMove& move = PatternAt(patterns_.auto_moves, run.pattern);
+    const Angles amplitude{static_cast<float>(move.down), static_cast<float>(move.right),
+                           static_cast<float>(move.tilt)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double slow = InMs(t) / move.period_ms + kAxesApart * static_cast<double>(axis);
+      const double fast = slow * gestures_.wander.faster;
+      const double way = gestures_.wander.slow * Wander(2 * axis, slow) +
+                         gestures_.wander.fast * Wander(2 * axis + 1, fast);
+      out[axis] += static_cast<float>(run.weight * way * amplitude[axis]);
+    }
   }
 }
 
-void IdleBehaviour::AddNods(vm::Time t, Angles& out) const {
-  const IdleSwitches::Switch& own = switches_[IdleKind::kNods];
-  const double weight = own.weight.At(t);
-  if (own.pattern == 0 || weight <= 0) return;
-  const AutoNods& nods = PatternAt(patterns_.auto_nods, own.pattern);
-  const double ms = InMs(t - own.since);
+double IdleBehaviour::NodAt(const IdleRun& run, vm::Time t) const {
+  const AutoNods& nods = PatternAt(patterns_.auto_nods, run.pattern);
+  const double ms = InMs(t - run.since);
+  if (ms < 0) return 0;
   const auto k = static_cast<std::int64_t>(std::floor(ms / nods.interval_ms));
-  if (ms < 0) return;
   const auto varied = [&](glm::vec2 row, RandomStream stream) {
     return Linear(row, static_cast<float>(Random(stream, k)));
   };
@@ -102,47 +98,47 @@ void IdleBehaviour::AddNods(vm::Time t, Angles& out) const {
       RaisedCosine(since / gestures_.nod.lasts) +
       gestures_.second_nod.size *
           RaisedCosine((since - gestures_.second_nod.after) / gestures_.second_nod.lasts);
-  out[kDown] += static_cast<float>(weight * size * down);
+  return size * down;
 }
 
 void IdleBehaviour::Contribute(vm::Time t, MotionLayers& layers) const {
   MotionLayer& layer = layers.Layer("idle");
   AddMove(t, layer.head);
-  if (const IdleSwitches::Switch& own = switches_[IdleKind::kUserdef]; own.pattern > 0) {
-    Add(layer.head, Looped(PatternAt(patterns_.auto_userdef, own.pattern), InMs(t - own.since)),
-        own.weight.At(t));
+  for (const IdleRun& run : switches_[IdleKind::kUserdef].runs.At(t)) {
+    Add(layer.head, Looped(PatternAt(patterns_.auto_userdef, run.pattern), InMs(t - run.since)),
+        run.weight);
   }
-  if (const IdleSwitches::Switch& own = switches_[IdleKind::kBreath]; own.pattern > 0) {
-    const double breath = BreathAt(t);
-    layer.head[kDown] -=
-        static_cast<float>(PatternAt(patterns_.auto_breaths, own.pattern).pitch * breath);
-    const auto nostrils = static_cast<float>(gestures_.breath.nostrils * breath);
-    layer.units.au.left[kNostrilDilator] = layer.units.au.right[kNostrilDilator] = nostrils;
+  float nostrils = 0;
+  for (const IdleRun& run : switches_[IdleKind::kBreath].runs.At(t)) {
+    const AutoBreath& pattern = PatternAt(patterns_.auto_breaths, run.pattern);
+    const double breath = run.weight * BreathAt(pattern, t - run.since);
+    layer.head[kDown] -= static_cast<float>(pattern.pitch * breath);
+    nostrils += static_cast<float>(gestures_.breath.nostrils * breath);
   }
-  layer.units.gaze.left = layer.units.gaze.right = SaccadesAt(t);
+  layer.units.au.left[kNostrilDilator] = layer.units.au.right[kNostrilDilator] = nostrils;
+  EyeAngles gaze{};
+  for (const IdleRun& run : switches_[IdleKind::kGaze].runs.At(t)) {
+    const EyeAngles saccades = SaccadesAt(PatternAt(patterns_.auto_gazes, run.pattern), t);
+    for (std::size_t i = 0; i < 2; ++i) gaze[i] += run.weight * saccades[i];
+  }
+  layer.units.gaze.left = layer.units.gaze.right = gaze;
   layer.lids_shut = static_cast<float>(LidsShutAt(t));
-  AddNods(t, layers.Layer("nods").head);
-  if (const IdleSwitches::Switch& own = switches_[IdleKind::kFace]; own.pattern > 0) {
-    AddTo(layers.Layer("idle_face").units, PatternAt(patterns_.auto_faces, own.pattern),
-          own.weight.At(t));
+  for (const IdleRun& run : switches_[IdleKind::kNods].runs.At(t)) {
+    layers.Layer("nods").head[kDown] += static_cast<float>(run.weight * NodAt(run, t));
+  }
+  for (const IdleRun& run : switches_[IdleKind::kFace].runs.At(t)) {
+    AddTo(layers.Layer("idle_face").units, PatternAt(patterns_.auto_faces, run.pattern),
+          run.weight);
   }
 }
 
-double IdleBehaviour::BreathAt(vm::Time t) const {
-  const IdleSwitches::Switch& own = switches_[IdleKind::kBreath];
-  if (own.pattern == 0) return 0;
-  const double ms = std::max(0.0, InMs(t - own.since));
-  const double u = std::fmod(ms / PatternAt(patterns_.auto_breaths, own.pattern).period_ms, 1.0);
+double IdleBehaviour::BreathAt(const AutoBreath& pattern, vm::Time since) const {
+  const double u = std::fmod(std::max(0.0, InMs(since)) / pattern.period_ms, 1.0);
   const double in = gestures_.breath.in, out = gestures_.breath.out;
-  return own.weight.At(t) * (u < in ? SmoothStep(u / in) : 1 - SmoothStep((u - in) / out));
+  return u < in ? SmoothStep(u / in) : 1 - SmoothStep((u - in) / out);
 }
 
-EyeAngles IdleBehaviour::SaccadesAt(vm::Time t) const {
-  const IdleSwitches::Switch& own = switches_[IdleKind::kGaze];
-  if (own.pattern == 0) return {};
-  const AutoGaze& gaze = PatternAt(patterns_.auto_gazes, own.pattern);
-  const double weight = own.weight.At(t);
-  if (weight <= 0) return {};
+EyeAngles IdleBehaviour::SaccadesAt(const AutoGaze& gaze, vm::Time t) const {
   const auto saccade_ms = [&](std::int64_t k) {
     return gaze.interval_ms * (static_cast<double>(k) + kSaccadeAt +
                                kSaccadeVaries * Random(RandomStream::kGazeTime, k));
@@ -158,13 +154,11 @@ EyeAngles IdleBehaviour::SaccadesAt(vm::Time t) const {
                y1 = place(RandomStream::kGazeY, kSaccadeHeight, k);
   const double u = SmootherStep((now_ms - saccade_ms(k)) /
                                 (kSaccadeMs + kSaccadeMsPerDegree * std::hypot(x1 - x0, y1 - y0)));
-  return {static_cast<float>(weight * (y0 + u * (y1 - y0))),
-          static_cast<float>(weight * (x0 + u * (x1 - x0)))};
+  return {static_cast<float>(y0 + u * (y1 - y0)), static_cast<float>(x0 + u * (x1 - x0))};
 }
 
-vm::Time IdleBehaviour::BlinkInterval(std::int64_t index) const {
-  const double mean =
-      PatternAt(patterns_.auto_blinks, switches_[IdleKind::kBlink].pattern).interval_ms;
+vm::Time IdleBehaviour::BlinkInterval(std::size_t pattern, std::int64_t index) const {
+  const double mean = PatternAt(patterns_.auto_blinks, pattern).interval_ms;
   const std::int64_t n = 3 * index;
   const double normal = Random(RandomStream::kBlinkTime, n) +
                         Random(RandomStream::kBlinkTime, n + 1) +
@@ -174,51 +168,52 @@ vm::Time IdleBehaviour::BlinkInterval(std::int64_t index) const {
   return FromMs(index == 0 ? kFirstBlink * interval : interval);
 }
 
-IdleBehaviour::Blink IdleBehaviour::LastBlink(vm::Time t) const {
-  const IdleSwitches::Switch& own = switches_[IdleKind::kBlink];
+IdleBehaviour::Blink IdleBehaviour::LastBlink(std::size_t pattern, vm::Time since,
+                                              vm::Time t) const {
   Blink& blink = cache_.blink;
-  if (cache_.since != own.since || cache_.pattern != own.pattern || blink.index < 0) {
-    cache_ = {own.since, own.pattern, {-1, own.since}};  // the first interval begins there
+  if (cache_.since != since || cache_.pattern != pattern || blink.index < 0) {
+    cache_ = {since, pattern, {-1, since}};  // the first interval begins there
   }
   while (blink.index >= 0 && blink.start > t) {
-    blink.start -= BlinkInterval(blink.index);
+    blink.start -= BlinkInterval(pattern, blink.index);
     --blink.index;
   }
   for (;;) {
-    const vm::Time next = blink.start + BlinkInterval(blink.index + 1);
+    const vm::Time next = blink.start + BlinkInterval(pattern, blink.index + 1);
     if (next > t) return blink;
     blink = {blink.index + 1, next};
   }
 }
 
 double IdleBehaviour::LidsShutAt(vm::Time t) const {
-  const IdleSwitches::Switch& own = switches_[IdleKind::kBlink];
-  if (own.pattern == 0) return 0;
-  const AutoBlink& blinks = PatternAt(patterns_.auto_blinks, own.pattern);
-  const double weight = own.weight.At(t);
-  if (weight <= 0) return 0;
-  const Blink blink = LastBlink(t);
-  if (blink.index < 0) return 0;
-  const double depth =
-      blinks.varied
-          ? std::min(1.0, kBlinkDepth +
-                              kBlinkDepthVaries * Random(RandomStream::kBlinkDepth, blink.index))
-          : 1;
-  return weight * depth * LidsAt(patterns_.blinks[blinks.blink], t - blink.start);
+  double shut = 0;
+  for (const IdleRun& run : switches_[IdleKind::kBlink].runs.At(t)) {
+    const AutoBlink& blinks = PatternAt(patterns_.auto_blinks, run.pattern);
+    const Blink blink = LastBlink(run.pattern, run.since, t);
+    if (blink.index < 0) continue;
+    const double depth =
+        blinks.varied
+            ? std::min(1.0, kBlinkDepth +
+                                kBlinkDepthVaries * Random(RandomStream::kBlinkDepth, blink.index))
+            : 1;
+    shut += run.weight * depth * LidsAt(patterns_.blinks[blinks.blink], t - blink.start);
+  }
+  return shut;
 }
 
 std::optional<vm::Time> IdleBehaviour::NextActivity(vm::Time t) const {
   for (const IdleKindRow& row : IdleKinds()) {
-    if (row.moves_always && switches_[row.kind].on) return t;
+    if (row.moves_always && switches_[row.kind].on()) return t;
   }
   const std::optional<vm::Time> next = MotionSource::NextActivity(t);
   if (next && *next <= t) return t;
-  if (!switches_[IdleKind::kBlink].on) return next;
-  const AutoBlink& blinks = PatternAt(patterns_.auto_blinks, switches_[IdleKind::kBlink].pattern);
+  const IdleSwitches::Switch& own = switches_[IdleKind::kBlink];
+  if (!own.on()) return next;
+  const AutoBlink& blinks = PatternAt(patterns_.auto_blinks, own.pattern);
   const vm::Time length = LengthOf(patterns_.blinks[blinks.blink]);
   // Find the earliest blink that is not over, which follows the last one that is.
-  const Blink over = LastBlink(t - length);
-  return Earlier(next, std::max(t, over.start + BlinkInterval(over.index + 1)));
+  const Blink over = LastBlink(own.pattern, own.since, t - length);
+  return Earlier(next, std::max(t, over.start + BlinkInterval(own.pattern, over.index + 1)));
 }
 
 }  // namespace fsm

@@ -13,6 +13,7 @@
 namespace fsm {
 
 class IdleSwitches;
+struct IdleRun;
 struct MotionInputs;
 
 /// Moves the face without commands: small movements of head and eyes, breath and blinks on the
@@ -36,10 +37,10 @@ class IdleBehaviour : public MotionSource {
   double Random(RandomStream stream, std::int64_t index) const;  // -1..1
   double Wander(std::size_t wave, double periods) const;         // 0..5; smooth, -1..1
   void AddMove(vm::Time t, Angles& out) const;
-  void AddNods(vm::Time t, Angles& out) const;
-  // 0 = exhaled, 1 = inhaled; multiplied by the weight of the switch.
-  double BreathAt(vm::Time t) const;
-  EyeAngles SaccadesAt(vm::Time t) const;
+  double NodAt(const IdleRun& run, vm::Time t) const;  // degrees down
+  /// Returns 0 = exhaled .. 1 = inhaled.
+  double BreathAt(const AutoBreath& pattern, vm::Time since) const;
+  EyeAngles SaccadesAt(const AutoGaze& gaze, vm::Time t) const;
   /// A blink: its number since blinking was switched on, from 0, and when it begins.
   struct Blink {
     std::int64_t index = -1;
@@ -47,9 +48,10 @@ class IdleBehaviour : public MotionSource {
   };
   /// Returns the time from the start of the previous blink to that of blink `index`; for the first
   /// blink, from switching on.
-  vm::Time BlinkInterval(std::int64_t index) const;
-  /// Returns the last blink that has begun by `t`; its index is -1 before the first.
-  Blink LastBlink(vm::Time t) const;
+  vm::Time BlinkInterval(std::size_t pattern, std::int64_t index) const;
+  /// Returns the last blink that has begun by `t` with a pattern switched on at `since`; its index
+  /// is -1 before the first.
+  Blink LastBlink(std::size_t pattern, vm::Time since, vm::Time t) const;
 
   const MotionPatterns& patterns_;
   const GestureNumbers& gestures_;
@@ -59,7 +61,7 @@ class IdleBehaviour : public MotionSource {
   /// before it, and each interval depends on its number only, so a nearby blink, earlier or later,
   /// is found from here in a few steps. The result does not depend on the cache.
   struct BlinkCache {
-    vm::Time since{0};  // the switch's values for which it holds
+    vm::Time since{0};  // the run's values for which it holds
     std::size_t pattern = 0;
     Blink blink;
   };

@@ -8,18 +8,36 @@
 
 namespace fsm {
 
+IdleRuns Mix(const IdleRuns& a, const IdleRuns& b, double share_of_b) {
+  IdleRuns out;
+  const auto add = [&](const IdleRuns& runs, double share) {
+    for (const IdleRun& run : runs) {
+      const auto weight = static_cast<float>(run.weight * share);
+      if (weight <= 0) continue;
+      const auto same = std::ranges::find_if(out, [&](const IdleRun& other) {
+        return other.pattern == run.pattern && other.since == run.since;
+      });
+      if (same == out.end()) {
+        out.push_back({run.pattern, run.since, weight});
+      } else {
+        same->weight += weight;
+      }
+    }
+  };
+  add(a, 1 - share_of_b);
+  add(b, share_of_b);
+  return out;
+}
+
 IdleSwitches::IdleSwitches(const MotionPatterns& patterns) : patterns_(patterns) {
-  switches_[static_cast<std::size_t>(IdleKind::kAsymmetry)] = {1, true, vm::Time(0), Track(1.0f)};
+  Set(vm::Time(0), IdleKind::kAsymmetry, 1);
 }
 
 void IdleSwitches::Set(vm::Time now, IdleKind kind, std::size_t pattern) {
   Switch& own = switches_[static_cast<std::size_t>(kind)];
-  if (pattern > 0) {
-    own.pattern = pattern;
-    own.since = now;
-  }
-  own.on = pattern > 0;
-  own.weight.MoveTo(now, own.on ? 1.0f : 0.0f, RowOf(kind).fade);
+  own.pattern = pattern;
+  own.since = now;
+  own.runs.MoveTo(now, own.on() ? IdleRuns{{pattern, now, 1}} : IdleRuns{}, RowOf(kind).fade);
 }
 
 vm::Result<void> IdleSwitches::Set(vm::Time now, std::string_view kind, int pattern) {
@@ -54,7 +72,7 @@ vm::Result<void> IdleSwitches::SetProfile(vm::Time now, std::string_view profile
     const auto kind = static_cast<IdleKind>(i);
     // A configuration of the original may have fewer patterns than the tables of the profiles.
     const std::size_t pattern = std::min(wanted[i], RowOf(kind).count(patterns_));
-    if (pattern != ((*this)[kind].on ? (*this)[kind].pattern : 0)) Set(now, kind, pattern);
+    if (pattern != (*this)[kind].pattern) Set(now, kind, pattern);
   }
   return {};
 }

@@ -3,22 +3,35 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
+#include <vector>
 
 #include "fsm/motion/idle/motion_patterns.h"
 #include "fsm/motion/track.h"
 
 namespace fsm {
 
-/// Says which kinds of idle behaviour are on, and by which pattern. Commands change it; the sources
-/// that show a kind, or take it into account, read it.
+/// A pattern of a kind of idle behaviour that is on, or fades in or out.
+struct IdleRun {
+  std::size_t pattern = 0;  ///< from 1
+  vm::Time since{0};        ///< when it was switched on
+  float weight = 0;         ///< how far it has faded in, 0..1
+};
+/// The weights of a kind's runs are at most 1 together.
+using IdleRuns = std::vector<IdleRun>;
+IdleRuns Mix(const IdleRuns& a, const IdleRuns& b, double share_of_b);
+
+/// Says which kinds of idle behaviour are on, and by which pattern. A pattern that replaces another
+/// fades in while that fades out. Commands change it; the sources that show a kind, or take it into
+/// account, read it.
 /// Lifetime: `patterns` outlives this. Errors: kBadValue listing what exists.
 class IdleSwitches {
  public:
   struct Switch {
-    std::size_t pattern = 0;  ///< from 1; while it is off, the last one; 0 = it was never on
-    bool on = false;
-    vm::Time since{0};    ///< when it was switched on
-    Track<float> weight;  ///< how far it has faded in, 0..1
+    std::size_t pattern = 0;  ///< from 1; 0 = off
+    vm::Time since{0};        ///< when it was switched on
+    Track<IdleRuns> runs;
+
+    bool on() const { return pattern > 0; }
   };
 
   /// Switches ASYMMETRY on and everything else off.

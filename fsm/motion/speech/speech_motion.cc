@@ -95,24 +95,23 @@ SpeechMotion::Mouth SpeechMotion::MouthAt(vm::Time t) const {
 
 // ---- gestures
 
-const AutoAvert* SpeechMotion::Avert() const {
-  const std::size_t pattern = switches_[IdleKind::kAvert].pattern;
-  return pattern == 0 ? nullptr : &PatternAt(tables_.motions.auto_averts, pattern);
-}
-
 double SpeechMotion::GesturesOf(const Utterance& one, vm::Time t) const {
   if (t < one.begin || t >= FadedAt(one)) return 0;
   return one.stopped ? 1 - SmoothStep(Progress(t, *one.stopped, kHeadStops)) : 1;
 }
 
 void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {
-  const std::size_t pattern = switches_[IdleKind::kSpeech].pattern;
-  if (pattern == 0) return;
-  const AutoSpeech& size = PatternAt(tables_.motions.auto_speeches, pattern);
-  const double weight = switches_[IdleKind::kSpeech].weight.At(t);
+  AutoSpeech size{.nod = 0, .turn = 0, .tilt = 0, .brow = 0};
+  for (const IdleRun& run : switches_[IdleKind::kSpeech].runs.At(t)) {
+    const AutoSpeech& pattern = PatternAt(tables_.motions.auto_speeches, run.pattern);
+    size.nod += run.weight * pattern.nod;
+    size.turn += run.weight * pattern.turn;
+    size.tilt += run.weight * pattern.tilt;
+    size.brow += run.weight * pattern.brow;
+  }
   double brow = 0;
   for (const Utterance& one : utterances_) {
-    const double remaining = weight * GesturesOf(one, t);
+    const double remaining = GesturesOf(one, t);
     if (remaining <= 0) continue;
     const SpeechGestures::HeadGesture head = one.gestures.HeadAt(MouthPosition(one, t));
     layer.head[kDown] += static_cast<float>(remaining * size.nod * head.nod);
@@ -127,10 +126,10 @@ void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {
 }
 
 void SpeechMotion::ShowLooks(vm::Time t, MotionLayer& layer) const {
-  const std::size_t pattern = switches_[IdleKind::kText].pattern;
-  if (pattern == 0) return;
-  const double size =
-      PatternAt(tables_.motions.auto_texts, pattern).size * switches_[IdleKind::kText].weight.At(t);
+  double size = 0;
+  for (const IdleRun& run : switches_[IdleKind::kText].runs.At(t)) {
+    size += PatternAt(tables_.motions.auto_texts, run.pattern).size * run.weight;
+  }
   for (const Utterance& one : utterances_) {
     const double remaining = size * GesturesOf(one, t);
     if (remaining <= 0) continue;
@@ -146,23 +145,24 @@ void SpeechMotion::ShowLooks(vm::Time t, MotionLayer& layer) const {
 }
 
 void SpeechMotion::AvertEyes(vm::Time t, MotionLayer& layer) const {
-  const AutoAvert* avert = Avert();
-  if (avert == nullptr) return;
-  const double angle = avert->angle * switches_[IdleKind::kAvert].weight.At(t);
-  for (const Utterance& one : utterances_) {
-    const double remaining = angle * GesturesOf(one, t);
-    if (remaining == 0) continue;
-    const auto away = one.gestures.AvertedGazeAt(MouthPosition(one, t), avert->shortest_ms);
-    for (std::size_t i = 0; i < 2; ++i) {
-      layer.units.gaze.left[i] += static_cast<float>(remaining * away[i]);
+  for (const IdleRun& run : switches_[IdleKind::kAvert].runs.At(t)) {
+    const AutoAvert& avert = PatternAt(tables_.motions.auto_averts, run.pattern);
+    for (const Utterance& one : utterances_) {
+      const double remaining = avert.angle * run.weight * GesturesOf(one, t);
+      if (remaining == 0) continue;
+      const auto away = one.gestures.AvertedGazeAt(MouthPosition(one, t), avert.shortest_ms);
+      for (std::size_t i = 0; i < 2; ++i) {
+        layer.units.gaze.left[i] += static_cast<float>(remaining * away[i]);
+      }
     }
   }
   layer.units.gaze.right = layer.units.gaze.left;
 }
 
 double SpeechMotion::LidsShutAt(vm::Time t) const {
-  const bool at_end = switches_[IdleKind::kEndBlink].on;
-  const bool at_shifts = switches_[IdleKind::kGazeBlink].on && switches_[IdleKind::kAvert].on;
+  const std::size_t avert = switches_[IdleKind::kAvert].pattern;
+  const bool at_end = switches_[IdleKind::kEndBlink].on();
+  const bool at_shifts = switches_[IdleKind::kGazeBlink].on() && avert > 0;
   if ((!at_end && !at_shifts) || tables_.motions.blinks.empty() || utterances_.empty()) return 0;
   double shut = 0;
   const auto blink = [&](vm::Time start) {
@@ -175,7 +175,8 @@ double SpeechMotion::LidsShutAt(vm::Time t) const {
                                    RandomAt(seed_, RandomStream::kEndBlinkTime, utterance_count_)));
   }
   if (!at_shifts) return shut;
-  const auto [away, back] = last.gestures.AversionTimes(Avert()->shortest_ms);
+  const auto [away, back] =
+      last.gestures.AversionTimes(PatternAt(tables_.motions.auto_averts, avert).shortest_ms);
   if (back <= away) return shut;
   const double lead = lead_ms_.At(last.begin);
   if (RandomAt(seed_, RandomStream::kAvertBlink, 2 * utterance_count_) < 0)

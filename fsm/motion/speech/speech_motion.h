@@ -74,7 +74,6 @@ class SpeechMotion : public MotionSource {
   void ShowLooks(vm::Time t, MotionLayer& layer) const;
   void AvertEyes(vm::Time t, MotionLayer& layer) const;
   double LidsShutAt(vm::Time t) const;
-  const AutoAvert* Avert() const;  // nullptr while it is off
   /// Returns the remaining weight of an utterance's gestures, which fade once it is stopped; 0
   /// outside it.
   double GesturesOf(const Utterance& one, vm::Time t) const;
