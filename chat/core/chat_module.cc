@@ -22,6 +22,12 @@ constexpr vm::Time kAnswer = milliseconds(5000);
 constexpr vm::Time kNodPause = milliseconds(2000);
 constexpr std::size_t kMaxShown = 32 << 10;  // bytes of a reply in one line
 constexpr std::size_t kMaxWaiting = 8;
+// A model that thinks before it answers may have used its tokens up by that.
+const ModelFailure kWithoutWords{
+    .trouble = Trouble::kBroken,
+    .error = {
+        Errc::kUnavailable,
+        "the model answered without a word; one that thinks first may need more Model.tokens"}};
 
 const char* NameOf(Trouble trouble) {
   static constexpr const char* kNames[] = {"away", "refused", "busy", "late", "broken", "long"};
@@ -274,11 +280,13 @@ Thinker::Settings ChatModule::ThinkerSettings() const {
 void ChatModule::Think() {
   if (UsesModel()) {
     Perform(options_.tags.AtState("THINKS", life_));
-    return thinker_.Start(
-        history_, ThinkerSettings(),
-        {.began = [this] { turn_->words = clock_.Now(); },
-         .words = [this](const std::string& words) { OnWords(words); },
-         .end = [this](const std::optional<ModelFailure>& failure) { OnThought(failure); }});
+    return thinker_.Start(history_, ThinkerSettings(),
+                          {.began = [this] { turn_->words = clock_.Now(); },
+                           .words = [this](const std::string& words) { OnWords(words); },
+                           .end =
+                               [this](const std::optional<ModelFailure>& failure) {
+                                 OnThought(failure || turn_->words ? failure : kWithoutWords);
+                               }});
   }
   const std::string language = LanguageOf(turn_->input.text);
   std::string answer;

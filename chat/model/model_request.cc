@@ -79,6 +79,7 @@ void ModelRequest::Finish(std::expected<std::vector<ToolCall>, ModelFailure> end
   if (std::exchange(ended_, true)) return;
   clock_.Cancel(std::exchange(stall_timer_, 0));
   clock_.Cancel(std::exchange(whole_timer_, 0));
+  if (end && !end->empty() && !std::exchange(began_, true)) events_.began();
   events_.end(std::move(end));
 }
 
@@ -111,7 +112,8 @@ void ModelRequest::OnData(std::string_view bytes) {
 }
 
 void ModelRequest::Give(const std::string& words) {
-  if (words.empty()) return;
+  const bool blank = words.find_first_not_of(" \t\r\n") == std::string::npos;
+  if (words.empty() || (blank && !began_)) return;
   if (!std::exchange(began_, true)) events_.began();
   const std::size_t room = limits_.reply_bytes - given_;
   const std::string_view part = vm::CutUtf8(words, room);

@@ -186,6 +186,45 @@ TEST(ChatModuleTest, ErrorsAreToldOnceApologisedForAndForgotten) {
   }
 }
 
+TEST(ChatModuleTest, AnAnswerWithoutAWordIsAnErrorButNotOneThatDidSomething) {
+  ChatWorld world(Stub({"@FSM Mask"}));
+  // As llama.cpp sends it for a model that has thought until its tokens were used up.
+  const auto tell = [&](const json& delta, const json& reason) {
+    world.net.Data(
+        "data: " + json{{"choices", {{{"delta", delta}, {"finish_reason", reason}}}}}.dump() +
+        "\n\n");
+  };
+  world.Tell("set#1 Input.text = Hi");
+  world.net.Head(200);
+  tell({{"role", "assistant"}, {"content", nullptr}}, nullptr);
+  tell({{"reasoning_content", "Well"}}, nullptr);
+  tell({{"content", "\n\n"}}, nullptr);
+  tell(json::object(), "length");
+  world.net.Done();
+  world.UntilIdle();
+  EXPECT_TRUE(world.Lines("Speak =").at(0).contains("I have lost my thread"));
+  EXPECT_TRUE(world.Lines("rep#1").at(0).contains("Model.tokens")) << world.Lines("rep#1").at(0);
+  EXPECT_EQ(world.History(), "[]");
+
+  world.Tell("set#2 Input.text = Be somebody else");
+  world.net.Head(200);
+  tell({{"tool_calls",
+         {{{"index", 0},
+           {"id", "a"},
+           {"function",
+            {{"name", "set_slot"},
+             {"arguments", R"({"slot": "@FSM Mask", "value": "pygmalion"})"}}}}}}},
+       "tool_calls");
+  world.net.Done();
+  world.clock.RunReady();
+  world.net.Head(200);
+  tell(json::object(), "stop");
+  world.net.Done();
+  world.UntilIdle();
+  EXPECT_EQ(world.Lines("Mask =").size(), 1u);
+  EXPECT_EQ(world.Lines("Speak =").size(), 2u) << "the first apology's sentences, no second one";
+}
+
 TEST(ChatModuleTest, NothingIsSentBeforeTheEndpointWantsIt) {
   ChatWorld world(Stub());
   world.Tell("set Apology = OFF");
