@@ -3,8 +3,8 @@
 # parsers of OSC.
 #     scripts/real_clients.sh FOLDER [BIN]
 # installs them by npm into FOLDER, which must lie outside of the repository, and runs scripts/real_clients/*.mjs.
-# OpenAI's client for Python, which Debian 12 does not have, is tried where OPENAI_PYTHON is the command of a Python
-# that has it (Debian 13: package python3-openai).
+# The two for Python, which Debian 12 does not have, are tried where CLIENTS_PYTHON is the command of a Python that has
+# them (later Debians: packages python3-openai and python3-mcp).
 set -euo pipefail
 . "$(dirname "$0")/npm_folder.sh"
 npm install --no-fund --no-audit openai @modelcontextprotocol/sdk @modelcontextprotocol/inspector osc osc-min
@@ -44,10 +44,13 @@ url=$(first_line "$work/gateway")
 url=${url%%/v1*}
 doors=("http${url#ws}" "$(cat "$work/token")" "http://127.0.0.1:$(first_line "$work/model")")
 node openai.mjs "${doors[@]}"
-if [ -n "${OPENAI_PYTHON:-}" ]; then
-  read -ra python <<<"$OPENAI_PYTHON"
-  "${python[@]}" - "${doors[@]}" <"$root/scripts/real_clients/openai_client.py"
-fi
+# python_client NAME WORDS...: tries scripts/real_clients/NAME.py by that Python, if one is named.
+python_client() {
+  local python
+  read -ra python <<<"${CLIENTS_PYTHON:-}"
+  [ ${#python[@]} -eq 0 ] || "${python[@]}" - "${@:2}" <"$root/scripts/real_clients/$1.py"
+}
+python_client openai_client "${doors[@]}"
 
 cat >"$work/hub.json" <<END
 {"listen": ["unix:$work/hub"], "modules": [{"name": "SSM", "command": ["$bin/ssm_stub"]}]}
@@ -61,6 +64,7 @@ node mcp.mjs "${mcp[@]}"
 started+=($!)
 url=$(first_line "$work/mcp")
 node mcp.mjs "$url"
+python_client mcp_client "$url"
 inspector=(npx --no-install mcp-inspector --cli)
 "${inspector[@]}" "${mcp[@]}" --method tools/list | grep -q '"SSM_Rate"'
 "${inspector[@]}" "${mcp[@]}" --method tools/call --tool-name SSM_Rate --tool-arg value=2 | grep -q '"text": "2"'
