@@ -146,7 +146,7 @@ class HeadListTest : public testing::Test {
 TEST_F(HeadListTest, ARecordingsAnglesAreSampledWithItsSound) {
   WriteWav("a.wav", 16000);
   Write("a.csv",
-        "ms,roll,pitch,yaw,brow,more\n0,1,0,-5,0.5,x\n100,1,10,-5,0.5,x\n500,1,10,-5,0.5,x\n");
+        "ms,tilt,down,right,brow,more\n0,1,0,-5,0.5,x\n100,1,10,-5,0.5,x\n500,1,10,-5,0.5,x\n");
   const auto lessons = ReadHeadLessons(Write("list", "# mine\na.wav a.csv 0.5\n"), 0, 0);
   ASSERT_TRUE(lessons) << lessons.error().text;
   ASSERT_EQ(lessons->size(), 1U);
@@ -161,22 +161,46 @@ TEST_F(HeadListTest, ARecordingsAnglesAreSampledWithItsSound) {
   }
 }
 
+TEST_F(HeadListTest, WhatFaceTrackPrintsOfAFilmIsReadAsItIs) {
+  WriteWav("a.wav", 16000);
+  const std::string names =
+      "ms,person,certainty,down,right,tilt,x,lidR,jaw,au1R,au1L,au2R,au2L,miss\n";
+  Write("a.csv", names +
+                     "0.0,1,0.9,3,-4,2,0,1,0,0.4,0.6,0,0,1\n"
+                     "100.0,1,0.9,13,-4,2,0,1,0,0.4,0.6,0,0,1\n"
+                     "140.0,0,0,,,,,,,,,,,\n"
+                     "180.0,1,0.9,3,-4,2,0,1,0,0.4,0.6,0,0,1\n"
+                     "500.0,0,0,,,,,,,,,,,\n");
+  const auto lessons = ReadHeadLessons(Write("list", "a.wav a.csv\n"), 0, 0);
+  ASSERT_TRUE(lessons) << lessons.error().text;
+  const HeadLesson& lesson = lessons->front();
+  EXPECT_NEAR(lesson.truth(0, 5), 5, 1e-4) << "counted from the median";
+  EXPECT_NEAR(lesson.truth(0, 14), 5, 1e-4) << "a picture without a face is bridged";
+  EXPECT_NEAR(lesson.truth(1, 5), 0, 1e-4);
+  EXPECT_NEAR(lesson.truth(2, 5), 0, 1e-4);
+  EXPECT_NEAR(lesson.truth(3, 5), 0.25, 1e-4);
+  for (std::size_t k = 19; k < lesson.phrase.size(); ++k) EXPECT_EQ(lesson.phrase[k], 0U);
+  Write("a.csv", names + "0.0,1,0.9,3,,2,0,1,0,0.4,0.6,0,0,1\n");
+  EXPECT_EQ(ErrorOf("a.wav a.csv\n"), "a.csv:2: '' found for right, a number within +-90 expected");
+}
+
 TEST_F(HeadListTest, BadListsAndTablesAreRefusedWithFileAndLine) {
   WriteWav("a.wav", 1600);
-  Write("a.csv", "ms,pitch,yaw,roll,brow\n0,0,0,0,0\n10,0,0,0,0\n");
-  Write("b.csv", "ms,pitch,yaw,roll\n0,0,0,0\n");
-  Write("c.csv", "ms,pitch,yaw,roll,brow\n0,0,0,0,0\n0,0,0,0,0\n");
-  Write("d.csv", "ms,pitch,yaw,roll,brow\n0,0,95,0,0\n");
-  Write("e.csv", "ms,pitch,yaw,roll,brow\n0,0,,0,0\n");
+  Write("a.csv", "ms,down,right,tilt,brow\n0,0,0,0,0\n10,0,0,0,0\n");
+  Write("b.csv", "ms,down,right,tilt\n0,0,0,0\n");
+  Write("c.csv", "ms,down,right,tilt,brow\n0,0,0,0,0\n0,0,0,0,0\n");
+  Write("d.csv", "ms,down,right,tilt,brow\n0,0,95,0,0\n");
+  Write("e.csv", "ms,down,right,tilt,brow\n0,0,,0,0\n");
   EXPECT_EQ(ErrorOf("a.wav a.csv\n"), "none");
   EXPECT_EQ(ErrorOf(""), "list:1: no recording found, WAV CSV [EMOTION] expected");
   EXPECT_EQ(ErrorOf("\na.wav\n"), "list:2: WAV CSV [EMOTION, 0 to 1] expected");
   EXPECT_EQ(ErrorOf("a.wav a.csv 2\n"), "list:1: WAV CSV [EMOTION, 0 to 1] expected");
   EXPECT_EQ(ErrorOf("a.wav b.csv\n"),
-            "b.csv:1: no column 'brow' found, ms pitch yaw roll brow expected");
+            "b.csv:1: no column 'brow' found, ms down right tilt brow expected");
   EXPECT_EQ(ErrorOf("a.wav c.csv\n"), "c.csv:3: 0 ms found after 0 ms");
-  EXPECT_EQ(ErrorOf("a.wav d.csv\n"), "d.csv:2: '95' found for yaw, a number within +-90 expected");
-  EXPECT_EQ(ErrorOf("a.wav e.csv\n"), "e.csv:2: '' found for yaw, a number within +-90 expected");
+  EXPECT_EQ(ErrorOf("a.wav d.csv\n"),
+            "d.csv:2: '95' found for right, a number within +-90 expected");
+  EXPECT_EQ(ErrorOf("a.wav e.csv\n"), "e.csv:2: '' found for right, a number within +-90 expected");
   EXPECT_NE(ErrorOf("none.wav a.csv\n").find("none.wav"), std::string::npos);
 }
 

@@ -1,9 +1,11 @@
 #include "vdm/train/head_lesson.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <sstream>
 
 #include "fsm/motion/speech/speech_gestures.h"
@@ -60,41 +62,62 @@ std::vector<std::string> Cells(const std::string& line) {
   return cells;
 }
 
+/// The columns of a course; the brow is the mean of those after the angles.
+const std::vector<std::string_view> kCourse{"ms", "down", "right", "tilt", "brow"},
+    kFilmCourse{"ms", "down", "right", "tilt", "au1R", "au1L", "au2R", "au2L"};
+
+/// The way the head is mostly held becomes zero.
+void CentreOnMedian(Course& course) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::vector<float> angles;
+    for (const HeadPose& pose : course.poses) angles.push_back(pose.angles[i]);
+    const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
+    std::ranges::nth_element(angles, middle);
+    for (HeadPose& pose : course.poses) pose.angles[i] -= *middle;
+  }
+}
+
 vm::Result<Course> ReadCourse(const std::string& path) {
   const auto text = vm::ReadTextFile(path, kMaxFileBytes);
   if (!text) return std::unexpected(text.error());
-  constexpr std::array<std::string_view, 5> kNames = {"ms", "pitch", "yaw", "roll", "brow"};
   std::istringstream lines(*text);
   std::string line;
   std::getline(lines, line);
   const auto names = Cells(line);
-  std::array<std::size_t, 5> columns{};
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const auto found = std::ranges::find(names, kNames[i]);
+  const bool of_film =
+      std::ranges::count(names, "brow") == 0 && std::ranges::count(names, "au1R") > 0;
+  const auto& expected = of_film ? kFilmCourse : kCourse;
+  std::vector<std::size_t> columns;
+  for (const std::string_view name : expected) {
+    const auto found = std::ranges::find(names, name);
     if (found == names.end()) {
-      return Wrong(path, 1,
-                   fmt::format("no column '{}' found, ms pitch yaw roll brow expected", kNames[i]));
+      return Wrong(
+          path, 1,
+          fmt::format("no column '{}' found, {} expected", name, fmt::join(expected, " ")));
     }
-    columns[i] = static_cast<std::size_t>(found - names.begin());
+    columns.push_back(static_cast<std::size_t>(found - names.begin()));
   }
   Course course;
   for (std::size_t number = 2; std::getline(lines, line); ++number) {
     const auto cells = Cells(line);
     if (cells == std::vector<std::string>{""}) continue;
-    std::array<double, 5> values{};
+    const auto cell = [&](std::size_t i) {
+      return columns[i] < cells.size() ? cells[columns[i]] : "";
+    };
+    if (of_film && cell(1).empty() && !cell(0).empty()) continue;
+    std::vector<double> values;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      const std::string cell = columns[i] < cells.size() ? cells[columns[i]] : "";
+      const double most = i == 0 ? 1e8 : i >= 4 ? 2 : 90;
       std::size_t used = 0;
       try {
-        values[i] = std::stod(cell, &used);
+        values.push_back(std::stod(cell(i), &used));
       } catch (const std::exception&) {
         used = 0;
       }
-      const double most = i == 0 ? 1e8 : i == 4 ? 2 : 90;
-      if (used != cell.size() || used == 0 || !(std::abs(values[i]) <= most)) {
+      if (used != cell(i).size() || used == 0 || !(std::abs(values[i]) <= most)) {
         return Wrong(path, number,
                      fmt::format("'{}' found for {}, a number within +-{} expected",
-                                 cell.substr(0, 40), kNames[i], most));
+                                 cell(i).substr(0, 40), expected[i], most));
       }
     }
     if (!course.ms.empty() && values[0] <= course.ms.back()) {
@@ -102,11 +125,14 @@ vm::Result<Course> ReadCourse(const std::string& path) {
                    fmt::format("{} ms found after {} ms", values[0], course.ms.back()));
     }
     course.ms.push_back(values[0]);
-    course.poses.push_back({{static_cast<float>(values[1]), static_cast<float>(values[2]),
-                             static_cast<float>(values[3])},
-                            static_cast<float>(values[4])});
+    HeadPose pose;
+    for (std::size_t i = 0; i < 3; ++i) pose.angles[i] = static_cast<float>(values[1 + i]);
+    pose.brow = static_cast<float>(std::accumulate(values.begin() + 4, values.end(), 0.0) /
+                                   static_cast<double>(values.size() - 4));
+    course.poses.push_back(pose);
   }
   if (course.ms.size() < 2) return Wrong(path, 1, "fewer than two instants found");
+  if (of_film) CentreOnMedian(course);
   return course;
 }
 

@@ -44,10 +44,12 @@ HeadTruth TextDrivenHead(const Talk& talk, float emotion, const fsm::MotionTable
                          std::uint64_t seed);
 
 /// Recordings of people: a list, each line `WAV CSV [EMOTION]`, paths without blanks, beside the
-/// list where they are relative. The CSV: a line of names, ms, pitch, yaw, roll and brow in any
+/// list where they are relative. The CSV: a line of names, ms, down, right, tilt and brow in any
 /// order among others, then a line an instant, times rising, instants at most 200 ms apart where it
 /// shall be learned from: degrees down, to the viewer's right and tilt to it, and the strength of
-/// AU 1 and 2. Errors: kUnavailable, kBadValue with file and line.
+/// AU 1 and 2. Or what face_track prints of a film: its angles less their medians, the brow the
+/// mean of its units 1 and 2; pictures without a face are left out. Errors: kUnavailable, kBadValue
+/// with file and line.
 vm::Result<std::vector<HeadLesson>> ReadHeadLessons(const std::string& list, std::size_t sounds,
                                                     double late_ms);
 
