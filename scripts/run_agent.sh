@@ -182,9 +182,9 @@ needed() {
   [ -z "$chat" ] || example=chat
   [ -z "$heard" ] || example=voice
   echo agent_manager ssm_espeak
-  # In a browser the ear is the one that takes sound, unless its model is missing.
+  # In a browser the ear is the one that takes sound.
   grep -o 'build/bin/[a-z_]*' "$data/examples/agents/$example.json" | cut -d/ -f3 |
-    { [ -n "$web" ] && [ -d /usr/share/pocketsphinx/model/en-us ] && grep -vx srm_stub || cat; }
+    { [ -n "$web" ] && grep -vx srm_stub || cat; }
   [ "$voice" = ssm ] || echo "$voice"
   [ -z "$web" ] || echo srm
   [ -z "$dialog" ] || echo task_manager
@@ -227,8 +227,14 @@ if [ -z "$installed" ]; then
   cd "$root"
   [ -x "$bin/agent_manager" ] ||
     echo "run_agent: the first start installs what is missing and compiles what it needs: 5 to 10 minutes on two cores, once" >&2
-  "$root/scripts/setup.sh" </dev/null
+  "$root/scripts/setup.sh" --building </dev/null
+  # What only running needs is installed while the compiler works.
+  setup_log=$(mktemp)
+  "$root/scripts/setup.sh" </dev/null >"$setup_log" 2>&1 &
+  setup=$!
   build
+  wait "$setup" || { cat "$setup_log" >&2; rm -f "$setup_log"; fail "what running needs could not be installed"; }
+  rm -f "$setup_log"
 fi
 
 # A display counts only if a window can really be opened on it.

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that building and running the toolkit needs, with --tests also those
-# that only tests use. Does nothing (and asks for no password) if all of them are there.
+# that only tests use, with --building only those that building needs. Does nothing (and asks for no
+# password) if all of them are there.
 set -euo pipefail
 
 packages=(
@@ -9,11 +10,17 @@ packages=(
   libssl-dev zlib1g-dev libmosquitto-dev
   libmozjs-102-dev libexpat1-dev libcurl4-openssl-dev libutf8proc-dev
   libeigen3-dev libopencv-imgproc-dev
-  libosmesa6-dev libegl-dev libglfw3-dev libimgui-dev fonts-dejavu-core fonts-vlgothic libgl-dev libpng-dev libjpeg-dev ffmpeg
+  libosmesa6-dev libegl-dev libglfw3-dev libimgui-dev libgl-dev libpng-dev libjpeg-dev
   flite1-dev portaudio19-dev libsndfile1-dev
-  libespeak-ng-dev espeak-ng-data open-jtalk open-jtalk-mecab-naist-jdic libmecab-dev mecab-naist-jdic libhtsengine-dev
-  libpocketsphinx-dev pocketsphinx-en-us libspeexdsp-dev
+  libespeak-ng-dev libmecab-dev libhtsengine-dev
+  libpocketsphinx-dev libspeexdsp-dev
   liboscpack-dev
+)
+# What only running needs: a third of it all.
+[ "${1:-}" = --building ] || packages+=(
+  ffmpeg fonts-dejavu-core fonts-vlgothic
+  espeak-ng-data open-jtalk open-jtalk-mecab-naist-jdic mecab-naist-jdic
+  pocketsphinx-en-us
 )
 # The framework, servers, screens, a browser and recordings for the tests.
 [ "${1:-}" != --tests ] || packages+=(
