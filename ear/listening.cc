@@ -46,12 +46,8 @@ void Listening::Declare(const std::string& module_version) {
                   },
                   .on_inq = [this] { return on_ ? "START" : "STOP"; },
                   .saved = false});
-  slots_.Declare({.name = "Listen.stat",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = "OFF",
-                  .auto_output = true,
-                  .help = "OFF, LISTENING (nothing heard yet) or SPEECH (somebody is speaking)."});
+  slots_.DeclareTold("Listen.stat", "OFF",
+                     "OFF, LISTENING (nothing heard yet) or SPEECH (somebody is speaking).", true);
   slots_.Declare({.name = "Listen.timeout",
                   .grammar = "<ms>",
                   .initial = "0",

@@ -40,13 +40,11 @@ void SoundKeep::Declare() {
                           "oldest of them go.",
                   .on_set = [this](const vm::SetValue& value) { return Choose(value.text); },
                   .saved = false});
-  slots_.Declare({.name = "Result.sound",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .auto_output = true,
-                  .help = "MS BYTES WHOLE|CUT FILE: what was said, while Listen.keep names a "
-                          "folder; reported before Result and NoMatch. CUT: Listen.longest ended "
-                          "it."});
+  slots_.DeclareTold("Result.sound", "",
+                     "MS BYTES WHOLE|CUT FILE: what was said, while Listen.keep names a "
+                     "folder; reported before Result and NoMatch. CUT: Listen.longest ended "
+                     "it.",
+                     true);
 }
 
 vm::Result<std::string> SoundKeep::Choose(const std::string& folder) {

@@ -82,12 +82,9 @@ void ChatModule::DeclareInput() {
   std::string languages;
   for (const Rules& rules : options_.rules)
     languages += (languages.empty() ? "" : " ") + rules.language();
-  slots_.Declare({.name = "Language.all",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = UsesModel() ? "*" : languages,
-                  .help = "The languages of its answers, by their codes: those of the rules, or * "
-                          "where a model answers."});
+  slots_.DeclareTold("Language.all", UsesModel() ? "*" : languages,
+                     "The languages of its answers, by their codes: those of the rules, or * "
+                     "where a model answers.");
   slots_.Declare({.name = "Apology",
                   .grammar = "ON | OFF",
                   .initial = "ON",
@@ -110,13 +107,10 @@ void ChatModule::DeclareModel() {
                   .grammar = "<text>",
                   .initial = options_.model,
                   .help = "The model's name, as the endpoint knows it."});
-  slots_.Declare({.name = "Model.url",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = options_.endpoint.url,
-                  .help =
-                      "Where it is asked; set when the program is started. Empty: rules answer, "
-                      "and nothing is sent anywhere."});
+  slots_.DeclareTold("Model.url", options_.endpoint.url,
+                     "Where it is asked; set when the program is started. Empty: rules answer, "
+                     "and nothing is sent anywhere.",
+                     false);
   number("Model.tokens", "<int 1..32768>", "400", "The longest reply, in the model's tokens.");
   number("Model.seconds", "<int 1..600>", "60", "How long a reply may take.");
   number("Model.stall", "<int 1..600>", "15", "Seconds without anything new that end a reply.");
@@ -129,11 +123,8 @@ void ChatModule::DeclareModel() {
   std::string allowed;
   for (const std::string& place : options_.endpoint.allow_set)
     allowed += (allowed.empty() ? "" : ", ") + place;
-  slots_.Declare({.name = "Tools",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = allowed,
-                  .help = "The slots the model may set; given when the program is started."});
+  slots_.DeclareTold("Tools", allowed,
+                     "The slots the model may set; given when the program is started.", false);
   number("Tools.rounds", "<int 0..20>", "4",
          "How often in one reply the model may set slots before it has to answer.");
 }
@@ -200,10 +191,8 @@ void ChatModule::DeclareTalk() {
                   .help = "Phrases by which the user ends the next conversation lent, with | "
                           "between; forgotten at its end.",
                   .saved = false});
-  slots_.Declare({.name = "Talk.result",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .help = "The word that the tag [end WORD] of the last conversation lent had."});
+  slots_.DeclareTold("Talk.result", "",
+                     "The word that the tag [end WORD] of the last conversation lent had.");
   Told("Talk.over",
        "How the last conversation lent ended: reason, turns and last words as Talk is answered "
        "with, or FAILED and the error.");

@@ -24,31 +24,27 @@ void TrackModule::Shutdown() {
 }
 
 void TrackModule::DeclareRun() {
-  slots_.Declare({.name = "Run",
-                  .grammar = "START | STOP | LIVE | EXIT",
-                  .initial = "LIVE",
-                  .auto_output = true,
-                  .help = "START: the face in Input is followed and moves the agent from now on. "
-                          "STOP: no longer. EXIT ends the module.",
-                  .on_set_later =
-                      [this](const vm::SetValue& value, const vm::Reply& reply) {
-                        const std::string& word = value.word(0);
-                        if (word == "START") {
-                          on_ = true;
-                          if (auto started = Start(); !started) {
-                            on_ = false;
-                            return reply.Fail(started.error());
-                          }
-                        }
-                        slots_.Report("Run", word);
-                        if (word == "STOP" || word == "EXIT") {
-                          on_ = false;
-                          Stop();
-                        }
-                        reply.Ok(word);
-                        if (word == "EXIT") exit_requested_ = true;
-                      },
-                  .saved = false});
+  vm::DeclareCommonSlots(slots_, {.module_version = options_.module_version,
+                                  .protocol_version = "Galatea protocol 1.0",
+                                  .auto_output = true,
+                                  .on_start = [this]() -> vm::Result<void> {
+                                    on_ = true;
+                                    auto started = Start();
+                                    on_ = started.has_value();
+                                    return started;
+                                  },
+                                  .on_stop =
+                                      [this] {
+                                        on_ = false;
+                                        Stop();
+                                      },
+                                  .work = "the face in Input is followed and moves the agent",
+                                  .on_exit =
+                                      [this] {
+                                        on_ = false;
+                                        Stop();
+                                        exit_requested_ = true;
+                                      }});
   slots_.Declare(
       {.name = "Input",
        .grammar = "NONE | <file>",
@@ -116,25 +112,13 @@ void TrackModule::DeclareSettings() {
 }
 
 void TrackModule::DeclareTold() {
-  const auto declare = [this](std::string name, std::string initial, std::string help,
-                              bool auto_output) {
-    slots_.Declare({.name = std::move(name),
-                    .grammar = "<text>",
-                    .access = vm::Access::kReadOnly,
-                    .initial = std::move(initial),
-                    .auto_output = auto_output,
-                    .help = std::move(help)});
-  };
-  declare("ModuleVersion", options_.module_version, "The version of this program.", false);
-  declare("ProtocolVersion", "Galatea protocol 1.0", "The version of the protocol it speaks.",
-          false);
-  declare("Track", "", "Each picture's line as a JSON object (docs/tracking.md).", false);
-  declare("Track.stat", "OFF",
-          "OFF, LOOKING (for a face, or at one for the first time) or FOLLOWING.", true);
-  declare("Track.speed", "0 0",
-          "Each second: how many pictures were looked at in it, and how many ms after it was there "
-          "what one shows was told.",
-          false);
+  slots_.DeclareTold("Track", "", "Each picture's line as a JSON object (docs/tracking.md).");
+  slots_.DeclareTold("Track.stat", "OFF",
+                     "OFF, LOOKING (for a face, or at one for the first time) or FOLLOWING.", true);
+  slots_.DeclareTold(
+      "Track.speed", "0 0",
+      "Each second: how many pictures were looked at in it, and how many ms after it was there "
+      "what one shows was told.");
 }
 
 vm::Result<void> TrackModule::Start() {

@@ -24,31 +24,28 @@ auto ValueOf(const Table& table, const std::string& word) {
 }  // namespace
 
 void MaskModule::DeclareRun() {
-  slots_.Declare({.name = "Run",
-                  .grammar = "START | STOP | LIVE | EXIT",
-                  .initial = "LIVE",
-                  .auto_output = true,
-                  .help = "START: the mask in Input is followed and the face projected onto it "
-                          "from now on. STOP: no longer. EXIT ends the module.",
-                  .on_set_later =
-                      [this](const vm::SetValue& value, const vm::Reply& reply) {
-                        const std::string& word = value.word(0);
-                        if (word == "START") {
-                          on_ = true;
-                          if (auto started = Start(); !started) {
-                            on_ = false;
-                            return reply.Fail(started.error());
-                          }
-                        }
-                        slots_.Report("Run", word);
-                        if (word == "STOP" || word == "EXIT") {
-                          on_ = false;
-                          Stop();
-                        }
-                        reply.Ok(word);
-                        if (word == "EXIT") exit_requested_ = true;
-                      },
-                  .saved = false});
+  vm::DeclareCommonSlots(slots_,
+                         {.module_version = options_.module_version,
+                          .protocol_version = "Galatea protocol 1.0",
+                          .auto_output = true,
+                          .on_start = [this]() -> vm::Result<void> {
+                            on_ = true;
+                            auto started = Start();
+                            on_ = started.has_value();
+                            return started;
+                          },
+                          .on_stop =
+                              [this] {
+                                on_ = false;
+                                Stop();
+                              },
+                          .work = "the mask in Input is followed and the face projected onto it",
+                          .on_exit =
+                              [this] {
+                                on_ = false;
+                                Stop();
+                                exit_requested_ = true;
+                              }});
   slots_.Declare({.name = "Input",
                   .grammar = "NONE | <file>",
                   .initial = "NONE",
@@ -212,33 +209,19 @@ void MaskModule::DeclareCalibration() {
                   .initial = "0",
                   .auto_output = true,
                   .help = "In how many places the mask was held still."});
-  slots_.Declare({.name = "Calibrate.rms",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .auto_output = true,
-                  .help = "How far homography, affine map and space are from the dots of all "
-                          "places: pixels of the projector, root of mean square."});
+  slots_.DeclareTold("Calibrate.rms", "",
+                     "How far homography, affine map and space are from the dots of all "
+                     "places: pixels of the projector, root of mean square.",
+                     true);
 }
 
 void MaskModule::DeclareTold() {
-  const auto declare = [this](std::string name, std::string initial, std::string help,
-                              bool auto_output) {
-    slots_.Declare({.name = std::move(name),
-                    .grammar = "<text>",
-                    .access = vm::Access::kReadOnly,
-                    .initial = std::move(initial),
-                    .auto_output = auto_output,
-                    .help = std::move(help)});
-  };
-  declare("ModuleVersion", options_.module_version, "The version of this program.", false);
-  declare("ProtocolVersion", "Galatea protocol 1.0", "The version of the protocol it speaks.",
-          false);
-  declare("Track", "",
-          "Each picture as a JSON object: ms, how many markers were seen, where they are "
-          "(pixels of the camera), how many ms ahead the face is placed.",
-          false);
-  declare("Track.stat", "OFF", "OFF, LOOKING (for the mask), FOLLOWING, MEASURING or CALIBRATING.",
-          true);
+  slots_.DeclareTold(
+      "Track", "",
+      "Each picture as a JSON object: ms, how many markers were seen, where they are "
+      "(pixels of the camera), how many ms ahead the face is placed.");
+  slots_.DeclareTold("Track.stat", "OFF",
+                     "OFF, LOOKING (for the mask), FOLLOWING, MEASURING or CALIBRATING.", true);
 }
 
 }  // namespace hypermask

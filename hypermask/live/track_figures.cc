@@ -17,18 +17,12 @@ void Blend(double& mean, double value) {
 }  // namespace
 
 void TrackFigures::DeclareSlots() {
-  slots_.Declare({.name = "Track.speed",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = "0 0 0",
-                  .help = "Each second: pictures in it, in how many of them the mask was seen, and "
-                          "how many ms after it was there what one shows was projected."});
-  slots_.Declare({.name = "Track.miss",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = "0",
-                  .help = "Each second on the simulated stage: how far the face lands from where "
-                          "it should, pixels of the projector, root of mean square."});
+  slots_.DeclareTold("Track.speed", "0 0 0",
+                     "Each second: pictures in it, in how many of them the mask was seen, and "
+                     "how many ms after it was there what one shows was projected.");
+  slots_.DeclareTold("Track.miss", "0",
+                     "Each second on the simulated stage: how far the face lands from where "
+                     "it should, pixels of the projector, root of mean square.");
 }
 
 void TrackFigures::Begin(vm::Time now) {

@@ -62,12 +62,10 @@ void RecognizerModule::DeclareListen() {
 }
 
 void RecognizerModule::DeclareLanguages() {
-  slots_.Declare({.name = "Listen.languages",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = options_.languages,
-                  .help = "The languages understood without a grammar, by their codes; * where it "
-                          "is not known or the server finds out."});
+  slots_.DeclareTold("Listen.languages", options_.languages,
+                     "The languages understood without a grammar, by their codes; * where it "
+                     "is not known or the server finds out.",
+                     false);
 }
 
 void RecognizerModule::DeclareAgent() {

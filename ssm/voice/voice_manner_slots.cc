@@ -32,12 +32,9 @@ std::string SpeakersByLanguage(const std::vector<VoiceInfo>& voices) {
 }  // namespace
 
 void VoiceModule::DeclareManner() {
-  slots_.Declare({.name = "SpeakerSet",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = speakers_.Names(),
-                  .help = "The names Speaker takes: the engine's voices, then the names of the "
-                          "original, which stand for voices of the same sex."});
+  slots_.DeclareTold("SpeakerSet", speakers_.Names(),
+                     "The names Speaker takes: the engine's voices, then the names of the "
+                     "original, which stand for voices of the same sex.");
   slots_.Declare({.name = "Speaker",
                   .grammar = "<word>",
                   .initial = options_.speaker.empty() ? voice_.name : options_.speaker,

@@ -215,11 +215,8 @@ void VoiceModule::DeclareFileSlots() {
                "between, until STOP; at most 24 hours. On a virtual clock exact to the sample.",
        .on_set = [this](const vm::SetValue& value) { return SetRecord(value.word(0)); },
        .saved = false});
-  slots_.Declare({.name = "Sink",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = sink_->name(),
-                  .help = "Where the sound goes: null, portaudio:DEVICE or file:PATH (--sink)."});
+  slots_.DeclareTold("Sink", sink_->name(),
+                     "Where the sound goes: null, portaudio:DEVICE or file:PATH (--sink).");
   slots_.Declare({.name = "Sound.to",
                   .grammar = "NONE | <file>",
                   .initial = "NONE",

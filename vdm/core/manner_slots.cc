@@ -63,17 +63,16 @@ void MovementModule::DeclareEmotion() {
                     Renew(true);
                     return value.word(0);
                   }});
-  DeclareTold(
+  slots_.DeclareTold(
       "Emotion", "NONE",
       "After each phrase, while Emotion.auto is ON: MS on this module's clock, then CLASS "
       "LIKELIHOOD of neutral, aroused and low. NONE: nothing is claimed, as in silence, noise and "
       "music, and before some seconds of a voice were heard.",
       true);
-  DeclareTold(
+  slots_.DeclareTold(
       "Prosody", "",
       "Each frame told, while Head.auto or Emotion.auto is on: MS, HZ (0: no voice), dB, then "
-      "semitones and dB above the speaker's usual, and the position in the phrase, 0 to 1.",
-      false);
+      "semitones and dB above the speaker's usual, and the position in the phrase, 0 to 1.");
 }
 
 vm::Result<std::string> MovementModule::SetHead(const std::string& word) {

@@ -58,7 +58,6 @@ class MovementModule final : public vm::Module {
   void DeclareInput();
   void DeclareMouth();
   /// A slot in which the module tells something.
-  void DeclareTold(std::string name, std::string initial, std::string help, bool auto_output);
   // manner_slots.cc
   void DeclareHead();
   void DeclareEmotion();

@@ -7,25 +7,16 @@
 namespace vdm {
 
 void MovementModule::DeclareRun() {
-  slots_.Declare({.name = "Run",
-                  .grammar = "START | STOP | LIVE | EXIT",
-                  .initial = "LIVE",
-                  .auto_output = true,
-                  .help = "START: sound is heard and moves the face from now on. STOP: no longer. "
-                          "EXIT ends the module.",
-                  .on_set_later =
-                      [this](const vm::SetValue& value, const vm::Reply& reply) {
-                        const std::string& word = value.word(0);
-                        slots_.Report("Run", word);
-                        if (word == "START") Start();
-                        if (word == "STOP") Stop();
-                        reply.Ok(word);
-                        if (word == "EXIT") exit_requested_ = true;
-                      },
-                  .saved = false});
-  DeclareTold("ModuleVersion", options_.module_version, "The version of this program.", false);
-  DeclareTold("ProtocolVersion", "Protocol Ver. 1.0", "The version of the protocol it speaks.",
-              false);
+  vm::DeclareCommonSlots(slots_, {.module_version = options_.module_version,
+                                  .protocol_version = "Protocol Ver. 1.0",
+                                  .auto_output = true,
+                                  .on_start = [this]() -> vm::Result<void> {
+                                    Start();
+                                    return {};
+                                  },
+                                  .on_stop = [this] { Stop(); },
+                                  .work = "sound is heard and moves the face",
+                                  .on_exit = [this] { exit_requested_ = true; }});
 }
 
 void MovementModule::DeclareInput() {
@@ -85,16 +76,6 @@ vm::Result<void> MovementModule::SetMode(const std::string& word) {
   return {};
 }
 
-void MovementModule::DeclareTold(std::string name, std::string initial, std::string help,
-                                 bool auto_output) {
-  slots_.Declare({.name = std::move(name),
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = std::move(initial),
-                  .auto_output = auto_output,
-                  .help = std::move(help)});
-}
-
 void MovementModule::DeclareMouth() {
   slots_.Declare(
       {.name = "Mouth.mode",
@@ -134,16 +115,15 @@ void MovementModule::DeclareMouth() {
                     face_ = value.word(0);
                     return face_;
                   }});
-  DeclareTold(
+  slots_.DeclareTold(
       "Mouth", "",
       "Each frame told: MS on this module's clock, 17 mouth parameters, seal, tongue, as in the "
-      "face's MouthFrame.",
-      false);
-  DeclareTold("Mouth.sounds", "",
-              "Each frame's sounds: MS, then NAME LIKELIHOOD of each class of sounds (vdm/tables/"
-              "sounds.txt) from 0.05 on.",
-              false);
-  DeclareTold("Mouth.stat", "OFF", "OFF, LISTENING (the mouth rests) or MOVING.", true);
+      "face's MouthFrame.");
+  slots_.DeclareTold(
+      "Mouth.sounds", "",
+      "Each frame's sounds: MS, then NAME LIKELIHOOD of each class of sounds (vdm/tables/"
+      "sounds.txt) from 0.05 on.");
+  slots_.DeclareTold("Mouth.stat", "OFF", "OFF, LISTENING (the mouth rests) or MOVING.", true);
 }
 
 }  // namespace vdm

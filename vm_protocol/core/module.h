@@ -33,8 +33,7 @@ class Module {
   virtual void Shutdown() {}
 };
 
-/// Declares what every module has beside its own slots: Run (LIVE, EXIT), ModuleVersion,
-/// ProtocolVersion.
+/// What every module has beside its own slots: Run (LIVE, EXIT), ModuleVersion, ProtocolVersion.
 struct CommonSlots {
   std::string module_version{};     ///< the value of ModuleVersion
   std::string protocol_version{};   ///< the value of ProtocolVersion
@@ -42,6 +41,11 @@ struct CommonSlots {
   bool auto_output = false;         ///< default for Run
   bool report_exit = true;          ///< `rep Run = EXIT` is sent (the original face sends nothing)
   std::function<void()> on_init{};  ///< for `set Run = INIT`; empty = INIT is not accepted
+  /// For `set Run = START`, before the report; an error leaves Run as it was. Empty = START and
+  /// STOP are not accepted.
+  std::function<Result<void>()> on_start{};
+  std::function<void()> on_stop{};  ///< for `set Run = STOP`, after the report
+  std::string work{};               ///< for the help of Run: what is done from START on
   std::function<void()> on_exit{};  ///< for `set Run = EXIT`, after the report
 };
 void DeclareCommonSlots(SlotMachine& slots, const CommonSlots& common);

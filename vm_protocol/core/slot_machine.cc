@@ -105,6 +105,16 @@ void SlotMachine::Declare(SlotSpec spec) {
   by_name_[slots_.back()->spec.name] = slots_.back().get();
 }
 
+void SlotMachine::DeclareTold(std::string name, std::string initial, std::string help,
+                              bool auto_output) {
+  Declare({.name = std::move(name),
+           .grammar = "<text>",
+           .access = Access::kReadOnly,
+           .initial = std::move(initial),
+           .auto_output = auto_output,
+           .help = std::move(help)});
+}
+
 void SlotMachine::Reserve(std::string beginning) { reserved_.push_back(std::move(beginning)); }
 
 void SlotMachine::Remove(std::string_view name) {

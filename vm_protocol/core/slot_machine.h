@@ -118,6 +118,9 @@ class SlotMachine {
 
   /// REQUIRES: the name is new and valid; the grammar is well-formed.
   void Declare(SlotSpec spec);
+  /// Declares a slot of text that only the module changes.
+  void DeclareTold(std::string name, std::string initial, std::string help,
+                   bool auto_output = false);
   /// Names that begin so are for later Declare calls: `def` makes no user slot of such a name.
   void Reserve(std::string beginning);
   /// Takes a slot back. Not from within one of its own callbacks.
