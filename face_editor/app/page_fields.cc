@@ -7,7 +7,7 @@
 
 #include "face_editor/app/ui.h"
 #include "fsm/base/parse_number.h"
-#include "fsm/motion/expression/unit_names.h"
+#include "fsm/motion/base/unit_names.h"
 #include "fsm/render/camera.h"
 
 namespace editor {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "face_editor/app/ui.h"
-#include "fsm/motion/expression/unit_names.h"
+#include "fsm/motion/base/unit_names.h"
 
 namespace editor {
 namespace {

@@ -10,7 +10,7 @@
 #include "face_editor/app/script_hand.h"
 #include "face_editor/core/commands.h"
 #include "fsm/base/parse_number.h"
-#include "fsm/motion/expression/unit_names.h"
+#include "fsm/motion/base/unit_names.h"
 
 namespace editor {
 

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "face_editor/core/command_actions.h"
-#include "fsm/motion/expression/unit_names.h"
+#include "fsm/motion/base/unit_names.h"
 
 namespace editor {
 namespace {

@@ -9,7 +9,7 @@
 #include "fsm/base/table_reader.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/mesh/original/pnt_file.h"
-#include "fsm/motion/motion_errors.h"
+#include "fsm/motion/base/motion_errors.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace editor {

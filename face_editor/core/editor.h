@@ -9,7 +9,7 @@
 
 #include "face_editor/core/history.h"
 #include "face_editor/core/photo_work.h"
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 #include "vm_protocol/core/result.h"
 
 namespace editor {

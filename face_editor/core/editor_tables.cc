@@ -14,8 +14,8 @@
 #include "face_editor/core/identity_head.h"
 #include "face_editor/core/table_writer.h"
 #include "fsm/base/table_reader.h"
-#include "fsm/motion/idle/motion_reader.h"
-#include "fsm/motion/motion_errors.h"
+#include "fsm/motion/base/motion_errors.h"
+#include "fsm/motion/inputs/motion_reader.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace editor {

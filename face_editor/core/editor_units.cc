@@ -6,7 +6,7 @@
 
 #include "face_editor/core/editor.h"
 #include "fsm/base/table_reader.h"
-#include "fsm/motion/motion_errors.h"
+#include "fsm/motion/base/motion_errors.h"
 
 namespace editor {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "face_editor/core/unit_rows.h"
-#include "fsm/motion/expression/emotion_table.h"
-#include "fsm/motion/idle/motion_patterns.h"
-#include "fsm/motion/speech/viseme_tables.h"
+#include "fsm/motion/inputs/emotion_table.h"
+#include "fsm/motion/inputs/motion_patterns.h"
+#include "fsm/motion/inputs/viseme_tables.h"
 
 namespace editor {
 

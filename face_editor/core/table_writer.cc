@@ -10,7 +10,7 @@
 
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
-#include "fsm/motion/expression/unit_names.h"
+#include "fsm/motion/base/unit_names.h"
 
 namespace editor {
 namespace {

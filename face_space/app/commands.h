@@ -5,7 +5,7 @@
 #include <string>
 
 #include "face_space/record/unit_track.h"
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 
 namespace facespace {
 

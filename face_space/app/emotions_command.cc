@@ -6,7 +6,7 @@
 
 #include "face_space/app/commands.h"
 #include "face_space/emotion/space_training.h"
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 

@@ -8,7 +8,7 @@
 #include "face_space/app/commands.h"
 #include "face_space/perform/performer.h"
 #include "fsm/head/make_head.h"
-#include "fsm/motion/expression/unit_names.h"
+#include "fsm/motion/base/unit_names.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/motion/expression/emotion_space.h"
+#include "fsm/motion/inputs/emotion_space.h"
 #include "vdm/net/time_delay_net.h"
 #include "vdm/train/gradient.h"
 

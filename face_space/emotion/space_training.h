@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "fsm/motion/expression/emotion_space.h"
-#include "fsm/motion/expression/emotion_table.h"
+#include "fsm/motion/inputs/emotion_space.h"
+#include "fsm/motion/inputs/emotion_table.h"
 #include "vm_protocol/core/result.h"
 
 namespace facespace {

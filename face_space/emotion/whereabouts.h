@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "fsm/motion/expression/emotion_space.h"
+#include "fsm/motion/inputs/emotion_space.h"
 
 namespace facespace {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "face_space/record/track.h"
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 #include "vm_protocol/core/result.h"
 
 namespace facespace {

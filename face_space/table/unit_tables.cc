@@ -10,7 +10,7 @@
 #include "embedded/base_action_unit_names.h"
 #include "embedded/base_action_units.h"
 #include "fsm/base/table_reader.h"
-#include "fsm/motion/expression/unit_names.h"
+#include "fsm/motion/base/unit_names.h"
 #include "vm_protocol/core/lower_case.h"
 
 namespace facespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "fsm/motion/easing.h"
+#include "fsm/motion/base/easing.h"
 
 namespace facespace {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "fsm/app/face_view.h"
 #include "fsm/app/wardrobe.h"
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 
 namespace fsm {
 

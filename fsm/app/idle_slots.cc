@@ -1,6 +1,6 @@
 #include "fsm/app/idle_slots.h"
 
-#include "fsm/motion/idle/idle_kinds.h"
+#include "fsm/motion/inputs/idle_kinds.h"
 
 namespace fsm {
 namespace {

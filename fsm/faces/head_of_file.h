@@ -7,7 +7,7 @@
 
 #include "fsm/asset/asset_writer.h"
 #include "fsm/base/table_folder.h"
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {

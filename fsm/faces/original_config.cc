@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "fsm/base/table_reader.h"
-#include "fsm/motion/idle/motion_reader.h"
+#include "fsm/motion/inputs/motion_reader.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace fsm {

@@ -9,7 +9,7 @@
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/table_names.h"
 #include "fsm/head/face_channels.h"
-#include "fsm/motion/expression/unit_names.h"
+#include "fsm/motion/base/unit_names.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {

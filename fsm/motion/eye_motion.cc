@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "fsm/motion/motion_inputs.h"
-#include "fsm/motion/random_streams.h"
+#include "fsm/motion/base/random_streams.h"
+#include "fsm/motion/inputs/motion_inputs.h"
 
 namespace fsm {
 namespace {

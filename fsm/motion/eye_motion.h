@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "embedded/gesture_numbers.h"
-#include "fsm/motion/idle/motion_patterns.h"
-#include "fsm/motion/motion_settings.h"
-#include "fsm/motion/motion_source.h"
+#include "fsm/motion/base/motion_source.h"
+#include "fsm/motion/inputs/motion_patterns.h"
+#include "fsm/motion/inputs/motion_settings.h"
 
 namespace fsm {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "fsm/motion/motion_errors.h"
+#include "fsm/motion/base/motion_errors.h"
 
 namespace fsm {
 

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/motion/idle/motion_patterns.h"
-#include "fsm/motion/motion_source.h"
+#include "fsm/motion/base/motion_source.h"
+#include "fsm/motion/inputs/motion_patterns.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "fsm/motion/motion_source.h"
+#include "fsm/motion/base/motion_source.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {

@@ -10,8 +10,8 @@
 
 #include "face_editor/core/editor.h"
 #include "face_editor/core/table_writer.h"
-#include "fsm/motion/expression/unit_names.h"
-#include "fsm/motion/idle/motion_reader.h"
+#include "fsm/motion/base/unit_names.h"
+#include "fsm/motion/inputs/motion_reader.h"
 
 namespace editor {
 namespace {

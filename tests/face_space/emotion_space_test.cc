@@ -1,6 +1,6 @@
 // The emotion space: how it learns, what it gives back, and what fsm makes of a point.
 
-#include "fsm/motion/expression/emotion_space.h"
+#include "fsm/motion/inputs/emotion_space.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "fsm/motion/easing.h"
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/base/easing.h"
+#include "fsm/motion/inputs/motion_tables.h"
 
 namespace facespace {
 namespace {

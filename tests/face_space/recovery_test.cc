@@ -11,7 +11,7 @@
 #include "face_space/perform/performer.h"
 #include "face_space/table/unit_tables.h"
 #include "fsm/head/make_head.h"
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 
 namespace facespace {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 #include "tests/fsm/motion_support.h"
 #include "vm_protocol/core/utf8.h"
 

@@ -9,8 +9,8 @@
 
 #include "fsm/base/random.h"
 #include "fsm/motion/face_motion.h"
-#include "fsm/motion/idle/idle_behaviour.h"
-#include "fsm/motion/idle/idle_kinds.h"
+#include "fsm/motion/idle_behaviour.h"
+#include "fsm/motion/inputs/idle_kinds.h"
 #include "tests/fsm/motion_support.h"
 
 namespace fsm {

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string>
 
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 #include "vm_protocol/core/phonemes.h"
 
 namespace fsm {

@@ -1,4 +1,4 @@
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "fsm/motion/idle/motion_reader.h"
+#include "fsm/motion/inputs/motion_reader.h"
 #include "tests/fsm/motion_support.h"
 
 namespace fsm {

@@ -8,7 +8,7 @@
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/head_of_file.h"
 #include "fsm/head/make_head.h"
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 #include "tests/fsm/golden_picture.h"
 #include "tests/fsm/render_support.h"
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 #include "vdm/train/corpus.h"
 #include "vdm/train/dice.h"
 #include "vdm/train/mouth_loss.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 #include "vdm/train/adam.h"
 #include "vdm/train/corpus.h"
 #include "vdm/train/dice.h"

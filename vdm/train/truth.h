@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 #include "fsm/motion/speech/viseme_track.h"
 #include "vdm/train/mouth_loss.h"
 #include "vm_protocol/core/phonemes.h"

@@ -1,6 +1,6 @@
 #include "fsm/motion/expression/blend_shape_motion.h"
 
-#include "fsm/motion/motion_errors.h"
+#include "fsm/motion/base/motion_errors.h"
 
 namespace fsm {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "fsm/motion/motion_source.h"
+#include "fsm/motion/base/motion_source.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {

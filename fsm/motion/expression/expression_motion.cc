@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "fsm/motion/motion_errors.h"
-#include "fsm/motion/motion_inputs.h"
+#include "fsm/motion/base/motion_errors.h"
+#include "fsm/motion/inputs/motion_inputs.h"
 
 namespace fsm {
 namespace {

@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/motion/expression/emotion_space.h"
-#include "fsm/motion/expression/emotion_table.h"
-#include "fsm/motion/motion_settings.h"
-#include "fsm/motion/motion_source.h"
-#include "fsm/motion/random_streams.h"
+#include "fsm/motion/base/motion_source.h"
+#include "fsm/motion/base/random_streams.h"
+#include "fsm/motion/inputs/emotion_space.h"
+#include "fsm/motion/inputs/emotion_table.h"
+#include "fsm/motion/inputs/motion_settings.h"
 
 namespace fsm {
 

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "fsm/motion/idle/motion_patterns.h"
-#include "fsm/motion/motion_source.h"
+#include "fsm/motion/base/motion_source.h"
+#include "fsm/motion/inputs/motion_patterns.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {

@@ -3,8 +3,8 @@
 #include <map>
 #include <string_view>
 
-#include "fsm/motion/expression/unit_names.h"
-#include "fsm/motion/motion_source.h"
+#include "fsm/motion/base/motion_source.h"
+#include "fsm/motion/base/unit_names.h"
 
 namespace fsm {
 

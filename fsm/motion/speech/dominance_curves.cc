@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "fsm/motion/easing.h"
-#include "fsm/motion/track.h"
+#include "fsm/motion/base/easing.h"
+#include "fsm/motion/base/track.h"
 
 namespace fsm {
 namespace {

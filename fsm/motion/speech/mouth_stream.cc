@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsm/motion/easing.h"
+#include "fsm/motion/base/easing.h"
 #include "fsm/motion/speech/speech_timing.h"
 
 namespace fsm {

@@ -3,8 +3,8 @@
 #include <deque>
 #include <optional>
 
-#include "fsm/motion/motion_settings.h"
-#include "fsm/motion/motion_source.h"
+#include "fsm/motion/base/motion_source.h"
+#include "fsm/motion/inputs/motion_settings.h"
 #include "fsm/motion/speech/speech_timing.h"
 #include "fsm/motion/speech/spoken_mouth.h"
 #include "vm_protocol/core/result.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsm/motion/easing.h"
-#include "fsm/motion/random_streams.h"
+#include "fsm/motion/base/easing.h"
+#include "fsm/motion/base/random_streams.h"
 #include "fsm/motion/speech/speech_timing.h"
 
 namespace fsm {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "embedded/gesture_numbers.h"
-#include "fsm/motion/idle/motion_patterns.h"
+#include "fsm/motion/inputs/motion_patterns.h"
 #include "fsm/motion/speech/viseme_target.h"
 
 namespace fsm {

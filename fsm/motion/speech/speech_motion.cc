@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "fsm/motion/motion_inputs.h"
-#include "fsm/motion/random_streams.h"
+#include "fsm/motion/base/random_streams.h"
+#include "fsm/motion/inputs/motion_inputs.h"
 #include "fsm/motion/speech/speech_timing.h"
 
 namespace fsm {

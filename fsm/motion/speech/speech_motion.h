@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "fsm/motion/motion_settings.h"
-#include "fsm/motion/motion_source.h"
+#include "fsm/motion/base/motion_source.h"
+#include "fsm/motion/inputs/motion_settings.h"
 #include "fsm/motion/speech/speech_clock.h"
 #include "fsm/motion/speech/speech_gestures.h"
 #include "fsm/motion/speech/spoken_mouth.h"
-#include "fsm/motion/speech/text_cues.h"
+#include "fsm/motion/speech/text_looks.h"
 #include "fsm/motion/speech/viseme_track.h"
 
 namespace fsm {

@@ -1,6 +1,6 @@
 #include "fsm/motion/speech/spoken_mouth.h"
 
-#include "fsm/motion/motion_settings.h"
+#include "fsm/motion/inputs/motion_settings.h"
 
 namespace fsm {
 

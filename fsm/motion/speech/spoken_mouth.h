@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fsm/motion/motion_source.h"
-#include "fsm/motion/speech/viseme_tables.h"
+#include "fsm/motion/base/motion_source.h"
+#include "fsm/motion/inputs/viseme_tables.h"
 
 namespace fsm {
 

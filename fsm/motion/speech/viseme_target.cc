@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "fsm/motion/easing.h"
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/base/easing.h"
+#include "fsm/motion/inputs/motion_tables.h"
 #include "fsm/motion/speech/speech_timing.h"
 
 namespace fsm {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "fsm/motion/speech/lip_style.h"
-#include "fsm/motion/speech/viseme_tables.h"
+#include "fsm/motion/inputs/lip_style.h"
+#include "fsm/motion/inputs/viseme_tables.h"
 #include "vm_protocol/core/phonemes.h"
 
 namespace fsm {

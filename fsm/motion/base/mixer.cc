@@ -1,0 +1,225 @@
+#include "fsm/motion/base/mixer.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+#include <span>
+
+#include "fsm/base/table_reader.h"
+
+namespace fsm {
+
+// ---- the table
+
+class Mixer::Reader {
+ public:
+  Mixer Read(const Table& table) {
+    for (const TableRow& row : table.rows()) ReadRow(row);
+    for (std::size_t i = 0; i < kChannels; ++i) {
+      if (seen_[i]) continue;
+      table.Fail(fmt::format("no row says how channel '{}' is mixed", kTargetNames[i]));
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void ReadRow(const TableRow& row) {
+    const std::string& kind = row.key();
+    const std::size_t count = row.size();
+    if (kind == "channel" && (count == 3 || count == 5)) return ReadChannel(row);
+    if (kind == "weight" && count == 5) return ReadWeight(row);
+    if (kind == "steady" && (count == 3 || count == 4)) return ReadSteady(row);
+    if (kind == "layer" && count == 2) return ReadLayer(row);
+    if (kind == "signal" && count == 2) {
+      signals_.insert(row.Name(1, "a name"));
+      return;
+    }
+    row.Fail(
+        fmt::format("'{}' found; channel NAME sum|greatest [LOWEST HIGHEST], layer NAME, "
+                    "signal NAME, weight LAYER CHANNEL SIGNAL FACTOR or steady LAYER LIMIT "
+                    "[SIGNAL] expected",
+                    fmt::join(row.words(), " ")));
+  }
+
+  void ReadChannel(const TableRow& row) {
+    const auto found = std::ranges::find(kTargetNames, row.Word(1));
+    const auto index = static_cast<std::size_t>(found - kTargetNames.begin());
+    const std::string& how = row.Word(2);
+    if (index >= kChannels || (how != "sum" && how != "greatest")) {
+      row.Fail(
+          fmt::format("'{} {}' found; {} with sum or greatest expected", row.Word(1), how,
+                      fmt::join(kTargetNames.begin(), kTargetNames.begin() + kChannels, ", ")));
+    }
+    ChannelRule& channel = out_.channels_[index];
+    channel = {.greatest = how == "greatest"};
+    seen_[index] = true;
+    if (row.size() == 3) return;
+    const double lowest = row.Number(3, "the lowest value", -1000, 1000);
+    channel.lowest = static_cast<float>(lowest);
+    channel.highest = static_cast<float>(row.Number(4, "the highest value", lowest, 1000));
+  }
+
+  Rules* FindLayer(std::string_view name) {
+    const auto found = std::ranges::find(out_.layers_, name, &std::pair<std::string, Rules>::first);
+    return found == out_.layers_.end() ? nullptr : &found->second;
+  }
+
+  Rules& LayerAt(const TableRow& row) {
+    Rules* const layer = FindLayer(row.Word(1));
+    if (layer == nullptr) row.Fail(fmt::format("'{}' is no layer of a row above", row.Word(1)));
+    return *layer;
+  }
+
+  const std::string& SignalAt(const TableRow& row, std::size_t word) {
+    if (!signals_.contains(row.Word(word))) {
+      row.Fail(fmt::format("'{}' is no signal of a row above", row.Word(word)));
+    }
+    return row.Word(word);
+  }
+
+  void ReadLayer(const TableRow& row) {
+    const std::string& name = row.Name(1, "a name");
+    if (FindLayer(name) != nullptr || name == "result") {
+      row.Fail("the layer '" + name + "' is here twice");
+    }
+    out_.layers_.emplace_back(name, Rules{});
+  }
+
+  void ReadWeight(const TableRow& row) {
+    Rules& layer = row.Word(1) == "result" ? out_.result_ : LayerAt(row);
+    const auto found = std::ranges::find(kTargetNames, row.Word(2));
+    if (found == kTargetNames.end()) {
+      row.Fail(fmt::format("'{}' found; {} expected", row.Word(2), fmt::join(kTargetNames, ", ")));
+    }
+    layer.weights.push_back({static_cast<Target>(found - kTargetNames.begin()), SignalAt(row, 3),
+                             row.Number(4, "a factor", 0, 10)});
+  }
+
+  void ReadSteady(const TableRow& row) {
+    Rules& layer = LayerAt(row);
+    const auto limit = static_cast<float>(row.Number(2, "a limit in degrees", 0, 180));
+    layer.steady = Steady{limit, row.size() == 4 ? SignalAt(row, 3) : ""};
+  }
+
+  Mixer out_;
+  std::array<bool, kChannels> seen_{};
+  std::set<std::string> signals_;
+};
+
+vm::Result<Mixer> Mixer::Read(const std::string& name, std::string_view text) {
+  return ReadTable(name, text, [](const Table& table) { return Reader().Read(table); });
+}
+
+// ---- mixing
+
+const Mixer::Rules& Mixer::RulesOf(std::string_view layer) const {
+  static const Rules kNoRules;
+  for (const auto& [name, rules] : layers_) {
+    if (name == layer) return rules;
+  }
+  return kNoRules;
+}
+
+Mixer::Factors Mixer::FactorsOf(const Rules& rules, const MotionLayers& layers) {
+  Factors factors;
+  factors.fill(1);
+  for (const WeightRule& rule : rules.weights) {
+    factors[rule.target] *= 1 - (1 - rule.factor) * layers.Signal(rule.signal);
+  }
+  return factors;
+}
+
+double Mixer::UnitFactor(const Factors& factors, const UnitList& units, std::size_t unit) {
+  constexpr std::array<Target, kRegions> kTargetOf = {kEyeUnits, kBrowUnits, kMouthUnits};
+  const double own = factors[kTargetOf[static_cast<std::size_t>(units.RegionOf(unit))]];
+  return factors[kUnits] * own * (units.Opens(unit) ? factors[kOpeningUnits] : 1);
+}
+
+void Mixer::AddLayer(const MotionLayer& layer, const Rules& rules, const Factors& factors,
+                     const UnitList& units, MotionLayer& total) const {
+  const bool unweighted = rules.weights.empty();
+  const auto accumulate = [&](Target target, auto& sum, const auto& asked) {
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      channels_[target].Accumulate(sum[i], factors[target] * asked[i]);
+    }
+  };
+  const auto accumulate_units = [&](UnitValues& sum, const UnitValues& asked) {
+    if (asked.AtRest()) return;
+    const std::span strengths(asked.begin(), asked.size());
+    for (std::size_t unit = 0; unit < strengths.size(); ++unit) {
+      if (strengths[unit] == 0) continue;
+      const double weight = unweighted ? 1 : UnitFactor(factors, units, unit);
+      channels_[kUnits].Accumulate(sum[unit], weight * strengths[unit]);
+    }
+  };
+  for (const Side side : kSides) {
+    accumulate_units(total.units.au[side], layer.units.au[side]);
+    accumulate(kGaze, total.units.gaze[side], layer.units.gaze[side]);
+  }
+  for (std::size_t i = 0; i < total.units.residuals.size(); ++i) {
+    channels_[kUnits].Accumulate(total.units.residuals[i],
+                                 ResidualFactor(factors) * layer.units.residuals[i]);
+  }
+  accumulate(kMouth, total.mouth, layer.mouth);
+  accumulate(kMouth, total.mouth_by_hand, layer.mouth_by_hand);
+  channels_[kMouth].Accumulate(total.seal, factors[kMouth] * layer.seal);
+  channels_[kMouth].Accumulate(total.tongue, factors[kMouth] * layer.tongue);
+  accumulate(kHead, total.head, layer.head);
+  channels_[kHead].Accumulate(total.head_forward_mm, factors[kHead] * layer.head_forward_mm);
+  channels_[kLids].Accumulate(total.lids_shut, factors[kLids] * layer.lids_shut);
+}
+
+void Mixer::Mix(const MotionLayers& layers, const UnitList& units, FaceState& state) const {
+  MotionLayer total;
+  for (const auto& [name, layer] : layers.all()) {
+    const Rules& rules = RulesOf(name);
+    const Factors factors = FactorsOf(rules, layers);
+    AddLayer(layer, rules, factors, units, total);
+    if (!rules.steady) continue;
+    const Steady& steady = *rules.steady;
+    const double share = steady.signal.empty() ? 1 : layers.Signal(steady.signal);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const auto rotation = static_cast<float>(factors[kHead] * layer.head[axis]);
+      const auto back =
+          static_cast<float>(share * std::clamp(rotation, -steady.limit_deg, steady.limit_deg));
+      for (const Side side : kSides) total.units.gaze[side][axis] -= back;
+    }
+  }
+  Store(total, FactorsOf(result_, layers), units, state);
+}
+
+void Mixer::Store(const MotionLayer& total, const Factors& factors, const UnitList& units,
+                  FaceState& state) const {
+  const auto result = [&](Target target, float value) {
+    return static_cast<float>(factors[target] * channels_[target].Clamped(value));
+  };
+  const auto store = [&](Target target, auto& to, const auto& values) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] = result(target, values[i]);
+  };
+  const auto store_units = [&](UnitValues& to, const UnitValues& values) {
+    std::size_t unit = 0;
+    ForEachUnit(to, values, [&](float& strength, float value) {
+      float limited = channels_[kUnits].Clamped(value);
+      if (limited != 0) limited = static_cast<float>(UnitFactor(factors, units, unit) * limited);
+      strength = limited;
+      ++unit;
+    });
+  };
+  for (const Side side : kSides) store_units(state.au[side], total.units.au[side]);
+  for (std::size_t i = 0; i < state.residuals.size(); ++i) {
+    state.residuals[i] = static_cast<float>(ResidualFactor(factors) *
+                                            channels_[kUnits].Clamped(total.units.residuals[i]));
+  }
+  store(kMouth, state.mouth, total.mouth);
+  store(kMouth, state.mouth_by_hand, total.mouth_by_hand);
+  state.lip_seal = result(kMouth, total.seal);
+  state.tongue = result(kMouth, total.tongue);
+  store(kHead, state.head_rotation, total.head);
+  state.head_forward = result(kHead, total.head_forward_mm);
+  for (const Side side : kSides) store(kGaze, state.gaze[side], total.units.gaze[side]);
+  state.blink.left = state.blink.right = result(kLids, total.lids_shut);
+}
+
+}  // namespace fsm

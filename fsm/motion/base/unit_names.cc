@@ -1,0 +1,325 @@
+#include "fsm/motion/base/unit_names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <utility>
+
+#include "embedded/action_unit_names.h"
+#include "fsm/base/parse_number.h"
+#include "fsm/base/table_reader.h"
+#include "fsm/base/words.h"
+#include "vm_protocol/core/lower_case.h"
+
+namespace fsm {
+
+namespace {
+
+constexpr double kMostStrength = 2;
+
+struct Word {
+  std::string_view text;
+  std::size_t column;  // counted from 1
+};
+
+// Splits a text at blanks; "12:0.7" gives two words, "gaze:6,0" one.
+std::vector<Word> UnitWordsOf(std::string_view text) {
+  std::vector<Word> words;
+  const auto add = [&](std::string_view word) {
+    if (!word.empty()) {
+      words.push_back({word, static_cast<std::size_t>(word.data() - text.data()) + 1});
+    }
+  };
+  for (std::string_view word : WordsOf(text)) {
+    while (!word.starts_with("gaze") && word.contains(':')) add(TakeUntil(":", word));
+    add(word);
+  }
+  return words;
+}
+
+std::unexpected<vm::Error> FailAt(const Word& word, std::string_view what) {
+  return vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' at column {} is {}",
+                                                   word.text.substr(0, 60), word.column, what));
+}
+
+std::optional<double> IntensityOf(std::string_view word) {
+  if (word.size() != 1 || word[0] < 'A' || word[0] > 'E') return std::nullopt;
+  return kIntensity[static_cast<std::size_t>(word[0] - 'A')];
+}
+
+/// A unit with its side, and its strength if the word has an intensity letter (12C).
+struct ParsedUnit {
+  UnitSetting unit;
+  bool strength_given = false;
+};
+
+std::optional<ParsedUnit> ByName(std::string_view word, const UnitNames& names) {
+  ParsedUnit out;
+  const std::string lower = vm::LowerCase(word);
+  std::string_view name = lower;
+  auto found = names.by_name.find(name);
+  if (found == names.by_name.end() && (name.ends_with('l') || name.ends_with('r'))) {
+    out.unit.left = name.ends_with('l');
+    out.unit.right = !out.unit.left;
+    name.remove_suffix(1);
+    const bool numbered = !name.empty() && name.front() >= '0' && name.front() <= '9';
+    if (!numbered && !name.ends_with('.')) return std::nullopt;
+    if (name.ends_with('.')) name.remove_suffix(1);
+    found = names.by_name.find(name);
+  }
+  if (found == names.by_name.end()) return std::nullopt;
+  out.unit.number = found->second;
+  return out;
+}
+
+std::optional<ParsedUnit> ByNumber(std::string_view word) {
+  ParsedUnit out;
+  std::optional<char> side;
+  const auto take_side = [&](char c) {
+    if (c == 'l' || c == 'r') c = static_cast<char>(c - 'a' + 'A');
+    if (side || (c != 'L' && c != 'R')) return false;
+    side = c;
+    return true;
+  };
+  if (!word.empty() && take_side(word.front())) word.remove_prefix(1);
+  const auto [end, error] =
+      std::from_chars(word.data(), word.data() + word.size(), out.unit.number);
+  if (error != std::errc{} || word.starts_with('-')) return std::nullopt;
+  word.remove_prefix(static_cast<std::size_t>(end - word.data()));
+  if (!word.empty() && take_side(word.front())) word.remove_prefix(1);
+  if (const auto letter = IntensityOf(word)) {
+    out.unit.strength = *letter;
+    out.strength_given = true;
+    word = {};
+  }
+  if (!word.empty()) return std::nullopt;
+  if (side) {
+    out.unit.left = *side == 'L';
+    out.unit.right = !out.unit.left;
+  }
+  return out;
+}
+
+std::optional<ParsedUnit> FindUnit(std::string_view word, const UnitNames& names) {
+  auto unit = ByName(word, names);
+  if (!unit) unit = ByNumber(word);
+  if (unit && !names.names.contains(unit->unit.number)) return std::nullopt;
+  return unit;
+}
+
+/// Returns the unit numbers in use as ranges, "1-2, 4-39, 158".
+std::string NumbersInUse(const UnitNames& names) {
+  std::string text;
+  for (auto at = names.names.begin(); at != names.names.end();) {
+    const int first = at->first;
+    int last = first;
+    while (++at != names.names.end() && at->first == last + 1) ++last;
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", first);
+    if (last > first) text += fmt::format("-{}", last);
+  }
+  return text;
+}
+
+/// Returns names similar to a word, for messages: those with the longest common prefix, of equals
+/// those with the greatest numbers, since user-defined units have these.
+std::string NamesLike(std::string_view word, const UnitNames& names) {
+  constexpr std::size_t kMost = 5;
+  const std::string wanted = vm::LowerCase(word);
+  std::vector<std::pair<std::ptrdiff_t, int>> ranked;  // length of the common prefix, number
+  for (const auto& [number, name] : names.names) {
+    const std::string lower = vm::LowerCase(name);
+    ranked.emplace_back(std::ranges::mismatch(wanted, lower).in1 - wanted.begin(), number);
+  }
+  std::ranges::sort(ranked, std::greater<>());
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, ranked.size()); ++i) {
+    text += (i > 0 ? ", " : "") + names.names.at(ranked[i].second).substr(0, 40);
+  }
+  return text;
+}
+
+/// Returns the text of what is expected in place of a unit.
+std::string UnitsExpected(std::string_view word, const UnitNames& names) {
+  return fmt::format(
+      "a number ({}) or name of action_unit_names.txt (such as {}) expected, with L or R for one "
+      "side",
+      NumbersInUse(names), NamesLike(word, names));
+}
+
+vm::Result<ParsedUnit> ParseUnit(const Word& word, const UnitNames& names) {
+  const auto unit = FindUnit(word.text, names);
+  if (!unit) return FailAt(word, "not an action unit; " + UnitsExpected(word.text, names));
+  if (names.codes.contains(unit->unit.number) && !(unit->unit.left && unit->unit.right)) {
+    return FailAt(word, "a code of head or eyes, which has no sides");
+  }
+  return *unit;
+}
+
+vm::Result<double> ParseStrength(const Word& word) {
+  if (const auto letter = IntensityOf(word.text)) return *letter;
+  const auto number = ParseNumber(word.text);
+  if (!number || *number < 0 || *number > kMostStrength) {
+    return FailAt(word, "no strength; a number from 0 to 2 (1 = full) or a letter A to E expected");
+  }
+  return *number;
+}
+
+HeadEyeCode ReadCode(const TableRow& row) {
+  std::array<float, 8> v{};
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    v[i] = static_cast<float>(row.Number(3 + i, "an angle or a part", -60, 60));
+  }
+  return {.head = {v[0], v[1], v[2]},
+          .gaze = {.right = {v[5], v[6]}, .left = {v[3], v[4]}},
+          .forward_mm = v[7]};
+}
+
+void ReadNameRow(const TableRow& row, UnitNames& out) {
+  const bool code = row.key() == "code";
+  const bool one_sided = !code && row.words().back() == "one-sided";
+  const std::size_t count = row.size() - (one_sided ? 1 : 0);
+  if ((!code && row.key() != "unit") || count != (code ? 11u : 3u)) {
+    row.Fail("unit NUMBER NAME [one-sided], or code NUMBER NAME and 8 numbers expected");
+  }
+  const int unit = static_cast<int>(row.Number(1, "a number of a unit", 1, UnitValues::kMost));
+  const std::string& name = row.Word(2);
+  if (ByNumber(name)) row.Fail("'" + name + "' reads as a number, not as a name");
+  if (out.names.contains(unit)) {
+    row.Fail(
+        fmt::format("the number {} is here twice, for '{}' and '{}'", unit, out.names[unit], name));
+  }
+  const auto [named, fresh] = out.by_name.emplace(vm::LowerCase(name), unit);
+  if (!fresh) {
+    row.Fail(
+        fmt::format("the name '{}' is here twice, for {} and {} (capitals and small letters "
+                    "are the same)",
+                    name, named->second, unit));
+  }
+  out.names[unit] = name;
+  if (one_sided) out.one_sided.insert(unit);
+  if (code) out.codes[unit] = ReadCode(row);
+}
+
+}  // namespace
+
+vm::Result<UnitNames> ReadUnitNames(const std::string& name, std::string_view text) {
+  return ReadTable(name, text, [](const Table& table) {
+    UnitNames out;
+    for (const TableRow& row : table.rows()) ReadNameRow(row, out);
+    return out;
+  });
+}
+
+const UnitNames& UnitNames::BuiltIn() {
+  static const UnitNames names =
+      ReadUnitNames("action_unit_names.txt", embedded::action_unit_names()).value();
+  return names;
+}
+
+vm::Result<UnitName> ParseUnitName(std::string_view word, const UnitNames& names) {
+  const auto unit = FindUnit(word, names);
+  if (unit && !unit->strength_given && names.IsUnit(unit->unit.number)) return unit->unit;
+  return vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' is not an action unit; {}",
+                                                   word.substr(0, 60), UnitsExpected(word, names)));
+}
+
+vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames& names,
+                                         bool with_ms) {
+  const std::vector<Word> words = UnitWordsOf(text);
+  UnitCommand out;
+  bool lettered = false;  // the previous unit has an intensity letter
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    // A single number at the end, after at least one unit, is a time.
+    if (with_ms && i > 0 && i + 1 == words.size()) {
+      if (const auto ms = ParseNumber(words[i].text)) {
+        if (lettered && *ms > 0 && *ms <= kMostStrength) {
+          return FailAt(words[i], fmt::format("a second strength: '{}' says its own by a letter; a "
+                                              "time of more than {:g} ms expected, or none",
+                                              words[i - 1].text.substr(0, 60), kMostStrength));
+        }
+        if (*ms < 0 || *ms > 86400000) {
+          return FailAt(words[i], "no time; 0 to 86400000 ms expected");
+        }
+        out.ms = *ms;
+        break;
+      }
+    }
+    auto unit = ParseUnit(words[i], names);
+    if (!unit) return std::unexpected(unit.error());
+    if (!unit->strength_given) {
+      if (i + 1 == words.size()) return FailAt(words[i], "without a strength after it");
+      const auto strength = ParseStrength(words[++i]);
+      if (!strength) return std::unexpected(strength.error());
+      unit->unit.strength = *strength;
+    }
+    lettered = unit->strength_given;
+    UnitSetting& set = unit->unit;
+    if (set.left && names.IsOneSided(set.number) && set.strength > 0) set.right = false;
+    out.units.push_back(unit->unit);
+  }
+  if (out.units.empty()) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    "nothing found where units and strengths are expected, as '12L 0.7 6 C'");
+  }
+  return out;
+}
+
+std::string FormatLook(const FaceLook& look, const UnitNames& names) {
+  std::string text;
+  const auto add = [&text](const std::string& word) { text += (text.empty() ? "" : " ") + word; };
+  for (std::size_t unit = 0; unit < std::max(look.au.left.size(), look.au.right.size()); ++unit) {
+    const float left = look.au.left[unit], right = look.au.right[unit];
+    if (left == right && left != 0 && !names.IsOneSided(static_cast<int>(unit))) {
+      add(fmt::format("{}:{:g}", unit, left));
+      continue;
+    }
+    if (left != 0) add(fmt::format("{}L:{:g}", unit, left));
+    if (right != 0) add(fmt::format("{}R:{:g}", unit, right));
+  }
+  const auto gaze = [&](const char* side, const EyeAngles& angles) {
+    if (angles != EyeAngles{}) {
+      add(fmt::format("gaze{}:{:g},{:g}", side, angles[kDown], angles[kToRight]));
+    }
+  };
+  const bool both = look.gaze.left == look.gaze.right;
+  gaze(both ? "" : "L", look.gaze.left);
+  if (!both) gaze("R", look.gaze.right);
+  return text;
+}
+
+vm::Result<FaceLook> ParseLook(std::string_view text, const UnitNames& names) {
+  FaceLook look;
+  std::string units;
+  for (const Word& word : UnitWordsOf(text)) {
+    if (word.text.starts_with("gaze")) {
+      const auto gaze = ReadTable("gaze", word.text, [&names](const Table& table) {
+        return ReadLook(table.rows().front(), 0, names);
+      });
+      if (!gaze) return FailAt(word, "no direction; gaze:DOWN,RIGHT in degrees expected");
+      AddTo(look, *gaze, 1);
+      continue;
+    }
+    // Columns must not change.
+    units.resize(std::max(units.size(), word.column - 1), ' ');
+    units += word.text;
+  }
+  if (units.empty() && !text.empty()) return look;
+  const auto command = ParseUnitCommand(units, names, false);
+  if (!command) return std::unexpected(command.error());
+  for (const UnitSetting& unit : command->units) {
+    if (!names.IsUnit(unit.number)) {
+      return vm::Fail(vm::Errc::kBadValue,
+                      fmt::format("{} is a code of head or eyes, which an expression cannot hold; "
+                                  "action units and gaze:DOWN,RIGHT expected",
+                                  unit.number));
+    }
+    const auto index = static_cast<std::size_t>(unit.number);
+    if (unit.left) look.au.left[index] = static_cast<float>(unit.strength);
+    if (unit.right) look.au.right[index] = static_cast<float>(unit.strength);
+  }
+  return look;
+}
+
+}  // namespace fsm

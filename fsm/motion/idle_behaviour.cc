@@ -1,0 +1,219 @@
+#include "fsm/motion/idle_behaviour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fsm/motion/inputs/idle_kinds.h"
+#include "fsm/motion/inputs/motion_inputs.h"
+
+namespace fsm {
+namespace {
+
+// Saccades: one at a random time in each interval, so that fixations vary widely in length. Their
+// durations are those of the main sequence: 21 ms and 2.2 ms a degree.
+constexpr double kSaccadeAt = 0.5, kSaccadeVaries = 0.45;  // parts of the interval
+constexpr double kSaccadeMs = 21, kSaccadeMsPerDegree = 2.2;
+constexpr double kSaccadeHeight = 0.6;  // relative to its width
+// Intervals between blinks are skewed: many short, some long. exp of a sum of three even numbers
+// (nearly normal) is nearly log-normal.
+constexpr double kBlinkSpread = 0.4;   // of the logarithm
+constexpr double kBlinkMedian = 0.93;  // of an interval relative to the mean
+constexpr double kShortestBlinkInterval = 0.5, kLongestBlinkInterval = 1.5;  // the same
+constexpr double kFirstBlink = 0.6;                           // its interval relative to the others
+constexpr double kBlinkDepth = 0.9, kBlinkDepthVaries = 0.2;  // half of people's are incomplete
+constexpr double kAxesApart = 0.37;  // periods between the waves of the head's axes
+
+Angles Looped(const HeadCurve& curve, double ms) {
+  return curve.At(std::fmod(std::max(0.0, ms), curve.length_ms()));
+}
+
+void Add(Angles& out, const Angles& more, double weight) {
+  for (std::size_t i = 0; i < 3; ++i) out[i] += static_cast<float>(weight * more[i]);
+}
+
+// Returns a bump that rises from 0 at u = 0 to 1 in the middle and falls to 0 at u = 1.
+double RaisedCosine(double u) {
+  return u <= 0 || u >= 1 ? 0 : (1 - std::cos(u * 2 * std::numbers::pi)) / 2;
+}
+
+}  // namespace
+
+IdleBehaviour::IdleBehaviour(const MotionInputs& in)
+    : patterns_(in.tables.motions),
+      gestures_(in.tables.gestures),
+      switches_(in.switches),
+      seed_(in.seed) {}
+
+void IdleBehaviour::ForEachTrack(const TrackVisitor& visit) const {
+  for (const IdleSwitches::Switch& own : switches_.all()) visit(own.runs);
+}
+
+double IdleBehaviour::Random(RandomStream stream, std::int64_t index) const {
+  return RandomAt(seed_, stream, index);
+}
+
+double IdleBehaviour::Wander(std::size_t wave, double periods) const {
+  const auto stream =
+      static_cast<RandomStream>(static_cast<std::size_t>(RandomStream::kHeadWander) + wave);
+  const double cell = std::floor(periods);
+  const auto index = static_cast<std::int64_t>(cell);
+  const double u = SmootherStep(periods - cell);
+  return Random(stream, index) * (1 - u) + Random(stream, index + 1) * u;
+}
+
+void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
+  for (const IdleRun& run : switches_[IdleKind::kMove].runs.At(t)) {
+    if (!patterns_.auto_move_files.empty()) {
+      Add(out, Looped(PatternAt(patterns_.auto_move_files, run.pattern), InMs(t - run.since)),
+          run.weight);
+      continue;
+    }
+    const AutoMove& move = PatternAt(patterns_.auto_moves, run.pattern);
+    const Angles amplitude{static_cast<float>(move.down), static_cast<float>(move.right),
+                           static_cast<float>(move.tilt)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double slow = InMs(t) / move.period_ms + kAxesApart * static_cast<double>(axis);
+      const double fast = slow * gestures_.wander.faster;
+      const double way = gestures_.wander.slow * Wander(2 * axis, slow) +
+                         gestures_.wander.fast * Wander(2 * axis + 1, fast);
+      out[axis] += static_cast<float>(run.weight * way * amplitude[axis]);
+    }
+  }
+}
+
+double IdleBehaviour::NodAt(const IdleRun& run, vm::Time t) const {
+  const AutoNods& nods = PatternAt(patterns_.auto_nods, run.pattern);
+  const double ms = InMs(t - run.since);
+  if (ms < 0) return 0;
+  const auto k = static_cast<std::int64_t>(std::floor(ms / nods.interval_ms));
+  const auto varied = [&](glm::vec2 row, RandomStream stream) {
+    return Linear(row, static_cast<float>(Random(stream, k)));
+  };
+  const double since =
+      ms - nods.interval_ms *
+               (static_cast<double>(k) + varied(gestures_.nod.begins, RandomStream::kNodTime));
+  const double size = nods.angle * varied(gestures_.nod.size, RandomStream::kNodSize);
+  const double down =
+      RaisedCosine(since / gestures_.nod.lasts) +
+      gestures_.second_nod.size *
+          RaisedCosine((since - gestures_.second_nod.after) / gestures_.second_nod.lasts);
+  return size * down;
+}
+
+void IdleBehaviour::Contribute(vm::Time t, MotionLayers& layers) const {
+  MotionLayer& layer = layers.Layer("idle");
+  AddMove(t, layer.head);
+  for (const IdleRun& run : switches_[IdleKind::kUserdef].runs.At(t)) {
+    Add(layer.head, Looped(PatternAt(patterns_.auto_userdef, run.pattern), InMs(t - run.since)),
+        run.weight);
+  }
+  float nostrils = 0;
+  for (const IdleRun& run : switches_[IdleKind::kBreath].runs.At(t)) {
+    const AutoBreath& pattern = PatternAt(patterns_.auto_breaths, run.pattern);
+    const double breath = run.weight * BreathAt(pattern, t - run.since);
+    layer.head[kDown] -= static_cast<float>(pattern.pitch * breath);
+    nostrils += static_cast<float>(gestures_.breath.nostrils * breath);
+  }
+  layer.units.au.left[kNostrilDilator] = layer.units.au.right[kNostrilDilator] = nostrils;
+  EyeAngles gaze{};
+  for (const IdleRun& run : switches_[IdleKind::kGaze].runs.At(t)) {
+    const EyeAngles saccades = SaccadesAt(PatternAt(patterns_.auto_gazes, run.pattern), t);
+    for (std::size_t i = 0; i < 2; ++i) gaze[i] += run.weight * saccades[i];
+  }
+  layer.units.gaze.left = layer.units.gaze.right = gaze;
+  layer.lids_shut = static_cast<float>(LidsShutAt(t));
+  for (const IdleRun& run : switches_[IdleKind::kNods].runs.At(t)) {
+    layers.Layer("nods").head[kDown] += static_cast<float>(run.weight * NodAt(run, t));
+  }
+  for (const IdleRun& run : switches_[IdleKind::kFace].runs.At(t)) {
+    AddTo(layers.Layer("idle_face").units, PatternAt(patterns_.auto_faces, run.pattern),
+          run.weight);
+  }
+}
+
+double IdleBehaviour::BreathAt(const AutoBreath& pattern, vm::Time since) const {
+  const double u = std::fmod(std::max(0.0, InMs(since)) / pattern.period_ms, 1.0);
+  const double in = gestures_.breath.in, out = gestures_.breath.out;
+  return u < in ? SmoothStep(u / in) : 1 - SmoothStep((u - in) / out);
+}
+
+EyeAngles IdleBehaviour::SaccadesAt(const AutoGaze& gaze, vm::Time t) const {
+  const auto saccade_ms = [&](std::int64_t k) {
+    return gaze.interval_ms * (static_cast<double>(k) + kSaccadeAt +
+                               kSaccadeVaries * Random(RandomStream::kGazeTime, k));
+  };
+  const double now_ms = InMs(t);
+  auto k = static_cast<std::int64_t>(std::floor(now_ms / gaze.interval_ms));
+  if (now_ms < saccade_ms(k)) --k;
+  const auto place = [&](RandomStream stream, double share, std::int64_t index) {
+    return share * gaze.angle * Random(stream, index);
+  };
+  const double x0 = place(RandomStream::kGazeX, 1, k - 1), x1 = place(RandomStream::kGazeX, 1, k);
+  const double y0 = place(RandomStream::kGazeY, kSaccadeHeight, k - 1),
+               y1 = place(RandomStream::kGazeY, kSaccadeHeight, k);
+  const double u = SmootherStep((now_ms - saccade_ms(k)) /
+                                (kSaccadeMs + kSaccadeMsPerDegree * std::hypot(x1 - x0, y1 - y0)));
+  return {static_cast<float>(y0 + u * (y1 - y0)), static_cast<float>(x0 + u * (x1 - x0))};
+}
+
+vm::Time IdleBehaviour::BlinkInterval(std::size_t pattern, std::int64_t index) const {
+  const double mean = PatternAt(patterns_.auto_blinks, pattern).interval_ms;
+  const std::int64_t n = 3 * index;
+  const double normal = Random(RandomStream::kBlinkTime, n) +
+                        Random(RandomStream::kBlinkTime, n + 1) +
+                        Random(RandomStream::kBlinkTime, n + 2);
+  const double interval = mean * std::clamp(kBlinkMedian * std::exp(kBlinkSpread * normal),
+                                            kShortestBlinkInterval, kLongestBlinkInterval);
+  return FromMs(index == 0 ? kFirstBlink * interval : interval);
+}
+
+IdleBehaviour::Blink IdleBehaviour::LastBlink(std::size_t pattern, vm::Time since,
+                                              vm::Time t) const {
+  Blink& blink = cache_.blink;
+  if (cache_.since != since || cache_.pattern != pattern || blink.index < 0) {
+    cache_ = {since, pattern, {-1, since}};  // the first interval begins there
+  }
+  while (blink.index >= 0 && blink.start > t) {
+    blink.start -= BlinkInterval(pattern, blink.index);
+    --blink.index;
+  }
+  for (;;) {
+    const vm::Time next = blink.start + BlinkInterval(pattern, blink.index + 1);
+    if (next > t) return blink;
+    blink = {blink.index + 1, next};
+  }
+}
+
+double IdleBehaviour::LidsShutAt(vm::Time t) const {
+  double shut = 0;
+  for (const IdleRun& run : switches_[IdleKind::kBlink].runs.At(t)) {
+    const AutoBlink& blinks = PatternAt(patterns_.auto_blinks, run.pattern);
+    const Blink blink = LastBlink(run.pattern, run.since, t);
+    if (blink.index < 0) continue;
+    const double depth =
+        blinks.varied
+            ? std::min(1.0, kBlinkDepth +
+                                kBlinkDepthVaries * Random(RandomStream::kBlinkDepth, blink.index))
+            : 1;
+    shut += run.weight * depth * LidsAt(patterns_.blinks[blinks.blink], t - blink.start);
+  }
+  return shut;
+}
+
+std::optional<vm::Time> IdleBehaviour::NextActivity(vm::Time t) const {
+  for (const IdleKindRow& row : IdleKinds()) {
+    if (row.moves_always && switches_[row.kind].on()) return t;
+  }
+  const std::optional<vm::Time> next = MotionSource::NextActivity(t);
+  if (next && *next <= t) return t;
+  const IdleSwitches::Switch& own = switches_[IdleKind::kBlink];
+  if (!own.on()) return next;
+  const AutoBlink& blinks = PatternAt(patterns_.auto_blinks, own.pattern);
+  const vm::Time length = LengthOf(patterns_.blinks[blinks.blink]);
+  // Find the earliest blink that is not over, which follows the last one that is.
+  const Blink over = LastBlink(own.pattern, own.since, t - length);
+  return Earlier(next, std::max(t, over.start + BlinkInterval(own.pattern, over.index + 1)));
+}
+
+}  // namespace fsm

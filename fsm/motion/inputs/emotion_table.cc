@@ -1,0 +1,91 @@
+#include "fsm/motion/inputs/emotion_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "fsm/base/table_reader.h"
+
+namespace fsm {
+namespace {
+
+void ReadTiming(const TableRow& row, EmotionTable& emotions) {
+  if (row.size() != 6) row.Fail(row.key() + " NAME ONSET EYE BROW MOUTH expected");
+  Emotion& emotion = emotions[row.Name(1, "an emotion's name")];
+  Emotion::Timing& timing = row.key() == "posed" ? emotion.posed : emotion.elicited;
+  timing.onset_ms = row.Number(2, "an onset in ms", 0, 10000);
+  for (std::size_t i = 0; i < kRegions; ++i) {
+    timing.lag_ms[i] = row.Number(3 + i, "a lag in ms", 0, 1000);
+  }
+}
+
+void ReadEmotionLook(const TableRow& row, const UnitNames& names, EmotionTable& emotions) {
+  const double pattern = row.Number(1, "a pattern number", 1, 100);
+  auto& patterns = emotions[row.Name(0, "an emotion's name")].patterns;
+  if (pattern != static_cast<double>(patterns.size() + 1)) {
+    row.Fail(fmt::format("pattern {:g} found, {} expected next", pattern, patterns.size() + 1));
+  }
+  patterns.push_back(ReadLook(row, 2, names));
+}
+
+void ReadBegins(const TableRow& row, const UnitNames& names, EmotionTable& emotions) {
+  Emotion& emotion = emotions[row.Name(1, "an emotion's name")];
+  const auto pattern = static_cast<std::size_t>(row.Number(2, "a pattern number", 1, 100));
+  if (pattern > emotion.patterns.size()) row.Fail("a pattern that stands above expected");
+  FaceLook begins = ReadLook(row, 3, names);
+  for (const Side side : kSides) {
+    for (const float from : begins.au[side]) {
+      if (from > 0.9F) row.Fail("strengths from 0 to 0.9 expected");
+    }
+    if (begins.gaze[side] != EyeAngles{}) row.Fail("action units expected, and no gaze");
+  }
+  emotion.begins.resize(emotion.patterns.size());
+  emotion.begins[pattern - 1] = std::move(begins);
+}
+
+}  // namespace
+
+void Emotion::Redefine(std::size_t pattern, const FaceLook& look) {
+  patterns.resize(std::max(patterns.size(), pattern));
+  patterns[pattern - 1] = look;
+  if (pattern <= begins.size()) begins[pattern - 1] = {};
+}
+
+FaceLook Emotion::LookOf(int pattern, double strength) const {
+  const auto index = static_cast<std::size_t>(pattern - 1);
+  FaceLook look;
+  AddTo(look, patterns[index], strength);
+  if (index >= begins.size()) return look;
+  for (const Side side : kSides) {
+    for (std::size_t i = 0; i < begins[index].au[side].size(); ++i) {
+      const double from = begins[index].au[side][i];
+      if (from == 0) continue;
+      look.au[side][i] = patterns[index].au[side][i] *
+                         static_cast<float>(std::max(0.0, strength - from) / (1 - from));
+    }
+  }
+  return look;
+}
+
+vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view text,
+                                      const UnitNames& names) {
+  return ReadTable(name, text, [&](const Table& table) {
+    EmotionTable emotions;
+    for (const TableRow& row : table.rows()) {
+      if (row.key() == "posed" || row.key() == "elicited") {
+        ReadTiming(row, emotions);
+      } else if (row.key() == "begins") {
+        ReadBegins(row, names, emotions);
+      } else {
+        ReadEmotionLook(row, names, emotions);
+      }
+    }
+    for (const auto& [word, emotion] : emotions) {
+      if (emotion.patterns.empty()) table.Fail("'" + word + "' has no pattern 1");
+    }
+    return emotions;
+  });
+}
+
+}  // namespace fsm

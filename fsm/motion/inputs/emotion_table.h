@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fsm/motion/base/face_look.h"
+#include "fsm/motion/base/unit_list.h"
+
+namespace fsm {
+
+/// An emotion: what its patterns look like, and how fast it appears.
+struct Emotion {
+  std::vector<FaceLook> patterns;  ///< at full strength; pattern 1 is patterns[0]
+  /// Per pattern, the strength of the emotion above which a unit takes part, 0..0.9: a slight smile
+  /// keeps the mouth closed.
+  std::vector<FaceLook> begins;
+  /// How an emotion appears: the time from neutral to the peak, and the delay with which each
+  /// region of the face begins.
+  struct Timing {
+    double onset_ms = 450;
+    std::array<double, kRegions> lag_ms{0, 8, 14};
+  };
+  Timing posed;     ///< of an expression shown deliberately
+  Timing elicited;  ///< of a spontaneous expression
+
+  /// Returns the action units of a pattern at a strength. REQUIRES: the pattern exists.
+  FaceLook LookOf(int pattern, double strength) const;
+  /// Adds or changes a pattern; all its units take part from strength 0. REQUIRES: `pattern` is 1
+  /// or more.
+  void Redefine(std::size_t pattern, const FaceLook& look);
+};
+using EmotionTable = std::map<std::string, Emotion, std::less<>>;
+/// The action units of expressions, by name and pattern number as in the slot FaceExp.
+using ExpressionLooks = std::map<std::string, std::map<int, FaceLook>>;
+
+/// Reads tables/emotions.txt. The patterns of an emotion must be numbered from 1 without gaps.
+/// Errors: kBadValue "NAME:LINE: what was expected".
+vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view text,
+                                      const UnitNames& names);
+
+}  // namespace fsm

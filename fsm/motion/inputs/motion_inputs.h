@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+#include "fsm/motion/inputs/idle_switches.h"
+#include "fsm/motion/inputs/motion_settings.h"
+#include "fsm/motion/inputs/motion_tables.h"
+
+namespace fsm {
+
+/// What the sources of a FaceMotion have in common: they refer to this and not to each other.
+/// Commands change settings and switches, and the looks of expressions in the tables.
+struct MotionInputs {
+  MotionInputs(MotionTables all, std::uint64_t of_random)
+      : tables(std::move(all)), seed(of_random) {}
+  MotionInputs(const MotionInputs&) = delete;  // sources and switches refer to the tables
+
+  MotionTables tables;
+  MotionSettings settings;
+  IdleSwitches switches{tables.motions};
+  const std::uint64_t seed;  ///< of everything random
+};
+
+}  // namespace fsm

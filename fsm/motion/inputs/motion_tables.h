@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "embedded/gesture_numbers.h"
+#include "fsm/base/table_folder.h"
+#include "fsm/motion/base/face_look.h"
+#include "fsm/motion/base/mixer.h"
+#include "fsm/motion/base/unit_names.h"
+#include "fsm/motion/inputs/emotion_space.h"
+#include "fsm/motion/inputs/emotion_table.h"
+#include "fsm/motion/inputs/motion_patterns.h"
+#include "fsm/motion/inputs/phoneme_names.h"
+#include "fsm/motion/inputs/text_cues.h"
+#include "fsm/motion/inputs/viseme_tables.h"
+
+namespace fsm {
+
+/// The contents of all tables of motion. A plain value.
+struct MotionTables {
+  VisemeSet set14, set28;
+  std::vector<EngineNames> engines;
+  DominanceReach reach;
+  EmotionTable emotions;
+  EmotionSpace emotion_space;
+  MotionPatterns motions;
+  UnitList units;
+  UnitNames unit_names;
+  BlendShapes blend_shapes;
+  Mixer mixer;
+  TextCues text_cues;
+  GestureNumbers gestures;  ///< gestures.txt explains each number
+
+  VisemeSet& set(VisemeSetId id) { return id == VisemeSetId::k14 ? set14 : set28; }
+  const VisemeSet& set(VisemeSetId id) const { return id == VisemeSetId::k14 ? set14 : set28; }
+
+  /// Loads the tables: those in `folder`, and the built-in ones for the rest. Errors: kBadValue
+  /// with file and line; kUnavailable if the folder or a file cannot be read.
+  static vm::Result<MotionTables> Load(const TableFolder& folder = {});
+};
+
+}  // namespace fsm
