@@ -11,8 +11,8 @@
 namespace editor {
 namespace {
 
-void Patterns(Ui& ui, const fsm::Emotion& emotion) {
-  const int count = static_cast<int>(emotion.patterns.size());
+void Patterns(Ui& ui, const fsm::Expression& expression) {
+  const int count = static_cast<int>(expression.patterns.size());
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Pattern");
   for (int p = 1; p <= count; ++p) {
@@ -34,12 +34,12 @@ void Patterns(Ui& ui, const fsm::Emotion& emotion) {
   }
 }
 
-void Timing(Ui& ui, const fsm::Emotion& emotion) {
+void Timing(Ui& ui, const fsm::Expression& expression) {
   Heading("How it comes about, ms");
   if (ImGui::RadioButton("shown on purpose", !ui.elicited)) ui.elicited = false;
   ImGui::SameLine();
   if (ImGui::RadioButton("felt", ui.elicited)) ui.elicited = true;
-  fsm::Emotion::Timing timing = ui.elicited ? emotion.elicited : emotion.posed;
+  fsm::Expression::Timing timing = ui.elicited ? expression.elicited : expression.posed;
   bool changed = false;
   const auto number = [&](const char* label, double& value, float most) {
     float v = static_cast<float>(value);
@@ -60,8 +60,8 @@ void Timing(Ui& ui, const fsm::Emotion& emotion) {
 
 fsm::FaceState ExpressionsPage(Ui& ui) {
   std::vector<std::string> names;
-  for (const auto& [name, emotion] : ui.editor.state().emotions) names.push_back(name);
-  if (!ui.editor.state().emotions.contains(ui.expression) && !names.empty()) {
+  for (const auto& [name, expression] : ui.editor.state().expressions) names.push_back(name);
+  if (!ui.editor.state().expressions.contains(ui.expression) && !names.empty()) {
     ui.expression = names.front();
   }
   ImGui::SetNextItemWidth(160);
@@ -87,11 +87,11 @@ fsm::FaceState ExpressionsPage(Ui& ui) {
     ui.expression = std::exchange(ui.new_name, "");
     ui.pattern = 1;
   }
-  auto found = ui.editor.state().emotions.find(ui.expression);
-  if (found == ui.editor.state().emotions.end()) return {};
+  auto found = ui.editor.state().expressions.find(ui.expression);
+  if (found == ui.editor.state().expressions.end()) return {};
   Patterns(ui, found->second);
-  found = ui.editor.state().emotions.find(ui.expression);
-  if (found == ui.editor.state().emotions.end()) return {};
+  found = ui.editor.state().expressions.find(ui.expression);
+  if (found == ui.editor.state().expressions.end()) return {};
   ui.pattern = std::clamp(ui.pattern, 1, static_cast<int>(found->second.patterns.size()));
   fsm::FaceLook look = found->second.patterns[static_cast<std::size_t>(ui.pattern - 1)];
   std::string merge;
@@ -99,7 +99,7 @@ fsm::FaceState ExpressionsPage(Ui& ui) {
     ui.Check(ui.editor.SetExpression(ui.expression, ui.pattern, look, merge));
   }
   Timing(ui, found->second);
-  FileRow(ui, Part::kEmotions, "emotions.txt");
+  FileRow(ui, Part::kExpressions, "emotions.txt");
   return StateOf(look);
 }
 

@@ -123,12 +123,12 @@ fsm::FaceState UnitsPage(Ui& ui) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(130);
   std::vector<std::string> names;
-  for (const auto& [name, emotion] : ui.editor.state().emotions) names.push_back(name);
+  for (const auto& [name, expression] : ui.editor.state().expressions) names.push_back(name);
   Choice(ui, "##into", &ui.expression, names);
   ImGui::SameLine();
   if (Button(ui, "Add as its pattern", true, "A new pattern of that expression looks like this") &&
       ui.Check(ui.editor.AddPattern(ui.expression))) {
-    const auto found = ui.editor.state().emotions.find(ui.expression);
+    const auto found = ui.editor.state().expressions.find(ui.expression);
     ui.pattern = static_cast<int>(found->second.patterns.size());
     ui.Check(ui.editor.SetExpression(ui.expression, ui.pattern, look));
     ui.Tell(

@@ -132,7 +132,7 @@ void TryIt(Ui& ui) {
   Show talk;
   if (speech) talk.speech = *speech;
   play("Speak", talk);
-  for (const auto& [name, emotion] : ui.editor.state().emotions) {
+  for (const auto& [name, expression] : ui.editor.state().expressions) {
     if (name == "USERDEF") continue;
     Show show;
     show.expression = name;
@@ -140,7 +140,7 @@ void TryIt(Ui& ui) {
   }
   Show both = talk;
   both.expression = "HAPPY";
-  if (ui.editor.state().emotions.contains("HAPPY")) play("Speak happily", both);
+  if (ui.editor.state().expressions.contains("HAPPY")) play("Speak happily", both);
   Checkbox(ui, "Again and again", &ui.loop);
 }
 

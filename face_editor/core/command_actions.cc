@@ -42,7 +42,7 @@ struct NamedFile {
   bool bilingual;
 };
 constexpr NamedFile kFiles[] = {
-    {"points", Part::kPoints, false},   {"emotions", Part::kEmotions, false},
+    {"points", Part::kPoints, false},   {"emotions", Part::kExpressions, false},
     {"mouth", Part::kMouth, false},     {"mouth28", Part::kMouth, true},
     {"motions", Part::kMotions, false}, {"units", Part::kUnits, false}};
 
@@ -235,8 +235,8 @@ Answer GetViews(Editor& editor, const Words&) {
 
 Answer GetExpression(Editor& editor, const Words& words) {
   const auto pattern = Whole(words[1]);
-  const auto found = editor.state().emotions.find(words[0]);
-  if (!pattern || found == editor.state().emotions.end() || *pattern < 1 ||
+  const auto found = editor.state().expressions.find(words[0]);
+  if (!pattern || found == editor.state().expressions.end() || *pattern < 1 ||
       *pattern > static_cast<int>(found->second.patterns.size())) {
     return vm::Fail(Errc::kBadValue, "there is no expression " + words[0] + " " + words[1]);
   }

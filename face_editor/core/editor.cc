@@ -24,8 +24,8 @@ bool Editor::Unsaved(Part part) const {
 
 std::string Editor::UnsavedNames() const {
   constexpr std::pair<Part, const char*> kNames[] = {
-      {Part::kPoints, "points"},   {Part::kEmotions, "emotions"}, {Part::kMouth, "mouth"},
-      {Part::kMotions, "motions"}, {Part::kUnits, "units"},       {Part::kIdentity, "identity"}};
+      {Part::kPoints, "points"},   {Part::kExpressions, "emotions"}, {Part::kMouth, "mouth"},
+      {Part::kMotions, "motions"}, {Part::kUnits, "units"},          {Part::kIdentity, "identity"}};
   std::string text;
   for (const auto& [part, name] : kNames) {
     if (Unsaved(part)) text += (text.empty() ? "" : " ") + std::string(name);
@@ -139,15 +139,15 @@ void Editor::SetLook(const fsm::FaceLook& look, std::string what, std::string_vi
 }
 
 std::vector<fsm::FaceLook>* Editor::PatternsOf(State& state, std::string_view name) const {
-  const auto found = state.emotions.find(name);
-  return found == state.emotions.end() ? nullptr : &found->second.patterns;
+  const auto found = state.expressions.find(name);
+  return found == state.expressions.end() ? nullptr : &found->second.patterns;
 }
 
 vm::Result<void> Editor::CheckPattern(std::string_view name, int pattern) const {
-  const auto found = state().emotions.find(name);
-  if (found == state().emotions.end()) {
+  const auto found = state().expressions.find(name);
+  if (found == state().expressions.end()) {
     return Fail(Errc::kBadValue, fmt::format("there is no expression '{}'; {} expected",
-                                             name.substr(0, 40), fsm::KeysOf(state().emotions)));
+                                             name.substr(0, 40), fsm::KeysOf(state().expressions)));
   }
   return fsm::CheckPatternNumber(name, pattern, 1, found->second.patterns.size());
 }
@@ -155,22 +155,23 @@ vm::Result<void> Editor::CheckPattern(std::string_view name, int pattern) const 
 vm::Result<void> Editor::SetExpression(std::string_view name, int pattern,
                                        const fsm::FaceLook& look, std::string_view merge) {
   if (auto fits = CheckPattern(name, pattern); !fits) return fits;
-  history_.Change(Part::kEmotions, fmt::format("{} {}", name, pattern), merge, [&](State& state) {
-    (*PatternsOf(state, name))[static_cast<std::size_t>(pattern - 1)] = look;
-  });
+  history_.Change(Part::kExpressions, fmt::format("{} {}", name, pattern), merge,
+                  [&](State& state) {
+                    (*PatternsOf(state, name))[static_cast<std::size_t>(pattern - 1)] = look;
+                  });
   return {};
 }
 
 vm::Result<void> Editor::SetTiming(std::string_view name, bool posed,
-                                   const fsm::Emotion::Timing& timing, std::string_view merge) {
+                                   const fsm::Expression::Timing& timing, std::string_view merge) {
   if (auto fits = CheckPattern(name, 1); !fits) return fits;
   const auto within = [](double v, double most) { return v >= 0 && v <= most; };
   bool good = within(timing.onset_ms, 10000);
   for (const double lag : timing.lag_ms) good = good && within(lag, 1000);
   if (!good) return Fail(Errc::kBadValue, "an onset of 0 to 10000 ms, lags of 0 to 1000 expected");
-  history_.Change(Part::kEmotions, fmt::format("times of {}", name), merge, [&](State& state) {
-    auto& emotion = state.emotions.find(name)->second;
-    (posed ? emotion.posed : emotion.elicited) = timing;
+  history_.Change(Part::kExpressions, fmt::format("times of {}", name), merge, [&](State& state) {
+    auto& expression = state.expressions.find(name)->second;
+    (posed ? expression.posed : expression.elicited) = timing;
   });
   return {};
 }
@@ -187,12 +188,12 @@ vm::Result<void> Editor::AddPattern(std::string_view name) {
   if (word == "posed" || word == "elicited") {
     return Fail(Errc::kBadValue, "'" + word + "' is a word of the table, another name expected");
   }
-  const auto found = state().emotions.find(word);
-  if (found != state().emotions.end() && found->second.patterns.size() >= 100) {
+  const auto found = state().expressions.find(word);
+  if (found != state().expressions.end() && found->second.patterns.size() >= 100) {
     return Fail(Errc::kLimit, "an expression has at most 100 patterns");
   }
-  history_.Change(Part::kEmotions, "add a pattern of " + word, "", [&](State& state) {
-    auto& patterns = state.emotions[word].patterns;
+  history_.Change(Part::kExpressions, "add a pattern of " + word, "", [&](State& state) {
+    auto& patterns = state.expressions[word].patterns;
     patterns.push_back(patterns.empty() ? fsm::FaceLook{} : patterns.back());
   });
   return {};
@@ -200,12 +201,12 @@ vm::Result<void> Editor::AddPattern(std::string_view name) {
 
 vm::Result<void> Editor::RemovePattern(std::string_view name, int pattern) {
   if (auto fits = CheckPattern(name, pattern); !fits) return fits;
-  const bool last = state().emotions.find(name)->second.patterns.size() == 1;
-  history_.Change(Part::kEmotions, fmt::format("remove {} {}", name, pattern), "",
+  const bool last = state().expressions.find(name)->second.patterns.size() == 1;
+  history_.Change(Part::kExpressions, fmt::format("remove {} {}", name, pattern), "",
                   [&](State& state) {
                     auto& patterns = *PatternsOf(state, name);
                     patterns.erase(patterns.begin() + (pattern - 1));
-                    if (last) state.emotions.erase(state.emotions.find(name));
+                    if (last) state.expressions.erase(state.expressions.find(name));
                   });
   return {};
 }

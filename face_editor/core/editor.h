@@ -60,8 +60,8 @@ class Editor {
   void SetLook(const fsm::FaceLook& look, std::string what, std::string_view merge = "");
   vm::Result<void> SetExpression(std::string_view name, int pattern, const fsm::FaceLook& look,
                                  std::string_view merge = "");
-  vm::Result<void> SetTiming(std::string_view name, bool posed, const fsm::Emotion::Timing& timing,
-                             std::string_view merge = "");
+  vm::Result<void> SetTiming(std::string_view name, bool posed,
+                             const fsm::Expression::Timing& timing, std::string_view merge = "");
   /// A pattern that looks as the last one, or a new expression with an empty pattern 1.
   vm::Result<void> AddPattern(std::string_view name);
   /// The expression too with its last one.
@@ -119,7 +119,7 @@ class Editor {
   fsm::MotionTables tables_;  // as read; what is edited lies in the state
   std::shared_ptr<const Units> built_in_units_;
   std::string identity_other_;  // lines of its file that are not edited
-  std::string emotions_text_, shapes14_text_, shapes28_text_, motions_text_;
+  std::string expressions_text_, shapes14_text_, shapes28_text_, motions_text_;
   History history_;
   std::array<std::uint64_t, kParts> saved_{};
   std::shared_ptr<FaceSight> sight_;

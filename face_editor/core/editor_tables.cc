@@ -25,7 +25,7 @@ using vm::Fail;
 
 namespace {
 
-constexpr const char* kEmotionsFile = "emotions.txt";
+constexpr const char* kExpressionsFile = "emotions.txt";
 constexpr const char* kShapes14File = "mouth_shapes.txt";
 constexpr const char* kShapes28File = "mouth_shapes_28.txt";
 constexpr const char* kMotionsFile = "motions.txt";
@@ -67,7 +67,7 @@ vm::Result<void> Editor::LoadTables(const std::string& folder) {
   auto units = UnitsIn(folder);
   if (!units) return std::unexpected(units.error());
   tables_ = std::move(*tables);
-  emotions_text_ = TextIn(folder, kEmotionsFile, embedded::editor_emotions());
+  expressions_text_ = TextIn(folder, kExpressionsFile, embedded::editor_emotions());
   shapes14_text_ = TextIn(folder, kShapes14File, embedded::editor_mouth_shapes());
   shapes28_text_ = TextIn(folder, kShapes28File, embedded::editor_mouth_shapes_28());
   motions_text_ = TextIn(folder, kMotionsFile, embedded::editor_motions());
@@ -75,7 +75,7 @@ vm::Result<void> Editor::LoadTables(const std::string& folder) {
     history_.Restart(part, change);
     MarkSaved(part);
   };
-  put(Part::kEmotions, [this](State& state) { state.emotions = tables_.emotions; });
+  put(Part::kExpressions, [this](State& state) { state.expressions = tables_.expressions; });
   put(Part::kMouth, [this](State& state) {
     state.shapes14 = tables_.set14.visemes;
     state.shapes28 = tables_.set28.visemes;
@@ -101,7 +101,7 @@ vm::Result<std::shared_ptr<const Units>> Editor::UnitsIn(const std::string& fold
 
 fsm::MotionTables Editor::Tables() const {
   fsm::MotionTables tables = tables_;
-  tables.emotions = state().emotions;
+  tables.expressions = state().expressions;
   tables.set14.visemes = state().shapes14;
   tables.set28.visemes = state().shapes28;
   for (const auto& [kind, curves] : state().curves) tables.motions.head[kind] = curves;
@@ -116,11 +116,11 @@ vm::Result<void> Editor::Load(Part part, const std::string& path, bool bilingual
     history_.Change(part, what, "", change);
     MarkSaved(part);
   };
-  if (part == Part::kEmotions) {
-    auto read = fsm::ReadEmotions(path, *text, unit_names());
+  if (part == Part::kExpressions) {
+    auto read = fsm::ReadExpressions(path, *text, unit_names());
     if (!read) return std::unexpected(read.error());
-    emotions_text_ = std::move(*text);
-    put("expressions read", [&](State& state) { state.emotions = std::move(*read); });
+    expressions_text_ = std::move(*text);
+    put("expressions read", [&](State& state) { state.expressions = std::move(*read); });
   } else if (part == Part::kMouth) {
     auto read =
         fsm::ReadVisemes(path, *text, bilingual ? fsm::VisemeSetId::k28 : fsm::VisemeSetId::k14);
@@ -159,8 +159,8 @@ vm::Result<void> Editor::Load(Part part, const std::string& path, bool bilingual
 vm::Result<void> Editor::Save(Part part, const std::string& path, bool bilingual) {
   if (part == Part::kPoints) return SavePoints(path);
   std::string text;
-  if (part == Part::kEmotions) {
-    text = WriteEmotions(emotions_text_, state().emotions, unit_names());
+  if (part == Part::kExpressions) {
+    text = WriteExpressions(expressions_text_, state().expressions, unit_names());
   } else if (part == Part::kMouth) {
     text = WriteVisemes(bilingual ? shapes28_text_ : shapes14_text_, shapes(bilingual));
   } else if (part == Part::kMotions) {
@@ -189,8 +189,9 @@ vm::Result<int> Editor::SaveTables(const std::string& folder) {
     std::string_view built_in;
   };
   const File files[] = {
-      {kEmotionsFile, Part::kEmotions, false,
-       WriteEmotions(emotions_text_, state().emotions, unit_names()), embedded::editor_emotions()},
+      {kExpressionsFile, Part::kExpressions, false,
+       WriteExpressions(expressions_text_, state().expressions, unit_names()),
+       embedded::editor_emotions()},
       {kShapes14File, Part::kMouth, false, WriteVisemes(shapes14_text_, state().shapes14),
        embedded::editor_mouth_shapes()},
       {kShapes28File, Part::kMouth, true, WriteVisemes(shapes28_text_, state().shapes28),
@@ -206,7 +207,7 @@ vm::Result<int> Editor::SaveTables(const std::string& folder) {
     if (auto done = vm::WriteTextFile(path, file.text); !done) return std::unexpected(done.error());
     ++written;
   }
-  for (const Part part : {Part::kEmotions, Part::kMouth, Part::kMotions, Part::kUnits}) {
+  for (const Part part : {Part::kExpressions, Part::kMouth, Part::kMotions, Part::kUnits}) {
     MarkSaved(part);
   }
   return written;

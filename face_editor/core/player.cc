@@ -101,7 +101,8 @@ std::optional<fsm::FaceState> Player::At(vm::Time now) {
     const auto i = static_cast<std::size_t>(part);
     return version_[i] != editor_.state().version[i];
   };
-  const bool edited = differs(Part::kEmotions) || differs(Part::kMouth) || differs(Part::kMotions);
+  const bool edited =
+      differs(Part::kExpressions) || differs(Part::kMouth) || differs(Part::kMotions);
   if (edited && !Plan()) {
     Stop();  // what was played is gone
     return std::nullopt;

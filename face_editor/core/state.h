@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "face_editor/core/unit_rows.h"
-#include "fsm/motion/inputs/emotion_table.h"
+#include "fsm/motion/inputs/expression_table.h"
 #include "fsm/motion/inputs/motion_patterns.h"
 #include "fsm/motion/inputs/viseme_tables.h"
 
@@ -23,14 +23,14 @@ using HeadCurves = std::map<std::string, std::vector<fsm::HeadCurve>, std::less<
 using Sliders = std::map<std::string, float, std::less<>>;
 
 /// What is edited; each part is kept in a file of its own.
-enum class Part : std::size_t { kPoints, kLook, kEmotions, kMouth, kMotions, kIdentity, kUnits };
+enum class Part : std::size_t { kPoints, kLook, kExpressions, kMouth, kMotions, kIdentity, kUnits };
 inline constexpr std::size_t kParts = 7;
 
 /// Everything that can be edited, at one instant. A plain value.
 struct State {
   PointMap points;
   fsm::FaceLook look;  ///< units as they are set on the face now
-  fsm::EmotionTable emotions;
+  fsm::ExpressionTable expressions;
   fsm::Visemes shapes14, shapes28;
   HeadCurves curves;
   std::shared_ptr<const Units> units;  ///< how far each moves which skin; never nullptr

@@ -59,7 +59,7 @@ std::size_t PatternOf(const Line& line) {
 }
 
 std::string TimingRow(const char* kind, const std::string& name,
-                      const fsm::Emotion::Timing& timing) {
+                      const fsm::Expression::Timing& timing) {
   return fmt::format("{:<8} {:<9} {:g} {:g} {:g} {:g}", kind, name, timing.onset_ms,
                      timing.lag_ms[0], timing.lag_ms[1], timing.lag_ms[2]);
 }
@@ -133,8 +133,8 @@ std::string WriteVisemes(std::string_view text, const fsm::Visemes& shapes) {
   return Joined(out);
 }
 
-std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotions,
-                          const fsm::UnitNames& names) {
+std::string WriteExpressions(std::string_view text, const fsm::ExpressionTable& expressions,
+                             const fsm::UnitNames& names) {
   Rows rows;
   std::map<std::string, std::size_t, std::less<>> written;
   std::vector<std::pair<std::string, std::string>> timed;  // kind, name
@@ -143,26 +143,27 @@ std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotio
         !line.words.empty() && (line.words[0] == "posed" || line.words[0] == "elicited");
     const bool begins = line.words.size() > 2 && line.words[0] == "begins";
     const std::string name = line.words.size() < 2 ? "" : line.words[timing || begins ? 1 : 0];
-    const auto emotion = emotions.find(name);
+    const auto expression = expressions.find(name);
     if (line.words.size() < 2) {
       rows.emplace_back(line.text, "");
-    } else if (emotion == emotions.end()) {
+    } else if (expression == expressions.end()) {
       continue;  // it is gone
     } else if (timing) {
       const bool posed = line.words[0] == "posed";
-      const std::string row = TimingRow(posed ? "posed" : "elicited", name,
-                                        posed ? emotion->second.posed : emotion->second.elicited);
+      const std::string row =
+          TimingRow(posed ? "posed" : "elicited", name,
+                    posed ? expression->second.posed : expression->second.elicited);
       const bool same = fsm::Table("", row).rows().front().words() == line.words;
       rows.emplace_back(same ? line.text : row + line.comment, "");
       timed.emplace_back(line.words[0], name);
     } else if (begins) {
       const auto pattern = fsm::ParseNumber(line.words[2]);
-      const auto count = static_cast<double>(emotion->second.patterns.size());
+      const auto count = static_cast<double>(expression->second.patterns.size());
       if (pattern && *pattern <= count) rows.emplace_back(line.text, name);
     } else {
       const std::size_t pattern = PatternOf(line);
-      if (pattern == 0 || pattern > emotion->second.patterns.size()) continue;
-      const fsm::FaceLook& look = emotion->second.patterns[pattern - 1];
+      if (pattern == 0 || pattern > expression->second.patterns.size()) continue;
+      const fsm::FaceLook& look = expression->second.patterns[pattern - 1];
       const auto old = fsm::ReadTable("", line.text, [&names](const fsm::Table& table) {
         return fsm::ReadLook(table.rows().front(), 2, names);
       });
@@ -172,19 +173,20 @@ std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotio
       written[name] = pattern;
     }
   }
-  for (const auto& [name, emotion] : emotions) {
+  for (const auto& [name, expression] : expressions) {
     const bool is_new = written[name] == 0;
     for (const auto& [kind, timing] :
-         {std::pair("posed", &emotion.posed), std::pair("elicited", &emotion.elicited)}) {
-      // Times that nothing was said of are those of a new emotion anyway.
+         {std::pair("posed", &expression.posed), std::pair("elicited", &expression.elicited)}) {
+      // Times that nothing was said of are those of a new expression anyway.
       const bool told = std::ranges::find(timed, std::pair(std::string(kind), name)) != timed.end();
       const bool plain = TimingRow(kind, name, {}) == TimingRow(kind, name, *timing);
       if (!told && !plain) rows.emplace_back(TimingRow(kind, name, *timing), "");
     }
     if (is_new) rows.emplace_back("", "");
-    for (std::size_t p = written[name]; p < emotion.patterns.size(); ++p) {
+    for (std::size_t p = written[name]; p < expression.patterns.size(); ++p) {
       const auto end = static_cast<std::ptrdiff_t>(EndOf(rows, name));
-      rows.insert(rows.begin() + end, {PatternRow(name, p + 1, emotion.patterns[p], names), name});
+      rows.insert(rows.begin() + end,
+                  {PatternRow(name, p + 1, expression.patterns[p], names), name});
     }
   }
   return Joined(rows);

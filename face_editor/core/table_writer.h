@@ -15,8 +15,8 @@ namespace editor {
 /// mouth_shapes.txt or mouth_shapes_28.txt. REQUIRES: the same names.
 std::string WriteVisemes(std::string_view text, const fsm::Visemes& shapes);
 /// emotions.txt.
-std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotions,
-                          const fsm::UnitNames& names);
+std::string WriteExpressions(std::string_view text, const fsm::ExpressionTable& expressions,
+                             const fsm::UnitNames& names);
 /// The movements of the head in motions.txt; its other lines are not touched.
 std::string WriteCurves(std::string_view text, const HeadCurves& curves);
 

@@ -30,18 +30,18 @@ void Print(const std::vector<GivenBack>& judged) {
 void Run(const Options& options) {
   const fsm::MotionTables tables = vm::OrThrow(fsm::MotionTables::Load(options.tables));
   if (options.judge) {
-    Print(JudgeSpace(tables.emotion_space, tables.emotions, BuiltAxes()));
+    Print(JudgeSpace(tables.emotion_space, tables.expressions, BuiltAxes()));
     return;
   }
   if (options.out.empty()) throw std::runtime_error("--out TABLE or --judge expected");
   fsm::EmotionSpace space;
   {
     Progress progress("learning the space", options.quiet);
-    space = vm::OrThrow(LearnSpace(options.plan, tables.emotions, BuiltAxes(),
+    space = vm::OrThrow(LearnSpace(options.plan, tables.expressions, BuiltAxes(),
                                    [&](double done, double) { progress.At(done); }));
   }
   vm::OrThrow(vm::WriteTextFile(options.out, FormatSpace(space)));
-  Print(JudgeSpace(space, tables.emotions, BuiltAxes()));
+  Print(JudgeSpace(space, tables.expressions, BuiltAxes()));
 }
 
 }  // namespace

@@ -110,12 +110,12 @@ std::vector<EmotionSpace::Layer> LayersOf(const vdm::TimeDelayNet& net) {
   return layers;
 }
 
-vm::Result<Lessons> LessonsOf(const EmotionSpace& space, const fsm::EmotionTable& emotions,
+vm::Result<Lessons> LessonsOf(const EmotionSpace& space, const fsm::ExpressionTable& expressions,
                               const std::vector<Axis>& axes) {
   Lessons lessons{.axes = axes, .patterns = {}};
   for (const Axis& axis : axes) {
-    const auto found = emotions.find(axis.emotion);
-    if (found == emotions.end()) {
+    const auto found = expressions.find(axis.emotion);
+    if (found == expressions.end()) {
       return vm::Fail(vm::Errc::kBadValue,
                       fmt::format("the space has an axis {}, which is no emotion of emotions.txt",
                                   axis.emotion));
@@ -131,11 +131,11 @@ vm::Result<Lessons> LessonsOf(const EmotionSpace& space, const fsm::EmotionTable
 }
 
 /// The units that any pattern of these emotions uses, rising.
-std::vector<int> UnitsOf(const fsm::EmotionTable& emotions, const std::vector<Axis>& axes) {
+std::vector<int> UnitsOf(const fsm::ExpressionTable& expressions, const std::vector<Axis>& axes) {
   std::set<int> units;
   for (const Axis& axis : axes) {
-    const auto found = emotions.find(axis.emotion);
-    if (found == emotions.end()) continue;
+    const auto found = expressions.find(axis.emotion);
+    if (found == expressions.end()) continue;
     for (const fsm::FaceLook& look : found->second.patterns) {
       for (const fsm::UnitValues* side : {&look.au.right, &look.au.left}) {
         for (std::size_t unit = 0; unit < side->size(); ++unit) {
@@ -203,12 +203,12 @@ std::vector<float> RatiosOf(const EmotionSpace& space, const fsm::FaceLook& look
   return ratios;
 }
 
-vm::Result<EmotionSpace> LearnSpace(const SpacePlan& plan, const fsm::EmotionTable& emotions,
+vm::Result<EmotionSpace> LearnSpace(const SpacePlan& plan, const fsm::ExpressionTable& expressions,
                                     const std::vector<Axis>& axes,
                                     const std::function<void(double, double)>& progress) {
   EmotionSpace space;
-  space.units = UnitsOf(emotions, axes);
-  const auto lessons = LessonsOf(space, emotions, axes);
+  space.units = UnitsOf(expressions, axes);
+  const auto lessons = LessonsOf(space, expressions, axes);
   if (!lessons) return std::unexpected(lessons.error());
   const auto units = static_cast<Eigen::Index>(space.units.size());
   IdentityNet net(units, plan.hidden, plan.seed);
@@ -251,12 +251,13 @@ std::string FormatSpace(const EmotionSpace& space) {
   return text;
 }
 
-std::vector<GivenBack> JudgeSpace(const EmotionSpace& space, const fsm::EmotionTable& emotions,
+std::vector<GivenBack> JudgeSpace(const EmotionSpace& space,
+                                  const fsm::ExpressionTable& expressions,
                                   const std::vector<Axis>& axes) {
   std::vector<GivenBack> judged;
   for (const Axis& axis : axes) {
-    const auto found = emotions.find(axis.emotion);
-    if (found == emotions.end()) continue;
+    const auto found = expressions.find(axis.emotion);
+    if (found == expressions.end()) continue;
     for (std::size_t p = 0; p < found->second.patterns.size(); ++p) {
       const std::vector<float> ratios = RatiosOf(space, found->second.patterns[p]);
       GivenBack back{

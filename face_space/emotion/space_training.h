@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fsm/motion/inputs/emotion_space.h"
-#include "fsm/motion/inputs/emotion_table.h"
+#include "fsm/motion/inputs/expression_table.h"
 #include "vm_protocol/core/result.h"
 
 namespace facespace {
@@ -33,7 +33,8 @@ const std::vector<Axis>& BuiltAxes();
 /// half each; the gaze does not count. The same plan and tables give the same numbers: it computes
 /// in one thread and in a fixed order. `progress` is told how much is done, 0..1, and the loss.
 /// Error: kBadValue for an axis without an emotion.
-vm::Result<fsm::EmotionSpace> LearnSpace(const SpacePlan& plan, const fsm::EmotionTable& emotions,
+vm::Result<fsm::EmotionSpace> LearnSpace(const SpacePlan& plan,
+                                         const fsm::ExpressionTable& expressions,
                                          const std::vector<Axis>& axes,
                                          const std::function<void(double, double)>& progress);
 
@@ -49,7 +50,8 @@ struct GivenBack {
   double rms = 0;    ///< over the units of the space
   double worst = 0;  ///< of one unit
 };
-std::vector<GivenBack> JudgeSpace(const fsm::EmotionSpace& space, const fsm::EmotionTable& emotions,
+std::vector<GivenBack> JudgeSpace(const fsm::EmotionSpace& space,
+                                  const fsm::ExpressionTable& expressions,
                                   const std::vector<Axis>& axes);
 
 /// The strengths of the space's units in a look, both sides' mean.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "face_space/record/unit_track.h"
-#include "fsm/motion/inputs/emotion_table.h"
+#include "fsm/motion/inputs/expression_table.h"
 
 namespace facespace {
 

@@ -72,7 +72,7 @@ ContactSheet EmotionSheet(const SheetInput& input) {
   ContactSheet sheet{{}, 4};
   sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), input.face});
   for (const char* name : kEmotions) {
-    if (!input.tables.emotions.contains(name)) continue;
+    if (!input.tables.expressions.contains(name)) continue;
     const FaceState state = After(input.tables, [&](FaceMotion& motion) {
       vm::OrThrow(motion.expression.Show(0ms, name, 1, 1, 0ms));
     });

@@ -35,9 +35,9 @@ std::string SlotOf(const Name& name) {
 }  // namespace
 
 ExpressionSlots::ExpressionSlots(FsmCore& core) : core_(core) {
-  for (const auto& [expression, emotion] : core_.motion->tables().emotions) {
-    for (std::size_t i = 0; i < emotion.patterns.size(); ++i) {
-      const Name name{expression, static_cast<int>(i) + 1};
+  for (const auto& [word, expression] : core_.motion->tables().expressions) {
+    for (std::size_t i = 0; i < expression.patterns.size(); ++i) {
+      const Name name{word, static_cast<int>(i) + 1};
       Declare(name, LookOf(name).value_or(""));
     }
   }
@@ -51,7 +51,7 @@ ExpressionSlots::ExpressionSlots(FsmCore& core) : core_(core) {
       return true;
     }
     if (message.command != vm::Command::kDel) return false;
-    if (!core_.motion->tables().emotions.contains(name->expression)) {
+    if (!core_.motion->tables().expressions.contains(name->expression)) {
       reply.Fail({vm::Errc::kUnknownSlot, "there is no expression '" + name->expression + "'", 0});
       return true;
     }
@@ -79,10 +79,10 @@ void ExpressionSlots::Declare(const Name& name, const std::string& look) {
 }
 
 std::optional<std::string> ExpressionSlots::LookOf(const Name& name) const {
-  const EmotionTable& emotions = core_.motion->tables().emotions;
-  const auto found = emotions.find(name.expression);
+  const ExpressionTable& expressions = core_.motion->tables().expressions;
+  const auto found = expressions.find(name.expression);
   const auto index = static_cast<std::size_t>(name.pattern - 1);
-  if (found == emotions.end() || index >= found->second.patterns.size()) return {};
+  if (found == expressions.end() || index >= found->second.patterns.size()) return {};
   return FormatLook(found->second.patterns[index], core_.motion->tables().unit_names);
 }
 

@@ -197,7 +197,7 @@ vm::Result<void> OriginalConfig::ApplyTo(MotionTables& tables) const {
   }
   for (const auto& [name, looks] : expressions) {
     for (const auto& [pattern, look] : looks)
-      tables.emotions[name].Redefine(static_cast<std::size_t>(pattern), look);
+      tables.expressions[name].Redefine(static_cast<std::size_t>(pattern), look);
   }
   if (!blinks_ms.empty()) patterns.blinks.clear();
   for (const double ms : blinks_ms) {

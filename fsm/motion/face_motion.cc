@@ -18,7 +18,7 @@ vm::Result<void> FaceMotion::SetFace(vm::Time now, int position, double strength
       units.Set(now, list.units[index], strength);
       return {};
     }
-    if (inputs_.tables.emotions.contains(list.emotions[index])) {
+    if (inputs_.tables.expressions.contains(list.emotions[index])) {
       expression.SetEmotion(now, index, strength);
       return {};
     }

@@ -44,7 +44,7 @@ TEST_F(CommandsTest, ALookIsKeptAsAPatternOfAnExpression) {
   EXPECT_EQ(Answer("set expression SMIRK 1 12L 0.5 gaze:3,4"), "");
   EXPECT_EQ(Answer("get expression SMIRK 1"), "12L:0.5 gaze:3,4");
   EXPECT_EQ(Answer("remove pattern SMIRK 1"), "");
-  EXPECT_FALSE(editor_->state().emotions.contains("SMIRK"));
+  EXPECT_FALSE(editor_->state().expressions.contains("SMIRK"));
   EXPECT_EQ(Answer("get unsaved"), "emotions");
 }
 
@@ -79,7 +79,7 @@ TEST_F(CommandsTest, KeyFramesStayInOrder) {
 
 TEST_F(CommandsTest, TimesOfExpressionsHaveBounds) {
   EXPECT_EQ(Answer("set timing HAPPY posed 600 0 10 20"), "");
-  EXPECT_EQ(editor_->state().emotions.at("HAPPY").posed.onset_ms, 600);
+  EXPECT_EQ(editor_->state().expressions.at("HAPPY").posed.onset_ms, 600);
   EXPECT_FALSE(Run("set timing HAPPY posed -1 0 10 20"));
   EXPECT_FALSE(Run("set timing HAPPY sometimes 1 0 10 20"));
   EXPECT_FALSE(Run("set timing NOBODY posed 1 0 10 20"));

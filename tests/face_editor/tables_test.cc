@@ -40,7 +40,7 @@ std::size_t LinesChanged(const std::string& a, const std::string& b) {
 TEST(TableWriterTest, UnchangedTablesAreWrittenByteForByte) {
   const auto tables = fsm::MotionTables::Load();
   ASSERT_TRUE(tables);
-  EXPECT_EQ(WriteEmotions(Carried("emotions.txt"), tables->emotions, tables->unit_names),
+  EXPECT_EQ(WriteExpressions(Carried("emotions.txt"), tables->expressions, tables->unit_names),
             Carried("emotions.txt"));
   EXPECT_EQ(WriteVisemes(Carried("mouth_shapes.txt"), tables->set14.visemes),
             Carried("mouth_shapes.txt"));
@@ -53,31 +53,31 @@ TEST(TableWriterTest, UnchangedTablesAreWrittenByteForByte) {
 
 TEST(TableWriterTest, ChangedExpressionsAreReadAgainAndTheRestStays) {
   auto tables = fsm::MotionTables::Load();
-  auto& emotions = tables->emotions;
-  auto& happy = emotions.at("HAPPY");
+  auto& expressions = tables->expressions;
+  auto& happy = expressions.at("HAPPY");
   happy.patterns[1].au.left[12] = 0.25F;
   happy.patterns[1].gaze.left = happy.patterns[1].gaze.right = {-3, 4};
   happy.patterns.push_back({});
   happy.patterns.back().au.left[46] = happy.patterns.back().au.right[46] = 1;  // both sides of one
   happy.posed.onset_ms = 333;
-  emotions.at("SAD").patterns.pop_back();
-  emotions.erase("USERDEF");
-  emotions["SMIRK"].patterns.resize(1);
-  emotions["SMIRK"].patterns[0].au.right[14] = 0.5F;
+  expressions.at("SAD").patterns.pop_back();
+  expressions.erase("USERDEF");
+  expressions["SMIRK"].patterns.resize(1);
+  expressions["SMIRK"].patterns[0].au.right[14] = 0.5F;
   const std::string text =
-      WriteEmotions(Carried("emotions.txt"), emotions, fsm::UnitNames::BuiltIn());
-  const auto read = fsm::ReadEmotions("emotions.txt", text, fsm::UnitNames::BuiltIn());
+      WriteExpressions(Carried("emotions.txt"), expressions, fsm::UnitNames::BuiltIn());
+  const auto read = fsm::ReadExpressions("emotions.txt", text, fsm::UnitNames::BuiltIn());
   ASSERT_TRUE(read) << read.error().text;
-  ASSERT_EQ(read->size(), emotions.size());
-  for (const auto& [name, emotion] : emotions) {
+  ASSERT_EQ(read->size(), expressions.size());
+  for (const auto& [name, expression] : expressions) {
     const auto& again = read->at(name);
-    ASSERT_EQ(again.patterns.size(), emotion.patterns.size()) << name;
-    for (std::size_t p = 0; p < emotion.patterns.size(); ++p) {
-      EXPECT_EQ(again.patterns[p].au, emotion.patterns[p].au) << name << p;
-      EXPECT_EQ(again.patterns[p].gaze.right, emotion.patterns[p].gaze.right) << name << p;
+    ASSERT_EQ(again.patterns.size(), expression.patterns.size()) << name;
+    for (std::size_t p = 0; p < expression.patterns.size(); ++p) {
+      EXPECT_EQ(again.patterns[p].au, expression.patterns[p].au) << name << p;
+      EXPECT_EQ(again.patterns[p].gaze.right, expression.patterns[p].gaze.right) << name << p;
     }
-    EXPECT_EQ(again.posed.onset_ms, emotion.posed.onset_ms) << name;
-    EXPECT_EQ(again.elicited.lag_ms, emotion.elicited.lag_ms) << name;
+    EXPECT_EQ(again.posed.onset_ms, expression.posed.onset_ms) << name;
+    EXPECT_EQ(again.elicited.lag_ms, expression.elicited.lag_ms) << name;
   }
   EXPECT_NE(text.find("# a smile with the lips closed"), std::string::npos);
   EXPECT_NE(text.find("ANGRY 4      4:0.5 7:0.3 17:0.3                   # annoyed\n"),
@@ -134,14 +134,14 @@ TEST(EditorTablesTest, AFolderOfTablesIsWrittenAndReadByTheFace) {
   fsm::FaceLook look;
   look.au.left[12] = 0.75F;
   ASSERT_TRUE((*editor)->SetExpression("HAPPY", 1, look));
-  EXPECT_TRUE((*editor)->Unsaved(Part::kEmotions));
+  EXPECT_TRUE((*editor)->Unsaved(Part::kExpressions));
   const auto written = (*editor)->SaveTables(folder);
   ASSERT_TRUE(written) << written.error().text;
   EXPECT_EQ(*written, 1) << "only what differs";
-  EXPECT_FALSE((*editor)->Unsaved(Part::kEmotions));
+  EXPECT_FALSE((*editor)->Unsaved(Part::kExpressions));
   const auto again = fsm::MotionTables::Load(folder);
   ASSERT_TRUE(again) << again.error().text;
-  EXPECT_EQ(fsm::FormatLook(again->emotions.at("HAPPY").patterns[0], fsm::UnitNames::BuiltIn()),
+  EXPECT_EQ(fsm::FormatLook(again->expressions.at("HAPPY").patterns[0], fsm::UnitNames::BuiltIn()),
             "12L:0.75");
   std::filesystem::remove_all(folder);
 }
@@ -150,10 +150,10 @@ TEST(EditorTablesTest, DamagedFilesAreRefusedWithTheirLineAndNothingChanges) {
   auto editor = Editor::Make("");
   const std::string path = testing::TempDir() + "/damaged_emotions.txt";
   std::ofstream(path) << "# one\nHAPPY 1 12:3\n";
-  const auto loaded = (*editor)->Load(Part::kEmotions, path);
+  const auto loaded = (*editor)->Load(Part::kExpressions, path);
   ASSERT_FALSE(loaded);
   EXPECT_NE(loaded.error().text.find(path + ":2:"), std::string::npos) << loaded.error().text;
-  EXPECT_TRUE((*editor)->state().emotions.contains("SAD"));
+  EXPECT_TRUE((*editor)->state().expressions.contains("SAD"));
   EXPECT_FALSE((*editor)->history().can_undo());
   std::filesystem::remove(path);
 }

@@ -72,7 +72,7 @@ TEST(IdentityNetTest, EveryWeightsSlopeIsThatOfTheLoss) {
 }
 
 TEST(EmotionSpaceTest, TheShippedTableIsMadeAgainByteForByte) {
-  const auto space = LearnSpace({}, Tables().emotions, BuiltAxes(), {});
+  const auto space = LearnSpace({}, Tables().expressions, BuiltAxes(), {});
   ASSERT_TRUE(space) << space.error().text;
   EXPECT_TRUE(FormatSpace(*space) == ShippedText())
       << "make it anew: face_space emotions --out fsm/motion/tables/emotion_space.txt";
@@ -85,7 +85,7 @@ TEST(EmotionSpaceTest, ATableIsReadAsItWasWritten) {
 }
 
 TEST(EmotionSpaceTest, EmotionsComeBackAsTheirOwnRatios) {
-  const auto judged = JudgeSpace(Tables().emotion_space, Tables().emotions, BuiltAxes());
+  const auto judged = JudgeSpace(Tables().emotion_space, Tables().expressions, BuiltAxes());
   ASSERT_EQ(judged.size(), 30U);
   for (const GivenBack& back : judged) {
     EXPECT_LT(back.rms, back.pattern == 1 ? 0.05 : 0.25) << back.emotion << " " << back.pattern;
@@ -130,7 +130,7 @@ TEST(EmotionSpaceTest, NeighboursBlendSmoothly) {
 
 TEST(EmotionSpaceTest, RecognisedExpressionsLandAtTheirEmotion) {
   for (const Axis& axis : BuiltAxes()) {
-    fsm::FaceLook look = Tables().emotions.find(axis.emotion)->second.patterns[0];
+    fsm::FaceLook look = Tables().expressions.find(axis.emotion)->second.patterns[0];
     // As a tracker sees it: everything weaker, and something that is not there.
     for (fsm::UnitValues* side : {&look.au.right, &look.au.left}) {
       for (std::size_t unit = 1; unit < 47; ++unit) (*side)[unit] *= unit % 2 == 0 ? 0.6F : 0.8F;
@@ -185,7 +185,7 @@ TEST(EmotionSpaceTest, DamagedTablesAreRefusedWithTheirPlace) {
   EXPECT_FALSE(ReadAxes("a.txt", "axis HAPPY 1 0 0\naxis HAPPY -1 0 0\n"));
   const auto stranger = ReadAxes("a.txt", "axis BORED 1 0 0\naxis SAD -1 0 0\n");
   ASSERT_TRUE(stranger);
-  EXPECT_FALSE(LearnSpace({.steps = 1}, Tables().emotions, *stranger, {}));
+  EXPECT_FALSE(LearnSpace({.steps = 1}, Tables().expressions, *stranger, {}));
 }
 
 }  // namespace

@@ -245,8 +245,8 @@ void ExpectContacts(FaceMotion& motion, const Utterance& said, const std::string
 
 TEST(LipsOnTheHeadTest, ClosuresCloseAndLipsReachTheTeethInAnyEmotionAtAnySpeed) {
   std::mt19937 random(11);
-  for (const auto& [name, emotion] : Tables().emotions) {
-    for (int pattern = 1; pattern <= static_cast<int>(emotion.patterns.size()); ++pattern) {
+  for (const auto& [name, expression] : Tables().expressions) {
+    for (int pattern = 1; pattern <= static_cast<int>(expression.patterns.size()); ++pattern) {
       for (const double strength : {0.5, 1.0, 1.5, 2.0}) {
         const double speed = 1 + 0.5 * static_cast<double>(random() % 3);
         FaceMotion motion(Tables(), 1);

@@ -159,10 +159,10 @@ TEST(NewUnitTest, OneRowMakesAUnitThatExpressionsAndCommandsKnow) {
   EXPECT_FLOAT_EQ(state.au.left[151], 0.9f);
   EXPECT_FLOAT_EQ(state.au.right[152], 0.2f);
   const UnitNames& names = motion.tables().unit_names;
-  const FaceLook& look = motion.tables().emotions.at("ODD").patterns[0];
+  const FaceLook& look = motion.tables().expressions.at("ODD").patterns[0];
   EXPECT_EQ(FormatLook(look, names), "151:0.4 152R:0.2");
-  EXPECT_TRUE(ReadEmotions("e.txt", "ODD 1 151:1 12b:0.5\n", names));
-  EXPECT_FALSE(ReadEmotions("e.txt", "ODD 1 151:1\n", UnitNames::BuiltIn()));
+  EXPECT_TRUE(ReadExpressions("e.txt", "ODD 1 151:1 12b:0.5\n", names));
+  EXPECT_FALSE(ReadExpressions("e.txt", "ODD 1 151:1\n", UnitNames::BuiltIn()));
 }
 
 TEST(NewUnitTest, ANameThatReadsAsANumberIsRefused) {

@@ -60,18 +60,18 @@ TEST(MotionTablesTest, ThereAreSixEmotionsAndUserdefWithFivePatterns) {
   const auto tables = BuiltIn();
   for (const char* name :
        {"HAPPY", "ANGRY", "DISGUSTED", "SAD", "SURPRISED", "FEARED", "USERDEF"}) {
-    ASSERT_TRUE(tables.emotions.contains(name)) << name;
-    EXPECT_EQ(tables.emotions.at(name).patterns.size(), 5u) << name;
+    ASSERT_TRUE(tables.expressions.contains(name)) << name;
+    EXPECT_EQ(tables.expressions.at(name).patterns.size(), 5u) << name;
   }
-  EXPECT_FLOAT_EQ(tables.emotions.at("HAPPY").patterns[0].au.left[12], 0.8f);
-  EXPECT_DOUBLE_EQ(tables.emotions.at("HAPPY").posed.onset_ms, 556);
+  EXPECT_FLOAT_EQ(tables.expressions.at("HAPPY").patterns[0].au.left[12], 0.8f);
+  EXPECT_DOUBLE_EQ(tables.expressions.at("HAPPY").posed.onset_ms, 556);
 }
 
 TEST(MotionTablesTest, AUnitThatBeginsLaterIsLeftOutBelowThatStrengthAndWholeAtFull) {
-  const auto emotions =
-      ReadEmotions("e.txt", "GLAD 1 12:0.8 25L:0.5\nbegins GLAD 1 25:0.4", UnitNames::BuiltIn());
-  ASSERT_TRUE(emotions) << emotions.error().text;
-  Emotion glad = emotions->at("GLAD");
+  const auto table =
+      ReadExpressions("e.txt", "GLAD 1 12:0.8 25L:0.5\nbegins GLAD 1 25:0.4", UnitNames::BuiltIn());
+  ASSERT_TRUE(table) << table.error().text;
+  Expression glad = table->at("GLAD");
   EXPECT_FLOAT_EQ(glad.LookOf(1, 0.4).au.left[12], 0.32F);
   EXPECT_FLOAT_EQ(glad.LookOf(1, 0.4).au.left[25], 0);
   EXPECT_FLOAT_EQ(glad.LookOf(1, 0.7).au.left[25], 0.25F);
@@ -88,7 +88,7 @@ TEST(MotionTablesTest, ADamagedRowOfBeginsIsReportedWithFileAndLine) {
            {"begins", "e.txt:2: 'begins' needs at least 1 values after it, found 0"},
            {"begins GLAD 1 25:0.95", "e.txt:2: strengths from 0 to 0.9 expected"},
            {"begins GLAD 1 gaze:1,2", "e.txt:2: action units expected, and no gaze"}}) {
-    const auto read = ReadEmotions("e.txt", "GLAD 1 12:0.8\n" + row, UnitNames::BuiltIn());
+    const auto read = ReadExpressions("e.txt", "GLAD 1 12:0.8\n" + row, UnitNames::BuiltIn());
     ASSERT_FALSE(read) << row;
     EXPECT_EQ(read.error().text, expected);
   }
@@ -121,10 +121,11 @@ TEST(MotionTablesTest, WrongWordsNameWhatWasExpected) {
   expect(ReadPhonemeTable("p.txt", "", shapes), "no phoneme found");
   expect(ReadPhonemeTable("p.txt", "a a nan\n", shapes),
          "p.txt:1: 'nan' found, a strength expected");
-  expect(ReadEmotions("e.txt", "HAPPY 1 12:0.5 99:1\n", names),
+  expect(ReadExpressions("e.txt", "HAPPY 1 12:0.5 99:1\n", names),
          "e.txt:1: '99' is not an action unit");
-  expect(ReadEmotions("e.txt", "HAPPY 2 12:0.5\n", names), "e.txt:1: pattern 2 found, 1 expected");
-  expect(ReadEmotions("e.txt", "posed HAPPY 1 2 3 4\n", names), "'HAPPY' has no pattern 1");
+  expect(ReadExpressions("e.txt", "HAPPY 2 12:0.5\n", names),
+         "e.txt:1: pattern 2 found, 1 expected");
+  expect(ReadExpressions("e.txt", "posed HAPPY 1 2 3 4\n", names), "'HAPPY' has no pattern 1");
   expect(ReadMotions("m.txt", "NOD 1\nNOD 2\n", names), "m.txt:1: key frames");
   expect(ReadMotions("m.txt", "NOD 1\n 100 1 2 3\n 100 0 0 0\n", names),
          "m.txt:3: 100 ms is not after");
@@ -142,7 +143,7 @@ TEST(MotionTablesTest, AFolderReplacesOnlyTheTablesItHas) {
   std::ofstream(folder / "emotions.txt") << "BORED 1 43:0.4\n";
   const auto tables = MotionTables::Load(folder.string());
   ASSERT_TRUE(tables) << tables.error().text;
-  EXPECT_EQ(tables->emotions.size(), 1u);
+  EXPECT_EQ(tables->expressions.size(), 1u);
   EXPECT_EQ(tables->set14.visemes.size(), CountOf(VisemeSetId::k14));
   std::ofstream(folder / "emotions.txt") << "\nBORED\n";
   const auto wrong = MotionTables::Load(folder.string());

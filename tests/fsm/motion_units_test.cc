@@ -200,7 +200,7 @@ TEST_F(UnitsTest, ThereIsAnEndToExpressions) {
 }
 
 TEST_F(UnitsTest, LooksAreWrittenAsTheyAreRead) {
-  for (const auto& [name, emotion] : motion.tables().emotions) {
+  for (const auto& [name, emotion] : motion.tables().expressions) {
     for (const FaceLook& look : emotion.patterns) {
       const auto again =
           ParseLook(FormatLook(look, motion.tables().unit_names), motion.tables().unit_names);

@@ -19,7 +19,7 @@ constexpr std::size_t kMostExpressions = 200;
 
 ExpressionMotion::ExpressionMotion(MotionInputs& in)
     : tables_(in.tables),
-      table_emotions_(in.tables.emotions),
+      table_expressions_(in.tables.expressions),
       settings_(in.settings),
       switches_(in.switches),
       seed_(in.seed),
@@ -35,12 +35,12 @@ void ExpressionMotion::DrawLags(std::uint64_t seed) {
 
 // ---- commands
 
-vm::Time ExpressionMotion::OnsetOf(const Emotion& emotion) const {
+vm::Time ExpressionMotion::OnsetOf(const Expression& expression) const {
   switch (settings_.onset) {
     case Onset::kPosed:
-      return FromMs(emotion.posed.onset_ms);
+      return FromMs(expression.posed.onset_ms);
     case Onset::kElicited:
-      return FromMs(emotion.elicited.onset_ms);
+      return FromMs(expression.elicited.onset_ms);
     case Onset::kFixed:
       break;
   }
@@ -49,32 +49,33 @@ vm::Time ExpressionMotion::OnsetOf(const Emotion& emotion) const {
 
 vm::Result<void> ExpressionMotion::Show(vm::Time now, std::string_view name, int pattern,
                                         double strength, vm::Time duration) {
-  const auto found = tables_.emotions.find(name);
-  if (found == tables_.emotions.end()) {
+  const auto found = tables_.expressions.find(name);
+  if (found == tables_.expressions.end()) {
     return vm::Fail(vm::Errc::kBadValue,
                     fmt::format("'{}' is no expression; {} or NEUTRAL expected", name,
-                                KeysOf(tables_.emotions)));
+                                KeysOf(tables_.expressions)));
   }
-  const Emotion& emotion = found->second;
-  if (auto fits = CheckPatternNumber(name, pattern, 1, emotion.patterns.size()); !fits) return fits;
+  const Expression& expression = found->second;
+  if (auto fits = CheckPatternNumber(name, pattern, 1, expression.patterns.size()); !fits)
+    return fits;
   if (auto fits = CheckStrength(strength); !fits) return fits;
-  Plan(now, emotion.LookOf(pattern, strength),
-       settings_.onset == Onset::kElicited ? emotion.elicited : emotion.posed, OnsetOf(emotion),
-       duration);
+  Plan(now, expression.LookOf(pattern, strength),
+       settings_.onset == Onset::kElicited ? expression.elicited : expression.posed,
+       OnsetOf(expression), duration);
   return {};
 }
 
 void ExpressionMotion::ShowSpacePoint(vm::Time now, const EmotionSpace::Point& point,
                                       std::optional<vm::Time> move) {
-  // Lags belong to emotions; a point between emotions has none.
-  Emotion::Timing timing;
+  // Lags belong to expressions of the table; a point between them has none.
+  Expression::Timing timing;
   if (move) timing.lag_ms = {};
   const vm::Time onset = move.value_or(OnsetOf({}));
   Plan(now, tables_.emotion_space.LookOf(point), timing, onset, vm::Time(0));
   shown_.MoveTo(now, std::min(1.0F, std::hypot(point[0], point[1], point[2])), onset);
 }
 
-void ExpressionMotion::Plan(vm::Time now, const FaceLook& look, const Emotion::Timing& timing,
+void ExpressionMotion::Plan(vm::Time now, const FaceLook& look, const Expression::Timing& timing,
                             vm::Time onset, vm::Time duration) {
   const bool timed = duration > vm::Time(0);
   if (timed) onset = std::min(onset, duration / 2);
@@ -105,7 +106,7 @@ void ExpressionMotion::Neutral(vm::Time now) {
 }
 
 void ExpressionMotion::SetEmotion(vm::Time now, std::size_t index, double strength) {
-  const Emotion& emotion = tables_.emotions.find(tables_.units.emotions[index])->second;
+  const Expression& emotion = tables_.expressions.find(tables_.units.emotions[index])->second;
   emotions_[index].MoveTo(now, static_cast<float>(strength), OnsetOf(emotion));
 }
 
@@ -125,24 +126,24 @@ vm::Result<void> ExpressionMotion::Define(std::string_view name, int pattern,
   }
   auto units = ParseLook(look, tables_.unit_names);
   if (!units) return std::unexpected(units.error());
-  const auto found = tables_.emotions.find(name);
-  const std::size_t have = found == tables_.emotions.end() ? 0 : found->second.patterns.size();
+  const auto found = tables_.expressions.find(name);
+  const std::size_t have = found == tables_.expressions.end() ? 0 : found->second.patterns.size();
   if (pattern < 1 || static_cast<std::size_t>(pattern) > have + 1 || pattern > kMostPatterns) {
     return vm::Fail(vm::Errc::kBadValue, fmt::format("{} has {} patterns; pattern 1 to {} expected",
                                                      name, have, have + 1));
   }
-  if (have == 0 && tables_.emotions.size() >= kMostExpressions) {
+  if (have == 0 && tables_.expressions.size() >= kMostExpressions) {
     return vm::Fail(vm::Errc::kLimit, fmt::format("more than {} expressions", kMostExpressions));
   }
-  tables_.emotions[std::string(name)].Redefine(static_cast<std::size_t>(pattern), *units);
+  tables_.expressions[std::string(name)].Redefine(static_cast<std::size_t>(pattern), *units);
   return {};
 }
 
 void ExpressionMotion::Forget(std::string_view name) {
-  if (const auto built_in = table_emotions_.find(name); built_in != table_emotions_.end()) {
-    tables_.emotions[built_in->first] = built_in->second;
-  } else if (const auto own = tables_.emotions.find(name); own != tables_.emotions.end()) {
-    tables_.emotions.erase(own);
+  if (const auto built_in = table_expressions_.find(name); built_in != table_expressions_.end()) {
+    tables_.expressions[built_in->first] = built_in->second;
+  } else if (const auto own = tables_.expressions.find(name); own != tables_.expressions.end()) {
+    tables_.expressions.erase(own);
   }
 }
 
@@ -170,8 +171,8 @@ void ExpressionMotion::Contribute(vm::Time t, MotionLayers& layers) const {
     const float weight = emotions_[i].At(t);
     if (weight == 0) continue;
     layers.AddSignal("expression", std::min(1.0F, weight));
-    const auto found = tables_.emotions.find(tables_.units.emotions[i]);
-    if (found == tables_.emotions.end()) continue;
+    const auto found = tables_.expressions.find(tables_.units.emotions[i]);
+    if (found == tables_.expressions.end()) continue;
     AddTo(layers.Layer("emotions").units, found->second.LookOf(1, weight), 1);
   }
 }

@@ -9,7 +9,7 @@
 #include "fsm/motion/base/motion_source.h"
 #include "fsm/motion/base/random_streams.h"
 #include "fsm/motion/inputs/emotion_space.h"
-#include "fsm/motion/inputs/emotion_table.h"
+#include "fsm/motion/inputs/expression_table.h"
 #include "fsm/motion/inputs/motion_settings.h"
 
 namespace fsm {
@@ -57,12 +57,12 @@ class ExpressionMotion : public MotionSource {
 
  private:
   void DrawLags(std::uint64_t seed);
-  vm::Time OnsetOf(const Emotion& emotion) const;
-  void Plan(vm::Time now, const FaceLook& look, const Emotion::Timing& timing, vm::Time onset,
+  vm::Time OnsetOf(const Expression& expression) const;
+  void Plan(vm::Time now, const FaceLook& look, const Expression::Timing& timing, vm::Time onset,
             vm::Time duration);
 
   MotionTables& tables_;
-  const EmotionTable table_emotions_;  // as read from the tables
+  const ExpressionTable table_expressions_;  // as read from the tables
   const MotionSettings& settings_;
   const IdleSwitches& switches_;
   std::uint64_t seed_;

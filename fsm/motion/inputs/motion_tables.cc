@@ -95,7 +95,7 @@ vm::Result<MotionTables> MotionTables::Load(const TableFolder& folder) {
   LoadMouth(loader, out);
   loader.Get(out.unit_names, "action_unit_names.txt", embedded::action_unit_names(), ReadUnitNames);
   const UnitNames& names = out.unit_names;
-  loader.Get(out.emotions, "emotions.txt", embedded::emotions(), ReadEmotions, names);
+  loader.Get(out.expressions, "emotions.txt", embedded::emotions(), ReadExpressions, names);
   loader.Get(out.emotion_space, "emotion_space.txt", embedded::emotion_space(), ReadEmotionSpace,
              names);
   loader.Get(out.motions, "motions.txt", embedded::motions(), ReadMotions, names);

@@ -9,7 +9,7 @@
 #include "fsm/motion/base/mixer.h"
 #include "fsm/motion/base/unit_names.h"
 #include "fsm/motion/inputs/emotion_space.h"
-#include "fsm/motion/inputs/emotion_table.h"
+#include "fsm/motion/inputs/expression_table.h"
 #include "fsm/motion/inputs/motion_patterns.h"
 #include "fsm/motion/inputs/phoneme_names.h"
 #include "fsm/motion/inputs/text_cues.h"
@@ -22,7 +22,7 @@ struct MotionTables {
   VisemeSet set14, set28;
   std::vector<EngineNames> engines;
   DominanceReach reach;
-  EmotionTable emotions;
+  ExpressionTable expressions;
   EmotionSpace emotion_space;
   MotionPatterns motions;
   UnitList units;

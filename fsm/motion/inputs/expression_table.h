@@ -11,13 +11,13 @@
 
 namespace fsm {
 
-/// An emotion: what its patterns look like, and how fast it appears.
-struct Emotion {
+/// An expression: what its patterns look like, and how fast it appears.
+struct Expression {
   std::vector<FaceLook> patterns;  ///< at full strength; pattern 1 is patterns[0]
-  /// Per pattern, the strength of the emotion above which a unit takes part, 0..0.9: a slight smile
-  /// keeps the mouth closed.
+  /// Per pattern, the strength of the expression above which a unit takes part, 0..0.9: a slight
+  /// smile keeps the mouth closed.
   std::vector<FaceLook> begins;
-  /// How an emotion appears: the time from neutral to the peak, and the delay with which each
+  /// How an expression appears: the time from neutral to the peak, and the delay with which each
   /// region of the face begins.
   struct Timing {
     double onset_ms = 450;
@@ -32,13 +32,13 @@ struct Emotion {
   /// or more.
   void Redefine(std::size_t pattern, const FaceLook& look);
 };
-using EmotionTable = std::map<std::string, Emotion, std::less<>>;
+using ExpressionTable = std::map<std::string, Expression, std::less<>>;
 /// The action units of expressions, by name and pattern number as in the slot FaceExp.
 using ExpressionLooks = std::map<std::string, std::map<int, FaceLook>>;
 
-/// Reads tables/emotions.txt. The patterns of an emotion must be numbered from 1 without gaps.
+/// Reads tables/emotions.txt. The patterns of an expression must be numbered from 1 without gaps.
 /// Errors: kBadValue "NAME:LINE: what was expected".
-vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view text,
-                                      const UnitNames& names);
+vm::Result<ExpressionTable> ReadExpressions(const std::string& name, std::string_view text,
+                                            const UnitNames& names);
 
 }  // namespace fsm

@@ -1,4 +1,4 @@
-#include "fsm/motion/inputs/emotion_table.h"
+#include "fsm/motion/inputs/expression_table.h"
 
 #include <fmt/format.h>
 
@@ -10,29 +10,29 @@
 namespace fsm {
 namespace {
 
-void ReadTiming(const TableRow& row, EmotionTable& emotions) {
+void ReadTiming(const TableRow& row, ExpressionTable& expressions) {
   if (row.size() != 6) row.Fail(row.key() + " NAME ONSET EYE BROW MOUTH expected");
-  Emotion& emotion = emotions[row.Name(1, "an emotion's name")];
-  Emotion::Timing& timing = row.key() == "posed" ? emotion.posed : emotion.elicited;
+  Expression& expression = expressions[row.Name(1, "an emotion's name")];
+  Expression::Timing& timing = row.key() == "posed" ? expression.posed : expression.elicited;
   timing.onset_ms = row.Number(2, "an onset in ms", 0, 10000);
   for (std::size_t i = 0; i < kRegions; ++i) {
     timing.lag_ms[i] = row.Number(3 + i, "a lag in ms", 0, 1000);
   }
 }
 
-void ReadEmotionLook(const TableRow& row, const UnitNames& names, EmotionTable& emotions) {
+void ReadPattern(const TableRow& row, const UnitNames& names, ExpressionTable& expressions) {
   const double pattern = row.Number(1, "a pattern number", 1, 100);
-  auto& patterns = emotions[row.Name(0, "an emotion's name")].patterns;
+  auto& patterns = expressions[row.Name(0, "an emotion's name")].patterns;
   if (pattern != static_cast<double>(patterns.size() + 1)) {
     row.Fail(fmt::format("pattern {:g} found, {} expected next", pattern, patterns.size() + 1));
   }
   patterns.push_back(ReadLook(row, 2, names));
 }
 
-void ReadBegins(const TableRow& row, const UnitNames& names, EmotionTable& emotions) {
-  Emotion& emotion = emotions[row.Name(1, "an emotion's name")];
+void ReadBegins(const TableRow& row, const UnitNames& names, ExpressionTable& expressions) {
+  Expression& expression = expressions[row.Name(1, "an emotion's name")];
   const auto pattern = static_cast<std::size_t>(row.Number(2, "a pattern number", 1, 100));
-  if (pattern > emotion.patterns.size()) row.Fail("a pattern that stands above expected");
+  if (pattern > expression.patterns.size()) row.Fail("a pattern that stands above expected");
   FaceLook begins = ReadLook(row, 3, names);
   for (const Side side : kSides) {
     for (const float from : begins.au[side]) {
@@ -40,19 +40,19 @@ void ReadBegins(const TableRow& row, const UnitNames& names, EmotionTable& emoti
     }
     if (begins.gaze[side] != EyeAngles{}) row.Fail("action units expected, and no gaze");
   }
-  emotion.begins.resize(emotion.patterns.size());
-  emotion.begins[pattern - 1] = std::move(begins);
+  expression.begins.resize(expression.patterns.size());
+  expression.begins[pattern - 1] = std::move(begins);
 }
 
 }  // namespace
 
-void Emotion::Redefine(std::size_t pattern, const FaceLook& look) {
+void Expression::Redefine(std::size_t pattern, const FaceLook& look) {
   patterns.resize(std::max(patterns.size(), pattern));
   patterns[pattern - 1] = look;
   if (pattern <= begins.size()) begins[pattern - 1] = {};
 }
 
-FaceLook Emotion::LookOf(int pattern, double strength) const {
+FaceLook Expression::LookOf(int pattern, double strength) const {
   const auto index = static_cast<std::size_t>(pattern - 1);
   FaceLook look;
   AddTo(look, patterns[index], strength);
@@ -68,23 +68,23 @@ FaceLook Emotion::LookOf(int pattern, double strength) const {
   return look;
 }
 
-vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view text,
-                                      const UnitNames& names) {
+vm::Result<ExpressionTable> ReadExpressions(const std::string& name, std::string_view text,
+                                            const UnitNames& names) {
   return ReadTable(name, text, [&](const Table& table) {
-    EmotionTable emotions;
+    ExpressionTable expressions;
     for (const TableRow& row : table.rows()) {
       if (row.key() == "posed" || row.key() == "elicited") {
-        ReadTiming(row, emotions);
+        ReadTiming(row, expressions);
       } else if (row.key() == "begins") {
-        ReadBegins(row, names, emotions);
+        ReadBegins(row, names, expressions);
       } else {
-        ReadEmotionLook(row, names, emotions);
+        ReadPattern(row, names, expressions);
       }
     }
-    for (const auto& [word, emotion] : emotions) {
-      if (emotion.patterns.empty()) table.Fail("'" + word + "' has no pattern 1");
+    for (const auto& [word, expression] : expressions) {
+      if (expression.patterns.empty()) table.Fail("'" + word + "' has no pattern 1");
     }
-    return emotions;
+    return expressions;
   });
 }
 
