@@ -308,25 +308,4 @@ concept Tabular = Like<T, SkinHair> || Like<T, ShutLid> || Like<T, Strand> ||
     Like<T, LipRig::Follower> || Like<T, BallLids::Vertex> || Like<T, TeethRig::Contact> ||
     Like<T, Spring> || Like<T, SpringWeight>;
 
-/// Number of values of an enumeration that starts at 0.
-template <typename E>
-inline constexpr int kValuesOf = 0;
-template <>
-inline constexpr int kValuesOf<Material> = static_cast<int>(Material::kMatte) + 1;
-template <>
-inline constexpr int kValuesOf<Bone> = static_cast<int>(Bone::kEyeRight) + 1;
-template <>
-inline constexpr int kValuesOf<RigStep> = static_cast<int>(kRigSteps);
-template <>
-inline constexpr int kValuesOf<Drive::Kind> = static_cast<int>(Drive::Kind::kResidual) + 1;
-template <>
-inline constexpr int kValuesOf<Drive::WhichSide> = static_cast<int>(Drive::WhichSide::kStronger) +
-                                                   1;
-template <>
-inline constexpr int kValuesOf<Side> = static_cast<int>(kSides.size());
-template <>
-inline constexpr int kValuesOf<Drive::Half> = static_cast<int>(Drive::Half::kNegative) + 1;
-template <>
-inline constexpr int kValuesOf<PbrMaterial::Kind> = static_cast<int>(PbrMaterial::Kind::kToon) + 1;
-
 }  // namespace fsm

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "fsm/asset/asset_members.h"
+#include "fsm/rig/head_asset.h"
 
 namespace fsm {
 

@@ -9,16 +9,31 @@
 #include <initializer_list>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "fsm/base/enum_names.h"
 #include "fsm/render/gl_functions.h"
 #include "fsm/render/samples.h"
 #include "fsm/render/texture_unit.h"
 
 namespace fsm {
+
+/// Returns "#define NAME NUMBER" for every value of an enumeration, as the first lines of a shader.
+template <typename E>
+std::string ShaderNumbers() {
+  std::string text;
+  [&]<int... kNumbers>(std::integer_sequence<int, kNumbers...>) {
+    ((text += "#define " + std::string(NameOf<static_cast<E>(kNumbers)>()) + ' ' +
+              std::to_string(kNumbers) + '\n'),
+     ...);
+  }
+  (std::make_integer_sequence<int, kValuesOf<E>>());
+  return text;
+}
 
 /// A linked shader program. Destroy while its context is current.
 class GlProgram {

@@ -12,13 +12,12 @@
 #include "fsm/rig/rig_records.h"
 
 namespace fsm {
-
 const GlProgram& RigPrograms::Of(const RigRecords& records) {
   auto& program = programs_[records.kernel];
   if (!program) {
     const std::string source =
-        fmt::format("#version 430\n#define STEP_{}\n#define FUNCTION\n{}{}", records.kernel,
-                    embedded::rig_steps(), embedded::rig_kernels());
+        fmt::format("#version 430\n#define STEP_{}\n#define FUNCTION\n{}{}{}", records.kernel,
+                    ShaderNumbers<Binding>(), embedded::rig_steps(), embedded::rig_kernels());
     program = std::make_unique<GlProgram>(gl_, records.kernel, source);
   }
   return *program;
@@ -95,7 +94,7 @@ void GpuRig::Evaluate(const Rig& rig, std::span<const Input> faces) {
     kernel.program->Set("spring_count", static_cast<GLint>(spring_count_));
     kernel.program->Set("seam_count", static_cast<GLint>(seam_count_));
     for (GLuint k = 0; k < 2; ++k)
-      gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, kBuffers + k, kernel.buffers[k]);
+      gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, kRecords + k, kernel.buffers[k]);
     constexpr std::uint32_t kGroup = 64;  // local_size_x
     gl_.DispatchCompute((kernel.count + kGroup - 1) / kGroup, static_cast<GLuint>(faces.size()), 1);
     gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -104,7 +103,7 @@ void GpuRig::Evaluate(const Rig& rig, std::span<const Input> faces) {
 }
 
 void GpuRig::Read(std::size_t face, HeadVertices& out) const {
-  const auto read = [&](Buffer which, std::vector<glm::vec3>& into) {
+  const auto read = [&](RigPrograms::Binding which, std::vector<glm::vec3>& into) {
     into.resize(vertex_count_);
     gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, buffers_[which]);
     gl_.GetBufferSubData(GL_SHADER_STORAGE_BUFFER, static_cast<GLintptr>(OffsetBytes(face)),

@@ -18,6 +18,17 @@ struct RigRecords;
 /// all heads of a context. Destroy while that context is current.
 class RigPrograms {
  public:
+  /// The bindings of buffers, which `Of` defines by name in the programs.
+  enum Binding : GLuint {
+    kPositions,
+    kNormals,
+    kStates,
+    kStrengths,
+    kSpringOffsets,
+    kGaps,
+    kRecords,
+    kEntries
+  };
   explicit RigPrograms(const GlFunctions& gl) : gl_(gl) {}
   /// Tells whether the driver has compute shaders and storage buffers (OpenGL 4.3).
   static bool Supported(const GlFunctions& gl) { return gl.has_compute; }
@@ -58,11 +69,11 @@ class GpuRig {
   void Read(std::size_t face, HeadVertices& out) const;
 
  private:
-  /// Indices in the order of the bindings in rig_kernels.glsl.
-  enum Buffer { kPositions, kNormals, kStates, kStrengths, kSpringOffsets, kGaps, kBuffers };
+  using enum RigPrograms::Binding;
+  static constexpr GLuint kBuffers = kRecords;  // beside those of the kernels
   struct Kernel {
     const GlProgram* program;
-    std::array<GLuint, 2> buffers;  // records and entries, at the next bindings
+    std::array<GLuint, 2> buffers;  // kRecords and kEntries
     std::uint32_t count;
   };
   void Add(const RigRecords& records);

@@ -1,11 +1,14 @@
 #include "fsm/render/lighting.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "embedded/lighting.h"
 #include "embedded/transform.h"
+#include "fsm/render/vertex_attributes.h"
 
 namespace fsm {
 namespace {
@@ -57,7 +60,7 @@ GlProgram CompileLit(const GlFunctions& gl, const Appearance& appearance, const 
   const std::string common = "#version 330 core\n" + appearance.constants() + std::string(more) +
                              std::string(embedded::lighting());
   std::string vertex_text = common, fragment_text = common;
-  vertex_text += embedded::transform();
+  vertex_text += ShaderNumbers<VertexAttribute::Location>() + std::string(embedded::transform());
   for (const std::string_view text : vertex) vertex_text += text;
   fragment_text += fragment;
   return {gl, name, vertex_text, fragment_text};
@@ -86,7 +89,10 @@ void SetCreases(const GlProgram& program, const MaterialFrame& frame) {
 }
 
 std::string ShaderConstant(const char* name, bool value) {
-  return std::string("const bool ") + name + (value ? " = true;\n" : " = false;\n");
+  return fmt::format("const bool {} = {};\n", name, value);
+}
+std::string ShaderConstant(const char* name, int value) {
+  return fmt::format("const int {} = {};\n", name, value);
 }
 
 }  // namespace fsm

@@ -47,7 +47,8 @@ GlProgram CompileLit(const GlFunctions& gl, const Appearance& appearance, const 
 void SetLight(const GlProgram& program, const MaterialFrame& frame);
 /// Sets the uniforms of shaders/creases.glsl.
 void SetCreases(const GlProgram& program, const MaterialFrame& frame);
-/// Returns "const bool NAME = true;" (or false) for CompileLit.
+/// Returns a line such as "const bool NAME = true;" for CompileLit.
 std::string ShaderConstant(const char* name, bool value);
+std::string ShaderConstant(const char* name, int value);
 
 }  // namespace fsm

@@ -16,7 +16,7 @@ namespace fsm {
 /// per head, used every frame.
 class MouthFinder {
  public:
-  static constexpr int kColumns = 11;
+  static constexpr int kColumns = 11;  ///< of points on the lips; the shader has it as well
 
   MouthFinder() = default;
   explicit MouthFinder(const HeadTopology& topology);

@@ -13,9 +13,10 @@ namespace fsm {
 
 MouthMaterial::MouthMaterial(const GlFunctions& gl, const Appearance& appearance)
     : appearance_(appearance),
-      program_(CompileLit(gl, appearance, "mouth",
-                          {embedded::surface_common(), embedded::mouth_vertex()},
-                          embedded::surface_fragment(), ShaderConstant("kRelief", true))) {}
+      program_(CompileLit(
+          gl, appearance, "mouth", {embedded::surface_common(), embedded::mouth_vertex()},
+          embedded::surface_fragment(),
+          ShaderConstant("kRelief", true) + ShaderConstant("kColumns", MouthFinder::kColumns))) {}
 
 float MouthMaterial::gap_mm() const {
   constexpr std::size_t kMiddle = MouthFinder::kColumns / 2;

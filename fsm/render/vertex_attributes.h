@@ -4,10 +4,12 @@
 
 #include <array>
 
+#include "fsm/base/enum_names.h"
+
 namespace fsm {
 
-/// The vertex attributes, at the locations that shaders/*.glsl declare. Skin and hair, which have
-/// separate shaders, use three locations differently.
+/// The vertex attributes. CompileLit defines their locations by name in the shaders. Skin and hair,
+/// which have separate shaders, use three locations differently.
 struct VertexAttribute {
   enum Location : GLuint {
     kPosition,        ///< millimetres
@@ -21,9 +23,9 @@ struct VertexAttribute {
     kLidGrain,        ///< ShutLid::grain_at and slide
     kOpacity,         ///< HeadTopology::opacity
     kRelitNormal,     ///< rest normal, scaled by Portrait::relit
-    kLidSkin,         ///< 1 where there is a ShutLid, else 0; its grain_light
-    kCount
+    kLidSkin          ///< 1 where there is a ShutLid, else 0; its grain_light
   };
+  static constexpr GLuint kCount = kValuesOf<Location>;
   /// Number of components of each attribute.
   static constexpr std::array<GLint, kCount> kWidth{3, 3, 3, 4, 2, 4, 2, 4, 4, 1, 3, 2};
 };

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "fsm/base/enum_names.h"
 #include "fsm/rig/channel.h"
 #include "fsm/rig/lid_rig.h"
 #include "fsm/rig/lip_rig.h"
@@ -68,7 +69,7 @@ enum class RigStep : std::uint8_t {
   kNormals
 };
 
-inline constexpr std::size_t kRigSteps = static_cast<std::size_t>(RigStep::kNormals) + 1;
+inline constexpr std::size_t kRigSteps = kValuesOf<RigStep>;
 inline constexpr auto kSkinSteps = static_cast<std::size_t>(RigStep::kTongue);
 
 /// Tells whether a step shapes the skin; the others move tongue, bones, neck and normals.

@@ -1,7 +1,6 @@
 // Teeth, gums, tongue and lining of the mouth. Light enters between the lips, and deeper between the teeth; this
 // shader computes how much of it arrives, and from where, for the current shape of the mouth. surface_fragment.glsl
-// adds detail and highlights.
-const int kColumns = 11;
+// adds detail and highlights. kColumns is that of MouthFinder.
 const int kRing = 2 * kColumns + 2;
 
 uniform bool lining;                 // walls, which are seen from within

@@ -1,5 +1,5 @@
 // Parts of heads from files that bring their own materials.
-layout(location = 7) in vec3 photo_texcoord;  // u, v down; z > 0: the picture has the colour
+layout(location = kTexcoord) in vec3 photo_texcoord;  // u, v down; z > 0: the picture has the colour
 
 out vec3 at;
 out vec3 facing;

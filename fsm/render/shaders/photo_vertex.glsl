@@ -1,10 +1,10 @@
 // Parts that wear a photo: skin, lips, and the sheet of hair, neck and clothes.
-layout(location = 4) in vec2 unrolled;
-layout(location = 7) in vec4 photo_texcoord;  // u, v down; weight of the photo; weight of the lid
-layout(location = 8) in vec4 lid_grain;   // of a lid: the texture coordinate of its grain; its slide
-layout(location = 9) in float opacity;     // 1 = opaque, 0 = absent
-layout(location = 10) in vec3 rest_normal;  // its length, 0..1, is how much the light follows it
-layout(location = 11) in vec2 lid_skin;     // 1 on a lid, else 0; mean brightness around its grain
+layout(location = kDetailTexcoord) in vec2 unrolled;
+layout(location = kTexcoord) in vec4 photo_texcoord;  // u, v down; weight of the photo; weight of the lid
+layout(location = kLidGrain) in vec4 lid_grain;   // of a lid: the texture coordinate of its grain; its slide
+layout(location = kOpacity) in float opacity;     // 1 = opaque, 0 = absent
+layout(location = kRelitNormal) in vec3 rest_normal;  // its length, 0..1, is how much the light follows it
+layout(location = kLidSkin) in vec2 lid_skin;     // 1 on a lid, else 0; mean brightness around its grain
 
 uniform float lids_shut[2];  // right, left
 uniform float chin_y;         // y of the chin's lowest point at rest, millimetres

@@ -1,16 +1,16 @@
 // The steps of a rig (RigStep) on a graphics card, one program for each. gpu_rig.cc prepends the version, the name of
-// the step and fsm/rig/steps.glsl, which has the arithmetic. One invocation moves one vertex of one
+// the step, RigPrograms::Binding and fsm/rig/steps.glsl, which has the arithmetic. One invocation moves one vertex of one
 // face. `records` holds a step's data about its vertices. If several things act on a vertex, its record gives the
 // range of `entries` that lists them.
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) buffer Positions { Point positions[]; };
-layout(std430, binding = 1) buffer Normals { Point normals[]; };
-layout(std430, binding = 2) buffer States { StepState states[]; };  // by face
-layout(std430, binding = 3) readonly buffer Strengths { float strengths[]; };
-layout(std430, binding = 4) readonly buffer SpringOffsets { Point spring_offsets[]; };
-layout(std430, binding = 5) buffer Gaps { Point gaps[]; };  // of the lips, for STEP_lips
-#define RECORDS(Type) layout(std430, binding = 6) readonly buffer Records { Type records[]; }
-#define ENTRIES(Type) layout(std430, binding = 7) readonly buffer Entries { Type entries[]; }
+layout(std430, binding = kPositions) buffer Positions { Point positions[]; };
+layout(std430, binding = kNormals) buffer Normals { Point normals[]; };
+layout(std430, binding = kStates) buffer States { StepState states[]; };  // by face
+layout(std430, binding = kStrengths) readonly buffer Strengths { float strengths[]; };
+layout(std430, binding = kSpringOffsets) readonly buffer SpringOffsets { Point spring_offsets[]; };
+layout(std430, binding = kGaps) buffer Gaps { Point gaps[]; };  // of the lips, for STEP_lips
+#define RECORDS(Type) layout(std430, binding = kRecords) readonly buffer Records { Type records[]; }
+#define ENTRIES(Type) layout(std430, binding = kEntries) readonly buffer Entries { Type entries[]; }
 // Sizes of one head, and so the stride of a face in the buffers above.
 uniform int vertex_count, channel_count, spring_count, seam_count;
 

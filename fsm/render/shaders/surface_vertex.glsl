@@ -1,7 +1,7 @@
 // Skin, lips, cloth, and the inside of mouths without a known opening (others: mouth_vertex.glsl). Light is computed
 // per vertex and only perturbed per pixel: the mesh is so fine that a software rasterizer shades several pixels
 // outside every triangle for each one inside.
-layout(location = 4) in vec2 unrolled;
+layout(location = kDetailTexcoord) in vec2 unrolled;
 
 uniform float key_through;   // part of the key light that reaches occluded places anyway
 uniform float sheen;         // strength of down (vellus hair), which catches light at the edges

@@ -1,9 +1,9 @@
 // The head's vertices and their positions, shared by all vertex shaders: depth is compared for equality between
 // passes, so every program must transform a vertex in the same way.
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 rest_position;
-layout(location = 3) in vec4 albedo_openness;
+layout(location = kPosition) in vec3 position;
+layout(location = kNormal) in vec3 normal;
+layout(location = kRestPosition) in vec3 rest_position;
+layout(location = kAlbedoOpenness) in vec4 albedo_openness;
 
 uniform mat4 figure_to_world;
 uniform mat4 world_to_clip;
