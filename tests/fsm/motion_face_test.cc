@@ -94,7 +94,7 @@ TEST_F(FaceMotionTest, UnknownNamesAreRefusedWithWhatThereIs) {
   EXPECT_TRUE(motion.switches().Set(0ms, "USERDEF", 0));
   EXPECT_FALSE(motion.SetFace(0ms, 37, 1));
   EXPECT_FALSE(motion.mouth.Set(0ms, 18, 1));
-  EXPECT_FALSE(motion.units.Set(0ms, "3", 1, 0ms));
+  EXPECT_FALSE(motion.units.Set(0ms, "3 1 0"));
   EXPECT_FALSE(motion.blend_shapes.Set(0ms, "jawSideways", 1, 0ms));
 }
 
@@ -106,7 +106,7 @@ TEST_F(FaceMotionTest, WhatMouthNAsksIsKnownFromWhatSpeechAsks) {
 }
 
 TEST_F(FaceMotionTest, UnitsCanBeMovedOnOneSide) {
-  ASSERT_TRUE(motion.units.Set(0ms, "12L", 0.7, 200ms));
+  ASSERT_TRUE(motion.units.Set(0ms, "12L 0.7 200"));
   EXPECT_NEAR(motion.StateAt(100ms).au.left[12], 0.35f, 1e-5);
   EXPECT_FLOAT_EQ(motion.StateAt(200ms).au.left[12], 0.7f);
   EXPECT_FLOAT_EQ(motion.StateAt(200ms).au.right[12], 0);

@@ -98,7 +98,7 @@ TEST_F(MouthStreamTest, TheMouthOfATextGivesWay) {
 }
 
 TEST_F(MouthStreamTest, ASealClosesWhateverElseOpens) {
-  ASSERT_TRUE(motion_.units.Set(0ms, "26", 1, 0ms));  // jaw drop
+  ASSERT_TRUE(motion_.units.Set(0ms, "26 1 0"));  // jaw drop
   for (int i = 0; i < 50; ++i) Add(1000ms + i * 20ms, 1, 1);
   EXPECT_EQ(motion_.StateAt(1500ms).lip_seal, 1);
   EXPECT_LT(motion_.StateAt(1500ms).au.left[26], 0.01F);

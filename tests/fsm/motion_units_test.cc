@@ -152,7 +152,7 @@ TEST_F(UnitsTest, StrengthsThatAreNoneAreRefusedEverywhere) {
     EXPECT_FALSE(motion.expression.Show(0ms, "HAPPY", 1, bad, 0ms)) << bad;
     EXPECT_FALSE(motion.SetFace(0ms, 1, bad)) << bad;
     EXPECT_FALSE(motion.mouth.Set(0ms, 1, bad)) << bad;
-    EXPECT_FALSE(motion.units.Set(0ms, "12", bad, 0ms)) << bad;
+    EXPECT_FALSE(motion.units.Set(0ms, "12 " + std::to_string(bad))) << bad;
     EXPECT_FALSE(motion.blend_shapes.Set(0ms, "jawOpen", bad, 0ms)) << bad;
   }
 }

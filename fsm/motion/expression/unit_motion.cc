@@ -1,7 +1,5 @@
 #include "fsm/motion/expression/unit_motion.h"
 
-#include "fsm/motion/base/motion_errors.h"
-
 namespace fsm {
 namespace {
 
@@ -16,15 +14,6 @@ void UnitMotion::SetOne(vm::Time now, const UnitSetting& unit, vm::Time move) {
   auto& track = units_[unit.number];
   if (unit.left) track.left.MoveTo(now, static_cast<float>(unit.strength), move);
   if (unit.right) track.right.MoveTo(now, static_cast<float>(unit.strength), move);
-}
-
-vm::Result<void> UnitMotion::Set(vm::Time now, std::string_view unit, double strength,
-                                 vm::Time move) {
-  if (auto fits = CheckStrength(strength); !fits) return fits;
-  const auto command = ParseUnitCommand(fmt::format("{} {:.6f}", unit, strength), names_, false);
-  if (!command) return std::unexpected(command.error());
-  for (const UnitSetting& one : command->units) SetOne(now, one, move);
-  return {};
 }
 
 vm::Result<void> UnitMotion::Set(vm::Time now, std::string_view text) {

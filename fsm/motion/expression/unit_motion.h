@@ -15,8 +15,6 @@ class UnitMotion : public MotionSource {
  public:
   explicit UnitMotion(const UnitNames& names) : names_(names) {}
 
-  /// Moves one unit, such as `12L`, to a strength of 0..2.
-  vm::Result<void> Set(vm::Time now, std::string_view unit, double strength, vm::Time move);
   /// Sets the units of a command, see ParseUnitCommand.
   vm::Result<void> Set(vm::Time now, std::string_view text);
   /// Sets a unit on both sides within 60 ms, as Face.N does.
