@@ -280,8 +280,6 @@ vm::Result<void> SceneSlots::ResetSize() {
   if (fills_screen_) {
     if (auto done = FillScreen(false); !done) return done;
   }
-  // Avoid resizing, for which a view without a window makes a new context.
-  if (core_.view.width() == start_width_ && core_.view.height() == start_height_) return {};
   return core_.view.Resize(start_width_, start_height_);
 }
 

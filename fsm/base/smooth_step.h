@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <type_traits>
 
 namespace fsm {
 
 /// Returns 0 below `from`, 1 above `to`, and a smooth cubic between; `from` may exceed `to`.
-inline float SmoothStep(float from, float to, float x) {
-  const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
+template <std::floating_point T>
+T SmoothStep(std::type_identity_t<T> from, std::type_identity_t<T> to, T x) {
+  const T t = std::clamp<T>((x - from) / (to - from), 0, 1);
   return t * t * (3 - 2 * t);
 }
 

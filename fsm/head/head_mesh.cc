@@ -79,16 +79,14 @@ SkinWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y) {
   const float lower_seam = upper_seam + (1 - upper_seam) * apart;
   const float reach_down = 16 + 0.5f * beyond;
   const float reach_up = 18 + 0.5f * beyond;
-  const bool lower = side < 0 || (side == 0 && below > 0);
-  if (lower) {
+  const float fades = 8 + 0.3f * beyond;
+  const float along_slit = side == 0 ? 1.0f : 1 - SmoothStep(25, 19, a);
+  if (side < 0 || (side == 0 && below > 0)) {  // the lower lip
     weights.jaw = lower_seam + (1 - lower_seam) * SmoothStep(0, reach_down, below);
-    weights.above_mouth = side < 0
-                              ? 0.5f * (1 - SmoothStep(25, 19, a)) * (1 - SmoothStep(0, 12, below))
-                              : 0.5f * (1 - SmoothStep(0, 8 + 0.3f * beyond, below));
+    weights.above_mouth = 0.5f * along_slit * (1 - SmoothStep(0, side < 0 ? 12 : fades, below));
   } else {
     weights.jaw = upper_seam * (1 - SmoothStep(0, reach_up, -below));
-    const float half = 0.5f * (side > 0 ? (1 - SmoothStep(25, 19, a)) : 1.0f);
-    weights.above_mouth = 1 - half * (1 - SmoothStep(0, 8 + 0.3f * beyond, -below));
+    weights.above_mouth = 1 - 0.5f * along_slit * (1 - SmoothStep(0, fades, -below));
   }
   // The skin of the jaw ends at the throat and in front of the ear.
   weights.jaw *= SmoothStep(-138, -84, domain.y) * SmoothStep(112, 62, a);

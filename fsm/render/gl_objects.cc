@@ -8,7 +8,7 @@ namespace {
 
 /// Returns the log of a shader or program, through its two differently named pairs of getters.
 template <typename GetNumber, typename GetText>
-std::string Log(GLuint object, GetNumber get_number, GetText get_text) {
+std::string InfoLog(GLuint object, GetNumber get_number, GetText get_text) {
   GLint length = 0;
   get_number(object, GL_INFO_LOG_LENGTH, &length);
   std::string text(static_cast<std::size_t>(length), '\0');
@@ -25,7 +25,7 @@ GLuint Compile(const GlFunctions& gl, const char* name, GLenum kind, std::string
   GLint compiled = 0;
   gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
   if (!compiled) {
-    const std::string log = Log(shader, gl.GetShaderiv, gl.GetShaderInfoLog);
+    const std::string log = InfoLog(shader, gl.GetShaderiv, gl.GetShaderInfoLog);
     gl.DeleteShader(shader);
     throw std::runtime_error(std::string("shader ") + name + " does not compile: " + log);
   }
@@ -61,7 +61,7 @@ void GlProgram::Link(const char* name, std::initializer_list<GLuint> shaders) {
   GLint linked = 0;
   gl_.GetProgramiv(id_, GL_LINK_STATUS, &linked);
   if (!linked) {
-    const std::string log = Log(id_, gl_.GetProgramiv, gl_.GetProgramInfoLog);
+    const std::string log = InfoLog(id_, gl_.GetProgramiv, gl_.GetProgramInfoLog);
     gl_.DeleteProgram(id_);
     throw std::runtime_error(std::string("shader ") + name + " does not link: " + log);
   }

@@ -96,7 +96,7 @@ vm::Result<void> GltfNodes::ComputeWorld(const GltfDocument& document, std::int6
 }
 
 void GltfNodes::Show(const GltfDocument& document, std::int64_t node, std::vector<bool>& seen) {
-  // Nodes in a cycle are under no root, so Place did not reach them.
+  // Nodes in a cycle are under no root, so ComputeWorld did not reach them.
   if (node < 0 || static_cast<std::size_t>(node) >= seen.size()) return;
   const auto at = static_cast<std::size_t>(node);
   if (seen[at] || !computed_[at]) return;

@@ -14,16 +14,15 @@ namespace fsm {
 /// visibility. Vertices duplicated along texture seams are merged.
 class WeldedSurface {
  public:
-  /// `weld`: whether to merge vertices at the same position; else only the triangles are copied.
+  /// `has_uv_seams`: whether to merge vertices at the same position whose normals agree.
   WeldedSurface(std::span<const glm::vec3> position, std::span<const std::uint32_t> triangles,
-                bool weld);
+                bool has_uv_seams);
 
   std::vector<glm::vec3> at, normal;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   Neighbours neighbours;
-  std::vector<std::uint32_t>
-      welded_of;  ///< given vertex -> welded one; kNone if it is in no triangle
-  std::vector<std::uint32_t> given_of;  ///< welded vertex -> one of the given
+  std::vector<std::uint32_t> welded_of;  ///< given vertex -> welded one; kNone: in no triangle
+  std::vector<std::uint32_t> given_of;   ///< welded vertex -> one of the given
   /// Per vertex, whether it belongs to upper (1) or lower (-1) lip and lid, 0 = neither.
   std::vector<float> lip, lid;
   /// Per vertex, the visibility from the front: 1 = visible, 0 = more than a few millimetres behind

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
+#include "fsm/base/smooth_step.h"
 #include "vm_protocol/core/scheduler.h"
 
 /// Easing curves. All go from 0 at u = 0 to 1 at u = 1 and are constant outside; all begin and end
@@ -14,10 +14,7 @@ namespace fsm {
 inline double Clamp01(double u) { return std::clamp(u, 0.0, 1.0); }
 
 /// Returns 3u^2 - 2u^3.
-inline double SmoothStep(double u) {
-  u = Clamp01(u);
-  return u * u * (3 - 2 * u);
-}
+inline double SmoothStep(double u) { return SmoothStep(0, 1, u); }
 
 /// Returns 6u^5 - 15u^4 + 10u^3, the minimum-jerk curve, whose acceleration is zero at both ends as
 /// well.
