@@ -1,7 +1,6 @@
 #include "fsm/app/gl_face_view.h"
 
 #include <future>
-#include <stdexcept>
 
 #include "fsm/base/caught.h"
 #include "fsm/faces/table_names.h"

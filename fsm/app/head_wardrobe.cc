@@ -1,7 +1,6 @@
 #include "fsm/app/head_wardrobe.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "fsm/base/caught.h"
 #include "fsm/faces/face_folder.h"

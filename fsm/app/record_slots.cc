@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 namespace fsm {
 
 RecordSlots::RecordSlots(FsmCore& core)

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "fsm/app/fsm_core.h"
 #include "vm_protocol/core/phonemes.h"

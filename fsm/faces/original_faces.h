@@ -9,7 +9,7 @@
 #include "fsm/base/log.h"
 #include "fsm/base/table_folder.h"
 #include "fsm/mesh/original/original_files.h"
-#include "fsm/motion/inputs/motion_tables.h"
+#include "fsm/motion/inputs/expression_table.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {

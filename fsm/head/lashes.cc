@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <string>
 
 #include "fsm/base/pi.h"
 #include "fsm/base/random.h"

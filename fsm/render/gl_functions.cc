@@ -1,6 +1,5 @@
 #include "fsm/render/gl_functions.h"
 
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <utility>

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <stdexcept>
-#include <string>
 #include <thread>
 
 #include "fsm/base/random.h"

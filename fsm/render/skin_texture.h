@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <glm/vec4.hpp>
-#include <vector>
 
 #include "fsm/image/image.h"
 #include "fsm/render/face_landmarks.h"

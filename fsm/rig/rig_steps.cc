@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "fsm/rig/reach.h"
 #include "fsm/rig/rig_records.h"
 #include "fsm/rig/vertex_checker.h"

@@ -3,7 +3,6 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "fsm/rig/face_state.h"
 #include "vm_protocol/core/result.h"
