@@ -54,7 +54,7 @@ void PrintFilmTrack(const FilmTrack& wanted) {
   auto attention = vm::OrThrow(facefit::LoadAttentionLandmarks(wanted.networks));
   const SeenFace& face = SeenFace::Shipped();
   Tracker tracker(networks, attention, face, wanted.tracker);
-  const FacePrint print(wanted.format, wanted.points, face);
+  const FacePrint print(wanted.format, wanted.extras, face);
   TrackPlot plot;
   Out out(wanted.out, IsLive(wanted.film));
   std::size_t pictures = 0, faces = 0;

@@ -15,7 +15,8 @@ struct FilmTrack {
   std::string networks;  ///< as FaceNetworks::Load takes it
   double rate = 25;      ///< pictures a second of a folder
   FacePrint::Format format = FacePrint::Format::kCsv;
-  bool points = false, quiet = false;
+  FacePrint::Extras extras{};
+  bool quiet = false;
   Tracker::Settings tracker{};
 };
 

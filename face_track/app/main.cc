@@ -28,8 +28,10 @@ void AddOptions(CLI::App& app, FilmTrack& wanted) {
   app.add_option("--format", wanted.format, "csv, jsonl or arkit")
       ->transform(CLI::CheckedTransformer(formats))
       ->option_text("TEXT:{csv,jsonl,arkit}");
-  app.add_flag("--landmarks", wanted.points,
+  app.add_flag("--landmarks", wanted.extras.points,
                "The 470 points, too: mm in the head's frame, the face's motion in them");
+  app.add_flag("--mouth", wanted.extras.mouth,
+               "What the mouth does, too, in mouth parameters: seal, tongue, m1 to m17, as vdm's");
   app.add_option("--field", wanted.tracker.field_degrees,
                  "Degrees the camera sees from below to above (40)")
       ->check(CLI::Range(5.0, 120.0));

@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "face_track/model/seen_face.h"
+#include "face_track/model/lips.h"
 #include "fsm/rig/face_state.h"
 
 namespace facetrack {
@@ -21,6 +21,7 @@ struct FaceLine {
   std::array<float, 2> lid{1, 1};        ///< right, left: 0 = shut, 1 = as at rest
   std::array<fsm::EyeAngles, 2> gaze{};  ///< right, left: degrees down and right, in the head
   float jaw = 0;                         ///< degrees
+  Lips lips{};                           ///< beside their rest
   std::vector<float> units;              ///< doses of the table's channels
   Points points;                         ///< on the face, in the head's frame, mm
   std::vector<glm::vec2> places;         ///< where they are seen, pixels

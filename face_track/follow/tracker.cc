@@ -225,6 +225,7 @@ FaceLine Tracker::LineOf(const Waiting& waiting, const Doing& doing) {
     line.lid[static_cast<std::size_t>(side)] = std::clamp(
         LidGap(line.points, side) / std::max(LidGap(person_->rest, side), 1.0F), 0.0F, 2.0F);
   }
+  line.lips = LipsOf(line.points, person_->rest);
   SmoothLine(line);
   for (const fsm::Side side : fsm::kSides) {
     const std::string name = side == fsm::Side::kRight ? "R" : "L";
@@ -244,6 +245,7 @@ void Tracker::SmoothLine(FaceLine& line) {
   for (float& v : line.head) values.push_back(&v), kinds.push_back({4, 0.3F});
   for (int k = 0; k < 3; ++k) values.push_back(&line.place[k]), kinds.push_back({4, 0.1F});
   for (float& v : line.lid) values.push_back(&v), kinds.push_back({8, 8});
+  for (float& v : line.lips) values.push_back(&v), kinds.push_back({10, 0.3F});
   for (std::size_t c = 0; c < line.units.size(); ++c) {
     values.push_back(&line.units[c]);
     const bool unit = face_.channels[c].kind == Channel::Kind::kUnit;

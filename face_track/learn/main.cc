@@ -13,6 +13,7 @@
 
 #include "face_fit/fit/least_squares.h"
 #include "face_track/learn/judge.h"
+#include "face_track/learn/mouth_lesson.h"
 #include "face_track/learn/sitter.h"
 #include "fsm/faces/face_of_name.h"
 #include "vm_protocol/core/or_throw.h"
@@ -171,6 +172,12 @@ SeenFace Balanced(const SeenFace& face) {
   return balanced;
 }
 
+void WriteTable(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  if (!file.flush()) throw std::runtime_error("cannot write '" + path + "'");
+}
+
 void Learn(const std::string& out, std::size_t heads, const std::string& folder) {
   facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(folder));
   facefit::Network attention = vm::OrThrow(facefit::LoadAttentionLandmarks(folder));
@@ -184,9 +191,7 @@ void Learn(const std::string& out, std::size_t heads, const std::string& folder)
   }
   SeenFace face = sums.Mean();
   sums.FitSlides(face);
-  std::ofstream file(out);
-  file << Balanced(face).Print();
-  if (!file.flush()) throw std::runtime_error("cannot write '" + out + "'");
+  WriteTable(out, Balanced(face).Print());
 }
 
 void JudgeFaces(const std::vector<std::string>& names, const std::string& folder) {
@@ -206,6 +211,7 @@ int main(int argc, char** argv) {
   std::string out, networks;
   std::vector<std::string> judged;
   std::size_t heads = 8;
+  bool mouth = false;
   CLI::App app(
       "Draws our heads and writes what the landmark network sees of them (docs/tracking.md)");
   auto* table = app.add_option("out", out, "The table to write: face_track/tables/seen_face.txt");
@@ -214,11 +220,16 @@ int main(int argc, char** argv) {
   app.add_option("--judge", judged,
                  "Learns nothing, and prints how turns and units of these faces are found")
       ->excludes(table);
+  app.add_flag("--mouth", mouth,
+               "The table is face_track/tables/mouth_of_lips.txt, by what seen_face.txt is now")
+      ->needs(table);
   app.add_option("--networks", networks, "Where scripts/face_networks.sh put the networks");
   CLI11_PARSE(app, argc, argv);
   try {
     if (!judged.empty())
       JudgeFaces(judged, networks);
+    else if (mouth)
+      WriteTable(out, LearnMouth(heads, networks).Print());
     else
       Learn(out, heads, networks);
   } catch (const std::exception& error) {

@@ -11,7 +11,7 @@ TrackModule::TrackModule(vm::Scheduler& scheduler, Options options)
     : scheduler_(scheduler),
       options_(std::move(options)),
       slots_("TRACK"),
-      print_(FacePrint::Format::kJsonLines, false, SeenFace::Shipped()),
+      print_(FacePrint::Format::kJsonLines, {}, SeenFace::Shipped()),
       command_(SeenFace::Shipped()) {
   DeclareRun();
   DeclareSettings();

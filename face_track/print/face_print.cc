@@ -22,8 +22,8 @@ std::string Number(float value, int digits = 3) {
 
 }  // namespace
 
-FacePrint::FacePrint(Format format, bool points, const SeenFace& face)
-    : format_(format), points_(points && format != Format::kArkit), face_(face) {
+FacePrint::FacePrint(Format format, Extras extras, const SeenFace& face)
+    : format_(format), extras_(format == Format::kArkit ? Extras{} : extras), face_(face) {
   const fsm::Table table("arkit.txt", embedded::arkit_of_units());
   for (const fsm::TableRow& row : table.rows()) {
     Shape shape{.name = row.key(), .parts = {}};
@@ -64,6 +64,13 @@ std::vector<FacePrint::Column> FacePrint::Columns(const FaceLine& line) const {
     columns.push_back({(unit ? "au" : "") + channel.Name(), line.units[c]});
   }
   columns.push_back({"miss", line.miss});
+  if (!extras_.mouth) return columns;
+  const TrackedMouth mouth = MouthOfLips::Shipped().Mouth(line.lips);
+  columns.push_back({"seal", mouth.seal});
+  columns.push_back({"tongue", 0});
+  for (std::size_t p = 0; p < mouth.parameters.size(); ++p) {
+    columns.push_back({fmt::format("m{}", p + 1), mouth.parameters[p]});
+  }
   return columns;
 }
 
@@ -73,7 +80,8 @@ std::string FacePrint::Header() const {
   none.units.assign(face_.channels.size(), 0);
   std::string text = "ms,person,certainty";
   for (const Column& column : Columns(none)) text += "," + column.name;
-  for (std::size_t i = 0; points_ && i < kPoints; ++i) text += fmt::format(",x{0},y{0},z{0}", i);
+  for (std::size_t i = 0; extras_.points && i < kPoints; ++i)
+    text += fmt::format(",x{0},y{0},z{0}", i);
   return text + "\n";
 }
 
@@ -81,9 +89,11 @@ std::string FacePrint::Line(const FaceLine& line) const {
   const auto columns = Columns(line);
   const bool json = format_ == Format::kJsonLines;
   const std::string certainty = Number(line.certainty);
-  std::string text = json ? fmt::format(R"({{"ms":{:.1f},"person":{},"certainty":{})", line.ms,
-                                        line.person, certainty)
-                          : fmt::format("{:.1f},{},{}", line.ms, line.person, certainty);
+  // Who learns from mouths asks for even steps, which tenths of a millisecond would not show.
+  const std::string ms = fmt::format("{:.{}f}", line.ms, extras_.mouth ? 3 : 1);
+  std::string text =
+      json ? fmt::format(R"({{"ms":{},"person":{},"certainty":{})", ms, line.person, certainty)
+           : fmt::format("{},{},{}", ms, line.person, certainty);
   for (const Column& column : columns) {
     if (json && line.person == 0) break;
     if (json)
@@ -92,7 +102,7 @@ std::string FacePrint::Line(const FaceLine& line) const {
       text += ",";
     if (line.person != 0) text += Number(column.value);
   }
-  if (points_ && (!json || line.person != 0)) {
+  if (extras_.points && (!json || line.person != 0)) {
     if (json) text += ",\"points\":[";
     for (std::size_t i = 0; i < kPoints; ++i) {
       if (json) text += i == 0 ? "[" : ",[";

@@ -15,7 +15,11 @@ class FacePrint {
     kJsonLines,  ///< an object a picture
     kArkit       ///< CSV of ARKit's 52 blend shapes, then the head's three angles
   };
-  FacePrint(Format format, bool points, const SeenFace& face);
+  struct Extras {
+    bool points = false;  ///< the landmarks, not in kArkit
+    bool mouth = false;   ///< seal, tongue and m1 to m17, as vdm's tracks have them; not in kArkit
+  };
+  FacePrint(Format format, Extras extras, const SeenFace& face);
   std::string Header() const;  ///< "" where there is none
   std::string Line(const FaceLine& line) const;
 
@@ -30,7 +34,7 @@ class FacePrint {
     std::vector<std::pair<std::size_t, float>> parts;
   };
   Format format_;
-  bool points_;
+  Extras extras_;
   const SeenFace& face_;
   std::vector<Shape> shapes_;
 };

@@ -204,6 +204,61 @@ TEST_F(FaceTrackTest, AFolderOfPicturesAndArkitAndJsonComeOut) {
   EXPECT_TRUE(json.lines[0].ends_with("]]}"));
 }
 
+TEST_F(FaceTrackTest, TheMouthIsToldInParametersThatTriphonesLearnFrom) {
+  // Rows of fsm/motion/tables/mouth_shapes.txt, each held for 480 ms after 1.2 s of rest.
+  const std::pair<const char*, const char*> shapes[] = {
+      {"a", "0.4 0 0.5 0 -0.9 0 -0.72 0 0 0 0 9 0 0 0 0 0 0 0"},
+      {"m", "-1.9 -0.6 -0.6 -1.6 1 -1.8 2.3 -0.8 0.4 0 -0.5 1 0 -0.6 -0.4 0.6 -0.4 1 0.2"},
+      {"o", "0.32 5 0.4 4.5 -0.6 4.5 -0.48 5 -5 0 2.25 5 0 0.2 0 0.2 0 0 0.1"},
+      {"i", "0.64 -1 0.8 -0.9 -1.4 -0.9 -1.12 -1 3.5 0.5 -1.2 2 0 -0.1 -0.2 -0.1 -0.2 0 0.5"}};
+  std::string lines = "set Record.fps = 25\nset Record = " + Path("speaks.mp4") +
+                      "\nset Wait = 1200\nset MouthFrame.start = NOW\n";
+  int ms = 0;
+  for (const auto& [name, numbers] : shapes) {
+    for (int k = 0; k < 24; ++k, ms += 20) {
+      lines += "set MouthFrame = " + std::to_string(ms) + " " + numbers + "\n";
+    }
+  }
+  support::Process fsm({GALATEA_BIN_DIR "/fsm", "--headless", "--clock", "virtual", "--size",
+                        "400x400", "--mask", "baucis"});
+  fsm.Write(lines + "set Wait = 1920\nset Record = STOP\n");
+  fsm.CloseInput();
+  fsm.ReadAll(support::Millis{120000});
+  ASSERT_EQ(fsm.Wait(), 0) << fsm.ErrorText();
+
+  const Ran ran = Track({Path("speaks.mp4"), "--mouth", "--out", Path("speaks.csv")});
+  ASSERT_EQ(ran.code, 0) << ran.error;
+  std::ifstream file(Path("speaks.csv"));
+  std::stringstream text;
+  text << file.rdbuf();
+  Ran track;
+  for (std::string line; std::getline(text, line);) track.lines.push_back(line);
+  const auto rows = track.Rows();
+  ASSERT_GT(rows.size(), 74U);
+  const auto at = [&](int shape, const char* name) {
+    return std::stod(rows[static_cast<std::size_t>(30 + 12 * shape + 9)].at(name));
+  };
+  EXPECT_NEAR(at(0, "m12"), 9, 2);
+  EXPECT_NEAR(at(0, "m9"), 0, 1.5);
+  EXPECT_EQ(at(0, "seal"), 0);
+  EXPECT_GT(at(1, "seal"), 0.9);
+  EXPECT_LT(at(1, "m12"), 2);
+  EXPECT_NEAR(at(2, "m9"), -5, 2.5);
+  EXPECT_GT(at(2, "m2"), at(0, "m2") + 1.5);  // of 5: film from the front hardly shows it
+  EXPECT_EQ(at(2, "seal"), 0);
+  EXPECT_NEAR(at(3, "m9"), 3.5, 1.5);
+  EXPECT_LT(at(3, "m2"), 0.5);
+  EXPECT_EQ(at(3, "tongue"), 0);
+  EXPECT_EQ(Track({Path("baucis.mp4")}).Rows()[20].count("m1"), 0U);
+
+  if (!std::filesystem::exists(GALATEA_BIN_DIR "/vdm_train")) return;
+  std::ofstream(Path("speaks.pho")) << "pau[1200] a[480] m[480] o[480] i[480]\n";
+  std::ofstream(Path("speaks.list")) << "speaks.pho speaks.csv\n";
+  const Ran learned = RunProgram({GALATEA_BIN_DIR "/vdm_train", Path("speaks.tri"), "--triphones",
+                                  "--recordings", Path("speaks.list")});
+  EXPECT_EQ(learned.code, 0) << learned.error;
+}
+
 TEST_F(FaceTrackTest, ABrokenFilmIsFollowedAsFarAsItGoes) {
   const std::string whole = Made({"-i", Path("baucis.mp4"), "-c", "copy", "whole.ts"});
   std::filesystem::resize_file(whole, std::filesystem::file_size(whole) / 2);

@@ -6,6 +6,7 @@
 
 #include "face_track/fit/bounded_solve.h"
 #include "face_track/live/face_command.h"
+#include "face_track/model/lips.h"
 #include "face_track/model/seen_face.h"
 #include "face_track/print/track_plot.h"
 
@@ -16,6 +17,30 @@ TEST(SeenFaceTest, AnglesComeBackFromTurns) {
   const fsm::Angles told{12, -25, 7};
   const fsm::Angles back = HeadRotationOf(TurnOf(told));
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back[k], told[k], 1e-3);
+}
+
+TEST(MouthOfLipsTest, AMouthAtRestIsSealedAndALargerOneIsToldAlike) {
+  const Points rest = SeenFace::Shipped().rest;
+  const TrackedMouth still = MouthOfLips::Shipped().Mouth(LipsOf(rest, rest));
+  EXPECT_EQ(still.seal, 1);
+  for (const float value : still.parameters) EXPECT_EQ(value, 0);
+
+  Points open = rest, large = rest, large_open;
+  for (const std::size_t i : {14U, 87U, 317U, 17U, 84U, 314U, 152U}) open[i].y -= 10;
+  for (glm::vec3& p : large) p *= 1.5F;
+  for (const glm::vec3& p : open) large_open.push_back(1.5F * p);
+  const Lips lips = LipsOf(open, rest), larger = LipsOf(large_open, large);
+  EXPECT_LT(lips[kLowerInner], -8);
+  for (std::size_t k = 0; k < kLips; ++k) EXPECT_NEAR(lips[k], larger[k], 1e-3);
+}
+
+TEST(MouthOfLipsTest, ADamagedTableIsNamed) {
+  const std::string text = MouthOfLips::Shipped().Print();
+  EXPECT_TRUE(MouthOfLips::Parse("t", text));
+  const auto without = MouthOfLips::Parse("t", text.substr(0, text.rfind("lower_inner")));
+  ASSERT_FALSE(without);
+  EXPECT_NE(without.error().text.find("lower_inner_fullness"), std::string::npos);
+  EXPECT_FALSE(MouthOfLips::Parse("t", text + "seal 2 1\n"));
 }
 
 TEST(BoundedSolveTest, NoStepWithinTheBoundsIsBetter) {
