@@ -26,13 +26,16 @@ constexpr struct {
   float fullest_at = 1.2f, cheek_at = 1.5f;                 // waves per `hang` in halves of a turn
   float forward_ends = 0.4f;                                // less forward at the ends
   float no_kink_step = 0.04f;                               // of cap: slope at the skull's end
-  glm::vec2 pointed_over{0.8f, kEnd};                       // t
+  float finer_ends = 0.6f;                                  // shorter waves of the ends
+  glm::vec2 pointed_over{0.75f, kEnd};                      // t
   glm::vec2 neck_shade_z{25, -20}, neck_shade_y{-40, -70};  // mm: shade on the neck,
   glm::vec2 neck_shade_end{-30, 10};                        // mm above the hair's end
   float shell_crowd = 0.45f, lining_crowd = 0.4f;           // 1: strands are evenly spaced
   float lining_edge = 0.005f;                               // i: just behind the shell's edge
   glm::vec2 lining_behind{0.06f, 0.3f};                     // i: from the face to the nape
   float lining_top = 0.6f;                                  // of kCap: where it begins behind
+  glm::vec2 flyaway_round{0.55f, 0.33f};                    // line: i, not over the face
+  float lock_crowd = 1.25f;                                 // power
   glm::vec2 lock_arch{0.12f, 0.8f}, flyaway_arch{0.1f, 0.75f};  // line: halves of a sine
 } kLong{};
 
@@ -109,7 +112,8 @@ class LongHair {
   float EndY(float i, float side) const {
     return glm::mix(style_.front_y, style_.back_y,
                     std::sqrt(SmoothStep(features_.long_ends.over, i))) +
-           features_.long_ends.uneven * std::sin(17 * i + side);
+           features_.long_ends.uneven *
+               (std::sin(17 * i + side) + kLong.finer_ends * std::sin(43 * i + 2 * side));
   }
 
   glm::vec3 Point(float i, float side, float t, float out_mm) const {
@@ -188,9 +192,11 @@ class LongHair {
            SmoothStep(features_.long_ridges.round, i);
   }
 
-  /// Returns how much higher a column ends than its neighbours.
+  /// Returns how much higher a column ends than the longest ones; neighbours differ.
   float Pointed(int column, float t) const {
-    return column % 2 == 0 ? 0.0f : features_.long_points * SmoothStep(kLong.pointed_over, t);
+    const float part = 0.5f + 0.5f * NoiseAt(column, 17);
+    return features_.long_points * (column % 2 == 0 ? 0.4f * part : 0.6f + 0.4f * part) *
+           SmoothStep(kLong.pointed_over, t);
   }
 
   void Shade() {
@@ -211,9 +217,9 @@ class LongHair {
   }
 
   void Shell(float side) {
-    constexpr int kStrands = 27;
-    constexpr int kCapRows = 15;  // the skull is round; hanging hair is nearly straight
-    constexpr int kRows = 24;
+    constexpr int kStrands = 22;
+    constexpr int kCapRows = 19;  // the skull is round; hanging hair is nearly straight
+    constexpr int kRows = 27;
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       // Strands are denser at the face, where the edge is visible.
@@ -283,9 +289,10 @@ class LongHair {
       const float to = Linear(features_.long_locks.to, NoiseAt(seed, 3));
       const float lift = Linear(features_.long_locks.lift, NoiseAt(seed, 4));
       std::vector<glm::vec3> path;
-      constexpr int kSteps = 8;
+      constexpr int kSteps = 10;
       for (int s = 0; s <= kSteps; ++s) {
-        const float v = static_cast<float>(s) / kSteps;
+        // Steps are shorter over the skull, which is round.
+        const float v = std::pow(static_cast<float>(s) / kSteps, kLong.lock_crowd);
         const float drift = features_.long_locks.drift * std::sin(4 * v + static_cast<float>(k));
         path.push_back(Point(std::clamp(i + drift, 0.0f, 1.0f), side, glm::mix(from, to, v),
                              lift * std::sin(kPi * Linear(kLong.lock_arch, v))));
@@ -303,13 +310,15 @@ class LongHair {
   void Flyaways(float side) {
     for (int k = 0; k < static_cast<int>(features_.long_flyaways.count); ++k) {
       const int seed = k + (side > 0 ? 1700 : 1500);
-      const float i = 0.5f + 0.5f * NoiseAt(seed, 1);
+      const float i = Linear(kLong.flyaway_round, NoiseAt(seed, 1));
       const float from = features_.long_flyaways.from * (0.5f + 0.5f * NoiseAt(seed, 2));
       const float length = features_.long_flyaways.length * (1 + 0.5f * NoiseAt(seed, 3));
       const float drift = features_.long_flyaways.drift * NoiseAt(seed, 4);
-      const float off = features_.long_flyaways.off * (1 + 0.6f * NoiseAt(seed, 5));
+      // Most lie close to the others; few stand far off.
+      const float far = 0.5f + 0.5f * NoiseAt(seed, 5);
+      const float off = features_.long_flyaways.off * (0.3f + 1.4f * far * far);
       std::vector<glm::vec3> path;
-      constexpr int kSteps = 3;
+      constexpr int kSteps = 6;
       for (int s = 0; s <= kSteps; ++s) {
         const float v = static_cast<float>(s) / kSteps;
         path.push_back(Point(std::clamp(i + drift * v * v, 0.0f, 1.0f), side, from + length * v,
@@ -318,7 +327,8 @@ class LongHair {
       look_.AddLock(path,
                     {.width_mm = features_.long_flyaways.width,
                      .tip_part = features_.long_flyaways.tip,
-                     .fray_from = features_.long_flyaways.fray_from},
+                     .fray_from = features_.long_flyaways.fray_from,
+                     .single = true},
                     seed, mesh_);
     }
   }

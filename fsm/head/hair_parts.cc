@@ -101,6 +101,8 @@ void HairLook::AddLock(std::span<const glm::vec3> path, const LockStyle& style, 
     glm::vec3 across = glm::cross(step, outward);
     const float length = glm::length(across);
     across = length > 1e-4f ? across / length : glm::vec3(1, 0, 0);
+    // A single hair stands on its edge, so that it is seen where it crosses the outline.
+    if (style.single) across = glm::normalize(glm::cross(across, step) + glm::vec3(0, 1e-4f, 0));
     if (k > 0) along_mm += glm::length(path[i] - path[i - 1]);
     const float taper = glm::mix(style.root_part, 1.0f, SmoothStep(0, 0.3f, t)) *
                         glm::mix(1.0f, style.tip_part, SmoothStep(0.5f, 1, t));
@@ -116,7 +118,7 @@ void HairLook::AddLock(std::span<const glm::vec3> path, const LockStyle& style, 
       now[edge] = mesh.Add(path[i] + side * half * across, colour, shade, Bone::kSkull);
       mesh.strands.back() = {.along = glm::normalize(step + glm::vec3(0, -1e-4f, 0)),
                              .density = density,
-                             .across = side,
+                             .across = style.single ? 0.5f * side : side,
                              .tile_mm = {across_mm + side * half, along_mm}};
     }
     if (k > 0) mesh.Quad(Material::kHair, before[0], before[1], now[1], now[0]);
@@ -149,7 +151,7 @@ void HairLook::LightAsOne(std::span<const glm::vec3> position, std::span<glm::ve
   for (std::size_t i = 0; i < position.size(); ++i) {
     const glm::vec3 from = position[i] - kHairCentre;
     const glm::vec3 outward = glm::normalize(from * glm::vec3(1, from.y > 0 ? 1.0f : below, 1));
-    if (glm::dot(normal[i], outward) < 0) continue;  // lining
+    if (glm::dot(normal[i], outward) < -0.3f) continue;  // lining; single hairs stand upright
     normal[i] = glm::normalize(glm::mix(normal[i], outward, part));
   }
 }

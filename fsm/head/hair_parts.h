@@ -37,6 +37,7 @@ struct LockStyle {
   float root_density = 0;  ///< density of the hairs at the root, 0..1
   float open = 1;          ///< openness to light, 0..1
   float tip_light = 1.1f;  ///< brightness at the tip relative to the root
+  bool single = false;     ///< a single hair, whose sides do not fray
 };
 /// The look that all hair styles share. Lifetime: the identity must outlive it.
 class HairLook {

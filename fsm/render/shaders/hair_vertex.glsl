@@ -2,7 +2,7 @@
 layout(location = 4) in vec2 among_hairs;       // millimetres across and along the hairs
 layout(location = 5) in vec4 along_and_density;   // direction at rest, whose length tells how sleek the hair is,
                                                   // 0..1; density, 1 = dense .. 0 = none
-layout(location = 6) in float across_lock;      // -1..1
+layout(location = 6) in vec2 across_lock;       // -1..1; 1 if hair thins out at the outline
 
 uniform mat3 rest_to_world;  // rotation of the head
 uniform float streaks;       // how strongly strands differ; 0 for lashes
@@ -28,7 +28,9 @@ void main() {
   float sleek = length(strand);
   strand = normalize(strand - n * dot(strand, n) + n * 1e-4);
   streak_uv = among_hairs * vec2(1.0 / 268.0, 1.0 / 256.0);
-  fray = vec2(along_and_density.w, across_lock);
+  // At its outline hair is thin, so that single hairs are visible there and no edge of a sheet is.
+  float thin = clamp(dot(n, v) * look_hair_outline.x + look_hair_outline.y, 0.0, 1.0);
+  fray = vec2(along_and_density.w * mix(1.0, thin, across_lock.y), across_lock.x);
 
   // Light on a strand is proportional to the sine of its angle to it (Kajiya and Kay 1989).
   float shadow = mix(openness, 1.0, look_hair_open_least) * mix(KeyShadow(world), 1.0, look_hair_lit_least);
