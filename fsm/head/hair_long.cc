@@ -271,8 +271,10 @@ class LongHair {
             glm::mix(features_.long_lining.face, insets[static_cast<std::size_t>(row)], behind);
         const glm::vec3 p = Point(i, side, t, inset) + glm::vec3(0, Pointed(k, t), 0);
         mesh_.Add(p, palette_.hair, features_.long_light.lining, Bone::kSkull);
+        // It does not thin out at its outline, which the shell surrounds.
         mesh_.strands.back() = {.along = Along(i, side, t),
                                 .density = SmoothStep(features_.long_thin.ends, t),
+                                .across = 0.5f,
                                 .tile_mm = features_.long_tile * glm::vec2(i, t)};
       }
     }
