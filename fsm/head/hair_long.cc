@@ -35,6 +35,7 @@ constexpr struct {
   glm::vec2 lining_behind{0.06f, 0.3f};                     // i: from the face to the nape
   float lining_top = 0.6f;                                  // of kCap: where it begins behind
   glm::vec2 flyaway_round{0.55f, 0.33f};                    // line: i, not over the face
+  glm::vec2 flyaway_off_over{-0.15f, 0.5f};                 // t
   float lock_crowd = 1.25f;                                 // power
   glm::vec2 lock_arch{0.12f, 0.8f}, flyaway_arch{0.1f, 0.75f};  // line: halves of a sine
 } kLong{};
@@ -316,9 +317,10 @@ class LongHair {
       const float from = features_.long_flyaways.from * (0.5f + 0.5f * NoiseAt(seed, 2));
       const float length = features_.long_flyaways.length * (1 + 0.5f * NoiseAt(seed, 3));
       const float drift = features_.long_flyaways.drift * NoiseAt(seed, 4);
-      // Most lie close to the others; few stand far off.
+      // Most lie close to the others, above all on the skull; few stand far off.
       const float far = 0.5f + 0.5f * NoiseAt(seed, 5);
-      const float off = features_.long_flyaways.off * (0.3f + 1.4f * far * far);
+      const float off = features_.long_flyaways.off * (0.3f + 1.4f * far * far) *
+                        SmoothStep(kLong.flyaway_off_over, from);
       std::vector<glm::vec3> path;
       constexpr int kSteps = 6;
       for (int s = 0; s <= kSteps; ++s) {
