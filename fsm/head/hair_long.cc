@@ -33,6 +33,7 @@ constexpr struct {
   float shell_crowd = 0.45f, lining_crowd = 0.4f;           // 1: strands are evenly spaced
   float lining_edge = 0.005f;                               // i: just behind the shell's edge
   glm::vec2 lining_behind{0.06f, 0.3f};                     // i: from the face to the nape
+  float lining_whole = 0.2f;                                // 0.5: whole at its outline
   float lining_top = 0.6f;                                  // of kCap: where it begins behind
   glm::vec2 flyaway_round{0.55f, 0.33f};                    // line: i, not over the face
   glm::vec2 flyaway_off_over{-0.15f, 0.5f};                 // t
@@ -272,10 +273,10 @@ class LongHair {
             glm::mix(features_.long_lining.face, insets[static_cast<std::size_t>(row)], behind);
         const glm::vec3 p = Point(i, side, t, inset) + glm::vec3(0, Pointed(k, t), 0);
         mesh_.Add(p, palette_.hair, features_.long_light.lining, Bone::kSkull);
-        // It does not thin out at its outline, which the shell surrounds.
+        // It thins out less at its outline than the shell, which surrounds it.
         mesh_.strands.back() = {.along = Along(i, side, t),
                                 .density = SmoothStep(features_.long_thin.ends, t),
-                                .across = 0.5f,
+                                .across = kLong.lining_whole,
                                 .tile_mm = features_.long_tile * glm::vec2(i, t)};
       }
     }

@@ -32,10 +32,10 @@ DetailAttributes DetailOf(const HeadTopology& topology, const CreaseWeights& cre
       const Strand strand = i < topology.strands.size() ? topology.strands[i] : Strand{};
       detail.texcoord[i] = strand.tile_mm;
       detail.detail[i] = glm::vec4(strand.along, strand.density);
-      // Single hairs cross the outline, where all others thin out.
-      const bool single = strand.across != 0 && std::abs(strand.across) < 1;
-      const bool thins = part.material == Material::kHair && i < topology.strands.size() && !single;
-      detail.more[i] = glm::vec2(strand.across, thins ? 1 : 0);
+      // Single hairs cross the outline, where all others thin out, and linings do so in part.
+      const float across = std::abs(strand.across);
+      const bool thins = part.material == Material::kHair && i < topology.strands.size();
+      detail.more[i] = glm::vec2(strand.across, !thins ? 0 : across < 1 ? 1 - 2 * across : 1);
     }
   }
   return detail;

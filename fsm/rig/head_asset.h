@@ -67,7 +67,7 @@ inline constexpr float kBallSpan = 1.4f;
 struct Strand {
   glm::vec3 along{0, -1, 0};  ///< from root to tip at rest; length 0..1: how sleek it is
   float density = 1;          ///< 1 = dense, 0 = no hairs: they thin out where a lock ends
-  float across = 0;     ///< -1 and 1 at the sides of a lock, -0.5 and 0.5 of a hair, 0 elsewhere
+  float across = 0;     ///< -1 and 1 at the sides of a lock, -0.5 and 0.5 of a hair, else 0..0.5
   glm::vec2 tile_mm{};  ///< position across and along the hairs, selecting hairs
 };
 
