@@ -12,7 +12,7 @@
 #include "face_track/follow/tracker.h"
 #include "face_track/learn/head_painter.h"
 #include "face_track/learn/sitter.h"
-#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/inputs/motion_tables.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace facetrack {
