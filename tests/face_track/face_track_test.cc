@@ -243,8 +243,8 @@ TEST_F(FaceTrackTest, TheMouthIsToldInParametersThatTriphonesLearnFrom) {
   EXPECT_EQ(at(0, "seal"), 0);
   EXPECT_GT(at(1, "seal"), 0.9);
   EXPECT_LT(at(1, "m12"), 2);
-  EXPECT_NEAR(at(2, "m9"), -5, 2.5);
-  EXPECT_GT(at(2, "m2"), at(0, "m2") + 1.5);  // of 5: film from the front hardly shows it
+  EXPECT_NEAR(at(2, "m9"), -5, 3);            // rounding comes out at half its size
+  EXPECT_GT(at(2, "m2"), at(3, "m2") + 1.5);  // of 6: film from the front hardly shows it
   EXPECT_EQ(at(2, "seal"), 0);
   EXPECT_NEAR(at(3, "m9"), 3.5, 1.5);
   EXPECT_LT(at(3, "m2"), 0.5);
