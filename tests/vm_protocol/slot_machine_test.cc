@@ -204,6 +204,26 @@ TEST_F(SlotMachineTest, EveryModuleHasTheCommonSlots) {
   EXPECT_EQ(Say("set#2 Run = INIT")[0].substr(0, 34), "1:rep#2 Run.error = BAD_VALUE colu");
 }
 
+TEST_F(SlotMachineTest, AModuleThatWorksIsStartedAndStoppedByRun) {
+  bool broken = true;
+  int stops = 0;
+  DeclareCommonSlots(slots_, {.on_start = [&]() -> Result<void> {
+                                if (broken) return Fail(Errc::kUnavailable, "no camera");
+                                return {};
+                              },
+                              .on_stop = [&] { ++stops; },
+                              .work = "sound is heard"});
+  EXPECT_EQ(Say("set#1 Run = START"), Strings{"1:rep#1 Run.error = UNAVAILABLE no camera"});
+  EXPECT_EQ(slots_.Value("Run"), "LIVE");
+  broken = false;
+  EXPECT_EQ(Say("set#2 Run = START"), Strings{"1:rep#2 Run = START"});
+  EXPECT_EQ(Say("set#3 Run = SLEEP"), Strings{"1:rep#3 Run = LIVE"});
+  EXPECT_EQ(slots_.Value("Run"), "START");
+  EXPECT_EQ(stops, 0);
+  EXPECT_EQ(Say("set#4 Run = STOP"), Strings{"1:rep#4 Run = STOP"});
+  EXPECT_EQ(stops, 1);
+}
+
 TEST_F(SlotMachineTest, SaysWhichOfItsSlotsTakeFiles) {
   EXPECT_EQ(Say("inq Slots.files"), Strings{"1:rep Slots.files = "});
   slots_.Declare({.name = "Save", .grammar = "<file> | STOP", .access = Access::kWriteOnly});
