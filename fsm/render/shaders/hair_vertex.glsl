@@ -1,8 +1,8 @@
 // Hair, brows and lashes.
-layout(location = kDetailTexcoord) in vec2 among_hairs;       // millimetres across and along the hairs
-layout(location = kDetail) in vec4 along_and_density;   // direction at rest, whose length tells how sleek the hair is,
-                                                  // 0..1; density, 1 = dense .. 0 = none
-layout(location = kDetailMore) in vec2 across_lock;       // -1..1; 1 if hair thins out at the outline
+layout(location = kDetailTexcoord) in vec2 among_hairs;  // millimetres across and along the hairs
+layout(location = kDetail) in vec4 along_and_density;    // direction at rest, whose length tells how sleek the hair is,
+                                                         // 0..1; density, 1 = dense .. 0 = none
+layout(location = kDetailMore) in vec2 across_lock;      // -1..1; 1 if hair thins out at the outline
 
 uniform mat3 rest_to_world;  // rotation of the head
 uniform float streaks;       // how strongly strands differ; 0 for lashes
