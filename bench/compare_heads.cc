@@ -96,7 +96,7 @@ fsm::Image DrawRows(const std::vector<Row>& rows) {
     for (const float turn : kTurns) {
       fsm::FaceState state;
       state.figure.rotation = {0, turn, 0};
-      renderer->Draw(*row.head, vertices, state, {});
+      renderer->DrawVertices(*row.head, vertices, state.figure, {});
       fsm::Image image;
       renderer->Read(image);
       Paste(image, sheet, x, y);

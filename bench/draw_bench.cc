@@ -195,7 +195,6 @@ void PrintFilm(const char* name, const Options& options, int width, int height,
                fsm::Renderer& renderer, const fsm::Head& head) {
   fsm::Image image;
   fsm::Scene scene;
-  scene.camera.parallel = head.view();
   std::deque<std::uint64_t> begun;
   renderer.SetViewport({0, 0, width, height});
   Print(options, name, [&](int i) {
@@ -230,7 +229,7 @@ void PrintMany(const std::string& name, const Options& options, int count, int a
   };
   Print(options, name, [&](int i) {
     for (int k = 0; k < count; ++k) states[static_cast<std::size_t>(k)] = Moving(i + 31 * k);
-    renderer.Draw(panes, [&](std::size_t k) {
+    renderer.DrawPanes(panes, [&](std::size_t k) {
       if (!read && k + 1 < states.size()) return;
       begun.push_back(renderer.BeginRead());
       if (begun.size() > kUnderWay) end_oldest();
@@ -277,13 +276,13 @@ void MeasureAll(char** argv, const Options& options) {
   const fsm::FaceState rest;
   head->Evaluate(rest, vertices);
   Print(options, "still face, vertices to pixels", [&](int) {
-    renderer->Draw(*head, vertices, rest, scene);
+    renderer->DrawVertices(*head, vertices, rest.figure, scene);
     renderer->Read(image);
   });
   fsm::FaceState absent;
   absent.figure.enabled = false;
   Print(options, "empty picture", [&](int) {
-    renderer->Draw(*head, vertices, absent, scene);
+    renderer->DrawVertices(*head, vertices, absent.figure, scene);
     renderer->Read(image);
   });
   Print(options, "state to vertices", [&](int i) { head->Evaluate(Moving(i), vertices); });
@@ -312,7 +311,7 @@ void DrawFirstFrame(const Options& options) {
   fsm::HeadVertices vertices;
   fsm::Image image;
   head->Evaluate({}, vertices);
-  renderer->Draw(*head, vertices, {}, {});
+  renderer->DrawVertices(*head, vertices, {}, {});
   renderer->Read(image);
   // The first frame is there; how the process ends is no part of it.
   std::_Exit(image.rgba.empty() ? 1 : 0);

@@ -7,7 +7,7 @@ shift
 report=$build/Testing/report.xml
 rm -f "$report"
 status=0
-ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)" --output-junit "$report" \
+ctest --test-dir "$build" --output-on-failure --parallel "$(($(nproc) + 1))" --output-junit "$report" \
   --test-output-size-passed 100000 "$@" || status=$?
 [ ! -f "$report" ] || python3 - "$report" <<'PY'
 import collections, re, sys

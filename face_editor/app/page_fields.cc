@@ -158,7 +158,8 @@ void DrawTouched(Ui& ui, ImVec2 low, ImVec2 size) {
   fsm::Figure turned;
   turned.rotation = {ui.stage.turn[0], ui.stage.turn[1], 0};
   const fsm::View view =
-      fsm::ViewOfPortrait(turned, ui.stage.scene.camera, ui.preview.width, ui.preview.height);
+      fsm::ViewOfPortrait(turned, ui.stage.scene.camera, ui.preview.width, ui.preview.height,
+                          ui.stage.head() ? ui.stage.head()->view() : std::nullopt);
   const auto touched =
       ui.stage.TouchedBy((*alone)->table, Shown(ui, 1), Shown(ui, ui.field_percent / 100));
   float most = 0;

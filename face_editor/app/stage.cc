@@ -20,7 +20,6 @@ void Stage::TakeUnits(const Editor& editor) {
   const bool same_head = moved_of_ == head_;
   moved_of_ = head_;
   moved_by_ = units;
-  scene.camera.parallel = head_ ? head_->view() : std::nullopt;
   const bool given = head_ && head_ == given_.head;
   if (given && given_.remake) {
     if (!same_head) moved_ = nullptr;
@@ -122,7 +121,7 @@ void Stage::Draw(const fsm::Viewport& pane, const fsm::FaceState& state) {
   turned.figure.rotation = {turn[0], turn[1], 0};
   head()->Evaluate(turned, vertices_);
   renderer_->SetViewport(pane);
-  renderer_->Draw(*head_, vertices_, turned, scene);
+  renderer_->DrawVertices(*head_, vertices_, turned.figure, scene);
 }
 
 std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::FittedHead& fitted) {

@@ -12,7 +12,7 @@ fsm::Image HeadPainter::Draw(const fsm::Head& head, const fsm::FaceState& state)
   fsm::HeadVertices vertices;
   head.Evaluate(state, vertices);
   context_->MakeCurrent();
-  renderer_->Draw(head, vertices, state, scene_);
+  renderer_->DrawVertices(head, vertices, state.figure, scene_);
   fsm::Image picture;
   renderer_->Read(picture);
   return picture;

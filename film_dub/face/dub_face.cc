@@ -66,7 +66,7 @@ void DubFace::Pose(const fsm::FaceState& state) {
 
 const fsm::Image& DubFace::Draw() {
   context_->MakeCurrent();
-  renderer_->Draw(*head_, vertices_, state_, scene_);
+  renderer_->DrawVertices(*head_, vertices_, state_.figure, scene_);
   renderer_->Read(drawn_);
   return drawn_;
 }

@@ -12,9 +12,7 @@ using Name = ExpressionSlots::Name;
 
 // Parses "FaceExp.SMIRK" or "FaceExp.SMIRK.2"; nothing for other slots.
 std::optional<Name> ParseSlotName(std::string_view slot) {
-  if (!slot.starts_with(kPrefix) || slot == "FaceExp.onset" || slot == "FaceExp.point") {
-    return std::nullopt;
-  }
+  if (!slot.starts_with(kPrefix)) return std::nullopt;
   slot.remove_prefix(kPrefix.size());
   Name name;
   if (const std::size_t dot = slot.find('.'); dot != slot.npos) {
@@ -45,13 +43,15 @@ ExpressionSlots::ExpressionSlots(FsmCore& core) : core_(core) {
                                          const vm::Reply& reply) {
     const auto name = ParseSlotName(message.slot);
     if (!name) return false;
+    const bool known = core_.motion->tables().expressions.contains(name->expression);
+    if (!known && core_.slots.Has(message.slot)) return false;  // FaceExp.onset and its like
     if (message.command == vm::Command::kDef && message.relation == vm::Relation::kAssign) {
       const auto done = Define(*name, message.value);
       done ? reply.Ok(*done) : reply.Fail(done.error());
       return true;
     }
     if (message.command != vm::Command::kDel) return false;
-    if (!core_.motion->tables().expressions.contains(name->expression)) {
+    if (!known) {
       reply.Fail({vm::Errc::kUnknownSlot, "there is no expression '" + name->expression + "'", 0});
       return true;
     }

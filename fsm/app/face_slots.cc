@@ -78,6 +78,16 @@ void DeclareUnits(FsmCore& core) {
                "ms it takes (60).",
        .on_set = core.Command(
            [&core](const vm::SetValue& value) { return SetBlendShapes(core, value); })});
+  core.slots.Declare(
+      {.name = "Asymmetry",
+       .grammar = "<number 0..300>",
+       .initial = "100",
+       .help = "How unlike the two sides of the face move, in per cent of what this face has by "
+               "itself (a few per cent of each unit); 0 = both alike. Which side is first in time "
+               "is Autonomous' ASYMMETRY.",
+       .on_set = core.Command([&core](const vm::SetValue& value) {
+         core.motion->asymmetry = static_cast<float>(value.number(0) / 100);
+       })});
 }
 
 void DeclareExpressions(FsmCore& core) {
@@ -225,13 +235,6 @@ void DeclareFigureSlots(FsmCore& core) {
   declare("AgentEnable", "ENABLE | DISABLE", "Whether the agent is drawn.", "ENABLE",
           [](Figure& figure, const vm::SetValue& value) {
             figure.enabled = value.word(0) == "ENABLE";
-          });
-  declare("Asymmetry", "<number 0..300>",
-          "How unlike the two sides of the face move, in per cent of what this face has by "
-          "itself (a few per cent of each unit); 0 = both alike. Which side is first in time "
-          "is Autonomous' ASYMMETRY.",
-          "100", [&core](Figure&, const vm::SetValue& value) {
-            core.motion->asymmetry = static_cast<float>(value.number(0) / 100);
           });
   declare("AgentAlpha", "<number 0..1>", "Opacity of the agent, 0 = not to be seen.", "1.0",
           [](Figure& figure, const vm::SetValue& value) {

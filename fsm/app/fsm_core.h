@@ -38,8 +38,6 @@ class ModulePart {
   virtual void OnFrame(long /*number*/, vm::Time /*at*/) {}
   /// Tells whether it is at work on a command.
   virtual bool Busy() const { return false; }
-  /// Tells whether the size of the view must not change now.
-  virtual bool LocksSize() const { return false; }
 };
 
 /// The state that the parts of the face module share. Slots are declared by slots.Declare; Command,

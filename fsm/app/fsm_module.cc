@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsm/app/background_slots.h"
 #include "fsm/app/capture_slots.h"
 #include "fsm/app/expression_slots.h"
 #include "fsm/app/face_slots.h"
@@ -13,6 +14,7 @@
 #include "fsm/app/picture_slots.h"
 #include "fsm/app/scene_slots.h"
 #include "fsm/app/speech_slots.h"
+#include "fsm/app/window_slots.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
@@ -50,8 +52,10 @@ FsmModule::FsmModule(vm::Scheduler& clock, FaceView& view, Wardrobe& wardrobe, M
   DeclareMouthStreamSlots(core_);
   DeclareFigureSlots(core_);
   core_.Add<MaskSlots>(options_.mask, options_.config.MaskNames());
-  core_.Add<SceneSlots>(options_.config.backgrounds, options_.background);
+  DeclareSceneSlots(core_);
+  core_.Add<BackgroundSlots>(options_.config.backgrounds, options_.background);
   record_ = &core_.Add<RecordSlots>();
+  core_.Add<WindowSlots>(*record_);
   core_.Add<PictureSlots>();
   core_.Add<CaptureSlots>();
   frames_ = &core_.Add<FrameSlots>();
@@ -81,6 +85,7 @@ void FsmModule::Initialise() {
   // Films end first, with the face and the sound file from before INIT.
   for (const auto& part : core_.parts) part->End();
   MakeMotion();
+  ResetScene(core_);
   core_.slots.StoreInitialValues();
   for (const auto& part : core_.parts) part->Reset();
   Changed();

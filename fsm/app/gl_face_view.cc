@@ -73,9 +73,7 @@ vm::Result<void> GlFaceView::Draw(const FaceState& state, const Scene& scene,
     MakeRenderer();
     if (made.valid()) made.get();
     const Head& head = wardrobe_.head();
-    Scene seen = scene;
-    seen.camera.parallel = head.view();
-    renderer_->Draw(head, state, SpringOffsets(head, history), seen);
+    renderer_->Draw(head, state, SpringOffsets(head, history), scene);
   });
 }
 

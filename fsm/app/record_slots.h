@@ -16,7 +16,6 @@ class RecordSlots final : public ModulePart {
   void End() override;
   void Reset() override { frames_per_second_ = kFramesPerSecond; }
 
-  bool LocksSize() const override { return film_.recording(); }
   bool recording() const { return film_.recording(); }
   int frames_per_second() const { return frames_per_second_; }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <charconv>
+#include <glm/vec3.hpp>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -29,6 +31,17 @@ auto ValueOf(const auto& words, std::string_view word)
   const auto found = std::ranges::find(words, word, [](const auto& each) { return each.first; });
   if (found == std::end(words)) return std::nullopt;
   return found->second;
+}
+
+/// Parses "#rrggbb" to sRGB, 0..1; nothing for other texts.
+inline std::optional<glm::vec3> ParseColour(std::string_view text) {
+  if (text.size() != 7 || text[0] != '#') return std::nullopt;
+  unsigned rgb = 0;
+  const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, rgb, 16);
+  if (error != std::errc{} || end != text.data() + 7) return std::nullopt;
+  return glm::vec3(static_cast<float>(rgb >> 16 & 255u), static_cast<float>(rgb >> 8 & 255u),
+                   static_cast<float>(rgb & 255u)) /
+         255.0f;
 }
 
 /// Returns the first word with a value. REQUIRES: there is one.

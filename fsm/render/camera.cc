@@ -36,10 +36,11 @@ glm::vec3 MovedBy(const Figure& placed, const Camera& camera, float half_view) {
   return {unit * placed.translation[0], unit * placed.translation[1], 0.0F};
 }
 
-View FrameParallel(const Figure& placed, const Camera& camera, float aspect, int height) {
+View FrameParallel(const Figure& placed, const Camera& camera, const ParallelView& parallel,
+                   float aspect, int height) {
   constexpr float kFar = 20000.0F;  // so far that light and highlights are almost parallel
-  const glm::vec3 centre = camera.parallel->centre;
-  const float half = camera.parallel->half_mm * DistanceOf(camera);
+  const glm::vec3 centre = parallel.centre;
+  const float half = parallel.half_mm * DistanceOf(camera);
   const float half_width = half * std::min(aspect, 1.0F),
               half_height = half / std::max(aspect, 1.0F);
   const float angle = glm::radians(camera.angle_degrees);
@@ -59,9 +60,10 @@ View FrameParallel(const Figure& placed, const Camera& camera, float aspect, int
 
 }  // namespace
 
-View ViewOfPortrait(const Figure& placed, const Camera& camera, int width, int height) {
+View ViewOfPortrait(const Figure& placed, const Camera& camera, int width, int height,
+                    const std::optional<ParallelView>& parallel) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
-  if (camera.parallel) return FrameParallel(placed, camera, aspect, height);
+  if (parallel) return FrameParallel(placed, camera, *parallel, aspect, height);
   const float framed_height = std::max(kFramedTop - kFramedBottom, kFramedWidth / aspect);
   const float half_angle = glm::radians(std::clamp(camera.field_degrees, 5.0F, 90.0F) / 2);
   const float portrait = framed_height / 2 / std::tan(half_angle);

@@ -2,6 +2,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "fsm/render/scene.h"
 #include "fsm/rig/face_state.h"
@@ -19,10 +20,11 @@ struct View {
 /// Frames head and shoulders as a portrait does: by default with a 25 degree lens at the height of
 /// the mouth; in narrow pictures the inner half of the shoulders' width stays in view. The distance
 /// of `camera` is clamped to 0.2..10, its field to 5..90 degrees. `placed` rotates by x, then y,
-/// then z about the root of the neck; its scale is clamped to 0.01..100. If the camera has a
-/// ParallelView, its longer side fills that of the picture, and the figure rotates and scales about
-/// its centre, by z, then y, then x; both are as in the original. The camera's distance, height and
-/// angle act on it as on a portrait.
-View ViewOfPortrait(const Figure& placed, const Camera& camera, int width, int height);
+/// then z about the root of the neck; its scale is clamped to 0.01..100. If the head has a view of
+/// its own, `parallel`, that one's longer side fills that of the picture, and the figure rotates
+/// and scales about its centre, by z, then y, then x; both are as in the original. The camera's
+/// distance, height and angle act on it as on a portrait, its field does not.
+View ViewOfPortrait(const Figure& placed, const Camera& camera, int width, int height,
+                    const std::optional<ParallelView>& parallel = {});
 
 }  // namespace fsm

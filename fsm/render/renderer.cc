@@ -57,9 +57,9 @@ class GlRenderer : public Renderer {
   void SetViewport(const Viewport& viewport) override { viewport_ = viewport; }
   void SetFormError(float pixels) override { form_error_ = pixels; }
 
-  void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
-            const Scene& scene) override {
-    DrawFrame(head, state, scene, [&vertices](CardHead& on_card) -> const HeadVertices& {
+  void DrawVertices(const Head& head, const HeadVertices& vertices, const Figure& figure,
+                    const Scene& scene) override {
+    DrawFrame(head, figure, scene, [&vertices](CardHead& on_card) -> const HeadVertices& {
       on_card.buffers.Upload(vertices);
       return vertices;
     });
@@ -68,10 +68,11 @@ class GlRenderer : public Renderer {
   void Draw(const Head& head, const FaceState& state, std::span<const glm::vec3> spring_offsets,
             const Scene& scene) override {
     const Pane pane{&head, &state, &scene, viewport_, spring_offsets};
-    Draw({&pane, 1}, {});
+    DrawPanes({&pane, 1}, {});
   }
 
-  void Draw(std::span<const Pane> panes, const std::function<void(std::size_t)>& drawn) override {
+  void DrawPanes(std::span<const Pane> panes,
+                 const std::function<void(std::size_t)>& drawn) override {
     constexpr std::ptrdiff_t kMostAtOnce = 256;  // each takes about 0.3 MB on the card
     const Viewport before = viewport_;
     std::size_t done = 0;
@@ -110,15 +111,16 @@ class GlRenderer : public Renderer {
   void DrawOne(const Head& head, const Pane& pane, std::size_t moved) {
     if (!rig_on_card_) {
       head.Evaluate(*pane.state, vertices_, pane.spring_offsets);
-      return Draw(head, vertices_, *pane.state, *pane.scene);
+      return DrawVertices(head, vertices_, pane.state->figure, *pane.scene);
     }
-    DrawFrame(head, *pane.state, *pane.scene, [moved](CardHead& on_card) -> const HeadVertices& {
-      return on_card.rig->Use(moved, on_card.buffers);
-    });
+    DrawFrame(head, pane.state->figure, *pane.scene,
+              [moved](CardHead& on_card) -> const HeadVertices& {
+                return on_card.rig->Use(moved, on_card.buffers);
+              });
   }
 
   /// `move`: binds the buffers to the frame's vertices and returns those that are measured.
-  void DrawFrame(const Head& head, const FaceState& state, const Scene& scene, const auto& move) {
+  void DrawFrame(const Head& head, const Figure& figure, const Scene& scene, const auto& move) {
     const int width = viewport_.width > 0 ? viewport_.width : context_.width();
     const int height = viewport_.width > 0 ? viewport_.height : context_.height();
     FindTarget(width, height);
@@ -128,13 +130,13 @@ class GlRenderer : public Renderer {
     transparent_ = !scene.show_background;
     const Scene behind = Behind(scene);
     backdrop_.Draw(behind, width, height);
-    const float alpha = std::clamp(state.figure.alpha, 0.0F, 1.0F);
-    if (state.figure.enabled && alpha > 0) {
+    const float alpha = std::clamp(figure.alpha, 0.0F, 1.0F);
+    if (figure.enabled && alpha > 0) {
       CardHead& on_card = heads_.Find(head);
       const HeadVertices& vertices = move(on_card);
       painter_.Draw(head, on_card, vertices,
-                    ViewOfPortrait(state.figure, scene.camera, width, height), scene, form_error_,
-                    *target_);
+                    ViewOfPortrait(figure, scene.camera, width, height, head.view()), scene,
+                    form_error_, *target_);
       // The figure fades as one picture; blending each of its layers would show what is behind
       // them.
       if (alpha < 1) backdrop_.Veil(behind, 1 - alpha);

@@ -50,9 +50,9 @@ class Renderer {
   /// Sets by how many pixels a face may be off, so that small ones are drawn with fewer triangles
   /// (CoarseTriangles). Initially 0: all triangles, as measurements on pictures need.
   virtual void SetFormError(float pixels) = 0;
-  /// REQUIRES: `vertices` belong to `head` (Evaluate of `state`).
-  virtual void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
-                    const Scene& scene) = 0;
+  /// REQUIRES: `vertices` belong to `head`.
+  virtual void DrawVertices(const Head& head, const HeadVertices& vertices, const Figure& figure,
+                            const Scene& scene) = 0;
   /// Draws the vertices that the head's rig computes from `state` and `spring_offsets`
   /// (Rig::Evaluate). A card computes them itself (GpuRig), with the accuracy stated there.
   virtual void Draw(const Head& head, const FaceState& state,
@@ -68,8 +68,8 @@ class Renderer {
   /// Draws each pane in its viewport and then calls `drawn` with its index, which may read the
   /// frame but not draw. A card moves consecutive faces of one head in one call. Afterwards the
   /// viewport is the previous one again.
-  virtual void Draw(std::span<const Pane> panes,
-                    const std::function<void(std::size_t)>& drawn = {}) = 0;
+  virtual void DrawPanes(std::span<const Pane> panes,
+                         const std::function<void(std::size_t)>& drawn = {}) = 0;
   /// Reads the last frame drawn, of the viewport's size.
   virtual void Read(Image& out) = 0;
   /// Starts reading the last frame drawn; a graphics card does so while others are drawn. Each

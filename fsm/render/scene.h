@@ -25,8 +25,6 @@ struct Camera {
   float height_mm = 0;       ///< of viewer and aim, above the middle of the portrait
   float field_degrees = 25;  ///< vertical field of view; the head's size stays
   float angle_degrees = 0;   ///< around the head, positive = to the viewer's right
-  std::optional<ParallelView> parallel =
-      {};  ///< instead of the portrait; field_degrees is then ignored
   /// If true, Figure::translation counts halves of the view's longer side instead of millimetres.
   bool moves_by_half_views = false;
 };

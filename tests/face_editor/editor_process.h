@@ -88,7 +88,7 @@ class FaceEditorTest : public testing::Test {
     const auto renderer = fsm::Renderer::Make(*context);
     fsm::Scene scene;
     scene.camera.angle_degrees = turned_degrees;
-    renderer->Draw(*head, vertices, {}, scene);
+    renderer->DrawVertices(*head, vertices, {}, scene);
     fsm::Image image;
     renderer->Read(image);
     const std::string path = folder_ + "/" + name;

@@ -23,7 +23,7 @@ void DrawHead(const std::string& path, float turned_degrees) {
   const auto renderer = fsm::Renderer::Make(*context);
   fsm::Scene scene;
   scene.camera.angle_degrees = turned_degrees;
-  renderer->Draw(*head, vertices, {}, scene);
+  renderer->DrawVertices(*head, vertices, {}, scene);
   fsm::Image image;
   renderer->Read(image);
   ASSERT_TRUE(fsm::WriteImage(image, path));

@@ -26,7 +26,7 @@ inline fsm::Image DrawnPerson(const Person& person) {
   head->Evaluate(state, vertices);
   const auto context = fsm::RenderContext::MakeHeadless(person.side, person.side);
   const auto renderer = fsm::Renderer::Make(*context);
-  renderer->Draw(*head, vertices, state, fsm::Scene{});
+  renderer->DrawVertices(*head, vertices, state.figure, fsm::Scene{});
   fsm::Image picture;
   renderer->Read(picture);
   return picture;

@@ -106,7 +106,7 @@ TEST_F(MakeFaceTest, APhotoThatDoesNotHelpIsLeftOutWithItsReasonAndTheRestIsMade
   head->Evaluate({}, vertices);
   const auto context = fsm::RenderContext::MakeHeadless(kSide, kSide);
   const auto renderer = fsm::Renderer::Make(*context);
-  renderer->Draw(*head, vertices, {}, fsm::Scene{});
+  renderer->DrawVertices(*head, vertices, {}, fsm::Scene{});
   fsm::Image photo;
   renderer->Read(photo);
   std::string steps;

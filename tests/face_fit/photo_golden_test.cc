@@ -26,7 +26,7 @@ fsm::Image Drawn(const fsm::Head& head, const fsm::FaceState& state, const fsm::
   const auto renderer = fsm::Renderer::Make(*context);
   fsm::HeadVertices vertices;
   head.Evaluate(state, vertices);
-  renderer->Draw(head, vertices, state, scene);
+  renderer->DrawVertices(head, vertices, state.figure, scene);
   fsm::Image image;
   renderer->Read(image);
   return image;

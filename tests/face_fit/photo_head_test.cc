@@ -160,7 +160,7 @@ int ColourOfTheMouth(float saturation) {
   head->Evaluate(state, vertices);
   const auto context = RenderContext::MakeHeadless(240, 240);
   const auto renderer = Renderer::Make(*context);
-  renderer->Draw(*head, vertices, state, Scene{});
+  renderer->DrawVertices(*head, vertices, state.figure, Scene{});
   Image image;
   renderer->Read(image);
   int most = 0, brightest = 0;
@@ -301,7 +301,7 @@ TEST(PhotoHeadTest, AnEyeOfThePhotoIsSeenAndItsIrisGoesWithTheGaze) {
     HeadVertices vertices;
     head->Evaluate(state, vertices);
     Image image;
-    renderer->Draw(*head, vertices, state, {});
+    renderer->DrawVertices(*head, vertices, state.figure, {});
     renderer->Read(image);
     Seen seen;
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {

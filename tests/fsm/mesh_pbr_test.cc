@@ -163,7 +163,7 @@ glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0
   scene.key.direction = key;
   scene.key.strength = key_strength;
   scene.fill.strength = scene.rim.strength = 0;
-  renderer->Draw(*head, vertices, {}, scene);
+  renderer->DrawVertices(*head, vertices, {}, scene);
   Image image;
   renderer->Read(image);
   // The middle of the plate lies a little above the middle of a portrait.

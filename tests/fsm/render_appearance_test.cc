@@ -98,7 +98,7 @@ TEST(AppearanceTest, ATableOfOnesOwnChangesThePicture) {
   head.Evaluate({}, vertices);
   const auto brightness = [&](const Appearance& appearance) {
     const auto renderer = Renderer::Make(*context, 1, appearance);
-    renderer->Draw(head, vertices, {}, {});
+    renderer->DrawVertices(head, vertices, {}, {});
     Image image;
     renderer->Read(image);
     long sum = 0;

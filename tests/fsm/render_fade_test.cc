@@ -18,7 +18,7 @@ struct FadeTest : ::testing::Test {
     state.figure.alpha = alpha;
     state.au.left[26] = state.au.right[26] = 0.5F;  // the mouth is open: there is an inside
     head.Evaluate(state, vertices_);
-    renderer_->Draw(head, vertices_, state, scene_);
+    renderer_->DrawVertices(head, vertices_, state.figure, scene_);
     Image image;
     renderer_->Read(image);
     return image;

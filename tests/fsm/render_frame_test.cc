@@ -58,7 +58,7 @@ class FrameTest : public ::testing::Test {
 
   Image Draw() {
     Image image;
-    renderer_->Draw(head_, vertices_, state_, scene_);
+    renderer_->DrawVertices(head_, vertices_, state_.figure, scene_);
     renderer_->Read(image);
     return image;
   }
@@ -249,7 +249,7 @@ TEST_F(FrameTest, AnotherHeadIsNoticedAndTheFirstOneToo) {
   auto other = std::make_unique<BallHead>(glm::vec3(0.05F, 0.5F, 0.1F));
   HeadVertices vertices;
   other->Evaluate(state_, vertices);
-  renderer_->Draw(*other, vertices, state_, scene_);
+  renderer_->DrawVertices(*other, vertices, state_.figure, scene_);
   Image green;
   renderer_->Read(green);
   const Pixel pixel = At(green, kFrameWidth / 2, kFrameHeight / 2);
@@ -309,7 +309,7 @@ class ChangedHeadTest : public FrameTest, public ::testing::WithParamInterface<H
  protected:
   Image Drawn(Renderer& renderer, const Head& head) {
     Image image;
-    renderer.Draw(head, vertices_, state_, scene_);
+    renderer.DrawVertices(head, vertices_, state_.figure, scene_);
     renderer.Read(image);
     return image;
   }
@@ -348,8 +348,8 @@ TEST_F(FrameTest, HeadWithoutEyesOrPartsIsDrawn) {
     return BallHead([count](HeadAsset& asset) { asset.topology.parts.resize(count); });
   };
   const BallHead bare = with_parts(1), nothing = with_parts(0);
-  renderer_->Draw(bare, vertices_, state_, scene_);
-  renderer_->Draw(nothing, vertices_, state_, scene_);
+  renderer_->DrawVertices(bare, vertices_, state_.figure, scene_);
+  renderer_->DrawVertices(nothing, vertices_, state_.figure, scene_);
   Image image;
   renderer_->Read(image);
   EXPECT_EQ(At(image, kFrameWidth / 2, kFrameHeight / 2), kBackground);
@@ -403,7 +403,7 @@ TEST(ContextTest, PictureFollowsTheSizeOfTheContext) {
   Image image;
   for (const auto& [width, height] : {std::pair{64, 64}, {200, 100}, {1, 1}, {200, 100}}) {
     context->Resize(width, height);
-    renderer->Draw(head, vertices, {}, {});
+    renderer->DrawVertices(head, vertices, {}, {});
     renderer->Read(image);
     EXPECT_EQ(image.width, width);
     EXPECT_EQ(image.height, height);
@@ -439,7 +439,7 @@ TEST(ContextTest, SizesFromOnePixelUpAreDrawn) {
     BallHead head;
     HeadVertices vertices;
     head.Evaluate({}, vertices);
-    renderer->Draw(head, vertices, {}, {});
+    renderer->DrawVertices(head, vertices, {}, {});
     Image image;
     renderer->Read(image);
     EXPECT_EQ(image.rgba.size(), static_cast<std::size_t>(width * height * 4));
@@ -460,11 +460,11 @@ TEST(ContextTest, OsMesaAndEglDrawTheSame) {
   head.Evaluate({}, vertices);
   Image pictures[2];
   auto other_renderer = Renderer::Make(*other);
-  other_renderer->Draw(head, vertices, {}, {});
+  other_renderer->DrawVertices(head, vertices, {}, {});
   other_renderer->Read(pictures[0]);
   auto context = RenderContext::MakeHeadless(kFrameWidth, kFrameHeight);
   auto renderer = Renderer::Make(*context);
-  renderer->Draw(head, vertices, {}, {});
+  renderer->DrawVertices(head, vertices, {}, {});
   renderer->Read(pictures[1]);
   int different = 0;
   for (std::size_t i = 0; i < pictures[0].rgba.size(); i += 4) {
@@ -491,17 +491,17 @@ TEST(ContextTest, TwoContextsTakeTurns) {
   head.Evaluate({}, vertices);
   Image image;
   first->MakeCurrent();
-  first_renderer->Draw(head, vertices, {}, {});
+  first_renderer->DrawVertices(head, vertices, {}, {});
   first_renderer->Read(image);
   const Image before = image;
   second->MakeCurrent();
-  second_renderer->Draw(head, vertices, {}, {});
+  second_renderer->DrawVertices(head, vertices, {}, {});
   second_renderer->Read(image);
   EXPECT_EQ(image.width, kFrameHeight);
   second_renderer.reset();
   second.reset();
   first->MakeCurrent();
-  first_renderer->Draw(head, vertices, {}, {});
+  first_renderer->DrawVertices(head, vertices, {}, {});
   first_renderer->Read(image);
   EXPECT_EQ(image.rgba, before.rgba);
 }
@@ -512,11 +512,10 @@ glm::vec2 Seen(const View& view, glm::vec3 place) {
   return glm::vec2(clip) / clip.w;
 }
 
-Camera Parallel() {
+View ParallelPortrait(const Figure& figure, int width, int height) {
   Camera camera;
-  camera.parallel = ParallelView{{10, -20, 30}, 100};
   camera.moves_by_half_views = true;
-  return camera;
+  return ViewOfPortrait(figure, camera, width, height, ParallelView{{10, -20, 30}, 100});
 }
 
 void ExpectSeen(const View& view, glm::vec3 place, glm::vec2 expected) {
@@ -528,18 +527,18 @@ void ExpectSeen(const View& view, glm::vec3 place, glm::vec2 expected) {
 TEST(ParallelViewTest, ItsLongerSideFillsThePictureAtAnyDepth) {
   // As glOrtho in the original: of a picture that is wider than high top and bottom are cut.
   for (const float z : {-100.0F, 30.0F, 100.0F}) {
-    ExpectSeen(ViewOfPortrait({}, Parallel(), 200, 200), {110, 80, z}, {1, 1});
-    ExpectSeen(ViewOfPortrait({}, Parallel(), 200, 100), {110, 30, z}, {1, 1});
-    ExpectSeen(ViewOfPortrait({}, Parallel(), 100, 200), {60, 80, z}, {1, 1});
+    ExpectSeen(ParallelPortrait({}, 200, 200), {110, 80, z}, {1, 1});
+    ExpectSeen(ParallelPortrait({}, 200, 100), {110, 30, z}, {1, 1});
+    ExpectSeen(ParallelPortrait({}, 100, 200), {60, 80, z}, {1, 1});
   }
-  EXPECT_NEAR(ViewOfPortrait({}, Parallel(), 200, 100).samples_per_mm, 2.0F, 1e-4F);
+  EXPECT_NEAR(ParallelPortrait({}, 200, 100).samples_per_mm, 2.0F, 1e-4F);
 }
 
 TEST(ParallelViewTest, ATranslationOfOneIsHalfTheLongerSide) {
   Figure figure;
   figure.translation = {1.0F, 0.2F};
-  ExpectSeen(ViewOfPortrait(figure, Parallel(), 200, 200), {10, -20, 30}, {1, 0.2F});
-  ExpectSeen(ViewOfPortrait(figure, Parallel(), 200, 100), {10, -20, 30}, {1, 0.4F});
+  ExpectSeen(ParallelPortrait(figure, 200, 200), {10, -20, 30}, {1, 0.2F});
+  ExpectSeen(ParallelPortrait(figure, 200, 100), {10, -20, 30}, {1, 0.4F});
   Camera portrait;
   portrait.moves_by_half_views = true;
   const glm::vec2 moved = Seen(ViewOfPortrait(figure, portrait, 300, 200), {0, -7, 50});
@@ -552,8 +551,8 @@ TEST(ParallelViewTest, TheFigureTurnsByZThenYThenXAndGrowsAboutTheMiddle) {
   figure.scale = 0.5F;
   figure.rotation = {90, 0, 90};
   // z+ brings up to the viewer's right; then x+ would bring up to the viewer, which right is not.
-  ExpectSeen(ViewOfPortrait(figure, Parallel(), 200, 200), {10, 80, 30}, {0.5F, 0});
-  ExpectSeen(ViewOfPortrait(figure, Parallel(), 200, 200), {10, -20, 80}, {0, -0.25F});
+  ExpectSeen(ParallelPortrait(figure, 200, 200), {10, 80, 30}, {0.5F, 0});
+  ExpectSeen(ParallelPortrait(figure, 200, 200), {10, -20, 80}, {0, -0.25F});
 }
 
 }  // namespace

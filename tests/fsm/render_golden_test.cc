@@ -97,7 +97,7 @@ Image Draw(const Head& head, const FaceState& state, const Camera& camera) {
   const auto renderer = Renderer::Make(*context);
   HeadVertices vertices;
   head.Evaluate(state, vertices);
-  renderer->Draw(head, vertices, state, scene);
+  renderer->DrawVertices(head, vertices, state.figure, scene);
   Image image;
   renderer->Read(image);
   return image;

@@ -175,7 +175,7 @@ TEST_F(GpuRigTest, APictureOfAHeadMovedOnTheCardIsThatOfTheProcessor) {
     // Vertices of the processor's after those of the card.
     HeadVertices rest;
     head->Evaluate({}, rest);
-    renderer->Draw(*head, rest, {}, {});
+    renderer->DrawVertices(*head, rest, {}, {});
     renderer->Read(images.emplace_back());
     return images;
   };

@@ -33,7 +33,7 @@ TEST(ManyHeadsTest, DrawnInTurnsTheyLookAsAlone) {
     HeadVertices vertices;
     head.Evaluate(state, vertices);
     renderer.SetViewport({0, 0, size, size});
-    renderer.Draw(head, vertices, state, {});
+    renderer.DrawVertices(head, vertices, state.figure, {});
     Image image;
     renderer.Read(image);
     return image.rgba;
@@ -78,7 +78,7 @@ TEST(ManyHeadsTest, FacesDrawnInOneCallLookAsOneByOne) {
       renderer->Read(expected.emplace_back());
     }
     renderer->SetViewport({0, 0, 10, 20});
-    renderer->Draw(panes, [&](std::size_t k) {
+    renderer->DrawPanes(panes, [&](std::size_t k) {
       EXPECT_EQ(k, drawn.size());
       renderer->Read(drawn.emplace_back());
     });
@@ -111,7 +111,7 @@ void Draw(Renderer& renderer, const Frame& frame) {
   Scene scene;
   scene.show_background = !frame.transparent;
   renderer.SetViewport({0, 0, frame.size, frame.size});
-  renderer.Draw(frame.head, vertices, state, scene);
+  renderer.DrawVertices(frame.head, vertices, state.figure, scene);
 }
 
 TEST(FrameReaderTest, FramesReadWhileOthersAreDrawnAreThoseReadAtOnce) {

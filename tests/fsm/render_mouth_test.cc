@@ -31,7 +31,7 @@ class MouthPicture {
     const auto context = RenderContext::MakeHeadless(kMouthSide, kMouthSide);
     const auto renderer = Renderer::Make(*context);
     head_->Evaluate(state, vertices_);
-    renderer->Draw(*head_, vertices_, state, scene);
+    renderer->DrawVertices(*head_, vertices_, state.figure, scene);
     renderer->Read(image_);
     const View view = ViewOfPortrait(state.figure, scene.camera, kMouthSide, kMouthSide);
     to_clip_ = view.world_to_clip * view.figure_to_world;
@@ -258,10 +258,10 @@ TEST(MouthPictureTest, AHeadThatSaysNothingOfItsLipsTakesNothingFromTheOneDrawnB
       FaceState open;
       open.au.left[26] = open.au.right[26] = 1;
       before->Evaluate(open, vertices);
-      renderer->Draw(*before, vertices, open, scene);
+      renderer->DrawVertices(*before, vertices, open.figure, scene);
     }
     second.Evaluate({}, vertices);
-    renderer->Draw(second, vertices, {}, scene);
+    renderer->DrawVertices(second, vertices, {}, scene);
     Image image;
     renderer->Read(image);
     return image.rgba;

@@ -21,7 +21,7 @@ Image Drawn(RenderContext& context) {
   HeadVertices vertices;
   head.Evaluate({}, vertices);
   const auto renderer = Renderer::Make(context);
-  renderer->Draw(head, vertices, {}, {});
+  renderer->DrawVertices(head, vertices, {}, {});
   Image image;
   renderer->Read(image);
   return image;

@@ -51,7 +51,7 @@ std::vector<glm::vec3> Drawn(const PhotoHead& set, const std::vector<glm::vec3>&
   scene.background = glm::vec3(0, 0, 1);
   const auto context = RenderContext::MakeHeadless(kSide, kSide);
   const auto renderer = Renderer::Make(*context);
-  renderer->Draw(*head, vertices, state, scene);
+  renderer->DrawVertices(*head, vertices, state.figure, scene);
   Image image;
   renderer->Read(image);
   const View view = ViewOfPortrait(state.figure, scene.camera, kSide, kSide);
@@ -93,7 +93,7 @@ TEST(PhotoTest, LevelEdgesAreSoftAsThoseOfPhotos) {
   for (const auto& [width, height] : {std::pair(401, 399), std::pair(400, 17), std::pair(1, 1)}) {
     const auto context = RenderContext::MakeHeadless(width, height);
     const auto renderer = Renderer::Make(*context);
-    renderer->Draw(*head, vertices, {}, scene);
+    renderer->DrawVertices(*head, vertices, {}, scene);
     Image image;
     renderer->Read(image);
     if (height < 100) continue;  // that it is drawn at all

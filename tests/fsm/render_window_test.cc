@@ -105,11 +105,11 @@ TEST(WindowTest, WindowAndHeadlessContextInOneProcessShowTheSamePicture) {
 
   for (int turn = 0; turn < 2; ++turn) {
     window->MakeCurrent();
-    window_renderer->Draw(head, vertices, {}, {});
+    window_renderer->DrawVertices(head, vertices, {}, {});
     window->Present();
     window_renderer->Read(in_window);
     headless->MakeCurrent();
-    headless_renderer->Draw(head, vertices, {}, {});
+    headless_renderer->DrawVertices(head, vertices, {}, {});
     headless_renderer->Read(off_screen);
   }
   EXPECT_LT(DifferingBytes(in_window, off_screen), 200);
@@ -137,8 +137,8 @@ TEST(WindowTest, SeveralFacesShareAWindow) {
   turned.head_rotation = {0, 30, 0};
   Image shared;
   for (int i = 0; i < 2; ++i) {
-    left->Draw(head, vertices, {}, left_scene);
-    right->Draw(head, vertices, turned, right_scene);
+    left->DrawVertices(head, vertices, {}, left_scene);
+    right->DrawVertices(head, vertices, turned.figure, right_scene);
   }
   right->Read(shared);
 
@@ -162,7 +162,7 @@ TEST(WindowTest, SeveralFacesShareAWindow) {
   auto alone_context = RenderContext::MakeHeadless(32, 40);
   auto alone = Renderer::Make(*alone_context);
   Image image;
-  alone->Draw(head, vertices, turned, right_scene);
+  alone->DrawVertices(head, vertices, turned.figure, right_scene);
   alone->Read(image);
   EXPECT_LT(DifferingBytes(shared, image), 20);
   alone.reset();

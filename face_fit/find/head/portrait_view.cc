@@ -13,7 +13,7 @@ fsm::Image PortraitView::Draw(const fsm::Head& head, const fsm::HeadVertices& ve
                               const fsm::FaceState& state) const {
   const auto context = fsm::RenderContext::MakeHeadless(size_, size_);
   const auto renderer = fsm::Renderer::Make(*context);
-  renderer->Draw(head, vertices, state, fsm::Scene{});
+  renderer->DrawVertices(head, vertices, state.figure, fsm::Scene{});
   fsm::Image picture;
   renderer->Read(picture);
   return picture;

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "fsm/image/colour_space.h"
+
 namespace fsm {
 namespace {
 
@@ -52,9 +54,8 @@ void ReadVrm0Toon(const json& properties, GltfMaterial& out) {
       static_cast<float>(std::clamp(JsonNumber(numbers, "_ShadeShift", 0), -1.0, 1.0));
   pbr.shade_to = shift;
   pbr.light_from = shift + (1 - shift) * (1 - Share(numbers, "_ShadeToony", 0.9));
-  const glm::vec3 shown =
-      ColourOf(JsonMember(properties, "vectorProperties"), "_ShadeColor", glm::vec3(1));
-  for (int k = 0; k < 3; ++k) pbr.shade_colour[k] = std::pow(shown[k], 2.2F);
+  pbr.shade_colour = SrgbToLinear(
+      ColourOf(JsonMember(properties, "vectorProperties"), "_ShadeColor", glm::vec3(1)));
   out.emissive.index = JsonInteger(JsonMember(properties, "textureProperties"), "_ShadeTexture");
 }
 

@@ -2,16 +2,13 @@
 
 #include <map>
 
+#include "fsm/image/colour_space.h"
 #include "fsm/image/image_file.h"
 #include "fsm/mesh/obj/obj_file.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
-
-glm::vec3 Linear(glm::vec3 screen) {
-  return screen * (screen * (screen * 0.305306f + 0.682171f) + 0.012523f);
-}
 
 /// Makes a head from an .obj file, its materials and pictures.
 class ObjHead {
@@ -41,7 +38,7 @@ class ObjHead {
     ImportedHead::Part part;
     part.name = group.name + " " + group.material;
     if (const auto found = materials_.find(group.material); found != materials_.end()) {
-      part.colour = Linear(found->second.colour);
+      part.colour = SrgbToLinear(found->second.colour);
       const auto file = FileBeside(path_, found->second.picture);
       if (file && HasTexcoords()) part.picture = PictureOf(*file);
     }

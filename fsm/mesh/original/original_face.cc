@@ -6,6 +6,7 @@
 
 #include "fsm/base/parse_number.h"
 #include "fsm/base/words.h"
+#include "fsm/image/colour_space.h"
 #include "fsm/image/image_file.h"
 #include "fsm/mesh/original/original_expressions.h"
 #include "fsm/mesh/original/original_points.h"
@@ -80,8 +81,8 @@ void ReadMouth(const OriginalFaceFiles& files, const OriginalSharedFiles& shared
   for (std::size_t i = 0; i + 3 < wall.rgba.size(); i += 4) {
     sum += glm::dvec3(wall.rgba[i], wall.rgba[i + 1], wall.rgba[i + 2]);
   }
-  const glm::vec3 mean(sum / (255.0 * static_cast<double>(wall.rgba.size() / 4)));
-  face.mouth = mean * mean;  // approximately linear light
+  const double pixels = static_cast<double>(wall.rgba.size() / 4);
+  face.mouth = SrgbToLinear(glm::vec3(sum / (255.0 * pixels)));
 }
 
 /// Checks that every corner of the triangles is a point of the wireframe.

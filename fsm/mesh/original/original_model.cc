@@ -213,11 +213,7 @@ class OriginalBuilder {
   /// Returns the linear colour that teeth have in the original: its lamp gives four fifths of their
   /// colour at three quarters of its distance, plus the ambient of GL's default material, in sRGB.
   glm::vec3 ShownTeeth() const {
-    glm::vec3 shown;
-    for (int i = 0; i < 3; ++i) {
-      shown[i] = SrgbToLinear(std::min(0.8F / 0.75F * face_.teeth[i] + 0.04F, 1.0F));
-    }
-    return shown;
+    return SrgbToLinear(glm::min(0.8F / 0.75F * face_.teeth + 0.04F, 1.0F));
   }
 
   void NameLandmarks() {

@@ -41,7 +41,7 @@ fsm::Image PhotoOf(const fsm::Head& head, float turn, const fsm::Warp* warp = nu
   }
   const auto context = fsm::RenderContext::MakeHeadless(kTruthSide, kTruthSide);
   const auto renderer = fsm::Renderer::Make(*context);
-  renderer->Draw(head, vertices, state, fsm::Scene{});
+  renderer->DrawVertices(head, vertices, state.figure, fsm::Scene{});
   fsm::Image photo;
   renderer->Read(photo);
   return photo;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "fsm/app/record_slots.h"
+
+namespace fsm {
+
+/// The slot Window: the size of the view, or a window that fills the screen.
+class WindowSlots final : public ModulePart {
+ public:
+  /// Declares the slot. The size stays while `record` makes a film. Both outlive this.
+  WindowSlots(FsmCore& core, const RecordSlots& record);
+  void Reset() override;
+
+ private:
+  vm::Result<void> FillScreen(bool fill);
+
+  FsmCore& core_;
+  int start_width_, start_height_;  // of the view
+  bool fills_screen_ = false;
+};
+
+}  // namespace fsm
