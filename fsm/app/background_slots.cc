@@ -20,8 +20,9 @@ bool IsPictureName(const std::string& name) {
 
 }  // namespace
 
-BackgroundSlots::BackgroundSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds,
-                       const std::string& first)
+BackgroundSlots::BackgroundSlots(FsmCore& core,
+                                 std::vector<std::pair<std::string, std::string>> backgrounds,
+                                 const std::string& first)
     : core_(core),
       backgrounds_(std::move(backgrounds)),
       first_(!first.empty()         ? first

@@ -309,7 +309,7 @@ vm::Result<HeadAsset> ParseAsset(const std::string& name, std::string_view bytes
     return vm::Fail(failure.error.code,
                     fmt::format("{}: {}: {}", name, kAssetExtension, failure.error.text));
   } catch (const std::runtime_error& error) {  // TableError from the units
-    return gltf->Wrong(std::string(kAssetExtension) + ": " + error.what());
+    return gltf->Fail(std::string(kAssetExtension) + ": " + error.what());
   }
 }
 

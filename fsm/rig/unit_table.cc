@@ -17,8 +17,7 @@ constexpr float kMostLean = 0.035f;   // part by which a side may be stronger or
 constexpr float kMostAsymmetry = 5;   // factor on the lean
 constexpr float kMostStrength = 2;    // of a unit, the original's 200 %
 constexpr float kStretchRate = 0.5f;  // of a strength above 1, where tissue stops stretching
-constexpr float kSidesMeetMm = 7;     // from the median, up to which both sides act
-constexpr float kSidewaysMeetMm = 4;  // the same for movement across it
+constexpr float kSidewaysMeetMm = 4;  // from the median, where movement across it fades
 
 std::size_t At(int unit) { return static_cast<std::size_t>(unit); }
 
@@ -226,7 +225,7 @@ glm::vec3 UnitTable::FieldDisplacement(const Field& field, const SkinWeights& we
   const float x = SignOf(side) * weights.domain.x;
   if (std::abs(weights.domain.y - field.at.y) >= field.radius.y) return glm::vec3(0);
   // Both sides act at the median, half each, so that left and right add up to the whole.
-  const float own_side = SmoothStep(-kSidesMeetMm, kSidesMeetMm, x);
+  const float own_side = LeftShareAt(x);
   if (own_side <= 0) return glm::vec3(0);
   float weight = 0;
   // A field that reaches over the median overlaps its mirror image; the stronger one counts.
@@ -245,6 +244,8 @@ glm::vec3 UnitTable::FieldDisplacement(const Field& field, const SkinWeights& we
   by.x *= std::clamp(x / kSidewaysMeetMm, -1.0f, 1.0f) * SignOf(side);
   return weight * by;
 }
+
+float LeftShareAt(float x_mm) { return SmoothStep(-7, 7, x_mm); }
 
 Creases CreaseDepths(const Sided<UnitValues>& units,
                      const std::array<float, kLastingCreases>& at_rest) {

@@ -75,6 +75,10 @@ class UnitTable {
   std::vector<Effect> effects_;
 };
 
+/// Returns the share, 0..1, of units of the agent's left side `x_mm` to the viewer's right of the
+/// median: both sides meet within 7 mm of it. The rest is that of the right side.
+float LeftShareAt(float x_mm);
+
 /// Regions where expressions crease the skin.
 enum class Crease { kForehead, kGlabella, kCrowsFeet, kNasolabial, kNose };
 inline constexpr std::size_t kCreases = 5;

@@ -110,34 +110,34 @@ GltfDocument::GltfDocument(GltfDocument&&) noexcept = default;
 GltfDocument& GltfDocument::operator=(GltfDocument&&) noexcept = default;
 GltfDocument::~GltfDocument() = default;
 
-std::unexpected<vm::Error> GltfDocument::Wrong(const std::string& text) const {
+std::unexpected<vm::Error> GltfDocument::Fail(const std::string& text) const {
   return vm::Fail(vm::Errc::kBadValue, name_ + ": " + text);
 }
 
 vm::Result<GltfDocument::Chunks> GltfDocument::SplitBinary(std::string_view bytes) const {
   constexpr std::size_t kJson = 0x4E4F534A, kBuffer = 0x004E4942;
   if (bytes.size() < 20 || Word(bytes, 4) != 2) {
-    return Wrong("byte 4: version 2 of binary glTF expected");
+    return Fail("byte 4: version 2 of binary glTF expected");
   }
   if (Word(bytes, 8) > bytes.size()) {
-    return Wrong("byte " + std::to_string(bytes.size()) + ": it ends here, but " +
-                 std::to_string(Word(bytes, 8)) + " bytes are announced");
+    return Fail("byte " + std::to_string(bytes.size()) + ": it ends here, but " +
+                std::to_string(Word(bytes, 8)) + " bytes are announced");
   }
   Chunks chunks;
   std::size_t at = 12;
   for (int chunk = 0; at + 8 <= bytes.size(); ++chunk) {
     const std::size_t length = Word(bytes, at), kind = Word(bytes, at + 4);
     if (length > bytes.size() - at - 8) {
-      return Wrong("byte " + std::to_string(at) + ": a chunk of " + std::to_string(length) +
-                   " bytes is cut off");
+      return Fail("byte " + std::to_string(at) + ": a chunk of " + std::to_string(length) +
+                  " bytes is cut off");
     }
     const std::string_view body = bytes.substr(at + 8, length);
-    if (chunk == 0 && kind != kJson) return Wrong("byte 16: a chunk of JSON expected");
+    if (chunk == 0 && kind != kJson) return Fail("byte 16: a chunk of JSON expected");
     if (chunk == 0) chunks.json = body;
     if (chunk == 1 && kind == kBuffer) chunks.buffer = body;
     at += 8 + length + (4 - length % 4) % 4;
   }
-  if (chunks.json.data() == nullptr) return Wrong("byte 12: a chunk of JSON expected");
+  if (chunks.json.data() == nullptr) return Fail("byte 12: a chunk of JSON expected");
   return chunks;
 }
 
@@ -148,17 +148,17 @@ vm::Result<void> GltfDocument::ParseJson(std::string_view text) {
   };
   auto parsed = json::parse(text.begin(), text.end(), shallow, false);
   if (parsed.is_discarded() || !parsed.is_object() || !parsed.contains("asset")) {
-    return Wrong("no glTF: JSON with an \"asset\" expected");
+    return Fail("no glTF: JSON with an \"asset\" expected");
   }
   json_ = std::make_unique<json>(std::move(parsed));
   if (!JsonText(JsonMember(root(), "asset"), "version").starts_with("2")) {
-    return Wrong("asset: version 2 expected");
+    return Fail("asset: version 2 expected");
   }
   for (const json& needed : JsonMember(root(), "extensionsRequired")) {
     for (const char* packed :
          {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}) {
       if (needed == json(packed)) {
-        return Wrong(std::string("extensionsRequired: ") + packed + ": " + kPackedMesh);
+        return Fail(std::string("extensionsRequired: ") + packed + ": " + kPackedMesh);
       }
     }
   }
@@ -174,7 +174,7 @@ vm::Result<void> GltfDocument::ReadBuffers(std::optional<std::string_view> own) 
       buffers_.emplace_back(*own);
     } else {
       auto read = Resolve(uri);
-      if (!read) return Wrong(place + read.error().text);
+      if (!read) return Fail(place + read.error().text);
       buffers_.push_back(std::move(*read));
     }
     const std::size_t size = buffers_.back().size();
@@ -183,7 +183,7 @@ vm::Result<void> GltfDocument::ReadBuffers(std::optional<std::string_view> own) 
                                             std::to_string(kMaxMeshBytes) + " bytes");
     }
     if (JsonInteger(buffer, "byteLength", 0) > static_cast<std::int64_t>(size)) {
-      return Wrong(place + "it is shorter than its byteLength");
+      return Fail(place + "it is shorter than its byteLength");
     }
   }
   return {};
@@ -243,14 +243,14 @@ vm::Result<GltfDocument::BufferView> GltfDocument::ViewOf(std::int64_t index) co
                      stride = JsonInteger(view, "byteStride", 0);
   if (buffer < 0 || static_cast<std::size_t>(buffer) >= buffers_.size() || offset < 0 ||
       length < 0 || stride < 0 || stride > 65536) {
-    return Wrong("bufferViews[" + std::to_string(index) + "]: it points nowhere");
+    return Fail("bufferViews[" + std::to_string(index) + "]: it points nowhere");
   }
   const std::string& bytes = buffers_[static_cast<std::size_t>(buffer)];
   const auto size = static_cast<std::int64_t>(bytes.size());
   if (offset > size || length > size - offset) {
-    return Wrong("bufferViews[" + std::to_string(index) + "]: bytes " + std::to_string(offset) +
-                 " to " + std::to_string(offset) + " + " + std::to_string(length) +
-                 " are not in its buffer of " + std::to_string(size));
+    return Fail("bufferViews[" + std::to_string(index) + "]: bytes " + std::to_string(offset) +
+                " to " + std::to_string(offset) + " + " + std::to_string(length) +
+                " are not in its buffer of " + std::to_string(size));
   }
   const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data()) + offset;
   return BufferView{{first, static_cast<std::size_t>(length)}, static_cast<std::size_t>(stride)};
@@ -269,7 +269,7 @@ vm::Result<void> GltfDocument::ReadElements(const Elements& elements, const std:
       (elements.count > 0 &&
        (stride < tight || static_cast<std::size_t>(offset) + stride * (elements.count - 1) + tight >
                               view->bytes.size()))) {
-    return Wrong(place + ": its elements are not in its bufferView");
+    return Fail(place + ": its elements are not in its bufferView");
   }
   for (std::size_t i = 0; i < elements.count; ++i) {
     const std::uint8_t* at = view->bytes.data() + static_cast<std::size_t>(offset) + i * stride;
@@ -287,7 +287,7 @@ vm::Result<std::vector<double>> GltfDocument::Values(std::int64_t index, int wid
   const std::int64_t component = JsonInteger(accessor, "componentType");
   const int own_width = WidthOf(JsonText(accessor, "type"));
   if (count < 0 || !KindOf(component) || own_width == 0 || own_width != width) {
-    return Wrong(place + ": " + std::to_string(width) + " numbers of a known kind expected");
+    return Fail(place + ": " + std::to_string(width) + " numbers of a known kind expected");
   }
   const auto numbers = static_cast<std::size_t>(width);
   // An accessor without a bufferView is all zeros, so a small file can declare any count.
@@ -314,7 +314,7 @@ vm::Result<void> GltfDocument::FillSparse(const Elements& own, const std::string
   const json& indices = JsonMember(sparse, "indices");
   const std::int64_t index_type = JsonInteger(indices, "componentType");
   if (changed < 0 || static_cast<std::size_t>(changed) > own.count || !KindOf(index_type)) {
-    return Wrong(place + ": sparse: a damaged list");
+    return Fail(place + ": sparse: a damaged list");
   }
   std::vector<std::size_t> vertex(static_cast<std::size_t>(changed));
   bool inside = true;
@@ -324,7 +324,7 @@ vm::Result<void> GltfDocument::FillSparse(const Elements& own, const std::string
                              vertex[i] = inside ? static_cast<std::size_t>(v) : 0;
                            });
   if (!done) return done;
-  if (!inside) return Wrong(place + ": sparse: an index beyond its elements");
+  if (!inside) return Fail(place + ": sparse: an index beyond its elements");
   return ReadElements(
       {JsonMember(sparse, "values"), own.component, vertex.size(), own.width, own.normalised},
       place, [&](std::size_t i, std::size_t k, double v) { out[vertex[i] * own.width + k] = v; });
@@ -355,7 +355,7 @@ vm::Result<std::string> GltfDocument::ImageBytes(std::int64_t index) const {
     return std::string(view->bytes.begin(), view->bytes.end());
   }
   auto bytes = Resolve(JsonText(image, "uri"));
-  if (!bytes) return Wrong("images[" + std::to_string(index) + "]: " + bytes.error().text);
+  if (!bytes) return Fail("images[" + std::to_string(index) + "]: " + bytes.error().text);
   return bytes;
 }
 

@@ -53,7 +53,7 @@ class GltfDocument {
   vm::Result<std::string> ImageBytes(std::int64_t index) const;
 
   const std::string& name() const { return name_; }
-  std::unexpected<vm::Error> Wrong(const std::string& text) const;
+  std::unexpected<vm::Error> Fail(const std::string& text) const;
 
  private:
   struct BufferView {

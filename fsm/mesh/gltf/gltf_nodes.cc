@@ -82,12 +82,12 @@ vm::Result<void> GltfNodes::ComputeWorld(const GltfDocument& document, std::int6
   if (node < 0 || static_cast<std::size_t>(node) >= world_.size()) return {};
   const auto at = static_cast<std::size_t>(node);
   if (depth > kMaxNodeDepth || computed_[at]) {
-    return document.Wrong("nodes[" + std::to_string(node) + "]: nodes that are their own parents");
+    return document.Fail("nodes[" + std::to_string(node) + "]: nodes that are their own parents");
   }
   computed_[at] = true;
   world_[at] = above * MatrixOf(document.At("nodes", node));
   if (!Usable(world_[at])) {
-    return document.Wrong("nodes[" + std::to_string(node) + "]: its place is no finite number");
+    return document.Fail("nodes[" + std::to_string(node) + "]: its place is no finite number");
   }
   for (const std::int64_t child : JsonIntegers(document.At("nodes", node), "children")) {
     if (auto done = ComputeWorld(document, child, world_[at], depth + 1); !done) return done;

@@ -18,7 +18,7 @@ constexpr std::size_t kMaxDeltas = 20'000'000;
 }  // namespace
 
 void Refuse(const GltfDocument& document, const std::string& what) {
-  throw vm::Failure(document.Wrong(what).error());
+  throw vm::Failure(document.Fail(what).error());
 }
 
 std::string VertexName(const GltfMeshInstance& instance, std::size_t vertex) {

@@ -53,7 +53,7 @@ class ObjReader {
   }
 
  private:
-  std::unexpected<vm::Error> Wrong(const std::string& text) const {
+  std::unexpected<vm::Error> Fail(const std::string& text) const {
     return vm::Fail(vm::Errc::kBadValue, name_ + ":" + std::to_string(line_) + ": " + text);
   }
 
@@ -61,14 +61,14 @@ class ObjReader {
     const std::string_view key = words[0];
     if (key == "v") {
       glm::vec3 p;
-      if (!ReadReals(words, std::span(&p.x, 3))) return Wrong("v X Y Z expected");
+      if (!ReadReals(words, std::span(&p.x, 3))) return Fail("v X Y Z expected");
       file_.positions.push_back(p);
-      if (file_.positions.size() > kMaxMeshVertices) return TooMany();
+      if (file_.positions.size() > kMaxMeshVertices) return FailSize();
     } else if (key == "vt" || key == "tv") {
       glm::vec2 p;
-      if (!ReadReals(words, std::span(&p.x, 2))) return Wrong("vt U V expected");
+      if (!ReadReals(words, std::span(&p.x, 2))) return Fail("vt U V expected");
       file_.texcoords.push_back(p);
-      if (file_.texcoords.size() > kMaxMeshVertices) return TooMany();
+      if (file_.texcoords.size() > kMaxMeshVertices) return FailSize();
     } else if (key == "f") {
       return Face(words);
     } else if (key == "g" || key == "o") {
@@ -85,7 +85,7 @@ class ObjReader {
 
   vm::Result<void> Face(const std::vector<std::string_view>& words) {
     if (words.size() < 4 || words.size() > kMaxCorners + 1) {
-      return Wrong("f with 3 to " + std::to_string(kMaxCorners) + " corners expected");
+      return Fail("f with 3 to " + std::to_string(kMaxCorners) + " corners expected");
     }
     // The original's files of teeth end in faces of zeros, which refer to no vertices.
     if (words[1].substr(0, words[1].find('/')) == "0") return {};
@@ -95,8 +95,8 @@ class ObjReader {
       const std::size_t slash = word.find('/');
       ObjFile::Corner corner{Index(word.substr(0, slash), file_.positions.size()), ObjFile::kNone};
       if (corner.position == ObjFile::kNone) {
-        return Wrong("corner '" + std::string(word.substr(0, 30)) + "' names none of the " +
-                     std::to_string(file_.positions.size()) + " vertices so far");
+        return Fail("corner '" + std::string(word.substr(0, 30)) + "' names none of the " +
+                    std::to_string(file_.positions.size()) + " vertices so far");
       }
       if (slash != std::string_view::npos) {
         const std::string_view rest = word.substr(slash + 1);
@@ -104,7 +104,7 @@ class ObjReader {
       }
       corners.push_back(corner);
     }
-    if (triangles_ += corners.size() - 2; triangles_ > kMaxMeshTriangles) return TooMany();
+    if (triangles_ += corners.size() - 2; triangles_ > kMaxMeshTriangles) return FailSize();
     if (!open_) open_ = &Group();
     for (std::size_t k = 2; k < corners.size(); ++k) {
       open_->triangles.push_back({corners[0], corners[k - 1], corners[k]});
@@ -118,7 +118,7 @@ class ObjReader {
     return file_.groups[found->second];
   }
 
-  std::unexpected<vm::Error> TooMany() const {
+  std::unexpected<vm::Error> FailSize() const {
     return vm::Fail(vm::Errc::kLimit, name_ + ":" + std::to_string(line_) + ": at most " +
                                           std::to_string(kMaxMeshVertices) + " vertices and " +
                                           std::to_string(kMaxMeshTriangles) +

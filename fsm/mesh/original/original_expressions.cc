@@ -6,9 +6,9 @@
 #include <map>
 #include <utility>
 
-#include "fsm/base/smooth_step.h"
 #include "fsm/mesh/original/original_points.h"
 #include "fsm/mesh/transfer/nnls_solver.h"
+#include "fsm/rig/unit_table.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 
@@ -80,7 +80,7 @@ class Reader {
     const float middle = 0.5F * (space_.PositionMm(standard_, kLipCorners.right).x +
                                  space_.PositionMm(standard_, kLipCorners.left).x);
     std::vector<float> left;
-    for (const glm::vec3& p : standard_.at) left.push_back(LeftPartAt(space_.ToMm(p).x - middle));
+    for (const glm::vec3& p : standard_.at) left.push_back(LeftShareAt(space_.ToMm(p).x - middle));
     std::vector<NnlsSolver::Row> halves;
     for (int unit = 1; unit <= static_cast<int>(kOriginalUnits); ++unit) {
       const std::string path = PathOf(folder_, "AU", unit);
@@ -142,8 +142,6 @@ class Reader {
 };
 
 }  // namespace
-
-float LeftPartAt(float x_mm) { return SmoothStep(-7, 7, x_mm); }
 
 vm::Result<OriginalExpressions> ReadOriginalExpressions(const std::string& folder,
                                                         const std::string& standard) try {

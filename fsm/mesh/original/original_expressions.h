@@ -35,8 +35,4 @@ struct OriginalExpressions {
 vm::Result<OriginalExpressions> ReadOriginalExpressions(const std::string& folder,
                                                         const std::string& standard);
 
-/// Returns the weight, 0..1, with which units of the agent's left side move a vertex that is `x_mm`
-/// to the viewer's right of the middle of the mouth.
-float LeftPartAt(float x_mm);
-
 }  // namespace fsm

@@ -10,6 +10,7 @@
 #include "fsm/mesh/original/original_points.h"
 #include "fsm/mesh/transfer/drive_fit.h"
 #include "fsm/mesh/transfer/nnls_solver.h"
+#include "fsm/rig/unit_table.h"
 
 namespace fsm {
 namespace {
@@ -91,7 +92,7 @@ class OriginalRigBaker {
       for (const Side side : kSides) {
         std::vector<Displacement> moves = both;
         for (Displacement& d : moves) {
-          const float part = LeftPartAt(model_.mesh.position[d.vertex].x - middle);
+          const float part = LeftShareAt(model_.mesh.position[d.vertex].x - middle);
           d.by *= side == Side::kLeft ? part : 1 - part;
         }
         const auto number = static_cast<std::size_t>(kUnitNumbers[k]);

@@ -28,7 +28,7 @@ class NumberLines {
                             : std::nullopt;
     if (!header || *header < 1) {
       line_ = std::max(line_, 1);
-      return Wrong("#N expected, one more than the number of " + what);
+      return Fail("#N expected, one more than the number of " + what);
     }
     const auto count = static_cast<std::size_t>(*header - 1);
     if (count >= kMaxWireframe) {
@@ -38,17 +38,16 @@ class NumberLines {
     for (std::size_t i = 0; i < count; ++i) {
       const auto record = Next();
       if (record.empty()) {
-        return Wrong("it ends after " + std::to_string(i) + " of " + std::to_string(count) + " " +
-                     what);
+        return Fail("it ends after " + std::to_string(i) + " of " + std::to_string(count) + " " +
+                    what);
       }
       if (vm::Result<void> done = read(record); !done) return done;
     }
     if (Next().empty()) return {};
-    return Wrong("the header announces " + std::to_string(count) + " " + what +
-                 ", but more follow");
+    return Fail("the header announces " + std::to_string(count) + " " + what + ", but more follow");
   }
 
-  std::unexpected<vm::Error> Wrong(const std::string& text) const {
+  std::unexpected<vm::Error> Fail(const std::string& text) const {
     return vm::Fail(vm::Errc::kBadValue, name_ + ":" + std::to_string(line_) + ": " + text);
   }
 
@@ -110,10 +109,10 @@ vm::Result<PntFile> ParsePnt(const std::string& name, std::string_view text) {
     glm::vec3 at;
     if (words.size() != 6 || !IsWhole(words[0]) || !ReadName(words[1], words[2], point) ||
         !ReadReal(words[3], at.x) || !ReadReal(words[4], at.y) || !ReadReal(words[5], at.z)) {
-      return lines.Wrong("INDEX GROUP NUMBER X Y Z expected, not " + Shown(words));
+      return lines.Fail("INDEX GROUP NUMBER X Y Z expected, not " + Shown(words));
     }
     if (!file.index.emplace(point, file.at.size()).second) {
-      return lines.Wrong(InWords(point) + " is there twice");
+      return lines.Fail(InWords(point) + " is there twice");
     }
     file.names.push_back(point);
     file.at.push_back(at);
@@ -134,8 +133,8 @@ vm::Result<LnkFile> ParseLnk(const std::string& name, std::string_view text) {
       good = ReadName(words[3 + 2 * k], words[4 + 2 * k], triangle.corner[k]);
     }
     if (!good) {
-      return lines.Wrong("INDEX GROUP NUMBER and three corners GROUP NUMBER expected, not " +
-                         Shown(words));
+      return lines.Fail("INDEX GROUP NUMBER and three corners GROUP NUMBER expected, not " +
+                        Shown(words));
     }
     triangle.group = own.first;
     file.triangles.push_back(triangle);
