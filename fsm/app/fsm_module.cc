@@ -128,13 +128,14 @@ void FsmModule::ArmFrames() {
   if (wanted) {
     const auto active = core_.view.Swings() ? now : core_.motion->NextActivity(now);
     if (active) due = FrameAfter(std::max(now, *active));
-    if (window) {
-      // The effect of a command is shown in the next frame, even if nothing moves by it, and
-      // commands do not put off a frame that is due already.
-      const vm::Time next = changed_ ? FrameAfter(now) : now + kWindowEvents;
-      due = std::min(due.value_or(next), next);
-      if (frame_timer_.pending()) due = std::min(*due, frame_due_);
+    // The effect of a command is shown in the next frame, even if nothing moves by it, and
+    // commands do not put off a frame that is due already.
+    if (changed_) {
+      due = FrameAfter(now);
+    } else if (window) {
+      due = std::min(due.value_or(vm::Time::max()), now + kWindowEvents);
     }
+    if (due && frame_timer_.pending()) due = std::min(*due, frame_due_);
   }
   if (!due) return frame_timer_.Cancel();
   if (frame_timer_.pending() && *due == frame_due_) return;
@@ -152,9 +153,9 @@ void FsmModule::OnFrame() {
       return;
     }
     window->Show();
-    changed_ = false;
     if (window->close_requested()) exit_requested_ = true;
   }
+  changed_ = false;
   if (!record_->recording()) frames_->ReportShown(now);
   frames_->SendState(now);
   ArmFrames();

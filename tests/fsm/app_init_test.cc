@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <sstream>
@@ -170,7 +171,10 @@ TEST(InitTest, EverySlotIsAsInAFreshProgram) {
   used.Say("set SaveMouthShapes = 28 " + (files / "shapes.txt"));
   const auto at_start = Answers(used);
   EXPECT_EQ(Difference(used, fresh), "");
-  for (const std::string& slot : SlotsOf(used)) {
+  std::vector<std::string> slots = SlotsOf(used);
+  // The window keeps its size while a film is recorded.
+  std::ranges::stable_partition(slots, [](const auto& slot) { return slot != "Record"; });
+  for (const std::string& slot : slots) {
     if (slot == "Run" || Is(used, slot, "ReadOnly")) continue;
     const std::string value = Another(slot, files, onlooker);
     ASSERT_NE(value, "") << "this test has no value for " << slot;

@@ -213,6 +213,15 @@ TEST(FsmModuleTest, FramesWithoutAFilmAreReportedWhileSomethingMoves) {
   EXPECT_EQ(fsm.world.draws, 0);
 }
 
+TEST(FsmModuleTest, AChangeWithoutMovementIsReportedInOneFrame) {
+  FsmStage fsm;
+  fsm.Say("prop Frame = AutoOutput");
+  fsm.Until(1000);
+  fsm.Say("set AU = 12L 0.7 0");
+  EXPECT_EQ(fsm.Until(3000), "rep Frame = 0 1033.333 - 0.00 0.00 50.00");
+  EXPECT_FALSE(fsm.clock.Next().has_value());
+}
+
 TEST(FsmModuleTest, AModuleIsToldEachFrameWithoutDrawing) {
   FsmStage fsm;
   fsm.Say("set AU = 12L 0.7 0");
