@@ -32,7 +32,7 @@ namespace {
 class Progress {
  public:
   explicit Progress(bool quiet) : quiet_(quiet) {}
-  void Say(const char* what) {
+  void operator()(const char* what) const {
     const std::chrono::duration<double> since = Clock::now() - start_;
     if (!quiet_) std::fprintf(stderr, "face_fit: %5.2f s  %s\n", since.count(), what);
   }
@@ -46,20 +46,20 @@ class Progress {
 struct Options {
   std::vector<std::string> views;
   std::string photo, name, out, base = "galatea", networks, head, points, galatea, tables;
-  std::string glasses;  // "yes", "no", or empty: to be detected
+  std::optional<bool> glasses;  // nothing: to be detected
   int face = 1;
   bool quiet = false;
 };
 
 /// Finds eyes, nose and mouth of a head from elsewhere and writes them to a file beside it.
 void WritePointsOfHead(const Options& options) {
-  Progress progress(options.quiet);
+  const Progress progress(options.quiet);
   const fsm::ImportedHead file = vm::OrThrow(fsm::ReadImportedHead(options.head));
   facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(options.networks));
-  progress.Say("head and networks read");
+  progress("head and networks read");
   const auto points =
       vm::OrThrow(facefit::FindHeadPoints(networks, file, options.head, options.base));
-  progress.Say("points found");
+  progress("points found");
   const std::string path = options.out.empty() ? options.head + ".points" : options.out;
   vm::OrThrow(vm::WriteTextFile(path, fsm::FormatHeadPoints(points)));
   std::cout << "face_fit: wrote " << path << "\n";
@@ -119,10 +119,6 @@ std::string LineOfNose(const facefit::FrontPhoto& front) {
 
 /// Throws std::runtime_error with what is missing.
 void CheckOptions(const Options& options) {
-  if (options.photo.empty() == options.galatea.empty() || options.name.empty()) {
-    throw std::runtime_error(
-        "a photo and --name, --galatea and --name, or --head expected; --help tells more");
-  }
   if (!fsm::IsFaceName(options.name)) {
     throw std::runtime_error("--name '" + options.name +
                              "': letters, digits, - and _ expected, as anna");
@@ -130,38 +126,39 @@ void CheckOptions(const Options& options) {
   vm::OrThrow(facefit::CheckSidePhotoCount(options.views.size()));
 }
 
-/// The folder of faces, the networks and the base head of a face to be made.
-struct Workshop {
-  std::string folder;
+/// The networks, and the head as they see it.
+struct Sight {
   facefit::FaceNetworks networks;
   facefit::ObservedHead base;
-
-  Workshop(const Options& options, Progress& progress)
-      : folder(options.out.empty() ? fsm::FacesFolder() : options.out),
-        networks(vm::OrThrow(facefit::FaceNetworks::Load(options.networks))),
-        base(vm::OrThrow(facefit::ObservedHead::BuiltIn(networks, options.base))) {
-    const fsm::TableFolder own = fsm::UnitsFolder(folder + "/" + options.name, options.tables);
-    if (const auto units = fsm::UnitsIn(own)) base.MoveBy(*units);
-    progress.Say("networks read, head looked at");
-  }
 };
 
+std::string FolderOfFaces(const Options& options) {
+  return options.out.empty() ? fsm::FacesFolder() : options.out;
+}
+
+Sight LoadSight(const Options& options, const Progress& progress) {
+  auto networks = vm::OrThrow(facefit::FaceNetworks::Load(options.networks));
+  auto base = vm::OrThrow(facefit::ObservedHead::BuiltIn(networks, options.base));
+  const fsm::TableFolder own =
+      fsm::UnitsFolder(FolderOfFaces(options) + "/" + options.name, options.tables);
+  if (const auto units = fsm::UnitsIn(own)) base.MoveBy(*units);
+  progress("networks read, head looked at");
+  return {std::move(networks), std::move(base)};
+}
+
 /// Makes a face from a photo and writes it. REQUIRES: front.face
-void WriteFace(const Options& options, Workshop& workshop, const facefit::FrontPhoto& front,
-               Progress& progress) {
-  const std::vector<facefit::SidePhoto> read = ReadSidePhotos(options, workshop.networks);
+void MakeAndWriteFace(const Options& options, Sight& sight, const facefit::FrontPhoto& front,
+                      const Progress& progress) {
+  const std::vector<facefit::SidePhoto> read = ReadSidePhotos(options, sight.networks);
   std::vector<const facefit::SidePhoto*> side_photos;
   for (const facefit::SidePhoto& side_photo : read) side_photos.push_back(&side_photo);
-  std::optional<bool> glasses;
-  if (!options.glasses.empty()) glasses = options.glasses == "yes";
-  const auto made =
-      vm::OrThrow(facefit::MakeFace(workshop.base, front, {&workshop.networks, side_photos},
-                                    glasses, [&](const char* step) { progress.Say(step); }));
+  const auto made = vm::OrThrow(facefit::MakeFace(sight.base, front, {&sight.networks, side_photos},
+                                                  options.glasses, progress));
   for (const auto& [path, why] : made.left_out) NoticeLeftOut(path, why);
   const std::string report = LineOfNose(front) + made.report;
   const std::string folder =
-      vm::OrThrow(fsm::WriteFace(made.bake.head, report, workshop.folder, options.name));
-  progress.Say("written");
+      vm::OrThrow(fsm::WriteFace(made.bake.head, report, FolderOfFaces(options), options.name));
+  progress("written");
   std::cout << report << "face_fit: wrote " << folder << "\n";
 }
 
@@ -181,18 +178,17 @@ void RequireFace(const Options& options, const facefit::FrontPhoto& front) {
 }
 
 void FaceOfPhoto(const Options& options) {
-  Progress progress(options.quiet);
+  const Progress progress(options.quiet);
   fsm::Image photo = vm::OrThrow(facefit::ReadPhoto(options.photo, facefit::kFineSize));
   facefit::FaceChoice choice = facefit::FaceNumber{options.face};
   if (!options.points.empty()) {
     const std::string text = vm::OrThrow(vm::ReadTextFile(options.points, 1U << 20));
     choice = vm::OrThrow(facefit::ParseHandPoints(options.points, text));
   }
-  progress.Say("photo read");
-  Workshop workshop(options, progress);
-  const auto front = facefit::PrepareFront(workshop.networks, workshop.base, std::move(photo),
-                                           choice, facefit::PhotoExtent::kCloseUp,
-                                           [&](const char* step) { progress.Say(step); });
+  progress("photo read");
+  Sight sight = LoadSight(options, progress);
+  const auto front = facefit::PrepareFront(sight.networks, sight.base, std::move(photo), choice,
+                                           facefit::PhotoExtent::kCloseUp, progress);
   if (!front) {
     const std::string& of = options.points.empty() ? options.photo : options.points;
     throw std::runtime_error(of + ": " + front.error().text);
@@ -201,18 +197,18 @@ void FaceOfPhoto(const Options& options) {
     Notice("the photo lies on its side or head, whatever its file says; it was set upright");
   }
   RequireFace(options, *front);
-  WriteFace(options, workshop, *front, progress);
+  MakeAndWriteFace(options, sight, *front, progress);
 }
 
 void FaceOfOriginal(const Options& options) {
-  Progress progress(options.quiet);
+  const Progress progress(options.quiet);
   OriginalFace original = ReadOriginal(options);
-  progress.Say("photo read");
-  Workshop workshop(options, progress);
-  const auto front = vm::OrThrow(facefit::PrepareFront(
-      workshop.networks, workshop.base, std::move(original.photo), original.points,
-      facefit::PhotoExtent::kWhole, [&](const char* step) { progress.Say(step); }));
-  WriteFace(options, workshop, front, progress);
+  progress("photo read");
+  Sight sight = LoadSight(options, progress);
+  const auto front =
+      vm::OrThrow(facefit::PrepareFront(sight.networks, sight.base, std::move(original.photo),
+                                        original.points, facefit::PhotoExtent::kWhole, progress));
+  MakeAndWriteFace(options, sight, front, progress);
 }
 
 void Run(const Options& options) {
@@ -227,12 +223,20 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Makes a face from a photo: fsm --mask NAME wears it");
   app.set_version_flag("--version", "face_fit (Galatea) " GALATEA_VERSION);
-  auto* photo = app.add_option("photo", options.photo, "The photo, JPEG or PNG");
   auto* name = app.add_option("--name", options.name, "What the face is called");
-  auto* head =
-      app.add_option("--head", options.head,
-                     "Instead: finds eyes, nose and mouth of a head (.obj, .glb, .gltf, .vrm) and "
-                     "writes HEAD.points, which fsm --head reads (--out: another file)");
+  auto* source = app.add_option_group("What it is made from");
+  source->require_option(1);
+  source->add_option("photo", options.photo, "The photo, JPEG or PNG")->needs(name);
+  auto* galatea =
+      source
+          ->add_option(
+              "--galatea", options.galatea,
+              "Instead of a photo: a configuration of the original, whose face NAME is made ours")
+          ->needs(name);
+  auto* head = source->add_option(
+      "--head", options.head,
+      "Instead: finds eyes, nose and mouth of a head (.obj, .glb, .gltf, .vrm) and writes "
+      "HEAD.points, which fsm --head reads (--out: another file)");
   app.add_option("--out", options.out,
                  "Where its folder is made (default: $GALATEA_FACES or the user's data folder)");
   auto* face = app.add_option("--face", options.face, "Which of several faces, 1 = the largest");
@@ -244,9 +248,6 @@ int main(int argc, char** argv) {
   auto* points =
       app.add_option("--points", options.points,
                      "Points set by hand, lines NAME X Y in pixels, where no face is found");
-  auto* galatea = app.add_option(
-      "--galatea", options.galatea,
-      "Instead of a photo: a configuration of the original, whose face NAME is made ours");
   app.add_option("--base", options.base, "The built-in face that is warped (default galatea)");
   auto* tables = app.add_option(
       "--tables", options.tables,
@@ -257,12 +258,11 @@ int main(int argc, char** argv) {
   auto* glasses = app.add_option("--glasses", options.glasses,
                                  "Whether the person wears glasses, yes or no (default: what a "
                                  "look at the nose says)")
+                      ->type_name("")
                       ->check(CLI::IsMember({"yes", "no"}));
   // Options that do not apply to a way of use are refused, not ignored.
-  for (CLI::Option* other : {photo, name, galatea, face, view, points, tables, glasses}) {
-    head->excludes(other);
-  }
-  for (CLI::Option* other : {photo, face, points}) galatea->excludes(other);
+  for (CLI::Option* other : {name, face, view, points, tables, glasses}) head->excludes(other);
+  for (CLI::Option* other : {face, points}) galatea->excludes(other);
   face->excludes(points);
   app.add_flag("--quiet", options.quiet, "Does not tell what is being done");
   CLI11_PARSE(app, argc, argv);

@@ -50,6 +50,26 @@ void ForEachTap(const op::Window& window, const Shape& in, const Shape& out, con
   }
 }
 
+/// Writes the channels at (x, y), from the middle of the first pixel and clamped to the last, mixed
+/// from the four pixels around.
+void SampleBilinear(const Tensor& in, float x, float y, float* to) {
+  x = std::clamp(x, 0.0F, static_cast<float>(in.shape.columns() - 1));
+  y = std::clamp(y, 0.0F, static_cast<float>(in.shape.rows() - 1));
+  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+  const int x1 = std::min(x0 + 1, in.shape.columns() - 1);
+  const int y1 = std::min(y0 + 1, in.shape.rows() - 1);
+  const float right = x - static_cast<float>(x0), below = y - static_cast<float>(y0);
+  const float* a = &in.values[At(in.shape, y0, x0)];
+  const float* b = &in.values[At(in.shape, y0, x1)];
+  const float* c = &in.values[At(in.shape, y1, x0)];
+  const float* d = &in.values[At(in.shape, y1, x1)];
+  for (int k = 0; k < in.shape.channels(); ++k) {
+    const float upper = a[k] + (b[k] - a[k]) * right;
+    const float lower = c[k] + (d[k] - c[k]) * right;
+    to[k] = upper + (lower - upper) * below;
+  }
+}
+
 }  // namespace
 
 Padding PaddingOf(const op::Window& window, const Shape& in, const Shape& out, int filter_rows,
@@ -159,39 +179,19 @@ void Run(const op::Pooling& pooling, Inputs inputs, Tensor& out) {
 
 void Run(const op::ResizeBilinear& resize, Inputs inputs, Tensor& out) {
   const Tensor& in = *inputs[0];
-  const auto channels = static_cast<std::size_t>(in.shape.channels());
-  struct Between {
-    int first, second;
-    float share;
-  };
-  const auto between = [&resize](int i, int size_in, int size_out) {
-    float position = 0;
+  const auto position = [&resize](int i, int size_in, int size_out) {
+    const auto at = static_cast<float>(i);
     if (resize.align_corners && size_out > 1) {
-      position = static_cast<float>(i) * static_cast<float>(size_in - 1) /
-                 static_cast<float>(size_out - 1);
-    } else {
-      const float scale = static_cast<float>(size_in) / static_cast<float>(size_out);
-      position = resize.half_pixel_centres ? (static_cast<float>(i) + 0.5F) * scale - 0.5F
-                                           : static_cast<float>(i) * scale;
+      return at * static_cast<float>(size_in - 1) / static_cast<float>(size_out - 1);
     }
-    position = std::clamp(position, 0.0F, static_cast<float>(size_in - 1));
-    const int first = static_cast<int>(position);
-    return Between{first, std::min(first + 1, size_in - 1), position - static_cast<float>(first)};
+    const float scale = static_cast<float>(size_in) / static_cast<float>(size_out);
+    return resize.half_pixel_centres ? (at + 0.5F) * scale - 0.5F : at * scale;
   };
   for (int y = 0; y < out.shape.rows(); ++y) {
-    const Between v = between(y, in.shape.rows(), out.shape.rows());
+    const float v = position(y, in.shape.rows(), out.shape.rows());
     for (int x = 0; x < out.shape.columns(); ++x) {
-      const Between u = between(x, in.shape.columns(), out.shape.columns());
-      const float* a = &in.values[At(in.shape, v.first, u.first)];
-      const float* b = &in.values[At(in.shape, v.first, u.second)];
-      const float* c = &in.values[At(in.shape, v.second, u.first)];
-      const float* d = &in.values[At(in.shape, v.second, u.second)];
-      float* to = &out.values[At(out.shape, y, x)];
-      for (std::size_t k = 0; k < channels; ++k) {
-        const float top = a[k] + (b[k] - a[k]) * u.share;
-        const float bottom = c[k] + (d[k] - c[k]) * u.share;
-        to[k] = top + (bottom - top) * v.share;
-      }
+      SampleBilinear(in, position(x, in.shape.columns(), out.shape.columns()), v,
+                     &out.values[At(out.shape, y, x)]);
     }
   }
 }
@@ -219,16 +219,11 @@ void Run(const op::StridedSlice&, Inputs inputs, Tensor& out) {
   const Tensor& in = *inputs[0];
   const std::vector<std::int32_t>&begin = inputs[1]->counts, &step = inputs[3]->counts;
   std::size_t to = 0;
-  for (int b = 0; b < out.shape.size[0]; ++b) {
-    for (int y = 0; y < out.shape.rows(); ++y) {
-      for (int x = 0; x < out.shape.columns(); ++x) {
-        const std::size_t pixel = static_cast<std::size_t>(begin[0] + b * step[0]) *
-                                      static_cast<std::size_t>(in.shape.rows()) *
-                                      At(in.shape, 1, 0) +
-                                  At(in.shape, begin[1] + y * step[1], begin[2] + x * step[2]);
-        for (int k = 0; k < out.shape.channels(); ++k) {
-          out.values[to++] = in.values[pixel + static_cast<std::size_t>(begin[3] + k * step[3])];
-        }
+  for (int y = 0; y < out.shape.rows(); ++y) {
+    for (int x = 0; x < out.shape.columns(); ++x) {
+      const std::size_t pixel = At(in.shape, begin[1] + y * step[1], begin[2] + x * step[2]);
+      for (int k = 0; k < out.shape.channels(); ++k) {
+        out.values[to++] = in.values[pixel + static_cast<std::size_t>(begin[3] + k * step[3])];
       }
     }
   }
@@ -276,18 +271,7 @@ void Run(const op::TransformTensor&, Inputs inputs, Tensor& out) {
         std::fill_n(to, channels, 0.0F);
         continue;
       }
-      const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-      const int x1 = std::min(x0 + 1, in.shape.columns() - 1);
-      const int y1 = std::min(y0 + 1, in.shape.rows() - 1);
-      const float right = x - static_cast<float>(x0), below = y - static_cast<float>(y0);
-      const float* corner[] = {&in.values[At(in.shape, y0, x0)], &in.values[At(in.shape, y0, x1)],
-                               &in.values[At(in.shape, y1, x0)], &in.values[At(in.shape, y1, x1)]};
-      const float weight[] = {(1 - right) * (1 - below), right * (1 - below), (1 - right) * below,
-                              right * below};
-      for (std::size_t k = 0; k < channels; ++k) {
-        to[k] = weight[0] * corner[0][k] + weight[1] * corner[1][k] + weight[2] * corner[2][k] +
-                weight[3] * corner[3][k];
-      }
+      SampleBilinear(in, x, y, to);
     }
   }
 }

@@ -17,18 +17,32 @@ int SizeAfter(const op::Window& window, int in, int stride, int filter) {
   return window.same_padding ? (in + stride - 1) / stride : (in - filter) / stride + 1;
 }
 
-/// Checks that an operator's inputs, weights and output fit together; otherwise throws BadModel.
+/// Checks that an operator's inputs, weights and output fit together.
 class StepChecker {
  public:
   StepChecker(const Model& model, const Step& step)
       : model_(model), step_(step), in_(Of(step.inputs[0])), out_(Of(step.output).shape) {}
 
-  /// Returns the approximate number of multiplications for each number of the output.
-  double Check() const {
+  /// Throws BadModel if something does not fit.
+  void Check() const {
     Require(in_.counts.empty(), "an operator works on whole numbers");
-    Require(in_.shape.size[0] == 1 || std::holds_alternative<op::Dequantize>(step_.op),
+    Require((in_.shape.size[0] == 1 && out_.size[0] == 1) ||
+                std::holds_alternative<op::Dequantize>(step_.op),
             "more than one picture at a time");
-    return std::visit([this](const auto& of) { return CheckOf(of); }, step_.op);
+    std::visit([this](const auto& of) { CheckOf(of); }, step_.op);
+  }
+
+  /// Returns the approximate number of multiplications for each number of the output. REQUIRES: it
+  /// has been checked.
+  double WorkPerNumber() const {
+    if (const auto* pooling = std::get_if<op::Pooling>(&step_.op)) {
+      return std::min(pooling->rows, in_.shape.rows()) *
+             std::min(pooling->columns, in_.shape.columns());
+    }
+    const bool filters = std::holds_alternative<op::Convolution>(step_.op) ||
+                         std::holds_alternative<op::DepthwiseConvolution>(step_.op) ||
+                         std::holds_alternative<op::TransposeConvolution>(step_.op);
+    return filters ? static_cast<double>(Numbers(1).count()) / out_.channels() : 1;
   }
 
  private:
@@ -42,42 +56,38 @@ class StepChecker {
     return Argument(i).shape;
   }
 
-  double CheckOf(const op::Convolution& convolution) const {
+  void CheckOf(const op::Convolution& convolution) const {
     CheckWindow(convolution.window, Numbers(1).rows(), Numbers(1).columns());
-    return CheckFilter(out_.channels());
+    CheckFilter(out_.channels());
   }
-  double CheckOf(const op::DepthwiseConvolution& convolution) const {
+  void CheckOf(const op::DepthwiseConvolution& convolution) const {
     CheckWindow(convolution.window, Numbers(1).rows(), Numbers(1).columns());
     Require(out_.channels() == in_.shape.channels(), "a filter does not match its input");
-    return CheckFilter(1);
+    CheckFilter(1);
   }
-  double CheckOf(const op::TransposeConvolution&) const {
+  void CheckOf(const op::TransposeConvolution&) const {
     const auto times = [](int a, int b) { return std::int64_t{a} * b; };
-    Require(out_.size[0] == 1 && out_.rows() == times(in_.shape.rows(), Numbers(1).rows()) &&
+    Require(out_.rows() == times(in_.shape.rows(), Numbers(1).rows()) &&
                 out_.columns() == times(in_.shape.columns(), Numbers(1).columns()),
             "an unfolding convolution of overlapping blocks");
-    return CheckFilter(out_.channels());
+    CheckFilter(out_.channels());
   }
-  double CheckFilter(int count) const {
+  void CheckFilter(int count) const {
     const Shape& filter = Numbers(1);
     Require(filter.channels() == in_.shape.channels() && filter.size[0] == count,
             "a filter does not match its input");
     Require(step_.inputs.size() < 3 || step_.inputs[2] < 0 ||
                 Numbers(2).count() == static_cast<std::size_t>(out_.channels()),
             "a bias of another size than the channels");
-    return static_cast<double>(filter.count()) / out_.channels();
   }
 
-  double CheckOf(const op::Pooling& pooling) const {
+  void CheckOf(const op::Pooling& pooling) const {
     Require(out_.channels() == in_.shape.channels(), "pooling changes the channels");
     CheckWindow(pooling.window, pooling.rows, pooling.columns);
-    return std::min(pooling.rows, in_.shape.rows()) *
-           std::min(pooling.columns, in_.shape.columns());
   }
 
   void CheckWindow(const op::Window& window, int rows, int columns) const {
     const Shape& in = in_.shape;
-    Require(out_.size[0] == 1, "more than one picture at a time");
     Require(window.same_padding || (rows <= in.rows() && columns <= in.columns()),
             "a filter larger than its input");
     Require(out_.rows() == SizeAfter(window, in.rows(), window.stride_rows, rows) &&
@@ -85,22 +95,20 @@ class StepChecker {
             "a convolution's output has another size");
   }
 
-  double CheckOf(const op::OfEach&) const {
+  void CheckOf(const op::OfEach&) const {
     Require(in_.shape.count() == out_.count(), "an operator changes the size");
-    return 1;
   }
 
-  double CheckOf(const op::OfPair&) const {
+  void CheckOf(const op::OfPair&) const {
     const std::size_t n = Numbers(1).count();
     const bool fits =
         Numbers(1) == in_.shape || n == 1 || n == static_cast<std::size_t>(in_.shape.channels());
     Require(out_ == in_.shape && fits, "operands of different sizes");
-    return 1;
   }
 
   // Supported along the second axis of three, which is the third of four: whole blocks follow each
   // other.
-  double CheckOf(const op::Concatenation& concatenation) const {
+  void CheckOf(const op::Concatenation& concatenation) const {
     std::size_t sum = 0;
     for (std::size_t i = 0; i < step_.inputs.size(); ++i) {
       Require(Numbers(i).rows() == 1 && Numbers(i).channels() == out_.channels(),
@@ -109,22 +117,19 @@ class StepChecker {
     }
     Require(concatenation.axis == 1 && out_.rows() == 1 && sum == out_.count(),
             "a concatenation of another kind");
-    return 1;
   }
 
-  double CheckOf(const op::Pad&) const {
+  void CheckOf(const op::Pad&) const {
     const auto& by = Argument(1).counts;
     Require(by.size() == 8, "a padding of other than four axes");
-    Require(out_.size[0] == 1, "more than one picture at a time");
     for (std::size_t axis = 0; axis < 4; ++axis) {
       const std::int64_t before = by[2 * axis], after = by[2 * axis + 1];
       Require(before >= 0 && after >= 0 && in_.shape.size[axis] + before + after == out_.size[axis],
               "a padding of another size");
     }
-    return 1;
   }
 
-  double CheckOf(const op::StridedSlice& slice) const {
+  void CheckOf(const op::StridedSlice& slice) const {
     const auto& begin = Argument(1).counts;
     const auto& end = Argument(2).counts;
     const auto& by = Argument(3).counts;
@@ -139,35 +144,28 @@ class StepChecker {
       Require(out_.size[axis] == (last - begin[axis] + by[axis] - 1) / by[axis],
               "a slice of another size");
     }
-    return 1;
   }
 
-  double CheckOf(const op::ResizeBilinear&) const {
-    Require(out_.channels() == in_.shape.channels() && out_.size[0] == 1,
-            "resizing changes the channels");
-    return 1;
+  void CheckOf(const op::ResizeBilinear&) const {
+    Require(out_.channels() == in_.shape.channels(), "resizing changes the channels");
   }
 
-  double CheckOf(const op::LandmarksToMatrix& options) const {
+  void CheckOf(const op::LandmarksToMatrix& options) const {
     CheckMatrix(out_);
     const std::size_t points = in_.shape.count() / 3;
     Require(in_.shape.channels() == 3 && options.left < points && options.right < points &&
                 !options.points.empty() &&
                 std::ranges::all_of(options.points, [=](std::size_t i) { return i < points; }),
             "a crop of points that are not there");
-    return 1;
   }
-  double CheckOf(const op::TransformTensor&) const {
+  void CheckOf(const op::TransformTensor&) const {
     CheckMatrix(Numbers(1));
-    Require(out_.channels() == in_.shape.channels() && out_.size[0] == 1,
-            "a part of a picture changes the channels");
-    return 1;
+    Require(out_.channels() == in_.shape.channels(), "a part of a picture changes the channels");
   }
-  double CheckOf(const op::TransformLandmarks&) const {
+  void CheckOf(const op::TransformLandmarks&) const {
     CheckMatrix(Numbers(1));
     Require(out_ == in_.shape && (out_.channels() == 2 || out_.channels() == 3),
             "points that are neither of a plane nor of space");
-    return 1;
   }
 
   static void CheckMatrix(const Shape& shape) {
@@ -197,11 +195,12 @@ Network::Network(Model model, double most_work) : model_(std::move(model)) {
     for (const int i : step.inputs) {
       Require(i < 0 || known[static_cast<std::size_t>(i)], "an operator comes before its input");
     }
-    const double each = StepChecker(model_, step).Check();
+    const StepChecker checker(model_, step);
+    checker.Check();
     const auto out = static_cast<std::size_t>(step.output);
     Require(!known[out], "two operators write one tensor");
     known[out] = true;
-    work += each * static_cast<double>(Of(step.output).shape.count());
+    work += checker.WorkPerNumber() * static_cast<double>(Of(step.output).shape.count());
     Require(work < most_work, "the network is too large");
   }
   for (const int i : model_.outputs) {

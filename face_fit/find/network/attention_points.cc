@@ -7,7 +7,7 @@ namespace {
 
 // The points of the face that the network refines, in the order of its outputs
 // (mediapipe/modules/face_landmark/tensors_to_face_landmarks_with_attention.pbtxt).
-constexpr PointIndex kLips[] = {
+constexpr PointIndex kLips[kAttentionLipPoints] = {
     // outer border: the lower lip with both corners, the upper without
     61, 146, 91, 181, 84, 17, 314, 405, 321, 375, 291, 185, 40, 39, 37, 0, 267, 269, 270, 409,
     // inner border
@@ -16,16 +16,17 @@ constexpr PointIndex kLips[] = {
     76, 77, 90, 180, 85, 16, 315, 404, 320, 307, 306, 184, 74, 73, 72, 11, 302, 303, 304, 408,
     // a row outside the inner border
     62, 96, 89, 179, 86, 15, 316, 403, 319, 325, 292, 183, 42, 41, 38, 12, 268, 271, 272, 407};
-constexpr PointIndex kRightEye[] = {33,  7,   163, 144, 145, 153, 154, 155, 133,
-                                    246, 161, 160, 159, 158, 157, 173,  // the lids' edge
-                                    130, 25,  110, 24,  23,  22,  26,  112, 243,
-                                    247, 30,  29,  27,  28,  56,  190,  // around it
-                                    226, 31,  228, 229, 230, 231, 232, 233, 244,
-                                    113, 225, 224, 223, 222, 221, 189,            // and again
-                                    35,  124, 46,  53,  52,  65,                  // under the brow
-                                    143, 111, 117, 118, 119, 120, 121, 128, 245,  // under the eye
-                                    156, 70,  63,  105, 66,  107, 55,  193};      // the brow
-constexpr PointIndex kLeftEye[] = {
+constexpr PointIndex kRightEye[kAttentionEyePoints] = {
+    33,  7,   163, 144, 145, 153, 154, 155, 133,
+    246, 161, 160, 159, 158, 157, 173,  // the lids' edge
+    130, 25,  110, 24,  23,  22,  26,  112, 243,
+    247, 30,  29,  27,  28,  56,  190,  // around it
+    226, 31,  228, 229, 230, 231, 232, 233, 244,
+    113, 225, 224, 223, 222, 221, 189,            // and again
+    35,  124, 46,  53,  52,  65,                  // under the brow
+    143, 111, 117, 118, 119, 120, 121, 128, 245,  // under the eye
+    156, 70,  63,  105, 66,  107, 55,  193};      // the brow
+constexpr PointIndex kLeftEye[kAttentionEyePoints] = {
     263, 249, 390, 373, 374, 380, 381, 382, 362, 466, 388, 387, 386, 385, 384, 398, 359, 255,
     339, 254, 253, 252, 256, 341, 463, 467, 260, 259, 257, 258, 286, 414, 446, 261, 448, 449,
     450, 451, 452, 453, 464, 342, 445, 444, 443, 442, 441, 413, 265, 353, 276, 283, 282, 295,

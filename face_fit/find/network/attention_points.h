@@ -13,7 +13,7 @@ struct AttentiveFace {
   FoundFace face;
   /// For each eye: the centre of the iris, then four points of its edge, a quarter turn apart.
   /// Pixels of the picture.
-  fsm::Sided<std::array<glm::vec2, 5>> iris;
+  fsm::Sided<std::array<glm::vec2, kAttentionIrisPoints>> iris;
 };
 
 /// Runs the network once, on `crop`. `attention`: from LoadAttentionLandmarks.

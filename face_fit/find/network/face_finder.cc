@@ -41,7 +41,7 @@ struct FaceBox {
   float Area() const { return size.x * size.y; }
 };
 
-/// Returns the centres of the detector's cells: 16 x 16 with two boxes each, then 8 x 8 with six.
+/// Returns the centres of the detector's cells (kDetectorCells).
 std::vector<glm::vec2> Anchors() {
   std::vector<glm::vec2> anchors;
   for (const auto& [cells, boxes] : {std::pair(16, 2), std::pair(8, 6)}) {

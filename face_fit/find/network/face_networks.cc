@@ -86,12 +86,13 @@ vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
       vm::ReadTextFile(where + "/selfie_segmentation/selfie_segmentation.tflite", kMaxBytes);
   if (!package || !figure) return NotThere(where);
   try {
-    return FaceNetworks{.detector = Expect(package->Open("face_detection_short_range.tflite"),
-                                           kDetectorPixels, {896 * kBoxNumbers, 896}),
-                        .landmarks = Expect(package->Open("face_landmark.tflite"), kPointsPixels,
-                                            {3 * kNetworkPoints, 1}),
-                        .segmentation = Expect(Network(tflite::Model::Read(fsm::BytesOf(*figure))),
-                                               kFigurePixels, {kFigurePixels * kFigurePixels})};
+    return FaceNetworks{
+        .detector = Expect(package->Open("face_detection_short_range.tflite"), kDetectorPixels,
+                           {kDetectorCells * kBoxNumbers, kDetectorCells}),
+        .landmarks =
+            Expect(package->Open("face_landmark.tflite"), kPointsPixels, {3 * kNetworkPoints, 1}),
+        .segmentation = Expect(Network(tflite::Model::Read(fsm::BytesOf(*figure))), kFigurePixels,
+                               {kFigurePixels * kFigurePixels})};
   } catch (const std::exception& error) {
     return NotUsable(where, error);
   }
@@ -103,7 +104,8 @@ vm::Result<Network> LoadAttentionLandmarks(const std::string& folder) {
   if (!package) return NotThere(where);
   try {
     return Expect(package->Open("face_landmark_with_attention.tflite"), kPointsPixels,
-                  {3 * kNetworkPoints, 2 * 80, 2 * 71, 2 * 71, 2 * 5, 2 * 5, 1});
+                  {3 * kNetworkPoints, 2 * kAttentionLipPoints, 2 * kAttentionEyePoints,
+                   2 * kAttentionEyePoints, 2 * kAttentionIrisPoints, 2 * kAttentionIrisPoints, 1});
   } catch (const std::exception& error) {
     return NotUsable(where, error);
   }

@@ -12,6 +12,11 @@ using tflite::Network;
 /// Sides of the networks' square inputs, pixels: detector, landmarks, segmentation.
 inline constexpr int kDetectorPixels = 128, kPointsPixels = 192, kFigurePixels = 256;
 
+/// The detector's cells: 16 x 16 with two boxes each, then 8 x 8 with six.
+inline constexpr int kDetectorCells = 16 * 16 * 2 + 8 * 8 * 6;
+/// Points of the landmark network with attention at the lips, an eye and its iris.
+inline constexpr int kAttentionLipPoints = 80, kAttentionEyePoints = 71, kAttentionIrisPoints = 5;
+
 // The outputs of the networks, by their order in the files. Right and left are the person's.
 
 /// Of the detector: for each of its cells a box (DetectorBox), and how certain it is of it (a
