@@ -5,8 +5,7 @@
 
 namespace fsm {
 
-/// Adds the shoulders. They move as skin and must be added before the rigid parts, so that the
-/// vertices that move as skin are contiguous.
+/// Adds the shoulders, which move as skin.
 void BuildCloth(const Identity& identity, HeadMesh& mesh);
 
 }  // namespace fsm

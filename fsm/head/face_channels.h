@@ -13,8 +13,8 @@ namespace fsm {
 /// Returns the units of tables/action_units.txt without asymmetry. Made on first call; thread: any.
 const UnitTable& BuiltInUnits();
 
-// The functions below bake parts of a built-in head's rig from its anatomy. `weights` are those of
-// the first vertices of `rest`: skin, and parts that move as skin does.
+// The functions below bake parts of a built-in head's rig from its anatomy. `weights`: of each
+// vertex of `rest`.
 
 /// Returns the displacements of each of the 17 mouth parameters.
 std::vector<Channel> MouthChannels(const MouthAnatomy& mouth, std::span<const BakeWeights> weights);

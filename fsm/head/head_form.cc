@@ -59,10 +59,11 @@ float HeadForm::TeethTooFar(const HeadMesh& base) const {
   return std::min(most, kMost);
 }
 
-void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, std::size_t ears_first,
-                     HeadMesh& mesh) const {
+void HeadForm::Shape(HeadMesh& mesh) const {
+  using Follows = BakeWeights::Follows;
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
-    if (i >= fixed_first && i < fixed_end) continue;
+    const BakeWeights& weights = mesh.weights[i];
+    if (weights.follows == Follows::kNothing) continue;
     glm::vec3& p = mesh.position[i];
     switch (mesh.bone[i]) {
       case Bone::kEyeLeft:
@@ -74,10 +75,9 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, std::size_t
         p = teeth_(p);
         break;
       case Bone::kSkull:
-        p = i < ears_first ? teeth_(p) : p + Motion(p);
+        p = weights.follows == Follows::kTeeth ? teeth_(p) : p + Motion(p);
         break;
       case Bone::kSkin: {
-        const BakeWeights& weights = mesh.weights[i];
         glm::vec3 by = Motion(p);
         if (weights.eye) {
           const float hold = SmoothStep(0, 0.8f, weights.lid_upper + weights.lid_lower);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -23,10 +22,8 @@ class HeadForm {
            const Warp* warp, const std::optional<Sided<EyeTransform>>& eye_transforms,
            const HeadMesh& base, const EyeTransform& left_eye = {});
 
-  /// Moves all vertices except those in [fixed_first, fixed_end). Vertices on Bone::kSkull are ears
-  /// from `ears_first` on, teeth and gums before.
-  void Shape(std::size_t fixed_first, std::size_t fixed_end, std::size_t ears_first,
-             HeadMesh& mesh) const;
+  /// Moves all vertices, each with what it follows.
+  void Shape(HeadMesh& mesh) const;
 
   const Sided<EyeTransform>& eye_transforms() const { return eye_transforms_; }
   const TeethTransform& teeth() const { return teeth_; }

@@ -14,9 +14,13 @@
 namespace fsm {
 
 /// The weights of a vertex while its head is made: those of the rig, and its parts in lids, lips
-/// and teeth, which face_channels.h bakes into the rig.
+/// and teeth, which face_channels.h bakes into the rig. Rigid parts have them as they are by
+/// default, but for `follows`.
 struct BakeWeights {
   SkinWeights skin{};
+  /// What it moves with as the base head takes its form (HeadForm). Eyes, jaw and tongue have their
+  /// bones.
+  enum class Follows { kFace, kTeeth, kNothing } follows = Follows::kFace;
   std::optional<Side> eye{};  ///< the side of the lids near it
   float lid_upper = 0, lid_lower = 0;
   std::int16_t lip_column = -1;  ///< index of the seam pair that corrects it
@@ -31,8 +35,8 @@ struct HeadMesh {
   std::vector<float> openness;
   std::vector<float> opacity;
   std::vector<Bone> bone;
-  std::vector<BakeWeights> weights;  ///< meaningful where bone is kSkin
-  std::vector<Strand> strands;       ///< meaningful on hair only
+  std::vector<BakeWeights> weights;
+  std::vector<Strand> strands;  ///< meaningful on hair only
 
   struct Batch {
     Material material;

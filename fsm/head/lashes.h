@@ -6,8 +6,7 @@
 
 namespace fsm {
 
-/// Adds the lashes of both sides. They move as skin and must be added before the rigid parts, so
-/// that the vertices that move as skin are contiguous. `of_photo`: only those of the upper lids,
+/// Adds the lashes of both sides, which move as skin. `of_photo`: only those of the upper lids,
 /// with their darkness in HeadMesh::opacity.
 void BuildLashes(const EyeAnatomy& eye, const Identity& identity, bool of_photo, HeadMesh& mesh);
 

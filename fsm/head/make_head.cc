@@ -84,29 +84,21 @@ BaseSkin MakeSkin(const Ingredients& from) {
   return skin;
 }
 
-/// The base head without hair. The order of vertices is: skin; shirt or a photo's sheet; lashes,
-/// the last that move as skin; eyes, teeth and tongue; ears.
+/// The base head without hair; the first vertices are those of the skin.
 struct BaseParts {
   HeadMesh mesh;
-  std::size_t skin_end, figure_end, soft_end, ears_first;
   std::vector<SkinHair> skin_hairs;
 };
 
-BaseParts OnlySkin(const BaseSkin& skin) {
-  const std::size_t end = skin.mesh.position.size();
-  return {skin.mesh, end, end, end, end, {}};
-}
-
 BaseParts LayParts(const Ingredients& from, const BaseSkin& skin) {
   const Identity& identity = from.identity;
-  BaseParts parts = OnlySkin(skin);
+  BaseParts parts{skin.mesh, {}};
   HeadMesh& mesh = parts.mesh;
   if (from.photo) {
     AddPhotoSheet(*from.photo, mesh);
   } else {
     BuildCloth(identity, mesh);
   }
-  parts.figure_end = mesh.position.size();
   const SkinFront front(skin.fine);
   parts.skin_hairs = BuildBrows(front, identity, mesh);
   std::ranges::move(BuildLidFolds(front, from.eye, identity), std::back_inserter(parts.skin_hairs));
@@ -117,11 +109,9 @@ BaseParts LayParts(const Ingredients& from, const BaseSkin& skin) {
   }
   // A photo shows the lashes of open eyes, so only those of shut lids are added.
   BuildLashes(from.eye, identity, from.photo != nullptr, mesh);
-  parts.soft_end = mesh.position.size();
   BuildEyes(from.eye, identity, mesh);
   BuildTeeth(from.mouth, identity, mesh);
   BuildTongue(from.mouth, identity, mesh);
-  parts.ears_first = mesh.position.size();
   // Long hair covers the ears; a photo shows them.
   if (identity.crop && !from.photo) BuildEars(identity, mesh);
   return parts;
@@ -152,9 +142,7 @@ FormedHead TakeForm(const Ingredients& from, const BaseSkin& skin, const BasePar
                       from.photo ? EyeTransform{} : from.identity.eyes);
   FormedHead head{parts.mesh, parts.mesh.position, parts.mesh.position.size(),
                   form.eye_transforms(), form.teeth()};
-  // The sheet of a photo is in its final place already.
-  form.Shape(parts.skin_end, from.photo ? parts.figure_end : parts.skin_end, parts.ears_first,
-             head.mesh);
+  form.Shape(head.mesh);
   AddHair(from, skin, head.mesh);
   head.base.insert(head.base.end(),
                    head.mesh.position.begin() + static_cast<std::ptrdiff_t>(head.hair_first),
@@ -189,8 +177,8 @@ HeadTopology TopologyOf(const Ingredients& from, const BaseSkin& skin, const Bas
   return topology;
 }
 
-RigData RigOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& parts,
-              const FormedHead& head, const HeadTopology& topology) {
+RigData RigOf(const Ingredients& from, const BaseSkin& skin, const FormedHead& head,
+              const HeadTopology& topology) {
   using enum RigStep;
   const Identity& identity = from.identity;
   RigData rig;
@@ -202,7 +190,7 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& pa
   HairLook(identity).LightAsOne(std::span(rig.rest).subspan(head.hair_first),
                                 std::span(rig.rest_normal).subspan(head.hair_first));
   rig.bone = head.mesh.bone;
-  for (const BakeWeights& weights : head.mesh.weights) rig.weights.push_back(weights.skin);
+  for (const BakeWeights& vertex : head.mesh.weights) rig.weights.push_back(vertex.skin);
   rig.units = BuiltInUnits();
   if (from.asymmetric) {
     rig.asymmetry_seed = static_cast<int>(identity.index);
@@ -210,17 +198,17 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& pa
   }
   rig.units_by_place = true;
   rig.creases = {.at_rest = identity.creases, .depth = from.photo ? from.photo->lined : 1};
-  const auto soft = std::span(head.mesh.weights).first(parts.soft_end);
+  const std::span<const BakeWeights> weights = head.mesh.weights;
   rig.channels = UnitChannels(rig.units, rig.bone, rig.weights);
-  std::ranges::move(MouthChannels(from.mouth, soft), std::back_inserter(rig.channels));
-  rig.lids = BakeLids(from.eye, head.eyes, rig.rest, soft);
-  rig.lips = BakeLips(skin.mouth, soft);
+  std::ranges::move(MouthChannels(from.mouth, weights), std::back_inserter(rig.channels));
+  rig.lids = BakeLids(from.eye, head.eyes, rig.rest, weights);
+  rig.lips = BakeLips(skin.mouth, weights);
   rig.teeth = BakeTeeth(Moved(from.mouth.upper_teeth(), head.teeth),
-                        Moved(from.mouth.lower_teeth(), head.teeth), rig.rest, soft);
+                        Moved(from.mouth.lower_teeth(), head.teeth), rig.rest, weights);
   for (const Side side : kSides) rig.eyes.pivot[side] = topology.eyes[side].centre;
   for (std::size_t i = 0; i < topology.indices.size(); i += 3) {
     const std::uint32_t* const corner = &topology.indices[i];
-    if (*corner >= parts.soft_end) continue;
+    if (rig.bone[*corner] != Bone::kSkin) continue;
     rig.normals.soft_triangles.insert(rig.normals.soft_triangles.end(), corner, corner + 3);
   }
   if (!identity.crop) {
@@ -254,7 +242,7 @@ std::unique_ptr<Head> Bake(const Ingredients& from) {
   const FormedHead formed = TakeForm(from, skin, parts);
   HeadAsset asset;
   asset.topology = TopologyOf(from, skin, parts, formed);
-  asset.rig = RigOf(from, skin, parts, formed, asset.topology);
+  asset.rig = RigOf(from, skin, formed, asset.topology);
   FindIncisors(asset.rig.rest, asset.rig.bone, asset.topology);
   if (from.photo) Wear(from, skin, formed, asset);
   asset.landmarks = NameLandmarks(skin.cage, skin.fine, asset.rig.rest, from.eye, formed.eyes,
@@ -280,9 +268,9 @@ std::unique_ptr<Head> MakeHead(const PhotoHead& head) {
 Rig MakeSkinRig(const PhotoHead& head) {
   const Ingredients from(head);
   const BaseSkin skin = MakeSkin(from);
-  const BaseParts alone = OnlySkin(skin);
+  const BaseParts alone{skin.mesh, {}};
   const FormedHead formed = TakeForm(from, skin, alone);
-  return Rig(RigOf(from, skin, alone, formed, TopologyOf(from, skin, alone, formed)));
+  return Rig(RigOf(from, skin, formed, TopologyOf(from, skin, alone, formed)));
 }
 
 }  // namespace fsm

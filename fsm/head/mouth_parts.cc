@@ -27,6 +27,8 @@ glm::vec3 AlongArch(const ToothArch& arch, float arc, float y) {
   return {side * x, y, step::ArchZ(arch, x)};
 }
 
+constexpr BakeWeights kWithTeeth{.follows = BakeWeights::Follows::kTeeth};
+
 /// Builds one row of teeth and its gum.
 class ToothRow {
  public:
@@ -76,7 +78,8 @@ class ToothRow {
         const float scallop = row < 1 ? features_.gum_scallop * (1 - column.bump) : 0.0f;
         glm::vec3 p = FacePoint(column, row * column.height - scallop);
         p.z += bulge[r];
-        mesh_.Add(p, gum_, Lerp(features_.gum_light, SmoothStep(6, 34, back)), jaw_.bone);
+        mesh_.Add(p, gum_, Lerp(features_.gum_light, SmoothStep(6, 34, back)), jaw_.bone,
+                  kWithTeeth);
       }
     }
     mesh_.Grid(Material::kGum, first, static_cast<int>(kRows.size()), Columns(), jaw_.upward > 0);
@@ -139,8 +142,8 @@ class ToothRow {
     const float crevice = between + (1 - between) * SmoothStep(0.0f, 0.75f, column.bump);
     const float dark =
         glm::mix(jaw_.light, features_.teeth_light.deep, SmoothStep(6, 32, std::abs(column.arc)));
-    mesh_.Add(p, Enamel(column.tooth, row), crevice * dark * (row < -0.3f ? 0.4f : 1.0f),
-              jaw_.bone);
+    mesh_.Add(p, Enamel(column.tooth, row), crevice * dark * (row < -0.3f ? 0.4f : 1.0f), jaw_.bone,
+              kWithTeeth);
   }
 
   /// Returns the colour of a tooth. Enamel is thin and grey at the edge and lets the warm dentine

@@ -162,7 +162,7 @@ float JawLine(float above_bottom) { return 30 * SmoothStep(48, 36, above_bottom)
 void AddPhotoSheet(const PhotoHead& head, HeadMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (const auto& vertex : head.sheet) {
-    BakeWeights weights;
+    BakeWeights weights{.follows = BakeWeights::Follows::kNothing};  // it is in its final place
     weights.skin.free = 0;
     weights.skin.domain = vertex.position;
     // The shoulders follow a turning head a little.
