@@ -116,6 +116,8 @@ void ReadIdentityRow(const TableRow& row, Identity& identity) {
   } else if (key == "creases") {
     for (std::size_t i = 0; i < kLastingCreases; ++i) identity.creases[i] = row.Number(i + 1);
     row.EndsAt(kLastingCreases + 1);
+  } else if (key == "field" || key == "lid") {
+    identity.units.Add(row);
   } else {
     row.Fail("unknown word '" + key + "'");
   }

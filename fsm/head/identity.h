@@ -76,6 +76,7 @@ struct Identity {
   };
   Brows brows;
   std::array<float, kLastingCreases> creases{};  ///< by Crease
+  UnitTable units{};                             ///< added to BuiltInUnits()
   std::shared_ptr<const Features> features{};    ///< null: the built-in ones
 
   /// Returns `features`, or the built-in ones if it is null.

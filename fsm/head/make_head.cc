@@ -192,6 +192,7 @@ RigData RigOf(const Ingredients& from, const BaseSkin& skin, const FormedHead& h
   rig.bone = head.mesh.bone;
   for (const BakeWeights& vertex : head.mesh.weights) rig.weights.push_back(vertex.skin);
   rig.units = BuiltInUnits();
+  rig.units.Add(identity.units);
   if (from.asymmetric) {
     rig.asymmetry_seed = static_cast<int>(identity.index);
     rig.units.MakeAsymmetric(*rig.asymmetry_seed);

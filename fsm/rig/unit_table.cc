@@ -85,29 +85,37 @@ float Acting(float strength) {
 }  // namespace
 
 UnitTable::UnitTable(const Table& table) {
-  for (const TableRow& row : table.rows()) {
-    const std::string& key = row.key();
-    if (fields_.size() + effects_.size() + rules_.size() >= kMostRows) {
-      row.Fail("more rows than are read (" + std::to_string(kMostRows) + ")");
-    }
-    const auto effect = std::ranges::find(kEffectRows, key, &EffectRow::key);
-    const auto rule = std::ranges::find(kRuleRows, key, &RuleRow::key);
-    if (key == "field") {
-      fields_.push_back(ReadField(row));
-    } else if (effect != kEffectRows.end()) {
-      const auto [unused, first, second] = *effect;
-      effects_.push_back({static_cast<Effect::Kind>(effect - kEffectRows.begin()), ReadUnit(row, 1),
-                          row.Within(2, -first, first),
-                          second > 0 ? row.Within(3, -second, second) : 0});
-      row.EndsAt(second > 0 ? 4 : 3);
-    } else if (rule != kRuleRows.end()) {
-      rules_.push_back({static_cast<Rule::Kind>(rule - kRuleRows.begin()), ReadUnit(row, 1),
-                        ReadUnit(row, 2), rule->has_part ? row.Within(3, 0, 1) : 0});
-      row.EndsAt(rule->has_part ? 4 : 3);
-    } else {
-      row.Fail("unknown word '" + key + "'");
-    }
+  for (const TableRow& row : table.rows()) Add(row);
+}
+
+void UnitTable::Add(const TableRow& row) {
+  const std::string& key = row.key();
+  if (fields_.size() + effects_.size() + rules_.size() >= kMostRows) {
+    row.Fail("more rows than are read (" + std::to_string(kMostRows) + ")");
   }
+  const auto effect = std::ranges::find(kEffectRows, key, &EffectRow::key);
+  const auto rule = std::ranges::find(kRuleRows, key, &RuleRow::key);
+  if (key == "field") {
+    fields_.push_back(ReadField(row));
+  } else if (effect != kEffectRows.end()) {
+    const auto [unused, first, second] = *effect;
+    effects_.push_back({static_cast<Effect::Kind>(effect - kEffectRows.begin()), ReadUnit(row, 1),
+                        row.Within(2, -first, first),
+                        second > 0 ? row.Within(3, -second, second) : 0});
+    row.EndsAt(second > 0 ? 4 : 3);
+  } else if (rule != kRuleRows.end()) {
+    rules_.push_back({static_cast<Rule::Kind>(rule - kRuleRows.begin()), ReadUnit(row, 1),
+                      ReadUnit(row, 2), rule->has_part ? row.Within(3, 0, 1) : 0});
+    row.EndsAt(rule->has_part ? 4 : 3);
+  } else {
+    row.Fail("unknown word '" + key + "'");
+  }
+}
+
+void UnitTable::Add(const UnitTable& more) {
+  fields_.insert(fields_.end(), more.fields_.begin(), more.fields_.end());
+  effects_.insert(effects_.end(), more.effects_.begin(), more.effects_.end());
+  rules_.insert(rules_.end(), more.rules_.begin(), more.rules_.end());
 }
 
 std::string UnitTable::Text() const {

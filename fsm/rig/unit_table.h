@@ -23,7 +23,7 @@ struct UnitEffects {
   float tongue_raise = 0, tongue_out_mm = 0;
 };
 
-/// The table of action units: plain knowledge without vertices. Immutable.
+/// The table of action units: plain knowledge without vertices.
 class UnitTable {
  public:
   struct Field {
@@ -39,6 +39,10 @@ class UnitTable {
   /// what a face can do, or if there are more than kMostRows.
   explicit UnitTable(const Table& table);
   static constexpr std::size_t kMostRows = 1000;
+  /// Adds a row, whose effect adds to those of earlier rows. Throws as the constructor does.
+  void Add(const TableRow& row);
+  /// Adds the rows of another table, whose asymmetry is ignored.
+  void Add(const UnitTable& more);
 
   /// Gives every unit but those of lids and jaw slightly different strengths on the two sides; the
   /// same `seed` gives the same strengths.
