@@ -43,10 +43,10 @@ void ShadeNeck(const Features& features, std::span<const glm::vec3> collar, std:
 
 void BuildCloth(const Identity& identity, HeadMesh& mesh) {
   const Features& features = identity.UsedFeatures();
-  constexpr int kHalf = 15;  // columns of one half
+  constexpr int kHalf = 12;  // columns of one half
   // The first ring is row -1; the foot of the collar is row 0.
-  constexpr std::array kRows = {-1.0f, 0.0f, 0.75f, 1.0f, 2.2f, 2.26f,
-                                2.32f, 2.7f, 3.1f,  3.6f, 4.2f, 6.0f};
+  constexpr std::array kRows = {-1.0f, 0.0f, 0.75f, 1.0f, 2.2f, 2.26f, 2.32f,
+                                2.75f, 3.3f, 3.8f,  4.2f, 4.6f, 5.0f,  6.0f};
   constexpr std::size_t kCollar = 2, kSeam = 5;
   constexpr int kAround = 2 * kHalf + 1;
   std::vector<float> around_at, down_at;
