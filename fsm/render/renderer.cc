@@ -125,8 +125,9 @@ class GlRenderer : public Renderer {
     const int height = viewport_.width > 0 ? viewport_.height : context_.height();
     FindTarget(width, height);
     target_->Bind();
-    // A photo is soft, so hard edges beside it would stand out.
-    soft_ = HasBlendedLayers(head.topology());
+    // A photo is soft, so hard edges beside it would stand out. Single hairs are thinner than a
+    // pixel and would become rows of dots.
+    soft_ = HasBlendedLayers(head.topology()) || !head.topology().strands.empty();
     transparent_ = !scene.show_background;
     const Scene behind = Behind(scene);
     backdrop_.Draw(behind, width, height);
