@@ -61,8 +61,10 @@ class CroppedHair {
     const float recede = style_.recede *
                          SmoothStep(features_.crop_recess.begins, std::abs(azimuth)) *
                          SmoothStep(features_.crop_recess.ends, std::abs(azimuth));
-    const float wander = features_.crop_wander.wide * std::sin(0.23f * azimuth + 1) +
-                         features_.crop_wander.narrow * std::sin(0.61f * azimuth);
+    // Whole numbers of waves around the head, so that both ends of the shell meet behind.
+    const float round = glm::radians(azimuth);
+    const float wander = features_.crop_wander.wide * std::sin(13 * round + 1) +
+                         features_.crop_wander.narrow * std::sin(35 * round);
     const float line = look_.HairlineElevation(azimuth) + recede + wander;
     const glm::vec3 low = HairDirection(azimuth, line);
     // Interpolates along the great circle from the hairline to the crown.
@@ -116,6 +118,7 @@ class CroppedHair {
 
   void Shell() {
     constexpr int kAround = 48;
+    constexpr float kRoundMm = 536;  // twice the width of the strands' picture
     constexpr std::array kUp = {0.0f,  0.022f, 0.06f, 0.11f, 0.17f, 0.23f, 0.30f, 0.37f, 0.44f,
                                 0.51f, 0.58f,  0.65f, 0.72f, 0.79f, 0.86f, 0.93f, 1.0f};
     const auto edge_density = ListOf(features_.crop_edge_density);
@@ -137,7 +140,7 @@ class CroppedHair {
                   r < 3 ? features_.crop_light.edge : features_.crop_light.others, Bone::kSkull);
         mesh_.strands.back() = {.along = Along(d, Forehead(azimuth, kUp[r])),
                                 .density = r < edge_density.size() ? edge_density[r] : 1.0f,
-                                .tile_mm = Curled({1.49f * azimuth, -140 * kUp[r]})};
+                                .tile_mm = Curled({kRoundMm * azimuth / 360, -140 * kUp[r]})};
       }
     }
     mesh_.Grid(Material::kHair, first, static_cast<int>(kUp.size()), kAround + 1, true);
