@@ -38,7 +38,8 @@ float SkinPainter::Beard(glm::vec2 at, float z) const {
   const float jaw_line = Lerp(features_.beard_line, SmoothStep(30, 62, at.x));
   const float low = SmoothStep(jaw_line + 6, jaw_line - 22, at.y) * SmoothStep(-128, -100, at.y);
   const float front = SmoothStep(-12, 8, z);
-  const float under_nose = SmoothStep(-23, -27, at.y);
+  // Only beside the mouth does the nose end it.
+  const float under_nose = glm::mix(SmoothStep(-23, -27, at.y), 1.0f, SmoothStep(20, 34, at.x));
   const glm::vec2 off =
       (at - features_.beard_thin_cheek.middle) / features_.beard_thin_cheek.half_size;
   const float cheek =
