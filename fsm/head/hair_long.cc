@@ -246,7 +246,8 @@ class LongHair {
         mesh_.Add(p,
                   row > 0 ? colour : glm::mix(colour, palette_.skin, features_.long_parting_scalp),
                   open, Bone::kSkull);
-        const float edge = k == 0 ? features_.long_thin.edge : 1.0f;
+        const float edge =
+            glm::mix(features_.long_thin.edge, 1.0f, SmoothStep(features_.long_thin.edge_over, i));
         mesh_.strands.back() = {.along = Along(i, side, t),
                                 .density = edge * SmoothStep(features_.long_thin.ends, t),
                                 .tile_mm = features_.long_tile * glm::vec2(side * i, t)};
@@ -275,7 +276,8 @@ class LongHair {
         mesh_.Add(p, palette_.hair, features_.long_light.lining, Bone::kSkull);
         // It thins out less at its outline than the shell, which surrounds it.
         mesh_.strands.back() = {.along = Along(i, side, t),
-                                .density = SmoothStep(features_.long_thin.ends, t),
+                                .density = SmoothStep(features_.long_thin.ends, t) *
+                                           SmoothStep(features_.long_thin.edge_over, i),
                                 .across = kLong.lining_whole,
                                 .tile_mm = features_.long_tile * glm::vec2(i, t)};
       }
