@@ -278,7 +278,7 @@ Cage ReadCage(const Table& curves, const Table& patches, const EyeAnatomy& eye,
   }
   TieSkinToLips(cage, curves);
   for (const auto& [name, depth] :
-       {std::pair{"nostril", 0.3f}, {"nostril_in", 1.0f}, {"nostril_end", 1.0f}}) {
+       {std::pair{"nostril", 0.4f}, {"nostril_in", 1.0f}, {"nostril_end", 1.0f}}) {
     const auto found = cage.curves.find(name);
     if (found == cage.curves.end()) continue;
     for (const std::uint32_t v : found->second) cage.tag[v].hole = depth;

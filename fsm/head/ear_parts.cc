@@ -83,9 +83,11 @@ class Ear {
 
  private:
   float Flare(float at_tragus, glm::vec2 p) const {
+    const auto& sink = features_.ear_sink;
     return at_tragus + features_.ear_flare.backwards * std::max(p.x, 0.0f) -
            features_.ear_flare.square * p.x * p.x -
-           features_.ear_sink.per_mm * std::max(features_.ear_sink.before - p.x, 0.0f);
+           sink.per_mm * std::max(sink.before - p.x, 0.0f) -
+           sink.lobe_per_mm * std::max(sink.lobe_below - p.y, 0.0f);
   }
   static float RidgeAt(const auto& row, glm::vec2 p) {
     return Ridge(DistanceToLine(p, PairsOf(row.line)), row.half_width);
