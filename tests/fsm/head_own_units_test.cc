@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fsm/head/face_channels.h"
+#include "fsm/head/identity.h"
 #include "fsm/head/make_head.h"
 #include "fsm/rig/unit_table.h"
 #include "tests/fsm/head_fixture.h"
@@ -51,6 +52,23 @@ TEST(OwnUnitsTest, TheJawOpensAsFarAsTheTableSays) {
   const auto own = GenericHead().WithUnits(TableOf("jaw 26 20 0\n"));
   EXPECT_NEAR(own->MeasureMouth(WithUnit(26, 1)).jaw_degrees, 20, 0.01F);
   EXPECT_NEAR(GenericHead().MeasureMouth(WithUnit(26, 1)).jaw_degrees, 12, 0.5F);
+}
+
+TEST(OwnUnitsTest, RowsOfAnIdentityAddToWhatAllFacesDo) {
+  const std::string base = "base galatea\n";
+  const auto same = MakeHead(ReadOwnIdentity("own.txt", base), false);
+  const auto own =
+      MakeHead(ReadOwnIdentity("own.txt", base + "field 2 43 47 20 20 both 0 3 0\n"), false);
+  const std::size_t brow = SkinAt(43, 47);
+  for (const float strength : {0.0f, 0.5f, 1.0f}) {
+    HeadVertices before, after;
+    same->Evaluate(WithUnit(2, strength), before);
+    own->Evaluate(WithUnit(2, strength), after);
+    EXPECT_NEAR(after.position[brow].y - before.position[brow].y, 3 * strength,
+                0.5f * strength + 1e-4f);
+  }
+  EXPECT_THROW(ReadOwnIdentity("own.txt", base + "field 3 43 47 20 20 both 0 3 0\n"),
+               std::runtime_error);
 }
 
 TEST(OwnUnitsTest, AHeadKeepsItsOwnAsymmetry) {
