@@ -7,8 +7,8 @@
 
 namespace fsm {
 
-/// The glTF extension with the data of a head that only we need, and the version that is written.
-/// Older versions can be read as well; they have other names for some members (asset_reader.cc).
+/// The glTF extension with the data of a head that only we need, and its version; no other version
+/// is read.
 inline constexpr const char* kAssetExtension = "GALATEA_head";
 inline constexpr int kAssetVersion = 3;
 

@@ -28,51 +28,13 @@ constexpr std::size_t kWidth = 1;
 template <glm::length_t L>
 constexpr std::size_t kWidth<glm::vec<L, float>> = L;
 
-/// A member that has been renamed: its place by the names of today, and what it was called up to
-/// and including a version of the format.
-struct OldName {
-  std::int64_t last_version;
-  std::string_view place, name;
-};
-constexpr OldName kOldNames[] = {{1, "topology.openness", "occlusion"},
-                                 {1, "topology.image", "photo"},
-                                 {1, "topology.portrait_light", "photo_light"},
-                                 {1, "topology.portrait_eyes", "eye_pictures"},
-                                 {1, "topology.strands.tile_mm", "place"},
-                                 {1, "topology.shut_lids.grain_at", "lender"},
-                                 {1, "topology.shut_lids.grain_light", "lender_light"},
-                                 {1, "topology.mouth.seam", "lips"},
-                                 {1, "rig.proxy_to_own", "own_form"},
-                                 {1, "rig.asymmetry_seed", "person"},
-                                 {1, "rig.gaze_ranges", "look"},
-                                 {2, "rig.gaze_ranges.inner.output", "turn"},
-                                 {2, "rig.gaze_ranges.outer.output", "turn"},
-                                 {2, "rig.gaze_ranges.up.output", "turn"},
-                                 {2, "rig.gaze_ranges.down.output", "turn"},
-                                 {2, "rig.lids.eyes.roll", "turn"},
-                                 {2, "rig.upper_teeth.slope", "turn"},
-                                 {2, "rig.lower_teeth.slope", "turn"},
-                                 {2, "topology.pbr_materials.emissive", "glow"},
-                                 {2, "topology.pbr_materials.shade_colour", "shade"}};
-
-/// Returns what a version of the format calls a member, `name` today, at a place as
-/// "topology.pbr_materials[3].emissive".
-std::string_view NameIn(std::int64_t version, std::string place, std::string_view name) {
-  for (std::size_t from; (from = place.find('[')) != std::string::npos;)
-    place.erase(from, place.find(']') + 1 - from);
-  for (const OldName& old : kOldNames) {
-    if (version <= old.last_version && place == old.place) return old.name;
-  }
-  return name;
-}
-
 /// Reads a file of asset_writer.cc, by the same lists of members.
 class Reader {
  public:
   [[noreturn]] static void Refuse(const std::string& what) {
     throw vm::Failure({vm::Errc::kBadValue, what});
   }
-  Reader(const GltfDocument& gltf, std::int64_t version) : gltf_(gltf), version_(version) {}
+  explicit Reader(const GltfDocument& gltf) : gltf_(gltf) {}
 
   template <typename T>
   void Read(const std::string& place, const json& from, T& value) {
@@ -182,7 +144,6 @@ class Reader {
   }
 
   const json& MemberOf(const std::string& place, const json& from, std::string_view name) const {
-    if (version_ < kAssetVersion) name = NameIn(version_, fmt::format("{}.{}", place, name), name);
     const auto found = from.is_object() ? from.find(name) : from.end();
     if (!from.is_object() || found == from.end()) {
       Refuse(fmt::format("{}: no member \"{}\"", place, name));
@@ -250,31 +211,13 @@ class Reader {
   }
 
   const GltfDocument& gltf_;
-  const std::int64_t version_;
 };
 
-/// Up to version 2 the residuals of the original's expressions were driven by the strengths, right
-/// and left, of three units that no list has.
-void DriveResiduals(std::vector<Channel>& channels) {
-  constexpr std::array<std::uint16_t, 3> kUnitsOfResiduals{3, 40, 0};
-  for (Channel& channel : channels) {
-    for (auto& [drive, gain] : channel.drivers) {
-      const auto unit = std::ranges::find(kUnitsOfResiduals, drive.number);
-      if (drive.kind != Drive::Kind::kAskedUnit || unit == kUnitsOfResiduals.end()) continue;
-      const auto pair = static_cast<std::uint16_t>(unit - kUnitsOfResiduals.begin());
-      const bool left = drive.side == Drive::OnlyOf(Side::kLeft);
-      drive = {.kind = Drive::Kind::kResidual,
-               .number = static_cast<std::uint16_t>(2 * pair + (left ? 1 : 0))};
-    }
-  }
-}
-
 HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
-  const std::int64_t version = JsonInteger(from, "version");
-  if (version < 1 || version > kAssetVersion) {
-    Reader::Refuse(fmt::format("version: 1 to {} expected", kAssetVersion));
+  if (JsonInteger(from, "version") != kAssetVersion) {
+    Reader::Refuse(fmt::format("version: {} expected", kAssetVersion));
   }
-  Reader reader(gltf, version);
+  Reader reader(gltf);
   HeadAsset asset;
   const auto read = [&](const char* name, auto& part) {
     const auto found = from.find(name);
@@ -285,7 +228,6 @@ HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
   read("rig", asset.rig);
   read("landmarks", asset.landmarks);
   read("view", asset.view);
-  if (version <= 2) DriveResiduals(asset.rig.channels);
   asset.rig.units = UnitTable(Table("rig.units", JsonText(from["rig"], "units")));
   if (asset.rig.asymmetry_seed) asset.rig.units.MakeAsymmetric(*asset.rig.asymmetry_seed);
   vm::OrThrow(CheckAsset(asset));
