@@ -121,13 +121,13 @@ TEST(OwnUnitNamesTest, AreFoundWhateverTheirCaseBeforeNumbersWithALetter) {
                                    "code 158 58b 9 0 0 -9 0 -9 0 -8\n");
   ASSERT_TRUE(names) << names.error().text;
   for (const char* text : {"58b 0.7", "58B 0.7"}) {
-    const auto command = ParseUnitCommand(text, *names, true);
+    const auto command = ParseUnitCommand(text, *names);
     ASSERT_TRUE(command) << command.error().text;
     EXPECT_EQ(command->units.at(0).number, 158) << text;
     EXPECT_EQ(command->units.at(0).strength, 0.7) << text;
     EXPECT_FALSE(command->ms) << text;
   }
-  EXPECT_EQ(ParseUnitCommand("58C", *names, true)->units.at(0).number, 58);
+  EXPECT_EQ(ParseUnitCommand("58C", *names)->units.at(0).number, 58);
   const auto one_side = ParseUnitName("lipCORNERpuller.l", *names);
   ASSERT_TRUE(one_side) << one_side.error().text;
   EXPECT_EQ(one_side->number, 12);
@@ -197,6 +197,19 @@ TEST_F(UnitsTest, ThereIsAnEndToExpressions) {
     ASSERT_LT(++made, 1000);
   }
   EXPECT_TRUE(motion.expression.Define("E0", 2, "12 0.5"));
+}
+
+TEST_F(UnitsTest, AWordOfALookIsRefusedByItsPlace) {
+  const auto refusal = [&](std::string_view look) {
+    const auto read = ParseLook(look, motion.tables().unit_names);
+    return read ? "" : read.error().text;
+  };
+  EXPECT_EQ(refusal("gaze:6,0 12:0.5 gazeL:1,2"), "");
+  EXPECT_TRUE(refusal("gaze:6,0 99 1").starts_with("'99' at column 10 is not an action unit"));
+  EXPECT_TRUE(refusal("12 1 gazeU:6,0").starts_with("'gazeU:6,0' at column 6 is no direction"));
+  EXPECT_TRUE(refusal("12 1 12").starts_with("'12' at column 6 is without a strength"));
+  EXPECT_TRUE(refusal("51 1").starts_with("51 is a code of head or eyes"));
+  EXPECT_TRUE(refusal(" ").starts_with("nothing found where units"));
 }
 
 TEST_F(UnitsTest, LooksAreWrittenAsTheyAreRead) {

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
+#include "fsm/base/words.h"
 #include "fsm/motion/base/track.h"
 #include "fsm/motion/base/unit_names.h"
 
@@ -32,56 +31,46 @@ void AddTo(FaceLook& a, const FaceLook& b, double weight) {
   for (std::size_t i = 0; i < a.residuals.size(); ++i) add(a.residuals[i], b.residuals[i]);
 }
 
-namespace {
-
-/// Parses "DOWN,RIGHT", degrees.
-std::optional<EyeAngles> ReadAngles(std::string_view word) {
-  const std::size_t comma = word.find(',');
-  if (comma == std::string_view::npos) return std::nullopt;
-  const auto down = ParseNumber(word.substr(0, comma));
-  const auto right = ParseNumber(word.substr(comma + 1));
-  if (!down || !right) return std::nullopt;
-  return EyeAngles{static_cast<float>(*down), static_cast<float>(*right)};
+void SetUnit(FaceLook& look, const UnitSetting& unit) {
+  const auto index = static_cast<std::size_t>(unit.number);
+  if (unit.left) look.au.left[index] = static_cast<float>(unit.strength);
+  if (unit.right) look.au.right[index] = static_cast<float>(unit.strength);
 }
 
-UnitName UnitOf(const TableRow& row, std::string_view word, const UnitNames& names) {
-  const auto unit = ParseUnitName(word, names);
-  if (!unit) row.Fail(unit.error().text);
-  return *unit;
+bool SetGaze(FaceLook& look, std::string_view word) {
+  const std::string_view key = TakeUntil(":", word);
+  const auto down = ParseNumber(TakeUntil(",", word)), right = ParseNumber(word);
+  if ((key != "gaze" && key != "gazeL" && key != "gazeR") || !down || !right) return false;
+  const EyeAngles angles{static_cast<float>(*down), static_cast<float>(*right)};
+  if (key != "gazeR") look.gaze.left = angles;
+  if (key != "gazeL") look.gaze.right = angles;
+  return true;
 }
-
-}  // namespace
 
 FaceLook ReadLook(const TableRow& row, std::size_t first, const UnitNames& names) {
-  FaceLook units;
+  FaceLook look;
   for (std::size_t i = first; i < row.size(); ++i) {
     const std::string_view word = row.Word(i);
+    if (word.starts_with("gaze")) {
+      if (SetGaze(look, word)) continue;
+      row.Fail(fmt::format("'{}' found, gaze[L|R]:DOWN,RIGHT in degrees expected", word));
+    }
     const std::size_t colon = word.find(':');
     if (colon == std::string_view::npos) {
       row.Fail(fmt::format("'{}' found, AU:WEIGHT expected", word));
     }
-    const std::string_view key = word.substr(0, colon);
+    const auto unit = ParseUnitName(word.substr(0, colon), names);
+    if (!unit) row.Fail(unit.error().text);
     const std::string_view value = word.substr(colon + 1);
-    if (key.starts_with("gaze")) {
-      const auto angles = ReadAngles(value);
-      if (!angles || (key != "gaze" && key != "gazeL" && key != "gazeR")) {
-        row.Fail(fmt::format("'{}' found, gaze[L|R]:DOWN,RIGHT in degrees expected", word));
-      }
-      if (key != "gazeR") units.gaze.left = *angles;
-      if (key != "gazeL") units.gaze.right = *angles;
-      continue;
-    }
-    const UnitName unit = UnitOf(row, key, names);
     const auto weight = ParseNumber(value);
     if (!weight || *weight < 0 || *weight > 2) {
       row.Fail(fmt::format("'{}' found, a weight from 0 to 2 expected", value));
     }
-    const auto index = static_cast<std::size_t>(unit.number);
-    if (unit.left) units.au.left[index] = static_cast<float>(*weight);
-    const bool only_left = unit.left && names.IsOneSided(unit.number);
-    if (unit.right && !only_left) units.au.right[index] = static_cast<float>(*weight);
+    UnitSetting setting{*unit, *weight};
+    TakeOwnSide(setting, names);
+    SetUnit(look, setting);
   }
-  return units;
+  return look;
 }
 
 vm::Result<BlendShapes> ReadBlendShapes(const std::string& name, std::string_view text,

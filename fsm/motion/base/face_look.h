@@ -11,6 +11,7 @@ namespace fsm {
 
 class TableRow;
 struct UnitNames;
+struct UnitSetting;
 
 /// The strengths of all action units, and the rotation of the eyes that goes with them.
 struct FaceLook {
@@ -34,6 +35,9 @@ void ForEachUnit(UnitValues& to, const UnitValues& other, const Change& change) 
 /// Adds weight * b to `a`.
 void AddTo(FaceLook& a, const FaceLook& b, double weight);
 
+void SetUnit(FaceLook& look, const UnitSetting& unit);
+/// Sets the gaze by a word gaze[L|R]:DOWN,RIGHT (degrees); returns false for any other word.
+bool SetGaze(FaceLook& look, std::string_view word);
 /// Reads the words of a row from index `first` on: AU[L|R]:WEIGHT or gaze[L|R]:DOWN,RIGHT
 /// (degrees). Throws TableError.
 FaceLook ReadLook(const TableRow& row, std::size_t first, const UnitNames& names);

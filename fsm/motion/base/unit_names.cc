@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <functional>
+#include <span>
 #include <utility>
 
 #include "embedded/action_unit_names.h"
@@ -166,6 +167,27 @@ vm::Result<double> ParseStrength(const Word& word) {
   return *number;
 }
 
+std::unexpected<vm::Error> FailEmpty() {
+  return vm::Fail(vm::Errc::kBadValue,
+                  "nothing found where units and strengths are expected, as '12L 0.7 6 C'");
+}
+
+/// Takes a unit from the front of the words, and its strength if its own word does not have it.
+/// REQUIRES: there are words.
+vm::Result<ParsedUnit> TakeUnit(std::span<const Word>& words, const UnitNames& names) {
+  auto unit = ParseUnit(words[0], names);
+  if (!unit) return unit;
+  if (!unit->strength_given) {
+    if (words.size() == 1) return FailAt(words[0], "without a strength after it");
+    const auto strength = ParseStrength(words[1]);
+    if (!strength) return std::unexpected(strength.error());
+    unit->unit.strength = *strength;
+  }
+  words = words.subspan(unit->strength_given ? 1 : 2);
+  TakeOwnSide(unit->unit, names);
+  return unit;
+}
+
 HeadEyeCode ReadCode(const TableRow& row) {
   std::array<float, 8> v{};
   for (std::size_t i = 0; i < v.size(); ++i) {
@@ -225,43 +247,33 @@ vm::Result<UnitName> ParseUnitName(std::string_view word, const UnitNames& names
                                                    word.substr(0, 60), UnitsExpected(word, names)));
 }
 
-vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames& names,
-                                         bool with_ms) {
-  const std::vector<Word> words = UnitWordsOf(text);
+void TakeOwnSide(UnitSetting& unit, const UnitNames& names) {
+  if (unit.left && unit.strength > 0 && names.IsOneSided(unit.number)) unit.right = false;
+}
+
+vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames& names) {
+  const std::vector<Word> all = UnitWordsOf(text);
+  if (all.empty()) return FailEmpty();
   UnitCommand out;
   bool lettered = false;  // the previous unit has an intensity letter
-  for (std::size_t i = 0; i < words.size(); ++i) {
+  for (std::span<const Word> words(all); !words.empty();) {
     // A single number at the end, after at least one unit, is a time.
-    if (with_ms && i > 0 && i + 1 == words.size()) {
-      if (const auto ms = ParseNumber(words[i].text)) {
-        if (lettered && *ms > 0 && *ms <= kMostStrength) {
-          return FailAt(words[i], fmt::format("a second strength: '{}' says its own by a letter; a "
-                                              "time of more than {:g} ms expected, or none",
-                                              words[i - 1].text.substr(0, 60), kMostStrength));
-        }
-        if (*ms < 0 || *ms > 86400000) {
-          return FailAt(words[i], "no time; 0 to 86400000 ms expected");
-        }
-        out.ms = *ms;
-        break;
+    const auto ms =
+        words.size() == 1 && !out.units.empty() ? ParseNumber(words[0].text) : std::nullopt;
+    if (ms) {
+      if (lettered && *ms > 0 && *ms <= kMostStrength) {
+        return FailAt(words[0], fmt::format("a second strength: '{}' says its own by a letter; a "
+                                            "time of more than {:g} ms expected, or none",
+                                            all[all.size() - 2].text.substr(0, 60), kMostStrength));
       }
+      if (*ms < 0 || *ms > 86400000) return FailAt(words[0], "no time; 0 to 86400000 ms expected");
+      out.ms = *ms;
+      break;
     }
-    auto unit = ParseUnit(words[i], names);
-    if (!unit) return std::unexpected(unit.error());
-    if (!unit->strength_given) {
-      if (i + 1 == words.size()) return FailAt(words[i], "without a strength after it");
-      const auto strength = ParseStrength(words[++i]);
-      if (!strength) return std::unexpected(strength.error());
-      unit->unit.strength = *strength;
-    }
-    lettered = unit->strength_given;
-    UnitSetting& set = unit->unit;
-    if (set.left && names.IsOneSided(set.number) && set.strength > 0) set.right = false;
-    out.units.push_back(unit->unit);
-  }
-  if (out.units.empty()) {
-    return vm::Fail(vm::Errc::kBadValue,
-                    "nothing found where units and strengths are expected, as '12L 0.7 6 C'");
+    const auto taken = TakeUnit(words, names);
+    if (!taken) return std::unexpected(taken.error());
+    lettered = taken->strength_given;
+    out.units.push_back(taken->unit);
   }
   return out;
 }
@@ -290,34 +302,26 @@ std::string FormatLook(const FaceLook& look, const UnitNames& names) {
 }
 
 vm::Result<FaceLook> ParseLook(std::string_view text, const UnitNames& names) {
+  const std::vector<Word> all = UnitWordsOf(text);
+  if (all.empty()) return FailEmpty();
   FaceLook look;
-  std::string units;
-  for (const Word& word : UnitWordsOf(text)) {
-    if (word.text.starts_with("gaze")) {
-      const auto gaze = ReadTable("gaze", word.text, [&names](const Table& table) {
-        return ReadLook(table.rows().front(), 0, names);
-      });
-      if (!gaze) return FailAt(word, "no direction; gaze:DOWN,RIGHT in degrees expected");
-      AddTo(look, *gaze, 1);
+  for (std::span<const Word> words(all); !words.empty();) {
+    if (words[0].text.starts_with("gaze")) {
+      if (!SetGaze(look, words[0].text)) {
+        return FailAt(words[0], "no direction; gaze:DOWN,RIGHT in degrees expected");
+      }
+      words = words.subspan(1);
       continue;
     }
-    // Columns must not change.
-    units.resize(std::max(units.size(), word.column - 1), ' ');
-    units += word.text;
-  }
-  if (units.empty() && !text.empty()) return look;
-  const auto command = ParseUnitCommand(units, names, false);
-  if (!command) return std::unexpected(command.error());
-  for (const UnitSetting& unit : command->units) {
-    if (!names.IsUnit(unit.number)) {
+    const auto taken = TakeUnit(words, names);
+    if (!taken) return std::unexpected(taken.error());
+    if (!names.IsUnit(taken->unit.number)) {
       return vm::Fail(vm::Errc::kBadValue,
                       fmt::format("{} is a code of head or eyes, which an expression cannot hold; "
                                   "action units and gaze:DOWN,RIGHT expected",
-                                  unit.number));
+                                  taken->unit.number));
     }
-    const auto index = static_cast<std::size_t>(unit.number);
-    if (unit.left) look.au.left[index] = static_cast<float>(unit.strength);
-    if (unit.right) look.au.right[index] = static_cast<float>(unit.strength);
+    SetUnit(look, taken->unit);
   }
   return look;
 }

@@ -50,6 +50,9 @@ vm::Result<UnitName> ParseUnitName(std::string_view word, const UnitNames& names
 struct UnitSetting : UnitName {
   double strength = 1;  ///< 0..2
 };
+/// Leaves a unit that is inherently of one side only the agent's left if it has both and is not
+/// reset.
+void TakeOwnSide(UnitSetting& unit, const UnitNames& names);
 /// The strengths of the intensity letters of FACS, A trace .. E maximum (Ekman and Friesen 1978).
 inline constexpr std::array<double, 5> kIntensity = {0.1, 0.3, 0.5, 0.75, 1.0};
 
@@ -58,13 +61,11 @@ struct UnitCommand {
   std::optional<double> ms;  ///< the number at the end, if there is one
 };
 /// Parses any number of settings such as `12L 0.7`, `12L C`, `12C`, `R12C`, `LipCornerPuller 0.7`,
-/// `LipCornerPuller.L 0.7` or `12L:0.7`, and, if `with_ms`, a number of ms at the end. Names are
-/// not case-sensitive and take precedence over numbers with a letter: where a unit is called 58b,
-/// 58B is that unit.
-/// Error: kBadValue with the offending word, its position and what was expected.
-vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames& names,
-                                         bool with_ms);
-/// Parses the look of an expression: action units (no codes) and `gaze:DOWN,RIGHT` in degrees.
+/// `LipCornerPuller.L 0.7` or `12L:0.7`, and perhaps a number of ms at the end. Names are not
+/// case-sensitive and take precedence over numbers with a letter: where a unit is called 58b, 58B
+/// is that unit. Error: kBadValue with the offending word, its position and what was expected.
+vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames& names);
+/// Parses the look of an expression: action units (no codes) and `gaze[L|R]:DOWN,RIGHT` in degrees.
 /// Error: kBadValue.
 vm::Result<FaceLook> ParseLook(std::string_view text, const UnitNames& names);
 /// Formats a look as ParseLook reads it: `6:0.7 12L:0.8 gaze:6,0`.

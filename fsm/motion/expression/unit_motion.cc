@@ -17,7 +17,7 @@ void UnitMotion::SetOne(vm::Time now, const UnitSetting& unit, vm::Time move) {
 }
 
 vm::Result<void> UnitMotion::Set(vm::Time now, std::string_view text) {
-  const auto command = ParseUnitCommand(text, names_, true);
+  const auto command = ParseUnitCommand(text, names_);
   if (!command) return std::unexpected(command.error());
   for (const UnitSetting& one : command->units) {
     const vm::Time usual = names_.IsUnit(one.number) ? kUnitMove : kCodeMove;
@@ -27,10 +27,8 @@ vm::Result<void> UnitMotion::Set(vm::Time now, std::string_view text) {
 }
 
 void UnitMotion::Set(vm::Time now, int unit, double strength) {
-  UnitSetting setting;
-  setting.number = unit;
-  setting.right = !names_.IsOneSided(unit) || strength == 0;
-  setting.strength = strength;
+  UnitSetting setting{{.number = unit}, strength};
+  TakeOwnSide(setting, names_);
   SetOne(now, setting, kUnitMove);
 }
 
