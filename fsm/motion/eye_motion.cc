@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fsm/motion/base/fixations.h"
 #include "fsm/motion/base/random_streams.h"
 #include "fsm/motion/inputs/motion_inputs.h"
 
@@ -19,15 +20,6 @@ constexpr double kSureBlinkDegrees = 20, kMostBlinks = 0.95;
 constexpr double kFixationMs = 1500, kFixationVaries = 0.35;  // and the part by which it varies
 constexpr double kSideVaries = 0.8;                           // against the habit, of -1..1
 constexpr double kThoughtSaccadeMs = 55;  // of fifteen degrees, by the main sequence
-
-// Moves to a target within `move`; if `duration` is not zero, returns to rest by its end.
-void MoveAndReturn(Track<EyeAngles>& track, vm::Time now, const EyeAngles& target, vm::Time move,
-                   vm::Time duration) {
-  const bool timed = duration > vm::Time(0);
-  if (timed) move = std::min(move, duration / 2);
-  track.Plan(now, target, now, move);
-  if (timed) track.Plan(now, EyeAngles{}, now + duration - move, move);
-}
 
 }  // namespace
 
@@ -51,7 +43,7 @@ void EyeMotion::Rotate(vm::Time now, bool left, bool right, const EyeAngles& ang
                        vm::Time duration) {
   for (const Side side : kSides) {
     if (!(side == Side::kLeft ? left : right)) continue;
-    MoveAndReturn(rotation_[side], now, angles, settings_.eye_move, duration);
+    rotation_[side].Visit(now, angles, settings_.eye_move, duration);
     ends_.rotation[side] = duration > vm::Time(0) ? now + duration : now;
   }
 }
@@ -65,9 +57,9 @@ void EyeMotion::SetAim(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time 
                            ? 0
                            : std::atan2(kHalfPupilsMm, near) * 180 / std::numbers::pi;
   vergence_deg_.MoveTo(now, static_cast<float>(angle), 2 * settings_.eye_move);
-  MoveAndReturn(gaze_, now, angles, settings_.eye_move, duration);
-  MoveAndReturn(head_share_, now, {HeadShareOf(angles[kDown]), HeadShareOf(angles[kToRight])},
-                kHeadFollows, duration);
+  gaze_.Visit(now, angles, settings_.eye_move, duration);
+  head_share_.Visit(now, {HeadShareOf(angles[kDown]), HeadShareOf(angles[kToRight])}, kHeadFollows,
+                    duration);
   ends_.gaze = duration > vm::Time(0) ? now + duration : now;
 }
 
@@ -107,10 +99,6 @@ EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
                   : kFixationMs * (static_cast<double>(k) +
                                    kFixationVaries * RandomAt(seed_, RandomStream::kThinkTime, k));
   };
-  const double ms = std::max(0.0, InMs(t - thinking_since_));
-  auto k = static_cast<std::int64_t>(std::floor(ms / kFixationMs));
-  if (ms < saccade_ms(k)) --k;
-  if (ms >= saccade_ms(k + 1)) ++k;
   const double habit = RandomAt(seed_, RandomStream::kThinkSide, 0);
   const auto place = [&](std::int64_t index) -> std::array<double, 2> {
     if (index < 0) return {0, 0};
@@ -121,10 +109,8 @@ EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
     };
     return {varied(gestures_.think.down, index), side * varied(gestures_.think.aside, index + 50)};
   };
-  const auto from = place(k - 1), to = place(k);
-  const double u = SmootherStep((ms - saccade_ms(k)) / kThoughtSaccadeMs);
-  return {static_cast<float>(from[kDown] + u * (to[kDown] - from[kDown])),
-          static_cast<float>(from[kToRight] + u * (to[kToRight] - from[kToRight]))};
+  return FixationAt(std::max(0.0, InMs(t - thinking_since_)), kFixationMs, saccade_ms, place,
+                    [](const auto&, const auto&) { return kThoughtSaccadeMs; });
 }
 
 double EyeMotion::LidsShutAt(vm::Time t) const {

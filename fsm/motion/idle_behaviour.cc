@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fsm/motion/base/fixations.h"
 #include "fsm/motion/inputs/idle_kinds.h"
 #include "fsm/motion/inputs/motion_inputs.h"
 
@@ -143,18 +144,14 @@ EyeAngles IdleBehaviour::SaccadesAt(const AutoGaze& gaze, vm::Time t) const {
     return gaze.interval_ms * (static_cast<double>(k) + kSaccadeAt +
                                kSaccadeVaries * Random(RandomStream::kGazeTime, k));
   };
-  const double now_ms = InMs(t);
-  auto k = static_cast<std::int64_t>(std::floor(now_ms / gaze.interval_ms));
-  if (now_ms < saccade_ms(k)) --k;
-  const auto place = [&](RandomStream stream, double share, std::int64_t index) {
-    return share * gaze.angle * Random(stream, index);
+  const auto place = [&](std::int64_t k) -> std::array<double, 2> {
+    return {kSaccadeHeight * gaze.angle * Random(RandomStream::kGazeY, k),
+            gaze.angle * Random(RandomStream::kGazeX, k)};
   };
-  const double x0 = place(RandomStream::kGazeX, 1, k - 1), x1 = place(RandomStream::kGazeX, 1, k);
-  const double y0 = place(RandomStream::kGazeY, kSaccadeHeight, k - 1),
-               y1 = place(RandomStream::kGazeY, kSaccadeHeight, k);
-  const double u = SmootherStep((now_ms - saccade_ms(k)) /
-                                (kSaccadeMs + kSaccadeMsPerDegree * std::hypot(x1 - x0, y1 - y0)));
-  return {static_cast<float>(y0 + u * (y1 - y0)), static_cast<float>(x0 + u * (x1 - x0))};
+  const auto jump_ms = [](const auto& from, const auto& to) {
+    return kSaccadeMs + kSaccadeMsPerDegree * std::hypot(to[0] - from[0], to[1] - from[1]);
+  };
+  return FixationAt(InMs(t), gaze.interval_ms, saccade_ms, place, jump_ms);
 }
 
 vm::Time IdleBehaviour::BlinkInterval(std::size_t pattern, std::int64_t index) const {

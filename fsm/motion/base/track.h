@@ -92,6 +92,18 @@ class Track : public MoveTimes {
   void MoveTo(vm::Time now, T target, vm::Time duration) {
     Plan(now, std::move(target), now, duration);
   }
+  /// Moves to `target` until `now` + `move`; begins late by `lag`, but by no more than half of that
+  /// time. If `duration` is not zero, returns to T{} by `now` + `duration`, and either way takes at
+  /// most half of it. Returns how long either way takes.
+  vm::Time Visit(vm::Time now, T target, vm::Time move, vm::Time duration,
+                 vm::Time lag = vm::Time(0)) {
+    const bool returns = duration > vm::Time(0);
+    if (returns) move = std::min(move, duration / 2);
+    lag = std::min(lag, move / 2);
+    Plan(now, std::move(target), now + lag, move - lag);
+    if (returns) Plan(now, T{}, now + duration - move, move);
+    return move;
+  }
 
   T At(vm::Time t) const {
     const std::size_t first = RunningFrom(t);

@@ -77,22 +77,15 @@ void ExpressionMotion::ShowSpacePoint(vm::Time now, const EmotionSpace::Point& p
 
 void ExpressionMotion::Plan(vm::Time now, const FaceLook& look, const Expression::Timing& timing,
                             vm::Time onset, vm::Time duration) {
-  const bool timed = duration > vm::Time(0);
-  if (timed) onset = std::min(onset, duration / 2);
   for (const Side side : kSides) {
     const double side_lag_ms = switches_[IdleKind::kAsymmetry].on() ? side_lags_ms_[side] : 0;
     for (std::size_t part = 0; part < kRegions; ++part) {
-      auto& track = parts_[side][part];
-      // A region that begins late moves within the remaining time.
-      const vm::Time lag = std::min(FromMs(timing.lag_ms[part] + side_lag_ms), onset / 2);
-      track.Plan(now, look, now + lag, onset - lag);
-      if (timed) track.Plan(now, FaceLook{}, now + duration - onset, onset);
+      const vm::Time lag = FromMs(timing.lag_ms[part] + side_lag_ms);
+      parts_[side][part].Visit(now, look, onset, duration, lag);
     }
   }
-  shown_.Plan(now, 1.0F, now, onset);
-  if (timed) shown_.Plan(now, 0.0F, now + duration - onset, onset);
-  onset_end_ = now + onset;
-  end_ = timed ? std::optional(now + duration) : std::nullopt;
+  onset_end_ = now + shown_.Visit(now, 1.0F, onset, duration);
+  end_ = duration > vm::Time(0) ? std::optional(now + duration) : std::nullopt;
 }
 
 void ExpressionMotion::Neutral(vm::Time now) {

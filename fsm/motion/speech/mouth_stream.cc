@@ -40,42 +40,39 @@ void MouthStream::Stop(vm::Time now) {
   }
 }
 
-SpokenMouth MouthStream::MouthAt(vm::Time t) const {
-  SpokenMouth mouth;
-  const auto next = std::ranges::upper_bound(frames_, t, {}, &Frame::at);
-  if (next != frames_.begin()) {
-    const Frame& last = *(next - 1);
-    const bool within = next != frames_.end() && next->run_start != next->at;
-    if (within) {
-      const double progress = Progress(t, last.at, next->at - last.at);
-      return {std::lerp(last.weight, next->weight, progress), Mix(last.pose, next->pose, progress)};
-    }
-    mouth.weight =
-        last.weight * (1 - SmoothStep(Progress(t, last.at + kHold + kMouthCloses, kMouthFadeOut)));
-    mouth.pose =
-        Mix(last.pose, ClosedMouth(), SmoothStep(Progress(t, last.at + kHold, kMouthCloses)));
-  }
-  if (next != frames_.end()) {  // the next run may be fading in
-    mouth.BlendOver(next->pose, SmoothStep(Progress(t, next->at - kMouthFadeIn, kMouthFadeIn)));
-  }
-  return mouth;
-}
-
-MouthStream::WeightedHead MouthStream::HeadAt(vm::Time t) const {
-  WeightedHead head;
+template <typename OfFrame, typename AfterLast>
+auto MouthStream::At(vm::Time t, const OfFrame& of_frame, const AfterLast& after_last) const {
+  decltype(of_frame(frames_.front())) value;
   const auto next = std::ranges::upper_bound(frames_, t, {}, &Frame::at);
   if (next != frames_.begin()) {
     const Frame& last = *(next - 1);
     if (next != frames_.end() && next->run_start != next->at) {
-      return MixHeads(HeadOf(last), HeadOf(*next), Progress(t, last.at, next->at - last.at));
+      return Mix(of_frame(last), of_frame(*next), Progress(t, last.at, next->at - last.at));
     }
-    head = MixHeads(HeadOf(last), WeightedHead{}, SmoothStep(Progress(t, last.at, kHeadReturns)));
+    value = after_last(last);
   }
-  if (next != frames_.end()) {
-    head = MixHeads(head, HeadOf(*next),
-                    SmoothStep(Progress(t, next->at - kMouthFadeIn, kMouthFadeIn)));
-  }
-  return head;
+  if (next == frames_.end()) return value;
+  // The next run may be fading in.
+  return Mix(value, of_frame(*next),
+             SmoothStep(Progress(t, next->at - kMouthFadeIn, kMouthFadeIn)));
+}
+
+SpokenMouth MouthStream::MouthAt(vm::Time t) const {
+  const auto of_frame = [](const Frame& frame) { return SpokenMouth{frame.weight, frame.pose}; };
+  return At(t, of_frame, [t](const Frame& last) -> SpokenMouth {
+    const vm::Time closes = last.at + kHold;
+    return {last.weight * (1 - SmoothStep(Progress(t, closes + kMouthCloses, kMouthFadeOut))),
+            Mix(last.pose, ClosedMouth(), SmoothStep(Progress(t, closes, kMouthCloses)))};
+  });
+}
+
+MouthStream::WeightedHead MouthStream::HeadAt(vm::Time t) const {
+  const auto of_frame = [](const Frame& frame) -> WeightedHead {
+    return {frame.head ? frame.weight : 0.0, frame.head.value_or(StreamHead{})};
+  };
+  return At(t, of_frame, [&](const Frame& last) {
+    return Mix(of_frame(last), {}, SmoothStep(Progress(t, last.at, kHeadReturns)));
+  });
 }
 
 void MouthStream::Contribute(vm::Time t, MotionLayers& layers) const {

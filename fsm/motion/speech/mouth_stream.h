@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <deque>
 #include <optional>
 
@@ -64,18 +65,18 @@ class MouthStream : public MotionSource {
     std::optional<StreamHead> head;
     double weight = 1;  // how far mouth and head have been taken over
   };
-  SpokenMouth MouthAt(vm::Time t) const;
   struct WeightedHead {
     double weight = 0;  // how far frames control head and brows, 0..1
     StreamHead pose;    // multiplied by the weight
+    friend WeightedHead Mix(const WeightedHead& a, const WeightedHead& b, double share_of_b) {
+      return {std::lerp(a.weight, b.weight, share_of_b), Mix(a.pose, b.pose, share_of_b)};
+    }
   };
+  /// Returns a value at `t`, given that of a frame and how it fades after the last frame of a run.
+  template <typename OfFrame, typename AfterLast>
+  auto At(vm::Time t, const OfFrame& of_frame, const AfterLast& after_last) const;
+  SpokenMouth MouthAt(vm::Time t) const;
   WeightedHead HeadAt(vm::Time t) const;
-  static WeightedHead HeadOf(const Frame& frame) {
-    return {frame.head ? frame.weight : 0.0, frame.head.value_or(StreamHead{})};
-  }
-  static WeightedHead MixHeads(const WeightedHead& a, const WeightedHead& b, double share_of_b) {
-    return {a.weight + (b.weight - a.weight) * share_of_b, fsm::Mix(a.pose, b.pose, share_of_b)};
-  }
   static vm::Time FadedAt(const Frame& last);
 
   vm::Time start_{0};

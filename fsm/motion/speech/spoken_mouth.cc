@@ -1,5 +1,7 @@
 #include "fsm/motion/speech/spoken_mouth.h"
 
+#include <cmath>
+
 #include "fsm/motion/inputs/motion_settings.h"
 
 namespace fsm {
@@ -12,8 +14,11 @@ MouthPose ClosedMouth() {
 }
 
 void SpokenMouth::BlendOver(const MouthPose& other, double other_weight) {
-  pose = Mix(pose, other, other_weight);
-  weight = 1 - (1 - weight) * (1 - other_weight);
+  *this = Mix(*this, {1, other}, other_weight);
+}
+
+SpokenMouth Mix(const SpokenMouth& a, const SpokenMouth& b, double share_of_b) {
+  return {std::lerp(a.weight, b.weight, share_of_b), Mix(a.pose, b.pose, share_of_b)};
 }
 
 void SpokenMouth::Contribute(double mouth_scale, std::string_view layer_name,

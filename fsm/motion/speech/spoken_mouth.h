@@ -19,5 +19,6 @@ struct SpokenMouth {
   /// `contact`.
   void Contribute(double mouth_scale, std::string_view layer, MotionLayers& layers) const;
 };
+SpokenMouth Mix(const SpokenMouth& a, const SpokenMouth& b, double share_of_b);
 
 }  // namespace fsm
