@@ -1,7 +1,9 @@
 #include "fsm/app/lip_slots.h"
 
+#include <algorithm>
 #include <fstream>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <tuple>
 
 #include "fsm/app/slot_words.h"
@@ -12,7 +14,10 @@
 namespace fsm {
 namespace {
 
-VisemeSetId SetOfCount(double count) { return count == 28 ? VisemeSetId::k28 : VisemeSetId::k14; }
+std::optional<VisemeSetId> SetOfCount(std::size_t count) {
+  const auto* const found = std::ranges::find(kVisemeSets, count, CountOf);
+  return found == kVisemeSets.end() ? std::nullopt : std::optional(*found);
+}
 std::string SlotOf(VisemeSetId set, const std::string& viseme) {
   return (set == VisemeSetId::k28 ? "MouthShape28." : "MouthShape.") + viseme;
 }
@@ -33,11 +38,10 @@ std::vector<SlotWord<glm::vec2>> WaysOfSpeaking(const GestureNumbers& gestures) 
 
 /// Returns the set that the first number of a value names.
 vm::Result<VisemeSetId> SetNamed(const vm::SetValue& value) {
-  if (value.number(0) != 14 && value.number(0) != 28) {
-    return vm::Fail(vm::Errc::kBadValue,
-                    "there are sets of 14 and of 28 mouth shapes; 14 or 28 expected");
-  }
-  return SetOfCount(value.number(0));
+  const auto set = SetOfCount(static_cast<std::size_t>(value.number(0)));
+  if (set) return *set;
+  return vm::Fail(vm::Errc::kBadValue,
+                  "there are sets of 14 and of 28 mouth shapes; 14 or 28 expected");
 }
 
 vm::Result<void> ChooseVisemes(MotionSettings& settings, const vm::SetValue& value) {
@@ -129,7 +133,7 @@ void DeclareVisemes(FsmCore& core, VisemeSetId set) {
 vm::Result<void> LoadVisemes(FsmCore& core, const std::string& path) {
   const auto text = ReadTableFile(path);
   if (!text) return std::unexpected(text.error());
-  const VisemeSetId set = SetOfCount(static_cast<double>(Table(path, *text).rows().size()));
+  const VisemeSetId set = SetOfCount(Table(path, *text).rows().size()).value_or(VisemeSetId::k14);
   auto visemes = ReadVisemes(path, *text, set);
   if (!visemes) return std::unexpected(visemes.error());
   const Visemes& now = core.motion->visemes(set);

@@ -7,7 +7,6 @@
 namespace fsm {
 namespace {
 
-constexpr double kMostMm = 60;  // the limit of the viseme tables
 constexpr std::size_t kValues = 1 + kMouthParameters + 2;
 constexpr std::size_t kHeadValues = 4;
 constexpr double kMostDegrees = 90;
@@ -20,25 +19,12 @@ vm::Result<MouthPose> PoseOf(const vm::SetValue& value) {
                         std::to_string(kValues + kHeadValues) +
                         ": then the head's angles down, right, tilt, and the brows");
   }
-  MouthPose pose;
-  for (std::size_t i = 0; i < kMouthParameters; ++i) {
-    if (!(std::abs(value.number(i + 1)) <= kMostMm)) {
-      return vm::Fail(vm::Errc::kBadValue, "mouth parameter " + std::to_string(i + 1) + " is " +
-                                               value.word(i + 1) + ", -60 to 60 expected");
-    }
-    pose.mouth[i] = static_cast<float>(value.number(i + 1));
-  }
-  const double seal = value.number(kMouthParameters + 1),
-               tongue = value.number(kMouthParameters + 2);
-  if (!(seal >= 0 && seal <= 1 && tongue >= 0 && tongue <= 1)) {
-    return vm::Fail(vm::Errc::kBadValue, "seal and tongue are " + value.word(kMouthParameters + 1) +
-                                             " and " + value.word(kMouthParameters + 2) +
-                                             ", 0 to 1 expected");
-  }
-  pose.seal = static_cast<float>(seal);
-  pose.tongue = static_cast<float>(tongue);
-  pose.contact = pose.seal;
-  return pose;
+  std::vector<std::string> words;
+  for (std::size_t i = 1; i < kValues; ++i) words.push_back(value.word(i));
+  Viseme shape;
+  if (auto read = ReadVisemeValues(words, 0, shape); !read) return std::unexpected(read.error());
+  shape.pose.contact = shape.pose.seal;
+  return shape.pose;
 }
 
 /// Returns head and brows of a value that PoseOf accepts; nothing if the value does not have them.

@@ -118,10 +118,10 @@ TEST(MouthFrameTest, FramesMoveTheMouthAtTheirTimeAndBadOnesAreNamed) {
   EXPECT_NE(fsm.Say("set#1 MouthFrame = 10 1 2").find("3 numbers found, 20 expected"),
             std::string::npos);
   EXPECT_NE(fsm.Say("set#1 MouthFrame = 10 99 0 0 0 0 0 0 0 0 0 0 8 0 0 0 0 0 0 0.5")
-                .find("mouth parameter 1 is 99, -60 to 60 expected"),
+                .find("'99' found, mouth parameter 1 expected, a number from -60 to 60"),
             std::string::npos);
   EXPECT_NE(fsm.Say("set#1 MouthFrame = 10 0 0 0 0 0 0 0 0 0 0 0 8 0 0 0 0 0 2 0")
-                .find("seal and tongue are 2 and 0, 0 to 1 expected"),
+                .find("'2' found, seal expected, a number from 0 to 1"),
             std::string::npos);
   EXPECT_NE(fsm.Say("set#1 MouthFrame.start = soon").find("error = BAD_VALUE"), std::string::npos);
   EXPECT_EQ(fsm.Say("set#1 MouthFrame.start = STOP"), "rep#1 MouthFrame.start = STOP");

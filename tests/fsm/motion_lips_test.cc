@@ -131,7 +131,7 @@ TEST(LipStyleTest, LinearModeGoesStraight) {
 TEST(PhonemeNamesTest, TheListThatKnowsMostNamesTheLanguage) {
   const auto english = [](const char* text) {
     return PhonemeReader(List(text), Tables().set28, Tables().engines, Language::kAuto, "")
-        .english();
+               .language() == Language::kEnglish;
   };
   EXPECT_FALSE(english("pau 10 k 10 o 10 N 10 n 10 i 10 ch 10 i 10 w 10 a 10"));  // open_jtalk
   EXPECT_TRUE(english("pau 10 hh 10 ax 10 l 10 ow 10 pau 10"));                   // flite
@@ -163,7 +163,8 @@ TEST(PhonemeNamesTest, EndingsAreTakenOffAndUnknownNamesAreListed) {
 
 TEST(PhonemeNamesTest, ALanguageOrAnEngineCanBeInsistedOn) {
   const auto english = [](const char* text, Language language, const char* engine) {
-    return PhonemeReader(List(text), Tables().set28, Tables().engines, language, engine).english();
+    return PhonemeReader(List(text), Tables().set28, Tables().engines, language, engine)
+               .language() == Language::kEnglish;
   };
   EXPECT_TRUE(english("k 10 t 10", Language::kEnglish, ""));
   // a of espeak-ng's English is the vowel of "cat".
@@ -171,8 +172,10 @@ TEST(PhonemeNamesTest, ALanguageOrAnEngineCanBeInsistedOn) {
 }
 
 TEST(PhonemeNamesTest, AnEngineWhoseNameIsWithinAnothersIsListed) {
+  const auto japanese = Language::kJapanese, english = Language::kEnglish;
   EXPECT_EQ(
-      EngineList({{"JTALK", false, {}, {}}, {"FLITE", true, {}, {}}, {"JTALK", true, {}, {}}}),
+      EngineList(
+          {{"JTALK", japanese, {}, {}}, {"FLITE", english, {}, {}}, {"JTALK", english, {}, {}}}),
       "FLITE OPEN_JTALK JTALK");
 }
 

@@ -28,7 +28,8 @@ EngineNames ReadEngine(const TableRow& row) {
   if (row.size() != 3 || (row.Word(2) != "EN" && row.Word(2) != "JP")) {
     row.Fail("engine NAME EN|JP expected");
   }
-  return {row.Word(1), row.Word(2) == "EN", {}, {}};
+  const auto language = row.Word(2) == "EN" ? Language::kEnglish : Language::kJapanese;
+  return {row.Word(1), language, {}, {}};
 }
 
 /// Reads pairs of an engine's name and ours, which must be in `known`.
@@ -59,7 +60,7 @@ vm::Result<std::vector<EngineNames>> ReadPhonemeNames(const std::string& name,
       if (row.key() == "strip") {
         names.endings.assign(row.words().begin() + 1, row.words().end());
       } else {
-        ReadPairs(row, names.english ? set.english : set.japanese, names);
+        ReadPairs(row, set.PhonemesOf(names.language), names);
       }
     }
     return engines;
@@ -77,36 +78,38 @@ std::string EngineList(const std::vector<EngineNames>& engines) {
 PhonemeReader::PhonemeReader(const vm::PhonemeList& phonemes, const VisemeSet& set,
                              const std::vector<EngineNames>& engines, Language language,
                              std::string_view engine)
-    : set_(set), english_(language == Language::kEnglish) {
+    : set_(set) {
+  if (language != Language::kAuto) language_ = language;
   std::ptrdiff_t most = -1;
-  const auto consider = [&](const EngineNames* names, bool english, std::string_view called) {
-    if (language != Language::kAuto && english != (language == Language::kEnglish)) return;
+  const auto consider = [&](const EngineNames* names, Language theirs, std::string_view called) {
+    if (language != Language::kAuto && language != theirs) return;
     if (!engine.empty() && engine != "AUTO" && engine != called) return;
     const auto known = std::ranges::count_if(phonemes, [&](const vm::Phoneme& phoneme) {
-      return VisemesIn(names, english, phoneme.name) != nullptr;
+      return VisemesIn(names, theirs, phoneme.name) != nullptr;
     });
     if (known <= most) return;
     most = known;
     names_ = names;
-    english_ = english;
+    language_ = theirs;
   };
-  consider(nullptr, false, "OPEN_JTALK");
-  consider(nullptr, true, "FLITE");
-  for (const EngineNames& names : engines) consider(&names, names.english, names.engine);
+  consider(nullptr, Language::kJapanese, "OPEN_JTALK");
+  consider(nullptr, Language::kEnglish, "FLITE");
+  for (const EngineNames& names : engines) consider(&names, names.language, names.engine);
 }
 
-const PhonemeVisemes* PhonemeReader::VisemesIn(const EngineNames* names, bool english,
+const PhonemeVisemes* PhonemeReader::VisemesIn(const EngineNames* names, Language language,
                                                std::string_view name) const {
   const std::string_view ours = names == nullptr ? name : names->Ours(name);
-  const PhonemeTable& table = english ? set_.english : set_.japanese;
+  const PhonemeTable& table = set_.PhonemesOf(language);
   const auto found = table.find(ours);
   return found == table.end() ? nullptr : &found->second;
 }
 
 const PhonemeVisemes* PhonemeReader::VisemesOf(std::string_view name) const {
-  if (const PhonemeVisemes* visemes = VisemesIn(names_, english_, name)) return visemes;
-  if (const PhonemeVisemes* visemes = VisemesIn(nullptr, english_, name)) return visemes;
-  return VisemesIn(nullptr, !english_, name);
+  if (const PhonemeVisemes* visemes = VisemesIn(names_, language_, name)) return visemes;
+  if (const PhonemeVisemes* visemes = VisemesIn(nullptr, language_, name)) return visemes;
+  const bool english = language_ == Language::kEnglish;
+  return VisemesIn(nullptr, english ? Language::kJapanese : Language::kEnglish, name);
 }
 
 }  // namespace fsm

@@ -13,7 +13,7 @@ namespace fsm {
 /// The phoneme names of a speech engine in one language; see tables/phoneme_names.txt.
 struct EngineNames {
   std::string engine;
-  bool english = false;
+  Language language = Language::kJapanese;
   std::vector<std::string> endings;
   std::map<std::string, std::string, std::less<>> ours;
 
@@ -40,15 +40,15 @@ class PhonemeReader {
 
   /// Returns nullptr if no list has the name.
   const PhonemeVisemes* VisemesOf(std::string_view name) const;
-  bool english() const { return english_; }
+  Language language() const { return language_; }
 
  private:
-  const PhonemeVisemes* VisemesIn(const EngineNames* names, bool english,
+  const PhonemeVisemes* VisemesIn(const EngineNames* names, Language language,
                                   std::string_view name) const;
 
   const VisemeSet& set_;
   const EngineNames* names_ = nullptr;  // nullptr = our own
-  bool english_ = false;
+  Language language_ = Language::kJapanese;
 };
 
 }  // namespace fsm

@@ -78,6 +78,11 @@ struct VisemeSet {
   PhonemeTable japanese;
   PhonemeTable english;
   std::size_t rest = 0;  ///< index of the viseme of pauses
+
+  /// REQUIRES: `language` is not kAuto.
+  const PhonemeTable& PhonemesOf(Language language) const {
+    return language == Language::kEnglish ? english : japanese;
+  }
 };
 
 /// How far the dominance of a sound reaches before its start and after its end.
