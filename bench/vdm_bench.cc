@@ -56,7 +56,7 @@ struct Bench {
   double GapMm(const std::array<float, 17>& mouth, float seal, float tongue) const {
     fsm::FaceState state;
     for (std::size_t i = 0; i < mouth.size(); ++i) state.mouth[i] = kSpoken * mouth[i];
-    state.lip_seal = seal;
+    state.seal = seal;
     state.tongue = tongue;
     return static_cast<double>(head->MeasureMouth(state).gap_mm);
   }

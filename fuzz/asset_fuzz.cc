@@ -87,11 +87,11 @@ std::vector<fsm::FaceState> States() {
     state.au.left[fsm::UnitValues::kMost] = strength;
     state.mouth.fill(10 * strength);
     state.mouth_by_hand.fill(-10 * strength);
-    state.lip_seal = state.tongue = strength;
+    state.seal = state.tongue = strength;
     state.blink = {strength, strength};
     state.gaze.left = state.gaze.right = {30 * strength, 40 * strength};
     state.head_rotation = {50 * strength, 70 * strength, 45 * strength};
-    state.head_forward = 40 * strength;
+    state.head_forward_mm = 40 * strength;
   }
   return states;
 }

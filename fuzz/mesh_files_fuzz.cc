@@ -93,7 +93,7 @@ void CarryOnto(const fsm::ImportedHead& file, const fsm::Similarity& place,
     const auto head = fsm::MakeMeshHead(std::move(model), std::move(skin));
     fsm::FaceState state;
     state.mouth[fsm::kLowerInnerY] = 3;
-    state.au.left[27] = state.au.right[12] = state.lip_seal = state.blink.left = 1;
+    state.au.left[27] = state.au.right[12] = state.seal = state.blink.left = 1;
     fsm::HeadVertices moved;
     head->Evaluate(state, moved);
     for (const glm::vec3& p : moved.position) {

@@ -134,7 +134,7 @@ fsm::FaceState StateOf(const fsm::FaceLook& look) {
 fsm::FaceState StateOf(const fsm::Viseme& shape) {
   fsm::FaceState state;
   state.mouth = shape.pose.mouth;
-  state.lip_seal = shape.pose.seal;
+  state.seal = shape.pose.seal;
   state.tongue = shape.pose.tongue;
   return state;
 }

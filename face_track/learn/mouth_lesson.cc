@@ -53,7 +53,7 @@ fsm::FaceState SomeMouth(const fsm::Visemes& visemes, Dice& dice) {
   }
   state.mouth[fsm::kJawY] = std::max(state.mouth[fsm::kJawY], 0.0F);
   // A seal halfway would show lips that the parameters do not tell of.
-  state.lip_seal = a.pose.seal > 0.5F && b.pose.seal > 0.5F ? 1 : 0;
+  state.seal = a.pose.seal > 0.5F && b.pose.seal > 0.5F ? 1 : 0;
   state.head_rotation = {dice.Between(-6, 6), dice.Between(-8, 8), dice.Between(-4, 4)};
   return state;
 }
@@ -81,7 +81,7 @@ void PrintGaps(const MouthOfLips& mouth, const MouthLesson& lesson) {
   std::vector<float> shut, open;
   for (std::size_t k = 0; k < lesson.seen.size(); ++k) {
     const float told = MouthOfLips::Gap(mouth.Mouth(lesson.seen[k]).parameters);
-    if (lesson.states[k].lip_seal > 0)
+    if (lesson.states[k].seal > 0)
       shut.push_back(told);
     else if (MouthOfLips::Gap(lesson.states[k].mouth) > 1.5F)
       open.push_back(told);
@@ -114,7 +114,7 @@ MouthOfLips LearnMouth(std::size_t heads, const std::string& folder) {
         {.field_degrees = HeadPainter::kField, .settle_ms = (kRest - 1) * kStepMs, .smooth = 0});
     for (int k = 0; k < kRest + kPictures; ++k) {
       fsm::FaceState state;
-      state.lip_seal = 1;
+      state.seal = 1;
       if (k >= kRest) state = SomeMouth(visemes, dice);
       state.asymmetry = 0;
       const auto lines = tracker.Look(painter.Draw(*head, state), kStepMs * k);

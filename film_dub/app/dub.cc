@@ -110,7 +110,7 @@ class Writing {
     state.au = {};
     state.blink = {};
     state.gaze = {};
-    state.head_forward = 0;
+    state.head_forward_mm = 0;
     state.head_rotation = course_.Turned(face_.held(), rest_, number);
     face_.Pose(state);
     PaintMouth(out, course_.lines[number].places,

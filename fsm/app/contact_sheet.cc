@@ -88,7 +88,7 @@ ContactSheet VisemeSheet(const SheetInput& input) {
     for (const Viseme& viseme : input.tables.set(set).visemes) {
       FaceState state;
       state.mouth = viseme.pose.mouth;
-      state.lip_seal = viseme.pose.seal;
+      state.seal = viseme.pose.seal;
       state.tongue = viseme.pose.tongue;
       sheet.cells.push_back({prefix + viseme.name, Framed(state, kMouth), input.face});
     }

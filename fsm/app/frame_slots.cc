@@ -44,7 +44,7 @@ void FrameSlots::SendState(vm::Time at) {
   std::string text = vm::FormatMs(at);
   const auto add = [&text](float value) { text += fmt::format(" {:.4g}", value); };
   for (const float value : state.mouth) add(value);
-  add(state.lip_seal);
+  add(state.seal);
   add(state.tongue);
   for (const float angle : state.head_rotation) add(angle);
   for (const float angle : state.gaze.left) add(angle);

@@ -77,7 +77,7 @@ std::vector<FaceState> VisemeStates(const MotionTables& tables) {
     for (const Viseme& viseme : *shapes) {
       FaceState& state = states.emplace_back();
       state.mouth = viseme.pose.mouth;
-      state.lip_seal = viseme.pose.seal;
+      state.seal = viseme.pose.seal;
     }
   }
   return states;

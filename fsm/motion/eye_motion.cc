@@ -113,7 +113,7 @@ EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
                     [](const auto&, const auto&) { return kThoughtSaccadeMs; });
 }
 
-double EyeMotion::LidsShutAt(vm::Time t) const {
+double EyeMotion::BlinkAt(vm::Time t) const {
   double shut = 0;
   for (const Blinking& blink : blinks_) {
     shut = std::max(shut, LidsAt(blink.pattern, t - blink.start));
@@ -131,11 +131,11 @@ void EyeMotion::Contribute(vm::Time t, MotionLayers& layers) const {
     const float both = gaze[axis] - head[axis] + thinking * thought[axis];
     layer.units.gaze.left[axis] = left[axis] + both;
     layer.units.gaze.right[axis] = right[axis] + both;
-    layer.head[axis] = head[axis];
+    layer.head_rotation[axis] = head[axis];
   }
   layer.units.gaze.left[kToRight] -= vergence;
   layer.units.gaze.right[kToRight] += vergence;
-  layer.lids_shut = static_cast<float>(LidsShutAt(t));
+  layer.blink.left = layer.blink.right = static_cast<float>(BlinkAt(t));
   layers.AddSignal("at_user", on_user_.At(t));
 }
 

@@ -53,7 +53,7 @@ class EyeMotion : public MotionSource {
   EyeAngles Thinking() const;
   void BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to);
   EyeAngles ThinkingAt(vm::Time t) const;
-  double LidsShutAt(vm::Time t) const;
+  double BlinkAt(vm::Time t) const;
   vm::Time BlinksEnd(vm::Time t) const;
 
   struct Blinking {

@@ -44,7 +44,7 @@ void HeadMotion::StopMovements(vm::Time now) {
 }
 
 void HeadMotion::Contribute(vm::Time t, MotionLayers& layers) const {
-  Angles& angles = layers.Layer("head").head;
+  Angles& angles = layers.Layer("head").head_rotation;
   angles = turn_.At(t);
   for (const Movement& movement : movements_) {
     if (t >= EndOf(movement)) continue;

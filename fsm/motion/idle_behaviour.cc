@@ -104,16 +104,16 @@ double IdleBehaviour::NodAt(const IdleRun& run, vm::Time t) const {
 
 void IdleBehaviour::Contribute(vm::Time t, MotionLayers& layers) const {
   MotionLayer& layer = layers.Layer("idle");
-  AddMove(t, layer.head);
+  AddMove(t, layer.head_rotation);
   for (const IdleRun& run : switches_[IdleKind::kUserdef].runs.At(t)) {
-    Add(layer.head, Looped(PatternAt(patterns_.auto_userdef, run.pattern), InMs(t - run.since)),
-        run.weight);
+    Add(layer.head_rotation,
+        Looped(PatternAt(patterns_.auto_userdef, run.pattern), InMs(t - run.since)), run.weight);
   }
   float nostrils = 0;
   for (const IdleRun& run : switches_[IdleKind::kBreath].runs.At(t)) {
     const AutoBreath& pattern = PatternAt(patterns_.auto_breaths, run.pattern);
     const double breath = run.weight * BreathAt(pattern, t - run.since);
-    layer.head[kDown] -= static_cast<float>(pattern.pitch * breath);
+    layer.head_rotation[kDown] -= static_cast<float>(pattern.pitch * breath);
     nostrils += static_cast<float>(gestures_.breath.nostrils * breath);
   }
   layer.units.au.left[kNostrilDilator] = layer.units.au.right[kNostrilDilator] = nostrils;
@@ -123,9 +123,9 @@ void IdleBehaviour::Contribute(vm::Time t, MotionLayers& layers) const {
     for (std::size_t i = 0; i < 2; ++i) gaze[i] += run.weight * saccades[i];
   }
   layer.units.gaze.left = layer.units.gaze.right = gaze;
-  layer.lids_shut = static_cast<float>(LidsShutAt(t));
+  layer.blink.left = layer.blink.right = static_cast<float>(BlinkAt(t));
   for (const IdleRun& run : switches_[IdleKind::kNods].runs.At(t)) {
-    layers.Layer("nods").head[kDown] += static_cast<float>(run.weight * NodAt(run, t));
+    layers.Layer("nods").head_rotation[kDown] += static_cast<float>(run.weight * NodAt(run, t));
   }
   for (const IdleRun& run : switches_[IdleKind::kFace].runs.At(t)) {
     AddTo(layers.Layer("idle_face").units, PatternAt(patterns_.auto_faces, run.pattern),
@@ -182,7 +182,7 @@ IdleBehaviour::Blink IdleBehaviour::LastBlink(std::size_t pattern, vm::Time sinc
   }
 }
 
-double IdleBehaviour::LidsShutAt(vm::Time t) const {
+double IdleBehaviour::BlinkAt(vm::Time t) const {
   double shut = 0;
   for (const IdleRun& run : switches_[IdleKind::kBlink].runs.At(t)) {
     const AutoBlink& blinks = PatternAt(patterns_.auto_blinks, run.pattern);

@@ -24,7 +24,7 @@ class IdleBehaviour : public MotionSource {
  public:
   explicit IdleBehaviour(const MotionInputs& in);
 
-  double LidsShutAt(vm::Time t) const;
+  double BlinkAt(vm::Time t) const;
   void Contribute(vm::Time t, MotionLayers& layers) const override;
   std::optional<vm::Time> NextActivity(vm::Time t) const override;
   vm::Time SettledAt(vm::Time t) const override { return t; }

@@ -62,7 +62,7 @@ struct FaceState {
   std::array<float, kMouthParameters> mouth_by_hand{};
   /// 0 = the lips follow the parameters; 1 = they are sealed whatever else acts on them (p, b, m,
   /// rest).
-  float lip_seal = 0;
+  float seal = 0;
   /// Height of the tongue's tip: 0 = low, 1 = on the alveolar ridge behind the upper teeth.
   float tongue = 0;
 
@@ -71,8 +71,8 @@ struct FaceState {
   Sided<float> blink;
 
   Angles head_rotation{};  ///< about the neck
-  /// How far the neck carries the head forward (+, chin first) or back (-), in millimetres.
-  float head_forward = 0;
+  /// How far the neck carries the head forward (+, chin first) or back (-).
+  float head_forward_mm = 0;
   /// How much of this head's asymmetry is shown: 0 = both sides move alike, 1 = as the head was
   /// made (MakeHead).
   float asymmetry = 1;

@@ -64,7 +64,9 @@ glm::mat3 HeadRotation(const FaceState& state) {
          RotationZ(-glm::radians(Within(state.head_rotation[kTilted], kHeadTiltRange)));
 }
 
-float HeadForward(const FaceState& state) { return Within(state.head_forward, kHeadForwardRange); }
+float HeadForward(const FaceState& state) {
+  return Within(state.head_forward_mm, kHeadForwardRange);
+}
 
 Pose MakePose(const FaceState& state, const UnitTable& table) {
   Pose pose{};
@@ -81,7 +83,7 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
   pose.jaw = {.open_rad = glm::radians(degrees),
               .slide_mm = slide_mm,
               .sway_mm = Within(effects.jaw_sway_mm, kJawSwayRange)};
-  pose.seal = Bound(std::max(effects.seal, Bound(state.lip_seal, 0, 1)), 0, 1);
+  pose.seal = Bound(std::max(effects.seal, Bound(state.seal, 0, 1)), 0, 1);
   pose.tongue_raise = Bound(effects.tongue_raise + Bound(state.tongue, 0, 1), 0, 1);
   pose.tongue_out_mm = Within(effects.tongue_out_mm, kTongueOutRange);
 

@@ -63,7 +63,7 @@ TEST_F(PlayerTest, SpeechOpensTheMouthAndNamesItsSounds) {
   // 150 ms of rest, and 150 more before the voice.
   EXPECT_EQ(player_.PhonemeAt(600ms), "aa");
   EXPECT_GT(player_.At(550ms)->mouth[fsm::kJawY], 4) << "degrees of the jaw";
-  EXPECT_GT(player_.At(780ms)->lip_seal, 0.9F);
+  EXPECT_GT(player_.At(780ms)->seal, 0.9F);
 }
 
 TEST_F(PlayerTest, WhatTheTablesDoNotHaveIsRefusedAndTheOldPlaysOn) {

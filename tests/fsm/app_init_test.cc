@@ -139,9 +139,9 @@ std::vector<float> Numbers(const FaceState& state) {
     all.insert(all.end(), turn.begin(), turn.end());
   }
   for (const float number :
-       {state.lip_seal, state.tongue, state.gaze.left[kDown], state.gaze.left[kToRight],
+       {state.seal, state.tongue, state.gaze.left[kDown], state.gaze.left[kToRight],
         state.gaze.right[kDown], state.gaze.right[kToRight], state.blink.left, state.blink.right,
-        state.head_forward, state.asymmetry, state.figure.translation[0],
+        state.head_forward_mm, state.asymmetry, state.figure.translation[0],
         state.figure.translation[1], state.figure.scale, state.figure.alpha,
         state.figure.enabled ? 1.0F : 0.0F}) {
     all.push_back(number);

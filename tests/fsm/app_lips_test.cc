@@ -103,7 +103,7 @@ TEST(LipSlotsTest, UnknownPhonemesAreSaidOnceAndSpokenWithClosedLips) {
   EXPECT_NE(fsm.errors[0].find("the phoneme 'xyzzy' is in no table"), std::string::npos);
   fsm.Say("set Speak = NOW");
   fsm.Until(310);
-  EXPECT_FLOAT_EQ(fsm.Now().lip_seal, 1);
+  EXPECT_FLOAT_EQ(fsm.Now().seal, 1);
 }
 
 TEST(MouthFrameTest, FramesMoveTheMouthAtTheirTimeAndBadOnesAreNamed) {

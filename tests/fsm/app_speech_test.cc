@@ -105,7 +105,7 @@ TEST(FsmSpeechTest, StopReportsWhatWasSpokenAndClosesTheMouth) {
   EXPECT_EQ(fsm.Say("inq Speak.utt"), "rep Speak.utt = h [80] a [220] ");
   fsm.Until(420);
   EXPECT_NEAR(fsm.Now().mouth[kJawY], 0, 1e-3);
-  EXPECT_GT(fsm.Now().lip_seal, 0.999);
+  EXPECT_GT(fsm.Now().seal, 0.999);
   EXPECT_EQ(fsm.Until(2000), "");
 }
 

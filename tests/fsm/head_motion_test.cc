@@ -225,8 +225,8 @@ TEST(HeadMotionTest, HeadTurnsAndTheShouldersStay) {
 
 TEST(HeadMotionTest, TheNeckCarriesTheHeadForwardAndTheShouldersStay) {
   FaceState forward, back;
-  forward.head_forward = 30;
-  back.head_forward = -20;
+  forward.head_forward_mm = 30;
+  back.head_forward_mm = -20;
   EXPECT_NEAR(MotionAt(0, -9, forward).z, 30, 0.5F);
   EXPECT_NEAR(MotionAt(0, -9, back).z, -20, 0.5F);
   EXPECT_NEAR(MotionAt(0, -9, forward).y, 0, 0.1F);

@@ -67,7 +67,7 @@ TEST(HeadMouthTest, MeasureAgreesWithTheVertices) {
   std::mt19937 random(3);
   for (int i = 0; i < 60; ++i) {
     FaceState state = RandomState(random, 1.5f);
-    state.lip_seal = i % 3 == 0 ? 0.5f : 0;
+    state.seal = i % 3 == 0 ? 0.5f : 0;
     const HeadVertices v = Vertices(state);
     const float gap = v.position[upper].y - v.position[lower].y;
     ASSERT_NEAR(GenericHead().MeasureMouth(state).gap_mm, gap, 1e-3) << i;
@@ -79,7 +79,7 @@ TEST(HeadMouthTest, SealedLipsTouchWhateverElseActs) {
   std::mt19937 random(11);
   for (int i = 0; i < 200; ++i) {
     FaceState state = RandomState(random, 2);
-    state.lip_seal = 1;
+    state.seal = 1;
     const HeadVertices v = Vertices(state);
     ASSERT_LE(glm::length(v.position[upper] - v.position[lower]), 0.05f) << i;
     ASSERT_LE(GenericHead().MeasureMouth(state).gap_mm, 0.05f) << i;

@@ -127,7 +127,7 @@ TEST(SimulationTest, WhateverTheHeadDoesOffsetsStayWithinTheirLimit) {
   Simulation simulation({stiff, loose});
   const auto wild = [](Time t) {
     FaceState state = Turned((t / 10ms) % 2 == 0 ? 1e9f : -1e9f, std::nanf(""), 500);
-    state.head_forward = std::numeric_limits<float>::infinity();
+    state.head_forward_mm = std::numeric_limits<float>::infinity();
     return state;
   };
   for (Time t = 0ms; t < 60s; t += 40ms) {

@@ -77,7 +77,7 @@ TEST_P(RandomStates, NothingGoesThroughAnythingInATenthOfTenThousand) {
     state.blink.left = part(random);
     state.blink.right = part(random);
     state.tongue = part(random);
-    state.lip_seal = part(random) < 0.3F ? part(random) : 0.0F;
+    state.seal = part(random) < 0.3F ? part(random) : 0.0F;
     const std::string what =
         "state " + std::to_string(i) + " of seed " + std::to_string(GetParam());
     touched += ExpectApart(state, what, kTeethAtRandom) ? 0 : 1;

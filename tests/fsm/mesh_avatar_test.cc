@@ -555,9 +555,9 @@ TEST(OwnShapesTest, LipsThatAreShutWithUsAreNotOpenedByTheirShapes) {
   };
   FaceState state = meanings[0].state;
   EXPECT_NEAR(fall(state), 10, 0.5F);
-  state.lip_seal = 0.5F;
+  state.seal = 0.5F;
   EXPECT_NEAR(fall(state), 5, 0.5F) << "no wider than ours";
-  state.lip_seal = 1;
+  state.seal = 1;
   EXPECT_NEAR(fall(state), 0, 0.1F);
 }
 

@@ -257,7 +257,7 @@ TEST_F(StandardFaceTest, ASealClosesAnOpenMouth) {
   FaceState state;
   state.au.left[26] = state.au.right[26] = 1;
   ASSERT_GT(head_->MeasureMouth(state).gap_mm, 4);
-  state.lip_seal = 1;
+  state.seal = 1;
   EXPECT_LT(head_->MeasureMouth(state).gap_mm, 1.2F);
 }
 

@@ -246,7 +246,7 @@ TEST_F(DeformationTransferTest, TheRigLaidOnAnotherFaceMovesItAsCarryingEverySta
   state.gaze.left[kDown] = state.gaze.right[kDown] = 15;
   state.mouth = {0.32F, 5, 0.4F, 4.5F, -0.6F, 4.5F, -0.48F, 5, -5, 0, 2.25F, 5};
   expect_carried("a half blink, eyes down and an o", state);
-  state.lip_seal = 1;
+  state.seal = 1;
   expect_carried("sealed", state);
 }
 

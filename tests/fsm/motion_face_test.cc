@@ -315,7 +315,7 @@ TEST_F(FaceMotionTest, StatesStayFiniteUnderManyCommands) {
     for (const float v : state.au.left) ASSERT_TRUE(v >= 0 && v <= 2);
     for (const float v : state.mouth) ASSERT_LT(std::abs(v), 30);
     for (const float v : state.head_rotation) ASSERT_LT(std::abs(v), 150);
-    ASSERT_TRUE(state.lip_seal >= 0 && state.lip_seal <= 1.0001f);
+    ASSERT_TRUE(state.seal >= 0 && state.seal <= 1.0001f);
   }
 }
 

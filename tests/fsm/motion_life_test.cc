@@ -395,16 +395,16 @@ TEST_F(BlinkTest, BlinksAreTheSumOfTheirIntervalsInWhateverOrderTheyAreAskedFor)
     const vm::Time start = starts[k];
     // Long after the blink before, which takes no more than a quarter of a second.
     ASSERT_EQ(autonomy.NextActivity(start - 1ms), start) << k;
-    ASSERT_EQ(autonomy.LidsShutAt(start - 1ms), 0) << k;
+    ASSERT_EQ(autonomy.BlinkAt(start - 1ms), 0) << k;
     ASSERT_EQ(autonomy.NextActivity(start + 90ms), start + 90ms) << k;
-    ASSERT_GE(autonomy.LidsShutAt(start + 90ms), 0.7) << k;
+    ASSERT_GE(autonomy.BlinkAt(start + 90ms), 0.7) << k;
   };
   for (std::size_t k = 0; k < kCount; ++k) {
     check(forward, k);
     check(back, kCount - 1 - k);
     check(jumping, k * 887 % kCount);
   }
-  EXPECT_EQ(forward.LidsShutAt(0ms), 0) << "before the switch";
+  EXPECT_EQ(forward.BlinkAt(0ms), 0) << "before the switch";
   EXPECT_EQ(forward.NextActivity(kSwitched + 100ms), starts[0]);
 }
 

@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 class Turning : public MotionSource {
  public:
   void Contribute(vm::Time t, MotionLayers& layers) const override {
-    if (t >= 1s && t < 2s) layers.Layer("turning").head[1] += 10;
+    if (t >= 1s && t < 2s) layers.Layer("turning").head_rotation[1] += 10;
   }
   std::optional<vm::Time> NextActivity(vm::Time t) const override {
     if (t >= 2s) return std::nullopt;
@@ -79,14 +79,14 @@ TEST(MixerTest, ALayerIsWeighedBySignalsAndLimitedByItsChannel) {
       ReadUnitList("l.txt", "region brow 1\nopens 25\n", UnitNames::BuiltIn()).value();
   MotionLayers layers;
   MotionLayer& a = layers.Layer("a");
-  a.head[0] = 8;
-  a.lids_shut = 0.4f;
+  a.head_rotation[0] = 8;
+  a.blink.left = a.blink.right = 0.4f;
   a.units.au.left[1] = a.units.au.left[25] = 1;
   a.units.au.left[12] = 1.5f;
   MotionLayer& b = layers.Layer("b");
-  b.lids_shut = 0.7f;
+  b.blink.left = b.blink.right = 0.7f;
   b.units.au.left[12] = 1.5f;
-  b.head[0] = 1;
+  b.head_rotation[0] = 1;
   FaceState quiet, loud;
   mixer->Mix(layers, units, quiet);
   EXPECT_FLOAT_EQ(quiet.head_rotation[0], 9);
@@ -141,7 +141,7 @@ TEST(NewUnitTest, OneRowMakesACodeOfTheHead) {
   FaceMotion motion(With("action_unit_names.txt", "code 158 58b 9 0 0 -9 0 -9 0 -8\n"), 1);
   ASSERT_TRUE(motion.units.Set(0s, "58b 0.5"));
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_rotation[0], 4.5f);
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).head_forward, -4);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).head_forward_mm, -4);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).gaze.left[kDown], -4.5f);
 }
 

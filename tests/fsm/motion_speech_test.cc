@@ -182,7 +182,7 @@ TEST(SpeechTest, StopClosesTheLipsWithin120MsAndSmoothly) {
     EXPECT_FALSE(motion.speech.active());
     const FaceState state = motion.StateAt(stop + 120ms);
     if (at > 60) {
-      EXPECT_GT(state.lip_seal, 0.999) << at;
+      EXPECT_GT(state.seal, 0.999) << at;
     }
     EXPECT_NEAR(state.mouth[kJawY], 0, 1e-3);
     float before = motion.StateAt(stop).mouth[kJawY];
@@ -231,14 +231,14 @@ TEST(SpeechTest, MouthScaleMultipliesButClosuresStay) {
   motion.Apply(0ms, settings);
   motion.speech.Start(0ms, List("pau 200 a 150 m 100 a 150"), 1000ms);
   EXPECT_NEAR(motion.StateAt(1235ms).mouth[kJawY], 9 * 15.0 / 40, 0.05);
-  EXPECT_FLOAT_EQ(motion.StateAt(1310ms).lip_seal, 1);
+  EXPECT_FLOAT_EQ(motion.StateAt(1310ms).seal, 1);
 }
 
 TEST(SpeechTest, AtRestTheLipsAreFree) {
   FaceMotion motion(BuiltIn(), 1);
-  EXPECT_FLOAT_EQ(motion.StateAt(0ms).lip_seal, 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(0ms).seal, 0);
   motion.speech.Start(0ms, List("a 100"), 0ms);
-  EXPECT_FLOAT_EQ(motion.StateAt(1000ms).lip_seal, 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(1000ms).seal, 0);
   EXPECT_FALSE(motion.NextActivity(1000ms).has_value());
 }
 

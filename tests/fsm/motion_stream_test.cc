@@ -52,8 +52,8 @@ TEST_F(MouthStreamTest, ItBeginsSoftlyAndClosesWhenNoFramesCome) {
   EXPECT_NEAR(Jaw(1020ms), 8 * kSpoken, 1e-4);
   EXPECT_NEAR(Jaw(1130ms), 8 * kSpoken, 1e-4);  // held
   EXPECT_NEAR(Jaw(1260ms), 0, 1e-3);
-  EXPECT_NEAR(motion_.StateAt(1260ms).lip_seal, 1, 0.05);
-  EXPECT_EQ(motion_.StateAt(1700ms).lip_seal, 0);
+  EXPECT_NEAR(motion_.StateAt(1260ms).seal, 1, 0.05);
+  EXPECT_EQ(motion_.StateAt(1700ms).seal, 0);
   EXPECT_EQ(motion_.NextActivity(500ms), vm::Time(940ms));
   EXPECT_EQ(motion_.NextActivity(1100ms), vm::Time(1100ms));
   EXPECT_EQ(motion_.NextActivity(1600ms), std::nullopt);
@@ -100,7 +100,7 @@ TEST_F(MouthStreamTest, TheMouthOfATextGivesWay) {
 TEST_F(MouthStreamTest, ASealClosesWhateverElseOpens) {
   ASSERT_TRUE(motion_.units.Set(0ms, "26 1 0"));  // jaw drop
   for (int i = 0; i < 50; ++i) Add(1000ms + i * 20ms, 1, 1);
-  EXPECT_EQ(motion_.StateAt(1500ms).lip_seal, 1);
+  EXPECT_EQ(motion_.StateAt(1500ms).seal, 1);
   EXPECT_LT(motion_.StateAt(1500ms).au.left[26], 0.01F);
 }
 

@@ -66,8 +66,8 @@ TEST_F(UnitsTest, CodesTurnHeadAndEyes) {
   EXPECT_FLOAT_EQ(After("55 0 EyesUp 1").gaze.left[kDown], -25);
   EXPECT_FLOAT_EQ(After("63 0 CrossEye 1").gaze.left[kToRight], -12);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).gaze.right[kToRight], 12);
-  EXPECT_FLOAT_EQ(After("57 1").head_forward, 35);
-  EXPECT_FLOAT_EQ(After("57 0 58 0.5").head_forward, -11);
+  EXPECT_FLOAT_EQ(After("57 1").head_forward_mm, 35);
+  EXPECT_FLOAT_EQ(After("57 0 58 0.5").head_forward_mm, -11);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).figure.scale, 1);
 }
 

@@ -84,7 +84,7 @@ FaceState StateOf(const Golden& golden) {
   if (golden.viseme == nullptr) return state;
   const MouthPose& pose = FindViseme(Tables().set14.visemes, golden.viseme)->pose;
   state.mouth = pose.mouth;
-  state.lip_seal = pose.seal;
+  state.seal = pose.seal;
   state.tongue = pose.tongue;
   return state;
 }

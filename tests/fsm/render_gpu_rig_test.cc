@@ -35,13 +35,13 @@ FaceState Wild(unsigned seed) {
   }
   for (float& mouth : state.mouth) mouth = between(-4, 4);
   state.mouth[kJawY] = between(0, 25);
-  state.lip_seal = between(-1, 1.5F);
+  state.seal = between(-1, 1.5F);
   state.tongue = between(-0.5F, 1);
   state.blink.left = between(-1, 1.2F);
   state.blink.right = between(-1, 1.2F);
   state.gaze.left = state.gaze.right = {-between(-30, 30), between(-40, 40)};
   state.head_rotation = {between(-40, 40), between(-60, 60), between(-30, 30)};
-  state.head_forward = between(-20, 30);
+  state.head_forward_mm = between(-20, 30);
   return state;
 }
 

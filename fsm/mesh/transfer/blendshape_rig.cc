@@ -70,7 +70,7 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
   MouthFit mouth(solver.count());
   mouth.AddParameters(solve);
   for (FaceState state : visemes) {
-    state.lip_seal = 0;  // the channels' factors seal the lips
+    state.seal = 0;  // the channels' factors seal the lips
     mouth.AddViseme(state.mouth, solve(state));
   }
   mouth.AddTo(fit, Drive::Kind::kMouth);

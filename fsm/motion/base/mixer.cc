@@ -133,42 +133,45 @@ Mixer::Factors Mixer::FactorsOf(const Rules& rules, const MotionLayers& layers) 
 
 double Mixer::UnitFactor(const Factors& factors, const UnitList& units, std::size_t unit) {
   constexpr std::array<Target, kRegions> kTargetOf = {kEyeUnits, kBrowUnits, kMouthUnits};
-  const double own = factors[kTargetOf[static_cast<std::size_t>(units.RegionOf(unit))]];
-  return factors[kUnits] * own * (units.Opens(unit) ? factors[kOpeningUnits] : 1);
+  const Target target = kTargetOf[static_cast<std::size_t>(units.RegionOf(unit))];
+  return FactorOf(factors, target) * (units.Opens(unit) ? factors[kOpeningUnits] : 1);
+}
+
+template <typename To, typename Look, typename Visit>
+void Mixer::ForEachValue(To& to, Look& look, const MotionLayer& from, const Visit& visit) {
+  const auto all = [&visit](Target target, auto& some, const auto& others) {
+    for (std::size_t i = 0; i < some.size(); ++i) visit(target, some[i], others[i]);
+  };
+  // The mouth differs most from our units.
+  all(kMouthUnits, look.residuals, from.units.residuals);
+  for (const Side side : kSides) {
+    all(kGaze, look.gaze[side], from.units.gaze[side]);
+    visit(kLids, to.blink[side], from.blink[side]);
+  }
+  all(kMouth, to.mouth, from.mouth);
+  all(kMouth, to.mouth_by_hand, from.mouth_by_hand);
+  visit(kMouth, to.seal, from.seal);
+  visit(kMouth, to.tongue, from.tongue);
+  all(kHead, to.head_rotation, from.head_rotation);
+  visit(kHead, to.head_forward_mm, from.head_forward_mm);
 }
 
 void Mixer::AddLayer(const MotionLayer& layer, const Rules& rules, const Factors& factors,
                      const UnitList& units, MotionLayer& total) const {
   const bool unweighted = rules.weights.empty();
-  const auto accumulate = [&](Target target, auto& sum, const auto& asked) {
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-      channels_[target].Accumulate(sum[i], factors[target] * asked[i]);
-    }
-  };
-  const auto accumulate_units = [&](UnitValues& sum, const UnitValues& asked) {
-    if (asked.AtRest()) return;
+  for (const Side side : kSides) {
+    const UnitValues& asked = layer.units.au[side];
+    if (asked.AtRest()) continue;
     const std::span strengths(asked.begin(), asked.size());
     for (std::size_t unit = 0; unit < strengths.size(); ++unit) {
       if (strengths[unit] == 0) continue;
       const double weight = unweighted ? 1 : UnitFactor(factors, units, unit);
-      channels_[kUnits].Accumulate(sum[unit], weight * strengths[unit]);
+      channels_[kUnits].Accumulate(total.units.au[side][unit], weight * strengths[unit]);
     }
-  };
-  for (const Side side : kSides) {
-    accumulate_units(total.units.au[side], layer.units.au[side]);
-    accumulate(kGaze, total.units.gaze[side], layer.units.gaze[side]);
   }
-  for (std::size_t i = 0; i < total.units.residuals.size(); ++i) {
-    channels_[kUnits].Accumulate(total.units.residuals[i],
-                                 ResidualFactor(factors) * layer.units.residuals[i]);
-  }
-  accumulate(kMouth, total.mouth, layer.mouth);
-  accumulate(kMouth, total.mouth_by_hand, layer.mouth_by_hand);
-  channels_[kMouth].Accumulate(total.seal, factors[kMouth] * layer.seal);
-  channels_[kMouth].Accumulate(total.tongue, factors[kMouth] * layer.tongue);
-  accumulate(kHead, total.head, layer.head);
-  channels_[kHead].Accumulate(total.head_forward_mm, factors[kHead] * layer.head_forward_mm);
-  channels_[kLids].Accumulate(total.lids_shut, factors[kLids] * layer.lids_shut);
+  ForEachValue(total, total.units, layer, [&](Target target, float& sum, float asked) {
+    RuleOf(target).Accumulate(sum, FactorOf(factors, target) * asked);
+  });
 }
 
 void Mixer::Mix(const MotionLayers& layers, const UnitList& units, FaceState& state) const {
@@ -181,7 +184,7 @@ void Mixer::Mix(const MotionLayers& layers, const UnitList& units, FaceState& st
     const Steady& steady = *rules.steady;
     const double share = steady.signal.empty() ? 1 : layers.Signal(steady.signal);
     for (std::size_t axis = 0; axis < 2; ++axis) {
-      const auto rotation = static_cast<float>(factors[kHead] * layer.head[axis]);
+      const auto rotation = static_cast<float>(factors[kHead] * layer.head_rotation[axis]);
       const auto back =
           static_cast<float>(share * std::clamp(rotation, -steady.limit_deg, steady.limit_deg));
       for (const Side side : kSides) total.units.gaze[side][axis] -= back;
@@ -192,34 +195,18 @@ void Mixer::Mix(const MotionLayers& layers, const UnitList& units, FaceState& st
 
 void Mixer::Store(const MotionLayer& total, const Factors& factors, const UnitList& units,
                   FaceState& state) const {
-  const auto result = [&](Target target, float value) {
-    return static_cast<float>(factors[target] * channels_[target].Clamped(value));
-  };
-  const auto store = [&](Target target, auto& to, const auto& values) {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] = result(target, values[i]);
-  };
-  const auto store_units = [&](UnitValues& to, const UnitValues& values) {
+  for (const Side side : kSides) {
     std::size_t unit = 0;
-    ForEachUnit(to, values, [&](float& strength, float value) {
+    ForEachUnit(state.au[side], total.units.au[side], [&](float& strength, float value) {
       float limited = channels_[kUnits].Clamped(value);
       if (limited != 0) limited = static_cast<float>(UnitFactor(factors, units, unit) * limited);
       strength = limited;
       ++unit;
     });
-  };
-  for (const Side side : kSides) store_units(state.au[side], total.units.au[side]);
-  for (std::size_t i = 0; i < state.residuals.size(); ++i) {
-    state.residuals[i] = static_cast<float>(ResidualFactor(factors) *
-                                            channels_[kUnits].Clamped(total.units.residuals[i]));
   }
-  store(kMouth, state.mouth, total.mouth);
-  store(kMouth, state.mouth_by_hand, total.mouth_by_hand);
-  state.lip_seal = result(kMouth, total.seal);
-  state.tongue = result(kMouth, total.tongue);
-  store(kHead, state.head_rotation, total.head);
-  state.head_forward = result(kHead, total.head_forward_mm);
-  for (const Side side : kSides) store(kGaze, state.gaze[side], total.units.gaze[side]);
-  state.blink.left = state.blink.right = result(kLids, total.lids_shut);
+  ForEachValue(state, state, total, [&](Target target, float& value, float sum) {
+    value = static_cast<float>(FactorOf(factors, target) * RuleOf(target).Clamped(sum));
+  });
 }
 
 }  // namespace fsm

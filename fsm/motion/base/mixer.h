@@ -75,10 +75,17 @@ class Mixer {
 
   const Rules& RulesOf(std::string_view layer) const;
   static Factors FactorsOf(const Rules& rules, const MotionLayers& layers);
-  /// Residuals are weighted as units of the mouth, which differs most from our units.
-  static double ResidualFactor(const Factors& factors) {
-    return factors[kUnits] * factors[kMouthUnits];
+  /// A group's rule is that of the units, and it is weighted by their factor and its own.
+  const ChannelRule& RuleOf(Target target) const {
+    return channels_[target < kChannels ? target : kUnits];
   }
+  static double FactorOf(const Factors& factors, Target target) {
+    return target < kChannels ? factors[target] : factors[kUnits] * factors[target];
+  }
+  /// Calls `visit(target, value of to, value of from)` for all but the strengths of units; `look`
+  /// is where `to` has residuals and gaze.
+  template <typename To, typename Look, typename Visit>
+  static void ForEachValue(To& to, Look& look, const MotionLayer& from, const Visit& visit);
   static double UnitFactor(const Factors& factors, const UnitList& units, std::size_t unit);
   void AddLayer(const MotionLayer& layer, const Rules& rules, const Factors& factors,
                 const UnitList& units, MotionLayer& total) const;

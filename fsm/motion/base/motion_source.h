@@ -14,16 +14,17 @@
 
 namespace fsm {
 
-/// The contribution of one layer of movement to the face at one instant; at rest by default.
+/// The contribution of one layer of movement to the face at one instant; at rest by default. Its
+/// members are as those of FaceState.
 struct MotionLayer {
   FaceLook units;  ///< strengths, 1 = full, and the rotation of the eyes
-  std::array<float, kMouthParameters> mouth{};          ///< as FaceState::mouth
-  std::array<float, kMouthParameters> mouth_by_hand{};  ///< as FaceState::mouth_by_hand
-  float seal = 0;                                       ///< of the lips, 0..1
-  float tongue = 0;                                     ///< height of the tip of the tongue, 0..1
-  Angles head{};
+  std::array<float, kMouthParameters> mouth{};
+  std::array<float, kMouthParameters> mouth_by_hand{};
+  float seal = 0;
+  float tongue = 0;
+  Sided<float> blink;
+  Angles head_rotation{};
   float head_forward_mm = 0;
-  float lids_shut = 0;  ///< 0..1
 };
 
 /// The contributions of all sources at one instant: layers, and signals by which Mixer weights them

@@ -193,9 +193,9 @@ HeadEyeCode ReadCode(const TableRow& row) {
   for (std::size_t i = 0; i < v.size(); ++i) {
     v[i] = static_cast<float>(row.Number(3 + i, "an angle or a part", -60, 60));
   }
-  return {.head = {v[0], v[1], v[2]},
+  return {.head_rotation = {v[0], v[1], v[2]},
           .gaze = {.right = {v[5], v[6]}, .left = {v[3], v[4]}},
-          .forward_mm = v[7]};
+          .head_forward_mm = v[7]};
 }
 
 void ReadNameRow(const TableRow& row, UnitNames& out) {

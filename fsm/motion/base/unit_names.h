@@ -15,9 +15,9 @@ namespace fsm {
 /// The effect of a FACS code of head or eyes (51-58, 61-66) at full strength; see
 /// tables/action_unit_names.txt.
 struct HeadEyeCode {
-  Angles head{};
+  Angles head_rotation{};
   Sided<EyeAngles> gaze;
-  float forward_mm = 0;  ///< movement of the head on the neck
+  float head_forward_mm = 0;
 };
 
 /// The action units and codes that exist, and their names.

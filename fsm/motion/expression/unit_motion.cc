@@ -44,13 +44,13 @@ void UnitMotion::Contribute(vm::Time t, MotionLayers& layers) const {
     }
     const float strength = track.left.At(t);
     const HeadEyeCode& code = found->second;
-    for (std::size_t i = 0; i < 3; ++i) layer.head[i] += strength * code.head[i];
+    for (std::size_t i = 0; i < 3; ++i) layer.head_rotation[i] += strength * code.head_rotation[i];
     for (const Side side : kSides) {
       for (std::size_t i = 0; i < 2; ++i) {
         layer.units.gaze[side][i] += strength * code.gaze[side][i];
       }
     }
-    layer.head_forward_mm += strength * code.forward_mm;
+    layer.head_forward_mm += strength * code.head_forward_mm;
   }
 }
 

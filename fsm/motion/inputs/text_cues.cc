@@ -15,14 +15,16 @@ TextLook ReadTextLook(const TableRow& row, const TextCues& cues, const UnitNames
   if (row.size() < 6 || (row.Word(2) != "ALL" && row.Word(2) != "END")) {
     row.Fail("look NAME ALL|END DOWN TURN TILT AU:WEIGHT ... expected");
   }
-  TextLook look{
-      .name = row.Name(1, "a look"), .at_end = row.Word(2) == "END", .head = {}, .units = {}};
+  TextLook look{.name = row.Name(1, "a look"),
+                .at_end = row.Word(2) == "END",
+                .head_rotation = {},
+                .units = {}};
   if (std::ranges::find(cues.looks, look.name, &TextLook::name) != cues.looks.end()) {
     row.Fail("the look '" + look.name + "' is here twice");
   }
   if (cues.looks.size() == kMostLooks) row.Fail("more than 100 looks");
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    look.head[axis] = row.Within(3 + axis, -kMostDegrees, kMostDegrees);
+    look.head_rotation[axis] = row.Within(3 + axis, -kMostDegrees, kMostDegrees);
   }
   look.units = ReadLook(row, 6, names);
   return look;

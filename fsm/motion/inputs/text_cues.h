@@ -12,7 +12,7 @@ namespace fsm {
 struct TextLook {
   std::string name;
   bool at_end = false;  ///< shown at the end of the sentence, else throughout
-  Angles head{};
+  Angles head_rotation{};
   FaceLook units;
 };
 

@@ -80,7 +80,7 @@ void MouthStream::Contribute(vm::Time t, MotionLayers& layers) const {
   if (const WeightedHead head = HeadAt(t); head.weight > 0) {
     layers.AddSignal("head_taken", head.weight);
     MotionLayer& gestures = layers.Layer("stream_gestures");
-    gestures.head = head.pose.angles;
+    gestures.head_rotation = head.pose.angles;
     for (const Side side : kSides) {
       gestures.units.au[side][kInnerBrowRaiser] =
           static_cast<float>(kInnerBrowRaise) * head.pose.brow;

@@ -114,9 +114,9 @@ void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {
     const double remaining = GesturesOf(one, t);
     if (remaining <= 0) continue;
     const SpeechGestures::HeadGesture head = one.gestures.HeadAt(MouthPosition(one, t));
-    layer.head[kDown] += static_cast<float>(remaining * size.nod * head.nod);
-    layer.head[kToRight] += static_cast<float>(remaining * size.turn * head.turn);
-    layer.head[kTilted] += static_cast<float>(remaining * size.tilt * head.tilt);
+    layer.head_rotation[kDown] += static_cast<float>(remaining * size.nod * head.nod);
+    layer.head_rotation[kToRight] += static_cast<float>(remaining * size.turn * head.turn);
+    layer.head_rotation[kTilted] += static_cast<float>(remaining * size.tilt * head.tilt);
     brow = std::max(brow, remaining * size.brow * head.brow);
   }
   for (const Side side : kSides) {
@@ -138,7 +138,7 @@ void SpeechMotion::ShowLooks(vm::Time t, MotionLayer& layer) const {
       if (weight <= 0) continue;
       AddTo(layer.units, timed.look->units, weight);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        layer.head[axis] += weight * timed.look->head[axis];
+        layer.head_rotation[axis] += weight * timed.look->head_rotation[axis];
       }
     }
   }
@@ -159,7 +159,7 @@ void SpeechMotion::AvertEyes(vm::Time t, MotionLayer& layer) const {
   layer.units.gaze.right = layer.units.gaze.left;
 }
 
-double SpeechMotion::LidsShutAt(vm::Time t) const {
+double SpeechMotion::BlinkAt(vm::Time t) const {
   const std::size_t avert = switches_[IdleKind::kAvert].pattern;
   const bool at_end = switches_[IdleKind::kEndBlink].on();
   const bool at_shifts = switches_[IdleKind::kGazeBlink].on() && avert > 0;
@@ -196,7 +196,7 @@ void SpeechMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   MoveHeadAndBrows(t, gestures);
   AvertEyes(t, gestures);
   ShowLooks(t, layers.Layer("text"));
-  gestures.lids_shut = static_cast<float>(LidsShutAt(t));
+  gestures.blink.left = gestures.blink.right = static_cast<float>(BlinkAt(t));
 }
 
 // ---- where it is

@@ -72,7 +72,7 @@ class SpeechMotion : public MotionSource {
   void MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const;
   void ShowLooks(vm::Time t, MotionLayer& layer) const;
   void AvertEyes(vm::Time t, MotionLayer& layer) const;
-  double LidsShutAt(vm::Time t) const;
+  double BlinkAt(vm::Time t) const;
   /// Returns the remaining weight of an utterance's gestures, which fade once it is stopped; 0
   /// outside it.
   double GesturesOf(const Utterance& one, vm::Time t) const;
