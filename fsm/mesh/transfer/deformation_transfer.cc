@@ -15,22 +15,56 @@
 namespace fsm {
 namespace {
 
-/// Marks the lips and lids of a surface by the distances along it from their point pairs.
-void MarkParts(WeldedSurface& surface, std::span<const PointPair> pairs, bool from) {
-  const auto seeds = [&](FacePart part) {
-    std::vector<glm::vec3> places;
-    for (const PointPair& pair : pairs) {
-      if (pair.part == part) places.push_back(from ? pair.from : pair.to);
-    }
-    return places;
-  };
+/// A vertex of a lip or lid, from which distances along the surface are measured.
+struct PartSeed {
+  FacePart part;
+  std::uint32_t vertex;
+};
+
+std::vector<PartSeed> SeedsOf(const WeldedSurface& source, std::span<const PointPair> pairs) {
+  std::vector<PartSeed> seeds;
+  for (const PointPair& pair : pairs) {
+    if (pair.part != FacePart::kPlain) seeds.push_back({pair.part, source.Nearest(pair.from)});
+  }
+  return seeds;
+}
+
+/// Returns the seeds of the target for those of the source. On a coarse mesh the vertex nearest to
+/// a landmark may belong to the opposite lip, which is avoided in two ways: landmarks are taken
+/// where the warp puts them, which averages their errors, and a vertex of the nearest triangle that
+/// faces the same way is chosen.
+std::vector<PartSeed> SeedsOnTarget(const WeldedSurface& warped, std::span<const PartSeed> seeds,
+                                    const WeldedSurface& target) {
+  constexpr float kReach = 20;
+  const SurfaceIndex index(target, kReach);
+  std::vector<PartSeed> found;
+  for (const auto& [part, vertex] : seeds) {
+    const auto hit = index.Find(warped, vertex);
+    if (!hit) continue;
+    const glm::vec3 b = hit->barycentric;
+    const std::size_t corner = b.x >= b.y && b.x >= b.z ? 0 : b.y >= b.z ? 1 : 2;
+    found.push_back({part, target.triangles[hit->triangle][corner]});
+  }
+  return found;
+}
+
+/// Marks the lips and lids of a surface by the distances along it from their seeds.
+void MarkParts(WeldedSurface& surface, std::span<const PartSeed> seeds) {
   const auto mark = [&](FacePart upper, FacePart lower, float reach, float clear,
                         std::vector<float>& out) {
-    const auto above = seeds(upper), below = seeds(lower);
+    std::vector<std::uint32_t> above, below;
+    for (const auto& [part, vertex] : seeds) {
+      if (part == upper) above.push_back(vertex);
+      if (part == lower) below.push_back(vertex);
+    }
     if (above.empty() || below.empty()) return;
-    const auto up = surface.DistancesFrom(above, reach), down = surface.DistancesFrom(below, reach);
+    const auto up = ShortestPaths(surface.neighbours, surface.at, above, reach).length,
+               down = ShortestPaths(surface.neighbours, surface.at, below, reach).length;
     for (std::size_t i = 0; i < out.size(); ++i) {
-      const float here = std::clamp((down[i] - up[i]) / clear, -1.0f, 1.0f);
+      // Distances along edges are uncertain by the length of an edge.
+      const float nearer = down[i] - up[i];
+      if (std::abs(nearer) < surface.MeanEdge(i)) continue;
+      const float here = std::clamp(nearer / clear, -1.0f, 1.0f);
       // Vertices farther from the opening are neither upper nor lower.
       out[i] = here * SmoothStep(reach, 0.5f * reach, std::min(up[i], down[i]));
     }
@@ -150,16 +184,17 @@ DeformationTransfer::DeformationTransfer(const TransferSurface& from, const Tran
   CheckPlaces(pairs);
   CheckVertices(from.position, "the face that is carried");
   CheckVertices(to.position, "the head it is carried to");
-  const auto prepared = [&pairs](const TransferSurface& face, bool is_from) {
+  const auto prepared = [](const TransferSurface& face) {
     WeldedSurface surface(face.position, face.triangles, face.has_uv_seams);
-    MarkParts(surface, pairs, is_from);
     surface.FindVisibility(face.position, face.eyes);
     return surface;
   };
-  const WeldedSurface rest = prepared(from, true);
-  WeldedSurface target = prepared(to, false);
-
+  WeldedSurface rest = prepared(from), target = prepared(to);
+  const auto seeds = SeedsOf(rest, pairs);
+  MarkParts(rest, seeds);
   WeldedSurface pulled = Carried(rest, pairs);
+  MarkParts(target, SeedsOnTarget(pulled, seeds, target));
+
   // Project the surface onto the other in rounds, from coarse to fine. Necks and backs of heads,
   // which have no landmarks, are far apart at first.
   constexpr std::pair<float, int> kRounds[] = {{30, 40}, {26, 24}, {22, 14},
@@ -219,9 +254,7 @@ void DeformationTransfer::MakeRows(std::span<const BarycentricBinding> bindings,
     if (w == WeldedSurface::kNone) continue;
     const auto& next = target.neighbours[w];
     const float count = std::max(static_cast<float>(next.size()), 1.0f);
-    float edge = 0;
-    for (const std::uint32_t n : next) edge += glm::distance(target.at[w], target.at[n]) / count;
-    const float part = std::min(1.0f, kNear / std::max(edge, 1e-6f));
+    const float part = std::min(1.0f, kNear / std::max(target.MeanEdge(w), 1e-6f));
     const float share = next.empty() ? 0 : kMost * part * part;
     row.clear();
     add(bindings[w], 1 - share);

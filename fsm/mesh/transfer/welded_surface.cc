@@ -141,6 +141,12 @@ void WeldedSurface::FindVisibility(std::span<const glm::vec3> position,
   }
 }
 
+float WeldedSurface::MeanEdge(std::size_t vertex) const {
+  float sum = 0;
+  for (const std::uint32_t n : neighbours[vertex]) sum += glm::distance(at[vertex], at[n]);
+  return sum / std::max(static_cast<float>(neighbours[vertex].size()), 1.0f);
+}
+
 std::uint32_t WeldedSurface::Nearest(glm::vec3 p) const {
   std::uint32_t best = 0;
   float least = 1e30f;

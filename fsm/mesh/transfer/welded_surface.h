@@ -37,6 +37,8 @@ class WeldedSurface {
   /// hundreds of layers of triangles would. REQUIRES: everything is within kMaxReach.
   static constexpr std::int64_t kMaxCovered = 1 << 28;  ///< square millimetres
   void FindVisibility(std::span<const glm::vec3> position, std::span<const std::uint32_t> eyes);
+  /// Returns the mean length of the edges of a vertex; 0 if it has none.
+  float MeanEdge(std::size_t vertex) const;
   std::uint32_t Nearest(glm::vec3 p) const;
   /// Returns, per vertex, the distance along edges to the nearest of the vertices closest to the
   /// seeds, clamped to `reach`.
