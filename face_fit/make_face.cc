@@ -18,50 +18,41 @@
 namespace facefit {
 namespace {
 
-/// A photo in its full and in its working size, and the chosen face.
-struct PhotoWithFace {
-  fsm::Image finest, working;
-  int orientation = 1;
-  int faces = 1;
-  std::optional<FoundFace> face = {};
-};
+// Each of these sets FrontPhoto::photo, face, faces and orientation, as one FaceChoice asks for.
 
-/// Finds the chosen face; one overload for each kind of choice.
-struct FaceSearch {
-  FaceNetworks& networks;
-  const ObservedHead& base;
-  fsm::Image finest, working;
+vm::Result<FrontPhoto> FindByNumber(FaceNetworks& networks, fsm::Image photo, int number) {
+  UprightPhoto upright = SetUpright(networks, std::move(photo));
+  FrontPhoto front{.photo = std::move(upright.photo),
+                   .faces = static_cast<int>(upright.faces.size()),
+                   .orientation = upright.orientation};
+  if (upright.faces.empty()) return front;
+  auto face = ChooseFace(upright.faces, number);
+  if (!face) return std::unexpected(face.error());
+  front.face = std::move(*face);
+  return front;
+}
 
-  vm::Result<PhotoWithFace> operator()(const FaceNumber& choice) {
-    UprightPhoto upright = SetUpright(networks, std::move(working));
-    if (upright.orientation != 1) finest = Turned(finest, upright.orientation);
-    PhotoWithFace found{std::move(finest), std::move(upright.photo), upright.orientation,
-                        static_cast<int>(upright.faces.size())};
-    if (upright.faces.empty()) return found;
-    auto face = ChooseFace(upright.faces, choice.number);
-    if (!face) return std::unexpected(face.error());
-    found.face = std::move(*face);
-    return found;
+FrontPhoto FindNearest(FaceNetworks& networks, fsm::Image photo, glm::vec2 nose) {
+  const auto faces = FindFaces(networks, photo);
+  FrontPhoto front{.photo = std::move(photo), .faces = static_cast<int>(faces.size())};
+  const auto nearest = std::ranges::min_element(faces, {}, [nose](const FoundFace& face) {
+    return glm::distance(face.PixelOf(point::kNoseTip), nose);
+  });
+  if (nearest != faces.end()) front.face = *nearest;
+  return front;
+}
+
+vm::Result<FrontPhoto> TakeFromHand(const ObservedHead& base, fsm::Image photo,
+                                    const HandPoints& points) {
+  if (auto within = CheckWithin(points, photo.width, photo.height); !within) {
+    return std::unexpected(within.error());
   }
-  vm::Result<PhotoWithFace> operator()(const FaceNear& choice) {
-    const float scale = static_cast<float>(working.width) / static_cast<float>(finest.width);
-    const auto faces = FindFaces(networks, working);
-    PhotoWithFace found{std::move(finest), std::move(working), 1, static_cast<int>(faces.size())};
-    const auto nearest = std::ranges::min_element(faces, {}, [&](const FoundFace& face) {
-      return glm::distance(face.PixelOf(point::kNoseTip), scale * choice.nose);
-    });
-    if (nearest != faces.end()) found.face = *nearest;
-    return found;
-  }
-  vm::Result<PhotoWithFace> operator()(const HandPoints& choice) {
-    if (auto within = CheckWithin(choice, working.width, working.height); !within) {
-      return std::unexpected(within.error());
-    }
-    return PhotoWithFace{.finest = std::move(finest),
-                         .working = std::move(working),
-                         .face = FaceFromHand(base, choice)};
-  }
-};
+  return FrontPhoto{.photo = std::move(photo), .face = FaceFromHand(base, points), .faces = 1};
+}
+
+float LongerSide(const fsm::Image& photo) {
+  return static_cast<float>(std::max(photo.width, photo.height));
+}
 
 }  // namespace
 
@@ -77,35 +68,35 @@ vm::Result<FoundFace> ChooseFace(std::span<const FoundFace> faces, int number) {
 vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const ObservedHead& base,
                                     fsm::Image photo, const FaceChoice& choice, PhotoExtent extent,
                                     const StepDone& done) {
-  const int given_longer = std::max(photo.width, photo.height);
   fsm::Image working = extent == PhotoExtent::kWhole ? photo : ScaledToFit(photo, kWorkingSize);
-  auto found = std::visit(FaceSearch{networks, base, std::move(photo), std::move(working)}, choice);
-  if (!found) return std::unexpected(found.error());
+  const float scale = LongerSide(working) / LongerSide(photo);
+  auto found = [&]() -> vm::Result<FrontPhoto> {
+    if (const auto* by_number = std::get_if<FaceNumber>(&choice)) {
+      return FindByNumber(networks, std::move(working), by_number->number);
+    }
+    if (const auto* near = std::get_if<FaceNear>(&choice)) {
+      return FindNearest(networks, std::move(working), scale * near->nose);
+    }
+    return TakeFromHand(base, std::move(working), std::get<HandPoints>(choice));
+  }();
+  if (!found) return found;
   done("faces and their points found");
-  const glm::ivec2 whole_size(found->working.width, found->working.height);
-  const glm::vec2 nose = found->face ? found->face->PixelOf(point::kNoseTip) : glm::vec2(0);
-  float scale =
-      static_cast<float>(std::max(whole_size.x, whole_size.y)) / static_cast<float>(given_longer);
-  if (found->face && extent == PhotoExtent::kCloseUp) {
-    CloseUp close_up = CloseUpOf(found->working, found->finest, *found->face);
-    found->working = std::move(close_up.photo);
-    found->face = std::move(close_up.face);
-    scale *= close_up.scale;
+  FrontPhoto& front = *found;
+  front.scale = scale;
+  front.whole_size = {front.photo.width, front.photo.height};
+  if (front.face) front.nose = front.face->PixelOf(point::kNoseTip);
+  if (front.face && extent == PhotoExtent::kCloseUp) {
+    if (front.orientation != 1) photo = Turned(photo, front.orientation);
+    CloseUp close_up = CloseUpOf(front.photo, photo, *front.face);
+    front.photo = std::move(close_up.photo);
+    front.face = std::move(close_up.face);
+    front.scale *= close_up.scale;
   }
-  const FoundFace* face = found->face ? &*found->face : nullptr;
-  FigureCutout figure = CutOutFigure(found->working, SegmentPerson(networks, found->working, face));
-  Occlusion occlusion;
-  if (face) occlusion = DetectOcclusion(networks, base, *face, found->working);
+  const FoundFace* face = front.face ? &*front.face : nullptr;
+  front.figure = CutOutFigure(front.photo, SegmentPerson(networks, front.photo, face));
+  if (face) front.occlusion = DetectOcclusion(networks, base, *face, front.photo);
   done("figure cut out");
-  return FrontPhoto{.photo = std::move(found->working),
-                    .face = std::move(found->face),
-                    .figure = std::move(figure),
-                    .occlusion = std::move(occlusion),
-                    .faces = found->faces,
-                    .orientation = found->orientation,
-                    .scale = scale,
-                    .nose = nose,
-                    .whole_size = whole_size};
+  return found;
 }
 
 vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,

@@ -39,12 +39,12 @@ enum class PhotoExtent { kCloseUp, kWhole };
 struct FrontPhoto {
   fsm::Image photo;  ///< what is worked on, upright
   /// In pixels of `photo`; nothing if none was found. A user's points may replace it.
-  std::optional<FoundFace> face;
-  FigureCutout figure;
-  Occlusion occlusion;  ///< of the face
-  int faces = 0;        ///< number of faces found
-  int orientation = 1;  ///< EXIF orientation of the photo as given
-  float scale = 1;      ///< pixels of `photo` for each pixel of the photo as given
+  std::optional<FoundFace> face = {};
+  FigureCutout figure = {};
+  Occlusion occlusion = {};  ///< of the face
+  int faces = 0;             ///< number of faces found
+  int orientation = 1;       ///< EXIF orientation of the photo as given
+  float scale = 1;           ///< pixels of `photo` for each pixel of the photo as given
   /// The pixel of the nose, and the size, of the whole upright photo: as given for
   /// PhotoExtent::kWhole, else scaled down to at most kWorkingSize to a side.
   glm::vec2 nose{0};
