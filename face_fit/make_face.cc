@@ -124,7 +124,7 @@ vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
   }
   // Later photos changed the depth that the poses of earlier ones were found on.
   for (SideView& view : views) {
-    RefineSidePose(fit.head, front.photo, view.photo->photo, view.pose);
+    view.pose = RefineSidePose(fit.head, front.photo, view.photo->photo, view.pose).pose;
   }
   if (left_out.size() < side_photos.photos.size()) done("seen from the side, too");
   TextureBake bake = BakeTexture(face, fit, front.photo, front.figure, views);

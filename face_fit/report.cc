@@ -125,7 +125,7 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
       "glasses     {}\n",
       photo.width, photo.height, eyes, faces, face.certainty, turn_deg.x, turn_deg.y, turn_deg.z,
       shown.smile, shown.jaw, shown.parted, irises.right.contrast, irises.left.contrast, kClearIris,
-      fit.residual_mm, 100 * bake.coverage, bake.head.glasses ? "yes" : "no");
+      ResidualMm(face, fit.head), 100 * bake.coverage, bake.head.glasses ? "yes" : "no");
   if (!occlusion.where.empty()) {
     out += fmt::format("covered     {:.2f} (from 1 on something is before the face), most at {}\n",
                        occlusion.measure, occlusion.where);

@@ -126,16 +126,14 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
                         const FigureCutout& figure, std::span<const SideView> side_views) {
   const FittedHead& fitted = fit.head;
   const SkinTexels texels = ProjectSkin(fitted, fitted.pose, SelfHidden::kNotSeen);
-  // The same flag decided whether the lips were fitted apart or to the line where they meet.
-  const bool lips_apart = fit.targets.lips_apart;
-  SkinMap map = PaintPhoto(face, fitted, texels, lips_apart, figure.colours);
+  SkinMap map = PaintPhoto(face, fitted, texels, fit.lips_apart, figure.colours);
   std::vector<glm::vec3> also_seen;
   for (const SideView& view : side_views) {
     BlendSideView(fitted, view, texels, map);
     also_seen.push_back(view.pose.TowardsCamera());
   }
   const float coverage = MeanCoverage(texels, map.coverage);
-  const SkinTraits traits = FinishMap(fitted, texels, lips_apart, map);
+  const SkinTraits traits = FinishMap(fitted, texels, fit.lips_apart, map);
   const CompletedFigure whole = CompleteFigure(fitted, figure);
   fsm::Image picture = PackHeadPicture(map.image, BehindFace(whole.head, whole.figure),
                                        whole.figure.opacity, fitted.pose.PixelsPerMm());

@@ -85,16 +85,6 @@ float SmileBeyondRest(float smile, bool lips_apart) {
   return std::max(smile - resting.lips_closed, 0.0F);
 }
 
-/// Returns the mean distance of the face's points from those of the fitted head, millimetres.
-float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
-  float sum = 0;
-  for (const PointIndex k : point::kForFit) {
-    const glm::vec3 q = fitted.pose.ToCamera(fitted.PositionOf(k));
-    sum += glm::distance(fitted.pose.Project(q), face.PixelOf(k));
-  }
-  return sum / fitted.pose.PixelsPerMm() / static_cast<float>(std::size(point::kForFit));
-}
-
 }  // namespace
 
 Fit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image* photo) {
@@ -104,16 +94,25 @@ Fit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image* p
   Expression expression = ExpressionOf(settled);
   expression.smile = SmileBeyondRest(expression.smile, problem.lips_apart);
   const PhotoIrises irises = FindPhotoIrises(base, face, photo);
-  PhotoTargets targets = TargetsOf(problem, pose, expression, irises, photo);
-  FittedHead head = WarpToLandmarks(base, pose, expression, targets);
-  const float residual_mm = ResidualMm(face, head);
-  return {std::move(head), std::move(targets), irises, residual_mm};
+  auto constraints = ConstraintsOf(problem, pose, expression, irises, photo);
+  FittedHead head = WarpToLandmarks(base, pose, expression, constraints);
+  return {std::move(head), std::move(constraints), irises, problem.lips_apart};
 }
 
-Fit WithConstraints(const Fit& fit, std::vector<LandmarkConstraint> constraints) {
-  PhotoTargets targets{std::move(constraints), fit.targets.lips_apart};
-  FittedHead head = WarpToLandmarks(*fit.head.base, fit.head.pose, fit.head.expression, targets);
-  return {std::move(head), std::move(targets), fit.irises, fit.residual_mm};
+float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
+  float sum = 0;
+  for (const PointIndex k : point::kForFit) {
+    const glm::vec3 q = fitted.pose.ToCamera(fitted.PositionOf(k));
+    sum += glm::distance(fitted.pose.Project(q), face.PixelOf(k));
+  }
+  return sum / fitted.pose.PixelsPerMm() / static_cast<float>(std::size(point::kForFit));
+}
+
+Fit MovedInDepth(Fit fit, const std::function<float(const LandmarkConstraint&)>& nearer_mm) {
+  for (LandmarkConstraint& constraint : fit.constraints) constraint.z_mm += nearer_mm(constraint);
+  const FittedHead& head = fit.head;
+  fit.head = WarpToLandmarks(*head.base, head.pose, head.expression, fit.constraints);
+  return fit;
 }
 
 }  // namespace facefit

@@ -1,19 +1,20 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "face_fit/find/head/observed_head.h"
 #include "face_fit/find/network/face_finder.h"
+#include "face_fit/fit/constraints.h"
 #include "face_fit/fit/fitted_head.h"
-#include "face_fit/fit/photo_targets.h"
 
 namespace facefit {
 
 struct Fit {
   FittedHead head;
-  PhotoTargets targets;
+  std::vector<LandmarkConstraint> constraints;  ///< what the head was warped to
   PhotoIrises irises;
-  float residual_mm = 0;  ///< mean distance of the face's points from those of the head
+  bool lips_apart = false;
 };
 
 /// Fits the base head to the points of a face: pose and expression by least squares, then the form
@@ -22,7 +23,11 @@ struct Fit {
 /// outlives the result.
 Fit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image* photo = nullptr);
 
-/// Returns the fit with its head warped to other constraints; residual_mm is not computed again.
-Fit WithConstraints(const Fit& fit, std::vector<LandmarkConstraint> constraints);
+/// Returns the mean distance of the face's points from those of the fitted head, millimetres.
+float ResidualMm(const FoundFace& face, const FittedHead& fitted);
+
+/// Returns the fit with its head warped to constraints moved towards the camera, each by what
+/// `nearer_mm` returns for it.
+Fit MovedInDepth(Fit fit, const std::function<float(const LandmarkConstraint&)>& nearer_mm);
 
 }  // namespace facefit

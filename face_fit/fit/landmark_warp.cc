@@ -55,13 +55,12 @@ struct WarpPoints {
 /// Returns the points of the warp that the constraints ask for; `now`: the vertices with the
 /// expression.
 WarpPoints MakeWarpPoints(const ObservedHead& base, const CameraPose& pose,
-                          const PhotoTargets& targets, const fsm::Sided<fsm::EyeTransform>& eyes,
+                          std::span<const LandmarkConstraint> constraints,
+                          const fsm::Sided<fsm::EyeTransform>& eyes,
                           const std::vector<glm::vec3>& now) {
   WarpPoints made;
-  for (std::size_t i = 0; i < targets.constraints.size(); ++i) {
-    const LandmarkConstraint& constraint = targets.constraints[i];
-    // At rest both inner lips are one line, which cannot be moved to two separate ones.
-    if (targets.lips_apart && constraint.point && OnInnerLips(*constraint.point)) continue;
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const LandmarkConstraint& constraint = constraints[i];
     const glm::vec3 rest = constraint.on_head.On(base.rest().position);
     if (const auto side = EyeOf(constraint)) {
       // Lids move with the eye, and the skin around them must follow.
@@ -77,10 +76,10 @@ WarpPoints MakeWarpPoints(const ObservedHead& base, const CameraPose& pose,
 
 /// Returns the eyes that the constraints show; `now`: as for MakeWarpPoints.
 fsm::Sided<fsm::EyeTransform> EyesOf(const ObservedHead& base, const CameraPose& pose,
-                                     const PhotoTargets& targets,
+                                     std::span<const LandmarkConstraint> constraints,
                                      const std::vector<glm::vec3>& now) {
   std::map<PointIndex, glm::vec3> outlines;
-  for (const LandmarkConstraint& constraint : targets.constraints) {
+  for (const LandmarkConstraint& constraint : constraints) {
     if (!EyeOf(constraint)) continue;
     outlines[*constraint.point] =
         TargetOf(pose, constraint) -
@@ -105,12 +104,13 @@ std::vector<glm::vec3> SkinWith(const FittedHead& fitted, const fsm::FaceState& 
 }
 
 FittedHead WarpToLandmarks(const ObservedHead& base, const CameraPose& pose,
-                           const Expression& expression, const PhotoTargets& targets) {
+                           const Expression& expression,
+                           std::span<const LandmarkConstraint> constraints) {
   fsm::HeadVertices posed;
   base.head().Evaluate(expression.State(), posed);
   const std::vector<glm::vec3>& now = posed.position;
-  const auto eyes = EyesOf(base, pose, targets, now);
-  WarpPoints made = MakeWarpPoints(base, pose, targets, eyes, now);
+  const auto eyes = EyesOf(base, pose, constraints, now);
+  WarpPoints made = MakeWarpPoints(base, pose, constraints, eyes, now);
   FittedHead fitted{.base = &base,
                     .pose = pose,
                     .expression = expression,
@@ -125,7 +125,7 @@ FittedHead WarpToLandmarks(const ObservedHead& base, const CameraPose& pose,
   // that.
   fitted.posed_vertices = PosedSkin(fitted);
   for (const auto& [warp_point, of] : made.correctable) {
-    const LandmarkConstraint& constraint = targets.constraints[of];
+    const LandmarkConstraint& constraint = constraints[of];
     const glm::vec3 q = pose.ToCamera(constraint.on_head.On(fitted.posed_vertices));
     const glm::vec3 target = pose.PositionAt(constraint.pixel, q.z);
     fitted.warp_points[warp_point].by += kCorrectionGain * (target - pose.FromCamera(q));

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "face_fit/find/head/observed_head.h"
+#include "face_fit/fit/constraints.h"
 #include "face_fit/fit/fitted_head.h"
-#include "face_fit/fit/photo_targets.h"
 
 namespace facefit {
 
@@ -14,6 +14,7 @@ std::vector<glm::vec3> SkinWith(const FittedHead& fitted, const fsm::FaceState& 
 
 /// Warps the base head, which outlives the result, until its points lie where the photo shows them.
 FittedHead WarpToLandmarks(const ObservedHead& base, const CameraPose& pose,
-                           const Expression& expression, const PhotoTargets& targets);
+                           const Expression& expression,
+                           std::span<const LandmarkConstraint> constraints);
 
 }  // namespace facefit

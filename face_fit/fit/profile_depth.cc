@@ -19,7 +19,7 @@ constexpr float kEvenMm = 2.2F;  // sigma of the Gaussian over height that smoot
 // Distance from the middle of the face at which 1/e of a gap is corrected.
 constexpr float kWideMm = 24;
 constexpr float kMaxCorrectionMm = 6;     // in one round
-constexpr float kProfileBelowChinMm = 1;  // the profile ends there: the throat has no targets
+constexpr float kProfileBelowChinMm = 1;  // the profile ends there: the throat has no constraints
 constexpr int kProfileRounds = 3, kOutlineRounds = 6;
 
 /// Returns how far before a point of the profile the outline lies (negative: behind), millimetres
@@ -100,16 +100,15 @@ class DepthGaps {
   std::vector<std::pair<float, float>> gaps_;  // heights and depths, millimetres
 };
 
-/// Returns the fit with its targets moved forward or back by the gaps, less with distance from the
-/// middle of the face.
-Fit WithoutGaps(const DepthGaps& gaps, const Fit& fit) {
-  std::vector<LandmarkConstraint> constraints = fit.targets.constraints;
-  for (LandmarkConstraint& constraint : constraints) {
-    const glm::vec3 p = constraint.on_head.On(fit.head.posed_vertices);
+/// Returns the fit with its constraints moved forward or back by the gaps, less with distance from
+/// the middle of the face.
+Fit WithoutGaps(const DepthGaps& gaps, Fit fit) {
+  const std::vector<glm::vec3> posed = fit.head.posed_vertices;
+  return MovedInDepth(std::move(fit), [&](const LandmarkConstraint& constraint) {
+    const glm::vec3 p = constraint.on_head.On(posed);
     const float weight = std::exp(-p.x * p.x / (kWideMm * kWideMm));
-    constraint.z_mm += weight * std::clamp(gaps.GapAt(p.y), -kMaxCorrectionMm, kMaxCorrectionMm);
-  }
-  return WithConstraints(fit, std::move(constraints));
+    return weight * std::clamp(gaps.GapAt(p.y), -kMaxCorrectionMm, kMaxCorrectionMm);
+  });
 }
 
 /// Returns the pose that projects the profile to where it was found.
@@ -123,19 +122,19 @@ CameraPose PoseOfProfile(const ProfilePlacement& placement, const std::vector<gl
 
 }  // namespace
 
-std::optional<CameraPose> CorrectDepthByProfile(const Mask& opacity, Fit& fit) {
+std::optional<FitByProfile> CorrectDepthByProfile(const Mask& opacity, Fit fit) {
   const auto placement = FindProfile(fit.head, opacity);
   if (!placement) return std::nullopt;
   std::vector<glm::vec3> line = ProfileOf(fit.head, kProfileBelowChinMm);
   CameraPose pose = FitPoseToOutline(opacity, PoseOfProfile(*placement, line), line);
   if (MeanDepthGap(opacity, pose, line) > kMaxProfileGapMm) return std::nullopt;
-  fit = WithoutGaps(DepthGaps(opacity, pose, line), fit);
+  fit = WithoutGaps(DepthGaps(opacity, pose, line), std::move(fit));
   for (int round = 1; round < kProfileRounds; ++round) {
     line = ProfileOf(fit.head, kProfileBelowChinMm);
     pose = FitPoseToOutline(opacity, pose, line);
-    fit = WithoutGaps(DepthGaps(opacity, pose, line), fit);
+    fit = WithoutGaps(DepthGaps(opacity, pose, line), std::move(fit));
   }
-  return pose;
+  return FitByProfile{std::move(fit), pose};
 }
 
 }  // namespace facefit

@@ -15,11 +15,16 @@ vm::Result<std::optional<SideView>> CorrectDepthBy(FaceNetworks& networks,
   FigureCutout figure = CutOutFigure(side_photo.photo, SegmentPerson(networks, side_photo.photo));
   auto side_pose = FitSidePose(networks, fit.head, side_photo);
   if (side_pose) {
-    CorrectDepthByStereo(front_image, side_photo.photo, *side_pose, fit);
-    return SideView{&side_photo, *side_pose, std::move(figure)};
+    FitByStereo corrected =
+        CorrectDepthByStereo(front_image, side_photo.photo, *side_pose, std::move(fit));
+    fit = std::move(corrected.fit);
+    return SideView{&side_photo, corrected.side_pose, std::move(figure)};
   }
   // In full profile the network finds no face, or misplaces its points.
-  if (CorrectDepthByProfile(figure.opacity, fit)) return std::nullopt;
+  if (auto corrected = CorrectDepthByProfile(figure.opacity, fit)) {
+    fit = std::move(corrected->fit);
+    return std::nullopt;
+  }
   return std::unexpected(side_pose.error());
 }
 

@@ -131,10 +131,10 @@ std::vector<Patch> PatchesOf(const StereoSamples& samples) {
   return patches;
 }
 
-/// Finds the greatest of equally spaced values, refined by the parabola through its neighbours.
 struct Peak {
   float step, value;
 };
+/// Finds the greatest of equally spaced values, refined by the parabola through its neighbours.
 template <typename F>
 Peak FindPeak(int reach, F value) {
   std::vector<float> all;
@@ -231,21 +231,21 @@ std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const Camer
 
 }  // namespace
 
-bool RefineSidePose(const FittedHead& fitted, const fsm::Image& front_image,
-                    const fsm::Image& side_image, CameraPose& side_pose) {
+RefinedPose RefineSidePose(const FittedHead& fitted, const fsm::Image& front_image,
+                           const fsm::Image& side_image, CameraPose side_pose) {
   PatchMatcher matcher(side_image);
   for (int round = 0; round < kPoseRefinements; ++round) {
     const auto matches =
         FindPatches(SampleSkin(fitted, front_image, side_pose), fitted.pose, side_pose, matcher);
-    if (matches.size() < kMinPatches) return false;
+    if (matches.size() < kMinPatches) return {side_pose, false};
     side_pose = FitPose(matches, side_pose);
   }
-  return true;
+  return {side_pose, true};
 }
 
 std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front_image,
-                                         const fsm::Image& side_image, CameraPose& side_pose) {
-  if (!RefineSidePose(fitted, front_image, side_image, side_pose)) return {};
+                                         const fsm::Image& side_image,
+                                         const CameraPose& side_pose) {
   PatchMatcher matcher(side_image);
   auto depths =
       FindDepths(SampleSkin(fitted, front_image, side_pose), fitted.pose, side_pose, matcher);

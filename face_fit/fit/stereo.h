@@ -7,18 +7,21 @@
 
 namespace facefit {
 
+struct RefinedPose {
+  CameraPose pose;
+  bool enough_patches;  ///< whether at least 25 were found; otherwise refining stopped before
+};
 /// Refines `side_pose`, how `side_image` was taken, until the patches of skin of the first photo
-/// that are found in it lie where the fitted head has them. Returns whether at least 25 are found;
-/// otherwise stops.
-bool RefineSidePose(const FittedHead& fitted, const fsm::Image& front_image,
-                    const fsm::Image& side_image, CameraPose& side_pose);
+/// that are found in it lie where the fitted head has them.
+RefinedPose RefineSidePose(const FittedHead& fitted, const fsm::Image& front_image,
+                           const fsm::Image& side_image, CameraPose side_pose);
 
 /// Measures depth by finding small patches of skin of the first photo in a photo from the side: of
-/// a turned face the network mostly reports what faces have in common. `side_pose`: as for
-/// RefineSidePose. Returns positions on the base head at rest, and by how many
-/// millimetres each lies nearer to the first photo's camera than in the fit; empty if fewer than 25
-/// patches are found.
+/// a turned face the network mostly reports what faces have in common. `side_pose`: as refined by
+/// RefineSidePose. Returns positions on the base head at rest, and by how many millimetres each
+/// lies nearer to the first photo's camera than in the fit; empty if fewer than 25 patches are
+/// found.
 std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front_image,
-                                         const fsm::Image& side_image, CameraPose& side_pose);
+                                         const fsm::Image& side_image, const CameraPose& side_pose);
 
 }  // namespace facefit

@@ -33,12 +33,15 @@ std::vector<fsm::WarpPoint> OnBothCheeks(std::vector<fsm::WarpPoint> depths, glm
 
 }  // namespace
 
-void CorrectDepthByStereo(const fsm::Image& front_image, const fsm::Image& side_image,
-                          CameraPose& side_pose, Fit& fit) {
+FitByStereo CorrectDepthByStereo(const fsm::Image& front_image, const fsm::Image& side_image,
+                                 CameraPose side_pose, Fit fit) {
   for (int round = 0; round < kStereoRounds; ++round) {
-    const auto measured = CompareDepth(fit.head, front_image, side_image, side_pose);
-    if (measured.empty()) break;
-    auto depths = OnBothCheeks(measured, side_pose.TowardsCamera());
+    const auto refined = RefineSidePose(fit.head, front_image, side_image, side_pose);
+    side_pose = refined.pose;
+    if (!refined.enough_patches) break;
+    auto depths = OnBothCheeks(CompareDepth(fit.head, front_image, side_image, side_pose),
+                               side_pose.TowardsCamera());
+    if (depths.empty()) break;
     const fsm::Warp rough(depths, kRoughSmoothMm);
     std::erase_if(depths, [&](const fsm::WarpPoint& point) {
       return std::abs(rough.Motion(point.at).z - point.by.z) > kMistakenMm;
@@ -46,13 +49,12 @@ void CorrectDepthByStereo(const fsm::Image& front_image, const fsm::Image& side_
     if (depths.size() < kMinDepths) break;
     const fsm::Warp depth(depths, kDepthSmoothMm);
     const std::vector<glm::vec3>& rest = fit.head.base->rest().position;
-    std::vector<LandmarkConstraint> constraints = fit.targets.constraints;
-    for (LandmarkConstraint& constraint : constraints) {
-      constraint.z_mm += std::clamp(depth.Motion(constraint.on_head.On(rest)).z, -kMaxDepthStepMm,
-                                    kMaxDepthStepMm);
-    }
-    fit = WithConstraints(fit, std::move(constraints));
+    fit = MovedInDepth(std::move(fit), [&](const LandmarkConstraint& constraint) {
+      return std::clamp(depth.Motion(constraint.on_head.On(rest)).z, -kMaxDepthStepMm,
+                        kMaxDepthStepMm);
+    });
   }
+  return {std::move(fit), side_pose};
 }
 
 }  // namespace facefit

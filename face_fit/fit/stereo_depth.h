@@ -4,10 +4,14 @@
 
 namespace facefit {
 
+struct FitByStereo {
+  Fit fit;
+  CameraPose side_pose;
+};
 /// Corrects the depth of a fit's constraints until patches of skin that both photos show coincide
-/// in space, and refines `side_pose`, the pose of the photo from the side. Leaves depth unchanged
+/// in space, and refines `side_pose`, how the photo from the side was taken. Leaves depth unchanged
 /// if too few patches are found in both.
-void CorrectDepthByStereo(const fsm::Image& front_image, const fsm::Image& side_image,
-                          CameraPose& side_pose, Fit& fit);
+FitByStereo CorrectDepthByStereo(const fsm::Image& front_image, const fsm::Image& side_image,
+                                 CameraPose side_pose, Fit fit);
 
 }  // namespace facefit

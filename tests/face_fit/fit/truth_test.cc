@@ -206,14 +206,13 @@ TEST_P(TruthTest, ASecondPhotoFromTheSideBringsDepthNearer) {
     const float without = DepthError(truth, front);
     for (const float turn : {-40.0F, 25.0F, 40.0F, 55.0F}) {
       const fsm::Image side = truth.Photo(turn);
-      auto pose = FitSidePose(*networks_, front.head, SideOf(side));
+      const auto pose = FitSidePose(*networks_, front.head, SideOf(side));
       ASSERT_TRUE(pose) << turn << ": " << pose.error().text;
-      Fit corrected = front;
-      CorrectDepthByStereo(photo, side, *pose, corrected);
+      const auto [corrected, refined] = CorrectDepthByStereo(photo, side, *pose, front);
       const float with = DepthError(truth, corrected);
       std::printf("%-9s %+.0f turned %+.0f (found %+.0f): depth %.2f mm off, front alone %.2f\n",
                   GetParam(), static_cast<double>(strength), static_cast<double>(turn),
-                  static_cast<double>(glm::degrees(pose->rotation_rad.y)),
+                  static_cast<double>(glm::degrees(refined.rotation_rad.y)),
                   static_cast<double>(with), static_cast<double>(without));
       all_without += without;
       all_with += with;
@@ -248,11 +247,10 @@ TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
     const auto& [photo, faces, face, front] = FrontOf(truth, strength);
     const float without = DepthError(truth, front);
     for (const float turn : {-90.0F, 90.0F}) {
-      Fit corrected = front;
-      const auto pose = CorrectDepthByProfile(FigureOf(truth.Photo(turn)), corrected);
-      ASSERT_TRUE(pose) << turn;
-      EXPECT_EQ(pose->rotation_rad.y > 0, turn > 0);
-      const float with = DepthError(truth, corrected);
+      const auto corrected = CorrectDepthByProfile(FigureOf(truth.Photo(turn)), front);
+      ASSERT_TRUE(corrected) << turn;
+      EXPECT_EQ(corrected->pose.rotation_rad.y > 0, turn > 0);
+      const float with = DepthError(truth, corrected->fit);
       std::printf("%-9s %+.0f profile %+.0f: depth %.2f mm off, front alone %.2f\n", GetParam(),
                   static_cast<double>(strength), static_cast<double>(turn),
                   static_cast<double>(with), static_cast<double>(without));
@@ -274,8 +272,7 @@ TEST_P(TruthTest, AnOutlineThatIsNoProfileCorrectsNothing) {
   }
   for (const FloatImage& figure :
        {box, round, FloatImage(300, 400), FloatImage(300, 400, 1), FloatImage(1, 1, 1)}) {
-    Fit fit = front().fit;
-    EXPECT_FALSE(CorrectDepthByProfile(figure, fit));
+    EXPECT_FALSE(CorrectDepthByProfile(figure, front().fit));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "face_fit/fit/photo_targets.h"
+#include "face_fit/fit/constraints.h"
 
 #include <algorithm>
 #include <array>
@@ -31,8 +31,8 @@ std::vector<float> DepthBias(const ObservedHead& base) {
 
 /// Returns constraints to where the network sees the points of the face. `posed`: as for
 /// ConstrainToMouthLine.
-std::vector<LandmarkConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
-                                              const std::vector<glm::vec3>& posed) {
+std::vector<LandmarkConstraint> PointConstraints(const FitProblem& problem, const CameraPose& pose,
+                                                 const std::vector<glm::vec3>& posed) {
   constexpr float kTrustDepth = 0.3F, kMaxDepthGapMm = 15;
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<LandmarkConstraint> constraints;
@@ -81,8 +81,8 @@ std::uint32_t NearestLip(const ObservedHead& base, glm::vec3 p) {
   return nearest;
 }
 
-/// Replaces the constraints of closed inner lips by the line along which they meet in the photo,
-/// and moves the outer lips beside a corner with it. `posed`: the base head's vertices in the
+/// Constrains closed lips to the line along which they meet in the photo, and moves the outer lips
+/// beside a corner with it. `posed`: the base head's vertices in the
 /// photo's expression.
 void ConstrainToMouthLine(const FitProblem& problem, const CameraPose& pose,
                           std::span<const glm::vec3> posed, const fsm::Image& photo,
@@ -96,9 +96,6 @@ void ConstrainToMouthLine(const FitProblem& problem, const CameraPose& pose,
   const auto line =
       FindMouthLine(photo, problem.face, along(base.mesh_points()[point::kMouthRight]),
                     along(base.mesh_points()[point::kMouthLeft]));
-  std::erase_if(constraints, [](const auto& c) {
-    return c.IsAmong(point::kUpperInnerLip) || c.IsAmong(point::kLowerInnerLip);
-  });
   const auto on_line = [&](float along_mouth) {
     const float step = glm::clamp(along_mouth, 0.0F, 1.0F) * (kMouthLinePoints - 1);
     const auto k = std::min(static_cast<std::size_t>(step), kMouthLinePoints - 2);
@@ -136,17 +133,19 @@ FitProblem::FitProblem(const ObservedHead& base_head, const FoundFace& found_fac
       depth_bias(DepthBias(base_head)),
       lips_apart(LipsApart(found_face)) {}
 
-PhotoTargets TargetsOf(const FitProblem& problem, const CameraPose& pose,
-                       const Expression& expression, const PhotoIrises& irises,
-                       const fsm::Image* photo) {
+std::vector<LandmarkConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
+                                              const Expression& expression,
+                                              const PhotoIrises& irises, const fsm::Image* photo) {
   fsm::HeadVertices posed;
   problem.base.head().Evaluate(expression.State(), posed);
-  PhotoTargets targets{ConstraintsOf(problem, pose, posed.position), problem.lips_apart};
-  ShiftLidsToIrises(problem.base, irises, targets.constraints);
-  if (photo && !problem.lips_apart) {
-    ConstrainToMouthLine(problem, pose, posed.position, *photo, targets.constraints);
+  auto constraints = PointConstraints(problem, pose, posed.position);
+  ShiftLidsToIrises(problem.base, irises, constraints);
+  const bool to_line = photo && !problem.lips_apart;
+  if (to_line || problem.lips_apart) {
+    std::erase_if(constraints, [](const auto& c) { return c.point && OnInnerLips(*c.point); });
   }
-  return targets;
+  if (to_line) ConstrainToMouthLine(problem, pose, posed.position, *photo, constraints);
+  return constraints;
 }
 
 }  // namespace facefit

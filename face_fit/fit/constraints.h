@@ -23,12 +23,6 @@ struct LandmarkConstraint {
   }
 };
 
-/// What the photo tells about the form of the head.
-struct PhotoTargets {
-  std::vector<LandmarkConstraint> constraints;
-  bool lips_apart = false;
-};
-
 /// A face and the head that is fitted to it. Both must outlive this object.
 struct FitProblem {
   FitProblem(const ObservedHead& base_head, const FoundFace& found_face);
@@ -40,11 +34,13 @@ struct FitProblem {
   bool lips_apart;
 };
 
-/// Returns the targets of the warp for a pose and an expression: the network's points, whose depth
-/// is mostly the head's own. Eyes whose irises the photo shows elsewhere are moved up or down with
-/// them. Closed lips meet where the photo, if there is one, shows the dark line between them.
-PhotoTargets TargetsOf(const FitProblem& problem, const CameraPose& pose,
-                       const Expression& expression, const PhotoIrises& irises,
-                       const fsm::Image* photo);
+/// Returns the constraints of the warp for a pose and an expression: the network's points, whose
+/// depth is mostly the head's own. Eyes whose irises the photo shows elsewhere are moved up or down
+/// with them. Closed lips meet where the photo, if there is one, shows the dark line between them;
+/// for the inner lips of an open mouth there are none, because at rest both are one line, which
+/// cannot be moved to two separate ones.
+std::vector<LandmarkConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
+                                              const Expression& expression,
+                                              const PhotoIrises& irises, const fsm::Image* photo);
 
 }  // namespace facefit
