@@ -10,7 +10,6 @@
 #include "face_fit/find/face/glasses.h"
 #include "face_fit/find/face/upright.h"
 #include "face_fit/find/figure/figure_finder.h"
-#include "face_fit/fit/stereo.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
 #include "face_fit/report.h"
@@ -93,40 +92,29 @@ vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const ObservedHead& 
     front.scale *= close_up.scale;
   }
   const FoundFace* face = front.face ? &*front.face : nullptr;
-  front.figure = CutOutFigure(front.photo, SegmentPerson(networks, front.photo, face));
+  front.figure = FindFigure(networks, front.photo, face);
   if (face) front.occlusion = DetectOcclusion(networks, base, *face, front.photo);
   done("figure cut out");
   return found;
 }
 
 vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
-                              const SidePhotos& side_photos, std::optional<bool> glasses,
-                              const StepDone& done) {
-  if (auto few = CheckSidePhotoCount(side_photos.photos.size()); !few) {
-    return std::unexpected(few.error());
-  }
+                              FaceNetworks* networks, std::span<const SidePhoto* const> side_photos,
+                              std::optional<bool> glasses, const StepDone& done) {
+  if (auto few = CheckSidePhotoCount(side_photos.size()); !few) return std::unexpected(few.error());
   assert(front.face);
   const FoundFace& face = *front.face;
   if (auto shown = CheckFeaturesShown(face, front.photo); !shown) {
     return std::unexpected(shown.error());
   }
-  Fit fit = FitFace(base, face, &front.photo);
+  FitBySidePhotos fitted{FitFace(base, face, &front.photo), {}, {}};
   done("head fitted");
-  std::vector<SideView> views;
-  std::vector<MadeFace::LeftOut> left_out;
-  for (const SidePhoto* side_photo : side_photos.photos) {
-    auto view = CorrectDepthBy(*side_photos.networks, front.photo, *side_photo, fit);
-    if (!view) {
-      left_out.push_back({side_photo->path, view.error().text});
-    } else if (*view) {
-      views.push_back(std::move(**view));
-    }
+  if (!side_photos.empty()) {
+    assert(networks);
+    fitted = UseSidePhotos(*networks, front.photo, side_photos, std::move(fitted.fit));
   }
-  // Later photos changed the depth that the poses of earlier ones were found on.
-  for (SideView& view : views) {
-    view.pose = RefineSidePose(fit.head, front.photo, view.photo->photo, view.pose).pose;
-  }
-  if (left_out.size() < side_photos.photos.size()) done("seen from the side, too");
+  auto& [fit, views, left_out] = fitted;
+  if (left_out.size() < side_photos.size()) done("seen from the side, too");
   TextureBake bake = BakeTexture(face, fit, front.photo, front.figure, views);
   bake.head.glasses = glasses ? *glasses : WearsGlasses(face, front.photo);
   done("photo put on");

@@ -57,29 +57,21 @@ vm::Result<FrontPhoto> PrepareFront(
     FaceNetworks& networks, const ObservedHead& base, fsm::Image photo, const FaceChoice& choice,
     PhotoExtent extent, const StepDone& done = [](const char*) {});
 
-/// Photos of the person from the side, and the networks to process them, which are needed only if
-/// there are photos.
-struct SidePhotos {
-  FaceNetworks* networks = nullptr;
-  std::span<const SidePhoto* const> photos;
-};
-
 /// A face that fsm can wear, and what is known of it.
 struct MadeFace {
   Fit fit;
   TextureBake bake;
   std::string report;
-  struct LeftOut {
-    std::string path, why;
-  };
-  std::vector<LeftOut> left_out;  ///< photos from the side that were not used, and why
+  std::vector<LeftOut> left_out;
 };
 /// Fits the base head, which outlives the result, to the face of a photo, corrects its depth by
 /// photos from the side, and bakes all photos onto it. `glasses`: whether the person wears glasses;
-/// if empty, that is detected. REQUIRES: front.face. Errors: as CheckSidePhotoCount and
+/// if empty, that is detected. REQUIRES: front.face; `networks`, if there are photos from the side.
+/// Errors: as CheckSidePhotoCount and
 /// CheckFeaturesShown. Throws std::runtime_error if rendering is impossible.
 vm::Result<MadeFace> MakeFace(
-    const ObservedHead& base, const FrontPhoto& front, const SidePhotos& side_photos = {},
-    std::optional<bool> glasses = {}, const StepDone& done = [](const char*) {});
+    const ObservedHead& base, const FrontPhoto& front, FaceNetworks* networks = nullptr,
+    std::span<const SidePhoto* const> side_photos = {}, std::optional<bool> glasses = {},
+    const StepDone& done = [](const char*) {});
 
 }  // namespace facefit

@@ -101,9 +101,13 @@ vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& s
   try {
     auto side_photo = facefit::ReadSidePhoto(sight.networks, path);
     if (!side_photo) return std::unexpected(side_photo.error());
-    auto fit = facefit::FitFace(*work.base, FoundFrom(points), &work.front.photo);
-    const auto view = facefit::CorrectDepthBy(sight.networks, work.front.photo, *side_photo, fit);
-    if (!view) return vm::Fail(view.error().code, path + ": " + view.error().text);
+    const facefit::SidePhoto* const only[] = {&*side_photo};
+    const auto used =
+        facefit::UseSidePhotos(sight.networks, work.front.photo, only,
+                               facefit::FitFace(*work.base, FoundFrom(points), &work.front.photo));
+    if (!used.left_out.empty()) {
+      return vm::Fail(vm::Errc::kBadValue, path + ": " + used.left_out.front().why);
+    }
     return std::make_shared<const facefit::SidePhoto>(std::move(*side_photo));
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue, path + ": " + error.what());
@@ -119,7 +123,7 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
     facefit::FrontPhoto front = work.front;
     front.face = FoundFrom(points);
     auto made =
-        facefit::MakeFace(*work.base, front, {sight ? &sight->networks : nullptr, side_photos});
+        facefit::MakeFace(*work.base, front, sight ? &sight->networks : nullptr, side_photos);
     if (!made) return std::unexpected(made.error());
     auto built = std::make_shared<BuiltFace>();
     built->base = work.base;

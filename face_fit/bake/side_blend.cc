@@ -29,7 +29,7 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
   const SkinTexels texels = ProjectSkin(fitted, view.pose, SelfHidden::kIgnored);
   const float towards = view.pose.TowardsCamera().x > 0 ? 1.0F : -1.0F;
   const fsm::Image& colours = view.figure.colours;
-  const FoundFace& face = view.photo->faces.front();
+  const FoundFace& face = *view.side_photo->face;
   const PhotoOpenings openings(face, view.pose.PixelsPerMm(), LipsApart(face));
   // A gain for each channel matches the light of both photos.
   glm::vec3 front_sum(1), side_sum(1);

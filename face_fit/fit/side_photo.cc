@@ -17,7 +17,9 @@ vm::Result<SidePhoto> ReadSidePhoto(FaceNetworks& networks, const std::string& p
   auto photo = ReadPhoto(path);
   if (!photo) return std::unexpected(photo.error());
   UprightPhoto upright = SetUpright(networks, std::move(*photo));
-  return SidePhoto{path, std::move(upright.photo), std::move(upright.faces)};
+  SidePhoto side_photo{path, std::move(upright.photo), {}};
+  if (!upright.faces.empty()) side_photo.face = std::move(upright.faces.front());
+  return side_photo;
 }
 
 }  // namespace facefit

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "face_fit/find/network/face_finder.h"
 #include "vm_protocol/core/result.h"
@@ -13,13 +13,13 @@ inline constexpr std::size_t kMaxSidePhotos = 6;
 /// Error: kLimit, there are more.
 vm::Result<void> CheckSidePhotoCount(std::size_t count);
 
-/// Another photo of the person, from the side, upright, and the faces found in it.
+/// Another photo of the person, from the side, upright, and the largest face found in it.
 struct SidePhoto {
   std::string path;
-  fsm::Image photo;
-  std::vector<FoundFace> faces;
+  fsm::Image image;
+  std::optional<FoundFace> face;
 };
-/// Reads a photo, turns it upright by what it shows, and finds its faces. Errors: as ReadPhoto.
+/// Reads a photo, turns it upright by what it shows, and finds its face. Errors: as ReadPhoto.
 vm::Result<SidePhoto> ReadSidePhoto(FaceNetworks& networks, const std::string& path);
 
 }  // namespace facefit

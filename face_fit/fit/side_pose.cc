@@ -104,8 +104,8 @@ CameraPose FindPose(const FittedHead& fitted, const FoundFace& face,
 
 vm::Result<CameraPose> FitSidePose(FaceNetworks& networks, const FittedHead& fitted,
                                    const SidePhoto& side_photo) {
-  if (side_photo.faces.empty()) return vm::Fail(vm::Errc::kBadValue, "no face is found in it");
-  const FoundFace& face = side_photo.faces.front();
+  if (!side_photo.face) return vm::Fail(vm::Errc::kBadValue, "no face is found in it");
+  const FoundFace& face = *side_photo.face;
   if (face.certainty < kMinCertainty) {
     return vm::Fail(vm::Errc::kBadValue,
                     "no eyes, nose and mouth can be told apart in it; turned by 20 to 60 degrees "

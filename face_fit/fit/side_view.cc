@@ -5,27 +5,35 @@
 #include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/fit/profile_depth.h"
 #include "face_fit/fit/side_pose.h"
+#include "face_fit/fit/stereo.h"
 #include "face_fit/fit/stereo_depth.h"
 
 namespace facefit {
 
-vm::Result<std::optional<SideView>> CorrectDepthBy(FaceNetworks& networks,
-                                                   const fsm::Image& front_image,
-                                                   const SidePhoto& side_photo, Fit& fit) {
-  FigureCutout figure = CutOutFigure(side_photo.photo, SegmentPerson(networks, side_photo.photo));
-  auto side_pose = FitSidePose(networks, fit.head, side_photo);
-  if (side_pose) {
-    FitByStereo corrected =
-        CorrectDepthByStereo(front_image, side_photo.photo, *side_pose, std::move(fit));
-    fit = std::move(corrected.fit);
-    return SideView{&side_photo, corrected.side_pose, std::move(figure)};
+FitBySidePhotos UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_image,
+                              std::span<const SidePhoto* const> side_photos, Fit fit) {
+  FitBySidePhotos used{std::move(fit), {}, {}};
+  for (const SidePhoto* side_photo : side_photos) {
+    FigureCutout figure = FindFigure(networks, side_photo->image);
+    const auto pose = FitSidePose(networks, used.fit.head, *side_photo);
+    if (pose) {
+      auto [corrected, refined] =
+          CorrectDepthByStereo(front_image, side_photo->image, *pose, std::move(used.fit));
+      used.fit = std::move(corrected);
+      used.views.push_back({side_photo, refined, std::move(figure)});
+    } else if (auto corrected = CorrectDepthByProfile(figure.opacity, used.fit)) {
+      // In full profile the network finds no face, or misplaces its points.
+      used.fit = std::move(corrected->fit);
+    } else {
+      used.left_out.push_back({side_photo->path, pose.error().text});
+    }
   }
-  // In full profile the network finds no face, or misplaces its points.
-  if (auto corrected = CorrectDepthByProfile(figure.opacity, fit)) {
-    fit = std::move(corrected->fit);
-    return std::nullopt;
+  // Later photos changed the depth that the poses of earlier ones were found on. A pose that too
+  // few patches confirm stays nearly as it was.
+  for (SideView& view : used.views) {
+    view.pose = RefineSidePose(used.fit.head, front_image, view.side_photo->image, view.pose).pose;
   }
-  return std::unexpected(side_pose.error());
+  return used;
 }
 
 }  // namespace facefit

@@ -1,6 +1,8 @@
 #pragma once
 
-#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "face_fit/find/figure/matte.h"
 #include "face_fit/fit/fit.h"
@@ -10,17 +12,26 @@ namespace facefit {
 
 /// A photo of the person from the side from which the skin's map takes colours.
 struct SideView {
-  const SidePhoto* photo = nullptr;  ///< outlives this
+  const SidePhoto* side_photo = nullptr;  ///< outlives this
   CameraPose pose;
   FigureCutout figure;
 };
 
-/// Corrects the depth of a fit by a photo of the person from the side, turned or in full profile.
-/// Returns the view, or nothing for a full profile, whose colours are not used: front and profile
-/// show too little common skin to match their light. `front_image`: the photo of the fit;
-/// `side_photo` outlives the view. Errors, after which the fit is unchanged: as FitSidePose.
-vm::Result<std::optional<SideView>> CorrectDepthBy(FaceNetworks& networks,
-                                                   const fsm::Image& front_image,
-                                                   const SidePhoto& side_photo, Fit& fit);
+/// A photo from the side that could not be used, and why.
+struct LeftOut {
+  std::string path, why;
+};
+
+struct FitBySidePhotos {
+  Fit fit;
+  /// Of turned faces. There is none of a full profile: front and profile show too little common
+  /// skin to match their light.
+  std::vector<SideView> views;
+  std::vector<LeftOut> left_out;
+};
+/// Corrects the depth of a fit by photos of the person from the side, which outlive the result,
+/// turned or in full profile. `front_image`: the photo of the fit.
+FitBySidePhotos UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_image,
+                              std::span<const SidePhoto* const> side_photos, Fit fit);
 
 }  // namespace facefit

@@ -56,7 +56,7 @@ TEST_F(MakeFaceTest, PointsSetByHandBesideThePhotoAreRefused) {
 TEST_F(MakeFaceTest, MorePhotosFromTheSideThanAreUsedAreRefused) {
   const SidePhoto side;
   const std::vector<const SidePhoto*> sides(kMaxSidePhotos + 1, &side);
-  const auto made = MakeFace(Galatea(), {}, {&*networks_, sides});
+  const auto made = MakeFace(Galatea(), {}, &*networks_, sides);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().code, vm::Errc::kLimit);
 }
@@ -114,9 +114,9 @@ TEST_F(MakeFaceTest, APhotoThatDoesNotHelpIsLeftOutWithItsReasonAndTheRestIsMade
   const auto front = vm::OrThrow(
       PrepareFront(*networks_, Galatea(), photo, FaceNumber{}, PhotoExtent::kCloseUp, tell));
   ASSERT_TRUE(front.face);
-  const SidePhoto again{"again.png", photo, FindFaces(*networks_, photo)};
+  const SidePhoto again{"again.png", photo, FindFaces(*networks_, photo).front()};
   const std::vector<const SidePhoto*> sides{&again};
-  const auto made = vm::OrThrow(MakeFace(Galatea(), front, {&*networks_, sides}, true, tell));
+  const auto made = vm::OrThrow(MakeFace(Galatea(), front, &*networks_, sides, true, tell));
   ASSERT_EQ(made.left_out.size(), 1U);
   EXPECT_EQ(made.left_out[0].path, "again.png");
   EXPECT_NE(made.left_out[0].why.find("from the front"), std::string::npos);

@@ -178,4 +178,8 @@ Mask SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundF
   return out;
 }
 
+FigureCutout FindFigure(FaceNetworks& networks, const fsm::Image& photo, const FoundFace* face) {
+  return CutOutFigure(photo, SegmentPerson(networks, photo, face));
+}
+
 }  // namespace facefit

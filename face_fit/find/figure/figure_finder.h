@@ -1,5 +1,6 @@
 #pragma once
 
+#include "face_fit/find/figure/matte.h"
 #include "face_fit/find/network/face_finder.h"
 #include "face_fit/picture/float_image.h"
 
@@ -14,6 +15,10 @@ namespace facefit {
 ///   become 1 and everything else 0; beside a cheek whose ear the photo cuts off likewise.
 Mask SegmentPerson(FaceNetworks& networks, const fsm::Image& image,
                    const FoundFace* face = nullptr);
+
+/// Cuts out the figure that SegmentPerson finds.
+FigureCutout FindFigure(FaceNetworks& networks, const fsm::Image& photo,
+                        const FoundFace* face = nullptr);
 
 /// Returns `person`, 0..1, with the sides of the head made more alike: where one side of a face
 /// that looks into the camera belongs to the person and its mirror image does not (an ear, half a

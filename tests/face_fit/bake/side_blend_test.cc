@@ -26,8 +26,8 @@ class SideBlendTest : public NetworkTest {
     fitted_.posed_vertices = Galatea().rest().position;
     view_.pose = fitted_.pose;
     view_.pose.rotation_rad.y = glm::radians(-40.0F);
-    photo_.faces = {FaceIn(view_.pose)};
-    view_.photo = &photo_;
+    photo_.face = FaceIn(view_.pose);
+    view_.side_photo = &photo_;
     view_.figure.colours = fsm::FilledImage(kSide, kSide);
     Fill(view_.figure.colours, [](glm::vec2) { return kSkin; });
     front_ = ProjectSkin(fitted_, fitted_.pose, SelfHidden::kNotSeen);
@@ -79,7 +79,7 @@ TEST_F(SideBlendTest, WhatTheSidePhotoShowsBetweenLidsIsNotPaintedOnTheirRims) {
     map_.outside_openings.values[i] = skin;
     map_.coverage.values[i] = skin;
   }
-  const PhotoOpenings openings(photo_.faces[0], view_.pose.PixelsPerMm(), false);
+  const PhotoOpenings openings(*photo_.face, view_.pose.PixelsPerMm(), false);
   Fill(view_.figure.colours,
        [&](glm::vec2 p) { return openings.SkinShare(p) < 1 ? kWhite : kSkin; });
   BlendSideView(fitted_, view_, front_, map_);

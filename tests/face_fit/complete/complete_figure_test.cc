@@ -61,7 +61,7 @@ class CompleteFigureTest : public NetworkTest {
     const auto faces = FindFaces(*networks_, photo);
     const FoundFace& face = faces.at(0);
     const Fit fit = FitFace(Galatea(), face, &photo);
-    FigureCutout figure = CutOutFigure(photo, SegmentPerson(*networks_, photo, &face));
+    FigureCutout figure = FindFigure(*networks_, photo, &face);
     CompletedFigure whole = CompleteFigure(fit.head, figure);
     const glm::vec2 origin = glm::round(whole.head.pose.centre - fit.head.pose.centre);
     const glm::vec2 chin = whole.head.pose.Pixel(whole.head.PositionOf(point::kChin));

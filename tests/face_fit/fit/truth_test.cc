@@ -111,7 +111,8 @@ class TruthTest : public NetworkTest, public testing::WithParamInterface<const c
     return FrontOf(0, [] { return PhotoOf(truth(), 0); });
   }
   static SidePhoto SideOf(const fsm::Image& photo) {
-    return {"", photo, FindFaces(*networks_, photo)};
+    const auto faces = FindFaces(*networks_, photo);
+    return {"", photo, faces.empty() ? std::nullopt : std::optional(faces.front())};
   }
   static const Front& FrontOf(const Profile& truth, float strength) {
     return FrontOf(strength, [&truth] { return truth.Photo(0); });
