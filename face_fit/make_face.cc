@@ -118,7 +118,7 @@ vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
   TextureBake bake = BakeTexture(face, fit, front.photo, front.figure, views);
   bake.head.glasses = glasses ? *glasses : WearsGlasses(face, front.photo);
   done("photo put on");
-  std::string report = Report(face, fit, front.photo, bake, front.faces, front.occlusion);
+  std::string report = Report(front, fit, bake);
   return MadeFace{std::move(fit), std::move(bake), std::move(report), std::move(left_out)};
 }
 

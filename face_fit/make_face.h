@@ -9,8 +9,7 @@
 
 #include "face_fit/bake/texture_bake.h"
 #include "face_fit/find/face/hand_points.h"
-#include "face_fit/find/face/occlusion_detector.h"
-#include "face_fit/fit/side_photo.h"
+#include "face_fit/front_photo.h"
 
 namespace facefit {
 
@@ -35,21 +34,6 @@ using FaceChoice = std::variant<FaceNumber, FaceNear, HandPoints>;
 /// (CloseUpOf), or all of it as given.
 enum class PhotoExtent { kCloseUp, kWhole };
 
-/// A photo from the front and what was found in it; no head is fitted yet.
-struct FrontPhoto {
-  fsm::Image photo;  ///< what is worked on, upright
-  /// In pixels of `photo`; nothing if none was found. A user's points may replace it.
-  std::optional<FoundFace> face = {};
-  FigureCutout figure = {};
-  Occlusion occlusion = {};  ///< of the face
-  int faces = 0;             ///< number of faces found
-  int orientation = 1;       ///< EXIF orientation of the photo as given
-  float scale = 1;           ///< pixels of `photo` for each pixel of the photo as given
-  /// The pixel of the nose, and the size, of the whole upright photo: as given for
-  /// PhotoExtent::kWhole, else scaled down to at most kWorkingSize to a side.
-  glm::vec2 nose{0};
-  glm::ivec2 whole_size{0};
-};
 /// Finds the face in a photo, selects what to work on, cuts the figure out, and checks whether
 /// something hides the face. The face may be uncertain: compare its certainty with kCertainFace.
 /// Errors: kBadValue, there are faces but fewer than the number asked for; as CheckWithin.

@@ -6,27 +6,34 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "fsm/head/make_head.h"
+
 namespace facefit {
 namespace {
 
 struct ReportTest : testing::Test {
   ReportTest() {
-    face.points.assign(kNetworkPoints, glm::vec3(100, 100, 0));
-    face.points[33].x = 50;
-    face.points[263].x = 150;
-    face.crop = {glm::vec2(100), 150, 0};
+    front.face.emplace();
+    front.face->points.assign(kNetworkPoints, glm::vec3(100, 100, 0));
+    front.face->points[33].x = 50;
+    front.face->points[263].x = 150;
+    front.face->crop = {glm::vec2(100), 150, 0};
+    front.photo.rgba.assign(200 * 200 * 4, 128);
+    fit.head.base = &base;
+    fit.head.posed_vertices = base.rest().position;
     fit.irises.circles = {{{80, 100}, 6, 0.3F}, {{120, 100}, 6, 0.3F}};
-    photo.rgba.assign(200 * 200 * 4, 128);
   }
   bool Says(const std::string& what) const {
-    return Report(face, fit, photo, bake, 1, occlusion).find(what) != std::string::npos;
+    return Report(front, fit, bake).find(what) != std::string::npos;
   }
 
-  FoundFace face;
+  const ObservedHead base = ObservedHead::Exact(fsm::MakeHead("galatea"), "galatea",
+                                                std::vector<MeshPoint>(kNetworkPoints));
+  FrontPhoto front{.photo = {.width = 200, .height = 200, .rgba = {}},
+                   .occlusion = {0.5F, "the nose"},
+                   .faces = 1};
   Fit fit;
-  fsm::Image photo{.width = 200, .height = 200, .rgba = {}};
   TextureBake bake;
-  Occlusion occlusion{0.5F, "the nose"};
 };
 
 TEST_F(ReportTest, AHeadTurnedFarIsToldApartFromOneTurnedALittle) {
@@ -48,10 +55,10 @@ TEST_F(ReportTest, EyesThatAreShutOrInTheShadeAreSpokenOf) {
 
 TEST_F(ReportTest, WhatMayBeBeforeAFaceIsToldApartFromWhatSurelyIs) {
   EXPECT_FALSE(Says("before the face at"));
-  occlusion.measure = 1.2F;
+  front.occlusion.measure = 1.2F;
   EXPECT_TRUE(Says("may be before the face at the nose"));
   EXPECT_FALSE(Says("covered by"));
-  occlusion.measure = 1.6F;
+  front.occlusion.measure = 1.6F;
   EXPECT_TRUE(Says("covered by something that is no face: the nose"));
 }
 
