@@ -41,8 +41,8 @@ std::vector<PointGroup> MakeGroups() {
   constexpr PointIndex kCorners[] = {point::kMouthRight, point::kMouthLeft};
   std::vector<int> all(static_cast<std::size_t>(kPoints));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  return {{"right_eye", "Right eye", Joined({EyeOutline(fsm::Side::kRight)})},
-          {"left_eye", "Left eye", Joined({EyeOutline(fsm::Side::kLeft)})},
+  return {{"right_eye", "Right eye", Joined({point::kEyeOutline[fsm::Side::kRight]})},
+          {"left_eye", "Left eye", Joined({point::kEyeOutline[fsm::Side::kLeft]})},
           {"right_brow_line", "Right brow", Joined({kRightBrow})},
           {"left_brow_line", "Left brow", Joined({kLeftBrow})},
           {"nose", "Nose", Joined({kNose})},

@@ -43,7 +43,7 @@ fsm::Image BehindFace(const FittedHead& fitted, const FigureCutout& figure) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
-      const glm::vec3 position = fitted.pose.PositionAt(pixel, kBesideFaceDepth);
+      const glm::vec3 position = fitted.pose.PositionAt(pixel, kBesideFaceDepthMm);
       const std::size_t i = keep.Index(x, y);
       const float hole = glm::mix(look.face_share, look.neck_share, chin.BeforeNeck(position));
       keep.values[i] = fsm::SmoothStep(hole + look.edge_share, soft.values[i]);

@@ -31,6 +31,6 @@ class Chin {
 
 /// Approximate depth of what lies beside the face, camera's frame, millimetres: accurate enough to
 /// tell which part of the head a pixel covers.
-inline constexpr float kBesideFaceDepth = 20;
+inline constexpr float kBesideFaceDepthMm = 20;
 
 }  // namespace facefit

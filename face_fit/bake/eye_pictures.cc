@@ -197,7 +197,7 @@ LidLines LidsAtRest(const ObservedHead& base, fsm::Side side, const fsm::EyeTran
   const glm::vec3 centre = base.head().topology().eyes[side].centre;
   EyePoints rest;
   for (std::size_t i = 0; i < rest.size(); ++i) {
-    rest[i] = glm::vec2(base.AtRest(EyeOutline(side)[i]) - centre);
+    rest[i] = glm::vec2(base.AtRest(point::kEyeOutline[side][i]) - centre);
   }
   const float inner = rest[kInnerCorner].x, outer = rest[kOuterCorner].x;
   for (std::size_t i = 0; i < rest.size(); ++i) {
@@ -224,7 +224,7 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
   for (const fsm::Side k : fsm::kSides) {
     if ((*shown)[k] != k) continue;
     EyePoints outline;
-    std::ranges::transform(EyeOutline(k), outline.begin(),
+    std::ranges::transform(point::kEyeOutline[k], outline.begin(),
                            [&](PointIndex p) { return face.PixelOf(p); });
     const PhotoEye eye{fit.irises.circles[k], LidLines(outline), right, {right.y, -right.x}};
     const float radius = at_rest[k].size * base.head().topology().eyes[k].ball_radius;

@@ -61,7 +61,7 @@ EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fs
   const glm::vec2 iris_radii = look.iris.sampled_radii;
   std::vector<glm::vec3> iris, white;
   for (const fsm::Side side : fsm::kSides) {
-    const std::vector<glm::vec2> outline = face.Line(EyeOutline(side));
+    const std::vector<glm::vec2> outline = face.Line(point::kEyeOutline[side]);
     const glm::vec2 a = outline[kOuterCorner], b = outline[kInnerCorner];
     const float width = glm::distance(a, b);
     const IrisCircle& circle = irises.circles[side];

@@ -19,7 +19,7 @@ PhotoOpenings::PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool li
   // The dark line of the lashes stays on the rims of the lids.
   const float lash = look.opening.lashes_mm * pixels_per_mm;
   for (const fsm::Side side : fsm::kSides) {
-    openings_.push_back({face.Line(EyeOutline(side)), -lash, -lash});
+    openings_.push_back({face.Line(point::kEyeOutline[side]), -lash, -lash});
   }
   if (lips_apart) {
     std::vector<PointIndex> mouth(point::kUpperInnerLip.begin(), point::kUpperInnerLip.end());

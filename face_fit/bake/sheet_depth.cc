@@ -110,7 +110,7 @@ FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Ch
   for (int y = 0; y < grid.rows; ++y) {
     for (int x = 0; x < grid.columns; ++x) {
       const std::size_t i = depth.Index(x, y);
-      const glm::vec3 position = fitted.pose.PositionAt(grid.Point(x, y), kBesideFaceDepth);
+      const glm::vec3 position = fitted.pose.PositionAt(grid.Point(x, y), kBesideFaceDepthMm);
       const bool inner = skin.inner.values[i] > 0;
       const bool outside = skin.covered.values[i] <= 0 && shown.values[i] < kShownLeast;
       if (!inner && !outside) continue;

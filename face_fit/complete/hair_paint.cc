@@ -64,34 +64,28 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
              beard.hair_share;
 }
 
-HairPaint::EdgeSpan HairPaint::TopSpan() const {
-  // The longest run of the upper edge that cuts the figure.
+HairPaint::EdgeSpan HairPaint::LongestRun(int count, auto cuts_head) {
   EdgeSpan longest, span;
-  for (int x = 0; x < edges_.width(); ++x) {
-    if (edges_.top(x).kind == EdgeKind::kNothing) {
-      span.from = static_cast<float>(x) + 1;
-    } else {
-      span.to = static_cast<float>(x) + 1;
-      if (span.to - span.from > longest.Length()) longest = span;
-    }
+  for (int i = 0; i < count; ++i) {
+    (cuts_head(i) ? span.to : span.from) = static_cast<float>(i) + 1;
+    if (span.Length() > longest.Length()) longest = span;
   }
   return longest;
+}
+
+HairPaint::EdgeSpan HairPaint::TopSpan() const {
+  return LongestRun(edges_.width(),
+                    [this](int x) { return edges_.top(x).kind != EdgeKind::kNothing; });
 }
 
 HairPaint::EdgeSpan HairPaint::SpanOf(PhotoSide side) const {
   // Above the chin everything cut at a side is hair or a hat, whatever its colour; below the chin
   // only what has the hair's colour.
-  EdgeSpan longest, span;
-  for (int y = 0; y < edges_.height(); ++y) {
+  const EdgeSpan longest = LongestRun(edges_.height(), [&](int y) {
     const EdgeKind kind = edges_.side(side, y).kind;
-    const bool head = static_cast<float>(y) < canvas_.chin.y;
-    if (kind == EdgeKind::kHair || (head && kind != EdgeKind::kNothing)) {
-      span.to = static_cast<float>(y) + 1;
-      if (span.to - span.from > longest.Length()) longest = span;
-    } else {
-      span.from = static_cast<float>(y) + 1;
-    }
-  }
+    const bool above_chin = static_cast<float>(y) < canvas_.chin.y;
+    return kind == EdgeKind::kHair || (above_chin && kind != EdgeKind::kNothing);
+  });
   return longest.from < canvas_.chin.y ? longest : EdgeSpan{};
 }
 

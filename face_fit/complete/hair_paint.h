@@ -33,6 +33,8 @@ class HairPaint {
     float from = 0, to = 0;
     float Length() const { return to - from; }
   };
+  /// Returns the longest run of samples of an edge for which `cuts_head(i)` is true.
+  static EdgeSpan LongestRun(int count, auto cuts_head);
   EdgeSpan TopSpan() const;
   EdgeSpan SpanOf(PhotoSide side) const;
 

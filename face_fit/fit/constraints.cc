@@ -38,10 +38,10 @@ std::vector<LandmarkConstraint> PointConstraints(const FitProblem& problem, cons
   std::vector<LandmarkConstraint> constraints;
   std::vector<float> depth_gaps;
   float mean = 0;
-  for (const PointIndex k : point::kForFit) {
+  for (const PointIndex k : point::kReliable) {
     const glm::vec3 q = pose.ToCamera(problem.base.mesh_points()[k].On(posed));
     depth_gaps.push_back(problem.face.points[k].z * mm_per_pixel + problem.depth_bias[k] - q.z);
-    mean += depth_gaps.back() / static_cast<float>(std::size(point::kForFit));
+    mean += depth_gaps.back() / static_cast<float>(std::size(point::kReliable));
     constraints.push_back({k, problem.base.mesh_points()[k], problem.face.PixelOf(k), q.z});
   }
   for (std::size_t i = 0; i < depth_gaps.size(); ++i) {
@@ -60,7 +60,7 @@ void ShiftLidsToIrises(const ObservedHead& base, const PhotoIrises& irises,
     });
     const glm::vec2 shift_px = LidShiftPx(base, lids, irises.circles[side], side);
     for (LandmarkConstraint& constraint : constraints) {
-      if (constraint.IsAmong(EyeOutline(side))) constraint.pixel += shift_px;
+      if (constraint.IsAmong(point::kEyeOutline[side])) constraint.pixel += shift_px;
     }
   }
 }

@@ -22,7 +22,7 @@ float Within(glm::vec2 range, float v) { return std::clamp(v, range.x, range.y);
 
 fsm::EyeTransform FitEye(const ObservedHead& base, const std::map<PointIndex, glm::vec3>& to,
                          fsm::Side side) {
-  const auto outline = EyeOutline(side);
+  const auto outline = point::kEyeOutline[side];
   const glm::vec3 centre = base.head().topology().eyes[side].centre;
   const auto at_rest = [&](std::size_t k) { return base.AtRest(outline[k]); };
   const float inner = at_rest(kInnerCorner).x, outer = at_rest(kOuterCorner).x;
@@ -66,7 +66,7 @@ fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted) {
   fsm::Sided<fsm::EyeTransform> transforms = fitted.eyes;
   for (const fsm::Side side : fsm::kSides) {
     const auto raised = [&](std::size_t k) {
-      const MeshPoint& lid = base.mesh_points()[EyeOutline(side)[k]];
+      const MeshPoint& lid = base.mesh_points()[point::kEyeOutline[side][k]];
       return lid.On(posed.position).y - lid.On(base.rest().position).y;
     };
     transforms[side].upper_mm += kept * std::min(raised(kUpperMiddle), 0.0F);

@@ -11,7 +11,7 @@ namespace facefit {
 
 /// Returns how both eyes must be moved, turned and sized, and their lids raised, so that the
 /// outlines of the open eyes lie as in the photo. `to`: positions by point of the network, head's
-/// frame, millimetres. REQUIRES: it has the points of both EyeOutlines.
+/// frame, millimetres. REQUIRES: it has the points of both of point::kEyeOutline.
 fsm::Sided<fsm::EyeTransform> FitEyes(const ObservedHead& base,
                                       const std::map<PointIndex, glm::vec3>& to);
 

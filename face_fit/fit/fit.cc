@@ -32,7 +32,7 @@ std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& par
   std::vector<double> out;
   std::vector<float> depth;
   float mean = 0;
-  for (const PointIndex k : point::kForFit) {
+  for (const PointIndex k : point::kReliable) {
     const glm::vec3 q = pose.ToCamera(problem.base.mesh_points()[k].On(vertices.position));
     const glm::vec2 offset = (pose.Project(q) - problem.face.PixelOf(k)) * mm_per_pixel;
     out.push_back(static_cast<double>(offset.x));
@@ -101,11 +101,11 @@ Fit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image* p
 
 float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
   float sum = 0;
-  for (const PointIndex k : point::kForFit) {
+  for (const PointIndex k : point::kReliable) {
     const glm::vec3 q = fitted.pose.ToCamera(fitted.PositionOf(k));
     sum += glm::distance(fitted.pose.Project(q), face.PixelOf(k));
   }
-  return sum / fitted.pose.PixelsPerMm() / static_cast<float>(std::size(point::kForFit));
+  return sum / fitted.pose.PixelsPerMm() / static_cast<float>(std::size(point::kReliable));
 }
 
 Fit MovedInDepth(Fit fit, const std::function<float(const LandmarkConstraint&)>& nearer_mm) {

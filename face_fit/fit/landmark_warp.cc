@@ -23,7 +23,7 @@ constexpr float kCorrectionGain = 0.8F;
 /// Returns the eye whose outline has the point; none if no eye's has.
 std::optional<fsm::Side> EyeOf(const LandmarkConstraint& c) {
   for (const fsm::Side side : fsm::kSides) {
-    if (c.IsAmong(EyeOutline(side))) return side;
+    if (c.IsAmong(point::kEyeOutline[side])) return side;
   }
   return std::nullopt;
 }

@@ -52,7 +52,7 @@ PhotoIrises FindPhotoIrises(const ObservedHead& base, const FoundFace& face,
   for (const fsm::Side side : fsm::kSides) {
     const auto pixel_of = [&face](PointIndex i) { return face.PixelOf(i); };
     const IrisPlacement iris = ExpectedIris(base, LidSpanOf(side, pixel_of), side);
-    std::ranges::transform(EyeOutline(side), eyes[side].lids.begin(), pixel_of);
+    std::ranges::transform(point::kEyeOutline[side], eyes[side].lids.begin(), pixel_of);
     eyes[side].iris_centre = iris.centre;
     eyes[side].iris_radius = iris.pixels_per_mm * base.head().topology().eyes[side].iris_radius;
     irises.circles[side] = {.centre = iris.centre, .radius = eyes[side].iris_radius, .contrast = 0};

@@ -15,7 +15,7 @@ struct LidSpan {
 /// `pixel_of(point)`: the pixel of a point of the network.
 template <typename PixelOf>
 LidSpan LidSpanOf(fsm::Side side, PixelOf pixel_of) {
-  const auto outline = EyeOutline(side);
+  const auto outline = point::kEyeOutline[side];
   return {pixel_of(outline[kOuterCorner]), pixel_of(outline[kInnerCorner]),
           0.5F * (pixel_of(outline[kUpperMiddle]) + pixel_of(outline[kLowerMiddle]))};
 }

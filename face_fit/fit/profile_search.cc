@@ -135,11 +135,11 @@ ProfileMatch BestNearby(const std::vector<glm::vec3>& line, const std::vector<fl
   return best;
 }
 
-/// Returns the first and the last row of a figure.
 struct FigureRows {
   float top, bottom;
   float Height() const { return bottom - top; }
 };
+/// Returns the first and the last row of a figure.
 FigureRows FigureRowsOf(const std::vector<float>& columns) {
   const auto covered = [](float column) { return column >= 0; };
   const auto top = std::ranges::find_if(columns, covered) - columns.begin();

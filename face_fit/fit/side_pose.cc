@@ -38,7 +38,7 @@ struct ComparedPoint {
 
 std::vector<ComparedPoint> ComparedPoints(const FittedHead& fitted) {
   std::vector<ComparedPoint> points;
-  for (const PointIndex i : point::kForFit) points.push_back({i, fitted.PositionOf(i)});
+  for (const PointIndex i : point::kReliable) points.push_back({i, fitted.PositionOf(i)});
   return points;
 }
 

@@ -37,7 +37,7 @@ using StereoSamples = Raster<StereoSample>;
 /// Returns the fitted skin that the first photo shows.
 VisibleSurface SkinInFront(const FittedHead& fitted) {
   Box2 box;
-  for (const PointIndex i : point::kForFit) box.Add(fitted.pose.Pixel(fitted.PositionOf(i)));
+  for (const PointIndex i : point::kReliable) box.Add(fitted.pose.Pixel(fitted.PositionOf(i)));
   const float step = kCellMm * fitted.pose.PixelsPerMm();
   const glm::ivec2 points = glm::clamp(glm::ivec2(box.Size() / step), 1, kMaxSamples);
   VisibleSurface surface({box.low, step, points.x, points.y},

@@ -55,9 +55,9 @@ class VisibleSurface {
   std::vector<Sample> samples_;
 };
 
+inline constexpr float kFrontStepMm = 0.125F;
 /// Returns the front view of a head that faces +z, in the window low..high, in steps of
 /// kFrontStepMm, rows upward, without hair and lashes. Millimetres; at most 200 to a side.
-inline constexpr float kFrontStepMm = 0.125F;
 VisibleSurface VisibleFromFront(const fsm::HeadTopology& topology,
                                 const std::vector<glm::vec3>& position, glm::vec2 low,
                                 glm::vec2 high);

@@ -35,8 +35,8 @@ float MeanGap(std::span<const glm::vec3> points, const EdgePairs& pairs) {
 glm::vec2 GazeOf(const AttentiveFace& found) {
   glm::vec2 sum(0);
   for (const fsm::Side side : fsm::kSides) {
-    const glm::vec2 a = found.face.PixelOf(EyeOutline(side)[kOuterCorner]),
-                    b = found.face.PixelOf(EyeOutline(side)[kInnerCorner]);
+    const glm::vec2 a = found.face.PixelOf(point::kEyeOutline[side][kOuterCorner]),
+                    b = found.face.PixelOf(point::kEyeOutline[side][kInnerCorner]);
     const glm::vec2 across = side == fsm::Side::kRight ? b - a : a - b;
     const glm::vec2 iris = found.iris[side][0];
     const glm::vec2 gaze = (iris - 0.5F * (a + b)) / glm::dot(across, across);

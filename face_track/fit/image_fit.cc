@@ -117,15 +117,15 @@ ImageFit::ImageFit(const SeenFace& face, const Lens& lens, const Points& rest, c
   Points ring = rest;  // eyes a little larger
   for (const fsm::Side side : fsm::kSides) {
     glm::vec3 middle(0);
-    const auto outline = facefit::EyeOutline(side);
+    const auto outline = facefit::point::kEyeOutline[side];
     for (const std::size_t i : outline) middle += rest[i] / static_cast<float>(outline.size());
     for (const std::size_t i : outline) ring[i] = middle + 1.25F * (rest[i] - middle);
   }
   for (float y = low; y <= top; y += kStep) {
     for (float x = -wide; x <= wide; x += kStep) {
       const glm::vec2 p(x, y);
-      if (Inside(ring, facefit::EyeOutline(fsm::Side::kLeft), p) ||
-          Inside(ring, facefit::EyeOutline(fsm::Side::kRight), p)) {
+      if (Inside(ring, facefit::point::kEyeOutline[fsm::Side::kLeft], p) ||
+          Inside(ring, facefit::point::kEyeOutline[fsm::Side::kRight], p)) {
         continue;
       }
       const Place place = PlaceAt(rest, p);

@@ -22,7 +22,7 @@ Sighting SightingOf(const facefit::AttentiveFace& found, const Lens& lens, const
 
 /// Between the edges of an eye's lids, the mean of three places.
 float LidGap(const Points& points, fsm::Side side) {
-  const auto outline = facefit::EyeOutline(side);
+  const auto outline = facefit::point::kEyeOutline[side];
   float gap = 0;
   for (const std::size_t k : {0U, 1U, 2U}) {
     gap += points[outline[facefit::kUpperMiddle - 1 + k]].y -

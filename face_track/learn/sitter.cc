@@ -31,7 +31,7 @@ Sitter::Sitter(std::unique_ptr<fsm::Head> head, facefit::FaceNetworks& networks,
                facefit::Network& attention, HeadPainter& painter)
     : attention_(attention),
       painter_(painter),
-      base_(vm::OrThrow(ObservedHead::BuiltIn(networks, std::move(head), "head"))) {
+      base_(vm::OrThrow(ObservedHead::OfOurMesh(networks, std::move(head), "head"))) {
   scale_ = 1;
   for (int round = 0; round < 3; ++round) {
     const Sight sight = Look({});

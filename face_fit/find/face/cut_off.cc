@@ -63,8 +63,8 @@ vm::Result<void> CheckFeaturesShown(const FoundFace& face, const fsm::Image& pho
                                [&](PointIndex i) { return !IsInside(photo, face.PixelOf(i)); });
   };
   const std::string names =
-      Joined({{cut(EyeOutline(fsm::Side::kRight)), "the right eye"},
-              {cut(EyeOutline(fsm::Side::kLeft)), "the left eye"},
+      Joined({{cut(point::kEyeOutline[fsm::Side::kRight]), "the right eye"},
+              {cut(point::kEyeOutline[fsm::Side::kLeft]), "the left eye"},
               {cut(std::array{point::kNoseTip, point::kNoseBottom}), "the nose"},
               {cut(point::kUpperOuterLip) || cut(point::kLowerOuterLip), "the mouth"}});
   if (names.empty()) {

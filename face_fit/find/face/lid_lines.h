@@ -11,8 +11,8 @@
 
 namespace facefit {
 
-/// The points of EyeOutline: from the outer corner along the upper lid to the inner corner, and
-/// back along the lower lid; points of both lids lie above each other.
+/// The points of point::kEyeOutline: from the outer corner along the upper lid to the inner corner,
+/// and back along the lower lid; points of both lids lie above each other.
 using EyePoints = std::array<glm::vec2, 16>;
 
 /// Returns the share of a lid's movement at `x` between the corners of an eye: 1 in the middle, 0

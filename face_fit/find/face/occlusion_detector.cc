@@ -59,7 +59,7 @@ constexpr float kSure = 14;
 class PhotoToBase {
  public:
   PhotoToBase(const FoundFace& face, const ObservedHead& base) {
-    for (const PointIndex i : point::kForFit) {
+    for (const PointIndex i : point::kReliable) {
       pairs_.push_back(
           {face.crop.FromPicture(face.PixelOf(i)) * float{kPointsPixels}, base.DetectedAt(i)});
     }

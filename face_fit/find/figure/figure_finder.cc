@@ -14,7 +14,7 @@
 namespace facefit {
 namespace {
 
-// DoubtAsymmetry; lengths are divided by the height of the face.
+// RaiseMissedSide; lengths are divided by the height of the face.
 constexpr float kNearby = 0.03F;     // reach in which the other side's colour is searched
 constexpr float kSameOnBoth = 0.8F;  // ratio to the other side's opacity above which both agree
 constexpr glm::vec2 kAlike{0.3F, 0.05F};  // difference of colours, 0..1, from unlike to alike
@@ -86,7 +86,7 @@ float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
 /// shows there instead.
 void TrustFaceOutline(const FoundFace& face, const fsm::Image& image, Mask& person) {
   float seen = 0, count = 0;
-  for (const PointIndex i : point::kForFit) {
+  for (const PointIndex i : point::kReliable) {
     const glm::vec2 p = face.PixelOf(i);
     if (!IsInside(image, p)) continue;
     seen += person(static_cast<int>(p.x), static_cast<int>(p.y));
@@ -114,7 +114,7 @@ void TrustFaceOutline(const FoundFace& face, const fsm::Image& image, Mask& pers
 
 }  // namespace
 
-Mask DoubtAsymmetry(const FoundFace& face, const fsm::Image& image, const Mask& person) {
+Mask RaiseMissedSide(const FoundFace& face, const fsm::Image& image, const Mask& person) {
   const glm::vec2 top = face.PixelOf(point::kForehead), chin = face.PixelOf(point::kChin);
   if (glm::distance(top, chin) < 1) return person;
   const glm::vec2 down = glm::normalize(chin - top), across(-down.y, down.x);
@@ -173,7 +173,7 @@ Mask SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundF
     return share > 0 ? glm::mix(person, PersonAt(near, in_square), share) : person;
   });
   KeepConnected(glm::ivec2(face->PixelOf(point::kNoseTip)), out);
-  out = DoubtAsymmetry(*face, image, out);
+  out = RaiseMissedSide(*face, image, out);
   TrustFaceOutline(*face, image, out);
   return out;
 }

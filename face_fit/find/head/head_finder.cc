@@ -50,7 +50,7 @@ fsm::FacePart PartOf(PointIndex i) {
   if (Contains(point::kUpperOuterLip, i)) return fsm::FacePart::kUpperLip;
   if (Contains(point::kLowerOuterLip, i)) return fsm::FacePart::kLowerLip;
   for (const fsm::Side side : fsm::kSides) {
-    const auto outline = EyeOutline(side);
+    const std::span outline(point::kEyeOutline[side]);
     if (Contains(outline.subspan(1, kInnerCorner - 1), i)) return fsm::FacePart::kUpperLid;
     if (Contains(outline.subspan(kInnerCorner + 1), i)) return fsm::FacePart::kLowerLid;
   }
@@ -110,7 +110,7 @@ class HeadMatcher {
       SpreadAlongSeam(*other->seam(), theirs);
     }
     std::vector<fsm::PointPair> found;
-    for (const PointIndex i : point::kForFit) {
+    for (const PointIndex i : point::kReliable) {
       // A point where the lips meet may lie on either lip.
       const bool corner = i == point::kMouthRight || i == point::kMouthLeft;
       if (OnInnerLips(i) ? !both : both && corner) continue;
@@ -128,7 +128,7 @@ class HeadMatcher {
     for (const fsm::Bone bone : model.mesh.bone) {
       surface.is_eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
-    return ObservedHead::Foreign(networks_, fsm::MakeMeshHead(std::move(model)), name_,
+    return ObservedHead::Observe(networks_, fsm::MakeMeshHead(std::move(model)), name_,
                                  std::move(surface));
   }
 
@@ -157,16 +157,16 @@ float DegreesBetween(const glm::mat3& a, const glm::mat3& b) {
   return glm::degrees(std::acos(std::clamp(cosine, -1.0F, 1.0F)));
 }
 
+struct Observation {
+  bool face_seen = false;  ///< from any side
+  std::optional<HeadMatch> match;
+};
 /// Observes the head as guessed, and again scaled and turned as our own head was. There is no match
 /// if no face is seen, or not from the front: the networks find faces in profiles, too, but
 /// misplace their points, so that the second pass turns the head again. Measured on two heads, and
 /// on one of them made wider, taller, deeper and flatter: from the front the second pass turns the
 /// head by at most 1 degree and leaves 3.7 to 7.4 mm, from elsewhere by 8 degrees or more, with 7.3
 /// to 40 mm.
-struct Observation {
-  bool face_seen = false;  ///< from any side
-  std::optional<HeadMatch> match;
-};
 Observation ObserveAs(HeadMatcher& matcher, const fsm::Similarity& guess) {
   constexpr float kStraightDeg = 5, kMaxGapMm = 12;
   const auto first = matcher.PairsAt(guess);

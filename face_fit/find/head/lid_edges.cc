@@ -54,10 +54,10 @@ std::vector<RowSpan> RowsOf(const Mask& eyeball) {
   return rows;
 }
 
-/// Returns the first and the last column of an opening; nothing if its width is not an eye's.
 struct Columns {
   int first, last;
 };
+/// Returns the first and the last column of an opening; nothing if its width is not an eye's.
 std::optional<Columns> EndsOf(const std::vector<RowSpan>& rows) {
   constexpr float kNarrowestMm = 10, kWidestMm = 60;
   const auto first = std::ranges::find_if_not(rows, &RowSpan::IsEmpty);

@@ -95,21 +95,21 @@ ObservedHead ObservedHead::Exact(std::unique_ptr<fsm::Head> head, const std::str
 }
 
 vm::Result<ObservedHead> ObservedHead::BuiltIn(FaceNetworks& networks, const std::string& name) {
-  return BuiltIn(networks, fsm::MakeHead(name), name);
+  return OfOurMesh(networks, fsm::MakeHead(name), name);
 }
 
-vm::Result<ObservedHead> ObservedHead::BuiltIn(FaceNetworks& networks,
-                                               std::unique_ptr<fsm::Head> head,
-                                               const std::string& name) {
+vm::Result<ObservedHead> ObservedHead::OfOurMesh(FaceNetworks& networks,
+                                                 std::unique_ptr<fsm::Head> head,
+                                                 const std::string& name) {
   Surface surface{.skin_triangles = fsm::SkinTriangles(head->topology()),
                   .has_uv_seams = false,
                   .is_eye = EyeVertices(head->topology())};
-  auto base = Foreign(networks, std::move(head), name, std::move(surface));
+  auto base = Observe(networks, std::move(head), name, std::move(surface));
   if (base && base->seam_) SnapToSeam(base->rest_.position, *base->seam_, base->mesh_points_);
   return base;
 }
 
-vm::Result<ObservedHead> ObservedHead::Foreign(FaceNetworks& networks,
+vm::Result<ObservedHead> ObservedHead::Observe(FaceNetworks& networks,
                                                std::unique_ptr<fsm::Head> head,
                                                const std::string& name, Surface surface) {
   ObservedHead observed(std::move(head), name, std::move(surface));

@@ -32,10 +32,11 @@ class ObservedHead {
   /// Observes a built-in head and moves the points of its inner lips onto the seam. Error:
   /// kBadValue, no face is seen on it. Throws std::runtime_error if rendering is impossible.
   static vm::Result<ObservedHead> BuiltIn(FaceNetworks& networks, const std::string& name);
-  static vm::Result<ObservedHead> BuiltIn(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                                          const std::string& name);
+  /// The same of a head with the built-in heads' mesh.
+  static vm::Result<ObservedHead> OfOurMesh(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
+                                            const std::string& name);
   /// Observes a head of any maker; its points stay where the network saw them. Errors: as BuiltIn.
-  static vm::Result<ObservedHead> Foreign(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
+  static vm::Result<ObservedHead> Observe(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
                                           const std::string& name, Surface surface);
   /// Returns a head whose points are known exactly, for comparison: no network has seen it, and it
   /// has no surface.

@@ -54,8 +54,8 @@ inline constexpr Group<9> kLowerInnerLip{95, 88, 178, 87, 14, 317, 402, 318, 324
 inline constexpr fsm::Sided<Group<16>> kEyeOutline{
     {33, 246, 161, 160, 159, 158, 157, 173, 133, 155, 154, 153, 145, 144, 163, 7},
     {263, 466, 388, 387, 386, 385, 384, 398, 362, 382, 381, 380, 374, 373, 390, 249}};
-/// The points that the fit uses.
-inline constexpr PointIndex kForFit[] = {
+/// The points that the network places well on any face.
+inline constexpr PointIndex kReliable[] = {
     // outline from the forehead round by the person's left
     10, 338, 297, 332, 284, 251, 389, 356, 454, 323, 361, 288, 397, 365, 379, 378, 400, 377, 152,
     148, 176, 149, 150, 136, 172, 58, 132, 93, 234, 127, 162, 21, 54, 103, 67, 109,
@@ -73,8 +73,8 @@ inline constexpr PointIndex kForFit[] = {
     151, 9, 8, 108, 337, 104, 333, 50, 280, 205, 425, 116, 345, 187, 411, 207, 427, 199, 18, 200,
     192, 416, 214, 434};
 /// The closed outline of the face, from the forehead round by the person's left: the first of
-/// kForFit.
-inline constexpr std::span kFaceOutline = std::span(kForFit).first<36>();
+/// kReliable.
+inline constexpr std::span kFaceOutline = std::span(kReliable).first<36>();
 }  // namespace point
 
 /// Distance of the outer corners of the eyes of the built-in head (Farkas 1994: 91.2 and 87.8 for
@@ -90,8 +90,7 @@ inline bool OnInnerLips(PointIndex i) {
   return Contains(point::kUpperInnerLip, i) || Contains(point::kLowerInnerLip, i);
 }
 
-inline std::span<const PointIndex> EyeOutline(fsm::Side side) { return point::kEyeOutline[side]; }
-/// Indices into EyeOutline: the corners and the middles of the lids.
+/// Indices into point::kEyeOutline: the corners and the middles of the lids.
 inline constexpr std::size_t kOuterCorner = 0, kUpperMiddle = 4, kInnerCorner = 8,
                              kLowerMiddle = 12;
 

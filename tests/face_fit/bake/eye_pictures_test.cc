@@ -31,7 +31,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     centres.push_back(centre);
     fit.irises.circles[side] = {.centre = centre, .radius = 24, .contrast = 0.4F};
     for (std::size_t i = 0; i < 16; ++i) {
-      const auto point = EyeOutline(side)[i];
+      const auto point = point::kEyeOutline[side][i];
       const float part = static_cast<float>(i <= 8 ? i : 16 - i) / 4 - 1;  // outer -1, inner 1
       const float x = (-13.0F * fsm::SignOf(side)) * part;
       const float open = i % 8 == 0 ? 0.0F : i < 8 ? 3.0F : -6.0F;

@@ -282,7 +282,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     const fsm::Similarity place = fsm::FitSimilarity(found.pairs);
     fsm::MeshModel model = fsm::ModelOfImport(*file, place, -43);
     ObservedHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
-    const ObservedHead other = vm::OrThrow(ObservedHead::Foreign(
+    const ObservedHead other = vm::OrThrow(ObservedHead::Observe(
         *networks_, fsm::MakeMeshHead(fsm::MeshModel(model)), name, std::move(surface)));
     TrueHead made;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {

@@ -11,7 +11,7 @@ FoundFace SomeFace() {
   face.points.assign(kNetworkPoints, glm::vec3(100, 120, 0));
   const auto put = [&face](PointIndex i, float x, float y) { face.points[i] = {x, y, 0}; };
   for (const fsm::Side side : fsm::kSides) {
-    for (const PointIndex i : EyeOutline(side)) put(i, 100 + 30 * fsm::SignOf(side), 70);
+    for (const PointIndex i : point::kEyeOutline[side]) put(i, 100 + 30 * fsm::SignOf(side), 70);
   }
   put(point::kEyeOuterRight, 55, 70);
   put(point::kEyeOuterLeft, 145, 70);
