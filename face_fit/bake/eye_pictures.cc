@@ -105,7 +105,7 @@ fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin_colour, const fsm::Im
       red = std::max(red, flash.Likelihood(ColourAt(photo, beside)));
     }
     return Texel{flash.Without(ColourAt(photo, pixel), red),
-                 glm::smoothstep(0.5F * edge, edge, within), glm::length(p)};
+                 fsm::SmoothStep(0.5F * edge, edge, within), glm::length(p)};
   });
   const auto median = MedianByRing(texels.values);
   fsm::Image out = fsm::FilledImage(kIrisPixels, kIrisPixels);

@@ -58,7 +58,7 @@ void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
         glm::clamp((lip.redness - LogRedness(c)) / (lip.redness - skin.redness), 0.0F, 1.0F);
     // Highlights and the dark gap between the lips keep their colour.
     const float blend = look.reddened_share * lacks *
-                        glm::smoothstep(0.0F, look.fades_in_mm, texels.values[i].within_lips_mm) *
+                        fsm::SmoothStep(0.0F, look.fades_in_mm, texels.values[i].within_lips_mm) *
                         fsm::SmoothStep(look.shine, bright / skin.brightness) *
                         fsm::SmoothStep(look.gap, bright / skin.brightness);
     SetRgb(map, i, glm::mix(c, hue * bright * darker, blend));

@@ -45,7 +45,7 @@ float PhotoOpenings::SkinShare(glm::vec2 pixel) const {
     const float outside = SignedDistance(opening.outline, pixel);
     const float outside_this =
         opening.all_skin_px > opening.no_skin_px
-            ? glm::smoothstep(opening.no_skin_px, opening.all_skin_px, outside)
+            ? fsm::SmoothStep(opening.no_skin_px, opening.all_skin_px, outside)
             : static_cast<float>(outside >= opening.no_skin_px);
     skin = std::min(skin, outside_this);
   }

@@ -46,7 +46,7 @@ class SideGain {
       const FloatImage known = Blurred(both, reach);
       const VectorImage own_mean = Blurred(own, reach), other_mean = Blurred(other, reach);
       for (std::size_t i = 0; i < known.values.size(); ++i) {
-        const float weight = glm::smoothstep(0.0F, kEnoughSeen, known.values[i]);
+        const float weight = fsm::SmoothStep(0.0F, kEnoughSeen, known.values[i]);
         const glm::vec3 gain = LightGain(own_mean.values[i], other_mean.values[i]);
         for (int c = 0; c < 3; ++c) {
           if (other_mean.values[i][c] <= 0) continue;

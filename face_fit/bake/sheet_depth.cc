@@ -46,7 +46,7 @@ class UnderSkinDepth {
   /// `position`: approximate, of the grid's point, head's frame.
   float DepthAt(std::size_t i, glm::vec3 position) const {
     // The sheet continues the skin at its edge and keeps a distance farther in.
-    const float inward = glm::smoothstep(kInnerWithin, kDeepWithin, skin_.within.values[i]);
+    const float inward = fsm::SmoothStep(kInnerWithin, kDeepWithin, skin_.within.values[i]);
     const auto& look = PhotoLook().sheet;
     const float under =
         skin_.depth.values[i] - glm::mix(look.under_skin_edge_mm, look.under_skin_mm, inward);
@@ -78,7 +78,7 @@ class OutlineDepth {
     const auto& look = PhotoLook().sheet;
     const float outline =
         glm::mix(look.hair_depth_mm, look.shoulder_depth_mm,
-                 glm::smoothstep(chin_.height(), chin_.height() - kToShouldersMm, position.y));
+                 fsm::SmoothStep(chin_.height(), chin_.height() - kToShouldersMm, position.y));
     const float cheek = beside_.values[i] / std::max(share_.values[i], 1e-3F) - look.falls_back_mm;
     return glm::mix(outline, std::max(cheek, outline),
                     fsm::SmoothStep(kFadeDepth, share_.values[i]));

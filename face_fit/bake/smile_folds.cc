@@ -45,7 +45,7 @@ void FillFold(std::span<const glm::vec2> line, float smile, float pixels_per_mm,
     for (int x = 0; x < size.x; ++x) {
       const glm::ivec2 pixel = first + glm::ivec2(x, y);
       const float gap_mm = DistanceToLine(glm::vec2(pixel) + 0.5F, line) / pixels_per_mm;
-      const float blend = smile * glm::smoothstep(reach_mm, 0.5F * reach_mm, gap_mm);
+      const float blend = smile * fsm::SmoothStep(reach_mm, 0.5F * reach_mm, gap_mm);
       const glm::vec3 lit = glm::max(filled(x, y), colours(x, y));
       if (lit != colours(x, y))
         filled_share(pixel.x, pixel.y) = std::max(filled_share(pixel.x, pixel.y), blend);

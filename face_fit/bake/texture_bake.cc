@@ -48,7 +48,7 @@ SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTe
     const float skin = openings.SkinShare(p);
     map.outside_openings.values[i] = skin;
     map.coverage.values[i] =
-        skin * glm::smoothstep(least, least + look.seen.wholly_after_cos, texels.values[i].facing);
+        skin * fsm::SmoothStep(least, least + look.seen.wholly_after_cos, texels.values[i].facing);
     map.grain_lost.values[i] = filled.SampleAt(p.x, p.y);
     SetRgb(map.image, i, SharpColourAt(colours, p));
   }

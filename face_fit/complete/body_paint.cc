@@ -31,7 +31,7 @@ glm::vec3 ClothColour(const Canvas& canvas, const PhotoEdges& edges, const fsm::
   // photo.
   const glm::vec3 skin = 255.0F * light.skin(), usual = look.usual_skin_colour;
   const float brightest = std::max({skin.r, skin.g, skin.b, 1.0F});
-  const float colour = glm::smoothstep(0.0F, look.grey_photo_share,
+  const float colour = fsm::SmoothStep(0.0F, look.grey_photo_share,
                                        1 - std::min({skin.r, skin.g, skin.b}) / brightest);
   return glm::clamp(
       glm::mix(glm::vec3(Brightness(look.colour) * Brightness(skin) / Brightness(usual)),
@@ -101,7 +101,7 @@ float BodyPaint::ClothShare(glm::vec2 pixel, const Beyond& beyond, float on_bust
   const float half_widths = (pixel.x - neckline_.middle) / neckline_.half_width;
   const auto& look = PhotoLook().neckline;
   const float hem_mm = look.closes_mm * std::sqrt(std::max(1 - half_widths * half_widths, 0.0F));
-  return std::max(at_edge, on_bust * glm::smoothstep(hem_mm - look.hem_mm, hem_mm + look.hem_mm,
+  return std::max(at_edge, on_bust * fsm::SmoothStep(hem_mm - look.hem_mm, hem_mm + look.hem_mm,
                                                      beyond.below / canvas_.pixels_per_mm));
 }
 

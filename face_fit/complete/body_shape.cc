@@ -97,7 +97,7 @@ float BodyShape::OpacityAt(glm::vec2 pixel, const BustSample& sample) const {
   const float outline =
       joint.row + *joint.shoulder_fall * beyond.beside +
       beyond.beside * beyond.beside / (2 * PhotoLook().shoulder.radius_mm * canvas_.pixels_per_mm);
-  return glm::smoothstep(-1.0F, 1.0F, pixel.y - outline);
+  return fsm::SmoothStep(-1.0F, 1.0F, pixel.y - outline);
 }
 
 }  // namespace facefit

@@ -122,7 +122,7 @@ glm::vec3 HairPaint::Colour(glm::vec2 pixel) const {
     mirrored.x = std::clamp(*beyond.side == PhotoSide::kLeft ? inward_px : size.x - inward_px, 0.5F,
                             size.x - 0.5F);
   }
-  const float enough = glm::smoothstep(0.0F, PhotoLook().hair.enough_mm * canvas_.pixels_per_mm,
+  const float enough = fsm::SmoothStep(0.0F, PhotoLook().hair.enough_mm * canvas_.pixels_per_mm,
                                        static_cast<float>(reach_px));
   return glm::mix(edges_.hair(), ColourAt(figure_.colours, mirrored), enough);
 }
@@ -144,7 +144,7 @@ Paint HairPaint::HairBelow(glm::vec2 pixel, float below_px) const {
   const float end_mm = falls_mm * (0.5F + 0.5F * StrandNoise(pixel.x / canvas_.pixels_per_mm));
   if (below_mm >= end_mm) return {glm::vec3(hair), 0};
   return {glm::vec3(hair),
-          hair.w * glm::smoothstep(end_mm, look.strand_whole_share * end_mm, below_mm)};
+          hair.w * fsm::SmoothStep(end_mm, look.strand_whole_share * end_mm, below_mm)};
 }
 
 Paint HairPaint::PaintAt(glm::vec2 pixel) const {
@@ -153,8 +153,8 @@ Paint HairPaint::PaintAt(glm::vec2 pixel) const {
     Paint hair = HairBelow(pixel, beyond.below);
     if (beyond.side) {
       const float reach = BulgeWidth(*beyond.side, pixel.y);
-      hair.opacity *=
-          glm::smoothstep(reach, kWholeBulge * reach, beyond.beside) * (reach > 0 ? 1.0F : 0.0F);
+      if (reach <= 0) return {};
+      hair.opacity *= fsm::SmoothStep(reach, kWholeBulge * reach, beyond.beside);
     }
     return hair;
   }

@@ -1,12 +1,12 @@
 #include "face_fit/picture/grain.h"
 
 #include <algorithm>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"
+#include "fsm/base/smooth_step.h"
 
 namespace facefit {
 namespace {
@@ -39,7 +39,7 @@ void AddGrain(const Mask& weight, const Mask& where, int reach, fsm::Image& imag
     const std::size_t from = weight.Index(beyond.x, beyond.y);
     const float distance_px = glm::length(glm::vec2(edge - pixel));
     const float amount = where.values[i] * weight.values[from] * (1 - weight.values[i]) *
-                         glm::smoothstep(farthest, 0.5F * farthest, distance_px);
+                         fsm::SmoothStep(farthest, 0.5F * farthest, distance_px);
     if (amount > 0) transfers.push_back({i, from, amount});
   }
   const VectorImage colours = Colours(image), even = Blurred(colours, reach);

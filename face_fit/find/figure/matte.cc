@@ -275,7 +275,7 @@ fsm::Image ForegroundColours(const fsm::Image& photo, const Mask& opacity) {
   for (const std::size_t i : edge) SetRgb(out, i, figure.values[i]);
   // The colour of nearly transparent pixels is hardly known and is filled in from around.
   Mask known = opacity;
-  for (float& v : known.values) v = glm::smoothstep(kUnknown, kKnown, v);
+  for (float& v : known.values) v = fsm::SmoothStep(kUnknown, kKnown, v);
   PushPullInpaint(out, known);
   return out;
 }
