@@ -223,10 +223,8 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
   fsm::Sided<EyeSquares> squares;
   for (const fsm::Side k : fsm::kSides) {
     if ((*shown)[k] != k) continue;
-    EyePoints outline;
-    std::ranges::transform(point::kEyeOutline[k], outline.begin(),
-                           [&](PointIndex p) { return face.PixelOf(p); });
-    const PhotoEye eye{fit.irises.circles[k], LidLines(outline), right, {right.y, -right.x}};
+    const LidLines lids(EyePointsOf(k, [&](PointIndex p) { return face.PixelOf(p); }));
+    const PhotoEye eye{fit.irises.circles[k], lids, right, {right.y, -right.x}};
     const float radius = at_rest[k].size * base.head().topology().eyes[k].ball_radius;
     squares[k] = {IrisPicture(eye, LightBeside(face, photo, k), photo),
                   BallPicture(eye, LidsAtRest(base, k, at_rest[k]), radius, photo)};

@@ -1,7 +1,6 @@
 #include "face_fit/fit/photo_irises.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -52,16 +51,16 @@ PhotoIrises FindPhotoIrises(const ObservedHead& base, const FoundFace& face,
   for (const fsm::Side side : fsm::kSides) {
     const auto pixel_of = [&face](PointIndex i) { return face.PixelOf(i); };
     const IrisPlacement iris = ExpectedIris(base, LidSpanOf(side, pixel_of), side);
-    std::ranges::transform(point::kEyeOutline[side], eyes[side].lids.begin(), pixel_of);
+    eyes[side].lids = EyePointsOf(side, pixel_of);
     eyes[side].iris_centre = iris.centre;
     eyes[side].iris_radius = iris.pixels_per_mm * base.head().topology().eyes[side].iris_radius;
     irises.circles[side] = {.centre = iris.centre, .radius = eyes[side].iris_radius, .contrast = 0};
   }
   if (!photo) return irises;
-  const auto found = FindIrises(*photo, std::array{eyes.right, eyes.left});
+  const auto found = FindIrises(*photo, eyes);
   float size = 0, count = 0;
   for (const fsm::Side side : fsm::kSides) {
-    const IrisCircle& iris = found[static_cast<std::size_t>(side)];
+    const IrisCircle& iris = found[side];
     if (iris.contrast < kClearIris) continue;
     irises.circles[side] = iris;
     size += iris.radius / eyes[side].iris_radius;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
@@ -146,23 +147,22 @@ class IrisSearch {
 
 }  // namespace
 
-std::vector<IrisCircle> FindIrises(const fsm::Image& photo, std::span<const ExpectedEye> eyes) {
-  std::vector<IrisSearch> searches;
-  for (const ExpectedEye& eye : eyes) searches.emplace_back(photo, eye);
-  std::vector<IrisCircle> best;
+fsm::Sided<IrisCircle> FindIrises(const fsm::Image& photo, const fsm::Sided<ExpectedEye>& eyes) {
+  fsm::Sided<IrisSearch> searches{{photo, eyes.right}, {photo, eyes.left}};
+  fsm::Sided<IrisCircle> best;
   float most = -1;
   for (const float size : kSizes) {
-    std::vector<IrisCircle> circles;
+    fsm::Sided<IrisCircle> circles;
     float score = 0;
-    for (std::size_t i = 0; i < eyes.size(); ++i) {
-      const auto [circle, own] = searches[i].BestCircle(size * eyes[i].iris_radius);
-      circles.push_back(circle);
+    for (const fsm::Side side : fsm::kSides) {
+      const auto [circle, own] = searches[side].BestCircle(size * eyes[side].iris_radius);
+      circles[side] = circle;
       const float odd = (size - kUsualSize) / kSizeSpread;
       score += own * std::exp(-odd * odd);
     }
     if (score <= most) continue;
     most = score;
-    best = std::move(circles);
+    best = circles;
   }
   return best;
 }

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <span>
-#include <vector>
 
 #include "face_fit/find/face/lid_lines.h"
 #include "face_fit/find/network/face_finder.h"
@@ -26,9 +24,9 @@ struct ExpectedEye {
   float iris_radius = 0;  ///< by the form of the head, pixels
 };
 
-/// Finds the irises of the given eyes: for each the circle that best separates dark from bright
-/// between the lids and has the strongest edges on its left and right. All eyes share one relative
-/// size, as those of a person do. Returns a circle for each eye, in their order.
-std::vector<IrisCircle> FindIrises(const fsm::Image& photo, std::span<const ExpectedEye> eyes);
+/// Finds the irises of a person's eyes: for each the circle that best separates dark from bright
+/// between the lids and has the strongest edges on its left and right. Both eyes share one relative
+/// size.
+fsm::Sided<IrisCircle> FindIrises(const fsm::Image& photo, const fsm::Sided<ExpectedEye>& eyes);
 
 }  // namespace facefit

@@ -14,6 +14,12 @@ namespace facefit {
 /// The points of point::kEyeOutline: from the outer corner along the upper lid to the inner corner,
 /// and back along the lower lid; points of both lids lie above each other.
 using EyePoints = std::array<glm::vec2, 16>;
+/// `point_at(point)`: where a point of the network lies.
+EyePoints EyePointsOf(fsm::Side side, auto point_at) {
+  EyePoints points;
+  std::ranges::transform(point::kEyeOutline[side], points.begin(), point_at);
+  return points;
+}
 
 /// Returns the share of a lid's movement at `x` between the corners of an eye: 1 in the middle, 0
 /// at the corners and beyond. All arguments are x coordinates.

@@ -32,7 +32,7 @@ TEST(IrisTest, IsFoundBetweenLidsThatHideHalfOfIt) {
   });
   for (const bool mirrored : {false, true}) {
     const ExpectedEye eye = EyeAcross(mirrored);
-    const IrisCircle ring = FindIrises(photo, std::span(&eye, 1)).at(0);
+    const IrisCircle ring = FindIrises(photo, {eye, eye}).right;
     EXPECT_GT(ring.contrast, kClearIris);
     EXPECT_LT(glm::distance(ring.centre, kCentre), 3.5F);
     EXPECT_NEAR(ring.radius, 13, 1.6F);
@@ -48,7 +48,7 @@ TEST(IrisTest, IsFoundBesideACornerInDeepShade) {
     return far < 5 ? 15 : far < 12 ? 70 : p.x < 88 ? 85 : 180;
   });
   const ExpectedEye eye = EyeAcross(false);
-  const IrisCircle ring = FindIrises(photo, std::span(&eye, 1)).at(0);
+  const IrisCircle ring = FindIrises(photo, {eye, eye}).right;
   EXPECT_LT(glm::distance(ring.centre, kCentre), 3.5F) << ring.centre.x;
 }
 
@@ -64,7 +64,7 @@ TEST(IrisTest, IsWhereItIsDarkWithinNotBetweenTheShadowsOfTwoLashes) {
       return std::abs(std::abs(p.x - 82) - 11) < 1.6F ? 70 : 170;
     });
     const ExpectedEye eye = EyeAcross(false);
-    const IrisCircle ring = FindIrises(photo, std::span(&eye, 1)).at(0);
+    const IrisCircle ring = FindIrises(photo, {eye, eye}).right;
     EXPECT_LT(glm::distance(ring.centre, kCentre), 4) << pupil << ": " << ring.centre.x;
   }
 }
@@ -72,7 +72,7 @@ TEST(IrisTest, IsWhereItIsDarkWithinNotBetweenTheShadowsOfTwoLashes) {
 TEST(IrisTest, IsNotImaginedInAnEvenPatch) {
   const fsm::Image photo = GreyPicture(200, [](glm::vec2) { return 90; });
   const ExpectedEye eye = EyeAcross(false);
-  EXPECT_LT(FindIrises(photo, std::span(&eye, 1)).at(0).contrast, kClearIris);
+  EXPECT_LT(FindIrises(photo, {eye, eye}).right.contrast, kClearIris);
 }
 
 }  // namespace
