@@ -104,10 +104,10 @@ CameraPose FindPose(const FittedHead& fitted, const FoundFace& face,
 
 vm::Result<CameraPose> FitSidePose(FaceNetworks& networks, const FittedHead& fitted,
                                    const SidePhoto& side_photo) {
-  if (!side_photo.face) return vm::Fail(vm::Errc::kBadValue, "no face is found in it");
+  if (!side_photo.face) return vm::Fail(vm::Errc::kUnavailable, "no face is found in it");
   const FoundFace& face = *side_photo.face;
   if (face.certainty < kMinCertainty) {
-    return vm::Fail(vm::Errc::kBadValue,
+    return vm::Fail(vm::Errc::kUnavailable,
                     "no eyes, nose and mouth can be told apart in it; turned by 20 to 60 degrees "
                     "they can");
   }
@@ -121,7 +121,7 @@ vm::Result<CameraPose> FitSidePose(FaceNetworks& networks, const FittedHead& fit
   std::optional<std::vector<ComparedPoint>> measured;
   if (turn_deg <= kMaxTurnDeg) measured = MeasuredBias(networks, fitted, found, points);
   if (!measured) {
-    return vm::Fail(vm::Errc::kBadValue,
+    return vm::Fail(vm::Errc::kUnavailable,
                     "the face is turned too far to be compared; 20 to 60 degrees can be");
   }
   const auto matches = MatchesOf(*measured, face, found);

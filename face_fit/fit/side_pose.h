@@ -7,9 +7,10 @@
 namespace facefit {
 
 /// Finds the pose of the fitted head in a photo of the person from the side. The network's error is
-/// measured on the head drawn in that pose and subtracted from its points in the photo. Errors
-/// (kBadValue, with a sentence): no face; seen from the front again; turned too far; another
-/// person's face.
+/// measured on the head drawn in that pose and subtracted from its points in the photo. Errors,
+/// with a sentence: kUnavailable, there is nothing to compare, as in full profile (no face, an
+/// uncertain one, or one turned too far); kBadValue, the face does not help (seen from the front
+/// again, or another person's).
 vm::Result<CameraPose> FitSidePose(FaceNetworks& networks, const FittedHead& fitted,
                                    const SidePhoto& side_photo);
 

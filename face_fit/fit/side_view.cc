@@ -1,5 +1,6 @@
 #include "face_fit/fit/side_view.h"
 
+#include <optional>
 #include <utility>
 
 #include "face_fit/find/figure/figure_finder.h"
@@ -21,8 +22,14 @@ FitBySidePhotos UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_im
           CorrectDepthByStereo(front_image, side_photo->image, *pose, std::move(used.fit));
       used.fit = std::move(corrected);
       used.views.push_back({side_photo, refined, std::move(figure)});
-    } else if (auto corrected = CorrectDepthByProfile(figure.opacity, used.fit)) {
-      // In full profile the network finds no face, or misplaces its points.
+      continue;
+    }
+    // In full profile the network finds no face, or misplaces its points.
+    std::optional<FitByProfile> corrected;
+    if (pose.error().code == vm::Errc::kUnavailable) {
+      corrected = CorrectDepthByProfile(figure.opacity, used.fit);
+    }
+    if (corrected) {
       used.fit = std::move(corrected->fit);
     } else {
       used.left_out.push_back({side_photo->path, pose.error().text});
