@@ -46,16 +46,16 @@ fsm::Image BehindFace(const FittedHead& fitted, const FigureCutout& figure) {
       const glm::vec3 position = fitted.pose.PositionAt(pixel, kBesideFaceDepthMm);
       const std::size_t i = keep.Index(x, y);
       const float hole = glm::mix(look.face_share, look.neck_share, chin.BeforeNeck(position));
-      keep.values[i] = fsm::SmoothStep(hole + look.edge_share, soft.values[i]);
-      beside.values[i] = fsm::SmoothStep(look.neck_share + look.neck_edge_share, soft.values[i]);
-      below.values[i] = chin.Below(position);
+      keep[i] = fsm::SmoothStep(hole + look.edge_share, soft[i]);
+      beside[i] = fsm::SmoothStep(look.neck_share + look.neck_edge_share, soft[i]);
+      below[i] = chin.Below(position);
     }
   }
   fsm::Image out = FilledIn(figure.colours, keep, pixels_per_mm);
   // Behind the jaw, fill from the neck below and not from the jaw.
   const fsm::Image neck = FilledIn(figure.colours, beside, pixels_per_mm);
-  for (std::size_t i = 0; i < keep.values.size(); ++i) {
-    const float blend = below.values[i] * (1 - keep.values[i]);
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    const float blend = below[i] * (1 - keep[i]);
     if (blend > 0) SetRgb(out, i, glm::mix(Rgb(out, i), Rgb(neck, i), blend));
   }
   return out;

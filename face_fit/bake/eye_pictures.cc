@@ -109,8 +109,8 @@ fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin_colour, const fsm::Im
   });
   const auto median = MedianByRing(texels.values);
   fsm::Image out = fsm::FilledImage(kIrisPixels, kIrisPixels);
-  for (std::size_t i = 0; i < texels.values.size(); ++i) {
-    const Texel& t = texels.values[i];
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const Texel& t = texels[i];
     const float ring = std::clamp(t.radius / fsm::kIrisSpan * kRings - 0.5F, 0.0F, kRings - 1.001F);
     const auto k = static_cast<std::size_t>(ring);
     const glm::vec3 usual = glm::mix(median[k], median[k + 1], ring - static_cast<float>(k));
@@ -141,15 +141,15 @@ fsm::Image BallPicture(const PhotoEye& eye, const LidLines& rest, float radius,
   // Fill the area behind the iris from what is beside it, except the lids' shade and lashes.
   fsm::Image out = fsm::FilledImage(kBallPixels, kBallPixels);
   FloatImage weight(kBallPixels, kBallPixels);
-  for (std::size_t i = 0; i < pixels.values.size(); ++i) {
-    const auto [pixel, between] = pixels.values[i];
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const auto [pixel, between] = pixels[i];
     SetRgb(out, i, ColourAt(photo, pixel));
-    weight.values[i] = beside_iris(pixel) * fsm::SmoothStep(look.upper_lid_share, between) *
-                       fsm::SmoothStep(look.lower_lid_share, between);
+    weight[i] = beside_iris(pixel) * fsm::SmoothStep(look.upper_lid_share, between) *
+                fsm::SmoothStep(look.lower_lid_share, between);
   }
   PushPullInpaint(out, weight);
-  for (std::size_t i = 0; i < pixels.values.size(); ++i) {
-    const glm::vec2 pixel = pixels.values[i].first;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const glm::vec2 pixel = pixels[i].first;
     SetRgb(out, i, glm::mix(Rgb(out, i), ColourAt(photo, pixel), beside_iris(pixel)));
   }
   return out;

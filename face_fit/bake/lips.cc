@@ -39,8 +39,8 @@ void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
   const auto& look = PhotoLook().lips;
   constexpr float kMinDifference = 0.05F;  // difference of redness between lips and skin
   std::vector<glm::vec3> lips, beside;
-  for (std::size_t i = 0; i < texels.values.size(); ++i) {
-    const float within_mm = texels.values[i].within_lips_mm;
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const float within_mm = texels[i].within_lips_mm;
     if (within_mm > look.surely_inside_mm) lips.push_back(Rgb(map, i));
     if (within_mm > look.skin_mm.x && within_mm < look.skin_mm.y) beside.push_back(Rgb(map, i));
   }
@@ -50,15 +50,15 @@ void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
   if (lip.redness - skin.redness < kMinDifference) return;
   const glm::vec3 hue = lip.colour / lip.brightness;
   const float darker = glm::clamp(lip.brightness / skin.brightness, look.darkest, 1.0F);
-  for (std::size_t i = 0; i < texels.values.size(); ++i) {
-    if (texels.values[i].within_lips_mm <= 0) continue;
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (texels[i].within_lips_mm <= 0) continue;
     const glm::vec3 c = Rgb(map, i);
     const float bright = Brightness(c);
     const float lacks =
         glm::clamp((lip.redness - LogRedness(c)) / (lip.redness - skin.redness), 0.0F, 1.0F);
     // Highlights and the dark gap between the lips keep their colour.
     const float blend = look.reddened_share * lacks *
-                        fsm::SmoothStep(0.0F, look.fades_in_mm, texels.values[i].within_lips_mm) *
+                        fsm::SmoothStep(0.0F, look.fades_in_mm, texels[i].within_lips_mm) *
                         fsm::SmoothStep(look.shine, bright / skin.brightness) *
                         fsm::SmoothStep(look.gap, bright / skin.brightness);
     SetRgb(map, i, glm::mix(c, hue * bright * darker, blend));
@@ -68,8 +68,8 @@ void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
 void DrawMouthLine(const SkinTexels& texels, float saturation, fsm::Image& map) {
   const auto& look = PhotoLook().mouth_line;
   const glm::vec3 dark = glm::mix(look.takes_from_grey, look.takes_from_colour, saturation);
-  for (std::size_t i = 0; i < texels.values.size(); ++i) {
-    const float line = fsm::SmoothStep(look.off_seam_mm, texels.values[i].off_seam_mm);
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const float line = fsm::SmoothStep(look.off_seam_mm, texels[i].off_seam_mm);
     if (line > 0) SetRgb(map, i, Rgb(map, i) * (1.0F - dark * line));
   }
 }

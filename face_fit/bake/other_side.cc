@@ -34,8 +34,8 @@ class SideGain {
     for (int y = 0; y < map.height; ++y) {
       for (int x = 0; x < map.width; ++x) {
         const std::size_t i = coverage.Index(x, y), j = coverage.Index(map.width - 1 - x, y);
-        if (skin.values[i] < 1 || skin.values[j] < 1) continue;
-        const float weight = coverage.values[i] * coverage.values[j];
+        if (skin[i] < 1 || skin[j] < 1) continue;
+        const float weight = coverage[i] * coverage[j];
         both(x / kCell, y / kCell) += weight / (kCell * kCell);
         own(x / kCell, y / kCell) += weight * Rgb(map, i);
         other(x / kCell, y / kCell) += weight * Rgb(map, j);
@@ -45,12 +45,12 @@ class SideGain {
       const int reach = std::max(TexelsOf(reach_mm, map.width) / kCell, 1);
       const FloatImage known = Blurred(both, reach);
       const VectorImage own_mean = Blurred(own, reach), other_mean = Blurred(other, reach);
-      for (std::size_t i = 0; i < known.values.size(); ++i) {
-        const float weight = fsm::SmoothStep(0.0F, kEnoughSeen, known.values[i]);
-        const glm::vec3 gain = LightGain(own_mean.values[i], other_mean.values[i]);
+      for (std::size_t i = 0; i < known.size(); ++i) {
+        const float weight = fsm::SmoothStep(0.0F, kEnoughSeen, known[i]);
+        const glm::vec3 gain = LightGain(own_mean[i], other_mean[i]);
         for (int c = 0; c < 3; ++c) {
-          if (other_mean.values[i][c] <= 0) continue;
-          gain_.values[i][c] = glm::mix(gain_.values[i][c], gain[c], weight);
+          if (other_mean[i][c] <= 0) continue;
+          gain_[i][c] = glm::mix(gain_[i][c], gain[c], weight);
         }
       }
     }
@@ -81,17 +81,17 @@ void CompleteByMirroring(const Mask& skin, fsm::Image& map, Mask& coverage) {
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const std::size_t i = coverage.Index(x, y), j = coverage.Index(map.width - 1 - x, y);
-      const float weight = std::max(own_coverage.values[j] - own_coverage.values[i], 0.0F) * 0.5F;
-      if (weight <= 0 || skin.values[i] < 1) continue;
-      const float sum = own_coverage.values[i] + weight;
+      const float weight = std::max(own_coverage[j] - own_coverage[i], 0.0F) * 0.5F;
+      if (weight <= 0 || skin[i] < 1) continue;
+      const float sum = own_coverage[i] + weight;
       const glm::vec3 gain = gain_of_side.GainAt(x, y);
-      const float held = fsm::SmoothStep(look.held_by_seen_share, covered_around.values[i]);
+      const float held = fsm::SmoothStep(look.held_by_seen_share, covered_around[i]);
       const glm::vec3 beside = Rgb(around, i);
       const glm::vec3 brightest = glm::min(glm::mix(kAny, look.brightest, held) * beside, 255.0F);
       const glm::vec3 taken =
           glm::clamp(gain * Rgb(one_side, j), held * look.darkest * beside, brightest);
-      SetRgb(map, i, (own_coverage.values[i] * Rgb(one_side, i) + taken * weight) / sum);
-      coverage.values[i] = sum;
+      SetRgb(map, i, (own_coverage[i] * Rgb(one_side, i) + taken * weight) / sum);
+      coverage[i] = sum;
     }
   }
 }

@@ -31,9 +31,8 @@ constexpr glm::vec2 kFadeMotion{0, 0.3F};  // share of skin around a point over 
 VectorImage Spread(const VectorImage& motion, const Mask& covered, int reach) {
   const Mask share = Blurred(covered, reach);
   VectorImage out = Blurred(motion, reach);
-  for (std::size_t i = 0; i < out.values.size(); ++i) {
-    out.values[i] *=
-        fsm::SmoothStep(kFadeMotion, share.values[i]) / std::max(share.values[i], 1e-3F);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] *= fsm::SmoothStep(kFadeMotion, share[i]) / std::max(share[i], 1e-3F);
   }
   return out;
 }
@@ -194,9 +193,8 @@ Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure) {
     for (int x = 0; x < grid.columns; ++x) {
       const glm::vec2 pixel = grid.Point(x, y);
       const std::size_t i = depth.Index(x, y);
-      const glm::vec3 position =
-          fitted.pose.PositionAt(pixel, std::min(depth.values[i], kMaxDepthMm));
-      out.vertices.push_back({position + motion.values[i], OnFigureHalf(pixel / size)});
+      const glm::vec3 position = fitted.pose.PositionAt(pixel, std::min(depth[i], kMaxDepthMm));
+      out.vertices.push_back({position + motion[i], OnFigureHalf(pixel / size)});
     }
   }
   const DrawnCells cells(fitted, grid, shown, skin, depth);

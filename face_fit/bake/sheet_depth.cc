@@ -27,12 +27,12 @@ FloatImage Spanned(const Mask& fixed, FloatImage depth) {
     for (int y = 0; y < depth.height; ++y) {
       for (int x = 0; x < depth.width; ++x) {
         const std::size_t i = depth.Index(x, y);
-        if (fixed.values[i] > 0) continue;
+        if (fixed[i] > 0) continue;
         const auto next = [&](int dx, int dy) {
           return depth(std::clamp(x + dx, 0, depth.width - 1),
                        std::clamp(y + dy, 0, depth.height - 1));
         };
-        depth.values[i] = 0.25F * (next(1, 0) + next(-1, 0) + next(0, 1) + next(0, -1)) + round;
+        depth[i] = 0.25F * (next(1, 0) + next(-1, 0) + next(0, 1) + next(0, -1)) + round;
       }
     }
   }
@@ -46,10 +46,10 @@ class UnderSkinDepth {
   /// `position`: approximate, of the grid's point, head's frame.
   float DepthAt(std::size_t i, glm::vec3 position) const {
     // The sheet continues the skin at its edge and keeps a distance farther in.
-    const float inward = fsm::SmoothStep(kInnerWithin, kDeepWithin, skin_.within.values[i]);
+    const float inward = fsm::SmoothStep(kInnerWithin, kDeepWithin, skin_.within[i]);
     const auto& look = PhotoLook().sheet;
     const float under =
-        skin_.depth.values[i] - glm::mix(look.under_skin_edge_mm, look.under_skin_mm, inward);
+        skin_.depth[i] - glm::mix(look.under_skin_edge_mm, look.under_skin_mm, inward);
     // The neck lies behind the lower face, with room for the jaw to open.
     return glm::mix(under, std::min(under, look.before_neck_most_mm), chin_.BeforeNeck(position)) -
            look.below_chin_back_mm * chin_.Below(position);
@@ -66,8 +66,8 @@ class OutlineDepth {
  public:
   OutlineDepth(const Chin& chin, const GridSkin& skin)
       : chin_(chin), beside_(skin.depth), share_(Blurred(skin.inner, skin.rim)) {
-    for (std::size_t i = 0; i < beside_.values.size(); ++i) {
-      beside_.values[i] *= skin.inner.values[i];
+    for (std::size_t i = 0; i < beside_.size(); ++i) {
+      beside_[i] *= skin.inner[i];
     }
     beside_ = Blurred(beside_, skin.rim);
   }
@@ -79,9 +79,8 @@ class OutlineDepth {
     const float outline =
         glm::mix(look.hair_depth_mm, look.shoulder_depth_mm,
                  fsm::SmoothStep(chin_.height(), chin_.height() - kToShouldersMm, position.y));
-    const float cheek = beside_.values[i] / std::max(share_.values[i], 1e-3F) - look.falls_back_mm;
-    return glm::mix(outline, std::max(cheek, outline),
-                    fsm::SmoothStep(kFadeDepth, share_.values[i]));
+    const float cheek = beside_[i] / std::max(share_[i], 1e-3F) - look.falls_back_mm;
+    return glm::mix(outline, std::max(cheek, outline), fsm::SmoothStep(kFadeDepth, share_[i]));
   }
 
  private:
@@ -97,8 +96,8 @@ GridSkin::GridSkin(const VisibleSurface& surface, int rim_cells)
       covered(surface.Covered()),
       within(Blurred(covered, rim)),
       inner(depth.width, depth.height) {
-  for (std::size_t i = 0; i < depth.values.size(); ++i) {
-    inner.values[i] = covered.values[i] > 0 && within.values[i] > kInnerWithin ? 1.0F : 0.0F;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    inner[i] = covered[i] > 0 && within[i] > kInnerWithin ? 1.0F : 0.0F;
   }
 }
 
@@ -111,18 +110,18 @@ FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Ch
     for (int x = 0; x < grid.columns; ++x) {
       const std::size_t i = depth.Index(x, y);
       const glm::vec3 position = fitted.pose.PositionAt(grid.Point(x, y), kBesideFaceDepthMm);
-      const bool inner = skin.inner.values[i] > 0;
-      const bool outside = skin.covered.values[i] <= 0 && shown.values[i] < kShownLeast;
+      const bool inner = skin.inner[i] > 0;
+      const bool outside = skin.covered[i] <= 0 && shown[i] < kShownLeast;
       if (!inner && !outside) continue;
-      depth.values[i] = inner ? under_skin.DepthAt(i, position) : at_outline.DepthAt(i, position);
-      fixed.values[i] = 1;
+      depth[i] = inner ? under_skin.DepthAt(i, position) : at_outline.DepthAt(i, position);
+      fixed[i] = 1;
     }
   }
   const FloatImage spanned = Spanned(fixed, std::move(depth));
   // A steep step, as from jaw to neck, would fold when the head turns.
   FloatImage smooth = Blurred(Blurred(spanned, 1), 1);
-  for (std::size_t i = 0; i < smooth.values.size(); ++i) {
-    if (skin.inner.values[i] > 0) smooth.values[i] = std::min(smooth.values[i], spanned.values[i]);
+  for (std::size_t i = 0; i < smooth.size(); ++i) {
+    if (skin.inner[i] > 0) smooth[i] = std::min(smooth[i], spanned[i]);
   }
   return smooth;
 }

@@ -33,27 +33,27 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTex
   const PhotoOpenings openings(face, view.pose.PixelsPerMm(), LipsApart(face));
   // A gain for each channel matches the light of both photos.
   glm::vec3 front_sum(1), side_sum(1);
-  for (std::size_t i = 0; i < texels.values.size(); ++i) {
-    if (map.coverage.values[i] < kCoveredFront || front.values[i].facing < kFacingFront ||
-        texels.values[i].facing < kFacingSide || towards * front.values[i].x_mm < kFromMiddleMm ||
-        !IsInside(colours, texels.values[i].pixel)) {
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (map.coverage[i] < kCoveredFront || front[i].facing < kFacingFront ||
+        texels[i].facing < kFacingSide || towards * front[i].x_mm < kFromMiddleMm ||
+        !IsInside(colours, texels[i].pixel)) {
       continue;
     }
     front_sum += Rgb(map.image, i);
-    side_sum += ColourAt(colours, texels.values[i].pixel);
+    side_sum += ColourAt(colours, texels[i].pixel);
   }
   const glm::vec3 gain = LightGain(front_sum, side_sum);
   const auto& look = PhotoLook().side_photo;
-  for (std::size_t i = 0; i < texels.values.size(); ++i) {
+  for (std::size_t i = 0; i < texels.size(); ++i) {
     // At a grazing angle a texel would be sampled from a line of pixels.
-    const glm::vec2 pixel = texels.values[i].pixel;
-    if (texels.values[i].facing < look.facing_cos.x || !IsInside(colours, pixel)) continue;
-    if (map.outside_openings.values[i] < 1) continue;
-    float& coverage = map.coverage.values[i];
-    const float seen = fsm::SmoothStep(look.facing_cos, texels.values[i].facing) *
-                       fsm::SmoothStep(look.across_mm, towards * front.values[i].x_mm) *
+    const glm::vec2 pixel = texels[i].pixel;
+    if (texels[i].facing < look.facing_cos.x || !IsInside(colours, pixel)) continue;
+    if (map.outside_openings[i] < 1) continue;
+    float& coverage = map.coverage[i];
+    const float seen = fsm::SmoothStep(look.facing_cos, texels[i].facing) *
+                       fsm::SmoothStep(look.across_mm, towards * front[i].x_mm) *
                        openings.SkinShare(pixel);
-    const float own = coverage * fsm::SmoothStep(look.front_facing_cos, front.values[i].facing);
+    const float own = coverage * fsm::SmoothStep(look.front_facing_cos, front[i].facing);
     const float sum = own + (1 - own) * seen;
     // Skin that the view hardly shows either stays as in the first photo.
     if (seen <= 0 || sum <= kHardly * coverage) continue;

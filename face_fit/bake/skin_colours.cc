@@ -22,8 +22,8 @@ constexpr float kHairEdgeMm = 1.5F, kFringeMm = 2.5F, kFineMm = 0.5F, kWideMm = 
 
 float Saturation(const fsm::Image& map, const Mask& coverage) {
   float sum = 0, light = 0;
-  for (std::size_t i = 0; i < coverage.values.size(); ++i) {
-    if (coverage.values[i] < kWellCovered) continue;
+  for (std::size_t i = 0; i < coverage.size(); ++i) {
+    if (coverage[i] < kWellCovered) continue;
     const glm::vec3 c = Rgb(map, i);
     const float brightest = std::max({c.r, c.g, c.b});
     sum += brightest - std::min({c.r, c.g, c.b});
@@ -34,8 +34,8 @@ float Saturation(const fsm::Image& map, const Mask& coverage) {
 
 Mask SkinLikeness(const fsm::Image& map, const Mask& face_coverage) {
   std::array<std::vector<float>, 3> channels;
-  for (std::size_t i = 0; i < face_coverage.values.size(); ++i) {
-    if (face_coverage.values[i] < kWellCovered) continue;
+  for (std::size_t i = 0; i < face_coverage.size(); ++i) {
+    if (face_coverage[i] < kWellCovered) continue;
     for (std::size_t c = 0; c < 3; ++c) channels[c].push_back(map.rgba[4 * i + c]);
   }
   FloatImage likeness(map.width, map.height, 1);
@@ -46,13 +46,13 @@ Mask SkinLikeness(const fsm::Image& map, const Mask& face_coverage) {
   for (std::size_t c = 0; c < 3; ++c) {
     middle[c] = Median(std::move(channels[c])) + kDark;
   }
-  for (std::size_t i = 0; i < likeness.values.size(); ++i) {
+  for (std::size_t i = 0; i < likeness.size(); ++i) {
     float darker = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       darker =
           std::max(darker, std::log(middle[c] / (static_cast<float>(map.rgba[4 * i + c]) + kDark)));
     }
-    likeness.values[i] = fsm::SmoothStep(hair, darker);
+    likeness[i] = fsm::SmoothStep(hair, darker);
   }
   return Blurred(likeness, TexelsOf(kHairEdgeMm, map.width));
 }
@@ -61,15 +61,15 @@ float Roughness(const fsm::Image& map, const Mask& face_coverage) {
   // Weights as of human vision, which sees wrinkles; Brightness is for faces.
   constexpr glm::vec3 kVision(0.3F, 0.6F, 0.1F);
   FloatImage light(map.width, map.height);
-  for (std::size_t i = 0; i < light.values.size(); ++i) {
-    light.values[i] = glm::dot(Rgb(map, i), kVision);
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    light[i] = glm::dot(Rgb(map, i), kVision);
   }
   const FloatImage fine = Blurred(light, TexelsOf(kFineMm, map.width)),
                    wide = Blurred(light, TexelsOf(kWideMm, map.width));
   std::vector<float> steps;
-  for (std::size_t i = 0; i < light.values.size(); ++i) {
-    if (face_coverage.values[i] < kWellCovered) continue;
-    steps.push_back(std::abs(fine.values[i] - wide.values[i]) / std::max(wide.values[i], 8.0F));
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    if (face_coverage[i] < kWellCovered) continue;
+    steps.push_back(std::abs(fine[i] - wide[i]) / std::max(wide[i], 8.0F));
   }
   return steps.empty() ? 0 : Median(std::move(steps));
 }
@@ -87,8 +87,8 @@ Mask CutAtHairline(const SkinTexels& texels, Mask likeness) {
     }
   }
   below_hairline = Blurred(below_hairline, TexelsOf(kHairEdgeMm, likeness.width));
-  for (std::size_t i = 0; i < likeness.values.size(); ++i) {
-    likeness.values[i] = std::min(likeness.values[i], below_hairline.values[i]);
+  for (std::size_t i = 0; i < likeness.size(); ++i) {
+    likeness[i] = std::min(likeness[i], below_hairline[i]);
   }
   return likeness;
 }

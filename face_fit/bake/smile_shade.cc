@@ -32,25 +32,25 @@ class Cheeks {
     chin_ = at(kChin).y;
   }
   float ShadeAt(const SkinTexels& texels, std::size_t i) const {
-    const float y = Height(texels, i), x = std::abs(texels.values[i].x_mm);
+    const float y = Height(texels, i), x = std::abs(texels[i].x_mm);
     const auto& look = PhotoLook().smile.shade;
     return fsm::SmoothStep(eyes_ + look.below_eyes_mm, y) *
            fsm::SmoothStep(chin_ + look.above_chin_mm, y) *
            fsm::SmoothStep(look.beside_middle_mm, x) *
            std::max(fsm::SmoothStep(wing_ + look.beside_wings_mm, x),
                     look.below_nose_share * fsm::SmoothStep(nose_ + look.below_nose_mm, y)) *
-           fsm::SmoothStep(look.outside_lips_mm, texels.values[i].within_lips_mm);
+           fsm::SmoothStep(look.outside_lips_mm, texels[i].within_lips_mm);
   }
   /// Returns whether a texel is reference skin of the cheeks: neither lips nor nose.
   bool IsReferenceSkin(const SkinTexels& texels, std::size_t i) const {
-    const float y = Height(texels, i), x = std::abs(texels.values[i].x_mm);
-    return texels.values[i].within_lips_mm < -kFromLipsMm && y < eyes_ - kBelowEyesMm &&
+    const float y = Height(texels, i), x = std::abs(texels[i].x_mm);
+    return texels[i].within_lips_mm < -kFromLipsMm && y < eyes_ - kBelowEyesMm &&
            (x > wing_ || y < nose_ - kBelowNoseMm);
   }
 
  private:
   float Height(const SkinTexels& texels, std::size_t i) const {
-    return texels.values[i].above_brows_mm + brows_;
+    return texels[i].above_brows_mm + brows_;
   }
   float brows_, eyes_ = 0, wing_ = 0, nose_ = 0, chin_ = 0;
 };
@@ -61,12 +61,12 @@ class WeightedMeans {
   WeightedMeans(const Mask& weight, int reach)
       : weight_(weight), reach_(reach), sum_(Soft(weight)) {}
   /// Returns the share of known texels around one, 0..1.
-  float Known(std::size_t i) const { return sum_.values[i]; }
+  float Known(std::size_t i) const { return sum_[i]; }
   VectorImage MeansOf(VectorImage colours) const {
-    for (std::size_t i = 0; i < colours.values.size(); ++i) colours.values[i] *= weight_.values[i];
+    for (std::size_t i = 0; i < colours.size(); ++i) colours[i] *= weight_[i];
     colours = Soft(colours);
-    for (std::size_t i = 0; i < colours.values.size(); ++i) {
-      colours.values[i] /= std::max(sum_.values[i], 1e-3F);
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+      colours[i] /= std::max(sum_[i], 1e-3F);
     }
     return colours;
   }
@@ -89,20 +89,19 @@ void RemoveSmileShading(const ObservedHead& base, const SkinTexels& texels, cons
   const auto& shade = PhotoLook().smile.shade;
   const Cheeks cheeks(base);
   FloatImage weight(kMapSize, kMapSize);
-  for (std::size_t i = 0; i < weight.values.size(); ++i) {
-    weight.values[i] =
-        cheeks.IsReferenceSkin(texels, i) ? coverage.values[i] * coverage.values[i] : 0.0F;
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    weight[i] = cheeks.IsReferenceSkin(texels, i) ? coverage[i] * coverage[i] : 0.0F;
   }
   const WeightedMeans fine(weight, TexelsOf(shade.fine_mm, kMapSize)),
       wide(weight, TexelsOf(shade.wide_mm, kMapSize));
   const VectorImage colours = Colours(map), fine_mean = fine.MeansOf(colours),
                     wide_mean = wide.MeansOf(colours);
-  for (std::size_t i = 0; i < colours.values.size(); ++i) {
+  for (std::size_t i = 0; i < colours.size(); ++i) {
     const float evened =
         smile * cheeks.ShadeAt(texels, i) * fsm::SmoothStep(kKnownCheek, fine.Known(i));
     if (evened <= 0) continue;
-    const glm::vec3 even = (wide_mean.values[i] + 1.0F) / (fine_mean.values[i] + 1.0F);
-    SetRgb(map, i, colours.values[i] * glm::mix(glm::vec3(1), even, evened));
+    const glm::vec3 even = (wide_mean[i] + 1.0F) / (fine_mean[i] + 1.0F);
+    SetRgb(map, i, colours[i] * glm::mix(glm::vec3(1), even, evened));
   }
 }
 
@@ -115,12 +114,11 @@ void GrainFromCheeks(const Mask& lost, fsm::Image& map) {
   for (int y = up; y < kMapSize; ++y) {
     for (int x = outward; x < kMapSize - outward; ++x) {
       const std::size_t i = lost.Index(x, y);
-      if (lost.values[i] <= 0) continue;
+      if (lost[i] <= 0) continue;
       const std::size_t from = lost.Index(x < kMapSize / 2 ? x - outward : x + outward, y - up);
-      const glm::vec3 grain = (colours.values[from] + 1.0F) / (means.values[from] + 1.0F) - 1.0F;
+      const glm::vec3 grain = (colours[from] + 1.0F) / (means[from] + 1.0F) - 1.0F;
       SetRgb(map, i,
-             colours.values[i] *
-                 (1.0F + lost.values[i] * glm::clamp(grain, -look.most_share, look.most_share)));
+             colours[i] * (1.0F + lost[i] * glm::clamp(grain, -look.most_share, look.most_share)));
     }
   }
 }

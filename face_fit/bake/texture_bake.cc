@@ -39,17 +39,17 @@ SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTe
       FillSmileFolds(face, look.smile.folds.filled_share * SmileOf(fitted), pixels_per_mm, colours);
   const PhotoOpenings openings(face, pixels_per_mm, lips_apart);
   SkinMap map;
-  for (std::size_t i = 0; i < texels.values.size(); ++i) {
-    const glm::vec2 p = texels.values[i].pixel;
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const glm::vec2 p = texels[i].pixel;
     // Near the head's outline a texel shows more of what lies beside the head than of its skin.
     const float least =
-        glm::mix(look.seen.face_from_cos, look.seen.side_from_cos, texels.values[i].side_weight);
-    if (!IsInside(colours, p) || texels.values[i].facing < least) continue;
+        glm::mix(look.seen.face_from_cos, look.seen.side_from_cos, texels[i].side_weight);
+    if (!IsInside(colours, p) || texels[i].facing < least) continue;
     const float skin = openings.SkinShare(p);
-    map.outside_openings.values[i] = skin;
-    map.coverage.values[i] =
-        skin * fsm::SmoothStep(least, least + look.seen.wholly_after_cos, texels.values[i].facing);
-    map.grain_lost.values[i] = filled.SampleAt(p.x, p.y);
+    map.outside_openings[i] = skin;
+    map.coverage[i] =
+        skin * fsm::SmoothStep(least, least + look.seen.wholly_after_cos, texels[i].facing);
+    map.grain_lost[i] = filled.SampleAt(p.x, p.y);
     SetRgb(map.image, i, SharpColourAt(colours, p));
   }
   return map;
@@ -59,13 +59,13 @@ SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTe
 bool OnFace(const SkinTexels& texels, std::size_t i) {
   constexpr std::size_t kHairline = kMapSize / 5, kThroat = kMapSize * 3 / 4;  // rows
   const std::size_t row = i / kMapSize;
-  return texels.values[i].outward_mm2 > 0 && row > kHairline && row < kThroat;
+  return texels[i].outward_mm2 > 0 && row > kHairline && row < kThroat;
 }
 
 /// Returns the coverage of the face, 0 on the sides and the back of the head.
 Mask CoverageOfFace(const SkinTexels& texels, Mask coverage) {
-  for (std::size_t i = 0; i < coverage.values.size(); ++i) {
-    if (!OnFace(texels, i)) coverage.values[i] = 0;
+  for (std::size_t i = 0; i < coverage.size(); ++i) {
+    if (!OnFace(texels, i)) coverage[i] = 0;
   }
   return coverage;
 }
@@ -73,10 +73,10 @@ Mask CoverageOfFace(const SkinTexels& texels, Mask coverage) {
 /// Returns the mean coverage of the face.
 float MeanCoverage(const SkinTexels& texels, const Mask& coverage) {
   float count = 0, sum = 0;
-  for (std::size_t i = 0; i < coverage.values.size(); ++i) {
+  for (std::size_t i = 0; i < coverage.size(); ++i) {
     if (!OnFace(texels, i)) continue;
     count += 1;
-    sum += coverage.values[i];
+    sum += coverage[i];
   }
   return sum / std::max(count, 1.0F);
 }
@@ -113,8 +113,8 @@ SkinTraits FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool li
   const glm::vec2 range = look.lined.roughness;
   const float rough = (Roughness(map.image, face_coverage) - range.x) / (range.y - range.x);
   const Mask likeness = CutAtHairline(texels, SkinLikeness(map.image, face_coverage));
-  for (std::size_t i = 0; i < likeness.values.size(); ++i) {
-    map.image.rgba[4 * i + 3] = Byte(255 * likeness.values[i]);
+  for (std::size_t i = 0; i < likeness.size(); ++i) {
+    map.image.rgba[4 * i + 3] = Byte(255 * likeness[i]);
   }
   return {.saturation = saturation,
           .lined = glm::mix(look.lined.smooth_creases_share, 1.0F, glm::clamp(rough, 0.0F, 1.0F))};

@@ -91,8 +91,8 @@ void CopyPhoto(const Canvas& canvas, const FigureCutout& photo, const FigureCuto
       const std::size_t from = photo.opacity.Index(x, y);
       const std::size_t to = out.known.Index(x + canvas.photo_origin.x, y + canvas.photo_origin.y);
       SetRgb(out.figure.colours, to, Rgb(figure.colours, from));
-      out.figure.opacity.values[to] = out.known.values[to] = figure.opacity.values[from];
-      out.coloured.values[to] = figure.opacity.values[from] == photo.opacity.values[from] ? 1 : 0;
+      out.figure.opacity[to] = out.known[to] = figure.opacity[from];
+      out.coloured[to] = figure.opacity[from] == photo.opacity[from] ? 1 : 0;
     }
   }
 }
@@ -123,9 +123,9 @@ void PaintBeyond(const Canvas& canvas, const BodyPaint& body, const HairPaint& h
       const Paint under = body.PaintAt(centre), over = hair.PaintAt(centre);
       const std::size_t i = out.drawn.Index(x, y);
       SetRgb(out.figure.colours, i, glm::mix(under.colour, over.colour, over.opacity));
-      out.drawn.values[i] = over.opacity + (1 - over.opacity) * under.opacity;
-      out.figure.opacity.values[i] = out.drawn.values[i];
-      out.coloured.values[i] = out.drawn.values[i] > 0 ? 1 : 0;
+      out.drawn[i] = over.opacity + (1 - over.opacity) * under.opacity;
+      out.figure.opacity[i] = out.drawn[i];
+      out.coloured[i] = out.drawn[i] > 0 ? 1 : 0;
     }
   }
 }

@@ -33,7 +33,7 @@ class EdgeClassifier {
       for (int x = 0; x < figure.opacity.width; ++x) {
         const std::size_t i = figure.opacity.Index(x, y);
         const glm::vec3 colour = Rgb(figure.colours, i);
-        if (figure.opacity.values[i] < kWholly || IsSkin(colour)) continue;
+        if (figure.opacity[i] < kWholly || IsSkin(colour)) continue;
         sum += colour;
         ++count;
       }
@@ -90,7 +90,7 @@ class EdgeReader {
       for (int x = from.x; x < from.x + size.x; ++x) {
         const std::size_t i = figure_.opacity.Index(x, y);
         sample.colour += share * Rgb(figure_.colours, i);
-        sample.opacity += share * figure_.opacity.values[i];
+        sample.opacity += share * figure_.opacity[i];
       }
     }
     if (sample.opacity > kMostly) sample.kind = classifier_.KindOf(sample.colour);
@@ -101,7 +101,7 @@ class EdgeReader {
     int count = 0;
     for (glm::ivec2 p = from; count < most; p += step, ++count) {
       const std::size_t i = figure_.opacity.Index(p.x, p.y);
-      if (figure_.opacity.values[i] < kMostly || KindOf(i) == EdgeKind::kSkin) break;
+      if (figure_.opacity[i] < kMostly || KindOf(i) == EdgeKind::kSkin) break;
     }
     return count;
   }
@@ -121,7 +121,7 @@ class EdgeReader {
     int hanging = 0, rows = 0;
     for (int y = std::max(static_cast<int>(from), 0); y < figure_.opacity.height; ++y, ++rows) {
       const std::size_t i = figure_.opacity.Index(static_cast<int>(x), y);
-      hanging += figure_.opacity.values[i] > kMostly && counts(i);
+      hanging += figure_.opacity[i] > kMostly && counts(i);
     }
     return static_cast<float>(hanging) >= kHangingShare * static_cast<float>(rows);
   }

@@ -115,10 +115,10 @@ std::vector<Patch> PatchesOf(const StereoSamples& samples) {
       for (int dy = -kPatch; dy <= kPatch && whole; ++dy) {
         for (int dx = -kPatch; dx <= kPatch && whole; ++dx) {
           const std::size_t i = samples.Index(x + dx, y + dy);
-          const StereoSample& sample = samples.values[i];
-          whole = sample.facing > kMinFacing && sample.facing_side > kMinFacingSide &&
-                  std::abs(sample.camera.z - samples.values[patch.middle].camera.z) <
-                      kMaxDepthStepInPatchMm;
+          const StereoSample& sample = samples[i];
+          whole =
+              sample.facing > kMinFacing && sample.facing_side > kMinFacingSide &&
+              std::abs(sample.camera.z - samples[patch.middle].camera.z) < kMaxDepthStepInPatchMm;
           patch.light.push_back(sample.light);
           patch.camera.push_back(sample.camera);
         }
@@ -202,7 +202,7 @@ std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPo
       }
     }
     if (best <= kMinCorrelation) continue;
-    const glm::vec3 q = samples.values[patch.middle].camera;
+    const glm::vec3 q = samples[patch.middle].camera;
     matches.push_back({front_pose.FromCamera(q), pixel_of(q) + best_shift_px, 1});
   }
   return matches;
@@ -223,8 +223,7 @@ std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const Camer
       return correlation - kCorrelationPerMm2 * nearer_mm * nearer_mm;
     });
     if (peak.value < kMinCorrelation || std::abs(peak.step) > kDepthSteps - 1) continue;
-    depths.push_back(
-        {samples.values[patch.middle].rest, glm::vec3(0, 0, kDepthStepMm * peak.step)});
+    depths.push_back({samples[patch.middle].rest, glm::vec3(0, 0, kDepthStepMm * peak.step)});
   }
   return depths;
 }

@@ -77,7 +77,7 @@ void PushPullInpaint(fsm::Image& image, const Mask& weight) {
   std::vector<cv::Mat_<Pixel>> levels(1, cv::Mat_<Pixel>(image.height, image.width));
   std::size_t i = 0;
   for (Pixel& p : levels[0]) {
-    const glm::vec4 weighted = glm::vec4(Rgb(image, i), 1) * weight.values[i];
+    const glm::vec4 weighted = glm::vec4(Rgb(image, i), 1) * weight[i];
     p = {weighted.r, weighted.g, weighted.b, weighted.w};
     ++i;
   }
@@ -135,9 +135,9 @@ std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold) 
   const cv::Mat unknown = View(image) < threshold;
   cv::distanceTransform(unknown, distance, label, cv::DIST_L2, cv::DIST_MASK_5,
                         cv::DIST_LABEL_PIXEL);
-  std::vector<std::size_t> of_label(image.values.size() + 1), nearest(image.values.size());
+  std::vector<std::size_t> of_label(image.size() + 1), nearest(image.size());
   for (std::size_t i = 0; i < nearest.size(); ++i) {
-    if (image.values[i] >= threshold)
+    if (image[i] >= threshold)
       of_label[static_cast<std::size_t>(label.begin<int>()[static_cast<int>(i)])] = i;
   }
   std::ranges::transform(std::span(label.ptr<int>(), nearest.size()), nearest.begin(),

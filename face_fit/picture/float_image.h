@@ -35,7 +35,7 @@ struct Raster {
     Raster out(w, h);
     std::size_t i = 0;
     for (int y = 0; y < h; ++y) {
-      for (int x = 0; x < w; ++x) out.values[i++] = value(x, y);
+      for (int x = 0; x < w; ++x) out[i++] = value(x, y);
     }
     return out;
   }
@@ -43,6 +43,9 @@ struct Raster {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
   }
+  std::size_t size() const { return values.size(); }
+  T& operator[](std::size_t i) { return values[i]; }
+  const T& operator[](std::size_t i) const { return values[i]; }
   T& operator()(int x, int y) { return values[Index(x, y)]; }
   const T& operator()(int x, int y) const { return values[Index(x, y)]; }
   /// Bilinear interpolation, as FourPixels.

@@ -29,8 +29,8 @@ void AddGrain(const Mask& weight, const Mask& where, int reach, fsm::Image& imag
     float amount;
   };
   std::vector<Transfer> transfers;
-  for (std::size_t i = 0; i < weight.values.size(); ++i) {
-    if (weight.values[i] >= kKnown || where.values[i] <= 0) continue;
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    if (weight[i] >= kKnown || where[i] <= 0) continue;
     const glm::ivec2 pixel = PixelOf(weight, i), edge = PixelOf(weight, nearest[i]);
     const glm::ivec2 beyond = 2 * edge - pixel;
     if (beyond.x < 0 || beyond.y < 0 || beyond.x >= weight.width || beyond.y >= weight.height) {
@@ -38,13 +38,13 @@ void AddGrain(const Mask& weight, const Mask& where, int reach, fsm::Image& imag
     }
     const std::size_t from = weight.Index(beyond.x, beyond.y);
     const float distance_px = glm::length(glm::vec2(edge - pixel));
-    const float amount = where.values[i] * weight.values[from] * (1 - weight.values[i]) *
+    const float amount = where[i] * weight[from] * (1 - weight[i]) *
                          fsm::SmoothStep(farthest, 0.5F * farthest, distance_px);
     if (amount > 0) transfers.push_back({i, from, amount});
   }
   const VectorImage colours = Colours(image), even = Blurred(colours, reach);
   for (const auto& [to, from, amount] : transfers) {
-    SetRgb(image, to, colours.values[to] + amount * (colours.values[from] - even.values[from]));
+    SetRgb(image, to, colours[to] + amount * (colours[from] - even[from]));
   }
 }
 

@@ -41,7 +41,7 @@ inline float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c
 /// Returns the colours of all pixels, 0..255.
 inline VectorImage Colours(const fsm::Image& image) {
   VectorImage out(image.width, image.height);
-  for (std::size_t i = 0; i < out.values.size(); ++i) out.values[i] = Rgb(image, i);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = Rgb(image, i);
   return out;
 }
 

@@ -56,7 +56,7 @@ glm::vec3 SharpColourAt(const fsm::Image& image, glm::vec2 at) {
 }
 
 float SmoothAt(const FloatImage& field, glm::vec2 at) {
-  return Around<float>(field, at, BSpline, [&](std::size_t i) { return field.values[i]; });
+  return Around<float>(field, at, BSpline, [&](std::size_t i) { return field[i]; });
 }
 
 std::vector<float> Resampled(const fsm::Image& image, glm::vec2 corner, const glm::mat2& axes,

@@ -12,7 +12,7 @@ VisibleSurface::VisibleSurface(const SampleGrid& grid, std::vector<glm::vec3> sc
       screen_(std::move(screen)),
       front_sign_(upward == Upward::kYes ? 1.0F : -1.0F),
       depth_(grid.columns, grid.rows, kNothing),
-      samples_(depth_.values.size()) {}
+      samples_(depth_.size()) {}
 
 void VisibleSurface::Draw(const MeshTriangle& triangle) {
   constexpr float kSlack = 0.01F;  // of a weight: no point between two triangles is lost
@@ -23,8 +23,8 @@ void VisibleSurface::Draw(const MeshTriangle& triangle) {
             [&](int column, int row, glm::vec3 weights) {
               const float z = MeshPoint{triangle.corner, weights}.On(screen_).z;
               const std::size_t i = depth_.Index(column, row);
-              if (z <= depth_.values[i]) return;
-              depth_.values[i] = z;
+              if (z <= depth_[i]) return;
+              depth_[i] = z;
               samples_[i] = {triangle, weights};
             });
 }

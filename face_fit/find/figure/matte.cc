@@ -145,12 +145,12 @@ void SuppressWideDoubt(Mask& opacity, int reach) {
   FloatImage square = opacity;
   for (float& v : square.values) v *= v;
   const FloatImage mean = Blurred(opacity, reach), mean_square = Blurred(square, reach);
-  for (std::size_t i = 0; i < opacity.values.size(); ++i) {
-    const float m = mean.values[i], most = m * (1 - m);
+  for (std::size_t i = 0; i < opacity.size(); ++i) {
+    const float m = mean[i], most = m * (1 - m);
     if (most < 1e-3F) continue;
-    const float even = 1 - (mean_square.values[i] - m * m) / most;
-    const float sure = fsm::SmoothStep(kDecide, opacity.values[i]);
-    opacity.values[i] = glm::mix(opacity.values[i], sure, fsm::SmoothStep(kEven, even));
+    const float even = 1 - (mean_square[i] - m * m) / most;
+    const float sure = fsm::SmoothStep(kDecide, opacity[i]);
+    opacity[i] = glm::mix(opacity[i], sure, fsm::SmoothStep(kEven, even));
   }
 }
 
@@ -159,12 +159,12 @@ Mask SolveOpacity(const fsm::Image& image, const Mask& person) {
   const int reach = std::max(image.width, image.height) / kOutlineDivisor + kOutlinePixels;
   const Mask around = Blurred(person, reach);
   FloatImage out(person.width, person.height);
-  const auto count = static_cast<Eigen::Index>(out.values.size());
+  const auto count = static_cast<Eigen::Index>(out.size());
   PixelVector undecided(count);
-  for (std::size_t i = 0; i < out.values.size(); ++i) {
-    const bool doubt = around.values[i] > sure.x && around.values[i] < sure.y;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const bool doubt = around[i] > sure.x && around[i] < sure.y;
     undecided[static_cast<Eigen::Index>(i)] = doubt ? 1.0F : 0.0F;
-    out.values[i] = doubt ? Sharpened(person.values[i]) : std::round(around.values[i]);
+    out[i] = doubt ? Sharpened(person[i]) : std::round(around[i]);
   }
   const MattingLaplacian laplacian(image, undecided);
   // The second round settles pixels whose colours tell nothing on 0 or 1.
@@ -189,22 +189,21 @@ OpacityGuide FitGuide(const fsm::Image& image, const Mask& opacity) {
   constexpr int kReach = 1;
   VectorImage mean(image.width, image.height), product = mean;
   Raster<glm::mat3> square(image.width, image.height);
-  for (std::size_t i = 0; i < opacity.values.size(); ++i) {
+  for (std::size_t i = 0; i < opacity.size(); ++i) {
     const glm::vec3 c = Colour(image, i);
-    mean.values[i] = c;
-    product.values[i] = c * opacity.values[i];
-    square.values[i] = glm::outerProduct(c, c);
+    mean[i] = c;
+    product[i] = c * opacity[i];
+    square[i] = glm::outerProduct(c, c);
   }
   mean = Blurred(mean, kReach);
   product = Blurred(product, kReach);
   square = Blurred(square, kReach);
   OpacityGuide fit{mean, Blurred(opacity, kReach)};
-  for (std::size_t i = 0; i < opacity.values.size(); ++i) {
-    const glm::vec3 m = mean.values[i];
-    const glm::mat3 spread = square.values[i] - glm::outerProduct(m, m);
-    fit.slope.values[i] =
-        Inverse(spread, kGuideNoise) * (product.values[i] - m * fit.base.values[i]);
-    fit.base.values[i] -= glm::dot(fit.slope.values[i], m);
+  for (std::size_t i = 0; i < opacity.size(); ++i) {
+    const glm::vec3 m = mean[i];
+    const glm::mat3 spread = square[i] - glm::outerProduct(m, m);
+    fit.slope[i] = Inverse(spread, kGuideNoise) * (product[i] - m * fit.base[i]);
+    fit.base[i] -= glm::dot(fit.slope[i], m);
   }
   return {Blurred(fit.slope, kReach), Blurred(fit.base, kReach)};
 }
@@ -247,8 +246,8 @@ fsm::Image ForegroundColours(const fsm::Image& photo, const Mask& opacity) {
   const int longer = std::max(photo.width, photo.height);
   fsm::Image out = photo;
   std::vector<std::size_t> edge;
-  for (std::size_t i = 0; i < opacity.values.size(); ++i) {
-    if (opacity.values[i] > 0 && opacity.values[i] < 1) edge.push_back(i);
+  for (std::size_t i = 0; i < opacity.size(); ++i) {
+    if (opacity[i] > 0 && opacity[i] < 1) edge.push_back(i);
   }
   Mask behind_opacity = opacity;
   for (float& v : behind_opacity.values) v = 1 - v;
@@ -256,23 +255,23 @@ fsm::Image ForegroundColours(const fsm::Image& photo, const Mask& opacity) {
   for (const auto& [divisor, pixels] : kForegroundReach) {
     const int reach = longer / divisor + pixels;
     VectorImage figure_sum = figure, behind_sum = behind;
-    for (std::size_t i = 0; i < figure_sum.values.size(); ++i) {
-      figure_sum.values[i] *= opacity.values[i];
-      behind_sum.values[i] *= behind_opacity.values[i];
+    for (std::size_t i = 0; i < figure_sum.size(); ++i) {
+      figure_sum[i] *= opacity[i];
+      behind_sum[i] *= behind_opacity[i];
     }
     const Mask share = Blurred(opacity, reach), rest = Blurred(behind_opacity, reach);
     figure_sum = Blurred(figure_sum, reach);
     behind_sum = Blurred(behind_sum, reach);
     for (const std::size_t i : edge) {
-      const float a = opacity.values[i];
-      const glm::vec3 f = figure_sum.values[i] / (share.values[i] + 1e-4F);
-      const glm::vec3 b = behind_sum.values[i] / (rest.values[i] + 1e-4F);
+      const float a = opacity[i];
+      const glm::vec3 f = figure_sum[i] / (share[i] + 1e-4F);
+      const glm::vec3 b = behind_sum[i] / (rest[i] + 1e-4F);
       const glm::vec3 missing = Rgb(photo, i) - a * f - (1 - a) * b;
-      figure.values[i] = glm::clamp(f + a * missing, 0.0F, 255.0F);
-      behind.values[i] = glm::clamp(b + (1 - a) * missing, 0.0F, 255.0F);
+      figure[i] = glm::clamp(f + a * missing, 0.0F, 255.0F);
+      behind[i] = glm::clamp(b + (1 - a) * missing, 0.0F, 255.0F);
     }
   }
-  for (const std::size_t i : edge) SetRgb(out, i, figure.values[i]);
+  for (const std::size_t i : edge) SetRgb(out, i, figure[i]);
   // The colour of nearly transparent pixels is hardly known and is filled in from around.
   Mask known = opacity;
   for (float& v : known.values) v = fsm::SmoothStep(kUnknown, kKnown, v);
