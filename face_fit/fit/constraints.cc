@@ -32,21 +32,15 @@ std::vector<float> DepthBias(const ObservedHead& base) {
 /// Returns constraints to where the network sees the points of the face. `posed`: as for
 /// ConstrainToMouthLine.
 std::vector<LandmarkConstraint> PointConstraints(const FitProblem& problem, const CameraPose& pose,
-                                                 const std::vector<glm::vec3>& posed) {
+                                                 std::span<const glm::vec3> posed) {
   constexpr float kTrustDepth = 0.3F, kMaxDepthGapMm = 15;
-  const float mm_per_pixel = 1 / pose.PixelsPerMm();
+  const std::vector<float> gaps_mm = DepthGapsMm(problem, pose, posed);
   std::vector<LandmarkConstraint> constraints;
-  std::vector<float> depth_gaps;
-  float mean = 0;
   for (const PointIndex k : point::kReliable) {
-    const glm::vec3 q = pose.ToCamera(problem.base.mesh_points()[k].On(posed));
-    depth_gaps.push_back(problem.face.points[k].z * mm_per_pixel + problem.depth_bias[k] - q.z);
-    mean += depth_gaps.back() / static_cast<float>(std::size(point::kReliable));
-    constraints.push_back({k, problem.base.mesh_points()[k], problem.face.PixelOf(k), q.z});
-  }
-  for (std::size_t i = 0; i < depth_gaps.size(); ++i) {
-    constraints[i].z_mm +=
-        kTrustDepth * std::clamp(depth_gaps[i] - mean, -kMaxDepthGapMm, kMaxDepthGapMm);
+    const MeshPoint& on_head = problem.base.mesh_points()[k];
+    const float gap_mm = std::clamp(gaps_mm[constraints.size()], -kMaxDepthGapMm, kMaxDepthGapMm);
+    constraints.push_back({k, on_head, problem.face.PixelOf(k),
+                           pose.ToCamera(on_head.On(posed)).z + kTrustDepth * gap_mm});
   }
   return constraints;
 }
@@ -132,6 +126,20 @@ FitProblem::FitProblem(const ObservedHead& base_head, const FoundFace& found_fac
       face(found_face),
       depth_bias(DepthBias(base_head)),
       lips_apart(LipsApart(found_face)) {}
+
+std::vector<float> DepthGapsMm(const FitProblem& problem, const CameraPose& pose,
+                               std::span<const glm::vec3> posed) {
+  const float mm_per_pixel = 1 / pose.PixelsPerMm();
+  std::vector<float> gaps;
+  float mean = 0;
+  for (const PointIndex k : point::kReliable) {
+    const float own = pose.ToCamera(problem.base.mesh_points()[k].On(posed)).z;
+    gaps.push_back(problem.face.points[k].z * mm_per_pixel + problem.depth_bias[k] - own);
+    mean += gaps.back() / static_cast<float>(std::size(point::kReliable));
+  }
+  for (float& gap : gaps) gap -= mean;
+  return gaps;
+}
 
 std::vector<LandmarkConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
                                               const Expression& expression,

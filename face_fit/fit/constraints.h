@@ -34,6 +34,12 @@ struct FitProblem {
   bool lips_apart;
 };
 
+/// Returns for each of point::kReliable how much nearer to the camera the network sees it than the
+/// posed head has it, mean 0, millimetres. `posed`: the base head's vertices in the photo's
+/// expression.
+std::vector<float> DepthGapsMm(const FitProblem& problem, const CameraPose& pose,
+                               std::span<const glm::vec3> posed);
+
 /// Returns the constraints of the warp for a pose and an expression: the network's points, whose
 /// depth is mostly the head's own. Eyes whose irises the photo shows elsewhere are moved up or down
 /// with them. Closed lips meet where the photo, if there is one, shows the dark line between them;

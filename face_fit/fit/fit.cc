@@ -30,20 +30,17 @@ std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& par
   problem.base.head().Evaluate(ExpressionOf(parameters).State(), vertices);
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<double> out;
-  std::vector<float> depth;
-  float mean = 0;
   for (const PointIndex k : point::kReliable) {
     const glm::vec3 q = pose.ToCamera(problem.base.mesh_points()[k].On(vertices.position));
     const glm::vec2 offset = (pose.Project(q) - problem.face.PixelOf(k)) * mm_per_pixel;
     out.push_back(static_cast<double>(offset.x));
     out.push_back(static_cast<double>(offset.y));
-    depth.push_back(q.z - problem.face.points[k].z * mm_per_pixel - problem.depth_bias[k]);
-    mean += depth.back();
   }
-  mean /= static_cast<float>(depth.size());
   // The network's depth is less reliable than its x and y.
   constexpr double kDepthWeight = 0.4;
-  for (const float d : depth) out.push_back(kDepthWeight * static_cast<double>(d - mean));
+  for (const float gap_mm : DepthGapsMm(problem, pose, vertices.position)) {
+    out.push_back(kDepthWeight * static_cast<double>(gap_mm));
+  }
   // Priors, as the residual in millimetres of a unit at full strength: people mostly hold still for
   // a photo. Without visible teeth the form of a mouth is taken for the person's own rather than
   // for a smile, and a dropped jaw or parted lips are ruled out.
