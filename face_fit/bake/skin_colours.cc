@@ -74,14 +74,14 @@ float Roughness(const fsm::Image& map, const Mask& face_coverage) {
   return steps.empty() ? 0 : Median(std::move(steps));
 }
 
-Mask CutAtHairline(const SkinTexels& texels, Mask likeness) {
+Mask CutAtHairline(const SkinTexels& texels, float brows_y_mm, Mask likeness) {
   const FloatImage wide = Blurred(likeness, TexelsOf(kFringeMm, likeness.width));
   const glm::vec2 edge = PhotoLook().hairy.skin_around_share;
   Mask below_hairline(likeness.width, likeness.height, 1);
   for (int x = 0; x < likeness.width; ++x) {
     float least = 1;
     for (int y = likeness.height - 1; y >= 0; --y) {
-      if (texels(x, y).above_brows_mm > 0)
+      if (texels(x, y).y_mm > brows_y_mm)
         least = std::min(least, fsm::SmoothStep(edge, wide(x, y)));
       below_hairline(x, y) = least;
     }

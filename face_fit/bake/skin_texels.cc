@@ -126,7 +126,6 @@ SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, SelfHid
   std::vector<glm::vec3> camera;
   for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(pose.ToCamera(p));
   const std::vector<glm::vec3> normal = SkinNormals(topology, camera);
-  const float brows = base.head().Landmark("nasion").y + kBrowsEndMm;
   const float chin = base.AtRest(point::kChin).y;
   const LipLines lips(base);
   SkinTexels out(kMapSize, kMapSize);
@@ -146,7 +145,7 @@ SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, SelfHid
           .facing = hidden ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q)),
           .outward_mm2 = outward_mm2,
           .x_mm = rest.x,
-          .above_brows_mm = rest.y - brows,
+          .y_mm = rest.y,
           .off_seam_mm = lips.OffSeam(rest),
           .within_lips_mm = lips.Within(rest),
           .side_weight = std::max(fsm::SmoothStep(head_side.across_mm, std::abs(rest.x)),

@@ -23,11 +23,11 @@ inline int TexelsOf(float mm, int map_width) {
 struct SkinTexel {
   static constexpr float kNotNear = 1e9F;  ///< stands for a distance to something that is not near
   glm::vec2 pixel{0};
-  float facing = -1;       ///< cosine of the normal's angle to the camera; -1 = not seen
-  float outward_mm2 = -1;  ///< squared distance from the head's vertical axis; -1 = no skin
-  float x_mm = 0;          ///< from the middle, positive to the person's left
-  float above_brows_mm = -1;
-  float off_seam_mm = kNotNear;      ///< distance from the line where the lips meet
+  float facing = -1;             ///< cosine of the normal's angle to the camera; -1 = not seen
+  float outward_mm2 = -1;        ///< squared distance from the head's vertical axis; -1 = no skin
+  float x_mm = 0;                ///< from the middle, positive to the person's left
+  float y_mm = -kNotNear;        ///< height
+  float off_seam_mm = kNotNear;  ///< distance from the line where the lips meet
   float within_lips_mm = -kNotNear;  ///< distance inside the border of the lips, negative outside
   float side_weight = 0;  ///< 1 on the sides of the head and below the chin, 0 on the face
 };

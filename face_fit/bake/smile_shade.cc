@@ -22,8 +22,7 @@ constexpr glm::vec2 kKnownCheek{0.1F, 0.5F};
 /// the wings of the nose and, less, below it.
 class Cheeks {
  public:
-  explicit Cheeks(const ObservedHead& base)
-      : brows_(base.head().Landmark("nasion").y + kBrowsEndMm) {
+  explicit Cheeks(const ObservedHead& base) {
     using namespace point;
     const auto at = [&base](PointIndex i) { return base.AtRest(i); };
     eyes_ = 0.5F * (at(kEyeBottomRight).y + at(kEyeBottomLeft).y);
@@ -32,7 +31,7 @@ class Cheeks {
     chin_ = at(kChin).y;
   }
   float ShadeAt(const SkinTexels& texels, std::size_t i) const {
-    const float y = Height(texels, i), x = std::abs(texels[i].x_mm);
+    const float y = texels[i].y_mm, x = std::abs(texels[i].x_mm);
     const auto& look = PhotoLook().smile.shade;
     return fsm::SmoothStep(eyes_ + look.below_eyes_mm, y) *
            fsm::SmoothStep(chin_ + look.above_chin_mm, y) *
@@ -43,16 +42,13 @@ class Cheeks {
   }
   /// Returns whether a texel is reference skin of the cheeks: neither lips nor nose.
   bool IsReferenceSkin(const SkinTexels& texels, std::size_t i) const {
-    const float y = Height(texels, i), x = std::abs(texels[i].x_mm);
+    const float y = texels[i].y_mm, x = std::abs(texels[i].x_mm);
     return texels[i].within_lips_mm < -kFromLipsMm && y < eyes_ - kBelowEyesMm &&
            (x > wing_ || y < nose_ - kBelowNoseMm);
   }
 
  private:
-  float Height(const SkinTexels& texels, std::size_t i) const {
-    return texels[i].above_brows_mm + brows_;
-  }
-  float brows_, eyes_ = 0, wing_ = 0, nose_ = 0, chin_ = 0;
+  float eyes_ = 0, wing_ = 0, nose_ = 0, chin_ = 0;
 };
 
 /// Weighted means of colours over a reach.

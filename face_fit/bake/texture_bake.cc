@@ -112,7 +112,8 @@ SkinTraits FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool li
   const Mask face_coverage = CoverageOfFace(texels, map.coverage);
   const glm::vec2 range = look.lined.roughness;
   const float rough = (Roughness(map.image, face_coverage) - range.x) / (range.y - range.x);
-  const Mask likeness = CutAtHairline(texels, SkinLikeness(map.image, face_coverage));
+  const float brows_y_mm = fitted.base->head().Landmark("nasion").y + kBrowsEndMm;
+  const Mask likeness = CutAtHairline(texels, brows_y_mm, SkinLikeness(map.image, face_coverage));
   for (std::size_t i = 0; i < likeness.size(); ++i) {
     map.image.rgba[4 * i + 3] = Byte(255 * likeness[i]);
   }

@@ -36,7 +36,8 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
     : canvas_(canvas),
       edges_(edges),
       figure_(figure),
-      top_(TopSpan()),
+      top_(LongestRun(edges.width(),
+                      [&](int x) { return edges.top(x).kind != EdgeKind::kNothing; })),
       sides_{SpanOf(PhotoSide::kLeft), SpanOf(PhotoSide::kRight)} {
   const auto& look = PhotoLook().hair;
   const float most = look.bulge_most_mm * canvas.pixels_per_mm;
@@ -71,11 +72,6 @@ HairPaint::EdgeSpan HairPaint::LongestRun(int count, auto cuts_head) {
     if (span.Length() > longest.Length()) longest = span;
   }
   return longest;
-}
-
-HairPaint::EdgeSpan HairPaint::TopSpan() const {
-  return LongestRun(edges_.width(),
-                    [this](int x) { return edges_.top(x).kind != EdgeKind::kNothing; });
 }
 
 HairPaint::EdgeSpan HairPaint::SpanOf(PhotoSide side) const {

@@ -35,7 +35,6 @@ class HairPaint {
   };
   /// Returns the longest run of samples of an edge for which `cuts_head(i)` is true.
   static EdgeSpan LongestRun(int count, auto cuts_head);
-  EdgeSpan TopSpan() const;
   EdgeSpan SpanOf(PhotoSide side) const;
 
   const Canvas& canvas_;

@@ -35,10 +35,9 @@ FitBySidePhotos UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_im
       used.left_out.push_back({side_photo->path, pose.error().text});
     }
   }
-  // Later photos changed the depth that the poses of earlier ones were found on. A pose that too
-  // few patches confirm stays nearly as it was.
-  for (SideView& view : used.views) {
-    view.pose = RefineSidePose(used.fit.head, front_image, view.side_photo->image, view.pose).pose;
+  // Later photos changed the depth that the poses of earlier ones were found on.
+  for (auto& [side_photo, pose, figure] : used.views) {
+    pose = RefineSidePose(used.fit.head, front_image, side_photo->image, pose).value_or(pose);
   }
   return used;
 }

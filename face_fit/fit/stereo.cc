@@ -68,22 +68,21 @@ StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front_image
 
 /// Subtracts mean and linear slope from a patch: light changes them when a head turns.
 void RemovePlane(std::vector<float>& patch) {
-  float mean = 0, across = 0, down = 0, squares = 0;
-  std::size_t i = 0;
-  for (int y = -kPatch; y <= kPatch; ++y) {
-    for (int x = -kPatch; x <= kPatch; ++x, ++i) {
-      mean += patch[i];
-      across += static_cast<float>(x) * patch[i];
-      down += static_cast<float>(y) * patch[i];
-      squares += static_cast<float>(x * x);
-    }
+  constexpr std::size_t kSide = 2 * kPatch + 1;
+  const auto from_middle = [](std::size_t i) {
+    return glm::vec2(i % kSide, i / kSide) - float{kPatch};
+  };
+  float mean = 0, squares = 0;
+  glm::vec2 slope(0);
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    const glm::vec2 p = from_middle(i);
+    mean += patch[i];
+    slope += p * patch[i];
+    squares += p.x * p.x;
   }
   mean /= static_cast<float>(patch.size());
-  i = 0;
-  for (int y = -kPatch; y <= kPatch; ++y) {
-    for (int x = -kPatch; x <= kPatch; ++x, ++i) {
-      patch[i] -= mean + (across * static_cast<float>(x) + down * static_cast<float>(y)) / squares;
-    }
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    patch[i] -= mean + glm::dot(slope, from_middle(i)) / squares;
   }
 }
 
@@ -230,16 +229,16 @@ std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const Camer
 
 }  // namespace
 
-RefinedPose RefineSidePose(const FittedHead& fitted, const fsm::Image& front_image,
-                           const fsm::Image& side_image, CameraPose side_pose) {
+std::optional<CameraPose> RefineSidePose(const FittedHead& fitted, const fsm::Image& front_image,
+                                         const fsm::Image& side_image, CameraPose side_pose) {
   PatchMatcher matcher(side_image);
   for (int round = 0; round < kPoseRefinements; ++round) {
     const auto matches =
         FindPatches(SampleSkin(fitted, front_image, side_pose), fitted.pose, side_pose, matcher);
-    if (matches.size() < kMinPatches) return {side_pose, false};
+    if (matches.size() < kMinPatches) return std::nullopt;
     side_pose = FitPose(matches, side_pose);
   }
-  return {side_pose, true};
+  return side_pose;
 }
 
 std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front_image,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "face_fit/find/head/observed_head.h"
@@ -7,14 +8,11 @@
 
 namespace facefit {
 
-struct RefinedPose {
-  CameraPose pose;
-  bool enough_patches;  ///< whether at least 25 were found; otherwise refining stopped before
-};
 /// Refines `side_pose`, how `side_image` was taken, until the patches of skin of the first photo
-/// that are found in it lie where the fitted head has them.
-RefinedPose RefineSidePose(const FittedHead& fitted, const fsm::Image& front_image,
-                           const fsm::Image& side_image, CameraPose side_pose);
+/// that are found in it lie where the fitted head has them. Returns nothing if fewer than 25 are
+/// found.
+std::optional<CameraPose> RefineSidePose(const FittedHead& fitted, const fsm::Image& front_image,
+                                         const fsm::Image& side_image, CameraPose side_pose);
 
 /// Measures depth by finding small patches of skin of the first photo in a photo from the side: of
 /// a turned face the network mostly reports what faces have in common. `side_pose`: as refined by

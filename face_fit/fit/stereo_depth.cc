@@ -37,8 +37,8 @@ FitByStereo CorrectDepthByStereo(const fsm::Image& front_image, const fsm::Image
                                  CameraPose side_pose, Fit fit) {
   for (int round = 0; round < kStereoRounds; ++round) {
     const auto refined = RefineSidePose(fit.head, front_image, side_image, side_pose);
-    side_pose = refined.pose;
-    if (!refined.enough_patches) break;
+    if (!refined) break;
+    side_pose = *refined;
     auto depths = OnBothCheeks(CompareDepth(fit.head, front_image, side_image, side_pose),
                                side_pose.TowardsCamera());
     if (depths.empty()) break;

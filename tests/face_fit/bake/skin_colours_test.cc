@@ -29,12 +29,12 @@ TEST(SkinColoursTest, BrightStrandsOfAFringeAreNoSkinAndLinesOfTheForeheadAre) {
   for (int y = 0; y < 400; ++y) {
     for (int x = 0; x < 400; ++x) {
       const std::size_t i = likeness.Index(x, y);
-      texels.values[i].above_brows_mm = static_cast<float>(250 - y) / 5;
+      texels.values[i].y_mm = static_cast<float>(250 - y) / 5;
       const bool dark = (y > 60 && y < 120) || y == 180 || (y > 255 && y < 270);
       if (dark) likeness.values[i] = 0;
     }
   }
-  likeness = CutAtHairline(texels, likeness);
+  likeness = CutAtHairline(texels, 0, likeness);
   const auto at = [&](int y) { return likeness(200, y); };
   EXPECT_LT(at(30), 0.05F) << "bright strands";
   EXPECT_EQ(at(90), 0) << "dark ones";

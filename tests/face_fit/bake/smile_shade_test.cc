@@ -36,7 +36,8 @@ class SmileShadeTest : public NetworkTest {
     map_ = {.width = kMapSize, .height = kMapSize, .rgba = {}};
     for (std::size_t i = 0; i < placed_->values.size(); ++i) {
       const float y = Height(i);
-      const bool band = std::abs(y - middle()) < 5 || placed_->values[i].above_brows_mm > 10;
+      const bool band = std::abs(y - middle()) < 5 ||
+                        y > Galatea().head().Landmark("nasion").y + kBrowsEndMm + 10;
       const int grain = static_cast<int>(i * 7919 % 13) - 6;
       const auto c = static_cast<std::uint8_t>((band ? 190 : 150) + grain);
       map_.rgba.insert(map_.rgba.end(), {c, c, c, 255});
@@ -45,9 +46,7 @@ class SmileShadeTest : public NetworkTest {
   glm::vec3 Place(std::size_t point) const {
     return Galatea().mesh_points()[point].On(Galatea().rest().position);
   }
-  float Height(std::size_t i) const {
-    return placed_->values[i].above_brows_mm + Galatea().head().Landmark("nasion").y + kBrowsEndMm;
-  }
+  float Height(std::size_t i) const { return placed_->values[i].y_mm; }
   /// Between nose and mouth, on the cheeks.
   float middle() const { return 0.5F * (Place(2).y + Place(61).y); }
   /// The mean over cheeks at one height.
