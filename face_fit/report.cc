@@ -54,21 +54,6 @@ int HiddenIrises(const PhotoIrises& irises) {
       irises.circles.InOrder(), [](const IrisCircle& iris) { return iris.contrast < kClearIris; }));
 }
 
-/// Names the parts of the figure that the toolkit drew, separated by "; ".
-std::string NamesOf(const Completed& completed) {
-  std::string parts;
-  const auto add = [&parts](const char* part) {
-    parts += (parts.empty() ? "" : "; ") + std::string(part);
-  };
-  if (completed.neck) {
-    add("neck, shoulders and clothes below it");
-  } else if (completed.shoulders) {
-    add("shoulders beside it");
-  }
-  if (completed.hair) add("hair above or beside it");
-  return parts;
-}
-
 struct Warning {
   bool applies;
   std::string text;
@@ -83,7 +68,12 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const Fit& fit, const Tex
   const Expression& shown = fit.head.expression;
   // The network guesses what it does not see with the same certainty as the rest.
   const std::string cut_off = NamesOf(CutOffParts(face, front.photo));
-  const std::string drawn = NamesOf(bake.completed);
+  const Completed& completed = bake.completed;
+  const std::string drawn =
+      JoinedNames({{completed.neck, "neck, shoulders and clothes below it"},
+                   {completed.shoulders && !completed.neck, "shoulders beside it"},
+                   {completed.hair, "hair above or beside it"}},
+                  "; ");
   // The limit 1.5 was tested on 21 other faces: three exceeded it, two of these had hair before
   // them. Of three between 1 and 1.5 none had anything: paint, hard light and a turned head misled
   // the detector.

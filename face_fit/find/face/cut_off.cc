@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
-#include <initializer_list>
 #include <span>
-#include <utility>
 
 #include "face_fit/picture/pixels.h"
 
@@ -15,15 +13,16 @@ namespace {
 /// Distance from the network's cheek point to the outer edge of the ear.
 constexpr float kEarMm = 10;
 
-std::string Joined(std::initializer_list<std::pair<bool, const char*>> parts) {
+}  // namespace
+
+std::string JoinedNames(std::initializer_list<std::pair<bool, const char*>> parts,
+                        const char* separator) {
   std::string names;
   for (const auto& [named, name] : parts) {
-    if (named) names += (names.empty() ? "" : ", ") + std::string(name);
+    if (named) names += (names.empty() ? "" : separator) + std::string(name);
   }
   return names;
 }
-
-}  // namespace
 
 CutOff CutOffParts(const FoundFace& face, const fsm::Image& photo) {
   const glm::vec2 right_eye = face.PixelOf(point::kEyeOuterRight);
@@ -37,10 +36,10 @@ CutOff CutOffParts(const FoundFace& face, const fsm::Image& photo) {
 }
 
 std::string NamesOf(const CutOff& cut) {
-  return Joined({{cut.forehead, "the forehead"},
-                 {cut.ears.right, "the right ear"},
-                 {cut.ears.left, "the left ear"},
-                 {cut.chin, "the chin"}});
+  return JoinedNames({{cut.forehead, "the forehead"},
+                      {cut.ears.right, "the right ear"},
+                      {cut.ears.left, "the left ear"},
+                      {cut.chin, "the chin"}});
 }
 
 std::optional<std::string> CoincidingCorners(const std::function<glm::vec2(PointIndex)>& pixel_of) {
@@ -63,10 +62,10 @@ vm::Result<void> CheckFeaturesShown(const FoundFace& face, const fsm::Image& pho
                                [&](PointIndex i) { return !IsInside(photo, face.PixelOf(i)); });
   };
   const std::string names =
-      Joined({{cut(point::kEyeOutline[fsm::Side::kRight]), "the right eye"},
-              {cut(point::kEyeOutline[fsm::Side::kLeft]), "the left eye"},
-              {cut(std::array{point::kNoseTip, point::kNoseBottom}), "the nose"},
-              {cut(point::kUpperOuterLip) || cut(point::kLowerOuterLip), "the mouth"}});
+      JoinedNames({{cut(point::kEyeOutline[fsm::Side::kRight]), "the right eye"},
+                   {cut(point::kEyeOutline[fsm::Side::kLeft]), "the left eye"},
+                   {cut(std::array{point::kNoseTip, point::kNoseBottom}), "the nose"},
+                   {cut(point::kUpperOuterLip) || cut(point::kLowerOuterLip), "the mouth"}});
   if (names.empty()) {
     const auto why = CoincidingCorners([&](PointIndex i) { return face.PixelOf(i); });
     if (why) return vm::Fail(vm::Errc::kBadValue, *why);

@@ -1,14 +1,20 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "face_fit/find/network/face_finder.h"
 #include "fsm/base/side.h"
 #include "vm_protocol/core/result.h"
 
 namespace facefit {
+
+/// Returns the names that are marked true.
+std::string JoinedNames(std::initializer_list<std::pair<bool, const char*>> parts,
+                        const char* separator = ", ");
 
 /// Which parts of a head lie beyond the edges of its photo. The network guesses their points, and
 /// is as certain of these as of those it sees.
