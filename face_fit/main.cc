@@ -152,8 +152,8 @@ void MakeAndWriteFace(const Options& options, Sight& sight, const facefit::Front
   const std::vector<facefit::SidePhoto> read = ReadSidePhotos(options, sight.networks);
   std::vector<const facefit::SidePhoto*> side_photos;
   for (const facefit::SidePhoto& side_photo : read) side_photos.push_back(&side_photo);
-  const auto made = vm::OrThrow(
-      facefit::MakeFace(sight.base, front, &sight.networks, side_photos, options.glasses, progress));
+  const auto made = vm::OrThrow(facefit::MakeFace(sight.base, front, &sight.networks, side_photos,
+                                                  options.glasses, progress));
   for (const auto& [path, why] : made.left_out) NoticeLeftOut(path, why);
   const std::string report = LineOfNose(front) + made.report;
   const std::string folder =

@@ -8,6 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "fsm/base/number_table.h"
+#include "fsm/base/smooth_step.h"
+
 namespace fsm {
 namespace {
 
@@ -36,6 +39,35 @@ void ShadeNeck(const Features& features, std::span<const glm::vec3> collar, std:
       nearest = std::min(nearest, glm::distance(mesh.position[i], q));
     const float near = nearest / reach;
     mesh.openness[i] *= 1 - features.shirt_shade.dark * std::exp(-near * near);
+  }
+}
+
+/// Returns how far the neck turns beside a point of the collar, which turns with it.
+float NeckWeightBeside(glm::vec3 p, std::size_t skin, const HeadMesh& mesh) {
+  const auto nearest = std::ranges::min_element(std::span(mesh.position).first(skin), {},
+                                                [p](glm::vec3 q) { return glm::distance(p, q); });
+  return mesh.weights[static_cast<std::size_t>(nearest - std::span(mesh.position).begin())]
+      .skin.neck;
+}
+
+/// Draws the skin below the collar's edge in, so that it does not come through the cloth. `collar`:
+/// points all around.
+void TuckNeck(const Features& features, std::span<const glm::vec3> collar, std::size_t skin,
+              HeadMesh& mesh) {
+  glm::vec3 axis(0);
+  for (const glm::vec3 q : collar) axis += q / static_cast<float>(collar.size());
+  const auto outward = [axis](glm::vec3 p) { return glm::vec2(p.x, p.z - axis.z); };
+  for (std::size_t i = 0; i < skin; ++i) {
+    glm::vec3& p = mesh.position[i];
+    const glm::vec2 out = outward(p);
+    const auto facing = [&](glm::vec3 q) { return glm::dot(out, glm::normalize(outward(q))); };
+    const glm::vec3 edge = *std::ranges::max_element(collar, {}, facing);
+    const float most = glm::length(outward(edge)) - features.shirt_tuck.inside;
+    const float radius = glm::length(out);
+    if (radius <= most) continue;
+    const float tucked = SmoothStep(features.shirt_tuck.below, edge.y - p.y);
+    const glm::vec2 drawn = out * glm::mix(1.0f, most / radius, tucked);
+    p = {drawn.x, p.y, axis.z + drawn.y};
   }
 }
 
@@ -89,12 +121,15 @@ void BuildCloth(const Identity& identity, HeadMesh& mesh) {
       }
       if (k == 0 || k == kHalf) p.x = 0;
       if (!left) p.x = -p.x;
+      weights.skin.neck = SmoothStep(2.2f, 1, row) * NeckWeightBeside(p, first, mesh);
       mesh.Add(p, light * identity.palette.cloth, glm::clamp(open, 0.2f, 1.0f), Bone::kSkin,
                weights);
     }
   }
-  ShadeNeck(features, std::span(mesh.position).subspan(first + kCollar * kAround, kAround), first,
-            mesh);
+  const std::vector<glm::vec3> collar(mesh.position.begin() + first + kCollar * kAround,
+                                      mesh.position.begin() + first + (kCollar + 1) * kAround);
+  TuckNeck(features, collar, first, mesh);
+  ShadeNeck(features, collar, first, mesh);
   mesh.Grid(Material::kCloth, first, static_cast<int>(kRows.size()), kAround, true);
 }
 
