@@ -254,7 +254,9 @@ TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
       // The profile is searched where the network's points cannot be compared, not where they show
       // another person. Of one of these heads they can be.
       const auto turned = FitSidePose(*networks_, front.head, SideOf(truth.Photo(turn)));
-      if (!turned) EXPECT_EQ(turned.error().code, vm::Errc::kUnavailable) << turned.error().text;
+      if (!turned) {
+        EXPECT_EQ(turned.error().code, vm::Errc::kUnavailable) << turned.error().text;
+      }
       const float with = DepthError(truth, corrected->fit);
       std::printf("%-9s %+.0f profile %+.0f: depth %.2f mm off, front alone %.2f\n", GetParam(),
                   static_cast<double>(strength), static_cast<double>(turn),
