@@ -8,21 +8,6 @@
 #include "fsm/motion/inputs/motion_inputs.h"
 
 namespace fsm {
-namespace {
-
-constexpr vm::Time kHeadFollows = std::chrono::milliseconds(320);
-constexpr double kHalfPupilsMm = 31;  // half the distance between the pupils
-// Blinks accompany nearly all large gaze shifts and few small ones (Evinger et al., Not looking
-// while leaping, 1994).
-constexpr double kSureBlinkDegrees = 20, kMostBlinks = 0.95;
-// The gaze of one who thinks: mostly up and to one side, which depends on the seed and changes
-// occasionally. The numbers are ours.
-constexpr double kFixationMs = 1500, kFixationVaries = 0.35;  // and the part by which it varies
-constexpr double kSideVaries = 0.8;                           // against the habit, of -1..1
-constexpr double kThoughtSaccadeMs = 55;  // of fifteen degrees, by the main sequence
-
-}  // namespace
-
 EyeMotion::EyeMotion(const MotionInputs& in)
     : patterns_(in.tables.motions),
       gestures_(in.tables.gestures),
@@ -55,18 +40,19 @@ void EyeMotion::SetAim(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time 
   const double near = settings_.gaze_distance_mm;
   const double angle = aim == Aim::kThought || near <= 0
                            ? 0
-                           : std::atan2(kHalfPupilsMm, near) * 180 / std::numbers::pi;
+                           : std::atan2(gestures_.gaze.half_pupils, near) * 180 / std::numbers::pi;
   vergence_deg_.MoveTo(now, static_cast<float>(angle), 2 * settings_.eye_move);
   gaze_.Visit(now, angles, settings_.eye_move, duration);
-  head_share_.Visit(now, {HeadShareOf(angles[kDown]), HeadShareOf(angles[kToRight])}, kHeadFollows,
-                    duration);
+  head_share_.Visit(now, {HeadShareOf(angles[kDown]), HeadShareOf(angles[kToRight])},
+                    FromMs(gestures_.gaze.lasts), duration);
   ends_.gaze = duration > vm::Time(0) ? now + duration : now;
 }
 
 void EyeMotion::BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to) {
   if (!switches_[IdleKind::kGazeBlink].on() || patterns_.blinks.empty()) return;
   const double angle = std::hypot(to[kDown] - from[kDown], to[kToRight] - from[kToRight]);
-  const double chance = std::clamp(angle / kSureBlinkDegrees, 0.0, kMostBlinks);
+  const double chance =
+      std::clamp(angle / gestures_.shift_blink.sure, 0.0, Decimal(gestures_.shift_blink.most));
   if ((RandomAt(seed_, RandomStream::kShiftBlink, ++shifts_) + 1) / 2 < chance) Blink(now, 1);
 }
 
@@ -94,23 +80,25 @@ void EyeMotion::Blink(vm::Time now, std::size_t pattern, int count) {
 // ---- as a source
 
 EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
+  const auto& row = gestures_.think;
   const auto saccade_ms = [&](std::int64_t k) {
     return k == 0 ? 0
-                  : kFixationMs * (static_cast<double>(k) +
-                                   kFixationVaries * RandomAt(seed_, RandomStream::kThinkTime, k));
+                  : row.interval *
+                        (static_cast<double>(k) +
+                         Decimal(row.varies) * RandomAt(seed_, RandomStream::kThinkTime, k));
   };
   const double habit = RandomAt(seed_, RandomStream::kThinkSide, 0);
   const auto place = [&](std::int64_t index) -> std::array<double, 2> {
     if (index < 0) return {0, 0};
     const double side = std::copysign(
-        1, habit + kSideVaries * RandomAt(seed_, RandomStream::kThinkSide, index + 1));
-    const auto varied = [&](glm::vec2 row, std::int64_t at) {
-      return Linear(row, static_cast<float>(RandomAt(seed_, RandomStream::kThinkHeight, at)));
+        1, habit + Decimal(row.strays) * RandomAt(seed_, RandomStream::kThinkSide, index + 1));
+    const auto varied = [&](glm::vec2 angle, std::int64_t at) {
+      return Linear(angle, static_cast<float>(RandomAt(seed_, RandomStream::kThinkHeight, at)));
     };
-    return {varied(gestures_.think.down, index), side * varied(gestures_.think.aside, index + 50)};
+    return {varied(row.down, index), side * varied(row.aside, index + 50)};
   };
-  return FixationAt(std::max(0.0, InMs(t - thinking_since_)), kFixationMs, saccade_ms, place,
-                    [](const auto&, const auto&) { return kThoughtSaccadeMs; });
+  return FixationAt(std::max(0.0, InMs(t - thinking_since_)), row.interval, saccade_ms, place,
+                    [&](const auto&, const auto&) { return row.jump; });
 }
 
 double EyeMotion::BlinkAt(vm::Time t) const {

@@ -11,20 +11,6 @@
 namespace fsm {
 namespace {
 
-// Saccades: one at a random time in each interval, so that fixations vary widely in length. Their
-// durations are those of the main sequence: 21 ms and 2.2 ms a degree.
-constexpr double kSaccadeAt = 0.5, kSaccadeVaries = 0.45;  // parts of the interval
-constexpr double kSaccadeMs = 21, kSaccadeMsPerDegree = 2.2;
-constexpr double kSaccadeHeight = 0.6;  // relative to its width
-// Intervals between blinks are skewed: many short, some long. exp of a sum of three even numbers
-// (nearly normal) is nearly log-normal.
-constexpr double kBlinkSpread = 0.4;   // of the logarithm
-constexpr double kBlinkMedian = 0.93;  // of an interval relative to the mean
-constexpr double kShortestBlinkInterval = 0.5, kLongestBlinkInterval = 1.5;  // the same
-constexpr double kFirstBlink = 0.6;                           // its interval relative to the others
-constexpr double kBlinkDepth = 0.9, kBlinkDepthVaries = 0.2;  // half of people's are incomplete
-constexpr double kAxesApart = 0.37;  // periods between the waves of the head's axes
-
 Angles Looped(const HeadCurve& curve, double ms) {
   return curve.At(std::fmod(std::max(0.0, ms), curve.length_ms()));
 }
@@ -74,7 +60,8 @@ void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
     const Angles amplitude{static_cast<float>(move.down), static_cast<float>(move.right),
                            static_cast<float>(move.tilt)};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double slow = InMs(t) / move.period_ms + kAxesApart * static_cast<double>(axis);
+      const double slow =
+          InMs(t) / move.period_ms + Decimal(gestures_.wander.apart) * static_cast<double>(axis);
       const double fast = slow * gestures_.wander.faster;
       const double way = gestures_.wander.slow * Wander(2 * axis, slow) +
                          gestures_.wander.fast * Wander(2 * axis + 1, fast);
@@ -140,16 +127,17 @@ double IdleBehaviour::BreathAt(const AutoBreath& pattern, vm::Time since) const 
 }
 
 EyeAngles IdleBehaviour::SaccadesAt(const AutoGaze& gaze, vm::Time t) const {
+  const auto& row = gestures_.saccade;
   const auto saccade_ms = [&](std::int64_t k) {
-    return gaze.interval_ms * (static_cast<double>(k) + kSaccadeAt +
-                               kSaccadeVaries * Random(RandomStream::kGazeTime, k));
+    return gaze.interval_ms * (static_cast<double>(k) + row.begins.x +
+                               Decimal(row.begins.y) * Random(RandomStream::kGazeTime, k));
   };
   const auto place = [&](std::int64_t k) -> std::array<double, 2> {
-    return {kSaccadeHeight * gaze.angle * Random(RandomStream::kGazeY, k),
+    return {Decimal(row.height) * gaze.angle * Random(RandomStream::kGazeY, k),
             gaze.angle * Random(RandomStream::kGazeX, k)};
   };
-  const auto jump_ms = [](const auto& from, const auto& to) {
-    return kSaccadeMs + kSaccadeMsPerDegree * std::hypot(to[0] - from[0], to[1] - from[1]);
+  const auto jump_ms = [&](const auto& from, const auto& to) {
+    return row.lasts + Decimal(row.per_degree) * std::hypot(to[0] - from[0], to[1] - from[1]);
   };
   return FixationAt(InMs(t), gaze.interval_ms, saccade_ms, place, jump_ms);
 }
@@ -160,9 +148,11 @@ vm::Time IdleBehaviour::BlinkInterval(std::size_t pattern, std::int64_t index) c
   const double normal = Random(RandomStream::kBlinkTime, n) +
                         Random(RandomStream::kBlinkTime, n + 1) +
                         Random(RandomStream::kBlinkTime, n + 2);
-  const double interval = mean * std::clamp(kBlinkMedian * std::exp(kBlinkSpread * normal),
-                                            kShortestBlinkInterval, kLongestBlinkInterval);
-  return FromMs(index == 0 ? kFirstBlink * interval : interval);
+  const auto& row = gestures_.blink;
+  const double interval =
+      mean * std::clamp(Decimal(row.median) * std::exp(Decimal(row.spread) * normal),
+                        Decimal(row.shortest), Decimal(row.longest));
+  return FromMs(index == 0 ? Decimal(row.first) * interval : interval);
 }
 
 IdleBehaviour::Blink IdleBehaviour::LastBlink(std::size_t pattern, vm::Time since,
@@ -188,11 +178,11 @@ double IdleBehaviour::BlinkAt(vm::Time t) const {
     const AutoBlink& blinks = PatternAt(patterns_.auto_blinks, run.pattern);
     const Blink blink = LastBlink(run.pattern, run.since, t);
     if (blink.index < 0) continue;
-    const double depth =
-        blinks.varied
-            ? std::min(1.0, kBlinkDepth +
-                                kBlinkDepthVaries * Random(RandomStream::kBlinkDepth, blink.index))
-            : 1;
+    const double depth = blinks.varied
+                             ? std::min(1.0, Decimal(gestures_.blink.depth.x) +
+                                                 Decimal(gestures_.blink.depth.y) *
+                                                     Random(RandomStream::kBlinkDepth, blink.index))
+                             : 1;
     shut += run.weight * depth * LidsAt(patterns_.blinks[blinks.blink], t - blink.start);
   }
   return shut;

@@ -10,25 +10,6 @@
 namespace fsm {
 namespace {
 
-// Phrases and stress. The numbers are ours, tuned by eye; gestures.txt has the sizes of movements.
-constexpr double kPhraseLeadMs = 150;  // the head moves so long before the first sound of a phrase
-constexpr double kAwayMs = 20;         // from there, until the eyes are averted
-constexpr double kFadeInMs = 150;      // of all gestures
-constexpr double kAversionSaccadeMs = 45;  // of ten degrees, by the main sequence
-constexpr double kLooksUpAbove = 0.2;      // of -1..1: else the averted gaze goes down
-constexpr double kOpenJawDegrees = 9;      // of a fully open vowel
-constexpr double kMostLength = 2.2;        // of a vowel, relative to the mean
-constexpr double kClosedStress = 0.7,
-                 kOpenStress = 0.3;    // of a closed vowel, and what the jaw adds
-constexpr double kLeastStress = 0.85;  // of a beat; 1 = a vowel of mean length, fully open
-constexpr double kStressWithoutNod = 0.45;
-constexpr double kLeastNod = 0.3;       // 1 = the greatest nod
-constexpr double kBeatAt = 0.4;         // share of the vowel before the beat
-constexpr double kApartMs = 300;        // least distance of beats
-constexpr double kBrowsApartMs = 1500;  // least distance of beats with raised brows
-constexpr double kBrowsRest = 0.3;      // share of the strongest beats without raised brows
-constexpr double kLeastBrow = 0.6, kVariedBrow = 0.4;  // height of the brows relative to the nod
-
 /// Returns a bump from 0 to 1 and back; `row` has the time from its peak to the beat, and its rise
 /// and fall times.
 double Bump(const auto& row, double ms, double beat_ms) {
@@ -51,7 +32,7 @@ SpeechGestures::SpeechGestures(const VisemeTargets& visemes, const GestureNumber
     if (!pause) continue;
     pause = false;
     const auto index = static_cast<std::int64_t>(phrases_.size());
-    phrases_.push_back({std::max(-kTransitionMs, viseme.start_ms - kPhraseLeadMs),
+    phrases_.push_back({std::max(-kTransitionMs, viseme.start_ms - sizes.phrase.lead),
                         {.nod = Linear(sizes.phrase.nod, static_cast<float>(RandomAt(
                                                              seed_, RandomStream::kLift, index))),
                          .turn = RandomAt(seed_, RandomStream::kTurn, index),
@@ -71,27 +52,30 @@ void SpeechGestures::FindBeats(const VisemeTargets& visemes) {
   const double mean = sum / count;
   for (const VisemeTarget& viseme : visemes.targets) {
     if (!viseme.dominance.vowel) continue;
-    const double open = std::clamp(viseme.pose.mouth[kJawY] / kOpenJawDegrees, 0.0, 1.0);
-    const double stress =
-        std::min(kMostLength, viseme.length_ms / mean) * (kClosedStress + kOpenStress * open);
-    if (stress < kLeastStress) continue;
-    const double nod = std::clamp(stress - kStressWithoutNod, kLeastNod, 1.0);
-    const Beat beat{viseme.start_ms + kBeatAt * viseme.length_ms, nod, 0};
-    if (!beats_.empty() && beat.peak_ms - beats_.back().peak_ms < kApartMs) {
+    const double open = std::clamp(viseme.pose.mouth[kJawY] / double{sizes_.vowel.jaw}, 0.0, 1.0);
+    const double stress = std::min(Decimal(sizes_.vowel.longest), viseme.length_ms / mean) *
+                          (Decimal(sizes_.vowel.stress.x) + Decimal(sizes_.vowel.stress.y) * open);
+    if (stress < Decimal(sizes_.beat.stress)) continue;
+    const double nod =
+        std::clamp(stress - Decimal(sizes_.beat.minus), Decimal(sizes_.beat.least), 1.0);
+    const Beat beat{viseme.start_ms + Decimal(sizes_.beat.at) * viseme.length_ms, nod, 0};
+    if (!beats_.empty() && beat.peak_ms - beats_.back().peak_ms < sizes_.beat.apart) {
       if (beats_.back().nod < nod) beats_.back() = beat;
     } else {
       beats_.push_back(beat);
     }
   }
-  // The brows rise on the strongest beat of each second and a half.
+  // The brows rise on beats that are stronger than their neighbours.
   double last = -1e9;
   for (std::size_t i = 0; i < beats_.size(); ++i) {
     const bool strongest = (i == 0 || beats_[i - 1].nod <= beats_[i].nod) &&
                            (i + 1 == beats_.size() || beats_[i + 1].nod <= beats_[i].nod);
     const double chance =
         0.5 + 0.5 * RandomAt(seed_, RandomStream::kBrow, static_cast<std::int64_t>(i));
-    if (!strongest || chance < kBrowsRest || beats_[i].peak_ms - last < kBrowsApartMs) continue;
-    beats_[i].brow = std::clamp(beats_[i].nod * (kLeastBrow + kVariedBrow * chance), 0.0, 1.0);
+    const auto& row = sizes_.brow;
+    if (!strongest || chance < Decimal(row.rests) || beats_[i].peak_ms - last < row.apart) continue;
+    beats_[i].brow = std::clamp(
+        beats_[i].nod * (Decimal(row.height.x) + Decimal(row.height.y) * chance), 0.0, 1.0);
     last = beats_[i].peak_ms;
   }
 }
@@ -113,14 +97,14 @@ SpeechGestures::HeadGesture SpeechGestures::HeadAt(double position_ms) const {
   }
   out.nod += sizes_.sink.size *
              SmootherStep((position_ms - (length_ms_ - sizes_.sink.lasts)) / sizes_.sink.lasts);
-  const double fade = SmootherStep((position_ms + kTransitionMs) / kFadeInMs) *
+  const double fade = SmootherStep((position_ms + kTransitionMs) / sizes_.speech.begins) *
                       (1 - SmootherStep((position_ms - length_ms_) / InMs(kHeadReturns)));
   return {out.nod * fade, out.turn * fade, out.tilt * fade, out.brow * fade};
 }
 
 std::array<double, 2> SpeechGestures::AversionTimes(double shortest_ms) const {
   if (length_ms_ < shortest_ms || phrases_.empty()) return {0, 0};
-  const double from = phrases_.front().start_ms + kAwayMs;
+  const double from = phrases_.front().start_ms + sizes_.avert.after;
   const double longest = Linear(sizes_.avert.lasts,
                                 static_cast<float>(RandomAt(seed_, RandomStream::kAvertLength, 0)));
   return {from, from + std::min(longest, sizes_.avert.part * length_ms_)};
@@ -129,10 +113,10 @@ std::array<double, 2> SpeechGestures::AversionTimes(double shortest_ms) const {
 std::array<double, 2> SpeechGestures::AvertedGazeAt(double position_ms, double shortest_ms) const {
   const auto [away, back] = AversionTimes(shortest_ms);
   if (back <= away) return {};
-  const double u = SmootherStep((position_ms - away) / kAversionSaccadeMs) -
-                   SmootherStep((position_ms - back) / kAversionSaccadeMs);
+  const double u = SmootherStep((position_ms - away) / sizes_.avert.jump) -
+                   SmootherStep((position_ms - back) / sizes_.avert.jump);
   const double side = RandomAt(seed_, RandomStream::kAvertSide, 0);
-  return {u * (side > kLooksUpAbove ? -sizes_.avert.up : sizes_.avert.down),
+  return {u * (side > Decimal(sizes_.avert.up_above) ? -sizes_.avert.up : sizes_.avert.down),
           u * std::copysign(sizes_.avert.side, side)};
 }
 
