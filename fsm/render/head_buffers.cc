@@ -114,7 +114,7 @@ HeadBuffers::HeadBuffers(const GlFunctions& gl, const Head& head, const Appearan
   if (const auto landmarks = FaceLandmarks::Of(head)) {
     chin_y_ = landmarks->gnathion.y;
     if (topology().uv.size() == rest.position.size()) {
-      creases_ = WeighCreases(rest, *landmarks);
+      creases_ = WeighCreases(rest, *landmarks, appearance);
       painting_ = std::async(std::launch::async,
                              [topology = topology_, rest, landmarks = *landmarks, &appearance] {
                                return PaintSkin(*topology, rest, landmarks, appearance);

@@ -12,33 +12,6 @@
 namespace fsm {
 namespace {
 
-// Where each region of the face creases, in millimetres from its landmarks. The first line of each
-// bounds the lines that appearance.txt describes (MayCrease). The members fade_... are the ranges
-// over which the depth of a region rises from none to full (WeighCreases).
-constexpr struct {
-  float brow = 14, above_hairline = 2, side = 58;  // the brow: above the nasion
-  glm::vec2 fade_up{0, 8}, fade_side{60, 48};      // up from the brow
-} kForehead{};
-constexpr struct {
-  float below_nasion = 24, above_nasion = 32, side = 18;
-  glm::vec2 fade_up{24, 16}, fade_side{19, 12};  // up from the nasion
-} kGlabella{};
-constexpr struct {
-  glm::vec2 fade_up{0, 5}, fade_down{-26, -18};  // from the nasion
-} kNose{};
-constexpr struct {
-  float inside_corner = 4, up_and_down = 16;  // of the eye's outer corner
-  glm::vec2 fade_side{-2, 2};
-  float fade_height = 14;
-} kCrowsFeet{};
-constexpr struct {
-  float above_wing = 12, inside_wing = 6, beside_mouth = 22;  // the wing of the nose: alare
-  glm::vec2 fade_up{10, 3}, fade_side{-4, 1};                 // from the wing
-  float to_chin = 0.4F;  // part of the way from the mouth's corner to the chin, where it is full
-} kFold{};
-constexpr glm::vec2 kFrontZ{0, 20};  // no face behind it
-constexpr glm::vec2 kLeftX{-5, 5};   // from the right side's depth to the left side's
-
 float SmoothStepFrom(float origin, glm::vec2 range, float x) {
   return SmoothStep(origin + range.x, origin + range.y, x);
 }
@@ -142,47 +115,51 @@ bool CreaseRelief::MayCrease(const glm::vec3& p) const {
   const float side = std::abs(p.x);
   const glm::vec3 &nasion = landmarks_.nasion, &alare = landmarks_.alare.left,
                   &eye = landmarks_.exocanthion.left;
-  const bool fold = p.y < alare.y + kFold.above_wing && p.y > landmarks_.gnathion.y &&
-                    side > alare.x - kFold.inside_wing &&
-                    side < landmarks_.cheilion.left.x + kFold.beside_mouth;
-  const bool feet =
-      side > eye.x - kCrowsFeet.inside_corner && std::abs(p.y - eye.y) < kCrowsFeet.up_and_down;
-  const bool glabella = side < kGlabella.side && p.y > nasion.y - kGlabella.below_nasion &&
-                        p.y < nasion.y + kGlabella.above_nasion;
-  const bool forehead = p.y > nasion.y + kForehead.brow &&
-                        p.y < landmarks_.trichion.y + kForehead.above_hairline &&
-                        side < kForehead.side;
+  const bool fold = p.y < alare.y + skin_.fold_region.above_wing && p.y > landmarks_.gnathion.y &&
+                    side > alare.x - skin_.fold_region.inside_wing &&
+                    side < landmarks_.cheilion.left.x + skin_.fold_region.beside_mouth;
+  const bool feet = side > eye.x - skin_.crows_feet_region.inside_corner &&
+                    std::abs(p.y - eye.y) < skin_.crows_feet_region.up_and_down;
+  const bool glabella = side < skin_.glabella_region.side &&
+                        p.y > nasion.y - skin_.glabella_region.below_nasion &&
+                        p.y < nasion.y + skin_.glabella_region.above_nasion;
+  const bool forehead = p.y > nasion.y + skin_.forehead_region.begins &&
+                        p.y < landmarks_.trichion.y + skin_.forehead_region.above_hairline &&
+                        side < skin_.forehead_region.side;
   return p.z > 0 && (fold || feet || glabella || forehead);
 }
 
-CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& landmarks) {
+CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& landmarks,
+                           const Appearance& appearance) {
+  const auto& skin = appearance.skin;
   const glm::vec3 &nasion = landmarks.nasion, &alare = landmarks.alare.left,
                   &eye = landmarks.exocanthion.left;
   const float chin_y = landmarks.gnathion.y;
-  const float full_fold_y =
-      (1 - kFold.to_chin) * landmarks.cheilion.left.y + kFold.to_chin * chin_y;
-  const float brow_y = nasion.y + kForehead.brow;
+  const float full_fold_y = (1 - skin.fold_region.to_chin) * landmarks.cheilion.left.y +
+                            skin.fold_region.to_chin * chin_y;
+  const float brow_y = nasion.y + skin.forehead_region.begins;
   CreaseWeights out;
   for (const glm::vec3& p : rest.position) {
     const float side = std::abs(p.x);
-    const float front = SmoothStep(kFrontZ, p.z);
-    const float between = SmoothStep(kGlabella.fade_side, side);
-    const float under_forehead = SmoothStepFrom(nasion.y, kGlabella.fade_up, p.y);
-    const float over_nose = SmoothStepFrom(nasion.y, kNose.fade_up, p.y);
-    const glm::vec4 face = front * glm::vec4(SmoothStepFrom(brow_y, kForehead.fade_up, p.y) *
-                                                 SmoothStep(kForehead.fade_side, side) *
-                                                 (1 - between * under_forehead),
-                                             between * over_nose * under_forehead,
-                                             SmoothStepFrom(eye.x, kCrowsFeet.fade_side, side) *
-                                                 Bell(p.y - eye.y, kCrowsFeet.fade_height),
-                                             SmoothStepFrom(alare.y, kFold.fade_up, p.y) *
-                                                 SmoothStep(chin_y, full_fold_y, p.y) *
-                                                 SmoothStepFrom(alare.x, kFold.fade_side, side));
-    const float nose =
-        front * between * (1 - over_nose) * SmoothStepFrom(nasion.y, kNose.fade_down, p.y);
+    const float front = SmoothStep(skin.creased.front, p.z);
+    const float between = SmoothStep(skin.glabella_region.fade_side, side);
+    const float under_forehead = SmoothStepFrom(nasion.y, skin.glabella_region.fade_up, p.y);
+    const float over_nose = SmoothStepFrom(nasion.y, skin.nose_region.fade_up, p.y);
+    const glm::vec4 face =
+        front * glm::vec4(SmoothStepFrom(brow_y, skin.forehead_region.fade_up, p.y) *
+                              SmoothStep(skin.forehead_region.fade_side, side) *
+                              (1 - between * under_forehead),
+                          between * over_nose * under_forehead,
+                          SmoothStepFrom(eye.x, skin.crows_feet_region.fade_side, side) *
+                              Bell(p.y - eye.y, skin.crows_feet_region.fade_height),
+                          SmoothStepFrom(alare.y, skin.fold_region.fade_up, p.y) *
+                              SmoothStep(chin_y, full_fold_y, p.y) *
+                              SmoothStepFrom(alare.x, skin.fold_region.fade_side, side));
+    const float nose = front * between * (1 - over_nose) *
+                       SmoothStepFrom(nasion.y, skin.nose_region.fade_down, p.y);
     const bool creases = nose > 0 || face != glm::vec4(0);
     out.face.push_back(face);
-    out.nose_and_left.emplace_back(nose, creases ? SmoothStep(kLeftX, p.x) : 0.0F);
+    out.nose_and_left.emplace_back(nose, creases ? SmoothStep(skin.creased.left, p.x) : 0.0F);
   }
   return out;
 }

@@ -39,6 +39,7 @@ struct CreaseWeights {
   std::vector<glm::vec4> face;           ///< forehead, glabella, crow's feet, nasolabial
   std::vector<glm::vec2> nose_and_left;  ///< nose; the left side's part in the depth
 };
-CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& landmarks);
+CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& landmarks,
+                           const Appearance& appearance);
 
 }  // namespace fsm
