@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <glm/common.hpp>
@@ -58,10 +57,6 @@ class NumberTable {
   std::vector<glm::vec2> limits_;                           // by row: lowest and highest number
   std::map<std::string, std::size_t, std::less<>> places_;  // row index by name
 };
-
-/// Returns the number that a table has with up to four decimals, of which `number` is the nearest
-/// float. For arithmetic in double precision.
-inline double Decimal(float number) { return std::round(number * 1e4) / 1e4; }
 
 /// Returns a row of two to four numbers as a list.
 template <glm::length_t N>

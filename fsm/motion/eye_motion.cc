@@ -52,7 +52,7 @@ void EyeMotion::BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngle
   if (!switches_[IdleKind::kGazeBlink].on() || patterns_.blinks.empty()) return;
   const double angle = std::hypot(to[kDown] - from[kDown], to[kToRight] - from[kToRight]);
   const double chance =
-      std::clamp(angle / gestures_.shift_blink.sure, 0.0, Decimal(gestures_.shift_blink.most));
+      std::clamp(angle / gestures_.shift_blink.sure, 0.0, double{gestures_.shift_blink.most});
   if ((RandomAt(seed_, RandomStream::kShiftBlink, ++shifts_) + 1) / 2 < chance) Blink(now, 1);
 }
 
@@ -83,15 +83,14 @@ EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
   const auto& row = gestures_.think;
   const auto saccade_ms = [&](std::int64_t k) {
     return k == 0 ? 0
-                  : row.interval *
-                        (static_cast<double>(k) +
-                         Decimal(row.varies) * RandomAt(seed_, RandomStream::kThinkTime, k));
+                  : row.interval * (static_cast<double>(k) +
+                                    row.varies * RandomAt(seed_, RandomStream::kThinkTime, k));
   };
   const double habit = RandomAt(seed_, RandomStream::kThinkSide, 0);
   const auto place = [&](std::int64_t index) -> std::array<double, 2> {
     if (index < 0) return {0, 0};
-    const double side = std::copysign(
-        1, habit + Decimal(row.strays) * RandomAt(seed_, RandomStream::kThinkSide, index + 1));
+    const double side =
+        std::copysign(1, habit + row.strays * RandomAt(seed_, RandomStream::kThinkSide, index + 1));
     const auto varied = [&](glm::vec2 angle, std::int64_t at) {
       return Linear(angle, static_cast<float>(RandomAt(seed_, RandomStream::kThinkHeight, at)));
     };

@@ -61,7 +61,7 @@ void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
                            static_cast<float>(move.tilt)};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double slow =
-          InMs(t) / move.period_ms + Decimal(gestures_.wander.apart) * static_cast<double>(axis);
+          InMs(t) / move.period_ms + gestures_.wander.apart * static_cast<double>(axis);
       const double fast = slow * gestures_.wander.faster;
       const double way = gestures_.wander.slow * Wander(2 * axis, slow) +
                          gestures_.wander.fast * Wander(2 * axis + 1, fast);
@@ -130,14 +130,14 @@ EyeAngles IdleBehaviour::SaccadesAt(const AutoGaze& gaze, vm::Time t) const {
   const auto& row = gestures_.saccade;
   const auto saccade_ms = [&](std::int64_t k) {
     return gaze.interval_ms * (static_cast<double>(k) + row.begins.x +
-                               Decimal(row.begins.y) * Random(RandomStream::kGazeTime, k));
+                               row.begins.y * Random(RandomStream::kGazeTime, k));
   };
   const auto place = [&](std::int64_t k) -> std::array<double, 2> {
-    return {Decimal(row.height) * gaze.angle * Random(RandomStream::kGazeY, k),
+    return {row.height * gaze.angle * Random(RandomStream::kGazeY, k),
             gaze.angle * Random(RandomStream::kGazeX, k)};
   };
   const auto jump_ms = [&](const auto& from, const auto& to) {
-    return row.lasts + Decimal(row.per_degree) * std::hypot(to[0] - from[0], to[1] - from[1]);
+    return row.lasts + row.per_degree * std::hypot(to[0] - from[0], to[1] - from[1]);
   };
   return FixationAt(InMs(t), gaze.interval_ms, saccade_ms, place, jump_ms);
 }
@@ -149,10 +149,9 @@ vm::Time IdleBehaviour::BlinkInterval(std::size_t pattern, std::int64_t index) c
                         Random(RandomStream::kBlinkTime, n + 1) +
                         Random(RandomStream::kBlinkTime, n + 2);
   const auto& row = gestures_.blink;
-  const double interval =
-      mean * std::clamp(Decimal(row.median) * std::exp(Decimal(row.spread) * normal),
-                        Decimal(row.shortest), Decimal(row.longest));
-  return FromMs(index == 0 ? Decimal(row.first) * interval : interval);
+  const double interval = mean * std::clamp(row.median * std::exp(row.spread * normal),
+                                            double{row.shortest}, double{row.longest});
+  return FromMs(index == 0 ? row.first * interval : interval);
 }
 
 IdleBehaviour::Blink IdleBehaviour::LastBlink(std::size_t pattern, vm::Time since,
@@ -179,8 +178,8 @@ double IdleBehaviour::BlinkAt(vm::Time t) const {
     const Blink blink = LastBlink(run.pattern, run.since, t);
     if (blink.index < 0) continue;
     const double depth = blinks.varied
-                             ? std::min(1.0, Decimal(gestures_.blink.depth.x) +
-                                                 Decimal(gestures_.blink.depth.y) *
+                             ? std::min(1.0, gestures_.blink.depth.x +
+                                                 gestures_.blink.depth.y *
                                                      Random(RandomStream::kBlinkDepth, blink.index))
                              : 1;
     shut += run.weight * depth * LidsAt(patterns_.blinks[blinks.blink], t - blink.start);

@@ -373,15 +373,17 @@ struct BlinkTest : testing::Test {
   std::vector<vm::Time> Starts(std::int64_t count) const {
     constexpr std::uint64_t kStream = 0;
     const double mean = inputs.tables.motions.auto_blinks[0].interval_ms;
+    const auto& row = inputs.tables.gestures.blink;
     std::vector<vm::Time> starts;
     for (std::int64_t k = 0; k < count; ++k) {
       double normal = 0;
       for (const std::int64_t n : {3 * k, 3 * k + 1, 3 * k + 2}) {
         normal += RandomAt(kSeed, kStream, n);
       }
-      const double ms = mean * std::clamp(0.93 * std::exp(0.4 * normal), 0.5, 1.5);
+      const double ms = mean * std::clamp(row.median * std::exp(row.spread * normal),
+                                          double{row.shortest}, double{row.longest});
       const vm::Time before = starts.empty() ? kSwitched : starts.back();
-      starts.push_back(before + FromMs(starts.empty() ? 0.6 * ms : ms));
+      starts.push_back(before + FromMs(starts.empty() ? row.first * ms : ms));
     }
     return starts;
   }

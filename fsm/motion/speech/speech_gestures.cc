@@ -53,12 +53,11 @@ void SpeechGestures::FindBeats(const VisemeTargets& visemes) {
   for (const VisemeTarget& viseme : visemes.targets) {
     if (!viseme.dominance.vowel) continue;
     const double open = std::clamp(viseme.pose.mouth[kJawY] / double{sizes_.vowel.jaw}, 0.0, 1.0);
-    const double stress = std::min(Decimal(sizes_.vowel.longest), viseme.length_ms / mean) *
-                          (Decimal(sizes_.vowel.stress.x) + Decimal(sizes_.vowel.stress.y) * open);
-    if (stress < Decimal(sizes_.beat.stress)) continue;
-    const double nod =
-        std::clamp(stress - Decimal(sizes_.beat.minus), Decimal(sizes_.beat.least), 1.0);
-    const Beat beat{viseme.start_ms + Decimal(sizes_.beat.at) * viseme.length_ms, nod, 0};
+    const double stress = std::min(double{sizes_.vowel.longest}, viseme.length_ms / mean) *
+                          (sizes_.vowel.stress.x + sizes_.vowel.stress.y * open);
+    if (stress < sizes_.beat.stress) continue;
+    const double nod = std::clamp(stress - sizes_.beat.minus, double{sizes_.beat.least}, 1.0);
+    const Beat beat{viseme.start_ms + sizes_.beat.at * viseme.length_ms, nod, 0};
     if (!beats_.empty() && beat.peak_ms - beats_.back().peak_ms < sizes_.beat.apart) {
       if (beats_.back().nod < nod) beats_.back() = beat;
     } else {
@@ -73,9 +72,8 @@ void SpeechGestures::FindBeats(const VisemeTargets& visemes) {
     const double chance =
         0.5 + 0.5 * RandomAt(seed_, RandomStream::kBrow, static_cast<std::int64_t>(i));
     const auto& row = sizes_.brow;
-    if (!strongest || chance < Decimal(row.rests) || beats_[i].peak_ms - last < row.apart) continue;
-    beats_[i].brow = std::clamp(
-        beats_[i].nod * (Decimal(row.height.x) + Decimal(row.height.y) * chance), 0.0, 1.0);
+    if (!strongest || chance < row.rests || beats_[i].peak_ms - last < row.apart) continue;
+    beats_[i].brow = std::clamp(beats_[i].nod * (row.height.x + row.height.y * chance), 0.0, 1.0);
     last = beats_[i].peak_ms;
   }
 }
@@ -116,7 +114,7 @@ std::array<double, 2> SpeechGestures::AvertedGazeAt(double position_ms, double s
   const double u = SmootherStep((position_ms - away) / sizes_.avert.jump) -
                    SmootherStep((position_ms - back) / sizes_.avert.jump);
   const double side = RandomAt(seed_, RandomStream::kAvertSide, 0);
-  return {u * (side > Decimal(sizes_.avert.up_above) ? -sizes_.avert.up : sizes_.avert.down),
+  return {u * (side > sizes_.avert.up_above ? -sizes_.avert.up : sizes_.avert.down),
           u * std::copysign(sizes_.avert.side, side)};
 }
 
