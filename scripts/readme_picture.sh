@@ -24,7 +24,7 @@ END
   ffmpeg -loglevel error -y -ss "$(awk "BEGIN {print (600 + $4) / 1000}")" -i "$work/$1.mp4" -frames:v 1 -vf crop=340:440:150:10,scale=300:-1:flags=lanczos "$still" </dev/null
   stills+=(-i "$still")
 }
-film galatea -18 "HAPPY 70" 560 "Hello, my name is Galatea."
+film galatea -14 "HAPPY 40" 640 "Hello, my name is Galatea."
 film pygmalion 0 "SURPRISED 45" 700 "Oh, how do you do?"
-film baucis 18 "HAPPY 60" 700 "Good morning. Nice to meet you."
+film baucis 14 "HAPPY 35" 620 "Good morning. Nice to meet you."
 ffmpeg -loglevel error -y "${stills[@]}" -filter_complex hstack=inputs=3 "$picture" </dev/null
