@@ -15,32 +15,6 @@ namespace {
 
 constexpr float kEnd = 1.0f;
 
-// What shapes the hair beside features.txt. Ranges are of `i`, of `cap` (0..1 from the parting to
-// the end of the skull), of `hang` (0..1 from there to the ends) or of millimetres on the head.
-constexpr struct {
-  glm::vec2 volume_over_edge{0, 0.17f};                     // i: it grows to the full volume,
-  glm::vec2 volume_on_cap{0.8f, 0.2f}, cap_over{0, 0.3f};   // line over cap: less at the parting
-  glm::vec2 temples_over{0.3f, 1};                          // cap
-  glm::vec2 front_over{0.35f, 0};                           // i: what hangs beside the face
-  glm::vec2 inward_over{0, 0.6f};                           // i
-  float fullest_at = 1.2f, cheek_at = 1.5f;                 // waves per `hang` in halves of a turn
-  float forward_ends = 0.4f;                                // less forward at the ends
-  float no_kink_step = 0.04f;                               // of cap: slope at the skull's end
-  float finer_ends = 0.6f;                                  // shorter waves of the ends
-  glm::vec2 pointed_over{0.75f, kEnd};                      // t
-  glm::vec2 neck_shade_z{25, -20}, neck_shade_y{-40, -70};  // mm: shade on the neck,
-  glm::vec2 neck_shade_end{-30, 10};                        // mm above the hair's end
-  float shell_crowd = 0.45f, lining_crowd = 0.4f;           // 1: strands are evenly spaced
-  float lining_edge = 0.005f;                               // i: just behind the shell's edge
-  glm::vec2 lining_behind{0.06f, 0.3f};                     // i: from the face to the nape
-  float lining_whole = 0.2f;                                // 0.5: whole at its outline
-  float lining_top = 0.6f;                                  // of kCap: where it begins behind
-  glm::vec2 flyaway_round{0.55f, 0.33f};                    // line: i, not over the face
-  glm::vec2 flyaway_off_over{-0.15f, 0.5f};                 // t
-  float lock_crowd = 1.25f;                                 // power
-  glm::vec2 lock_arch{0.12f, 0.8f}, flyaway_arch{0.1f, 0.75f};  // line: halves of a sine
-} kLong{};
-
 // Strands start along the parting, sweep over the skull and hang down. Those at the face's edge
 // frame the forehead in a round arch, slightly off the skin.
 class LongHair {
@@ -114,8 +88,8 @@ class LongHair {
   float EndY(float i, float side) const {
     return glm::mix(style_.front_y, style_.back_y,
                     std::sqrt(SmoothStep(features_.long_ends.over, i))) +
-           features_.long_ends.uneven *
-               (std::sin(17 * i + side) + kLong.finer_ends * std::sin(43 * i + 2 * side));
+           features_.long_ends.uneven * (std::sin(17 * i + side) + features_.long_shape.finer_ends *
+                                                                       std::sin(43 * i + 2 * side));
   }
 
   glm::vec3 Point(float i, float side, float t, float out_mm) const {
@@ -124,17 +98,19 @@ class LongHair {
     const glm::vec3 scaled = d / volume_;
     const float volume = 1 / std::sqrt(glm::dot(scaled, scaled));
     const float skin = scalp_.Distance(d);
-    const float part = SmoothStep(kLong.volume_over_edge, i) *
-                       Linear(kLong.volume_on_cap, SmoothStep(kLong.cap_over, cap));
+    const float part =
+        SmoothStep(features_.long_shape.volume_over_edge, i) *
+        Linear(features_.long_shape.volume_on_cap, SmoothStep(features_.long_shape.cap_over, cap));
     const float off = features_.long_fringe_off.ends;
     const float fringe =
         off + features_.long_fringe_off.middle * std::sin(kPi * SmoothStep(0, 1, cap));
     const float least = skin + glm::mix(fringe, features_.long_least_off.mm,
                                         SmoothStep(features_.long_least_off.over, i));
-    float radius = std::max(
-        least, glm::mix(skin + off +
-                            features_.long_fringe_off.temples * SmoothStep(kLong.temples_over, cap),
-                        volume, part));
+    float radius =
+        std::max(least, glm::mix(skin + off +
+                                     features_.long_fringe_off.temples *
+                                         SmoothStep(features_.long_shape.temples_over, cap),
+                                 volume, part));
     // The parting is a furrow in the hair.
     radius = glm::mix(skin + features_.long_furrow.part * (radius - skin), radius,
                       SmoothStep(features_.long_furrow.over, cap));
@@ -143,21 +119,22 @@ class LongHair {
     if (t > kCap) {
       const float hang = (t - kCap) / (kEnd - kCap);
       const glm::vec3 out = glm::normalize(glm::vec3(d.x, 0, d.z));
-      const float front = SmoothStep(kLong.front_over, i);
+      const float front = SmoothStep(features_.long_shape.front_over, i);
       p.y = glm::mix(p.y, EndY(i, side), hang);
       // It continues around the skull for a little, so that it has no kink where that ends.
-      const glm::vec3 on = (d - Direction(i, side, 1 - kLong.no_kink_step)) * radius * (1 - kCap) /
-                           (kCap * kLong.no_kink_step);
+      const glm::vec3 on = (d - Direction(i, side, 1 - features_.long_shape.no_kink_step)) *
+                           radius * (1 - kCap) / (kCap * features_.long_shape.no_kink_step);
       p += glm::vec3(on.x, 0, on.z) * hang * std::exp(-hang / features_.long_goes_on);
       const float full = Lerp(features_.long_full, front) *
-                         std::sin(std::min(1.0f, kLong.fullest_at * hang) * kPi);
-      p += out * (full - Lerp(features_.long_inward, SmoothStep(kLong.inward_over, i)) * hang *
-                             hang * hang) +
+                         std::sin(std::min(1.0f, features_.long_shape.fullest_at * hang) * kPi);
+      p += out * (full -
+                  Lerp(features_.long_inward, SmoothStep(features_.long_shape.inward_over, i)) *
+                      hang * hang * hang) +
            Wave(i, side, hang, out);
-      p.z += front * features_.long_forward * hang * (1 - kLong.forward_ends * hang);
+      p.z += front * features_.long_forward * hang * (1 - features_.long_shape.forward_ends * hang);
       // Beside the face it follows the cheek.
       p.x -= side * front * features_.long_cheek *
-             std::sin(std::min(1.0f, kLong.cheek_at * hang) * kPi * 0.5f);
+             std::sin(std::min(1.0f, features_.long_shape.cheek_at * hang) * kPi * 0.5f);
     }
     return p;
   }
@@ -198,7 +175,7 @@ class LongHair {
   float Pointed(int column, float t) const {
     const float part = 0.5f + 0.5f * NoiseAt(column, 17);
     return features_.long_points * (column % 2 == 0 ? 0.4f * part : 0.6f + 0.4f * part) *
-           SmoothStep(kLong.pointed_over, t);
+           SmoothStep(features_.long_shape.pointed_over, t);
   }
 
   void Shade() {
@@ -211,9 +188,9 @@ class LongHair {
     for (std::size_t i = 0; i < mesh_.position.size(); ++i) {
       const glm::vec3 p = mesh_.position[i];
       if (mesh_.bone[i] != Bone::kSkin) continue;
-      const float behind = SmoothStep(kLong.neck_shade_z, p.z) *
-                           SmoothStep(kLong.neck_shade_y, p.y) *
-                           SmoothStep(style_.back_y + kLong.neck_shade_end, p.y);
+      const float behind = SmoothStep(features_.long_shape.neck_shade_z, p.z) *
+                           SmoothStep(features_.long_shape.neck_shade_y, p.y) *
+                           SmoothStep(style_.back_y + features_.long_shape.neck_shade_end, p.y);
       mesh_.openness[i] *= 1 - features_.long_neck_shade * behind;
     }
   }
@@ -226,7 +203,7 @@ class LongHair {
     for (int k = 0; k <= kStrands; ++k) {
       // Strands are denser at the face, where the edge is visible.
       const float u = static_cast<float>(k) / kStrands;
-      const float i = glm::mix(u * u, u, kLong.shell_crowd);
+      const float i = glm::mix(u * u, u, features_.long_shape.shell_crowd);
       for (int row = 0; row <= kRows; ++row) {
         // The first two rows are the parting, where the scalp is visible.
         const float t =
@@ -265,11 +242,12 @@ class LongHair {
     for (int k = 0; k <= kStrands; ++k) {
       // Beside the face it reaches up to the forehead, where one looks under the hair.
       const float u = static_cast<float>(k) / kStrands;
-      const float i = glm::mix(kLong.lining_edge, 1.0f, glm::mix(u * u, u, kLong.lining_crowd));
-      const float behind = SmoothStep(kLong.lining_behind, i);
+      const float i = glm::mix(features_.long_shape.lining_edge, 1.0f,
+                               glm::mix(u * u, u, features_.long_shape.lining_crowd));
+      const float behind = SmoothStep(features_.long_shape.lining_behind, i);
       for (int row = 0; row <= kRows; ++row) {
-        const float t =
-            glm::mix(kCap * kLong.lining_top * behind, kEnd, static_cast<float>(row) / kRows);
+        const float t = glm::mix(kCap * features_.long_shape.lining_top * behind, kEnd,
+                                 static_cast<float>(row) / kRows);
         const float inset =
             glm::mix(features_.long_lining.face, insets[static_cast<std::size_t>(row)], behind);
         const glm::vec3 p = Point(i, side, t, inset) + glm::vec3(0, Pointed(k, t), 0);
@@ -278,7 +256,7 @@ class LongHair {
         mesh_.strands.back() = {.along = Along(i, side, t),
                                 .density = SmoothStep(features_.long_thin.ends, t) *
                                            SmoothStep(features_.long_thin.edge_over, i),
-                                .across = kLong.lining_whole,
+                                .across = features_.long_shape.lining_whole,
                                 .tile_mm = features_.long_tile * glm::vec2(i, t)};
       }
     }
@@ -298,10 +276,10 @@ class LongHair {
       constexpr int kSteps = 10;
       for (int s = 0; s <= kSteps; ++s) {
         // Steps are shorter over the skull, which is round.
-        const float v = std::pow(static_cast<float>(s) / kSteps, kLong.lock_crowd);
+        const float v = std::pow(static_cast<float>(s) / kSteps, features_.long_shape.lock_crowd);
         const float drift = features_.long_locks.drift * std::sin(4 * v + static_cast<float>(k));
         path.push_back(Point(std::clamp(i + drift, 0.0f, 1.0f), side, glm::mix(from, to, v),
-                             lift * std::sin(kPi * Linear(kLong.lock_arch, v))));
+                             lift * std::sin(kPi * Linear(features_.long_shape.lock_arch, v))));
       }
       look_.AddLock(path,
                     {.width_mm = Linear(features_.long_locks.width, NoiseAt(seed, 6)),
@@ -316,20 +294,20 @@ class LongHair {
   void Flyaways(float side) {
     for (int k = 0; k < static_cast<int>(features_.long_flyaways.count); ++k) {
       const int seed = k + (side > 0 ? 1700 : 1500);
-      const float i = Linear(kLong.flyaway_round, NoiseAt(seed, 1));
+      const float i = Linear(features_.long_shape.flyaway_round, NoiseAt(seed, 1));
       const float from = features_.long_flyaways.from * (0.5f + 0.5f * NoiseAt(seed, 2));
       const float length = features_.long_flyaways.length * (1 + 0.5f * NoiseAt(seed, 3));
       const float drift = features_.long_flyaways.drift * NoiseAt(seed, 4);
       // Most lie close to the others, above all on the skull; few stand far off.
       const float far = 0.5f + 0.5f * NoiseAt(seed, 5);
       const float off = features_.long_flyaways.off * (0.3f + 1.4f * far * far) *
-                        SmoothStep(kLong.flyaway_off_over, from);
+                        SmoothStep(features_.long_shape.flyaway_off_over, from);
       std::vector<glm::vec3> path;
       constexpr int kSteps = 6;
       for (int s = 0; s <= kSteps; ++s) {
         const float v = static_cast<float>(s) / kSteps;
         path.push_back(Point(std::clamp(i + drift * v * v, 0.0f, 1.0f), side, from + length * v,
-                             off * std::sin(kPi * Linear(kLong.flyaway_arch, v))));
+                             off * std::sin(kPi * Linear(features_.long_shape.flyaway_arch, v))));
       }
       look_.AddLock(path,
                     {.width_mm = features_.long_flyaways.width,

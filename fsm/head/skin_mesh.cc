@@ -30,14 +30,6 @@ constexpr struct {
   float bag_end = 0.95f, bag_end_jaw = 0.4f;      // and its end, from this depth on
 } kHold{};
 
-// What the paint of the skin has beside features.txt: ranges of CageTag::deep, red and margin.
-constexpr struct {
-  glm::vec2 dark_inside{0.15f, 0.8f};
-  glm::vec2 red_edge{1.1f, 0.6f}, wet{0.35f, 0}, lower_edge{0.3f, 0};
-  float lid_rim_mm = 0.2f;
-  float hidden_beyond = 16;  // degrees above the hairline: hair of any style hides the scalp
-} kPaint{};
-
 float Sign(float v) { return v > 0 ? 1.0f : v < 0 ? -1.0f : 0.0f; }
 
 /// Returns twice the cage's column; signed, 0 at the median.
@@ -91,8 +83,8 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
   const Palette& palette = identity.palette;
   PaintedSkin paint = painter.At(p);
   if (tag.deep > 0) {
-    paint.albedo =
-        glm::mix(palette.lip_inside, palette.mouth, SmoothStep(kPaint.dark_inside, tag.deep));
+    paint.albedo = glm::mix(palette.lip_inside, palette.mouth,
+                            SmoothStep(features.skin_paint.dark_inside, tag.deep));
     const float out = 1 - tag.deep;
     const glm::vec2 light = features.mouth_light;
     paint.openness = light.x + light.y * out * out;
@@ -101,11 +93,11 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
   if (tag.red >= 0 && kind == SkinKind::kLip) {
     const float aside = std::abs(p.x);
     const float reddened =
-        features.lip_red.middle * SmoothStep(kPaint.red_edge, tag.red) *
+        features.lip_red.middle * SmoothStep(features.skin_paint.red_edge, tag.red) *
         (1 - features.lip_red.less_aside * SmoothStep(features.lip_red.aside, aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip, reddened);
     // The edge of the red is soft; the middle of the lips is wet.
-    const float wet = SmoothStep(kPaint.wet, tag.red) *
+    const float wet = SmoothStep(features.skin_paint.wet, tag.red) *
                       (1 - features.lip_wet.less_aside * SmoothStep(features.lip_wet.aside, aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip_inside, features.lip_wet.middle * wet);
     paint.openness *= 1 - features.lip_wet.shade * wet;
@@ -113,23 +105,19 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
     paint.openness *= 1 - features.lip_corner.shade * SmoothStep(features.lip_corner.aside, aside);
     // The lower lip rolls into the mouth, so its edge is in its own shade.
     if (tag.lip_side < 0)
-      paint.openness *= 1 - features.lip_wet.lower_edge * SmoothStep(kPaint.lower_edge, tag.red);
+      paint.openness *=
+          1 - features.lip_wet.lower_edge * SmoothStep(features.skin_paint.lower_edge, tag.red);
   }
   if (tag.hole > 0) {
     paint.albedo =
         glm::mix(paint.albedo, features.nostril_colour, features.nostril_dark.colour * tag.hole);
     paint.openness *= 1 - features.nostril_dark.shade * tag.hole;
   }
-  if (tag.margin >= 0 && tag.margin < kPaint.lid_rim_mm) {
+  if (tag.margin >= 0 && tag.margin < features.skin_paint.lid_rim_mm) {
     paint.albedo = glm::mix(paint.albedo, palette.lid_rim, features.lid_rim.colour);
     paint.openness *= features.lid_rim.light;
   }
   return paint;
-}
-
-/// Tells whether hair of any style hides the scalp at `p`.
-bool HairCovers(const HairLook& hair, glm::vec3 p) {
-  return hair.AboveHairline(p) > kPaint.hidden_beyond;
 }
 
 }  // namespace
@@ -159,7 +147,10 @@ MouthSlit BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnat
     }
   }
   for (const FineSkin::Triangle& t : skin.triangles) {
-    const auto covered = [&](std::uint32_t v) { return HairCovers(hair, skin.position[v]); };
+    const auto covered = [&](std::uint32_t v) {
+      return hair.AboveHairline(skin.position[v]) >
+             identity.UsedFeatures().skin_paint.hidden_beyond;
+    };
     if (std::ranges::all_of(t.corner, covered)) continue;
     const Material material = t.kind == SkinKind::kLip      ? Material::kLip
                               : t.kind == SkinKind::kInside ? Material::kMouthInside
