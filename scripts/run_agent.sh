@@ -232,9 +232,9 @@ if [ -z "$installed" ]; then
   setup_log=$(mktemp)
   "$root/scripts/setup.sh" </dev/null >"$setup_log" 2>&1 &
   setup=$!
-  trap 'wait "$setup" || true' EXIT  # a package is not left half installed
+  trap 'wait "$setup" || true; rm -f "$setup_log"' EXIT  # a package is not left half installed
   build
-  wait "$setup" || { cat "$setup_log" >&2; rm -f "$setup_log"; fail "what running needs could not be installed"; }
+  wait "$setup" || { cat "$setup_log" >&2; fail "what running needs could not be installed"; }
   rm -f "$setup_log"
   trap - EXIT
 fi

@@ -7,6 +7,7 @@ shift
 report=$build/Testing/report.xml
 rm -f "$report"
 status=0
+# One more at a time than there are processors, since many tests wait for clocks.
 ctest --test-dir "$build" --output-on-failure --parallel "$(($(nproc) + 1))" --output-junit "$report" \
   --test-output-size-passed 100000 "$@" || status=$?
 [ ! -f "$report" ] || python3 - "$report" <<'PY'

@@ -121,7 +121,8 @@ void BuildCloth(const Identity& identity, HeadMesh& mesh) {
       }
       if (k == 0 || k == kHalf) p.x = 0;
       if (!left) p.x = -p.x;
-      weights.skin.neck = SmoothStep(2.2f, 1, row) * NeckWeightBeside(p, first, mesh);
+      const float of_collar = SmoothStep(2.2f, 1, row);
+      weights.skin.neck = of_collar > 0 ? of_collar * NeckWeightBeside(p, first, mesh) : 0;
       mesh.Add(p, light * identity.palette.cloth, glm::clamp(open, 0.2f, 1.0f), Bone::kSkin,
                weights);
     }
