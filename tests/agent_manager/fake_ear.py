@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """An ear that says which tone it hears: a stand-in for srm where only the sound's way matters.
 
-Slots: Input (unix@RATE:PATH, or NONE), Listen, Deaf (YES: it answers no question for Input), Slow (YES: it takes 1.5 s to open one). Once it has half a second of sound that is not
-silence, it reports  Result = FREQUENCY  in Hz, from the crossings of zero.
+Slots: Input (unix@RATE:PATH, or NONE), Listen, Deaf (YES: it answers no question for Input), Slow (YES: it takes 1.5 s to
+open one). It tells of each new Input, as  tell input to VALUE. Once it has half a second of sound that is not silence, it
+reports  Result = FREQUENCY  in Hz, from the crossings of zero.
 """
 import array
 import os
@@ -31,6 +32,7 @@ def open_input(value):
         listener = socket.socket(socket.AF_UNIX)
         listener.bind(named[2])
         listener.listen(1)
+    say(f"tell input to {value}")
 
 
 def hear(connection):

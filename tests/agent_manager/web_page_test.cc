@@ -265,6 +265,17 @@ TEST_F(WebPageTest, OnANarrowPageThePickersFoldAndLogAndButtonsStayInView) {
   EXPECT_EQ(page->ReadLine(), "true true");
 }
 
+TEST_F(WebPageTest, AFaceThatHasDrawnNothingYetIsSaidToDrawNothing) {
+  hub_->WriteLine("to @FSM set#off Frames = OFF");
+  ASSERT_TRUE(hub_->Expect("rep#off Frames = OFF")) << hub_->ErrorText();
+  const auto page =
+      Browse({"wait:document.querySelector('#face-off').textContent.includes('draws nothing')",
+              Tell("none"), "wait:!document.querySelector('#stage.off')"});
+  ASSERT_TRUE(hub_->Expect("tell none")) << page->ErrorText();
+  hub_->WriteLine("to @FSM set Frames = ON");
+  EXPECT_EQ(page->Wait(support::Millis(120000)), 0) << page->ErrorText() << hub_->ErrorText();
+}
+
 TEST_F(WebPageTest, WhatHasGoneSaysSoAndWhatComesBackIsAsItWasChosen) {
   const auto page = Browse(
       {"wait:document.querySelector('#face').width === 16 && "
@@ -280,7 +291,7 @@ TEST_F(WebPageTest, WhatHasGoneSaysSoAndWhatComesBackIsAsItWasChosen) {
        "wait:!document.querySelector('#pick-voice').disabled",
        "print:document.querySelector('#pick-face').value"});
   ASSERT_TRUE(hub_->ExpectAll({"tell wears pygmalion", "tell speaks as ben", "tell chosen"}))
-      << page->ErrorText();
+      << page->ErrorText() << hub_->ErrorText() << hub_->Seen();
   hub_->WriteLine("set Stop = FSM");
   ASSERT_TRUE(hub_->Expect("tell seen to go")) << page->ErrorText();
   hub_->WriteLine("set Start = FSM");
@@ -296,13 +307,16 @@ TEST_F(WebPageTest, WhatHasGoneSaysSoAndWhatComesBackIsAsItWasChosen) {
 TEST_F(WebPageTest, AModuleComesBackAsThePageFoundIt) {
   hub_->WriteLine("to @FSM set Mask = pygmalion");
   ASSERT_TRUE(hub_->Expect("tell wears pygmalion"));
-  const auto page = Browse({"wait:document.querySelector('#pick-face').value == 'pygmalion'",
-                            "wait:document.querySelector('#pick-emotion').value == 'ANGRY'",
-                            "print:document.querySelector('#strength').textContent", Tell("found"),
-                            "wait:document.querySelector('#stage.off')", Tell("seen to go"),
-                            "wait:!document.querySelector('#stage.off')",
-                            "wait:!document.querySelector('#pick-face').disabled",
-                            "print:document.querySelector('#pick-face').value"});
+  const auto page =
+      Browse({"wait:document.querySelector('#face').width === 16 && "
+              "!document.querySelector('#stage.off')",
+              "wait:document.querySelector('#pick-face').value == 'pygmalion'",
+              "wait:document.querySelector('#pick-emotion').value == 'ANGRY'",
+              "print:document.querySelector('#strength').textContent", Tell("found"),
+              "wait:document.querySelector('#stage.off')", Tell("seen to go"),
+              "wait:!document.querySelector('#stage.off')",
+              "wait:!document.querySelector('#pick-face').disabled",
+              "print:document.querySelector('#pick-face').value"});
   ASSERT_TRUE(hub_->Expect("tell found")) << page->ErrorText();
   hub_->WriteLine("set Stop = FSM");
   ASSERT_TRUE(hub_->Expect("tell seen to go")) << page->ErrorText();

@@ -216,12 +216,7 @@ TEST_F(WebTest, AMicrophoneBecomesTheEarsInputAndThenNoMore) {
     // 499 times through zero in half a second.
     EXPECT_TRUE(hub_->Expect("From @SRM rep Result = 998")) << hub_->Seen() << hub_->ErrorText();
   }
-  std::string input;
-  for (int i = 0; i < 100 && input.find("= NONE") == std::string::npos; ++i) {
-    hub_->WriteLine("to @SRM inq#2 Input");
-    input = hub_->Expect("rep#2 Input").value_or("");
-  }
-  EXPECT_NE(input.find("= NONE"), std::string::npos) << "as it was before";
+  EXPECT_TRUE(hub_->Expect("From @SRM tell input to NONE")) << "as it was before" << hub_->Seen();
   EXPECT_EQ(StatusOf("/microphone", Host() + Socket("")), "401");
   EXPECT_EQ(StatusOf("/microphone", Host() + Cookie() + Socket("http://evil.example")), "403");
 }
@@ -251,9 +246,7 @@ TEST_F(WebTest, AMicrophoneThatGoesWhileTheEarIsSilentLeavesItsPlaceToTheNext) {
     ASSERT_TRUE(microphone->Expect("101 Switching")) << hub_->ErrorText();
     EXPECT_EQ(StatusOf("/microphone", headers), "409");
   }
-  std::string status = "409";
-  for (int i = 0; i < 100 && status == "409"; ++i) status = StatusOf("/microphone", headers);
-  EXPECT_EQ(status, "101");
+  EXPECT_TRUE(support::Becomes([&] { return StatusOf("/microphone", headers) == "101"; }));
 }
 
 TEST_F(WebTest, WhatABrowsersMicrophoneHearsTheEarUnderstands) {

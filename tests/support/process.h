@@ -34,6 +34,16 @@ namespace support {
 using Millis = std::chrono::milliseconds;
 inline constexpr Millis kPatience{20000};  ///< far beyond what any answer takes on a busy machine
 
+/// Whether `holds`, asked again and again, says so within `patience`.
+template <typename Condition>
+bool Becomes(Condition holds, Millis patience = kPatience) {
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  while (!holds()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+  }
+  return true;
+}
+
 /// Lines over a descriptor to read and one to write (which may be the same). Owns both.
 class LineStream {
  public:

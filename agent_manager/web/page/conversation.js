@@ -129,7 +129,9 @@ export class Conversation {
 
   // ---- a dialogue that is held here (scripts/web_dialog.py): it begins with the first page, and again when it is asked to
   // A page that is opened anew shows what both have said before; where nothing was said, it greets.
-  async recall() {
+  // Asked once, however often the module is heard to be there before it answers.
+  recall() { this.recalling ??= this.showHistory().catch(() => {}).finally(() => { this.recalling = null; }); }
+  async showHistory() {
     const empty = () => this.nodes.log.childElementCount === 0;
     if (!empty()) return;
     const history = await this.hub.ask('to @CHAT inq History');
@@ -226,7 +228,7 @@ export class Conversation {
       this.showDialog(await this.hub.ask('to @DIALOG inq Dialog').catch(() => ''));
       if (this.dialog === 'WAITING') this.startDialog('w');
     }
-    if (name === 'CHAT') this.recall().catch(() => {});  // not awaited: the page goes on without it
+    if (name === 'CHAT') this.recall();  // not awaited: the page goes on without it
     if (name === 'CHAT') this.chat_listens = (await this.hub.ask('to @CHAT inq Listen').catch(() => 'ON')) === 'ON';
     this.showWay();
   }

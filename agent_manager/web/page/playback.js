@@ -101,7 +101,9 @@ export class FacePlayer {
     };
     requestAnimationFrame(draw);
     setInterval(() => {
-      if (this.alive && !document.hidden && performance.now() - this.drawn > kSilentFaceMs) this.lose('the face draws nothing');
+      if (!clock.known || document.hidden) this.drawn = performance.now();
+      const silent = performance.now() - this.drawn > kSilentFaceMs;
+      if (silent && this.alive !== false) this.lose('the face draws nothing');
     }, 500);
   }
 
