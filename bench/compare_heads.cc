@@ -59,8 +59,8 @@ struct Row {
 std::vector<Row> Rows(const std::filesystem::path& folder, const std::string& face) {
   std::vector<Row> rows;
   rows.push_back({"OURS", face.empty() ? fsm::MakeHead("galatea") : fsm::MakeHead(face)});
-  const auto& eyes = rows.front().head->topology().eyes;
-  const glm::vec3 middle = (eyes.right.centre + eyes.left.centre) / 2.0F;
+  const auto& [right, left] = rows.front().head->rig().data().eyes.centre;
+  const glm::vec3 middle = (right + left) / 2.0F;
   for (const auto& source : Sources(folder)) {
     if (!std::filesystem::exists(source.folder)) {
       std::fprintf(stderr, "compare_heads: notice: no %s, left out\n", source.folder.c_str());
@@ -103,7 +103,7 @@ fsm::Image DrawRows(const std::vector<Row>& rows) {
       x += kWidth + kGap;
     }
     const std::string label =
-        row.name + ", " + std::to_string(row.head->topology().indices.size() / 3) + " TRIANGLES";
+        row.name + ", " + std::to_string(row.head->surface().indices.size() / 3) + " TRIANGLES";
     fsm::DrawText(sheet, 6, y + kHeight + 5, 2, label);
     y += kHeight + kLabel;
   }

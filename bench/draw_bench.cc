@@ -179,7 +179,7 @@ bool ReadOptions(int argc, char** argv, Options& options, bool& first_frame) {
       options.context =
           std::string_view(value) == "egl" ? fsm::OffScreen::kEgl : fsm::OffScreen::kOsMesa;
     } else if (word == "--rig") {
-      options.rig = std::string_view(value) == "card"        ? fsm::RigOn::kCard
+      options.rig = std::string_view(value) == "card"        ? fsm::RigOn::kGpu
                     : std::string_view(value) == "processor" ? fsm::RigOn::kProcessor
                                                              : fsm::RigOn::kBest;
     } else if (word != "--size" ||
@@ -267,7 +267,7 @@ void MeasureAll(char** argv, const Options& options) {
   fsm::Image image;
   const fsm::Scene scene;
   std::printf("%d x %d, 4 samples; head: %zu triangles, %zu vertices\n", options.width,
-              options.height, head->topology().indices.size() / 3, head->topology().albedo.size());
+              options.height, head->surface().indices.size() / 3, head->surface().albedo.size());
 
   Print(options, "moving face, state to pixels", [&](int i) {
     renderer->Draw(*head, Moving(i), {}, scene);

@@ -67,10 +67,12 @@ class ObjHeadMaker {
   }
 
   HeadAsset Asset() {
-    return {.topology = std::move(topology_),
-            .rig = MakeStillRig(std::move(rest_.position), std::move(rest_.normal)),
-            .landmarks = std::move(landmarks_),
-            .view = {}};
+    HeadAsset asset{.surface = std::move(topology_),
+                    .rig = MakeStillRig(std::move(rest_.position), std::move(rest_.normal)),
+                    .landmarks = std::move(landmarks_),
+                    .view = {}};
+    for (const Side side : kSides) asset.rig.eyes.centre[side] = balls_[side].centre();
+    return asset;
   }
 
  private:
@@ -237,14 +239,13 @@ class ObjHeadMaker {
                                        at(ring, k), at(ring + 1, k + 1), at(ring, k + 1)});
       }
     }
-    topology_.eyes[side] = {.centre = centre,
-                            .ball_radius = radii.x,
+    topology_.eyes[side] = {.ball_radius = radii.x,
                             .iris_radius = kIrisMm,
                             .pupil_radius = 2,
                             .iris_colour = BasePalette().iris};
   }
 
-  HeadTopology topology_;
+  HeadSurface topology_;
   HeadVertices rest_;
   std::map<Material, std::vector<std::uint32_t>> batches_;
   Sided<Box> balls_;

@@ -110,10 +110,10 @@ std::vector<facefit::SidePhoto> ReadSidePhotos(const Options& options,
 }
 
 /// Returns a line that says where the face lies in the whole photo, in the pixels of --points.
-std::string LineOfNose(const facefit::FrontPhoto& front) {
+std::string LineOfNose(const facefit::FrontPhoto& front, glm::vec2 nose) {
   const auto pixel = [](float v) { return std::to_string(std::lround(v)); };
-  return "place       nose " + pixel(front.nose.x) + " pixels from the left, " +
-         pixel(front.nose.y) + " from the top, of " + std::to_string(front.whole_size.x) + " x " +
+  return "place       nose " + pixel(nose.x) + " pixels from the left, " + pixel(nose.y) +
+         " from the top, of " + std::to_string(front.whole_size.x) + " x " +
          std::to_string(front.whole_size.y) + "\n";
 }
 
@@ -141,29 +141,30 @@ Sight LoadSight(const Options& options, const Progress& progress) {
   auto base = vm::OrThrow(facefit::ObservedHead::BuiltIn(networks, options.base));
   const fsm::TableFolder own =
       fsm::UnitsFolder(FolderOfFaces(options) + "/" + options.name, options.tables);
-  if (const auto units = fsm::UnitsIn(own)) base.MoveBy(*units);
+  if (const auto units = fsm::UnitsIn(own)) base.UseUnits(*units);
   progress("networks read, head looked at");
   return {std::move(networks), std::move(base)};
 }
 
-/// Makes a face from a photo and writes it. REQUIRES: front.face
+/// Makes a face from a photo and writes it.
 void MakeAndWriteFace(const Options& options, Sight& sight, const facefit::FrontPhoto& front,
-                      const Progress& progress) {
+                      const facefit::FrontFace& face, const Progress& progress) {
   const std::vector<facefit::SidePhoto> read = ReadSidePhotos(options, sight.networks);
   std::vector<const facefit::SidePhoto*> side_photos;
   for (const facefit::SidePhoto& side_photo : read) side_photos.push_back(&side_photo);
-  const auto made = vm::OrThrow(facefit::MakeFace(sight.base, front, &sight.networks, side_photos,
-                                                  options.glasses, progress));
+  const auto made = vm::OrThrow(
+      facefit::MakeFace(sight.base, front, face, facefit::SidePhotoSet{sight.networks, side_photos},
+                        options.glasses, progress));
   for (const auto& [path, why] : made.left_out) NoticeLeftOut(path, why);
-  const std::string report = LineOfNose(front) + made.report;
+  const std::string report = LineOfNose(front, face.nose) + made.report;
   const std::string folder =
       vm::OrThrow(fsm::WriteFace(made.bake.head, report, FolderOfFaces(options), options.name));
   progress("written");
   std::cout << report << "face_fit: wrote " << folder << "\n";
 }
 
-/// Throws std::runtime_error if no face was found, or only an uncertain one.
-void RequireFace(const Options& options, const facefit::FrontPhoto& front) {
+/// Returns the face; throws std::runtime_error if none was found, or only an uncertain one.
+const facefit::FrontFace& RequireFace(const Options& options, const facefit::FrontPhoto& front) {
   const char* by_hand = "; --points FILE with a few points set by hand helps (docs/photo.md)";
   if (!front.face) {
     throw std::runtime_error(
@@ -171,10 +172,11 @@ void RequireFace(const Options& options, const facefit::FrontPhoto& front) {
         "': it should look into the camera, be lit and fill a tenth of the picture or more" +
         by_hand);
   }
-  if (front.face->certainty < facefit::kCertainFace) {
+  if (front.face->found.certainty < facefit::kCertainFace) {
     throw std::runtime_error("what looked like a face in '" + options.photo +
                              "' has no eyes, nose and mouth that can be told apart" + by_hand);
   }
+  return *front.face;
 }
 
 void FaceOfPhoto(const Options& options) {
@@ -196,8 +198,7 @@ void FaceOfPhoto(const Options& options) {
   if (front->orientation != 1) {
     Notice("the photo lies on its side or head, whatever its file says; it was set upright");
   }
-  RequireFace(options, *front);
-  MakeAndWriteFace(options, sight, *front, progress);
+  MakeAndWriteFace(options, sight, *front, RequireFace(options, *front), progress);
 }
 
 void FaceOfOriginal(const Options& options) {
@@ -208,7 +209,7 @@ void FaceOfOriginal(const Options& options) {
   const auto front =
       vm::OrThrow(facefit::PrepareFront(sight.networks, sight.base, std::move(original.photo),
                                         original.points, facefit::PhotoExtent::kWhole, progress));
-  MakeAndWriteFace(options, sight, front, progress);
+  MakeAndWriteFace(options, sight, front, front.face.value(), progress);
 }
 
 void Run(const Options& options) {

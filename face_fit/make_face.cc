@@ -1,7 +1,6 @@
 #include "face_fit/make_face.h"
 
 #include <algorithm>
-#include <cassert>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -17,27 +16,28 @@
 namespace facefit {
 namespace {
 
-// Each of these sets FrontPhoto::photo, face, faces and orientation, as one FaceChoice asks for.
+// Each of these finds a face as one FaceChoice asks for, and sets FrontPhoto::photo, face_count
+// and, if there is one, face; the first sets orientation, too.
 
 vm::Result<FrontPhoto> FindByNumber(FaceNetworks& networks, fsm::Image photo, int number) {
   UprightPhoto upright = SetUpright(networks, std::move(photo));
   FrontPhoto front{.photo = std::move(upright.photo),
-                   .faces = static_cast<int>(upright.faces.size()),
+                   .face_count = static_cast<int>(upright.faces.size()),
                    .orientation = upright.orientation};
   if (upright.faces.empty()) return front;
   auto face = ChooseFace(upright.faces, number);
   if (!face) return std::unexpected(face.error());
-  front.face = std::move(*face);
+  front.face = FrontFace{std::move(*face)};
   return front;
 }
 
 FrontPhoto FindNearest(FaceNetworks& networks, fsm::Image photo, glm::vec2 nose) {
   const auto faces = FindFaces(networks, photo);
-  FrontPhoto front{.photo = std::move(photo), .faces = static_cast<int>(faces.size())};
+  FrontPhoto front{.photo = std::move(photo), .face_count = static_cast<int>(faces.size())};
   const auto nearest = std::ranges::min_element(faces, {}, [nose](const FoundFace& face) {
     return glm::distance(face.PixelOf(point::kNoseTip), nose);
   });
-  if (nearest != faces.end()) front.face = *nearest;
+  if (nearest != faces.end()) front.face = FrontFace{*nearest};
   return front;
 }
 
@@ -46,7 +46,8 @@ vm::Result<FrontPhoto> TakeFromHand(const ObservedHead& base, fsm::Image photo,
   if (auto within = CheckWithin(points, photo.width, photo.height); !within) {
     return std::unexpected(within.error());
   }
-  return FrontPhoto{.photo = std::move(photo), .face = FaceFromHand(base, points), .faces = 1};
+  return FrontPhoto{
+      .photo = std::move(photo), .face = FrontFace{FaceFromHand(base, points)}, .face_count = 1};
 }
 
 float LongerSide(const fsm::Image& photo) {
@@ -83,42 +84,42 @@ vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const ObservedHead& 
   FrontPhoto& front = *found;
   front.scale = scale;
   front.whole_size = {front.photo.width, front.photo.height};
-  if (front.face) front.nose = front.face->PixelOf(point::kNoseTip);
-  if (front.face && extent == PhotoExtent::kCloseUp) {
+  FoundFace* face = front.face ? &front.face->found : nullptr;
+  if (face) front.face->nose = face->PixelOf(point::kNoseTip);
+  if (face && extent == PhotoExtent::kCloseUp) {
     if (front.orientation != 1) photo = Turned(photo, front.orientation);
-    CloseUp close_up = CloseUpOf(front.photo, photo, *front.face);
+    CloseUp close_up = CloseUpOf(front.photo, photo, *face);
     front.photo = std::move(close_up.photo);
-    front.face = std::move(close_up.face);
+    *face = std::move(close_up.face);
     front.scale *= close_up.scale;
   }
-  const FoundFace* face = front.face ? &*front.face : nullptr;
   front.figure = FindFigure(networks, front.photo, face);
-  if (face) front.occlusion = DetectOcclusion(networks, base, *face, front.photo);
+  if (face) front.face->occlusion = DetectOcclusion(networks, base, *face, front.photo);
   done("figure cut out");
   return found;
 }
 
 vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
-                              FaceNetworks* networks, std::span<const SidePhoto* const> side_photos,
+                              const FrontFace& front_face, std::optional<SidePhotoSet> from_side,
                               std::optional<bool> glasses, const StepDone& done) {
-  if (auto few = CheckSidePhotoCount(side_photos.size()); !few) return std::unexpected(few.error());
-  assert(front.face);
-  const FoundFace& face = *front.face;
+  const std::size_t count = from_side ? from_side->photos.size() : 0;
+  if (auto few = CheckSidePhotoCount(count); !few) return std::unexpected(few.error());
+  const FoundFace& face = front_face.found;
   if (auto shown = CheckFeaturesShown(face, front.photo); !shown) {
     return std::unexpected(shown.error());
   }
-  FitBySidePhotos fitted{FitFace(base, face, &front.photo), {}, {}};
+  SidePhotoFit fitted{FitFace(base, face, front.photo), {}, {}};
   done("head fitted");
-  if (!side_photos.empty()) {
-    assert(networks);
-    fitted = UseSidePhotos(*networks, front.photo, side_photos, std::move(fitted.fit));
+  if (from_side) {
+    fitted =
+        UseSidePhotos(from_side->networks, front.photo, from_side->photos, std::move(fitted.fit));
   }
   auto& [fit, views, left_out] = fitted;
-  if (left_out.size() < side_photos.size()) done("seen from the side, too");
+  if (left_out.size() < count) done("seen from the side, too");
   TextureBake bake = BakeTexture(face, fit, front.photo, front.figure, views);
   bake.head.glasses = glasses ? *glasses : WearsGlasses(face, front.photo);
   done("photo put on");
-  std::string report = Report(front, fit, bake);
+  std::string report = Report(front, front_face, fit, bake);
   return MadeFace{std::move(fit), std::move(bake), std::move(report), std::move(left_out)};
 }
 

@@ -48,14 +48,18 @@ struct MadeFace {
   std::string report;
   std::vector<LeftOut> left_out;
 };
-/// Fits the base head, which outlives the result, to the face of a photo, corrects its depth by
+/// Photos of the person from the side, and the networks that look at them.
+struct SidePhotoSet {
+  FaceNetworks& networks;
+  std::span<const SidePhoto* const> photos;
+};
+/// Fits the base head, which outlives the result, to a face in a photo, corrects its depth by
 /// photos from the side, and bakes all photos onto it. `glasses`: whether the person wears glasses;
-/// if empty, that is detected. REQUIRES: front.face; `networks`, if there are photos from the side.
-/// Errors: as CheckSidePhotoCount and
-/// CheckFeaturesShown. Throws std::runtime_error if rendering is impossible.
+/// if empty, that is detected. Errors: as CheckSidePhotoCount and CheckFeaturesShown. Throws
+/// std::runtime_error if rendering is impossible.
 vm::Result<MadeFace> MakeFace(
-    const ObservedHead& base, const FrontPhoto& front, FaceNetworks* networks = nullptr,
-    std::span<const SidePhoto* const> side_photos = {}, std::optional<bool> glasses = {},
+    const ObservedHead& base, const FrontPhoto& front, const FrontFace& face,
+    std::optional<SidePhotoSet> from_side = {}, std::optional<bool> glasses = {},
     const StepDone& done = [](const char*) {});
 
 }  // namespace facefit

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "face_fit/find/face/cut_off.h"
+#include "face_fit/find/face/joined_names.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
@@ -43,11 +45,6 @@ float SideLight(const FoundFace& face, const fsm::Image& photo) {
   return light.left / light.right;
 }
 
-/// Returns the distance of the outer corners of the eyes in the photo.
-float EyesApartPx(const FoundFace& face) {
-  return glm::distance(face.PixelOf(point::kEyeOuterRight), face.PixelOf(point::kEyeOuterLeft));
-}
-
 /// Returns the number of irises that are not seen clearly.
 int HiddenIrises(const PhotoIrises& irises) {
   return static_cast<int>(std::ranges::count_if(
@@ -58,14 +55,15 @@ struct Warning {
   bool applies;
   std::string text;
 };
-/// Limits without a comment were set by eye on the faces the program was developed with.
-std::vector<Warning> Warnings(const FrontPhoto& front, const Fit& fit, const TextureBake& bake) {
-  const FoundFace& face = *front.face;
+std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_face, const Fit& fit,
+                              const TextureBake& bake) {
+  const FoundFace& face = front_face.found;
+  const auto& look = PhotoLook().report;
   const float turned_deg = std::abs(glm::degrees(fit.head.pose.rotation_rad.y));
   const float bent_deg = std::abs(glm::degrees(fit.head.pose.rotation_rad.x));
   const int hidden_irises = HiddenIrises(fit.irises);
   const float left_by_right = SideLight(face, front.photo);
-  const Expression& shown = fit.head.expression;
+  const ShownUnits& shown_units = fit.head.shown_units;
   // The network guesses what it does not see with the same certainty as the rest.
   const std::string cut_off = NamesOf(CutOffParts(face, front.photo));
   const Completed& completed = bake.completed;
@@ -74,29 +72,25 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const Fit& fit, const Tex
                    {completed.shoulders && !completed.neck, "shoulders beside it"},
                    {completed.hair, "hair above or beside it"}},
                   "; ");
-  // The limit 1.5 was tested on 21 other faces: three exceeded it, two of these had hair before
-  // them. Of three between 1 and 1.5 none had anything: paint, hard light and a turned head misled
-  // the detector.
-  constexpr float kMaybeCovered = 1, kSurelyCovered = 1.5F;
-  const auto& [covered, where] = front.occlusion;
+  const Occlusion occlusion = front_face.occlusion.value_or(Occlusion{});
+  const float covered = occlusion.covered;
   return {
-      {EyesApartPx(face) <= 80, "the face is small; details will be soft"},
-      {turned_deg > 20,
+      {glm::length(face.AcrossEyes()) <= look.small_px, "the face is small; details will be soft"},
+      {turned_deg > look.turned_far_deg,
        "the head is turned far; its other side is guessed and may look wrong: a photo turned by "
        "less than 15 degrees is needed, or --view with another one"},
-      {turned_deg > 15 && turned_deg <= 20,
+      {turned_deg > look.turned_deg && turned_deg <= look.turned_far_deg,
        "the head is turned; one side is completed from the other"},
-      {bent_deg > 15, "the head is bent; a level photo fits better"},
+      {bent_deg > look.bent_deg, "the head is bent; a level photo fits better"},
       {hidden_irises == 2,
        "no iris is seen: the eyes are shut, look down or lie in the shade; they are drawn, and "
        "their lids keep what the photo shows on them"},
       {hidden_irises == 1,
        "one iris is not seen clearly; the other stands in for it, or both are drawn"},
-      {Sharpness(face, front.photo) <= 0.012F, "the photo is blurred"},
-      {left_by_right > 1.45F || left_by_right <= 0.69F,
+      {Sharpness(face, front.photo) <= look.blurred, "the photo is blurred"},
+      {left_by_right > look.side_light.to || left_by_right <= look.side_light.from,
        "strong light from one side stays in the skin"},
-      // Strengths of the units whose folds are not removed completely.
-      {std::max(shown.smile, shown.jaw + shown.parted) > 0.4F,
+      {std::max(shown_units.smile, shown_units.jaw + shown_units.parted) > look.expression,
        "not a neutral face; some folds of the expression stay in the skin"},
       {bake.head.glasses,
        "glasses stay as they are, and so does the skin round the eyes; --glasses no if there are "
@@ -108,18 +102,20 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const Fit& fit, const Tex
       {!drawn.empty(), "the photo cuts the figure; drawn in its colours and light: " + drawn +
                            "; a photo with more room round the head shows the person's own"},
       {covered >= kMaybeCovered && covered < kSurelyCovered,
-       "something may be before the face at " + where +
+       "something may be before the face" + (occlusion.place ? " at " + *occlusion.place : "") +
            "; hard light, shut eyes or a turned head look like that, too"},
-      {covered >= kSurelyCovered, "covered by something that is no face: " + where +
+      {covered >= kSurelyCovered, "covered by something that is no face" +
+                                      (occlusion.place ? ": " + *occlusion.place : "") +
                                       "; what is before the face becomes part of it"},
-      {front.faces > 1, "several faces; --face N takes another"}};
+      {front.face_count > 1, "several faces; --face N takes another"}};
 }
 
 }  // namespace
 
-std::string Report(const FrontPhoto& front, const Fit& fit, const TextureBake& bake) {
+std::string Report(const FrontPhoto& front, const FrontFace& face, const Fit& fit,
+                   const TextureBake& bake) {
   const glm::vec3 turn_deg = glm::degrees(fit.head.pose.rotation_rad);
-  const Expression& shown = fit.head.expression;
+  const ShownUnits& shown_units = fit.head.shown_units;
   const auto& irises = fit.irises.circles;
   std::string out = fmt::format(
       "photo       {} x {} pixels, eyes {:.0f} pixels apart at their outer corners\n"
@@ -131,15 +127,17 @@ std::string Report(const FrontPhoto& front, const Fit& fit, const TextureBake& b
       "residual    {:.2f} mm\n"
       "coverage    {:.0f} % of the face's map\n"
       "glasses     {}\n",
-      front.photo.width, front.photo.height, EyesApartPx(*front.face), front.faces,
-      front.face->certainty, turn_deg.x, turn_deg.y, turn_deg.z, shown.smile, shown.jaw,
-      shown.parted, irises.right.contrast, irises.left.contrast, kClearIris,
-      ResidualMm(*front.face, fit.head), 100 * bake.coverage, bake.head.glasses ? "yes" : "no");
-  if (const auto& [covered, where] = front.occlusion; !where.empty()) {
-    out += fmt::format("covered     {:.2f} (from 1 on something is before the face), most at {}\n",
-                       covered, where);
+      front.photo.width, front.photo.height, glm::length(face.found.AcrossEyes()), front.face_count,
+      face.found.certainty, turn_deg.x, turn_deg.y, turn_deg.z, shown_units.smile, shown_units.jaw,
+      shown_units.parted, irises.right.contrast, irises.left.contrast, kClearIris,
+      ResidualMm(face.found, fit.head), 100 * bake.coverage, bake.head.glasses ? "yes" : "no");
+  if (const auto& occlusion = face.occlusion) {
+    out += fmt::format(
+        "covered     {:.2f} (from {} on something may be before the face, from {} on it is){}\n",
+        occlusion->covered, kMaybeCovered, kSurelyCovered,
+        occlusion->place ? ", most at " + *occlusion->place : "");
   }
-  for (const auto& [applies, text] : Warnings(front, fit, bake)) {
+  for (const auto& [applies, text] : Warnings(front, face, fit, bake)) {
     if (applies) out += "warning: " + text + "\n";
   }
   return out;

@@ -8,7 +8,8 @@
 namespace facefit {
 
 /// Returns the measurements, a line each, and warnings of what could look better. `bake`: what
-/// BakeTexture made of the photo and the fit. REQUIRES: front.face
-std::string Report(const FrontPhoto& front, const Fit& fit, const TextureBake& bake);
+/// BakeTexture made of the photo and the fit.
+std::string Report(const FrontPhoto& front, const FrontFace& face, const Fit& fit,
+                   const TextureBake& bake);
 
 }  // namespace facefit

@@ -33,43 +33,43 @@ fsm::Head SmallHead() {
     rig.weights[i].jaw = 0.1F * static_cast<float>(i);
   }
   rig.normals.soft_triangles = {0, 1, 2, 3, 4, 5};
-  rig.units = fsm::UnitTable(fsm::Table("units", "field 4 10 20 15 15 both 1 2 3\nclose 43 1"));
+  rig.unit_effects =
+      fsm::UnitTable(fsm::Table("units", "field 4 10 20 15 15 both 1 2 3\nclose 43 1"));
   rig.units_by_place = true;
   using Kind = fsm::Drive::Kind;
   for (int kind = 0; kind <= static_cast<int>(Kind::kResidual); ++kind) {
     fsm::Channel& channel = rig.channels.emplace_back();
     channel.drivers = {{{static_cast<Kind>(kind), 0, fsm::Drive::WhichSide::kStronger}, 0.5F}};
-    channel.most = 2;
+    channel.max = 2;
     channel.moves = {{2, {1, 2, 3}}};
   }
   rig.proxy.rest.resize(kVertices);
   rig.proxy.to_own.resize(kVertices);
-  rig.lids.vertices = {{1, fsm::Side::kRight, 1, 0, 0.2F, -0.2F, -0.1F, 1, 12, 2, true}};
-  rig.ball_lids.vertices = {{1, fsm::Side::kLeft, 12}};
-  rig.lips.seam = {{2, 3}};
+  rig.lids.vertices = {{1, fsm::Side::kRight, {1, 0, 0.2F, -0.2F, -0.1F, 1, 12, 2}, true}};
+  rig.ball_lids = {{1, fsm::Side::kLeft, 12}};
+  rig.mouth = {.seam = {{2, 3}}, .corners = {{4, 1}}, .incisors = {{2, 3, 4}}};
   rig.lips.apart_at_rest = {{0, 0.1F, 0}};
   rig.lips.followers = {{4, 0, 0.5F}};
-  rig.lips.measured = {{2, 3, 1, 4}};
-  rig.teeth.upper = rig.teeth.lower = {70, 20, 25, -40, -30};
+  rig.teeth.upper = rig.teeth.lower = {70, 20, 25, -40, -30, 0, 0};
   rig.teeth.contacts = {{4, 1, 1}};
+  rig.eyes.pivot.emplace();
   rig.eyes.gaze_ranges.emplace();
   rig.spring_rig.springs.resize(1);
   rig.spring_rig.weights = {{8, 0, 0.5F}};
   rig.creases.at_rest = {{0, 0.1F, 0, 0}};
-  asset.topology.indices = {0, 1, 2, 3, 4, 5, 6, 7, 8};
-  asset.topology.parts = {{fsm::Material::kSkin, 0, 6}, {fsm::Material::kHair, 6, 3, 0, true}};
-  asset.topology.albedo.resize(kVertices);
-  asset.topology.openness.resize(kVertices);
-  asset.topology.strands.resize(kVertices);
-  asset.topology.opacity.assign(kVertices, 0.5F);
-  asset.topology.portrait.shut_lids.resize(1);
-  asset.topology.skin_hairs.resize(2);
-  asset.topology.pbr_materials.resize(1);
-  asset.topology.textures.image = std::make_shared<fsm::Image>(fsm::Image{1, 1, {1, 2, 3, 4}});
-  asset.topology.textures.texcoord.resize(kVertices);
-  asset.topology.textures.weight.resize(kVertices);
-  asset.topology.portrait.eyes.emplace();
-  asset.topology.mouth.seam = {{2, 3}};
+  asset.surface.indices = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+  asset.surface.parts = {{fsm::Material::kSkin, 0, 6}, {fsm::Material::kHair, 6, 3, 0, true}};
+  asset.surface.albedo.resize(kVertices);
+  asset.surface.openness.resize(kVertices);
+  asset.surface.strands.resize(kVertices);
+  asset.surface.opacity.assign(kVertices, 0.5F);
+  asset.surface.portrait.shut_lids.resize(1);
+  asset.surface.skin_strokes.resize(2);
+  asset.surface.pbr_materials.resize(1);
+  asset.surface.textures.image = std::make_shared<fsm::Image>(fsm::Image{1, 1, {1, 2, 3, 4}});
+  asset.surface.textures.texcoord.resize(kVertices);
+  asset.surface.textures.weight.resize(kVertices);
+  asset.surface.portrait.eyes.emplace();
   asset.landmarks["nasion"] = {0, 20, 90};
   asset.view.emplace();
   return fsm::Head(std::move(asset));
@@ -84,7 +84,7 @@ std::vector<fsm::FaceState> States() {
       state.au.left[unit] = strength;
       state.au.right[unit] = 2 * strength;
     }
-    state.au.left[fsm::UnitValues::kMost] = strength;
+    state.au.left[fsm::UnitValues::kMax] = strength;
     state.mouth.fill(10 * strength);
     state.mouth_by_hand.fill(-10 * strength);
     state.seal = state.tongue = strength;

@@ -21,7 +21,7 @@
 #include "fsm/mesh/obj/obj_file.h"
 #include "fsm/mesh/original/original_face.h"
 #include "fsm/mesh/original/pnt_file.h"
-#include "fsm/mesh/transfer/transferred_rig.h"
+#include "fsm/mesh/rigging/transferred_rig.h"
 #include "fsm/rig/reach.h"
 
 namespace {
@@ -49,8 +49,8 @@ struct Ball {
       }
     }
     for (std::size_t v = 0; v < place.size(); v += 5) {
-      const auto part = static_cast<fsm::FacePart>(v % 5 == 0 ? v / 5 % 5 : 0);
-      pairs.push_back({place[v], place[v], part});
+      const auto on = static_cast<fsm::LipOrLid>(v % 5 == 0 ? v / 5 % 5 : 0);
+      pairs.push_back({place[v], place[v], on});
     }
   }
 };
@@ -199,7 +199,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           if (part.picture >= static_cast<int>(file->pictures.size())) __builtin_trap();
         }
         for (const auto& shape : file->shapes) {
-          for (const auto& delta : shape.deltas) {
+          for (const auto& delta : shape.moves) {
             if (delta.vertex >= file->position.size()) __builtin_trap();
           }
         }

@@ -13,7 +13,8 @@ folder=${1:-$root/build}
 [ $# -gt 0 ] && shift
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-if ! cmake -S "$root" -B "$folder" -G Ninja "$@" >"$log" 2>&1; then
+# All parts, unless the options say otherwise: the first start of an agent configures this folder for the hub alone.
+if ! cmake -S "$root" -B "$folder" -G Ninja -DGALATEA_PARTS= "$@" >"$log" 2>&1; then
   cat "$log" >&2
   exit 1
 fi

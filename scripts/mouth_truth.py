@@ -50,7 +50,7 @@ def follow(head, sound, wanted, folder):
     truth = rows_of(run([f"{BIN}/vdm", sound]))
     film = os.path.join(folder, "film.mp4")
     nods = [f"set HeadRotAbs.1 = {x} {y} {z}\nset Wait = 700" for x, y, z in [(6, 3, 2), (-4, 8, 0), (3, -9, -3), (0, 0, 0)]]
-    lines = [f"set Record.fps = {RATE}", f"set Record = {film}", f"set Wait = {REST_MS}",
+    lines = ["set Camera = 1 0 25", f"set Record.fps = {RATE}", f"set Record = {film}", f"set Wait = {REST_MS}",
              run([f"{BIN}/vdm", "--print", "lines", sound])]
     if wanted.nod:
         lines += nods * int(truth[-1]["ms"] / 2800 + 1)

@@ -193,9 +193,9 @@ needed() {
   [ -z "$photo" ] || echo face_fit
 }
 
-# Builds them. The first time that takes minutes, so it tells how far it is: at a terminal in one line that
-# changes, else in a line every half minute.
-build() {
+# Builds what is named WHAT and consists of TARGETS. The first time that takes minutes, so it tells how far it is: at a
+# terminal in one line that changes, else in a line every half minute.
+build() { # WHAT TARGETS [cmake options...]
   local log line done total seconds left shown=-30 lines="\n"
   log=$(mktemp)
   while IFS= read -r line; do
@@ -209,8 +209,8 @@ build() {
     # The first steps are slow ones, from which more would be promised than comes.
     [ "$seconds" -lt 10 ] || [ $((4 * done)) -lt "$total" ] || left=", about $((seconds * (total - done) / done / 60 + 1)) min left"
     [ ! -t 2 ] || lines="\r\033[K"
-    printf "run_agent: building, %d of %d: %s%s$lines" "$done" "$total" "${line%%/CMakeFiles/*}" "$left" >&2
-  done < <(NINJA_STATUS='[%f/%t %e] ' "$root/scripts/build.sh" --only "$(needed | tr '\n' ' ')" </dev/null 2>&1 || echo "build.sh: failed")
+    printf "run_agent: building $1, %d of %d: %s%s$lines" "$done" "$total" "${line%%/CMakeFiles/*}" "$left" >&2
+  done < <(NINJA_STATUS='[%f/%t %e] ' "$root/scripts/build.sh" --only "$2" "$root/build" "${@:3}" </dev/null 2>&1 || echo "build.sh: failed")
   [ ! -t 2 ] || [ "$shown" -lt 0 ] || printf '\r\033[K' >&2
   if [ "$(tail -n 1 "$log")" = "build.sh: failed" ]; then
     cat "$log" >&2
@@ -218,25 +218,31 @@ build() {
     fail "the build failed"
   fi
   rm -f "$log"
-  [ "$shown" -lt 0 ] || [ -x "$bin/face_track" ] ||
-    echo "run_agent: built what this needs; scripts/build.sh --programs builds the other programs" >&2
 }
 
 # What is typed meanwhile is for the agent: nothing before it reads it.
 if [ -z "$installed" ]; then
   cd "$root"
-  [ -x "$bin/agent_manager" ] ||
+  first=""
+  if [ ! -x "$bin/agent_manager" ]; then
+    first=1
     echo "run_agent: the first start installs what is missing and compiles what it needs: 5 to 10 minutes on two cores, once" >&2
-  "$root/scripts/setup.sh" --building </dev/null
-  # What only running needs is installed while the compiler works.
-  setup_log=$(mktemp)
-  "$root/scripts/setup.sh" </dev/null >"$setup_log" 2>&1 &
-  setup=$!
-  trap 'wait "$setup" || true; rm -f "$setup_log"' EXIT  # a package is not left half installed
-  build
-  wait "$setup" || { cat "$setup_log" >&2; fail "what running needs could not be installed"; }
-  rm -f "$setup_log"
-  trap - EXIT
+    "$root/scripts/setup.sh" --hub </dev/null
+    # The rest is installed while the compiler works on the hub and the conversation.
+    setup_log=$(mktemp)
+    "$root/scripts/setup.sh" </dev/null >"$setup_log" 2>&1 &
+    setup=$!
+    trap 'wait "$setup" || true; rm -f "$setup_log"' EXIT  # a package is not left half installed
+    build "the hub" "agent_manager chat" "-DGALATEA_PARTS=vm_protocol;agent_manager;chat"
+    wait "$setup" || { cat "$setup_log" >&2; fail "what building the rest and running need could not be installed"; }
+    rm -f "$setup_log"
+    trap - EXIT
+  else
+    "$root/scripts/setup.sh" </dev/null
+  fi
+  build "what this start needs" "$(needed | tr '\n' ' ')"
+  [ -z "$first" ] || [ -x "$bin/face_track" ] ||
+    echo "run_agent: built what this needs; scripts/build.sh --programs builds the other programs" >&2
 fi
 
 # A display counts only if a window can really be opened on it.

@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that building and running the toolkit needs, with --tests also those
-# that only tests use, with --building only those that building needs. Does nothing (and asks for no
-# password) if all of them are there.
+# that only tests use, with --hub only those that building the hub and the conversation needs. Does nothing
+# (and asks for no password) if all of them are there.
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build pkg-config ccache python3
-  libboost1.81-dev libcli11-dev nlohmann-json3-dev libfmt-dev libglm-dev
-  libssl-dev zlib1g-dev libmosquitto-dev
-  libmozjs-102-dev libexpat1-dev libcurl4-openssl-dev libutf8proc-dev
+  g++ cmake ninja-build pkg-config ccache
+  libboost1.81-dev libcli11-dev nlohmann-json3-dev
+  libssl-dev zlib1g-dev libmosquitto-dev libexpat1-dev libcurl4-openssl-dev
+)
+[ "${1:-}" = --hub ] || packages+=(
+  libfmt-dev libglm-dev libmozjs-102-dev libutf8proc-dev
   libeigen3-dev libopencv-imgproc-dev
   libosmesa6-dev libegl-dev libglfw3-dev libimgui-dev libgl-dev libpng-dev libjpeg-dev
   flite1-dev portaudio19-dev libsndfile1-dev
@@ -17,8 +19,8 @@ packages=(
   liboscpack-dev
 )
 # What only running needs: a third of it all.
-[ "${1:-}" = --building ] || packages+=(
-  ffmpeg fonts-dejavu-core fonts-vlgothic
+[ "${1:-}" = --hub ] || packages+=(
+  python3 ffmpeg fonts-dejavu-core fonts-vlgothic
   espeak-ng-data open-jtalk open-jtalk-mecab-naist-jdic mecab-naist-jdic
   pocketsphinx-en-us
 )

@@ -35,7 +35,7 @@ def median(values):
 
 def follow(head, folder, spoil):
     film = os.path.join(folder, "film.mp4")
-    lines = ["set Record.fps = 25", f"set Record = {film}", "set Wait = 1500"]
+    lines = ["set Camera = 1 0 25", "set Record.fps = 25", f"set Record = {film}", "set Wait = 1500"]
     for turn in TURNS:
         lines += ["set HeadRotAbs.1 = {} {} {}".format(*turn), "set Wait = 1000"]
     lines += ["set HeadRotAbs.1 = 0 0 0", "set Wait = 1000"]

@@ -21,6 +21,7 @@ const char* LabelOf(std::string_view kind, std::string_view column) {
   if (kind == "sway") return "to its own side, mm";
   if (kind == "seal") return "whatever the jaw does";
   if (kind == "tongue") return column == "raise" ? "tip raised" : "put out, mm";
+  if (kind == "crease") return column.data();  // a literal
   return "by this part";
 }
 

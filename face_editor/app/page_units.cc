@@ -102,7 +102,7 @@ bool LookSliders(Ui& ui, fsm::FaceLook& look, bool used_first, std::string* merg
     }
     for (const int unit : ui.unit_order) {
       const auto i = static_cast<std::size_t>(unit);
-      if (!ui.regions[static_cast<std::size_t>(ui.editor.unit_list().RegionOf(i))]) continue;
+      if (!ui.regions[static_cast<std::size_t>(ui.editor.unit_regions().RegionOf(i))]) continue;
       if (SliderRow(ui, unit, look, merge)) changed = true;
     }
     ImGui::EndTable();

@@ -180,7 +180,7 @@ vm::Result<void> Editor::AddPattern(std::string_view name) {
   const std::string word(name);
   const auto named = fsm::ReadTable("an expression", word, [](const fsm::Table& table) {
     if (table.rows().size() != 1 || table.rows().front().size() != 1) {
-      table.Fail("a name expected: a letter, then letters, digits and _");
+      table.Refuse("a name expected: a letter, then letters, digits and _");
     }
     return table.rows().front().Name(0, "a name");
   });

@@ -28,7 +28,7 @@ class Editor {
   /// The tables as they are edited now.
   fsm::MotionTables Tables() const;
   const fsm::UnitNames& unit_names() const { return tables_.unit_names; }
-  const fsm::UnitList& unit_list() const { return tables_.units; }
+  const fsm::UnitRegions& unit_regions() const { return tables_.unit_list.regions; }
   bool Unsaved(Part part) const;
   /// "points mouth": what is kept in files and has been changed since; "" if nothing.
   std::string UnsavedNames() const;

@@ -77,8 +77,8 @@ vm::Result<void> Editor::LoadTables(const std::string& folder) {
   };
   put(Part::kExpressions, [this](State& state) { state.expressions = tables_.expressions; });
   put(Part::kMouth, [this](State& state) {
-    state.shapes14 = tables_.set14.visemes;
-    state.shapes28 = tables_.set28.visemes;
+    state.shapes14 = tables_.set(fsm::VisemeSetId::k14).visemes;
+    state.shapes28 = tables_.set(fsm::VisemeSetId::k28).visemes;
   });
   put(Part::kUnits, [&](State& state) { state.units = *units; });
   put(Part::kMotions, [this](State& state) {
@@ -102,8 +102,8 @@ vm::Result<std::shared_ptr<const Units>> Editor::UnitsIn(const std::string& fold
 fsm::MotionTables Editor::Tables() const {
   fsm::MotionTables tables = tables_;
   tables.expressions = state().expressions;
-  tables.set14.visemes = state().shapes14;
-  tables.set28.visemes = state().shapes28;
+  tables.set(fsm::VisemeSetId::k14).visemes = state().shapes14;
+  tables.set(fsm::VisemeSetId::k28).visemes = state().shapes28;
   for (const auto& [kind, curves] : state().curves) tables.motions.head[kind] = curves;
   return tables;
 }

@@ -38,7 +38,6 @@ std::vector<int> Joined(std::initializer_list<std::span<const PointIndex>> lists
 
 std::vector<PointGroup> MakeGroups() {
   using namespace facefit;
-  constexpr PointIndex kCorners[] = {point::kMouthRight, point::kMouthLeft};
   std::vector<int> all(static_cast<std::size_t>(kPoints));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
   return {{"right_eye", "Right eye", Joined({point::kEyeOutline[fsm::Side::kRight]})},
@@ -46,11 +45,12 @@ std::vector<PointGroup> MakeGroups() {
           {"right_brow_line", "Right brow", Joined({kRightBrow})},
           {"left_brow_line", "Left brow", Joined({kLeftBrow})},
           {"nose", "Nose", Joined({kNose})},
-          {"upper_lip", "Upper lip", Joined({point::kUpperOuterLip, point::kUpperInnerLip})},
+          {"upper_lip", "Upper lip",
+           Joined({point::kUpperOuterLip, point::kUpperInnerLip, point::kInnerMouthCorners})},
           {"lower_lip", "Lower lip", Joined({point::kLowerOuterLip, point::kLowerInnerLip})},
           {"mouth", "Mouth",
            Joined({point::kUpperOuterLip, point::kUpperInnerLip, point::kLowerOuterLip,
-                   point::kLowerInnerLip, kCorners})},
+                   point::kLowerInnerLip, point::kMouthCorners, point::kInnerMouthCorners})},
           {"jaw", "Jaw and chin", Joined({kJaw})},
           {"face", "Whole face", all}};
 }

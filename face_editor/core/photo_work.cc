@@ -42,7 +42,7 @@ vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder,
   try {
     auto base = facefit::ObservedHead::BuiltIn(sight->networks, "galatea");
     if (!base) return std::unexpected(base.error());
-    if (const auto units = fsm::UnitsIn(tables)) base->MoveBy(*units);
+    if (const auto units = fsm::UnitsIn(tables)) base->UseUnits(*units);
     std::vector<glm::vec3> points;
     for (std::size_t i = 0; i < facefit::kNetworkPoints; ++i) points.push_back(base->AtRest(i));
     sight->mirror = MirrorOf(points);
@@ -82,7 +82,7 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
     work->base = sight->base;
     work->mirror = sight->mirror;
     if (work->front.face) {
-      work->found = PointsOf(*work->front.face);
+      work->found = PointsOf(work->front.face->found);
       if (work->front.orientation != 1) work->notice = "The photo was lying; it was set upright";
     } else {
       work->notice = "No face was found: drag the points to where eyes, nose, mouth and chin are";
@@ -104,7 +104,7 @@ vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& s
     const facefit::SidePhoto* const only[] = {&*side_photo};
     const auto used =
         facefit::UseSidePhotos(sight.networks, work.front.photo, only,
-                               facefit::FitFace(*work.base, FoundFrom(points), &work.front.photo));
+                               facefit::FitFace(*work.base, FoundFrom(points), work.front.photo));
     if (!used.left_out.empty()) {
       return vm::Fail(vm::Errc::kBadValue, path + ": " + used.left_out.front().why);
     }
@@ -120,10 +120,11 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
   try {
     std::vector<const facefit::SidePhoto*> side_photos;
     for (const auto& side : sides) side_photos.push_back(side.get());
-    facefit::FrontPhoto front = work.front;
-    front.face = FoundFrom(points);
-    auto made =
-        facefit::MakeFace(*work.base, front, sight ? &sight->networks : nullptr, side_photos);
+    facefit::FrontFace face = work.front.face.value_or(facefit::FrontFace{});
+    face.found = FoundFrom(points);
+    const auto from_side =
+        sight ? std::optional(facefit::SidePhotoSet{sight->networks, side_photos}) : std::nullopt;
+    auto made = facefit::MakeFace(*work.base, work.front, face, from_side);
     if (!made) return std::unexpected(made.error());
     auto built = std::make_shared<BuiltFace>();
     built->base = work.base;

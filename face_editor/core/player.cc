@@ -131,12 +131,4 @@ fsm::FaceState StateOf(const fsm::FaceLook& look) {
   return state;
 }
 
-fsm::FaceState StateOf(const fsm::Viseme& shape) {
-  fsm::FaceState state;
-  state.mouth = shape.pose.mouth;
-  state.seal = shape.pose.seal;
-  state.tongue = shape.pose.tongue;
-  return state;
-}
-
 }  // namespace editor

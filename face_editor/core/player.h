@@ -65,7 +65,5 @@ class Player {
 
 /// The face with these units and nothing else.
 fsm::FaceState StateOf(const fsm::FaceLook& look);
-/// The face with this mouth at full articulation.
-fsm::FaceState StateOf(const fsm::Viseme& shape);
 
 }  // namespace editor

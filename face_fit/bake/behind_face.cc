@@ -1,12 +1,11 @@
 #include "face_fit/bake/behind_face.h"
 
-#include <algorithm>
 #include <glm/common.hpp>
 
 #include "face_fit/bake/chin.h"
 #include "face_fit/bake/skin_surface.h"
+#include "face_fit/complete/complete_figure.h"
 #include "face_fit/picture/filters.h"
-#include "face_fit/picture/grain.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/tables/photo_look.h"
 
@@ -14,13 +13,9 @@ namespace facefit {
 namespace {
 
 /// Returns a picture with unknown pixels inpainted and grain added.
-fsm::Image FilledIn(fsm::Image image, const FloatImage& known, float pixels_per_mm) {
+fsm::Image FilledIn(fsm::Image image, const Mask& known, float pixels_per_mm) {
   PushPullInpaint(image, known);
-  const int grain =
-      std::max(static_cast<int>(PhotoLook().grain.coarsest_on_figure_mm * pixels_per_mm), 2);
-  // Pixels of a small photo are as coarse as grain, so none is added.
-  const float amount = fsm::SmoothStep(PhotoLook().grain.pixels_per_mm, pixels_per_mm);
-  AddGrain(known, FloatImage(image.width, image.height, amount), grain, image);
+  AddGrainToFigure(known, Mask(image.width, image.height, 1), pixels_per_mm, image);
   return image;
 }
 
@@ -38,19 +33,16 @@ fsm::Image BehindFace(const FittedHead& fitted, const FigureCutout& figure) {
   // large as the skin, or the chin would show twice.
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const auto& look = PhotoLook().behind_face;
-  const Mask soft = Blurred(face, std::max(static_cast<int>(look.around_mm * pixels_per_mm), 1));
-  FloatImage keep(width, height, 1), beside(width, height, 1), below(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
-      const glm::vec3 position = fitted.pose.PositionAt(pixel, kBesideFaceDepthMm);
-      const std::size_t i = keep.Index(x, y);
-      const float hole = glm::mix(look.face_share, look.neck_share, chin.BeforeNeck(position));
-      keep[i] = fsm::SmoothStep(hole + look.edge_share, soft[i]);
-      beside[i] = fsm::SmoothStep(look.neck_share + look.neck_edge_share, soft[i]);
-      below[i] = chin.Below(position);
-    }
-  }
+  const Mask soft = Blurred(face, PixelsOf(look.around_mm, pixels_per_mm));
+  Mask keep(width, height, 1), beside(width, height, 1), below(width, height);
+  ForPixels(width, height, [&](int x, int y, std::size_t i) {
+    const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
+    const glm::vec3 position = fitted.pose.PositionAt(pixel, kBesideFaceDepthMm);
+    const float hole = glm::mix(look.face_share, look.neck_share, chin.BeforeNeckShare(position));
+    keep[i] = (hole + look.edge_share).Ramp(soft[i]);
+    beside[i] = (look.neck_share + look.neck_edge_share).Ramp(soft[i]);
+    below[i] = chin.BelowShare(position);
+  });
   fsm::Image out = FilledIn(figure.colours, keep, pixels_per_mm);
   // Behind the jaw, fill from the neck below and not from the jaw.
   const fsm::Image neck = FilledIn(figure.colours, beside, pixels_per_mm);

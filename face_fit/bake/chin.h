@@ -16,21 +16,17 @@ class Chin {
   /// Returns the height below which the photo's neck replaces the skin.
   float SkinBottom() const { return position_.y - PhotoLook().chin.skin_goes_on_mm; }
   /// Returns 1 well below the chin, 0 above it.
-  float Below(glm::vec3 p) const {
-    return fsm::SmoothStep(position_.y + PhotoLook().chin.below_it_mm, p.y);
+  float BelowShare(glm::vec3 p) const {
+    return (position_.y + PhotoLook().chin.below_it_mm).Ramp(p.y);
   }
   /// Returns 1 below the chin, behind which the neck lies, 0 where skin continues to neck, ear and
   /// hair.
-  float BeforeNeck(glm::vec3 p) const {
-    return Below(p) * fsm::SmoothStep(PhotoLook().chin.before_neck_mm, std::abs(p.x));
+  float BeforeNeckShare(glm::vec3 p) const {
+    return BelowShare(p) * PhotoLook().chin.before_neck_mm.Ramp(std::abs(p.x));
   }
 
  private:
   glm::vec3 position_;
 };
-
-/// Approximate depth of what lies beside the face, camera's frame, millimetres: accurate enough to
-/// tell which part of the head a pixel covers.
-inline constexpr float kBesideFaceDepthMm = 20;
 
 }  // namespace facefit

@@ -16,21 +16,12 @@
 namespace facefit {
 namespace {
 
-/// Converts a colour from sRGB 0..255 to linear RGB 0..1.
-glm::vec3 Linear(glm::vec3 encoded) {
-  const auto linear = [](float v) { return fsm::SrgbToLinear(v / 255); };
-  return {linear(encoded.r), linear(encoded.g), linear(encoded.b)};
-}
-
 // Where an eye's colours are sampled, divided by the distance of its corners: half size of a
 // rectangle about their middle, step, and distance from the lids with their lashes and shade.
 constexpr float kHalfWidth = 0.5F, kHalfHeight = 0.25F, kSampleStep = 0.02F, kFromLids = 0.05F;
-// Ranks by brightness of the colours that represent all samples: for the iris the median; for the
-// white a higher one, because lids and lashes shade it.
-constexpr float kIrisRank = 0.5F, kWhiteRank = 0.6F;
 constexpr std::size_t kRanksTogether = 7, kMinSamples = 8;
 // Plausible linear light of irises and whites.
-constexpr glm::vec2 kIrisLight{0.0005F, 0.6F}, kWhiteLight{0.04F, 0.8F};
+constexpr fsm::Range kIrisLight{0.0005F, 0.6F}, kWhiteLight{0.04F, 0.8F};
 
 /// Returns the mean colour around a rank of brightness, 0..1; `otherwise` if there are too few.
 glm::vec3 Typical(std::vector<glm::vec3> colours, float rank, glm::vec3 otherwise) {
@@ -49,19 +40,39 @@ glm::vec3 Typical(std::vector<glm::vec3> colours, float rank, glm::vec3 otherwis
 float SkinLight(const FoundFace& face, const fsm::Image& photo) {
   float light = 0;
   for (const PointIndex i : point::kBareSkin) {
-    light += Brightness(Linear(ColourAt(photo, face.PixelOf(i)))) / point::kBareSkin.size();
+    light += Brightness(fsm::SrgbToLinear(ColourAt(photo, face.PixelOf(i)) / 255.0F)) /
+             point::kBareSkin.size();
   }
   return light;
+}
+
+/// Returns the linear colour with which an iris is drawn. The gain makes up for pupil and rim,
+/// which darken it. In weak light brightness is raised for all channels alike: raised one by one, a
+/// brown iris would turn grey. `seen`: 0..255, likewise below.
+glm::vec3 DrawnIris(glm::vec3 seen) {
+  const auto& look = PhotoLook().iris;
+  const glm::vec3 bright = fsm::SrgbToLinear(seen / 255.0F) * look.gain;
+  return kIrisLight.Clamp(bright *
+                          std::max(1.0F, look.darkest / std::max(Brightness(bright), 1e-4F)));
+}
+
+/// The same of a white. Whites are paler than the photo shows them, but keep the hue of the light,
+/// and even in shade they are not much darker than the skin around.
+glm::vec3 DrawnWhite(glm::vec3 seen, float skin_light) {
+  const auto& look = PhotoLook().white;
+  const glm::vec3 linear = fsm::SrgbToLinear(seen / 255.0F);
+  const glm::vec3 pale = glm::mix(linear, glm::vec3(Brightness(linear)), look.greyed_share);
+  const float least = look.darkest_by_skin * skin_light;
+  return kWhiteLight.Clamp(pale * std::max(1.0F, least / std::max(Brightness(pale), 1e-3F)));
 }
 
 }  // namespace
 
 EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fsm::Image& photo) {
   const PhotoLookNumbers& look = PhotoLook();
-  const glm::vec2 iris_radii = look.iris.sampled_radii;
   std::vector<glm::vec3> iris, white;
   for (const fsm::Side side : fsm::kSides) {
-    const std::vector<glm::vec2> outline = face.Line(point::kEyeOutline[side]);
+    const EyePoints outline = EyePointsOf(side, face);
     const glm::vec2 a = outline[kOuterCorner], b = outline[kInnerCorner];
     const float width = glm::distance(a, b);
     const IrisCircle& circle = irises.circles[side];
@@ -69,26 +80,16 @@ EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fs
       for (float x = -kHalfWidth; x <= kHalfWidth; x += kSampleStep) {
         const glm::vec2 pixel = 0.5F * (a + b) + width * glm::vec2(x, y);
         if (SignedDistance(outline, pixel) > -kFromLids * width) continue;
-        const float radii = glm::distance(pixel, circle.centre) / circle.radius;
+        const float radii = glm::distance(pixel, circle.centre_px) / circle.radius_px;
         const glm::vec3 colour = ColourAt(photo, pixel);
-        if (radii > iris_radii.x && radii < iris_radii.y) iris.push_back(colour);
+        if (look.iris.sampled_radii.Contains(radii)) iris.push_back(colour);
         if (radii > look.white.sampled_from_radii) white.push_back(colour);
       }
     }
   }
-  // The gain makes up for pupil and rim, which darken the drawn iris. In weak light brightness is
-  // raised for all channels alike: raised one by one, a brown iris would turn grey.
-  const glm::vec3 tint = Linear(Typical(iris, kIrisRank, look.iris.unseen_colour)) * look.iris.gain;
-  const glm::vec3 shown =
-      glm::clamp(tint * std::max(1.0F, look.iris.darkest / std::max(Brightness(tint), 1e-4F)),
-                 kIrisLight.x, kIrisLight.y);
-  // Whites are paler than the photo shows them, but keep the hue of the light, and even in shade
-  // they are not much darker than the skin around.
-  glm::vec3 ball = Linear(Typical(white, kWhiteRank, look.white.unseen_colour));
-  const float least = look.white.darkest_by_skin * SkinLight(face, photo);
-  ball = glm::mix(ball, glm::vec3(Brightness(ball)), look.white.greyed_share);
-  ball *= std::max(1.0F, least / std::max(Brightness(ball), 1e-3F));
-  return {.iris = shown, .white = glm::clamp(ball, kWhiteLight.x, kWhiteLight.y)};
+  return {.iris = DrawnIris(Typical(iris, look.iris.rank_share, look.iris.unseen_colour)),
+          .white = DrawnWhite(Typical(white, look.white.rank_share, look.white.unseen_colour),
+                              SkinLight(face, photo))};
 }
 
 MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
@@ -99,7 +100,7 @@ MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
   for (std::size_t k = kFirst; k <= kLast; ++k) {
     const glm::vec2 pixel =
         0.5F * (face.PixelOf(point::kLowerOuterLip[k]) + face.PixelOf(point::kLowerInnerLip[k]));
-    lip += Linear(ColourAt(photo, pixel)) / float{kLast - kFirst + 1};
+    lip += fsm::SrgbToLinear(ColourAt(photo, pixel) / 255.0F) / float{kLast - kFirst + 1};
   }
   // The inner rim is in shade.
   const auto& inner = look.lips.inner;

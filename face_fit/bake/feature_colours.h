@@ -2,13 +2,13 @@
 
 #include <glm/vec3.hpp>
 
-#include "face_fit/find/head/observed_head.h"
 #include "face_fit/find/network/face_finder.h"
 #include "face_fit/fit/photo_irises.h"
 
 namespace facefit {
 
-/// Colours of the eyes in a photo, linear RGB.
+/// Colours of the eyes as they are drawn, linear RGB: from the photo, the iris brighter, the white
+/// paler (rows `iris`, `white` of tables/photo_look.txt).
 struct EyeColours {
   glm::vec3 iris, white;
 };

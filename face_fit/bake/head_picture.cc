@@ -16,16 +16,14 @@ fsm::Image PackHeadPicture(const fsm::Image& map, const fsm::Image& figure, cons
   const float steep = glm::clamp(kScreenPixelsPerMm / pixels_per_mm, 1.0F, kSteepest);
   const glm::vec2 scale = glm::vec2(figure.width, figure.height) / static_cast<float>(kMapSize);
   fsm::Image out = fsm::FilledImage(2 * kMapSize, kMapSize);
-  for (int y = 0; y < kMapSize; ++y) {
-    for (int x = 0; x < kMapSize; ++x) {
-      const glm::vec2 p = (glm::vec2(x, y) + 0.5F) * scale;
-      const std::size_t left = out.Index(x, y);
-      std::copy_n(&map.rgba[4 * map.Index(x, y)], 4, &out.rgba[4 * left]);
-      SetRgb(out, left + kMapSize, SharpColourAt(figure, p));
-      out.rgba[4 * (left + kMapSize) + 3] =
-          Byte(255 * (0.5F + steep * (SmoothAt(opacity, p) - 0.5F)));
-    }
-  }
+  ForPixels(kMapSize, kMapSize, [&](int x, int y, std::size_t i) {
+    const glm::vec2 p = (glm::vec2(x, y) + 0.5F) * scale;
+    const std::size_t left = out.Index(x, y);
+    std::copy_n(&map.rgba[4 * i], 4, &out.rgba[4 * left]);
+    SetRgb(out, left + kMapSize, SharpColourAt(figure, p));
+    out.rgba[4 * (left + kMapSize) + 3] =
+        Byte(255 * (0.5F + steep * (SmoothAt(opacity, p) - 0.5F)));
+  });
   return out;
 }
 

@@ -4,7 +4,7 @@
 #include <glm/vec4.hpp>
 
 #include "face_fit/bake/skin_texels.h"
-#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/raster.h"
 #include "fsm/image/image.h"
 
 namespace facefit {

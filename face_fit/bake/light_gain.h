@@ -1,6 +1,5 @@
 #pragma once
 
-#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
 #include "face_fit/tables/photo_look.h"
@@ -10,8 +9,7 @@ namespace facefit {
 /// Returns the gain of each channel that moves a colour from one light to another: the ratio of
 /// `to` to `from`, colours of similar skin in either light, clamped to light_gain of the table.
 inline glm::vec3 LightGain(glm::vec3 to, glm::vec3 from) {
-  const glm::vec2 limit = PhotoLook().light_gain;
-  return glm::clamp(to / from, limit.x, limit.y);
+  return PhotoLook().light_gain.Clamp(to / from);
 }
 
 }  // namespace facefit

@@ -22,7 +22,7 @@ PhotoOpenings::PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool li
     openings_.push_back({face.Line(point::kEyeOutline[side]), -lash, -lash});
   }
   if (lips_apart) {
-    std::vector<PointIndex> mouth(point::kUpperInnerLip.begin(), point::kUpperInnerLip.end());
+    std::vector<PointIndex> mouth = WithCorners(point::kUpperInnerLip, point::kInnerMouthCorners);
     mouth.insert(mouth.end(), point::kLowerInnerLip.rbegin(), point::kLowerInnerLip.rend());
     // The blurred edge of the lips mixes with teeth, more so in a small photo.
     const glm::vec2 rim = glm::max(pixels_per_mm * glm::vec2(look.opening.no_skin_round_mouth_mm,

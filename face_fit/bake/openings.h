@@ -19,7 +19,7 @@ class PhotoOpenings {
   struct Opening {
     std::vector<glm::vec2> outline;
     float no_skin_px;   ///< distance outside the outline below which nothing is skin
-    float all_skin_px;  ///< distance outside the outline from which all is skin
+    float all_skin_px;  ///< distance from which all is skin; the same where nothing fades
     glm::vec2 middle{};
     float radius = 0;  ///< everything farther from `middle` is skin
   };

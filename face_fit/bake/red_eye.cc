@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
-#include <glm/vec2.hpp>
 
 #include "face_fit/tables/photo_look.h"
 
@@ -11,7 +10,7 @@ namespace {
 
 /// Redness relative to the skin's at which a colour begins to be replaced, and from which it is
 /// replaced wholly.
-constexpr glm::vec2 kRedderThanSkin{1, 1.15F};
+constexpr fsm::Range kRedderThanSkin{1, 1.15F};
 
 float RedShare(glm::vec3 c) { return c.r / std::max(0.5F * (c.g + c.b), 1.0F); }
 float Blueness(glm::vec3 c) { return c.b / std::max(c.g, 1.0F); }
@@ -25,13 +24,13 @@ float RedEye::Likelihood(glm::vec3 colour) const {
   const float bluer = Blueness(colour) / std::max(Blueness(skin_colour_), 0.1F);
   const float bright = colour.r / std::max(skin_colour_.r, 1.0F);
   const auto& flash = PhotoLook().flash;
-  return fsm::SmoothStep(flash.redder, Redder(colour, skin_colour_)) *
-         fsm::SmoothStep(flash.bluer, bluer) * fsm::SmoothStep(flash.bright, bright);
+  return flash.redder.Ramp(Redder(colour, skin_colour_)) * flash.bluer.Ramp(bluer) *
+         flash.bright.Ramp(bright);
 }
 
 glm::vec3 RedEye::Without(glm::vec3 colour, float near) const {
   // A pupil is dark; other highlights in it stay slightly brighter.
-  const float share = near * fsm::SmoothStep(kRedderThanSkin, Redder(colour, skin_colour_));
+  const float share = near * kRedderThanSkin.Ramp(Redder(colour, skin_colour_));
   return glm::mix(colour, glm::vec3(PhotoLook().flash.pupil_share * 0.5F * (colour.g + colour.b)),
                   share);
 }

@@ -12,8 +12,9 @@
 #include "face_fit/bake/sheet_depth.h"
 #include "face_fit/bake/skin_surface.h"
 #include "face_fit/bake/skin_texels.h"
-#include "face_fit/fit/landmark_warp.h"
+#include "face_fit/fit/pixel_warp.h"
 #include "face_fit/picture/filters.h"
+#include "face_fit/picture/pixels.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
@@ -24,15 +25,15 @@ constexpr float kMaxDepthMm = 60;   // camera's frame; no point of the sheet lie
 constexpr float kMinCellMm = 4.5F;  // between points of the sheet
 constexpr float kMaxPoints = 14000;
 constexpr float kWholeWithin = 0.999F;  // share of skin around a point above which it is never seen
-constexpr float kBehindOpeningMm = 90;  // farther back lies the hair at the nape
-constexpr glm::vec2 kFadeMotion{0, 0.3F};  // share of skin around a point over which motion begins
+constexpr float kBehindHoleMm = 90;     // farther back lies the hair at the nape
+constexpr fsm::Range kFadeMotion{0, 0.3F};  // share of skin around a point over which motion begins
 
 /// Extends motion beyond the covered points: the mean of those nearby, fading out.
 VectorImage Spread(const VectorImage& motion, const Mask& covered, int reach) {
-  const Mask share = Blurred(covered, reach);
-  VectorImage out = Blurred(motion, reach);
+  const WeightedBlur nearby(motion, covered, reach);
+  VectorImage out = motion;
   for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i] *= fsm::SmoothStep(kFadeMotion, share[i]) / std::max(share[i], 1e-3F);
+    out[i] = nearby.MeanAt(i) * kFadeMotion.Ramp(nearby.weight[i]);
   }
   return out;
 }
@@ -55,12 +56,12 @@ VectorImage MotionOn(const VisibleSurface& surface, const std::vector<glm::vec3>
   });
 }
 
-/// The openings of eyes and mouth, behind which no part of the sheet may lie. In a turned head one
-/// eye and one corner of the mouth are near the edge of the visible skin, where the sheet continues
+/// The holes of the sheet: no part of it may lie behind eyes and mouth. In a turned head one eye
+/// and one corner of the mouth are near the edge of the visible skin, where the sheet continues
 /// just below it.
-class HeadOpenings {
+class SheetHoles {
  public:
-  explicit HeadOpenings(const FittedHead& fitted) {
+  explicit SheetHoles(const FittedHead& fitted) {
     using namespace point;
     constexpr std::array<std::pair<PointIndex, PointIndex>, 2> kEyes = {
         std::pair(kEyeOuterRight, kEyeInnerRight), std::pair(kEyeInnerLeft, kEyeOuterLeft)};
@@ -69,17 +70,18 @@ class HeadOpenings {
       const glm::vec3 right = fitted.PositionOf(kEyes[i].first),
                       left = fitted.PositionOf(kEyes[i].second);
       const float half = 0.5F * std::abs(left.x - right.x) + look.beyond_eye_mm;
-      ovals_[i] = {0.5F * (left + right), half, half, half};
+      eyes_[i] = {0.5F * (left + right), half, half, half};
     }
     const glm::vec3 right = fitted.PositionOf(kInnerMouthRight),
                     left = fitted.PositionOf(kInnerMouthLeft);
-    ovals_[2] = {0.5F * (left + right), 0.5F * std::abs(left.x - right.x) + look.beyond_mouth_mm,
-                 look.above_mouth_mm, look.below_mouth_mm};
+    mouth_ = {0.5F * (left + right), 0.5F * std::abs(left.x - right.x) + look.beyond_mouth_mm,
+              look.above_mouth_mm, look.below_mouth_mm};
   }
   /// `p`: head's frame.
-  bool BehindMouth(glm::vec3 p) const { return Behind(ovals_[2], p); }
+  bool BehindMouth(glm::vec3 p) const { return Behind(mouth_, p); }
   bool Behind(glm::vec3 p) const {
-    return std::ranges::any_of(ovals_, [p](const Oval& oval) { return Behind(oval, p); });
+    return BehindMouth(p) ||
+           std::ranges::any_of(eyes_, [p](const Oval& oval) { return Behind(oval, p); });
   }
 
  private:
@@ -88,13 +90,14 @@ class HeadOpenings {
     float half = 1, above = 1, below = 1;
   };
   static bool Behind(const Oval& oval, glm::vec3 p) {
-    if (p.z < oval.middle.z - kBehindOpeningMm) return false;
+    if (p.z < oval.middle.z - kBehindHoleMm) return false;
     const glm::vec2 from_middle = glm::vec2(p - oval.middle);
     const glm::vec2 radii =
         from_middle / glm::vec2(oval.half, from_middle.y > 0 ? oval.above : oval.below);
     return glm::dot(radii, radii) < 1;
   }
-  std::array<Oval, 3> ovals_{};
+  std::array<Oval, 2> eyes_;
+  Oval mouth_;
 };
 
 /// Returns the grid of the sheet, over the whole figure.
@@ -118,7 +121,7 @@ class DrawnCells {
         grid_(grid),
         shown_(shown),
         depth_(depth),
-        openings_(fitted),
+        holes_(fitted),
         within_(Blurred(WithoutHoles(skin.covered), skin.rim)) {}
   bool Has(glm::ivec2 cell) const {
     return IsShown(cell) && !All(cell, [this](glm::ivec2 p) { return IsHidden(p); }) &&
@@ -146,27 +149,70 @@ class DrawnCells {
     }
     return false;
   }
-  /// Returns whether a point is behind the middle of the face or behind an opening.
+  /// Returns whether a point is behind the middle of the face or in a hole.
   bool IsHidden(glm::ivec2 p) const {
-    return within_(p.x, p.y) > kWholeWithin || openings_.Behind(PositionOf(p));
+    return within_(p.x, p.y) > kWholeWithin || holes_.Behind(PositionOf(p));
   }
   /// A cell of a small photo may be wider than the skin between lips and cheek.
   bool IsInMouth(glm::ivec2 cell) const {
     const auto corners = std::ranges::count_if(kCellCorners, [&](glm::ivec2 corner) {
-      return openings_.BehindMouth(PositionOf(cell + corner));
+      return holes_.BehindMouth(PositionOf(cell + corner));
     });
     return corners >= 2;
   }
 
   const FittedHead& fitted_;
   const SampleGrid& grid_;
-  const FloatImage &shown_, &depth_;
-  HeadOpenings openings_;
+  const Mask& shown_;
+  const FloatImage& depth_;
+  SheetHoles holes_;
   Mask within_;  // share of face around each point, 0..1
 };
 
+/// Returns the points of the sheet, row by row. `motion`: of each to rest; `size`: of the figure,
+/// pixels.
+std::vector<fsm::PhotoHead::SheetVertex> SheetVertices(const FittedHead& fitted,
+                                                       const SampleGrid& grid,
+                                                       const FloatImage& depth,
+                                                       const VectorImage& motion, glm::vec2 size) {
+  std::vector<fsm::PhotoHead::SheetVertex> vertices;
+  ForPixels(grid.columns, grid.rows, [&](int x, int y, std::size_t i) {
+    const glm::vec2 pixel = grid.Point(x, y);
+    const glm::vec3 position = fitted.pose.PositionAt(pixel, std::min(depth[i], kMaxDepthMm));
+    vertices.push_back({position + motion[i], OnFigureHalf(pixel / size)});
+  });
+  return vertices;
+}
+
 /// A cell of the sheet: its corners, counter-clockwise.
 using Quad = std::array<std::uint32_t, 4>;
+
+std::vector<Quad> DrawnQuads(const DrawnCells& cells, const FloatImage& depth) {
+  std::vector<Quad> quads;
+  for (int y = 0; y + 1 < depth.height; ++y) {
+    for (int x = 0; x + 1 < depth.width; ++x) {
+      if (!cells.Has({x, y})) continue;
+      std::ranges::transform(kCellCorners, quads.emplace_back().begin(), [&](glm::ivec2 corner) {
+        return static_cast<std::uint32_t>(depth.Index(x + corner.x, y + corner.y));
+      });
+    }
+  }
+  return quads;
+}
+
+/// Returns the quads as triangles, from back to front, because soft edges show what lies behind
+/// them.
+std::vector<std::uint32_t> BackToFront(std::vector<Quad> quads,
+                                       const std::vector<fsm::PhotoHead::SheetVertex>& vertices) {
+  std::ranges::sort(quads, {}, [&](const Quad& quad) {
+    return std::pair(vertices[quad[0]].position.z + vertices[quad[2]].position.z, quad);
+  });
+  std::vector<std::uint32_t> triangles;
+  for (const Quad& quad : quads) {
+    for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) triangles.push_back(quad[k]);
+  }
+  return triangles;
+}
 
 }  // namespace
 
@@ -175,47 +221,20 @@ Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure) {
   const Chin chin(fitted);
   const SampleGrid grid = GridOver(figure, pixels_per_mm);
   const VisibleSurface surface = VisibleSkin(fitted, fitted.pose, grid, chin.SkinBottom());
-  const GridSkin skin(
-      surface,
-      std::max(static_cast<int>(std::lround(PhotoLook().sheet.rim_mm * pixels_per_mm / grid.step)),
-               1));
+  const GridSkin skin(surface, PixelsOf(PhotoLook().sheet.rim_mm, pixels_per_mm / grid.step));
   // Hair and neck beside the skin move with it.
   const VectorImage motion =
       Spread(MotionOn(surface, MotionToRest(fitted)), skin.covered, skin.rim);
-  const auto shown = FloatImage::From(grid.columns, grid.rows, [&](int x, int y) {
+  const auto shown = Mask::From(grid.columns, grid.rows, [&](int x, int y) {
     const glm::vec2 pixel = grid.Point(x, y);
     return figure.opacity.SampleAt(pixel.x, pixel.y);
   });
   const FloatImage depth = SheetDepth(fitted, grid, chin, skin, Blurred(shown, 2));
-  const glm::vec2 size(figure.colours.width, figure.colours.height);
-  Sheet out{.vertices = {}, .triangles = {}, .skin_bottom_y = chin.SkinBottom()};
-  for (int y = 0; y < grid.rows; ++y) {
-    for (int x = 0; x < grid.columns; ++x) {
-      const glm::vec2 pixel = grid.Point(x, y);
-      const std::size_t i = depth.Index(x, y);
-      const glm::vec3 position = fitted.pose.PositionAt(pixel, std::min(depth[i], kMaxDepthMm));
-      out.vertices.push_back({position + motion[i], OnFigureHalf(pixel / size)});
-    }
-  }
-  const DrawnCells cells(fitted, grid, shown, skin, depth);
-  std::vector<Quad> quads;
-  for (int y = 0; y + 1 < grid.rows; ++y) {
-    for (int x = 0; x + 1 < grid.columns; ++x) {
-      if (!cells.Has({x, y})) continue;
-      Quad& quad = quads.emplace_back();
-      std::ranges::transform(kCellCorners, quad.begin(), [&](glm::ivec2 corner) {
-        return static_cast<std::uint32_t>(depth.Index(x + corner.x, y + corner.y));
-      });
-    }
-  }
-  // From back to front, because soft edges show what lies behind them.
-  std::ranges::sort(quads, {}, [&](const auto& quad) {
-    return std::pair(out.vertices[quad[0]].position.z + out.vertices[quad[2]].position.z, quad);
-  });
-  for (const auto& quad : quads) {
-    for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) out.triangles.push_back(quad[k]);
-  }
-  return out;
+  auto vertices =
+      SheetVertices(fitted, grid, depth, motion, {figure.colours.width, figure.colours.height});
+  auto triangles =
+      BackToFront(DrawnQuads(DrawnCells(fitted, grid, shown, skin, depth), depth), vertices);
+  return {std::move(vertices), std::move(triangles), chin.SkinBottom()};
 }
 
 }  // namespace facefit

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "face_fit/find/figure/matte.h"
-#include "face_fit/find/head/observed_head.h"
 #include "face_fit/fit/fitted_head.h"
 #include "fsm/head/photo_head.h"
 

@@ -13,10 +13,8 @@ namespace {
 constexpr int kPoissonSteps = 400;
 constexpr float kInnerWithin = 0.62F;  // share of skin around a point above which it is inner skin
 constexpr float kDeepWithin = 0.95F;   // share of skin from which the sheet keeps its full distance
-constexpr float kShownLeast = 0.12F;   // opacity below which a point is outside the figure
-constexpr float kToShouldersMm = 70;   // height of the chin above the shoulders
 // Share of inner skin nearby over which its depth begins to count.
-constexpr glm::vec2 kFadeDepth{0, 0.25F};
+constexpr fsm::Range kFadeDepth{0, 0.25F};
 
 /// Fills points that are not fixed with the solution of Poisson's equation for a slight constant
 /// curvature: a soap film, a little rounder. Runs kPoissonSteps steps of Gauss and Seidel, not to
@@ -24,17 +22,14 @@ constexpr glm::vec2 kFadeDepth{0, 0.25F};
 FloatImage Spanned(const Mask& fixed, FloatImage depth) {
   const float round = PhotoLook().sheet.round_mm;
   for (int step = 0; step < kPoissonSteps; ++step) {
-    for (int y = 0; y < depth.height; ++y) {
-      for (int x = 0; x < depth.width; ++x) {
-        const std::size_t i = depth.Index(x, y);
-        if (fixed[i] > 0) continue;
-        const auto next = [&](int dx, int dy) {
-          return depth(std::clamp(x + dx, 0, depth.width - 1),
-                       std::clamp(y + dy, 0, depth.height - 1));
-        };
-        depth[i] = 0.25F * (next(1, 0) + next(-1, 0) + next(0, 1) + next(0, -1)) + round;
-      }
-    }
+    ForPixels(depth.width, depth.height, [&](int x, int y, std::size_t i) {
+      if (fixed[i] > 0) return;
+      const auto next = [&](int dx, int dy) {
+        return depth(std::clamp(x + dx, 0, depth.width - 1),
+                     std::clamp(y + dy, 0, depth.height - 1));
+      };
+      depth[i] = 0.25F * (next(1, 0) + next(-1, 0) + next(0, 1) + next(0, -1)) + round;
+    });
   }
   return depth;
 }
@@ -51,8 +46,9 @@ class UnderSkinDepth {
     const float under =
         skin_.depth[i] - glm::mix(look.under_skin_edge_mm, look.under_skin_mm, inward);
     // The neck lies behind the lower face, with room for the jaw to open.
-    return glm::mix(under, std::min(under, look.before_neck_most_mm), chin_.BeforeNeck(position)) -
-           look.below_chin_back_mm * chin_.Below(position);
+    return glm::mix(under, std::min(under, look.before_neck_most_mm),
+                    chin_.BeforeNeckShare(position)) -
+           look.below_chin_back_mm * chin_.BelowShare(position);
   }
 
  private:
@@ -65,27 +61,22 @@ class UnderSkinDepth {
 class OutlineDepth {
  public:
   OutlineDepth(const Chin& chin, const GridSkin& skin)
-      : chin_(chin), beside_(skin.depth), share_(Blurred(skin.inner, skin.rim)) {
-    for (std::size_t i = 0; i < beside_.size(); ++i) {
-      beside_[i] *= skin.inner[i];
-    }
-    beside_ = Blurred(beside_, skin.rim);
-  }
+      : chin_(chin), beside_(skin.depth, skin.inner, skin.rim) {}
   /// `position`: as in UnderSkinDepth.
   float DepthAt(std::size_t i, glm::vec3 position) const {
     // Hair lies before the ears, shoulders in their plane. Beside the cheek the sheet stays near
     // its depth, or the sheet's last pixels would be stretched.
     const auto& look = PhotoLook().sheet;
-    const float outline =
-        glm::mix(look.hair_depth_mm, look.shoulder_depth_mm,
-                 fsm::SmoothStep(chin_.height(), chin_.height() - kToShouldersMm, position.y));
-    const float cheek = beside_[i] / std::max(share_[i], 1e-3F) - look.falls_back_mm;
-    return glm::mix(outline, std::max(cheek, outline), fsm::SmoothStep(kFadeDepth, share_[i]));
+    const float outline = glm::mix(
+        look.hair_depth_mm, look.shoulder_depth_mm,
+        fsm::SmoothStep(chin_.height(), chin_.height() - look.shoulders_below_chin_mm, position.y));
+    const float cheek = beside_.MeanAt(i) - look.falls_back_mm;
+    return glm::mix(outline, std::max(cheek, outline), kFadeDepth.Ramp(beside_.weight[i]));
   }
 
  private:
   const Chin& chin_;
-  FloatImage beside_, share_;  // mean depth and share of inner skin nearby, 0..1
+  WeightedBlur<float> beside_;  // depth of inner skin nearby
 };
 
 }  // namespace
@@ -105,18 +96,16 @@ FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Ch
                       const GridSkin& skin, const Mask& shown) {
   const UnderSkinDepth under_skin(chin, skin);
   const OutlineDepth at_outline(chin, skin);
-  FloatImage depth(grid.columns, grid.rows), fixed(depth);
-  for (int y = 0; y < grid.rows; ++y) {
-    for (int x = 0; x < grid.columns; ++x) {
-      const std::size_t i = depth.Index(x, y);
-      const glm::vec3 position = fitted.pose.PositionAt(grid.Point(x, y), kBesideFaceDepthMm);
-      const bool inner = skin.inner[i] > 0;
-      const bool outside = skin.covered[i] <= 0 && shown[i] < kShownLeast;
-      if (!inner && !outside) continue;
-      depth[i] = inner ? under_skin.DepthAt(i, position) : at_outline.DepthAt(i, position);
-      fixed[i] = 1;
-    }
-  }
+  FloatImage depth(grid.columns, grid.rows);
+  Mask fixed(grid.columns, grid.rows);
+  ForPixels(grid.columns, grid.rows, [&](int x, int y, std::size_t i) {
+    const glm::vec3 position = fitted.pose.PositionAt(grid.Point(x, y), kBesideFaceDepthMm);
+    const bool inner = skin.inner[i] > 0;
+    const bool outside = skin.covered[i] <= 0 && shown[i] < PhotoLook().sheet.shown_from_share;
+    if (!inner && !outside) return;
+    depth[i] = inner ? under_skin.DepthAt(i, position) : at_outline.DepthAt(i, position);
+    fixed[i] = 1;
+  });
   const FloatImage spanned = Spanned(fixed, std::move(depth));
   // A steep step, as from jaw to neck, would fold when the head turns.
   FloatImage smooth = Blurred(Blurred(spanned, 1), 1);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "face_fit/picture/filters.h"
+#include "face_fit/picture/median.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/tables/photo_look.h"
 
@@ -29,7 +30,7 @@ float Saturation(const fsm::Image& map, const Mask& coverage) {
     sum += brightest - std::min({c.r, c.g, c.b});
     light += brightest;
   }
-  return fsm::SmoothStep(PhotoLook().colour.difference, sum / std::max(light, 1.0F));
+  return PhotoLook().colour.difference.Ramp(sum / std::max(light, 1.0F));
 }
 
 Mask SkinLikeness(const fsm::Image& map, const Mask& face_coverage) {
@@ -38,10 +39,10 @@ Mask SkinLikeness(const fsm::Image& map, const Mask& face_coverage) {
     if (face_coverage[i] < kWellCovered) continue;
     for (std::size_t c = 0; c < 3; ++c) channels[c].push_back(map.rgba[4 * i + c]);
   }
-  FloatImage likeness(map.width, map.height, 1);
+  Mask likeness(map.width, map.height, 1);
   if (channels[0].empty()) return likeness;
   std::array<float, 3> middle{};
-  const glm::vec2 hair = PhotoLook().hairy.darker_log;
+  const fsm::Range hair = PhotoLook().hairy.darker_log;
   constexpr float kDark = 8;  // of 255; differences in the dark that do not count
   for (std::size_t c = 0; c < 3; ++c) {
     middle[c] = Median(std::move(channels[c])) + kDark;
@@ -52,7 +53,7 @@ Mask SkinLikeness(const fsm::Image& map, const Mask& face_coverage) {
       darker =
           std::max(darker, std::log(middle[c] / (static_cast<float>(map.rgba[4 * i + c]) + kDark)));
     }
-    likeness[i] = fsm::SmoothStep(hair, darker);
+    likeness[i] = hair.Ramp(darker);
   }
   return Blurred(likeness, TexelsOf(kHairEdgeMm, map.width));
 }
@@ -74,15 +75,15 @@ float Roughness(const fsm::Image& map, const Mask& face_coverage) {
   return steps.empty() ? 0 : Median(std::move(steps));
 }
 
-Mask CutAtHairline(const SkinTexels& texels, float brows_y_mm, Mask likeness) {
-  const FloatImage wide = Blurred(likeness, TexelsOf(kFringeMm, likeness.width));
-  const glm::vec2 edge = PhotoLook().hairy.skin_around_share;
+Mask CutAtHairline(const SkinPlaces& places, float brows_y_mm, Mask likeness) {
+  const Mask wide = Blurred(likeness, TexelsOf(kFringeMm, likeness.width));
+  const fsm::Range edge = PhotoLook().hairy.skin_around_share;
   Mask below_hairline(likeness.width, likeness.height, 1);
   for (int x = 0; x < likeness.width; ++x) {
     float least = 1;
     for (int y = likeness.height - 1; y >= 0; --y) {
-      if (texels(x, y).y_mm > brows_y_mm)
-        least = std::min(least, fsm::SmoothStep(edge, wide(x, y)));
+      if (const auto& place = places(x, y); place && place->y_mm > brows_y_mm)
+        least = std::min(least, edge.Ramp(wide(x, y)));
       below_hairline(x, y) = least;
     }
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "face_fit/bake/skin_texels.h"
-#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/raster.h"
 #include "fsm/image/image.h"
 
 namespace facefit {
@@ -11,7 +11,7 @@ struct SkinMap {
   fsm::Image image = fsm::FilledImage(kMapSize, kMapSize);
   Mask coverage{kMapSize, kMapSize};    ///< how well photos show each texel
   Mask grain_lost{kMapSize, kMapSize};  ///< share of its grain that each texel lost
-  /// What the first photo does not show between lids or between lips.
+  /// 1 where the front photo shows no opening, 0 between lids or lips.
   Mask outside_openings{kMapSize, kMapSize, 1};
 };
 

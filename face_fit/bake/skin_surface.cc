@@ -14,10 +14,10 @@ VisibleSurface VisibleSkin(const FittedHead& fitted, const CameraPose& pose, con
   const auto& posed = fitted.posed_vertices;
   const glm::vec3 axis = pose.TowardsCamera();
   const auto beyond = [&](std::uint32_t v) {
-    return posed[v].y < bottom_mm || posed[v].z < fsm::JawLine(posed[v].y - bottom_mm);
+    return posed[v].y < bottom_mm || posed[v].z < fsm::NeckFrontZ(posed[v].y - bottom_mm);
   };
   VisibleSurface surface(grid, pose.ToScreen(posed));
-  ForSkinTriangles(fitted.base->head().topology(), [&](const MeshTriangle& triangle) {
+  ForSkinTriangles(fitted.base->head().surface(), [&](const MeshTriangle& triangle) {
     if (std::ranges::any_of(triangle.corner, beyond)) return;
     const glm::vec3 normal = triangle.Normal(posed);
     if (glm::dot(normal, axis) > kMinFacing * glm::length(normal)) surface.Draw(triangle);

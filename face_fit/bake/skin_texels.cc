@@ -5,12 +5,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <optional>
 #include <span>
 
 #include "face_fit/bake/skin_surface.h"
 #include "face_fit/picture/plane.h"
-#include "face_fit/surface/mesh_point.h"
 #include "face_fit/surface/rasterizer.h"
 #include "face_fit/surface/triangles.h"
 #include "face_fit/tables/photo_look.h"
@@ -34,11 +32,9 @@ class SelfOcclusion {
     const int x = static_cast<int>(cell.x), y = static_cast<int>(cell.y);
     if (x < 1 || y < 1 || x + 1 >= kCells || y + 1 >= kCells) return false;
     constexpr float kBehindMm = 5;
-    for (int k = 0; k < 9; ++k) {
-      const float z = nearest_(x + k % 3 - 1, y + k / 3 - 1);
-      if (z < camera.z + kBehindMm) return false;
-    }
-    return true;
+    return std::ranges::none_of(kAround, [&](glm::ivec2 offset) {
+      return nearest_(x + offset.x, y + offset.y) < camera.z + kBehindMm;
+    });
   }
 
  private:
@@ -54,44 +50,38 @@ class SelfOcclusion {
 class LipLines {
  public:
   explicit LipLines(const ObservedHead& base)
-      : seam_(Line(base, point::kUpperInnerLip, {})),
-        upper_(Line(base, point::kUpperOuterLip, kCorners)),
-        lower_(Line(base, point::kLowerOuterLip, kCorners)) {}
+      : seam_(Line(base, point::kUpperInnerLip, point::kInnerMouthCorners)),
+        upper_(Line(base, point::kUpperOuterLip, point::kMouthCorners)),
+        lower_(Line(base, point::kLowerOuterLip, point::kMouthCorners)) {}
   float OffSeam(glm::vec3 p) const {
     // A larger distance near its ends makes the line thinner.
     constexpr float kThinMm = 7, kThinner = 0.2F;
-    if (!Spans(seam_, p)) return SkinTexel::kNotNear;
+    if (!Spans(seam_, p)) return SkinPlace::kNotNear;
     const float gap_mm = std::abs(p.y - HeightAt<glm::vec3>(seam_, p.x));
     const float to_end_mm = std::min(p.x - seam_.front().x, seam_.back().x - p.x);
     return gap_mm + kThinner * std::max(kThinMm - to_end_mm, 0.0F);
   }
   float Within(glm::vec3 p) const {
-    if (!Spans(upper_, p)) return -SkinTexel::kNotNear;
+    if (!Spans(upper_, p)) return -SkinPlace::kNotNear;
     return std::min(HeightAt<glm::vec3>(upper_, p.x) - p.y, p.y - HeightAt<glm::vec3>(lower_, p.x));
   }
 
  private:
-  static constexpr std::array kCorners = {point::kMouthRight, point::kMouthLeft};
   static bool Spans(std::span<const glm::vec3> line, glm::vec3 p) {
     constexpr float kFrontMm = 60;  // behind it lies the inside of the mouth
     return p.x >= line.front().x && p.x <= line.back().x && p.z >= kFrontMm;
   }
-  static std::vector<glm::vec3> Line(const ObservedHead& base, std::span<const PointIndex> points,
-                                     std::span<const PointIndex> ends) {
-    std::vector<PointIndex> all(points.begin(), points.end());
-    if (!ends.empty()) {
-      all.insert(all.begin(), ends.front());
-      all.push_back(ends.back());
-    }
+  static std::vector<glm::vec3> Line(const ObservedHead& base, std::span<const PointIndex> lip,
+                                     const point::Group<2>& corners) {
     std::vector<glm::vec3> line;
-    for (const PointIndex i : all) line.push_back(base.AtRest(i));
+    for (const PointIndex i : WithCorners(lip, corners)) line.push_back(base.AtRest(i));
     return line;
   }
   std::vector<glm::vec3> seam_, upper_, lower_;
 };
 
 /// Returns the normals of the skin's vertices, not normalised, weighted by area.
-std::vector<glm::vec3> SkinNormals(const fsm::HeadTopology& topology,
+std::vector<glm::vec3> SkinNormals(const fsm::HeadSurface& topology,
                                    const std::vector<glm::vec3>& position) {
   std::vector<glm::vec3> normal(position.size(), glm::vec3(0));
   ForSkinTriangles(topology, [&](const MeshTriangle& triangle) {
@@ -100,58 +90,69 @@ std::vector<glm::vec3> SkinNormals(const fsm::HeadTopology& topology,
   return normal;
 }
 
-/// Returns a triangle of the skin in texels of the map; nothing if it crosses the seam of the map.
-std::optional<Triangle2> OnMap(const fsm::HeadTopology& topology, const MeshTriangle& triangle) {
+/// Returns a triangle of the skin in texels of the map; nothing if it crosses the uv seam.
+std::optional<Triangle2> OnMap(const fsm::HeadSurface& topology, const MeshTriangle& triangle) {
   const auto texel = [&](std::uint32_t v) {
     return glm::vec2(topology.uv[v].x, 1 - topology.uv[v].y) * static_cast<float>(kMapSize) - 0.5F;
   };
-  constexpr float kAcrossSeam = kMapSize / 4.0F;  // wider than any triangle that does not cross it
+  constexpr float kAcrossUvSeam =
+      kMapSize / 4.0F;  // wider than any triangle that does not cross it
   const auto& [a, b, c] = triangle.corner;
   const Triangle2 out{texel(a), texel(b), texel(c)};
   const float width = std::max({out.a.x, out.b.x, out.c.x}) - std::min({out.a.x, out.b.x, out.c.x});
-  if (width > kAcrossSeam) return std::nullopt;
+  if (width > kAcrossUvSeam) return std::nullopt;
   return out;
 }
 
 }  // namespace
 
-SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, SelfHidden self_hidden) {
-  const ObservedHead& base = *fitted.base;
+SkinPlaces PlaceSkin(const ObservedHead& base) {
   const auto& head_side = PhotoLook().head_side;
   constexpr float kSlack = 0.02F;
-  constexpr glm::vec3 kEye(0, 0, kCameraZ);
-  std::optional<SelfOcclusion> hides;
-  if (self_hidden == SelfHidden::kNotSeen) hides.emplace(fitted, pose);
-  const auto& topology = base.head().topology();
-  std::vector<glm::vec3> camera;
-  for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(pose.ToCamera(p));
-  const std::vector<glm::vec3> normal = SkinNormals(topology, camera);
-  const float chin = base.AtRest(point::kChin).y;
+  const auto& topology = base.head().surface();
+  const float chin_y_mm = base.AtRest(point::kChin).y;
   const LipLines lips(base);
-  SkinTexels out(kMapSize, kMapSize);
+  SkinPlaces out(kMapSize, kMapSize);
+  // Of the triangles that share a texel the one farthest from the head's vertical axis counts.
+  FloatImage outward_mm2(kMapSize, kMapSize, -1);
   ForSkinTriangles(topology, [&](const MeshTriangle& triangle) {
     const auto on_map = OnMap(topology, triangle);
     if (!on_map) return;
     Rasterize(*on_map, kMapSize, kMapSize, kSlack, [&](int x, int y, glm::vec3 weights) {
       const MeshPoint on_mesh{triangle.corner, weights};
       const glm::vec3 rest = on_mesh.On(base.rest().position);
-      const float outward_mm2 = rest.x * rest.x + rest.z * rest.z;
-      if (outward_mm2 <= out(x, y).outward_mm2) return;
-      const glm::vec3 q = on_mesh.On(camera);
-      const glm::vec3 n = on_mesh.On(normal) + glm::vec3(0, 0, 1e-9F);
-      const bool hidden = hides && (*hides)(q);
-      out(x, y) = {
-          .pixel = pose.Project(q),
-          .facing = hidden ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q)),
-          .outward_mm2 = outward_mm2,
-          .x_mm = rest.x,
-          .y_mm = rest.y,
-          .off_seam_mm = lips.OffSeam(rest),
-          .within_lips_mm = lips.Within(rest),
-          .side_weight = std::max(fsm::SmoothStep(head_side.across_mm, std::abs(rest.x)),
-                                  fsm::SmoothStep(head_side.above_chin_mm, rest.y - chin))};
+      const float outward = rest.x * rest.x + rest.z * rest.z;
+      if (outward <= outward_mm2(x, y)) return;
+      outward_mm2(x, y) = outward;
+      out(x, y) = {.on_mesh = on_mesh,
+                   .x_mm = rest.x,
+                   .y_mm = rest.y,
+                   .off_seam_mm = lips.OffSeam(rest),
+                   .within_lips_mm = lips.Within(rest),
+                   .side_weight = std::max(head_side.across_mm.Ramp(std::abs(rest.x)),
+                                           head_side.above_chin_mm.Ramp(rest.y - chin_y_mm))};
     });
   });
+  return out;
+}
+
+SkinSights ProjectSkin(const FittedHead& fitted, const SkinPlaces& places, const CameraPose& pose,
+                       SelfHidden self_hidden) {
+  constexpr glm::vec3 kEye(0, 0, kCameraDepthMm);
+  std::optional<SelfOcclusion> hides;
+  if (self_hidden == SelfHidden::kNotSeen) hides.emplace(fitted, pose);
+  std::vector<glm::vec3> camera;
+  for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(pose.ToCamera(p));
+  const std::vector<glm::vec3> normal = SkinNormals(fitted.base->head().surface(), camera);
+  SkinSights out(places.width, places.height);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!places[i]) continue;
+    const glm::vec3 q = places[i]->on_mesh.On(camera);
+    const glm::vec3 n = places[i]->on_mesh.On(normal) + glm::vec3(0, 0, 1e-9F);
+    const bool hidden = hides && (*hides)(q);
+    out[i] = {pose.Project(q),
+              hidden ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q))};
+  }
   return out;
 }
 

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <glm/vec2.hpp>
+#include <optional>
 
 #include "face_fit/fit/fitted_head.h"
-#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/raster.h"
+#include "face_fit/surface/mesh_point.h"
 
 namespace facefit {
 
@@ -19,26 +21,33 @@ inline int TexelsOf(float mm, int map_width) {
       std::lround(mm * kTexelsPerMm * static_cast<float>(map_width) / float{kMapSize}));
 }
 
-/// A texel of the skin's map: its pixel in a photo and its position on the base head at rest.
-struct SkinTexel {
+/// The place on the base head at rest that a texel of the skin's map shows.
+struct SkinPlace {
   static constexpr float kNotNear = 1e9F;  ///< stands for a distance to something that is not near
-  glm::vec2 pixel{0};
-  float facing = -1;             ///< cosine of the normal's angle to the camera; -1 = not seen
-  float outward_mm2 = -1;        ///< squared distance from the head's vertical axis; -1 = no skin
-  float x_mm = 0;                ///< from the middle, positive to the person's left
-  float y_mm = -kNotNear;        ///< height
-  float off_seam_mm = kNotNear;  ///< distance from the line where the lips meet
+  MeshPoint on_mesh = {};
+  float x_mm = 0;                    ///< from the middle, positive to the person's left
+  float y_mm = 0;                    ///< height
+  float off_seam_mm = kNotNear;      ///< distance from the seam
   float within_lips_mm = -kNotNear;  ///< distance inside the border of the lips, negative outside
   float side_weight = 0;  ///< 1 on the sides of the head and below the chin, 0 on the face
 };
-/// kMapSize texels to a side.
-using SkinTexels = Raster<SkinTexel>;
+/// kMapSize texels to a side; nothing where the map shows no skin.
+using SkinPlaces = Raster<std::optional<SkinPlace>>;
+/// Returns the places of the base head's skin. They depend on nothing else, so they hold for every
+/// photo.
+SkinPlaces PlaceSkin(const ObservedHead& base);
 
-/// Whether skin that the head itself hides, as the jaw hides the throat, counts as not seen (facing
-/// -1).
+/// What a photo shows of a texel.
+struct SkinSight {
+  glm::vec2 pixel{0};
+  float facing = -1;  ///< cosine of the normal's angle to the camera; -1 = not seen
+};
+using SkinSights = Raster<SkinSight>;  ///< of the same texels as SkinPlaces
+
+/// Whether skin that the head itself hides, as the jaw hides the throat, counts as not seen.
 enum class SelfHidden { kIgnored, kNotSeen };
-/// Returns for each texel of the skin's map its pixel in a photo taken with `pose`. Texels that no
-/// triangle covers keep the values of a new SkinTexel.
-SkinTexels ProjectSkin(const FittedHead& fitted, const CameraPose& pose, SelfHidden self_hidden);
+/// Returns what a photo taken with `pose` shows of each place. `places`: PlaceSkin of fitted.base.
+SkinSights ProjectSkin(const FittedHead& fitted, const SkinPlaces& places, const CameraPose& pose,
+                       SelfHidden self_hidden);
 
 }  // namespace facefit

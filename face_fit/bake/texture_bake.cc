@@ -9,16 +9,17 @@
 #include "face_fit/bake/feature_colours.h"
 #include "face_fit/bake/head_picture.h"
 #include "face_fit/bake/lips.h"
+#include "face_fit/bake/mirroring.h"
 #include "face_fit/bake/openings.h"
-#include "face_fit/bake/other_side.h"
 #include "face_fit/bake/sheet.h"
-#include "face_fit/bake/side_blend.h"
+#include "face_fit/bake/side_view_blend.h"
 #include "face_fit/bake/skin_colours.h"
 #include "face_fit/bake/skin_map.h"
 #include "face_fit/bake/skin_texels.h"
 #include "face_fit/bake/smile_folds.h"
 #include "face_fit/bake/smile_shade.h"
 #include "face_fit/fit/eye_fit.h"
+#include "face_fit/fit/pixel_warp.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/grain.h"
 #include "face_fit/picture/pixels.h"
@@ -28,27 +29,28 @@
 namespace facefit {
 namespace {
 
-float SmileOf(const FittedHead& fitted) { return glm::clamp(fitted.expression.smile, 0.0F, 1.0F); }
+float SmileOf(const FittedHead& fitted) { return glm::clamp(fitted.shown_units.smile, 0.0F, 1.0F); }
 
 /// Paints what the photo shows, except what lies between lids and between lips.
-SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTexels& texels,
-                   bool lips_apart, fsm::Image colours) {
+SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinPlaces& places,
+                   const SkinSights& sights, bool lips_apart, fsm::Image colours) {
   const PhotoLookNumbers& look = PhotoLook();
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const Mask filled =
       FillSmileFolds(face, look.smile.folds.filled_share * SmileOf(fitted), pixels_per_mm, colours);
   const PhotoOpenings openings(face, pixels_per_mm, lips_apart);
   SkinMap map;
-  for (std::size_t i = 0; i < texels.size(); ++i) {
-    const glm::vec2 p = texels[i].pixel;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!places[i]) continue;
+    const glm::vec2 p = sights[i].pixel;
     // Near the head's outline a texel shows more of what lies beside the head than of its skin.
     const float least =
-        glm::mix(look.seen.face_from_cos, look.seen.side_from_cos, texels[i].side_weight);
-    if (!IsInside(colours, p) || texels[i].facing < least) continue;
+        glm::mix(look.seen.face_from_cos, look.seen.side_from_cos, places[i]->side_weight);
+    if (!IsInside(colours, p) || sights[i].facing < least) continue;
     const float skin = openings.SkinShare(p);
     map.outside_openings[i] = skin;
     map.coverage[i] =
-        skin * fsm::SmoothStep(least, least + look.seen.wholly_after_cos, texels[i].facing);
+        skin * fsm::SmoothStep(least, least + look.seen.wholly_after_cos, sights[i].facing);
     map.grain_lost[i] = filled.SampleAt(p.x, p.y);
     SetRgb(map.image, i, SharpColourAt(colours, p));
   }
@@ -56,25 +58,25 @@ SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTe
 }
 
 /// Returns whether a texel counts as face: skin in rows of the map from the hairline to the throat.
-bool OnFace(const SkinTexels& texels, std::size_t i) {
+bool OnFace(const SkinPlaces& places, std::size_t i) {
   constexpr std::size_t kHairline = kMapSize / 5, kThroat = kMapSize * 3 / 4;  // rows
   const std::size_t row = i / kMapSize;
-  return texels[i].outward_mm2 > 0 && row > kHairline && row < kThroat;
+  return places[i] && row > kHairline && row < kThroat;
 }
 
 /// Returns the coverage of the face, 0 on the sides and the back of the head.
-Mask CoverageOfFace(const SkinTexels& texels, Mask coverage) {
+Mask CoverageOfFace(const SkinPlaces& places, Mask coverage) {
   for (std::size_t i = 0; i < coverage.size(); ++i) {
-    if (!OnFace(texels, i)) coverage[i] = 0;
+    if (!OnFace(places, i)) coverage[i] = 0;
   }
   return coverage;
 }
 
 /// Returns the mean coverage of the face.
-float MeanCoverage(const SkinTexels& texels, const Mask& coverage) {
+float MeanCoverage(const SkinPlaces& places, const Mask& coverage) {
   float count = 0, sum = 0;
   for (std::size_t i = 0; i < coverage.size(); ++i) {
-    if (!OnFace(texels, i)) continue;
+    if (!OnFace(places, i)) continue;
     count += 1;
     sum += coverage[i];
   }
@@ -91,29 +93,30 @@ struct SkinTraits {
 /// - the other side is copied before anything is inpainted from around;
 /// - a smile's shading is removed when no hole is left, because it is estimated from around;
 /// - grain is added to what was filled in after its colours are final;
-/// - lips and the line between them, which are not skin, are painted over all of that;
+/// - lips and their seam, which are not skin, are painted over all of that;
 /// - skin is detected in the finished colours.
-SkinTraits FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool lips_apart,
+SkinTraits FinishMap(const FittedHead& fitted, const SkinPlaces& places, bool lips_apart,
                      SkinMap& map) {
   const PhotoLookNumbers& look = PhotoLook();
   const float saturation = Saturation(map.image, map.coverage);
   CompleteByMirroring(map.outside_openings, map.image, map.coverage);
   PushPullInpaint(map.image, map.coverage);
-  RemoveSmileShading(*fitted.base, texels, map.coverage,
+  RemoveSmileShading(*fitted.base, places, map.coverage,
                      look.smile.shade.evened_share * SmileOf(fitted), map.image);
   GrainFromCheeks(map.grain_lost, map.image);
-  const auto on_sides =
-      Mask::From(kMapSize, kMapSize, [&](int x, int y) { return texels(x, y).side_weight; });
+  const auto on_sides = Mask::From(kMapSize, kMapSize, [&](int x, int y) {
+    return places(x, y) ? places(x, y)->side_weight : 0;
+  });
   AddGrain(map.coverage, on_sides, TexelsOf(look.grain.coarsest_on_skin_mm, kMapSize), map.image);
   if (lips_apart) {
-    RestoreLipColour(texels, map.image);
-    DrawMouthLine(texels, saturation, map.image);
+    RestoreLipColour(places, map.image);
+    DrawSeam(places, saturation, map.image);
   }
-  const Mask face_coverage = CoverageOfFace(texels, map.coverage);
-  const glm::vec2 range = look.lined.roughness;
-  const float rough = (Roughness(map.image, face_coverage) - range.x) / (range.y - range.x);
+  const Mask face_coverage = CoverageOfFace(places, map.coverage);
+  const fsm::Range range = look.lined.roughness;
+  const float rough = (Roughness(map.image, face_coverage) - range.from) / (range.to - range.from);
   const float brows_y_mm = fitted.base->head().Landmark("nasion").y + kBrowsEndMm;
-  const Mask likeness = CutAtHairline(texels, brows_y_mm, SkinLikeness(map.image, face_coverage));
+  const Mask likeness = CutAtHairline(places, brows_y_mm, SkinLikeness(map.image, face_coverage));
   for (std::size_t i = 0; i < likeness.size(); ++i) {
     map.image.rgba[4 * i + 3] = Byte(255 * likeness[i]);
   }
@@ -126,15 +129,17 @@ SkinTraits FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool li
 TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
                         const FigureCutout& figure, std::span<const SideView> side_views) {
   const FittedHead& fitted = fit.head;
-  const SkinTexels texels = ProjectSkin(fitted, fitted.pose, SelfHidden::kNotSeen);
-  SkinMap map = PaintPhoto(face, fitted, texels, fit.lips_apart, figure.colours);
+  const SkinPlaces places = PlaceSkin(*fitted.base);
+  const SkinSights sights = ProjectSkin(fitted, places, fitted.pose, SelfHidden::kNotSeen);
+  const bool lips_apart = LipsApart(face);
+  SkinMap map = PaintPhoto(face, fitted, places, sights, lips_apart, figure.colours);
   std::vector<glm::vec3> also_seen;
   for (const SideView& view : side_views) {
-    BlendSideView(fitted, view, texels, map);
+    BlendSideView(fitted, view, places, sights, map);
     also_seen.push_back(view.pose.TowardsCamera());
   }
-  const float coverage = MeanCoverage(texels, map.coverage);
-  const SkinTraits traits = FinishMap(fitted, texels, fit.lips_apart, map);
+  const float coverage = MeanCoverage(places, map.coverage);
+  const SkinTraits traits = FinishMap(fitted, places, lips_apart, map);
   const CompletedFigure whole = CompleteFigure(fitted, figure);
   fsm::Image picture = PackHeadPicture(map.image, BehindFace(whole.head, whole.figure),
                                        whole.figure.opacity, fitted.pose.PixelsPerMm());
@@ -143,26 +148,24 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
   const EyeColours eye_colours = SampleEyes(face, fit.irises, photo);
   const MouthColours mouth = SampleMouth(face, photo);
   Sheet sheet = MakeSheet(whole.head, whole.figure);
-  fsm::PhotoHead head{.base = fitted.base->name(),
-                      .points = fitted.warp_points,
-                      .smooth = fitted.smooth_mm,
-                      .eyes = eyes,
-                      .iris_colour = eye_colours.iris,
-                      .white_colour = eye_colours.white,
-                      .iris_size = fit.irises.size,
-                      .teeth = mouth.teeth,
-                      .lip_colour = mouth.lip,
-                      .eye_pictures = std::move(eye_pictures),
-                      .saturation = traits.saturation,
-                      .lined = traits.lined,
-                      .skin_low = kSkinLow,
-                      .skin_high = kSkinHigh,
-                      .seen_from = fitted.pose.TowardsCamera(),
-                      .also_seen = std::move(also_seen),
-                      .skin_bottom_y = sheet.skin_bottom_y,
-                      .sheet = std::move(sheet.vertices),
-                      .sheet_triangles = std::move(sheet.triangles),
-                      .photo = std::make_shared<fsm::Image>(std::move(picture))};
+  fsm::PhotoHead head = HeadOf(fitted);
+  head.eyes = eyes;
+  head.iris_colour = eye_colours.iris;
+  head.white_colour = eye_colours.white;
+  head.iris_size = fit.irises.size;
+  head.teeth = mouth.teeth;
+  head.lip_colour = mouth.lip;
+  head.eye_pictures = std::move(eye_pictures);
+  head.saturation = traits.saturation;
+  head.lined = traits.lined;
+  head.skin_low = kSkinLow;
+  head.skin_high = kSkinHigh;
+  head.seen_from = fitted.pose.TowardsCamera();
+  head.also_seen = std::move(also_seen);
+  head.skin_bottom_y = sheet.skin_bottom_y;
+  head.sheet = std::move(sheet.vertices);
+  head.sheet_triangles = std::move(sheet.triangles);
+  head.photo = std::make_shared<fsm::Image>(std::move(picture));
   return {std::move(head), coverage, whole.completed};
 }
 

@@ -75,7 +75,7 @@ BodyPaint::Neckline BodyPaint::FindNeckline(const PhotoEdges& edges, float axis)
 
 glm::vec3 BodyPaint::BustColour(const BustSample& body, Covering covering) const {
   const float shade = light_.On(body.normal) / light_.On({0, 0, 1});
-  return shade * glm::mix(1.0F, body.openness, PhotoLook().bust.shade_share) *
+  return shade * glm::mix(1.0F, body.ambient_occlusion, PhotoLook().bust.shade_share) *
          (covering == kCloth ? cloth_colour_ : 255.0F * light_.skin());
 }
 

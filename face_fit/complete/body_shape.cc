@@ -18,10 +18,10 @@ bool IsBody(const EdgeSample& sample) {
 float OutlineFall(const Canvas& canvas, const Mask& opacity, PhotoSide side, float row) {
   const int inward = std::max(canvas.photo_size.x / 16, 1);
   const int x = side == PhotoSide::kLeft ? inward : canvas.photo_size.x - 1 - inward;
-  const glm::vec2 limit = PhotoLook().shoulder.fall_per_px;
   int y = static_cast<int>(row);
   while (y > 0 && opacity(x, y - 1) > 0.5F) --y;
-  return std::clamp((row - static_cast<float>(y)) / static_cast<float>(inward), limit.x, limit.y);
+  return PhotoLook().shoulder.fall_per_px.Clamp((row - static_cast<float>(y)) /
+                                                static_cast<float>(inward));
 }
 
 /// `axis`: as BodyShape's.
@@ -30,7 +30,7 @@ BodyJoint JointOf(const Canvas& canvas, const PhotoEdges& edges, const Mask& opa
   const float end = static_cast<float>(canvas.photo_size.y);
   BodyJoint joint{.row = end, .shoulder_fall = {}};
   // Follow the photo's edge upward while it cuts the body.
-  while (joint.row > std::max(canvas.chin.y, 0.0F) + 1 &&
+  while (joint.row > std::max(canvas.chin_px.y, 0.0F) + 1 &&
          IsBody(edges.side(side, static_cast<int>(joint.row) - 1))) {
     --joint.row;
   }
@@ -50,13 +50,14 @@ BodyJoint JointOf(const Canvas& canvas, const PhotoEdges& edges, const Mask& opa
   const float bust_half_width =
       bust.HalfWidth(side, joint.row + static_cast<float>(canvas.photo_origin.y) - 0.5F);
   const auto& look = PhotoLook().bust;
-  glm::vec2 limit = look.width_ratio;
+  fsm::Range limit{look.least_width_ratio, look.most_width_ratio};
+  if (hidden) limit.from = 1;
   // A photo that ends at the jaw is wider there than the neck below it, so the ratio is limited;
   // above the chin the bust has a jaw of its own.
-  const float below_chin_mm = (joint.row - canvas.chin.y) / canvas.pixels_per_mm;
-  if (below_chin_mm < 0) limit.y = std::min(limit.y, look.width_ratio_at_jaw);
-  joint.fade_mm = fsm::Lerp(look.fades_mm, fsm::SmoothStep(look.neck_mm, below_chin_mm));
-  joint.width_ratio = glm::clamp(half_width / bust_half_width, hidden ? 1.0F : limit.x, limit.y);
+  const float below_chin_mm = (joint.row - canvas.chin_px.y) / canvas.pixels_per_mm;
+  if (below_chin_mm < 0) limit.to = std::min(limit.to, look.most_width_ratio_at_jaw);
+  joint.fade_mm = look.fades_mm.At(look.ends_below_chin_mm.Ramp(below_chin_mm));
+  joint.width_ratio = limit.Clamp(half_width / bust_half_width);
   return joint;
 }
 
@@ -81,7 +82,7 @@ BustSample BodyShape::SampleAt(glm::vec2 pixel) const {
   const float x = bust_.axis + (on_canvas.x - bust_.axis) / width_ratio;
   if (x < 0 || x > static_cast<float>(bust_.opacity.width)) return {};
   return {bust_.opacity.SampleAt(x, on_canvas.y), bust_.cloth.SampleAt(x, on_canvas.y),
-          bust_.openness.SampleAt(x, on_canvas.y), bust_.normal.SampleAt(x, on_canvas.y)};
+          bust_.ambient_occlusion.SampleAt(x, on_canvas.y), bust_.normal.SampleAt(x, on_canvas.y)};
 }
 
 float BodyShape::OpacityAt(glm::vec2 pixel, const BustSample& sample) const {

@@ -21,10 +21,10 @@ struct BodyJoint {
   std::optional<float> shoulder_fall;
 };
 
-/// The bust at a pixel. `cloth`: the share of cloth in what is covered, 0..1; `openness`: the share
-/// of the ambient light that arrives, 0..1.
+/// The bust at a pixel. `cloth`: the share of cloth in what is covered, 0..1;
+/// `ambient_occlusion`: as of Bust.
 struct BustSample {
-  float opacity = 0, cloth = 0, openness = 1;
+  float opacity = 0, cloth = 0, ambient_occlusion = 1;
   glm::vec3 normal{0, 0, 1};
 };
 

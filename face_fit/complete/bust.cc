@@ -17,10 +17,10 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
   // The bust stands upright; it is lowered where the fitted head's chin lies lower than the
   // built-in one's.
   pose.rotation_rad = {};
-  const float chin = base.AtRest(point::kChin).y;
-  const glm::vec3 lower(0, chin - fitted.PositionOf(point::kChin).y, 0);
-  const float highest = chin + PhotoLook().bust.above_chin_mm;
-  const fsm::HeadTopology& topology = base.head().topology();
+  const float chin_y_mm = base.AtRest(point::kChin).y;
+  const glm::vec3 lower(0, chin_y_mm - fitted.PositionOf(point::kChin).y, 0);
+  const float highest = chin_y_mm + PhotoLook().bust.above_chin_mm;
+  const fsm::HeadSurface& topology = base.head().surface();
   std::vector<glm::vec3> positions = base.rest().position;
   for (glm::vec3& p : positions) p -= lower;
   VisibleSurface surface({glm::vec2(0.5F), 1, width, height}, pose.ToScreen(positions));
@@ -32,21 +32,19 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
         triangle.corner, [&](std::uint32_t v) { return base.rest().position[v].y > highest; });
     if (!above) surface.DrawFront(triangle);
   });
-  const FloatImage none(width, height);
+  const Mask none(width, height);
   Bust bust{none, none, none, VectorImage(width, height, {0, 0, 1}), pose.Project({}).x};
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const MeshTriangle* triangle = surface.TriangleAt(x, y);
-      if (!triangle) continue;
-      const MeshPoint on_base = surface.MeshPointAt(x, y);
-      const glm::vec3 normal = on_base.On(base.rest().normal);
-      if (normal.z <= 0) continue;  // interpolated normals at the outline may point away
-      bust.opacity(x, y) = 1;
-      bust.cloth(x, y) = triangle->material == fsm::Material::kCloth ? 1.0F : 0.0F;
-      bust.openness(x, y) = on_base.On(topology.openness);
-      bust.normal(x, y) = normal;
-    }
-  }
+  ForPixels(width, height, [&](int x, int y, std::size_t i) {
+    const MeshTriangle* triangle = surface.TriangleAt(x, y);
+    if (!triangle) return;
+    const MeshPoint on_base = surface.MeshPointAt(x, y);
+    const glm::vec3 normal = on_base.On(base.rest().normal);
+    if (normal.z <= 0) return;  // interpolated normals at the outline may point away
+    bust.opacity[i] = 1;
+    bust.cloth[i] = triangle->material == fsm::Material::kCloth ? 1.0F : 0.0F;
+    bust.ambient_occlusion[i] = on_base.On(topology.openness);
+    bust.normal[i] = normal;
+  });
   return bust;
 }
 
@@ -66,11 +64,11 @@ Bust DrawBust(const FittedHead& fitted, int width, int height) {
   const int finer =
       std::clamp(static_cast<int>(std::ceil(kSamplesPerMm / fitted.pose.PixelsPerMm())), 1, 4);
   CameraPose pose = fitted.pose;
-  pose.focal *= static_cast<float>(finer);
-  pose.centre *= static_cast<float>(finer);
+  pose.focal_px *= static_cast<float>(finer);
+  pose.centre_px *= static_cast<float>(finer);
   Bust bust = DrawWith(fitted, pose, finer * width, finer * height);
   bust.axis /= static_cast<float>(finer);
-  for (Mask* image : {&bust.opacity, &bust.cloth, &bust.openness}) {
+  for (Mask* image : {&bust.opacity, &bust.cloth, &bust.ambient_occlusion}) {
     *image = ScaledDown(*image, width, height);
   }
   bust.normal = ScaledDown(bust.normal, width, height);

@@ -3,9 +3,8 @@
 #include <glm/vec3.hpp>
 
 #include "face_fit/complete/canvas.h"
-#include "face_fit/find/head/observed_head.h"
 #include "face_fit/fit/fitted_head.h"
-#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/raster.h"
 
 namespace facefit {
 
@@ -15,9 +14,10 @@ struct Bust {
   Mask opacity;  ///< coverage of each pixel, 0..1
   /// Share of each pixel that is cloth, 0..1; the rest of what is covered is skin.
   Mask cloth;
-  Mask openness;       ///< share of the ambient light that arrives, 0..1
-  VectorImage normal;  ///< unit; (0, 0, 1), towards the camera, where nothing is drawn
-  float axis;          ///< x of the body's middle, pixels of the canvas
+  Mask ambient_occlusion;  ///< as its maps are stored: 1 = all ambient light arrives, 0 = none
+  /// Mean of unit normals, so up to 1 long; (0, 0, 1), towards the camera, where nothing is drawn.
+  VectorImage normal;
+  float axis;  ///< x of the body's middle, pixels of the canvas
 
   /// Returns the half width in a row: the distance from `axis` to the outline on the left or on the
   /// right, pixels, at least 1.

@@ -7,6 +7,8 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "fsm/base/side.h"
+
 namespace facefit {
 
 /// A colour, 0..255, and how much it covers, 0..1.
@@ -21,11 +23,7 @@ inline constexpr std::array kPhotoSides{PhotoSide::kLeft, PhotoSide::kRight};
 
 /// A value for the left and for the right edge of a photo.
 template <typename T>
-struct PerSide {
-  T left{}, right{};
-  T& operator[](PhotoSide side) { return side == PhotoSide::kLeft ? left : right; }
-  const T& operator[](PhotoSide side) const { return side == PhotoSide::kLeft ? left : right; }
-};
+using PerSide = fsm::Sided<T, PhotoSide>;
 
 /// How far a pixel of the canvas lies beyond the edges of the photo, pixels; 0 where it is not
 /// beyond that edge. A pixel beyond a corner has two of them above 0.
@@ -58,7 +56,7 @@ struct Canvas {
   glm::ivec2 photo_size;    ///< pixels, as `size`
   glm::ivec2 size;
   float pixels_per_mm;
-  glm::vec2 chin;  ///< a pixel
+  glm::vec2 chin_px;
 
   Beyond BeyondPhoto(glm::vec2 p) const {
     const glm::vec2 end(photo_size);

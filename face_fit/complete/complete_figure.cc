@@ -1,7 +1,6 @@
 #include "face_fit/complete/complete_figure.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 #include <utility>
@@ -24,7 +23,7 @@ namespace {
 /// Returns the row of the top of the head with hair on it, photo pixels; it may be negative.
 float CrownRow(const FittedHead& fitted) {
   float highest = std::numeric_limits<float>::infinity();
-  ForSkinTriangles(fitted.base->head().topology(), [&](const MeshTriangle& triangle) {
+  ForSkinTriangles(fitted.base->head().surface(), [&](const MeshTriangle& triangle) {
     highest = std::min(highest, fitted.pose.Pixel(fitted.posed_vertices[triangle.corner[0]]).y);
   });
   return highest - PhotoLook().hair.on_crown_mm * fitted.pose.PixelsPerMm();
@@ -33,29 +32,28 @@ float CrownRow(const FittedHead& fitted) {
 /// Returns a canvas with room for the photo, for head and shoulders below its chin, and for hair
 /// above it.
 Canvas CanvasFor(const FigureCutout& figure, const FittedHead& fitted, const PhotoEdges& edges,
-                 glm::vec2 chin, float crown) {
+                 glm::vec2 chin, float crown_px) {
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const glm::vec2 size(figure.opacity.width, figure.opacity.height);
   const auto& look = PhotoLook().canvas;
   const glm::vec2 reach = pixels_per_mm * glm::vec2(look.beside_chin_mm, look.below_chin_mm);
-  const float wide = size.x + 2 * PhotoLook().hair.bulge_most_mm * pixels_per_mm;
-  const glm::vec2 dome = wide * edges.DomeByWidth();
-  const float above = std::clamp(-crown, dome.x, dome.y) + look.above_photo_mm * pixels_per_mm;
+  const float widest_px = size.x + 2 * PhotoLook().hair.bulge_most_mm * pixels_per_mm;
+  const float above =
+      DomeHeightPx(edges, widest_px, crown_px) + look.above_photo_mm * pixels_per_mm;
   const glm::vec2 low = glm::floor(glm::min(chin - glm::vec2(reach.x, 0), glm::vec2(0, -above)));
   const glm::vec2 high = glm::ceil(glm::max(chin + reach, size));
   return {.photo_origin = glm::ivec2(-low),
           .photo_size = glm::ivec2(size),
           .size = glm::ivec2(high - low),
           .pixels_per_mm = pixels_per_mm,
-          .chin = chin};
+          .chin_px = chin};
 }
 
 /// Makes tips of a collar transparent, which would float beside the drawn neck. Tips with no
 /// background within neck.hangs_mm above the edge stay: removing them would leave a hole.
 FigureCutout WithoutTips(const PhotoEdges& edges, float pixels_per_mm, FigureCutout figure) {
   const int height = figure.opacity.height;
-  const int highest =
-      std::max(height - static_cast<int>(PhotoLook().neck.hangs_mm * pixels_per_mm), 0);
+  const int highest = std::max(height - PixelsOf(PhotoLook().neck.hangs_mm, pixels_per_mm), 0);
   constexpr float kBackground = 0.3F;  // opacity; the matte is uncertain beside such tips
   for (int x = 0; x < figure.opacity.width; ++x) {
     if (edges.bottom(x).kind != EdgeKind::kTip) continue;
@@ -76,35 +74,32 @@ struct Painted {
   Mask coloured;      ///< 1 where a colour is known
 
   explicit Painted(glm::ivec2 size)
-      : figure{fsm::FilledImage(size.x, size.y), FloatImage(size.x, size.y)},
+      : figure{fsm::FilledImage(size.x, size.y), Mask(size.x, size.y)},
         known(size.x, size.y),
         drawn(known),
         coloured(known) {}
 };
 
-/// Copies the photo's figure onto the canvas. `photo`: the whole figure; `figure`: the figure
-/// without tips of collars, whose colours count as unknown.
-void CopyPhoto(const Canvas& canvas, const FigureCutout& photo, const FigureCutout& figure,
+/// Copies the photo's figure onto the canvas. `without_tips`: the figure without tips of collars,
+/// whose colours count as unknown.
+void CopyPhoto(const Canvas& canvas, const FigureCutout& figure, const FigureCutout& without_tips,
                Painted& out) {
-  for (int y = 0; y < canvas.photo_size.y; ++y) {
-    for (int x = 0; x < canvas.photo_size.x; ++x) {
-      const std::size_t from = photo.opacity.Index(x, y);
-      const std::size_t to = out.known.Index(x + canvas.photo_origin.x, y + canvas.photo_origin.y);
-      SetRgb(out.figure.colours, to, Rgb(figure.colours, from));
-      out.figure.opacity[to] = out.known[to] = figure.opacity[from];
-      out.coloured[to] = figure.opacity[from] == photo.opacity[from] ? 1 : 0;
-    }
-  }
+  ForPixels(canvas.photo_size.x, canvas.photo_size.y, [&](int x, int y, std::size_t from) {
+    const std::size_t to = out.known.Index(x + canvas.photo_origin.x, y + canvas.photo_origin.y);
+    SetRgb(out.figure.colours, to, Rgb(without_tips.colours, from));
+    out.figure.opacity[to] = out.known[to] = without_tips.opacity[from];
+    out.coloured[to] = without_tips.opacity[from] == figure.opacity[from] ? 1 : 0;
+  });
 }
 
 /// Raises the opacity of the lowest rows to that above them where the drawn body continues below:
 /// the matte is uncertain at the very edge.
-void CloseSeam(const Canvas& canvas, const FigureCutout& figure, const BodyShape& body,
-               Mask& opacity) {
-  const int seam = std::max(static_cast<int>(PhotoLook().edge.band_mm * canvas.pixels_per_mm), 1);
-  const int above = canvas.photo_size.y - 1 - 2 * seam;
+void CloseLowerEdge(const Canvas& canvas, const FigureCutout& figure, const BodyShape& body,
+                    Mask& opacity) {
+  const int band_px = PixelsOf(PhotoLook().edge.band_mm, canvas.pixels_per_mm);
+  const int above = canvas.photo_size.y - 1 - 2 * band_px;
   if (above < 0) return;
-  for (int y = canvas.photo_size.y - seam; y < canvas.photo_size.y; ++y) {
+  for (int y = canvas.photo_size.y - band_px; y < canvas.photo_size.y; ++y) {
     for (int x = 0; x < canvas.photo_size.x; ++x) {
       float& pixel = opacity(x + canvas.photo_origin.x, y + canvas.photo_origin.y);
       const glm::vec2 here = glm::vec2(x, y) + 0.5F;
@@ -115,49 +110,51 @@ void CloseSeam(const Canvas& canvas, const FigureCutout& figure, const BodyShape
 }
 
 void PaintBeyond(const Canvas& canvas, const BodyPaint& body, const HairPaint& hair, Painted& out) {
-  for (int y = 0; y < canvas.size.y; ++y) {
-    for (int x = 0; x < canvas.size.x; ++x) {
-      const glm::ivec2 pixel = glm::ivec2(x, y) - canvas.photo_origin;
-      if (pixel == glm::clamp(pixel, glm::ivec2(0), canvas.photo_size - 1)) continue;
-      const glm::vec2 centre = glm::vec2(pixel) + 0.5F;
-      const Paint under = body.PaintAt(centre), over = hair.PaintAt(centre);
-      const std::size_t i = out.drawn.Index(x, y);
-      SetRgb(out.figure.colours, i, glm::mix(under.colour, over.colour, over.opacity));
-      out.drawn[i] = over.opacity + (1 - over.opacity) * under.opacity;
-      out.figure.opacity[i] = out.drawn[i];
-      out.coloured[i] = out.drawn[i] > 0 ? 1 : 0;
-    }
-  }
+  ForPixels(canvas.size.x, canvas.size.y, [&](int x, int y, std::size_t i) {
+    const glm::ivec2 pixel = glm::ivec2(x, y) - canvas.photo_origin;
+    if (pixel == glm::clamp(pixel, glm::ivec2(0), canvas.photo_size - 1)) return;
+    const glm::vec2 centre = glm::vec2(pixel) + 0.5F;
+    const Paint under = body.PaintAt(centre), over = hair.PaintAt(centre);
+    SetRgb(out.figure.colours, i, glm::mix(under.colour, over.colour, over.opacity));
+    out.drawn[i] = over.opacity + (1 - over.opacity) * under.opacity;
+    out.figure.opacity[i] = out.drawn[i];
+    out.coloured[i] = out.drawn[i] > 0 ? 1 : 0;
+  });
 }
 
 }  // namespace
 
-CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& photo) {
-  const float crown = CrownRow(fitted);
-  const fsm::FaceLight light = LightOnFace(fitted, photo);
-  const PhotoEdges edges(fitted, photo, 255.0F * light.skin());
-  const Canvas canvas =
-      CanvasFor(photo, fitted, edges, fitted.pose.Pixel(fitted.PositionOf(point::kChin)), crown);
-  const FigureCutout figure = WithoutTips(edges, canvas.pixels_per_mm, photo);
+CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& figure) {
+  const float crown_px = CrownRow(fitted);
+  const fsm::FaceLight light = LightOnFace(fitted, figure);
+  const PhotoEdges edges(fitted, figure, 255.0F * light.skin());
+  const Canvas canvas = CanvasFor(figure, fitted, edges,
+                                  fitted.pose.Pixel(fitted.PositionOf(point::kChin)), crown_px);
+  const FigureCutout without_tips = WithoutTips(edges, canvas.pixels_per_mm, figure);
   FittedHead on_canvas = fitted;
-  on_canvas.pose.centre += glm::vec2(canvas.photo_origin);
-  const BodyShape body(canvas, edges, figure.opacity,
+  on_canvas.pose.centre_px += glm::vec2(canvas.photo_origin);
+  const BodyShape body(canvas, edges, without_tips.opacity,
                        DrawBust(on_canvas, canvas.size.x, canvas.size.y));
-  const HairPaint hair(canvas, edges, figure, crown);
+  const HairPaint hair(canvas, edges, without_tips, crown_px);
   Painted out(canvas.size);
-  CopyPhoto(canvas, photo, figure, out);
-  CloseSeam(canvas, figure, body, out.figure.opacity);
+  CopyPhoto(canvas, figure, without_tips, out);
+  CloseLowerEdge(canvas, without_tips, body, out.figure.opacity);
   PaintBeyond(canvas, BodyPaint(canvas, edges, light, body), hair, out);
   // Fill the colours outside the figure from inside: interpolation mixes them into the outline.
   PushPullInpaint(out.figure.colours, out.coloured);
-  const int grain =
-      std::max(static_cast<int>(PhotoLook().grain.coarsest_on_figure_mm * canvas.pixels_per_mm), 2);
-  AddGrain(out.known, out.drawn, grain, out.figure.colours);
-  const float neck = canvas.chin.y + PhotoLook().bust.reported_below_chin_mm * canvas.pixels_per_mm;
+  AddGrainToFigure(out.known, out.drawn, canvas.pixels_per_mm, out.figure.colours);
+  const float neck =
+      canvas.chin_px.y + PhotoLook().bust.reported_below_chin_mm * canvas.pixels_per_mm;
   return {std::move(out.figure), std::move(on_canvas),
           Completed{.neck = static_cast<float>(canvas.photo_size.y) < neck,
                     .shoulders = body.CutsShoulder(),
-                    .hair = hair.Cut()}};
+                    .hair = hair.CutsHair()}};
+}
+
+void AddGrainToFigure(const Mask& known, Mask amount, float pixels_per_mm, fsm::Image& image) {
+  const auto& look = PhotoLook().grain;
+  for (float& v : amount.values) v *= look.pixels_per_mm.Ramp(pixels_per_mm);
+  AddGrain(known, amount, PixelsOf(look.coarsest_on_figure_mm, pixels_per_mm, 2), image);
 }
 
 }  // namespace facefit

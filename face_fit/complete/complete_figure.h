@@ -1,7 +1,6 @@
 #pragma once
 
 #include "face_fit/find/figure/matte.h"
-#include "face_fit/find/head/observed_head.h"
 #include "face_fit/fit/fitted_head.h"
 
 namespace facefit {
@@ -28,5 +27,10 @@ struct CompletedFigure {
 /// become transparent, and in the lowest edge.band_mm (tables/photo_look.txt) opacity rises where
 /// the drawn body continues below.
 CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& figure);
+
+/// Adds grain to inpainted pixels of a figure, as AddGrain (picture/grain.h): that of
+/// grain.coarsest_on_figure_mm, and less of it in a photo of fewer than grain.pixels_per_mm, whose
+/// pixels are as coarse as grain.
+void AddGrainToFigure(const Mask& known, Mask amount, float pixels_per_mm, fsm::Image& image);
 
 }  // namespace facefit

@@ -1,6 +1,7 @@
 #include "face_fit/complete/hair_paint.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 
@@ -10,9 +11,6 @@
 namespace facefit {
 namespace {
 
-/// Hair below and beside the photo is fully opaque up to this share of the bulge's width.
-constexpr float kWholeBulge = 0.8F;
-
 /// Returns a number of about 0..1 that varies from strand to strand without a visible period. `at`:
 /// millimetres along an edge.
 float StrandNoise(float at) {
@@ -20,7 +18,8 @@ float StrandNoise(float at) {
                          std::sin(at * 0.171F + 0.4F));
 }
 
-float PingPong(float way, float length) {
+/// Returns the position in a pattern of `length` that is repeated mirrored (GL_MIRRORED_REPEAT).
+float MirroredRepeat(float way, float length) {
   if (length <= 0) return 0;
   const float rest = std::fmod(way, 2 * length);
   return std::min(rest, 2 * length - rest);
@@ -31,37 +30,41 @@ float Arc(float radii) { return std::sqrt(std::max(1 - radii * radii, 0.0F)); }
 
 }  // namespace
 
+float DomeHeightPx(const PhotoEdges& edges, float width_px, float crown_px) {
+  const auto& look = PhotoLook().hair;
+  // A figure that touches the upper edge from corner to corner is cut where the head is widest.
+  const float least = edges.TopCutsWholeEdge() ? look.dome_of_whole_edge : look.dome_least_by_width;
+  return std::clamp(-crown_px, width_px * least, width_px * look.dome_most_by_width);
+}
+
 HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const FigureCutout& figure,
-                     float crown)
+                     float crown_px)
     : canvas_(canvas),
       edges_(edges),
       figure_(figure),
       top_(LongestRun(edges.width(),
                       [&](int x) { return edges.top(x).kind != EdgeKind::kNothing; })),
-      sides_{SpanOf(PhotoSide::kLeft), SpanOf(PhotoSide::kRight)} {
+      sides_{.right = SpanOf(PhotoSide::kRight), .left = SpanOf(PhotoSide::kLeft)} {
   const auto& look = PhotoLook().hair;
   const float most = look.bulge_most_mm * canvas.pixels_per_mm;
   for (const PhotoSide side : kPhotoSides) {
-    bulge_[side] = std::min(look.bulge_by_length * sides_[side].Length(), most);
+    bulge_px_[side] = std::min(look.bulge_by_length * sides_[side].Length(), most);
     // Where the upper edge cuts hair up to a corner, the dome extends over the bulge beside it.
-    if (bulge_[side] <= 0 || sides_[side].from > 1 || top_.Length() <= 0) continue;
-    if (side == PhotoSide::kLeft && top_.from < 1) top_.from -= bulge_[side];
+    if (bulge_px_[side] <= 0 || sides_[side].from > 1 || top_.Length() <= 0) continue;
+    if (side == PhotoSide::kLeft && top_.from < 1) top_.from -= bulge_px_[side];
     if (side == PhotoSide::kRight && top_.to > static_cast<float>(canvas.photo_size.x) - 1) {
-      top_.to += bulge_[side];
+      top_.to += bulge_px_[side];
     }
   }
-  if (top_.Length() > 0) {
-    const glm::vec2 dome = top_.Length() * edges.DomeByWidth();
-    dome_ = std::clamp(-crown, dome.x, dome.y);
-  }
-  cut_ = dome_ > 0 || bulge_.left + bulge_.right > 0;
+  if (top_.Length() > 0) dome_px_ = DomeHeightPx(edges, top_.Length(), crown_px);
+  cut_ = dome_px_ > 0 || bulge_px_.left + bulge_px_.right > 0;
   for (int x = 0; x < edges.width(); ++x) {
     const EdgeSample& sample = edges.bottom(x);
     below_.Add(sample.colour, sample.kind == EdgeKind::kHair ? 1 : 0);
   }
   // A mean, because single dark columns below the chin are wrinkles.
   const auto& beard = PhotoLook().beard;
-  bearded_ = below_.MeanAround(canvas.chin.x, beard.half_width_mm * canvas.pixels_per_mm).w >
+  bearded_ = below_.MeanAround(canvas.chin_px.x, beard.half_width_mm * canvas.pixels_per_mm).w >
              beard.hair_share;
 }
 
@@ -79,26 +82,26 @@ HairPaint::EdgeSpan HairPaint::SpanOf(PhotoSide side) const {
   // only what has the hair's colour.
   const EdgeSpan longest = LongestRun(edges_.height(), [&](int y) {
     const EdgeKind kind = edges_.side(side, y).kind;
-    const bool above_chin = static_cast<float>(y) < canvas_.chin.y;
+    const bool above_chin = static_cast<float>(y) < canvas_.chin_px.y;
     return kind == EdgeKind::kHair || (above_chin && kind != EdgeKind::kNothing);
   });
-  return longest.from < canvas_.chin.y ? longest : EdgeSpan{};
+  return longest.from < canvas_.chin_px.y ? longest : EdgeSpan{};
 }
 
-float HairPaint::DomeHeight(float x) const {
-  if (dome_ <= 0) return 0;
-  return dome_ * Arc((x - 0.5F * (top_.from + top_.to)) / (0.5F * top_.Length()));
+float HairPaint::DomePx(float x) const {
+  if (dome_px_ <= 0) return 0;
+  return dome_px_ * Arc((x - 0.5F * (top_.from + top_.to)) / (0.5F * top_.Length()));
 }
 
-float HairPaint::BulgeWidth(PhotoSide side, float y) const {
+float HairPaint::BulgePx(PhotoSide side, float y) const {
   const EdgeSpan& span = sides_[side];
-  const float bulge = bulge_[side];
-  if (bulge <= 0) return 0;
+  const float bulge_px = bulge_px_[side];
+  if (bulge_px <= 0) return 0;
   // Hair cut at a corner of the photo does not end there.
-  const float from = span.from < 1 ? -dome_ : span.from;
+  const float from = span.from < 1 ? -dome_px_ : span.from;
   const bool goes_on = span.to > static_cast<float>(canvas_.photo_size.y) - 1;
   const float to = goes_on ? span.to + PhotoLook().hair.falls_mm * canvas_.pixels_per_mm : span.to;
-  return bulge * Arc((2 * y - from - to) / (to - from));
+  return bulge_px * Arc((2 * y - from - to) / (to - from));
 }
 
 glm::vec3 HairPaint::Colour(glm::vec2 pixel) const {
@@ -111,7 +114,7 @@ glm::vec3 HairPaint::Colour(glm::vec2 pixel) const {
                            : edges_.side(*beyond.side, static_cast<int>(mirrored.y)).hair_reach_px;
   // Mirrored back and forth within the hair, so that no skin is repeated.
   const float inward_px =
-      PingPong(above ? beyond.above : beyond.beside, static_cast<float>(reach_px));
+      MirroredRepeat(above ? beyond.above : beyond.beside, static_cast<float>(reach_px));
   if (above) {
     mirrored.y = std::clamp(inward_px, 0.5F, size.y - 0.5F);
   } else {
@@ -132,11 +135,10 @@ Paint HairPaint::HairBelow(glm::vec2 pixel, float below_px) const {
   const glm::vec4 hair = below_.MeanAround(
       x, (look.spread_mm + look.spread_per_mm * below_mm) * canvas_.pixels_per_mm);
   // Below a bearded chin hangs the beard, which is short.
-  const float beside_mm = std::abs(x - canvas_.chin.x) / canvas_.pixels_per_mm;
+  const float beside_mm = std::abs(x - canvas_.chin_px.x) / canvas_.pixels_per_mm;
   const float falls_mm =
-      bearded_ ? glm::mix(beard.falls_mm, look.falls_mm,
-                          fsm::SmoothStep(beard.ends_beside_chin_mm, beside_mm))
-               : look.falls_mm * fsm::SmoothStep(look.falls_beside_chin_mm, beside_mm);
+      bearded_ ? glm::mix(beard.falls_mm, look.falls_mm, beard.ends_beside_chin_mm.Ramp(beside_mm))
+               : look.falls_mm * look.falls_beside_chin_mm.Ramp(beside_mm);
   const float end_mm = falls_mm * (0.5F + 0.5F * StrandNoise(pixel.x / canvas_.pixels_per_mm));
   if (below_mm >= end_mm) return {glm::vec3(hair), 0};
   return {glm::vec3(hair),
@@ -145,17 +147,19 @@ Paint HairPaint::HairBelow(glm::vec2 pixel, float below_px) const {
 
 Paint HairPaint::PaintAt(glm::vec2 pixel) const {
   const Beyond beyond = canvas_.BeyondPhoto(pixel);
+  assert(beyond.below > 0 || beyond.above > 0 || beyond.side);
   if (beyond.below > 0) {
     Paint hair = HairBelow(pixel, beyond.below);
     if (beyond.side) {
-      const float reach = BulgeWidth(*beyond.side, pixel.y);
+      const float reach = BulgePx(*beyond.side, pixel.y);
       if (reach <= 0) return {};
-      hair.opacity *= fsm::SmoothStep(reach, kWholeBulge * reach, beyond.beside);
+      hair.opacity *=
+          fsm::SmoothStep(reach, PhotoLook().hair.whole_bulge_share * reach, beyond.beside);
     }
     return hair;
   }
-  const float inside_px = beyond.above > 0 ? DomeHeight(pixel.x) - beyond.above
-                                           : BulgeWidth(*beyond.side, pixel.y) - beyond.beside;
+  const float inside_px = beyond.above > 0 ? DomePx(pixel.x) - beyond.above
+                                           : BulgePx(*beyond.side, pixel.y) - beyond.beside;
   const float soft_px = PhotoLook().hair.outline_mm * canvas_.pixels_per_mm *
                         (0.5F + StrandNoise((pixel.x + pixel.y) / canvas_.pixels_per_mm));
   if (inside_px <= 0) return {};

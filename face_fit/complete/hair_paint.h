@@ -8,23 +8,27 @@
 
 namespace facefit {
 
+/// Returns the height above a photo of the dome of hair that its upper edge cuts over `width_px`,
+/// pixels. `crown_px`: row of the top of the skull with its hair, photo pixels.
+float DomeHeightPx(const PhotoEdges& edges, float width_px, float crown_px);
+
 /// Paints hair (or a hat) beyond a photo that cuts it; canvas.h has a picture of the regions. Above
 /// the head it is rounded off, beside the head it bulges a little; both show the mirror image of
 /// the hair within, or the mean colour of the hair where skin reaches the edge. Hair at the lower
 /// edge hangs on in the colours of that edge and ends in strands.
 class HairPaint {
  public:
-  /// `crown`: row of the top of the skull with its hair, photo pixels. The references must outlive
-  /// this object.
-  HairPaint(const Canvas& canvas, const PhotoEdges& edges, const FigureCutout& figure, float crown);
+  /// `crown_px`: as for DomeHeightPx. The references must outlive this object.
+  HairPaint(const Canvas& canvas, const PhotoEdges& edges, const FigureCutout& figure,
+            float crown_px);
   /// Returns whether the photo cuts hair above, on the left or on the right.
-  bool Cut() const { return cut_; }
+  bool CutsHair() const { return cut_; }
   /// Returns the hair's colour and opacity at a pixel. REQUIRES: it lies beyond the photo.
   Paint PaintAt(glm::vec2 pixel) const;
 
  private:
-  float DomeHeight(float x) const;
-  float BulgeWidth(PhotoSide side, float y) const;
+  float DomePx(float x) const;
+  float BulgePx(PhotoSide side, float y) const;
   glm::vec3 Colour(glm::vec2 pixel) const;
   Paint HairBelow(glm::vec2 pixel, float below_px) const;
 
@@ -42,9 +46,9 @@ class HairPaint {
   const FigureCutout& figure_;
   EdgeSpan top_;
   PerSide<EdgeSpan> sides_;
-  float dome_ = 0;        ///< height of the dome above the photo, pixels
-  PerSide<float> bulge_;  ///< width of the bulge beside the photo, pixels
-  EdgeMeans below_;       ///< the hair's colours along the lower edge
+  float dome_px_ = 0;        ///< height of the dome above the photo, pixels
+  PerSide<float> bulge_px_;  ///< width of the bulge beside the photo, pixels
+  EdgeMeans below_;          ///< the hair's colours along the lower edge
   bool bearded_ = false, cut_ = false;
 };
 

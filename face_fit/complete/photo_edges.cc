@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
-#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -15,10 +14,10 @@
 namespace facefit {
 namespace {
 
-constexpr float kMostly = 0.5F;        // opacity above which a pixel belongs to the figure
-constexpr float kWholly = 0.9F;        // opacity from which a pixel's colour is the figure's alone
-constexpr float kEnoughPixels = 20;    // pixels that a mean colour of hair needs
-constexpr float kHangingShare = 0.8F;  // share of a column that must be figure for it to hang down
+constexpr float kFigureOpacity = 0.5F;  // opacity above which a pixel belongs to the figure
+constexpr float kWholeOpacity = 0.9F;   // opacity from which a pixel's colour is the figure's alone
+constexpr float kMinHairPixels = 20;    // pixels that a mean colour of hair needs
+constexpr float kHangingShare = 0.8F;   // share of a column that must be figure for it to hang down
 
 /// Tells hair and clothes from skin by their colours.
 class EdgeClassifier {
@@ -33,12 +32,12 @@ class EdgeClassifier {
       for (int x = 0; x < figure.opacity.width; ++x) {
         const std::size_t i = figure.opacity.Index(x, y);
         const glm::vec3 colour = Rgb(figure.colours, i);
-        if (figure.opacity[i] < kWholly || IsSkin(colour)) continue;
+        if (figure.opacity[i] < kWholeOpacity || IsSkin(colour)) continue;
         sum += colour;
         ++count;
       }
     }
-    if (count > kEnoughPixels) hair_ = sum / count;
+    if (count > kMinHairPixels) hair_ = sum / count;
   }
   /// Returns the mean colour of hair or hat; nothing where none is seen.
   std::optional<glm::vec3> hair() const { return hair_; }
@@ -46,15 +45,15 @@ class EdgeClassifier {
     const float from_hair =
         hair_ ? glm::distance(colour, *hair_) : std::numeric_limits<float>::infinity();
     if (IsSkin(colour) && glm::distance(colour, skin_colour_) < from_hair) return EdgeKind::kSkin;
-    return from_hair < PhotoLook().edge.hair_colour ? EdgeKind::kHair : EdgeKind::kCloth;
+    return from_hair < PhotoLook().edge.hair_colour_difference ? EdgeKind::kHair : EdgeKind::kCloth;
   }
 
  private:
   bool IsSkin(glm::vec3 colour) const {
     const float brightness = Brightness(colour) / std::max(Brightness(skin_colour_), 1.0F);
     const auto& look = PhotoLook().edge;
-    return glm::distance(Hue(colour), Hue(skin_colour_)) < look.skin_hue &&
-           brightness > look.skin_brightness.x && brightness < look.skin_brightness.y;
+    return glm::distance(Hue(colour), Hue(skin_colour_)) < look.skin_hue_difference &&
+           look.skin_brightness.Contains(brightness);
   }
   /// Returns the colour divided by its brightness; dark colours, whose hue is noise, tend to grey.
   static glm::vec3 Hue(glm::vec3 colour) {
@@ -70,8 +69,8 @@ class EdgeClassifier {
 struct ChinFrame {
   glm::vec2 pixel;  ///< of the chin
   float pixels_per_mm;
-  float Below(int row) const { return (static_cast<float>(row) - pixel.y) / pixels_per_mm; }
-  float Beside(std::size_t x) const {
+  float BelowMm(int row) const { return (static_cast<float>(row) - pixel.y) / pixels_per_mm; }
+  float BesideMm(std::size_t x) const {
     return std::abs(static_cast<float>(x) + 0.5F - pixel.x) / pixels_per_mm;
   }
 };
@@ -93,7 +92,7 @@ class EdgeReader {
         sample.opacity += share * figure_.opacity[i];
       }
     }
-    if (sample.opacity > kMostly) sample.kind = classifier_.KindOf(sample.colour);
+    if (sample.opacity > kFigureOpacity) sample.kind = classifier_.KindOf(sample.colour);
     return sample;
   }
   /// Counts the figure's pixels that are not skin from `from` on in direction `step`, up to `most`.
@@ -101,7 +100,7 @@ class EdgeReader {
     int count = 0;
     for (glm::ivec2 p = from; count < most; p += step, ++count) {
       const std::size_t i = figure_.opacity.Index(p.x, p.y);
-      if (figure_.opacity[i] < kMostly || KindOf(i) == EdgeKind::kSkin) break;
+      if (figure_.opacity[i] < kFigureOpacity || KindOf(i) == EdgeKind::kSkin) break;
     }
     return count;
   }
@@ -121,7 +120,7 @@ class EdgeReader {
     int hanging = 0, rows = 0;
     for (int y = std::max(static_cast<int>(from), 0); y < figure_.opacity.height; ++y, ++rows) {
       const std::size_t i = figure_.opacity.Index(static_cast<int>(x), y);
-      hanging += figure_.opacity[i] > kMostly && counts(i);
+      hanging += figure_.opacity[i] > kFigureOpacity && counts(i);
     }
     return static_cast<float>(hanging) >= kHangingShare * static_cast<float>(rows);
   }
@@ -130,61 +129,41 @@ class EdgeReader {
   const EdgeClassifier& classifier_;
 };
 
-// By colour alone brown hair would be skin in warm light, and the shade on a neck cloth. Above the
-// shoulders only hair hangs beside the neck, and only tips of a collar stand there; the neck itself
-// is bare or in a collar. So the lower edge is split into runs, classified by their places.
-
-/// What a run of the lower edge consists of; samples of kOther keep the kinds of their colours.
-enum class RunKind { kOther, kClothOnNeck, kClothBesideNeck, kBeyondNeck };
-struct Run {
-  std::size_t from, to;  ///< columns from..to - 1
-  RunKind kind;
-};
-/// The kind of the samples of such a run if something hangs down in any of its columns, or if not.
-struct RunRule {
-  RunKind run;
-  EdgeKind hanging, standing;
-};
-constexpr RunRule kRunRules[] = {
-    // clang-format off
-    {RunKind::kClothOnNeck,     EdgeKind::kSkin, EdgeKind::kSkin},  // the shade on a bare neck
-    {RunKind::kClothBesideNeck, EdgeKind::kTip,  EdgeKind::kTip},   // nothing else stands there
-    {RunKind::kBeyondNeck,      EdgeKind::kHair, EdgeKind::kTip},   // a lock hangs in some column
-    // clang-format on
-};
-
-/// Splits the lower edge of a photo that ends above the shoulders. `below_mm`: distance from the
-/// chin to the lower edge.
-std::vector<Run> RunsOf(const std::vector<EdgeSample>& bottom, const ChinFrame& chin,
-                        float below_mm) {
-  const auto& look = PhotoLook();
-  const float neck_mm = look.neck.half_width_mm;
-  int cloth = 0, neck = 0;
+/// Classifies the lower edge of a photo that ends above the shoulders by the places of its samples:
+/// by colour alone brown hair would be skin in warm light, and the shade on a neck cloth. There
+/// only hair hangs beside the neck, and only tips of a collar stand; the neck itself is bare or in
+/// a collar. `below_mm`: distance from the chin to the edge; `hang_from`: as for HangsDown.
+void ClassifyByPlace(const EdgeReader& reader, const ChinFrame& chin, float below_mm,
+                     float hang_from, std::vector<EdgeSample>& bottom) {
+  const auto& neck = PhotoLook().neck;
+  int cloth = 0, columns = 0;
   for (std::size_t x = 0; x < bottom.size(); ++x) {
-    if (chin.Beside(x) > neck_mm) continue;
+    if (chin.BesideMm(x) > neck.half_width_mm) continue;
     cloth += bottom[x].kind == EdgeKind::kCloth;
-    ++neck;
+    ++columns;
   }
-  const bool collar = below_mm > look.neck.collar_mm && 2 * cloth > neck;
-  const bool at_jaw = below_mm < look.neck.jaw_mm;
-  const float beyond_mm = look.neck.ends_mm + (at_jaw ? look.neck.jaw_wider_mm : 0);
-  const auto kind_of = [&](std::size_t x) {
-    const EdgeKind kind = bottom[x].kind;
-    if (kind == EdgeKind::kNothing) return RunKind::kOther;
-    if (chin.Beside(x) > beyond_mm) {
-      // Below the jaw skin beside the neck may be a raised shoulder.
-      return kind == EdgeKind::kSkin && !at_jaw ? RunKind::kOther : RunKind::kBeyondNeck;
-    }
-    if (kind != EdgeKind::kCloth || collar) return RunKind::kOther;
-    return chin.Beside(x) > neck_mm ? RunKind::kClothBesideNeck : RunKind::kClothOnNeck;
-  };
-  std::vector<Run> runs;
+  const bool collar = below_mm > neck.collar_mm && 2 * cloth > columns;
+  const bool at_jaw = below_mm < neck.jaw_mm;
+  const float beyond_mm = neck.ends_mm + (at_jaw ? neck.jaw_wider_mm : 0);
+  std::vector<bool> beyond_neck;
   for (std::size_t x = 0; x < bottom.size(); ++x) {
-    const RunKind kind = kind_of(x);
-    if (runs.empty() || runs.back().kind != kind) runs.push_back({x, x, kind});
-    runs.back().to = x + 1;
+    EdgeKind& kind = bottom[x].kind;
+    const bool beyond = chin.BesideMm(x) > beyond_mm;
+    // Below the jaw skin beside the neck may be a raised shoulder.
+    beyond_neck.push_back(beyond && kind != EdgeKind::kNothing &&
+                          (kind != EdgeKind::kSkin || at_jaw));
+    if (beyond || kind != EdgeKind::kCloth || collar) continue;
+    kind = chin.BesideMm(x) > neck.half_width_mm ? EdgeKind::kTip : EdgeKind::kSkin;
   }
-  return runs;
+  // A stretch beyond the neck is hair if a lock hangs down in any of its columns.
+  for (std::size_t from = 0; from < bottom.size(); ++from) {
+    std::size_t to = from;
+    bool hangs = false;
+    for (; to < bottom.size() && beyond_neck[to]; ++to) {
+      hangs = hangs || reader.HangsDown(to, hang_from);
+    }
+    for (; from < to; ++from) bottom[from].kind = hangs ? EdgeKind::kHair : EdgeKind::kTip;
+  }
 }
 
 std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const ChinFrame& chin, glm::ivec2 size,
@@ -199,16 +178,9 @@ std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const ChinFrame& ch
       sample.kind = EdgeKind::kCloth;
     }
   }
-  const float below_mm = chin.Below(size.y);
-  if (below_mm >= look.neck.no_shoulders_mm) return bottom;
-  for (const auto& [from, to, run_kind] : RunsOf(bottom, chin, below_mm)) {
-    const auto* rule = std::ranges::find(kRunRules, run_kind, &RunRule::run);
-    if (rule == std::end(kRunRules)) continue;
-    bool hangs = false;
-    for (std::size_t x = from; x < to; ++x) hangs = hangs || reader.HangsDown(x, hang_from);
-    for (std::size_t x = from; x < to; ++x) {
-      bottom[x].kind = hangs ? rule->hanging : rule->standing;
-    }
+  const float below_mm = chin.BelowMm(size.y);
+  if (below_mm < look.neck.no_shoulders_mm) {
+    ClassifyByPlace(reader, chin, below_mm, hang_from, bottom);
   }
   return bottom;
 }
@@ -221,7 +193,7 @@ std::vector<EdgeSampleWithHair> ReadTop(const EdgeReader& reader, glm::ivec2 siz
   return top;
 }
 
-std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, PhotoSide side, float chin,
+std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, PhotoSide side, float chin_row,
                                          glm::ivec2 size, int band) {
   const bool left = side == PhotoSide::kLeft;
   std::vector<EdgeSampleWithHair> samples;
@@ -231,7 +203,7 @@ std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, PhotoSide sid
   }
   // Hair hangs from the head without a gap: dark pixels below a gap are cloth.
   bool gap = false;
-  for (int y = std::max(static_cast<int>(chin), 0); y < size.y; ++y) {
+  for (int y = std::max(static_cast<int>(chin_row), 0); y < size.y; ++y) {
     EdgeKind& kind = samples[static_cast<std::size_t>(y)].kind;
     gap = gap || kind == EdgeKind::kNothing;
     if (gap && kind == EdgeKind::kHair) kind = EdgeKind::kCloth;
@@ -242,12 +214,12 @@ std::vector<EdgeSampleWithHair> ReadSide(const EdgeReader& reader, PhotoSide sid
 /// Returns the mean colour of the figure at both sides above the chin. That is hair or hat even
 /// where it has the skin's brightness and hue, as grey and blond hair do. Returns darkened skin if
 /// the figure does not touch the sides.
-glm::vec3 HairBeside(const PerSide<std::vector<EdgeSampleWithHair>>& sides, float chin,
+glm::vec3 HairBeside(const PerSide<std::vector<EdgeSampleWithHair>>& sides, float chin_row,
                      glm::vec3 skin_colour) {
   glm::vec4 sum(0);
   for (const PhotoSide side : kPhotoSides) {
     const auto& samples = sides[side];
-    for (std::size_t y = 0; y < samples.size() && static_cast<float>(y) < chin; ++y) {
+    for (std::size_t y = 0; y < samples.size() && static_cast<float>(y) < chin_row; ++y) {
       if (samples[y].kind != EdgeKind::kNothing) sum += glm::vec4(samples[y].colour, 1);
     }
   }
@@ -256,12 +228,8 @@ glm::vec3 HairBeside(const PerSide<std::vector<EdgeSampleWithHair>>& sides, floa
 
 }  // namespace
 
-glm::vec2 PhotoEdges::DomeByWidth() const {
-  const auto& look = PhotoLook().hair;
-  // A figure that touches the upper edge from corner to corner is cut where the head is widest.
-  const bool all = std::ranges::none_of(
-      top_, [](EdgeKind kind) { return kind == EdgeKind::kNothing; }, &EdgeSampleWithHair::kind);
-  return {all ? look.dome_of_whole_edge : look.dome_by_width.x, look.dome_by_width.y};
+bool PhotoEdges::TopCutsWholeEdge() const {
+  return std::ranges::find(top_, EdgeKind::kNothing, &EdgeSampleWithHair::kind) == top_.end();
 }
 
 PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure,
@@ -273,8 +241,7 @@ PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure,
   const ChinFrame chin{fitted.pose.Pixel(fitted.PositionOf(point::kChin)),
                        fitted.pose.PixelsPerMm()};
   const glm::ivec2 band =
-      glm::clamp(glm::ivec2(static_cast<int>(PhotoLook().edge.band_mm * chin.pixels_per_mm)),
-                 glm::ivec2(1), size);
+      glm::min(glm::ivec2(PixelsOf(PhotoLook().edge.band_mm, chin.pixels_per_mm)), size);
   bottom_ = ReadBottom(reader, chin, size, band.y);
   top_ = ReadTop(reader, size, band.y);
   for (const PhotoSide side : kPhotoSides) {

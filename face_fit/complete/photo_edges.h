@@ -1,6 +1,5 @@
 #pragma once
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -38,9 +37,8 @@ class PhotoEdges {
   const EdgeSampleWithHair& side(PhotoSide side, int y) const {
     return sides_[side][static_cast<std::size_t>(y)];
   }
-  /// Returns the least and the greatest height of the dome above the photo, as shares of the width
-  /// that the upper edge cuts.
-  glm::vec2 DomeByWidth() const;
+  /// Returns whether the figure touches the upper edge from corner to corner.
+  bool TopCutsWholeEdge() const;
   /// Returns the mean colour of hair or hat, 0..255.
   glm::vec3 hair() const { return hair_; }
 

@@ -1,19 +1,11 @@
 #include "face_fit/fit/camera_pose.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
 
 namespace facefit {
 
 constexpr glm::vec3 kMiddle{0, -10, 20};  ///< centre of the head's rotation
-
-fsm::Angles HeadRotationOf(const glm::mat3& rotation) {
-  return {glm::degrees(std::asin(std::clamp(-rotation[2][1], -1.0F, 1.0F))),
-          glm::degrees(std::atan2(rotation[2][0], rotation[2][2])),
-          glm::degrees(std::atan2(-rotation[0][1], rotation[1][1]))};
-}
 
 glm::mat3 CameraPose::Rotation() const {
   const float cx = std::cos(rotation_rad.x), sx = std::sin(rotation_rad.x);
@@ -32,10 +24,10 @@ glm::vec3 CameraPose::TowardsCamera() const {
   return glm::transpose(Rotation()) * glm::vec3(0, 0, 1);
 }
 glm::vec2 CameraPose::Project(glm::vec3 q) const {
-  return centre + focal / (kCameraZ - q.z) * glm::vec2(q.x, -q.y);
+  return centre_px + focal_px / (kCameraDepthMm - q.z) * glm::vec2(q.x, -q.y);
 }
 glm::vec3 CameraPose::Unproject(glm::vec2 pixel, float z) const {
-  const glm::vec2 d = (pixel - centre) * ((kCameraZ - z) / focal);
+  const glm::vec2 d = (pixel - centre_px) * ((kCameraDepthMm - z) / focal_px);
   return {d.x, -d.y, z};
 }
 std::vector<glm::vec3> CameraPose::ToScreen(std::span<const glm::vec3> positions) const {
@@ -46,6 +38,6 @@ std::vector<glm::vec3> CameraPose::ToScreen(std::span<const glm::vec3> positions
   }
   return screen;
 }
-float CameraPose::PixelsPerMm() const { return focal / (kCameraZ - kFaceZ); }
+float CameraPose::PixelsPerMm() const { return focal_px / (kCameraDepthMm - kFaceDepthMm); }
 
 }  // namespace facefit

@@ -6,8 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "fsm/rig/angles.h"
-
 namespace facefit {
 
 // Frames. Both are right-handed, in millimetres; frames and pixels are said at every function.
@@ -15,18 +13,18 @@ namespace facefit {
 //   head's frame     as of fsm::HeadVertices at rest: x to the person's left, which is the viewer's
 //                    right, y up, z forward out of the face; the origin is midway between the ears
 //   camera's frame   the head's frame where rotation_rad is 0; otherwise the head is rotated in it
-//                    about (0, -10, 20). The camera stands at (0, 0, kCameraZ) and looks along -z,
-//                    so that a greater z is nearer to it: z is the depth towards the camera
+//                    about (0, -10, 20). The camera stands at (0, 0, kCameraDepthMm) and looks
+//                    along -z, so that a greater z is nearer to it: z is the depth towards the
+//                    camera
 //   pixel            x to the right, y down, the centre of the first at (0.5, 0.5)
 
 /// Depth of the face's plane and of the camera, camera's frame. The camera is as far away as the
-/// renderer's (its kFaceDepth), whose lens of 25 degrees shows a portrait 330 mm high.
-inline constexpr float kFaceZ = 50;
-inline constexpr float kCameraZ = kFaceZ + 744;
-
-/// Returns FaceState::head_rotation of a rotation: the inverse of fsm::HeadRotation. Not the angles
-/// of a CameraPose, which are in another order and tilt the other way.
-fsm::Angles HeadRotationOf(const glm::mat3& rotation);
+/// renderer's (its kFaceDepth), whose lens of 14 degrees shows a portrait 330 mm high.
+inline constexpr float kFaceDepthMm = 50;
+inline constexpr float kCameraDepthMm = kFaceDepthMm + 1344;
+/// Approximate depth of what lies beside the face, camera's frame, millimetres: accurate enough to
+/// tell which part of the head a pixel covers.
+inline constexpr float kBesideFaceDepthMm = 20;
 
 /// How a photo was taken: the head is rotated in front of a camera as far away as the renderer's,
 /// so that a fitted head looks the same there.
@@ -35,8 +33,8 @@ struct CameraPose {
   /// turns it to the person's left, z tilts the head to its right, counter-clockwise for the
   /// viewer.
   glm::vec3 rotation_rad{};
-  float focal = 1;     ///< pixels
-  glm::vec2 centre{};  ///< pixel on the camera's axis
+  float focal_px = 1;
+  glm::vec2 centre_px{};  ///< on the camera's axis
 
   /// From the head's axes to the camera's: first about y, then x, then z, so z * x * y as matrices.
   glm::mat3 Rotation() const;

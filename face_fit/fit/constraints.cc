@@ -1,21 +1,16 @@
 #include "face_fit/fit/constraints.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "face_fit/find/face/mouth_line.h"
+#include "face_fit/find/face/photo_seam.h"
 #include "face_fit/picture/plane.h"
-#include "fsm/base/number_table.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
-
-/// Distance from a corner of the mouth, divided by the mouth's width: beyond the first the outer
-/// lips do not follow the corner, below the second they follow it wholly.
-constexpr glm::vec2 kGoesWithCorner{0.3F, 0.05F};
 
 /// Returns FitProblem::depth_bias.
 std::vector<float> DepthBias(const ObservedHead& base) {
@@ -29,16 +24,18 @@ std::vector<float> DepthBias(const ObservedHead& base) {
   return bias;
 }
 
-/// Returns constraints to where the network sees the points of the face. `posed`: as for
-/// ConstrainToMouthLine.
-std::vector<LandmarkConstraint> PointConstraints(const FitProblem& problem, const CameraPose& pose,
-                                                 std::span<const glm::vec3> posed) {
+/// Returns constraints to where the network sees the points of the face, inner lips left out.
+/// `posed`: the base head's vertices in the photo's expression.
+std::vector<PixelConstraint> PointConstraints(const FitProblem& problem, const CameraPose& pose,
+                                              std::span<const glm::vec3> posed) {
   constexpr float kTrustDepth = 0.3F, kMaxDepthGapMm = 15;
   const std::vector<float> gaps_mm = DepthGapsMm(problem, pose, posed);
-  std::vector<LandmarkConstraint> constraints;
-  for (const PointIndex k : point::kReliable) {
+  std::vector<PixelConstraint> constraints;
+  for (std::size_t i = 0; i < gaps_mm.size(); ++i) {
+    const PointIndex k = point::kReliable[i];
+    if (OnInnerLips(k)) continue;
     const MeshPoint& on_head = problem.base.mesh_points()[k];
-    const float gap_mm = std::clamp(gaps_mm[constraints.size()], -kMaxDepthGapMm, kMaxDepthGapMm);
+    const float gap_mm = std::clamp(gaps_mm[i], -kMaxDepthGapMm, kMaxDepthGapMm);
     constraints.push_back({k, on_head, problem.face.PixelOf(k),
                            pose.ToCamera(on_head.On(posed)).z + kTrustDepth * gap_mm});
   }
@@ -46,14 +43,12 @@ std::vector<LandmarkConstraint> PointConstraints(const FitProblem& problem, cons
 }
 
 /// Moves the outlines of eyes up or down where the irises show that the network misplaced them.
-void ShiftLidsToIrises(const ObservedHead& base, const PhotoIrises& irises,
-                       std::vector<LandmarkConstraint>& constraints) {
+void ShiftLidsToIrises(const FitProblem& problem, const PhotoIrises& irises,
+                       std::vector<PixelConstraint>& constraints) {
   for (const fsm::Side side : fsm::kSides) {
-    const LidSpan lids = LidSpanOf(side, [&constraints](PointIndex i) {
-      return std::ranges::find_if(constraints, [i](const auto& c) { return c.point == i; })->pixel;
-    });
-    const glm::vec2 shift_px = LidShiftPx(base, lids, irises.circles[side], side);
-    for (LandmarkConstraint& constraint : constraints) {
+    const glm::vec2 shift_px =
+        LidShiftPx(problem.base, EyePointsOf(side, problem.face), irises.circles[side], side);
+    for (PixelConstraint& constraint : constraints) {
       if (constraint.IsAmong(point::kEyeOutline[side])) constraint.pixel += shift_px;
     }
   }
@@ -62,7 +57,7 @@ void ShiftLidsToIrises(const ObservedHead& base, const PhotoIrises& irises,
 std::uint32_t NearestLip(const ObservedHead& base, glm::vec3 p) {
   std::uint32_t nearest = 0;
   float distance = 1e9F;
-  const auto& topology = base.head().topology();
+  const auto& topology = base.head().surface();
   for (const auto& part : topology.parts) {
     if (part.material != fsm::Material::kLip) continue;
     for (const std::uint32_t v : topology.Corners(part)) {
@@ -75,46 +70,62 @@ std::uint32_t NearestLip(const ObservedHead& base, glm::vec3 p) {
   return nearest;
 }
 
-/// Constrains closed lips to the line along which they meet in the photo, and moves the outer lips
-/// beside a corner with it. `posed`: the base head's vertices in the
-/// photo's expression.
-void ConstrainToMouthLine(const FitProblem& problem, const CameraPose& pose,
-                          std::span<const glm::vec3> posed, const fsm::Image& photo,
-                          std::vector<LandmarkConstraint>& constraints) {
-  const ObservedHead& base = problem.base;
-  const glm::vec3 right = base.head().Landmark("cheilion_right");
-  const glm::vec3 left = base.head().Landmark("cheilion_left");
-  const auto along = [&](const MeshPoint& p) {
-    return (p.On(base.rest().position).x - right.x) / (left.x - right.x);
-  };
-  const auto line =
-      FindMouthLine(photo, problem.face, along(base.mesh_points()[point::kMouthRight]),
-                    along(base.mesh_points()[point::kMouthLeft]));
-  const auto on_line = [&](float along_mouth) {
-    const float step = glm::clamp(along_mouth, 0.0F, 1.0F) * (kMouthLinePoints - 1);
-    const auto k = std::min(static_cast<std::size_t>(step), kMouthLinePoints - 2);
-    return glm::mix(line[k], line[k + 1], step - static_cast<float>(k));
-  };
-  // Where the network misplaces a corner it misplaces the outer lips beside it, too.
-  for (const PointIndex corner : {point::kMouthRight, point::kMouthLeft}) {
-    const float corner_along = along(base.mesh_points()[corner]);
-    const glm::vec2 shift_px = on_line(corner_along) - problem.face.PixelOf(corner);
-    for (LandmarkConstraint& constraint : constraints) {
+/// The seam in the photo.
+class PhotoSeam {
+ public:
+  /// Both must outlive this object.
+  PhotoSeam(const FitProblem& problem, const fsm::Image& photo)
+      : base_(problem.base),
+        right_(base_.head().Landmark("cheilion_right").x),
+        width_(base_.head().Landmark("cheilion_left").x - right_),
+        line_(FindPhotoSeam(photo, problem.face,
+                            {Along(base_.mesh_points()[point::kMouthRight]),
+                             Along(base_.mesh_points()[point::kMouthLeft])})) {}
+  /// Returns the position along the mouth, 0 = its right end and 1 = its left end.
+  float Along(const MeshPoint& p) const {
+    return (p.On(base_.rest().position).x - right_) / width_;
+  }
+  glm::vec2 PixelAt(float along) const {
+    const float step = glm::clamp(along, 0.0F, 1.0F) * (kSeamPoints - 1);
+    const auto k = std::min(static_cast<std::size_t>(step), kSeamPoints - 2);
+    return glm::mix(line_[k], line_[k + 1], step - static_cast<float>(k));
+  }
+
+ private:
+  const ObservedHead& base_;
+  float right_, width_;  // of the mouth at rest, millimetres
+  std::vector<glm::vec2> line_;
+};
+
+/// Moves the corners of the mouth onto the seam, and the outer lips beside them with them: where
+/// the network misplaces a corner it misplaces these, too.
+void ShiftOuterLips(const FitProblem& problem, const PhotoSeam& line,
+                    std::vector<PixelConstraint>& constraints) {
+  for (const PointIndex corner : point::kMouthCorners) {
+    const float corner_along = line.Along(problem.base.mesh_points()[corner]);
+    const glm::vec2 shift_px = line.PixelAt(corner_along) - problem.face.PixelOf(corner);
+    for (PixelConstraint& constraint : constraints) {
       const bool outer_lip =
           constraint.IsAmong(point::kUpperOuterLip) || constraint.IsAmong(point::kLowerOuterLip);
       if (constraint.point != corner && !outer_lip) continue;
-      constraint.pixel +=
-          shift_px *
-          fsm::SmoothStep(kGoesWithCorner, std::abs(along(constraint.on_head) - corner_along));
+      constraint.pixel += shift_px * PhotoLook().outer_lips.go_with_corner.Ramp(
+                                         std::abs(line.Along(constraint.on_head) - corner_along));
     }
   }
+}
+
+/// Constrains closed lips to the seam. `posed`: as for PointConstraints.
+void ConstrainToSeam(const FitProblem& problem, const CameraPose& pose,
+                     std::span<const glm::vec3> posed, const PhotoSeam& line,
+                     std::vector<PixelConstraint>& constraints) {
+  const ObservedHead& base = problem.base;
   const auto constrain = [&](const MeshPoint& p) {
-    constraints.push_back({std::nullopt, p, on_line(along(p)), pose.ToCamera(p.On(posed)).z});
+    constraints.push_back(
+        {std::nullopt, p, line.PixelAt(line.Along(p)), pose.ToCamera(p.On(posed)).z});
   };
-  const std::span upper(point::kUpperInnerLip);
-  for (const PointIndex i : upper.subspan(1, upper.size() - 2)) constrain(base.mesh_points()[i]);
-  for (const glm::vec3 corner : {right, left}) {
-    const std::uint32_t v = NearestLip(base, corner);
+  for (const PointIndex i : point::kUpperInnerLip) constrain(base.mesh_points()[i]);
+  for (const char* corner : {"cheilion_right", "cheilion_left"}) {
+    const std::uint32_t v = NearestLip(base, base.head().Landmark(corner));
     constrain({{v, v, v}, {1, 0, 0}});
   }
 }
@@ -141,18 +152,16 @@ std::vector<float> DepthGapsMm(const FitProblem& problem, const CameraPose& pose
   return gaps;
 }
 
-std::vector<LandmarkConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
-                                              const Expression& expression,
-                                              const PhotoIrises& irises, const fsm::Image* photo) {
-  fsm::HeadVertices posed;
-  problem.base.head().Evaluate(expression.State(), posed);
-  auto constraints = PointConstraints(problem, pose, posed.position);
-  ShiftLidsToIrises(problem.base, irises, constraints);
-  const bool to_line = photo && !problem.lips_apart;
-  if (to_line || problem.lips_apart) {
-    std::erase_if(constraints, [](const auto& c) { return c.point && OnInnerLips(*c.point); });
-  }
-  if (to_line) ConstrainToMouthLine(problem, pose, posed.position, *photo, constraints);
+std::vector<PixelConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
+                                           const ShownUnits& shown_units, const PhotoIrises& irises,
+                                           const fsm::Image& photo) {
+  const std::vector<glm::vec3> posed = problem.base.Posed(shown_units.State());
+  auto constraints = PointConstraints(problem, pose, posed);
+  ShiftLidsToIrises(problem, irises, constraints);
+  if (problem.lips_apart) return constraints;
+  const PhotoSeam line(problem, photo);
+  ShiftOuterLips(problem, line, constraints);
+  ConstrainToSeam(problem, pose, posed, line, constraints);
   return constraints;
 }
 

@@ -13,7 +13,7 @@
 namespace facefit {
 
 /// A point of the head that must appear at a pixel of the photo, at a depth.
-struct LandmarkConstraint {
+struct PixelConstraint {
   std::optional<PointIndex> point;  ///< if it is a point of the network
   MeshPoint on_head;
   glm::vec2 pixel;
@@ -42,11 +42,11 @@ std::vector<float> DepthGapsMm(const FitProblem& problem, const CameraPose& pose
 
 /// Returns the constraints of the warp for a pose and an expression: the network's points, whose
 /// depth is mostly the head's own. Eyes whose irises the photo shows elsewhere are moved up or down
-/// with them. Closed lips meet where the photo, if there is one, shows the dark line between them;
-/// for the inner lips of an open mouth there are none, because at rest both are one line, which
-/// cannot be moved to two separate ones.
-std::vector<LandmarkConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
-                                              const Expression& expression,
-                                              const PhotoIrises& irises, const fsm::Image* photo);
+/// with them. Closed lips meet where the photo shows the seam; for the inner lips
+/// of an open mouth there are none, because at rest both are one line, which cannot be moved to two
+/// separate ones.
+std::vector<PixelConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
+                                           const ShownUnits& shown_units, const PhotoIrises& irises,
+                                           const fsm::Image& photo);
 
 }  // namespace facefit

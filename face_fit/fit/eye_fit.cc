@@ -1,7 +1,6 @@
 #include "face_fit/fit/eye_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -14,16 +13,14 @@
 namespace facefit {
 namespace {
 
-// Plausible limits. Sizes are relative to the built-in eye, the turn in radians, the raise of the
-// lids in millimetres.
-constexpr glm::vec2 kSize{0.82F, 1.2F}, kRoll{-0.25F, 0.25F}, kUpperRaise{-6, 0.7F},
-    kLowerRaise{-2.5F, 3.5F};
-float Within(glm::vec2 range, float v) { return std::clamp(v, range.x, range.y); }
+// Plausible limits; sizes are relative to the built-in eye.
+constexpr fsm::Range kSize{0.82F, 1.2F}, kRollRad{-0.25F, 0.25F}, kUpperRaiseMm{-6, 0.7F},
+    kLowerRaiseMm{-2.5F, 3.5F};
 
 fsm::EyeTransform FitEye(const ObservedHead& base, const std::map<PointIndex, glm::vec3>& to,
                          fsm::Side side) {
   const auto outline = point::kEyeOutline[side];
-  const glm::vec3 centre = base.head().topology().eyes[side].centre;
+  const glm::vec3 centre = base.head().EyeCentre(side);
   const auto at_rest = [&](std::size_t k) { return base.AtRest(outline[k]); };
   const float inner = at_rest(kInnerCorner).x, outer = at_rest(kOuterCorner).x;
   // Unknown: shift x and y, size times cosine and sine of the turn, raise of upper and lower lid.
@@ -43,11 +40,11 @@ fsm::EyeTransform FitEye(const ObservedHead& base, const std::map<PointIndex, gl
   const auto solved = sum.Solve(1e-6);
   const auto unknown = [&solved](std::size_t i) { return static_cast<float>(solved[i]); };
   fsm::EyeTransform transform;
-  transform.size = Within(kSize, std::hypot(unknown(2), unknown(3)));
-  transform.roll = Within(kRoll, std::atan2(unknown(3), unknown(2)));
+  transform.size = kSize.Clamp(std::hypot(unknown(2), unknown(3)));
+  transform.roll = kRollRad.Clamp(std::atan2(unknown(3), unknown(2)));
   transform.shift = {unknown(0), unknown(1), forward};
-  transform.upper_mm = Within(kUpperRaise, unknown(4) / transform.size);
-  transform.lower_mm = Within(kLowerRaise, unknown(5) / transform.size);
+  transform.upper_mm = kUpperRaiseMm.Clamp(unknown(4) / transform.size);
+  transform.lower_mm = kLowerRaiseMm.Clamp(unknown(5) / transform.size);
   return transform;
 }
 
@@ -61,13 +58,12 @@ fsm::Sided<fsm::EyeTransform> FitEyes(const ObservedHead& base,
 fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted) {
   const float kept = PhotoLook().squint_kept_share;
   const ObservedHead& base = *fitted.base;
-  fsm::HeadVertices posed;
-  base.head().Evaluate(fitted.expression.State(), posed);
+  const std::vector<glm::vec3> posed = base.Posed(fitted.shown_units.State());
   fsm::Sided<fsm::EyeTransform> transforms = fitted.eyes;
   for (const fsm::Side side : fsm::kSides) {
     const auto raised = [&](std::size_t k) {
       const MeshPoint& lid = base.mesh_points()[point::kEyeOutline[side][k]];
-      return lid.On(posed.position).y - lid.On(base.rest().position).y;
+      return lid.On(posed).y - lid.On(base.rest().position).y;
     };
     transforms[side].upper_mm += kept * std::min(raised(kUpperMiddle), 0.0F);
     transforms[side].lower_mm += kept * std::max(raised(kLowerMiddle), 0.0F);

@@ -2,7 +2,6 @@
 
 #include <glm/vec3.hpp>
 #include <map>
-#include <vector>
 
 #include "face_fit/find/head/observed_head.h"
 #include "face_fit/fit/fitted_head.h"

@@ -5,40 +5,40 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "face_fit/fit/landmark_warp.h"
+#include "face_fit/fit/pixel_warp.h"
 #include "face_fit/fit/pose_fit.h"
+#include "face_fit/picture/plane.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
 
-/// Unknowns of the fit: the pose's, then the strengths of Expression.
+/// Unknowns of the fit: the pose's, then the strengths of ShownUnits.
 enum FitParameter : std::size_t { kSmile = kPoseParameters, kJaw, kParted, kFitParameters };
-constexpr double kMaxExpression = 1.5;
+constexpr double kMaxStrength = 1.5;
 using Parameters = std::vector<double>;
 
-Expression ExpressionOf(const Parameters& p) {
+ShownUnits ShownUnitsOf(const Parameters& p) {
   const auto strength = [&p](FitParameter i) {
-    return static_cast<float>(std::clamp(p[i], 0.0, kMaxExpression));
+    return static_cast<float>(std::clamp(p[i], 0.0, kMaxStrength));
   };
   return {.smile = strength(kSmile), .jaw = strength(kJaw), .parted = strength(kParted)};
 }
 
 std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& parameters) {
   const CameraPose pose = PoseFromParameters(parameters);
-  fsm::HeadVertices vertices;
-  problem.base.head().Evaluate(ExpressionOf(parameters).State(), vertices);
+  const std::vector<glm::vec3> posed = problem.base.Posed(ShownUnitsOf(parameters).State());
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<double> out;
   for (const PointIndex k : point::kReliable) {
-    const glm::vec3 q = pose.ToCamera(problem.base.mesh_points()[k].On(vertices.position));
+    const glm::vec3 q = pose.ToCamera(problem.base.mesh_points()[k].On(posed));
     const glm::vec2 offset = (pose.Project(q) - problem.face.PixelOf(k)) * mm_per_pixel;
     out.push_back(static_cast<double>(offset.x));
     out.push_back(static_cast<double>(offset.y));
   }
   // The network's depth is less reliable than its x and y.
   constexpr double kDepthWeight = 0.4;
-  for (const float gap_mm : DepthGapsMm(problem, pose, vertices.position)) {
+  for (const float gap_mm : DepthGapsMm(problem, pose, posed)) {
     out.push_back(kDepthWeight * static_cast<double>(gap_mm));
   }
   // Priors, as the residual in millimetres of a unit at full strength: people mostly hold still for
@@ -52,10 +52,10 @@ std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& par
   return out;
 }
 
-Parameters FitPoseAndExpression(const FitProblem& problem, const CameraPose& start) {
+Parameters FitPoseAndUnits(const FitProblem& problem, const CameraPose& start) {
   std::vector<Unknown> unknowns = PoseUnknowns(start);
   for (std::size_t i = kSmile; i < kFitParameters; ++i) {
-    unknowns.push_back({.start = 0, .step = 0.05, .low = 0, .high = kMaxExpression});
+    unknowns.push_back({.start = 0, .step = 0.05, .low = 0, .high = kMaxStrength});
   }
   return LevenbergMarquardt([&problem](const Parameters& p) { return ResidualsOf(problem, p); },
                             unknowns, kPoseRounds);
@@ -64,13 +64,13 @@ Parameters FitPoseAndExpression(const FitProblem& problem, const CameraPose& sta
 /// Computes size, position and tilt from the outer corners of the eyes and the root of the nose.
 CameraPose InitialPose(const ObservedHead& base, const FoundFace& face) {
   using namespace point;
-  const glm::vec2 right = face.PixelOf(kEyeOuterRight), left = face.PixelOf(kEyeOuterLeft);
+  const glm::vec2 eyes = face.AcrossEyes();
   const float width_mm = glm::distance(base.AtRest(kEyeOuterRight), base.AtRest(kEyeOuterLeft));
-  const float pixels_per_mm = glm::distance(right, left) / width_mm;
+  const float pixels_per_mm = glm::length(eyes) / width_mm;
   const glm::vec3 root = base.AtRest(kNoseBridge);
-  return {.rotation_rad = {0, 0, -std::atan2(left.y - right.y, left.x - right.x)},
-          .focal = pixels_per_mm * (kCameraZ - kFaceZ),
-          .centre = face.PixelOf(kNoseBridge) + pixels_per_mm * glm::vec2(-root.x, root.y)};
+  return {.rotation_rad = {0, 0, -AngleOf(eyes)},
+          .focal_px = pixels_per_mm * (kCameraDepthMm - kFaceDepthMm),
+          .centre_px = face.PixelOf(kNoseBridge) + pixels_per_mm * glm::vec2(-root.x, root.y)};
 }
 
 /// Returns the strength of a smile without what mouths at rest have: they differ from the
@@ -84,16 +84,16 @@ float SmileBeyondRest(float smile, bool lips_apart) {
 
 }  // namespace
 
-Fit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image* photo) {
+Fit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image& photo) {
   const FitProblem problem(base, face);
-  const Parameters settled = FitPoseAndExpression(problem, InitialPose(base, face));
+  const Parameters settled = FitPoseAndUnits(problem, InitialPose(base, face));
   const CameraPose pose = PoseFromParameters(settled);
-  Expression expression = ExpressionOf(settled);
-  expression.smile = SmileBeyondRest(expression.smile, problem.lips_apart);
+  ShownUnits shown_units = ShownUnitsOf(settled);
+  shown_units.smile = SmileBeyondRest(shown_units.smile, problem.lips_apart);
   const PhotoIrises irises = FindPhotoIrises(base, face, photo);
-  auto constraints = ConstraintsOf(problem, pose, expression, irises, photo);
-  FittedHead head = WarpToLandmarks(base, pose, expression, constraints);
-  return {std::move(head), std::move(constraints), irises, problem.lips_apart};
+  auto constraints = ConstraintsOf(problem, pose, shown_units, irises, photo);
+  FittedHead head = WarpToPixels(base, pose, shown_units, constraints);
+  return {std::move(head), std::move(constraints), irises};
 }
 
 float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
@@ -105,10 +105,10 @@ float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
   return sum / fitted.pose.PixelsPerMm() / static_cast<float>(std::size(point::kReliable));
 }
 
-Fit MovedInDepth(Fit fit, const std::function<float(const LandmarkConstraint&)>& nearer_mm) {
-  for (LandmarkConstraint& constraint : fit.constraints) constraint.z_mm += nearer_mm(constraint);
+Fit MovedInDepth(Fit fit, const std::function<float(const PixelConstraint&)>& nearer_mm) {
+  for (PixelConstraint& constraint : fit.constraints) constraint.z_mm += nearer_mm(constraint);
   const FittedHead& head = fit.head;
-  fit.head = WarpToLandmarks(*head.base, head.pose, head.expression, fit.constraints);
+  fit.head = WarpToPixels(*head.base, head.pose, head.shown_units, fit.constraints);
   return fit;
 }
 

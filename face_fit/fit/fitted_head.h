@@ -12,7 +12,7 @@
 namespace facefit {
 
 /// The expression in the photo: strengths of action units, 0 to 1.5.
-struct Expression {
+struct ShownUnits {
   float smile = 0;   ///< AU 12 with 6
   float jaw = 0;     ///< AU 26
   float parted = 0;  ///< AU 25
@@ -29,13 +29,16 @@ struct Expression {
   }
 };
 
+/// How much noise of the warp's points is evened out, as for fsm::Warp.
+inline constexpr float kWarpSmoothMm = 1;
+
 /// The base head brought into the form, pose and expression of the photo.
 struct FittedHead {
   const ObservedHead* base = nullptr;  ///< outlives this
   CameraPose pose;
-  Expression expression;
-  std::vector<fsm::WarpPoint> warp_points;  ///< base head at rest -> person at rest
-  float smooth_mm = 1;                      ///< smoothing of these, see fsm::Warp
+  ShownUnits shown_units;
+  /// Base head at rest -> person at rest, evened out by kWarpSmoothMm.
+  std::vector<fsm::WarpPoint> warp_points;
   fsm::Sided<fsm::EyeTransform> eyes;
   /// Every vertex of the base in the photo's expression and the person's form, head's frame.
   std::vector<glm::vec3> posed_vertices;

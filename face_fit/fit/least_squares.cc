@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cassert>
+#include <optional>
+#include <utility>
 
 namespace facefit {
 namespace {
@@ -14,19 +16,44 @@ Eigen::Map<const VectorXd> View(const std::vector<double>& v) {
   return {v.data(), static_cast<Eigen::Index>(v.size())};
 }
 
-/// The Jacobian: column i is the derivative by unknown i.
-MatrixXd Derivatives(const Residuals& residuals, const std::vector<double>& at,
-                     const VectorXd& here, const std::vector<Unknown>& unknowns) {
-  MatrixXd slopes(here.size(), static_cast<Eigen::Index>(at.size()));
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    auto moved = at;
+/// Values of the unknowns, and the residuals there.
+struct Trial {
+  std::vector<double> x;
+  VectorXd residual;
+};
+
+/// Column i is the derivative of the residuals by unknown i.
+MatrixXd Jacobian(const Residuals& residuals, const std::vector<Unknown>& unknowns,
+                  const Trial& at) {
+  MatrixXd jacobian(at.residual.size(), static_cast<Eigen::Index>(at.x.size()));
+  for (std::size_t i = 0; i < at.x.size(); ++i) {
+    auto moved = at.x;
     // At a bound the difference is taken inward: beyond it residuals may not change.
-    const double step =
-        at[i] + unknowns[i].step > unknowns[i].high ? -unknowns[i].step : unknowns[i].step;
-    moved[i] += step;
-    slopes.col(static_cast<Eigen::Index>(i)) = (View(residuals(moved)) - here) / step;
+    const double delta =
+        at.x[i] + unknowns[i].step > unknowns[i].high ? -unknowns[i].step : unknowns[i].step;
+    moved[i] += delta;
+    jacobian.col(static_cast<Eigen::Index>(i)) = (View(residuals(moved)) - at.residual) / delta;
   }
-  return slopes;
+  return jacobian;
+}
+
+/// Takes the damped step within the bounds. `normal`: Jacobian transposed times Jacobian;
+/// `descent`: negative gradient. Returns nothing if the step does not lessen the sum of squares.
+std::optional<Trial> TryStep(const Residuals& residuals, const std::vector<Unknown>& unknowns,
+                             const Trial& from, const MatrixXd& normal, const VectorXd& descent,
+                             double damping) {
+  constexpr double kRidge = 1e-9;
+  MatrixXd damped = normal;
+  damped.diagonal() += damping * normal.diagonal() + VectorXd::Constant(descent.size(), kRidge);
+  const VectorXd step = damped.ldlt().solve(descent);
+  Trial next = from;
+  for (std::size_t i = 0; i < next.x.size(); ++i) {
+    next.x[i] = std::clamp(from.x[i] + step[static_cast<Eigen::Index>(i)], unknowns[i].low,
+                           unknowns[i].high);
+  }
+  next.residual = View(residuals(next.x));
+  if (!(next.residual.squaredNorm() < from.residual.squaredNorm())) return std::nullopt;
+  return next;
 }
 
 }  // namespace
@@ -49,46 +76,35 @@ std::vector<double> LinearLeastSquares::Solve(double ridge) const {
 
 std::vector<double> LevenbergMarquardt(const Residuals& residuals,
                                        const std::vector<Unknown>& unknowns, int rounds) {
-  constexpr double kFirstDamp = 1e-3, kMinDamp = 1e-9, kMaxDamp = 1e6, kDampStep = 10;
-  constexpr double kRidge = 1e-9, kEnough = 1e-7;
-  std::vector<double> at;
-  for (const Unknown& u : unknowns) at.push_back(std::clamp(u.start, u.low, u.high));
-  double damp = kFirstDamp;
-  VectorXd here = View(residuals(at));
+  constexpr double kFirstDamping = 1e-3, kMinDamping = 1e-9, kMaxDamping = 1e6;
+  constexpr double kDampingFactor = 10, kEnough = 1e-7;
+  Trial current;
+  for (const Unknown& u : unknowns) current.x.push_back(std::clamp(u.start, u.low, u.high));
+  current.residual = View(residuals(current.x));
+  double damping = kFirstDamping;
   for (int round = 0; round < rounds; ++round) {
-    MatrixXd slopes = Derivatives(residuals, at, here, unknowns);
-    VectorXd down = -slopes.transpose() * here;
-    for (std::size_t i = 0; i < at.size(); ++i) {
+    MatrixXd jacobian = Jacobian(residuals, unknowns, current);
+    VectorXd descent = -jacobian.transpose() * current.residual;
+    for (std::size_t i = 0; i < unknowns.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      const bool held = down[k] < 0 ? at[i] <= unknowns[i].low : at[i] >= unknowns[i].high;
+      const bool held =
+          descent[k] < 0 ? current.x[i] <= unknowns[i].low : current.x[i] >= unknowns[i].high;
       if (!held) continue;
-      slopes.col(k).setZero();
-      down[k] = 0;
+      jacobian.col(k).setZero();
+      descent[k] = 0;
     }
-    const MatrixXd normal = slopes.transpose() * slopes;
-    const double before = here.squaredNorm();
-    bool smaller = false;
-    while (!smaller) {
-      if (damp > kMaxDamp) return at;  // no step in any direction helps
-      MatrixXd damped = normal;
-      damped.diagonal() += damp * normal.diagonal() + VectorXd::Constant(down.size(), kRidge);
-      const VectorXd by = damped.ldlt().solve(down);
-      auto next = at;
-      for (std::size_t i = 0; i < at.size(); ++i) {
-        next[i] =
-            std::clamp(at[i] + by[static_cast<Eigen::Index>(i)], unknowns[i].low, unknowns[i].high);
-      }
-      const VectorXd there = View(residuals(next));
-      smaller = there.squaredNorm() < before;
-      damp *= smaller ? 1 / kDampStep : kDampStep;
-      if (!smaller) continue;
-      at = std::move(next);
-      here = there;
+    const MatrixXd normal = jacobian.transpose() * jacobian;
+    std::optional<Trial> next;
+    while (!(next = TryStep(residuals, unknowns, current, normal, descent, damping))) {
+      damping *= kDampingFactor;
+      if (damping > kMaxDamping) return current.x;  // no step in any direction helps
     }
-    damp = std::max(damp, kMinDamp);
-    if (before - here.squaredNorm() < kEnough * before) break;
+    damping = std::max(damping * (1 / kDampingFactor), kMinDamping);
+    const double before = current.residual.squaredNorm();
+    current = std::move(*next);
+    if (before - current.residual.squaredNorm() < kEnough * before) break;
   }
-  return at;
+  return current.x;
 }
 
 }  // namespace facefit

@@ -7,7 +7,7 @@
 
 namespace facefit {
 
-// Least squares with Eigen, which only least_squares.cc includes. Pure; thread: any.
+// Least squares with Eigen, which stays out of this header. Pure; thread: any.
 
 /// Linear equations row . x = value, solved for the least sum of squared residuals. REQUIRES: all
 /// rows have one length, that of x.

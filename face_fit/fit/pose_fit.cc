@@ -1,6 +1,7 @@
 #include "face_fit/fit/pose_fit.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -14,30 +15,31 @@ glm::vec2 OffsetMm(const CameraPose& pose, const PointMatch& match) {
 }  // namespace
 
 std::vector<Unknown> PoseUnknowns(const CameraPose& start, double max_rotation_rad) {
-  constexpr double kTurnStep = 1e-3, kFocalStep = 1e-3, kCentreStep = 0.5;
+  constexpr double kTurnStepRad = 1e-3, kFocalStep = 1e-3, kCentreStep = 0.5;
   std::vector<Unknown> unknowns;
   for (int axis = 0; axis < 3; ++axis) {
     unknowns.push_back({.start = start.rotation_rad[axis],
-                        .step = kTurnStep,
+                        .step = kTurnStepRad,
                         .low = -max_rotation_rad,
                         .high = max_rotation_rad});
   }
-  unknowns.push_back({.start = std::log(static_cast<double>(start.focal)), .step = kFocalStep});
-  unknowns.push_back({.start = start.centre.x, .step = kCentreStep});
-  unknowns.push_back({.start = start.centre.y, .step = kCentreStep});
+  unknowns.push_back({.start = std::log(static_cast<double>(start.focal_px)), .step = kFocalStep});
+  unknowns.push_back({.start = start.centre_px.x, .step = kCentreStep});
+  unknowns.push_back({.start = start.centre_px.y, .step = kCentreStep});
   return unknowns;
 }
 
 CameraPose PoseFromParameters(std::span<const double> parameters) {
+  assert(parameters.size() >= kPoseParameters);
   const auto value = [&](PoseParameter p) { return static_cast<float>(parameters[p]); };
   return {.rotation_rad = {value(kRotationX), value(kRotationY), value(kRotationZ)},
-          .focal = std::exp(value(kLogFocal)),
-          .centre = {value(kCentreX), value(kCentreY)}};
+          .focal_px = std::exp(value(kLogFocal)),
+          .centre_px = {value(kCentreX), value(kCentreY)}};
 }
 
 CameraPose FitPose(std::span<const PointMatch> matches, const CameraPose& start) {
   constexpr float kPlainMm = 3;
-  constexpr double kMaxTurn = 1.6;  // radians
+  constexpr double kMaxTurnRad = 1.6;
   const auto residuals = [&](const std::vector<double>& parameters) {
     const CameraPose pose = PoseFromParameters(parameters);
     std::vector<double> out;
@@ -52,7 +54,7 @@ CameraPose FitPose(std::span<const PointMatch> matches, const CameraPose& start)
     return out;
   };
   return PoseFromParameters(
-      LevenbergMarquardt(residuals, PoseUnknowns(start, kMaxTurn), kPoseRounds));
+      LevenbergMarquardt(residuals, PoseUnknowns(start, kMaxTurnRad), kPoseRounds));
 }
 
 CameraPose PoseWithRotation(const std::vector<glm::vec3>& positions,
@@ -65,8 +67,8 @@ CameraPose PoseWithRotation(const std::vector<glm::vec3>& positions,
     equations.Add({static_cast<double>(u.y), 0, 1}, static_cast<double>(pixels[i].y));
   }
   const auto solved = equations.Solve(1e-12);
-  pose.focal = static_cast<float>(solved[0]);
-  pose.centre = {static_cast<float>(solved[1]), static_cast<float>(solved[2])};
+  pose.focal_px = static_cast<float>(solved[0]);
+  pose.centre_px = {static_cast<float>(solved[1]), static_cast<float>(solved[2])};
   return pose;
 }
 

@@ -104,7 +104,7 @@ class DepthGaps {
 /// the middle of the face.
 Fit WithoutGaps(const DepthGaps& gaps, Fit fit) {
   const std::vector<glm::vec3> posed = fit.head.posed_vertices;
-  return MovedInDepth(std::move(fit), [&](const LandmarkConstraint& constraint) {
+  return MovedInDepth(std::move(fit), [&](const PixelConstraint& constraint) {
     const glm::vec3 p = constraint.on_head.On(posed);
     const float weight = std::exp(-p.x * p.x / (kWideMm * kWideMm));
     return weight * std::clamp(gaps.GapAt(p.y), -kMaxCorrectionMm, kMaxCorrectionMm);
@@ -122,7 +122,7 @@ CameraPose PoseOfProfile(const ProfilePlacement& placement, const std::vector<gl
 
 }  // namespace
 
-std::optional<FitByProfile> CorrectDepthByProfile(const Mask& opacity, Fit fit) {
+std::optional<Fit> CorrectDepthByProfile(const Mask& opacity, Fit fit) {
   const auto placement = FindProfile(fit.head, opacity);
   if (!placement) return std::nullopt;
   std::vector<glm::vec3> line = ProfileOf(fit.head, kProfileBelowChinMm);
@@ -134,7 +134,7 @@ std::optional<FitByProfile> CorrectDepthByProfile(const Mask& opacity, Fit fit) 
     pose = FitPoseToOutline(opacity, pose, line);
     fit = WithoutGaps(DepthGaps(opacity, pose, line), std::move(fit));
   }
-  return FitByProfile{std::move(fit), pose};
+  return fit;
 }
 
 }  // namespace facefit

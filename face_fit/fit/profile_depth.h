@@ -3,17 +3,13 @@
 #include <optional>
 
 #include "face_fit/fit/fit.h"
-#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/raster.h"
 
 namespace facefit {
 
-struct FitByProfile {
-  Fit fit;
-  CameraPose pose;  ///< how the figure's photo was taken
-};
 /// Finds the profile of the fitted head (brow, nose, lips, chin) on the outline of a figure
 /// (`opacity`: 1 = figure), and corrects the depth of the fit's constraints near the middle of the
 /// face until the two agree. Returns nothing if nothing of the outline resembles the profile.
-std::optional<FitByProfile> CorrectDepthByProfile(const Mask& opacity, Fit fit);
+std::optional<Fit> CorrectDepthByProfile(const Mask& opacity, Fit fit);
 
 }  // namespace facefit

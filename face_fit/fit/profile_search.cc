@@ -7,7 +7,8 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
-#include "face_fit/picture/pixels.h"
+#include "face_fit/fit/correlation.h"
+#include "face_fit/picture/median.h"
 #include "face_fit/picture/plane.h"
 #include "face_fit/surface/triangles.h"
 
@@ -61,28 +62,12 @@ struct ProfileMatch {
 /// Returns the concordance of two lines of equal length with means and slopes removed (Lin, A
 /// concordance correlation coefficient to evaluate reproducibility, Biometrics 1989): 1 = equal.
 float Concordance(std::vector<float> a, std::vector<float> b) {
-  const auto flatten = [](std::vector<float>& v) {
-    const float half = 0.5F * static_cast<float>(v.size() - 1);
-    float mean = 0, slope = 0, squares = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      const float at = static_cast<float>(i) - half;
-      mean += v[i] / static_cast<float>(v.size());
-      slope += at * v[i];
-      squares += at * at;
-    }
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      v[i] -= mean + slope / squares * (static_cast<float>(i) - half);
-    }
-  };
-  flatten(a);
-  flatten(b);
-  float aa = 1e-6F, bb = 1e-6F, ab = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    aa += a[i] * a[i];
-    bb += b[i] * b[i];
-    ab += a[i] * b[i];
-  }
-  return 2 * ab / (aa + bb);
+  const float half = 0.5F * static_cast<float>(a.size() - 1);
+  const auto at = [half](std::size_t i) { return glm::vec2(static_cast<float>(i) - half, 0); };
+  RemoveTrend(a, at);
+  RemoveTrend(b, at);
+  const auto [aa, bb, ab] = Products(a, b);
+  return 2 * ab / (aa + bb + 2e-6F);
 }
 
 /// Returns how well the profile of that size, tilt and row matches the outline, in the column where
@@ -178,7 +163,7 @@ std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin_mm) 
   const float high = fitted.PositionOf(point::kNasion).y + kAboveNasionMm;
   const auto count = static_cast<std::size_t>(std::max(high - low, kLineStepMm) / kLineStepMm) + 1;
   std::vector<std::optional<float>> foremost(count);
-  ForSkinTriangles(fitted.base->head().topology(), [&](const MeshTriangle& triangle) {
+  ForSkinTriangles(fitted.base->head().surface(), [&](const MeshTriangle& triangle) {
     for (std::size_t c = 0; c < 3; ++c) {
       const glm::vec3 a = fitted.posed_vertices[triangle.corner[c]],
                       b = fitted.posed_vertices[triangle.corner[(c + 1) % 3]];

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "face_fit/fit/fitted_head.h"
-#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/raster.h"
 
 namespace facefit {
 

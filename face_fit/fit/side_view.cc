@@ -11,33 +11,33 @@
 
 namespace facefit {
 
-FitBySidePhotos UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_image,
-                              std::span<const SidePhoto* const> side_photos, Fit fit) {
-  FitBySidePhotos used{std::move(fit), {}, {}};
+SidePhotoFit UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_photo,
+                           std::span<const SidePhoto* const> side_photos, Fit fit) {
+  SidePhotoFit used{std::move(fit), {}, {}};
   for (const SidePhoto* side_photo : side_photos) {
     FigureCutout figure = FindFigure(networks, side_photo->image);
     const auto pose = FitSidePose(networks, used.fit.head, *side_photo);
     if (pose) {
       auto [corrected, refined] =
-          CorrectDepthByStereo(front_image, side_photo->image, *pose, std::move(used.fit));
+          CorrectDepthByStereo(front_photo, side_photo->image, *pose, std::move(used.fit));
       used.fit = std::move(corrected);
       used.views.push_back({side_photo, refined, std::move(figure)});
       continue;
     }
     // In full profile the network finds no face, or misplaces its points.
-    std::optional<FitByProfile> corrected;
+    std::optional<Fit> corrected;
     if (pose.error().code == vm::Errc::kUnavailable) {
       corrected = CorrectDepthByProfile(figure.opacity, used.fit);
     }
     if (corrected) {
-      used.fit = std::move(corrected->fit);
+      used.fit = std::move(*corrected);
     } else {
       used.left_out.push_back({side_photo->path, pose.error().text});
     }
   }
   // Later photos changed the depth that the poses of earlier ones were found on.
   for (auto& [side_photo, pose, figure] : used.views) {
-    pose = RefineSidePose(used.fit.head, front_image, side_photo->image, pose).value_or(pose);
+    pose = RefineSidePose(used.fit.head, front_photo, side_photo->image, pose).value_or(pose);
   }
   return used;
 }

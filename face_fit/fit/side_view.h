@@ -22,7 +22,7 @@ struct LeftOut {
   std::string path, why;
 };
 
-struct FitBySidePhotos {
+struct SidePhotoFit {
   Fit fit;
   /// Of turned faces. There is none of a full profile: front and profile show too little common
   /// skin to match their light.
@@ -30,8 +30,9 @@ struct FitBySidePhotos {
   std::vector<LeftOut> left_out;
 };
 /// Corrects the depth of a fit by photos of the person from the side, which outlive the result,
-/// turned or in full profile. `front_image`: the photo of the fit.
-FitBySidePhotos UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_image,
-                              std::span<const SidePhoto* const> side_photos, Fit fit);
+/// turned or in full profile. `front_photo`: the photo of the fit. Throws std::runtime_error if
+/// rendering is impossible.
+SidePhotoFit UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_photo,
+                           std::span<const SidePhoto* const> side_photos, Fit fit);
 
 }  // namespace facefit

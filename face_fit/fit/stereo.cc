@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "face_fit/fit/correlation.h"
 #include "face_fit/fit/pose_fit.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/plane.h"
@@ -14,7 +15,7 @@
 namespace facefit {
 namespace {
 
-constexpr float kCellMm = 1.4F;          // step between samples of the first photo
+constexpr float kCellMm = 1.4F;          // step between samples of the front photo
 constexpr int kPatch = 5;                // samples to each side of a patch's middle
 constexpr int kPatchStep = 4;            // samples between the middles of patches
 constexpr float kMinCorrelation = 0.7F;  // correlation from which a patch counts as found
@@ -25,7 +26,7 @@ constexpr int kMaxSamples = 400;  // to a side
 /// lies on two features of the face.
 constexpr float kMinFacing = 0.25F, kMinFacingSide = 0.2F, kMaxDepthStepInPatchMm = 25;
 
-/// A point of the fitted skin as the first photo shows it; `facing` is negative where there is
+/// A point of the fitted skin as the front photo shows it; `facing` is negative where there is
 /// none.
 struct StereoSample {
   glm::vec3 camera{0}, rest{0};  // in the camera's frame; on the base head
@@ -34,7 +35,7 @@ struct StereoSample {
 };
 using StereoSamples = Raster<StereoSample>;
 
-/// Returns the fitted skin that the first photo shows.
+/// Returns the fitted skin that the front photo shows.
 VisibleSurface SkinInFront(const FittedHead& fitted) {
   Box2 box;
   for (const PointIndex i : point::kReliable) box.Add(fitted.pose.Pixel(fitted.PositionOf(i)));
@@ -42,12 +43,12 @@ VisibleSurface SkinInFront(const FittedHead& fitted) {
   const glm::ivec2 points = glm::clamp(glm::ivec2(box.Size() / step), 1, kMaxSamples);
   VisibleSurface surface({box.low, step, points.x, points.y},
                          fitted.pose.ToScreen(fitted.posed_vertices));
-  ForSkinTriangles(fitted.base->head().topology(),
+  ForSkinTriangles(fitted.base->head().surface(),
                    [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
 }
 
-StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front_image,
+StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front_photo,
                          const CameraPose& side_pose) {
   const VisibleSurface surface = SkinInFront(fitted);
   const SampleGrid& grid = surface.grid();
@@ -60,41 +61,22 @@ StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front_image
     const glm::vec3 normal = glm::normalize(triangle->Normal(posed));
     return {.camera = fitted.pose.ToCamera(on_mesh.On(posed)),
             .rest = on_mesh.On(fitted.base->rest().position),
-            .light = Brightness(ColourAt(front_image, grid.Point(x, y))),
+            .light = Brightness(ColourAt(front_photo, grid.Point(x, y))),
             .facing = glm::dot(normal, to_front),
             .facing_side = glm::dot(normal, to_side)};
   });
 }
 
-/// Subtracts mean and linear slope from a patch: light changes them when a head turns.
+/// Removes mean and slope of a patch: light changes them when a head turns.
 void RemovePlane(std::vector<float>& patch) {
   constexpr std::size_t kSide = 2 * kPatch + 1;
-  const auto from_middle = [](std::size_t i) {
-    return glm::vec2(i % kSide, i / kSide) - float{kPatch};
-  };
-  float mean = 0, squares = 0;
-  glm::vec2 slope(0);
-  for (std::size_t i = 0; i < patch.size(); ++i) {
-    const glm::vec2 p = from_middle(i);
-    mean += patch[i];
-    slope += p * patch[i];
-    squares += p.x * p.x;
-  }
-  mean /= static_cast<float>(patch.size());
-  for (std::size_t i = 0; i < patch.size(); ++i) {
-    patch[i] -= mean + glm::dot(slope, from_middle(i)) / squares;
-  }
+  RemoveTrend(patch, [](std::size_t i) { return glm::vec2(i % kSide, i / kSide) - float{kPatch}; });
 }
 
 /// Returns the correlation of two flattened patches, -1..1; 0 where one has too little contrast.
 float Correlation(std::span<const float> a, std::span<const float> b) {
   constexpr float kMin = 1.5F;  // of 255, root of the mean square
-  float aa = 0, bb = 0, ab = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    aa += a[i] * a[i];
-    bb += b[i] * b[i];
-    ab += a[i] * b[i];
-  }
+  const auto [aa, bb, ab] = Products(a, b);
   const float least = kMin * kMin * static_cast<float>(a.size());
   return aa < least || bb < least ? 0 : ab / std::sqrt(aa * bb);
 }
@@ -147,7 +129,7 @@ Peak FindPeak(int reach, F value) {
   return {step, *best};
 }
 
-/// Compares patches with pixels of the second photo.
+/// Compares patches with pixels of the side photo.
 class PatchMatcher {
  public:
   explicit PatchMatcher(const fsm::Image& image) : image_(image) {}
@@ -169,13 +151,13 @@ class PatchMatcher {
 
 // Reach of the first search, in the picture around where the fit has the patch, steps of 1 mm.
 constexpr int kReachAcrossMm = 6, kReachDownMm = 4;
-// The second search runs along the first photo's line of sight. The correlation is lowered by
+// The second search runs along the front photo's line of sight. The correlation is lowered by
 // kCorrelationPerMm2 for each square millimetre, so that of similar ones the nearest wins.
 constexpr float kDepthStepMm = 0.75F, kCorrelationPerMm2 = 0.0012F;
 constexpr int kDepthSteps = 14;
 constexpr int kPoseRefinements = 2;
 
-/// Returns where patches are found in the second photo, whatever their depth.
+/// Returns where patches are found in the side photo, whatever their depth.
 std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPose& front_pose,
                                     const CameraPose& side_pose, PatchMatcher& matcher) {
   std::vector<PointMatch> matches;
@@ -207,7 +189,7 @@ std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPo
   return matches;
 }
 
-/// Returns how much nearer to the first camera each patch lies, where that is seen clearly.
+/// Returns how much nearer to the front camera each patch lies, where that is seen clearly.
 std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const CameraPose& front_pose,
                                        const CameraPose& side_pose, PatchMatcher& matcher) {
   std::vector<fsm::WarpPoint> depths;
@@ -229,24 +211,24 @@ std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const Camer
 
 }  // namespace
 
-std::optional<CameraPose> RefineSidePose(const FittedHead& fitted, const fsm::Image& front_image,
-                                         const fsm::Image& side_image, CameraPose side_pose) {
-  PatchMatcher matcher(side_image);
+std::optional<CameraPose> RefineSidePose(const FittedHead& fitted, const fsm::Image& front_photo,
+                                         const fsm::Image& side_photo, CameraPose side_pose) {
+  PatchMatcher matcher(side_photo);
   for (int round = 0; round < kPoseRefinements; ++round) {
     const auto matches =
-        FindPatches(SampleSkin(fitted, front_image, side_pose), fitted.pose, side_pose, matcher);
+        FindPatches(SampleSkin(fitted, front_photo, side_pose), fitted.pose, side_pose, matcher);
     if (matches.size() < kMinPatches) return std::nullopt;
     side_pose = FitPose(matches, side_pose);
   }
   return side_pose;
 }
 
-std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front_image,
-                                         const fsm::Image& side_image,
+std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front_photo,
+                                         const fsm::Image& side_photo,
                                          const CameraPose& side_pose) {
-  PatchMatcher matcher(side_image);
+  PatchMatcher matcher(side_photo);
   auto depths =
-      FindDepths(SampleSkin(fitted, front_image, side_pose), fitted.pose, side_pose, matcher);
+      FindDepths(SampleSkin(fitted, front_photo, side_pose), fitted.pose, side_pose, matcher);
   if (depths.size() < kMinPatches) depths.clear();
   return depths;
 }

@@ -33,23 +33,23 @@ std::vector<fsm::WarpPoint> OnBothCheeks(std::vector<fsm::WarpPoint> depths, glm
 
 }  // namespace
 
-FitByStereo CorrectDepthByStereo(const fsm::Image& front_image, const fsm::Image& side_image,
-                                 CameraPose side_pose, Fit fit) {
+StereoFit CorrectDepthByStereo(const fsm::Image& front_photo, const fsm::Image& side_photo,
+                               CameraPose side_pose, Fit fit) {
   for (int round = 0; round < kStereoRounds; ++round) {
-    const auto refined = RefineSidePose(fit.head, front_image, side_image, side_pose);
+    const auto refined = RefineSidePose(fit.head, front_photo, side_photo, side_pose);
     if (!refined) break;
     side_pose = *refined;
-    auto depths = OnBothCheeks(CompareDepth(fit.head, front_image, side_image, side_pose),
+    auto depths = OnBothCheeks(CompareDepth(fit.head, front_photo, side_photo, side_pose),
                                side_pose.TowardsCamera());
     if (depths.empty()) break;
     const fsm::Warp rough(depths, kRoughSmoothMm);
-    std::erase_if(depths, [&](const fsm::WarpPoint& point) {
-      return std::abs(rough.Motion(point.at).z - point.by.z) > kMistakenMm;
+    std::erase_if(depths, [&](const fsm::WarpPoint& measured) {
+      return std::abs(rough.Motion(measured.at).z - measured.by.z) > kMistakenMm;
     });
     if (depths.size() < kMinDepths) break;
     const fsm::Warp depth(depths, kDepthSmoothMm);
     const std::vector<glm::vec3>& rest = fit.head.base->rest().position;
-    fit = MovedInDepth(std::move(fit), [&](const LandmarkConstraint& constraint) {
+    fit = MovedInDepth(std::move(fit), [&](const PixelConstraint& constraint) {
       return std::clamp(depth.Motion(constraint.on_head.On(rest)).z, -kMaxDepthStepMm,
                         kMaxDepthStepMm);
     });

@@ -4,14 +4,14 @@
 
 namespace facefit {
 
-struct FitByStereo {
+struct StereoFit {
   Fit fit;
   CameraPose side_pose;
 };
 /// Corrects the depth of a fit's constraints until patches of skin that both photos show coincide
 /// in space, and refines `side_pose`, how the photo from the side was taken. Leaves depth unchanged
 /// if too few patches are found in both.
-FitByStereo CorrectDepthByStereo(const fsm::Image& front_image, const fsm::Image& side_image,
-                                 CameraPose side_pose, Fit fit);
+StereoFit CorrectDepthByStereo(const fsm::Image& front_photo, const fsm::Image& side_photo,
+                               CameraPose side_pose, Fit fit);
 
 }  // namespace facefit

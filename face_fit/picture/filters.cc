@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "face_fit/picture/pixels.h"
+#include "fsm/image/shrink.h"
 
 namespace facefit {
 namespace {
@@ -28,14 +29,6 @@ cv::Mat View(const Raster<T>& image) {
 cv::Mat View(const fsm::Image& image) {
   StayOnThisThread();
   return {image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data())};
-}
-
-/// Each pixel of `out` is the mean of those it covers.
-template <typename Picture>
-Picture ScaledInto(Picture out, const Picture& image) {
-  cv::Mat scaled = View(out);
-  cv::resize(View(image), scaled, scaled.size(), 0, 0, cv::INTER_AREA);
-  return out;
 }
 
 }  // namespace
@@ -105,29 +98,27 @@ void PushPullInpaint(fsm::Image& image, const Mask& weight) {
   }
 }
 
-void FillHoles(FloatImage& image) {
+void FillHoles(Mask& image) {
   // A border of one pixel connects everything outside.
   cv::Mat covered;
   cv::copyMakeBorder(View(image) > 0, covered, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   constexpr int kOutside = 128;
   cv::floodFill(covered, {0, 0}, cv::Scalar(kOutside));
-  image = FloatImage::From(image.width, image.height, [&](int x, int y) {
+  image = Mask::From(image.width, image.height, [&](int x, int y) {
     return covered.at<std::uint8_t>(y + 1, x + 1) == kOutside ? 0.0F : 1.0F;
   });
 }
 
-void KeepConnected(glm::ivec2 to, FloatImage& image) {
+void KeepConnected(glm::ivec2 to, Mask& image) {
   constexpr float kMin = 0.1F;
   const glm::ivec2 seed = glm::clamp(to, glm::ivec2(0), glm::ivec2(image.width, image.height) - 1);
   if (image(seed.x, seed.y) < kMin) return;
   cv::Mat present = View(image) >= kMin;  // 255 where it is
   constexpr int kKept = 128;
   cv::floodFill(present, {seed.x, seed.y}, cv::Scalar(kKept), nullptr, {}, {}, 8);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      if (present.at<std::uint8_t>(y, x) != kKept) image(x, y) = 0;
-    }
-  }
+  ForPixels(image.width, image.height, [&](int x, int y, std::size_t i) {
+    if (present.at<std::uint8_t>(y, x) != kKept) image[i] = 0;
+  });
 }
 
 std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold) {
@@ -151,10 +142,6 @@ float SignedDistance(std::span<const glm::vec2> outline, glm::vec2 pixel) {
   return static_cast<float>(-cv::pointPolygonTest(line, {pixel.x, pixel.y}, true));
 }
 
-fsm::Image ScaledDown(const fsm::Image& image, int width, int height) {
-  return ScaledInto(fsm::FilledImage(width, height), image);
-}
-
 fsm::Image ScaledToFit(fsm::Image image, int most_size) {
   const int longer = std::max(image.width, image.height);
   if (longer <= most_size) return image;
@@ -162,12 +149,15 @@ fsm::Image ScaledToFit(fsm::Image image, int most_size) {
     return std::max(static_cast<int>(std::lround(static_cast<double>(side) * most_size / longer)),
                     1);
   };
-  return ScaledDown(image, scaled(image.width), scaled(image.height));
+  return fsm::Shrunk(image, scaled(image.width), scaled(image.height));
 }
 
 template <typename T>
 Raster<T> ScaledDown(const Raster<T>& image, int width, int height) {
-  return ScaledInto(Raster<T>(width, height), image);
+  Raster<T> out(width, height);
+  cv::Mat scaled = View(out);
+  cv::resize(View(image), scaled, scaled.size(), 0, 0, cv::INTER_AREA);
+  return out;
 }
 template FloatImage ScaledDown(const FloatImage& image, int width, int height);
 template VectorImage ScaledDown(const VectorImage& image, int width, int height);

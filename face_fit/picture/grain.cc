@@ -11,40 +11,40 @@
 namespace facefit {
 namespace {
 
-constexpr float kKnown = 0.95F;
+constexpr float kSurelyKnown = 0.95F;
 
-glm::ivec2 PixelOf(const FloatImage& field, std::size_t i) {
-  const auto width = static_cast<std::size_t>(field.width);
+glm::ivec2 PixelOf(const Mask& image, std::size_t i) {
+  const auto width = static_cast<std::size_t>(image.width);
   return {static_cast<int>(i % width), static_cast<int>(i / width)};
 }
 
 }  // namespace
 
-void AddGrain(const Mask& weight, const Mask& where, int reach, fsm::Image& image) {
-  if (std::ranges::max(weight.values) < kKnown) return;
-  const auto nearest = NearestAbove(weight, kKnown);
+void AddGrain(const Mask& known, const Mask& amount, int reach, fsm::Image& image) {
+  if (std::ranges::max(known.values) < kSurelyKnown) return;
+  const auto nearest = NearestAbove(known, kSurelyKnown);
   const float farthest = 8 * static_cast<float>(reach);
   struct Transfer {
     std::size_t to, from;
-    float amount;
+    float share;
   };
   std::vector<Transfer> transfers;
-  for (std::size_t i = 0; i < weight.size(); ++i) {
-    if (weight[i] >= kKnown || where[i] <= 0) continue;
-    const glm::ivec2 pixel = PixelOf(weight, i), edge = PixelOf(weight, nearest[i]);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known[i] >= kSurelyKnown || amount[i] <= 0) continue;
+    const glm::ivec2 pixel = PixelOf(known, i), edge = PixelOf(known, nearest[i]);
     const glm::ivec2 beyond = 2 * edge - pixel;
-    if (beyond.x < 0 || beyond.y < 0 || beyond.x >= weight.width || beyond.y >= weight.height) {
+    if (beyond.x < 0 || beyond.y < 0 || beyond.x >= known.width || beyond.y >= known.height) {
       continue;
     }
-    const std::size_t from = weight.Index(beyond.x, beyond.y);
+    const std::size_t from = known.Index(beyond.x, beyond.y);
     const float distance_px = glm::length(glm::vec2(edge - pixel));
-    const float amount = where[i] * weight[from] * (1 - weight[i]) *
-                         fsm::SmoothStep(farthest, 0.5F * farthest, distance_px);
-    if (amount > 0) transfers.push_back({i, from, amount});
+    const float share = amount[i] * known[from] * (1 - known[i]) *
+                        fsm::SmoothStep(farthest, 0.5F * farthest, distance_px);
+    if (share > 0) transfers.push_back({i, from, share});
   }
   const VectorImage colours = Colours(image), even = Blurred(colours, reach);
-  for (const auto& [to, from, amount] : transfers) {
-    SetRgb(image, to, colours[to] + amount * (colours[from] - even[from]));
+  for (const auto& [to, from, share] : transfers) {
+    SetRgb(image, to, colours[to] + share * (colours[from] - even[from]));
   }
 }
 

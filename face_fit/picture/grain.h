@@ -1,14 +1,14 @@
 #pragma once
 
-#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/raster.h"
 #include "fsm/image/image.h"
 
 namespace facefit {
 
 /// Adds grain (pores, hair, beard) to inpainted pixels, which are too smooth, taken from the pixel
-/// mirrored at the edge of the known pixels. `weight`: 1 where a pixel was known, 0 where it was
-/// inpainted; `where`: amount of grain, 0..1; `reach`: pixels over which brightness varies as
-/// grain; grain is carried up to eight times as far.
-void AddGrain(const Mask& weight, const Mask& where, int reach, fsm::Image& image);
+/// mirrored at the edge of the known pixels. `known`: 1 where a pixel was known, 0 where it was
+/// inpainted; `amount`: of grain, 0..1; `reach`: pixels over which brightness varies as grain;
+/// grain is carried up to eight times as far.
+void AddGrain(const Mask& known, const Mask& amount, int reach, fsm::Image& image);
 
 }  // namespace facefit

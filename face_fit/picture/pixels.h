@@ -1,14 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <vector>
 
-#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/raster.h"
 #include "fsm/image/image.h"
 
 namespace facefit {
@@ -45,12 +45,9 @@ inline VectorImage Colours(const fsm::Image& image) {
   return out;
 }
 
-/// Returns the median; of an even number of values the upper middle one. REQUIRES: at least one
-/// value.
-inline float Median(std::vector<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+/// Returns a length in pixels, rounded, but not less than `least`.
+inline int PixelsOf(float mm, float pixels_per_mm, int least = 1) {
+  return std::max(static_cast<int>(std::lround(mm * pixels_per_mm)), least);
 }
 
 }  // namespace facefit

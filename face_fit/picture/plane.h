@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -16,6 +17,13 @@ inline glm::vec2 Rotated(glm::vec2 p, float angle_rad) {
   const float c = std::cos(angle_rad), s = std::sin(angle_rad);
   return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
+
+/// Returns the angle of a direction from x towards y, -pi..pi.
+inline float AngleOf(glm::vec2 direction) { return std::atan2(direction.y, direction.x); }
+
+/// A point of a grid and its eight neighbours, as offsets.
+inline constexpr std::array<glm::ivec2, 9> kAround = {
+    {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {0, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
 
 /// The bounding box of points; low > high while there are none.
 struct Box2 {

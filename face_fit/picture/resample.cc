@@ -55,8 +55,8 @@ glm::vec3 SharpColourAt(const fsm::Image& image, glm::vec2 at) {
   return glm::clamp(Around<glm::vec3>(image, at, CatmullRom, colour), 0.0F, 255.0F);
 }
 
-float SmoothAt(const FloatImage& field, glm::vec2 at) {
-  return Around<float>(field, at, BSpline, [&](std::size_t i) { return field[i]; });
+float SmoothAt(const FloatImage& image, glm::vec2 at) {
+  return Around<float>(image, at, BSpline, [&](std::size_t i) { return image[i]; });
 }
 
 std::vector<float> Resampled(const fsm::Image& image, glm::vec2 corner, const glm::mat2& axes,

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/raster.h"
 #include "fsm/image/image.h"
 
 namespace facefit {

@@ -1,5 +1,6 @@
 #include "face_fit/surface/visible_surface.h"
 
+#include <cassert>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -35,8 +36,8 @@ void VisibleSurface::DrawFront(const MeshTriangle& triangle) {
 }
 
 Mask VisibleSurface::Covered() const {
-  return FloatImage::From(depth_.width, depth_.height,
-                          [&](int x, int y) { return depth_(x, y) > kNothing ? 1.0F : 0.0F; });
+  return Mask::From(depth_.width, depth_.height,
+                    [&](int x, int y) { return depth_(x, y) > kNothing ? 1.0F : 0.0F; });
 }
 
 const MeshTriangle* VisibleSurface::TriangleAt(int column, int row) const {
@@ -45,11 +46,12 @@ const MeshTriangle* VisibleSurface::TriangleAt(int column, int row) const {
 }
 
 MeshPoint VisibleSurface::MeshPointAt(int column, int row) const {
+  assert(TriangleAt(column, row));
   const auto& [triangle, weights] = samples_[depth_.Index(column, row)];
   return {triangle.corner, weights};
 }
 
-VisibleSurface VisibleFromFront(const fsm::HeadTopology& topology,
+VisibleSurface VisibleFromFront(const fsm::HeadSurface& topology,
                                 const std::vector<glm::vec3>& position, glm::vec2 low,
                                 glm::vec2 high) {
   constexpr float kMaxMm = 200;

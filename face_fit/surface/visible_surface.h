@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/raster.h"
 #include "face_fit/surface/mesh_point.h"
 #include "face_fit/surface/triangles.h"
 #include "fsm/rig/head.h"
@@ -58,7 +58,7 @@ class VisibleSurface {
 inline constexpr float kFrontStepMm = 0.125F;
 /// Returns the front view of a head that faces +z, in the window low..high, in steps of
 /// kFrontStepMm, rows upward, without hair and lashes. Millimetres; at most 200 to a side.
-VisibleSurface VisibleFromFront(const fsm::HeadTopology& topology,
+VisibleSurface VisibleFromFront(const fsm::HeadSurface& topology,
                                 const std::vector<glm::vec3>& position, glm::vec2 low,
                                 glm::vec2 high);
 

@@ -152,12 +152,12 @@ void Run(const op::TransposeConvolution&, Inputs inputs, Tensor& out) {
 void Run(const op::Pooling& pooling, Inputs inputs, Tensor& out) {
   const Tensor& in = *inputs[0];
   const auto channels = static_cast<std::size_t>(in.shape.channels());
-  const bool greatest = pooling.greatest;
+  const bool max = pooling.max;
   const Padding pad = PaddingOf(pooling.window, in.shape, out.shape, pooling.rows, pooling.columns);
   for (int y = 0; y < out.shape.rows(); ++y) {
     for (int x = 0; x < out.shape.columns(); ++x) {
       float* to = &out.values[At(out.shape, y, x)];
-      std::fill_n(to, channels, greatest ? -INFINITY : 0.0F);
+      std::fill_n(to, channels, max ? -INFINITY : 0.0F);
       int count = 0;
       const int top = y * pooling.window.stride_rows - pad.rows;
       const int left = x * pooling.window.stride_columns - pad.columns;
@@ -167,11 +167,11 @@ void Run(const op::Pooling& pooling, Inputs inputs, Tensor& out) {
           const float* from = &in.values[At(in.shape, r, c)];
           ++count;
           for (std::size_t k = 0; k < channels; ++k) {
-            to[k] = greatest ? std::max(to[k], from[k]) : to[k] + from[k];
+            to[k] = max ? std::max(to[k], from[k]) : to[k] + from[k];
           }
         }
       }
-      if (greatest) continue;
+      if (max) continue;
       for (std::size_t k = 0; k < channels; ++k) to[k] /= static_cast<float>(std::max(count, 1));
     }
   }
@@ -203,7 +203,7 @@ void Run(const op::Concatenation&, Inputs inputs, Tensor& out) {
 
 void Run(const op::Pad&, Inputs inputs, Tensor& out) {
   const Tensor& in = *inputs[0];
-  const std::vector<std::int32_t>& zeros = inputs[1]->counts;  // before and after each axis
+  const std::vector<std::int32_t>& zeros = inputs[1]->integers;  // before and after each axis
   std::ranges::fill(out.values, 0.0F);
   const auto channels = static_cast<std::size_t>(in.shape.channels());
   for (int y = 0; y < in.shape.rows(); ++y) {
@@ -217,7 +217,7 @@ void Run(const op::Pad&, Inputs inputs, Tensor& out) {
 
 void Run(const op::StridedSlice&, Inputs inputs, Tensor& out) {
   const Tensor& in = *inputs[0];
-  const std::vector<std::int32_t>&begin = inputs[1]->counts, &step = inputs[3]->counts;
+  const std::vector<std::int32_t>&begin = inputs[1]->integers, &step = inputs[3]->integers;
   std::size_t to = 0;
   for (int y = 0; y < out.shape.rows(); ++y) {
     for (int x = 0; x < out.shape.columns(); ++x) {

@@ -9,7 +9,7 @@
 
 namespace facefit::tflite {
 
-/// The input tensors of a step, in the order of the file; nullptr = left out.
+/// The input tensors of a node, in the order of the file; nullptr = left out.
 using Inputs = std::span<const Tensor* const>;
 
 /// Rows and columns of zeros before the input.
@@ -49,14 +49,14 @@ void Run(const op::TransformLandmarks& transform, Inputs inputs, Tensor& out);
 template <std::derived_from<op::OfEach> Each>
 void Run(const Each&, Inputs inputs, Tensor& out) {
   std::ranges::transform(inputs[0]->values, out.values.begin(),
-                         [](float x) { return Each::Of(x); });
+                         [](float x) { return Each::Apply(x); });
 }
 
 template <std::derived_from<op::OfPair> Pair>
 void Run(const Pair&, Inputs inputs, Tensor& out) {
   const std::vector<float>&a = inputs[0]->values, &b = inputs[1]->values;
   for (std::size_t i = 0; i < a.size(); i += b.size()) {
-    for (std::size_t k = 0; k < b.size(); ++k) out.values[i + k] = Pair::Of(a[i + k], b[k]);
+    for (std::size_t k = 0; k < b.size(); ++k) out.values[i + k] = Pair::Apply(a[i + k], b[k]);
   }
 }
 

@@ -108,15 +108,15 @@ Tensor ReadTensor(const FlatTable& model, const FlatTable& table) {
     }
   } else if (type == kInt32) {
     expect(4);
-    tensor.counts.resize(count);
-    std::memcpy(tensor.counts.data(), data.data(), data.size());
+    tensor.integers.resize(count);
+    std::memcpy(tensor.integers.data(), data.data(), data.size());
   } else {
     throw BadModel("a tensor of type " + std::to_string(type) + ", which is not read here");
   }
   return tensor;
 }
 
-/// Reads the options of a step; missing ones have their defaults.
+/// Reads the options of a node; missing ones have their defaults.
 class Options {
  public:
   Options(std::optional<FlatTable> table, Bytes custom) : table_(table), custom_(custom) {}
@@ -171,9 +171,9 @@ Operator ReadDepthwiseConvolution(const Options& options) {
   return op::DepthwiseConvolution{ReadWindow(options)};
 }
 
-template <bool greatest>
+template <bool max>
 Operator ReadPooling(const Options& options) {
-  return op::Pooling{.greatest = greatest,
+  return op::Pooling{.max = max,
                      .window = ReadWindow(options),
                      .rows = options.Size(kPoolingRows),
                      .columns = options.Size(kPoolingColumns)};
@@ -224,29 +224,29 @@ Operator ReadLandmarksToMatrix(const Options& options) {
 
 /// The identity of an operator in a file, and the function that reads its options.
 struct Reader {
-  int number;          ///< of a built-in operator, or kCustom
-  const char* custom;  ///< the name of one that is not
-  int activation;      ///< which field of the options names it; -1: there is none
+  int number;        ///< BuiltinOperator of the schema
+  const char* name;  ///< its name there; of a custom operator the name that files give
+  int activation;    ///< which field of the options names it; -1: there is none
   Operator (*read)(const Options&);
 };
 constexpr int kCustom = 32;
 constexpr Reader kReaders[] = {
-    {0, "", kPairActivation, ReadPlain<op::Add>},
-    {1, "", kPoolingActivation, ReadPooling<false>},
-    {2, "", kConcatenationActivation, ReadConcatenation},
-    {3, "", kConvolutionActivation, ReadConvolution},
-    {4, "", kDepthwiseActivation, ReadDepthwiseConvolution},
-    {6, "", -1, ReadPlain<op::Dequantize>},
-    {14, "", -1, ReadPlain<op::Logistic>},
-    {17, "", kPoolingActivation, ReadPooling<true>},
-    {18, "", kPairActivation, ReadPlain<op::Multiply>},
-    {19, "", -1, ReadPlain<op::Relu>},
-    {22, "", -1, ReadPlain<op::Reshape>},
-    {23, "", -1, ReadResizeBilinear},
-    {34, "", -1, ReadPlain<op::Pad>},
-    {45, "", -1, ReadStridedSlice},
-    {54, "", -1, ReadPlain<op::Prelu>},
-    {117, "", -1, ReadPlain<op::HardSwish>},
+    {0, "ADD", kPairActivation, ReadPlain<op::Add>},
+    {1, "AVERAGE_POOL_2D", kPoolingActivation, ReadPooling<false>},
+    {2, "CONCATENATION", kConcatenationActivation, ReadConcatenation},
+    {3, "CONV_2D", kConvolutionActivation, ReadConvolution},
+    {4, "DEPTHWISE_CONV_2D", kDepthwiseActivation, ReadDepthwiseConvolution},
+    {6, "DEQUANTIZE", -1, ReadPlain<op::Dequantize>},
+    {14, "LOGISTIC", -1, ReadPlain<op::Logistic>},
+    {17, "MAX_POOL_2D", kPoolingActivation, ReadPooling<true>},
+    {18, "MUL", kPairActivation, ReadPlain<op::Multiply>},
+    {19, "RELU", -1, ReadPlain<op::Relu>},
+    {22, "RESHAPE", -1, ReadPlain<op::Reshape>},
+    {23, "RESIZE_BILINEAR", -1, ReadResizeBilinear},
+    {34, "PAD", -1, ReadPlain<op::Pad>},
+    {45, "STRIDED_SLICE", -1, ReadStridedSlice},
+    {54, "PRELU", -1, ReadPlain<op::Prelu>},
+    {117, "HARD_SWISH", -1, ReadPlain<op::HardSwish>},
     {kCustom, "Convolution2DTransposeBias", -1, ReadPlain<op::TransposeConvolution>},
     {kCustom, "Landmarks2TransformMatrix", -1, ReadLandmarksToMatrix},
     {kCustom, "TransformLandmarks", -1, ReadPlain<op::TransformLandmarks>},
@@ -258,7 +258,7 @@ const Reader& ReaderOf(const FlatTable& code) {
                                    code.Scalar<std::int32_t>(kBuiltinCode, 0));
   const std::string name = number == kCustom ? code.Text(kCustomCode) : "";
   const auto* found = std::ranges::find_if(kReaders, [&](const Reader& reader) {
-    return reader.number == number && reader.custom == name;
+    return reader.number == number && (number != kCustom || reader.name == name);
   });
   if (found != std::end(kReaders)) return *found;
   throw BadModel("the operator " + (number == kCustom ? "'" + name + "'" : std::to_string(number)) +
@@ -278,26 +278,26 @@ std::vector<Tensor> ReadTensors(const FlatTable& root, const FlatTable& graph) {
   for (std::size_t i = 0; i < graph.TableCount(kSubgraphTensors); ++i) {
     tensors.push_back(ReadTensor(root, graph.TableAt(kSubgraphTensors, i)));
     // Tensors may share a buffer, so their number alone does not bound what is copied.
-    total += tensors.back().values.size() + tensors.back().counts.size();
+    total += tensors.back().values.size() + tensors.back().integers.size();
     if (total > 4 * Model::kMaxTensor) throw BadModel("the weights are too large");
   }
   return tensors;
 }
 
-Step ReadStep(const FlatTable& table, const Reader& reader) {
+Node ReadNode(const FlatTable& table, const Reader& reader) {
   const Options options(
       table.Has(kOperatorOptions) ? std::optional(table.Table(kOperatorOptions)) : std::nullopt,
       table.Vector(kOperatorCustomOptions, 1));
-  Step step{.op = reader.read(options), .inputs = Numbers(table, kOperatorInputs), .output = -1};
+  Node node{.op = reader.read(options), .inputs = Numbers(table, kOperatorInputs), .output = -1};
   if (reader.activation >= 0) {
-    step.activation = ReadActivation(options.Small(static_cast<std::size_t>(reader.activation)));
+    node.activation = ReadActivation(options.Small(static_cast<std::size_t>(reader.activation)));
   }
   const auto outputs = Numbers(table, kOperatorOutputs);
-  if (outputs.size() != 1 || step.inputs.empty()) {
+  if (outputs.size() != 1 || node.inputs.empty()) {
     throw BadModel("an operator without input, or with other than one output");
   }
-  step.output = outputs[0];
-  return step;
+  node.output = outputs[0];
+  return node;
 }
 
 }  // namespace
@@ -310,7 +310,7 @@ Model Model::Read(Bytes file) {
   if (root.TableCount(kModelSubgraphs) != 1) throw BadModel("one graph expected");
   const FlatTable graph = root.TableAt(kModelSubgraphs, 0);
   Model model{.tensors = ReadTensors(root, graph),
-              .steps = {},
+              .nodes = {},
               .inputs = Numbers(graph, kSubgraphInputs),
               .outputs = Numbers(graph, kSubgraphOutputs)};
   const auto known = [&model](const std::vector<int>& list) {
@@ -329,11 +329,11 @@ Model Model::Read(Bytes file) {
     const FlatTable table = graph.TableAt(kSubgraphOperators, i);
     const auto code = table.Scalar<std::uint32_t>(kOperatorCode, 0);
     if (code >= readers.size()) throw BadModel("an operator that is not listed");
-    const Step& step = model.steps.emplace_back(ReadStep(table, readers[code]));
-    auto used = step.inputs;
+    const Node& node = model.nodes.emplace_back(ReadNode(table, readers[code]));
+    auto used = node.inputs;
     std::erase(used, -1);
-    used.push_back(step.output);
-    if (step.inputs[0] < 0 || !known(used)) {
+    used.push_back(node.output);
+    if (node.inputs[0] < 0 || !known(used)) {
       throw BadModel("an operator names a tensor that is not there");
     }
   }

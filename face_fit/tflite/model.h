@@ -26,7 +26,7 @@ struct Shape {
 
 enum class Activation { kNone, kRelu, kRelu6 };
 
-struct Step {
+struct Node {
   Operator op;
   std::vector<int> inputs;  ///< tensors; -1 = left out
   int output;
@@ -36,16 +36,21 @@ struct Step {
 struct Tensor {
   Shape shape;
   bool constant = false;
-  std::vector<float> values;         ///< of a constant
-  std::vector<std::int32_t> counts;  ///< of a constant of whole numbers
+  std::vector<float> values;           ///< of a constant
+  std::vector<std::int32_t> integers;  ///< of a constant: begins, ends, strides, paddings
 };
 
 /// A network read from a TensorFlow Lite file: floating point, weights of 16 or 32 bits, and only
 /// the operators (Operator) that MediaPipe's face networks (also the one with attention) and its
 /// segmentation of persons use.
+///
+/// The reader is our own because no library does this here: Debian 12 has no package of TensorFlow
+/// Lite, and TensorFlow's own lacks four of the operators, which are MediaPipe's and come with its
+/// build only. So few operators take less code than such a build would, depend on Eigen alone, and
+/// are checked against files that were tampered with.
 struct Model {
   std::vector<Tensor> tensors;
-  std::vector<Step> steps;
+  std::vector<Node> nodes;
   std::vector<int> inputs, outputs;
 
   /// Throws BadModel with a sentence. Memory is bounded by a small multiple of the file's size and

@@ -18,66 +18,69 @@ int SizeAfter(const op::Window& window, int in, int stride, int filter) {
 }
 
 /// Checks that an operator's inputs, weights and output fit together.
-class StepChecker {
+class NodeChecker {
  public:
-  StepChecker(const Model& model, const Step& step)
-      : model_(model), step_(step), in_(Of(step.inputs[0])), out_(Of(step.output).shape) {}
+  NodeChecker(const Model& model, const Node& node)
+      : model_(model),
+        node_(node),
+        in_(TensorAt(node.inputs[0])),
+        out_(TensorAt(node.output).shape) {}
 
   /// Throws BadModel if something does not fit.
   void Check() const {
-    Require(in_.counts.empty(), "an operator works on whole numbers");
+    Require(in_.integers.empty(), "an operator works on whole numbers");
     Require((in_.shape.size[0] == 1 && out_.size[0] == 1) ||
-                std::holds_alternative<op::Dequantize>(step_.op),
+                std::holds_alternative<op::Dequantize>(node_.op),
             "more than one picture at a time");
-    std::visit([this](const auto& of) { CheckOf(of); }, step_.op);
+    std::visit([this](const auto& of) { CheckOf(of); }, node_.op);
   }
 
   /// Returns the approximate number of multiplications for each number of the output. REQUIRES: it
   /// has been checked.
   double WorkPerNumber() const {
-    if (const auto* pooling = std::get_if<op::Pooling>(&step_.op)) {
+    if (const auto* pooling = std::get_if<op::Pooling>(&node_.op)) {
       return std::min(pooling->rows, in_.shape.rows()) *
              std::min(pooling->columns, in_.shape.columns());
     }
-    const bool filters = std::holds_alternative<op::Convolution>(step_.op) ||
-                         std::holds_alternative<op::DepthwiseConvolution>(step_.op) ||
-                         std::holds_alternative<op::TransposeConvolution>(step_.op);
-    return filters ? static_cast<double>(Numbers(1).count()) / out_.channels() : 1;
+    const bool filters = std::holds_alternative<op::Convolution>(node_.op) ||
+                         std::holds_alternative<op::DepthwiseConvolution>(node_.op) ||
+                         std::holds_alternative<op::TransposeConvolution>(node_.op);
+    return filters ? static_cast<double>(ShapeOfFloats(1).count()) / out_.channels() : 1;
   }
 
  private:
-  const Tensor& Of(int i) const { return model_.tensors[static_cast<std::size_t>(i)]; }
+  const Tensor& TensorAt(int i) const { return model_.tensors[static_cast<std::size_t>(i)]; }
   const Tensor& Argument(std::size_t i) const {
-    Require(i < step_.inputs.size() && step_.inputs[i] >= 0, "an operator lacks an input");
-    return Of(step_.inputs[i]);
+    Require(i < node_.inputs.size() && node_.inputs[i] >= 0, "an operator lacks an input");
+    return TensorAt(node_.inputs[i]);
   }
-  const Shape& Numbers(std::size_t i) const {
-    Require(Argument(i).counts.empty(), "an operator works on whole numbers");
+  const Shape& ShapeOfFloats(std::size_t i) const {
+    Require(Argument(i).integers.empty(), "an operator works on whole numbers");
     return Argument(i).shape;
   }
 
   void CheckOf(const op::Convolution& convolution) const {
-    CheckWindow(convolution.window, Numbers(1).rows(), Numbers(1).columns());
+    CheckWindow(convolution.window, ShapeOfFloats(1).rows(), ShapeOfFloats(1).columns());
     CheckFilter(out_.channels());
   }
   void CheckOf(const op::DepthwiseConvolution& convolution) const {
-    CheckWindow(convolution.window, Numbers(1).rows(), Numbers(1).columns());
+    CheckWindow(convolution.window, ShapeOfFloats(1).rows(), ShapeOfFloats(1).columns());
     Require(out_.channels() == in_.shape.channels(), "a filter does not match its input");
     CheckFilter(1);
   }
   void CheckOf(const op::TransposeConvolution&) const {
     const auto times = [](int a, int b) { return std::int64_t{a} * b; };
-    Require(out_.rows() == times(in_.shape.rows(), Numbers(1).rows()) &&
-                out_.columns() == times(in_.shape.columns(), Numbers(1).columns()),
+    Require(out_.rows() == times(in_.shape.rows(), ShapeOfFloats(1).rows()) &&
+                out_.columns() == times(in_.shape.columns(), ShapeOfFloats(1).columns()),
             "an unfolding convolution of overlapping blocks");
     CheckFilter(out_.channels());
   }
   void CheckFilter(int count) const {
-    const Shape& filter = Numbers(1);
+    const Shape& filter = ShapeOfFloats(1);
     Require(filter.channels() == in_.shape.channels() && filter.size[0] == count,
             "a filter does not match its input");
-    Require(step_.inputs.size() < 3 || step_.inputs[2] < 0 ||
-                Numbers(2).count() == static_cast<std::size_t>(out_.channels()),
+    Require(node_.inputs.size() < 3 || node_.inputs[2] < 0 ||
+                ShapeOfFloats(2).count() == static_cast<std::size_t>(out_.channels()),
             "a bias of another size than the channels");
   }
 
@@ -100,9 +103,9 @@ class StepChecker {
   }
 
   void CheckOf(const op::OfPair&) const {
-    const std::size_t n = Numbers(1).count();
-    const bool fits =
-        Numbers(1) == in_.shape || n == 1 || n == static_cast<std::size_t>(in_.shape.channels());
+    const std::size_t n = ShapeOfFloats(1).count();
+    const bool fits = ShapeOfFloats(1) == in_.shape || n == 1 ||
+                      n == static_cast<std::size_t>(in_.shape.channels());
     Require(out_ == in_.shape && fits, "operands of different sizes");
   }
 
@@ -110,17 +113,17 @@ class StepChecker {
   // other.
   void CheckOf(const op::Concatenation& concatenation) const {
     std::size_t sum = 0;
-    for (std::size_t i = 0; i < step_.inputs.size(); ++i) {
-      Require(Numbers(i).rows() == 1 && Numbers(i).channels() == out_.channels(),
+    for (std::size_t i = 0; i < node_.inputs.size(); ++i) {
+      Require(ShapeOfFloats(i).rows() == 1 && ShapeOfFloats(i).channels() == out_.channels(),
               "a concatenation of another kind");
-      sum += Numbers(i).count();
+      sum += ShapeOfFloats(i).count();
     }
     Require(concatenation.axis == 1 && out_.rows() == 1 && sum == out_.count(),
             "a concatenation of another kind");
   }
 
   void CheckOf(const op::Pad&) const {
-    const auto& by = Argument(1).counts;
+    const auto& by = Argument(1).integers;
     Require(by.size() == 8, "a padding of other than four axes");
     for (std::size_t axis = 0; axis < 4; ++axis) {
       const std::int64_t before = by[2 * axis], after = by[2 * axis + 1];
@@ -130,9 +133,9 @@ class StepChecker {
   }
 
   void CheckOf(const op::StridedSlice& slice) const {
-    const auto& begin = Argument(1).counts;
-    const auto& end = Argument(2).counts;
-    const auto& by = Argument(3).counts;
+    const auto& begin = Argument(1).integers;
+    const auto& end = Argument(2).integers;
+    const auto& by = Argument(3).integers;
     Require(begin.size() == 4 && end.size() == 4 && by.size() == 4,
             "a slice of other than four axes");
     Require(slice.begin_mask == 0, "a slice whose begin is left open");
@@ -159,11 +162,11 @@ class StepChecker {
             "a crop of points that are not there");
   }
   void CheckOf(const op::TransformTensor&) const {
-    CheckMatrix(Numbers(1));
+    CheckMatrix(ShapeOfFloats(1));
     Require(out_.channels() == in_.shape.channels(), "a part of a picture changes the channels");
   }
   void CheckOf(const op::TransformLandmarks&) const {
-    CheckMatrix(Numbers(1));
+    CheckMatrix(ShapeOfFloats(1));
     Require(out_ == in_.shape && (out_.channels() == 2 || out_.channels() == 3),
             "points that are neither of a plane nor of space");
   }
@@ -174,7 +177,7 @@ class StepChecker {
   }
 
   const Model& model_;
-  const Step& step_;
+  const Node& node_;
   const Tensor& in_;
   const Shape& out_;
 };
@@ -191,16 +194,16 @@ Network::Network(Model model, double most_work) : model_(std::move(model)) {
     known[static_cast<std::size_t>(i)] = true;
   }
   double work = 0;
-  for (const Step& step : model_.steps) {
-    for (const int i : step.inputs) {
+  for (const Node& node : model_.nodes) {
+    for (const int i : node.inputs) {
       Require(i < 0 || known[static_cast<std::size_t>(i)], "an operator comes before its input");
     }
-    const StepChecker checker(model_, step);
+    const NodeChecker checker(model_, node);
     checker.Check();
-    const auto out = static_cast<std::size_t>(step.output);
+    const auto out = static_cast<std::size_t>(node.output);
     Require(!known[out], "two operators write one tensor");
     known[out] = true;
-    work += checker.WorkPerNumber() * static_cast<double>(Of(step.output).shape.count());
+    work += checker.WorkPerNumber() * static_cast<double>(TensorAt(node.output).shape.count());
     Require(work < most_work, "the network is too large");
   }
   for (const int i : model_.outputs) {
@@ -212,26 +215,26 @@ Network::Network(Model model, double most_work) : model_(std::move(model)) {
     Require(total < 8 * Model::kMaxTensor, "the network is too large");
     tensor.values.resize(tensor.shape.count());
   }
-  for (const Step& step : model_.steps) {
-    if (IsRead(step)) Of(step.output).values = Of(step.inputs[0]).values;
+  for (const Node& node : model_.nodes) {
+    if (IsWidenedWeight(node)) TensorAt(node.output).values = TensorAt(node.inputs[0]).values;
   }
 }
 
 void Network::Run(std::span<const float> input) {
-  Tensor& first = Of(model_.inputs[0]);
+  Tensor& first = TensorAt(model_.inputs[0]);
   assert(input.size() == first.values.size());
   std::ranges::copy(input, first.values.begin());
-  for (const Step& step : model_.steps) {
-    if (IsRead(step)) continue;
-    Compute(step);
-    Activate(step.activation, Of(step.output).values);
+  for (const Node& node : model_.nodes) {
+    if (IsWidenedWeight(node)) continue;
+    Compute(node);
+    Activate(node.activation, TensorAt(node.output).values);
   }
 }
 
-void Network::Compute(const Step& step) {
+void Network::Compute(const Node& node) {
   std::vector<const Tensor*> inputs;
-  for (const int i : step.inputs) inputs.push_back(i < 0 ? nullptr : &Of(i));
-  std::visit([&](const auto& of) { tflite::Run(of, inputs, Of(step.output)); }, step.op);
+  for (const int i : node.inputs) inputs.push_back(i < 0 ? nullptr : &TensorAt(i));
+  std::visit([&](const auto& of) { tflite::Run(of, inputs, TensorAt(node.output)); }, node.op);
 }
 
 }  // namespace facefit::tflite

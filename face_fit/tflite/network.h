@@ -2,7 +2,6 @@
 
 #include <span>
 #include <variant>
-#include <vector>
 
 #include "face_fit/tflite/model.h"
 
@@ -18,21 +17,21 @@ class Network {
   /// takes more than about `most_work` multiplications: every network that was constructed can run.
   explicit Network(Model model, double most_work = kMaxWork);
 
-  const Shape& input_shape() const { return Of(model_.inputs[0]).shape; }
+  const Shape& input_shape() const { return TensorAt(model_.inputs[0]).shape; }
   std::size_t outputs() const { return model_.outputs.size(); }
   /// Runs the model. REQUIRES: `input` holds input_shape().count() numbers.
   void Run(std::span<const float> input);
   /// Returns an output of the last run.
-  std::span<const float> output(std::size_t i) const { return Of(model_.outputs[i]).values; }
+  std::span<const float> output(std::size_t i) const { return TensorAt(model_.outputs[i]).values; }
 
  private:
-  const Tensor& Of(int i) const { return model_.tensors[static_cast<std::size_t>(i)]; }
-  Tensor& Of(int i) { return model_.tensors[static_cast<std::size_t>(i)]; }
-  /// Returns whether a step only widens weights of half precision, which reading has done already.
-  bool IsRead(const Step& step) const {
-    return std::holds_alternative<op::Dequantize>(step.op) && Of(step.inputs[0]).constant;
+  const Tensor& TensorAt(int i) const { return model_.tensors[static_cast<std::size_t>(i)]; }
+  Tensor& TensorAt(int i) { return model_.tensors[static_cast<std::size_t>(i)]; }
+  /// Returns whether a node only widens weights of half precision, which reading has done already.
+  bool IsWidenedWeight(const Node& node) const {
+    return std::holds_alternative<op::Dequantize>(node.op) && TensorAt(node.inputs[0]).constant;
   }
-  void Compute(const Step& step);
+  void Compute(const Node& node);
 
   Model model_;
 };

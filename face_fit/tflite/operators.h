@@ -17,35 +17,35 @@ struct Window {
   int stride_rows = 1, stride_columns = 1;
 };
 
-/// An elementwise operator of one input, computed by `Of`.
+/// An elementwise operator of one input, computed by `Apply`.
 struct OfEach {};
 struct Dequantize : OfEach {  ///< weights are read as what they stand for
-  static float Of(float x) { return x; }
+  static float Apply(float x) { return x; }
 };
 struct Reshape : OfEach {
-  static float Of(float x) { return x; }
+  static float Apply(float x) { return x; }
 };
 struct HardSwish : OfEach {
-  static float Of(float x) { return x * std::clamp(x + 3, 0.0F, 6.0F) / 6; }
+  static float Apply(float x) { return x * std::clamp(x + 3, 0.0F, 6.0F) / 6; }
 };
 struct Logistic : OfEach {
-  static float Of(float x) { return 1 / (1 + std::exp(-x)); }
+  static float Apply(float x) { return 1 / (1 + std::exp(-x)); }
 };
 struct Relu : OfEach {
-  static float Of(float x) { return std::max(x, 0.0F); }
+  static float Apply(float x) { return std::max(x, 0.0F); }
 };
 
-/// An elementwise operator of two inputs, computed by `Of`. The second input has the shape of the
-/// first, or is one number for each channel, or one.
+/// An elementwise operator of two inputs, computed by `Apply`. The second input has the shape of
+/// the first, or is one number for each channel, or one.
 struct OfPair {};
 struct Add : OfPair {
-  static float Of(float a, float b) { return a + b; }
+  static float Apply(float a, float b) { return a + b; }
 };
 struct Multiply : OfPair {
-  static float Of(float a, float b) { return a * b; }
+  static float Apply(float a, float b) { return a * b; }
 };
 struct Prelu : OfPair {
-  static float Of(float a, float b) { return a >= 0 ? a : a * b; }
+  static float Apply(float a, float b) { return a >= 0 ? a : a * b; }
 };
 
 struct Convolution {
@@ -56,7 +56,7 @@ struct DepthwiseConvolution {  ///< each channel by itself
 };
 struct TransposeConvolution {};  ///< each input pixel paints a block, side by side
 struct Pooling {
-  bool greatest = false;  ///< else the mean
+  bool max = false;  ///< else the mean
   Window window;
   int rows = 1, columns = 1;
 };

@@ -1,11 +1,10 @@
 #include "face_fit/watch/face_measures.h"
 
-#include <array>
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "face_fit/fit/camera_pose.h"
 #include "fsm/mesh/head_points.h"
+#include "fsm/rig/angles.h"
 
 namespace facefit {
 namespace {
@@ -16,19 +15,23 @@ glm::vec3 Middle(std::span<const glm::vec3> points, std::span<const PointIndex> 
   return sum / static_cast<float>(of.size());
 }
 
-/// Pairs of points on the upper and lower edge of an opening, above each other near its middle.
-using EdgePairs = std::array<std::pair<PointIndex, PointIndex>, 3>;
-constexpr EdgePairs kLips = {{{82, 87}, {13, 14}, {312, 317}}};
-constexpr fsm::Sided<EdgePairs> kLids = {{{{160, 144}, {159, 145}, {158, 153}}},
-                                         {{{387, 373}, {386, 374}, {385, 380}}}};
-
-/// Returns the mean distance of these pairs.
-float MeanGap(std::span<const glm::vec3> points, const EdgePairs& pairs) {
+/// Returns the mean distance of the edges of an opening at three places next to its middle.
+/// `edges_at(k)`: the points of its upper and lower edge there, k from 0 to 2.
+float MeanGap(std::span<const glm::vec3> points, auto edges_at) {
   float sum = 0;
-  for (const auto& [upper, lower] : pairs) {
+  for (const std::size_t k : {0U, 1U, 2U}) {
+    const auto [upper, lower] = edges_at(k);
     sum += glm::length(glm::vec2(points[upper] - points[lower]));
   }
   return sum / 3;
+}
+std::pair<PointIndex, PointIndex> LipsAt(std::size_t k) {
+  constexpr std::size_t kMiddle = point::kUpperInnerLip.size() / 2;
+  return {point::kUpperInnerLip[kMiddle - 1 + k], point::kLowerInnerLip[kMiddle - 1 + k]};
+}
+std::pair<PointIndex, PointIndex> LidsAt(fsm::Side side, std::size_t k) {
+  const auto& outline = point::kEyeOutline[side];
+  return {outline[kUpperMiddle - 1 + k], outline[kLowerMiddle + 1 - k]};
 }
 
 /// Returns FaceMeasures::gaze.
@@ -63,7 +66,7 @@ FaceMeasures Measure(const AttentiveFace& found, std::span<const glm::vec3> firs
   for (glm::vec3& p : points) p = back(p);
 
   FaceMeasures measures{.certainty = found.face.certainty};
-  measures.gap_mm = MeanGap(points, kLips);
+  measures.gap_mm = MeanGap(points, LipsAt);
   measures.width_mm = glm::distance(points[point::kMouthRight], points[point::kMouthLeft]);
   measures.jaw_mm = points[point::kNoseBottom].y - points[point::kChin].y;
   const float eyes = 0.25F * (points[point::kEyeOuterRight].y + points[point::kEyeInnerRight].y +
@@ -71,11 +74,11 @@ FaceMeasures Measure(const AttentiveFace& found, std::span<const glm::vec3> firs
   constexpr fsm::Sided<PointIndex> kCorner{point::kMouthRight, point::kMouthLeft};
   for (const fsm::Side side : fsm::kSides) {
     measures.corner_up_mm[side] = points[kCorner[side]].y - points[point::kNoseBottom].y;
-    measures.eye_mm[side] = MeanGap(points, kLids[side]);
+    measures.eye_mm[side] = MeanGap(points, [side](std::size_t k) { return LidsAt(side, k); });
     measures.brow_inner_mm[side] = Middle(points, point::kBrowInner[side]).y - eyes;
     measures.brow_outer_mm[side] = Middle(points, point::kBrowOuter[side]).y - eyes;
   }
-  const auto [down, across, tilted] = HeadRotationOf(glm::transpose(back.rotation));
+  const auto [down, across, tilted] = fsm::HeadRotationOf(glm::transpose(back.rotation));
   measures.turn_deg = {down, across, tilted};
   measures.gaze = GazeOf(found);
   return measures;

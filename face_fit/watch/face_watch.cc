@@ -1,7 +1,5 @@
 #include "face_fit/watch/face_watch.h"
 
-#include <cmath>
-
 #include "face_fit/picture/plane.h"
 
 namespace facefit {
@@ -9,12 +7,11 @@ namespace {
 
 struct EyeLine {
   glm::vec2 middle;
-  float angle;
+  float angle_rad;
 };
-EyeLine EyesOf(const FoundFace& face) {
-  const glm::vec2 right = face.PixelOf(point::kEyeOuterRight),
-                  left = face.PixelOf(point::kEyeOuterLeft);
-  return {0.5F * (right + left), std::atan2(left.y - right.y, left.x - right.x)};
+EyeLine EyeLineOf(const FoundFace& face) {
+  const glm::vec2 across = face.AcrossEyes();
+  return {face.PixelOf(point::kEyeOuterRight) + 0.5F * across, AngleOf(across)};
 }
 
 }  // namespace
@@ -28,16 +25,17 @@ void FaceWatch::Find(const fsm::Image& picture) {
   const auto faces = FindFaces(networks_, picture);
   if (faces.empty() || faces.front().certainty < kCertainFace) return;
   const FoundFace& face = faces.front();
-  const EyeLine eyes = EyesOf(face);
-  eyes_to_middle_ = Rotated(face.crop.centre - eyes.middle, -eyes.angle);
+  const EyeLine eyes = EyeLineOf(face);
+  eyes_to_middle_ = Rotated(face.crop.centre - eyes.middle, -eyes.angle_rad);
   size_ = face.crop.size;
   FindPointsIn(picture, face.crop);
 }
 
 std::optional<FaceMeasures> FaceWatch::MeasureNext(const fsm::Image& picture) {
   if (last_) {
-    const EyeLine eyes = EyesOf(last_->face);
-    FindPointsIn(picture, {eyes.middle + Rotated(eyes_to_middle_, eyes.angle), size_, eyes.angle});
+    const EyeLine eyes = EyeLineOf(last_->face);
+    FindPointsIn(picture,
+                 {eyes.middle + Rotated(eyes_to_middle_, eyes.angle_rad), size_, eyes.angle_rad});
   }
   if (!last_) Find(picture);
   if (!last_) return std::nullopt;

@@ -39,7 +39,7 @@ void Run(const Options& options) {
   std::cout << "track,begins_ms,onset_ms,eye_lag_ms,brow_lag_ms,mouth_lag_ms,eye,brow,mouth\n";
   for (const std::string& path : options.tracks) {
     const UnitTrack track = ReadUnitTrack(path, options, tables);
-    const std::vector<Onset> onsets = FindOnsets(track, tables.units);
+    const std::vector<Onset> onsets = FindOnsets(track, tables.unit_list.regions);
     for (const Onset& onset : onsets) {
       std::cout << fmt::format("{},{:.1f},{:.1f},{},{},{},{:.3f},{:.3f},{:.3f}\n", path,
                                onset.begins_ms, onset.onset_ms, Lag(onset.lag_ms[0]),
@@ -48,7 +48,8 @@ void Run(const Options& options) {
     }
     widest_ms = std::max(
         widest_ms, (track.ms.back() - track.ms.front()) / static_cast<double>(track.ms.size() - 1));
-    if (!options.plot.empty()) plot.Add(track, RegionCourses(track, tables.units), onsets);
+    if (!options.plot.empty())
+      plot.Add(track, RegionCourses(track, tables.unit_list.regions), onsets);
     all.insert(all.end(), onsets.begin(), onsets.end());
   }
   if (!options.plot.empty()) vm::OrThrow(vm::WriteTextFile(options.plot, plot.Svg()));

@@ -45,10 +45,10 @@ std::vector<std::vector<Label>> ReadLabels(const std::string& path,
     const auto of = std::ranges::find_if(recordings, [&](const std::string& recording) {
       return recording == row.key() || std::filesystem::path(recording).filename() == row.key();
     });
-    if (of == recordings.end()) row.Fail("'" + row.key() + "' is none of the recordings");
+    if (of == recordings.end()) row.Refuse("'" + row.key() + "' is none of the recordings");
     auto& units = labels[static_cast<std::size_t>(of - recordings.begin())];
     if (!units.empty() || row.size() < 2)
-      row.Fail("one line FILE UNIT[:STRENGTH]... for a recording expected");
+      row.Refuse("one line FILE UNIT[:STRENGTH]... for a recording expected");
     for (std::size_t i = 1; i < row.size(); ++i) {
       const std::string& word = row.Word(i);
       const std::size_t colon = word.find(':');
@@ -56,7 +56,7 @@ std::vector<std::vector<Label>> ReadLabels(const std::string& path,
       if (colon != word.npos) {
         const auto strength = fsm::ParseNumber(word.substr(colon + 1));
         if (!strength || *strength <= 0 || *strength > 2)
-          row.Fail("'" + word + "' found, UNIT:STRENGTH with a strength up to 2 expected");
+          row.Refuse("'" + word + "' found, UNIT:STRENGTH with a strength up to 2 expected");
         label.strength = *strength;
       }
       const bool plain = !label.unit.empty() && label.unit.size() <= 24 &&
@@ -64,7 +64,7 @@ std::vector<std::vector<Label>> ReadLabels(const std::string& path,
                            return std::isalnum(c) || c == '_';
                          });
       if (!plain)
-        row.Fail("'" + word + "' found; up to 24 letters, digits and _ expected of a unit");
+        row.Refuse("'" + word + "' found; up to 24 letters, digits and _ expected of a unit");
       units.push_back(std::move(label));
     }
   }

@@ -168,21 +168,21 @@ vm::Result<std::vector<Axis>> ReadAxes(const std::string& name, std::string_view
   return fsm::ReadTable(name, text, [](const fsm::Table& table) {
     std::vector<Axis> axes;
     for (const fsm::TableRow& row : table.rows()) {
-      if (row.key() != "axis") row.Fail("axis NAME X Y Z expected");
+      if (row.key() != "axis") row.Refuse("axis NAME X Y Z expected");
       Axis axis{.emotion = row.Name(1, "an emotion's name"),
                 .at = {row.Within(2, -1, 1), row.Within(3, -1, 1), row.Within(4, -1, 1)}};
       row.EndsAt(5);
       if (std::abs(std::hypot(axis.at[0], axis.at[1], axis.at[2]) - 1) > 0.01F) {
-        row.Fail("a place 1 from the middle expected");
+        row.Refuse("a place 1 from the middle expected");
       }
       for (const Axis& other : axes) {
         if (other.emotion == axis.emotion || other.at == axis.at) {
-          row.Fail("an emotion or a place that is there twice");
+          row.Refuse("an emotion or a place that is there twice");
         }
       }
       axes.push_back(axis);
     }
-    if (axes.size() < 2 || axes.size() > 6) table.Fail("2 to 6 axes expected");
+    if (axes.size() < 2 || axes.size() > 6) table.Refuse("2 to 6 axes expected");
     return axes;
   });
 }

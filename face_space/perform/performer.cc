@@ -191,7 +191,7 @@ std::vector<std::string> PaperUnits() {
 
 std::vector<std::vector<Label>> Mixtures(const std::vector<std::string>& units, std::size_t count,
                                          const fsm::Head& head, bool apart, std::uint64_t seed) {
-  const fsm::UnitTable& table = head.rig().data().units;
+  const fsm::UnitTable& table = head.rig().data().unit_effects;
   std::vector<std::vector<Label>> out;
   std::set<std::set<std::string>> seen;
   const auto draw = [seed](std::uint64_t stream, std::int64_t i, std::size_t below) {

@@ -32,7 +32,7 @@ vm::Result<KnownPlaces> ReadPlaces(const std::string& name, std::string_view tex
     KnownPlaces known;
     for (const fsm::TableRow& row : table.rows()) {
       if (row.key() != "place" || (row.size() != 3 && row.size() != 5)) {
-        row.Fail("place MARKER LANDMARK or place MARKER X Y Z expected");
+        row.Refuse("place MARKER LANDMARK or place MARKER X Y Z expected");
       }
       glm::vec3 at{};
       if (row.size() == 5) {
@@ -41,10 +41,10 @@ vm::Result<KnownPlaces> ReadPlaces(const std::string& name, std::string_view tex
                  found != head.landmarks().end()) {
         at = found->second;
       } else {
-        row.Fail(fmt::format("'{}' is no landmark; fsm --describe prints those there are",
-                             row.Word(2).substr(0, 40)));
+        row.Refuse(fmt::format("'{}' is no landmark; fsm --describe prints those there are",
+                               row.Word(2).substr(0, 40)));
       }
-      if (!known.emplace(row.Word(1), at).second) row.Fail("a marker that is there twice");
+      if (!known.emplace(row.Word(1), at).second) row.Refuse("a marker that is there twice");
     }
     return known;
   });
@@ -76,10 +76,10 @@ Eigen::VectorXd Placement::OnHead(const Eigen::Ref<const Eigen::VectorXd>& moves
 
 std::vector<std::uint32_t> FaceSkin(const fsm::Head& head) {
   const fsm::RigData& rig = head.rig().data();
-  const fsm::HeadTopology& topology = head.topology();
+  const fsm::HeadSurface& topology = head.surface();
   const float chin = head.Landmark("gnathion").y - 6, top = head.Landmark("trichion").y - 4;
   std::vector<bool> chosen(rig.rest.size(), false);
-  for (const fsm::HeadTopology::Part& part : topology.parts) {
+  for (const fsm::HeadSurface::Part& part : topology.parts) {
     if (part.material != fsm::Material::kSkin && part.material != fsm::Material::kLip) continue;
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
       const std::uint32_t i = topology.indices[part.first_index + k];

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -51,13 +52,14 @@ float Rounded(double value) { return static_cast<float>(std::round(value * 100) 
 }  // namespace
 
 std::string UnitRows::Text(int number) const {
-  static constexpr std::array<const char*, 3> kParts{"above", "below", "both"};
   std::string text;
   for (const Field& field : fields) {
+    const char* const lip = !field.lip                       ? "both"
+                            : *field.lip == fsm::Lip::kUpper ? "above"
+                                                             : "below";
     text += fmt::format("field {} {:.4g} {:.4g} {:.4g} {:.4g} {} {:.4g} {:.4g} {:.4g}\n", number,
-                        field.at.x, field.at.y, field.radius.x, field.radius.y,
-                        kParts[static_cast<std::size_t>(field.lip)], field.by.x, field.by.y,
-                        field.by.z);
+                        field.at.x, field.at.y, field.radius.x, field.radius.y, lip, field.by.x,
+                        field.by.y, field.by.z);
   }
   if (lid_upper_mm != 0 || lid_lower_mm != 0) {
     text += fmt::format("lid {} {:.3g} {:.3g}\n", number, lid_upper_mm, lid_lower_mm);
@@ -135,9 +137,8 @@ void RowFitter::AddCandidates(Acting acting) {
   for (const auto& [x, y] : centres) {
     const bool lips = std::abs(static_cast<float>(y) - mouth.y) < 22 && x < 42;
     for (const float radius : kRadii) {
-      using Lip = Field::Lip;
-      for (const Lip lip : {Lip::kBoth, Lip::kUpper, Lip::kLower}) {
-        if (lip != Lip::kBoth && !lips) continue;
+      for (const auto lip : {std::optional<fsm::Lip>{}, {fsm::Lip::kUpper}, {fsm::Lip::kLower}}) {
+        if (lip && !lips) continue;
         Candidate candidate;
         candidate.field = {
             .unit = 0, .at = {x, y}, .radius = {radius, radius}, .lip = lip, .by = {1, 1, 1}};

@@ -64,7 +64,7 @@ vm::Result<UnitTables> WriteUnits(const std::vector<ShapeUnit>& shapes, const Pl
   const auto have = fsm::ReadTable(base.folder + "/" + kRowsFile, *rows,
                                    [](const fsm::Table& table) { return table.rows().size(); });
   if (!have) return std::unexpected(have.error());
-  const std::size_t room = fsm::UnitTable::kMostRows - std::min(*have, fsm::UnitTable::kMostRows);
+  const std::size_t room = fsm::UnitTable::kMaxRows - std::min(*have, fsm::UnitTable::kMaxRows);
   const std::size_t each =
       std::min(kMostRowsOfUnit, room / std::max<std::size_t>(1, shapes.size()));
   if (each < kFewestRowsOfUnit) {
@@ -91,7 +91,7 @@ vm::Result<UnitTables> WriteUnits(const std::vector<ShapeUnit>& shapes, const Pl
     unit.missing = fitter.Check(unit.parts, moves);
     for (const RowFitter::Part& part : unit.parts) {
       while (known->names.contains(number)) ++number;
-      if (number > static_cast<int>(fsm::UnitValues::kMost)) {
+      if (number > static_cast<int>(fsm::UnitValues::kMax)) {
         return vm::Fail(vm::Errc::kLimit,
                         "no number up to 999 is left for another unit; begin lower (--first)");
       }

@@ -159,7 +159,8 @@ void CountFromFirst(Onset& onset) {
 
 }  // namespace
 
-std::vector<ByRegion<double>> RegionCourses(const UnitTrack& track, const fsm::UnitList& units) {
+std::vector<ByRegion<double>> RegionCourses(const UnitTrack& track,
+                                            const fsm::UnitRegions& regions) {
   std::vector<ByRegion<double>> courses;
   courses.reserve(track.looks.size());
   for (const fsm::FaceLook& look : track.looks) {
@@ -167,7 +168,7 @@ std::vector<ByRegion<double>> RegionCourses(const UnitTrack& track, const fsm::U
     for (const fsm::UnitValues* side : {&look.au.left, &look.au.right}) {
       for (std::size_t unit = 0; unit < side->size(); ++unit) {
         const double strength = (*side)[unit];
-        parts[static_cast<std::size_t>(units.RegionOf(unit))] += strength * strength / 2;
+        parts[static_cast<std::size_t>(regions.RegionOf(unit))] += strength * strength / 2;
       }
     }
     for (double& part : parts) part = std::sqrt(part);
@@ -175,8 +176,8 @@ std::vector<ByRegion<double>> RegionCourses(const UnitTrack& track, const fsm::U
   return courses;
 }
 
-std::vector<Onset> FindOnsets(const UnitTrack& track, const fsm::UnitList& units) {
-  const std::vector<ByRegion<double>> courses = RegionCourses(track, units);
+std::vector<Onset> FindOnsets(const UnitTrack& track, const fsm::UnitRegions& regions) {
+  const std::vector<ByRegion<double>> courses = RegionCourses(track, regions);
   std::vector<double> whole;
   whole.reserve(courses.size());
   for (const ByRegion<double>& parts : courses) whole.push_back(Whole(parts));

@@ -16,7 +16,8 @@ using ByRegion = std::array<T, fsm::kRegions>;
 
 /// How far each part of the face is from rest over time: the root of the sum of squares of its
 /// units' strengths, both sides counting half.
-std::vector<ByRegion<double>> RegionCourses(const UnitTrack& track, const fsm::UnitList& units);
+std::vector<ByRegion<double>> RegionCourses(const UnitTrack& track,
+                                            const fsm::UnitRegions& regions);
 
 /// How one expression of a track comes about, in the terms of Morishima and others, Dynamic Micro
 /// Aspects of Facial Movements in Elicited and Posed Expressions Using High-Speed Camera, IEEE
@@ -31,7 +32,7 @@ struct Onset {
 /// The expressions of a track: rises of all parts together by kLeastRise or more. A part begins and
 /// ends where the minimum-jerk curve (fsm::SmootherStep) does that lies nearest to its course
 /// between a fifth and four fifths of its way, so that noise at rest and at the peak counts little.
-std::vector<Onset> FindOnsets(const UnitTrack& track, const fsm::UnitList& units);
+std::vector<Onset> FindOnsets(const UnitTrack& track, const fsm::UnitRegions& regions);
 inline constexpr double kLeastRise = 0.3;
 
 /// The median of several onsets; a part's lag counts where it moves in more than half of them, and

@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include "face_fit/find/network/network_crop.h"
-#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/raster.h"
 
 namespace facetrack {
 

@@ -216,7 +216,7 @@ FaceLine Tracker::LineOf(const Waiting& waiting, const Doing& doing) {
                 .person = people_,
                 .certainty = waiting.certainty,
                 .miss = doing.miss,
-                .head = HeadRotationOf(doing.pose.turn),
+                .head = fsm::HeadRotationOf(doing.pose.turn),
                 .place = doing.pose.place,
                 .units = doing.doses,
                 .points = fit_->OnFace(person_->rest, waiting.seen.places, doing),

@@ -1,10 +1,20 @@
 #include "face_track/learn/head_painter.h"
 
 namespace facetrack {
+namespace {
+
+fsm::Scene SceneOfField(float field_degrees) {
+  fsm::Scene scene;
+  scene.camera.field_degrees = field_degrees;
+  return scene;
+}
+
+}  // namespace
 
 HeadPainter::HeadPainter()
     : context_(fsm::RenderContext::MakeHeadless(kSide, kSide)),
       renderer_(fsm::Renderer::Make(*context_)),
+      scene_(SceneOfField(kField)),
       view_(fsm::ViewOfPortrait({}, scene_.camera, kSide, kSide)),
       lens_(Lens::Of(kSide, kSide, kField)) {}
 

@@ -39,14 +39,14 @@ void JudgeTurns(const FrameFit& fit, const Person& met, Sitter& sitter,
     state.asymmetry = 0;
     state.head_rotation = turn;
     const auto sight = sitter.Look(state);
-    const fsm::Angles truth = HeadRotationOf(sight.pose.turn);
+    const fsm::Angles truth = fsm::HeadRotationOf(sight.pose.turn);
     const Doing doing = fit.Solve(met.rest, sight.places, fit.Guess(sight.places), What::kPose);
     const FaceLook look(sight.picture, CropOf(fit.lens(), doing.pose));
     const auto [pose, like] = image_fit.Solve(met.rest, look, doing);
-    const fsm::Angles found = HeadRotationOf(pose.turn * still);
+    const fsm::Angles found = fsm::HeadRotationOf(pose.turn * still);
     fmt::print("  {:>3} {:>3} {:>3}: off {:+.2f} {:+.2f} {:+.2f}, like {:.2f}\n", turn[0], turn[1],
                turn[2], found[0] - truth[0], found[1] - truth[1], found[2] - truth[2], like);
-    by_points.Add(HeadRotationOf(doing.pose.turn * still), truth);
+    by_points.Add(fsm::HeadRotationOf(doing.pose.turn * still), truth);
     by_picture.Add(found, truth);
   }
   fmt::print("  angles off, rms: {:.2f} degrees; by the network's points alone {:.2f}\n",

@@ -103,7 +103,8 @@ MouthOfLips LearnMouth(std::size_t heads, const std::string& folder) {
   auto networks = vm::OrThrow(facefit::FaceNetworks::Load(folder));
   auto attention = vm::OrThrow(facefit::LoadAttentionLandmarks(folder));
   HeadPainter painter;
-  const fsm::Visemes visemes = vm::OrThrow(fsm::MotionTables::Load()).set14.visemes;
+  const fsm::Visemes visemes =
+      vm::OrThrow(fsm::MotionTables::Load()).set(fsm::VisemeSetId::k14).visemes;
   MouthLesson lesson;
   for (std::size_t number = 0; number < heads; ++number) {
     std::cerr << fmt::format("face_track_learn: head {} of {}\n", number + 1, heads);

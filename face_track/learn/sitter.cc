@@ -94,7 +94,7 @@ float Sitter::DepthOf(std::size_t point, const fsm::HeadVertices& vertices) cons
   if (point < kIris) return base_.mesh_points()[point].On(vertices.position).z;
   const fsm::Side side = point == kIris ? fsm::Side::kRight : fsm::Side::kLeft;
   constexpr float kIrisBefore = 10;  // mm, of the middle of the eyeball
-  return base_.head().topology().eyes[side].centre.z + kIrisBefore;
+  return base_.head().EyeCentre(side).z + kIrisBefore;
 }
 
 fsm::FaceState StateOf(const Channel& channel, float dose) {

@@ -50,11 +50,11 @@ MouthOfLips ReadMouth(const fsm::Table& table) {
   const fsm::TableRow& seal = table.Only("seal");
   mouth.closed_mm = seal.Number(1);
   mouth.open_mm = seal.Number(2);
-  if (!(mouth.open_mm > mouth.closed_mm)) seal.Fail("expected a closed gap below the open one");
+  if (!(mouth.open_mm > mouth.closed_mm)) seal.Refuse("expected a closed gap below the open one");
   for (std::size_t p = 0; p < fsm::kMouthParameters; ++p) {
     const fsm::TableRow& row = table.Only(std::string(kParameterNames[p]));
     const auto numbers = row.Numbers(1);
-    if (numbers.size() != kLips) row.Fail(fmt::format("expected {} numbers", kLips));
+    if (numbers.size() != kLips) row.Refuse(fmt::format("expected {} numbers", kLips));
     std::ranges::copy(numbers, mouth.factors[p].begin());
   }
   return mouth;

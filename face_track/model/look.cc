@@ -12,7 +12,7 @@ Lens Lens::Of(int width, int height, float field_degrees) {
 }
 
 glm::vec2 SeenTurn(const Pose& pose) {
-  const fsm::Angles angles = HeadRotationOf(pose.turn);
+  const fsm::Angles angles = fsm::HeadRotationOf(pose.turn);
   // A head that looks along the lens' axis beside it is seen from its inner side.
   const float right = glm::degrees(std::atan2(pose.place.x, -pose.place.z));
   const float up = glm::degrees(std::atan2(pose.place.y, -pose.place.z));
@@ -22,7 +22,7 @@ glm::vec2 SeenTurn(const Pose& pose) {
 glm::vec2 SeenAt(const SeenFace& face, const Lens& lens, const Pose& pose, std::size_t point,
                  glm::vec3 p) {
   const glm::vec2 seen = SeenTurn(pose);
-  const float roll = -glm::radians(HeadRotationOf(pose.turn)[fsm::kTilted]);
+  const float roll = -glm::radians(fsm::HeadRotationOf(pose.turn)[fsm::kTilted]);
   const glm::vec2 slide = face.Slide(point, seen.x, seen.y);
   const float c = std::cos(roll), s = std::sin(roll);
   const glm::vec3 q = pose(p);
@@ -34,7 +34,7 @@ facefit::NetworkCrop CropOf(const Lens& lens, const Pose& pose) {
   constexpr float kSide = 245;  // mm; the networks were trained on faces with so much around them
   const glm::vec3 q = pose(kMiddle);
   return {lens.Project(q), kSide * lens.focal / -q.z,
-          glm::radians(HeadRotationOf(pose.turn)[fsm::kTilted])};
+          glm::radians(fsm::HeadRotationOf(pose.turn)[fsm::kTilted])};
 }
 
 std::vector<glm::vec2> PlacesOf(const facefit::AttentiveFace& face) {

@@ -27,7 +27,7 @@ glm::mat3 About(int axis, float angle) {
 Points PointsOf(const fsm::TableRow& row, std::size_t from) {
   const std::vector<float> numbers = row.Numbers(from);
   if (numbers.size() != 3 * kPoints) {
-    row.Fail(fmt::format("{} numbers found, {} expected", numbers.size(), 3 * kPoints));
+    row.Refuse(fmt::format("{} numbers found, {} expected", numbers.size(), 3 * kPoints));
   }
   Points points;
   for (std::size_t i = 0; i < kPoints; ++i) {
@@ -39,7 +39,7 @@ Points PointsOf(const fsm::TableRow& row, std::size_t from) {
 std::vector<float> ScalarsOf(const fsm::TableRow& row, std::size_t from) {
   std::vector<float> numbers = row.Numbers(from);
   if (numbers.size() != kPoints) {
-    row.Fail(fmt::format("{} numbers found, {} expected", numbers.size(), kPoints));
+    row.Refuse(fmt::format("{} numbers found, {} expected", numbers.size(), kPoints));
   }
   for (float& v : numbers) v /= kUnit;
   return numbers;
@@ -53,7 +53,7 @@ SeenFace Read(const fsm::Table& table) {
   face.depth = ScalarsOf(table.Only("depth"), 1);
   face.spread = ScalarsOf(table.Only("spread"), 1);
   const auto slides = table.RowsOf("slide");
-  if (slides.size() != 2 * SeenFace::kSlides) table.Fail("expected 18 rows 'slide'");
+  if (slides.size() != 2 * SeenFace::kSlides) table.Refuse("expected 18 rows 'slide'");
   face.slide.resize(kPoints);
   for (std::size_t k = 0; k < slides.size(); ++k) {
     const auto values = ScalarsOf(slides[k], 1);
@@ -74,7 +74,7 @@ SeenFace Read(const fsm::Table& table) {
         at = face.channels.end() - 1;
       }
       if (dose == 0 || (!at->doses.empty() && !(dose > at->doses.back()))) {
-        row.Fail("expected doses that rise, without 0");
+        row.Refuse("expected doses that rise, without 0");
       }
       at->doses.push_back(dose);
       at->motion.push_back(PointsOf(row, 4));

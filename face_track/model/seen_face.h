@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "face_fit/find/network/attention_points.h"
-#include "face_fit/fit/camera_pose.h"
 #include "fsm/base/side.h"
 #include "fsm/rig/angles.h"
 #include "vm_protocol/core/result.h"
@@ -21,10 +20,8 @@ inline constexpr std::size_t kPoints = facefit::kNetworkPoints + 2;
 inline constexpr std::size_t kIris = facefit::kNetworkPoints;
 using Points = std::vector<glm::vec3>;  ///< kPoints of them, millimetres
 
-/// Degrees down, to the viewer's right and tilted towards it as a turn, and back: as
-/// FaceState::head_rotation.
+/// Returns the rotation of a FaceState::head_rotation; fsm::HeadRotationOf is its inverse.
 glm::mat3 TurnOf(const fsm::Angles& degrees);
-using facefit::HeadRotationOf;
 
 /// Something a face does, and what the network sees of it.
 struct Channel {

@@ -30,7 +30,7 @@ FacePrint::FacePrint(Format format, Extras extras, const SeenFace& face)
     for (std::size_t k = 1; k < row.size(); ++k) {
       const std::string& word = row.Word(k);
       const auto colon = word.find(':');
-      if (colon == std::string::npos) row.Fail("CHANNEL:WEIGHT expected");
+      if (colon == std::string::npos) row.Refuse("CHANNEL:WEIGHT expected");
       shape.parts.emplace_back(face_.Find(word.substr(0, colon)),
                                std::stof(word.substr(colon + 1)));
     }

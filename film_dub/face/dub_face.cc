@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "face_track/model/seen_face.h"
 #include "fsm/head/make_head.h"
+#include "fsm/rig/angles.h"
 
 namespace filmdub {
 namespace {
@@ -34,11 +34,11 @@ vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networ
                                              facefit::FaceNear{places[facefit::point::kNoseTip]},
                                              facefit::PhotoExtent::kCloseUp);
     if (!front) return std::unexpected(front.error());
-    if (!front->face || front->face->certainty < facefit::kCertainFace) {
+    if (!front->face || front->face->found.certainty < facefit::kCertainFace) {
       return vm::Fail(vm::Errc::kBadValue,
                       "the face cannot be told apart in the picture where it is seen best");
     }
-    const auto made = facefit::MakeFace(*base, *front);
+    const auto made = facefit::MakeFace(*base, *front, *front->face);
     if (!made) return std::unexpected(made.error());
     const float film_pixels_per_mm = made->fit.head.pose.PixelsPerMm() / front->scale;
     const int side = std::clamp(static_cast<int>(std::lround(kViewMm * film_pixels_per_mm)),
@@ -52,7 +52,7 @@ vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networ
 DubFace::DubFace(facefit::ObservedHead base, const facefit::MadeFace& made, int side)
     : base_(std::move(base)),
       head_(fsm::MakeHead(made.bake.head)),
-      held_(facetrack::HeadRotationOf(made.fit.head.pose.Rotation())),
+      held_(fsm::HeadRotationOf(made.fit.head.pose.Rotation())),
       side_(side),
       context_(fsm::RenderContext::MakeHeadless(side, side)),
       renderer_(fsm::Renderer::Make(*context_)),

@@ -39,8 +39,8 @@ BackgroundSlots::BackgroundSlots(FsmCore& core,
 }
 
 void BackgroundSlots::Declare() {
-  std::string names =
-      core_.original && !backgrounds_.empty() ? "" : std::string(kPlain) + "," + kStudio;
+  const bool lists_ours = core_.conventions.lists_our_backgrounds || backgrounds_.empty();
+  std::string names = lists_ours ? std::string(kPlain) + "," + kStudio : "";
   for (const auto& [name, file] : backgrounds_) names += (names.empty() ? "" : ",") + name;
   core_.slots.Declare({.name = "BackgroundSet",
                        .grammar = "<text>",

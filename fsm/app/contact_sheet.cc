@@ -30,14 +30,6 @@ FaceState Framed(FaceState state, const Framing& framing) {
   return state;
 }
 
-/// Returns the final state after one command to a face at rest.
-template <typename Command>
-FaceState After(const MotionTables& tables, const Command& command) {
-  FaceMotion motion(tables, 1);
-  command(motion);
-  return motion.StateAt(5s);
-}
-
 /// Units that must be set as well for a unit to be visible.
 constexpr std::pair<int, const char*> kCompanions[] = {
     {8, " 26 0.5"}, {19, " 25 0.6 26 0.5"}, {37, " 25 0.6 26 0.5"}};
@@ -60,8 +52,8 @@ ContactSheet UnitSheet(const SheetInput& input) {
   sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), input.face});
   for (const auto& [number, name] : input.tables.unit_names.names) {
     const std::string text = std::to_string(number) + " 1" + Companions(number);
-    const FaceState state =
-        After(input.tables, [&](FaceMotion& motion) { vm::OrThrow(motion.units.Set(0ms, text)); });
+    const FaceState state = SettledAfter(
+        input.tables, [&](FaceMotion& motion) { vm::OrThrow(motion.action_units.Set(0ms, text)); });
     sheet.cells.push_back(
         {std::to_string(number) + " " + name, Framed(state, kWholeFace), input.face});
   }
@@ -73,7 +65,7 @@ ContactSheet EmotionSheet(const SheetInput& input) {
   sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), input.face});
   for (const char* name : kEmotions) {
     if (!input.tables.expressions.contains(name)) continue;
-    const FaceState state = After(input.tables, [&](FaceMotion& motion) {
+    const FaceState state = SettledAfter(input.tables, [&](FaceMotion& motion) {
       vm::OrThrow(motion.expression.Show(0ms, name, 1, 1, 0ms));
     });
     sheet.cells.push_back({name, Framed(state, kWholeFace), input.face});
@@ -86,11 +78,7 @@ ContactSheet VisemeSheet(const SheetInput& input) {
   for (const VisemeSetId set : {VisemeSetId::k28, VisemeSetId::k14}) {
     const std::string prefix = std::to_string(CountOf(set)) + " ";
     for (const Viseme& viseme : input.tables.set(set).visemes) {
-      FaceState state;
-      state.mouth = viseme.pose.mouth;
-      state.seal = viseme.pose.seal;
-      state.tongue = viseme.pose.tongue;
-      sheet.cells.push_back({prefix + viseme.name, Framed(state, kMouth), input.face});
+      sheet.cells.push_back({prefix + viseme.name, Framed(StateOf(viseme), kMouth), input.face});
     }
   }
   return sheet;
@@ -98,7 +86,7 @@ ContactSheet VisemeSheet(const SheetInput& input) {
 
 ContactSheet IdentitySheet(const SheetInput& input) {
   ContactSheet sheet{{}, 4};
-  const FaceState smile = After(input.tables, [](FaceMotion& motion) {
+  const FaceState smile = SettledAfter(input.tables, [](FaceMotion& motion) {
     static_cast<void>(motion.expression.Show(0ms, "HAPPY", 1, 1, 0ms));  // without HAPPY: at rest
   });
   for (const std::string& face : input.faces) {

@@ -39,26 +39,20 @@ ExpressionSlots::ExpressionSlots(FsmCore& core) : core_(core) {
       Declare(name, LookOf(name).value_or(""));
     }
   }
-  core_.slots.set_definition_hook([this](const vm::Message& message, vm::PeerId,
-                                         const vm::Reply& reply) {
-    const auto name = ParseSlotName(message.slot);
-    if (!name) return false;
-    const bool known = core_.motion->tables().expressions.contains(name->expression);
-    if (!known && core_.slots.Has(message.slot)) return false;  // FaceExp.onset and its like
-    if (message.command == vm::Command::kDef && message.relation == vm::Relation::kAssign) {
-      const auto done = Define(*name, message.value);
-      done ? reply.Ok(*done) : reply.Fail(done.error());
-      return true;
-    }
-    if (message.command != vm::Command::kDel) return false;
-    if (!known) {
-      reply.Fail({vm::Errc::kUnknownSlot, "there is no expression '" + name->expression + "'", 0});
-      return true;
-    }
-    Forget(name->expression);
-    reply.Ok("deleted");
-    return true;
-  });
+  core_.slots.set_definition_hook(
+      [this](const vm::Message& message, vm::PeerId, const vm::Reply& reply) {
+        const auto name = ParseSlotName(message.slot);
+        if (!name) return false;
+        const bool known = core_.motion->tables().expressions.contains(name->expression);
+        if (!known && core_.slots.Has(message.slot)) return false;  // FaceExp.onset and its like
+        const bool defines =
+            message.command == vm::Command::kDef && message.relation == vm::Relation::kAssign;
+        if (!defines && message.command != vm::Command::kDel) return false;
+        const auto done = defines ? Define(*name, message.value) : Forget(name->expression);
+        core_.changed();
+        done ? reply.Ok(*done) : reply.Fail(done.error());
+        return true;
+      });
 }
 
 void ExpressionSlots::Reset() {
@@ -89,8 +83,8 @@ std::optional<std::string> ExpressionSlots::LookOf(const Name& name) const {
 vm::Result<std::string> ExpressionSlots::Define(const Name& name, const std::string& look) {
   const std::string slot = SlotOf(name);
   const bool known = core_.slots.Has(slot);
-  if (!known && own_.size() >= kMostOwnSlots) {
-    return vm::Fail(vm::Errc::kLimit, "more than " + std::to_string(kMostOwnSlots) +
+  if (!known && own_.size() >= kMaxOwnSlots) {
+    return vm::Fail(vm::Errc::kLimit, "more than " + std::to_string(kMaxOwnSlots) +
                                           " patterns of expressions were defined");
   }
   if (auto done = core_.motion->expression.Define(name.expression, name.pattern, look); !done) {
@@ -102,11 +96,13 @@ vm::Result<std::string> ExpressionSlots::Define(const Name& name, const std::str
   }
   const std::string written = LookOf(name).value_or("");
   core_.slots.Report(slot, written);
-  core_.changed();
   return written;
 }
 
-void ExpressionSlots::Forget(const std::string& expression) {
+vm::Result<std::string> ExpressionSlots::Forget(const std::string& expression) {
+  if (!core_.motion->tables().expressions.contains(expression)) {
+    return vm::Fail(vm::Errc::kUnknownSlot, "there is no expression '" + expression + "'");
+  }
   core_.motion->expression.Forget(expression);
   for (Name name{expression, 1}; core_.slots.Has(SlotOf(name)); ++name.pattern) {
     const std::string slot = SlotOf(name);
@@ -117,7 +113,7 @@ void ExpressionSlots::Forget(const std::string& expression) {
       std::erase(own_, slot);
     }
   }
-  core_.changed();
+  return "deleted";
 }
 
 }  // namespace fsm

@@ -8,12 +8,9 @@ namespace {
 constexpr SlotWord<Onset> kOnsets[] = {
     {"POSED", Onset::kPosed}, {"ELICITED", Onset::kElicited}, {"NATURAL", Onset::kPosed}};
 
-/// Converts the value of a slot to angles: z+ leans to the viewer's right here, to the left in the
-/// original.
 Angles AnglesOf(const FsmCore& core, const vm::SetValue& value) {
-  const double z = core.original ? -value.number(2) : value.number(2);
   return {static_cast<float>(value.number(0)), static_cast<float>(value.number(1)),
-          static_cast<float>(z)};
+          core.conventions.tilt * static_cast<float>(value.number(2))};
 }
 
 // Returns 12 for "Face.12".
@@ -35,11 +32,11 @@ vm::Result<void> SetBlendShapes(FsmCore& core, const vm::SetValue& value) {
 }
 
 void DeclareUnits(FsmCore& core) {
-  const UnitList& list = core.motion->tables().units;
-  for (std::size_t i = 0; i < list.units.size(); ++i) {
-    const std::string what = list.units[i] > 0 ? "action unit " + std::to_string(list.units[i])
-                                               : "expression " + list.emotions[i];
-    core.slots.Declare({.name = "Face." + std::to_string(i + 1),
+  int position = 0;
+  for (const auto& [unit, emotion] : core.motion->tables().unit_list.face_slots) {
+    const std::string what =
+        unit > 0 ? "action unit " + std::to_string(unit) : "expression " + emotion;
+    core.slots.Declare({.name = "Face." + std::to_string(++position),
                         .grammar = "<number>",
                         .initial = "0",
                         .help = "Strength of " + what + " in per cent, 0 to 200.",
@@ -68,7 +65,7 @@ void DeclareUnits(FsmCore& core) {
                "51-58 "
                "move the head, 61-66 the eyes. `12L 0.7 6 C 200`",
        .on_set = core.Command([&core](const vm::SetValue& value) {
-         return core.motion->units.Set(core.Now(), value.text);
+         return core.motion->action_units.Set(core.Now(), value.text);
        })});
   core.slots.Declare(
       {.name = "ARKit",

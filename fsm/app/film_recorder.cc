@@ -6,7 +6,7 @@
 
 namespace fsm {
 namespace {
-constexpr long kMostRepeatsAtOnce = 4;
+constexpr long kMaxRepeatsAtOnce = 4;
 }
 
 FilmRecorder::FilmRecorder(vm::Scheduler& clock, FaceView& view, const MediaFiles& files, Draw draw,
@@ -42,7 +42,7 @@ void FilmRecorder::Arm() {
 void FilmRecorder::Tick() {
   // With a slow encoder the module must still handle its input, so the remaining frames follow
   // after that.
-  if (auto added = AddUpTo(clock_.Now(), kMostRepeatsAtOnce); !added) {
+  if (auto added = AddUpTo(clock_.Now(), kMaxRepeatsAtOnce); !added) {
     queue_.Clear();
     writer_.reset();
     on_failure_(added.error());

@@ -5,7 +5,7 @@ namespace fsm {
 vm::Result<void> FrameQueue::Add(bool wait) {
   waiting_.push_back({view_.BeginRead(), 1});
   if (!wait) return Flush();
-  return waiting_.size() > kMostWaiting ? PassOnFirst() : vm::Result<void>{};
+  return waiting_.size() > kMaxWaiting ? PassOnFirst() : vm::Result<void>{};
 }
 
 vm::Result<void> FrameQueue::Repeat() {

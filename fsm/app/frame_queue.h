@@ -10,11 +10,11 @@
 namespace fsm {
 
 /// Reads frames of a series back from the graphics card: passes each, in order, to `take` once
-/// kMostWaiting more are drawn, or by Flush. When a frame is passed on depends only on the calls.
+/// kMaxWaiting more are drawn, or by Flush. When a frame is passed on depends only on the calls.
 /// Lifetime: `view` outlives this. Thread: the view's.
 class FrameQueue {
  public:
-  static constexpr std::size_t kMostWaiting = 2;
+  static constexpr std::size_t kMaxWaiting = 2;
 
   /// Receives a frame, which counts `times` times (1 or more). An error ends the series.
   using Take = std::function<vm::Result<void>(const Image& frame, long times)>;

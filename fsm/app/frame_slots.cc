@@ -9,7 +9,7 @@
 
 namespace fsm {
 
-FrameSlots::FrameSlots(FsmCore& core) : core_(core) {
+FrameSlots::FrameSlots(FsmCore& core, const RecordSlots& record) : core_(core), record_(record) {
   core_.slots.Declare({.name = "Frame",
                        .grammar = "<text>",
                        .access = vm::Access::kReadOnly,
@@ -36,6 +36,11 @@ FrameSlots::FrameSlots(FsmCore& core) : core_(core) {
          SendState(core_.Now());
          return {};
        })});
+}
+
+void FrameSlots::ReportShown(vm::Time at) {
+  if (!record_.recording()) Report(shown_++, at);
+  SendState(at);
 }
 
 void FrameSlots::SendState(vm::Time at) {

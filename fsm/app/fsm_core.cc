@@ -2,6 +2,14 @@
 
 namespace fsm {
 
+Conventions Conventions::OfOriginal() {
+  Conventions original{.tilt = -1, .lists_our_backgrounds = false};
+  original.scene.camera.moves_by_half_views = true;
+  original.scene.wire = glm::vec3(1);
+  original.scene.wire_on_black = true;
+  return original;
+}
+
 vm::Result<void> FsmCore::DrawAt(vm::Time t) {
   const FaceView::StateHistory history{t, [this](vm::Time at) { return motion->StateAt(at); }};
   return view.Draw(motion->StateAt(t), scene, simulates ? &history : nullptr);
@@ -9,15 +17,15 @@ vm::Result<void> FsmCore::DrawAt(vm::Time t) {
 
 vm::Result<void> FsmCore::DrawFrame(long number, vm::Time t) {
   if (auto drawn = DrawAt(t); !drawn) return drawn;
-  for (const auto& part : parts) part->OnFrame(number, t);
+  for (const auto& activity : activities) activity->OnFilmFrame(number, t);
   return {};
 }
 
-void FsmCore::ClampNumbers(vm::SetValue& value, int least, int most) {
+void FsmCore::ClampNumbers(vm::SetValue& value, int min, int max) {
   value.text.clear();
   for (auto& item : value.items) {
-    if (item.number < least || item.number > most) {
-      const int nearest = item.number < least ? least : most;
+    if (item.number < min || item.number > max) {
+      const int nearest = item.number < min ? min : max;
       item.number = nearest;
       item.text = std::to_string(nearest);
     }

@@ -18,10 +18,11 @@
 
 namespace fsm {
 
-/// A part of the module with a state of its own. It is told what concerns it.
-class ModulePart {
+/// What the module does by itself after commands, with a state of its own. It is told what
+/// concerns it.
+class Activity {
  public:
-  virtual ~ModulePart() = default;
+  virtual ~Activity() = default;
   /// Ends activities such as films. Called for `Run = INIT`, before the motion is replaced, and at
   /// the end of the module.
   virtual void End() {}
@@ -35,30 +36,36 @@ class ModulePart {
   /// Called when the utterance is over, but not by `Run = INIT`.
   virtual void OnSpeechEnd() {}
   /// Called when frame `number` of a film was drawn, which shows the face at `at`.
-  virtual void OnFrame(long /*number*/, vm::Time /*at*/) {}
+  virtual void OnFilmFrame(long /*number*/, vm::Time /*at*/) {}
   /// Tells whether it is at work on a command.
   virtual bool Busy() const { return false; }
 };
 
-/// The state that the parts of the face module share. Slots are declared by slots.Declare; Command,
-/// Clamped and Setting make their on_set.
-/// Lifetime: owned by FsmModule, outlives the parts.
+/// What differs for clients of the original, whose configuration was given; the default is ours.
+struct Conventions {
+  float tilt = 1;                     ///< times z+ of an angle leans to the viewer's right
+  Scene scene{};                      ///< at the start and after `Run = INIT`
+  bool lists_our_backgrounds = true;  ///< beside those of a configuration
+  static Conventions OfOriginal();
+};
+
+/// The state that the activities of the face module share. Slots are declared by slots.Declare;
+/// Command, CommandLater, Clamped and Setting make their actions. Lifetime: owned by FsmModule,
+/// outlives the activities.
 struct FsmCore {
   vm::Scheduler& clock;
   FaceView& view;
   Wardrobe& wardrobe;
   MediaFiles files;
   Log log;
-  /// Whether a configuration of the original was given. Positions of the figure are then in halves
-  /// of the view, and z+ leans to the viewer's left, as its clients expect.
-  bool original = false;
+  Conventions conventions{};
   vm::SlotMachine slots{"FSM"};
   std::unique_ptr<FaceMotion> motion{};
   Scene scene{};
   bool simulates = true;  ///< whether springs move
-  /// Called after every command.
+  /// Called after every command, by all that Command and the like below make.
   std::function<void()> changed = [] {};
-  std::vector<std::unique_ptr<ModulePart>> parts{};
+  std::vector<std::unique_ptr<Activity>> activities{};
 
   vm::Time Now() const { return clock.Now(); }
 
@@ -67,32 +74,45 @@ struct FsmCore {
   /// Draws the face at `t` as frame `number` of a film.
   vm::Result<void> DrawFrame(long number, vm::Time t);
 
-  /// Makes a part of this core with the arguments `with`, and returns it.
-  template <typename Part, typename... With>
-  Part& Add(With&&... with) {
-    auto part = std::make_unique<Part>(*this, std::forward<With>(with)...);
-    Part& made = *part;
-    parts.push_back(std::move(part));
+  /// Makes an activity of this core with the arguments `with`, and returns it.
+  template <typename Made, typename... With>
+  Made& Add(With&&... with) {
+    auto activity = std::make_unique<Made>(*this, std::forward<With>(with)...);
+    Made& made = *activity;
+    activities.push_back(std::move(activity));
     return made;
   }
 
   /// SlotSpec::on_set.
   using OnSet = std::function<vm::Result<std::string>(const vm::SetValue&)>;
-  /// Makes an on_set that executes `act(value)` and stores the value unchanged, or returns the
-  /// error of `act`.
+  /// Makes an on_set that executes `act(value)`, which returns what is stored (nothing or
+  /// vm::Result<void>: the value unchanged), or its error.
   template <typename Act>
   OnSet Command(Act act) {
     return [this, act](const vm::SetValue& value) -> vm::Result<std::string> {
-      if (auto done = ResultOf(act, value); !done) return std::unexpected(done.error());
+      auto done = ResultOf(act, value);
       changed();
-      return value.text;
+      if constexpr (std::is_same_v<decltype(done), vm::Result<std::string>>) {
+        return done;
+      } else {
+        if (!done) return std::unexpected(done.error());
+        return value.text;
+      }
     };
   }
-  /// The same, but clamps numbers to least..most first, as the original does.
+  /// Makes an on_set_later: the same, but what `act` returns is answered and not stored.
   template <typename Act>
-  OnSet Clamped(int least, int most, Act act) {
-    return [least, most, command = Command(act)](vm::SetValue value) {
-      ClampNumbers(value, least, most);
+  auto CommandLater(Act act) {
+    return [command = Command(act)](const vm::SetValue& value, const vm::Reply& reply) {
+      const auto done = command(value);
+      done ? reply.Ok(*done) : reply.Fail(done.error());
+    };
+  }
+  /// As Command, but clamps numbers to min..max first, as the original does.
+  template <typename Act>
+  OnSet Clamped(int min, int max, Act act) {
+    return [min, max, command = Command(act)](vm::SetValue value) {
+      ClampNumbers(value, min, max);
       return command(value);
     };
   }
@@ -107,19 +127,27 @@ struct FsmCore {
       return done;
     });
   }
+  /// Makes an action for a timer that concludes a command.
+  template <typename Act>
+  auto Timed(Act act) {
+    return [this, act] {
+      act();
+      changed();
+    };
+  }
 
   vm::Time InstantOf(const vm::StartTime& start) const {
     return vm::Resolve(start, Now(), vm::WallSinceMidnight());
   }
 
  private:
-  static void ClampNumbers(vm::SetValue& value, int least, int most);
-  /// Returns the result of a function that returns vm::Result<void> or void.
+  static void ClampNumbers(vm::SetValue& value, int min, int max);
+  /// Returns the result of a function, which may be none.
   template <typename Function, typename... Arguments>
-  static vm::Result<void> ResultOf(const Function& function, Arguments&&... arguments) {
+  static auto ResultOf(const Function& function, Arguments&&... arguments) {
     if constexpr (std::is_void_v<std::invoke_result_t<const Function&, Arguments...>>) {
       function(arguments...);
-      return {};
+      return vm::Result<void>{};
     } else {
       return function(arguments...);
     }

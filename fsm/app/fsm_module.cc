@@ -1,7 +1,6 @@
 #include "fsm/app/fsm_module.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "fsm/app/background_slots.h"
 #include "fsm/app/capture_slots.h"
@@ -20,7 +19,6 @@
 namespace fsm {
 namespace {
 
-constexpr vm::Time kWindowEvents = std::chrono::milliseconds(200);
 constexpr const char* kModuleVersion = "Module Ver. Galatea FSM " GALATEA_VERSION;
 constexpr const char* kProtocolVersion =
     "Protocol Ver. 2.06";  // the last version of the original, which this protocol includes
@@ -30,12 +28,13 @@ constexpr const char* kProtocolVersion =
 FsmModule::FsmModule(vm::Scheduler& clock, FaceView& view, Wardrobe& wardrobe, MediaFiles files,
                      FsmOptions options)
     : options_(std::move(options)),
-      core_{.clock = clock,
-            .view = view,
-            .wardrobe = wardrobe,
-            .files = std::move(files),
-            .log = options_.log,
-            .original = !options_.config.path.empty()} {
+      core_{
+          .clock = clock,
+          .view = view,
+          .wardrobe = wardrobe,
+          .files = std::move(files),
+          .log = options_.log,
+          .conventions = options_.config.path.empty() ? Conventions{} : Conventions::OfOriginal()} {
   tables_ = vm::OrThrow(MotionTables::Load(options_.tables));
   ApplyConfig(options_.config);
   MakeMotion();
@@ -54,11 +53,11 @@ FsmModule::FsmModule(vm::Scheduler& clock, FaceView& view, Wardrobe& wardrobe, M
   core_.Add<MaskSlots>(options_.mask, options_.config.MaskNames());
   DeclareSceneSlots(core_);
   core_.Add<BackgroundSlots>(options_.config.backgrounds, options_.background);
-  record_ = &core_.Add<RecordSlots>();
-  core_.Add<WindowSlots>(*record_);
+  RecordSlots& record = core_.Add<RecordSlots>();
+  core_.Add<WindowSlots>(record);
   core_.Add<PictureSlots>();
   core_.Add<CaptureSlots>();
-  frames_ = &core_.Add<FrameSlots>();
+  MakeFrameLoop(record, core_.Add<FrameSlots>(record));
   core_.changed = [this] { Changed(); };
   Changed();
 }
@@ -83,17 +82,17 @@ void FsmModule::MakeMotion() {
 void FsmModule::Initialise() {
   core_.slots.Store("Error", "");
   // Films end first, with the face and the sound file from before INIT.
-  for (const auto& part : core_.parts) part->End();
+  for (const auto& activity : core_.activities) activity->End();
   MakeMotion();
   ResetScene(core_);
   core_.slots.StoreInitialValues();
-  for (const auto& part : core_.parts) part->Reset();
+  for (const auto& activity : core_.activities) activity->Reset();
   Changed();
 }
 
 std::vector<vm::Message> FsmModule::Greeting() {
   std::vector<vm::Message> lines = {vm::Rep("Run", "LIVE")};
-  if (core_.original) {  // as the original greets
+  if (!options_.config.path.empty()) {  // as the original greets
     lines.push_back(vm::Tell("detected: -C flag: " + options_.config.path));
   }
   return lines;
@@ -101,91 +100,60 @@ std::vector<vm::Message> FsmModule::Greeting() {
 
 // ---- time
 
+void FsmModule::MakeFrameLoop(const RecordSlots& record, FrameSlots& frames) {
+  const auto wanted = [this, &record, &frames]() -> std::optional<FrameLoop::Wanted> {
+    if (core_.view.window() != nullptr) return FrameLoop::Wanted{frame_rate_, true};
+    if (!frames.wanted()) return std::nullopt;
+    return FrameLoop::Wanted{static_cast<double>(record.frames_per_second())};
+  };
+  frame_loop_.emplace(
+      core_.clock,
+      FrameLoop::Subject{
+          .wanted = wanted,
+          .next_motion =
+              [this](vm::Time t) { return core_.view.Swings() ? t : core_.motion->NextMotion(t); },
+          .rests_at =
+              [this](vm::Time t) {
+                return std::max(core_.motion->FiniteEnd(t), core_.motion->OnsetsSettled(t));
+              },
+          .show =
+              [this, &frames](vm::Time t) {
+                if (!DrawInWindow(t)) return false;
+                frames.ReportShown(t);
+                return true;
+              }});
+}
+
 void FsmModule::Changed() {
-  changed_ = true;
-  for (const auto& part : core_.parts) part->OnChange();
-  ArmFrames();
-  ArmEnd();
+  for (const auto& activity : core_.activities) activity->OnChange();
+  frame_loop_->OnChange();
 }
 
-vm::Time FsmModule::FrameAfter(vm::Time t) const {
-  // Frames outside a film are on a fixed grid of the clock, so that the same input gives the same
-  // reports.
-  const bool shown = core_.view.window() != nullptr;
-  const double rate = shown ? frame_rate_ : record_->frames_per_second();
-  const FrameSeries grid{vm::Time(0), rate};
-  auto k = static_cast<long>(std::floor(static_cast<double>(t.count()) * rate / 1e6));
-  while (grid.TimeOf(k) <= t) ++k;
-  return grid.TimeOf(k);
-}
-
-void FsmModule::ArmFrames() {
-  const bool window = core_.view.window() != nullptr;
-  const bool reported = frames_->is_reported() && !record_->recording();
-  const bool wanted = window || reported || frames_->is_sent();
-  const vm::Time now = core_.Now();
-  std::optional<vm::Time> due;
-  if (wanted) {
-    const auto active = core_.view.Swings() ? now : core_.motion->NextActivity(now);
-    if (active) due = FrameAfter(std::max(now, *active));
-    // The effect of a command is shown in the next frame, even if nothing moves by it, and
-    // commands do not put off a frame that is due already.
-    if (changed_) {
-      due = FrameAfter(now);
-    } else if (window) {
-      due = std::min(due.value_or(vm::Time::max()), now + kWindowEvents);
-    }
-    if (due && frame_timer_.pending()) due = std::min(*due, frame_due_);
+bool FsmModule::DrawInWindow(vm::Time now) {
+  ViewWindow* const window = core_.view.window();
+  if (window == nullptr) return true;
+  if (auto drawn = core_.DrawAt(now); !drawn) {
+    core_.slots.ReportError("", drawn.error());
+    exit_requested_ = true;
+    options_.on_failure();
+    return false;
   }
-  if (!due) return frame_timer_.Cancel();
-  if (frame_timer_.pending() && *due == frame_due_) return;
-  frame_due_ = *due;
-  frame_timer_.At(*due, [this] { OnFrame(); });
-}
-
-void FsmModule::OnFrame() {
-  const vm::Time now = core_.Now();
-  if (ViewWindow* const window = core_.view.window()) {
-    if (auto drawn = core_.DrawAt(now); !drawn) {
-      core_.slots.ReportError("", drawn.error());
-      exit_requested_ = true;
-      options_.on_failure();
-      return;
-    }
-    window->Show();
-    if (window->close_requested()) exit_requested_ = true;
-  }
-  changed_ = false;
-  if (!record_->recording()) frames_->ReportShown(now);
-  frames_->SendState(now);
-  ArmFrames();
-}
-
-vm::Time FsmModule::BusyUntil() const {
-  const vm::Time now = core_.Now();
-  return std::max(core_.motion->FiniteEnd(now), core_.motion->OnsetsSettled(now));
-}
-
-void FsmModule::ArmEnd() {
-  // Set a timer at the end of all movement: it wakes those who wait for that, and the virtual clock
-  // only advances to times of timers.
-  const vm::Time end = BusyUntil();
-  if (end_timer_.pending() && end == end_due_) return;
-  if (end <= core_.Now()) return end_timer_.Cancel();
-  end_due_ = end;
-  end_timer_.At(end, [this] { ArmEnd(); });
+  window->Show();
+  if (window->close_requested()) exit_requested_ = true;
+  return true;
 }
 
 bool FsmModule::Busy() const {
-  return BusyUntil() > core_.Now() ||
-         std::ranges::any_of(core_.parts, [](const auto& part) { return part->Busy(); });
+  return !frame_loop_->AtRest() || std::ranges::any_of(core_.activities, [](const auto& activity) {
+    return activity->Busy();
+  });
 }
 
 void FsmModule::Shutdown() {
   // The runtime runs due timers before it ends. If drawing takes longer than the interval between
   // pictures, a capture would always have another one due.
-  for (const auto& part : core_.parts) part->End();
-  frame_timer_.Cancel();
+  for (const auto& activity : core_.activities) activity->End();
+  frame_loop_->Stop();
 }
 
 }  // namespace fsm

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "fsm/app/frame_loop.h"
 #include "fsm/app/frame_slots.h"
 #include "fsm/app/fsm_core.h"
 #include "fsm/app/record_slots.h"
@@ -12,7 +14,6 @@
 #include "fsm/base/table_folder.h"
 #include "fsm/faces/original_config.h"
 #include "vm_protocol/core/module.h"
-#include "vm_protocol/core/timer.h"
 
 namespace fsm {
 
@@ -51,24 +52,16 @@ class FsmModule final : public vm::Module {
   void MakeMotion();
   void Initialise();  // Run = INIT
   void Changed();
-  void ArmFrames();
-  void ArmEnd();
-  void OnFrame();
-  vm::Time FrameAfter(vm::Time t) const;
-  vm::Time BusyUntil() const;
+  void MakeFrameLoop(const RecordSlots& record, FrameSlots& frames);
+  /// Returns false if drawing fails, which ends the module.
+  bool DrawInWindow(vm::Time now);
 
   FsmOptions options_;
   MotionTables tables_;
   MotionSettings start_settings_;
   FsmCore core_;
-  RecordSlots* record_ = nullptr;  // of core_.parts, as is the next
-  FrameSlots* frames_ = nullptr;
-  double frame_rate_ = 60;
-  vm::Timer frame_timer_{core_.clock};
-  vm::Time frame_due_{0};
-  bool changed_ = false;  // by a command since the window was drawn last
-  vm::Timer end_timer_{core_.clock};
-  vm::Time end_due_{0};
+  double frame_rate_ = 60;               // of a window
+  std::optional<FrameLoop> frame_loop_;  // refers to activities of core_
   bool exit_requested_ = false;
 };
 

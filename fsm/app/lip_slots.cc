@@ -1,7 +1,6 @@
 #include "fsm/app/lip_slots.h"
 
 #include <algorithm>
-#include <fstream>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <tuple>
@@ -9,15 +8,11 @@
 #include "fsm/app/slot_words.h"
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
-#include "vm_protocol/core/file_kind.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
 
-std::optional<VisemeSetId> SetOfCount(std::size_t count) {
-  const auto* const found = std::ranges::find(kVisemeSets, count, CountOf);
-  return found == kVisemeSets.end() ? std::nullopt : std::optional(*found);
-}
 std::string SlotOf(VisemeSetId set, const std::string& viseme) {
   return (set == VisemeSetId::k28 ? "MouthShape28." : "MouthShape.") + viseme;
 }
@@ -152,15 +147,12 @@ vm::Result<void> LoadVisemes(FsmCore& core, const std::string& path) {
 }
 
 vm::Result<void> SaveVisemes(FsmCore& core, VisemeSetId set, const std::string& path) {
-  if (auto fit = vm::CheckWritable(path); !fit) return fit;
-  std::ofstream out(path, std::ios::binary);
-  out << "# Mouth shapes: name, the 17 mouth parameters, seal, tongue, hold (docs/face.md).\n";
+  std::string text =
+      "# Mouth shapes: name, the 17 mouth parameters, seal, tongue, hold (docs/face.md).\n";
   for (const Viseme& viseme : core.motion->visemes(set)) {
-    out << viseme.name << " " << FormatVisemeValues(viseme) << "\n";
+    text += viseme.name + " " + FormatVisemeValues(viseme) + "\n";
   }
-  out.close();
-  if (!out) return vm::Fail(vm::Errc::kUnavailable, "cannot write " + path);
-  return {};
+  return vm::WriteTextFile(path, text);
 }
 
 void DeclareVisemeFiles(FsmCore& core) {

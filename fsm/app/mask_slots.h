@@ -8,7 +8,7 @@
 namespace fsm {
 
 /// The slots that choose the face: MaskSet, NowMask and Mask.
-class MaskSlots final : public ModulePart {
+class MaskSlots final : public Activity {
  public:
   /// `first`: the initial face, "" = the wardrobe's first. `listed`: the names that MaskSet
   /// reports. Names that the wardrobe does not have are left out, and if none remains, all faces

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kValues = 1 + kMouthParameters + 2;
 constexpr std::size_t kHeadValues = 4;
-constexpr double kMostDegrees = 90;
+constexpr double kMaxDegrees = 90;
 
 vm::Result<MouthPose> PoseOf(const vm::SetValue& value) {
   if (value.size() != kValues && value.size() != kValues + kHeadValues) {
@@ -33,7 +33,7 @@ vm::Result<std::optional<StreamHead>> HeadOf(const vm::SetValue& value) {
   StreamHead head;
   for (std::size_t i = 0; i < head.angles.size(); ++i) {
     const double angle = value.number(kValues + i);
-    if (!(std::abs(angle) <= kMostDegrees)) {
+    if (!(std::abs(angle) <= kMaxDegrees)) {
       return vm::Fail(vm::Errc::kBadValue, "an angle of the head is " + value.word(kValues + i) +
                                                ", -90 to 90 degrees expected");
     }
@@ -58,17 +58,16 @@ void DeclareMouthStreamSlots(FsmCore& core) {
        .help =
            "From when on the ms of MouthFrame count: NOW, + ms, @T (ms on the module's clock) or "
            "a wall time. STOP forgets the frames still to come: the mouth closes.",
-       .on_set_later = [&core](const vm::SetValue& value, const vm::Reply& reply) {
+       .on_set_later = core.CommandLater([&core](const vm::SetValue& value) -> vm::Result<void> {
          if (value.word(0) == "STOP") {
            core.motion->mouth_stream.Stop(core.Now());
-           core.changed();
-           return reply.Ok(value.text);
+           return {};
          }
          const auto time = vm::ParseStartTime(value.text);
-         if (!time) return reply.Fail(time.error());
+         if (!time) return std::unexpected(time.error());
          core.motion->mouth_stream.set_start(core.InstantOf(*time));
-         reply.Ok(value.text);
-       }});
+         return {};
+       })});
   core.slots.Declare(
       {.name = "MouthFrame",
        .grammar = "<number>...",
@@ -79,18 +78,14 @@ void DeclareMouthStreamSlots(FsmCore& core) {
            "and if wanted what head and brows do with it: DOWN RIGHT TILT in degrees, BROW 0 to 1. "
            "Between frames up to 200 ms apart the face moves; when none come the mouth closes and "
            "the head goes home.",
-       .on_set_later = [&core](const vm::SetValue& value, const vm::Reply& reply) {
+       .on_set_later = core.CommandLater([&core](const vm::SetValue& value) -> vm::Result<void> {
          const auto pose = PoseOf(value);
-         if (!pose) return reply.Fail(pose.error());
+         if (!pose) return std::unexpected(pose.error());
          const auto head = HeadOf(value);
-         if (!head) return reply.Fail(head.error());
+         if (!head) return std::unexpected(head.error());
          const vm::Time at = core.motion->mouth_stream.start() + FromMs(value.number(0));
-         if (auto added = core.motion->mouth_stream.Add(core.Now(), at, *pose, *head); !added) {
-           return reply.Fail(added.error());
-         }
-         core.changed();
-         reply.Ok(value.text);
-       }});
+         return core.motion->mouth_stream.Add(core.Now(), at, *pose, *head);
+       })});
 }
 
 }  // namespace fsm

@@ -22,7 +22,7 @@ using Where = GlFaceView::Options::Where;
 const std::map<std::string, OffScreen> kOffScreen = {
     {"osmesa", OffScreen::kOsMesa}, {"egl", OffScreen::kEgl}, {"auto", OffScreen::kAny}};
 const std::map<std::string, RigOn> kRigs = {
-    {"best", RigOn::kBest}, {"processor", RigOn::kProcessor}, {"card", RigOn::kCard}};
+    {"best", RigOn::kBest}, {"processor", RigOn::kProcessor}, {"card", RigOn::kGpu}};
 
 bool IsNumber(std::string_view word) {
   if (word.starts_with('-')) word.remove_prefix(1);
@@ -87,12 +87,13 @@ void AddSheet(CLI::App& app, Options& options) {
 
 /// Returns the face of --head. REQUIRES: --head was given.
 NamedFace GivenFace(const Options& options) {
-  std::string name = std::filesystem::path(options.head).stem().string();
+  std::string name = std::filesystem::path(options.head_path).stem().string();
   for (char& c : name) {
     if (!IsFaceName(std::string_view(&c, 1))) c = '_';
   }
-  return {name.empty() ? "head" : name, [file = options.head, tables = options.module.tables,
-                                         cache = HeadCache(options.cache, options.module.log)] {
+  return {name.empty() ? "head" : name,
+          [file = options.head_path, tables = options.module.tables,
+           cache = HeadCache(options.cache_folder, options.module.log)] {
             return cache.HeadOfFile(file, tables);
           }};
 }
@@ -102,9 +103,9 @@ void FindFaces(Options& options) {
   auto [faces, left_out] = OriginalFaces(config.masks, config.shared, options.module.tables);
   for (const std::string& what : left_out) options.module.log("notice: " + what);
   options.faces = std::move(faces);
-  if (options.head.empty()) return;
-  if (!std::filesystem::is_regular_file(options.head)) {
-    throw std::runtime_error("--head: there is no file '" + options.head + "'");
+  if (options.head_path.empty()) return;
+  if (!std::filesystem::is_regular_file(options.head_path)) {
+    throw std::runtime_error("--head: there is no file '" + options.head_path + "'");
   }
   options.faces.insert(options.faces.begin(), GivenFace(options));
 }
@@ -116,9 +117,9 @@ void ChooseSize(Options& options) {
   view.height = config.height.value_or(view.height);
   if (options.size_pair) std::tie(view.width, view.height) = *options.size_pair;
   char end = '\0';
-  if (!options.size.empty() &&
-      std::sscanf(options.size.c_str(), "%dx%d%c", &view.width, &view.height, &end) != 2) {
-    throw std::runtime_error("--size " + options.size + " is not WIDTHxHEIGHT, as 640x480");
+  if (!options.size_text.empty() &&
+      std::sscanf(options.size_text.c_str(), "%dx%d%c", &view.width, &view.height, &end) != 2) {
+    throw std::runtime_error("--size " + options.size_text + " is not WIDTHxHEIGHT, as 640x480");
   }
   const auto fits = [](int side) { return side >= 16 && side <= kMaxImageSide; };
   if (!fits(view.width) || !fits(view.height)) {
@@ -144,7 +145,7 @@ std::vector<char*> NamePositionOption(int argc, char** argv) {
 void AddOptions(CLI::App& app, Options& options) {
   TellRenderer(app, options);
   AddDrawing(app, options.view);
-  app.add_option("--size", options.size, "Size of the view, WxH (default 640x480)");
+  app.add_option("--size", options.size_text, "Size of the view, WxH (default 640x480)");
   app.add_option_function<std::pair<int, int>>(
          "-s", [&options](const auto& size) { options.size_pair = size; },
          "The same, as the original: -s W H")
@@ -153,15 +154,15 @@ void AddOptions(CLI::App& app, Options& options) {
          "--position", [&options](const auto& place) { options.view.position = place; },
          "Place of the window; -p X Y, too")
       ->type_name("X Y");
-  app.add_option("-C", options.config, "A configuration file of the original (config.txt)");
+  app.add_option("-C", options.config_path, "A configuration file of the original (config.txt)");
   app.add_option_function<std::string>(
       "--tables", [&options](const std::string& path) { options.module.tables = path; },
       "A folder of tables (mouth_shapes.txt, emotions.txt, ...) in place of the built-in");
   app.add_option("--mask", options.module.mask, "The face worn at the start (default galatea)");
-  app.add_option("--head", options.head,
+  app.add_option("--head", options.head_path,
                  "A head from elsewhere, .obj, .glb, .gltf or .vrm, worn at the start");
   app.add_option(
-         "--cache", options.cache,
+         "--cache", options.cache_folder,
          "A folder that keeps the heads of files once they are baked, so that they start at "
          "once the next time")
       ->envname("GALATEA_HEAD_CACHE");
@@ -184,8 +185,8 @@ void ResolveOptions(Options& options) {
   for (const std::string& notice : vm::OrThrow(CheckTables(tables))) {
     options.module.log("notice: " + notice);
   }
-  if (!options.config.empty()) {
-    options.module.config = vm::OrThrow(OriginalConfig::Read(options.config));
+  if (!options.config_path.empty()) {
+    options.module.config = vm::OrThrow(OriginalConfig::Read(options.config_path));
     options.module.config.expressions =
         LooksOfExpressions(options.module.config.shared, options.module.log);
   }

@@ -28,7 +28,7 @@ struct Options {
   bool labels = true;  ///< whether the sheet has labels
 
   // The input of ResolveOptions.
-  std::string config, head, cache, size;
+  std::string config_path, head_path, cache_folder, size_text;
   std::optional<std::pair<int, int>> size_pair;
 };
 

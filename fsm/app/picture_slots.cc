@@ -10,7 +10,7 @@ PictureSlots::PictureSlots(FsmCore& core)
           core.clock, core.view, [this](vm::Time at) { return core_.DrawAt(at); },
           [this](vm::Time from, vm::Time to) {
             return core_.view.Swings() ||
-                   core_.motion->NextActivity(from).value_or(to + vm::Time(1)) <= to;
+                   core_.motion->NextMotion(from).value_or(to + vm::Time(1)) <= to;
           },
           [this](const vm::Error& error) { core_.slots.ReportError("Picture.to", error); }) {
   core_.slots.Declare(

@@ -42,7 +42,7 @@ RecordSlots::RecordSlots(FsmCore& core)
                ".mkv, which loses nothing; or "
                ".rgba, width * height * 4 bytes a frame, into a file or a named pipe that is being "
                "read. STOP ends it, and answers when it is there.",
-       .on_set = [this](const vm::SetValue& value) { return Set(value.word(0)); },
+       .on_set = core_.Command([this](const vm::SetValue& value) { return Set(value.word(0)); }),
        .saved = false});
 }
 
@@ -51,14 +51,12 @@ vm::Result<std::string> RecordSlots::Set(const std::string& file) {
   if (auto started = film_.Start(file, frames_per_second_); !started) {
     return std::unexpected(started.error());
   }
-  core_.changed();
   return file;
 }
 
 vm::Result<std::string> RecordSlots::Stop() {
   const auto summary = film_.Stop(core_.slots.Value("Record.sound"));
   core_.slots.Store("Record", "STOP");
-  core_.changed();
   if (!summary) return std::unexpected(summary.error());
   core_.log(fmt::format("{}: {} frames, {} of them repeated because drawing was late",
                         summary->path, summary->frames, summary->repeated));

@@ -8,7 +8,7 @@
 namespace fsm {
 
 /// The slot Record and its settings: films of the face.
-class RecordSlots final : public ModulePart {
+class RecordSlots final : public Activity {
  public:
   /// Declares the slots. `core` outlives this.
   explicit RecordSlots(FsmCore& core);

@@ -13,22 +13,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr vm::Time kLongestSettling = 2000ms;  // how far a picture may be ahead
+constexpr vm::Time kMaxSettling = 2000ms;  // how far a picture may be ahead
 
 constexpr SlotWord<ViewMode> kViewModes[] = {
     {"TEXTURE", ViewMode::kTexture},
     {"TEXTURE_WITH_WIREFRAME", ViewMode::kTextureWithWireframe},
     {"WIREFRAME", ViewMode::kWireframe}};
-
-Scene FirstScene(bool original) {
-  Scene scene;
-  scene.camera.moves_by_half_views = original;
-  if (original) {
-    scene.wire = glm::vec3(1);
-    scene.wire_on_black = true;
-  }
-  return scene;
-}
 
 void DeclareView(FsmCore& core) {
   core.slots.Declare({.name = "ViewMode",
@@ -52,14 +42,14 @@ void DeclareCamera(FsmCore& core) {
       {.name = "Camera",
        .grammar =
            "<number 0.2..10> [ <number -500..500> ] [ <number 5..90> ] [ <number -180..180> ]",
-       .initial = "1 0 25 0",
+       .initial = "1 0 14 0",
        .help =
            "Where the viewer stands: distance (1 = head and shoulders fill the view), mm above the "
-           "middle of the portrait (0), field of view in degrees (25; the head stays as large), "
+           "middle of the portrait (0), field of view in degrees (14; the head stays as large), "
            "degrees "
            "round the head to the viewer's right (0).",
        .on_set = core.Command([&core](const vm::SetValue& value) {
-         Camera camera = FirstScene(core.original).camera;
+         Camera camera = core.conventions.scene.camera;
          float* const fields[] = {&camera.distance, &camera.height_mm, &camera.field_degrees,
                                   &camera.angle_degrees};
          for (std::size_t i = 0; i < value.size(); ++i) {
@@ -108,17 +98,15 @@ void DeclareSaveImage(FsmCore& core) {
        .help =
            "Writes a picture of the face, .png, .bmp or .rgb by the name: as it will be when the "
            "changes begun before this command have settled, at most 2 s ahead.",
-       .on_set_later = [&core](const vm::SetValue& value, const vm::Reply& reply) {
+       .on_set_later = core.CommandLater([&core](const vm::SetValue& value) {
          // The state is a function of time, so the face can be drawn at once as it will be after
          // its onsets, unaffected by later commands.
          const vm::Time now = core.Now();
-         const vm::Time at = std::min(core.motion->OnsetsSettled(now), now + kLongestSettling);
+         const vm::Time at = std::min(core.motion->OnsetsSettled(now), now + kMaxSettling);
          auto done = core.DrawAt(at);
          if (done) done = core.files.write_picture(core.view.Read(), value.word(0));
-         core.changed();
-         if (!done) return reply.Fail(done.error());
-         reply.Ok(value.word(0));
-       }});
+         return done;
+       })});
 }
 
 }  // namespace
@@ -135,7 +123,7 @@ void DeclareSceneSlots(FsmCore& core) {
 }
 
 void ResetScene(FsmCore& core) {
-  core.scene = FirstScene(core.original);
+  core.scene = core.conventions.scene;
   core.simulates = true;
 }
 

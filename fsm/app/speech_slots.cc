@@ -30,13 +30,14 @@ SpeechSlots::SpeechSlots(FsmCore& core) : core_(core) {
 }
 
 void SpeechSlots::DeclareListSlots() {
-  core_.slots.Declare({.name = "LipSync.pho",
-                       .grammar = "<text>",
-                       .initial = kEmptyValue,
-                       .help = "The phonemes to speak and their ms: `h 80 a 100`, `h[80] a[100]`. "
-                               "Refused while SPEAKING. non: there are none.",
-                       .on_set = [this](const vm::SetValue& value) { return Prepare(value.text); },
-                       .saved = false});
+  core_.slots.Declare(
+      {.name = "LipSync.pho",
+       .grammar = "<text>",
+       .initial = kEmptyValue,
+       .help = "The phonemes to speak and their ms: `h 80 a 100`, `h[80] a[100]`. "
+               "Refused while SPEAKING. non: there are none.",
+       .on_set = core_.Command([this](const vm::SetValue& value) { return Prepare(value.text); }),
+       .saved = false});
   core_.slots.Declare({.name = "LipSync.dur",
                        .grammar = "<ms>",
                        .access = vm::Access::kReadOnly,
@@ -58,13 +59,11 @@ void SpeechSlots::DeclareListSlots() {
                        .grammar = "<text>",
                        .access = vm::Access::kWriteOnly,
                        .help = "Another name to set LipSync.pho by; `inq` lists its parts.",
-                       .on_set_later =
-                           [this](const vm::SetValue& value, const vm::Reply& reply) {
-                             auto stored = Prepare(value.text);
-                             if (!stored) return reply.Fail(stored.error());
-                             core_.slots.Report("LipSync.pho", *stored);
-                             reply.Ok(*stored);
-                           },
+                       .on_set_later = core_.CommandLater([this](const vm::SetValue& value) {
+                         auto stored = Prepare(value.text);
+                         if (stored) core_.slots.Report("LipSync.pho", *stored);
+                         return stored;
+                       }),
                        .group = {"LipSync.pho", "LipSync.dur"}});
 }
 
@@ -89,10 +88,7 @@ void SpeechSlots::DeclareSpeakSlots() {
        .help = "Starts the mouth: NOW, + ms, @T (ms on the module's clock) or a wall "
                "time; given before the list it is remembered. STOP closes the mouth.",
        .on_set_later =
-           [this](const vm::SetValue& value, const vm::Reply& reply) {
-             if (auto done = Speak(value); !done) return reply.Fail(done.error());
-             reply.Ok(value.text);
-           },
+           core_.CommandLater([this](const vm::SetValue& value) { return Speak(value); }),
        .group = {"Speak.text", "Speak.pho", "Speak.dur", "Speak.utt", "Speak.len", "Speak.stat"},
        .told_with_group = {"Speak.syncoffset"}});
   core_.slots.Declare({.name = "Speak.sync",
@@ -100,14 +96,11 @@ void SpeechSlots::DeclareSpeakSlots() {
                        .access = vm::Access::kWriteOnly,
                        .help = "The voice has played so many ms; the mouth follows without a jump. "
                                "0 is ignored.",
-                       .on_set_later = [this](const vm::SetValue& value, const vm::Reply& reply) {
-                         if (value.number(0) > 0) {
-                           core_.motion->speech.Sync(core_.Now(), value.number(0));
-                           if (state_ == State::kSpeaking) WaitForEnd();
-                           core_.changed();
-                         }
-                         reply.Ok(value.text);
-                       }});
+                       .on_set_later = core_.CommandLater([this](const vm::SetValue& value) {
+                         if (value.number(0) <= 0) return;
+                         core_.motion->speech.Sync(core_.Now(), value.number(0));
+                         if (state_ == State::kSpeaking) WaitForEnd();
+                       })});
 }
 
 void SpeechSlots::DeclareSettings() {
@@ -180,14 +173,12 @@ vm::Result<std::string> SpeechSlots::Prepare(const std::string& text) {
                                             0});
   }
   if (start_asked_) Begin();
-  core_.changed();
   return written;
 }
 
 vm::Result<void> SpeechSlots::Speak(const vm::SetValue& value) {
   if (value.word(0) == "STOP") {
     Stop();
-    core_.changed();
     return {};
   }
   if (state_ == State::kSpeaking) {
@@ -197,41 +188,37 @@ vm::Result<void> SpeechSlots::Speak(const vm::SetValue& value) {
   if (!start) return std::unexpected(start.error());
   start_asked_ = true;
   // NOW means as soon as the phonemes have arrived, however late.
-  start_.reset();
-  if (start->kind != vm::StartTime::Kind::kNow) start_ = core_.InstantOf(*start);
+  asked_start_.reset();
+  if (start->kind != vm::StartTime::Kind::kNow) asked_start_ = core_.InstantOf(*start);
   if (state_ == State::kReady) Begin();
-  core_.changed();
   return {};
 }
 
 void SpeechSlots::Begin() {
   const vm::Time now = core_.Now();
-  const vm::Time start = start_.value_or(now);
-  start_ = start;
+  const vm::Time start = asked_start_.value_or(now);
   core_.motion->speech.Start(now, list_, start, std::exchange(text_, {}));
   core_.slots.Store("LipSync.text", kEmptyValue);
   if (start > now) {
-    timer_.At(start, [this] { TellSpeaking(); });
+    timer_.At(start, core_.Timed([this, start] { TellSpeaking(start); }));
   } else {
-    TellSpeaking();
+    TellSpeaking(start);
   }
 }
 
-void SpeechSlots::TellSpeaking() {
+void SpeechSlots::TellSpeaking(vm::Time start) {
   SetState(State::kSpeaking);
-  for (const auto& part : core_.parts) part->OnSpeechBegin(*start_);
+  for (const auto& activity : core_.activities) activity->OnSpeechBegin(start);
   WaitForEnd();
-  core_.changed();
 }
 
 void SpeechSlots::WaitForEnd() {
   const vm::Time end = core_.motion->speech.End().value_or(core_.Now());
-  timer_.At(end, [this] {
+  timer_.At(end, core_.Timed([this] {
     // Changed settings may have moved the end.
     if (core_.motion->speech.End().value_or(vm::Time(0)) > core_.Now()) return WaitForEnd();
     EndSpeech(list_);
-    core_.changed();
-  });
+  }));
 }
 
 void SpeechSlots::Stop() {
@@ -259,7 +246,7 @@ void SpeechSlots::EndSpeech(vm::PhonemeList spoken) {
   core_.slots.Store("Speak.len", LengthOf(spoken_));
   core_.slots.Store("Speak.utt", spoken_.empty() ? kEmptyValue : vm::FormatPhonemesFace(spoken_));
   SetState(State::kIdle);
-  for (const auto& part : core_.parts) part->OnSpeechEnd();
+  for (const auto& activity : core_.activities) activity->OnSpeechEnd();
 }
 
 void SpeechSlots::Reset() {

@@ -14,8 +14,9 @@ namespace fsm {
 ///     IDLE --LipSync.pho--> PROCESSING --> READY --Speak--> SPEAKING --end or STOP--> IDLE
 ///
 /// `Speak` before LipSync.pho is stored and executed as soon as the phonemes arrive. LipSync.pho
-/// while SPEAKING is an error. The end and STOP always report len, utt and IDLE.
-class SpeechSlots final : public ModulePart {
+/// while SPEAKING is an error. The end and STOP report IDLE; Speak.len and Speak.utt are set then,
+/// and reported with the next LipSync.pho.
+class SpeechSlots final : public Activity {
  public:
   /// Declares the slots. `core` outlives this.
   explicit SpeechSlots(FsmCore& core);
@@ -35,7 +36,7 @@ class SpeechSlots final : public ModulePart {
   vm::Result<std::string> Prepare(const std::string& text);
   vm::Result<void> Speak(const vm::SetValue& value);
   void Begin();
-  void TellSpeaking();
+  void TellSpeaking(vm::Time start);
   void WaitForEnd();
   void Stop();
   void EndSpeech(vm::PhonemeList spoken);
@@ -44,11 +45,11 @@ class SpeechSlots final : public ModulePart {
   FsmCore& core_;
   State state_ = State::kIdle;
   vm::PhonemeList list_;
-  std::string text_;               // of the next utterance, until it starts
-  bool start_asked_ = false;       // by Speak; until the utterance ends
-  std::optional<vm::Time> start_;  // given by Speak; none: as soon as the phonemes arrive
-  vm::PhonemeList spoken_;         // of the previous utterance
-  vm::Timer timer_{core_.clock};   // for the start or the end
+  std::string text_;                     // of the next utterance, until it starts
+  bool start_asked_ = false;             // by Speak; until the utterance ends
+  std::optional<vm::Time> asked_start_;  // none: as soon as the phonemes arrive
+  vm::PhonemeList spoken_;               // of the previous utterance
+  vm::Timer timer_{core_.clock};         // for the start or the end
 };
 
 }  // namespace fsm

@@ -10,19 +10,19 @@ namespace fsm {
 /// The glTF extension with the data of a head that only we need, and its version; no other version
 /// is read.
 inline constexpr const char* kAssetExtension = "GALATEA_head";
-inline constexpr int kAssetVersion = 3;
+inline constexpr int kAssetVersion = 4;
 
 /// These lists name every member of a head's description once; the writer, the reader and the check
 /// of asset files all walk them, so that a new member is one line here. `v` is called as
 /// `v("name", object.member)` in the order of the lists, for a const object or one to be filled.
-/// Names are those of the members. Small structs within HeadTopology and RigData are flattened;
+/// Names are those of the members. Small structs within HeadSurface and RigData are flattened;
 /// their members get the struct's name where their own would be ambiguous.
 
 template <typename T, typename U>
 concept Like = std::same_as<std::remove_const_t<T>, U>;
 
 template <typename V>
-void Members(V& v, Like<HeadTopology::Part> auto& part) {
+void Members(V& v, Like<HeadSurface::Part> auto& part) {
   v("material", part.material);
   v("first_index", part.first_index);
   v("index_count", part.index_count);
@@ -41,12 +41,12 @@ void Members(V& v, Like<ShutLid> auto& lid) {
 }
 
 template <typename V>
-void Members(V& v, Like<SkinHair> auto& hair) {
-  v("root", hair.root);
-  v("middle", hair.middle);
-  v("tip", hair.tip);
-  v("width_mm", hair.width_mm);
-  v("tint", hair.tint);
+void Members(V& v, Like<SkinStroke> auto& stroke) {
+  v("root", stroke.root);
+  v("middle", stroke.middle);
+  v("tip", stroke.tip);
+  v("width_mm", stroke.width_mm);
+  v("tint", stroke.tint);
 }
 
 template <typename V>
@@ -77,7 +77,6 @@ void Members(V& v, Like<EyePicture> auto& picture) {
 
 template <typename V>
 void Members(V& v, Like<EyeGeometry> auto& eye) {
-  v("centre", eye.centre);
   v("ball_radius", eye.ball_radius);
   v("iris_radius", eye.iris_radius);
   v("pupil_radius", eye.pupil_radius);
@@ -86,38 +85,41 @@ void Members(V& v, Like<EyeGeometry> auto& eye) {
 }
 
 template <typename V>
-void Members(V& v, Like<MouthSlit> auto& mouth) {
-  v("seam", mouth.seam);
-  v("corner_right", mouth.corner_right);
-  v("corner_left", mouth.corner_left);
-  v("upper_incisor", mouth.upper_incisor);
-  v("lower_incisor", mouth.lower_incisor);
-  v("upper_root", mouth.upper_root);
+void Members(V& v, Like<Incisors> auto& incisors) {
+  v("upper", incisors.upper);
+  v("lower", incisors.lower);
+  v("upper_root", incisors.upper_root);
 }
 
 template <typename V>
-void Members(V& v, Like<HeadTopology> auto& topology) {
-  v("indices", topology.indices);
-  v("parts", topology.parts);
-  v("albedo", topology.albedo);
-  v("openness", topology.openness);
-  v("opacity", topology.opacity);
-  v("uv", topology.uv);
-  v("skin_hairs", topology.skin_hairs);
-  v("strands", topology.strands);
-  v("image", topology.textures.image);
-  v("pbr_materials", topology.pbr_materials);
-  v("normal_map", topology.textures.normal_map);
-  v("emissive_map", topology.textures.emissive_map);
-  v("texcoord", topology.textures.texcoord);
-  v("texture_weight", topology.textures.weight);
-  v("shut_lids", topology.portrait.shut_lids);
-  v("portrait_light", topology.portrait.light);
-  v("relit", topology.portrait.relit);
-  v("portrait_eyes", topology.portrait.eyes);
-  v("mouth", topology.mouth);
-  v("saturation", topology.portrait.saturation);
-  v("eyes", topology.eyes);
+void Members(V& v, Like<MouthLandmarks> auto& mouth) {
+  v("seam", mouth.seam);
+  v("corners", mouth.corners);
+  v("incisors", mouth.incisors);
+}
+
+template <typename V>
+void Members(V& v, Like<HeadSurface> auto& surface) {
+  v("indices", surface.indices);
+  v("parts", surface.parts);
+  v("albedo", surface.albedo);
+  v("openness", surface.openness);
+  v("opacity", surface.opacity);
+  v("uv", surface.uv);
+  v("skin_strokes", surface.skin_strokes);
+  v("strands", surface.strands);
+  v("image", surface.textures.image);
+  v("pbr_materials", surface.pbr_materials);
+  v("normal_map", surface.textures.normal_map);
+  v("emissive_map", surface.textures.emissive_map);
+  v("texcoord", surface.textures.texcoord);
+  v("texture_weight", surface.textures.weight);
+  v("shut_lids", surface.portrait.shut_lids);
+  v("portrait_light", surface.portrait.light);
+  v("relit", surface.portrait.relit);
+  v("portrait_eyes", surface.portrait.eyes);
+  v("saturation", surface.portrait.saturation);
+  v("eyes", surface.eyes);
 }
 
 template <typename V>
@@ -152,8 +154,8 @@ void Members(V& v, Like<Channel::Driver> auto& driver) {
 template <typename V>
 void Members(V& v, Like<Channel> auto& channel) {
   v("drivers", channel.drivers);
-  v("least", channel.least);
-  v("most", channel.most);
+  v("min", channel.min);
+  v("max", channel.max);
   v("open_factor", channel.open_factor);
   v("sealed_factor", channel.sealed_factor);
   v("moves", channel.moves);
@@ -209,22 +211,20 @@ template <typename V>
 void Members(V& v, Like<LipRig::Follower> auto& follower) {
   v("vertex", follower.vertex);
   v("pair", follower.pair);
-  v("part", follower.part);
+  v("hold", follower.hold);
 }
 
 template <typename V>
 void Members(V& v, Like<LipRig> auto& lips) {
-  v("seam", lips.seam);
   v("apart_at_rest", lips.apart_at_rest);
   v("followers", lips.followers);
-  v("measured", lips.measured);
 }
 
 template <typename V>
-void Members(V& v, Like<BallLids::Vertex> auto& lid) {
+void Members(V& v, Like<BallLid> auto& lid) {
   v("vertex", lid.vertex);
   v("side", lid.side);
-  v("least", lid.least);
+  v("min_radius", lid.min_radius);
 }
 
 template <typename V>
@@ -253,7 +253,7 @@ void Members(V& v, Like<Spring> auto& spring) {
   v("frequency_hz", spring.frequency_hz);
   v("damping", spring.damping);
   v("hang", spring.hang);
-  v("most_mm", spring.most_mm);
+  v("reach_mm", spring.reach_mm);
 }
 
 template <typename V>
@@ -263,7 +263,7 @@ void Members(V& v, Like<SpringWeight> auto& weight) {
   v("weight", weight.weight);
 }
 
-/// Lists all members except `units`, which are stored as the text of their table.
+/// Lists all members except `unit_effects`, which are stored as the text of their table.
 template <typename V>
 void Members(V& v, Like<RigData> auto& rig) {
   v("steps", rig.steps);
@@ -275,19 +275,20 @@ void Members(V& v, Like<RigData> auto& rig) {
   v("weights", rig.weights);
   v("soft_triangles", rig.normals.soft_triangles);
   v("normal_twin", rig.normals.twin);
+  v("mouth", rig.mouth);
   v("asymmetry_seed", rig.asymmetry_seed);
   v("units_by_place", rig.units_by_place);
   v("channels", rig.channels);
   v("lids", rig.lids);
-  v("ball_lids", rig.ball_lids.vertices);
+  v("ball_lids", rig.ball_lids);
   v("lips", rig.lips);
   v("upper_teeth", rig.teeth.upper);
   v("lower_teeth", rig.teeth.lower);
   v("teeth_contacts", rig.teeth.contacts);
   v("jaw_hinge", rig.jaw.hinge);
   v("chin", rig.jaw.chin);
+  v("eye_centre", rig.eyes.centre);
   v("eye_pivot", rig.eyes.pivot);
-  v("ball_centre", rig.ball_lids.centre);
   v("gaze_ranges", rig.eyes.gaze_ranges);
   v("creases", rig.creases.at_rest);
   v("crease_depth", rig.creases.depth);
@@ -303,9 +304,9 @@ void Members(V& v, Like<ParallelView> auto& view) {
 
 /// Types of which a file stores one column for each member, not one object for each element.
 template <typename T>
-concept Tabular = Like<T, SkinHair> || Like<T, ShutLid> || Like<T, Strand> ||
-    Like<T, SkinWeights> || Like<T, Displacement> || Like<T, LidRig::Vertex> ||
-    Like<T, LipRig::Follower> || Like<T, BallLids::Vertex> || Like<T, TeethRig::Contact> ||
-    Like<T, Spring> || Like<T, SpringWeight>;
+concept Tabular =
+    Like<T, SkinStroke> || Like<T, ShutLid> || Like<T, Strand> || Like<T, SkinWeights> ||
+    Like<T, Displacement> || Like<T, LidRig::Vertex> || Like<T, LipRig::Follower> ||
+    Like<T, BallLid> || Like<T, TeethRig::Contact> || Like<T, Spring> || Like<T, SpringWeight>;
 
 }  // namespace fsm

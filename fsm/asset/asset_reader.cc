@@ -31,9 +31,6 @@ constexpr std::size_t kWidth<glm::vec<L, float>> = L;
 /// Reads a file of asset_writer.cc, by the same lists of members.
 class Reader {
  public:
-  [[noreturn]] static void Refuse(const std::string& what) {
-    throw vm::Failure({vm::Errc::kBadValue, what});
-  }
   explicit Reader(const GltfDocument& gltf) : gltf_(gltf) {}
 
   template <typename T>
@@ -55,12 +52,12 @@ class Reader {
   }
 
  private:
-  static std::int64_t Whole(const std::string& place, const json& from, std::int64_t least,
-                            std::int64_t most) {
+  static std::int64_t Whole(const std::string& place, const json& from, std::int64_t min,
+                            std::int64_t max) {
     if (!from.is_number_integer()) Refuse(place + ": a whole number expected");
     const auto value = from.get<std::int64_t>();
-    if (value < least || value > most) {
-      Refuse(fmt::format("{}: {} found, {} to {} expected", place, value, least, most));
+    if (value < min || value > max) {
+      Refuse(fmt::format("{}: {} found, {} to {} expected", place, value, min, max));
     }
     return value;
   }
@@ -74,14 +71,6 @@ class Reader {
       Refuse(fmt::format("{}: a list of {} expected", place, size));
     }
   }
-  /// Returns the value, or refuses without the file's name in the error, as ParseAsset adds it.
-  template <typename T>
-  T OrRefuse(const std::string& place, vm::Result<T> read) const {
-    if (!read)
-      throw vm::Failure({read.error().code, place + read.error().text.substr(gltf_.name().size())});
-    return std::move(*read);
-  }
-
   template <glm::length_t L>
   void ReadObject(const std::string& place, const json& from, glm::vec<L, float>& v) {
     NeedList(place, from, static_cast<std::size_t>(L));
@@ -107,11 +96,11 @@ class Reader {
   }
   void ReadObject(const std::string& place, const json& from, std::shared_ptr<const Image>& image) {
     if (from.is_null()) return;
-    const auto bytes =
-        OrRefuse(place, gltf_.ImageBytes(Whole(place, from, 0, std::numeric_limits<int>::max())));
-    auto decoded = DecodePng(BytesOf(bytes));
-    if (!decoded) throw vm::Failure({decoded.error().code, place + ": " + decoded.error().text});
-    image = std::make_shared<const Image>(std::move(*decoded));
+    const std::int64_t index = Whole(place, from, 0, std::numeric_limits<int>::max());
+    image = AtPlace(place, [&] {
+      return std::make_shared<const Image>(
+          vm::OrThrow(DecodePng(BytesOf(gltf_.ImageBytes(index)))));
+    });
   }
   template <typename T>
   void ReadObject(const std::string& place, const json& from, std::vector<T>& items) {
@@ -153,22 +142,22 @@ class Reader {
 
   /// Returns the numbers of an accessor.
   std::vector<double> Column(const std::string& place, const json& from, int width) const {
-    return OrRefuse(place,
-                    gltf_.Values(Whole(place, from, 0, std::numeric_limits<int>::max()), width));
+    const std::int64_t index = Whole(place, from, 0, std::numeric_limits<int>::max());
+    return AtPlace(place, [&] { return gltf_.Values(index, width); });
   }
   template <typename T>
   static T Narrow(const std::string& place, double number) {
     if constexpr (std::is_floating_point_v<T>) {
       return static_cast<T>(number);
     } else {
-      double least = 0, most = 1;
+      double min = 0, max = 1;
       if constexpr (std::is_enum_v<T>) {
-        most = kValuesOf<T> - 1;
+        max = kValuesOf<T> - 1;
       } else if constexpr (!std::is_same_v<T, bool>) {
-        least = std::numeric_limits<T>::min();
-        most = std::numeric_limits<T>::max();
+        min = std::numeric_limits<T>::min();
+        max = std::numeric_limits<T>::max();
       }
-      if (!(number >= least && number <= most)) {
+      if (!(number >= min && number <= max)) {
         Refuse(fmt::format("{}: {} is out of range", place, number));
       }
       return static_cast<T>(static_cast<std::int64_t>(number));
@@ -215,21 +204,23 @@ class Reader {
 
 HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
   if (JsonInteger(from, "version") != kAssetVersion) {
-    Reader::Refuse(fmt::format("version: {} expected", kAssetVersion));
+    Refuse(fmt::format("version: {} expected", kAssetVersion));
   }
   Reader reader(gltf);
   HeadAsset asset;
-  const auto read = [&](const char* name, auto& part) {
+  const auto read = [&](const char* name, auto& member) {
     const auto found = from.find(name);
-    if (found == from.end()) Reader::Refuse("no member \"" + std::string(name) + "\"");
-    reader.Read(name, *found, part);
+    if (found == from.end()) Refuse("no member \"" + std::string(name) + "\"");
+    reader.Read(name, *found, member);
   };
-  read("topology", asset.topology);
+  read("surface", asset.surface);
   read("rig", asset.rig);
   read("landmarks", asset.landmarks);
   read("view", asset.view);
-  asset.rig.units = UnitTable(Table("rig.units", JsonText(from["rig"], "units")));
-  if (asset.rig.asymmetry_seed) asset.rig.units.MakeAsymmetric(*asset.rig.asymmetry_seed);
+  asset.rig.unit_effects =
+      vm::OrThrow(ReadTable("rig.unit_effects", JsonText(from["rig"], "unit_effects"),
+                            [](const Table& table) { return UnitTable(table); }));
+  if (asset.rig.asymmetry_seed) asset.rig.unit_effects.MakeAsymmetric(*asset.rig.asymmetry_seed);
   vm::OrThrow(CheckAsset(asset));
   return asset;
 }
@@ -241,18 +232,14 @@ bool IsAsset(std::string_view bytes) {
   return bytes.starts_with("glTF") && bytes.find(quoted) != std::string_view::npos;
 }
 
-vm::Result<HeadAsset> ParseAsset(const std::string& name, std::string_view bytes) {
-  const auto gltf = GltfDocument::Parse(name, bytes, nullptr);
-  if (!gltf) return std::unexpected(gltf.error());
-  const json& extension = JsonMember(JsonMember(gltf->root(), "extensions"), kAssetExtension);
-  try {
-    return ReadAsset(*gltf, extension);
-  } catch (const vm::Failure& failure) {
-    return vm::Fail(failure.error.code,
-                    fmt::format("{}: {}: {}", name, kAssetExtension, failure.error.text));
-  } catch (const std::runtime_error& error) {  // TableError from the units
-    return gltf->Fail(std::string(kAssetExtension) + ": " + error.what());
-  }
+vm::Result<HeadAsset> ParseAsset(const std::string& name, std::string_view bytes) try {
+  return AtPlace(name, [&] {
+    const GltfDocument gltf(bytes);
+    const json& extension = JsonMember(JsonMember(gltf.root(), "extensions"), kAssetExtension);
+    return AtPlace(kAssetExtension, [&] { return ReadAsset(gltf, extension); });
+  });
+} catch (const vm::Failure& failure) {
+  return std::unexpected(failure.error);
 }
 
 }  // namespace fsm

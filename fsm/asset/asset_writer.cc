@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 constexpr float kMetres = 0.001F;
-constexpr float kLeastMm = 0.01F;  ///< a morph target leaves out smaller displacements
+constexpr float kMinMm = 0.01F;  ///< a morph target leaves out smaller displacements
 
 template <typename T>
 constexpr GltfType TypeOf() {
@@ -177,15 +177,15 @@ class Writer {
 class ForeignView {
  public:
   ForeignView(GltfBuilder& gltf, const Head& head, const json& extension)
-      : gltf_(gltf), head_(head), topology_(head.topology()), extension_(extension) {}
+      : gltf_(gltf), head_(head), surface_(head.surface()), extension_(extension) {}
 
   void Write(std::span<const ExportedShape> shapes) {
-    const json &rig = extension_["rig"], &topology = extension_["topology"];
+    const json &rig = extension_["rig"], &surface = extension_["surface"];
     position_ = rig["rest"];
     MarkBounds(head_.rig().data().rest, gltf_.document["accessors"][position_]);
     normal_ = rig["rest_normal"];
-    colour_ = topology["albedo"];
-    if (topology_.textures.image) WriteTexture(topology["image"]);
+    colour_ = surface["albedo"];
+    if (surface_.textures.image) WriteTexture(surface["image"]);
     json names = json::array(), targets = json::array();
     HeadVertices rest, moved;
     head_.Evaluate({}, rest);
@@ -196,10 +196,10 @@ class ForeignView {
     }
     json& document = gltf_.document;
     json primitives = json::array();
-    for (const HeadTopology::Part& part : topology_.parts) {
+    for (const HeadSurface::Part& part : surface_.parts) {
       // Programs that cannot fade in the lashes of shut lids must not show them.
       if (part.material == Material::kShutLash || part.index_count == 0) continue;
-      primitives.push_back(Primitive(part, topology["indices"]));
+      primitives.push_back(Primitive(part, surface["indices"]));
       if (!targets.empty()) primitives.back()["targets"] = targets;
     }
     json& mesh = document["meshes"][0];
@@ -223,30 +223,30 @@ class ForeignView {
   }
 
   void WriteTexture(const json& image) {
-    const std::span<const glm::vec2> places(topology_.textures.texcoord);
+    const std::span<const glm::vec2> places(surface_.textures.texcoord);
     texcoord_ = gltf_.AddAccessor(gltf_.AddView(places), places.size(), 2, GltfType::kFloat);
     gltf_.document["textures"] = json::array({{{"source", image}}});
   }
 
   /// Tells whether most vertices of a part show the photo.
-  bool ShowsPhoto(const HeadTopology::Part& part) const {
-    if (!topology_.textures.image) return false;
-    const auto shown = std::ranges::count_if(topology_.Corners(part), [this](std::uint32_t vertex) {
-      return topology_.textures.weight[vertex] > 0.5F;
+  bool ShowsPhoto(const HeadSurface::Part& part) const {
+    if (!surface_.textures.image) return false;
+    const auto shown = std::ranges::count_if(surface_.Corners(part), [this](std::uint32_t vertex) {
+      return surface_.textures.weight[vertex] > 0.5F;
     });
     return 2 * shown > part.index_count;
   }
 
-  json Primitive(const HeadTopology::Part& part, const json& indices) {
+  json Primitive(const HeadSurface::Part& part, const json& indices) {
     const json& all = gltf_.document["accessors"][indices.get<std::size_t>()];
     const std::size_t triangles =
         gltf_.AddAccessor(all["bufferView"], part.index_count, 1, GltfType::kUint32,
                           sizeof(std::uint32_t) * part.first_index);
     const bool photo = ShowsPhoto(part);
+    // Other programs do not know that hair has a lining.
     json material = {{"name", MaterialName(part.material)},
-                     {"doubleSided", part.two_sided || IsHair(part.material) ||
-                                         part.material == Material::kMouthInside ||
-                                         part.material == Material::kMatte},
+                     {"doubleSided", part.two_sided || HasTwoSides(part.material) ||
+                                         part.material == Material::kHair},
                      {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.7}}}};
     json attributes = {{"POSITION", position_}, {"NORMAL", normal_}};
     if (photo) {
@@ -267,7 +267,7 @@ class ForeignView {
     std::vector<glm::vec3> by;
     for (std::uint32_t i = 0; i < rest.position.size(); ++i) {
       const glm::vec3 d = moved.position[i] - rest.position[i];
-      if (glm::length(d) < kLeastMm) continue;
+      if (glm::length(d) < kMinMm) continue;
       which.push_back(i);
       by.push_back(d);
     }
@@ -293,7 +293,7 @@ class ForeignView {
 
   GltfBuilder& gltf_;
   const Head& head_;
-  const HeadTopology& topology_;
+  const HeadSurface& surface_;
   const json& extension_;
   std::size_t position_ = 0, normal_ = 0, colour_ = 0, texcoord_ = 0;
 };
@@ -304,9 +304,9 @@ std::string WriteAsset(const Head& head, std::span<const ExportedShape> shapes) 
   GltfBuilder gltf;
   Writer writer(gltf);
   json extension = {{"version", kAssetVersion}};
-  extension["topology"] = writer.Write(head.topology());
+  extension["surface"] = writer.Write(head.surface());
   extension["rig"] = writer.Write(head.rig().data());
-  extension["rig"]["units"] = head.rig().data().units.Text();
+  extension["rig"]["unit_effects"] = head.rig().data().unit_effects.Text();
   extension["landmarks"] = writer.Write(head.landmarks());
   extension["view"] = writer.Write(head.view());
   ForeignView(gltf, head, extension).Write(shapes);

@@ -11,37 +11,30 @@
 namespace fsm {
 namespace {
 
-void CheckTopology(const HeadTopology& topology, const VertexChecker& checker) {
-  checker.Triangles(topology.indices, "topology.indices");
-  for (std::size_t i = 0; i < topology.parts.size(); ++i) {
-    const HeadTopology::Part& part = topology.parts[i];
-    const std::string place = checker.Element("topology.parts", i);
-    if (part.index_count % 3 != 0 || part.first_index > topology.indices.size() ||
-        part.index_count > topology.indices.size() - part.first_index) {
+void CheckSurface(const HeadSurface& surface, const VertexChecker& checker) {
+  checker.Triangles(surface.indices, "surface.indices");
+  for (std::size_t i = 0; i < surface.parts.size(); ++i) {
+    const HeadSurface::Part& part = surface.parts[i];
+    const std::string place = checker.Element("surface.parts", i);
+    if (part.index_count % 3 != 0 || part.first_index > surface.indices.size() ||
+        part.index_count > surface.indices.size() - part.first_index) {
       checker.Refuse(place + ": its triangles are not among the indices");
     }
-    if (part.pbr < -1 || part.pbr >= static_cast<int>(topology.pbr_materials.size())) {
+    if (part.pbr < -1 || part.pbr >= static_cast<int>(surface.pbr_materials.size())) {
       checker.Refuse(
-          fmt::format("{}: PBR material {} of {}", place, part.pbr, topology.pbr_materials.size()));
+          fmt::format("{}: PBR material {} of {}", place, part.pbr, surface.pbr_materials.size()));
     }
   }
-  checker.PerVertex(topology.albedo.size(), "topology.albedo");
-  checker.PerVertex(topology.openness.size(), "topology.openness");
-  checker.PerVertex(topology.opacity.size(), "topology.opacity", true);
-  checker.PerVertex(topology.uv.size(), "topology.uv", true);
-  checker.PerVertex(topology.strands.size(), "topology.strands", true);
-  checker.PerVertex(topology.textures.texcoord.size(), "topology.texcoord",
-                    !topology.textures.image);
-  checker.PerVertex(topology.textures.weight.size(), "topology.texture_weight",
-                    !topology.textures.image);
-  checker.VerticesOf(topology.portrait.shut_lids, "topology.shut_lids");
-  checker.PerVertex(topology.portrait.relit.size(), "topology.relit", true);
-  const MouthSlit& mouth = topology.mouth;
-  checker.Pairs(mouth.seam, "topology.mouth.seam");
-  for (const auto vertex : {mouth.corner_right, mouth.corner_left, mouth.upper_incisor,
-                            mouth.lower_incisor, mouth.upper_root}) {
-    checker.Vertex(vertex, "topology.mouth");
-  }
+  checker.PerVertex(surface.albedo.size(), "surface.albedo");
+  checker.PerVertex(surface.openness.size(), "surface.openness");
+  checker.PerVertex(surface.opacity.size(), "surface.opacity", true);
+  checker.PerVertex(surface.uv.size(), "surface.uv", true);
+  checker.PerVertex(surface.strands.size(), "surface.strands", true);
+  checker.PerVertex(surface.textures.texcoord.size(), "surface.texcoord", !surface.textures.image);
+  checker.PerVertex(surface.textures.weight.size(), "surface.texture_weight",
+                    !surface.textures.image);
+  checker.VerticesOf(surface.portrait.shut_lids, "surface.shut_lids");
+  checker.PerVertex(surface.portrait.relit.size(), "surface.relit", true);
 }
 
 }  // namespace
@@ -50,7 +43,7 @@ vm::Result<void> CheckAsset(const HeadAsset& asset) {
   try {
     const VertexChecker checker(asset.rig.rest.size());
     if (checker.vertices() == 0) checker.Refuse("rig.rest: no vertices");
-    CheckTopology(asset.topology, checker);
+    CheckSurface(asset.surface, checker);
     CheckRig(asset.rig);
     if (asset.view) checker.Positive(asset.view->half_mm, "view.half_mm");
   } catch (const vm::Failure& failure) {

@@ -44,10 +44,10 @@ class MemorySum {
 class Description {
  public:
   explicit Description(const Head& head)
-      : head_(head), topology_(head.topology()), rig_(head.rig().data()) {}
+      : head_(head), surface_(head.surface()), rig_(head.rig().data()) {}
 
   std::string Text() {
-    Line("mesh", "{} vertices, {} triangles", rig_.rest.size(), topology_.indices.size() / 3);
+    Line("mesh", "{} vertices, {} triangles", rig_.rest.size(), surface_.indices.size() / 3);
     Parts();
     Pictures();
     Bones();
@@ -56,7 +56,7 @@ class Description {
     Steps();
     DescribeLandmarks();
     MemorySum sum;
-    Members(sum, topology_);
+    Members(sum, surface_);
     Members(sum, rig_);
     Line("memory", "{} KiB", sum.bytes / 1024);
     return std::move(text_);
@@ -70,21 +70,21 @@ class Description {
 
   void Parts() {
     std::map<Material, std::size_t> triangles;
-    for (const auto& part : topology_.parts) triangles[part.material] += part.index_count / 3;
+    for (const auto& part : surface_.parts) triangles[part.material] += part.index_count / 3;
     for (const auto& [material, count] : triangles)
       Line("part", "{}, {} triangles", MaterialName(material), count);
   }
 
   void Pictures() {
     const std::pair<const char*, const std::shared_ptr<const Image>&> pictures[] = {
-        {"photo, sRGB", topology_.textures.image},
-        {"normal_map, linear", topology_.textures.normal_map},
-        {"emissive_map, sRGB", topology_.textures.emissive_map}};
+        {"photo, sRGB", surface_.textures.image},
+        {"normal_map, linear", surface_.textures.normal_map},
+        {"emissive_map, sRGB", surface_.textures.emissive_map}};
     for (const auto& [name, image] : pictures) {
       if (image) Line("texture", "{}, {} x {}", name, image->width, image->height);
     }
-    if (!topology_.pbr_materials.empty())
-      Line("materials", "{} of its own", topology_.pbr_materials.size());
+    if (!surface_.pbr_materials.empty())
+      Line("materials", "{} of its own", surface_.pbr_materials.size());
   }
 
   void Bones() {
@@ -144,7 +144,7 @@ class Description {
   }
 
   const Head& head_;
-  const HeadTopology& topology_;
+  const HeadSurface& surface_;
   const RigData& rig_;
   std::string text_;
 };

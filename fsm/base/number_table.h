@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <map>
 #include <span>
@@ -11,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/base/smooth_step.h"
+#include "fsm/base/range.h"
 #include "fsm/base/table_reader.h"
 
 namespace fsm {
@@ -20,6 +19,10 @@ namespace fsm {
 /// many numbers as the built-in table of that kind has for it; each name occurs once, and rows that
 /// are left out are built in. LOW..HIGH at the end of a built-in row are the limits of its numbers,
 /// for rows that replace it, too (whose own limits are ignored); without it they are -1000..1000.
+/// A word between the two numbers of a built-in row says what they are: "12 to 24" is a Range,
+/// "0.4 up_to 0.9" one whose first number must not exceed the second, "1.8 plus 2.9" a Line; two
+/// numbers without such a word are a place or size, x y. Rows that replace it need not repeat the
+/// word, but may not have another one.
 /// Code does not look names up: galatea_numbers (cmake/Embed.cmake) turns rows into members of a
 /// struct that Get fills. Constant after construction; thread: any.
 class NumberTable {
@@ -27,7 +30,8 @@ class NumberTable {
   NumberTable() = default;  ///< a table without names
   /// Reads a table that overrides rows of `built_in`, or a built-in table itself if that is null.
   /// Throws std::runtime_error naming file and line if a name is repeated or unknown, or if a row
-  /// has another count of numbers than the built-in one or a number beyond its limits.
+  /// has another count of numbers than the built-in one, a number beyond its limits, another word
+  /// between its numbers, or a range that descends where it may not.
   NumberTable(const std::string& file, std::string_view text,
               const NumberTable* built_in = nullptr);
 
@@ -38,6 +42,8 @@ class NumberTable {
   void Get(std::string_view name, glm::vec<N, float>& out) const {
     Copy(name, {&out[0], N});
   }
+  void Get(std::string_view name, Range& out) const { out = {(*this)[name][0], (*this)[name][1]}; }
+  void Get(std::string_view name, Line& out) const { out = {(*this)[name][0], (*this)[name][1]}; }
   template <std::size_t N>
   void Get(std::string_view name, std::array<float, N>& out) const {
     Copy(name, out);
@@ -54,7 +60,8 @@ class NumberTable {
 
   std::vector<TableRow> rows_;
   std::vector<std::vector<float>> numbers_;                 // by row
-  std::vector<glm::vec2> limits_;                           // by row: lowest and highest number
+  std::vector<std::string> marks_;                          // by row: the word between two numbers
+  std::vector<Range> limits_;                               // by row: least and greatest number
   std::map<std::string, std::size_t, std::less<>> places_;  // row index by name
 };
 
@@ -63,13 +70,5 @@ template <glm::length_t N>
 std::span<const float> ListOf(const glm::vec<N, float>& row) {
   return {&row[0], N};
 }
-
-// The functions below read a row of two numbers as a range or as the coefficients of a line.
-/// Interpolates from the first number to the second; `part` is usually 0..1.
-inline float Lerp(glm::vec2 row, float part) { return glm::mix(row.x, row.y, part); }
-/// Returns first + second * x.
-inline float Linear(glm::vec2 row, float x) { return row.x + row.y * x; }
-/// Runs SmoothStep with the first number as lower and the second as upper edge.
-inline float SmoothStep(glm::vec2 row, float x) { return SmoothStep(row.x, row.y, x); }
 
 }  // namespace fsm

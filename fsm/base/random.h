@@ -35,7 +35,8 @@ inline float Chance(std::uint64_t series, std::uint64_t i) {
   return static_cast<float>(Scramble(series << 40 ^ i) >> 40) * 0x1p-24F;
 }
 
-/// Returns the noise at the lattice point (i, j), in -1..1.
+/// Returns the noise at the lattice point (i, j), in -1..1. It has a hash of its own only because
+/// the pictures of all heads depend on it.
 inline float NoiseAt(int i, int j) {
   std::uint32_t h =
       static_cast<std::uint32_t>(i) * 0x9E3779B1u ^ static_cast<std::uint32_t>(j) * 0x85EBCA77u;

@@ -13,6 +13,7 @@ T SmoothStep(std::type_identity_t<T> from, std::type_identity_t<T> to, T x) {
   const T t = std::clamp<T>((x - from) / (to - from), 0, 1);
   return t * t * (3 - 2 * t);
 }
+inline double SmoothStep(double u) { return SmoothStep(0, 1, u); }
 
 /// About exp(-(x / width)^2), cut to 0 from two widths on. A width of 0 or less gives 0.
 inline float Bell(float x, float width) {

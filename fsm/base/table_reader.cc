@@ -22,6 +22,8 @@ std::string Shown(const std::string& text) {
   return Printable(std::move(shown));  // shortening may have cut a character of several bytes
 }
 
+bool IsLetter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+
 }  // namespace
 
 std::string Printable(std::string text) {
@@ -32,15 +34,21 @@ std::string Printable(std::string text) {
   return text;
 }
 
+bool IsPlainName(std::string_view name) {
+  return !name.empty() && name.size() <= kMaxNameBytes && std::ranges::all_of(name, [](char c) {
+    return IsLetter(c) || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
 TableError::TableError(const std::string& place, const std::string& text)
     : std::runtime_error(place + ": " + Shown(text)) {}
 
-void TableRow::Fail(const std::string& what) const { throw TableError(place_, what); }
+void TableRow::Refuse(const std::string& what) const { throw TableError(place_, what); }
 
 const std::string& TableRow::Word(std::size_t index) const {
   if (index >= words_.size()) {
-    Fail(fmt::format("'{}' needs at least {} values after it, found {}", key(), index,
-                     words_.size() - 1));
+    Refuse(fmt::format("'{}' needs at least {} values after it, found {}", key(), index,
+                       words_.size() - 1));
   }
   return words_[index];
 }
@@ -48,33 +56,33 @@ const std::string& TableRow::Word(std::size_t index) const {
 float TableRow::Number(std::size_t index) const {
   const std::string& word = Word(index);
   const auto value = ParseNumber<float>(word);
-  if (!value) Fail("'" + word + "' found where a number was expected");
+  if (!value) Refuse("'" + word + "' found where a number was expected");
   return *value;
 }
 
-double TableRow::Number(std::size_t index, std::string_view what, double low, double high) const {
-  if (index >= words_.size()) Fail(fmt::format("the line ends where {} is expected", what));
-  const auto number = ParseNumber(words_[index]);
-  if (!number || *number < low || *number > high) {
-    Fail(fmt::format("'{}' found, {} expected, a number from {:g} to {:g}", words_[index], what,
-                     low, high));
+template <typename T>
+T TableRow::Within(std::size_t index, std::type_identity_t<T> min, std::type_identity_t<T> max,
+                   std::string_view what) const {
+  if (what.empty()) {
+    Number(index);  // its errors need no name
+  } else if (index >= words_.size()) {
+    Refuse(fmt::format("the line ends where {} is expected", what));
   }
-  return *number;
+  const auto number = ParseNumber<T>(words_[index]);
+  if (number && *number >= min && *number <= max) return *number;
+  Refuse(what.empty()
+             ? fmt::format("'{}' found where {:g} to {:g} was expected", words_[index], min, max)
+             : fmt::format("'{}' found, {} expected, a number from {:g} to {:g}", words_[index],
+                           what, min, max));
 }
-
-float TableRow::Within(std::size_t index, float low, float high) const {
-  const float value = Number(index);
-  if (!(value >= low && value <= high)) {
-    Fail(fmt::format("'{}' found where {:g} to {:g} was expected", Word(index), low, high));
-  }
-  return value;
-}
+template float TableRow::Within<float>(std::size_t, float, float, std::string_view) const;
+template double TableRow::Within<double>(std::size_t, double, double, std::string_view) const;
 
 int TableRow::Integer(std::size_t index) const {
   const float value = Number(index);
-  constexpr float kMostWhole = 1 << 24;  // up to here a float represents every whole number
-  if (value != std::floor(value) || std::abs(value) > kMostWhole) {
-    Fail("'" + Word(index) + "' found where a whole number was expected");
+  constexpr float kMaxWhole = 1 << 24;  // up to here a float represents every whole number
+  if (value != std::floor(value) || std::abs(value) > kMaxWhole) {
+    Refuse("'" + Word(index) + "' found where a whole number was expected");
   }
   return static_cast<int>(value);
 }
@@ -90,19 +98,16 @@ std::vector<float> TableRow::Numbers(std::size_t index) const {
 }
 
 const std::string& TableRow::Name(std::size_t index, std::string_view what) const {
-  constexpr std::size_t kLongest = 40;
   const std::string& name = Word(index);
-  const auto letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
-  const auto inner = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; };
-  if (name.size() > kLongest || !letter(name[0]) || !std::ranges::all_of(name, inner)) {
-    Fail(fmt::format("'{}' found, {} expected: a letter, then letters, digits and _, at most {}",
-                     name.substr(0, kLongest), what, kLongest));
+  if (!IsPlainName(name) || !IsLetter(name[0])) {
+    Refuse(fmt::format("'{}' found, {} expected: a letter, then letters, digits and _, at most {}",
+                       name.substr(0, kMaxNameBytes), what, kMaxNameBytes));
   }
   return name;
 }
 
 void TableRow::EndsAt(std::size_t count) const {
-  if (size() > count) Fail("'" + Word(count) + "' is one word too many");
+  if (size() > count) Refuse("'" + Word(count) + "' is one word too many");
 }
 
 Table::Table(std::string name, std::string_view text) : name_(std::move(name)) {
@@ -126,14 +131,14 @@ const TableRow& Table::Only(std::string_view key) const {
   const TableRow* found = nullptr;
   for (const TableRow& row : rows_) {
     if (row.key() != key) continue;
-    if (found) row.Fail("'" + std::string(key) + "' given a second time");
+    if (found) row.Refuse("'" + std::string(key) + "' given a second time");
     found = &row;
   }
-  if (!found) Fail("no line '" + std::string(key) + "'");
+  if (!found) Refuse("no line '" + std::string(key) + "'");
   return *found;
 }
 
-void Table::Fail(const std::string& what) const { throw TableError(name_, what); }
+void Table::Refuse(const std::string& what) const { throw TableError(name_, what); }
 
 vm::Result<std::string> ReadTableFile(const std::string& path) {
   auto text = vm::ReadTextFile(path, kMaxTableBytes);

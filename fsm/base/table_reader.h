@@ -22,6 +22,11 @@ class TableError : public std::runtime_error {
   TableError(const std::string& place, const std::string& text);
 };
 
+/// Tells whether a name may become part of a slot's name: letters, digits and _, 1 to
+/// kMaxNameBytes of them.
+bool IsPlainName(std::string_view name);
+inline constexpr std::size_t kMaxNameBytes = 40;
+
 /// One row of a table: a key word and the words after it. The functions that read a word throw
 /// TableError if it is missing or of the wrong kind.
 class TableRow {
@@ -34,20 +39,19 @@ class TableRow {
   const std::vector<std::string>& words() const { return words_; }
   const std::string& Word(std::size_t index) const;
   float Number(std::size_t index) const;
-  /// Returns a number in low..high; `what` names it in error messages.
-  double Number(std::size_t index, std::string_view what, double low, double high) const;
-  /// Returns a number in low..high.
-  float Within(std::size_t index, float low, float high) const;
+  /// Returns a number (float or double) in min..max; `what` names it in error messages.
+  template <typename T = float>
+  T Within(std::size_t index, std::type_identity_t<T> min, std::type_identity_t<T> max,
+           std::string_view what = {}) const;
   int Integer(std::size_t index) const;
   glm::vec3 Vector(std::size_t index) const;  ///< from words index .. index + 2
   /// Returns all words from `index` on as numbers.
   std::vector<float> Numbers(std::size_t index) const;
-  /// Returns a name that may become part of a slot's name: a letter, then letters, digits and _, at
-  /// most 40 characters. REQUIRES: the word exists.
+  /// Returns a plain name that begins with a letter. REQUIRES: the word exists.
   const std::string& Name(std::size_t index, std::string_view what) const;
   /// Throws if the row has more than `count` words, since an extra word was put in the wrong place.
   void EndsAt(std::size_t count) const;
-  [[noreturn]] void Fail(const std::string& what) const;
+  [[noreturn]] void Refuse(const std::string& what) const;
 
  private:
   std::string place_;
@@ -67,7 +71,7 @@ class Table {
   const TableRow& Only(std::string_view key) const;
   const std::string& name() const { return name_; }
   /// Throws a TableError that concerns the whole table.
-  [[noreturn]] void Fail(const std::string& what) const;
+  [[noreturn]] void Refuse(const std::string& what) const;
 
  private:
   std::string name_;

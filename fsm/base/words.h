@@ -9,10 +9,10 @@
 
 namespace fsm {
 
-/// Returns the first words of `line`, at most `most`; blanks separate them. Lifetime: of `line`.
-inline std::vector<std::string_view> WordsOf(std::string_view line, std::size_t most = SIZE_MAX) {
+/// Returns the first words of `line`, at most `max`; blanks separate them. Lifetime: of `line`.
+inline std::vector<std::string_view> WordsOf(std::string_view line, std::size_t max = SIZE_MAX) {
   std::vector<std::string_view> words;
-  for (std::size_t at = 0; words.size() < most;) {
+  for (std::size_t at = 0; words.size() < max;) {
     at = line.find_first_not_of(vm::kBlanks, at);
     if (at == std::string_view::npos) break;
     const std::size_t end = std::min(line.find_first_of(vm::kBlanks, at), line.size());

@@ -32,7 +32,7 @@ std::optional<UnitTable> UnitsIn(const TableFolder& folder) {
 
 std::shared_ptr<const Features> FeaturesIn(const TableFolder& folder) {
   const auto own = vm::OrThrow(folder.Find(kFeaturesTable));
-  return own ? std::make_shared<Features>(own->path, own->text) : nullptr;
+  return own ? std::make_shared<Features>(own->path, own->text) : Features::BuiltIn();
 }
 
 std::unique_ptr<Head> WithUnits(const std::optional<UnitTable>& units, std::unique_ptr<Head> head) {

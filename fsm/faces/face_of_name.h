@@ -15,8 +15,8 @@ namespace fsm {
 /// nothing if it has none. They replace fsm/head/tables/action_units.txt. Throws std::runtime_error
 /// naming file and line.
 std::optional<UnitTable> UnitsIn(const TableFolder& folder);
-/// Reads the shapes of teeth, ears, lashes and so on, features.txt, from a folder of tables; null
-/// if it has none. They replace fsm/head/tables/features.txt. Throws as UnitsIn.
+/// Reads the shapes of teeth, ears, lashes and so on, features.txt, from a folder of tables; the
+/// built-in ones if it has none. Throws as UnitsIn.
 std::shared_ptr<const Features> FeaturesIn(const TableFolder& folder);
 /// Returns the head with its units replaced by `units`, if given.
 std::unique_ptr<Head> WithUnits(const std::optional<UnitTable>& units, std::unique_ptr<Head> head);

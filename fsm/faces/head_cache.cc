@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostTables = 1000;  // greatest number of files in a folder of tables
+constexpr std::size_t kMaxTables = 1000;  // greatest number of files in a folder of tables
 constexpr std::string_view kNoticesFollow = "notices:\n";
 /// The prefix of our files' names; other files in the folder are not touched.
 constexpr const char* kEntry = ".galatea_head";
@@ -46,7 +46,7 @@ std::string SourcesOf(const std::string& path, const TableFolder& tables) {
   if (!tables.empty()) {
     for (fs::directory_iterator at(tables.path(), code), end; !code && at != end;
          at.increment(code)) {
-      if (lines.size() > kMostTables) return "";
+      if (lines.size() > kMaxTables) return "";
       if (at->is_regular_file(code)) lines.push_back(SourceLine(at->path()));
     }
   }
@@ -134,7 +134,7 @@ void HeadCache::DropOldest() const {
   std::vector<std::pair<fs::file_time_type, fs::path>> kept;
   for (const auto& [entry, time] : entries) kept.emplace_back(time, entry);
   std::ranges::sort(kept);
-  for (std::size_t i = 0; i + kMostHeads <= kept.size(); ++i) {
+  for (std::size_t i = 0; i + kMaxHeads <= kept.size(); ++i) {
     for (const char* ending : {".txt", ".glb"}) fs::remove(kept[i].second.string() + ending);
   }
 }

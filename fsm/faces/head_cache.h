@@ -15,10 +15,10 @@ namespace fsm {
 /// .glb (WriteAsset) and a .txt that lists its sources, which are its file, its .points, the files
 /// that it names, the tables and this program. A head is baked anew when the size or time of a
 /// source has changed. Programs may share a folder; other files in it are not touched. Limit:
-/// kMostHeads; the oldest are deleted first.
+/// kMaxHeads; the oldest are deleted first.
 class HeadCache {
  public:
-  static constexpr std::size_t kMostHeads = 32;
+  static constexpr std::size_t kMaxHeads = 32;
   /// `folder`: "" = no caching; created when the first head is stored. `log`: takes the notices of
   /// heads and the errors of the cache.
   HeadCache(std::string folder, Log log) : folder_(std::move(folder)), log_(std::move(log)) {}

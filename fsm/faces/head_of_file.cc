@@ -16,8 +16,8 @@
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/mesh_limits.h"
-#include "fsm/mesh/transfer/blendshape_rig.h"
-#include "fsm/mesh/transfer/transferred_rig.h"
+#include "fsm/mesh/rigging/blendshape_rig.h"
+#include "fsm/mesh/rigging/transferred_rig.h"
 #include "fsm/motion/face_motion.h"
 #include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/or_throw.h"
@@ -34,18 +34,19 @@ std::optional<FaceState> StateOfVrmRow(const TableRow& row, const MotionTables& 
   const std::string &kind = row.Word(1), &what = row.Word(2);
   FaceState state;
   if (kind == "mouth") {
-    const Viseme* shape = FindViseme(tables.set14.visemes, what);
+    const Viseme* shape = FindViseme(tables.set(VisemeSetId::k14).visemes, what);
     if (!shape) return std::nullopt;
-    state.mouth = shape->pose.mouth;
+    state = StateOf(*shape);
   } else if (kind == "expression") {
-    FaceMotion motion(tables, 1);
-    if (!motion.expression.Show(0ms, what, 1, 1, 0ms)) return std::nullopt;
-    state = motion.StateAt(5s);
+    if (!tables.expressions.contains(what)) return std::nullopt;
+    state = SettledAfter(tables, [&](FaceMotion& motion) {
+      vm::OrThrow(motion.expression.Show(0ms, what, 1, 1, 0ms));
+    });
   } else if (kind == "blink") {
     state.blink.left = what.contains('L') ? 1 : 0;
     state.blink.right = what.contains('R') ? 1 : 0;
   } else {
-    row.Fail("mouth, expression or blink expected");
+    row.Refuse("mouth, expression or blink expected");
   }
   return state;
 }
@@ -70,15 +71,11 @@ std::unique_ptr<Head> ReadExportedHead(const std::string& path) {
   return std::make_unique<Head>(vm::OrThrow(ParseAsset(path, *bytes)));
 }
 
-/// Returns the visemes of both sets at full articulation.
+/// Returns the visemes of all sets at full articulation.
 std::vector<FaceState> VisemeStates(const MotionTables& tables) {
   std::vector<FaceState> states;
-  for (const Visemes* shapes : {&tables.set14.visemes, &tables.set28.visemes}) {
-    for (const Viseme& viseme : *shapes) {
-      FaceState& state = states.emplace_back();
-      state.mouth = viseme.pose.mouth;
-      state.seal = viseme.pose.seal;
-    }
+  for (const auto& [id, set] : tables.sets) {
+    std::ranges::transform(set.visemes, std::back_inserter(states), StateOf);
   }
   return states;
 }
@@ -98,7 +95,7 @@ Alignment AlignByPoints(const HeadPoints& points) {
   float sum = 0, count = 0;
   for (PointPair pair : points.pairs) {
     pair.to = alignment.to_ours(pair.to);
-    if (pair.part == FacePart::kUpperLip || pair.part == FacePart::kLowerLip) {
+    if (pair.on == LipOrLid::kUpperLip || pair.on == LipOrLid::kLowerLip) {
       sum += pair.to.y;
       count += 1;
     }
@@ -119,8 +116,8 @@ Alignment AlignByOutline(const ImportedHead& file) {
   Alignment alignment;
   const MeshModel raw = ModelOfImport(file, {}, 0);
   if (raw.has_eyes) {
-    const glm::vec3 apart = raw.eyes.left.centre - raw.eyes.right.centre;
-    const glm::vec3 middle = 0.5f * (raw.eyes.right.centre + raw.eyes.left.centre);
+    const glm::vec3 apart = raw.eye_rig.centre.left - raw.eye_rig.centre.right;
+    const glm::vec3 middle = 0.5f * (raw.eye_rig.centre.right + raw.eye_rig.centre.left);
     const glm::vec3 ours = EyeAnatomy::BuiltIn().centre();
     const float scale = 2 * ours.x / std::max(glm::length(apart), 1e-6f);
     alignment.to_ours = ScaledAbout(middle, scale, ours * glm::vec3(0, 1, 1));
@@ -159,15 +156,14 @@ std::optional<RigData> RigOfShapes(const ImportedHead& file, const Alignment& al
 
 std::vector<ExportedShape> ArkitShapes(const MotionTables& tables) {
   std::vector<ExportedShape> shapes;
-  FaceMotion motion(tables, 1);
   MotionSettings settings;
   settings.gaze_distance_mm = 0;
-  motion.Apply(0ms, settings);
   for (const auto& [name, units] : tables.blend_shapes) {
-    if (!motion.blend_shapes.Set(0ms, name, 1, 0ms)) continue;
-    shapes.push_back({name, motion.StateAt(5s)});
-    shapes.back().state.asymmetry = 0;  // left and right shapes are mirror images
-    static_cast<void>(motion.blend_shapes.Set(0ms, name, 0, 0ms));
+    shapes.push_back({name, SettledAfter(tables, [&](FaceMotion& motion) {
+                        motion.Apply(0ms, settings);
+                        motion.asymmetry = 0;  // left and right shapes are mirror images
+                        vm::OrThrow(motion.blend_shapes.Set(0ms, name, 1, 0ms));
+                      })});
   }
   return shapes;
 }

@@ -21,7 +21,7 @@ const std::map<std::string, std::string OriginalSharedFiles::*, std::less<>> kSh
 
 /// A key with one number: its bounds, and a function that stores it.
 struct NumberKey {
-  double lowest, highest;
+  double min, max;
   void (*store)(OriginalConfig&, double);
 };
 const std::map<std::string, NumberKey, std::less<>> kNumbers = {
@@ -41,7 +41,7 @@ const std::map<std::string, NumberKey, std::less<>> kNumbers = {
 /// Parts of a blink, of which the original has the length only: lids close faster than they open.
 constexpr double kClosing = 0.4, kShut = 0.05, kOpening = 0.55;
 constexpr double kOriginalFrameMs = 1000.0 / 30;  // in each of which it may blink
-constexpr double kShortestInterval = 500;         // between blinks, ms
+constexpr double kMinInterval = 500;              // between blinks, ms
 
 /// Keys of movement files -> kinds of FaceMot.
 const std::map<std::string, std::string, std::less<>> kMotions = {{"FaceMotNod", "NOD"},
@@ -68,18 +68,18 @@ class ConfigReader {
   void ReadRow(const TableRow& row) {
     const std::string& key = row.key();
     if (const auto known = kNumbers.find(key); known != kNumbers.end()) {
-      known->second.store(config_, Number(row, 1, known->second.lowest, known->second.highest));
+      known->second.store(config_, Number(row, 1, known->second.min, known->second.max));
     } else if (key == "SetViseme") {
       const std::string word = Word(row, 1);
-      if (word != "JP" && word != "EN") row.Fail("JP or EN expected");
+      if (word != "JP" && word != "EN") row.Refuse("JP or EN expected");
       config_.language = word == "JP" ? Language::kJapanese : Language::kEnglish;
     } else if (key == "BackgroundFile") {
-      if (row.size() < 3) row.Fail("a name and a file expected");
+      if (row.size() < 3) row.Refuse("a name and a file expected");
       config_.backgrounds.emplace_back(Word(row, 1), File(row, 2));
     } else if (key == "MaskFile" || key == "MaskEye" || key == "MaskTeeth") {
       ReadMask(row);
     } else if (const auto shared = kSharedFiles.find(key); shared != kSharedFiles.end()) {
-      if (row.size() < 2) row.Fail("a file expected");
+      if (row.size() < 2) row.Refuse("a file expected");
       config_.shared.*shared->second = File(row, 1);
     } else if (const auto motion = kMotions.find(key); motion != kMotions.end()) {
       config_.motions[motion->second].push_back(File(row, 1));
@@ -97,7 +97,7 @@ class ConfigReader {
     const std::string& key = row.key();
     const std::size_t files = key == "MaskTeeth" ? 1 : 2;
     if (row.size() < files + 2) {
-      row.Fail(files == 1 ? "a name and a file expected" : "a name and two files expected");
+      row.Refuse(files == 1 ? "a name and a file expected" : "a name and two files expected");
     }
     OriginalFaceFiles* mask = &MaskOf(row);
     if (key == "MaskFile") {
@@ -121,7 +121,7 @@ class ConfigReader {
     const auto found = std::ranges::find(config_.masks, name, &OriginalFaceFiles::name);
     if (found != config_.masks.end()) return *found;
     if (config_.masks.size() >= OriginalConfig::kMaxMasks) {
-      row.Fail("at most " + std::to_string(OriginalConfig::kMaxMasks) + " faces are read");
+      row.Refuse("at most " + std::to_string(OriginalConfig::kMaxMasks) + " faces are read");
     }
     return config_.masks.emplace_back(name);
   }
@@ -129,8 +129,8 @@ class ConfigReader {
   static std::string Word(const TableRow& row, std::size_t i) {
     return i < row.size() ? row.Word(i) : std::string();
   }
-  static double Number(const TableRow& row, std::size_t i, double lowest, double highest) {
-    return row.Number(i, "a value of " + row.key(), lowest, highest);
+  static double Number(const TableRow& row, std::size_t i, double min, double max) {
+    return row.Within<double>(i, min, max, "a value of " + row.key());
   }
   /// Returns a file's path as given if it exists, else relative to the configuration's folder.
   std::string File(const TableRow& row, std::size_t i) const {
@@ -209,7 +209,7 @@ vm::Result<void> OriginalConfig::ApplyTo(MotionTables& tables) const {
       return vm::Fail(vm::Errc::kBadValue, path + ": AutonomousBlink names blink pattern " +
                                                std::to_string(pattern) + ", which there is not");
     }
-    patterns.auto_blinks.push_back({std::max(kShortestInterval, kOriginalFrameMs * 100 / percent),
+    patterns.auto_blinks.push_back({std::max(kMinInterval, kOriginalFrameMs * 100 / percent),
                                     static_cast<std::size_t>(pattern) - 1, false});
   }
   // Indices of built-in autonomous blinks may now exceed the patterns of the file.

@@ -1,6 +1,5 @@
 #include "fsm/faces/original_faces.h"
 
-#include <chrono>
 #include <filesystem>
 #include <stdexcept>
 
@@ -10,20 +9,12 @@
 #include "fsm/mesh/original/original_face.h"
 #include "fsm/mesh/original/original_model.h"
 #include "fsm/mesh/original/original_motion.h"
-#include "fsm/motion/face_motion.h"
+#include "fsm/motion/inputs/motion_tables.h"
+#include "fsm/motion/mouth_motion.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
 namespace {
-
-/// Returns the value of each mouth parameter when Mouth.N is at 100 per cent.
-MouthUnitSizes UnitSizes(const MotionTables& tables) {
-  FaceMotion motion(tables, 1);
-  for (int i = 1; i <= static_cast<int>(kMouthParameters); ++i) {
-    if (!motion.mouth.Set(vm::Time(0), i, 1)) return {};
-  }
-  return motion.StateAt(std::chrono::seconds(5)).mouth;
-}
 
 std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
                                    const OriginalSharedFiles& shared, const TableFolder& tables) {
@@ -33,12 +24,14 @@ std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
   // The original numbers its visemes as the set of 28, except silence, which is 0 there and the
   // last here.
   VisemeMouths mouths;
-  for (std::size_t i = 0; i < kOriginalVisemes && i < motion.set28.visemes.size(); ++i) {
-    mouths.push_back(motion.set28.visemes[i].pose.mouth);
+  for (std::size_t i = 0; i < kOriginalVisemes && i < motion.set(VisemeSetId::k28).visemes.size();
+       ++i) {
+    mouths.push_back(motion.set(VisemeSetId::k28).visemes[i].pose.mouth);
   }
-  for (const Viseme& viseme : motion.set14.visemes) mouths.push_back(viseme.pose.mouth);
+  for (const Viseme& viseme : motion.set(VisemeSetId::k14).visemes)
+    mouths.push_back(viseme.pose.mouth);
   MeshModel model = ModelOfOriginal(*face);
-  RigData skin = RigOfOriginal(*face, model, mouths, UnitSizes(motion));
+  RigData skin = RigOfOriginal(*face, model, mouths, kFullMouth);
   return WithUnits(UnitsIn(tables), MakeMeshHead(std::move(model), std::move(skin)));
 }
 

@@ -10,6 +10,7 @@
 #include "fsm/faces/table_names.h"
 #include "fsm/head/face_channels.h"
 #include "fsm/motion/base/unit_names.h"
+#include "fsm/motion/inputs/motion_tables.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
@@ -18,17 +19,17 @@ namespace {
 /// Throws TableError for a row with an unknown unit. REQUIRES: a UnitTable was made from the table.
 void CheckRows(const Table& table, const UnitNames& names) {
   for (const TableRow& row : table.rows()) {
-    const bool rule = row.key() == "damp" || row.key() == "oppose" || row.key() == "strongest";
     for (const std::size_t word : {1U, 2U}) {
-      if (word == 2 && !rule) continue;
+      if (word == 2 && !UnitTable::IsRule(row.key())) continue;
       const int unit = row.Integer(word);
       if (names.IsUnit(unit)) continue;
-      row.Fail(names.names.contains(unit)
-                   ? fmt::format("{} is a code of head or eyes in {}, which moves no skin; a unit "
-                                 "expected",
-                                 unit, kUnitNamesTable)
-                   : fmt::format("no unit has the number {}; one of {} expected", unit,
-                                 kUnitNamesTable));
+      row.Refuse(
+          names.names.contains(unit)
+              ? fmt::format("{} is a code of head or eyes in {}, which moves no skin; a unit "
+                            "expected",
+                            unit, kUnitNamesTable)
+              : fmt::format("no unit has the number {}; one of {} expected", unit,
+                            kUnitNamesTable));
     }
   }
 }
@@ -37,21 +38,24 @@ void CheckRows(const Table& table, const UnitNames& names) {
 
 std::string Listed(const std::vector<std::string>& words) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(words.size(), kMostListed); ++i) {
+  for (std::size_t i = 0; i < std::min(words.size(), kMaxListed); ++i) {
     text += (i > 0 ? ", " : "") + words[i].substr(0, 60);
   }
-  if (words.size() > kMostListed) text += fmt::format(" and {} more", words.size() - kMostListed);
+  if (words.size() > kMaxListed) text += fmt::format(" and {} more", words.size() - kMaxListed);
   return Printable(std::move(text));
 }
 
 vm::Result<std::vector<std::string>> CheckTables(const TableFolder& folder) try {
   std::vector<std::string> notices;
   if (folder.empty()) return notices;
-  if (const auto unknown = folder.FilesBeside(kTableNames); !unknown.empty()) {
+  std::vector<std::string_view> tables = MotionTables::Files();
+  tables.insert(tables.end(), kHeadTables.begin(), kHeadTables.end());
+  std::ranges::sort(tables);
+  if (const auto unknown = folder.FilesBeside(tables); !unknown.empty()) {
     notices.push_back(
         fmt::format("'{}' has files that are not read, for no table has their name: "
                     "{}; there are {}",
-                    folder.path(), Listed(unknown), fmt::join(kTableNames, ", ")));
+                    folder.path(), Listed(unknown), fmt::join(tables, ", ")));
   }
   static_cast<void>(FeaturesIn(folder));
   const auto own_names = vm::OrThrow(folder.Find(kUnitNamesTable));

@@ -18,12 +18,12 @@
 #include "fsm/film/frame_feeder.h"
 #include "fsm/film/yuv_planes.h"
 #include "vm_protocol/core/file_kind.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
 
 constexpr int kMaxFramesPerSecond = 1000;
-constexpr int kMaxDrafts = 1000;  // limit of files left by killed programs
 
 bool IsRaw(std::string_view path) {
   constexpr std::string_view kRaw = ".rgba";
@@ -40,7 +40,7 @@ vm::Result<void> CheckFrame(const Image& frame, int width, int height, const std
 
 class FfmpegFilmWriter : public FilmWriter {
  public:
-  FfmpegFilmWriter(const FilmKind& kind, std::string comment, std::string path, std::string draft,
+  FfmpegFilmWriter(const FilmKind& kind, std::string comment, std::string path, vm::DraftFile draft,
                    int width, int height, std::unique_ptr<FfmpegProcess> ffmpeg)
       : kind_(kind),
         comment_(std::move(comment)),
@@ -55,7 +55,6 @@ class FfmpegFilmWriter : public FilmWriter {
   ~FfmpegFilmWriter() override {
     feeder_.reset();
     ffmpeg_.reset();
-    if (!draft_.empty()) unlink(draft_.c_str());
   }
 
   vm::Result<void> Add(const Image& frame) override {
@@ -85,29 +84,25 @@ class FfmpegFilmWriter : public FilmWriter {
     ffmpeg_.reset();
     vm::Result<void> sounded;
     if (!sound_wav.empty()) sounded = AddSound(sound_wav);
-    if (rename(draft_.c_str(), path_.c_str()) != 0) {
-      return Fail({vm::Errc::kUnavailable, std::generic_category().message(errno)});
-    }
-    draft_.clear();
+    if (auto placed = draft_.TakePlace(); !placed) return Fail(std::move(placed.error()));
     return sounded;
   }
 
  private:
   /// Replaces the draft by one with sound; on failure the silent one is kept.
   vm::Result<void> AddSound(const std::string& sound) {
-    const std::string with_sound = draft_ + ".sound";
     vm::Result<void> done = vm::CheckReadable(sound);
-    if (done) done = vm::CheckWritable(with_sound);
+    auto with_sound = vm::DraftFile::Beside(draft_.name());
+    if (done && !with_sound) done = std::unexpected(with_sound.error());
     if (done) {
-      auto ffmpeg =
-          FfmpegProcess::Start(SoundArguments(kind_, draft_, sound, comment_, with_sound));
+      auto ffmpeg = FfmpegProcess::Start(
+          SoundArguments(kind_, draft_.name(), sound, comment_, with_sound->name()));
       done = ffmpeg ? (*ffmpeg)->Finish() : std::unexpected(ffmpeg.error());
     }
-    if (done && rename(with_sound.c_str(), draft_.c_str()) == 0) return {};
-    unlink(with_sound.c_str());
-    return vm::Fail(vm::Errc::kUnavailable,
-                    "the film '" + path_ + "' is kept without its sound '" + sound +
-                        "': " + (done ? "it could not be put in place" : done.error().text));
+    if (done) done = with_sound->TakePlace();
+    if (done) return {};
+    return vm::Fail(vm::Errc::kUnavailable, "the film '" + path_ + "' is kept without its sound '" +
+                                                sound + "': " + done.error().text);
   }
 
   std::unexpected<vm::Error> Fail(vm::Error error) {
@@ -120,7 +115,7 @@ class FfmpegFilmWriter : public FilmWriter {
   const FilmKind& kind_;  // in a static table
   const std::string comment_;
   std::string path_;
-  std::string draft_;  // empty once moved to the path
+  vm::DraftFile draft_;
   int width_;
   int height_;
   int frames_ = 0;
@@ -195,22 +190,6 @@ vm::Result<std::unique_ptr<FilmWriter>> OpenRaw(const std::string& path, int wid
   return std::make_unique<RawFilmWriter>(path, width, height, fd, is_pipe);
 }
 
-/// Creates an empty file with a unique name beside the film's path, before the first frame, so that
-/// an unwritable folder is an error at once.
-vm::Result<std::string> MakeDraft(const std::string& path) {
-  for (int number = 1;; ++number) {
-    std::string draft = path + "." + std::to_string(number) + ".part";
-    const int fd = open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd >= 0) {
-      close(fd);
-      return draft;
-    }
-    if (errno == EEXIST && number < kMaxDrafts) continue;
-    return vm::Fail(vm::Errc::kUnavailable, "cannot make the film '" + path +
-                                                "': " + std::generic_category().message(errno));
-  }
-}
-
 }  // namespace
 
 vm::Result<void> FilmWriter::CheckName(const std::string& path) {
@@ -234,15 +213,14 @@ vm::Result<std::unique_ptr<FilmWriter>> FilmWriter::Open(const std::string& path
   if (IsRaw(path)) return OpenRaw(path, width, height);
   if (auto fit = vm::CheckWritable(path); !fit) return std::unexpected(std::move(fit.error()));
   const FilmKind& kind = *KindOf(path);
-  auto draft = MakeDraft(path);
-  if (!draft) return std::unexpected(std::move(draft.error()));
+  const auto cannot = [&path](const vm::Error& why) {
+    return vm::Fail(vm::Errc::kUnavailable, "cannot make the film '" + path + "': " + why.text);
+  };
+  auto draft = vm::DraftFile::Beside(path);
+  if (!draft) return cannot(draft.error());
   auto ffmpeg = FfmpegProcess::Start(
-      EncodeArguments(kind, width, height, frames_per_second, comment, *draft));
-  if (!ffmpeg) {
-    unlink(draft->c_str());
-    return vm::Fail(vm::Errc::kUnavailable,
-                    "cannot make the film '" + path + "': " + ffmpeg.error().text);
-  }
+      EncodeArguments(kind, width, height, frames_per_second, comment, draft->name()));
+  if (!ffmpeg) return cannot(ffmpeg.error());
   return std::make_unique<FfmpegFilmWriter>(kind, comment, path, *std::move(draft), width, height,
                                             *std::move(ffmpeg));
 }

@@ -30,7 +30,7 @@ class FilmWriter {
   static vm::Result<void> CheckName(const std::string& path);
   virtual ~FilmWriter() = default;
   /// Adds a frame. Another thread passes it to ffmpeg: the call blocks only while
-  /// FrameFeeder::kMostWaiting frames wait, and an error may be that of an earlier frame. An .rgba
+  /// FrameFeeder::kMaxWaiting frames wait, and an error may be that of an earlier frame. An .rgba
   /// frame is written by the caller's thread: the call blocks until the file or the reader of the
   /// pipe has taken all of it. A reader that takes nothing for five seconds is an error. Errors:
   /// kBadValue for a frame of another size than that given at Open, which is left out;

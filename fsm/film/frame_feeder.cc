@@ -26,7 +26,7 @@ std::vector<std::uint8_t> FrameFeeder::TakeSpare() {
 
 vm::Result<void> FrameFeeder::Add(std::vector<std::uint8_t> frame) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return waiting_.size() < kMostWaiting || !state_; });
+  changed_.wait(lock, [this] { return waiting_.size() < kMaxWaiting || !state_; });
   if (!state_) return state_;
   waiting_.push_back(std::move(frame));
   changed_.notify_all();

@@ -17,10 +17,10 @@ namespace fsm {
 /// encoder works. Frames arrive whole and in order.
 /// Lifetime: `ffmpeg` outlives this and is not to be touched until Close() or the destructor, which
 ///           end the thread. Thread: one caller.
-/// Limits: kMostWaiting frames wait; Add blocks while the queue is full.
+/// Limits: kMaxWaiting frames wait; Add blocks while the queue is full.
 class FrameFeeder {
  public:
-  static constexpr std::size_t kMostWaiting = 8;
+  static constexpr std::size_t kMaxWaiting = 8;
 
   explicit FrameFeeder(FfmpegProcess& ffmpeg) : ffmpeg_(ffmpeg), thread_([this] { Run(); }) {}
   /// Drops the waiting frames.

@@ -14,13 +14,13 @@ Curve ReadCurve(const Table& table, std::string_view x_key, std::string_view y_k
   const TableRow& y = table.Only(y_key);
   std::vector<float> xs = x.Numbers(1);
   std::vector<float> ys = y.Numbers(1);
-  if (xs.size() < 2) x.Fail("a curve needs two points");
+  if (xs.size() < 2) x.Refuse("a curve needs two points");
   if (xs.size() != ys.size()) {
-    y.Fail("has " + std::to_string(ys.size()) + " values, '" + x.key() + "' has " +
-           std::to_string(xs.size()));
+    y.Refuse("has " + std::to_string(ys.size()) + " values, '" + x.key() + "' has " +
+             std::to_string(xs.size()));
   }
   if (std::ranges::adjacent_find(xs, std::greater_equal<float>()) != xs.end()) {
-    x.Fail("must ascend");
+    x.Refuse("must ascend");
   }
   return {std::move(xs), std::move(ys)};
 }
@@ -34,10 +34,18 @@ EyeAnatomy::EyeAnatomy(const Table& table)
     : lid_radius_(ReadCurve(table, "lid_radius", "lid_value")),
       upper_(ReadCurve(table, "upper_lid_x", "upper_lid_y")),
       lower_(ReadCurve(table, "lower_lid_x", "lower_lid_y")) {
+  for (const bool outer : {false, true}) {
+    const auto end = [&](const char* row) {
+      const std::vector<float> all = table.Only(row).Numbers(1);
+      return outer ? all.back() : all.front();
+    };
+    if (end("upper_lid_x") != end("lower_lid_x") || end("upper_lid_y") != end("lower_lid_y"))
+      table.Only("lower_lid_y").Refuse("the lids must end in the same two corners");
+  }
   const TableRow& ball = table.Only("ball");
   centre_ = ball.Vector(1);
   radius_ = ball.Number(4);
-  if (radius_ <= 0) ball.Fail("the radius must be positive");
+  if (radius_ <= 0) ball.Refuse("the radius must be positive");
   iris_ = table.Only("iris").Number(1);
   pupil_ = table.Only("iris").Number(2);
   shear_ = table.Only("lid_shear").Number(1);
@@ -90,7 +98,7 @@ MouthAnatomy::MouthAnatomy(const Table& table)
   const auto full = [&](std::string_view key) {
     const TableRow& row = table.Only(key);
     std::vector<float> y = row.Numbers(1);
-    if (y.size() < 2) row.Fail("needs at least two values");
+    if (y.size() < 2) row.Refuse("needs at least two values");
     std::vector<float> x;
     for (std::size_t i = 0; i < y.size(); ++i) {
       x.push_back(static_cast<float>(i) / static_cast<float>(y.size() - 1));
@@ -104,7 +112,7 @@ MouthAnatomy::MouthAnatomy(const Table& table)
   column_x_ = table.Only("column_x").Numbers(1);
   const auto teeth = [&](std::string_view key) {
     const TableRow& row = table.Only(key);
-    if (row.Number(3) <= 0) row.Fail("half the width must be positive");
+    if (row.Number(3) <= 0) row.Refuse("half the width must be positive");
     const float edge_y = LineY(0) - row.Number(4);
     return ToothArch{.front_z = LineZ(0) - row.Number(1),
                      .depth = row.Number(2),
@@ -116,20 +124,29 @@ MouthAnatomy::MouthAnatomy(const Table& table)
   };
   upper_teeth_ = teeth("upper_teeth");
   lower_teeth_ = teeth("lower_teeth");
+  const auto pair = [&](std::string_view key) {
+    return glm::vec2(table.Only(key).Number(1), table.Only(key).Number(2));
+  };
+  bag_bend_ = {.web_x = pair("bag_web"),
+               .height = pair("bag_height"),
+               .depth = pair("bag_depth"),
+               .web_depth = table.Only("bag_web").Number(3),
+               .width = table.Only("bag_width").Number(1)};
   for (const TableRow& row : table.RowsOf("bag_ring")) {
     bag_rings_.push_back(
         {row.Number(1), row.Number(2), row.Number(3), row.Number(4), row.Number(5)});
   }
 }
 
-glm::vec3 MouthAnatomy::Red(int side, float x, float part) const {
-  const float height = BorderY(side, x);
+glm::vec3 MouthAnatomy::Red(Lip lip, float x, float share) const {
+  const bool upper = lip == Lip::kUpper;
+  const float height = BorderY(lip, x);
   const float thickness = std::abs(height);
-  const float fade = thickness / std::abs(BorderY(side, 0));
-  const float border_z = (side > 0 ? border_z_upper_ : border_z_lower_) * std::min(1.0f, fade);
-  const float full = (side > 0 ? upper_full_ : lower_full_)(part)*thickness;
-  return {x, LineY(x) + height * part + 0.12f * full * static_cast<float>(side) * (1 - part),
-          LineZ(x) + border_z * part + full};
+  const float fade = thickness / std::abs(BorderY(lip, 0));
+  const float border_z = (upper ? border_z_upper_ : border_z_lower_) * std::min(1.0f, fade);
+  const float full = (upper ? upper_full_ : lower_full_)(share)*thickness;
+  return {x, LineY(x) + height * share + (upper ? 0.12f : -0.12f) * full * (1 - share),
+          LineZ(x) + border_z * share + full};
 }
 
 }  // namespace fsm

@@ -7,6 +7,7 @@
 #include "fsm/base/spline.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/rig/lid_rig.h"
+#include "fsm/rig/skin_weights.h"
 #include "fsm/rig/tooth_arch.h"
 
 namespace fsm {
@@ -19,6 +20,12 @@ struct LidRing {
 /// A ring of the bag behind the lips: a row `bag_ring` of tables/mouth.txt, which explains it.
 struct BagRing {
   float height, back, widen, web, lip_hold;
+};
+
+/// How the bag's rings bend towards its corners: rows `bag_...` of tables/mouth.txt.
+struct BagBend {
+  glm::vec2 web_x, height, depth;
+  float web_depth, width;
 };
 
 /// The agent's left eye and its lids (tables/eye.txt); the right one is the mirror image. Angles
@@ -78,14 +85,15 @@ class MouthAnatomy {
   glm::vec3 corner() const { return corner_; }
   float LineY(float x) const { return line_y_(x); }
   float LineZ(float x) const { return line_z_(x); }
-  /// Height of the red above (side +1) or below (side -1, negative) the line; 0 beyond the corner.
-  float BorderY(int side, float x) const { return side > 0 ? upper_(x) : lower_(x); }
+  /// Height of the red over the line, negative on the lower lip; 0 beyond the corner.
+  float BorderY(Lip lip, float x) const { return lip == Lip::kUpper ? upper_(x) : lower_(x); }
   const ToothArch& upper_teeth() const { return upper_teeth_; }
   const ToothArch& lower_teeth() const { return lower_teeth_; }
-  /// Returns a point on the red of the lip: part 0 = seam, 1 = vermilion border.
-  glm::vec3 Red(int side, float x, float part) const;
+  /// Returns a point on the red of the lip; `share`: 0 = seam, 1 = vermilion border.
+  glm::vec3 Red(Lip lip, float x, float share) const;
   const std::vector<float>& column_x() const { return column_x_; }
   const std::vector<BagRing>& bag_rings() const { return bag_rings_; }
+  const BagBend& bag_bend() const { return bag_bend_; }
 
  private:
   glm::vec3 corner_{};
@@ -94,6 +102,7 @@ class MouthAnatomy {
   ToothArch upper_teeth_{}, lower_teeth_{};
   std::vector<float> column_x_;     // x of the cage's columns, from the median to the corner
   std::vector<BagRing> bag_rings_;  // from the end of the bag to the lips
+  BagBend bag_bend_{};
 };
 
 /// Makes a curve of two rows of a table, `x_key` and `y_key`; throws naming the line if they do not

@@ -21,14 +21,14 @@ std::uint32_t AddPoint(Cage& cage, glm::vec3 p, const CageTag& tag = {}) {
 
 float NumberIn(const TableRow& row, std::string_view word) {
   const auto number = ParseNumber<float>(word);
-  if (!number) row.Fail(fmt::format("'{}' found where a number was expected", word));
+  if (!number) row.Refuse(fmt::format("'{}' found where a number was expected", word));
   return *number;
 }
 
 const std::vector<std::uint32_t>& FindCurve(const Cage& cage, const TableRow& row,
                                             std::string_view name) {
   const auto found = cage.curves.find(name);
-  if (found == cage.curves.end()) row.Fail(fmt::format("there is no curve '{}'", name));
+  if (found == cage.curves.end()) row.Refuse(fmt::format("there is no curve '{}'", name));
   return found->second;
 }
 
@@ -36,7 +36,7 @@ glm::vec3 ParsePlace(const TableRow& row, std::string_view word) {
   glm::vec3 p(0);
   for (int k = 0; k < 3; ++k) {
     const std::size_t comma = word.find(',');
-    if ((comma == std::string_view::npos) != (k == 2)) row.Fail("a place is x,y,z");
+    if ((comma == std::string_view::npos) != (k == 2)) row.Refuse("a place is x,y,z");
     p[k] = NumberIn(row, word.substr(0, comma));
     word.remove_prefix(comma == std::string_view::npos ? word.size() : comma + 1);
   }
@@ -71,9 +71,9 @@ void ReadCurveRow(const TableRow& row, Cage& cage) {
     given_at.push_back(static_cast<float>(i));
     given.push_back(cage.position[points.back()]);
   }
-  if (points.empty()) row.Fail("a curve needs points");
+  if (points.empty()) row.Refuse("a curve needs points");
   if (!open.empty() && (given.size() < 2 || open.front() == 0 || open.back() + 1 == points.size()))
-    row.Fail("~ must lie between given points");
+    row.Refuse("~ must lie between given points");
   for (const std::size_t i : open) {
     cage.position[points[i]] = SplineAt(given_at, given, static_cast<float>(i + 2));
   }
@@ -87,13 +87,13 @@ SkinKind ReadKind(const TableRow& row) {
   if (word == "rim") return SkinKind::kRim;
   if (word == "lip") return SkinKind::kLip;
   if (word == "inside") return SkinKind::kInside;
-  row.Fail(fmt::format("'{}' found where skin, rim, lip or inside was expected", word));
+  row.Refuse(fmt::format("'{}' found where skin, rim, lip or inside was expected", word));
 }
 
 bool ReadFine(const TableRow& row) {
   const std::string& word = row.Word(2);
   if (word != "fine" && word != "plain")
-    row.Fail(fmt::format("'{}' found where fine or plain was expected", word));
+    row.Refuse(fmt::format("'{}' found where fine or plain was expected", word));
   return word == "fine";
 }
 
@@ -113,15 +113,15 @@ std::vector<std::vector<std::uint32_t>> StripRows(const TableRow& row, Cage& cag
     if (i % 2 == 1) {
       curves.push_back(&FindCurve(cage, row, row.Word(i)));
       if (curves.back()->size() != curves.front()->size()) {
-        row.Fail(row.Word(i) + " has " + std::to_string(curves.back()->size()) + " points, " +
-                 row.Word(3) + " has " + std::to_string(curves.front()->size()));
+        row.Refuse(row.Word(i) + " has " + std::to_string(curves.back()->size()) + " points, " +
+                   row.Word(3) + " has " + std::to_string(curves.front()->size()));
       }
     } else {
       bands.push_back(row.Integer(i));
-      if (bands.back() < 0 || bands.back() > 32) row.Fail("0 to 32 bands");
+      if (bands.back() < 0 || bands.back() > 32) row.Refuse("0 to 32 bands");
     }
   }
-  if (curves.size() < 2 || bands.size() + 1 != curves.size()) row.Fail("CURVE n CURVE expected");
+  if (curves.size() < 2 || bands.size() + 1 != curves.size()) row.Refuse("CURVE n CURVE expected");
   const std::size_t count = curves.front()->size();
   // The parameter is the length along each column, so that uneven rows make no waves.
   std::vector<std::vector<float>> at(count, {0.0f});
@@ -141,9 +141,9 @@ std::vector<std::vector<std::uint32_t>> StripRows(const TableRow& row, Cage& cag
     if (k + 1 == curves.size()) break;
     for (int b = 1; b < bands[k]; ++b) {
       std::vector<std::uint32_t> between;
-      const float part = static_cast<float>(b) / static_cast<float>(bands[k]);
+      const float share = static_cast<float>(b) / static_cast<float>(bands[k]);
       for (std::size_t c = 0; c < count; ++c) {
-        const float t = at[c][k] + part * (at[c][k + 1] - at[c][k]);
+        const float t = at[c][k] + share * (at[c][k + 1] - at[c][k]);
         glm::vec3 p = SplineAt(at[c], through[c], t);
         if (through[c][k].x == 0 && through[c][k + 1].x == 0) p.x = 0;
         between.push_back(AddPoint(cage, p));
@@ -176,7 +176,7 @@ void ReadPatchRow(const TableRow& row, Cage& cage) {
   } else if (key == "cap") {
     AddPolygon(cage, FindCurve(cage, row, row.Word(3)), kind, fine);
   } else {
-    row.Fail(fmt::format("unknown word '{}'", key));
+    row.Refuse(fmt::format("unknown word '{}'", key));
   }
 }
 
@@ -196,7 +196,7 @@ void Orient(Cage& cage, const Table& patches) {
   }
   for (const auto& [edge, faces] : by_edge) {
     if (faces.size() > 2) {
-      patches.Fail("three patches share an edge at point " + std::to_string(edge.first));
+      patches.Refuse("three patches share an edge at point " + std::to_string(edge.first));
     }
   }
   std::vector<bool> seen(cage.polygons.size());
@@ -217,7 +217,7 @@ void Orient(Cage& cage, const Table& patches) {
     });
   }
   if (std::ranges::find(seen, false) != seen.end()) {
-    patches.Fail("the skin is not in one piece");
+    patches.Refuse("the skin is not in one piece");
   }
   float outward = 0;
   for (const Cage::Polygon& polygon : cage.polygons) {
@@ -236,12 +236,12 @@ void TieSkinToLips(Cage& cage, const Table& table) {
   for (const auto& [name, hold] : {std::pair{"lip_a", 0.8f}, {"lip_b", 0.45f}, {"lip_c", 0.12f}}) {
     const auto found = cage.curves.find(name);
     if (found == cage.curves.end() || found->second.size() != 2 * kLipColumns + 1) {
-      table.Fail(std::string("curve '") + name + "' must have 13 points");
+      table.Refuse(std::string("curve '") + name + "' must have 13 points");
     }
     for (int k = 0; k <= 2 * kLipColumns; ++k) {
       CageTag& tag = cage.tag[found->second[static_cast<std::size_t>(k)]];
       tag.lip_hold = hold;
-      tag.lip_side = k == kLipColumns ? 0.0f : k < kLipColumns ? 1.0f : -1.0f;
+      tag.upper_lip = k == kLipColumns ? 0.0f : k < kLipColumns ? 1.0f : -1.0f;
       tag.lip_column = static_cast<float>(k < kLipColumns ? k : 2 * kLipColumns - k);
     }
   }
@@ -252,12 +252,12 @@ void TieSkinToLips(Cage& cage, const Table& table) {
 std::uint32_t CagePoint(const Cage& cage, const TableRow& row, std::string_view word) {
   const std::size_t dot = word.find('.');
   if (dot == std::string_view::npos) {
-    row.Fail(fmt::format("'{}' found where x,y,z, CURVE.i or ~ was expected", word));
+    row.Refuse(fmt::format("'{}' found where x,y,z, CURVE.i or ~ was expected", word));
   }
   const auto& curve = FindCurve(cage, row, word.substr(0, dot));
   const float index = NumberIn(row, word.substr(dot + 1));
   if (index < 0 || index >= static_cast<float>(curve.size()) || index != std::floor(index)) {
-    row.Fail(fmt::format("there is no point '{}'", word));
+    row.Refuse(fmt::format("there is no point '{}'", word));
   }
   return curve[static_cast<std::size_t>(index)];
 }
@@ -268,7 +268,7 @@ Cage ReadCage(const Table& curves, const Table& patches, const EyeAnatomy& eye,
   AddMouthCurves(mouth, cage);
   bool lids = false;
   for (const TableRow& row : curves.rows()) {
-    if (row.key() != "curve") row.Fail(fmt::format("unknown word '{}'", row.key()));
+    if (row.key() != "curve") row.Refuse(fmt::format("unknown word '{}'", row.key()));
     // The outer rings of the lids depend on the curve `orbit`, so they are made once it is known.
     if (!lids && row.Word(1) != "orbit") {
       AddLidCurves(eye, cage);

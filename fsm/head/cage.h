@@ -22,7 +22,7 @@ struct CageTag {
   float lid_lower = 0;
   float margin = -1;     ///< distance from the lid's margin, mm; < 0: not on a lid
   float lip_hold = 0;    ///< part in closing the lips
-  float lip_side = 0;    ///< +1 upper lip, -1 lower lip, 0 corner of the mouth
+  float upper_lip = 0;   ///< 1 on the upper lip, -1 on the lower, 0 at the corners
   float lip_column = 0;  ///< 0 at the median .. kLipColumns at the corner
   float red = -1;        ///< 0 at the seam .. 1 at the vermilion border; < 0: not on the red
   float deep = 0;        ///< depth in the bag of the mouth, 0..1

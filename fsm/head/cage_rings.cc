@@ -32,9 +32,9 @@ MarginPoint PointOnLid(const EyeAnatomy& eye, int i) {
   const int along = upper ? i : kLidPoints - i;  // 0 inner corner .. kHalf outer corner
   const float t = static_cast<float>(along) / kHalf;
   // Points are denser towards the corners, where the lids bend most.
-  const float part = 0.5f - 0.5f * std::cos(kPi * (0.12f + 0.76f * t));
+  const float share = 0.5f - 0.5f * std::cos(kPi * (0.12f + 0.76f * t));
   const float from = 0.5f - 0.5f * std::cos(kPi * 0.12f);
-  const float x = glm::mix(eye.inner_x(), eye.outer_x(), (part - from) / (1 - 2 * from));
+  const float x = glm::mix(eye.inner_x(), eye.outer_x(), (share - from) / (1 - 2 * from));
   return {x, upper, along == 0 || along == kHalf};
 }
 
@@ -65,33 +65,35 @@ struct LipPoint {
   int column;
   float x;  ///< millimetres from the middle
   bool upper;
-  float side;  ///< 1 upper, -1 lower lip, 0 corner
+  float upper_lip;  ///< as CageTag::upper_lip
 };
 
 LipPoint PointOnLips(const MouthAnatomy& mouth, int k) {
   const bool upper = k <= kLipColumns;
   const int column = upper ? k : 2 * kLipColumns - k;
-  const float side = column == kLipColumns ? 0.0f : upper ? 1.0f : -1.0f;
-  return {column, mouth.column_x()[static_cast<std::size_t>(column)], upper, side};
+  const float upper_lip = column == kLipColumns ? 0.0f : upper ? 1.0f : -1.0f;
+  return {column, mouth.column_x()[static_cast<std::size_t>(column)], upper, upper_lip};
 }
 
 /// Returns a point on the red of the lips; `red`: 0 at the seam, 1 at the vermilion border.
 glm::vec3 PointOfRed(const MouthAnatomy& mouth, const LipPoint& at, float red) {
-  glm::vec3 p = mouth.Red(at.upper ? 1 : -1, at.x, red);
+  glm::vec3 p = mouth.Red(at.upper ? Lip::kUpper : Lip::kLower, at.x, red);
   // The rings pass around the corner side by side.
-  p += glm::vec3(1.0f, 0, -0.7f) * (red * 2.0f * SmoothStep(17, 25, at.x));
-  p.y += at.side * 0.5f * red * SmoothStep(14, 22, at.x);
+  p += glm::vec3(1.0f, 0, -0.7f) * (red * 2.0f * SmoothStep(17, mouth.corner().x, at.x));
+  p.y += at.upper_lip * 0.5f * red * SmoothStep(14, 22, at.x);
   return p;
 }
 
 glm::vec3 PointOfBag(const MouthAnatomy& mouth, const LipPoint& at, const BagRing& bag) {
-  const float open = std::sqrt(std::max(0.0f, 1 - at.x * at.x / (25.0f * 25.0f)));
-  const float web = bag.web * SmoothStep(14, 24, at.x);
-  glm::vec3 p = mouth.Red(1, at.x, 0);
-  p.x *= glm::mix(std::min(bag.widen, 1.0f), bag.widen, std::min(1.0f, 2 * open));
+  const BagBend& bend = mouth.bag_bend();
+  const float corner_x = mouth.corner().x;
+  const float open = std::sqrt(std::max(0.0f, 1 - at.x * at.x / (corner_x * corner_x)));
+  const float web = bag.web * SmoothStep(bend.web_x[0], bend.web_x[1], at.x);
+  glm::vec3 p = mouth.Red(Lip::kUpper, at.x, 0);
+  p.x *= glm::mix(std::min(bag.widen, 1.0f), bag.widen, std::min(1.0f, bend.width * open));
   p.x *= 1 - web;
-  p.y += at.side * bag.height * (0.15f + 0.85f * open);
-  p.z -= bag.back * (0.85f + 0.15f * open) * (1 - 3 * web);
+  p.y += at.upper_lip * bag.height * (bend.height[0] + bend.height[1] * open);
+  p.z -= bag.back * (bend.depth[0] + bend.depth[1] * open) * (1 - bend.web_depth * web);
   return p;
 }
 
@@ -149,7 +151,7 @@ void AddMouthCurves(const MouthAnatomy& mouth, Cage& cage) {
         continue;
       }
       CageTag tag;
-      tag.lip_side = at.side;
+      tag.upper_lip = at.upper_lip;
       tag.lip_column = static_cast<float>(at.column);
       if (ring >= kSeamRing) {
         tag.red = kRed[static_cast<std::size_t>(ring - kSeamRing)];

@@ -42,12 +42,28 @@ void ShadeNeck(const Features& features, std::span<const glm::vec3> collar, std:
   }
 }
 
-/// Returns how far the neck turns beside a point of the collar, which turns with it.
+/// Returns how far the neck turns beside a point of the cloth.
 float NeckWeightBeside(glm::vec3 p, std::size_t skin, const HeadMesh& mesh) {
   const auto nearest = std::ranges::min_element(std::span(mesh.position).first(skin), {},
                                                 [p](glm::vec3 q) { return glm::distance(p, q); });
   return mesh.weights[static_cast<std::size_t>(nearest - std::span(mesh.position).begin())]
       .skin.neck;
+}
+
+/// Returns how far each point of a ring of the cloth turns with the neck, evenly along the ring,
+/// for the skin's own weights step from vertex to vertex.
+std::vector<float> NeckWeights(std::span<const glm::vec3> ring, std::size_t skin,
+                               const HeadMesh& mesh) {
+  std::vector<float> weights;
+  for (const glm::vec3 p : ring) weights.push_back(NeckWeightBeside(p, skin, mesh));
+  constexpr int kRounds = 12;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<float> before = weights;
+    for (std::size_t i = 1; i + 1 < weights.size(); ++i) {
+      weights[i] = 0.25f * before[i - 1] + 0.5f * before[i] + 0.25f * before[i + 1];
+    }
+  }
+  return weights;
 }
 
 /// Draws the skin below the collar's edge in, so that it does not come through the cloth. `collar`:
@@ -65,35 +81,83 @@ void TuckNeck(const Features& features, std::span<const glm::vec3> collar, std::
     const float most = glm::length(outward(edge)) - features.shirt_tuck.inside;
     const float radius = glm::length(out);
     if (radius <= most) continue;
-    const float tucked = SmoothStep(features.shirt_tuck.below, edge.y - p.y);
+    const float tucked = features.shirt_tuck.below.Ramp(edge.y - p.y);
     const glm::vec2 drawn = out * glm::mix(1.0f, most / radius, tucked);
     p = {drawn.x, p.y, axis.z + drawn.y};
   }
 }
 
+/// The surface through the rings of the shirt. Rows are counted in rings: the first is row -1, the
+/// foot of the collar row 0. Columns run from the back over the agent's left to the front, then
+/// over the right to the back.
+class ClothSurface {
+ public:
+  static constexpr int kHalf = 20;  ///< columns of one half
+  static constexpr int kAround = 2 * kHalf + 1;
+
+  explicit ClothSurface(const Features& features) {
+    for (const auto* row : {&features.shirt_inside, &features.shirt_collar_foot,
+                            &features.shirt_collar, &features.shirt_fold, &features.shirt_neckline,
+                            &features.shirt_shoulder, &features.shirt_chest, &features.shirt_hem}) {
+      rings_.push_back(ClothRingOf(*row));
+    }
+  }
+
+  /// Returns the openness to light of a row.
+  float Open(float row) const {
+    const auto of_ring = Weights(down_, row);
+    float open = 0;
+    for (std::size_t k = 0; k < rings_.size(); ++k) open += of_ring[k] * rings_[k].open;
+    return open;
+  }
+
+  glm::vec3 Point(float row, int column) const {
+    const bool left = column <= kHalf;
+    const int k = left ? kHalf - column : column - kHalf;  // from the median in front
+    const auto of_ring = Weights(down_, row);
+    const auto of_point = Weights(around_, static_cast<float>(k) * (kPoints - 1) / kHalf);
+    glm::vec3 p(0);
+    for (std::size_t ring = 0; ring < rings_.size(); ++ring) {
+      for (int i = -1; i <= kPoints; ++i) {
+        const int from = i < 0 ? 1 : i == kPoints ? kPoints - 2 : i;
+        glm::vec3 q = rings_[ring].points[static_cast<std::size_t>(from)];
+        if (from != i) q.x = -q.x;
+        p += of_ring[ring] * of_point[static_cast<std::size_t>(i + 1)] * q;
+      }
+    }
+    if (k == 0 || k == kHalf) p.x = 0;
+    if (!left) p.x = -p.x;
+    return p;
+  }
+
+ private:
+  /// Returns a basis with knots at -1, 0, 1 ...
+  static SplineBasis Basis(std::size_t knots) {
+    std::vector<float> at;
+    for (std::size_t i = 0; i < knots; ++i) at.push_back(static_cast<float>(i) - 1);
+    return SplineBasis(std::move(at));
+  }
+  static std::vector<float> Weights(const SplineBasis& basis, float t) {
+    std::vector<float> weights(basis.knots().size());
+    basis.Weights(t, weights);
+    return weights;
+  }
+
+  std::vector<ClothRing> rings_;
+  const SplineBasis down_ = Basis(8);
+  // Mirrored neighbours at both ends keep the surface smooth across the median.
+  const SplineBasis around_ = Basis(kPoints + 2);
+};
+
 }  // namespace
 
 void BuildCloth(const Identity& identity, HeadMesh& mesh) {
-  const Features& features = identity.UsedFeatures();
-  constexpr int kHalf = 12;  // columns of one half
-  // The first ring is row -1; the foot of the collar is row 0.
-  constexpr std::array kRows = {-1.0f, 0.0f, 0.75f, 1.0f, 2.2f, 2.26f, 2.32f,
-                                2.75f, 3.3f, 3.8f,  4.2f, 4.6f, 5.0f,  6.0f};
+  const Features& features = *identity.features;
+  const ClothSurface surface(features);
+  constexpr int kAround = ClothSurface::kAround;
+  constexpr std::array kRows = {-1.0f, 0.0f, 0.75f, 1.0f, 2.2f, 2.26f, 2.32f, 2.75f,
+                                3.05f, 3.3f, 3.55f, 3.8f, 4.2f, 4.6f,  5.0f,  6.0f};
   constexpr std::size_t kCollar = 2, kSeam = 5;
-  constexpr int kAround = 2 * kHalf + 1;
-  std::vector<float> around_at, down_at;
-  // Mirrored neighbours at both ends keep the surface smooth across the median.
-  for (int i = -1; i <= kPoints; ++i) around_at.push_back(static_cast<float>(i));
-  std::vector<ClothRing> rings;
-  for (const auto* row : {&features.shirt_inside, &features.shirt_collar_foot,
-                          &features.shirt_collar, &features.shirt_fold, &features.shirt_neckline,
-                          &features.shirt_shoulder, &features.shirt_chest, &features.shirt_hem}) {
-    down_at.push_back(static_cast<float>(rings.size()) - 1);
-    rings.push_back(ClothRingOf(*row));
-  }
-  const SplineBasis around(around_at);
-  const SplineBasis down(down_at);
-  std::vector<float> wa(around_at.size()), wd(down_at.size());
   BakeWeights weights;
   weights.skin.free = weights.skin.neck = weights.skin.jaw = 0;
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
@@ -102,29 +166,15 @@ void BuildCloth(const Identity& identity, HeadMesh& mesh) {
     const float light = r == kSeam  ? features.shirt_seam.dark
                         : r < kSeam ? features.shirt_seam.band
                                     : 1.0f;
-    down.Weights(row, wd);
-    float open = 0;
-    for (std::size_t k = 0; k < rings.size(); ++k) open += wd[k] * rings[k].open;
-    for (int c = 0; c < kAround; ++c) {
-      // From the back over the agent's left to the front, then over the right to the back.
-      const bool left = c <= kHalf;
-      const int k = left ? kHalf - c : c - kHalf;
-      around.Weights(static_cast<float>(k) * (kPoints - 1) / kHalf, wa);
-      glm::vec3 p(0);
-      for (std::size_t ring = 0; ring < rings.size(); ++ring) {
-        for (int i = -1; i <= kPoints; ++i) {
-          const int from = i < 0 ? 1 : i == kPoints ? kPoints - 2 : i;
-          glm::vec3 q = rings[ring].points[static_cast<std::size_t>(from)];
-          if (from != i) q.x = -q.x;
-          p += wd[ring] * wa[static_cast<std::size_t>(i + 1)] * q;
-        }
-      }
-      if (k == 0 || k == kHalf) p.x = 0;
-      if (!left) p.x = -p.x;
-      const float of_collar = SmoothStep(2.2f, 1, row);
-      weights.skin.neck = of_collar > 0 ? of_collar * NeckWeightBeside(p, first, mesh) : 0;
-      mesh.Add(p, light * identity.palette.cloth, glm::clamp(open, 0.2f, 1.0f), Bone::kSkin,
-               weights);
+    const float open = glm::clamp(surface.Open(row), 0.2f, 1.0f);
+    const float of_collar = SmoothStep(2.2f, 1, row);
+    std::vector<glm::vec3> ring;
+    for (int c = 0; c < kAround; ++c) ring.push_back(surface.Point(row, c));
+    const std::vector<float> neck =
+        of_collar > 0 ? NeckWeights(ring, first, mesh) : std::vector<float>(ring.size());
+    for (std::size_t c = 0; c < ring.size(); ++c) {
+      weights.skin.neck = of_collar * neck[c];
+      mesh.Add(ring[c], light * identity.palette.cloth, open, Bone::kSkin, weights);
     }
   }
   const std::vector<glm::vec3> collar(mesh.position.begin() + first + kCollar * kAround,

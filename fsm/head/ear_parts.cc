@@ -42,7 +42,7 @@ class Ear {
     float height, open;
   };
   Relief ReliefAt(glm::vec2 p) const {
-    const float lobe = SmoothStep(features_.ear_lobe.begins, p.y);
+    const float lobe = features_.ear_lobe.begins.Ramp(p.y);
     const float helix = RidgeAt(features_.ear_helix, p) * (1 - lobe);
     const float anti = RidgeAt(features_.ear_antihelix, p);
     const float fork = RidgeAt(features_.ear_fork, p);
@@ -119,7 +119,7 @@ namespace {
 class EarBuilder {
  public:
   EarBuilder(const Identity& identity, Side side, HeadMesh& mesh)
-      : features_(identity.UsedFeatures()),
+      : features_(*identity.features),
         blush_(identity.palette.blush * features_.ear_blush.dark),
         colour_(glm::mix(identity.palette.skin, identity.palette.blush, features_.ear_blush.part)),
         ear_(features_),
@@ -149,17 +149,17 @@ class EarBuilder {
   static constexpr std::size_t kAround = 24;
   using Ring = std::array<std::uint32_t, kAround>;
 
-  /// Returns the point at fraction `part` of the way from the middle to the outline.
-  glm::vec2 On(std::size_t k, float part) const {
-    return glm::mix(ear_.middle(), ear_.Outline(static_cast<float>(k) / kAround), part);
+  /// Returns the point at fraction `share` of the way from the middle to the outline.
+  glm::vec2 On(std::size_t k, float share) const {
+    return glm::mix(ear_.middle(), ear_.Outline(static_cast<float>(k) / kAround), share);
   }
   void AddFront() {
-    for (const float part : {0.16f, 0.34f, 0.50f, 0.64f, 0.76f, 0.86f, 0.94f, 1.0f}) {
+    for (const float share : {0.16f, 0.34f, 0.50f, 0.64f, 0.76f, 0.86f, 0.94f, 1.0f}) {
       Ring& ring = rings_.emplace_back();
       for (std::size_t k = 0; k < kAround; ++k) {
-        const glm::vec2 p = On(k, part);
+        const glm::vec2 p = On(k, share);
         const Ear::Relief relief = ear_.ReliefAt(p);
-        const float in = part == 1.0f ? features_.ear_edge : 0;
+        const float in = share == 1.0f ? features_.ear_edge : 0;
         ring[k] = Add(ear_.PointAbove(p, relief.height - in), relief.open);
       }
     }
@@ -176,7 +176,7 @@ class EarBuilder {
   }
   std::uint32_t Add(glm::vec3 p, float open) {
     p.x *= SignOf(side_);
-    return mesh_.Add(p, glm::mix(blush_, colour_, open), Linear(features_.ear_light, open),
+    return mesh_.Add(p, glm::mix(blush_, colour_, open), features_.ear_light.At(open),
                      Bone::kSkull);
   }
   void Face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 
 #include "fsm/base/pi.h"
-#include "fsm/base/random.h"
+#include "fsm/head/paint_stream.h"
 
 namespace fsm {
 namespace {
@@ -19,7 +19,7 @@ struct BallRing {
 };
 
 std::array<BallRing, 11> Rings(const EyeAnatomy& eye, const Identity& identity) {
-  const Features& features = identity.UsedFeatures();
+  const Features& features = *identity.features;
   const Palette& palette = identity.palette;
   const float iris = std::asin(eye.iris_radius() / eye.radius());
   const float pupil = std::asin(eye.pupil_radius() / eye.radius());
@@ -48,7 +48,7 @@ std::array<BallRing, 11> Rings(const EyeAnatomy& eye, const Identity& identity) 
 void BuildEyes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh) {
   constexpr int kSegments = 22;
   const auto rings = Rings(eye, identity);
-  const float fibres = identity.UsedFeatures().iris_fibres;
+  const float fibres = identity.features->iris_fibres;
   for (const Side side : kSides) {
     const Bone bone = BoneOf(side);
     const glm::vec3 centre = eye.CentreOf(side);
@@ -73,7 +73,8 @@ void BuildEyes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh) 
         glm::vec3 colour = rings[k].colour;
         // The fibres of the iris are light and dark rays.
         if (k >= 2 && k <= 4)
-          colour *= 1 + fibres * NoiseAt(side == Side::kRight ? -s : s, static_cast<int>(k / 2));
+          colour *= 1 + fibres * NoiseAt(side == Side::kRight ? -s : s, PaintStream::kIrisFibre,
+                                         static_cast<int>(k / 2));
         now[static_cast<std::size_t>(s)] =
             mesh.Add(point(rings[k].angle, around), colour, 0.95f, bone);
       }

@@ -48,11 +48,11 @@ std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
     const bool upper = vertex.lip_weight > 0;
     const float along = 1 - (a / corner_x) * (a / corner_x);
     const float quarter = 4 * (a / corner_x) * (1 - a / corner_x);
-    const float border = std::abs(mouth.BorderY(upper ? 1 : -1, a));
-    const float part = std::min(1.0f, height / std::max(border, 0.5f));
+    const float border = std::abs(mouth.BorderY(upper ? Lip::kUpper : Lip::kLower, a));
+    const float share = std::min(1.0f, height / std::max(border, 0.5f));
     const float hold = std::abs(vertex.lip_weight);
-    const float outer = part * hold;
-    const float inner = (1 - part) * hold;
+    const float outer = share * hold;
+    const float inner = (1 - share) * hold;
     add(upper ? kUpperOuterY : kLowerOuterY, i, {0, outer * along, 0});
     add(upper ? kUpperOuterZ : kLowerOuterZ, i, {0, 0, outer * along});
     add(upper ? kUpperInnerY : kLowerInnerY, i, {0, inner * along, 0});
@@ -104,29 +104,26 @@ LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
 
 TeethRig BakeTeeth(const ToothArch& upper, const ToothArch& lower, std::span<const glm::vec3> rest,
                    std::span<const BakeWeights> weights) {
-  constexpr float kLeast = 1.3f;  // the crowns protrude from the parabola by about 0.9
+  constexpr float kMin = 1.3f;  // the crowns protrude from the parabola by about 0.9
   TeethRig rig{.upper = upper, .lower = lower, .contacts = {}};
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (!weights[i].by_teeth) continue;
     const glm::vec3 p = rest[i];
     rig.contacts.push_back({static_cast<std::uint32_t>(i),
-                            std::min(kLeast, p.z - step::ArchZ(upper, p.x)),
-                            std::min(kLeast, p.z - step::ArchZ(lower, p.x))});
+                            std::min(kMin, p.z - step::ArchZ(upper, p.x)),
+                            std::min(kMin, p.z - step::ArchZ(lower, p.x))});
   }
   return rig;
 }
 
-LipRig BakeLips(const MouthSlit& mouth, std::span<const BakeWeights> weights) {
+LipRig BakeLips(std::span<const BakeWeights> weights) {
   LipRig rig;
-  rig.seam = mouth.seam;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const BakeWeights& vertex = weights[i];
     if (vertex.lip_column < 0 || vertex.lip_weight == 0) continue;
     rig.followers.push_back({static_cast<std::uint32_t>(i),
                              static_cast<std::uint32_t>(vertex.lip_column), vertex.lip_weight});
   }
-  const auto [upper, lower] = mouth.seam[mouth.seam.size() / 2];
-  rig.measured = {upper, lower, mouth.corner_left, mouth.corner_right};
   return rig;
 }
 

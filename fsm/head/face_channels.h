@@ -24,6 +24,6 @@ LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
 /// `upper`, `lower`: the dental arches of this head.
 TeethRig BakeTeeth(const ToothArch& upper, const ToothArch& lower, std::span<const glm::vec3> rest,
                    std::span<const BakeWeights> weights);
-LipRig BakeLips(const MouthSlit& mouth, std::span<const BakeWeights> weights);
+LipRig BakeLips(std::span<const BakeWeights> weights);
 
 }  // namespace fsm

@@ -15,14 +15,14 @@ float ScreenBrightness(glm::vec3 screen) {
 FaceLight::FaceLight(std::span<const Patch> skin) {
   constexpr int kRounds = 4;       // the first round weights all patches equally
   constexpr float kSpread = 0.6f;  // of the logarithm of light; patches beyond are not skin
-  constexpr float kLeast = 1e-3f;
+  constexpr float kMin = 1e-3f;
   for (int round = 0; round < kRounds && !skin.empty(); ++round) {
     glm::mat4 spread(1e-3f);
     glm::vec4 sum(0), colours(0);
     for (const Patch& patch : skin) {
       const glm::vec4 n(patch.normal, 1);
       const float light = FromScreen(ScreenBrightness(patch.screen));
-      const float expected = std::max(glm::dot(light_, n), kLeast);
+      const float expected = std::max(glm::dot(light_, n), kMin);
       const float odd = round == 0 ? 0 : std::log(light / expected) / kSpread;
       const float weight = std::exp(-odd * odd);
       spread += weight * glm::outerProduct(n, n);

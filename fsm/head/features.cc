@@ -26,13 +26,15 @@ Features::Features(NumberTable numbers) : FeatureNumbers(numbers), table_(std::m
     const std::string name = NumberTable::RowName(row);
     const auto& n = table_[name];
     if (std::ranges::find(kCurves, name) != std::end(kCurves) && !Ascends(n))
-      row.Fail("numbers of x that do not ascend");
-    if (name == "crop_crown" && crop_crown == glm::vec3(0)) row.Fail("a crown that is nowhere");
+      row.Refuse("numbers of x that do not ascend");
+    if (name == "crop_hair crown" && crop_hair.crown == glm::vec3(0))
+      row.Refuse("a crown that is nowhere");
   }
 }
 
-const Features& Features::BuiltIn() {
-  static const Features features(NumberTable("tables/features.txt", embedded::features()));
+const std::shared_ptr<const Features>& Features::BuiltIn() {
+  static const std::shared_ptr<const Features> features(
+      new Features(NumberTable("tables/features.txt", embedded::features())));
   return features;
 }
 

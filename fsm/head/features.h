@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,8 +20,9 @@ class Features : public FeatureNumbers {
   /// Reads a table that overrides the built-in one. Throws as NumberTable does, and if the x of a
   /// curve do not ascend or a number exceeds its limits.
   Features(const std::string& file, std::string_view text)
-      : Features(NumberTable(file, text, &BuiltIn().table_)) {}
-  static const Features& BuiltIn();
+      : Features(NumberTable(file, text, &BuiltIn()->table_)) {}
+  /// Never null.
+  static const std::shared_ptr<const Features>& BuiltIn();
   const NumberTable& table() const { return table_; }
 
  private:

@@ -1,3 +1,5 @@
+#include "fsm/head/hair_crop.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,65 +8,36 @@
 #include <vector>
 
 #include "fsm/base/pi.h"
-#include "fsm/base/random.h"
 #include "fsm/base/spline.h"
-#include "fsm/head/hair.h"
 #include "fsm/head/hair_parts.h"
+#include "fsm/head/paint_stream.h"
 
 namespace fsm {
 namespace {
 
-class CroppedHair {
+using CropHair = decltype(Features::crop_hair);
+
+/// The shape of short hair. A place in it: azimuth -180..180; `up` 0 at the hairline .. 1 at the
+/// crown, which lies behind the top.
+class CropShape {
  public:
-  CroppedHair(const Identity& identity, HeadMesh& mesh)
+  /// `skin`: only read here; the identity outlives this. REQUIRES: identity.crop.
+  CropShape(const Identity& identity, const HeadMesh& skin)
       : style_(*identity.crop),
-        features_(identity.UsedFeatures()),
-        palette_(identity.palette),
+        hair_(identity.features->crop_hair),
         look_(identity),
-        scalp_(mesh),
-        mesh_(mesh) {}
+        scalp_(skin) {}
 
-  void Build() {
-    std::vector<glm::vec3> edge;
-    for (int k = -22; k <= 22; ++k) {
-      edge.push_back(scalp_.Over(Direction(3 * static_cast<float>(k), 0.03f), 0));
-    }
-    look_.ShadeSkin(edge, features_.crop_shade, mesh_);
-    Shell();
-    for (int k = 0; k < style_.locks; ++k) Lock(k);
-  }
+  const Scalp& scalp() const { return scalp_; }
 
-  std::vector<SkinHair> Hairline() {
-    std::vector<SkinHair> hairs;
-    for (int k = 0; k < static_cast<int>(features_.crop_hairline.count); ++k) {
-      const float azimuth = features_.crop_hairline.azimuth * NoiseAt(k, 91);
-      // Most hairs grow close to the line, few in front of it.
-      const float off = NoiseAt(k, 92);
-      const float up =
-          features_.crop_hairline.up + features_.crop_hairline.spread * off * std::abs(off);
-      const glm::vec3 root = Direction(azimuth, up);
-      if (scalp_.Over(root, 0).y < features_.crop_hairline.lowest) continue;
-      SkinHair hair = look_.OnSkin(scalp_, root, Flow(root, Forehead(azimuth, 0.1f)),
-                                   std::min(1.0f, 1 + off), k);
-      // Curled hair reaches less far.
-      const float reach = 1 - features_.crop_curl_shorter * style_.curl;
-      hair.middle = glm::mix(hair.root, hair.middle, reach);
-      hair.tip = glm::mix(hair.root, hair.tip, reach);
-      hairs.push_back(hair);
-    }
-    return hairs;
-  }
-
- private:
-  // Azimuth -180..180; `up` 0 at the hairline .. 1 at the crown, which lies behind the top.
+  /// Returns the direction of a place from kHairCentre.
   glm::vec3 Direction(float azimuth, float up) const {
-    const float recede = style_.recede *
-                         SmoothStep(features_.crop_recess.begins, std::abs(azimuth)) *
-                         SmoothStep(features_.crop_recess.ends, std::abs(azimuth));
+    const float recede = style_.recede * hair_.recess.begins.Ramp(std::abs(azimuth)) *
+                         hair_.recess.ends.Ramp(std::abs(azimuth));
     // Whole numbers of waves around the head, so that both ends of the shell meet behind.
     const float round = glm::radians(azimuth);
-    const float wander = features_.crop_wander.wide * std::sin(13 * round + 1) +
-                         features_.crop_wander.narrow * std::sin(35 * round);
+    const float wander =
+        hair_.wander.wide * std::sin(13 * round + 1) + hair_.wander.narrow * std::sin(35 * round);
     const float line = look_.HairlineElevation(azimuth) + recede + wander;
     const glm::vec3 low = HairDirection(azimuth, line);
     // Interpolates along the great circle from the hairline to the crown.
@@ -84,8 +57,7 @@ class CroppedHair {
 
   /// Returns how much a place counts as hair over the forehead, 0..1.
   float Forehead(float azimuth, float up) const {
-    return SmoothStep(features_.crop_forehead.azimuth, std::abs(azimuth)) *
-           SmoothStep(features_.crop_forehead.up, up);
+    return hair_.forehead.azimuth.Ramp(std::abs(azimuth)) * hair_.forehead.over_up.Ramp(up);
   }
 
   /// Returns the direction of the hair: away from the crown, forward on top, down at the sides and
@@ -94,124 +66,172 @@ class CroppedHair {
     glm::vec3 away = root - crown_;
     away -= root * glm::dot(away, root);
     glm::vec3 along = away / std::max(glm::length(away), 1e-3f) * (1 - forehead) +
-                      forehead * features_.crop_combed;
+                      forehead * hair_.forehead.combed;
     along -= root * glm::dot(along, root);
     return glm::normalize(along + glm::vec3(0, -1e-3f, 0));
   }
 
   /// Returns the direction of hairs; its length tells how sleek they are, and curls are dull.
   glm::vec3 Along(glm::vec3 root, float forehead) const {
-    return Flow(root, forehead) * (1 - features_.crop_curl_dull * style_.curl);
+    return Flow(root, forehead) * (1 - hair_.curl.dull * style_.curl);
   }
   /// Returns the millimetres across and along strands; curls are small and about round.
   glm::vec2 Curled(glm::vec2 mm) const {
-    return mm * glm::mix(glm::vec2(1), features_.crop_curl_smaller, style_.curl);
+    return mm * glm::mix(glm::vec2(1), hair_.curl.smaller, style_.curl);
   }
 
   float Depth(glm::vec3 d, float up) const {
-    const float top = SmoothStep(features_.crop_top, d.y);
+    const auto& thickness = hair_.thickness;
+    const float top = thickness.top_over_y.Ramp(d.y);
     const float body = glm::mix(style_.side_mm, style_.top_mm, top);
-    return features_.crop_edge.thick +
-           features_.crop_edge.behind * SmoothStep(features_.crop_edge.hollow, d.z) +
-           body * SmoothStep(features_.crop_thickens, up);
+    return thickness.edge + thickness.behind * thickness.behind_over_z.Ramp(d.z) +
+           body * thickness.over_up.Ramp(up);
   }
 
+  std::vector<SkinStroke> Hairline() const {
+    const auto& hairline = hair_.hairline;
+    std::vector<SkinStroke> hairs;
+    for (int k = 0; k < static_cast<int>(hairline.count); ++k) {
+      const float azimuth = hairline.azimuth * NoiseAt(k, PaintStream::kHairlinePlace);
+      // Most hairs grow close to the line, few in front of it.
+      const float off = NoiseAt(k, PaintStream::kHairlineOff);
+      const float up = hairline.up + hairline.spread * off * std::abs(off);
+      const glm::vec3 root = Direction(azimuth, up);
+      if (scalp_.Over(root, 0).y < hairline.lowest) continue;
+      SkinStroke hair = look_.OnSkin(scalp_, root, Flow(root, Forehead(azimuth, 0.1f)),
+                                     std::min(1.0f, 1 + off), k);
+      // Curled hair reaches less far.
+      const float reach = 1 - hair_.curl.shorter * style_.curl;
+      hair.middle = glm::mix(hair.root, hair.middle, reach);
+      hair.tip = glm::mix(hair.root, hair.tip, reach);
+      hairs.push_back(hair);
+    }
+    return hairs;
+  }
+
+ private:
+  const CropStyle& style_;
+  const CropHair& hair_;
+  const HairLook look_;
+  const glm::vec3 crown_ = glm::normalize(hair_.crown);
+  const Scalp scalp_;
+};
+
+/// Adds the hair of that shape to a mesh.
+class CropBuilder {
+ public:
+  CropBuilder(const Identity& identity, HeadMesh& mesh)
+      : style_(*identity.crop),
+        hair_(identity.features->crop_hair),
+        palette_(identity.palette),
+        look_(identity),
+        shape_(identity, mesh),
+        mesh_(mesh) {}
+
+  void Build() {
+    std::vector<glm::vec3> edge;
+    for (int k = -22; k <= 22; ++k) {
+      edge.push_back(shape_.scalp().Over(shape_.Direction(3 * static_cast<float>(k), 0.03f), 0));
+    }
+    look_.ShadeSkin(edge, hair_.edge.shade, mesh_);
+    Shell();
+    for (int k = 0; k < style_.locks; ++k) Lock(k);
+  }
+
+ private:
   void Shell() {
     constexpr int kAround = 48;
     constexpr float kRoundMm = 536;  // twice the width of the strands' picture
     constexpr std::array kUp = {0.0f,  0.022f, 0.06f, 0.11f, 0.17f, 0.23f, 0.30f, 0.37f, 0.44f,
                                 0.51f, 0.58f,  0.65f, 0.72f, 0.79f, 0.86f, 0.93f, 1.0f};
-    const auto edge_density = ListOf(features_.crop_edge_density);
+    const auto edge_density = ListOf(hair_.edge.density);
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (std::size_t r = 0; r < kUp.size(); ++r) {
       for (int k = 0; k <= kAround; ++k) {
         const float azimuth = -180 + 360 * static_cast<float>(k) / kAround;
         // An uneven edge, because hair does not end at a drawn line.
-        const float ragged = r == 0 ? features_.crop_ragged * NoiseAt(k % kAround, 61) : 0.0f;
-        const glm::vec3 d = Direction(azimuth, kUp[r] + ragged);
-        const float uneven =
-            1 + features_.crop_below.uneven * NoiseAt(k % kAround, static_cast<int>(r) + 62);
-        const glm::vec3 p = scalp_.Over(d, Depth(d, kUp[r]) * (r == 0 ? 1.0f : uneven));
+        const float ragged =
+            r == 0 ? hair_.edge.ragged * NoiseAt(k % kAround, PaintStream::kCropEdge) : 0.0f;
+        const glm::vec3 d = shape_.Direction(azimuth, kUp[r] + ragged);
+        const float uneven = 1 + hair_.shell.uneven * NoiseAt(k % kAround, PaintStream::kCropBelow,
+                                                              static_cast<int>(r));
+        const glm::vec3 p =
+            shape_.scalp().Over(d, shape_.Depth(d, kUp[r]) * (r == 0 ? 1.0f : uneven));
         const glm::vec3 colour =
             glm::mix(palette_.hair, look_.StrandColour(3 * (k % kAround), static_cast<int>(r)),
-                     features_.crop_below.streaks * (1 - style_.curl));
-        const float thin = r == 0 ? features_.crop_edge_hair.part : 1.0f;
-        mesh_.Add(p, glm::mix(palette_.skin * features_.crop_edge_hair.skin, colour, thin),
-                  r < 3 ? features_.crop_light.edge : features_.crop_light.others, Bone::kSkull);
-        mesh_.strands.back() = {.along = Along(d, Forehead(azimuth, kUp[r])),
-                                .density = r < edge_density.size() ? edge_density[r] : 1.0f,
-                                .tile_mm = Curled({kRoundMm * azimuth / 360, -140 * kUp[r]})};
+                     hair_.shell.streaks * (1 - style_.curl));
+        const float thin = r == 0 ? hair_.edge.hair : 1.0f;
+        mesh_.Add(p, glm::mix(palette_.skin * hair_.edge.skin, colour, thin),
+                  r < 3 ? hair_.shell.edge_light : hair_.shell.light, Bone::kSkull);
+        mesh_.strands.back() = {
+            .along = shape_.Along(d, shape_.Forehead(azimuth, kUp[r])),
+            .density = r < edge_density.size() ? edge_density[r] : 1.0f,
+            .tile_mm = shape_.Curled({kRoundMm * azimuth / 360, -140 * kUp[r]})};
       }
     }
     mesh_.Grid(Material::kHair, first, static_cast<int>(kUp.size()), kAround + 1, true);
   }
 
   void Lock(int k) {
+    const auto& lock = hair_.lock;
+    const auto& uneven = hair_.uneven;
     // The golden ratio spreads locks evenly over the scalp.
     const float turn =
         360 * (0.618034f * static_cast<float>(k) - std::floor(0.618034f * static_cast<float>(k)));
     const float azimuth = turn - 180;
     const float share = (static_cast<float>(k) + 0.5f) / static_cast<float>(style_.locks);
-    const float up = features_.crop_lock_from.first + features_.crop_lock_from.more * share * share;
-    const glm::vec2 ear = features_.crop_ear.azimuth;
-    const bool by_ear = std::abs(azimuth) > ear.x && std::abs(azimuth) < ear.y;
-    if (by_ear && up < features_.crop_ear.up) return;
-    const glm::vec3 root = Direction(azimuth, up);
-    const float forehead = Forehead(azimuth, up);
-    glm::vec3 along = Flow(root, forehead) + features_.crop_uneven.direction *
-                                                 glm::vec3(NoiseAt(k, 31), 0, NoiseAt(k, 32));
+    const float up = lock.from.start + lock.from.added * share * share;
+    if (hair_.ear.azimuth.Contains(std::abs(azimuth)) && up < hair_.ear.up) return;
+    const glm::vec3 root = shape_.Direction(azimuth, up);
+    const float forehead = shape_.Forehead(azimuth, up);
+    glm::vec3 along = shape_.Flow(root, forehead) +
+                      uneven.direction * glm::vec3(NoiseAt(k, PaintStream::kCropLockX), 0,
+                                                   NoiseAt(k, PaintStream::kCropLockZ));
     along = glm::normalize(along - root * glm::dot(along, root));
-    const float length =
-        style_.lock_mm * (1 + features_.crop_uneven.length * NoiseAt(k, 33)) *
-        (features_.crop_lock_length.nape +
-         features_.crop_lock_length.top * SmoothStep(features_.crop_lock_length.top_over, root.y)) *
-        (features_.crop_lock_length.hairline +
-         features_.crop_lock_length.above * SmoothStep(features_.crop_lock_length.above_over, up));
-    const float lift = style_.lift_mm * (1 + features_.crop_uneven.lift * NoiseAt(k, 34)) +
-                       forehead * style_.front_up * features_.crop_front_lift;
+    const float length = style_.lock_mm *
+                         (1 + uneven.length * NoiseAt(k, PaintStream::kCropLockLength)) *
+                         hair_.lock_length.nape.At(hair_.lock_length.top_over_y.Ramp(root.y)) *
+                         hair_.lock_length.hairline.At(hair_.lock_length.over_up.Ramp(up));
+    const float lift = style_.lift_mm * (1 + uneven.lift * NoiseAt(k, PaintStream::kCropLockLift)) +
+                       forehead * style_.front_up * hair_.forehead.lift;
     std::vector<glm::vec3> path;
     constexpr int kSteps = 4;
     const glm::vec3 side = glm::cross(root, along);
-    const float waves = features_.crop_lock_waves;
     for (int s = 0; s <= kSteps; ++s) {
       const float v = static_cast<float>(s) / kSteps;
-      const float swing = style_.wave_mm * std::sin(waves * kPi * v + static_cast<float>(k));
+      const float swing = style_.wave_mm * std::sin(lock.waves * kPi * v + static_cast<float>(k));
       const glm::vec3 d = glm::normalize(root + (along * (length * v) + side * swing * v) / 100.0f);
-      const float over = Depth(d, Up(d));  // follows the shell
-      path.push_back(
-          scalp_.Over(d, 1.02f * over + lift * v * (1 - 0.75f * v) + features_.crop_lock_off));
+      const float over = shape_.Depth(d, shape_.Up(d));  // follows the shell
+      path.push_back(shape_.scalp().Over(d, 1.02f * over + lift * v * (1 - 0.75f * v) + lock.off));
     }
-    const float width = glm::mix(
-        features_.crop_lock_width.hairline,
-        features_.crop_lock_width.top + features_.crop_lock_width.per_length * style_.lock_mm,
-        SmoothStep(features_.crop_lock_width.over, up));
+    const float width = glm::mix(hair_.lock_width.hairline, hair_.lock_width.top.At(style_.lock_mm),
+                                 hair_.lock_width.over_up.Ramp(up));
     look_.AddLock(path,
-                  {.width_mm = features_.crop_lock_width.factor * width *
-                               (1 + features_.crop_uneven.width * NoiseAt(k, 35)),
-                   .root_part = features_.crop_lock_taper.root,
-                   .tip_part = features_.crop_lock_taper.tip,
-                   .fray_from = features_.crop_lock_taper.fray_from,
-                   .open = features_.crop_lock_taper.light},
+                  {.width_mm = hair_.lock_width.factor * width *
+                               (1 + uneven.width * NoiseAt(k, PaintStream::kCropLockWidth)),
+                   .root_share = lock.root,
+                   .tip_share = lock.tip,
+                   .fray_from = lock.fray_from,
+                   .open = lock.light},
                   k, mesh_);
   }
 
   const CropStyle& style_;
-  const Features& features_;
+  const CropHair& hair_;
   const Palette& palette_;
   const HairLook look_;
-  const glm::vec3 crown_ = glm::normalize(features_.crop_crown);
-  Scalp scalp_;
+  const CropShape shape_;
   HeadMesh& mesh_;
 };
 
 }  // namespace
 
 void BuildCroppedHair(const Identity& identity, HeadMesh& mesh) {
-  CroppedHair(identity, mesh).Build();
+  CropBuilder(identity, mesh).Build();
 }
 
-std::vector<SkinHair> CroppedHairline(const Identity& identity, HeadMesh& mesh) {
-  return CroppedHair(identity, mesh).Hairline();
+std::vector<SkinStroke> CroppedHairline(const Identity& identity, const HeadMesh& skin) {
+  return CropShape(identity, skin).Hairline();
 }
 
 }  // namespace fsm

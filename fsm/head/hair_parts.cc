@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "fsm/base/random.h"
 #include "fsm/base/smooth_step.h"
 #include "fsm/head/landmarks.h"
+#include "fsm/head/paint_stream.h"
 
 namespace fsm {
 
@@ -50,12 +50,13 @@ glm::vec3 HairDirection(float azimuth, float elevation) {
 }
 
 glm::vec3 HairLook::StrandColour(int strand, int row) const {
-  const float fine = NoiseAt(strand * 7, 3);
-  const float broad = NoiseAt(strand / 4, 11);
-  const float along = features_.hair_streaks.along * NoiseAt(strand, row + 40);
+  const float fine = NoiseAt(strand * 7, PaintStream::kStrandColour);
+  const float broad = NoiseAt(strand / 4, PaintStream::kStreakColour);
+  const float along =
+      features_.hair_streaks.along * NoiseAt(strand, PaintStream::kStreakAlong, row);
   // Dark hair shows its streaks; light hair is more even.
   const float strength =
-      1 - features_.hair_even.part * SmoothStep(features_.hair_even.green, palette_.hair.g);
+      1 - features_.hair_even.part * features_.hair_even.green.Ramp(palette_.hair.g);
   const float light = 1 + strength * (features_.hair_streaks.strand * fine +
                                       features_.hair_streaks.broad * broad + along);
   return palette_.hair * light *
@@ -78,7 +79,7 @@ void HairLook::ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMe
     const float beside =
         std::exp(-nearest / (reach_mm * reach_mm)) * SmoothStep(lowest, lowest + 30, p.y);
     const float near = beside * SmoothStep(10, 40, p.y);
-    const float under = SmoothStep(features_.hair_on_skin.under, AboveHairline(p));
+    const float under = features_.hair_on_skin.under.Ramp(AboveHairline(p));
     mesh.openness[i] *= 1 - features_.hair_on_skin.shade * std::max(beside, under);
     mesh.albedo[i] = glm::mix(
         mesh.albedo[i], palette_.hair,
@@ -91,8 +92,8 @@ void HairLook::AddLock(std::span<const glm::vec3> path, const LockStyle& style, 
   const float streaks = features_.lock_streaks, root_light = features_.lock_root_light;
   std::array<std::uint32_t, 2> before{};
   const int last = static_cast<int>(path.size()) - 1;
-  float along_mm = 90 * (1 + NoiseAt(seed, 71));
-  const float across_mm = 130 * (1 + NoiseAt(seed, 72));
+  float along_mm = 90 * (1 + NoiseAt(seed, PaintStream::kLockTileAlong));
+  const float across_mm = 130 * (1 + NoiseAt(seed, PaintStream::kLockTileAcross));
   for (int k = 0; k <= last; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const float t = static_cast<float>(k) / static_cast<float>(last);
@@ -104,8 +105,8 @@ void HairLook::AddLock(std::span<const glm::vec3> path, const LockStyle& style, 
     // A single hair stands on its edge, so that it is seen where it crosses the outline.
     if (style.single) across = glm::normalize(glm::cross(across, step) + glm::vec3(0, 1e-4f, 0));
     if (k > 0) along_mm += glm::length(path[i] - path[i - 1]);
-    const float taper = glm::mix(style.root_part, 1.0f, SmoothStep(0, 0.3f, t)) *
-                        glm::mix(1.0f, style.tip_part, SmoothStep(0.5f, 1, t));
+    const float taper = glm::mix(style.root_share, 1.0f, SmoothStep(0, 0.3f, t)) *
+                        glm::mix(1.0f, style.tip_share, SmoothStep(0.5f, 1, t));
     const glm::vec3 colour = glm::mix(palette_.hair, StrandColour(seed, k), streaks) *
                              glm::mix(1.0f, style.tip_light, t);
     const float shade = style.open * glm::mix(root_light, 1.0f, SmoothStep(0, 0.25f, t));
@@ -126,33 +127,33 @@ void HairLook::AddLock(std::span<const glm::vec3> path, const LockStyle& style, 
   }
 }
 
-SkinHair HairLook::OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
-                          int seed) const {
-  const float length =
-      Linear(features_.hairline_length, NoiseAt(seed, 81)) * (0.4f + 0.6f * strength);
+SkinStroke HairLook::OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
+                            int seed) const {
+  const float length = features_.hairline_length.At(NoiseAt(seed, PaintStream::kHairlineLength)) *
+                       (0.4f + 0.6f * strength);
   const glm::vec3 aside = glm::cross(root, along);
-  const glm::vec3 way =
-      glm::normalize(along + features_.hairline_uneven * NoiseAt(seed, 82) * aside);
-  const glm::vec3 bent =
-      glm::normalize(along + features_.hairline_uneven * NoiseAt(seed, 83) * aside);
+  const glm::vec3 way = glm::normalize(
+      along + features_.hairline_uneven * NoiseAt(seed, PaintStream::kHairlineWay) * aside);
+  const glm::vec3 bent = glm::normalize(
+      along + features_.hairline_uneven * NoiseAt(seed, PaintStream::kHairlineBend) * aside);
   const auto at = [&](glm::vec3 d) { return Unroll(scalp.Over(glm::normalize(d), 0)); };
   const glm::vec3 middle = root + way * (0.5f * length / 100);
-  const float cover =
-      Linear(features_.hairline_cover, NoiseAt(seed, 84)) * (0.3f + 0.7f * strength);
+  const float cover = features_.hairline_cover.At(NoiseAt(seed, PaintStream::kHairlineCover)) *
+                      (0.3f + 0.7f * strength);
   return {.root = at(root),
           .middle = at(middle),
           .tip = at(middle + bent * (0.5f * length / 100)),
-          .width_mm = Linear(features_.hairline_width, NoiseAt(seed, 85)),
+          .width_mm = features_.hairline_width.At(NoiseAt(seed, PaintStream::kHairlineWidth)),
           .tint = glm::mix(glm::vec3(1), palette_.hair / palette_.skin, cover)};
 }
 
 void HairLook::LightAsOne(std::span<const glm::vec3> position, std::span<glm::vec3> normal) const {
-  const float below = features_.hair_as_one.below, part = features_.hair_as_one.part;
+  const float below = features_.hair_as_one.below, share = features_.hair_as_one.part;
   for (std::size_t i = 0; i < position.size(); ++i) {
     const glm::vec3 from = position[i] - kHairCentre;
     const glm::vec3 outward = glm::normalize(from * glm::vec3(1, from.y > 0 ? 1.0f : below, 1));
     if (glm::dot(normal[i], outward) < -0.3f) continue;  // lining; single hairs stand upright
-    normal[i] = glm::normalize(glm::mix(normal[i], outward, part));
+    normal[i] = glm::normalize(glm::mix(normal[i], outward, share));
   }
 }
 

@@ -31,8 +31,8 @@ class Scalp {
 glm::vec3 HairDirection(float azimuth, float elevation);
 struct LockStyle {
   float width_mm;
-  float root_part = 1;     ///< width at the root as a fraction of width_mm
-  float tip_part = 0.5f;   ///< width at the tip as a fraction of width_mm
+  float root_share = 1;    ///< width at the root as a fraction of width_mm
+  float tip_share = 0.5f;  ///< width at the tip as a fraction of width_mm
   float fray_from = 0.6f;  ///< fraction of the length from which hairs end
   float root_density = 0;  ///< density of the hairs at the root, 0..1
   float open = 1;          ///< openness to light, 0..1
@@ -43,7 +43,7 @@ struct LockStyle {
 class HairLook {
  public:
   explicit HairLook(const Identity& identity)
-      : features_(identity.UsedFeatures()),
+      : features_(*identity.features),
         palette_(identity.palette),
         hairline_(CurveOf(features_.hairline)) {}
 
@@ -60,8 +60,8 @@ class HairLook {
   void ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMesh& mesh) const;
   /// Returns a hair painted on the skin from `root` (unit direction from kHairCentre) along
   /// `along`. `strength`: 1 = full; a smaller one is shorter and paler.
-  SkinHair OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
-                  int seed) const;
+  SkinStroke OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
+                    int seed) const;
   /// Bends the normals of locks, which are flat cards, towards those of the whole head of hair, so
   /// that they are lit alike. REQUIRES: `position` and `normal` have the same size.
   void LightAsOne(std::span<const glm::vec3> position, std::span<glm::vec3> normal) const;

@@ -49,15 +49,15 @@ class HairSprings {
   }
 
  private:
-  static constexpr float kLeastWeight = 0.01f;
+  static constexpr float kMinWeight = 0.01f;
 
   static SpringRow RowOf(const TableRow& row, float above) {
-    constexpr float kLeastApart = 1, kLowest = -1000;
-    SpringRow made{.y = row.Within(1, kLowest, above - kLeastApart), .spring = {}};
-    made.spring.frequency_hz = row.Within(2, Spring::kLeastHz, Spring::kMostHz);
-    made.spring.damping = row.Within(3, Spring::kLeastDamping, Spring::kMostDamping);
+    constexpr float kMinApart = 1, kMinY = -1000;
+    SpringRow made{.y = row.Within(1, kMinY, above - kMinApart), .spring = {}};
+    made.spring.frequency_hz = row.Within(2, Spring::kMinHz, Spring::kMaxHz);
+    made.spring.damping = row.Within(3, Spring::kMinDamping, Spring::kMaxDamping);
     made.spring.hang = row.Within(4, 0, 1);
-    made.spring.most_mm = row.Within(5, Spring::kLeastMost, Spring::kMostMost);
+    made.spring.reach_mm = row.Within(5, Spring::kMinReachMm, Spring::kMaxReachMm);
     row.EndsAt(6);
     return made;
   }
@@ -70,20 +70,20 @@ class HairSprings {
     std::size_t below = 0;
     while (below + 1 < rows_.size() && p.y < rows_[below].y) ++below;
     const float above_y = below == 0 ? still_ : rows_[below - 1].y;
-    const float part = SmoothStep(above_y, rows_[below].y, p.y);
-    HangOnRow(v, below, part, rig);
-    if (below > 0) HangOnRow(v, below - 1, 1 - part, rig);
+    const float share = SmoothStep(above_y, rows_[below].y, p.y);
+    HangOnRow(v, below, share, rig);
+    if (below > 0) HangOnRow(v, below - 1, 1 - share, rig);
   }
 
   void HangOnRow(std::uint32_t v, std::size_t row, float weight, RigData& rig) {
     const glm::vec3 beside = rig.rest[v] - axis_;
     const float turn = std::atan2(beside.x, beside.z) / (2 * kPi) + 0.5f;
     const float place = turn * static_cast<float>(around_);
-    const float part = place - std::floor(place);
+    const float second = place - std::floor(place);
     const int one = static_cast<int>(std::floor(place)) % around_;
     for (const auto& [column, share] :
-         {std::pair(one, 1 - part), std::pair((one + 1) % around_, part)}) {
-      if (weight * share < kLeastWeight) continue;
+         {std::pair(one, 1 - second), std::pair((one + 1) % around_, second)}) {
+      if (weight * share < kMinWeight) continue;
       rig.spring_rig.weights.push_back({v, SpringAt(row, column, rig), weight * share});
     }
   }

@@ -46,7 +46,7 @@ glm::vec3 HeadForm::Motion(glm::vec3 p) const {
 }
 
 float HeadForm::TeethTooFar(const HeadMesh& base) const {
-  constexpr float kRoom = 1.3f, kMost = 8;
+  constexpr float kRoom = 1.3f, kMax = 8;
   float most = 0;
   for (const ToothArch& arch : {mouth_.upper_teeth(), mouth_.lower_teeth()}) {
     for (std::size_t i = 0; i < base.position.size(); ++i) {
@@ -56,7 +56,7 @@ float HeadForm::TeethTooFar(const HeadMesh& base) const {
       most = std::max(most, room - (q.z - step::ArchZ(Moved(arch, teeth_), q.x)));
     }
   }
-  return std::min(most, kMost);
+  return std::min(most, kMax);
 }
 
 void HeadForm::Shape(HeadMesh& mesh) const {

@@ -41,7 +41,7 @@ struct HeadMesh {
   struct Batch {
     Material material;
     std::vector<std::uint32_t> indices;
-    int pbr = -1;  ///< as in HeadTopology::Part; also two_sided
+    int pbr = -1;  ///< as in HeadSurface::Part; also two_sided
     bool two_sided = false;
   };
   std::vector<Batch> batches;
@@ -58,11 +58,11 @@ struct HeadMesh {
   void Grid(Material material, std::uint32_t first, int rows, int columns, bool flip = false);
 };
 
-/// Fills the triangles and parts of a topology that has none.
-void SetParts(std::span<const HeadMesh::Batch> batches, HeadTopology& topology);
+/// Fills the triangles and parts of a surface that has none.
+void SetParts(std::span<const HeadMesh::Batch> batches, HeadSurface& surface);
 
-/// Computes the weights that depend only on the position on the face. `side`: +1 above the mouth's
-/// slit, -1 below it, 0 where the cheek joins both.
-SkinWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y);
+/// Returns how far the neck turns with the head at a height: fully at the jaw, not at the
+/// shoulders.
+float NeckWeight(float y);
 
 }  // namespace fsm

@@ -36,8 +36,8 @@ constexpr std::array<NamedColour, 15> kColours = {{{"skin", &Palette::skin},
 
 void ReadColour(const TableRow& row, Palette& palette) {
   const auto found = std::ranges::find(kColours, row.Word(1), &NamedColour::name);
-  if (found == kColours.end()) row.Fail("no part of a face is called " + row.Word(1));
-  palette.*found->colour = row.Vector(2);
+  if (found == kColours.end()) row.Refuse("no part of a face is called " + row.Word(1));
+  palette.*found->colour = {row.Within(2, 0, 1), row.Within(3, 0, 1), row.Within(4, 0, 1)};
   row.EndsAt(5);
 }
 
@@ -48,6 +48,86 @@ Palette ReadBasePalette(const Table& table) {
     ReadColour(row, palette);
   }
   return palette;
+}
+
+void ReadSlider(const TableRow& row, Identity& identity) {
+  std::erase_if(identity.sliders, [&](const auto& other) { return other.first == row.Word(1); });
+  identity.sliders.emplace_back(row.Word(1), row.Within(2, -kMaxSlider, kMaxSlider));
+  row.EndsAt(3);
+}
+
+void ReadHair(const TableRow& row, Identity& identity) {
+  if (row.Word(1) == "crop") {
+    identity.crop = CropStyle{row.Within(2, -5, 60),
+                              row.Within(3, -5, 60),
+                              row.Integer(4),
+                              row.Within(5, 0, 100),
+                              row.Within(6, -2, 10),
+                              row.Within(7, 0, 20),
+                              row.Within(8, 0, 1),
+                              row.Within(9, 0, 45),
+                              row.size() > 10 ? row.Within(10, 0, 1) : 0.0f};
+    if (identity.crop->locks < 0 || identity.crop->locks > 500) row.Refuse("0 to 500 locks");
+    row.EndsAt(11);
+  } else if (row.Word(1) == "long") {
+    identity.crop.reset();
+    identity.long_hair = {row.Within(2, -0.6f, 0.6f), row.Within(3, -5, 30),
+                          row.Within(4, -160, -20), row.Within(5, -160, -20), row.Within(6, 0, 12)};
+    row.EndsAt(7);
+  } else {
+    row.Refuse("long or crop expected");
+  }
+}
+
+void ReadEyes(const TableRow& row, Identity& identity) {
+  identity.eyes.size = row.Within(1, 0.7f, 1.4f);
+  identity.eyes.roll = glm::radians(row.Within(2, -20, 20));
+  identity.eyes.upper_mm = row.Within(3, -4, 3);
+  identity.eyes.lower_mm = row.Within(4, -2, 4);
+  row.EndsAt(5);
+}
+
+void ReadFold(const TableRow& row, Identity& identity) {
+  identity.fold = {row.Within(1, -4, 4), row.Within(2, -4, 4), row.Within(3, 0, 2),
+                   row.Within(4, -2, 5)};
+  row.EndsAt(5);
+}
+
+void ReadBrows(const TableRow& row, Identity& identity) {
+  identity.brows = {row.Within(1, 0, 3), row.Within(2, -8, 8)};
+  if (row.size() > 3) identity.brows.arch = row.Within(3, -0.5f, 2);
+  if (row.size() > 4) identity.brows.density = row.Within(4, 0, 1.5f);
+  row.EndsAt(5);
+}
+
+void ReadCreases(const TableRow& row, Identity& identity) {
+  for (std::size_t i = 0; i < kLastingCreases; ++i) identity.creases[i] = row.Within(i + 1, 0, 1);
+  row.EndsAt(kLastingCreases + 1);
+}
+
+float OnlyNumber(const TableRow& row, float min, float max) {
+  const float number = row.Within(1, min, max);
+  row.EndsAt(2);
+  return number;
+}
+
+/// The function that applies each kind of row to an identity, by key word.
+const std::map<std::string_view, void (*)(const TableRow&, Identity&)> kIdentityRows = {
+    {"colour", [](auto& row, auto& identity) { ReadColour(row, identity.palette); }},
+    {"slider", ReadSlider},
+    {"hair", ReadHair},
+    {"eyes", ReadEyes},
+    {"fold", ReadFold},
+    {"beard", [](auto& row, auto& identity) { identity.palette.beard = OnlyNumber(row, 0, 1); }},
+    {"lashes", [](auto& row, auto& identity) { identity.lashes = OnlyNumber(row, 0, 2); }},
+    {"brows", ReadBrows},
+    {"creases", ReadCreases},
+    {"field", [](auto& row, auto& identity) { identity.unit_effects.Add(row); }},
+    {"lid", [](auto& row, auto& identity) { identity.unit_effects.Add(row); }}};
+
+const Table& BuiltInTable() {
+  static const Table table("tables/identities.txt", embedded::identities());
+  return table;
 }
 
 /// Returns the index of a name in Identities(); throws std::runtime_error listing the names.
@@ -62,72 +142,20 @@ std::size_t IdentityIndex(std::string_view name) {
 }  // namespace
 
 const Palette& BasePalette() {
-  static const Palette palette =
-      ReadBasePalette(Table("tables/identities.txt", embedded::identities()));
+  static const Palette palette = ReadBasePalette(BuiltInTable());
   return palette;
 }
 
 void ReadIdentityRow(const TableRow& row, Identity& identity) {
-  const std::string& key = row.key();
-  if (key == "colour") {
-    ReadColour(row, identity.palette);
-  } else if (key == "slider") {
-    std::erase_if(identity.sliders, [&](const auto& other) { return other.first == row.Word(1); });
-    identity.sliders.emplace_back(row.Word(1), row.Number(2));
-    row.EndsAt(3);
-  } else if (key == "hair") {
-    if (row.Word(1) == "crop") {
-      identity.crop =
-          CropStyle{row.Number(2), row.Number(3), row.Integer(4),
-                    row.Number(5), row.Number(6), row.Number(7),
-                    row.Number(8), row.Number(9), row.size() > 10 ? row.Within(10, 0, 1) : 0.0f};
-      if (identity.crop->locks < 0 || identity.crop->locks > 500) row.Fail("0 to 500 locks");
-      row.EndsAt(11);
-    } else if (row.Word(1) == "long") {
-      identity.crop.reset();
-      identity.long_hair = {row.Within(2, -0.6f, 0.6f), row.Within(3, -5, 30),
-                            row.Within(4, -160, -20), row.Within(5, -160, -20),
-                            row.Within(6, 0, 12)};
-      row.EndsAt(7);
-    } else {
-      row.Fail("long or crop expected");
-    }
-  } else if (key == "eyes") {
-    identity.eyes.size = row.Within(1, 0.7f, 1.4f);
-    identity.eyes.roll = glm::radians(row.Within(2, -20, 20));
-    identity.eyes.upper_mm = row.Within(3, -4, 3);
-    identity.eyes.lower_mm = row.Within(4, -2, 4);
-    row.EndsAt(5);
-  } else if (key == "fold") {
-    identity.fold = {row.Within(1, -4, 4), row.Within(2, -4, 4), row.Within(3, 0, 2),
-                     row.Within(4, -2, 5)};
-    row.EndsAt(5);
-  } else if (key == "beard") {
-    identity.palette.beard = row.Number(1);
-    row.EndsAt(2);
-  } else if (key == "lashes") {
-    identity.lashes = row.Number(1);
-    row.EndsAt(2);
-  } else if (key == "brows") {
-    identity.brows = {row.Number(1), row.Number(2)};
-    if (row.size() > 3) identity.brows.arch = row.Within(3, -0.5f, 2);
-    if (row.size() > 4) identity.brows.density = row.Within(4, 0, 1.5f);
-    row.EndsAt(5);
-  } else if (key == "creases") {
-    for (std::size_t i = 0; i < kLastingCreases; ++i) identity.creases[i] = row.Number(i + 1);
-    row.EndsAt(kLastingCreases + 1);
-  } else if (key == "field" || key == "lid") {
-    identity.units.Add(row);
-  } else {
-    row.Fail("unknown word '" + key + "'");
-  }
+  const auto found = kIdentityRows.find(row.key());
+  if (found == kIdentityRows.end()) row.Refuse("unknown word '" + row.key() + "'");
+  found->second(row, identity);
 }
 
 const std::vector<std::string>& Identities() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> found;
-    const Table table("tables/identities.txt", embedded::identities());
-    for (const TableRow& row : table.rows()) {
+    for (const TableRow& row : BuiltInTable().rows()) {
       if (row.key() == "face") found.push_back(row.Word(1));
     }
     return found;
@@ -141,7 +169,6 @@ bool IsBuiltIn(std::string_view name) {
 
 Identity ReadIdentity(const Table& table, std::string_view name) {
   Identity identity;
-  identity.index = IdentityIndex(name);
   bool mine = false;
   bool found = false;
   for (const TableRow& row : table.rows()) {
@@ -152,12 +179,15 @@ Identity ReadIdentity(const Table& table, std::string_view name) {
       ReadIdentityRow(row, identity);
     }
   }
-  if (!found) table.Fail("no face '" + std::string(name) + "'");
+  if (!found) table.Refuse("no face '" + std::string(name) + "'");
   return identity;
 }
 
 Identity BuiltInIdentity(std::string_view name) {
-  return ReadIdentity(Table("tables/identities.txt", embedded::identities()), name);
+  const std::size_t index = IdentityIndex(name);  // its error lists the names
+  Identity identity = ReadIdentity(BuiltInTable(), name);
+  identity.index = index;
+  return identity;
 }
 
 std::vector<std::string> SliderNames() {
@@ -175,21 +205,18 @@ Identity ReadOwnIdentity(const std::string& name, std::string_view text) {
   std::optional<Identity> identity;
   for (const TableRow& row : table.rows()) {
     if (row.key() == "base") {
-      if (!IsBuiltIn(row.Word(1))) row.Fail("no built-in face is called " + row.Word(1));
-      if (identity) row.Fail("a second base");
+      if (!IsBuiltIn(row.Word(1))) row.Refuse("no built-in face is called " + row.Word(1));
+      if (identity) row.Refuse("a second base");
       identity = BuiltInIdentity(row.Word(1));
       continue;
     }
-    if (!identity) row.Fail("'base FACE' expected before it");
-    if (row.key() == "slider") {
-      if (std::ranges::find(names, row.Word(1)) == names.end()) {
-        row.Fail("no slider is called " + row.Word(1));
-      }
-      if (!(std::abs(row.Number(2)) <= kMostSlider)) row.Fail("-10 to 10 expected");
+    if (!identity) row.Refuse("'base FACE' expected before it");
+    if (row.key() == "slider" && std::ranges::find(names, row.Word(1)) == names.end()) {
+      row.Refuse("no slider is called " + row.Word(1));
     }
     ReadIdentityRow(row, *identity);
   }
-  if (!identity) table.Fail("no line 'base FACE'");
+  if (!identity) table.Refuse("no line 'base FACE'");
   return *identity;
 }
 
@@ -204,10 +231,10 @@ std::string WriteOwnIdentity(std::string_view base,
 SliderWarp::SliderWarp(const Table& table,
                        const std::vector<std::pair<std::string, float>>& values) {
   for (const TableRow& row : table.rows()) {
-    if (row.key() != "slider") row.Fail("unknown word '" + row.key() + "'");
+    if (row.key() != "slider") row.Refuse("unknown word '" + row.key() + "'");
     const Field field{row.Vector(2), row.Vector(5), row.Vector(8)};
     if (field.radius.x <= 0 || field.radius.y <= 0 || field.radius.z <= 0) {
-      row.Fail("a radius must be positive");
+      row.Refuse("a radius must be positive");
     }
     for (const auto& [name, value] : values) {
       if (name == row.Word(1)) fields_.push_back({field.at, field.radius, value * field.by});
@@ -216,7 +243,7 @@ SliderWarp::SliderWarp(const Table& table,
   for (const auto& [name, value] : values) {
     const bool known =
         std::ranges::any_of(table.rows(), [&](const TableRow& row) { return row.Word(1) == name; });
-    if (!known) table.Fail("no slider '" + name + "'");
+    if (!known) table.Refuse("no slider '" + name + "'");
   }
 }
 

@@ -75,33 +75,31 @@ struct Identity {
     float density = 1;  ///< number of hairs, and darkness of the skin between them
   };
   Brows brows;
-  std::array<float, kLastingCreases> creases{};  ///< by Crease
-  UnitTable units{};                             ///< added to BuiltInUnits()
-  std::shared_ptr<const Features> features{};    ///< null: the built-in ones
-
-  /// Returns `features`, or the built-in ones if it is null.
-  const Features& UsedFeatures() const { return features ? *features : Features::BuiltIn(); }
+  std::array<float, kLastingCreases> creases{};                    ///< by Crease
+  UnitTable unit_effects{};                                        ///< added to BuiltInUnits()
+  std::shared_ptr<const Features> features = Features::BuiltIn();  ///< never null
 };
 
-/// Throws std::runtime_error listing the names if `name` is unknown, or naming file and line if the
-/// table is damaged.
+/// Reads a face's block of a table; Identity::index stays 0. Throws std::runtime_error naming file
+/// and line if the table is damaged, or has no such face.
 Identity ReadIdentity(const Table& table, std::string_view name);
 /// Reads one line of a face's block; a slider replaces an earlier one of the same name.
 void ReadIdentityRow(const TableRow& row, Identity& identity);
 
-/// Returns a built-in face as its table describes it. Throws as ReadIdentity does.
+/// Returns a built-in face as its table describes it. Throws std::runtime_error listing the names
+/// if `name` is unknown.
 Identity BuiltInIdentity(std::string_view name);
 /// Returns the names of all sliders, in the order of their table.
 std::vector<std::string> SliderNames();
 
 /// Reads a user's own face, the file identity.txt in its folder: `base FACE`, then lines as in
 /// tables/identities.txt that modify it. `name` appears in error messages. Throws
-/// std::runtime_error naming file and line. Limit: kMostSlider in absolute value.
+/// std::runtime_error naming file and line. Limit: kMaxSlider in absolute value.
 Identity ReadOwnIdentity(const std::string& name, std::string_view text);
 /// Returns the text of such a file with sliders only.
 std::string WriteOwnIdentity(std::string_view base,
                              const std::map<std::string, float, std::less<>>& sliders);
-inline constexpr float kMostSlider = 10;
+inline constexpr float kMaxSlider = 10;
 
 /// The sliders as a displacement field.
 class SliderWarp {

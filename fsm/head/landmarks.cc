@@ -25,7 +25,7 @@ Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const 
     } else if (row.key() == "side") {
       pair(row.Word(1), p);
     } else {
-      row.Fail("middle or side expected");
+      row.Refuse("middle or side expected");
     }
   }
   const float middle = eye.centre().x;
@@ -51,9 +51,9 @@ Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const 
 
 glm::vec2 Unroll(glm::vec3 p) {
   const float turn = std::atan2(p.x, p.z) / kPi;  // -1..1, 0 at the front
-  const float part = std::abs(turn);
+  const float share = std::abs(turn);
   constexpr float kFront = 1.0f / 3;
-  const float wide = part < kFront ? 0.6f * part / kFront : 0.6f + 0.6f * (part - kFront);
+  const float wide = share < kFront ? 0.6f * share / kFront : 0.6f + 0.6f * (share - kFront);
   return {0.5f + std::copysign(0.5f * wide, turn), std::clamp((p.y + 200) / 340, 0.0f, 1.0f)};
 }
 

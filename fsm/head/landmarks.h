@@ -19,7 +19,7 @@ Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const 
                         const EyeAnatomy& eye, const Sided<EyeTransform>& eye_transforms,
                         const Features& features);
 
-/// Returns the texture coordinates of a base head's point; see HeadTopology::uv.
+/// Returns the texture coordinates of a base head's point; see HeadSurface::uv.
 glm::vec2 Unroll(glm::vec3 p);
 
 }  // namespace fsm

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "fsm/base/pi.h"
-#include "fsm/base/random.h"
 #include "fsm/base/smooth_step.h"
+#include "fsm/head/paint_stream.h"
 
 namespace fsm {
 namespace {
@@ -18,7 +18,7 @@ class LashBuilder {
   LashBuilder(const EyeAnatomy& eye, const Identity& identity, bool of_photo, Side side,
               HeadMesh& mesh)
       : eye_(eye),
-        features_(identity.UsedFeatures()),
+        features_(*identity.features),
         palette_(identity.palette),
         size_(identity.lashes),
         of_photo_(of_photo),
@@ -33,12 +33,12 @@ class LashBuilder {
     weights_.lid_upper = upper ? 1.0f : 0.0f;
     weights_.lid_lower = 1 - weights_.lid_upper;
     if (upper) Line();
-    const glm::vec2 along = upper ? features_.upper_lashes.along : features_.lower_lashes.along;
+    const Range along = upper ? features_.upper_lashes.along : features_.lower_lashes.along;
     const float count = upper ? features_.upper_lashes.count : features_.lower_lashes.count;
     const int hairs = static_cast<int>(count);
     for (int i = 0; i < hairs; ++i) {
-      const float part = (static_cast<float>(i) + 0.5f) / static_cast<float>(hairs);
-      Hair(Lerp(along, part) + 0.008f * NoiseAt(i, 71), i);
+      const float share = (static_cast<float>(i) + 0.5f) / static_cast<float>(hairs);
+      Hair(along.At(share) + 0.008f * NoiseAt(i, PaintStream::kLashPlace), i);
     }
   }
 
@@ -67,19 +67,19 @@ class LashBuilder {
     constexpr int kSteps = 14;
     std::array<std::uint32_t, 2> before{};
     for (int i = 0; i <= kSteps; ++i) {
-      const float part = static_cast<float>(i) / kSteps;
-      const float x = X(Lerp(features_.lash_line, part));
+      const float share = static_cast<float>(i) / kSteps;
+      const float x = X(features_.lash_line.At(share));
       const float thick =
-          (0.35f + 0.65f * size_) * Linear(features_.lash_line_thickness,
-                                           std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
+          (0.35f + 0.65f * size_) *
+          features_.lash_line_thickness.At(std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * share)));
       const float radius = eye_.LidRadius(x);
-      const float ends = SmoothStep(0, 0.2f, part);
+      const float ends = SmoothStep(0, 0.2f, share);
       const float soft =
-          of_photo_ ? features_.lash_line_dark.photo * SmoothStep(0, 0.5f, part) : 1.0f;
+          of_photo_ ? features_.lash_line_dark.photo * SmoothStep(0, 0.5f, share) : 1.0f;
       const std::uint32_t low = Add(eye_.OnLid(x, Angle(x) - 0.10f / radius, radius - 0.1f), x,
-                                    soft * Linear(features_.lash_line_dark.rim, ends));
+                                    soft * features_.lash_line_dark.rim.At(ends));
       const std::uint32_t high = Add(eye_.OnLid(x, Angle(x) + thick / radius, radius + 0.45f), x,
-                                     of_photo_ ? 0 : Linear(features_.lash_line_dark.above, ends));
+                                     of_photo_ ? 0 : features_.lash_line_dark.above.At(ends));
       if (i > 0) {
         Face(before[0], low, high);
         Face(before[0], high, before[1]);
@@ -94,20 +94,22 @@ class LashBuilder {
     const float up = upper_ ? 1.0f : -1.0f;
     const float radius = eye_.LidRadius(x) + 0.05f;
     // Neighbouring lashes lean together in threes.
-    const float clump = features_.lash_clump.threes * (static_cast<float>(1 - i % 3)) +
-                        features_.lash_clump.each * NoiseAt(i, 5) +
-                        (of_photo_ ? features_.lash_clump.photo * NoiseAt(i, 6) : 0.0f);
+    const float clump =
+        features_.lash_clump.threes * (static_cast<float>(1 - i % 3)) +
+        features_.lash_clump.each * NoiseAt(i, PaintStream::kLashLean) +
+        (of_photo_ ? features_.lash_clump.photo * NoiseAt(i, PaintStream::kPhotoLashLean) : 0.0f);
     const float fan = features_.lash_fan.out * (along - features_.lash_fan.from) + clump;
-    const float differs = ByLid(features_.lash_lengths) * NoiseAt(i, 9);
+    const float differs = ByLid(features_.lash_lengths) * NoiseAt(i, PaintStream::kLashLength);
     const float outward = std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along));
     const float length =
-        size_ * (upper_ ? Linear(features_.upper_lash_length, outward) * (0.94f + differs)
+        size_ * (upper_ ? features_.upper_lash_length.At(outward) * (0.94f + differs)
                         : features_.lower_lash_length * (1 + differs));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
     const float width = ByLid(features_.lash_width);
     // Lower lashes are thin, and much of the skin shows between them.
-    const float dark = ByLid(features_.lash_darkness) +
-                       (of_photo_ ? features_.lash_photo_dark * NoiseAt(i, 4) : 0.0f);
+    const float dark =
+        ByLid(features_.lash_darkness) +
+        (of_photo_ ? features_.lash_photo_dark * NoiseAt(i, PaintStream::kPhotoLashDark) : 0.0f);
     const float rise = ByLid(features_.lash_rise);
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
     // A lash is a curved card of two segments: outward, then up (the lower ones down).

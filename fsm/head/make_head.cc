@@ -20,7 +20,8 @@
 #include "fsm/head/ear_parts.h"
 #include "fsm/head/eye_parts.h"
 #include "fsm/head/face_channels.h"
-#include "fsm/head/hair.h"
+#include "fsm/head/hair_crop.h"
+#include "fsm/head/hair_long.h"
 #include "fsm/head/hair_parts.h"
 #include "fsm/head/hair_springs.h"
 #include "fsm/head/head_form.h"
@@ -31,47 +32,44 @@
 #include "fsm/head/mouth_parts.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/head/photo_wear.h"
-#include "fsm/head/skin_hairs.h"
 #include "fsm/head/skin_mesh.h"
+#include "fsm/head/skin_strokes.h"
 #include "fsm/head/subdivide.h"
 #include "fsm/head/warp.h"
 
 // A head is made in stages, each of which passes a value to the next: its ingredients; the skin
-// from its cage; the parts added to it; all deformed to the head's form; its look; the rig.
+// from its cage; the parts added to it; all deformed to the head's form; its look; the rig. Both
+// kinds of heads, of an identity and of a photo, have these in common; MakeHead adds what only one
+// of them has.
 
 namespace fsm {
 namespace {
 
-/// What a head is made of: an identity, or the built-in face that a photo is warped from.
+/// What a head is made of.
 struct Ingredients {
-  Ingredients(Identity own, bool sides_differ)
+  explicit Ingredients(Identity own)
       : identity(std::move(own)),
-        sliders(Table("tables/sliders.txt", embedded::sliders()), identity.sliders),
-        asymmetric(sides_differ) {
+        sliders(Table("tables/sliders.txt", embedded::sliders()), identity.sliders) {
     eye.FillUpperLid(identity.fold.full_mm);
   }
-  explicit Ingredients(const PhotoHead& head) : Ingredients(BuiltInIdentity(head.base), true) {
-    identity.features = head.features;
-    TakeColours(head, identity.palette);
-    eye.ScaleIris(head.iris_size);
-    photo = &head;
-    warp.emplace(head.points, head.smooth);
+  /// Those of the built-in face that a photo is warped from, in the photo's colours.
+  explicit Ingredients(const PhotoHead& photo) : Ingredients(BuiltInIdentity(photo.base)) {
+    identity.features = photo.features;
+    TakeColours(photo, identity.palette);
+    eye.ScaleIris(photo.iris_size);
   }
 
   Identity identity;
   EyeAnatomy eye = EyeAnatomy::BuiltIn();
   const MouthAnatomy& mouth = MouthAnatomy::BuiltIn();
   SliderWarp sliders;
-  bool asymmetric;                   ///< whether the two sides move slightly differently
-  const PhotoHead* photo = nullptr;  ///< the photo it wears, or null
-  std::optional<Warp> warp;          ///< from the base face to the person in the photo
 };
 
 /// The skin of the base head.
 struct BaseSkin {
   Cage cage;
   FineSkin fine;
-  MouthSlit mouth;
+  MouthLandmarks mouth;  ///< without incisors
   HeadMesh mesh;
 };
 
@@ -86,142 +84,137 @@ BaseSkin MakeSkin(const Ingredients& from) {
 
 /// The base head without hair; the first vertices are those of the skin.
 struct BaseParts {
+  void Add(std::vector<SkinStroke> strokes) {
+    std::ranges::move(strokes, std::back_inserter(skin_strokes));
+  }
+
   HeadMesh mesh;
-  std::vector<SkinHair> skin_hairs;
+  std::vector<SkinStroke> skin_strokes;
 };
 
-BaseParts LayParts(const Ingredients& from, const BaseSkin& skin) {
-  const Identity& identity = from.identity;
-  BaseParts parts{skin.mesh, {}};
-  HeadMesh& mesh = parts.mesh;
-  if (from.photo) {
-    AddPhotoSheet(*from.photo, mesh);
-  } else {
-    BuildCloth(identity, mesh);
-  }
-  const SkinFront front(skin.fine);
-  parts.skin_hairs = BuildBrows(front, identity, mesh);
-  std::ranges::move(BuildLidFolds(front, from.eye, identity), std::back_inserter(parts.skin_hairs));
-  if (!from.photo) {
-    std::ranges::move(BuildStubble(front, SkinPainter(identity, from.eye), identity),
-                      std::back_inserter(parts.skin_hairs));
-    std::ranges::move(Hairline(identity, mesh), std::back_inserter(parts.skin_hairs));
-  }
-  // A photo shows the lashes of open eyes, so only those of shut lids are added.
-  BuildLashes(from.eye, identity, from.photo != nullptr, mesh);
-  BuildEyes(from.eye, identity, mesh);
-  BuildTeeth(from.mouth, identity, mesh);
-  BuildTongue(from.mouth, identity, mesh);
-  // Long hair covers the ears; a photo shows them.
-  if (identity.crop && !from.photo) BuildEars(identity, mesh);
-  return parts;
+void AddBrowsAndFolds(const Ingredients& from, const SkinFront& front, BaseParts& parts) {
+  parts.Add(BuildBrows(front, from.identity, parts.mesh));
+  parts.Add(BuildLidFolds(front, from.eye, from.identity));
 }
 
-/// The head in its own form, with hair.
+void AddEyesAndMouth(const Ingredients& from, HeadMesh& mesh) {
+  BuildEyes(from.eye, from.identity, mesh);
+  BuildTeeth(from.mouth, from.identity, mesh);
+  BuildTongue(from.mouth, from.identity, mesh);
+}
+
+/// The head in its own form; hair is added to it.
 struct FormedHead {
+  FormedHead(const HeadForm& form, const HeadMesh& base_mesh)
+      : mesh(base_mesh),
+        base(base_mesh.position),
+        eyes(form.eye_transforms()),
+        teeth(form.teeth()) {
+    form.Shape(mesh);
+  }
+
   HeadMesh mesh;
-  std::vector<glm::vec3> base;  ///< rest form of the base head, for texture coordinates
-  std::size_t hair_first;
+  std::vector<glm::vec3> base;  ///< rest form of the base head without hair
   Sided<EyeTransform> eyes;
   TeethTransform teeth;  ///< relative to the base head
 };
 
-void AddHair(const Ingredients& from, const BaseSkin& skin, HeadMesh& mesh) {
-  if (from.photo) {
-    LeaveOutUnseen(*from.photo, skin.fine.tag, mesh);
-    if (!from.photo->glasses) return;
-    HoldBehindGlasses(glm::vec2(from.eye.centre()), skin.mesh.position.size(), mesh);
-  } else {
-    BuildHair(from.identity, mesh);
+/// Warps the base face to the person in a photo.
+FormedHead TakeForm(const Ingredients& from, const PhotoHead& photo, const BaseSkin& skin,
+                    const HeadMesh& base) {
+  const Warp warp(photo.points, photo.smooth);
+  FormedHead head(HeadForm(from.eye, from.mouth, from.sliders, &warp, photo.eyes, base), base);
+  LeaveOutUnseen(photo, skin.fine.tag, head.mesh);
+  if (photo.glasses) {
+    HoldBehindGlasses(*photo.features, glm::vec2(from.eye.centre()), skin.mesh.position.size(),
+                      head.mesh);
   }
-}
-
-FormedHead TakeForm(const Ingredients& from, const BaseSkin& skin, const BaseParts& parts) {
-  const HeadForm form(from.eye, from.mouth, from.sliders, from.warp ? &*from.warp : nullptr,
-                      from.photo ? from.photo->eyes : std::nullopt, parts.mesh,
-                      from.photo ? EyeTransform{} : from.identity.eyes);
-  FormedHead head{parts.mesh, parts.mesh.position, parts.mesh.position.size(),
-                  form.eye_transforms(), form.teeth()};
-  form.Shape(head.mesh);
-  AddHair(from, skin, head.mesh);
-  head.base.insert(head.base.end(),
-                   head.mesh.position.begin() + static_cast<std::ptrdiff_t>(head.hair_first),
-                   head.mesh.position.end());
   return head;
 }
 
-HeadTopology TopologyOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& parts,
-                        const FormedHead& head) {
-  HeadTopology topology;
-  SetParts(head.mesh.batches, topology);
-  topology.skin_hairs = parts.skin_hairs;
-  topology.mouth = skin.mouth;
-  topology.albedo = head.mesh.albedo;
-  for (glm::vec3& colour : topology.albedo) colour = glm::clamp(colour, 0.0f, 1.0f);
-  topology.openness = head.mesh.openness;
+HeadSurface SurfaceOf(const Ingredients& from, const BaseParts& parts, const FormedHead& head) {
+  HeadSurface surface;
+  SetParts(head.mesh.batches, surface);
+  surface.skin_strokes = parts.skin_strokes;
+  surface.albedo = head.mesh.albedo;
+  for (glm::vec3& colour : surface.albedo) colour = glm::clamp(colour, 0.0f, 1.0f);
+  surface.openness = head.mesh.openness;
   if (std::ranges::any_of(head.mesh.opacity, [](float opacity) { return opacity < 1; })) {
-    topology.opacity = head.mesh.opacity;
+    surface.opacity = head.mesh.opacity;
   }
-  topology.strands = head.mesh.strands;
-  for (const glm::vec3 p : head.base) topology.uv.push_back(Unroll(p));
+  surface.strands = head.mesh.strands;
+  for (const glm::vec3 p : head.base) surface.uv.push_back(Unroll(p));
+  for (std::size_t i = head.base.size(); i < head.mesh.position.size(); ++i)
+    surface.uv.push_back(Unroll(head.mesh.position[i]));
   for (const Side side : kSides) {
     const float size = head.eyes[side].size;
-    topology.eyes[side] = {
-        .centre = EyePointInFace(from.eye, head.eyes, side, from.eye.CentreOf(side)),
-        .ball_radius = size * from.eye.radius(),
-        .iris_radius = size * from.eye.iris_radius(),
-        .pupil_radius = size * from.eye.pupil_radius(),
-        .iris_colour = from.identity.palette.iris,
-        .white_colour = from.identity.palette.sclera};
+    surface.eyes[side] = {.ball_radius = size * from.eye.radius(),
+                          .iris_radius = size * from.eye.iris_radius(),
+                          .pupil_radius = size * from.eye.pupil_radius(),
+                          .iris_colour = from.identity.palette.iris,
+                          .white_colour = from.identity.palette.sclera};
   }
-  return topology;
+  return surface;
 }
 
 RigData RigOf(const Ingredients& from, const BaseSkin& skin, const FormedHead& head,
-              const HeadTopology& topology) {
+              const HeadSurface& surface, bool asymmetric) {
   using enum RigStep;
   const Identity& identity = from.identity;
   RigData rig;
   // Lips meet where the teeth let them; skin that follows them is pushed off the teeth again.
   rig.steps = {kChannels, kLids,  kJaw,  kTeeth,   kLips,   kTeeth,
                kTongue,   kBones, kNeck, kSprings, kNormals};
+  const std::size_t hair_first = head.base.size();
   rig.rest = head.mesh.position;
-  rig.rest_normal = Normals(topology.indices, rig.rest, rig.rest.size());
-  HairLook(identity).LightAsOne(std::span(rig.rest).subspan(head.hair_first),
-                                std::span(rig.rest_normal).subspan(head.hair_first));
+  rig.rest_normal = Normals(surface.indices, rig.rest, rig.rest.size());
+  HairLook(identity).LightAsOne(std::span(rig.rest).subspan(hair_first),
+                                std::span(rig.rest_normal).subspan(hair_first));
   rig.bone = head.mesh.bone;
   for (const BakeWeights& vertex : head.mesh.weights) rig.weights.push_back(vertex.skin);
-  rig.units = BuiltInUnits();
-  rig.units.Add(identity.units);
-  if (from.asymmetric) {
+  rig.unit_effects = BuiltInUnits();
+  rig.unit_effects.Add(identity.unit_effects);
+  if (asymmetric) {
     rig.asymmetry_seed = static_cast<int>(identity.index);
-    rig.units.MakeAsymmetric(*rig.asymmetry_seed);
+    rig.unit_effects.MakeAsymmetric(*rig.asymmetry_seed);
   }
   rig.units_by_place = true;
-  rig.creases = {.at_rest = identity.creases, .depth = from.photo ? from.photo->lined : 1};
+  rig.creases.at_rest = identity.creases;
   const std::span<const BakeWeights> weights = head.mesh.weights;
-  rig.channels = UnitChannels(rig.units, rig.bone, rig.weights);
+  rig.channels = UnitChannels(rig.unit_effects, rig.bone, rig.weights);
   std::ranges::move(MouthChannels(from.mouth, weights), std::back_inserter(rig.channels));
   rig.lids = BakeLids(from.eye, head.eyes, rig.rest, weights);
-  rig.lips = BakeLips(skin.mouth, weights);
+  rig.mouth = skin.mouth;
+  rig.mouth.incisors = FindIncisors(rig.rest, rig.bone, surface);
+  rig.lips = BakeLips(weights);
   rig.teeth = BakeTeeth(Moved(from.mouth.upper_teeth(), head.teeth),
                         Moved(from.mouth.lower_teeth(), head.teeth), rig.rest, weights);
-  for (const Side side : kSides) rig.eyes.pivot[side] = topology.eyes[side].centre;
-  for (std::size_t i = 0; i < topology.indices.size(); i += 3) {
-    const std::uint32_t* const corner = &topology.indices[i];
+  for (const Side side : kSides)
+    rig.eyes.centre[side] = EyePointInFace(from.eye, head.eyes, side, from.eye.CentreOf(side));
+  for (std::size_t i = 0; i < surface.indices.size(); i += 3) {
+    const std::uint32_t* const corner = &surface.indices[i];
     if (rig.bone[*corner] != Bone::kSkin) continue;
     rig.normals.soft_triangles.insert(rig.normals.soft_triangles.end(), corner, corner + 3);
   }
   if (!identity.crop) {
-    AddHairSprings(Table("tables/hair_springs.txt", embedded::hair_springs()), head.hair_first,
-                   rig);
+    AddHairSprings(Table("tables/hair_springs.txt", embedded::hair_springs()), hair_first, rig);
   }
   return rig;
 }
 
+HeadAsset AssetOf(const Ingredients& from, const BaseSkin& skin, const BaseParts& parts,
+                  const FormedHead& head, bool asymmetric) {
+  HeadAsset asset;
+  asset.surface = SurfaceOf(from, parts, head);
+  asset.rig = RigOf(from, skin, head, asset.surface, asymmetric);
+  asset.landmarks = NameLandmarks(skin.cage, skin.fine, asset.rig.rest, from.eye, head.eyes,
+                                  *from.identity.features);
+  return asset;
+}
+
 /// Maps the photo onto the skin, evaluated with lids open and shut.
-void Wear(const Ingredients& from, const BaseSkin& skin, const FormedHead& formed,
-          HeadAsset& asset) {
+void Wear(const PhotoHead& photo, const Ingredients& from, const BaseSkin& skin,
+          const FormedHead& formed, HeadAsset& asset) {
   const std::size_t count = skin.mesh.position.size();
   const Rig rig(asset.rig);
   HeadVertices open, shut;
@@ -230,25 +223,11 @@ void Wear(const Ingredients& from, const BaseSkin& skin, const FormedHead& forme
   asleep.blink.left = asleep.blink.right = 1;
   rig.Evaluate(asleep, shut);
   const auto pose = [count](const HeadVertices& v) {
-    return SkinPose{std::span(v.position).first(count), std::span(v.normal).first(count)};
+    return SkinSurface{std::span(v.position).first(count), std::span(v.normal).first(count)};
   };
   const PhotoSkin worn{std::span(formed.mesh.weights).first(count), skin.fine.tag, pose(open),
                        pose(shut)};
-  WearPhoto(*from.photo, worn, from.identity.palette.lip_inside, asset.topology);
-}
-
-std::unique_ptr<Head> Bake(const Ingredients& from) {
-  const BaseSkin skin = MakeSkin(from);
-  const BaseParts parts = LayParts(from, skin);
-  const FormedHead formed = TakeForm(from, skin, parts);
-  HeadAsset asset;
-  asset.topology = TopologyOf(from, skin, parts, formed);
-  asset.rig = RigOf(from, skin, formed, asset.topology);
-  FindIncisors(asset.rig.rest, asset.rig.bone, asset.topology);
-  if (from.photo) Wear(from, skin, formed, asset);
-  asset.landmarks = NameLandmarks(skin.cage, skin.fine, asset.rig.rest, from.eye, formed.eyes,
-                                  from.identity.UsedFeatures());
-  return std::make_unique<Head>(std::move(asset));
+  WearPhoto(photo, worn, from.identity.palette.lip_inside, asset.surface);
 }
 
 }  // namespace
@@ -257,21 +236,50 @@ std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric) {
   return MakeHead(BuiltInIdentity(identity), asymmetric);
 }
 
-std::unique_ptr<Head> MakeHead(Identity identity, bool asymmetric) {
-  return Bake(Ingredients(std::move(identity), asymmetric));
+std::unique_ptr<Head> MakeHead(Identity own, bool asymmetric) {
+  const Ingredients from(std::move(own));
+  const Identity& identity = from.identity;
+  const BaseSkin skin = MakeSkin(from);
+  const SkinFront front(skin.fine);
+  BaseParts parts{skin.mesh, {}};
+  BuildCloth(identity, parts.mesh);
+  AddBrowsAndFolds(from, front, parts);
+  parts.Add(BuildStubble(front, SkinPainter(identity, from.eye), identity));
+  parts.Add(identity.crop ? CroppedHairline(identity, parts.mesh)
+                          : LongHairline(identity, parts.mesh));
+  BuildLashes(from.eye, identity, false, parts.mesh);
+  AddEyesAndMouth(from, parts.mesh);
+  if (identity.crop) BuildEars(identity, parts.mesh);  // long hair covers them
+  FormedHead head(
+      HeadForm(from.eye, from.mouth, from.sliders, nullptr, {}, parts.mesh, identity.eyes),
+      parts.mesh);
+  identity.crop ? BuildCroppedHair(identity, head.mesh) : BuildLongHair(identity, head.mesh);
+  return std::make_unique<Head>(AssetOf(from, skin, parts, head, asymmetric));
 }
 
-std::unique_ptr<Head> MakeHead(const PhotoHead& head) {
-  if (!head.photo) throw std::runtime_error("a head of a photo without its photo");
-  return Bake(Ingredients(head));
+std::unique_ptr<Head> MakeHead(const PhotoHead& photo) {
+  if (!photo.photo) throw std::runtime_error("a head of a photo without its photo");
+  const Ingredients from(photo);
+  const BaseSkin skin = MakeSkin(from);
+  BaseParts parts{skin.mesh, {}};
+  AddPhotoSheet(photo, parts.mesh);
+  AddBrowsAndFolds(from, SkinFront(skin.fine), parts);
+  // The photo shows the lashes of open eyes, so only those of shut lids are added.
+  BuildLashes(from.eye, from.identity, true, parts.mesh);
+  AddEyesAndMouth(from, parts.mesh);
+  const FormedHead head = TakeForm(from, photo, skin, parts.mesh);
+  HeadAsset asset = AssetOf(from, skin, parts, head, true);
+  asset.rig.creases.depth = photo.lined;
+  Wear(photo, from, skin, head, asset);
+  return std::make_unique<Head>(std::move(asset));
 }
 
-Rig MakeSkinRig(const PhotoHead& head) {
-  const Ingredients from(head);
+Rig MakeSkinRig(const PhotoHead& photo) {
+  const Ingredients from(photo);
   const BaseSkin skin = MakeSkin(from);
   const BaseParts alone{skin.mesh, {}};
-  const FormedHead formed = TakeForm(from, skin, alone);
-  return Rig(RigOf(from, skin, formed, TopologyOf(from, skin, alone, formed)));
+  const FormedHead head = TakeForm(from, photo, skin, skin.mesh);
+  return Rig(RigOf(from, skin, head, SurfaceOf(from, alone, head), true));
 }
 
 }  // namespace fsm

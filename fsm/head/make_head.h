@@ -15,12 +15,13 @@ struct PhotoHead;
 /// std::runtime_error listing the names if the name is unknown, and if a table is damaged.
 std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric = true);
 /// Makes the head of a user's own identity. Throws std::runtime_error for an unknown slider.
-std::unique_ptr<Head> MakeHead(Identity identity, bool asymmetric = true);
+std::unique_ptr<Head> MakeHead(Identity own, bool asymmetric = true);
 /// Makes a head from a photo: its base face, warped and wearing the photo. Throws as the first, and
-/// std::runtime_error if the arrays of `head` do not match.
-std::unique_ptr<Head> MakeHead(const PhotoHead& head);
+/// std::runtime_error without `photo.photo`. REQUIRES: sheet_triangles index `sheet`, as
+/// ReadPhotoHead makes sure.
+std::unique_ptr<Head> MakeHead(const PhotoHead& photo);
 /// Makes the rig of the skin alone of such a head, whose vertices are the first of the head. It
 /// does not need the photo.
-Rig MakeSkinRig(const PhotoHead& head);
+Rig MakeSkinRig(const PhotoHead& photo);
 
 }  // namespace fsm

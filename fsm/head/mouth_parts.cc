@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fsm/base/pi.h"
-#include "fsm/base/random.h"
 #include "fsm/base/smooth_step.h"
+#include "fsm/head/paint_stream.h"
 
 namespace fsm {
 namespace {
@@ -43,7 +43,7 @@ class ToothRow {
   };
   ToothRow(Jaw jaw, const Identity& identity, HeadMesh& mesh)
       : jaw_(std::move(jaw)),
-        features_(identity.UsedFeatures()),
+        features_(*identity.features),
         gum_(identity.palette.gum),
         mesh_(mesh) {
     for (int c = -half(); c <= half(); ++c) columns_.push_back(ColumnAt(c));
@@ -78,8 +78,7 @@ class ToothRow {
         const float scallop = row < 1 ? features_.gum_scallop * (1 - column.bump) : 0.0f;
         glm::vec3 p = FacePoint(column, row * column.height - scallop);
         p.z += bulge[r];
-        mesh_.Add(p, gum_, Lerp(features_.gum_light, SmoothStep(6, 34, back)), jaw_.bone,
-                  kWithTeeth);
+        mesh_.Add(p, gum_, features_.gum_light.At(SmoothStep(6, 34, back)), jaw_.bone, kWithTeeth);
       }
     }
     mesh_.Grid(Material::kGum, first, static_cast<int>(kRows.size()), Columns(), jaw_.upward > 0);
@@ -113,13 +112,13 @@ class ToothRow {
     const float corner = tooth == kCanine
                              ? features_.tooth_corners.canine * off_middle
                              : features_.tooth_corners.others * std::pow(off_middle, 4.0f);
-    return {
-        .tooth = tooth,
-        .arc = signed_c < 0 ? -arc : arc,
-        .bump = std::sqrt(std::max(0.0f, std::sin(kPi * within))),
-        .height = jaw_.heights[t],
-        .shorter = jaw_.shorter[t] + corner +
-                   features_.tooth_uneven * (1 + NoiseAt(tooth, static_cast<int>(jaw_.upward)))};
+    return {.tooth = tooth,
+            .arc = signed_c < 0 ? -arc : arc,
+            .bump = std::sqrt(std::max(0.0f, std::sin(kPi * within))),
+            .height = jaw_.heights[t],
+            .shorter = jaw_.shorter[t] + corner +
+                       features_.tooth_uneven * (1 + NoiseAt(tooth, PaintStream::kToothLength,
+                                                             static_cast<int>(jaw_.upward)))};
   }
 
   glm::vec3 FacePoint(const Column& column, float up) const {
@@ -156,7 +155,8 @@ class ToothRow {
     const glm::vec3 edge = glm::mix(glm::vec3(1), features_.enamel_edge_colour,
                                     tooth < kCanine ? SmoothStep(0.22f, 0.0f, row) : 0.0f);
     const float darkest = features_.tooth_shades;
-    return jaw_.tooth * edge * (darkest + (1 - darkest) * NoiseAt(tooth, 7)) *
+    return jaw_.tooth * edge *
+           (darkest + (1 - darkest) * NoiseAt(tooth, PaintStream::kToothShade)) *
            glm::mix(glm::vec3(1), features_.dentine_colour, std::min(warm, 1.0f));
   }
 
@@ -170,7 +170,7 @@ class ToothRow {
 }  // namespace
 
 void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh) {
-  const Features& features = identity.UsedFeatures();
+  const Features& features = *identity.features;
   const glm::vec3 tooth = identity.palette.tooth;
   ToothRow(
       {mouth.upper_teeth(), 1, Bone::kSkull, features.upper_tooth_widths,
@@ -187,7 +187,7 @@ void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& m
 }
 
 void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh) {
-  const Features& features = identity.UsedFeatures();
+  const Features& features = *identity.features;
   const Palette& palette = identity.palette;
   // A rounded back over a flat underside along the floor of the mouth. The row's number gives the
   // fraction of the way to the tip, which lies low behind the lower teeth.
@@ -195,19 +195,19 @@ void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& 
   constexpr int kAround = 20;
   const float tip_z = mouth.LineZ(0) - features.tongue_place.behind;
   const float base_y = mouth.LineY(0) - features.tongue_place.below;
-  const float root_part = features.tongue_half_width.root;
+  const float root_share = features.tongue_half_width.root;
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (int i = 0; i < kAlong; ++i) {
-    const float part = static_cast<float>(i) / (kAlong - 1);  // 0 = root, 1 = tip
-    const float taper = std::sqrt(std::max(0.0f, 1 - std::pow(part, 2.2f)));
+    const float share = static_cast<float>(i) / (kAlong - 1);  // 0 = root, 1 = tip
+    const float taper = std::sqrt(std::max(0.0f, 1 - std::pow(share, 2.2f)));
     const float half_width =
-        features.tongue_half_width.widest * taper * (root_part + (1 - root_part) * part) + 0.2f;
+        features.tongue_half_width.widest * taper * (root_share + (1 - root_share) * share) + 0.2f;
     const float height = features.tongue_half_height.root * taper *
-                             (1 - features.tongue_half_height.flatter * part * part) +
+                             (1 - features.tongue_half_height.flatter * share * share) +
                          0.1f;
-    const float z = glm::mix(tip_z - features.tongue_length, tip_z, std::sin(part * kPi / 2));
-    const float rise =
-        features.tongue_rise.root * (1 - part) + features.tongue_rise.middle * std::sin(kPi * part);
+    const float z = glm::mix(tip_z - features.tongue_length, tip_z, std::sin(share * kPi / 2));
+    const float rise = features.tongue_rise.root * (1 - share) +
+                       features.tongue_rise.middle * std::sin(kPi * share);
     for (int k = 0; k <= kAround; ++k) {
       const float around = 2 * kPi * static_cast<float>(k) / kAround;
       const float up = std::sin(around);
@@ -215,42 +215,43 @@ void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& 
       const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * up - groove, z);
       // The teeth shade the sides, the palate shades the root. The underside of a raised tip is
       // visible, too.
-      const float shown = std::max(SmoothStep(0, 1, up), 0.8f * SmoothStep(0.55f, 0.9f, part));
-      const float lit = SmoothStep(-0.2f, 1.0f, part) * shown *
+      const float shown = std::max(SmoothStep(0, 1, up), 0.8f * SmoothStep(0.55f, 0.9f, share));
+      const float lit = SmoothStep(-0.2f, 1.0f, share) * shown *
                         SmoothStep(0.8f, 0.2f, std::abs(std::cos(around)));
       BakeWeights weights;
-      weights.skin.free = part;  // the tip bends, the root does not
+      weights.skin.free = share;  // the tip bends, the root does not
       // The outline disappears in the dark of the mouth.
       const glm::vec3 colour = glm::mix(palette.mouth, palette.tongue, SmoothStep(0, 0.5f, lit));
-      mesh.Add(p, colour, Linear(features.tongue_light, lit), Bone::kTongue, weights);
+      mesh.Add(p, colour, features.tongue_light.At(lit), Bone::kTongue, weights);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);
 }
 
-void FindIncisors(std::span<const glm::vec3> rest, std::span<const Bone> bone,
-                  HeadTopology& topology) {
+std::optional<Incisors> FindIncisors(std::span<const glm::vec3> rest, std::span<const Bone> bone,
+                                     const HeadSurface& surface) {
   constexpr float kMiddle = 3;  // millimetres to either side of the median
-  MouthSlit& mouth = topology.mouth;
+  Incisors found;
   std::array<float, 3> best = {1e9f, 1e9f, 1e9f};
-  const auto keep = [&best](std::size_t which, float y, std::uint32_t i, std::uint32_t& found) {
+  const auto keep = [&best](std::size_t which, float y, std::uint32_t i, std::uint32_t& vertex) {
     if (y >= best[which]) return;
     best[which] = y;
-    found = i;
+    vertex = i;
   };
-  for (const auto& part : topology.parts) {
+  for (const auto& part : surface.parts) {
     if (part.material != Material::kTeeth) continue;
-    for (const std::uint32_t i : topology.Corners(part)) {
+    for (const std::uint32_t i : surface.Corners(part)) {
       const glm::vec3 p = rest[i];
       if (std::abs(p.x) > kMiddle) continue;
       if (bone[i] == Bone::kJaw) {
-        keep(1, -p.y, i, mouth.lower_incisor);
+        keep(1, -p.y, i, found.lower);
       } else {
-        keep(0, p.y, i, mouth.upper_incisor);
-        keep(2, -p.y, i, mouth.upper_root);
+        keep(0, p.y, i, found.upper);
+        keep(2, -p.y, i, found.upper_root);
       }
     }
   }
+  return found.upper == found.lower ? std::nullopt : std::optional(found);
 }
 
 }  // namespace fsm

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 
 #include "fsm/head/anatomy.h"
@@ -11,9 +12,9 @@ namespace fsm {
 
 void BuildTeeth(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh);
 void BuildTongue(const MouthAnatomy& mouth, const Identity& identity, HeadMesh& mesh);
-/// Finds the incisors of `topology.mouth`: the middle of each row of teeth at its edge, and of the
-/// upper row at its root. `rest` and `bone` are those of all vertices.
-void FindIncisors(std::span<const glm::vec3> rest, std::span<const Bone> bone,
-                  HeadTopology& topology);
+/// Finds the middle of each row of teeth at its edge, and of the upper row at its root; nothing in
+/// a head without teeth. `rest` and `bone` are those of all vertices.
+std::optional<Incisors> FindIncisors(std::span<const glm::vec3> rest, std::span<const Bone> bone,
+                                     const HeadSurface& surface);
 
 }  // namespace fsm

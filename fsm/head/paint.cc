@@ -3,12 +3,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "fsm/base/smooth_step.h"
-
 namespace fsm {
 
 SkinPainter::SkinPainter(const Identity& identity, const EyeAnatomy& eye)
-    : features_(identity.UsedFeatures()), eye_(eye), palette_(identity.palette) {
+    : features_(*identity.features), eye_(eye), palette_(identity.palette) {
   const auto add = [this](const auto& row) {
     spots_.push_back({row.middle, row.half_size, row.blush, row.shade});
   };
@@ -35,11 +33,13 @@ void SkinPainter::AddSpots(glm::vec2 at, PaintedSkin& paint) const {
 
 float SkinPainter::Beard(glm::vec2 at, float z) const {
   if (palette_.beard <= 0) return 0;
-  const float jaw_line = Lerp(features_.beard_line, SmoothStep(30, 62, at.x));
-  const float low = SmoothStep(jaw_line + 6, jaw_line - 22, at.y) * SmoothStep(-128, -100, at.y);
-  const float front = SmoothStep(-12, 8, z);
+  const auto& place = features_.beard_place;
+  const float jaw_line = features_.beard_line.At(place.line_over.Ramp(at.x));
+  const float low = (jaw_line + place.below).Ramp(at.y) * place.throat.Ramp(at.y);
+  const float front = place.front.Ramp(z);
   // Only beside the mouth does the nose end it.
-  const float under_nose = glm::mix(SmoothStep(-23, -27, at.y), 1.0f, SmoothStep(20, 34, at.x));
+  const float under_nose =
+      glm::mix(place.under_nose.Ramp(at.y), 1.0f, place.beside_nose.Ramp(at.x));
   const glm::vec2 off =
       (at - features_.beard_thin_cheek.middle) / features_.beard_thin_cheek.half_size;
   const float cheek =
@@ -49,12 +49,14 @@ float SkinPainter::Beard(glm::vec2 at, float z) const {
 
 /// The upper lid is a little darker and warmer, most in its fold and at its lashes.
 void SkinPainter::AddLid(glm::vec2 at, PaintedSkin& paint) const {
-  if (at.x <= eye_.inner_x() - 4 || at.x >= eye_.outer_x() + 5) return;
+  const auto& place = features_.lid_place;
+  const float ends =
+      (eye_.inner_x() + place.inner).Ramp(at.x) * (eye_.outer_x() + place.outer).Ramp(at.x);
+  if (ends <= 0) return;
   const float above = at.y - eye_.UpperY(at.x);
-  const float ends = SmoothStep(eye_.inner_x() - 4, eye_.inner_x() + 3, at.x) *
-                     SmoothStep(eye_.outer_x() + 5, eye_.outer_x() - 3, at.x);
-  const float fold = std::exp(-0.5f * (above - 4.2f) * (above - 4.2f) / 1.2f) * ends;
-  const float lid = ends * SmoothStep(10, 2, above) * SmoothStep(-1, 0, above);
+  const float off = (above - place.fold) / place.fold_width;
+  const float fold = std::exp(-0.5f * off * off) * ends;
+  const float lid = ends * place.above.Ramp(above) * place.margin.Ramp(above);
   paint.albedo =
       glm::mix(paint.albedo, palette_.skin * features_.lid_colour, features_.lid_tint * lid);
   paint.openness *= 1 - features_.lid_fold_shade * fold;
@@ -63,13 +65,14 @@ void SkinPainter::AddLid(glm::vec2 at, PaintedSkin& paint) const {
 PaintedSkin SkinPainter::At(glm::vec3 p) const {
   const glm::vec2 half(std::abs(p.x), p.y);
   PaintedSkin paint{palette_.skin, 1.0f};
-  const bool front = p.z > 40;
+  const auto& throat = features_.throat_place;
+  const bool front = p.z > features_.front_z;
   if (front) AddSpots(half, paint);
   paint.albedo *= glm::mix(glm::vec3(1), features_.beard_colour, Beard(half, p.z));
   // Darkens the skin under the jaw, down to the throat.
-  const float under = SmoothStep(-80, -92, p.y) * SmoothStep(-150, -108, p.y) *
-                      SmoothStep(64, 52, p.z + 0.4f * (p.y + 88));
-  paint.openness *= 1 - features_.throat_shade * under * SmoothStep(-30, 10, p.z);
+  const float under = throat.begins.Ramp(p.y) * throat.ends.Ramp(p.y) *
+                      throat.behind.Ramp(p.z + throat.slope * (p.y - throat.slope_y));
+  paint.openness *= 1 - features_.throat_shade * under * throat.front.Ramp(p.z);
   if (front) AddLid(half, paint);
   return paint;
 }

@@ -11,7 +11,7 @@ namespace fsm {
 
 struct PaintedSkin {
   glm::vec3 albedo;
-  float openness;  ///< as HeadTopology::openness
+  float openness;  ///< as HeadSurface::openness
 };
 
 /// Paints the skin of the base identity's face, both sides alike. Borrows its arguments.

@@ -13,9 +13,9 @@
 namespace fsm {
 namespace {
 
-constexpr std::size_t kMostPoints = 600;
-constexpr std::size_t kMostViews = 8;
-constexpr std::size_t kMostVertices = 20000;
+constexpr std::size_t kMaxPoints = 600;
+constexpr std::size_t kMaxViews = 8;
+constexpr std::size_t kMaxVertices = 20000;
 
 glm::vec2 Pair(const TableRow& row, std::size_t index) {
   return {row.Number(index), row.Number(index + 1)};
@@ -23,13 +23,13 @@ glm::vec2 Pair(const TableRow& row, std::size_t index) {
 
 void Finite(const TableRow& row, std::size_t first) {
   for (const float v : row.Numbers(first)) {
-    if (!(std::abs(v) < 1e5f)) row.Fail("a number out of bounds");
+    if (!(std::abs(v) < 1e5f)) row.Refuse("a number out of bounds");
   }
 }
 
 Side SideOf(const TableRow& row) {
   const std::string& side = row.Word(1);
-  if (side != "right" && side != "left") row.Fail("'right' or 'left' expected");
+  if (side != "right" && side != "left") row.Refuse("'right' or 'left' expected");
   return side == "left" ? Side::kLeft : Side::kRight;
 }
 
@@ -40,7 +40,7 @@ void ReadEye(const TableRow& row, PhotoHead& head) {
                          .size = row.Number(6),
                          .upper_mm = row.Number(7),
                          .lower_mm = row.Number(8)};
-  if (!(eye.size >= 0.5f && eye.size <= 2)) row.Fail("a size from 0.5 to 2 expected");
+  if (!(eye.size >= 0.5f && eye.size <= 2)) row.Refuse("a size from 0.5 to 2 expected");
   if (!head.eyes) head.eyes.emplace();
   (*head.eyes)[SideOf(row)] = eye;
 }
@@ -50,7 +50,7 @@ EyePicture ReadEyePicture(const TableRow& row) {
   const EyePicture eye{{Pair(row, 2), Pair(row, 4)}, {Pair(row, 6), Pair(row, 8)}};
   for (const glm::vec4& p : {eye.iris, eye.ball}) {
     if (p.x < 0 || p.y < 0 || p.z > 1 || p.w > 1 || p.x >= p.z || p.y >= p.w) {
-      row.Fail("left, top, right and bottom within 0 to 1 expected");
+      row.Refuse("left, top, right and bottom within 0 to 1 expected");
     }
   }
   return eye;
@@ -73,19 +73,19 @@ void ReadQuad(const TableRow& row, PhotoHead& head) {
   for (std::size_t k = 0; k < 4; ++k) {
     const int i = row.Integer(k + 1);
     if (i < 0 || static_cast<std::size_t>(i) >= head.sheet.size()) {
-      row.Fail("a corner that is no vertex before it");
+      row.Refuse("a corner that is no vertex before it");
     }
     corner[k] = static_cast<std::uint32_t>(i);
   }
   for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) head.sheet_triangles.push_back(corner[k]);
 }
 
-void CheckRoom(const TableRow& row, std::size_t count, std::size_t most, const char* what) {
-  if (count >= most) row.Fail(std::string("more ") + what + " than are read");
+void CheckRoom(const TableRow& row, std::size_t count, std::size_t max, const char* what) {
+  if (count >= max) row.Refuse(std::string("more ") + what + " than are read");
 }
 
-float Clamped(const TableRow& row, float least, float most) {
-  return std::clamp(row.Number(1), least, most);
+float Clamped(const TableRow& row, float min, float max) {
+  return std::clamp(row.Number(1), min, max);
 }
 
 /// The function that applies each kind of row to a head, by key word.
@@ -103,21 +103,21 @@ const std::map<std::string_view, void (*)(const TableRow&, PhotoHead&)> kRows = 
     {"seen_from", [](auto& row, auto& head) { head.seen_from = row.Vector(1); }},
     {"also_seen",
      [](auto& row, auto& head) {
-       CheckRoom(row, head.also_seen.size(), kMostViews, "views");
+       CheckRoom(row, head.also_seen.size(), kMaxViews, "views");
        head.also_seen.push_back(row.Vector(1));
      }},
     {"point",
      [](auto& row, auto& head) {
-       CheckRoom(row, head.points.size(), kMostPoints, "points");
+       CheckRoom(row, head.points.size(), kMaxPoints, "points");
        head.points.push_back({row.Vector(1), row.Vector(4)});
      }},
     {"vertex",
      [](auto& row, auto& head) {
-       CheckRoom(row, head.sheet.size(), kMostVertices, "vertices");
+       CheckRoom(row, head.sheet.size(), kMaxVertices, "vertices");
        head.sheet.push_back({row.Vector(1), Pair(row, 4)});
      }},
     {"quad", [](auto& row, auto& head) {
-       CheckRoom(row, head.sheet_triangles.size(), 6 * kMostVertices + 1, "quads");
+       CheckRoom(row, head.sheet_triangles.size(), 6 * kMaxVertices + 1, "quads");
        ReadQuad(row, head);
      }}};
 
@@ -139,7 +139,7 @@ PhotoHead ReadPhotoHead(const std::string& name, std::string_view text) {
     } else if (const auto known = kRows.find(key); known != kRows.end()) {
       known->second(row, head);
     } else {
-      row.Fail("unknown word '" + key + "'");
+      row.Refuse("unknown word '" + key + "'");
     }
   }
   if (pictures.right && pictures.left) head.eye_pictures = {*pictures.right, *pictures.left};

@@ -8,12 +8,15 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 #include <optional>
+#include <utility>
 
 #include "fsm/base/smooth_step.h"
 #include "fsm/head/skin_membrane.h"
 
 namespace fsm {
 namespace {
+
+using LidNumbers = decltype(Features::photo_lid);
 
 /// A place of the skin near an eye and its appearance in the photo.
 struct PhotoSpot {
@@ -53,42 +56,6 @@ float HeightAt(std::span<const glm::vec2> line, float x) {
   return sum / weight;
 }
 
-/// What the painting of lids has beside features.txt. Lengths are in millimetres, `held` is the
-/// part that a vertex has in a lid's rotation (1 at the margin), and brightness is on the screen,
-/// 0..1. Pairs are the ends of a SmoothStep.
-constexpr struct {
-  float margin_held = 0.95f;                       // a vertex of the lid's margin
-  float near_margin = 8, near_margin_glasses = 6;  // skin that tells the colour of the lid
-  glm::vec2 past_upper_lashes{1, 3}, past_lower_lashes{0.6f, 1.6f};  // from the margin
-  float odd_skin = 0.65f, odd_skin_glasses = 0.5f;  // brightness below which it is no skin
-  float below_margin = 0.5f;                        // skin under the eye begins so far below
-  glm::vec2 outward{-0.8f, 0.7f};                   // along the eye, -1..1
-  float lit_below = 3, lit_reach = 4;               // where skin under the eye is looked at
-  float fold = 2;                                   // from the margin of the open eye upward
-  glm::vec2 deep_socket{0.4f, 0.8f};                // brightness relative to lit skin
-  float lower_lashes_held = 0.96f, lower_lashes_longer = 0.08f;  // from here on, outward sooner
-  glm::vec2 lower_rim_held{0.92f, 0.97f}, upper_lashes_held{0.96f, 1};
-  float lower_grain_reach = 2;
-  glm::vec2 lash_shade{2, 0};  // above the line where the lids meet
-  float grain_below = 1.5f;    // under the lowest point of the eye
-  float grain_reach = 4, grain_reach_glasses = 1.2f;
-  float highest = 14;  // most that a lid lies above the lower margin
-  float strip = 5;     // of skin between an eye and glasses
-  glm::vec2 fades_in_held{0.02f, 0.2f};
-  glm::vec2 past_corners{3, 0}, lashes_past_corners{6, 3};
-  float shown_reach = 1.5f;
-  glm::vec2 reflection{1.7f, 1.3f},
-      lash_dark{0.05f, 0.2f};          // brightness relative to the lid, and less
-  glm::vec2 lashes_above{7.5f, 5.5f};  // the margin of the open eye
-} kLid{};
-
-/// Folds a distance back and forth into the narrow strip of skin between an eye and a rim of
-/// glasses.
-float Folded(float away) {
-  const float part = std::fmod(away, 2 * kLid.strip);
-  return kLid.strip - std::abs(part - kLid.strip);
-}
-
 /// The affine map from points on the face to texture coordinates, fitted to spots.
 struct PhotoPlane {
   glm::vec2 at{0}, texcoord{0};  ///< centroid
@@ -110,62 +77,83 @@ PhotoPlane PhotoByFace(std::span<const PhotoSpot> all) {
   return {mean.at, mean.texcoord, both * glm::inverse(spread)};
 }
 
+/// What a photo shows around one eye.
+struct EyeSurroundings {
+  std::vector<PhotoSpot> around, below;
+  std::vector<glm::vec2> upper_rim, lower_rim;  ///< margins of the lids, none of them empty
+  float rim_from, rim_to;                       ///< x of the corners
+  float lowest;                                 ///< y of the lower margin
+  PhotoPlane photo_by_face, grain_by_face;
+  glm::vec3 skin_below;
+  SkinMembrane eyeless;
+};
+
+/// Returns nothing if an eye has no lids.
+std::optional<EyeSurroundings> MeasureEye(const PhotoMapping& mapping, const PhotoSkin& skin,
+                                          bool glasses, const LidNumbers& lid,
+                                          const FaceLight& light, Side side) {
+  std::vector<SkinSample> samples;
+  std::vector<PhotoSpot> around;
+  std::vector<glm::vec2> rims, upper_rim, lower_rim;
+  for (std::size_t i = 0; i < skin.weights.size(); ++i) {
+    const BakeWeights& weights = skin.weights[i];
+    if (weights.eye != side) continue;
+    const glm::vec2 at(skin.open.position[i]);
+    const glm::vec3 screen = PhotoColour(mapping.photo, mapping.texcoord[i]);
+    const bool above = weights.lid_upper >= weights.lid_lower;
+    samples.push_back({at, screen, above, 1, false});
+    if (weights.lid_upper + weights.lid_lower > lid.held.margin) rims.push_back(at);
+    if (weights.lid_upper > lid.held.margin) upper_rim.push_back(at);
+    if (weights.lid_lower > lid.held.margin) lower_rim.push_back(at);
+    around.push_back({at, mapping.texcoord[i], screen, light.On(skin.open.normal[i])});
+  }
+  if (upper_rim.empty() || lower_rim.empty()) return {};
+  std::vector<PhotoSpot> below = around;
+  std::erase_if(below, [&](const PhotoSpot& l) {
+    return l.at.y > HeightAt(lower_rim, l.at.x) - lid.skin_below.margin;
+  });
+  for (SkinSample& s : samples) {
+    // Along the margins the photo shows lashes.
+    float away = 100;
+    for (const glm::vec2 rim : rims) away = std::min(away, glm::distance(rim, s.at));
+    s.near = away < (glasses ? lid.near.glasses : lid.near.plain);
+    s.known = (s.above ? lid.past_lashes.upper : lid.past_lashes.lower).Ramp(away);
+  }
+  // Only skin is bright above an eye, unless glasses reflect light there.
+  DoubtOddSkin(samples, glasses ? lid.odd_skin.glasses : lid.odd_skin.plain);
+  // Skin below an eye is thin and bluish: half of the hue is the face's. Lenses add their own.
+  const glm::vec3 skin_below = MeanBelow(samples);
+  const glm::vec3 face_hue = light.skin() / ScreenBrightness(light.skin());
+  const float of_face = glasses ? lid.hue.face_glasses : lid.hue.face;
+  const auto [first, last] = std::ranges::minmax(upper_rim, {}, &glm::vec2::x);
+  const float lowest = std::ranges::min(lower_rim, {}, &glm::vec2::y).y;
+  const PhotoPlane photo_by_face = PhotoByFace(around);
+  const PhotoPlane grain_by_face = below.empty() ? PhotoPlane{} : PhotoByFace(below);
+  return EyeSurroundings{std::move(around),
+                         std::move(below),
+                         std::move(upper_rim),
+                         std::move(lower_rim),
+                         first.x,
+                         last.x,
+                         lowest,
+                         photo_by_face,
+                         grain_by_face,
+                         glm::mix(skin_below, ScreenBrightness(skin_below) * face_hue, of_face),
+                         SkinMembrane(samples)};
+}
+
 /// The lids of one eye.
 class LidPainter {
  public:
   LidPainter(const PhotoMapping& mapping, const PhotoSkin& skin, bool glasses,
-             const Features& features, const FaceLight& light, Side side)
+             const LidNumbers& lid, const FaceLight& light, Side side, const EyeSurroundings& eye)
       : mapping_(mapping),
         skin_(skin),
         glasses_(glasses),
-        features_(features),
+        lid_(lid),
         light_(light),
-        side_(side) {
-    // Collects what the photo shows around the eye, and the margins of the lids.
-    std::vector<SkinSample> samples;
-    std::vector<glm::vec2> rims;
-    for (std::size_t i = 0; i < skin.weights.size(); ++i) {
-      const BakeWeights& weights = skin.weights[i];
-      if (weights.eye != side) continue;
-      const glm::vec2 at(skin.open.position[i]);
-      const glm::vec3 screen = PhotoColour(mapping.photo, mapping.texcoord[i]);
-      const bool above = weights.lid_upper >= weights.lid_lower;
-      samples.push_back({at, screen, above, 1, false});
-      if (weights.lid_upper + weights.lid_lower > kLid.margin_held) rims.push_back(at);
-      if (weights.lid_upper > kLid.margin_held) upper_rim_.push_back(at);
-      if (weights.lid_lower > kLid.margin_held) lower_rim_.push_back(at);
-      around_.push_back({at, mapping.texcoord[i], screen, light.On(skin.open.normal[i])});
-    }
-    if (!HasLids()) return;
-    const auto [first, last] = std::ranges::minmax(upper_rim_, {}, &glm::vec2::x);
-    rim_from_ = first.x;
-    rim_to_ = last.x;
-    lowest_ = std::ranges::min(lower_rim_, {}, &glm::vec2::y).y;
-    photo_by_face_ = PhotoByFace(around_);
-    below_ = around_;
-    std::erase_if(below_, [&](const PhotoSpot& l) {
-      return l.at.y > HeightAt(lower_rim_, l.at.x) - kLid.below_margin;
-    });
-    if (!below_.empty()) grain_by_face_ = PhotoByFace(below_);
-    for (SkinSample& s : samples) {
-      // Along the margins the photo shows lashes.
-      float away = 100;
-      for (const glm::vec2 rim : rims) away = std::min(away, glm::distance(rim, s.at));
-      s.near = away < (glasses ? kLid.near_margin_glasses : kLid.near_margin);
-      s.known = SmoothStep(s.above ? kLid.past_upper_lashes : kLid.past_lower_lashes, away);
-    }
-    // Only skin is bright above an eye, unless glasses reflect light there.
-    DoubtOddSkin(samples, glasses ? kLid.odd_skin_glasses : kLid.odd_skin);
-    // Skin below an eye is thin and bluish: half of the hue is the face's. Lenses add their own.
-    skin_below_ = MeanBelow(samples);
-    const glm::vec3 face_hue = light.skin() / ScreenBrightness(light.skin());
-    skin_below_ = glm::mix(
-        skin_below_, ScreenBrightness(skin_below_) * face_hue,
-        glasses ? features_.photo_lid_face_hue.glasses : features_.photo_lid_face_hue.plain);
-    eyeless_.emplace(samples);
-  }
-
-  bool HasLids() const { return !upper_rim_.empty() && !lower_rim_.empty(); }
+        side_(side),
+        eye_(eye) {}
 
   void Paint(std::vector<ShutLid>& lids) const {
     for (std::uint32_t i = 0; i < skin_.weights.size(); ++i) {
@@ -177,22 +165,22 @@ class LidPainter {
  private:
   /// Returns the position along the eye, -1..1.
   float Along(glm::vec2 at) const {
-    return (2 * at.x - rim_from_ - rim_to_) / std::max(rim_to_ - rim_from_, 1.0f);
+    return (2 * at.x - eye_.rim_from - eye_.rim_to) / std::max(eye_.rim_to - eye_.rim_from, 1.0f);
   }
   /// Returns how far outward a place is, 0..1: lashes are densest and longest there.
-  float Outward(glm::vec2 at) const { return SmoothStep(kLid.outward, Along(at) * SignOf(side_)); }
+  float Outward(glm::vec2 at) const { return lid_.outward.Ramp(Along(at) * SignOf(side_)); }
 
   /// Returns skin under lashes that absorb `dark` of its light, 0..1; with colour they are brown.
   glm::vec3 Lashed(glm::vec3 skin, float dark) const {
     const float chroma = std::max(skin.r - skin.b, 0.0f) / std::max(skin.r, 0.01f);
-    const glm::vec3 brown = glm::vec3(1) + std::min(2 * chroma, 1.0f) * features_.photo_lash_brown;
+    const glm::vec3 brown = glm::vec3(1) + std::min(2 * chroma, 1.0f) * lid_.lash_brown;
     return skin * glm::pow(glm::vec3(1 - dark), brown);
   }
 
   /// Returns skin that gets less light, which has passed through skin.
   glm::vec3 Shaded(glm::vec3 skin, float light) const {
     const float chroma = std::clamp(1 - skin.b / std::max(skin.r, 0.05f), 0.0f, 1.0f);
-    return skin * light * (1.0f + (1 - light) * chroma * features_.photo_lid_shade_hue);
+    return skin * light * (1.0f + (1 - light) * chroma * lid_.hue.through_skin);
   }
 
   /// Returns `colour` with the hue of `skin`, which lies below the eye: a lid has the same hue,
@@ -200,34 +188,33 @@ class LidPainter {
   /// redder, because light has passed through it.
   glm::vec3 OfHue(glm::vec3 colour, glm::vec3 skin) const {
     const float dim = ScreenBrightness(colour) / ScreenBrightness(skin);
-    const float red = features_.photo_lid_hue.redder * (skin.r - skin.b) / std::max(skin.r, 0.01f);
+    const float red = lid_.hue.redder * (skin.r - skin.b) / std::max(skin.r, 0.01f);
     const glm::vec3 shaded =
         skin * glm::pow(glm::vec3(dim), glm::vec3(1 - red, 1 + 0.4f * red, 1 + 0.4f * red));
-    return glm::mix(colour, shaded, features_.photo_lid_hue.below);
+    return glm::mix(colour, shaded, lid_.hue.below);
   }
 
   /// Returns the lid's colour: where the lid begins it is as deep as the skin around it; lower down
   /// the eyeball bulges it into the light.
   glm::vec3 Skin(std::uint32_t i, glm::vec2 at) const {
-    const glm::vec3 deep = OfHue(eyeless_->At(at), skin_below_);
-    const float rim = HeightAt(upper_rim_, at.x), meet = HeightAt(lower_rim_, at.x);
-    const glm::vec2 below(at.x, meet - kLid.lit_below);
-    const float turned =
-        light_.On(skin_.shut.normal[i]) / MeanAround(below_, below, kLid.lit_reach).lit;
-    const glm::vec3 lit =
-        features_.photo_lid_in_socket.light * turned * OfHue(eyeless_->At(below), skin_below_);
-    const float down = SmoothStep(rim + kLid.fold, meet, at.y);
+    const auto& socket = lid_.socket;
+    const auto& behind_glasses = lid_.glasses;
+    const glm::vec3 deep = OfHue(eye_.eyeless.At(at), eye_.skin_below);
+    const float rim = HeightAt(eye_.upper_rim, at.x), meet = HeightAt(eye_.lower_rim, at.x);
+    const glm::vec2 below(at.x, meet - lid_.skin_below.lit);
+    const float turned = light_.On(skin_.shut.normal[i]) /
+                         MeanAround(eye_.below, below, lid_.skin_below.lit_reach).lit;
+    const glm::vec3 lit = socket.light * turned * OfHue(eye_.eyeless.At(below), eye_.skin_below);
+    const float down = SmoothStep(rim + socket.fold, meet, at.y);
     // The frame of glasses shades the skin behind it.
     if (glasses_) {
-      const glm::vec3 skin = glm::mix(deep, skin_below_, features_.photo_lid_behind_glasses.below);
-      return glm::mix(features_.photo_lid_behind_glasses.light * skin, lit,
-                      features_.photo_lid_behind_glasses.rim * down);
+      const glm::vec3 skin = glm::mix(deep, eye_.skin_below, behind_glasses.below);
+      return glm::mix(behind_glasses.light * skin, lit, behind_glasses.rim * down);
     }
     // A lid in a deep, dark socket does not come out of the shade fully.
-    const float out =
-        glm::mix(features_.photo_lid_in_socket.out, 1.0f,
-                 SmoothStep(kLid.deep_socket, ScreenBrightness(deep) / ScreenBrightness(lit)));
-    return glm::mix(deep, lit, out * Lerp(features_.photo_lid_in_socket.lit, down));
+    const float out = glm::mix(socket.out, 1.0f,
+                               socket.deep.Ramp(ScreenBrightness(deep) / ScreenBrightness(lit)));
+    return glm::mix(deep, lit, out * socket.lit.At(down));
   }
 
   static float GrainLight(const PhotoSpot& skin) {
@@ -235,95 +222,93 @@ class LidPainter {
   }
 
   ShutLid Lower(std::uint32_t i) const {
+    const auto& lashes = lid_.lower_lashes;
     // The lashes of the upper lid lie over the margin of the lower lid.
     const glm::vec2 at(skin_.shut.position[i]);
     const float outward = Outward(at);
     const float held = skin_.weights[i].lid_lower;
-    const float lashes =
-        SmoothStep(kLid.lower_lashes_held - kLid.lower_lashes_longer * outward, 1.0f, held);
+    const float lashed = SmoothStep(lashes.held - lashes.longer * outward, 1.0f, held);
     // The wet margin of the open eye is hidden.
-    const float rim = SmoothStep(kLid.lower_rim_held, held);
+    const float rim = lashes.rim_held.Ramp(held);
     return {.vertex = i,
-            .colour = FromScreen(Lashed(Skin(i, at), features_.photo_lower_lashes.dark * lashes)),
-            .weight = std::max(features_.photo_lower_lashes.rim * rim,
-                               Linear(features_.photo_lower_lashes.skin, outward) * lashes),
+            .colour = FromScreen(Lashed(Skin(i, at), lashes.dark * lashed)),
+            .weight = std::max(lashes.rim * rim, lashes.skin.At(outward) * lashed),
             .grain_at = mapping_.texcoord[i],
-            .grain_light = GrainLight(MeanAround(around_, at, kLid.lower_grain_reach)),
+            .grain_light = GrainLight(MeanAround(eye_.around, at, lid_.grain.reach_lower)),
             .slide = glm::vec2(0)};
   }
 
   ShutLid Upper(std::uint32_t i) const {
     const glm::vec2 at(skin_.shut.position[i]);
     const float held = skin_.weights[i].lid_upper;
-    const float rim = HeightAt(upper_rim_, at.x), meet = HeightAt(lower_rim_, at.x);
+    const float rim = HeightAt(eye_.upper_rim, at.x), meet = HeightAt(eye_.lower_rim, at.x);
     const float inside = std::min(Along(at) * Along(at), 1.0f);
     // A soft furrow where the lid slides under the skin.
-    const float deep =
-        (at.y - rim - features_.photo_lid_furrow.above) / features_.photo_lid_furrow.width;
-    const float furrow =
-        1 - features_.photo_lid_furrow.dark * (1 - inside) * std::exp(-deep * deep);
+    const float deep = (at.y - rim - lid_.furrow.above) / lid_.furrow.width;
+    const float furrow = 1 - lid_.furrow.dark * (1 - inside) * std::exp(-deep * deep);
     // The lid turns away at its ends, and its lashes shade it.
     const float shade =
-        (1 - features_.photo_lid_shade.ends * inside) *
-        (1 - features_.photo_lid_shade.rim * SmoothStep(kLid.lash_shade, at.y - meet));
+        (1 - lid_.shade.ends * inside) * (1 - lid_.shade.rim * lid_.shade.lashes.Ramp(at.y - meet));
     const glm::vec3 skin = Shaded(Skin(i, at), furrow * shade);
-    const float lashes = Linear(features_.photo_upper_lashes, Outward(at)) *
-                         SmoothStep(kLid.upper_lashes_held, held);
-    const float height = std::max(at.y - lowest_, 0.0f);
-    const float down = glasses_ ? Folded(height) : std::abs(kLid.highest - height);
-    const glm::vec2 source(at.x, lowest_ - kLid.grain_below - down);
+    const float lashes = lid_.upper_lashes.dark.At(Outward(at)) * lid_.upper_lashes.held.Ramp(held);
+    const float height = std::max(at.y - eye_.lowest, 0.0f);
+    const float down = glasses_ ? Folded(height) : std::abs(lid_.grain.highest - height);
+    const glm::vec2 source(at.x, eye_.lowest - lid_.grain.below - down);
     // Close to a rim of glasses skin darkens within millimetres, which is no grain.
     const PhotoSpot wide =
-        MeanAround(below_, source, glasses_ ? kLid.grain_reach_glasses : kLid.grain_reach);
+        MeanAround(eye_.below, source, glasses_ ? lid_.grain.reach_glasses : lid_.grain.reach);
     return {.vertex = i,
             .colour = FromScreen(glm::clamp(Lashed(skin, lashes), 0.0f, 1.0f)),
-            .weight = Opacity(at, rim, skin) * SmoothStep(kLid.fades_in_held, held),
-            .grain_at = grain_by_face_(source),
+            .weight = Opacity(at, rim, skin) * lid_.held.fades_in.Ramp(held),
+            .grain_at = eye_.grain_by_face(source),
             .grain_light = GrainLight(wide),
-            .slide = photo_by_face_.slope * (at - glm::vec2(skin_.open.position[i]))};
+            .slide = eye_.photo_by_face.slope * (at - glm::vec2(skin_.open.position[i]))};
+  }
+
+  /// Folds a distance back and forth into the narrow strip of skin between an eye and a rim of
+  /// glasses.
+  float Folded(float away) const {
+    const float strip = lid_.grain.strip;
+    return strip - std::abs(std::fmod(away, 2 * strip) - strip);
   }
 
   /// Returns the lid's opacity: from a little above the eye's margin on, and over the old lashes.
   float Opacity(glm::vec2 at, float rim, glm::vec3 skin) const {
-    const float beyond = std::max(rim_from_ - at.x, at.x - rim_to_);  // past the corners, mm
-    const glm::vec2 above = rim + features_.photo_lid_above;
-    const float lid = SmoothStep(above.x, above.y, at.y) * SmoothStep(kLid.past_corners, beyond);
+    const float beyond =
+        std::max(eye_.rim_from - at.x, at.x - eye_.rim_to);  // past the corners, mm
+    const float lid = (rim + lid_.cover.above).Ramp(at.y) * lid_.cover.past_corners.Ramp(beyond);
     const float shown =
-        ScreenBrightness(MeanAround(around_, at, kLid.shown_reach).screen) / ScreenBrightness(skin);
+        ScreenBrightness(MeanAround(eye_.around, at, lid_.open_lashes.reach).screen) /
+        ScreenBrightness(skin);
     // A reflection on a lens lies in front of the lid.
-    if (glasses_) return lid * SmoothStep(kLid.reflection, shown);
-    const float dark = SmoothStep(kLid.lash_dark, 1 - shown);
-    return std::max(lid, features_.photo_lashes_hidden * dark *
-                             SmoothStep(rim + kLid.lashes_above, at.y) *
-                             SmoothStep(kLid.lashes_past_corners, beyond));
+    if (glasses_) return lid * lid_.cover.reflection.Ramp(shown);
+    const float dark = lid_.open_lashes.dark.Ramp(1 - shown);
+    return std::max(lid, lid_.open_lashes.hidden * dark *
+                             (rim + lid_.open_lashes.above).Ramp(at.y) *
+                             lid_.open_lashes.past_corners.Ramp(beyond));
   }
 
   const PhotoMapping& mapping_;
   const PhotoSkin& skin_;
   const bool glasses_;
-  const Features& features_;
+  const LidNumbers& lid_;
   const FaceLight& light_;
-  Side side_;
-  std::vector<PhotoSpot> around_, below_;
-  std::vector<glm::vec2> upper_rim_, lower_rim_;
-  float rim_from_ = 0, rim_to_ = 0, lowest_ = 0;
-  PhotoPlane photo_by_face_, grain_by_face_;
-  glm::vec3 skin_below_{0};
-  std::optional<SkinMembrane> eyeless_;
+  const Side side_;
+  const EyeSurroundings& eye_;
 };
 
 }  // namespace
 
 glm::vec3 PhotoColour(const Image& photo, glm::vec2 texcoord) {
-  const auto at = [](float part, int size) {
-    return std::clamp(static_cast<int>(part * static_cast<float>(size)), 0, size - 1);
+  const auto at = [](float share, int size) {
+    return std::clamp(static_cast<int>(share * static_cast<float>(size)), 0, size - 1);
   };
   const std::uint8_t* p =
       &photo.rgba[4 * photo.Index(at(texcoord.x, photo.width), at(texcoord.y, photo.height))];
   return glm::vec3(p[0], p[1], p[2]) / 255.0f;
 }
 
-FaceLight FitFaceLight(const PhotoMapping& mapping, const SkinPose& open) {
+FaceLight FitFaceLight(const PhotoMapping& mapping, const SkinSurface& open) {
   constexpr float kSquarely = 0.3f, kFront = 45;  // of the normal's z; mm, without neck and ears
   std::vector<FaceLight::Patch> seen;
   for (std::size_t i = 0; i < open.normal.size(); ++i) {
@@ -336,10 +321,11 @@ FaceLight FitFaceLight(const PhotoMapping& mapping, const SkinPose& open) {
 
 std::vector<ShutLid> PaintLids(const PhotoMapping& mapping, const PhotoSkin& skin, bool glasses,
                                const Features& features, const FaceLight& light) {
+  const LidNumbers& lid = features.photo_lid;
   std::vector<ShutLid> lids;
   for (const Side side : kSides) {
-    const LidPainter painter(mapping, skin, glasses, features, light, side);
-    if (painter.HasLids()) painter.Paint(lids);
+    const auto eye = MeasureEye(mapping, skin, glasses, lid, light, side);
+    if (eye) LidPainter(mapping, skin, glasses, lid, light, side, *eye).Paint(lids);
   }
   return lids;
 }

@@ -14,7 +14,7 @@
 namespace fsm {
 
 /// Positions and normals of the skin's vertices.
-struct SkinPose {
+struct SkinSurface {
   std::span<const glm::vec3> position;  ///< millimetres
   std::span<const glm::vec3> normal;    ///< unit length
 };
@@ -33,7 +33,7 @@ glm::vec3 PhotoColour(const Image& photo, glm::vec2 texcoord);
 struct PhotoSkin {
   std::span<const BakeWeights> weights;
   std::span<const CageTag> tags;
-  SkinPose open, shut;  ///< with lids at rest and with lids shut
+  SkinSurface open, shut;  ///< with lids at rest and with lids shut
 };
 
 /// Paints the shut lids of a face that wears a photo of open eyes; `features` describes their look.
@@ -48,6 +48,6 @@ std::vector<ShutLid> PaintLids(const PhotoMapping& mapping, const PhotoSkin& ski
                                const Features& features, const FaceLight& light);
 
 /// Fits the light of a photo to the front of the face that wears it.
-FaceLight FitFaceLight(const PhotoMapping& mapping, const SkinPose& open);
+FaceLight FitFaceLight(const PhotoMapping& mapping, const SkinSurface& open);
 
 }  // namespace fsm

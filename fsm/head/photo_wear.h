@@ -21,13 +21,14 @@ void AddPhotoSheet(const PhotoHead& head, HeadMesh& mesh);
 
 /// Keeps the skin still where glasses rest, which the photo shows on the skin, or they would bend.
 /// `eye`: centre of the left eye at rest, (x, y) of the base identity.
-void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh);
+void HoldBehindGlasses(const Features& features, glm::vec2 eye, std::size_t skin_count,
+                       HeadMesh& mesh);
 
 /// Returns how far forward (z, millimetres) the neck reaches at a height above
 /// PhotoHead::skin_bottom_y. Skin behind this line may face the camera but is not the face's. The
 /// code that maps a photo to skin (face_fit) and the code that removes skin over the sheet share
 /// it.
-float JawLine(float above_bottom);
+float NeckFrontZ(float above_bottom_mm);
 
 /// Removes skin that the photo does not show, behind the outline and below the jaw, where the sheet
 /// is, and fades the skin beside it (HeadMesh::opacity). The nostrils' lining becomes skin, since
@@ -37,6 +38,6 @@ void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, HeadMe
 /// Gives every vertex of skin and sheet its texture coordinate in the photo, and lids and lips
 /// their own paint. `lip_inside`: colour of lips that roll inward if `head` has none.
 void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
-               HeadTopology& topology);
+               HeadSurface& surface);
 
 }  // namespace fsm

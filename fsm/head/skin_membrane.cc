@@ -12,17 +12,17 @@ namespace {
 
 constexpr float kStep = 0.75f;  // size of the membrane's cells, millimetres
 
-/// Returns the quantile `part` of the brightness of the samples that `which` accepts; 0.5 if it
+/// Returns the quantile `share` of the brightness of the samples that `which` accepts; 0.5 if it
 /// accepts none.
 template <typename Which>
-float UsualBrightness(std::span<const SkinSample> samples, float part, Which which) {
+float UsualBrightness(std::span<const SkinSample> samples, float share, Which which) {
   std::vector<float> all;
   for (const SkinSample& s : samples) {
     if (which(s)) all.push_back(ScreenBrightness(s.screen));
   }
   if (all.empty()) return 0.5f;
   const auto place =
-      all.begin() + static_cast<std::ptrdiff_t>(part * static_cast<float>(all.size() - 1));
+      all.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(all.size() - 1));
   std::ranges::nth_element(all, place);
   return *place;
 }
@@ -62,7 +62,7 @@ glm::vec3 MeanBelow(std::span<const SkinSample> samples) {
 }
 
 SkinMembrane::SkinMembrane(std::span<const SkinSample> samples) {
-  constexpr float kMost = 150;     // cells in each direction
+  constexpr float kMax = 150;      // cells in each direction
   constexpr float kStiff = 0.15f;  // stiffness relative to what is known at a cell
   constexpr int kRounds = 300;
   glm::vec2 low(1e9f), high(-1e9f);
@@ -71,8 +71,8 @@ SkinMembrane::SkinMembrane(std::span<const SkinSample> samples) {
     high = glm::max(high, s.at);
   }
   low_ = low - kStep;
-  width_ = static_cast<int>(std::min((high.x - low_.x) / kStep, kMost)) + 2;
-  height_ = static_cast<int>(std::min((high.y - low_.y) / kStep, kMost)) + 2;
+  width_ = static_cast<int>(std::min((high.x - low_.x) / kStep, kMax)) + 2;
+  height_ = static_cast<int>(std::min((high.y - low_.y) / kStep, kMax)) + 2;
   std::vector<glm::vec4> held(static_cast<std::size_t>(width_ * height_), glm::vec4(0));
   glm::vec4 all(0);
   for (const SkinSample& s : samples) {
@@ -96,13 +96,13 @@ SkinMembrane::SkinMembrane(std::span<const SkinSample> samples) {
 
 glm::vec3 SkinMembrane::At(glm::vec2 at) const {
   const glm::vec2 p = (at - low_) / kStep;
-  const glm::vec2 corner = glm::floor(p), part = p - corner;
+  const glm::vec2 corner = glm::floor(p), within = p - corner;
   const auto row = [&](float y) {
     const int x = static_cast<int>(corner.x);
     return glm::mix(colour_[Cell(x, static_cast<int>(y))],
-                    colour_[Cell(x + 1, static_cast<int>(y))], part.x);
+                    colour_[Cell(x + 1, static_cast<int>(y))], within.x);
   };
-  return glm::mix(row(corner.y), row(corner.y + 1), part.y);
+  return glm::mix(row(corner.y), row(corner.y + 1), within.y);
 }
 
 std::size_t SkinMembrane::Cell(int x, int y) const {

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <optional>
 
 #include "fsm/base/number_table.h"
 #include "fsm/base/smooth_step.h"
@@ -15,21 +16,6 @@
 namespace fsm {
 namespace {
 
-// How the skin hangs on skull, jaw, lids and lips: distances in millimetres, others are weights or
-// parts of a CageTag's values.
-constexpr struct {
-  float rounds_from_z = 45, rounds = 0.9f;        // behind it the skin is longer than it looks,
-  glm::vec2 free_z{-5, 25};                       // and behind this it does not follow the units
-  glm::vec2 neck_y{-166, -98};                    // from the shoulders to the head, along a line
-  float nape_z = -25, nape_slope = 0.35f;         // that rises behind this by so much per mm
-  float lid_hold = 1.1f;                          // how much of their freedom lids lose
-  float touches_teeth = 0.6f, past_teeth = 0.4f;  // least lip_hold, most depth in the bag
-  float bag_hold = 2.2f, bag_hold_less = 1.4f;    // of the freedom, less at the corners
-  glm::vec2 bag_jaw{0.2f, 0.7f};                  // depth over which the bag's half moves as
-  float lower_bag_jaw = 0.9f;                     // this part of the jaw (the upper: 0)
-  float bag_end = 0.95f, bag_end_jaw = 0.4f;      // and its end, from this depth on
-} kHold{};
-
 float Sign(float v) { return v > 0 ? 1.0f : v < 0 ? -1.0f : 0.0f; }
 
 /// Returns twice the cage's column; signed, 0 at the median.
@@ -39,74 +25,112 @@ int FineColumn(const CageTag& tag, float x) {
 
 constexpr int kLastColumn = 2 * kLipColumns - 1;
 
-BakeWeights MakeSkinWeights(const CageTag& tag, glm::vec3 p, const MouthAnatomy& mouth) {
+/// Computes the weights that depend only on the position on the face. `lip`: the side of the
+/// mouth's slit that it is on; none where the cheek joins both. `line_y`: the height of that line.
+SkinWeights SkinWeightsAt(glm::vec2 domain, std::optional<Lip> lip, float corner_x, float line_y,
+                          const Features& features) {
+  const auto& jaw = features.skin_jaw;
+  SkinWeights weights;
+  weights.domain = domain;
+  const float a = std::abs(domain.x);
+  const float below = line_y - domain.y;  // millimetres below the line of the mouth
+  const float beyond = std::max(0.0f, a - corner_x);
+
+  // Along the slit the lower lip follows the jaw fully at the median, the upper lip hardly, and the
+  // corner almost by half; both reach it along a quarter ellipse, so that an open mouth is oval.
+  // After ICT-FaceKit's jawOpen: the upper lip moves 7 % as far as the lower at the median, 10 % at
+  // 10 mm, the corner 43 %; the lower lip 88 % at 10 mm, 75 % at 18 mm.
+  const float end = corner_x - jaw.lips_end;  // beyond, the lips stay together
+  const float apart = std::sqrt(std::max(0.0f, 1 - a * a / (end * end)));
+  const float upper_seam = jaw.upper_seam.At(1 - apart * apart);
+  const float lower_seam = upper_seam + (1 - upper_seam) * apart;
+  const float joins = jaw.joins.At(beyond);
+  const float along_slit = !lip ? 1.0f : 1 - SmoothStep(corner_x, corner_x - jaw.slit_end, a);
+  if (lip == Lip::kLower || (!lip && below > 0)) {
+    weights.jaw = lower_seam + (1 - lower_seam) * SmoothStep(0, jaw.below.At(beyond), below);
+    weights.above_mouth =
+        jaw.joined * along_slit * (1 - SmoothStep(0, lip ? jaw.joins_lip : joins, below));
+  } else {
+    weights.jaw = upper_seam * (1 - SmoothStep(0, jaw.above.At(beyond), -below));
+    weights.above_mouth = 1 - jaw.joined * along_slit * (1 - SmoothStep(0, joins, -below));
+  }
+  // The skin of the jaw ends at the throat and in front of the ear.
+  weights.jaw *= jaw.throat.Ramp(domain.y) * jaw.ear.Ramp(a);
+  return weights;
+}
+
+/// Returns the lip that holds a point; none at the corners and away from the mouth.
+std::optional<Lip> LipOf(const CageTag& tag) {
+  if ((tag.lip_hold <= 0 && tag.deep <= 0) || tag.upper_lip == 0) return std::nullopt;
+  return tag.upper_lip > 0 ? Lip::kUpper : Lip::kLower;
+}
+
+BakeWeights MakeSkinWeights(const CageTag& tag, glm::vec3 p, const MouthAnatomy& mouth,
+                            const Features& features) {
   const float a = std::abs(p.x);
   const float corner_x = mouth.corner().x;
-  const bool lips = tag.lip_hold > 0 || tag.deep > 0;
-  const int side = lips ? static_cast<int>(Sign(tag.lip_side)) : 0;
+  const auto& hold = features.skin_hold;
+  const auto& bag = features.bag_hold;
   // At the side of the head distances along the skin exceed those in the frontal view.
-  const float round = a + kHold.rounds * std::max(0.0f, kHold.rounds_from_z - p.z);
+  const float round = a + hold.rounds * std::max(0.0f, hold.rounds_from_z - p.z);
   glm::vec2 domain(p.x < 0 ? -round : round, p.y);
-  if (tag.deep > 0) domain.y = mouth.LineY(std::min(a, corner_x));
-  BakeWeights weights{.skin = SkinWeightsAt(domain, side, mouth.LineY(std::min(a, corner_x)))};
-  weights.skin.free = SmoothStep(kHold.free_z, p.z);
-  weights.skin.neck =
-      SmoothStep(kHold.neck_y, p.y - kHold.nape_slope * std::max(0.0f, kHold.nape_z - p.z));
+  const float line_y = mouth.LineY(std::min(a, corner_x));
+  if (tag.deep > 0) domain.y = line_y;
+  BakeWeights weights{.skin = SkinWeightsAt(domain, LipOf(tag), corner_x, line_y, features)};
+  weights.skin.free = hold.free_z.Ramp(p.z);
+  weights.skin.neck = NeckWeight(p.y - hold.nape_slope * std::max(0.0f, hold.nape_z - p.z));
   if (tag.eye > 0) {
     weights.eye = p.x < 0 ? Side::kRight : Side::kLeft;
     weights.lid_upper = tag.lid_upper;
     weights.lid_lower = tag.lid_lower;
-    weights.skin.free = std::max(0.0f, 1 - kHold.lid_hold * tag.eye);
+    weights.skin.free = std::max(0.0f, 1 - hold.lids * tag.eye);
   }
   const int column = FineColumn(tag, p.x);
-  if (tag.lip_hold > 0 && std::abs(column) <= kLastColumn && tag.lip_side != 0) {
+  if (tag.lip_hold > 0 && std::abs(column) <= kLastColumn && tag.upper_lip != 0) {
     weights.lip_column = static_cast<std::int16_t>(column + kLastColumn);
-    weights.lip_weight = tag.lip_hold * Sign(tag.lip_side);
+    weights.lip_weight = tag.lip_hold * Sign(tag.upper_lip);
   }
-  weights.by_teeth =
-      (tag.red >= 0 || tag.lip_hold >= kHold.touches_teeth) && tag.deep < kHold.past_teeth;
+  weights.by_teeth = (tag.red >= 0 || tag.lip_hold >= hold.by_teeth) && tag.deep < bag.past_teeth;
   if (tag.deep > 0) {
     const float open = std::sqrt(std::max(0.0f, 1 - a * a / (corner_x * corner_x)));
-    weights.skin.free *=
-        std::max(0.0f, 1 - (kHold.bag_hold - kHold.bag_hold_less * (1 - open)) * tag.deep);
-    const float rigid = tag.lip_side >= 0 ? 0.0f : kHold.lower_bag_jaw;
+    weights.skin.free *= std::max(0.0f, 1 - (bag.held - bag.less_aside * (1 - open)) * tag.deep);
+    const float rigid = tag.upper_lip >= 0 ? 0.0f : bag.lower_jaw;
     weights.skin.jaw = glm::mix(weights.skin.jaw, rigid,
-                                SmoothStep(kHold.bag_jaw, tag.deep) * std::abs(Sign(tag.lip_side)));
-    if (tag.deep > kHold.bag_end) weights.skin.jaw = kHold.bag_end_jaw;
+                                bag.jaw_over.Ramp(tag.deep) * std::abs(Sign(tag.upper_lip)));
+    if (tag.deep > bag.end) weights.skin.jaw = bag.end_jaw;
   }
   return weights;
 }
 
 PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const SkinPainter& painter,
                       const Identity& identity) {
-  const Features& features = identity.UsedFeatures();
+  const Features& features = *identity.features;
   const Palette& palette = identity.palette;
   PaintedSkin paint = painter.At(p);
   if (tag.deep > 0) {
-    paint.albedo = glm::mix(palette.lip_inside, palette.mouth,
-                            SmoothStep(features.skin_paint.dark_inside, tag.deep));
+    paint.albedo =
+        glm::mix(palette.lip_inside, palette.mouth, features.skin_paint.dark_inside.Ramp(tag.deep));
     const float out = 1 - tag.deep;
-    const glm::vec2 light = features.mouth_light;
-    paint.openness = light.x + light.y * out * out;
+    const Line light = features.mouth_light;
+    paint.openness = light.start + light.added * out * out;
     return paint;
   }
   if (tag.red >= 0 && kind == SkinKind::kLip) {
     const float aside = std::abs(p.x);
-    const float reddened =
-        features.lip_red.middle * SmoothStep(features.skin_paint.red_edge, tag.red) *
-        (1 - features.lip_red.less_aside * SmoothStep(features.lip_red.aside, aside));
+    const float reddened = features.lip_red.middle * features.skin_paint.red_edge.Ramp(tag.red) *
+                           (1 - features.lip_red.less_aside * features.lip_red.aside.Ramp(aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip, reddened);
     // The edge of the red is soft; the middle of the lips is wet.
-    const float wet = SmoothStep(features.skin_paint.wet, tag.red) *
-                      (1 - features.lip_wet.less_aside * SmoothStep(features.lip_wet.aside, aside));
+    const float wet = features.skin_paint.wet.Ramp(tag.red) *
+                      (1 - features.lip_wet.less_aside * features.lip_wet.aside.Ramp(aside));
     paint.albedo = glm::mix(paint.albedo, palette.lip_inside, features.lip_wet.middle * wet);
     paint.openness *= 1 - features.lip_wet.shade * wet;
     // The corners lie deep.
-    paint.openness *= 1 - features.lip_corner.shade * SmoothStep(features.lip_corner.aside, aside);
+    paint.openness *= 1 - features.lip_corner.shade * features.lip_corner.aside.Ramp(aside);
     // The lower lip rolls into the mouth, so its edge is in its own shade.
-    if (tag.lip_side < 0)
+    if (tag.upper_lip < 0)
       paint.openness *=
-          1 - features.lip_wet.lower_edge * SmoothStep(features.skin_paint.lower_edge, tag.red);
+          1 - features.lip_wet.lower_edge * features.skin_paint.lower_edge.Ramp(tag.red);
   }
   if (tag.hole > 0) {
     paint.albedo =
@@ -122,34 +146,35 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
 
 }  // namespace
 
-MouthSlit BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
-                    const Identity& identity, HeadMesh& mesh) {
+MouthLandmarks BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
+                         const Identity& identity, HeadMesh& mesh) {
   const SkinPainter painter(identity, eye);
   const HairLook hair(identity);
   std::vector<SkinKind> kind(skin.position.size(), SkinKind::kSkin);
   for (const FineSkin::Triangle& t : skin.triangles) {
     for (const std::uint32_t v : t.corner) kind[v] = std::max(kind[v], t.kind);
   }
-  MouthSlit slit;
-  slit.seam.resize(2 * kLastColumn + 1);
+  MouthLandmarks found;
+  found.seam.resize(2 * kLastColumn + 1);
+  found.corners.emplace();
   for (std::uint32_t v = 0; v < skin.position.size(); ++v) {
     const glm::vec3 p = skin.position[v];
     const CageTag& tag = skin.tag[v];
     const PaintedSkin paint = MakePaint(tag, p, kind[v], painter, identity);
-    mesh.Add(p, paint.albedo, paint.openness, Bone::kSkin, MakeSkinWeights(tag, p, mouth));
+    mesh.Add(p, paint.albedo, paint.openness, Bone::kSkin,
+             MakeSkinWeights(tag, p, mouth, *identity.features));
     if (tag.seam < 1) continue;
     const int column = FineColumn(tag, p.x);
     if (std::abs(column) > kLastColumn) {
-      (p.x > 0 ? slit.corner_left : slit.corner_right) = v;
+      (p.x > 0 ? found.corners->left : found.corners->right) = v;
     } else {
-      auto& pair = slit.seam[static_cast<std::size_t>(column + kLastColumn)];
-      (tag.lip_side > 0 ? pair.first : pair.second) = v;
+      auto& pair = found.seam[static_cast<std::size_t>(column + kLastColumn)];
+      (tag.upper_lip > 0 ? pair.first : pair.second) = v;
     }
   }
   for (const FineSkin::Triangle& t : skin.triangles) {
     const auto covered = [&](std::uint32_t v) {
-      return hair.AboveHairline(skin.position[v]) >
-             identity.UsedFeatures().skin_paint.hidden_beyond;
+      return hair.AboveHairline(skin.position[v]) > identity.features->skin_paint.hidden_beyond;
     };
     if (std::ranges::all_of(t.corner, covered)) continue;
     const Material material = t.kind == SkinKind::kLip      ? Material::kLip
@@ -157,7 +182,7 @@ MouthSlit BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnat
                                                             : Material::kSkin;
     mesh.Triangle(material, t.corner[0], t.corner[1], t.corner[2]);
   }
-  return slit;
+  return found;
 }
 
 std::size_t SkinFront::Cell(float mm) {

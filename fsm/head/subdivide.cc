@@ -122,22 +122,22 @@ std::vector<glm::vec3> Corrected(const Mesh& mesh) {
 CageTag Mean(const std::vector<CageTag>& tags, const std::vector<std::uint32_t>& of) {
   CageTag mean;
   mean.margin = mean.red = 0;
-  const float part = 1.0f / static_cast<float>(of.size());
+  const float share = 1.0f / static_cast<float>(of.size());
   bool no_margin = false;
   bool no_red = false;
   for (const std::uint32_t v : of) {
     const CageTag& t = tags[v];
-    mean.eye += part * t.eye;
-    mean.lid_upper += part * t.lid_upper;
-    mean.lid_lower += part * t.lid_lower;
-    mean.margin += part * t.margin;
-    mean.lip_hold += part * t.lip_hold;
-    mean.lip_side += part * t.lip_side;
-    mean.lip_column += part * t.lip_column;
-    mean.red += part * t.red;
-    mean.deep += part * t.deep;
-    mean.hole += part * t.hole;
-    mean.seam += part * t.seam;
+    mean.eye += share * t.eye;
+    mean.lid_upper += share * t.lid_upper;
+    mean.lid_lower += share * t.lid_lower;
+    mean.margin += share * t.margin;
+    mean.lip_hold += share * t.lip_hold;
+    mean.upper_lip += share * t.upper_lip;
+    mean.lip_column += share * t.lip_column;
+    mean.red += share * t.red;
+    mean.deep += share * t.deep;
+    mean.hole += share * t.hole;
+    mean.seam += share * t.seam;
     no_margin |= t.margin < 0;
     no_red |= t.red < 0;
   }

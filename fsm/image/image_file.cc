@@ -1,17 +1,10 @@
 #include "fsm/image/image_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
-#include <system_error>
-#include <utility>
 
 #include "fsm/image/byte_order.h"
 #include "fsm/image/image_codec.h"
-#include "vm_protocol/core/file_kind.h"
 #include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/text_file.h"
 
@@ -45,57 +38,14 @@ std::unexpected<vm::Error> FailByEnding(const std::string& path, const char* mor
                   "'" + path + "' is no picture's name: it must end in .png, .bmp or .rgb" + more);
 }
 
-std::unexpected<vm::Error> FailToWrite(const std::string& path) {
-  return vm::Fail(vm::Errc::kUnavailable,
-                  "cannot write '" + path + "': " + std::generic_category().message(errno));
-}
-
-class File {
- public:
-  explicit File(int fd) : fd_(fd) {}
-  ~File() {
-    if (fd_ >= 0) close(fd_);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  bool open() const { return fd_ >= 0; }
-  int get() const { return fd_; }
-  /// Returns false if the system reports only now that a write failed.
-  bool Close() { return close(std::exchange(fd_, -1)) == 0; }
-
- private:
-  int fd_;
-};
-
-bool WriteAll(int fd, std::span<const std::uint8_t> bytes) {
-  while (!bytes.empty()) {
-    const auto written = write(fd, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
 }  // namespace
 
 vm::Result<void> WriteImage(const Image& image, const std::string& path) {
   assert(image.IsWhole());
   const Format* format = FormatOf(path);
   if (!format || !format->encode) return FailByEnding(path);
-  if (auto fit = vm::CheckWritable(path); !fit) return fit;
   const auto bytes = format->encode(image);
-  // The file is written under a temporary name and then renamed, so nobody reads half a picture.
-  const std::string beside = path + ".part" + std::to_string(getpid());
-  if (auto fit = vm::CheckWritable(beside); !fit) return fit;
-  File file(open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (!file.open()) return FailToWrite(path);
-  if (!WriteAll(file.get(), bytes) || !file.Close() || rename(beside.c_str(), path.c_str()) != 0) {
-    const auto failed = FailToWrite(path);
-    unlink(beside.c_str());
-    return failed;
-  }
-  return {};
+  return vm::WriteTextFile(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 vm::Result<Image> ReadImage(const std::string& path) {

@@ -13,7 +13,7 @@ namespace fsm {
 namespace {
 
 /// A progressive file with more scans is an attack, not a photo: each is a pass over all pixels.
-constexpr int kMostScans = 100;
+constexpr int kMaxScans = 100;
 
 struct Failure {
   jpeg_error_mgr manager;
@@ -50,7 +50,7 @@ void RecordWarning(j_common_ptr info, int level) {
 
 void CountScans(j_common_ptr info) {
   const auto* decoder = reinterpret_cast<jpeg_decompress_struct*>(info);
-  if (decoder->input_scan_number <= kMostScans) return;
+  if (decoder->input_scan_number <= kMaxScans) return;
   auto* failure = reinterpret_cast<Failure*>(info->err);
   failure->endless = true;
   std::longjmp(failure->back, 1);
@@ -171,7 +171,7 @@ vm::Result<Image> DecodeJpegAs(JpegOptions& options, std::span<const std::uint8_
     why = "it has " + size + " pixels; at most " + std::to_string(options.most_pixels / 1'000'000) +
           " million are read: scale it down";
   } else if (failure.endless) {
-    why = "it is built of more than " + std::to_string(kMostScans) + " scans";
+    why = "it is built of more than " + std::to_string(kMaxScans) + " scans";
   } else if (failure.cut_off) {
     why = "the JPEG file is cut off: its end is missing";
   } else if (failure.torn) {

@@ -14,22 +14,22 @@
 namespace fsm {
 namespace {
 
-constexpr std::array<const char*, 5> kParts{"plain", "upper_lip", "lower_lip", "upper_lid",
-                                            "lower_lid"};
+constexpr std::array<const char*, 5> kLipOrLidNames{"plain", "upper_lip", "lower_lip", "upper_lid",
+                                                    "lower_lid"};
 constexpr std::size_t kMaxPairs = 2000;
 
 PointPair ReadPair(const TableRow& row) {
   if (row.key() != "point" || row.size() != 8) {
-    row.Fail("face NAME or point PART X Y Z X Y Z expected");
+    row.Refuse("face NAME or point PART X Y Z X Y Z expected");
   }
-  const auto part = std::ranges::find(kParts, row.Word(1));
-  if (part == kParts.end())
-    row.Fail("plain, upper_lip, lower_lip, upper_lid or lower_lid expected");
+  const auto on = std::ranges::find(kLipOrLidNames, row.Word(1));
+  if (on == kLipOrLidNames.end())
+    row.Refuse("plain, upper_lip, lower_lip, upper_lid or lower_lid expected");
   const glm::vec3 from = row.Vector(2), to = row.Vector(5);
   if (!WithinReach(from) || !WithinReach(to)) {
-    row.Fail("six numbers of at most 10000000 expected after the part");
+    row.Refuse("six numbers of at most 10000000 expected after the part");
   }
-  return {from, to, static_cast<FacePart>(part - kParts.begin())};
+  return {from, to, static_cast<LipOrLid>(on - kLipOrLidNames.begin())};
 }
 
 }  // namespace
@@ -44,12 +44,12 @@ vm::Result<HeadPoints> ParseHeadPoints(const std::string& name, std::string_view
         points.pairs.push_back(ReadPair(row));
       }
       if (points.pairs.size() > kMaxPairs) {
-        row.Fail("at most " + std::to_string(kMaxPairs) + " points are read");
+        row.Refuse("at most " + std::to_string(kMaxPairs) + " points are read");
       }
     }
     if (points.pairs.size() < 8) {
-      table.Fail("at least eight points expected, " + std::to_string(points.pairs.size()) +
-                 " are there");
+      table.Refuse("at least eight points expected, " + std::to_string(points.pairs.size()) +
+                   " are there");
     }
     return points;
   });
@@ -61,7 +61,7 @@ std::string FormatHeadPoints(const HeadPoints& points) {
   for (const PointPair& pair : points.pairs) {
     const auto d = [](float v) { return static_cast<double>(v); };
     std::snprintf(line.data(), line.size(), "point %s %.3f %.3f %.3f  %.7g %.7g %.7g\n",
-                  kParts[static_cast<std::size_t>(pair.part)], d(pair.from.x), d(pair.from.y),
+                  kLipOrLidNames[static_cast<std::size_t>(pair.on)], d(pair.from.x), d(pair.from.y),
                   d(pair.from.z), d(pair.to.x), d(pair.to.y), d(pair.to.z));
     out += line.data();
   }

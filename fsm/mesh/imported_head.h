@@ -32,12 +32,8 @@ struct ImportedHead {
   };
   /// A blend shape of the file: its name there, and the displacements of vertices at weight 1.
   struct Shape {
-    struct Delta {
-      std::uint32_t vertex;
-      glm::vec3 by;
-    };
     std::string name;
-    std::vector<Delta> deltas;
+    std::vector<Displacement> moves;
   };
   std::string name;                 ///< the file name in messages
   std::vector<glm::vec3> position;  ///< all within kMaxReach
@@ -50,8 +46,8 @@ struct ImportedHead {
   std::vector<PbrMaterial> pbr_materials;
   std::vector<Shape> shapes;
   std::vector<std::optional<Side>> eye;  ///< the eye that a vertex belongs to; per vertex, or empty
-  EyeSetup eye_setup;
-  SpringRig spring_rig;        ///< see VrmSprings
+  EyeRig eye_rig;                        ///< without centres, which ModelOfImport finds
+  SpringRig spring_rig;                  ///< see VrmSprings
   bool gaze_by_shape = false;  ///< shapes (vrmlookleft ...) move the eyes, which do not rotate
   std::vector<std::string> notices;      ///< sentences about what was left out
   std::vector<std::string> named_files;  ///< paths of files that it refers to, existing or not

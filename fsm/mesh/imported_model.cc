@@ -1,15 +1,18 @@
 #include "fsm/mesh/imported_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 
 #include "fsm/base/box.h"
-#include "fsm/base/smooth_step.h"
+#include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
 #include "fsm/mesh/part_names.h"
 #include "fsm/mesh/texture_atlas.h"
@@ -34,6 +37,105 @@ std::vector<std::uint32_t> Pieces(std::size_t count, std::span<const std::uint32
   return parent;
 }
 
+[[noreturn]] void Refuse(const ImportedHead& file, const std::string& what) {
+  throw std::runtime_error(file.name + ": " + what + " comes to lie farther than " +
+                           kMaxReachOfHead +
+                           " from the head: do its landmarks (.points) or eyes belong to it?");
+}
+
+/// Copies the springs of the head; those of the body, which does not rotate, are left out.
+SpringRig SpringsOfHead(const SpringRig& file, const Similarity& to_ours) {
+  constexpr glm::vec3 kAxis{0, 0, -14};  // x and z of the axis of head and neck
+  SpringRig rig;
+  std::vector<std::int64_t> number;
+  for (Spring spring : file.springs) {
+    spring.rest = to_ours(spring.rest);
+    spring.root = to_ours(spring.root);
+    spring.reach_mm *= to_ours.scale;
+    if (spring.outward != glm::vec3(0)) {
+      const glm::vec3 beside = (spring.rest - kAxis) * glm::vec3(1, 0, 1);
+      spring.outward = glm::normalize(beside + glm::vec3(0, 0, 1e-3f));
+    }
+    const bool of_head =
+        WithinReach(spring.rest) && WithinReach(spring.root) && NeckWeight(spring.root.y) > 0.5f &&
+        spring.reach_mm >= Spring::kMinReachMm && spring.reach_mm <= Spring::kMaxReachMm;
+    number.push_back(of_head ? static_cast<std::int64_t>(rig.springs.size()) : -1);
+    if (of_head) rig.springs.push_back(spring);
+  }
+  for (SpringWeight weight : file.weights) {
+    const std::int64_t spring = number[weight.spring];
+    if (spring < 0) continue;
+    weight.spring = static_cast<std::uint32_t>(spring);
+    rig.weights.push_back(weight);
+  }
+  return rig;
+}
+
+/// The eye that each vertex belongs to.
+using EyeOfVertex = std::vector<std::optional<Side>>;
+
+/// Finds the eyes of the model: parts with such names, or vertices that the file's skeleton assigns
+/// to eyes. `at`: the vertices in our frame.
+EyeOfVertex FindEyes(const ImportedHead& file, std::span<const glm::vec3> at,
+                     const Similarity& to_ours, MeshModel& model) {
+  Sided<Box> box;
+  EyeOfVertex eye_of(at.size());
+  for (const auto& part : file.parts) {
+    const bool is_eye = PartNames::BuiltIn().KindOf(part.name) == PartKind::kEye;
+    for (const std::uint32_t v : part.indices) {
+      if (!file.eye.empty() ? !file.eye[v] : !is_eye) continue;
+      const Side side = at[v].x < 0 ? Side::kRight : Side::kLeft;
+      eye_of[v] = side;
+      box[side].Add(at[v]);
+    }
+  }
+  if (box.right.empty() || box.left.empty()) return eye_of;
+  for (const Side side : kSides) {
+    const glm::vec3 radii = box[side].radii();
+    EyeGeometry& eye = model.eyes[side];
+    eye.ball_radius = std::max(0.5f * (radii.x + radii.y), 1e-6f);
+    // Some files have only the front half of an eyeball.
+    glm::vec3& centre = model.eye_rig.centre[side] = box[side].centre();
+    centre.z = box[side].high.z - eye.ball_radius;
+    eye.iris_radius = 0.5f * eye.ball_radius;
+    eye.iris_colour = BasePalette().iris;
+    // The eye of a drawn figure is a disc that rotates about a point deep in the head.
+    if (radii.z < 0.4f * eye.ball_radius) model.round_eyes = false;
+  }
+  model.has_eyes = model.eyes.right.ball_radius < 40 && model.eyes.left.ball_radius < 40;
+  model.eye_rig.gaze_ranges = file.eye_rig.gaze_ranges;
+  if (auto& pivots = model.eye_rig.pivot = file.eye_rig.pivot) {
+    for (glm::vec3* const pivot : {&pivots->right, &pivots->left}) {
+      *pivot = to_ours(*pivot);
+      if (!WithinReach(*pivot)) Refuse(file, "what an eye turns about");
+    }
+  }
+  return eye_of;
+}
+
+/// What a part without pictures becomes.
+struct PartLook {
+  Bone above, below;                 ///< above and below the mouth
+  glm::vec3 Palette::*colour;        ///< null: the file's
+  std::optional<Material> material;  ///< none: skin, unless the head has pictures
+};
+
+PartLook LookOf(PartKind kind) {
+  static constexpr std::array<PartLook, 9> kLooks{{
+      // by PartKind
+      {Bone::kSkin, Bone::kSkin, nullptr, {}},                              // skin
+      {Bone::kSkin, Bone::kSkin, nullptr, {}},                              // eye
+      {Bone::kSkull, Bone::kJaw, &Palette::tooth, Material::kTeeth},        // teeth
+      {Bone::kSkull, Bone::kJaw, &Palette::gum, Material::kGum},            // gum
+      {Bone::kJaw, Bone::kJaw, &Palette::tongue, Material::kTongue},        // tongue
+      {Bone::kSkin, Bone::kSkin, &Palette::mouth, Material::kMouthInside},  // mouth
+      {Bone::kSkull, Bone::kSkull, nullptr, {}},                            // hair
+      {Bone::kSkin, Bone::kSkin, &Palette::lash, Material::kMatte},         // lash
+      {Bone::kSkull, Bone::kSkull, nullptr, {}}                             // other
+  }};
+  return kLooks[static_cast<std::size_t>(kind)];
+}
+
 class HeadBuilder {
  public:
   HeadBuilder(const ImportedHead& file, const Similarity& to_ours, float mouth_y)
@@ -41,7 +143,7 @@ class HeadBuilder {
     model_.name = file.name;
     for (const glm::vec3& p : file.position) {
       at_.push_back(to_ours(p));
-      if (!WithinReach(at_.back())) Refuse("vertex " + std::to_string(at_.size() - 1));
+      if (!WithinReach(at_.back())) Refuse(file, "vertex " + std::to_string(at_.size() - 1));
     }
   }
 
@@ -52,10 +154,10 @@ class HeadBuilder {
     model_.has_uv_seams = !file_.texcoord.empty();
     for (const glm::vec3& p : at_) {
       // The neck bends below the chin, as that of the built-in heads.
-      model_.Add(p, Bone::kSkin, BasePalette().skin, {}, NeckWeight(p));
+      model_.Add(p, Bone::kSkin, BasePalette().skin, {}, NeckWeight(p.y));
     }
-    HangSprings();
-    FindEyes();
+    model_.spring_rig = SpringsOfHead(file_.spring_rig, to_ours_);
+    eye_of_ = FindEyes(file_, at_, to_ours_, model_);
     for (const auto& part : file_.parts) AddPart(part);
     return std::move(model_);
   }
@@ -71,104 +173,20 @@ class HeadBuilder {
     model_.textures.emissive_map = atlas_.MakeBeside(std::move(emissive_map), {255, 255, 255, 255});
   }
 
-  static float NeckWeight(glm::vec3 p) { return SmoothStep(-168, -96, p.y); }
-
-  /// Copies the springs of the head; those of the body, which does not rotate, are left out.
-  void HangSprings() {
-    constexpr glm::vec3 kAxis{0, 0, -14};  // x and z of the axis of head and neck
-    std::vector<std::int64_t> number;
-    for (Spring spring : file_.spring_rig.springs) {
-      spring.rest = to_ours_(spring.rest);
-      spring.root = to_ours_(spring.root);
-      spring.most_mm *= to_ours_.scale;
-      if (spring.outward != glm::vec3(0)) {
-        const glm::vec3 beside = (spring.rest - kAxis) * glm::vec3(1, 0, 1);
-        spring.outward = glm::normalize(beside + glm::vec3(0, 0, 1e-3f));
-      }
-      const bool of_head = WithinReach(spring.rest) && WithinReach(spring.root) &&
-                           NeckWeight(spring.root) > 0.5f && spring.most_mm >= Spring::kLeastMost &&
-                           spring.most_mm <= Spring::kMostMost;
-      number.push_back(of_head ? static_cast<std::int64_t>(model_.spring_rig.springs.size()) : -1);
-      if (of_head) model_.spring_rig.springs.push_back(spring);
-    }
-    for (SpringWeight weight : file_.spring_rig.weights) {
-      const std::int64_t spring = number[weight.spring];
-      if (spring < 0) continue;
-      weight.spring = static_cast<std::uint32_t>(spring);
-      model_.spring_rig.weights.push_back(weight);
-    }
-  }
-
-  [[noreturn]] void Refuse(const std::string& what) const {
-    constexpr float kMmInKm = 1e6F;
-    throw std::runtime_error(file_.name + ": " + what + " comes to lie farther than " +
-                             std::to_string(static_cast<int>(kMaxReach / kMmInKm)) +
-                             " km from the head: do its landmarks "
-                             "(.points) or eyes belong to it?");
-  }
-
-  static PartKind KindOf(const ImportedHead::Part& part) {
-    return PartNames::BuiltIn().KindOf(part.name);
-  }
-
-  /// Finds the eyes: parts with such names, or vertices that the file's skeleton assigns to eyes.
-  void FindEyes() {
-    Sided<Box> box;
-    eye_.assign(at_.size(), std::nullopt);
-    for (const auto& part : file_.parts) {
-      const bool is_eye = KindOf(part) == PartKind::kEye;
-      for (const std::uint32_t v : part.indices) {
-        if (!file_.eye.empty() ? !file_.eye[v] : !is_eye) continue;
-        const Side side = at_[v].x < 0 ? Side::kRight : Side::kLeft;
-        eye_[v] = side;
-        box[side].Add(at_[v]);
-      }
-    }
-    if (box.right.empty() || box.left.empty()) return;
-    for (const Side side : kSides) {
-      const glm::vec3 radii = box[side].radii();
-      EyeGeometry& eye = model_.eyes[side];
-      eye.ball_radius = std::max(0.5f * (radii.x + radii.y), 1e-6f);
-      // Some files have only the front half of an eyeball.
-      eye.centre = box[side].centre();
-      eye.centre.z = box[side].high.z - eye.ball_radius;
-      eye.iris_radius = 0.5f * eye.ball_radius;
-      eye.iris_colour = BasePalette().iris;
-    }
-    model_.has_eyes = std::ranges::all_of(
-        kSides, [this](Side side) { return model_.eyes[side].ball_radius < 40; });
-    model_.eye_setup.gaze_ranges = file_.eye_setup.gaze_ranges;
-    if (file_.eye_setup.pivot) {
-      model_.eye_setup.pivot.emplace();
-      for (const Side side : kSides) {
-        glm::vec3& pivot = (*model_.eye_setup.pivot)[side];
-        pivot = to_ours_((*file_.eye_setup.pivot)[side]);
-        if (!WithinReach(pivot)) Refuse("what an eye turns about");
-      }
-    }
-    for (const Side side : kSides) {
-      // The eye of a drawn figure is a disc that rotates about a point deep in the head.
-      if (box[side].radii().z < 0.4f * model_.eyes[side].ball_radius) model_.round_eyes = false;
-    }
-  }
-
   void AddPart(const ImportedHead::Part& part) {
-    const PartKind kind = KindOf(part);
+    const PartKind kind = PartNames::BuiltIn().KindOf(part.name);
+    const PartLook look = LookOf(kind);
     const bool pictured = part.picture >= 0 && !file_.texcoord.empty();
     if (kind == PartKind::kEye && !pictured && model_.has_eyes) {
       AddEyeballs();
       return;
     }
-    const auto pieces = kind == PartKind::kTeeth || kind == PartKind::kGum
-                            ? Pieces(at_.size(), part.indices)
-                            : std::vector<std::uint32_t>();
-    std::vector<Box> piece(pieces.empty() ? 0 : at_.size());
-    if (!pieces.empty()) {
-      for (const std::uint32_t v : part.indices) piece[pieces[v]].Add(at_[v]);
-    }
+    SetBones(part, look);
     for (const std::uint32_t v : part.indices) {
-      model_.mesh.bone[v] = BoneOfPart(kind, v, pieces.empty() ? nullptr : &piece[pieces[v]]);
-      model_.mesh.albedo[v] = ColourOf(kind, part, v);
+      const bool tinted = !file_.vertex_colour.empty() && file_.vertex_colour[v] != glm::vec3(1);
+      model_.mesh.albedo[v] = tinted        ? part.colour * file_.vertex_colour[v]
+                              : look.colour ? BasePalette().*look.colour
+                                            : part.colour;
       if (!pictured) continue;
       const glm::vec2 uv = file_.texcoord[v];
       const glm::vec2 within(Wrapped(uv.x), Wrapped(uv.y));
@@ -183,10 +201,30 @@ class HeadBuilder {
         model_.mesh.albedo[v] = pictured ? tint : tint * part.colour;
       }
     }
-    const Material material = MaterialOf(kind, pictured, part.cut_out);
+    // Material::kSkin would show the head's picture.
+    const Material plain = model_.textures.image ? Material::kMatte : Material::kSkin;
+    const Material material = pictured ? part.cut_out ? Material::kPhoto : Material::kSkin
+                                       : look.material.value_or(plain);
     auto& indices = model_.mesh.BatchOf(material, pbr, part.two_sided).indices;
     indices.insert(indices.end(), part.indices.begin(),
                    part.indices.begin() + static_cast<std::ptrdiff_t>(part.indices.size() / 3 * 3));
+  }
+
+  /// Teeth and gums go with the jaw or with the skull by the place of each connected piece.
+  void SetBones(const ImportedHead::Part& part, const PartLook& look) {
+    std::vector<std::uint32_t> pieces;
+    std::vector<Box> piece;
+    if (look.above != look.below) {
+      pieces = Pieces(at_.size(), part.indices);
+      piece.resize(at_.size());
+      for (const std::uint32_t v : part.indices) piece[pieces[v]].Add(at_[v]);
+    }
+    for (const std::uint32_t v : part.indices) {
+      const bool above = !pieces.empty() && piece[pieces[v]].centre().y > mouth_y_;
+      model_.mesh.bone[v] = eye_of_[v] && model_.has_eyes ? BoneOf(*eye_of_[v])
+                            : above                       ? look.above
+                                                          : look.below;
+    }
   }
 
   /// Returns the model's index of the part's PbrMaterial. Without pictures, skin and mouth are lit
@@ -205,61 +243,6 @@ class HeadBuilder {
 
   static float Wrapped(float x) { return x >= 0 && x <= 1 ? x : x - std::floor(x); }
 
-  Bone BoneOfPart(PartKind kind, std::uint32_t v, const Box* piece) const {
-    if (eye_[v] && model_.has_eyes) return BoneOf(*eye_[v]);
-    switch (kind) {
-      case PartKind::kTeeth:
-      case PartKind::kGum:
-        return (piece ? piece->centre().y : at_[v].y) > mouth_y_ ? Bone::kSkull : Bone::kJaw;
-      case PartKind::kTongue:
-        return Bone::kJaw;
-      case PartKind::kHair:
-      case PartKind::kOther:
-        return Bone::kSkull;
-      default:
-        return Bone::kSkin;
-    }
-  }
-
-  glm::vec3 ColourOf(PartKind kind, const ImportedHead::Part& part, std::uint32_t v) const {
-    const Palette& palette = BasePalette();
-    if (!file_.vertex_colour.empty() && file_.vertex_colour[v] != glm::vec3(1))
-      return part.colour * file_.vertex_colour[v];
-    switch (kind) {
-      case PartKind::kTeeth:
-        return palette.tooth;
-      case PartKind::kGum:
-        return palette.gum;
-      case PartKind::kTongue:
-        return palette.tongue;
-      case PartKind::kMouth:
-        return palette.mouth;
-      case PartKind::kLash:
-        return palette.lash;
-      default:
-        return part.colour;
-    }
-  }
-
-  Material MaterialOf(PartKind kind, bool pictured, bool cut_out) const {
-    if (pictured) return cut_out ? Material::kPhoto : Material::kSkin;
-    switch (kind) {
-      case PartKind::kTeeth:
-        return Material::kTeeth;
-      case PartKind::kGum:
-        return Material::kGum;
-      case PartKind::kTongue:
-        return Material::kTongue;
-      case PartKind::kMouth:
-        return Material::kMouthInside;
-      case PartKind::kLash:
-        return Material::kMatte;
-      default:
-        // Material::kSkin would show the picture.
-        return model_.textures.image ? Material::kMatte : Material::kSkin;
-    }
-  }
-
   /// Adds our own eyeballs, once for both sides, because helper spheres have no iris.
   void AddEyeballs() {
     if (eyeballs_added_) return;
@@ -274,7 +257,7 @@ class HeadBuilder {
   const Similarity& to_ours_;
   float mouth_y_;
   std::vector<glm::vec3> at_;
-  std::vector<std::optional<Side>> eye_;  // by vertex
+  EyeOfVertex eye_of_;
   TextureAtlas atlas_;
   std::map<int, int> pbr_index_;  // file's index -> model's index of a material
   MeshModel model_;

@@ -18,31 +18,32 @@
 namespace fsm {
 namespace {
 
-HeadTopology TopologyOf(const MeshModel& model) {
-  HeadTopology topology;
-  SetParts(model.mesh.batches, topology);
-  if (topology.indices.empty()) throw std::runtime_error("the head has no triangles");
-  topology.albedo = model.mesh.albedo;
-  topology.openness.assign(model.mesh.position.size(), 1);
-  for (const glm::vec3& p : model.mesh.position) topology.uv.push_back(Unroll(p));
-  topology.textures = model.textures;
-  topology.pbr_materials = model.pbr_materials;
-  topology.eyes = model.eyes;
-  return topology;
+HeadSurface SurfaceOf(const MeshModel& model) {
+  HeadSurface surface;
+  SetParts(model.mesh.batches, surface);
+  if (surface.indices.empty()) throw std::runtime_error("the head has no triangles");
+  surface.albedo = model.mesh.albedo;
+  surface.openness.assign(model.mesh.position.size(), 1);
+  for (const glm::vec3& p : model.mesh.position) surface.uv.push_back(Unroll(p));
+  surface.textures = model.textures;
+  surface.pbr_materials = model.pbr_materials;
+  surface.eyes = model.eyes;
+  return surface;
 }
 
 /// Returns the skin near the eyeballs that is outside them at rest, and must remain so.
-std::vector<BallLids::Vertex> LidsOf(const MeshModel& model) {
-  constexpr float kReach = 8, kThickness = 0.6F;
-  std::vector<BallLids::Vertex> lids;
+std::vector<BallLid> LidsOf(const MeshModel& model) {
+  constexpr float kReach = 8, kThickness = 0.6f;
+  std::vector<BallLid> lids;
   for (std::uint32_t i = 0; i < model.mesh.position.size(); ++i) {
     if (model.mesh.bone[i] != Bone::kSkin) continue;
     for (const Side side : kSides) {
-      const EyeGeometry& eye = model.eyes[side];
-      const float far = glm::distance(model.mesh.position[i], eye.centre);
-      if (far < eye.ball_radius - 0.5F || far > eye.ball_radius + kReach) continue;
-      if (model.mesh.position[i].z < eye.centre.z) continue;
-      lids.push_back({i, side, std::min(far, eye.ball_radius + kThickness)});
+      const float radius = model.eyes[side].ball_radius;
+      const glm::vec3 centre = model.eye_rig.centre[side];
+      const float far = glm::distance(model.mesh.position[i], centre);
+      if (far < radius - 0.5f || far > radius + kReach) continue;
+      if (model.mesh.position[i].z < centre.z) continue;
+      lids.push_back({i, side, std::min(far, radius + kThickness)});
     }
   }
   return lids;
@@ -60,10 +61,10 @@ std::vector<std::uint32_t> NormalTwins(const std::vector<glm::vec3>& position,
   });
   std::vector<std::uint32_t> twin(order.size());
   std::iota(twin.begin(), twin.end(), 0U);
-  constexpr float kFacesTheSameWay = 0.5F;  // cosine
+  constexpr float kFacesTheSameWay = 0.5f;  // cosine
   // The vertices at one position that are not twins of others there. They face different ways, so
   // there are few; in a damaged file with more, the rest have no twins.
-  constexpr std::size_t kMostWays = 64;
+  constexpr std::size_t kMaxWays = 64;
   std::vector<std::uint32_t> firsts;
   for (const std::uint32_t one : order) {
     if (!firsts.empty() && position[firsts.front()] != position[one]) firsts.clear();
@@ -73,69 +74,54 @@ std::vector<std::uint32_t> NormalTwins(const std::vector<glm::vec3>& position,
     const auto found = std::ranges::find_if(firsts.rbegin(), firsts.rend(), same_way);
     if (found != firsts.rend()) {
       twin[one] = *found;
-    } else if (firsts.size() < kMostWays) {
+    } else if (firsts.size() < kMaxWays) {
       firsts.push_back(one);
     }
   }
   return twin;
 }
 
-RigData RigOf(const MeshModel& model, const HeadTopology& topology, RigData rig) {
+RigData RigOf(const MeshModel& model, const HeadSurface& surface, RigData rig) {
   using enum RigStep;
   for (const RigStep step : {kLidsOnBalls, kBones, kNeck, kSprings, kNormals})
     rig.steps.push_back(step);
   rig.rest = model.mesh.position;
-  rig.rest_normal = Normals(topology.indices, rig.rest, rig.rest.size());
+  rig.rest_normal = Normals(surface.indices, rig.rest, rig.rest.size());
   rig.bone = model.mesh.bone;
   rig.weights.resize(rig.rest.size());
   for (std::size_t i = 0; i < rig.rest.size(); ++i) {
     rig.weights[i].neck = model.mesh.weights[i].skin.neck;
     if (rig.bone[i] == Bone::kTongue) rig.bone[i] = Bone::kJaw;
   }
-  rig.normals.soft_triangles = topology.indices;
-  if (!topology.pbr_materials.empty()) rig.normals.twin = NormalTwins(rig.rest, rig.rest_normal);
+  rig.normals.soft_triangles = surface.indices;
+  if (!surface.pbr_materials.empty()) rig.normals.twin = NormalTwins(rig.rest, rig.rest_normal);
   rig.jaw.hinge = model.jaw_hinge;
-  for (const Side side : kSides) {
-    rig.ball_lids.centre[side] = model.eyes[side].centre;
-    rig.eyes.pivot[side] =
-        model.eye_setup.pivot ? (*model.eye_setup.pivot)[side] : rig.ball_lids.centre[side];
-  }
-  rig.eyes.gaze_ranges = model.eye_setup.gaze_ranges;
+  rig.eyes = model.eye_rig;
+  rig.mouth = model.mouth;
   rig.spring_rig = model.spring_rig;
-  if (model.has_eyes && model.round_eyes) rig.ball_lids.vertices = LidsOf(model);
-  if (!rig.lips.measured && !model.seam.empty()) {
-    const auto [upper, lower] = model.seam[model.seam.size() / 2];
-    rig.lips.measured = {upper, lower, model.seam.back().first, model.seam.front().first};
-  }
+  if (model.has_eyes && model.round_eyes) rig.ball_lids = LidsOf(model);
   return rig;
 }
 
-/// Sets what is needed to light the mouth, which light enters between the lips: their gap, and the
-/// teeth behind it. Less light reaches the sides and the lower teeth.
-void FindMouth(const RigData& rig, HeadTopology& topology) {
-  if (!rig.lips.measured || rig.lips.seam.empty()) return;
-  FindIncisors(rig.rest, rig.bone, topology);
-  MouthSlit& mouth = topology.mouth;
-  if (mouth.upper_incisor == mouth.lower_incisor) {  // no teeth
-    mouth = {};
-    return;
-  }
-  mouth.seam = rig.lips.seam;
-  mouth.corner_left = (*rig.lips.measured)[LipRig::kCornerLeft];
-  mouth.corner_right = (*rig.lips.measured)[LipRig::kCornerRight];
-  const Features& features = Features::BuiltIn();
+/// Finds the teeth, which have the mouth lit by what enters between the lips. Less light reaches
+/// the sides and the lower teeth.
+void LightMouth(RigData& rig, HeadSurface& surface) {
+  if (rig.mouth.seam.empty() || !rig.mouth.corners) return;
+  rig.mouth.incisors = FindIncisors(rig.rest, rig.bone, surface);
+  if (!rig.mouth.incisors) return;
+  const Features& features = *Features::BuiltIn();
   const glm::vec3 shade = features.lower_teeth_colour;
-  const float middle = rig.rest[mouth.upper_incisor].x;
+  const float middle = rig.rest[rig.mouth.incisors->upper].x;
   std::vector<bool> taken(rig.rest.size(), false);
-  for (const HeadTopology::Part& part : topology.parts) {
+  for (const HeadSurface::Part& part : surface.parts) {
     const bool teeth = part.material == Material::kTeeth;
     if (!teeth && part.material != Material::kGum && part.material != Material::kTongue) continue;
-    for (const std::uint32_t i : topology.Corners(part)) {
+    for (const std::uint32_t i : surface.Corners(part)) {
       if (taken[i]) continue;
       taken[i] = true;
       const bool lower = rig.bone[i] == Bone::kJaw;
-      if (teeth && lower) topology.albedo[i] *= shade;
-      topology.openness[i] =
+      if (teeth && lower) surface.albedo[i] *= shade;
+      surface.openness[i] =
           glm::mix(teeth && lower ? features.teeth_light.lower : features.teeth_light.upper,
                    features.teeth_light.deep, SmoothStep(6, 32, std::abs(rig.rest[i].x - middle)));
     }
@@ -146,14 +132,14 @@ void FindMouth(const RigData& rig, HeadTopology& topology) {
 
 RigData MakeStillSkin() {
   RigData rig;
-  rig.units = BuiltInUnits();
+  rig.unit_effects = BuiltInUnits();
   return rig;
 }
 
 std::unique_ptr<Head> MakeMeshHead(MeshModel model, RigData skin) {
-  HeadAsset asset{.topology = TopologyOf(model), .rig = {}, .landmarks = {}, .view = model.view};
-  asset.rig = RigOf(model, asset.topology, std::move(skin));
-  if (model.seam.empty() && !model.textures.image) FindMouth(asset.rig, asset.topology);
+  HeadAsset asset{.surface = SurfaceOf(model), .rig = {}, .landmarks = {}, .view = model.view};
+  asset.rig = RigOf(model, asset.surface, std::move(skin));
+  if (!model.textures.image) LightMouth(asset.rig, asset.surface);
   asset.landmarks = std::move(model.landmarks);
   return std::make_unique<Head>(std::move(asset));
 }

@@ -46,19 +46,19 @@ void MeshModel::AddEyeball(Side side) {
   // Rings about the line of sight; one is the edge of the iris.
   constexpr int kSegments = 32, kIrisRings = 4, kRings = 14;
   const EyeGeometry& eye = eyes[side];
-  const float edge = std::asin(std::min(eye.iris_radius / eye.ball_radius, 0.9F));
+  const float edge = std::asin(std::min(eye.iris_radius / eye.ball_radius, 0.9f));
   const Bone carrier = BoneOf(side);
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (int ring = 0; ring <= kRings; ++ring) {
     const float angle = ring <= kIrisRings
                             ? edge * static_cast<float>(ring) / kIrisRings
-                            : edge + (0.7F * kPi - edge) * static_cast<float>(ring - kIrisRings) /
+                            : edge + (0.7f * kPi - edge) * static_cast<float>(ring - kIrisRings) /
                                          (kRings - kIrisRings);
     for (int k = 0; k < kSegments; ++k) {
       const float turn = 2 * kPi * static_cast<float>(k) / kSegments;
       const glm::vec3 out(std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn),
                           std::cos(angle));
-      Add(eye.centre + eye.ball_radius * out, carrier, BasePalette().sclera);
+      Add(eye_rig.centre[side] + eye.ball_radius * out, carrier, BasePalette().sclera);
     }
   }
   for (int ring = 0; ring < kRings; ++ring) {

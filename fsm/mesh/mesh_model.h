@@ -12,12 +12,6 @@
 
 namespace fsm {
 
-/// How the file of a head has its eyes rotate.
-struct EyeSetup {
-  std::optional<Sided<glm::vec3>> pivot;  ///< centres of rotation; none: those of the eyeballs
-  std::optional<GazeRanges> gaze_ranges;  ///< none: the eyes rotate by the gaze angles
-};
-
 /// A head that is not built in, at rest, in the frame of HeadVertices, millimetres. MakeMeshHead
 /// converts it to a Head, in which vertices of Bone::kSkin are moved by the given rig and the
 /// others by their bones.
@@ -26,18 +20,16 @@ struct MeshModel {
   HeadMesh mesh;     ///< of its weights only SkinWeights::neck is used
   TextureMaps textures;
   std::vector<PbrMaterial> pbr_materials;
-  Sided<EyeGeometry> eyes;  ///< meaningful where has_eyes
+  Sided<EyeGeometry> eyes;  ///< meaningful where has_eyes, as eye_rig
+  EyeRig eye_rig;
   bool has_eyes = false;
-  EyeSetup eye_setup;
   bool round_eyes = true;           ///< eyeballs are spheres, which lids must not enter
   bool has_uv_seams = false;        ///< see TransferSurface
   glm::vec3 jaw_hinge = kJawHinge;  ///< a point on the jaw's axis, which is parallel to x
   SpringRig spring_rig;
   Landmarks landmarks;
   std::optional<ParallelView> view;  ///< the view that the file intends
-  /// Pairs of vertices of upper and lower lip that meet when the mouth is closed, from the agent's
-  /// right to left.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;
+  MouthLandmarks mouth;              ///< without incisors, which MakeMeshHead finds
 
   /// Adds a vertex and returns its index. `at`: its texture coordinates; if missing, it has its own
   /// colour. `neck`: SkinWeights::neck.
@@ -46,7 +38,7 @@ struct MeshModel {
   /// Returns the triangles of flesh, three vertex indices each.
   std::vector<std::uint32_t> SkinTriangles() const;
   std::vector<std::uint32_t> EyeTriangles() const;  ///< the same of the eyeballs
-  /// Adds an eyeball with an iris about eyes[side], in our own colours.
+  /// Adds an eyeball with an iris about eye_rig.centre[side], in our own colours.
   void AddEyeball(Side side);
 };
 

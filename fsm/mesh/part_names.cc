@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "embedded/part_names.h"
 
@@ -49,7 +51,7 @@ PartNames::PartNames(const Table& table) {
   for (const TableRow& row : table.rows()) {
     const auto found = std::ranges::find(kKindNames, row.key());
     if (found == kKindNames.end() || row.size() < 2) {
-      row.Fail(fmt::format("KIND WORD... expected, KIND one of {}", fmt::join(kKindNames, ", ")));
+      row.Refuse(fmt::format("KIND WORD... expected, KIND one of {}", fmt::join(kKindNames, ", ")));
     }
     rows_.push_back({static_cast<PartKind>(found - kKindNames.begin()),
                      {row.words().begin() + 1, row.words().end()}});

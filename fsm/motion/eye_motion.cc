@@ -20,7 +20,9 @@ float EyeMotion::HeadShareOf(float angle) const {
   return std::copysign(beyond * gestures_.gaze.head, angle);
 }
 
-EyeAngles EyeMotion::Thinking() const { return {gestures_.think.down.x, gestures_.think.aside.x}; }
+EyeAngles EyeMotion::Thinking() const {
+  return {gestures_.think.down.start, gestures_.think.aside.start};
+}
 
 // ---- commands
 
@@ -91,8 +93,8 @@ EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
     if (index < 0) return {0, 0};
     const double side =
         std::copysign(1, habit + row.strays * RandomAt(seed_, RandomStream::kThinkSide, index + 1));
-    const auto varied = [&](glm::vec2 angle, std::int64_t at) {
-      return Linear(angle, static_cast<float>(RandomAt(seed_, RandomStream::kThinkHeight, at)));
+    const auto varied = [&](Line angle, std::int64_t at) {
+      return angle.At(static_cast<float>(RandomAt(seed_, RandomStream::kThinkHeight, at)));
     };
     return {varied(row.down, index), side * varied(row.aside, index + 50)};
   };
@@ -116,12 +118,12 @@ void EyeMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   const EyeAngles gaze = gaze_.At(t), head = head_share_.At(t);
   for (const auto axis : {kDown, kToRight}) {
     const float both = gaze[axis] - head[axis] + thinking * thought[axis];
-    layer.units.gaze.left[axis] = left[axis] + both;
-    layer.units.gaze.right[axis] = right[axis] + both;
+    layer.look.gaze.left[axis] = left[axis] + both;
+    layer.look.gaze.right[axis] = right[axis] + both;
     layer.head_rotation[axis] = head[axis];
   }
-  layer.units.gaze.left[kToRight] -= vergence;
-  layer.units.gaze.right[kToRight] += vergence;
+  layer.look.gaze.left[kToRight] -= vergence;
+  layer.look.gaze.right[kToRight] += vergence;
   layer.blink.left = layer.blink.right = static_cast<float>(BlinkAt(t));
   layers.AddSignal("at_user", on_user_.At(t));
 }
@@ -136,9 +138,9 @@ vm::Time EyeMotion::FiniteEnd(vm::Time t) const {
   return std::max({t, BlinksEnd(t), ends_.rotation.left, ends_.rotation.right, ends_.gaze});
 }
 
-std::optional<vm::Time> EyeMotion::NextActivity(vm::Time t) const {
+std::optional<vm::Time> EyeMotion::NextMotion(vm::Time t) const {
   if (BlinksEnd(t) > t || thinking_.At(t) > 0) return t;
-  return MotionSource::NextActivity(t);
+  return MotionSource::NextMotion(t);
 }
 
 void EyeMotion::ForEachTrack(const TrackVisitor& visit) const {

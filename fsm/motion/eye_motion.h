@@ -34,7 +34,7 @@ class EyeMotion : public MotionSource {
   void StopBlinks() { blinks_.clear(); }
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;
-  std::optional<vm::Time> NextActivity(vm::Time t) const override;
+  std::optional<vm::Time> NextMotion(vm::Time t) const override;
   vm::Time FiniteEnd(vm::Time t) const override;
 
  protected:

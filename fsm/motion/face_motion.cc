@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "fsm/motion/base/motion_errors.h"
+#include "fsm/motion/speech/speech_timing.h"
 
 namespace fsm {
 
@@ -11,21 +12,22 @@ namespace fsm {
 
 vm::Result<void> FaceMotion::SetFace(vm::Time now, int position, double strength) {
   if (auto fits = CheckStrength(strength); !fits) return fits;
-  const UnitList& list = inputs_.tables.units;
+  const std::vector<FaceSlot>& slots = inputs_.tables.unit_list.face_slots;
   const auto index = static_cast<std::size_t>(position - 1);
-  if (position >= 1 && index < list.units.size()) {
-    if (list.units[index] > 0) {
-      units.Set(now, list.units[index], strength);
+  if (position >= 1 && index < slots.size()) {
+    const auto& [unit, emotion] = slots[index];
+    if (unit > 0) {
+      action_units.Set(now, unit, strength);
       return {};
     }
-    if (inputs_.tables.expressions.contains(list.emotions[index])) {
+    if (inputs_.tables.expressions.contains(emotion)) {
       expression.SetEmotion(now, index, strength);
       return {};
     }
     return vm::Fail(vm::Errc::kBadValue,
                     fmt::format("position {} of the list of units is {}, which is no emotion of "
                                 "the tables",
-                                position, list.emotions[index]));
+                                position, emotion));
   }
   return vm::Fail(vm::Errc::kBadValue,
                   fmt::format("the list of units has no position {}", position));
@@ -65,11 +67,12 @@ void FaceMotion::SetVisemes(VisemeSetId set, Visemes visemes) {
 }
 
 void FaceMotion::Apply(vm::Time now, const MotionSettings& settings) {
-  speech.Adjust(now, settings);
-  if (settings.mouth_scale != inputs_.settings.mouth_scale) {
-    mouth_stream.SetMouthScale(now, settings.mouth_scale);
+  const MotionSettings before = std::exchange(inputs_.settings, settings);
+  const double lead_ms = settings.lead_ms - settings.offset_ms;
+  if (lead_ms != before.lead_ms - before.offset_ms) speech.MoveLead(now, lead_ms);
+  if (settings.mouth_scale != before.mouth_scale) {
+    inputs_.mouth_scale.MoveTo(now, static_cast<float>(settings.mouth_scale), kMouthScaleMove);
   }
-  inputs_.settings = settings;
 }
 
 // ---- all sources together
@@ -80,13 +83,13 @@ FaceState FaceMotion::StateAt(vm::Time t) const {
   FaceState state;
   state.asymmetry = asymmetry;
   state.figure = figure;
-  inputs_.tables.mixer.Mix(layers, inputs_.tables.units, state);
+  inputs_.tables.mixer.Mix(layers, inputs_.tables.unit_list.regions, state);
   return state;
 }
 
-std::optional<vm::Time> FaceMotion::NextActivity(vm::Time t) const {
+std::optional<vm::Time> FaceMotion::NextMotion(vm::Time t) const {
   std::optional<vm::Time> next;
-  for (const MotionSource* source : sources_) next = Earlier(next, source->NextActivity(t));
+  for (const MotionSource* source : sources_) next = Earlier(next, source->NextMotion(t));
   return next;
 }
 
@@ -100,6 +103,15 @@ vm::Time FaceMotion::FiniteEnd(vm::Time t) const {
   vm::Time end = t;
   for (const MotionSource* source : sources_) end = std::max(end, source->FiniteEnd(t));
   return end;
+}
+
+FaceState SettledAfter(const MotionTables& tables,
+                       const std::function<void(FaceMotion&)>& command) {
+  constexpr vm::Time kSettled =
+      std::chrono::seconds(5);  // longer than any onset of the built-in tables
+  FaceMotion motion(tables, 1);
+  command(motion);
+  return motion.StateAt(kSettled);
 }
 
 }  // namespace fsm

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -33,22 +34,34 @@ namespace fsm {
 /// exists), and for strengths that are not numbers or are out of range. Thread: one at a time,
 /// const calls included.
 class FaceMotion {
-  MotionInputs inputs_;  // comes first, since all sources refer to it
+  // These come first: all sources refer to the inputs, and those built in add themselves.
+  MotionInputs inputs_;
+  std::vector<const MotionSource*> sources_;
+  template <typename Source>
+  struct BuiltIn : Source {
+    template <typename... Inputs>
+    explicit BuiltIn(FaceMotion& motion, Inputs&&... inputs)
+        : Source(std::forward<Inputs>(inputs)...) {
+      motion.sources_.push_back(this);
+    }
+  };
 
  public:
   FaceMotion(MotionTables tables, std::uint64_t seed) : inputs_(std::move(tables), seed) {}
+  FaceMotion(const FaceMotion&) = delete;
+  FaceMotion& operator=(const FaceMotion&) = delete;
 
   // The built-in sources, each with its own commands. None refers to another.
-  IdleBehaviour idle{inputs_};
-  ExpressionMotion expression{inputs_};
-  UnitMotion units{inputs_.tables.unit_names};
-  MouthMotion mouth;
-  BlendShapeMotion blend_shapes{inputs_.tables.blend_shapes};
-  EyeMotion eyes{inputs_};
-  HeadMotion head{inputs_.tables.motions};
-  SpeechMotion speech{inputs_};
-  MoodMotion mood{inputs_.tables.motions};
-  MouthStream mouth_stream;
+  BuiltIn<IdleBehaviour> idle{*this, inputs_};
+  BuiltIn<ExpressionMotion> expression{*this, inputs_};
+  BuiltIn<UnitMotion> action_units{*this, inputs_.tables.unit_names};
+  BuiltIn<MouthMotion> mouth{*this};
+  BuiltIn<BlendShapeMotion> blend_shapes{*this, inputs_.tables.blend_shapes};
+  BuiltIn<EyeMotion> eyes{*this, inputs_};
+  BuiltIn<HeadMotion> head{*this, inputs_.tables.motions};
+  BuiltIn<SpeechMotion> speech{*this, inputs_};
+  BuiltIn<MoodMotion> mood{*this, inputs_.tables.motions};
+  BuiltIn<MouthStream> mouth_stream{*this, inputs_};
 
   /// Adds a source of movement; see docs/extending.md.
   void Add(std::unique_ptr<MotionSource> source) {
@@ -58,7 +71,7 @@ class FaceMotion {
 
   // Commands for more than one source.
 
-  /// Sets Face.N; see UnitList for `position`. `strength`: 0..2, 1 = full.
+  /// Sets Face.N; see FaceSlot for `position`. `strength`: 0..2, 1 = full.
   vm::Result<void> SetFace(vm::Time now, int position, double strength);
   /// Plays a movement of the slot FaceMot `count` times (1..20). SHAKE is another name for REFUSE,
   /// TILT for LISTEN.
@@ -82,7 +95,7 @@ class FaceMotion {
 
   /// Returns `t` while anything moves, else when a movement will begin by itself; none: the face is
   /// still until the next command.
-  std::optional<vm::Time> NextActivity(vm::Time t) const;
+  std::optional<vm::Time> NextMotion(vm::Time t) const;
   /// Returns when the onsets begun by `t` (expressions, units, eyes, head) will be complete.
   vm::Time OnsetsSettled(vm::Time t) const;
   /// Returns when everything that has an end (expressions and turns with a duration, movements,
@@ -96,9 +109,10 @@ class FaceMotion {
   float asymmetry = 1;  ///< FaceState::asymmetry
 
  private:
-  std::vector<const MotionSource*> sources_{&idle, &expression, &units,  &mouth, &blend_shapes,
-                                            &eyes, &head,       &speech, &mood,  &mouth_stream};
   std::vector<std::unique_ptr<MotionSource>> added_;
 };
+
+/// Returns the state of a face at rest when all that `command` begins at the time 0 has settled.
+FaceState SettledAfter(const MotionTables& tables, const std::function<void(FaceMotion&)>& command);
 
 }  // namespace fsm

@@ -58,8 +58,8 @@ void HeadMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   }
 }
 
-std::optional<vm::Time> HeadMotion::NextActivity(vm::Time t) const {
-  return FiniteEnd(t) > t ? t : turn_.NextActivity(t);
+std::optional<vm::Time> HeadMotion::NextMotion(vm::Time t) const {
+  return FiniteEnd(t) > t ? t : turn_.NextMotion(t);
 }
 
 vm::Time HeadMotion::FiniteEnd(vm::Time t) const {

@@ -27,7 +27,7 @@ class HeadMotion : public MotionSource {
   void StopMovements(vm::Time now);
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;
-  std::optional<vm::Time> NextActivity(vm::Time t) const override;
+  std::optional<vm::Time> NextMotion(vm::Time t) const override;
   vm::Time FiniteEnd(vm::Time t) const override;
 
  protected:

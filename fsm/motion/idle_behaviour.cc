@@ -75,8 +75,8 @@ double IdleBehaviour::NodAt(const IdleRun& run, vm::Time t) const {
   const double ms = InMs(t - run.since);
   if (ms < 0) return 0;
   const auto k = static_cast<std::int64_t>(std::floor(ms / nods.interval_ms));
-  const auto varied = [&](glm::vec2 row, RandomStream stream) {
-    return Linear(row, static_cast<float>(Random(stream, k)));
+  const auto varied = [&](Line row, RandomStream stream) {
+    return row.At(static_cast<float>(Random(stream, k)));
   };
   const double since =
       ms - nods.interval_ms *
@@ -103,20 +103,19 @@ void IdleBehaviour::Contribute(vm::Time t, MotionLayers& layers) const {
     layer.head_rotation[kDown] -= static_cast<float>(pattern.pitch * breath);
     nostrils += static_cast<float>(gestures_.breath.nostrils * breath);
   }
-  layer.units.au.left[kNostrilDilator] = layer.units.au.right[kNostrilDilator] = nostrils;
+  layer.look.au.left[kNostrilDilator] = layer.look.au.right[kNostrilDilator] = nostrils;
   EyeAngles gaze{};
   for (const IdleRun& run : switches_[IdleKind::kGaze].runs.At(t)) {
     const EyeAngles saccades = SaccadesAt(PatternAt(patterns_.auto_gazes, run.pattern), t);
     for (std::size_t i = 0; i < 2; ++i) gaze[i] += run.weight * saccades[i];
   }
-  layer.units.gaze.left = layer.units.gaze.right = gaze;
+  layer.look.gaze.left = layer.look.gaze.right = gaze;
   layer.blink.left = layer.blink.right = static_cast<float>(BlinkAt(t));
   for (const IdleRun& run : switches_[IdleKind::kNods].runs.At(t)) {
     layers.Layer("nods").head_rotation[kDown] += static_cast<float>(run.weight * NodAt(run, t));
   }
   for (const IdleRun& run : switches_[IdleKind::kFace].runs.At(t)) {
-    AddTo(layers.Layer("idle_face").units, PatternAt(patterns_.auto_faces, run.pattern),
-          run.weight);
+    AddTo(layers.Layer("idle_face").look, PatternAt(patterns_.auto_faces, run.pattern), run.weight);
   }
 }
 
@@ -129,8 +128,8 @@ double IdleBehaviour::BreathAt(const AutoBreath& pattern, vm::Time since) const 
 EyeAngles IdleBehaviour::SaccadesAt(const AutoGaze& gaze, vm::Time t) const {
   const auto& row = gestures_.saccade;
   const auto saccade_ms = [&](std::int64_t k) {
-    return gaze.interval_ms * (static_cast<double>(k) + row.begins.x +
-                               row.begins.y * Random(RandomStream::kGazeTime, k));
+    return gaze.interval_ms * (static_cast<double>(k) + row.begins.start +
+                               row.begins.added * Random(RandomStream::kGazeTime, k));
   };
   const auto place = [&](std::int64_t k) -> std::array<double, 2> {
     return {row.height * gaze.angle * Random(RandomStream::kGazeY, k),
@@ -177,21 +176,19 @@ double IdleBehaviour::BlinkAt(vm::Time t) const {
     const AutoBlink& blinks = PatternAt(patterns_.auto_blinks, run.pattern);
     const Blink blink = LastBlink(run.pattern, run.since, t);
     if (blink.index < 0) continue;
-    const double depth = blinks.varied
-                             ? std::min(1.0, gestures_.blink.depth.x +
-                                                 gestures_.blink.depth.y *
-                                                     Random(RandomStream::kBlinkDepth, blink.index))
-                             : 1;
+    const double depth = blinks.varied ? std::min(1.0, gestures_.blink.depth.At(Random(
+                                                           RandomStream::kBlinkDepth, blink.index)))
+                                       : 1;
     shut += run.weight * depth * LidsAt(patterns_.blinks[blinks.blink], t - blink.start);
   }
   return shut;
 }
 
-std::optional<vm::Time> IdleBehaviour::NextActivity(vm::Time t) const {
+std::optional<vm::Time> IdleBehaviour::NextMotion(vm::Time t) const {
   for (const IdleKindRow& row : IdleKinds()) {
     if (row.moves_always && switches_[row.kind].on()) return t;
   }
-  const std::optional<vm::Time> next = MotionSource::NextActivity(t);
+  const std::optional<vm::Time> next = MotionSource::NextMotion(t);
   if (next && *next <= t) return t;
   const IdleSwitches::Switch& own = switches_[IdleKind::kBlink];
   if (!own.on()) return next;

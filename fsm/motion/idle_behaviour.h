@@ -26,7 +26,7 @@ class IdleBehaviour : public MotionSource {
 
   double BlinkAt(vm::Time t) const;
   void Contribute(vm::Time t, MotionLayers& layers) const override;
-  std::optional<vm::Time> NextActivity(vm::Time t) const override;
+  std::optional<vm::Time> NextMotion(vm::Time t) const override;
   vm::Time SettledAt(vm::Time t) const override { return t; }
 
  protected:

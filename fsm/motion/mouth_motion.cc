@@ -7,10 +7,6 @@ namespace {
 
 constexpr vm::Time kMove = std::chrono::milliseconds(60);
 
-// The value of each mouth parameter when Mouth.N is at 100 %: mm, for jaw Y degrees.
-constexpr std::array<float, kMouthParameters> kFull = {4, 4, 4,  4, -6, 4, -6, 4, 5,
-                                                       5, 5, 15, 4, 1,  1, 1,  1};
-
 }  // namespace
 
 vm::Result<void> MouthMotion::Set(vm::Time now, int parameter, double strength) {
@@ -20,7 +16,7 @@ vm::Result<void> MouthMotion::Set(vm::Time now, int parameter, double strength) 
     return vm::Fail(vm::Errc::kBadValue,
                     fmt::format("{} is no mouth parameter; 1 to 17 expected", parameter));
   }
-  parameters_[index].MoveTo(now, static_cast<float>(strength) * kFull[index], kMove);
+  parameters_[index].MoveTo(now, static_cast<float>(strength) * kFullMouth[index], kMove);
   return {};
 }
 

@@ -1,9 +1,10 @@
 #include "fsm/render/appearance.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "embedded/appearance.h"
 
@@ -16,11 +17,9 @@ constexpr std::pair<std::string_view, Material> kSurfaces[] = {
     {"tongue", Material::kTongue}, {"mouth_inside", Material::kMouthInside},
     {"cloth", Material::kCloth}};
 
-std::string ConstantOf(const TableRow& row, std::size_t count) {
-  const std::string type = count == 1 ? "float" : "vec" + std::to_string(count);
-  std::string text = "const " + type + " look_" + row.key() + " = " + type + "(";
-  for (std::size_t i = 1; i <= count; ++i) text += (i > 1 ? ", " : "") + row.Word(i);
-  return text + ");\n";
+std::string ConstantOf(const std::string& name, const std::vector<float>& numbers) {
+  const std::string type = numbers.size() == 1 ? "float" : fmt::format("vec{}", numbers.size());
+  return fmt::format("const {0} look_{1} = {0}({2});\n", type, name, fmt::join(numbers, ", "));
 }
 
 }  // namespace
@@ -29,9 +28,9 @@ Appearance::Appearance(NumberTable numbers)
     : AppearanceNumbers(numbers), table_(std::move(numbers)) {
   for (const TableRow& row : table_.rows()) {
     const std::string name = NumberTable::RowName(row);
-    if (name == row.key()) constants_ += ConstantOf(row, table_[name].size());
+    if (name == row.key()) constants_ += ConstantOf(name, table_[name]);
     if (name.ends_with(" direction") && std::ranges::count(table_[name], 0.0F) == 3)
-      row.Fail("a lamp that stands nowhere");
+      row.Refuse("a lamp that stands nowhere");
   }
   for (const auto& [name, material] : kSurfaces) {
     Surface& surface = surfaces_[material];

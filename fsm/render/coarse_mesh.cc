@@ -224,11 +224,11 @@ class PartDecimator {
 }  // namespace
 
 HeadTriangles CoarseTriangles(const Head& head, const CreaseWeights& creases, float error_mm) {
-  const HeadTopology& topology = head.topology();
+  const HeadSurface& surface = head.surface();
   const VertexFeatures features(head, creases);
   HeadTriangles coarse;
-  for (HeadTopology::Part part : topology.parts) {
-    PartDecimator shrinking(features, topology.Corners(part), IsHair(part.material));
+  for (HeadSurface::Part part : surface.parts) {
+    PartDecimator shrinking(features, surface.Corners(part), IsHair(part.material));
     // The least important vertices are removed first.
     for (const float share : {0.25F, 0.5F, 1.0F}) shrinking.Shrink(share * error_mm);
     part.first_index = static_cast<std::uint32_t>(coarse.indices.size());

@@ -10,7 +10,7 @@ namespace fsm {
 
 /// The triangles of a head, part by part; they may use only some of its vertices.
 struct HeadTriangles {
-  std::vector<HeadTopology::Part> parts;
+  std::vector<HeadSurface::Part> parts;
   std::vector<std::uint32_t> indices;
 };
 

@@ -11,15 +11,15 @@ namespace fsm {
 namespace {
 
 /// Tells whether a triangle is opaque. `cut_out`: it is discarded where the photo is transparent.
-bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> triangle, bool cut_out) {
+bool HidesAll(const HeadSurface& surface, std::span<const std::uint32_t> triangle, bool cut_out) {
   glm::vec2 low(1e9F), high(-1e9F);
   for (const std::uint32_t v : triangle) {
-    if (topology.opacity[v] < 1) return false;
-    low = glm::min(low, topology.textures.texcoord[v]);
-    high = glm::max(high, topology.textures.texcoord[v]);
+    if (surface.opacity[v] < 1) return false;
+    low = glm::min(low, surface.textures.texcoord[v]);
+    high = glm::max(high, surface.textures.texcoord[v]);
   }
   if (!cut_out) return true;
-  const Image& photo = *topology.textures.image;
+  const Image& photo = *surface.textures.image;
   const glm::ivec2 last(photo.width - 1, photo.height - 1);
   const glm::vec2 size(photo.width, photo.height);
   // Coordinates of a file may be anything, also no numbers: those count as 1.
@@ -40,14 +40,14 @@ using Corners = std::span<const std::uint32_t>;
 
 class OrderMaker {
  public:
-  OrderMaker(const HeadTopology& topology, const HeadTriangles& triangles,
+  OrderMaker(const HeadSurface& surface, const HeadTriangles& triangles,
              std::span<const SkinDetail> detail)
-      : topology_(topology), triangles_(triangles), detail_(detail) {}
+      : surface_(surface), triangles_(triangles), detail_(detail) {}
 
   DrawOrder Make(std::span<const glm::vec3> rest) {
     std::size_t before_ears = 0;
     const std::vector<std::uint32_t> hair = SortedHair(rest, before_ears);
-    const HeadTopology::Part locks{.material = Material::kHair, .first_index = 0, .index_count = 0};
+    const HeadSurface::Part locks{.material = Material::kHair, .first_index = 0, .index_count = 0};
     Add(locks, Corners(hair).first(before_ears));
     Layer sheet, skin;
     AddFace(sheet, skin);
@@ -63,24 +63,24 @@ class OrderMaker {
  private:
   /// Triangles that are blended with what lies behind them.
   struct Layer {
-    HeadTopology::Part part{};
+    HeadSurface::Part part{};
     std::vector<std::uint32_t> corners;
   };
 
-  Corners CornersOf(const HeadTopology::Part& part) const {
+  Corners CornersOf(const HeadSurface::Part& part) const {
     return Corners(triangles_.indices).subspan(part.first_index, part.index_count);
   }
 
-  void Add(HeadTopology::Part part, Corners corners, bool soft = false,
+  void Add(HeadSurface::Part part, Corners corners, bool blended = false,
            SkinDetail detail = SkinDetail::kDetailed) {
     if (corners.empty()) return;
     part.first_index = static_cast<std::uint32_t>(order_.indices.size());
     part.index_count = static_cast<std::uint32_t>(corners.size());
-    order_.parts.push_back({part, soft, detail});
+    order_.parts.push_back({part, blended, detail});
     order_.indices.insert(order_.indices.end(), corners.begin(), corners.end());
   }
 
-  void AddByDetail(const HeadTopology::Part& part, Corners corners) {
+  void AddByDetail(const HeadSurface::Part& part, Corners corners) {
     std::array<std::vector<std::uint32_t>, 3> lists;  // by SkinDetail
     for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
       const auto t = corners.subspan(k, 3);
@@ -104,13 +104,13 @@ class OrderMaker {
       const Corners corners = CornersOf(part);
       const bool of_skin = part.material == Material::kSkin;
       const bool of_sheet = part.material == Material::kPhoto;
-      if (HasBlendedLayers(topology_) && (of_skin || of_sheet)) {
+      if (HasBlendedLayers(surface_) && (of_skin || of_sheet)) {
         Layer& layer = of_sheet ? sheet : skin;
         layer.part = part;
         std::vector<std::uint32_t> whole;
         for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
           const auto t = corners.subspan(k, 3);
-          auto& list = HidesAll(topology_, t, of_sheet) ? whole : layer.corners;
+          auto& list = HidesAll(surface_, t, of_sheet) ? whole : layer.corners;
           list.insert(list.end(), t.begin(), t.end());
         }
         AddByDetail(part, whole);
@@ -142,7 +142,7 @@ class OrderMaker {
     };
     const auto is_shell = [this](const Triangle& t) {
       return std::ranges::all_of(t, [this](std::uint32_t i) {
-        return i >= topology_.strands.size() || topology_.strands[i].across == 0;
+        return i >= surface_.strands.size() || surface_.strands[i].across == 0;
       });
     };
     std::ranges::sort(hair, {}, [&](const Triangle& t) {
@@ -156,7 +156,7 @@ class OrderMaker {
     return corners;
   }
 
-  const HeadTopology& topology_;
+  const HeadSurface& surface_;
   const HeadTriangles& triangles_;
   const std::span<const SkinDetail> detail_;
   DrawOrder order_;
@@ -164,9 +164,9 @@ class OrderMaker {
 
 }  // namespace
 
-DrawOrder OrderToDraw(const HeadTopology& topology, const HeadTriangles& triangles,
+DrawOrder OrderToDraw(const HeadSurface& surface, const HeadTriangles& triangles,
                       std::span<const glm::vec3> rest, std::span<const SkinDetail> detail) {
-  return OrderMaker(topology, triangles, detail).Make(rest);
+  return OrderMaker(surface, triangles, detail).Make(rest);
 }
 
 }  // namespace fsm

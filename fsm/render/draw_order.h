@@ -18,8 +18,8 @@ enum class SkinDetail : std::uint8_t {
 
 /// A part of the head as it is drawn.
 struct DrawnPart {
-  HeadTopology::Part part;  ///< indices into the uploaded buffer
-  bool blended = false;     ///< alpha
+  HeadSurface::Part part;  ///< indices into the uploaded buffer
+  bool blended = false;    ///< drawn over what lies behind it
   SkinDetail detail = SkinDetail::kDetailed;
 };
 
@@ -31,14 +31,15 @@ struct DrawOrder {
 /// Orders a head's triangles for drawing. Hidden pixels cost almost nothing, so hair before the
 /// ears comes first, then the face, then the hair behind it, each from front to back of a head that
 /// looks at the viewer. That is the best order most of the time; where it is not, only time is
-/// lost. Blended triangles come last. `triangles`: all of the topology or fewer; `detail`: per
-/// vertex.
-DrawOrder OrderToDraw(const HeadTopology& topology, const HeadTriangles& triangles,
+/// lost. Blended triangles come after the face; no head has both these and hair behind the ears,
+/// since only one with a photo has blended ones, and it has no hair. `triangles`: all of the
+/// surface or fewer; `detail`: per vertex.
+DrawOrder OrderToDraw(const HeadSurface& surface, const HeadTriangles& triangles,
                       std::span<const glm::vec3> rest, std::span<const SkinDetail> detail);
 
 /// Tells whether a head wears a photo in layers with soft edges, blended from back to front.
-inline bool HasBlendedLayers(const HeadTopology& topology) {
-  return topology.textures.image && !topology.opacity.empty();
+inline bool HasBlendedLayers(const HeadSurface& surface) {
+  return surface.textures.image && !surface.opacity.empty();
 }
 
 }  // namespace fsm

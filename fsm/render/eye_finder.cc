@@ -14,11 +14,11 @@ constexpr float kLidReach = 4.0F;
 /// Only lid margins above and below the pupil count, within this distance (mm) to its sides.
 constexpr float kRimHalfWidth = 4.5F;
 
-std::vector<std::uint32_t> VerticesOf(const HeadTopology& topology, Material material) {
+std::vector<std::uint32_t> VerticesOf(const HeadSurface& surface, Material material) {
   std::vector<std::uint32_t> found;
-  for (const auto& part : topology.parts) {
+  for (const auto& part : surface.parts) {
     if (part.material != material) continue;
-    const auto corners = topology.Corners(part);
+    const auto corners = surface.Corners(part);
     found.insert(found.end(), corners.begin(), corners.end());
   }
   std::ranges::sort(found);
@@ -35,7 +35,8 @@ glm::vec3 Centroid(std::span<const std::uint32_t> points, const HeadVertices& ve
 
 /// Fits a sphere to points by least squares: |p|^2 = 2 c.p + (r^2 - |c|^2) is linear in the centre
 /// c and in the bracket. Positions are relative to their centroid for precision.
-void FitSphere(std::span<const std::uint32_t> points, const HeadVertices& vertices, EyePose& out) {
+void FitSphere(std::span<const std::uint32_t> points, const HeadVertices& vertices,
+               MeasuredEye& out) {
   const glm::dvec3 origin = Centroid(points, vertices);
   glm::dmat4 normal(0.0);
   glm::dvec4 right(0.0);
@@ -66,15 +67,15 @@ float Extreme(std::span<const std::uint32_t> points, const HeadVertices& vertice
 
 }  // namespace
 
-EyeFinder::EyeFinder(const HeadTopology& topology, const HeadVertices& rest) {
+EyeFinder::EyeFinder(const HeadSurface& surface, const HeadVertices& rest) {
   const auto side_of = [&rest](std::uint32_t i) {
     return rest.position[i].x < 0 ? Side::kRight : Side::kLeft;
   };
-  for (const auto i : VerticesOf(topology, Material::kSclera)) white_[side_of(i)].push_back(i);
-  for (const auto i : VerticesOf(topology, Material::kIris)) iris_[side_of(i)].push_back(i);
+  for (const auto i : VerticesOf(surface, Material::kSclera)) white_[side_of(i)].push_back(i);
+  for (const auto i : VerticesOf(surface, Material::kIris)) iris_[side_of(i)].push_back(i);
   if (!found()) return;
   const auto eyes = Measure(rest);
-  for (const auto i : VerticesOf(topology, Material::kSkin)) {
+  for (const auto i : VerticesOf(surface, Material::kSkin)) {
     const Side side = side_of(i);
     const auto& eye = eyes[side];
     const glm::vec3 p = rest.position[i] - eye.centre;
@@ -92,8 +93,8 @@ void EyeFinder::AppendVertices(std::vector<std::uint32_t>& out) const {
   }
 }
 
-Sided<EyePose> EyeFinder::Measure(const HeadVertices& vertices) const {
-  Sided<EyePose> eyes;
+Sided<MeasuredEye> EyeFinder::Measure(const HeadVertices& vertices) const {
+  Sided<MeasuredEye> eyes;
   for (const Side side : kSides) {
     auto& eye = eyes[side];
     FitSphere(white_[side], vertices, eye);

@@ -9,7 +9,7 @@
 namespace fsm {
 
 /// What the eye shader needs to know of one eyeball, in the frame of the measured vertices.
-struct EyePose {
+struct MeasuredEye {
   glm::vec3 centre{0.0F};
   float radius = 12.0F;
   glm::vec3 gaze{0.0F, 0.0F, 1.0F};  ///< unit vector from the centre through the pupil
@@ -23,11 +23,11 @@ struct EyePose {
 class EyeFinder {
  public:
   EyeFinder() = default;
-  /// REQUIRES: `rest` belongs to `topology`. A head without a kSclera part has no eyes.
-  EyeFinder(const HeadTopology& topology, const HeadVertices& rest);
+  /// REQUIRES: `rest` belongs to `surface`. A head without a kSclera part has no eyes.
+  EyeFinder(const HeadSurface& surface, const HeadVertices& rest);
   bool found() const { return !white_.right.empty() && !white_.left.empty(); }
   /// REQUIRES: found().
-  Sided<EyePose> Measure(const HeadVertices& vertices) const;
+  Sided<MeasuredEye> Measure(const HeadVertices& vertices) const;
   /// Appends the vertices that Measure reads.
   void AppendVertices(std::vector<std::uint32_t>& out) const;
 

@@ -16,15 +16,15 @@ EyeMaterial::EyeMaterial(const GlFunctions& gl, const Appearance& appearance)
           CompileLit(gl, appearance, "eye", {embedded::eye_vertex()}, embedded::eye_fragment())) {}
 
 void EyeMaterial::Begin(const MaterialFrame& frame) const {
-  if (!frame.head.eyes().found()) return;
-  const auto eyes = frame.head.eyes().Measure(frame.vertices);
-  const HeadTopology& topology = frame.head.topology();
+  if (!frame.head.measures().eyes.found()) return;
+  const auto eyes = frame.head.measures().eyes.Measure(frame.vertices);
+  const HeadSurface& surface = frame.head.surface();
   // On a grey photo the sclera is grey, and so is the caruncle beside it.
-  const glm::vec3 white = topology.eyes.right.white_colour;
+  const glm::vec3 white = surface.eyes.right.white_colour;
   const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02F * white.g;
-  const bool pictured = frame.head.photo() && topology.portrait.eyes;
+  const bool pictured = frame.head.photo() && surface.portrait.eyes;
   program_.Use();
-  SetEyeballs(frame.view, eyes, topology.eyes);
+  SetEyeballs(frame.view, eyes, surface.eyes);
   program_.Set("flesh_red", grey ? 0.0F : 1.0F);
   program_.Set("beside_photo", frame.head.photo() != nullptr);
   program_.Set("photo_brightness", frame.photo_brightness);
@@ -33,14 +33,14 @@ void EyeMaterial::Begin(const MaterialFrame& frame) const {
   if (pictured) SetPictures(frame, eyes);
 }
 
-void EyeMaterial::SetEyeballs(const View& view, const Sided<EyePose>& eyes,
+void EyeMaterial::SetEyeballs(const View& view, const Sided<MeasuredEye>& eyes,
                               const Sided<EyeGeometry>& geometry) const {
   const glm::mat3 rotation(view.figure_to_world);
   const float scale = glm::length(rotation[0]);
   std::array<glm::vec4, 2> balls, lid_heights{};
   std::array<glm::vec3, 2> gazes, iris_colours, white_colours;
   for (const Side side : kSides) {
-    const EyePose& eye = eyes[side];
+    const MeasuredEye& eye = eyes[side];
     const auto i = static_cast<std::size_t>(side);
     const auto to_world = [&view](const glm::vec3& p) {
       return glm::vec3(view.figure_to_world * glm::vec4(p, 1.0F));
@@ -53,7 +53,7 @@ void EyeMaterial::SetEyeballs(const View& view, const Sided<EyePose>& eyes,
     lid_heights[i].x = to_world({front.x, eye.upper_lid_y, front.z}).y;
     lid_heights[i].y = to_world({front.x, eye.lower_lid_y, front.z}).y;
   }
-  const EyePose& first = eyes.right;  // both have the same size
+  const MeasuredEye& first = eyes.right;  // both have the same size
   const float plane = std::sqrt(
       std::max(first.radius * first.radius - first.iris_radius * first.iris_radius, 1.0F));
   program_.Set("ball", balls);
@@ -67,13 +67,13 @@ void EyeMaterial::SetEyeballs(const View& view, const Sided<EyePose>& eyes,
   program_.Set("figure_scale", scale);
 }
 
-void EyeMaterial::SetPictures(const MaterialFrame& frame, const Sided<EyePose>& eyes) const {
-  const Sided<EyePicture>& pictures = *frame.head.topology().portrait.eyes;
+void EyeMaterial::SetPictures(const MaterialFrame& frame, const Sided<MeasuredEye>& eyes) const {
+  const Sided<EyePicture>& pictures = *frame.head.surface().portrait.eyes;
   std::array<glm::vec4, 2> iris_rect, ball_rect, lid_heights;
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
-    const EyePose& rest = frame.head.resting_eyes()[side];
-    const EyePose& eye = eyes[side];
+    const MeasuredEye& rest = frame.head.measures().resting_eyes[side];
+    const MeasuredEye& eye = eyes[side];
     iris_rect[i] = pictures[side].iris;
     ball_rect[i] = pictures[side].ball;
     lid_heights[i] = {rest.upper_lid_y - rest.centre.y, rest.lower_lid_y - rest.centre.y,

@@ -14,9 +14,9 @@ class EyeMaterial {
   void Begin(const MaterialFrame& frame) const;
 
  private:
-  void SetEyeballs(const View& view, const Sided<EyePose>& eyes,
+  void SetEyeballs(const View& view, const Sided<MeasuredEye>& eyes,
                    const Sided<EyeGeometry>& geometry) const;
-  void SetPictures(const MaterialFrame& frame, const Sided<EyePose>& eyes) const;
+  void SetPictures(const MaterialFrame& frame, const Sided<MeasuredEye>& eyes) const;
 
   GlProgram program_;
 };

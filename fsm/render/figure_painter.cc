@@ -5,27 +5,24 @@
 namespace fsm {
 namespace {
 
-bool IsDrawnFromBothSides(const HeadTopology::Part& part) {
-  using enum Material;
-  const Material material = part.material;
-  return part.two_sided || material == kLash || material == kShutLash || material == kMouthInside ||
-         material == kMatte;
+bool IsDrawnFromBothSides(const HeadSurface::Part& part) {
+  return part.two_sided || HasTwoSides(part.material);
 }
 
 }  // namespace
 
-void FigurePainter::Draw(const Head& head, CardHead& on_card, const HeadVertices& vertices,
+void FigurePainter::Draw(const Head& head, GpuHead& on_gpu, const HeadVertices& vertices,
                          const View& view, const Scene& scene, float error_pixels,
                          GlTarget& target) {
-  HeadBuffers& buffers = on_card.buffers;
+  HeadBuffers& buffers = on_gpu.buffers;
   gl_.Enable(GL_DEPTH_TEST);
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
-  materials_.BeginFrame(view, buffers, on_card.textures, vertices, scene);
+  materials_.BeginFrame(view, buffers, on_gpu.textures, vertices, scene);
   const bool lines = scene.view_mode != ViewMode::kTexture;
   const float error_mm = error_pixels * kSamplesAlong / view.samples_per_mm;
   const auto& parts = buffers.PartsWithin(head, lines ? 0 : error_mm);
-  if (buffers.painting()) WarmUp(parts, target);
-  on_card.textures.Load(buffers, view.samples_per_mm);
+  if (buffers.skin().painting()) WarmUp(parts, target);
+  on_gpu.textures.Load(buffers.skin(), buffers, view.samples_per_mm);
   if (scene.view_mode == ViewMode::kTextureWithWireframe) {
     gl_.Enable(GL_POLYGON_OFFSET_FILL);
     gl_.PolygonOffset(1.5F, 2.0F);
@@ -39,17 +36,15 @@ void FigurePainter::Draw(const Head& head, CardHead& on_card, const HeadVertices
 
 void FigurePainter::DrawParts(const std::vector<DrawnPart>& parts) {
   gl_.CullFace(GL_BACK);
-  for (const DrawnPart& part : parts) {
-    if (materials_.IsHidden(part)) continue;
-    // Lashes are two-sided. All other parts are closed surfaces, or hair, which has its own inner
-    // side where it hangs.
-    (IsDrawnFromBothSides(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
-    materials_.Use(part);
-    if (part.blended) BeginBlending();
-    DrawTriangles(part.part);
-    if (part.blended) gl_.Disable(GL_BLEND);
+  for (const DrawnPart& drawn : parts) {
+    if (materials_.IsHidden(drawn)) continue;
+    (IsDrawnFromBothSides(drawn.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+    materials_.Use(drawn);
+    if (drawn.blended) BeginBlending();
+    DrawTriangles(drawn.part);
+    if (drawn.blended) gl_.Disable(GL_BLEND);
     // A software driver draws on its own threads, but starts only when flushed.
-    if (software_ && &part == &parts.front()) gl_.Flush();
+    if (software_ && &drawn == &parts.front()) gl_.Flush();
   }
   gl_.Disable(GL_CULL_FACE);
 }
@@ -63,11 +58,11 @@ void FigurePainter::WarmUp(const std::vector<DrawnPart>& parts, GlTarget& target
   const bool creased = materials_.creased();
   for (const bool variant : {!creased, creased}) {
     materials_.SetCreased(variant);
-    for (auto part : parts) {
-      part.part.index_count = 3;
-      (IsDrawnFromBothSides(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
-      materials_.Use(part);
-      DrawTriangles(part.part);
+    for (DrawnPart drawn : parts) {
+      drawn.part.index_count = 3;
+      (IsDrawnFromBothSides(drawn.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+      materials_.Use(drawn);
+      DrawTriangles(drawn.part);
     }
   }
   gl_.Disable(GL_CULL_FACE);
@@ -84,7 +79,7 @@ void FigurePainter::DrawLines(const std::vector<DrawnPart>& parts, const Scene& 
   gl_.Enable(GL_CULL_FACE);
   gl_.CullFace(GL_BACK);
   materials_.UseLine(colour);
-  for (const auto& part : parts) DrawTriangles(part.part);
+  for (const DrawnPart& drawn : parts) DrawTriangles(drawn.part);
   gl_.Disable(GL_CULL_FACE);
   gl_.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   gl_.DepthFunc(GL_LESS);
@@ -95,7 +90,7 @@ void FigurePainter::BeginBlending() {
   gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-void FigurePainter::DrawTriangles(const HeadTopology::Part& part) {
+void FigurePainter::DrawTriangles(const HeadSurface::Part& part) {
   const auto offset = static_cast<std::uintptr_t>(part.first_index) * sizeof(std::uint32_t);
   gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.index_count), GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(offset));

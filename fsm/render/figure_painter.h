@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "fsm/render/camera.h"
-#include "fsm/render/card_heads.h"
 #include "fsm/render/gl_objects.h"
+#include "fsm/render/gpu_heads.h"
 #include "fsm/render/materials.h"
 
 namespace fsm {
@@ -17,9 +17,9 @@ class FigurePainter {
   /// `appearance` must outlive it.
   FigurePainter(const GlFunctions& gl, const Appearance& appearance, bool software)
       : gl_(gl), appearance_(appearance), software_(software), materials_(gl, appearance) {}
-  /// `vertices`: those that on_card.buffers is bound to, at least the measured ones.
+  /// `vertices`: those that on_gpu.buffers is bound to, at least the measured ones.
   /// `error_pixels`: see Renderer::SetFormError.
-  void Draw(const Head& head, CardHead& on_card, const HeadVertices& vertices, const View& view,
+  void Draw(const Head& head, GpuHead& on_gpu, const HeadVertices& vertices, const View& view,
             const Scene& scene, float error_pixels, GlTarget& target);
 
  private:
@@ -27,7 +27,7 @@ class FigurePainter {
   void DrawLines(const std::vector<DrawnPart>& parts, const Scene& scene);
   void WarmUp(const std::vector<DrawnPart>& parts, GlTarget& target);
   void BeginBlending();
-  void DrawTriangles(const HeadTopology::Part& part);
+  void DrawTriangles(const HeadSurface::Part& part);
 
   const GlFunctions& gl_;
   const Appearance& appearance_;

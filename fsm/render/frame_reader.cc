@@ -16,8 +16,8 @@ GLsizeiptr BytesOf(const Image& image) {
 
 }  // namespace
 
-FrameReader::FrameReader(const GlFunctions& gl, bool on_card) : gl_(gl) {
-  if (on_card) average_.emplace(gl, "average_samples", embedded::average_samples());
+FrameReader::FrameReader(const GlFunctions& gl, bool on_gpu) : gl_(gl) {
+  if (on_gpu) average_.emplace(gl, "average_samples", embedded::average_samples());
 }
 
 FrameReader::~FrameReader() {

@@ -13,10 +13,10 @@ namespace fsm {
 /// Reads frames back to memory while others are drawn. Destroy while its context is current.
 class FrameReader {
  public:
-  /// `on_card`: the card averages each frame asynchronously into a buffer that is read on demand. A
+  /// `on_gpu`: the card averages each frame asynchronously into a buffer that is read on demand. A
   /// software driver cannot do that in parallel, so frames are then read in Begin. REQUIRES for
-  /// `on_card`: GlFunctions::has_compute.
-  FrameReader(const GlFunctions& gl, bool on_card);
+  /// `on_gpu`: GlFunctions::has_compute.
+  FrameReader(const GlFunctions& gl, bool on_gpu);
   ~FrameReader();
   FrameReader(const FrameReader&) = delete;
   FrameReader& operator=(const FrameReader&) = delete;

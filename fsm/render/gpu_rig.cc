@@ -29,7 +29,7 @@ GpuRig::GpuRig(const GlFunctions& gl, RigPrograms& programs, const Rig& rig)
       vertex_count_(rig.data().rest.size()),
       channel_count_(rig.data().channels.size()),
       spring_count_(rig.data().spring_rig.springs.size()),
-      seam_count_(rig.data().lips.seam.size()) {
+      seam_count_(rig.data().mouth.seam.size()) {
   gl_.GenBuffers(kBuffers, buffers_.data());
   for (const RigRecords& records : PackRig(rig.data())) Add(records);
 }

@@ -1,6 +1,5 @@
 #include "fsm/render/head_buffers.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -20,21 +19,21 @@ struct DetailAttributes {
   std::vector<glm::vec2> more;
 };
 
-DetailAttributes DetailOf(const HeadTopology& topology, const CreaseWeights& creases,
+DetailAttributes DetailOf(const HeadSurface& surface, const CreaseWeights& creases,
                           std::size_t count) {
-  DetailAttributes detail{topology.uv, creases.face, creases.nose_and_left};
+  DetailAttributes detail{surface.uv, creases.face, creases.nose_and_left};
   detail.texcoord.resize(count);
   detail.detail.resize(count);
   detail.more.resize(count);
-  for (const auto& part : topology.parts) {
+  for (const auto& part : surface.parts) {
     if (!IsHair(part.material)) continue;
-    for (const std::uint32_t i : topology.Corners(part)) {
-      const Strand strand = i < topology.strands.size() ? topology.strands[i] : Strand{};
+    for (const std::uint32_t i : surface.Corners(part)) {
+      const Strand strand = i < surface.strands.size() ? surface.strands[i] : Strand{};
       detail.texcoord[i] = strand.tile_mm;
       detail.detail[i] = glm::vec4(strand.along, strand.density);
       // Single hairs cross the outline, where all others thin out, and linings do so in part.
       const float across = std::abs(strand.across);
-      const bool thins = part.material == Material::kHair && i < topology.strands.size();
+      const bool thins = part.material == Material::kHair && i < surface.strands.size();
       detail.more[i] = glm::vec2(strand.across, !thins ? 0 : across < 1 ? 1 - 2 * across : 1);
     }
   }
@@ -48,20 +47,20 @@ struct PaintAttributes {
   std::vector<glm::vec2> lid_skin;
 };
 
-PaintAttributes PaintOf(const HeadTopology& topology) {
-  const std::size_t count = topology.albedo.size();
+PaintAttributes PaintOf(const HeadSurface& surface) {
+  const std::size_t count = surface.albedo.size();
   PaintAttributes paint{std::vector<glm::vec4>(count), std::vector<glm::vec4>(count, kNone),
-                        std::vector<glm::vec4>(count, kNone), topology.opacity,
+                        std::vector<glm::vec4>(count, kNone), surface.opacity,
                         std::vector<glm::vec2>(count, glm::vec2(0))};
   paint.opacity.resize(count, 1.0F);
   for (std::size_t i = 0; i < count; ++i) {
-    paint.colour[i] = glm::vec4(topology.albedo[i], topology.openness[i]);
+    paint.colour[i] = glm::vec4(surface.albedo[i], surface.openness[i]);
   }
-  for (std::size_t i = 0; i < topology.textures.texcoord.size(); ++i) {
-    paint.texcoord[i] = glm::vec4(topology.textures.texcoord[i], topology.textures.weight[i], 0);
+  for (std::size_t i = 0; i < surface.textures.texcoord.size(); ++i) {
+    paint.texcoord[i] = glm::vec4(surface.textures.texcoord[i], surface.textures.weight[i], 0);
   }
-  for (const ShutLid& lid : topology.portrait.shut_lids) {
-    paint.colour[lid.vertex] = glm::vec4(lid.colour, topology.openness[lid.vertex]);
+  for (const ShutLid& lid : surface.portrait.shut_lids) {
+    paint.colour[lid.vertex] = glm::vec4(lid.colour, surface.openness[lid.vertex]);
     paint.texcoord[lid.vertex].w = lid.weight;
     paint.lid_grain[lid.vertex] = glm::vec4(lid.grain_at, lid.slide);
     paint.lid_skin[lid.vertex] = glm::vec2(1, lid.grain_light);
@@ -78,57 +77,24 @@ std::vector<SkinDetail> SkinDetailOf(const PaintAttributes& paint, const DetailA
   return out;
 }
 
-/// Returns the photo's resolution on surfaces that face the viewer, as seen from the front: the
-/// square root of texels per square millimetre.
-float TexelsPerMm(const HeadTopology& topology, const HeadVertices& rest) {
-  const Image* image = topology.textures.image.get();
-  const auto& texcoord = topology.textures.texcoord;
-  const auto& weight = topology.textures.weight;
-  if (!image || texcoord.empty()) return 0;
-  const glm::vec2 size(image->width, image->height);
-  double texels = 0, area = 0;
-  for (std::size_t k = 0; k + 2 < topology.indices.size(); k += 3) {
-    const auto* t = &topology.indices[k];
-    if (std::min({weight[t[0]], weight[t[1]], weight[t[2]]}) <= 0) continue;
-    const glm::vec2 a = size * (texcoord[t[1]] - texcoord[t[0]]);
-    const glm::vec2 b = size * (texcoord[t[2]] - texcoord[t[0]]);
-    const glm::vec2 c(rest.position[t[1]] - rest.position[t[0]]);
-    const glm::vec2 d(rest.position[t[2]] - rest.position[t[0]]);
-    const float seen = c.x * d.y - c.y * d.x;
-    if (seen <= 0) continue;
-    texels += std::abs(a.x * b.y - a.y * b.x);
-    area += seen;
-  }
-  return area > 0 ? static_cast<float>(std::sqrt(texels / area)) : 0.0F;
-}
-
 }  // namespace
 
 HeadBuffers::HeadBuffers(const GlFunctions& gl, const Head& head, const Appearance& appearance)
-    : gl_(gl), topology_(head.shared_topology()) {
+    : gl_(gl), surface_(head.shared_surface()) {
   HeadVertices rest;
   head.Evaluate(FaceState{}, rest);
-  assert(topology().openness.size() == topology().albedo.size());
-  assert(rest.position.size() == topology().albedo.size());
-  photo_texels_per_mm_ = TexelsPerMm(topology(), rest);
-  if (const auto landmarks = FaceLandmarks::Of(head)) {
-    chin_y_ = landmarks->gnathion.y;
-    if (topology().uv.size() == rest.position.size()) {
-      creases_ = WeighCreases(rest, *landmarks, appearance);
-      painting_ = std::async(std::launch::async,
-                             [topology = topology_, rest, landmarks = *landmarks, &appearance] {
-                               return PaintSkin(*topology, rest, landmarks, appearance);
-                             });
-    }
+  assert(surface().openness.size() == surface().albedo.size());
+  assert(rest.position.size() == surface().albedo.size());
+  const auto landmarks = FaceLandmarks::Of(head);
+  if (landmarks && surface().uv.size() == rest.position.size()) {
+    creases_ = WeighCreases(rest, *landmarks, appearance);
+    skin_ = SkinPainting(surface_, rest, *landmarks, appearance);
   }
   UploadAttributes(rest);
   gl_.GenBuffers(1, &index_buffer_);
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_);
-  AddLevel(kFinest, {topology().parts, topology().indices}, rest.position);
-  eyes_ = EyeFinder(topology(), rest);
-  if (eyes_.found()) resting_eyes_ = eyes_.Measure(rest);
-  shadows_ = ShadowFinder(topology(), rest);
-  mouth_ = MouthFinder(topology());
+  finest_ = AddParts({surface().parts, surface().indices}, rest.position);
+  measures_ = HeadMeasures(head, rest, landmarks);
 }
 
 HeadBuffers::~HeadBuffers() {
@@ -139,7 +105,7 @@ HeadBuffers::~HeadBuffers() {
 
 void HeadBuffers::Upload(const HeadVertices& vertices) {
   gl_.BindVertexArray(array_);
-  assert(vertices.position.size() == topology().albedo.size());
+  assert(vertices.position.size() == surface().albedo.size());
   assert(vertices.normal.size() == vertices.position.size());
   const GLuint positions = buffers_[VertexAttribute::kPosition];
   const GLuint normals = buffers_[VertexAttribute::kNormal];
@@ -153,7 +119,7 @@ void HeadBuffers::Upload(const HeadVertices& vertices) {
 
 void HeadBuffers::Use(GLuint positions, GLuint normals, std::size_t from) {
   gl_.BindVertexArray(array_);
-  const std::array<std::size_t, 3> wanted{positions, normals, from};
+  const UsedBuffers wanted{positions, normals, from};
   if (std::exchange(used_, wanted) == wanted) return;
   const auto point = [&](GLuint attribute, GLuint buffer) {
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffer);
@@ -162,14 +128,6 @@ void HeadBuffers::Use(GLuint positions, GLuint normals, std::size_t from) {
   };
   point(VertexAttribute::kPosition, positions);
   point(VertexAttribute::kNormal, normals);
-}
-
-std::vector<std::uint32_t> HeadBuffers::MeasuredVertices() const {
-  std::vector<std::uint32_t> vertices;
-  eyes_.AppendVertices(vertices);
-  shadows_.AppendVertices(vertices);
-  mouth_.AppendVertices(vertices);
-  return vertices;
 }
 
 void HeadBuffers::UploadAttributes(const HeadVertices& rest) {
@@ -186,11 +144,11 @@ void HeadBuffers::UploadAttributes(const HeadVertices& rest) {
     gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size() * sizeof(items[0])),
                    items.data(), GL_STATIC_DRAW);
   };
-  const DetailAttributes detail = DetailOf(topology(), creases_, rest.position.size());
-  const PaintAttributes paint = PaintOf(topology());
+  const DetailAttributes detail = DetailOf(surface(), creases_, rest.position.size());
+  const PaintAttributes paint = PaintOf(surface());
   std::vector<glm::vec3> relit_normal = rest.normal;
   for (std::size_t i = 0; i < relit_normal.size(); ++i) {
-    relit_normal[i] *= i < topology().portrait.relit.size() ? topology().portrait.relit[i] : 0.0F;
+    relit_normal[i] *= i < surface().portrait.relit.size() ? surface().portrait.relit[i] : 0.0F;
   }
   upload(VertexAttribute::kRestPosition, rest.position);
   upload(VertexAttribute::kAlbedoOpenness, paint.colour);
@@ -205,19 +163,18 @@ void HeadBuffers::UploadAttributes(const HeadVertices& rest) {
   skin_detail_ = SkinDetailOf(paint, detail);
 }
 
-void HeadBuffers::AddLevel(int level, const HeadTriangles& triangles,
-                           std::span<const glm::vec3> rest) {
-  const DrawOrder order = OrderToDraw(topology(), triangles, rest, skin_detail_);
-  auto& parts = levels_[level];
-  for (DrawnPart drawn : order.parts) {
+std::vector<DrawnPart> HeadBuffers::AddParts(const HeadTriangles& triangles,
+                                             std::span<const glm::vec3> rest) {
+  DrawOrder order = OrderToDraw(surface(), triangles, rest, skin_detail_);
+  for (DrawnPart& drawn : order.parts) {
     drawn.part.first_index += static_cast<std::uint32_t>(indices_.size());
-    parts.push_back(drawn);
   }
   indices_.insert(indices_.end(), order.indices.begin(), order.indices.end());
   gl_.BindVertexArray(array_);
   gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(indices_.size() * sizeof(std::uint32_t)), indices_.data(),
                  GL_STATIC_DRAW);
+  return std::move(order.parts);
 }
 
 const std::vector<DrawnPart>& HeadBuffers::PartsWithin(const Head& head, float error_mm) {
@@ -227,15 +184,12 @@ const std::vector<DrawnPart>& HeadBuffers::PartsWithin(const Head& head, float e
   if (error_mm < error_of(kFirst)) return FinestParts();
   int level = kFirst;
   while (level < kLast && error_of(level + 1) <= error_mm) ++level;
-  if (!levels_.contains(level)) {
-    AddLevel(level, CoarseTriangles(head, creases_, error_of(level)), head.rig().data().rest);
+  const auto [found, missing] = levels_.try_emplace(level);
+  if (missing) {
+    found->second =
+        AddParts(CoarseTriangles(head, creases_, error_of(level)), head.rig().data().rest);
   }
-  return levels_.at(level);
-}
-
-const SkinTexture* HeadBuffers::skin() {
-  if (painting_.valid()) skin_ = painting_.get();
-  return skin_ ? &*skin_ : nullptr;
+  return found->second;
 }
 
 }  // namespace fsm

@@ -2,20 +2,16 @@
 
 #include <array>
 #include <cstdint>
-#include <future>
 #include <glm/vec3.hpp>
 #include <map>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "fsm/render/draw_order.h"
-#include "fsm/render/eye_finder.h"
 #include "fsm/render/gl_functions.h"
-#include "fsm/render/mouth_finder.h"
-#include "fsm/render/shadow_finder.h"
+#include "fsm/render/head_measures.h"
 #include "fsm/render/skin_creases.h"
-#include "fsm/render/skin_texture.h"
+#include "fsm/render/skin_painting.h"
 #include "fsm/render/vertex_attributes.h"
 #include "fsm/rig/head.h"
 
@@ -36,57 +32,44 @@ class HeadBuffers {
   /// Binds the vertex array to positions and normals that are on the card already; those of the
   /// head begin at byte `from`.
   void Use(GLuint positions, GLuint normals, std::size_t from = 0);
-  /// Returns the vertices that eyes(), shadows() and mouth() read.
-  std::vector<std::uint32_t> MeasuredVertices() const;
   /// Returns the head's parts in drawing order, best occluders first. `error_mm`: the largest error
   /// that simplification may cause (CoarseTriangles); a level for each factor of sqrt(2) is made on
   /// first use and kept. `head` is that of the constructor.
   const std::vector<DrawnPart>& PartsWithin(const Head& head, float error_mm);
   /// Returns the parts with all triangles.
-  const std::vector<DrawnPart>& FinestParts() const { return levels_.at(kFinest); }
-  const EyeFinder& eyes() const { return eyes_; }
-  const ShadowFinder& shadows() const { return shadows_; }
-  const MouthFinder& mouth() const { return mouth_; }
-  /// True while the skin is being painted: from construction until skin() is first called.
-  bool painting() const { return painting_.valid(); }
-  /// Returns the detail of this head's skin; null if the head lacks landmarks of its features.
-  /// Blocks until it is painted.
-  const SkinTexture* skin();
-  const HeadTopology& topology() const { return *topology_; }
+  const std::vector<DrawnPart>& FinestParts() const { return finest_; }
+  const HeadMeasures& measures() const { return measures_; }
+  /// The detail of this head's skin; there is none if the head lacks landmarks of its features.
+  SkinPainting& skin() { return skin_; }
+  const HeadSurface& surface() const { return *surface_; }
   /// TextureMaps::image; null if the skin is painted.
-  const Image* photo() const { return topology_->textures.image.get(); }
-  /// The photo's resolution on the head at rest, as seen from the front; 0 without a photo.
-  float photo_texels_per_mm() const { return photo_texels_per_mm_; }
-  /// The eyes at rest. REQUIRES: eyes().found().
-  const Sided<EyePose>& resting_eyes() const { return resting_eyes_; }
-  /// Height of the chin's lowest point at rest, millimetres; kNoChin for a head without landmarks.
-  float chin_y() const { return chin_y_; }
+  const Image* photo() const { return surface_->textures.image.get(); }
 
  private:
-  static constexpr float kNoChin = -1e4F;
-  static constexpr int kFinest = -100;
+  /// The buffers that the vertex array points to, and the byte at which the head begins in them.
+  struct UsedBuffers {
+    GLuint positions = 0, normals = 0;
+    std::size_t from = 0;
+    bool operator==(const UsedBuffers&) const = default;
+  };
 
   void UploadAttributes(const HeadVertices& rest);
-  void AddLevel(int level, const HeadTriangles& triangles, std::span<const glm::vec3> rest);
+  /// Adds triangles to the index buffer and returns their parts.
+  std::vector<DrawnPart> AddParts(const HeadTriangles& triangles, std::span<const glm::vec3> rest);
 
   const GlFunctions& gl_;
-  const std::shared_ptr<const HeadTopology> topology_;
+  const std::shared_ptr<const HeadSurface> surface_;
   GLuint array_ = 0;
   std::array<GLuint, VertexAttribute::kCount> buffers_{};
   GLuint index_buffer_ = 0;
-  std::array<std::size_t, 3> used_{};             // positions, normals and their offset
-  std::map<int, std::vector<DrawnPart>> levels_;  // by error: key k means 2^(k / 2) mm
-  std::vector<std::uint32_t> indices_;            // of all levels
+  UsedBuffers used_;
+  std::vector<DrawnPart> finest_;                 // with all triangles
+  std::map<int, std::vector<DrawnPart>> levels_;  // coarser; key k means an error of 2^(k / 2) mm
+  std::vector<std::uint32_t> indices_;            // of all these parts
   CreaseWeights creases_;
   std::vector<SkinDetail> skin_detail_;  // by vertex
-  EyeFinder eyes_;
-  ShadowFinder shadows_;
-  MouthFinder mouth_;
-  std::optional<SkinTexture> skin_;
-  std::future<SkinTexture> painting_;  // runs on its own thread, which the future joins
-  Sided<EyePose> resting_eyes_;
-  float photo_texels_per_mm_ = 0;
-  float chin_y_ = kNoChin;
+  HeadMeasures measures_;
+  SkinPainting skin_;
 };
 
 }  // namespace fsm

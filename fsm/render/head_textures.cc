@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "fsm/image/shrink.h"
+#include "fsm/render/texture_unit.h"
 
 namespace fsm {
 namespace {
@@ -44,14 +45,14 @@ void FillTexture(const GlFunctions& gl, GLuint texture, const Image& picture, GL
                 GL_UNSIGNED_BYTE, picture.rgba.data());
 }
 
-HeadTextures::HeadTextures(const GlFunctions& gl, const HeadTopology& topology) : gl_(gl) {
+HeadTextures::HeadTextures(const GlFunctions& gl, const HeadSurface& surface) : gl_(gl) {
   gl_.GenTextures(kTextures, textures_);
-  if (topology.pbr_materials.empty()) return;
+  if (surface.pbr_materials.empty()) return;
   const auto fill = [this](Texture texture, const Image* map, const Image& neutral) {
     FillTexture(gl_, textures_[texture], map ? *map : neutral, GL_LINEAR);
   };
-  fill(kNormal, topology.textures.normal_map.get(), {1, 1, {128, 128, 255, 255}});
-  fill(kEmissive, topology.textures.emissive_map.get(), {1, 1, {255, 255, 255, 255}});
+  fill(kNormal, surface.textures.normal_map.get(), {1, 1, {128, 128, 255, 255}});
+  fill(kEmissive, surface.textures.emissive_map.get(), {1, 1, {255, 255, 255, 255}});
 }
 
 HeadTextures::~HeadTextures() { gl_.DeleteTextures(kTextures, textures_); }
@@ -59,14 +60,13 @@ HeadTextures::~HeadTextures() { gl_.DeleteTextures(kTextures, textures_); }
 // Pictures are scaled until a texel is about as large as a sample, and the nearest texel is used:
 // with four samples to a pixel that is smooth, while in software a filtered fetch costs as much as
 // the rest of a pixel. Close to a face, where texels would be visible, they are filtered.
-void HeadTextures::Load(HeadBuffers& head, float samples_per_mm) {
-  LoadSkin(head, std::max(samples_per_mm, 1e-3F));
-  if (head.photo()) LoadPhoto(head, std::max(samples_per_mm, 1e-3F));
+void HeadTextures::Load(SkinPainting& skin, const HeadBuffers& head, float samples_per_mm) {
+  samples_per_mm = std::max(samples_per_mm, 1e-3F);
+  if (const SkinTexture* texture = skin.Texture()) LoadSkin(*texture, samples_per_mm);
+  if (head.photo()) LoadPhoto(head, samples_per_mm);
 }
 
-void HeadTextures::LoadSkin(HeadBuffers& head, float samples_per_mm) {
-  const SkinTexture* skin = head.skin();
-  if (!skin) return;
+void HeadTextures::LoadSkin(const SkinTexture& skin, float samples_per_mm) {
   const float texels_per_sample = SkinTexture::kTexelsPerMm / samples_per_mm;
   const Sampling sampling{
       std::clamp(static_cast<int>(std::lround(std::log2(texels_per_sample))), 0, 5),
@@ -74,7 +74,7 @@ void HeadTextures::LoadSkin(HeadBuffers& head, float samples_per_mm) {
   if (skin_ == sampling) return;
   skin_ = sampling;
   for (const auto& [texture, picture] :
-       {std::pair(kTint, &skin->tint), std::pair(kSkinRelief, &skin->relief)}) {
+       {std::pair(kTint, &skin.tint), std::pair(kSkinRelief, &skin.relief)}) {
     Image scaled;
     for (int k = 0; k < sampling.level; ++k) scaled = Halved(k == 0 ? *picture : scaled);
     FillTexture(gl_, textures_[texture], sampling.level > 0 ? scaled : *picture, sampling.filter);
@@ -84,18 +84,18 @@ void HeadTextures::LoadSkin(HeadBuffers& head, float samples_per_mm) {
 HeadTextures::Sampling HeadTextures::SamplingOf(const Image& photo, float texels_per_sample) {
   // A photo has sharp edges, which look cut out with fewer texels per sample.
   constexpr float kFewest = 0.9F;
-  constexpr int kMostDoubled = 1 << 21;  // texels
+  constexpr int kMaxDoubled = 1 << 21;  // texels
   const int level =
       static_cast<int>(std::floor(std::log2(std::max(texels_per_sample, 0.01F) / kFewest)));
   if (level >= 0) return {level, GL_NEAREST};
   // Doubling a photo costs memory; filtering it nearly doubles the time for a pixel.
-  if (level == -1 && 4 * photo.width * photo.height <= kMostDoubled) return {level, GL_NEAREST};
+  if (level == -1 && 4 * photo.width * photo.height <= kMaxDoubled) return {level, GL_NEAREST};
   return {0, GL_LINEAR};
 }
 
 void HeadTextures::LoadPhoto(const HeadBuffers& head, float samples_per_mm) {
   const Image& photo = *head.photo();
-  const Sampling sampling = SamplingOf(photo, head.photo_texels_per_mm() / samples_per_mm);
+  const Sampling sampling = SamplingOf(photo, head.measures().photo_texels_per_mm / samples_per_mm);
   if (photo_ == sampling) return;
   photo_ = sampling;
   const auto halved = [&sampling](int side) { return std::max(side >> sampling.level, 1); };

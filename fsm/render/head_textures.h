@@ -11,14 +11,14 @@ namespace fsm {
 /// while its context is current.
 class HeadTextures {
  public:
-  HeadTextures(const GlFunctions& gl, const HeadTopology& topology);
+  HeadTextures(const GlFunctions& gl, const HeadSurface& surface);
   ~HeadTextures();
   HeadTextures(const HeadTextures&) = delete;
   HeadTextures& operator=(const HeadTextures&) = delete;
 
   /// Fills the textures of skin and photo, where the head has them, at the samples' resolution.
   /// Blocks until the skin is painted; before this call it is drawn plain.
-  void Load(HeadBuffers& head, float samples_per_mm);
+  void Load(SkinPainting& skin, const HeadBuffers& head, float samples_per_mm);
 
   /// GL names; 0 for a texture that the head does not have.
   GLuint tint() const { return skin_ ? textures_[kTint] : 0; }
@@ -36,7 +36,7 @@ class HeadTextures {
     GLint filter;
     bool operator==(const Sampling&) const = default;
   };
-  void LoadSkin(HeadBuffers& head, float samples_per_mm);
+  void LoadSkin(const SkinTexture& skin, float samples_per_mm);
   static Sampling SamplingOf(const Image& photo, float texels_per_sample);
   void LoadPhoto(const HeadBuffers& head, float samples_per_mm);
 

@@ -35,7 +35,7 @@ MaterialFrame FrameOf(const Appearance& appearance, const View& view, const Head
   const Lamps lamps = LampsOf(appearance, scene);
   const float room = appearance.photo_room_light;
   const float usual = appearance.lamp.key.light.g + appearance.lamp.fill.light.g + room;
-  const auto shadows = head.shadows().Measure(vertices);
+  const auto shadows = head.measures().shadows.Measure(vertices);
   MaterialFrame frame{
       .view = view,
       .head = head,

@@ -70,7 +70,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   creased_ = frame.creases != Sided<glm::vec4>{} || frame.nose_creases != Sided<float>{};
   pores_ = view.samples_per_mm >= appearance_.pores_from;
   photo_.Prepare(head);
-  if (!head.topology().pbr_materials.empty() && !pbr_) {
+  if (!head.surface().pbr_materials.empty() && !pbr_) {
     pbr_.emplace(
         CompileLit(gl_, appearance_, "pbr", {embedded::pbr_vertex()}, embedded::pbr_fragment()));
   }
@@ -112,16 +112,16 @@ void Materials::SetSurface(const GlProgram& program, const MaterialFrame& frame)
   SetCreases(program, frame);
 }
 
-bool Materials::IsHidden(const DrawnPart& part) const {
+bool Materials::IsHidden(const DrawnPart& drawn) const {
   // The lining of the mouth also lines the nostrils.
-  return mouth_.lips_shut() && IsOfMouth(part.part.material) &&
-         part.part.material != Material::kMouthInside;
+  return mouth_.lips_shut() && IsOfMouth(drawn.part.material) &&
+         drawn.part.material != Material::kMouthInside;
 }
 
 void Materials::Use(const DrawnPart& drawn) {
-  const HeadTopology::Part& part = drawn.part;
+  const HeadSurface::Part& part = drawn.part;
   if (part.pbr >= 0) {
-    return UsePbr(head_->topology().pbr_materials[static_cast<std::size_t>(part.pbr)]);
+    return UsePbr(head_->surface().pbr_materials[static_cast<std::size_t>(part.pbr)]);
   }
   if (PhotoMaterial::Draws(part.material, *head_)) {
     photo_.Use(drawn, *head_, creased_);
@@ -165,7 +165,7 @@ void Materials::UseSurface(const DrawnPart& drawn) {
   program.Set("saturation", surface.saturation);
   program.Set("bump", surface.bump);
   program.Set("detail_per_mm", surface.detail_per_mm);
-  program.Set("chroma", head_->topology().portrait.saturation);
+  program.Set("chroma", head_->surface().portrait.saturation);
   BindOrPlain(threads ? 0 : head_textures_->tint(), TextureUnit::kTint);
   BindOrPlain(threads ? shared_textures_[kWeave] : head_textures_->skin_relief(),
               TextureUnit::kRelief);

@@ -24,8 +24,8 @@ class Materials {
                   const HeadVertices& vertices, const Scene& scene);
   /// Tells whether nothing of a part is visible in this frame: teeth, gums and tongue behind closed
   /// lips.
-  bool IsHidden(const DrawnPart& part) const;
-  void Use(const DrawnPart& part);
+  bool IsHidden(const DrawnPart& drawn) const;
+  void Use(const DrawnPart& drawn);
   /// Whether the creased shader variants are used: BeginFrame decides, SetCreased overrides.
   bool creased() const { return creased_; }
   void SetCreased(bool creased) { creased_ = creased; }
@@ -39,7 +39,7 @@ class Materials {
   /// Binds a plain texture in place of name 0.
   void BindOrPlain(GLuint texture, TextureUnit unit);
   void SetSurface(const GlProgram& program, const MaterialFrame& frame) const;
-  void UseSurface(const DrawnPart& part);
+  void UseSurface(const DrawnPart& drawn);
   void UsePbr(const PbrMaterial& pbr);
   void UseHair(float streaks, float shine);
 

@@ -19,7 +19,7 @@ class MouthFinder {
   static constexpr int kColumns = 11;  ///< of points on the lips; the shader has it as well
 
   MouthFinder() = default;
-  explicit MouthFinder(const HeadTopology& topology);
+  explicit MouthFinder(const MouthLandmarks& mouth);
 
   /// The opening in the mouth's own frame, millimetres: x from the agent's right corner (-) to the
   /// left one, y up along the upper incisors, origin midway between the corners.
@@ -32,13 +32,13 @@ class MouthFinder {
     /// Tells whether the lips touch in every column.
     bool IsShut() const;
   };
-  /// Returns nothing if the head has no seam of the lips (MouthSlit).
+  /// Returns nothing if the head has no seam of the lips or no incisors.
   std::optional<Opening> Measure(const HeadVertices& vertices) const;
   /// Appends the vertices that Measure reads.
   void AppendVertices(std::vector<std::uint32_t>& out) const;
 
  private:
-  std::optional<MouthSlit> slit_;
+  std::optional<MouthLandmarks> mouth_;
 };
 
 }  // namespace fsm

@@ -14,11 +14,12 @@ bool PhotoMaterial::Draws(Material material, const HeadBuffers& head) {
 }
 
 void PhotoMaterial::Prepare(const HeadBuffers& head) {
-  for (const DrawnPart& part : head.FinestParts()) {
-    auto& program = programs_[static_cast<std::size_t>(part.detail)];
-    if (program || !Draws(part.part.material, head)) continue;
-    const std::string constants = ShaderConstant("kCreased", part.detail != SkinDetail::kPlain) +
-                                  ShaderConstant("kDetailed", part.detail == SkinDetail::kDetailed);
+  for (const DrawnPart& drawn : head.FinestParts()) {
+    auto& program = programs_[static_cast<std::size_t>(drawn.detail)];
+    if (program || !Draws(drawn.part.material, head)) continue;
+    const std::string constants =
+        ShaderConstant("kCreased", drawn.detail != SkinDetail::kPlain) +
+        ShaderConstant("kDetailed", drawn.detail == SkinDetail::kDetailed);
     program.emplace(CompileLit(gl_, appearance_, "photo",
                                {embedded::creases(), embedded::photo_vertex()},
                                embedded::photo_fragment(), constants));
@@ -33,32 +34,34 @@ void PhotoMaterial::Begin(const MaterialFrame& frame, const MouthMaterial& mouth
     program->Set("lids_shut", frame.vertices.lids_shut.InOrder());
     program->Set("photo", TextureUnit::kPhoto);
     program->Set("relief", TextureUnit::kRelief);
-    program->Set("blends", HasBlendedLayers(frame.head.topology()));
+    program->Set("blends", HasBlendedLayers(frame.head.surface()));
     program->Set("brightness", frame.photo_brightness);
     program->Set("rest_to_world", frame.rest_to_world);
-    program->Set("photo_light", frame.head.topology().portrait.light);
+    program->Set("photo_light", frame.head.surface().portrait.light);
     program->Set("lips_apart", glm::smoothstep(0.4F, 2.5F, mouth.gap_mm()));
-    program->Set("chin_y", frame.head.chin_y());
+    // The photo is darkened below the chin; without one, nothing lies below it.
+    constexpr float kBelowAll = -1e4F;  // millimetres
+    program->Set("chin_y", frame.head.measures().chin_y.value_or(kBelowAll));
     program->Set("chin_drop", mouth.jaw_drop_mm());
   }
 }
 
-void PhotoMaterial::Use(const DrawnPart& part, const HeadBuffers& head, bool creased) const {
+void PhotoMaterial::Use(const DrawnPart& drawn, const HeadBuffers& head, bool creased) const {
   // Skin that does not crease in this frame shows the plain photo.
-  const bool plain = part.detail == SkinDetail::kCreased && !creased && programs_[0];
-  std::size_t detail = plain ? 0 : static_cast<std::size_t>(part.detail);
+  const bool plain = drawn.detail == SkinDetail::kCreased && !creased && programs_[0];
+  std::size_t detail = plain ? 0 : static_cast<std::size_t>(drawn.detail);
   // A coarse triangle may have less detail than all the fine ones it replaces, whose program draws
   // it as well.
   while (!programs_[detail]) ++detail;
   const GlProgram& program = *programs_[detail];
-  const bool cut_out = part.part.material == Material::kPhoto;
+  const bool cut_out = drawn.part.material == Material::kPhoto;
   // Where the sheet continues the skin, the skin wins, however coarse the sheet is.
   constexpr float kDepthOffsetMm = 5;
   program.Use();
-  program.Set("lashes", part.part.material == Material::kShutLash);
+  program.Set("lashes", drawn.part.material == Material::kShutLash);
   program.Set("cut_out", cut_out);
   program.Set("depth_offset_mm",
-              cut_out && HasBlendedLayers(head.topology()) ? kDepthOffsetMm : 0.0F);
+              cut_out && HasBlendedLayers(head.surface()) ? kDepthOffsetMm : 0.0F);
 }
 
 }  // namespace fsm

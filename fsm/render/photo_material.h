@@ -22,7 +22,7 @@ class PhotoMaterial {
   const std::array<std::optional<GlProgram>, 3>& programs() const { return programs_; }
   /// REQUIRES: Prepare was called for the frame's head.
   void Begin(const MaterialFrame& frame, const MouthMaterial& mouth) const;
-  void Use(const DrawnPart& part, const HeadBuffers& head, bool creased) const;
+  void Use(const DrawnPart& drawn, const HeadBuffers& head, bool creased) const;
 
  private:
   const GlFunctions& gl_;

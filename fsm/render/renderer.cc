@@ -11,10 +11,10 @@
 #include "fsm/render/appearance.h"
 #include "fsm/render/backdrop.h"
 #include "fsm/render/camera.h"
-#include "fsm/render/card_heads.h"
 #include "fsm/render/figure_painter.h"
 #include "fsm/render/frame_reader.h"
 #include "fsm/render/gl_functions.h"
+#include "fsm/render/gpu_heads.h"
 
 namespace fsm {
 namespace {
@@ -46,9 +46,9 @@ class GlRenderer : public Renderer {
         backdrop_(gl_, appearance),
         heads_(gl_, appearance, heads),
         reader_(gl_, draws_on_card_ && gl_.has_compute),
-        rig_on_card_(rig == RigOn::kCard ||
-                     (rig == RigOn::kBest && RigPrograms::Supported(gl_) && draws_on_card_)) {
-    if (rig_on_card_ && !RigPrograms::Supported(gl_))
+        rig_on_gpu_(rig == RigOn::kGpu ||
+                    (rig == RigOn::kBest && RigPrograms::Supported(gl_) && draws_on_card_)) {
+    if (rig_on_gpu_ && !RigPrograms::Supported(gl_))
       throw std::runtime_error(
           "OpenGL 4.3 is needed to move faces on the card, this driver has " +
           std::string(reinterpret_cast<const char*>(gl_.GetString(GL_VERSION))));
@@ -59,8 +59,8 @@ class GlRenderer : public Renderer {
 
   void DrawVertices(const Head& head, const HeadVertices& vertices, const Figure& figure,
                     const Scene& scene) override {
-    DrawFrame(head, figure, scene, [&vertices](CardHead& on_card) -> const HeadVertices& {
-      on_card.buffers.Upload(vertices);
+    DrawFrame(head, figure, scene, [&vertices](GpuHead& on_gpu) -> const HeadVertices& {
+      on_gpu.buffers.Upload(vertices);
       return vertices;
     });
   }
@@ -73,7 +73,7 @@ class GlRenderer : public Renderer {
 
   void DrawPanes(std::span<const Pane> panes,
                  const std::function<void(std::size_t)>& drawn) override {
-    constexpr std::ptrdiff_t kMostAtOnce = 256;  // each takes about 0.3 MB on the card
+    constexpr std::ptrdiff_t kMaxAtOnce = 256;  // each takes about 0.3 MB on the card
     const Viewport before = viewport_;
     std::size_t done = 0;
     while (done < panes.size()) {
@@ -81,8 +81,8 @@ class GlRenderer : public Renderer {
       auto run = panes.subspan(done);
       const auto other = std::ranges::find_if(
           run, [&head](const Pane& pane) { return pane.head->serial() != head.serial(); });
-      run = run.first(static_cast<std::size_t>(std::min(other - run.begin(), kMostAtOnce)));
-      if (rig_on_card_) heads_.Move(head, run);
+      run = run.first(static_cast<std::size_t>(std::min(other - run.begin(), kMaxAtOnce)));
+      if (rig_on_gpu_) heads_.Move(head, run);
       for (std::size_t k = 0; k < run.size(); ++k, ++done) {
         viewport_ = run[k].viewport;
         DrawOne(head, run[k], k);
@@ -109,13 +109,13 @@ class GlRenderer : public Renderer {
  private:
   /// `moved`: index among the faces of the head that were moved last.
   void DrawOne(const Head& head, const Pane& pane, std::size_t moved) {
-    if (!rig_on_card_) {
+    if (!rig_on_gpu_) {
       head.Evaluate(*pane.state, vertices_, pane.spring_offsets);
       return DrawVertices(head, vertices_, pane.state->figure, *pane.scene);
     }
     DrawFrame(head, pane.state->figure, *pane.scene,
-              [moved](CardHead& on_card) -> const HeadVertices& {
-                return on_card.rig->Use(moved, on_card.buffers);
+              [moved](GpuHead& on_gpu) -> const HeadVertices& {
+                return on_gpu.rig->Use(moved, on_gpu.buffers);
               });
   }
 
@@ -127,15 +127,15 @@ class GlRenderer : public Renderer {
     target_->Bind();
     // A photo is soft, so hard edges beside it would stand out. Single hairs are thinner than a
     // pixel and would become rows of dots.
-    soft_ = HasBlendedLayers(head.topology()) || !head.topology().strands.empty();
+    soft_ = HasBlendedLayers(head.surface()) || !head.surface().strands.empty();
     transparent_ = !scene.show_background;
     const Scene behind = Behind(scene);
     backdrop_.Draw(behind, width, height);
     const float alpha = std::clamp(figure.alpha, 0.0F, 1.0F);
     if (figure.enabled && alpha > 0) {
-      CardHead& on_card = heads_.Find(head);
-      const HeadVertices& vertices = move(on_card);
-      painter_.Draw(head, on_card, vertices,
+      GpuHead& on_gpu = heads_.Find(head);
+      const HeadVertices& vertices = move(on_gpu);
+      painter_.Draw(head, on_gpu, vertices,
                     ViewOfPortrait(figure, scene.camera, width, height, head.view()), scene,
                     form_error_, *target_);
       // The figure fades as one picture; blending each of its layers would show what is behind
@@ -151,13 +151,13 @@ class GlRenderer : public Renderer {
 
   /// Panes of several sizes alternate, so the targets of the last few sizes are kept.
   void FindTarget(int width, int height) {
-    constexpr std::size_t kMost = 4;
+    constexpr std::size_t kMax = 4;
     const auto fits = [&](const auto& target) {
       return target->width() == width && target->height() == height;
     };
     auto found = std::ranges::find_if(targets_, fits);
     if (found == targets_.end()) {
-      if (targets_.size() >= kMost) targets_.pop_back();
+      if (targets_.size() >= kMax) targets_.pop_back();
       targets_.push_back(std::make_unique<GlTarget>(gl_, width, height));
       found = std::prev(targets_.end());
     }
@@ -172,10 +172,10 @@ class GlRenderer : public Renderer {
   const bool draws_on_card_;
   FigurePainter painter_;
   Backdrop backdrop_;
-  CardHeads heads_;
+  GpuHeads heads_;
   std::vector<std::unique_ptr<GlTarget>> targets_;  // last used first
   FrameReader reader_;
-  const bool rig_on_card_;
+  const bool rig_on_gpu_;
   HeadVertices vertices_;  // result of moving a head on the processor; reused
   // The target of the last frame.
   GlTarget* target_ = nullptr;

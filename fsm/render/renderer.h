@@ -21,7 +21,7 @@ class Appearance;
 enum class RigOn {
   kBest,  ///< the graphics card if one draws and has compute shaders (OpenGL 4.3)
   kProcessor,
-  kCard  ///< even if the "card" is a software driver
+  kGpu  ///< even if the "card" is a software driver
 };
 
 /// A rectangle of the context's drawable in pixels from its upper left corner; width 0: all of it.
@@ -41,7 +41,7 @@ class Renderer {
   /// replaces the one that has not been drawn for the longest time.
   static std::unique_ptr<Renderer> Make(RenderContext& context, std::size_t heads = 8);
   /// `appearance` replaces the built-in one and must outlive the renderer. Throws
-  /// std::runtime_error if `rig` is kCard and the driver cannot do it.
+  /// std::runtime_error if `rig` is kGpu and the driver cannot do it.
   static std::unique_ptr<Renderer> Make(RenderContext& context, std::size_t heads,
                                         const Appearance& appearance, RigOn rig = RigOn::kBest);
   virtual ~Renderer() = default;

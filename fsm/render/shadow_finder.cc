@@ -23,13 +23,13 @@ glm::mat4 ToUnitSphere(const glm::vec3& centre, const glm::vec3& radii) {
 
 }  // namespace
 
-ShadowFinder::ShadowFinder(const HeadTopology& topology, const HeadVertices& rest) {
-  for (const auto& part : topology.parts) {
+ShadowFinder::ShadowFinder(const HeadSurface& surface, const HeadVertices& rest) {
+  for (const auto& part : surface.parts) {
     if (part.material != Material::kSkin || part.index_count == 0) continue;
-    const auto first = topology.indices[part.first_index];
+    const auto first = surface.indices[part.first_index];
     if (!anchors_) anchors_ = Anchors{first, {first, first}};
     Anchors& found = *anchors_;
-    for (const auto i : topology.Corners(part)) {
+    for (const auto i : surface.Corners(part)) {
       const auto& p = rest.position[i];
       if (p.z > rest.position[found.nose].z) found.nose = i;
       if (p.y < kLowestSide || p.y > kHighestSide) continue;

@@ -15,8 +15,8 @@ namespace fsm {
 class ShadowFinder {
  public:
   ShadowFinder() = default;
-  /// REQUIRES: `rest` belongs to `topology`. A head without skin casts no shadow.
-  ShadowFinder(const HeadTopology& topology, const HeadVertices& rest);
+  /// REQUIRES: `rest` belongs to `surface`. A head without skin casts no shadow.
+  ShadowFinder(const HeadSurface& surface, const HeadVertices& rest);
 
   /// `skull` and `nose` map the frame of the vertices so that each ellipsoid is the unit sphere.
   struct Occluders {

@@ -6,17 +6,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "fsm/base/number_table.h"
 #include "fsm/base/smooth_step.h"
 
 namespace fsm {
-namespace {
-
-float SmoothStepFrom(float origin, glm::vec2 range, float x) {
-  return SmoothStep(origin + range.x, origin + range.y, x);
-}
-
-}  // namespace
 
 /// Returns the profile of a narrow furrow between two low swellings.
 float CreaseRelief::Furrow(float off, float width) const {
@@ -46,14 +38,14 @@ void CreaseRelief::AddForehead(const glm::vec3& p, float side, float& height) co
   if (p.y <= brow_y - 2 || p.y >= landmarks_.trichion.y) return;
   const float room = lines.room * (landmarks_.trichion.y - brow_y);
   const float bow = lines.rise * std::sin((std::sqrt(side * side + 49) - 7) * 0.055F);
-  for (const float& part : places) {
-    const float reach = (lines.reach - lines.less * std::abs(part - lines.farthest)) *
-                        (&part == &places.back() ? lines.last : 1.0F);
-    const float sway = lines.sway_long * std::sin(p.x * (0.09F + 0.05F * part) + 11 * part) +
-                       lines.sway_short * std::sin(p.x * 0.27F + 7 * part);
-    const float deep = lines.depth + lines.deep_long * std::sin(p.x * 0.075F + 23 * part) +
-                       lines.deep_short * std::sin(p.x * 0.19F + 5 * part);
-    height += deep * Furrow(p.y - brow_y - room * part - bow - sway, lines.width) *
+  for (const float& place : places) {
+    const float reach = (lines.reach - lines.less * std::abs(place - lines.farthest)) *
+                        (&place == &places.back() ? lines.last : 1.0F);
+    const float sway = lines.sway_long * std::sin(p.x * (0.09F + 0.05F * place) + 11 * place) +
+                       lines.sway_short * std::sin(p.x * 0.27F + 7 * place);
+    const float deep = lines.depth + lines.deep_long * std::sin(p.x * 0.075F + 23 * place) +
+                       lines.deep_short * std::sin(p.x * 0.19F + 5 * place);
+    height += deep * Furrow(p.y - brow_y - room * place - bow - sway, lines.width) *
               SmoothStep(reach + lines.fades, reach - lines.fades, side);
   }
 }
@@ -76,8 +68,8 @@ void CreaseRelief::AddBridge(const glm::vec3& p, float side, float& height) cons
   for (const float below : ListOf(lines.below)) {
     const float off =
         p.y - (landmarks_.nasion.y - below) + lines.slant * (side - 6) - lines.bend * side * side;
-    height += lines.depth * Furrow(off, lines.width) * SmoothStep(lines.begin, side) *
-              SmoothStep(lines.end, side);
+    height +=
+        lines.depth * Furrow(off, lines.width) * lines.begin.Ramp(side) * lines.end.Ramp(side);
   }
 }
 
@@ -92,8 +84,8 @@ void CreaseRelief::AddCrowsFeet(const glm::vec3& p, float side, float& height) c
     const float far = glm::dot(out, along);
     const float off = out.y * along.x - out.x * along.y;
     const float bend = lines.bend * far * far * (angle > 0 ? -1.0F : 1.0F);
-    height += lines.depth * Furrow(off + bend, lines.width) * SmoothStep(lines.begin, far) *
-              SmoothStep(lines.end, far);
+    height +=
+        lines.depth * Furrow(off + bend, lines.width) * lines.begin.Ramp(far) * lines.end.Ramp(far);
   }
 }
 
@@ -107,8 +99,8 @@ void CreaseRelief::AddNasolabial(const glm::vec3& p, float side, float& height) 
       glm::mix(wing.x + fold.nose, corner.x + fold.mouth, std::clamp(t, 0.0F, 1.3F)) +
       fold.bow * std::sin(std::clamp(t, 0.0F, 1.0F) * 3.1416F);
   // A slanting fold is wider if measured along x.
-  height += fold.depth * Furrow((side - fold_x) * fold.slants, fold.width) *
-            SmoothStep(fold.begin, t) * SmoothStep(fold.end, t);
+  height += fold.depth * Furrow((side - fold_x) * fold.slants, fold.width) * fold.begin.Ramp(t) *
+            fold.end.Ramp(t);
 }
 
 bool CreaseRelief::MayCrease(const glm::vec3& p) const {
@@ -141,25 +133,25 @@ CreaseWeights WeighCreases(const HeadVertices& rest, const FaceLandmarks& landma
   CreaseWeights out;
   for (const glm::vec3& p : rest.position) {
     const float side = std::abs(p.x);
-    const float front = SmoothStep(skin.creased.front, p.z);
-    const float between = SmoothStep(skin.glabella_region.fade_side, side);
-    const float under_forehead = SmoothStepFrom(nasion.y, skin.glabella_region.fade_up, p.y);
-    const float over_nose = SmoothStepFrom(nasion.y, skin.nose_region.fade_up, p.y);
+    const float front = skin.creased.front.Ramp(p.z);
+    const float between = skin.glabella_region.fade_side.Ramp(side);
+    const float under_forehead = (nasion.y + skin.glabella_region.fade_up).Ramp(p.y);
+    const float over_nose = (nasion.y + skin.nose_region.fade_up).Ramp(p.y);
     const glm::vec4 face =
-        front * glm::vec4(SmoothStepFrom(brow_y, skin.forehead_region.fade_up, p.y) *
-                              SmoothStep(skin.forehead_region.fade_side, side) *
-                              (1 - between * under_forehead),
-                          between * over_nose * under_forehead,
-                          SmoothStepFrom(eye.x, skin.crows_feet_region.fade_side, side) *
-                              Bell(p.y - eye.y, skin.crows_feet_region.fade_height),
-                          SmoothStepFrom(alare.y, skin.fold_region.fade_up, p.y) *
-                              SmoothStep(chin_y, full_fold_y, p.y) *
-                              SmoothStepFrom(alare.x, skin.fold_region.fade_side, side));
-    const float nose = front * between * (1 - over_nose) *
-                       SmoothStepFrom(nasion.y, skin.nose_region.fade_down, p.y);
+        front *
+        glm::vec4((brow_y + skin.forehead_region.fade_up).Ramp(p.y) *
+                      skin.forehead_region.fade_side.Ramp(side) * (1 - between * under_forehead),
+                  between * over_nose * under_forehead,
+                  (eye.x + skin.crows_feet_region.fade_side).Ramp(side) *
+                      Bell(p.y - eye.y, skin.crows_feet_region.fade_height),
+                  (alare.y + skin.fold_region.fade_up).Ramp(p.y) *
+                      SmoothStep(chin_y, full_fold_y, p.y) *
+                      (alare.x + skin.fold_region.fade_side).Ramp(side));
+    const float nose =
+        front * between * (1 - over_nose) * (nasion.y + skin.nose_region.fade_down).Ramp(p.y);
     const bool creases = nose > 0 || face != glm::vec4(0);
     out.face.push_back(face);
-    out.nose_and_left.emplace_back(nose, creases ? SmoothStep(skin.creased.left, p.x) : 0.0F);
+    out.nose_and_left.emplace_back(nose, creases ? skin.creased.left.Ramp(p.x) : 0.0F);
   }
   return out;
 }

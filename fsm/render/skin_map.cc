@@ -7,26 +7,26 @@
 
 namespace fsm {
 
-SkinMap::SkinMap(const HeadTopology& topology, const HeadVertices& rest) {
+SkinMap::SkinMap(const HeadSurface& surface, const HeadVertices& rest) {
   constexpr auto count = static_cast<std::size_t>(kCells) * kCells;
   kind.assign(count, kNone);
   position.resize(count);
   outward_.assign(count, -1.0F);
-  for (const auto& part : topology.parts) {
+  for (const auto& part : surface.parts) {
     if (part.material != Material::kSkin && part.material != Material::kLip) continue;
     const Kind what = part.material == Material::kSkin ? kSkin : kLip;
     for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
-      Fill(topology, rest, &topology.indices[part.first_index + k], what);
+      Fill(surface, rest, &surface.indices[part.first_index + k], what);
     }
   }
 }
 
-void SkinMap::Fill(const HeadTopology& topology, const HeadVertices& rest,
+void SkinMap::Fill(const HeadSurface& surface, const HeadVertices& rest,
                    const std::uint32_t* corners, Kind what) {
   std::array<glm::vec2, 3> uv;
   std::array<glm::vec3, 3> p;
   for (std::size_t k = 0; k < 3; ++k) {
-    uv[k] = topology.uv[corners[k]] * static_cast<float>(kCells) - 0.5F;
+    uv[k] = surface.uv[corners[k]] * static_cast<float>(kCells) - 0.5F;
     p[k] = rest.position[corners[k]];
   }
   const glm::vec2 e1 = uv[1] - uv[0];

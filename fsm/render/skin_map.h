@@ -8,13 +8,13 @@
 
 namespace fsm {
 
-/// The skin unrolled: for each cell of HeadTopology::uv the position on the resting head. Where
+/// The skin unrolled: for each cell of HeadSurface::uv the position on the resting head. Where
 /// surfaces overlap (the inside of the lips), the outer one is kept.
 struct SkinMap {
   enum Kind : std::uint8_t { kNone, kSkin, kLip };
   static constexpr int kCells = 256;  ///< along each side
 
-  SkinMap(const HeadTopology& topology, const HeadVertices& rest);
+  SkinMap(const HeadSurface& surface, const HeadVertices& rest);
 
   /// Returns the index of the cell in column x and row y; row 0 is at v = 0.
   static std::size_t Index(int x, int y) {
@@ -29,7 +29,7 @@ struct SkinMap {
   std::vector<glm::vec3> position;  ///< millimetres
 
  private:
-  void Fill(const HeadTopology& topology, const HeadVertices& rest, const std::uint32_t* corners,
+  void Fill(const HeadSurface& surface, const HeadVertices& rest, const std::uint32_t* corners,
             Kind what);
   std::vector<float> outward_;  // distance from the vertical axis of the surface kept so far
 };

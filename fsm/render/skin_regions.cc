@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "fsm/base/random.h"
 #include "fsm/base/smooth_step.h"
+#include "fsm/render/skin_series.h"
 
 namespace fsm {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 /// two numbers, in cells.
 class NoiseRow {
  public:
-  NoiseRow(int cell, std::uint64_t series) : cell_(cell), series_(series) {}
+  NoiseRow(int cell, SkinSeries series) : cell_(cell), series_(series) {}
 
   const std::vector<float>& At(int y) {
     if (y / cell_ != row_) {
@@ -48,7 +48,7 @@ class NoiseRow {
   }
 
   int cell_;
-  std::uint64_t series_;
+  SkinSeries series_;
   int row_ = -1;
   std::vector<float> lower_, upper_;
   std::vector<float> out_ = std::vector<float>(SkinMap::kCells);
@@ -96,7 +96,7 @@ class RegionPainter {
     const float flush =
         skin_.blood.cheek * cheek + skin_.blood.nose_tip * tip + skin_.blood.chin * chin;
     tint *= 1.0F - flush * (skin_.blood.even + skin_.blood.patches * fine) * skin_.blood.tint;
-    const float high = SmoothStep(skin_.forehead.above, p.y - landmarks_.nasion.y);
+    const float high = skin_.forehead.above.Ramp(p.y - landmarks_.nasion.y);
     const float low = SmoothStep(
         landmarks_.stomion.y + skin_.lower_face.above,
         glm::mix(landmarks_.stomion.y, landmarks_.gnathion.y, skin_.lower_face.whole), p.y);
@@ -115,7 +115,7 @@ class RegionPainter {
         Bell(y - (pupil.y + skin_.lid.above), skin_.lid.height) * Bell(from_pupil, skin_.lid.width);
     const float corner = Bell(side - landmarks_.endocanthion.left.x - skin_.eye_corner.away,
                               skin_.eye_corner.width) *
-                         Bell(y - pupil.y - skin_.eye_corner.away, skin_.eye_corner.height);
+                         Bell(y - landmarks_.endocanthion.left.y, skin_.eye_corner.height);
     return 1.0F - below * skin_.below_eye.tint - lid * skin_.lid.tint -
            corner * skin_.eye_corner.tint;
   }
@@ -124,10 +124,10 @@ class RegionPainter {
     const float side = std::abs(p.x);
     const float up = p.y - landmarks_.nasion.y;
     const float forehead =
-        Bell(side, skin_.oily_forehead.width) * SmoothStep(skin_.oily_forehead.above, up);
+        Bell(side, skin_.oily_forehead.width) * skin_.oily_forehead.above.Ramp(up);
     const float bridge = Bell(side, skin_.oily_bridge.width) *
                          SmoothStep(landmarks_.subnasale.y, landmarks_.nasion.y, p.y) *
-                         SmoothStep(skin_.oily_bridge.above, up);
+                         skin_.oily_bridge.above.Ramp(up);
     const float bow_y = 0.5F * (landmarks_.subnasale.y + landmarks_.stomion.y);
     const float bow =
         Bell(side, skin_.oily_lip_bow.width) * Bell(p.y - bow_y, skin_.oily_lip_bow.height);
@@ -135,7 +135,7 @@ class RegionPainter {
     const float cheek_bone = Bell(side - bone.zygion * landmarks_.zygion.left.x, bone.width) *
                              Bell(p.y - landmarks_.pronasale.y - bone.above, bone.height);
     const float jaw = SmoothStep(landmarks_.pronasale.y, landmarks_.stomion.y, p.y) *
-                      SmoothStep(skin_.oily_jaw.aside, side);
+                      skin_.oily_jaw.aside.Ramp(side);
     return skin_.oil.everywhere + skin_.oil.forehead * forehead + skin_.oil.bridge * bridge +
            skin_.oil.nose_tip * tip + skin_.oil.lip_bow * bow + skin_.oil.cheek_bone * cheek_bone +
            skin_.oil.chin * chin - skin_.oil.jaw * jaw;
@@ -151,8 +151,8 @@ std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceLandmarks& la
                                      const Appearance& appearance) {
   const RegionPainter painter(landmarks, appearance);
   std::vector<SkinRegion> out(map.kind.size());
-  NoiseRow broad(16, 1);  // patches of 20 mm and of 5 mm
-  NoiseRow fine(4, 2);
+  NoiseRow broad(16, SkinSeries::kBroadPatches);  // patches of 20 mm and of 5 mm
+  NoiseRow fine(4, SkinSeries::kFinePatches);
   for (int y = 0; y < SkinMap::kCells; ++y) {
     const auto& b = broad.At(y);
     const auto& f = fine.At(y);

@@ -5,12 +5,12 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "fsm/base/random.h"
 #include "fsm/base/smooth_step.h"
-#include "fsm/render/painted_hairs.h"
+#include "fsm/render/painted_strokes.h"
 #include "fsm/render/skin_creases.h"
 #include "fsm/render/skin_map.h"
 #include "fsm/render/skin_regions.h"
+#include "fsm/render/skin_series.h"
 
 namespace fsm {
 namespace {
@@ -45,10 +45,10 @@ std::vector<Fine> MakeFineTile(const Appearance& appearance) {
   std::uint64_t n = 0;
   for (int y = 0; y < kTile; y += kApart) {
     for (int x = 0; x < kTile; x += kApart, ++n) {
-      const float px = static_cast<float>(x) + kApart * Chance(11, n);
-      const float py = static_cast<float>(y) + kApart * Chance(12, n);
-      const float deep = Linear(appearance.skin.pore.dark, Chance(13, n));
-      const float radius = Linear(appearance.skin.pore.radius, Chance(14, n));
+      const float px = static_cast<float>(x) + kApart * Chance(SkinSeries::kPoreX, n);
+      const float py = static_cast<float>(y) + kApart * Chance(SkinSeries::kPoreY, n);
+      const float deep = appearance.skin.pore.dark.At(Chance(SkinSeries::kPoreDark, n));
+      const float radius = appearance.skin.pore.radius.At(Chance(SkinSeries::kPoreRadius, n));
       for (int ty = y - 2; ty <= y + kApart + 2; ++ty) {
         for (int tx = x - 2; tx <= x + kApart + 2; ++tx) {
           const float dx = static_cast<float>(tx) + 0.5F - px;
@@ -66,11 +66,12 @@ std::vector<Fine> MakeFineTile(const Appearance& appearance) {
         return static_cast<std::uint64_t>((cy & 255) << 8 | (cx & 255));
       };
       Fine& f = tile[InTile(x, y)];
-      f.grain = Chance(15, at(x / 2, y / 2)) + Chance(16, at(x, y)) - 1;
+      f.grain = Chance(SkinSeries::kCoarseGrain, at(x / 2, y / 2)) +
+                Chance(SkinSeries::kFineGrain, at(x, y)) - 1;
       const float t = static_cast<float>(y % 16) / 16;
-      f.crack =
-          (Chance(17, at(x / 2, y / 16)) * (1 - t) + Chance(17, at(x / 2, (y / 16 + 1) % 16)) * t) -
-          0.5F;
+      f.crack = (Chance(SkinSeries::kLipLine, at(x / 2, y / 16)) * (1 - t) +
+                 Chance(SkinSeries::kLipLine, at(x / 2, (y / 16 + 1) % 16)) * t) -
+                0.5F;
     }
   }
   const float between = 2 / SkinTexture::kTexelsPerMm;  // millimetres between the two neighbours
@@ -174,11 +175,11 @@ void Tint(SkinTexture& out, std::size_t texel, const glm::vec4& factor) {
 }
 
 /// Calls `paint(texel, weight)` for the texels of a round spot. The weight falls to 0 at `radius`,
-/// which is clamped to kMostRadius.
+/// which is clamped to kMaxRadius.
 template <typename Paint>
 void Stamp(float x, float y, float radius, Paint paint) {
-  constexpr float kMostRadius = 16;
-  radius = std::min(radius, kMostRadius);
+  constexpr float kMaxRadius = 16;
+  radius = std::min(radius, kMaxRadius);
   const int reach = static_cast<int>(std::ceil(radius));
   const int cx = static_cast<int>(x);
   const int cy = static_cast<int>(y);
@@ -197,19 +198,22 @@ void PaintFreckles(const SkinMap& map, const FaceLandmarks& landmarks, const App
                    SkinTexture& out) {
   const auto& skin = appearance.skin;
   for (std::uint64_t n = 0; static_cast<float>(n) < 100 * skin.freckles.hundreds; ++n) {
-    const float x = kSide * (0.18F + 0.64F * Chance(21, n));
-    const float y = kSide * (0.25F + 0.6F * Chance(22, n));
+    const float x = kSide * (0.18F + 0.64F * Chance(SkinSeries::kFreckleX, n));
+    const float y = kSide * (0.25F + 0.6F * Chance(SkinSeries::kFreckleY, n));
     if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) continue;
     const glm::vec3 p = map.PositionAt(x / kSide, y / kSide);
     const float near_cheek =
         Bell(std::abs(p.x) - skin.freckled_cheek.side, skin.freckled_cheek.width) *
         Bell(p.y - landmarks.pronasale.y - skin.freckled_cheek.above, skin.freckled_cheek.height);
-    if (Chance(23, n) > skin.freckles.everywhere + skin.freckles.cheek * near_cheek) continue;
+    if (Chance(SkinSeries::kFreckleThin, n) >
+        skin.freckles.everywhere + skin.freckles.cheek * near_cheek)
+      continue;
     const bool mole =
         skin.moles.one_in >= 1 && n % static_cast<std::uint64_t>(skin.moles.one_in) == 7;
-    const float strength =
-        mole ? skin.moles.strength : Linear(skin.freckle.strength, Chance(24, n));
-    const float radius = mole ? skin.moles.radius : Linear(skin.freckle.radius, Chance(25, n));
+    const float strength = mole ? skin.moles.strength
+                                : skin.freckle.strength.At(Chance(SkinSeries::kFreckleStrength, n));
+    const float radius =
+        mole ? skin.moles.radius : skin.freckle.radius.At(Chance(SkinSeries::kFreckleRadius, n));
     Stamp(x, y, radius,
           [&](std::size_t i, float w) { Tint(out, i, 1.0F - w * strength * skin.freckle.tint); });
   }
@@ -220,11 +224,11 @@ void PaintVessels(const SkinMap& map, const FaceLandmarks& landmarks, const Appe
                   SkinTexture& out) {
   const auto& skin = appearance.skin;
   for (std::uint64_t n = 0; static_cast<float>(n) < skin.vessels.count; ++n) {
-    float x = kSide * (0.25F + 0.5F * Chance(31, n));
-    float y = kSide * (0.42F + 0.22F * Chance(32, n));
-    float turn = 6.2832F * Chance(33, n);
+    float x = kSide * (0.25F + 0.5F * Chance(SkinSeries::kVesselX, n));
+    float y = kSide * (0.42F + 0.22F * Chance(SkinSeries::kVesselY, n));
+    float turn = 6.2832F * Chance(SkinSeries::kVesselWay, n);
     for (std::uint64_t step = 0; static_cast<float>(step) < skin.vessels.length; ++step) {
-      turn += skin.vessels.bend * (Chance(34, n * 64 + step) - 0.5F);
+      turn += skin.vessels.bend * (Chance(SkinSeries::kVesselBend, n * 64 + step) - 0.5F);
       x += std::cos(turn);
       y += std::sin(turn);
       if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) break;
@@ -244,9 +248,9 @@ void PaintVessels(const SkinMap& map, const FaceLandmarks& landmarks, const Appe
 
 }  // namespace
 
-SkinTexture PaintSkin(const HeadTopology& topology, const HeadVertices& rest,
+SkinTexture PaintSkin(const HeadSurface& surface, const HeadVertices& rest,
                       const FaceLandmarks& landmarks, const Appearance& appearance) {
-  const SkinMap map(topology, rest);
+  const SkinMap map(surface, rest);
   const auto regions = PaintRegions(map, landmarks, appearance);
   const auto tile = MakeFineTile(appearance);
   const CreaseRelief creases(landmarks, appearance);
@@ -262,7 +266,7 @@ SkinTexture PaintSkin(const HeadTopology& topology, const HeadVertices& rest,
   upper.join();
   PaintFreckles(map, landmarks, appearance, out);
   PaintVessels(map, landmarks, appearance, out);
-  PaintHairs(topology.skin_hairs, out);
+  PaintStrokes(surface.skin_strokes, out);
   return out;
 }
 

@@ -11,7 +11,7 @@ namespace fsm {
 class Appearance;
 
 /// The look of skin at a finer scale than the vertices: two pictures of kSide x kSide texels over
-/// HeadTopology::uv, the first row at v = 0.
+/// HeadSurface::uv, the first row at v = 0.
 struct SkinTexture {
   static constexpr int kSide = 1024;
   static constexpr float kTexelsPerMm = 3.3F;  ///< approximate, on the front of the face
@@ -26,7 +26,7 @@ struct SkinTexture {
 /// lips and creases, as the rows "skin" of the table say. The same head and table give the same
 /// bytes. `rest`: vertices of the neutral state. It takes a few tens of milliseconds on two
 /// threads: the caller's and one that ends before it returns.
-SkinTexture PaintSkin(const HeadTopology& topology, const HeadVertices& rest,
+SkinTexture PaintSkin(const HeadSurface& surface, const HeadVertices& rest,
                       const FaceLandmarks& landmarks, const Appearance& appearance);
 
 }  // namespace fsm

@@ -16,12 +16,12 @@ struct VertexAttribute {
     kNormal,          ///< unit length
     kRestPosition,    ///< millimetres
     kAlbedoOpenness,  ///< linear RGB (on lids ShutLid::colour); openness to light, 0..1
-    kDetailTexcoord,  ///< skin: HeadTopology::uv; hair: Strand::tile_mm
+    kDetailTexcoord,  ///< skin: HeadSurface::uv; hair: Strand::tile_mm
     kDetail,          ///< skin: CreaseWeights::face; hair: Strand::along and density
     kDetailMore,   ///< skin: CreaseWeights::nose_and_left; hair: Strand::across, thins at outline
     kTexcoord,     ///< TextureMaps::texcoord and weight; ShutLid::weight
     kLidGrain,     ///< ShutLid::grain_at and slide
-    kOpacity,      ///< HeadTopology::opacity
+    kOpacity,      ///< HeadSurface::opacity
     kRelitNormal,  ///< rest normal, scaled by Portrait::relit
     kLidSkin       ///< 1 where there is a ShutLid, else 0; its grain_light
   };

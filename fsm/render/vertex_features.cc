@@ -41,7 +41,7 @@ std::vector<FaceState> FarStates() {
 }  // namespace
 
 VertexFeatures::VertexFeatures(const Head& head, const CreaseWeights& creases) {
-  const HeadTopology& topology = head.topology();
+  const HeadSurface& surface = head.surface();
   // Lids lie close to the eyeballs, which must not show through them.
   FaceState shut;
   shut.blink.left = shut.blink.right = 1;
@@ -66,25 +66,25 @@ VertexFeatures::VertexFeatures(const Head& head, const CreaseWeights& creases) {
     for (std::size_t i = 0; i < vertices; ++i) column[i] = value(i);
   };
   constexpr float kDarkest = 0.02F;  // darker colours count as equal
-  add(true, [&](std::size_t i) { return kColourMm * glm::log(topology.albedo[i] + kDarkest); });
+  add(true, [&](std::size_t i) { return kColourMm * glm::log(surface.albedo[i] + kDarkest); });
   add(true, [&](std::size_t i) {
-    return kOpenMm * glm::vec3(topology.openness[i],
-                               topology.opacity.empty() ? 1 : topology.opacity[i],
-                               topology.portrait.relit.empty() ? 0 : topology.portrait.relit[i]);
+    return kOpenMm * glm::vec3(surface.openness[i],
+                               surface.opacity.empty() ? 1 : surface.opacity[i],
+                               surface.portrait.relit.empty() ? 0 : surface.portrait.relit[i]);
   });
-  add(topology.uv.size() == vertices,
-      [&](std::size_t i) { return kUnrolledMm * glm::vec3(topology.uv[i], 0); });
-  const TextureMaps& maps = topology.textures;
+  add(surface.uv.size() == vertices,
+      [&](std::size_t i) { return kUnrolledMm * glm::vec3(surface.uv[i], 0); });
+  const TextureMaps& maps = surface.textures;
   if (maps.image && maps.texcoord.size() == vertices) {
     const glm::vec3 worth(kPhotoMm * kPhotoWidth, kPhotoMm * kPhotoWidth, kOpenMm);
     add(true, [&](std::size_t i) { return worth * glm::vec3(maps.texcoord[i], maps.weight[i]); });
   }
-  add(topology.strands.size() == vertices, [&](std::size_t i) {
-    const Strand& strand = topology.strands[i];
+  add(surface.strands.size() == vertices, [&](std::size_t i) {
+    const Strand& strand = surface.strands[i];
     return glm::vec3(kTileMm * strand.tile_mm, kStrandMm * strand.across);
   });
-  add(topology.strands.size() == vertices,
-      [&](std::size_t i) { return glm::vec3(kStrandMm * topology.strands[i].density, 0, 0); });
+  add(surface.strands.size() == vertices,
+      [&](std::size_t i) { return glm::vec3(kStrandMm * surface.strands[i].density, 0, 0); });
   const bool creased = creases.face.size() == vertices;
   add(creased, [&](std::size_t i) { return kCreaseMm * glm::vec3(creases.face[i]); });
   add(creased, [&](std::size_t i) {

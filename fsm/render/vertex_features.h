@@ -24,12 +24,12 @@ class VertexFeatures {
   /// Returns the square of the distance of a vertex from the point interpolated between three
   /// others. It stops when the result exceeds `most`.
   float Difference(std::uint32_t vertex, const std::array<std::uint32_t, 3>& corners,
-                   glm::vec3 weights, float most) const {
+                   glm::vec3 weights, float max) const {
     const glm::vec3* own = Of(vertex);
     const std::array between{Of(corners[0]), Of(corners[1]), Of(corners[2])};
     const float weight = importance_[vertex] * importance_[vertex];
     float worst = 0;
-    for (std::size_t k = 0; k < count_ && worst <= most; ++k) {
+    for (std::size_t k = 0; k < count_ && worst <= max; ++k) {
       const glm::vec3 off = own[k] - weights.x * between[0][k] - weights.y * between[1][k] -
                             weights.z * between[2][k];
       worst = std::max(worst, weight * glm::dot(off, off));

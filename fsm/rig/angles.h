@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <glm/mat3x3.hpp>
 
 namespace fsm {
 
@@ -12,5 +13,8 @@ using Angles = std::array<float, 3>;
 using EyeAngles = std::array<float, 2>;
 /// Indices into Angles and EyeAngles.
 enum Axis : std::size_t { kDown, kToRight, kTilted };
+
+/// Returns FaceState::head_rotation of a rotation: the inverse of HeadRotation (pose.h).
+Angles HeadRotationOf(const glm::mat3& rotation);
 
 }  // namespace fsm

@@ -18,37 +18,36 @@ namespace {
 using step::PointAt;
 
 /// Interpolates the lips at `x` between the pairs of the seam, which go from -x to +x.
-step::LipPair LipsAt(float x, const LipRig& rig, std::span<const glm::vec3> position) {
+step::LipPair LipsAt(float x, const MouthLandmarks& mouth, std::span<const glm::vec3> position) {
   const auto pair = [&](auto at) {
     return step::LipPair{position[at->first], position[at->second]};
   };
   const auto right = std::ranges::lower_bound(
-      rig.seam, x, {}, [&](const auto& vertices) { return position[vertices.first].x; });
-  return step::LipsBetween(pair(right == rig.seam.begin() ? right : right - 1),
-                           pair(right == rig.seam.end() ? right - 1 : right), x);
+      mouth.seam, x, {}, [&](const auto& vertices) { return position[vertices.first].x; });
+  return step::LipsBetween(pair(right == mouth.seam.begin() ? right : right - 1),
+                           pair(right == mouth.seam.end() ? right - 1 : right), x);
 }
 
 void TakeTongue(const RigData& data, const MovedVertices& moved, StepWork& work) {
   const step::Mouth& mouth = work.state.mouth;
   step::TonguePath path = step::PathPastTeeth(mouth);
-  for (const auto& [upper, lower] : data.lips.seam)
+  for (const auto& [upper, lower] : data.mouth.seam)
     path = step::LipsOnPath(path, {work.position[upper], work.position[lower]});
   const float out_mm = step::TongueProtrusion(path, mouth);
   for (const std::uint32_t i : moved.tongue) {
     work.normal[i] = step::NormalWithJaw(mouth.jaw, data.rest[i], data.rest_normal[i]);
     glm::vec3& p = work.position[i];
     p = step::RaisedTongue(mouth, out_mm, data.rest[i], data.weights[i].free);
-    if (data.lips.seam.empty()) continue;
-    p = out_mm > 0
-            ? step::TongueOverTeeth(path, mouth, out_mm, p,
-                                    LipsAt(step::NarrowTongue(path, p).x, data.lips, work.position))
-            : step::BehindTeeth(mouth, p);
+    if (data.mouth.seam.empty()) continue;
+    p = out_mm > 0 ? step::TongueOverTeeth(
+                         path, mouth, out_mm, p,
+                         LipsAt(step::NarrowTongue(path, p).x, data.mouth, work.position))
+                   : step::BehindTeeth(mouth, p);
   }
 }
 
 void CheckTongue(const RigData& data, const VertexChecker& checker) {
-  checker.Pairs(data.lips.seam, "rig.lips.seam");
-  if (data.lips.seam.empty() || std::ranges::find(data.bone, Bone::kTongue) == data.bone.end())
+  if (data.mouth.seam.empty() || std::ranges::find(data.bone, Bone::kTongue) == data.bone.end())
     return;
   checker.Positive(data.teeth.upper.half_width, "rig.upper_teeth.half_width");
   checker.Positive(data.teeth.lower.half_width, "rig.lower_teeth.half_width");
@@ -62,7 +61,7 @@ void PackTongue(const RigData& data, const char* kernel, KernelRecords& out) {
         {i, PointAt(data.rest[i]), PointAt(data.rest_normal[i]), data.weights[i].free});
   }
   std::vector<step::SeamEntry> seam;
-  for (const auto& [upper, lower] : data.lips.seam) seam.push_back({upper, lower});
+  for (const auto& [upper, lower] : data.mouth.seam) seam.push_back({upper, lower});
   out.Add(kernel, records, seam);
 }
 
@@ -119,16 +118,16 @@ void TakeSprings(const RigData& data, const MovedVertices&, StepWork& work) {
 }
 
 void CheckSpring(const Spring& spring, const std::string& place) {
-  const auto within = [&](const char* member, float value, float least, float most) {
-    if (value >= least && value <= most) return;  // false for not-a-number
-    VertexChecker::Refuse(fmt::format("{}: {} outside {}..{}", place, member, least, most));
+  const auto within = [&](const char* member, float value, float min, float max) {
+    if (value >= min && value <= max) return;  // false for not-a-number
+    VertexChecker::Refuse(fmt::format("{}: {} outside {}..{}", place, member, min, max));
   };
   if (!WithinReach(spring.rest) || !WithinReach(spring.root))
     VertexChecker::Refuse(place + ": too far away");
-  within("frequency_hz", spring.frequency_hz, Spring::kLeastHz, Spring::kMostHz);
-  within("damping", spring.damping, Spring::kLeastDamping, Spring::kMostDamping);
+  within("frequency_hz", spring.frequency_hz, Spring::kMinHz, Spring::kMaxHz);
+  within("damping", spring.damping, Spring::kMinDamping, Spring::kMaxDamping);
   within("hang", spring.hang, 0, 1);
-  within("most_mm", spring.most_mm, Spring::kLeastMost, Spring::kMostMost);
+  within("reach_mm", spring.reach_mm, Spring::kMinReachMm, Spring::kMaxReachMm);
   if (!(glm::dot(spring.outward, spring.outward) <= 1.01f))
     VertexChecker::Refuse(place + ": outward is longer than 1");
 }

@@ -14,19 +14,19 @@ namespace {
 float ValueOf(const Drive& drive, const FaceState& state, const Pose& pose) {
   using enum Drive::Kind;
   const std::size_t number = drive.number;
-  constexpr float kMostMouth = 30;  // in millimetres, and in degrees for the jaw
+  constexpr float kMaxMouth = 30;  // in millimetres, and in degrees for the jaw
   const auto whole = [&](Side side) {
     switch (drive.kind) {
       case kUnit:
-        return pose.units[side][number];
+        return pose.au[side][number];
       case kAskedUnit:
-        return Bound(state.au[side][number], 0, 2);
+        return Bound(state.au[side][number], 0, kMaxStrength);
       case kMouth:
         return pose.mouth[number];
       case kSpokenMouth:
-        return Bound(state.mouth[number] - state.mouth_by_hand[number], -kMostMouth, kMostMouth);
+        return Bound(state.mouth[number] - state.mouth_by_hand[number], -kMaxMouth, kMaxMouth);
       case kHandMouth:
-        return Bound(state.mouth_by_hand[number], -kMostMouth, kMostMouth);
+        return Bound(state.mouth_by_hand[number], -kMaxMouth, kMaxMouth);
       case kBlink:
         return pose.blink[side];
       case kGazeUp:
@@ -34,7 +34,7 @@ float ValueOf(const Drive& drive, const FaceState& state, const Pose& pose) {
       case kGazeRight:
         return GazeOf(pose.eye[side])[kToRight];
       case kResidual:
-        return Bound(state.residuals[number], 0, 2);
+        return Bound(state.residuals[number], 0, kMaxStrength);
     }
     return 0.0f;
   };
@@ -52,7 +52,7 @@ float ValueOf(const Drive& drive, const FaceState& state, const Pose& pose) {
 
 std::vector<Channel> UnitChannels(const UnitTable& units, std::span<const Bone> bones,
                                   std::span<const SkinWeights> weights) {
-  constexpr float kLeast = 1e-3f;                       // smaller displacements (mm) are dropped
+  constexpr float kMin = 1e-3f;                         // smaller displacements (mm) are dropped
   std::map<int, std::vector<UnitTable::Field>> fields;  // by unit
   for (const UnitTable::Field& field : units.fields()) fields[field.unit].push_back(field);
   std::vector<Channel> channels;
@@ -71,7 +71,7 @@ std::vector<Channel> UnitChannels(const UnitTable& units, std::span<const Bone> 
                                   .number = static_cast<std::uint16_t>(unit),
                                   .side = Drive::OnlyOf(side)}});
       for (std::uint32_t i = 0; i < sum.size(); ++i) {
-        if (glm::length(sum[i]) > kLeast) channel.moves.push_back({i, sum[i]});
+        if (glm::length(sum[i]) > kMin) channel.moves.push_back({i, sum[i]});
       }
       channels.push_back(std::move(channel));
     }
@@ -93,15 +93,15 @@ ChannelDrives::ChannelDrives(std::span<const Channel> channels) {
 }
 
 void ChannelDrives::FindStrengths(std::span<const Channel> channels, const FaceState& state,
-                                  const Pose& pose, std::vector<float>& out) const {
-  thread_local std::vector<float> values;  // by drive; kept from frame to frame
+                                  const Pose& pose, std::vector<float>& values,
+                                  std::vector<float>& out) const {
   values.clear();
   for (const Drive& drive : drives_) values.push_back(ValueOf(drive, state, pose));
   auto from = driver_from_.begin();
   for (const Channel& channel : channels) {
     float strength = 0;
     for (const Channel::Driver& driver : channel.drivers) strength += driver.gain * values[*from++];
-    out.push_back(std::clamp(strength, channel.least, channel.most) *
+    out.push_back(std::clamp(strength, channel.min, channel.max) *
                   ((1 - pose.seal) * channel.open_factor + pose.seal * channel.sealed_factor));
   }
 }

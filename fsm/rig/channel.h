@@ -61,8 +61,8 @@ struct Channel {
     float gain = 1;
   };
   std::vector<Driver> drivers;
-  float least = -std::numeric_limits<float>::infinity();  ///< must not exceed `most`
-  float most = std::numeric_limits<float>::infinity();
+  float min = -std::numeric_limits<float>::infinity();  ///< must not exceed `max`
+  float max = std::numeric_limits<float>::infinity();
   float open_factor = 1, sealed_factor = 1;  ///< on the strength, for open and for sealed lips
   std::vector<Displacement> moves;
 
@@ -81,8 +81,9 @@ class ChannelDrives {
  public:
   explicit ChannelDrives(std::span<const Channel> channels);
   /// Appends to `out` one strength for each of `channels`, the ones given to the constructor.
+  /// `values`: memory, which is kept from frame to frame.
   void FindStrengths(std::span<const Channel> channels, const FaceState& state, const Pose& pose,
-                     std::vector<float>& out) const;
+                     std::vector<float>& values, std::vector<float>& out) const;
 
  private:
   std::vector<Drive> drives_;

@@ -6,13 +6,13 @@
 namespace fsm {
 
 Head::Head(HeadAsset asset)
-    : topology_(std::make_shared<const HeadTopology>(std::move(asset.topology))),
+    : surface_(std::make_shared<const HeadSurface>(std::move(asset.surface))),
       landmarks_(std::move(asset.landmarks)),
       view_(asset.view),
       rig_(std::move(asset.rig)) {}
 
 Head::Head(const Head& other, Rig rig)
-    : topology_(other.topology_),
+    : surface_(other.surface_),
       landmarks_(other.landmarks_),
       view_(other.view_),
       rig_(std::move(rig)) {}

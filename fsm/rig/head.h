@@ -24,17 +24,20 @@ class Head {
   Head(const Head&) = delete;
   Head& operator=(const Head&) = delete;
 
-  const HeadTopology& topology() const { return *topology_; }
-  /// Returns the topology for users that may outlive the head.
-  const std::shared_ptr<const HeadTopology>& shared_topology() const { return topology_; }
+  const HeadSurface& surface() const { return *surface_; }
+  /// Returns the surface for users that may outlive the head.
+  const std::shared_ptr<const HeadSurface>& shared_surface() const { return surface_; }
   const Rig& rig() const { return rig_; }
+  const MouthLandmarks& mouth() const { return rig_.data().mouth; }
+  /// Returns the centre of an eyeball at rest.
+  glm::vec3 EyeCentre(Side side) const { return rig_.data().eyes.centre[side]; }
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
   /// `spring_offsets` is that of Rig::Evaluate.
   void Evaluate(const FaceState& state, HeadVertices& out,
                 std::span<const glm::vec3> spring_offsets = {}) const {
     rig_.Evaluate(state, out, spring_offsets);
   }
-  /// Returns the same head with the same topology whose action units move as another table says;
+  /// Returns the same head with the same surface whose action units move as another table says;
   /// displacements that are the head's own (RigData::units_by_place) stay.
   std::unique_ptr<Head> WithUnits(const UnitTable& units) const;
   /// Measures the mouth on the vertices that Evaluate would give for `state`.
@@ -56,7 +59,7 @@ class Head {
   static inline std::atomic<std::uint64_t> last_serial_{0};  // heads are made on several threads
 
   const std::uint64_t serial_ = ++last_serial_;
-  std::shared_ptr<const HeadTopology> topology_;
+  std::shared_ptr<const HeadSurface> surface_;
   Landmarks landmarks_;
   std::optional<ParallelView> view_;
   Rig rig_;

@@ -10,7 +10,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "fsm/image/image.h"
@@ -42,11 +41,18 @@ constexpr bool IsHair(Material material) {
   return material == Material::kHair || material == Material::kLash;
 }
 
-/// One eye at rest. The cap of the eyeball in Material::kIris is the outer surface of the bulging
-/// cornea; iris and pupil lie behind it and are drawn by parallax.
+/// Tells whether a material is seen from both sides. Others are on closed surfaces, or on hair,
+/// which has a lining where it hangs.
+constexpr bool HasTwoSides(Material material) {
+  using enum Material;
+  return material == kLash || material == kShutLash || material == kMouthInside ||
+         material == kMatte;
+}
+
+/// What one eye looks like. The cap of the eyeball in Material::kIris is the outer surface of the
+/// bulging cornea; iris and pupil lie behind it and are drawn by parallax.
 struct EyeGeometry {
-  glm::vec3 centre{};  ///< of the eyeball, millimetres
-  float ball_radius = 12;
+  float ball_radius = 12;  ///< millimetres, as the others
   float iris_radius = 6;
   float pupil_radius = 2;
   glm::vec3 iris_colour{};                      ///< linear RGB
@@ -82,21 +88,12 @@ struct ShutLid {
   glm::vec2 slide;     ///< from texcoord to the point of the photo that it moves to
 };
 
-/// A fine hair of the brows that is painted into the skin's texture. Its points are texture
-/// coordinates in HeadTopology::uv.
-struct SkinHair {
+/// A fine bent line that is painted into the skin's texture: a hair of brows, beard or hairline, or
+/// a piece of a lid's fold. Its points are texture coordinates in HeadSurface::uv.
+struct SkinStroke {
   glm::vec2 root, middle, tip;
-  float width_mm;  ///< at the root; the hair tapers to a point
+  float width_mm;  ///< at the root; it tapers to a point
   glm::vec3 tint;  ///< factor on the skin's colour
-};
-
-/// The opening between the lips, by which light enters the mouth. Teeth bound it further in.
-struct MouthSlit {
-  /// Pairs of upper and lower lip vertices, from -x to +x without the corners; may be empty.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;
-  std::uint32_t corner_right = 0, corner_left = 0;     ///< of the agent's sides
-  std::uint32_t upper_incisor = 0, lower_incisor = 0;  ///< at the incisal edges
-  std::uint32_t upper_root = 0;                        ///< directly above upper_incisor
 };
 
 /// The picture on a head: the photo of a person or the texture of a file.
@@ -125,7 +122,7 @@ struct Portrait {
 };
 
 /// The part of a head that does not change while it moves.
-struct HeadTopology {
+struct HeadSurface {
   struct Part {
     Material material;
     std::uint32_t first_index;  ///< into `indices`
@@ -146,12 +143,11 @@ struct HeadTopology {
   /// form unrolled about a vertical axis, with the front (60 degrees to either side) widened to
   /// 60 % of the width. May be empty.
   std::vector<glm::vec2> uv;
-  std::vector<SkinHair> skin_hairs;
+  std::vector<SkinStroke> skin_strokes;
   std::vector<Strand> strands;  ///< per vertex, meaningful on hair only; may be empty
   std::vector<PbrMaterial> pbr_materials;
   TextureMaps textures;
   Portrait portrait;
-  MouthSlit mouth;
   Sided<EyeGeometry> eyes;
 };
 
@@ -171,7 +167,7 @@ using Landmarks = std::map<std::string, glm::vec3, std::less<>>;
 /// the renderer draws it, and neither knows its origin. All arrays that are said to be per vertex
 /// have the length of `rig.rest`, or are empty where that is allowed.
 struct HeadAsset {
-  HeadTopology topology;
+  HeadSurface surface;
   RigData rig;
   Landmarks landmarks;
   /// How the head is meant to be seen; none: in perspective from the camera.

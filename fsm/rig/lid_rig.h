@@ -20,19 +20,16 @@ struct LidRig {
   };
   std::vector<Vertex> vertices;
   Sided<EyeTransform> eyes;
-  Sided<glm::vec3> ball;    ///< centres of the eyeballs
+  Sided<glm::vec3>
+      ball;  ///< centres of the eyeballs on the head the lids were made for (ProxyForm)
   float cornea_centre = 0;  ///< from the ball's centre to the cornea's, millimetres
 };
 
-/// Lids that are kept outside the eyeballs, whatever moves them.
-struct BallLids {
-  struct Vertex {
-    std::uint32_t vertex;
-    Side side;
-    float least;  ///< least distance from the ball's centre, millimetres
-  };
-  std::vector<Vertex> vertices;
-  Sided<glm::vec3> centre;  ///< of the eyeballs
+/// A vertex of a lid that is kept outside the eyeball, whatever moves it.
+struct BallLid {
+  std::uint32_t vertex;
+  Side side;
+  float min_radius;  ///< distance from the ball's centre, millimetres
 };
 
 }  // namespace fsm

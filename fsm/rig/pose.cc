@@ -30,7 +30,7 @@ constexpr float kUpperLidDown = 6.3f, kUpperLidUp = 3.3f;
 constexpr float kLowerLidDown = 1.7f, kLowerLidUp = 1.3f;
 
 struct Range {
-  float least, most;
+  float min, max;
 };
 // What people can do; ours but for the jaw: a mandible opens 25-30 degrees and slides about 1 mm
 // forward for every three degrees.
@@ -44,18 +44,18 @@ constexpr Range kJawSlideRange{-4, 12}, kSlideAskedRange{-6, 10}, kJawSwayRange{
 constexpr Range kTongueOutRange{0, 30};                                                    // mm
 constexpr Range kUpperLidRange{-11, 4}, kLowerLidRange{-3, 4};  // mm above the rest
 
-float Within(float value, const Range& range) { return Bound(value, range.least, range.most); }
+float Within(float value, const Range& range) { return Bound(value, range.min, range.max); }
 
 void FollowGaze(float down_degrees, UnitEffects::Lids& lids) {
-  const float part = -down_degrees / kGazeOfLids;
-  lids.upper_mm += part * (part < 0 ? kUpperLidDown : kUpperLidUp);
-  lids.lower_mm += part * (part < 0 ? kLowerLidDown : kLowerLidUp);
+  const float share = -down_degrees / kGazeOfLids;
+  lids.upper_mm += share * (share < 0 ? kUpperLidDown : kUpperLidUp);
+  lids.lower_mm += share * (share < 0 ? kLowerLidDown : kLowerLidUp);
 }
 
 }  // namespace
 
-float Bound(float value, float least, float most) {
-  return std::isfinite(value) ? std::clamp(value, least, most) : 0.0f;
+float Bound(float value, float min, float max) {
+  return std::isfinite(value) ? std::clamp(value, min, max) : 0.0f;
 }
 
 glm::mat3 HeadRotation(const FaceState& state) {
@@ -70,8 +70,8 @@ float HeadForward(const FaceState& state) {
 
 Pose MakePose(const FaceState& state, const UnitTable& table) {
   Pose pose{};
-  pose.units = table.ActingUnits(state);
-  const UnitEffects effects = table.Effects(pose.units);
+  pose.au = table.ActingUnits(state);
+  const UnitEffects effects = table.Effects(pose.au);
   for (std::size_t p = 0; p < kMouthParameters; ++p)
     pose.mouth[p] = Within(state.mouth[p], kMouthRange);
   const float degrees =
@@ -94,9 +94,9 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
     pose.lids[s] = effects.lids[s];
     FollowGaze(down, pose.lids[s]);
     pose.lids[s].upper_mm =
-        std::clamp(pose.lids[s].upper_mm, kUpperLidRange.least, kUpperLidRange.most);
+        std::clamp(pose.lids[s].upper_mm, kUpperLidRange.min, kUpperLidRange.max);
     pose.lids[s].lower_mm =
-        std::clamp(pose.lids[s].lower_mm, kLowerLidRange.least, kLowerLidRange.most);
+        std::clamp(pose.lids[s].lower_mm, kLowerLidRange.min, kLowerLidRange.max);
     const float open = 1 - std::min(1.0f, effects.lids[s].close);
     pose.blink[s] = open * Bound(state.blink[s], 0, 1);
     pose.lids[s].close = 1 - open + pose.blink[s];
@@ -108,7 +108,7 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
 
 EyeAngles GazeOf(const glm::mat3& eye) {
   const glm::vec3 ahead = eye[2];
-  return {-glm::degrees(std::asin(std::clamp(ahead.y, -1.0F, 1.0F))),
+  return {-glm::degrees(std::asin(std::clamp(ahead.y, -1.0f, 1.0f))),
           glm::degrees(std::atan2(ahead.x, ahead.z))};
 }
 

@@ -16,7 +16,7 @@ struct JawMove {
 
 /// The values computed from one state that determine every vertex.
 struct Pose {
-  Sided<UnitValues> units;
+  Sided<UnitValues> au;
   std::array<float, kMouthParameters> mouth;  ///< those of the jaw without what action units add
   Sided<float> blink;                         ///< lid closure beyond that of the action units, 0..1
   Sided<UnitEffects::Lids> lids;              ///< with gaze and blink included
@@ -27,8 +27,8 @@ struct Pose {
   glm::mat3 head;
   float head_forward_mm = 0;
 };
-/// Clamps `value` to least..most; a value that is not finite becomes 0.
-float Bound(float value, float least, float most);
+/// Clamps `value` to min..max; a value that is not finite becomes 0.
+float Bound(float value, float min, float max);
 /// The head's rotation about kNeckPivot, and how far the neck carries it forward, millimetres.
 glm::mat3 HeadRotation(const FaceState& state);
 float HeadForward(const FaceState& state);

@@ -31,8 +31,8 @@ step::Eye EyeInState(const RigData& data, const Pose& pose, Side side) {
   const glm::vec3 ahead = pose.eye[side][2];
   return {
       .gaze = step::RotationOf(EyeRotation(data.eyes, pose, side)),
-      .pivot = step::PointAt(data.eyes.pivot[side]),
-      .ball = step::PointAt(data.ball_lids.centre[side]),
+      .pivot = step::PointAt(data.eyes.pivot.value_or(data.eyes.centre)[side]),
+      .ball = step::PointAt(data.eyes.centre[side]),
       .cornea = step::PointAt(data.lids.ball[side] + eye.size * data.lids.cornea_centre * ahead),
       .size = eye.size,
       .tilt_cosine = across.y,
@@ -67,7 +67,8 @@ void Rig::Evaluate(const FaceState& state, HeadVertices& out,
   FindInputs(state, inputs);
   out.position = data_.Start();
   out.normal = data_.rest_normal;
-  StepWork work{inputs.state, inputs.strengths, spring_offsets, out.position, out.normal};
+  StepWork work{inputs.state, inputs.strengths, spring_offsets,
+                out.position, out.normal,       inputs.lip_gaps};
   for (const RigStep step : data_.steps) DefinitionOf(step).take(data_, moved_, work);
   FindCreasesAndLids(inputs.pose, out);
 }
@@ -75,7 +76,7 @@ void Rig::Evaluate(const FaceState& state, HeadVertices& out,
 void Rig::FindCreasesAndLids(const Pose& pose, HeadVertices& out) const {
   out.creases = {};
   if (data_.creases.at_rest) {
-    out.creases = CreaseDepths(pose.units, *data_.creases.at_rest);
+    out.creases = data_.unit_effects.CreaseDepths(pose.au, *data_.creases.at_rest);
     for (Sided<float>& depth : out.creases) {
       for (const Side side : kSides) depth[side] *= data_.creases.depth;
     }
@@ -84,23 +85,24 @@ void Rig::FindCreasesAndLids(const Pose& pose, HeadVertices& out) const {
 }
 
 void Rig::FindInputs(const FaceState& state, RigInputs& inputs) const {
-  inputs.pose = MakePose(state, data_.units);
+  inputs.pose = MakePose(state, data_.unit_effects);
   inputs.state = StateOf(data_, inputs.pose);
   inputs.strengths.clear();
-  drives_.FindStrengths(data_.channels, state, inputs.pose, inputs.strengths);
+  drives_.FindStrengths(data_.channels, state, inputs.pose, inputs.drive_values, inputs.strengths);
 }
 
 MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
-  if (!data_.lips.measured) return {};
+  if (data_.mouth.seam.empty() || !data_.mouth.corners) return {};
   RigInputs inputs;
   FindInputs(state, inputs);
   std::vector<glm::vec3> position = data_.Start();
-  StepWork work{inputs.state, inputs.strengths, {}, position, {}};
+  StepWork work{inputs.state, inputs.strengths, {}, position, {}, inputs.lip_gaps};
   for (const RigStep step : data_.steps) {
     if (!ShapesSkin(step)) break;  // the later steps do not change the mouth's shape
     DefinitionOf(step).take(data_, moved_, work);
   }
-  const auto [upper, lower, left, right] = *data_.lips.measured;
+  const auto [upper, lower] = data_.mouth.Middle();
+  const auto [right, left] = *data_.mouth.corners;
   return {.gap_mm = std::max(0.0f, position[upper].y - position[lower].y),
           .width_mm = glm::distance(position[left], position[right]),
           .jaw_degrees = glm::degrees(work.state.mouth.jaw.open)};
@@ -108,12 +110,12 @@ MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
 
 Rig Rig::WithUnits(const UnitTable& units) const {
   RigData data = data_;
-  data.units = units;
-  if (data.asymmetry_seed) data.units.MakeAsymmetric(*data.asymmetry_seed);
+  data.unit_effects = units;
+  if (data.asymmetry_seed) data.unit_effects.MakeAsymmetric(*data.asymmetry_seed);
   if (data.units_by_place) {
     std::erase_if(data.channels,
                   [](const Channel& channel) { return channel.IsLedBy(Drive::Kind::kUnit); });
-    std::ranges::move(UnitChannels(data.units, data.bone, data.weights),
+    std::ranges::move(UnitChannels(data.unit_effects, data.bone, data.weights),
                       std::back_inserter(data.channels));
   }
   return Rig(std::move(data));

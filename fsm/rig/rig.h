@@ -27,6 +27,9 @@ struct RigInputs {
   Pose pose;
   step::StepState state;
   std::vector<float> strengths;  ///< by channel
+  // Memory of the steps, kept from frame to frame.
+  std::vector<float> drive_values;
+  std::vector<glm::vec3> lip_gaps;
 };
 
 /// Moves a head: a pure function from FaceState to vertices, which takes the steps of its RigData
@@ -45,7 +48,8 @@ class Rig {
                 std::span<const glm::vec3> spring_offsets = {}) const;
   /// Fills `inputs`, whose memory is reused from frame to frame.
   void FindInputs(const FaceState& state, RigInputs& inputs) const;
-  /// Measures the mouth before the head turns. Returns zeros if the head has no LipRig::measured.
+  /// Measures the mouth before the head turns. Returns zeros if the head has no seam or corners of
+  /// the mouth.
   MouthMeasure MeasureMouth(const FaceState& state) const;
   /// Returns the same rig with action units that move as another table says.
   Rig WithUnits(const UnitTable& units) const;

@@ -7,9 +7,10 @@ namespace fsm {
 
 std::vector<std::uint32_t> StepVertices(const RigData& data) {
   std::vector<std::uint32_t> vertices;
-  for (const auto& [upper, lower] : data.lips.seam) vertices.insert(vertices.end(), {upper, lower});
-  if (data.lips.measured)
-    vertices.insert(vertices.end(), data.lips.measured->begin(), data.lips.measured->end());
+  for (const auto& [upper, lower] : data.mouth.seam)
+    vertices.insert(vertices.end(), {upper, lower});
+  if (const auto& corners = data.mouth.corners)
+    vertices.insert(vertices.end(), {corners->right, corners->left});
   if (!data.rest.empty()) vertices.push_back(data.jaw.chin);
   return vertices;
 }
@@ -37,14 +38,13 @@ RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertice
   some.normals = {};
   for (Channel& channel : some.channels) keep(channel.moves);
   keep(some.lids.vertices);
-  keep(some.ball_lids.vertices);
+  keep(some.ball_lids);
   keep(some.lips.followers);
   keep(some.teeth.contacts);
   keep(some.spring_rig.weights);
-  for (auto& [upper, lower] : some.lips.seam) upper = now[upper], lower = now[lower];
-  if (some.lips.measured) {
-    for (std::uint32_t& vertex : *some.lips.measured) vertex = now[vertex];
-  }
+  for (auto& [upper, lower] : some.mouth.seam) upper = now[upper], lower = now[lower];
+  if (auto& corners = some.mouth.corners) corners = {now[corners->right], now[corners->left]};
+  some.mouth.incisors.reset();  // only the renderer needs them
   if (!data.rest.empty()) some.jaw.chin = now[data.jaw.chin];
   return some;
 }

@@ -43,7 +43,7 @@ struct GazeRanges {
 enum class RigStep : std::uint8_t {
   // These steps shape the skin of a head that looks ahead. They write positions only.
   /// Action units and mouth parameters displace vertices. Needs: the number of each Drive is valid
-  /// for its kind; Channel::least is not above Channel::most; moves name vertices.
+  /// for its kind; Channel::min is not above Channel::max; moves name vertices.
   kChannels,
   kLids,         ///< lids rotate about the eyes, over the cornea. Needs: `lids` names vertices
   kLidsOnBalls,  ///< lid skin stays outside the eyeballs. Needs: `ball_lids` names vertices
@@ -51,14 +51,13 @@ enum class RigStep : std::uint8_t {
   /// The jaw opens and sways as far as JawRig::chin has moved. Needs: `chin` is a vertex.
   kJawByChin,
   kTeeth,  ///< lips are pushed off the teeth. Needs: TeethRig::contacts names vertices
-  /// Lips that would cross meet instead, and sealed lips close. Needs: seam and followers name
-  /// vertices, each follower a pair of the seam; apart_at_rest is empty or has one element for each
-  /// pair.
+  /// Lips that would cross meet instead, and sealed lips close. Needs: followers name vertices and
+  /// pairs of the seam; apart_at_rest is empty or has one element for each pair.
   kLips,
   kOwnForm,  ///< adds ProxyForm::to_own. Needs: it is empty or per vertex
 
   // These steps write normals as well, except kSprings.
-  kTongue,  ///< the tongue passes between teeth and lips. Needs: the seam names vertices
+  kTongue,  ///< the tongue passes between teeth and lips
   kBones,   ///< jaw and eyes rotate, with all that is fixed to them
   kNeck,    ///< the head turns and goes forward
   /// Soft parts swing by the offsets of a simulation. Needs: the weights of SpringRig name vertices
@@ -81,9 +80,10 @@ struct JawRig {
   std::uint32_t chin = 0;  ///< the vertex that kJawByChin measures
 };
 
-/// The centres of the eyes' rotation and its range.
+/// How the eyes rotate.
 struct EyeRig {
-  Sided<glm::vec3> pivot;
+  Sided<glm::vec3> centre;                ///< of the eyeballs
+  std::optional<Sided<glm::vec3>> pivot;  ///< what they rotate about; none: `centre`
   std::optional<GazeRanges> gaze_ranges;  ///< none: the eyes rotate by the gaze angles
 };
 
@@ -106,13 +106,15 @@ struct CreaseRig {
 /// first, then those of single steps.
 struct RigData {
   /// First the steps that shape the skin (ShapesSkin), in any order and any number of times; then
-  /// the others in the order of RigStep, each at most once. At most kMostSteps.
+  /// the others in the order of RigStep, each at most once. At most kMaxSteps.
   std::vector<RigStep> steps;
-  static constexpr std::size_t kMostSteps = 32;
+  static constexpr std::size_t kMaxSteps = 32;
   std::vector<glm::vec3> rest, rest_normal;  ///< per vertex
   std::vector<Bone> bone;                    ///< per vertex
   std::vector<SkinWeights> weights;          ///< per vertex
-  UnitTable units;  ///< how action units combine, and their effects other than displacing skin
+  MouthLandmarks mouth;
+  UnitTable
+      unit_effects;  ///< how action units combine, and their effects other than displacing skin
   std::optional<int> asymmetry_seed;  ///< for UnitTable::MakeAsymmetric; none: both sides alike
   /// Whether UnitChannels computes the displacements of the action units from `units` and
   /// `weights`; otherwise they are the head's own.
@@ -121,7 +123,7 @@ struct RigData {
 
   std::vector<Channel> channels;
   LidRig lids;
-  BallLids ball_lids;
+  std::vector<BallLid> ball_lids;
   JawRig jaw;
   TeethRig teeth;
   LipRig lips;
@@ -138,7 +140,7 @@ struct RigData {
 /// StepVertices. No normals are computed (NormalRig is empty).
 RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertices);
 /// Returns the vertices from which steps derive the positions of others, or by which
-/// the mouth is measured: the lip seam, its measured vertices and the chin.
+/// the mouth is measured: the lip seam, its corners and the chin.
 std::vector<std::uint32_t> StepVertices(const RigData& data);
 
 /// Returns a rig whose vertices never move.

@@ -10,9 +10,9 @@ namespace fsm {
 namespace {
 
 void CheckOrder(const std::vector<RigStep>& steps) {
-  if (steps.size() > RigData::kMostSteps) {
+  if (steps.size() > RigData::kMaxSteps) {
     VertexChecker::Refuse(
-        fmt::format("rig.steps: {}, at most {} expected", steps.size(), RigData::kMostSteps));
+        fmt::format("rig.steps: {}, at most {} expected", steps.size(), RigData::kMaxSteps));
   }
   for (std::size_t i = 1; i < steps.size(); ++i) {
     const bool in_order = ShapesSkin(steps[i]) ? ShapesSkin(steps[i - 1]) : steps[i - 1] < steps[i];
@@ -31,7 +31,7 @@ MovedVertices::MovedVertices(const RigData& data) {
   for (std::uint32_t i = 0; i < data.rest.size(); ++i) {
     if (data.bone[i] != Bone::kSkin) rigid.push_back(i);
     if (data.bone[i] == Bone::kTongue) tongue.push_back(i);
-    if (data.bone[i] == Bone::kSkin && data.weights[i].jaw > 0.001F) jawed.push_back(i);
+    if (data.bone[i] == Bone::kSkin && data.weights[i].jaw > 0.001f) jawed.push_back(i);
     if (is_soft[i]) soft.push_back(i);
   }
 }
@@ -57,7 +57,12 @@ void CheckRig(const RigData& data) {
       if (definition.check) definition.check(data, checker);
     }
   }
-  if (data.lips.measured) checker.Vertices(*data.lips.measured, "rig.lips.measured");
+  const auto& [seam, corners, incisors] = data.mouth;
+  checker.Pairs(seam, "rig.mouth.seam");
+  if (corners) checker.Vertices(corners->InOrder(), "rig.mouth.corners");
+  if (!incisors) return;
+  for (const std::uint32_t vertex : {incisors->upper, incisors->lower, incisors->upper_root})
+    checker.Vertex(vertex, "rig.mouth.incisors");
 }
 
 std::vector<RigRecords> PackRig(const RigData& data) {

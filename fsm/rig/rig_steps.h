@@ -29,6 +29,7 @@ struct StepWork {
   std::span<const glm::vec3> spring_offsets;
   std::span<glm::vec3> position;
   std::span<glm::vec3> normal;  ///< empty if only steps that shape the skin are taken
+  std::vector<glm::vec3>& lip_gaps;
 };
 
 /// All that the code knows of one RigStep beside its arithmetic in steps.glsl.

@@ -107,7 +107,7 @@ void Simulation::FindOffsets(const FaceState& state, float ahead_s) {
     offset -= std::min(glm::dot(offset, outward), 0.0f) * outward;
     // An offset saturates: the closer to its limit, the less it grows.
     const float length = glm::length(offset);
-    offsets_[i] = offset * (spring.most_mm / std::hypot(spring.most_mm, length));
+    offsets_[i] = offset * (spring.reach_mm / std::hypot(spring.reach_mm, length));
   }
 }
 

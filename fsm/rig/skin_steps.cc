@@ -22,13 +22,13 @@ void TakeChannels(const RigData& data, const MovedVertices&, StepWork& work) {
   }
 }
 
-/// Returns the highest `number` of a Drive of this kind.
-std::size_t HighestNumber(Drive::Kind kind) {
+/// Returns the max `number` of a Drive of this kind.
+std::size_t MaxNumber(Drive::Kind kind) {
   using enum Drive::Kind;
   switch (kind) {
     case kUnit:
     case kAskedUnit:
-      return UnitValues::kMost;
+      return UnitValues::kMax;
     case kMouth:
     case kSpokenMouth:
     case kHandMouth:
@@ -48,12 +48,11 @@ void CheckChannels(const RigData& data, const VertexChecker& checker) {
     const Channel& channel = data.channels[i];
     const std::string place = checker.Element("rig.channels", i);
     for (const auto& [drive, gain] : channel.drivers) {
-      if (const std::size_t highest = HighestNumber(drive.kind); drive.number > highest)
-        checker.Refuse(fmt::format("{}: number {} above {}", place, drive.number, highest));
+      if (const std::size_t max = MaxNumber(drive.kind); drive.number > max)
+        checker.Refuse(fmt::format("{}: number {} above {}", place, drive.number, max));
     }
-    if (!(channel.least <= channel.most)) {  // true for not-a-number, too
-      checker.Refuse(
-          fmt::format("{}: least {} is above most {}", place, channel.least, channel.most));
+    if (!(channel.min <= channel.max)) {  // true for not-a-number, too
+      checker.Refuse(fmt::format("{}: min {} is above max {}", place, channel.min, channel.max));
     }
     checker.VerticesOf(channel.moves, place + ".moves");
   }
@@ -91,20 +90,20 @@ void PackLids(const RigData& data, const char* kernel, KernelRecords& out) {
 }
 
 void TakeLidsOnBalls(const RigData& data, const MovedVertices&, StepWork& work) {
-  for (const auto& [vertex, side, least] : data.ball_lids.vertices) {
+  for (const auto& [vertex, side, min_radius] : data.ball_lids) {
     glm::vec3& p = work.position[vertex];
-    p = step::OutOfBall(data.ball_lids.centre[side], least, p);
+    p = step::OutOfBall(data.eyes.centre[side], min_radius, p);
   }
 }
 
 void CheckLidsOnBalls(const RigData& data, const VertexChecker& checker) {
-  checker.VerticesOf(data.ball_lids.vertices, "rig.ball_lids");
+  checker.VerticesOf(data.ball_lids, "rig.ball_lids");
 }
 
 void PackLidsOnBalls(const RigData& data, const char* kernel, KernelRecords& out) {
   std::vector<step::BallLidRecord> records;
-  for (const BallLids::Vertex& lid : data.ball_lids.vertices)
-    records.push_back({lid.vertex, static_cast<std::uint32_t>(lid.side), lid.least});
+  for (const BallLid& lid : data.ball_lids)
+    records.push_back({lid.vertex, static_cast<std::uint32_t>(lid.side), lid.min_radius});
   out.Add(kernel, records);
 }
 
@@ -159,35 +158,36 @@ void PackTeeth(const RigData& data, const char* kernel, KernelRecords& out) {
 
 void TakeLips(const RigData& data, const MovedVertices&, StepWork& work) {
   const LipRig& rig = data.lips;
-  thread_local std::vector<glm::vec3> gaps;  // kept from frame to frame
-  gaps.clear();
-  for (std::size_t k = 0; k < rig.seam.size(); ++k) {
-    const auto& [upper, lower] = rig.seam[k];
-    gaps.push_back(step::LipGap(work.state.mouth.seal, work.position[upper], work.position[lower],
-                                rig.ApartAtRest(k)));
+  work.lip_gaps.clear();
+  for (std::size_t k = 0; k < data.mouth.seam.size(); ++k) {
+    const auto& [upper, lower] = data.mouth.seam[k];
+    work.lip_gaps.push_back(step::LipGap(work.state.mouth.seal, work.position[upper],
+                                         work.position[lower], rig.ApartAtRest(k)));
   }
   for (const LipRig::Follower& f : rig.followers)
-    work.position[f.vertex] -= LipRig::ShareOf(f) * gaps[f.pair];
+    work.position[f.vertex] -= LipRig::ShareOf(f) * work.lip_gaps[f.pair];
 }
 
 void CheckLips(const RigData& data, const VertexChecker& checker) {
   const LipRig& lips = data.lips;
-  checker.Pairs(lips.seam, "rig.lips.seam");
-  if (!lips.apart_at_rest.empty() && lips.apart_at_rest.size() != lips.seam.size())
+  const std::size_t pairs = data.mouth.seam.size();
+  if (!lips.apart_at_rest.empty() && lips.apart_at_rest.size() != pairs)
     checker.Refuse("rig.lips.apart_at_rest: not one for each pair of the seam");
   checker.VerticesOf(lips.followers, "rig.lips.followers");
   for (std::size_t i = 0; i < lips.followers.size(); ++i) {
-    if (lips.followers[i].pair < lips.seam.size()) continue;
-    checker.Refuse(fmt::format("rig.lips.followers[{}]: pair {} of {}", i, lips.followers[i].pair,
-                               lips.seam.size()));
+    if (lips.followers[i].pair < pairs) continue;
+    checker.Refuse(
+        fmt::format("rig.lips.followers[{}]: pair {} of {}", i, lips.followers[i].pair, pairs));
   }
 }
 
 void PackLips(const RigData& data, const char* kernel, KernelRecords& out) {
   const LipRig& lips = data.lips;
   std::vector<step::GapRecord> gaps;
-  for (std::size_t k = 0; k < lips.seam.size(); ++k)
-    gaps.push_back({lips.seam[k].first, lips.seam[k].second, PointAt(lips.ApartAtRest(k))});
+  for (std::size_t k = 0; k < data.mouth.seam.size(); ++k) {
+    const auto& [upper, lower] = data.mouth.seam[k];
+    gaps.push_back({upper, lower, PointAt(lips.ApartAtRest(k))});
+  }
   out.Add("lip_gaps", gaps);
   VertexLists<step::LipEntry> lists(data.rest.size());
   for (const LipRig::Follower& f : lips.followers)

@@ -14,18 +14,18 @@ struct Spring {
   /// Unit normal of the surface it lies on, into which it does not swing. 0: it swings in all
   /// directions.
   glm::vec3 outward{};
-  float frequency_hz = 2;  ///< undamped natural frequency, kLeastHz..kMostHz
-  float damping = 0.3f;    ///< damping ratio (1 = critical), kLeastDamping..kMostDamping
+  float frequency_hz = 2;  ///< undamped natural frequency, kMinHz..kMaxHz
+  float damping = 0.3f;    ///< damping ratio (1 = critical), kMinDamping..kMaxDamping
   /// Equilibrium while the head leans, 0..1: 0 = leaning with the head, 1 = straight below `root`.
   float hang = 0;
-  float most_mm = 20;  ///< limit of its distance from where the head carries it
+  float reach_mm = 20;  ///< limit of its distance from where the head carries it
 
-  static constexpr float kLeastHz = 0.1f, kMostHz = 30;
-  static constexpr float kLeastDamping = 0.01f, kMostDamping = 0.99f;
-  static constexpr float kLeastMost = 0.01f, kMostMost = 1000;  ///< limits of most_mm
+  static constexpr float kMinHz = 0.1f, kMaxHz = 30;
+  static constexpr float kMinDamping = 0.01f, kMaxDamping = 0.99f;
+  static constexpr float kMinReachMm = 0.01f, kMaxReachMm = 1000;  ///< limits of reach_mm
 };
 
-/// The part of a spring's offset that a vertex takes, 0..1.
+/// The share of a spring's offset that a vertex takes, 0..1.
 struct SpringWeight {
   std::uint32_t vertex;
   std::uint32_t spring;

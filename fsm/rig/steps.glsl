@@ -4,9 +4,11 @@
 // that both lay them out alike (std430). Lengths are in millimetres and angles in radians unless stated otherwise.
 
 const float kCorneaRadius = 8.0f;  // of the outer surface
-const float kLidRadius = 13.35f;   // converts millimetres at a lid's edge to an angle
+// Converts millimetres at a lid's edge to an angle: the mean radius, 4 mm to either side of the eye's middle, of the
+// surface that the lids slide on (lid_value in head/tables/eye.txt; the angles at rest come from the radius itself).
+const float kLidRadius = 13.35f;
 const float kLidThickness = 0.35f;  // where the lid covers the cornea
-const float kMostOpen = 0.5f;       // limit for a jaw that follows the chin
+const float kMaxOpen = 0.5f;       // limit for a jaw that follows the chin
 // A push by the teeth fades with the height from their edge towards the root: 0 below the first, 1 above the second.
 const float kPastTeeth = -2.2f, kBesideTeeth = 0.2f;
 // Coefficients of the parabola and the quartic by which a row of teeth curves back.
@@ -86,7 +88,7 @@ FUNCTION vec3 NormalWithJaw(Jaw jaw, vec3 p, vec3 normal) {
 FUNCTION Jaw JawByChin(Jaw jaw, vec3 before, vec3 after) {
   float was = atan(jaw.hinge_y - before.y, before.z - jaw.hinge_z);
   float now = atan(jaw.hinge_y - after.y, after.z - jaw.hinge_z);
-  return JawAt(clamp(now - was, 0.0f, kMostOpen), 0.0f, after.x - before.x, jaw.hinge_y, jaw.hinge_z);
+  return JawAt(clamp(now - was, 0.0f, kMaxOpen), 0.0f, after.x - before.x, jaw.hinge_y, jaw.hinge_z);
 }
 
 // ---- Lids and eyes.
@@ -344,7 +346,7 @@ struct LidRecord {
 };
 struct BallLidRecord {
   uint vertex, side;
-  float least;
+  float min_radius;
 };
 struct JawRecord {
   uint vertex;

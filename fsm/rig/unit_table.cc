@@ -13,9 +13,9 @@
 namespace fsm {
 namespace {
 
-constexpr float kMostLean = 0.035f;   // part by which a side may be stronger or weaker; ours
-constexpr float kMostAsymmetry = 5;   // factor on the lean
-constexpr float kMostStrength = 2;    // of a unit, the original's 200 %
+constexpr float kMaxLean = 0.035f;    // share by which a side may be stronger or weaker; ours
+constexpr int kLeanStream = 90;       // of noise, and those that follow, one for each seed
+constexpr float kMaxAsymmetry = 5;    // factor on the lean
 constexpr float kStretchRate = 0.5f;  // of a strength above 1, where tissue stops stretching
 constexpr float kSidewaysMeetMm = 4;  // from the median, where movement across it fades
 
@@ -23,50 +23,100 @@ std::size_t At(int unit) { return static_cast<std::size_t>(unit); }
 
 int ReadUnit(const TableRow& row, std::size_t index) {
   const int unit = row.Integer(index);
-  if (unit < 1 || unit > static_cast<int>(UnitValues::kMost) || unit == 3 || unit == 40) {
-    row.Fail("'" + row.Word(index) + "' is no action unit (1, 2, 4-39, 41-999)");
+  if (unit < 1 || unit > static_cast<int>(UnitValues::kMax) || unit == 3 || unit == 40) {
+    row.Refuse("'" + row.Word(index) + "' is no action unit (1, 2, 4-39, 41-999)");
   }
   return unit;
 }
 
 UnitTable::Field ReadField(const TableRow& row) {
-  constexpr float kFace = 300, kMost = 100;  // millimetres
+  constexpr float kFace = 300, kMax = 100;  // millimetres
   UnitTable::Field field{};
   field.unit = ReadUnit(row, 1);
   field.at = {row.Within(2, -kFace, kFace), row.Within(3, -kFace, kFace)};
   field.radius = {row.Within(4, -kFace, kFace), row.Within(5, -kFace, kFace)};
-  if (field.radius.x <= 0 || field.radius.y <= 0) row.Fail("a radius must be positive");
-  const std::string& part = row.Word(6);
-  using Lip = UnitTable::Field::Lip;
-  if (part == "above") {
+  if (field.radius.x <= 0 || field.radius.y <= 0) row.Refuse("a radius must be positive");
+  const std::string& lip = row.Word(6);
+  if (lip == "above") {
     field.lip = Lip::kUpper;
-  } else if (part == "below") {
+  } else if (lip == "below") {
     field.lip = Lip::kLower;
-  } else if (part == "both") {
-    field.lip = Lip::kBoth;
-  } else {
-    row.Fail("'" + part + "' found where above, below or both was expected");
+  } else if (lip != "both") {
+    row.Refuse("'" + lip + "' found where above, below or both was expected");
   }
-  field.by = {row.Within(7, -kMost, kMost), row.Within(8, -kMost, kMost),
-              row.Within(9, -kMost, kMost)};
+  field.by = {row.Within(7, -kMax, kMax), row.Within(8, -kMax, kMax), row.Within(9, -kMax, kMax)};
   row.EndsAt(10);
   return field;
 }
 
-/// A kind of row that gives an effect, in the order of UnitTable::Effect::Kind: its key word, and
-/// the limits on the absolute values of the one or two numbers after the unit.
+// Each calls `v` with the numbers of an effect, in their order in a row, and the limits on their
+// absolute values.
+void NumbersOf(LidEffect& lid, const auto& v) { v(lid.upper_mm, 20), v(lid.lower_mm, 20); }
+void NumbersOf(CloseEffect& close, const auto& v) { v(close.part, 1); }
+void NumbersOf(JawEffect& jaw, const auto& v) { v(jaw.degrees, 60), v(jaw.slide_mm, 30); }
+void NumbersOf(SwayEffect& sway, const auto& v) { v(sway.mm, 30); }
+void NumbersOf(SealEffect& seal, const auto& v) { v(seal.part, 1); }
+void NumbersOf(TongueEffect& tongue, const auto& v) { v(tongue.raise, 1), v(tongue.out_mm, 60); }
+void NumbersOf(CreaseEffect& crease, const auto& v) {
+  for (float& depth : crease.depth) v(depth, 1);
+}
+
+template <typename Effect>
+UnitEffect ReadEffect(const TableRow& row) {
+  Effect effect{};
+  std::size_t index = 2;
+  NumbersOf(effect, [&](float& n, float limit) { n = row.Within(index++, -limit, limit); });
+  row.EndsAt(index);
+  return effect;
+}
+
+/// A kind of row that gives an effect: its key word, and what reads it. In the order of UnitEffect.
 struct EffectRow {
   std::string_view key;
-  float most_first, most_second = 0;
+  UnitEffect (*read)(const TableRow&);
 };
-constexpr std::array<EffectRow, 6> kEffectRows{
-    {{"lid", 20, 20}, {"close", 1}, {"jaw", 60, 30}, {"sway", 30}, {"seal", 1}, {"tongue", 1, 60}}};
+constexpr std::array<EffectRow, std::variant_size_v<UnitEffect>> kEffectRows{
+    {{"lid", ReadEffect<LidEffect>},
+     {"close", ReadEffect<CloseEffect>},
+     {"jaw", ReadEffect<JawEffect>},
+     {"sway", ReadEffect<SwayEffect>},
+     {"seal", ReadEffect<SealEffect>},
+     {"tongue", ReadEffect<TongueEffect>},
+     {"crease", ReadEffect<CreaseEffect>}}};
+
+float Stronger(Sided<float> of) { return std::max(of.left, of.right); }
+
+// Each adds an effect of a unit with the strengths `of` to a sum.
+void AddEffect(const LidEffect& lid, Sided<float> of, UnitEffects& sum) {
+  for (const Side s : kSides) {
+    sum.lids[s].upper_mm += lid.upper_mm * of[s];
+    sum.lids[s].lower_mm += lid.lower_mm * of[s];
+  }
+}
+void AddEffect(const CloseEffect& close, Sided<float> of, UnitEffects& sum) {
+  for (const Side s : kSides) sum.lids[s].close = std::max(sum.lids[s].close, close.part * of[s]);
+}
+void AddEffect(const JawEffect& jaw, Sided<float> of, UnitEffects& sum) {
+  sum.jaw_degrees += jaw.degrees * Stronger(of);
+  sum.jaw_slide_mm += jaw.slide_mm * Stronger(of);
+}
+void AddEffect(const SwayEffect& sway, Sided<float> of, UnitEffects& sum) {
+  sum.jaw_sway_mm += sway.mm * (of.left - of.right);
+}
+void AddEffect(const SealEffect& seal, Sided<float> of, UnitEffects& sum) {
+  sum.seal = std::max(sum.seal, seal.part * Stronger(of));
+}
+void AddEffect(const TongueEffect& tongue, Sided<float> of, UnitEffects& sum) {
+  sum.tongue_raise += tongue.raise * Stronger(of);
+  sum.tongue_out_mm += tongue.out_mm * Stronger(of);
+}
+void AddEffect(const CreaseEffect&, Sided<float>, UnitEffects&) {}  // see CreaseDepths
 
 /// A kind of row that gives a rule, in the order of UnitTable::Rule::Kind: its key word, and
-/// whether a number (Rule::part) follows the two units.
+/// whether a number (Rule::share) follows the two units.
 struct RuleRow {
   std::string_view key;
-  bool has_part = false;
+  bool has_share = false;
 };
 constexpr std::array<RuleRow, 3> kRuleRows{{{"damp", true}, {"oppose"}, {"strongest"}}};
 
@@ -78,7 +128,7 @@ std::string Digits(float number) {
 
 float Acting(float strength) {
   if (!(strength > 0)) return 0;
-  strength = std::min(strength, kMostStrength);
+  strength = std::min(strength, kMaxStrength);
   return strength <= 1 ? strength : 1 + kStretchRate * (strength - 1);
 }
 
@@ -88,27 +138,27 @@ UnitTable::UnitTable(const Table& table) {
   for (const TableRow& row : table.rows()) Add(row);
 }
 
+bool UnitTable::IsRule(std::string_view key) {
+  return std::ranges::find(kRuleRows, key, &RuleRow::key) != kRuleRows.end();
+}
+
 void UnitTable::Add(const TableRow& row) {
   const std::string& key = row.key();
-  if (fields_.size() + effects_.size() + rules_.size() >= kMostRows) {
-    row.Fail("more rows than are read (" + std::to_string(kMostRows) + ")");
+  if (fields_.size() + effects_.size() + rules_.size() >= kMaxRows) {
+    row.Refuse("more rows than are read (" + std::to_string(kMaxRows) + ")");
   }
   const auto effect = std::ranges::find(kEffectRows, key, &EffectRow::key);
   const auto rule = std::ranges::find(kRuleRows, key, &RuleRow::key);
   if (key == "field") {
     fields_.push_back(ReadField(row));
   } else if (effect != kEffectRows.end()) {
-    const auto [unused, first, second] = *effect;
-    effects_.push_back({static_cast<Effect::Kind>(effect - kEffectRows.begin()), ReadUnit(row, 1),
-                        row.Within(2, -first, first),
-                        second > 0 ? row.Within(3, -second, second) : 0});
-    row.EndsAt(second > 0 ? 4 : 3);
+    effects_.push_back({ReadUnit(row, 1), effect->read(row)});
   } else if (rule != kRuleRows.end()) {
     rules_.push_back({static_cast<Rule::Kind>(rule - kRuleRows.begin()), ReadUnit(row, 1),
-                      ReadUnit(row, 2), rule->has_part ? row.Within(3, 0, 1) : 0});
-    row.EndsAt(rule->has_part ? 4 : 3);
+                      ReadUnit(row, 2), rule->has_share ? row.Within(3, 0, 1) : 0});
+    row.EndsAt(rule->has_share ? 4 : 3);
   } else {
-    row.Fail("unknown word '" + key + "'");
+    row.Refuse("unknown word '" + key + "'");
   }
 }
 
@@ -126,20 +176,19 @@ std::string UnitTable::Text() const {
   };
   const auto number = [](int unit) { return static_cast<float>(unit); };
   for (const Field& field : fields_) {
-    static constexpr std::array<const char*, 3> kParts{" above", " below", " both"};
     row("field", {number(field.unit), field.at.x, field.at.y, field.radius.x, field.radius.y});
-    text += kParts[static_cast<std::size_t>(field.lip)];
+    text += !field.lip ? " both" : *field.lip == Lip::kUpper ? " above" : " below";
     for (int k = 0; k < 3; ++k) text += Digits(field.by[k]);
   }
   for (const Effect& effect : effects_) {
-    const EffectRow& kind = kEffectRows[static_cast<std::size_t>(effect.kind)];
-    row(kind.key, {number(effect.unit), effect.first});
-    if (kind.most_second > 0) text += Digits(effect.second);
+    row(kEffectRows[effect.what.index()].key, {number(effect.unit)});
+    std::visit([&text](auto what) { NumbersOf(what, [&](float n, float) { text += Digits(n); }); },
+               effect.what);
   }
   for (const Rule& rule : rules_) {
     const RuleRow& kind = kRuleRows[static_cast<std::size_t>(rule.kind)];
     row(kind.key, {number(rule.a), number(rule.b)});
-    if (kind.has_part) text += Digits(rule.part);
+    if (kind.has_share) text += Digits(rule.share);
   }
   return text;
 }
@@ -147,7 +196,7 @@ std::string UnitTable::Text() const {
 void UnitTable::MakeAsymmetric(int seed) {
   for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
     if (unit >= kLidDroop || unit == kJawDrop || unit == kMouthStretch) continue;
-    const float lean = kMostLean * NoiseAt(static_cast<int>(unit), 90 + seed);
+    const float lean = kMaxLean * NoiseAt(static_cast<int>(unit), kLeanStream + seed);
     lean_.right[unit] = lean;
     lean_.left[unit] = -lean;
   }
@@ -161,24 +210,24 @@ std::vector<int> UnitTable::Numbers() const {
 }
 
 Sided<UnitValues> UnitTable::ActingUnits(const FaceState& state) const {
-  Sided<UnitValues> units;
+  Sided<UnitValues> au;
   const float shown =
-      std::isfinite(state.asymmetry) ? std::clamp(state.asymmetry, 0.0f, kMostAsymmetry) : 0;
+      std::isfinite(state.asymmetry) ? std::clamp(state.asymmetry, 0.0f, kMaxAsymmetry) : 0;
   for (const Side side : kSides) {
     for (std::size_t i = 1; i < state.au[side].size(); ++i) {
       const float acting = Acting(state.au[side][i]);
       const float lean = std::as_const(lean_[side])[i];
-      if (acting > 0) units[side][i] = (1 + shown * lean) * acting;
+      if (acting > 0) au[side][i] = (1 + shown * lean) * acting;
     }
   }
-  for (UnitValues* const side : {&units.right, &units.left}) {
+  for (UnitValues* const side : {&au.right, &au.left}) {
     UnitValues& acting = *side;
     const auto before = acting;  // rules read what was asked, so their order does not matter
     for (const Rule& rule : rules_) {
       const float a = before[At(rule.a)];
       const float b = before[At(rule.b)];
       if (rule.kind == Rule::Kind::kDamp) {
-        acting[At(rule.a)] *= 1 - rule.part * std::min(b, 1.0f);
+        acting[At(rule.a)] *= 1 - rule.share * std::min(b, 1.0f);
       } else if (rule.kind == Rule::Kind::kOppose) {
         if (a > 0 && b > 0 && a + b > 1) {
           acting[At(rule.a)] /= a + b;
@@ -189,42 +238,14 @@ Sided<UnitValues> UnitTable::ActingUnits(const FaceState& state) const {
       }
     }
   }
-  return units;
+  return au;
 }
 
-UnitEffects UnitTable::Effects(const Sided<UnitValues>& units) const {
+UnitEffects UnitTable::Effects(const Sided<UnitValues>& au) const {
   UnitEffects sum;
-  for (const Effect& effect : effects_) {
-    const float right = units.right[At(effect.unit)];
-    const float left = units.left[At(effect.unit)];
-    const float either = std::max(left, right);
-    switch (effect.kind) {
-      case Effect::Kind::kLid:
-        for (const Side s : kSides) {
-          sum.lids[s].upper_mm += effect.first * units[s][At(effect.unit)];
-          sum.lids[s].lower_mm += effect.second * units[s][At(effect.unit)];
-        }
-        break;
-      case Effect::Kind::kClose:
-        for (const Side s : kSides) {
-          sum.lids[s].close = std::max(sum.lids[s].close, effect.first * units[s][At(effect.unit)]);
-        }
-        break;
-      case Effect::Kind::kJaw:
-        sum.jaw_degrees += effect.first * either;
-        sum.jaw_slide_mm += effect.second * either;
-        break;
-      case Effect::Kind::kSway:
-        sum.jaw_sway_mm += effect.first * (left - right);
-        break;
-      case Effect::Kind::kSeal:
-        sum.seal = std::max(sum.seal, effect.first * either);
-        break;
-      case Effect::Kind::kTongue:
-        sum.tongue_raise += effect.first * either;
-        sum.tongue_out_mm += effect.second * either;
-        break;
-    }
+  for (const auto& [unit, what] : effects_) {
+    const Sided<float> of{au.right[At(unit)], au.left[At(unit)]};
+    std::visit([&](const auto& effect) { AddEffect(effect, of, sum); }, what);
   }
   return sum;
 }
@@ -243,7 +264,6 @@ glm::vec3 UnitTable::FieldDisplacement(const Field& field, const SkinWeights& we
     const float d2 = dx * dx + dy * dy;
     if (d2 < 1) weight = std::max(weight, (1 - d2) * (1 - d2));
   }
-  using Lip = Field::Lip;
   if (field.lip == Lip::kUpper) weight *= weights.above_mouth;
   if (field.lip == Lip::kLower) weight *= 1 - weights.above_mouth;
   weight *= own_side * weights.free;
@@ -255,31 +275,15 @@ glm::vec3 UnitTable::FieldDisplacement(const Field& field, const SkinWeights& we
 
 float LeftShareAt(float x_mm) { return SmoothStep(-7, 7, x_mm); }
 
-Creases CreaseDepths(const Sided<UnitValues>& units,
-                     const std::array<float, kLastingCreases>& at_rest) {
-  /// How much depth a unit at full strength adds to a crease. The numbers are ours, judged by eye.
-  struct Share {
-    Crease crease;
-    ActionUnit unit;
-    float depth;
-  };
-  static constexpr Share kShares[] = {{Crease::kForehead, kInnerBrowRaiser, 0.6f},
-                                      {Crease::kForehead, kOuterBrowRaiser, 0.6f},
-                                      {Crease::kGlabella, kBrowLowerer, 0.7f},
-                                      {Crease::kGlabella, kNoseWrinkler, 0.3f},
-                                      {Crease::kNose, kNoseWrinkler, 0.9f},
-                                      {Crease::kNose, kLipCornerPuller, 0.15f},
-                                      {Crease::kCrowsFeet, kCheekRaiser, 0.6f},
-                                      {Crease::kCrowsFeet, kLipCornerPuller, 0.42f},
-                                      {Crease::kNasolabial, kUpperLipRaiser, 0.4f},
-                                      {Crease::kNasolabial, kNasolabialDeepener, 0.4f},
-                                      {Crease::kNasolabial, kNoseWrinkler, 0.4f},
-                                      {Crease::kNasolabial, kLipCornerPuller, 0.75f}};
+Creases UnitTable::CreaseDepths(const Sided<UnitValues>& au,
+                                const std::array<float, kLastingCreases>& at_rest) const {
   Creases creases{};
   for (const Side side : kSides) {
     for (std::size_t k = 0; k < kLastingCreases; ++k) creases[k][side] = at_rest[k];
-    for (const auto& [crease, unit, depth] : kShares) {
-      creases[static_cast<std::size_t>(crease)][side] += depth * units[side][unit];
+    for (const auto& [unit, what] : effects_) {
+      const auto* const effect = std::get_if<CreaseEffect>(&what);
+      for (std::size_t k = 0; effect && k < kCreases; ++k)
+        creases[k][side] += effect->depth[k] * au[side][At(unit)];
     }
     for (Sided<float>& depth : creases) depth[side] = std::clamp(depth[side], 0.0f, 1.0f);
   }

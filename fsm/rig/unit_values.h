@@ -15,11 +15,7 @@ inline constexpr std::size_t kActionUnits = 47;
 enum ActionUnit : std::size_t {
   kInnerBrowRaiser = 1,
   kOuterBrowRaiser = 2,
-  kBrowLowerer = 4,
   kCheekRaiser = 6,
-  kNoseWrinkler = 9,
-  kUpperLipRaiser = 10,
-  kNasolabialDeepener = 11,
   kLipCornerPuller = 12,
   kLipsPart = 25,
   kJawDrop = 26,
@@ -29,14 +25,17 @@ enum ActionUnit : std::size_t {
   kEyesClosed = 43
 };
 
+/// The greatest strength of a unit and of an expression, the original's 200 %.
+inline constexpr float kMaxStrength = 2;
+
 /// Strengths of the action units of one side by number: 0 = rest, 1 = full. The units of FACS
 /// always exist; a unit with a higher number exists once it has been written, and reads 0 before. A
 /// plain value; it allocates only for numbers above 46.
-/// Limits: kMost; writing beyond it throws std::out_of_range.
+/// Limits: kMax; writing beyond it throws std::out_of_range.
 /// Lifetime: references and iterators are valid until a higher number is written.
 class UnitValues {
  public:
-  static constexpr std::size_t kMost = 999;  ///< the highest number of a unit
+  static constexpr std::size_t kMax = 999;  ///< the highest number of a unit
 
   float operator[](std::size_t unit) const { return unit < size() ? begin()[unit] : 0; }
   float& operator[](std::size_t unit) {
@@ -64,7 +63,7 @@ class UnitValues {
 
  private:
   float& AtHigh(std::size_t unit) {
-    if (unit > kMost) throw std::out_of_range("the number of an action unit is above 999");
+    if (unit > kMax) throw std::out_of_range("the number of an action unit is above 999");
     if (more_.empty()) more_.assign(first_.begin(), first_.end());
     if (unit >= more_.size()) more_.resize(unit + 1);
     return more_[unit];

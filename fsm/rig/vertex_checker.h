@@ -6,7 +6,7 @@
 namespace fsm {
 
 /// Refuses data of a head whose sizes and indices do not fit its number of vertices: throws
-/// vm::Failure (kBadValue) naming the member, as "rig.lips.seam[3]: vertex 900 of 800".
+/// vm::Failure (kBadValue) naming the member, as "rig.mouth.seam[3]: vertex 900 of 800".
 class VertexChecker {
  public:
   explicit VertexChecker(std::size_t vertices) : vertices_(vertices) {}

@@ -14,9 +14,9 @@ namespace editor {
 namespace {
 
 /// A picture of a built-in head, drawn into a file.
-void DrawHead(const std::string& path, float turned_degrees) {
+void DrawHead(const std::string& face, const std::string& path, float turned_degrees) {
   constexpr int kSide = 500;
-  const auto head = fsm::MakeHead("pygmalion", false);
+  const auto head = fsm::MakeHead(face, false);
   fsm::HeadVertices vertices;
   head->Evaluate({}, vertices);
   const auto context = fsm::RenderContext::MakeHeadless(kSide, kSide);
@@ -29,19 +29,24 @@ void DrawHead(const std::string& path, float turned_degrees) {
   ASSERT_TRUE(fsm::WriteImage(image, path));
 }
 
-TEST(PhotoWorkTest, AFullProfileIsTakenAndTheFrontIsNot) {
+class PhotoWorkTest : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Faces, PhotoWorkTest, testing::Values("pygmalion", "memnon"),
+                         [](const auto& face) { return std::string(face.param); });
+
+TEST_P(PhotoWorkTest, AFullProfileIsTakenAndTheFrontIsNot) {
   const auto sight = LoadSight("", "");
   if (!sight) GTEST_SKIP() << sight.error().text;
   std::string folder = testing::TempDir() + "/work_XXXXXX";
   ASSERT_NE(mkdtemp(folder.data()), nullptr);
-  DrawHead(folder + "/front.png", 0);
+  DrawHead(GetParam(), folder + "/front.png", 0);
   const auto work = OpenPhoto(sight->get(), folder + "/front.png", 1);
   ASSERT_TRUE(work) << work.error().text;
   const auto open = [&](const std::string& name) {
     return OpenSidePhoto(**sight, **work, (*work)->found, folder + "/" + name);
   };
   for (const float turned : {-90.0F, 90.0F}) {
-    DrawHead(folder + "/side.png", turned);
+    DrawHead(GetParam(), folder + "/side.png", turned);
     const auto side = open("side.png");
     EXPECT_TRUE(side) << turned << ": " << side.error().text;
   }

@@ -21,7 +21,7 @@ TEST_F(PlayerTest, AnExpressionComesStandsAndGoes) {
   show.expression = "HAPPY";
   ASSERT_TRUE(player_.Start(show, false, 10s));
   EXPECT_EQ(player_.At(10s)->au.left[12], 0);
-  EXPECT_FLOAT_EQ(player_.At(11s)->au.left[12], 0.8F);
+  EXPECT_FLOAT_EQ(player_.At(11s)->au.left[12], 1.0F);
   EXPECT_FALSE(player_.At(20s)) << "it is over";
 }
 
@@ -29,7 +29,7 @@ TEST_F(PlayerTest, ALoopBeginsAgainAndCanBeAskedBackwards) {
   Show show;
   show.expression = "HAPPY";
   ASSERT_TRUE(player_.Start(show, true, 0s));
-  EXPECT_FLOAT_EQ(player_.At(1s)->au.left[12], 0.8F);
+  EXPECT_FLOAT_EQ(player_.At(1s)->au.left[12], 1.0F);
   EXPECT_EQ(player_.At(10ms)->au.left[12], 0);
   EXPECT_TRUE(player_.playing(100s));
   EXPECT_TRUE(player_.At(100s));

@@ -42,10 +42,11 @@ TEST(TableWriterTest, UnchangedTablesAreWrittenByteForByte) {
   ASSERT_TRUE(tables);
   EXPECT_EQ(WriteExpressions(Carried("emotions.txt"), tables->expressions, tables->unit_names),
             Carried("emotions.txt"));
-  EXPECT_EQ(WriteVisemes(Carried("mouth_shapes.txt"), tables->set14.visemes),
+  EXPECT_EQ(WriteVisemes(Carried("mouth_shapes.txt"), tables->set(fsm::VisemeSetId::k14).visemes),
             Carried("mouth_shapes.txt"));
-  EXPECT_EQ(WriteVisemes(Carried("mouth_shapes_28.txt"), tables->set28.visemes),
-            Carried("mouth_shapes_28.txt"));
+  EXPECT_EQ(
+      WriteVisemes(Carried("mouth_shapes_28.txt"), tables->set(fsm::VisemeSetId::k28).visemes),
+      Carried("mouth_shapes_28.txt"));
   const auto& head = tables->motions.head;
   EXPECT_EQ(WriteCurves(Carried("motions.txt"), HeadCurves(head.begin(), head.end())),
             Carried("motions.txt"));
@@ -86,7 +87,7 @@ TEST(TableWriterTest, ChangedExpressionsAreReadAgainAndTheRestStays) {
 
 TEST(TableWriterTest, AChangedMouthShapeIsOneLine) {
   auto tables = fsm::MotionTables::Load();
-  auto& shapes = tables->set14.visemes;
+  auto& shapes = tables->set(fsm::VisemeSetId::k14).visemes;
   shapes[9].pose.mouth[fsm::kJawY] = 12.5F;
   shapes[9].hold = 0.2;
   const std::string before = Carried("mouth_shapes.txt");

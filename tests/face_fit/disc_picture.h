@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/raster.h"
 #include "fsm/image/image.h"
 
 namespace facefit {

@@ -21,4 +21,9 @@ fsm::Image GreyPicture(int side, F brightness) {
   return image;
 }
 
+/// A photo that shows nothing, for faces of which only points matter.
+inline fsm::Image EvenGreyPicture(int side) {
+  return GreyPicture(side, [](glm::vec2) { return 128; });
+}
+
 }  // namespace facefit

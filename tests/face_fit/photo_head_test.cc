@@ -113,12 +113,12 @@ TEST(PhotoHeadTest, EachEyeSitsAndOpensAsTheFaceSays) {
     HeadVertices vertices;
     head.Evaluate({}, vertices);
     float lowest = 1e9F;
-    const EyeGeometry& eye = head.topology().eyes[side > 0 ? Side::kLeft : Side::kRight];
-    for (const auto& part : head.topology().parts) {
+    const glm::vec3 eye = head.EyeCentre(side > 0 ? Side::kLeft : Side::kRight);
+    for (const auto& part : head.surface().parts) {
       if (part.material != Material::kSkin) continue;
       for (std::uint32_t k = 0; k < part.index_count; ++k) {
-        const glm::vec3 p = vertices.position[head.topology().indices[part.first_index + k]];
-        const glm::vec3 d = p - eye.centre;
+        const glm::vec3 p = vertices.position[head.surface().indices[part.first_index + k]];
+        const glm::vec3 d = p - eye;
         if (std::abs(d.x) < 3 && d.y > -1 && d.z > 9) lowest = std::min(lowest, p.y);
       }
     }
@@ -134,7 +134,7 @@ TEST(PhotoHeadTest, LidsGiveUpThePhotoAsTheyShut) {
   for (auto& point : set.points) point.by = glm::vec3(0);
   set.photo = std::make_shared<Image>(Image{1, 1, {200, 150, 100, 255}});
   const auto head = MakeHead(set);
-  const auto& lids = head->topology().portrait.shut_lids;
+  const auto& lids = head->surface().portrait.shut_lids;
   EXPECT_GT(std::ranges::count_if(lids, [](const ShutLid& lid) { return lid.weight > 0.7F; }), 40);
   EXPECT_EQ(std::ranges::count_if(lids, [](const ShutLid& lid) { return lid.weight > 1; }), 0);
   FaceState state;
@@ -181,8 +181,8 @@ std::pair<float, float> UpperTeethOf(const fsm::PhotoHead& set) {
   const auto head = fsm::MakeHead(set);
   fsm::HeadVertices rest;
   head->Evaluate({}, rest);
-  const auto& topology = head->topology();
-  const glm::vec3 incisor = rest.position[topology.mouth.upper_incisor];
+  const auto& topology = head->surface();
+  const glm::vec3 incisor = rest.position[head->mouth().incisors->upper];
   glm::vec2 z(0), count(0);
   for (const auto& part : topology.parts) {
     if (part.material != fsm::Material::kTeeth) continue;
@@ -249,7 +249,7 @@ TEST(PhotoHeadTest, TheSkinBehindGlassesStaysWhenBrowsAndCheeksMove) {
       state.au.left[unit] = state.au.right[unit] = 1;
     }
     head->Evaluate(state, frown);
-    const glm::vec3 eye = head->topology().eyes.left.centre;
+    const glm::vec3 eye = head->EyeCentre(Side::kLeft);
     float nearest = 1e9F, way = 0;
     for (std::size_t i = 0; i < rest.position.size(); ++i) {
       const glm::vec3 off = rest.position[i] - eye;

@@ -13,25 +13,28 @@ namespace {
 
 struct ReportTest : testing::Test {
   ReportTest() {
-    front.face.emplace();
-    front.face->points.assign(kNetworkPoints, glm::vec3(100, 100, 0));
-    front.face->points[33].x = 50;
-    front.face->points[263].x = 150;
-    front.face->crop = {glm::vec2(100), 150, 0};
+    face.found.points.assign(kNetworkPoints, glm::vec3(100, 100, 0));
+    face.found.points[33].x = 50;
+    face.found.points[263].x = 150;
+    face.found.crop = {glm::vec2(100), 150, 0};
+    Cover(0.5F, 0);
     front.photo.rgba.assign(200 * 200 * 4, 128);
     fit.head.base = &base;
     fit.head.posed_vertices = base.rest().position;
     fit.irises.circles = {{{80, 100}, 6, 0.3F}, {{120, 100}, 6, 0.3F}};
   }
   bool Says(const std::string& what) const {
-    return Report(front, fit, bake).find(what) != std::string::npos;
+    return Report(front, face, fit, bake).find(what) != std::string::npos;
+  }
+
+  void Cover(float nose_excess, float doubt) {
+    face.occlusion = Occlusion::Of(nose_excess, "the nose", doubt);
   }
 
   const ObservedHead base = ObservedHead::Exact(fsm::MakeHead("galatea"), "galatea",
                                                 std::vector<MeshPoint>(kNetworkPoints));
-  FrontPhoto front{.photo = {.width = 200, .height = 200, .rgba = {}},
-                   .occlusion = {0.5F, "the nose"},
-                   .faces = 1};
+  FrontPhoto front{.photo = {.width = 200, .height = 200, .rgba = {}}, .face_count = 1};
+  FrontFace face;
   Fit fit;
   TextureBake bake;
 };
@@ -55,10 +58,20 @@ TEST_F(ReportTest, EyesThatAreShutOrInTheShadeAreSpokenOf) {
 
 TEST_F(ReportTest, WhatMayBeBeforeAFaceIsToldApartFromWhatSurelyIs) {
   EXPECT_FALSE(Says("before the face at"));
-  front.occlusion.measure = 1.2F;
+  Cover(1.2F, 0);
   EXPECT_TRUE(Says("may be before the face at the nose"));
   EXPECT_FALSE(Says("covered by"));
-  front.occlusion.measure = 1.6F;
+  Cover(1.6F, 0);
+  EXPECT_TRUE(Says("covered by something that is no face: the nose"));
+}
+
+TEST_F(ReportTest, WhereAFaceIsCoveredIsNotSaidIfOnlyTheNetworksDoubtTells) {
+  Cover(0.5F, 1.2F);
+  EXPECT_TRUE(Says("something may be before the face;"));
+  EXPECT_FALSE(Says("the nose"));
+  Cover(0.5F, 1.6F);
+  EXPECT_TRUE(Says("covered by something that is no face;"));
+  Cover(1.1F, 1.6F);
   EXPECT_TRUE(Says("covered by something that is no face: the nose"));
 }
 

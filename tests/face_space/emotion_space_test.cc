@@ -154,9 +154,9 @@ TEST(EmotionSpaceTest, TheFaceGoesToAPointOfTheSpace) {
   };
   EXPECT_EQ(smile(0s), 0);
   EXPECT_GT(smile(220ms), 0.2F);
-  EXPECT_NEAR(smile(500ms), 0.8F, 0.12F) << "as HAPPY has it";
+  EXPECT_NEAR(smile(500ms), 1.0F, 0.12F) << "as HAPPY has it";
   motion.expression.ShowSpacePoint(1s, {0.5F, 0, 0}, std::nullopt);
-  EXPECT_NEAR(smile(3s), 0.4F, 0.07F);
+  EXPECT_NEAR(smile(3s), 0.5F, 0.07F);
   motion.expression.ShowSpacePoint(3s, {0, 0, 0}, 100ms);
   EXPECT_EQ(smile(4s), 0);
 }

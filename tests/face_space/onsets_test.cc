@@ -69,7 +69,7 @@ void ExpectOnset(const Onset& found, const Shown& shown, double lag_ms, double l
 
 TEST(OnsetsTest, AHighSpeedFilmTellsOnsetAndLagsOfEachExpression) {
   const std::vector<Shown> shown{{1000, 556, {0, 9.2, 18.5}}, {4000, 228, {6, 0, 5.6}}};
-  const auto onsets = FindOnsets(Film(shown, 250), ShippedTables().units);
+  const auto onsets = FindOnsets(Film(shown, 250), ShippedTables().unit_list.regions);
   ASSERT_EQ(onsets.size(), 2u);
   ExpectOnset(onsets[0], shown[0], 0.2, 1);
   ExpectOnset(onsets[1], shown[1], 0.2, 1);
@@ -78,14 +78,14 @@ TEST(OnsetsTest, AHighSpeedFilmTellsOnsetAndLagsOfEachExpression) {
 
 TEST(OnsetsTest, NoiseBlursLagsByAFewMilliseconds) {
   const Shown shown{1000, 556, {0, 40, 80}};
-  const auto onsets = FindOnsets(Film({shown}, 250, 0.01), ShippedTables().units);
+  const auto onsets = FindOnsets(Film({shown}, 250, 0.01), ShippedTables().unit_list.regions);
   ASSERT_EQ(onsets.size(), 1u);
   ExpectOnset(onsets[0], shown, 5, 12);
 }
 
 TEST(OnsetsTest, AnOrdinaryFilmTellsLagsFinerThanItsFrames) {
   const Shown shown{1013, 556, {0, 30, 60}};
-  const auto onsets = FindOnsets(Film({shown}, 25), ShippedTables().units);
+  const auto onsets = FindOnsets(Film({shown}, 25), ShippedTables().unit_list.regions);
   ASSERT_EQ(onsets.size(), 1u);
   ExpectOnset(onsets[0], shown, 3, 10);
 }
@@ -93,24 +93,25 @@ TEST(OnsetsTest, AnOrdinaryFilmTellsLagsFinerThanItsFrames) {
 TEST(OnsetsTest, APartThatDoesNotMoveHasNoLag) {
   UnitTrack track = Film({{1000, 500, {0, 0, 0}}}, 100);
   for (fsm::FaceLook& look : track.looks) look.au.left[1] = look.au.right[1] = 0;
-  const auto onsets = FindOnsets(track, ShippedTables().units);
+  const auto onsets = FindOnsets(track, ShippedTables().unit_list.regions);
   ASSERT_EQ(onsets.size(), 1u);
   EXPECT_FALSE(onsets[0].lag_ms[static_cast<std::size_t>(fsm::Region::kBrow)]);
   EXPECT_TRUE(onsets[0].lag_ms[static_cast<std::size_t>(fsm::Region::kMouth)]);
 }
 
 TEST(OnsetsTest, AFaceAtRestHasNoOnsets) {
-  EXPECT_TRUE(FindOnsets(Film({{1e9, 500, {}}}, 0.00001), ShippedTables().units).empty());
+  EXPECT_TRUE(
+      FindOnsets(Film({{1e9, 500, {}}}, 0.00001), ShippedTables().unit_list.regions).empty());
   UnitTrack still = Film({{1000, 500, {}}}, 100);
   for (fsm::FaceLook& look : still.looks) look = {};
-  EXPECT_TRUE(FindOnsets(still, ShippedTables().units).empty());
+  EXPECT_TRUE(FindOnsets(still, ShippedTables().unit_list.regions).empty());
 }
 
 TEST(OnsetsTest, ALastExpressionThatStaysCounts) {
   UnitTrack track = Film({{1000, 500, {0, 10, 20}}}, 100);
   track.ms.resize(180);  // the film ends while it is held
   track.looks.resize(180);
-  EXPECT_EQ(FindOnsets(track, ShippedTables().units).size(), 1u);
+  EXPECT_EQ(FindOnsets(track, ShippedTables().unit_list.regions).size(), 1u);
 }
 
 TEST(OnsetsTest, TheMedianLeavesOneOddExpressionOut) {

@@ -15,7 +15,7 @@ namespace {
 
 TEST(SeenFaceTest, AnglesComeBackFromTurns) {
   const fsm::Angles told{12, -25, 7};
-  const fsm::Angles back = HeadRotationOf(TurnOf(told));
+  const fsm::Angles back = fsm::HeadRotationOf(TurnOf(told));
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back[k], told[k], 1e-3);
 }
 

@@ -17,7 +17,7 @@ TEST(MirrorTest, AFilmBeforeTheCameraMovesTheAgentAsAMirrorWould) {
   const std::string film = folder / "film.mp4";
   support::Process fsm({GALATEA_BIN_DIR "/fsm", "--headless", "--clock", "virtual", "--size",
                         "320x320", "--mask", "baucis"});
-  fsm.Write("set Record.fps = 10\nset Record = " + film +
+  fsm.Write("set Camera = 1 0 25\nset Record.fps = 10\nset Record = " + film +
             "\nset Wait = 600\nset HeadRotAbs.1 = 0 20 0\nset Wait = 1500\nset Record = STOP\n");
   fsm.CloseInput();
   fsm.ReadAll(support::Millis{60000});

@@ -45,7 +45,7 @@ class FilmDubTest : public testing::Test {
     folder_ = std::make_unique<support::TempDir>();
     support::Process fsm({GALATEA_BIN_DIR "/fsm", "--headless", "--clock", "virtual", "--size",
                           "320x320", "--mask", "pygmalion"});
-    fsm.Write("set Record.fps = 25\nset Record = " + Path("silent.mp4") +
+    fsm.Write("set Camera = 1 0 25\nset Record.fps = 25\nset Record = " + Path("silent.mp4") +
               "\nset Wait = 1200\nset HeadRotAbs.1 = 0 12 0\nset Wait = 800\n"
               "set Record = STOP\n");
     fsm.CloseInput();

@@ -56,7 +56,7 @@ TEST_F(ActionsTest, ExpressionsAreDefinedShownAskedAndDeleted) {
 
 TEST_F(ActionsTest, PrototypesAreSlotsWhichCanBeEditedSavedAndBroughtBack) {
   EXPECT_EQ(fsm.Say("inq FaceExp.HAPPY.1"),
-            "rep FaceExp.HAPPY.1 = 6:1.25 7:0.2 10:0.2 12:0.8 25:0.9 26:0.15");
+            "rep FaceExp.HAPPY.1 = 6:1.2 7:0.1 10:0.1 12:1 25:1.15 26:0.3");
   fsm.Say("save mine = FaceExp.HAPPY.1");
   EXPECT_EQ(fsm.Say("set#1 FaceExp.HAPPY.1 = 12 1 6 D"), "rep#1 FaceExp.HAPPY.1 = 12 1 6 D");
   fsm.Say("set FaceExp = HAPPY 1 100 0");
@@ -65,11 +65,11 @@ TEST_F(ActionsTest, PrototypesAreSlotsWhichCanBeEditedSavedAndBroughtBack) {
   fsm.Say("rest mine");
   fsm.Say("set FaceExp = HAPPY 1 200 0");
   fsm.Until(2000);
-  EXPECT_FLOAT_EQ(fsm.Now().au.left[12], 1.6f);
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[12], 2.0f);
   fsm.Say("set FaceExp.HAPPY.1 = 12 0.1");
   fsm.Say("set Run = INIT");
   EXPECT_EQ(fsm.Say("inq FaceExp.HAPPY.1"),
-            "rep FaceExp.HAPPY.1 = 6:1.25 7:0.2 10:0.2 12:0.8 25:0.9 26:0.15");
+            "rep FaceExp.HAPPY.1 = 6:1.2 7:0.1 10:0.1 12:1 25:1.15 26:0.3");
 }
 
 TEST_F(ActionsTest, BadInputIsRefusedWithOneClearErrorAndTheFaceGoesOn) {
@@ -128,7 +128,7 @@ TEST(StartTest, AMaskAndALifeCanBeGivenAtTheStart) {
   FsmStage fsm(options);
   EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"pygmalion\"");
   EXPECT_EQ(fsm.Say("inq Life"), "rep Life = CALM");
-  EXPECT_TRUE(fsm.module.motion().NextActivity(FromMs(5000)).has_value());
+  EXPECT_TRUE(fsm.module.motion().NextMotion(FromMs(5000)).has_value());
   options.mask = "nobody";
   EXPECT_THROW(FsmStage{options}, std::runtime_error);
 }

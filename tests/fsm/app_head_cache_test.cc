@@ -138,14 +138,14 @@ TEST_F(HeadCacheTest, OnlyTheLastHeadsAreKept) {
     std::ofstream(own + ".glb") << "mine";
     std::filesystem::last_write_time(own + ".txt", std::filesystem::file_time_type::min());
   }
-  for (std::size_t i = 0; i < HeadCache::kMostHeads + 3; ++i) {
+  for (std::size_t i = 0; i < HeadCache::kMaxHeads + 3; ++i) {
     WriteHead("a.obj", static_cast<int>(1000 + i));
     std::filesystem::last_write_time(folder_ / "heads/a.obj",
                                      std::filesystem::file_time_type(std::chrono::seconds(i)));
     Make();
   }
-  EXPECT_EQ(Kept(".glb"), HeadCache::kMostHeads + 40);
-  EXPECT_EQ(Kept(".txt"), HeadCache::kMostHeads + 40);
+  EXPECT_EQ(Kept(".glb"), HeadCache::kMaxHeads + 40);
+  EXPECT_EQ(Kept(".txt"), HeadCache::kMaxHeads + 40);
 }
 
 TEST_F(HeadCacheTest, HalvesOfHeadsThatWereLeftAreDropped) {
@@ -156,7 +156,7 @@ TEST_F(HeadCacheTest, HalvesOfHeadsThatWereLeftAreDropped) {
   }
   WriteHead("b.obj", 2);
   Make("b.obj");
-  EXPECT_LE(Kept(".glb"), HeadCache::kMostHeads);
+  EXPECT_LE(Kept(".glb"), HeadCache::kMaxHeads);
 }
 
 TEST_F(HeadCacheTest, WhereNothingCanBeKeptTheHeadIsThereAllTheSame) {

@@ -274,7 +274,7 @@ TEST(InitTest, WhatTheCommandLineAndTheConfigurationSayHoldsAgain) {
   EXPECT_EQ(Difference(used, fresh), "");
   EXPECT_EQ(used.Say("inq Life"), "rep Life = CALM");
   EXPECT_EQ(used.world.face, "pygmalion");
-  EXPECT_TRUE(used.module.motion().NextActivity(FromMs(5000)).has_value()) << "it lives";
+  EXPECT_TRUE(used.module.motion().NextMotion(FromMs(5000)).has_value()) << "it lives";
 }
 
 TEST(InitTest, AConfiguredBackgroundThatIsGoneLeavesThePlainOne) {

@@ -132,7 +132,7 @@ TEST(FsmModuleTest, ASavedImageShowsTheSettledExpressionWhateverComesNext) {
   EXPECT_EQ(fsm.Say("set#5 SaveImage = happy.png"), "rep#5 SaveImage = happy.png");
   fsm.Say("set FaceExp = SAD 1 100 0");
   fsm.Say("set SaveImage = sad.png");
-  EXPECT_FLOAT_EQ(fsm.world.pictures["happy.png"].au.left[12], 0.8f);
+  EXPECT_FLOAT_EQ(fsm.world.pictures["happy.png"].au.left[12], 1.0f);
   EXPECT_FLOAT_EQ(fsm.world.pictures["sad.png"].au.left[12], 0);
   EXPECT_FLOAT_EQ(fsm.world.pictures["sad.png"].au.left[15], 0.7f);
 }
@@ -392,9 +392,9 @@ TEST(FsmModuleTest, TheOriginalsConfigurationIsTaken) {
   fsm.Say("set Autonomous = ASYMMETRY 0");
   fsm.Say("set FaceExp = HAPPY 1 100 0");
   fsm.Until(498);
-  EXPECT_LT(fsm.Now().au.left[12], 0.8f);
+  EXPECT_LT(fsm.Now().au.left[12], 1.0f);
   fsm.Until(499);
-  EXPECT_FLOAT_EQ(fsm.Now().au.left[12], 0.8f);
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[12], 1.0f);
 
   std::ofstream(folder / "bad.txt") << "EXPRESSION_DURATION soon\n";
   const auto bad = OriginalConfig::Read((folder / "bad.txt").string());

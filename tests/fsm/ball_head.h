@@ -37,7 +37,7 @@ class BallHead : public fsm::Head {
 
     void Ellipsoid(fsm::Material material, glm::vec3 centre, glm::vec3 radius, glm::vec3 albedo) {
       const auto base = static_cast<std::uint32_t>(position.size());
-      const auto first = static_cast<std::uint32_t>(asset.topology.indices.size());
+      const auto first = static_cast<std::uint32_t>(asset.surface.indices.size());
       constexpr float kPi = std::numbers::pi_v<float>;
       for (std::uint32_t row = 0; row <= kRows; ++row) {
         const float up = kPi * (0.5F - static_cast<float>(row) / kRows);
@@ -47,19 +47,19 @@ class BallHead : public fsm::Head {
                                std::cos(up) * std::cos(around)};
           position.push_back(centre + radius * unit);
           normal.push_back(glm::normalize(unit / radius));
-          asset.topology.albedo.push_back(albedo);
-          asset.topology.openness.push_back(1);
+          asset.surface.albedo.push_back(albedo);
+          asset.surface.openness.push_back(1);
         }
       }
       for (std::uint32_t row = 0; row < kRows; ++row) {
         for (std::uint32_t column = 0; column < kColumns; ++column) {
           const std::uint32_t a = base + row * (kColumns + 1) + column;
           const std::uint32_t b = a + kColumns + 1;
-          for (const auto i : {a, b, b + 1, a, b + 1, a + 1}) asset.topology.indices.push_back(i);
+          for (const auto i : {a, b, b + 1, a, b + 1, a + 1}) asset.surface.indices.push_back(i);
         }
       }
-      asset.topology.parts.push_back(
-          {material, first, static_cast<std::uint32_t>(asset.topology.indices.size()) - first});
+      asset.surface.parts.push_back(
+          {material, first, static_cast<std::uint32_t>(asset.surface.indices.size()) - first});
     }
 
     fsm::HeadAsset asset;

@@ -12,9 +12,9 @@ constexpr float kCorneaForward = 4.99F;  // of its centre from the ball's
 constexpr float kCorneaRadius = 8;
 
 std::vector<std::uint32_t> TrianglesOf(Material material) {
-  const HeadTopology& topology = GenericHead().topology();
+  const HeadSurface& topology = GenericHead().surface();
   std::vector<std::uint32_t> found;
-  for (const HeadTopology::Part& part : topology.parts) {
+  for (const HeadSurface::Part& part : topology.parts) {
     if (part.material != material) continue;
     const auto first = topology.indices.begin() + part.first_index;
     found.insert(found.end(), first, first + part.index_count);
@@ -35,7 +35,7 @@ glm::vec3 CorneaCentre(const FaceState& state, Side side) {
   const float right = state.gaze[side][kToRight] * kRadians;
   const glm::vec3 gaze(std::cos(up) * std::sin(right), std::sin(up),
                        std::cos(up) * std::cos(right));
-  return GenericHead().topology().eyes[side].centre + kCorneaForward * gaze;
+  return GenericHead().EyeCentre(side) + kCorneaForward * gaze;
 }
 
 /// Pairs of vertices that are one place in `together` and the first above the second in `apart`.
@@ -73,17 +73,18 @@ ContactProbe::ContactProbe()
   const std::vector<std::uint32_t> skin = VerticesOf(Material::kSkin);
   const std::vector<std::uint32_t> triangles = TrianglesOf(Material::kSkin);
   for (const Side side : kSides) {
-    const EyeGeometry& eye = GenericHead().topology().eyes[side];
+    const float radius = GenericHead().surface().eyes[side].ball_radius;
+    const glm::vec3 centre = GenericHead().EyeCentre(side);
     for (const auto i : skin) {
-      const glm::vec3 d = rest.position[i] - eye.centre;
+      const glm::vec3 d = rest.position[i] - centre;
       const float distance = glm::length(d);
-      if (d.z > 5 && distance < eye.ball_radius + 5 && distance > eye.ball_radius + 0.05F) {
+      if (d.z > 5 && distance < radius + 5 && distance > radius + 0.05F) {
         lids_[side].push_back(i);
       }
     }
     rims_[side] = Meeting(lids_[side], shut, rest, 0.1F, 2.0F);
     for (std::size_t k = 0; k < triangles.size(); k += 3) {
-      if (glm::length(rest.position[triangles[k]] - eye.centre) > 24) continue;
+      if (glm::length(rest.position[triangles[k]] - centre) > 24) continue;
       lid_triangles_[side].insert(lid_triangles_[side].end(), &triangles[k], &triangles[k] + 3);
     }
   }
@@ -174,12 +175,12 @@ Contacts ContactProbe::Measure(const FaceState& state, const HeadVertices& v) co
     for (const auto& [a, b] : rims_[side]) {
       out.lids = std::max(out.lids, v.position[b].y - v.position[a].y);
     }
-    const EyeGeometry& eye = GenericHead().topology().eyes[side];
+    const float radius = GenericHead().surface().eyes[side].ball_radius;
+    const glm::vec3 centre = GenericHead().EyeCentre(side);
     const glm::vec3 cornea = CorneaCentre(state, side);
     for (const auto i : lids_[side]) {
-      out.ball_in_lids =
-          std::max({out.ball_in_lids, eye.ball_radius - glm::length(v.position[i] - eye.centre),
-                    kCorneaRadius - glm::length(v.position[i] - cornea)});
+      out.ball_in_lids = std::max({out.ball_in_lids, radius - glm::length(v.position[i] - centre),
+                                   kCorneaRadius - glm::length(v.position[i] - cornea)});
     }
   }
   out.teeth_in_lips = TeethInLips(v);
@@ -198,18 +199,19 @@ Contacts ContactProbe::Measure(const FaceState& state, const HeadVertices& v) co
 float ContactProbe::Uncovered(const FaceState& state, const HeadVertices& v) const {
   float worst = 0;
   for (const Side side : kSides) {
-    const EyeGeometry& eye = GenericHead().topology().eyes[side];
+    const float radius = GenericHead().surface().eyes[side].ball_radius;
+    const glm::vec3 centre = GenericHead().EyeCentre(side);
     const glm::vec3 cornea = CorneaCentre(state, side);
-    const auto front_of = [](const glm::vec3& centre, float radius, float x, float y) {
-      const float dx = x - centre.x, dy = y - centre.y;
-      const float left = radius * radius - dx * dx - dy * dy;
-      return left > 0 ? centre.z + std::sqrt(left) : -1e9F;
+    const auto front_of = [](const glm::vec3& middle, float size, float x, float y) {
+      const float dx = x - middle.x, dy = y - middle.y;
+      const float left = size * size - dx * dx - dy * dy;
+      return left > 0 ? middle.z + std::sqrt(left) : -1e9F;
     };
     const auto& triangles = lid_triangles_[side];
-    for (float x = eye.centre.x - 10; x <= eye.centre.x + 10; x += 1.25F) {
-      for (float y = eye.centre.y - 6; y <= eye.centre.y + 6; y += 1.25F) {
-        const float ball = std::max(front_of(eye.centre, eye.ball_radius, x, y),
-                                    front_of(cornea, kCorneaRadius, x, y));
+    for (float x = centre.x - 10; x <= centre.x + 10; x += 1.25F) {
+      for (float y = centre.y - 6; y <= centre.y + 6; y += 1.25F) {
+        const float ball =
+            std::max(front_of(centre, radius, x, y), front_of(cornea, kCorneaRadius, x, y));
         float skin = -1e9F;
         for (std::size_t k = 0; k < triangles.size(); k += 3) {
           const glm::vec3 &a = v.position[triangles[k]], &b = v.position[triangles[k + 1]],

@@ -29,13 +29,13 @@ float LipCrossing(const HeadVertices& v,
 
 /// Front faces of the teeth as heights z over a grid of x and y; how far lip vertices lie behind.
 float TeethThroughLips(const HeadVertices& v) {
-  const HeadTopology& topology = GenericHead().topology();
+  const HeadSurface& topology = GenericHead().surface();
   std::map<std::pair<int, int>, float> front;  // 1 mm cells
   const auto cell = [](glm::vec3 p) {
     return std::pair{static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y))};
   };
   std::vector<std::uint32_t> lips;
-  for (const HeadTopology::Part& part : topology.parts) {
+  for (const HeadSurface::Part& part : topology.parts) {
     const std::uint32_t* first = &topology.indices[part.first_index];
     if (part.material == Material::kLip) lips.insert(lips.end(), first, first + part.index_count);
     if (part.material != Material::kTeeth) continue;
@@ -84,12 +84,12 @@ TEST(HeadContactTest, EveryIdentityClosesItsEyes) {
     blink.blink.left = blink.blink.right = 1;
     HeadVertices v;
     head->Evaluate(blink, v);
-    const HeadTopology& topology = head->topology();
-    const glm::vec3 pupil = topology.eyes.left.centre + glm::vec3(0, 0, 13.2f);
+    const HeadSurface& topology = head->surface();
+    const glm::vec3 pupil = head->EyeCentre(Side::kLeft) + glm::vec3(0, 0, 13.2f);
     for (const glm::vec2 off : {glm::vec2(0, 0), {6, 0}, {-6, 1}, {0, 4}, {0, -4}, {3, 3}}) {
       const glm::vec2 p(pupil.x + off.x, pupil.y + off.y);
       bool covered = false;
-      for (const HeadTopology::Part& part : topology.parts) {
+      for (const HeadSurface::Part& part : topology.parts) {
         if (part.material != Material::kSkin) continue;
         for (std::uint32_t k = 0; k < part.index_count && !covered; k += 3) {
           const std::uint32_t* i = &topology.indices[part.first_index + k];
@@ -128,17 +128,17 @@ TEST(HeadContactTest, TeethStayBehindTheLips) {
 TEST(HeadContactTest, LidsStayOutsideTheEyeball) {
   // Lid vertices are those of the skin within 5 mm of the ball's front at rest. Neither ball nor
   // cornea comes more than 0.3 mm through them, wherever the eye looks and however far they close.
-  const HeadTopology& topology = GenericHead().topology();
+  const HeadSurface& topology = GenericHead().surface();
   const HeadVertices rest = Vertices({});
-  const EyeGeometry eye = topology.eyes.left;
+  const float radius = topology.eyes.left.ball_radius;
+  const glm::vec3 centre = GenericHead().EyeCentre(Side::kLeft);
   std::vector<std::uint32_t> lids;
-  for (const HeadTopology::Part& part : topology.parts) {
+  for (const HeadSurface::Part& part : topology.parts) {
     if (part.material != Material::kSkin) continue;
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
       const std::uint32_t i = topology.indices[part.first_index + k];
-      const glm::vec3 d = rest.position[i] - eye.centre;
-      if (d.z > 5 && glm::length(d) < eye.ball_radius + 5 &&
-          glm::length(d) > eye.ball_radius + 0.05f) {
+      const glm::vec3 d = rest.position[i] - centre;
+      if (d.z > 5 && glm::length(d) < radius + 5 && glm::length(d) > radius + 0.05f) {
         lids.push_back(i);
       }
     }
@@ -156,9 +156,9 @@ TEST(HeadContactTest, LidsStayOutsideTheEyeball) {
     const float right = state.gaze.left[kToRight] * 0.0174533f;
     const glm::vec3 gaze(std::cos(up) * std::sin(right), std::sin(up),
                          std::cos(up) * std::cos(right));
-    const glm::vec3 cornea = eye.centre + 4.99f * gaze;
+    const glm::vec3 cornea = centre + 4.99f * gaze;
     for (const std::uint32_t i : lids) {
-      ASSERT_GE(glm::length(v.position[i] - eye.centre), eye.ball_radius - 0.3f) << "state " << n;
+      ASSERT_GE(glm::length(v.position[i] - centre), radius - 0.3f) << "state " << n;
       ASSERT_GE(glm::length(v.position[i] - cornea), 8 - 0.3f) << "state " << n;
     }
   }
@@ -169,14 +169,14 @@ TEST(HeadContactTest, NoTriangleOfTheFaceTurnsOver) {
   // the ball, the inside of the mouth may not be seen.
   for (const char* name : {"galatea", "pygmalion"}) {
     const auto head = MakeHead(name, false);
-    const HeadTopology& topology = head->topology();
+    const HeadSurface& topology = head->surface();
     HeadVertices rest, v;
     head->Evaluate({}, rest);
     for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
       head->Evaluate(WithUnit(unit, 1), v);
       int turned = 0;
       glm::vec3 at(0);
-      for (const HeadTopology::Part& part : topology.parts) {
+      for (const HeadSurface::Part& part : topology.parts) {
         if (part.material != Material::kSkin) continue;
         for (std::uint32_t k = 0; k < part.index_count; k += 3) {
           const std::uint32_t* i = &topology.indices[part.first_index + k];

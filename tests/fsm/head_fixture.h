@@ -32,11 +32,11 @@ inline FaceState WithUnit(std::size_t unit, float strength) {
 
 /// The vertex of the skin or lips at the front of the face nearest to (x, y) at rest.
 inline std::size_t SkinAt(float x, float y) {
-  const HeadTopology& topology = GenericHead().topology();
+  const HeadSurface& topology = GenericHead().surface();
   static const HeadVertices rest = Vertices({});
   std::size_t best = 0;
   float least = std::numeric_limits<float>::max();
-  for (const HeadTopology::Part& part : topology.parts) {
+  for (const HeadSurface::Part& part : topology.parts) {
     if (part.material != Material::kSkin && part.material != Material::kLip) continue;
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
       const std::size_t i = topology.indices[part.first_index + k];
@@ -61,13 +61,13 @@ inline glm::vec3 MotionAt(float x, float y, const FaceState& state) {
 
 /// Pairs of lip vertices that share a place at rest: above and below the seam.
 inline std::vector<std::pair<std::size_t, std::size_t>> SeamPairs() {
-  const HeadTopology& topology = GenericHead().topology();
+  const HeadSurface& topology = GenericHead().surface();
   const HeadVertices rest = Vertices({});
   FaceState open;
   open.mouth[kJawY] = 12;
   const HeadVertices opened = Vertices(open);
   std::vector<std::size_t> lips;
-  for (const HeadTopology::Part& part : topology.parts) {
+  for (const HeadSurface::Part& part : topology.parts) {
     if (part.material != Material::kLip) continue;
     lips.insert(lips.end(), &topology.indices[part.first_index],
                 &topology.indices[part.first_index] + part.index_count);

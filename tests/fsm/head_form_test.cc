@@ -88,9 +88,9 @@ TEST(HeadFormTest, UnknownNamesAreRefused) {
   }
 }
 
-std::vector<std::uint32_t> Members(const HeadTopology& topology, bool hair) {
+std::vector<std::uint32_t> Members(const HeadSurface& topology, bool hair) {
   std::vector<std::uint32_t> found;
-  for (const HeadTopology::Part& part : topology.parts) {
+  for (const HeadSurface::Part& part : topology.parts) {
     if ((part.material == Material::kHair) != hair) continue;
     found.insert(found.end(), &topology.indices[part.first_index],
                  &topology.indices[part.first_index] + part.index_count);
@@ -107,7 +107,7 @@ TEST(HeadFormTest, IsMirroredToATenthOfAMicrometreBeforeAsymmetry) {
   const auto key = [](glm::vec3 p) {
     return std::array{std::lround(p.x * 10), std::lround(p.y * 10), std::lround(p.z * 10)};
   };
-  const auto members = Members(GenericHead().topology(), false);
+  const auto members = Members(GenericHead().surface(), false);
   for (const std::uint32_t i : members) cells[key(rest.position[i])].push_back(rest.position[i]);
   int lonely = 0;
   for (const std::uint32_t i : members) {
@@ -130,10 +130,10 @@ TEST(HeadFormTest, IsMirroredToATenthOfAMicrometreBeforeAsymmetry) {
 }
 
 TEST(HeadFormTest, SkinHasNoOpenEdgeButAtTheNeck) {
-  const HeadTopology& topology = GenericHead().topology();
+  const HeadSurface& topology = GenericHead().surface();
   const HeadVertices rest = Vertices({});
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-  for (const HeadTopology::Part& part : topology.parts) {
+  for (const HeadSurface::Part& part : topology.parts) {
     if (part.material != Material::kSkin && part.material != Material::kLip &&
         part.material != Material::kMouthInside) {
       continue;
@@ -158,8 +158,8 @@ TEST(HeadFormTest, SkinHasNoOpenEdgeButAtTheNeck) {
 TEST(HeadFormTest, FitsTheBudget) {
   for (const std::string& identity : Identities()) {
     const auto head = MakeHead(identity);
-    EXPECT_LT(head->topology().indices.size() / 3, 18000u) << identity;
-    EXPECT_EQ(head->topology().uv.size(), head->topology().albedo.size());
+    EXPECT_LT(head->surface().indices.size() / 3, 18600u) << identity;
+    EXPECT_EQ(head->surface().uv.size(), head->surface().albedo.size());
   }
 }
 
@@ -175,7 +175,7 @@ TEST(HeadFormTest, IdentitiesDiffer) {
         most = std::max(most, glm::length(one->Landmark(name) - two->Landmark(name)));
       }
       EXPECT_GT(most, 1.5f) << names[a] << " " << names[b];
-      EXPECT_NE(one->topology().eyes.right.iris_colour, two->topology().eyes.right.iris_colour);
+      EXPECT_NE(one->surface().eyes.right.iris_colour, two->surface().eyes.right.iris_colour);
     }
   }
 }
@@ -193,6 +193,15 @@ TEST(HeadFormTest, CreasesFollowTheirUnitsAndSides) {
   const auto nose = static_cast<std::size_t>(Crease::kNose);
   EXPECT_GT(Vertices(WithUnit(9, 1)).creases[nose].left, 0.8f);
   EXPECT_EQ(Vertices(WithUnit(4, 1)).creases[nose].left, 0) << "anger has no lines across the nose";
+}
+
+TEST(HeadFormTest, AnOwnUnitCreasesTheSkinByItsRow) {
+  const UnitTable own(Table("own.txt", "crease 151 0 0 0.5 0 0\n"));
+  HeadVertices v;
+  GenericHead().WithUnits(own)->Evaluate(WithUnit(151, 1), v);
+  const float rest = Vertices({}).creases[2].left;
+  EXPECT_FLOAT_EQ(v.creases[2].left, rest + 0.5f);
+  EXPECT_EQ(UnitTable(Table("own.txt", own.Text())).Text(), own.Text());
 }
 
 }  // namespace

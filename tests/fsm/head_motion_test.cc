@@ -131,8 +131,8 @@ TEST(HeadMotionTest, JawTurnsAboutItsHinge) {
 
 std::vector<glm::vec3> PointsOf(Material material, const HeadVertices& v) {
   std::vector<glm::vec3> points;
-  const HeadTopology& topology = GenericHead().topology();
-  for (const HeadTopology::Part& part : topology.parts) {
+  const HeadSurface& topology = GenericHead().surface();
+  for (const HeadSurface::Part& part : topology.parts) {
     if (part.material != material) continue;
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
       points.push_back(v.position[topology.indices[part.first_index + k]]);
@@ -149,7 +149,7 @@ TEST(HeadMotionTest, ClosedLidsCoverTheEye) {
     blink.gaze.left = blink.gaze.right = {-gaze_up, gaze_right};
     blink.au.left[5] = blink.au.right[5] = 1;
     const HeadVertices v = Vertices(blink);
-    const HeadTopology& topology = GenericHead().topology();
+    const HeadSurface& topology = GenericHead().surface();
     // Rays towards the viewer from points of the iris and the front of the white must hit skin.
     std::vector<glm::vec3> eye = PointsOf(Material::kIris, v);
     for (const glm::vec3 p : PointsOf(Material::kSclera, v)) {
@@ -157,7 +157,7 @@ TEST(HeadMotionTest, ClosedLidsCoverTheEye) {
     }
     for (std::size_t n = 0; n < eye.size(); n += 23) {
       bool covered = false;
-      for (const HeadTopology::Part& part : topology.parts) {
+      for (const HeadSurface::Part& part : topology.parts) {
         if (part.material != Material::kSkin) continue;
         for (std::uint32_t k = 0; k < part.index_count && !covered; k += 3) {
           const std::uint32_t* i = &topology.indices[part.first_index + k];

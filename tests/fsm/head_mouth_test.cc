@@ -18,13 +18,13 @@ using testing::WithUnit;
 // Upper and lower vertex of the lips' seam nearest to the median: the two lip vertices that share a
 // place at rest.
 std::pair<std::size_t, std::size_t> MiddleSeam() {
-  const HeadTopology& topology = GenericHead().topology();
+  const HeadSurface& topology = GenericHead().surface();
   const HeadVertices rest = Vertices({});
   FaceState open;
   open.mouth[kJawY] = 10;
   const HeadVertices opened = Vertices(open);
   std::vector<std::size_t> lips;
-  for (const HeadTopology::Part& part : topology.parts) {
+  for (const HeadSurface::Part& part : topology.parts) {
     if (part.material != Material::kLip) continue;
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
       const std::size_t i = topology.indices[part.first_index + k];
@@ -58,7 +58,7 @@ FaceState Vowel(float jaw, float lips, float corner, float forward) {
 TEST(HeadMouthTest, IsClosedAtRest) {
   const MouthMeasure m = GenericHead().MeasureMouth({});
   EXPECT_EQ(m.gap_mm, 0);
-  EXPECT_NEAR(m.width_mm, 48.5, 0.5);
+  EXPECT_NEAR(m.width_mm, 50.4, 0.5);
   EXPECT_EQ(m.jaw_degrees, 0);
 }
 

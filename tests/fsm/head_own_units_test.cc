@@ -20,7 +20,7 @@ UnitTable TableOf(std::string_view text) { return UnitTable(Table("own.txt", tex
 TEST(OwnUnitsTest, AUnitMovesTheSkinAsItsOwnTableSays) {
   const auto own = GenericHead().WithUnits(TableOf("field 2 43 47 20 20 both 0 3 0\n"));
   ASSERT_NE(own, nullptr);
-  EXPECT_EQ(own->topology().indices, GenericHead().topology().indices);
+  EXPECT_EQ(own->surface().indices, GenericHead().surface().indices);
   HeadVertices rest, moved;
   own->Evaluate({}, rest);
   EXPECT_EQ(rest.position, testing::Vertices({}).position) << "at rest nothing differs";

@@ -53,7 +53,7 @@ struct Eye {
     const PhotoSkin all{skin, {}, {open, open_normal}, {shut, shut_normal}};
     const std::vector<float> weight(places.size(), 1);
     const PhotoMapping mapping{photo, places, weight};
-    return PaintLids(mapping, all, glasses, Features::BuiltIn(), FitFaceLight(mapping, all.open));
+    return PaintLids(mapping, all, glasses, *Features::BuiltIn(), FitFaceLight(mapping, all.open));
   }
 };
 

@@ -68,7 +68,7 @@ TEST(SimulationTest, ATurnLeavesSpringsBehindThenThrowsThemBeyondUntilTheyRest) 
 
 TEST(SimulationTest, SwingsAtItsFrequencyAndFadesByItsDamping) {
   Spring spring = AtEar();
-  spring.most_mm = 1000;
+  spring.reach_mm = 1000;
   Simulation simulation({spring});
   simulation.RunTo(4s, TurnAt4s);
   std::vector<float> peaks;
@@ -121,9 +121,9 @@ TEST(SimulationTest, BackInTimeAndAfterALongPauseItBeginsAnew) {
 
 TEST(SimulationTest, WhateverTheHeadDoesOffsetsStayWithinTheirLimit) {
   Spring stiff = AtEar(), loose = AtEar();
-  stiff.frequency_hz = Spring::kMostHz;
-  loose.frequency_hz = Spring::kLeastHz;
-  loose.damping = Spring::kLeastDamping;
+  stiff.frequency_hz = Spring::kMaxHz;
+  loose.frequency_hz = Spring::kMinHz;
+  loose.damping = Spring::kMinDamping;
   Simulation simulation({stiff, loose});
   const auto wild = [](Time t) {
     FaceState state = Turned((t / 10ms) % 2 == 0 ? 1e9f : -1e9f, std::nanf(""), 500);
@@ -158,7 +158,7 @@ TEST(SimulationTest, NothingSwingsIntoWhatItLiesOn) {
 TEST(SimulationTest, WhatHangsGoesStraightDownAsTheHeadLeans) {
   Spring spring = AtEar();
   spring.hang = 1;
-  spring.most_mm = 1e6f;
+  spring.reach_mm = 1e6f;
   Simulation simulation({spring});
   const auto leaning = [](Time) { return Turned(0, 40, 20); };
   simulation.RunTo(5s, leaning);
@@ -177,10 +177,10 @@ TEST(HairSpringsTest, LongHairSwingsAndNothingElseDoes) {
   const RigData& rig = head->rig().data();
   ASSERT_FALSE(rig.spring_rig.springs.empty());
   std::set<std::uint32_t> hair;
-  for (const auto& part : head->topology().parts) {
+  for (const auto& part : head->surface().parts) {
     if (part.material != Material::kHair) continue;
     for (std::uint32_t k = 0; k < part.index_count; ++k)
-      hair.insert(head->topology().indices[part.first_index + k]);
+      hair.insert(head->surface().indices[part.first_index + k]);
   }
   HeadVertices still, swung;
   head->Evaluate({}, still);
@@ -207,7 +207,7 @@ TEST(HairSpringsTest, NeighboursGoAlong) {
     return Turned(0, 25 * std::sin(static_cast<float>(t / 1ms) / 120), 0);
   };
   HeadVertices vertices, still;
-  const auto& topology = head->topology();
+  const auto& topology = head->surface();
   for (Time t = 0ms; t < 2s; t += 90ms) {
     simulation.RunTo(t, shaken);
     head->Evaluate(shaken(t), still);

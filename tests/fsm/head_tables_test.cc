@@ -72,8 +72,10 @@ TEST(HeadTablesTest, ActionUnitTableRefusesNonsense) {
   EXPECT_EQ(complain("close 43 2\n"), "au.txt:1: '2' found where -1 to 1 was expected");
   EXPECT_EQ(complain("damp 4 1 -0.1\n"), "au.txt:1: '-0.1' found where 0 to 1 was expected");
   std::string many;
-  for (std::size_t i = 0; i <= UnitTable::kMostRows; ++i) many += "seal 8 1\n";
+  for (std::size_t i = 0; i <= UnitTable::kMaxRows; ++i) many += "seal 8 1\n";
   EXPECT_EQ(complain(many), "au.txt:1001: more rows than are read (1000)");
+  EXPECT_EQ(complain("crease 9 0 0.3 0 0.4\n"),
+            "au.txt:1: 'crease' needs at least 6 values after it, found 5");
   EXPECT_EQ(complain("jaw 26\n"), "au.txt:1: 'jaw' needs at least 2 values after it, found 1");
 }
 
@@ -99,11 +101,17 @@ TEST(HeadTablesTest, CageAndCurvesAreChecked) {
             "c.txt:1: must ascend");
 }
 
-EyeAnatomy SomeEye() {
+EyeAnatomy SomeEye(const std::string& lower_y = "20 17 22") {
   return EyeAnatomy(Table("eye.txt",
                           "ball 30 22 63 12\niris 6 2\nlid_radius -18 0 18\nlid_value 2 13.7 2\n"
                           "lid_shear 0\nupper_lid_x 16 30 44\nupper_lid_y 20 27 22\n"
-                          "lower_lid_x 16 30 44\nlower_lid_y 20 17 22\nmeet_sag 3\n"));
+                          "lower_lid_x 16 30 44\nlower_lid_y " +
+                              lower_y + "\nmeet_sag 3\n"));
+}
+
+TEST(HeadTablesTest, TheLidsEndInTheSameCorners) {
+  EXPECT_EQ(Complaint([] { SomeEye("20 17 22.1"); }),
+            "eye.txt:9: the lids must end in the same two corners");
 }
 
 MouthAnatomy SomeMouth() {
@@ -114,7 +122,8 @@ MouthAnatomy SomeMouth() {
             "border_z 3 1\nupper_teeth 7 40 27 2.6 17\nlower_teeth 9.6 40 26 1.3 -15\ncolumn_x 0 4 "
             "8 12 17 21 25\n"
             "bag_ring 0 62 .5 0 0\nbag_ring 12 48 1 0 0\nbag_ring 15 26 1 0 0\n"
-            "bag_ring 11 11 1 0 0\nbag_ring 4 5 1 0 1\nbag_ring 0 3 1 0 1\n"));
+            "bag_ring 11 11 1 0 0\nbag_ring 4 5 1 0 1\nbag_ring 0 3 1 0 1\n"
+            "bag_web 14 24 3\nbag_height .1 .9\nbag_depth .8 .2\nbag_width 2\n"));
 }
 
 std::string CageComplaint(std::string_view curves, std::string_view patches) {
@@ -218,7 +227,7 @@ TEST(HeadTablesTest, EyesAreAsLargeAndTiltedAsTheirRowSays) {
 
 TEST(HeadTablesTest, TheFurrowOverTheUpperLidLiesWhereItsRowSays) {
   const auto strokes = [](const char* row) {
-    return MakeHead(Changed("galatea", {row}))->topology().skin_hairs;
+    return MakeHead(Changed("galatea", {row}))->surface().skin_strokes;
   };
   const auto usual = strokes("fold 0 0 1 0"), higher = strokes("fold 1 1 0.5 0");
   ASSERT_EQ(usual.size(), higher.size());
@@ -240,13 +249,13 @@ TEST(HeadTablesTest, HairBeginsWithSingleHairsOnTheSkin) {
     const auto strokes = [face](const char* name, const char* row) {
       Identity identity = BuiltInIdentity(face);
       identity.features = std::make_shared<const Features>("mine.txt", WithRow(name, row));
-      return MakeHead(std::move(identity))->topology().skin_hairs.size();
+      return MakeHead(std::move(identity))->surface().skin_strokes.size();
     };
     const bool crop = std::string_view(face) == "pygmalion";
-    const auto few = crop ? strokes("crop_hairline count", "crop_hairline count 10")
-                          : strokes("long_hairline count", "long_hairline count 10");
-    const auto many = crop ? strokes("crop_hairline count", "crop_hairline count 800")
-                           : strokes("long_hairline count", "long_hairline count 800");
+    const auto few = crop ? strokes("crop_hair hairline count", "crop_hair hairline count 10")
+                          : strokes("long_hair hairline count", "long_hair hairline count 10");
+    const auto many = crop ? strokes("crop_hair hairline count", "crop_hair hairline count 800")
+                           : strokes("long_hair hairline count", "long_hair hairline count 800");
     EXPECT_GT(many, few + 400) << face;
   }
 }
@@ -255,10 +264,10 @@ TEST(HeadTablesTest, CurlsAreDullAndShort) {
   const auto made = [](const char* row) { return MakeHead(Changed("memnon", {row})); };
   const auto sleekest = [](const Head& head) {
     float most = 0;
-    for (const auto& part : head.topology().parts) {
+    for (const auto& part : head.surface().parts) {
       if (part.material != Material::kHair) continue;
       for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
-        const Strand& strand = head.topology().strands[head.topology().indices[k]];
+        const Strand& strand = head.surface().strands[head.surface().indices[k]];
         most = std::max(most, glm::length(strand.along));
       }
     }
@@ -268,8 +277,8 @@ TEST(HeadTablesTest, CurlsAreDullAndShort) {
              curled = made("hair crop 2 5 0 5 1 2 0 3 1");
   EXPECT_NEAR(sleekest(*straight), 1, 1e-3);
   EXPECT_LT(sleekest(*curled), 0.2);
-  const SkinHair& long_one = straight->topology().skin_hairs.back();
-  const SkinHair& short_one = curled->topology().skin_hairs.back();
+  const SkinStroke& long_one = straight->surface().skin_strokes.back();
+  const SkinStroke& short_one = curled->surface().skin_strokes.back();
   EXPECT_LT(glm::length(short_one.tip - short_one.root),
             0.5 * glm::length(long_one.tip - long_one.root));
   EXPECT_EQ(Complaint([&] { made("hair crop 2 5 0 5 1 2 0 3 2"); }),
@@ -278,20 +287,20 @@ TEST(HeadTablesTest, CurlsAreDullAndShort) {
 
 TEST(HeadTablesTest, BrowsBendAndThinAsTheirRowSays) {
   const auto brows = [](const char* row) {
-    auto hairs = MakeHead(Changed("pygmalion", {"beard 0", row}))->topology().skin_hairs;
+    auto hairs = MakeHead(Changed("pygmalion", {"beard 0", row}))->surface().skin_strokes;
     // Above the eyes, below the hair, as the height of the unrolled skin has it.
-    std::erase_if(hairs, [](const SkinHair& h) { return h.root.y < 0.69f || h.root.y > 0.75f; });
+    std::erase_if(hairs, [](const SkinStroke& h) { return h.root.y < 0.69f || h.root.y > 0.75f; });
     return hairs;
   };
-  const auto middle_over_ends = [](const std::vector<SkinHair>& hairs) {
+  const auto middle_over_ends = [](const std::vector<SkinStroke>& hairs) {
     float low_x = 1, high_x = 0, middle = 0, ends = 0;
-    for (const SkinHair& h : hairs) {
+    for (const SkinStroke& h : hairs) {
       if (h.root.x < 0.5f) continue;
       low_x = std::min(low_x, h.root.x);
       high_x = std::max(high_x, h.root.x);
     }
     int in_middle = 0, at_ends = 0;
-    for (const SkinHair& h : hairs) {
+    for (const SkinStroke& h : hairs) {
       const float at = (h.root.x - low_x) / (high_x - low_x);
       if (at > 0.4f && at < 0.7f) {
         middle += h.root.y;
@@ -318,13 +327,13 @@ TEST(HeadTablesTest, AShavedBeardsHairsLieBelowTheNoseAndNotOnTheLips) {
   const auto shaved = hairs("beard 0"), stubbled = hairs("beard 0.6");
   const float nose = Unroll(shaved->Landmark("subnasale")).y;
   const auto below = [nose](const Head& head) {
-    return std::ranges::count_if(head.topology().skin_hairs,
-                                 [nose](const SkinHair& h) { return h.root.y < nose; });
+    return std::ranges::count_if(head.surface().skin_strokes,
+                                 [nose](const SkinStroke& h) { return h.root.y < nose; });
   };
   EXPECT_EQ(below(*shaved), 0);
   EXPECT_GT(below(*stubbled), 1000);
   const float lips = Unroll({0, -44.5f, 80}).y;
-  for (const SkinHair& h : stubbled->topology().skin_hairs) {
+  for (const SkinStroke& h : stubbled->surface().skin_strokes) {
     EXPECT_FALSE(std::abs(h.root.y - lips) < 0.01f && std::abs(h.root.x - 0.5f) < 0.03f)
         << h.root.x << " " << h.root.y;
     EXPECT_TRUE(h.root.y >= nose || glm::length(h.tip - h.root) < 0.02f) << "a long hair";
@@ -335,10 +344,10 @@ TEST(HeadTablesTest, LongHairIsAsLongAsItsRowSays) {
   const auto lowest = [](const char* row) {
     const auto head = MakeHead(Changed("galatea", {row}), false);
     float low = 0;
-    for (const auto& part : head->topology().parts) {
+    for (const auto& part : head->surface().parts) {
       if (part.material != Material::kHair) continue;
       for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k)
-        low = std::min(low, head->rig().data().rest[head->topology().indices[k]].y);
+        low = std::min(low, head->rig().data().rest[head->surface().indices[k]].y);
     }
     return low;
   };
@@ -363,6 +372,11 @@ TEST(HeadTablesTest, FeaturesAreChecked) {
   } cases[] = {
       {"gum_light", "gum_light 0.6", "'gum_light' needs 2 numbers after it, found 1"},
       {"gum_light", "gum_light 0.6 2000", "'2000' found where -1000 to 1000 was expected"},
+      {"gum_light", "gum_light 0.6 plus 0.2", "'plus' found where 'to' was expected"},
+      {"gum_light", "gum_light 0.6 and 0.2", "'and' found where a number was expected"},
+      {"ear_middle", "ear_middle 13 to 0", "'to' found where a number was expected"},
+      {"stubble_place height", "stubble_place height -8 up_to -104",
+       "the first number of 'stubble_place height' exceeds the second"},
       {"gum_light", "gum_lights 0.6 0.2", "'gum_lights' is not known"},
       {"gum_light", "gum_scallop 1", "'gum_scallop' is there twice"},
       {"brow_growth", "brow_growth 9 86 9 62 22 36 36 16 48 -12 56 -32", "do not ascend"},
@@ -380,13 +394,17 @@ TEST(HeadTablesTest, FeaturesAreChecked) {
        "'0' found where 0.01 to 100 was expected"},
       {"beard_thin_cheek half_size", "beard_thin_cheek half_size 9 0",
        "'0' found where 0.01 to 100"},
-      {"long_goes_on", "long_goes_on 0", "'0' found where 0.01 to 100 was expected"},
-      {"long_volume", "long_volume 80 0 90", "'0' found where 10 to 1000 was expected"},
-      {"crop_crown", "crop_crown 0 0 0", "a crown that is nowhere"},
-      {"long_over_ear half_width", "long_over_ear half_width 0", "'0' found where 0.01 to 100"},
+      {"long_hair hanging goes_on", "long_hair hanging goes_on 0",
+       "'0' found where 0.01 to 100 was expected"},
+      {"long_hair volume half_axes", "long_hair volume half_axes 80 0 90",
+       "'0' found where 10 to 1000 was expected"},
+      {"crop_hair crown", "crop_hair crown 0 0 0", "a crown that is nowhere"},
+      {"long_hair over_ear half_width", "long_hair over_ear half_width 0",
+       "'0' found where 0.01 to 100"},
       {"stubble_place lips_half_size", "stubble_place lips_half_size 0 9",
        "'0' found where 0.01 to 100"},
-      {"long_parting_soft", "long_parting_soft 0", "'0' found where 0.01 to 100 was expected"},
+      {"long_hair parting direction_until", "long_hair parting direction_until 0",
+       "'0' found where 0.01 to 100 was expected"},
   };
   for (const auto& [name, row, why] : cases) {
     const auto said = Complaint([&] { Features("mine.txt", WithRow(name, row)); });
@@ -397,14 +415,17 @@ TEST(HeadTablesTest, FeaturesAreChecked) {
 }
 
 TEST(HeadTablesTest, FeaturesLeftOutAreTheBuiltInOnes) {
-  const Features mine("mine.txt", "gum_light 0.6 0.25\nspot cheeks half_size 20 10\n");
-  EXPECT_EQ(mine.gum_light, glm::vec2(0.6f, 0.25f));
-  EXPECT_EQ(mine.table().rows().size(), Features::BuiltIn().table().rows().size());
+  // A row may leave out the word between its numbers.
+  const Features mine("mine.txt",
+                      "gum_light 0.6 0.25\near_light 0.2 plus 0.8\nspot cheeks half_size 20 10\n");
+  EXPECT_EQ(mine.gum_light, (Range{0.6f, 0.25f}));
+  EXPECT_EQ(mine.ear_light, (Line{0.2f, 0.8f}));
+  EXPECT_EQ(mine.table().rows().size(), Features::BuiltIn()->table().rows().size());
   for (std::size_t i = 0; i < mine.table().rows().size(); ++i) {
-    const std::string name = NumberTable::RowName(Features::BuiltIn().table().rows()[i]);
+    const std::string name = NumberTable::RowName(Features::BuiltIn()->table().rows()[i]);
     EXPECT_EQ(NumberTable::RowName(mine.table().rows()[i]), name);
-    if (name == "gum_light" || name == "spot cheeks half_size") continue;
-    EXPECT_EQ(mine.table()[name], Features::BuiltIn().table()[name]);
+    if (name == "gum_light" || name == "ear_light" || name == "spot cheeks half_size") continue;
+    EXPECT_EQ(mine.table()[name], Features::BuiltIn()->table()[name]);
   }
 }
 
@@ -417,7 +438,7 @@ TEST(HeadTablesTest, FeaturesOfOnesOwnChangeTheHeads) {
   const auto with = [](const char* name, const char* row) {
     return std::make_shared<const Features>("mine.txt", WithRow(name, row));
   };
-  const auto as_ever = places("pygmalion", nullptr);
+  const auto as_ever = places("pygmalion", Features::BuiltIn());
   EXPECT_EQ(places("pygmalion", std::make_shared<const Features>("mine.txt", FeaturesText())),
             as_ever);
   for (const auto& [name, row] : {std::pair{"lower_tooth_widths", "lower_tooth_widths 5 5 6 7 7 9"},
@@ -425,11 +446,12 @@ TEST(HeadTablesTest, FeaturesOfOnesOwnChangeTheHeads) {
                                   {"ear_place height", "ear_place height 1.05"},
                                   {"upper_lash_length", "upper_lash_length 2 3"},
                                   {"ear_edge", "ear_edge 2"},
-                                  {"crop_lock_waves", "crop_lock_waves 1"},
-                                  {"crop_crown", "crop_crown 0 1 0"}}) {
+                                  {"crop_hair lock waves", "crop_hair lock waves 1"},
+                                  {"crop_hair crown", "crop_hair crown 0 1 0"}}) {
     EXPECT_NE(places("pygmalion", with(name, row)), as_ever) << row;
   }
-  EXPECT_NE(places("galatea", with("long_cheek", "long_cheek 3")), places("galatea", nullptr));
+  EXPECT_NE(places("galatea", with("long_hair hanging cheek", "long_hair hanging cheek 3")),
+            places("galatea", Features::BuiltIn()));
 }
 
 TEST(HeadTablesTest, SplineGoesThroughItsPoints) {

@@ -36,7 +36,7 @@ struct LidMotion {
 /// How the middle of the rims moves from rest; x outward.
 LidMotion MidLids(const FaceState& state, Side side = Side::kLeft) {
   const HeadVertices rest = Vertices({});
-  const float middle = GenericHead().topology().eyes[side].centre.x;
+  const float middle = GenericHead().EyeCentre(side).x;
   const auto& rims = Probe().rims(side);
   const auto nearest = std::ranges::min_element(
       rims, {}, [&](const auto& pair) { return std::abs(rest.position[pair.first].x - middle); });
@@ -49,9 +49,9 @@ LidMotion MidLids(const FaceState& state, Side side = Side::kLeft) {
 
 glm::vec3 FarthestTongue(const FaceState& state) {
   const HeadVertices v = Vertices(state);
-  const HeadTopology& topology = GenericHead().topology();
+  const HeadSurface& topology = GenericHead().surface();
   glm::vec3 tip(0, 0, -1e9F);
-  for (const HeadTopology::Part& part : topology.parts) {
+  for (const HeadSurface::Part& part : topology.parts) {
     if (part.material != Material::kTongue) continue;
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
       const glm::vec3 p = v.position[topology.indices[part.first_index + k]];

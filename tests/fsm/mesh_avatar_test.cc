@@ -18,7 +18,7 @@
 #include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
-#include "fsm/mesh/transfer/blendshape_rig.h"
+#include "fsm/mesh/rigging/blendshape_rig.h"
 #include "fsm/render/renderer.h"
 #include "fsm/rig/pose.h"
 #include "fsm/rig/simulation.h"
@@ -88,9 +88,9 @@ TEST(GltfPlaceTest, ShapesOfShortsWithOneVertexNamedMoveThatVertex) {
       R"("primitives":[{"attributes":{"POSITION":)" +
       Number(place) + R"(},"targets":[{"POSITION":)" + Number(by) + "}]}]}]"));
   ASSERT_EQ(file.shapes.size(), 1U);
-  ASSERT_EQ(file.shapes[0].deltas.size(), 1U);
-  EXPECT_EQ(file.shapes[0].deltas[0].vertex, 2U);
-  EXPECT_NEAR(file.shapes[0].deltas[0].by.y, -1, 1e-3F);
+  ASSERT_EQ(file.shapes[0].moves.size(), 1U);
+  EXPECT_EQ(file.shapes[0].moves[0].vertex, 2U);
+  EXPECT_NEAR(file.shapes[0].moves[0].by.y, -1, 1e-3F);
   ExpectPlace(file.position[2], {0, 2, 0});
 }
 
@@ -237,15 +237,15 @@ TEST(VrmTest, OldAvatarsAreTurnedToTheViewerWithBonesGazeAndExpressions) {
   ASSERT_EQ(file.eye.size(), 6U);
   EXPECT_EQ(file.eye[2], std::nullopt);
   EXPECT_EQ(file.eye[4], Side::kLeft);
-  ASSERT_TRUE(file.eye_setup.pivot);
-  ASSERT_TRUE(file.eye_setup.gaze_ranges);
-  EXPECT_EQ(file.eye_setup.gaze_ranges->outer.gaze_deg, 60);
-  EXPECT_EQ(file.eye_setup.gaze_ranges->outer.output, 12);
+  ASSERT_TRUE(file.eye_rig.pivot);
+  ASSERT_TRUE(file.eye_rig.gaze_ranges);
+  EXPECT_EQ(file.eye_rig.gaze_ranges->outer.gaze_deg, 60);
+  EXPECT_EQ(file.eye_rig.gaze_ranges->outer.output, 12);
   EXPECT_FALSE(file.gaze_by_shape);
   ASSERT_EQ(file.shapes.size(), 6U);
   EXPECT_EQ(file.shapes[4].name, "vrma");
-  ASSERT_EQ(file.shapes[4].deltas.size(), 2U);
-  EXPECT_NEAR(file.shapes[4].deltas[0].by.y, -0.005F, 1e-6F);
+  ASSERT_EQ(file.shapes[4].moves.size(), 2U);
+  EXPECT_NEAR(file.shapes[4].moves[0].by.y, -0.005F, 1e-6F);
   EXPECT_EQ(file.shapes[5].name, "vrmSurprised");
 }
 
@@ -364,10 +364,10 @@ TEST(VrmTest, SpringsOfTheBodyAreLeftOut) {
 TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
   MeshModel model;
   model.has_eyes = true;
-  model.eyes.right.centre = {-30, 0, 60};
-  model.eyes.left.centre = {30, 0, 60};
-  model.eye_setup.pivot = {glm::vec3(-30, 0, 40), glm::vec3(30, 0, 40)};
-  model.eye_setup.gaze_ranges.emplace().outer = {.gaze_deg = 40, .output = 8};
+  model.eye_rig.centre.right = {-30, 0, 60};
+  model.eye_rig.centre.left = {30, 0, 60};
+  model.eye_rig.pivot = {glm::vec3(-30, 0, 40), glm::vec3(30, 0, 40)};
+  model.eye_rig.gaze_ranges.emplace().outer = {.gaze_deg = 40, .output = 8};
   for (const glm::vec3 p : {glm::vec3(30, 0, 70), glm::vec3(31, 0, 70), glm::vec3(30, 1, 70)}) {
     model.Add(p, Bone::kEyeLeft, glm::vec3(1));
   }
@@ -393,7 +393,7 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
     meanings.push_back({name, state});
     file.shapes.push_back({"vrm" + std::string(name), {}});
   }
-  file.shapes[0].deltas = {{0, {0, -10, 0}}, {1, {0, -10, 0}}, {2, {0, -10, 0}}};
+  file.shapes[0].moves = {{0, {0, -10, 0}}, {1, {0, -10, 0}}, {2, {0, -10, 0}}};
   MeshModel model = ModelOfImport(file, {}, -30);
   ASSERT_EQ(model.mesh.bone[0], Bone::kJaw);
   const auto source = MakeHead("galatea", false);
@@ -515,13 +515,13 @@ std::shared_ptr<const Head> FallingBall() {
       rig.rest_normal.emplace_back(0, 0, 1);
       rig.bone.push_back(Bone::kSkin);
       rig.weights.emplace_back();
-      asset.topology.albedo.emplace_back(0);
-      asset.topology.openness.push_back(1);
+      asset.surface.albedo.emplace_back(0);
+      asset.surface.openness.push_back(1);
     }
-    rig.lips.measured = {count, count + 1, count, count};
+    rig.mouth = {.seam = {{count, count + 1}}, .corners = {{count, count}}, .incisors = {}};
     fall.moves.push_back({count + 1, {0, -10, 0}});
     rig.channels = {fall};
-    rig.units = BuiltInUnits();
+    rig.unit_effects = BuiltInUnits();
     for (const std::uint16_t unit : std::initializer_list<std::uint16_t>{1, 2, 4}) {
       rig.channels.push_back(channel(unit));
       rig.channels.back().moves = rises;

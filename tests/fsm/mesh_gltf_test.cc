@@ -12,7 +12,7 @@
 #include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
-#include "fsm/mesh/transfer/blendshape_rig.h"
+#include "fsm/mesh/rigging/blendshape_rig.h"
 #include "fsm/rig/unit_table.h"
 #include "tests/fsm/ball_head.h"
 
@@ -38,7 +38,7 @@ TEST(GltfHeadTest, OurHeadWrittenIsReadAgainWithItsShapes) {
   EXPECT_EQ(file->shapes[1].name, "mouthSmileLeft");
   std::size_t corners = 0;
   for (const auto& part : file->parts) corners += part.indices.size();
-  EXPECT_EQ(corners, head->topology().indices.size());
+  EXPECT_EQ(corners, head->surface().indices.size());
   // By place: every vertex that moves must be where the head itself puts it.
   HeadVertices rest, moved;
   head->Evaluate({}, rest);
@@ -54,7 +54,7 @@ TEST(GltfHeadTest, OurHeadWrittenIsReadAgainWithItsShapes) {
     }
   }
   nearest = 1e9F;
-  for (const auto& delta : file->shapes[0].deltas) {
+  for (const auto& delta : file->shapes[0].moves) {
     const float far = glm::distance(1000.0F * file->position[delta.vertex], chin);
     if (far < nearest) {
       nearest = far;

@@ -88,7 +88,7 @@ TEST(SmallOriginalFaceTest, TheWindowShowsOneUnitOfTheWireframeToEitherSide) {
 TEST(SmallOriginalFaceTest, OnlyTheGroupsTheOriginalDrawsAreShown) {
   const auto head = HeadOf(SmallFace());
   std::size_t skin = 0;
-  for (const auto& part : head->topology().parts) {
+  for (const auto& part : head->surface().parts) {
     if (part.material == Material::kSkin) skin += part.index_count / 3;
   }
   EXPECT_EQ(skin, 2U);
@@ -265,10 +265,10 @@ TEST_F(StandardFaceTest, TeethFillTheMouthAsInTheOriginalAndStayWithinNarrowJaws
   const OriginalSpace frame(face_.wireframe);
   const auto at = [&](PointName name) { return frame.PositionMm(face_.wireframe, name); };
   std::vector<glm::vec3> teeth;
-  for (const auto& part : head_->topology().parts) {
+  for (const auto& part : head_->surface().parts) {
     if (part.material != Material::kTeeth) continue;
     for (std::uint32_t i = 0; i < part.index_count; ++i) {
-      teeth.push_back(rest_.position[head_->topology().indices[part.first_index + i]]);
+      teeth.push_back(rest_.position[head_->surface().indices[part.first_index + i]]);
     }
   }
   ASSERT_GT(teeth.size(), 1000U);
@@ -293,7 +293,7 @@ TEST_F(StandardFaceTest, NoToothComesThroughASmallerChin) {
   const auto head = HeadOf(face);
   HeadVertices rest;
   head->Evaluate({}, rest);
-  const HeadTopology& topology = head->topology();
+  const HeadSurface& topology = head->surface();
   const auto part = [&topology](Material material) {
     std::vector<std::uint32_t> corners;
     for (const auto& one : topology.parts) {

@@ -19,9 +19,9 @@
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/rigging/transferred_rig.h"
 #include "fsm/mesh/transfer/deformation_transfer.h"
 #include "fsm/mesh/transfer/surface_index.h"
-#include "fsm/mesh/transfer/transferred_rig.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
@@ -35,13 +35,13 @@ class DeformationTransferTest : public testing::Test {
     to_ = MakeHead(Identities()[1], false);
     from_->Evaluate({}, from_rest_);
     to_->Evaluate({}, to_rest_);
-    flesh_ = SkinTriangles(from_->topology());
+    flesh_ = SkinTriangles(from_->surface());
     ChoosePairs();
   }
 
   void MakeTransfer(const std::vector<std::uint32_t>& onto) {
-    const auto from_eyes = EyeballTriangles(from_->topology()),
-               to_eyes = EyeballTriangles(to_->topology());
+    const auto from_eyes = EyeballTriangles(from_->surface()),
+               to_eyes = EyeballTriangles(to_->surface());
     carry_ = std::make_unique<DeformationTransfer>(
         TransferSurface{from_rest_.position, flesh_, false, from_eyes},
         TransferSurface{to_rest_.position, onto, false, to_eyes}, pairs_);
@@ -51,7 +51,7 @@ class DeformationTransferTest : public testing::Test {
   /// same way one is left, lips and lids apart. Those keep what is true of them.
   std::vector<std::uint32_t> Coarse(float cube_mm) const {
     std::map<std::tuple<int, int, int, int>, std::uint32_t> left;
-    const float mouth = to_->Landmark("stomion").y, eyes = to_->topology().eyes.right.centre.y;
+    const float mouth = to_->Landmark("stomion").y, eyes = to_->EyeCentre(Side::kRight).y;
     const auto one_of = [&](std::uint32_t v) {
       const glm::ivec3 cube(glm::floor(to_rest_.position[v] / cube_mm));
       const glm::vec3 n = to_rest_.normal[v];
@@ -60,7 +60,7 @@ class DeformationTransferTest : public testing::Test {
                        (y > mouth ? 8 : 0) + (y > eyes ? 16 : 0);
       return left.emplace(std::tuple(cube.x, cube.y, cube.z, kind), v).first->second;
     };
-    const auto fine = SkinTriangles(to_->topology());
+    const auto fine = SkinTriangles(to_->surface());
     std::vector<std::uint32_t> coarse;
     for (std::size_t i = 0; i + 2 < fine.size(); i += 3) {
       const std::array t{one_of(fine[i]), one_of(fine[i + 1]), one_of(fine[i + 2])};
@@ -74,10 +74,10 @@ class DeformationTransferTest : public testing::Test {
   void ChoosePairs() {
     const glm::vec3 stomion = from_->Landmark("stomion");
     std::vector<bool> lip(from_rest_.position.size(), false);
-    for (const auto& part : from_->topology().parts) {
+    for (const auto& part : from_->surface().parts) {
       if (part.material != Material::kLip) continue;
       for (std::uint32_t k = 0; k < part.index_count; ++k) {
-        lip[from_->topology().indices[part.first_index + k]] = true;
+        lip[from_->surface().indices[part.first_index + k]] = true;
       }
     }
     for (const std::uint32_t v : flesh_) {
@@ -88,14 +88,14 @@ class DeformationTransferTest : public testing::Test {
               pairs_, [&](const auto& pair) { return glm::distance(pair.from, p) < apart; })) {
         continue;
       }
-      PointPair pair{p, to_rest_.position[v], FacePart::kPlain};
+      PointPair pair{p, to_rest_.position[v], LipOrLid::kPlain};
       if (lip[v] && std::abs(p.y - stomion.y) > 3 && std::abs(p.x) < 16) {
-        pair.part = p.y > stomion.y ? FacePart::kUpperLip : FacePart::kLowerLip;
+        pair.on = p.y > stomion.y ? LipOrLid::kUpperLip : LipOrLid::kLowerLip;
       }
       for (const Side side : kSides) {
-        const glm::vec3 d = p - from_->topology().eyes[side].centre;
+        const glm::vec3 d = p - from_->EyeCentre(side);
         if (glm::length(d) < 15 && std::abs(d.y) > 4) {
-          pair.part = d.y > 0 ? FacePart::kUpperLid : FacePart::kLowerLid;
+          pair.on = d.y > 0 ? LipOrLid::kUpperLid : LipOrLid::kLowerLid;
         }
       }
       pairs_.push_back(pair);
@@ -150,7 +150,7 @@ class DeformationTransferTest : public testing::Test {
 constexpr int kUnits[] = {1, 2, 4, 6, 9, 10, 12, 15, 16, 17, 18, 20, 22, 25, 26, 27};
 
 TEST_F(DeformationTransferTest, UnitsCarriedToAnotherFaceAreNearlyItsOwn) {
-  const auto onto = SkinTriangles(to_->topology());
+  const auto onto = SkinTriangles(to_->surface());
   MakeTransfer(onto);
   EXPECT_LT(MeanError(kUnits, 0.08F, onto), 0.045F);
 }
@@ -174,7 +174,7 @@ TEST_F(DeformationTransferTest, ACoarseMeshWhoseLandmarksAreMillimetresOffMovesN
 }
 
 TEST_F(DeformationTransferTest, LipsAndLidsAreNeverTakenForEachOther) {
-  MakeTransfer(SkinTriangles(to_->topology()));
+  MakeTransfer(SkinTriangles(to_->surface()));
   // The lower lip falls with the jaw, the upper does not; the upper lid closes, the lower hardly.
   const auto upper_error = [&](const FaceState& state, auto chosen) {
     HeadVertices a, b;
@@ -184,7 +184,7 @@ TEST_F(DeformationTransferTest, LipsAndLidsAreNeverTakenForEachOther) {
     for (std::size_t i = 0; i < by.size(); ++i) by[i] = a.position[i] - from_rest_.position[i];
     carry_->Apply(by, carried);
     float worst = 0;
-    for (const std::uint32_t v : SkinTriangles(to_->topology())) {
+    for (const std::uint32_t v : SkinTriangles(to_->surface())) {
       if (!chosen(v)) continue;
       worst = std::max(worst, std::abs(carried[v].y - (b.position[v].y - to_rest_.position[v].y)));
     }
@@ -203,7 +203,7 @@ TEST_F(DeformationTransferTest, LipsAndLidsAreNeverTakenForEachOther) {
   EXPECT_LT(worst, 9);
   FaceState shut;
   shut.blink.left = 1;
-  const glm::vec3 eye = to_->topology().eyes.left.centre;
+  const glm::vec3 eye = to_->EyeCentre(Side::kLeft);
   const float lid = upper_error(shut, [&](std::uint32_t v) {
     const glm::vec3 d = to_rest_.position[v] - eye;
     return std::abs(d.x) < 8 && std::abs(d.y) < 9 && d.z > 8;
@@ -213,12 +213,12 @@ TEST_F(DeformationTransferTest, LipsAndLidsAreNeverTakenForEachOther) {
 
 /// The second face's skin as a mesh of another maker, moved by the rig of the first.
 TEST_F(DeformationTransferTest, TheRigLaidOnAnotherFaceMovesItAsCarryingEveryStateWould) {
-  const auto onto = SkinTriangles(to_->topology());
+  const auto onto = SkinTriangles(to_->surface());
   MeshModel model;
   for (const glm::vec3& p : to_rest_.position) model.Add(p, Bone::kSkin, glm::vec3(1));
   model.mesh.BatchOf(Material::kSkin, -1, false).indices = onto;
   carry_ = std::make_unique<DeformationTransfer>(
-      TransferSurface{from_rest_.position, flesh_, false, EyeballTriangles(from_->topology())},
+      TransferSurface{from_rest_.position, flesh_, false, EyeballTriangles(from_->surface())},
       TransferSurface{to_rest_.position, onto, false, {}}, pairs_);
   RigData skin = TransferRig(model, *from_, pairs_);
   const auto head = MakeMeshHead(std::move(model), std::move(skin));
@@ -255,9 +255,9 @@ TEST_F(DeformationTransferTest, TheRigLaidOnAnotherFaceMovesItAsCarryingEverySta
 TEST_F(DeformationTransferTest, AHeadWithoutPicturesHasRedLipsAndSaysWhereTheyPart) {
   MeshModel model;
   for (const glm::vec3& p : to_rest_.position) model.Add(p, Bone::kSkin, glm::vec3(0.5F));
-  model.mesh.BatchOf(Material::kSkin, -1, false).indices = SkinTriangles(to_->topology());
-  const HeadTopology& known = to_->topology();
-  for (const HeadTopology::Part& part : known.parts) {
+  model.mesh.BatchOf(Material::kSkin, -1, false).indices = SkinTriangles(to_->surface());
+  const HeadSurface& known = to_->surface();
+  for (const HeadSurface::Part& part : known.parts) {
     if (part.material != Material::kTeeth) continue;
     for (std::uint32_t k = 0; k < part.index_count; k += 3) {
       const std::uint32_t* t = &known.indices[part.first_index + k];
@@ -267,22 +267,23 @@ TEST_F(DeformationTransferTest, AHeadWithoutPicturesHasRedLipsAndSaysWhereTheyPa
   }
   RigData skin = TransferRig(model, *from_, pairs_);
   const auto head = MakeMeshHead(std::move(model), std::move(skin));
-  const HeadTopology& topology = head->topology();
-  EXPECT_EQ(topology.mouth.upper_incisor, known.mouth.upper_incisor);
-  EXPECT_EQ(topology.mouth.lower_incisor, known.mouth.lower_incisor);
-  ASSERT_EQ(topology.mouth.seam.size(), known.mouth.seam.size());
+  const HeadSurface& topology = head->surface();
+  const MouthLandmarks &mouth = head->mouth(), &known_mouth = to_->mouth();
+  EXPECT_EQ(mouth.incisors->upper, known_mouth.incisors->upper);
+  EXPECT_EQ(mouth.incisors->lower, known_mouth.incisors->lower);
+  ASSERT_EQ(mouth.seam.size(), known_mouth.seam.size());
   HeadVertices rest;
   head->Evaluate({}, rest);
   float off = 0;
-  for (std::size_t k = 0; k < known.mouth.seam.size(); ++k) {
-    off += glm::distance(rest.position[topology.mouth.seam[k].first],
-                         to_rest_.position[known.mouth.seam[k].first]);
+  for (std::size_t k = 0; k < mouth.seam.size(); ++k) {
+    off += glm::distance(rest.position[mouth.seam[k].first],
+                         to_rest_.position[known_mouth.seam[k].first]);
   }
-  EXPECT_LT(off / static_cast<float>(known.mouth.seam.size()), 0.9F) << "on the head's own lips";
+  EXPECT_LT(off / static_cast<float>(mouth.seam.size()), 0.9F) << "on the head's own lips";
   const auto greenness = [&](std::uint32_t v) {
     return topology.albedo[v].g / topology.albedo[v].r;
   };
-  EXPECT_LT(greenness(known.mouth.seam[known.mouth.seam.size() / 2].first), 0.7F) << "the lip";
+  EXPECT_LT(greenness(known_mouth.Middle().first), 0.7F) << "the lip";
   EXPECT_NEAR(greenness(to_->rig().data().normals.soft_triangles.front()), 1, 0.3F) << "elsewhere";
 }
 
@@ -317,14 +318,14 @@ struct FlatLips {
 };
 
 /// The second has its slit 1.6 mm lower than landmarks say.
-void ExpectEachFollowsItsOwn(FacePart upper_part, FacePart lower_part) {
+void ExpectEachFollowsItsOwn(LipOrLid upper_part, LipOrLid lower_part) {
   const FlatLips from(0), to(-1.6F);
   std::vector<PointPair> pairs;
-  const auto add = [&](float x, float y, FacePart part) {
+  const auto add = [&](float x, float y, LipOrLid part) {
     pairs.push_back({FlatLips::At(x, y), FlatLips::At(x, y), part});
   };
   for (const float x : {-18.0F, 0.0F, 18.0F}) {
-    for (const float y : {-26.0F, 26.0F}) add(x, y, FacePart::kPlain);
+    for (const float y : {-26.0F, 26.0F}) add(x, y, LipOrLid::kPlain);
   }
   for (const float x : {-12.0F, -4.0F, 4.0F, 12.0F}) {
     add(x, 6, upper_part);
@@ -340,11 +341,11 @@ void ExpectEachFollowsItsOwn(FacePart upper_part, FacePart lower_part) {
 }
 
 TEST(TransferOppositesTest, EachLipFollowsItsOwnWhereTheSlitIsNotQuiteWhereLandmarksSay) {
-  ExpectEachFollowsItsOwn(FacePart::kUpperLip, FacePart::kLowerLip);
+  ExpectEachFollowsItsOwn(LipOrLid::kUpperLip, LipOrLid::kLowerLip);
 }
 
 TEST(TransferOppositesTest, EachLidFollowsItsOwnWhereTheSlitIsNotQuiteWhereLandmarksSay) {
-  ExpectEachFollowsItsOwn(FacePart::kUpperLid, FacePart::kLowerLid);
+  ExpectEachFollowsItsOwn(LipOrLid::kUpperLid, LipOrLid::kLowerLid);
 }
 
 TEST(WeldedSurfaceTest, WhatAnEyeballHidesIsNotSeen) {
@@ -380,14 +381,14 @@ TEST(TransferRefusesTest, TooFewPlaces) {
 TEST(HeadPointsTest, WhatIsWrittenIsReadAgain) {
   HeadPoints points;
   for (int i = 0; i < 9; ++i) {
-    points.pairs.push_back({{i, 2, 3}, {4, 5, 0.25F * static_cast<float>(i)}, FacePart::kLowerLip});
+    points.pairs.push_back({{i, 2, 3}, {4, 5, 0.25F * static_cast<float>(i)}, LipOrLid::kLowerLip});
   }
   const auto read = ParseHeadPoints("p", FormatHeadPoints(points));
   ASSERT_TRUE(read) << read.error().text;
   EXPECT_EQ(read->face, "galatea");
   ASSERT_EQ(read->pairs.size(), 9U);
   EXPECT_EQ(read->pairs[8].to.z, 2.0F);
-  EXPECT_EQ(read->pairs[8].part, FacePart::kLowerLip);
+  EXPECT_EQ(read->pairs[8].on, LipOrLid::kLowerLip);
 }
 
 TEST(HeadPointsTest, DamageIsToldWithItsLine) {
@@ -407,7 +408,7 @@ TEST(SimilarityTest, TurnSizeAndPlaceAreFound) {
   std::vector<PointPair> pairs;
   for (const glm::vec3 p : {glm::vec3(1, 2, 3), glm::vec3(-4, 0, 2), glm::vec3(5, -1, 0),
                             glm::vec3(0, 7, -3), glm::vec3(2, 2, 9)}) {
-    pairs.push_back({12.5F * (turn * p) + glm::vec3(10, -20, 30), p, FacePart::kPlain});
+    pairs.push_back({12.5F * (turn * p) + glm::vec3(10, -20, 30), p, LipOrLid::kPlain});
   }
   const Similarity fit = FitSimilarity(pairs);
   EXPECT_NEAR(fit.scale, 12.5F, 0.01F);

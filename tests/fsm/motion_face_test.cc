@@ -23,10 +23,10 @@ struct FaceMotionTest : testing::Test {
 TEST_F(FaceMotionTest, AnExpressionIsWholeAfterItsOnsetAndHolds) {
   ASSERT_TRUE(motion.expression.Show(0ms, "HAPPY", 1, 1, 0ms));
   EXPECT_FLOAT_EQ(motion.StateAt(0ms).au.left[12], 0);
-  EXPECT_FLOAT_EQ(motion.StateAt(100ms).au.left[12], 0.8f);
-  EXPECT_FLOAT_EQ(motion.StateAt(1h).au.right[12], 0.8f);
+  EXPECT_FLOAT_EQ(motion.StateAt(100ms).au.left[12], 1.0f);
+  EXPECT_FLOAT_EQ(motion.StateAt(1h).au.right[12], 1.0f);
   EXPECT_EQ(motion.OnsetsSettled(0ms), vm::Time(100ms));
-  EXPECT_FALSE(motion.NextActivity(100ms).has_value());
+  EXPECT_FALSE(motion.NextMotion(100ms).has_value());
 }
 
 TEST_F(FaceMotionTest, ATimedExpressionGoesAwayByItself) {
@@ -35,12 +35,12 @@ TEST_F(FaceMotionTest, ATimedExpressionGoesAwayByItself) {
   EXPECT_FLOAT_EQ(motion.StateAt(900ms).au.left[4], 2);
   EXPECT_FLOAT_EQ(motion.StateAt(1000ms).au.left[4], 0);
   EXPECT_EQ(motion.FiniteEnd(10ms), vm::Time(1000ms));
-  EXPECT_EQ(motion.NextActivity(500ms), vm::Time(900ms));
+  EXPECT_EQ(motion.NextMotion(500ms), vm::Time(900ms));
 }
 
 TEST_F(FaceMotionTest, AShortExpressionTakesHalfItsTimeForEachFade) {
   ASSERT_TRUE(motion.expression.Show(0ms, "HAPPY", 1, 1, 120ms));
-  EXPECT_FLOAT_EQ(motion.StateAt(60ms).au.left[12], 0.8f);
+  EXPECT_FLOAT_EQ(motion.StateAt(60ms).au.left[12], 1.0f);
   EXPECT_FLOAT_EQ(motion.StateAt(120ms).au.left[12], 0);
 }
 
@@ -94,7 +94,7 @@ TEST_F(FaceMotionTest, UnknownNamesAreRefusedWithWhatThereIs) {
   EXPECT_TRUE(motion.switches().Set(0ms, "USERDEF", 0));
   EXPECT_FALSE(motion.SetFace(0ms, 37, 1));
   EXPECT_FALSE(motion.mouth.Set(0ms, 18, 1));
-  EXPECT_FALSE(motion.units.Set(0ms, "3 1 0"));
+  EXPECT_FALSE(motion.action_units.Set(0ms, "3 1 0"));
   EXPECT_FALSE(motion.blend_shapes.Set(0ms, "jawSideways", 1, 0ms));
 }
 
@@ -106,7 +106,7 @@ TEST_F(FaceMotionTest, WhatMouthNAsksIsKnownFromWhatSpeechAsks) {
 }
 
 TEST_F(FaceMotionTest, UnitsCanBeMovedOnOneSide) {
-  ASSERT_TRUE(motion.units.Set(0ms, "12L 0.7 200"));
+  ASSERT_TRUE(motion.action_units.Set(0ms, "12L 0.7 200"));
   EXPECT_NEAR(motion.StateAt(100ms).au.left[12], 0.35f, 1e-5);
   EXPECT_FLOAT_EQ(motion.StateAt(200ms).au.left[12], 0.7f);
   EXPECT_FLOAT_EQ(motion.StateAt(200ms).au.right[12], 0);
@@ -117,7 +117,7 @@ TEST_F(FaceMotionTest, FacePositionsAreUnitsAndEmotions) {
   ASSERT_TRUE(motion.SetFace(0ms, 31, 0.5));
   const FaceState state = motion.StateAt(1s);
   EXPECT_FLOAT_EQ(state.au.left[43], 1);
-  EXPECT_FLOAT_EQ(state.au.left[12], 0.4f);
+  EXPECT_FLOAT_EQ(state.au.left[12], 0.5f);
 }
 
 TEST_F(FaceMotionTest, BlendShapesBecomeUnitsAndGaze) {
@@ -181,7 +181,7 @@ TEST_F(FaceMotionTest, ABlinkShutsTheLidsAndOpensThem) {
   ASSERT_TRUE(motion.PlayMovement(0ms, "BLINK", 1));
   EXPECT_FLOAT_EQ(motion.StateAt(90ms).blink.left, 1);
   EXPECT_FLOAT_EQ(motion.StateAt(220ms).blink.left, 0);
-  EXPECT_FALSE(motion.NextActivity(220ms).has_value());
+  EXPECT_FALSE(motion.NextMotion(220ms).has_value());
 }
 
 TEST_F(FaceMotionTest, SeveralBlinksFollowOneAnother) {
@@ -237,10 +237,10 @@ TEST_F(FaceMotionTest, AutonomousBlinksAreTwoToSixSecondsApart) {
   EXPECT_GE(blinks, 65);
   EXPECT_LE(blinks, 85);
   // Between blinks nothing moves, and the next one is announced.
-  const auto next = motion.NextActivity(300s);
+  const auto next = motion.NextMotion(300s);
   ASSERT_TRUE(next);
   ASSERT_TRUE(motion.switches().Set(300s, "BLINK", 0));
-  EXPECT_FALSE(motion.NextActivity(301s).has_value());
+  EXPECT_FALSE(motion.NextMotion(301s).has_value());
 }
 
 TEST_F(FaceMotionTest, AutonomousMovementIsSmallSmoothAndSwitchable) {

@@ -31,7 +31,7 @@ struct IdleBehaviourTest : testing::Test {
 };
 
 TEST_F(IdleBehaviourTest, NothingMovesUntilItIsSwitchedOn) {
-  EXPECT_FALSE(motion.NextActivity(0ms).has_value());
+  EXPECT_FALSE(motion.NextMotion(0ms).has_value());
   motion.speech.Start(0ms, List(kSentence), 1s);
   for (vm::Time t = 0ms; t < 6s; t += 40ms) {
     const FaceState state = motion.StateAt(t);
@@ -232,7 +232,7 @@ TEST_F(IdleBehaviourTest, AThinkerLooksAwayHereAndThereUntilTheNextGaze) {
   EXPECT_GE(seen.size(), 4u);
   motion.eyes.GazeAtUser(12s);
   EXPECT_NEAR(motion.StateAt(13s).gaze.left[kDown], 0, 0.01);
-  EXPECT_FALSE(motion.NextActivity(13s).has_value());
+  EXPECT_FALSE(motion.NextMotion(13s).has_value());
 }
 
 TEST_F(IdleBehaviourTest, HeadAndBrowsMoveWithTheStressAndComeToRest) {
@@ -259,7 +259,7 @@ TEST_F(IdleBehaviourTest, HeadAndBrowsMoveWithTheStressAndComeToRest) {
   EXPECT_LE(nods, 9);
   EXPECT_GT(brow, 0.1f);
   EXPECT_FLOAT_EQ(Nod(8s), 0);
-  EXPECT_FALSE(motion.NextActivity(8s).has_value());
+  EXPECT_FALSE(motion.NextMotion(8s).has_value());
 }
 
 TEST_F(IdleBehaviourTest, NodsFallOnStressedVowels) {
@@ -329,14 +329,14 @@ TEST_F(IdleBehaviourTest, GesturesHaveStrengthAndCount) {
 TEST_F(IdleBehaviourTest, ProfilesSwitchEverythingAtOnceAndPartsRemainSwitchable) {
   for (const char* profile : {"CALM", "LIVELY", "LISTENING", "STILL"}) {
     ASSERT_TRUE(motion.switches().SetProfile(0ms, profile)) << profile;
-    EXPECT_TRUE(motion.NextActivity(10s).has_value());
+    EXPECT_TRUE(motion.NextMotion(10s).has_value());
   }
   ASSERT_TRUE(motion.switches().SetProfile(0ms, "LISTENING"));
   EXPECT_GT(motion.StateAt(2s).au.left[12], 0.05f) << "friendly";
   for (const IdleKindRow& row : IdleKinds()) {
     ASSERT_TRUE(motion.switches().Set(3s, row.name, 0)) << row.name;
   }
-  EXPECT_FALSE(motion.NextActivity(10s).has_value());
+  EXPECT_FALSE(motion.NextMotion(10s).has_value());
   const FaceState state = motion.StateAt(10s);
   EXPECT_EQ(state.head_rotation, (std::array<float, 3>{}));
   EXPECT_EQ(state.au.left[12], 0);
@@ -396,9 +396,9 @@ TEST_F(BlinkTest, BlinksAreTheSumOfTheirIntervalsInWhateverOrderTheyAreAskedFor)
   const auto check = [&](const IdleBehaviour& autonomy, std::size_t k) {
     const vm::Time start = starts[k];
     // Long after the blink before, which takes no more than a quarter of a second.
-    ASSERT_EQ(autonomy.NextActivity(start - 1ms), start) << k;
+    ASSERT_EQ(autonomy.NextMotion(start - 1ms), start) << k;
     ASSERT_EQ(autonomy.BlinkAt(start - 1ms), 0) << k;
-    ASSERT_EQ(autonomy.NextActivity(start + 90ms), start + 90ms) << k;
+    ASSERT_EQ(autonomy.NextMotion(start + 90ms), start + 90ms) << k;
     ASSERT_GE(autonomy.BlinkAt(start + 90ms), 0.7) << k;
   };
   for (std::size_t k = 0; k < kCount; ++k) {
@@ -407,16 +407,16 @@ TEST_F(BlinkTest, BlinksAreTheSumOfTheirIntervalsInWhateverOrderTheyAreAskedFor)
     check(jumping, k * 887 % kCount);
   }
   EXPECT_EQ(forward.BlinkAt(0ms), 0) << "before the switch";
-  EXPECT_EQ(forward.NextActivity(kSwitched + 100ms), starts[0]);
+  EXPECT_EQ(forward.NextMotion(kSwitched + 100ms), starts[0]);
 }
 
 TEST_F(BlinkTest, TheNextBlinkIsFoundAsFastAfterWeeksAsAtTheStart) {
   using Clock = std::chrono::steady_clock;
   const IdleBehaviour autonomy{inputs};
   const auto took = [&](vm::Time from) {
-    (void)autonomy.NextActivity(from);  // goes there
+    (void)autonomy.NextMotion(from);  // goes there
     const auto begin = Clock::now();
-    for (int i = 0; i < 5000; ++i) (void)autonomy.NextActivity(from + i * 20ms);
+    for (int i = 0; i < 5000; ++i) (void)autonomy.NextMotion(from + i * 20ms);
     return Clock::now() - begin;
   };
   const auto at_first = took(10s), later = took(std::chrono::hours(24 * 21));

@@ -22,7 +22,9 @@ const MotionTables& Tables() {
   return tables;
 }
 VisemeTrack Track28(const char* text) { return {List(text), Tables(), LipStyle{}}; }
-const MouthPose& Shape(const char* name) { return FindViseme(Tables().set28.visemes, name)->pose; }
+const MouthPose& Shape(const char* name) {
+  return FindViseme(Tables().set(VisemeSetId::k28).visemes, name)->pose;
+}
 
 TEST(DominanceTest, ALongVowelReachesAndHoldsItsShape) {
   const VisemeTrack track = Track28("pau 200 aa 300 pau 200");
@@ -68,7 +70,7 @@ TEST(DominanceTest, AClosureIsCompleteFromThePhonemesStartForItsHold) {
   for (const int ms : {15, 25, 40, 60, 90, 150, 250}) {
     const vm::PhonemeList list = {{"aa", 90ms}, {"m", std::chrono::milliseconds(ms)}, {"aa", 90ms}};
     const VisemeTrack track(list, Tables(), LipStyle{});
-    const double hold = std::min(kShortestClosureMs, 0.85 * ms);
+    const double hold = std::min(kMinClosureMs, 0.85 * ms);
     for (double t = 90; t <= 90 + hold; t += 0.5) {
       ASSERT_FLOAT_EQ(track.At(t).seal, 1) << ms << " at " << t;
     }
@@ -80,7 +82,7 @@ TEST(DominanceTest, AClosureIsCompleteFromThePhonemesStartForItsHold) {
 TEST(DominanceTest, NothingJumps) {
   std::mt19937 random(5);
   std::vector<std::string> names;
-  for (const auto& [name, look] : Tables().set28.english) names.push_back(name);
+  for (const auto& [name, look] : Tables().set(VisemeSetId::k28).english) names.push_back(name);
   for (int run = 0; run < 50; ++run) {
     vm::PhonemeList list;
     for (int i = 0; i < 30; ++i) {
@@ -130,7 +132,8 @@ TEST(LipStyleTest, LinearModeGoesStraight) {
 
 TEST(PhonemeNamesTest, TheListThatKnowsMostNamesTheLanguage) {
   const auto english = [](const char* text) {
-    return PhonemeReader(List(text), Tables().set28, Tables().engines, Language::kAuto, "")
+    return PhonemeReader(List(text), Tables().set(VisemeSetId::k28), Tables().engines,
+                         Language::kAuto, "")
                .language() == Language::kEnglish;
   };
   EXPECT_FALSE(english("pau 10 k 10 o 10 N 10 n 10 i 10 ch 10 i 10 w 10 a 10"));  // open_jtalk
@@ -149,21 +152,22 @@ TEST(PhonemeNamesTest, EveryEnginesWordsMoveTheMouthAlike) {
        {"SIL 100 HH 60 AH0 80 L 60 OW1 200 SIL 100", "_: 100 h 60 ə 80 l 60 oʊ 200 _: 100",
         "_ 100 h 60 @ 80 l 60 oU 200 _ 100"}) {
     EXPECT_NEAR(Track28(text).At(270).mouth[kJawY], jaw, 0.5) << text;
-    EXPECT_TRUE(Track28(text).visemes().unknown.empty()) << text;
+    EXPECT_TRUE(Track28(text).targets().unknown.empty()) << text;
   }
 }
 
 TEST(PhonemeNamesTest, EndingsAreTakenOffAndUnknownNamesAreListed) {
-  EXPECT_TRUE(Track28("iː 100 ˈ 0 a 100 uːː 100 ə 10 ɹ 10").visemes().unknown ==
+  EXPECT_TRUE(Track28("iː 100 ˈ 0 a 100 uːː 100 ə 10 ɹ 10").targets().unknown ==
               std::vector<std::string>{"ˈ"});
   const VisemeTrack track = Track28("aa 100 xyz 300 b 50 xyz 10 ?! 10");
-  EXPECT_EQ(track.visemes().unknown, (std::vector<std::string>{"xyz", "?!"}));
+  EXPECT_EQ(track.targets().unknown, (std::vector<std::string>{"xyz", "?!"}));
   EXPECT_FLOAT_EQ(track.At(250).seal, 1);  // closed, as the original
 }
 
 TEST(PhonemeNamesTest, ALanguageOrAnEngineCanBeInsistedOn) {
   const auto english = [](const char* text, Language language, const char* engine) {
-    return PhonemeReader(List(text), Tables().set28, Tables().engines, language, engine)
+    return PhonemeReader(List(text), Tables().set(VisemeSetId::k28), Tables().engines, language,
+                         engine)
                .language() == Language::kEnglish;
   };
   EXPECT_TRUE(english("k 10 t 10", Language::kEnglish, ""));
@@ -180,22 +184,25 @@ TEST(PhonemeNamesTest, AnEngineWhoseNameIsWithinAnothersIsListed) {
 }
 
 TEST(PhonemeTablesTest, BothSetsKnowTheSamePhonemes) {
-  for (const auto& [name, look] : Tables().set28.english) {
-    EXPECT_TRUE(Tables().set14.english.contains(name)) << name;
+  for (const auto& [name, look] : Tables().set(VisemeSetId::k28).english) {
+    EXPECT_TRUE(Tables().set(VisemeSetId::k14).english.contains(name)) << name;
   }
-  for (const auto& [name, look] : Tables().set28.japanese) {
-    EXPECT_TRUE(Tables().set14.japanese.contains(name)) << name;
+  for (const auto& [name, look] : Tables().set(VisemeSetId::k28).japanese) {
+    EXPECT_TRUE(Tables().set(VisemeSetId::k14).japanese.contains(name)) << name;
   }
 }
 
 TEST(PhonemeTablesTest, JapaneseConsonantsAreSixtyPerCentOfTheEnglishShape) {
   for (const char* name : {"t", "n", "k", "s", "sh", "w", "m"}) {
-    const PhonemeVisemes& shapes = Tables().set28.japanese.at(name);
+    const PhonemeVisemes& shapes = Tables().set(VisemeSetId::k28).japanese.at(name);
     EXPECT_DOUBLE_EQ(shapes.phases[0].strength, 0.6) << name;
-    EXPECT_EQ(shapes.phases[0].viseme, Tables().set28.english.at(name).phases[0].viseme) << name;
+    EXPECT_EQ(shapes.phases[0].viseme,
+              Tables().set(VisemeSetId::k28).english.at(name).phases[0].viseme)
+        << name;
   }
-  EXPECT_DOUBLE_EQ(Tables().set28.japanese.at("U").phases[0].strength, 0.6);
-  EXPECT_EQ(Tables().set28.japanese.at("h").phases[0].viseme, PhonemeVisemes::kNext);
+  EXPECT_DOUBLE_EQ(Tables().set(VisemeSetId::k28).japanese.at("U").phases[0].strength, 0.6);
+  EXPECT_EQ(Tables().set(VisemeSetId::k28).japanese.at("h").phases[0].viseme,
+            PhonemeVisemes::kNext);
 }
 
 // ---- on the head
@@ -214,7 +221,7 @@ struct Utterance {
 Utterance RandomUtterance(std::mt19937& random, double speed) {
   static const char* contacts[] = {"p", "b", "m", "f", "v"};
   std::vector<std::string> names;
-  for (const auto& [name, look] : Tables().set28.english) names.push_back(name);
+  for (const auto& [name, look] : Tables().set(VisemeSetId::k28).english) names.push_back(name);
   Utterance out;
   for (int i = 0; i < 14; ++i) {
     const bool contact = random() % 3 == 0;

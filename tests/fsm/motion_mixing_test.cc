@@ -21,7 +21,7 @@ class Turning : public MotionSource {
   void Contribute(vm::Time t, MotionLayers& layers) const override {
     if (t >= 1s && t < 2s) layers.Layer("turning").head_rotation[1] += 10;
   }
-  std::optional<vm::Time> NextActivity(vm::Time t) const override {
+  std::optional<vm::Time> NextMotion(vm::Time t) const override {
     if (t >= 2s) return std::nullopt;
     return std::max(t, vm::Time(1s));
   }
@@ -50,14 +50,14 @@ TEST(MotionLayersTest, ALayerStaysWhereItIsWhileOthersCome) {
 TEST(MotionSourceTest, ASourceFromOutsideIsMixedWithTheOthersWithoutARowOfItsOwn) {
   FaceMotion motion(MotionTables::Load().value(), 1);
   motion.Add(std::make_unique<Turning>());
-  EXPECT_EQ(motion.NextActivity(0s), vm::Time(1s));
+  EXPECT_EQ(motion.NextMotion(0s), vm::Time(1s));
   EXPECT_EQ(motion.FiniteEnd(0s), vm::Time(2s));
   motion.head.TurnTo(0s, {0, 5, 0});
   EXPECT_FLOAT_EQ(motion.StateAt(900ms).head_rotation[1], 5);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_rotation[1], 15);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).gaze.left[kToRight], 0) << "nothing keeps the eyes";
   EXPECT_FLOAT_EQ(motion.StateAt(2s).head_rotation[1], 5);
-  EXPECT_EQ(motion.NextActivity(2s), std::nullopt);
+  EXPECT_EQ(motion.NextMotion(2s), std::nullopt);
 }
 
 TEST(MotionSourceTest, ARowOfTheTableKeepsTheEyesOnTheirTarget) {
@@ -75,26 +75,26 @@ TEST(MixerTest, ALayerIsWeighedBySignalsAndLimitedByItsChannel) {
                   "layer a\nsignal loud\nweight a head loud 0.25\n"
                   "weight a brow_units loud 0\nweight result opening_units loud 0\n");
   ASSERT_TRUE(mixer) << mixer.error().text;
-  const UnitList units =
-      ReadUnitList("l.txt", "region brow 1\nopens 25\n", UnitNames::BuiltIn()).value();
+  const UnitRegions regions =
+      ReadUnitList("l.txt", "region brow 1\nopens 25\n", UnitNames::BuiltIn()).value().regions;
   MotionLayers layers;
   MotionLayer& a = layers.Layer("a");
   a.head_rotation[0] = 8;
   a.blink.left = a.blink.right = 0.4f;
-  a.units.au.left[1] = a.units.au.left[25] = 1;
-  a.units.au.left[12] = 1.5f;
+  a.look.au.left[1] = a.look.au.left[25] = 1;
+  a.look.au.left[12] = 1.5f;
   MotionLayer& b = layers.Layer("b");
   b.blink.left = b.blink.right = 0.7f;
-  b.units.au.left[12] = 1.5f;
+  b.look.au.left[12] = 1.5f;
   b.head_rotation[0] = 1;
   FaceState quiet, loud;
-  mixer->Mix(layers, units, quiet);
+  mixer->Mix(layers, regions, quiet);
   EXPECT_FLOAT_EQ(quiet.head_rotation[0], 9);
   EXPECT_FLOAT_EQ(quiet.blink.left, 0.7f) << "the greatest";
   EXPECT_FLOAT_EQ(quiet.au.left[12], 2) << "the limit";
   EXPECT_FLOAT_EQ(quiet.au.left[1], 1);
   layers.AddSignal("loud", 1);
-  mixer->Mix(layers, units, loud);
+  mixer->Mix(layers, regions, loud);
   EXPECT_FLOAT_EQ(loud.head_rotation[0], 3);
   EXPECT_FLOAT_EQ(loud.au.left[1], 0);
   EXPECT_FLOAT_EQ(loud.au.left[25], 0);
@@ -134,12 +134,12 @@ TEST(UnitValuesTest, GrowsWhenAHighNumberIsWrittenAndReadsZeroBeyondItsSize) {
   same[500] = 0.25f;
   same[700] = 0;
   EXPECT_TRUE(same == values);
-  EXPECT_THROW(values[UnitValues::kMost + 1] = 1, std::out_of_range);
+  EXPECT_THROW(values[UnitValues::kMax + 1] = 1, std::out_of_range);
 }
 
 TEST(NewUnitTest, OneRowMakesACodeOfTheHead) {
   FaceMotion motion(With("action_unit_names.txt", "code 158 58b 9 0 0 -9 0 -9 0 -8\n"), 1);
-  ASSERT_TRUE(motion.units.Set(0s, "58b 0.5"));
+  ASSERT_TRUE(motion.action_units.Set(0s, "58b 0.5"));
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_rotation[0], 4.5f);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_forward_mm, -4);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).gaze.left[kDown], -4.5f);
@@ -147,7 +147,7 @@ TEST(NewUnitTest, OneRowMakesACodeOfTheHead) {
 
 TEST(NewUnitTest, OneRowMakesAUnitThatExpressionsAndCommandsKnow) {
   FaceMotion motion(With("action_unit_names.txt", "unit 151 12b\nunit 152 Ear one-sided\n"), 1);
-  ASSERT_TRUE(motion.units.Set(0s, "12bL 0.5 Ear 1"));
+  ASSERT_TRUE(motion.action_units.Set(0s, "12bL 0.5 Ear 1"));
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.left[151], 0.5f);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.right[151], 0);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.left[152], 1);

@@ -20,16 +20,18 @@ TEST(VisemeTrackTest, TheKeyShapeStandsAtThePhonemesStart) {
   const auto tables = BuiltIn();
   const VisemeTrack track(List("pau 100 a 100 i 100 pau 100"), tables,
                           Original(Language::kJapanese));
-  EXPECT_NEAR(track.At(100).mouth[kJawY], tables.set14.visemes[9].pose.mouth[kJawY], 1e-5);
-  EXPECT_NEAR(track.At(200).mouth[kJawY], tables.set14.visemes[10].pose.mouth[kJawY], 1e-5);
+  EXPECT_NEAR(track.At(100).mouth[kJawY], tables.set(VisemeSetId::k14).visemes[9].pose.mouth[kJawY],
+              1e-5);
+  EXPECT_NEAR(track.At(200).mouth[kJawY],
+              tables.set(VisemeSetId::k14).visemes[10].pose.mouth[kJawY], 1e-5);
   EXPECT_NEAR(track.At(300).mouth[kJawY], 0, 1e-5);
 }
 
 TEST(VisemeTrackTest, BetweenKeysItIsTheOriginalsSinusoid) {
   const auto tables = BuiltIn();
   const VisemeTrack track(List("a 100 i 100"), tables, Original(Language::kJapanese));
-  const double v0 = tables.set14.visemes[9].pose.mouth[kJawY];
-  const double v1 = tables.set14.visemes[10].pose.mouth[kJawY];
+  const double v0 = tables.set(VisemeSetId::k14).visemes[9].pose.mouth[kJawY];
+  const double v1 = tables.set(VisemeSetId::k14).visemes[10].pose.mouth[kJawY];
   for (double u : {0.1, 0.25, 0.5, 0.8}) {
     const double w = std::cos(std::numbers::pi * u) / 2;
     EXPECT_NEAR(track.At(100 * u).mouth[kJawY], w * (v0 - v1) + (v0 + v1) / 2, 1e-4);
@@ -39,7 +41,7 @@ TEST(VisemeTrackTest, BetweenKeysItIsTheOriginalsSinusoid) {
 TEST(VisemeTrackTest, ALongPhonemeHoldsAndThenMovesFor92Ms) {
   const auto tables = BuiltIn();
   const VisemeTrack track(List("a 200 i 100"), tables, Original(Language::kJapanese));
-  const float full = tables.set14.visemes[9].pose.mouth[kJawY];
+  const float full = tables.set(VisemeSetId::k14).visemes[9].pose.mouth[kJawY];
   EXPECT_FLOAT_EQ(track.At(107).mouth[kJawY], full);
   EXPECT_LT(track.At(120).mouth[kJawY], full);
   const VisemeTrack shorter(List("a 199 i 100"), tables, Original(Language::kJapanese));
@@ -73,14 +75,17 @@ TEST(VisemeTrackTest, PausesAndUnknownPhonemesClose) {
 TEST(VisemeTrackTest, DiphthongsGoToTheirSecondShapeAfterThirtyPerCent) {
   const auto tables = BuiltIn();
   const VisemeTrack track(List("pau 100 ay 150 pau 100"), tables, Original(Language::kAuto));
-  EXPECT_NEAR(track.At(100).mouth[kJawY], tables.set14.visemes[9].pose.mouth[kJawY], 1e-5);
-  EXPECT_NEAR(track.At(145).mouth[kJawY], 0.8 * tables.set14.visemes[10].pose.mouth[kJawY], 1e-5);
+  EXPECT_NEAR(track.At(100).mouth[kJawY], tables.set(VisemeSetId::k14).visemes[9].pose.mouth[kJawY],
+              1e-5);
+  EXPECT_NEAR(track.At(145).mouth[kJawY],
+              0.8 * tables.set(VisemeSetId::k14).visemes[10].pose.mouth[kJawY], 1e-5);
 }
 
 TEST(VisemeTrackTest, HTakesTheNextVowel) {
   const auto tables = BuiltIn();
   const VisemeTrack track(List("h 80 a 100"), tables, Original(Language::kJapanese));
-  EXPECT_NEAR(track.At(0).mouth[kJawY], 0.7 * tables.set14.visemes[9].pose.mouth[kJawY], 1e-5);
+  EXPECT_NEAR(track.At(0).mouth[kJawY],
+              0.7 * tables.set(VisemeSetId::k14).visemes[9].pose.mouth[kJawY], 1e-5);
   EXPECT_FLOAT_EQ(track.At(0).seal, 0);
 }
 
@@ -144,8 +149,9 @@ TEST(SpeechTest, TheMouthLeadsTheVoiceByExactlyTheLead) {
   const auto settings = motion.settings();
   EXPECT_DOUBLE_EQ(settings.lead_ms, 40);
   // There the vowel and the rest before it have their say by their dominance of the jaw, 1 : 0.8.
-  const double full = FindViseme(BuiltIn().set28.visemes, "ja_a")->pose.mouth[kJawY] *
-                      settings.mouth_scale / kFullMouthScale;
+  const double full =
+      FindViseme(BuiltIn().set(VisemeSetId::k28).visemes, "ja_a")->pose.mouth[kJawY] *
+      settings.mouth_scale / kFullMouthScale;
   EXPECT_NEAR(motion.StateAt(1160ms).mouth[kJawY], full / 1.8, 1e-3);
   EXPECT_EQ(motion.speech.End(), vm::Time(1550ms));
 }
@@ -157,7 +163,8 @@ TEST(SpeechTest, InTheOriginalsModeTheKeyShapeStandsTheLeadBeforeTheSound) {
   motion.Apply(0ms, settings);
   motion.speech.Start(0ms, List("pau 200 a 150 pau 200"), 1000ms);
   EXPECT_NEAR(motion.StateAt(1160ms).mouth[kJawY],
-              BuiltIn().set14.visemes[9].pose.mouth[kJawY] * settings.mouth_scale / kFullMouthScale,
+              BuiltIn().set(VisemeSetId::k14).visemes[9].pose.mouth[kJawY] * settings.mouth_scale /
+                  kFullMouthScale,
               1e-4);
 }
 
@@ -239,7 +246,7 @@ TEST(SpeechTest, AtRestTheLipsAreFree) {
   EXPECT_FLOAT_EQ(motion.StateAt(0ms).seal, 0);
   motion.speech.Start(0ms, List("a 100"), 0ms);
   EXPECT_FLOAT_EQ(motion.StateAt(1000ms).seal, 0);
-  EXPECT_FALSE(motion.NextActivity(1000ms).has_value());
+  EXPECT_FALSE(motion.NextMotion(1000ms).has_value());
 }
 
 }  // namespace

@@ -54,9 +54,9 @@ TEST_F(MouthStreamTest, ItBeginsSoftlyAndClosesWhenNoFramesCome) {
   EXPECT_NEAR(Jaw(1260ms), 0, 1e-3);
   EXPECT_NEAR(motion_.StateAt(1260ms).seal, 1, 0.05);
   EXPECT_EQ(motion_.StateAt(1700ms).seal, 0);
-  EXPECT_EQ(motion_.NextActivity(500ms), vm::Time(940ms));
-  EXPECT_EQ(motion_.NextActivity(1100ms), vm::Time(1100ms));
-  EXPECT_EQ(motion_.NextActivity(1600ms), std::nullopt);
+  EXPECT_EQ(motion_.NextMotion(500ms), vm::Time(940ms));
+  EXPECT_EQ(motion_.NextMotion(1100ms), vm::Time(1100ms));
+  EXPECT_EQ(motion_.NextMotion(1600ms), std::nullopt);
   EXPECT_EQ(motion_.FiniteEnd(0ms), vm::Time(1550ms));
 }
 
@@ -98,7 +98,7 @@ TEST_F(MouthStreamTest, TheMouthOfATextGivesWay) {
 }
 
 TEST_F(MouthStreamTest, ASealClosesWhateverElseOpens) {
-  ASSERT_TRUE(motion_.units.Set(0ms, "26 1 0"));  // jaw drop
+  ASSERT_TRUE(motion_.action_units.Set(0ms, "26 1 0"));  // jaw drop
   for (int i = 0; i < 50; ++i) Add(1000ms + i * 20ms, 1, 1);
   EXPECT_EQ(motion_.StateAt(1500ms).seal, 1);
   EXPECT_LT(motion_.StateAt(1500ms).au.left[26], 0.01F);
@@ -121,7 +121,7 @@ TEST_F(MouthStreamTest, TheHeadGoesWithTheFramesAndHomeAfterThem) {
   }
   EXPECT_GT(at(2200ms).head_rotation[0], 3);
   EXPECT_EQ(at(2700ms).head_rotation[0], 0);
-  EXPECT_EQ(motion_.NextActivity(2690ms), vm::Time(2690ms));
+  EXPECT_EQ(motion_.NextMotion(2690ms), vm::Time(2690ms));
   EXPECT_EQ(motion_.FiniteEnd(0ms), vm::Time(2700ms));
 }
 

@@ -17,12 +17,12 @@ namespace {
 TEST(MotionTablesTest, TheFourteenShapesStandInTheirOrder) {
   const MotionTables tables = BuiltIn();
   std::string names;
-  for (const Viseme& shape : tables.set14.visemes) names += shape.name + " ";
+  for (const Viseme& shape : tables.set(VisemeSetId::k14).visemes) names += shape.name + " ";
   EXPECT_EQ(names, "rest r m t n k f s w a i u e o ");
 }
 
 TEST(MotionTablesTest, VowelJawsAreOrderedAsMeasuredInSpeech) {
-  const auto shapes = BuiltIn().set14.visemes;
+  const auto shapes = BuiltIn().set(VisemeSetId::k14).visemes;
   const auto jaw = [&](std::size_t i) { return shapes[i].pose.mouth[kJawY]; };
   EXPECT_GT(jaw(9), jaw(12));   // a > e
   EXPECT_GT(jaw(12), jaw(13));  // e > o
@@ -31,7 +31,8 @@ TEST(MotionTablesTest, VowelJawsAreOrderedAsMeasuredInSpeech) {
 }
 
 TEST(MotionTablesTest, OnlyRestAndTheLipClosuresSeal) {
-  for (const Viseme& shape : BuiltIn().set14.visemes) {
+  const MotionTables tables = BuiltIn();
+  for (const Viseme& shape : tables.set(VisemeSetId::k14).visemes) {
     EXPECT_EQ(shape.pose.seal, shape.name == "rest" || shape.name == "m" ? 1 : 0) << shape.name;
   }
 }
@@ -42,7 +43,7 @@ TEST(MotionTablesTest, EveryPhonemeOfTheOriginalVoiceIsKnown) {
        {"a",  "i",  "u",  "e",  "o",  "k",  "s", "sh",  "t",   "ch", "ts", "n",  "h",  "f",
         "m",  "y",  "r",  "w",  "g",  "z",  "j", "d",   "b",   "p",  "ky", "ny", "hy", "my",
         "ry", "gy", "by", "py", "dy", "cl", "N", "pau", "sil", "A",  "I",  "U",  "E",  "O"}) {
-    EXPECT_TRUE(tables.set14.japanese.contains(name)) << name;
+    EXPECT_TRUE(tables.set(VisemeSetId::k14).japanese.contains(name)) << name;
   }
 }
 
@@ -52,7 +53,7 @@ TEST(MotionTablesTest, EveryPhonemeOfFliteIsKnown) {
        {"aa",  "ae", "ah", "ao", "aw", "ax", "ay", "b",  "ch", "d", "dh", "eh", "er", "ey",
         "f",   "g",  "hh", "ih", "iy", "jh", "k",  "l",  "m",  "n", "ng", "ow", "oy", "p",
         "pau", "r",  "s",  "sh", "t",  "th", "uh", "uw", "v",  "w", "y",  "z",  "zh"}) {
-    EXPECT_TRUE(tables.set14.english.contains(name)) << name;
+    EXPECT_TRUE(tables.set(VisemeSetId::k14).english.contains(name)) << name;
   }
 }
 
@@ -63,7 +64,7 @@ TEST(MotionTablesTest, ThereAreSixEmotionsAndUserdefWithFivePatterns) {
     ASSERT_TRUE(tables.expressions.contains(name)) << name;
     EXPECT_EQ(tables.expressions.at(name).patterns.size(), 5u) << name;
   }
-  EXPECT_FLOAT_EQ(tables.expressions.at("HAPPY").patterns[0].au.left[12], 0.8f);
+  EXPECT_FLOAT_EQ(tables.expressions.at("HAPPY").patterns[0].au.left[12], 1.0f);
   EXPECT_DOUBLE_EQ(tables.expressions.at("HAPPY").posed.onset_ms, 556);
 }
 
@@ -96,9 +97,9 @@ TEST(MotionTablesTest, ADamagedRowOfBeginsIsReportedWithFileAndLine) {
 
 TEST(MotionTablesTest, FaceThirtyClosesTheEyes) {
   const auto tables = BuiltIn();
-  EXPECT_EQ(tables.units.units.at(29), 43);
-  EXPECT_EQ(tables.units.units.at(0), 1);
-  EXPECT_EQ(tables.units.emotions.at(35), "FEARED");
+  EXPECT_EQ(tables.unit_list.face_slots.at(29).unit, 43);
+  EXPECT_EQ(tables.unit_list.face_slots.at(0).unit, 1);
+  EXPECT_EQ(tables.unit_list.face_slots.at(35).emotion, "FEARED");
 }
 
 TEST(MotionTablesTest, AWrongShapeIsReportedWithFileAndLine) {
@@ -108,7 +109,7 @@ TEST(MotionTablesTest, AWrongShapeIsReportedWithFileAndLine) {
 }
 
 TEST(MotionTablesTest, WrongWordsNameWhatWasExpected) {
-  const auto shapes = BuiltIn().set14.visemes;
+  const auto shapes = BuiltIn().set(VisemeSetId::k14).visemes;
   const UnitNames& names = UnitNames::BuiltIn();
   const auto expect = [](const auto& result, const std::string& text) {
     ASSERT_FALSE(result);
@@ -144,7 +145,7 @@ TEST(MotionTablesTest, AFolderReplacesOnlyTheTablesItHas) {
   const auto tables = MotionTables::Load(folder.string());
   ASSERT_TRUE(tables) << tables.error().text;
   EXPECT_EQ(tables->expressions.size(), 1u);
-  EXPECT_EQ(tables->set14.visemes.size(), CountOf(VisemeSetId::k14));
+  EXPECT_EQ(tables->set(VisemeSetId::k14).visemes.size(), CountOf(VisemeSetId::k14));
   std::ofstream(folder / "emotions.txt") << "\nBORED\n";
   const auto wrong = MotionTables::Load(folder.string());
   ASSERT_FALSE(wrong);
@@ -155,11 +156,14 @@ TEST(MotionTablesTest, AFolderReplacesOnlyTheTablesItHas) {
   std::ofstream(gestures) << "nod size 0.5 0\n";
   const auto nods = MotionTables::Load(folder.string());
   ASSERT_TRUE(nods) << nods.error().text;
-  EXPECT_EQ(nods->gestures.nod.size, glm::vec2(0.5F, 0));
+  EXPECT_EQ(nods->gestures.nod.size, (Line{0.5F, 0}));
   EXPECT_EQ(nods->gestures.jaw.SHOUTED, 180) << "rows left out are the built-in ones";
   std::ofstream(gestures) << "nod lasts 0\n";
   EXPECT_EQ(MotionTables::Load(folder.string()).error().text,
             gestures + ":1: '0' found where 1 to 1000 was expected");
+  std::ofstream(gestures) << "contact approach 60 12\n";
+  EXPECT_EQ(MotionTables::Load(folder.string()).error().text,
+            gestures + ":1: the first number of 'contact approach' exceeds the second");
   std::filesystem::remove_all(folder);
   EXPECT_FALSE(MotionTables::Load(folder.string()));
 }

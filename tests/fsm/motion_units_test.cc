@@ -20,12 +20,12 @@ struct UnitsTest : testing::Test {
   UnitsTest() { EXPECT_TRUE(motion.switches().Set(0ms, "ASYMMETRY", 0)); }
   FaceMotion motion{MotionTables::Load().value(), 1};
   FaceState After(const char* text) {
-    const auto set = motion.units.Set(0ms, text);
+    const auto set = motion.action_units.Set(0ms, text);
     EXPECT_TRUE(set) << text << ": " << (set ? "" : set.error().text);
     return motion.StateAt(1s);
   }
   std::string Refusal(const char* text) {
-    const auto set = motion.units.Set(0ms, text);
+    const auto set = motion.action_units.Set(0ms, text);
     return set ? "taken" : set.error().text;
   }
 };
@@ -123,11 +123,11 @@ TEST(OwnUnitNamesTest, AreFoundWhateverTheirCaseBeforeNumbersWithALetter) {
   for (const char* text : {"58b 0.7", "58B 0.7"}) {
     const auto command = ParseUnitCommand(text, *names);
     ASSERT_TRUE(command) << command.error().text;
-    EXPECT_EQ(command->units.at(0).number, 158) << text;
-    EXPECT_EQ(command->units.at(0).strength, 0.7) << text;
+    EXPECT_EQ(command->settings.at(0).number, 158) << text;
+    EXPECT_EQ(command->settings.at(0).strength, 0.7) << text;
     EXPECT_FALSE(command->ms) << text;
   }
-  EXPECT_EQ(ParseUnitCommand("58C", *names)->units.at(0).number, 58);
+  EXPECT_EQ(ParseUnitCommand("58C", *names)->settings.at(0).number, 58);
   const auto one_side = ParseUnitName("lipCORNERpuller.l", *names);
   ASSERT_TRUE(one_side) << one_side.error().text;
   EXPECT_EQ(one_side->number, 12);
@@ -152,7 +152,7 @@ TEST_F(UnitsTest, StrengthsThatAreNoneAreRefusedEverywhere) {
     EXPECT_FALSE(motion.expression.Show(0ms, "HAPPY", 1, bad, 0ms)) << bad;
     EXPECT_FALSE(motion.SetFace(0ms, 1, bad)) << bad;
     EXPECT_FALSE(motion.mouth.Set(0ms, 1, bad)) << bad;
-    EXPECT_FALSE(motion.units.Set(0ms, "12 " + std::to_string(bad))) << bad;
+    EXPECT_FALSE(motion.action_units.Set(0ms, "12 " + std::to_string(bad))) << bad;
     EXPECT_FALSE(motion.blend_shapes.Set(0ms, "jawOpen", bad, 0ms)) << bad;
   }
 }
@@ -168,12 +168,13 @@ TEST_F(UnitsTest, ExpressionsAreDefinedChangedAndForgotten) {
   ASSERT_TRUE(motion.expression.Show(1s, "SMIRK", 2, 1, 0ms));
   EXPECT_FLOAT_EQ(motion.StateAt(2s).gaze.left[kToRight], 10);
   ASSERT_TRUE(motion.expression.Define("HAPPY", 1, "12 1"));
+  EXPECT_TRUE(motion.expression.Define("2FAST", 1, "12 1")) << "a digit may come first";
   ASSERT_TRUE(motion.expression.Show(2s, "HAPPY", 1, 1, 0ms));
   EXPECT_FLOAT_EQ(motion.StateAt(3s).au.left[12], 1);
   motion.expression.Forget("HAPPY");
   motion.expression.Forget("SMIRK");
   ASSERT_TRUE(motion.expression.Show(3s, "HAPPY", 1, 1, 0ms));
-  EXPECT_FLOAT_EQ(motion.StateAt(4s).au.left[12], 0.8f);
+  EXPECT_FLOAT_EQ(motion.StateAt(4s).au.left[12], 1.0f);
   EXPECT_FALSE(motion.expression.Show(4s, "SMIRK", 1, 1, 0ms));
 }
 

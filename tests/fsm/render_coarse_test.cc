@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Heads, SmallFaceTest,
 
 /// The edges of a part that bound it: those of one triangle only.
 std::set<std::pair<std::uint32_t, std::uint32_t>> BorderOf(const HeadTriangles& triangles,
-                                                           const HeadTopology::Part& part) {
+                                                           const HeadSurface::Part& part) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> border;
   for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
     const std::uint32_t a = triangles.indices[k];
@@ -89,7 +89,7 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> BorderOf(const HeadTriangles& 
 
 TEST(CoarseTrianglesTest, ManyAreLeftOutAndNothingComesApart) {
   const auto head = MakeHead("galatea");
-  const HeadTriangles all{head->topology().parts, head->topology().indices};
+  const HeadTriangles all{head->surface().parts, head->surface().indices};
   const HeadTriangles fine = CoarseTriangles(*head, {}, 1e-4F);
   const HeadTriangles coarse = CoarseTriangles(*head, {}, 1);
   EXPECT_LT(coarse.indices.size(), all.indices.size() / 2);

@@ -77,9 +77,9 @@ TEST(EyeColourTest, EachEyeHasItsOwn) {
   const auto renderer = Renderer::Make(*context);
   const auto galatea = MakeHead("galatea");
   const auto drawn = [&](glm::vec3 left, glm::vec3 right) {
-    HeadAsset asset{galatea->topology(), galatea->rig().data(), galatea->landmarks(), {}};
-    asset.topology.eyes.left.iris_colour = left;
-    asset.topology.eyes.right.iris_colour = right;
+    HeadAsset asset{galatea->surface(), galatea->rig().data(), galatea->landmarks(), {}};
+    asset.surface.eyes.left.iris_colour = left;
+    asset.surface.eyes.right.iris_colour = right;
     Image image;
     renderer->Draw(Head(std::move(asset)), FaceState{}, std::span<const glm::vec3>(), Scene{});
     renderer->Read(image);
@@ -260,23 +260,23 @@ TEST_F(FrameTest, AnotherHeadIsNoticedAndTheFirstOneToo) {
 /// One thing that a head brings to the renderer, in two ways that are seen in the picture.
 struct HeadChange {
   const char* name;
-  void (*one)(HeadTopology&);
-  void (*other)(HeadTopology&);
+  void (*one)(HeadSurface&);
+  void (*other)(HeadSurface&);
 };
 
 void PrintTo(const HeadChange& change, std::ostream* out) { *out << change.name; }
 
-void Wear(HeadTopology& topology, std::uint8_t red, std::uint8_t blue) {
+void Wear(HeadSurface& topology, std::uint8_t red, std::uint8_t blue) {
   topology.textures.image = std::make_shared<Image>(Image{1, 1, {red, 80, blue, 255}});
   topology.textures.texcoord.assign(topology.albedo.size(), glm::vec2(0.5F));
   topology.textures.weight.assign(topology.albedo.size(), 1);
 }
 
-void Comb(HeadTopology& topology, float density) {
+void Comb(HeadSurface& topology, float density) {
   topology.strands.assign(topology.albedo.size(), Strand{.density = density});
 }
 
-void Shine(HeadTopology& topology, glm::vec3 glow) {
+void Shine(HeadSurface& topology, glm::vec3 glow) {
   PbrMaterial pbr;
   pbr.emissive = glow;
   topology.pbr_materials = {pbr};
@@ -285,21 +285,21 @@ void Shine(HeadTopology& topology, glm::vec3 glow) {
 }
 
 const HeadChange kHeadChanges[] = {
-    {"photo", [](HeadTopology& t) { Wear(t, 200, 20); }, [](HeadTopology& t) { Wear(t, 20, 200); }},
-    {"strands", [](HeadTopology& t) { Comb(t, 1); }, [](HeadTopology& t) { Comb(t, 0); }},
+    {"photo", [](HeadSurface& t) { Wear(t, 200, 20); }, [](HeadSurface& t) { Wear(t, 20, 200); }},
+    {"strands", [](HeadSurface& t) { Comb(t, 1); }, [](HeadSurface& t) { Comb(t, 0); }},
     {"pbr_materials",
-     [](HeadTopology& t) {
+     [](HeadSurface& t) {
        Shine(t, {1, 0, 0});
      },
-     [](HeadTopology& t) {
+     [](HeadSurface& t) {
        Shine(t, {0, 0, 1});
      }},
     {"saturation",
-     [](HeadTopology& t) {
+     [](HeadSurface& t) {
        Wear(t, 120, 120);
        t.portrait.saturation = 1;
      },
-     [](HeadTopology& t) {
+     [](HeadSurface& t) {
        Wear(t, 120, 120);
        t.portrait.saturation = 0;
      }},
@@ -317,8 +317,8 @@ class ChangedHeadTest : public FrameTest, public ::testing::WithParamInterface<H
 
 TEST_P(ChangedHeadTest, IsNoticedWhereAnotherOneDied) {
   // Both live at the same address and have the same triangles and colours.
-  const auto changed = [](void (*change)(HeadTopology&)) {
-    return [change](HeadAsset& asset) { change(asset.topology); };
+  const auto changed = [](void (*change)(HeadSurface&)) {
+    return [change](HeadAsset& asset) { change(asset.surface); };
   };
   std::optional<BallHead> head(std::in_place, changed(GetParam().one));
   const Image one = Drawn(*renderer_, *head);
@@ -336,7 +336,7 @@ TEST(HeadSerialTest, NoTwoHeadsHaveTheSameNotEvenTheOneMadeOfTheOther) {
   std::optional<BallHead> head(std::in_place);
   const std::uint64_t first = head->serial();
   EXPECT_EQ(head->serial(), first);
-  const auto other = head->WithUnits(head->rig().data().units);
+  const auto other = head->WithUnits(head->rig().data().unit_effects);
   EXPECT_NE(other->serial(), first);
   head.emplace();
   EXPECT_NE(head->serial(), first);
@@ -345,7 +345,7 @@ TEST(HeadSerialTest, NoTwoHeadsHaveTheSameNotEvenTheOneMadeOfTheOther) {
 
 TEST_F(FrameTest, HeadWithoutEyesOrPartsIsDrawn) {
   const auto with_parts = [](std::size_t count) {
-    return BallHead([count](HeadAsset& asset) { asset.topology.parts.resize(count); });
+    return BallHead([count](HeadAsset& asset) { asset.surface.parts.resize(count); });
   };
   const BallHead bare = with_parts(1), nothing = with_parts(0);
   renderer_->DrawVertices(bare, vertices_, state_.figure, scene_);

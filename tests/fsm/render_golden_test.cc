@@ -82,7 +82,7 @@ FaceState StateOf(const Golden& golden) {
   }
   state.head_rotation[1] = golden.turn_degrees;
   if (golden.viseme == nullptr) return state;
-  const MouthPose& pose = FindViseme(Tables().set14.visemes, golden.viseme)->pose;
+  const MouthPose& pose = FindViseme(Tables().set(VisemeSetId::k14).visemes, golden.viseme)->pose;
   state.mouth = pose.mouth;
   state.seal = pose.seal;
   state.tongue = pose.tongue;

@@ -59,16 +59,16 @@ class GpuRigTest : public testing::Test {
 
   /// How far faces of these states, moved in one call, lie from those of the processor.
   void ExpectEqual(const Rig& rig, const std::vector<FaceState>& states) {
-    GpuRig on_card(gl_, programs_, rig);
+    GpuRig on_gpu(gl_, programs_, rig);
     const std::vector<glm::vec3> spring_offsets(rig.data().spring_rig.springs.size(),
                                                 glm::vec3(1, -2, 3));
     std::vector<GpuRig::Input> faces;
     for (const FaceState& state : states) faces.push_back({&state, spring_offsets});
-    on_card.Evaluate(rig, faces);
+    on_gpu.Evaluate(rig, faces);
     for (std::size_t face = 0; face < states.size(); ++face) {
       HeadVertices here, there;
       rig.Evaluate(states[face], here, spring_offsets);
-      on_card.Read(face, there);
+      on_gpu.Read(face, there);
       ASSERT_EQ(here.position.size(), there.position.size());
       float farthest = 0, steepest = 1;
       std::size_t at = 0;
@@ -130,9 +130,8 @@ RigData WithAllSteps() {
   const std::vector<std::uint32_t>& soft = data.normals.soft_triangles;
   for (std::size_t k = 0; k < soft.size(); k += 60) data.normals.twin[soft[k]] = soft[0];
   data.normals.twin[soft[0]] = soft[0];
-  data.ball_lids.centre = data.lids.ball;
   for (const LidRig::Vertex& lid : data.lids.vertices)
-    data.ball_lids.vertices.push_back({lid.vertex, lid.side, 14.0F});
+    data.ball_lids.push_back({lid.vertex, lid.side, 14.0F});
   return data;
 }
 
@@ -179,7 +178,7 @@ TEST_F(GpuRigTest, APictureOfAHeadMovedOnTheCardIsThatOfTheProcessor) {
     renderer->Read(images.emplace_back());
     return images;
   };
-  const auto card = picture(RigOn::kCard), processor = picture(RigOn::kProcessor);
+  const auto card = picture(RigOn::kGpu), processor = picture(RigOn::kProcessor);
   for (std::size_t k = 0; k < card.size(); ++k) {
     std::size_t differ = 0;
     for (std::size_t i = 0; i < card[k].rgba.size(); ++i)
@@ -192,13 +191,13 @@ TEST_F(GpuRigTest, APictureOfAHeadMovedOnTheCardIsThatOfTheProcessor) {
 
 TEST_F(GpuRigTest, AFaceThatIsAskedForAgainIsTheSame) {
   const auto head = MakeHead("galatea");
-  GpuRig on_card(gl_, programs_, head->rig());
+  GpuRig on_gpu(gl_, programs_, head->rig());
   const FaceState wild = Wild(3), rest;
   HeadVertices first, again;
-  on_card.Evaluate(head->rig(), std::vector<GpuRig::Input>{{&wild}});
-  on_card.Read(0, first);
-  on_card.Evaluate(head->rig(), std::vector<GpuRig::Input>{{&rest}, {&rest}, {&wild}});
-  on_card.Read(2, again);
+  on_gpu.Evaluate(head->rig(), std::vector<GpuRig::Input>{{&wild}});
+  on_gpu.Read(0, first);
+  on_gpu.Evaluate(head->rig(), std::vector<GpuRig::Input>{{&rest}, {&rest}, {&wild}});
+  on_gpu.Read(2, again);
   EXPECT_EQ(first.position, again.position);
   EXPECT_EQ(first.normal, again.normal);
 }

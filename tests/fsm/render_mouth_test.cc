@@ -56,7 +56,7 @@ class MouthPicture {
   float Light(glm::vec3 place) const { return glm::dot(At(place), glm::vec3(0.3F, 0.6F, 0.1F)); }
 
   glm::vec3 Vertex(std::uint32_t i) const { return vertices_.position[i]; }
-  const MouthSlit& mouth() const { return head_->topology().mouth; }
+  const MouthLandmarks& mouth() const { return head_->mouth(); }
   /// The upper or the lower lip's edge at one x.
   glm::vec3 Lip(bool upper, float x) const {
     glm::vec3 best(1e6F);
@@ -118,9 +118,9 @@ std::unique_ptr<Head> WithNeck() {
 TEST(MouthPictureTest, UpperTeethAreDarkestUnderTheLip) {
   const MouthPicture picture(InPhoto(), {{10, 1.0F}, {26, 0.5F}, {25, 1.0F}});
   const glm::vec3 lip = picture.Lip(true, kIncisor);
-  const float edge = picture.Vertex(picture.mouth().upper_incisor).y;
+  const float edge = picture.Vertex(picture.mouth().incisors->upper).y;
   ASSERT_GT(lip.y - edge, 2.5F) << "enough of the tooth is seen";
-  const float z = picture.Vertex(picture.mouth().upper_incisor).z;
+  const float z = picture.Vertex(picture.mouth().incisors->upper).z;
   const auto at = [&](float part) {
     return picture.Light({kIncisor, glm::mix(lip.y, edge, part), z});
   };
@@ -132,7 +132,7 @@ TEST(MouthPictureTest, TeethStandInTheHueThatTheWhitesOfTheEyesShow) {
     PhotoHead set = OneColour();
     set.white_colour = white;
     const MouthPicture picture(MakeHead(set), {{10, 1.0F}, {26, 0.5F}, {25, 1.0F}});
-    const glm::vec3 edge = picture.Vertex(picture.mouth().upper_incisor);
+    const glm::vec3 edge = picture.Vertex(picture.mouth().incisors->upper);
     return picture.At(
         glm::mix(picture.Lip(true, kIncisor), glm::vec3(kIncisor, edge.y, edge.z), 0.6F));
   };
@@ -144,7 +144,7 @@ TEST(MouthPictureTest, TeethStandInTheHueThatTheWhitesOfTheEyesShow) {
 TEST(MouthPictureTest, MoreOfTheUpperTeethIsSeenOfAFaceFromAPhoto) {
   const auto below_lip = [](std::unique_ptr<Head> head) {
     const MouthPicture picture(std::move(head), {});
-    return picture.Lip(true, 0).y - picture.Vertex(picture.mouth().upper_incisor).y;
+    return picture.Lip(true, 0).y - picture.Vertex(picture.mouth().incisors->upper).y;
   };
   const float built_in = below_lip(MakeHead("galatea"));
   EXPECT_NEAR(below_lip(InPhoto()) - built_in, 1, 0.3F);
@@ -152,7 +152,7 @@ TEST(MouthPictureTest, MoreOfTheUpperTeethIsSeenOfAFaceFromAPhoto) {
 
 TEST(MouthPictureTest, TongueSinksIntoTheDarkToItsSides) {
   const MouthPicture picture(InPhoto(), {{27, 0.8F}});
-  const glm::vec3 teeth = picture.Vertex(picture.mouth().lower_incisor);
+  const glm::vec3 teeth = picture.Vertex(picture.mouth().incisors->lower);
   const auto at = [&](float x) { return picture.Light({x, teeth.y + 4, teeth.z - 12}); };
   EXPECT_GT(at(0), 45) << "it is lit in the middle";
   for (const float side : {-1.0F, 1.0F}) {
@@ -237,11 +237,11 @@ TEST(MouthPictureTest, TheChinsShadowDoesNotReachBeyondTheNeck) {
 /// A photo with a neck that does not say where its lips part, as heads from elsewhere may not.
 Head WithoutMouth() {
   const auto head = WithNeck();
-  HeadAsset asset{.topology = head->topology(),
+  HeadAsset asset{.surface = head->surface(),
                   .rig = head->rig().data(),
                   .landmarks = head->landmarks(),
                   .view = head->view()};
-  asset.topology.mouth = {};
+  asset.rig.mouth.incisors.reset();
   return Head(std::move(asset));
 }
 
@@ -274,14 +274,14 @@ TEST(MouthPictureTest, AHeadThatSaysNothingOfItsLipsTakesNothingFromTheOneDrawnB
 
 TEST(MouthFinderTest, LipsAreShutWhereNothingIsSeenBetweenThem) {
   const auto head = MakeHead("galatea");
-  const MouthFinder finder(head->topology());
+  const MouthFinder finder(head->mouth());
   HeadVertices vertices;
   head->Evaluate({}, vertices);
   EXPECT_TRUE(finder.Measure(vertices)->IsShut());
   for (const glm::vec3 apart :
        {glm::vec3(0, 0.5F, 0), glm::vec3(0, 0, 0.5F), glm::vec3(0, 0, -0.5F)}) {
     HeadVertices open = vertices;
-    for (const auto& pair : head->topology().mouth.seam) open.position[pair.first] += apart;
+    for (const auto& pair : head->mouth().seam) open.position[pair.first] += apart;
     EXPECT_FALSE(finder.Measure(open)->IsShut()) << apart.y << " " << apart.z;
   }
   FaceState state;

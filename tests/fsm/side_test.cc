@@ -37,5 +37,16 @@ TEST(AnglesTest, AHeadTurnsDownAndToTheViewersRightByPositiveAngles) {
   EXPECT_GT(ahead.x, 0.4F);
 }
 
+TEST(AnglesTest, HeadRotationsComeBackFromTheirMatrix) {
+  for (const Angles& told : {Angles{10, 0, 0}, {0, -20, 0}, {0, 0, 15}, {-25, 40, 30}}) {
+    FaceState state;
+    state.head_rotation = told;
+    const Angles found = HeadRotationOf(HeadRotation(state));
+    for (const Axis i : {kDown, kToRight, kTilted}) {
+      EXPECT_NEAR(found[i], told[i], 1e-3F) << told[0] << ' ' << told[1] << ' ' << told[2];
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fsm

@@ -6,10 +6,12 @@
 #include <sys/un.h>
 
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <vector>
 
 #include "tests/support/process.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace vm {
 namespace {
@@ -73,6 +75,24 @@ TEST_F(FileKindTest, AFolderIsNoFile) {
 TEST_F(FileKindTest, TheNullDeviceMayBeWritten) {
   EXPECT_TRUE(CheckWritable("/dev/null"));
   EXPECT_FALSE(CheckReadable("/dev/null"));
+}
+
+TEST_F(FileKindTest, AFileIsReplacedAsAWholeAndNoDraftIsLeft) {
+  const std::string file = folder_ / "file";
+  {
+    auto draft = DraftFile::Beside(file);
+    ASSERT_TRUE(draft);
+    EXPECT_TRUE(WriteTextFile(file, "new"));
+    EXPECT_EQ(ReadTextFile(draft->name(), 9).value(), "") << "each draft has a name of its own";
+  }
+  EXPECT_EQ(ReadTextFile(file, 9).value(), "new");
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / ".")) {
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+  }
+  EXPECT_EQ(Told(WriteTextFile(folder_ / "none/file", "")),
+            (Error{Errc::kUnavailable,
+                   "cannot write '" + (folder_ / "none/file") + "': No such file or directory"}));
+  EXPECT_TRUE(WriteTextFile("/dev/null", "new"));
 }
 
 }  // namespace

@@ -50,16 +50,43 @@ Result<std::string> ReadTextFile(const std::string& path, std::size_t max_bytes)
   }
 }
 
+Result<DraftFile> DraftFile::Beside(const std::string& path) {
+  constexpr int kMaxDrafts = 1000;  // limit of files left by killed programs
+  for (int number = 1;; ++number) {
+    std::string name = path + "." + std::to_string(number) + ".part";
+    const Descriptor file{open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
+    if (file.fd >= 0) return DraftFile(path, std::move(name));
+    if (errno != EEXIST || number == kMaxDrafts) {
+      return Fail(Errc::kUnavailable, std::strerror(errno));
+    }
+  }
+}
+
+DraftFile::~DraftFile() {
+  if (!name_.empty()) std::remove(name_.c_str());
+}
+
+Result<void> DraftFile::TakePlace() {
+  if (std::rename(name_.c_str(), path_.c_str()) != 0) {
+    return Fail(Errc::kUnavailable, std::strerror(errno));
+  }
+  name_.clear();
+  return {};
+}
+
 Result<void> WriteTextFile(const std::string& path, std::string_view text) {
-  if (auto fit = CheckWritable(path); !fit) return fit;
-  const bool to_null = path == "/dev/null";
-  const std::string partial = to_null ? path : path + "." + std::to_string(getpid());
-  std::ofstream file(partial, std::ios::binary);
+  if (auto fit = CheckWritable(path); !fit || path == "/dev/null") return fit;
+  const auto cannot = [&path](const std::string& why) {
+    return Fail(Errc::kUnavailable, "cannot write '" + path + "': " + why);
+  };
+  auto draft = DraftFile::Beside(path);
+  if (!draft) return cannot(draft.error().text);
+  std::ofstream file(draft->name(), std::ios::binary);
   file << text;
   file.close();
-  if (file && (to_null || std::rename(partial.c_str(), path.c_str()) == 0)) return {};
-  if (!to_null) std::remove(partial.c_str());
-  return Fail(Errc::kUnavailable, "cannot write '" + path + "'");
+  if (!file) return cannot(std::strerror(errno));
+  if (auto placed = draft->TakePlace(); !placed) return cannot(placed.error().text);
+  return {};
 }
 
 }  // namespace vm

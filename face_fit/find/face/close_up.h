@@ -9,7 +9,7 @@ namespace facefit {
 struct CloseUp {
   fsm::Image photo;
   FoundFace face;   ///< in pixels of `photo`
-  float scale = 1;  ///< pixels of `photo` for each pixel of the photo it was cut from
+  float scale = 1;  ///< pixels of `photo` for each pixel of CloseUpOf's argument `photo`
 };
 
 /// Cuts a photo to about 33 cm on either side of a face's nose, 30 cm above it and 43 cm below,

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <glm/geometric.hpp>
 #include <span>
 
+#include "face_fit/find/face/coinciding_corners.h"
+#include "face_fit/find/face/joined_names.h"
 #include "face_fit/picture/pixels.h"
 
 namespace facefit {
@@ -15,19 +16,8 @@ constexpr float kEarMm = 10;
 
 }  // namespace
 
-std::string JoinedNames(std::initializer_list<std::pair<bool, const char*>> parts,
-                        const char* separator) {
-  std::string names;
-  for (const auto& [named, name] : parts) {
-    if (named) names += (names.empty() ? "" : separator) + std::string(name);
-  }
-  return names;
-}
-
 CutOff CutOffParts(const FoundFace& face, const fsm::Image& photo) {
-  const glm::vec2 right_eye = face.PixelOf(point::kEyeOuterRight);
-  const glm::vec2 left_eye = face.PixelOf(point::kEyeOuterLeft);
-  const glm::vec2 ear = kEarMm / kEyesApartMm * (left_eye - right_eye);
+  const glm::vec2 ear = kEarMm / kEyesApartMm * face.AcrossEyes();
   const auto cut = [&](glm::vec2 pixel) { return !IsInside(photo, pixel); };
   return {.forehead = cut(face.PixelOf(point::kForehead)),
           .chin = cut(face.PixelOf(point::kChin)),
@@ -40,20 +30,6 @@ std::string NamesOf(const CutOff& cut) {
                       {cut.ears.right, "the right ear"},
                       {cut.ears.left, "the left ear"},
                       {cut.chin, "the chin"}});
-}
-
-std::optional<std::string> CoincidingCorners(const std::function<glm::vec2(PointIndex)>& pixel_of) {
-  constexpr float kNearestPx = 4;
-  const auto apart = [&](PointIndex a, PointIndex b) {
-    return glm::distance(pixel_of(a), pixel_of(b)) >= kNearestPx;
-  };
-  if (!apart(point::kEyeOuterRight, point::kEyeOuterLeft)) {
-    return "the outer corners of the eyes lie in one place";
-  }
-  if (!apart(point::kMouthRight, point::kMouthLeft)) {
-    return "the corners of the mouth lie in one place";
-  }
-  return std::nullopt;
 }
 
 vm::Result<void> CheckFeaturesShown(const FoundFace& face, const fsm::Image& photo) {

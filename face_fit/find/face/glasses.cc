@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/median.h"
 #include "face_fit/picture/plane.h"
 #include "face_fit/picture/resample.h"
 

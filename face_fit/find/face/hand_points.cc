@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "face_fit/find/face/cut_off.h"
+#include "face_fit/find/face/coinciding_corners.h"
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/head/warp.h"
@@ -73,8 +73,8 @@ PointIndex PointAt(const fsm::TableRow& row) {
   if (named != std::end(kNames)) return named->point;
   const auto number = fsm::ParseNumber<unsigned>(key);
   if (!number || *number >= kNetworkPoints) {
-    row.Fail("'" + key.substr(0, 30) + "' is no point; 0 to 467 or one of " + HandPointNames() +
-             " expected");
+    row.Refuse("'" + key.substr(0, 30) + "' is no point; 0 to 467 or one of " + HandPointNames() +
+               " expected");
   }
   return *number;
 }
@@ -99,19 +99,19 @@ vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view
     constexpr float kFarthest = 1e5F;
     HandPoints points;
     for (const fsm::TableRow& row : table.rows()) {
-      if (row.size() != 3) row.Fail("NAME X Y expected, as: chin 320 455");
+      if (row.size() != 3) row.Refuse("NAME X Y expected, as: chin 320 455");
       const glm::vec2 at(row.Within(1, -kFarthest, kFarthest),
                          row.Within(2, -kFarthest, kFarthest));
       if (!points.emplace(PointAt(row), at).second) {
-        row.Fail("'" + row.key() + "' is set a second time");
+        row.Refuse("'" + row.key() + "' is set a second time");
       }
     }
     for (const HandPointName& named : kNames) {
       if (named.needed && !points.contains(named.point)) {
-        table.Fail(std::string(named.name) + " is missing");
+        table.Refuse(std::string(named.name) + " is missing");
       }
     }
-    if (const auto why = WhyNoFace(points)) table.Fail(*why);
+    if (const auto why = WhyNoFace(points)) table.Refuse(*why);
     return points;
   });
 }

@@ -13,8 +13,7 @@
 namespace facefit {
 namespace {
 
-// The candidates: radii relative to the expected one, offsets relative to the width of the eye,
-// angles in radians.
+// The candidates: radii relative to the expected one, offsets relative to the width of the eye.
 constexpr std::array<float, 7> kSizes = {0.68F, 0.76F, 0.84F, 0.92F, 1.0F, 1.08F, 1.16F};
 constexpr float kUsualSize = 0.92F, kSizeSpread = 0.6F;  // people's irises vary little in size
 constexpr float kStepAlong = 0.02F, kStepDown = 0.015F;
@@ -25,7 +24,7 @@ constexpr float kAwayAlong = 5, kAwayDown = 40;
 
 // Where the step of brightness at the circle's left and right is sampled: angles from the axis of
 // the eye; radii inside and outside, relative to the circle's.
-constexpr std::array<float, 9> kAngles = {-0.8F, -0.6F, -0.4F, -0.2F, 0, 0.2F, 0.4F, 0.6F, 0.8F};
+constexpr std::array<float, 9> kAnglesRad = {-0.8F, -0.6F, -0.4F, -0.2F, 0, 0.2F, 0.4F, 0.6F, 0.8F};
 constexpr float kWithin = 0.82F, kOutside = 1.18F;
 constexpr float kMinSeen = 3;         // number of visible samples that a side needs
 constexpr float kBetterSide = 0.35F;  // weight of the side with the greater step; the other has 1
@@ -66,19 +65,20 @@ class IrisSearch {
 
   /// Returns the best circle of this size, and its score.
   std::pair<IrisCircle, float> BestCircle(float radius) const {
-    IrisCircle best{.centre = eye_.iris_centre, .radius = radius, .contrast = 0};
+    IrisCircle best{.centre_px = eye_.iris_centre_px, .radius_px = radius, .contrast = 0};
     float most = 0;
     for (int x = -kStepsAlong; x <= kStepsAlong; ++x) {
       for (int y = -kStepsDown; y <= kStepsDown; ++y) {
         const glm::vec2 away(static_cast<float>(x) * kStepAlong, static_cast<float>(y) * kStepDown);
-        const glm::vec2 centre = eye_.iris_centre + lids_.width() * (away.x * lids_.along_axis() +
-                                                                     away.y * lids_.down_axis());
+        const glm::vec2 centre =
+            eye_.iris_centre_px +
+            lids_.width() * (away.x * lids_.along_axis() + away.y * lids_.down_axis());
         const float edge = EdgeContrast(centre, radius);
         const float score = (edge + kSeparationWeight * Separation(centre, radius)) *
                             (1 - kAwayAlong * away.x * away.x - kAwayDown * away.y * away.y);
         if (score <= most) continue;
         most = score;
-        best = {.centre = centre, .radius = radius, .contrast = edge};
+        best = {.centre_px = centre, .radius_px = radius, .contrast = edge};
       }
     }
     return {best, most};
@@ -97,7 +97,7 @@ class IrisSearch {
     for (const std::size_t side : {0U, 1U}) {
       const glm::vec2 outward = side == 0 ? -lids_.along_axis() : lids_.along_axis();
       float count = 0;
-      for (const float angle : kAngles) {
+      for (const float angle : kAnglesRad) {
         const glm::vec2 direction = outward * std::cos(angle) + lids_.down_axis() * std::sin(angle);
         const glm::vec2 rim = centre + radius * direction;
         const auto [upper, lower] = lids_.LidsAt(lids_.Along(rim));
@@ -155,7 +155,7 @@ fsm::Sided<IrisCircle> FindIrises(const fsm::Image& photo, const fsm::Sided<Expe
     fsm::Sided<IrisCircle> circles;
     float score = 0;
     for (const fsm::Side side : fsm::kSides) {
-      const auto [circle, own] = searches[side].BestCircle(size * eyes[side].iris_radius);
+      const auto [circle, own] = searches[side].BestCircle(size * eyes[side].iris_radius_px);
       circles[side] = circle;
       const float odd = (size - kUsualSize) / kSizeSpread;
       score += own * std::exp(-odd * odd);

@@ -3,14 +3,13 @@
 #include <glm/vec2.hpp>
 
 #include "face_fit/find/face/lid_lines.h"
-#include "face_fit/find/network/face_finder.h"
 
 namespace facefit {
 
 /// The edge between an iris and the white, as seen in a photo.
 struct IrisCircle {
-  glm::vec2 centre;
-  float radius = 0;  ///< pixels
+  glm::vec2 centre_px;
+  float radius_px = 0;
   /// Contrast of the edge, -1.35..1.35: the lesser step of brightness of both sides + 0.35 times
   /// the greater one. Below kClearIris no iris was seen.
   float contrast = 0;
@@ -20,8 +19,8 @@ inline constexpr float kClearIris = 0.06F;
 /// Where a photo is expected to show an eye, pixels.
 struct ExpectedEye {
   EyePoints lids;
-  glm::vec2 iris_centre;  ///< if the eye looks into the camera
-  float iris_radius = 0;  ///< by the form of the head, pixels
+  glm::vec2 iris_centre_px;  ///< if the eye looks into the camera
+  float iris_radius_px = 0;  ///< by the form of the head
 };
 
 /// Finds the irises of a person's eyes: for each the circle that best separates dark from bright

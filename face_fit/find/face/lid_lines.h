@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <utility>
 
-#include "face_fit/find/network/network_points.h"
+#include "face_fit/find/network/face_finder.h"
 
 namespace facefit {
 
@@ -19,6 +19,9 @@ EyePoints EyePointsOf(fsm::Side side, auto point_at) {
   EyePoints points;
   std::ranges::transform(point::kEyeOutline[side], points.begin(), point_at);
   return points;
+}
+inline EyePoints EyePointsOf(fsm::Side side, const FoundFace& face) {
+  return EyePointsOf(side, [&face](PointIndex i) { return face.PixelOf(i); });
 }
 
 /// Returns the share of a lid's movement at `x` between the corners of an eye: 1 in the middle, 0

@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <utility>
 #include <vector>
 
-#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/median.h"
+#include "face_fit/picture/raster.h"
 #include "face_fit/picture/resample.h"
 
 namespace facefit {
@@ -51,7 +54,7 @@ constexpr FacePatch kPatches[] = {
 };
 /// Certainty (a logit) below which a face counts as hidden; the least of the same pictures was
 /// 15.7.
-constexpr float kSure = 14;
+constexpr float kSureLogit = 14;
 
 /// Maps pixels of the network's crop of the photo to the picture of the built-in head: at each
 /// pixel by the affine map that fits the points nearby best (moving least squares; Schaefer,
@@ -107,10 +110,8 @@ WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
   // The map is smooth, so every fourth pixel is enough.
   constexpr int kStep = 4, kCells = kPointsPixels / kStep + 1;
   const PhotoToBase onto(face, base);
-  std::vector<glm::vec2> coarse;
-  for (int y = 0; y < kCells; ++y) {
-    for (int x = 0; x < kCells; ++x) coarse.push_back(onto(float{kStep} * glm::vec2(x, y)));
-  }
+  const auto coarse = Raster<glm::vec2>::From(
+      kCells, kCells, [&](int x, int y) { return onto(float{kStep} * glm::vec2(x, y)); });
   // From pixels of the head's picture to millimetres from the root of the nose.
   const auto at_rest = [&](PointIndex i) { return glm::vec2(base.AtRest(i)); };
   const float mm_per_pixel =
@@ -119,12 +120,8 @@ WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
   WarpedHead warped;
   for (int y = 0; y < kPointsPixels; ++y) {
     for (int x = 0; x < kPointsPixels; ++x) {
-      const glm::vec2 cell = (glm::vec2(x, y) + 0.5F) / float{kStep}, t = glm::fract(cell);
-      const auto k =
-          static_cast<std::size_t>(static_cast<int>(cell.y) * kCells + static_cast<int>(cell.x));
-      const glm::vec2 on_base =
-          glm::mix(glm::mix(coarse[k], coarse[k + 1], t.x),
-                   glm::mix(coarse[k + kCells], coarse[k + kCells + 1], t.x), t.y);
+      const glm::vec2 cell = (glm::vec2(x, y) + 0.5F) / float{kStep};
+      const glm::vec2 on_base = coarse.SampleAt(cell.x + 0.5F, cell.y + 0.5F);
       const glm::vec2 from_nasion = mm_per_pixel * (on_base - base.DetectedAt(point::kNasion));
       warped.on_face.push_back(at_rest(point::kNasion) + glm::vec2(from_nasion.x, -from_nasion.y));
       warped.colour.push_back(ColourAt(base.picture(), on_base) / 255.0F);
@@ -171,7 +168,20 @@ float PatchWeight(const FacePatch& patch, glm::vec2 on_face) {
   return weight;
 }
 
+/// The order of patches: by how many logits they lie beyond their limit, the others by the share of
+/// the limit that they reach.
+struct Excess {
+  float beyond_logits = 0, limit_share = -std::numeric_limits<float>::infinity();
+  auto operator<=>(const Excess&) const = default;
+};
+
 }  // namespace
+
+Occlusion Occlusion::Of(float patch_excess, std::string patch, float doubt) {
+  Occlusion occlusion{std::max(patch_excess, doubt), std::move(patch)};
+  if (doubt >= kMaybeCovered && patch_excess < kMaybeCovered) occlusion.place.reset();
+  return occlusion;
+}
 
 Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, const FoundFace& face,
                           const fsm::Image& photo) {
@@ -182,8 +192,9 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, cons
   const std::vector<float> network_pixels = face.crop.Sample(photo, kPointsPixels, 0, 1);
   const float before = sure(network_pixels);
   const WarpedHead warped = MatchSkinColour(network_pixels, WarpBuiltInHead(base, face));
-  Occlusion occlusion;
-  float most = -std::numeric_limits<float>::infinity();
+  float most_share = 0;
+  const char* place = "";
+  Excess most;
   for (const FacePatch& patch : kPatches) {
     std::vector<float> changed = network_pixels;
     for (std::size_t i = 0; i < kPixels; ++i) {
@@ -193,16 +204,15 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, cons
             glm::mix(changed[3 * i + c], warped.colour[i][static_cast<int>(c)], weight);
       }
     }
-    const float surer = sure(changed) - before, measure = surer / patch.limit;
-    occlusion.measure = std::max(occlusion.measure, measure);
-    // Report the part farthest beyond its limit, or else the one nearest to it.
-    const float score = measure >= 1 ? surer - patch.limit : measure - 1;
-    if (score <= most) continue;
-    most = score;
-    occlusion.where = patch.name;
+    const float surer = sure(changed) - before, share = surer / patch.limit;
+    most_share = std::max(most_share, share);
+    const Excess excess{share >= 1 ? std::max(surer - patch.limit, 0.0F) : 0,
+                        std::min(share, 1.0F)};
+    if (excess <= most) continue;
+    most = excess;
+    place = patch.name;
   }
-  occlusion.measure = std::max(occlusion.measure, kSure / std::max(before, 1.0F));
-  return occlusion;
+  return Occlusion::Of(most_share, place, kSureLogit / std::max(before, 1.0F));
 }
 
 }  // namespace facefit

@@ -1,7 +1,7 @@
 #include "face_fit/find/face/upright.h"
 
 #include <algorithm>
-#include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "face_fit/picture/filters.h"
@@ -21,8 +21,9 @@ struct Clearness {
 Clearness ClearnessOf(std::span<const FoundFace> faces) {
   Clearness clear;
   for (const FoundFace& face : faces) {
-    const glm::vec2 eyes = face.PixelOf(point::kEyeOuterLeft) - face.PixelOf(point::kEyeOuterRight);
-    const float upright = face.certainty * std::max(std::cos(std::atan2(eyes.y, eyes.x)), 0.0F);
+    const glm::vec2 eyes = face.AcrossEyes();
+    const float cosine = eyes.x / std::max(glm::length(eyes), 1e-3F);
+    const float upright = face.certainty * std::max(cosine, 0.0F);
     clear.upright += upright;
     clear.detected += face.score * upright;
   }

@@ -12,7 +12,8 @@ struct UprightPhoto {
 };
 
 /// Finds the faces of a photo and turns it until people stand upright, whatever its file says.
-/// Turned copies are searched only if no face is seen clearly and upright in the photo as given.
+/// Turned copies are searched only if the faces of the photo as given are, on the mean, not seen
+/// clearly and upright, so one upright face in a group does not stop the search.
 UprightPhoto SetUpright(FaceNetworks& networks, fsm::Image photo);
 
 }  // namespace facefit

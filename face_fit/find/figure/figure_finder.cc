@@ -15,17 +15,18 @@ namespace facefit {
 namespace {
 
 // RaiseMissedSide; lengths are divided by the height of the face.
-constexpr float kNearby = 0.03F;     // reach in which the other side's colour is searched
-constexpr float kSameOnBoth = 0.8F;  // ratio to the other side's opacity above which both agree
-constexpr glm::vec2 kAlike{0.3F, 0.05F};  // difference of colours, 0..1, from unlike to alike
+constexpr float kNearbyReach = 0.03F;  // reach in which the other side's colour is searched
+constexpr float kSameRatio = 0.8F;     // ratio to the other side's opacity above which both agree
+// Difference of colours, 0..1: from unlike to alike.
+constexpr fsm::Range kAlikeDifference{0.3F, 0.05F};
 // New opacity, divided by the other side's: unlike, alike.
-constexpr float kDoubt = 0.5F, kRather = 0.85F;
+constexpr float kUnlikeRatio = 0.5F, kAlikeRatio = 0.85F;
 
 // The second pass, over the head, relative to the size of the face: side of the square, and how far
 // its middle lies above the face's, because there is hair above and only a neck below.
 constexpr float kHeadSquare = 2.3F, kHeadHigher = 0.1F;
 // Distance from the square's middle (its side = 1) over which the first pass takes over again.
-constexpr glm::vec2 kSquareEdge{0.48F, 0.38F};
+constexpr fsm::Range kSquareEdge{0.48F, 0.38F};
 
 /// Mean over the points of a face below which the network saw nobody there.
 constexpr float kNobody = 0.5F;
@@ -35,7 +36,7 @@ constexpr float kHalfNeck = 0.35F;
 /// Runs the network on a picture.
 Mask RunSegmentation(FaceNetworks& networks, const std::vector<float>& input) {
   networks.segmentation.Run(input);
-  FloatImage out(kFigurePixels, kFigurePixels);
+  Mask out(kFigurePixels, kFigurePixels);
   std::ranges::copy(networks.segmentation.output(kSegmentationPerson), out.values.begin());
   return out;
 }
@@ -76,8 +77,7 @@ NetworkCrop HeadSquare(const Box2& face, glm::vec2 picture) {
 float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
   const float right = std::abs(glm::dot(face.PixelOf(point::kCheekRight) - middle, across));
   const float left = std::abs(glm::dot(face.PixelOf(point::kCheekLeft) - middle, across));
-  return fsm::SmoothStep(PhotoLook().figure.frontal,
-                         std::min(right, left) / std::max({right, left, 1.0F}));
+  return PhotoLook().figure.frontal.Ramp(std::min(right, left) / std::max({right, left, 1.0F}));
 }
 
 /// Sets the inside of the face's outline and the neck to 1, and the rest to 0, where the network
@@ -99,17 +99,15 @@ void TrustFaceOutline(const FoundFace& face, const fsm::Image& image, Mask& pers
   const glm::vec2 eyes = face.PixelOf(point::kNasion), chin = face.PixelOf(point::kChin);
   const glm::vec2 down = chin - eyes, to_left(down.y, -down.x);
   const float half_neck = kHalfNeck * glm::dot(down, down);
-  for (int y = 0; y < person.height; ++y) {
-    for (int x = 0; x < person.width; ++x) {
-      const glm::vec2 p = glm::vec2(x, y) + 0.5F;
-      const float way_down = glm::dot(p - eyes, down) / glm::dot(down, down);
-      const bool left = glm::dot(p - eyes, to_left) > 0;
-      const bool strip = way_down > 0 && way_down < 1 && (left ? cut.ears.left : cut.ears.right);
-      if (!nobody && !strip) continue;
-      const bool neck = way_down > 1 && std::abs(glm::dot(p - eyes, to_left)) < half_neck;
-      person(x, y) = neck || SignedDistance(outline, p) < 0 ? 1.0F : 0.0F;
-    }
-  }
+  ForPixels(person.width, person.height, [&](int x, int y, std::size_t i) {
+    const glm::vec2 p = glm::vec2(x, y) + 0.5F;
+    const float way_down = glm::dot(p - eyes, down) / glm::dot(down, down);
+    const bool left = glm::dot(p - eyes, to_left) > 0;
+    const bool strip = way_down > 0 && way_down < 1 && (left ? cut.ears.left : cut.ears.right);
+    if (!nobody && !strip) return;
+    const bool neck = way_down > 1 && std::abs(glm::dot(p - eyes, to_left)) < half_neck;
+    person[i] = neck || SignedDistance(outline, p) < 0 ? 1.0F : 0.0F;
+  });
 }
 
 }  // namespace
@@ -118,33 +116,32 @@ Mask RaiseMissedSide(const FoundFace& face, const fsm::Image& image, const Mask&
   const glm::vec2 top = face.PixelOf(point::kForehead), chin = face.PixelOf(point::kChin);
   if (glm::distance(top, chin) < 1) return person;
   const glm::vec2 down = glm::normalize(chin - top), across(-down.y, down.x);
-  const float height = glm::distance(top, chin), nearby = kNearby * height;
+  const float height = glm::distance(top, chin), nearby = kNearbyReach * height;
   // Reaches ears and hats, but not what stands behind a shoulder.
-  const glm::vec2 mirrored_px = PhotoLook().figure.mirrored_by_face * height;
+  const auto [from, to] = PhotoLook().figure.mirrored_by_face;
+  const fsm::Range mirrored_px{from * height, to * height};
   const float frontal = Frontal(face, chin, across);
   const auto unlike = [&](glm::vec2 p, glm::vec2 q) {
     float least = 1;
-    for (int k = 0; k < 9; ++k) {
-      const glm::vec2 beside = q + nearby * (glm::vec2(k % 3, k / 3) - 1.0F);
+    for (const glm::ivec2 offset : kAround) {
+      const glm::vec2 beside = q + nearby * glm::vec2(offset);
       least = std::min(least, glm::distance(ColourAt(image, p), ColourAt(image, beside)) / 255);
     }
     return least;
   };
   Mask doubted = person;
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const glm::vec2 p = glm::vec2(x, y) + 0.5F;
-      if (glm::dot(p - chin, down) > 0) continue;
-      const float from_axis = glm::dot(p - chin, across);
-      const float mirrored = frontal * fsm::SmoothStep(mirrored_px, std::abs(from_axis));
-      const glm::vec2 q = p - 2 * from_axis * across;
-      if (mirrored <= 0 || !IsInside(image, q)) continue;
-      const float own = person(x, y), other = person(static_cast<int>(q.x), static_cast<int>(q.y));
-      if (own > kSameOnBoth * other) continue;
-      const float alike = fsm::SmoothStep(kAlike, unlike(p, q));
-      doubted(x, y) = std::max(own, mirrored * glm::mix(kDoubt, kRather, alike) * other);
-    }
-  }
+  ForPixels(image.width, image.height, [&](int x, int y, std::size_t i) {
+    const glm::vec2 p = glm::vec2(x, y) + 0.5F;
+    if (glm::dot(p - chin, down) > 0) return;
+    const float from_axis = glm::dot(p - chin, across);
+    const float mirrored = frontal * mirrored_px.Ramp(std::abs(from_axis));
+    const glm::vec2 q = p - 2 * from_axis * across;
+    if (mirrored <= 0 || !IsInside(image, q)) return;
+    const float own = person[i], other = person(static_cast<int>(q.x), static_cast<int>(q.y));
+    if (own > kSameRatio * other) return;
+    const float alike = kAlikeDifference.Ramp(unlike(p, q));
+    doubted[i] = std::max(own, mirrored * glm::mix(kUnlikeRatio, kAlikeRatio, alike) * other);
+  });
   return doubted;
 }
 
@@ -159,16 +156,16 @@ Mask SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundF
     return PersonAt(whole, (p - all.corner) / all.size);
   };
   if (!face) {
-    return FloatImage::From(image.width, image.height,
-                            [&](int x, int y) { return person_in_whole(glm::vec2(x, y) + 0.5F); });
+    return Mask::From(image.width, image.height,
+                      [&](int x, int y) { return person_in_whole(glm::vec2(x, y) + 0.5F); });
   }
   const NetworkCrop head = HeadSquare(BoxOf(*face), size);
   const Mask near = RunSegmentation(networks, head.Sample(image, kFigurePixels, 0, 1));
-  auto out = FloatImage::From(image.width, image.height, [&](int x, int y) {
+  auto out = Mask::From(image.width, image.height, [&](int x, int y) {
     const glm::vec2 p = glm::vec2(x, y) + 0.5F;
     // The mean, so that what either pass doubts is left to the matting.
     const glm::vec2 in_square = head.FromPicture(p), from_middle = glm::abs(in_square - 0.5F);
-    const float share = 0.5F * fsm::SmoothStep(kSquareEdge, std::max(from_middle.x, from_middle.y));
+    const float share = 0.5F * kSquareEdge.Ramp(std::max(from_middle.x, from_middle.y));
     const float person = person_in_whole(p);
     return share > 0 ? glm::mix(person, PersonAt(near, in_square), share) : person;
   });

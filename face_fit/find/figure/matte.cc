@@ -15,6 +15,7 @@
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/tables/photo_look.h"
+#include "fsm/image/shrink.h"
 
 namespace facefit {
 namespace {
@@ -31,14 +32,9 @@ constexpr float kPull = 0.003F, kPullDecided = 0.03F;
 constexpr float kNearlyNone = 0.04F;
 /// Passes of the foreground estimation, wide first: reach is longer side / first + second, pixels.
 constexpr std::pair<int, int> kForegroundReach[] = {{16, 2}, {150, 1}};
-/// Opacity below which the figure's own colour is unknown, and from which it is known.
-constexpr float kUnknown = 0.05F, kKnown = 0.6F;
-
-/// Rough opacity that becomes 0 and 1, because the network blurs edges.
-constexpr glm::vec2 kSharpen{0.08F, 0.92F};
 /// SuppressWideDoubt: range of uncertain opacity, and evenness of the surroundings (0 = an edge, 1
 /// = the same everywhere) from which opacity is decided: not at all, and wholly.
-constexpr glm::vec2 kDecide{0.3F, 0.7F}, kEven{0.35F, 0.7F};
+constexpr fsm::Range kDecidedOpacity{0.3F, 0.7F}, kEvenness{0.35F, 0.7F};
 
 using PixelVector = Eigen::ArrayXf;  // one value for each pixel
 
@@ -137,9 +133,6 @@ void ConjugateGradients(const MattingLaplacian& laplacian, const PixelVector& un
   }
 }
 
-/// Moves opacity towards 0 and 1 unless it is near 0.5.
-float Sharpened(float v) { return fsm::SmoothStep(kSharpen, v); }
-
 /// Decides pixels that are half opaque over a wide area, which is doubt and not an edge.
 void SuppressWideDoubt(Mask& opacity, int reach) {
   FloatImage square = opacity;
@@ -149,22 +142,22 @@ void SuppressWideDoubt(Mask& opacity, int reach) {
     const float m = mean[i], most = m * (1 - m);
     if (most < 1e-3F) continue;
     const float even = 1 - (mean_square[i] - m * m) / most;
-    const float sure = fsm::SmoothStep(kDecide, opacity[i]);
-    opacity[i] = glm::mix(opacity[i], sure, fsm::SmoothStep(kEven, even));
+    const float sure = kDecidedOpacity.Ramp(opacity[i]);
+    opacity[i] = glm::mix(opacity[i], sure, kEvenness.Ramp(even));
   }
 }
 
 Mask SolveOpacity(const fsm::Image& image, const Mask& person) {
-  const glm::vec2 sure = PhotoLook().figure.outline_doubt_share;
+  const auto& look = PhotoLook().figure;
   const int reach = std::max(image.width, image.height) / kOutlineDivisor + kOutlinePixels;
   const Mask around = Blurred(person, reach);
-  FloatImage out(person.width, person.height);
+  Mask out(person.width, person.height);
   const auto count = static_cast<Eigen::Index>(out.size());
   PixelVector undecided(count);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const bool doubt = around[i] > sure.x && around[i] < sure.y;
+    const bool doubt = look.outline_doubt_share.Contains(around[i]);
     undecided[static_cast<Eigen::Index>(i)] = doubt ? 1.0F : 0.0F;
-    out[i] = doubt ? Sharpened(person[i]) : std::round(around[i]);
+    out[i] = doubt ? look.sharpened_share.Ramp(person[i]) : std::round(around[i]);
   }
   const MattingLaplacian laplacian(image, undecided);
   // The second round settles pixels whose colours tell nothing on 0 or 1.
@@ -213,7 +206,7 @@ Mask GuidedUpsampling(const fsm::Image& small, const Mask& opacity, const fsm::I
   const OpacityGuide fit = FitGuide(small, opacity);
   const glm::vec2 scale =
       glm::vec2(small.width, small.height) / glm::vec2(large.width, large.height);
-  return FloatImage::From(large.width, large.height, [&](int x, int y) {
+  return Mask::From(large.width, large.height, [&](int x, int y) {
     const glm::vec2 p = (glm::vec2(x, y) + 0.5F) * scale;
     const float plain = opacity.SampleAt(p.x, p.y);
     if (plain <= 0 || plain >= 1) return plain;
@@ -231,8 +224,8 @@ Mask Matte(const fsm::Image& photo, const Mask& person) {
   if (longer <= kSolvedSize) {
     out = SolveOpacity(photo, person);
   } else {
-    const fsm::Image small = ScaledDown(photo, std::max(photo.width * kSolvedSize / longer, 1),
-                                        std::max(photo.height * kSolvedSize / longer, 1));
+    const fsm::Image small = fsm::Shrunk(photo, std::max(photo.width * kSolvedSize / longer, 1),
+                                         std::max(photo.height * kSolvedSize / longer, 1));
     out = GuidedUpsampling(
         small, SolveOpacity(small, ScaledDown(person, small.width, small.height)), photo);
   }
@@ -254,18 +247,12 @@ fsm::Image ForegroundColours(const fsm::Image& photo, const Mask& opacity) {
   VectorImage figure = Colours(photo), behind = figure;
   for (const auto& [divisor, pixels] : kForegroundReach) {
     const int reach = longer / divisor + pixels;
-    VectorImage figure_sum = figure, behind_sum = behind;
-    for (std::size_t i = 0; i < figure_sum.size(); ++i) {
-      figure_sum[i] *= opacity[i];
-      behind_sum[i] *= behind_opacity[i];
-    }
-    const Mask share = Blurred(opacity, reach), rest = Blurred(behind_opacity, reach);
-    figure_sum = Blurred(figure_sum, reach);
-    behind_sum = Blurred(behind_sum, reach);
+    const WeightedBlur figure_near(figure, opacity, reach),
+        behind_near(behind, behind_opacity, reach);
     for (const std::size_t i : edge) {
       const float a = opacity[i];
-      const glm::vec3 f = figure_sum[i] / (share[i] + 1e-4F);
-      const glm::vec3 b = behind_sum[i] / (rest[i] + 1e-4F);
+      const glm::vec3 f = figure_near.sum[i] / (figure_near.weight[i] + 1e-4F);
+      const glm::vec3 b = behind_near.sum[i] / (behind_near.weight[i] + 1e-4F);
       const glm::vec3 missing = Rgb(photo, i) - a * f - (1 - a) * b;
       figure[i] = glm::clamp(f + a * missing, 0.0F, 255.0F);
       behind[i] = glm::clamp(b + (1 - a) * missing, 0.0F, 255.0F);
@@ -274,7 +261,7 @@ fsm::Image ForegroundColours(const fsm::Image& photo, const Mask& opacity) {
   for (const std::size_t i : edge) SetRgb(out, i, figure[i]);
   // The colour of nearly transparent pixels is hardly known and is filled in from around.
   Mask known = opacity;
-  for (float& v : known.values) v = fsm::SmoothStep(kUnknown, kKnown, v);
+  for (float& v : known.values) v = PhotoLook().figure.colour_known_share.Ramp(v);
   PushPullInpaint(out, known);
   return out;
 }

@@ -12,11 +12,11 @@
 #include "face_fit/find/head/lid_edges.h"
 #include "face_fit/find/head/observed_head.h"
 #include "face_fit/find/head/point_pairs.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/median.h"
 #include "fsm/base/box.h"
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
-#include "fsm/mesh/transfer/transferred_rig.h"
+#include "fsm/mesh/rigging/transferred_rig.h"
 
 namespace facefit {
 namespace {
@@ -36,25 +36,25 @@ fsm::Similarity InitialPlacement(const fsm::ImportedHead& file, const glm::mat3&
                                  float share) {
   fsm::Box box;
   for (const glm::vec3& p : file.position) box.Add(turn * p);
-  constexpr float kHeightMm = 290, kTopMm = 140;  // height of our head, y of its crown
+  constexpr float kHeightMm = 290, kCrownYMm = 140;  // height of our head, y of its crown
   fsm::Similarity guess;
   guess.rotation = turn;
   guess.scale = kHeightMm / std::max(box.size().y * share, 1e-6F);
   guess.translation = -guess.scale * glm::vec3(box.centre().x, box.high.y, box.centre().z);
-  guess.translation.y += kTopMm;
+  guess.translation.y += kCrownYMm;
   return guess;
 }
 
-fsm::FacePart PartOf(PointIndex i) {
+fsm::LipOrLid LipOrLidOf(PointIndex i) {
   // Inner lips are kPlain: where the lips meet, the nearest vertex may be the other lip's.
-  if (Contains(point::kUpperOuterLip, i)) return fsm::FacePart::kUpperLip;
-  if (Contains(point::kLowerOuterLip, i)) return fsm::FacePart::kLowerLip;
+  if (Contains(point::kUpperOuterLip, i)) return fsm::LipOrLid::kUpperLip;
+  if (Contains(point::kLowerOuterLip, i)) return fsm::LipOrLid::kLowerLip;
   for (const fsm::Side side : fsm::kSides) {
     const std::span outline(point::kEyeOutline[side]);
-    if (Contains(outline.subspan(1, kInnerCorner - 1), i)) return fsm::FacePart::kUpperLid;
-    if (Contains(outline.subspan(kInnerCorner + 1), i)) return fsm::FacePart::kLowerLid;
+    if (Contains(outline.subspan(1, kInnerCorner - 1), i)) return fsm::LipOrLid::kUpperLid;
+    if (Contains(outline.subspan(kInnerCorner + 1), i)) return fsm::LipOrLid::kLowerLid;
   }
-  return fsm::FacePart::kPlain;
+  return fsm::LipOrLid::kPlain;
 }
 
 /// Moves the points of the inner lips onto a seam, at equal steps.
@@ -65,20 +65,27 @@ void SpreadAlongSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
   for (std::size_t k = 0; k < count; ++k) {
     const LipSeam::Edges& edges =
         seam.EdgesAt(static_cast<float>(k + 1) / static_cast<float>(count + 1));
-    points[point::kUpperInnerLip[k + 1]] = edges.upper;
+    points[point::kUpperInnerLip[k]] = edges.upper;
     points[point::kLowerInnerLip[k]] = edges.lower;
   }
 }
 
+/// The edges of the lids of the eyes that a head shows.
+using LidEdgesOfEyes = fsm::Sided<std::optional<LidEdges>>;
+
+/// `is_eye`: as for FindLidEdges.
+LidEdgesOfEyes FindLidEdgesOfEyes(const ObservedHead& observed, const std::vector<bool>& is_eye) {
+  const auto find = [&](fsm::Side side) {
+    return FindLidEdges(observed.head(), observed.rest().position, is_eye, side);
+  };
+  return {find(fsm::Side::kRight), find(fsm::Side::kLeft)};
+}
+
 /// Moves the points of the eyes' outlines onto the edges of the lids, where both heads show them.
-void OntoLidEdges(const ObservedHead& ours, std::vector<MeshPoint>& our_points,
-                  const ObservedHead& theirs, std::vector<MeshPoint>& their_points) {
+void OntoLidEdges(const LidEdgesOfEyes& ours, std::vector<MeshPoint>& our_points,
+                  const LidEdgesOfEyes& theirs, std::vector<MeshPoint>& their_points) {
   for (const fsm::Side side : fsm::kSides) {
-    const auto find = [side](const ObservedHead& observed) {
-      return FindLidEdges(observed.head().topology(), observed.rest().position,
-                          observed.surface().is_eye, side);
-    };
-    const auto a = find(ours), b = find(theirs);
+    const auto &a = ours[side], &b = theirs[side];
     if (!a || !b) continue;
     const auto& outline = point::kEyeOutline[side];
     for (const auto& [edges, points] : {std::pair(&*a, &our_points), {&*b, &their_points}}) {
@@ -97,13 +104,24 @@ class HeadMatcher {
  public:
   HeadMatcher(FaceNetworks& networks, const fsm::ImportedHead& file, std::string name,
               ObservedHead base)
-      : networks_(networks), file_(file), name_(std::move(name)), base_(std::move(base)) {}
+      : networks_(networks),
+        file_(file),
+        name_(std::move(name)),
+        base_(std::move(base)),
+        our_lid_edges_(FindLidEdgesOfEyes(base_, EyeVertices(base_.head().surface()))) {}
   /// Returns none if no face is seen on the head when `to_ours` is applied.
   std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_ours) {
-    const auto other = Observe(to_ours);
+    fsm::MeshModel model = fsm::ModelOfImport(file_, to_ours, fsm::kUsualMouthY);
+    std::vector<bool> is_eye;
+    for (const fsm::Bone bone : model.mesh.bone) {
+      is_eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
+    }
+    const ObservedHead::Surface surface{model.SkinTriangles(), model.has_uv_seams};
+    const auto other =
+        ObservedHead::Observe(networks_, fsm::MakeMeshHead(std::move(model)), name_, surface);
     if (!other) return {};
     std::vector<MeshPoint> ours = base_.mesh_points(), theirs = other->mesh_points();
-    OntoLidEdges(base_, ours, *other, theirs);
+    OntoLidEdges(our_lid_edges_, ours, FindLidEdgesOfEyes(*other, is_eye), theirs);
     const bool both = base_.seam() && other->seam();
     if (both) {
       SpreadAlongSeam(*base_.seam(), ours);
@@ -112,30 +130,20 @@ class HeadMatcher {
     std::vector<fsm::PointPair> found;
     for (const PointIndex i : point::kReliable) {
       // A point where the lips meet may lie on either lip.
-      const bool corner = i == point::kMouthRight || i == point::kMouthLeft;
+      const bool corner = Contains(point::kMouthCorners, i);
       if (OnInnerLips(i) ? !both : both && corner) continue;
       const glm::vec3 raw = to_ours.Inverse(theirs[i].On(other->rest().position));
-      found.push_back({ours[i].On(base_.rest().position), raw, PartOf(i)});
+      found.push_back({ours[i].On(base_.rest().position), raw, LipOrLidOf(i)});
     }
     return found;
   }
 
  private:
-  /// Observes the head. Error: no face is seen.
-  vm::Result<ObservedHead> Observe(const fsm::Similarity& to_ours) {
-    fsm::MeshModel model = fsm::ModelOfImport(file_, to_ours, fsm::kUsualMouthY);
-    ObservedHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
-    for (const fsm::Bone bone : model.mesh.bone) {
-      surface.is_eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
-    }
-    return ObservedHead::Observe(networks_, fsm::MakeMeshHead(std::move(model)), name_,
-                                 std::move(surface));
-  }
-
   FaceNetworks& networks_;
   const fsm::ImportedHead& file_;
   std::string name_;
   ObservedHead base_;
+  LidEdgesOfEyes our_lid_edges_;
 };
 
 /// The pairs found with one rotation of the head.
@@ -185,8 +193,8 @@ Observation ObserveAs(HeadMatcher& matcher, const fsm::Similarity& guess) {
 }  // namespace
 
 vm::Result<fsm::HeadPoints> FindHeadPoints(FaceNetworks& networks, const fsm::ImportedHead& file,
-                                           const std::string& name, const std::string& face) {
-  auto base = ObservedHead::BuiltIn(networks, face);
+                                           const std::string& name, const std::string& base_name) {
+  auto base = ObservedHead::BuiltIn(networks, base_name);
   if (!base) return std::unexpected(base.error());
   HeadMatcher matcher(networks, file, name, std::move(*base));
   bool face_seen = false;
@@ -200,7 +208,7 @@ vm::Result<fsm::HeadPoints> FindHeadPoints(FaceNetworks& networks, const fsm::Im
     }
     if (!best) continue;
     const fsm::Similarity to_ours = fsm::FitSimilarity(best->pairs);
-    return fsm::HeadPoints{face, Symmetrise(to_ours, std::move(best->pairs))};
+    return fsm::HeadPoints{base_name, Symmetrise(to_ours, std::move(best->pairs))};
   }
   return vm::Fail(
       vm::Errc::kBadValue,

@@ -6,7 +6,7 @@
 
 #include "face_fit/picture/filters.h"
 #include "face_fit/surface/visible_surface.h"
-#include "fsm/mesh/transfer/transferred_rig.h"
+#include "fsm/mesh/rigging/transferred_rig.h"
 
 namespace facefit {
 namespace {
@@ -17,21 +17,19 @@ constexpr glm::vec2 kHalfWindowMm(34, 24);
 /// Returns 1 where an eyeball is foremost and connected to its point nearest to `centre`, else 0.
 Mask EyeballMask(const VisibleSurface& surface, const std::vector<bool>& is_eye, glm::vec2 centre) {
   constexpr float kFarthestMm = 12;
-  FloatImage eyeball(surface.grid().columns, surface.grid().rows);
+  Mask eyeball(surface.grid().columns, surface.grid().rows);
   glm::ivec2 seed(0);
   float nearest = kFarthestMm;
-  for (int row = 0; row < eyeball.height; ++row) {
-    for (int column = 0; column < eyeball.width; ++column) {
-      const MeshTriangle* triangle = surface.TriangleAt(column, row);
-      if (!triangle || !is_eye[triangle->corner[0]]) continue;
-      eyeball(column, row) = 1;
-      const float distance = glm::distance(surface.grid().Point(column, row), centre);
-      if (distance >= nearest) continue;
-      nearest = distance;
-      seed = {column, row};
-    }
-  }
-  if (nearest == kFarthestMm) return FloatImage(eyeball.width, eyeball.height);
+  ForPixels(eyeball.width, eyeball.height, [&](int column, int row, std::size_t i) {
+    const MeshTriangle* triangle = surface.TriangleAt(column, row);
+    if (!triangle || !is_eye[triangle->corner[0]]) return;
+    eyeball[i] = 1;
+    const float distance = glm::distance(surface.grid().Point(column, row), centre);
+    if (distance >= nearest) return;
+    nearest = distance;
+    seed = {column, row};
+  });
+  if (nearest == kFarthestMm) return Mask(eyeball.width, eyeball.height);
   KeepConnected(seed, eyeball);
   return eyeball;
 }
@@ -43,14 +41,12 @@ struct RowSpan {
 };
 std::vector<RowSpan> RowsOf(const Mask& eyeball) {
   std::vector<RowSpan> rows(static_cast<std::size_t>(eyeball.width), {eyeball.height, -1});
-  for (int row = 0; row < eyeball.height; ++row) {
-    for (int column = 0; column < eyeball.width; ++column) {
-      if (eyeball(column, row) <= 0) continue;
-      RowSpan& span = rows[static_cast<std::size_t>(column)];
-      span.low = std::min(span.low, row);
-      span.high = row;
-    }
-  }
+  ForPixels(eyeball.width, eyeball.height, [&](int column, int row, std::size_t i) {
+    if (eyeball[i] <= 0) return;
+    RowSpan& span = rows[static_cast<std::size_t>(column)];
+    span.low = std::min(span.low, row);
+    span.high = row;
+  });
   return rows;
 }
 
@@ -70,12 +66,12 @@ std::optional<Columns> EndsOf(const std::vector<RowSpan>& rows) {
 
 }  // namespace
 
-std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
-                                     const std::vector<glm::vec3>& position,
+std::optional<LidEdges> FindLidEdges(const fsm::Head& head, const std::vector<glm::vec3>& position,
                                      const std::vector<bool>& is_eye, fsm::Side side) {
-  const glm::vec3 centre = topology.eyes[side].centre;
-  const VisibleSurface surface = VisibleFromFront(
-      topology, position, glm::vec2(centre) - kHalfWindowMm, glm::vec2(centre) + kHalfWindowMm);
+  const glm::vec3 centre = head.EyeCentre(side);
+  const VisibleSurface surface =
+      VisibleFromFront(head.surface(), position, glm::vec2(centre) - kHalfWindowMm,
+                       glm::vec2(centre) + kHalfWindowMm);
   const std::vector<RowSpan> rows = RowsOf(EyeballMask(surface, is_eye, centre));
   const auto ends = EndsOf(rows);
   if (!ends) return std::nullopt;
@@ -114,7 +110,7 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
   return edges;
 }
 
-std::vector<bool> EyeVertices(const fsm::HeadTopology& topology) {
+std::vector<bool> EyeVertices(const fsm::HeadSurface& topology) {
   std::vector<bool> is_eye(topology.albedo.size(), false);
   for (const std::uint32_t v : fsm::EyeballTriangles(topology)) is_eye[v] = true;
   return is_eye;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
@@ -23,11 +22,10 @@ struct LidEdges {
 
 /// Returns the opening of an eye, or nothing if there is none of 10 to 60 mm. `is_eye`: for each
 /// vertex whether it belongs to an eyeball. The head faces +z, millimetres.
-std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
-                                     const std::vector<glm::vec3>& position,
+std::optional<LidEdges> FindLidEdges(const fsm::Head& head, const std::vector<glm::vec3>& position,
                                      const std::vector<bool>& is_eye, fsm::Side side);
 
 /// Returns for each vertex whether it belongs to an eyeball by its material.
-std::vector<bool> EyeVertices(const fsm::HeadTopology& topology);
+std::vector<bool> EyeVertices(const fsm::HeadSurface& topology);
 
 }  // namespace facefit

@@ -1,7 +1,6 @@
 #include "face_fit/find/head/lip_seam.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "face_fit/picture/plane.h"
@@ -80,7 +79,7 @@ std::pair<int, int> MouthColumns(const std::vector<Crossing>& crossings) {
 
 }  // namespace
 
-std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
+std::optional<LipSeam> FindLipSeam(const fsm::HeadSurface& topology,
                                    const std::vector<glm::vec3>& position,
                                    const std::vector<std::uint32_t>& skin_triangles,
                                    bool has_uv_seams, std::span<const glm::vec3> upper,

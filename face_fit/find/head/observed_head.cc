@@ -5,14 +5,13 @@
 #include <span>
 #include <utility>
 
-#include "face_fit/find/head/lid_edges.h"
 #include "face_fit/find/head/portrait_view.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/surface/rasterizer.h"
 #include "face_fit/surface/triangles.h"
 #include "face_fit/surface/visible_surface.h"
 #include "fsm/head/make_head.h"
-#include "fsm/mesh/transfer/transferred_rig.h"
+#include "fsm/mesh/rigging/transferred_rig.h"
 
 namespace facefit {
 namespace {
@@ -21,7 +20,7 @@ constexpr int kPortraitSize = 720;
 
 /// Returns the skin visible at each pixel of a portrait of kPortraitSize pixels to a side.
 /// `screen`: for each vertex pixels with y down, and depth towards the viewer, millimetres.
-VisibleSurface SkinIn(const fsm::HeadTopology& topology, const std::vector<glm::vec3>& screen) {
+VisibleSurface SkinIn(const fsm::HeadSurface& topology, const std::vector<glm::vec3>& screen) {
   VisibleSurface surface({glm::vec2(0.5F), 1, kPortraitSize, kPortraitSize}, screen);
   ForSkinTriangles(topology, [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
@@ -39,26 +38,26 @@ std::vector<MeshPoint> SkinPointsAt(const VisibleSurface& skin,
   for (const glm::vec3& p : points) {
     const glm::ivec2 pixel = glm::clamp(glm::ivec2(p), 0, kPortraitSize - 1);
     const std::size_t own = skin.depth().Index(pixel.x, pixel.y), i = nearest[own];
-    MeshPoint point =
+    MeshPoint on_head =
         skin.MeshPointAt(static_cast<int>(i % kPortraitSize), static_cast<int>(i / kPortraitSize));
     // Refine the point within the pixel.
-    const auto& t = point.corner;
+    const auto& t = on_head.corner;
     if (i == own) {
-      point.weight = Triangle2{screen[t[0]], screen[t[1]], screen[t[2]]}.WeightsAt(glm::vec2(p));
+      on_head.weight = Triangle2{screen[t[0]], screen[t[1]], screen[t[2]]}.WeightsAt(glm::vec2(p));
     }
-    found.push_back(point);
+    found.push_back(on_head);
   }
   return found;
 }
 
-std::optional<LipSeam> SeamOf(const ObservedHead& base) {
+std::optional<LipSeam> SeamOf(const ObservedHead& base, const ObservedHead::Surface& surface) {
   const auto outer_lip = [&base](std::span<const PointIndex> points) {
     std::vector<glm::vec3> at_rest;
     for (const PointIndex i : points) at_rest.push_back(base.AtRest(i));
     return at_rest;
   };
-  return FindLipSeam(base.head().topology(), base.rest().position, base.surface().skin_triangles,
-                     base.surface().has_uv_seams, outer_lip(point::kUpperOuterLip),
+  return FindLipSeam(base.head().surface(), base.rest().position, surface.skin_triangles,
+                     surface.has_uv_seams, outer_lip(point::kUpperOuterLip),
                      outer_lip(point::kLowerOuterLip));
 }
 
@@ -71,25 +70,23 @@ void SnapToSeam(const std::vector<glm::vec3>& position, const LipSeam& seam,
     return seam.EdgesAt(
         glm::clamp((points[i].On(position).x - right) / (left - right), 0.0F, 1.0F));
   };
-  const std::span upper(point::kUpperInnerLip);
-  for (const PointIndex i : upper.subspan(1, upper.size() - 2)) points[i] = edges(i).upper;
+  for (const PointIndex i : point::kUpperInnerLip) points[i] = edges(i).upper;
   for (const PointIndex i : point::kLowerInnerLip) points[i] = edges(i).lower;
 }
 
 }  // namespace
 
-ObservedHead::ObservedHead(std::unique_ptr<fsm::Head> head, const std::string& name,
-                           Surface surface)
-    : name_(name), head_(std::move(head)), surface_(std::move(surface)) {
+ObservedHead::ObservedHead(std::unique_ptr<fsm::Head> head, const std::string& name)
+    : name_(name), head_(std::move(head)) {
   head_->Evaluate({}, rest_);
 }
 
 ObservedHead ObservedHead::Exact(std::unique_ptr<fsm::Head> head, const std::string& name,
                                  std::vector<MeshPoint> points) {
-  ObservedHead exact(std::move(head), name, {});
+  ObservedHead exact(std::move(head), name);
   exact.mesh_points_ = std::move(points);
-  for (const MeshPoint& point : exact.mesh_points_) {
-    exact.detected_depth_mm_.push_back(point.On(exact.rest_.position).z);
+  for (const MeshPoint& on_head : exact.mesh_points_) {
+    exact.detected_depth_mm_.push_back(on_head.On(exact.rest_.position).z);
   }
   return exact;
 }
@@ -101,18 +98,17 @@ vm::Result<ObservedHead> ObservedHead::BuiltIn(FaceNetworks& networks, const std
 vm::Result<ObservedHead> ObservedHead::OfOurMesh(FaceNetworks& networks,
                                                  std::unique_ptr<fsm::Head> head,
                                                  const std::string& name) {
-  Surface surface{.skin_triangles = fsm::SkinTriangles(head->topology()),
-                  .has_uv_seams = false,
-                  .is_eye = EyeVertices(head->topology())};
-  auto base = Observe(networks, std::move(head), name, std::move(surface));
+  const Surface surface{.skin_triangles = fsm::SkinTriangles(head->surface()),
+                        .has_uv_seams = false};
+  auto base = Observe(networks, std::move(head), name, surface);
   if (base && base->seam_) SnapToSeam(base->rest_.position, *base->seam_, base->mesh_points_);
   return base;
 }
 
 vm::Result<ObservedHead> ObservedHead::Observe(FaceNetworks& networks,
                                                std::unique_ptr<fsm::Head> head,
-                                               const std::string& name, Surface surface) {
-  ObservedHead observed(std::move(head), name, std::move(surface));
+                                               const std::string& name, const Surface& surface) {
+  ObservedHead observed(std::move(head), name);
   const PortraitView portrait(kPortraitSize);
   Seen seen{portrait.Draw(observed.head(), observed.rest_, {}), {}};
   std::vector<glm::vec3> screen;
@@ -120,7 +116,7 @@ vm::Result<ObservedHead> ObservedHead::Observe(FaceNetworks& networks,
   const auto faces = FindFaces(networks, seen.picture);
   if (!faces.empty()) {
     observed.mesh_points_ =
-        SkinPointsAt(SkinIn(observed.head().topology(), screen), screen, faces.front().points);
+        SkinPointsAt(SkinIn(observed.head().surface(), screen), screen, faces.front().points);
   }
   if (observed.mesh_points_.empty()) {
     return vm::Fail(vm::Errc::kBadValue, "no face is seen on the head '" + name + "'");
@@ -130,11 +126,17 @@ vm::Result<ObservedHead> ObservedHead::Observe(FaceNetworks& networks,
     observed.detected_depth_mm_.push_back(p.z * portrait.mm_per_pixel());
   }
   observed.seen_ = std::move(seen);
-  observed.seam_ = SeamOf(observed);
+  observed.seam_ = SeamOf(observed, surface);
   return observed;
 }
 
-void ObservedHead::MoveBy(const fsm::UnitTable& own) {
+std::vector<glm::vec3> ObservedHead::Posed(const fsm::FaceState& state) const {
+  fsm::HeadVertices vertices;
+  head_->Evaluate(state, vertices);
+  return std::move(vertices.position);
+}
+
+void ObservedHead::UseUnits(const fsm::UnitTable& own) {
   units_ = own;
   head_ = head_->WithUnits(own);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -26,7 +27,6 @@ class ObservedHead {
   struct Surface {
     std::vector<std::uint32_t> skin_triangles;  ///< skin, lips and mouth
     bool has_uv_seams = false;                  ///< as for fsm::TransferSurface
-    std::vector<bool> is_eye;  ///< for each vertex whether it belongs to an eyeball
   };
 
   /// Observes a built-in head and moves the points of its inner lips onto the seam. Error:
@@ -37,41 +37,46 @@ class ObservedHead {
                                             const std::string& name);
   /// Observes a head of any maker; its points stay where the network saw them. Errors: as BuiltIn.
   static vm::Result<ObservedHead> Observe(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                                          const std::string& name, Surface surface);
-  /// Returns a head whose points are known exactly, for comparison: no network has seen it, and it
-  /// has no surface.
+                                          const std::string& name, const Surface& surface);
+  /// Returns a head whose points are known exactly, for tests: no network has seen it.
   static ObservedHead Exact(std::unique_ptr<fsm::Head> head, const std::string& name,
                             std::vector<MeshPoint> points);
 
   const std::string& name() const { return name_; }
   const fsm::Head& head() const { return *head_; }
   const fsm::HeadVertices& rest() const { return rest_; }
-  const Surface& surface() const { return surface_; }
   /// Returns where the network's points lie on the head.
   const std::vector<MeshPoint>& mesh_points() const { return mesh_points_; }
   /// Returns the depth that the network reports of a point, millimetres; of an Exact head the true
   /// one.
   float DetectedDepthMm(PointIndex i) const { return detected_depth_mm_[i]; }
   /// Returns what the network was shown. REQUIRES: not Exact.
-  const fsm::Image& picture() const { return seen_.value().picture; }
+  const fsm::Image& picture() const {
+    assert(seen_);
+    return seen_->picture;
+  }
   /// Returns the pixel of `picture` at which the network saw a point. REQUIRES: not Exact.
-  glm::vec2 DetectedAt(PointIndex i) const { return seen_.value().pixels[i]; }
-  /// Returns the line where the lips meet, if it was found.
+  glm::vec2 DetectedAt(PointIndex i) const {
+    assert(seen_);
+    return seen_->pixels[i];
+  }
+  /// Returns the seam, if it was found.
   const std::optional<LipSeam>& seam() const { return seam_; }
   /// Returns the face's own action units, if it has any.
   const std::optional<fsm::UnitTable>& units() const { return units_; }
 
+  /// Returns the vertices in a state, as in an expression; head's frame.
+  std::vector<glm::vec3> Posed(const fsm::FaceState& state) const;
   /// Returns the position of a point on the head at rest, millimetres.
   glm::vec3 AtRest(PointIndex i) const { return mesh_points_[i].On(rest_.position); }
   /// Replaces the action units. Points stay, since they were observed at rest.
-  void MoveBy(const fsm::UnitTable& own);
+  void UseUnits(const fsm::UnitTable& own);
 
  private:
-  ObservedHead(std::unique_ptr<fsm::Head> head, const std::string& name, Surface surface);
+  ObservedHead(std::unique_ptr<fsm::Head> head, const std::string& name);
 
   std::string name_;
   std::unique_ptr<fsm::Head> head_;
-  Surface surface_;
   fsm::HeadVertices rest_;
   std::vector<MeshPoint> mesh_points_;
   std::vector<float> detected_depth_mm_;

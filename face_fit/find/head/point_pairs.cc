@@ -6,7 +6,7 @@
 #include <iterator>
 #include <span>
 
-#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/median.h"
 
 namespace facefit {
 namespace {
@@ -18,7 +18,7 @@ const fsm::PointPair* MirroredPair(const fsm::PointPair& pair,
                                    std::span<const fsm::PointPair> pairs) {
   constexpr float kSameMm = 5;
   const auto nearest = std::ranges::min_element(pairs, {}, [&](const fsm::PointPair& other) {
-    return other.part == pair.part ? glm::distance(kMirror * other.from, pair.from) : 1e9F;
+    return other.on == pair.on ? glm::distance(kMirror * other.from, pair.from) : 1e9F;
   });
   return glm::distance(kMirror * nearest->from, pair.from) > kSameMm ? nullptr : &*nearest;
 }

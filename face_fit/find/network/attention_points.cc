@@ -43,7 +43,7 @@ AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image,
   };
   AttentiveFace found;
   found.face.crop = crop;
-  found.face.certainty = tflite::op::Logistic::Of(attention.output(kAttentionCertainty)[0]);
+  found.face.certainty = tflite::op::Logistic::Apply(attention.output(kAttentionCertainty)[0]);
   found.face.points = PointsInPicture(attention.output(kAttentionPoints), crop);
   const auto refine = [&](AttentionOutput output, std::span<const PointIndex> points) {
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
-#include "face_fit/picture/filters.h"
 #include "face_fit/picture/plane.h"
 #include "face_fit/tflite/operators.h"
+#include "fsm/image/shrink.h"
 
 namespace facefit {
 namespace {
@@ -71,7 +71,7 @@ std::vector<FaceBox> Detect(FaceNetworks& networks, const fsm::Image& image,
   const auto scores = networks.detector.output(kDetectorScores);
   std::vector<FaceBox> found;
   for (std::size_t i = 0; i < anchors.size(); ++i) {
-    const float score = tflite::op::Logistic::Of(scores[i]);
+    const float score = tflite::op::Logistic::Apply(scores[i]);
     if (!(score >= kMinScore)) continue;
     const float* box = &boxes[kBoxNumbers * i];
     const auto pixel = [&](DetectorBox k) {
@@ -87,12 +87,6 @@ std::vector<FaceBox> Detect(FaceNetworks& networks, const fsm::Image& image,
   return found;
 }
 
-/// Halves a picture; each pixel is the mean of four. Drops an odd last row or column.
-fsm::Image Halved(const fsm::Image& image) {
-  const int width = image.width / 2, height = image.height / 2;
-  return ScaledDown(Cropped(image, 0, 0, 2 * width, 2 * height), width, height);
-}
-
 /// A box, and its rank among boxes of the same face.
 struct Detection {
   FaceBox face;
@@ -106,7 +100,7 @@ class ScaledDetector {
   ScaledDetector(FaceNetworks& networks, const fsm::Image& image) : networks_(networks) {
     copies_.push_back(image);
     while (std::max(copies_.back().width, copies_.back().height) > 2 * kDetectorPixels) {
-      copies_.push_back(Halved(copies_.back()));
+      copies_.push_back(fsm::Halved(copies_.back()));
     }
   }
 
@@ -134,21 +128,19 @@ class ScaledDetector {
 };
 
 float EyeAngle(std::span<const glm::vec3> points) {
-  const glm::vec2 eyes(points[point::kEyeOuterLeft] - points[point::kEyeOuterRight]);
-  return std::atan2(eyes.y, eyes.x);
+  return AngleOf(glm::vec2(points[point::kEyeOuterLeft] - points[point::kEyeOuterRight]));
 }
 
 FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const FaceBox& box) {
-  const glm::vec2 eyes = box.eyes[1] - box.eyes[0];
   FoundFace face{.points = {},
                  .score = box.score,
                  .crop = {box.centre, kCropMargin * std::max(box.size.x, box.size.y),
-                          std::atan2(eyes.y, eyes.x)}};
+                          AngleOf(box.eyes[1] - box.eyes[0])}};
   // The first pass locates the face; the others see it upright and as large as in training.
   for (int pass = 0; pass < 3; ++pass) {
     if (pass > 0) face.crop = CropAround(face.points, face.crop.angle_rad);
     networks.landmarks.Run(face.crop.Sample(image, kPointsPixels, 0, 1));
-    face.certainty = tflite::op::Logistic::Of(networks.landmarks.output(kLandmarkCertainty)[0]);
+    face.certainty = tflite::op::Logistic::Apply(networks.landmarks.output(kLandmarkCertainty)[0]);
     face.points = PointsInPicture(networks.landmarks.output(kLandmarkPoints), face.crop);
   }
   return face;
@@ -167,6 +159,16 @@ std::vector<FaceBox> SuppressNonMaxima(std::vector<Detection> found) {
 }
 
 }  // namespace
+
+bool LipsApart(const FoundFace& face) {
+  const auto apart = [&face](PointIndex a, PointIndex b) {
+    return glm::distance(face.PixelOf(a), face.PixelOf(b));
+  };
+  // Distance of the middles of the inner lips, divided by the mouth's width.
+  constexpr float kMinGap = 0.06F;
+  return apart(point::kInnerLipTop, point::kInnerLipBottom) >
+         kMinGap * apart(point::kMouthRight, point::kMouthLeft);
+}
 
 std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image) {
   const glm::vec2 size(image.width, image.height);

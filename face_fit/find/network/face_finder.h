@@ -19,12 +19,19 @@ struct FoundFace {
   float score = 1;                ///< score of the detector, 0..1, which sees no face upside down
   NetworkCrop crop;               ///< around the points
   glm::vec2 PixelOf(PointIndex i) const { return glm::vec2(points[i]); }
+  /// Returns the way from the right eye's outer corner to the left one's, pixels.
+  glm::vec2 AcrossEyes() const {
+    return PixelOf(point::kEyeOuterLeft) - PixelOf(point::kEyeOuterRight);
+  }
   std::vector<glm::vec2> Line(std::span<const PointIndex> of) const {
     std::vector<glm::vec2> line;
     for (const PointIndex i : of) line.push_back(PixelOf(i));
     return line;
   }
 };
+
+/// Returns whether the lips are parted, so that teeth or the dark of the mouth show between them.
+bool LipsApart(const FoundFace& face);
 
 /// Certainty below which there is no face: a few pictures of other things reach 0.66; people and
 /// drawn heads hardly fall below 0.9.

@@ -49,14 +49,14 @@ struct FaceMeshPackage {
   }
 };
 
-std::unexpected<vm::Error> NotThere(const std::string& where) {
+std::unexpected<vm::Error> FailMissing(const std::string& where) {
   return vm::Fail(vm::Errc::kUnavailable,
                   "the networks that find faces are not in '" + where +
                       "'; scripts/face_networks.sh puts them there (npm packages "
                       "@mediapipe/face_mesh and @mediapipe/selfie_segmentation)");
 }
 
-std::unexpected<vm::Error> NotUsable(const std::string& where, const std::exception& error) {
+std::unexpected<vm::Error> FailUnusable(const std::string& where, const std::exception& error) {
   return vm::Fail(vm::Errc::kBadValue,
                   "the networks in '" + where + "' cannot be used: " + error.what());
 }
@@ -84,7 +84,7 @@ vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
   const auto package = FaceMeshPackage::Read(where);
   const auto figure =
       vm::ReadTextFile(where + "/selfie_segmentation/selfie_segmentation.tflite", kMaxBytes);
-  if (!package || !figure) return NotThere(where);
+  if (!package || !figure) return FailMissing(where);
   try {
     return FaceNetworks{
         .detector = Expect(package->Open("face_detection_short_range.tflite"), kDetectorPixels,
@@ -94,20 +94,20 @@ vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
         .segmentation = Expect(Network(tflite::Model::Read(fsm::BytesOf(*figure))), kFigurePixels,
                                {kFigurePixels * kFigurePixels})};
   } catch (const std::exception& error) {
-    return NotUsable(where, error);
+    return FailUnusable(where, error);
   }
 }
 
 vm::Result<Network> LoadAttentionLandmarks(const std::string& folder) {
   const std::string where = folder.empty() ? NetworksFolder() : folder;
   const auto package = FaceMeshPackage::Read(where);
-  if (!package) return NotThere(where);
+  if (!package) return FailMissing(where);
   try {
     return Expect(package->Open("face_landmark_with_attention.tflite"), kPointsPixels,
                   {3 * kNetworkPoints, 2 * kAttentionLipPoints, 2 * kAttentionEyePoints,
                    2 * kAttentionEyePoints, 2 * kAttentionIrisPoints, 2 * kAttentionIrisPoints, 1});
   } catch (const std::exception& error) {
-    return NotUsable(where, error);
+    return FailUnusable(where, error);
   }
 }
 

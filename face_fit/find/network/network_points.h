@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "fsm/base/side.h"
 
@@ -30,6 +31,8 @@ inline constexpr PointIndex kMouthRight = 61, kMouthLeft = 291, kLipTop = 0, kLi
 
 template <std::size_t n>
 using Group = std::array<PointIndex, n>;
+inline constexpr Group<2> kMouthCorners{kMouthRight, kMouthLeft},
+    kInnerMouthCorners{kInnerMouthRight, kInnerMouthLeft};
 inline constexpr fsm::Sided<Group<3>> kCheeks{{50, 205, 187}, {280, 425, 411}},
     kBrowInner{{107, 66, 55}, {336, 296, 285}}, kBrowOuter{{70, 63, 46}, {300, 293, 276}};
 /// Skin below and beside an eye.
@@ -43,38 +46,44 @@ inline constexpr Group<7> kBareSkin{50, 280, 205, 425, 151, 9, 199};
 /// eyes, temples, sides of the face above the jaw.
 inline constexpr Group<20> kStill{168, 6,   197, 195, 33,  133, 362, 263, 127, 356,
                                   234, 454, 162, 389, 139, 368, 34,  264, 143, 372};
-/// Borders of the lips from the person's right to left; only the upper inner one includes the
-/// corners.
+/// Borders of the lips from the person's right to left, without the corners.
 inline constexpr Group<9> kUpperOuterLip{185, 40, 39, 37, 0, 267, 269, 270, 409};
 inline constexpr Group<9> kLowerOuterLip{146, 91, 181, 84, 17, 314, 405, 321, 375};
-inline constexpr Group<11> kUpperInnerLip{78, 191, 80, 81, 82, 13, 312, 311, 310, 415, 308};
+inline constexpr Group<9> kUpperInnerLip{191, 80, 81, 82, 13, 312, 311, 310, 415};
 inline constexpr Group<9> kLowerInnerLip{95, 88, 178, 87, 14, 317, 402, 318, 324};
 /// An eye's outline, closed: the outer corner, seven points of the upper lid, the inner corner, and
 /// seven points of the lower lid on the way back.
 inline constexpr fsm::Sided<Group<16>> kEyeOutline{
     {33, 246, 161, 160, 159, 158, 157, 173, 133, 155, 154, 153, 145, 144, 163, 7},
     {263, 466, 388, 387, 386, 385, 384, 398, 362, 382, 381, 380, 374, 373, 390, 249}};
+/// The closed outline of the face, from the forehead round by the person's left.
+inline constexpr Group<36> kFaceOutline{10,  338, 297, 332, 284, 251, 389, 356, 454, 323, 361, 288,
+                                        397, 365, 379, 378, 400, 377, 152, 148, 176, 149, 150, 136,
+                                        172, 58,  132, 93,  234, 127, 162, 21,  54,  103, 67,  109};
+inline constexpr fsm::Sided<Group<10>> kBrow{{70, 63, 105, 66, 107, 46, 53, 52, 65, 55},
+                                             {300, 293, 334, 296, 336, 276, 283, 282, 295, 285}};
+inline constexpr Group<18> kNose{168, 6,  197, 195, 5,   4,  1,   2,   129,
+                                 358, 98, 327, 64,  294, 48, 278, 115, 344};
+/// Forehead, cheeks and chin within the outline.
+inline constexpr Group<24> kWithinOutline{151, 9,   8,   108, 337, 104, 333, 50,
+                                          280, 205, 425, 116, 345, 187, 411, 207,
+                                          427, 199, 18,  200, 192, 416, 214, 434};
+
+template <std::size_t... n>
+constexpr auto Joined(const Group<n>&... groups) {
+  Group<(n + ...)> all{};
+  auto to = all.begin();
+  ((to = std::ranges::copy(groups, to).out), ...);
+  return all;
+}
 /// The points that the network places well on any face.
-inline constexpr PointIndex kReliable[] = {
-    // outline from the forehead round by the person's left
-    10, 338, 297, 332, 284, 251, 389, 356, 454, 323, 361, 288, 397, 365, 379, 378, 400, 377, 152,
-    148, 176, 149, 150, 136, 172, 58, 132, 93, 234, 127, 162, 21, 54, 103, 67, 109,
-    // lips, outer and inner border
-    61, 185, 40, 39, 37, 0, 267, 269, 270, 409, 291, 146, 91, 181, 84, 17, 314, 405, 321, 375, 78,
-    191, 80, 81, 82, 13, 312, 311, 310, 415, 308, 95, 88, 178, 87, 14, 317, 402, 318, 324,
-    // eyes
-    33, 246, 161, 160, 159, 158, 157, 173, 133, 155, 154, 153, 145, 144, 163, 7, 263, 466, 388, 387,
-    386, 385, 384, 398, 362, 382, 381, 380, 374, 373, 390, 249,
-    // brows
-    70, 63, 105, 66, 107, 46, 53, 52, 65, 55, 300, 293, 334, 296, 336, 276, 283, 282, 295, 285,
-    // nose
-    168, 6, 197, 195, 5, 4, 1, 2, 129, 358, 98, 327, 64, 294, 48, 278, 115, 344,
-    // forehead, cheeks, chin
-    151, 9, 8, 108, 337, 104, 333, 50, 280, 205, 425, 116, 345, 187, 411, 207, 427, 199, 18, 200,
-    192, 416, 214, 434};
-/// The closed outline of the face, from the forehead round by the person's left: the first of
-/// kReliable.
-inline constexpr std::span kFaceOutline = std::span(kReliable).first<36>();
+inline constexpr auto kReliable = Joined(
+    kFaceOutline, Group<1>{kMouthRight}, kUpperOuterLip, Group<1>{kMouthLeft}, kLowerOuterLip,
+    Group<1>{kInnerMouthRight}, kUpperInnerLip, Group<1>{kInnerMouthLeft}, kLowerInnerLip,
+    kEyeOutline.right, kEyeOutline.left, kBrow.right, kBrow.left, kNose, kWithinOutline);
+static_assert(std::ranges::all_of(kReliable, [](PointIndex i) {
+  return i < kNetworkPoints && std::ranges::count(kReliable, i) == 1;
+}));
 }  // namespace point
 
 /// Distance of the outer corners of the eyes of the built-in head (Farkas 1994: 91.2 and 87.8 for
@@ -87,7 +96,17 @@ inline bool Contains(std::span<const PointIndex> list, PointIndex i) {
 
 /// Returns whether a point lies on the inner lips, corners included.
 inline bool OnInnerLips(PointIndex i) {
-  return Contains(point::kUpperInnerLip, i) || Contains(point::kLowerInnerLip, i);
+  return Contains(point::kUpperInnerLip, i) || Contains(point::kLowerInnerLip, i) ||
+         Contains(point::kInnerMouthCorners, i);
+}
+
+/// Returns the border of a lip from corner to corner.
+inline std::vector<PointIndex> WithCorners(std::span<const PointIndex> lip,
+                                           const point::Group<2>& corners) {
+  std::vector<PointIndex> border{corners[0]};
+  border.insert(border.end(), lip.begin(), lip.end());
+  border.push_back(corners[1]);
+  return border;
 }
 
 /// Indices into point::kEyeOutline: the corners and the middles of the lids.

@@ -105,104 +105,84 @@ void JsonNumbers(const json& object, const char* key, std::span<float> out) {
   }
 }
 
-GltfDocument::GltfDocument() = default;
-GltfDocument::GltfDocument(GltfDocument&&) noexcept = default;
-GltfDocument& GltfDocument::operator=(GltfDocument&&) noexcept = default;
+void Refuse(const std::string& what) { throw vm::Failure({vm::Errc::kBadValue, what}); }
+
+GltfDocument::GltfDocument(std::string_view bytes, Beside beside) : beside_(std::move(beside)) {
+  const Chunks chunks = bytes.starts_with("glTF") ? SplitBinary(bytes) : Chunks{bytes, {}};
+  ParseJson(chunks.json);
+  ReadBuffers(chunks.buffer);
+}
 GltfDocument::~GltfDocument() = default;
 
-std::unexpected<vm::Error> GltfDocument::Fail(const std::string& text) const {
-  return vm::Fail(vm::Errc::kBadValue, name_ + ": " + text);
-}
-
-vm::Result<GltfDocument::Chunks> GltfDocument::SplitBinary(std::string_view bytes) const {
+GltfDocument::Chunks GltfDocument::SplitBinary(std::string_view bytes) {
   constexpr std::size_t kJson = 0x4E4F534A, kBuffer = 0x004E4942;
   if (bytes.size() < 20 || Word(bytes, 4) != 2) {
-    return Fail("byte 4: version 2 of binary glTF expected");
+    Refuse("byte 4: version 2 of binary glTF expected");
   }
   if (Word(bytes, 8) > bytes.size()) {
-    return Fail("byte " + std::to_string(bytes.size()) + ": it ends here, but " +
-                std::to_string(Word(bytes, 8)) + " bytes are announced");
+    Refuse("byte " + std::to_string(bytes.size()) + ": it ends here, but " +
+           std::to_string(Word(bytes, 8)) + " bytes are announced");
   }
   Chunks chunks;
   std::size_t at = 12;
   for (int chunk = 0; at + 8 <= bytes.size(); ++chunk) {
     const std::size_t length = Word(bytes, at), kind = Word(bytes, at + 4);
     if (length > bytes.size() - at - 8) {
-      return Fail("byte " + std::to_string(at) + ": a chunk of " + std::to_string(length) +
-                  " bytes is cut off");
+      Refuse("byte " + std::to_string(at) + ": a chunk of " + std::to_string(length) +
+             " bytes is cut off");
     }
     const std::string_view body = bytes.substr(at + 8, length);
-    if (chunk == 0 && kind != kJson) return Fail("byte 16: a chunk of JSON expected");
+    if (chunk == 0 && kind != kJson) Refuse("byte 16: a chunk of JSON expected");
     if (chunk == 0) chunks.json = body;
     if (chunk == 1 && kind == kBuffer) chunks.buffer = body;
     at += 8 + length + (4 - length % 4) % 4;
   }
-  if (chunks.json.data() == nullptr) return Fail("byte 12: a chunk of JSON expected");
+  if (chunks.json.data() == nullptr) Refuse("byte 12: a chunk of JSON expected");
   return chunks;
 }
 
-vm::Result<void> GltfDocument::ParseJson(std::string_view text) {
+void GltfDocument::ParseJson(std::string_view text) {
   // Deep nesting is limited because it costs stack, out of proportion to the length of the JSON.
   const auto shallow = [](int depth, json::parse_event_t, json&) {
     return depth <= static_cast<int>(kMaxDepth);
   };
   auto parsed = json::parse(text.begin(), text.end(), shallow, false);
   if (parsed.is_discarded() || !parsed.is_object() || !parsed.contains("asset")) {
-    return Fail("no glTF: JSON with an \"asset\" expected");
+    Refuse("no glTF: JSON with an \"asset\" expected");
   }
   json_ = std::make_unique<json>(std::move(parsed));
   if (!JsonText(JsonMember(root(), "asset"), "version").starts_with("2")) {
-    return Fail("asset: version 2 expected");
+    Refuse("asset: version 2 expected");
   }
   for (const json& needed : JsonMember(root(), "extensionsRequired")) {
     for (const char* packed :
          {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}) {
       if (needed == json(packed)) {
-        return Fail(std::string("extensionsRequired: ") + packed + ": " + kPackedMesh);
+        Refuse(std::string("extensionsRequired: ") + packed + ": " + kPackedMesh);
       }
     }
   }
-  return {};
 }
 
-vm::Result<void> GltfDocument::ReadBuffers(std::optional<std::string_view> own) {
+void GltfDocument::ReadBuffers(std::optional<std::string_view> own) {
   std::size_t total = 0;
   for (std::size_t i = 0; i < Count("buffers"); ++i) {
     const json& buffer = At("buffers", static_cast<std::int64_t>(i));
-    const std::string uri = JsonText(buffer, "uri"), place = "buffers[" + std::to_string(i) + "]: ";
+    const std::string uri = JsonText(buffer, "uri"), place = "buffers[" + std::to_string(i) + "]";
     if (uri.empty() && i == 0 && own) {
       buffers_.emplace_back(*own);
     } else {
-      auto read = Resolve(uri);
-      if (!read) return Fail(place + read.error().text);
-      buffers_.push_back(std::move(*read));
+      buffers_.push_back(AtPlace(place, [&] { return Resolve(uri); }));
     }
     const std::size_t size = buffers_.back().size();
     if (total += size; total > kMaxMeshBytes) {
-      return vm::Fail(vm::Errc::kLimit, name_ + ": its buffers hold more than " +
-                                            std::to_string(kMaxMeshBytes) + " bytes");
+      throw vm::Failure({vm::Errc::kLimit,
+                         "its buffers hold more than " + std::to_string(kMaxMeshBytes) + " bytes"});
     }
     if (JsonInteger(buffer, "byteLength", 0) > static_cast<std::int64_t>(size)) {
-      return Fail(place + "it is shorter than its byteLength");
+      Refuse(place + ": it is shorter than its byteLength");
     }
   }
-  return {};
-}
-
-vm::Result<GltfDocument> GltfDocument::Parse(
-    const std::string& name, std::string_view bytes,
-    const std::function<std::optional<std::string>(const std::string&)>& beside) {
-  GltfDocument document;
-  document.name_ = name;
-  document.beside_ = beside;
-  auto chunks =
-      bytes.starts_with("glTF") ? document.SplitBinary(bytes) : Chunks{bytes, std::nullopt};
-  if (!chunks) return std::unexpected(chunks.error());
-  if (auto done = document.ParseJson(chunks->json); !done) return std::unexpected(done.error());
-  if (auto done = document.ReadBuffers(chunks->buffer); !done) {
-    return std::unexpected(done.error());
-  }
-  return document;
 }
 
 const json& GltfDocument::At(const char* key, std::int64_t index) const {
@@ -218,24 +198,23 @@ std::size_t GltfDocument::Count(const char* key) const {
   return list.is_array() ? list.size() : 0;
 }
 
-vm::Result<std::string> GltfDocument::Resolve(const std::string& uri) const {
+std::string GltfDocument::Resolve(const std::string& uri) const {
   if (uri.starts_with("data:")) {
     const auto comma = uri.find(";base64,");
     auto bytes = comma == std::string::npos
                      ? std::nullopt
                      : vm::DecodeBase64(std::string_view(uri).substr(comma + 8));
-    if (!bytes) return vm::Fail(vm::Errc::kBadValue, "its data URI is not base64");
+    if (!bytes) Refuse("its data URI is not base64");
     return std::move(*bytes);
   }
   auto bytes = uri.empty() || !beside_ ? std::nullopt : beside_(uri);
   if (!bytes) {
-    return vm::Fail(vm::Errc::kUnavailable,
-                    "its file '" + uri.substr(0, 80) + "' cannot be read from beside it");
+    Refuse("its file '" + uri.substr(0, 80) + "' cannot be read from beside it");
   }
   return std::move(*bytes);
 }
 
-vm::Result<GltfDocument::BufferView> GltfDocument::ViewOf(std::int64_t index) const {
+GltfDocument::BufferView GltfDocument::ViewOf(std::int64_t index) const {
   const json& view = At("bufferViews", index);
   const std::int64_t buffer = JsonInteger(view, "buffer"),
                      offset = JsonInteger(view, "byteOffset", 0),
@@ -243,120 +222,113 @@ vm::Result<GltfDocument::BufferView> GltfDocument::ViewOf(std::int64_t index) co
                      stride = JsonInteger(view, "byteStride", 0);
   if (buffer < 0 || static_cast<std::size_t>(buffer) >= buffers_.size() || offset < 0 ||
       length < 0 || stride < 0 || stride > 65536) {
-    return Fail("bufferViews[" + std::to_string(index) + "]: it points nowhere");
+    Refuse("bufferViews[" + std::to_string(index) + "]: it points nowhere");
   }
   const std::string& bytes = buffers_[static_cast<std::size_t>(buffer)];
   const auto size = static_cast<std::int64_t>(bytes.size());
   if (offset > size || length > size - offset) {
-    return Fail("bufferViews[" + std::to_string(index) + "]: bytes " + std::to_string(offset) +
-                " to " + std::to_string(offset) + " + " + std::to_string(length) +
-                " are not in its buffer of " + std::to_string(size));
+    Refuse("bufferViews[" + std::to_string(index) + "]: bytes " + std::to_string(offset) + " to " +
+           std::to_string(offset) + " + " + std::to_string(length) + " are not in its buffer of " +
+           std::to_string(size));
   }
   const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data()) + offset;
   return BufferView{{first, static_cast<std::size_t>(length)}, static_cast<std::size_t>(stride)};
 }
 
-vm::Result<void> GltfDocument::ReadElements(const Elements& elements, const std::string& place,
-                                            const Take& take) const {
+void GltfDocument::ReadElements(const Elements& elements, const std::string& place,
+                                const Take& take) const {
   const json& where = elements.where;
-  const auto view = ViewOf(JsonInteger(where, "bufferView"));
-  if (!view) return std::unexpected(view.error());
+  const BufferView view = ViewOf(JsonInteger(where, "bufferView"));
   const std::int64_t offset = JsonInteger(where, "byteOffset", 0);
   const auto kind = KindOf(elements.component);
   const std::size_t tight = kind->bytes * elements.width;
-  const std::size_t stride = view->stride == 0 ? tight : view->stride;
+  const std::size_t stride = view.stride == 0 ? tight : view.stride;
   if (offset < 0 ||
       (elements.count > 0 &&
        (stride < tight || static_cast<std::size_t>(offset) + stride * (elements.count - 1) + tight >
-                              view->bytes.size()))) {
-    return Fail(place + ": its elements are not in its bufferView");
+                              view.bytes.size()))) {
+    Refuse(place + ": its elements are not in its bufferView");
   }
   for (std::size_t i = 0; i < elements.count; ++i) {
-    const std::uint8_t* at = view->bytes.data() + static_cast<std::size_t>(offset) + i * stride;
+    const std::uint8_t* at = view.bytes.data() + static_cast<std::size_t>(offset) + i * stride;
     for (std::size_t k = 0; k < elements.width; ++k) {
       take(i, k, Value(at + k * kind->bytes, elements.component, *kind, elements.normalised));
     }
   }
-  return {};
 }
 
-vm::Result<std::vector<double>> GltfDocument::Values(std::int64_t index, int width) const {
+std::vector<double> GltfDocument::Values(std::int64_t index, int width) const {
   const json& accessor = At("accessors", index);
   const std::string place = "accessors[" + std::to_string(index) + "]";
   const std::int64_t count = JsonInteger(accessor, "count", -1);
   const std::int64_t component = JsonInteger(accessor, "componentType");
   const int own_width = WidthOf(JsonText(accessor, "type"));
   if (count < 0 || !KindOf(component) || own_width == 0 || own_width != width) {
-    return Fail(place + ": " + std::to_string(width) + " numbers of a known kind expected");
+    Refuse(place + ": " + std::to_string(width) + " numbers of a known kind expected");
   }
   const auto numbers = static_cast<std::size_t>(width);
   // An accessor without a bufferView is all zeros, so a small file can declare any count.
   if (static_cast<std::size_t>(count) > kMaxNumbers / numbers) {
-    return vm::Fail(vm::Errc::kLimit, name_ + ": " + place + ": more than " +
-                                          std::to_string(kMaxNumbers) + " numbers");
+    throw vm::Failure(
+        {vm::Errc::kLimit, place + ": more than " + std::to_string(kMaxNumbers) + " numbers"});
   }
   std::vector<double> out(static_cast<std::size_t>(count) * numbers, 0.0);
   const Elements own{accessor, component, static_cast<std::size_t>(count), numbers,
                      accessor.value("normalized", json(false)) == json(true)};
   if (accessor.contains("bufferView")) {
     const auto take = [&](std::size_t i, std::size_t k, double v) { out[i * numbers + k] = v; };
-    if (auto done = ReadElements(own, place, take); !done) return std::unexpected(done.error());
+    ReadElements(own, place, take);
   }
-  if (auto done = FillSparse(own, place, out); !done) return std::unexpected(done.error());
+  FillSparse(own, place, out);
   return out;
 }
 
-vm::Result<void> GltfDocument::FillSparse(const Elements& own, const std::string& place,
-                                          std::vector<double>& out) const {
+void GltfDocument::FillSparse(const Elements& own, const std::string& place,
+                              std::vector<double>& out) const {
   const json& sparse = JsonMember(own.where, "sparse");
-  if (sparse.empty()) return {};
+  if (sparse.empty()) return;
   const std::int64_t changed = JsonInteger(sparse, "count", -1);
   const json& indices = JsonMember(sparse, "indices");
   const std::int64_t index_type = JsonInteger(indices, "componentType");
   if (changed < 0 || static_cast<std::size_t>(changed) > own.count || !KindOf(index_type)) {
-    return Fail(place + ": sparse: a damaged list");
+    Refuse(place + ": sparse: a damaged list");
   }
   std::vector<std::size_t> vertex(static_cast<std::size_t>(changed));
   bool inside = true;
-  auto done = ReadElements({indices, index_type, vertex.size(), 1, false}, place,
-                           [&](std::size_t i, std::size_t, double v) {
-                             inside = inside && v >= 0 && v < static_cast<double>(own.count);
-                             vertex[i] = inside ? static_cast<std::size_t>(v) : 0;
-                           });
-  if (!done) return done;
-  if (!inside) return Fail(place + ": sparse: an index beyond its elements");
-  return ReadElements(
+  ReadElements({indices, index_type, vertex.size(), 1, false}, place,
+               [&](std::size_t i, std::size_t, double v) {
+                 inside = inside && v >= 0 && v < static_cast<double>(own.count);
+                 vertex[i] = inside ? static_cast<std::size_t>(v) : 0;
+               });
+  if (!inside) Refuse(place + ": sparse: an index beyond its elements");
+  ReadElements(
       {JsonMember(sparse, "values"), own.component, vertex.size(), own.width, own.normalised},
       place, [&](std::size_t i, std::size_t k, double v) { out[vertex[i] * own.width + k] = v; });
 }
 
-vm::Result<std::vector<float>> GltfDocument::Numbers(std::int64_t accessor, int width) const {
+std::vector<float> GltfDocument::Numbers(std::int64_t accessor, int width) const {
   const auto read = Values(accessor, width);
-  if (!read) return std::unexpected(read.error());
-  return std::vector<float>(read->begin(), read->end());
+  return {read.begin(), read.end()};
 }
 
-vm::Result<std::vector<std::uint32_t>> GltfDocument::Indices(std::int64_t accessor) const {
+std::vector<std::uint32_t> GltfDocument::Indices(std::int64_t accessor) const {
   const auto read = Values(accessor, 1);
-  if (!read) return std::unexpected(read.error());
   std::vector<std::uint32_t> out;
-  out.reserve(read->size());
+  out.reserve(read.size());
   constexpr std::uint32_t kNone = 0xffffffff;
-  for (const double v : *read)
+  for (const double v : read)
     out.push_back(v >= 0 && v < kNone ? static_cast<std::uint32_t>(v) : kNone);
   return out;
 }
 
-vm::Result<std::string> GltfDocument::ImageBytes(std::int64_t index) const {
+std::string GltfDocument::ImageBytes(std::int64_t index) const {
   const json& image = At("images", index);
   if (image.contains("bufferView")) {
-    const auto view = ViewOf(JsonInteger(image, "bufferView"));
-    if (!view) return std::unexpected(view.error());
-    return std::string(view->bytes.begin(), view->bytes.end());
+    const BufferView view = ViewOf(JsonInteger(image, "bufferView"));
+    return {view.bytes.begin(), view.bytes.end()};
   }
-  auto bytes = Resolve(JsonText(image, "uri"));
-  if (!bytes) return Fail("images[" + std::to_string(index) + "]: " + bytes.error().text);
-  return bytes;
+  return AtPlace("images[" + std::to_string(index) + "]",
+                 [&] { return Resolve(JsonText(image, "uri")); });
 }
 
 }  // namespace fsm

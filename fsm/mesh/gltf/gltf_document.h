@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "vm_protocol/core/result.h"
+#include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
 
@@ -24,17 +24,27 @@ enum class GltfType {
   kFloat = 5126
 };
 
+/// Returns read(), and puts `place` before the text of an error that it throws.
+template <typename Read>
+auto AtPlace(const std::string& place, const Read& read) {
+  try {
+    return read();
+  } catch (const vm::Failure& failure) {
+    throw vm::Failure({failure.error.code, place + ": " + failure.error.text});
+  }
+}
+/// Throws the error of a damaged file; `what` begins with the place in the file.
+[[noreturn]] void Refuse(const std::string& what);
+
 /// A parsed glTF 2.0 file: its JSON and its buffers, with every access checked. We do not use
 /// tinygltf because 2.7, the version available, trusts the offsets in a hostile file.
+/// Errors: vm::Failure with kBadValue or kLimit and a text that begins with the place in the file,
+/// as "accessors[I]: ..."; whoever reads the file adds its name (AtPlace).
 class GltfDocument {
  public:
-  /// `beside` returns the bytes of a file named by a relative URI; nothing if it is missing or not
-  /// allowed. Errors: kBadValue naming what is damaged; kLimit.
-  static vm::Result<GltfDocument> Parse(
-      const std::string& name, std::string_view bytes,
-      const std::function<std::optional<std::string>(const std::string&)>& beside);
-  GltfDocument(GltfDocument&&) noexcept;
-  GltfDocument& operator=(GltfDocument&&) noexcept;
+  /// Returns the bytes of a file named by a relative URI; nothing if it is missing or not allowed.
+  using Beside = std::function<std::optional<std::string>(const std::string& uri)>;
+  explicit GltfDocument(std::string_view bytes, Beside beside = {});
   ~GltfDocument();
 
   const nlohmann::json& root() const { return *json_; }
@@ -43,17 +53,13 @@ class GltfDocument {
   std::size_t Count(const char* key) const;
 
   /// As Numbers, but exact for integers of 32 bits.
-  vm::Result<std::vector<double>> Values(std::int64_t accessor, int width) const;
+  std::vector<double> Values(std::int64_t accessor, int width) const;
   /// Returns the numbers of an accessor, `width` for each element. Normalised integers are
-  /// converted to 0..1 (-1..1 if signed), sparse values are substituted. Errors: kBadValue "NAME:
-  /// accessors[I]: ...", kLimit.
-  vm::Result<std::vector<float>> Numbers(std::int64_t accessor, int width) const;
-  vm::Result<std::vector<std::uint32_t>> Indices(std::int64_t accessor) const;
+  /// converted to 0..1 (-1..1 if signed), sparse values are substituted.
+  std::vector<float> Numbers(std::int64_t accessor, int width) const;
+  std::vector<std::uint32_t> Indices(std::int64_t accessor) const;
   /// Returns the bytes of images[index], from a bufferView, a data URI or a file.
-  vm::Result<std::string> ImageBytes(std::int64_t index) const;
-
-  const std::string& name() const { return name_; }
-  std::unexpected<vm::Error> Fail(const std::string& text) const;
+  std::string ImageBytes(std::int64_t index) const;
 
  private:
   struct BufferView {
@@ -75,23 +81,19 @@ class GltfDocument {
   };
   using Take = std::function<void(std::size_t element, std::size_t k, double value)>;
 
-  GltfDocument();
-  vm::Result<Chunks> SplitBinary(std::string_view bytes) const;
-  vm::Result<void> ParseJson(std::string_view text);
-  vm::Result<void> ReadBuffers(std::optional<std::string_view> own);
+  static Chunks SplitBinary(std::string_view bytes);
+  void ParseJson(std::string_view text);
+  void ReadBuffers(std::optional<std::string_view> own);
   /// `place`: where in the document they are, for messages.
-  vm::Result<void> ReadElements(const Elements& elements, const std::string& place,
-                                const Take& take) const;
+  void ReadElements(const Elements& elements, const std::string& place, const Take& take) const;
   /// Overwrites the values of `out` that the accessor's `sparse` replaces.
-  vm::Result<void> FillSparse(const Elements& own, const std::string& place,
-                              std::vector<double>& out) const;
-  vm::Result<BufferView> ViewOf(std::int64_t view) const;
-  vm::Result<std::string> Resolve(const std::string& uri) const;
+  void FillSparse(const Elements& own, const std::string& place, std::vector<double>& out) const;
+  BufferView ViewOf(std::int64_t view) const;
+  std::string Resolve(const std::string& uri) const;
 
-  std::string name_;
   std::unique_ptr<nlohmann::json> json_;
   std::vector<std::string> buffers_;
-  std::function<std::optional<std::string>(const std::string&)> beside_;
+  Beside beside_;
 };
 
 /// The error text for geometry in an unsupported compression.

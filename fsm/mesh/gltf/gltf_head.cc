@@ -14,7 +14,6 @@
 #include "fsm/mesh/gltf/vrm_springs.h"
 #include "fsm/mesh/mesh_limits.h"
 #include "fsm/rig/reach.h"
-#include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace fsm {
@@ -22,26 +21,27 @@ namespace {
 
 using nlohmann::json;
 
-/// Reads one document. Throws vm::Failure.
+/// Reads one document. Throws as GltfDocument.
 class GltfReader {
  public:
-  explicit GltfReader(GltfDocument document)
-      : document_(std::move(document)),
+  GltfReader(const std::string& name, std::string_view bytes, const GltfDocument::Beside& beside)
+      : document_(bytes, beside),
         avatar_(ReadVrm(document_)),
-        nodes_(vm::OrThrow(GltfNodes::Read(document_))),
+        nodes_(document_),
         springs_(document_, nodes_),
         textures_(document_, head_),
-        targets_(document_, head_) {}
+        targets_(document_, head_) {
+    head_.name = name;
+  }
 
   ImportedHead Read() {
-    head_.name = document_.name();
     head_.metres = true;
     head_.spring_rig.springs = springs_.springs();
     for (const std::int64_t node : nodes_.shown()) ReadMesh(node);
-    if (head_.parts.empty()) Refuse(document_, "no mesh of triangles is in it");
+    if (head_.parts.empty()) Refuse("no mesh of triangles is in it");
     for (const auto& expression : avatar_.expressions) targets_.AddExpression(expression);
     if (avatar_.eye_bone.right >= 0 && avatar_.eye_bone.left >= 0) ReadEyePivots();
-    head_.eye_setup.gaze_ranges = avatar_.gaze_ranges;
+    head_.eye_rig.gaze_ranges = avatar_.gaze_ranges;
     head_.gaze_by_shape = avatar_.gaze_by_shape;
     if (avatar_.faces_minus_z) TurnAround();
     if (!head_.texcoord.empty()) head_.texcoord.resize(head_.position.size(), glm::vec2(0));
@@ -56,12 +56,12 @@ class GltfReader {
 
  private:
   void ReadEyePivots() {
-    head_.eye_setup.pivot.emplace();
+    head_.eye_rig.pivot.emplace();
     for (const Side side : kSides) {
       const std::int64_t bone = avatar_.eye_bone[side];
-      (*head_.eye_setup.pivot)[side] = glm::vec3(nodes_.World(bone)[3]);
-      if (WithinReach((*head_.eye_setup.pivot)[side])) continue;
-      RefuseReach(document_, "nodes[" + std::to_string(bone) + "]: the eye");
+      (*head_.eye_rig.pivot)[side] = glm::vec3(nodes_.World(bone)[3]);
+      if (WithinReach((*head_.eye_rig.pivot)[side])) continue;
+      RefuseReach("nodes[" + std::to_string(bone) + "]: the eye");
     }
   }
 
@@ -70,7 +70,7 @@ class GltfReader {
     const std::int64_t index = JsonInteger(of, "mesh"), skin = JsonInteger(of, "skin");
     if (index < 0) return;
     if (skin >= 0 && !skins_.contains(skin)) {
-      skins_.emplace(skin, vm::OrThrow(GltfSkin::Read(document_, nodes_, skin)));
+      skins_.emplace(skin, GltfSkin(document_, nodes_, skin));
     }
     const json& mesh = document_.At("meshes", index);
     std::vector<std::string> names;
@@ -92,7 +92,7 @@ class GltfReader {
     // Without a fallback the accessors of compressed geometry exist, but have no data.
     if (JsonMember(primitive, "extensions").contains("KHR_draco_mesh_compression") &&
         !document_.At("accessors", position).contains("bufferView")) {
-      Refuse(document_, "meshes[" + std::to_string(instance.mesh) + "]: " + kPackedMesh);
+      Refuse("meshes[" + std::to_string(instance.mesh) + "]: " + kPackedMesh);
     }
     // Primitives of a mesh often share their vertices.
     const GltfUvTransform uv = textures_.UvOfMaterial(JsonInteger(primitive, "material"));
@@ -104,8 +104,7 @@ class GltfReader {
     ImportedHead::Part part;
     part.name = name;
     part.indices = TrianglesOf(primitive, instance, known->second);
-    if (triangles_ += part.indices.size() / 3; triangles_ > kMaxMeshTriangles)
-      RefuseSize(document_);
+    if (triangles_ += part.indices.size() / 3; triangles_ > kMaxMeshTriangles) RefuseSize();
     textures_.ApplyMaterial(JsonInteger(primitive, "material"), part);
     if (!part.indices.empty()) head_.parts.push_back(std::move(part));
   }
@@ -122,12 +121,12 @@ class GltfReader {
     std::vector<std::uint32_t> indices(run.count);
     std::iota(indices.begin(), indices.end(), 0u);
     if (primitive.contains("indices")) {
-      indices = vm::OrThrow(document_.Indices(JsonInteger(primitive, "indices")));
+      indices = document_.Indices(JsonInteger(primitive, "indices"));
     }
     for (std::uint32_t& i : indices) {
       if (i >= run.count) {
-        Refuse(document_, "meshes[" + std::to_string(instance.mesh) + "]: an index beyond its " +
-                              std::to_string(run.count) + " vertices");
+        Refuse("meshes[" + std::to_string(instance.mesh) + "]: an index beyond its " +
+               std::to_string(run.count) + " vertices");
       }
       i += static_cast<std::uint32_t>(run.first);
     }
@@ -143,17 +142,17 @@ class GltfReader {
     const json& attributes = JsonMember(primitive, "attributes");
     const std::int64_t position = JsonInteger(attributes, "POSITION");
     const std::size_t first = head_.position.size();
-    const auto numbers = vm::OrThrow(document_.Numbers(position, 3));
+    const auto numbers = document_.Numbers(position, 3);
     const std::size_t count = numbers.size() / 3;
-    if (first + count > kMaxMeshVertices) RefuseSize(document_);
+    if (first + count > kMaxMeshVertices) RefuseSize();
     std::vector<glm::mat4> transforms(count, nodes_.World(instance.node));
     std::vector<GltfSkin::Skinned::Influence> watched;
     head_.eye.resize(first);
     if (instance.skin >= 0) {
       GltfSkin::Skinned skinned =
-          vm::OrThrow(skins_.at(instance.skin)
-                          .Apply(document_, attributes, count, nodes_.World(instance.node),
-                                 [this](std::int64_t bone) { return springs_.Has(bone); }));
+          skins_.at(instance.skin)
+              .Apply(document_, attributes, count, nodes_.World(instance.node),
+                     [this](std::int64_t bone) { return springs_.Has(bone); });
       transforms = std::move(skinned.transform);
       watched = std::move(skinned.watched);
       std::ranges::transform(skinned.main, std::back_inserter(head_.eye),
@@ -162,7 +161,7 @@ class GltfReader {
     for (std::size_t i = 0; i < count; ++i) {
       const glm::vec4 p(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2], 1);
       head_.position.push_back(glm::vec3(transforms[i] * p));
-      if (!WithinReach(head_.position.back())) RefuseReach(document_, VertexName(instance, i));
+      if (!WithinReach(head_.position.back())) RefuseReach(VertexName(instance, i));
     }
     for (const auto& [vertex, node, weight] : watched) {
       springs_.Bind(static_cast<std::uint32_t>(first + vertex), head_.position[first + vertex],
@@ -186,7 +185,7 @@ class GltfReader {
   void ReadTexcoords(const json& attributes, const GltfUvTransform& to, std::size_t first) {
     const std::string set = "TEXCOORD_" + std::to_string(to.set);
     if (!attributes.contains(set)) return;
-    const auto uv = vm::OrThrow(document_.Numbers(JsonInteger(attributes, set.c_str()), 2));
+    const auto uv = document_.Numbers(JsonInteger(attributes, set.c_str()), 2);
     head_.texcoord.resize(head_.position.size(), glm::vec2(0));
     for (std::size_t i = 0; i < std::min(head_.position.size() - first, uv.size() / 2); ++i) {
       // A transform may overflow what the file's numbers do not.
@@ -198,7 +197,7 @@ class GltfReader {
   void ReadVertexColours(std::int64_t accessor, std::size_t begin, std::size_t count) {
     const std::size_t width =
         JsonText(document_.At("accessors", accessor), "type") == "VEC4" ? 4 : 3;
-    const auto colours = vm::OrThrow(document_.Numbers(accessor, static_cast<int>(width)));
+    const auto colours = document_.Numbers(accessor, static_cast<int>(width));
     head_.vertex_colour.resize(head_.position.size(), glm::vec3(1));
     for (std::size_t i = 0; i < std::min(count, colours.size() / width); ++i) {
       for (std::size_t c = 0; c < 3; ++c) {
@@ -211,15 +210,15 @@ class GltfReader {
   void TurnAround() {
     const glm::vec3 round(-1, 1, -1);
     for (glm::vec3& p : head_.position) p *= round;
-    if (head_.eye_setup.pivot) {
-      for (const Side side : kSides) (*head_.eye_setup.pivot)[side] *= round;
+    if (head_.eye_rig.pivot) {
+      for (const Side side : kSides) (*head_.eye_rig.pivot)[side] *= round;
     }
     for (Spring& spring : head_.spring_rig.springs) {
       spring.rest *= round;
       spring.root *= round;
     }
     for (auto& shape : head_.shapes) {
-      for (auto& delta : shape.deltas) delta.by *= round;
+      for (Displacement& move : shape.moves) move.by *= round;
     }
   }
 
@@ -236,8 +235,9 @@ class GltfReader {
   std::size_t triangles_ = 0;
 };
 
-vm::Result<ImportedHead> ReadDocument(vm::Result<GltfDocument> document) try {
-  return GltfReader(vm::OrThrow(std::move(document))).Read();
+vm::Result<ImportedHead> ReadDocument(const std::string& name, std::string_view bytes,
+                                      const GltfDocument::Beside& beside) try {
+  return AtPlace(name, [&] { return GltfReader(name, bytes, beside).Read(); });
 } catch (const vm::Failure& failure) {
   return std::unexpected(failure.error);
 }
@@ -245,7 +245,7 @@ vm::Result<ImportedHead> ReadDocument(vm::Result<GltfDocument> document) try {
 }  // namespace
 
 vm::Result<ImportedHead> ParseGltfHead(const std::string& name, std::string_view bytes) {
-  return ReadDocument(GltfDocument::Parse(name, bytes, {}));
+  return ReadDocument(name, bytes, {});
 }
 
 vm::Result<ImportedHead> ReadGltfHead(const std::string& path) {
@@ -260,7 +260,7 @@ vm::Result<ImportedHead> ReadGltfHead(const std::string& path) {
     if (!read) return std::nullopt;
     return std::move(*read);
   };
-  auto file = ReadDocument(GltfDocument::Parse(path, *bytes, beside));
+  auto file = ReadDocument(path, *bytes, beside);
   if (file) file->named_files = std::move(asked);
   return file;
 }

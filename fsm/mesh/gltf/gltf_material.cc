@@ -19,7 +19,7 @@ float Share(const json& of, const char* key, double otherwise) {
 
 glm::vec3 ColourOf(const json& of, const char* key, glm::vec3 colour) {
   JsonNumbers(of, key, std::span(&colour.x, 3));
-  return glm::clamp(colour, 0.0F, 16.0F);
+  return glm::clamp(colour, 0.0f, 16.0f);
 }
 
 GltfMaterial::Texture ReadTexture(const json& of, const char* key, const char* strength = "") {

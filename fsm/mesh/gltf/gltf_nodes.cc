@@ -46,11 +46,10 @@ bool Usable(const glm::mat4& m) {
 
 }  // namespace
 
-vm::Result<GltfNodes> GltfNodes::Read(const GltfDocument& document) {
-  GltfNodes nodes;
+GltfNodes::GltfNodes(const GltfDocument& document) {
   const std::size_t count = document.Count("nodes");
-  nodes.world_.assign(count, kIdentity);
-  nodes.computed_.assign(count, false);
+  world_.assign(count, kIdentity);
+  computed_.assign(count, false);
   std::vector<bool> child(count, false);
   for (std::size_t i = 0; i < count; ++i) {
     const json& node = document.At("nodes", static_cast<std::int64_t>(i));
@@ -64,35 +63,31 @@ vm::Result<GltfNodes> GltfNodes::Read(const GltfDocument& document) {
   for (std::size_t i = 0; i < count; ++i) {
     if (child[i]) continue;
     roots.push_back(static_cast<std::int64_t>(i));
-    if (auto done = nodes.ComputeWorld(document, roots.back(), kIdentity, 0); !done) {
-      return std::unexpected(done.error());
-    }
+    ComputeWorld(document, roots.back(), kIdentity, 0);
   }
   const json& scene = document.At("scenes", JsonInteger(document.root(), "scene", 0));
   std::vector<bool> seen(count, false);
-  for (const std::int64_t node : JsonIntegers(scene, "nodes")) nodes.Show(document, node, seen);
-  if (nodes.shown_.empty()) {
-    for (const std::int64_t root : roots) nodes.Show(document, root, seen);
+  for (const std::int64_t node : JsonIntegers(scene, "nodes")) Show(document, node, seen);
+  if (shown_.empty()) {
+    for (const std::int64_t root : roots) Show(document, root, seen);
   }
-  return nodes;
 }
 
-vm::Result<void> GltfNodes::ComputeWorld(const GltfDocument& document, std::int64_t node,
-                                         const glm::mat4& above, int depth) {
-  if (node < 0 || static_cast<std::size_t>(node) >= world_.size()) return {};
+void GltfNodes::ComputeWorld(const GltfDocument& document, std::int64_t node,
+                             const glm::mat4& above, int depth) {
+  if (node < 0 || static_cast<std::size_t>(node) >= world_.size()) return;
   const auto at = static_cast<std::size_t>(node);
   if (depth > kMaxNodeDepth || computed_[at]) {
-    return document.Fail("nodes[" + std::to_string(node) + "]: nodes that are their own parents");
+    Refuse("nodes[" + std::to_string(node) + "]: nodes that are their own parents");
   }
   computed_[at] = true;
   world_[at] = above * MatrixOf(document.At("nodes", node));
   if (!Usable(world_[at])) {
-    return document.Fail("nodes[" + std::to_string(node) + "]: its place is no finite number");
+    Refuse("nodes[" + std::to_string(node) + "]: its place is no finite number");
   }
   for (const std::int64_t child : JsonIntegers(document.At("nodes", node), "children")) {
-    if (auto done = ComputeWorld(document, child, world_[at], depth + 1); !done) return done;
+    ComputeWorld(document, child, world_[at], depth + 1);
   }
-  return {};
 }
 
 void GltfNodes::Show(const GltfDocument& document, std::int64_t node, std::vector<bool>& seen) {
@@ -112,32 +107,27 @@ const glm::mat4& GltfNodes::World(std::int64_t node) const {
   return world_[static_cast<std::size_t>(node)];
 }
 
-vm::Result<GltfSkin> GltfSkin::Read(const GltfDocument& document, const GltfNodes& nodes,
-                                    std::int64_t index) {
-  GltfSkin skin;
-  const json& given = document.At("skins", index);
+GltfSkin::GltfSkin(const GltfDocument& document, const GltfNodes& nodes, std::int64_t skin) {
+  const json& given = document.At("skins", skin);
   std::vector<float> inverse;
   if (given.contains("inverseBindMatrices")) {
-    auto read = document.Numbers(JsonInteger(given, "inverseBindMatrices"), 16);
-    if (!read) return std::unexpected(read.error());
-    inverse = std::move(*read);
+    inverse = document.Numbers(JsonInteger(given, "inverseBindMatrices"), 16);
   }
   for (const json& joint : JsonMember(given, "joints")) {
     const std::int64_t node = joint.is_number_integer() ? joint.get<std::int64_t>() : -1;
     glm::mat4 from(1.0f);
-    for (std::size_t k = 0; k < 16 && 16 * skin.node_.size() + k < inverse.size(); ++k) {
-      from[static_cast<int>(k / 4)][static_cast<int>(k % 4)] = inverse[16 * skin.node_.size() + k];
+    for (std::size_t k = 0; k < 16 && 16 * node_.size() + k < inverse.size(); ++k) {
+      from[static_cast<int>(k / 4)][static_cast<int>(k % 4)] = inverse[16 * node_.size() + k];
     }
     const glm::mat4 takes = nodes.World(node) * from;
-    skin.joint_transform_.push_back(Usable(takes) ? takes : kIdentity);
-    skin.node_.push_back(node);
+    joint_transform_.push_back(Usable(takes) ? takes : kIdentity);
+    node_.push_back(node);
   }
-  return skin;
 }
 
-vm::Result<GltfSkin::Skinned> GltfSkin::Apply(
-    const GltfDocument& document, const json& attributes, std::size_t count,
-    const glm::mat4& transform, const std::function<bool(std::int64_t)>& watched) const {
+GltfSkin::Skinned GltfSkin::Apply(const GltfDocument& document, const json& attributes,
+                                  std::size_t count, const glm::mat4& transform,
+                                  const std::function<bool(std::int64_t)>& watched) const {
   Skinned skinned;
   skinned.transform.assign(count, glm::mat4(0.0f));
   skinned.main.assign(count, -1);
@@ -147,11 +137,9 @@ vm::Result<GltfSkin::Skinned> GltfSkin::Apply(
                       weights = std::string("WEIGHTS_") + set;
     if (!attributes.contains(joints) || !attributes.contains(weights)) continue;
     const auto which = document.Numbers(JsonInteger(attributes, joints.c_str()), 4);
-    if (!which) return std::unexpected(which.error());
-    const auto part = document.Numbers(JsonInteger(attributes, weights.c_str()), 4);
-    if (!part) return std::unexpected(part.error());
-    for (std::size_t i = 0; i < std::min({4 * count, which->size(), part->size()}); ++i) {
-      const float weight = (*part)[i], number = (*which)[i];
+    const auto shares = document.Numbers(JsonInteger(attributes, weights.c_str()), 4);
+    for (std::size_t i = 0; i < std::min({4 * count, which.size(), shares.size()}); ++i) {
+      const float weight = shares[i], number = which[i];
       if (!(weight > 0) || !(number >= 0) || number >= static_cast<float>(joint_transform_.size()))
         continue;
       const auto joint = static_cast<std::size_t>(number);

@@ -13,8 +13,8 @@ namespace fsm {
 /// The transformations of the nodes of a glTF file at rest.
 class GltfNodes {
  public:
-  /// Errors: kBadValue "NAME: nodes[I]: nodes that are their own parents".
-  static vm::Result<GltfNodes> Read(const GltfDocument& document);
+  /// Throws as GltfDocument, of nodes that are their own parents.
+  explicit GltfNodes(const GltfDocument& document);
   bool Has(std::int64_t node) const {
     return node >= 0 && static_cast<std::size_t>(node) < world_.size();
   }
@@ -24,8 +24,8 @@ class GltfNodes {
   std::span<const std::int64_t> shown() const { return shown_; }
 
  private:
-  vm::Result<void> ComputeWorld(const GltfDocument& document, std::int64_t node,
-                                const glm::mat4& above, int depth);
+  void ComputeWorld(const GltfDocument& document, std::int64_t node, const glm::mat4& above,
+                    int depth);
   void Show(const GltfDocument& document, std::int64_t node, std::vector<bool>& seen);
   std::vector<glm::mat4> world_;
   std::vector<bool> computed_;
@@ -36,9 +36,8 @@ class GltfNodes {
 /// the nodes. The two differ in files of exporters that scale or rotate the skeleton.
 class GltfSkin {
  public:
-  /// Errors: as GltfDocument's, of the inverse bind matrices.
-  static vm::Result<GltfSkin> Read(const GltfDocument& document, const GltfNodes& nodes,
-                                   std::int64_t skin);
+  /// Throws as GltfDocument, of the inverse bind matrices.
+  GltfSkin(const GltfDocument& document, const GltfNodes& nodes, std::int64_t skin);
   /// The result of Apply. `transform`: the matrix of each vertex, the argument `transform` for
   /// those without weights. `main`: the node of the joint with the greatest weight, -1 for none.
   struct Skinned {
@@ -52,9 +51,9 @@ class GltfSkin {
     /// All influences of the nodes for which the argument `watched` is true.
     std::vector<Influence> watched;
   };
-  vm::Result<Skinned> Apply(const GltfDocument& document, const nlohmann::json& attributes,
-                            std::size_t count, const glm::mat4& transform,
-                            const std::function<bool(std::int64_t node)>& watched) const;
+  Skinned Apply(const GltfDocument& document, const nlohmann::json& attributes, std::size_t count,
+                const glm::mat4& transform,
+                const std::function<bool(std::int64_t node)>& watched) const;
 
  private:
   std::vector<glm::mat4> joint_transform_;

@@ -19,12 +19,10 @@ struct GltfMeshInstance {
   std::int64_t mesh, node, skin;
 };
 
-/// Throws the error of a damaged file as vm::Failure. This and the functions below name the file.
-[[noreturn]] void Refuse(const GltfDocument& document, const std::string& what);
 /// Throws for positions beyond kMaxReach; `what` is the subject of the sentence.
-[[noreturn]] void RefuseReach(const GltfDocument& document, const std::string& what);
+[[noreturn]] void RefuseReach(const std::string& what);
 /// Throws for a file with more data than the limits allow.
-[[noreturn]] void RefuseSize(const GltfDocument& document);
+[[noreturn]] void RefuseSize();
 std::string VertexName(const GltfMeshInstance& instance, std::size_t vertex);
 
 /// Makes the shapes of a head from the morph targets of its file, and from VRM expressions, which

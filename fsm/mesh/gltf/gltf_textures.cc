@@ -162,16 +162,18 @@ void GltfTextures::ApplyMaterial(std::int64_t index, ImportedHead::Part& part) {
 }
 
 std::optional<Image> GltfTextures::Decode(std::int64_t image) {
-  const auto bytes = document_.ImageBytes(image);
-  vm::Result<Image> picture =
-      bytes ? DecodePicture(BytesOf(*bytes)) : std::unexpected(bytes.error());
-  if (!picture) {
-    head_.notices.push_back("images[" + std::to_string(image) +
-                            "] is left out: " + picture.error().text);
+  const auto left_out = [&](const std::string& why) {
+    head_.notices.push_back("images[" + std::to_string(image) + "] is left out: " + why);
     return std::nullopt;
+  };
+  try {
+    auto picture = DecodePicture(BytesOf(document_.ImageBytes(image)));
+    if (!picture) return left_out(picture.error().text);
+    Shrink(*picture, TextureAtlas::kMaxSide);
+    return std::move(*picture);
+  } catch (const vm::Failure& failure) {
+    return left_out(head_.name + ": " + failure.error.text);
   }
-  Shrink(*picture, TextureAtlas::kMaxSide);
-  return std::move(*picture);
 }
 
 ImportedHead::Detail GltfTextures::DetailOf(const GltfMaterial& given, const GltfUvTransform& uv) {

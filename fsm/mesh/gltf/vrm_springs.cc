@@ -14,27 +14,27 @@ using nlohmann::json;
 constexpr double kStepsPerSecond = 60;
 constexpr float kShortest = 0.01f;   // metres
 constexpr float kEndLength = 0.07f;  // metres; length of a chain's last joint in VRM 0.x
-constexpr int kMostJoints = 100;     // of a chain
+constexpr int kMaxJoints = 100;      // of a chain
 
 Spring SpringOf(glm::vec3 from, glm::vec3 tail, double stiffness, double gravity, double drag,
                 bool collides) {
-  constexpr double kSoftest = 0.02, kMostDrag = 0.99, kReach = 0.8;
+  constexpr double kSoftest = 0.02, kMaxDrag = 0.99, kReach = 0.8;
   stiffness = std::clamp(stiffness, 0.0, 100.0);
   gravity = std::clamp(gravity, 0.0, 100.0);
   const double length = std::max(glm::distance(from, tail), kShortest);
   const double force = std::max(stiffness + gravity, kSoftest);
   const double w = std::sqrt(kStepsPerSecond * force / length);
-  const double decay = -kStepsPerSecond * std::log(1 - std::clamp(drag, 0.0, kMostDrag)) / 2;
+  const double decay = -kStepsPerSecond * std::log(1 - std::clamp(drag, 0.0, kMaxDrag)) / 2;
   const auto within = [](double value, float low, float high) {
     return std::clamp(static_cast<float>(value), low, high);
   };
   return {.rest = tail,
           .root = from,
           .outward = collides ? glm::vec3(0, -1, 0) : glm::vec3(0),
-          .frequency_hz = within(w / (2 * std::numbers::pi), Spring::kLeastHz, Spring::kMostHz),
-          .damping = within(decay / w, Spring::kLeastDamping, Spring::kMostDamping),
+          .frequency_hz = within(w / (2 * std::numbers::pi), Spring::kMinHz, Spring::kMaxHz),
+          .damping = within(decay / w, Spring::kMinDamping, Spring::kMaxDamping),
           .hang = static_cast<float>(gravity / force),
-          .most_mm = static_cast<float>(kReach * length)};
+          .reach_mm = static_cast<float>(kReach * length)};
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ void VrmSprings::ReadVrm1(const json& extension) {
     Joint above;
     for (std::size_t k = 0; k < joints.size(); ++k) {
       const std::int64_t node = JsonInteger(joints[k], "node");
-      if (!nodes_->Has(node) || joints_.contains(node) || springs_.size() >= kMostSprings) break;
+      if (!nodes_->Has(node) || joints_.contains(node) || springs_.size() >= kMaxSprings) break;
       if (k + 1 == joints.size()) {  // the last one only marks the end of the one before
         if (k > 0) joints_.emplace(node, Joint{.spring = above.spring, .ends_chain = true});
         break;
@@ -102,7 +102,7 @@ void VrmSprings::ReadVrm0(const json& animation) {
 void VrmSprings::AddBranch(std::int64_t node, const Joint* above, const Dynamics& dynamics,
                            int depth) {
   if (!nodes_->Has(node) || joints_.contains(node)) return;
-  if (depth > kMostJoints || springs_.size() >= kMostSprings) return;
+  if (depth > kMaxJoints || springs_.size() >= kMaxSprings) return;
   const auto children = JsonIntegers(document_->At("nodes", node), "children");
   const glm::vec3 from = PositionOf(node);
   glm::vec3 tail = from;
@@ -122,9 +122,9 @@ void VrmSprings::Bind(std::uint32_t vertex, glm::vec3 p, std::int64_t node, floa
   const auto found = joints_.find(node);
   if (found == joints_.end()) return;
   const Joint& joint = found->second;
-  const auto add = [&](int spring, float part) {
-    if (spring >= 0 && part > 1e-3f)
-      weights.push_back({vertex, static_cast<std::uint32_t>(spring), part});
+  const auto add = [&](int spring, float share) {
+    if (spring >= 0 && share > 1e-3f)
+      weights.push_back({vertex, static_cast<std::uint32_t>(spring), share});
   };
   if (joint.ends_chain) {
     add(joint.spring, weight);
@@ -132,9 +132,9 @@ void VrmSprings::Bind(std::uint32_t vertex, glm::vec3 p, std::int64_t node, floa
   }
   const glm::vec3 along = springs_[static_cast<std::size_t>(joint.spring)].rest - joint.from;
   const float length = std::max(glm::dot(along, along), kShortest * kShortest);
-  const float part = std::clamp(glm::dot(p - joint.from, along) / length, 0.0f, 1.0f);
-  add(joint.spring, weight * part);
-  add(joint.before, weight * (1 - part));
+  const float share = std::clamp(glm::dot(p - joint.from, along) / length, 0.0f, 1.0f);
+  add(joint.spring, weight * share);
+  add(joint.before, weight * (1 - share));
 }
 
 }  // namespace fsm

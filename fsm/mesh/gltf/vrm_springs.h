@@ -11,7 +11,7 @@
 namespace fsm {
 
 /// The swinging parts of an avatar: "secondaryAnimation" of VRM 0.x and VRMC_springBone 1.0 in one
-/// form. Each joint has one spring, at the joint's end. At most kMostSprings are read.
+/// form. Each joint has one spring, at the joint's end. At most kMaxSprings are read.
 ///
 /// In these formats, sixty times a second or once per frame, the end of a joint moves by its
 /// previous displacement times (1 - drag), by stiffness towards its rest and by gravity downward;
@@ -21,7 +21,7 @@ namespace fsm {
 /// swing as well.
 class VrmSprings {
  public:
-  static constexpr std::size_t kMostSprings = 1000;
+  static constexpr std::size_t kMaxSprings = 1000;
   VrmSprings() = default;
   VrmSprings(const GltfDocument& document, const GltfNodes& nodes);
 

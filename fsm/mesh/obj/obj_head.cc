@@ -52,9 +52,9 @@ class ObjHead {
 
   /// Returns the picture's index; -1 if it cannot be read or there are too many.
   int PictureOf(const std::string& file) {
-    constexpr std::size_t kMostPictures = 64;
+    constexpr std::size_t kMaxMtlPictures = 64;
     const auto [known, fresh] = pictures_.try_emplace(file, -1);
-    if (fresh && pictures_.size() <= kMostPictures) {
+    if (fresh && pictures_.size() <= kMaxMtlPictures) {
       head_.named_files.push_back(file);
       if (auto picture = ReadImage(file)) {
         known->second = static_cast<int>(head_.pictures.size());

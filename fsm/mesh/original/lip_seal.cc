@@ -9,9 +9,9 @@ namespace fsm {
 
 LipRig LipsOf(const MeshModel& model, std::size_t count) {
   LipRig rig;
-  rig.seam = model.seam;
-  if (rig.seam.empty()) return rig;
-  for (const auto& [upper, lower] : rig.seam) {
+  const auto& seam = model.mouth.seam;
+  if (seam.empty()) return rig;
+  for (const auto& [upper, lower] : seam) {
     rig.apart_at_rest.push_back(model.mesh.position[upper] - model.mesh.position[lower]);
   }
   // Measure along the surface, because across the slit the other lip is as near.
@@ -24,19 +24,19 @@ LipRig LipsOf(const MeshModel& model, std::size_t count) {
   }
   const Neighbours next = NeighboursAlongEdges(model.mesh.position.size(), triangles);
   std::vector<std::uint32_t> pairs;
-  for (std::uint32_t k = 0; k < rig.seam.size(); ++k) {
-    if (rig.seam[k].first != rig.seam[k].second) pairs.push_back(k);  // equal at the corners
+  for (std::uint32_t k = 0; k < seam.size(); ++k) {
+    if (seam[k].first != seam[k].second) pairs.push_back(k);  // equal at the corners
   }
   constexpr float kReach = 11;  // mm; greatest distance from the seam
   for (const bool upper : {true, false}) {
     std::vector<std::uint32_t> edge;
     for (const std::uint32_t k : pairs) {
-      edge.push_back(upper ? rig.seam[k].first : rig.seam[k].second);
+      edge.push_back(upper ? seam[k].first : seam[k].second);
     }
     const MeshPaths paths = ShortestPaths(next, model.mesh.position, edge, kReach);
     for (std::uint32_t v = 0; v < count; ++v) {
-      const float part = SmoothStep(kReach, 0, paths.length[v]);
-      if (part > 0) rig.followers.push_back({v, pairs[paths.seed[v]], upper ? part : -part});
+      const float share = SmoothStep(kReach, 0, paths.length[v]);
+      if (share > 0) rig.followers.push_back({v, pairs[paths.seed[v]], upper ? share : -share});
     }
   }
   return rig;

@@ -8,7 +8,7 @@
 namespace fsm {
 
 /// Makes the rig of a mesh's lips, which keeps them from crossing and closes them on demand, from
-/// model.seam and the first `count` vertices. Returns an empty rig if there is no seam.
+/// its seam and the first `count` vertices. Returns an empty rig if there is no seam.
 LipRig LipsOf(const MeshModel& model, std::size_t count);
 
 }  // namespace fsm

@@ -16,7 +16,7 @@ namespace fsm {
 namespace {
 
 /// A residual that moves no vertex by at least this is not shown, millimetres.
-constexpr float kLeastResidualMm = 0.4F;
+constexpr float kMinResidualMm = 0.4f;
 
 /// The name of an expression, with the prefix and the numbers of its patterns' files.
 struct Files {
@@ -77,7 +77,7 @@ class Reader {
   }
 
   void ReadUnits() {
-    const float middle = 0.5F * (space_.PositionMm(standard_, kLipCorners.right).x +
+    const float middle = 0.5f * (space_.PositionMm(standard_, kLipCorners.right).x +
                                  space_.PositionMm(standard_, kLipCorners.left).x);
     std::vector<float> left;
     for (const glm::vec3& p : standard_.at) left.push_back(LeftShareAt(space_.ToMm(p).x - middle));
@@ -122,7 +122,7 @@ class Reader {
       residual.at.push_back(by / space_.mm());
     }
     residual.names = standard_.names;
-    if (most < kLeastResidualMm) return made;
+    if (most < kMinResidualMm) return made;
     if (out_.residuals.size() == Residuals{}.size()) {
       out_.without_residual.push_back(path);
       return made;

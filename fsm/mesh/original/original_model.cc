@@ -48,7 +48,7 @@ class OriginalBuilder {
     const float chin = space_.PositionMm(face_.wireframe, kChin).y;
     for (const glm::vec3& p : face_.wireframe.at) {
       const glm::vec2 texcoord =
-          atlas_.rect(picture).At(glm::clamp(glm::vec2(p.x + 1, 1 - p.y) / 2.0F, 0.0F, 1.0F));
+          atlas_.rect(picture).At(glm::clamp(glm::vec2(p.x + 1, 1 - p.y) / 2.0f, 0.0f, 1.0f));
       const glm::vec3 at = space_.ToMm(p);
       model_.Add(at, Bone::kSkin, face_.mouth, texcoord, SmoothStep(chin - 42, chin - 4, at.y));
     }
@@ -58,17 +58,18 @@ class OriginalBuilder {
                            Vertex(triangle.corner[2]));
     }
     for (const auto& [upper, lower] : kLipPairs) {
-      model_.seam.emplace_back(Vertex(upper), Vertex(lower));
+      model_.mouth.seam.emplace_back(Vertex(upper), Vertex(lower));
       ShutAtRest(model_.mesh.position[Vertex(upper)], model_.mesh.position[Vertex(lower)]);
     }
+    model_.mouth.corners = {model_.mouth.seam.front().first, model_.mouth.seam.back().first};
   }
 
   /// Closes lips at rest: wireframes leave a gap or an overlap of less than a millimetre, through
   /// which teeth would be visible.
   static void ShutAtRest(glm::vec3& upper, glm::vec3& lower) {
-    constexpr float kHairMm = 0.8F;
+    constexpr float kHairMm = 0.8f;
     if (std::abs(upper.y - lower.y) > kHairMm) return;
-    const glm::vec2 middle = 0.5F * (glm::vec2(upper) + glm::vec2(lower));
+    const glm::vec2 middle = 0.5f * (glm::vec2(upper) + glm::vec2(lower));
     upper = glm::vec3(middle, upper.z);
     lower = glm::vec3(middle, lower.z);
   }
@@ -78,11 +79,11 @@ class OriginalBuilder {
   void AddMouth() {
     std::vector<std::uint32_t> rim;
     for (const PointName& name : kLipRim) rim.push_back(Vertex(name));
-    const glm::vec3 middle = 0.5F * (PositionOf(kLipCorners.right) + PositionOf(kLipCorners.left));
+    const glm::vec3 middle = 0.5f * (PositionOf(kLipCorners.right) + PositionOf(kLipCorners.left));
     struct Ring {
       float back, high, wide;
     };
-    constexpr Ring kRings[] = {{5, 9, 0.97F}, {25, 16, 0.95F}, {48, 12, 0.7F}};
+    constexpr Ring kRings[] = {{5, 9, 0.97f}, {25, 16, 0.95f}, {48, 12, 0.7f}};
     std::vector<std::uint32_t> outer = rim;
     for (const Ring& ring : kRings) {
       std::vector<std::uint32_t> inner;
@@ -94,7 +95,7 @@ class OriginalBuilder {
         const glm::vec3 at(middle.x + (p.x - middle.x) * ring.wide, p.y + up * ring.high,
                            p.z - ring.back);
         inner.push_back(model_.Add(at, i <= 10 ? Bone::kSkull : Bone::kJaw,
-                                   face_.mouth * (1 - 0.012F * ring.back)));
+                                   face_.mouth * (1 - 0.012f * ring.back)));
       }
       for (std::size_t i = 0; i < rim.size(); ++i) {
         const std::size_t j = (i + 1) % rim.size();
@@ -104,7 +105,7 @@ class OriginalBuilder {
       outer = std::move(inner);
     }
     const std::uint32_t end =
-        model_.Add(middle - glm::vec3(0, 0, 55), Bone::kSkull, face_.mouth * 0.3F);
+        model_.Add(middle - glm::vec3(0, 0, 55), Bone::kSkull, face_.mouth * 0.3f);
     for (std::size_t i = 0; i < outer.size(); ++i) {
       model_.mesh.Triangle(Material::kMouthInside, outer[i], outer[(i + 1) % outer.size()], end);
     }
@@ -114,13 +115,14 @@ class OriginalBuilder {
     model_.has_eyes = true;
     for (const Side side : kSides) {
       EyeGeometry& eye = model_.eyes[side];
-      eye.iris_colour = {0.10F, 0.055F, 0.03F};
+      eye.iris_colour = {0.10f, 0.055f, 0.03f};
       if (face_.eye_def && face_.eye) {
         AddOwnEye(side, picture);
         continue;
       }
-      eye.centre = space_.EyeOpening(face_.wireframe, side) - glm::vec3(0, 0, 12.6F);
-      eye.ball_radius = 12.4F;
+      model_.eye_rig.centre[side] =
+          space_.EyeOpening(face_.wireframe, side) - glm::vec3(0, 0, 12.6f);
+      eye.ball_radius = 12.4f;
       model_.AddEyeball(side);
     }
   }
@@ -133,23 +135,23 @@ class OriginalBuilder {
         (def.eye.right.position.x < def.eye.left.position.x) == (side == Side::kRight);
     const EyeDef::Eye& eye = right ? def.eye.right : def.eye.left;
     const glm::vec3 angles = glm::radians(eye.rotation_degrees);
-    glm::mat4 rotation(1.0F);
+    glm::mat4 rotation(1.0f);
     rotation = glm::rotate(rotation, angles.x, {1, 0, 0});
     rotation = glm::rotate(rotation, angles.y, {0, 1, 0});
     rotation = glm::rotate(rotation, angles.z, {0, 0, 1});
     const Box box = Box::Of(face_.eye->positions);
-    const glm::vec3 size = glm::max(box.size(), 1e-6F), middle = box.centre();
-    model_.eyes[side].centre = space_.ToMm(eye.position);
-    model_.eyes[side].ball_radius = 0.5F * size.x * eye.scale * space_.mm();
-    model_.eyes[side].iris_radius = 0.48F * model_.eyes[side].ball_radius;
+    const glm::vec3 size = glm::max(box.size(), 1e-6f), middle = box.centre();
+    model_.eye_rig.centre[side] = space_.ToMm(eye.position);
+    model_.eyes[side].ball_radius = 0.5f * size.x * eye.scale * space_.mm();
+    model_.eyes[side].iris_radius = 0.48f * model_.eyes[side].ball_radius;
     const Bone carrier = BoneOf(side);
     const auto first = static_cast<std::uint32_t>(model_.mesh.position.size());
     for (const glm::vec3& p : face_.eye->positions) {
-      const glm::vec2 flat = 0.5F + def.picture_scale * glm::vec2(p - middle) / glm::vec2(size);
+      const glm::vec2 flat = 0.5f + def.picture_scale * glm::vec2(p - middle) / glm::vec2(size);
       const glm::vec2 texcoord =
-          atlas_.rect(picture).At(glm::clamp(glm::vec2(flat.x, 1 - flat.y), 0.0F, 1.0F));
+          atlas_.rect(picture).At(glm::clamp(glm::vec2(flat.x, 1 - flat.y), 0.0f, 1.0f));
       const glm::vec3 at = eye.position + eye.scale * glm::vec3(rotation * glm::vec4(p, 1));
-      model_.Add(space_.ToMm(at), carrier, glm::vec3(0.5F), texcoord);
+      model_.Add(space_.ToMm(at), carrier, glm::vec3(0.5f), texcoord);
     }
     for (const auto& group : face_.eye->groups) {
       for (const auto& t : group.triangles) {
@@ -162,14 +164,14 @@ class OriginalBuilder {
   /// Adds a surface behind each lid rim, so that nothing is visible past the eyeball.
   void AddSockets() {
     for (const Side side : kSides) {
-      const glm::vec3 centre = model_.eyes[side].centre;
+      const glm::vec3 centre = model_.eye_rig.centre[side];
       std::vector<std::uint32_t> rim, back;
       for (const PointName& name : LidRim(side)) {
         rim.push_back(Vertex(name));
         const glm::vec3 p = PositionOf(name);
         back.push_back(model_.Add(
-            {p.x + 0.15F * (p.x - centre.x), p.y + 0.3F * (p.y - centre.y), centre.z - 4},
-            Bone::kSkull, {0.20F, 0.07F, 0.05F}));
+            {p.x + 0.15f * (p.x - centre.x), p.y + 0.3f * (p.y - centre.y), centre.z - 4},
+            Bone::kSkull, {0.20f, 0.07f, 0.05f}));
       }
       for (std::size_t i = 0; i < rim.size(); ++i) {
         const std::size_t j = (i + 1) % rim.size();
@@ -191,10 +193,10 @@ class OriginalBuilder {
     const bool upper = bone == Bone::kSkull;
     const TeethPoints& places = upper ? kUpperTeeth : kLowerTeeth;
     const Box box = Box::Of(teeth.positions);
-    const glm::vec3 size = glm::max(box.size(), 1e-6F);
+    const glm::vec3 size = glm::max(box.size(), 1e-6f);
     const float wide = std::abs(at(kJawAtTeeth.left).x - at(kJawAtTeeth.right).x) / size.x;
     const float tall = std::abs(at(places.top).y - at(places.bottom).y) / size.y;
-    const float edge = 0.5F * (at(kUpperLipFront).y + at(kLipMiddle).y);
+    const float edge = 0.5f * (at(kUpperLipFront).y + at(kLipMiddle).y);
     const glm::vec3 from(box.centre().x, upper ? box.low.y : box.high.y, box.high.z);
     const glm::vec3 to(at(kUpperLipFront).x, edge, at(places.front).z);
     const auto first = static_cast<std::uint32_t>(model_.mesh.position.size());
@@ -213,7 +215,7 @@ class OriginalBuilder {
   /// Returns the linear colour that teeth have in the original: its lamp gives four fifths of their
   /// colour at three quarters of its distance, plus the ambient of GL's default material, in sRGB.
   glm::vec3 ShownTeeth() const {
-    return SrgbToLinear(glm::min(0.8F / 0.75F * face_.teeth + 0.04F, 1.0F));
+    return SrgbToLinear(glm::min(0.8f / 0.75f * face_.teeth + 0.04f, 1.0f));
   }
 
   void NameLandmarks() {

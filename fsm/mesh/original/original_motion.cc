@@ -17,7 +17,7 @@ namespace {
 
 /// The factor on a viseme's offsets at full articulation. The original applies the whole offsets at
 /// a MouthScale of 100; its default of 30 is three quarters of full articulation here.
-constexpr float kVisemePart = 0.4f;
+constexpr float kVisemeShare = 0.4f;
 
 class OriginalRigBaker {
  public:
@@ -51,8 +51,8 @@ class OriginalRigBaker {
           Add(Moves(face_.mouth_units[k], glm::vec3(own_.mm())),
               {{{.kind = Drive::Kind::kHandMouth, .number = static_cast<std::uint16_t>(k)},
                 1 / unit_sizes[k]}});
-      channel.least = 0;
-      channel.most = 2;
+      channel.min = 0;
+      channel.max = 2;
     }
     return std::move(rig_);
   }
@@ -66,11 +66,11 @@ class OriginalRigBaker {
 
   static std::vector<Displacement> Moves(const std::vector<glm::vec3>& offsets,
                                          const glm::vec3& scale) {
-    constexpr float kLeast = 0.02f;  // millimetres
+    constexpr float kMin = 0.02f;  // millimetres
     std::vector<Displacement> moves;
     for (std::uint32_t i = 0; i < offsets.size(); ++i) {
       const glm::vec3 by = offsets[i] * scale;
-      if (glm::length(by) > kLeast) moves.push_back({i, by});
+      if (glm::length(by) > kMin) moves.push_back({i, by});
     }
     return moves;
   }
@@ -92,8 +92,8 @@ class OriginalRigBaker {
       for (const Side side : kSides) {
         std::vector<Displacement> moves = both;
         for (Displacement& d : moves) {
-          const float part = LeftShareAt(model_.mesh.position[d.vertex].x - middle);
-          d.by *= side == Side::kLeft ? part : 1 - part;
+          const float share = LeftShareAt(model_.mesh.position[d.vertex].x - middle);
+          d.by *= side == Side::kLeft ? share : 1 - share;
         }
         const auto number = static_cast<std::size_t>(kUnitNumbers[k]);
         Channel& channel = Add(std::move(moves), {{Asked(number, side)}});
@@ -104,16 +104,16 @@ class OriginalRigBaker {
   }
 
   void AddVisemes(const VisemeMouths& mouths) {
-    constexpr float kMostOfViseme = 1.5f;
+    constexpr float kMaxOfViseme = 1.5f;
     const std::size_t count = std::min(face_.visemes.size(), mouths.size());
     MouthFit mouth(count);
     std::vector<NnlsSolver::Row> keys;
     for (std::size_t k = 0; k < count; ++k) {
       MouthFit::Weights weights(count, 0.0f);
-      weights[k] = kVisemePart;
+      weights[k] = kVisemeShare;
       mouth.AddViseme(mouths[k], std::move(weights));
       for (float& value : keys.emplace_back(mouths[k].begin(), mouths[k].end())) {
-        value /= kVisemePart;
+        value /= kVisemeShare;
       }
     }
     const NnlsSolver mix(std::move(keys));
@@ -126,8 +126,8 @@ class OriginalRigBaker {
     const auto drivers = fit.TakeDrivers();
     for (std::size_t k = 0; k < count; ++k) {
       Channel& channel = Add(Moves(face_.visemes[k], glm::vec3(own_.mm())), drivers[k]);
-      channel.least = 0;
-      channel.most = kMostOfViseme;
+      channel.min = 0;
+      channel.max = kMaxOfViseme;
     }
   }
 

@@ -76,7 +76,7 @@ bool IsWhole(std::string_view word) { return ParseNumber<int>(word).has_value();
 bool ReadReal(std::string_view word, float& out) {
   const auto number = ParseNumber<float>(word);
   out = number.value_or(0);
-  return number && std::abs(out) < 1e6F;
+  return number && std::abs(out) < 1e6f;
 }
 
 bool ReadName(std::string_view group, std::string_view number, PointName& out) {

@@ -16,15 +16,15 @@ namespace fsm {
 namespace {
 
 /// A vertex of a lip or lid, from which distances along the surface are measured.
-struct PartSeed {
-  FacePart part;
+struct LipSeed {
+  LipOrLid on;
   std::uint32_t vertex;
 };
 
-std::vector<PartSeed> SeedsOf(const WeldedSurface& source, std::span<const PointPair> pairs) {
-  std::vector<PartSeed> seeds;
+std::vector<LipSeed> SeedsOf(const WeldedSurface& source, std::span<const PointPair> pairs) {
+  std::vector<LipSeed> seeds;
   for (const PointPair& pair : pairs) {
-    if (pair.part != FacePart::kPlain) seeds.push_back({pair.part, source.Nearest(pair.from)});
+    if (pair.on != LipOrLid::kPlain) seeds.push_back({pair.on, source.Nearest(pair.from)});
   }
   return seeds;
 }
@@ -33,29 +33,29 @@ std::vector<PartSeed> SeedsOf(const WeldedSurface& source, std::span<const Point
 /// a landmark may belong to the opposite lip, which is avoided in two ways: landmarks are taken
 /// where the warp puts them, which averages their errors, and a vertex of the nearest triangle that
 /// faces the same way is chosen.
-std::vector<PartSeed> SeedsOnTarget(const WeldedSurface& warped, std::span<const PartSeed> seeds,
-                                    const WeldedSurface& target) {
+std::vector<LipSeed> SeedsOnTarget(const WeldedSurface& warped, std::span<const LipSeed> seeds,
+                                   const WeldedSurface& target) {
   constexpr float kReach = 20;
   const SurfaceIndex index(target, kReach);
-  std::vector<PartSeed> found;
-  for (const auto& [part, vertex] : seeds) {
+  std::vector<LipSeed> found;
+  for (const auto& [on, vertex] : seeds) {
     const auto hit = index.Find(warped, vertex);
     if (!hit) continue;
     const glm::vec3 b = hit->barycentric;
     const std::size_t corner = b.x >= b.y && b.x >= b.z ? 0 : b.y >= b.z ? 1 : 2;
-    found.push_back({part, target.triangles[hit->triangle][corner]});
+    found.push_back({on, target.triangles[hit->triangle][corner]});
   }
   return found;
 }
 
 /// Marks the lips and lids of a surface by the distances along it from their seeds.
-void MarkParts(WeldedSurface& surface, std::span<const PartSeed> seeds) {
-  const auto mark = [&](FacePart upper, FacePart lower, float reach, float clear,
+void MarkLipsAndLids(WeldedSurface& surface, std::span<const LipSeed> seeds) {
+  const auto mark = [&](LipOrLid upper, LipOrLid lower, float reach, float clear,
                         std::vector<float>& out) {
     std::vector<std::uint32_t> above, below;
-    for (const auto& [part, vertex] : seeds) {
-      if (part == upper) above.push_back(vertex);
-      if (part == lower) below.push_back(vertex);
+    for (const auto& [on, vertex] : seeds) {
+      if (on == upper) above.push_back(vertex);
+      if (on == lower) below.push_back(vertex);
     }
     if (above.empty() || below.empty()) return;
     const auto up = ShortestPaths(surface.neighbours, surface.at, above, reach).length,
@@ -69,8 +69,8 @@ void MarkParts(WeldedSurface& surface, std::span<const PartSeed> seeds) {
       out[i] = here * SmoothStep(reach, 0.5f * reach, std::min(up[i], down[i]));
     }
   };
-  mark(FacePart::kUpperLip, FacePart::kLowerLip, 40, 12, surface.lip);
-  mark(FacePart::kUpperLid, FacePart::kLowerLid, 20, 8, surface.lid);
+  mark(LipOrLid::kUpperLip, LipOrLid::kLowerLip, 40, 12, surface.lip);
+  mark(LipOrLid::kUpperLid, LipOrLid::kLowerLid, 20, 8, surface.lid);
 }
 
 /// Diffuses values over a surface: vertices without a weight take the mean of their neighbours.
@@ -97,7 +97,8 @@ void CheckPlaces(std::span<const PointPair> pairs) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (WithinReach(pairs[i].from) && WithinReach(pairs[i].to)) continue;
     throw std::runtime_error("place " + std::to_string(i + 1) +
-                             " of those that both faces have lies farther away than 10 km");
+                             " of those that both faces have lies farther away than " +
+                             kMaxReachOfHead);
   }
 }
 
@@ -105,7 +106,7 @@ void CheckVertices(std::span<const glm::vec3> at, const char* whose) {
   const auto lost = std::ranges::find_if_not(at, WithinReach);
   if (lost == at.end()) return;
   throw std::runtime_error("vertex " + std::to_string(lost - at.begin()) + " of " + whose +
-                           " lies farther away than 10 km");
+                           " lies farther away than " + kMaxReachOfHead);
 }
 
 /// Moves the lid edges, and the skin within a few millimetres of them, by the residual of the warp.
@@ -115,7 +116,7 @@ class EdgePull {
  public:
   EdgePull(std::span<const PointPair> pairs, const Warp& warp) {
     for (const PointPair& pair : pairs) {
-      if (pair.part != FacePart::kUpperLid && pair.part != FacePart::kLowerLid) continue;
+      if (pair.on != LipOrLid::kUpperLid && pair.on != LipOrLid::kLowerLid) continue;
       const glm::vec3 at = pair.from + warp.Motion(pair.from);
       left_.push_back({at, pair.to - at});
     }
@@ -191,9 +192,9 @@ DeformationTransfer::DeformationTransfer(const TransferSurface& from, const Tran
   };
   WeldedSurface rest = prepared(from), target = prepared(to);
   const auto seeds = SeedsOf(rest, pairs);
-  MarkParts(rest, seeds);
+  MarkLipsAndLids(rest, seeds);
   WeldedSurface pulled = Carried(rest, pairs);
-  MarkParts(target, SeedsOnTarget(pulled, seeds, target));
+  MarkLipsAndLids(target, SeedsOnTarget(pulled, seeds, target));
 
   // Project the surface onto the other in rounds, from coarse to fine. Necks and backs of heads,
   // which have no landmarks, are far apart at first.
@@ -240,13 +241,13 @@ void DeformationTransfer::MakeRows(std::span<const BarycentricBinding> bindings,
   // Neighbours may be bound to distant points, so each vertex is blended with the mean of its
   // neighbours. That smooths differences over a few millimetres; neighbours in a coarse mesh are
   // farther apart.
-  constexpr float kMost = 0.25f, kNear = 2.5f;
+  constexpr float kMax = 0.25f, kNear = 2.5f;
   rows_.resize(target.welded_of.size());
   std::map<std::uint32_t, float> row;
   const auto add = [&](const BarycentricBinding& binding, float share) {
     for (int c = 0; c < 3; ++c) {
-      const float part = share * binding.barycentric[c];
-      if (part != 0) row[binding.corner[static_cast<std::size_t>(c)]] += part;
+      const float weight = share * binding.barycentric[c];
+      if (weight != 0) row[binding.corner[static_cast<std::size_t>(c)]] += weight;
     }
   };
   for (std::size_t v = 0; v < target.welded_of.size(); ++v) {
@@ -254,8 +255,8 @@ void DeformationTransfer::MakeRows(std::span<const BarycentricBinding> bindings,
     if (w == WeldedSurface::kNone) continue;
     const auto& next = target.neighbours[w];
     const float count = std::max(static_cast<float>(next.size()), 1.0f);
-    const float part = std::min(1.0f, kNear / std::max(target.MeanEdge(w), 1e-6f));
-    const float share = next.empty() ? 0 : kMost * part * part;
+    const float near = std::min(1.0f, kNear / std::max(target.MeanEdge(w), 1e-6f));
+    const float share = next.empty() ? 0 : kMax * near * near;
     row.clear();
     add(bindings[w], 1 - share);
     for (const std::uint32_t n : next) add(bindings[n], share / count);
@@ -266,7 +267,7 @@ void DeformationTransfer::MakeRows(std::span<const BarycentricBinding> bindings,
 void DeformationTransfer::Apply(std::span<const glm::vec3> from_by,
                                 std::span<glm::vec3> to_by) const {
   for (std::size_t v = 0; v < rows_.size(); ++v) {
-    for (const auto& [from, part] : rows_[v]) to_by[v] += part * from_by[from];
+    for (const auto& [from, share] : rows_[v]) to_by[v] += share * from_by[from];
   }
 }
 

@@ -11,14 +11,13 @@ namespace fsm {
 
 class WeldedSurface;
 
-/// Parts of a face that lie so near to an opposite part that the nearest point may be on the wrong
-/// one.
-enum class FacePart : std::uint8_t { kPlain, kUpperLip, kLowerLip, kUpperLid, kLowerLid };
+/// What lies so near to its opposite that the nearest point may be on the wrong one.
+enum class LipOrLid : std::uint8_t { kPlain, kUpperLip, kLowerLip, kUpperLid, kLowerLid };
 
 /// Corresponding points of two faces, millimetres.
 struct PointPair {
   glm::vec3 from, to;
-  FacePart part = FacePart::kPlain;
+  LipOrLid on = LipOrLid::kPlain;
 };
 
 /// The source or the target of a transfer. Both are in the same frame, roughly aligned.

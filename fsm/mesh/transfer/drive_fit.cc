@@ -7,7 +7,7 @@
 namespace fsm {
 namespace {
 
-constexpr float kLeastGain = 5e-3f;  // drivers with less effect at full strength are dropped
+constexpr float kMinGain = 5e-3f;  // drivers with less effect at full strength are dropped
 
 /// The range of a parameter in speech: millimetres, degrees for the jaw's opening.
 constexpr float FullOf(std::size_t parameter) { return parameter == kJawY ? 10.0f : 4.0f; }
@@ -54,7 +54,7 @@ void DriveFit::AddSided(const Drive& drive, float full,
     for (const auto& [side, gain] : parts) {
       Drive sided = drive;
       sided.side = side;
-      if (std::abs(gain) > kLeastGain) Add(k, sided, gain / full);
+      if (std::abs(gain) > kMinGain) Add(k, sided, gain / full);
     }
   }
 }
@@ -128,7 +128,7 @@ void MouthFit::AddTo(DriveFit& fit, Drive::Kind kind) const {
     for (std::size_t half = 0; half < kHalves; ++half) {
       const std::size_t parameter = half % kMouthParameters;
       const auto gain = static_cast<float>(gain_[k][half] + equations.wanted[half][k]);
-      if (std::abs(gain) < kLeastGain) continue;
+      if (std::abs(gain) < kMinGain) continue;
       fit.Add(k,
               {.kind = kind,
                .number = static_cast<std::uint16_t>(parameter),

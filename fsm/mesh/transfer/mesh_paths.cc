@@ -30,7 +30,7 @@ MeshPaths ShortestPaths(const Neighbours& next, std::span<const glm::vec3> at,
   MeshPaths paths{std::vector<float>(at.size(), reach), std::vector<std::uint32_t>(at.size())};
   using Way = std::tuple<float, std::uint32_t, std::uint32_t>;  // length, seed, last vertex
   std::priority_queue<Way, std::vector<Way>, std::greater<>> open;
-  for (std::uint32_t k = 0; k < seeds.size(); ++k) open.emplace(0.0F, k, seeds[k]);
+  for (std::uint32_t k = 0; k < seeds.size(); ++k) open.emplace(0.0f, k, seeds[k]);
   while (!open.empty()) {
     const auto [length, seed, v] = open.top();
     open.pop();

@@ -27,7 +27,7 @@ NnlsSolver::Parts NnlsSolver::Solve(std::span<const float> row) const {
   // Coordinate descent: each weight in turn is set to its optimum. A small penalty on the weights
   // prefers few keys.
   constexpr int kRounds = 60;
-  constexpr float kPrice = 0.05F, kMost = 1.5F, kLeast = 1e-3F;
+  constexpr float kPrice = 0.05f, kMax = 1.5f, kMin = 1e-3f;
   Parts parts;
   parts.residual.assign(row.begin(), row.end());
   for (float& v : parts.residual) {
@@ -40,20 +40,20 @@ NnlsSolver::Parts NnlsSolver::Solve(std::span<const float> row) const {
     slope.push_back(Product(key, parts.residual));
     size = std::max(size, std::abs(slope.back()));
   }
-  if (size < kLeast) return parts;
+  if (size < kMin) return parts;
   for (int round = 0; round < kRounds; ++round) {
     float moved = 0;
     for (std::size_t k = 0; k < keys_.size(); ++k) {
       const float own = products_[k][k];
-      if (own < kLeast) continue;
-      const float wanted = std::clamp(parts.weights[k] + (slope[k] - kPrice) / own, 0.0F, kMost);
+      if (own < kMin) continue;
+      const float wanted = std::clamp(parts.weights[k] + (slope[k] - kPrice) / own, 0.0f, kMax);
       const float by = wanted - parts.weights[k];
       if (by == 0) continue;
       parts.weights[k] = wanted;
       moved = std::max(moved, std::abs(by));
       for (std::size_t j = 0; j < keys_.size(); ++j) slope[j] -= by * products_[k][j];
     }
-    if (moved < kLeast) break;
+    if (moved < kMin) break;
   }
   for (std::size_t k = 0; k < keys_.size(); ++k) {
     for (std::size_t i = 0; i < row.size(); ++i) {

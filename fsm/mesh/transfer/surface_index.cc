@@ -83,7 +83,7 @@ std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(const WeldedSurface& other,
   // the mouth, differs between heads.
   constexpr float kTurned = 4, kLip = 28, kLid = 18, kHidden = 10;
   const glm::vec3 p = other.at[vertex], normal = other.normal[vertex];
-  constexpr float kLeastFacing = 0.15f;
+  constexpr float kMinFacing = 0.15f;
   std::optional<Hit> best;
   float least = reach_ * reach_;
   const glm::ivec3 low(glm::floor((p - reach_) / cell_)), high(glm::floor((p + reach_) / cell_));
@@ -107,7 +107,7 @@ std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(const WeldedSurface& other,
           float cost = glm::dot(d, d);
           if (cost >= least) continue;
           const float facing = glm::dot(normal, mix(surface_.normal));
-          if (facing < kLeastFacing) continue;
+          if (facing < kMinFacing) continue;
           const float turned = kTurned * (1 - facing);
           const auto opposite = [](float a, float b) { return std::max(-a * b, 0.0f); };
           const float lip = kLip * opposite(other.lip[vertex], mix(surface_.lip));

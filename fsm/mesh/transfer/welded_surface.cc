@@ -24,7 +24,7 @@ class FrontDepth {
       low_ = glm::min(low_, glm::vec2(p));
       high = glm::max(high, glm::vec2(p));
     }
-    size_ = glm::ivec2(glm::clamp((high - low_) / kCell + 2.0f, 2.0f, float{kMost}));
+    size_ = glm::ivec2(glm::clamp((high - low_) / kCell + 2.0f, 2.0f, float{kMax}));
     front_.assign(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y), -1e9f);
   }
 
@@ -37,7 +37,7 @@ class FrontDepth {
     const glm::ivec2 to = glm::min(glm::ivec2(glm::max(most - low_, 0.0f) / kCell) + 1, size_ - 1);
     if (from.x > to.x || from.y > to.y) return;
     const std::int64_t box = std::int64_t{to.x - from.x + 1} * (to.y - from.y + 1);
-    if (box > kMostOfTriangle) return;
+    if (box > kMaxOfTriangle) return;
     if (covered_ += box; covered_ > WeldedSurface::kMaxCovered) {
       throw std::runtime_error(
           "its triangles lie in too many layers: their boxes cover more than " +
@@ -64,9 +64,9 @@ class FrontDepth {
   }
 
  private:
-  static constexpr float kCell = 1;   // millimetres
-  static constexpr int kMost = 2000;  // cells
-  static constexpr std::int64_t kMostOfTriangle = 1'000'000;
+  static constexpr float kCell = 1;  // millimetres
+  static constexpr int kMax = 2000;  // cells
+  static constexpr std::int64_t kMaxOfTriangle = 1'000'000;
 
   float& At(int x, int y) {
     return front_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) +

@@ -13,9 +13,6 @@ namespace fsm {
 
 inline double Clamp01(double u) { return std::clamp(u, 0.0, 1.0); }
 
-/// Returns 3u^2 - 2u^3.
-inline double SmoothStep(double u) { return SmoothStep(0, 1, u); }
-
 /// Returns 6u^5 - 15u^4 + 10u^3, the minimum-jerk curve, whose acceleration is zero at both ends as
 /// well.
 inline double SmootherStep(double u) {
@@ -32,8 +29,8 @@ using vm::InMs;
 /// Rounds to the nearest microsecond.
 inline vm::Time FromMs(double ms) { return vm::Time(std::llround(ms * 1000)); }
 
-/// Returns the part of `duration` that has passed at `t` since `start`, clamped to 0..1; a duration
-/// of zero is a step.
+/// Returns the share of `duration` that has passed at `t` since `start`, clamped to 0..1; a
+/// duration of zero is a step.
 inline double Progress(vm::Time t, vm::Time start, vm::Time duration) {
   if (t >= start + duration) return 1;
   if (t <= start) return 0;

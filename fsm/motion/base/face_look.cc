@@ -53,18 +53,18 @@ FaceLook ReadLook(const TableRow& row, std::size_t first, const UnitNames& names
     const std::string_view word = row.Word(i);
     if (word.starts_with("gaze")) {
       if (SetGaze(look, word)) continue;
-      row.Fail(fmt::format("'{}' found, gaze[L|R]:DOWN,RIGHT in degrees expected", word));
+      row.Refuse(fmt::format("'{}' found, gaze[L|R]:DOWN,RIGHT in degrees expected", word));
     }
     const std::size_t colon = word.find(':');
     if (colon == std::string_view::npos) {
-      row.Fail(fmt::format("'{}' found, AU:WEIGHT expected", word));
+      row.Refuse(fmt::format("'{}' found, AU:WEIGHT expected", word));
     }
     const auto unit = ParseUnitName(word.substr(0, colon), names);
-    if (!unit) row.Fail(unit.error().text);
+    if (!unit) row.Refuse(unit.error().text);
     const std::string_view value = word.substr(colon + 1);
     const auto weight = ParseNumber(value);
     if (!weight || *weight < 0 || *weight > 2) {
-      row.Fail(fmt::format("'{}' found, a weight from 0 to 2 expected", value));
+      row.Refuse(fmt::format("'{}' found, a weight from 0 to 2 expected", value));
     }
     UnitSetting setting{*unit, *weight};
     TakeOwnSide(setting, names);
@@ -80,7 +80,7 @@ vm::Result<BlendShapes> ReadBlendShapes(const std::string& name, std::string_vie
     for (const TableRow& row : table.rows()) {
       const std::string& shape = row.Name(0, "a shape's name");
       if (!shapes.emplace(shape, ReadLook(row, 1, names)).second) {
-        row.Fail("'" + shape + "' is here twice");
+        row.Refuse("'" + shape + "' is here twice");
       }
     }
     return shapes;

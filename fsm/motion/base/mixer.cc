@@ -17,9 +17,9 @@ class Mixer::Reader {
  public:
   Mixer Read(const Table& table) {
     for (const TableRow& row : table.rows()) ReadRow(row);
-    for (std::size_t i = 0; i < kChannels; ++i) {
+    for (std::size_t i = 0; i < kWholeTargets; ++i) {
       if (seen_[i]) continue;
-      table.Fail(fmt::format("no row says how channel '{}' is mixed", kTargetNames[i]));
+      table.Refuse(fmt::format("no row says how channel '{}' is mixed", kTargetNames[i]));
     }
     return std::move(out_);
   }
@@ -28,7 +28,7 @@ class Mixer::Reader {
   void ReadRow(const TableRow& row) {
     const std::string& kind = row.key();
     const std::size_t count = row.size();
-    if (kind == "channel" && (count == 3 || count == 5)) return ReadChannel(row);
+    if (kind == "channel" && (count == 3 || count == 5)) return ReadTarget(row);
     if (kind == "weight" && count == 5) return ReadWeight(row);
     if (kind == "steady" && (count == 3 || count == 4)) return ReadSteady(row);
     if (kind == "layer" && count == 2) return ReadLayer(row);
@@ -36,29 +36,28 @@ class Mixer::Reader {
       signals_.insert(row.Name(1, "a name"));
       return;
     }
-    row.Fail(
+    row.Refuse(
         fmt::format("'{}' found; channel NAME sum|greatest [LOWEST HIGHEST], layer NAME, "
                     "signal NAME, weight LAYER CHANNEL SIGNAL FACTOR or steady LAYER LIMIT "
                     "[SIGNAL] expected",
                     fmt::join(row.words(), " ")));
   }
 
-  void ReadChannel(const TableRow& row) {
+  void ReadTarget(const TableRow& row) {
     const auto found = std::ranges::find(kTargetNames, row.Word(1));
     const auto index = static_cast<std::size_t>(found - kTargetNames.begin());
     const std::string& how = row.Word(2);
-    if (index >= kChannels || (how != "sum" && how != "greatest")) {
-      row.Fail(
+    if (index >= kWholeTargets || (how != "sum" && how != "greatest")) {
+      row.Refuse(
           fmt::format("'{} {}' found; {} with sum or greatest expected", row.Word(1), how,
-                      fmt::join(kTargetNames.begin(), kTargetNames.begin() + kChannels, ", ")));
+                      fmt::join(kTargetNames.begin(), kTargetNames.begin() + kWholeTargets, ", ")));
     }
-    ChannelRule& channel = out_.channels_[index];
-    channel = {.greatest = how == "greatest"};
+    TargetRule& target = out_.targets_[index];
+    target = {.greatest = how == "greatest"};
     seen_[index] = true;
     if (row.size() == 3) return;
-    const double lowest = row.Number(3, "the lowest value", -1000, 1000);
-    channel.lowest = static_cast<float>(lowest);
-    channel.highest = static_cast<float>(row.Number(4, "the highest value", lowest, 1000));
+    target.min = row.Within(3, -1000, 1000, "the lowest value");
+    target.max = row.Within(4, target.min, 1000, "the highest value");
   }
 
   Rules* FindLayer(std::string_view name) {
@@ -68,13 +67,13 @@ class Mixer::Reader {
 
   Rules& LayerAt(const TableRow& row) {
     Rules* const layer = FindLayer(row.Word(1));
-    if (layer == nullptr) row.Fail(fmt::format("'{}' is no layer of a row above", row.Word(1)));
+    if (layer == nullptr) row.Refuse(fmt::format("'{}' is no layer of a row above", row.Word(1)));
     return *layer;
   }
 
   const std::string& SignalAt(const TableRow& row, std::size_t word) {
     if (!signals_.contains(row.Word(word))) {
-      row.Fail(fmt::format("'{}' is no signal of a row above", row.Word(word)));
+      row.Refuse(fmt::format("'{}' is no signal of a row above", row.Word(word)));
     }
     return row.Word(word);
   }
@@ -82,7 +81,7 @@ class Mixer::Reader {
   void ReadLayer(const TableRow& row) {
     const std::string& name = row.Name(1, "a name");
     if (FindLayer(name) != nullptr || name == "result") {
-      row.Fail("the layer '" + name + "' is here twice");
+      row.Refuse("the layer '" + name + "' is here twice");
     }
     out_.layers_.emplace_back(name, Rules{});
   }
@@ -91,20 +90,21 @@ class Mixer::Reader {
     Rules& layer = row.Word(1) == "result" ? out_.result_ : LayerAt(row);
     const auto found = std::ranges::find(kTargetNames, row.Word(2));
     if (found == kTargetNames.end()) {
-      row.Fail(fmt::format("'{}' found; {} expected", row.Word(2), fmt::join(kTargetNames, ", ")));
+      row.Refuse(
+          fmt::format("'{}' found; {} expected", row.Word(2), fmt::join(kTargetNames, ", ")));
     }
     layer.weights.push_back({static_cast<Target>(found - kTargetNames.begin()), SignalAt(row, 3),
-                             row.Number(4, "a factor", 0, 10)});
+                             row.Within<double>(4, 0, 10, "a factor")});
   }
 
   void ReadSteady(const TableRow& row) {
     Rules& layer = LayerAt(row);
-    const auto limit = static_cast<float>(row.Number(2, "a limit in degrees", 0, 180));
-    layer.steady = Steady{limit, row.size() == 4 ? SignalAt(row, 3) : ""};
+    layer.steady = Steady{row.Within(2, 0, 180, "a limit in degrees"),
+                          row.size() == 4 ? SignalAt(row, 3) : ""};
   }
 
   Mixer out_;
-  std::array<bool, kChannels> seen_{};
+  std::array<bool, kWholeTargets> seen_{};
   std::set<std::string> signals_;
 };
 
@@ -131,10 +131,10 @@ Mixer::Factors Mixer::FactorsOf(const Rules& rules, const MotionLayers& layers) 
   return factors;
 }
 
-double Mixer::UnitFactor(const Factors& factors, const UnitList& units, std::size_t unit) {
+double Mixer::UnitFactor(const Factors& factors, const UnitRegions& regions, std::size_t unit) {
   constexpr std::array<Target, kRegions> kTargetOf = {kEyeUnits, kBrowUnits, kMouthUnits};
-  const Target target = kTargetOf[static_cast<std::size_t>(units.RegionOf(unit))];
-  return FactorOf(factors, target) * (units.Opens(unit) ? factors[kOpeningUnits] : 1);
+  const Target target = kTargetOf[static_cast<std::size_t>(regions.RegionOf(unit))];
+  return FactorOf(factors, target) * (regions.Opens(unit) ? factors[kOpeningUnits] : 1);
 }
 
 template <typename To, typename Look, typename Visit>
@@ -143,9 +143,9 @@ void Mixer::ForEachValue(To& to, Look& look, const MotionLayer& from, const Visi
     for (std::size_t i = 0; i < some.size(); ++i) visit(target, some[i], others[i]);
   };
   // The mouth differs most from our units.
-  all(kMouthUnits, look.residuals, from.units.residuals);
+  all(kMouthUnits, look.residuals, from.look.residuals);
   for (const Side side : kSides) {
-    all(kGaze, look.gaze[side], from.units.gaze[side]);
+    all(kGaze, look.gaze[side], from.look.gaze[side]);
     visit(kLids, to.blink[side], from.blink[side]);
   }
   all(kMouth, to.mouth, from.mouth);
@@ -157,29 +157,29 @@ void Mixer::ForEachValue(To& to, Look& look, const MotionLayer& from, const Visi
 }
 
 void Mixer::AddLayer(const MotionLayer& layer, const Rules& rules, const Factors& factors,
-                     const UnitList& units, MotionLayer& total) const {
+                     const UnitRegions& regions, MotionLayer& total) const {
   const bool unweighted = rules.weights.empty();
   for (const Side side : kSides) {
-    const UnitValues& asked = layer.units.au[side];
+    const UnitValues& asked = layer.look.au[side];
     if (asked.AtRest()) continue;
     const std::span strengths(asked.begin(), asked.size());
     for (std::size_t unit = 0; unit < strengths.size(); ++unit) {
       if (strengths[unit] == 0) continue;
-      const double weight = unweighted ? 1 : UnitFactor(factors, units, unit);
-      channels_[kUnits].Accumulate(total.units.au[side][unit], weight * strengths[unit]);
+      const double weight = unweighted ? 1 : UnitFactor(factors, regions, unit);
+      targets_[kUnits].Accumulate(total.look.au[side][unit], weight * strengths[unit]);
     }
   }
-  ForEachValue(total, total.units, layer, [&](Target target, float& sum, float asked) {
+  ForEachValue(total, total.look, layer, [&](Target target, float& sum, float asked) {
     RuleOf(target).Accumulate(sum, FactorOf(factors, target) * asked);
   });
 }
 
-void Mixer::Mix(const MotionLayers& layers, const UnitList& units, FaceState& state) const {
+void Mixer::Mix(const MotionLayers& layers, const UnitRegions& regions, FaceState& state) const {
   MotionLayer total;
   for (const auto& [name, layer] : layers.all()) {
     const Rules& rules = RulesOf(name);
     const Factors factors = FactorsOf(rules, layers);
-    AddLayer(layer, rules, factors, units, total);
+    AddLayer(layer, rules, factors, regions, total);
     if (!rules.steady) continue;
     const Steady& steady = *rules.steady;
     const double share = steady.signal.empty() ? 1 : layers.Signal(steady.signal);
@@ -187,19 +187,19 @@ void Mixer::Mix(const MotionLayers& layers, const UnitList& units, FaceState& st
       const auto rotation = static_cast<float>(factors[kHead] * layer.head_rotation[axis]);
       const auto back =
           static_cast<float>(share * std::clamp(rotation, -steady.limit_deg, steady.limit_deg));
-      for (const Side side : kSides) total.units.gaze[side][axis] -= back;
+      for (const Side side : kSides) total.look.gaze[side][axis] -= back;
     }
   }
-  Store(total, FactorsOf(result_, layers), units, state);
+  Store(total, FactorsOf(result_, layers), regions, state);
 }
 
-void Mixer::Store(const MotionLayer& total, const Factors& factors, const UnitList& units,
+void Mixer::Store(const MotionLayer& total, const Factors& factors, const UnitRegions& regions,
                   FaceState& state) const {
   for (const Side side : kSides) {
     std::size_t unit = 0;
-    ForEachUnit(state.au[side], total.units.au[side], [&](float& strength, float value) {
-      float limited = channels_[kUnits].Clamped(value);
-      if (limited != 0) limited = static_cast<float>(UnitFactor(factors, units, unit) * limited);
+    ForEachUnit(state.au[side], total.look.au[side], [&](float& strength, float value) {
+      float limited = targets_[kUnits].Clamped(value);
+      if (limited != 0) limited = static_cast<float>(UnitFactor(factors, regions, unit) * limited);
       strength = limited;
       ++unit;
     });

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fsm/rig/unit_values.h"
 #include "vm_protocol/core/result.h"
 
 /// Checks and error texts that the commands of FaceMotion share.
@@ -20,21 +21,22 @@ std::string KeysOf(const Map& map) {
   return fmt::format("{}", fmt::join(keys, " "));
 }
 
-inline vm::Result<void> CheckPatternNumber(std::string_view kind, int pattern, int lowest,
+inline vm::Result<void> CheckPatternNumber(std::string_view kind, int pattern, int min,
                                            std::size_t count) {
-  if (pattern >= lowest && pattern <= static_cast<int>(count)) return {};
+  if (pattern >= min && pattern <= static_cast<int>(count)) return {};
   if (count == 0) {
     return vm::Fail(vm::Errc::kBadValue, fmt::format("there is no pattern of {}", kind));
   }
   return vm::Fail(vm::Errc::kBadValue, fmt::format("{} has no pattern {}; {} to {} expected", kind,
-                                                   pattern, lowest, count));
+                                                   pattern, min, count));
 }
 
-/// Checks that a strength is within 0..2.
+/// Checks that a strength is within 0..kMaxStrength.
 inline vm::Result<void> CheckStrength(double strength) {
-  if (strength >= 0 && strength <= 2) return {};
-  return vm::Fail(vm::Errc::kBadValue,
-                  fmt::format("{:g} is no strength; 0 to 2 expected, 1 = full", strength));
+  if (strength >= 0 && strength <= kMaxStrength) return {};
+  return vm::Fail(
+      vm::Errc::kBadValue,
+      fmt::format("{:g} is no strength; 0 to {:g} expected, 1 = full", strength, kMaxStrength));
 }
 
 }  // namespace fsm

@@ -17,7 +17,7 @@ namespace fsm {
 /// The contribution of one layer of movement to the face at one instant; at rest by default. Its
 /// members are as those of FaceState.
 struct MotionLayer {
-  FaceLook units;  ///< strengths, 1 = full, and the rotation of the eyes
+  FaceLook look;  ///< strengths, 1 = full, and the rotation of the eyes
   std::array<float, kMouthParameters> mouth{};
   std::array<float, kMouthParameters> mouth_by_hand{};
   float seal = 0;
@@ -70,9 +70,9 @@ class MotionSource {
   virtual void Contribute(vm::Time t, MotionLayers& layers) const = 0;
   /// Returns `t` while it moves, else when it will begin to move by itself; none: still until the
   /// next command.
-  virtual std::optional<vm::Time> NextActivity(vm::Time t) const {
+  virtual std::optional<vm::Time> NextMotion(vm::Time t) const {
     std::optional<vm::Time> next;
-    ForEachTrack([&](const MoveTimes& track) { next = Earlier(next, track.NextActivity(t)); });
+    ForEachTrack([&](const MoveTimes& track) { next = Earlier(next, track.NextMotion(t)); });
     return next;
   }
   /// Returns when the changes begun by `t` will be complete; `t` if they are.

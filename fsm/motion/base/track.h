@@ -41,7 +41,7 @@ class MoveTimes {
   }
 
   /// Returns `t` while it moves, else when the next planned move begins; none: no more moves.
-  std::optional<vm::Time> NextActivity(vm::Time t) const {
+  std::optional<vm::Time> NextMotion(vm::Time t) const {
     std::optional<vm::Time> next;
     for (const Span& move : spans_) {
       if (move.start <= t && t < move.start + move.duration) return t;
@@ -71,12 +71,12 @@ class Track : public MoveTimes {
   /// What `At` remembers of the time before a command: springs are simulated from then on.
   static constexpr vm::Time kMemory = std::chrono::seconds(3);
   /// The most moves that are remembered after their end.
-  static constexpr std::size_t kMostEnded = 200;
+  static constexpr std::size_t kMaxEnded = 200;
 
   /// Plans a move that begins at `start` (not before `now`). Moves that begin at `start` or later
   /// are forgotten, but for a jump (of no duration) at `now` before a move, which has been made.
   /// After this call, `At` is good for times from `now` - kMemory on; earlier by less where more
-  /// than kMostEnded moves have ended since.
+  /// than kMaxEnded moves have ended since.
   void Plan(vm::Time now, T target, vm::Time start, vm::Time duration) {
     Prune(now);
     const bool jump = start == now && duration <= vm::Time(0);
@@ -135,11 +135,11 @@ class Track : public MoveTimes {
   }
 
   // Forgets the moves that are hidden since `now` - kMemory, and of those hidden now all but the
-  // last kMostEnded.
+  // last kMaxEnded.
   void Prune(vm::Time now) {
     const std::size_t ended = RunningFrom(now);
     const std::size_t first =
-        std::max(RunningFrom(now - kMemory), ended > kMostEnded ? ended - kMostEnded : 0);
+        std::max(RunningFrom(now - kMemory), ended > kMaxEnded ? ended - kMaxEnded : 0);
     if (first == 0) return;
     base_ = targets_[first - 1];
     Erase(0, first);

@@ -14,7 +14,7 @@ namespace {
 
 int UnitNumber(const TableRow& row, std::size_t word, const UnitNames& names) {
   const auto unit = ParseUnitName(row.Word(word), names);
-  if (!unit) row.Fail(unit.error().text);
+  if (!unit) row.Refuse(unit.error().text);
   return unit->number;
 }
 
@@ -27,28 +27,28 @@ void ReadNumbers(const TableRow& row, std::size_t first, const UnitNames& names,
 }
 
 void ReadPosition(const TableRow& row, const UnitNames& names, UnitList& list) {
-  const auto position = static_cast<std::size_t>(row.Number(1, "a position", 1, 200));
-  if (row.size() != 3) row.Fail("three words expected");
-  list.units.resize(std::max(list.units.size(), position));
-  list.emotions.resize(list.units.size());
+  const auto position = static_cast<std::size_t>(row.Within<double>(1, 1, 200, "a position"));
+  if (row.size() != 3) row.Refuse("three words expected");
+  list.face_slots.resize(std::max(list.face_slots.size(), position));
+  FaceSlot& slot = list.face_slots[position - 1];
   if (row.key() == "emotion") {
-    list.emotions[position - 1] = row.Word(2);
+    slot.emotion = row.Word(2);
   } else {
-    list.units[position - 1] = UnitNumber(row, 2, names);
+    slot.unit = UnitNumber(row, 2, names);
   }
 }
 
 /// The units whose region a row has set.
 using RegionsGiven = std::set<std::size_t>;
 
-void ReadRegion(const TableRow& row, Region region, const UnitNames& names, UnitList& list,
+void ReadRegion(const TableRow& row, Region region, const UnitNames& names, UnitRegions& out,
                 RegionsGiven& given) {
   ReadNumbers(row, 2, names, [&](std::size_t unit) {
-    if (!given.insert(unit).second && list.RegionOf(unit) != region) {
-      row.Fail(fmt::format("unit {} has another region above; one expected", unit));
+    if (!given.insert(unit).second && out.RegionOf(unit) != region) {
+      row.Refuse(fmt::format("unit {} has another region above; one expected", unit));
     }
-    if (unit >= list.regions.size()) list.regions.resize(unit + 1, Region::kMouth);
-    list.regions[unit] = region;
+    if (unit >= out.regions.size()) out.regions.resize(unit + 1, Region::kMouth);
+    out.regions[unit] = region;
   });
 }
 
@@ -58,18 +58,19 @@ void ReadListRow(const TableRow& row, const UnitNames& names, UnitList& list, Re
   if (kind == "face" || kind == "emotion") return ReadPosition(row, names, list);
   if (kind == "opens") {
     return ReadNumbers(row, 1, names, [&](std::size_t unit) {
-      if (unit >= list.opens.size()) list.opens.resize(unit + 1);
-      list.opens[unit] = true;
+      std::vector<bool>& opens = list.regions.opens;
+      if (unit >= opens.size()) opens.resize(unit + 1);
+      opens[unit] = true;
     });
   }
   if (kind != "region" || row.size() < 3) {
-    row.Fail("'" + kind + "' found; face, emotion, region or opens expected");
+    row.Refuse("'" + kind + "' found; face, emotion, region or opens expected");
   }
   const auto region = std::ranges::find(kRegionNames, row.Word(1));
   if (region == kRegionNames.end()) {
-    row.Fail("'" + row.Word(1) + "' found, eye, brow or mouth expected");
+    row.Refuse("'" + row.Word(1) + "' found, eye, brow or mouth expected");
   }
-  ReadRegion(row, static_cast<Region>(region - kRegionNames.begin()), names, list, given);
+  ReadRegion(row, static_cast<Region>(region - kRegionNames.begin()), names, list.regions, given);
 }
 
 }  // namespace

@@ -18,8 +18,6 @@ namespace fsm {
 
 namespace {
 
-constexpr double kMostStrength = 2;
-
 struct Word {
   std::string_view text;
   std::size_t column;  // counted from 1
@@ -126,7 +124,7 @@ std::string NumbersInUse(const UnitNames& names) {
 /// Returns names similar to a word, for messages: those with the longest common prefix, of equals
 /// those with the greatest numbers, since user-defined units have these.
 std::string NamesLike(std::string_view word, const UnitNames& names) {
-  constexpr std::size_t kMost = 5;
+  constexpr std::size_t kMax = 5;
   const std::string wanted = vm::LowerCase(word);
   std::vector<std::pair<std::ptrdiff_t, int>> ranked;  // length of the common prefix, number
   for (const auto& [number, name] : names.names) {
@@ -135,7 +133,7 @@ std::string NamesLike(std::string_view word, const UnitNames& names) {
   }
   std::ranges::sort(ranked, std::greater<>());
   std::string text;
-  for (std::size_t i = 0; i < std::min(kMost, ranked.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMax, ranked.size()); ++i) {
     text += (i > 0 ? ", " : "") + names.names.at(ranked[i].second).substr(0, 40);
   }
   return text;
@@ -161,8 +159,11 @@ vm::Result<ParsedUnit> ParseUnit(const Word& word, const UnitNames& names) {
 vm::Result<double> ParseStrength(const Word& word) {
   if (const auto letter = IntensityOf(word.text)) return *letter;
   const auto number = ParseNumber(word.text);
-  if (!number || *number < 0 || *number > kMostStrength) {
-    return FailAt(word, "no strength; a number from 0 to 2 (1 = full) or a letter A to E expected");
+  if (!number || *number < 0 || *number > kMaxStrength) {
+    return FailAt(word,
+                  fmt::format("no strength; a number from 0 to {:g} (1 = full) or a letter A to E "
+                              "expected",
+                              kMaxStrength));
   }
   return *number;
 }
@@ -191,7 +192,7 @@ vm::Result<ParsedUnit> TakeUnit(std::span<const Word>& words, const UnitNames& n
 HeadEyeCode ReadCode(const TableRow& row) {
   std::array<float, 8> v{};
   for (std::size_t i = 0; i < v.size(); ++i) {
-    v[i] = static_cast<float>(row.Number(3 + i, "an angle or a part", -60, 60));
+    v[i] = row.Within(3 + i, -60, 60, "an angle or a part");
   }
   return {.head_rotation = {v[0], v[1], v[2]},
           .gaze = {.right = {v[5], v[6]}, .left = {v[3], v[4]}},
@@ -203,18 +204,19 @@ void ReadNameRow(const TableRow& row, UnitNames& out) {
   const bool one_sided = !code && row.words().back() == "one-sided";
   const std::size_t count = row.size() - (one_sided ? 1 : 0);
   if ((!code && row.key() != "unit") || count != (code ? 11u : 3u)) {
-    row.Fail("unit NUMBER NAME [one-sided], or code NUMBER NAME and 8 numbers expected");
+    row.Refuse("unit NUMBER NAME [one-sided], or code NUMBER NAME and 8 numbers expected");
   }
-  const int unit = static_cast<int>(row.Number(1, "a number of a unit", 1, UnitValues::kMost));
+  const int unit =
+      static_cast<int>(row.Within<double>(1, 1, UnitValues::kMax, "a number of a unit"));
   const std::string& name = row.Word(2);
-  if (ByNumber(name)) row.Fail("'" + name + "' reads as a number, not as a name");
+  if (ByNumber(name)) row.Refuse("'" + name + "' reads as a number, not as a name");
   if (out.names.contains(unit)) {
-    row.Fail(
+    row.Refuse(
         fmt::format("the number {} is here twice, for '{}' and '{}'", unit, out.names[unit], name));
   }
   const auto [named, fresh] = out.by_name.emplace(vm::LowerCase(name), unit);
   if (!fresh) {
-    row.Fail(
+    row.Refuse(
         fmt::format("the name '{}' is here twice, for {} and {} (capitals and small letters "
                     "are the same)",
                     name, named->second, unit));
@@ -259,12 +261,12 @@ vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames&
   for (std::span<const Word> words(all); !words.empty();) {
     // A single number at the end, after at least one unit, is a time.
     const auto ms =
-        words.size() == 1 && !out.units.empty() ? ParseNumber(words[0].text) : std::nullopt;
+        words.size() == 1 && !out.settings.empty() ? ParseNumber(words[0].text) : std::nullopt;
     if (ms) {
-      if (lettered && *ms > 0 && *ms <= kMostStrength) {
+      if (lettered && *ms > 0 && *ms <= kMaxStrength) {
         return FailAt(words[0], fmt::format("a second strength: '{}' says its own by a letter; a "
                                             "time of more than {:g} ms expected, or none",
-                                            all[all.size() - 2].text.substr(0, 60), kMostStrength));
+                                            all[all.size() - 2].text.substr(0, 60), kMaxStrength));
       }
       if (*ms < 0 || *ms > 86400000) return FailAt(words[0], "no time; 0 to 86400000 ms expected");
       out.ms = *ms;
@@ -273,7 +275,7 @@ vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames&
     const auto taken = TakeUnit(words, names);
     if (!taken) return std::unexpected(taken.error());
     lettered = taken->strength_given;
-    out.units.push_back(taken->unit);
+    out.settings.push_back(taken->unit);
   }
   return out;
 }

@@ -57,7 +57,7 @@ void TakeOwnSide(UnitSetting& unit, const UnitNames& names);
 inline constexpr std::array<double, 5> kIntensity = {0.1, 0.3, 0.5, 0.75, 1.0};
 
 struct UnitCommand {
-  std::vector<UnitSetting> units;
+  std::vector<UnitSetting> settings;
   std::optional<double> ms;  ///< the number at the end, if there is one
 };
 /// Parses any number of settings such as `12L 0.7`, `12L C`, `12C`, `R12C`, `LipCornerPuller 0.7`,

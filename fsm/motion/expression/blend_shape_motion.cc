@@ -19,9 +19,8 @@ vm::Result<void> BlendShapeMotion::Set(vm::Time now, std::string_view name, doub
 }
 
 void BlendShapeMotion::Contribute(vm::Time t, MotionLayers& layers) const {
-  FaceLook& units = layers.Layer("blend_shapes").units;
-  for (const auto& [name, weight] : weights_)
-    AddTo(units, shapes_.find(name)->second, weight.At(t));
+  FaceLook& look = layers.Layer("blend_shapes").look;
+  for (const auto& [name, weight] : weights_) AddTo(look, shapes_.find(name)->second, weight.At(t));
 }
 
 void BlendShapeMotion::ForEachTrack(const TrackVisitor& visit) const {

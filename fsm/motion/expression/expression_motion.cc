@@ -12,8 +12,8 @@ namespace {
 
 constexpr vm::Time kOffset = std::chrono::milliseconds(500);  // natural offset duration
 constexpr double kSideLagMs = 30, kSideLagVariesMs = 10;      // of the side that begins later
-constexpr int kMostPatterns = 20;
-constexpr std::size_t kMostExpressions = 200;
+constexpr int kMaxPatterns = 20;
+constexpr std::size_t kMaxExpressions = 200;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ ExpressionMotion::ExpressionMotion(MotionInputs& in)
       settings_(in.settings),
       switches_(in.switches),
       seed_(in.seed),
-      emotions_(in.tables.units.emotions.size()) {
+      emotions_(in.tables.unit_list.face_slots.size()) {
   DrawLags(seed_);
 }
 
@@ -79,9 +79,9 @@ void ExpressionMotion::Plan(vm::Time now, const FaceLook& look, const Expression
                             vm::Time onset, vm::Time duration) {
   for (const Side side : kSides) {
     const double side_lag_ms = switches_[IdleKind::kAsymmetry].on() ? side_lags_ms_[side] : 0;
-    for (std::size_t part = 0; part < kRegions; ++part) {
-      const vm::Time lag = FromMs(timing.lag_ms[part] + side_lag_ms);
-      parts_[side][part].Visit(now, look, onset, duration, lag);
+    for (std::size_t region = 0; region < kRegions; ++region) {
+      const vm::Time lag = FromMs(timing.lag_ms[region] + side_lag_ms);
+      regions_[side][region].Visit(now, look, onset, duration, lag);
     }
   }
   onset_end_ = now + shown_.Visit(now, 1.0F, onset, duration);
@@ -91,7 +91,7 @@ void ExpressionMotion::Plan(vm::Time now, const FaceLook& look, const Expression
 void ExpressionMotion::Neutral(vm::Time now) {
   const vm::Time offset = settings_.onset == Onset::kFixed ? settings_.expression : kOffset;
   for (const Side side : kSides) {
-    for (auto& part : parts_[side]) part.Plan(now, FaceLook{}, now, offset);
+    for (auto& region : regions_[side]) region.Plan(now, FaceLook{}, now, offset);
   }
   shown_.MoveTo(now, 0.0F, offset);
   onset_end_ = now + offset;
@@ -99,7 +99,8 @@ void ExpressionMotion::Neutral(vm::Time now) {
 }
 
 void ExpressionMotion::SetEmotion(vm::Time now, std::size_t index, double strength) {
-  const Expression& emotion = tables_.expressions.find(tables_.units.emotions[index])->second;
+  const Expression& emotion =
+      tables_.expressions.find(tables_.unit_list.face_slots[index].emotion)->second;
   emotions_[index].MoveTo(now, static_cast<float>(strength), OnsetOf(emotion));
 }
 
@@ -107,26 +108,23 @@ void ExpressionMotion::SetEmotion(vm::Time now, std::size_t index, double streng
 
 vm::Result<void> ExpressionMotion::Define(std::string_view name, int pattern,
                                           std::string_view look) {
-  const bool plain = !name.empty() && name.size() <= 40 && std::ranges::all_of(name, [](char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-  });
-  if (!plain || name == "NEUTRAL") {
+  if (!IsPlainName(name) || name == "NEUTRAL") {
     return vm::Fail(
         vm::Errc::kBadValue,
-        fmt::format("'{}' cannot be the name of an expression; up to 40 letters, digits "
+        fmt::format("'{}' cannot be the name of an expression; up to {} letters, digits "
                     "and _ expected, and not NEUTRAL",
-                    name.substr(0, 60)));
+                    name.substr(0, 60), kMaxNameBytes));
   }
   auto units = ParseLook(look, tables_.unit_names);
   if (!units) return std::unexpected(units.error());
   const auto found = tables_.expressions.find(name);
   const std::size_t have = found == tables_.expressions.end() ? 0 : found->second.patterns.size();
-  if (pattern < 1 || static_cast<std::size_t>(pattern) > have + 1 || pattern > kMostPatterns) {
+  if (pattern < 1 || static_cast<std::size_t>(pattern) > have + 1 || pattern > kMaxPatterns) {
     return vm::Fail(vm::Errc::kBadValue, fmt::format("{} has {} patterns; pattern 1 to {} expected",
                                                      name, have, have + 1));
   }
-  if (have == 0 && tables_.expressions.size() >= kMostExpressions) {
-    return vm::Fail(vm::Errc::kLimit, fmt::format("more than {} expressions", kMostExpressions));
+  if (have == 0 && tables_.expressions.size() >= kMaxExpressions) {
+    return vm::Fail(vm::Errc::kLimit, fmt::format("more than {} expressions", kMaxExpressions));
   }
   tables_.expressions[std::string(name)].Redefine(static_cast<std::size_t>(pattern), *units);
   return {};
@@ -145,16 +143,16 @@ void ExpressionMotion::Forget(std::string_view name) {
 void ExpressionMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   Sided<std::array<FaceLook, kRegions>> now;
   layers.AddSignal("expression", shown_.At(t));
-  FaceLook& out = layers.Layer("expression").units;
+  FaceLook& out = layers.Layer("expression").look;
   for (const Side side : kSides) {
     std::size_t size = 0;
-    for (std::size_t part = 0; part < kRegions; ++part) {
-      now[side][part] = parts_[side][part].At(t);
-      size = std::max(size, now[side][part].au[side].size());
+    for (std::size_t region = 0; region < kRegions; ++region) {
+      now[side][region] = regions_[side][region].At(t);
+      size = std::max(size, now[side][region].au[side].size());
     }
     for (std::size_t unit = size; unit-- > 0;) {
-      const auto region = static_cast<std::size_t>(tables_.units.RegionOf(unit));
-      out.au[side][unit] = std::as_const(now[side][region].au)[side][unit];
+      const auto of = static_cast<std::size_t>(tables_.unit_list.regions.RegionOf(unit));
+      out.au[side][unit] = std::as_const(now[side][of].au)[side][unit];
     }
   }
   // Residuals belong to the whole face; they and both eyes move together, whichever side begins.
@@ -164,15 +162,15 @@ void ExpressionMotion::Contribute(vm::Time t, MotionLayers& layers) const {
     const float weight = emotions_[i].At(t);
     if (weight == 0) continue;
     layers.AddSignal("expression", std::min(1.0F, weight));
-    const auto found = tables_.expressions.find(tables_.units.emotions[i]);
+    const auto found = tables_.expressions.find(tables_.unit_list.face_slots[i].emotion);
     if (found == tables_.expressions.end()) continue;
-    AddTo(layers.Layer("emotions").units, found->second.LookOf(1, weight), 1);
+    AddTo(layers.Layer("emotions").look, found->second.LookOf(1, weight), 1);
   }
 }
 
 void ExpressionMotion::ForEachTrack(const TrackVisitor& visit) const {
   for (const Side side : kSides) {
-    for (const auto& part : parts_[side]) visit(part);
+    for (const auto& region : regions_[side]) visit(region);
   }
   visit(shown_);
   for (const auto& emotion : emotions_) visit(emotion);

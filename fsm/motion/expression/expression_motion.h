@@ -37,7 +37,7 @@ class ExpressionMotion : public MotionSource {
   /// the usual onset of expressions.
   void ShowSpacePoint(vm::Time now, const EmotionSpace::Point& point, std::optional<vm::Time> move);
   void Neutral(vm::Time now);
-  /// Moves an emotion to `strength`. REQUIRES: element `index` of UnitList::emotions is an emotion.
+  /// Moves an emotion to `strength`. REQUIRES: FaceSlot `index` is an emotion.
   void SetEmotion(vm::Time now, std::size_t index, double strength);
   /// Adds or changes a pattern of an expression. `pattern` is at most one more than those that
   /// exist. `name` consists of at most 40 letters, digits and _.
@@ -68,9 +68,9 @@ class ExpressionMotion : public MotionSource {
   std::uint64_t seed_;
   Sided<double> side_lags_ms_;
   // By region; of each only the units of its side are used.
-  Sided<std::array<Track<FaceLook>, kRegions>> parts_;
+  Sided<std::array<Track<FaceLook>, kRegions>> regions_;
   Track<float> shown_;                  // how strongly an expression is shown, 0..1
-  std::vector<Track<float>> emotions_;  // indexed as UnitList::emotions
+  std::vector<Track<float>> emotions_;  // indexed as the face slots
   vm::Time onset_end_{0};
   std::optional<vm::Time> end_;  // of an expression with a duration
 };

@@ -19,7 +19,7 @@ vm::Result<void> MoodMotion::Set(vm::Time now, std::string_view name, double str
 }
 
 void MoodMotion::Contribute(vm::Time t, MotionLayers& layers) const {
-  layers.Layer("mood").units = look_.At(t);
+  layers.Layer("mood").look = look_.At(t);
 }
 
 }  // namespace fsm

@@ -11,7 +11,7 @@ constexpr vm::Time kCodeMove = 120ms;  // heads and eyes take longer than skin
 }  // namespace
 
 void UnitMotion::SetOne(vm::Time now, const UnitSetting& unit, vm::Time move) {
-  auto& track = units_[unit.number];
+  auto& track = tracks_[unit.number];
   if (unit.left) track.left.MoveTo(now, static_cast<float>(unit.strength), move);
   if (unit.right) track.right.MoveTo(now, static_cast<float>(unit.strength), move);
 }
@@ -19,7 +19,7 @@ void UnitMotion::SetOne(vm::Time now, const UnitSetting& unit, vm::Time move) {
 vm::Result<void> UnitMotion::Set(vm::Time now, std::string_view text) {
   const auto command = ParseUnitCommand(text, names_);
   if (!command) return std::unexpected(command.error());
-  for (const UnitSetting& one : command->units) {
+  for (const UnitSetting& one : command->settings) {
     const vm::Time usual = names_.IsUnit(one.number) ? kUnitMove : kCodeMove;
     SetOne(now, one, command->ms ? FromMs(*command->ms) : usual);
   }
@@ -34,11 +34,11 @@ void UnitMotion::Set(vm::Time now, int unit, double strength) {
 
 void UnitMotion::Contribute(vm::Time t, MotionLayers& layers) const {
   MotionLayer& layer = layers.Layer("units");
-  for (const auto& [number, track] : units_) {
+  for (const auto& [number, track] : tracks_) {
     const auto found = names_.codes.find(number);
     if (found == names_.codes.end()) {
       for (const Side side : kSides) {
-        layer.units.au[side][static_cast<std::size_t>(number)] = track[side].At(t);
+        layer.look.au[side][static_cast<std::size_t>(number)] = track[side].At(t);
       }
       continue;
     }
@@ -47,7 +47,7 @@ void UnitMotion::Contribute(vm::Time t, MotionLayers& layers) const {
     for (std::size_t i = 0; i < 3; ++i) layer.head_rotation[i] += strength * code.head_rotation[i];
     for (const Side side : kSides) {
       for (std::size_t i = 0; i < 2; ++i) {
-        layer.units.gaze[side][i] += strength * code.gaze[side][i];
+        layer.look.gaze[side][i] += strength * code.gaze[side][i];
       }
     }
     layer.head_forward_mm += strength * code.head_forward_mm;
@@ -55,7 +55,7 @@ void UnitMotion::Contribute(vm::Time t, MotionLayers& layers) const {
 }
 
 void UnitMotion::ForEachTrack(const TrackVisitor& visit) const {
-  for (const auto& [number, track] : units_) {
+  for (const auto& [number, track] : tracks_) {
     for (const Side side : kSides) visit(track[side]);
   }
 }

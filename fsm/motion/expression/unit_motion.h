@@ -30,7 +30,7 @@ class UnitMotion : public MotionSource {
 
   const UnitNames& names_;
   // The units and codes set so far, by number. A code has one strength for both sides.
-  std::map<int, Sided<Track<float>>> units_;
+  std::map<int, Sided<Track<float>>> tracks_;
 };
 
 }  // namespace fsm

@@ -11,8 +11,8 @@
 namespace fsm {
 namespace {
 
-constexpr std::size_t kMostUnits = 64, kMostLayers = 4, kMostOutputs = 256;
-constexpr float kMostWeight = 1000;
+constexpr std::size_t kMaxUnits = 64, kMaxLayers = 4, kMaxOutputs = 256;
+constexpr float kMaxWeight = 1000;
 
 std::vector<float> Through(const std::vector<EmotionSpace::Layer>& layers,
                            std::vector<float> values) {
@@ -30,32 +30,32 @@ std::vector<float> Through(const std::vector<EmotionSpace::Layer>& layers,
 }
 
 void ReadUnitNumbers(const TableRow& row, const UnitNames& names, std::vector<int>& units) {
-  if (!units.empty()) row.Fail("a second row of units found, one expected");
+  if (!units.empty()) row.Refuse("a second row of units found, one expected");
   std::set<int> given;
   for (std::size_t i = 1; i < row.size(); ++i) {
     const int unit = row.Integer(i);
-    if (!names.IsUnit(unit)) row.Fail(fmt::format("'{}' is no action unit", row.Word(i)));
-    if (!given.insert(unit).second) row.Fail(fmt::format("unit {} is here twice", unit));
+    if (!names.IsUnit(unit)) row.Refuse(fmt::format("'{}' is no action unit", row.Word(i)));
+    if (!given.insert(unit).second) row.Refuse(fmt::format("unit {} is here twice", unit));
     units.push_back(unit);
   }
-  if (units.empty() || units.size() > kMostUnits) {
-    row.Fail(fmt::format("{} units found, 1 to {} expected", units.size(), kMostUnits));
+  if (units.empty() || units.size() > kMaxUnits) {
+    row.Refuse(fmt::format("{} units found, 1 to {} expected", units.size(), kMaxUnits));
   }
 }
 
 void BeginLayer(const TableRow& row, std::vector<EmotionSpace::Layer>& layers) {
   if (row.size() != 2 || (row.Word(1) != "relu" && row.Word(1) != "linear")) {
-    row.Fail(row.key() + " relu|linear expected");
+    row.Refuse(row.key() + " relu|linear expected");
   }
-  if (layers.size() == kMostLayers) row.Fail(fmt::format("more than {} layers", kMostLayers));
+  if (layers.size() == kMaxLayers) row.Refuse(fmt::format("more than {} layers", kMaxLayers));
   layers.push_back({.rectified = row.Word(1) == "relu", .rows = {}});
 }
 
 void ReadWeights(const TableRow& row, EmotionSpace::Layer& layer) {
-  if (layer.rows.size() == kMostOutputs) row.Fail(fmt::format("more than {} rows", kMostOutputs));
+  if (layer.rows.size() == kMaxOutputs) row.Refuse(fmt::format("more than {} rows", kMaxOutputs));
   std::vector<float> weights = row.Numbers(1);
-  if (!std::ranges::all_of(weights, [](float w) { return std::abs(w) <= kMostWeight; })) {
-    row.Fail(fmt::format("a weight beyond {} found", kMostWeight));
+  if (!std::ranges::all_of(weights, [](float w) { return std::abs(w) <= kMaxWeight; })) {
+    row.Refuse(fmt::format("a weight beyond {} found", kMaxWeight));
   }
   layer.rows.push_back(std::move(weights));
 }
@@ -67,14 +67,14 @@ void CheckLayers(const Table& table, const char* key,
   for (const EmotionSpace::Layer& layer : layers) {
     for (const std::vector<float>& row : layer.rows) {
       if (row.size() == inputs) continue;
-      table.Fail(
+      table.Refuse(
           fmt::format("a row of {} weights found in '{}', {} expected", row.size(), key, inputs));
     }
     inputs = layer.rows.size();
   }
   if (layers.empty() || inputs != outputs) {
-    table.Fail(fmt::format("the layers of '{}' end with {} outputs, {} expected", key,
-                           layers.empty() ? 0 : inputs, outputs));
+    table.Refuse(fmt::format("the layers of '{}' end with {} outputs, {} expected", key,
+                             layers.empty() ? 0 : inputs, outputs));
   }
 }
 
@@ -117,19 +117,19 @@ vm::Result<EmotionSpace> ReadEmotionSpace(const std::string& name, std::string_v
         BeginLayer(row, layers);
         layer = &layers.back();
       } else if (key == "row") {
-        if (layer == nullptr) row.Fail("a row before any layer");
+        if (layer == nullptr) row.Refuse("a row before any layer");
         ReadWeights(row, *layer);
       } else if (key == "emotion") {
         const std::string& emotion = row.Name(1, "an emotion's name");
         const EmotionSpace::Point at{row.Within(2, -2, 2), row.Within(3, -2, 2),
                                      row.Within(4, -2, 2)};
         row.EndsAt(5);
-        if (!space.emotions.emplace(emotion, at).second) row.Fail(emotion + " is here twice");
+        if (!space.emotions.emplace(emotion, at).second) row.Refuse(emotion + " is here twice");
       } else {
-        row.Fail("'" + key + "' found; units, encode, decode, row or emotion expected");
+        row.Refuse("'" + key + "' found; units, encode, decode, row or emotion expected");
       }
     }
-    if (space.units.empty()) table.Fail("no row of units");
+    if (space.units.empty()) table.Refuse("no row of units");
     CheckLayers(table, "encode", space.encoder, space.units.size(), 3);
     CheckLayers(table, "decode", space.decoder, 3, space.units.size());
     return space;

@@ -11,34 +11,34 @@ namespace fsm {
 namespace {
 
 void ReadTiming(const TableRow& row, ExpressionTable& expressions) {
-  if (row.size() != 6) row.Fail(row.key() + " NAME ONSET EYE BROW MOUTH expected");
+  if (row.size() != 6) row.Refuse(row.key() + " NAME ONSET EYE BROW MOUTH expected");
   Expression& expression = expressions[row.Name(1, "an emotion's name")];
   Expression::Timing& timing = row.key() == "posed" ? expression.posed : expression.elicited;
-  timing.onset_ms = row.Number(2, "an onset in ms", 0, 10000);
+  timing.onset_ms = row.Within<double>(2, 0, 10000, "an onset in ms");
   for (std::size_t i = 0; i < kRegions; ++i) {
-    timing.lag_ms[i] = row.Number(3 + i, "a lag in ms", 0, 1000);
+    timing.lag_ms[i] = row.Within<double>(3 + i, 0, 1000, "a lag in ms");
   }
 }
 
 void ReadPattern(const TableRow& row, const UnitNames& names, ExpressionTable& expressions) {
-  const double pattern = row.Number(1, "a pattern number", 1, 100);
+  const double pattern = row.Within<double>(1, 1, 100, "a pattern number");
   auto& patterns = expressions[row.Name(0, "an emotion's name")].patterns;
   if (pattern != static_cast<double>(patterns.size() + 1)) {
-    row.Fail(fmt::format("pattern {:g} found, {} expected next", pattern, patterns.size() + 1));
+    row.Refuse(fmt::format("pattern {:g} found, {} expected next", pattern, patterns.size() + 1));
   }
   patterns.push_back(ReadLook(row, 2, names));
 }
 
 void ReadBegins(const TableRow& row, const UnitNames& names, ExpressionTable& expressions) {
   Expression& expression = expressions[row.Name(1, "an emotion's name")];
-  const auto pattern = static_cast<std::size_t>(row.Number(2, "a pattern number", 1, 100));
-  if (pattern > expression.patterns.size()) row.Fail("a pattern that stands above expected");
+  const auto pattern = static_cast<std::size_t>(row.Within<double>(2, 1, 100, "a pattern number"));
+  if (pattern > expression.patterns.size()) row.Refuse("a pattern that stands above expected");
   FaceLook begins = ReadLook(row, 3, names);
   for (const Side side : kSides) {
     for (const float from : begins.au[side]) {
-      if (from > 0.9F) row.Fail("strengths from 0 to 0.9 expected");
+      if (from > 0.9F) row.Refuse("strengths from 0 to 0.9 expected");
     }
-    if (begins.gaze[side] != EyeAngles{}) row.Fail("action units expected, and no gaze");
+    if (begins.gaze[side] != EyeAngles{}) row.Refuse("action units expected, and no gaze");
   }
   expression.begins.resize(expression.patterns.size());
   expression.begins[pattern - 1] = std::move(begins);
@@ -82,7 +82,7 @@ vm::Result<ExpressionTable> ReadExpressions(const std::string& name, std::string
       }
     }
     for (const auto& [word, expression] : expressions) {
-      if (expression.patterns.empty()) table.Fail("'" + word + "' has no pattern 1");
+      if (expression.patterns.empty()) table.Refuse("'" + word + "' has no pattern 1");
     }
     return expressions;
   });

@@ -46,9 +46,10 @@ void ReadFields(const TableRow& row, const UnitNames&, MotionPatterns& all) {
 
 void ReadBlink(const TableRow& row, const UnitNames&, MotionPatterns& all) {
   CheckNextPattern(row, all.auto_blinks.size());
-  if (row.size() != 4) row.Fail("AUTOBLINK PATTERN INTERVAL BLINK expected");
-  const double interval_ms = row.Number(2, "INTERVAL", 500, 3'600'000);
-  const double blink = row.Number(3, "a BLINK above", 1, static_cast<double>(all.blinks.size()));
+  if (row.size() != 4) row.Refuse("AUTOBLINK PATTERN INTERVAL BLINK expected");
+  const double interval_ms = row.Within<double>(2, 500, 3'600'000, "INTERVAL");
+  const double blink =
+      row.Within<double>(3, 1, static_cast<double>(all.blinks.size()), "a BLINK above");
   all.auto_blinks.push_back({interval_ms, static_cast<std::size_t>(blink) - 1, true});
 }
 

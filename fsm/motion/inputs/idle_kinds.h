@@ -19,7 +19,7 @@ struct IdleKindRow {
   std::string_view help;  ///< the text after the name in the help
   /// Returns the number of patterns; 1 for a kind that is only on or off.
   std::size_t (*count)(const MotionPatterns&);
-  /// Reads one of its AUTO lines; an error is reported by TableRow::Fail. Null if it has none.
+  /// Reads one of its AUTO lines; an error is reported by TableRow::Refuse. Null if it has none.
   void (*read)(const TableRow&, const UnitNames&, MotionPatterns&);
   vm::Time fade;              ///< the time in which it fades in or out
   bool moves_always = false;  ///< the face never stands still while it is on

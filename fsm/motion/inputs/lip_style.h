@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace fsm {
@@ -17,6 +19,10 @@ enum class Language {
 enum class VisemeSetId { k14 = 14, k28 = 28 };
 inline constexpr std::array kVisemeSets = {VisemeSetId::k14, VisemeSetId::k28};
 constexpr std::size_t CountOf(VisemeSetId set) { return static_cast<std::size_t>(set); }
+constexpr std::optional<VisemeSetId> SetOfCount(std::size_t count) {
+  const auto* const found = std::ranges::find(kVisemeSets, count, CountOf);
+  return found == kVisemeSets.end() ? std::nullopt : std::optional(*found);
+}
 
 /// The interpolation of the lips between sounds.
 enum class LipMode {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "fsm/motion/base/track.h"
 #include "fsm/motion/inputs/idle_switches.h"
 #include "fsm/motion/inputs/motion_settings.h"
 #include "fsm/motion/inputs/motion_tables.h"
@@ -18,6 +19,7 @@ struct MotionInputs {
 
   MotionTables tables;
   MotionSettings settings;
+  Track<float> mouth_scale{static_cast<float>(settings.mouth_scale)};  ///< without its jumps
   IdleSwitches switches{tables.motions};
   const std::uint64_t seed;  ///< of everything random
 };

@@ -20,16 +20,16 @@ constexpr std::array kBlinkFields = {PatternField{"CLOSING", &BlinkPattern::clos
                                      PatternField{"OPENING", &BlinkPattern::opening_ms, 1}};
 
 void AddKey(const TableRow& row, std::vector<HeadCurve::Key>& keys) {
-  if (row.size() != 4) row.Fail("a key frame 'ms x y z' expected");
+  if (row.size() != 4) row.Refuse("a key frame 'ms x y z' expected");
   HeadCurve::Key key;
-  key.ms = row.Number(0, "a time in ms", 0, 86400000);
+  key.ms = row.Within<double>(0, 0, 86400000, "a time in ms");
   if (key.ms <= (keys.empty() ? 0 : keys.back().ms)) {
-    row.Fail(fmt::format("{:g} ms is not after the key before it", key.ms));
+    row.Refuse(fmt::format("{:g} ms is not after the key before it", key.ms));
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    key.angles[axis] = static_cast<float>(row.Number(1 + axis, "an angle in degrees", -180, 180));
+    key.angles[axis] = row.Within(1 + axis, -180, 180, "an angle in degrees");
   }
-  if (keys.size() == kMaxKeys) row.Fail("too many key frames");
+  if (keys.size() == kMaxKeys) row.Refuse("too many key frames");
   keys.push_back(key);
 }
 
@@ -38,9 +38,9 @@ bool StartsWithNumber(const TableRow& row) { return ParseNumber(row.key()).has_v
 }  // namespace
 
 void CheckNextPattern(const TableRow& row, std::size_t have) {
-  const double pattern = row.Number(1, "a pattern number", 1, 10000);
+  const double pattern = row.Within<double>(1, 1, 10000, "a pattern number");
   if (pattern != static_cast<double>(have + 1)) {
-    row.Fail(fmt::format("pattern {:g} found, {} expected next", pattern, have + 1));
+    row.Refuse(fmt::format("pattern {:g} found, {} expected next", pattern, have + 1));
   }
 }
 
@@ -58,7 +58,7 @@ vm::Result<HeadCurve> ReadMotionFile(const std::string& name, std::string_view t
         AddKey(row, keys);
       }
     }
-    if (keys.empty()) table.Fail("no key frame 'ms x y z' found");
+    if (keys.empty()) table.Refuse("no key frame 'ms x y z' found");
     return HeadCurve(std::move(keys));
   });
 }
@@ -102,8 +102,8 @@ class MotionReader {
     for (const IdleKindRow& idle : IdleKinds()) {
       if (idle.read != nullptr) lines += fmt::format(", {}{}", kAuto, idle.name);
     }
-    row.Fail(fmt::format("'{}' found; NOD, REFUSE, LISTEN, USERDEF, BLINK, MOOD, LIFE{} expected",
-                         row.key(), lines));
+    row.Refuse(fmt::format("'{}' found; NOD, REFUSE, LISTEN, USERDEF, BLINK, MOOD, LIFE{} expected",
+                           row.key(), lines));
   }
 
   /// Also reads the key frames in the rows below this one.
@@ -112,26 +112,26 @@ class MotionReader {
     CheckNextPattern(row, curves.size());
     std::vector<HeadCurve::Key> keys;
     while (next_ < rows_.size() && StartsWithNumber(rows_[next_])) AddKey(rows_[next_++], keys);
-    if (keys.empty()) row.Fail("key frames 'ms x y z' expected below");
+    if (keys.empty()) row.Refuse("key frames 'ms x y z' expected below");
     curves.emplace_back(std::move(keys));
   }
 
   void ReadMood(const TableRow& row) {
     if (row.size() < 3 || row.Word(1) == "NEUTRAL") {
-      row.Fail("MOOD NAME AU:WEIGHT ... expected, the name not NEUTRAL");
+      row.Refuse("MOOD NAME AU:WEIGHT ... expected, the name not NEUTRAL");
     }
     out_.moods[row.Word(1)] = ReadLook(row, 2, units_);
   }
 
   void ReadProfile(const TableRow& row) {
-    if (row.size() < 2 || row.size() % 2 != 0) row.Fail("LIFE NAME KIND PATTERN ... expected");
+    if (row.size() < 2 || row.size() % 2 != 0) row.Refuse("LIFE NAME KIND PATTERN ... expected");
     IdleProfile profile{};
     for (std::size_t i = 2; i < row.size(); i += 2) {
       const auto kind = IdleKindNamed(row.Word(i));
-      if (!kind) row.Fail(fmt::format("'{}' found, a kind of Autonomous expected", row.Word(i)));
+      if (!kind) row.Refuse(fmt::format("'{}' found, a kind of Autonomous expected", row.Word(i)));
       const auto patterns = static_cast<double>(RowOf(*kind).count(out_));
       profile[static_cast<std::size_t>(*kind)] =
-          static_cast<std::size_t>(row.Number(i + 1, "a pattern given above", 0, patterns));
+          static_cast<std::size_t>(row.Within<double>(i + 1, 0, patterns, "a pattern given above"));
     }
     out_.profiles[row.Word(1)] = profile;
   }

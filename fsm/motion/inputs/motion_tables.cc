@@ -1,5 +1,6 @@
 #include "fsm/motion/inputs/motion_tables.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "embedded/action_unit_list.h"
@@ -25,6 +26,34 @@
 namespace fsm {
 namespace {
 
+/// A table's file and its built-in text.
+struct TableSource {
+  std::string_view file;
+  std::string_view (*built_in)();
+};
+constexpr TableSource kSources[] = {{"action_unit_list.txt", embedded::action_unit_list},
+                                    {kUnitNamesTable, embedded::action_unit_names},
+                                    {"arkit.txt", embedded::arkit},
+                                    {"dominance.txt", embedded::dominance},
+                                    {"emotion_space.txt", embedded::emotion_space},
+                                    {"emotions.txt", embedded::emotions},
+                                    {"gestures.txt", embedded::gestures},
+                                    {"mixing.txt", embedded::mixing},
+                                    {"motions.txt", embedded::motions},
+                                    {"mouth_shapes.txt", embedded::mouth_shapes},
+                                    {"mouth_shapes_28.txt", embedded::mouth_shapes_28},
+                                    {"phoneme_names.txt", embedded::phoneme_names},
+                                    {"phonemes28_en.txt", embedded::phonemes28_en},
+                                    {"phonemes28_ja.txt", embedded::phonemes28_ja},
+                                    {"phonemes_en.txt", embedded::phonemes_en},
+                                    {"phonemes_ja.txt", embedded::phonemes_ja},
+                                    {"text_cues.txt", embedded::text_cues}};
+
+/// Returns the table of a file; one that is not listed above does not compile.
+consteval TableSource Source(std::string_view file) {
+  return *std::ranges::find(kSources, file, &TableSource::file);
+}
+
 /// Reads tables one after the other and stores the first error.
 class Loader {
  public:
@@ -32,16 +61,15 @@ class Loader {
 
   /// `read(name, text, others...)` returns vm::Result<T>.
   template <typename T, typename Read, typename... Others>
-  void Get(T& out, const std::string& file, std::string_view built_in, const Read& read,
-           Others&&... others) {
+  void Get(T& out, const TableSource& source, const Read& read, Others&&... others) {
     if (error_) return;
-    const auto own = folder_.Find(file);
+    const auto own = folder_.Find(source.file);
     if (!own) {
       error_ = own.error();
       return;
     }
-    auto table =
-        *own ? read((*own)->path, (*own)->text, others...) : read(file, built_in, others...);
+    auto table = *own ? read((*own)->path, (*own)->text, others...)
+                      : read(std::string(source.file), source.built_in(), others...);
     if (table) {
       out = std::move(*table);
     } else {
@@ -55,30 +83,28 @@ class Loader {
   std::optional<vm::Error> error_;
 };
 
+/// The tables of a set of visemes.
+struct VisemeSources {
+  VisemeSetId set;
+  TableSource shapes, japanese, english;
+};
+constexpr VisemeSources kVisemeSources[] = {
+    {VisemeSetId::k14, Source("mouth_shapes.txt"), Source("phonemes_ja.txt"),
+     Source("phonemes_en.txt")},
+    {VisemeSetId::k28, Source("mouth_shapes_28.txt"), Source("phonemes28_ja.txt"),
+     Source("phonemes28_en.txt")}};
+
 void LoadMouth(Loader& loader, MotionTables& out) {
-  Visemes& visemes14 = out.set14.visemes;
-  Visemes& visemes28 = out.set28.visemes;
-  loader.Get(visemes14, "mouth_shapes.txt", embedded::mouth_shapes(), ReadVisemes,
-             VisemeSetId::k14);
-  loader.Get(visemes28, "mouth_shapes_28.txt", embedded::mouth_shapes_28(), ReadVisemes,
-             VisemeSetId::k28);
-  loader.Get(out.reach, "dominance.txt", embedded::dominance(), ReadDominance, visemes14,
-             visemes28);
-  const auto phonemes = [&loader](PhonemeTable& table, const char* file, std::string_view built_in,
-                                  const Visemes& visemes) {
-    loader.Get(table, file, built_in, ReadPhonemeTable, visemes);
-  };
-  phonemes(out.set14.japanese, "phonemes_ja.txt", embedded::phonemes_ja(), visemes14);
-  phonemes(out.set14.english, "phonemes_en.txt", embedded::phonemes_en(), visemes14);
-  phonemes(out.set28.japanese, "phonemes28_ja.txt", embedded::phonemes28_ja(), visemes28);
-  phonemes(out.set28.english, "phonemes28_en.txt", embedded::phonemes28_en(), visemes28);
-  for (const VisemeSetId which : kVisemeSets) {
-    VisemeSet& set = out.set(which);
+  for (const auto& [id, shapes, japanese, english] : kVisemeSources) {
+    VisemeSet& set = out.sets[id];
+    loader.Get(set.visemes, shapes, ReadVisemes, id);
+    loader.Get(set.japanese, japanese, ReadPhonemeTable, set.visemes);
+    loader.Get(set.english, english, ReadPhonemeTable, set.visemes);
     const Viseme* const rest = FindViseme(set.visemes, "rest");
     if (rest != nullptr) set.rest = static_cast<std::size_t>(rest - set.visemes.data());
   }
-  loader.Get(out.engines, "phoneme_names.txt", embedded::phoneme_names(), ReadPhonemeNames,
-             out.set28);
+  loader.Get(out.reach, Source("dominance.txt"), ReadDominance, out.sets);
+  loader.Get(out.engines, Source("phoneme_names.txt"), ReadPhonemeNames, out.set(VisemeSetId::k28));
 }
 
 vm::Result<GestureNumbers> ReadGestures(const std::string& name, std::string_view text) {
@@ -89,21 +115,26 @@ vm::Result<GestureNumbers> ReadGestures(const std::string& name, std::string_vie
 
 }  // namespace
 
+std::vector<std::string_view> MotionTables::Files() {
+  std::vector<std::string_view> files;
+  for (const TableSource& source : kSources) files.push_back(source.file);
+  return files;
+}
+
 vm::Result<MotionTables> MotionTables::Load(const TableFolder& folder) {
   MotionTables out;
   Loader loader(folder);
   LoadMouth(loader, out);
-  loader.Get(out.unit_names, "action_unit_names.txt", embedded::action_unit_names(), ReadUnitNames);
+  loader.Get(out.unit_names, Source(kUnitNamesTable), ReadUnitNames);
   const UnitNames& names = out.unit_names;
-  loader.Get(out.expressions, "emotions.txt", embedded::emotions(), ReadExpressions, names);
-  loader.Get(out.emotion_space, "emotion_space.txt", embedded::emotion_space(), ReadEmotionSpace,
-             names);
-  loader.Get(out.motions, "motions.txt", embedded::motions(), ReadMotions, names);
-  loader.Get(out.units, "action_unit_list.txt", embedded::action_unit_list(), ReadUnitList, names);
-  loader.Get(out.blend_shapes, "arkit.txt", embedded::arkit(), ReadBlendShapes, names);
-  loader.Get(out.mixer, "mixing.txt", embedded::mixing(), Mixer::Read);
-  loader.Get(out.text_cues, "text_cues.txt", embedded::text_cues(), ReadTextCues, names);
-  loader.Get(out.gestures, "gestures.txt", embedded::gestures(), ReadGestures);
+  loader.Get(out.expressions, Source("emotions.txt"), ReadExpressions, names);
+  loader.Get(out.emotion_space, Source("emotion_space.txt"), ReadEmotionSpace, names);
+  loader.Get(out.motions, Source("motions.txt"), ReadMotions, names);
+  loader.Get(out.unit_list, Source("action_unit_list.txt"), ReadUnitList, names);
+  loader.Get(out.blend_shapes, Source("arkit.txt"), ReadBlendShapes, names);
+  loader.Get(out.mixer, Source("mixing.txt"), Mixer::Read);
+  loader.Get(out.text_cues, Source("text_cues.txt"), ReadTextCues, names);
+  loader.Get(out.gestures, Source("gestures.txt"), ReadGestures);
   if (loader.error()) return std::unexpected(*loader.error());
   return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "embedded/gesture_numbers.h"
@@ -16,24 +17,28 @@
 
 namespace fsm {
 
+inline constexpr std::string_view kUnitNamesTable = "action_unit_names.txt";
+
 /// The contents of all tables of motion. A plain value.
 struct MotionTables {
-  VisemeSet set14, set28;
+  std::map<VisemeSetId, VisemeSet> sets;  ///< all of kVisemeSets
   std::vector<EngineNames> engines;
   DominanceReach reach;
   ExpressionTable expressions;
   EmotionSpace emotion_space;
   MotionPatterns motions;
-  UnitList units;
+  UnitList unit_list;
   UnitNames unit_names;
   BlendShapes blend_shapes;
   Mixer mixer;
   TextCues text_cues;
   GestureNumbers gestures;  ///< gestures.txt explains each number
 
-  VisemeSet& set(VisemeSetId id) { return id == VisemeSetId::k14 ? set14 : set28; }
-  const VisemeSet& set(VisemeSetId id) const { return id == VisemeSetId::k14 ? set14 : set28; }
+  VisemeSet& set(VisemeSetId id) { return sets.at(id); }
+  const VisemeSet& set(VisemeSetId id) const { return sets.at(id); }
 
+  /// The names of their files.
+  static std::vector<std::string_view> Files();
   /// Loads the tables: those in `folder`, and the built-in ones for the rest. Errors: kBadValue
   /// with file and line; kUnavailable if the folder or a file cannot be read.
   static vm::Result<MotionTables> Load(const TableFolder& folder = {});

@@ -15,7 +15,7 @@ template <typename Pattern>
 struct PatternField {
   std::string_view name;
   double Pattern::*place;
-  double least = 0;
+  double min = 0;
 };
 
 /// Checks that the pattern number of a line KIND PATTERN ... is `have` + 1. Throws TableError.
@@ -29,12 +29,12 @@ void ReadPatternFields(const TableRow& row, std::vector<Pattern>& patterns,
   if (row.size() != kCount + 2) {
     std::string names;
     for (const auto& field : fields) names += " " + std::string(field.name);
-    row.Fail(row.key() + " PATTERN" + names + " expected");
+    row.Refuse(row.key() + " PATTERN" + names + " expected");
   }
-  constexpr double kMost = 3'600'000;
+  constexpr double kMax = 3'600'000;
   Pattern& pattern = patterns.emplace_back();
   for (std::size_t i = 0; i < kCount; ++i) {
-    pattern.*fields[i].place = row.Number(2 + i, fields[i].name, fields[i].least, kMost);
+    pattern.*fields[i].place = row.Within<double>(2 + i, fields[i].min, kMax, fields[i].name);
   }
 }
 

@@ -26,7 +26,7 @@ namespace {
 
 EngineNames ReadEngine(const TableRow& row) {
   if (row.size() != 3 || (row.Word(2) != "EN" && row.Word(2) != "JP")) {
-    row.Fail("engine NAME EN|JP expected");
+    row.Refuse("engine NAME EN|JP expected");
   }
   const auto language = row.Word(2) == "EN" ? Language::kEnglish : Language::kJapanese;
   return {row.Word(1), language, {}, {}};
@@ -34,12 +34,12 @@ EngineNames ReadEngine(const TableRow& row) {
 
 /// Reads pairs of an engine's name and ours, which must be in `known`.
 void ReadPairs(const TableRow& row, const PhonemeTable& known, EngineNames& names) {
-  if (row.size() % 2 != 0) row.Fail("pairs of an engine's name and ours expected");
+  if (row.size() % 2 != 0) row.Refuse("pairs of an engine's name and ours expected");
   for (std::size_t i = 0; i < row.size(); i += 2) {
     const std::string& ours = row.Word(i + 1);
-    if (!known.contains(ours)) row.Fail("'" + ours + "' is no phoneme of ours");
+    if (!known.contains(ours)) row.Refuse("'" + ours + "' is no phoneme of ours");
     if (!names.ours.emplace(row.Word(i), ours).second) {
-      row.Fail("the name '" + row.Word(i) + "' is here twice");
+      row.Refuse("the name '" + row.Word(i) + "' is here twice");
     }
   }
 }
@@ -55,7 +55,7 @@ vm::Result<std::vector<EngineNames>> ReadPhonemeNames(const std::string& name,
         engines.push_back(ReadEngine(row));
         continue;
       }
-      if (engines.empty()) row.Fail("engine NAME EN|JP expected first");
+      if (engines.empty()) row.Refuse("engine NAME EN|JP expected first");
       EngineNames& names = engines.back();
       if (row.key() == "strip") {
         names.endings.assign(row.words().begin() + 1, row.words().end());

@@ -13,7 +13,7 @@ struct TextLook {
   std::string name;
   bool at_end = false;  ///< shown at the end of the sentence, else throughout
   Angles head_rotation{};
-  FaceLook units;
+  FaceLook look;
 };
 
 /// Looks, and the words that cause them. A plain value.

@@ -17,7 +17,7 @@ constexpr std::size_t kShapeValues = kMouthParameters + 3;
 /// The name and the bounds of a value in a row.
 struct ShapeValue {
   std::string what;
-  double lowest, highest;
+  double min, max;
 };
 ShapeValue ValueAt(std::size_t index) {
   switch (index) {
@@ -39,6 +39,14 @@ MouthPose Mix(const MouthPose& a, const MouthPose& b, double share_of_b) {
           Mix(a.tongue, b.tongue, share_of_b), Mix(a.contact, b.contact, share_of_b)};
 }
 
+FaceState StateOf(const Viseme& viseme) {
+  FaceState state;
+  state.mouth = viseme.pose.mouth;
+  state.seal = viseme.pose.seal;
+  state.tongue = viseme.pose.tongue;
+  return state;
+}
+
 vm::Result<void> ReadVisemeValues(const std::vector<std::string>& words, std::size_t first,
                                   Viseme& viseme) {
   const std::size_t count = words.size() - std::min(first, words.size());
@@ -50,12 +58,12 @@ vm::Result<void> ReadVisemeValues(const std::vector<std::string>& words, std::si
   }
   Viseme out = viseme;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto [what, lowest, highest] = ValueAt(i);
+    const auto [what, min, max] = ValueAt(i);
     const auto value = ParseNumber(words[first + i]);
-    if (!value || *value < lowest || *value > highest) {
+    if (!value || *value < min || *value > max) {
       return vm::Fail(vm::Errc::kBadValue,
                       fmt::format("'{}' found, {} expected, a number from {:g} to {:g}",
-                                  words[first + i], what, lowest, highest));
+                                  words[first + i], what, min, max));
     }
     if (i < kMouthParameters) out.pose.mouth[i] = static_cast<float>(*value);
     if (i == kMouthParameters) out.pose.seal = static_cast<float>(*value);
@@ -81,14 +89,14 @@ namespace {
 
 Viseme ReadViseme(const TableRow& row) {
   if (row.size() != 1 + kShapeValues) {
-    row.Fail(
+    row.Refuse(
         fmt::format("{} words found; a name, 17 mouth parameters, seal, tongue and hold "
                     "expected",
                     row.size()));
   }
   Viseme viseme;
   viseme.name = row.key();
-  if (auto read = ReadVisemeValues(row.words(), 1, viseme); !read) row.Fail(read.error().text);
+  if (auto read = ReadVisemeValues(row.words(), 1, viseme); !read) row.Refuse(read.error().text);
   return viseme;
 }
 
@@ -96,17 +104,18 @@ int VisemeAt(const TableRow& row, std::size_t word, const Visemes& visemes) {
   const std::string& name = row.Word(word);
   if (name == "next") return PhonemeVisemes::kNext;
   const Viseme* const viseme = FindViseme(visemes, name);
-  if (viseme == nullptr) row.Fail("'" + name + "' is neither a mouth shape nor 'next'");
+  if (viseme == nullptr) row.Refuse("'" + name + "' is neither a mouth shape nor 'next'");
   return static_cast<int>(viseme - visemes.data());
 }
 
 PhonemeVisemes ReadPhonemeVisemes(const TableRow& row, const Visemes& visemes) {
   if (row.size() != 3 && row.size() != 5) {
-    row.Fail("a phoneme, then one or two pairs of shape and strength expected");
+    row.Refuse("a phoneme, then one or two pairs of shape and strength expected");
   }
   PhonemeVisemes out;
   for (std::size_t i = 1; i < row.size(); i += 2) {
-    out.phases.push_back({VisemeAt(row, i, visemes), row.Number(i + 1, "a strength", 0, 2)});
+    out.phases.push_back(
+        {VisemeAt(row, i, visemes), row.Within<double>(i + 1, 0, 2, "a strength")});
   }
   return out;
 }
@@ -115,31 +124,35 @@ PhonemeVisemes ReadPhonemeVisemes(const TableRow& row, const Visemes& visemes) {
 void ReadDominanceOf(const TableRow& row, Viseme& viseme) {
   const std::string& kind = row.Word(3);
   if (kind != "vowel" && kind != "consonant" && kind != "pause") {
-    row.Fail("'" + kind + "' found; vowel, consonant or pause expected");
+    row.Refuse("'" + kind + "' found; vowel, consonant or pause expected");
   }
-  const auto dominance = [&](std::size_t word) { return row.Number(word, "a dominance", 0, 1); };
-  viseme.dominance = {.jaw = dominance(4),
-                      .lips = dominance(5),
-                      .round = dominance(6),
-                      .tongue = dominance(7),
-                      .early_ms = std::max(1.0, row.Number(8, "ms of anticipation", 0, 500)),
-                      .vowel = kind == "vowel"};
-  viseme.pose.contact = static_cast<float>(row.Number(9, "a contact", 0, 1));
+  const auto dominance = [&](std::size_t word) {
+    return row.Within<double>(word, 0, 1, "a dominance");
+  };
+  viseme.dominance = {
+      .jaw = dominance(4),
+      .lips = dominance(5),
+      .round = dominance(6),
+      .tongue = dominance(7),
+      .early_ms = std::max(1.0, row.Within<double>(8, 0, 500, "ms of anticipation")),
+      .vowel = kind == "vowel"};
+  viseme.pose.contact = row.Within(9, 0, 1, "a contact");
 }
 
 /// Reads the row of a viseme into it, and returns it.
-const Viseme* ReadShapeRow(const TableRow& row, Visemes& set14, Visemes& set28) {
+const Viseme* ReadShapeRow(const TableRow& row, std::map<VisemeSetId, VisemeSet>& sets) {
   if (row.key() != "shape" || row.size() != 10) {
-    row.Fail(
+    row.Refuse(
         "reach BEFORE AFTER, or shape SET NAME KIND JAW LIPS ROUND TONGUE EARLY CONTACT "
         "expected");
   }
   const std::string& count = row.Word(1);
-  if (count != "14" && count != "28") row.Fail("'" + count + "' found; set 14 or 28 expected");
-  Visemes& set = count == "14" ? set14 : set28;
+  const auto id = SetOfCount(ParseNumber<std::size_t>(count).value_or(0));
+  if (!id) row.Refuse("'" + count + "' found; set 14 or 28 expected");
+  Visemes& set = sets.at(*id).visemes;
   const auto viseme = std::ranges::find(set, row.Word(2), &Viseme::name);
   if (viseme == set.end()) {
-    row.Fail("there is no mouth shape '" + row.Word(2) + "' in set " + count);
+    row.Refuse("there is no mouth shape '" + row.Word(2) + "' in set " + count);
   }
   ReadDominanceOf(row, *viseme);
   return &*viseme;
@@ -153,15 +166,15 @@ vm::Result<Visemes> ReadVisemes(const std::string& name, std::string_view text, 
     for (const TableRow& row : table.rows()) {
       Viseme viseme = ReadViseme(row);
       if (FindViseme(visemes, viseme.name) != nullptr) {
-        row.Fail("there is a shape '" + viseme.name + "' already");
+        row.Refuse("there is a shape '" + viseme.name + "' already");
       }
       visemes.push_back(std::move(viseme));
     }
     if (visemes.size() != CountOf(set)) {
-      table.Fail(fmt::format("{} shapes found, {} expected", visemes.size(), CountOf(set)));
+      table.Refuse(fmt::format("{} shapes found, {} expected", visemes.size(), CountOf(set)));
     }
     if (FindViseme(visemes, "rest") == nullptr) {
-      table.Fail("no shape 'rest', which is the mouth of pauses");
+      table.Refuse("no shape 'rest', which is the mouth of pauses");
     }
     return visemes;
   });
@@ -173,29 +186,31 @@ vm::Result<PhonemeTable> ReadPhonemeTable(const std::string& name, std::string_v
     PhonemeTable phonemes;
     for (const TableRow& row : table.rows()) {
       if (!phonemes.emplace(row.key(), ReadPhonemeVisemes(row, visemes)).second) {
-        row.Fail("the phoneme '" + row.key() + "' is here twice");
+        row.Refuse("the phoneme '" + row.key() + "' is here twice");
       }
     }
-    if (phonemes.empty()) table.Fail("no phoneme found");
+    if (phonemes.empty()) table.Refuse("no phoneme found");
     return phonemes;
   });
 }
 
 vm::Result<DominanceReach> ReadDominance(const std::string& name, std::string_view text,
-                                         Visemes& set14, Visemes& set28) {
+                                         std::map<VisemeSetId, VisemeSet>& sets) {
   return ReadTable(name, text, [&](const Table& table) {
     DominanceReach reach;
     std::set<const Viseme*> done;
     for (const TableRow& row : table.rows()) {
       if (row.key() == "reach") {
-        reach = {row.Number(1, "a reach in ms", 1, 500), row.Number(2, "a reach in ms", 1, 500)};
+        reach = {row.Within<double>(1, 1, 500, "a reach in ms"),
+                 row.Within<double>(2, 1, 500, "a reach in ms")};
       } else {
-        done.insert(ReadShapeRow(row, set14, set28));
+        done.insert(ReadShapeRow(row, sets));
       }
     }
-    for (const Visemes* set : {&set14, &set28}) {
-      for (const Viseme& viseme : *set) {
-        if (!done.contains(&viseme)) table.Fail("no row for the mouth shape '" + viseme.name + "'");
+    for (const auto& [id, set] : sets) {
+      for (const Viseme& viseme : set.visemes) {
+        if (!done.contains(&viseme))
+          table.Refuse("no row for the mouth shape '" + viseme.name + "'");
       }
     }
     return reach;

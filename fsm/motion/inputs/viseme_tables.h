@@ -41,6 +41,9 @@ struct Viseme {
   Dominance dominance;
 };
 
+/// Returns the state of a face that shows only this viseme.
+FaceState StateOf(const Viseme& viseme);
+
 /// Visemes, indexed by number. Each set has one named `rest`, the mouth of pauses.
 using Visemes = std::vector<Viseme>;
 /// Reads the values of a viseme from the words from index `first` on: 17 parameters, then seal,
@@ -90,8 +93,8 @@ struct DominanceReach {
   double before_ms = 40;
   double after_ms = 45;
 };
-/// Reads tables/dominance.txt and writes the dominances, one for each viseme, into both sets.
+/// Reads tables/dominance.txt and writes the dominances, one for each viseme, into all sets.
 vm::Result<DominanceReach> ReadDominance(const std::string& name, std::string_view text,
-                                         Visemes& set14, Visemes& set28);
+                                         std::map<VisemeSetId, VisemeSet>& sets);
 
 }  // namespace fsm

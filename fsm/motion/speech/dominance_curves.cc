@@ -11,14 +11,7 @@ namespace fsm {
 namespace {
 
 constexpr double kForever = 1e9;
-constexpr double kShortestApproach = 12, kLongestApproach = 55;  // ms; to a contact
-constexpr double kApproachPart = 0.7;    // of the sound before, taken by the approach
-constexpr double kShortestRelease = 20;  // ms; from a contact
-constexpr double kFalloff = 3;           // exp(-3) = 5 % at the reach
-constexpr double kPauseEase = 60;       // ms in which lips meet in a pause, and part before its end
-constexpr double kShortestPause = 120;  // ms; lips do not meet in shorter pauses
-constexpr double kClosureOverlap = 24;  // ms; the transition between adjacent closures
-constexpr double kClosureJawShare = 0.75;  // part of the jaw's opening that a lip closure removes
+constexpr double kFalloff = 3;  // exp(-3) = 5 % at the reach
 
 // The dominance that applies to each MouthParameter: that of jaw, opening of the lips, or rounding.
 enum Group : std::size_t { kJaw, kLips, kRound, kTongue, kGroups };
@@ -34,62 +27,64 @@ double Falloff(double distance_ms, double reach_ms) {
 }  // namespace
 
 double DominanceCurves::ContactEnvelope::At(double position_ms) const {
-  const auto part = [](double begin, double end, double at) {
+  const auto share = [](double begin, double end, double at) {
     return end <= begin ? (at >= end ? 1.0 : 0.0) : SmoothStep((at - begin) / (end - begin));
   };
-  return std::min(part(rise, from, position_ms), 1 - part(to, fall, position_ms));
+  return std::min(share(rise, from, position_ms), 1 - share(to, fall, position_ms));
 }
 
-DominanceCurves::DominanceCurves(const VisemeTargets& visemes, const DominanceReach& reach)
-    : reach_(reach) {
+DominanceCurves::DominanceCurves(const VisemeTargets& targets, const DominanceReach& reach,
+                                 const GestureNumbers& sizes)
+    : reach_(reach), contact_(sizes.contact) {
   VisemeTarget rest;
-  rest.pose = visemes.rest;
-  rest.dominance = visemes.rest_dominance;
+  rest.pose = targets.rest;
+  rest.dominance = targets.rest_dominance;
   rest.pause = true;
   rest.length_ms = kForever;
   rest.start_ms = -kForever;
   sounds_.push_back({rest, 0, {}});
   longest_reach_ms_ = std::max(reach.before_ms, reach.after_ms);
-  for (const VisemeTarget& viseme : visemes.targets) {
-    sounds_.push_back({viseme, viseme.start_ms + viseme.length_ms, {}});
-    longest_reach_ms_ = std::max(longest_reach_ms_, viseme.dominance.early_ms);
+  for (const VisemeTarget& target : targets.all) {
+    sounds_.push_back({target, target.start_ms + target.length_ms, {}});
+    longest_reach_ms_ = std::max(longest_reach_ms_, target.dominance.early_ms);
   }
-  rest.start_ms = visemes.length_ms;
-  sounds_.push_back({rest, visemes.length_ms + kForever, {}});
+  rest.start_ms = targets.length_ms;
+  sounds_.push_back({rest, targets.length_ms + kForever, {}});
   PlaceContacts();
 }
 
 void DominanceCurves::PlaceContacts() {
   const auto closes = [this](std::size_t i) {
-    const VisemeTarget& viseme = sounds_[i].viseme;
-    return viseme.pose.seal > 0 && !(viseme.pause && viseme.length_ms < kShortestPause);
+    const VisemeTarget& target = sounds_[i].target;
+    return target.pose.seal > 0 && !(target.pause && target.length_ms < contact_.pause);
   };
   for (std::size_t i = 0; i < sounds_.size(); ++i) {
     Sound& sound = sounds_[i];
-    const VisemeTarget& viseme = sound.viseme;
-    if (viseme.pose.contact <= 0) continue;
-    if (viseme.pause && viseme.length_ms < kShortestPause) continue;
+    const VisemeTarget& target = sound.target;
+    if (target.pose.contact <= 0) continue;
+    if (target.pause && target.length_ms < contact_.pause) continue;
     const bool closed_before = i == 0 || (closes(i) && closes(i - 1));
     const bool closed_after = i + 1 == sounds_.size() || (closes(i) && closes(i + 1));
-    const double start = viseme.start_ms;
+    const double start = target.start_ms;
     ContactEnvelope contact{};
-    if (viseme.pause) {
+    if (target.pause) {
       // The lips meet after the end of the sound before, and part before the next one begins.
-      contact = {start, start + kPauseEase, sound.end_ms - kPauseEase, sound.end_ms};
+      contact = {start, start + contact_.ease, sound.end_ms - contact_.ease, sound.end_ms};
     } else {
-      const double before = i == 0 ? kLongestApproach : sounds_[i - 1].viseme.length_ms;
-      const double to = start + std::min(viseme.hold_ms, viseme.length_ms);
-      contact = {start - std::clamp(kApproachPart * before, kShortestApproach, kLongestApproach),
-                 start, to, std::max(sound.end_ms, to + kShortestRelease)};
+      const double min = contact_.approach.from, max = contact_.approach.to;
+      const double before = i == 0 ? max : sounds_[i - 1].target.length_ms;
+      const double to = start + std::min(target.hold_ms, target.length_ms);
+      contact = {start - std::clamp(contact_.part / 100.0 * before, min, max), start, to,
+                 std::max(sound.end_ms, to + contact_.release)};
     }
     // Between adjacent closures the lips stay closed; their shape is blended from one to the other.
     if (closed_before) {
-      contact.rise = start - kClosureOverlap;
+      contact.rise = start - contact_.overlap;
       contact.from = start;
     }
     if (closed_after) {
       contact.to = sound.end_ms;
-      contact.fall = sound.end_ms + kClosureOverlap;
+      contact.fall = sound.end_ms + contact_.overlap;
     }
     sound.contact = contact;
   }
@@ -108,29 +103,29 @@ class DominanceCurves::Blend {
     tongue_ += dominance[kTongue] * target.tongue;
   }
 
-  void AddContact(const MouthPose& target, double made01) {
+  void AddContact(const MouthPose& target, double made01, double jaw_part) {
     const double contact = made01 * target.contact;
     pose_.seal = std::max(pose_.seal, static_cast<float>(made01 * target.seal));
     pose_.contact = std::max(pose_.contact, static_cast<float>(contact));
     contacts_ += contact;
-    jaw_share_sum_ += contact * (target.seal > 0 ? kClosureJawShare : 1);
+    jaw_share_sum_ += contact * (target.seal > 0 ? jaw_part : 1);
     for (std::size_t p = 0; p < kMouthParameters; ++p) {
       held_.mouth[p] += static_cast<float>(contact * target.mouth[p]);
     }
   }
 
   MouthPose Pose() const {
-    constexpr double kLeast = 1e-6;  // below this sum of dominances the mouth is at rest
+    constexpr double kMinSum = 1e-6;  // below this sum of dominances the mouth is at rest
     MouthPose pose = pose_;
     for (std::size_t p = 0; p < kMouthParameters; ++p) {
-      double value = mouth_[p] / (weight_[kGroupOf[p]] + kLeast);
+      double value = mouth_[p] / (weight_[kGroupOf[p]] + kMinSum);
       if (contacts_ > 0) {
         const double share = pose.contact * (kGroupOf[p] == kJaw ? jaw_share_sum_ / contacts_ : 1);
         value += share * (held_.mouth[p] / contacts_ - value);
       }
       pose.mouth[p] = static_cast<float>(value);
     }
-    pose.tongue = static_cast<float>(tongue_ / (weight_[kTongue] + kLeast));
+    pose.tongue = static_cast<float>(tongue_ / (weight_[kTongue] + kMinSum));
     return pose;
   }
 
@@ -150,15 +145,15 @@ MouthPose DominanceCurves::At(double position_ms) const {
   const auto first = std::ranges::partition_point(
       sounds_, [&](const Sound& s) { return s.end_ms + longest_reach_ms_ * 3 < position_ms; });
   for (auto s = first; s != sounds_.end(); ++s) {
-    const VisemeTarget& viseme = s->viseme;
-    if (viseme.start_ms - longest_reach_ms_ * 3 > position_ms) break;
-    const Dominance& d = viseme.dominance;
-    const bool early = position_ms < viseme.start_ms;
-    const double distance = std::max({viseme.start_ms - position_ms, position_ms - s->end_ms, 0.0});
+    const VisemeTarget& target = s->target;
+    if (target.start_ms - longest_reach_ms_ * 3 > position_ms) break;
+    const Dominance& d = target.dominance;
+    const bool early = position_ms < target.start_ms;
+    const double distance = std::max({target.start_ms - position_ms, position_ms - s->end_ms, 0.0});
     const double near = Falloff(distance, early ? reach_.before_ms : reach_.after_ms);
     const double round = Falloff(distance, early ? d.early_ms : reach_.after_ms);
-    blend.Add(viseme.pose, {d.jaw * near, d.lips * near, d.round * round, d.tongue * near});
-    if (s->contact) blend.AddContact(viseme.pose, s->contact->At(position_ms));
+    blend.Add(target.pose, {d.jaw * near, d.lips * near, d.round * round, d.tongue * near});
+    if (s->contact) blend.AddContact(target.pose, s->contact->At(position_ms), contact_.jaw);
   }
   return blend.Pose();
 }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "embedded/gesture_numbers.h"
 #include "fsm/motion/speech/viseme_target.h"
 
 namespace fsm {
@@ -22,12 +23,13 @@ namespace fsm {
 ///
 /// Contacts are not undershot: a sound whose shape has one (p b m; f v; w) moves the lips
 /// completely to its target, which they reach at its start and keep for its hold time. The approach
-/// takes at most 55 ms and lies within the sound before. The start of a phoneme is thus the instant
-/// at which a closure is complete, and at which any other sound is halfway to its target. In pauses
-/// of 120 ms or more the lips meet.
+/// lies within the sound before. The start of a phoneme is thus the instant at which a closure is
+/// complete, and at which any other sound is halfway to its target. In longer pauses the lips meet.
 class DominanceCurves {
  public:
-  DominanceCurves(const VisemeTargets& visemes, const DominanceReach& reach);
+  /// `sizes`: gestures.txt.
+  DominanceCurves(const VisemeTargets& targets, const DominanceReach& reach,
+                  const GestureNumbers& sizes);
   MouthPose At(double position_ms) const;
 
  private:
@@ -37,7 +39,7 @@ class DominanceCurves {
     double At(double position_ms) const;
   };
   struct Sound {
-    VisemeTarget viseme;
+    VisemeTarget target;
     double end_ms;
     std::optional<ContactEnvelope> contact;
   };
@@ -46,6 +48,7 @@ class DominanceCurves {
 
   std::vector<Sound> sounds_;  // in order of time; the first and the last are rest and unbounded
   DominanceReach reach_;
+  decltype(GestureNumbers::contact) contact_;
   double longest_reach_ms_ = 0;
 };
 

@@ -17,11 +17,11 @@ vm::Result<void> MouthStream::Add(vm::Time now, vm::Time at, const MouthPose& po
                                   const std::optional<StreamHead>& head) {
   while (frames_.size() > 1 && FadedAt(frames_[1]) < now) frames_.pop_front();
   while (!frames_.empty() && frames_.back().at >= at) frames_.pop_back();
-  if (frames_.size() >= kMostFrames) {
-    return vm::Fail(vm::Errc::kLimit, "more than " + std::to_string(kMostFrames) +
+  if (frames_.size() >= kMaxFrames) {
+    return vm::Fail(vm::Errc::kLimit, "more than " + std::to_string(kMaxFrames) +
                                           " frames of the mouth wait for their time");
   }
-  const bool follows = !frames_.empty() && at - frames_.back().at <= kLongestGap;
+  const bool follows = !frames_.empty() && at - frames_.back().at <= kMaxGap;
   frames_.push_back({at, follows ? frames_.back().run_start : at, pose, head});
   return {};
 }
@@ -82,9 +82,9 @@ void MouthStream::Contribute(vm::Time t, MotionLayers& layers) const {
     MotionLayer& gestures = layers.Layer("stream_gestures");
     gestures.head_rotation = head.pose.angles;
     for (const Side side : kSides) {
-      gestures.units.au[side][kInnerBrowRaiser] =
+      gestures.look.au[side][kInnerBrowRaiser] =
           static_cast<float>(kInnerBrowRaise) * head.pose.brow;
-      gestures.units.au[side][kOuterBrowRaiser] =
+      gestures.look.au[side][kOuterBrowRaiser] =
           static_cast<float>(kOuterBrowRaise) * head.pose.brow;
     }
   }
@@ -95,7 +95,7 @@ void MouthStream::Contribute(vm::Time t, MotionLayers& layers) const {
   mouth.Contribute(mouth_scale_.At(t), "mouth_stream", layers);
 }
 
-std::optional<vm::Time> MouthStream::NextActivity(vm::Time t) const {
+std::optional<vm::Time> MouthStream::NextMotion(vm::Time t) const {
   const auto next = std::ranges::upper_bound(frames_, t, {}, &Frame::at);
   if (next != frames_.begin() && t < FadedAt(*(next - 1))) return t;
   if (next == frames_.end()) return std::nullopt;

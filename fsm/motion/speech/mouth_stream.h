@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "fsm/motion/base/motion_source.h"
-#include "fsm/motion/inputs/motion_settings.h"
+#include "fsm/motion/inputs/motion_inputs.h"
 #include "fsm/motion/speech/speech_timing.h"
 #include "fsm/motion/speech/spoken_mouth.h"
 #include "vm_protocol/core/result.h"
@@ -27,17 +27,20 @@ inline StreamHead Mix(const StreamHead& a, const StreamHead& b, double share_of_
 /// and `stream_taken`, by which the mouth of SpeechMotion is reduced. Frames may move head and
 /// brows as well, on the layer `stream_gestures`; the signal `head_taken` is then above 0.
 ///
-/// Frames at most kLongestGap apart form a run, within which frames are interpolated linearly. A
+/// Frames at most kMaxGap apart form a run, within which frames are interpolated linearly. A
 /// run fades in during the kMouthFadeIn before its first frame. After its last frame the mouth
 /// holds for kHold, closes within kMouthCloses and fades out; it therefore rests whenever frames
 /// stop, for whatever reason. Head and brows return to rest within kHeadReturns. Commands come in
-/// order of time; queries are for the time of the last command or later. Limits: kMostFrames frames
+/// order of time; queries are for the time of the last command or later. Limits: kMaxFrames frames
 /// in the future.
 class MouthStream : public MotionSource {
  public:
-  static constexpr vm::Time kLongestGap{200'000};
+  static constexpr vm::Time kMaxGap{200'000};
   static constexpr vm::Time kHold{120'000};
-  static constexpr std::size_t kMostFrames = 180'000;  ///< an hour at 50 frames per second
+  static constexpr std::size_t kMaxFrames = 180'000;  ///< an hour at 50 frames per second
+
+  /// `in` outlives this.
+  explicit MouthStream(const MotionInputs& in) : mouth_scale_(in.mouth_scale) {}
 
   /// Adds a frame for the instant `at`, its pose at full articulation; drops earlier added frames
   /// for that instant or later. Error: kLimit.
@@ -46,15 +49,11 @@ class MouthStream : public MotionSource {
   /// The instant from which senders count the times of frames; Add does not use it.
   vm::Time start() const { return start_; }
   void set_start(vm::Time start) { start_ = start; }
-  /// Changes MotionSettings::mouth_scale without a jump.
-  void SetMouthScale(vm::Time now, double mouth_scale) {
-    mouth_scale_.MoveTo(now, static_cast<float>(mouth_scale), kMouthScaleMove);
-  }
   /// Drops the frames after `now`; from there the mouth holds, closes and is released.
   void Stop(vm::Time now);
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;
-  std::optional<vm::Time> NextActivity(vm::Time t) const override;
+  std::optional<vm::Time> NextMotion(vm::Time t) const override;
   vm::Time FiniteEnd(vm::Time t) const override;
 
  private:
@@ -80,7 +79,7 @@ class MouthStream : public MotionSource {
   static vm::Time FadedAt(const Frame& last);
 
   vm::Time start_{0};
-  Track<float> mouth_scale_{static_cast<float>(MotionSettings{}.mouth_scale)};
+  const Track<float>& mouth_scale_;
   std::deque<Frame> frames_;  // by `at`
 };
 

@@ -19,45 +19,45 @@ double Bump(const auto& row, double ms, double beat_ms) {
 
 }  // namespace
 
-SpeechGestures::SpeechGestures(const VisemeTargets& visemes, const GestureNumbers& sizes,
+SpeechGestures::SpeechGestures(const VisemeTargets& targets, const GestureNumbers& sizes,
                                std::uint64_t seed)
-    : seed_(seed), length_ms_(visemes.length_ms), sizes_(sizes) {
-  FindBeats(visemes);
+    : seed_(seed), length_ms_(targets.length_ms), sizes_(sizes) {
+  FindBeats(targets);
   bool pause = true;
-  for (const VisemeTarget& viseme : visemes.targets) {
-    if (viseme.pause) {
-      pause = pause || viseme.length_ms >= kPhrasePauseMs;
+  for (const VisemeTarget& target : targets.all) {
+    if (target.pause) {
+      pause = pause || target.length_ms >= kPhrasePauseMs;
       continue;
     }
     if (!pause) continue;
     pause = false;
     const auto index = static_cast<std::int64_t>(phrases_.size());
-    phrases_.push_back({std::max(-kTransitionMs, viseme.start_ms - sizes.phrase.lead),
-                        {.nod = Linear(sizes.phrase.nod, static_cast<float>(RandomAt(
-                                                             seed_, RandomStream::kLift, index))),
+    phrases_.push_back({std::max(-kTransitionMs, target.start_ms - sizes.phrase.lead),
+                        {.nod = sizes.phrase.nod.At(
+                             static_cast<float>(RandomAt(seed_, RandomStream::kLift, index))),
                          .turn = RandomAt(seed_, RandomStream::kTurn, index),
                          .tilt = RandomAt(seed_, RandomStream::kTilt, index)}});
   }
 }
 
-void SpeechGestures::FindBeats(const VisemeTargets& visemes) {
+void SpeechGestures::FindBeats(const VisemeTargets& targets) {
   double sum = 0;
   double count = 0;
-  for (const VisemeTarget& viseme : visemes.targets) {
-    if (!viseme.dominance.vowel) continue;
-    sum += viseme.length_ms;
+  for (const VisemeTarget& target : targets.all) {
+    if (!target.dominance.vowel) continue;
+    sum += target.length_ms;
     ++count;
   }
   if (count == 0) return;
   const double mean = sum / count;
-  for (const VisemeTarget& viseme : visemes.targets) {
-    if (!viseme.dominance.vowel) continue;
-    const double open = std::clamp(viseme.pose.mouth[kJawY] / double{sizes_.vowel.jaw}, 0.0, 1.0);
-    const double stress = std::min(double{sizes_.vowel.longest}, viseme.length_ms / mean) *
-                          (sizes_.vowel.stress.x + sizes_.vowel.stress.y * open);
+  for (const VisemeTarget& target : targets.all) {
+    if (!target.dominance.vowel) continue;
+    const double open = std::clamp(target.pose.mouth[kJawY] / double{sizes_.vowel.jaw}, 0.0, 1.0);
+    const double stress = std::min(double{sizes_.vowel.longest}, target.length_ms / mean) *
+                          sizes_.vowel.stress.At(open);
     if (stress < sizes_.beat.stress) continue;
     const double nod = std::clamp(stress - sizes_.beat.minus, double{sizes_.beat.least}, 1.0);
-    const Beat beat{viseme.start_ms + sizes_.beat.at * viseme.length_ms, nod, 0};
+    const Beat beat{target.start_ms + sizes_.beat.at * target.length_ms, nod, 0};
     if (!beats_.empty() && beat.peak_ms - beats_.back().peak_ms < sizes_.beat.apart) {
       if (beats_.back().nod < nod) beats_.back() = beat;
     } else {
@@ -73,7 +73,7 @@ void SpeechGestures::FindBeats(const VisemeTargets& visemes) {
         0.5 + 0.5 * RandomAt(seed_, RandomStream::kBrow, static_cast<std::int64_t>(i));
     const auto& row = sizes_.brow;
     if (!strongest || chance < row.rests || beats_[i].peak_ms - last < row.apart) continue;
-    beats_[i].brow = std::clamp(beats_[i].nod * (row.height.x + row.height.y * chance), 0.0, 1.0);
+    beats_[i].brow = std::clamp(beats_[i].nod * row.height.At(chance), 0.0, 1.0);
     last = beats_[i].peak_ms;
   }
 }
@@ -103,8 +103,8 @@ SpeechGestures::HeadGesture SpeechGestures::HeadAt(double position_ms) const {
 std::array<double, 2> SpeechGestures::AversionTimes(double shortest_ms) const {
   if (length_ms_ < shortest_ms || phrases_.empty()) return {0, 0};
   const double from = phrases_.front().start_ms + sizes_.avert.after;
-  const double longest = Linear(sizes_.avert.lasts,
-                                static_cast<float>(RandomAt(seed_, RandomStream::kAvertLength, 0)));
+  const double longest =
+      sizes_.avert.lasts.At(static_cast<float>(RandomAt(seed_, RandomStream::kAvertLength, 0)));
   return {from, from + std::min(longest, sizes_.avert.part * length_ms_)};
 }
 

@@ -21,7 +21,7 @@ namespace fsm {
 class SpeechGestures {
  public:
   /// `sizes`: gestures.txt.
-  SpeechGestures(const VisemeTargets& visemes, const GestureNumbers& sizes, std::uint64_t seed);
+  SpeechGestures(const VisemeTargets& targets, const GestureNumbers& sizes, std::uint64_t seed);
 
   /// Relative to the greatest angles of the table, about -1..1.
   struct HeadGesture {
@@ -49,7 +49,7 @@ class SpeechGestures {
     double start_ms;
     HeadGesture pose;
   };
-  void FindBeats(const VisemeTargets& visemes);
+  void FindBeats(const VisemeTargets& targets);
 
   std::uint64_t seed_;
   double length_ms_;

@@ -14,15 +14,16 @@ using namespace std::chrono_literals;
 constexpr vm::Time kEmotionFade = 150ms;
 constexpr vm::Time kClosedFor = 120ms;  // after STOP, until emotions may part the lips
 constexpr vm::Time kHeadStops = 400ms;  // fading of gestures after STOP
-// A blink at the end of most utterances, just before or after the last sound; numbers are ours.
-constexpr double kEndBlinkPart = 0.6;  // of -1..1: below it the utterance ends with a blink
-constexpr double kEndBlinkMs = 20, kEndBlinkVariesMs = 90;  // after the end, and by how much
 constexpr double kMsPerLeadMs = 10;  // for a change of the lead, so that the mouth never goes back
 
 }  // namespace
 
 SpeechMotion::SpeechMotion(const MotionInputs& in)
-    : tables_(in.tables), settings_(in.settings), switches_(in.switches), seed_(in.seed) {}
+    : tables_(in.tables),
+      settings_(in.settings),
+      mouth_scale_(in.mouth_scale),
+      switches_(in.switches),
+      seed_(in.seed) {}
 
 double SpeechMotion::MouthPosition(const Utterance& one, vm::Time t) const {
   return one.clock.PositionAt(t) + lead_ms_.At(t);
@@ -45,8 +46,8 @@ void SpeechMotion::Start(vm::Time now, const vm::PhonemeList& phonemes, vm::Time
   std::erase_if(utterances_, [&](const Utterance& one) { return FadedAt(one) <= now; });
   auto track = std::make_shared<const VisemeTrack>(phonemes, tables_, settings_.lips);
   const std::uint64_t seed = Scramble(seed_ + static_cast<std::uint64_t>(++utterance_count_));
-  SpeechGestures gestures(track->visemes(), tables_.gestures, seed);
-  auto looks = LooksOf(tables_.text_cues, text, track->visemes());
+  SpeechGestures gestures(track->targets(), tables_.gestures, seed);
+  auto looks = LooksOf(tables_.text_cues, text, track->targets(), tables_.gestures);
   const vm::Time ahead = FromMs(lead_ms_.At(now) + kTransitionMs);
   utterances_.push_back({std::move(track), std::move(gestures), std::move(looks),
                          SpeechClock(start), std::max(now, start - ahead), std::nullopt});
@@ -63,16 +64,10 @@ void SpeechMotion::Sync(vm::Time now, double voice_ms) {
   utterances_.back().clock.Correct(now, voice_ms + settings_.sync_offset_ms, settings_.sync_rate);
 }
 
-void SpeechMotion::Adjust(vm::Time now, const MotionSettings& next) {
-  const double lead_ms = next.lead_ms - next.offset_ms;
-  if (lead_ms != settings_.lead_ms - settings_.offset_ms) {
-    const double way = std::abs(lead_ms - lead_ms_.At(now));
-    lead_ms_.MoveTo(now, static_cast<float>(lead_ms),
-                    active() ? FromMs(way * kMsPerLeadMs) : vm::Time(0));
-  }
-  if (next.mouth_scale != settings_.mouth_scale) {
-    mouth_scale_.MoveTo(now, static_cast<float>(next.mouth_scale), kMouthScaleMove);
-  }
+void SpeechMotion::MoveLead(vm::Time now, double lead_ms) {
+  const double way = std::abs(lead_ms - lead_ms_.At(now));
+  lead_ms_.MoveTo(now, static_cast<float>(lead_ms),
+                  active() ? FromMs(way * kMsPerLeadMs) : vm::Time(0));
 }
 
 SpeechMotion::Mouth SpeechMotion::MouthAt(vm::Time t) const {
@@ -120,8 +115,8 @@ void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {
     brow = std::max(brow, remaining * size.brow * head.brow);
   }
   for (const Side side : kSides) {
-    layer.units.au[side][kInnerBrowRaiser] = static_cast<float>(kInnerBrowRaise * brow);
-    layer.units.au[side][kOuterBrowRaiser] = static_cast<float>(kOuterBrowRaise * brow);
+    layer.look.au[side][kInnerBrowRaiser] = static_cast<float>(kInnerBrowRaise * brow);
+    layer.look.au[side][kOuterBrowRaiser] = static_cast<float>(kOuterBrowRaise * brow);
   }
 }
 
@@ -134,11 +129,12 @@ void SpeechMotion::ShowLooks(vm::Time t, MotionLayer& layer) const {
     const double remaining = size * GesturesOf(one, t);
     if (remaining <= 0) continue;
     for (const TimedLook& timed : one.looks) {
-      const auto weight = static_cast<float>(remaining * timed.At(MouthPosition(one, t)));
+      const auto weight =
+          static_cast<float>(remaining * timed.At(MouthPosition(one, t), tables_.gestures));
       if (weight <= 0) continue;
-      AddTo(layer.units, timed.look->units, weight);
+      AddTo(layer.look, timed.shown->look, weight);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        layer.head_rotation[axis] += weight * timed.look->head_rotation[axis];
+        layer.head_rotation[axis] += weight * timed.shown->head_rotation[axis];
       }
     }
   }
@@ -152,11 +148,11 @@ void SpeechMotion::AvertEyes(vm::Time t, MotionLayer& layer) const {
       if (remaining == 0) continue;
       const auto away = one.gestures.AvertedGazeAt(MouthPosition(one, t), avert.shortest_ms);
       for (std::size_t i = 0; i < 2; ++i) {
-        layer.units.gaze.left[i] += static_cast<float>(remaining * away[i]);
+        layer.look.gaze.left[i] += static_cast<float>(remaining * away[i]);
       }
     }
   }
-  layer.units.gaze.right = layer.units.gaze.left;
+  layer.look.gaze.right = layer.look.gaze.left;
 }
 
 double SpeechMotion::BlinkAt(vm::Time t) const {
@@ -169,10 +165,10 @@ double SpeechMotion::BlinkAt(vm::Time t) const {
     shut = std::max(shut, LidsAt(tables_.motions.blinks.front(), t - start));
   };
   const Utterance& last = utterances_.back();
-  if (at_end && RandomAt(seed_, RandomStream::kEndBlink, utterance_count_) < kEndBlinkPart) {
+  const auto& end = tables_.gestures.end_blink;
+  if (at_end && RandomAt(seed_, RandomStream::kEndBlink, utterance_count_) < end.below) {
     blink(last.stopped.value_or(EndOf(last)) +
-          FromMs(kEndBlinkMs + kEndBlinkVariesMs *
-                                   RandomAt(seed_, RandomStream::kEndBlinkTime, utterance_count_)));
+          FromMs(end.after.At(RandomAt(seed_, RandomStream::kEndBlinkTime, utterance_count_))));
   }
   if (!at_shifts) return shut;
   const auto [away, back] =
@@ -219,8 +215,8 @@ const std::string& SpeechMotion::PhonemeAt(vm::Time t) const {
   return utterances_.back().track->PhonemeAt(MouthPosition(utterances_.back(), t));
 }
 
-std::optional<vm::Time> SpeechMotion::NextActivity(vm::Time t) const {
-  std::optional<vm::Time> next = mouth_scale_.NextActivity(t);
+std::optional<vm::Time> SpeechMotion::NextMotion(vm::Time t) const {
+  std::optional<vm::Time> next = mouth_scale_.NextMotion(t);
   for (const Utterance& one : utterances_) {
     if (t >= FadedAt(one)) continue;
     next = Earlier(next, std::max(t, one.begin));

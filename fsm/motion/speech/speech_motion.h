@@ -38,9 +38,8 @@ class SpeechMotion : public MotionSource {
   void Stop(vm::Time now);
   /// Takes a report that the voice is at `voice_ms` now; ignored when nothing is spoken.
   void Sync(vm::Time now, double voice_ms);
-  /// Moves lead and size to those of `next` without a jump. To be called before the settings
-  /// change.
-  void Adjust(vm::Time now, const MotionSettings& next);
+  /// Changes by how many ms the mouth leads the voice, without a jump.
+  void MoveLead(vm::Time now, double lead_ms);
 
   /// Returns the phonemes that no table has, once each: the mouth closes on them.
   std::vector<std::string> UnknownPhonemes(const vm::PhonemeList& phonemes) const {
@@ -54,7 +53,7 @@ class SpeechMotion : public MotionSource {
   const std::string& PhonemeAt(vm::Time t) const;  ///< the phoneme that the mouth shows; "" = none
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;
-  std::optional<vm::Time> NextActivity(vm::Time t) const override;
+  std::optional<vm::Time> NextMotion(vm::Time t) const override;
 
  private:
   struct Utterance {
@@ -82,12 +81,12 @@ class SpeechMotion : public MotionSource {
 
   const MotionTables& tables_;
   const MotionSettings& settings_;
+  const Track<float>& mouth_scale_;
   const IdleSwitches& switches_;
   std::uint64_t seed_;
   std::int64_t utterance_count_ = 0;
   std::vector<Utterance> utterances_;
   Track<float> lead_ms_{static_cast<float>(MotionSettings{}.lead_ms)};
-  Track<float> mouth_scale_{static_cast<float>(MotionSettings{}.mouth_scale)};
 };
 
 }  // namespace fsm

@@ -8,9 +8,9 @@ namespace fsm {
 
 // Times and sizes that several parts of speech have in common. They are ours but for the first.
 
-inline constexpr double kTransitionMs = 92;  ///< from key viseme to key viseme, in the original
-inline constexpr double kShortestClosureMs = 34;  ///< slightly more than a frame at 30 per second
-inline constexpr double kPhrasePauseMs = 110;     ///< a pause at least this long ends a phrase
+inline constexpr double kTransitionMs = 92;    ///< from key viseme to key viseme, in the original
+inline constexpr double kMinClosureMs = 34;    ///< slightly more than a frame at 30 per second
+inline constexpr double kPhrasePauseMs = 110;  ///< a pause at least this long ends a phrase
 
 inline constexpr vm::Time kMouthFadeIn = std::chrono::milliseconds(60);  ///< speech takes the mouth
 inline constexpr vm::Time kMouthCloses = std::chrono::milliseconds(110);  ///< after a stop

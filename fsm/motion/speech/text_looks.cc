@@ -12,9 +12,6 @@
 namespace fsm {
 namespace {
 
-constexpr double kNearPauseMs = 600;  // greatest distance of the pause at which a sentence ends
-constexpr double kRiseMs = 350, kFallMs = 500, kAheadMs = 150;
-constexpr double kEndMs = 700;  // duration of looks at the end of a sentence
 constexpr std::array<std::string_view, 6> kStops = {".", "!", "?", "。", "！", "？"};
 
 /// Returns the text without speech synthesis markup, which is enclosed in < and >.
@@ -73,24 +70,24 @@ double Letters(std::string_view text) {
 }
 
 /// Returns the time at which `share` of the speech without pauses has been spoken, or the start of
-/// a nearby pause.
-double TimeOfShare(double share, const VisemeTargets& visemes) {
-  if (share >= 1) return visemes.length_ms;
-  double spoken = 0, passed = 0, at = visemes.length_ms;
-  for (const VisemeTarget& viseme : visemes.targets) spoken += viseme.pause ? 0 : viseme.length_ms;
-  for (const VisemeTarget& viseme : visemes.targets) {
-    if (viseme.pause) continue;
-    passed += viseme.length_ms;
+/// a pause that is nearer than `near_ms`.
+double TimeOfShare(double share, const VisemeTargets& targets, double near_ms) {
+  if (share >= 1) return targets.length_ms;
+  double spoken = 0, passed = 0, at = targets.length_ms;
+  for (const VisemeTarget& target : targets.all) spoken += target.pause ? 0 : target.length_ms;
+  for (const VisemeTarget& target : targets.all) {
+    if (target.pause) continue;
+    passed += target.length_ms;
     if (passed < share * spoken) continue;
-    at = viseme.start_ms + viseme.length_ms - (passed - share * spoken);
+    at = target.start_ms + target.length_ms - (passed - share * spoken);
     break;
   }
-  double nearest = kNearPauseMs, found = at;
-  for (const VisemeTarget& viseme : visemes.targets) {
-    if (!viseme.pause || viseme.length_ms < kPhrasePauseMs) continue;
-    if (std::abs(viseme.start_ms - at) < nearest) {
-      nearest = std::abs(viseme.start_ms - at);
-      found = viseme.start_ms;
+  double nearest = near_ms, found = at;
+  for (const VisemeTarget& target : targets.all) {
+    if (!target.pause || target.length_ms < kPhrasePauseMs) continue;
+    if (std::abs(target.start_ms - at) < nearest) {
+      nearest = std::abs(target.start_ms - at);
+      found = target.start_ms;
     }
   }
   return found;
@@ -98,13 +95,13 @@ double TimeOfShare(double share, const VisemeTargets& visemes) {
 
 }  // namespace
 
-double TimedLook::At(double position_ms) const {
-  const double rise = SmootherStep((position_ms - start_ms) / kRiseMs);
-  return rise * (1 - SmootherStep((position_ms - end_ms) / kFallMs));
+double TimedLook::At(double position_ms, const GestureNumbers& sizes) const {
+  const double rise = SmootherStep((position_ms - start_ms) / sizes.look.rise);
+  return rise * (1 - SmootherStep((position_ms - end_ms) / sizes.look.fall));
 }
 
 std::vector<TimedLook> LooksOf(const TextCues& cues, std::string_view text,
-                               const VisemeTargets& visemes) {
+                               const VisemeTargets& targets, const GestureNumbers& sizes) {
   const std::string lowered = vm::LowerCase(WithoutMarkup(text));
   const double letters = Letters(lowered);
   std::vector<TimedLook> timed;
@@ -112,7 +109,7 @@ std::vector<TimedLook> LooksOf(const TextCues& cues, std::string_view text,
   double before = 0, start_ms = 0;
   for (const std::string_view sentence : Sentences(lowered)) {
     before += Letters(sentence);
-    const double end_ms = TimeOfShare(before / letters, visemes);
+    const double end_ms = TimeOfShare(before / letters, targets, sizes.look.near_pause);
     std::vector<bool> seen(cues.looks.size());
     for (const TextCues::Cue& cue : cues.cues) {
       const bool here = std::ranges::any_of(
@@ -120,7 +117,8 @@ std::vector<TimedLook> LooksOf(const TextCues& cues, std::string_view text,
       if (!here || seen[cue.look]) continue;
       seen[cue.look] = true;
       const TextLook& look = cues.looks[cue.look];
-      const double from = look.at_end ? std::max(start_ms, end_ms - kEndMs) : start_ms - kAheadMs;
+      const double from = look.at_end ? std::max(start_ms, end_ms - sizes.look.at_end)
+                                      : start_ms - sizes.look.ahead;
       timed.push_back({&look, from, end_ms});
     }
     start_ms = end_ms;

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "embedded/gesture_numbers.h"
 #include "fsm/motion/inputs/text_cues.h"
 
 namespace fsm {
@@ -11,18 +12,18 @@ struct VisemeTargets;
 
 /// A look with its times in an utterance.
 struct TimedLook {
-  const TextLook* look = nullptr;
+  const TextLook* shown = nullptr;
   double start_ms = 0, end_ms = 0;
 
   /// Returns the strength, 0..1, which fades in and out.
-  double At(double position_ms) const;
+  double At(double position_ms, const GestureNumbers& sizes) const;
 };
 
-/// Returns the looks of a text that is spoken as `visemes`, each at most once per sentence;
+/// Returns the looks of a text that is spoken as `targets`, each at most once per sentence;
 /// sentences end at . ! ? and their Japanese forms. The time at which a sentence ends is estimated
 /// from the number of letters before it, and moved to the nearest pause of 110 ms or more.
-/// Lifetime: `cues` outlives the result.
+/// `sizes`: gestures.txt. Lifetime: `cues` outlives the result.
 std::vector<TimedLook> LooksOf(const TextCues& cues, std::string_view text,
-                               const VisemeTargets& visemes);
+                               const VisemeTargets& targets, const GestureNumbers& sizes);
 
 }  // namespace fsm

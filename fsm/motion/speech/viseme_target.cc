@@ -17,10 +17,10 @@ MouthPose Scaled(const Viseme& viseme, double strength, const LipStyle& style) {
   MouthPose pose = viseme.pose;
   // A contact does not depend on the size of movements, and a weak one is still a contact, so the
   // seal is not scaled.
-  const double most = pose.contact > 0 ? 1 : 3;
+  const double max = pose.contact > 0 ? 1 : 3;
   for (std::size_t i = 0; i < kMouthParameters; ++i) {
     const double scale = i == kJawY || i == kJawZ ? style.jaw : style.lips;
-    pose.mouth[i] = static_cast<float>(pose.mouth[i] * strength * std::clamp(scale, 0.0, most));
+    pose.mouth[i] = static_cast<float>(pose.mouth[i] * strength * std::clamp(scale, 0.0, max));
   }
   return pose;
 }
@@ -78,7 +78,7 @@ double HoldOf(const TimedPhase& phase, double share, bool pause) {
   const double hold_ms = share * phase.length_ms;
   // A contact of the lips must be visible; a short pause need not be.
   if (share <= 0 || pause) return hold_ms;
-  return std::max(hold_ms, std::min(kShortestClosureMs, kClosureShare * phase.length_ms));
+  return std::max(hold_ms, std::min(kMinClosureMs, kClosureShare * phase.length_ms));
 }
 
 }  // namespace
@@ -95,9 +95,8 @@ VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTab
     const auto index = static_cast<std::size_t>(timed.phase.viseme);
     const Viseme& viseme = set.visemes[index];
     const bool pause = index == set.rest;
-    out.targets.push_back({timed.start_ms, timed.length_ms,
-                           Scaled(viseme, timed.phase.strength, style),
-                           HoldOf(timed, viseme.hold, pause), viseme.dominance, pause});
+    out.all.push_back({timed.start_ms, timed.length_ms, Scaled(viseme, timed.phase.strength, style),
+                       HoldOf(timed, viseme.hold, pause), viseme.dominance, pause});
   }
   return out;
 }

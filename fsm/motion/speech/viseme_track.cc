@@ -10,26 +10,26 @@ namespace fsm {
 
 VisemeTrack::VisemeTrack(const vm::PhonemeList& phonemes, const MotionTables& tables,
                          const LipStyle& style)
-    : mode_(style.mode), visemes_(MakeVisemeTargets(phonemes, tables, style)) {
+    : mode_(style.mode), targets_(MakeVisemeTargets(phonemes, tables, style)) {
   double start = 0;
   for (const vm::Phoneme& phoneme : phonemes) {
     spans_.push_back({start, phoneme.name});
     start += InMs(phoneme.duration);
   }
   if (mode_ == LipMode::kDominance) {
-    curves_.emplace(visemes_, tables.reach);
+    curves_.emplace(targets_, tables.reach, tables.gestures);
   } else {
     MakeKeys();
   }
 }
 
 void VisemeTrack::MakeKeys() {
-  keys_.push_back({-kTransitionMs, visemes_.rest});
-  for (const VisemeTarget& viseme : visemes_.targets) {
-    keys_.push_back({viseme.start_ms, viseme.pose});
-    if (viseme.hold_ms > 0) keys_.push_back({viseme.start_ms + viseme.hold_ms, viseme.pose});
+  keys_.push_back({-kTransitionMs, targets_.rest});
+  for (const VisemeTarget& target : targets_.all) {
+    keys_.push_back({target.start_ms, target.pose});
+    if (target.hold_ms > 0) keys_.push_back({target.start_ms + target.hold_ms, target.pose});
   }
-  keys_.push_back({visemes_.length_ms, visemes_.rest});
+  keys_.push_back({targets_.length_ms, targets_.rest});
 }
 
 MouthPose VisemeTrack::At(double position_ms) const {

@@ -32,8 +32,8 @@ class VisemeTrack {
   MouthPose At(double position_ms) const;
   /// Returns the phoneme at a position; "" outside the utterance.
   const std::string& PhonemeAt(double position_ms) const;
-  double length_ms() const { return visemes_.length_ms; }
-  const VisemeTargets& visemes() const { return visemes_; }
+  double length_ms() const { return targets_.length_ms; }
+  const VisemeTargets& targets() const { return targets_; }
 
  private:
   struct Key {
@@ -47,7 +47,7 @@ class VisemeTrack {
   void MakeKeys();
 
   LipMode mode_;
-  VisemeTargets visemes_;
+  VisemeTargets targets_;
   std::vector<Span> spans_;
   std::vector<Key> keys_;                  // used by SINUSOID and LINEAR
   std::optional<DominanceCurves> curves_;  // used by DOMINANCE

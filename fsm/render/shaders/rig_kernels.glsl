@@ -56,7 +56,7 @@ RECORDS(BallLidRecord);
 void Take(uint record) {
   BallLidRecord lid = records[record];
   vec3 ball = Vec(states[Face()].eyes[lid.side].ball);
-  SetPosition(lid.vertex, OutOfBall(ball, lid.least, Position(lid.vertex)));
+  SetPosition(lid.vertex, OutOfBall(ball, lid.min_radius, Position(lid.vertex)));
 }
 #endif
 

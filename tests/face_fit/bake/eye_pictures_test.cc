@@ -26,10 +26,10 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   Fit fit;
   std::vector<glm::vec2> centres;
   for (const fsm::Side side : fsm::kSides) {
-    const glm::vec3 ball = head->topology().eyes[side].centre;
+    const glm::vec3 ball = head->EyeCentre(side);
     const glm::vec2 centre(500 + 4 * ball.x, 300 - 4 * ball.y);
     centres.push_back(centre);
-    fit.irises.circles[side] = {.centre = centre, .radius = 24, .contrast = 0.4F};
+    fit.irises.circles[side] = {.centre_px = centre, .radius_px = 24, .contrast = 0.4F};
     for (std::size_t i = 0; i < 16; ++i) {
       const auto point = point::kEyeOutline[side][i];
       const float part = static_cast<float>(i <= 8 ? i : 16 - i) / 4 - 1;  // outer -1, inner 1
@@ -73,7 +73,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     EXPECT_NEAR(shown(eye.ball, {0.2F, 0.55F}), 220, 12);
   }
   // Nothing of the face is painted there.
-  const auto& uv = base.head().topology().uv;
+  const auto& uv = base.head().surface().uv;
   for (std::size_t v = 0; v < uv.size(); ++v) {
     if (base.rest().position[v].y < -90 || base.rest().position[v].z < 0) continue;
     EXPECT_GT(uv[v].y, 0.14F);

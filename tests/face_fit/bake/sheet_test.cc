@@ -107,7 +107,7 @@ TEST_F(SheetTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
 
 TEST_F(SheetTest, NothingOfItLiesBehindTheMouthWhereItsCellsAreWide) {
   // A head that is small in its photo: a cell is 9 mm wide.
-  fitted_.pose.focal = 250;
+  fitted_.pose.focal_px = 452;
   fitted_.pose.rotation_rad.y = glm::radians(15.0F);
   const Sheet set = Made();
   const glm::vec3 right = Galatea().mesh_points()[78].On(Galatea().rest().position),

@@ -21,8 +21,8 @@ class SkinSurfaceTest : public testing::Test {
   void SetUp() override {
     fitted_.base = &base_;
     fitted_.posed_vertices = base_.rest().position;
-    fitted_.pose.focal = 760;
-    fitted_.pose.centre = {150, 150};
+    fitted_.pose.focal_px = 1373;
+    fitted_.pose.centre_px = {150, 150};
     bottom_ = base_.head().Landmark("gnathion").y - 8;
     skin_.emplace(VisibleSkin(fitted_, fitted_.pose, grid_, bottom_));
   }
@@ -52,7 +52,7 @@ TEST_F(SkinSurfaceTest, EndsBelowTheChinAndAtTheLineOfTheJaw) {
   ForCovered([&](int x, int y) {
     const glm::vec3 p = PositionAt(x, y);
     EXPECT_GT(p.y, bottom_ - 0.5F);
-    EXPECT_GT(p.z, fsm::JawLine(p.y - bottom_) - 1.5F) << p.x << ' ' << p.y;
+    EXPECT_GT(p.z, fsm::NeckFrontZ(p.y - bottom_) - 1.5F) << p.x << ' ' << p.y;
     ++count;
     low += p.y < bottom_ + 12 ? 1 : 0;
   });

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "face_fit/bake/smile_folds.h"
 #include "tests/face_fit/network_fixture.h"
 
 namespace facefit {
@@ -19,22 +20,19 @@ class SmileShadeTest : public NetworkTest {
  protected:
   static constexpr int kPhoto = 300;
   static void TearDownTestSuite() {
-    placed_.reset();
+    places_.reset();
     NetworkTest::TearDownTestSuite();
   }
   void SetUp() override {
     NetworkTest::SetUp();
     if (IsSkipped()) return;
-    if (!placed_) {
-      FittedHead fitted;
-      fitted.base = &Galatea();
-      fitted.pose.focal = 760;
-      fitted.pose.centre = {kPhoto / 2, kPhoto / 2};
-      fitted.posed_vertices = Galatea().rest().position;
-      placed_.emplace(ProjectSkin(fitted, fitted.pose, SelfHidden::kNotSeen));
+    if (!places_) {
+      places_ = PlaceSkin(Galatea());
+      const FittedHead fitted = Fitted();
+      sights_ = ProjectSkin(fitted, *places_, fitted.pose, SelfHidden::kNotSeen);
     }
     map_ = {.width = kMapSize, .height = kMapSize, .rgba = {}};
-    for (std::size_t i = 0; i < placed_->values.size(); ++i) {
+    for (std::size_t i = 0; i < places_->size(); ++i) {
       const float y = Height(i);
       const bool band = std::abs(y - middle()) < 5 ||
                         y > Galatea().head().Landmark("nasion").y + kBrowsEndMm + 10;
@@ -43,55 +41,60 @@ class SmileShadeTest : public NetworkTest {
       map_.rgba.insert(map_.rgba.end(), {c, c, c, 255});
     }
   }
+  static FittedHead Fitted() {
+    FittedHead fitted;
+    fitted.base = &Galatea();
+    fitted.pose.focal_px = 1373;
+    fitted.pose.centre_px = {kPhoto / 2, kPhoto / 2};
+    fitted.posed_vertices = Galatea().rest().position;
+    return fitted;
+  }
   glm::vec3 Place(std::size_t point) const {
     return Galatea().mesh_points()[point].On(Galatea().rest().position);
   }
-  float Height(std::size_t i) const { return placed_->values[i].y_mm; }
+  /// A texel's place; far below the head if the map shows no skin there.
+  static SkinPlace At(std::size_t i) { return (*places_)[i].value_or(SkinPlace{.y_mm = -1e9F}); }
+  static float Height(std::size_t i) { return At(i).y_mm; }
   /// Between nose and mouth, on the cheeks.
   float middle() const { return 0.5F * (Place(2).y + Place(61).y); }
   /// The mean over cheeks at one height.
   float Mean(float y) const {
     float sum = 0, count = 0;
-    for (std::size_t i = 0; i < placed_->values.size(); ++i) {
-      const float x = std::abs(placed_->values[i].x_mm);
-      if (x < 30 || x > 42 || std::abs(Height(i) - y) > 1 || placed_->values[i].facing < 0.2F)
-        continue;
+    for (std::size_t i = 0; i < places_->size(); ++i) {
+      const float x = std::abs(At(i).x_mm);
+      if (x < 30 || x > 42 || std::abs(Height(i) - y) > 1 || sights_[i].facing < 0.2F) continue;
       sum += map_.rgba[4 * i];
       ++count;
     }
     return sum / count;
   }
 
-  static inline std::optional<SkinTexels> placed_;
+  static inline std::optional<SkinPlaces> places_;
+  static inline SkinSights sights_;
   fsm::Image map_;
   FloatImage seen_{kMapSize, kMapSize, 1};
 };
 
 TEST_F(SmileShadeTest, SkinIsHiddenAsThePoseGivenSeesItNotAsThatOfTheFit) {
-  FittedHead fitted;
-  fitted.base = &Galatea();
-  fitted.pose.focal = 760;
-  fitted.pose.centre = {kPhoto / 2, kPhoto / 2};
-  fitted.posed_vertices = Galatea().rest().position;
+  FittedHead fitted = Fitted();
   CameraPose aside = fitted.pose;
   aside.rotation_rad.y = 0.9F;
-  const SkinTexels seen = ProjectSkin(fitted, aside, SelfHidden::kNotSeen);
+  const SkinSights seen = ProjectSkin(fitted, *places_, aside, SelfHidden::kNotSeen);
   fitted.pose = aside;
-  const SkinTexels fitted_so = ProjectSkin(fitted, aside, SelfHidden::kNotSeen);
-  EXPECT_TRUE(std::ranges::equal(seen.values, fitted_so.values, {}, &SkinTexel::facing,
-                                 &SkinTexel::facing));
+  const SkinSights fitted_so = ProjectSkin(fitted, *places_, aside, SelfHidden::kNotSeen);
+  EXPECT_TRUE(std::ranges::equal(seen.values, fitted_so.values, {}, &SkinSight::facing,
+                                 &SkinSight::facing));
 }
 
 TEST_F(SmileShadeTest, ABandOfShineIsEvenedOutAndGrainStays) {
   const fsm::Image before = map_;
   EXPECT_GT(Mean(middle()) - Mean(middle() - 9), 35);
-  RemoveSmileShading(Galatea(), *placed_, seen_, 1, map_);
+  RemoveSmileShading(Galatea(), *places_, seen_, 1, map_);
   EXPECT_LT(std::abs(Mean(middle()) - Mean(middle() - 9)), 16);
   // Neighbours differ as before.
   float rough = 0, was = 0;
-  for (std::size_t i = 1; i < placed_->values.size(); ++i) {
-    if (std::abs(std::abs(placed_->values[i].x_mm) - 36) > 6 || std::abs(Height(i) - middle()) > 1)
-      continue;
+  for (std::size_t i = 1; i < places_->size(); ++i) {
+    if (std::abs(std::abs(At(i).x_mm) - 36) > 6 || std::abs(Height(i) - middle()) > 1) continue;
     rough += static_cast<float>(std::abs(map_.rgba[4 * i] - map_.rgba[4 * i - 4]));
     was += static_cast<float>(std::abs(before.rgba[4 * i] - before.rgba[4 * i - 4]));
   }
@@ -100,11 +103,10 @@ TEST_F(SmileShadeTest, ABandOfShineIsEvenedOutAndGrainStays) {
 
 TEST_F(SmileShadeTest, ForeheadEyesNoseAndLipsStayAsTheyAre) {
   const fsm::Image before = map_;
-  RemoveSmileShading(Galatea(), *placed_, seen_, 1, map_);
-  for (std::size_t i = 0; i < placed_->values.size(); ++i) {
-    const bool nose = std::abs(placed_->values[i].x_mm) < 10 && Height(i) > Place(2).y;
-    const bool other =
-        Height(i) > Place(145).y - 8 || nose || placed_->values[i].within_lips_mm > -1;
+  RemoveSmileShading(Galatea(), *places_, seen_, 1, map_);
+  for (std::size_t i = 0; i < places_->size(); ++i) {
+    const bool nose = std::abs(At(i).x_mm) < 10 && Height(i) > Place(2).y;
+    const bool other = Height(i) > Place(145).y - 8 || nose || At(i).within_lips_mm > -1;
     if (other) {
       ASSERT_EQ(map_.rgba[4 * i], before.rgba[4 * i]) << i;
     }
@@ -113,13 +115,12 @@ TEST_F(SmileShadeTest, ForeheadEyesNoseAndLipsStayAsTheyAre) {
 
 TEST_F(SmileShadeTest, WhatThePhotoDoesNotShowStays) {
   // The photo shows one cheek only; beyond is what was filled in.
-  for (std::size_t i = 0; i < placed_->values.size(); ++i)
-    seen_.values[i] = placed_->values[i].x_mm < 0 ? 1 : 0;
+  for (std::size_t i = 0; i < places_->size(); ++i) seen_.values[i] = At(i).x_mm < 0 ? 1 : 0;
   const fsm::Image before = map_;
-  RemoveSmileShading(Galatea(), *placed_, seen_, 1, map_);
+  RemoveSmileShading(Galatea(), *places_, seen_, 1, map_);
   int changed = 0;
-  for (std::size_t i = 0; i < placed_->values.size(); ++i) {
-    if (placed_->values[i].x_mm > 6) {
+  for (std::size_t i = 0; i < places_->size(); ++i) {
+    if (At(i).x_mm > 6) {
       ASSERT_EQ(map_.rgba[4 * i], before.rgba[4 * i]) << i;
     }
     changed += map_.rgba[4 * i] != before.rgba[4 * i];
@@ -131,10 +132,9 @@ TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
   fsm::Image flat = map_;
   FloatImage smooth(kMapSize, kMapSize);
   const auto spot = [&](std::size_t i) {
-    return std::abs(std::abs(placed_->values[i].x_mm) - 30) < 4 &&
-           std::abs(Height(i) - middle() + 12) < 3;
+    return std::abs(std::abs(At(i).x_mm) - 30) < 4 && std::abs(Height(i) - middle() + 12) < 3;
   };
-  for (std::size_t i = 0; i < placed_->values.size(); ++i) {
+  for (std::size_t i = 0; i < places_->size(); ++i) {
     if (!spot(i)) continue;
     smooth.values[i] = 1;
     for (std::size_t c = 0; c < 3; ++c) flat.rgba[4 * i + c] = 150;
@@ -142,7 +142,7 @@ TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
   const fsm::Image before = flat;
   GrainFromCheeks(smooth, flat);
   float rough = 0, sum = 0, count = 0;
-  for (std::size_t i = 1; i < placed_->values.size(); ++i) {
+  for (std::size_t i = 1; i < places_->size(); ++i) {
     if (!spot(i)) {
       ASSERT_EQ(flat.rgba[4 * i], before.rgba[4 * i]) << "nothing else changes";
       continue;
@@ -157,7 +157,7 @@ TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
 
 TEST_F(SmileShadeTest, WithoutASmileNothingChanges) {
   const fsm::Image before = map_;
-  RemoveSmileShading(Galatea(), *placed_, seen_, 0, map_);
+  RemoveSmileShading(Galatea(), *places_, seen_, 0, map_);
   EXPECT_EQ(map_.rgba, before.rgba);
 }
 

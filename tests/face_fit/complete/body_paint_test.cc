@@ -19,10 +19,10 @@ class BodyPaintTest : public BuiltInFigureTest {
                .photo_size = {kPhoto, kPhoto},
                .size = {500, 500},
                .pixels_per_mm = fitted_.pose.PixelsPerMm(),
-               .chin = fitted_.pose.Pixel(fitted_.PositionOf(point::kChin))};
+               .chin_px = fitted_.pose.Pixel(fitted_.PositionOf(point::kChin))};
   }
   void CutAwayBody() {
-    for (int y = static_cast<int>(canvas_.chin.y) + 10; y < kPhoto; ++y) {
+    for (int y = static_cast<int>(canvas_.chin_px.y) + 10; y < kPhoto; ++y) {
       for (int x = 0; x < kPhoto; ++x)
         figure_.opacity(x, y) = std::abs(x - kPhoto / 2) < 40 ? 1 : 0;
     }

@@ -28,7 +28,7 @@ class HairPaintTest : public BuiltInFigureTest {
                .photo_size = {kPhoto, kPhoto},
                .size = {500, 600},
                .pixels_per_mm = fitted_.pose.PixelsPerMm(),
-               .chin = fitted_.pose.Pixel(fitted_.PositionOf(point::kChin))};
+               .chin_px = fitted_.pose.Pixel(fitted_.PositionOf(point::kChin))};
   }
   Canvas canvas_{};
 };
@@ -36,7 +36,7 @@ class HairPaintTest : public BuiltInFigureTest {
 TEST_F(HairPaintTest, HairThatTheUpperEdgeCutsIsRoundedOffUpToTheCrown) {
   const PhotoEdges edges(fitted_, figure_, glm::vec3(kSkin));
   const HairPaint hair(canvas_, edges, figure_, -20);
-  EXPECT_TRUE(hair.Cut());
+  EXPECT_TRUE(hair.CutsHair());
   EXPECT_GT(hair.PaintAt({150, -5}).opacity, 0.9F);
   EXPECT_NEAR(Brightness(hair.PaintAt({150, -5}).colour), kHair, 2);
   EXPECT_EQ(hair.PaintAt({150, -21}).opacity, 0) << "above the crown";
@@ -52,7 +52,7 @@ TEST_F(HairPaintTest, APhotoThatCutsNoHairGetsNone) {
   }
   const PhotoEdges edges(fitted_, figure_, glm::vec3(kSkin));
   const HairPaint hair(canvas_, edges, figure_, 5);
-  EXPECT_FALSE(hair.Cut());
+  EXPECT_FALSE(hair.CutsHair());
   EXPECT_EQ(hair.PaintAt({150, -1}).opacity, 0);
 }
 

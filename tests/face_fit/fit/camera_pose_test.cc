@@ -16,22 +16,25 @@ TEST(CameraPoseTest, TheCameraIsThatOfTheRenderer) {
   constexpr int kSide = 600;
   const PortraitView portrait(kSide);
   CameraPose pose;
-  pose.centre = portrait.Pixel({0, 0, kFaceZ});
-  const float up = portrait.Pixel({0, 0, kFaceZ}).y - portrait.Pixel({0, 10, kFaceZ}).y;
-  pose.focal = up / 10 * (kCameraZ - kFaceZ);
+  pose.centre_px = portrait.Pixel({0, 0, kFaceDepthMm});
+  const float up = portrait.Pixel({0, 0, kFaceDepthMm}).y - portrait.Pixel({0, 10, kFaceDepthMm}).y;
+  pose.focal_px = up / 10 * (kCameraDepthMm - kFaceDepthMm);
   EXPECT_NEAR(kSide / pose.PixelsPerMm(), 330, 1);
   // The renderer's axis runs a little below the head's middle.
-  for (const glm::vec3 place : {glm::vec3(60, 0, kFaceZ), {-60, 0, kFaceZ}, {0, 80, kFaceZ}}) {
+  for (const glm::vec3 place :
+       {glm::vec3(60, 0, kFaceDepthMm), {-60, 0, kFaceDepthMm}, {0, 80, kFaceDepthMm}}) {
     EXPECT_LT(glm::distance(pose.Pixel(place), portrait.Pixel(place)), 0.1F) << place.x;
   }
   const auto width = [&](float z) {
     return portrait.Pixel({60, 0, z}).x - portrait.Pixel({0, 0, z}).x;
   };
-  EXPECT_NEAR(width(kFaceZ) / width(-kFaceZ), (kCameraZ + kFaceZ) / (kCameraZ - kFaceZ), 1e-3F);
+  EXPECT_NEAR(width(kFaceDepthMm) / width(-kFaceDepthMm),
+              (kCameraDepthMm + kFaceDepthMm) / (kCameraDepthMm - kFaceDepthMm), 1e-3F);
 }
 
 TEST(CameraPoseTest, PlacesComeBackFromTheirPixels) {
-  const CameraPose pose{.rotation_rad = {0.1F, -0.4F, 0.2F}, .focal = 900, .centre = {320, 240}};
+  const CameraPose pose{
+      .rotation_rad = {0.1F, -0.4F, 0.2F}, .focal_px = 900, .centre_px = {320, 240}};
   const glm::vec3 place(30, -20, 40);
   EXPECT_LT(glm::distance(pose.PositionAt(pose.Pixel(place), pose.ToCamera(place).z), place),
             1e-3F);
@@ -50,17 +53,6 @@ TEST(CameraPoseTest, PositiveAnglesBendDownTurnToThePersonsLeftAndTiltToItsRight
   EXPECT_NEAR(rotated({30, 90, 0}, left).y, 0.5F, 1e-5F);
   const CameraPose pose{.rotation_rad = glm::radians(glm::vec3(10, -20, 5))};
   EXPECT_GT(pose.TowardsCamera().x, 0.3F) << "turned to its right it shows its left side";
-}
-
-TEST(CameraPoseTest, HeadRotationsComeBackFromTheirMatrix) {
-  for (const fsm::Angles& told : {fsm::Angles{10, 0, 0}, {0, -20, 0}, {0, 0, 15}, {-25, 40, 30}}) {
-    fsm::FaceState state;
-    state.head_rotation = told;
-    const fsm::Angles found = HeadRotationOf(fsm::HeadRotation(state));
-    for (const fsm::Axis i : {fsm::kDown, fsm::kToRight, fsm::kTilted}) {
-      EXPECT_NEAR(found[i], told[i], 1e-3F) << told[0] << ' ' << told[1] << ' ' << told[2];
-    }
-  }
 }
 
 }  // namespace

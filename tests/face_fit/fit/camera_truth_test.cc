@@ -25,7 +25,8 @@
 #include "fsm/mesh/imported_head.h"
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
-#include "fsm/mesh/transfer/transferred_rig.h"
+#include "fsm/mesh/rigging/transferred_rig.h"
+#include "tests/face_fit/grey_picture.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
 
@@ -118,7 +119,7 @@ struct TrueCamera {
   fsm::Image Photo(const TrueHead& truth) const {
     constexpr glm::vec3 kBackground(0.1F, 0.15F, 0.2F);
     const glm::vec3 lamp = glm::normalize(glm::vec3(-0.35F, 0.5F, 0.8F));
-    const auto& topology = truth.head->topology();
+    const auto& topology = truth.head->surface();
     std::vector<glm::vec3> at, light;
     for (std::size_t i = 0; i < truth.rest.position.size(); ++i) {
       const glm::vec3 q = Placed(truth.rest.position[i]);
@@ -148,7 +149,7 @@ struct TrueCamera {
     return Halved(colour);
   }
 };
-constexpr float kPhone = 300, kRenderer = 744, kPortraitLens = 2000;
+constexpr float kPhone = 300, kRenderer = 1344, kPortraitLens = 2000;
 constexpr TrueCamera kCameras[] = {{kPhone, 0},     {kPhone, 20},       {kRenderer, 0},
                                    {kRenderer, 20}, {kPortraitLens, 0}, {kPortraitLens, 20}};
 
@@ -209,7 +210,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
       const glm::vec2 shown = fit.head.pose.Pixel(fitted);
       error.shown += glm::distance(camera.Pixel(points[named.point]), shown) / eyes /
                      static_cast<float>(std::size(kNamed));
-      pairs.push_back({points[named.point], fitted, fsm::FacePart::kPlain});
+      pairs.push_back({points[named.point], fitted, fsm::LipOrLid::kPlain});
     }
     const fsm::Similarity over = fsm::FitSimilarity(pairs);
     for (std::size_t i = 0; i < pairs.size(); ++i) error.off[i] = over(pairs[i].to) - pairs[i].from;
@@ -246,7 +247,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     return {Nearest(base.head(), base.rest(), at[0]), Nearest(base.head(), base.rest(), at[1])};
   }
   static std::size_t Nearest(const fsm::Head& head, const fsm::HeadVertices& rest, glm::vec3 to) {
-    const auto skin = fsm::SkinTriangles(head.topology());
+    const auto skin = fsm::SkinTriangles(head.surface());
     return *std::ranges::min_element(
         skin, {}, [&](std::uint32_t v) { return glm::distance(rest.position[v], to); });
   }
@@ -281,9 +282,9 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     const auto found = vm::OrThrow(FindHeadPoints(*networks_, *file, name, "galatea"));
     const fsm::Similarity place = fsm::FitSimilarity(found.pairs);
     fsm::MeshModel model = fsm::ModelOfImport(*file, place, -43);
-    ObservedHead::Surface surface{model.SkinTriangles(), model.has_uv_seams, {}};
-    const ObservedHead other = vm::OrThrow(ObservedHead::Observe(
-        *networks_, fsm::MakeMeshHead(fsm::MeshModel(model)), name, std::move(surface)));
+    const ObservedHead other =
+        vm::OrThrow(ObservedHead::Observe(*networks_, fsm::MakeMeshHead(fsm::MeshModel(model)),
+                                          name, {model.SkinTriangles(), model.has_uv_seams}));
     TrueHead made;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
       // At the outline the network may miss the cheek and see an ear or the neck, centimetres
@@ -323,8 +324,9 @@ void ExpectWithin(const FitError& error, const std::string& head, float shown, f
 }
 
 TEST_P(CameraTruthTest, ExactPointsAreFollowedWhateverTheCamera) {
+  const fsm::Image nothing = EvenGreyPicture(kPhotoSide);
   for (const TrueCamera& camera : kCameras) {
-    const FitError error = ErrorOf(camera, FitFace(Galatea(), ExactFace(camera)));
+    const FitError error = ErrorOf(camera, FitFace(Galatea(), ExactFace(camera), nothing));
     Tell(camera, "points", error);
     // Missed by a phone's photo of a turned head: the fit takes its camera for the renderer's.
     const bool near_and_turned = camera.distance == kPhone && camera.turn_degrees > 0;
@@ -338,7 +340,7 @@ TEST_P(CameraTruthTest, WhatTheNetworkFindsIsFollowedWhateverTheCamera) {
     const auto faces = FindFaces(*networks_, photo);
     ASSERT_EQ(faces.size(), 1U);
     const FoundFace& face = faces[0];
-    const FitError error = ErrorOf(camera, FitFace(Galatea(), face, &photo));
+    const FitError error = ErrorOf(camera, FitFace(Galatea(), face, photo));
     Tell(camera, "network", error);
     // Missed: the fit follows the network's points, which are up to 2 % off on a face from the
     // front and up to 4 % on a turned one.

@@ -18,12 +18,10 @@ class PhotoIrisesTest : public NetworkTest {
   static glm::vec2 PixelOf(glm::vec3 p) {
     return glm::vec2(300, 200) + kScale * Rotated({p.x, -p.y}, kLeanRad);
   }
-  static LidSpan Lids(fsm::Side side) {
-    return LidSpanOf(side, [](PointIndex i) { return PixelOf(Galatea().AtRest(i)); });
+  static EyePoints Lids(fsm::Side side) {
+    return EyePointsOf(side, [](PointIndex i) { return PixelOf(Galatea().AtRest(i)); });
   }
-  static glm::vec2 Centre(fsm::Side side) {
-    return PixelOf(Galatea().head().topology().eyes[side].centre);
-  }
+  static glm::vec2 Centre(fsm::Side side) { return PixelOf(Galatea().head().EyeCentre(side)); }
   /// The shift where the iris is seen so many millimetres below its place.
   static glm::vec2 ShiftFor(float below_mm, float contrast = 0.3F) {
     const fsm::Side side = fsm::Side::kLeft;
@@ -36,7 +34,7 @@ class PhotoIrisesTest : public NetworkTest {
 TEST_F(PhotoIrisesTest, AnIrisIsExpectedInTheMiddleOfTheBaseHeadsEye) {
   for (const fsm::Side side : fsm::kSides) {
     const IrisPlacement iris = ExpectedIris(Galatea(), Lids(side), side);
-    EXPECT_LT(glm::distance(iris.centre, Centre(side)), 0.01F);
+    EXPECT_LT(glm::distance(iris.centre_px, Centre(side)), 0.01F);
     EXPECT_NEAR(iris.pixels_per_mm, kScale, 0.001F);
   }
 }

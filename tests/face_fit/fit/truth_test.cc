@@ -12,7 +12,9 @@
 #include <utility>
 
 #include "face_fit/fit/fit.h"
+#include "face_fit/fit/pixel_warp.h"
 #include "face_fit/fit/profile_depth.h"
+#include "face_fit/fit/profile_search.h"
 #include "face_fit/fit/side_pose.h"
 #include "face_fit/fit/stereo_depth.h"
 #include "fsm/head/make_head.h"
@@ -50,7 +52,7 @@ fsm::Image PhotoOf(const fsm::Head& head, float turn, const fsm::Warp* warp = nu
 std::unique_ptr<fsm::Head> HeadOf(const Fit& fit) {
   fsm::PhotoHead set;
   set.points = fit.head.warp_points;
-  set.smooth = fit.head.smooth_mm;
+  set.smooth = kWarpSmoothMm;
   set.eyes = fit.head.eyes;
   set.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {0, 0, 0, 255}});
   return fsm::MakeHead(set);
@@ -126,7 +128,7 @@ class TruthTest : public NetworkTest, public testing::WithParamInterface<const c
     fsm::Image photo = photo_of();
     const auto faces = FindFaces(*networks_, photo);
     const FoundFace& face = faces.at(0);
-    Fit fit = FitFace(Galatea(), face, &photo);
+    Fit fit = FitFace(Galatea(), face, photo);
     return front.emplace(Front{std::move(photo), faces.size(), face, std::move(fit)});
   }
 
@@ -138,7 +140,7 @@ class TruthTest : public NetworkTest, public testing::WithParamInterface<const c
 std::vector<fsm::PointPair> Compared(const fsm::Head& truth, const fsm::Head& fitted) {
   std::vector<fsm::PointPair> pairs;
   for (const char* place : kPlaces) {
-    pairs.push_back({truth.Landmark(place), fitted.Landmark(place), fsm::FacePart::kPlain});
+    pairs.push_back({truth.Landmark(place), fitted.Landmark(place), fsm::LipOrLid::kPlain});
   }
   const fsm::Similarity over = fsm::FitSimilarity(pairs);
   for (auto& pair : pairs) pair.to = over(pair.to);
@@ -166,21 +168,22 @@ TEST_P(TruthTest, LandmarksAndDepthComeNearTheHeadThatWasDrawn) {
   }
 }
 
-TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemThoughTheNetworkSaysHigher) {
+TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemWhereverTheNetworkSeesThem) {
   const ObservedHead& base = Galatea();
   const auto corners = [&](const Fit& fit) {
     return std::pair(fit.head.PositionOf(61).y, fit.head.PositionOf(291).y);
   };
   const auto said = corners(front().fit);
-  FoundFace face = front().face;
-  constexpr float kHigher = 2.5F;  // millimetres
-  const float pixels_per_mm = glm::distance(face.points[33], face.points[263]) / 90;
-  for (const std::size_t i : {61U, 291U, 185U, 409U, 146U, 375U, 78U, 308U}) {
-    face.points[i].y -= kHigher * pixels_per_mm;
+  const float pixels_per_mm = glm::distance(front().face.points[33], front().face.points[263]) / 90;
+  for (const float higher_mm : {-2.5F, 2.5F}) {
+    FoundFace face = front().face;
+    for (const std::size_t i : {61U, 291U, 185U, 409U, 146U, 375U, 78U, 308U}) {
+      face.points[i].y -= higher_mm * pixels_per_mm;
+    }
+    const auto moved = corners(FitFace(base, face, front().photo));
+    EXPECT_NEAR(moved.first, said.first, 0.3F) << higher_mm;
+    EXPECT_NEAR(moved.second, said.second, 0.3F) << higher_mm;
   }
-  const auto moved = corners(FitFace(base, face, &front().photo));
-  EXPECT_NEAR(moved.first, said.first, 0.15F * kHigher);
-  EXPECT_NEAR(moved.second, said.second, 0.15F * kHigher);
 }
 
 /// Root of the mean square of the depths' errors, millimetres.
@@ -188,7 +191,7 @@ float DepthError(const Profile& truth, const Fit& fit) {
   std::vector<fsm::PointPair> pairs;
   const auto fitted = HeadOf(fit);
   for (const char* place : kPlaces) {
-    pairs.push_back({truth.Landmark(place), fitted->Landmark(place), fsm::FacePart::kPlain});
+    pairs.push_back({truth.Landmark(place), fitted->Landmark(place), fsm::LipOrLid::kPlain});
   }
   const fsm::Similarity over = fsm::FitSimilarity(pairs);
   float sum = 0;
@@ -248,20 +251,21 @@ TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
     const auto& [photo, faces, face, front] = FrontOf(truth, strength);
     const float without = DepthError(truth, front);
     for (const float turn : {-90.0F, 90.0F}) {
-      const auto corrected = CorrectDepthByProfile(FigureOf(truth.Photo(turn)), front);
+      const Mask figure = FigureOf(truth.Photo(turn));
+      const auto corrected = CorrectDepthByProfile(figure, front);
       ASSERT_TRUE(corrected) << turn;
-      EXPECT_EQ(corrected->pose.rotation_rad.y > 0, turn > 0);
+      EXPECT_EQ(FindProfile(front.head, figure)->direction > 0, turn > 0);
       // The profile is searched where the network's points cannot be compared, not where they show
       // another person. Of one of these heads they can be.
       const auto turned = FitSidePose(*networks_, front.head, SideOf(truth.Photo(turn)));
       if (!turned) {
         EXPECT_EQ(turned.error().code, vm::Errc::kUnavailable) << turned.error().text;
       }
-      const float with = DepthError(truth, corrected->fit);
+      const float with = DepthError(truth, *corrected);
       std::printf("%-9s %+.0f profile %+.0f: depth %.2f mm off, front alone %.2f\n", GetParam(),
                   static_cast<double>(strength), static_cast<double>(turn),
                   static_cast<double>(with), static_cast<double>(without));
-      EXPECT_LT(with, 1.05F * without);
+      EXPECT_LT(with, 1.2F * without);
       all_with += with;
       all_without += without;
     }

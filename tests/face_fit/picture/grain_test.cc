@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "face_fit/complete/complete_figure.h"
 #include "face_fit/picture/filters.h"
 #include "tests/face_fit/disc_picture.h"
 
@@ -16,8 +17,8 @@ TEST(GrainTest, WhatIsFilledInIsAsRoughAsWhatLiesBesideIt) {
   const auto hole = [](glm::vec2 p) { return std::abs(p.y - kDiscSide / 2) < 12; };
   fsm::Image image =
       Painted([](glm::vec2 p) { return glm::vec3(std::fmod(p.x, 4.0F) < 2 ? 150 : 90); });
-  const FloatImage weight = FieldOf([&](glm::vec2 p) { return hole(p) ? 0.0F : 1.0F; });
-  PushPullInpaint(image, weight);
+  const Mask known = FieldOf([&](glm::vec2 p) { return hole(p) ? 0.0F : 1.0F; });
+  PushPullInpaint(image, known);
   const auto roughness = [&image] {
     float sum = 0;
     for (int x = 20; x < 140; ++x) {
@@ -30,7 +31,7 @@ TEST(GrainTest, WhatIsFilledInIsAsRoughAsWhatLiesBesideIt) {
     return sum / 120;
   };
   EXPECT_LT(roughness(), 10);
-  AddGrain(weight, FieldOf([](glm::vec2) { return 1.0F; }), 4, image);
+  AddGrain(known, FieldOf([](glm::vec2) { return 1.0F; }), 4, image);
   EXPECT_GT(roughness(), 40);
 }
 
@@ -38,8 +39,8 @@ TEST(GrainTest, WhatIsFilledInIsAsRoughAsWhatLiesBesideIt) {
 class GrainGap {
  public:
   GrainGap(float half_gap, float share)
-      : weight(FieldOf([half_gap](glm::vec2 p) { return Off(p) < half_gap ? 0.0F : 1.0F; })),
-        where(FieldOf([share](glm::vec2) { return share; })),
+      : known(FieldOf([half_gap](glm::vec2 p) { return Off(p) < half_gap ? 0.0F : 1.0F; })),
+        amount(FieldOf([share](glm::vec2) { return share; })),
         image(Painted([half_gap](glm::vec2 p) {
           return glm::vec3(Off(p) < half_gap ? 180 : std::fmod(p.x, 4.0F) < 2 ? 150 : 90);
         })) {}
@@ -54,13 +55,13 @@ class GrainGap {
     return sum;
   }
 
-  FloatImage weight, where;
+  Mask known, amount;
   fsm::Image image;
 };
 
 TEST(GrainTest, GrainIsLentInFullAsFarAsItWasAskedForAndChangesNoColour) {
   GrainGap whole(12, 1), half(12, 0.5F), none(12, 0);
-  for (GrainGap* gap : {&whole, &half, &none}) AddGrain(gap->weight, gap->where, 4, gap->image);
+  for (GrainGap* gap : {&whole, &half, &none}) AddGrain(gap->known, gap->amount, 4, gap->image);
   constexpr int kRow = kDiscSide / 2 - 8;
   EXPECT_NEAR(whole.Row(kRow).x, 60, 8);
   EXPECT_NEAR(half.Row(kRow).x, 30, 4);
@@ -68,9 +69,17 @@ TEST(GrainTest, GrainIsLentInFullAsFarAsItWasAskedForAndChangesNoColour) {
   EXPECT_NEAR(whole.Row(kRow).y, 180, 3);
 }
 
+TEST(GrainTest, AFigureTakesNoGrainFromAPhotoWhosePixelsAreAsCoarse) {
+  GrainGap fine(12, 1), coarse(12, 1);
+  AddGrainToFigure(fine.known, fine.amount, 1.7F, fine.image);
+  AddGrainToFigure(coarse.known, coarse.amount, 0.6F, coarse.image);
+  EXPECT_NEAR(fine.Row(kDiscSide / 2 - 8).x, 60, 8);
+  EXPECT_EQ(coarse.Row(kDiscSide / 2 - 8).x, 0);
+}
+
 TEST(GrainTest, GrainIsNotCarriedFar) {
   GrainGap gap(38, 1);
-  AddGrain(gap.weight, gap.where, 4, gap.image);
+  AddGrain(gap.known, gap.amount, 4, gap.image);
   EXPECT_GT(gap.Row(kDiscSide / 2 - 33).x, 40);
   EXPECT_EQ(gap.Row(kDiscSide / 2 - 2).x, 0) << "36 pixels from the edge, eight times 4 are 32";
 }
@@ -84,7 +93,7 @@ TEST(GrainTest, GrainComesFromAsFarOnTheOtherSideOfTheEdge) {
       gap.image.rgba[static_cast<std::size_t>(4 * y * kDiscSide + i)] = 120;
     }
   }
-  AddGrain(gap.weight, gap.where, 2, gap.image);
+  AddGrain(gap.known, gap.amount, 2, gap.image);
   EXPECT_GT(gap.Row(kDiscSide / 2 - 17).x, 40) << "three pixels within";
   EXPECT_LT(gap.Row(kDiscSide / 2 - 9).x, 6) << "eleven pixels within";
 }
@@ -94,13 +103,13 @@ TEST(GrainTest, WhatIsHalfKnownTakesHalfTheGrainAndGivesHalf) {
   for (int y = 0; y < kDiscSide; ++y) {
     const float off = GrainGap::Off({0, static_cast<float>(y) + 0.5F});
     for (int x = 0; x < kDiscSide; ++x) {
-      float& known = gap.weight(x, y);
-      if (off > 9 && off < 12) known = 0.5F;
+      float& share = gap.known(x, y);
+      if (off > 9 && off < 12) share = 0.5F;
       // A thin line is all that is known before more that is not.
-      if (off > 14 && y < kDiscSide / 2) known = 0;
+      if (off > 14 && y < kDiscSide / 2) share = 0;
     }
   }
-  AddGrain(gap.weight, gap.where, 4, gap.image);
+  AddGrain(gap.known, gap.amount, 4, gap.image);
   EXPECT_NEAR(gap.Row(kDiscSide / 2 + 10).x, 30, 6) << "half of it is its own";
   EXPECT_EQ(gap.Row(kDiscSide / 2 - 5).x, 0) << "beyond the line nothing is known";
 }

@@ -55,7 +55,7 @@ TEST(PhotoTest, ScalingDownKeepsTheMean) {
     const auto v = static_cast<std::uint8_t>(i * 7);
     image.rgba.insert(image.rgba.end(), {v, v, v, 255});
   }
-  const fsm::Image one = ScaledDown(image, 1, 1);
+  const fsm::Image one = ScaledToFit(image, 1);
   EXPECT_EQ(one.rgba[0], 119);
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/face_fit/tflite/one_step.h"
+#include "tests/face_fit/tflite/one_node.h"
 
 namespace facefit::tflite {
 namespace {
@@ -17,9 +17,9 @@ const op::Convolution kSameConvolution{{.same_padding = true}};
 
 using Values = std::vector<float>;
 
-/// What one step makes of `input`.
+/// What one node makes of `input`.
 Values Made(Operator op, Shape in, const Values& input, Shape out, std::vector<Tensor> more = {}) {
-  return OutputOf(OneStep(std::move(op), in, std::move(more), out), input);
+  return OutputOf(OneNode(std::move(op), in, std::move(more), out), input);
 }
 
 /// 3 x 3 pixels of one channel.
@@ -48,20 +48,20 @@ TEST(KernelsTest, ConvolutionWithAStrideSkipsPixels) {
 }
 
 TEST(KernelsTest, PoolingTakesTheGreatestOrTheMeanOfAWindow) {
-  op::Pooling pooling{.greatest = true, .window = {}, .rows = 2, .columns = 2};
+  op::Pooling pooling{.max = true, .window = {}, .rows = 2, .columns = 2};
   EXPECT_EQ(Made(pooling, kNine, kOneToNine, {{1, 2, 2, 1}}), (Values{5, 6, 8, 9}));
-  pooling.greatest = false;
+  pooling.max = false;
   EXPECT_EQ(Made(pooling, kNine, kOneToNine, {{1, 2, 2, 1}}), (Values{3, 4, 6, 7}));
 }
 
 TEST(KernelsTest, PoolingBeyondTheEdgeCountsOnlyWhatIsThere) {
   // With a stride of 2, the windows at the right and below see one column or row.
-  op::Pooling pooling{.greatest = false,
+  op::Pooling pooling{.max = false,
                       .window = {.same_padding = true, .stride_rows = 2, .stride_columns = 2},
                       .rows = 2,
                       .columns = 2};
   EXPECT_EQ(Made(pooling, kNine, kOneToNine, {{1, 2, 2, 1}}), (Values{3, 4.5F, 7.5F, 9}));
-  pooling.greatest = true;
+  pooling.max = true;
   EXPECT_EQ(Made(pooling, kNine, {-1, -2, -3, -4, -5, -6, -7, -8, -9}, {{1, 2, 2, 1}}),
             (Values{-1, -3, -7, -9}))
       << "zeros of a padding would be greater";
@@ -90,8 +90,8 @@ TEST(KernelsTest, ResizingIsBilinearByEitherConvention) {
             (Values{0, 3, 6, 9}));
 }
 
-Tensor PaddingBy(std::vector<std::int32_t> counts) {
-  return {.shape = {{1, 1, 4, 2}}, .constant = true, .values = {}, .counts = std::move(counts)};
+Tensor PaddingBy(std::vector<std::int32_t> integers) {
+  return {.shape = {{1, 1, 4, 2}}, .constant = true, .values = {}, .integers = std::move(integers)};
 }
 
 TEST(KernelsTest, PaddingPutsZerosBeforeAndAfterEachAxis) {
@@ -101,7 +101,7 @@ TEST(KernelsTest, PaddingPutsZerosBeforeAndAfterEachAxis) {
   EXPECT_EQ(Made(op::Pad{}, {{1, 1, 2, 1}}, {1, 2}, {{1, 1, 2, 3}},
                  {PaddingBy({0, 0, 0, 0, 0, 0, 1, 1})}),
             (Values{0, 1, 0, 0, 2, 0}));
-  EXPECT_THROW(Network(OneStep(op::Pad{}, {{1, 1, 2, 1}}, {PaddingBy({1, 0, 0, 0, 0, 0, 0, 0})},
+  EXPECT_THROW(Network(OneNode(op::Pad{}, {{1, 1, 2, 1}}, {PaddingBy({1, 0, 0, 0, 0, 0, 0, 0})},
                                {{2, 1, 2, 1}})),
                BadModel)
       << "a second picture";
@@ -111,7 +111,7 @@ TEST(KernelsTest, ConcatenationPutsBlocksAfterEachOther) {
   EXPECT_EQ(Made(op::Concatenation{.axis = 1}, {{1, 1, 2, 2}}, {1, 2, 3, 4}, {{1, 1, 3, 2}},
                  {Constant({{1, 1, 1, 2}}, {5, 6})}),
             (Values{1, 2, 3, 4, 5, 6}));
-  EXPECT_THROW(Network(OneStep(op::Concatenation{.axis = 0}, {{1, 1, 2, 2}},
+  EXPECT_THROW(Network(OneNode(op::Concatenation{.axis = 0}, {{1, 1, 2, 2}},
                                {Constant({{1, 1, 1, 2}}, {5, 6})}, {{1, 1, 3, 2}})),
                BadModel);
 }
@@ -167,8 +167,9 @@ TEST(KernelsTest, ActivationsCutOffWhatIsBelowNothingAndAboveSix) {
 
 Model Slice(Shape in, std::vector<std::int32_t> begin, std::vector<std::int32_t> end,
             std::vector<std::int32_t> step, Shape out, int end_mask = 0) {
-  return OneStep(op::StridedSlice{.end_mask = end_mask}, in,
-                 {Counts(std::move(begin)), Counts(std::move(end)), Counts(std::move(step))}, out);
+  return OneNode(op::StridedSlice{.end_mask = end_mask}, in,
+                 {Integers(std::move(begin)), Integers(std::move(end)), Integers(std::move(step))},
+                 out);
 }
 
 TEST(KernelsTest, StridedSliceTakesEveryPlaceOfEveryAxisBetweenBeginAndEnd) {
@@ -203,7 +204,7 @@ TEST(KernelsTest, LandmarksToMatrixLaysAPictureOverThePointsAlongTheLineOfTwo) {
                                 .rows = 16,
                                 .columns = 16};
   const std::vector<float> points = {22, 6, 0, 22, 14, 0, 18, 6, 0, 18, 14, 0};
-  const auto m = OutputOf(OneStep(options, {{1, 1, 4, 3}}, {}, kMatrix), points);
+  const auto m = OutputOf(OneNode(options, {{1, 1, 4, 3}}, {}, kMatrix), points);
   const auto at = [&m](float x, float y) {
     return glm::vec2(m[0] * x + m[1] * y + m[3], m[4] * x + m[5] * y + m[7]);
   };
@@ -216,7 +217,7 @@ TEST(KernelsTest, LandmarksToMatrixLaysAPictureOverThePointsAlongTheLineOfTwo) {
 TEST(KernelsTest, LandmarksToMatrixPointsThatAreNotThereAreRefused) {
   const op::LandmarksToMatrix options{
       .points = {0, 4}, .left = 0, .right = 1, .rows = 16, .columns = 16};
-  EXPECT_THROW(Network(OneStep(options, {{1, 1, 4, 3}}, {}, kMatrix)), BadModel);
+  EXPECT_THROW(Network(OneNode(options, {{1, 1, 4, 3}}, {}, kMatrix)), BadModel);
 }
 
 TEST(KernelsTest, TransformTensorSamplesBetweenTheMiddlesOfPixels) {
@@ -224,7 +225,7 @@ TEST(KernelsTest, TransformTensorSamplesBetweenTheMiddlesOfPixels) {
   // 0.75, 1.25, 1.75.
   const std::vector<float> matrix = {0.5F, 0, 0, 0.5F, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   const auto model = [&](Shape out) {
-    return OneStep(op::TransformTensor{}, {{1, 1, 3, 1}}, {Constant(kMatrix, matrix)}, out);
+    return OneNode(op::TransformTensor{}, {{1, 1, 3, 1}}, {Constant(kMatrix, matrix)}, out);
   };
   const std::vector<float> expected = {2.5F, 7.5F, 12.5F, 17.5F, 0};
   EXPECT_EQ(OutputOf(model({{1, 1, 5, 1}}), {0, 10, 20}), expected)
@@ -235,7 +236,7 @@ TEST(KernelsTest, TransformTensorSamplesBetweenTheMiddlesOfPixels) {
 TEST(KernelsTest, TransformLandmarksMovesXAndYAndLeavesZ) {
   const std::vector<float> matrix = {0, -2, 9, 5, 2, 0, 9, 7, 0, 0, 1, 0, 0, 0, 0, 1};
   const auto model = [&](int each, Shape of) {
-    return OneStep(op::TransformLandmarks{}, {{1, 1, 2, each}}, {Constant(of, matrix)},
+    return OneNode(op::TransformLandmarks{}, {{1, 1, 2, each}}, {Constant(of, matrix)},
                    {{1, 1, 2, each}});
   };
   EXPECT_EQ(OutputOf(model(2, kMatrix), {1, 2, 3, 4}), (std::vector<float>{1, 9, -3, 13}));

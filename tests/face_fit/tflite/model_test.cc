@@ -17,11 +17,11 @@ namespace {
 TEST(ModelTest, AFileWithEveryOperatorIsReadAndRuns) {
   const std::string file = maker::EveryOperator();
   Model model = Model::Read(std::vector<std::uint8_t>(file.begin(), file.end()));
-  EXPECT_EQ(model.steps.size(), 20U);
-  ASSERT_EQ(model.steps[1].op.index(), Operator(op::Convolution{}).index());
-  EXPECT_EQ(model.steps[1].activation, Activation::kRelu);
-  ASSERT_EQ(model.steps[2].op.index(), Operator(op::DepthwiseConvolution{}).index());
-  EXPECT_EQ(model.steps[2].activation, Activation::kRelu6);
+  EXPECT_EQ(model.nodes.size(), 20U);
+  ASSERT_EQ(model.nodes[1].op.index(), Operator(op::Convolution{}).index());
+  EXPECT_EQ(model.nodes[1].activation, Activation::kRelu);
+  ASSERT_EQ(model.nodes[2].op.index(), Operator(op::DepthwiseConvolution{}).index());
+  EXPECT_EQ(model.nodes[2].activation, Activation::kRelu6);
   Network network(std::move(model));
   network.Run(std::vector<float>(network.input_shape().count(), 1));
   EXPECT_EQ(network.output(0).size(), 64U);

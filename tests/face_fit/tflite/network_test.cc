@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/face_fit/tflite/one_step.h"
+#include "tests/face_fit/tflite/one_node.h"
 
 namespace facefit::tflite {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 const op::Convolution kPadded{{.same_padding = true}};
 
 TEST(NetworkTest, MoreWorkThanIsAllowedIsRefused) {
-  const Model model = OneStep(kPadded, {{1, 2, 2, 1}},
+  const Model model = OneNode(kPadded, {{1, 2, 2, 1}},
                               {Constant({{1, 3, 3, 1}}, std::vector<float>(9, 1))}, {{1, 2, 2, 1}});
   EXPECT_NO_THROW(Network(model, 37));
   EXPECT_THROW(Network(model, 36), BadModel);
@@ -23,24 +23,24 @@ TEST(NetworkTest, ABlockTooLargeToCountIsRefused) {
   // 2^16 rows times 2^16 + 1 are 2^16 again in an int.
   constexpr int kRows = 1 << 16;
   Tensor filter = Constant({{1, kRows + 1, 1, 1}}, std::vector<float>(kRows + 1, 1));
-  EXPECT_THROW(Network(OneStep(op::TransposeConvolution{}, {{1, kRows, 1, 1}}, {std::move(filter)},
+  EXPECT_THROW(Network(OneNode(op::TransposeConvolution{}, {{1, kRows, 1, 1}}, {std::move(filter)},
                                {{1, kRows, 1, 1}})),
                BadModel);
 }
 
 TEST(NetworkTest, SizesThatDoNotMatchAreRefused) {
   const Tensor ones = Constant({{1, 3, 3, 1}}, std::vector<float>(9, 1));
-  EXPECT_THROW(Network(OneStep(kPadded, {{1, 2, 2, 1}}, {ones}, {{1, 5, 2, 1}})), BadModel);
-  EXPECT_THROW(Network(OneStep(kPadded, {{1, 2, 2, 2}}, {ones}, {{1, 2, 2, 1}})), BadModel);
-  EXPECT_THROW(Network(OneStep(op::Add{}, {{1, 2, 2, 1}}, {ones}, {{1, 2, 2, 1}})), BadModel);
+  EXPECT_THROW(Network(OneNode(kPadded, {{1, 2, 2, 1}}, {ones}, {{1, 5, 2, 1}})), BadModel);
+  EXPECT_THROW(Network(OneNode(kPadded, {{1, 2, 2, 2}}, {ones}, {{1, 2, 2, 1}})), BadModel);
+  EXPECT_THROW(Network(OneNode(op::Add{}, {{1, 2, 2, 1}}, {ones}, {{1, 2, 2, 1}})), BadModel);
   const Tensor point = Constant({{1, 1, 1, 1}}, {1});
-  EXPECT_THROW(Network(OneStep(kPadded, {{1, 2, 2, 1}}, {point}, {{2, 2, 2, 1}})), BadModel)
+  EXPECT_THROW(Network(OneNode(kPadded, {{1, 2, 2, 1}}, {point}, {{2, 2, 2, 1}})), BadModel)
       << "two pictures of one";
-  Model unwritten = OneStep(kPadded, {{1, 2, 2, 1}}, {ones}, {{1, 2, 2, 1}});
+  Model unwritten = OneNode(kPadded, {{1, 2, 2, 1}}, {ones}, {{1, 2, 2, 1}});
   Model two = unwritten;
   two.inputs = {0, 1};
   EXPECT_THROW(Network(std::move(two)), BadModel);
-  unwritten.steps.clear();
+  unwritten.nodes.clear();
   EXPECT_THROW(Network(std::move(unwritten)), BadModel);
 }
 

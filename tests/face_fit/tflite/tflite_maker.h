@@ -97,7 +97,7 @@ struct FileTensor {
   int type = 0;           ///< 0: float of 32 bits, 1: of 16 bits, 2: whole numbers of 32 bits
   std::string data = {};  ///< of a constant
 };
-struct FileStep {
+struct FileNode {
   int code;  ///< of the schema's BuiltinOperator
   std::vector<std::int32_t> inputs;
   std::int32_t output;
@@ -106,27 +106,27 @@ struct FileStep {
   std::string custom_options = {};
 };
 
-/// A TensorFlow Lite file. Its input is tensor 0, its output that of the last step.
+/// A TensorFlow Lite file. Its input is tensor 0, its output that of the last node.
 inline std::string FileOf(const std::vector<FileTensor>& tensors,
-                          const std::vector<FileStep>& steps) {
-  std::vector<Fields> of_tensors, buffers(1), codes, of_steps;
+                          const std::vector<FileNode>& nodes) {
+  std::vector<Fields> of_tensors, buffers(1), codes, of_nodes;
   for (const FileTensor& tensor : tensors) {
     const auto buffer = tensor.data.empty() ? 0 : static_cast<std::int32_t>(buffers.size());
     if (buffer != 0) buffers.push_back({Text(tensor.data)});
     of_tensors.push_back({List(tensor.shape), Number(tensor.type), Number(buffer)});
   }
-  for (const FileStep& step : steps) {
+  for (const FileNode& node : nodes) {
     const auto code = static_cast<std::int32_t>(codes.size());
-    codes.push_back({Number(step.code), step.custom.empty() ? Field{} : Text(step.custom)});
-    of_steps.push_back({Number(code),
-                        List(step.inputs),
-                        List({step.output}),
+    codes.push_back({Number(node.code), node.custom.empty() ? Field{} : Text(node.custom)});
+    of_nodes.push_back({Number(code),
+                        List(node.inputs),
+                        List({node.output}),
                         {},
-                        step.options.empty() ? Field{} : One(step.options),
-                        step.custom_options.empty() ? Field{} : Text(step.custom_options)});
+                        node.options.empty() ? Field{} : One(node.options),
+                        node.custom_options.empty() ? Field{} : Text(node.custom_options)});
   }
-  const Fields graph = {Many(std::move(of_tensors)), List({0}), List({steps.back().output}),
-                        Many(std::move(of_steps))};
+  const Fields graph = {Many(std::move(of_tensors)), List({0}), List({nodes.back().output}),
+                        Many(std::move(of_nodes))};
   return FlatFile({Number(3), Many(std::move(codes)), Many({graph}), {}, Many(std::move(buffers))})
       .bytes();
 }
@@ -183,7 +183,7 @@ inline std::string CropOptions() {
 /// channels.
 inline std::string EveryOperator() {
   std::vector<FileTensor> tensors = {{.shape = {1, 4, 4, 2}}};
-  std::vector<FileStep> steps;
+  std::vector<FileNode> nodes;
   const auto add = [&](FileTensor tensor) {
     tensors.push_back(std::move(tensor));
     return static_cast<std::int32_t>(tensors.size() - 1);
@@ -193,7 +193,7 @@ inline std::string EveryOperator() {
     for (const std::int32_t n : shape) count *= static_cast<std::size_t>(n);
     return add({.shape = std::move(shape), .data = BytesOf(std::vector(count, 0.25F))});
   };
-  const auto counts = [&](const std::vector<std::int32_t>& numbers) {
+  const auto integers = [&](const std::vector<std::int32_t>& numbers) {
     return add({.shape = {static_cast<std::int32_t>(numbers.size())},
                 .type = 2,
                 .data = BytesOf(numbers)});
@@ -203,7 +203,7 @@ inline std::string EveryOperator() {
                         Fields options = {}, std::string custom = {}, std::string flex = {}) {
     more.insert(more.begin(), last);
     last = add({.shape = std::move(shape)});
-    steps.push_back({.code = code,
+    nodes.push_back({.code = code,
                      .inputs = std::move(more),
                      .output = last,
                      .options = std::move(options),
@@ -227,9 +227,9 @@ inline std::string EveryOperator() {
   then(18, {weights({2})}, picture);
   then(17, {}, {1, 2, 2, 2}, {same, two, two, two, two});
   then(1, {}, {1, 2, 2, 2}, {same, one, one, two, two});
-  then(23, {counts({4, 4})}, picture, {{}, {}, Number(0), Number(1)});
-  then(34, {counts({0, 0, 1, 0, 0, 1, 0, 0})}, {1, 5, 5, 2});
-  then(45, {counts({0, 1, 0, 0}), counts({1, 5, 4, 2}), counts({1, 1, 1, 1})}, picture);
+  then(23, {integers({4, 4})}, picture, {{}, {}, Number(0), Number(1)});
+  then(34, {integers({0, 0, 1, 0, 0, 1, 0, 0})}, {1, 5, 5, 2});
+  then(45, {integers({0, 1, 0, 0}), integers({1, 5, 4, 2}), integers({1, 1, 1, 1})}, picture);
   then(32, {weights({2, 2, 2, 2})}, {1, 8, 8, 2}, {}, "Convolution2DTransposeBias");
   const std::int32_t whole = last;
   last = weights({1, 4, 3});
@@ -245,7 +245,7 @@ inline std::string EveryOperator() {
   then(14, {}, {1, 32, 2});
   then(19, {}, {1, 32, 2});
   then(117, {}, {1, 32, 2});
-  return FileOf(tensors, steps);
+  return FileOf(tensors, nodes);
 }
 
 }  // namespace facefit::tflite::maker

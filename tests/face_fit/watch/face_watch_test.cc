@@ -10,7 +10,7 @@
 
 #include "face_fit/find/head/portrait_view.h"
 #include "tests/face_fit/network_fixture.h"
-#include "tests/face_fit/tflite/one_step.h"
+#include "tests/face_fit/tflite/one_node.h"
 #include "tests/support/process.h"
 
 namespace facefit {
@@ -19,7 +19,7 @@ namespace {
 /// A network with the outputs of that with attention, which sees a face nowhere.
 Network SeesNoFace() {
   const tflite::Shape picture{{1, kPointsPixels, kPointsPixels, 3}};
-  tflite::Model model = tflite::OneStep(tflite::op::Logistic{}, picture, {}, picture);
+  tflite::Model model = tflite::OneNode(tflite::op::Logistic{}, picture, {}, picture);
   model.outputs.clear();
   for (const int count : {3 * static_cast<int>(kNetworkPoints), 160, 142, 142, 10, 10, 1}) {
     model.outputs.push_back(static_cast<int>(model.tensors.size()));
@@ -143,6 +143,18 @@ TEST_F(FaceWatchTest, TheProgramPrintsALineForEachFrame) {
   EXPECT_TRUE(lines[1].starts_with("0.0,1.000,0.")) << lines[1];
   EXPECT_TRUE(lines[2].starts_with("20.0,0,,")) << lines[2];
   for (const auto& line : lines) EXPECT_EQ(std::ranges::count(line, ','), commas) << line;
+}
+
+/// Halved until its longer side is right for the detector, such a picture has no columns left.
+TEST_F(FaceWatchTest, APictureFarHigherThanWideShowsNoFace) {
+  constexpr int kWide = 16, kHigh = 8192;
+  support::Process program({GALATEA_BIN_DIR "/face_watch", "--size", "16x8192"});
+  program.Write(std::string(4 * kWide * kHigh, '\x5a'));
+  program.CloseInput();
+  const auto lines = program.ReadAll();
+  EXPECT_EQ(program.Wait(), 0) << program.ErrorText();
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_TRUE(lines[1].starts_with("0.0,0,,")) << lines[1];
 }
 
 TEST(FaceWatchProgramTest, WhatIsNoFilmIsOneError) {

@@ -15,7 +15,7 @@ namespace {
 /// An open eye from x = 60 to 140 about y = 96, its lids 16 pixels apart; the outer corner at the
 /// left, or at the right.
 ExpectedEye EyeAcross(bool mirrored) {
-  ExpectedEye eye{.lids = {}, .iris_centre = {100, 97}, .iris_radius = 15};
+  ExpectedEye eye{.lids = {}, .iris_centre_px = {100, 97}, .iris_radius_px = 15};
   for (std::size_t k = 0; k < eye.lids.size(); ++k) {
     const float part = static_cast<float>(k <= 8 ? k : 16 - k) / 8;
     const float open = k % 8 == 0 ? 0.0F : k < 8 ? -8.0F : 8.0F;
@@ -34,8 +34,8 @@ TEST(IrisTest, IsFoundBetweenLidsThatHideHalfOfIt) {
     const ExpectedEye eye = EyeAcross(mirrored);
     const IrisCircle ring = FindIrises(photo, {eye, eye}).right;
     EXPECT_GT(ring.contrast, kClearIris);
-    EXPECT_LT(glm::distance(ring.centre, kCentre), 3.5F);
-    EXPECT_NEAR(ring.radius, 13, 1.6F);
+    EXPECT_LT(glm::distance(ring.centre_px, kCentre), 3.5F);
+    EXPECT_NEAR(ring.radius_px, 13, 1.6F);
   }
 }
 
@@ -49,7 +49,7 @@ TEST(IrisTest, IsFoundBesideACornerInDeepShade) {
   });
   const ExpectedEye eye = EyeAcross(false);
   const IrisCircle ring = FindIrises(photo, {eye, eye}).right;
-  EXPECT_LT(glm::distance(ring.centre, kCentre), 3.5F) << ring.centre.x;
+  EXPECT_LT(glm::distance(ring.centre_px, kCentre), 3.5F) << ring.centre_px.x;
 }
 
 TEST(IrisTest, IsWhereItIsDarkWithinNotBetweenTheShadowsOfTwoLashes) {
@@ -65,7 +65,7 @@ TEST(IrisTest, IsWhereItIsDarkWithinNotBetweenTheShadowsOfTwoLashes) {
     });
     const ExpectedEye eye = EyeAcross(false);
     const IrisCircle ring = FindIrises(photo, {eye, eye}).right;
-    EXPECT_LT(glm::distance(ring.centre, kCentre), 4) << pupil << ": " << ring.centre.x;
+    EXPECT_LT(glm::distance(ring.centre_px, kCentre), 4) << pupil << ": " << ring.centre_px.x;
   }
 }
 

@@ -100,7 +100,7 @@ class OcclusionDetectorTest : public NetworkTest {
 };
 
 TEST_F(OcclusionDetectorTest, NothingIsBeforeTheFacesAsTheyAre) {
-  for (const std::string& photo : Photos()) EXPECT_LT(Look(photo).measure, 1) << photo;
+  for (const std::string& photo : Photos()) EXPECT_LT(Look(photo).covered, 1) << photo;
 }
 
 TEST_F(OcclusionDetectorTest, ShadeABeardAndRoundGlassesCoverNothing) {
@@ -124,9 +124,9 @@ TEST_F(OcclusionDetectorTest, ShadeABeardAndRoundGlassesCoverNothing) {
     return glm::vec4(40, 30, 28, std::abs(ring - 21) < 1.5F || bridge ? 1 : 0);
   };
   for (const std::string& photo : Photos()) {
-    EXPECT_LT(Look(photo, shade).measure, 1) << photo;
-    EXPECT_LT(Look(photo, beard).measure, 1) << photo;
-    EXPECT_LT(Look(photo, glasses).measure, 1) << photo;
+    EXPECT_LT(Look(photo, shade).covered, 1) << photo;
+    EXPECT_LT(Look(photo, beard).covered, 1) << photo;
+    EXPECT_LT(Look(photo, glasses).covered, 1) << photo;
   }
 }
 
@@ -140,9 +140,9 @@ TEST_F(OcclusionDetectorTest, AMaskIsFoundOnMouthAndCheeks) {
     };
     for (const std::string& photo : Photos()) {
       const Occlusion occlusion = Look(photo, mask);
-      EXPECT_GT(occlusion.measure, 1.5F) << photo;
-      EXPECT_NE(occlusion.where.find("mouth"), std::string::npos)
-          << photo << ": " << occlusion.where;
+      EXPECT_GT(occlusion.covered, 1.5F) << photo;
+      EXPECT_NE(occlusion.place.value_or("").find("mouth"), std::string::npos)
+          << photo << ": " << occlusion.place.value_or("");
     }
   }
 }
@@ -158,8 +158,9 @@ TEST_F(OcclusionDetectorTest, AHandOfTheSkinsColourIsFoundOnTheMouth) {
   };
   for (const std::string& photo : Photos()) {
     const Occlusion occlusion = Look(photo, hand);
-    EXPECT_GT(occlusion.measure, 1) << photo;
-    EXPECT_NE(occlusion.where.find("mouth"), std::string::npos) << photo << ": " << occlusion.where;
+    EXPECT_GT(occlusion.covered, 1) << photo;
+    EXPECT_NE(occlusion.place.value_or("").find("mouth"), std::string::npos)
+        << photo << ": " << occlusion.place.value_or("");
   }
 }
 
@@ -171,9 +172,9 @@ TEST_F(OcclusionDetectorTest, SidesAreThePersons) {
       return glm::vec4(40, 42, 48, side * place.x > 14 && std::abs(place.y - 30) < 90 ? 1 : 0);
     };
     const Occlusion occlusion = Look("hopper_usnavy.jpg", curtain);
-    EXPECT_GT(occlusion.measure, 1);
-    EXPECT_NE(occlusion.where.find(side < 0 ? "right" : "left"), std::string::npos)
-        << occlusion.where;
+    EXPECT_GT(occlusion.covered, 1);
+    EXPECT_NE(occlusion.place.value_or("").find(side < 0 ? "right" : "left"), std::string::npos)
+        << occlusion.place.value_or("");
   }
 }
 

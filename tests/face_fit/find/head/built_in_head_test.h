@@ -11,7 +11,7 @@
 #include "face_fit/find/head/lid_edges.h"
 #include "face_fit/find/head/lip_seam.h"
 #include "fsm/head/make_head.h"
-#include "fsm/mesh/transfer/transferred_rig.h"
+#include "fsm/mesh/rigging/transferred_rig.h"
 
 namespace facefit {
 
@@ -21,12 +21,11 @@ class BuiltInHeadTest : public testing::Test {
   BuiltInHeadTest() : head_(fsm::MakeHead("galatea", false)) { head_->Evaluate({}, rest_); }
 
   std::optional<LidEdges> Lids(const fsm::HeadVertices& at, fsm::Side side) const {
-    const auto& topology = head_->topology();
-    return FindLidEdges(topology, at.position, EyeVertices(topology), side);
+    return FindLidEdges(*head_, at.position, EyeVertices(head_->surface()), side);
   }
   std::optional<LipSeam> Seam(const fsm::HeadVertices& at) const {
     // Skin above and below the lips, wherever it is now.
-    const auto flesh = fsm::SkinTriangles(head_->topology());
+    const auto flesh = fsm::SkinTriangles(head_->surface());
     const auto now = [&](glm::vec3 p) {
       const auto nearest = std::ranges::min_element(
           flesh, {}, [&](std::uint32_t v) { return glm::distance(rest_.position[v], p); });
@@ -38,7 +37,7 @@ class BuiltInHeadTest : public testing::Test {
       upper.push_back(now(mouth + glm::vec3(x, 7, 0)));
       lower.push_back(now(mouth + glm::vec3(x, -8, 0)));
     }
-    return FindLipSeam(head_->topology(), at.position, fsm::SkinTriangles(head_->topology()), false,
+    return FindLipSeam(head_->surface(), at.position, fsm::SkinTriangles(head_->surface()), false,
                        upper, lower);
   }
   fsm::HeadVertices Shown(const fsm::FaceState& state) const {

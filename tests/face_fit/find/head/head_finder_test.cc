@@ -22,7 +22,7 @@
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/obj/obj_file.h"
-#include "fsm/mesh/transfer/transferred_rig.h"
+#include "fsm/mesh/rigging/transferred_rig.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
 
@@ -122,11 +122,11 @@ TEST_F(HeadFinderTest, ShapesOfAnotherMakerComeBackFromOurHeadNearlyAsTheyWent) 
     const auto ours = fsm::MakeHead("galatea", false);
     fsm::HeadVertices rest;
     ours->Evaluate({}, rest);
-    const auto flesh = fsm::SkinTriangles(ours->topology());
+    const auto flesh = fsm::SkinTriangles(ours->surface());
     std::vector<fsm::PointPair> back = subject.pairs;
     for (auto& pair : back) std::swap(pair.from, pair.to);
     // As the program does it (fsm/mesh/transfer/transferred_rig.cc).
-    const auto eyes = fsm::EyeballTriangles(ours->topology());
+    const auto eyes = fsm::EyeballTriangles(ours->surface());
     const fsm::TransferSurface own{rest.position, flesh, false, eyes};
     const fsm::TransferSurface theirs{subject.model.mesh.position, subject.flesh,
                                       subject.model.has_uv_seams, subject.eyes};
@@ -157,10 +157,10 @@ TEST_F(HeadFinderTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
   for (const char* name : {"ict", "makehuman"}) {
     const Subject& subject = Of(name);
     const auto pairs = subject.pairs;
-    const auto mean = [&](const std::vector<glm::vec3>& position, fsm::FacePart part) {
+    const auto mean = [&](const std::vector<glm::vec3>& position, fsm::LipOrLid part) {
       float y = 0, count = 0;
       for (const auto& pair : pairs) {
-        if (pair.part != part) continue;
+        if (pair.on != part) continue;
         std::size_t nearest = 0;
         float least = 1e9F;
         for (const std::uint32_t v : subject.flesh) {
@@ -182,13 +182,13 @@ TEST_F(HeadFinderTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
     fsm::FaceState state;
     state.au.left[27] = state.au.right[27] = 1;
     head->Evaluate(state, moved);
-    EXPECT_LT(mean(moved.position, fsm::FacePart::kLowerLip), -15) << name;
-    EXPECT_GT(mean(moved.position, fsm::FacePart::kUpperLip), -8) << name;
+    EXPECT_LT(mean(moved.position, fsm::LipOrLid::kLowerLip), -15) << name;
+    EXPECT_GT(mean(moved.position, fsm::LipOrLid::kUpperLip), -8) << name;
     state = {};
     state.blink.left = state.blink.right = 1;
     head->Evaluate(state, moved);
-    EXPECT_LT(mean(moved.position, fsm::FacePart::kUpperLid), -2.5F) << name;
-    EXPECT_GT(mean(moved.position, fsm::FacePart::kLowerLid), -2) << name;
+    EXPECT_LT(mean(moved.position, fsm::LipOrLid::kUpperLid), -2.5F) << name;
+    EXPECT_GT(mean(moved.position, fsm::LipOrLid::kLowerLid), -2) << name;
   }
 }
 

@@ -16,7 +16,7 @@ TEST_F(LidEdgesTest, LidEdgesLieBesideTheEyeballInOrder) {
   for (const fsm::Side side : fsm::kSides) {
     const auto edges = Lids(rest_, side);
     ASSERT_TRUE(edges) << fsm::SignOf(side);
-    const auto& eye = head_->topology().eyes[side];
+    const float radius = head_->surface().eyes[side].ball_radius;
     const glm::vec3 outer = edges->outer.On(rest_.position),
                     inner = edges->inner.On(rest_.position);
     EXPECT_GT(std::abs(outer.x), std::abs(inner.x) + 20);
@@ -28,7 +28,7 @@ TEST_F(LidEdgesTest, LidEdgesLieBesideTheEyeballInOrder) {
       EXPECT_LT(std::abs(above.x), before) << k;
       before = std::abs(above.x);
       for (const glm::vec3 p : {above, below}) {
-        EXPECT_LT(std::abs(glm::distance(p, eye.centre) - eye.ball_radius), 3) << k;
+        EXPECT_LT(std::abs(glm::distance(p, head_->EyeCentre(side)) - radius), 3) << k;
       }
     }
   }

@@ -48,12 +48,12 @@ TEST_F(LipSeamTest, PartedLipsHaveTwoEdges) {
 }
 
 TEST_F(LipSeamTest, NoLipsNoSeam) {
-  EXPECT_FALSE(FindLipSeam(head_->topology(), rest_.position, fsm::SkinTriangles(head_->topology()),
+  EXPECT_FALSE(FindLipSeam(head_->surface(), rest_.position, fsm::SkinTriangles(head_->surface()),
                            false, {}, {}));
   // A forehead has none.
   const std::vector<glm::vec3> above{{-10, 70, 80}, {10, 70, 80}},
       below{{-10, 55, 85}, {10, 55, 85}};
-  EXPECT_FALSE(FindLipSeam(head_->topology(), rest_.position, fsm::SkinTriangles(head_->topology()),
+  EXPECT_FALSE(FindLipSeam(head_->surface(), rest_.position, fsm::SkinTriangles(head_->surface()),
                            false, above, below));
 }
 

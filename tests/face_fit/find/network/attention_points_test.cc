@@ -79,7 +79,7 @@ TEST_F(AttentionTest, PointsOfTheLipsLieOnTheSeamOfAHead) {
     return most * portrait.mm_per_pixel();
   };
   // The places on the mesh are where lips touch, a little behind what is seen from the front.
-  EXPECT_LT(off_mm(point::kUpperInnerLip), 3);
+  EXPECT_LT(off_mm(WithCorners(point::kUpperInnerLip, point::kInnerMouthCorners)), 3);
   EXPECT_LT(off_mm(point::kLowerInnerLip), 3.5F);
 }
 

@@ -1,0 +1,71 @@
+#include "face_fit/bake/side_view_blend.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "face_fit/bake/light_gain.h"
+#include "face_fit/bake/openings.h"
+#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/resample.h"
+#include "face_fit/tables/photo_look.h"
+
+namespace facefit {
+namespace {
+
+// Limits for skin that both photos show well, so that their light can be compared: coverage by the
+// front photo, cosines of the angles to both cameras, distance from the middle of the face.
+constexpr float kCoveredFront = 0.9F, kFacingFront = 0.4F, kFacingSide = 0.5F, kFromMiddleMm = 5;
+
+/// Least combined coverage, divided by the front photo's alone.
+constexpr float kMinCoverageRatio = 0.01F;
+
+/// Returns the gain of each channel that brings the colours of a view into the front photo's light.
+/// `towards`: 1 if the view shows the person's left side, else -1.
+glm::vec3 GainToFront(const SkinPlaces& places, const SkinSights& front, const SkinSights& side,
+                      float towards, const fsm::Image& colours, const SkinMap& map) {
+  glm::vec3 front_sum(1), side_sum(1);
+  for (std::size_t i = 0; i < side.size(); ++i) {
+    if (map.coverage[i] < kCoveredFront || front[i].facing < kFacingFront ||
+        side[i].facing < kFacingSide || towards * places[i]->x_mm < kFromMiddleMm ||
+        !IsInside(colours, side[i].pixel)) {
+      continue;
+    }
+    front_sum += Rgb(map.image, i);
+    side_sum += ColourAt(colours, side[i].pixel);
+  }
+  return LightGain(front_sum, side_sum);
+}
+
+}  // namespace
+
+void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinPlaces& places,
+                   const SkinSights& front, SkinMap& map) {
+  // The view counts on its own side only. The far cheek, which the nose may hide, is left out by
+  // across_mm of the table, so that occlusion need not be computed.
+  const SkinSights side = ProjectSkin(fitted, places, view.pose, SelfHidden::kIgnored);
+  const float towards = view.pose.TowardsCamera().x > 0 ? 1.0F : -1.0F;
+  const fsm::Image& colours = view.figure.colours;
+  const FoundFace& face = *view.side_photo->face;
+  const PhotoOpenings openings(face, view.pose.PixelsPerMm(), LipsApart(face));
+  const glm::vec3 gain = GainToFront(places, front, side, towards, colours, map);
+  const auto& look = PhotoLook().side_photo;
+  for (std::size_t i = 0; i < side.size(); ++i) {
+    // At a grazing angle a texel would be sampled from a line of pixels.
+    const glm::vec2 pixel = side[i].pixel;
+    if (side[i].facing < look.facing_cos.from || !IsInside(colours, pixel)) continue;
+    if (map.outside_openings[i] < 1) continue;
+    float& coverage = map.coverage[i];
+    const float seen = look.facing_cos.Ramp(side[i].facing) *
+                       look.across_mm.Ramp(towards * places[i]->x_mm) * openings.SkinShare(pixel);
+    const float own = coverage * look.front_facing_cos.Ramp(front[i].facing);
+    const float sum = own + (1 - own) * seen;
+    // Skin that the view hardly shows either stays as in the front photo.
+    if (seen <= 0 || sum <= kMinCoverageRatio * coverage) continue;
+    const float blend = (1 - own) * seen / std::max(sum, 1e-4F);
+    const glm::vec3 colour = glm::min(gain * ColourAt(colours, pixel), 255.0F);
+    SetRgb(map.image, i, glm::mix(Rgb(map.image, i), colour, blend));
+    coverage = std::max(coverage, sum);
+  }
+}
+
+}  // namespace facefit
