@@ -86,11 +86,12 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME galatea)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION sound)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS python3) # for galatea-agent
 if(TARGET fsm_render AND OSMESA_FOUND) # fsm_render loads it itself, so it is not among the shared libraries found
-  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS libosmesa6)
+  string(APPEND CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS ", libosmesa6")
 endif()
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS
-  "ffmpeg, python3, pocketsphinx-en-us, mecab-naist-jdic, open-jtalk, open-jtalk-mecab-naist-jdic, fonts-dejavu-core, fonts-vlgothic")
+  "ffmpeg, pocketsphinx-en-us, mecab-naist-jdic, open-jtalk, open-jtalk-mecab-naist-jdic, fonts-dejavu-core, fonts-vlgothic")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "npm")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libgalatea-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)

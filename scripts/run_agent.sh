@@ -3,7 +3,7 @@
 # beside it.
 set -Eeuo pipefail
 # No step ends it without a word. What fails in a subshell is told by the command that waits for it.
-trap '[ "$BASH_SUBSHELL" -gt 0 ] || echo "run_agent: ended in line $LINENO by the failure of: $BASH_COMMAND" >&2' ERR
+trap '[ "$BASH_SUBSHELL" -gt 0 ] || echo "run_agent: ended in line $LINENO by the failure of: $(head -n 1 <<<"$BASH_COMMAND")" >&2' ERR
 
 usage() {
   cat <<'TEXT'
