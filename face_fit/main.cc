@@ -15,9 +15,9 @@
 
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/find/head/head_finder.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/photo.h"
 #include "face_fit/make_face.h"
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/photo.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/original_config.h"
@@ -158,7 +158,7 @@ void MakeAndWriteFace(const Options& options, Sight& sight, const facefit::Front
   for (const auto& [path, why] : made.left_out) NoticeLeftOut(path, why);
   const std::string report = LineOfNose(front, face.nose) + made.report;
   const std::string folder =
-      vm::OrThrow(fsm::WriteFace(made.bake.head, report, FolderOfFaces(options), options.name));
+      vm::OrThrow(fsm::WriteFace(made.baked.head, report, FolderOfFaces(options), options.name));
   progress("written");
   std::cout << report << "face_fit: wrote " << folder << "\n";
 }

@@ -9,8 +9,8 @@
 #include "face_fit/find/face/glasses.h"
 #include "face_fit/find/face/upright.h"
 #include "face_fit/find/figure/figure_finder.h"
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/photo.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/photo.h"
 #include "face_fit/report.h"
 
 namespace facefit {
@@ -21,7 +21,7 @@ namespace {
 
 vm::Result<FrontPhoto> FindByNumber(FaceNetworks& networks, fsm::Image photo, int number) {
   UprightPhoto upright = SetUpright(networks, std::move(photo));
-  FrontPhoto front{.photo = std::move(upright.photo),
+  FrontPhoto front{.photo = std::move(upright.image),
                    .face_count = static_cast<int>(upright.faces.size()),
                    .orientation = upright.orientation};
   if (upright.faces.empty()) return front;
@@ -89,7 +89,7 @@ vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const ObservedHead& 
   if (face && extent == PhotoExtent::kCloseUp) {
     if (front.orientation != 1) photo = Turned(photo, front.orientation);
     CloseUp close_up = CloseUpOf(front.photo, photo, *face);
-    front.photo = std::move(close_up.photo);
+    front.photo = std::move(close_up.image);
     *face = std::move(close_up.face);
     front.scale *= close_up.scale;
   }
@@ -116,11 +116,11 @@ vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
   }
   auto& [fit, views, left_out] = fitted;
   if (left_out.size() < count) done("seen from the side, too");
-  TextureBake bake = BakeTexture(face, fit, front.photo, front.figure, views);
-  bake.head.glasses = glasses ? *glasses : WearsGlasses(face, front.photo);
+  BakedHead baked = BakeHead(face, fit, front.photo, front.figure, views);
+  baked.head.glasses = glasses ? *glasses : WearsGlasses(face, front.photo);
   done("photo put on");
-  std::string report = Report(front, front_face, fit, bake);
-  return MadeFace{std::move(fit), std::move(bake), std::move(report), std::move(left_out)};
+  std::string report = Report(front, front_face, fit, baked);
+  return MadeFace{std::move(fit), std::move(baked), std::move(report), std::move(left_out)};
 }
 
 }  // namespace facefit

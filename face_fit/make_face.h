@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "face_fit/bake/texture_bake.h"
+#include "face_fit/bake/bake_head.h"
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/front_photo.h"
 
@@ -44,7 +44,7 @@ vm::Result<FrontPhoto> PrepareFront(
 /// A face that fsm can wear, and what is known of it.
 struct MadeFace {
   Fit fit;
-  TextureBake bake;
+  BakedHead baked;
   std::string report;
   std::vector<LeftOut> left_out;
 };

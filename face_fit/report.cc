@@ -10,8 +10,8 @@
 
 #include "face_fit/find/face/cut_off.h"
 #include "face_fit/find/face/joined_names.h"
-#include "face_fit/picture/pixels.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/pixels.h"
+#include "face_fit/image/resample.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
@@ -25,7 +25,7 @@ float Sharpness(const FoundFace& face, const fsm::Image& photo) {
   const float step = std::max(kStep * face.crop.size, 1.0F);
   for (int y = 0; y < kSamples; ++y) {
     for (int x = 0; x < kSamples; ++x) {
-      const glm::vec2 p = face.crop.ToPicture(0.25F + 0.5F * glm::vec2(x, y) / float{kSamples});
+      const glm::vec2 p = face.crop.ToImage(0.25F + 0.5F * glm::vec2(x, y) / float{kSamples});
       const float brightness = Brightness(ColourAt(photo, p));
       sum += std::abs(brightness - Brightness(ColourAt(photo, p + glm::vec2(step, 0))));
       light += brightness;
@@ -56,7 +56,7 @@ struct Warning {
   std::string text;
 };
 std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_face, const Fit& fit,
-                              const TextureBake& bake) {
+                              const BakedHead& baked) {
   const FoundFace& face = front_face.found;
   const auto& look = PhotoLook().report;
   const float turned_deg = std::abs(glm::degrees(fit.head.pose.rotation_rad.y));
@@ -66,7 +66,7 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_fa
   const ShownUnits& shown_units = fit.head.shown_units;
   // The network guesses what it does not see with the same certainty as the rest.
   const std::string cut_off = NamesOf(CutOffParts(face, front.photo));
-  const Completed& completed = bake.completed;
+  const Completed& completed = baked.completed;
   const std::string drawn =
       JoinedNames({{completed.neck, "neck, shoulders and clothes below it"},
                    {completed.shoulders && !completed.neck, "shoulders beside it"},
@@ -92,7 +92,7 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_fa
        "strong light from one side stays in the skin"},
       {std::max(shown_units.smile, shown_units.jaw + shown_units.parted) > look.expression,
        "not a neutral face; some folds of the expression stay in the skin"},
-      {bake.head.glasses,
+      {baked.head.glasses,
        "glasses stay as they are, and so does the skin round the eyes; --glasses no if there are "
        "none"},
       {!cut_off.empty(),
@@ -113,7 +113,7 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_fa
 }  // namespace
 
 std::string Report(const FrontPhoto& front, const FrontFace& face, const Fit& fit,
-                   const TextureBake& bake) {
+                   const BakedHead& baked) {
   const glm::vec3 turn_deg = glm::degrees(fit.head.pose.rotation_rad);
   const ShownUnits& shown_units = fit.head.shown_units;
   const auto& irises = fit.irises.circles;
@@ -130,14 +130,14 @@ std::string Report(const FrontPhoto& front, const FrontFace& face, const Fit& fi
       front.photo.width, front.photo.height, glm::length(face.found.AcrossEyes()), front.face_count,
       face.found.certainty, turn_deg.x, turn_deg.y, turn_deg.z, shown_units.smile, shown_units.jaw,
       shown_units.parted, irises.right.contrast, irises.left.contrast, kClearIris,
-      ResidualMm(face.found, fit.head), 100 * bake.coverage, bake.head.glasses ? "yes" : "no");
+      ResidualMm(face.found, fit.head), 100 * baked.coverage, baked.head.glasses ? "yes" : "no");
   if (const auto& occlusion = face.occlusion) {
     out += fmt::format(
         "covered     {:.2f} (from {} on something may be before the face, from {} on it is){}\n",
         occlusion->covered, kMaybeCovered, kSurelyCovered,
         occlusion->place ? ", most at " + *occlusion->place : "");
   }
-  for (const auto& [applies, text] : Warnings(front, face, fit, bake)) {
+  for (const auto& [applies, text] : Warnings(front, face, fit, baked)) {
     if (applies) out += "warning: " + text + "\n";
   }
   return out;

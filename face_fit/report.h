@@ -2,14 +2,14 @@
 
 #include <string>
 
-#include "face_fit/bake/texture_bake.h"
+#include "face_fit/bake/bake_head.h"
 #include "face_fit/front_photo.h"
 
 namespace facefit {
 
-/// Returns the measurements, a line each, and warnings of what could look better. `bake`: what
-/// BakeTexture made of the photo and the fit.
+/// Returns the measurements, a line each, and warnings of what could look better. `baked`: what
+/// BakeHead made of the photo and the fit.
 std::string Report(const FrontPhoto& front, const FrontFace& face, const Fit& fit,
-                   const TextureBake& bake);
+                   const BakedHead& baked);
 
 }  // namespace facefit

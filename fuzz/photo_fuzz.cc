@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "face_fit/find/face/hand_points.h"
-#include "face_fit/picture/photo.h"
+#include "face_fit/image/photo.h"
 #include "fsm/head/photo_head.h"
 
 /// The first byte chooses the reader: photos, EXIF blocks, points set by hand, face.txt.

@@ -103,7 +103,7 @@ vm::Result<std::string> Editor::BuildFace(const std::string& name, const std::st
   const auto built = editor::BuildFace(*work_, state().points, sight_.get(), sides_);
   if (!built) return std::unexpected(built.error());
   const facefit::MadeFace& made = (*built)->made;
-  auto place = fsm::WriteFace(made.bake.head, made.report, folder, name);
+  auto place = fsm::WriteFace(made.baked.head, made.report, folder, name);
   if (!place) return place;
   for (std::size_t i = 0; i < made.left_out.size(); ++i) {
     *place +=

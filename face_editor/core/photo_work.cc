@@ -7,7 +7,7 @@
 #include "face_editor/core/table_writer.h"
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/fit/side_view.h"
-#include "face_fit/picture/photo.h"
+#include "face_fit/image/photo.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/head/make_head.h"
@@ -129,7 +129,7 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
     auto built = std::make_shared<BuiltFace>();
     built->base = work.base;
     built->made = std::move(*made);
-    built->head = fsm::MakeHead(built->made.bake.head);
+    built->head = fsm::MakeHead(built->made.baked.head);
     return built;
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue,

@@ -5,14 +5,14 @@
 #include "face_fit/bake/chin.h"
 #include "face_fit/bake/skin_surface.h"
 #include "face_fit/complete/complete_figure.h"
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/pixels.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
 
-/// Returns a picture with unknown pixels inpainted and grain added.
+/// Returns an image with unknown pixels inpainted and grain added.
 fsm::Image FilledIn(fsm::Image image, const Mask& known, float pixels_per_mm) {
   PushPullInpaint(image, known);
   AddGrainToFigure(known, Mask(image.width, image.height, 1), pixels_per_mm, image);

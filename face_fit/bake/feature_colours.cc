@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
-#include "face_fit/picture/plane.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/pixels.h"
+#include "face_fit/image/plane.h"
+#include "face_fit/image/resample.h"
 #include "face_fit/tables/photo_look.h"
 #include "fsm/image/colour_space.h"
 

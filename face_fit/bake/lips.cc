@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/picture/pixels.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/pixels.h"
+#include "face_fit/image/resample.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

@@ -6,8 +6,8 @@
 
 #include "face_fit/bake/light_gain.h"
 #include "face_fit/bake/skin_texels.h"
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/pixels.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/find/network/network_points.h"
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/plane.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

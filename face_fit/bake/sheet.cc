@@ -8,13 +8,13 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "face_fit/bake/head_picture.h"
+#include "face_fit/bake/head_atlas.h"
 #include "face_fit/bake/sheet_depth.h"
 #include "face_fit/bake/skin_surface.h"
 #include "face_fit/bake/skin_texels.h"
 #include "face_fit/fit/pixel_warp.h"
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/pixels.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

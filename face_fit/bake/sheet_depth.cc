@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "face_fit/picture/filters.h"
+#include "face_fit/image/filters.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

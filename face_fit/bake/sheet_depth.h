@@ -2,7 +2,7 @@
 
 #include "face_fit/bake/chin.h"
 #include "face_fit/fit/fitted_head.h"
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 #include "face_fit/surface/visible_surface.h"
 
 namespace facefit {

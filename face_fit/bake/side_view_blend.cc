@@ -5,8 +5,8 @@
 
 #include "face_fit/bake/light_gain.h"
 #include "face_fit/bake/openings.h"
-#include "face_fit/picture/pixels.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/pixels.h"
+#include "face_fit/image/resample.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/median.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/median.h"
+#include "face_fit/image/pixels.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "face_fit/bake/skin_texels.h"
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 #include "fsm/image/image.h"
 
 namespace facefit {

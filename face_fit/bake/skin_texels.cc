@@ -8,7 +8,7 @@
 #include <span>
 
 #include "face_fit/bake/skin_surface.h"
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/plane.h"
 #include "face_fit/surface/rasterizer.h"
 #include "face_fit/surface/triangles.h"
 #include "face_fit/tables/photo_look.h"

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "face_fit/fit/fitted_head.h"
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 #include "face_fit/surface/mesh_point.h"
 
 namespace facefit {

@@ -7,9 +7,9 @@
 #include <span>
 
 #include "face_fit/bake/skin_texels.h"
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/pixels.h"
+#include "face_fit/image/plane.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "face_fit/find/network/face_finder.h"
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 
 namespace facefit {
 

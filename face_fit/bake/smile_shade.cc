@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/pixels.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

@@ -2,7 +2,7 @@
 
 #include "face_fit/bake/skin_texels.h"
 #include "face_fit/find/head/observed_head.h"
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 
 namespace facefit {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/pixels.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "face_fit/picture/filters.h"
+#include "face_fit/image/filters.h"
 #include "face_fit/surface/visible_surface.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
 
-/// `pose`: projects to pixels of pictures of that size.
+/// `pose`: projects to pixels of images of that size.
 Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) {
   const ObservedHead& base = *fitted.base;
   // The bust stands upright; it is lowered where the fitted head's chin lies lower than the

@@ -4,12 +4,12 @@
 
 #include "face_fit/complete/canvas.h"
 #include "face_fit/fit/fitted_head.h"
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 
 namespace facefit {
 
 /// The toolkit's own neck, shoulders and clothes, rendered with the photo's camera below the head
-/// of an upright person. The pictures are as large as the canvas.
+/// of an upright person. The images are as large as the canvas.
 struct Bust {
   Mask opacity;  ///< coverage of each pixel, 0..1
   /// Share of each pixel that is cloth, 0..1; the rest of what is covered is skin.

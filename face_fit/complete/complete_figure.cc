@@ -11,9 +11,9 @@
 #include "face_fit/complete/hair_paint.h"
 #include "face_fit/complete/light_on_face.h"
 #include "face_fit/complete/photo_edges.h"
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/grain.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/grain.h"
+#include "face_fit/image/pixels.h"
 #include "face_fit/surface/triangles.h"
 #include "face_fit/tables/photo_look.h"
 

@@ -19,7 +19,7 @@ struct CompletedFigure {
   Completed completed;
 };
 
-/// Draws what the photo cuts off; canvas.h has a picture of the regions. Below the photo and beside
+/// Draws what the photo cuts off; canvas.h has a drawing of the regions. Below the photo and beside
 /// it the toolkit's neck, shoulders and clothes continue the figure at its width, in the colours
 /// found along the photo's edge and lit by the photo's light. Hair is continued above and beside
 /// the head; strands that the lower edge cuts hang on and end softly. Within the photo colours stay
@@ -28,7 +28,7 @@ struct CompletedFigure {
 /// the drawn body continues below.
 CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& figure);
 
-/// Adds grain to inpainted pixels of a figure, as AddGrain (picture/grain.h): that of
+/// Adds grain to inpainted pixels of a figure, as AddGrain (image/grain.h): that of
 /// grain.coarsest_on_figure_mm, and less of it in a photo of fewer than grain.pixels_per_mm, whose
 /// pixels are as coarse as grain.
 void AddGrainToFigure(const Mask& known, Mask amount, float pixels_per_mm, fsm::Image& image);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/resample.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

@@ -12,7 +12,7 @@ namespace facefit {
 /// pixels. `crown_px`: row of the top of the skull with its hair, photo pixels.
 float DomeHeightPx(const PhotoEdges& edges, float width_px, float crown_px);
 
-/// Paints hair (or a hat) beyond a photo that cuts it; canvas.h has a picture of the regions. Above
+/// Paints hair (or a hat) beyond a photo that cuts it; canvas.h has a drawing of the regions. Above
 /// the head it is rounded off, beside the head it bulges a little; both show the mirror image of
 /// the hair within, or the mean colour of the hair where skin reaches the edge. Hair at the lower
 /// edge hangs on in the colours of that edge and ends in strands.

@@ -2,8 +2,8 @@
 
 #include <glm/common.hpp>
 
-#include "face_fit/picture/pixels.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/pixels.h"
+#include "face_fit/image/resample.h"
 #include "face_fit/surface/triangles.h"
 #include "fsm/rig/normals.h"
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/pixels.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

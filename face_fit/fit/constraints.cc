@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/find/face/photo_seam.h"
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/plane.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

@@ -7,7 +7,7 @@
 
 #include "face_fit/find/face/lid_lines.h"
 #include "face_fit/fit/least_squares.h"
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/plane.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

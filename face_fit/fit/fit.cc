@@ -7,7 +7,7 @@
 
 #include "face_fit/fit/pixel_warp.h"
 #include "face_fit/fit/pose_fit.h"
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/plane.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {

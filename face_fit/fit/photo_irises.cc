@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/plane.h"
 #include "fsm/base/range.h"
 
 namespace facefit {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "face_fit/fit/fit.h"
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 
 namespace facefit {
 

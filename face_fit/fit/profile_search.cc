@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "face_fit/fit/correlation.h"
-#include "face_fit/picture/median.h"
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/median.h"
+#include "face_fit/image/plane.h"
 #include "face_fit/surface/triangles.h"
 
 namespace facefit {
@@ -71,7 +71,7 @@ float Concordance(std::vector<float> a, std::vector<float> b) {
 }
 
 /// Returns how well the profile of that size, tilt and row matches the outline, in the column where
-/// the two are nearest; nothing if it does not fit the picture or lies too far from the outline.
+/// the two are nearest; nothing if it does not fit the image or lies too far from the outline.
 std::optional<ProfileMatch> MatchOf(const std::vector<glm::vec3>& line,
                                     const std::vector<float>& columns, ProfilePlacement placement) {
   placement.pixel.x = 0;

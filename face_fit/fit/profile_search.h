@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "face_fit/fit/fitted_head.h"
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 
 namespace facefit {
 
@@ -17,7 +17,7 @@ std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin_mm);
 /// Greatest mean distance of outline and profile; other people's faces mostly exceed it.
 inline constexpr float kMaxProfileGapMm = 4;
 
-/// Where a picture shows the profile.
+/// Where an image shows the profile.
 struct ProfilePlacement {
   int direction = 1;  ///< 1: the face looks to the right, -1: to the left
   float pixels_per_mm = 1;

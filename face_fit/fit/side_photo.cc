@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "face_fit/find/face/upright.h"
-#include "face_fit/picture/photo.h"
+#include "face_fit/image/photo.h"
 
 namespace facefit {
 
@@ -17,7 +17,7 @@ vm::Result<SidePhoto> ReadSidePhoto(FaceNetworks& networks, const std::string& p
   auto photo = ReadPhoto(path);
   if (!photo) return std::unexpected(photo.error());
   UprightPhoto upright = SetUpright(networks, std::move(*photo));
-  SidePhoto side_photo{path, std::move(upright.photo), {}};
+  SidePhoto side_photo{path, std::move(upright.image), {}};
   if (!upright.faces.empty()) side_photo.face = std::move(upright.faces.front());
   return side_photo;
 }

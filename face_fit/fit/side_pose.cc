@@ -31,7 +31,7 @@ constexpr float kToldFacing = 0.1F, kGuessedWeight = 0.15F;
 constexpr float kStartTurnsDeg[] = {-60, -30, 0, 30, 60};
 
 /// A point of the network, its position on the posed head, head's frame, and the network's error
-/// there (millimetres right and down in the picture).
+/// there (millimetres right and down in the image).
 struct ComparedPoint {
   PointIndex index;
   glm::vec3 position;
@@ -68,8 +68,8 @@ std::optional<std::vector<ComparedPoint>> MeasuredBias(FaceNetworks& networks,
   turned.normal =
       fsm::Normals(fitted.base->head().surface().indices, turned.position, turned.position.size());
   const PortraitView portrait(kDrawnSize);
-  const fsm::Image picture = portrait.Draw(fitted.base->head(), turned, {});
-  const auto faces = FindFaces(networks, picture);
+  const fsm::Image image = portrait.Draw(fitted.base->head(), turned, {});
+  const auto faces = FindFaces(networks, image);
   if (faces.empty()) return std::nullopt;
   for (ComparedPoint& compared : points) {
     const MeshPoint& on_head = fitted.base->mesh_points()[compared.index];

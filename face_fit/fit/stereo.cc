@@ -7,9 +7,9 @@
 
 #include "face_fit/fit/correlation.h"
 #include "face_fit/fit/pose_fit.h"
-#include "face_fit/picture/pixels.h"
-#include "face_fit/picture/plane.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/pixels.h"
+#include "face_fit/image/plane.h"
+#include "face_fit/image/resample.h"
 #include "face_fit/surface/visible_surface.h"
 
 namespace facefit {
@@ -149,7 +149,7 @@ class PatchMatcher {
   std::vector<float> light_;  // of one patch; kept to save allocations
 };
 
-// Reach of the first search, in the picture around where the fit has the patch, steps of 1 mm.
+// Reach of the first search, in the image around where the fit has the patch, steps of 1 mm.
 constexpr int kReachAcrossMm = 6, kReachDownMm = 4;
 // The second search runs along the front photo's line of sight. The correlation is lowered by
 // kCorrelationPerMm2 for each square millimetre, so that of similar ones the nearest wins.

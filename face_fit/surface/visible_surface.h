@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 #include "face_fit/surface/mesh_point.h"
 #include "face_fit/surface/triangles.h"
 #include "fsm/rig/head.h"
@@ -23,7 +23,7 @@ struct SampleGrid {
 class VisibleSurface {
  public:
   static constexpr float kNothing = -1e9F;  ///< the depth where nothing was drawn
-  /// Whether the second coordinate of the grid's plane points up; that of a picture points down.
+  /// Whether the second coordinate of the grid's plane points up; that of an image points down.
   enum class Upward { kNo, kYes };
   /// `screen`: for each vertex x and y in the grid's plane, z towards the viewer.
   VisibleSurface(const SampleGrid& grid, std::vector<glm::vec3> screen,

@@ -73,7 +73,7 @@ struct ResizeBilinear {
 
 // MediaPipe's operators for looking closer at parts of a face.
 
-/// Computes the matrix of a picture of `columns` x `rows` over some points: rotated until the line
+/// Computes the matrix of an image of `columns` x `rows` over some points: rotated until the line
 /// from point `left` to point `right` runs at `angle_rad`, its size that of the box round `points`
 /// times the scales.
 struct LandmarksToMatrix {

@@ -1,6 +1,6 @@
 #include "face_fit/watch/face_watch.h"
 
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/plane.h"
 
 namespace facefit {
 namespace {
@@ -16,28 +16,28 @@ EyeLine EyeLineOf(const FoundFace& face) {
 
 }  // namespace
 
-void FaceWatch::FindPointsIn(const fsm::Image& picture, const NetworkCrop& crop) {
-  last_ = FindAttentivePoints(attention_, picture, crop);
+void FaceWatch::FindPointsIn(const fsm::Image& frame, const NetworkCrop& crop) {
+  last_ = FindAttentivePoints(attention_, frame, crop);
   if (last_->face.certainty < kCertainFace) last_.reset();
 }
 
-void FaceWatch::Find(const fsm::Image& picture) {
-  const auto faces = FindFaces(networks_, picture);
+void FaceWatch::Find(const fsm::Image& frame) {
+  const auto faces = FindFaces(networks_, frame);
   if (faces.empty() || faces.front().certainty < kCertainFace) return;
   const FoundFace& face = faces.front();
   const EyeLine eyes = EyeLineOf(face);
   eyes_to_middle_ = Rotated(face.crop.centre - eyes.middle, -eyes.angle_rad);
   size_ = face.crop.size;
-  FindPointsIn(picture, face.crop);
+  FindPointsIn(frame, face.crop);
 }
 
-std::optional<FaceMeasures> FaceWatch::MeasureNext(const fsm::Image& picture) {
+std::optional<FaceMeasures> FaceWatch::MeasureNext(const fsm::Image& frame) {
   if (last_) {
     const EyeLine eyes = EyeLineOf(last_->face);
-    FindPointsIn(picture,
+    FindPointsIn(frame,
                  {eyes.middle + Rotated(eyes_to_middle_, eyes.angle_rad), size_, eyes.angle_rad});
   }
-  if (!last_) Find(picture);
+  if (!last_) Find(frame);
   if (!last_) return std::nullopt;
   if (first_.empty()) first_ = PointsInMm(last_->face);
   return Measure(*last_, first_);

@@ -7,23 +7,23 @@
 
 namespace facefit {
 
-/// Follows the largest face of a film from picture to picture. Thread: one at a time.
+/// Follows the largest face of a film from frame to frame. Thread: one at a time.
 class FaceWatch {
  public:
   /// Both must outlive this object.
   FaceWatch(FaceNetworks& networks, Network& attention)
       : networks_(networks), attention_(attention) {}
 
-  /// Measures the face in the next picture; nothing if none is seen with kCertainFace.
-  std::optional<FaceMeasures> MeasureNext(const fsm::Image& picture);
-  /// Returns the points of the face in the last picture; nothing where MeasureNext did.
+  /// Measures the face in the next frame; nothing if none is seen with kCertainFace.
+  std::optional<FaceMeasures> MeasureNext(const fsm::Image& frame);
+  /// Returns the points of the face in the last frame; nothing where MeasureNext did.
   const std::optional<AttentiveFace>& last() const { return last_; }
 
  private:
   /// Finds the largest face, its crop and its points.
-  void Find(const fsm::Image& picture);
-  /// Finds the points of a face in a crop of a picture; sets last_, or resets it if uncertain.
-  void FindPointsIn(const fsm::Image& picture, const NetworkCrop& crop);
+  void Find(const fsm::Image& frame);
+  /// Finds the points of a face in a crop of a frame; sets last_, or resets it if uncertain.
+  void FindPointsIn(const fsm::Image& frame, const NetworkCrop& crop);
 
   FaceNetworks& networks_;
   Network& attention_;

@@ -22,8 +22,8 @@ struct Options {
   bool points = false;
 };
 
-/// Returns a picture of the size "WIDTHxHEIGHT".
-fsm::Image PictureOfSize(const std::string& text) {
+/// Returns a frame of the size "WIDTHxHEIGHT".
+fsm::Image FrameOfSize(const std::string& text) {
   int width = 0, height = 0, end = 0;
   const int read = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &end);
   if (read != 2 || text[static_cast<std::size_t>(end)] != '\0' || width < 16 || height < 16 ||
@@ -84,7 +84,7 @@ void PrintPoints(const std::optional<facefit::AttentiveFace>& face) {
 }
 
 void Watch(const Options& options) {
-  fsm::Image picture = PictureOfSize(options.size);
+  fsm::Image frame = FrameOfSize(options.size);
   facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(options.networks));
   facefit::Network attention = vm::OrThrow(facefit::LoadAttentionLandmarks(options.networks));
   facefit::FaceWatch watch(networks, attention);
@@ -94,14 +94,14 @@ void Watch(const Options& options) {
     std::cout << "\n";
   }
   for (long number = 0;; ++number) {
-    const std::size_t got = std::fread(picture.rgba.data(), 1, picture.rgba.size(), stdin);
+    const std::size_t got = std::fread(frame.rgba.data(), 1, frame.rgba.size(), stdin);
     if (got == 0 && number > 0) return;
-    if (got != picture.rgba.size()) {
+    if (got != frame.rgba.size()) {
       throw std::runtime_error(
           fmt::format("standard input ends within frame {}: it has {} of {} bytes ({} RGBA)",
-                      number, got, picture.rgba.size(), options.size));
+                      number, got, frame.rgba.size(), options.size));
     }
-    const auto measures = watch.MeasureNext(picture);
+    const auto measures = watch.MeasureNext(frame);
     if (options.points) {
       PrintPoints(watch.last());
     } else {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "face_fit/picture/photo.h"
+#include "face_fit/image/photo.h"
 #include "face_track/film/ffmpeg_source.h"
 #include "vm_protocol/core/lower_case.h"
 

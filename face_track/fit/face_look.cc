@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/pixels.h"
 
 namespace facetrack {
 namespace {
@@ -44,7 +44,7 @@ FaceLook::FaceLook(const fsm::Image& picture, const facefit::NetworkCrop& crop)
 }
 
 glm::vec3 FaceLook::At(std::size_t level, glm::vec2 place) const {
-  const glm::vec2 p = crop_.FromPicture(place) * static_cast<float>(kSide) - 0.5F;
+  const glm::vec2 p = crop_.FromImage(place) * static_cast<float>(kSide) - 0.5F;
   const float x = std::clamp(p.x, 0.0F, kSide - 1.001F), y = std::clamp(p.y, 0.0F, kSide - 1.001F);
   const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
   const float u = x - static_cast<float>(x0), v = y - static_cast<float>(y0);

@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include "face_fit/find/network/network_crop.h"
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 
 namespace facetrack {
 

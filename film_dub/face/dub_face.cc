@@ -51,7 +51,7 @@ vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networ
 
 DubFace::DubFace(facefit::ObservedHead base, const facefit::MadeFace& made, int side)
     : base_(std::move(base)),
-      head_(fsm::MakeHead(made.bake.head)),
+      head_(fsm::MakeHead(made.baked.head)),
       held_(fsm::HeadRotationOf(made.fit.head.pose.Rotation())),
       side_(side),
       context_(fsm::RenderContext::MakeHeadless(side, side)),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/plane.h"
 #include "fsm/image/image.h"
 
 namespace filmdub {

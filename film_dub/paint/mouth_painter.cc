@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "face_fit/find/network/network_points.h"
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/plane.h"
 
 namespace filmdub {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/pixels.h"
 #include "fsm/head/make_head.h"
 #include "fsm/render/renderer.h"
 #include "tests/face_fit/network_fixture.h"
@@ -63,7 +63,7 @@ TEST_F(MakeFaceTest, MorePhotosFromTheSideThanAreUsedAreRefused) {
 /// The built-in head as the networks see it, or a part of it.
 fsm::Image PartOfPortrait(const ObservedHead& head, glm::vec2 low, glm::vec2 high) {
   const glm::ivec2 from(low), size(high - low);
-  return Cropped(head.picture(), from.x, from.y, size.x, size.y);
+  return Cropped(head.portrait(), from.x, from.y, size.x, size.y);
 }
 
 TEST_F(MakeFaceTest, OfAPhotoThatShowsOnlyTheInnerFaceTheRestIsDrawnAndNamed) {
@@ -82,13 +82,13 @@ TEST_F(MakeFaceTest, OfAPhotoThatShowsOnlyTheInnerFaceTheRestIsDrawnAndNamed) {
       std::string::npos)
       << made.report;
   // The face is painted in the photo's colours, not in the black of a figure that was not found.
-  const fsm::Image& map = *made.bake.head.photo;
+  const fsm::Image& map = *made.baked.head.photo;
   EXPECT_GT(Brightness(Rgb(map, map.Index(map.width / 4, map.height / 2))), 60);
 }
 
 TEST_F(MakeFaceTest, APhotoWithoutTheMouthIsRefused) {
   const glm::vec2 nose = Galatea().DetectedAt(point::kNoseBottom);
-  const fsm::Image& portrait = Galatea().picture();
+  const fsm::Image& portrait = Galatea().portrait();
   auto front =
       vm::OrThrow(PrepareFront(*networks_, Galatea(), portrait, FaceNumber{}, PhotoExtent::kWhole));
   ASSERT_TRUE(front.face);
@@ -120,11 +120,11 @@ TEST_F(MakeFaceTest, APhotoThatDoesNotHelpIsLeftOutWithItsReasonAndTheRestIsMade
   ASSERT_EQ(made.left_out.size(), 1U);
   EXPECT_EQ(made.left_out[0].path, "again.png");
   EXPECT_NE(made.left_out[0].why.find("from the front"), std::string::npos);
-  EXPECT_TRUE(made.bake.head.glasses) << "as it was told, though none are there";
+  EXPECT_TRUE(made.baked.head.glasses) << "as it was told, though none are there";
   EXPECT_NE(made.report.find("glasses     yes"), std::string::npos) << made.report;
   EXPECT_NE(made.report.find("faces       1\n"), std::string::npos);
   EXPECT_EQ(steps, "faces and their points found;figure cut out;head fitted;photo put on;");
-  EXPECT_EQ(made.bake.head.base, "galatea");
+  EXPECT_EQ(made.baked.head.base, "galatea");
 }
 
 }  // namespace

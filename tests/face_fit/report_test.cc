@@ -24,7 +24,7 @@ struct ReportTest : testing::Test {
     fit.irises.circles = {{{80, 100}, 6, 0.3F}, {{120, 100}, 6, 0.3F}};
   }
   bool Says(const std::string& what) const {
-    return Report(front, face, fit, bake).find(what) != std::string::npos;
+    return Report(front, face, fit, baked).find(what) != std::string::npos;
   }
 
   void Cover(float nose_excess, float doubt) {
@@ -36,7 +36,7 @@ struct ReportTest : testing::Test {
   FrontPhoto front{.photo = {.width = 200, .height = 200, .rgba = {}}, .face_count = 1};
   FrontFace face;
   Fit fit;
-  TextureBake bake;
+  BakedHead baked;
 };
 
 TEST_F(ReportTest, AHeadTurnedFarIsToldApartFromOneTurnedALittle) {
@@ -77,9 +77,9 @@ TEST_F(ReportTest, WhereAFaceIsCoveredIsNotSaidIfOnlyTheNetworksDoubtTells) {
 
 TEST_F(ReportTest, WhatThePhotoCutsOffAndWasDrawnIsNamed) {
   EXPECT_FALSE(Says("cuts the figure"));
-  bake.completed = {.neck = true, .shoulders = true, .hair = false};
+  baked.completed = {.neck = true, .shoulders = true, .hair = false};
   EXPECT_TRUE(Says("light: neck, shoulders and clothes below it; a photo"));
-  bake.completed = {.neck = false, .shoulders = true, .hair = true};
+  baked.completed = {.neck = false, .shoulders = true, .hair = true};
   EXPECT_TRUE(Says("light: shoulders beside it; hair above or beside it; a photo"));
 }
 

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/photo.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/photo.h"
 
 namespace facefit {
 namespace {

@@ -7,9 +7,9 @@ namespace facefit {
 /// The part of a photo that a head made from a face in it shows: the face, its hair, neck and
 /// shoulders.
 struct CloseUp {
-  fsm::Image photo;
-  FoundFace face;   ///< in pixels of `photo`
-  float scale = 1;  ///< pixels of `photo` for each pixel of CloseUpOf's argument `photo`
+  fsm::Image image;
+  FoundFace face;   ///< in pixels of `image`
+  float scale = 1;  ///< pixels of `image` for each pixel of CloseUpOf's argument `photo`
 };
 
 /// Cuts a photo to about 33 cm on either side of a face's nose, 30 cm above it and 43 cm below,

@@ -6,7 +6,7 @@
 
 #include "face_fit/find/face/coinciding_corners.h"
 #include "face_fit/find/face/joined_names.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/pixels.h"
 
 namespace facefit {
 namespace {

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "face_fit/picture/median.h"
-#include "face_fit/picture/plane.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/median.h"
+#include "face_fit/image/plane.h"
+#include "face_fit/image/resample.h"
 
 namespace facefit {
 namespace {

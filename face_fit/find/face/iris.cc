@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "face_fit/picture/pixels.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/pixels.h"
+#include "face_fit/image/resample.h"
 
 namespace facefit {
 namespace {

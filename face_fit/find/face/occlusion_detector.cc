@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/picture/median.h"
-#include "face_fit/picture/raster.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/median.h"
+#include "face_fit/image/raster.h"
+#include "face_fit/image/resample.h"
 
 namespace facefit {
 namespace {
@@ -27,7 +27,7 @@ struct Ellipse {
 };
 
 /// A patch of the face, and the increase of the network's certainty (a logit) that it may cause
-/// where nothing is before the face. The limits are 1.3 times the most seen on 57 pictures of three
+/// where nothing is before the face. The limits are 1.3 times the most seen on 57 images of three
 /// uncovered faces (1.45 times round the mouth, where beards differ), left and right alike: the
 /// photos as they are, in other light, colours and sharpness, with beards and glasses drawn on.
 struct FacePatch {
@@ -52,11 +52,11 @@ constexpr FacePatch kPatches[] = {
     {"the left side of the face",   7.4F, {{{{36, -5}, {32, 70}}, kNone, kNone}}},
     // clang-format on
 };
-/// Certainty (a logit) below which a face counts as hidden; the least of the same pictures was
+/// Certainty (a logit) below which a face counts as hidden; the least of the same images was
 /// 15.7.
 constexpr float kSureLogit = 14;
 
-/// Maps pixels of the network's crop of the photo to the picture of the built-in head: at each
+/// Maps pixels of the network's crop of the photo to the image of the built-in head: at each
 /// pixel by the affine map that fits the points nearby best (moving least squares; Schaefer,
 /// McPhail and Warren 2006).
 class PhotoToBase {
@@ -64,7 +64,7 @@ class PhotoToBase {
   PhotoToBase(const FoundFace& face, const ObservedHead& base) {
     for (const PointIndex i : point::kReliable) {
       pairs_.push_back(
-          {face.crop.FromPicture(face.PixelOf(i)) * float{kPointsPixels}, base.DetectedAt(i)});
+          {face.crop.FromImage(face.PixelOf(i)) * float{kPointsPixels}, base.DetectedAt(i)});
     }
   }
 
@@ -112,7 +112,7 @@ WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
   const PhotoToBase onto(face, base);
   const auto coarse = Raster<glm::vec2>::From(
       kCells, kCells, [&](int x, int y) { return onto(float{kStep} * glm::vec2(x, y)); });
-  // From pixels of the head's picture to millimetres from the root of the nose.
+  // From pixels of the head's image to millimetres from the root of the nose.
   const auto at_rest = [&](PointIndex i) { return glm::vec2(base.AtRest(i)); };
   const float mm_per_pixel =
       glm::distance(at_rest(point::kEyeOuterRight), at_rest(point::kEyeOuterLeft)) /
@@ -124,7 +124,7 @@ WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
       const glm::vec2 on_base = coarse.SampleAt(cell.x + 0.5F, cell.y + 0.5F);
       const glm::vec2 from_nasion = mm_per_pixel * (on_base - base.DetectedAt(point::kNasion));
       warped.on_face.push_back(at_rest(point::kNasion) + glm::vec2(from_nasion.x, -from_nasion.y));
-      warped.colour.push_back(ColourAt(base.picture(), on_base) / 255.0F);
+      warped.colour.push_back(ColourAt(base.portrait(), on_base) / 255.0F);
     }
   }
   return warped;

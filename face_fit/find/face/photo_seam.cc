@@ -8,9 +8,9 @@
 #include <limits>
 #include <ranges>
 
-#include "face_fit/picture/pixels.h"
-#include "face_fit/picture/plane.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/pixels.h"
+#include "face_fit/image/plane.h"
+#include "face_fit/image/resample.h"
 
 namespace facefit {
 namespace {

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "face_fit/picture/filters.h"
+#include "face_fit/image/filters.h"
 
 namespace facefit {
 namespace {

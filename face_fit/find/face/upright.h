@@ -6,7 +6,7 @@ namespace facefit {
 
 /// A photo in which people stand upright, and the faces it shows.
 struct UprightPhoto {
-  fsm::Image photo;
+  fsm::Image image;
   int orientation = 1;           ///< EXIF orientation of the given photo: 1, 3, 6 or 8; 1 = upright
   std::vector<FoundFace> faces;  ///< as returned by FindFaces
 };

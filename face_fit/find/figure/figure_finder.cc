@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/find/face/cut_off.h"
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
-#include "face_fit/picture/plane.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/pixels.h"
+#include "face_fit/image/plane.h"
+#include "face_fit/image/resample.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
@@ -33,7 +33,7 @@ constexpr float kNobody = 0.5F;
 /// Half the width of a neck, divided by the distance from the root of the nose to the chin.
 constexpr float kHalfNeck = 0.35F;
 
-/// Runs the network on a picture.
+/// Runs the network on an image.
 Mask RunSegmentation(FaceNetworks& networks, const std::vector<float>& input) {
   networks.segmentation.Run(input);
   Mask out(kFigurePixels, kFigurePixels);
@@ -46,16 +46,16 @@ float PersonAt(const Mask& figure, glm::vec2 p) {
   return figure.SampleAt(p.x * kFigurePixels, p.y * kFigurePixels);
 }
 
-/// A rectangle of a picture; it may extend beyond it.
-struct PictureRect {
+/// A rectangle of an image; it may extend beyond it.
+struct ImageRect {
   glm::vec2 corner, size;
 };
 
-/// Returns the whole picture, extended around a face that fills it: the network was trained on
+/// Returns the whole image, extended around a face that fills it: the network was trained on
 /// figures with shoulders, and takes the wall for one where it sees little more than a face.
-PictureRect WholeFor(glm::vec2 picture, const Box2& face) {
-  const glm::vec2 larger = glm::max(picture, face.Size() / PhotoLook().figure.face_most_share);
-  return {(picture - larger) * glm::vec2(0.5F, PhotoLook().figure.above_share), larger};
+ImageRect WholeFor(glm::vec2 image_size, const Box2& face) {
+  const glm::vec2 larger = glm::max(image_size, face.Size() / PhotoLook().figure.face_most_share);
+  return {(image_size - larger) * glm::vec2(0.5F, PhotoLook().figure.above_share), larger};
 }
 
 Box2 BoxOf(const FoundFace& face) {
@@ -64,12 +64,12 @@ Box2 BoxOf(const FoundFace& face) {
   return box;
 }
 
-/// Returns a square round the head, within the picture.
-NetworkCrop HeadSquare(const Box2& face, glm::vec2 picture) {
+/// Returns a square round the head, within the image.
+NetworkCrop HeadSquare(const Box2& face, glm::vec2 image_size) {
   const float face_size = std::max(face.Size().x, face.Size().y);
-  const float size = std::min({kHeadSquare * face_size, picture.x, picture.y});
+  const float size = std::min({kHeadSquare * face_size, image_size.x, image_size.y});
   const glm::vec2 middle = face.Middle() - glm::vec2(0, kHeadHigher * face_size);
-  return {glm::clamp(middle, glm::vec2(size / 2), picture - size / 2), size, 0};
+  return {glm::clamp(middle, glm::vec2(size / 2), image_size - size / 2), size, 0};
 }
 
 /// Returns how nearly a face looks into the camera, 0..1, by the distances of its cheeks from its
@@ -148,7 +148,7 @@ Mask RaiseMissedSide(const FoundFace& face, const fsm::Image& image, const Mask&
 Mask SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundFace* face) {
   const glm::vec2 size(image.width, image.height);
   // The network expects the rectangle stretched to a square.
-  const PictureRect all = face ? WholeFor(size, BoxOf(*face)) : PictureRect{{0, 0}, size};
+  const ImageRect all = face ? WholeFor(size, BoxOf(*face)) : ImageRect{{0, 0}, size};
   const Mask whole = RunSegmentation(
       networks,
       Resampled(image, all.corner, glm::mat2(all.size.x, 0, 0, all.size.y), kFigurePixels, 0, 1));
@@ -164,7 +164,7 @@ Mask SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundF
   auto out = Mask::From(image.width, image.height, [&](int x, int y) {
     const glm::vec2 p = glm::vec2(x, y) + 0.5F;
     // The mean, so that what either pass doubts is left to the matting.
-    const glm::vec2 in_square = head.FromPicture(p), from_middle = glm::abs(in_square - 0.5F);
+    const glm::vec2 in_square = head.FromImage(p), from_middle = glm::abs(in_square - 0.5F);
     const float share = 0.5F * kSquareEdge.Ramp(std::max(from_middle.x, from_middle.y));
     const float person = person_in_whole(p);
     return share > 0 ? glm::mix(person, PersonAt(near, in_square), share) : person;

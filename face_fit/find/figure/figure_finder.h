@@ -2,7 +2,7 @@
 
 #include "face_fit/find/figure/matte.h"
 #include "face_fit/find/network/face_finder.h"
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 
 namespace facefit {
 

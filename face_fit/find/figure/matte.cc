@@ -12,15 +12,15 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/pixels.h"
 #include "face_fit/tables/photo_look.h"
 #include "fsm/image/shrink.h"
 
 namespace facefit {
 namespace {
 
-/// Longest side of a picture that is solved; mattes of larger ones are upsampled from a copy.
+/// Longest side of an image that is solved; mattes of larger ones are upsampled from a copy.
 constexpr int kSolvedSize = 720;
 /// Reach of errors of the rough outline: longer side / first + second, pixels.
 constexpr int kOutlineDivisor = 90, kOutlinePixels = 2;
@@ -42,7 +42,7 @@ using PixelVector = Eigen::ArrayXf;  // one value for each pixel
 glm::vec3 Colour(const fsm::Image& image, std::size_t i) { return Rgb(image, i) / 255.0F; }
 
 /// Returns the inverse of a regularised covariance of colours. In double precision, because grey
-/// pictures have a nearly singular one.
+/// images have a nearly singular one.
 glm::mat3 Inverse(const glm::mat3& spread, float noise) {
   return glm::mat3(glm::inverse(glm::dmat3(spread) + glm::dmat3(static_cast<double>(noise))));
 }
@@ -201,7 +201,7 @@ OpacityGuide FitGuide(const fsm::Image& image, const Mask& opacity) {
   return {Blurred(fit.slope, kReach), Blurred(fit.base, kReach)};
 }
 
-/// Upsamples the small picture's opacity, guided by the large picture's colours.
+/// Upsamples the small image's opacity, guided by the large image's colours.
 Mask GuidedUpsampling(const fsm::Image& small, const Mask& opacity, const fsm::Image& large) {
   const OpacityGuide fit = FitGuide(small, opacity);
   const glm::vec2 scale =

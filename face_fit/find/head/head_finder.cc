@@ -12,7 +12,7 @@
 #include "face_fit/find/head/lid_edges.h"
 #include "face_fit/find/head/observed_head.h"
 #include "face_fit/find/head/point_pairs.h"
-#include "face_fit/picture/median.h"
+#include "face_fit/image/median.h"
 #include "fsm/base/box.h"
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "face_fit/picture/filters.h"
+#include "face_fit/image/filters.h"
 #include "face_fit/surface/visible_surface.h"
 #include "fsm/mesh/rigging/transferred_rig.h"
 

@@ -11,7 +11,7 @@
 namespace facefit {
 
 /// The opening of an eye seen from the front: where flesh ends and the eyeball begins. On a mesh it
-/// is known exactly; the landmark network guesses it from a picture and is off by a good part of a
+/// is known exactly; the landmark network guesses it from an image and is off by a good part of a
 /// lid.
 struct LidEdges {
   static constexpr std::size_t kBetween = 7;

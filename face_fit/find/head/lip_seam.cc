@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/plane.h"
 #include "face_fit/surface/visible_surface.h"
 #include "fsm/mesh/transfer/surface_index.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "face_fit/find/head/portrait_view.h"
-#include "face_fit/picture/filters.h"
+#include "face_fit/image/filters.h"
 #include "face_fit/surface/rasterizer.h"
 #include "face_fit/surface/triangles.h"
 #include "face_fit/surface/visible_surface.h"
@@ -26,7 +26,7 @@ VisibleSurface SkinIn(const fsm::HeadSurface& topology, const std::vector<glm::v
   return surface;
 }
 
-/// Returns the points of the skin at some pixels of a picture; for pixels beside the skin the
+/// Returns the points of the skin at some pixels of an image; for pixels beside the skin the
 /// nearest visible point that is no farther back than the ears. Returns none if no skin is visible.
 std::vector<MeshPoint> SkinPointsAt(const VisibleSurface& skin,
                                     const std::vector<glm::vec3>& screen,
@@ -113,7 +113,7 @@ vm::Result<ObservedHead> ObservedHead::Observe(FaceNetworks& networks,
   Seen seen{portrait.Draw(observed.head(), observed.rest_, {}), {}};
   std::vector<glm::vec3> screen;
   for (const glm::vec3& p : observed.rest_.position) screen.emplace_back(portrait.Pixel(p), p.z);
-  const auto faces = FindFaces(networks, seen.picture);
+  const auto faces = FindFaces(networks, seen.image);
   if (!faces.empty()) {
     observed.mesh_points_ =
         SkinPointsAt(SkinIn(observed.head().surface(), screen), screen, faces.front().points);

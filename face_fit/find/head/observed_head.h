@@ -19,7 +19,7 @@
 
 namespace facefit {
 
-/// A head as the landmark network sees it: it is drawn, the network finds points in the picture,
+/// A head as the landmark network sees it: it is drawn, the network finds points in the image,
 /// and these are projected back onto the mesh. So the network's systematic errors are the same on
 /// this head and on a photo.
 class ObservedHead {
@@ -51,11 +51,11 @@ class ObservedHead {
   /// one.
   float DetectedDepthMm(PointIndex i) const { return detected_depth_mm_[i]; }
   /// Returns what the network was shown. REQUIRES: not Exact.
-  const fsm::Image& picture() const {
+  const fsm::Image& portrait() const {
     assert(seen_);
-    return seen_->picture;
+    return seen_->image;
   }
-  /// Returns the pixel of `picture` at which the network saw a point. REQUIRES: not Exact.
+  /// Returns the pixel of `portrait` at which the network saw a point. REQUIRES: not Exact.
   glm::vec2 DetectedAt(PointIndex i) const {
     assert(seen_);
     return seen_->pixels[i];
@@ -81,7 +81,7 @@ class ObservedHead {
   std::vector<MeshPoint> mesh_points_;
   std::vector<float> detected_depth_mm_;
   struct Seen {
-    fsm::Image picture;
+    fsm::Image image;
     std::vector<glm::vec2> pixels;  ///< of the points
   };
   std::optional<Seen> seen_;

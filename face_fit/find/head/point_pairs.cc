@@ -6,7 +6,7 @@
 #include <iterator>
 #include <span>
 
-#include "face_fit/picture/median.h"
+#include "face_fit/image/median.h"
 
 namespace facefit {
 namespace {

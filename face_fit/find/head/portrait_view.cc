@@ -14,9 +14,9 @@ fsm::Image PortraitView::Draw(const fsm::Head& head, const fsm::HeadVertices& ve
   const auto context = fsm::RenderContext::MakeHeadless(size_, size_);
   const auto renderer = fsm::Renderer::Make(*context);
   renderer->DrawVertices(head, vertices, state.figure, fsm::Scene{});
-  fsm::Image picture;
-  renderer->Read(picture);
-  return picture;
+  fsm::Image image;
+  renderer->Read(image);
+  return image;
 }
 
 glm::vec2 PortraitView::Pixel(glm::vec3 position) const {

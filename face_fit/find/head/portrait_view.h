@@ -9,7 +9,7 @@
 
 namespace facefit {
 
-/// Draws a head from the front in a square picture, for networks to look at.
+/// Draws a head from the front in a square image, for networks to look at.
 class PortraitView {
  public:
   explicit PortraitView(int size);

@@ -39,12 +39,12 @@ AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image,
   attention.Run(crop.Sample(image, kPointsPixels, 0, 1));
   const auto pixel = [&](AttentionOutput output, std::size_t i) {
     const auto xy = attention.output(output);
-    return crop.ToPicture(glm::vec2(xy[2 * i], xy[2 * i + 1]) / float{kPointsPixels});
+    return crop.ToImage(glm::vec2(xy[2 * i], xy[2 * i + 1]) / float{kPointsPixels});
   };
   AttentiveFace found;
   found.face.crop = crop;
   found.face.certainty = tflite::op::Logistic::Apply(attention.output(kAttentionCertainty)[0]);
-  found.face.points = PointsInPicture(attention.output(kAttentionPoints), crop);
+  found.face.points = PointsInImage(attention.output(kAttentionPoints), crop);
   const auto refine = [&](AttentionOutput output, std::span<const PointIndex> points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const glm::vec2 at = pixel(output, i);

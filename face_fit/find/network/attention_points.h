@@ -12,7 +12,7 @@ namespace facefit {
 struct AttentiveFace {
   FoundFace face;
   /// For each eye: the centre of the iris, then four points of its edge, a quarter turn apart.
-  /// Pixels of the picture.
+  /// Pixels of the image.
   fsm::Sided<std::array<glm::vec2, kAttentionIrisPoints>> iris;
 };
 

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/plane.h"
 #include "face_fit/tflite/operators.h"
 #include "fsm/image/shrink.h"
 
@@ -18,10 +18,10 @@ constexpr float kMinFacePx = 8;  // smaller faces show no landmarks
 /// Overlap above which two boxes show one face: intersection divided by the union, or by the
 /// smaller box.
 constexpr float kSameUnion = 0.3F, kSameSmaller = 0.6F;
-/// The detector was trained on faces that fill at least a fifth of the picture. Such a face found
-/// in the whole picture outranks those found in parts; a smaller one outranks them slightly.
+/// The detector was trained on faces that fill at least a fifth of the image. Such a face found
+/// in the whole image outranks those found in parts; a smaller one outranks them slightly.
 constexpr float kWellSeen = 0.2F, kWellSeenRank = 1, kWholeRank = 0.15F;
-/// A face too large for the detector is searched with the picture's surroundings, this factor
+/// A face too large for the detector is searched with the image's surroundings, this factor
 /// larger.
 constexpr float kZoomedOut = 1.6F;
 /// Numbers of overlapping parts along the longer side that are searched, unless the largest face
@@ -75,7 +75,7 @@ std::vector<FaceBox> Detect(FaceNetworks& networks, const fsm::Image& image,
     if (!(score >= kMinScore)) continue;
     const float* box = &boxes[kBoxNumbers * i];
     const auto pixel = [&](DetectorBox k) {
-      return crop.ToPicture(anchors[i] + glm::vec2(box[k], box[k + 1]) / float{kDetectorPixels});
+      return crop.ToImage(anchors[i] + glm::vec2(box[k], box[k + 1]) / float{kDetectorPixels});
     };
     FaceBox face{.centre = pixel(kBoxCentre),
                  .size = glm::abs(glm::vec2(box[kBoxSize], box[kBoxSize + 1])) /
@@ -93,7 +93,7 @@ struct Detection {
   float rank;
 };
 
-/// Runs the detector on squares of many sizes of a picture. Each is cut from a copy hardly finer
+/// Runs the detector on squares of many sizes of an image. Each is cut from a copy hardly finer
 /// than the detector sees it, which takes a tenth of the time.
 class ScaledDetector {
  public:
@@ -104,7 +104,7 @@ class ScaledDetector {
     }
   }
 
-  /// `whole`: cut it from the picture itself, for full accuracy.
+  /// `whole`: cut it from the image itself, for full accuracy.
   void Search(glm::vec2 centre, float size, bool whole = false) {
     float scale = 1;
     std::size_t copy = 0;
@@ -141,7 +141,7 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
     if (pass > 0) face.crop = CropAround(face.points, face.crop.angle_rad);
     networks.landmarks.Run(face.crop.Sample(image, kPointsPixels, 0, 1));
     face.certainty = tflite::op::Logistic::Apply(networks.landmarks.output(kLandmarkCertainty)[0]);
-    face.points = PointsInPicture(networks.landmarks.output(kLandmarkPoints), face.crop);
+    face.points = PointsInImage(networks.landmarks.output(kLandmarkPoints), face.crop);
   }
   return face;
 }
@@ -178,7 +178,7 @@ std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image
   for (Detection& detection : scan.found) {
     detection.rank += detection.face.size.x > kWellSeen * longer ? kWellSeenRank : kWholeRank;
   }
-  // A face that fills the picture is too large for the detector, one in a crowd too small.
+  // A face that fills the image is too large for the detector, one in a crowd too small.
   if (scan.found.empty()) scan.Search(size * 0.5F, longer * kZoomedOut, true);
   float largest = 0;
   for (const Detection& detection : scan.found) {
@@ -205,12 +205,12 @@ std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image
   return faces;
 }
 
-std::vector<glm::vec3> PointsInPicture(std::span<const float> raw, const NetworkCrop& crop) {
+std::vector<glm::vec3> PointsInImage(std::span<const float> raw, const NetworkCrop& crop) {
   std::vector<glm::vec3> points;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
     const glm::vec3 at =
         glm::vec3(raw[3 * i], raw[3 * i + 1], -raw[3 * i + 2]) / float{kPointsPixels};
-    points.emplace_back(crop.ToPicture(glm::vec2(at)), at.z * crop.size);
+    points.emplace_back(crop.ToImage(glm::vec2(at)), at.z * crop.size);
   }
   return points;
 }
@@ -218,8 +218,8 @@ std::vector<glm::vec3> PointsInPicture(std::span<const float> raw, const Network
 NetworkCrop CropAround(std::span<const glm::vec3> points, float axes_rad) {
   const NetworkCrop turned{glm::vec2(0), 1, axes_rad};
   Box2 box;
-  for (const glm::vec3& p : points) box.Add(turned.FromPicture(glm::vec2(p)));
-  return {turned.ToPicture(box.Middle()), kCropMargin * std::max(box.Size().x, box.Size().y),
+  for (const glm::vec3& p : points) box.Add(turned.FromImage(glm::vec2(p)));
+  return {turned.ToImage(box.Middle()), kCropMargin * std::max(box.Size().x, box.Size().y),
           EyeAngle(points)};
 }
 

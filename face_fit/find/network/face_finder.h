@@ -11,7 +11,7 @@
 
 namespace facefit {
 
-/// A face with its points: x and y in pixels of the picture, y down; z in the same unit towards the
+/// A face with its points: x and y in pixels of the image, y down; z in the same unit towards the
 /// viewer, 0 near the middle of the head.
 struct FoundFace {
   std::vector<glm::vec3> points;  ///< kNetworkPoints
@@ -33,17 +33,17 @@ struct FoundFace {
 /// Returns whether the lips are parted, so that teeth or the dark of the mouth show between them.
 bool LipsApart(const FoundFace& face);
 
-/// Certainty below which there is no face: a few pictures of other things reach 0.66; people and
+/// Certainty below which there is no face: a few images of other things reach 0.66; people and
 /// drawn heads hardly fall below 0.9.
 inline constexpr float kCertainFace = 0.75F;
 
-/// Returns all faces, largest first. Searches the whole picture, and its parts unless it shows a
+/// Returns all faces, largest first. Searches the whole image, and its parts unless it shows a
 /// large face. Drops uncertain faces if at least one of several is certain.
 std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image);
 
 /// Converts the output of a landmark network (x, y, z of each point, in pixels of kPointsPixels) to
 /// points of FoundFace. `crop`: what the network was shown.
-std::vector<glm::vec3> PointsInPicture(std::span<const float> raw, const NetworkCrop& crop);
+std::vector<glm::vec3> PointsInImage(std::span<const float> raw, const NetworkCrop& crop);
 
 /// Returns the square around a face's points to show to the landmark network, turned as the line of
 /// its eyes. `axes_rad`: angle of the box that measures the points.

@@ -6,7 +6,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "face_fit/bake/openings.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/pixels.h"
 #include "tests/face_fit/network_fixture.h"
 
 namespace facefit {

@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "tests/face_fit/grey_picture.h"
+#include "tests/face_fit/grey_image.h"
 
 namespace facefit {
 namespace {
 
 TEST(SkinColoursTest, AFringeIsNoSkinAndABrightForeheadIs) {
   // From the top: a hat, dark hair, a forehead in the light, the face.
-  const fsm::Image map = GreyPicture(400, [](glm::vec2 p) {
+  const fsm::Image map = GreyImage(400, [](glm::vec2 p) {
     return p.y < 50 ? 200 : p.y < 100 ? 60 : p.y < 200 ? 240 : 160;
   });
   const FloatImage likeness = SkinLikeness(map, FloatImage(400, 400, 1));
@@ -46,7 +46,7 @@ TEST(SkinColoursTest, BrightStrandsOfAFringeAreNoSkinAndLinesOfTheForeheadAre) {
 
 TEST(SkinColoursTest, LinesMakeASkinRoughAndShadeDoesNot) {
   const auto rough = [](auto brightness, float coverage) {
-    return Roughness(GreyPicture(512, brightness), FloatImage(512, 512, coverage));
+    return Roughness(GreyImage(512, brightness), FloatImage(512, 512, coverage));
   };
   const auto lined = [](glm::vec2 p) { return 160 + 14 * std::sin(p.y * 0.8F); };
   EXPECT_LT(rough([](glm::vec2 p) { return 110 + 0.2F * p.x; }, 1), 0.006F);

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "face_fit/picture/filters.h"
+#include "face_fit/image/filters.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_wear.h"
 

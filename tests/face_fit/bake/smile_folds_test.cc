@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tests/face_fit/grey_picture.h"
+#include "tests/face_fit/grey_image.h"
 
 namespace facefit {
 namespace {
@@ -20,7 +20,7 @@ TEST(SmileFoldsTest, ADarkFoldIsFilledAndABeardIsNot) {
     face.points[static_cast<std::size_t>(left)] = glm::vec3(140, y, 0);
     y += 20;
   }
-  const fsm::Image before = GreyPicture(200, [](glm::vec2 p) {
+  const fsm::Image before = GreyImage(200, [](glm::vec2 p) {
     if (p.x > 120) return p.y > 100 ? 60 : 160;  // a beard over half of the left fold
     return p.y > 50 && std::abs(p.x - 60) < 3 ? 80 : 160;
   });

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "face_fit/complete/light_on_face.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/pixels.h"
 #include "tests/face_fit/built_in_figure_test.h"
 
 namespace facefit {

@@ -14,9 +14,9 @@
 
 #include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/fit/fit.h"
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/photo.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/photo.h"
+#include "face_fit/image/pixels.h"
 #include "tests/face_fit/built_in_figure_test.h"
 #include "tests/support/test_data.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/pixels.h"
 #include "tests/face_fit/built_in_figure_test.h"
 
 namespace facefit {

@@ -26,7 +26,7 @@
 #include "fsm/mesh/imported_model.h"
 #include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/rigging/transferred_rig.h"
-#include "tests/face_fit/grey_picture.h"
+#include "tests/face_fit/grey_image.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
 
@@ -324,7 +324,7 @@ void ExpectWithin(const FitError& error, const std::string& head, float shown, f
 }
 
 TEST_P(CameraTruthTest, ExactPointsAreFollowedWhateverTheCamera) {
-  const fsm::Image nothing = EvenGreyPicture(kPhotoSide);
+  const fsm::Image nothing = EvenGreyImage(kPhotoSide);
   for (const TrueCamera& camera : kCameras) {
     const FitError error = ErrorOf(camera, FitFace(Galatea(), ExactFace(camera), nothing));
     Tell(camera, "points", error);

@@ -7,7 +7,7 @@
 
 #include "fsm/base/table_reader.h"
 #include "fsm/head/make_head.h"
-#include "tests/face_fit/grey_picture.h"
+#include "tests/face_fit/grey_image.h"
 #include "tests/face_fit/network_fixture.h"
 
 namespace facefit {
@@ -43,7 +43,7 @@ TEST_F(FitTest, TheBuiltInHeadFittedToItselfHardlyMoves) {
   const ObservedHead& base = Galatea();
   const FoundFace face = DetectedOf(base.mesh_points(), base.rest().position);
   const ObservedHead exact = Exact(base);
-  const Fit fit = FitFace(exact, face, EvenGreyPicture(800));
+  const Fit fit = FitFace(exact, face, EvenGreyImage(800));
   EXPECT_LT(glm::distance(fit.head.pose.rotation_rad, SomePose().rotation_rad), 0.01F);
   EXPECT_NEAR(fit.head.pose.focal_px, SomePose().focal_px, 10);
   ASSERT_EQ(fit.head.warp_points.size(), fit.constraints.size());
@@ -74,11 +74,10 @@ TEST_F(FitTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
     for (const auto& point : fit.head.warp_points) far = std::max(far, glm::length(point.by));
     return far;
   };
-  const Fit fit = FitFace(moved, face, EvenGreyPicture(800));
+  const Fit fit = FitFace(moved, face, EvenGreyImage(800));
   EXPECT_NEAR(fit.head.shown_units.smile, smiling.smile, 0.1F);
   EXPECT_LT(most(fit), 2);
-  EXPECT_GT(most(FitFace(built_in, face, EvenGreyPicture(800))), 4)
-      << "else this would say nothing";
+  EXPECT_GT(most(FitFace(built_in, face, EvenGreyImage(800))), 4) << "else this would say nothing";
   // The head as worn in the photo smiles by the same table.
   const std::size_t corner = 291;
   EXPECT_LT(

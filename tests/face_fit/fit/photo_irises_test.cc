@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/plane.h"
 #include "tests/face_fit/network_fixture.h"
 
 namespace facefit {

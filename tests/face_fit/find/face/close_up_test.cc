@@ -6,8 +6,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "face_fit/picture/photo.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/photo.h"
+#include "face_fit/image/resample.h"
 
 namespace facefit {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/face_fit/grey_picture.h"
+#include "tests/face_fit/grey_image.h"
 
 namespace facefit {
 namespace {
@@ -16,7 +16,7 @@ TEST(GlassesTest, ABarAcrossTheNoseIsSeenAndAFoldIsNot) {
   face.points[362] = glm::vec3(200, 200, 0);
   // A nose that grows darker downwards.
   const auto nose = [](glm::vec2 p) { return 170 - 0.15F * (p.y - 150); };
-  const auto contrast = [&](auto drawn) { return BridgeContrast(face, GreyPicture(336, drawn)); };
+  const auto contrast = [&](auto drawn) { return BridgeContrast(face, GreyImage(336, drawn)); };
   EXPECT_LT(contrast(nose), 0.03F);
   EXPECT_GT(contrast([&](glm::vec2 p) { return p.y > 196 && p.y < 204 ? 60 : nose(p); }),
             kGlassesContrast);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "face_fit/fit/fit.h"
-#include "tests/face_fit/grey_picture.h"
+#include "tests/face_fit/grey_image.h"
 #include "tests/face_fit/network_fixture.h"
 
 namespace facefit {
@@ -28,7 +28,7 @@ TEST(HandPointsTest, SixPlacesPutTheFaceWhereTheyAre) {
   // What was not said lies between: the forehead above the eyes, the lips between the corners.
   EXPECT_LT(face.points[10].y, 250);
   EXPECT_NEAR(face.points[13].x, 260, 8);
-  EXPECT_NEAR(FitFace(base, face, EvenGreyPicture(600)).head.pose.rotation_rad.y, 0, 0.2F);
+  EXPECT_NEAR(FitFace(base, face, EvenGreyImage(600)).head.pose.rotation_rad.y, 0, 0.2F);
 }
 
 TEST(HandPointsTest, AWireframeOfAnotherHeadIsRefused) {

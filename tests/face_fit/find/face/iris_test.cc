@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "tests/face_fit/grey_picture.h"
+#include "tests/face_fit/grey_image.h"
 
 namespace facefit {
 namespace {
@@ -26,7 +26,7 @@ ExpectedEye EyeAcross(bool mirrored) {
 
 TEST(IrisTest, IsFoundBetweenLidsThatHideHalfOfIt) {
   constexpr glm::vec2 kCentre(98, 94);
-  const fsm::Image photo = GreyPicture(200, [&](glm::vec2 p) {
+  const fsm::Image photo = GreyImage(200, [&](glm::vec2 p) {
     if (p.y < 88 || p.y > 104) return 120;  // lids
     return glm::distance(p, kCentre) < 13 ? 60 : 200;
   });
@@ -41,7 +41,7 @@ TEST(IrisTest, IsFoundBetweenLidsThatHideHalfOfIt) {
 
 TEST(IrisTest, IsFoundBesideACornerInDeepShade) {
   constexpr glm::vec2 kCentre(106, 97);
-  const fsm::Image photo = GreyPicture(200, [&](glm::vec2 p) {
+  const fsm::Image photo = GreyImage(200, [&](glm::vec2 p) {
     if (p.y < 88 || p.y > 104) return 120;
     const float far = glm::distance(p, kCentre);
     // An iris that is hardly darker than the shade, round its pupil.
@@ -57,7 +57,7 @@ TEST(IrisTest, IsWhereItIsDarkWithinNotBetweenTheShadowsOfTwoLashes) {
   // steps there are. It is pale with a dark pupil, or dark throughout.
   constexpr glm::vec2 kCentre(108, 97);
   for (const auto& [pupil, pale] : {std::pair(15, 110), {95, 95}}) {
-    const fsm::Image photo = GreyPicture(200, [&](glm::vec2 p) {
+    const fsm::Image photo = GreyImage(200, [&](glm::vec2 p) {
       if (p.y < 88 || p.y > 104) return 120;
       const float far = glm::distance(p, kCentre);
       if (far < 13) return far < 5 ? pupil : pale;
@@ -70,7 +70,7 @@ TEST(IrisTest, IsWhereItIsDarkWithinNotBetweenTheShadowsOfTwoLashes) {
 }
 
 TEST(IrisTest, IsNotImaginedInAnEvenPatch) {
-  const fsm::Image photo = GreyPicture(200, [](glm::vec2) { return 90; });
+  const fsm::Image photo = GreyImage(200, [](glm::vec2) { return 90; });
   const ExpectedEye eye = EyeAcross(false);
   EXPECT_LT(FindIrises(photo, {eye, eye}).right.contrast, kClearIris);
 }

@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/picture/photo.h"
+#include "face_fit/image/photo.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
 

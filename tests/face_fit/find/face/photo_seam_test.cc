@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/face_fit/grey_picture.h"
+#include "tests/face_fit/grey_image.h"
 #include "tests/face_fit/straight_mouth.h"
 
 namespace facefit {
@@ -13,7 +13,7 @@ namespace {
 TEST(PhotoSeamTest, FollowsTheDarkLineBesideTheNetworksPoints) {
   // A mouth whose corners hang, as the points do not say.
   const auto height = [](float x) { return 98 + 5 * std::abs(x - 100) / 50; };
-  const fsm::Image photo = GreyPicture(200, [&](glm::vec2 p) {
+  const fsm::Image photo = GreyImage(200, [&](glm::vec2 p) {
     return 170 - 120 * std::exp(-std::pow((p.y - height(p.x)) / 1.5F, 2.0F));
   });
   const auto line = FindPhotoSeam(photo, StraightMouth(), {0, 1});
@@ -25,7 +25,7 @@ TEST(PhotoSeamTest, FollowsTheDarkLineBesideTheNetworksPoints) {
 
 TEST(PhotoSeamTest, KeepsToThePointsWhereNothingIsDark) {
   const auto line =
-      FindPhotoSeam(GreyPicture(200, [](glm::vec2) { return 150; }), StraightMouth(), {0, 1});
+      FindPhotoSeam(GreyImage(200, [](glm::vec2) { return 150; }), StraightMouth(), {0, 1});
   for (const glm::vec2 p : line) EXPECT_NEAR(p.y, 100, 0.7F) << p.x;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/photo.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/photo.h"
 #include "tests/face_fit/group_photo.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
@@ -25,7 +25,7 @@ TEST_F(UprightTest, APhotoThatLiesIsSetUpright) {
   for (const auto& [lying, upright] : {std::pair(1, 1), {6, 8}, {8, 6}, {3, 3}}) {
     const UprightPhoto found = SetUpright(*networks_, Turned(*photo, lying));
     EXPECT_EQ(found.orientation, upright) << lying;
-    EXPECT_EQ(found.photo.rgba, photo->rgba) << lying;
+    EXPECT_EQ(found.image.rgba, photo->rgba) << lying;
     ASSERT_EQ(found.faces.size(), 1U) << lying;
     EXPECT_LT(found.faces[0].PixelOf(point::kForehead).y, found.faces[0].PixelOf(point::kChin).y)
         << lying;

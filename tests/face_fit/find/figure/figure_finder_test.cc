@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/face_fit/disc_picture.h"
+#include "tests/face_fit/disc_image.h"
 
 namespace facefit {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/resample.h"
-#include "tests/face_fit/disc_picture.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/resample.h"
+#include "tests/face_fit/disc_image.h"
 
 namespace facefit {
 namespace {

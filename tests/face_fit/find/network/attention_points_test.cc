@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "face_fit/find/head/portrait_view.h"
-#include "face_fit/picture/photo.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/photo.h"
+#include "face_fit/image/resample.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
 
@@ -59,9 +59,9 @@ TEST_F(AttentionTest, IrisesOfPhotosLieOnTheIrises) {
 
 TEST_F(AttentionTest, PointsOfTheLipsLieOnTheSeamOfAHead) {
   const ObservedHead& base = Galatea();
-  const AttentiveFace seen = See(base.picture());
+  const AttentiveFace seen = See(base.portrait());
   EXPECT_GT(seen.face.certainty, 0.95F);
-  const PortraitView portrait(base.picture().width);
+  const PortraitView portrait(base.portrait().width);
   // Along the seam both may differ; across it, from the line between the two neighbours there.
   const auto off_mm = [&](std::span<const PointIndex> line) {
     float most = 0;

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "face_fit/picture/photo.h"
+#include "face_fit/image/photo.h"
 #include "tests/face_fit/group_photo.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"

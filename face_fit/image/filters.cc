@@ -1,4 +1,4 @@
-#include "face_fit/picture/filters.h"
+#include "face_fit/image/filters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <glm/vec4.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/pixels.h"
 #include "fsm/image/shrink.h"
 
 namespace facefit {
@@ -18,8 +18,8 @@ void StayOnThisThread() {
   (void)done;
 }
 
-/// Returns a view of a picture, which must outlive it; every filter goes through these. OpenCV does
-/// not write into views of const pictures.
+/// Returns a view of an image, which must outlive it; every filter goes through these. OpenCV does
+/// not write into views of const images.
 template <typename T>
 cv::Mat View(const Raster<T>& image) {
   StayOnThisThread();

@@ -1,4 +1,4 @@
-#include "face_fit/bake/eye_pictures.h"
+#include "face_fit/bake/eye_textures.h"
 
 #include <gtest/gtest.h>
 
@@ -7,14 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/resample.h"
 #include "fsm/head/make_head.h"
-#include "tests/face_fit/grey_picture.h"
+#include "tests/face_fit/grey_image.h"
 
 namespace facefit {
 namespace {
 
-TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
+TEST(EyeTexturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   // The built-in head as it would be seen by a camera of four pixels to the millimetre, whose eyes
   // look at it and are half hidden by their upper lids.
   auto head = fsm::MakeHead("galatea");
@@ -49,7 +49,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   }
   const ObservedHead base = ObservedHead::Exact(std::move(head), "galatea", std::move(places));
   fit.head.base = &base;
-  const fsm::Image photo = GreyPicture(1000, [&](glm::vec2 p) {
+  const fsm::Image photo = GreyImage(1000, [&](glm::vec2 p) {
     for (const glm::vec2 centre : centres) {
       const glm::vec2 off = p - centre;
       if (std::abs(off.x) > 60 || off.y < -12 || off.y > 24) continue;

@@ -9,7 +9,7 @@ namespace facefit {
 
 /// Shows in grey what `brightness` says of each pixel's centre.
 template <typename F>
-fsm::Image GreyPicture(int side, F brightness) {
+fsm::Image GreyImage(int side, F brightness) {
   fsm::Image image{.width = side, .height = side, .rgba = {}};
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
@@ -22,8 +22,8 @@ fsm::Image GreyPicture(int side, F brightness) {
 }
 
 /// A photo that shows nothing, for faces of which only points matter.
-inline fsm::Image EvenGreyPicture(int side) {
-  return GreyPicture(side, [](glm::vec2) { return 128; });
+inline fsm::Image EvenGreyImage(int side) {
+  return GreyImage(side, [](glm::vec2) { return 128; });
 }
 
 }  // namespace facefit

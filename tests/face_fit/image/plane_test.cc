@@ -1,4 +1,4 @@
-#include "face_fit/picture/plane.h"
+#include "face_fit/image/plane.h"
 
 #include <gtest/gtest.h>
 

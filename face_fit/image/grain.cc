@@ -1,11 +1,11 @@
-#include "face_fit/picture/grain.h"
+#include "face_fit/image/grain.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/pixels.h"
 #include "fsm/base/smooth_step.h"
 
 namespace facefit {

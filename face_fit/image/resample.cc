@@ -1,4 +1,4 @@
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/resample.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "face_fit/picture/pixels.h"
+#include "face_fit/image/pixels.h"
 
 namespace facefit {
 namespace {
@@ -23,8 +23,8 @@ std::array<float, 4> BSpline(float t) {
 }
 
 /// Sums `get(index)` over the 4 x 4 pixels around a pixel; outside, the edge is repeated.
-template <typename Value, typename Picture, typename Weights, typename Get>
-Value Around(const Picture& image, glm::vec2 pixel, Weights weights, Get get) {
+template <typename Value, typename Image, typename Weights, typename Get>
+Value Around(const Image& image, glm::vec2 pixel, Weights weights, Get get) {
   const int width = image.width, height = image.height;
   const glm::vec2 p = glm::clamp(pixel, glm::vec2(0), glm::vec2(width, height)) - 0.5F;
   const glm::vec2 first = glm::floor(p);

@@ -8,16 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 #include "fsm/image/image.h"
 
 namespace facefit {
 
-// Filters of pictures. OpenCV (core and imgproc) does the work; only filters.cc includes it.
-// All are pure and run on the caller's thread. REQUIRES: pictures of at least one pixel.
+// Filters of images. OpenCV (core and imgproc) does the work; only filters.cc includes it.
+// All are pure and run on the caller's thread. REQUIRES: images of at least one pixel.
 
 /// Returns the mean over squares of `2 * reach + 1` pixels, at the edges over the part within the
-/// picture. For FloatImage, VectorImage and Raster<glm::mat3>.
+/// image. For FloatImage, VectorImage and Raster<glm::mat3>.
 template <typename T>
 Raster<T> Blurred(const Raster<T>& image, int reach);
 
@@ -47,13 +47,13 @@ template <typename T>
 Raster<T> Closed(const Raster<T>& image, int reach);
 
 /// Inpaints pixels of low weight with the colours around them, averaged over a wider area the
-/// farther they are (push and pull through a pyramid of halved pictures; Gortler, Grzeszczuk,
+/// farther they are (push and pull through a pyramid of halved images; Gortler, Grzeszczuk,
 /// Szeliski and Cohen, The Lumigraph, 1996). Pixels of full weight stay. `weight`: 0..1, as large
 /// as `image`.
 void PushPullInpaint(fsm::Image& image, const Mask& weight);
 
 /// Sets positive pixels and every hole in them to 1, and the rest to 0. Holes are 0s that no path
-/// of four-neighbours connects to the picture's edge.
+/// of four-neighbours connects to the image's edge.
 void FillHoles(Mask& image);
 
 /// Sets pixels to 0 that no path of eight-neighbours of at least 0.1 connects to the pixel `to`.
@@ -68,18 +68,18 @@ std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold);
 /// Returns the distance of a pixel outside a closed line, negative inside.
 float SignedDistance(std::span<const glm::vec2> outline, glm::vec2 pixel);
 
-/// Scales a picture down; each pixel is the mean of those it covers. For FloatImage and
+/// Scales an image down; each pixel is the mean of those it covers. For FloatImage and
 /// VectorImage. REQUIRES: 1 <= width <= image.width, likewise height.
 template <typename T>
 Raster<T> ScaledDown(const Raster<T>& image, int width, int height);
 
-/// Returns the picture, scaled down if its longer side exceeds `most_size` pixels.
+/// Returns the image, scaled down if its longer side exceeds `most_size` pixels.
 fsm::Image ScaledToFit(fsm::Image image, int most_size);
 
-/// Returns `width` x `height` pixels from (left, top). REQUIRES: they lie within the picture.
+/// Returns `width` x `height` pixels from (left, top). REQUIRES: they lie within the image.
 fsm::Image Cropped(const fsm::Image& image, int left, int top, int width, int height);
 
-/// Returns the picture set upright; `orientation`: EXIF's 1..8, where 1 is upright.
+/// Returns the image set upright; `orientation`: EXIF's 1..8, where 1 is upright.
 fsm::Image Turned(const fsm::Image& image, int orientation);
 
 }  // namespace facefit

@@ -1,4 +1,4 @@
-#include "face_fit/picture/filters.h"
+#include "face_fit/image/filters.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 #include "fsm/image/image.h"
 
 namespace facefit {

@@ -15,7 +15,7 @@ inline constexpr std::int64_t kMaxPixels = 50'000'000;
 inline constexpr int kWorkingSize = 1600, kFineSize = 4800;
 
 /// Reads a photo (JPEG or PNG, detected by content), sets it upright by its EXIF orientation and
-/// scales it down until its longer side is at most `most_size`. 16-bit and grey pictures become
+/// scales it down until its longer side is at most `most_size`. 16-bit and grey images become
 /// 8-bit RGB; CMYK is converted without a colour profile. Errors: kUnavailable (cannot be read),
 /// kBadValue (what is wrong with it, and what is expected).
 vm::Result<fsm::Image> ReadPhoto(const std::string& path, int most_size = kWorkingSize);

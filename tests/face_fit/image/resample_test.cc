@@ -1,11 +1,11 @@
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/resample.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "tests/face_fit/disc_picture.h"
+#include "tests/face_fit/disc_image.h"
 
 namespace facefit {
 namespace {

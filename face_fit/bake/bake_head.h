@@ -6,8 +6,8 @@
 
 namespace facefit {
 
-/// A head made from a photo; head_picture.h says how its `photo` is laid out.
-struct TextureBake {
+/// A head made from a photo; head_atlas.h says how its `photo` is laid out.
+struct BakedHead {
   fsm::PhotoHead head;
   float coverage = 0;   ///< share of the face's map that photos show, 0..1
   Completed completed;  ///< parts of the figure that the photo does not show
@@ -15,7 +15,7 @@ struct TextureBake {
 
 /// Bakes a photo onto a fitted head, all but PhotoHead::glasses. `figure`: the figure in `photo`;
 /// `side_views`: photos of the person from the side, may be empty. Pure; thread: any.
-TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-                        const FigureCutout& figure, std::span<const SideView> side_views);
+BakedHead BakeHead(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
+                   const FigureCutout& figure, std::span<const SideView> side_views);
 
 }  // namespace facefit

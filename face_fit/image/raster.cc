@@ -1,4 +1,4 @@
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 
 #include <algorithm>
 

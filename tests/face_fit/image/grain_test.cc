@@ -1,4 +1,4 @@
-#include "face_fit/picture/grain.h"
+#include "face_fit/image/grain.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "face_fit/complete/complete_figure.h"
-#include "face_fit/picture/filters.h"
-#include "tests/face_fit/disc_picture.h"
+#include "face_fit/image/filters.h"
+#include "tests/face_fit/disc_image.h"
 
 namespace facefit {
 namespace {

@@ -20,7 +20,7 @@ struct FourPixels {
   }
 };
 
-/// Calls `f(x, y, i)` for each pixel of a picture, row by row; `i`: its index.
+/// Calls `f(x, y, i)` for each pixel of an image, row by row; `i`: its index.
 void ForPixels(int width, int height, auto f) {
   std::size_t i = 0;
   for (int y = 0; y < height; ++y) {
@@ -28,7 +28,7 @@ void ForPixels(int width, int height, auto f) {
   }
 }
 
-/// A value for each pixel of a picture, row 0 at the top. Also used for other grids.
+/// A value for each pixel of an image, row 0 at the top. Also used for other grids.
 template <typename T>
 struct Raster {
   int width = 0, height = 0;

@@ -1,4 +1,4 @@
-#include "face_fit/picture/photo.h"
+#include "face_fit/image/photo.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "face_fit/picture/filters.h"
+#include "face_fit/image/filters.h"
 
 // Only after the standard's headers, whose names it uses.
 #include <jpeglib.h>

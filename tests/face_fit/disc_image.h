@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 #include "fsm/image/image.h"
 
 namespace facefit {

@@ -1,4 +1,4 @@
-#include "face_fit/bake/eye_pictures.h"
+#include "face_fit/bake/eye_textures.h"
 
 #include <algorithm>
 #include <array>
@@ -9,14 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/bake/head_picture.h"
+#include "face_fit/bake/head_atlas.h"
 #include "face_fit/bake/light_gain.h"
 #include "face_fit/bake/red_eye.h"
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/pixels.h"
-#include "face_fit/picture/plane.h"
-#include "face_fit/picture/raster.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/pixels.h"
+#include "face_fit/image/plane.h"
+#include "face_fit/image/raster.h"
+#include "face_fit/image/resample.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
@@ -31,7 +31,7 @@ constexpr float kMinShadePx = 0.7F;
 constexpr int kIrisPixels = 64, kBallPixels = 128;  // to a side of the squares
 constexpr std::size_t kRings = 24;
 
-/// A pixel of the picture of an iris.
+/// A pixel of the texture of an iris.
 struct IrisPixel {
   glm::vec3 colour{0};
   float visible = 0;  ///< share that no lid hides, 0..1
@@ -78,11 +78,11 @@ struct PhotoEye {
   glm::vec2 right, up;  ///< the head's axes in the photo, unit
 };
 
-/// Returns the picture of an iris. `skin_colour`: of the skin below the eye.
-fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin_colour, const fsm::Image& photo) {
+/// Returns the texture of an iris. `skin_colour`: of the skin below the eye.
+fsm::Image IrisTexture(const PhotoEye& eye, glm::vec3 skin_colour, const fsm::Image& photo) {
   // Width of the lid's shade and lashes.
   const float edge =
-      std::max(PhotoLook().eye_picture.lid_shade_radii * eye.iris.radius_px, kMinShadePx);
+      std::max(PhotoLook().eye_texture.lid_shade_radii * eye.iris.radius_px, kMinShadePx);
   const RedEye flash(skin_colour);
   const auto pixels = MakeSquare(kIrisPixels, [&](glm::vec2 p) {
     p *= fsm::kIrisSpan;
@@ -111,9 +111,9 @@ fsm::Image IrisPicture(const PhotoEye& eye, glm::vec3 skin_colour, const fsm::Im
   return out;
 }
 
-/// Returns the picture of the eyeball beside the iris. `rest`: the lids of the eye at rest;
+/// Returns the texture of the eyeball beside the iris. `rest`: the lids of the eye at rest;
 /// `radius`: of the ball; both in millimetres about its centre.
-fsm::Image BallPicture(const PhotoEye& eye, const LidLines& rest, float radius,
+fsm::Image BallTexture(const PhotoEye& eye, const LidLines& rest, float radius,
                        const fsm::Image& photo) {
   const auto pixels = MakeSquare(kBallPixels, [&](glm::vec2 p) {
     p *= fsm::kBallSpan * radius;
@@ -125,7 +125,7 @@ fsm::Image BallPicture(const PhotoEye& eye, const LidLines& rest, float radius,
                                                       glm::clamp(between, 0.0F, 1.0F))),
                      between);
   });
-  const auto& look = PhotoLook().eye_picture;
+  const auto& look = PhotoLook().eye_texture;
   const auto beside_iris = [&](glm::vec2 pixel) {
     return look.beside_iris_radii.Ramp(glm::distance(pixel, eye.iris.centre_px) /
                                        eye.iris.radius_px);
@@ -151,7 +151,7 @@ struct EyeSquares {
   fsm::Image iris, ball;
 };
 
-/// Returns whose picture each eye shows: its own, or the other eye's if it is not seen clearly;
+/// Returns whose texture each eye shows: its own, or the other eye's if it is not seen clearly;
 /// nothing if neither is.
 std::optional<fsm::Sided<fsm::Side>> ShownEyes(const PhotoIrises& irises) {
   // An eye that is shown on both sides must not be half shut.
@@ -205,7 +205,7 @@ LidLines LidsAtRest(const ObservedHead& base, fsm::Side side, const fsm::EyeTran
 
 std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, const Fit& fit,
                                                      const fsm::Sided<fsm::EyeTransform>& at_rest,
-                                                     const fsm::Image& photo, fsm::Image& picture) {
+                                                     const fsm::Image& photo, fsm::Image& atlas) {
   const ObservedHead& base = *fit.head.base;
   const auto shown = ShownEyes(fit.irises);
   if (!shown) return std::nullopt;
@@ -217,21 +217,21 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
     const LidLines lids(EyePointsOf(side, face));
     const PhotoEye eye{fit.irises.circles[side], lids, right, {right.y, -right.x}};
     const float radius = at_rest[side].size * base.head().surface().eyes[side].ball_radius;
-    squares[side] = {IrisPicture(eye, LightBeside(face, photo, side), photo),
-                     BallPicture(eye, LidsAtRest(base, side, at_rest[side]), radius, photo)};
+    squares[side] = {IrisTexture(eye, LightBeside(face, photo, side), photo),
+                     BallTexture(eye, LidsAtRest(base, side, at_rest[side]), radius, photo)};
   }
-  SquareRow row(picture);
-  fsm::Sided<fsm::EyePicture> pictures;
+  SquareRow row(atlas);
+  fsm::Sided<fsm::EyePicture> textures;
   for (const fsm::Side side : fsm::kSides) {
     if (const fsm::Side other = (*shown)[side]; other != side) {
       const glm::vec3 gain =
           LightGain(LightBeside(face, photo, side), LightBeside(face, photo, other));
       squares[side] = {Mirrored(squares[other].iris, gain), Mirrored(squares[other].ball, gain)};
     }
-    pictures[side].iris = row.Add(squares[side].iris);
-    pictures[side].ball = row.Add(squares[side].ball);
+    textures[side].iris = row.Add(squares[side].iris);
+    textures[side].ball = row.Add(squares[side].ball);
   }
-  return pictures;
+  return textures;
 }
 
 }  // namespace facefit

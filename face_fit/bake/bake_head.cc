@@ -1,13 +1,13 @@
-#include "face_fit/bake/texture_bake.h"
+#include "face_fit/bake/bake_head.h"
 
 #include <algorithm>
 #include <glm/common.hpp>
 #include <utility>
 
 #include "face_fit/bake/behind_face.h"
-#include "face_fit/bake/eye_pictures.h"
+#include "face_fit/bake/eye_textures.h"
 #include "face_fit/bake/feature_colours.h"
-#include "face_fit/bake/head_picture.h"
+#include "face_fit/bake/head_atlas.h"
 #include "face_fit/bake/lips.h"
 #include "face_fit/bake/mirroring.h"
 #include "face_fit/bake/openings.h"
@@ -20,10 +20,10 @@
 #include "face_fit/bake/smile_shade.h"
 #include "face_fit/fit/eye_fit.h"
 #include "face_fit/fit/pixel_warp.h"
-#include "face_fit/picture/filters.h"
-#include "face_fit/picture/grain.h"
-#include "face_fit/picture/pixels.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/filters.h"
+#include "face_fit/image/grain.h"
+#include "face_fit/image/pixels.h"
+#include "face_fit/image/resample.h"
 #include "face_fit/tables/photo_look.h"
 
 namespace facefit {
@@ -126,8 +126,8 @@ SkinTraits FinishMap(const FittedHead& fitted, const SkinPlaces& places, bool li
 
 }  // namespace
 
-TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-                        const FigureCutout& figure, std::span<const SideView> side_views) {
+BakedHead BakeHead(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
+                   const FigureCutout& figure, std::span<const SideView> side_views) {
   const FittedHead& fitted = fit.head;
   const SkinPlaces places = PlaceSkin(*fitted.base);
   const SkinSights sights = ProjectSkin(fitted, places, fitted.pose, SelfHidden::kNotSeen);
@@ -141,10 +141,10 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
   const float coverage = MeanCoverage(places, map.coverage);
   const SkinTraits traits = FinishMap(fitted, places, lips_apart, map);
   const CompletedFigure whole = CompleteFigure(fitted, figure);
-  fsm::Image picture = PackHeadPicture(map.image, BehindFace(whole.head, whole.figure),
-                                       whole.figure.opacity, fitted.pose.PixelsPerMm());
+  fsm::Image atlas = PackAtlas(map.image, BehindFace(whole.head, whole.figure),
+                               whole.figure.opacity, fitted.pose.PixelsPerMm());
   const auto eyes = EyesAtRest(fitted);
-  auto eye_pictures = PaintEyes(face, fit, eyes, photo, picture);
+  auto eye_textures = PaintEyes(face, fit, eyes, photo, atlas);
   const EyeColours eye_colours = SampleEyes(face, fit.irises, photo);
   const MouthColours mouth = SampleMouth(face, photo);
   Sheet sheet = MakeSheet(whole.head, whole.figure);
@@ -155,7 +155,7 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
   head.iris_size = fit.irises.size;
   head.teeth = mouth.teeth;
   head.lip_colour = mouth.lip;
-  head.eye_pictures = std::move(eye_pictures);
+  head.eye_pictures = std::move(eye_textures);
   head.saturation = traits.saturation;
   head.lined = traits.lined;
   head.skin_low = kSkinLow;
@@ -165,7 +165,7 @@ TextureBake BakeTexture(const FoundFace& face, const Fit& fit, const fsm::Image&
   head.skin_bottom_y = sheet.skin_bottom_y;
   head.sheet = std::move(sheet.vertices);
   head.sheet_triangles = std::move(sheet.triangles);
-  head.photo = std::make_shared<fsm::Image>(std::move(picture));
+  head.photo = std::make_shared<fsm::Image>(std::move(atlas));
   return {std::move(head), coverage, whole.completed};
 }
 

@@ -1,15 +1,15 @@
-#include "face_fit/bake/head_picture.h"
+#include "face_fit/bake/head_atlas.h"
 
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "face_fit/picture/pixels.h"
-#include "face_fit/picture/resample.h"
+#include "face_fit/image/pixels.h"
+#include "face_fit/image/resample.h"
 
 namespace facefit {
 
-fsm::Image PackHeadPicture(const fsm::Image& map, const fsm::Image& figure, const Mask& opacity,
-                           float pixels_per_mm) {
+fsm::Image PackAtlas(const fsm::Image& map, const fsm::Image& figure, const Mask& opacity,
+                     float pixels_per_mm) {
   // Steepens the opacity of small photos, whose edges, a pixel wide, would look blurred on screens
   // with two or more pixels to a millimetre.
   constexpr float kScreenPixelsPerMm = 2, kSteepest = 3;
@@ -33,12 +33,12 @@ glm::vec2 OnFigureHalf(glm::vec2 p) {
 }
 
 glm::vec4 SquareRow::Add(const fsm::Image& square) {
-  const int size = square.width, top = picture_.height - kMargin - size;
+  const int size = square.width, top = atlas_.height - kMargin - size;
   for (int y = 0; y < size; ++y) {
     std::copy_n(&square.rgba[4 * square.Index(0, y)], 4 * size,
-                &picture_.rgba[4 * picture_.Index(left_, top + y)]);
+                &atlas_.rgba[4 * atlas_.Index(left_, top + y)]);
   }
-  const glm::vec2 whole(picture_.width, picture_.height);
+  const glm::vec2 whole(atlas_.width, atlas_.height);
   const glm::vec4 rectangle(glm::vec2(left_, top) / whole,
                             glm::vec2(left_ + size, top + size) / whole);
   left_ += size + kMargin;

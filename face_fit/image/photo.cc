@@ -1,9 +1,9 @@
-#include "face_fit/picture/photo.h"
+#include "face_fit/image/photo.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "face_fit/picture/filters.h"
+#include "face_fit/image/filters.h"
 #include "fsm/image/byte_order.h"
 #include "fsm/image/image_codec.h"
 #include "vm_protocol/core/text_file.h"

@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "face_fit/picture/raster.h"
+#include "face_fit/image/raster.h"
 #include "fsm/image/image.h"
 
 namespace facefit {
@@ -28,7 +28,7 @@ inline void SetRgb(fsm::Image& image, std::size_t i, glm::vec3 colour) {
   for (int c = 0; c < 3; ++c) image.rgba[4 * i + static_cast<std::size_t>(c)] = Byte(colour[c]);
 }
 
-/// Returns whether a pixel lies in a picture.
+/// Returns whether a pixel lies in an image.
 inline bool IsInside(const fsm::Image& image, glm::vec2 p) {
   return p.x >= 0 && p.y >= 0 && p.x < static_cast<float>(image.width) &&
          p.y < static_cast<float>(image.height);
