@@ -93,7 +93,7 @@ struct SkinTraits {
 /// - the other side is copied before anything is inpainted from around;
 /// - a smile's shading is removed when no hole is left, because it is estimated from around;
 /// - grain is added to what was filled in after its colours are final;
-/// - lips and their seam, which are not skin, are painted over all of that;
+/// - lips and the lip seam, which are not skin, are painted over all of that;
 /// - skin is detected in the finished colours.
 SkinTraits FinishMap(const FittedHead& fitted, const SkinPlaces& places, bool lips_apart,
                      SkinMap& map) {
@@ -110,7 +110,7 @@ SkinTraits FinishMap(const FittedHead& fitted, const SkinPlaces& places, bool li
   AddGrain(map.coverage, on_sides, TexelsOf(look.grain.coarsest_on_skin_mm, kMapSize), map.image);
   if (lips_apart) {
     RestoreLipColour(places, map.image);
-    DrawSeam(places, saturation, map.image);
+    DrawLipSeam(places, saturation, map.image);
   }
   const Mask face_coverage = CoverageOfFace(places, map.coverage);
   const fsm::Range range = look.lined.roughness;

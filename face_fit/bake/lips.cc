@@ -66,12 +66,12 @@ void RestoreLipColour(const SkinPlaces& places, fsm::Image& map) {
   }
 }
 
-void DrawSeam(const SkinPlaces& places, float saturation, fsm::Image& map) {
-  const auto& look = PhotoLook().seam;
+void DrawLipSeam(const SkinPlaces& places, float saturation, fsm::Image& map) {
+  const auto& look = PhotoLook().lip_seam;
   const glm::vec3 dark = glm::mix(look.takes_from_grey, look.takes_from_colour, saturation);
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!places[i]) continue;
-    const float line = look.dark_within_mm.Ramp(places[i]->off_seam_mm);
+    const float line = look.dark_within_mm.Ramp(places[i]->off_lip_seam_mm);
     if (line > 0) SetRgb(map, i, Rgb(map, i) * (1.0F - dark * line));
   }
 }

@@ -10,8 +10,8 @@ namespace facefit {
 /// nothing if lips are no redder than skin, as in a grey photo.
 void RestoreLipColour(const SkinPlaces& places, fsm::Image& map);
 
-/// Draws the dark seam of lips that were apart, reddish if the photo has colour.
+/// Draws the dark lip seam of lips that were apart, reddish if the photo has colour.
 /// `saturation`: of the photo, 0 = grey, 1 = coloured.
-void DrawSeam(const SkinPlaces& places, float saturation, fsm::Image& map);
+void DrawLipSeam(const SkinPlaces& places, float saturation, fsm::Image& map);
 
 }  // namespace facefit

@@ -46,19 +46,19 @@ class SelfOcclusion {
   FloatImage nearest_;
 };
 
-/// The seam and the outer borders of the base head's lips at rest, millimetres.
+/// The lip seam and the outer borders of the base head's lips at rest, millimetres.
 class LipLines {
  public:
   explicit LipLines(const ObservedHead& base)
-      : seam_(Line(base, point::kUpperInnerLip, point::kInnerMouthCorners)),
+      : lip_seam_(Line(base, point::kUpperInnerLip, point::kInnerMouthCorners)),
         upper_(Line(base, point::kUpperOuterLip, point::kMouthCorners)),
         lower_(Line(base, point::kLowerOuterLip, point::kMouthCorners)) {}
-  float OffSeam(glm::vec3 p) const {
+  float OffLipSeam(glm::vec3 p) const {
     // A larger distance near its ends makes the line thinner.
     constexpr float kThinMm = 7, kThinner = 0.2F;
-    if (!Spans(seam_, p)) return SkinPlace::kNotNear;
-    const float gap_mm = std::abs(p.y - HeightAt<glm::vec3>(seam_, p.x));
-    const float to_end_mm = std::min(p.x - seam_.front().x, seam_.back().x - p.x);
+    if (!Spans(lip_seam_, p)) return SkinPlace::kNotNear;
+    const float gap_mm = std::abs(p.y - HeightAt<glm::vec3>(lip_seam_, p.x));
+    const float to_end_mm = std::min(p.x - lip_seam_.front().x, lip_seam_.back().x - p.x);
     return gap_mm + kThinner * std::max(kThinMm - to_end_mm, 0.0F);
   }
   float Within(glm::vec3 p) const {
@@ -77,7 +77,7 @@ class LipLines {
     for (const PointIndex i : WithCorners(lip, corners)) line.push_back(base.AtRest(i));
     return line;
   }
-  std::vector<glm::vec3> seam_, upper_, lower_;
+  std::vector<glm::vec3> lip_seam_, upper_, lower_;
 };
 
 /// Returns the normals of the skin's vertices, not normalised, weighted by area.
@@ -127,7 +127,7 @@ SkinPlaces PlaceSkin(const ObservedHead& base) {
       out(x, y) = {.on_mesh = on_mesh,
                    .x_mm = rest.x,
                    .y_mm = rest.y,
-                   .off_seam_mm = lips.OffSeam(rest),
+                   .off_lip_seam_mm = lips.OffLipSeam(rest),
                    .within_lips_mm = lips.Within(rest),
                    .side_weight = std::max(head_side.across_mm.Ramp(std::abs(rest.x)),
                                            head_side.above_chin_mm.Ramp(rest.y - chin_y_mm))};

@@ -27,7 +27,7 @@ struct SkinPlace {
   MeshPoint on_mesh = {};
   float x_mm = 0;                    ///< from the middle, positive to the person's left
   float y_mm = 0;                    ///< height
-  float off_seam_mm = kNotNear;      ///< distance from the seam
+  float off_lip_seam_mm = kNotNear;  ///< distance from the lip seam
   float within_lips_mm = -kNotNear;  ///< distance inside the border of the lips, negative outside
   float side_weight = 0;  ///< 1 on the sides of the head and below the chin, 0 on the face
 };

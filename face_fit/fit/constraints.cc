@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "face_fit/find/face/photo_seam.h"
+#include "face_fit/find/face/photo_lip_seam.h"
 #include "face_fit/image/plane.h"
 #include "face_fit/tables/photo_look.h"
 
@@ -70,58 +70,49 @@ std::uint32_t NearestLip(const ObservedHead& base, glm::vec3 p) {
   return nearest;
 }
 
-/// The seam in the photo.
-class PhotoSeam {
+/// The mouth of the base head at rest, from its right end to its left.
+class MouthAxis {
  public:
-  /// Both must outlive this object.
-  PhotoSeam(const FitProblem& problem, const fsm::Image& photo)
-      : base_(problem.base),
-        right_(base_.head().Landmark("cheilion_right").x),
-        width_(base_.head().Landmark("cheilion_left").x - right_),
-        line_(FindPhotoSeam(photo, problem.face,
-                            {Along(base_.mesh_points()[point::kMouthRight]),
-                             Along(base_.mesh_points()[point::kMouthLeft])})) {}
-  /// Returns the position along the mouth, 0 = its right end and 1 = its left end.
+  /// `base` must outlive this object.
+  explicit MouthAxis(const ObservedHead& base)
+      : base_(base),
+        right_(base.head().Landmark("cheilion_right").x),
+        width_(base.head().Landmark("cheilion_left").x - right_) {}
+  /// Returns the position along the mouth, as for PhotoLipSeam.
   float Along(const MeshPoint& p) const {
     return (p.On(base_.rest().position).x - right_) / width_;
-  }
-  glm::vec2 PixelAt(float along) const {
-    const float step = glm::clamp(along, 0.0F, 1.0F) * (kSeamPoints - 1);
-    const auto k = std::min(static_cast<std::size_t>(step), kSeamPoints - 2);
-    return glm::mix(line_[k], line_[k + 1], step - static_cast<float>(k));
   }
 
  private:
   const ObservedHead& base_;
-  float right_, width_;  // of the mouth at rest, millimetres
-  std::vector<glm::vec2> line_;
+  float right_, width_;  // millimetres
 };
 
-/// Moves the corners of the mouth onto the seam, and the outer lips beside them with them: where
-/// the network misplaces a corner it misplaces these, too.
-void ShiftOuterLips(const FitProblem& problem, const PhotoSeam& line,
+/// Moves the corners of the mouth onto the lip seam, and the outer lips beside them with them:
+/// where the network misplaces a corner it misplaces these, too.
+void ShiftOuterLips(const FitProblem& problem, const MouthAxis& mouth, const PhotoLipSeam& seam,
                     std::vector<PixelConstraint>& constraints) {
   for (const PointIndex corner : point::kMouthCorners) {
-    const float corner_along = line.Along(problem.base.mesh_points()[corner]);
-    const glm::vec2 shift_px = line.PixelAt(corner_along) - problem.face.PixelOf(corner);
+    const float corner_along = mouth.Along(problem.base.mesh_points()[corner]);
+    const glm::vec2 shift_px = seam.PixelAt(corner_along) - problem.face.PixelOf(corner);
     for (PixelConstraint& constraint : constraints) {
       const bool outer_lip =
           constraint.IsAmong(point::kUpperOuterLip) || constraint.IsAmong(point::kLowerOuterLip);
       if (constraint.point != corner && !outer_lip) continue;
       constraint.pixel += shift_px * PhotoLook().outer_lips.go_with_corner.Ramp(
-                                         std::abs(line.Along(constraint.on_head) - corner_along));
+                                         std::abs(mouth.Along(constraint.on_head) - corner_along));
     }
   }
 }
 
-/// Constrains closed lips to the seam. `posed`: as for PointConstraints.
-void ConstrainToSeam(const FitProblem& problem, const CameraPose& pose,
-                     std::span<const glm::vec3> posed, const PhotoSeam& line,
-                     std::vector<PixelConstraint>& constraints) {
+/// Constrains closed lips to the lip seam. `posed`: as for PointConstraints.
+void ConstrainToLipSeam(const FitProblem& problem, const CameraPose& pose,
+                        std::span<const glm::vec3> posed, const MouthAxis& mouth,
+                        const PhotoLipSeam& seam, std::vector<PixelConstraint>& constraints) {
   const ObservedHead& base = problem.base;
   const auto constrain = [&](const MeshPoint& p) {
     constraints.push_back(
-        {std::nullopt, p, line.PixelAt(line.Along(p)), pose.ToCamera(p.On(posed)).z});
+        {std::nullopt, p, seam.PixelAt(mouth.Along(p)), pose.ToCamera(p.On(posed)).z});
   };
   for (const PointIndex i : point::kUpperInnerLip) constrain(base.mesh_points()[i]);
   for (const char* corner : {"cheilion_right", "cheilion_left"}) {
@@ -159,9 +150,13 @@ std::vector<PixelConstraint> ConstraintsOf(const FitProblem& problem, const Came
   auto constraints = PointConstraints(problem, pose, posed);
   ShiftLidsToIrises(problem, irises, constraints);
   if (problem.lips_apart) return constraints;
-  const PhotoSeam line(problem, photo);
-  ShiftOuterLips(problem, line, constraints);
-  ConstrainToSeam(problem, pose, posed, line, constraints);
+  const MouthAxis mouth(problem.base);
+  const auto& on_head = problem.base.mesh_points();
+  const PhotoLipSeam seam = TraceLipSeam(
+      photo, problem.face,
+      {mouth.Along(on_head[point::kMouthRight]), mouth.Along(on_head[point::kMouthLeft])});
+  ShiftOuterLips(problem, mouth, seam, constraints);
+  ConstrainToLipSeam(problem, pose, posed, mouth, seam, constraints);
   return constraints;
 }
 

@@ -42,8 +42,8 @@ std::vector<float> DepthGapsMm(const FitProblem& problem, const CameraPose& pose
 
 /// Returns the constraints of the warp for a pose and an expression: the network's points, whose
 /// depth is mostly the head's own. Eyes whose irises the photo shows elsewhere are moved up or down
-/// with them. Closed lips meet where the photo shows the seam; for the inner lips
-/// of an open mouth there are none, because at rest both are one line, which cannot be moved to two
+/// with them. Closed lips meet where the photo shows the lip seam; for the inner lips of
+/// an open mouth there are none, because at rest both are one line, which cannot be moved to two
 /// separate ones.
 std::vector<PixelConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
                                            const ShownUnits& shown_units, const PhotoIrises& irises,

@@ -17,9 +17,8 @@ struct Fit {
 };
 
 /// Fits the base head to the points of a face: pose and expression by least squares, then the form
-/// by a warp. `photo` corrects the points, which miss the irises and the seam
-/// by some pixels. Pure; thread: any. REQUIRES: face.points has kNetworkPoints; `base` outlives the
-/// result.
+/// by a warp. `photo` corrects the points, which miss the irises and the lip seam by some pixels.
+/// Pure; thread: any. REQUIRES: face.points has kNetworkPoints; `base` outlives the result.
 Fit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image& photo);
 
 /// Returns the mean distance of the face's points from those of the fitted head, millimetres.

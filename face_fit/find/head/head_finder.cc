@@ -57,8 +57,8 @@ fsm::LipOrLid LipOrLidOf(PointIndex i) {
   return fsm::LipOrLid::kPlain;
 }
 
-/// Moves the points of the inner lips onto a seam, at equal steps.
-void SpreadAlongSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
+/// Moves the points of the inner lips onto a lip seam, at equal steps.
+void SpreadAlongLipSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
   points[point::kInnerMouthRight] = seam.EdgesAt(0).upper;
   points[point::kInnerMouthLeft] = seam.EdgesAt(1).upper;
   const std::size_t count = point::kLowerInnerLip.size();
@@ -122,10 +122,10 @@ class HeadMatcher {
     if (!other) return {};
     std::vector<MeshPoint> ours = base_.mesh_points(), theirs = other->mesh_points();
     OntoLidEdges(our_lid_edges_, ours, FindLidEdgesOfEyes(*other, is_eye), theirs);
-    const bool both = base_.seam() && other->seam();
+    const bool both = base_.lip_seam() && other->lip_seam();
     if (both) {
-      SpreadAlongSeam(*base_.seam(), ours);
-      SpreadAlongSeam(*other->seam(), theirs);
+      SpreadAlongLipSeam(*base_.lip_seam(), ours);
+      SpreadAlongLipSeam(*other->lip_seam(), theirs);
     }
     std::vector<fsm::PointPair> found;
     for (const PointIndex i : point::kReliable) {

@@ -11,8 +11,9 @@
 
 namespace facefit {
 
-/// The seam on a head, seen from the front: points that are neighbours in the view but
-/// far apart along the surface. Parted lips have an upper and a lower edge.
+/// The lip seam of a head, the line where closed lips meet, seen from the front: points that are
+/// neighbours in the view but far apart along the surface. Parted lips have an upper and a lower
+/// edge.
 struct LipSeam {
   struct Edges {
     MeshPoint upper, lower;
@@ -25,9 +26,9 @@ struct LipSeam {
   }
 };
 
-/// Finds the seam of a head that faces +z, millimetres; nothing if there is none of 20 to 90 mm.
-/// `skin_triangles`: of skin, lips and mouth; `has_uv_seams`: as for fsm::TransferSurface; `upper`,
-/// `lower`: positions on the outer edges of the lips.
+/// Finds the lip seam of a head that faces +z, millimetres; nothing if there is none of 20 to 90
+/// mm. `skin_triangles`: of skin, lips and mouth; `has_uv_seams`: as for fsm::TransferSurface;
+/// `upper`, `lower`: positions on the outer edges of the lips.
 std::optional<LipSeam> FindLipSeam(const fsm::HeadSurface& topology,
                                    const std::vector<glm::vec3>& position,
                                    const std::vector<std::uint32_t>& skin_triangles,

@@ -50,7 +50,7 @@ std::vector<MeshPoint> SkinPointsAt(const VisibleSurface& skin,
   return found;
 }
 
-std::optional<LipSeam> SeamOf(const ObservedHead& base, const ObservedHead::Surface& surface) {
+std::optional<LipSeam> LipSeamOf(const ObservedHead& base, const ObservedHead::Surface& surface) {
   const auto outer_lip = [&base](std::span<const PointIndex> points) {
     std::vector<glm::vec3> at_rest;
     for (const PointIndex i : points) at_rest.push_back(base.AtRest(i));
@@ -61,9 +61,9 @@ std::optional<LipSeam> SeamOf(const ObservedHead& base, const ObservedHead::Surf
                      outer_lip(point::kLowerOuterLip));
 }
 
-/// Moves the points of the inner lips, except the corners, up or down onto the seam.
-void SnapToSeam(const std::vector<glm::vec3>& position, const LipSeam& seam,
-                std::vector<MeshPoint>& points) {
+/// Moves the points of the inner lips, except the corners, up or down onto the lip seam.
+void SnapToLipSeam(const std::vector<glm::vec3>& position, const LipSeam& seam,
+                   std::vector<MeshPoint>& points) {
   const float right = seam.EdgesAt(0).upper.On(position).x,
               left = seam.EdgesAt(1).upper.On(position).x;
   const auto edges = [&](PointIndex i) {
@@ -101,7 +101,8 @@ vm::Result<ObservedHead> ObservedHead::OfOurMesh(FaceNetworks& networks,
   const Surface surface{.skin_triangles = fsm::SkinTriangles(head->surface()),
                         .has_uv_seams = false};
   auto base = Observe(networks, std::move(head), name, surface);
-  if (base && base->seam_) SnapToSeam(base->rest_.position, *base->seam_, base->mesh_points_);
+  if (base && base->lip_seam_)
+    SnapToLipSeam(base->rest_.position, *base->lip_seam_, base->mesh_points_);
   return base;
 }
 
@@ -126,7 +127,7 @@ vm::Result<ObservedHead> ObservedHead::Observe(FaceNetworks& networks,
     observed.detected_depth_mm_.push_back(p.z * portrait.mm_per_pixel());
   }
   observed.seen_ = std::move(seen);
-  observed.seam_ = SeamOf(observed, surface);
+  observed.lip_seam_ = LipSeamOf(observed, surface);
   return observed;
 }
 

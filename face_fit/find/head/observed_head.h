@@ -29,7 +29,7 @@ class ObservedHead {
     bool has_uv_seams = false;                  ///< as for fsm::TransferSurface
   };
 
-  /// Observes a built-in head and moves the points of its inner lips onto the seam. Error:
+  /// Observes a built-in head and moves the points of its inner lips onto the lip seam. Error:
   /// kBadValue, no face is seen on it. Throws std::runtime_error if rendering is impossible.
   static vm::Result<ObservedHead> BuiltIn(FaceNetworks& networks, const std::string& name);
   /// The same of a head with the built-in heads' mesh.
@@ -60,8 +60,8 @@ class ObservedHead {
     assert(seen_);
     return seen_->pixels[i];
   }
-  /// Returns the seam, if it was found.
-  const std::optional<LipSeam>& seam() const { return seam_; }
+  /// Returns the lip seam, if it was found.
+  const std::optional<LipSeam>& lip_seam() const { return lip_seam_; }
   /// Returns the face's own action units, if it has any.
   const std::optional<fsm::UnitTable>& units() const { return units_; }
 
@@ -85,7 +85,7 @@ class ObservedHead {
     std::vector<glm::vec2> pixels;  ///< of the points
   };
   std::optional<Seen> seen_;
-  std::optional<LipSeam> seam_;
+  std::optional<LipSeam> lip_seam_;
   std::optional<fsm::UnitTable> units_;
 };
 

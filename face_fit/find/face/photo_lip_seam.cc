@@ -1,4 +1,4 @@
-#include "face_fit/find/face/photo_seam.h"
+#include "face_fit/find/face/photo_lip_seam.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -15,6 +15,7 @@
 namespace facefit {
 namespace {
 
+constexpr std::size_t kSteps = 41;  // along the mouth
 constexpr std::size_t kInnerPoints = point::kUpperInnerLip.size();
 constexpr int kOffsets = 25;  // offsets across the mouth that are tried at each step
 /// Largest offset to either side, divided by the mouth's width.
@@ -25,9 +26,9 @@ constexpr float kLineBeside = 0.012F;
 
 /// A value for each step along the mouth and each offset across it.
 template <typename T>
-using Strip = std::array<std::array<T, kOffsets>, kSeamPoints>;
+using Strip = std::array<std::array<T, kOffsets>, kSteps>;
 
-/// Returns where the network sees the seam: x is the position along the mouth, y the distance
+/// Returns where the network sees the lip seam: x is the position along the mouth, y the distance
 /// below the line between its ends, pixels. `begin`: the right end; `along`, `down`: unit; `width`:
 /// of the mouth, pixels.
 std::array<glm::vec2, kInnerPoints + 2> NetworkLine(const FoundFace& face, glm::vec2 begin,
@@ -47,7 +48,7 @@ std::array<glm::vec2, kInnerPoints + 2> NetworkLine(const FoundFace& face, glm::
 }
 
 /// Returns the position along the mouth of a step, 0..1.
-float PositionOf(std::size_t step) { return static_cast<float>(step) / (kSeamPoints - 1); }
+float PositionOf(std::size_t step) { return static_cast<float>(step) / (kSteps - 1); }
 
 /// Returns how much of the network's line counts at a position along the mouth, 1 in the middle: it
 /// errs most at the corners.
@@ -81,7 +82,7 @@ class Parabola {
 /// the next sample along the mouth.
 Strip<float> BrightnessOf(const fsm::Image& photo, glm::vec2 beside, auto pixel_at) {
   Strip<float> strip{};
-  for (std::size_t i = 0; i < kSeamPoints; ++i) {
+  for (std::size_t i = 0; i < kSteps; ++i) {
     for (std::size_t o = 0; o < kOffsets; ++o) {
       const glm::vec2 pixel = pixel_at(i, static_cast<float>(o));
       for (const glm::vec2 p : {pixel, pixel - beside, pixel + beside}) {
@@ -100,7 +101,7 @@ bool ToCosts(Strip<float>& strip, auto network_offset) {
   const auto all = std::views::join(strip);
   const float least = std::ranges::min(all), range = std::ranges::max(all) - least;
   if (range < kMinRange) return false;
-  for (std::size_t i = 0; i < kSeamPoints; ++i) {
+  for (std::size_t i = 0; i < kSteps; ++i) {
     for (std::size_t o = 0; o < kOffsets; ++o) {
       const float stray = (static_cast<float>(o) - network_offset(i)) / (kOffsets / 2);
       strip[i][o] = (strip[i][o] - least) / range + Trust(PositionOf(i)) * kStray * stray * stray;
@@ -112,11 +113,11 @@ bool ToCosts(Strip<float>& strip, auto network_offset) {
 /// Returns for each step along the mouth the offset of the path with the least sum of costs, where
 /// each change of it adds a cost that grows with its square (dynamic programming). `cost` is
 /// overwritten.
-std::array<int, kSeamPoints> CheapestPath(Strip<float>& cost) {
+std::array<int, kSteps> CheapestPath(Strip<float>& cost) {
   constexpr int kMaxStep = 3;
   constexpr float kBend = 0.03F;
   Strip<int> from{};
-  for (std::size_t i = 1; i < kSeamPoints; ++i) {
+  for (std::size_t i = 1; i < kSteps; ++i) {
     for (int o = 0; o < kOffsets; ++o) {
       const auto k = static_cast<std::size_t>(o);
       float best = std::numeric_limits<float>::max();
@@ -130,9 +131,9 @@ std::array<int, kSeamPoints> CheapestPath(Strip<float>& cost) {
       cost[i][k] += best;
     }
   }
-  std::array<int, kSeamPoints> path{};
+  std::array<int, kSteps> path{};
   auto at = static_cast<int>(std::ranges::min_element(cost.back()) - cost.back().begin());
-  for (std::size_t i = kSeamPoints; i-- > 0;) {
+  for (std::size_t i = kSteps; i-- > 0;) {
     path[i] = at;
     at = from[i][static_cast<std::size_t>(at)];
   }
@@ -141,8 +142,15 @@ std::array<int, kSeamPoints> CheapestPath(Strip<float>& cost) {
 
 }  // namespace
 
-std::vector<glm::vec2> FindPhotoSeam(const fsm::Image& photo, const FoundFace& face,
-                                     fsm::Sided<float> corners_along) {
+glm::vec2 PhotoLipSeam::PixelAt(float along) const {
+  const std::size_t last = pixels_.size() - 1;
+  const float step = glm::clamp(along, 0.0F, 1.0F) * static_cast<float>(last);
+  const auto k = std::min(static_cast<std::size_t>(step), last - 1);
+  return glm::mix(pixels_[k], pixels_[k + 1], step - static_cast<float>(k));
+}
+
+PhotoLipSeam TraceLipSeam(const fsm::Image& photo, const FoundFace& face,
+                          fsm::Sided<float> corners_along) {
   const glm::vec2 right = face.PixelOf(point::kMouthRight), left = face.PixelOf(point::kMouthLeft);
   const glm::vec2 axis = (left - right) / (corners_along.left - corners_along.right);
   const glm::vec2 begin = right - corners_along.right * axis;
@@ -165,11 +173,11 @@ std::vector<glm::vec2> FindPhotoSeam(const fsm::Image& photo, const FoundFace& f
   Strip<float> strip = BrightnessOf(photo, along * (kLineBeside * width), pixel_at);
   const bool dark = ToCosts(strip, network_offset);
   const auto path = CheapestPath(strip);
-  std::vector<glm::vec2> line;
-  for (std::size_t i = 0; i < kSeamPoints; ++i) {
-    line.push_back(pixel_at(i, dark ? static_cast<float>(path[i]) : network_offset(i)));
+  std::vector<glm::vec2> pixels;
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    pixels.push_back(pixel_at(i, dark ? static_cast<float>(path[i]) : network_offset(i)));
   }
-  return line;
+  return PhotoLipSeam(std::move(pixels));
 }
 
 }  // namespace facefit
