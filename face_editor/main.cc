@@ -109,11 +109,11 @@ class Run {
   }
 
   void Open() {
-    auto sight = editor::LoadSight(options_.networks, options_.tables);
-    if (sight) {
-      editor_->SetSight(std::move(*sight));
+    auto models = editor::LoadFaceModels(options_.networks, options_.tables);
+    if (models) {
+      editor_->SetModels(std::move(*models));
     } else {
-      std::cerr << "face_editor: notice: " << sight.error().text << "\n";
+      std::cerr << "face_editor: notice: " << models.error().text << "\n";
     }
     OpenUnitsOfMask();
     if (options_.photo.empty()) {

@@ -127,7 +127,7 @@ void CheckOptions(const Options& options) {
 }
 
 /// The networks, and the head as they see it.
-struct Sight {
+struct FaceModels {
   facefit::FaceNetworks networks;
   facefit::ObservedHead base;
 };
@@ -136,7 +136,7 @@ std::string FolderOfFaces(const Options& options) {
   return options.out.empty() ? fsm::FacesFolder() : options.out;
 }
 
-Sight LoadSight(const Options& options, const Progress& progress) {
+FaceModels LoadFaceModels(const Options& options, const Progress& progress) {
   auto networks = vm::OrThrow(facefit::FaceNetworks::Load(options.networks));
   auto base = vm::OrThrow(facefit::ObservedHead::BuiltIn(networks, options.base));
   const fsm::TableFolder own =
@@ -147,14 +147,14 @@ Sight LoadSight(const Options& options, const Progress& progress) {
 }
 
 /// Makes a face from a photo and writes it.
-void MakeAndWriteFace(const Options& options, Sight& sight, const facefit::FrontPhoto& front,
+void MakeAndWriteFace(const Options& options, FaceModels& models, const facefit::FrontPhoto& front,
                       const facefit::FrontFace& face, const Progress& progress) {
-  const std::vector<facefit::SidePhoto> read = ReadSidePhotos(options, sight.networks);
+  const std::vector<facefit::SidePhoto> read = ReadSidePhotos(options, models.networks);
   std::vector<const facefit::SidePhoto*> side_photos;
   for (const facefit::SidePhoto& side_photo : read) side_photos.push_back(&side_photo);
-  const auto made = vm::OrThrow(
-      facefit::MakeFace(sight.base, front, face, facefit::SidePhotoSet{sight.networks, side_photos},
-                        options.glasses, progress));
+  const auto made = vm::OrThrow(facefit::MakeFace(
+      models.base, front, face, facefit::SidePhotoSet{models.networks, side_photos},
+      options.glasses, progress));
   for (const auto& [path, why] : made.left_out) NoticeLeftOut(path, why);
   const std::string report = LineOfNose(front, face.nose) + made.report;
   const std::string folder =
@@ -188,8 +188,8 @@ void FaceOfPhoto(const Options& options) {
     choice = vm::OrThrow(facefit::ParseHandPoints(options.points, text));
   }
   progress("photo read");
-  Sight sight = LoadSight(options, progress);
-  const auto front = facefit::PrepareFront(sight.networks, sight.base, std::move(photo), choice,
+  FaceModels models = LoadFaceModels(options, progress);
+  const auto front = facefit::PrepareFront(models.networks, models.base, std::move(photo), choice,
                                            facefit::PhotoExtent::kCloseUp, progress);
   if (!front) {
     const std::string& of = options.points.empty() ? options.photo : options.points;
@@ -198,18 +198,18 @@ void FaceOfPhoto(const Options& options) {
   if (front->orientation != 1) {
     Notice("the photo lies on its side or head, whatever its file says; it was set upright");
   }
-  MakeAndWriteFace(options, sight, *front, RequireFace(options, *front), progress);
+  MakeAndWriteFace(options, models, *front, RequireFace(options, *front), progress);
 }
 
 void FaceOfOriginal(const Options& options) {
   const Progress progress(options.quiet);
   OriginalFace original = ReadOriginal(options);
   progress("photo read");
-  Sight sight = LoadSight(options, progress);
+  FaceModels models = LoadFaceModels(options, progress);
   const auto front =
-      vm::OrThrow(facefit::PrepareFront(sight.networks, sight.base, std::move(original.photo),
+      vm::OrThrow(facefit::PrepareFront(models.networks, models.base, std::move(original.photo),
                                         original.points, facefit::PhotoExtent::kWhole, progress));
-  MakeAndWriteFace(options, sight, front, front.face.value(), progress);
+  MakeAndWriteFace(options, models, front, front.face.value(), progress);
 }
 
 void Run(const Options& options) {

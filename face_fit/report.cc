@@ -102,10 +102,11 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_fa
       {!drawn.empty(), "the photo cuts the figure; drawn in its colours and light: " + drawn +
                            "; a photo with more room round the head shows the person's own"},
       {covered >= kMaybeCovered && covered < kSurelyCovered,
-       "something may be before the face" + (occlusion.place ? " at " + *occlusion.place : "") +
+       "something may be before the face" +
+           (occlusion.part_name ? " at " + *occlusion.part_name : "") +
            "; hard light, shut eyes or a turned head look like that, too"},
       {covered >= kSurelyCovered, "covered by something that is no face" +
-                                      (occlusion.place ? ": " + *occlusion.place : "") +
+                                      (occlusion.part_name ? ": " + *occlusion.part_name : "") +
                                       "; what is before the face becomes part of it"},
       {front.face_count > 1, "several faces; --face N takes another"}};
 }
@@ -135,7 +136,7 @@ std::string Report(const FrontPhoto& front, const FrontFace& face, const Fit& fi
     out += fmt::format(
         "covered     {:.2f} (from {} on something may be before the face, from {} on it is){}\n",
         occlusion->covered, kMaybeCovered, kSurelyCovered,
-        occlusion->place ? ", most at " + *occlusion->place : "");
+        occlusion->part_name ? ", most at " + *occlusion->part_name : "");
   }
   for (const auto& [applies, text] : Warnings(front, face, fit, baked)) {
     if (applies) out += "warning: " + text + "\n";

@@ -39,7 +39,7 @@ void Editor::MarkSaved(Part part) {
 }
 
 vm::Result<void> Editor::OpenPhoto(const std::string& path, int face) {
-  auto work = editor::OpenPhoto(sight_.get(), path, face);
+  auto work = editor::OpenPhoto(models_.get(), path, face);
   if (!work) return std::unexpected(work.error());
   work_ = std::move(*work);
   sides_.clear();
@@ -100,7 +100,7 @@ void Editor::DragSelection(const PointMap& from, glm::vec2 by, std::string_view 
 vm::Result<std::string> Editor::BuildFace(const std::string& name, const std::string& folder) {
   if (!work_) return Fail(Errc::kBadValue, "there is no photo: open one first");
   if (!work_->base) return Fail(Errc::kUnavailable, work_->notice);
-  const auto built = editor::BuildFace(*work_, state().points, sight_.get(), sides_);
+  const auto built = editor::BuildFace(*work_, state().points, models_.get(), sides_);
   if (!built) return std::unexpected(built.error());
   const facefit::MadeFace& made = (*built)->made;
   auto place = fsm::WriteFace(made.baked.head, made.report, folder, name);
@@ -114,9 +114,9 @@ vm::Result<std::string> Editor::BuildFace(const std::string& name, const std::st
 
 vm::Result<void> Editor::AddSidePhoto(const std::string& path) {
   if (!work_) return Fail(Errc::kBadValue, "open the photo from the front first");
-  if (!work_->base || !sight_) return Fail(Errc::kUnavailable, work_->notice);
+  if (!work_->base || !models_) return Fail(Errc::kUnavailable, work_->notice);
   if (auto few = facefit::CheckSidePhotoCount(sides_.size() + 1); !few) return few;
-  auto side = OpenSidePhoto(*sight_, *work_, state().points, path);
+  auto side = OpenSidePhoto(*models_, *work_, state().points, path);
   if (!side) return std::unexpected(side.error());
   sides_.push_back(std::move(*side));
   return {};

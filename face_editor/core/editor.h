@@ -34,7 +34,7 @@ class Editor {
   std::string UnsavedNames() const;
 
   // The photo.
-  void SetSight(std::shared_ptr<FaceSight> sight) { sight_ = std::move(sight); }
+  void SetModels(std::shared_ptr<FaceModels> models) { models_ = std::move(models); }
   vm::Result<void> OpenPhoto(const std::string& path, int face = 1);
   const std::shared_ptr<const PhotoWork>& work() const { return work_; }
   vm::Result<void> LoadPoints(const std::string& path);
@@ -122,7 +122,7 @@ class Editor {
   std::string expressions_text_, shapes14_text_, shapes28_text_, motions_text_;
   History history_;
   std::array<std::uint64_t, kParts> saved_{};
-  std::shared_ptr<FaceSight> sight_;
+  std::shared_ptr<FaceModels> models_;
   std::shared_ptr<const PhotoWork> work_;
   SidePhotos sides_;
 };

@@ -34,23 +34,23 @@ PointMap PointsOf(const facefit::FoundFace& face) {
 
 }  // namespace
 
-vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder,
-                                                 const std::string& tables) {
+vm::Result<std::shared_ptr<FaceModels>> LoadFaceModels(const std::string& folder,
+                                                       const std::string& tables) {
   auto networks = facefit::FaceNetworks::Load(folder);
   if (!networks) return std::unexpected(networks.error());
-  auto sight = std::make_shared<FaceSight>(FaceSight{std::move(*networks), nullptr, {}});
+  auto models = std::make_shared<FaceModels>(FaceModels{std::move(*networks), nullptr, {}});
   try {
-    auto base = facefit::ObservedHead::BuiltIn(sight->networks, "galatea");
+    auto base = facefit::ObservedHead::BuiltIn(models->networks, "galatea");
     if (!base) return std::unexpected(base.error());
     if (const auto units = fsm::UnitsIn(tables)) base->UseUnits(*units);
     std::vector<glm::vec3> points;
     for (std::size_t i = 0; i < facefit::kNetworkPoints; ++i) points.push_back(base->AtRest(i));
-    sight->mirror = MirrorOf(points);
-    sight->base = std::make_shared<const facefit::ObservedHead>(std::move(*base));
+    models->mirror = MirrorOf(points);
+    models->base = std::make_shared<const facefit::ObservedHead>(std::move(*base));
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kUnavailable, error.what());
   }
-  return sight;
+  return models;
 }
 
 PointMap AllPoints(const PhotoWork& work, const PointMap& known) {
@@ -59,14 +59,14 @@ PointMap AllPoints(const PhotoWork& work, const PointMap& known) {
   return PointsOf(facefit::FaceFromHand(*work.base, hand));
 }
 
-vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const std::string& path,
+vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceModels* models, const std::string& path,
                                                        int face) {
   auto photo = facefit::ReadPhoto(path);
   if (!photo) return std::unexpected(photo.error());
   auto work = std::make_shared<PhotoWork>();
   work->path = path;
   work->found = PlainPoints(photo->width, photo->height);
-  if (!sight) {
+  if (!models) {
     work->front.photo = std::move(*photo);
     work->mirror = MirrorByName();
     work->notice =
@@ -75,12 +75,12 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
     return work;
   }
   try {
-    auto front = facefit::PrepareFront(sight->networks, *sight->base, std::move(*photo),
+    auto front = facefit::PrepareFront(models->networks, *models->base, std::move(*photo),
                                        facefit::FaceNumber{face}, facefit::PhotoExtent::kWhole);
     if (!front) return std::unexpected(front.error());
     work->front = std::move(*front);
-    work->base = sight->base;
-    work->mirror = sight->mirror;
+    work->base = models->base;
+    work->mirror = models->mirror;
     if (work->front.face) {
       work->found = PointsOf(work->front.face->found);
       if (work->front.orientation != 1) work->notice = "The photo was lying; it was set upright";
@@ -94,16 +94,16 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
   return work;
 }
 
-vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& sight,
+vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceModels& models,
                                                                     const PhotoWork& work,
                                                                     const PointMap& points,
                                                                     const std::string& path) {
   try {
-    auto side_photo = facefit::ReadSidePhoto(sight.networks, path);
+    auto side_photo = facefit::ReadSidePhoto(models.networks, path);
     if (!side_photo) return std::unexpected(side_photo.error());
     const facefit::SidePhoto* const only[] = {&*side_photo};
     const auto used =
-        facefit::UseSidePhotos(sight.networks, work.front.photo, only,
+        facefit::UseSidePhotos(models.networks, work.front.photo, only,
                                facefit::FitFace(*work.base, FoundFrom(points), work.front.photo));
     if (!used.left_out.empty()) {
       return vm::Fail(vm::Errc::kBadValue, path + ": " + used.left_out.front().why);
@@ -115,7 +115,7 @@ vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& s
 }
 
 vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
-                                                       const PointMap& points, FaceSight* sight,
+                                                       const PointMap& points, FaceModels* models,
                                                        const SidePhotos& sides) {
   try {
     std::vector<const facefit::SidePhoto*> side_photos;
@@ -123,7 +123,7 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
     facefit::FrontFace face = work.front.face.value_or(facefit::FrontFace{});
     face.found = FoundFrom(points);
     const auto from_side =
-        sight ? std::optional(facefit::SidePhotoSet{sight->networks, side_photos}) : std::nullopt;
+        models ? std::optional(facefit::SidePhotoSet{models->networks, side_photos}) : std::nullopt;
     auto made = facefit::MakeFace(*work.base, work.front, face, from_side);
     if (!made) return std::unexpected(made.error());
     auto built = std::make_shared<BuiltFace>();

@@ -11,7 +11,7 @@
 namespace editor {
 
 /// The networks and the built-in head as they see it: the same for every photo.
-struct FaceSight {
+struct FaceModels {
   facefit::FaceNetworks networks;
   std::shared_ptr<const facefit::ObservedHead> base;
   Mirror mirror;
@@ -19,8 +19,8 @@ struct FaceSight {
 /// `folder` as of FaceNetworks::Load; `tables`: a folder whose units, if it has any, move the head
 /// that photos are fitted with. Errors: its, and kUnavailable if the head cannot be drawn or the
 /// units be read.
-vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder,
-                                                 const std::string& tables);
+vm::Result<std::shared_ptr<FaceModels>> LoadFaceModels(const std::string& folder,
+                                                       const std::string& tables);
 
 /// A photo and what was found in it. Immutable; thread: any.
 struct PhotoWork {
@@ -33,16 +33,16 @@ struct PhotoWork {
   // Not there without the networks: then points can be set, but no face be made of them.
   std::shared_ptr<const facefit::ObservedHead> base;
 };
-/// `sight` may be nullptr; `face` counts from 1, the largest. Errors: as facefit::ReadPhoto;
+/// `models` may be nullptr; `face` counts from 1, the largest. Errors: as facefit::ReadPhoto;
 /// kBadValue if there are fewer faces.
-vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const std::string& path,
+vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceModels* models, const std::string& path,
                                                        int face);
 
 using SidePhotos = std::vector<std::shared_ptr<const facefit::SidePhoto>>;
 /// A photo from the side, if MakeFace would use it for the face that these points make: it shows
 /// the same person, turned or in full profile. Takes about a second. Error: kBadValue "PATH: why
 /// not". REQUIRES: work.base
-vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceSight& sight,
+vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceModels& models,
                                                                     const PhotoWork& work,
                                                                     const PointMap& points,
                                                                     const std::string& path);
@@ -57,11 +57,11 @@ struct BuiltFace {
   facefit::MadeFace made;
   std::shared_ptr<const fsm::Head> head;
 };
-/// Takes most of a second, and about one more for each photo from the side; for those `sight` is
+/// Takes most of a second, and about one more for each photo from the side; for those `models` is
 /// looked with, which only one thread may do. Error: kBadValue if the points do not make a face.
-/// REQUIRES: work.base; `sight`, if there are `sides`.
+/// REQUIRES: work.base; `models`, if there are `sides`.
 vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
                                                        const PointMap& points,
-                                                       FaceSight* sight = nullptr,
+                                                       FaceModels* models = nullptr,
                                                        const SidePhotos& sides = {});
 }  // namespace editor

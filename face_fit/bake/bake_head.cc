@@ -32,25 +32,25 @@ namespace {
 float SmileOf(const FittedHead& fitted) { return glm::clamp(fitted.shown_units.smile, 0.0F, 1.0F); }
 
 /// Paints what the photo shows, except what lies between lids and between lips.
-SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinPlaces& places,
-                   const SkinSights& sights, bool lips_apart, fsm::Image colours) {
+SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTexels& texels,
+                   const TexelProjections& projections, bool lips_apart, fsm::Image colours) {
   const PhotoLookNumbers& look = PhotoLook();
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const Mask filled =
       FillSmileFolds(face, look.smile.folds.filled_share * SmileOf(fitted), pixels_per_mm, colours);
   const PhotoOpenings openings(face, pixels_per_mm, lips_apart);
   SkinMap map;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (!places[i]) continue;
-    const glm::vec2 p = sights[i].pixel;
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (!texels[i]) continue;
+    const glm::vec2 p = projections[i].pixel;
     // Near the head's outline a texel shows more of what lies beside the head than of its skin.
     const float least =
-        glm::mix(look.seen.face_from_cos, look.seen.side_from_cos, places[i]->side_weight);
-    if (!IsInside(colours, p) || sights[i].facing < least) continue;
+        glm::mix(look.seen.face_from_cos, look.seen.side_from_cos, texels[i]->side_weight);
+    if (!IsInside(colours, p) || projections[i].facing < least) continue;
     const float skin = openings.SkinShare(p);
     map.outside_openings[i] = skin;
     map.coverage[i] =
-        skin * fsm::SmoothStep(least, least + look.seen.wholly_after_cos, sights[i].facing);
+        skin * fsm::SmoothStep(least, least + look.seen.wholly_after_cos, projections[i].facing);
     map.grain_lost[i] = filled.SampleAt(p.x, p.y);
     SetRgb(map.image, i, SharpColourAt(colours, p));
   }
@@ -58,25 +58,25 @@ SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinPl
 }
 
 /// Returns whether a texel counts as face: skin in rows of the map from the hairline to the throat.
-bool OnFace(const SkinPlaces& places, std::size_t i) {
+bool OnFace(const SkinTexels& texels, std::size_t i) {
   constexpr std::size_t kHairline = kMapSize / 5, kThroat = kMapSize * 3 / 4;  // rows
   const std::size_t row = i / kMapSize;
-  return places[i] && row > kHairline && row < kThroat;
+  return texels[i] && row > kHairline && row < kThroat;
 }
 
 /// Returns the coverage of the face, 0 on the sides and the back of the head.
-Mask CoverageOfFace(const SkinPlaces& places, Mask coverage) {
+Mask CoverageOfFace(const SkinTexels& texels, Mask coverage) {
   for (std::size_t i = 0; i < coverage.size(); ++i) {
-    if (!OnFace(places, i)) coverage[i] = 0;
+    if (!OnFace(texels, i)) coverage[i] = 0;
   }
   return coverage;
 }
 
 /// Returns the mean coverage of the face.
-float MeanCoverage(const SkinPlaces& places, const Mask& coverage) {
+float MeanCoverage(const SkinTexels& texels, const Mask& coverage) {
   float count = 0, sum = 0;
   for (std::size_t i = 0; i < coverage.size(); ++i) {
-    if (!OnFace(places, i)) continue;
+    if (!OnFace(texels, i)) continue;
     count += 1;
     sum += coverage[i];
   }
@@ -95,28 +95,28 @@ struct SkinTraits {
 /// - grain is added to what was filled in after its colours are final;
 /// - lips and the lip seam, which are not skin, are painted over all of that;
 /// - skin is detected in the finished colours.
-SkinTraits FinishMap(const FittedHead& fitted, const SkinPlaces& places, bool lips_apart,
+SkinTraits FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool lips_apart,
                      SkinMap& map) {
   const PhotoLookNumbers& look = PhotoLook();
   const float saturation = Saturation(map.image, map.coverage);
   CompleteByMirroring(map.outside_openings, map.image, map.coverage);
   PushPullInpaint(map.image, map.coverage);
-  RemoveSmileShading(*fitted.base, places, map.coverage,
+  RemoveSmileShading(*fitted.base, texels, map.coverage,
                      look.smile.shade.evened_share * SmileOf(fitted), map.image);
   GrainFromCheeks(map.grain_lost, map.image);
   const auto on_sides = Mask::From(kMapSize, kMapSize, [&](int x, int y) {
-    return places(x, y) ? places(x, y)->side_weight : 0;
+    return texels(x, y) ? texels(x, y)->side_weight : 0;
   });
   AddGrain(map.coverage, on_sides, TexelsOf(look.grain.coarsest_on_skin_mm, kMapSize), map.image);
   if (lips_apart) {
-    RestoreLipColour(places, map.image);
-    DrawLipSeam(places, saturation, map.image);
+    RestoreLipColour(texels, map.image);
+    DrawLipSeam(texels, saturation, map.image);
   }
-  const Mask face_coverage = CoverageOfFace(places, map.coverage);
+  const Mask face_coverage = CoverageOfFace(texels, map.coverage);
   const fsm::Range range = look.lined.roughness;
   const float rough = (Roughness(map.image, face_coverage) - range.from) / (range.to - range.from);
   const float brows_y_mm = fitted.base->head().Landmark("nasion").y + kBrowsEndMm;
-  const Mask likeness = CutAtHairline(places, brows_y_mm, SkinLikeness(map.image, face_coverage));
+  const Mask likeness = CutAtHairline(texels, brows_y_mm, SkinLikeness(map.image, face_coverage));
   for (std::size_t i = 0; i < likeness.size(); ++i) {
     map.image.rgba[4 * i + 3] = Byte(255 * likeness[i]);
   }
@@ -129,17 +129,18 @@ SkinTraits FinishMap(const FittedHead& fitted, const SkinPlaces& places, bool li
 BakedHead BakeHead(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
                    const FigureCutout& figure, std::span<const SideView> side_views) {
   const FittedHead& fitted = fit.head;
-  const SkinPlaces places = PlaceSkin(*fitted.base);
-  const SkinSights sights = ProjectSkin(fitted, places, fitted.pose, SelfHidden::kNotSeen);
+  const SkinTexels texels = FindSkinTexels(*fitted.base);
+  TexelProjections projections = ProjectTexels(fitted, texels, fitted.pose);
+  HideSelfOccluded(fitted, texels, fitted.pose, projections);
   const bool lips_apart = LipsApart(face);
-  SkinMap map = PaintPhoto(face, fitted, places, sights, lips_apart, figure.colours);
+  SkinMap map = PaintPhoto(face, fitted, texels, projections, lips_apart, figure.colours);
   std::vector<glm::vec3> also_seen;
   for (const SideView& view : side_views) {
-    BlendSideView(fitted, view, places, sights, map);
+    BlendSideView(fitted, view, texels, projections, map);
     also_seen.push_back(view.pose.TowardsCamera());
   }
-  const float coverage = MeanCoverage(places, map.coverage);
-  const SkinTraits traits = FinishMap(fitted, places, lips_apart, map);
+  const float coverage = MeanCoverage(texels, map.coverage);
+  const SkinTraits traits = FinishMap(fitted, texels, lips_apart, map);
   const CompletedFigure whole = CompleteFigure(fitted, figure);
   fsm::Image atlas = PackAtlas(map.image, BehindFace(whole.head, whole.figure),
                                whole.figure.opacity, fitted.pose.PixelsPerMm());

@@ -35,13 +35,13 @@ Tone MeanTone(std::vector<glm::vec3> texels, fsm::Range ranks) {
 
 }  // namespace
 
-void RestoreLipColour(const SkinPlaces& places, fsm::Image& map) {
+void RestoreLipColour(const SkinTexels& texels, fsm::Image& map) {
   const auto& look = PhotoLook().lips;
   constexpr float kMinDifference = 0.05F;  // difference of redness between lips and skin
   std::vector<glm::vec3> lips, beside;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (!places[i]) continue;
-    const float within_mm = places[i]->within_lips_mm;
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (!texels[i]) continue;
+    const float within_mm = texels[i]->within_lips_mm;
     if (within_mm > look.surely_inside_mm) lips.push_back(Rgb(map, i));
     if (look.skin_mm.Contains(within_mm)) beside.push_back(Rgb(map, i));
   }
@@ -51,27 +51,27 @@ void RestoreLipColour(const SkinPlaces& places, fsm::Image& map) {
   if (lip.redness - skin.redness < kMinDifference) return;
   const glm::vec3 hue = lip.colour / lip.brightness;
   const float darker = glm::clamp(lip.brightness / skin.brightness, look.darkest, 1.0F);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (!places[i] || places[i]->within_lips_mm <= 0) continue;
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (!texels[i] || texels[i]->within_lips_mm <= 0) continue;
     const glm::vec3 c = Rgb(map, i);
     const float bright = Brightness(c);
     const float lacks =
         glm::clamp((lip.redness - LogRedness(c)) / (lip.redness - skin.redness), 0.0F, 1.0F);
     // Highlights and the dark gap between the lips keep their colour.
     const float blend = look.reddened_share * lacks *
-                        fsm::SmoothStep(0.0F, look.fades_in_mm, places[i]->within_lips_mm) *
+                        fsm::SmoothStep(0.0F, look.fades_in_mm, texels[i]->within_lips_mm) *
                         look.shine.Ramp(bright / skin.brightness) *
                         look.gap.Ramp(bright / skin.brightness);
     SetRgb(map, i, glm::mix(c, hue * bright * darker, blend));
   }
 }
 
-void DrawLipSeam(const SkinPlaces& places, float saturation, fsm::Image& map) {
+void DrawLipSeam(const SkinTexels& texels, float saturation, fsm::Image& map) {
   const auto& look = PhotoLook().lip_seam;
   const glm::vec3 dark = glm::mix(look.takes_from_grey, look.takes_from_colour, saturation);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (!places[i]) continue;
-    const float line = look.dark_within_mm.Ramp(places[i]->off_lip_seam_mm);
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (!texels[i]) continue;
+    const float line = look.dark_within_mm.Ramp(texels[i]->off_lip_seam_mm);
     if (line > 0) SetRgb(map, i, Rgb(map, i) * (1.0F - dark * line));
   }
 }

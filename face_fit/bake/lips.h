@@ -8,10 +8,10 @@ namespace facefit {
 /// corners, and a mouth brought back to rest would show skin there. Texels of the lips less red
 /// than most take the hue of the lips, and their darkness relative to the skin beside them. Changes
 /// nothing if lips are no redder than skin, as in a grey photo.
-void RestoreLipColour(const SkinPlaces& places, fsm::Image& map);
+void RestoreLipColour(const SkinTexels& texels, fsm::Image& map);
 
 /// Draws the dark lip seam of lips that were apart, reddish if the photo has colour.
 /// `saturation`: of the photo, 0 = grey, 1 = coloured.
-void DrawLipSeam(const SkinPlaces& places, float saturation, fsm::Image& map);
+void DrawLipSeam(const SkinTexels& texels, float saturation, fsm::Image& map);
 
 }  // namespace facefit

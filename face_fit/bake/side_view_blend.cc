@@ -21,12 +21,13 @@ constexpr float kMinCoverageRatio = 0.01F;
 
 /// Returns the gain of each channel that brings the colours of a view into the front photo's light.
 /// `towards`: 1 if the view shows the person's left side, else -1.
-glm::vec3 GainToFront(const SkinPlaces& places, const SkinSights& front, const SkinSights& side,
-                      float towards, const fsm::Image& colours, const SkinMap& map) {
+glm::vec3 GainToFront(const SkinTexels& texels, const TexelProjections& front,
+                      const TexelProjections& side, float towards, const fsm::Image& colours,
+                      const SkinMap& map) {
   glm::vec3 front_sum(1), side_sum(1);
   for (std::size_t i = 0; i < side.size(); ++i) {
     if (map.coverage[i] < kCoveredFront || front[i].facing < kFacingFront ||
-        side[i].facing < kFacingSide || towards * places[i]->x_mm < kFromMiddleMm ||
+        side[i].facing < kFacingSide || towards * texels[i]->x_mm < kFromMiddleMm ||
         !IsInside(colours, side[i].pixel)) {
       continue;
     }
@@ -38,16 +39,16 @@ glm::vec3 GainToFront(const SkinPlaces& places, const SkinSights& front, const S
 
 }  // namespace
 
-void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinPlaces& places,
-                   const SkinSights& front, SkinMap& map) {
+void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTexels& texels,
+                   const TexelProjections& front, SkinMap& map) {
   // The view counts on its own side only. The far cheek, which the nose may hide, is left out by
   // across_mm of the table, so that occlusion need not be computed.
-  const SkinSights side = ProjectSkin(fitted, places, view.pose, SelfHidden::kIgnored);
+  const TexelProjections side = ProjectTexels(fitted, texels, view.pose);
   const float towards = view.pose.TowardsCamera().x > 0 ? 1.0F : -1.0F;
   const fsm::Image& colours = view.figure.colours;
   const FoundFace& face = *view.side_photo->face;
   const PhotoOpenings openings(face, view.pose.PixelsPerMm(), LipsApart(face));
-  const glm::vec3 gain = GainToFront(places, front, side, towards, colours, map);
+  const glm::vec3 gain = GainToFront(texels, front, side, towards, colours, map);
   const auto& look = PhotoLook().side_photo;
   for (std::size_t i = 0; i < side.size(); ++i) {
     // At a grazing angle a texel would be sampled from a line of pixels.
@@ -56,7 +57,7 @@ void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinPla
     if (map.outside_openings[i] < 1) continue;
     float& coverage = map.coverage[i];
     const float seen = look.facing_cos.Ramp(side[i].facing) *
-                       look.across_mm.Ramp(towards * places[i]->x_mm) * openings.SkinShare(pixel);
+                       look.across_mm.Ramp(towards * texels[i]->x_mm) * openings.SkinShare(pixel);
     const float own = coverage * look.front_facing_cos.Ramp(front[i].facing);
     const float sum = own + (1 - own) * seen;
     // Skin that the view hardly shows either stays as in the front photo.

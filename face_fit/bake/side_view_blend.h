@@ -8,8 +8,8 @@ namespace facefit {
 
 /// Blends a view from the side over skin that the front photo saw at a grazing angle or not at all,
 /// in the light of the front photo. What either photo shows between lids and between parted lips is
-/// left out. `front`: what the front photo shows of `places`.
-void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinPlaces& places,
-                   const SkinSights& front, SkinMap& map);
+/// left out. `front`: what the front photo shows of `texels`.
+void BlendSideView(const FittedHead& fitted, const SideView& view, const SkinTexels& texels,
+                   const TexelProjections& front, SkinMap& map);
 
 }  // namespace facefit

@@ -75,14 +75,14 @@ float Roughness(const fsm::Image& map, const Mask& face_coverage) {
   return steps.empty() ? 0 : Median(std::move(steps));
 }
 
-Mask CutAtHairline(const SkinPlaces& places, float brows_y_mm, Mask likeness) {
+Mask CutAtHairline(const SkinTexels& texels, float brows_y_mm, Mask likeness) {
   const Mask wide = Blurred(likeness, TexelsOf(kFringeMm, likeness.width));
   const fsm::Range edge = PhotoLook().hairy.skin_around_share;
   Mask below_hairline(likeness.width, likeness.height, 1);
   for (int x = 0; x < likeness.width; ++x) {
     float least = 1;
     for (int y = likeness.height - 1; y >= 0; --y) {
-      if (const auto& place = places(x, y); place && place->y_mm > brows_y_mm)
+      if (const auto& texel = texels(x, y); texel && texel->y_mm > brows_y_mm)
         least = std::min(least, edge.Ramp(wide(x, y)));
       below_hairline(x, y) = least;
     }

@@ -16,7 +16,7 @@ Mask SkinLikeness(const fsm::Image& map, const Mask& face_coverage);
 
 /// Returns the likeness without bright strands of a fringe: going up from the brows, skin ends
 /// where hair begins. `brows_y_mm`: height of their upper ends.
-Mask CutAtHairline(const SkinPlaces& places, float brows_y_mm, Mask likeness);
+Mask CutAtHairline(const SkinTexels& texels, float brows_y_mm, Mask likeness);
 
 /// Returns how wrinkled the skin is: the median difference of brightness between a fine and a wide
 /// average, divided by the brightness; about 0.01 for smooth skin, 0.03 for old skin.

@@ -27,13 +27,13 @@ class SelfOcclusion {
     grid_ = {middle - reach, cell, kCells, kCells};
     nearest_ = VisibleSkin(fitted, pose, grid_, kNoBottom).depth();
   }
-  bool operator()(glm::vec3 camera) const {
-    const glm::vec2 cell = (pose_.Project(camera) - grid_.origin) / grid_.step + 0.5F;
+  bool operator()(glm::vec3 in_camera) const {
+    const glm::vec2 cell = (pose_.Project(in_camera) - grid_.origin) / grid_.step + 0.5F;
     const int x = static_cast<int>(cell.x), y = static_cast<int>(cell.y);
     if (x < 1 || y < 1 || x + 1 >= kCells || y + 1 >= kCells) return false;
     constexpr float kBehindMm = 5;
     return std::ranges::none_of(kAround, [&](glm::ivec2 offset) {
-      return nearest_(x + offset.x, y + offset.y) < camera.z + kBehindMm;
+      return nearest_(x + offset.x, y + offset.y) < in_camera.z + kBehindMm;
     });
   }
 
@@ -56,13 +56,13 @@ class LipLines {
   float OffLipSeam(glm::vec3 p) const {
     // A larger distance near its ends makes the line thinner.
     constexpr float kThinMm = 7, kThinner = 0.2F;
-    if (!Spans(lip_seam_, p)) return SkinPlace::kNotNear;
+    if (!Spans(lip_seam_, p)) return SkinTexel::kNotNear;
     const float gap_mm = std::abs(p.y - HeightAt<glm::vec3>(lip_seam_, p.x));
     const float to_end_mm = std::min(p.x - lip_seam_.front().x, lip_seam_.back().x - p.x);
     return gap_mm + kThinner * std::max(kThinMm - to_end_mm, 0.0F);
   }
   float Within(glm::vec3 p) const {
-    if (!Spans(upper_, p)) return -SkinPlace::kNotNear;
+    if (!Spans(upper_, p)) return -SkinTexel::kNotNear;
     return std::min(HeightAt<glm::vec3>(upper_, p.x) - p.y, p.y - HeightAt<glm::vec3>(lower_, p.x));
   }
 
@@ -106,13 +106,13 @@ std::optional<Triangle2> OnMap(const fsm::HeadSurface& topology, const MeshTrian
 
 }  // namespace
 
-SkinPlaces PlaceSkin(const ObservedHead& base) {
+SkinTexels FindSkinTexels(const ObservedHead& base) {
   const auto& head_side = PhotoLook().head_side;
   constexpr float kSlack = 0.02F;
   const auto& topology = base.head().surface();
   const float chin_y_mm = base.AtRest(point::kChin).y;
   const LipLines lips(base);
-  SkinPlaces out(kMapSize, kMapSize);
+  SkinTexels out(kMapSize, kMapSize);
   // Of the triangles that share a texel the one farthest from the head's vertical axis counts.
   FloatImage outward_mm2(kMapSize, kMapSize, -1);
   ForSkinTriangles(topology, [&](const MeshTriangle& triangle) {
@@ -136,24 +136,30 @@ SkinPlaces PlaceSkin(const ObservedHead& base) {
   return out;
 }
 
-SkinSights ProjectSkin(const FittedHead& fitted, const SkinPlaces& places, const CameraPose& pose,
-                       SelfHidden self_hidden) {
-  constexpr glm::vec3 kEye(0, 0, kCameraDepthMm);
-  std::optional<SelfOcclusion> hides;
-  if (self_hidden == SelfHidden::kNotSeen) hides.emplace(fitted, pose);
-  std::vector<glm::vec3> camera;
-  for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(pose.ToCamera(p));
-  const std::vector<glm::vec3> normal = SkinNormals(fitted.base->head().surface(), camera);
-  SkinSights out(places.width, places.height);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (!places[i]) continue;
-    const glm::vec3 q = places[i]->on_mesh.On(camera);
-    const glm::vec3 n = places[i]->on_mesh.On(normal) + glm::vec3(0, 0, 1e-9F);
-    const bool hidden = hides && (*hides)(q);
-    out[i] = {pose.Project(q),
-              hidden ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q))};
+TexelProjections ProjectTexels(const FittedHead& fitted, const SkinTexels& texels,
+                               const CameraPose& pose) {
+  constexpr glm::vec3 kCameraPosition(0, 0, kCameraDepthMm);
+  std::vector<glm::vec3> in_camera;
+  for (const glm::vec3& p : fitted.posed_vertices) in_camera.push_back(pose.ToCamera(p));
+  const std::vector<glm::vec3> normal = SkinNormals(fitted.base->head().surface(), in_camera);
+  TexelProjections out(texels.width, texels.height);
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (!texels[i]) continue;
+    const glm::vec3 q = texels[i]->on_mesh.On(in_camera);
+    const glm::vec3 n = texels[i]->on_mesh.On(normal) + glm::vec3(0, 0, 1e-9F);
+    out[i] = {pose.Project(q), glm::dot(glm::normalize(n), glm::normalize(kCameraPosition - q))};
   }
   return out;
+}
+
+void HideSelfOccluded(const FittedHead& fitted, const SkinTexels& texels, const CameraPose& pose,
+                      TexelProjections& projections) {
+  const SelfOcclusion hides(fitted, pose);
+  std::vector<glm::vec3> in_camera;
+  for (const glm::vec3& p : fitted.posed_vertices) in_camera.push_back(pose.ToCamera(p));
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    if (texels[i] && hides(texels[i]->on_mesh.On(in_camera))) projections[i].facing = -1;
+  }
 }
 
 }  // namespace facefit

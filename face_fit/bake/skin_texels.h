@@ -21,8 +21,8 @@ inline int TexelsOf(float mm, int map_width) {
       std::lround(mm * kTexelsPerMm * static_cast<float>(map_width) / float{kMapSize}));
 }
 
-/// The place on the base head at rest that a texel of the skin's map shows.
-struct SkinPlace {
+/// A texel of the skin's map: which point of the base head at rest it shows.
+struct SkinTexel {
   static constexpr float kNotNear = 1e9F;  ///< stands for a distance to something that is not near
   MeshPoint on_mesh = {};
   float x_mm = 0;                    ///< from the middle, positive to the person's left
@@ -32,22 +32,24 @@ struct SkinPlace {
   float side_weight = 0;  ///< 1 on the sides of the head and below the chin, 0 on the face
 };
 /// kMapSize texels to a side; nothing where the map shows no skin.
-using SkinPlaces = Raster<std::optional<SkinPlace>>;
-/// Returns the places of the base head's skin. They depend on nothing else, so they hold for every
-/// photo.
-SkinPlaces PlaceSkin(const ObservedHead& base);
+using SkinTexels = Raster<std::optional<SkinTexel>>;
+/// Returns the texels of the base head's skin.
+SkinTexels FindSkinTexels(const ObservedHead& base);
 
 /// What a photo shows of a texel.
-struct SkinSight {
+struct TexelProjection {
   glm::vec2 pixel{0};
   float facing = -1;  ///< cosine of the normal's angle to the camera; -1 = not seen
 };
-using SkinSights = Raster<SkinSight>;  ///< of the same texels as SkinPlaces
+using TexelProjections = Raster<TexelProjection>;  ///< of the same texels as SkinTexels
 
-/// Whether skin that the head itself hides, as the jaw hides the throat, counts as not seen.
-enum class SelfHidden { kIgnored, kNotSeen };
-/// Returns what a photo taken with `pose` shows of each place. `places`: PlaceSkin of fitted.base.
-SkinSights ProjectSkin(const FittedHead& fitted, const SkinPlaces& places, const CameraPose& pose,
-                       SelfHidden self_hidden);
+/// Returns what a photo taken with `pose` shows of each texel, as if nothing hid it. `texels`: of
+/// the skin of fitted.base.
+TexelProjections ProjectTexels(const FittedHead& fitted, const SkinTexels& texels,
+                               const CameraPose& pose);
+/// Marks texels that the head itself hides, as the jaw hides the throat, as not seen.
+/// `projections`: ProjectTexels of the other arguments.
+void HideSelfOccluded(const FittedHead& fitted, const SkinTexels& texels, const CameraPose& pose,
+                      TexelProjections& projections);
 
 }  // namespace facefit

@@ -23,20 +23,20 @@ class Cheeks {
     nose_y_mm_ = at(kNoseBottom).y;
     chin_y_mm_ = at(kChin).y;
   }
-  float ShadeAt(const SkinPlace& place) const {
-    const float y = place.y_mm, x = std::abs(place.x_mm);
+  float ShadeAt(const SkinTexel& texel) const {
+    const float y = texel.y_mm, x = std::abs(texel.x_mm);
     const auto& look = PhotoLook().smile.shade;
     return (eyes_y_mm_ + look.below_eyes_mm).Ramp(y) * (chin_y_mm_ + look.above_chin_mm).Ramp(y) *
            look.beside_middle_mm.Ramp(x) *
            std::max((half_nose_mm_ + look.beside_wings_mm).Ramp(x),
                     look.below_nose_share * (nose_y_mm_ + look.below_nose_mm).Ramp(y)) *
-           look.outside_lips_mm.Ramp(place.within_lips_mm);
+           look.outside_lips_mm.Ramp(texel.within_lips_mm);
   }
-  /// Returns whether a place is reference skin of the cheeks: neither lips nor nose.
-  bool IsReferenceSkin(const SkinPlace& place) const {
-    const float y = place.y_mm, x = std::abs(place.x_mm);
+  /// Returns whether a texel is reference skin of the cheeks: neither lips nor nose.
+  bool IsReferenceSkin(const SkinTexel& texel) const {
+    const float y = texel.y_mm, x = std::abs(texel.x_mm);
     const auto& look = PhotoLook().smile.reference;
-    return place.within_lips_mm < -look.off_lips_mm && y < eyes_y_mm_ - look.below_eyes_mm &&
+    return texel.within_lips_mm < -look.off_lips_mm && y < eyes_y_mm_ - look.below_eyes_mm &&
            (x > half_nose_mm_ || y < nose_y_mm_ - look.below_nose_mm);
   }
 
@@ -46,21 +46,21 @@ class Cheeks {
 
 }  // namespace
 
-void RemoveSmileShading(const ObservedHead& base, const SkinPlaces& places, const Mask& coverage,
+void RemoveSmileShading(const ObservedHead& base, const SkinTexels& texels, const Mask& coverage,
                         float share, fsm::Image& map) {
   if (share <= 0) return;
   const auto& shade = PhotoLook().smile.shade;
   const Cheeks cheeks(base);
   Mask weight(kMapSize, kMapSize);
   for (std::size_t i = 0; i < weight.size(); ++i) {
-    weight[i] = places[i] && cheeks.IsReferenceSkin(*places[i]) ? coverage[i] * coverage[i] : 0.0F;
+    weight[i] = texels[i] && cheeks.IsReferenceSkin(*texels[i]) ? coverage[i] * coverage[i] : 0.0F;
   }
   const VectorImage colours = Colours(map);
   const WeightedBlur fine(colours, weight, TexelsOf(shade.fine_mm, kMapSize), 2),
       wide(colours, weight, TexelsOf(shade.wide_mm, kMapSize), 2);
   for (std::size_t i = 0; i < colours.size(); ++i) {
-    if (!places[i]) continue;
-    const float evened = share * cheeks.ShadeAt(*places[i]) *
+    if (!texels[i]) continue;
+    const float evened = share * cheeks.ShadeAt(*texels[i]) *
                          PhotoLook().smile.reference.known_share.Ramp(fine.weight[i]);
     if (evened <= 0) continue;
     const glm::vec3 even = (wide.MeanAt(i) + 1.0F) / (fine.MeanAt(i) + 1.0F);

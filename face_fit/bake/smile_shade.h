@@ -11,7 +11,7 @@ namespace facefit {
 /// between the table's smile.shade.fine_mm and wide_mm are removed; pores and spots, which
 /// are finer, stay. `share`: how much of them is removed, 0..1. `coverage`: how well the photo
 /// shows each texel, 0..1.
-void RemoveSmileShading(const ObservedHead& base, const SkinPlaces& places, const Mask& coverage,
+void RemoveSmileShading(const ObservedHead& base, const SkinTexels& texels, const Mask& coverage,
                         float share, fsm::Image& map);
 
 }  // namespace facefit

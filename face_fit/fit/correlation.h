@@ -7,8 +7,8 @@
 
 namespace facefit {
 
-/// Subtracts mean and linear trend. `at(i)`: the place of a value; places lie evenly about (0, 0),
-/// on a line along x or in a square.
+/// Subtracts mean and linear trend. `at(i)`: the position of a value; positions lie evenly about
+/// (0, 0), on a line along x or in a square.
 void RemoveTrend(std::span<float> values, auto at) {
   float mean = 0, squares = 0;
   glm::vec2 slope(0);

@@ -35,15 +35,15 @@ INSTANTIATE_TEST_SUITE_P(Faces, PhotoWorkTest, testing::Values("pygmalion", "mem
                          [](const auto& face) { return std::string(face.param); });
 
 TEST_P(PhotoWorkTest, AFullProfileIsTakenAndTheFrontIsNot) {
-  const auto sight = LoadSight("", "");
-  if (!sight) GTEST_SKIP() << sight.error().text;
+  const auto models = LoadFaceModels("", "");
+  if (!models) GTEST_SKIP() << models.error().text;
   std::string folder = testing::TempDir() + "/work_XXXXXX";
   ASSERT_NE(mkdtemp(folder.data()), nullptr);
   DrawHead(GetParam(), folder + "/front.png", 0);
-  const auto work = OpenPhoto(sight->get(), folder + "/front.png", 1);
+  const auto work = OpenPhoto(models->get(), folder + "/front.png", 1);
   ASSERT_TRUE(work) << work.error().text;
   const auto open = [&](const std::string& name) {
-    return OpenSidePhoto(**sight, **work, (*work)->found, folder + "/" + name);
+    return OpenSidePhoto(**models, **work, (*work)->found, folder + "/" + name);
   };
   for (const float turned : {-90.0F, 90.0F}) {
     DrawHead(GetParam(), folder + "/side.png", turned);

@@ -179,7 +179,7 @@ struct Excess {
 
 Occlusion Occlusion::Of(float patch_excess, std::string patch, float doubt) {
   Occlusion occlusion{std::max(patch_excess, doubt), std::move(patch)};
-  if (doubt >= kMaybeCovered && patch_excess < kMaybeCovered) occlusion.place.reset();
+  if (doubt >= kMaybeCovered && patch_excess < kMaybeCovered) occlusion.part_name.reset();
   return occlusion;
 }
 
@@ -193,7 +193,7 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, cons
   const float before = sure(network_pixels);
   const WarpedHead warped = MatchSkinColour(network_pixels, WarpBuiltInHead(base, face));
   float most_share = 0;
-  const char* place = "";
+  const char* part_name = "";
   Excess most;
   for (const FacePatch& patch : kPatches) {
     std::vector<float> changed = network_pixels;
@@ -210,9 +210,9 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, cons
                         std::min(share, 1.0F)};
     if (excess <= most) continue;
     most = excess;
-    place = patch.name;
+    part_name = patch.name;
   }
-  return Occlusion::Of(most_share, place, kSureLogit / std::max(before, 1.0F));
+  return Occlusion::Of(most_share, part_name, kSureLogit / std::max(before, 1.0F));
 }
 
 }  // namespace facefit

@@ -20,7 +20,7 @@ struct Occlusion {
   float covered = 0;
   /// The part of the face that resembles a face least, "the left cheek"; nothing where the network
   /// is less certain of the face than it should be, but no part explains that.
-  std::optional<std::string> place;
+  std::optional<std::string> part_name;
   /// Returns what two measures say. `patch_excess`: how much surer the network would be without
   /// the part `patch`, divided by that part's limit; `doubt`: the least certainty of uncovered
   /// faces, divided by this face's own.

@@ -15,14 +15,14 @@ constexpr int kWide = 120, kHigh = 60;
 /// say.
 struct Lips {
   fsm::Image map{.width = kWide, .height = kHigh, .rgba = {}};
-  SkinPlaces places{kWide, kHigh};
+  SkinTexels texels{kWide, kHigh};
 
   template <typename F>
   explicit Lips(F colour) {
     for (int y = 0; y < kHigh; ++y) {
       for (int x = 0; x < kWide; ++x) {
         const float within = 8.0F - std::abs(static_cast<float>(y) - 30.0F);
-        places(x, y) = {.within_lips_mm = within};
+        texels(x, y) = {.within_lips_mm = within};
         const glm::vec3 c = within > 0 ? colour(x, y) : kSkin;
         for (int k = 0; k < 3; ++k) map.rgba.push_back(static_cast<std::uint8_t>(c[k]));
         map.rgba.push_back(255);
@@ -45,7 +45,7 @@ glm::vec3 AfterSmile(int x, int y) {
 
 TEST(LipsTest, WhatASmileDrewThinIsRedAgainUpToTheCorners) {
   Lips lips(AfterSmile);
-  RestoreLipColour(lips.places, lips.map);
+  RestoreLipColour(lips.texels, lips.map);
   for (const int x : {10, 30, 90, 110}) {
     const glm::vec3 c = lips.At(x, 34);
     EXPECT_GT(c.r / c.g, 1.55F) << x;
@@ -61,7 +61,7 @@ TEST(LipsTest, WhatASmileDrewThinIsRedAgainUpToTheCorners) {
 
 TEST(LipsTest, TheBorderIsSoft) {
   Lips lips(AfterSmile);
-  RestoreLipColour(lips.places, lips.map);
+  RestoreLipColour(lips.texels, lips.map);
   const float edge = lips.At(20, 37).g, inside = lips.At(20, 34).g;
   EXPECT_GT(edge, inside + 10);
   EXPECT_LT(edge, kSkin.g - 3);
@@ -70,14 +70,14 @@ TEST(LipsTest, TheBorderIsSoft) {
 TEST(LipsTest, LipsNoRedderThanSkinStayAsTheyAre) {
   Lips lips([](int x, int) { return x > 40 && x < 80 ? glm::vec3(120) : glm::vec3(160); });
   const auto before = lips.map.rgba;
-  RestoreLipColour(lips.places, lips.map);
+  RestoreLipColour(lips.texels, lips.map);
   EXPECT_EQ(lips.map.rgba, before);
 }
 
 TEST(LipsTest, AMapWithoutLipsStaysAsItIs) {
   Lips lips(AfterSmile);
   const auto before = lips.map.rgba;
-  RestoreLipColour(SkinPlaces(kWide, kHigh), lips.map);
+  RestoreLipColour(SkinTexels(kWide, kHigh), lips.map);
   EXPECT_EQ(lips.map.rgba, before);
 }
 

@@ -30,8 +30,9 @@ class SideViewBlendTest : public NetworkTest {
     view_.side_photo = &photo_;
     view_.figure.colours = fsm::FilledImage(kSide, kSide);
     Fill(view_.figure.colours, [](glm::vec2) { return kSkin; });
-    places_ = PlaceSkin(Galatea());
-    front_ = ProjectSkin(fitted_, places_, fitted_.pose, SelfHidden::kNotSeen);
+    texels_ = FindSkinTexels(Galatea());
+    front_ = ProjectTexels(fitted_, texels_, fitted_.pose);
+    HideSelfOccluded(fitted_, texels_, fitted_.pose, front_);
     Fill(map_.image, [](glm::vec2) { return kSkin; });
   }
   FoundFace FaceIn(const CameraPose& pose) const {
@@ -61,14 +62,14 @@ class SideViewBlendTest : public NetworkTest {
   FittedHead fitted_;
   SidePhoto photo_;
   SideView view_;
-  SkinPlaces places_;
-  SkinSights front_;
+  SkinTexels texels_;
+  TexelProjections front_;
   SkinMap map_;
 };
 
 TEST_F(SideViewBlendTest, SkinThatOnlyTheSidePhotoShowsTakesItsColours) {
   Fill(view_.figure.colours, [](glm::vec2) -> std::uint8_t { return 180; });
-  BlendSideView(fitted_, view_, places_, front_, map_);
+  BlendSideView(fitted_, view_, texels_, front_, map_);
   EXPECT_EQ(Brightest(), 180) << "no skin is seen in both, so the light is not changed";
   EXPECT_GT(std::ranges::max(map_.coverage.values), 0.9F);
 }
@@ -84,7 +85,7 @@ TEST_F(SideViewBlendTest, WhatTheSidePhotoShowsBetweenLidsIsNotPaintedOnTheirRim
   const PhotoOpenings openings(*photo_.face, view_.pose.PixelsPerMm(), false);
   Fill(view_.figure.colours,
        [&](glm::vec2 p) { return openings.SkinShare(p) < 1 ? kWhite : kSkin; });
-  BlendSideView(fitted_, view_, places_, front_, map_);
+  BlendSideView(fitted_, view_, texels_, front_, map_);
   // Between a pixel of the eye and one of the skin colours are mixed.
   EXPECT_LT(Brightest(), (kSkin + kWhite) / 2);
 }

@@ -25,16 +25,16 @@ TEST(SkinColoursTest, AFringeIsNoSkinAndABrightForeheadIs) {
 TEST(SkinColoursTest, BrightStrandsOfAFringeAreNoSkinAndLinesOfTheForeheadAre) {
   // From the top: bright strands, dark ones, forehead with a dark line, brows, cheek.
   FloatImage likeness(400, 400, 1);
-  SkinPlaces places(400, 400);
+  SkinTexels texels(400, 400);
   for (int y = 0; y < 400; ++y) {
     for (int x = 0; x < 400; ++x) {
       const std::size_t i = likeness.Index(x, y);
-      places[i] = {.y_mm = static_cast<float>(250 - y) / 5};
+      texels[i] = {.y_mm = static_cast<float>(250 - y) / 5};
       const bool dark = (y > 60 && y < 120) || y == 180 || (y > 255 && y < 270);
       if (dark) likeness.values[i] = 0;
     }
   }
-  likeness = CutAtHairline(places, 0, likeness);
+  likeness = CutAtHairline(texels, 0, likeness);
   const auto at = [&](int y) { return likeness(200, y); };
   EXPECT_LT(at(30), 0.05F) << "bright strands";
   EXPECT_EQ(at(90), 0) << "dark ones";

@@ -20,19 +20,20 @@ class SmileShadeTest : public NetworkTest {
  protected:
   static constexpr int kPhoto = 300;
   static void TearDownTestSuite() {
-    places_.reset();
+    texels_.reset();
     NetworkTest::TearDownTestSuite();
   }
   void SetUp() override {
     NetworkTest::SetUp();
     if (IsSkipped()) return;
-    if (!places_) {
-      places_ = PlaceSkin(Galatea());
+    if (!texels_) {
+      texels_ = FindSkinTexels(Galatea());
       const FittedHead fitted = Fitted();
-      sights_ = ProjectSkin(fitted, *places_, fitted.pose, SelfHidden::kNotSeen);
+      projections_ = ProjectTexels(fitted, *texels_, fitted.pose);
+      HideSelfOccluded(fitted, *texels_, fitted.pose, projections_);
     }
     map_ = {.width = kMapSize, .height = kMapSize, .rgba = {}};
-    for (std::size_t i = 0; i < places_->size(); ++i) {
+    for (std::size_t i = 0; i < texels_->size(); ++i) {
       const float y = Height(i);
       const bool band = std::abs(y - middle()) < 5 ||
                         y > Galatea().head().Landmark("nasion").y + kBrowsEndMm + 10;
@@ -52,25 +53,26 @@ class SmileShadeTest : public NetworkTest {
   glm::vec3 Place(std::size_t point) const {
     return Galatea().mesh_points()[point].On(Galatea().rest().position);
   }
-  /// A texel's place; far below the head if the map shows no skin there.
-  static SkinPlace At(std::size_t i) { return (*places_)[i].value_or(SkinPlace{.y_mm = -1e9F}); }
+  /// A texel's texel; far below the head if the map shows no skin there.
+  static SkinTexel At(std::size_t i) { return (*texels_)[i].value_or(SkinTexel{.y_mm = -1e9F}); }
   static float Height(std::size_t i) { return At(i).y_mm; }
   /// Between nose and mouth, on the cheeks.
   float middle() const { return 0.5F * (Place(2).y + Place(61).y); }
   /// The mean over cheeks at one height.
   float Mean(float y) const {
     float sum = 0, count = 0;
-    for (std::size_t i = 0; i < places_->size(); ++i) {
+    for (std::size_t i = 0; i < texels_->size(); ++i) {
       const float x = std::abs(At(i).x_mm);
-      if (x < 30 || x > 42 || std::abs(Height(i) - y) > 1 || sights_[i].facing < 0.2F) continue;
+      if (x < 30 || x > 42 || std::abs(Height(i) - y) > 1 || projections_[i].facing < 0.2F)
+        continue;
       sum += map_.rgba[4 * i];
       ++count;
     }
     return sum / count;
   }
 
-  static inline std::optional<SkinPlaces> places_;
-  static inline SkinSights sights_;
+  static inline std::optional<SkinTexels> texels_;
+  static inline TexelProjections projections_;
   fsm::Image map_;
   FloatImage seen_{kMapSize, kMapSize, 1};
 };
@@ -79,21 +81,23 @@ TEST_F(SmileShadeTest, SkinIsHiddenAsThePoseGivenSeesItNotAsThatOfTheFit) {
   FittedHead fitted = Fitted();
   CameraPose aside = fitted.pose;
   aside.rotation_rad.y = 0.9F;
-  const SkinSights seen = ProjectSkin(fitted, *places_, aside, SelfHidden::kNotSeen);
+  const TexelProjections all = ProjectTexels(fitted, *texels_, aside);
+  TexelProjections seen = all, fitted_so = all;
+  HideSelfOccluded(fitted, *texels_, aside, seen);
   fitted.pose = aside;
-  const SkinSights fitted_so = ProjectSkin(fitted, *places_, aside, SelfHidden::kNotSeen);
-  EXPECT_TRUE(std::ranges::equal(seen.values, fitted_so.values, {}, &SkinSight::facing,
-                                 &SkinSight::facing));
+  HideSelfOccluded(fitted, *texels_, aside, fitted_so);
+  EXPECT_TRUE(std::ranges::equal(seen.values, fitted_so.values, {}, &TexelProjection::facing,
+                                 &TexelProjection::facing));
 }
 
 TEST_F(SmileShadeTest, ABandOfShineIsEvenedOutAndGrainStays) {
   const fsm::Image before = map_;
   EXPECT_GT(Mean(middle()) - Mean(middle() - 9), 35);
-  RemoveSmileShading(Galatea(), *places_, seen_, 1, map_);
+  RemoveSmileShading(Galatea(), *texels_, seen_, 1, map_);
   EXPECT_LT(std::abs(Mean(middle()) - Mean(middle() - 9)), 16);
   // Neighbours differ as before.
   float rough = 0, was = 0;
-  for (std::size_t i = 1; i < places_->size(); ++i) {
+  for (std::size_t i = 1; i < texels_->size(); ++i) {
     if (std::abs(std::abs(At(i).x_mm) - 36) > 6 || std::abs(Height(i) - middle()) > 1) continue;
     rough += static_cast<float>(std::abs(map_.rgba[4 * i] - map_.rgba[4 * i - 4]));
     was += static_cast<float>(std::abs(before.rgba[4 * i] - before.rgba[4 * i - 4]));
@@ -103,8 +107,8 @@ TEST_F(SmileShadeTest, ABandOfShineIsEvenedOutAndGrainStays) {
 
 TEST_F(SmileShadeTest, ForeheadEyesNoseAndLipsStayAsTheyAre) {
   const fsm::Image before = map_;
-  RemoveSmileShading(Galatea(), *places_, seen_, 1, map_);
-  for (std::size_t i = 0; i < places_->size(); ++i) {
+  RemoveSmileShading(Galatea(), *texels_, seen_, 1, map_);
+  for (std::size_t i = 0; i < texels_->size(); ++i) {
     const bool nose = std::abs(At(i).x_mm) < 10 && Height(i) > Place(2).y;
     const bool other = Height(i) > Place(145).y - 8 || nose || At(i).within_lips_mm > -1;
     if (other) {
@@ -115,11 +119,11 @@ TEST_F(SmileShadeTest, ForeheadEyesNoseAndLipsStayAsTheyAre) {
 
 TEST_F(SmileShadeTest, WhatThePhotoDoesNotShowStays) {
   // The photo shows one cheek only; beyond is what was filled in.
-  for (std::size_t i = 0; i < places_->size(); ++i) seen_.values[i] = At(i).x_mm < 0 ? 1 : 0;
+  for (std::size_t i = 0; i < texels_->size(); ++i) seen_.values[i] = At(i).x_mm < 0 ? 1 : 0;
   const fsm::Image before = map_;
-  RemoveSmileShading(Galatea(), *places_, seen_, 1, map_);
+  RemoveSmileShading(Galatea(), *texels_, seen_, 1, map_);
   int changed = 0;
-  for (std::size_t i = 0; i < places_->size(); ++i) {
+  for (std::size_t i = 0; i < texels_->size(); ++i) {
     if (At(i).x_mm > 6) {
       ASSERT_EQ(map_.rgba[4 * i], before.rgba[4 * i]) << i;
     }
@@ -134,7 +138,7 @@ TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
   const auto spot = [&](std::size_t i) {
     return std::abs(std::abs(At(i).x_mm) - 30) < 4 && std::abs(Height(i) - middle() + 12) < 3;
   };
-  for (std::size_t i = 0; i < places_->size(); ++i) {
+  for (std::size_t i = 0; i < texels_->size(); ++i) {
     if (!spot(i)) continue;
     smooth.values[i] = 1;
     for (std::size_t c = 0; c < 3; ++c) flat.rgba[4 * i + c] = 150;
@@ -142,7 +146,7 @@ TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
   const fsm::Image before = flat;
   GrainFromCheeks(smooth, flat);
   float rough = 0, sum = 0, count = 0;
-  for (std::size_t i = 1; i < places_->size(); ++i) {
+  for (std::size_t i = 1; i < texels_->size(); ++i) {
     if (!spot(i)) {
       ASSERT_EQ(flat.rgba[4 * i], before.rgba[4 * i]) << "nothing else changes";
       continue;
@@ -157,7 +161,7 @@ TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
 
 TEST_F(SmileShadeTest, WithoutASmileNothingChanges) {
   const fsm::Image before = map_;
-  RemoveSmileShading(Galatea(), *places_, seen_, 0, map_);
+  RemoveSmileShading(Galatea(), *texels_, seen_, 0, map_);
   EXPECT_EQ(map_.rgba, before.rgba);
 }
 

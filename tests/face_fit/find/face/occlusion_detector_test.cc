@@ -141,8 +141,8 @@ TEST_F(OcclusionDetectorTest, AMaskIsFoundOnMouthAndCheeks) {
     for (const std::string& photo : Photos()) {
       const Occlusion occlusion = Look(photo, mask);
       EXPECT_GT(occlusion.covered, 1.5F) << photo;
-      EXPECT_NE(occlusion.place.value_or("").find("mouth"), std::string::npos)
-          << photo << ": " << occlusion.place.value_or("");
+      EXPECT_NE(occlusion.part_name.value_or("").find("mouth"), std::string::npos)
+          << photo << ": " << occlusion.part_name.value_or("");
     }
   }
 }
@@ -159,8 +159,8 @@ TEST_F(OcclusionDetectorTest, AHandOfTheSkinsColourIsFoundOnTheMouth) {
   for (const std::string& photo : Photos()) {
     const Occlusion occlusion = Look(photo, hand);
     EXPECT_GT(occlusion.covered, 1) << photo;
-    EXPECT_NE(occlusion.place.value_or("").find("mouth"), std::string::npos)
-        << photo << ": " << occlusion.place.value_or("");
+    EXPECT_NE(occlusion.part_name.value_or("").find("mouth"), std::string::npos)
+        << photo << ": " << occlusion.part_name.value_or("");
   }
 }
 
@@ -173,8 +173,8 @@ TEST_F(OcclusionDetectorTest, SidesAreThePersons) {
     };
     const Occlusion occlusion = Look("hopper_usnavy.jpg", curtain);
     EXPECT_GT(occlusion.covered, 1);
-    EXPECT_NE(occlusion.place.value_or("").find(side < 0 ? "right" : "left"), std::string::npos)
-        << occlusion.place.value_or("");
+    EXPECT_NE(occlusion.part_name.value_or("").find(side < 0 ? "right" : "left"), std::string::npos)
+        << occlusion.part_name.value_or("");
   }
 }
 
