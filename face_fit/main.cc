@@ -44,7 +44,7 @@ class Progress {
 };
 
 struct Options {
-  std::vector<std::string> views;
+  std::vector<std::string> side_photos;
   std::string photo, name, out, base = "galatea", networks, head, points, galatea, tables;
   std::optional<bool> glasses;  // nothing: to be detected
   int face = 1;
@@ -91,19 +91,19 @@ OriginalFace ReadOriginal(const Options& options) {
 }
 
 void Notice(const std::string& what) { std::cerr << "face_fit: notice: " << what << "\n"; }
-void NoticeLeftOut(const std::string& path, const std::string& why) {
-  Notice("'" + path + "' is left out: " + why);
+void NoticeRejected(const std::string& path, const std::string& reason) {
+  Notice("'" + path + "' is left out: " + reason);
 }
 
 /// Reads the photos from the side; prints a notice for each that cannot be read.
 std::vector<facefit::SidePhoto> ReadSidePhotos(const Options& options,
                                                facefit::FaceNetworks& networks) {
   std::vector<facefit::SidePhoto> side_photos;
-  for (const std::string& path : options.views) {
+  for (const std::string& path : options.side_photos) {
     if (auto side_photo = facefit::ReadSidePhoto(networks, path)) {
       side_photos.push_back(std::move(*side_photo));
     } else {
-      NoticeLeftOut(path, side_photo.error().text);
+      NoticeRejected(path, side_photo.error().text);
     }
   }
   return side_photos;
@@ -123,7 +123,7 @@ void CheckOptions(const Options& options) {
     throw std::runtime_error("--name '" + options.name +
                              "': letters, digits, - and _ expected, as anna");
   }
-  vm::OrThrow(facefit::CheckSidePhotoCount(options.views.size()));
+  vm::OrThrow(facefit::CheckSidePhotoCount(options.side_photos.size()));
 }
 
 /// The networks, and the head as they see it.
@@ -155,7 +155,7 @@ void MakeAndWriteFace(const Options& options, FaceModels& models, const facefit:
   const auto made = vm::OrThrow(facefit::MakeFace(
       models.base, front, face, facefit::SidePhotoSet{models.networks, side_photos},
       options.glasses, progress));
-  for (const auto& [path, why] : made.left_out) NoticeLeftOut(path, why);
+  for (const auto& [path, reason] : made.rejected) NoticeRejected(path, reason);
   const std::string report = LineOfNose(front, face.nose) + made.report;
   const std::string folder =
       vm::OrThrow(fsm::WriteFace(made.baked.head, report, FolderOfFaces(options), options.name));
@@ -241,7 +241,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out,
                  "Where its folder is made (default: $GALATEA_FACES or the user's data folder)");
   auto* face = app.add_option("--face", options.face, "Which of several faces, 1 = the largest");
-  auto* view = app.add_option("--view,--profile", options.views,
+  auto* view = app.add_option("--view,--profile", options.side_photos,
                               "Another photo of the same person turned by 20 to 60 degrees, or in "
                               "full profile; may be repeated")
                    ->expected(1)

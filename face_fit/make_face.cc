@@ -114,13 +114,13 @@ vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
     fitted =
         UseSidePhotos(from_side->networks, front.photo, from_side->photos, std::move(fitted.fit));
   }
-  auto& [fit, views, left_out] = fitted;
-  if (left_out.size() < count) done("seen from the side, too");
+  auto& [fit, views, rejected] = fitted;
+  if (rejected.size() < count) done("seen from the side, too");
   BakedHead baked = BakeHead(face, fit, front.photo, front.figure, views);
   baked.head.glasses = glasses ? *glasses : WearsGlasses(face, front.photo);
   done("photo put on");
   std::string report = Report(front, front_face, fit, baked);
-  return MadeFace{std::move(fit), std::move(baked), std::move(report), std::move(left_out)};
+  return MadeFace{std::move(fit), std::move(baked), std::move(report), std::move(rejected)};
 }
 
 }  // namespace facefit

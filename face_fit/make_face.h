@@ -43,10 +43,10 @@ vm::Result<FrontPhoto> PrepareFront(
 
 /// A face that fsm can wear, and what is known of it.
 struct MadeFace {
-  Fit fit;
+  FaceFit fit;
   BakedHead baked;
   std::string report;
-  std::vector<LeftOut> left_out;
+  std::vector<RejectedPhoto> rejected;
 };
 /// Photos of the person from the side, and the networks that look at them.
 struct SidePhotoSet {

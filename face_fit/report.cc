@@ -21,28 +21,28 @@ namespace {
 float Sharpness(const FoundFace& face, const fsm::Image& photo) {
   constexpr int kSamples = 60;         // on a side of the middle half of the face
   constexpr float kStep = 1 / 150.0F;  // relative to the face's size: finer than any feature
-  float sum = 0, light = 0;
+  float sum = 0, total = 0;
   const float step = std::max(kStep * face.crop.size, 1.0F);
   for (int y = 0; y < kSamples; ++y) {
     for (int x = 0; x < kSamples; ++x) {
       const glm::vec2 p = face.crop.ToImage(0.25F + 0.5F * glm::vec2(x, y) / float{kSamples});
       const float brightness = Brightness(ColourAt(photo, p));
       sum += std::abs(brightness - Brightness(ColourAt(photo, p + glm::vec2(step, 0))));
-      light += brightness;
+      total += brightness;
     }
   }
-  return sum / std::max(light, 1.0F);
+  return sum / std::max(total, 1.0F);
 }
 
 /// Returns the brightness of the person's left cheek divided by the right one's.
 float SideLight(const FoundFace& face, const fsm::Image& photo) {
-  fsm::Sided<float> light{1, 1};
+  fsm::Sided<float> brightness{1, 1};
   for (const fsm::Side side : fsm::kSides) {
     for (const PointIndex i : point::kCheeks[side]) {
-      light[side] += Brightness(ColourAt(photo, face.PixelOf(i)));
+      brightness[side] += Brightness(ColourAt(photo, face.PixelOf(i)));
     }
   }
-  return light.left / light.right;
+  return brightness.left / brightness.right;
 }
 
 /// Returns the number of irises that are not seen clearly.
@@ -55,8 +55,8 @@ struct Warning {
   bool applies;
   std::string text;
 };
-std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_face, const Fit& fit,
-                              const BakedHead& baked) {
+std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_face,
+                              const FaceFit& fit, const BakedHead& baked) {
   const FoundFace& face = front_face.found;
   const auto& look = PhotoLook().report;
   const float turned_deg = std::abs(glm::degrees(fit.head.pose.rotation_rad.y));
@@ -65,7 +65,7 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_fa
   const float left_by_right = SideLight(face, front.photo);
   const ShownUnits& shown_units = fit.head.shown_units;
   // The network guesses what it does not see with the same certainty as the rest.
-  const std::string cut_off = NamesOf(CutOffParts(face, front.photo));
+  const std::string cut_off = NamesOf(FindCutOffParts(face, front.photo));
   const Completed& completed = baked.completed;
   const std::string drawn =
       JoinedNames({{completed.neck, "neck, shoulders and clothes below it"},
@@ -113,7 +113,7 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_fa
 
 }  // namespace
 
-std::string Report(const FrontPhoto& front, const FrontFace& face, const Fit& fit,
+std::string Report(const FrontPhoto& front, const FrontFace& face, const FaceFit& fit,
                    const BakedHead& baked) {
   const glm::vec3 turn_deg = glm::degrees(fit.head.pose.rotation_rad);
   const ShownUnits& shown_units = fit.head.shown_units;

@@ -105,9 +105,9 @@ vm::Result<std::string> Editor::BuildFace(const std::string& name, const std::st
   const facefit::MadeFace& made = (*built)->made;
   auto place = fsm::WriteFace(made.baked.head, made.report, folder, name);
   if (!place) return place;
-  for (std::size_t i = 0; i < made.left_out.size(); ++i) {
+  for (std::size_t i = 0; i < made.rejected.size(); ++i) {
     *place +=
-        (i == 0 ? "; left out: " : "; ") + made.left_out[i].path + ": " + made.left_out[i].why;
+        (i == 0 ? "; left out: " : "; ") + made.rejected[i].path + ": " + made.rejected[i].reason;
   }
   return place;
 }

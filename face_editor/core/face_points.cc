@@ -85,13 +85,13 @@ Mirror MirrorOf(std::span<const glm::vec3> places) {
 Mirror MirrorByName() {
   Mirror mirror(static_cast<std::size_t>(kPoints));
   for (int i = 0; i < kPoints; ++i) mirror[static_cast<std::size_t>(i)] = i;
-  for (const auto& a : facefit::HandPointList()) {
+  for (const auto& a : facefit::NamedPoints()) {
     const std::string right(a.name);
     const std::size_t at = right.find("right");
     if (at == std::string::npos) continue;
     std::string left = right;
     left.replace(at, 5, "left");
-    for (const auto& b : facefit::HandPointList()) {
+    for (const auto& b : facefit::NamedPoints()) {
       if (b.name != left) continue;
       mirror[a.point] = static_cast<int>(b.point);
       mirror[b.point] = static_cast<int>(a.point);
@@ -106,20 +106,20 @@ const std::vector<PointGroup>& PointGroups() {
 }
 
 bool IsNamed(int point) {
-  return std::ranges::any_of(facefit::HandPointList(), [point](const auto& named) {
+  return std::ranges::any_of(facefit::NamedPoints(), [point](const auto& named) {
     return static_cast<int>(named.point) == point;
   });
 }
 
 std::string PointName(int point) {
-  for (const auto& named : facefit::HandPointList()) {
+  for (const auto& named : facefit::NamedPoints()) {
     if (static_cast<int>(named.point) == point) return std::string(named.name);
   }
   return std::to_string(point);
 }
 
 vm::Result<std::set<int>> PointsNamed(std::string_view word) {
-  for (const auto& named : facefit::HandPointList()) {
+  for (const auto& named : facefit::NamedPoints()) {
     if (named.name == word) return std::set<int>{static_cast<int>(named.point)};
   }
   std::string groups;
@@ -135,7 +135,7 @@ vm::Result<std::set<int>> PointsNamed(std::string_view word) {
   }
   if (digits && number < kPoints) return std::set<int>{number};
   return vm::Fail(vm::Errc::kBadValue, "'" + std::string(word.substr(0, 40)) +
-                                           "' is no point; 0 to 467, " + facefit::HandPointNames() +
+                                           "' is no point; 0 to 467, " + facefit::PointNamesText() +
                                            " or a group:" + groups + " expected");
 }
 
@@ -217,7 +217,7 @@ PointMap PlainPoints(int width, int height) {
   const float size = 0.5F * static_cast<float>(std::min(width, height));
   const glm::vec2 middle(0.5F * static_cast<float>(width), 0.5F * static_cast<float>(height));
   PointMap points;
-  for (const auto& named : facefit::HandPointList()) {
+  for (const auto& named : facefit::NamedPoints()) {
     std::string plain(named.name);
     float side = 0;
     for (const auto& [word, sign] : {std::pair("right", -1.0F), std::pair("left", 1.0F)}) {

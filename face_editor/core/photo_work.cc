@@ -105,8 +105,8 @@ vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceModels& 
     const auto used =
         facefit::UseSidePhotos(models.networks, work.front.photo, only,
                                facefit::FitFace(*work.base, FoundFrom(points), work.front.photo));
-    if (!used.left_out.empty()) {
-      return vm::Fail(vm::Errc::kBadValue, path + ": " + used.left_out.front().why);
+    if (!used.rejected.empty()) {
+      return vm::Fail(vm::Errc::kBadValue, path + ": " + used.rejected.front().reason);
     }
     return std::make_shared<const facefit::SidePhoto>(std::move(*side_photo));
   } catch (const std::exception& error) {

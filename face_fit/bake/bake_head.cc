@@ -107,7 +107,7 @@ SkinTraits FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool li
   const auto on_sides = Mask::From(kMapSize, kMapSize, [&](int x, int y) {
     return texels(x, y) ? texels(x, y)->side_weight : 0;
   });
-  AddGrain(map.coverage, on_sides, TexelsOf(look.grain.coarsest_on_skin_mm, kMapSize), map.image);
+  AddGrain(map.coverage, on_sides, MmToTexels(look.grain.coarsest_on_skin_mm, kMapSize), map.image);
   if (lips_apart) {
     RestoreLipColour(texels, map.image);
     DrawLipSeam(texels, saturation, map.image);
@@ -126,7 +126,7 @@ SkinTraits FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool li
 
 }  // namespace
 
-BakedHead BakeHead(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
+BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& photo,
                    const FigureCutout& figure, std::span<const SideView> side_views) {
   const FittedHead& fitted = fit.head;
   const SkinTexels texels = FindSkinTexels(*fitted.base);

@@ -15,7 +15,7 @@ struct BakedHead {
 
 /// Bakes a photo onto a fitted head, all but PhotoHead::glasses. `figure`: the figure in `photo`;
 /// `side_views`: photos of the person from the side, may be empty. Pure; thread: any.
-BakedHead BakeHead(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
+BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& photo,
                    const FigureCutout& figure, std::span<const SideView> side_views);
 
 }  // namespace facefit

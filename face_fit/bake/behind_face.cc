@@ -33,11 +33,11 @@ fsm::Image BehindFace(const FittedHead& fitted, const FigureCutout& figure) {
   // large as the skin, or the chin would show twice.
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const auto& look = PhotoLook().behind_face;
-  const Mask soft = Blurred(face, PixelsOf(look.around_mm, pixels_per_mm));
+  const Mask soft = Blurred(face, MmToPixels(look.around_mm, pixels_per_mm));
   Mask keep(width, height, 1), beside(width, height, 1), below(width, height);
-  ForPixels(width, height, [&](int x, int y, std::size_t i) {
+  ForEachPixel(width, height, [&](int x, int y, std::size_t i) {
     const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
-    const glm::vec3 position = fitted.pose.PositionAt(pixel, kBesideFaceDepthMm);
+    const glm::vec3 position = fitted.pose.PositionOf(pixel, kBesideFaceDepthMm);
     const float hole = glm::mix(look.face_share, look.neck_share, chin.BeforeNeckShare(position));
     keep[i] = (hole + look.edge_share).Ramp(soft[i]);
     beside[i] = (look.neck_share + look.neck_edge_share).Ramp(soft[i]);

@@ -154,7 +154,7 @@ struct EyeSquares {
 /// Returns whose texture each eye shows: its own, or the other eye's if it is not seen clearly;
 /// nothing if neither is.
 std::optional<fsm::Sided<fsm::Side>> ShownEyes(const PhotoIrises& irises) {
-  // An eye that is shown on both sides must not be half shut.
+  // The clear eye is mirrored only if it is wide open.
   constexpr float kForBoth = 0.1F;
   const auto clear = [&irises](fsm::Side side, float contrast) {
     return irises.circles[side].contrast >= contrast &&
@@ -170,7 +170,7 @@ std::optional<fsm::Sided<fsm::Side>> ShownEyes(const PhotoIrises& irises) {
 }
 
 /// Returns the mean colour of the skin below and beside an eye.
-glm::vec3 LightBeside(const FoundFace& face, const fsm::Image& photo, fsm::Side side) {
+glm::vec3 SkinColourBelowEye(const FoundFace& face, const fsm::Image& photo, fsm::Side side) {
   glm::vec3 light(1);
   const auto& below = point::kBelowEye[side];
   for (const PointIndex i : below)
@@ -203,7 +203,7 @@ LidLines LidsAtRest(const ObservedHead& base, fsm::Side side, const fsm::EyeTran
 
 }  // namespace
 
-std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, const Fit& fit,
+std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, const FaceFit& fit,
                                                      const fsm::Sided<fsm::EyeTransform>& at_rest,
                                                      const fsm::Image& photo, fsm::Image& atlas) {
   const ObservedHead& base = *fit.head.base;
@@ -217,7 +217,7 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
     const LidLines lids(EyePointsOf(side, face));
     const PhotoEye eye{fit.irises.circles[side], lids, right, {right.y, -right.x}};
     const float radius = at_rest[side].size * base.head().surface().eyes[side].ball_radius;
-    squares[side] = {IrisTexture(eye, LightBeside(face, photo, side), photo),
+    squares[side] = {IrisTexture(eye, SkinColourBelowEye(face, photo, side), photo),
                      BallTexture(eye, LidsAtRest(base, side, at_rest[side]), radius, photo)};
   }
   SquareRow row(atlas);
@@ -225,7 +225,7 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
   for (const fsm::Side side : fsm::kSides) {
     if (const fsm::Side other = (*shown)[side]; other != side) {
       const glm::vec3 gain =
-          LightGain(LightBeside(face, photo, side), LightBeside(face, photo, other));
+          LightGain(SkinColourBelowEye(face, photo, side), SkinColourBelowEye(face, photo, other));
       squares[side] = {Mirrored(squares[other].iris, gain), Mirrored(squares[other].ball, gain)};
     }
     textures[side].iris = row.Add(squares[side].iris);

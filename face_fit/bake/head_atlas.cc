@@ -16,7 +16,7 @@ fsm::Image PackAtlas(const fsm::Image& map, const fsm::Image& figure, const Mask
   const float steep = glm::clamp(kScreenPixelsPerMm / pixels_per_mm, 1.0F, kSteepest);
   const glm::vec2 scale = glm::vec2(figure.width, figure.height) / static_cast<float>(kMapSize);
   fsm::Image out = fsm::FilledImage(2 * kMapSize, kMapSize);
-  ForPixels(kMapSize, kMapSize, [&](int x, int y, std::size_t i) {
+  ForEachPixel(kMapSize, kMapSize, [&](int x, int y, std::size_t i) {
     const glm::vec2 p = (glm::vec2(x, y) + 0.5F) * scale;
     const std::size_t left = out.Index(x, y);
     std::copy_n(&map.rgba[4 * i], 4, &out.rgba[4 * left]);

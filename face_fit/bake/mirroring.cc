@@ -31,7 +31,7 @@ class SideGain {
         gain_(width_, height_, glm::vec3(1)) {
     VectorImage own(width_, height_), other = own;
     Mask both(width_, height_);
-    ForPixels(map.width, map.height, [&](int x, int y, std::size_t i) {
+    ForEachPixel(map.width, map.height, [&](int x, int y, std::size_t i) {
       const std::size_t j = coverage.Index(map.width - 1 - x, y);
       if (outside_openings[i] < 1 || outside_openings[j] < 1) return;
       const float weight = coverage[i] * coverage[j];
@@ -40,7 +40,7 @@ class SideGain {
       other(x / kCell, y / kCell) += weight * Rgb(map, j);
     });
     for (const float reach_mm : kLightReachMm) {
-      const int reach = std::max(TexelsOf(reach_mm, map.width) / kCell, 1);
+      const int reach = std::max(MmToTexels(reach_mm, map.width) / kCell, 1);
       const Mask known = Blurred(both, reach);
       const VectorImage own_mean = Blurred(own, reach), other_mean = Blurred(other, reach);
       for (std::size_t i = 0; i < known.size(); ++i) {
@@ -73,10 +73,10 @@ void CompleteByMirroring(const Mask& outside_openings, fsm::Image& map, Mask& co
   // to the surrounding colours.
   fsm::Image around = map;
   PushPullInpaint(around, own_coverage);
-  const Mask covered_around = Blurred(own_coverage, std::max(TexelsOf(kAroundMm, map.width), 1));
-  constexpr float kAny = 50;  // a ratio that nothing exceeds
+  const Mask covered_around = Blurred(own_coverage, std::max(MmToTexels(kAroundMm, map.width), 1));
+  constexpr float kNoLimit = 50;
   const auto& look = PhotoLook().other_side;
-  ForPixels(map.width, map.height, [&](int x, int y, std::size_t i) {
+  ForEachPixel(map.width, map.height, [&](int x, int y, std::size_t i) {
     const std::size_t j = coverage.Index(map.width - 1 - x, y);
     const float weight = std::max(own_coverage[j] - own_coverage[i], 0.0F) * 0.5F;
     if (weight <= 0 || outside_openings[i] < 1) return;
@@ -84,7 +84,7 @@ void CompleteByMirroring(const Mask& outside_openings, fsm::Image& map, Mask& co
     const glm::vec3 gain = gain_of_side.GainAt(x, y);
     const float held = look.held_by_seen_share.Ramp(covered_around[i]);
     const glm::vec3 beside = Rgb(around, i);
-    const glm::vec3 brightest = glm::min(glm::mix(kAny, look.brightest, held) * beside, 255.0F);
+    const glm::vec3 brightest = glm::min(glm::mix(kNoLimit, look.brightest, held) * beside, 255.0F);
     const glm::vec3 taken =
         glm::clamp(gain * Rgb(one_side, j), held * look.darkest * beside, brightest);
     SetRgb(map, i, (own_coverage[i] * Rgb(one_side, i) + taken * weight) / sum);

@@ -29,7 +29,7 @@ constexpr float kBehindHoleMm = 90;     // farther back lies the hair at the nap
 constexpr fsm::Range kFadeMotion{0, 0.3F};  // share of skin around a point over which motion begins
 
 /// Extends motion beyond the covered points: the mean of those nearby, fading out.
-VectorImage Spread(const VectorImage& motion, const Mask& covered, int reach) {
+VectorImage SpreadMotion(const VectorImage& motion, const Mask& covered, int reach) {
   const WeightedBlur nearby(motion, covered, reach);
   VectorImage out = motion;
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -78,10 +78,10 @@ class SheetHoles {
               look.above_mouth_mm, look.below_mouth_mm};
   }
   /// `p`: head's frame.
-  bool BehindMouth(glm::vec3 p) const { return Behind(mouth_, p); }
-  bool Behind(glm::vec3 p) const {
-    return BehindMouth(p) ||
-           std::ranges::any_of(eyes_, [p](const Oval& oval) { return Behind(oval, p); });
+  bool IsBehindMouth(glm::vec3 p) const { return IsBehind(mouth_, p); }
+  bool IsBehind(glm::vec3 p) const {
+    return IsBehindMouth(p) ||
+           std::ranges::any_of(eyes_, [p](const Oval& oval) { return IsBehind(oval, p); });
   }
 
  private:
@@ -89,7 +89,7 @@ class SheetHoles {
     glm::vec3 middle{0};
     float half = 1, above = 1, below = 1;
   };
-  static bool Behind(const Oval& oval, glm::vec3 p) {
+  static bool IsBehind(const Oval& oval, glm::vec3 p) {
     if (p.z < oval.middle.z - kBehindHoleMm) return false;
     const glm::vec2 from_middle = glm::vec2(p - oval.middle);
     const glm::vec2 radii =
@@ -116,7 +116,7 @@ constexpr std::array<glm::ivec2, 4> kCellCorners = {{{0, 0}, {0, 1}, {1, 1}, {1,
 class DrawnCells {
  public:
   DrawnCells(const FittedHead& fitted, const SampleGrid& grid, const Mask& shown,
-             const GridSkin& skin, const FloatImage& depth)
+             const SkinOnGrid& skin, const FloatImage& depth)
       : fitted_(fitted),
         grid_(grid),
         shown_(shown),
@@ -138,7 +138,7 @@ class DrawnCells {
                                [&](glm::ivec2 corner) { return holds(cell + corner); });
   }
   glm::vec3 PositionOf(glm::ivec2 p) const {
-    return fitted_.pose.PositionAt(grid_.Point(p.x, p.y), depth_(p.x, p.y));
+    return fitted_.pose.PositionOf(grid_.Point(p.x, p.y), depth_(p.x, p.y));
   }
   /// Returns whether the figure is visible at the cell's corners or at points next to them.
   bool IsShown(glm::ivec2 cell) const {
@@ -151,12 +151,12 @@ class DrawnCells {
   }
   /// Returns whether a point is behind the middle of the face or in a hole.
   bool IsHidden(glm::ivec2 p) const {
-    return within_(p.x, p.y) > kWholeWithin || holes_.Behind(PositionOf(p));
+    return within_(p.x, p.y) > kWholeWithin || holes_.IsBehind(PositionOf(p));
   }
   /// A cell of a small photo may be wider than the skin between lips and cheek.
   bool IsInMouth(glm::ivec2 cell) const {
     const auto corners = std::ranges::count_if(kCellCorners, [&](glm::ivec2 corner) {
-      return holes_.BehindMouth(PositionOf(cell + corner));
+      return holes_.IsBehindMouth(PositionOf(cell + corner));
     });
     return corners >= 2;
   }
@@ -176,9 +176,9 @@ std::vector<fsm::PhotoHead::SheetVertex> SheetVertices(const FittedHead& fitted,
                                                        const FloatImage& depth,
                                                        const VectorImage& motion, glm::vec2 size) {
   std::vector<fsm::PhotoHead::SheetVertex> vertices;
-  ForPixels(grid.columns, grid.rows, [&](int x, int y, std::size_t i) {
+  ForEachPixel(grid.columns, grid.rows, [&](int x, int y, std::size_t i) {
     const glm::vec2 pixel = grid.Point(x, y);
-    const glm::vec3 position = fitted.pose.PositionAt(pixel, std::min(depth[i], kMaxDepthMm));
+    const glm::vec3 position = fitted.pose.PositionOf(pixel, std::min(depth[i], kMaxDepthMm));
     vertices.push_back({position + motion[i], OnFigureHalf(pixel / size)});
   });
   return vertices;
@@ -221,10 +221,10 @@ Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure) {
   const Chin chin(fitted);
   const SampleGrid grid = GridOver(figure, pixels_per_mm);
   const VisibleSurface surface = VisibleSkin(fitted, fitted.pose, grid, chin.SkinBottom());
-  const GridSkin skin(surface, PixelsOf(PhotoLook().sheet.rim_mm, pixels_per_mm / grid.step));
+  const SkinOnGrid skin(surface, MmToPixels(PhotoLook().sheet.rim_mm, pixels_per_mm / grid.step));
   // Hair and neck beside the skin move with it.
   const VectorImage motion =
-      Spread(MotionOn(surface, MotionToRest(fitted)), skin.covered, skin.rim);
+      SpreadMotion(MotionOn(surface, MotionToRest(fitted)), skin.covered, skin.rim);
   const auto shown = Mask::From(grid.columns, grid.rows, [&](int x, int y) {
     const glm::vec2 pixel = grid.Point(x, y);
     return figure.opacity.SampleAt(pixel.x, pixel.y);

@@ -19,10 +19,10 @@ constexpr fsm::Range kFadeDepth{0, 0.25F};
 /// Fills points that are not fixed with the solution of Poisson's equation for a slight constant
 /// curvature: a soap film, a little rounder. Runs kPoissonSteps steps of Gauss and Seidel, not to
 /// convergence.
-FloatImage Spanned(const Mask& fixed, FloatImage depth) {
+FloatImage FillBySoapFilm(const Mask& fixed, FloatImage depth) {
   const float round = PhotoLook().sheet.round_mm;
   for (int step = 0; step < kPoissonSteps; ++step) {
-    ForPixels(depth.width, depth.height, [&](int x, int y, std::size_t i) {
+    ForEachPixel(depth.width, depth.height, [&](int x, int y, std::size_t i) {
       if (fixed[i] > 0) return;
       const auto next = [&](int dx, int dy) {
         return depth(std::clamp(x + dx, 0, depth.width - 1),
@@ -37,7 +37,7 @@ FloatImage Spanned(const Mask& fixed, FloatImage depth) {
 /// Depth below the inner skin.
 class UnderSkinDepth {
  public:
-  UnderSkinDepth(const Chin& chin, const GridSkin& skin) : chin_(chin), skin_(skin) {}
+  UnderSkinDepth(const Chin& chin, const SkinOnGrid& skin) : chin_(chin), skin_(skin) {}
   /// `position`: approximate, of the grid's point, head's frame.
   float DepthAt(std::size_t i, glm::vec3 position) const {
     // The sheet continues the skin at its edge and keeps a distance farther in.
@@ -53,14 +53,14 @@ class UnderSkinDepth {
 
  private:
   const Chin& chin_;
-  const GridSkin& skin_;
+  const SkinOnGrid& skin_;
 };
 
 /// Depth at the outline and beyond it; on the outline alone it would depend on which points of the
 /// grid lie inside.
 class OutlineDepth {
  public:
-  OutlineDepth(const Chin& chin, const GridSkin& skin)
+  OutlineDepth(const Chin& chin, const SkinOnGrid& skin)
       : chin_(chin), beside_(skin.depth, skin.inner, skin.rim) {}
   /// `position`: as in UnderSkinDepth.
   float DepthAt(std::size_t i, glm::vec3 position) const {
@@ -81,7 +81,7 @@ class OutlineDepth {
 
 }  // namespace
 
-GridSkin::GridSkin(const VisibleSurface& surface, int rim_cells)
+SkinOnGrid::SkinOnGrid(const VisibleSurface& surface, int rim_cells)
     : rim(rim_cells),
       depth(surface.depth()),
       covered(surface.Covered()),
@@ -93,20 +93,20 @@ GridSkin::GridSkin(const VisibleSurface& surface, int rim_cells)
 }
 
 FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Chin& chin,
-                      const GridSkin& skin, const Mask& shown) {
+                      const SkinOnGrid& skin, const Mask& shown) {
   const UnderSkinDepth under_skin(chin, skin);
   const OutlineDepth at_outline(chin, skin);
   FloatImage depth(grid.columns, grid.rows);
   Mask fixed(grid.columns, grid.rows);
-  ForPixels(grid.columns, grid.rows, [&](int x, int y, std::size_t i) {
-    const glm::vec3 position = fitted.pose.PositionAt(grid.Point(x, y), kBesideFaceDepthMm);
+  ForEachPixel(grid.columns, grid.rows, [&](int x, int y, std::size_t i) {
+    const glm::vec3 position = fitted.pose.PositionOf(grid.Point(x, y), kBesideFaceDepthMm);
     const bool inner = skin.inner[i] > 0;
     const bool outside = skin.covered[i] <= 0 && shown[i] < PhotoLook().sheet.shown_from_share;
     if (!inner && !outside) return;
     depth[i] = inner ? under_skin.DepthAt(i, position) : at_outline.DepthAt(i, position);
     fixed[i] = 1;
   });
-  const FloatImage spanned = Spanned(fixed, std::move(depth));
+  const FloatImage spanned = FillBySoapFilm(fixed, std::move(depth));
   // A steep step, as from jaw to neck, would fold when the head turns.
   FloatImage smooth = Blurred(Blurred(spanned, 1), 1);
   for (std::size_t i = 0; i < smooth.size(); ++i) {

@@ -8,9 +8,9 @@
 namespace facefit {
 
 /// The visible skin on the sheet's grid.
-struct GridSkin {
+struct SkinOnGrid {
   /// `rim_cells`: width of the sheet's rim behind the edge of the skin.
-  GridSkin(const VisibleSurface& surface, int rim_cells);
+  SkinOnGrid(const VisibleSurface& surface, int rim_cells);
   int rim;           ///< cells
   FloatImage depth;  ///< towards the camera, millimetres
   Mask covered;      ///< 1 where there is skin
@@ -22,6 +22,6 @@ struct GridSkin {
 /// Returns the depth of the sheet, millimetres towards the camera, camera's frame: just below the
 /// skin, and from there gently back to the outline. `shown`: opacity of the figure, 0..1.
 FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Chin& chin,
-                      const GridSkin& skin, const Mask& shown);
+                      const SkinOnGrid& skin, const Mask& shown);
 
 }  // namespace facefit

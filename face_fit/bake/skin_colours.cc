@@ -55,7 +55,7 @@ Mask SkinLikeness(const fsm::Image& map, const Mask& face_coverage) {
     }
     likeness[i] = hair.Ramp(darker);
   }
-  return Blurred(likeness, TexelsOf(kHairEdgeMm, map.width));
+  return Blurred(likeness, MmToTexels(kHairEdgeMm, map.width));
 }
 
 float Roughness(const fsm::Image& map, const Mask& face_coverage) {
@@ -65,8 +65,8 @@ float Roughness(const fsm::Image& map, const Mask& face_coverage) {
   for (std::size_t i = 0; i < light.size(); ++i) {
     light[i] = glm::dot(Rgb(map, i), kVision);
   }
-  const FloatImage fine = Blurred(light, TexelsOf(kFineMm, map.width)),
-                   wide = Blurred(light, TexelsOf(kWideMm, map.width));
+  const FloatImage fine = Blurred(light, MmToTexels(kFineMm, map.width)),
+                   wide = Blurred(light, MmToTexels(kWideMm, map.width));
   std::vector<float> steps;
   for (std::size_t i = 0; i < light.size(); ++i) {
     if (face_coverage[i] < kWellCovered) continue;
@@ -76,7 +76,7 @@ float Roughness(const fsm::Image& map, const Mask& face_coverage) {
 }
 
 Mask CutAtHairline(const SkinTexels& texels, float brows_y_mm, Mask likeness) {
-  const Mask wide = Blurred(likeness, TexelsOf(kFringeMm, likeness.width));
+  const Mask wide = Blurred(likeness, MmToTexels(kFringeMm, likeness.width));
   const fsm::Range edge = PhotoLook().hairy.skin_around_share;
   Mask below_hairline(likeness.width, likeness.height, 1);
   for (int x = 0; x < likeness.width; ++x) {
@@ -87,7 +87,7 @@ Mask CutAtHairline(const SkinTexels& texels, float brows_y_mm, Mask likeness) {
       below_hairline(x, y) = least;
     }
   }
-  below_hairline = Blurred(below_hairline, TexelsOf(kHairEdgeMm, likeness.width));
+  below_hairline = Blurred(below_hairline, MmToTexels(kHairEdgeMm, likeness.width));
   for (std::size_t i = 0; i < likeness.size(); ++i) {
     likeness[i] = std::min(likeness[i], below_hairline[i]);
   }

@@ -84,7 +84,7 @@ class LipLines {
 std::vector<glm::vec3> SkinNormals(const fsm::HeadSurface& topology,
                                    const std::vector<glm::vec3>& position) {
   std::vector<glm::vec3> normal(position.size(), glm::vec3(0));
-  ForSkinTriangles(topology, [&](const MeshTriangle& triangle) {
+  ForEachSkinTriangle(topology, [&](const MeshTriangle& triangle) {
     for (const std::uint32_t v : triangle.corner) normal[v] += triangle.Normal(position);
   });
   return normal;
@@ -115,7 +115,7 @@ SkinTexels FindSkinTexels(const ObservedHead& base) {
   SkinTexels out(kMapSize, kMapSize);
   // Of the triangles that share a texel the one farthest from the head's vertical axis counts.
   FloatImage outward_mm2(kMapSize, kMapSize, -1);
-  ForSkinTriangles(topology, [&](const MeshTriangle& triangle) {
+  ForEachSkinTriangle(topology, [&](const MeshTriangle& triangle) {
     const auto on_map = OnMap(topology, triangle);
     if (!on_map) return;
     Rasterize(*on_map, kMapSize, kMapSize, kSlack, [&](int x, int y, glm::vec3 weights) {

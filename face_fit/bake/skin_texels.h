@@ -15,7 +15,7 @@ inline constexpr float kBrowsEndMm = 27;  ///< above the nasion
 
 /// Returns a length on the face in texels of a map of that width, rounded. A face is about 400
 /// texels wide on a map of kMapSize.
-inline int TexelsOf(float mm, int map_width) {
+inline int MmToTexels(float mm, int map_width) {
   constexpr float kTexelsPerMm = 4;
   return static_cast<int>(
       std::lround(mm * kTexelsPerMm * static_cast<float>(map_width) / float{kMapSize}));

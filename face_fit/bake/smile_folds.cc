@@ -40,7 +40,7 @@ void FillFold(std::span<const glm::vec2> line, float share, float pixels_per_mm,
     return Rgb(photo, photo.Index(first.x + x, first.y + y));
   });
   const VectorImage filled = Blurred(Closed(colours, valley_px), std::max(valley_px / 2, 1));
-  ForPixels(size.x, size.y, [&](int x, int y, std::size_t i) {
+  ForEachPixel(size.x, size.y, [&](int x, int y, std::size_t i) {
     const glm::ivec2 pixel = first + glm::ivec2(x, y);
     const float gap_mm = DistanceToLine(glm::vec2(pixel) + 0.5F, line) / pixels_per_mm;
     const float blend = share * fsm::SmoothStep(reach_mm, 0.5F * reach_mm, gap_mm);
@@ -55,7 +55,7 @@ void FillFold(std::span<const glm::vec2> line, float share, float pixels_per_mm,
 
 Mask FillSmileFolds(const FoundFace& face, float share, float pixels_per_mm, fsm::Image& photo) {
   Mask filled_share(photo.width, photo.height);
-  const int valley_px = PixelsOf(PhotoLook().smile.folds.half_width_mm, pixels_per_mm, 0);
+  const int valley_px = MmToPixels(PhotoLook().smile.folds.half_width_mm, pixels_per_mm, 0);
   if (share <= 0 || valley_px < 1) return filled_share;
   for (const fsm::Side side : fsm::kSides) {
     FillFold(face.Line(point::kSmileFold[side]), share, pixels_per_mm, valley_px, photo,
@@ -67,8 +67,8 @@ Mask FillSmileFolds(const FoundFace& face, float share, float pixels_per_mm, fsm
 void GrainFromCheeks(const Mask& lost, fsm::Image& map) {
   if (std::ranges::none_of(lost.values, [](float s) { return s > 0; })) return;
   const auto& look = PhotoLook().smile.grain;
-  const int outward = TexelsOf(look.outward_mm, kMapSize), up = TexelsOf(look.up_mm, kMapSize);
-  const int reach = TexelsOf(look.coarsest_mm, kMapSize);
+  const int outward = MmToTexels(look.outward_mm, kMapSize), up = MmToTexels(look.up_mm, kMapSize);
+  const int reach = MmToTexels(look.coarsest_mm, kMapSize);
   const VectorImage colours = Colours(map), means = Blurred(Blurred(colours, reach), reach);
   for (int y = up; y < kMapSize; ++y) {
     for (int x = outward; x < kMapSize - outward; ++x) {

@@ -56,8 +56,8 @@ void RemoveSmileShading(const ObservedHead& base, const SkinTexels& texels, cons
     weight[i] = texels[i] && cheeks.IsReferenceSkin(*texels[i]) ? coverage[i] * coverage[i] : 0.0F;
   }
   const VectorImage colours = Colours(map);
-  const WeightedBlur fine(colours, weight, TexelsOf(shade.fine_mm, kMapSize), 2),
-      wide(colours, weight, TexelsOf(shade.wide_mm, kMapSize), 2);
+  const WeightedBlur fine(colours, weight, MmToTexels(shade.fine_mm, kMapSize), 2),
+      wide(colours, weight, MmToTexels(shade.wide_mm, kMapSize), 2);
   for (std::size_t i = 0; i < colours.size(); ++i) {
     if (!texels[i]) continue;
     const float evened = share * cheeks.ShadeAt(*texels[i]) *

@@ -12,7 +12,7 @@ namespace {
 
 /// Returns the mean colour of the cloth along the edges; where too little is seen, the table's.
 glm::vec3 ClothColour(const Canvas& canvas, const PhotoEdges& edges, const fsm::FaceLight& light,
-                      const PerSide<BodyJoint>& joints) {
+                      const PerSide<BustAttachment>& attachments) {
   glm::vec4 sum(0);
   const auto add = [&sum](const EdgeSample& sample) {
     const bool cloth = sample.kind == EdgeKind::kCloth || sample.kind == EdgeKind::kTip;
@@ -20,8 +20,8 @@ glm::vec3 ClothColour(const Canvas& canvas, const PhotoEdges& edges, const fsm::
   };
   for (int x = 0; x < edges.width(); ++x) add(edges.bottom(x));
   for (const PhotoSide side : kPhotoSides) {
-    if (!joints[side].shoulder_fall) continue;
-    for (int y = static_cast<int>(joints[side].row); y < edges.height(); ++y) {
+    if (!attachments[side].shoulder_slope) continue;
+    for (int y = static_cast<int>(attachments[side].row); y < edges.height(); ++y) {
       add(edges.side(side, y));
     }
   }
@@ -46,17 +46,17 @@ BodyPaint::BodyPaint(const Canvas& canvas, const PhotoEdges& edges, const fsm::F
     : canvas_(canvas),
       light_(light),
       shape_(shape),
-      cloth_colour_(ClothColour(canvas, edges, light, shape.joints())),
+      cloth_colour_(ClothColour(canvas, edges, light, shape.attachments())),
       neckline_(FindNeckline(edges, shape.axis())) {
   const glm::vec2 size(canvas.photo_size);
   for (int x = 0; x < edges.width(); ++x) {
     AddDifference(edges.bottom(x), {static_cast<float>(x) + 0.5F, size.y}, below_);
   }
   for (const PhotoSide side : kPhotoSides) {
-    const BodyJoint& joint = shape.joints()[side];
+    const BustAttachment& attachment = shape.attachments()[side];
     for (int y = 0; y < edges.height(); ++y) {
       const glm::vec2 pixel(side == PhotoSide::kLeft ? 0 : size.x, static_cast<float>(y) + 0.5F);
-      const bool body = joint.shoulder_fall && pixel.y > joint.row;
+      const bool body = attachment.shoulder_slope && pixel.y > attachment.row;
       const EdgeSample& sample = edges.side(side, y);
       AddDifference(body ? sample : EdgeSample{}, pixel, beside_[side]);
     }
@@ -87,10 +87,10 @@ void BodyPaint::AddDifference(const EdgeSample& edge, glm::vec2 pixel, Differenc
   }
 }
 
-float BodyPaint::ClothShare(glm::vec2 pixel, const Beyond& beyond, float on_bust) const {
+float BodyPaint::ClothShare(glm::vec2 pixel, const DistanceOutside& outside, float on_bust) const {
   const float reach_px = PhotoLook().beyond_edge.told_within_mm * canvas_.pixels_per_mm;
-  const bool below = beyond.below > 0;
-  const Differences& differences = below ? below_ : beside_[*beyond.side];
+  const bool below = outside.below > 0;
+  const Differences& differences = below ? below_ : beside_[*outside.side];
   const float along_px = below ? pixel.x : pixel.y;
   const float skin = differences[kSkin].MeanAround(along_px, reach_px).w,
               cloth = differences[kCloth].MeanAround(along_px, reach_px).w;
@@ -102,10 +102,10 @@ float BodyPaint::ClothShare(glm::vec2 pixel, const Beyond& beyond, float on_bust
   const auto& look = PhotoLook().neckline;
   const float hem_mm = look.closes_mm * std::sqrt(std::max(1 - half_widths * half_widths, 0.0F));
   return std::max(at_edge, on_bust * fsm::SmoothStep(hem_mm - look.hem_mm, hem_mm + look.hem_mm,
-                                                     beyond.below / canvas_.pixels_per_mm));
+                                                     outside.below / canvas_.pixels_per_mm));
 }
 
-glm::vec3 BodyPaint::EdgeDifference(glm::vec2 pixel, const Beyond& beyond,
+glm::vec3 BodyPaint::EdgeDifference(glm::vec2 pixel, const DistanceOutside& outside,
                                     Covering covering) const {
   const auto& look = PhotoLook().beyond_edge;
   const bool cloth = covering == kCloth;
@@ -120,17 +120,17 @@ glm::vec3 BodyPaint::EdgeDifference(glm::vec2 pixel, const Beyond& beyond,
            glm::mix(edge.All(), glm::vec3(mean), mean.w / (mean.w + look.half_trusted_share));
   };
   glm::vec3 sum(0);
-  const float beyond_px = beyond.below + beyond.beside;
-  if (beyond.below > 0) {
-    sum += beyond.below / beyond_px * difference(below_[covering], pixel.x, beyond.below);
+  const float beyond_px = outside.below + outside.beside;
+  if (outside.below > 0) {
+    sum += outside.below / beyond_px * difference(below_[covering], pixel.x, outside.below);
   }
-  if (beyond.side) {
+  if (outside.side) {
     // The colours of a sleeve continue downward along its fall, not along rows.
-    const float row =
-        std::clamp(pixel.y - PhotoLook().shoulder.sleeve_fall_per_px * beyond.beside,
-                   shape_.joints()[*beyond.side].row, static_cast<float>(canvas_.photo_size.y));
-    sum +=
-        beyond.beside / beyond_px * difference(beside_[*beyond.side][covering], row, beyond.beside);
+    const float row = std::clamp(pixel.y - PhotoLook().shoulder.sleeve_fall_per_px * outside.beside,
+                                 shape_.attachments()[*outside.side].row,
+                                 static_cast<float>(canvas_.photo_size.y));
+    sum += outside.beside / beyond_px *
+           difference(beside_[*outside.side][covering], row, outside.beside);
   }
   return sum;
 }
@@ -139,10 +139,10 @@ Paint BodyPaint::PaintAt(glm::vec2 pixel) const {
   const BustSample body = shape_.SampleAt(pixel);
   const float opacity = shape_.OpacityAt(pixel, body);
   if (opacity <= 0) return {};
-  const Beyond beyond = canvas_.BeyondPhoto(pixel);
-  return {glm::mix(BustColour(body, kSkin) + EdgeDifference(pixel, beyond, kSkin),
-                   BustColour(body, kCloth) + EdgeDifference(pixel, beyond, kCloth),
-                   ClothShare(pixel, beyond, body.cloth)),
+  const DistanceOutside outside = canvas_.OutsidePhoto(pixel);
+  return {glm::mix(BustColour(body, kSkin) + EdgeDifference(pixel, outside, kSkin),
+                   BustColour(body, kCloth) + EdgeDifference(pixel, outside, kCloth),
+                   ClothShare(pixel, outside, body.cloth)),
           opacity};
 }
 

@@ -35,8 +35,9 @@ class BodyPaint {
   static Neckline FindNeckline(const PhotoEdges& edges, float axis);
   void AddDifference(const EdgeSample& edge, glm::vec2 pixel, Differences& to) const;
   glm::vec3 BustColour(const BustSample& body, Covering covering) const;
-  float ClothShare(glm::vec2 pixel, const Beyond& beyond, float on_bust) const;
-  glm::vec3 EdgeDifference(glm::vec2 pixel, const Beyond& beyond, Covering covering) const;
+  float ClothShare(glm::vec2 pixel, const DistanceOutside& outside, float on_bust) const;
+  glm::vec3 EdgeDifference(glm::vec2 pixel, const DistanceOutside& outside,
+                           Covering covering) const;
 
   const Canvas& canvas_;
   const fsm::FaceLight& light_;

@@ -12,13 +12,13 @@ namespace facefit {
 
 /// The row of the photo in which one half of the bust meets that half of the figure: where the left
 /// or right edge of the photo cuts the shoulder, or else the lower edge.
-struct BodyJoint {
+struct BustAttachment {
   float row = 0;          ///< pixels of the photo
   float width_ratio = 1;  ///< half width of the figure there, divided by that of the bust
   float fade_mm = 1;      ///< distance downward in which the ratio decays to 1 (1/e)
   /// Fall of the shoulder's outline where an edge cuts it, pixels down for each pixel outward;
   /// nothing if no edge does.
-  std::optional<float> shoulder_fall;
+  std::optional<float> shoulder_slope;
 };
 
 /// The bust at a pixel. `cloth`: the share of cloth in what is covered, 0..1;
@@ -36,9 +36,11 @@ class BodyShape {
   /// this.
   BodyShape(const Canvas& canvas, const PhotoEdges& edges, const Mask& opacity, Bust bust);
 
-  const PerSide<BodyJoint>& joints() const { return joints_; }
+  const PerSide<BustAttachment>& attachments() const { return attachments_; }
   /// Returns whether the left or right edge of the photo cuts a shoulder.
-  bool CutsShoulder() const { return joints_.left.shoulder_fall || joints_.right.shoulder_fall; }
+  bool CutsShoulder() const {
+    return attachments_.left.shoulder_slope || attachments_.right.shoulder_slope;
+  }
   float axis() const { return axis_; }  ///< x of the body's middle, pixels of the photo
   BustSample SampleAt(glm::vec2 pixel) const;
   /// Returns how much of a pixel is body, 0..1. `sample`: of that pixel. REQUIRES: it lies beyond
@@ -49,7 +51,7 @@ class BodyShape {
   const Canvas& canvas_;
   Bust bust_;
   float axis_;
-  PerSide<BodyJoint> joints_;
+  PerSide<BustAttachment> attachments_;
 };
 
 }  // namespace facefit

@@ -11,7 +11,7 @@
 namespace facefit {
 namespace {
 
-/// `pose`: projects to pixels of images of that size.
+/// Draws the bust as `pose` shows it, one sample for each pixel of an image of that size.
 Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) {
   const ObservedHead& base = *fitted.base;
   // The bust stands upright; it is lowered where the fitted head's chin lies lower than the
@@ -27,14 +27,14 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
   const auto body = [](fsm::Material m) {
     return m == fsm::Material::kCloth || m == fsm::Material::kSkin;
   };
-  ForTriangles(topology, body, [&](const MeshTriangle& triangle) {
+  ForEachTriangle(topology, body, [&](const MeshTriangle& triangle) {
     const bool above = std::ranges::any_of(
         triangle.corner, [&](std::uint32_t v) { return base.rest().position[v].y > highest; });
     if (!above) surface.DrawFront(triangle);
   });
   const Mask none(width, height);
   Bust bust{none, none, none, VectorImage(width, height, {0, 0, 1}), pose.Project({}).x};
-  ForPixels(width, height, [&](int x, int y, std::size_t i) {
+  ForEachPixel(width, height, [&](int x, int y, std::size_t i) {
     const MeshTriangle* triangle = surface.TriangleAt(x, y);
     if (!triangle) return;
     const MeshPoint on_base = surface.MeshPointAt(x, y);

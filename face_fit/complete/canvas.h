@@ -27,7 +27,7 @@ using PerSide = fsm::Sided<T, PhotoSide>;
 
 /// How far a pixel of the canvas lies beyond the edges of the photo, pixels; 0 where it is not
 /// beyond that edge. A pixel beyond a corner has two of them above 0.
-struct Beyond {
+struct DistanceOutside {
   float below, above, beside;
   std::optional<PhotoSide> side;  ///< the edge that `beside` counts from, if it is above 0
 };
@@ -44,7 +44,7 @@ struct Beyond {
 /// |   (  |   hair |  skin   | hair    |          |
 /// |    `-|   hair  \       /  hair    |          |
 /// |      |   hair   `-chin'           |          |
-/// |      |   hair   | neck | ,--------+-.        |  <- joint row: here the right edge cuts
+/// |      |   hair   | neck | ,--------+-.        |  <- attachment: here the right edge cuts
 /// |      |   hair ,-'\skin/`-' cloth  |  `.      |  beside: the shoulder falls, bends into
 /// |      |   hair/cloth\ / cloth      |    `.    |         the arm (BodyPaint)
 /// |      +-----------------------------+      \   |  <- lower edge
@@ -58,12 +58,12 @@ struct Canvas {
   float pixels_per_mm;
   glm::vec2 chin_px;
 
-  Beyond BeyondPhoto(glm::vec2 p) const {
+  DistanceOutside OutsidePhoto(glm::vec2 p) const {
     const glm::vec2 end(photo_size);
-    Beyond beyond{std::max(p.y - end.y, 0.0F), std::max(-p.y, 0.0F),
-                  std::max({-p.x, p.x - end.x, 0.0F}), std::nullopt};
-    if (beyond.beside > 0) beyond.side = p.x < 0 ? PhotoSide::kLeft : PhotoSide::kRight;
-    return beyond;
+    DistanceOutside outside{std::max(p.y - end.y, 0.0F), std::max(-p.y, 0.0F),
+                            std::max({-p.x, p.x - end.x, 0.0F}), std::nullopt};
+    if (outside.beside > 0) outside.side = p.x < 0 ? PhotoSide::kLeft : PhotoSide::kRight;
+    return outside;
   }
 };
 

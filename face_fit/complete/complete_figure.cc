@@ -23,8 +23,8 @@ namespace {
 /// Returns the row of the top of the head with hair on it, photo pixels; it may be negative.
 float CrownRow(const FittedHead& fitted) {
   float highest = std::numeric_limits<float>::infinity();
-  ForSkinTriangles(fitted.base->head().surface(), [&](const MeshTriangle& triangle) {
-    highest = std::min(highest, fitted.pose.Pixel(fitted.posed_vertices[triangle.corner[0]]).y);
+  ForEachSkinTriangle(fitted.base->head().surface(), [&](const MeshTriangle& triangle) {
+    highest = std::min(highest, fitted.pose.PixelOf(fitted.posed_vertices[triangle.corner[0]]).y);
   });
   return highest - PhotoLook().hair.on_crown_mm * fitted.pose.PixelsPerMm();
 }
@@ -53,7 +53,7 @@ Canvas CanvasFor(const FigureCutout& figure, const FittedHead& fitted, const Pho
 /// background within neck.hangs_mm above the edge stay: removing them would leave a hole.
 FigureCutout WithoutTips(const PhotoEdges& edges, float pixels_per_mm, FigureCutout figure) {
   const int height = figure.opacity.height;
-  const int highest = std::max(height - PixelsOf(PhotoLook().neck.hangs_mm, pixels_per_mm), 0);
+  const int highest = std::max(height - MmToPixels(PhotoLook().neck.hangs_mm, pixels_per_mm), 0);
   constexpr float kBackground = 0.3F;  // opacity; the matte is uncertain beside such tips
   for (int x = 0; x < figure.opacity.width; ++x) {
     if (edges.bottom(x).kind != EdgeKind::kTip) continue;
@@ -68,12 +68,12 @@ FigureCutout WithoutTips(const PhotoEdges& edges, float pixels_per_mm, FigureCut
 }
 
 /// The figure on its canvas while parts are painted.
-struct Painted {
+struct CanvasLayers {
   FigureCutout figure;
   Mask known, drawn;  ///< opacity from the photo; opacity of what is painted beyond it
   Mask coloured;      ///< 1 where a colour is known
 
-  explicit Painted(glm::ivec2 size)
+  explicit CanvasLayers(glm::ivec2 size)
       : figure{fsm::FilledImage(size.x, size.y), Mask(size.x, size.y)},
         known(size.x, size.y),
         drawn(known),
@@ -83,8 +83,8 @@ struct Painted {
 /// Copies the photo's figure onto the canvas. `without_tips`: the figure without tips of collars,
 /// whose colours count as unknown.
 void CopyPhoto(const Canvas& canvas, const FigureCutout& figure, const FigureCutout& without_tips,
-               Painted& out) {
-  ForPixels(canvas.photo_size.x, canvas.photo_size.y, [&](int x, int y, std::size_t from) {
+               CanvasLayers& out) {
+  ForEachPixel(canvas.photo_size.x, canvas.photo_size.y, [&](int x, int y, std::size_t from) {
     const std::size_t to = out.known.Index(x + canvas.photo_origin.x, y + canvas.photo_origin.y);
     SetRgb(out.figure.colours, to, Rgb(without_tips.colours, from));
     out.figure.opacity[to] = out.known[to] = without_tips.opacity[from];
@@ -96,7 +96,7 @@ void CopyPhoto(const Canvas& canvas, const FigureCutout& figure, const FigureCut
 /// the matte is uncertain at the very edge.
 void CloseLowerEdge(const Canvas& canvas, const FigureCutout& figure, const BodyShape& body,
                     Mask& opacity) {
-  const int band_px = PixelsOf(PhotoLook().edge.band_mm, canvas.pixels_per_mm);
+  const int band_px = MmToPixels(PhotoLook().edge.band_mm, canvas.pixels_per_mm);
   const int above = canvas.photo_size.y - 1 - 2 * band_px;
   if (above < 0) return;
   for (int y = canvas.photo_size.y - band_px; y < canvas.photo_size.y; ++y) {
@@ -109,8 +109,9 @@ void CloseLowerEdge(const Canvas& canvas, const FigureCutout& figure, const Body
   }
 }
 
-void PaintBeyond(const Canvas& canvas, const BodyPaint& body, const HairPaint& hair, Painted& out) {
-  ForPixels(canvas.size.x, canvas.size.y, [&](int x, int y, std::size_t i) {
+void PaintBeyond(const Canvas& canvas, const BodyPaint& body, const HairPaint& hair,
+                 CanvasLayers& out) {
+  ForEachPixel(canvas.size.x, canvas.size.y, [&](int x, int y, std::size_t i) {
     const glm::ivec2 pixel = glm::ivec2(x, y) - canvas.photo_origin;
     if (pixel == glm::clamp(pixel, glm::ivec2(0), canvas.photo_size - 1)) return;
     const glm::vec2 centre = glm::vec2(pixel) + 0.5F;
@@ -129,14 +130,14 @@ CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& fig
   const fsm::FaceLight light = LightOnFace(fitted, figure);
   const PhotoEdges edges(fitted, figure, 255.0F * light.skin());
   const Canvas canvas = CanvasFor(figure, fitted, edges,
-                                  fitted.pose.Pixel(fitted.PositionOf(point::kChin)), crown_px);
+                                  fitted.pose.PixelOf(fitted.PositionOf(point::kChin)), crown_px);
   const FigureCutout without_tips = WithoutTips(edges, canvas.pixels_per_mm, figure);
   FittedHead on_canvas = fitted;
   on_canvas.pose.centre_px += glm::vec2(canvas.photo_origin);
   const BodyShape body(canvas, edges, without_tips.opacity,
                        DrawBust(on_canvas, canvas.size.x, canvas.size.y));
   const HairPaint hair(canvas, edges, without_tips, crown_px);
-  Painted out(canvas.size);
+  CanvasLayers out(canvas.size);
   CopyPhoto(canvas, figure, without_tips, out);
   CloseLowerEdge(canvas, without_tips, body, out.figure.opacity);
   PaintBeyond(canvas, BodyPaint(canvas, edges, light, body), hair, out);
@@ -154,7 +155,7 @@ CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& fig
 void AddGrainToFigure(const Mask& known, Mask amount, float pixels_per_mm, fsm::Image& image) {
   const auto& look = PhotoLook().grain;
   for (float& v : amount.values) v *= look.pixels_per_mm.Ramp(pixels_per_mm);
-  AddGrain(known, amount, PixelsOf(look.coarsest_on_figure_mm, pixels_per_mm, 2), image);
+  AddGrain(known, amount, MmToPixels(look.coarsest_on_figure_mm, pixels_per_mm, 2), image);
 }
 
 }  // namespace facefit

@@ -106,20 +106,20 @@ float HairPaint::BulgePx(PhotoSide side, float y) const {
 
 glm::vec3 HairPaint::Colour(glm::vec2 pixel) const {
   const glm::vec2 size(canvas_.photo_size);
-  const Beyond beyond = canvas_.BeyondPhoto(pixel);
+  const DistanceOutside outside = canvas_.OutsidePhoto(pixel);
   glm::vec2 mirrored = glm::clamp(pixel, glm::vec2(0.5F), size - 0.5F);
-  const bool above = beyond.above > 0;
+  const bool above = outside.above > 0;
   const int reach_px = above
                            ? edges_.top(static_cast<int>(mirrored.x)).hair_reach_px
-                           : edges_.side(*beyond.side, static_cast<int>(mirrored.y)).hair_reach_px;
+                           : edges_.side(*outside.side, static_cast<int>(mirrored.y)).hair_reach_px;
   // Mirrored back and forth within the hair, so that no skin is repeated.
   const float inward_px =
-      MirroredRepeat(above ? beyond.above : beyond.beside, static_cast<float>(reach_px));
+      MirroredRepeat(above ? outside.above : outside.beside, static_cast<float>(reach_px));
   if (above) {
     mirrored.y = std::clamp(inward_px, 0.5F, size.y - 0.5F);
   } else {
-    mirrored.x = std::clamp(*beyond.side == PhotoSide::kLeft ? inward_px : size.x - inward_px, 0.5F,
-                            size.x - 0.5F);
+    mirrored.x = std::clamp(*outside.side == PhotoSide::kLeft ? inward_px : size.x - inward_px,
+                            0.5F, size.x - 0.5F);
   }
   const float enough = fsm::SmoothStep(0.0F, PhotoLook().hair.enough_mm * canvas_.pixels_per_mm,
                                        static_cast<float>(reach_px));
@@ -146,20 +146,20 @@ Paint HairPaint::HairBelow(glm::vec2 pixel, float below_px) const {
 }
 
 Paint HairPaint::PaintAt(glm::vec2 pixel) const {
-  const Beyond beyond = canvas_.BeyondPhoto(pixel);
-  assert(beyond.below > 0 || beyond.above > 0 || beyond.side);
-  if (beyond.below > 0) {
-    Paint hair = HairBelow(pixel, beyond.below);
-    if (beyond.side) {
-      const float reach = BulgePx(*beyond.side, pixel.y);
+  const DistanceOutside outside = canvas_.OutsidePhoto(pixel);
+  assert(outside.below > 0 || outside.above > 0 || outside.side);
+  if (outside.below > 0) {
+    Paint hair = HairBelow(pixel, outside.below);
+    if (outside.side) {
+      const float reach = BulgePx(*outside.side, pixel.y);
       if (reach <= 0) return {};
       hair.opacity *=
-          fsm::SmoothStep(reach, PhotoLook().hair.whole_bulge_share * reach, beyond.beside);
+          fsm::SmoothStep(reach, PhotoLook().hair.whole_bulge_share * reach, outside.beside);
     }
     return hair;
   }
-  const float inside_px = beyond.above > 0 ? DomePx(pixel.x) - beyond.above
-                                           : BulgePx(*beyond.side, pixel.y) - beyond.beside;
+  const float inside_px = outside.above > 0 ? DomePx(pixel.x) - outside.above
+                                            : BulgePx(*outside.side, pixel.y) - outside.beside;
   const float soft_px = PhotoLook().hair.outline_mm * canvas_.pixels_per_mm *
                         (0.5F + StrandNoise((pixel.x + pixel.y) / canvas_.pixels_per_mm));
   if (inside_px <= 0) return {};

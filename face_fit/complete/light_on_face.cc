@@ -12,7 +12,7 @@ namespace facefit {
 fsm::FaceLight LightOnFace(const FittedHead& fitted, const FigureCutout& figure) {
   const auto& position = fitted.posed_vertices;
   std::vector<std::uint32_t> corners;
-  ForSkinTriangles(fitted.base->head().surface(), [&](const MeshTriangle& triangle) {
+  ForEachSkinTriangle(fitted.base->head().surface(), [&](const MeshTriangle& triangle) {
     corners.insert(corners.end(), triangle.corner.begin(), triangle.corner.end());
   });
   const auto normal = fsm::Normals(corners, position, position.size());
@@ -21,7 +21,7 @@ fsm::FaceLight LightOnFace(const FittedHead& fitted, const FigureCutout& figure)
   std::vector<fsm::FaceLight::Patch> patches;
   for (std::size_t v = 0; v < position.size(); ++v) {
     if (normal[v].z < kSquarely || position[v].z < kFrontMm) continue;
-    const glm::vec2 pixel = fitted.pose.Pixel(position[v]);
+    const glm::vec2 pixel = fitted.pose.PixelOf(position[v]);
     if (!IsInside(figure.colours, pixel)) continue;
     patches.push_back({normal[v], ColourAt(figure.colours, pixel) / 255.0F});
   }

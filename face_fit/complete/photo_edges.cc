@@ -235,13 +235,13 @@ bool PhotoEdges::TopCutsWholeEdge() const {
 PhotoEdges::PhotoEdges(const FittedHead& fitted, const FigureCutout& figure,
                        glm::vec3 skin_colour) {
   const glm::ivec2 size(figure.opacity.width, figure.opacity.height);
-  const EdgeClassifier classifier(figure, fitted.pose.Pixel(fitted.PositionOf(point::kForehead)).y,
-                                  skin_colour);
+  const EdgeClassifier classifier(
+      figure, fitted.pose.PixelOf(fitted.PositionOf(point::kForehead)).y, skin_colour);
   const EdgeReader reader(figure, classifier);
-  const ChinFrame chin{fitted.pose.Pixel(fitted.PositionOf(point::kChin)),
+  const ChinFrame chin{fitted.pose.PixelOf(fitted.PositionOf(point::kChin)),
                        fitted.pose.PixelsPerMm()};
   const glm::ivec2 band =
-      glm::min(glm::ivec2(PixelsOf(PhotoLook().edge.band_mm, chin.pixels_per_mm)), size);
+      glm::min(glm::ivec2(MmToPixels(PhotoLook().edge.band_mm, chin.pixels_per_mm)), size);
   bottom_ = ReadBottom(reader, chin, size, band.y);
   top_ = ReadTop(reader, size, band.y);
   for (const PhotoSide side : kPhotoSides) {

@@ -47,8 +47,10 @@ struct CameraPose {
   /// From a pixel to the position at depth `z`, camera's frame.
   glm::vec3 Unproject(glm::vec2 pixel, float z) const;
   /// From the head's frame to a pixel, and back to the position at depth `z` of the camera's frame.
-  glm::vec2 Pixel(glm::vec3 p) const { return Project(ToCamera(p)); }
-  glm::vec3 PositionAt(glm::vec2 pixel, float z) const { return FromCamera(Unproject(pixel, z)); }
+  glm::vec2 PixelOf(glm::vec3 p) const { return Project(ToCamera(p)); }
+  glm::vec3 PositionOf(glm::vec2 pixel, float camera_z) const {
+    return FromCamera(Unproject(pixel, camera_z));
+  }
   /// From the head's frame to pixels; the third coordinate is the depth in the camera's frame.
   std::vector<glm::vec3> ToScreen(std::span<const glm::vec3> positions) const;
   float PixelsPerMm() const;  ///< at the depth of the face

@@ -29,7 +29,7 @@ std::vector<float> DepthBias(const ObservedHead& base) {
 std::vector<PixelConstraint> PointConstraints(const FitProblem& problem, const CameraPose& pose,
                                               std::span<const glm::vec3> posed) {
   constexpr float kTrustDepth = 0.3F, kMaxDepthGapMm = 15;
-  const std::vector<float> gaps_mm = DepthGapsMm(problem, pose, posed);
+  const std::vector<float> gaps_mm = NetworkDepthErrorsMm(problem, pose, posed);
   std::vector<PixelConstraint> constraints;
   for (std::size_t i = 0; i < gaps_mm.size(); ++i) {
     const PointIndex k = point::kReliable[i];
@@ -129,8 +129,8 @@ FitProblem::FitProblem(const ObservedHead& base_head, const FoundFace& found_fac
       depth_bias(DepthBias(base_head)),
       lips_apart(LipsApart(found_face)) {}
 
-std::vector<float> DepthGapsMm(const FitProblem& problem, const CameraPose& pose,
-                               std::span<const glm::vec3> posed) {
+std::vector<float> NetworkDepthErrorsMm(const FitProblem& problem, const CameraPose& pose,
+                                        std::span<const glm::vec3> posed) {
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<float> gaps;
   float mean = 0;
@@ -143,9 +143,9 @@ std::vector<float> DepthGapsMm(const FitProblem& problem, const CameraPose& pose
   return gaps;
 }
 
-std::vector<PixelConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
-                                           const ShownUnits& shown_units, const PhotoIrises& irises,
-                                           const fsm::Image& photo) {
+std::vector<PixelConstraint> MakeConstraints(const FitProblem& problem, const CameraPose& pose,
+                                             const ShownUnits& shown_units,
+                                             const PhotoIrises& irises, const fsm::Image& photo) {
   const std::vector<glm::vec3> posed = problem.base.Posed(shown_units.State());
   auto constraints = PointConstraints(problem, pose, posed);
   ShiftLidsToIrises(problem, irises, constraints);

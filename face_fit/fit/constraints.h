@@ -37,16 +37,16 @@ struct FitProblem {
 /// Returns for each of point::kReliable how much nearer to the camera the network sees it than the
 /// posed head has it, mean 0, millimetres. `posed`: the base head's vertices in the photo's
 /// expression.
-std::vector<float> DepthGapsMm(const FitProblem& problem, const CameraPose& pose,
-                               std::span<const glm::vec3> posed);
+std::vector<float> NetworkDepthErrorsMm(const FitProblem& problem, const CameraPose& pose,
+                                        std::span<const glm::vec3> posed);
 
 /// Returns the constraints of the warp for a pose and an expression: the network's points, whose
 /// depth is mostly the head's own. Eyes whose irises the photo shows elsewhere are moved up or down
 /// with them. Closed lips meet where the photo shows the lip seam; for the inner lips of
 /// an open mouth there are none, because at rest both are one line, which cannot be moved to two
 /// separate ones.
-std::vector<PixelConstraint> ConstraintsOf(const FitProblem& problem, const CameraPose& pose,
-                                           const ShownUnits& shown_units, const PhotoIrises& irises,
-                                           const fsm::Image& photo);
+std::vector<PixelConstraint> MakeConstraints(const FitProblem& problem, const CameraPose& pose,
+                                             const ShownUnits& shown_units,
+                                             const PhotoIrises& irises, const fsm::Image& photo);
 
 }  // namespace facefit

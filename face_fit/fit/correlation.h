@@ -25,8 +25,8 @@ void RemoveTrend(std::span<float> values, auto at) {
 }
 
 /// Sums of products of two lists of equal length.
-struct Products {
-  Products(std::span<const float> a, std::span<const float> b) {
+struct ProductSums {
+  ProductSums(std::span<const float> a, std::span<const float> b) {
     for (std::size_t i = 0; i < a.size(); ++i) {
       aa += a[i] * a[i];
       bb += b[i] * b[i];

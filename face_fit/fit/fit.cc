@@ -38,7 +38,7 @@ std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& par
   }
   // The network's depth is less reliable than its x and y.
   constexpr double kDepthWeight = 0.4;
-  for (const float gap_mm : DepthGapsMm(problem, pose, posed)) {
+  for (const float gap_mm : NetworkDepthErrorsMm(problem, pose, posed)) {
     out.push_back(kDepthWeight * static_cast<double>(gap_mm));
   }
   // Priors, as the residual in millimetres of a unit at full strength: people mostly hold still for
@@ -84,14 +84,14 @@ float SmileBeyondRest(float smile, bool lips_apart) {
 
 }  // namespace
 
-Fit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image& photo) {
+FaceFit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image& photo) {
   const FitProblem problem(base, face);
   const Parameters settled = FitPoseAndUnits(problem, InitialPose(base, face));
   const CameraPose pose = PoseFromParameters(settled);
   ShownUnits shown_units = ShownUnitsOf(settled);
   shown_units.smile = SmileBeyondRest(shown_units.smile, problem.lips_apart);
   const PhotoIrises irises = FindPhotoIrises(base, face, photo);
-  auto constraints = ConstraintsOf(problem, pose, shown_units, irises, photo);
+  auto constraints = MakeConstraints(problem, pose, shown_units, irises, photo);
   FittedHead head = WarpToPixels(base, pose, shown_units, constraints);
   return {std::move(head), std::move(constraints), irises};
 }
@@ -105,7 +105,8 @@ float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
   return sum / fitted.pose.PixelsPerMm() / static_cast<float>(std::size(point::kReliable));
 }
 
-Fit MovedInDepth(Fit fit, const std::function<float(const PixelConstraint&)>& nearer_mm) {
+FaceFit WithDepthShifted(FaceFit fit,
+                         const std::function<float(const PixelConstraint&)>& nearer_mm) {
   for (PixelConstraint& constraint : fit.constraints) constraint.z_mm += nearer_mm(constraint);
   const FittedHead& head = fit.head;
   fit.head = WarpToPixels(*head.base, head.pose, head.shown_units, fit.constraints);

@@ -38,7 +38,7 @@ std::vector<glm::vec3> PosedSkin(const FittedHead& fitted) {
 
 /// Returns where the photo shows the point of a constraint, head's frame.
 glm::vec3 TargetOf(const CameraPose& pose, const PixelConstraint& constraint) {
-  return pose.PositionAt(constraint.pixel, constraint.z_mm);
+  return pose.PositionOf(constraint.pixel, constraint.z_mm);
 }
 
 /// A point of the warp and the constraint it follows, by their indices.
@@ -127,7 +127,7 @@ FittedHead WarpToPixels(const ObservedHead& base, const CameraPose& pose,
   for (const auto& [warp_point, of] : made.correctable) {
     const PixelConstraint& constraint = constraints[of];
     const glm::vec3 q = pose.ToCamera(constraint.on_head.On(fitted.posed_vertices));
-    const glm::vec3 target = pose.PositionAt(constraint.pixel, q.z);
+    const glm::vec3 target = pose.PositionOf(constraint.pixel, q.z);
     fitted.warp_points[warp_point].by += kCorrectionGain * (target - pose.FromCamera(q));
   }
   fitted.posed_vertices = PosedSkin(fitted);

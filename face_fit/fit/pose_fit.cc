@@ -9,7 +9,7 @@ namespace facefit {
 namespace {
 
 glm::vec2 OffsetMm(const CameraPose& pose, const PointMatch& match) {
-  return (pose.Pixel(match.position) - match.pixel) / pose.PixelsPerMm();
+  return (pose.PixelOf(match.position) - match.pixel) / pose.PixelsPerMm();
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ CameraPose PoseWithRotation(const std::vector<glm::vec3>& positions,
   CameraPose pose{.rotation_rad = rotation_rad};
   LinearLeastSquares equations;
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    const glm::vec2 u = pose.Pixel(positions[i]);
+    const glm::vec2 u = pose.PixelOf(positions[i]);
     equations.Add({static_cast<double>(u.x), 1, 0}, static_cast<double>(pixels[i].x));
     equations.Add({static_cast<double>(u.y), 0, 1}, static_cast<double>(pixels[i].y));
   }

@@ -24,9 +24,10 @@ constexpr int kProfileRounds = 3, kOutlineRounds = 6;
 
 /// Returns how far before a point of the profile the outline lies (negative: behind), millimetres
 /// of depth; nothing beyond kReachMm.
-std::optional<float> DepthGap(const Mask& opacity, const CameraPose& pose, glm::vec3 position) {
+std::optional<float> OutlineDepthGap(const Mask& opacity, const CameraPose& pose,
+                                     glm::vec3 position) {
   const auto inside = [&](float depth) {
-    const glm::vec2 pixel = pose.Pixel(position + glm::vec3(0, 0, depth));
+    const glm::vec2 pixel = pose.PixelOf(position + glm::vec3(0, 0, depth));
     return opacity.SampleAt(pixel.x, pixel.y) - 0.5F;
   };
   if (inside(kReachMm) > 0) return {};
@@ -39,12 +40,12 @@ std::optional<float> DepthGap(const Mask& opacity, const CameraPose& pose, glm::
   return {};
 }
 
-float MeanDepthGap(const Mask& opacity, const CameraPose& pose,
-                   const std::vector<glm::vec3>& line) {
+float MeanOutlineDepthGap(const Mask& opacity, const CameraPose& pose,
+                          const std::vector<glm::vec3>& line) {
   float sum = 0;
   for (const glm::vec3& p : line) {
-    sum +=
-        std::abs(DepthGap(opacity, pose, p).value_or(kReachMm)) / static_cast<float>(line.size());
+    sum += std::abs(OutlineDepthGap(opacity, pose, p).value_or(kReachMm)) /
+           static_cast<float>(line.size());
   }
   return sum;
 }
@@ -56,18 +57,18 @@ CameraPose FitPoseToOutline(const Mask& opacity, CameraPose pose,
     std::vector<glm::vec3> positions;
     std::vector<glm::vec2> pixels;
     for (const glm::vec3& p : line) {
-      const auto depth = DepthGap(opacity, pose, p);
+      const auto depth = OutlineDepthGap(opacity, pose, p);
       if (!depth) continue;
       positions.push_back(p);
-      pixels.push_back(pose.Pixel(p + glm::vec3(0, 0, *depth)));
+      pixels.push_back(pose.PixelOf(p + glm::vec3(0, 0, *depth)));
     }
     if (positions.empty() || positions.size() < line.size() / 2) return pose;
     CameraPose best = pose;
-    float best_gap = MeanDepthGap(opacity, pose, line);
+    float best_gap = MeanOutlineDepthGap(opacity, pose, line);
     for (const float lean_deg : {-2.0F, -1.0F, -0.4F, 0.0F, 0.4F, 1.0F, 2.0F}) {
       const CameraPose next = PoseWithRotation(
           positions, pixels, pose.rotation_rad + glm::vec3(0, 0, glm::radians(lean_deg)));
-      const float gap = MeanDepthGap(opacity, next, line);
+      const float gap = MeanOutlineDepthGap(opacity, next, line);
       if (gap >= best_gap) continue;
       best_gap = gap;
       best = next;
@@ -78,11 +79,12 @@ CameraPose FitPoseToOutline(const Mask& opacity, CameraPose pose,
 }
 
 /// Missing depth as a function of height along the profile, smoothed.
-class DepthGaps {
+class OutlineDepthGaps {
  public:
-  DepthGaps(const Mask& opacity, const CameraPose& pose, const std::vector<glm::vec3>& line) {
+  OutlineDepthGaps(const Mask& opacity, const CameraPose& pose,
+                   const std::vector<glm::vec3>& line) {
     for (const glm::vec3& p : line) {
-      if (const auto gap = DepthGap(opacity, pose, p)) gaps_.emplace_back(p.y, *gap);
+      if (const auto gap = OutlineDepthGap(opacity, pose, p)) gaps_.emplace_back(p.y, *gap);
     }
   }
   float GapAt(float height) const {
@@ -102,9 +104,9 @@ class DepthGaps {
 
 /// Returns the fit with its constraints moved forward or back by the gaps, less with distance from
 /// the middle of the face.
-Fit WithoutGaps(const DepthGaps& gaps, Fit fit) {
+FaceFit WithoutGaps(const OutlineDepthGaps& gaps, FaceFit fit) {
   const std::vector<glm::vec3> posed = fit.head.posed_vertices;
-  return MovedInDepth(std::move(fit), [&](const PixelConstraint& constraint) {
+  return WithDepthShifted(std::move(fit), [&](const PixelConstraint& constraint) {
     const glm::vec3 p = constraint.on_head.On(posed);
     const float weight = std::exp(-p.x * p.x / (kWideMm * kWideMm));
     return weight * std::clamp(gaps.GapAt(p.y), -kMaxCorrectionMm, kMaxCorrectionMm);
@@ -122,17 +124,17 @@ CameraPose PoseOfProfile(const ProfilePlacement& placement, const std::vector<gl
 
 }  // namespace
 
-std::optional<Fit> CorrectDepthByProfile(const Mask& opacity, Fit fit) {
+std::optional<FaceFit> CorrectDepthByProfile(const Mask& opacity, FaceFit fit) {
   const auto placement = FindProfile(fit.head, opacity);
   if (!placement) return std::nullopt;
   std::vector<glm::vec3> line = ProfileOf(fit.head, kProfileBelowChinMm);
   CameraPose pose = FitPoseToOutline(opacity, PoseOfProfile(*placement, line), line);
-  if (MeanDepthGap(opacity, pose, line) > kMaxProfileGapMm) return std::nullopt;
-  fit = WithoutGaps(DepthGaps(opacity, pose, line), std::move(fit));
+  if (MeanOutlineDepthGap(opacity, pose, line) > kMaxProfileGapMm) return std::nullopt;
+  fit = WithoutGaps(OutlineDepthGaps(opacity, pose, line), std::move(fit));
   for (int round = 1; round < kProfileRounds; ++round) {
     line = ProfileOf(fit.head, kProfileBelowChinMm);
     pose = FitPoseToOutline(opacity, pose, line);
-    fit = WithoutGaps(DepthGaps(opacity, pose, line), std::move(fit));
+    fit = WithoutGaps(OutlineDepthGaps(opacity, pose, line), std::move(fit));
   }
   return fit;
 }

@@ -66,7 +66,7 @@ float Concordance(std::vector<float> a, std::vector<float> b) {
   const auto at = [half](std::size_t i) { return glm::vec2(static_cast<float>(i) - half, 0); };
   RemoveTrend(a, at);
   RemoveTrend(b, at);
-  const auto [aa, bb, ab] = Products(a, b);
+  const auto [aa, bb, ab] = ProductSums(a, b);
   return 2 * ab / (aa + bb + 2e-6F);
 }
 
@@ -163,7 +163,7 @@ std::vector<glm::vec3> ProfileOf(const FittedHead& fitted, float below_chin_mm) 
   const float high = fitted.PositionOf(point::kNasion).y + kAboveNasionMm;
   const auto count = static_cast<std::size_t>(std::max(high - low, kLineStepMm) / kLineStepMm) + 1;
   std::vector<std::optional<float>> foremost(count);
-  ForSkinTriangles(fitted.base->head().surface(), [&](const MeshTriangle& triangle) {
+  ForEachSkinTriangle(fitted.base->head().surface(), [&](const MeshTriangle& triangle) {
     for (std::size_t c = 0; c < 3; ++c) {
       const glm::vec3 a = fitted.posed_vertices[triangle.corner[c]],
                       b = fitted.posed_vertices[triangle.corner[(c + 1) % 3]];

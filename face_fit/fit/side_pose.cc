@@ -26,7 +26,7 @@ constexpr float kMaxResidualMm = 2.6F;
 constexpr float kMisplacedMm = 8;
 /// Cosine of the angle to the camera above which the network sees a point; weight of those below
 /// it, which it guesses.
-constexpr float kToldFacing = 0.1F, kGuessedWeight = 0.15F;
+constexpr float kMinSeenFacing = 0.1F, kGuessedWeight = 0.15F;
 /// Turns from which a pose is refined, close enough that one converges to the best.
 constexpr float kStartTurnsDeg[] = {-60, -30, 0, 30, 60};
 
@@ -74,9 +74,9 @@ std::optional<std::vector<ComparedPoint>> MeasuredBias(FaceNetworks& networks,
   for (ComparedPoint& compared : points) {
     const MeshPoint& on_head = fitted.base->mesh_points()[compared.index];
     compared.bias_mm =
-        (faces.front().PixelOf(compared.index) - portrait.Pixel(on_head.On(turned.position))) *
+        (faces.front().PixelOf(compared.index) - portrait.PixelOf(on_head.On(turned.position))) *
         portrait.mm_per_pixel();
-    compared.weight = on_head.On(turned.normal).z > kToldFacing ? 1.0F : kGuessedWeight;
+    compared.weight = on_head.On(turned.normal).z > kMinSeenFacing ? 1.0F : kGuessedWeight;
   }
   return points;
 }
@@ -95,7 +95,7 @@ CameraPose FindPose(const FittedHead& fitted, const FoundFace& face,
   for (const float turn_deg : kStartTurnsDeg) {
     CameraPose start{.rotation_rad = {0, glm::radians(turn_deg), tilt_rad}, .focal_px = focal};
     start.centre_px =
-        face.PixelOf(point::kNoseBridge) - start.Pixel(fitted.PositionOf(point::kNoseBridge));
+        face.PixelOf(point::kNoseBridge) - start.PixelOf(fitted.PositionOf(point::kNoseBridge));
     const auto matches = MatchesOf(points, face, start);
     const CameraPose pose = FitPose(matches, start);
     if (!best || MeanDistanceMm(pose, matches) < MeanDistanceMm(*best, matches)) best = pose;

@@ -12,7 +12,7 @@
 namespace facefit {
 
 SidePhotoFit UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_photo,
-                           std::span<const SidePhoto* const> side_photos, Fit fit) {
+                           std::span<const SidePhoto* const> side_photos, FaceFit fit) {
   SidePhotoFit used{std::move(fit), {}, {}};
   for (const SidePhoto* side_photo : side_photos) {
     FigureCutout figure = FindFigure(networks, side_photo->image);
@@ -25,14 +25,14 @@ SidePhotoFit UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_photo
       continue;
     }
     // In full profile the network finds no face, or misplaces its points.
-    std::optional<Fit> corrected;
+    std::optional<FaceFit> corrected;
     if (pose.error().code == vm::Errc::kUnavailable) {
       corrected = CorrectDepthByProfile(figure.opacity, used.fit);
     }
     if (corrected) {
       used.fit = std::move(*corrected);
     } else {
-      used.left_out.push_back({side_photo->path, pose.error().text});
+      used.rejected.push_back({side_photo->path, pose.error().text});
     }
   }
   // Later photos changed the depth that the poses of earlier ones were found on.

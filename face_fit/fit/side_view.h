@@ -17,22 +17,23 @@ struct SideView {
   FigureCutout figure;
 };
 
-/// A photo from the side that could not be used, and why.
-struct LeftOut {
-  std::string path, why;
+/// A photo from the side that could not be used.
+struct RejectedPhoto {
+  std::string path, reason;
 };
 
+/// A fit corrected by photos from the side, and what became of each of them.
 struct SidePhotoFit {
-  Fit fit;
+  FaceFit fit;
   /// Of turned faces. There is none of a full profile: front and profile show too little common
   /// skin to match their light.
   std::vector<SideView> views;
-  std::vector<LeftOut> left_out;
+  std::vector<RejectedPhoto> rejected;
 };
 /// Corrects the depth of a fit by photos of the person from the side, which outlive the result,
 /// turned or in full profile. `front_photo`: the photo of the fit. Throws std::runtime_error if
 /// rendering is impossible.
 SidePhotoFit UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_photo,
-                           std::span<const SidePhoto* const> side_photos, Fit fit);
+                           std::span<const SidePhoto* const> side_photos, FaceFit fit);
 
 }  // namespace facefit

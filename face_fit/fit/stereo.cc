@@ -29,8 +29,8 @@ constexpr float kMinFacing = 0.25F, kMinFacingSide = 0.2F, kMaxDepthStepInPatchM
 /// A point of the fitted skin as the front photo shows it; `facing` is negative where there is
 /// none.
 struct StereoSample {
-  glm::vec3 camera{0}, rest{0};  // in the camera's frame; on the base head
-  float light = 0;
+  glm::vec3 in_camera{0}, rest{0};  // in the camera's frame; on the base head
+  float brightness = 0;
   float facing = -1, facing_side = -1;  // cosines of the slant to either camera
 };
 using StereoSamples = Raster<StereoSample>;
@@ -38,16 +38,17 @@ using StereoSamples = Raster<StereoSample>;
 /// Returns the fitted skin that the front photo shows.
 VisibleSurface SkinInFront(const FittedHead& fitted) {
   Box2 box;
-  for (const PointIndex i : point::kReliable) box.Add(fitted.pose.Pixel(fitted.PositionOf(i)));
+  for (const PointIndex i : point::kReliable) box.Add(fitted.pose.PixelOf(fitted.PositionOf(i)));
   const float step = kCellMm * fitted.pose.PixelsPerMm();
   const glm::ivec2 points = glm::clamp(glm::ivec2(box.Size() / step), 1, kMaxSamples);
   VisibleSurface surface({box.low, step, points.x, points.y},
                          fitted.pose.ToScreen(fitted.posed_vertices));
-  ForSkinTriangles(fitted.base->head().surface(),
-                   [&](const MeshTriangle& t) { surface.DrawFront(t); });
+  ForEachSkinTriangle(fitted.base->head().surface(),
+                      [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
 }
 
+/// Samples the skin that the front photo shows, and how it faces both cameras.
 StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front_photo,
                          const CameraPose& side_pose) {
   const VisibleSurface surface = SkinInFront(fitted);
@@ -59,9 +60,9 @@ StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front_photo
     if (!triangle) return {};
     const MeshPoint on_mesh = surface.MeshPointAt(x, y);
     const glm::vec3 normal = glm::normalize(triangle->Normal(posed));
-    return {.camera = fitted.pose.ToCamera(on_mesh.On(posed)),
+    return {.in_camera = fitted.pose.ToCamera(on_mesh.On(posed)),
             .rest = on_mesh.On(fitted.base->rest().position),
-            .light = Brightness(ColourAt(front_photo, grid.Point(x, y))),
+            .brightness = Brightness(ColourAt(front_photo, grid.Point(x, y))),
             .facing = glm::dot(normal, to_front),
             .facing_side = glm::dot(normal, to_side)};
   });
@@ -76,15 +77,15 @@ void RemovePlane(std::vector<float>& patch) {
 /// Returns the correlation of two flattened patches, -1..1; 0 where one has too little contrast.
 float Correlation(std::span<const float> a, std::span<const float> b) {
   constexpr float kMin = 1.5F;  // of 255, root of the mean square
-  const auto [aa, bb, ab] = Products(a, b);
+  const auto [aa, bb, ab] = ProductSums(a, b);
   const float least = kMin * kMin * static_cast<float>(a.size());
   return aa < least || bb < least ? 0 : ab / std::sqrt(aa * bb);
 }
 
 struct Patch {
   std::size_t middle;
-  std::vector<float> light;
-  std::vector<glm::vec3> camera;
+  std::vector<float> brightness;
+  std::vector<glm::vec3> in_camera;
 };
 
 std::vector<Patch> PatchesOf(const StereoSamples& samples) {
@@ -97,15 +98,15 @@ std::vector<Patch> PatchesOf(const StereoSamples& samples) {
         for (int dx = -kPatch; dx <= kPatch && whole; ++dx) {
           const std::size_t i = samples.Index(x + dx, y + dy);
           const StereoSample& sample = samples[i];
-          whole =
-              sample.facing > kMinFacing && sample.facing_side > kMinFacingSide &&
-              std::abs(sample.camera.z - samples[patch.middle].camera.z) < kMaxDepthStepInPatchMm;
-          patch.light.push_back(sample.light);
-          patch.camera.push_back(sample.camera);
+          whole = sample.facing > kMinFacing && sample.facing_side > kMinFacingSide &&
+                  std::abs(sample.in_camera.z - samples[patch.middle].in_camera.z) <
+                      kMaxDepthStepInPatchMm;
+          patch.brightness.push_back(sample.brightness);
+          patch.in_camera.push_back(sample.in_camera);
         }
       }
       if (!whole) continue;
-      RemovePlane(patch.light);
+      RemovePlane(patch.brightness);
       patches.push_back(std::move(patch));
     }
   }
@@ -136,17 +137,17 @@ class PatchMatcher {
   /// `pixel(i)`: the pixel for the i-th sample of the patch.
   template <typename Pixel>
   float Match(const Patch& patch, Pixel pixel) {
-    light_.clear();
-    for (std::size_t i = 0; i < patch.camera.size(); ++i) {
-      light_.push_back(Brightness(ColourAt(image_, pixel(i))));
+    brightness_.clear();
+    for (std::size_t i = 0; i < patch.in_camera.size(); ++i) {
+      brightness_.push_back(Brightness(ColourAt(image_, pixel(i))));
     }
-    RemovePlane(light_);
-    return Correlation(patch.light, light_);
+    RemovePlane(brightness_);
+    return Correlation(patch.brightness, brightness_);
   }
 
  private:
   const fsm::Image& image_;
-  std::vector<float> light_;  // of one patch; kept to save allocations
+  std::vector<float> brightness_;  // of one patch; kept to save allocations
 };
 
 // Reach of the first search, in the image around where the fit has the patch, steps of 1 mm.
@@ -164,12 +165,12 @@ std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPo
   std::vector<glm::vec2> pixels;
   const float pixels_per_mm = side_pose.PixelsPerMm();
   const auto pixel_of = [&](const glm::vec3& q) {
-    return side_pose.Pixel(front_pose.FromCamera(q));
+    return side_pose.PixelOf(front_pose.FromCamera(q));
   };
   for (const Patch& patch : PatchesOf(samples)) {
     // Projected once: the projection costs more than reading a pixel.
     pixels.clear();
-    for (const glm::vec3& q : patch.camera) pixels.push_back(pixel_of(q));
+    for (const glm::vec3& q : patch.in_camera) pixels.push_back(pixel_of(q));
     float best = kMinCorrelation;
     glm::vec2 best_shift_px(0);
     for (int y = -kReachDownMm; y <= kReachDownMm; ++y) {
@@ -183,7 +184,7 @@ std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPo
       }
     }
     if (best <= kMinCorrelation) continue;
-    const glm::vec3 q = samples[patch.middle].camera;
+    const glm::vec3 q = samples[patch.middle].in_camera;
     matches.push_back({front_pose.FromCamera(q), pixel_of(q) + best_shift_px, 1});
   }
   return matches;
@@ -197,8 +198,8 @@ std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const Camer
     const Peak peak = FindPeak(kDepthSteps, [&](int step) {
       const float nearer_mm = kDepthStepMm * static_cast<float>(step);
       const float correlation = matcher.Match(patch, [&](std::size_t i) {
-        const glm::vec3& q = patch.camera[i];
-        return side_pose.Pixel(
+        const glm::vec3& q = patch.in_camera[i];
+        return side_pose.PixelOf(
             front_pose.FromCamera(front_pose.Unproject(front_pose.Project(q), q.z + nearer_mm)));
       });
       return correlation - kCorrelationPerMm2 * nearer_mm * nearer_mm;
@@ -223,7 +224,7 @@ std::optional<CameraPose> RefineSidePose(const FittedHead& fitted, const fsm::Im
   return side_pose;
 }
 
-std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front_photo,
+std::vector<fsm::WarpPoint> MeasureDepth(const FittedHead& fitted, const fsm::Image& front_photo,
                                          const fsm::Image& side_photo,
                                          const CameraPose& side_pose) {
   PatchMatcher matcher(side_photo);

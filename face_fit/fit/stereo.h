@@ -18,7 +18,7 @@ std::optional<CameraPose> RefineSidePose(const FittedHead& fitted, const fsm::Im
 /// RefineSidePose. Returns positions on the base head at rest, and by how many millimetres each
 /// lies nearer to the front photo's camera than in the fit; empty if fewer than 25 patches are
 /// found.
-std::vector<fsm::WarpPoint> CompareDepth(const FittedHead& fitted, const fsm::Image& front_photo,
+std::vector<fsm::WarpPoint> MeasureDepth(const FittedHead& fitted, const fsm::Image& front_photo,
                                          const fsm::Image& side_photo, const CameraPose& side_pose);
 
 }  // namespace facefit

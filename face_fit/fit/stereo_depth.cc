@@ -10,7 +10,7 @@ namespace facefit {
 namespace {
 
 constexpr int kStereoRounds = 2;
-// Distance from the face's middle within which the nose hides no cheek.
+// Half the width of the strip in the middle of the face that both photos see.
 constexpr float kMiddleMm = 12;
 constexpr float kMaxDepthStepMm = 10;  // in one round
 // Outliers: depths that differ by more than kMistakenMm from a warp of all depths, smoothed by
@@ -34,12 +34,12 @@ std::vector<fsm::WarpPoint> OnBothCheeks(std::vector<fsm::WarpPoint> depths, glm
 }  // namespace
 
 StereoFit CorrectDepthByStereo(const fsm::Image& front_photo, const fsm::Image& side_photo,
-                               CameraPose side_pose, Fit fit) {
+                               CameraPose side_pose, FaceFit fit) {
   for (int round = 0; round < kStereoRounds; ++round) {
     const auto refined = RefineSidePose(fit.head, front_photo, side_photo, side_pose);
     if (!refined) break;
     side_pose = *refined;
-    auto depths = OnBothCheeks(CompareDepth(fit.head, front_photo, side_photo, side_pose),
+    auto depths = OnBothCheeks(MeasureDepth(fit.head, front_photo, side_photo, side_pose),
                                side_pose.TowardsCamera());
     if (depths.empty()) break;
     const fsm::Warp rough(depths, kRoughSmoothMm);
@@ -49,7 +49,7 @@ StereoFit CorrectDepthByStereo(const fsm::Image& front_photo, const fsm::Image& 
     if (depths.size() < kMinDepths) break;
     const fsm::Warp depth(depths, kDepthSmoothMm);
     const std::vector<glm::vec3>& rest = fit.head.base->rest().position;
-    fit = MovedInDepth(std::move(fit), [&](const PixelConstraint& constraint) {
+    fit = WithDepthShifted(std::move(fit), [&](const PixelConstraint& constraint) {
       return std::clamp(depth.Motion(constraint.on_head.On(rest)).z, -kMaxDepthStepMm,
                         kMaxDepthStepMm);
     });

@@ -116,7 +116,7 @@ void KeepConnected(glm::ivec2 to, Mask& image) {
   cv::Mat present = View(image) >= kMin;  // 255 where it is
   constexpr int kKept = 128;
   cv::floodFill(present, {seed.x, seed.y}, cv::Scalar(kKept), nullptr, {}, {}, 8);
-  ForPixels(image.width, image.height, [&](int x, int y, std::size_t i) {
+  ForEachPixel(image.width, image.height, [&](int x, int y, std::size_t i) {
     if (present.at<std::uint8_t>(y, x) != kKept) image[i] = 0;
   });
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kSurelyKnown = 0.95F;
 
-glm::ivec2 PixelOf(const Mask& image, std::size_t i) {
+glm::ivec2 PixelAtIndex(const Mask& image, std::size_t i) {
   const auto width = static_cast<std::size_t>(image.width);
   return {static_cast<int>(i % width), static_cast<int>(i / width)};
 }
@@ -31,7 +31,7 @@ void AddGrain(const Mask& known, const Mask& amount, int reach, fsm::Image& imag
   std::vector<Transfer> transfers;
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (known[i] >= kSurelyKnown || amount[i] <= 0) continue;
-    const glm::ivec2 pixel = PixelOf(known, i), edge = PixelOf(known, nearest[i]);
+    const glm::ivec2 pixel = PixelAtIndex(known, i), edge = PixelAtIndex(known, nearest[i]);
     const glm::ivec2 beyond = 2 * edge - pixel;
     if (beyond.x < 0 || beyond.y < 0 || beyond.x >= known.width || beyond.y >= known.height) {
       continue;

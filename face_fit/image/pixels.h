@@ -46,7 +46,7 @@ inline VectorImage Colours(const fsm::Image& image) {
 }
 
 /// Returns a length in pixels, rounded, but not less than `least`.
-inline int PixelsOf(float mm, float pixels_per_mm, int least = 1) {
+inline int MmToPixels(float mm, float pixels_per_mm, int least = 1) {
   return std::max(static_cast<int>(std::lround(mm * pixels_per_mm)), least);
 }
 

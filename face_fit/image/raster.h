@@ -21,7 +21,7 @@ struct FourPixels {
 };
 
 /// Calls `f(x, y, i)` for each pixel of an image, row by row; `i`: its index.
-void ForPixels(int width, int height, auto f) {
+void ForEachPixel(int width, int height, auto f) {
   std::size_t i = 0;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) f(x, y, i++);
@@ -41,7 +41,7 @@ struct Raster {
   /// Returns a raster of `value(x, y)`, evaluated row by row.
   static Raster From(int w, int h, auto value) {
     Raster out(w, h);
-    ForPixels(w, h, [&](int x, int y, std::size_t i) { out[i] = value(x, y); });
+    ForEachPixel(w, h, [&](int x, int y, std::size_t i) { out[i] = value(x, y); });
     return out;
   }
   std::size_t Index(int x, int y) const {

@@ -23,7 +23,7 @@ struct MeshTriangle {
 
 /// Calls `f` with each triangle whose material is kept.
 template <typename Keep, typename F>
-void ForTriangles(const fsm::HeadSurface& topology, Keep keep_material, F f) {
+void ForEachTriangle(const fsm::HeadSurface& topology, Keep keep_material, F f) {
   for (const auto& part : topology.parts) {
     if (!keep_material(part.material)) continue;
     const auto corners = topology.Corners(part);
@@ -35,8 +35,8 @@ void ForTriangles(const fsm::HeadSurface& topology, Keep keep_material, F f) {
 
 /// Calls `f` with each triangle of skin and lips.
 template <typename F>
-void ForSkinTriangles(const fsm::HeadSurface& topology, F f) {
-  ForTriangles(
+void ForEachSkinTriangle(const fsm::HeadSurface& topology, F f) {
+  ForEachTriangle(
       topology,
       [](fsm::Material m) { return m == fsm::Material::kSkin || m == fsm::Material::kLip; }, f);
 }

@@ -59,7 +59,7 @@ VisibleSurface VisibleFromFront(const fsm::HeadSurface& topology,
   VisibleSurface surface({low + 0.5F * kFrontStepMm, kFrontStepMm, points.x, points.y}, position,
                          VisibleSurface::Upward::kYes);
   const auto opaque = [](fsm::Material m) { return !IsHair(m) && m != fsm::Material::kShutLash; };
-  ForTriangles(topology, opaque, [&](const MeshTriangle& t) { surface.DrawFront(t); });
+  ForEachTriangle(topology, opaque, [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
 }
 

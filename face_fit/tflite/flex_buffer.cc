@@ -85,7 +85,7 @@ FlexMap::Value FlexMap::Find(std::string_view key) const {
   throw BadModel("an operator's options lack '" + std::string(key) + "'");
 }
 
-std::int64_t FlexMap::Whole(std::string_view key) const {
+std::int64_t FlexMap::Integer(std::string_view key) const {
   const Value value = Find(key);
   if (Kind(value.type) == kInt) return ReadSigned(bytes_, value.at, value.width);
   if (Kind(value.type) == kUint) {
@@ -96,7 +96,7 @@ std::int64_t FlexMap::Whole(std::string_view key) const {
 
 double FlexMap::Number(std::string_view key) const {
   const Value value = Find(key);
-  if (Kind(value.type) != kFloat) return static_cast<double>(Whole(key));
+  if (Kind(value.type) != kFloat) return static_cast<double>(Integer(key));
   double number = NAN;
   if (value.width == 4) number = static_cast<double>(Read<float>(bytes_, value.at));
   if (value.width == 8) number = Read<double>(bytes_, value.at);
@@ -104,7 +104,7 @@ double FlexMap::Number(std::string_view key) const {
   return number;
 }
 
-std::vector<std::int64_t> FlexMap::Wholes(std::string_view key) const {
+std::vector<std::int64_t> FlexMap::Integers(std::string_view key) const {
   const Value value = Find(key);
   const unsigned kind = Kind(value.type);
   if (kind != kVectorInt && kind != kVectorUint) {

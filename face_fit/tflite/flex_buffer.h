@@ -17,9 +17,9 @@ class FlexMap {
   static FlexMap Root(Bytes bytes);
 
   /// Throws BadModel if the map has no such key, or a value of another kind. Numbers are finite.
-  std::int64_t Whole(std::string_view key) const;
+  std::int64_t Integer(std::string_view key) const;
   double Number(std::string_view key) const;
-  std::vector<std::int64_t> Wholes(std::string_view key) const;
+  std::vector<std::int64_t> Integers(std::string_view key) const;
 
  private:
   struct Value {

@@ -13,7 +13,7 @@ std::size_t At(const Shape& s, int row, int column) {
          static_cast<std::size_t>(s.channels());
 }
 
-using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using RowMajorMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Returns the third input of a convolution; nullptr if it is left out.
 const float* BiasOf(Inputs inputs) {
@@ -89,16 +89,19 @@ void Run(const op::Convolution& convolution, Inputs inputs, Tensor& out) {
   constexpr Eigen::Index kMaxNumbers = 1 << 20;
   const Eigen::Index outs = out.shape.channels(), channels = in.shape.channels();
   const auto pixels = static_cast<Eigen::Index>(out.values.size()) / outs;
-  const auto weights = static_cast<Eigen::Index>(filter.values.size()) / outs;
-  const Eigen::Map<const Rows> by(filter.values.data(), outs, weights);
-  Eigen::Map<Rows> to(out.values.data(), pixels, outs);
+  const auto weights_per_output = static_cast<Eigen::Index>(filter.values.size()) / outs;
+  const Eigen::Map<const RowMajorMatrix> weights(filter.values.data(), outs, weights_per_output);
+  Eigen::Map<RowMajorMatrix> to(out.values.data(), pixels, outs);
   FillWithBias(inputs, out);
-  if (weights == channels && window.stride_rows == 1 && window.stride_columns == 1) {
-    to.noalias() += Eigen::Map<const Rows>(in.values.data(), pixels, channels) * by.transpose();
+  if (weights_per_output == channels && window.stride_rows == 1 && window.stride_columns == 1) {
+    to.noalias() +=
+        Eigen::Map<const RowMajorMatrix>(in.values.data(), pixels, channels) * weights.transpose();
     return;
   }
-  const Eigen::Index together = std::clamp<Eigen::Index>(kMaxNumbers / weights, 1, pixels);
-  Rows patches(together, weights);  // for each pixel the inputs under the filter
+  const Eigen::Index together =
+      std::clamp<Eigen::Index>(kMaxNumbers / weights_per_output, 1, pixels);
+  RowMajorMatrix patches(together,
+                         weights_per_output);  // for each pixel the inputs under the filter
   for (Eigen::Index first = 0; first < pixels; first += together) {
     const Eigen::Index count = std::min(together, pixels - first);
     patches.setZero();
@@ -107,7 +110,7 @@ void Run(const op::Convolution& convolution, Inputs inputs, Tensor& out) {
                  const Eigen::Index tap = row * filter.shape.columns() + column;
                  std::copy_n(&in.values[from], channels, &patches(pixel - first, tap * channels));
                });
-    to.middleRows(first, count).noalias() += patches.topRows(count) * by.transpose();
+    to.middleRows(first, count).noalias() += patches.topRows(count) * weights.transpose();
   }
 }
 

@@ -46,13 +46,13 @@ void Run(const op::TransformTensor& transform, Inputs inputs, Tensor& out);
 /// a matrix.
 void Run(const op::TransformLandmarks& transform, Inputs inputs, Tensor& out);
 
-template <std::derived_from<op::OfEach> Each>
+template <std::derived_from<op::UnaryOperator> Each>
 void Run(const Each&, Inputs inputs, Tensor& out) {
   std::ranges::transform(inputs[0]->values, out.values.begin(),
                          [](float x) { return Each::Apply(x); });
 }
 
-template <std::derived_from<op::OfPair> Pair>
+template <std::derived_from<op::BinaryOperator> Pair>
 void Run(const Pair&, Inputs inputs, Tensor& out) {
   const std::vector<float>&a = inputs[0]->values, &b = inputs[1]->values;
   for (std::size_t i = 0; i < a.size(); i += b.size()) {

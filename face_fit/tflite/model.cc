@@ -206,11 +206,13 @@ Operator ReadLandmarksToMatrix(const Options& options) {
   const FlexMap map = FlexMap::Root(options.custom());
   const auto most = static_cast<std::int64_t>(Model::kMaxTensor);
   const auto point = [&](std::int64_t n) { return static_cast<std::size_t>(within(n, most)); };
-  const auto size = [&](const char* key) { return static_cast<int>(within(map.Whole(key), 4096)); };
+  const auto size = [&](const char* key) {
+    return static_cast<int>(within(map.Integer(key), 4096));
+  };
   op::LandmarksToMatrix read;
-  for (const std::int64_t n : map.Wholes("subset_idxs")) read.points.push_back(point(n));
-  read.left = point(map.Whole("left_rotation_idx"));
-  read.right = point(map.Whole("right_rotation_idx"));
+  for (const std::int64_t n : map.Integers("subset_idxs")) read.points.push_back(point(n));
+  read.left = point(map.Integer("left_rotation_idx"));
+  read.right = point(map.Integer("right_rotation_idx"));
   read.angle_rad = static_cast<float>(map.Number("target_rotation_radians"));
   read.scale_x = static_cast<float>(map.Number("scale_x"));
   read.scale_y = static_cast<float>(map.Number("scale_y"));

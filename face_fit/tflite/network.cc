@@ -98,11 +98,11 @@ class NodeChecker {
             "a convolution's output has another size");
   }
 
-  void CheckOf(const op::OfEach&) const {
+  void CheckOf(const op::UnaryOperator&) const {
     Require(in_.shape.count() == out_.count(), "an operator changes the size");
   }
 
-  void CheckOf(const op::OfPair&) const {
+  void CheckOf(const op::BinaryOperator&) const {
     const std::size_t n = ShapeOfFloats(1).count();
     const bool fits = ShapeOfFloats(1) == in_.shape || n == 1 ||
                       n == static_cast<std::size_t>(in_.shape.channels());

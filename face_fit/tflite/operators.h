@@ -18,33 +18,33 @@ struct Window {
 };
 
 /// An elementwise operator of one input, computed by `Apply`.
-struct OfEach {};
-struct Dequantize : OfEach {  ///< weights are read as what they stand for
+struct UnaryOperator {};
+struct Dequantize : UnaryOperator {  ///< weights are read as what they stand for
   static float Apply(float x) { return x; }
 };
-struct Reshape : OfEach {
+struct Reshape : UnaryOperator {
   static float Apply(float x) { return x; }
 };
-struct HardSwish : OfEach {
+struct HardSwish : UnaryOperator {
   static float Apply(float x) { return x * std::clamp(x + 3, 0.0F, 6.0F) / 6; }
 };
-struct Logistic : OfEach {
+struct Logistic : UnaryOperator {
   static float Apply(float x) { return 1 / (1 + std::exp(-x)); }
 };
-struct Relu : OfEach {
+struct Relu : UnaryOperator {
   static float Apply(float x) { return std::max(x, 0.0F); }
 };
 
 /// An elementwise operator of two inputs, computed by `Apply`. The second input has the shape of
 /// the first, or is one number for each channel, or one.
-struct OfPair {};
-struct Add : OfPair {
+struct BinaryOperator {};
+struct Add : BinaryOperator {
   static float Apply(float a, float b) { return a + b; }
 };
-struct Multiply : OfPair {
+struct Multiply : BinaryOperator {
   static float Apply(float a, float b) { return a * b; }
 };
-struct Prelu : OfPair {
+struct Prelu : BinaryOperator {
   static float Apply(float a, float b) { return a >= 0 ? a : a * b; }
 };
 

@@ -61,7 +61,7 @@ std::vector<glm::vec3> PointsInMm(const FoundFace& face) {
 FaceMeasures Measure(const AttentiveFace& found, std::span<const glm::vec3> first) {
   std::vector<glm::vec3> points = PointsInMm(found.face);
   std::vector<fsm::PointPair> pairs;
-  for (const PointIndex i : point::kStill) pairs.push_back({.from = first[i], .to = points[i]});
+  for (const PointIndex i : point::kRigid) pairs.push_back({.from = first[i], .to = points[i]});
   const fsm::Similarity back = fsm::FitSimilarity(pairs);
   for (glm::vec3& p : points) p = back(p);
 

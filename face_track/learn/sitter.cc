@@ -31,7 +31,7 @@ Sitter::Sitter(std::unique_ptr<fsm::Head> head, facefit::FaceNetworks& networks,
                facefit::Network& attention, HeadPainter& painter)
     : attention_(attention),
       painter_(painter),
-      base_(vm::OrThrow(ObservedHead::OfOurMesh(networks, std::move(head), "head"))) {
+      base_(vm::OrThrow(ObservedHead::FromBaseMesh(networks, std::move(head), "head"))) {
   scale_ = 1;
   for (int round = 0; round < 3; ++round) {
     const Sight sight = Look({});
@@ -50,7 +50,7 @@ Sitter::Sight Sitter::Look(const fsm::FaceState& state) {
   base_.head().Evaluate(state, sight.vertices);
   std::vector<fsm::PointPair> pairs;
   if (state.head_rotation != fsm::Angles{}) {
-    for (const facefit::PointIndex i : facefit::point::kStill) {
+    for (const facefit::PointIndex i : facefit::point::kRigid) {
       pairs.push_back({base_.mesh_points()[i].On(sight.vertices.position), base_.AtRest(i)});
     }
   }

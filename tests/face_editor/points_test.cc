@@ -28,7 +28,7 @@ glm::vec2 Moved(const PointMap& from, const PointMap& to, int i) {
 
 TEST(FacePointsTest, APlainFaceHasAllNamedPointsRightOnTheLeft) {
   const PointMap face = Face();
-  EXPECT_EQ(face.size(), facefit::HandPointList().size());
+  EXPECT_EQ(face.size(), facefit::NamedPoints().size());
   EXPECT_LT(face.at(kRightEye).x, face.at(kLeftEye).x);
   EXPECT_FLOAT_EQ(face.at(kChin).x, 200);
   EXPECT_GT(face.at(kChin).y, face.at(kRightEye).y);

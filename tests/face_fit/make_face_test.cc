@@ -117,9 +117,9 @@ TEST_F(MakeFaceTest, APhotoThatDoesNotHelpIsLeftOutWithItsReasonAndTheRestIsMade
   const std::vector<const SidePhoto*> sides{&again};
   const auto made = vm::OrThrow(
       MakeFace(Galatea(), front, *front.face, SidePhotoSet{*networks_, sides}, true, tell));
-  ASSERT_EQ(made.left_out.size(), 1U);
-  EXPECT_EQ(made.left_out[0].path, "again.png");
-  EXPECT_NE(made.left_out[0].why.find("from the front"), std::string::npos);
+  ASSERT_EQ(made.rejected.size(), 1U);
+  EXPECT_EQ(made.rejected[0].path, "again.png");
+  EXPECT_NE(made.rejected[0].reason.find("from the front"), std::string::npos);
   EXPECT_TRUE(made.baked.head.glasses) << "as it was told, though none are there";
   EXPECT_NE(made.report.find("glasses     yes"), std::string::npos) << made.report;
   EXPECT_NE(made.report.find("faces       1\n"), std::string::npos);

@@ -35,7 +35,7 @@ struct ReportTest : testing::Test {
                                                 std::vector<MeshPoint>(kNetworkPoints));
   FrontPhoto front{.photo = {.width = 200, .height = 200, .rgba = {}}, .face_count = 1};
   FrontFace face;
-  Fit fit;
+  FaceFit fit;
   BakedHead baked;
 };
 

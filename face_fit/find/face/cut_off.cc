@@ -16,7 +16,7 @@ constexpr float kEarMm = 10;
 
 }  // namespace
 
-CutOff CutOffParts(const FoundFace& face, const fsm::Image& photo) {
+CutOffParts FindCutOffParts(const FoundFace& face, const fsm::Image& photo) {
   const glm::vec2 ear = kEarMm / kEyesApartMm * face.AcrossEyes();
   const auto cut = [&](glm::vec2 pixel) { return !IsInside(photo, pixel); };
   return {.forehead = cut(face.PixelOf(point::kForehead)),
@@ -25,7 +25,7 @@ CutOff CutOffParts(const FoundFace& face, const fsm::Image& photo) {
                    cut(face.PixelOf(point::kCheekLeft) + ear)}};
 }
 
-std::string NamesOf(const CutOff& cut) {
+std::string NamesOf(const CutOffParts& cut) {
   return JoinedNames({{cut.forehead, "the forehead"},
                       {cut.ears.right, "the right ear"},
                       {cut.ears.left, "the left ear"},

@@ -10,13 +10,14 @@ namespace facefit {
 
 /// Which parts of a head lie beyond the edges of its photo. The network guesses their points, and
 /// is as certain of these as of those it sees.
-struct CutOff {
+struct CutOffParts {
   bool forehead = false, chin = false;
   fsm::Sided<bool> ears;
 };
-CutOff CutOffParts(const FoundFace& face, const fsm::Image& photo);
+/// Returns the parts whose points lie outside the photo.
+CutOffParts FindCutOffParts(const FoundFace& face, const fsm::Image& photo);
 /// Returns the names of the parts that are cut off, separated by commas; "" if there are none.
-std::string NamesOf(const CutOff& cut);
+std::string NamesOf(const CutOffParts& cut);
 
 /// Checks that the photo shows both eyes, the nose and the mouth, without which no face can be
 /// made. Error: kBadValue, which of them the photo cuts off, or CoincidingCorners

@@ -15,30 +15,30 @@
 namespace facefit {
 namespace {
 
-constexpr HandPointName kNames[] = {{"right_eye_outer", point::kEyeOuterRight, true},
-                                    {"left_eye_outer", point::kEyeOuterLeft, true},
-                                    {"nose_tip", point::kNoseTip, true},
-                                    {"mouth_right", point::kMouthRight, true},
-                                    {"mouth_left", point::kMouthLeft, true},
-                                    {"chin", point::kChin, true},
-                                    {"right_eye_inner", point::kEyeInnerRight, false},
-                                    {"left_eye_inner", point::kEyeInnerLeft, false},
-                                    {"right_eye_top", point::kEyeTopRight, false},
-                                    {"left_eye_top", point::kEyeTopLeft, false},
-                                    {"right_eye_bottom", point::kEyeBottomRight, false},
-                                    {"left_eye_bottom", point::kEyeBottomLeft, false},
-                                    {"right_brow", point::kBrowRight, false},
-                                    {"left_brow", point::kBrowLeft, false},
-                                    {"nose_bottom", point::kNoseBottom, false},
-                                    {"nose_right", point::kNoseRight, false},
-                                    {"nose_left", point::kNoseLeft, false},
-                                    {"lip_top", point::kLipTop, false},
-                                    {"lip_bottom", point::kLipBottom, false},
-                                    {"jaw_right", point::kJawRight, false},
-                                    {"jaw_left", point::kJawLeft, false},
-                                    {"cheek_right", point::kCheekRight, false},
-                                    {"cheek_left", point::kCheekLeft, false},
-                                    {"forehead", point::kForehead, false}};
+constexpr NamedPoint kNames[] = {{"right_eye_outer", point::kEyeOuterRight, true},
+                                 {"left_eye_outer", point::kEyeOuterLeft, true},
+                                 {"nose_tip", point::kNoseTip, true},
+                                 {"mouth_right", point::kMouthRight, true},
+                                 {"mouth_left", point::kMouthLeft, true},
+                                 {"chin", point::kChin, true},
+                                 {"right_eye_inner", point::kEyeInnerRight, false},
+                                 {"left_eye_inner", point::kEyeInnerLeft, false},
+                                 {"right_eye_top", point::kEyeTopRight, false},
+                                 {"left_eye_top", point::kEyeTopLeft, false},
+                                 {"right_eye_bottom", point::kEyeBottomRight, false},
+                                 {"left_eye_bottom", point::kEyeBottomLeft, false},
+                                 {"right_brow", point::kBrowRight, false},
+                                 {"left_brow", point::kBrowLeft, false},
+                                 {"nose_bottom", point::kNoseBottom, false},
+                                 {"nose_right", point::kNoseRight, false},
+                                 {"nose_left", point::kNoseLeft, false},
+                                 {"lip_top", point::kLipTop, false},
+                                 {"lip_bottom", point::kLipBottom, false},
+                                 {"jaw_right", point::kJawRight, false},
+                                 {"jaw_left", point::kJawLeft, false},
+                                 {"cheek_right", point::kCheekRight, false},
+                                 {"cheek_left", point::kCheekLeft, false},
+                                 {"forehead", point::kForehead, false}};
 
 /// Maps the front of the base head (millimetres, y up) to pixels by a similarity found by least
 /// squares (Umeyama 1991).
@@ -69,11 +69,11 @@ class ToPhoto {
 
 PointIndex PointAt(const fsm::TableRow& row) {
   const std::string& key = row.key();
-  const auto named = std::ranges::find(kNames, key, &HandPointName::name);
+  const auto named = std::ranges::find(kNames, key, &NamedPoint::name);
   if (named != std::end(kNames)) return named->point;
   const auto number = fsm::ParseNumber<unsigned>(key);
   if (!number || *number >= kNetworkPoints) {
-    row.Refuse("'" + key.substr(0, 30) + "' is no point; 0 to 467 or one of " + HandPointNames() +
+    row.Refuse("'" + key.substr(0, 30) + "' is no point; 0 to 467 or one of " + PointNamesText() +
                " expected");
   }
   return *number;
@@ -85,11 +85,11 @@ std::optional<std::string> WhyNoFace(const HandPoints& points) {
 
 }  // namespace
 
-std::span<const HandPointName> HandPointList() { return kNames; }
+std::span<const NamedPoint> NamedPoints() { return kNames; }
 
-std::string HandPointNames() {
+std::string PointNamesText() {
   std::string names;
-  for (const HandPointName& named : kNames)
+  for (const NamedPoint& named : kNames)
     names += (names.empty() ? "" : " ") + std::string(named.name);
   return names;
 }
@@ -106,7 +106,7 @@ vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view
         row.Refuse("'" + row.key() + "' is set a second time");
       }
     }
-    for (const HandPointName& named : kNames) {
+    for (const NamedPoint& named : kNames) {
       if (named.needed && !points.contains(named.point)) {
         table.Refuse(std::string(named.name) + " is missing");
       }

@@ -15,7 +15,7 @@ namespace facefit {
 /// to at most kWorkingSize.
 using HandPoints = std::map<PointIndex, glm::vec2>;
 
-/// Parses lines `NAME X Y`, where NAME is one of HandPointNames() or a number of MediaPipe's face
+/// Parses lines `NAME X Y`, where NAME is one of PointNamesText() or a number of MediaPipe's face
 /// mesh; `#` begins a comment. Required are both outer eye corners, nose_tip, both mouth corners
 /// and chin. Errors: kBadValue "NAME:LINE: what was expected", also for a point that is set twice;
 /// without a line number for a missing point, and for corners of the eyes or of the mouth that
@@ -24,14 +24,14 @@ vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view
 /// Checks that a point lies in a photo of that size. Error: kBadValue, none does.
 vm::Result<void> CheckWithin(const HandPoints& points, int width, int height);
 /// A point with a name; `needed`: ParseHandPoints requires it.
-struct HandPointName {
+struct NamedPoint {
   std::string_view name;
   PointIndex point;
   bool needed;
 };
-std::span<const HandPointName> HandPointList();
+std::span<const NamedPoint> NamedPoints();
 /// Returns all names, separated by blanks.
-std::string HandPointNames();
+std::string PointNamesText();
 
 /// Returns the points of a wireframe of the original that was fitted to a photo of that size.
 /// Error: kBadValue if the wireframe is not one of the original's standard head, or if its points

@@ -52,7 +52,7 @@ class IrisSearch {
         const glm::vec2 pixel = lids_.PointAt(along, glm::mix(upper, lower, share));
         samples_.push_back(
             {pixel, Brightness(ColourAt(photo, pixel)) / 255, std::abs(lower - upper)});
-        all.push_back(samples_.back().light);
+        all.push_back(samples_.back().brightness);
       }
     }
     // Clamp reflections to the brightness of the white.
@@ -60,7 +60,7 @@ class IrisSearch {
         all.begin() + static_cast<std::ptrdiff_t>(all.size() * kDarkerPercent / 100);
     std::ranges::nth_element(all, bright);
     brightest_ = *bright;
-    for (Sample& s : samples_) s.light = std::min(s.light, brightest_);
+    for (Sample& s : samples_) s.brightness = std::min(s.brightness, brightest_);
   }
 
   /// Returns the best circle of this size, and its score.
@@ -87,7 +87,7 @@ class IrisSearch {
  private:
   struct Sample {
     glm::vec2 pixel;
-    float light, weight;
+    float brightness, weight;
   };
 
   /// Returns the step of brightness at the circle's sides. The smaller one counts most, so that the
@@ -103,8 +103,8 @@ class IrisSearch {
         const auto [upper, lower] = lids_.LidsAt(lids_.Along(rim));
         const float y = lids_.Down(rim);
         if (y < glm::mix(upper, lower, kShadow) || y > lower) continue;
-        step[side] += Light(centre + kOutside * radius * direction) -
-                      Light(centre + kWithin * radius * direction);
+        step[side] += BrightnessAt(centre + kOutside * radius * direction) -
+                      BrightnessAt(centre + kWithin * radius * direction);
         count += 1;
       }
       if (count < kMinSeen) return 0;
@@ -113,7 +113,7 @@ class IrisSearch {
     return std::min(step[0], step[1]) + kBetterSide * std::max(step[0], step[1]);
   }
 
-  float Light(glm::vec2 pixel) const {
+  float BrightnessAt(glm::vec2 pixel) const {
     return std::min(Brightness(ColourAt(photo_, pixel)) / 255, brightest_);
   }
 
@@ -127,7 +127,7 @@ class IrisSearch {
       const glm::vec2 offset = s.pixel - centre;
       const float square = glm::dot(offset, offset) / (radius * radius);
       const std::size_t zone = square > 1 ? 2 : square > kPupil ? 1 : 0;
-      sum[zone] += s.weight * s.light;
+      sum[zone] += s.weight * s.brightness;
       weight[zone] += s.weight;
     }
     const float iris = sum[0] + sum[1], iris_weight = weight[0] + weight[1];

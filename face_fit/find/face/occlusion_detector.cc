@@ -20,7 +20,8 @@ namespace facefit {
 namespace {
 
 constexpr float kDarkest = 0.02F;  // 0..1; the colour of darker skin is unknown
-constexpr std::size_t kPixels = static_cast<std::size_t>(kPointsPixels) * kPointsPixels;
+constexpr std::size_t kPixels =
+    static_cast<std::size_t>(kLandmarkInputPixels) * kLandmarkInputPixels;
 
 struct Ellipse {
   glm::vec2 middle, radii;  // millimetres on the built-in face: x to its left, y up
@@ -64,7 +65,7 @@ class PhotoToBase {
   PhotoToBase(const FoundFace& face, const ObservedHead& base) {
     for (const PointIndex i : point::kReliable) {
       pairs_.push_back(
-          {face.crop.FromImage(face.PixelOf(i)) * float{kPointsPixels}, base.DetectedAt(i)});
+          {face.crop.FromImage(face.PixelOf(i)) * float{kLandmarkInputPixels}, base.DetectedAt(i)});
     }
   }
 
@@ -108,7 +109,7 @@ struct WarpedHead {
 
 WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
   // The map is smooth, so every fourth pixel is enough.
-  constexpr int kStep = 4, kCells = kPointsPixels / kStep + 1;
+  constexpr int kStep = 4, kCells = kLandmarkInputPixels / kStep + 1;
   const PhotoToBase onto(face, base);
   const auto coarse = Raster<glm::vec2>::From(
       kCells, kCells, [&](int x, int y) { return onto(float{kStep} * glm::vec2(x, y)); });
@@ -118,8 +119,8 @@ WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
       glm::distance(at_rest(point::kEyeOuterRight), at_rest(point::kEyeOuterLeft)) /
       glm::distance(base.DetectedAt(point::kEyeOuterRight), base.DetectedAt(point::kEyeOuterLeft));
   WarpedHead warped;
-  for (int y = 0; y < kPointsPixels; ++y) {
-    for (int x = 0; x < kPointsPixels; ++x) {
+  for (int y = 0; y < kLandmarkInputPixels; ++y) {
+    for (int x = 0; x < kLandmarkInputPixels; ++x) {
       const glm::vec2 cell = (glm::vec2(x, y) + 0.5F) / float{kStep};
       const glm::vec2 on_base = coarse.SampleAt(cell.x + 0.5F, cell.y + 0.5F);
       const glm::vec2 from_nasion = mm_per_pixel * (on_base - base.DetectedAt(point::kNasion));
@@ -131,7 +132,7 @@ WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
 }
 
 /// Returns whether a point of the built-in face is on cheeks, nose or forehead and not near an eye.
-bool IsBareSkin(glm::vec2 mm) {
+bool IsReferenceSkin(glm::vec2 mm) {
   constexpr glm::vec2 kEye(31, 25);
   constexpr float kEyeReach = 18, kBeside = 45, kLow = -20, kHigh = 60;
   const bool eye =
@@ -145,7 +146,7 @@ WarpedHead MatchSkinColour(std::span<const float> network_pixels, WarpedHead war
   for (int c = 0; c < 3; ++c) {
     std::vector<float> gain;
     for (std::size_t i = 0; i < kPixels; ++i) {
-      if (!IsBareSkin(warped.on_face[i])) continue;
+      if (!IsReferenceSkin(warped.on_face[i])) continue;
       gain.push_back(network_pixels[3 * i + static_cast<std::size_t>(c)] /
                      std::max(warped.colour[i][c], kDarkest));
     }
@@ -168,10 +169,9 @@ float PatchWeight(const FacePatch& patch, glm::vec2 on_face) {
   return weight;
 }
 
-/// The order of patches: by how many logits they lie beyond their limit, the others by the share of
-/// the limit that they reach.
+/// Ranks patches: first by logits above their limit, then by the share of it that they reach.
 struct Excess {
-  float beyond_logits = 0, limit_share = -std::numeric_limits<float>::infinity();
+  float logits_above = 0, limit_share = -std::numeric_limits<float>::infinity();
   auto operator<=>(const Excess&) const = default;
 };
 
@@ -185,12 +185,12 @@ Occlusion Occlusion::Of(float patch_excess, std::string patch, float doubt) {
 
 Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, const FoundFace& face,
                           const fsm::Image& photo) {
-  const auto sure = [&networks](std::span<const float> input) {
+  const auto certainty_of = [&networks](std::span<const float> input) {
     networks.landmarks.Run(input);
     return networks.landmarks.output(kLandmarkCertainty)[0];
   };
-  const std::vector<float> network_pixels = face.crop.Sample(photo, kPointsPixels, 0, 1);
-  const float before = sure(network_pixels);
+  const std::vector<float> network_pixels = face.crop.Sample(photo, kLandmarkInputPixels, 0, 1);
+  const float before = certainty_of(network_pixels);
   const WarpedHead warped = MatchSkinColour(network_pixels, WarpBuiltInHead(base, face));
   float most_share = 0;
   const char* part_name = "";
@@ -204,9 +204,10 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const ObservedHead& base, cons
             glm::mix(changed[3 * i + c], warped.colour[i][static_cast<int>(c)], weight);
       }
     }
-    const float surer = sure(changed) - before, share = surer / patch.limit;
+    const float certainty_gain = certainty_of(changed) - before;
+    const float share = certainty_gain / patch.limit;
     most_share = std::max(most_share, share);
-    const Excess excess{share >= 1 ? std::max(surer - patch.limit, 0.0F) : 0,
+    const Excess excess{share >= 1 ? std::max(certainty_gain - patch.limit, 0.0F) : 0,
                         std::min(share, 1.0F)};
     if (excess <= most) continue;
     most = excess;

@@ -15,15 +15,15 @@ inline constexpr float kMaybeCovered = 1, kSurelyCovered = 1.5F;
 
 /// What hides part of a face: a hand, a mask, dark glasses, hair across an eye, a microphone.
 struct Occlusion {
-  /// How much speaks for it, as part of the limit set on uncovered faces; below kMaybeCovered
-  /// nothing does.
+  /// Evidence of an occlusion divided by its limit, set on uncovered faces; below kMaybeCovered
+  /// there is none.
   float covered = 0;
   /// The part of the face that resembles a face least, "the left cheek"; nothing where the network
   /// is less certain of the face than it should be, but no part explains that.
   std::optional<std::string> part_name;
-  /// Returns what two measures say. `patch_excess`: how much surer the network would be without
-  /// the part `patch`, divided by that part's limit; `doubt`: the least certainty of uncovered
-  /// faces, divided by this face's own.
+  /// Combines two measures. `patch_excess`: the gain in the network's certainty without the part
+  /// `patch`, divided by that part's limit; `doubt`: the least certainty of uncovered faces,
+  /// divided by this face's own.
   static Occlusion Of(float patch_excess, std::string patch, float doubt);
 };
 

@@ -14,7 +14,7 @@
 namespace facefit {
 namespace {
 
-// RaiseMissedSide; lengths are divided by the height of the face.
+// SymmetriseHead; lengths are divided by the height of the face.
 constexpr float kNearbyReach = 0.03F;  // reach in which the other side's colour is searched
 constexpr float kSameRatio = 0.8F;     // ratio to the other side's opacity above which both agree
 // Difference of colours, 0..1: from unlike to alike.
@@ -36,14 +36,14 @@ constexpr float kHalfNeck = 0.35F;
 /// Runs the network on an image.
 Mask RunSegmentation(FaceNetworks& networks, const std::vector<float>& input) {
   networks.segmentation.Run(input);
-  Mask out(kFigurePixels, kFigurePixels);
+  Mask out(kSegmentationPixels, kSegmentationPixels);
   std::ranges::copy(networks.segmentation.output(kSegmentationPerson), out.values.begin());
   return out;
 }
 
 /// Returns how much a point of the network's square, 0..1 on both axes, belongs to a person.
 float PersonAt(const Mask& figure, glm::vec2 p) {
-  return figure.SampleAt(p.x * kFigurePixels, p.y * kFigurePixels);
+  return figure.SampleAt(p.x * kSegmentationPixels, p.y * kSegmentationPixels);
 }
 
 /// A rectangle of an image; it may extend beyond it.
@@ -84,7 +84,7 @@ float Frontal(const FoundFace& face, glm::vec2 middle, glm::vec2 across) {
 /// cannot be trusted: everywhere if it sees nobody on the face, as in photos of nothing but a face;
 /// beside a cheek if the photo cuts off that ear, where it sees a narrow strip. The head's own ear
 /// shows there instead.
-void TrustFaceOutline(const FoundFace& face, const fsm::Image& image, Mask& person) {
+void FillFromFaceOutline(const FoundFace& face, const fsm::Image& image, Mask& person) {
   float seen = 0, count = 0;
   for (const PointIndex i : point::kReliable) {
     const glm::vec2 p = face.PixelOf(i);
@@ -93,13 +93,13 @@ void TrustFaceOutline(const FoundFace& face, const fsm::Image& image, Mask& pers
     ++count;
   }
   const bool nobody = seen < kNobody * count;
-  const CutOff cut = CutOffParts(face, image);
+  const CutOffParts cut = FindCutOffParts(face, image);
   if (!nobody && !cut.ears.right && !cut.ears.left) return;
   const std::vector<glm::vec2> outline = face.Line(point::kFaceOutline);
   const glm::vec2 eyes = face.PixelOf(point::kNasion), chin = face.PixelOf(point::kChin);
   const glm::vec2 down = chin - eyes, to_left(down.y, -down.x);
   const float half_neck = kHalfNeck * glm::dot(down, down);
-  ForPixels(person.width, person.height, [&](int x, int y, std::size_t i) {
+  ForEachPixel(person.width, person.height, [&](int x, int y, std::size_t i) {
     const glm::vec2 p = glm::vec2(x, y) + 0.5F;
     const float way_down = glm::dot(p - eyes, down) / glm::dot(down, down);
     const bool left = glm::dot(p - eyes, to_left) > 0;
@@ -112,7 +112,7 @@ void TrustFaceOutline(const FoundFace& face, const fsm::Image& image, Mask& pers
 
 }  // namespace
 
-Mask RaiseMissedSide(const FoundFace& face, const fsm::Image& image, const Mask& person) {
+Mask SymmetriseHead(const FoundFace& face, const fsm::Image& image, const Mask& person) {
   const glm::vec2 top = face.PixelOf(point::kForehead), chin = face.PixelOf(point::kChin);
   if (glm::distance(top, chin) < 1) return person;
   const glm::vec2 down = glm::normalize(chin - top), across(-down.y, down.x);
@@ -130,7 +130,7 @@ Mask RaiseMissedSide(const FoundFace& face, const fsm::Image& image, const Mask&
     return least;
   };
   Mask doubted = person;
-  ForPixels(image.width, image.height, [&](int x, int y, std::size_t i) {
+  ForEachPixel(image.width, image.height, [&](int x, int y, std::size_t i) {
     const glm::vec2 p = glm::vec2(x, y) + 0.5F;
     if (glm::dot(p - chin, down) > 0) return;
     const float from_axis = glm::dot(p - chin, across);
@@ -150,8 +150,8 @@ Mask SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundF
   // The network expects the rectangle stretched to a square.
   const ImageRect all = face ? WholeFor(size, BoxOf(*face)) : ImageRect{{0, 0}, size};
   const Mask whole = RunSegmentation(
-      networks,
-      Resampled(image, all.corner, glm::mat2(all.size.x, 0, 0, all.size.y), kFigurePixels, 0, 1));
+      networks, Resampled(image, all.corner, glm::mat2(all.size.x, 0, 0, all.size.y),
+                          kSegmentationPixels, 0, 1));
   const auto person_in_whole = [&](glm::vec2 p) {
     return PersonAt(whole, (p - all.corner) / all.size);
   };
@@ -160,7 +160,7 @@ Mask SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundF
                       [&](int x, int y) { return person_in_whole(glm::vec2(x, y) + 0.5F); });
   }
   const NetworkCrop head = HeadSquare(BoxOf(*face), size);
-  const Mask near = RunSegmentation(networks, head.Sample(image, kFigurePixels, 0, 1));
+  const Mask near = RunSegmentation(networks, head.Sample(image, kSegmentationPixels, 0, 1));
   auto out = Mask::From(image.width, image.height, [&](int x, int y) {
     const glm::vec2 p = glm::vec2(x, y) + 0.5F;
     // The mean, so that what either pass doubts is left to the matting.
@@ -170,8 +170,8 @@ Mask SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundF
     return share > 0 ? glm::mix(person, PersonAt(near, in_square), share) : person;
   });
   KeepConnected(glm::ivec2(face->PixelOf(point::kNoseTip)), out);
-  out = RaiseMissedSide(*face, image, out);
-  TrustFaceOutline(*face, image, out);
+  out = SymmetriseHead(*face, image, out);
+  FillFromFaceOutline(*face, image, out);
   return out;
 }
 

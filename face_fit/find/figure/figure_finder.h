@@ -10,7 +10,7 @@ namespace facefit {
 /// 256. If `face` is given, the result is refined for that person:
 /// - the surroundings of the head are segmented a second time from nearer;
 /// - what is not connected to the tip of the nose becomes 0;
-/// - RaiseMissedSide corrects the sides of the head;
+/// - SymmetriseHead corrects the sides of the head;
 /// - where the network sees nobody on the face, the outline of the face and the neck below it
 ///   become 1 and everything else 0; beside a cheek whose ear the photo cuts off likewise.
 Mask SegmentPerson(FaceNetworks& networks, const fsm::Image& image,
@@ -25,6 +25,6 @@ FigureCutout FindFigure(FaceNetworks& networks, const fsm::Image& photo,
 /// hat), the network may have missed the latter. Such pixels become uncertain, or nearly as certain
 /// as the other side where both have one colour. Only near the head, since things behind it often
 /// have its colour.
-Mask RaiseMissedSide(const FoundFace& face, const fsm::Image& image, const Mask& person);
+Mask SymmetriseHead(const FoundFace& face, const fsm::Image& image, const Mask& person);
 
 }  // namespace facefit

@@ -22,16 +22,23 @@ namespace {
 
 /// Longest side of an image that is solved; mattes of larger ones are upsampled from a copy.
 constexpr int kSolvedSize = 720;
-/// Reach of errors of the rough outline: longer side / first + second, pixels.
-constexpr int kOutlineDivisor = 90, kOutlinePixels = 2;
+/// A length that grows with an image: longer side / divisor + pixels.
+struct RelativeReach {
+  int divisor, pixels;
+  int For(const fsm::Image& image) const {
+    return std::max(image.width, image.height) / divisor + pixels;
+  }
+};
+/// Reach of errors of the rough outline.
+constexpr RelativeReach kOutlineErrors{90, 2};
 /// Regularisation of covariances of colours 0..1: matting Laplacian, guided filter.
 constexpr float kLaplacianNoise = 2e-5F, kGuideNoise = 2e-4F;
 /// Weight that holds a pixel to its opacity: any pixel, and in addition one of opacity 0 or 1.
 constexpr float kPull = 0.003F, kPullDecided = 0.03F;
 /// Opacities this close to 0 and 1 become 0 and 1.
 constexpr float kNearlyNone = 0.04F;
-/// Passes of the foreground estimation, wide first: reach is longer side / first + second, pixels.
-constexpr std::pair<int, int> kForegroundReach[] = {{16, 2}, {150, 1}};
+/// Reaches of the passes of the foreground estimation, wide first.
+constexpr RelativeReach kForegroundPasses[] = {{16, 2}, {150, 1}};
 /// SuppressWideDoubt: range of uncertain opacity, and evenness of the surroundings (0 = an edge, 1
 /// = the same everywhere) from which opacity is decided: not at all, and wholly.
 constexpr fsm::Range kDecidedOpacity{0.3F, 0.7F}, kEvenness{0.35F, 0.7F};
@@ -149,7 +156,7 @@ void SuppressWideDoubt(Mask& opacity, int reach) {
 
 Mask SolveOpacity(const fsm::Image& image, const Mask& person) {
   const auto& look = PhotoLook().figure;
-  const int reach = std::max(image.width, image.height) / kOutlineDivisor + kOutlinePixels;
+  const int reach = kOutlineErrors.For(image);
   const Mask around = Blurred(person, reach);
   Mask out(person.width, person.height);
   const auto count = static_cast<Eigen::Index>(out.size());
@@ -236,7 +243,6 @@ Mask Matte(const fsm::Image& photo, const Mask& person) {
 fsm::Image ForegroundColours(const fsm::Image& photo, const Mask& opacity) {
   // Blurred foreground and background colours, corrected by the remaining difference to the photo
   // (Forte, Approximate Fast Foreground Colour Estimation, 2021).
-  const int longer = std::max(photo.width, photo.height);
   fsm::Image out = photo;
   std::vector<std::size_t> edge;
   for (std::size_t i = 0; i < opacity.size(); ++i) {
@@ -245,8 +251,8 @@ fsm::Image ForegroundColours(const fsm::Image& photo, const Mask& opacity) {
   Mask behind_opacity = opacity;
   for (float& v : behind_opacity.values) v = 1 - v;
   VectorImage figure = Colours(photo), behind = figure;
-  for (const auto& [divisor, pixels] : kForegroundReach) {
-    const int reach = longer / divisor + pixels;
+  for (const RelativeReach& pass : kForegroundPasses) {
+    const int reach = pass.For(photo);
     const WeightedBlur figure_near(figure, opacity, reach),
         behind_near(behind, behind_opacity, reach);
     for (const std::size_t i : edge) {

@@ -109,9 +109,9 @@ class HeadMatcher {
         name_(std::move(name)),
         base_(std::move(base)),
         our_lid_edges_(FindLidEdgesOfEyes(base_, EyeVertices(base_.head().surface()))) {}
-  /// Returns none if no face is seen on the head when `to_ours` is applied.
-  std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_ours) {
-    fsm::MeshModel model = fsm::ModelOfImport(file_, to_ours, fsm::kUsualMouthY);
+  /// Returns none if no face is seen on the head when `to_base` is applied.
+  std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_base) {
+    fsm::MeshModel model = fsm::ModelOfImport(file_, to_base, fsm::kUsualMouthY);
     std::vector<bool> is_eye;
     for (const fsm::Bone bone : model.mesh.bone) {
       is_eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
@@ -132,7 +132,7 @@ class HeadMatcher {
       // A point where the lips meet may lie on either lip.
       const bool corner = Contains(point::kMouthCorners, i);
       if (OnInnerLips(i) ? !both : both && corner) continue;
-      const glm::vec3 raw = to_ours.Inverse(theirs[i].On(other->rest().position));
+      const glm::vec3 raw = to_base.Inverse(theirs[i].On(other->rest().position));
       found.push_back({ours[i].On(base_.rest().position), raw, LipOrLidOf(i)});
     }
     return found;
@@ -152,10 +152,10 @@ struct HeadMatch {
   float gap_mm;  ///< median distance of the pairs after alignment
 };
 
-/// Returns the median distance of the pairs' positions after `to_ours` is applied, millimetres.
-float MedianDistanceMm(const fsm::Similarity& to_ours, std::span<const fsm::PointPair> pairs) {
+/// Returns the median distance of the pairs' positions after `to_base` is applied, millimetres.
+float MedianDistanceMm(const fsm::Similarity& to_base, std::span<const fsm::PointPair> pairs) {
   std::vector<float> gaps;
-  for (const auto& pair : pairs) gaps.push_back(glm::distance(to_ours(pair.to), pair.from));
+  for (const auto& pair : pairs) gaps.push_back(glm::distance(to_base(pair.to), pair.from));
   return Median(std::move(gaps));
 }
 
@@ -207,8 +207,8 @@ vm::Result<fsm::HeadPoints> FindHeadPoints(FaceNetworks& networks, const fsm::Im
         best = std::move(observed.match);
     }
     if (!best) continue;
-    const fsm::Similarity to_ours = fsm::FitSimilarity(best->pairs);
-    return fsm::HeadPoints{base_name, Symmetrise(to_ours, std::move(best->pairs))};
+    const fsm::Similarity to_base = fsm::FitSimilarity(best->pairs);
+    return fsm::HeadPoints{base_name, Symmetrise(to_base, std::move(best->pairs))};
   }
   return vm::Fail(
       vm::Errc::kBadValue,

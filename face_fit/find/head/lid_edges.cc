@@ -20,7 +20,7 @@ Mask EyeballMask(const VisibleSurface& surface, const std::vector<bool>& is_eye,
   Mask eyeball(surface.grid().columns, surface.grid().rows);
   glm::ivec2 seed(0);
   float nearest = kFarthestMm;
-  ForPixels(eyeball.width, eyeball.height, [&](int column, int row, std::size_t i) {
+  ForEachPixel(eyeball.width, eyeball.height, [&](int column, int row, std::size_t i) {
     const MeshTriangle* triangle = surface.TriangleAt(column, row);
     if (!triangle || !is_eye[triangle->corner[0]]) return;
     eyeball[i] = 1;
@@ -41,7 +41,7 @@ struct RowSpan {
 };
 std::vector<RowSpan> RowsOf(const Mask& eyeball) {
   std::vector<RowSpan> rows(static_cast<std::size_t>(eyeball.width), {eyeball.height, -1});
-  ForPixels(eyeball.width, eyeball.height, [&](int column, int row, std::size_t i) {
+  ForEachPixel(eyeball.width, eyeball.height, [&](int column, int row, std::size_t i) {
     if (eyeball[i] <= 0) return;
     RowSpan& span = rows[static_cast<std::size_t>(column)];
     span.low = std::min(span.low, row);

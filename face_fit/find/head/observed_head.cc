@@ -22,7 +22,7 @@ constexpr int kPortraitSize = 720;
 /// `screen`: for each vertex pixels with y down, and depth towards the viewer, millimetres.
 VisibleSurface SkinIn(const fsm::HeadSurface& topology, const std::vector<glm::vec3>& screen) {
   VisibleSurface surface({glm::vec2(0.5F), 1, kPortraitSize, kPortraitSize}, screen);
-  ForSkinTriangles(topology, [&](const MeshTriangle& t) { surface.DrawFront(t); });
+  ForEachSkinTriangle(topology, [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
 }
 
@@ -92,12 +92,12 @@ ObservedHead ObservedHead::Exact(std::unique_ptr<fsm::Head> head, const std::str
 }
 
 vm::Result<ObservedHead> ObservedHead::BuiltIn(FaceNetworks& networks, const std::string& name) {
-  return OfOurMesh(networks, fsm::MakeHead(name), name);
+  return FromBaseMesh(networks, fsm::MakeHead(name), name);
 }
 
-vm::Result<ObservedHead> ObservedHead::OfOurMesh(FaceNetworks& networks,
-                                                 std::unique_ptr<fsm::Head> head,
-                                                 const std::string& name) {
+vm::Result<ObservedHead> ObservedHead::FromBaseMesh(FaceNetworks& networks,
+                                                    std::unique_ptr<fsm::Head> head,
+                                                    const std::string& name) {
   const Surface surface{.skin_triangles = fsm::SkinTriangles(head->surface()),
                         .has_uv_seams = false};
   auto base = Observe(networks, std::move(head), name, surface);
@@ -113,7 +113,7 @@ vm::Result<ObservedHead> ObservedHead::Observe(FaceNetworks& networks,
   const PortraitView portrait(kPortraitSize);
   Seen seen{portrait.Draw(observed.head(), observed.rest_, {}), {}};
   std::vector<glm::vec3> screen;
-  for (const glm::vec3& p : observed.rest_.position) screen.emplace_back(portrait.Pixel(p), p.z);
+  for (const glm::vec3& p : observed.rest_.position) screen.emplace_back(portrait.PixelOf(p), p.z);
   const auto faces = FindFaces(networks, seen.image);
   if (!faces.empty()) {
     observed.mesh_points_ =

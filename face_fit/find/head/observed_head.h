@@ -33,8 +33,9 @@ class ObservedHead {
   /// kBadValue, no face is seen on it. Throws std::runtime_error if rendering is impossible.
   static vm::Result<ObservedHead> BuiltIn(FaceNetworks& networks, const std::string& name);
   /// The same of a head with the built-in heads' mesh.
-  static vm::Result<ObservedHead> OfOurMesh(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                                            const std::string& name);
+  static vm::Result<ObservedHead> FromBaseMesh(FaceNetworks& networks,
+                                               std::unique_ptr<fsm::Head> head,
+                                               const std::string& name);
   /// Observes a head of any maker; its points stay where the network saw them. Errors: as BuiltIn.
   static vm::Result<ObservedHead> Observe(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
                                           const std::string& name, const Surface& surface);

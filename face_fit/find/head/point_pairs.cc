@@ -57,9 +57,9 @@ std::vector<fsm::PointPair> RejectOutliers(std::span<const fsm::PointPair> pairs
   constexpr int kRounds = 6;
   std::vector<fsm::PointPair> kept(pairs.begin(), pairs.end());
   for (int round = 0; round < kRounds; ++round) {
-    const auto to_ours = fsm::FitSimilarity(kept);
-    const auto gap_mm = [&to_ours](const fsm::PointPair& pair) {
-      return glm::distance(to_ours(pair.to), pair.from);
+    const auto to_base = fsm::FitSimilarity(kept);
+    const auto gap_mm = [&to_base](const fsm::PointPair& pair) {
+      return glm::distance(to_base(pair.to), pair.from);
     };
     std::vector<float> distances;
     for (const auto& pair : pairs) distances.push_back(gap_mm(pair));
@@ -71,11 +71,11 @@ std::vector<fsm::PointPair> RejectOutliers(std::span<const fsm::PointPair> pairs
   return kept;
 }
 
-std::vector<fsm::PointPair> Symmetrise(const fsm::Similarity& to_ours,
+std::vector<fsm::PointPair> Symmetrise(const fsm::Similarity& to_base,
                                        std::vector<fsm::PointPair> pairs) {
   constexpr float kNearMm = 7;
   std::vector<fsm::PointPair> aligned = pairs;
-  for (auto& pair : aligned) pair.to = to_ours(pair.to);
+  for (auto& pair : aligned) pair.to = to_base(pair.to);
   const MirrorPlane mirror = FindMirrorPlane(aligned);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto* mirrored = MirroredPair(aligned[i], aligned);
@@ -84,7 +84,7 @@ std::vector<fsm::PointPair> Symmetrise(const fsm::Similarity& to_ours,
     if (glm::distance(opposite, aligned[i].to) > kNearMm) continue;
     pairs[i].from = 0.5F * (aligned[i].from + kMirror * mirrored->from);
     const glm::vec3 to = 0.5F * (aligned[i].to + opposite);
-    pairs[i].to = to_ours.Inverse(to);
+    pairs[i].to = to_base.Inverse(to);
   }
   return pairs;
 }

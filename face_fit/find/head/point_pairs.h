@@ -13,9 +13,9 @@ namespace facefit {
 std::vector<fsm::PointPair> RejectOutliers(std::span<const fsm::PointPair> pairs);
 
 /// Returns the pairs with positions averaged with their mirrored counterparts where the two nearly
-/// agree: heads are symmetric, so the mean is more accurate. `to_ours` transforms the pairs' `to`
+/// agree: heads are symmetric, so the mean is more accurate. `to_base` transforms the pairs' `to`
 /// into our frame, facing about +z.
-std::vector<fsm::PointPair> Symmetrise(const fsm::Similarity& to_ours,
+std::vector<fsm::PointPair> Symmetrise(const fsm::Similarity& to_base,
                                        std::vector<fsm::PointPair> pairs);
 
 }  // namespace facefit

@@ -19,7 +19,7 @@ fsm::Image PortraitView::Draw(const fsm::Head& head, const fsm::HeadVertices& ve
   return image;
 }
 
-glm::vec2 PortraitView::Pixel(glm::vec3 position) const {
+glm::vec2 PortraitView::PixelOf(glm::vec3 position) const {
   const glm::vec4 clip = view_.world_to_clip * view_.figure_to_world * glm::vec4(position, 1.0F);
   return (0.5F + 0.5F * glm::vec2(clip.x, -clip.y) / clip.w) * static_cast<float>(size_);
 }

@@ -17,7 +17,7 @@ class PortraitView {
   fsm::Image Draw(const fsm::Head& head, const fsm::HeadVertices& vertices,
                   const fsm::FaceState& state) const;
   /// Returns the pixel of a position in the head's frame, millimetres; y runs down.
-  glm::vec2 Pixel(glm::vec3 position) const;
+  glm::vec2 PixelOf(glm::vec3 position) const;
   float mm_per_pixel() const { return 2 / view_.samples_per_mm; }  // two samples to a pixel
 
  private:

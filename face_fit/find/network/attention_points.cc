@@ -36,10 +36,10 @@ constexpr PointIndex kLeftEye[kAttentionEyePoints] = {
 
 AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image,
                                   const NetworkCrop& crop) {
-  attention.Run(crop.Sample(image, kPointsPixels, 0, 1));
+  attention.Run(crop.Sample(image, kLandmarkInputPixels, 0, 1));
   const auto pixel = [&](AttentionOutput output, std::size_t i) {
     const auto xy = attention.output(output);
-    return crop.ToImage(glm::vec2(xy[2 * i], xy[2 * i + 1]) / float{kPointsPixels});
+    return crop.ToImage(glm::vec2(xy[2 * i], xy[2 * i + 1]) / float{kLandmarkInputPixels});
   };
   AttentiveFace found;
   found.face.crop = crop;

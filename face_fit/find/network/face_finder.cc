@@ -139,7 +139,7 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
   // The first pass locates the face; the others see it upright and as large as in training.
   for (int pass = 0; pass < 3; ++pass) {
     if (pass > 0) face.crop = CropAround(face.points, face.crop.angle_rad);
-    networks.landmarks.Run(face.crop.Sample(image, kPointsPixels, 0, 1));
+    networks.landmarks.Run(face.crop.Sample(image, kLandmarkInputPixels, 0, 1));
     face.certainty = tflite::op::Logistic::Apply(networks.landmarks.output(kLandmarkCertainty)[0]);
     face.points = PointsInImage(networks.landmarks.output(kLandmarkPoints), face.crop);
   }
@@ -209,7 +209,7 @@ std::vector<glm::vec3> PointsInImage(std::span<const float> raw, const NetworkCr
   std::vector<glm::vec3> points;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
     const glm::vec3 at =
-        glm::vec3(raw[3 * i], raw[3 * i + 1], -raw[3 * i + 2]) / float{kPointsPixels};
+        glm::vec3(raw[3 * i], raw[3 * i + 1], -raw[3 * i + 2]) / float{kLandmarkInputPixels};
     points.emplace_back(crop.ToImage(glm::vec2(at)), at.z * crop.size);
   }
   return points;

@@ -16,7 +16,7 @@ namespace facefit {
 struct FoundFace {
   std::vector<glm::vec3> points;  ///< kNetworkPoints
   float certainty = 0;            ///< confidence, 0..1, that the points lie on a face
-  float score = 1;                ///< score of the detector, 0..1, which sees no face upside down
+  float score = 1;                ///< of the detector, 0..1; it finds no face that is upside down
   NetworkCrop crop;               ///< around the points
   glm::vec2 PixelOf(PointIndex i) const { return glm::vec2(points[i]); }
   /// Returns the way from the right eye's outer corner to the left one's, pixels.
@@ -41,8 +41,8 @@ inline constexpr float kCertainFace = 0.75F;
 /// large face. Drops uncertain faces if at least one of several is certain.
 std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image);
 
-/// Converts the output of a landmark network (x, y, z of each point, in pixels of kPointsPixels) to
-/// points of FoundFace. `crop`: what the network was shown.
+/// Converts the output of a landmark network (x, y, z of each point, in pixels of
+/// kLandmarkInputPixels) to points of FoundFace. `crop`: what the network was shown.
 std::vector<glm::vec3> PointsInImage(std::span<const float> raw, const NetworkCrop& crop);
 
 /// Returns the square around a face's points to show to the landmark network, turned as the line of

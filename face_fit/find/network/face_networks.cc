@@ -89,10 +89,10 @@ vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
     return FaceNetworks{
         .detector = Expect(package->Open("face_detection_short_range.tflite"), kDetectorPixels,
                            {kDetectorCells * kBoxNumbers, kDetectorCells}),
-        .landmarks =
-            Expect(package->Open("face_landmark.tflite"), kPointsPixels, {3 * kNetworkPoints, 1}),
-        .segmentation = Expect(Network(tflite::Model::Read(fsm::BytesOf(*figure))), kFigurePixels,
-                               {kFigurePixels * kFigurePixels})};
+        .landmarks = Expect(package->Open("face_landmark.tflite"), kLandmarkInputPixels,
+                            {3 * kNetworkPoints, 1}),
+        .segmentation = Expect(Network(tflite::Model::Read(fsm::BytesOf(*figure))),
+                               kSegmentationPixels, {kSegmentationPixels * kSegmentationPixels})};
   } catch (const std::exception& error) {
     return FailUnusable(where, error);
   }
@@ -103,7 +103,7 @@ vm::Result<Network> LoadAttentionLandmarks(const std::string& folder) {
   const auto package = FaceMeshPackage::Read(where);
   if (!package) return FailMissing(where);
   try {
-    return Expect(package->Open("face_landmark_with_attention.tflite"), kPointsPixels,
+    return Expect(package->Open("face_landmark_with_attention.tflite"), kLandmarkInputPixels,
                   {3 * kNetworkPoints, 2 * kAttentionLipPoints, 2 * kAttentionEyePoints,
                    2 * kAttentionEyePoints, 2 * kAttentionIrisPoints, 2 * kAttentionIrisPoints, 1});
   } catch (const std::exception& error) {

@@ -10,7 +10,7 @@ namespace facefit {
 using tflite::Network;
 
 /// Sides of the networks' square inputs, pixels: detector, landmarks, segmentation.
-inline constexpr int kDetectorPixels = 128, kPointsPixels = 192, kFigurePixels = 256;
+inline constexpr int kDetectorPixels = 128, kLandmarkInputPixels = 192, kSegmentationPixels = 256;
 
 /// The detector's cells: 16 x 16 with two boxes each, then 8 x 8 with six.
 inline constexpr int kDetectorCells = 16 * 16 * 2 + 8 * 8 * 6;

@@ -44,7 +44,7 @@ inline constexpr fsm::Sided<Group<5>> kSmileFold{{129, 203, 206, 216, 212},
 inline constexpr Group<7> kBareSkin{50, 280, 205, 425, 151, 9, 199};
 /// Points that neither speech nor brows nor lids move much: bridge of the nose, corners of the
 /// eyes, temples, sides of the face above the jaw.
-inline constexpr Group<20> kStill{168, 6,   197, 195, 33,  133, 362, 263, 127, 356,
+inline constexpr Group<20> kRigid{168, 6,   197, 195, 33,  133, 362, 263, 127, 356,
                                   234, 454, 162, 389, 139, 368, 34,  264, 143, 372};
 /// Borders of the lips from the person's right to left, without the corners.
 inline constexpr Group<9> kUpperOuterLip{185, 40, 39, 37, 0, 267, 269, 270, 409};

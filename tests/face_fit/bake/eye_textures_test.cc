@@ -23,7 +23,7 @@ TEST(EyeTexturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   std::vector<MeshPoint> places(kNetworkPoints);
   FoundFace face;
   face.points.assign(kNetworkPoints, glm::vec3(0));
-  Fit fit;
+  FaceFit fit;
   std::vector<glm::vec2> centres;
   for (const fsm::Side side : fsm::kSides) {
     const glm::vec3 ball = head->EyeCentre(side);

@@ -18,7 +18,7 @@ class SheetTest : public BuiltInFigureTest {
   Sheet Made() const { return MakeSheet(fitted_, figure_); }
   /// The pixel over which a vertex lies.
   glm::vec2 Over(const fsm::PhotoHead::SheetVertex& vertex) const {
-    return fitted_.pose.Pixel(vertex.position);
+    return fitted_.pose.PixelOf(vertex.position);
   }
 };
 
@@ -75,7 +75,7 @@ TEST_F(SheetTest, GoesWithTheFaceFromItsExpressionToRest) {
       const glm::vec2 pixel =
           glm::vec2(2 * vertex.texcoord.x - 1, vertex.texcoord.y) * float{kPhoto};
       const glm::vec3 q = fitted_.pose.ToCamera(vertex.position);
-      by = vertex.position.y - fitted_.pose.PositionAt(pixel, q.z).y;
+      by = vertex.position.y - fitted_.pose.PositionOf(pixel, q.z).y;
     }
     return by;
   };

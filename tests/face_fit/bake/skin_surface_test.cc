@@ -29,7 +29,7 @@ class SkinSurfaceTest : public testing::Test {
   /// By its depth, not as the surface names it.
   glm::vec3 PositionAt(int x, int y) const {
     const FloatImage& depth = skin_->depth();
-    return fitted_.pose.PositionAt(grid_.Point(x, y), depth(x, y));
+    return fitted_.pose.PositionOf(grid_.Point(x, y), depth(x, y));
   }
   template <typename F>
   void ForCovered(F f) const {

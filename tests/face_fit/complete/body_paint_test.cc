@@ -19,7 +19,7 @@ class BodyPaintTest : public BuiltInFigureTest {
                .photo_size = {kPhoto, kPhoto},
                .size = {500, 500},
                .pixels_per_mm = fitted_.pose.PixelsPerMm(),
-               .chin_px = fitted_.pose.Pixel(fitted_.PositionOf(point::kChin))};
+               .chin_px = fitted_.pose.PixelOf(fitted_.PositionOf(point::kChin))};
   }
   void CutAwayBody() {
     for (int y = static_cast<int>(canvas_.chin_px.y) + 10; y < kPhoto; ++y) {
@@ -45,8 +45,8 @@ TEST_F(BodyPaintTest, AShoulderThatASideCutsGoesOnAtItsFall) {
   const BodyShape shape = Shape(edges);
   EXPECT_TRUE(shape.CutsShoulder());
   for (const PhotoSide side : kPhotoSides) {
-    EXPECT_NEAR(shape.joints()[side].row, Shoulder(kPhoto / 2), 2);
-    EXPECT_NEAR(shape.joints()[side].shoulder_fall.value_or(0), 0.3F, 0.05F);
+    EXPECT_NEAR(shape.attachments()[side].row, Shoulder(kPhoto / 2), 2);
+    EXPECT_NEAR(shape.attachments()[side].shoulder_slope.value_or(0), 0.3F, 0.05F);
   }
   const float outline = Shoulder(kPhoto / 2) + 3;
   EXPECT_LT(OpacityAt(shape, {-10, outline - 6}), 0.1F);
@@ -60,8 +60,8 @@ TEST_F(BodyPaintTest, WhereOnlyANeckIsSeenTheBustMeetsItsWidthAndIsNotSeenBeside
   const PhotoEdges edges = Edges();
   const BodyShape shape = Shape(edges);
   EXPECT_FALSE(shape.CutsShoulder());
-  EXPECT_EQ(shape.joints().left.row, kPhoto);
-  EXPECT_NEAR(shape.joints().left.width_ratio, 0.5F, 0.03F);
+  EXPECT_EQ(shape.attachments().left.row, kPhoto);
+  EXPECT_NEAR(shape.attachments().left.width_ratio, 0.5F, 0.03F);
   EXPECT_EQ(OpacityAt(shape, {150 - 36, kPhoto + 0.5F}), 1);
   EXPECT_EQ(OpacityAt(shape, {150 - 50, kPhoto + 0.5F}), 0);
   EXPECT_EQ(OpacityAt(shape, {-10, kPhoto - 5}), 0);

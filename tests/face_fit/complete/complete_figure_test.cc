@@ -60,11 +60,11 @@ class CompleteFigureTest : public NetworkTest {
     if (part.width > 0) photo = Cropped(photo, part.left, part.top, part.width, part.height);
     const auto faces = FindFaces(*networks_, photo);
     const FoundFace& face = faces.at(0);
-    const Fit fit = FitFace(Galatea(), face, photo);
+    const FaceFit fit = FitFace(Galatea(), face, photo);
     FigureCutout figure = FindFigure(*networks_, photo, &face);
     CompletedFigure whole = CompleteFigure(fit.head, figure);
     const glm::vec2 origin = glm::round(whole.head.pose.centre_px - fit.head.pose.centre_px);
-    const glm::vec2 chin = whole.head.pose.Pixel(whole.head.PositionOf(point::kChin));
+    const glm::vec2 chin = whole.head.pose.PixelOf(whole.head.PositionOf(point::kChin));
     return std::make_unique<Made>(std::move(photo), std::move(figure), std::move(whole), origin,
                                   chin, fit.head.pose.PixelsPerMm());
   }

@@ -15,7 +15,7 @@ class HairPaintTest : public BuiltInFigureTest {
   void SetUp() override {
     BuiltInFigureTest::SetUp();
     if (IsSkipped()) return;
-    const float forehead = fitted_.pose.Pixel(fitted_.PositionOf(point::kForehead)).y;
+    const float forehead = fitted_.pose.PixelOf(fitted_.PositionOf(point::kForehead)).y;
     for (int y = 0; y < kPhoto; ++y) {
       const bool hair = static_cast<float>(y) < forehead;
       for (int x = 0; x < kPhoto; ++x) {
@@ -28,7 +28,7 @@ class HairPaintTest : public BuiltInFigureTest {
                .photo_size = {kPhoto, kPhoto},
                .size = {500, 600},
                .pixels_per_mm = fitted_.pose.PixelsPerMm(),
-               .chin_px = fitted_.pose.Pixel(fitted_.PositionOf(point::kChin))};
+               .chin_px = fitted_.pose.PixelOf(fitted_.PositionOf(point::kChin))};
   }
   Canvas canvas_{};
 };

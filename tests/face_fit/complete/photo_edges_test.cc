@@ -18,8 +18,8 @@ class PhotoEdgesTest : public BuiltInFigureTest {
  protected:
   /// `colour(aside_mm)`: of the columns, from the chin down; hair is above the forehead.
   PhotoEdges EdgesOf(float below_chin_mm, auto colour) {
-    const glm::vec2 chin = fitted_.pose.Pixel(fitted_.PositionOf(point::kChin));
-    const float forehead = fitted_.pose.Pixel(fitted_.PositionOf(point::kForehead)).y;
+    const glm::vec2 chin = fitted_.pose.PixelOf(fitted_.PositionOf(point::kChin));
+    const float forehead = fitted_.pose.PixelOf(fitted_.PositionOf(point::kForehead)).y;
     const float pixels_per_mm = fitted_.pose.PixelsPerMm();
     const int height = static_cast<int>(chin.y + below_chin_mm * pixels_per_mm);
     FigureCutout figure{fsm::FilledImage(kPhoto, height), FloatImage(kPhoto, height, 1)};

@@ -16,17 +16,18 @@ TEST(CameraPoseTest, TheCameraIsThatOfTheRenderer) {
   constexpr int kSide = 600;
   const PortraitView portrait(kSide);
   CameraPose pose;
-  pose.centre_px = portrait.Pixel({0, 0, kFaceDepthMm});
-  const float up = portrait.Pixel({0, 0, kFaceDepthMm}).y - portrait.Pixel({0, 10, kFaceDepthMm}).y;
+  pose.centre_px = portrait.PixelOf({0, 0, kFaceDepthMm});
+  const float up =
+      portrait.PixelOf({0, 0, kFaceDepthMm}).y - portrait.PixelOf({0, 10, kFaceDepthMm}).y;
   pose.focal_px = up / 10 * (kCameraDepthMm - kFaceDepthMm);
   EXPECT_NEAR(kSide / pose.PixelsPerMm(), 330, 1);
   // The renderer's axis runs a little below the head's middle.
   for (const glm::vec3 place :
        {glm::vec3(60, 0, kFaceDepthMm), {-60, 0, kFaceDepthMm}, {0, 80, kFaceDepthMm}}) {
-    EXPECT_LT(glm::distance(pose.Pixel(place), portrait.Pixel(place)), 0.1F) << place.x;
+    EXPECT_LT(glm::distance(pose.PixelOf(place), portrait.PixelOf(place)), 0.1F) << place.x;
   }
   const auto width = [&](float z) {
-    return portrait.Pixel({60, 0, z}).x - portrait.Pixel({0, 0, z}).x;
+    return portrait.PixelOf({60, 0, z}).x - portrait.PixelOf({0, 0, z}).x;
   };
   EXPECT_NEAR(width(kFaceDepthMm) / width(-kFaceDepthMm),
               (kCameraDepthMm + kFaceDepthMm) / (kCameraDepthMm - kFaceDepthMm), 1e-3F);
@@ -36,7 +37,7 @@ TEST(CameraPoseTest, PlacesComeBackFromTheirPixels) {
   const CameraPose pose{
       .rotation_rad = {0.1F, -0.4F, 0.2F}, .focal_px = 900, .centre_px = {320, 240}};
   const glm::vec3 place(30, -20, 40);
-  EXPECT_LT(glm::distance(pose.PositionAt(pose.Pixel(place), pose.ToCamera(place).z), place),
+  EXPECT_LT(glm::distance(pose.PositionOf(pose.PixelOf(place), pose.ToCamera(place).z), place),
             1e-3F);
 }
 

@@ -36,24 +36,24 @@ namespace {
 constexpr int kPhotoSide = 900;
 
 /// What is compared, by number of the network's point.
-struct NamedPoint {
+struct CheckedPoint {
   const char* name;
   std::size_t point;
   bool depth_limited;
 };
-constexpr NamedPoint kNamed[] = {{"outer corner of the right eye", 33, false},
-                                 {"outer corner of the left eye", 263, false},
-                                 {"inner corner of the right eye", 133, false},
-                                 {"inner corner of the left eye", 362, false},
-                                 {"right corner of the mouth", 61, false},
-                                 {"left corner of the mouth", 291, false},
-                                 {"tip of the nose", 1, true},
-                                 {"below the nose", 2, false},
-                                 {"right wing of the nose", 98, false},
-                                 {"left wing of the nose", 327, false},
-                                 {"root of the nose", 168, true},
-                                 {"between the brows", 9, true},
-                                 {"chin", 152, true}};
+constexpr CheckedPoint kNamed[] = {{"outer corner of the right eye", 33, false},
+                                   {"outer corner of the left eye", 263, false},
+                                   {"inner corner of the right eye", 133, false},
+                                   {"inner corner of the left eye", 362, false},
+                                   {"right corner of the mouth", 61, false},
+                                   {"left corner of the mouth", 291, false},
+                                   {"tip of the nose", 1, true},
+                                   {"below the nose", 2, false},
+                                   {"right wing of the nose", 98, false},
+                                   {"left wing of the nose", 327, false},
+                                   {"root of the nose", 168, true},
+                                   {"between the brows", 9, true},
+                                   {"chin", 152, true}};
 
 /// The front of the ears (tragion), the agent's right and left: of heads that are not built in,
 /// read off pictures from the side to some 2 mm, in the unit of the file.
@@ -109,7 +109,7 @@ struct TrueCamera {
     const glm::vec3 neck(0, kNeckY, 0);
     return Turn() * (p - neck) + neck;
   }
-  glm::vec2 Pixel(glm::vec3 p) const {
+  glm::vec2 PixelOf(glm::vec3 p) const {
     const glm::vec3 q = Placed(p);
     const float scale = focal() / (kFaceZ + distance - q.z);
     return {kPhotoSide / 2.0F + scale * q.x, kPhotoSide / 2.0F - scale * (q.y - kMiddleY)};
@@ -123,7 +123,7 @@ struct TrueCamera {
     std::vector<glm::vec3> at, light;
     for (std::size_t i = 0; i < truth.rest.position.size(); ++i) {
       const glm::vec3 q = Placed(truth.rest.position[i]);
-      at.emplace_back(2.0F * Pixel(truth.rest.position[i]) - 0.5F,
+      at.emplace_back(2.0F * PixelOf(truth.rest.position[i]) - 0.5F,
                       1 / (kFaceZ + distance - q.z));  // linear on the screen
       const float lit = std::max(glm::dot(Turn() * truth.rest.normal[i], lamp), 0.0F);
       light.push_back(topology.albedo[i] * (0.35F + 0.9F * lit));
@@ -194,21 +194,21 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     face.certainty = 1;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
       const float bias = base.AtRest(i).z - base.DetectedDepthMm(i);
-      face.points.emplace_back(camera.Pixel(truth().points[i]),
+      face.points.emplace_back(camera.PixelOf(truth().points[i]),
                                pixels * (camera.Placed(base.AtRest(i)).z - bias));
     }
     face.crop = {face.PixelOf(1), 1.5F * glm::distance(face.PixelOf(10), face.PixelOf(152)), 0};
     return face;
   }
-  static FitError ErrorOf(const TrueCamera& camera, const Fit& fit) {
+  static FitError ErrorOf(const TrueCamera& camera, const FaceFit& fit) {
     const auto& points = truth().points;
-    const float eyes = glm::distance(camera.Pixel(points[33]), camera.Pixel(points[263]));
+    const float eyes = glm::distance(camera.PixelOf(points[33]), camera.PixelOf(points[263]));
     FitError error;
     std::vector<fsm::PointPair> pairs;
-    for (const NamedPoint& named : kNamed) {
+    for (const CheckedPoint& named : kNamed) {
       const glm::vec3 fitted = fit.head.PositionOf(named.point);
-      const glm::vec2 shown = fit.head.pose.Pixel(fitted);
-      error.shown += glm::distance(camera.Pixel(points[named.point]), shown) / eyes /
+      const glm::vec2 shown = fit.head.pose.PixelOf(fitted);
+      error.shown += glm::distance(camera.PixelOf(points[named.point]), shown) / eyes /
                      static_cast<float>(std::size(kNamed));
       pairs.push_back({points[named.point], fitted, fsm::LipOrLid::kPlain});
     }

@@ -43,7 +43,7 @@ TEST_F(FitTest, TheBuiltInHeadFittedToItselfHardlyMoves) {
   const ObservedHead& base = Galatea();
   const FoundFace face = DetectedOf(base.mesh_points(), base.rest().position);
   const ObservedHead exact = Exact(base);
-  const Fit fit = FitFace(exact, face, EvenGreyImage(800));
+  const FaceFit fit = FitFace(exact, face, EvenGreyImage(800));
   EXPECT_LT(glm::distance(fit.head.pose.rotation_rad, SomePose().rotation_rad), 0.01F);
   EXPECT_NEAR(fit.head.pose.focal_px, SomePose().focal_px, 10);
   ASSERT_EQ(fit.head.warp_points.size(), fit.constraints.size());
@@ -69,12 +69,12 @@ TEST_F(FitTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
   fsm::HeadVertices vertices;
   moved.head().Evaluate(smiling.State(), vertices);
   const FoundFace face = DetectedOf(base.mesh_points(), vertices.position);
-  const auto most = [](const Fit& fit) {
+  const auto most = [](const FaceFit& fit) {
     float far = 0;
     for (const auto& point : fit.head.warp_points) far = std::max(far, glm::length(point.by));
     return far;
   };
-  const Fit fit = FitFace(moved, face, EvenGreyImage(800));
+  const FaceFit fit = FitFace(moved, face, EvenGreyImage(800));
   EXPECT_NEAR(fit.head.shown_units.smile, smiling.smile, 0.1F);
   EXPECT_LT(most(fit), 2);
   EXPECT_GT(most(FitFace(built_in, face, EvenGreyImage(800))), 4) << "else this would say nothing";

@@ -17,7 +17,7 @@ constexpr CameraPose kTruth{
 
 std::vector<PointMatch> Matches() {
   std::vector<PointMatch> matches;
-  for (const glm::vec3& place : kFacePlaces) matches.push_back({place, kTruth.Pixel(place)});
+  for (const glm::vec3& place : kFacePlaces) matches.push_back({place, kTruth.PixelOf(place)});
   return matches;
 }
 
@@ -38,7 +38,7 @@ TEST(PoseFitTest, AMatchFarOffCountsLittle) {
 
 TEST(PoseFitTest, WithTheTurnGivenSizeAndPlaceAreFound) {
   std::vector<glm::vec2> pixels;
-  for (const glm::vec3& place : kFacePlaces) pixels.push_back(kTruth.Pixel(place));
+  for (const glm::vec3& place : kFacePlaces) pixels.push_back(kTruth.PixelOf(place));
   const CameraPose found = PoseWithRotation(kFacePlaces, pixels, kTruth.rotation_rad);
   EXPECT_NEAR(found.focal_px, kTruth.focal_px, 0.5F);
   EXPECT_LT(glm::distance(found.centre_px, kTruth.centre_px), 0.5F);

@@ -49,7 +49,7 @@ fsm::Image PhotoOf(const fsm::Head& head, float turn, const fsm::Warp* warp = nu
   return photo;
 }
 
-std::unique_ptr<fsm::Head> HeadOf(const Fit& fit) {
+std::unique_ptr<fsm::Head> HeadOf(const FaceFit& fit) {
   fsm::PhotoHead set;
   set.points = fit.head.warp_points;
   set.smooth = kWarpSmoothMm;
@@ -96,7 +96,7 @@ class TruthTest : public NetworkTest, public testing::WithParamInterface<const c
     fsm::Image photo;
     std::size_t faces;
     FoundFace face;
-    Fit fit;
+    FaceFit fit;
   };
 
   static void TearDownTestSuite() {
@@ -128,7 +128,7 @@ class TruthTest : public NetworkTest, public testing::WithParamInterface<const c
     fsm::Image photo = photo_of();
     const auto faces = FindFaces(*networks_, photo);
     const FoundFace& face = faces.at(0);
-    Fit fit = FitFace(Galatea(), face, photo);
+    FaceFit fit = FitFace(Galatea(), face, photo);
     return front.emplace(Front{std::move(photo), faces.size(), face, std::move(fit)});
   }
 
@@ -170,7 +170,7 @@ TEST_P(TruthTest, LandmarksAndDepthComeNearTheHeadThatWasDrawn) {
 
 TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemWhereverTheNetworkSeesThem) {
   const ObservedHead& base = Galatea();
-  const auto corners = [&](const Fit& fit) {
+  const auto corners = [&](const FaceFit& fit) {
     return std::pair(fit.head.PositionOf(61).y, fit.head.PositionOf(291).y);
   };
   const auto said = corners(front().fit);
@@ -187,7 +187,7 @@ TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemWhereverTheNetwor
 }
 
 /// Root of the mean square of the depths' errors, millimetres.
-float DepthError(const Profile& truth, const Fit& fit) {
+float DepthError(const Profile& truth, const FaceFit& fit) {
   std::vector<fsm::PointPair> pairs;
   const auto fitted = HeadOf(fit);
   for (const char* place : kPlaces) {

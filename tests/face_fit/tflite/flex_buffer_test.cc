@@ -27,12 +27,12 @@ TEST(FlexMapTest, ReadsNumbersAndLists) {
   const auto bytes = SmallMap();
   const FlexMap map = FlexMap::Root(bytes);
   EXPECT_EQ(map.Number("a"), 0.5);
-  EXPECT_EQ(map.Wholes("b"), (std::vector<std::int64_t>{300, 7}));
-  EXPECT_EQ(map.Whole("c"), -2);
+  EXPECT_EQ(map.Integers("b"), (std::vector<std::int64_t>{300, 7}));
+  EXPECT_EQ(map.Integer("c"), -2);
   EXPECT_EQ(map.Number("c"), -2);
-  EXPECT_THROW(map.Whole("d"), BadModel);
-  EXPECT_THROW(map.Whole("a"), BadModel);
-  EXPECT_THROW(map.Wholes("a"), BadModel);
+  EXPECT_THROW(map.Integer("d"), BadModel);
+  EXPECT_THROW(map.Integer("a"), BadModel);
+  EXPECT_THROW(map.Integers("a"), BadModel);
 }
 
 TEST(FlexMapTest, DamagedBytesAreRefusedOrReadAsSomethingElse) {
@@ -41,8 +41,8 @@ TEST(FlexMapTest, DamagedBytesAreRefusedOrReadAsSomethingElse) {
     try {
       const FlexMap map = FlexMap::Root(from);
       map.Number("a");
-      map.Wholes("b");
-      map.Whole("c");
+      map.Integers("b");
+      map.Integer("c");
     } catch (const BadModel&) {
     }
   };

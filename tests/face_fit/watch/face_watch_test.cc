@@ -18,7 +18,7 @@ namespace {
 
 /// A network with the outputs of that with attention, which sees a face nowhere.
 Network SeesNoFace() {
-  const tflite::Shape picture{{1, kPointsPixels, kPointsPixels, 3}};
+  const tflite::Shape picture{{1, kLandmarkInputPixels, kLandmarkInputPixels, 3}};
   tflite::Model model = tflite::OneNode(tflite::op::Logistic{}, picture, {}, picture);
   model.outputs.clear();
   for (const int count : {3 * static_cast<int>(kNetworkPoints), 160, 142, 142, 10, 10, 1}) {

@@ -33,13 +33,13 @@ FoundFace Shifted(FoundFace face, float left, float top) {
 fsm::Image Photo(int width, int height) { return {.width = width, .height = height, .rgba = {}}; }
 
 TEST(CutOffTest, AWholeHeadHasNothingCutOff) {
-  EXPECT_EQ(NamesOf(CutOffParts(SomeFace(), Photo(200, 200))), "");
+  EXPECT_EQ(NamesOf(FindCutOffParts(SomeFace(), Photo(200, 200))), "");
   EXPECT_TRUE(CheckFeaturesShown(SomeFace(), Photo(200, 200)));
 }
 
 TEST(CutOffTest, WhatLiesBeyondTheEdgesIsNamed) {
   // An ear reaches some pixels farther aside than the cheek before it.
-  const CutOff cut = CutOffParts(Shifted(SomeFace(), 25, 25), Photo(170, 150));
+  const CutOffParts cut = FindCutOffParts(Shifted(SomeFace(), 25, 25), Photo(170, 150));
   EXPECT_TRUE(cut.forehead && cut.chin && cut.ears.right);
   EXPECT_FALSE(cut.ears.left);
   EXPECT_EQ(NamesOf(cut), "the forehead, the right ear, the chin");

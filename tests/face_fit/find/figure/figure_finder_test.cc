@@ -26,7 +26,7 @@ TEST(FigureTest, WhatOnlyOneSideOfAHeadShowsIsDoubtedAndRatherThereIfItLooksAlik
   for (int y = 0; y < kDiscSide; ++y) {
     for (int x = kDiscSide / 2 - 30; x < kDiscSide / 2 + 50; ++x) at(x, y) = 1;
   }
-  person = RaiseMissedSide(face, photo, person);
+  person = SymmetriseHead(face, photo, person);
   EXPECT_GT(at(kDiscSide / 2 - 40, 90), 0.75F) << "the ear";
   EXPECT_NEAR(at(kDiscSide / 2 - 40, 60), 0.5F, 0.1F) << "no hair";
   EXPECT_EQ(at(kDiscSide / 2 - 60, 90), 0) << "neither side";

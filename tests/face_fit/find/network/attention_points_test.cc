@@ -69,8 +69,8 @@ TEST_F(AttentionTest, PointsOfTheLipsLieOnTheSeamOfAHead) {
       const glm::vec2 at = seen.face.PixelOf(i);
       float nearest = 1e9F;
       for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-        const glm::vec2 a = portrait.Pixel(base.AtRest(line[k]));
-        const glm::vec2 way = portrait.Pixel(base.AtRest(line[k + 1])) - a;
+        const glm::vec2 a = portrait.PixelOf(base.AtRest(line[k]));
+        const glm::vec2 way = portrait.PixelOf(base.AtRest(line[k + 1])) - a;
         const float part = glm::clamp(glm::dot(at - a, way) / glm::dot(way, way), 0.0F, 1.0F);
         nearest = std::min(nearest, glm::distance(at, a + part * way));
       }
