@@ -105,38 +105,47 @@ CameraPose FindPose(const FittedHead& fitted, const FoundFace& face,
 
 }  // namespace
 
-vm::Result<CameraPose> FitSidePose(FaceNetworks& networks, const FittedHead& fitted,
-                                   const SidePhoto& side_photo) {
-  if (!side_photo.face) return vm::Fail(vm::Errc::kUnavailable, "no face is found in it");
+std::expected<CameraPose, NoSidePose> FitSidePose(FaceNetworks& networks, const FittedHead& fitted,
+                                                  const SidePhoto& side_photo) {
+  using std::unexpected;
+  if (!side_photo.face) return unexpected(NoSidePose{true, "no face is found in it"});
   const FoundFace& face = *side_photo.face;
   if (face.certainty < kMinCertainty) {
-    return vm::Fail(vm::Errc::kUnavailable,
-                    "no eyes, nose and mouth can be told apart in it; turned by 20 to 60 degrees "
-                    "they can");
+    return unexpected(NoSidePose{true,
+                                 "no eyes, nose and mouth can be told apart in it; turned by 20 to "
+                                 "60 degrees they can"});
   }
   const std::vector<ComparedPoint> points = ComparedPoints(fitted);
   const CameraPose found = FindPose(fitted, face, points);
   const float turn_deg = std::abs(glm::degrees(found.rotation_rad.y - fitted.pose.rotation_rad.y));
   if (turn_deg < kMinTurnDeg) {
     // In full profile the network now and then sees a face from the front, which does not fit.
-    const bool fits = MeanDistanceMm(found, MatchesOf(points, face, found)) <= kMaxResidualMm;
-    return vm::Fail(fits ? vm::Errc::kBadValue : vm::Errc::kUnavailable,
-                    "it shows the face from the front like the front photo; 20 to 60 degrees help");
+    const float residual_mm = MeanDistanceMm(found, MatchesOf(points, face, found));
+    if (residual_mm > kMaxResidualMm) {
+      return unexpected(NoSidePose{
+          true, fmt::format("the face seen in it is from the front and does not fit the front "
+                            "photo's (points lie {:.1f} mm apart); the same person, turned by 20 "
+                            "to 60 degrees, helps",
+                            residual_mm)});
+    }
+    return unexpected(NoSidePose{
+        false, "it shows the face from the front like the front photo; 20 to 60 degrees help"});
   }
   std::optional<std::vector<ComparedPoint>> measured;
   if (turn_deg <= kMaxTurnDeg) measured = MeasuredBias(networks, fitted, found, points);
   if (!measured) {
-    return vm::Fail(vm::Errc::kUnavailable,
-                    "the face is turned too far to be compared; 20 to 60 degrees can be");
+    return unexpected(
+        NoSidePose{true, "the face is turned too far to be compared; 20 to 60 degrees can be"});
   }
   const auto matches = MatchesOf(*measured, face, found);
   const CameraPose pose = FitPose(matches, found);
   const float residual_mm = MeanDistanceMm(pose, matches);
   if (residual_mm > kMaxResidualMm) {
-    return vm::Fail(residual_mm > kMisplacedMm ? vm::Errc::kUnavailable : vm::Errc::kBadValue,
-                    fmt::format("its face does not fit the front photo's (points lie {:.1f} mm "
-                                "apart); is it the same person?",
-                                residual_mm));
+    return unexpected(NoSidePose{
+        residual_mm > kMisplacedMm,
+        fmt::format("its face does not fit the front photo's (points lie {:.1f} mm apart); is it "
+                    "the same person?",
+                    residual_mm)});
   }
   return pose;
 }
