@@ -93,7 +93,8 @@ vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const ObservedHead& 
     *face = std::move(close_up.face);
     front.scale *= close_up.scale;
   }
-  front.figure = FindFigure(networks, front.photo, face);
+  front.figure =
+      face ? FindFigureOf(networks, front.photo, *face) : FindFigure(networks, front.photo);
   if (face) front.face->occlusion = DetectOcclusion(networks, base, *face, front.photo);
   done("figure cut out");
   return found;

@@ -18,6 +18,7 @@ void UseTurnedPhoto(FaceNetworks& networks, const fsm::Image& front_photo,
   auto [corrected, refined] =
       CorrectDepthByStereo(front_photo, side_photo.image, pose, std::move(used.fit));
   used.fit = std::move(corrected);
+  // Without the face: FindFigureOf trusts what a face from the front shows.
   used.views.push_back({&side_photo, refined, FindFigure(networks, side_photo.image)});
 }
 

@@ -42,8 +42,8 @@ Mask RunSegmentation(FaceNetworks& networks, const std::vector<float>& input) {
 }
 
 /// Returns how much a point of the network's square, 0..1 on both axes, belongs to a person.
-float PersonAt(const Mask& figure, glm::vec2 p) {
-  return figure.SampleAt(p.x * kSegmentationPixels, p.y * kSegmentationPixels);
+float PersonAt(const Mask& person, glm::vec2 p) {
+  return person.SampleAt(p.x * kSegmentationPixels, p.y * kSegmentationPixels);
 }
 
 /// A rectangle of an image; it may extend beyond it.
@@ -110,6 +110,36 @@ void FillFromFaceOutline(const FoundFace& face, const fsm::Image& image, Mask& p
   });
 }
 
+/// Returns how much each pixel belongs to a person, 0..1, as the network sees the rectangle.
+Mask SegmentPeople(FaceNetworks& networks, const fsm::Image& image, const ImageRect& rect) {
+  // The network expects the rectangle stretched to a square.
+  const Mask people = RunSegmentation(
+      networks, Resampled(image, rect.corner, glm::mat2(rect.size.x, 0, 0, rect.size.y),
+                          kSegmentationPixels, 0, 1));
+  return Mask::From(image.width, image.height, [&](int x, int y) {
+    return PersonAt(people, (glm::vec2(x, y) + 0.5F - rect.corner) / rect.size);
+  });
+}
+
+/// Returns how much each pixel belongs to the person with this face.
+Mask SegmentPersonOf(FaceNetworks& networks, const fsm::Image& image, const FoundFace& face) {
+  const glm::vec2 size(image.width, image.height);
+  const Mask people = SegmentPeople(networks, image, WholeFor(size, BoxOf(face)));
+  const NetworkCrop head = HeadSquare(BoxOf(face), size);
+  const Mask near = RunSegmentation(networks, head.Sample(image, kSegmentationPixels, 0, 1));
+  auto person = Mask::From(image.width, image.height, [&](int x, int y) {
+    // The mean, so that what either pass doubts is left to the matting.
+    const glm::vec2 in_square = head.FromImage(glm::vec2(x, y) + 0.5F);
+    const glm::vec2 from_middle = glm::abs(in_square - 0.5F);
+    const float share = 0.5F * kSquareEdge.Ramp(std::max(from_middle.x, from_middle.y));
+    return share > 0 ? glm::mix(people(x, y), PersonAt(near, in_square), share) : people(x, y);
+  });
+  KeepConnected(glm::ivec2(face.PixelOf(point::kNoseTip)), person);
+  person = SymmetriseHead(face, image, person);
+  FillFromFaceOutline(face, image, person);
+  return person;
+}
+
 }  // namespace
 
 Mask SymmetriseHead(const FoundFace& face, const fsm::Image& image, const Mask& person) {
@@ -145,38 +175,12 @@ Mask SymmetriseHead(const FoundFace& face, const fsm::Image& image, const Mask& 
   return doubted;
 }
 
-Mask SegmentPerson(FaceNetworks& networks, const fsm::Image& image, const FoundFace* face) {
-  const glm::vec2 size(image.width, image.height);
-  // The network expects the rectangle stretched to a square.
-  const ImageRect all = face ? WholeFor(size, BoxOf(*face)) : ImageRect{{0, 0}, size};
-  const Mask whole = RunSegmentation(
-      networks, Resampled(image, all.corner, glm::mat2(all.size.x, 0, 0, all.size.y),
-                          kSegmentationPixels, 0, 1));
-  const auto person_in_whole = [&](glm::vec2 p) {
-    return PersonAt(whole, (p - all.corner) / all.size);
-  };
-  if (!face) {
-    return Mask::From(image.width, image.height,
-                      [&](int x, int y) { return person_in_whole(glm::vec2(x, y) + 0.5F); });
-  }
-  const NetworkCrop head = HeadSquare(BoxOf(*face), size);
-  const Mask near = RunSegmentation(networks, head.Sample(image, kSegmentationPixels, 0, 1));
-  auto out = Mask::From(image.width, image.height, [&](int x, int y) {
-    const glm::vec2 p = glm::vec2(x, y) + 0.5F;
-    // The mean, so that what either pass doubts is left to the matting.
-    const glm::vec2 in_square = head.FromImage(p), from_middle = glm::abs(in_square - 0.5F);
-    const float share = 0.5F * kSquareEdge.Ramp(std::max(from_middle.x, from_middle.y));
-    const float person = person_in_whole(p);
-    return share > 0 ? glm::mix(person, PersonAt(near, in_square), share) : person;
-  });
-  KeepConnected(glm::ivec2(face->PixelOf(point::kNoseTip)), out);
-  out = SymmetriseHead(*face, image, out);
-  FillFromFaceOutline(*face, image, out);
-  return out;
+FigureCutout FindFigure(FaceNetworks& networks, const fsm::Image& photo) {
+  return CutOutFigure(photo, SegmentPeople(networks, photo, {{0, 0}, {photo.width, photo.height}}));
 }
 
-FigureCutout FindFigure(FaceNetworks& networks, const fsm::Image& photo, const FoundFace* face) {
-  return CutOutFigure(photo, SegmentPerson(networks, photo, face));
+FigureCutout FindFigureOf(FaceNetworks& networks, const fsm::Image& photo, const FoundFace& face) {
+  return CutOutFigure(photo, SegmentPersonOf(networks, photo, face));
 }
 
 }  // namespace facefit

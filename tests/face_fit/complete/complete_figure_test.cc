@@ -61,7 +61,7 @@ class CompleteFigureTest : public NetworkTest {
     const auto faces = FindFaces(*networks_, photo);
     const FoundFace& face = faces.at(0);
     const FaceFit fit = FitFace(Galatea(), face, photo);
-    FigureCutout figure = FindFigure(*networks_, photo, &face);
+    FigureCutout figure = FindFigureOf(*networks_, photo, face);
     CompletedFigure whole = CompleteFigure(fit.head, figure);
     const glm::vec2 origin = glm::round(whole.head.pose.centre_px - fit.head.pose.centre_px);
     const glm::vec2 chin = whole.head.pose.PixelOf(whole.head.PositionOf(point::kChin));
