@@ -9,24 +9,35 @@
 
 namespace facefit {
 
-/// The face in a photo from the front, pixels of FrontPhoto::photo.
-struct FrontFace {
-  FoundFace found;
-  std::optional<Occlusion> occlusion = {};  ///< nothing if it was not examined
-  glm::vec2 nose{0};                        ///< in the whole photo (FrontPhoto::whole_size)
-};
+// A photo from the front is measured in three kinds of pixels:
+// - given: of the photo as it was given;
+// - whole: of all of it, set upright; as given for PhotoExtent::kWhole (make_face.h), else scaled
+// down
+//   to at most kWorkingSize to a side. HandPoints are in these;
+// - close-up: of the part that is worked on, which for PhotoExtent::kWhole is all of it. Faces,
+//   figures and fits are in these.
 
-/// A photo from the front and what was found in it; no head is fitted yet.
+/// A photo from the front and what was found in it beside the face; no head is fitted yet.
 struct FrontPhoto {
-  fsm::Image photo;  ///< what is worked on, upright
-  std::optional<FrontFace> face = {};
+  fsm::Image image;  ///< what is worked on, upright
   FigureCutout figure = {};
   int face_count = 0;   ///< number of faces found
   int orientation = 1;  ///< EXIF orientation of the photo as given
-  float scale = 1;      ///< pixels of `photo` for each pixel of the photo as given
-  /// Pixels of the whole upright photo: as given for PhotoExtent::kWhole (make_face.h), else scaled
-  /// down to at most kWorkingSize to a side.
-  glm::ivec2 whole_size{0};
+  float closeup_per_given_pixel = 1;
+  glm::ivec2 whole_size_px{0};
+};
+
+/// The face in a photo from the front.
+struct FrontFace {
+  FoundFace found;
+  std::optional<Occlusion> occlusion = {};  ///< nothing if it was not examined
+  glm::vec2 nose_whole_px{0};
+};
+
+/// A photo from the front, ready to be made a face of.
+struct PreparedFront {
+  FrontPhoto photo;
+  std::optional<FrontFace> face;  ///< nothing if none was found
 };
 
 }  // namespace facefit

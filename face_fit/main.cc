@@ -110,11 +110,11 @@ std::vector<facefit::SidePhoto> ReadSidePhotos(const Options& options,
 }
 
 /// Returns a line that says where the face lies in the whole photo, in the pixels of --points.
-std::string LineOfNose(const facefit::FrontPhoto& front, glm::vec2 nose) {
+std::string LineOfNose(glm::vec2 nose_whole_px, glm::ivec2 whole_size_px) {
   const auto pixel = [](float v) { return std::to_string(std::lround(v)); };
-  return "place       nose " + pixel(nose.x) + " pixels from the left, " + pixel(nose.y) +
-         " from the top, of " + std::to_string(front.whole_size.x) + " x " +
-         std::to_string(front.whole_size.y) + "\n";
+  return "place       nose " + pixel(nose_whole_px.x) + " pixels from the left, " +
+         pixel(nose_whole_px.y) + " from the top, of " + std::to_string(whole_size_px.x) + " x " +
+         std::to_string(whole_size_px.y) + "\n";
 }
 
 /// Throws std::runtime_error with what is missing.
@@ -156,7 +156,7 @@ void MakeAndWriteFace(const Options& options, FaceModels& models, const facefit:
       models.base, front, face, facefit::SidePhotoSet{models.networks, side_photos},
       options.glasses, progress));
   for (const auto& [path, reason] : made.rejected) NoticeRejected(path, reason);
-  const std::string report = LineOfNose(front, face.nose) + made.report;
+  const std::string report = LineOfNose(face.nose_whole_px, front.whole_size_px) + made.report;
   const std::string folder =
       vm::OrThrow(fsm::WriteFace(made.baked.head, report, FolderOfFaces(options), options.name));
   progress("written");
@@ -164,7 +164,7 @@ void MakeAndWriteFace(const Options& options, FaceModels& models, const facefit:
 }
 
 /// Returns the face; throws std::runtime_error if none was found, or only an uncertain one.
-const facefit::FrontFace& RequireFace(const Options& options, const facefit::FrontPhoto& front) {
+const facefit::FrontFace& RequireFace(const Options& options, const facefit::PreparedFront& front) {
   const char* by_hand = "; --points FILE with a few points set by hand helps (docs/photo.md)";
   if (!front.face) {
     throw std::runtime_error(
@@ -195,10 +195,10 @@ void FaceOfPhoto(const Options& options) {
     const std::string& of = options.points.empty() ? options.photo : options.points;
     throw std::runtime_error(of + ": " + front.error().text);
   }
-  if (front->orientation != 1) {
+  if (front->photo.orientation != 1) {
     Notice("the photo lies on its side or head, whatever its file says; it was set upright");
   }
-  MakeAndWriteFace(options, models, *front, RequireFace(options, *front), progress);
+  MakeAndWriteFace(options, models, front->photo, RequireFace(options, *front), progress);
 }
 
 void FaceOfOriginal(const Options& options) {
@@ -209,7 +209,7 @@ void FaceOfOriginal(const Options& options) {
   const auto front =
       vm::OrThrow(facefit::PrepareFront(models.networks, models.base, std::move(original.photo),
                                         original.points, facefit::PhotoExtent::kWhole, progress));
-  MakeAndWriteFace(options, models, front, front.face.value(), progress);
+  MakeAndWriteFace(options, models, front.photo, front.face.value(), progress);
 }
 
 void Run(const Options& options) {

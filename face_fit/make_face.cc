@@ -1,6 +1,7 @@
 #include "face_fit/make_face.h"
 
 #include <algorithm>
+#include <cassert>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -16,38 +17,59 @@
 namespace facefit {
 namespace {
 
-// Each of these finds a face as one FaceChoice asks for, and sets FrontPhoto::photo, face_count
-// and, if there is one, face; the first sets orientation, too.
+/// A photo, set upright, and the face that was chosen in it.
+struct FaceSearch {
+  fsm::Image photo;
+  std::optional<FoundFace> face;
+  int face_count = 0;
+  int orientation = 1;  ///< EXIF orientation of the photo as given
+};
 
-vm::Result<FrontPhoto> FindByNumber(FaceNetworks& networks, fsm::Image photo, int number) {
-  UprightPhoto upright = SetUpright(networks, std::move(photo));
-  FrontPhoto front{.photo = std::move(upright.image),
-                   .face_count = static_cast<int>(upright.faces.size()),
-                   .orientation = upright.orientation};
-  if (upright.faces.empty()) return front;
-  auto face = ChooseFace(upright.faces, number);
-  if (!face) return std::unexpected(face.error());
-  front.face = FrontFace{std::move(*face)};
-  return front;
-}
+/// Searches a photo for a face as a FaceChoice says.
+struct FaceSearcher {
+  FaceNetworks& networks;
+  const ObservedHead& base;
+  fsm::Image photo;
+  float photo_per_given_pixel;
 
-FrontPhoto FindNearest(FaceNetworks& networks, fsm::Image photo, glm::vec2 nose) {
-  const auto faces = FindFaces(networks, photo);
-  FrontPhoto front{.photo = std::move(photo), .face_count = static_cast<int>(faces.size())};
-  const auto nearest = std::ranges::min_element(faces, {}, [nose](const FoundFace& face) {
-    return glm::distance(face.PixelOf(point::kNoseTip), nose);
-  });
-  if (nearest != faces.end()) front.face = FrontFace{*nearest};
-  return front;
-}
-
-vm::Result<FrontPhoto> TakeFromHand(const ObservedHead& base, fsm::Image photo,
-                                    const HandPoints& points) {
-  if (auto within = CheckWithin(points, photo.width, photo.height); !within) {
-    return std::unexpected(within.error());
+  vm::Result<FaceSearch> operator()(const FaceNumber& choice) {
+    UprightPhoto upright = SetUpright(networks, std::move(photo));
+    FaceSearch search{.photo = std::move(upright.image),
+                      .face = {},
+                      .face_count = static_cast<int>(upright.faces.size()),
+                      .orientation = upright.orientation};
+    if (upright.faces.empty()) return search;
+    auto face = ChooseFace(upright.faces, choice.number);
+    if (!face) return std::unexpected(face.error());
+    search.face = std::move(*face);
+    return search;
   }
-  return FrontPhoto{
-      .photo = std::move(photo), .face = FrontFace{FaceFromHand(base, points)}, .face_count = 1};
+  vm::Result<FaceSearch> operator()(const FaceNear& choice) {
+    const glm::vec2 nose = photo_per_given_pixel * choice.nose;
+    const auto faces = FindFaces(networks, photo);
+    FaceSearch search{std::move(photo), {}, static_cast<int>(faces.size())};
+    const auto nearest = std::ranges::min_element(faces, {}, [nose](const FoundFace& face) {
+      return glm::distance(face.PixelOf(point::kNoseTip), nose);
+    });
+    if (nearest != faces.end()) search.face = *nearest;
+    return search;
+  }
+  vm::Result<FaceSearch> operator()(const HandPoints& points) {
+    if (auto within = CheckWithin(points, photo.width, photo.height); !within) {
+      return std::unexpected(within.error());
+    }
+    return FaceSearch{std::move(photo), FaceFromHand(base, points), 1};
+  }
+};
+
+/// Reduces a search to the surroundings of its face, with the pixels of the photo as given. Returns
+/// close-up pixels for each whole pixel. REQUIRES: search.face.
+float CropToFace(fsm::Image given, FaceSearch& search) {
+  if (search.orientation != 1) given = Turned(given, search.orientation);
+  CloseUp close_up = CloseUpOf(search.photo, given, *search.face);
+  search.photo = std::move(close_up.image);
+  search.face = std::move(close_up.face);
+  return close_up.scale;
 }
 
 float LongerSide(const fsm::Image& photo) {
@@ -65,60 +87,53 @@ vm::Result<FoundFace> ChooseFace(std::span<const FoundFace> faces, int number) {
   return faces[static_cast<std::size_t>(number - 1)];
 }
 
-vm::Result<FrontPhoto> PrepareFront(FaceNetworks& networks, const ObservedHead& base,
-                                    fsm::Image photo, const FaceChoice& choice, PhotoExtent extent,
-                                    const StepDone& done) {
-  fsm::Image working = extent == PhotoExtent::kWhole ? photo : ScaledToFit(photo, kWorkingSize);
-  const float scale = LongerSide(working) / LongerSide(photo);
-  auto found = [&]() -> vm::Result<FrontPhoto> {
-    if (const auto* by_number = std::get_if<FaceNumber>(&choice)) {
-      return FindByNumber(networks, std::move(working), by_number->number);
-    }
-    if (const auto* near = std::get_if<FaceNear>(&choice)) {
-      return FindNearest(networks, std::move(working), scale * near->nose);
-    }
-    return TakeFromHand(base, std::move(working), std::get<HandPoints>(choice));
-  }();
-  if (!found) return found;
+vm::Result<PreparedFront> PrepareFront(FaceNetworks& networks, const ObservedHead& base,
+                                       fsm::Image photo, const FaceChoice& choice,
+                                       PhotoExtent extent, const StepDone& done) {
+  fsm::Image whole = extent == PhotoExtent::kWhole ? photo : ScaledToFit(photo, kWorkingSize);
+  float scale = LongerSide(whole) / LongerSide(photo);
+  auto search = std::visit(FaceSearcher{networks, base, std::move(whole), scale}, choice);
+  if (!search) return std::unexpected(search.error());
   done("faces and their points found");
-  FrontPhoto& front = *found;
-  front.scale = scale;
-  front.whole_size = {front.photo.width, front.photo.height};
-  FoundFace* face = front.face ? &front.face->found : nullptr;
-  if (face) front.face->nose = face->PixelOf(point::kNoseTip);
-  if (face && extent == PhotoExtent::kCloseUp) {
-    if (front.orientation != 1) photo = Turned(photo, front.orientation);
-    CloseUp close_up = CloseUpOf(front.photo, photo, *face);
-    front.photo = std::move(close_up.image);
-    *face = std::move(close_up.face);
-    front.scale *= close_up.scale;
+  const glm::ivec2 whole_size_px(search->photo.width, search->photo.height);
+  std::optional<FrontFace> face;
+  if (search->face) {
+    const glm::vec2 nose_whole_px = search->face->PixelOf(point::kNoseTip);
+    if (extent == PhotoExtent::kCloseUp) scale *= CropToFace(std::move(photo), *search);
+    face = FrontFace{*search->face, DetectOcclusion(networks, base, *search->face, search->photo),
+                     nose_whole_px};
   }
-  front.figure =
-      face ? FindFigureOf(networks, front.photo, *face) : FindFigure(networks, front.photo);
-  if (face) front.face->occlusion = DetectOcclusion(networks, base, *face, front.photo);
+  FigureCutout figure = face ? FindFigureOf(networks, search->photo, face->found)
+                             : FindFigure(networks, search->photo);
   done("figure cut out");
-  return found;
+  return PreparedFront{.photo = {.image = std::move(search->photo),
+                                 .figure = std::move(figure),
+                                 .face_count = search->face_count,
+                                 .orientation = search->orientation,
+                                 .closeup_per_given_pixel = scale,
+                                 .whole_size_px = whole_size_px},
+                       .face = std::move(face)};
 }
 
 vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
                               const FrontFace& front_face, std::optional<SidePhotoSet> from_side,
                               std::optional<bool> glasses, const StepDone& done) {
   const std::size_t count = from_side ? from_side->photos.size() : 0;
-  if (auto few = CheckSidePhotoCount(count); !few) return std::unexpected(few.error());
+  assert(count <= kMaxSidePhotos);
   const FoundFace& face = front_face.found;
-  if (auto shown = CheckFeaturesShown(face, front.photo); !shown) {
+  if (auto shown = CheckFeaturesShown(face, front.image); !shown) {
     return std::unexpected(shown.error());
   }
-  SidePhotoFit fitted{FitFace(base, face, front.photo), {}, {}};
+  SidePhotoFit fitted{FitFace(base, face, front.image), {}, {}};
   done("head fitted");
   if (from_side) {
     fitted =
-        UseSidePhotos(from_side->networks, front.photo, from_side->photos, std::move(fitted.fit));
+        UseSidePhotos(from_side->networks, front.image, from_side->photos, std::move(fitted.fit));
   }
   auto& [fit, views, rejected] = fitted;
   if (rejected.size() < count) done("seen from the side, too");
-  BakedHead baked = BakeHead(face, fit, front.photo, front.figure, views);
-  baked.head.glasses = glasses ? *glasses : WearsGlasses(face, front.photo);
+  BakedHead baked = BakeHead(face, fit, front.image, front.figure, views);
+  baked.head.glasses = glasses ? *glasses : WearsGlasses(face, front.image);
   done("photo put on");
   std::string report = Report(front, front_face, fit, baked);
   return MadeFace{std::move(fit), std::move(baked), std::move(report), std::move(rejected)};

@@ -37,7 +37,7 @@ enum class PhotoExtent { kCloseUp, kWhole };
 /// Finds the face in a photo, selects what to work on, cuts the figure out, and checks whether
 /// something hides the face. The face may be uncertain: compare its certainty with kCertainFace.
 /// Errors: kBadValue, there are faces but fewer than the number asked for; as CheckWithin.
-vm::Result<FrontPhoto> PrepareFront(
+vm::Result<PreparedFront> PrepareFront(
     FaceNetworks& networks, const ObservedHead& base, fsm::Image photo, const FaceChoice& choice,
     PhotoExtent extent, const StepDone& done = [](const char*) {});
 
@@ -55,8 +55,8 @@ struct SidePhotoSet {
 };
 /// Fits the base head, which outlives the result, to a face in a photo, corrects its depth by
 /// photos from the side, and bakes all photos onto it. `glasses`: whether the person wears glasses;
-/// if empty, that is detected. Errors: as CheckSidePhotoCount and CheckFeaturesShown. Throws
-/// std::runtime_error if rendering is impossible.
+/// if empty, that is detected. Errors: as CheckFeaturesShown. Throws std::runtime_error if
+/// rendering is impossible. REQUIRES: as CheckSidePhotoCount.
 vm::Result<MadeFace> MakeFace(
     const ObservedHead& base, const FrontPhoto& front, const FrontFace& face,
     std::optional<SidePhotoSet> from_side = {}, std::optional<bool> glasses = {},

@@ -62,10 +62,10 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_fa
   const float turned_deg = std::abs(glm::degrees(fit.head.pose.rotation_rad.y));
   const float bent_deg = std::abs(glm::degrees(fit.head.pose.rotation_rad.x));
   const int hidden_irises = HiddenIrises(fit.irises);
-  const float left_by_right = SideLight(face, front.photo);
+  const float left_by_right = SideLight(face, front.image);
   const ShownUnits& shown_units = fit.head.shown_units;
   // The network guesses what it does not see with the same certainty as the rest.
-  const std::string cut_off = NamesOf(FindCutOffParts(face, front.photo));
+  const std::string cut_off = NamesOf(FindCutOffParts(face, front.image));
   const Completed& completed = baked.completed;
   const std::string drawn =
       JoinedNames({{completed.neck, "neck, shoulders and clothes below it"},
@@ -87,7 +87,7 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_fa
        "their lids keep what the photo shows on them"},
       {hidden_irises == 1,
        "one iris is not seen clearly; the other stands in for it, or both are drawn"},
-      {Sharpness(face, front.photo) <= look.blurred, "the photo is blurred"},
+      {Sharpness(face, front.image) <= look.blurred, "the photo is blurred"},
       {left_by_right > look.side_light.to || left_by_right <= look.side_light.from,
        "strong light from one side stays in the skin"},
       {std::max(shown_units.smile, shown_units.jaw + shown_units.parted) > look.expression,
@@ -128,7 +128,7 @@ std::string Report(const FrontPhoto& front, const FrontFace& face, const FaceFit
       "residual    {:.2f} mm\n"
       "coverage    {:.0f} % of the face's map\n"
       "glasses     {}\n",
-      front.photo.width, front.photo.height, glm::length(face.found.AcrossEyes()), front.face_count,
+      front.image.width, front.image.height, glm::length(face.found.AcrossEyes()), front.face_count,
       face.found.certainty, turn_deg.x, turn_deg.y, turn_deg.z, shown_units.smile, shown_units.jaw,
       shown_units.parted, irises.right.contrast, irises.left.contrast, kClearIris,
       ResidualMm(face.found, fit.head), 100 * baked.coverage, baked.head.glasses ? "yes" : "no");

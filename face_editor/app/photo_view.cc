@@ -172,7 +172,7 @@ void DrawPhoto(Ui& ui) {
     return;
   }
   if (view.shown != work) {
-    view.texture = ui.window.Upload(view.texture, work->front.photo);
+    view.texture = ui.window.Upload(view.texture, work->front.photo.image);
     view.shown = work;
     view.zoom = 0;
   }
@@ -180,7 +180,7 @@ void DrawPhoto(Ui& ui) {
   list.PushClipRect(view.low, view.high, true);
   list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(view.texture)),
                 Im(view.ToWindow({0, 0})),
-                Im(view.ToWindow({work->front.photo.width, work->front.photo.height})));
+                Im(view.ToWindow({work->front.photo.image.width, work->front.photo.image.height})));
   ImGui::InvisibleButton("photo", size);
   Gesture& gesture = view.gesture;
   const bool over = ImGui::IsItemHovered() || gesture.kind != Gesture::Kind::kNone;

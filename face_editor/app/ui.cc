@@ -220,8 +220,8 @@ vm::Result<void> OpenFile(Ui& ui, const std::string& path, const std::string& fa
   if (ui.face_name == offered) ui.face_name = ui.offered_name;
   const auto& work = ui.editor.work();
   ui.Tell(!work->notice.empty() ? work->notice
-          : work->front.face_count > 1
-              ? fmt::format("{} faces; the largest was taken", work->front.face_count)
+          : work->front.photo.face_count > 1
+              ? fmt::format("{} faces; the largest was taken", work->front.photo.face_count)
               : "Opened " + path + ": drag points where they miss, then build the face");
   return {};
 }

@@ -55,7 +55,7 @@ vm::Result<void> Editor::LoadPoints(const std::string& path) {
   if (!text) return std::unexpected(text.error());
   auto points = facefit::ParseHandPoints(path, *text);
   if (!points) return std::unexpected(points.error());
-  const fsm::Image& photo = work_->front.photo;
+  const fsm::Image& photo = work_->front.photo.image;
   if (auto within = facefit::CheckWithin(*points, photo.width, photo.height); !within) {
     return Fail(within.error().code, path + ": " + within.error().text);
   }

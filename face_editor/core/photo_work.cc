@@ -67,7 +67,7 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceModels* models, const
   work->path = path;
   work->found = PlainPoints(photo->width, photo->height);
   if (!models) {
-    work->front.photo = std::move(*photo);
+    work->front.photo.image = std::move(*photo);
     work->mirror = MirrorByName();
     work->notice =
         "The networks that find faces are not installed (scripts/face_networks.sh): "
@@ -83,7 +83,8 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceModels* models, const
     work->mirror = models->mirror;
     if (work->front.face) {
       work->found = PointsOf(work->front.face->found);
-      if (work->front.orientation != 1) work->notice = "The photo was lying; it was set upright";
+      if (work->front.photo.orientation != 1)
+        work->notice = "The photo was lying; it was set upright";
     } else {
       work->notice = "No face was found: drag the points to where eyes, nose, mouth and chin are";
       work->found = AllPoints(*work, work->found);
@@ -102,9 +103,9 @@ vm::Result<std::shared_ptr<const facefit::SidePhoto>> OpenSidePhoto(FaceModels& 
     auto side_photo = facefit::ReadSidePhoto(models.networks, path);
     if (!side_photo) return std::unexpected(side_photo.error());
     const facefit::SidePhoto* const only[] = {&*side_photo};
-    const auto used =
-        facefit::UseSidePhotos(models.networks, work.front.photo, only,
-                               facefit::FitFace(*work.base, FoundFrom(points), work.front.photo));
+    const auto used = facefit::UseSidePhotos(
+        models.networks, work.front.photo.image, only,
+        facefit::FitFace(*work.base, FoundFrom(points), work.front.photo.image));
     if (!used.rejected.empty()) {
       return vm::Fail(vm::Errc::kBadValue, path + ": " + used.rejected.front().reason);
     }
@@ -124,7 +125,7 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
     face.found = FoundFrom(points);
     const auto from_side =
         models ? std::optional(facefit::SidePhotoSet{models->networks, side_photos}) : std::nullopt;
-    auto made = facefit::MakeFace(*work.base, work.front, face, from_side);
+    auto made = facefit::MakeFace(*work.base, work.front.photo, face, from_side);
     if (!made) return std::unexpected(made.error());
     auto built = std::make_shared<BuiltFace>();
     built->base = work.base;

@@ -26,7 +26,7 @@ vm::Result<std::shared_ptr<FaceModels>> LoadFaceModels(const std::string& folder
 struct PhotoWork {
   std::string path;
   /// Upright, at most facefit::kWorkingSize. Without the networks it is only the photo.
-  facefit::FrontPhoto front;
+  facefit::PreparedFront front;
   PointMap found;      ///< of the face chosen, or as they may be set by hand
   std::string notice;  ///< what the user should know, a sentence; may be empty
   Mirror mirror;

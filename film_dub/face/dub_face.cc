@@ -38,9 +38,10 @@ vm::Result<std::unique_ptr<DubFace>> DubFace::Make(facefit::FaceNetworks& networ
       return vm::Fail(vm::Errc::kBadValue,
                       "the face cannot be told apart in the picture where it is seen best");
     }
-    const auto made = facefit::MakeFace(*base, *front, *front->face);
+    const auto made = facefit::MakeFace(*base, front->photo, *front->face);
     if (!made) return std::unexpected(made.error());
-    const float film_pixels_per_mm = made->fit.head.pose.PixelsPerMm() / front->scale;
+    const float film_pixels_per_mm =
+        made->fit.head.pose.PixelsPerMm() / front->photo.closeup_per_given_pixel;
     const int side = std::clamp(static_cast<int>(std::lround(kViewMm * film_pixels_per_mm)),
                                 kLeastSide, kMostSide);
     return std::unique_ptr<DubFace>(new DubFace(std::move(*base), *made, side));

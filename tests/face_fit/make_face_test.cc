@@ -36,8 +36,8 @@ TEST_F(MakeFaceTest, WhereNoFaceIsFoundTheFigureAloneIsCutOut) {
     const auto front = vm::OrThrow(
         PrepareFront(*networks_, Galatea(), GreyPhoto(), choice, PhotoExtent::kCloseUp));
     EXPECT_FALSE(front.face);
-    EXPECT_EQ(front.face_count, 0);
-    EXPECT_EQ(front.figure.opacity.width, 200);
+    EXPECT_EQ(front.photo.face_count, 0);
+    EXPECT_EQ(front.photo.figure.opacity.width, 200);
   }
 }
 
@@ -50,14 +50,6 @@ TEST_F(MakeFaceTest, PointsSetByHandBesideThePhotoAreRefused) {
   ASSERT_FALSE(front);
   EXPECT_TRUE(front.error().text.starts_with("none of the points lies in the photo"))
       << front.error().text;
-}
-
-TEST_F(MakeFaceTest, MorePhotosFromTheSideThanAreUsedAreRefused) {
-  const SidePhoto side;
-  const std::vector<const SidePhoto*> sides(kMaxSidePhotos + 1, &side);
-  const auto made = MakeFace(Galatea(), {}, {}, SidePhotoSet{*networks_, sides});
-  ASSERT_FALSE(made);
-  EXPECT_EQ(made.error().code, vm::Errc::kLimit);
 }
 
 /// The built-in head as the networks see it, or a part of it.
@@ -76,7 +68,7 @@ TEST_F(MakeFaceTest, OfAPhotoThatShowsOnlyTheInnerFaceTheRestIsDrawnAndNamed) {
                    PartOfPortrait(Galatea(), {right.x + 5, brow.y - 15}, {left.x - 5, chin.y + 2}),
                    FaceNumber{}, PhotoExtent::kCloseUp));
   ASSERT_TRUE(front.face);
-  const auto made = vm::OrThrow(MakeFace(Galatea(), front, *front.face));
+  const auto made = vm::OrThrow(MakeFace(Galatea(), front.photo, *front.face));
   EXPECT_NE(
       made.report.find("cuts off part of the head: the forehead, the right ear, the left ear"),
       std::string::npos)
@@ -92,8 +84,8 @@ TEST_F(MakeFaceTest, APhotoWithoutTheMouthIsRefused) {
   auto front =
       vm::OrThrow(PrepareFront(*networks_, Galatea(), portrait, FaceNumber{}, PhotoExtent::kWhole));
   ASSERT_TRUE(front.face);
-  front.photo = PartOfPortrait(Galatea(), {0, 0}, {portrait.width, nose.y + 4});
-  const auto made = MakeFace(Galatea(), front, *front.face);
+  front.photo.image = PartOfPortrait(Galatea(), {0, 0}, {portrait.width, nose.y + 4});
+  const auto made = MakeFace(Galatea(), front.photo, *front.face);
   ASSERT_FALSE(made);
   EXPECT_TRUE(made.error().text.starts_with("the photo cuts off the mouth; ")) << made.error().text;
 }
@@ -116,7 +108,7 @@ TEST_F(MakeFaceTest, APhotoThatDoesNotHelpIsLeftOutWithItsReasonAndTheRestIsMade
   const SidePhoto again{"again.png", photo, FindFaces(*networks_, photo).front()};
   const std::vector<const SidePhoto*> sides{&again};
   const auto made = vm::OrThrow(
-      MakeFace(Galatea(), front, *front.face, SidePhotoSet{*networks_, sides}, true, tell));
+      MakeFace(Galatea(), front.photo, *front.face, SidePhotoSet{*networks_, sides}, true, tell));
   ASSERT_EQ(made.rejected.size(), 1U);
   EXPECT_EQ(made.rejected[0].path, "again.png");
   EXPECT_NE(made.rejected[0].reason.find("from the front"), std::string::npos);

@@ -17,7 +17,7 @@ std::unique_ptr<fsm::Head> WornBy(FaceNetworks& networks, const ObservedHead& ba
                                   const fsm::Image& photo) {
   const auto front =
       vm::OrThrow(PrepareFront(networks, base, photo, FaceNumber{}, PhotoExtent::kCloseUp));
-  return fsm::MakeHead(vm::OrThrow(MakeFace(base, front, front.face.value())).baked.head);
+  return fsm::MakeHead(vm::OrThrow(MakeFace(base, front.photo, front.face.value())).baked.head);
 }
 
 fsm::Image Drawn(const fsm::Head& head, const fsm::FaceState& state, const fsm::Scene& scene,

@@ -18,7 +18,7 @@ struct ReportTest : testing::Test {
     face.found.points[263].x = 150;
     face.found.crop = {glm::vec2(100), 150, 0};
     Cover(0.5F, 0);
-    front.photo.rgba.assign(200 * 200 * 4, 128);
+    front.image.rgba.assign(200 * 200 * 4, 128);
     fit.head.base = &base;
     fit.head.posed_vertices = base.rest().position;
     fit.irises.circles = {{{80, 100}, 6, 0.3F}, {{120, 100}, 6, 0.3F}};
@@ -33,7 +33,7 @@ struct ReportTest : testing::Test {
 
   const ObservedHead base = ObservedHead::Exact(fsm::MakeHead("galatea"), "galatea",
                                                 std::vector<MeshPoint>(kNetworkPoints));
-  FrontPhoto front{.photo = {.width = 200, .height = 200, .rgba = {}}, .face_count = 1};
+  FrontPhoto front{.image = {.width = 200, .height = 200, .rgba = {}}, .face_count = 1};
   FrontFace face;
   FaceFit fit;
   BakedHead baked;
