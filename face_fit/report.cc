@@ -63,7 +63,7 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_fa
   const float bent_deg = std::abs(glm::degrees(fit.head.pose.rotation_rad.x));
   const int hidden_irises = HiddenIrises(fit.irises);
   const float left_by_right = SideLight(face, front.image);
-  const ShownUnits& shown_units = fit.head.shown_units;
+  const Expression& expression = fit.head.expression;
   // The network guesses what it does not see with the same certainty as the rest.
   const std::string cut_off = NamesOf(FindCutOffParts(face, front.image));
   const Completed& completed = baked.completed;
@@ -90,7 +90,7 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_fa
       {Sharpness(face, front.image) <= look.blurred, "the photo is blurred"},
       {left_by_right > look.side_light.to || left_by_right <= look.side_light.from,
        "strong light from one side stays in the skin"},
-      {std::max(shown_units.smile, shown_units.jaw + shown_units.parted) > look.expression,
+      {std::max(expression.smile, expression.jaw_drop + expression.lips_part) > look.expression,
        "not a neutral face; some folds of the expression stay in the skin"},
       {baked.head.glasses,
        "glasses stay as they are, and so does the skin round the eyes; --glasses no if there are "
@@ -116,7 +116,7 @@ std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_fa
 std::string Report(const FrontPhoto& front, const FrontFace& face, const FaceFit& fit,
                    const BakedHead& baked) {
   const glm::vec3 turn_deg = glm::degrees(fit.head.pose.rotation_rad);
-  const ShownUnits& shown_units = fit.head.shown_units;
+  const Expression& expression = fit.head.expression;
   const auto& irises = fit.irises.circles;
   std::string out = fmt::format(
       "photo       {} x {} pixels, eyes {:.0f} pixels apart at their outer corners\n"
@@ -129,9 +129,10 @@ std::string Report(const FrontPhoto& front, const FrontFace& face, const FaceFit
       "coverage    {:.0f} % of the face's map\n"
       "glasses     {}\n",
       front.image.width, front.image.height, glm::length(face.found.AcrossEyes()), front.face_count,
-      face.found.certainty, turn_deg.x, turn_deg.y, turn_deg.z, shown_units.smile, shown_units.jaw,
-      shown_units.parted, irises.right.contrast, irises.left.contrast, kClearIris,
-      ResidualMm(face.found, fit.head), 100 * baked.coverage, baked.head.glasses ? "yes" : "no");
+      face.found.certainty, turn_deg.x, turn_deg.y, turn_deg.z, expression.smile,
+      expression.jaw_drop, expression.lips_part, irises.right.contrast, irises.left.contrast,
+      kClearIris, ResidualMm(face.found, fit.head), 100 * baked.coverage,
+      baked.head.glasses ? "yes" : "no");
   if (const auto& occlusion = face.occlusion) {
     out += fmt::format(
         "covered     {:.2f} (from {} on something may be before the face, from {} on it is){}\n",

@@ -29,7 +29,7 @@
 namespace facefit {
 namespace {
 
-float SmileOf(const FittedHead& fitted) { return glm::clamp(fitted.shown_units.smile, 0.0F, 1.0F); }
+float SmileOf(const FittedHead& fitted) { return glm::clamp(fitted.expression.smile, 0.0F, 1.0F); }
 
 /// Paints what the photo shows, except what lies between lids and between lips.
 SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTexels& texels,

@@ -144,9 +144,9 @@ std::vector<float> NetworkDepthErrorsMm(const FitProblem& problem, const CameraP
 }
 
 std::vector<PixelConstraint> MakeConstraints(const FitProblem& problem, const CameraPose& pose,
-                                             const ShownUnits& shown_units,
+                                             const Expression& expression,
                                              const PhotoIrises& irises, const fsm::Image& photo) {
-  const std::vector<glm::vec3> posed = problem.base.Posed(shown_units.State());
+  const std::vector<glm::vec3> posed = problem.base.Posed(expression.State());
   auto constraints = PointConstraints(problem, pose, posed);
   ShiftLidsToIrises(problem, irises, constraints);
   if (problem.lips_apart) return constraints;

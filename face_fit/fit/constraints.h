@@ -46,7 +46,7 @@ std::vector<float> NetworkDepthErrorsMm(const FitProblem& problem, const CameraP
 /// an open mouth there are none, because at rest both are one line, which cannot be moved to two
 /// separate ones.
 std::vector<PixelConstraint> MakeConstraints(const FitProblem& problem, const CameraPose& pose,
-                                             const ShownUnits& shown_units,
+                                             const Expression& expression,
                                              const PhotoIrises& irises, const fsm::Image& photo);
 
 }  // namespace facefit

@@ -58,7 +58,7 @@ fsm::Sided<fsm::EyeTransform> FitEyes(const ObservedHead& base,
 fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted) {
   const float kept = PhotoLook().squint_kept_share;
   const ObservedHead& base = *fitted.base;
-  const std::vector<glm::vec3> posed = base.Posed(fitted.shown_units.State());
+  const std::vector<glm::vec3> posed = base.Posed(fitted.expression.State());
   fsm::Sided<fsm::EyeTransform> transforms = fitted.eyes;
   for (const fsm::Side side : fsm::kSides) {
     const auto raised = [&](std::size_t k) {

@@ -13,21 +13,22 @@
 namespace facefit {
 namespace {
 
-/// Unknowns of the fit: the pose's, then the strengths of ShownUnits.
-enum FitParameter : std::size_t { kSmile = kPoseParameters, kJaw, kParted, kFitParameters };
+/// Unknowns of the fit: the pose's, then the strengths of Expression.
+enum FitParameter : std::size_t { kSmile = kPoseParameters, kJawDrop, kLipsPart, kFitParameters };
 constexpr double kMaxStrength = 1.5;
 using Parameters = std::vector<double>;
 
-ShownUnits ShownUnitsOf(const Parameters& p) {
+Expression ExpressionFrom(const Parameters& p) {
   const auto strength = [&p](FitParameter i) {
     return static_cast<float>(std::clamp(p[i], 0.0, kMaxStrength));
   };
-  return {.smile = strength(kSmile), .jaw = strength(kJaw), .parted = strength(kParted)};
+  return {
+      .smile = strength(kSmile), .jaw_drop = strength(kJawDrop), .lips_part = strength(kLipsPart)};
 }
 
 std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& parameters) {
   const CameraPose pose = PoseFromParameters(parameters);
-  const std::vector<glm::vec3> posed = problem.base.Posed(ShownUnitsOf(parameters).State());
+  const std::vector<glm::vec3> posed = problem.base.Posed(ExpressionFrom(parameters).State());
   const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<double> out;
   for (const PointIndex k : point::kReliable) {
@@ -46,13 +47,13 @@ std::vector<double> ResidualsOf(const FitProblem& problem, const Parameters& par
   // for a smile, and a dropped jaw or parted lips are ruled out.
   constexpr double kApartMm = 6, kClosedSmileMm = 40, kRuledOutMm = 1e4;
   out.push_back((problem.lips_apart ? kApartMm : kClosedSmileMm) * parameters[kSmile]);
-  for (const FitParameter i : {kJaw, kParted}) {
+  for (const FitParameter i : {kJawDrop, kLipsPart}) {
     out.push_back((problem.lips_apart ? kApartMm : kRuledOutMm) * parameters[i]);
   }
   return out;
 }
 
-Parameters FitPoseAndUnits(const FitProblem& problem, const CameraPose& start) {
+Parameters FitPoseAndExpression(const FitProblem& problem, const CameraPose& start) {
   std::vector<Unknown> unknowns = PoseUnknowns(start);
   for (std::size_t i = kSmile; i < kFitParameters; ++i) {
     unknowns.push_back({.start = 0, .step = 0.05, .low = 0, .high = kMaxStrength});
@@ -86,13 +87,13 @@ float SmileBeyondRest(float smile, bool lips_apart) {
 
 FaceFit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image& photo) {
   const FitProblem problem(base, face);
-  const Parameters settled = FitPoseAndUnits(problem, InitialPose(base, face));
+  const Parameters settled = FitPoseAndExpression(problem, InitialPose(base, face));
   const CameraPose pose = PoseFromParameters(settled);
-  ShownUnits shown_units = ShownUnitsOf(settled);
-  shown_units.smile = SmileBeyondRest(shown_units.smile, problem.lips_apart);
+  Expression expression = ExpressionFrom(settled);
+  expression.smile = SmileBeyondRest(expression.smile, problem.lips_apart);
   const PhotoIrises irises = FindPhotoIrises(base, face, photo);
-  auto constraints = MakeConstraints(problem, pose, shown_units, irises, photo);
-  FittedHead head = WarpToPixels(base, pose, shown_units, constraints);
+  auto constraints = MakeConstraints(problem, pose, expression, irises, photo);
+  FittedHead head = WarpToPixels(base, pose, expression, constraints);
   return {std::move(head), std::move(constraints), irises};
 }
 
@@ -109,7 +110,7 @@ FaceFit WithDepthShifted(FaceFit fit,
                          const std::function<float(const PixelConstraint&)>& nearer_mm) {
   for (PixelConstraint& constraint : fit.constraints) constraint.z_mm += nearer_mm(constraint);
   const FittedHead& head = fit.head;
-  fit.head = WarpToPixels(*head.base, head.pose, head.shown_units, fit.constraints);
+  fit.head = WarpToPixels(*head.base, head.pose, head.expression, fit.constraints);
   return fit;
 }
 

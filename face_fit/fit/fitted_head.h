@@ -12,17 +12,17 @@
 namespace facefit {
 
 /// The expression in the photo: strengths of action units, 0 to 1.5.
-struct ShownUnits {
-  float smile = 0;   ///< AU 12 with 6
-  float jaw = 0;     ///< AU 26
-  float parted = 0;  ///< AU 25
+struct Expression {
+  float smile = 0;      ///< AU 12 with 6
+  float jaw_drop = 0;   ///< AU 26
+  float lips_part = 0;  ///< AU 25
   fsm::FaceState State() const {
     fsm::FaceState state;
     state.asymmetry = 0;
     for (const auto& [unit, strength] : {std::pair(fsm::kLipCornerPuller, smile),
                                          {fsm::kCheekRaiser, 0.5F * smile},
-                                         {fsm::kJawDrop, jaw},
-                                         {fsm::kLipsPart, parted}}) {
+                                         {fsm::kJawDrop, jaw_drop},
+                                         {fsm::kLipsPart, lips_part}}) {
       for (const fsm::Side side : fsm::kSides) state.au[side][unit] = strength;
     }
     return state;
@@ -36,7 +36,7 @@ inline constexpr float kWarpSmoothMm = 1;
 struct FittedHead {
   const ObservedHead* base = nullptr;  ///< outlives this
   CameraPose pose;
-  ShownUnits shown_units;
+  Expression expression;
   /// Base head at rest -> person at rest, evened out by kWarpSmoothMm.
   std::vector<fsm::WarpPoint> warp_points;
   fsm::Sided<fsm::EyeTransform> eyes;

@@ -29,7 +29,7 @@ std::optional<fsm::Side> EyeOf(const PixelConstraint& c) {
 /// Returns the posed vertices with the base head's skin replaced by the fitted head's in the
 /// photo's expression.
 std::vector<glm::vec3> PosedSkin(const FittedHead& fitted) {
-  const auto skin = SkinWith(fitted, fitted.shown_units.State());
+  const auto skin = SkinWith(fitted, fitted.expression.State());
   std::vector<glm::vec3> posed = fitted.posed_vertices;
   assert(skin.size() <= posed.size());
   std::ranges::copy(skin, posed.begin());
@@ -50,12 +50,12 @@ struct WarpPoints {
   std::vector<fsm::WarpPoint> points;
   std::vector<Correctable> correctable;
 };
-/// Returns the points of the warp that the constraints ask for; `now`: the vertices with the
-/// expression.
+/// Returns the points of the warp that the constraints ask for; `posed`: the base head's
+/// vertices in the photo's expression.
 WarpPoints MakeWarpPoints(const ObservedHead& base, const CameraPose& pose,
                           std::span<const PixelConstraint> constraints,
                           const fsm::Sided<fsm::EyeTransform>& eyes,
-                          const std::vector<glm::vec3>& now) {
+                          const std::vector<glm::vec3>& posed) {
   WarpPoints made;
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     const PixelConstraint& constraint = constraints[i];
@@ -66,22 +66,22 @@ WarpPoints MakeWarpPoints(const ObservedHead& base, const CameraPose& pose,
       made.points.push_back({rest, eyes[*side].PointInFace(centre, rest) - rest});
     } else {
       made.correctable.push_back({made.points.size(), i});
-      made.points.push_back({rest, TargetOf(pose, constraint) - constraint.on_head.On(now)});
+      made.points.push_back({rest, TargetOf(pose, constraint) - constraint.on_head.On(posed)});
     }
   }
   return made;
 }
 
-/// Returns the eyes that the constraints show; `now`: as for MakeWarpPoints.
+/// Returns the eyes that the constraints show; `posed`: as for MakeWarpPoints.
 fsm::Sided<fsm::EyeTransform> FitEyesTo(const ObservedHead& base, const CameraPose& pose,
                                         std::span<const PixelConstraint> constraints,
-                                        const std::vector<glm::vec3>& now) {
+                                        const std::vector<glm::vec3>& posed) {
   std::map<PointIndex, glm::vec3> outlines;
   for (const PixelConstraint& constraint : constraints) {
     if (!EyeOf(constraint)) continue;
     outlines[*constraint.point] =
         TargetOf(pose, constraint) -
-        (constraint.on_head.On(now) - constraint.on_head.On(base.rest().position));
+        (constraint.on_head.On(posed) - constraint.on_head.On(base.rest().position));
   }
   return FitEyes(base, outlines);
 }
@@ -106,19 +106,19 @@ std::vector<glm::vec3> SkinWith(const FittedHead& fitted, const fsm::FaceState& 
 }
 
 FittedHead WarpToPixels(const ObservedHead& base, const CameraPose& pose,
-                        const ShownUnits& shown_units,
+                        const Expression& expression,
                         std::span<const PixelConstraint> constraints) {
-  const std::vector<glm::vec3> now = base.Posed(shown_units.State());
-  const auto eyes = FitEyesTo(base, pose, constraints, now);
-  WarpPoints made = MakeWarpPoints(base, pose, constraints, eyes, now);
+  const std::vector<glm::vec3> posed = base.Posed(expression.State());
+  const auto eyes = FitEyesTo(base, pose, constraints, posed);
+  WarpPoints made = MakeWarpPoints(base, pose, constraints, eyes, posed);
   FittedHead fitted{.base = &base,
                     .pose = pose,
-                    .shown_units = shown_units,
+                    .expression = expression,
                     .warp_points = std::move(made.points),
                     .eyes = eyes,
-                    .posed_vertices = now};
+                    .posed_vertices = posed};
   const fsm::Warp warp(fitted.warp_points, kWarpSmoothMm);
-  for (std::size_t i = 0; i < now.size(); ++i) {
+  for (std::size_t i = 0; i < posed.size(); ++i) {
     fitted.posed_vertices[i] += warp.Motion(base.rest().position[i]);
   }
   // The warped head's own units, lids and lips move points slightly off; a second pass corrects

@@ -20,7 +20,6 @@ std::vector<glm::vec3> SkinWith(const FittedHead& fitted, const fsm::FaceState& 
 /// them. Four fifths of what is still off then are corrected, once; outlines of the eyes, which
 /// move with them as wholes, are not corrected.
 FittedHead WarpToPixels(const ObservedHead& base, const CameraPose& pose,
-                        const ShownUnits& shown_units,
-                        std::span<const PixelConstraint> constraints);
+                        const Expression& expression, std::span<const PixelConstraint> constraints);
 
 }  // namespace facefit

@@ -63,9 +63,9 @@ TEST_F(FitTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
                                       "field 25 7 -45 24 16 below 0 -8 0\n"));
   ObservedHead built_in = Exact(base), moved = Exact(base);
   moved.UseUnits(own);
-  ShownUnits smiling;
+  Expression smiling;
   smiling.smile = 0.9F;
-  smiling.parted = 0.9F;
+  smiling.lips_part = 0.9F;
   fsm::HeadVertices vertices;
   moved.head().Evaluate(smiling.State(), vertices);
   const FoundFace face = DetectedOf(base.mesh_points(), vertices.position);
@@ -75,7 +75,7 @@ TEST_F(FitTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
     return far;
   };
   const FaceFit fit = FitFace(moved, face, EvenGreyImage(800));
-  EXPECT_NEAR(fit.head.shown_units.smile, smiling.smile, 0.1F);
+  EXPECT_NEAR(fit.head.expression.smile, smiling.smile, 0.1F);
   EXPECT_LT(most(fit), 2);
   EXPECT_GT(most(FitFace(built_in, face, EvenGreyImage(800))), 4) << "else this would say nothing";
   // The head as worn in the photo smiles by the same table.
