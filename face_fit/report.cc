@@ -47,8 +47,8 @@ float SideLight(const FoundFace& face, const fsm::Image& photo) {
 
 /// Returns the number of irises that are not seen clearly.
 int HiddenIrises(const PhotoIrises& irises) {
-  return static_cast<int>(std::ranges::count_if(
-      irises.circles.InOrder(), [](const IrisCircle& iris) { return iris.contrast < kClearIris; }));
+  return static_cast<int>(std::ranges::count_if(irises.eyes.InOrder(),
+                                                [](const PhotoIris& iris) { return !iris.seen; }));
 }
 
 struct Warning {
@@ -117,7 +117,7 @@ std::string Report(const FrontPhoto& front, const FrontFace& face, const FaceFit
                    const BakedHead& baked) {
   const glm::vec3 turn_deg = glm::degrees(fit.head.pose.rotation_rad);
   const Expression& expression = fit.head.expression;
-  const auto& irises = fit.irises.circles;
+  const auto& irises = fit.irises.eyes;
   std::string out = fmt::format(
       "photo       {} x {} pixels, eyes {:.0f} pixels apart at their outer corners\n"
       "faces       {}\n"
@@ -130,9 +130,9 @@ std::string Report(const FrontPhoto& front, const FrontFace& face, const FaceFit
       "glasses     {}\n",
       front.image.width, front.image.height, glm::length(face.found.AcrossEyes()), front.face_count,
       face.found.certainty, turn_deg.x, turn_deg.y, turn_deg.z, expression.smile,
-      expression.jaw_drop, expression.lips_part, irises.right.contrast, irises.left.contrast,
-      kClearIris, ResidualMm(face.found, fit.head), 100 * baked.coverage,
-      baked.head.glasses ? "yes" : "no");
+      expression.jaw_drop, expression.lips_part, irises.right.circle.contrast,
+      irises.left.circle.contrast, kClearIris, ResidualMm(face.found, fit.head),
+      100 * baked.coverage, baked.head.glasses ? "yes" : "no");
   if (const auto& occlusion = face.occlusion) {
     out += fmt::format(
         "covered     {:.2f} (from {} on something may be before the face, from {} on it is){}\n",

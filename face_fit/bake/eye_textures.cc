@@ -156,15 +156,14 @@ struct EyeSquares {
 std::optional<fsm::Sided<fsm::Side>> ShownEyes(const PhotoIrises& irises) {
   // The clear eye is mirrored only if it is wide open.
   constexpr float kForBoth = 0.1F;
-  const auto clear = [&irises](fsm::Side side, float contrast) {
-    return irises.circles[side].contrast >= contrast &&
-           irises.circles[side].radius_px >= kMinIrisPx;
+  const auto shown = [&irises](fsm::Side side) {
+    return irises.eyes[side].seen && irises.eyes[side].circle.radius_px >= kMinIrisPx;
   };
-  if (clear(fsm::Side::kRight, kClearIris) && clear(fsm::Side::kLeft, kClearIris)) {
+  if (shown(fsm::Side::kRight) && shown(fsm::Side::kLeft)) {
     return {{fsm::Side::kRight, fsm::Side::kLeft}};
   }
   for (const fsm::Side side : fsm::kSides) {
-    if (clear(side, kForBoth)) return {{side, side}};
+    if (shown(side) && irises.eyes[side].circle.contrast >= kForBoth) return {{side, side}};
   }
   return std::nullopt;
 }
@@ -215,7 +214,7 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
   for (const fsm::Side side : fsm::kSides) {
     if ((*shown)[side] != side) continue;
     const LidLines lids(EyePointsOf(side, face));
-    const PhotoEye eye{fit.irises.circles[side], lids, right, {right.y, -right.x}};
+    const PhotoEye eye{fit.irises.eyes[side].circle, lids, right, {right.y, -right.x}};
     const float radius = at_rest[side].size * base.head().surface().eyes[side].ball_radius;
     squares[side] = {IrisTexture(eye, SkinColourBelowEye(face, photo, side), photo),
                      BallTexture(eye, LidsAtRest(base, side, at_rest[side]), radius, photo)};

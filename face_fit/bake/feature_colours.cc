@@ -75,7 +75,7 @@ EyeColours SampleEyes(const FoundFace& face, const PhotoIrises& irises, const fs
     const EyePoints outline = EyePointsOf(side, face);
     const glm::vec2 a = outline[kOuterCorner], b = outline[kInnerCorner];
     const float width = glm::distance(a, b);
-    const IrisCircle& circle = irises.circles[side];
+    const IrisCircle& circle = irises.eyes[side].circle;
     for (float y = -kHalfHeight; y <= kHalfHeight; y += kSampleStep) {
       for (float x = -kHalfWidth; x <= kHalfWidth; x += kSampleStep) {
         const glm::vec2 pixel = 0.5F * (a + b) + width * glm::vec2(x, y);

@@ -43,11 +43,9 @@ std::vector<PixelConstraint> PointConstraints(const FitProblem& problem, const C
 }
 
 /// Moves the outlines of eyes up or down where the irises show that the network misplaced them.
-void ShiftLidsToIrises(const FitProblem& problem, const PhotoIrises& irises,
-                       std::vector<PixelConstraint>& constraints) {
+void ShiftLidsToIrises(const PhotoIrises& irises, std::vector<PixelConstraint>& constraints) {
   for (const fsm::Side side : fsm::kSides) {
-    const glm::vec2 shift_px =
-        LidShiftPx(problem.base, EyePointsOf(side, problem.face), irises.circles[side], side);
+    const glm::vec2 shift_px = LidShiftPx(irises.eyes[side]);
     for (PixelConstraint& constraint : constraints) {
       if (constraint.IsAmong(point::kEyeOutline[side])) constraint.pixel += shift_px;
     }
@@ -148,7 +146,7 @@ std::vector<PixelConstraint> MakeConstraints(const FitProblem& problem, const Ca
                                              const PhotoIrises& irises, const fsm::Image& photo) {
   const std::vector<glm::vec3> posed = problem.base.Posed(expression.State());
   auto constraints = PointConstraints(problem, pose, posed);
-  ShiftLidsToIrises(problem, irises, constraints);
+  ShiftLidsToIrises(irises, constraints);
   if (problem.lips_apart) return constraints;
   const MouthAxis mouth(problem.base);
   const auto& on_head = problem.base.mesh_points();

@@ -21,7 +21,7 @@ struct ReportTest : testing::Test {
     front.image.rgba.assign(200 * 200 * 4, 128);
     fit.head.base = &base;
     fit.head.posed_vertices = base.rest().position;
-    fit.irises.circles = {{{80, 100}, 6, 0.3F}, {{120, 100}, 6, 0.3F}};
+    for (PhotoIris* iris : {&fit.irises.eyes.right, &fit.irises.eyes.left}) iris->seen = true;
   }
   bool Says(const std::string& what) const {
     return Report(front, face, fit, baked).find(what) != std::string::npos;
@@ -50,9 +50,9 @@ TEST_F(ReportTest, AHeadTurnedFarIsToldApartFromOneTurnedALittle) {
 
 TEST_F(ReportTest, EyesThatAreShutOrInTheShadeAreSpokenOf) {
   EXPECT_FALSE(Says("iris is"));
-  fit.irises.circles.left.contrast = 0;
+  fit.irises.eyes.left.seen = false;
   EXPECT_TRUE(Says("one iris is not seen clearly"));
-  fit.irises.circles.right.contrast = 0.01F;
+  fit.irises.eyes.right.seen = false;
   EXPECT_TRUE(Says("no iris is seen"));
 }
 

@@ -21,6 +21,7 @@ struct ExpectedEye {
   EyePoints lids;
   glm::vec2 iris_centre_px;  ///< if the eye looks into the camera
   float iris_radius_px = 0;  ///< by the form of the head
+  float pixels_per_mm = 1;   ///< of the head there
 };
 
 /// Finds the irises of a person's eyes: for each the circle that best separates dark from bright

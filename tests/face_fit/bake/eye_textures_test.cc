@@ -29,7 +29,8 @@ TEST(EyeTexturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     const glm::vec3 ball = head->EyeCentre(side);
     const glm::vec2 centre(500 + 4 * ball.x, 300 - 4 * ball.y);
     centres.push_back(centre);
-    fit.irises.circles[side] = {.centre_px = centre, .radius_px = 24, .contrast = 0.4F};
+    fit.irises.eyes[side] = {.circle = {.centre_px = centre, .radius_px = 24, .contrast = 0.4F},
+                             .seen = true};
     for (std::size_t i = 0; i < 16; ++i) {
       const auto point = point::kEyeOutline[side][i];
       const float part = static_cast<float>(i <= 8 ? i : 16 - i) / 4 - 1;  // outer -1, inner 1
@@ -84,7 +85,7 @@ TEST(EyeTexturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     const auto row = hidden.rgba.begin() + 4 * (y * 1000 + 500);
     std::fill(row, row + 4 * 500, std::uint8_t{130});
   }
-  fit.irises.circles.left.contrast = 0.01F;
+  fit.irises.eyes.left.seen = false;
   const auto one_hidden = PaintEyes(face, fit, {}, hidden, picture);
   ASSERT_TRUE(one_hidden);
   const auto& [right, left] = *one_hidden;
@@ -97,7 +98,7 @@ TEST(EyeTexturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     EXPECT_NEAR(at(left.iris, part), at(right.iris, {1 - part.x, part.y}), 2) << part.x;
     EXPECT_NEAR(at(left.ball, part), at(right.ball, {1 - part.x, part.y}), 2) << part.x;
   }
-  fit.irises.circles.right.contrast = 0.08F;
+  fit.irises.eyes.right.circle.contrast = 0.08F;
   EXPECT_FALSE(PaintEyes(face, fit, {}, hidden, picture))
       << "eyes that are not seen clearly are drawn";
 }

@@ -23,19 +23,21 @@ class PhotoIrisesTest : public NetworkTest {
   }
   static glm::vec2 Centre(fsm::Side side) { return PixelOf(Galatea().head().EyeCentre(side)); }
   /// The shift where the iris is seen so many millimetres below its place.
-  static glm::vec2 ShiftFor(float below_mm, float contrast = 0.3F) {
+  static glm::vec2 ShiftFor(float below_mm, bool seen = true) {
     const fsm::Side side = fsm::Side::kLeft;
     const glm::vec2 down = Rotated({0, 1}, kLeanRad);
-    const IrisCircle iris{Centre(side) + kScale * below_mm * down, 10, contrast};
-    return Rotated(LidShiftPx(Galatea(), Lids(side), iris, side), -kLeanRad) / kScale;
+    const PhotoIris iris{{Centre(side) + kScale * below_mm * down, 10},
+                         ExpectEye(Galatea(), Lids(side), side),
+                         seen};
+    return Rotated(LidShiftPx(iris), -kLeanRad) / kScale;
   }
 };
 
 TEST_F(PhotoIrisesTest, AnIrisIsExpectedInTheMiddleOfTheBaseHeadsEye) {
   for (const fsm::Side side : fsm::kSides) {
-    const IrisPlacement iris = ExpectedIris(Galatea(), Lids(side), side);
-    EXPECT_LT(glm::distance(iris.centre_px, Centre(side)), 0.01F);
-    EXPECT_NEAR(iris.pixels_per_mm, kScale, 0.001F);
+    const ExpectedEye eye = ExpectEye(Galatea(), Lids(side), side);
+    EXPECT_LT(glm::distance(eye.iris_centre_px, Centre(side)), 0.01F);
+    EXPECT_NEAR(eye.pixels_per_mm, kScale, 0.001F);
   }
 }
 
@@ -48,7 +50,7 @@ TEST_F(PhotoIrisesTest, LidsFollowAnIrisThatLiesFarFromTheirMiddleUpToALimit) {
   EXPECT_TRUE(near(ShiftFor(-2), -1.5F));
   EXPECT_TRUE(near(ShiftFor(9), 2.5F));
   EXPECT_TRUE(near(ShiftFor(0.4F), 0));
-  EXPECT_TRUE(near(ShiftFor(2, 0), 0)) << "an iris that is not seen";
+  EXPECT_TRUE(near(ShiftFor(2, false), 0)) << "an iris that is not seen";
 }
 
 }  // namespace
