@@ -132,8 +132,8 @@ vm::Result<MadeFace> MakeFace(const ObservedHead& base, const FrontPhoto& front,
   }
   auto& [fit, views, rejected] = fitted;
   if (rejected.size() < count) done("seen from the side, too");
-  BakedHead baked = BakeHead(face, fit, front.image, front.figure, views);
-  baked.head.glasses = glasses ? *glasses : WearsGlasses(face, front.image);
+  BakedHead baked = BakeHead(face, fit, front.image, front.figure, views,
+                             glasses ? *glasses : WearsGlasses(face, front.image));
   done("photo put on");
   std::string report = Report(front, front_face, fit, baked);
   return MadeFace{std::move(fit), std::move(baked), std::move(report), std::move(rejected)};

@@ -33,12 +33,12 @@ float SmileOf(const FittedHead& fitted) { return glm::clamp(fitted.expression.sm
 
 /// Paints what the photo shows, except what lies between lids and between lips.
 SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTexels& texels,
-                   const TexelProjections& projections, bool lips_apart, fsm::Image colours) {
+                   const TexelProjections& projections, fsm::Image colours) {
   const PhotoLookNumbers& look = PhotoLook();
   const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const Mask filled =
       FillSmileFolds(face, look.smile.folds.filled_share * SmileOf(fitted), pixels_per_mm, colours);
-  const PhotoOpenings openings(face, pixels_per_mm, lips_apart);
+  const PhotoOpenings openings(face, pixels_per_mm);
   SkinMap map;
   for (std::size_t i = 0; i < texels.size(); ++i) {
     if (!texels[i]) continue;
@@ -124,48 +124,53 @@ SkinTraits FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool li
           .lined = glm::mix(look.lined.smooth_creases_share, 1.0F, glm::clamp(rough, 0.0F, 1.0F))};
 }
 
+void SetColours(const FoundFace& face, const PhotoIrises& irises, const fsm::Image& photo,
+                fsm::PhotoHead& head) {
+  const EyeColours eyes = SampleEyes(face, irises, photo);
+  head.iris_colour = eyes.iris;
+  head.white_colour = eyes.white;
+  head.iris_size = irises.size;
+  const MouthColours mouth = SampleMouth(face, photo);
+  head.teeth = mouth.teeth;
+  head.lip_colour = mouth.lip;
+}
+
+void SetSheet(Sheet sheet, fsm::PhotoHead& head) {
+  head.skin_bottom_y = sheet.skin_bottom_y;
+  head.sheet = std::move(sheet.vertices);
+  head.sheet_triangles = std::move(sheet.triangles);
+}
+
 }  // namespace
 
 BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& photo,
-                   const FigureCutout& figure, std::span<const SideView> side_views) {
+                   const FigureCutout& figure, std::span<const SideView> side_views, bool glasses) {
   const FittedHead& fitted = fit.head;
+  fsm::PhotoHead head = HeadOf(fitted);
+  head.glasses = glasses;
+  head.seen_from = fitted.pose.TowardsCamera();
   const SkinTexels texels = FindSkinTexels(*fitted.base);
-  TexelProjections projections = ProjectTexels(fitted, texels, fitted.pose);
-  HideSelfOccluded(fitted, texels, fitted.pose, projections);
-  const bool lips_apart = LipsApart(face);
-  SkinMap map = PaintPhoto(face, fitted, texels, projections, lips_apart, figure.colours);
-  std::vector<glm::vec3> also_seen;
+  TexelProjections front = ProjectTexels(fitted, texels, fitted.pose);
+  HideSelfOccluded(fitted, texels, fitted.pose, front);
+  SkinMap map = PaintPhoto(face, fitted, texels, front, figure.colours);
   for (const SideView& view : side_views) {
-    BlendSideView(fitted, view, texels, projections, map);
-    also_seen.push_back(view.pose.TowardsCamera());
+    BlendSideView(fitted, view, texels, front, map);
+    head.also_seen.push_back(view.pose.TowardsCamera());
   }
   const float coverage = MeanCoverage(texels, map.coverage);
-  const SkinTraits traits = FinishMap(fitted, texels, lips_apart, map);
-  const CompletedFigure whole = CompleteFigure(fitted, figure);
-  fsm::Image atlas = PackAtlas(map.image, BehindFace(whole.head, whole.figure),
-                               whole.figure.opacity, fitted.pose.PixelsPerMm());
-  const auto eyes = EyesAtRest(fitted);
-  auto eye_textures = PaintEyes(face, fit, eyes, photo, atlas);
-  const EyeColours eye_colours = SampleEyes(face, fit.irises, photo);
-  const MouthColours mouth = SampleMouth(face, photo);
-  Sheet sheet = MakeSheet(whole.head, whole.figure);
-  fsm::PhotoHead head = HeadOf(fitted);
-  head.eyes = eyes;
-  head.iris_colour = eye_colours.iris;
-  head.white_colour = eye_colours.white;
-  head.iris_size = fit.irises.size;
-  head.teeth = mouth.teeth;
-  head.lip_colour = mouth.lip;
-  head.eye_pictures = std::move(eye_textures);
+  const SkinTraits traits = FinishMap(fitted, texels, LipsApart(face), map);
   head.saturation = traits.saturation;
   head.lined = traits.lined;
   head.skin_low = kSkinLow;
   head.skin_high = kSkinHigh;
-  head.seen_from = fitted.pose.TowardsCamera();
-  head.also_seen = std::move(also_seen);
-  head.skin_bottom_y = sheet.skin_bottom_y;
-  head.sheet = std::move(sheet.vertices);
-  head.sheet_triangles = std::move(sheet.triangles);
+  const CompletedFigure whole = CompleteFigure(fitted, figure);
+  SetSheet(MakeSheet(fitted, whole.pose, whole.figure), head);
+  fsm::Image atlas = PackAtlas(map.image, BehindFace(fitted, whole.pose, whole.figure),
+                               whole.figure.opacity, fitted.pose.PixelsPerMm());
+  const fsm::Sided<fsm::EyeTransform> eyes = EyesAtRest(fitted);
+  head.eyes = eyes;
+  head.eye_pictures = PaintEyes(face, fit, eyes, photo, atlas);
+  SetColours(face, fit.irises, photo, head);
   head.photo = std::make_shared<fsm::Image>(std::move(atlas));
   return {std::move(head), coverage, whole.completed};
 }

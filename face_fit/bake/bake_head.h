@@ -13,9 +13,9 @@ struct BakedHead {
   Completed completed;  ///< parts of the figure that the photo does not show
 };
 
-/// Bakes a photo onto a fitted head, all but PhotoHead::glasses. `figure`: the figure in `photo`;
-/// `side_views`: photos of the person from the side, may be empty. Pure; thread: any.
+/// Bakes a photo onto a fitted head. `figure`: the figure in `photo`; `side_views`: photos of the
+/// person from the side, may be empty; `glasses`: whether the person wears them. Pure; thread: any.
 BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& photo,
-                   const FigureCutout& figure, std::span<const SideView> side_views);
+                   const FigureCutout& figure, std::span<const SideView> side_views, bool glasses);
 
 }  // namespace facefit

@@ -4,7 +4,7 @@
 
 #include "face_fit/bake/chin.h"
 #include "face_fit/bake/skin_surface.h"
-#include "face_fit/complete/complete_figure.h"
+#include "face_fit/complete/figure_grain.h"
 #include "face_fit/image/filters.h"
 #include "face_fit/image/pixels.h"
 #include "face_fit/tables/photo_look.h"
@@ -21,23 +21,23 @@ fsm::Image FilledIn(fsm::Image image, const Mask& known, float pixels_per_mm) {
 
 }  // namespace
 
-fsm::Image BehindFace(const FittedHead& fitted, const FigureCutout& figure) {
+fsm::Image BehindFace(const FittedHead& fitted, const CameraPose& pose,
+                      const FigureCutout& figure) {
   const int width = figure.colours.width, height = figure.colours.height;
   const Chin chin(fitted);
   Mask face =
-      VisibleSkin(fitted, fitted.pose, {glm::vec2(0.5F), 1, width, height}, chin.SkinBottom())
-          .Covered();
+      VisibleSkin(fitted, pose, {glm::vec2(0.5F), 1, width, height}, chin.SkinBottom()).Covered();
   FillHoles(face);
   // The hole is slightly smaller than the skin, whose edge looks like the sheet's there. Forehead
   // and temples are mostly hair already, so the hole begins at the brows. Before the neck it is as
   // large as the skin, or the chin would show twice.
-  const float pixels_per_mm = fitted.pose.PixelsPerMm();
+  const float pixels_per_mm = pose.PixelsPerMm();
   const auto& look = PhotoLook().behind_face;
   const Mask soft = Blurred(face, MmToPixels(look.around_mm, pixels_per_mm));
   Mask keep(width, height, 1), beside(width, height, 1), below(width, height);
   ForEachPixel(width, height, [&](int x, int y, std::size_t i) {
     const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
-    const glm::vec3 position = fitted.pose.PositionOf(pixel, kBesideFaceDepthMm);
+    const glm::vec3 position = pose.PositionOf(pixel, kBesideFaceDepthMm);
     const float hole = glm::mix(look.face_share, look.neck_share, chin.BeforeNeckShare(position));
     keep[i] = (hole + look.edge_share).Ramp(soft[i]);
     beside[i] = (look.neck_share + look.neck_edge_share).Ramp(soft[i]);

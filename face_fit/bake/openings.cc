@@ -14,14 +14,14 @@ namespace facefit {
 /// Least value of either width round the mouth: the blur of a small photo's pixels.
 constexpr glm::vec2 kMinRimPx{0.8F, 1};
 
-PhotoOpenings::PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool lips_apart) {
+PhotoOpenings::PhotoOpenings(const FoundFace& face, float pixels_per_mm) {
   const PhotoLookNumbers& look = PhotoLook();
   // The dark line of the lashes stays on the rims of the lids.
   const float lash = look.opening.lashes_mm * pixels_per_mm;
   for (const fsm::Side side : fsm::kSides) {
     openings_.push_back({face.Line(point::kEyeOutline[side]), -lash, -lash});
   }
-  if (lips_apart) {
+  if (LipsApart(face)) {
     std::vector<PointIndex> mouth = WithCorners(point::kUpperInnerLip, point::kInnerMouthCorners);
     mouth.insert(mouth.end(), point::kLowerInnerLip.rbegin(), point::kLowerInnerLip.rend());
     // The blurred edge of the lips mixes with teeth, more so in a small photo.

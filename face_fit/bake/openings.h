@@ -10,8 +10,8 @@ namespace facefit {
 /// The regions of a photo that show eyes between the lids, or teeth between the lips.
 class PhotoOpenings {
  public:
-  /// `pixels_per_mm`: on the face. `lips_apart`: the mouth is an opening, too.
-  PhotoOpenings(const FoundFace& face, float pixels_per_mm, bool lips_apart);
+  /// `pixels_per_mm`: on the face.
+  PhotoOpenings(const FoundFace& face, float pixels_per_mm);
   /// Returns the share of a pixel that is skin, 0..1.
   float SkinShare(glm::vec2 pixel) const;
 

@@ -115,9 +115,9 @@ constexpr std::array<glm::ivec2, 4> kCellCorners = {{{0, 0}, {0, 1}, {1, 1}, {1,
 /// Selects the cells of the sheet to draw: those of the figure that are not hidden.
 class DrawnCells {
  public:
-  DrawnCells(const FittedHead& fitted, const SampleGrid& grid, const Mask& shown,
-             const SkinOnGrid& skin, const FloatImage& depth)
-      : fitted_(fitted),
+  DrawnCells(const FittedHead& fitted, const CameraPose& pose, const SampleGrid& grid,
+             const Mask& shown, const SkinOnGrid& skin, const FloatImage& depth)
+      : pose_(pose),
         grid_(grid),
         shown_(shown),
         depth_(depth),
@@ -138,7 +138,7 @@ class DrawnCells {
                                [&](glm::ivec2 corner) { return holds(cell + corner); });
   }
   glm::vec3 PositionOf(glm::ivec2 p) const {
-    return fitted_.pose.PositionOf(grid_.Point(p.x, p.y), depth_(p.x, p.y));
+    return pose_.PositionOf(grid_.Point(p.x, p.y), depth_(p.x, p.y));
   }
   /// Returns whether the figure is visible at the cell's corners or at points next to them.
   bool IsShown(glm::ivec2 cell) const {
@@ -161,7 +161,7 @@ class DrawnCells {
     return corners >= 2;
   }
 
-  const FittedHead& fitted_;
+  const CameraPose& pose_;
   const SampleGrid& grid_;
   const Mask& shown_;
   const FloatImage& depth_;
@@ -171,14 +171,14 @@ class DrawnCells {
 
 /// Returns the points of the sheet, row by row. `motion`: of each to rest; `size`: of the figure,
 /// pixels.
-std::vector<fsm::PhotoHead::SheetVertex> SheetVertices(const FittedHead& fitted,
+std::vector<fsm::PhotoHead::SheetVertex> SheetVertices(const CameraPose& pose,
                                                        const SampleGrid& grid,
                                                        const FloatImage& depth,
                                                        const VectorImage& motion, glm::vec2 size) {
   std::vector<fsm::PhotoHead::SheetVertex> vertices;
   ForEachPixel(grid.columns, grid.rows, [&](int x, int y, std::size_t i) {
     const glm::vec2 pixel = grid.Point(x, y);
-    const glm::vec3 position = fitted.pose.PositionOf(pixel, std::min(depth[i], kMaxDepthMm));
+    const glm::vec3 position = pose.PositionOf(pixel, std::min(depth[i], kMaxDepthMm));
     vertices.push_back({position + motion[i], OnFigureHalf(pixel / size)});
   });
   return vertices;
@@ -216,11 +216,11 @@ std::vector<std::uint32_t> BackToFront(std::vector<Quad> quads,
 
 }  // namespace
 
-Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure) {
-  const float pixels_per_mm = fitted.pose.PixelsPerMm();
+Sheet MakeSheet(const FittedHead& fitted, const CameraPose& pose, const FigureCutout& figure) {
+  const float pixels_per_mm = pose.PixelsPerMm();
   const Chin chin(fitted);
   const SampleGrid grid = GridOver(figure, pixels_per_mm);
-  const VisibleSurface surface = VisibleSkin(fitted, fitted.pose, grid, chin.SkinBottom());
+  const VisibleSurface surface = VisibleSkin(fitted, pose, grid, chin.SkinBottom());
   const SkinOnGrid skin(surface, MmToPixels(PhotoLook().sheet.rim_mm, pixels_per_mm / grid.step));
   // Hair and neck beside the skin move with it.
   const VectorImage motion =
@@ -229,11 +229,11 @@ Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure) {
     const glm::vec2 pixel = grid.Point(x, y);
     return figure.opacity.SampleAt(pixel.x, pixel.y);
   });
-  const FloatImage depth = SheetDepth(fitted, grid, chin, skin, Blurred(shown, 2));
+  const FloatImage depth = SheetDepth(pose, grid, chin, skin, Blurred(shown, 2));
   auto vertices =
-      SheetVertices(fitted, grid, depth, motion, {figure.colours.width, figure.colours.height});
+      SheetVertices(pose, grid, depth, motion, {figure.colours.width, figure.colours.height});
   auto triangles =
-      BackToFront(DrawnQuads(DrawnCells(fitted, grid, shown, skin, depth), depth), vertices);
+      BackToFront(DrawnQuads(DrawnCells(fitted, pose, grid, shown, skin, depth), depth), vertices);
   return {std::move(vertices), std::move(triangles), chin.SkinBottom()};
 }
 

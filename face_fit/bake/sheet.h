@@ -16,6 +16,7 @@ struct Sheet {
   float skin_bottom_y;                   ///< PhotoHead::skin_bottom_y
 };
 /// Makes a sheet that lies just behind the face and recedes gently to the outline of the figure.
-Sheet MakeSheet(const FittedHead& fitted, const FigureCutout& figure);
+/// `pose`: projects to pixels of the figure.
+Sheet MakeSheet(const FittedHead& fitted, const CameraPose& pose, const FigureCutout& figure);
 
 }  // namespace facefit

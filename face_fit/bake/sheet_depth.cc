@@ -92,14 +92,14 @@ SkinOnGrid::SkinOnGrid(const VisibleSurface& surface, int rim_cells)
   }
 }
 
-FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Chin& chin,
+FloatImage SheetDepth(const CameraPose& pose, const SampleGrid& grid, const Chin& chin,
                       const SkinOnGrid& skin, const Mask& shown) {
   const UnderSkinDepth under_skin(chin, skin);
   const OutlineDepth at_outline(chin, skin);
   FloatImage depth(grid.columns, grid.rows);
   Mask fixed(grid.columns, grid.rows);
   ForEachPixel(grid.columns, grid.rows, [&](int x, int y, std::size_t i) {
-    const glm::vec3 position = fitted.pose.PositionOf(grid.Point(x, y), kBesideFaceDepthMm);
+    const glm::vec3 position = pose.PositionOf(grid.Point(x, y), kBesideFaceDepthMm);
     const bool inner = skin.inner[i] > 0;
     const bool outside = skin.covered[i] <= 0 && shown[i] < PhotoLook().sheet.shown_from_share;
     if (!inner && !outside) return;

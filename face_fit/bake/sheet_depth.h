@@ -21,7 +21,7 @@ struct SkinOnGrid {
 
 /// Returns the depth of the sheet, millimetres towards the camera, camera's frame: just below the
 /// skin, and from there gently back to the outline. `shown`: opacity of the figure, 0..1.
-FloatImage SheetDepth(const FittedHead& fitted, const SampleGrid& grid, const Chin& chin,
+FloatImage SheetDepth(const CameraPose& pose, const SampleGrid& grid, const Chin& chin,
                       const SkinOnGrid& skin, const Mask& shown);
 
 }  // namespace facefit

@@ -58,15 +58,15 @@ float Bust::HalfWidth(PhotoSide side, float row) const {
   return std::max(std::abs(static_cast<float>(x) + 0.5F - axis), 1.0F);
 }
 
-Bust DrawBust(const FittedHead& fitted, int width, int height) {
+Bust DrawBust(const FittedHead& fitted, const CameraPose& pose, int width, int height) {
   // A pixel of a small photo covers much of the outline, so each is the mean of several samples.
   constexpr float kSamplesPerMm = 3;
   const int finer =
-      std::clamp(static_cast<int>(std::ceil(kSamplesPerMm / fitted.pose.PixelsPerMm())), 1, 4);
-  CameraPose pose = fitted.pose;
-  pose.focal_px *= static_cast<float>(finer);
-  pose.centre_px *= static_cast<float>(finer);
-  Bust bust = DrawWith(fitted, pose, finer * width, finer * height);
+      std::clamp(static_cast<int>(std::ceil(kSamplesPerMm / pose.PixelsPerMm())), 1, 4);
+  CameraPose finer_pose = pose;
+  finer_pose.focal_px *= static_cast<float>(finer);
+  finer_pose.centre_px *= static_cast<float>(finer);
+  Bust bust = DrawWith(fitted, finer_pose, finer * width, finer * height);
   bust.axis /= static_cast<float>(finer);
   for (Mask* image : {&bust.opacity, &bust.cloth, &bust.ambient_occlusion}) {
     *image = ScaledDown(*image, width, height);

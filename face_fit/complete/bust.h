@@ -24,7 +24,7 @@ struct Bust {
   float HalfWidth(PhotoSide side, float row) const;
 };
 
-/// Draws the bust of the fitted head on a canvas of that size, at the place that its pose says.
-Bust DrawBust(const FittedHead& fitted, int width, int height);
+/// Draws the bust of the fitted head on a canvas of that size, to whose pixels `pose` projects.
+Bust DrawBust(const FittedHead& fitted, const CameraPose& pose, int width, int height);
 
 }  // namespace facefit

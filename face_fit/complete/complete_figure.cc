@@ -8,11 +8,11 @@
 #include "face_fit/complete/body_paint.h"
 #include "face_fit/complete/body_shape.h"
 #include "face_fit/complete/canvas.h"
+#include "face_fit/complete/figure_grain.h"
 #include "face_fit/complete/hair_paint.h"
 #include "face_fit/complete/light_on_face.h"
 #include "face_fit/complete/photo_edges.h"
 #include "face_fit/image/filters.h"
-#include "face_fit/image/grain.h"
 #include "face_fit/image/pixels.h"
 #include "face_fit/surface/triangles.h"
 #include "face_fit/tables/photo_look.h"
@@ -132,10 +132,10 @@ CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& fig
   const Canvas canvas = CanvasFor(figure, fitted, edges,
                                   fitted.pose.PixelOf(fitted.PositionOf(point::kChin)), crown_px);
   const FigureCutout without_tips = WithoutTips(edges, canvas.pixels_per_mm, figure);
-  FittedHead on_canvas = fitted;
-  on_canvas.pose.centre_px += glm::vec2(canvas.photo_origin);
+  CameraPose pose = fitted.pose;
+  pose.centre_px += glm::vec2(canvas.photo_origin);
   const BodyShape body(canvas, edges, without_tips.opacity,
-                       DrawBust(on_canvas, canvas.size.x, canvas.size.y));
+                       DrawBust(fitted, pose, canvas.size.x, canvas.size.y));
   const HairPaint hair(canvas, edges, without_tips, crown_px);
   CanvasLayers out(canvas.size);
   CopyPhoto(canvas, figure, without_tips, out);
@@ -146,16 +146,10 @@ CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& fig
   AddGrainToFigure(out.known, out.drawn, canvas.pixels_per_mm, out.figure.colours);
   const float neck =
       canvas.chin_px.y + PhotoLook().bust.reported_below_chin_mm * canvas.pixels_per_mm;
-  return {std::move(out.figure), std::move(on_canvas),
+  return {std::move(out.figure), pose,
           Completed{.neck = static_cast<float>(canvas.photo_size.y) < neck,
                     .shoulders = body.CutsShoulder(),
                     .hair = hair.CutsHair()}};
-}
-
-void AddGrainToFigure(const Mask& known, Mask amount, float pixels_per_mm, fsm::Image& image) {
-  const auto& look = PhotoLook().grain;
-  for (float& v : amount.values) v *= look.pixels_per_mm.Ramp(pixels_per_mm);
-  AddGrain(known, amount, MmToPixels(look.coarsest_on_figure_mm, pixels_per_mm, 2), image);
 }
 
 }  // namespace facefit

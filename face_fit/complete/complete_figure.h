@@ -15,7 +15,7 @@ struct Completed {
 /// A figure on a canvas that is large enough for head and shoulders.
 struct CompletedFigure {
   FigureCutout figure;
-  FittedHead head;  ///< its pose projects to pixels of the canvas
+  CameraPose pose;  ///< the fitted head's, to pixels of the canvas
   Completed completed;
 };
 
@@ -27,10 +27,5 @@ struct CompletedFigure {
 /// become transparent, and in the lowest edge.band_mm (tables/photo_look.txt) opacity rises where
 /// the drawn body continues below.
 CompletedFigure CompleteFigure(const FittedHead& fitted, const FigureCutout& figure);
-
-/// Adds grain to inpainted pixels of a figure, as AddGrain (image/grain.h): that of
-/// grain.coarsest_on_figure_mm, and less of it in a photo of fewer than grain.pixels_per_mm, whose
-/// pixels are as coarse as grain.
-void AddGrainToFigure(const Mask& known, Mask amount, float pixels_per_mm, fsm::Image& image);
 
 }  // namespace facefit

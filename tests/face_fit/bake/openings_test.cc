@@ -10,7 +10,7 @@ namespace {
 TEST(PhotoOpeningsTest, TeethBetweenOpenLipsAreNoSkinAndTheLipsBesideThemOnlyInPart) {
   FoundFace face = StraightMouth();
   for (const std::size_t i : point::kLowerInnerLip) face.points[i].y += 12;
-  const PhotoOpenings open(face, 2, true);
+  const PhotoOpenings open(face, 2);
   EXPECT_EQ(open.SkinShare({100, 106}), 0);
   EXPECT_EQ(open.SkinShare({100, 99}), 0) << "the blurred edge";
   const float part = open.SkinShare({100, 97.6F});
@@ -18,7 +18,8 @@ TEST(PhotoOpeningsTest, TeethBetweenOpenLipsAreNoSkinAndTheLipsBesideThemOnlyInP
   EXPECT_LT(part, 0.9F);
   EXPECT_EQ(open.SkinShare({100, 90}), 1);
   EXPECT_EQ(open.SkinShare({20, 20}), 1);
-  EXPECT_EQ(PhotoOpenings(face, 2, false).SkinShare({100, 106}), 1) << "closed lips are all skin";
+  EXPECT_EQ(PhotoOpenings(StraightMouth(), 2).SkinShare({100, 100}), 1)
+      << "closed lips are all skin";
 }
 
 }  // namespace

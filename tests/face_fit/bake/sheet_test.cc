@@ -15,7 +15,7 @@ namespace {
 
 class SheetTest : public BuiltInFigureTest {
  protected:
-  Sheet Made() const { return MakeSheet(fitted_, figure_); }
+  Sheet Made() const { return MakeSheet(fitted_, fitted_.pose, figure_); }
   /// The pixel over which a vertex lies.
   glm::vec2 Over(const fsm::PhotoHead::SheetVertex& vertex) const {
     return fitted_.pose.PixelOf(vertex.position);

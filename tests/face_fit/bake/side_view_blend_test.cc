@@ -75,14 +75,14 @@ TEST_F(SideViewBlendTest, SkinThatOnlyTheSidePhotoShowsTakesItsColours) {
 }
 
 TEST_F(SideViewBlendTest, WhatTheSidePhotoShowsBetweenLidsIsNotPaintedOnTheirRims) {
-  const PhotoOpenings front_openings(FaceIn(fitted_.pose), fitted_.pose.PixelsPerMm(), false);
+  const PhotoOpenings front_openings(FaceIn(fitted_.pose), fitted_.pose.PixelsPerMm());
   for (std::size_t i = 0; i < front_.values.size(); ++i) {
     if (front_.values[i].facing < 0.3F) continue;
     const float skin = front_openings.SkinShare(front_.values[i].pixel);
     map_.outside_openings.values[i] = skin;
     map_.coverage.values[i] = skin;
   }
-  const PhotoOpenings openings(*photo_.face, view_.pose.PixelsPerMm(), false);
+  const PhotoOpenings openings(*photo_.face, view_.pose.PixelsPerMm());
   Fill(view_.figure.colours,
        [&](glm::vec2 p) { return openings.SkinShare(p) < 1 ? kWhite : kSkin; });
   BlendSideView(fitted_, view_, texels_, front_, map_);

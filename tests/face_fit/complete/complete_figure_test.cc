@@ -63,8 +63,8 @@ class CompleteFigureTest : public NetworkTest {
     const FaceFit fit = FitFace(Galatea(), face, photo);
     FigureCutout figure = FindFigureOf(*networks_, photo, face);
     CompletedFigure whole = CompleteFigure(fit.head, figure);
-    const glm::vec2 origin = glm::round(whole.head.pose.centre_px - fit.head.pose.centre_px);
-    const glm::vec2 chin = whole.head.pose.PixelOf(whole.head.PositionOf(point::kChin));
+    const glm::vec2 origin = glm::round(whole.pose.centre_px - fit.head.pose.centre_px);
+    const glm::vec2 chin = whole.pose.PixelOf(fit.head.PositionOf(point::kChin));
     return std::make_unique<Made>(std::move(photo), std::move(figure), std::move(whole), origin,
                                   chin, fit.head.pose.PixelsPerMm());
   }
@@ -169,7 +169,7 @@ using CutShouldersTest = BuiltInFigureTest;
 TEST_F(CutShouldersTest, ShouldersFallBeyondThePhotosSides) {
   const CompletedFigure whole = CompleteFigure(fitted_, figure_);
   EXPECT_TRUE(whole.completed.shoulders);
-  const glm::vec2 origin = glm::round(whole.head.pose.centre_px - fitted_.pose.centre_px);
+  const glm::vec2 origin = glm::round(whole.pose.centre_px - fitted_.pose.centre_px);
   const FloatImage& opacity = whole.figure.opacity;
   int beside = 0;
   for (int y = 0; y < opacity.height; ++y) {
