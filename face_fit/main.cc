@@ -215,7 +215,8 @@ void FaceOfOriginal(const Options& options) {
 void Run(const Options& options) {
   if (!options.head.empty()) return WritePointsOfHead(options);
   CheckOptions(options);
-  options.galatea.empty() ? FaceOfPhoto(options) : FaceOfOriginal(options);
+  if (!options.galatea.empty()) return FaceOfOriginal(options);
+  FaceOfPhoto(options);
 }
 
 }  // namespace

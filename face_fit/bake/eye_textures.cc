@@ -64,8 +64,9 @@ std::array<glm::vec3, kRings> MedianByRing(const std::vector<IrisPixel>& pixels)
 }
 
 /// Returns a square of `value(position)` for each pixel; (-1, 1) is the upper left corner.
-auto MakeSquare(int size, auto value) {
-  return Raster<decltype(value(glm::vec2()))>::From(size, size, [&](int x, int y) {
+template <typename T>
+Raster<T> MakeSquare(int size, auto value) {
+  return Raster<T>::From(size, size, [&](int x, int y) {
     const glm::vec2 p = 2.0F * (glm::vec2(x, y) + 0.5F) / static_cast<float>(size) - 1.0F;
     return value(glm::vec2(p.x, -p.y));
   });
@@ -84,7 +85,7 @@ fsm::Image IrisTexture(const PhotoEye& eye, glm::vec3 skin_colour, const fsm::Im
   const float edge =
       std::max(PhotoLook().eye_texture.lid_shade_radii * eye.iris.radius_px, kMinShadePx);
   const RedEye flash(skin_colour);
-  const auto pixels = MakeSquare(kIrisPixels, [&](glm::vec2 p) {
+  const auto pixels = MakeSquare<IrisPixel>(kIrisPixels, [&](glm::vec2 p) {
     p *= fsm::kIrisSpan;
     const glm::vec2 pixel =
         eye.iris.centre_px + eye.iris.radius_px * (p.x * eye.right + p.y * eye.up);
@@ -111,19 +112,25 @@ fsm::Image IrisTexture(const PhotoEye& eye, glm::vec3 skin_colour, const fsm::Im
   return out;
 }
 
+/// A texel of the eyeball beside the iris: where the photo shows it, and its position between the
+/// upper lid (0) and the lower one (1).
+struct BallTexel {
+  glm::vec2 photo_px;
+  float between_lids;
+};
+
 /// Returns the texture of the eyeball beside the iris. `rest`: the lids of the eye at rest;
 /// `radius`: of the ball; both in millimetres about its centre.
 fsm::Image BallTexture(const PhotoEye& eye, const LidLines& rest, float radius,
                        const fsm::Image& photo) {
-  const auto pixels = MakeSquare(kBallPixels, [&](glm::vec2 p) {
+  const auto texels = MakeSquare<BallTexel>(kBallPixels, [&](glm::vec2 p) {
     p *= fsm::kBallSpan * radius;
     const float along = glm::clamp(rest.Along(p), 0.0F, 1.0F);
     const auto [upper, lower] = rest.LidsAt(along);
     const float between = (rest.Down(p) - upper) / std::max(lower - upper, 0.05F);
     const auto [upper_shown, lower_shown] = eye.lids.LidsAt(along);
-    return std::pair(eye.lids.PointAt(along, glm::mix(upper_shown, lower_shown,
-                                                      glm::clamp(between, 0.0F, 1.0F))),
-                     between);
+    const float shown = glm::mix(upper_shown, lower_shown, glm::clamp(between, 0.0F, 1.0F));
+    return BallTexel{eye.lids.PointAt(along, shown), between};
   });
   const auto& look = PhotoLook().eye_texture;
   const auto beside_iris = [&](glm::vec2 pixel) {
@@ -133,15 +140,15 @@ fsm::Image BallTexture(const PhotoEye& eye, const LidLines& rest, float radius,
   // Fill the area behind the iris from what is beside it, except the lids' shade and lashes.
   fsm::Image out = fsm::FilledImage(kBallPixels, kBallPixels);
   Mask weight(kBallPixels, kBallPixels);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const auto [pixel, between] = pixels[i];
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const auto [pixel, between] = texels[i];
     SetRgb(out, i, ColourAt(photo, pixel));
     weight[i] = beside_iris(pixel) * look.upper_lid_share.Ramp(between) *
                 look.lower_lid_share.Ramp(between);
   }
   PushPullInpaint(out, weight);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const glm::vec2 pixel = pixels[i].first;
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const glm::vec2 pixel = texels[i].photo_px;
     SetRgb(out, i, glm::mix(Rgb(out, i), ColourAt(photo, pixel), beside_iris(pixel)));
   }
   return out;

@@ -71,7 +71,8 @@ HairPaint::HairPaint(const Canvas& canvas, const PhotoEdges& edges, const Figure
 HairPaint::EdgeSpan HairPaint::LongestRun(int count, auto cuts_head) {
   EdgeSpan longest, span;
   for (int i = 0; i < count; ++i) {
-    (cuts_head(i) ? span.to : span.from) = static_cast<float>(i) + 1;
+    float& end = cuts_head(i) ? span.to : span.from;
+    end = static_cast<float>(i) + 1;
     if (span.Length() > longest.Length()) longest = span;
   }
   return longest;

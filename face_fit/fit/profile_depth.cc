@@ -84,13 +84,13 @@ class OutlineDepthGaps {
   OutlineDepthGaps(const Mask& opacity, const CameraPose& pose,
                    const std::vector<glm::vec3>& line) {
     for (const glm::vec3& p : line) {
-      if (const auto gap = OutlineDepthGap(opacity, pose, p)) gaps_.emplace_back(p.y, *gap);
+      if (const auto gap = OutlineDepthGap(opacity, pose, p)) gaps_.push_back({p.y, *gap});
     }
   }
   float GapAt(float height) const {
     float sum = 0, weights = 1e-3F;
-    for (const auto& [y, gap] : gaps_) {
-      const float sigmas = (y - height) / kEvenMm;
+    for (const auto& [gap_height, gap] : gaps_) {
+      const float sigmas = (gap_height - height) / kEvenMm;
       const float weight = std::exp(-0.5F * sigmas * sigmas);
       sum += weight * gap;
       weights += weight;
@@ -99,7 +99,10 @@ class OutlineDepthGaps {
   }
 
  private:
-  std::vector<std::pair<float, float>> gaps_;  // heights and depths, millimetres
+  struct GapAtHeight {
+    float height_mm, gap_mm;
+  };
+  std::vector<GapAtHeight> gaps_;
 };
 
 /// Returns the fit with its constraints moved forward or back by the gaps, less with distance from

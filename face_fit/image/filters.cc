@@ -174,7 +174,11 @@ fsm::Image Turned(const fsm::Image& image, int orientation) {
   fsm::Image out =
       fsm::FilledImage(swaps ? image.height : image.width, swaps ? image.width : image.height);
   cv::Mat turned = View(out);
-  swaps ? cv::transpose(View(image), turned) : View(image).copyTo(turned);
+  if (swaps) {
+    cv::transpose(View(image), turned);
+  } else {
+    View(image).copyTo(turned);
+  }
   // After 5 to 8 are transposed, 2, 3, 6 and 7 are mirrored sideways, 3, 4, 7 and 8 upside down.
   const bool across = orientation == 2 || orientation == 3 || orientation == 6 || orientation == 7;
   const bool down = orientation == 3 || orientation == 4 || orientation == 7 || orientation == 8;

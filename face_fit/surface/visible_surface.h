@@ -19,6 +19,11 @@ struct SampleGrid {
   glm::vec2 Point(int column, int row) const { return origin + step * glm::vec2(column, row); }
 };
 
+/// A run of columns of a grid.
+struct Columns {
+  int first, last;
+};
+
 /// A depth buffer: keeps at each point of a grid the foremost point of the triangles drawn.
 class VisibleSurface {
  public:

@@ -79,7 +79,8 @@ PointIndex PointAt(const fsm::TableRow& row) {
   return *number;
 }
 
-std::optional<std::string> WhyNoFace(const HandPoints& points) {
+/// REQUIRES: the points that are needed.
+std::optional<std::string> CoincidingCornersOf(const HandPoints& points) {
   return CoincidingCorners([&](PointIndex i) { return points.at(i); });
 }
 
@@ -111,7 +112,7 @@ vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view
         table.Refuse(std::string(named.name) + " is missing");
       }
     }
-    if (const auto why = WhyNoFace(points)) table.Refuse(*why);
+    if (const auto why = CoincidingCornersOf(points)) table.Refuse(*why);
     return points;
   });
 }
@@ -147,7 +148,7 @@ vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::Pnt
     points[point] = {0.5F * (p.x + 1) * static_cast<float>(width),
                      0.5F * (1 - p.y) * static_cast<float>(height)};
   }
-  if (const auto why = WhyNoFace(points)) {
+  if (const auto why = CoincidingCornersOf(points)) {
     return vm::Fail(vm::Errc::kBadValue, name + ": " + *why);
   }
   return points;

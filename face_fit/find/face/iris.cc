@@ -40,6 +40,11 @@ constexpr float kOuterEnd = 0.06F, kInnerEnd = 0.95F, kSampleAlong = 0.03F, kSam
 /// Percent of the samples that are darker than the white; reflections are brighter than it.
 constexpr std::size_t kDarkerPercent = 90;
 
+struct ScoredCircle {
+  IrisCircle circle;
+  float score = 0;
+};
+
 /// Searches a photo between the lids of an eye.
 class IrisSearch {
  public:
@@ -63,10 +68,8 @@ class IrisSearch {
     for (Sample& s : samples_) s.brightness = std::min(s.brightness, brightest_);
   }
 
-  /// Returns the best circle of this size, and its score.
-  std::pair<IrisCircle, float> BestCircle(float radius) const {
-    IrisCircle best{.centre_px = eye_.iris_centre_px, .radius_px = radius, .contrast = 0};
-    float most = 0;
+  ScoredCircle BestCircle(float radius) const {
+    ScoredCircle best{{.centre_px = eye_.iris_centre_px, .radius_px = radius, .contrast = 0}};
     for (int x = -kStepsAlong; x <= kStepsAlong; ++x) {
       for (int y = -kStepsDown; y <= kStepsDown; ++y) {
         const glm::vec2 away(static_cast<float>(x) * kStepAlong, static_cast<float>(y) * kStepDown);
@@ -76,12 +79,11 @@ class IrisSearch {
         const float edge = EdgeContrast(centre, radius);
         const float score = (edge + kSeparationWeight * Separation(centre, radius)) *
                             (1 - kAwayAlong * away.x * away.x - kAwayDown * away.y * away.y);
-        if (score <= most) continue;
-        most = score;
-        best = {.centre_px = centre, .radius_px = radius, .contrast = edge};
+        if (score <= best.score) continue;
+        best = {{.centre_px = centre, .radius_px = radius, .contrast = edge}, score};
       }
     }
-    return {best, most};
+    return best;
   }
 
  private:
@@ -155,10 +157,10 @@ fsm::Sided<IrisCircle> FindIrises(const fsm::Image& photo, const fsm::Sided<Expe
     fsm::Sided<IrisCircle> circles;
     float score = 0;
     for (const fsm::Side side : fsm::kSides) {
-      const auto [circle, own] = searches[side].BestCircle(size * eyes[side].iris_radius_px);
+      const auto [circle, own_score] = searches[side].BestCircle(size * eyes[side].iris_radius_px);
       circles[side] = circle;
       const float odd = (size - kUsualSize) / kSizeSpread;
-      score += own * std::exp(-odd * odd);
+      score += own_score * std::exp(-odd * odd);
     }
     if (score <= most) continue;
     most = score;

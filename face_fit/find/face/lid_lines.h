@@ -5,7 +5,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-#include <utility>
 
 #include "face_fit/find/network/face_finder.h"
 
@@ -31,6 +30,11 @@ inline float LidShare(float x, float inner, float outer) {
   return std::max(1 - along * along, 0.0F);
 }
 
+/// Where both lids of an eye are, as `down` of LidLines.
+struct LidHeights {
+  float upper, lower;
+};
+
 /// The lines of both lids in coordinates of the eye: `along` the line between its corners, 0 at the
 /// outer and 1 at the inner one; `down`, the distance from that line towards the lower lid. Works
 /// in pixels (y down) and in millimetres (y up).
@@ -53,8 +57,7 @@ class LidLines {
   glm::vec2 PointAt(float along, float down) const {
     return points_[0] + along * width_ * along_axis_ + down * down_axis_;
   }
-  /// Returns `down` of the upper and of the lower lid.
-  std::pair<float, float> LidsAt(float along) const {
+  LidHeights LidsAt(float along) const {
     const auto between = [this, along](std::size_t a, std::size_t b) {
       const float from = Along(points_[a]), to = Along(points_[b % points_.size()]);
       const float share = glm::clamp((along - from) / std::max(to - from, 1e-4F), 0.0F, 1.0F);

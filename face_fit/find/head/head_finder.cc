@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <expected>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -31,12 +32,12 @@ constexpr glm::mat3 kTurns[] = {{1, 0, 0, 0, 1, 0, 0, 0, 1},    // y up, towards
 /// Share of the file's height, from the top, that may be the head: head, bust, whole figures.
 constexpr float kHeadShares[] = {1, 0.8F, 0.28F, 0.15F};
 
-/// Returns the transform of that upper part of the file to our head's size and position.
+/// Returns the transform of that upper part of the file to the base head's size and position.
 fsm::Similarity InitialPlacement(const fsm::ImportedHead& file, const glm::mat3& turn,
                                  float share) {
   fsm::Box box;
   for (const glm::vec3& p : file.position) box.Add(turn * p);
-  constexpr float kHeightMm = 290, kCrownYMm = 140;  // height of our head, y of its crown
+  constexpr float kHeightMm = 290, kCrownYMm = 140;  // height of the base head, y of its crown
   fsm::Similarity guess;
   guess.rotation = turn;
   guess.scale = kHeightMm / std::max(box.size().y * share, 1e-6F);
@@ -81,21 +82,14 @@ LidEdgesOfEyes FindLidEdgesOfEyes(const ObservedHead& observed, const std::vecto
   return {find(fsm::Side::kRight), find(fsm::Side::kLeft)};
 }
 
-/// Moves the points of the eyes' outlines onto the edges of the lids, where both heads show them.
-void OntoLidEdges(const LidEdgesOfEyes& ours, std::vector<MeshPoint>& our_points,
-                  const LidEdgesOfEyes& theirs, std::vector<MeshPoint>& their_points) {
-  for (const fsm::Side side : fsm::kSides) {
-    const auto &a = ours[side], &b = theirs[side];
-    if (!a || !b) continue;
-    const auto& outline = point::kEyeOutline[side];
-    for (const auto& [edges, points] : {std::pair(&*a, &our_points), {&*b, &their_points}}) {
-      (*points)[outline[kOuterCorner]] = edges->outer;
-      (*points)[outline[kInnerCorner]] = edges->inner;
-      for (std::size_t k = 0; k < LidEdges::kBetween; ++k) {
-        (*points)[outline[1 + k]] = edges->upper[k];
-        (*points)[outline[outline.size() - 1 - k]] = edges->lower[k];
-      }
-    }
+/// Moves the points of an eye's outline onto the edges of its lids.
+void MoveToLidEdges(const LidEdges& edges, fsm::Side side, std::vector<MeshPoint>& points) {
+  const auto& outline = point::kEyeOutline[side];
+  points[outline[kOuterCorner]] = edges.outer;
+  points[outline[kInnerCorner]] = edges.inner;
+  for (std::size_t k = 0; k < LidEdges::kBetween; ++k) {
+    points[outline[1 + k]] = edges.upper[k];
+    points[outline[outline.size() - 1 - k]] = edges.lower[k];
   }
 }
 
@@ -108,7 +102,7 @@ class HeadMatcher {
         file_(file),
         name_(std::move(name)),
         base_(std::move(base)),
-        our_lid_edges_(FindLidEdgesOfEyes(base_, EyeVertices(base_.head().surface()))) {}
+        base_lid_edges_(FindLidEdgesOfEyes(base_, EyeVertices(base_.head().surface()))) {}
   /// Returns none if no face is seen on the head when `to_base` is applied.
   std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_base) {
     fsm::MeshModel model = fsm::ModelOfImport(file_, to_base, fsm::kUsualMouthY);
@@ -120,20 +114,25 @@ class HeadMatcher {
     const auto other =
         ObservedHead::Observe(networks_, fsm::MakeMeshHead(std::move(model)), name_, surface);
     if (!other) return {};
-    std::vector<MeshPoint> ours = base_.mesh_points(), theirs = other->mesh_points();
-    OntoLidEdges(our_lid_edges_, ours, FindLidEdgesOfEyes(*other, is_eye), theirs);
+    std::vector<MeshPoint> on_base = base_.mesh_points(), on_other = other->mesh_points();
+    const LidEdgesOfEyes lid_edges = FindLidEdgesOfEyes(*other, is_eye);
+    for (const fsm::Side side : fsm::kSides) {
+      if (!base_lid_edges_[side] || !lid_edges[side]) continue;  // only where both heads show them
+      MoveToLidEdges(*base_lid_edges_[side], side, on_base);
+      MoveToLidEdges(*lid_edges[side], side, on_other);
+    }
     const bool both = base_.lip_seam() && other->lip_seam();
     if (both) {
-      SpreadAlongLipSeam(*base_.lip_seam(), ours);
-      SpreadAlongLipSeam(*other->lip_seam(), theirs);
+      SpreadAlongLipSeam(*base_.lip_seam(), on_base);
+      SpreadAlongLipSeam(*other->lip_seam(), on_other);
     }
     std::vector<fsm::PointPair> found;
     for (const PointIndex i : point::kReliable) {
       // A point where the lips meet may lie on either lip.
       const bool corner = Contains(point::kMouthCorners, i);
       if (OnInnerLips(i) ? !both : both && corner) continue;
-      const glm::vec3 raw = to_base.Inverse(theirs[i].On(other->rest().position));
-      found.push_back({ours[i].On(base_.rest().position), raw, LipOrLidOf(i)});
+      const glm::vec3 raw = to_base.Inverse(on_other[i].On(other->rest().position));
+      found.push_back({on_base[i].On(base_.rest().position), raw, LipOrLidOf(i)});
     }
     return found;
   }
@@ -143,7 +142,7 @@ class HeadMatcher {
   const fsm::ImportedHead& file_;
   std::string name_;
   ObservedHead base_;
-  LidEdgesOfEyes our_lid_edges_;
+  LidEdgesOfEyes base_lid_edges_;
 };
 
 /// The pairs found with one rotation of the head.
@@ -165,29 +164,26 @@ float DegreesBetween(const glm::mat3& a, const glm::mat3& b) {
   return glm::degrees(std::acos(std::clamp(cosine, -1.0F, 1.0F)));
 }
 
-struct Observation {
-  bool face_seen = false;  ///< from any side
-  std::optional<HeadMatch> match;
-};
-/// Observes the head as guessed, and again scaled and turned as our own head was. There is no match
-/// if no face is seen, or not from the front: the networks find faces in profiles, too, but
+enum class NoMatch { kNoFace, kNotFromFront };
+/// Observes the head as guessed, and again scaled and turned as the base head was. A face is
+/// matched only if it is seen from the front: the networks find faces in profiles, too, but
 /// misplace their points, so that the second pass turns the head again. Measured on two heads, and
 /// on one of them made wider, taller, deeper and flatter: from the front the second pass turns the
 /// head by at most 1 degree and leaves 3.7 to 7.4 mm, from elsewhere by 8 degrees or more, with 7.3
 /// to 40 mm.
-Observation ObserveAs(HeadMatcher& matcher, const fsm::Similarity& guess) {
+std::expected<HeadMatch, NoMatch> ObserveAs(HeadMatcher& matcher, const fsm::Similarity& guess) {
   constexpr float kStraightDeg = 5, kMaxGapMm = 12;
   const auto first = matcher.PairsAt(guess);
-  if (first.empty()) return {};
-  const fsm::Similarity stood = fsm::FitSimilarity(RejectOutliers(first));
-  const auto pairs = matcher.PairsAt(stood);
-  if (pairs.empty()) return {true, {}};
+  if (first.empty()) return std::unexpected(NoMatch::kNoFace);
+  const fsm::Similarity first_fit = fsm::FitSimilarity(RejectOutliers(first));
+  const auto pairs = matcher.PairsAt(first_fit);
+  if (pairs.empty()) return std::unexpected(NoMatch::kNotFromFront);
   std::vector<fsm::PointPair> kept = RejectOutliers(pairs);
   const fsm::Similarity fit = fsm::FitSimilarity(kept);
   const float gap_mm = MedianDistanceMm(fit, pairs);
-  if (DegreesBetween(fit.rotation, stood.rotation) > kStraightDeg || gap_mm > kMaxGapMm)
-    return {true, {}};
-  return {true, HeadMatch{std::move(kept), gap_mm}};
+  if (DegreesBetween(fit.rotation, first_fit.rotation) > kStraightDeg || gap_mm > kMaxGapMm)
+    return std::unexpected(NoMatch::kNotFromFront);
+  return HeadMatch{std::move(kept), gap_mm};
 }
 
 }  // namespace
@@ -201,10 +197,9 @@ vm::Result<fsm::HeadPoints> FindHeadPoints(FaceNetworks& networks, const fsm::Im
   for (const float share : kHeadShares) {
     std::optional<HeadMatch> best;
     for (const glm::mat3& turn : kTurns) {
-      Observation observed = ObserveAs(matcher, InitialPlacement(file, turn, share));
-      face_seen = face_seen || observed.face_seen;
-      if (observed.match && (!best || observed.match->gap_mm < best->gap_mm))
-        best = std::move(observed.match);
+      auto match = ObserveAs(matcher, InitialPlacement(file, turn, share));
+      face_seen = face_seen || match || match.error() == NoMatch::kNotFromFront;
+      if (match && (!best || match->gap_mm < best->gap_mm)) best = std::move(*match);
     }
     if (!best) continue;
     const fsm::Similarity to_base = fsm::FitSimilarity(best->pairs);

@@ -50,9 +50,6 @@ std::vector<RowSpan> RowsOf(const Mask& eyeball) {
   return rows;
 }
 
-struct Columns {
-  int first, last;
-};
 /// Returns the first and the last column of an opening; nothing if its width is not an eye's.
 std::optional<Columns> EndsOf(const std::vector<RowSpan>& rows) {
   constexpr float kNarrowestMm = 10, kWidestMm = 60;
@@ -64,46 +61,67 @@ std::optional<Columns> EndsOf(const std::vector<RowSpan>& rows) {
   return Columns{static_cast<int>(first - rows.begin()), static_cast<int>(end - rows.begin()) - 1};
 }
 
+/// Walks from the opening of an eye to the flesh around it.
+class OpeningWalker {
+ public:
+  /// `is_eye`: as for FindLidEdges. All outlive this object.
+  OpeningWalker(const VisibleSurface& surface, const std::vector<bool>& is_eye,
+                const std::vector<RowSpan>& rows)
+      : surface_(surface), is_eye_(is_eye), rows_(rows) {}
+  /// Returns the corner of the eye beside the last column of the opening to that side.
+  std::optional<MeshPoint> CornerBeside(int column, int right) const {
+    const RowSpan& span = RowsIn(column);
+    return FleshBeyond(column, (span.low + span.high) / 2, right, 0);
+  }
+  std::optional<MeshPoint> UpperEdgeIn(int column) const {
+    return RowsIn(column).IsEmpty() ? std::nullopt : FleshBeyond(column, RowsIn(column).high, 0, 1);
+  }
+  std::optional<MeshPoint> LowerEdgeIn(int column) const {
+    return RowsIn(column).IsEmpty() ? std::nullopt : FleshBeyond(column, RowsIn(column).low, 0, -1);
+  }
+
+ private:
+  const RowSpan& RowsIn(int column) const { return rows_[static_cast<std::size_t>(column)]; }
+  std::optional<MeshPoint> FleshBeyond(int column, int row, int right, int up) const {
+    // A gap of a few steps between eyeball and lid may show what lies behind.
+    constexpr int kGap = 8;
+    for (int k = 1; k <= kGap; ++k) {
+      const int x = column + k * right, y = row + k * up;
+      const MeshTriangle* triangle = surface_.TriangleAt(x, y);
+      if (triangle && !is_eye_[triangle->corner[0]]) return surface_.MeshPointAt(x, y);
+    }
+    return std::nullopt;
+  }
+
+  const VisibleSurface& surface_;
+  const std::vector<bool>& is_eye_;
+  const std::vector<RowSpan>& rows_;
+};
+
 }  // namespace
 
 std::optional<LidEdges> FindLidEdges(const fsm::Head& head, const std::vector<glm::vec3>& position,
                                      const std::vector<bool>& is_eye, fsm::Side side) {
-  const glm::vec3 centre = head.EyeCentre(side);
+  const glm::vec2 centre(head.EyeCentre(side));
   const VisibleSurface surface =
-      VisibleFromFront(head.surface(), position, glm::vec2(centre) - kHalfWindowMm,
-                       glm::vec2(centre) + kHalfWindowMm);
+      VisibleFromFront(head.surface(), position, centre - kHalfWindowMm, centre + kHalfWindowMm);
   const std::vector<RowSpan> rows = RowsOf(EyeballMask(surface, is_eye, centre));
   const auto ends = EndsOf(rows);
   if (!ends) return std::nullopt;
-  // A gap of a few steps between eyeball and lid may show what lies behind.
-  constexpr int kGap = 8;
-  const auto beyond = [&](int column, int row, int right, int up) -> std::optional<MeshPoint> {
-    for (int k = 1; k <= kGap; ++k) {
-      const int x = column + k * right, y = row + k * up;
-      const MeshTriangle* triangle = surface.TriangleAt(x, y);
-      if (triangle && !is_eye[triangle->corner[0]]) return surface.MeshPointAt(x, y);
-    }
-    return std::nullopt;
-  };
-  const auto corner = [&](int column, int right) {
-    const RowSpan& span = rows[static_cast<std::size_t>(column)];
-    return beyond(column, (span.low + span.high) / 2, right, 0);
-  };
-  LidEdges edges;
+  const OpeningWalker walker(surface, is_eye, rows);
   // The agent's left is where x is positive.
   const bool left = side == fsm::Side::kLeft;
   const int out = left ? ends->last : ends->first, in = left ? ends->first : ends->last;
-  const auto outer = corner(out, left ? 1 : -1), inner = corner(in, left ? -1 : 1);
+  const auto outer = walker.CornerBeside(out, left ? 1 : -1);
+  const auto inner = walker.CornerBeside(in, left ? -1 : 1);
   if (!outer || !inner) return std::nullopt;
-  edges.outer = *outer;
-  edges.inner = *inner;
+  LidEdges edges{*outer, *inner, {}, {}};
   for (std::size_t k = 0; k < LidEdges::kBetween; ++k) {
     const float along = static_cast<float>(k + 1) / (LidEdges::kBetween + 1);
     const int column = static_cast<int>(
         std::lround(static_cast<float>(out) + along * static_cast<float>(in - out)));
-    const RowSpan& span = rows[static_cast<std::size_t>(column)];
-    const auto upper = beyond(column, span.high, 0, 1), lower = beyond(column, span.low, 0, -1);
-    if (span.IsEmpty() || !upper || !lower) return std::nullopt;
+    const auto upper = walker.UpperEdgeIn(column), lower = walker.LowerEdgeIn(column);
+    if (!upper || !lower) return std::nullopt;
     edges.upper[k] = *upper;
     edges.lower[k] = *lower;
   }

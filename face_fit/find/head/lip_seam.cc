@@ -1,7 +1,6 @@
 #include "face_fit/find/head/lip_seam.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "face_fit/image/plane.h"
 #include "face_fit/surface/visible_surface.h"
@@ -60,21 +59,19 @@ std::vector<Crossing> FindCrossings(const VisibleSurface& view, const fsm::Welde
 }
 
 /// Returns the first and last column of the mouth, the longest run of columns with a jump (near a
-/// corner the way round is short, and jumps end there); (0, -1) if there is none.
-std::pair<int, int> MouthColumns(const std::vector<Crossing>& crossings) {
+/// corner the way round is short, and jumps end there); nothing if there is none.
+std::optional<Columns> MouthColumns(const std::vector<Crossing>& crossings) {
   constexpr float kMinJumpMm = 2;
   constexpr int kHole = 8;  // columns
-  int first = 0, last = -1, begin = -1, end = -1;
+  std::optional<Columns> longest;
+  int begin = -1, end = -1;
   for (int column = 0; column < static_cast<int>(crossings.size()); ++column) {
     if (crossings[static_cast<std::size_t>(column)].jump_mm < kMinJumpMm) continue;
     if (begin < 0 || column - end > kHole) begin = column;
     end = column;
-    if (end - begin > last - first) {
-      first = begin;
-      last = end;
-    }
+    if (!longest || end - begin > longest->last - longest->first) longest = {begin, end};
   }
-  return {first, last};
+  return longest;
 }
 
 }  // namespace
@@ -94,11 +91,12 @@ std::optional<LipSeam> FindLipSeam(const fsm::HeadSurface& topology,
       VisibleFromFront(topology, position, lips.low - kMarginMm, lips.high + kMarginMm);
   const auto crossings = FindCrossings(view, surface, surface.DistancesFrom(upper, kReachMm),
                                        surface.DistancesFrom(lower, kReachMm));
-  const auto [first, last] = MouthColumns(crossings);
-  const float width = kFrontStepMm * static_cast<float>(last - first);
+  const auto mouth = MouthColumns(crossings);
+  if (!mouth) return std::nullopt;
+  const float width = kFrontStepMm * static_cast<float>(mouth->last - mouth->first);
   if (width < kMinWidthMm || width > kMaxWidthMm) return std::nullopt;
   LipSeam seam;
-  for (int column = first; column <= last; ++column) {
+  for (int column = mouth->first; column <= mouth->last; ++column) {
     // A column without a crossing uses the next one's.
     int next = column;
     while (crossings[static_cast<std::size_t>(next)].above < 0) ++next;

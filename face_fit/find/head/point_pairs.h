@@ -9,7 +9,7 @@ namespace facefit {
 
 /// Returns the pairs without outliers. At the outline of a face a point may miss the cheek and lie
 /// on an ear or the neck, centimetres behind; a few such pairs would turn the whole head when it is
-/// aligned with ours. REQUIRES: as FitSimilarity.
+/// aligned with the base head. REQUIRES: as FitSimilarity.
 std::vector<fsm::PointPair> RejectOutliers(std::span<const fsm::PointPair> pairs);
 
 /// Returns the pairs with positions averaged with their mirrored counterparts where the two nearly
