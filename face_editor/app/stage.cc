@@ -129,7 +129,7 @@ std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::FittedHead
   std::vector<glm::vec3> camera;
   for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(fitted.pose.ToCamera(p));
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-  facefit::ForEachSkinTriangle(base.head().surface(), [&](const facefit::MeshTriangle& t) {
+  facefit::ForEachSkinTriangle(base.surface(), [&](const facefit::MeshTriangle& t) {
     const glm::vec3 n = t.Normal(camera);
     // The neck is not fitted, what lies behind is not seen.
     const bool face = std::ranges::all_of(t.corner, [&](std::uint32_t v) {

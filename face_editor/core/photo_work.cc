@@ -19,7 +19,7 @@ namespace {
 facefit::FoundFace FoundFrom(const PointMap& points) {
   facefit::FoundFace face;
   face.certainty = 1;
-  for (const auto& [i, at] : points) face.points.push_back(at);
+  for (const auto& [i, at] : points) face.points[static_cast<std::size_t>(i)] = at;
   face.crop = facefit::CropAround(face.points);
   return face;
 }

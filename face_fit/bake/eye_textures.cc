@@ -222,7 +222,7 @@ std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const FoundFace& face, cons
     if ((*shown)[side] != side) continue;
     const LidLines lids(EyePointsOf(side, face));
     const PhotoEye eye{fit.irises.eyes[side].circle, lids, right, {right.y, -right.x}};
-    const float radius = at_rest[side].size * base.head().surface().eyes[side].ball_radius;
+    const float radius = at_rest[side].size * base.surface().eyes[side].ball_radius;
     squares[side] = {IrisTexture(eye, SkinColourBelowEye(face, photo, side), photo),
                      BallTexture(eye, LidsAtRest(base, side, at_rest[side]), radius, photo)};
   }

@@ -17,7 +17,7 @@ VisibleSurface VisibleSkin(const FittedHead& fitted, const CameraPose& pose, con
     return posed[v].y < bottom_mm || posed[v].z < fsm::NeckFrontZ(posed[v].y - bottom_mm);
   };
   VisibleSurface surface(grid, pose.ToScreen(posed));
-  ForEachSkinTriangle(fitted.base->head().surface(), [&](const MeshTriangle& triangle) {
+  ForEachSkinTriangle(fitted.base->surface(), [&](const MeshTriangle& triangle) {
     if (std::ranges::any_of(triangle.corner, beyond)) return;
     const glm::vec3 normal = triangle.Normal(posed);
     if (glm::dot(normal, axis) > kMinFacing * glm::length(normal)) surface.Draw(triangle);

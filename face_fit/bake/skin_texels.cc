@@ -109,7 +109,7 @@ std::optional<Triangle2> OnMap(const fsm::HeadSurface& topology, const MeshTrian
 SkinTexels FindSkinTexels(const ObservedHead& base) {
   const auto& head_side = PhotoLook().head_side;
   constexpr float kSlack = 0.02F;
-  const auto& topology = base.head().surface();
+  const auto& topology = base.surface();
   const float chin_y_mm = base.AtRest(point::kChin).y;
   const LipLines lips(base);
   SkinTexels out(kMapSize, kMapSize);
@@ -141,7 +141,7 @@ TexelProjections ProjectTexels(const FittedHead& fitted, const SkinTexels& texel
   constexpr glm::vec3 kCameraPosition(0, 0, kCameraDepthMm);
   std::vector<glm::vec3> in_camera;
   for (const glm::vec3& p : fitted.posed_vertices) in_camera.push_back(pose.ToCamera(p));
-  const std::vector<glm::vec3> normal = SkinNormals(fitted.base->head().surface(), in_camera);
+  const std::vector<glm::vec3> normal = SkinNormals(fitted.base->surface(), in_camera);
   TexelProjections out(texels.width, texels.height);
   for (std::size_t i = 0; i < texels.size(); ++i) {
     if (!texels[i]) continue;

@@ -20,7 +20,7 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
   const float chin_y_mm = base.AtRest(point::kChin).y;
   const glm::vec3 lower(0, chin_y_mm - fitted.PositionOf(point::kChin).y, 0);
   const float highest = chin_y_mm + PhotoLook().bust.above_chin_mm;
-  const fsm::HeadSurface& topology = base.head().surface();
+  const fsm::HeadSurface& topology = base.surface();
   std::vector<glm::vec3> positions = base.rest().position;
   for (glm::vec3& p : positions) p -= lower;
   VisibleSurface surface({glm::vec2(0.5F), 1, width, height}, pose.ToScreen(positions));

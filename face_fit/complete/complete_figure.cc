@@ -23,7 +23,7 @@ namespace {
 /// Returns the row of the top of the head with hair on it, photo pixels; it may be negative.
 float CrownRow(const FittedHead& fitted) {
   float highest = std::numeric_limits<float>::infinity();
-  ForEachSkinTriangle(fitted.base->head().surface(), [&](const MeshTriangle& triangle) {
+  ForEachSkinTriangle(fitted.base->surface(), [&](const MeshTriangle& triangle) {
     highest = std::min(highest, fitted.pose.PixelOf(fitted.posed_vertices[triangle.corner[0]]).y);
   });
   return highest - PhotoLook().hair.on_crown_mm * fitted.pose.PixelsPerMm();

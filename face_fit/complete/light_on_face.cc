@@ -12,7 +12,7 @@ namespace facefit {
 fsm::FaceLight LightOnFace(const FittedHead& fitted, const FigureCutout& figure) {
   const auto& position = fitted.posed_vertices;
   std::vector<std::uint32_t> corners;
-  ForEachSkinTriangle(fitted.base->head().surface(), [&](const MeshTriangle& triangle) {
+  ForEachSkinTriangle(fitted.base->surface(), [&](const MeshTriangle& triangle) {
     corners.insert(corners.end(), triangle.corner.begin(), triangle.corner.end());
   });
   const auto normal = fsm::Normals(corners, position, position.size());

@@ -13,12 +13,12 @@ namespace facefit {
 namespace {
 
 /// Returns FitProblem::depth_bias.
-std::vector<float> DepthBias(const ObservedHead& base) {
-  std::vector<float> bias;
+PerPoint<float> DepthBias(const ObservedHead& base) {
+  PerPoint<float> bias;
   float mean = 0;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-    bias.push_back(base.AtRest(i).z - base.DetectedDepthMm(i));
-    mean += bias.back() / static_cast<float>(kNetworkPoints);
+    bias[i] = base.AtRest(i).z - base.DetectedDepthMm(i);
+    mean += bias[i] / static_cast<float>(kNetworkPoints);
   }
   for (float& b : bias) b -= mean;
   return bias;
@@ -55,7 +55,7 @@ void ShiftLidsToIrises(const PhotoIrises& irises, std::vector<PixelConstraint>& 
 std::uint32_t NearestLip(const ObservedHead& base, glm::vec3 p) {
   std::uint32_t nearest = 0;
   float distance = 1e9F;
-  const auto& topology = base.head().surface();
+  const auto& topology = base.surface();
   for (const auto& part : topology.parts) {
     if (part.material != fsm::Material::kLip) continue;
     for (const std::uint32_t v : topology.Corners(part)) {

@@ -30,7 +30,7 @@ struct FitProblem {
   const FoundFace& face;
   /// By point of the network: the depth on the base head less the depth that the network reports
   /// for it, mean 0, millimetres. Added to what it reports of a photo.
-  std::vector<float> depth_bias;
+  PerPoint<float> depth_bias;
   bool lips_apart;
 };
 

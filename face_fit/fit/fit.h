@@ -19,7 +19,7 @@ struct FaceFit {
 
 /// Fits the base head to the points of a face: pose and expression by least squares, then the form
 /// by a warp. `photo` corrects the points, which miss the irises and the lip seam by some pixels.
-/// Pure; thread: any. REQUIRES: face.points has kNetworkPoints; `base` outlives the result.
+/// Pure; thread: any. REQUIRES: `base` outlives the result.
 FaceFit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Image& photo);
 
 /// Returns the mean distance of the face's points from those of the fitted head, millimetres.

@@ -36,7 +36,7 @@ ExpectedEye ExpectEye(const ObservedHead& base, const EyePoints& lids, fsm::Side
   const glm::vec2 from_middle = glm::vec2(ball.x, -ball.y) - MiddleOfLids(own);
   return {.lids = lids,
           .iris_centre_px = MiddleOfLids(lids) + pixels_per_mm * Rotated(from_middle, angle_rad),
-          .iris_radius_px = pixels_per_mm * base.head().surface().eyes[side].iris_radius,
+          .iris_radius_px = pixels_per_mm * base.surface().eyes[side].iris_radius,
           .pixels_per_mm = pixels_per_mm};
 }
 

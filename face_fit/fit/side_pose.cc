@@ -66,7 +66,7 @@ std::optional<std::vector<ComparedPoint>> MeasuredBias(FaceNetworks& networks,
   fsm::HeadVertices turned;
   for (const glm::vec3& p : fitted.posed_vertices) turned.position.push_back(pose.ToCamera(p));
   turned.normal =
-      fsm::Normals(fitted.base->head().surface().indices, turned.position, turned.position.size());
+      fsm::Normals(fitted.base->surface().indices, turned.position, turned.position.size());
   const PortraitView portrait(kDrawnSize);
   const fsm::Image image = portrait.Draw(fitted.base->head(), turned, {});
   const auto faces = FindFaces(networks, image);

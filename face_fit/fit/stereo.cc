@@ -43,8 +43,7 @@ VisibleSurface SkinInFront(const FittedHead& fitted) {
   const glm::ivec2 points = glm::clamp(glm::ivec2(box.Size() / step), 1, kMaxSamples);
   VisibleSurface surface({box.low, step, points.x, points.y},
                          fitted.pose.ToScreen(fitted.posed_vertices));
-  ForEachSkinTriangle(fitted.base->head().surface(),
-                      [&](const MeshTriangle& t) { surface.DrawFront(t); });
+  ForEachSkinTriangle(fitted.base->surface(), [&](const MeshTriangle& t) { surface.DrawFront(t); });
   return surface;
 }
 

@@ -55,14 +55,14 @@ TEST_F(MakeFaceTest, PointsSetByHandBesideThePhotoAreRefused) {
 /// The built-in head as the networks see it, or a part of it.
 fsm::Image PartOfPortrait(const ObservedHead& head, glm::vec2 low, glm::vec2 high) {
   const glm::ivec2 from(low), size(high - low);
-  return Cropped(head.portrait(), from.x, from.y, size.x, size.y);
+  return Cropped(head.portrait().image, from.x, from.y, size.x, size.y);
 }
 
 TEST_F(MakeFaceTest, OfAPhotoThatShowsOnlyTheInnerFaceTheRestIsDrawnAndNamed) {
-  const glm::vec2 right = Galatea().DetectedAt(point::kCheekRight),
-                  left = Galatea().DetectedAt(point::kCheekLeft),
-                  brow = Galatea().DetectedAt(point::kBrowRight),
-                  chin = Galatea().DetectedAt(point::kChin);
+  const glm::vec2 right = Galatea().portrait().pixels[point::kCheekRight],
+                  left = Galatea().portrait().pixels[point::kCheekLeft],
+                  brow = Galatea().portrait().pixels[point::kBrowRight],
+                  chin = Galatea().portrait().pixels[point::kChin];
   const auto front = vm::OrThrow(
       PrepareFront(*networks_, Galatea(),
                    PartOfPortrait(Galatea(), {right.x + 5, brow.y - 15}, {left.x - 5, chin.y + 2}),
@@ -79,8 +79,8 @@ TEST_F(MakeFaceTest, OfAPhotoThatShowsOnlyTheInnerFaceTheRestIsDrawnAndNamed) {
 }
 
 TEST_F(MakeFaceTest, APhotoWithoutTheMouthIsRefused) {
-  const glm::vec2 nose = Galatea().DetectedAt(point::kNoseBottom);
-  const fsm::Image& portrait = Galatea().portrait();
+  const glm::vec2 nose = Galatea().portrait().pixels[point::kNoseBottom];
+  const fsm::Image& portrait = Galatea().portrait().image;
   auto front =
       vm::OrThrow(PrepareFront(*networks_, Galatea(), portrait, FaceNumber{}, PhotoExtent::kWhole));
   ASSERT_TRUE(front.face);

@@ -13,7 +13,7 @@ namespace {
 
 struct ReportTest : testing::Test {
   ReportTest() {
-    face.found.points.assign(kNetworkPoints, glm::vec3(100, 100, 0));
+    face.found.points.fill(glm::vec3(100, 100, 0));
     face.found.points[33].x = 50;
     face.found.points[263].x = 150;
     face.found.crop = {glm::vec2(100), 150, 0};
@@ -31,8 +31,7 @@ struct ReportTest : testing::Test {
     face.occlusion = Occlusion::Of(nose_excess, "the nose", doubt);
   }
 
-  const ObservedHead base = ObservedHead::Exact(fsm::MakeHead("galatea"), "galatea",
-                                                std::vector<MeshPoint>(kNetworkPoints));
+  const ObservedHead base = ObservedHead::Exact(fsm::MakeHead("galatea"), "galatea", {});
   FrontPhoto front{.image = {.width = 200, .height = 200, .rgba = {}}, .face_count = 1};
   FrontFace face;
   FaceFit fit;

@@ -9,7 +9,6 @@ namespace facefit {
 /// A mouth from x = 50 to 150 whose lips meet at y = 100, by its points.
 inline FoundFace StraightMouth() {
   FoundFace face;
-  face.points.assign(kNetworkPoints, glm::vec3(0));
   constexpr std::pair<std::size_t, std::size_t> kInner[] = {{191, 95},  {80, 88},   {81, 178},
                                                             {82, 87},   {13, 14},   {312, 317},
                                                             {311, 402}, {310, 318}, {415, 324}};

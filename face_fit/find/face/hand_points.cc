@@ -169,7 +169,7 @@ FoundFace FaceFromHand(const ObservedHead& base, const HandPoints& points) {
     const glm::vec3 p = base.AtRest(i);
     const glm::vec2 pixel =
         to_photo(glm::vec2(p)) + to_photo.pixels_per_mm() * glm::vec2(warp.Motion(p));
-    face.points.emplace_back(pixel, to_photo.pixels_per_mm() * base.DetectedDepthMm(i));
+    face.points[i] = glm::vec3(pixel, to_photo.pixels_per_mm() * base.DetectedDepthMm(i));
   }
   face.crop = CropAround(face.points);
   return face;

@@ -64,8 +64,8 @@ class PhotoToBase {
  public:
   PhotoToBase(const FoundFace& face, const ObservedHead& base) {
     for (const PointIndex i : point::kReliable) {
-      pairs_.push_back(
-          {face.crop.FromImage(face.PixelOf(i)) * float{kLandmarkInputPixels}, base.DetectedAt(i)});
+      pairs_.push_back({face.crop.FromImage(face.PixelOf(i)) * float{kLandmarkInputPixels},
+                        base.portrait().pixels[i]});
     }
   }
 
@@ -117,15 +117,17 @@ WarpedHead WarpBuiltInHead(const ObservedHead& base, const FoundFace& face) {
   const auto at_rest = [&](PointIndex i) { return glm::vec2(base.AtRest(i)); };
   const float mm_per_pixel =
       glm::distance(at_rest(point::kEyeOuterRight), at_rest(point::kEyeOuterLeft)) /
-      glm::distance(base.DetectedAt(point::kEyeOuterRight), base.DetectedAt(point::kEyeOuterLeft));
+      glm::distance(base.portrait().pixels[point::kEyeOuterRight],
+                    base.portrait().pixels[point::kEyeOuterLeft]);
   WarpedHead warped;
   for (int y = 0; y < kLandmarkInputPixels; ++y) {
     for (int x = 0; x < kLandmarkInputPixels; ++x) {
       const glm::vec2 cell = (glm::vec2(x, y) + 0.5F) / float{kStep};
       const glm::vec2 on_base = coarse.SampleAt(cell.x + 0.5F, cell.y + 0.5F);
-      const glm::vec2 from_nasion = mm_per_pixel * (on_base - base.DetectedAt(point::kNasion));
+      const glm::vec2 from_nasion =
+          mm_per_pixel * (on_base - base.portrait().pixels[point::kNasion]);
       warped.on_face.push_back(at_rest(point::kNasion) + glm::vec2(from_nasion.x, -from_nasion.y));
-      warped.colour.push_back(ColourAt(base.portrait(), on_base) / 255.0F);
+      warped.colour.push_back(ColourAt(base.portrait().image, on_base) / 255.0F);
     }
   }
   return warped;

@@ -59,7 +59,7 @@ fsm::LipOrLid LipOrLidOf(PointIndex i) {
 }
 
 /// Moves the points of the inner lips onto a lip seam, at equal steps.
-void SpreadAlongLipSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
+void SpreadAlongLipSeam(const LipSeam& seam, PerPoint<MeshPoint>& points) {
   points[point::kInnerMouthRight] = seam.EdgesAt(0).upper;
   points[point::kInnerMouthLeft] = seam.EdgesAt(1).upper;
   const std::size_t count = point::kLowerInnerLip.size();
@@ -83,7 +83,7 @@ LidEdgesOfEyes FindLidEdgesOfEyes(const ObservedHead& observed, const std::vecto
 }
 
 /// Moves the points of an eye's outline onto the edges of its lids.
-void MoveToLidEdges(const LidEdges& edges, fsm::Side side, std::vector<MeshPoint>& points) {
+void MoveToLidEdges(const LidEdges& edges, fsm::Side side, PerPoint<MeshPoint>& points) {
   const auto& outline = point::kEyeOutline[side];
   points[outline[kOuterCorner]] = edges.outer;
   points[outline[kInnerCorner]] = edges.inner;
@@ -102,7 +102,7 @@ class HeadMatcher {
         file_(file),
         name_(std::move(name)),
         base_(std::move(base)),
-        base_lid_edges_(FindLidEdgesOfEyes(base_, EyeVertices(base_.head().surface()))) {}
+        base_lid_edges_(FindLidEdgesOfEyes(base_, EyeVertices(base_.surface()))) {}
   /// Returns none if no face is seen on the head when `to_base` is applied.
   std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_base) {
     fsm::MeshModel model = fsm::ModelOfImport(file_, to_base, fsm::kUsualMouthY);
@@ -110,11 +110,11 @@ class HeadMatcher {
     for (const fsm::Bone bone : model.mesh.bone) {
       is_eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
-    const ObservedHead::Surface surface{model.SkinTriangles(), model.has_uv_seams};
+    const ObservedHead::Skin skin{model.SkinTriangles(), model.has_uv_seams};
     const auto other =
-        ObservedHead::Observe(networks_, fsm::MakeMeshHead(std::move(model)), name_, surface);
+        ObservedHead::Observe(networks_, fsm::MakeMeshHead(std::move(model)), name_, skin);
     if (!other) return {};
-    std::vector<MeshPoint> on_base = base_.mesh_points(), on_other = other->mesh_points();
+    PerPoint<MeshPoint> on_base = base_.mesh_points(), on_other = other->mesh_points();
     const LidEdgesOfEyes lid_edges = FindLidEdgesOfEyes(*other, is_eye);
     for (const fsm::Side side : fsm::kSides) {
       if (!base_lid_edges_[side] || !lid_edges[side]) continue;  // only where both heads show them

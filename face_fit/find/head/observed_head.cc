@@ -27,15 +27,17 @@ VisibleSurface SkinIn(const fsm::HeadSurface& topology, const std::vector<glm::v
 }
 
 /// Returns the points of the skin at some pixels of an image; for pixels beside the skin the
-/// nearest visible point that is no farther back than the ears. Returns none if no skin is visible.
-std::vector<MeshPoint> SkinPointsAt(const VisibleSurface& skin,
-                                    const std::vector<glm::vec3>& screen,
-                                    std::span<const glm::vec3> points) {
+/// nearest visible point that is no farther back than the ears. Returns nothing if no skin is
+/// visible.
+std::optional<PerPoint<MeshPoint>> SkinPointsAt(const VisibleSurface& skin,
+                                                const std::vector<glm::vec3>& screen,
+                                                const PerPoint<glm::vec3>& pixels) {
   constexpr float kFarthestBackMm = -20;
-  std::vector<MeshPoint> found;
-  if (std::ranges::max(skin.depth().values) < kFarthestBackMm) return found;
+  if (std::ranges::max(skin.depth().values) < kFarthestBackMm) return std::nullopt;
+  PerPoint<MeshPoint> found;
   const auto nearest = NearestAbove(skin.depth(), kFarthestBackMm);
-  for (const glm::vec3& p : points) {
+  for (PointIndex k = 0; k < kNetworkPoints; ++k) {
+    const glm::vec2 p(pixels[k]);
     const glm::ivec2 pixel = glm::clamp(glm::ivec2(p), 0, kPortraitSize - 1);
     const std::size_t own = skin.depth().Index(pixel.x, pixel.y), i = nearest[own];
     MeshPoint on_head =
@@ -43,27 +45,26 @@ std::vector<MeshPoint> SkinPointsAt(const VisibleSurface& skin,
     // Refine the point within the pixel.
     const auto& t = on_head.corner;
     if (i == own) {
-      on_head.weight = Triangle2{screen[t[0]], screen[t[1]], screen[t[2]]}.WeightsAt(glm::vec2(p));
+      on_head.weight = Triangle2{screen[t[0]], screen[t[1]], screen[t[2]]}.WeightsAt(p);
     }
-    found.push_back(on_head);
+    found[k] = on_head;
   }
   return found;
 }
 
-std::optional<LipSeam> LipSeamOf(const ObservedHead& base, const ObservedHead::Surface& surface) {
+std::optional<LipSeam> LipSeamOf(const ObservedHead& base, const ObservedHead::Skin& skin) {
   const auto outer_lip = [&base](std::span<const PointIndex> points) {
     std::vector<glm::vec3> at_rest;
     for (const PointIndex i : points) at_rest.push_back(base.AtRest(i));
     return at_rest;
   };
-  return FindLipSeam(base.head().surface(), base.rest().position, surface.skin_triangles,
-                     surface.has_uv_seams, outer_lip(point::kUpperOuterLip),
-                     outer_lip(point::kLowerOuterLip));
+  return FindLipSeam(base.surface(), base.rest().position, skin.triangles, skin.has_uv_seams,
+                     outer_lip(point::kUpperOuterLip), outer_lip(point::kLowerOuterLip));
 }
 
 /// Moves the points of the inner lips, except the corners, up or down onto the lip seam.
 void SnapToLipSeam(const std::vector<glm::vec3>& position, const LipSeam& seam,
-                   std::vector<MeshPoint>& points) {
+                   PerPoint<MeshPoint>& points) {
   const float right = seam.EdgesAt(0).upper.On(position).x,
               left = seam.EdgesAt(1).upper.On(position).x;
   const auto edges = [&](PointIndex i) {
@@ -82,12 +83,10 @@ ObservedHead::ObservedHead(std::unique_ptr<fsm::Head> head, const std::string& n
 }
 
 ObservedHead ObservedHead::Exact(std::unique_ptr<fsm::Head> head, const std::string& name,
-                                 std::vector<MeshPoint> points) {
+                                 const PerPoint<MeshPoint>& points) {
   ObservedHead exact(std::move(head), name);
-  exact.mesh_points_ = std::move(points);
-  for (const MeshPoint& on_head : exact.mesh_points_) {
-    exact.detected_depth_mm_.push_back(on_head.On(exact.rest_.position).z);
-  }
+  exact.mesh_points_ = points;
+  for (PointIndex i = 0; i < kNetworkPoints; ++i) exact.detected_depth_mm_[i] = exact.AtRest(i).z;
   return exact;
 }
 
@@ -98,9 +97,8 @@ vm::Result<ObservedHead> ObservedHead::BuiltIn(FaceNetworks& networks, const std
 vm::Result<ObservedHead> ObservedHead::FromBaseMesh(FaceNetworks& networks,
                                                     std::unique_ptr<fsm::Head> head,
                                                     const std::string& name) {
-  const Surface surface{.skin_triangles = fsm::SkinTriangles(head->surface()),
-                        .has_uv_seams = false};
-  auto base = Observe(networks, std::move(head), name, surface);
+  const Skin skin{.triangles = fsm::SkinTriangles(head->surface()), .has_uv_seams = false};
+  auto base = Observe(networks, std::move(head), name, skin);
   if (base && base->lip_seam_)
     SnapToLipSeam(base->rest_.position, *base->lip_seam_, base->mesh_points_);
   return base;
@@ -108,26 +106,25 @@ vm::Result<ObservedHead> ObservedHead::FromBaseMesh(FaceNetworks& networks,
 
 vm::Result<ObservedHead> ObservedHead::Observe(FaceNetworks& networks,
                                                std::unique_ptr<fsm::Head> head,
-                                               const std::string& name, const Surface& surface) {
+                                               const std::string& name, const Skin& skin) {
   ObservedHead observed(std::move(head), name);
-  const PortraitView portrait(kPortraitSize);
-  Seen seen{portrait.Draw(observed.head(), observed.rest_, {}), {}};
+  const PortraitView view(kPortraitSize);
+  NetworkPortrait portrait{view.Draw(observed.head(), observed.rest_, {}), {}};
   std::vector<glm::vec3> screen;
-  for (const glm::vec3& p : observed.rest_.position) screen.emplace_back(portrait.PixelOf(p), p.z);
-  const auto faces = FindFaces(networks, seen.image);
+  for (const glm::vec3& p : observed.rest_.position) screen.emplace_back(view.PixelOf(p), p.z);
+  const auto faces = FindFaces(networks, portrait.image);
+  std::optional<PerPoint<MeshPoint>> found;
   if (!faces.empty()) {
-    observed.mesh_points_ =
-        SkinPointsAt(SkinIn(observed.head().surface(), screen), screen, faces.front().points);
+    found = SkinPointsAt(SkinIn(observed.surface(), screen), screen, faces.front().points);
   }
-  if (observed.mesh_points_.empty()) {
-    return vm::Fail(vm::Errc::kBadValue, "no face is seen on the head '" + name + "'");
+  if (!found) return vm::Fail(vm::Errc::kBadValue, "no face is seen on the head '" + name + "'");
+  observed.mesh_points_ = *found;
+  for (PointIndex i = 0; i < kNetworkPoints; ++i) {
+    portrait.pixels[i] = faces.front().PixelOf(i);
+    observed.detected_depth_mm_[i] = faces.front().points[i].z * view.mm_per_pixel();
   }
-  for (const glm::vec3& p : faces.front().points) {
-    seen.pixels.emplace_back(p);
-    observed.detected_depth_mm_.push_back(p.z * portrait.mm_per_pixel());
-  }
-  observed.seen_ = std::move(seen);
-  observed.lip_seam_ = LipSeamOf(observed, surface);
+  observed.portrait_ = std::move(portrait);
+  observed.lip_seam_ = LipSeamOf(observed, skin);
   return observed;
 }
 

@@ -19,14 +19,20 @@
 
 namespace facefit {
 
+/// A head as it was drawn for the landmark network, and where the network saw each point.
+struct NetworkPortrait {
+  fsm::Image image;
+  PerPoint<glm::vec2> pixels;
+};
+
 /// A head as the landmark network sees it: it is drawn, the network finds points in the image,
 /// and these are projected back onto the mesh. So the network's systematic errors are the same on
 /// this head and on a photo.
 class ObservedHead {
  public:
-  struct Surface {
-    std::vector<std::uint32_t> skin_triangles;  ///< skin, lips and mouth
-    bool has_uv_seams = false;                  ///< as for fsm::TransferSurface
+  struct Skin {
+    std::vector<std::uint32_t> triangles;  ///< skin, lips and mouth
+    bool has_uv_seams = false;             ///< as for fsm::TransferSurface
   };
 
   /// Observes a built-in head and moves the points of its inner lips onto the lip seam. Error:
@@ -38,28 +44,24 @@ class ObservedHead {
                                                const std::string& name);
   /// Observes a head of any maker; its points stay where the network saw them. Errors: as BuiltIn.
   static vm::Result<ObservedHead> Observe(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                                          const std::string& name, const Surface& surface);
+                                          const std::string& name, const Skin& skin);
   /// Returns a head whose points are known exactly, for tests: no network has seen it.
   static ObservedHead Exact(std::unique_ptr<fsm::Head> head, const std::string& name,
-                            std::vector<MeshPoint> points);
+                            const PerPoint<MeshPoint>& points);
 
   const std::string& name() const { return name_; }
   const fsm::Head& head() const { return *head_; }
+  const fsm::HeadSurface& surface() const { return head_->surface(); }
   const fsm::HeadVertices& rest() const { return rest_; }
   /// Returns where the network's points lie on the head.
-  const std::vector<MeshPoint>& mesh_points() const { return mesh_points_; }
+  const PerPoint<MeshPoint>& mesh_points() const { return mesh_points_; }
   /// Returns the depth that the network reports of a point, millimetres; of an Exact head the true
   /// one.
   float DetectedDepthMm(PointIndex i) const { return detected_depth_mm_[i]; }
   /// Returns what the network was shown. REQUIRES: not Exact.
-  const fsm::Image& portrait() const {
-    assert(seen_);
-    return seen_->image;
-  }
-  /// Returns the pixel of `portrait` at which the network saw a point. REQUIRES: not Exact.
-  glm::vec2 DetectedAt(PointIndex i) const {
-    assert(seen_);
-    return seen_->pixels[i];
+  const NetworkPortrait& portrait() const {
+    assert(portrait_);
+    return *portrait_;
   }
   /// Returns the lip seam, if it was found.
   const std::optional<LipSeam>& lip_seam() const { return lip_seam_; }
@@ -79,13 +81,9 @@ class ObservedHead {
   std::string name_;
   std::unique_ptr<fsm::Head> head_;
   fsm::HeadVertices rest_;
-  std::vector<MeshPoint> mesh_points_;
-  std::vector<float> detected_depth_mm_;
-  struct Seen {
-    fsm::Image image;
-    std::vector<glm::vec2> pixels;  ///< of the points
-  };
-  std::optional<Seen> seen_;
+  PerPoint<MeshPoint> mesh_points_;
+  PerPoint<float> detected_depth_mm_{};
+  std::optional<NetworkPortrait> portrait_;
   std::optional<LipSeam> lip_seam_;
   std::optional<fsm::UnitTable> units_;
 };

@@ -205,12 +205,12 @@ std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image
   return faces;
 }
 
-std::vector<glm::vec3> PointsInImage(std::span<const float> raw, const NetworkCrop& crop) {
-  std::vector<glm::vec3> points;
+PerPoint<glm::vec3> PointsInImage(std::span<const float> raw, const NetworkCrop& crop) {
+  PerPoint<glm::vec3> points;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
     const glm::vec3 at =
         glm::vec3(raw[3 * i], raw[3 * i + 1], -raw[3 * i + 2]) / float{kLandmarkInputPixels};
-    points.emplace_back(crop.ToImage(glm::vec2(at)), at.z * crop.size);
+    points[i] = glm::vec3(crop.ToImage(glm::vec2(at)), at.z * crop.size);
   }
   return points;
 }

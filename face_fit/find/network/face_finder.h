@@ -14,10 +14,10 @@ namespace facefit {
 /// A face with its points: x and y in pixels of the image, y down; z in the same unit towards the
 /// viewer, 0 near the middle of the head.
 struct FoundFace {
-  std::vector<glm::vec3> points;  ///< kNetworkPoints
-  float certainty = 0;            ///< confidence, 0..1, that the points lie on a face
-  float score = 1;                ///< of the detector, 0..1; it finds no face that is upside down
-  NetworkCrop crop;               ///< around the points
+  PerPoint<glm::vec3> points = {};
+  float certainty = 0;  ///< confidence, 0..1, that the points lie on a face
+  float score = 1;      ///< of the detector, 0..1; it finds no face that is upside down
+  NetworkCrop crop;     ///< around the points
   glm::vec2 PixelOf(PointIndex i) const { return glm::vec2(points[i]); }
   /// Returns the way from the right eye's outer corner to the left one's, pixels.
   glm::vec2 AcrossEyes() const {
@@ -43,7 +43,7 @@ std::vector<FoundFace> FindFaces(FaceNetworks& networks, const fsm::Image& image
 
 /// Converts the output of a landmark network (x, y, z of each point, in pixels of
 /// kLandmarkInputPixels) to points of FoundFace. `crop`: what the network was shown.
-std::vector<glm::vec3> PointsInImage(std::span<const float> raw, const NetworkCrop& crop);
+PerPoint<glm::vec3> PointsInImage(std::span<const float> raw, const NetworkCrop& crop);
 
 /// Returns the square around a face's points to show to the landmark network, turned as the line of
 /// its eyes. `axes_rad`: angle of the box that measures the points.

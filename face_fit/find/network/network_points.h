@@ -14,6 +14,9 @@ namespace facefit {
 /// (mediapipe/modules/face_geometry/data/canonical_face_model_uv_visualization.png).
 using PointIndex = std::size_t;
 inline constexpr PointIndex kNetworkPoints = 468;
+/// A value for each of the network's points.
+template <typename T>
+using PerPoint = std::array<T, kNetworkPoints>;
 
 /// The points that have names; right and left are the person's.
 namespace point {

@@ -20,9 +20,8 @@ TEST(EyeTexturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   auto head = fsm::MakeHead("galatea");
   fsm::HeadVertices rest;
   head->Evaluate({}, rest);
-  std::vector<MeshPoint> places(kNetworkPoints);
+  PerPoint<MeshPoint> places;
   FoundFace face;
-  face.points.assign(kNetworkPoints, glm::vec3(0));
   FaceFit fit;
   std::vector<glm::vec2> centres;
   for (const fsm::Side side : fsm::kSides) {
@@ -48,7 +47,7 @@ TEST(EyeTexturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
       }
     }
   }
-  const ObservedHead base = ObservedHead::Exact(std::move(head), "galatea", std::move(places));
+  const ObservedHead base = ObservedHead::Exact(std::move(head), "galatea", places);
   fit.head.base = &base;
   const fsm::Image photo = GreyImage(1000, [&](glm::vec2 p) {
     for (const glm::vec2 centre : centres) {
@@ -74,7 +73,7 @@ TEST(EyeTexturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     EXPECT_NEAR(shown(eye.ball, {0.2F, 0.55F}), 220, 12);
   }
   // Nothing of the face is painted there.
-  const auto& uv = base.head().surface().uv;
+  const auto& uv = base.surface().uv;
   for (std::size_t v = 0; v < uv.size(); ++v) {
     if (base.rest().position[v].y < -90 || base.rest().position[v].z < 0) continue;
     EXPECT_GT(uv[v].y, 0.14F);

@@ -38,7 +38,7 @@ class SideViewBlendTest : public NetworkTest {
   FoundFace FaceIn(const CameraPose& pose) const {
     FoundFace face;
     for (PointIndex i = 0; i < kNetworkPoints; ++i) {
-      face.points.emplace_back(pose.PixelOf(fitted_.PositionOf(i)), 0);
+      face.points[i] = glm::vec3(pose.PixelOf(fitted_.PositionOf(i)), 0);
     }
     return face;
   }

@@ -12,7 +12,6 @@ namespace {
 
 TEST(SmileFoldsTest, ADarkFoldIsFilledAndABeardIsNot) {
   FoundFace face;
-  face.points.assign(kNetworkPoints, glm::vec3(0));
   float y = 60;
   for (const auto& [right, left] :
        {std::pair(129, 358), {203, 423}, {206, 426}, {216, 436}, {212, 432}}) {

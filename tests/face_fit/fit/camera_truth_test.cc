@@ -194,8 +194,8 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     face.certainty = 1;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
       const float bias = base.AtRest(i).z - base.DetectedDepthMm(i);
-      face.points.emplace_back(camera.PixelOf(truth().points[i]),
-                               pixels * (camera.Placed(base.AtRest(i)).z - bias));
+      face.points[i] = glm::vec3(camera.PixelOf(truth().points[i]),
+                                 pixels * (camera.Placed(base.AtRest(i)).z - bias));
     }
     face.crop = {face.PixelOf(1), 1.5F * glm::distance(face.PixelOf(10), face.PixelOf(152)), 0};
     return face;

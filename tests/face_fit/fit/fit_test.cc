@@ -24,12 +24,12 @@ CameraPose SomePose() {
 }
 
 /// What the network saw of a head, as if it were a photo.
-FoundFace DetectedOf(const std::vector<MeshPoint>& places, const std::vector<glm::vec3>& vertices) {
+FoundFace DetectedOf(const PerPoint<MeshPoint>& on_head, const std::vector<glm::vec3>& vertices) {
   FoundFace face;
   const CameraPose pose = SomePose();
-  for (const MeshPoint& place : places) {
-    const glm::vec3 q = pose.ToCamera(place.On(vertices));
-    face.points.emplace_back(pose.Project(q), q.z * pose.PixelsPerMm());
+  for (PointIndex i = 0; i < kNetworkPoints; ++i) {
+    const glm::vec3 q = pose.ToCamera(on_head[i].On(vertices));
+    face.points[i] = glm::vec3(pose.Project(q), q.z * pose.PixelsPerMm());
   }
   return face;
 }

@@ -29,7 +29,7 @@ fsm::Image Map(int width, int height) {
 /// A face whose eyes are so many pixels apart at their outer corners.
 FoundFace FaceAt(glm::vec2 nose, float eyes) {
   FoundFace face;
-  face.points.assign(kNetworkPoints, glm::vec3(nose, 0));
+  face.points.fill(glm::vec3(nose, 0));
   face.points[33].x -= eyes / 2;
   face.points[263].x += eyes / 2;
   face.points[4].z = 10;

@@ -8,7 +8,7 @@ namespace {
 /// A face in a photo of 200 pixels, its features from 60 to 140 and its outline from 20 to 180.
 FoundFace SomeFace() {
   FoundFace face;
-  face.points.assign(kNetworkPoints, glm::vec3(100, 120, 0));
+  face.points.fill(glm::vec3(100, 120, 0));
   const auto put = [&face](PointIndex i, float x, float y) { face.points[i] = {x, y, 0}; };
   for (const fsm::Side side : fsm::kSides) {
     for (const PointIndex i : point::kEyeOutline[side]) put(i, 100 + 30 * fsm::SignOf(side), 70);

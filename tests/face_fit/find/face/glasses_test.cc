@@ -11,7 +11,6 @@ namespace {
 
 TEST(GlassesTest, ABarAcrossTheNoseIsSeenAndAFoldIsNot) {
   FoundFace face;
-  face.points.assign(kNetworkPoints, glm::vec3(0));
   face.points[133] = glm::vec3(136, 200, 0);  // inner corners, two pixels to the millimetre
   face.points[362] = glm::vec3(200, 200, 0);
   // A nose that grows darker downwards.

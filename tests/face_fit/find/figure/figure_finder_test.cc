@@ -11,7 +11,6 @@ namespace {
 
 TEST(FigureTest, WhatOnlyOneSideOfAHeadShowsIsDoubtedAndRatherThereIfItLooksAlike) {
   FoundFace face;
-  face.points.assign(kNetworkPoints, glm::vec3(0));
   face.points[10] = glm::vec3(kDiscSide / 2, 40, 0);
   face.points[152] = glm::vec3(kDiscSide / 2, 140, 0);
   // The network missed an ear on the left, and on the right saw hair that the left has none of.

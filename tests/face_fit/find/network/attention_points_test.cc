@@ -59,9 +59,9 @@ TEST_F(AttentionTest, IrisesOfPhotosLieOnTheIrises) {
 
 TEST_F(AttentionTest, PointsOfTheLipsLieOnTheSeamOfAHead) {
   const ObservedHead& base = Galatea();
-  const AttentiveFace seen = See(base.portrait());
+  const AttentiveFace seen = See(base.portrait().image);
   EXPECT_GT(seen.face.certainty, 0.95F);
-  const PortraitView portrait(base.portrait().width);
+  const PortraitView portrait(base.portrait().image.width);
   // Along the seam both may differ; across it, from the line between the two neighbours there.
   const auto off_mm = [&](std::span<const PointIndex> line) {
     float most = 0;
