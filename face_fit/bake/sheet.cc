@@ -52,7 +52,8 @@ std::vector<glm::vec3> MotionToRest(const FittedHead& fitted) {
 /// Returns the vertices' motion at the visible points of a surface; 0 where there is none.
 VectorImage MotionOn(const VisibleSurface& surface, const std::vector<glm::vec3>& motion) {
   return VectorImage::From(surface.grid().columns, surface.grid().rows, [&](int x, int y) {
-    return surface.TriangleAt(x, y) ? surface.MeshPointAt(x, y).On(motion) : glm::vec3(0);
+    const SurfaceSample* sample = surface.SampleAt(x, y);
+    return sample ? sample->OnMesh().On(motion) : glm::vec3(0);
   });
 }
 

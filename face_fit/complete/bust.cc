@@ -35,13 +35,13 @@ Bust DrawWith(const FittedHead& fitted, CameraPose pose, int width, int height) 
   const Mask none(width, height);
   Bust bust{none, none, none, VectorImage(width, height, {0, 0, 1}), pose.Project({}).x};
   ForEachPixel(width, height, [&](int x, int y, std::size_t i) {
-    const MeshTriangle* triangle = surface.TriangleAt(x, y);
-    if (!triangle) return;
-    const MeshPoint on_base = surface.MeshPointAt(x, y);
+    const SurfaceSample* sample = surface.SampleAt(x, y);
+    if (!sample) return;
+    const MeshPoint on_base = sample->OnMesh();
     const glm::vec3 normal = on_base.On(base.rest().normal);
     if (normal.z <= 0) return;  // interpolated normals at the outline may point away
     bust.opacity[i] = 1;
-    bust.cloth[i] = triangle->material == fsm::Material::kCloth ? 1.0F : 0.0F;
+    bust.cloth[i] = sample->triangle.material == fsm::Material::kCloth ? 1.0F : 0.0F;
     bust.ambient_occlusion[i] = on_base.On(topology.openness);
     bust.normal[i] = normal;
   });

@@ -46,7 +46,8 @@ struct CameraPose {
   glm::vec2 Project(glm::vec3 q) const;  ///< from the camera's frame to pixels
   /// From a pixel to the position at depth `z`, camera's frame.
   glm::vec3 Unproject(glm::vec2 pixel, float z) const;
-  /// From the head's frame to a pixel, and back to the position at depth `z` of the camera's frame.
+  /// From the head's frame to a pixel, and back to the position at depth `camera_z` of the camera's
+  /// frame.
   glm::vec2 PixelOf(glm::vec3 p) const { return Project(ToCamera(p)); }
   glm::vec3 PositionOf(glm::vec2 pixel, float camera_z) const {
     return FromCamera(Unproject(pixel, camera_z));

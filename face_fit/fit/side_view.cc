@@ -45,7 +45,8 @@ SidePhotoFit UseSidePhotos(FaceNetworks& networks, const fsm::Image& front_photo
   }
   // Later photos changed the depth that the poses of earlier ones were found on.
   for (auto& [side_photo, pose, figure] : used.views) {
-    pose = RefineSidePose(used.fit.head, front_photo, side_photo->image, pose).value_or(pose);
+    const StereoMatcher matcher(used.fit.head, front_photo, side_photo->image);
+    pose = matcher.RefinePose(pose).value_or(pose);
   }
   return used;
 }

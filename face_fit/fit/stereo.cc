@@ -26,44 +26,29 @@ constexpr int kMaxSamples = 400;  // to a side
 /// lies on two features of the face.
 constexpr float kMinFacing = 0.25F, kMinFacingSide = 0.2F, kMaxDepthStepInPatchMm = 25;
 
-/// A point of the fitted skin as the front photo shows it; `facing` is negative where there is
-/// none.
-struct StereoSample {
-  glm::vec3 in_camera{0}, rest{0};  // in the camera's frame; on the base head
-  float brightness = 0;
-  float facing = -1, facing_side = -1;  // cosines of the slant to either camera
-};
-using StereoSamples = Raster<StereoSample>;
+using Samples = Raster<StereoMatcher::Sample>;
 
-/// Returns the fitted skin that the front photo shows.
-VisibleSurface SkinInFront(const FittedHead& fitted) {
+/// Samples the fitted skin that the front photo shows.
+Samples SampleSkin(const FittedHead& fitted, const fsm::Image& front_photo) {
   Box2 box;
   for (const PointIndex i : point::kReliable) box.Add(fitted.pose.PixelOf(fitted.PositionOf(i)));
   const float step = kCellMm * fitted.pose.PixelsPerMm();
   const glm::ivec2 points = glm::clamp(glm::ivec2(box.Size() / step), 1, kMaxSamples);
-  VisibleSurface surface({box.low, step, points.x, points.y},
-                         fitted.pose.ToScreen(fitted.posed_vertices));
-  ForEachSkinTriangle(fitted.base->surface(), [&](const MeshTriangle& t) { surface.DrawFront(t); });
-  return surface;
-}
-
-/// Samples the skin that the front photo shows, and how it faces both cameras.
-StereoSamples SampleSkin(const FittedHead& fitted, const fsm::Image& front_photo,
-                         const CameraPose& side_pose) {
-  const VisibleSurface surface = SkinInFront(fitted);
-  const SampleGrid& grid = surface.grid();
-  const glm::vec3 to_front = fitted.pose.TowardsCamera(), to_side = side_pose.TowardsCamera();
+  const SampleGrid grid{box.low, step, points.x, points.y};
   const auto& posed = fitted.posed_vertices;
-  return StereoSamples::From(grid.columns, grid.rows, [&](int x, int y) -> StereoSample {
-    const MeshTriangle* triangle = surface.TriangleAt(x, y);
-    if (!triangle) return {};
-    const MeshPoint on_mesh = surface.MeshPointAt(x, y);
-    const glm::vec3 normal = glm::normalize(triangle->Normal(posed));
+  const VisibleSurface surface =
+      DrawSkin(fitted.base->surface(), fitted.pose.ToScreen(posed), grid);
+  const glm::vec3 to_front = fitted.pose.TowardsCamera();
+  return Samples::From(grid.columns, grid.rows, [&](int x, int y) -> StereoMatcher::Sample {
+    const SurfaceSample* sample = surface.SampleAt(x, y);
+    if (!sample) return {};
+    const MeshPoint on_mesh = sample->OnMesh();
+    const glm::vec3 normal = glm::normalize(sample->triangle.Normal(posed));
     return {.in_camera = fitted.pose.ToCamera(on_mesh.On(posed)),
             .rest = on_mesh.On(fitted.base->rest().position),
+            .normal = normal,
             .brightness = Brightness(ColourAt(front_photo, grid.Point(x, y))),
-            .facing = glm::dot(normal, to_front),
-            .facing_side = glm::dot(normal, to_side)};
+            .facing = glm::dot(normal, to_front)};
   });
 }
 
@@ -87,7 +72,8 @@ struct Patch {
   std::vector<glm::vec3> in_camera;
 };
 
-std::vector<Patch> PatchesOf(const StereoSamples& samples) {
+/// Returns the patches that face both cameras. `to_side`: towards the side photo's, head's frame.
+std::vector<Patch> PatchesOf(const Samples& samples, glm::vec3 to_side) {
   std::vector<Patch> patches;
   for (int y = kPatch; y + kPatch < samples.height; y += kPatchStep) {
     for (int x = kPatch; x + kPatch < samples.width; x += kPatchStep) {
@@ -96,8 +82,8 @@ std::vector<Patch> PatchesOf(const StereoSamples& samples) {
       for (int dy = -kPatch; dy <= kPatch && whole; ++dy) {
         for (int dx = -kPatch; dx <= kPatch && whole; ++dx) {
           const std::size_t i = samples.Index(x + dx, y + dy);
-          const StereoSample& sample = samples[i];
-          whole = sample.facing > kMinFacing && sample.facing_side > kMinFacingSide &&
+          const StereoMatcher::Sample& sample = samples[i];
+          whole = sample.facing > kMinFacing && glm::dot(sample.normal, to_side) > kMinFacingSide &&
                   std::abs(sample.in_camera.z - samples[patch.middle].in_camera.z) <
                       kMaxDepthStepInPatchMm;
           patch.brightness.push_back(sample.brightness);
@@ -158,7 +144,7 @@ constexpr int kDepthSteps = 14;
 constexpr int kPoseRefinements = 2;
 
 /// Returns where patches are found in the side photo, whatever their depth.
-std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPose& front_pose,
+std::vector<PointMatch> FindPatches(const Samples& samples, const CameraPose& front_pose,
                                     const CameraPose& side_pose, PatchMatcher& matcher) {
   std::vector<PointMatch> matches;
   std::vector<glm::vec2> pixels;
@@ -166,7 +152,7 @@ std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPo
   const auto pixel_of = [&](const glm::vec3& q) {
     return side_pose.PixelOf(front_pose.FromCamera(q));
   };
-  for (const Patch& patch : PatchesOf(samples)) {
+  for (const Patch& patch : PatchesOf(samples, side_pose.TowardsCamera())) {
     // Projected once: the projection costs more than reading a pixel.
     pixels.clear();
     for (const glm::vec3& q : patch.in_camera) pixels.push_back(pixel_of(q));
@@ -190,10 +176,10 @@ std::vector<PointMatch> FindPatches(const StereoSamples& samples, const CameraPo
 }
 
 /// Returns how much nearer to the front camera each patch lies, where that is seen clearly.
-std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const CameraPose& front_pose,
+std::vector<fsm::WarpPoint> FindDepths(const Samples& samples, const CameraPose& front_pose,
                                        const CameraPose& side_pose, PatchMatcher& matcher) {
   std::vector<fsm::WarpPoint> depths;
-  for (const Patch& patch : PatchesOf(samples)) {
+  for (const Patch& patch : PatchesOf(samples, side_pose.TowardsCamera())) {
     const Peak peak = FindPeak(kDepthSteps, [&](int step) {
       const float nearer_mm = kDepthStepMm * static_cast<float>(step);
       const float correlation = matcher.Match(patch, [&](std::size_t i) {
@@ -211,24 +197,25 @@ std::vector<fsm::WarpPoint> FindDepths(const StereoSamples& samples, const Camer
 
 }  // namespace
 
-std::optional<CameraPose> RefineSidePose(const FittedHead& fitted, const fsm::Image& front_photo,
-                                         const fsm::Image& side_photo, CameraPose side_pose) {
-  PatchMatcher matcher(side_photo);
+StereoMatcher::StereoMatcher(const FittedHead& fitted, const fsm::Image& front_photo,
+                             const fsm::Image& side_photo)
+    : front_pose_(fitted.pose),
+      side_photo_(side_photo),
+      samples_(SampleSkin(fitted, front_photo)) {}
+
+std::optional<CameraPose> StereoMatcher::RefinePose(CameraPose side_pose) const {
+  PatchMatcher matcher(side_photo_);
   for (int round = 0; round < kPoseRefinements; ++round) {
-    const auto matches =
-        FindPatches(SampleSkin(fitted, front_photo, side_pose), fitted.pose, side_pose, matcher);
+    const auto matches = FindPatches(samples_, front_pose_, side_pose, matcher);
     if (matches.size() < kMinPatches) return std::nullopt;
     side_pose = FitPose(matches, side_pose);
   }
   return side_pose;
 }
 
-std::vector<fsm::WarpPoint> MeasureDepth(const FittedHead& fitted, const fsm::Image& front_photo,
-                                         const fsm::Image& side_photo,
-                                         const CameraPose& side_pose) {
-  PatchMatcher matcher(side_photo);
-  auto depths =
-      FindDepths(SampleSkin(fitted, front_photo, side_pose), fitted.pose, side_pose, matcher);
+std::vector<fsm::WarpPoint> StereoMatcher::MeasureDepth(const CameraPose& side_pose) const {
+  PatchMatcher matcher(side_photo_);
+  auto depths = FindDepths(samples_, front_pose_, side_pose, matcher);
   if (depths.size() < kMinPatches) depths.clear();
   return depths;
 }

@@ -4,21 +4,38 @@
 #include <vector>
 
 #include "face_fit/fit/fitted_head.h"
+#include "face_fit/image/raster.h"
 
 namespace facefit {
 
-/// Refines `side_pose`, how `side_photo` was taken, until the patches of skin of the front photo
-/// that are found in it lie where the fitted head has them. Returns nothing if fewer than 25 are
-/// found.
-std::optional<CameraPose> RefineSidePose(const FittedHead& fitted, const fsm::Image& front_photo,
-                                         const fsm::Image& side_photo, CameraPose side_pose);
+/// Finds small patches of skin of the front photo in a photo from the side.
+class StereoMatcher {
+ public:
+  /// `front_photo`: of the fit. `side_photo` outlives this object.
+  StereoMatcher(const FittedHead& fitted, const fsm::Image& front_photo,
+                const fsm::Image& side_photo);
+  /// Refines `side_pose`, how the side photo was taken, until the patches that are found lie where
+  /// the fitted head has them. Returns nothing if fewer than 25 are found.
+  std::optional<CameraPose> RefinePose(CameraPose side_pose) const;
+  /// Measures depth: of a turned face the network mostly reports what faces have in common.
+  /// `side_pose`: as refined by RefinePose. Returns positions on the base head at rest, and by how
+  /// many millimetres each lies nearer to the front photo's camera than in the fit; empty if fewer
+  /// than 25 patches are found.
+  std::vector<fsm::WarpPoint> MeasureDepth(const CameraPose& side_pose) const;
 
-/// Measures depth by finding small patches of skin of the front photo in a photo from the side: of
-/// a turned face the network mostly reports what faces have in common. `side_pose`: as refined by
-/// RefineSidePose. Returns positions on the base head at rest, and by how many millimetres each
-/// lies nearer to the front photo's camera than in the fit; empty if fewer than 25 patches are
-/// found.
-std::vector<fsm::WarpPoint> MeasureDepth(const FittedHead& fitted, const fsm::Image& front_photo,
-                                         const fsm::Image& side_photo, const CameraPose& side_pose);
+  /// A point of the fitted skin as the front photo shows it; `facing` is negative where there is
+  /// none.
+  struct Sample {
+    glm::vec3 in_camera{0}, rest{0};  ///< in the camera's frame; on the base head
+    glm::vec3 normal{0};              ///< head's frame, unit
+    float brightness = 0;
+    float facing = -1;  ///< cosine of the slant to the front photo's camera
+  };
+
+ private:
+  CameraPose front_pose_;
+  const fsm::Image& side_photo_;
+  Raster<Sample> samples_;
+};
 
 }  // namespace facefit

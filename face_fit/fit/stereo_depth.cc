@@ -36,11 +36,11 @@ std::vector<fsm::WarpPoint> OnBothCheeks(std::vector<fsm::WarpPoint> depths, glm
 StereoFit CorrectDepthByStereo(const fsm::Image& front_photo, const fsm::Image& side_photo,
                                CameraPose side_pose, FaceFit fit) {
   for (int round = 0; round < kStereoRounds; ++round) {
-    const auto refined = RefineSidePose(fit.head, front_photo, side_photo, side_pose);
+    const StereoMatcher matcher(fit.head, front_photo, side_photo);
+    const auto refined = matcher.RefinePose(side_pose);
     if (!refined) break;
     side_pose = *refined;
-    auto depths = OnBothCheeks(MeasureDepth(fit.head, front_photo, side_photo, side_pose),
-                               side_pose.TowardsCamera());
+    auto depths = OnBothCheeks(matcher.MeasureDepth(side_pose), side_pose.TowardsCamera());
     if (depths.empty()) break;
     const fsm::Warp rough(depths, kRoughSmoothMm);
     std::erase_if(depths, [&](const fsm::WarpPoint& measured) {

@@ -1,6 +1,5 @@
 #include "face_fit/surface/visible_surface.h"
 
-#include <cassert>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -40,15 +39,16 @@ Mask VisibleSurface::Covered() const {
                     [&](int x, int y) { return depth_(x, y) > kNothing ? 1.0F : 0.0F; });
 }
 
-const MeshTriangle* VisibleSurface::TriangleAt(int column, int row) const {
+const SurfaceSample* VisibleSurface::SampleAt(int column, int row) const {
   if (column < 0 || row < 0 || column >= grid_.columns || row >= grid_.rows) return nullptr;
-  return depth_(column, row) > kNothing ? &samples_[depth_.Index(column, row)].triangle : nullptr;
+  return depth_(column, row) > kNothing ? &samples_[depth_.Index(column, row)] : nullptr;
 }
 
-MeshPoint VisibleSurface::MeshPointAt(int column, int row) const {
-  assert(TriangleAt(column, row));
-  const auto& [triangle, weights] = samples_[depth_.Index(column, row)];
-  return {triangle.corner, weights};
+VisibleSurface DrawSkin(const fsm::HeadSurface& topology, std::vector<glm::vec3> screen,
+                        const SampleGrid& grid) {
+  VisibleSurface surface(grid, std::move(screen));
+  ForEachSkinTriangle(topology, [&](const MeshTriangle& t) { surface.DrawFront(t); });
+  return surface;
 }
 
 VisibleSurface VisibleFromFront(const fsm::HeadSurface& topology,

@@ -19,6 +19,13 @@ struct SampleGrid {
   glm::vec2 Point(int column, int row) const { return origin + step * glm::vec2(column, row); }
 };
 
+/// What is foremost at a point of a grid.
+struct SurfaceSample {
+  MeshTriangle triangle;
+  glm::vec3 weights{0};  ///< of the triangle's corners
+  MeshPoint OnMesh() const { return {triangle.corner, weights}; }
+};
+
 /// A run of columns of a grid.
 struct Columns {
   int first, last;
@@ -42,23 +49,21 @@ class VisibleSurface {
   const FloatImage& depth() const { return depth_; }
   /// Returns 1 where something was drawn, else 0.
   Mask Covered() const;
-  /// Returns the triangle at a point; nullptr where there is none and outside the grid. Valid until
+  /// Returns what was drawn at a point; nullptr where nothing was and outside the grid. Valid until
   /// the next Draw and as long as this object.
-  const MeshTriangle* TriangleAt(int column, int row) const;
-  /// Returns the point of the mesh at a point of the grid. REQUIRES: there is a triangle.
-  MeshPoint MeshPointAt(int column, int row) const;
+  const SurfaceSample* SampleAt(int column, int row) const;
 
  private:
-  struct Sample {
-    MeshTriangle triangle;
-    glm::vec3 weights{0};
-  };
   SampleGrid grid_;
   std::vector<glm::vec3> screen_;
   float front_sign_;  ///< of the area of triangles that face the viewer
   FloatImage depth_;
-  std::vector<Sample> samples_;
+  std::vector<SurfaceSample> samples_;
 };
+
+/// Returns the skin that is seen from the front. `screen`: as for VisibleSurface.
+VisibleSurface DrawSkin(const fsm::HeadSurface& topology, std::vector<glm::vec3> screen,
+                        const SampleGrid& grid);
 
 inline constexpr float kFrontStepMm = 0.125F;
 /// Returns the front view of a head that faces +z, in the window low..high, in steps of

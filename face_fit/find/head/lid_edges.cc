@@ -21,8 +21,8 @@ Mask EyeballMask(const VisibleSurface& surface, const std::vector<bool>& is_eye,
   glm::ivec2 seed(0);
   float nearest = kFarthestMm;
   ForEachPixel(eyeball.width, eyeball.height, [&](int column, int row, std::size_t i) {
-    const MeshTriangle* triangle = surface.TriangleAt(column, row);
-    if (!triangle || !is_eye[triangle->corner[0]]) return;
+    const SurfaceSample* sample = surface.SampleAt(column, row);
+    if (!sample || !is_eye[sample->triangle.corner[0]]) return;
     eyeball[i] = 1;
     const float distance = glm::distance(surface.grid().Point(column, row), centre);
     if (distance >= nearest) return;
@@ -86,9 +86,8 @@ class OpeningWalker {
     // A gap of a few steps between eyeball and lid may show what lies behind.
     constexpr int kGap = 8;
     for (int k = 1; k <= kGap; ++k) {
-      const int x = column + k * right, y = row + k * up;
-      const MeshTriangle* triangle = surface_.TriangleAt(x, y);
-      if (triangle && !is_eye_[triangle->corner[0]]) return surface_.MeshPointAt(x, y);
+      const SurfaceSample* sample = surface_.SampleAt(column + k * right, row + k * up);
+      if (sample && !is_eye_[sample->triangle.corner[0]]) return sample->OnMesh();
     }
     return std::nullopt;
   }

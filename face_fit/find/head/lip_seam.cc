@@ -26,9 +26,9 @@ std::vector<Crossing> FindCrossings(const VisibleSurface& view, const fsm::Welde
                                     std::span<const float> from_lower) {
   // Distances at a point of the view if it shows skin, and not teeth or the mouth's lining.
   const auto distances = [&](int column, int row) -> std::optional<glm::vec2> {
-    const MeshTriangle* triangle = view.TriangleAt(column, row);
-    if (!triangle || triangle->material == fsm::Material::kMouthInside) return std::nullopt;
-    const MeshPoint on_mesh = view.MeshPointAt(column, row);
+    const SurfaceSample* sample = view.SampleAt(column, row);
+    if (!sample || sample->triangle.material == fsm::Material::kMouthInside) return std::nullopt;
+    const MeshPoint on_mesh = sample->OnMesh();
     glm::vec2 sum(0);
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t v = surface.welded_of[on_mesh.corner[static_cast<std::size_t>(k)]];
@@ -101,8 +101,8 @@ std::optional<LipSeam> FindLipSeam(const fsm::HeadSurface& topology,
     int next = column;
     while (crossings[static_cast<std::size_t>(next)].above < 0) ++next;
     const Crossing& crossing = crossings[static_cast<std::size_t>(next)];
-    seam.columns.push_back(
-        {view.MeshPointAt(next, crossing.above), view.MeshPointAt(next, crossing.below)});
+    seam.columns.push_back({view.SampleAt(next, crossing.above)->OnMesh(),
+                            view.SampleAt(next, crossing.below)->OnMesh()});
   }
   return seam;
 }

@@ -18,15 +18,8 @@ namespace {
 
 constexpr int kPortraitSize = 720;
 
-/// Returns the skin visible at each pixel of a portrait of kPortraitSize pixels to a side.
-/// `screen`: for each vertex pixels with y down, and depth towards the viewer, millimetres.
-VisibleSurface SkinIn(const fsm::HeadSurface& topology, const std::vector<glm::vec3>& screen) {
-  VisibleSurface surface({glm::vec2(0.5F), 1, kPortraitSize, kPortraitSize}, screen);
-  ForEachSkinTriangle(topology, [&](const MeshTriangle& t) { surface.DrawFront(t); });
-  return surface;
-}
-
-/// Returns the points of the skin at some pixels of an image; for pixels beside the skin the
+/// Returns the points of the skin at some pixels of a portrait. `screen`: of its vertices, pixels
+/// and the depth towards the viewer, millimetres; for pixels beside the skin the
 /// nearest visible point that is no farther back than the ears. Returns nothing if no skin is
 /// visible.
 std::optional<PerPoint<MeshPoint>> SkinPointsAt(const VisibleSurface& skin,
@@ -41,7 +34,8 @@ std::optional<PerPoint<MeshPoint>> SkinPointsAt(const VisibleSurface& skin,
     const glm::ivec2 pixel = glm::clamp(glm::ivec2(p), 0, kPortraitSize - 1);
     const std::size_t own = skin.depth().Index(pixel.x, pixel.y), i = nearest[own];
     MeshPoint on_head =
-        skin.MeshPointAt(static_cast<int>(i % kPortraitSize), static_cast<int>(i / kPortraitSize));
+        skin.SampleAt(static_cast<int>(i % kPortraitSize), static_cast<int>(i / kPortraitSize))
+            ->OnMesh();
     // Refine the point within the pixel.
     const auto& t = on_head.corner;
     if (i == own) {
@@ -115,7 +109,9 @@ vm::Result<ObservedHead> ObservedHead::Observe(FaceNetworks& networks,
   const auto faces = FindFaces(networks, portrait.image);
   std::optional<PerPoint<MeshPoint>> found;
   if (!faces.empty()) {
-    found = SkinPointsAt(SkinIn(observed.surface(), screen), screen, faces.front().points);
+    const SampleGrid pixels{glm::vec2(0.5F), 1, kPortraitSize, kPortraitSize};
+    found =
+        SkinPointsAt(DrawSkin(observed.surface(), screen, pixels), screen, faces.front().points);
   }
   if (!found) return vm::Fail(vm::Errc::kBadValue, "no face is seen on the head '" + name + "'");
   observed.mesh_points_ = *found;

@@ -35,7 +35,7 @@ class SkinSurfaceTest : public testing::Test {
   void ForCovered(F f) const {
     for (int y = 0; y < grid_.rows; ++y) {
       for (int x = 0; x < grid_.columns; ++x) {
-        if (skin_->TriangleAt(x, y)) f(x, y);
+        if (skin_->SampleAt(x, y)) f(x, y);
       }
     }
   }
@@ -62,7 +62,7 @@ TEST_F(SkinSurfaceTest, EndsBelowTheChinAndAtTheLineOfTheJaw) {
 
 TEST_F(SkinSurfaceTest, NamesThePlaceThatIsForemost) {
   ForCovered([&](int x, int y) {
-    const glm::vec3 named = skin_->MeshPointAt(x, y).On(base_.rest().position);
+    const glm::vec3 named = skin_->SampleAt(x, y)->OnMesh().On(base_.rest().position);
     EXPECT_LT(glm::distance(named, PositionAt(x, y)), 0.3F) << x << ' ' << y;
   });
 }

@@ -65,12 +65,12 @@ TEST_F(VisibleSurfaceTest, KeepsWhatIsForemostInWhateverOrderItIsDrawn) {
     EXPECT_EQ(surface.depth()(10, 3), VisibleSurface::kNothing);
     EXPECT_EQ(surface.Covered()(7, 7), 1);
     EXPECT_EQ(surface.Covered()(10, 3), 0);
-    ASSERT_TRUE(surface.TriangleAt(3, 4));
-    EXPECT_GE(surface.TriangleAt(3, 4)->corner[0], 4U) << "of the nearer square";
-    EXPECT_EQ(surface.MeshPointAt(3, 4).On(screen_), glm::vec3(3, 4, 5));
-    EXPECT_FALSE(surface.TriangleAt(10, 3));
-    EXPECT_FALSE(surface.TriangleAt(-1, 3));
-    EXPECT_FALSE(surface.TriangleAt(3, 12));
+    ASSERT_TRUE(surface.SampleAt(3, 4));
+    EXPECT_GE(surface.SampleAt(3, 4)->triangle.corner[0], 4U) << "of the nearer square";
+    EXPECT_EQ(surface.SampleAt(3, 4)->OnMesh().On(screen_), glm::vec3(3, 4, 5));
+    EXPECT_FALSE(surface.SampleAt(10, 3));
+    EXPECT_FALSE(surface.SampleAt(-1, 3));
+    EXPECT_FALSE(surface.SampleAt(3, 12));
   }
 }
 
@@ -79,12 +79,12 @@ TEST_F(VisibleSurfaceTest, WhatIsSeenFromBehindIsDrawnOnlyIfAsked) {
   std::swap(back.corner[1], back.corner[2]);
   VisibleSurface surface(kGrid, screen_);
   surface.DrawFront(back);
-  EXPECT_FALSE(surface.TriangleAt(2, 7));
+  EXPECT_FALSE(surface.SampleAt(2, 7));
   surface.Draw(back);
-  EXPECT_TRUE(surface.TriangleAt(2, 7));
+  EXPECT_TRUE(surface.SampleAt(2, 7));
   VisibleSurface upward(kGrid, screen_, VisibleSurface::Upward::kYes);
   upward.DrawFront(back);
-  EXPECT_TRUE(upward.TriangleAt(2, 7)) << "where y runs up it is the front";
+  EXPECT_TRUE(upward.SampleAt(2, 7)) << "where y runs up it is the front";
 }
 
 }  // namespace
