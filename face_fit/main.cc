@@ -1,7 +1,6 @@
 // Makes a face that fsm can wear from a photo of a person.
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -15,14 +14,11 @@
 
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/find/head/head_finder.h"
-#include "face_fit/image/filters.h"
 #include "face_fit/image/photo.h"
 #include "face_fit/make_face.h"
+#include "face_fit/original_face.h"
 #include "fsm/faces/face_folder.h"
 #include "fsm/faces/face_of_name.h"
-#include "fsm/faces/original_config.h"
-#include "fsm/image/image_file.h"
-#include "fsm/mesh/original/pnt_file.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 
@@ -63,31 +59,6 @@ void WritePointsOfHead(const Options& options) {
   const std::string path = options.out.empty() ? options.head + ".points" : options.out;
   vm::OrThrow(vm::WriteTextFile(path, fsm::FormatHeadPoints(points)));
   std::cout << "face_fit: wrote " << path << "\n";
-}
-
-/// A face from a configuration of the original, and the points of its fitted wireframe.
-struct OriginalFace {
-  fsm::Image photo;
-  facefit::HandPoints points;
-};
-
-OriginalFace ReadOriginal(const Options& options) {
-  const auto config = vm::OrThrow(fsm::OriginalConfig::Read(options.galatea));
-  const auto mask = std::ranges::find(config.masks, options.name, &fsm::OriginalFaceFiles::name);
-  if (mask == config.masks.end()) {
-    std::string names;
-    for (const auto& other : config.masks) names += " " + other.name;
-    throw std::runtime_error(options.galatea + " has no face '" + options.name + "'; it has" +
-                             (names.empty() ? " none" : ":" + names));
-  }
-  OriginalFace face;
-  // Points refer to a photo of at most that size.
-  face.photo =
-      facefit::ScaledToFit(vm::OrThrow(fsm::ReadImage(mask->picture)), facefit::kWorkingSize);
-  const auto wireframe = vm::OrThrow(fsm::ReadPnt(mask->wireframe));
-  face.points = vm::OrThrow(
-      facefit::PointsOfWireframe(mask->wireframe, wireframe, face.photo.width, face.photo.height));
-  return face;
 }
 
 void Notice(const std::string& what) { std::cerr << "face_fit: notice: " << what << "\n"; }
@@ -203,7 +174,7 @@ void FaceOfPhoto(const Options& options) {
 
 void FaceOfOriginal(const Options& options) {
   const Progress progress(options.quiet);
-  OriginalFace original = ReadOriginal(options);
+  facefit::OriginalFace original = facefit::ReadOriginalFace(options.galatea, options.name);
   progress("photo read");
   FaceModels models = LoadFaceModels(options, progress);
   const auto front =
