@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <vector>
 
 #include "face_fit/find/face/cut_off.h"
 #include "face_fit/find/face/joined_names.h"
@@ -45,70 +44,91 @@ float SideLight(const FoundFace& face, const fsm::Image& photo) {
   return brightness.left / brightness.right;
 }
 
-/// Returns the number of irises that are not seen clearly.
-int HiddenIrises(const PhotoIrises& irises) {
-  return static_cast<int>(std::ranges::count_if(irises.eyes.InOrder(),
-                                                [](const PhotoIris& iris) { return !iris.seen; }));
+/// The warnings of a report, a line each.
+class Warnings {
+ public:
+  void Add(bool applies, const std::string& text) {
+    if (applies) lines_ += "warning: " + text + "\n";
+  }
+  const std::string& lines() const { return lines_; }
+
+ private:
+  std::string lines_;
+};
+
+void WarnOfPose(const CameraPose& pose, Warnings& warnings) {
+  const auto& look = PhotoLook().report;
+  const float turned_deg = std::abs(glm::degrees(pose.rotation_rad.y));
+  const float bent_deg = std::abs(glm::degrees(pose.rotation_rad.x));
+  warnings.Add(turned_deg > look.turned_far_deg,
+               "the head is turned far; its other side is guessed and may look wrong: a photo "
+               "turned by less than 15 degrees is needed, or --view with another one");
+  warnings.Add(turned_deg > look.turned_deg && turned_deg <= look.turned_far_deg,
+               "the head is turned; one side is completed from the other");
+  warnings.Add(bent_deg > look.bent_deg, "the head is bent; a level photo fits better");
 }
 
-struct Warning {
-  bool applies;
-  std::string text;
-};
-std::vector<Warning> Warnings(const FrontPhoto& front, const FrontFace& front_face,
-                              const FaceFit& fit, const BakedHead& baked) {
-  const FoundFace& face = front_face.found;
-  const auto& look = PhotoLook().report;
-  const float turned_deg = std::abs(glm::degrees(fit.head.pose.rotation_rad.y));
-  const float bent_deg = std::abs(glm::degrees(fit.head.pose.rotation_rad.x));
-  const int hidden_irises = HiddenIrises(fit.irises);
-  const float left_by_right = SideLight(face, front.image);
-  const Expression& expression = fit.head.expression;
+void WarnOfEyes(const PhotoIrises& irises, Warnings& warnings) {
+  const auto hidden = std::ranges::count(irises.eyes.InOrder(), false, &PhotoIris::seen);
+  warnings.Add(hidden == 2,
+               "no iris is seen: the eyes are shut, look down or lie in the shade; they are drawn, "
+               "and their lids keep what the photo shows on them");
+  warnings.Add(hidden == 1,
+               "one iris is not seen clearly; the other stands in for it, or both are drawn");
+}
+
+void WarnOfCuts(const FoundFace& face, const fsm::Image& photo, const Completed& completed,
+                Warnings& warnings) {
   // The network guesses what it does not see with the same certainty as the rest.
-  const std::string cut_off = NamesOf(FindCutOffParts(face, front.image));
-  const Completed& completed = baked.completed;
+  const std::string cut_off = NamesOf(FindCutOffParts(face, photo));
+  warnings.Add(!cut_off.empty(),
+               "the photo cuts off part of the head: " + cut_off +
+                   "; what it does not show has the form of the toolkit's own head, in colours "
+                   "guessed from the rest; a photo of the whole head is needed for a likeness");
   const std::string drawn =
       JoinedNames({{completed.neck, "neck, shoulders and clothes below it"},
                    {completed.shoulders && !completed.neck, "shoulders beside it"},
                    {completed.hair, "hair above or beside it"}},
                   "; ");
-  const Occlusion occlusion = front_face.occlusion.value_or(Occlusion{});
-  const float covered = occlusion.covered;
-  return {
-      {glm::length(face.AcrossEyes()) <= look.small_px, "the face is small; details will be soft"},
-      {turned_deg > look.turned_far_deg,
-       "the head is turned far; its other side is guessed and may look wrong: a photo turned by "
-       "less than 15 degrees is needed, or --view with another one"},
-      {turned_deg > look.turned_deg && turned_deg <= look.turned_far_deg,
-       "the head is turned; one side is completed from the other"},
-      {bent_deg > look.bent_deg, "the head is bent; a level photo fits better"},
-      {hidden_irises == 2,
-       "no iris is seen: the eyes are shut, look down or lie in the shade; they are drawn, and "
-       "their lids keep what the photo shows on them"},
-      {hidden_irises == 1,
-       "one iris is not seen clearly; the other stands in for it, or both are drawn"},
-      {Sharpness(face, front.image) <= look.blurred, "the photo is blurred"},
-      {left_by_right > look.side_light.to || left_by_right <= look.side_light.from,
-       "strong light from one side stays in the skin"},
-      {std::max(expression.smile, expression.jaw_drop + expression.lips_part) > look.expression,
-       "not a neutral face; some folds of the expression stay in the skin"},
-      {baked.head.glasses,
-       "glasses stay as they are, and so does the skin round the eyes; --glasses no if there are "
-       "none"},
-      {!cut_off.empty(),
-       "the photo cuts off part of the head: " + cut_off +
-           "; what it does not show has the form of the toolkit's own head, in colours guessed "
-           "from the rest; a photo of the whole head is needed for a likeness"},
-      {!drawn.empty(), "the photo cuts the figure; drawn in its colours and light: " + drawn +
-                           "; a photo with more room round the head shows the person's own"},
-      {covered >= kMaybeCovered && covered < kSurelyCovered,
-       "something may be before the face" +
-           (occlusion.part_name ? " at " + *occlusion.part_name : "") +
-           "; hard light, shut eyes or a turned head look like that, too"},
-      {covered >= kSurelyCovered, "covered by something that is no face" +
-                                      (occlusion.part_name ? ": " + *occlusion.part_name : "") +
-                                      "; what is before the face becomes part of it"},
-      {front.face_count > 1, "several faces; --face N takes another"}};
+  warnings.Add(!drawn.empty(),
+               "the photo cuts the figure; drawn in its colours and light: " + drawn +
+                   "; a photo with more room round the head shows the person's own");
+}
+
+void WarnOfOcclusion(const Occlusion& occlusion, Warnings& warnings) {
+  const auto& [covered, part_name] = occlusion;
+  warnings.Add(covered >= kMaybeCovered && covered < kSurelyCovered,
+               "something may be before the face" + (part_name ? " at " + *part_name : "") +
+                   "; hard light, shut eyes or a turned head look like that, too");
+  warnings.Add(covered >= kSurelyCovered, "covered by something that is no face" +
+                                              (part_name ? ": " + *part_name : "") +
+                                              "; what is before the face becomes part of it");
+}
+
+std::string WarningsOf(const FrontPhoto& front, const FrontFace& front_face, const FaceFit& fit,
+                       const BakedHead& baked) {
+  const auto& look = PhotoLook().report;
+  const FoundFace& face = front_face.found;
+  Warnings warnings;
+  warnings.Add(glm::length(face.AcrossEyes()) <= look.small_px,
+               "the face is small; details will be soft");
+  WarnOfPose(fit.head.pose, warnings);
+  WarnOfEyes(fit.irises, warnings);
+  warnings.Add(Sharpness(face, front.image) <= look.blurred, "the photo is blurred");
+  const float left_by_right = SideLight(face, front.image);
+  warnings.Add(left_by_right > look.side_light.to || left_by_right <= look.side_light.from,
+               "strong light from one side stays in the skin");
+  const Expression& expression = fit.head.expression;
+  warnings.Add(
+      std::max(expression.smile, expression.jaw_drop + expression.lips_part) > look.expression,
+      "not a neutral face; some folds of the expression stay in the skin");
+  warnings.Add(baked.head.glasses,
+               "glasses stay as they are, and so does the skin round the eyes; --glasses no if "
+               "there are none");
+  WarnOfCuts(face, front.image, baked.completed, warnings);
+  if (front_face.occlusion) WarnOfOcclusion(*front_face.occlusion, warnings);
+  warnings.Add(front.face_count > 1, "several faces; --face N takes another");
+  return warnings.lines();
 }
 
 }  // namespace
@@ -139,10 +159,7 @@ std::string Report(const FrontPhoto& front, const FrontFace& face, const FaceFit
         occlusion->covered, kMaybeCovered, kSurelyCovered,
         occlusion->part_name ? ", most at " + *occlusion->part_name : "");
   }
-  for (const auto& [applies, text] : Warnings(front, face, fit, baked)) {
-    if (applies) out += "warning: " + text + "\n";
-  }
-  return out;
+  return out + WarningsOf(front, face, fit, baked);
 }
 
 }  // namespace facefit
