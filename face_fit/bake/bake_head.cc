@@ -45,12 +45,12 @@ SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTe
     const glm::vec2 p = projections[i].pixel;
     // Near the head's outline a texel shows more of what lies beside the head than of its skin.
     const float least =
-        glm::mix(look.seen.face_from_cos, look.seen.side_from_cos, texels[i]->side_weight);
+        glm::mix(look.texel.face_from_cos, look.texel.side_from_cos, texels[i]->side_weight);
     if (!IsInside(colours, p) || projections[i].facing < least) continue;
     const float skin = openings.SkinShare(p);
     map.outside_openings[i] = skin;
     map.coverage[i] =
-        skin * fsm::SmoothStep(least, least + look.seen.wholly_after_cos, projections[i].facing);
+        skin * fsm::SmoothStep(least, least + look.texel.full_coverage_cos, projections[i].facing);
     map.grain_lost[i] = filled.SampleAt(p.x, p.y);
     SetRgb(map.image, i, SharpColourAt(colours, p));
   }
@@ -113,7 +113,7 @@ SkinTraits FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool li
     DrawLipSeam(texels, saturation, map.image);
   }
   const Mask face_coverage = CoverageOfFace(texels, map.coverage);
-  const fsm::Range range = look.lined.roughness;
+  const fsm::Range range = look.creases.roughness;
   const float rough = (Roughness(map.image, face_coverage) - range.from) / (range.to - range.from);
   const float brows_y_mm = fitted.base->head().Landmark("nasion").y + kBrowsEndMm;
   const Mask likeness = CutAtHairline(texels, brows_y_mm, SkinLikeness(map.image, face_coverage));
@@ -121,7 +121,7 @@ SkinTraits FinishMap(const FittedHead& fitted, const SkinTexels& texels, bool li
     map.image.rgba[4 * i + 3] = Byte(255 * likeness[i]);
   }
   return {.saturation = saturation,
-          .lined = glm::mix(look.lined.smooth_creases_share, 1.0F, glm::clamp(rough, 0.0F, 1.0F))};
+          .lined = glm::mix(look.creases.smooth_skin_share, 1.0F, glm::clamp(rough, 0.0F, 1.0F))};
 }
 
 void SetColours(const FoundFace& face, const PhotoIrises& irises, const fsm::Image& photo,

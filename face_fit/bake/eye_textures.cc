@@ -94,7 +94,7 @@ fsm::Image IrisTexture(const PhotoEye& eye, glm::vec3 skin_colour, const fsm::Im
     float red = 0;
     for (const glm::ivec2 offset : kAround) {
       const glm::vec2 beside =
-          pixel + PhotoLook().flash.runs_radii * eye.iris.radius_px * glm::vec2(offset);
+          pixel + PhotoLook().flash.search_radii * eye.iris.radius_px * glm::vec2(offset);
       red = std::max(red, flash.Likelihood(ColourAt(photo, beside)));
     }
     return IrisPixel{flash.Without(ColourAt(photo, pixel), red),

@@ -105,9 +105,9 @@ MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
   // The inner rim is in shade.
   const auto& inner = look.lips.inner;
   const auto& teeth = look.teeth;
-  return {
-      .lip = inner.brightness * glm::pow(lip, glm::vec3(inner.power)),
-      .teeth = std::min(teeth.in_the_dark + teeth.by_skin * SkinLight(face, photo), teeth.most)};
+  return {.lip = inner.brightness * glm::pow(lip, glm::vec3(inner.power)),
+          .teeth = std::min(teeth.unlit_brightness + teeth.per_skin_light * SkinLight(face, photo),
+                            teeth.most_brightness)};
 }
 
 }  // namespace facefit

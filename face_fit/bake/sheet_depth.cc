@@ -70,7 +70,7 @@ class OutlineDepth {
     const float outline = glm::mix(
         look.hair_depth_mm, look.shoulder_depth_mm,
         fsm::SmoothStep(chin_.height(), chin_.height() - look.shoulders_below_chin_mm, position.y));
-    const float cheek = beside_.MeanAt(i) - look.falls_back_mm;
+    const float cheek = beside_.MeanAt(i) - look.most_step_back_mm;
     return glm::mix(outline, std::max(cheek, outline), kFadeDepth.Ramp(beside_.weight[i]));
   }
 

@@ -42,7 +42,7 @@ Mask SkinLikeness(const fsm::Image& map, const Mask& face_coverage) {
   Mask likeness(map.width, map.height, 1);
   if (channels[0].empty()) return likeness;
   std::array<float, 3> middle{};
-  const fsm::Range hair = PhotoLook().hairy.darker_log;
+  const fsm::Range hair = PhotoLook().hair_detection.darker_log;
   constexpr float kDark = 8;  // of 255; differences in the dark that do not count
   for (std::size_t c = 0; c < 3; ++c) {
     middle[c] = Median(std::move(channels[c])) + kDark;
@@ -77,7 +77,7 @@ float Roughness(const fsm::Image& map, const Mask& face_coverage) {
 
 Mask CutAtHairline(const SkinTexels& texels, float brows_y_mm, Mask likeness) {
   const Mask wide = Blurred(likeness, MmToTexels(kFringeMm, likeness.width));
-  const fsm::Range edge = PhotoLook().hairy.skin_around_share;
+  const fsm::Range edge = PhotoLook().hair_detection.skin_around_share;
   Mask below_hairline(likeness.width, likeness.height, 1);
   for (int x = 0; x < likeness.width; ++x) {
     float least = 1;

@@ -111,12 +111,12 @@ glm::vec3 BodyPaint::EdgeDifference(glm::vec2 pixel, const DistanceOutside& outs
   const bool cloth = covering == kCloth;
   const float spread_mm = cloth ? look.cloth.spread_mm : look.skin.spread_mm;
   const float spread_per_mm = cloth ? look.cloth.spread_per_mm : look.skin.spread_per_mm;
-  const float lasts_mm = cloth ? look.cloth.lasts_mm : look.skin.lasts_mm;
+  const float decay_mm = cloth ? look.cloth.decay_mm : look.skin.decay_mm;
   const auto difference = [&](const EdgeMeans& edge, float along_px, float away_px) {
     const float away_mm = away_px / canvas_.pixels_per_mm;
     const glm::vec4 mean =
         edge.MeanAround(along_px, (spread_mm + spread_per_mm * away_mm) * canvas_.pixels_per_mm);
-    return std::exp(-away_mm / lasts_mm) *
+    return std::exp(-away_mm / decay_mm) *
            glm::mix(edge.All(), glm::vec3(mean), mean.w / (mean.w + look.half_trusted_share));
   };
   glm::vec3 sum(0);

@@ -56,7 +56,7 @@ BustAttachment AttachmentOf(const Canvas& canvas, const PhotoEdges& edges, const
   // above the chin the bust has a jaw of its own.
   const float below_chin_mm = (attachment.row - canvas.chin_px.y) / canvas.pixels_per_mm;
   if (below_chin_mm < 0) limit.to = std::min(limit.to, look.most_width_ratio_at_jaw);
-  attachment.fade_mm = look.fades_mm.At(look.ends_below_chin_mm.Ramp(below_chin_mm));
+  attachment.fade_mm = look.width_decay_mm.At(look.photo_end_below_chin_mm.Ramp(below_chin_mm));
   attachment.width_ratio = limit.Clamp(half_width / bust_half_width);
   return attachment;
 }

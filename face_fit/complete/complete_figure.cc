@@ -50,10 +50,11 @@ Canvas CanvasFor(const FigureCutout& figure, const FittedHead& fitted, const Pho
 }
 
 /// Makes tips of a collar transparent, which would float beside the drawn neck. Tips with no
-/// background within neck.hangs_mm above the edge stay: removing them would leave a hole.
+/// background within neck.hair_hang_mm above the edge stay: removing them would leave a hole.
 FigureCutout WithoutTips(const PhotoEdges& edges, float pixels_per_mm, FigureCutout figure) {
   const int height = figure.opacity.height;
-  const int highest = std::max(height - MmToPixels(PhotoLook().neck.hangs_mm, pixels_per_mm), 0);
+  const int highest =
+      std::max(height - MmToPixels(PhotoLook().neck.hair_hang_mm, pixels_per_mm), 0);
   constexpr float kBackground = 0.3F;  // opacity; the matte is uncertain beside such tips
   for (int x = 0; x < figure.opacity.width; ++x) {
     if (edges.bottom(x).kind != EdgeKind::kTip) continue;

@@ -169,7 +169,7 @@ void ClassifyByPlace(const EdgeReader& reader, const ChinFrame& chin, float belo
 std::vector<EdgeSample> ReadBottom(const EdgeReader& reader, const ChinFrame& chin, glm::ivec2 size,
                                    int band) {
   const auto& look = PhotoLook();
-  const float hang_from = static_cast<float>(size.y) - look.neck.hangs_mm * chin.pixels_per_mm;
+  const float hang_from = static_cast<float>(size.y) - look.neck.hair_hang_mm * chin.pixels_per_mm;
   std::vector<EdgeSample> bottom;
   for (int x = 0; x < size.x; ++x) {
     EdgeSample& sample = bottom.emplace_back(reader.Sample({x, size.y - band}, {1, band}));
