@@ -133,8 +133,8 @@ std::vector<float> NetworkDepthErrorsMm(const FitProblem& problem, const CameraP
   std::vector<float> gaps;
   float mean = 0;
   for (const PointIndex k : point::kReliable) {
-    const float own = pose.ToCamera(problem.base.mesh_points()[k].On(posed)).z;
-    gaps.push_back(problem.face.points[k].z * mm_per_pixel + problem.depth_bias[k] - own);
+    const float base_z = pose.ToCamera(problem.base.mesh_points()[k].On(posed)).z;
+    gaps.push_back(problem.face.points[k].z * mm_per_pixel + problem.depth_bias[k] - base_z);
     mean += gaps.back() / static_cast<float>(std::size(point::kReliable));
   }
   for (float& gap : gaps) gap -= mean;

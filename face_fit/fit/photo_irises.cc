@@ -27,13 +27,13 @@ glm::vec2 MiddleOfLids(const EyePoints& lids) {
 
 ExpectedEye ExpectEye(const ObservedHead& base, const EyePoints& lids, fsm::Side side) {
   // The base head's eye in millimetres, y down.
-  const EyePoints own = EyePointsOf(
+  const EyePoints on_base = EyePointsOf(
       side, [&base](PointIndex i) { return glm::vec2(1, -1) * glm::vec2(base.AtRest(i)); });
   const glm::vec3 ball = base.head().EyeCentre(side);
-  const glm::vec2 from = AcrossEye(own), to = AcrossEye(lids);
+  const glm::vec2 from = AcrossEye(on_base), to = AcrossEye(lids);
   const float pixels_per_mm = glm::length(to) / std::max(glm::length(from), 1e-3F);
   const float angle_rad = AngleOf(to) - AngleOf(from);
-  const glm::vec2 from_middle = glm::vec2(ball.x, -ball.y) - MiddleOfLids(own);
+  const glm::vec2 from_middle = glm::vec2(ball.x, -ball.y) - MiddleOfLids(on_base);
   return {.lids = lids,
           .iris_centre_px = MiddleOfLids(lids) + pixels_per_mm * Rotated(from_middle, angle_rad),
           .iris_radius_px = pixels_per_mm * base.surface().eyes[side].iris_radius,
