@@ -142,9 +142,8 @@ std::vector<float> NetworkDepthErrorsMm(const FitProblem& problem, const CameraP
 }
 
 std::vector<PixelConstraint> MakeConstraints(const FitProblem& problem, const CameraPose& pose,
-                                             const Expression& expression,
+                                             std::span<const glm::vec3> posed,
                                              const PhotoIrises& irises, const fsm::Image& photo) {
-  const std::vector<glm::vec3> posed = problem.base.Posed(expression.State());
   auto constraints = PointConstraints(problem, pose, posed);
   ShiftLidsToIrises(irises, constraints);
   if (problem.lips_apart) return constraints;

@@ -40,13 +40,13 @@ struct FitProblem {
 std::vector<float> NetworkDepthErrorsMm(const FitProblem& problem, const CameraPose& pose,
                                         std::span<const glm::vec3> posed);
 
-/// Returns the constraints of the warp for a pose and an expression: the network's points, whose
+/// Returns the constraints of the warp for a pose: the network's points, whose
 /// depth is mostly the head's own. Eyes whose irises the photo shows elsewhere are moved up or down
 /// with them. Closed lips meet where the photo shows the lip seam; for the inner lips of
 /// an open mouth there are none, because at rest both are one line, which cannot be moved to two
-/// separate ones.
+/// separate ones. `posed`: as for NetworkDepthErrorsMm.
 std::vector<PixelConstraint> MakeConstraints(const FitProblem& problem, const CameraPose& pose,
-                                             const Expression& expression,
+                                             std::span<const glm::vec3> posed,
                                              const PhotoIrises& irises, const fsm::Image& photo);
 
 }  // namespace facefit

@@ -58,12 +58,11 @@ fsm::Sided<fsm::EyeTransform> FitEyes(const ObservedHead& base,
 fsm::Sided<fsm::EyeTransform> EyesAtRest(const FittedHead& fitted) {
   const float kept = PhotoLook().squint_kept_share;
   const ObservedHead& base = *fitted.base;
-  const std::vector<glm::vec3> posed = base.Posed(fitted.expression.State());
   fsm::Sided<fsm::EyeTransform> transforms = fitted.eyes;
   for (const fsm::Side side : fsm::kSides) {
     const auto raised = [&](std::size_t k) {
       const MeshPoint& lid = base.mesh_points()[point::kEyeOutline[side][k]];
-      return lid.On(posed).y - lid.On(base.rest().position).y;
+      return lid.On(fitted.base_posed).y - lid.On(base.rest().position).y;
     };
     transforms[side].upper_mm += kept * std::min(raised(kUpperMiddle), 0.0F);
     transforms[side].lower_mm += kept * std::max(raised(kLowerMiddle), 0.0F);

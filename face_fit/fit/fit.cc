@@ -92,8 +92,9 @@ FaceFit FitFace(const ObservedHead& base, const FoundFace& face, const fsm::Imag
   Expression expression = ExpressionFrom(settled);
   expression.smile = SmileBeyondRest(expression.smile, problem.lips_apart);
   const PhotoIrises irises = FindPhotoIrises(base, face, photo);
-  auto constraints = MakeConstraints(problem, pose, expression, irises, photo);
-  FittedHead head = WarpToPixels(base, pose, expression, constraints);
+  std::vector<glm::vec3> posed = base.Posed(expression.State());
+  auto constraints = MakeConstraints(problem, pose, posed, irises, photo);
+  FittedHead head = WarpToPixels(base, pose, expression, std::move(posed), constraints);
   return {std::move(head), std::move(constraints), irises};
 }
 
@@ -109,8 +110,9 @@ float ResidualMm(const FoundFace& face, const FittedHead& fitted) {
 FaceFit WithDepthShifted(FaceFit fit,
                          const std::function<float(const PixelConstraint&)>& nearer_mm) {
   for (PixelConstraint& constraint : fit.constraints) constraint.z_mm += nearer_mm(constraint);
-  const FittedHead& head = fit.head;
-  fit.head = WarpToPixels(*head.base, head.pose, head.expression, fit.constraints);
+  FittedHead& head = fit.head;
+  head = WarpToPixels(*head.base, head.pose, head.expression, std::move(head.base_posed),
+                      fit.constraints);
   return fit;
 }
 

@@ -40,7 +40,9 @@ struct FittedHead {
   /// Base head at rest -> person at rest, evened out by kWarpSmoothMm.
   std::vector<fsm::WarpPoint> warp_points;
   fsm::Sided<fsm::EyeTransform> eyes;
-  /// Every vertex of the base in the photo's expression and the person's form, head's frame.
+  /// Every vertex of the base head in the photo's expression, head's frame.
+  std::vector<glm::vec3> base_posed;
+  /// The same in the person's form.
   std::vector<glm::vec3> posed_vertices;
   /// Returns the position of a point of the network in the photo's expression, head's frame.
   glm::vec3 PositionOf(PointIndex i) const { return base->mesh_points()[i].On(posed_vertices); }

@@ -106,20 +106,20 @@ std::vector<glm::vec3> SkinWith(const FittedHead& fitted, const fsm::FaceState& 
 }
 
 FittedHead WarpToPixels(const ObservedHead& base, const CameraPose& pose,
-                        const Expression& expression,
+                        const Expression& expression, std::vector<glm::vec3> base_posed,
                         std::span<const PixelConstraint> constraints) {
-  const std::vector<glm::vec3> posed = base.Posed(expression.State());
-  const auto eyes = FitEyesTo(base, pose, constraints, posed);
-  WarpPoints made = MakeWarpPoints(base, pose, constraints, eyes, posed);
+  const auto eyes = FitEyesTo(base, pose, constraints, base_posed);
+  WarpPoints made = MakeWarpPoints(base, pose, constraints, eyes, base_posed);
   FittedHead fitted{.base = &base,
                     .pose = pose,
                     .expression = expression,
                     .warp_points = std::move(made.points),
                     .eyes = eyes,
-                    .posed_vertices = posed};
+                    .base_posed = std::move(base_posed),
+                    .posed_vertices = {}};
   const fsm::Warp warp(fitted.warp_points, kWarpSmoothMm);
-  for (std::size_t i = 0; i < posed.size(); ++i) {
-    fitted.posed_vertices[i] += warp.Motion(base.rest().position[i]);
+  for (std::size_t i = 0; i < fitted.base_posed.size(); ++i) {
+    fitted.posed_vertices.push_back(fitted.base_posed[i] + warp.Motion(base.rest().position[i]));
   }
   // The warped head's own units, lids and lips move points slightly off; a second pass corrects
   // that.
