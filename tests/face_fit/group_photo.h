@@ -11,7 +11,7 @@
 namespace facefit {
 
 /// One of the people: the built-in face, how far turned and tilted (degrees), and the square of the
-/// group's picture it is drawn in.
+/// group's image it is drawn in.
 struct Person {
   const char* face;
   float turn, tilt;
@@ -27,9 +27,9 @@ inline fsm::Image DrawnPerson(const Person& person) {
   const auto context = fsm::RenderContext::MakeHeadless(person.side, person.side);
   const auto renderer = fsm::Renderer::Make(*context);
   renderer->DrawVertices(*head, vertices, state.figure, fsm::Scene{});
-  fsm::Image picture;
-  renderer->Read(picture);
-  return picture;
+  fsm::Image image;
+  renderer->Read(image);
+  return image;
 }
 
 inline fsm::Image GroupPhoto(int width, int height, const std::vector<Person>& people) {

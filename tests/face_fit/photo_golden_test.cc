@@ -1,4 +1,4 @@
-// A kept picture of the whole way from a photo to a head that wears it and moves.
+// A kept image of the whole way from a photo to a head that wears it and moves.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ fsm::Image Drawn(const fsm::Head& head, const fsm::FaceState& state, const fsm::
   return image;
 }
 
-/// A picture of a built-in head, taken for a photo.
+/// An image of a built-in head, taken for a photo.
 fsm::Image DrawnPhoto(const char* name) {
   fsm::Scene scene;
   scene.camera.distance = 0.9F;

@@ -291,7 +291,7 @@ TEST(PhotoHeadTest, AnEyeOfThePhotoIsSeenAndItsIrisGoesWithTheGaze) {
   const auto head = MakeHead(set);
   const auto context = RenderContext::MakeHeadless(400, 400);
   const auto renderer = Renderer::Make(*context);
-  // Sums over the picture of x where green, and of how much is green and blue.
+  // Sums over the image of x where green, and of how much is green and blue.
   struct Seen {
     double green = 0, blue = 0, green_x = 0;
   };

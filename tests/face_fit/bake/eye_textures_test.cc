@@ -57,14 +57,14 @@ TEST(EyeTexturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     }
     return 130;
   });
-  fsm::Image picture{.width = 1024, .height = 512, .rgba = {}};
-  picture.rgba.assign(std::size_t{4} * 1024 * 512, 255);
-  const auto both = PaintEyes(face, fit, {}, photo, picture);
+  fsm::Image image{.width = 1024, .height = 512, .rgba = {}};
+  image.rgba.assign(std::size_t{4} * 1024 * 512, 255);
+  const auto both = PaintEyes(face, fit, {}, photo, image);
   ASSERT_TRUE(both);
   for (const fsm::EyePicture& eye : both->InOrder()) {
     const auto shown = [&](const glm::vec4& square, glm::vec2 part) {
       const glm::vec2 at = glm::mix(glm::vec2(square.x, square.y), {square.z, square.w}, part);
-      return ColourAt(picture, at * glm::vec2(1024, 512)).g;
+      return ColourAt(image, at * glm::vec2(1024, 512)).g;
     };
     EXPECT_NEAR(shown(eye.iris, {0.5F, 0.5F}), 40, 3);
     EXPECT_NEAR(shown(eye.iris, {0.5F, 0.15F}), 40, 12) << "what the lid hides is completed";
@@ -85,20 +85,20 @@ TEST(EyeTexturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     std::fill(row, row + 4 * 500, std::uint8_t{130});
   }
   fit.irises.eyes.left.seen = false;
-  const auto one_hidden = PaintEyes(face, fit, {}, hidden, picture);
+  const auto one_hidden = PaintEyes(face, fit, {}, hidden, image);
   ASSERT_TRUE(one_hidden);
   const auto& [right, left] = *one_hidden;
   for (const glm::vec2 part : {glm::vec2(0.5F, 0.5F), {0.02F, 0.6F}, {0.2F, 0.8F}}) {
     const auto at = [&](const glm::vec4& square, glm::vec2 p) {
-      return ColourAt(picture, glm::mix(glm::vec2(square.x, square.y), {square.z, square.w}, p) *
-                                   glm::vec2(1024, 512))
+      return ColourAt(image, glm::mix(glm::vec2(square.x, square.y), {square.z, square.w}, p) *
+                                 glm::vec2(1024, 512))
           .g;
     };
     EXPECT_NEAR(at(left.iris, part), at(right.iris, {1 - part.x, part.y}), 2) << part.x;
     EXPECT_NEAR(at(left.ball, part), at(right.ball, {1 - part.x, part.y}), 2) << part.x;
   }
   fit.irises.eyes.right.circle.contrast = 0.08F;
-  EXPECT_FALSE(PaintEyes(face, fit, {}, hidden, picture))
+  EXPECT_FALSE(PaintEyes(face, fit, {}, hidden, image))
       << "eyes that are not seen clearly are drawn";
 }
 

@@ -45,7 +45,7 @@ TEST_F(SheetTest, GoesOnByACellBeyondTheFigureOnAllSides) {
   const Sheet set = Made();
   glm::vec2 low(kPhoto), high(0);
   for (const std::uint32_t i : set.triangles) {
-    // Where the photo shows it, by its place in the picture's right half.
+    // Where the photo shows it, by its place in the image's right half.
     const glm::vec2 texcoord = set.vertices[i].texcoord;
     const glm::vec2 pixel = glm::vec2(2 * texcoord.x - 1, texcoord.y) * float{kPhoto};
     low = glm::min(low, pixel);

@@ -81,7 +81,7 @@ TEST(FillHolesTest, WhatCannotBeReachedFromTheEdgeIsFilled) {
   EXPECT_EQ(ring(20, 20), 1);
   EXPECT_EQ(ring(20, 10), 1);
   EXPECT_EQ(ring(2, 20), 0);
-  EXPECT_EQ(open(20, 20), 0) << "a mouth at the edge of the picture";
+  EXPECT_EQ(open(20, 20), 0) << "a mouth at the edge of the image";
   EXPECT_EQ(open(20, 30), 1);
 }
 

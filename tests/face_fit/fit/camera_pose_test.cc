@@ -12,7 +12,7 @@ namespace facefit {
 namespace {
 
 TEST(CameraPoseTest, TheCameraIsThatOfTheRenderer) {
-  // So far away and before that plane a portrait of 330 mm fills the picture.
+  // So far away and before that plane a portrait of 330 mm fills the image.
   constexpr int kSide = 600;
   const PortraitView portrait(kSide);
   CameraPose pose;

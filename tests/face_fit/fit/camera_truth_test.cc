@@ -56,7 +56,7 @@ constexpr CheckedPoint kNamed[] = {{"outer corner of the right eye", 33, false},
                                    {"chin", 152, true}};
 
 /// The front of the ears (tragion), the agent's right and left: of heads that are not built in,
-/// read off pictures from the side to some 2 mm, in the unit of the file.
+/// read off images from the side to some 2 mm, in the unit of the file.
 const std::map<std::string, std::array<glm::vec3, 2>> kEars = {
     {"ict", {glm::vec3(-7.253F, 1.446F, 0.382F), glm::vec3(7.358F, 1.528F, 0.528F)}},
     {"makehuman", {glm::vec3(-0.706F, 7.330F, 0.521F), glm::vec3(0.706F, 7.330F, 0.521F)}}};
@@ -76,7 +76,7 @@ struct TrueHead {
   std::array<glm::vec3, 2> ears;  ///< the agent's right and left
 };
 
-/// A picture of kFine x kFine colours, linear, as one of kPhotoSide x kPhotoSide.
+/// An image of kFine x kFine colours, linear, as one of kPhotoSide x kPhotoSide.
 constexpr int kFine = 2 * kPhotoSide;
 fsm::Image Halved(const std::vector<glm::vec3>& fine) {
   fsm::Image photo{kPhotoSide, kPhotoSide, {}};

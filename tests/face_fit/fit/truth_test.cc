@@ -1,4 +1,4 @@
-// A photo whose truth is known: another built-in head, drawn. What is fitted to the picture is
+// A photo whose truth is known: another built-in head, drawn. What is fitted to the image is
 // compared with the head it was drawn from.
 
 #include <gtest/gtest.h>
@@ -229,7 +229,7 @@ TEST_P(TruthTest, ASecondPhotoFromTheSideBringsDepthNearer) {
   EXPECT_LT(all_with, 0.93F * all_without);
 }
 
-/// 1 where a picture drawn on an even background shows something.
+/// 1 where an image drawn on an even background shows something.
 FloatImage FigureOf(const fsm::Image& photo) {
   FloatImage figure(photo.width, photo.height);
   for (std::size_t i = 0; i < figure.values.size(); ++i) {
@@ -242,7 +242,7 @@ FloatImage FigureOf(const fsm::Image& photo) {
   return figure;
 }
 
-// Size and lean of the person in the second picture are found with the outline, so that one shape
+// Size and lean of the person in the second image are found with the outline, so that one shape
 // may gain little; over two shapes it is much.
 TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
   float all_with = 0, all_without = 0;

@@ -16,7 +16,7 @@ FloatImage Of(int width, int height, std::initializer_list<float> values) {
   return image;
 }
 
-TEST(FiltersTest, AtTheEdgesTheMeanIsOfWhatLiesInThePicture) {
+TEST(FiltersTest, AtTheEdgesTheMeanIsOfWhatLiesInTheImage) {
   const FloatImage out = Blurred(Of(3, 2, {1, 2, 3, 4, 5, 6}), 1);
   EXPECT_FLOAT_EQ(out.values[0], 3);
   EXPECT_FLOAT_EQ(out.values[1], 3.5F);
@@ -30,7 +30,7 @@ TEST(FiltersTest, AClosingFillsWhatIsNarrowAndDarkAndKeepsWhatIsBright) {
   EXPECT_EQ(Closed(Of(7, 1, {5, 1, 1, 1, 1, 1, 5}), 1).values[3], 1) << "wider than the square";
 }
 
-TEST(FiltersTest, AWholePictureThatIsKnownIsNearestToItself) {
+TEST(FiltersTest, AWholeImageThatIsKnownIsNearestToItself) {
   const auto nearest = NearestAbove(FloatImage(5, 4, 1), 0.5F);
   for (std::size_t i = 0; i < nearest.size(); ++i) EXPECT_EQ(nearest[i], i);
 }

@@ -59,7 +59,7 @@ TEST(PhotoTest, ScalingDownKeepsTheMean) {
   EXPECT_EQ(one.rgba[0], 119);
 }
 
-TEST(PhotoTest, WhatIsNoPictureIsRefusedInWords) {
+TEST(PhotoTest, WhatIsNoImageIsRefusedInWords) {
   const std::vector<std::uint8_t> text = {'h', 'e', 'l', 'l', 'o'};
   const auto refused = DecodePhoto(text);
   ASSERT_FALSE(refused);
@@ -84,7 +84,7 @@ TEST(PhotoTest, TooSmallAndTooLargeAreRefusedBeforeDecoding) {
   EXPECT_NE(endless.error().text.find("4294967295 x"), std::string::npos) << endless.error().text;
 }
 
-/// A picture of stripes, so that every part of the file matters.
+/// An image of stripes, so that every part of the file matters.
 std::vector<std::uint8_t> Jpeg(JDIMENSION width, JDIMENSION height, J_COLOR_SPACE space,
                                bool adobe = true) {
   jpeg_compress_struct info{};

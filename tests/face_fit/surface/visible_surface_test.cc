@@ -35,7 +35,7 @@ TEST(RasterizeTest, WhatLiesBeyondTheGridAndWhatHasNoAreaIsNotDrawn) {
   EXPECT_EQ(points, 9);
 }
 
-/// Two squares over each other in a picture, the smaller one 5 nearer to the viewer.
+/// Two squares over each other in an image, the smaller one 5 nearer to the viewer.
 class VisibleSurfaceTest : public testing::Test {
  protected:
   static constexpr SampleGrid kGrid{{0, 0}, 1, 12, 12};

@@ -27,7 +27,7 @@ constexpr Shape kNine{{1, 3, 3, 1}};
 const Values kOneToNine = {1, 2, 3, 4, 5, 6, 7, 8, 9};
 
 TEST(KernelsTest, ConvolutionPadsWithZerosAndSumsItsTaps) {
-  // A 3 x 3 filter of ones over a 2 x 2 picture of ones sees all four pixels everywhere.
+  // A 3 x 3 filter of ones over a 2 x 2 image of ones sees all four pixels everywhere.
   EXPECT_EQ(Made(kSameConvolution, {{1, 2, 2, 1}}, {1, 2, 3, 4}, {{1, 2, 2, 1}},
                  {Constant({{1, 3, 3, 1}}, Values(9, 1))}),
             Values(4, 10));
@@ -104,7 +104,7 @@ TEST(KernelsTest, PaddingPutsZerosBeforeAndAfterEachAxis) {
   EXPECT_THROW(Network(OneNode(op::Pad{}, {{1, 1, 2, 1}}, {PaddingBy({1, 0, 0, 0, 0, 0, 0, 0})},
                                {{2, 1, 2, 1}})),
                BadModel)
-      << "a second picture";
+      << "a second image";
 }
 
 TEST(KernelsTest, ConcatenationPutsBlocksAfterEachOther) {
@@ -194,7 +194,7 @@ TEST(KernelsTest, StridedSliceWhatLiesBeyondTheInputIsRefused) {
 
 constexpr Shape kMatrix{{1, 1, 4, 4}};
 
-TEST(KernelsTest, LandmarksToMatrixLaysAPictureOverThePointsAlongTheLineOfTwo) {
+TEST(KernelsTest, LandmarksToMatrixLaysAnImageOverThePointsAlongTheLineOfTwo) {
   // Points of a box 8 wide and 4 high about (20, 10), turned by 90 degrees: its x axis runs down.
   op::LandmarksToMatrix options{.points = {0, 1, 2, 3},
                                 .left = 0,

@@ -35,7 +35,7 @@ TEST(NetworkTest, SizesThatDoNotMatchAreRefused) {
   EXPECT_THROW(Network(OneNode(op::Add{}, {{1, 2, 2, 1}}, {ones}, {{1, 2, 2, 1}})), BadModel);
   const Tensor point = Constant({{1, 1, 1, 1}}, {1});
   EXPECT_THROW(Network(OneNode(kPadded, {{1, 2, 2, 1}}, {point}, {{2, 2, 2, 1}})), BadModel)
-      << "two pictures of one";
+      << "two images of one";
   Model unwritten = OneNode(kPadded, {{1, 2, 2, 1}}, {ones}, {{1, 2, 2, 1}});
   Model two = unwritten;
   two.inputs = {0, 1};

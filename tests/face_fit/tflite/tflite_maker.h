@@ -210,7 +210,7 @@ inline std::string EveryOperator() {
                      .custom = std::move(custom),
                      .custom_options = std::move(flex)});
   };
-  const std::vector<std::int32_t> picture = {1, 4, 4, 2};
+  const std::vector<std::int32_t> image = {1, 4, 4, 2};
   const Field same = Number(0), relu = Number(1), one = Number(1), two = Number(2);
   // A filter of half precision, read by the operator 6.
   const std::int32_t halves = add(
@@ -219,17 +219,17 @@ inline std::string EveryOperator() {
   then(6, {}, {2, 3, 3, 2});
   const std::int32_t filter = last;
   last = 0;
-  then(3, {filter, weights({2})}, picture, {same, one, one, relu});
-  then(4, {weights({1, 3, 3, 2})}, picture, {same, one, one, Number(0), Number(3)});
+  then(3, {filter, weights({2})}, image, {same, one, one, relu});
+  then(4, {weights({1, 3, 3, 2})}, image, {same, one, one, Number(0), Number(3)});
   const std::int32_t early = last;
-  then(54, {weights({1, 1, 2})}, picture);
-  then(0, {early}, picture);
-  then(18, {weights({2})}, picture);
+  then(54, {weights({1, 1, 2})}, image);
+  then(0, {early}, image);
+  then(18, {weights({2})}, image);
   then(17, {}, {1, 2, 2, 2}, {same, two, two, two, two});
   then(1, {}, {1, 2, 2, 2}, {same, one, one, two, two});
-  then(23, {integers({4, 4})}, picture, {{}, {}, Number(0), Number(1)});
+  then(23, {integers({4, 4})}, image, {{}, {}, Number(0), Number(1)});
   then(34, {integers({0, 0, 1, 0, 0, 1, 0, 0})}, {1, 5, 5, 2});
-  then(45, {integers({0, 1, 0, 0}), integers({1, 5, 4, 2}), integers({1, 1, 1, 1})}, picture);
+  then(45, {integers({0, 1, 0, 0}), integers({1, 5, 4, 2}), integers({1, 1, 1, 1})}, image);
   then(32, {weights({2, 2, 2, 2})}, {1, 8, 8, 2}, {}, "Convolution2DTransposeBias");
   const std::int32_t whole = last;
   last = weights({1, 4, 3});
@@ -239,7 +239,7 @@ inline std::string EveryOperator() {
   last = points;
   then(32, {matrix}, {1, 4, 3}, {}, "TransformLandmarks");
   last = whole;
-  then(32, {matrix}, picture, {}, "TransformTensorBilinear");
+  then(32, {matrix}, image, {}, "TransformTensorBilinear");
   then(22, {}, {1, 16, 2});
   then(2, {last}, {1, 32, 2}, {one});
   then(14, {}, {1, 32, 2});

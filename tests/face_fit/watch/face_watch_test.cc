@@ -1,4 +1,4 @@
-// What FaceWatch says of pictures of the built-in head, beside what the head was told to do.
+// What FaceWatch says of images of the built-in head, beside what the head was told to do.
 
 #include "face_fit/watch/face_watch.h"
 
@@ -18,8 +18,8 @@ namespace {
 
 /// A network with the outputs of that with attention, which sees a face nowhere.
 Network SeesNoFace() {
-  const tflite::Shape picture{{1, kLandmarkInputPixels, kLandmarkInputPixels, 3}};
-  tflite::Model model = tflite::OneNode(tflite::op::Logistic{}, picture, {}, picture);
+  const tflite::Shape image{{1, kLandmarkInputPixels, kLandmarkInputPixels, 3}};
+  tflite::Model model = tflite::OneNode(tflite::op::Logistic{}, image, {}, image);
   model.outputs.clear();
   for (const int count : {3 * static_cast<int>(kNetworkPoints), 160, 142, 142, 10, 10, 1}) {
     model.outputs.push_back(static_cast<int>(model.tensors.size()));
@@ -145,8 +145,8 @@ TEST_F(FaceWatchTest, TheProgramPrintsALineForEachFrame) {
   for (const auto& line : lines) EXPECT_EQ(std::ranges::count(line, ','), commas) << line;
 }
 
-/// Halved until its longer side is right for the detector, such a picture has no columns left.
-TEST_F(FaceWatchTest, APictureFarHigherThanWideShowsNoFace) {
+/// Halved until its longer side is right for the detector, such an image has no columns left.
+TEST_F(FaceWatchTest, AnImageFarHigherThanWideShowsNoFace) {
   constexpr int kWide = 16, kHigh = 8192;
   support::Process program({GALATEA_BIN_DIR "/face_watch", "--size", "16x8192"});
   program.Write(std::string(4 * kWide * kHigh, '\x5a'));

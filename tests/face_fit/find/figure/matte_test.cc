@@ -95,7 +95,7 @@ TEST(MatteTest, DoubtOverAWideAreaIsDecided) {
 }
 
 TEST(MatteTest, ALargePhotoHasTheEdgeOfItsOwnPixels) {
-  // A grey picture, whose colours lie on one line, larger than what is solved.
+  // A grey image, whose colours lie on one line, larger than what is solved.
   constexpr int kLarge = 1600, kHigh = 200;
   fsm::Image photo{.width = kLarge, .height = kHigh, .rgba = {}};
   FloatImage rough(kLarge, kHigh);

@@ -19,10 +19,10 @@ namespace {
 
 class AttentionTest : public AttentionNetworkTest {
  protected:
-  AttentiveFace See(const fsm::Image& picture) {
-    const auto faces = FindFaces(*networks_, picture);
+  AttentiveFace See(const fsm::Image& image) {
+    const auto faces = FindFaces(*networks_, image);
     if (faces.empty()) throw std::runtime_error("no face is seen");
-    return FindAttentivePoints(*attention_, picture, faces.front().crop);
+    return FindAttentivePoints(*attention_, image, faces.front().crop);
   }
 };
 

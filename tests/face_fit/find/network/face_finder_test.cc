@@ -35,7 +35,7 @@ TEST_F(FaceFinderTest, EyesChinAndCornersLieWhereTheyDoInThePhoto) {
   }
 }
 
-TEST_F(FaceFinderTest, AnEvenPictureHasNoFaceAndNoFigure) {
+TEST_F(FaceFinderTest, AnEvenImageHasNoFaceAndNoFigure) {
   const fsm::Image grey{
       .width = 200, .height = 150, .rgba = std::vector<std::uint8_t>(200 * 150 * 4, 128)};
   EXPECT_TRUE(FindFaces(*networks_, grey).empty());
