@@ -171,7 +171,7 @@ BakedHead BakeHead(const FoundFace& face, const FaceFit& fit, const fsm::Image& 
   head.eyes = eyes;
   head.eye_pictures = PaintEyes(face, fit, eyes, photo, atlas);
   SetColours(face, fit.irises, photo, head);
-  head.photo = std::make_shared<fsm::Image>(std::move(atlas));
+  head.atlas = std::make_shared<fsm::Image>(std::move(atlas));
   return {std::move(head), coverage, whole.completed};
 }
 

@@ -6,7 +6,7 @@
 
 namespace facefit {
 
-/// A head made from a photo; head_atlas.h says how its `photo` is laid out.
+/// A head made from a photo; head_atlas.h says how its atlas is laid out.
 struct BakedHead {
   fsm::PhotoHead head;
   float coverage = 0;   ///< share of the face's map that photos show, 0..1

@@ -9,7 +9,7 @@
 
 namespace facefit {
 
-// The layout of PhotoHead::photo, 2 kMapSize x kMapSize pixels. Positions in it are 0..1 from its
+// The layout of PhotoHead::atlas, 2 kMapSize x kMapSize pixels. Positions in it are 0..1 from its
 // upper left corner:
 //
 //   +-------------------+-------------------+

@@ -51,7 +51,7 @@ vm::Result<std::string> WriteFace(const PhotoHead& head, std::string_view report
   const std::string place = (folder.empty() ? FacesFolder() : folder) + "/" + name;
   std::error_code code;
   std::filesystem::create_directories(place, code);
-  auto done = WriteImage(*head.photo, place + "/photo.png");
+  auto done = WriteImage(*head.atlas, place + "/photo.png");
   if (done) done = vm::WriteTextFile(place + "/report.txt", report);
   if (done) done = vm::WriteTextFile(place + "/face.txt", WritePhotoHead(head));
   if (!done) return std::unexpected(done.error());

@@ -19,7 +19,7 @@ bool IsFaceName(std::string_view name);
 std::vector<std::string> FacesIn(const std::string& folder);
 
 /// Writes the subfolder of a face from a photo into `folder` ("" = FacesFolder()) and returns its
-/// path. Errors: kBadValue if not IsFaceName, kUnavailable. REQUIRES: head.photo
+/// path. Errors: kBadValue if not IsFaceName, kUnavailable. REQUIRES: head.atlas
 vm::Result<std::string> WriteFace(const PhotoHead& head, std::string_view report,
                                   const std::string& folder, const std::string& name);
 

@@ -60,7 +60,7 @@ std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const TableFolder&
   }
   PhotoHead head = ReadPhotoHead(folder + "/face.txt", ReadText(folder + "/face.txt"));
   head.features = FeaturesIn(tables);
-  head.photo = std::make_shared<Image>(vm::OrThrow(ReadImage(folder + "/photo.png")));
+  head.atlas = std::make_shared<Image>(vm::OrThrow(ReadImage(folder + "/photo.png")));
   return WithUnits(units, MakeHead(head));
 }
 

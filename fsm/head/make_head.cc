@@ -258,7 +258,7 @@ std::unique_ptr<Head> MakeHead(Identity own, bool asymmetric) {
 }
 
 std::unique_ptr<Head> MakeHead(const PhotoHead& photo) {
-  if (!photo.photo) throw std::runtime_error("a head of a photo without its photo");
+  if (!photo.atlas) throw std::runtime_error("a head of a photo without its photo");
   const Ingredients from(photo);
   const BaseSkin skin = MakeSkin(from);
   BaseParts parts{skin.mesh, {}};

@@ -17,7 +17,7 @@ std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric = true
 /// Makes the head of a user's own identity. Throws std::runtime_error for an unknown slider.
 std::unique_ptr<Head> MakeHead(Identity own, bool asymmetric = true);
 /// Makes a head from a photo: its base face, warped and wearing the photo. Throws as the first, and
-/// std::runtime_error without `photo.photo`. REQUIRES: sheet_triangles index `sheet`, as
+/// std::runtime_error without `photo.atlas`. REQUIRES: sheet_triangles index `sheet`, as
 /// ReadPhotoHead makes sure.
 std::unique_ptr<Head> MakeHead(const PhotoHead& photo);
 /// Makes the rig of the skin alone of such a head, whose vertices are the first of the head. It

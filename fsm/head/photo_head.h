@@ -29,7 +29,7 @@ struct PhotoHead {
   std::optional<Sided<EyePicture>> eye_pictures;  ///< where the photo shows the eyes
   float saturation = 1;  ///< of parts painted beside the photo; 0 for a grey photo
   float lined = 1;       ///< depth of expression creases, 0..1; lower for smooth skin
-  /// The skin's map in the photo: u right, v down, 0..1, of HeadSurface::uv (0, 0) and (1, 1).
+  /// The skin's map in the atlas: u right, v down, 0..1, of HeadSurface::uv (0, 0) and (1, 1).
   glm::vec2 skin_low{0, 1}, skin_high{0.5f, 0};
   glm::vec3 seen_from{0, 0, 1};      ///< unit vector from the head to the camera
   std::vector<glm::vec3> also_seen;  ///< the same for photos from the side
@@ -38,12 +38,12 @@ struct PhotoHead {
   /// Hair, neck and clothes: a sheet of little depth.
   struct SheetVertex {
     glm::vec3 position;
-    glm::vec2 texcoord;  ///< in the photo, 0..1, v down
+    glm::vec2 texcoord;  ///< in the atlas, 0..1, v down
   };
   std::vector<SheetVertex> sheet;
   std::vector<std::uint32_t> sheet_triangles;
 
-  std::shared_ptr<const Image> photo;  ///< photo.png, read by the caller
+  std::shared_ptr<const Image> atlas;  ///< photo.png, read by the caller
   std::shared_ptr<const Features> features = Features::BuiltIn();  ///< never null
 };
 

@@ -209,7 +209,7 @@ void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, HeadMe
 void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
                HeadSurface& surface) {
   const std::size_t skin_count = skin.weights.size();
-  surface.textures.image = head.photo;
+  surface.textures.image = head.atlas;
   surface.portrait.saturation = head.saturation;
   surface.portrait.eyes = head.eye_pictures;
   surface.textures.texcoord.resize(surface.uv.size());
@@ -229,12 +229,12 @@ void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_insid
   // Where paint begins, it blends from the photo's colour.
   for (std::size_t i = 0; i < skin_count; ++i) {
     if (surface.textures.weight[i] <= 0) continue;
-    surface.albedo[i] = FromScreen(PhotoColour(*head.photo, surface.textures.texcoord[i]));
+    surface.albedo[i] = FromScreen(PhotoColour(*head.atlas, surface.textures.texcoord[i]));
     surface.openness[i] = 1;
   }
   ThinLashes(head, surface);
   RollLips(head, skin.tags, lip_inside, surface);
-  const PhotoMapping mapping{*head.photo, surface.textures.texcoord, surface.textures.weight};
+  const PhotoMapping mapping{*head.atlas, surface.textures.texcoord, surface.textures.weight};
   const FaceLight light = FitFaceLight(mapping, skin.open);
   surface.portrait.light = light.coefficients();
   surface.portrait.relit = RelitShares(*head.features, skin);

@@ -74,7 +74,7 @@ TEST_F(MakeFaceTest, OfAPhotoThatShowsOnlyTheInnerFaceTheRestIsDrawnAndNamed) {
       std::string::npos)
       << made.report;
   // The face is painted in the photo's colours, not in the black of a figure that was not found.
-  const fsm::Image& map = *made.baked.head.photo;
+  const fsm::Image& map = *made.baked.head.atlas;
   EXPECT_GT(Brightness(Rgb(map, map.Index(map.width / 4, map.height / 2))), 60);
 }
 

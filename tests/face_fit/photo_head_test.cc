@@ -98,7 +98,7 @@ TEST(PhotoHeadTest, EachEyeSitsAndOpensAsTheFaceSays) {
   PhotoHead set;
   set.points = kPoints;
   for (auto& point : set.points) point.by = glm::vec3(0);
-  set.photo = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
+  set.atlas = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
   set.eyes.emplace();
   const auto plain = MakeHead(set);
   set.eyes->right.shift = {-2, 1, 0};
@@ -132,7 +132,7 @@ TEST(PhotoHeadTest, LidsGiveUpThePhotoAsTheyShut) {
   PhotoHead set;
   set.points = kPoints;
   for (auto& point : set.points) point.by = glm::vec3(0);
-  set.photo = std::make_shared<Image>(Image{1, 1, {200, 150, 100, 255}});
+  set.atlas = std::make_shared<Image>(Image{1, 1, {200, 150, 100, 255}});
   const auto head = MakeHead(set);
   const auto& lids = head->surface().portrait.shut_lids;
   EXPECT_GT(std::ranges::count_if(lids, [](const ShutLid& lid) { return lid.weight > 0.7F; }), 40);
@@ -150,7 +150,7 @@ int ColourOfTheMouth(float saturation) {
   PhotoHead set;
   set.points = kPoints;
   for (auto& point : set.points) point.by = glm::vec3(0);
-  set.photo = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
+  set.atlas = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
   set.saturation = saturation;
   const auto head = MakeHead(set);
   FaceState state;
@@ -200,7 +200,7 @@ std::pair<float, float> UpperTeethOf(const fsm::PhotoHead& set) {
 
 TEST(PhotoHeadTest, TeethGoWithAMouthThatLiesAsideAndLooksToASide) {
   fsm::PhotoHead set;
-  set.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {200, 150, 130, 255}});
+  set.atlas = std::make_shared<fsm::Image>(fsm::Image{1, 1, {200, 150, 130, 255}});
   for (const glm::vec3 at : {glm::vec3(-70, 0, 0), glm::vec3(70, 0, 0), glm::vec3(0, 80, 60),
                              glm::vec3(0, -110, 40), glm::vec3(0, 20, -60)}) {
     set.points.push_back({at, glm::vec3(0)});
@@ -219,7 +219,7 @@ TEST(PhotoHeadTest, ASmoothSkinCreasesLess) {
     PhotoHead set;
     set.points = kPoints;
     set.lined = lined;
-    set.photo = std::make_shared<Image>(Image{1, 1, {200, 150, 130, 255}});
+    set.atlas = std::make_shared<Image>(Image{1, 1, {200, 150, 130, 255}});
     FaceState surprise;
     for (const std::size_t unit : {1U, 2U}) surprise.au.left[unit] = surprise.au.right[unit] = 1;
     HeadVertices v;
@@ -239,7 +239,7 @@ TEST(PhotoHeadTest, TheSkinBehindGlassesStaysWhenBrowsAndCheeksMove) {
   PhotoHead set;
   set.points = kPoints;
   for (auto& point : set.points) point.by = glm::vec3(0);
-  set.photo = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
+  set.atlas = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
   const auto moved = [&set](glm::vec2 from_eye) {
     const auto head = MakeHead(set);
     HeadVertices rest, frown;
@@ -283,7 +283,7 @@ TEST(PhotoHeadTest, AnEyeOfThePhotoIsSeenAndItsIrisGoesWithTheGaze) {
   PhotoHead set;
   set.points = kPoints;
   for (auto& point : set.points) point.by = glm::vec3(0);
-  set.photo = std::make_shared<Image>(photo);
+  set.atlas = std::make_shared<Image>(photo);
   set.skin_low = {0.1F, 0.9F};
   set.skin_high = {0.9F, 0.6F};
   const EyePicture eye{{0.1F, 0.05F, 0.9F, 0.2F}, {0.1F, 0.3F, 0.9F, 0.45F}};

@@ -66,7 +66,7 @@ PhotoHead OneColour() {
   for (const glm::vec3 at : {glm::vec3(0), {50, 0, 0}, {0, 50, 0}, {0, 0, 50}, {50, 50, 20}}) {
     set.points.push_back({at, glm::vec3(0)});
   }
-  set.photo = std::make_shared<Image>(Image{2, 1, {200, 40, 40, 255, 40, 200, 40, 255}});
+  set.atlas = std::make_shared<Image>(Image{2, 1, {200, 40, 40, 255, 40, 200, 40, 255}});
   set.skin_low = {0.24F, 0.9F};
   set.skin_high = {0.26F, 0.1F};
   return set;

@@ -90,7 +90,7 @@ PhotoHead OneColour() {
     for (int c = 0; c < 3; ++c) photo->rgba.push_back(static_cast<std::uint8_t>(kPhoto[c]));
     photo->rgba.push_back(255);
   }
-  set.photo = photo;
+  set.atlas = photo;
   set.lip_colour = 0.5F * (kPhoto / 255.0F) * (kPhoto / 255.0F);
   return set;
 }

@@ -28,7 +28,7 @@ PhotoHead RedFaceAndGreenSheet(int opacity, std::initializer_list<float> depths)
     for (int c = 0; c < 3; ++c) photo.rgba.push_back(static_cast<std::uint8_t>(colour[c]));
     photo.rgba.push_back(static_cast<std::uint8_t>(a));
   }
-  set.photo = std::make_shared<Image>(photo);
+  set.atlas = std::make_shared<Image>(photo);
   set.skin_low = {0.24F, 0.9F};
   set.skin_high = {0.26F, 0.1F};
   for (const float z : depths) {
@@ -156,9 +156,9 @@ TEST(PhotoTest, HairBesideAnEyeDoesNotCreaseAndSkinDoes) {
 
 TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
   PhotoHead set = RedFaceAndGreenSheet(255, {});
-  auto bright = std::make_shared<Image>(*set.photo);
+  auto bright = std::make_shared<Image>(*set.atlas);
   std::ranges::fill(bright->rgba, std::uint8_t{230});
-  set.photo = bright;
+  set.atlas = bright;
   set.white_colour = glm::vec3(1);
   set.lined = 0;
   const auto head = MakeHead(set);
@@ -288,7 +288,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
                   static_cast<std::uint8_t>(255 * std::sqrt(light)));
     }
   }
-  set.photo = std::make_shared<Image>(lit);
+  set.atlas = std::make_shared<Image>(lit);
   const auto head = MakeHead(set);
   const auto& topology = head->surface();
   EXPECT_GT(topology.portrait.light.y, 0.18F);

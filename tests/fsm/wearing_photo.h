@@ -14,7 +14,7 @@ inline std::unique_ptr<Head> WearingPhoto() {
   for (const glm::vec3 at : {glm::vec3(0), {50, 0, 0}, {0, 50, 0}, {0, 0, 50}, {50, 50, 20}}) {
     set.points.push_back({at, glm::vec3(0)});
   }
-  set.photo =
+  set.atlas =
       std::make_shared<Image>(Image{2, 1, {200, 120, 90, 255, 60, 140, 50, 115}});  // skin, hair
   set.skin_low = {0.24F, 0.9F};
   set.skin_high = {0.26F, 0.1F};

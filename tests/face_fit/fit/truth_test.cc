@@ -54,7 +54,7 @@ std::unique_ptr<fsm::Head> HeadOf(const FaceFit& fit) {
   set.points = fit.head.warp_points;
   set.smooth = kWarpSmoothMm;
   set.eyes = fit.head.eyes;
-  set.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {0, 0, 0, 255}});
+  set.atlas = std::make_shared<fsm::Image>(fsm::Image{1, 1, {0, 0, 0, 255}});
   return fsm::MakeHead(set);
 }
 
