@@ -22,7 +22,7 @@ constexpr float kHuber = 0.12F;      // in deviations of the look
 constexpr int kRounds[] = {6, 6};
 // How far off the usual depth is taken to be, and how much a picture tells of it that those before
 // it did not.
-constexpr float kFormOff[] = {0.03F, 0.08F, 0.08F, 0.03F, 0.03F};
+constexpr float kFormOff[] = {0.09F, 0.08F, 0.08F, 0.03F, 0.03F};
 constexpr float kNews = 0.1F;
 constexpr float kOtherTurn = 0.05F;  // radians from the picture that told of it last
 // How far off the network's pose is taken to be, and the look of a place.
