@@ -345,7 +345,7 @@ TEST_P(CameraTruthTest, WhatTheNetworkFindsIsFollowedWhateverTheCamera) {
     // Missed: the fit follows the network's points, which are up to 2 % off on a face from the
     // front and up to 4 % on a turned one.
     const bool turned = camera.turn_degrees > 0;
-    ExpectWithin(error, GetParam(), turned ? 0.039F : 0.023F, turned ? 6.5F : 5);
+    ExpectWithin(error, GetParam(), turned ? 0.039F : 0.023F, turned ? 6.6F : 5);
   }
 }
 
