@@ -23,9 +23,9 @@ endfunction()
 # galatea_numbers(TARGET NAME NAMESPACE STRUCT FILE): makes the rows of FILE, a fsm::NumberTable, members of
 # STRUCT, so that a compiler checks their names. The code then says
 #   #include "embedded/NAME.h"     and gets     NAMESPACE::STRUCT(const fsm::NumberTable&)
-# where the row "lamp key direction 0.4 0.5 0.8" is lamp.key.direction, a glm::vec3: one number is a float, two to
-# four are a vector of glm, more are a std::array<float, N>; "12 to 24" and "0.4 up_to 0.9" are a fsm::Range,
-# "1.8 plus 2.9" is a fsm::Line. Who links to TARGET may include it too.
+# where the row "lamp key direction 0.4 0.5 0.8" is lamp.key.direction, a glm::vec3, and the type of lamp is
+# STRUCT::Lamp. One number is a float, two to four are a vector of glm, more are a std::array<float, N>; "12 to 24" and
+# "0.4 up_to 0.9" are a fsm::Range, "1.8 plus 2.9" is a fsm::Linear. Who links to TARGET may include it too.
 set(GALATEA_NUMBERS_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/NumbersScript.cmake)
 
 function(galatea_numbers target name namespace struct file)

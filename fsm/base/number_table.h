@@ -20,7 +20,7 @@ namespace fsm {
 /// are left out are built in. LOW..HIGH at the end of a built-in row are the limits of its numbers,
 /// for rows that replace it, too (whose own limits are ignored); without it they are -1000..1000.
 /// A word between the two numbers of a built-in row says what they are: "12 to 24" is a Range,
-/// "0.4 up_to 0.9" one whose first number must not exceed the second, "1.8 plus 2.9" a Line; two
+/// "0.4 up_to 0.9" one whose first number must not exceed the second, "1.8 plus 2.9" a Linear; two
 /// numbers without such a word are a place or size, x y. Rows that replace it need not repeat the
 /// word, but may not have another one.
 /// Code does not look names up: galatea_numbers (cmake/Embed.cmake) turns rows into members of a
@@ -43,7 +43,7 @@ class NumberTable {
     Copy(name, {&out[0], N});
   }
   void Get(std::string_view name, Range& out) const { out = {(*this)[name][0], (*this)[name][1]}; }
-  void Get(std::string_view name, Line& out) const { out = {(*this)[name][0], (*this)[name][1]}; }
+  void Get(std::string_view name, Linear& out) const { out = {(*this)[name][0], (*this)[name][1]}; }
   template <std::size_t N>
   void Get(std::string_view name, std::array<float, N>& out) const {
     Copy(name, out);

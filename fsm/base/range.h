@@ -34,14 +34,14 @@ inline Range operator+(float offset, Range range) {
 
 /// What a table's row "NAME START plus ADDED" says: a value, and what is added to it per unit of
 /// something, or at most if that is a share or random.
-struct Line {
+struct Linear {
   float start = 0, added = 0;
 
   template <std::floating_point T>
   T At(T x) const {
     return start + added * x;
   }
-  bool operator==(const Line&) const = default;
+  bool operator==(const Linear&) const = default;
 };
 
 }  // namespace fsm

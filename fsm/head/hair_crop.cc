@@ -15,8 +15,6 @@
 namespace fsm {
 namespace {
 
-using CropHair = decltype(Features::crop_hair);
-
 /// The shape of short hair. A place in it: azimuth -180..180; `up` 0 at the hairline .. 1 at the
 /// crown, which lies behind the top.
 class CropShape {
@@ -111,7 +109,7 @@ class CropShape {
 
  private:
   const CropStyle& style_;
-  const CropHair& hair_;
+  const Features::CropHair& hair_;
   const HairLook look_;
   const glm::vec3 crown_ = glm::normalize(hair_.crown);
   const Scalp scalp_;
@@ -217,7 +215,7 @@ class CropBuilder {
   }
 
   const CropStyle& style_;
-  const CropHair& hair_;
+  const Features::CropHair& hair_;
   const Palette& palette_;
   const HairLook look_;
   const CropShape shape_;

@@ -14,8 +14,6 @@
 namespace fsm {
 namespace {
 
-using LongHair = decltype(Features::long_hair);
-
 /// The shape of parted hair. Strands start along the parting, sweep over the skull and hang down.
 /// Those at the face's edge frame the forehead in a round arch, slightly off the skin. A place in
 /// the hair of one side: `around` runs from the face's edge (0) to the middle of the back (1);
@@ -184,7 +182,7 @@ class LongShape {
   }
 
   const LongStyle& style_;
-  const LongHair& hair_;
+  const Features::LongHair& hair_;
   const glm::vec3 volume_;
   const HairLook look_;
   const Scalp scalp_;
@@ -357,7 +355,7 @@ class LongHairBuilder {
   }
 
   const LongStyle& style_;
-  const LongHair& hair_;
+  const Features::LongHair& hair_;
   const Palette& palette_;
   const HairLook look_;
   const LongShape shape_;

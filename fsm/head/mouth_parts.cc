@@ -32,7 +32,7 @@ constexpr BakeWeights kWithTeeth{.follows = BakeWeights::Follows::kTeeth};
 /// Builds one row of teeth and its gum.
 class ToothRow {
  public:
-  using TeethRow = decltype(Features::upper_tooth_widths);
+  using TeethRow = std::array<float, 6>;
   struct Jaw {
     ToothArch arch;
     float upward;  // +1: crowns grow upward from the edge (upper jaw)

@@ -16,8 +16,6 @@
 namespace fsm {
 namespace {
 
-using LidNumbers = decltype(Features::photo_lid);
-
 /// A place of the skin near an eye and its appearance in the photo.
 struct PhotoSpot {
   glm::vec2 at;        ///< on the face, millimetres
@@ -90,7 +88,7 @@ struct EyeSurroundings {
 
 /// Returns nothing if an eye has no lids.
 std::optional<EyeSurroundings> MeasureEye(const PhotoMapping& mapping, const PhotoSkin& skin,
-                                          bool glasses, const LidNumbers& lid,
+                                          bool glasses, const Features::PhotoLid& lid,
                                           const FaceLight& light, Side side) {
   std::vector<SkinSample> samples;
   std::vector<PhotoSpot> around;
@@ -146,7 +144,8 @@ std::optional<EyeSurroundings> MeasureEye(const PhotoMapping& mapping, const Pho
 class LidPainter {
  public:
   LidPainter(const PhotoMapping& mapping, const PhotoSkin& skin, bool glasses,
-             const LidNumbers& lid, const FaceLight& light, Side side, const EyeSurroundings& eye)
+             const Features::PhotoLid& lid, const FaceLight& light, Side side,
+             const EyeSurroundings& eye)
       : mapping_(mapping),
         skin_(skin),
         glasses_(glasses),
@@ -291,7 +290,7 @@ class LidPainter {
   const PhotoMapping& mapping_;
   const PhotoSkin& skin_;
   const bool glasses_;
-  const LidNumbers& lid_;
+  const Features::PhotoLid& lid_;
   const FaceLight& light_;
   const Side side_;
   const EyeSurroundings& eye_;
@@ -321,7 +320,7 @@ FaceLight FitFaceLight(const PhotoMapping& mapping, const SkinSurface& open) {
 
 std::vector<ShutLid> PaintLids(const PhotoMapping& mapping, const PhotoSkin& skin, bool glasses,
                                const Features& features, const FaceLight& light) {
-  const LidNumbers& lid = features.photo_lid;
+  const Features::PhotoLid& lid = features.photo_lid;
   std::vector<ShutLid> lids;
   for (const Side side : kSides) {
     const auto eye = MeasureEye(mapping, skin, glasses, lid, light, side);

@@ -111,7 +111,7 @@ PaintedSkin MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const Skin
     paint.albedo =
         glm::mix(palette.lip_inside, palette.mouth, features.skin_paint.dark_inside.Ramp(tag.deep));
     const float out = 1 - tag.deep;
-    const Line light = features.mouth_light;
+    const Linear light = features.mouth_light;
     paint.openness = light.start + light.added * out * out;
     return paint;
   }

@@ -93,7 +93,7 @@ EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
     if (index < 0) return {0, 0};
     const double side =
         std::copysign(1, habit + row.strays * RandomAt(seed_, RandomStream::kThinkSide, index + 1));
-    const auto varied = [&](Line angle, std::int64_t at) {
+    const auto varied = [&](Linear angle, std::int64_t at) {
       return angle.At(static_cast<float>(RandomAt(seed_, RandomStream::kThinkHeight, at)));
     };
     return {varied(row.down, index), side * varied(row.aside, index + 50)};

@@ -75,7 +75,7 @@ double IdleBehaviour::NodAt(const IdleRun& run, vm::Time t) const {
   const double ms = InMs(t - run.since);
   if (ms < 0) return 0;
   const auto k = static_cast<std::int64_t>(std::floor(ms / nods.interval_ms));
-  const auto varied = [&](Line row, RandomStream stream) {
+  const auto varied = [&](Linear row, RandomStream stream) {
     return row.At(static_cast<float>(Random(stream, k)));
   };
   const double since =

@@ -31,7 +31,7 @@ class CreaseRelief {
   void AddNasolabial(const glm::vec3& p, float side, float& height) const;
 
   const FaceLandmarks& landmarks_;
-  const decltype(Appearance::skin)& skin_;
+  const Appearance::Skin& skin_;
 };
 
 /// How much each crease shows at each vertex, 0..1.

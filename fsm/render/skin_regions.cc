@@ -142,7 +142,7 @@ class RegionPainter {
   }
 
   const FaceLandmarks& landmarks_;
-  const decltype(Appearance::skin)& skin_;
+  const Appearance::Skin& skin_;
 };
 
 }  // namespace

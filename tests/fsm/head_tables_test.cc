@@ -419,7 +419,7 @@ TEST(HeadTablesTest, FeaturesLeftOutAreTheBuiltInOnes) {
   const Features mine("mine.txt",
                       "gum_light 0.6 0.25\near_light 0.2 plus 0.8\nspot cheeks half_size 20 10\n");
   EXPECT_EQ(mine.gum_light, (Range{0.6f, 0.25f}));
-  EXPECT_EQ(mine.ear_light, (Line{0.2f, 0.8f}));
+  EXPECT_EQ(mine.ear_light, (Linear{0.2f, 0.8f}));
   EXPECT_EQ(mine.table().rows().size(), Features::BuiltIn()->table().rows().size());
   for (std::size_t i = 0; i < mine.table().rows().size(); ++i) {
     const std::string name = NumberTable::RowName(Features::BuiltIn()->table().rows()[i]);

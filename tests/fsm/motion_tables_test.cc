@@ -156,7 +156,7 @@ TEST(MotionTablesTest, AFolderReplacesOnlyTheTablesItHas) {
   std::ofstream(gestures) << "nod size 0.5 0\n";
   const auto nods = MotionTables::Load(folder.string());
   ASSERT_TRUE(nods) << nods.error().text;
-  EXPECT_EQ(nods->gestures.nod.size, (Line{0.5F, 0}));
+  EXPECT_EQ(nods->gestures.nod.size, (Linear{0.5F, 0}));
   EXPECT_EQ(nods->gestures.jaw.SHOUTED, 180) << "rows left out are the built-in ones";
   std::ofstream(gestures) << "nod lasts 0\n";
   EXPECT_EQ(MotionTables::Load(folder.string()).error().text,

@@ -48,7 +48,7 @@ class DominanceCurves {
 
   std::vector<Sound> sounds_;  // in order of time; the first and the last are rest and unbounded
   DominanceReach reach_;
-  decltype(GestureNumbers::contact) contact_;
+  GestureNumbers::Contact contact_;
   double longest_reach_ms_ = 0;
 };
 
