@@ -24,11 +24,11 @@ constexpr SlotWord<LipMode> kModes[] = {{"DOMINANCE", LipMode::kDominance},
 /// Returns the values of LipSync.scale: the sizes of jaw and lip movements in per cent.
 std::vector<SlotWord<glm::vec2>> WaysOfSpeaking(const GestureNumbers& gestures) {
   const auto& [jaw, lips] = std::tie(gestures.jaw, gestures.lips);
-  return {{"MUMBLED", {jaw.MUMBLED, lips.MUMBLED}},
-          {"SOFT", {jaw.SOFT, lips.SOFT}},
-          {"NORMAL", {jaw.NORMAL, lips.NORMAL}},
-          {"CLEAR", {jaw.CLEAR, lips.CLEAR}},
-          {"SHOUTED", {jaw.SHOUTED, lips.SHOUTED}}};
+  return {{"MUMBLED", {jaw.mumbled, lips.mumbled}},
+          {"SOFT", {jaw.soft, lips.soft}},
+          {"NORMAL", {jaw.normal, lips.normal}},
+          {"CLEAR", {jaw.clear, lips.clear}},
+          {"SHOUTED", {jaw.shouted, lips.shouted}}};
 }
 
 /// Returns the set that the first number of a value names.

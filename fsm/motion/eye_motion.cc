@@ -16,12 +16,12 @@ EyeMotion::EyeMotion(const MotionInputs& in)
       seed_(in.seed) {}
 
 float EyeMotion::HeadShareOf(float angle) const {
-  const float beyond = std::max(0.0f, std::abs(angle) - gestures_.gaze.alone);
-  return std::copysign(beyond * gestures_.gaze.head, angle);
+  const float beyond = std::max(0.0f, std::abs(angle) - gestures_.gaze.eyes_only_deg);
+  return std::copysign(beyond * gestures_.gaze.head_share, angle);
 }
 
 EyeAngles EyeMotion::Thinking() const {
-  return {gestures_.think.down.start, gestures_.think.aside.start};
+  return {gestures_.think.down_deg.start, gestures_.think.aside_deg.start};
 }
 
 // ---- commands
@@ -40,21 +40,22 @@ void EyeMotion::SetAim(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time 
   thinking_.MoveTo(now, aim == Aim::kThought ? 1.0f : 0.0f, settings_.eye_move);
   if (aim == Aim::kThought) thinking_since_ = now;
   const double near = settings_.gaze_distance_mm;
-  const double angle = aim == Aim::kThought || near <= 0
-                           ? 0
-                           : std::atan2(gestures_.gaze.half_pupils, near) * 180 / std::numbers::pi;
+  const double angle =
+      aim == Aim::kThought || near <= 0
+          ? 0
+          : std::atan2(gestures_.gaze.half_pupil_distance_mm, near) * 180 / std::numbers::pi;
   vergence_deg_.MoveTo(now, static_cast<float>(angle), 2 * settings_.eye_move);
   gaze_.Visit(now, angles, settings_.eye_move, duration);
   head_share_.Visit(now, {HeadShareOf(angles[kDown]), HeadShareOf(angles[kToRight])},
-                    FromMs(gestures_.gaze.lasts), duration);
+                    FromMs(gestures_.gaze.head_ms), duration);
   ends_.gaze = duration > vm::Time(0) ? now + duration : now;
 }
 
 void EyeMotion::BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to) {
   if (!switches_[IdleKind::kGazeBlink].on() || patterns_.blinks.empty()) return;
   const double angle = std::hypot(to[kDown] - from[kDown], to[kToRight] - from[kToRight]);
-  const double chance =
-      std::clamp(angle / gestures_.shift_blink.sure, 0.0, double{gestures_.shift_blink.most});
+  const double chance = std::clamp(angle / gestures_.shift_blink.certain_from_deg, 0.0,
+                                   double{gestures_.shift_blink.max_chance});
   if ((RandomAt(seed_, RandomStream::kShiftBlink, ++shifts_) + 1) / 2 < chance) Blink(now, 1);
 }
 
@@ -82,24 +83,25 @@ void EyeMotion::Blink(vm::Time now, std::size_t pattern, int count) {
 // ---- as a source
 
 EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
-  const auto& row = gestures_.think;
+  const GestureNumbers::Think& think = gestures_.think;
   const auto saccade_ms = [&](std::int64_t k) {
     return k == 0 ? 0
-                  : row.interval * (static_cast<double>(k) +
-                                    row.varies * RandomAt(seed_, RandomStream::kThinkTime, k));
+                  : think.interval_ms *
+                        (static_cast<double>(k) +
+                         think.interval_variation * RandomAt(seed_, RandomStream::kThinkTime, k));
   };
   const double habit = RandomAt(seed_, RandomStream::kThinkSide, 0);
   const auto place = [&](std::int64_t index) -> std::array<double, 2> {
     if (index < 0) return {0, 0};
-    const double side =
-        std::copysign(1, habit + row.strays * RandomAt(seed_, RandomStream::kThinkSide, index + 1));
+    const double side = std::copysign(
+        1, habit + think.side_switch * RandomAt(seed_, RandomStream::kThinkSide, index + 1));
     const auto varied = [&](Linear angle, std::int64_t at) {
       return angle.At(static_cast<float>(RandomAt(seed_, RandomStream::kThinkHeight, at)));
     };
-    return {varied(row.down, index), side * varied(row.aside, index + 50)};
+    return {varied(think.down_deg, index), side * varied(think.aside_deg, index + 50)};
   };
-  return FixationAt(std::max(0.0, InMs(t - thinking_since_)), row.interval, saccade_ms, place,
-                    [&](const auto&, const auto&) { return row.jump; });
+  return FixationAt(std::max(0.0, InMs(t - thinking_since_)), think.interval_ms, saccade_ms, place,
+                    [&](const auto&, const auto&) { return think.jump_ms; });
 }
 
 double EyeMotion::BlinkAt(vm::Time t) const {

@@ -61,10 +61,10 @@ void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
                            static_cast<float>(move.tilt)};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double slow =
-          InMs(t) / move.period_ms + gestures_.wander.apart * static_cast<double>(axis);
-      const double fast = slow * gestures_.wander.faster;
-      const double way = gestures_.wander.slow * Wander(2 * axis, slow) +
-                         gestures_.wander.fast * Wander(2 * axis + 1, fast);
+          InMs(t) / move.period_ms + gestures_.wander.axis_phase * static_cast<double>(axis);
+      const double fast = slow * gestures_.wander.frequency_ratio;
+      const double way = gestures_.wander.slow_share * Wander(2 * axis, slow) +
+                         gestures_.wander.fast_share * Wander(2 * axis + 1, fast);
       out[axis] += static_cast<float>(run.weight * way * amplitude[axis]);
     }
   }
@@ -80,12 +80,12 @@ double IdleBehaviour::NodAt(const IdleRun& run, vm::Time t) const {
   };
   const double since =
       ms - nods.interval_ms *
-               (static_cast<double>(k) + varied(gestures_.nod.begins, RandomStream::kNodTime));
+               (static_cast<double>(k) + varied(gestures_.nod.begin_share, RandomStream::kNodTime));
   const double size = nods.angle * varied(gestures_.nod.size, RandomStream::kNodSize);
   const double down =
-      RaisedCosine(since / gestures_.nod.lasts) +
+      RaisedCosine(since / gestures_.nod.duration_ms) +
       gestures_.second_nod.size *
-          RaisedCosine((since - gestures_.second_nod.after) / gestures_.second_nod.lasts);
+          RaisedCosine((since - gestures_.second_nod.delay_ms) / gestures_.second_nod.duration_ms);
   return size * down;
 }
 
@@ -121,22 +121,22 @@ void IdleBehaviour::Contribute(vm::Time t, MotionLayers& layers) const {
 
 double IdleBehaviour::BreathAt(const AutoBreath& pattern, vm::Time since) const {
   const double u = std::fmod(std::max(0.0, InMs(since)) / pattern.period_ms, 1.0);
-  const double in = gestures_.breath.in, out = gestures_.breath.out;
+  const double in = gestures_.breath.inhale_share, out = gestures_.breath.exhale_share;
   return u < in ? SmoothStep(u / in) : 1 - SmoothStep((u - in) / out);
 }
 
 EyeAngles IdleBehaviour::SaccadesAt(const AutoGaze& gaze, vm::Time t) const {
-  const auto& row = gestures_.saccade;
+  const GestureNumbers::Saccade& saccade = gestures_.saccade;
   const auto saccade_ms = [&](std::int64_t k) {
-    return gaze.interval_ms * (static_cast<double>(k) + row.begins.start +
-                               row.begins.added * Random(RandomStream::kGazeTime, k));
+    return gaze.interval_ms * (static_cast<double>(k) + saccade.begin_share.start +
+                               saccade.begin_share.added * Random(RandomStream::kGazeTime, k));
   };
   const auto place = [&](std::int64_t k) -> std::array<double, 2> {
-    return {row.height * gaze.angle * Random(RandomStream::kGazeY, k),
+    return {saccade.height_ratio * gaze.angle * Random(RandomStream::kGazeY, k),
             gaze.angle * Random(RandomStream::kGazeX, k)};
   };
   const auto jump_ms = [&](const auto& from, const auto& to) {
-    return row.lasts + row.per_degree * std::hypot(to[0] - from[0], to[1] - from[1]);
+    return saccade.base_ms + saccade.ms_per_degree * std::hypot(to[0] - from[0], to[1] - from[1]);
   };
   return FixationAt(InMs(t), gaze.interval_ms, saccade_ms, place, jump_ms);
 }
@@ -147,10 +147,10 @@ vm::Time IdleBehaviour::BlinkInterval(std::size_t pattern, std::int64_t index) c
   const double normal = Random(RandomStream::kBlinkTime, n) +
                         Random(RandomStream::kBlinkTime, n + 1) +
                         Random(RandomStream::kBlinkTime, n + 2);
-  const auto& row = gestures_.blink;
-  const double interval = mean * std::clamp(row.median * std::exp(row.spread * normal),
-                                            double{row.shortest}, double{row.longest});
-  return FromMs(index == 0 ? row.first * interval : interval);
+  const GestureNumbers::Blink& blink = gestures_.blink;
+  const double interval = mean * std::clamp(blink.median * std::exp(blink.log_spread * normal),
+                                            double{blink.shortest}, double{blink.longest});
+  return FromMs(index == 0 ? blink.first * interval : interval);
 }
 
 IdleBehaviour::Blink IdleBehaviour::LastBlink(std::size_t pattern, vm::Time since,

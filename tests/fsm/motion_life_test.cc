@@ -380,7 +380,7 @@ struct BlinkTest : testing::Test {
       for (const std::int64_t n : {3 * k, 3 * k + 1, 3 * k + 2}) {
         normal += RandomAt(kSeed, kStream, n);
       }
-      const double ms = mean * std::clamp(row.median * std::exp(row.spread * normal),
+      const double ms = mean * std::clamp(row.median * std::exp(row.log_spread * normal),
                                           double{row.shortest}, double{row.longest});
       const vm::Time before = starts.empty() ? kSwitched : starts.back();
       starts.push_back(before + FromMs(starts.empty() ? row.first * ms : ms));

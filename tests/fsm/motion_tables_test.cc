@@ -157,13 +157,13 @@ TEST(MotionTablesTest, AFolderReplacesOnlyTheTablesItHas) {
   const auto nods = MotionTables::Load(folder.string());
   ASSERT_TRUE(nods) << nods.error().text;
   EXPECT_EQ(nods->gestures.nod.size, (Linear{0.5F, 0}));
-  EXPECT_EQ(nods->gestures.jaw.SHOUTED, 180) << "rows left out are the built-in ones";
-  std::ofstream(gestures) << "nod lasts 0\n";
+  EXPECT_EQ(nods->gestures.jaw.shouted, 180) << "rows left out are the built-in ones";
+  std::ofstream(gestures) << "nod duration_ms 0\n";
   EXPECT_EQ(MotionTables::Load(folder.string()).error().text,
             gestures + ":1: '0' found where 1 to 1000 was expected");
-  std::ofstream(gestures) << "contact approach 60 12\n";
+  std::ofstream(gestures) << "contact approach_ms 60 12\n";
   EXPECT_EQ(MotionTables::Load(folder.string()).error().text,
-            gestures + ":1: the first number of 'contact approach' exceeds the second");
+            gestures + ":1: the first number of 'contact approach_ms' exceeds the second");
   std::filesystem::remove_all(folder);
   EXPECT_FALSE(MotionTables::Load(folder.string()));
 }

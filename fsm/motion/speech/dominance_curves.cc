@@ -56,35 +56,35 @@ DominanceCurves::DominanceCurves(const VisemeTargets& targets, const DominanceRe
 void DominanceCurves::PlaceContacts() {
   const auto closes = [this](std::size_t i) {
     const VisemeTarget& target = sounds_[i].target;
-    return target.pose.seal > 0 && !(target.pause && target.length_ms < contact_.pause);
+    return target.pose.seal > 0 && !(target.pause && target.length_ms < contact_.min_pause_ms);
   };
   for (std::size_t i = 0; i < sounds_.size(); ++i) {
     Sound& sound = sounds_[i];
     const VisemeTarget& target = sound.target;
     if (target.pose.contact <= 0) continue;
-    if (target.pause && target.length_ms < contact_.pause) continue;
+    if (target.pause && target.length_ms < contact_.min_pause_ms) continue;
     const bool closed_before = i == 0 || (closes(i) && closes(i - 1));
     const bool closed_after = i + 1 == sounds_.size() || (closes(i) && closes(i + 1));
     const double start = target.start_ms;
     ContactEnvelope contact{};
     if (target.pause) {
       // The lips meet after the end of the sound before, and part before the next one begins.
-      contact = {start, start + contact_.ease, sound.end_ms - contact_.ease, sound.end_ms};
+      contact = {start, start + contact_.ease_ms, sound.end_ms - contact_.ease_ms, sound.end_ms};
     } else {
-      const double min = contact_.approach.from, max = contact_.approach.to;
+      const double min = contact_.approach_ms.from, max = contact_.approach_ms.to;
       const double before = i == 0 ? max : sounds_[i - 1].target.length_ms;
       const double to = start + std::min(target.hold_ms, target.length_ms);
-      contact = {start - std::clamp(contact_.part / 100.0 * before, min, max), start, to,
-                 std::max(sound.end_ms, to + contact_.release)};
+      contact = {start - std::clamp(contact_.approach_percent / 100.0 * before, min, max), start,
+                 to, std::max(sound.end_ms, to + contact_.release_ms)};
     }
     // Between adjacent closures the lips stay closed; their shape is blended from one to the other.
     if (closed_before) {
-      contact.rise = start - contact_.overlap;
+      contact.rise = start - contact_.overlap_ms;
       contact.from = start;
     }
     if (closed_after) {
       contact.to = sound.end_ms;
-      contact.fall = sound.end_ms + contact_.overlap;
+      contact.fall = sound.end_ms + contact_.overlap_ms;
     }
     sound.contact = contact;
   }
@@ -153,7 +153,7 @@ MouthPose DominanceCurves::At(double position_ms) const {
     const double near = Falloff(distance, early ? reach_.before_ms : reach_.after_ms);
     const double round = Falloff(distance, early ? d.early_ms : reach_.after_ms);
     blend.Add(target.pose, {d.jaw * near, d.lips * near, d.round * round, d.tongue * near});
-    if (s->contact) blend.AddContact(target.pose, s->contact->At(position_ms), contact_.jaw);
+    if (s->contact) blend.AddContact(target.pose, s->contact->At(position_ms), contact_.jaw_share);
   }
   return blend.Pose();
 }

@@ -96,8 +96,8 @@ double TimeOfShare(double share, const VisemeTargets& targets, double near_ms) {
 }  // namespace
 
 double TimedLook::At(double position_ms, const GestureNumbers& sizes) const {
-  const double rise = SmootherStep((position_ms - start_ms) / sizes.look.rise);
-  return rise * (1 - SmootherStep((position_ms - end_ms) / sizes.look.fall));
+  const double rise = SmootherStep((position_ms - start_ms) / sizes.look.rise_ms);
+  return rise * (1 - SmootherStep((position_ms - end_ms) / sizes.look.fall_ms));
 }
 
 std::vector<TimedLook> LooksOf(const TextCues& cues, std::string_view text,
@@ -109,7 +109,7 @@ std::vector<TimedLook> LooksOf(const TextCues& cues, std::string_view text,
   double before = 0, start_ms = 0;
   for (const std::string_view sentence : Sentences(lowered)) {
     before += Letters(sentence);
-    const double end_ms = TimeOfShare(before / letters, targets, sizes.look.near_pause);
+    const double end_ms = TimeOfShare(before / letters, targets, sizes.look.near_pause_ms);
     std::vector<bool> seen(cues.looks.size());
     for (const TextCues::Cue& cue : cues.cues) {
       const bool here = std::ranges::any_of(
@@ -117,8 +117,8 @@ std::vector<TimedLook> LooksOf(const TextCues& cues, std::string_view text,
       if (!here || seen[cue.look]) continue;
       seen[cue.look] = true;
       const TextLook& look = cues.looks[cue.look];
-      const double from = look.at_end ? std::max(start_ms, end_ms - sizes.look.at_end)
-                                      : start_ms - sizes.look.ahead;
+      const double from = look.at_end ? std::max(start_ms, end_ms - sizes.look.at_end_ms)
+                                      : start_ms - sizes.look.lead_ms;
       timed.push_back({&look, from, end_ms});
     }
     start_ms = end_ms;
