@@ -53,7 +53,7 @@ vm::Result<void> Player::Plan() {
       return motion.expression.Show(kLead, show.expression, show.pattern, 1, 0ms);
     });
     if (!done) return done;
-    settled = trial->OnsetsSettled(kLead);
+    settled = trial->SettledAt(kLead);
   }
   vm::Time end = settled;
   if (!show_.motion.empty()) {
@@ -61,7 +61,7 @@ vm::Result<void> Player::Plan() {
       return motion.PlayMovement(kLead, show.motion, show.motion_pattern);
     });
     if (!done) return done;
-    end = std::max(end, trial->FiniteEnd(kLead));
+    end = std::max(end, trial->EndsAt(kLead));
   }
   if (!show_.speech.empty()) {
     auto done = cue(kLead, [show = show_, at = settled + 150ms](fsm::FaceMotion& motion) {
@@ -78,7 +78,7 @@ vm::Result<void> Player::Plan() {
       return vm::Result<void>();
     });
     if (!done) return done;
-    end = trial->OnsetsSettled(end);
+    end = trial->SettledAt(end);
   }
   length_ = end + kPause;
   cues_ = std::move(cues);

@@ -33,7 +33,7 @@ std::string SlotOf(const Name& name) {
 }  // namespace
 
 ExpressionSlots::ExpressionSlots(FsmCore& core) : core_(core) {
-  for (const auto& [word, expression] : core_.motion->tables().expressions) {
+  for (const auto& [word, expression] : core_.motion->expressions().all()) {
     for (std::size_t i = 0; i < expression.patterns.size(); ++i) {
       const Name name{word, static_cast<int>(i) + 1};
       Declare(name, LookOf(name).value_or(""));
@@ -43,7 +43,7 @@ ExpressionSlots::ExpressionSlots(FsmCore& core) : core_(core) {
       [this](const vm::Message& message, vm::PeerId, const vm::Reply& reply) {
         const auto name = ParseSlotName(message.slot);
         if (!name) return false;
-        const bool known = core_.motion->tables().expressions.contains(name->expression);
+        const bool known = core_.motion->expressions().all().contains(name->expression);
         if (!known && core_.slots.Has(message.slot)) return false;  // FaceExp.onset and its like
         const bool defines =
             message.command == vm::Command::kDef && message.relation == vm::Relation::kAssign;
@@ -68,12 +68,12 @@ void ExpressionSlots::Declare(const Name& name, const std::string& look) {
        .help = "What pattern " + std::to_string(name.pattern) + " of " + name.expression +
                " looks like: units and strengths, gaze:DOWN,RIGHT.",
        .on_set = core_.Command([this, name](const vm::SetValue& value) {
-         return core_.motion->expression.Define(name.expression, name.pattern, value.text);
+         return core_.motion->expressions().Define(name.expression, name.pattern, value.text);
        })});
 }
 
 std::optional<std::string> ExpressionSlots::LookOf(const Name& name) const {
-  const ExpressionTable& expressions = core_.motion->tables().expressions;
+  const ExpressionTable& expressions = core_.motion->expressions().all();
   const auto found = expressions.find(name.expression);
   const auto index = static_cast<std::size_t>(name.pattern - 1);
   if (found == expressions.end() || index >= found->second.patterns.size()) return {};
@@ -87,7 +87,7 @@ vm::Result<std::string> ExpressionSlots::Define(const Name& name, const std::str
     return vm::Fail(vm::Errc::kLimit, "more than " + std::to_string(kMaxOwnSlots) +
                                           " patterns of expressions were defined");
   }
-  if (auto done = core_.motion->expression.Define(name.expression, name.pattern, look); !done) {
+  if (auto done = core_.motion->expressions().Define(name.expression, name.pattern, look); !done) {
     return std::unexpected(done.error());
   }
   if (!known) {
@@ -100,10 +100,10 @@ vm::Result<std::string> ExpressionSlots::Define(const Name& name, const std::str
 }
 
 vm::Result<std::string> ExpressionSlots::Forget(const std::string& expression) {
-  if (!core_.motion->tables().expressions.contains(expression)) {
+  if (!core_.motion->expressions().all().contains(expression)) {
     return vm::Fail(vm::Errc::kUnknownSlot, "there is no expression '" + expression + "'");
   }
-  core_.motion->expression.Forget(expression);
+  core_.motion->expressions().Forget(expression);
   for (Name name{expression, 1}; core_.slots.Has(SlotOf(name)); ++name.pattern) {
     const std::string slot = SlotOf(name);
     if (const auto look = LookOf(name)) {

@@ -114,7 +114,7 @@ void FsmModule::MakeFrameLoop(const RecordSlots& record, FrameSlots& frames) {
               [this](vm::Time t) { return core_.view.Swings() ? t : core_.motion->NextMotion(t); },
           .rests_at =
               [this](vm::Time t) {
-                return std::max(core_.motion->FiniteEnd(t), core_.motion->OnsetsSettled(t));
+                return std::max(core_.motion->EndsAt(t), core_.motion->SettledAt(t));
               },
           .show =
               [this, &frames](vm::Time t) {

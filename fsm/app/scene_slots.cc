@@ -102,7 +102,7 @@ void DeclareSaveImage(FsmCore& core) {
          // The state is a function of time, so the face can be drawn at once as it will be after
          // its onsets, unaffected by later commands.
          const vm::Time now = core.Now();
-         const vm::Time at = std::min(core.motion->OnsetsSettled(now), now + kMaxSettling);
+         const vm::Time at = std::min(core.motion->SettledAt(now), now + kMaxSettling);
          auto done = core.DrawAt(at);
          if (done) done = core.files.write_picture(core.view.Read(), value.word(0));
          return done;

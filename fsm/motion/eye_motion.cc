@@ -136,7 +136,7 @@ vm::Time EyeMotion::BlinksEnd(vm::Time t) const {
   return end;
 }
 
-vm::Time EyeMotion::FiniteEnd(vm::Time t) const {
+vm::Time EyeMotion::EndsAt(vm::Time t) const {
   return std::max({t, BlinksEnd(t), ends_.rotation.left, ends_.rotation.right, ends_.gaze});
 }
 

@@ -35,7 +35,7 @@ class EyeMotion : public MotionSource {
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;
   std::optional<vm::Time> NextMotion(vm::Time t) const override;
-  vm::Time FiniteEnd(vm::Time t) const override;
+  vm::Time EndsAt(vm::Time t) const override;
 
  protected:
   void ForEachTrack(const TrackVisitor& visit) const override;

@@ -20,7 +20,7 @@ vm::Result<void> FaceMotion::SetFace(vm::Time now, int position, double strength
       action_units.Set(now, unit, strength);
       return {};
     }
-    if (inputs_.tables.expressions.contains(emotion)) {
+    if (inputs_.expressions.all().contains(emotion)) {
       expression.SetEmotion(now, index, strength);
       return {};
     }
@@ -93,15 +93,15 @@ std::optional<vm::Time> FaceMotion::NextMotion(vm::Time t) const {
   return next;
 }
 
-vm::Time FaceMotion::OnsetsSettled(vm::Time t) const {
+vm::Time FaceMotion::SettledAt(vm::Time t) const {
   vm::Time settled = t;
   for (const MotionSource* source : sources_) settled = std::max(settled, source->SettledAt(t));
   return settled;
 }
 
-vm::Time FaceMotion::FiniteEnd(vm::Time t) const {
+vm::Time FaceMotion::EndsAt(vm::Time t) const {
   vm::Time end = t;
-  for (const MotionSource* source : sources_) end = std::max(end, source->FiniteEnd(t));
+  for (const MotionSource* source : sources_) end = std::max(end, source->EndsAt(t));
   return end;
 }
 

@@ -34,17 +34,7 @@ namespace fsm {
 /// exists), and for strengths that are not numbers or are out of range. Thread: one at a time,
 /// const calls included.
 class FaceMotion {
-  // These come first: all sources refer to the inputs, and those built in add themselves.
-  MotionInputs inputs_;
-  std::vector<const MotionSource*> sources_;
-  template <typename Source>
-  struct BuiltIn : Source {
-    template <typename... Inputs>
-    explicit BuiltIn(FaceMotion& motion, Inputs&&... inputs)
-        : Source(std::forward<Inputs>(inputs)...) {
-      motion.sources_.push_back(this);
-    }
-  };
+  MotionInputs inputs_;  // comes first: all sources refer to it
 
  public:
   FaceMotion(MotionTables tables, std::uint64_t seed) : inputs_(std::move(tables), seed) {}
@@ -52,16 +42,16 @@ class FaceMotion {
   FaceMotion& operator=(const FaceMotion&) = delete;
 
   // The built-in sources, each with its own commands. None refers to another.
-  BuiltIn<IdleBehaviour> idle{*this, inputs_};
-  BuiltIn<ExpressionMotion> expression{*this, inputs_};
-  BuiltIn<UnitMotion> action_units{*this, inputs_.tables.unit_names};
-  BuiltIn<MouthMotion> mouth{*this};
-  BuiltIn<BlendShapeMotion> blend_shapes{*this, inputs_.tables.blend_shapes};
-  BuiltIn<EyeMotion> eyes{*this, inputs_};
-  BuiltIn<HeadMotion> head{*this, inputs_.tables.motions};
-  BuiltIn<SpeechMotion> speech{*this, inputs_};
-  BuiltIn<MoodMotion> mood{*this, inputs_.tables.motions};
-  BuiltIn<MouthStream> mouth_stream{*this, inputs_};
+  IdleBehaviour idle{inputs_};
+  ExpressionMotion expression{inputs_};
+  UnitMotion action_units{inputs_.tables.unit_names};
+  MouthMotion mouth;
+  BlendShapeMotion blend_shapes{inputs_.tables.blend_shapes};
+  EyeMotion eyes{inputs_};
+  HeadMotion head{inputs_.tables.motions};
+  SpeechMotion speech{inputs_};
+  MoodMotion mood{inputs_.tables.motions};
+  MouthStream mouth_stream{inputs_};
 
   /// Adds a source of movement; see docs/extending.md.
   void Add(std::unique_ptr<MotionSource> source) {
@@ -79,6 +69,8 @@ class FaceMotion {
                                 double strength = 1, int count = 1);
   void StopMovements(vm::Time now);  ///< FaceMot = NOMOVE
 
+  /// The expressions that can be shown.
+  ExpressionStore& expressions() { return inputs_.expressions; }
   // Visemes; a change applies from the next utterance on.
   const Visemes& visemes(VisemeSetId set) const { return inputs_.tables.set(set).visemes; }
   /// Replaces the poses and hold times of a set; dominances and contacts are kept. REQUIRES: the
@@ -88,6 +80,9 @@ class FaceMotion {
   // Settings. Those of speech apply at once, without a jump.
   const MotionSettings& settings() const { return inputs_.settings; }
   void Apply(vm::Time now, const MotionSettings& settings);
+  // These two change at once, without a movement.
+  Figure figure;
+  float asymmetry = 1;  ///< FaceState::asymmetry
   /// Says what the face does by itself.
   IdleSwitches& switches() { return inputs_.switches; }
 
@@ -97,18 +92,17 @@ class FaceMotion {
   /// still until the next command.
   std::optional<vm::Time> NextMotion(vm::Time t) const;
   /// Returns when the onsets begun by `t` (expressions, units, eyes, head) will be complete.
-  vm::Time OnsetsSettled(vm::Time t) const;
+  vm::Time SettledAt(vm::Time t) const;
   /// Returns when everything that has an end (expressions and turns with a duration, movements,
   /// blinks) will be over.
-  vm::Time FiniteEnd(vm::Time t) const;
+  vm::Time EndsAt(vm::Time t) const;
 
   const MotionTables& tables() const { return inputs_.tables; }
 
-  // These change at once, without a movement.
-  Figure figure;
-  float asymmetry = 1;  ///< FaceState::asymmetry
-
  private:
+  std::vector<const MotionSource*> sources_{&idle,         &expression,  &action_units, &mouth,
+                                            &blend_shapes, &eyes,        &head,         &speech,
+                                            &mood,         &mouth_stream};
   std::vector<std::unique_ptr<MotionSource>> added_;
 };
 

@@ -59,10 +59,10 @@ void HeadMotion::Contribute(vm::Time t, MotionLayers& layers) const {
 }
 
 std::optional<vm::Time> HeadMotion::NextMotion(vm::Time t) const {
-  return FiniteEnd(t) > t ? t : turn_.NextMotion(t);
+  return EndsAt(t) > t ? t : turn_.NextMotion(t);
 }
 
-vm::Time HeadMotion::FiniteEnd(vm::Time t) const {
+vm::Time HeadMotion::EndsAt(vm::Time t) const {
   vm::Time end = t;
   for (const Movement& movement : movements_) end = std::max(end, EndOf(movement));
   return end;

@@ -28,7 +28,7 @@ class HeadMotion : public MotionSource {
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;
   std::optional<vm::Time> NextMotion(vm::Time t) const override;
-  vm::Time FiniteEnd(vm::Time t) const override;
+  vm::Time EndsAt(vm::Time t) const override;
 
  protected:
   void ForEachTrack(const TrackVisitor& visit) const override { visit(turn_); }

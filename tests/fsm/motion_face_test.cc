@@ -25,7 +25,7 @@ TEST_F(FaceMotionTest, AnExpressionIsWholeAfterItsOnsetAndHolds) {
   EXPECT_FLOAT_EQ(motion.StateAt(0ms).au.left[12], 0);
   EXPECT_FLOAT_EQ(motion.StateAt(100ms).au.left[12], 1.0f);
   EXPECT_FLOAT_EQ(motion.StateAt(1h).au.right[12], 1.0f);
-  EXPECT_EQ(motion.OnsetsSettled(0ms), vm::Time(100ms));
+  EXPECT_EQ(motion.SettledAt(0ms), vm::Time(100ms));
   EXPECT_FALSE(motion.NextMotion(100ms).has_value());
 }
 
@@ -34,7 +34,7 @@ TEST_F(FaceMotionTest, ATimedExpressionGoesAwayByItself) {
   EXPECT_FLOAT_EQ(motion.StateAt(500ms).au.left[4], 2);
   EXPECT_FLOAT_EQ(motion.StateAt(900ms).au.left[4], 2);
   EXPECT_FLOAT_EQ(motion.StateAt(1000ms).au.left[4], 0);
-  EXPECT_EQ(motion.FiniteEnd(10ms), vm::Time(1000ms));
+  EXPECT_EQ(motion.EndsAt(10ms), vm::Time(1000ms));
   EXPECT_EQ(motion.NextMotion(500ms), vm::Time(900ms));
 }
 
@@ -143,9 +143,9 @@ TEST_F(FaceMotionTest, EyesTurnAndComeBack) {
 TEST_F(FaceMotionTest, ATimedTurnOfOneEyeEndsWhateverTheOtherDoes) {
   motion.eyes.Rotate(0ms, true, false, {10, 20}, 1000ms);
   motion.eyes.Rotate(100ms, false, true, {5, 5}, 0ms);
-  EXPECT_EQ(motion.FiniteEnd(200ms), vm::Time(1000ms));
+  EXPECT_EQ(motion.EndsAt(200ms), vm::Time(1000ms));
   motion.eyes.Rotate(300ms, true, false, {5, 5}, 0ms);
-  EXPECT_EQ(motion.FiniteEnd(300ms), vm::Time(300ms));
+  EXPECT_EQ(motion.EndsAt(300ms), vm::Time(300ms));
 }
 
 TEST_F(FaceMotionTest, ALargeGazeIsSharedByTheHead) {
@@ -163,7 +163,7 @@ TEST_F(FaceMotionTest, NodOneGoesTenDegreesDownAndBackIn200Ms) {
   ASSERT_TRUE(motion.PlayMovement(0ms, "NOD", 1));
   EXPECT_FLOAT_EQ(motion.StateAt(100ms).head_rotation[0], 10);
   EXPECT_FLOAT_EQ(motion.StateAt(200ms).head_rotation[0], 0);
-  EXPECT_EQ(motion.FiniteEnd(50ms), vm::Time(200ms));
+  EXPECT_EQ(motion.EndsAt(50ms), vm::Time(200ms));
 }
 
 TEST_F(FaceMotionTest, DirectionsAndMovementsAddUp) {

@@ -107,9 +107,9 @@ TEST_F(IdleBehaviourTest, FeltExpressionsTakeTheElicitedTimes) {
   settings.onset = Onset::kElicited;
   motion.Apply(0ms, settings);
   ASSERT_TRUE(motion.expression.Show(0ms, "SURPRISED", 1, 1, 0ms));
-  EXPECT_EQ(motion.OnsetsSettled(0ms), vm::Time(228ms));
+  EXPECT_EQ(motion.SettledAt(0ms), vm::Time(228ms));
   ASSERT_TRUE(motion.expression.Show(1s, "HAPPY", 1, 1, 0ms));
-  EXPECT_EQ(motion.OnsetsSettled(1s), vm::Time(1724ms));
+  EXPECT_EQ(motion.SettledAt(1s), vm::Time(1724ms));
 }
 
 TEST_F(IdleBehaviourTest, OneSideBeginsALittleLaterAlwaysTheSame) {
@@ -317,7 +317,7 @@ TEST_F(IdleBehaviourTest, GesturesHaveStrengthAndCount) {
   EXPECT_NEAR(Nod(300ms), 5 * 0.85, 1e-3);
   EXPECT_NEAR(Nod(500ms), 5 * 0.85 * 0.85, 1e-3);
   EXPECT_FLOAT_EQ(Nod(600ms), 0);
-  EXPECT_EQ(motion.FiniteEnd(0ms), vm::Time(600ms));
+  EXPECT_EQ(motion.EndsAt(0ms), vm::Time(600ms));
   ASSERT_TRUE(motion.PlayMovement(1s, "SHAKE", 4));
   EXPECT_GT(motion.StateAt(1180ms).head_rotation[1], 7);
   ASSERT_TRUE(motion.PlayMovement(5s, "TILT", 4));

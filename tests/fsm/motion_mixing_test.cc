@@ -25,7 +25,7 @@ class Turning : public MotionSource {
     if (t >= 2s) return std::nullopt;
     return std::max(t, vm::Time(1s));
   }
-  vm::Time FiniteEnd(vm::Time t) const override { return std::max(t, vm::Time(2s)); }
+  vm::Time EndsAt(vm::Time t) const override { return std::max(t, vm::Time(2s)); }
 };
 
 MotionTables With(const std::string& file, const std::string& rows) {
@@ -51,7 +51,7 @@ TEST(MotionSourceTest, ASourceFromOutsideIsMixedWithTheOthersWithoutARowOfItsOwn
   FaceMotion motion(MotionTables::Load().value(), 1);
   motion.Add(std::make_unique<Turning>());
   EXPECT_EQ(motion.NextMotion(0s), vm::Time(1s));
-  EXPECT_EQ(motion.FiniteEnd(0s), vm::Time(2s));
+  EXPECT_EQ(motion.EndsAt(0s), vm::Time(2s));
   motion.head.TurnTo(0s, {0, 5, 0});
   EXPECT_FLOAT_EQ(motion.StateAt(900ms).head_rotation[1], 5);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_rotation[1], 15);
@@ -152,14 +152,14 @@ TEST(NewUnitTest, OneRowMakesAUnitThatExpressionsAndCommandsKnow) {
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.right[151], 0);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.left[152], 1);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.right[152], 0);
-  ASSERT_TRUE(motion.expression.Define("ODD", 1, "12b 0.4 152R:0.2"));
+  ASSERT_TRUE(motion.expressions().Define("ODD", 1, "12b 0.4 152R:0.2"));
   ASSERT_TRUE(motion.expression.Show(1s, "ODD", 1, 1, 0ms));
   const FaceState state = motion.StateAt(3s);
   EXPECT_FLOAT_EQ(state.au.right[151], 0.4f);
   EXPECT_FLOAT_EQ(state.au.left[151], 0.9f);
   EXPECT_FLOAT_EQ(state.au.right[152], 0.2f);
   const UnitNames& names = motion.tables().unit_names;
-  const FaceLook& look = motion.tables().expressions.at("ODD").patterns[0];
+  const FaceLook& look = motion.expressions().all().at("ODD").patterns[0];
   EXPECT_EQ(FormatLook(look, names), "151:0.4 152R:0.2");
   EXPECT_TRUE(ReadExpressions("e.txt", "ODD 1 151:1 12b:0.5\n", names));
   EXPECT_FALSE(ReadExpressions("e.txt", "ODD 1 151:1\n", UnitNames::BuiltIn()));

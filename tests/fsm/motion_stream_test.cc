@@ -57,7 +57,7 @@ TEST_F(MouthStreamTest, ItBeginsSoftlyAndClosesWhenNoFramesCome) {
   EXPECT_EQ(motion_.NextMotion(500ms), vm::Time(940ms));
   EXPECT_EQ(motion_.NextMotion(1100ms), vm::Time(1100ms));
   EXPECT_EQ(motion_.NextMotion(1600ms), std::nullopt);
-  EXPECT_EQ(motion_.FiniteEnd(0ms), vm::Time(1550ms));
+  EXPECT_EQ(motion_.EndsAt(0ms), vm::Time(1550ms));
 }
 
 TEST_F(MouthStreamTest, LaterFramesTakeThePlaceOfThoseForTheSameTimes) {
@@ -74,7 +74,7 @@ TEST_F(MouthStreamTest, StopClosesFromWhereItIs) {
   motion_.mouth_stream.Stop(1490ms);
   EXPECT_NEAR(Jaw(1490ms), before, 1e-4);
   EXPECT_NEAR(Jaw(1490ms + MouthStream::kHold + kMouthCloses), 0, 1e-3);
-  EXPECT_LT(motion_.FiniteEnd(1490ms), vm::Time(2100ms));
+  EXPECT_LT(motion_.EndsAt(1490ms), vm::Time(2100ms));
 }
 
 TEST_F(MouthStreamTest, StopWhileARunTakesTheMouthOverLetsGoFromThere) {
@@ -122,7 +122,7 @@ TEST_F(MouthStreamTest, TheHeadGoesWithTheFramesAndHomeAfterThem) {
   EXPECT_GT(at(2200ms).head_rotation[0], 3);
   EXPECT_EQ(at(2700ms).head_rotation[0], 0);
   EXPECT_EQ(motion_.NextMotion(2690ms), vm::Time(2690ms));
-  EXPECT_EQ(motion_.FiniteEnd(0ms), vm::Time(2700ms));
+  EXPECT_EQ(motion_.EndsAt(0ms), vm::Time(2700ms));
 }
 
 TEST_F(MouthStreamTest, TheHeadOfATextGivesWayToOneThatIsHeard) {

@@ -160,19 +160,19 @@ TEST_F(UnitsTest, StrengthsThatAreNoneAreRefusedEverywhere) {
 TEST_F(UnitsTest, All52BlendShapesAreThere) { EXPECT_EQ(motion.tables().blend_shapes.size(), 52u); }
 
 TEST_F(UnitsTest, ExpressionsAreDefinedChangedAndForgotten) {
-  ASSERT_TRUE(motion.expression.Define("SMIRK", 1, "12L 0.7 14R 0.2"));
-  ASSERT_TRUE(motion.expression.Define("SMIRK", 2, "12L:1 gaze:0,10"));
+  ASSERT_TRUE(motion.expressions().Define("SMIRK", 1, "12L 0.7 14R 0.2"));
+  ASSERT_TRUE(motion.expressions().Define("SMIRK", 2, "12L:1 gaze:0,10"));
   ASSERT_TRUE(motion.expression.Show(0ms, "SMIRK", 1, 2, 0ms));
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.left[12], 1.4f);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.right[14], 0.4f);
   ASSERT_TRUE(motion.expression.Show(1s, "SMIRK", 2, 1, 0ms));
   EXPECT_FLOAT_EQ(motion.StateAt(2s).gaze.left[kToRight], 10);
-  ASSERT_TRUE(motion.expression.Define("HAPPY", 1, "12 1"));
-  EXPECT_TRUE(motion.expression.Define("2FAST", 1, "12 1")) << "a digit may come first";
+  ASSERT_TRUE(motion.expressions().Define("HAPPY", 1, "12 1"));
+  EXPECT_TRUE(motion.expressions().Define("2FAST", 1, "12 1")) << "a digit may come first";
   ASSERT_TRUE(motion.expression.Show(2s, "HAPPY", 1, 1, 0ms));
   EXPECT_FLOAT_EQ(motion.StateAt(3s).au.left[12], 1);
-  motion.expression.Forget("HAPPY");
-  motion.expression.Forget("SMIRK");
+  motion.expressions().Forget("HAPPY");
+  motion.expressions().Forget("SMIRK");
   ASSERT_TRUE(motion.expression.Show(3s, "HAPPY", 1, 1, 0ms));
   EXPECT_FLOAT_EQ(motion.StateAt(4s).au.left[12], 1.0f);
   EXPECT_FALSE(motion.expression.Show(4s, "SMIRK", 1, 1, 0ms));
@@ -180,7 +180,7 @@ TEST_F(UnitsTest, ExpressionsAreDefinedChangedAndForgotten) {
 
 TEST_F(UnitsTest, BadDefinitionsAreRefused) {
   const auto refusal = [&](const char* name, int pattern, const char* look) {
-    const auto made = motion.expression.Define(name, pattern, look);
+    const auto made = motion.expressions().Define(name, pattern, look);
     return made ? "taken" : made.error().text;
   };
   EXPECT_TRUE(refusal("SMIRK", 1, "12L 0.7 140 0.2").starts_with("'140' at column 9"));
@@ -194,10 +194,10 @@ TEST_F(UnitsTest, BadDefinitionsAreRefused) {
 
 TEST_F(UnitsTest, ThereIsAnEndToExpressions) {
   int made = 0;
-  while (motion.expression.Define("E" + std::to_string(made), 1, "12 1")) {
+  while (motion.expressions().Define("E" + std::to_string(made), 1, "12 1")) {
     ASSERT_LT(++made, 1000);
   }
-  EXPECT_TRUE(motion.expression.Define("E0", 2, "12 0.5"));
+  EXPECT_TRUE(motion.expressions().Define("E0", 2, "12 0.5"));
 }
 
 TEST_F(UnitsTest, AWordOfALookIsRefusedByItsPlace) {

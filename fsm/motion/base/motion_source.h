@@ -82,7 +82,7 @@ class MotionSource {
     return settled;
   }
   /// Returns when everything that has an end will be over; `t` if nothing has.
-  virtual vm::Time FiniteEnd(vm::Time t) const { return t; }
+  virtual vm::Time EndsAt(vm::Time t) const { return t; }
 
  protected:
   using TrackVisitor = std::function<void(const MoveTimes&)>;

@@ -12,14 +12,12 @@ namespace {
 
 constexpr vm::Time kOffset = std::chrono::milliseconds(500);  // natural offset duration
 constexpr double kSideLagMs = 30, kSideLagVariesMs = 10;      // of the side that begins later
-constexpr int kMaxPatterns = 20;
-constexpr std::size_t kMaxExpressions = 200;
 
 }  // namespace
 
-ExpressionMotion::ExpressionMotion(MotionInputs& in)
+ExpressionMotion::ExpressionMotion(const MotionInputs& in)
     : tables_(in.tables),
-      table_expressions_(in.tables.expressions),
+      expressions_(in.expressions.all()),
       settings_(in.settings),
       switches_(in.switches),
       seed_(in.seed),
@@ -49,11 +47,11 @@ vm::Time ExpressionMotion::OnsetOf(const Expression& expression) const {
 
 vm::Result<void> ExpressionMotion::Show(vm::Time now, std::string_view name, int pattern,
                                         double strength, vm::Time duration) {
-  const auto found = tables_.expressions.find(name);
-  if (found == tables_.expressions.end()) {
-    return vm::Fail(vm::Errc::kBadValue,
-                    fmt::format("'{}' is no expression; {} or NEUTRAL expected", name,
-                                KeysOf(tables_.expressions)));
+  const auto found = expressions_.find(name);
+  if (found == expressions_.end()) {
+    return vm::Fail(
+        vm::Errc::kBadValue,
+        fmt::format("'{}' is no expression; {} or NEUTRAL expected", name, KeysOf(expressions_)));
   }
   const Expression& expression = found->second;
   if (auto fits = CheckPatternNumber(name, pattern, 1, expression.patterns.size()); !fits)
@@ -100,42 +98,8 @@ void ExpressionMotion::Neutral(vm::Time now) {
 
 void ExpressionMotion::SetEmotion(vm::Time now, std::size_t index, double strength) {
   const Expression& emotion =
-      tables_.expressions.find(tables_.unit_list.face_slots[index].emotion)->second;
+      expressions_.find(tables_.unit_list.face_slots[index].emotion)->second;
   emotions_[index].MoveTo(now, static_cast<float>(strength), OnsetOf(emotion));
-}
-
-// ---- definitions
-
-vm::Result<void> ExpressionMotion::Define(std::string_view name, int pattern,
-                                          std::string_view look) {
-  if (!IsPlainName(name) || name == "NEUTRAL") {
-    return vm::Fail(
-        vm::Errc::kBadValue,
-        fmt::format("'{}' cannot be the name of an expression; up to {} letters, digits "
-                    "and _ expected, and not NEUTRAL",
-                    name.substr(0, 60), kMaxNameBytes));
-  }
-  auto units = ParseLook(look, tables_.unit_names);
-  if (!units) return std::unexpected(units.error());
-  const auto found = tables_.expressions.find(name);
-  const std::size_t have = found == tables_.expressions.end() ? 0 : found->second.patterns.size();
-  if (pattern < 1 || static_cast<std::size_t>(pattern) > have + 1 || pattern > kMaxPatterns) {
-    return vm::Fail(vm::Errc::kBadValue, fmt::format("{} has {} patterns; pattern 1 to {} expected",
-                                                     name, have, have + 1));
-  }
-  if (have == 0 && tables_.expressions.size() >= kMaxExpressions) {
-    return vm::Fail(vm::Errc::kLimit, fmt::format("more than {} expressions", kMaxExpressions));
-  }
-  tables_.expressions[std::string(name)].Redefine(static_cast<std::size_t>(pattern), *units);
-  return {};
-}
-
-void ExpressionMotion::Forget(std::string_view name) {
-  if (const auto built_in = table_expressions_.find(name); built_in != table_expressions_.end()) {
-    tables_.expressions[built_in->first] = built_in->second;
-  } else if (const auto own = tables_.expressions.find(name); own != tables_.expressions.end()) {
-    tables_.expressions.erase(own);
-  }
 }
 
 // ---- as a source
@@ -162,8 +126,8 @@ void ExpressionMotion::Contribute(vm::Time t, MotionLayers& layers) const {
     const float weight = emotions_[i].At(t);
     if (weight == 0) continue;
     layers.AddSignal("expression", std::min(1.0F, weight));
-    const auto found = tables_.expressions.find(tables_.unit_list.face_slots[i].emotion);
-    if (found == tables_.expressions.end()) continue;
+    const auto found = expressions_.find(tables_.unit_list.face_slots[i].emotion);
+    if (found == expressions_.end()) continue;
     AddTo(layers.Layer("emotions").look, found->second.LookOf(1, weight), 1);
   }
 }

@@ -21,13 +21,12 @@ struct MotionTables;
 /// Moves the face by expressions, on the layer `expression`: one at a time, crossfaded into the
 /// next; each region of the face begins with a delay, and one side may begin later than the other.
 /// Also by the emotions of the list of units (Face.31 and on), on the layer `emotions`, each
-/// independently of the others. Gives the signal `expression`: how strongly either is shown. Stores
-/// expressions that are defined at run time in the tables.
+/// independently of the others. Gives the signal `expression`: how strongly either is shown.
 /// Lifetime: the inputs given to the constructor outlive this. Commands come in order of time.
-/// Errors: kBadValue listing what exists; kLimit for too many expressions.
+/// Errors: kBadValue listing what exists.
 class ExpressionMotion : public MotionSource {
  public:
-  explicit ExpressionMotion(MotionInputs& in);
+  explicit ExpressionMotion(const MotionInputs& in);
 
   /// Shows an expression. If `duration` is not zero, the face is neutral again that long after
   /// `now`; onset and offset of a short expression take half of it each.
@@ -39,18 +38,13 @@ class ExpressionMotion : public MotionSource {
   void Neutral(vm::Time now);
   /// Moves an emotion to `strength`. REQUIRES: FaceSlot `index` is an emotion.
   void SetEmotion(vm::Time now, std::size_t index, double strength);
-  /// Adds or changes a pattern of an expression. `pattern` is at most one more than those that
-  /// exist. `name` consists of at most 40 letters, digits and _.
-  vm::Result<void> Define(std::string_view name, int pattern, std::string_view look);
-  /// Undoes Define: restores an expression of the tables and removes one that they do not have.
-  void Forget(std::string_view name);
   /// Sets the delay of one side of the face, 20 to 40 ms, which is always the same for a `person`.
   /// (How much weaker one side is belongs to the head.)
   void SetPerson(std::uint64_t person) { DrawLags(Scramble(seed_ ^ person)); }
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;
   vm::Time SettledAt(vm::Time t) const override;
-  vm::Time FiniteEnd(vm::Time t) const override { return end_.value_or(t); }
+  vm::Time EndsAt(vm::Time t) const override { return end_.value_or(t); }
 
  protected:
   void ForEachTrack(const TrackVisitor& visit) const override;
@@ -61,8 +55,8 @@ class ExpressionMotion : public MotionSource {
   void Plan(vm::Time now, const FaceLook& look, const Expression::Timing& timing, vm::Time onset,
             vm::Time duration);
 
-  MotionTables& tables_;
-  const ExpressionTable table_expressions_;  // as read from the tables
+  const MotionTables& tables_;
+  const ExpressionTable& expressions_;
   const MotionSettings& settings_;
   const IdleSwitches& switches_;
   std::uint64_t seed_;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fsm/motion/base/track.h"
+#include "fsm/motion/inputs/expression_store.h"
 #include "fsm/motion/inputs/idle_switches.h"
 #include "fsm/motion/inputs/motion_settings.h"
 #include "fsm/motion/inputs/motion_tables.h"
@@ -11,13 +12,14 @@
 namespace fsm {
 
 /// What the sources of a FaceMotion have in common: they refer to this and not to each other.
-/// Commands change settings and switches, and the looks of expressions in the tables.
+/// Commands change settings, switches, expressions and visemes.
 struct MotionInputs {
   MotionInputs(MotionTables all, std::uint64_t of_random)
       : tables(std::move(all)), seed(of_random) {}
-  MotionInputs(const MotionInputs&) = delete;  // sources and switches refer to the tables
+  MotionInputs(const MotionInputs&) = delete;  // all members refer to the tables
 
   MotionTables tables;
+  ExpressionStore expressions{tables};
   MotionSettings settings;
   Track<float> mouth_scale{static_cast<float>(settings.mouth_scale)};  ///< without its jumps
   IdleSwitches switches{tables.motions};

@@ -102,7 +102,7 @@ std::optional<vm::Time> MouthStream::NextMotion(vm::Time t) const {
   return std::max(t, next->at - kMouthFadeIn);
 }
 
-vm::Time MouthStream::FiniteEnd(vm::Time t) const {
+vm::Time MouthStream::EndsAt(vm::Time t) const {
   return frames_.empty() ? t : std::max(t, FadedAt(frames_.back()));
 }
 

@@ -54,7 +54,7 @@ class MouthStream : public MotionSource {
 
   void Contribute(vm::Time t, MotionLayers& layers) const override;
   std::optional<vm::Time> NextMotion(vm::Time t) const override;
-  vm::Time FiniteEnd(vm::Time t) const override;
+  vm::Time EndsAt(vm::Time t) const override;
 
  private:
   struct Frame {
