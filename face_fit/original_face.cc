@@ -14,10 +14,10 @@ namespace facefit {
 
 OriginalFace ReadOriginalFace(const std::string& config_path, const std::string& name) {
   const auto config = vm::OrThrow(fsm::OriginalConfig::Read(config_path));
-  const auto mask = std::ranges::find(config.masks, name, &fsm::OriginalFaceFiles::name);
-  if (mask == config.masks.end()) {
+  const auto mask = std::ranges::find(config.faces, name, &fsm::OriginalFaceFiles::name);
+  if (mask == config.faces.end()) {
     std::string names;
-    for (const auto& other : config.masks) names += " " + other.name;
+    for (const auto& other : config.faces) names += " " + other.name;
     throw std::runtime_error(config_path + " has no face '" + name + "'; it has" +
                              (names.empty() ? " none" : ":" + names));
   }

@@ -15,7 +15,7 @@ vm::Result<MadeHead> OpenOriginal(const std::string& path, const std::string& fa
                                   const std::string& tables) {
   const auto config = fsm::OriginalConfig::Read(path);
   if (!config) return std::unexpected(config.error());
-  const auto [faces, left_out] = fsm::OriginalFaces(config->masks, config->shared, tables);
+  const auto [faces, left_out] = fsm::OriginalFaces(config->faces, config->shared, tables);
   std::string names;
   for (const fsm::NamedFace& one : faces) {
     names += (names.empty() ? "" : ", ") + one.name;

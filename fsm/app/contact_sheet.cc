@@ -123,7 +123,7 @@ vm::Result<ContactSheet> MakeSheet(const std::string& kind, const MotionTables& 
                   "there is no sheet '" + kind + "'; " + GrammarOf(kKinds) + " expected");
 }
 
-vm::Result<Image> DrawSheet(FaceView& view, Wardrobe& wardrobe, const ContactSheet& sheet,
+vm::Result<Image> DrawSheet(FaceView& view, FaceLibrary& library, const ContactSheet& sheet,
                             bool labels) {
   if (auto sized = view.Resize(kCellWidth, kCellHeight); !sized) {
     return std::unexpected(sized.error());
@@ -136,7 +136,8 @@ vm::Result<Image> DrawSheet(FaceView& view, Wardrobe& wardrobe, const ContactShe
   for (int i = 0; i < count; ++i) {
     const ContactSheetCell& cell = sheet.cells[static_cast<std::size_t>(i)];
     if (!cell.face.empty()) {
-      if (auto worn = wardrobe.Wear(cell.face); !worn) return std::unexpected(worn.error());
+      if (auto selected = library.Select(cell.face); !selected)
+        return std::unexpected(selected.error());
     }
     if (auto drawn = view.Draw(cell.state, Scene{}, nullptr); !drawn) {
       return std::unexpected(drawn.error());

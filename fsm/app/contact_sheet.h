@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "fsm/app/face_library.h"
 #include "fsm/app/face_view.h"
-#include "fsm/app/wardrobe.h"
 #include "fsm/motion/inputs/motion_tables.h"
 
 namespace fsm {
@@ -27,8 +27,8 @@ vm::Result<ContactSheet> MakeSheet(const std::string& kind, const MotionTables& 
                                    const std::vector<std::string>& faces, const std::string& face);
 
 inline constexpr int kCellWidth = 220, kCellHeight = 260;
-/// Draws a sheet; resizes the view to that of a cell. Errors: those of view and wardrobe.
-vm::Result<Image> DrawSheet(FaceView& view, Wardrobe& wardrobe, const ContactSheet& sheet,
+/// Draws a sheet; resizes the view to that of a cell. Errors: those of view and library.
+vm::Result<Image> DrawSheet(FaceView& view, FaceLibrary& library, const ContactSheet& sheet,
                             bool labels);
 
 }  // namespace fsm

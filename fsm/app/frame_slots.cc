@@ -69,11 +69,11 @@ void FrameSlots::Report(long number, vm::Time at) {
   if (!is_reported()) return;
   // Report a head that cannot be made once, not for each frame; the face may be changed later.
   const std::string worn = core_.slots.Value("Mask");
-  if (worn == unmeasured_mask_) return;
+  if (worn == unmeasured_face_) return;
   const FaceState state = core_.motion->StateAt(at);
-  const auto mouth = core_.wardrobe.Measure(state);
+  const auto mouth = core_.faces.Measure(state);
   if (!mouth) {
-    unmeasured_mask_ = worn;
+    unmeasured_face_ = worn;
     return core_.slots.ReportError("Frame", mouth.error());
   }
   const std::string& phoneme = core_.motion->speech.PhonemeAt(at);
@@ -84,7 +84,7 @@ void FrameSlots::Report(long number, vm::Time at) {
 
 void FrameSlots::Reset() {
   shown_ = 0;
-  unmeasured_mask_.reset();
+  unmeasured_face_.reset();
   to_.clear();
 }
 

@@ -32,7 +32,7 @@ class FrameSlots final : public Activity {
   const RecordSlots& record_;
   long shown_ = 0;
   std::string to_;                              // the receiving module; empty: none
-  std::optional<std::string> unmeasured_mask_;  // the face whose head could not be measured
+  std::optional<std::string> unmeasured_face_;  // the face whose head could not be measured
 };
 
 }  // namespace fsm

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "fsm/app/face_library.h"
 #include "fsm/app/face_view.h"
 #include "fsm/app/media_files.h"
-#include "fsm/app/wardrobe.h"
 #include "fsm/base/log.h"
 #include "fsm/motion/face_motion.h"
 #include "vm_protocol/core/scheduler.h"
@@ -55,7 +55,7 @@ struct Conventions {
 struct FsmCore {
   vm::Scheduler& clock;
   FaceView& view;
-  Wardrobe& wardrobe;
+  FaceLibrary& faces;
   MediaFiles files;
   Log log;
   Conventions conventions{};

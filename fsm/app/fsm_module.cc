@@ -25,13 +25,13 @@ constexpr const char* kProtocolVersion =
 
 }  // namespace
 
-FsmModule::FsmModule(vm::Scheduler& clock, FaceView& view, Wardrobe& wardrobe, MediaFiles files,
+FsmModule::FsmModule(vm::Scheduler& clock, FaceView& view, FaceLibrary& library, MediaFiles files,
                      FsmOptions options)
     : options_(std::move(options)),
       core_{
           .clock = clock,
           .view = view,
-          .wardrobe = wardrobe,
+          .faces = library,
           .files = std::move(files),
           .log = options_.log,
           .conventions = options_.config.path.empty() ? Conventions{} : Conventions::OfOriginal()} {
@@ -50,7 +50,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, FaceView& view, Wardrobe& wardrobe, M
   DeclareLipSlots(core_);
   DeclareMouthStreamSlots(core_);
   DeclareFigureSlots(core_);
-  core_.Add<MaskSlots>(options_.mask, options_.config.MaskNames());
+  core_.Add<MaskSlots>(options_.initial_face, options_.config.FaceNames());
   DeclareSceneSlots(core_);
   core_.Add<BackgroundSlots>(options_.config.backgrounds, options_.background);
   RecordSlots& record = core_.Add<RecordSlots>();

@@ -18,9 +18,9 @@
 namespace fsm {
 
 struct FsmOptions {
-  std::uint64_t seed = 1;  ///< of all idle and random behaviour
-  TableFolder tables;      ///< replace those of the program
-  std::string mask;        ///< initial face, "" = the wardrobe's first
+  std::uint64_t seed = 1;    ///< of all idle and random behaviour
+  TableFolder tables;        ///< replace those of the program
+  std::string initial_face;  ///< "" = the library's first
   std::string background;  ///< initial value of the slot Background, "" = the configuration's first
   std::string life = "OFF";             ///< initial profile of the slot Life
   OriginalConfig config;                ///< none if its path is ""; else reported in the greeting
@@ -29,15 +29,15 @@ struct FsmOptions {
   std::function<void()> on_failure = [] {};
 };
 
-/// The face synthesis module: all slots, which control FaceMotion, a view and a wardrobe.
+/// The face synthesis module: all slots, which control FaceMotion, a view and a library.
 /// Drawing: with a window, at the frame rate while something moves and a few times a second
 /// otherwise; without one, only for pictures, films and Frame reports. Without a window no timer is
 /// pending while nothing moves and nothing is recorded or sent.
-/// Lifetime: scheduler, view and wardrobe outlive it. Thread: the scheduler's.
+/// Lifetime: scheduler, view and library outlive it. Thread: the scheduler's.
 class FsmModule final : public vm::Module {
  public:
   /// Throws std::runtime_error if tables or configuration are damaged.
-  FsmModule(vm::Scheduler& clock, FaceView& view, Wardrobe& wardrobe, MediaFiles files,
+  FsmModule(vm::Scheduler& clock, FaceView& view, FaceLibrary& library, MediaFiles files,
             FsmOptions options);
 
   vm::SlotMachine& slots() override { return core_.slots; }

@@ -19,8 +19,8 @@ std::optional<Appearance> AppearanceIn(const TableFolder& folder) {
 
 }  // namespace
 
-GlFaceView::GlFaceView(HeadWardrobe& wardrobe, const Options& options)
-    : wardrobe_(wardrobe), options_(options), appearance_(AppearanceIn(options.tables)) {
+GlFaceView::GlFaceView(HeadLibrary& library, const Options& options)
+    : library_(library), options_(options), appearance_(AppearanceIn(options.tables)) {
   if (options_.where == Options::Where::kHeadless) return;
   try {
     context_ = RenderContext::MakeWindow(options_.width, options_.height, options_.title);
@@ -68,11 +68,11 @@ vm::Result<void> GlFaceView::Draw(const FaceState& state, const Scene& scene,
     // Make the head while the graphics driver starts, since both take long.
     std::future<void> made;
     if (!renderer_) {
-      made = std::async(std::launch::async, [this] { static_cast<void>(wardrobe_.head()); });
+      made = std::async(std::launch::async, [this] { static_cast<void>(library_.head()); });
     }
     MakeRenderer();
     if (made.valid()) made.get();
-    const Head& head = wardrobe_.head();
+    const Head& head = library_.head();
     renderer_->Draw(head, state, SpringOffsets(head, history), scene);
   });
 }

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "fsm/app/face_view.h"
-#include "fsm/app/head_wardrobe.h"
+#include "fsm/app/head_library.h"
 #include "fsm/base/table_folder.h"
 #include "fsm/render/appearance.h"
 #include "fsm/render/renderer.h"
@@ -15,7 +15,7 @@
 namespace fsm {
 
 /// Draws the current head with OpenGL, in a window or without one; the context of the latter is
-/// created by the first Draw. Lifetime: `wardrobe` outlives this.
+/// created by the first Draw. Lifetime: `library` outlives this.
 class GlFaceView final : public FaceView, private ViewWindow {
  public:
   struct Options {
@@ -31,7 +31,7 @@ class GlFaceView final : public FaceView, private ViewWindow {
   };
   /// Throws std::runtime_error if a required window cannot be opened, or if appearance.txt is
   /// damaged.
-  GlFaceView(HeadWardrobe& wardrobe, const Options& options);
+  GlFaceView(HeadLibrary& library, const Options& options);
   ~GlFaceView() override;
 
   vm::Result<void> Draw(const FaceState& state, const Scene& scene,
@@ -54,7 +54,7 @@ class GlFaceView final : public FaceView, private ViewWindow {
   void MakeRenderer();
   std::span<const glm::vec3> SpringOffsets(const Head& head, const StateHistory* history);
 
-  HeadWardrobe& wardrobe_;
+  HeadLibrary& library_;
   Options options_;
   std::optional<Appearance> appearance_;  // replaces the built-in one
   std::unique_ptr<RenderContext> context_;

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   bool failed = false;
   options.module.on_failure = [&failed] { failed = true; };
   // These outlive the module.
-  std::optional<fsm::HeadWardrobe> wardrobe;
+  std::optional<fsm::HeadLibrary> library;
   std::optional<fsm::GlFaceView> view;
   std::vector<char*> words = fsm::NamePositionOption(argc, argv);
   const int code = vm::RunModule(
@@ -37,11 +37,11 @@ int main(int argc, char** argv) {
            },
        .needs_real_clock =
            [&options] { return options.view.where != fsm::GlFaceView::Options::Where::kHeadless; },
-       .make = [&options, &wardrobe, &view](
+       .make = [&options, &library, &view](
                    vm::Scheduler& clock, boost::asio::io_context&) -> std::unique_ptr<vm::Module> {
-         wardrobe.emplace(options.faces, options.module.tables);
-         view.emplace(*wardrobe, options.view);
-         return std::make_unique<fsm::FsmModule>(clock, *view, *wardrobe, fsm::MediaFiles{},
+         library.emplace(options.faces, options.module.tables);
+         view.emplace(*library, options.view);
+         return std::make_unique<fsm::FsmModule>(clock, *view, *library, fsm::MediaFiles{},
                                                  options.module);
        }});
   return code == 0 && failed ? 1 : code;

@@ -19,10 +19,10 @@ std::string Joined(const std::vector<std::string>& names, const std::vector<std:
 
 }  // namespace
 
-MaskSlots::MaskSlots(FsmCore& core, std::string first, const std::vector<std::string>& listed)
-    : core_(core), first_(std::move(first)) {
-  const std::vector<std::string> all = core_.wardrobe.Faces();
-  if (first_.empty()) first_ = all.front();
+MaskSlots::MaskSlots(FsmCore& core, std::string initial, const std::vector<std::string>& listed)
+    : core_(core), initial_(std::move(initial)) {
+  const std::vector<std::string> all = core_.faces.Faces();
+  if (initial_.empty()) initial_ = all.front();
   std::string names = Joined(listed, all);
   if (names.empty()) names = Joined(all, all);
   core_.slots.Declare({.name = "MaskSet",
@@ -34,37 +34,37 @@ MaskSlots::MaskSlots(FsmCore& core, std::string first, const std::vector<std::st
   core_.slots.Declare({.name = "NowMask",
                        .grammar = "<text>",
                        .access = vm::Access::kReadOnly,
-                       .initial = first_,
+                       .initial = initial_,
                        .help = "The face worn now.",
                        .quoted = true});
   core_.slots.Declare(
       {.name = "Mask",
        .grammar = "<text>",
-       .initial = first_,
+       .initial = initial_,
        .help = "Wears one of the faces of MaskSet.",
        .on_set = core_.Command([this](const vm::SetValue& value) -> vm::Result<void> {
          // Names may contain blanks; those at the end, which clients of the original send, are
          // removed.
          const std::string name = value.text.substr(0, value.text.find_last_not_of(' ') + 1);
-         if (auto worn = Wear(name); !worn) return worn;
+         if (auto selected = Select(name); !selected) return selected;
          core_.slots.Report("NowMask", name);
          return {};
        })});
-  vm::OrThrow(Wear(first_));
+  vm::OrThrow(Select(initial_));
 }
 
-vm::Result<void> MaskSlots::Wear(const std::string& face) {
-  if (auto worn = core_.wardrobe.Wear(face); !worn) return worn;
-  worn_ = face;
-  core_.motion->expression.SetPerson(HashOf(worn_));
+vm::Result<void> MaskSlots::Select(const std::string& face) {
+  if (auto selected = core_.faces.Select(face); !selected) return selected;
+  current_ = face;
+  core_.motion->expression.SetPerson(HashOf(current_));
   return {};
 }
 
 void MaskSlots::Reset() {
-  if (auto worn = Wear(first_); !worn) {
-    core_.slots.ReportError("Mask", worn.error());
-    core_.motion->expression.SetPerson(HashOf(worn_));
-    for (const char* slot : {"Mask", "NowMask"}) core_.slots.Store(slot, worn_);
+  if (auto selected = Select(initial_); !selected) {
+    core_.slots.ReportError("Mask", selected.error());
+    core_.motion->expression.SetPerson(HashOf(current_));
+    for (const char* slot : {"Mask", "NowMask"}) core_.slots.Store(slot, current_);
   }
 }
 

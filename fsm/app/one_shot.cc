@@ -19,23 +19,23 @@ namespace {
 /// of the command line. Faces in the user's folder are left out, because they are private and may
 /// be damaged.
 std::vector<std::string> FacesShown(const Options& options) {
-  if (!options.module.mask.empty()) return {options.module.mask};
+  if (!options.module.initial_face.empty()) return {options.module.initial_face};
   std::vector<std::string> names;
   for (const NamedFace& face : options.faces) names.push_back(face.name);
   names.insert(names.end(), Identities().begin(), Identities().end());
   return names;
 }
 
-void WriteSheet(const Options& options, const MotionTables& tables, HeadWardrobe& wardrobe) {
+void WriteSheet(const Options& options, const MotionTables& tables, HeadLibrary& library) {
   if (options.sheet_file.empty()) throw std::runtime_error("--sheet needs --out FILE.png");
   GlFaceView::Options cell = options.view;
   cell.where = GlFaceView::Options::Where::kHeadless;
   cell.width = kCellWidth;
   cell.height = kCellHeight;
-  GlFaceView view(wardrobe, cell);
-  const auto sheet =
-      vm::OrThrow(MakeSheet(options.sheet, tables, FacesShown(options), options.module.mask));
-  const Image picture = vm::OrThrow(DrawSheet(view, wardrobe, sheet, options.labels));
+  GlFaceView view(library, cell);
+  const auto sheet = vm::OrThrow(
+      MakeSheet(options.sheet, tables, FacesShown(options), options.module.initial_face));
+  const Image picture = vm::OrThrow(DrawSheet(view, library, sheet, options.labels));
   vm::OrThrow(WriteImage(picture, options.sheet_file));
 }
 
@@ -46,11 +46,12 @@ bool RunOnce(const Options& options) {
   if (!exports && !options.describe && options.sheet.empty()) return false;
   MotionTables tables = vm::OrThrow(MotionTables::Load(options.module.tables));
   vm::OrThrow(options.module.config.ApplyTo(tables));
-  HeadWardrobe wardrobe(options.faces, options.module.tables);
-  if (!options.module.mask.empty()) vm::OrThrow(wardrobe.Wear(options.module.mask));
-  if (options.describe) std::cout << Describe(wardrobe.head()) << std::flush;
-  if (exports) vm::OrThrow(ExportHead(wardrobe.head(), tables, options.export_file));
-  if (!options.sheet.empty()) WriteSheet(options, tables, wardrobe);
+  HeadLibrary library(options.faces, options.module.tables);
+  if (!options.module.initial_face.empty())
+    vm::OrThrow(library.Select(options.module.initial_face));
+  if (options.describe) std::cout << Describe(library.head()) << std::flush;
+  if (exports) vm::OrThrow(ExportHead(library.head(), tables, options.export_file));
+  if (!options.sheet.empty()) WriteSheet(options, tables, library);
   return true;
 }
 

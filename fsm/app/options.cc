@@ -100,7 +100,7 @@ NamedFace GivenFace(const Options& options) {
 
 void FindFaces(Options& options) {
   const OriginalConfig& config = options.module.config;
-  auto [faces, left_out] = OriginalFaces(config.masks, config.shared, options.module.tables);
+  auto [faces, left_out] = OriginalFaces(config.faces, config.shared, options.module.tables);
   for (const std::string& what : left_out) options.module.log("notice: " + what);
   options.faces = std::move(faces);
   if (options.head_path.empty()) return;
@@ -158,7 +158,8 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option_function<std::string>(
       "--tables", [&options](const std::string& path) { options.module.tables = path; },
       "A folder of tables (mouth_shapes.txt, emotions.txt, ...) in place of the built-in");
-  app.add_option("--mask", options.module.mask, "The face worn at the start (default galatea)");
+  app.add_option("--mask", options.module.initial_face,
+                 "The face worn at the start (default galatea)");
   app.add_option("--head", options.head_path,
                  "A head from elsewhere, .obj, .glb, .gltf or .vrm, worn at the start");
   app.add_option(

@@ -59,7 +59,7 @@ class ConfigReader {
 
   OriginalConfig Read(const Table& table) {
     for (const TableRow& row : table.rows()) ReadRow(row);
-    std::erase_if(config_.masks, [](const auto& mask) { return mask.wireframe.empty(); });
+    std::erase_if(config_.faces, [](const auto& face) { return face.wireframe.empty(); });
     config_.shared.offsets = std::filesystem::path(config_.shared.standard).parent_path().string();
     return std::move(config_);
   }
@@ -99,31 +99,31 @@ class ConfigReader {
     if (row.size() < files + 2) {
       row.Refuse(files == 1 ? "a name and a file expected" : "a name and two files expected");
     }
-    OriginalFaceFiles* mask = &MaskOf(row);
+    OriginalFaceFiles* face = &FaceOf(row);
     if (key == "MaskFile") {
-      if (mask->wireframe.empty()) {  // it may occur in other lines before its own
-        std::rotate(mask, mask + 1, config_.masks.data() + config_.masks.size());
-        mask = &config_.masks.back();
+      if (face->wireframe.empty()) {  // it may occur in other lines before its own
+        std::rotate(face, face + 1, config_.faces.data() + config_.faces.size());
+        face = &config_.faces.back();
       }
-      mask->picture = File(row, 2);
-      mask->wireframe = File(row, 3);
+      face->picture = File(row, 2);
+      face->wireframe = File(row, 3);
     } else if (key == "MaskEye") {
-      mask->eye_picture = File(row, 2);
-      mask->eye_def = File(row, 3);
+      face->eye_picture = File(row, 2);
+      face->eye_def = File(row, 3);
     } else {
-      mask->teeth_def = File(row, 2);
+      face->teeth_def = File(row, 2);
     }
   }
 
-  /// Returns the mask that the row names, added if it is new. Valid until the next call.
-  OriginalFaceFiles& MaskOf(const TableRow& row) {
+  /// Returns the face that the row names, added if it is new. Valid until the next call.
+  OriginalFaceFiles& FaceOf(const TableRow& row) {
     const std::string& name = row.Word(1);
-    const auto found = std::ranges::find(config_.masks, name, &OriginalFaceFiles::name);
-    if (found != config_.masks.end()) return *found;
-    if (config_.masks.size() >= OriginalConfig::kMaxMasks) {
-      row.Refuse("at most " + std::to_string(OriginalConfig::kMaxMasks) + " faces are read");
+    const auto found = std::ranges::find(config_.faces, name, &OriginalFaceFiles::name);
+    if (found != config_.faces.end()) return *found;
+    if (config_.faces.size() >= OriginalConfig::kMaxFaces) {
+      row.Refuse("at most " + std::to_string(OriginalConfig::kMaxFaces) + " faces are read");
     }
-    return config_.masks.emplace_back(name);
+    return config_.faces.emplace_back(name);
   }
 
   static std::string Word(const TableRow& row, std::size_t i) {
@@ -153,9 +153,9 @@ vm::Result<OriginalConfig> OriginalConfig::Read(const std::string& path) {
                    [&path](const Table& table) { return ConfigReader(path).Read(table); });
 }
 
-std::vector<std::string> OriginalConfig::MaskNames() const {
+std::vector<std::string> OriginalConfig::FaceNames() const {
   std::vector<std::string> names;
-  for (const OriginalFaceFiles& mask : masks) names.push_back(mask.name);
+  for (const OriginalFaceFiles& face : faces) names.push_back(face.name);
   return names;
 }
 

@@ -23,10 +23,10 @@ struct OriginalConfig {
   std::vector<std::pair<double, int>> auto_blinks;  ///< per cent per frame, blink pattern
   std::vector<std::string> auto_moves, auto_userdefs;
 
-  /// In the order of their MaskFile lines, at most kMaxMasks.
-  std::vector<OriginalFaceFiles> masks;
-  std::vector<std::string> MaskNames() const;
-  static constexpr std::size_t kMaxMasks = 100;
+  /// In the order of their MaskFile lines, at most kMaxFaces.
+  std::vector<OriginalFaceFiles> faces;
+  std::vector<std::string> FaceNames() const;
+  static constexpr std::size_t kMaxFaces = 100;
   OriginalSharedFiles shared;
   /// The looks of whole expressions from files (LooksOfExpressions in fsm/faces/original_faces.h).
   /// Not set by Read.

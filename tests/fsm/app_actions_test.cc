@@ -123,13 +123,13 @@ TEST_F(ActionsTest, MasksAreWornAndTakenOffByInit) {
 
 TEST(StartTest, AMaskAndALifeCanBeGivenAtTheStart) {
   FsmOptions options;
-  options.mask = "pygmalion";
+  options.initial_face = "pygmalion";
   options.life = "CALM";
   FsmStage fsm(options);
   EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"pygmalion\"");
   EXPECT_EQ(fsm.Say("inq Life"), "rep Life = CALM");
   EXPECT_TRUE(fsm.module.motion().NextMotion(FromMs(5000)).has_value());
-  options.mask = "nobody";
+  options.initial_face = "nobody";
   EXPECT_THROW(FsmStage{options}, std::runtime_error);
 }
 

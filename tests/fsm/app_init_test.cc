@@ -260,7 +260,7 @@ TEST(InitTest, AWindowHasItsSizeAgainAndFillsTheScreenNoMore) {
 
 TEST(InitTest, WhatTheCommandLineAndTheConfigurationSayHoldsAgain) {
   FsmOptions options;
-  options.mask = "pygmalion";
+  options.initial_face = "pygmalion";
   options.life = "CALM";
   options.config.language = Language::kEnglish;
   options.config.expression_ms = 700;

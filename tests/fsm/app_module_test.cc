@@ -408,7 +408,7 @@ TEST(FsmModuleTest, TheOriginalsConfigurationIsTaken) {
 FsmOptions WithOriginalFaces(const std::vector<std::string>& names) {
   FsmOptions options;
   options.config.path = "config.txt";
-  for (const std::string& name : names) options.config.masks.push_back({name, "", "", "", "", ""});
+  for (const std::string& name : names) options.config.faces.push_back({name, "", "", "", "", ""});
   return options;
 }
 
@@ -428,8 +428,8 @@ TEST(FsmModuleTest, FacesHaveTheOrderOfTheirMaskFileLines) {
   const auto config = OriginalConfig::Read(path);
   std::filesystem::remove(path);
   ASSERT_TRUE(config) << config.error().text;
-  EXPECT_EQ(config->MaskNames(), (std::vector<std::string>{"a", "b"}));
-  EXPECT_TRUE(config->masks[1].eye_picture.ends_with("x"));
+  EXPECT_EQ(config->FaceNames(), (std::vector<std::string>{"a", "b"}));
+  EXPECT_TRUE(config->faces[1].eye_picture.ends_with("x"));
 }
 
 TEST(FsmModuleTest, ClientsOfTheOriginalLeanAndMoveByItsMeasures) {

@@ -12,8 +12,8 @@
 
 namespace fsm {
 
-/// View, wardrobe and files in memory: pictures are one pixel that says how far the jaw is open.
-class FakeWorld final : public FaceView, public Wardrobe, private ViewWindow {
+/// View, faces and files in memory: pictures are one pixel that says how far the jaw is open.
+class FakeWorld final : public FaceView, public FaceLibrary, private ViewWindow {
  public:
   struct FakeFilm {
     std::vector<float> jaws;
@@ -48,7 +48,7 @@ class FakeWorld final : public FaceView, public Wardrobe, private ViewWindow {
                         50 + 2 * state.mouth[kCornerX], state.mouth[kJawY]};
   }
   std::vector<std::string> Faces() const override { return {"galatea", "pygmalion"}; }
-  vm::Result<void> Wear(const std::string& name) override {
+  vm::Result<void> Select(const std::string& name) override {
     if (name != "galatea" && name != "pygmalion") {
       return vm::Fail(vm::Errc::kBadValue,
                       "there is no face '" + name + "'; galatea pygmalion expected");

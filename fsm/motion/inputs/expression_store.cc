@@ -15,7 +15,7 @@ ExpressionStore::ExpressionStore(const MotionTables& tables)
     : tables_(tables), all_(tables.expressions) {}
 
 vm::Result<void> ExpressionStore::Define(std::string_view name, int pattern,
-                                          std::string_view look) {
+                                         std::string_view look) {
   if (!IsPlainName(name) || name == "NEUTRAL") {
     return vm::Fail(
         vm::Errc::kBadValue,
@@ -39,8 +39,7 @@ vm::Result<void> ExpressionStore::Define(std::string_view name, int pattern,
 }
 
 void ExpressionStore::Forget(std::string_view name) {
-  if (const auto built_in = tables_.expressions.find(name);
-      built_in != tables_.expressions.end()) {
+  if (const auto built_in = tables_.expressions.find(name); built_in != tables_.expressions.end()) {
     all_[built_in->first] = built_in->second;
   } else if (const auto own = all_.find(name); own != all_.end()) {
     all_.erase(own);

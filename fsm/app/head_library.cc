@@ -1,4 +1,4 @@
-#include "fsm/app/head_wardrobe.h"
+#include "fsm/app/head_library.h"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 
 namespace fsm {
 
-std::vector<std::string> HeadWardrobe::Faces() const {
+std::vector<std::string> HeadLibrary::Faces() const {
   std::vector<std::string> names;
   for (const NamedFace& more : more_) names.push_back(more.name);
   for (const auto& others : {Identities(), FacesIn(FacesFolder())}) {
@@ -20,34 +20,34 @@ std::vector<std::string> HeadWardrobe::Faces() const {
   return names;
 }
 
-const Head& HeadWardrobe::head() {
-  if (!head_) head_ = Make(worn_);
+const Head& HeadLibrary::head() {
+  if (!head_) head_ = Make(current_);
   return *head_;
 }
 
 /// Makes one of the given faces, a built-in head, or one of FacesFolder; "" = the first.
-std::unique_ptr<Head> HeadWardrobe::Make(const std::string& face) const {
+std::unique_ptr<Head> HeadLibrary::Make(const std::string& face) const {
   for (const NamedFace& more : more_) {
     if (face.empty() || more.name == face) return more.make();
   }
   return MakeHeadOfName(face.empty() ? Identities().front() : face, tables_);
 }
 
-vm::Result<void> HeadWardrobe::Wear(const std::string& face) {
+vm::Result<void> HeadLibrary::Select(const std::string& face) {
   const std::vector<std::string> names = Faces();
   if (std::ranges::find(names, face) == names.end()) {
     std::string list;
     for (const std::string& name : names) list += (list.empty() ? "" : " ") + name;
     return vm::Fail(vm::Errc::kBadValue, "there is no face '" + face + "'; " + list + " expected");
   }
-  if (face == (worn_.empty() ? names.front() : worn_)) return {};
+  if (face == (current_.empty() ? names.front() : current_)) return {};
   return Caught("", [&] {
     head_ = Make(face);
-    worn_ = face;
+    current_ = face;
   });
 }
 
-vm::Result<MouthMeasure> HeadWardrobe::Measure(const FaceState& state) {
+vm::Result<MouthMeasure> HeadLibrary::Measure(const FaceState& state) {
   return Caught("cannot measure: ", [&] { return head().MeasureMouth(state); });
 }
 
