@@ -66,7 +66,7 @@ fsm::Head SmallHead() {
   asset.surface.portrait.shut_lids.resize(1);
   asset.surface.skin_strokes.resize(2);
   asset.surface.pbr_materials.resize(1);
-  asset.surface.textures.image = std::make_shared<fsm::Image>(fsm::Image{1, 1, {1, 2, 3, 4}});
+  asset.surface.textures.base_colour = std::make_shared<fsm::Image>(fsm::Image{1, 1, {1, 2, 3, 4}});
   asset.surface.textures.texcoord.resize(kVertices);
   asset.surface.textures.weight.resize(kVertices);
   asset.surface.portrait.eyes.emplace();

@@ -196,7 +196,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           for (const auto v : part.indices) {
             if (v >= file->position.size()) __builtin_trap();
           }
-          if (part.picture >= static_cast<int>(file->pictures.size())) __builtin_trap();
+          if (part.base_colour >= static_cast<int>(file->base_colours.size())) __builtin_trap();
         }
         for (const auto& shape : file->shapes) {
           for (const auto& delta : shape.moves) {

@@ -108,10 +108,10 @@ void Members(V& v, Like<HeadSurface> auto& surface) {
   v("uv", surface.uv);
   v("skin_strokes", surface.skin_strokes);
   v("strands", surface.strands);
-  v("image", surface.textures.image);
+  v("image", surface.textures.base_colour);
   v("pbr_materials", surface.pbr_materials);
-  v("normal_map", surface.textures.normal_map);
-  v("emissive_map", surface.textures.emissive_map);
+  v("normal_map", surface.textures.normal_roughness_metal);
+  v("emissive_map", surface.textures.emission_openness);
   v("texcoord", surface.textures.texcoord);
   v("texture_weight", surface.textures.weight);
   v("shut_lids", surface.portrait.shut_lids);

@@ -185,7 +185,7 @@ class ForeignView {
     MarkBounds(head_.rig().data().rest, gltf_.document["accessors"][position_]);
     normal_ = rig["rest_normal"];
     colour_ = surface["albedo"];
-    if (surface_.textures.image) WriteTexture(surface["image"]);
+    if (surface_.textures.base_colour) WriteTexture(surface["image"]);
     json names = json::array(), targets = json::array();
     HeadVertices rest, moved;
     head_.Evaluate({}, rest);
@@ -230,7 +230,7 @@ class ForeignView {
 
   /// Tells whether most vertices of a part show the photo.
   bool ShowsPhoto(const HeadSurface::Part& part) const {
-    if (!surface_.textures.image) return false;
+    if (!surface_.textures.base_colour) return false;
     const auto shown = std::ranges::count_if(surface_.Corners(part), [this](std::uint32_t vertex) {
       return surface_.textures.weight[vertex] > 0.5F;
     });

@@ -30,9 +30,10 @@ void CheckSurface(const HeadSurface& surface, const VertexChecker& checker) {
   checker.PerVertex(surface.opacity.size(), "surface.opacity", true);
   checker.PerVertex(surface.uv.size(), "surface.uv", true);
   checker.PerVertex(surface.strands.size(), "surface.strands", true);
-  checker.PerVertex(surface.textures.texcoord.size(), "surface.texcoord", !surface.textures.image);
+  checker.PerVertex(surface.textures.texcoord.size(), "surface.texcoord",
+                    !surface.textures.base_colour);
   checker.PerVertex(surface.textures.weight.size(), "surface.texture_weight",
-                    !surface.textures.image);
+                    !surface.textures.base_colour);
   checker.VerticesOf(surface.portrait.shut_lids, "surface.shut_lids");
   checker.PerVertex(surface.portrait.relit.size(), "surface.relit", true);
 }

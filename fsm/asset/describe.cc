@@ -77,9 +77,9 @@ class Description {
 
   void Pictures() {
     const std::pair<const char*, const std::shared_ptr<const Image>&> pictures[] = {
-        {"photo, sRGB", surface_.textures.image},
-        {"normal_map, linear", surface_.textures.normal_map},
-        {"emissive_map, sRGB", surface_.textures.emissive_map}};
+        {"photo, sRGB", surface_.textures.base_colour},
+        {"normal_map, linear", surface_.textures.normal_roughness_metal},
+        {"emissive_map, sRGB", surface_.textures.emission_openness}};
     for (const auto& [name, image] : pictures) {
       if (image) Line("texture", "{}, {} x {}", name, image->width, image->height);
     }

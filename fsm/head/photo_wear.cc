@@ -171,7 +171,7 @@ void AddPhotoSheet(const PhotoHead& head, HeadMesh& mesh) {
   }
   const auto& t = head.sheet_triangles;
   for (std::size_t i = 0; i + 2 < t.size(); i += 3) {
-    mesh.Triangle(Material::kPhoto, first + t[i], first + t[i + 1], first + t[i + 2]);
+    mesh.Triangle(Material::kTextured, first + t[i], first + t[i + 1], first + t[i + 2]);
   }
 }
 
@@ -209,7 +209,7 @@ void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, HeadMe
 void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
                HeadSurface& surface) {
   const std::size_t skin_count = skin.weights.size();
-  surface.textures.image = head.atlas;
+  surface.textures.base_colour = head.atlas;
   surface.portrait.saturation = head.saturation;
   surface.portrait.eyes = head.eye_pictures;
   surface.textures.texcoord.resize(surface.uv.size());

@@ -21,14 +21,14 @@ struct ImportedHead {
     std::string name;  ///< the names of group, mesh and material, joined (PartNames)
     std::vector<std::uint32_t> indices;
     glm::vec3 colour{0.6f, 0.42f, 0.33f};  ///< linear
-    int picture = -1;                      ///< index into pictures
-    bool cut_out = false;                  ///< transparent pixels of the picture are not drawn
+    int base_colour = -1;                  ///< index into base_colours
+    bool cut_out = false;                  ///< transparent texels are not drawn
     bool two_sided = false;
     int pbr = -1;  ///< index into pbr_materials; -1: unlit
   };
-  /// The textures that belong to a picture; see TextureMaps::normal_map.
+  /// The textures that belong to a base colour; see TextureMaps::normal_roughness_metal.
   struct Detail {
-    Image normal_map, emissive_map;  ///< either may be empty
+    Image normal_roughness_metal, emission_openness;  ///< either may be empty
   };
   /// A blend shape of the file: its name there, and the displacements of vertices at weight 1.
   struct Shape {
@@ -37,12 +37,14 @@ struct ImportedHead {
   };
   std::string name;                 ///< the file name in messages
   std::vector<glm::vec3> position;  ///< all within kMaxReach
-  std::vector<glm::vec2> texcoord;  ///< in the part's picture, v down, finite; per vertex, or empty
+  std::vector<glm::vec2>
+      texcoord;  ///< in the part's textures, v down, finite; per vertex, or empty
   std::vector<glm::vec3>
       vertex_colour;  ///< linear, factor on the part's colour; per vertex, or empty
   std::vector<Part> parts;
-  std::vector<Image> pictures;
-  std::vector<Detail> details;  ///< detail i belongs to picture i; may be shorter than `pictures`
+  std::vector<Image> base_colours;
+  std::vector<Detail>
+      details;  ///< detail i belongs to base colour i; may be shorter than `base_colours`
   std::vector<PbrMaterial> pbr_materials;
   std::vector<Shape> shapes;
   std::vector<std::optional<Side>> eye;  ///< the eye that a vertex belongs to; per vertex, or empty

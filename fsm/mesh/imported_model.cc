@@ -148,9 +148,9 @@ class HeadBuilder {
   }
 
   MeshModel Build() {
-    for (const Image& picture : file_.pictures) atlas_.Add(picture);
-    model_.textures.image = atlas_.Make();
-    if (model_.textures.image) LayDetails();
+    for (const Image& picture : file_.base_colours) atlas_.Add(picture);
+    model_.textures.base_colour = atlas_.Make();
+    if (model_.textures.base_colour) LayDetails();
     model_.has_uv_seams = !file_.texcoord.empty();
     for (const glm::vec3& p : at_) {
       // The neck bends below the chin, as that of the built-in heads.
@@ -164,20 +164,22 @@ class HeadBuilder {
 
  private:
   void LayDetails() {
-    std::vector<Image> normal_maps, emissive_map;
+    std::vector<Image> normals, emission_openness;
     for (const auto& detail : file_.details) {
-      normal_maps.push_back(detail.normal_map);
-      emissive_map.push_back(detail.emissive_map);
+      normals.push_back(detail.normal_roughness_metal);
+      emission_openness.push_back(detail.emission_openness);
     }
-    model_.textures.normal_map = atlas_.MakeBeside(std::move(normal_maps), {128, 128, 255, 255});
-    model_.textures.emissive_map = atlas_.MakeBeside(std::move(emissive_map), {255, 255, 255, 255});
+    model_.textures.normal_roughness_metal =
+        atlas_.MakeBeside(std::move(normals), {128, 128, 255, 255});
+    model_.textures.emission_openness =
+        atlas_.MakeBeside(std::move(emission_openness), {255, 255, 255, 255});
   }
 
   void AddPart(const ImportedHead::Part& part) {
     const PartKind kind = PartNames::BuiltIn().KindOf(part.name);
     const PartLook look = LookOf(kind);
-    const bool pictured = part.picture >= 0 && !file_.texcoord.empty();
-    if (kind == PartKind::kEye && !pictured && model_.has_eyes) {
+    const bool textured = part.base_colour >= 0 && !file_.texcoord.empty();
+    if (kind == PartKind::kEye && !textured && model_.has_eyes) {
       AddEyeballs();
       return;
     }
@@ -187,23 +189,24 @@ class HeadBuilder {
       model_.mesh.albedo[v] = tinted        ? part.colour * file_.vertex_colour[v]
                               : look.colour ? BasePalette().*look.colour
                                             : part.colour;
-      if (!pictured) continue;
+      if (!textured) continue;
       const glm::vec2 uv = file_.texcoord[v];
       const glm::vec2 within(Wrapped(uv.x), Wrapped(uv.y));
-      model_.textures.texcoord[v] = atlas_.rect(static_cast<std::size_t>(part.picture)).At(within);
+      model_.textures.texcoord[v] =
+          atlas_.rect(static_cast<std::size_t>(part.base_colour)).At(within);
       model_.textures.weight[v] = 1;
     }
-    const int pbr = PbrOf(kind, part, pictured);
+    const int pbr = PbrOf(kind, part, textured);
     if (pbr >= 0) {
       for (const std::uint32_t v : part.indices) {
         // The picture already has the colour, so only the tint is applied.
         const glm::vec3 tint = file_.vertex_colour.empty() ? glm::vec3(1) : file_.vertex_colour[v];
-        model_.mesh.albedo[v] = pictured ? tint : tint * part.colour;
+        model_.mesh.albedo[v] = textured ? tint : tint * part.colour;
       }
     }
     // Material::kSkin would show the head's picture.
-    const Material plain = model_.textures.image ? Material::kMatte : Material::kSkin;
-    const Material material = pictured ? part.cut_out ? Material::kPhoto : Material::kSkin
+    const Material plain = model_.textures.base_colour ? Material::kMatte : Material::kSkin;
+    const Material material = textured ? part.cut_out ? Material::kTextured : Material::kSkin
                                        : look.material.value_or(plain);
     auto& indices = model_.mesh.BatchOf(material, pbr, part.two_sided).indices;
     indices.insert(indices.end(), part.indices.begin(),
@@ -229,12 +232,12 @@ class HeadBuilder {
 
   /// Returns the model's index of the part's PbrMaterial. Without pictures, skin and mouth are lit
   /// as those of the built-in heads, unless they are toon-shaded.
-  int PbrOf(PartKind kind, const ImportedHead::Part& part, bool pictured) {
+  int PbrOf(PartKind kind, const ImportedHead::Part& part, bool textured) {
     if (part.pbr < 0) return -1;
     const PbrMaterial& pbr = file_.pbr_materials[static_cast<std::size_t>(part.pbr)];
-    const bool own =
-        kind == PartKind::kHair || kind == PartKind::kOther || model_.textures.image != nullptr;
-    if (!pictured && !own && pbr.kind == PbrMaterial::Kind::kLit) return -1;
+    const bool own = kind == PartKind::kHair || kind == PartKind::kOther ||
+                     model_.textures.base_colour != nullptr;
+    if (!textured && !own && pbr.kind == PbrMaterial::Kind::kLit) return -1;
     const auto [known, fresh] =
         pbr_index_.try_emplace(part.pbr, static_cast<int>(model_.pbr_materials.size()));
     if (fresh) model_.pbr_materials.push_back(pbr);

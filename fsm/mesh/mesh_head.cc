@@ -139,7 +139,7 @@ RigData MakeStillSkin() {
 std::unique_ptr<Head> MakeMeshHead(MeshModel model, RigData skin) {
   HeadAsset asset{.surface = SurfaceOf(model), .rig = {}, .landmarks = {}, .view = model.view};
   asset.rig = RigOf(model, asset.surface, std::move(skin));
-  if (!model.textures.image) LightMouth(asset.rig, asset.surface);
+  if (!model.textures.base_colour) LightMouth(asset.rig, asset.surface);
   asset.landmarks = std::move(model.landmarks);
   return std::make_unique<Head>(std::move(asset));
 }

@@ -19,9 +19,9 @@ bool HidesAll(const HeadSurface& surface, std::span<const std::uint32_t> triangl
     high = glm::max(high, surface.textures.texcoord[v]);
   }
   if (!cut_out) return true;
-  const Image& photo = *surface.textures.image;
-  const glm::ivec2 last(photo.width - 1, photo.height - 1);
-  const glm::vec2 size(photo.width, photo.height);
+  const Image& texture = *surface.textures.base_colour;
+  const glm::ivec2 last(texture.width - 1, texture.height - 1);
+  const glm::vec2 size(texture.width, texture.height);
   // Coordinates of a file may be anything, also no numbers: those count as 1.
   const auto texel = [&size](glm::vec2 uv) {
     return glm::ivec2(glm::max(glm::vec2(0), glm::min(glm::vec2(1), uv)) * size);
@@ -30,7 +30,7 @@ bool HidesAll(const HeadSurface& surface, std::span<const std::uint32_t> triangl
   const auto to = glm::clamp(texel(high) + 1, glm::ivec2(0), last);
   for (int y = from.y; y <= to.y; ++y) {
     for (int x = from.x; x <= to.x; ++x) {
-      if (photo.rgba[4 * photo.Index(x, y) + 3] < 250) return false;
+      if (texture.rgba[4 * texture.Index(x, y) + 3] < 250) return false;
     }
   }
   return true;
@@ -86,7 +86,7 @@ class OrderMaker {
       const auto t = corners.subspan(k, 3);
       SkinDetail detail = std::max({detail_[t[0]], detail_[t[1]], detail_[t[2]]});
       // The sheet shows what surrounds the face, which does not crease.
-      if (detail == SkinDetail::kCreased && part.material == Material::kPhoto) {
+      if (detail == SkinDetail::kCreased && part.material == Material::kTextured) {
         detail = SkinDetail::kPlain;
       }
       auto& list = lists[static_cast<std::size_t>(detail)];
@@ -103,7 +103,7 @@ class OrderMaker {
       if (part.material == Material::kHair || part.material == Material::kShutLash) continue;
       const Corners corners = CornersOf(part);
       const bool of_skin = part.material == Material::kSkin;
-      const bool of_sheet = part.material == Material::kPhoto;
+      const bool of_sheet = part.material == Material::kTextured;
       if (HasBlendedLayers(surface_) && (of_skin || of_sheet)) {
         Layer& layer = of_sheet ? sheet : skin;
         layer.part = part;

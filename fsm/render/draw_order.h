@@ -39,7 +39,7 @@ DrawOrder OrderToDraw(const HeadSurface& surface, const HeadTriangles& triangles
 
 /// Tells whether a head wears a photo in layers with soft edges, blended from back to front.
 inline bool HasBlendedLayers(const HeadSurface& surface) {
-  return surface.textures.image && !surface.opacity.empty();
+  return surface.textures.base_colour && !surface.opacity.empty();
 }
 
 }  // namespace fsm

@@ -22,14 +22,14 @@ void EyeMaterial::Begin(const MaterialFrame& frame) const {
   // On a grey photo the sclera is grey, and so is the caruncle beside it.
   const glm::vec3 white = surface.eyes.right.white_colour;
   const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02F * white.g;
-  const bool pictured = frame.head.photo() && surface.portrait.eyes;
+  const bool pictured = frame.head.base_colour() && surface.portrait.eyes;
   program_.Use();
   SetEyeballs(frame.view, eyes, surface.eyes);
   program_.Set("flesh_red", grey ? 0.0F : 1.0F);
-  program_.Set("beside_photo", frame.head.photo() != nullptr);
-  program_.Set("photo_brightness", frame.photo_brightness);
+  program_.Set("beside_photo", frame.head.base_colour() != nullptr);
+  program_.Set("lamp_brightness", frame.lamp_brightness);
   program_.Set("pictured", pictured);
-  program_.Set("photo", TextureUnit::kPhoto);
+  program_.Set("base_colour", TextureUnit::kBaseColour);
   if (pictured) SetPictures(frame, eyes);
 }
 

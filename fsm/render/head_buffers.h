@@ -43,7 +43,7 @@ class HeadBuffers {
   SkinPainting& skin() { return skin_; }
   const HeadSurface& surface() const { return *surface_; }
   /// TextureMaps::image; null if the skin is painted.
-  const Image* photo() const { return surface_->textures.image.get(); }
+  const Image* base_colour() const { return surface_->textures.base_colour.get(); }
 
  private:
   /// The buffers that the vertex array points to, and the byte at which the head begins in them.

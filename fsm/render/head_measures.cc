@@ -10,7 +10,7 @@ namespace {
 /// Returns the photo's resolution on surfaces that face the viewer, as seen from the front: the
 /// square root of texels per square millimetre.
 float TexelsPerMm(const HeadSurface& surface, const HeadVertices& rest) {
-  const Image* image = surface.textures.image.get();
+  const Image* image = surface.textures.base_colour.get();
   const auto& texcoord = surface.textures.texcoord;
   const auto& weight = surface.textures.weight;
   if (!image || texcoord.empty()) return 0;

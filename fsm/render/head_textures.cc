@@ -51,8 +51,8 @@ HeadTextures::HeadTextures(const GlFunctions& gl, const HeadSurface& surface) : 
   const auto fill = [this](Texture texture, const Image* map, const Image& neutral) {
     FillTexture(gl_, textures_[texture], map ? *map : neutral, GL_LINEAR);
   };
-  fill(kNormal, surface.textures.normal_map.get(), {1, 1, {128, 128, 255, 255}});
-  fill(kEmissive, surface.textures.emissive_map.get(), {1, 1, {255, 255, 255, 255}});
+  fill(kNormal, surface.textures.normal_roughness_metal.get(), {1, 1, {128, 128, 255, 255}});
+  fill(kEmissive, surface.textures.emission_openness.get(), {1, 1, {255, 255, 255, 255}});
 }
 
 HeadTextures::~HeadTextures() { gl_.DeleteTextures(kTextures, textures_); }
@@ -63,7 +63,7 @@ HeadTextures::~HeadTextures() { gl_.DeleteTextures(kTextures, textures_); }
 void HeadTextures::Load(SkinPainting& skin, const HeadBuffers& head, float samples_per_mm) {
   samples_per_mm = std::max(samples_per_mm, 1e-3F);
   if (const SkinTexture* texture = skin.Texture()) LoadSkin(*texture, samples_per_mm);
-  if (head.photo()) LoadPhoto(head, samples_per_mm);
+  if (head.base_colour()) LoadBaseColour(head, samples_per_mm);
 }
 
 void HeadTextures::LoadSkin(const SkinTexture& skin, float samples_per_mm) {
@@ -81,7 +81,7 @@ void HeadTextures::LoadSkin(const SkinTexture& skin, float samples_per_mm) {
   }
 }
 
-HeadTextures::Sampling HeadTextures::SamplingOf(const Image& photo, float texels_per_sample) {
+HeadTextures::Sampling HeadTextures::SamplingOf(const Image& base_colour, float texels_per_sample) {
   // A photo has sharp edges, which look cut out with fewer texels per sample.
   constexpr float kFewest = 0.9F;
   constexpr int kMaxDoubled = 1 << 21;  // texels
@@ -89,21 +89,24 @@ HeadTextures::Sampling HeadTextures::SamplingOf(const Image& photo, float texels
       static_cast<int>(std::floor(std::log2(std::max(texels_per_sample, 0.01F) / kFewest)));
   if (level >= 0) return {level, GL_NEAREST};
   // Doubling a photo costs memory; filtering it nearly doubles the time for a pixel.
-  if (level == -1 && 4 * photo.width * photo.height <= kMaxDoubled) return {level, GL_NEAREST};
+  if (level == -1 && 4 * base_colour.width * base_colour.height <= kMaxDoubled)
+    return {level, GL_NEAREST};
   return {0, GL_LINEAR};
 }
 
-void HeadTextures::LoadPhoto(const HeadBuffers& head, float samples_per_mm) {
-  const Image& photo = *head.photo();
-  const Sampling sampling = SamplingOf(photo, head.measures().photo_texels_per_mm / samples_per_mm);
-  if (photo_ == sampling) return;
-  photo_ = sampling;
+void HeadTextures::LoadBaseColour(const HeadBuffers& head, float samples_per_mm) {
+  const Image& base_colour = *head.base_colour();
+  const Sampling sampling =
+      SamplingOf(base_colour, head.measures().photo_texels_per_mm / samples_per_mm);
+  if (base_colour_ == sampling) return;
+  base_colour_ = sampling;
   const auto halved = [&sampling](int side) { return std::max(side >> sampling.level, 1); };
-  const Image scaled = sampling.level == 0 ? Image{}
-                       : sampling.level < 0
-                           ? Doubled(photo)
-                           : Shrunk(photo, halved(photo.width), halved(photo.height));
-  FillTexture(gl_, textures_[kPhoto], sampling.level == 0 ? photo : scaled, sampling.filter);
+  const Image scaled = sampling.level == 0  ? Image{}
+                       : sampling.level < 0 ? Doubled(base_colour)
+                                            : Shrunk(base_colour, halved(base_colour.width),
+                                                     halved(base_colour.height));
+  FillTexture(gl_, textures_[kBaseColour], sampling.level == 0 ? base_colour : scaled,
+              sampling.filter);
 }
 
 }  // namespace fsm

@@ -16,19 +16,19 @@ class HeadTextures {
   HeadTextures(const HeadTextures&) = delete;
   HeadTextures& operator=(const HeadTextures&) = delete;
 
-  /// Fills the textures of skin and photo, where the head has them, at the samples' resolution.
-  /// Blocks until the skin is painted; before this call it is drawn plain.
+  /// Fills the textures of skin and base colour, where the head has them, at the samples'
+  /// resolution. Blocks until the skin is painted; before this call it is drawn plain.
   void Load(SkinPainting& skin, const HeadBuffers& head, float samples_per_mm);
 
   /// GL names; 0 for a texture that the head does not have.
   GLuint tint() const { return skin_ ? textures_[kTint] : 0; }
   GLuint skin_relief() const { return skin_ ? textures_[kSkinRelief] : 0; }
-  GLuint photo() const { return photo_ ? textures_[kPhoto] : 0; }
-  GLuint normal_map() const { return textures_[kNormal]; }
-  GLuint emissive_map() const { return textures_[kEmissive]; }
+  GLuint base_colour() const { return base_colour_ ? textures_[kBaseColour] : 0; }
+  GLuint normal_roughness_metal() const { return textures_[kNormal]; }
+  GLuint emission_openness() const { return textures_[kEmissive]; }
 
  private:
-  enum Texture { kTint, kSkinRelief, kPhoto, kNormal, kEmissive, kTextures };
+  enum Texture { kTint, kSkinRelief, kBaseColour, kNormal, kEmissive, kTextures };
 
   /// How a picture is loaded: halved `level` times (-1: doubled), with this GL filter.
   struct Sampling {
@@ -37,12 +37,12 @@ class HeadTextures {
     bool operator==(const Sampling&) const = default;
   };
   void LoadSkin(const SkinTexture& skin, float samples_per_mm);
-  static Sampling SamplingOf(const Image& photo, float texels_per_sample);
-  void LoadPhoto(const HeadBuffers& head, float samples_per_mm);
+  static Sampling SamplingOf(const Image& base_colour, float texels_per_sample);
+  void LoadBaseColour(const HeadBuffers& head, float samples_per_mm);
 
   const GlFunctions& gl_;
   GLuint textures_[kTextures] = {};
-  std::optional<Sampling> skin_, photo_;  // as currently loaded
+  std::optional<Sampling> skin_, base_colour_;  // as currently loaded
 };
 
 /// Fills a texture with a repeating picture, row 0 at v = 0. `filter`: GL_NEAREST or GL_LINEAR.

@@ -43,7 +43,7 @@ MaterialFrame FrameOf(const Appearance& appearance, const View& view, const Head
       .lamps = lamps,
       .shadows = shadows,
       .rest_to_world = glm::mat3(view.figure_to_world) * shadows.rotation,
-      .photo_brightness = std::sqrt((lamps.colours[0].g + lamps.colours[1].g + room) / usual),
+      .lamp_brightness = std::sqrt((lamps.colours[0].g + lamps.colours[1].g + room) / usual),
       .creases = {},
       .nose_creases = vertices.creases[static_cast<std::size_t>(Crease::kNose)]};
   for (const Side side : kSides) {

@@ -31,7 +31,7 @@ struct MaterialFrame {
   ShadowFinder::Occluders shadows;
   glm::mat3 rest_to_world;  ///< rotation of the head, with the figure's scale
   /// Brightness of the lamps relative to the default, which stands for the photo's own light.
-  float photo_brightness;
+  float lamp_brightness;
   Sided<glm::vec4> creases;  ///< depth of each Crease but the nose's, 0..1
   Sided<float> nose_creases;
 };

@@ -98,10 +98,10 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   eye_.Begin(frame);
   if (!pbr_) return;
   pbr_->Use();
-  pbr_->Set("brightness", frame.photo_brightness);
-  pbr_->Set("photo", TextureUnit::kPhoto);
-  pbr_->Set("normal_map", TextureUnit::kNormalMap);
-  pbr_->Set("emissive_map", TextureUnit::kEmissiveMap);
+  pbr_->Set("brightness", frame.lamp_brightness);
+  pbr_->Set("base_colour", TextureUnit::kBaseColour);
+  pbr_->Set("normal_roughness_metal", TextureUnit::kNormalMap);
+  pbr_->Set("emission_openness", TextureUnit::kEmissiveMap);
 }
 
 void Materials::SetSurface(const GlProgram& program, const MaterialFrame& frame) const {
@@ -125,14 +125,14 @@ void Materials::Use(const DrawnPart& drawn) {
   }
   if (PhotoMaterial::Draws(part.material, *head_)) {
     photo_.Use(drawn, *head_, creased_);
-    BindOrPlain(head_textures_->photo(), TextureUnit::kPhoto);
+    BindOrPlain(head_textures_->base_colour(), TextureUnit::kBaseColour);
     return BindOrPlain(head_textures_->skin_relief(), TextureUnit::kRelief);
   }
   switch (part.material) {
     case Material::kSclera:
     case Material::kIris:
     case Material::kPupil:
-      BindOrPlain(head_textures_->photo(), TextureUnit::kPhoto);
+      BindOrPlain(head_textures_->base_colour(), TextureUnit::kBaseColour);
       return eye_.program().Use();
     case Material::kHair:
       return UseHair(1.0F, 1.0F);
@@ -181,9 +181,9 @@ void Materials::UsePbr(const PbrMaterial& pbr) {
   pbr_->Set("light_from", pbr.light_from);
   pbr_->Set("emissive", pbr.emissive);
   pbr_->Set("shade_colour", pbr.shade_colour);
-  BindOrPlain(head_textures_->photo(), TextureUnit::kPhoto);
-  Bind(head_textures_->normal_map(), TextureUnit::kNormalMap);
-  Bind(head_textures_->emissive_map(), TextureUnit::kEmissiveMap);
+  BindOrPlain(head_textures_->base_colour(), TextureUnit::kBaseColour);
+  Bind(head_textures_->normal_roughness_metal(), TextureUnit::kNormalMap);
+  Bind(head_textures_->emission_openness(), TextureUnit::kEmissiveMap);
 }
 
 void Materials::UseHair(float streaks, float shine) {

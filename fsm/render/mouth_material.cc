@@ -35,7 +35,7 @@ void MouthMaterial::Begin(const MaterialFrame& frame) {
   const glm::mat3 rotation(frame.view.figure_to_world);
   const glm::mat3 to_world =
       rotation / glm::length(rotation[0]) * glm::transpose(glm::mat3(opening_->to_mouth));
-  const bool photo = frame.head.photo() != nullptr;
+  const bool photo = frame.head.base_colour() != nullptr;
   const glm::vec3 key =
       glm::mix(glm::transpose(to_world) * frame.lamps.directions[0], appearance_.mouth_key_from,
                photo ? appearance_.photo_mouth_ahead : appearance_.mouth_key_ahead);

@@ -9,8 +9,8 @@
 namespace fsm {
 
 bool PhotoMaterial::Draws(Material material, const HeadBuffers& head) {
-  return material == Material::kPhoto || material == Material::kShutLash ||
-         (head.photo() && (material == Material::kSkin || material == Material::kLip));
+  return material == Material::kTextured || material == Material::kShutLash ||
+         (head.base_colour() && (material == Material::kSkin || material == Material::kLip));
 }
 
 void PhotoMaterial::Prepare(const HeadBuffers& head) {
@@ -32,10 +32,10 @@ void PhotoMaterial::Begin(const MaterialFrame& frame, const MouthMaterial& mouth
     program->Use();
     SetCreases(*program, frame);
     program->Set("lids_shut", frame.vertices.lids_shut.InOrder());
-    program->Set("photo", TextureUnit::kPhoto);
+    program->Set("base_colour", TextureUnit::kBaseColour);
     program->Set("relief", TextureUnit::kRelief);
     program->Set("blends", HasBlendedLayers(frame.head.surface()));
-    program->Set("brightness", frame.photo_brightness);
+    program->Set("brightness", frame.lamp_brightness);
     program->Set("rest_to_world", frame.rest_to_world);
     program->Set("photo_light", frame.head.surface().portrait.light);
     program->Set("lips_apart", glm::smoothstep(0.4F, 2.5F, mouth.gap_mm()));
@@ -54,7 +54,7 @@ void PhotoMaterial::Use(const DrawnPart& drawn, const HeadBuffers& head, bool cr
   // it as well.
   while (!programs_[detail]) ++detail;
   const GlProgram& program = *programs_[detail];
-  const bool cut_out = drawn.part.material == Material::kPhoto;
+  const bool cut_out = drawn.part.material == Material::kTextured;
   // Where the sheet continues the skin, the skin wins, however coarse the sheet is.
   constexpr float kDepthOffsetMm = 5;
   program.Use();

@@ -9,7 +9,7 @@ enum class TextureUnit : GLint {
   kPass,  ///< read by passes that draw no head: background, samples
   kNoise,
   kStrands,
-  kPhoto,
+  kBaseColour,
   kTint,    ///< of painted skin, or plain
   kRelief,  ///< of skin, or the weave of cloth
   kNormalMap,

@@ -75,7 +75,7 @@ VertexFeatures::VertexFeatures(const Head& head, const CreaseWeights& creases) {
   add(surface.uv.size() == vertices,
       [&](std::size_t i) { return kUnrolledMm * glm::vec3(surface.uv[i], 0); });
   const TextureMaps& maps = surface.textures;
-  if (maps.image && maps.texcoord.size() == vertices) {
+  if (maps.base_colour && maps.texcoord.size() == vertices) {
     const glm::vec3 worth(kPhotoMm * kPhotoWidth, kPhotoMm * kPhotoWidth, kOpenMm);
     add(true, [&](std::size_t i) { return worth * glm::vec3(maps.texcoord[i], maps.weight[i]); });
   }

@@ -32,7 +32,7 @@ enum class Material {
   kLash,
   kHair,
   kCloth,
-  kPhoto,     ///< a sheet that shows the photo only
+  kTextured,  ///< a sheet that shows the base colour only
   kShutLash,  ///< lashes of lids that wear a photo of open eyes; they appear as the lids shut
   kMatte      ///< plain-coloured parts (lashes, hair, clothes) beside skin that may show a picture
 };
@@ -96,15 +96,16 @@ struct SkinStroke {
   glm::vec3 tint;  ///< factor on the skin's colour
 };
 
-/// The picture on a head: the photo of a person or the texture of a file.
+/// The textures of a head: the photo of a person or those of a file.
 struct TextureMaps {
-  std::shared_ptr<const Image> image;  ///< null: skin is painted and lit
-  /// Laid out as `image`; null where no material needs it. `normal_map`: red and green are the
-  /// normal's x and y (v up) about 128, blue and alpha factors on roughness and metal.
-  /// `emissive_map`: the colour is the emission (toon: the shade), alpha the openness to light.
-  std::shared_ptr<const Image> normal_map, emissive_map;
-  /// Per vertex where there is an image: its texture coordinate, 0..1, v down, and the weight of
-  /// the image in the colour, 0..1.
+  std::shared_ptr<const Image> base_colour;  ///< null: skin is painted and lit
+  /// Laid out as `base_colour`; null where no material needs it. `normal_roughness_metal`: red and
+  /// green are the normal's x and y (v up) about 128, blue and alpha factors on roughness and
+  /// metal. `emission_openness`: the colour is the emission (toon: the shade), alpha the openness
+  /// to light.
+  std::shared_ptr<const Image> normal_roughness_metal, emission_openness;
+  /// Per vertex where there is a base colour: its texture coordinate, 0..1, v down, and the weight
+  /// of that texture in the colour, 0..1.
   std::vector<glm::vec2> texcoord;
   std::vector<float> weight;
 };

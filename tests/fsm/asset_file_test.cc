@@ -84,8 +84,8 @@ TEST(AssetFileTest, AHeadThatWearsAPhotoComesBackAsItWas) {
   const auto head = MakeHead(OneColour());
   const Head read = ReadAgain(*head);
   ExpectSameHead(read, *head);
-  ASSERT_TRUE(read.surface().textures.image);
-  EXPECT_EQ(read.surface().textures.image->rgba, head->surface().textures.image->rgba);
+  ASSERT_TRUE(read.surface().textures.base_colour);
+  EXPECT_EQ(read.surface().textures.base_colour->rgba, head->surface().textures.base_colour->rgba);
 }
 
 TEST(AssetFileTest, AParallelViewAndAMaterialComeBack) {

@@ -147,26 +147,26 @@ TEST(GltfTexturesTest, FactorIsPaintedIntoThePictureAsLight) {
   // 188 is half of the light (sRGB); half of that is 137.
   const ImportedHead file = Painted(
       R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"baseColorFactor":[0.5,1,0,1]}})");
-  ASSERT_EQ(file.pictures.size(), 1U);
-  EXPECT_NEAR(file.pictures[0].rgba[0], 137, 1);
-  EXPECT_EQ(file.pictures[0].rgba[1], 188);
-  EXPECT_EQ(file.pictures[0].rgba[2], 0);
-  EXPECT_EQ(file.pictures[0].rgba[7], 255) << "opaque: its alpha means nothing";
+  ASSERT_EQ(file.base_colours.size(), 1U);
+  EXPECT_NEAR(file.base_colours[0].rgba[0], 137, 1);
+  EXPECT_EQ(file.base_colours[0].rgba[1], 188);
+  EXPECT_EQ(file.base_colours[0].rgba[2], 0);
+  EXPECT_EQ(file.base_colours[0].rgba[7], 255) << "opaque: its alpha means nothing";
   EXPECT_FALSE(file.parts[0].cut_out);
 }
 
 TEST(GltfTexturesTest, WhatIsBelowTheCutOffIsLeftOut) {
   const ImportedHead cut =
       Painted(R"({"alphaMode":"MASK","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
-  EXPECT_EQ(cut.pictures.at(0).rgba[3], 255);
-  EXPECT_EQ(cut.pictures.at(0).rgba[7], 0);
+  EXPECT_EQ(cut.base_colours.at(0).rgba[3], 255);
+  EXPECT_EQ(cut.base_colours.at(0).rgba[7], 0);
   EXPECT_TRUE(cut.parts[0].cut_out);
   const ImportedHead low = Painted(R"({"alphaMode":"MASK","alphaCutoff":0.3,)"
                                    R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
-  EXPECT_EQ(low.pictures.at(0).rgba[7], 255);
+  EXPECT_EQ(low.base_colours.at(0).rgba[7], 255);
   const ImportedHead smooth =
       Painted(R"({"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
-  EXPECT_EQ(smooth.pictures.at(0).rgba[7], 100);
+  EXPECT_EQ(smooth.base_colours.at(0).rgba[7], 100);
 }
 
 TEST(GltfTexturesTest, PicturesMayBeMovedScaledAndTurned) {
@@ -197,7 +197,7 @@ TEST(GltfTexturesTest, PictureOfAnotherKindIsLeftOutWithANotice) {
       Number(place) + "}}]}]"));
   ASSERT_EQ(file.notices.size(), 1U);
   EXPECT_NE(file.notices[0].find("images[0] is left out"), std::string::npos) << file.notices[0];
-  EXPECT_EQ(file.parts.at(0).picture, -1);
+  EXPECT_EQ(file.parts.at(0).base_colour, -1);
 }
 
 /// A mesh of two triangles, one of them an eye's, with four shapes; the extension is the caller's.

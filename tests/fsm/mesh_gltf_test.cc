@@ -127,9 +127,9 @@ TEST(GltfHeadTest, PicturesMayBeJpeg) {
       std::string(kRedJpeg) + R"("}]})";
   const auto file = ParseGltfHead("a.gltf", json);
   ASSERT_TRUE(file) << file.error().text;
-  ASSERT_EQ(file->pictures.size(), 1U);
-  EXPECT_NEAR(file->pictures[0].rgba[0], 0xc0, 4);
-  EXPECT_NEAR(file->pictures[0].rgba[1], 0x20, 4);
+  ASSERT_EQ(file->base_colours.size(), 1U);
+  EXPECT_NEAR(file->base_colours[0].rgba[0], 0xc0, 4);
+  EXPECT_NEAR(file->base_colours[0].rgba[1], 0x20, 4);
 }
 
 TEST(GltfHeadTest, EveryCutFileIsRefusedInWords) {

@@ -96,22 +96,24 @@ TEST(GltfMaterialTest, PicturesOfLightArePutTogetherBesideTheColour) {
            R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicRoughnessTexture":)"
            R"({"index":2}},"normalTexture":{"index":1,"scale":0.5},"occlusionTexture":{"index":2,)"
            R"("strength":0.5}})");
-  ASSERT_EQ(file.pictures.size(), 1U);
+  ASSERT_EQ(file.base_colours.size(), 1U);
   ASSERT_EQ(file.details.size(), 1U);
-  EXPECT_EQ(file.details[0].normal_map.rgba, (std::vector<std::uint8_t>{178, 103, 150, 200}));
-  ASSERT_EQ(file.details[0].emissive_map.rgba.size(), 4U);
-  EXPECT_EQ(file.details[0].emissive_map.rgba[3], 177) << "half as shut as the picture says";
+  EXPECT_EQ(file.details[0].normal_roughness_metal.rgba,
+            (std::vector<std::uint8_t>{178, 103, 150, 200}));
+  ASSERT_EQ(file.details[0].emission_openness.rgba.size(), 4U);
+  EXPECT_EQ(file.details[0].emission_openness.rgba[3], 177) << "half as shut as the picture says";
 
   TextureAtlas sheet;
-  sheet.Add(file.pictures[0]);
+  sheet.Add(file.base_colours[0]);
   ASSERT_TRUE(sheet.Make());
-  const auto normal_map = sheet.MakeBeside({file.details[0].normal_map}, {128, 128, 255, 255});
-  ASSERT_TRUE(normal_map);
-  const glm::vec2 at =
-      sheet.rect(0).At({0.5F, 0.5F}) * glm::vec2(normal_map->width, normal_map->height);
+  const auto normal_roughness_metal =
+      sheet.MakeBeside({file.details[0].normal_roughness_metal}, {128, 128, 255, 255});
+  ASSERT_TRUE(normal_roughness_metal);
+  const glm::vec2 at = sheet.rect(0).At({0.5F, 0.5F}) *
+                       glm::vec2(normal_roughness_metal->width, normal_roughness_metal->height);
   const auto texel = static_cast<std::size_t>(
-      4 * (static_cast<int>(at.y) * normal_map->width + static_cast<int>(at.x)));
-  EXPECT_EQ(normal_map->rgba[texel], 178);
+      4 * (static_cast<int>(at.y) * normal_roughness_metal->width + static_cast<int>(at.x)));
+  EXPECT_EQ(normal_roughness_metal->rgba[texel], 178);
   EXPECT_EQ(sheet.MakeBeside({Image{}}, {0, 0, 0, 0}), nullptr);
 }
 
@@ -131,7 +133,7 @@ TEST(GltfMaterialTest, APictureThatLiesOtherwiseThanTheColourIsLeftOutWithANotic
 struct Plate {
   PbrMaterial pbr;
   bool two_sided = false, faces_away = false;
-  std::vector<std::uint8_t> normal_map = {}, emissive_map = {};  // one pixel
+  std::vector<std::uint8_t> normal_roughness_metal = {}, emission_openness = {};  // one pixel
 };
 
 /// The colour on the screen in the middle of the plate. `front` light only comes from the viewer.
@@ -141,12 +143,14 @@ glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0
     model.Add({50 * x, 50 * y, 80}, Bone::kSkull, glm::vec3(1),
               glm::vec2(0.5F + 0.5F * x, 0.5F - 0.5F * y));
   }
-  model.textures.image = std::make_shared<Image>(Image{1, 1, {188, 188, 188, 255}});
-  if (!plate.normal_map.empty()) {
-    model.textures.normal_map = std::make_shared<Image>(Image{1, 1, plate.normal_map});
+  model.textures.base_colour = std::make_shared<Image>(Image{1, 1, {188, 188, 188, 255}});
+  if (!plate.normal_roughness_metal.empty()) {
+    model.textures.normal_roughness_metal =
+        std::make_shared<Image>(Image{1, 1, plate.normal_roughness_metal});
   }
-  if (!plate.emissive_map.empty()) {
-    model.textures.emissive_map = std::make_shared<Image>(Image{1, 1, plate.emissive_map});
+  if (!plate.emission_openness.empty()) {
+    model.textures.emission_openness =
+        std::make_shared<Image>(Image{1, 1, plate.emission_openness});
   }
   model.pbr_materials = {plate.pbr};
   auto& indices = model.mesh.BatchOf(Material::kSkin, 0, plate.two_sided).indices;
@@ -187,15 +191,18 @@ TEST(PbrMaterialTest, ARoughMetalMirrorsTheLampLessThanASmoothOne) {
   const float rough = Seen({.pbr = {.metallic = 1, .roughness = 1}}).g;
   EXPECT_GT(smooth, rough + 30);
   // Roughness and metal may lie in a picture: blue is rough, alpha metal.
-  EXPECT_NEAR(Seen({.pbr = {.metallic = 1, .roughness = 1}, .normal_map = {128, 128, 89, 255}}).g,
-              smooth, 3);
+  EXPECT_NEAR(
+      Seen({.pbr = {.metallic = 1, .roughness = 1}, .normal_roughness_metal = {128, 128, 89, 255}})
+          .g,
+      smooth, 3);
 }
 
 TEST(PbrMaterialTest, ANormalThatLeansToTheLampIsBrighter) {
   const glm::vec3 right{0.8F, 0, 0.6F}, up{0, 0.8F, 0.6F};
-  const auto lit = [](std::vector<std::uint8_t> normal_map, glm::vec3 key) {
-    return Seen({.pbr = {.metallic = 0, .roughness = 1}, .normal_map = std::move(normal_map)}, 1,
-                key)
+  const auto lit = [](std::vector<std::uint8_t> normal_roughness_metal, glm::vec3 key) {
+    return Seen({.pbr = {.metallic = 0, .roughness = 1},
+                 .normal_roughness_metal = std::move(normal_roughness_metal)},
+                1, key)
         .g;
   };
   const float flat = lit({128, 128, 255, 255}, right);
@@ -208,7 +215,7 @@ TEST(PbrMaterialTest, ANormalThatLeansToTheLampIsBrighter) {
 TEST(PbrMaterialTest, OccludedPlacesGetLessOfTheRoomsLightAndAllOfTheLamps) {
   Plate plate{.pbr = {.metallic = 0, .roughness = 1}};
   const float open = Seen(plate, 0).g;
-  plate.emissive_map = {255, 255, 255, 64};
+  plate.emission_openness = {255, 255, 255, 64};
   EXPECT_LT(Seen(plate, 0).g, 0.7F * open);
 }
 

@@ -267,7 +267,7 @@ struct HeadChange {
 void PrintTo(const HeadChange& change, std::ostream* out) { *out << change.name; }
 
 void Wear(HeadSurface& topology, std::uint8_t red, std::uint8_t blue) {
-  topology.textures.image = std::make_shared<Image>(Image{1, 1, {red, 80, blue, 255}});
+  topology.textures.base_colour = std::make_shared<Image>(Image{1, 1, {red, 80, blue, 255}});
   topology.textures.texcoord.assign(topology.albedo.size(), glm::vec2(0.5F));
   topology.textures.weight.assign(topology.albedo.size(), 1);
 }

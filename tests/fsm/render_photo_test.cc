@@ -214,7 +214,7 @@ TEST(PhotoTest, ShouldersFollowATurningHeadALittle) {
   head->Evaluate(turned, after);
   std::uint32_t shoulder = 0, hair = 0;
   for (const auto& part : head->surface().parts) {
-    if (part.material != Material::kPhoto) continue;
+    if (part.material != Material::kTextured) continue;
     const auto end = head->surface().indices.begin() + part.first_index + part.index_count;
     shoulder = end[-3];
     hair = end[-1];
@@ -253,7 +253,7 @@ TEST(PhotoTest, TheNeckGoesWithTheJawAndClothesAndHairStay) {
   float way = 0;
   std::uint32_t sheet = 0;
   for (const auto& part : head->surface().parts) {
-    if (part.material == Material::kPhoto) sheet = head->surface().indices[part.first_index];
+    if (part.material == Material::kTextured) sheet = head->surface().indices[part.first_index];
   }
   for (std::size_t i = 0; i < sheet; ++i) {
     way = std::max(way, rest.position[i].y - opened.position[i].y);

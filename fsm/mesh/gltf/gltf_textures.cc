@@ -154,11 +154,11 @@ void GltfTextures::ApplyMaterial(std::int64_t index, ImportedHead::Part& part) {
   }
   const Key key{texture < 0 ? -1 : ImageOf(texture), steps, cut, detailed ? index : -1};
   if (const auto known = picture_of_.find(key); known != picture_of_.end()) {
-    part.picture = known->second;
+    part.base_colour = known->second;
     return;
   }
-  part.picture = Picture(key, factor,
-                         detailed ? DetailOf(given, UvOfMaterial(index)) : ImportedHead::Detail{});
+  part.base_colour = Picture(
+      key, factor, detailed ? DetailOf(given, UvOfMaterial(index)) : ImportedHead::Detail{});
 }
 
 std::optional<Image> GltfTextures::Decode(std::int64_t image) {
@@ -207,7 +207,7 @@ ImportedHead::Detail GltfTextures::DetailOf(const GltfMaterial& given, const Glt
       n[2] = metallic_roughness->rgba[i + 1];
       n[3] = metallic_roughness->rgba[i + 2];
     }
-    detail.normal_map = std::move(*normal);
+    detail.normal_roughness_metal = std::move(*normal);
   }
   auto emissive = read(given.emissive), occlusion = read(given.occlusion);
   if (ToOneSize(emissive, occlusion, {255, 255, 255, 255}, {255, 255, 255, 255})) {
@@ -215,21 +215,22 @@ ImportedHead::Detail GltfTextures::DetailOf(const GltfMaterial& given, const Glt
       const float shut = given.occlusion.strength * static_cast<float>(255 - occlusion->rgba[i]);
       emissive->rgba[i + 3] = static_cast<std::uint8_t>(std::clamp(255 - shut, 0.0f, 255.0f));
     }
-    detail.emissive_map = std::move(*emissive);
+    detail.emission_openness = std::move(*emissive);
   }
   return detail;
 }
 
 int GltfTextures::Picture(const Key& key, glm::vec4 factor, ImportedHead::Detail detail) {
   int& known = picture_of_.emplace(key, -1).first->second;
-  if (head_.pictures.size() >= kMaxPictures) return known;
+  if (head_.base_colours.size() >= kMaxPictures) return known;
   // If a picture cannot be read, the part keeps its colour; its shape is still shown.
   std::optional<Image> picture;
   if (const std::int64_t image = std::get<0>(key); image >= 0) {
     picture = Decode(image);
   } else {
-    const Image& larger = detail.normal_map.width > detail.emissive_map.width ? detail.normal_map
-                                                                              : detail.emissive_map;
+    const Image& larger = detail.normal_roughness_metal.width > detail.emission_openness.width
+                              ? detail.normal_roughness_metal
+                              : detail.emission_openness;
     if (larger.width > 0) {
       picture =
           Image{larger.width, larger.height, std::vector<std::uint8_t>(larger.rgba.size(), 255)};
@@ -237,10 +238,10 @@ int GltfTextures::Picture(const Key& key, glm::vec4 factor, ImportedHead::Detail
   }
   if (!picture) return known;
   ApplyFactor(*picture, factor, std::get<2>(key));
-  known = static_cast<int>(head_.pictures.size());
-  head_.pictures.push_back(std::move(*picture));
-  if (!detail.normal_map.rgba.empty() || !detail.emissive_map.rgba.empty()) {
-    head_.details.resize(head_.pictures.size());
+  known = static_cast<int>(head_.base_colours.size());
+  head_.base_colours.push_back(std::move(*picture));
+  if (!detail.normal_roughness_metal.rgba.empty() || !detail.emission_openness.rgba.empty()) {
+    head_.details.resize(head_.base_colours.size());
     head_.details.back() = std::move(detail);
   }
   return known;

@@ -40,7 +40,7 @@ class ObjHead {
     if (const auto found = materials_.find(group.material); found != materials_.end()) {
       part.colour = SrgbToLinear(found->second.colour);
       const auto file = FileBeside(path_, found->second.picture);
-      if (file && HasTexcoords()) part.picture = PictureOf(*file);
+      if (file && HasTexcoords()) part.base_colour = PictureOf(*file);
     }
     for (const auto& triangle : group.triangles) {
       for (const auto& corner : triangle) part.indices.push_back(VertexOf(corner));
@@ -57,8 +57,8 @@ class ObjHead {
     if (fresh && pictures_.size() <= kMaxMtlPictures) {
       head_.named_files.push_back(file);
       if (auto picture = ReadImage(file)) {
-        known->second = static_cast<int>(head_.pictures.size());
-        head_.pictures.push_back(std::move(*picture));
+        known->second = static_cast<int>(head_.base_colours.size());
+        head_.base_colours.push_back(std::move(*picture));
       }
     }
     return known->second;

@@ -26,7 +26,7 @@ class OriginalBuilder {
     const std::size_t picture = atlas_.Add(face_.picture);
     std::size_t eye_picture = 0;
     if (face_.eye_picture) eye_picture = atlas_.Add(*face_.eye_picture);
-    model_.textures.image = atlas_.Make();
+    model_.textures.base_colour = atlas_.Make();
     AddFace(picture);
     AddMouth();
     AddEyes(eye_picture);
@@ -155,7 +155,7 @@ class OriginalBuilder {
     }
     for (const auto& group : face_.eye->groups) {
       for (const auto& t : group.triangles) {
-        model_.mesh.Triangle(Material::kPhoto, first + t[0].position, first + t[1].position,
+        model_.mesh.Triangle(Material::kTextured, first + t[0].position, first + t[1].position,
                              first + t[2].position);
       }
     }

@@ -190,7 +190,7 @@ std::vector<Row> AddLips(const RigData& source, std::span<const Row> rows, MeshM
 /// Colours the lips, and their inside, of a head without pictures: as red relative to its skin as
 /// those of the source.
 void RedLips(const Head& source, std::span<const Row> rows, MeshModel& model) {
-  if (model.textures.image) return;
+  if (model.textures.base_colour) return;
   const HeadSurface& surface = source.surface();
   std::vector<bool> lip(surface.albedo.size(), false);
   for (const std::uint32_t v : TrianglesOf(surface, {Material::kLip, Material::kMouthInside})) {

@@ -15,7 +15,7 @@ uniform vec3 white_colour[2];
 uniform float figure_scale;
 uniform float flesh_red;         // 0: caruncle and vessels are grey, as in a grey photo
 uniform bool beside_photo;       // the face wears a photo, whose colours are shown unlit
-uniform float photo_brightness;  // factor on that photo
+uniform float lamp_brightness;  // factor on that photo
 uniform bool pictured;           // the photo shows the eyes; only then the following apply:
 uniform float iris_span;            // radii of the iris that its picture reaches
 uniform vec4 photo_iris_rect[2];    // left, top, right, bottom in the photo
@@ -23,7 +23,7 @@ uniform vec4 photo_ball_rect[2];
 uniform vec4 photo_lid_heights[2];  // relative to the centre: upper and lower margin at rest, upper margin now; how
                                     // far the picture of the ball reaches
 uniform mat3 world_to_head;         // to millimetres
-uniform sampler2D photo;
+uniform sampler2D base_colour;
 
 out vec4 colour;
 
@@ -87,7 +87,7 @@ vec3 Iris(int side, vec2 p, float r, float toward_light) {
 
 vec3 Photographed(vec4 rect, vec2 from_middle) {
   vec2 part = clamp(0.5 + 0.5 * vec2(from_middle.x, -from_middle.y), 0.0, 1.0);
-  return ToLinear(texture(photo, mix(rect.xy, rect.zw, part)).rgb);
+  return ToLinear(texture(base_colour, mix(rect.xy, rect.zw, part)).rgb);
 }
 
 // Returns the sclera in the photo. The lid's shadow is stretched with it where the eye opens wider.
@@ -201,5 +201,5 @@ void main() {
   vec3 seen = base * light * shade * mix(openness, 1.0, look_eye_open);
   AddMirrored(p, shade, light, seen);
   seen = max(seen, 0.0);
-  colour = vec4(beside_photo ? photo_brightness * FromLinear(seen) : ToScreen(seen), 1.0);
+  colour = vec4(beside_photo ? lamp_brightness * FromLinear(seen) : ToScreen(seen), 1.0);
 }

@@ -14,9 +14,9 @@ uniform float shade_to;    // cosines of the light's angle: shade colour up to h
 uniform float light_from;  // lit colour from here
 uniform vec3 emissive;
 uniform vec3 shade_colour;
-uniform sampler2D photo;
-uniform sampler2D normal_map;   // xy of the normal, roughness, metallic
-uniform sampler2D emissive_map; // emission, or the toon's shade colour; a: openness to light
+uniform sampler2D base_colour;
+uniform sampler2D normal_roughness_metal;   // xy of the normal, roughness, metallic
+uniform sampler2D emission_openness; // emission, or the toon's shade colour; a: openness to light
 
 out vec4 colour;
 
@@ -45,11 +45,11 @@ float Mirrored(float n_h, float n_l, float n_v, float a2) {
 }
 
 void main() {
-  vec4 p = texture(photo, texcoord.xy);
+  vec4 p = texture(base_colour, texcoord.xy);
   if (texcoord.z > 0.0 && cut_out && 1.0 - p.a > OpacityStep(gl_FragCoord.xy) && p.a < 0.98) discard;
   vec3 base = texcoord.z > 0.0 ? ToLinear(p.rgb) * tint : tint;
-  vec4 r = texcoord.z > 0.0 ? texture(normal_map, texcoord.xy) : vec4(0.5, 0.5, 1.0, 1.0);
-  vec4 l = texcoord.z > 0.0 ? texture(emissive_map, texcoord.xy) : vec4(1.0);
+  vec4 r = texcoord.z > 0.0 ? texture(normal_roughness_metal, texcoord.xy) : vec4(0.5, 0.5, 1.0, 1.0);
+  vec4 l = texcoord.z > 0.0 ? texture(emission_openness, texcoord.xy) : vec4(1.0);
 
   vec3 n = normalize(facing);
   if (!gl_FrontFacing) n = -n;

@@ -9,13 +9,13 @@ in float shadow;
 in float covering;
 flat in vec3 settings;  // brightness, cut_out, blends
 
-uniform sampler2D photo;
+uniform sampler2D base_colour;
 uniform sampler2D relief;
 
 out vec4 colour;
 
 void main() {
-  vec4 p = texture(photo, texcoord.xy);
+  vec4 p = texture(base_colour, texcoord.xy);
   float opacity = kDetailed ? covering * mix(1.0, p.a, settings.y) : 1.0;
   if (kDetailed && opacity < 0.98 && 1.0 - opacity > mix(OpacityStep(gl_FragCoord.xy), 0.99, settings.z)) discard;
   float shade = 1.0;
@@ -30,7 +30,7 @@ void main() {
   }
   vec3 painted = paint;
   if (kDetailed && grain_from.z > 0.0) {
-    float grain = dot(texture(photo, grain_from.xy).rgb, vec3(0.3, 0.6, 0.1));
+    float grain = dot(texture(base_colour, grain_from.xy).rgb, vec3(0.3, 0.6, 0.1));
     float factor = clamp(grain / grain_from.w, look_photo_grain_range.x, look_photo_grain_range.y);
     painted *= mix(1.0, factor, look_photo_grain * grain_from.z);
   }
