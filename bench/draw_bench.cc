@@ -60,8 +60,8 @@ struct Options {
   int height = 480;
   int faces = 16;
   float form_error = -1;  // pixels; less than 0: as the table has it
-  fsm::OffScreen context = fsm::OffScreen::kOsMesa;
-  fsm::RigOn rig = fsm::RigOn::kBest;
+  fsm::OffScreenDriver context = fsm::OffScreenDriver::kOsMesa;
+  fsm::RigDevice rig = fsm::RigDevice::kBest;
   std::string face, config, only;
 };
 
@@ -176,12 +176,12 @@ bool ReadOptions(int argc, char** argv, Options& options, bool& first_frame) {
     } else if (word == "--faces") {
       options.faces = std::atoi(value);
     } else if (word == "--context") {
-      options.context =
-          std::string_view(value) == "egl" ? fsm::OffScreen::kEgl : fsm::OffScreen::kOsMesa;
+      options.context = std::string_view(value) == "egl" ? fsm::OffScreenDriver::kEgl
+                                                         : fsm::OffScreenDriver::kOsMesa;
     } else if (word == "--rig") {
-      options.rig = std::string_view(value) == "card"        ? fsm::RigOn::kGpu
-                    : std::string_view(value) == "processor" ? fsm::RigOn::kProcessor
-                                                             : fsm::RigOn::kBest;
+      options.rig = std::string_view(value) == "card"        ? fsm::RigDevice::kGpu
+                    : std::string_view(value) == "processor" ? fsm::RigDevice::kProcessor
+                                                             : fsm::RigDevice::kBest;
     } else if (word != "--size" ||
                std::sscanf(value, "%dx%d%c", &options.width, &options.height, &end) != 2) {
       return false;

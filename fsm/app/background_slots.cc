@@ -98,7 +98,7 @@ vm::Result<void> BackgroundSlots::Set(const std::string& name) {
                     "there is no background '" + name + "'; " + core_.slots.Value("BackgroundSet") +
                         ", transparent, a .png, .bmp or .rgb file or #rrggbb expected");
   }
-  auto picture = core_.files.read_picture(named == backgrounds_.end() ? name : named->second);
+  auto picture = core_.files.read_image(named == backgrounds_.end() ? name : named->second);
   if (!picture) return std::unexpected(picture.error());
   core_.scene.background_image = std::make_shared<const Image>(std::move(*picture));
   Show(false);

@@ -53,7 +53,7 @@ vm::Result<void> Capture::Write(const Image& picture) {
   }
   const std::string path =
       fmt::format("{}/{}{:05}{}", request_.folder, request_.prefix, written_ + 1, request_.ending);
-  if (auto written = files_.write_picture(picture, path); !written) return written;
+  if (auto written = files_.write_image(picture, path); !written) return written;
   std::error_code none;
   if (const auto size = std::filesystem::file_size(path, none); !none) bytes_ += size;
   ++written_;

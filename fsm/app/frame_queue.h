@@ -9,7 +9,7 @@
 
 namespace fsm {
 
-/// Reads frames of a series back from the graphics card: passes each, in order, to `take` once
+/// Reads frames of a series back from the GPU: passes each, in order, to `take` once
 /// kMaxWaiting more are drawn, or by Flush. When a frame is passed on depends only on the calls.
 /// Lifetime: `view` outlives this. Thread: the view's.
 class FrameQueue {

@@ -21,12 +21,12 @@ std::optional<Appearance> AppearanceIn(const TableFolder& folder) {
 
 GlFaceView::GlFaceView(HeadLibrary& library, const Options& options)
     : library_(library), options_(options), appearance_(AppearanceIn(options.tables)) {
-  if (options_.where == Options::Where::kHeadless) return;
+  if (options_.window_mode == Options::WindowMode::kHeadless) return;
   try {
     context_ = RenderContext::MakeWindow(options_.width, options_.height, options_.title);
     if (options_.position) context_->Move(options_.position->first, options_.position->second);
   } catch (const std::exception& error) {
-    if (options_.where == Options::Where::kWindow) throw;
+    if (options_.window_mode == Options::WindowMode::kWindow) throw;
     options_.log("notice: no window (" + std::string(error.what()) + "), drawing headless");
   }
 }

@@ -21,10 +21,14 @@ class GlFaceView final : public FaceView, private ViewWindow {
   struct Options {
     int width = 640;
     int height = 480;
-    enum class Where { kHeadless, kWindow, kWindowIfPossible } where = Where::kHeadless;
+    enum class WindowMode {
+      kHeadless,
+      kWindow,
+      kWindowIfPossible
+    } window_mode = WindowMode::kHeadless;
     std::string title = "Galatea";
-    OffScreen off_screen = OffScreen::kOsMesa;  ///< used without a window
-    RigOn rig = RigOn::kBest;
+    OffScreenDriver off_screen = OffScreenDriver::kOsMesa;  ///< used without a window
+    RigDevice rig = RigDevice::kBest;
     std::optional<std::pair<int, int>> position = {};  ///< of the window's upper left corner
     TableFolder tables = {};                           ///< may contain an appearance.txt
     Log log = [](const std::string&) {};               ///< takes notices

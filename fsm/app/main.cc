@@ -36,7 +36,9 @@ int main(int argc, char** argv) {
              return fsm::RunOnce(options) ? 0 : -1;
            },
        .needs_real_clock =
-           [&options] { return options.view.where != fsm::GlFaceView::Options::Where::kHeadless; },
+           [&options] {
+             return options.view.window_mode != fsm::GlFaceView::Options::WindowMode::kHeadless;
+           },
        .make = [&options, &library, &view](
                    vm::Scheduler& clock, boost::asio::io_context&) -> std::unique_ptr<vm::Module> {
          library.emplace(options.faces, options.module.tables);

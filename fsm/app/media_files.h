@@ -12,8 +12,8 @@ namespace fsm {
 
 /// Access to pictures and films on disk. Tests replace it by one to memory.
 struct MediaFiles {
-  std::function<vm::Result<void>(const Image&, const std::string& path)> write_picture = WriteImage;
-  std::function<vm::Result<Image>(const std::string& path)> read_picture = ReadImage;
+  std::function<vm::Result<void>(const Image&, const std::string& path)> write_image = WriteImage;
+  std::function<vm::Result<Image>(const std::string& path)> read_image = ReadImage;
   /// As FilmWriter::Open.
   std::function<vm::Result<std::unique_ptr<FilmWriter>>(const std::string& path, int width,
                                                         int height, double per_second)>

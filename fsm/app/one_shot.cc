@@ -29,7 +29,7 @@ std::vector<std::string> FacesShown(const Options& options) {
 void WriteSheet(const Options& options, const MotionTables& tables, HeadLibrary& library) {
   if (options.sheet_file.empty()) throw std::runtime_error("--sheet needs --out FILE.png");
   GlFaceView::Options cell = options.view;
-  cell.where = GlFaceView::Options::Where::kHeadless;
+  cell.window_mode = GlFaceView::Options::WindowMode::kHeadless;
   cell.width = kCellWidth;
   cell.height = kCellHeight;
   GlFaceView view(library, cell);

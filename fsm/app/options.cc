@@ -17,12 +17,13 @@
 namespace fsm {
 namespace {
 
-using Where = GlFaceView::Options::Where;
+using WindowMode = GlFaceView::Options::WindowMode;
 
-const std::map<std::string, OffScreen> kOffScreen = {
-    {"osmesa", OffScreen::kOsMesa}, {"egl", OffScreen::kEgl}, {"auto", OffScreen::kAny}};
-const std::map<std::string, RigOn> kRigs = {
-    {"best", RigOn::kBest}, {"processor", RigOn::kProcessor}, {"card", RigOn::kGpu}};
+const std::map<std::string, OffScreenDriver> kOffScreen = {{"osmesa", OffScreenDriver::kOsMesa},
+                                                           {"egl", OffScreenDriver::kEgl},
+                                                           {"auto", OffScreenDriver::kAny}};
+const std::map<std::string, RigDevice> kRigs = {
+    {"best", RigDevice::kBest}, {"processor", RigDevice::kProcessor}, {"card", RigDevice::kGpu}};
 
 bool IsNumber(std::string_view word) {
   if (word.starts_with('-')) word.remove_prefix(1);
@@ -50,12 +51,13 @@ void TellRenderer(CLI::App& app, const Options& options) {
 /// Adds the options of the renderer. CLI11 runs callbacks in the order of these lines, so the flags
 /// override the environment, which may give --context.
 void AddDrawing(CLI::App& app, GlFaceView::Options& view) {
-  view.where = DisplayNamed() ? Where::kWindowIfPossible : Where::kHeadless;
+  view.window_mode = DisplayNamed() ? WindowMode::kWindowIfPossible : WindowMode::kHeadless;
   app.add_option_function<std::string>(
          "--context",
          [&view](const std::string& word) {
            const auto off_screen = kOffScreen.find(word);
-           view.where = off_screen == kOffScreen.end() ? Where::kWindow : Where::kHeadless;
+           view.window_mode =
+               off_screen == kOffScreen.end() ? WindowMode::kWindow : WindowMode::kHeadless;
            if (off_screen != kOffScreen.end()) view.off_screen = off_screen->second;
          },
          "What draws: osmesa (software, the default of --headless), egl (off screen: a "
@@ -63,10 +65,10 @@ void AddDrawing(CLI::App& app, GlFaceView::Options& view) {
       ->envname("GALATEA_CONTEXT")
       ->check(CLI::IsMember({"osmesa", "egl", "auto", "window"}));
   app.add_flag_callback(
-      "--headless", [&view] { view.where = Where::kHeadless; },
+      "--headless", [&view] { view.window_mode = WindowMode::kHeadless; },
       "Draw without a window, only what is asked for");
   app.add_flag_callback(
-      "--window", [&view] { view.where = Where::kWindow; },
+      "--window", [&view] { view.window_mode = WindowMode::kWindow; },
       "Draw in a window (the default where there is a display)");
   app.add_option_function<std::string>(
          "--rig", [&view](const std::string& word) { view.rig = kRigs.at(word); },

@@ -104,7 +104,7 @@ void DeclareSaveImage(FsmCore& core) {
          const vm::Time now = core.Now();
          const vm::Time at = std::min(core.motion->SettledAt(now), now + kMaxSettling);
          auto done = core.DrawAt(at);
-         if (done) done = core.files.write_picture(core.view.Read(), value.word(0));
+         if (done) done = core.files.write_image(core.view.Read(), value.word(0));
          return done;
        })});
 }

@@ -53,7 +53,7 @@ class HairLook {
   float AboveHairline(glm::vec3 p) const;
   /// Returns the colour of one strand, with lighter and darker streaks.
   glm::vec3 StrandColour(int strand, int row) const;
-  /// Adds a lock: a card along `path` that frays at its sides and towards its tip.
+  /// Adds a lock: a strip along `path` that frays at its sides and towards its tip.
   void AddLock(std::span<const glm::vec3> path, const LockStyle& style, int seed,
                HeadMesh& mesh) const;
   /// Darkens the skin under the hair and beside its edge, which passes through `edge`.
@@ -62,7 +62,7 @@ class HairLook {
   /// `along`. `strength`: 1 = full; a smaller one is shorter and paler.
   SkinStroke OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
                     int seed) const;
-  /// Bends the normals of locks, which are flat cards, towards those of the whole head of hair, so
+  /// Bends the normals of locks, which are flat strips, towards those of the whole head of hair, so
   /// that they are lit alike. REQUIRES: `position` and `normal` have the same size.
   void LightAsOne(std::span<const glm::vec3> position, std::span<glm::vec3> normal) const;
 

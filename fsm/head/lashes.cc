@@ -112,7 +112,7 @@ class LashBuilder {
         (of_photo_ ? features_.lash_photo_dark * NoiseAt(i, PaintStream::kPhotoLashDark) : 0.0f);
     const float rise = ByLid(features_.lash_rise);
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
-    // A lash is a curved card of two segments: outward, then up (the lower ones down).
+    // A lash is a curved strip of two segments: outward, then up (the lower ones down).
     const glm::vec3 middle = root + length * (0.5f * out + glm::vec3(0, 0.06f * up, 0));
     const glm::vec3 tip = root + length * (0.72f * out + glm::vec3(0, rise, 0));
     const std::uint32_t a = Add(root - glm::vec3(width, 0, 0), x, dark);

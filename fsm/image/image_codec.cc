@@ -11,7 +11,7 @@ vm::Result<void> CheckSize(std::int64_t width, std::int64_t height) {
                                            std::to_string(kMaxImageSide));
 }
 
-vm::Result<Image> DecodePicture(std::span<const std::uint8_t> bytes) {
+vm::Result<Image> DecodePngOrJpeg(std::span<const std::uint8_t> bytes) {
   const bool jpeg = bytes.size() > 2 && bytes[0] == 0xff && bytes[1] == 0xd8;
   return jpeg ? DecodeJpeg(bytes) : DecodePng(bytes);
 }

@@ -34,7 +34,7 @@ struct JpegOptions {
 vm::Result<Image> DecodeJpegAs(JpegOptions& options, std::span<const std::uint8_t> bytes);
 vm::Result<Image> DecodeJpeg(std::span<const std::uint8_t> bytes);
 /// Decodes PNG or JPEG, told apart by content.
-vm::Result<Image> DecodePicture(std::span<const std::uint8_t> bytes);
+vm::Result<Image> DecodePngOrJpeg(std::span<const std::uint8_t> bytes);
 
 /// Checks that each side is 1..kMaxImageSide before decoding continues. Error: kBadValue.
 vm::Result<void> CheckSize(std::int64_t width, std::int64_t height);

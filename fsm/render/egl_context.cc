@@ -80,7 +80,7 @@ class EglContext : public OffScreenContext {
     Resume(other);
   }
 
-  std::string reached_by() const override { return "EGL, " + display_.name(); }
+  std::string description() const override { return "EGL, " + display_.name(); }
   void* GetProcAddress(const char* name) override {
     return reinterpret_cast<void*>(eglGetProcAddress(name));
   }

@@ -13,7 +13,7 @@ namespace fsm {
 /// Reads frames back to memory while others are drawn. Destroy while its context is current.
 class FrameReader {
  public:
-  /// `on_gpu`: the card averages each frame asynchronously into a buffer that is read on demand. A
+  /// `on_gpu`: the GPU averages each frame asynchronously into a buffer that is read on demand. A
   /// software driver cannot do that in parallel, so frames are then read in Begin. REQUIRES for
   /// `on_gpu`: GlFunctions::has_compute.
   FrameReader(const GlFunctions& gl, bool on_gpu);
@@ -44,7 +44,7 @@ class FrameReader {
   void EndAverage(const Frame& frame, Image& out);
 
   const GlFunctions& gl_;
-  std::optional<GlProgram> average_;  // on a graphics card only
+  std::optional<GlProgram> average_;  // on a GPU only
   std::map<std::uint64_t, Frame> frames_;
   std::uint64_t last_ = 0;
   std::vector<Buffer> spare_buffers_;

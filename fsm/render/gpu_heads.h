@@ -15,7 +15,7 @@
 
 namespace fsm {
 
-/// A head that a graphics card moves. The vertices that the frame needs to know are computed on the
+/// A head that a GPU moves. The vertices that the frame needs to know are computed on the
 /// processor as well, which is faster than reading them back.
 class GpuHeadRig {
  public:
@@ -34,7 +34,7 @@ class GpuHeadRig {
   HeadVertices measured_;
 };
 
-/// What the card holds for one head.
+/// What the GPU holds for one head.
 struct GpuHead {
   GpuHead(const GlFunctions& gl, const Head& head, const Appearance& appearance)
       : buffers(gl, head, appearance), textures(gl, head.surface()) {}
@@ -53,7 +53,7 @@ class GpuHeads {
       : gl_(gl), appearance_(appearance), max_(max), rig_programs_(gl) {}
   /// Returns a head for a frame, uploaded if it is new. Valid until the next call.
   GpuHead& Find(const Head& head);
-  /// Moves faces of a head on the card, for GpuHead::rig. REQUIRES: RigPrograms::Supported.
+  /// Moves faces of a head on the GPU, for GpuHead::rig. REQUIRES: RigPrograms::Supported.
   void Move(const Head& head, std::span<const Renderer::Pane> panes);
 
  private:

@@ -40,10 +40,10 @@ class RigPrograms {
   std::map<std::string_view, std::unique_ptr<GlProgram>> programs_;
 };
 
-/// Moves a head on a graphics card by the steps of its Rig, any number of its faces in one call:
-/// constant data stays in buffers on the card, a frame uploads a StepState for each face, and
+/// Moves a head on a GPU by the steps of its Rig, any number of its faces in one call:
+/// constant data stays in buffers on the GPU, a frame uploads a StepState for each face, and
 /// positions and normals stay where they are drawn from. Agrees with Rig::Evaluate within 0.05 mm
-/// (tests/fsm/render_gpu_rig_test.cc; a card may fuse multiply and add). Destroy while its context
+/// (tests/fsm/render_gpu_rig_test.cc; a GPU may fuse multiply and add). Destroy while its context
 /// is current.
 class GpuRig {
  public:
@@ -65,7 +65,7 @@ class GpuRig {
   std::size_t OffsetBytes(std::size_t face) const {
     return face * vertex_count_ * sizeof(glm::vec3);
   }
-  /// Waits for the card and reads positions and normals back.
+  /// Waits for the GPU and reads positions and normals back.
   void Read(std::size_t face, HeadVertices& out) const;
 
  private:

@@ -29,7 +29,7 @@ class HeadBuffers {
 
   /// Uploads these vertices of the head and binds its vertex array.
   void Upload(const HeadVertices& vertices);
-  /// Binds the vertex array to positions and normals that are on the card already; those of the
+  /// Binds the vertex array to positions and normals that are on the GPU already; those of the
   /// head begin at byte `from`.
   void Use(GLuint positions, GLuint normals, std::size_t from = 0);
   /// Returns the head's parts in drawing order, best occluders first. `error_mm`: the largest error

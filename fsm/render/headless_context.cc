@@ -12,41 +12,42 @@ namespace {
 
 using Make = std::function<std::unique_ptr<RenderContext>(int, int)>;
 
-/// Returns the ways to make an off-screen context in the order in which they are tried, from left
+/// Returns the makers to make an off-screen context in the order in which they are tried, from left
 /// to right; those that this program was built without are skipped.
 ///
 /// | asked for | first                   | then                | last   |
 /// | kOsMesa   | OSMesa                  | Mesa's EGL software |        |
-/// | kEgl      | graphics cards of EGL   | EGL without surface |        |
-/// | kAny      | graphics cards of EGL   | EGL without surface | OSMesa |
+/// | kEgl      | GPUs of EGL             | EGL without surface |        |
+/// | kAny      | GPUs of EGL             | EGL without surface | OSMesa |
 ///
 /// OSMesa is gone from Mesa 25.1 on; its software device draws the same pictures.
-std::vector<Make> WaysTo(OffScreen how) {
-  [[maybe_unused]] const bool software = how == OffScreen::kOsMesa;
-  std::vector<Make> ways;
+std::vector<Make> MakersFor(OffScreenDriver how) {
+  [[maybe_unused]] const bool software = how == OffScreenDriver::kOsMesa;
+  std::vector<Make> makers;
 #ifdef FSM_WITH_OSMESA
-  if (software) ways.emplace_back(MakeOsMesaContext);
+  if (software) makers.emplace_back(MakeOsMesaContext);
 #endif
 #ifdef FSM_WITH_EGL
-  ways.emplace_back(
+  makers.emplace_back(
       [software](int width, int height) { return MakeEglDeviceContext(width, height, software); });
-  if (!software) ways.emplace_back(MakeEglSurfacelessContext);
+  if (!software) makers.emplace_back(MakeEglSurfacelessContext);
 #endif
 #ifdef FSM_WITH_OSMESA
-  if (how == OffScreen::kAny) ways.emplace_back(MakeOsMesaContext);
+  if (how == OffScreenDriver::kAny) makers.emplace_back(MakeOsMesaContext);
 #endif
-  return ways;
+  return makers;
 }
 
 }  // namespace
 
-std::unique_ptr<RenderContext> RenderContext::MakeHeadless(int width, int height, OffScreen how) {
+std::unique_ptr<RenderContext> RenderContext::MakeHeadless(int width, int height,
+                                                           OffScreenDriver how) {
   if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide) {
     throw std::runtime_error("a picture must have 1 to " + std::to_string(kMaxImageSide) +
                              " pixels on each side");
   }
   std::string reasons;
-  for (const Make& make : WaysTo(how)) {
+  for (const Make& make : MakersFor(how)) {
     try {
       return make(width, height);
     } catch (const std::runtime_error& error) {
@@ -59,7 +60,7 @@ std::unique_ptr<RenderContext> RenderContext::MakeHeadless(int width, int height
                        : reasons));
 }
 
-std::string DescribeOffScreen(OffScreen how) {
+std::string DescribeOffScreen(OffScreenDriver how) {
   try {
     const auto context = RenderContext::MakeHeadless(16, 16, how);
     const auto get_string =
@@ -68,7 +69,7 @@ std::string DescribeOffScreen(OffScreen how) {
       const auto* found = get_string ? get_string(what) : nullptr;
       return found ? reinterpret_cast<const char*>(found) : "unknown";
     };
-    return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION) + ", by " + context->reached_by();
+    return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION) + ", by " + context->description();
   } catch (const std::runtime_error& error) {
     return std::string("none: ") + error.what();
   }

@@ -13,7 +13,7 @@ namespace fsm {
 /// Renders in software to memory.
 std::unique_ptr<RenderContext> MakeOsMesaContext(int width, int height);
 /// Uses the first of EGL's devices (EGL_EXT_device_enumeration, EGL_EXT_platform_device) of a kind
-/// that works: graphics cards, or Mesa's software device.
+/// that works: GPUs, or Mesa's software device.
 std::unique_ptr<RenderContext> MakeEglDeviceContext(int width, int height, bool software);
 /// Uses Mesa's display without surfaces (EGL_MESA_platform_surfaceless), with the driver that Mesa
 /// chooses.

@@ -63,7 +63,7 @@ class OsMesaContext : public OffScreenContext {
     Resume(other);
   }
 
-  std::string reached_by() const override { return "OSMesa"; }
+  std::string description() const override { return "OSMesa"; }
   void* GetProcAddress(const char* name) override {
     return reinterpret_cast<void*>(mesa_.get_proc_address(name));
   }

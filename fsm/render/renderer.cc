@@ -38,16 +38,16 @@ bool IsSoftware(const GlFunctions& gl) {
 
 class GlRenderer : public Renderer {
  public:
-  GlRenderer(RenderContext& context, std::size_t heads, const Appearance& appearance, RigOn rig)
+  GlRenderer(RenderContext& context, std::size_t heads, const Appearance& appearance, RigDevice rig)
       : context_(context),
         gl_(GlFunctions::Load(context)),
-        draws_on_card_(!IsSoftware(gl_)),
-        painter_(gl_, appearance, !draws_on_card_),
+        draws_on_gpu_(!IsSoftware(gl_)),
+        painter_(gl_, appearance, !draws_on_gpu_),
         backdrop_(gl_, appearance),
         heads_(gl_, appearance, heads),
-        reader_(gl_, draws_on_card_ && gl_.has_compute),
-        rig_on_gpu_(rig == RigOn::kGpu ||
-                    (rig == RigOn::kBest && RigPrograms::Supported(gl_) && draws_on_card_)) {
+        reader_(gl_, draws_on_gpu_ && gl_.has_compute),
+        rig_on_gpu_(rig == RigDevice::kGpu ||
+                    (rig == RigDevice::kBest && RigPrograms::Supported(gl_) && draws_on_gpu_)) {
     if (rig_on_gpu_ && !RigPrograms::Supported(gl_))
       throw std::runtime_error(
           "OpenGL 4.3 is needed to move faces on the card, this driver has " +
@@ -73,7 +73,7 @@ class GlRenderer : public Renderer {
 
   void DrawPanes(std::span<const Pane> panes,
                  const std::function<void(std::size_t)>& drawn) override {
-    constexpr std::ptrdiff_t kMaxAtOnce = 256;  // each takes about 0.3 MB on the card
+    constexpr std::ptrdiff_t kMaxAtOnce = 256;  // each takes about 0.3 MB on the GPU
     const Viewport before = viewport_;
     std::size_t done = 0;
     while (done < panes.size()) {
@@ -94,7 +94,7 @@ class GlRenderer : public Renderer {
 
   void Read(Image& out) override {
     assert(target_ && "Read before the first Draw");
-    if (draws_on_card_) return EndRead(BeginRead(), out);
+    if (draws_on_gpu_) return EndRead(BeginRead(), out);
     target_->Read(out, soft_);
     if (transparent_) Unmultiply(out);
   }
@@ -169,7 +169,7 @@ class GlRenderer : public Renderer {
   Viewport viewport_;
   float form_error_ = 0;  // pixels
   GlFunctions gl_;
-  const bool draws_on_card_;
+  const bool draws_on_gpu_;
   FigurePainter painter_;
   Backdrop backdrop_;
   GpuHeads heads_;
@@ -190,7 +190,7 @@ std::unique_ptr<Renderer> Renderer::Make(RenderContext& context, std::size_t hea
 }
 
 std::unique_ptr<Renderer> Renderer::Make(RenderContext& context, std::size_t heads,
-                                         const Appearance& appearance, RigOn rig) {
+                                         const Appearance& appearance, RigDevice rig) {
   return std::make_unique<GlRenderer>(context, std::max<std::size_t>(heads, 1), appearance, rig);
 }
 

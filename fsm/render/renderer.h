@@ -18,10 +18,10 @@ namespace fsm {
 class Appearance;
 
 /// The device that moves the vertices of a head that is drawn from its state.
-enum class RigOn {
-  kBest,  ///< the graphics card if one draws and has compute shaders (OpenGL 4.3)
+enum class RigDevice {
+  kBest,  ///< the GPU if one draws and has compute shaders (OpenGL 4.3)
   kProcessor,
-  kGpu  ///< even if the "card" is a software driver
+  kGpu  ///< even if the "GPU" is a software driver
 };
 
 /// A rectangle of the context's drawable in pixels from its upper left corner; width 0: all of it.
@@ -43,7 +43,8 @@ class Renderer {
   /// `appearance` replaces the built-in one and must outlive the renderer. Throws
   /// std::runtime_error if `rig` is kGpu and the driver cannot do it.
   static std::unique_ptr<Renderer> Make(RenderContext& context, std::size_t heads,
-                                        const Appearance& appearance, RigOn rig = RigOn::kBest);
+                                        const Appearance& appearance,
+                                        RigDevice rig = RigDevice::kBest);
   virtual ~Renderer() = default;
   /// Sets where the next frames are drawn; initially everywhere.
   virtual void SetViewport(const Viewport& viewport) = 0;
@@ -54,7 +55,7 @@ class Renderer {
   virtual void DrawVertices(const Head& head, const HeadVertices& vertices, const Figure& figure,
                             const Scene& scene) = 0;
   /// Draws the vertices that the head's rig computes from `state` and `spring_offsets`
-  /// (Rig::Evaluate). A card computes them itself (GpuRig), with the accuracy stated there.
+  /// (Rig::Evaluate). A GPU computes them itself (GpuRig), with the accuracy stated there.
   virtual void Draw(const Head& head, const FaceState& state,
                     std::span<const glm::vec3> spring_offsets, const Scene& scene) = 0;
   /// One face of many; its pointers are borrowed for the call.
@@ -66,14 +67,14 @@ class Renderer {
     std::span<const glm::vec3> spring_offsets = {};
   };
   /// Draws each pane in its viewport and then calls `drawn` with its index, which may read the
-  /// frame but not draw. A card moves consecutive faces of one head in one call. Afterwards the
+  /// frame but not draw. A GPU moves consecutive faces of one head in one call. Afterwards the
   /// viewport is the previous one again.
   virtual void DrawPanes(std::span<const Pane> panes,
                          const std::function<void(std::size_t)>& drawn = {}) = 0;
   /// Reads the last frame drawn, of the viewport's size.
   virtual void Read(Image& out) = 0;
-  /// Starts reading the last frame drawn; a graphics card does so while others are drawn. Each
-  /// pending frame holds 16 bytes per pixel on the card; two or three keep it busy. Returns the
+  /// Starts reading the last frame drawn; a GPU does so while others are drawn. Each
+  /// pending frame holds 16 bytes per pixel on the GPU; two or three keep it busy. Returns the
   /// handle for EndRead and DropRead.
   virtual std::uint64_t BeginRead() = 0;
   /// Waits for the frame and returns the bytes of Read. Frames may end in any order.

@@ -68,7 +68,7 @@ class WindowContext : public SwitchedContext {
   WindowContext(const WindowContext&) = delete;
   WindowContext& operator=(const WindowContext&) = delete;
 
-  std::string reached_by() const override { return "a window"; }
+  std::string description() const override { return "a window"; }
   void* GetProcAddress(const char* name) override {
     return reinterpret_cast<void*>(glfwGetProcAddress(name));
   }

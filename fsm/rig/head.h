@@ -51,7 +51,7 @@ class Head {
   /// Returns HeadAsset::view.
   const std::optional<ParallelView>& view() const { return view_; }
   /// Returns a number that no other head of this process has or had. Caches of a head, as on a
-  /// graphics card, use it as their key: an address may be reused for a later head.
+  /// GPU, use it as their key: an address may be reused for a later head.
   std::uint64_t serial() const { return serial_; }
 
  private:

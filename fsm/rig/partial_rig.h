@@ -9,7 +9,7 @@
 namespace fsm {
 
 /// Some vertices of a head, moved on the processor exactly as Rig would move them. It serves
-/// queries about a state whose other vertices are moved on a graphics card. Immutable; thread: any.
+/// queries about a state whose other vertices are moved on a GPU. Immutable; thread: any.
 class PartialRig {
  public:
   /// `vertices`: indices into the head's vertices, in any order; repetitions are allowed.

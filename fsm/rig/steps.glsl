@@ -1,6 +1,6 @@
 // The arithmetic of the steps of a rig (RigStep in fsm/rig/rig_data.h), written once in the common subset of C++ and
 // GLSL: fsm/rig/steps.h compiles it for the processor, gpu_rig.cc prepends it to render/shaders/rig_kernels.glsl for
-// a graphics card. FUNCTION is "inline" in C++ and empty in GLSL. Members of structs in buffers have 32 bits each, so
+// a GPU. FUNCTION is "inline" in C++ and empty in GLSL. Members of structs in buffers have 32 bits each, so
 // that both lay them out alike (std430). Lengths are in millimetres and angles in radians unless stated otherwise.
 
 const float kCorneaRadius = 8.0f;  // of the outer surface
@@ -326,7 +326,7 @@ FUNCTION vec3 UnitNormal(vec3 sum) {
   return squared > 1e-12f ? sum / sqrt(squared) : vec3(0.0f, 0.0f, 1.0f);
 }
 
-// ---- Records of vertices for a graphics card (rig_records.h packs them).
+// ---- Records of vertices for a GPU (rig_records.h packs them).
 
 // A vertex with a list of entries, from index `from` up to but excluding `to`.
 struct ListRecord {

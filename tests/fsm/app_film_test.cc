@@ -136,7 +136,7 @@ TEST_F(FilmTest, AViewOfAnotherSizeEndsTheFilm) {
 
 /// Writes pictures of 1000 bytes.
 const MediaFiles kPictureFiles{
-    .write_picture = [](const Image&, const std::string& path) -> vm::Result<void> {
+    .write_image = [](const Image&, const std::string& path) -> vm::Result<void> {
       std::ofstream(path) << std::string(1000, 'x');
       return {};
     }};

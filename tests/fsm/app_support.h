@@ -68,14 +68,14 @@ class FakeWorld final : public FaceView, public FaceLibrary, private ViewWindow 
   ViewWindow* window() override { return has_window ? this : nullptr; }
 
   MediaFiles files{
-      .write_picture = [this](const Image&, const std::string& path) -> vm::Result<void> {
+      .write_image = [this](const Image&, const std::string& path) -> vm::Result<void> {
         if (!path.ends_with(".png") && !path.ends_with(".bmp") && !path.ends_with(".rgb")) {
           return vm::Fail(vm::Errc::kBadValue, path + " ends in none of .png .bmp .rgb");
         }
         pictures[path] = last_state;
         return {};
       },
-      .read_picture = [](const std::string& path) -> vm::Result<Image> {
+      .read_image = [](const std::string& path) -> vm::Result<Image> {
         if (path == "missing.png") return vm::Fail(vm::Errc::kUnavailable, "cannot read " + path);
         return Image{1, 1, {1, 2, 3, 255}};
       },

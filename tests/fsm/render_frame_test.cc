@@ -451,7 +451,7 @@ TEST(ContextTest, SizesFromOnePixelUpAreDrawn) {
 TEST(ContextTest, OsMesaAndEglDrawTheSame) {
   std::unique_ptr<RenderContext> other;
   try {
-    other = RenderContext::MakeHeadless(kFrameWidth, kFrameHeight, OffScreen::kEgl);
+    other = RenderContext::MakeHeadless(kFrameWidth, kFrameHeight, OffScreenDriver::kEgl);
   } catch (const std::runtime_error& error) {
     GTEST_SKIP() << "needs EGL (Debian: libegl1, libegl-dev): " << error.what();
   }

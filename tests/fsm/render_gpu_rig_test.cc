@@ -1,4 +1,4 @@
-// The steps of a rig on a graphics card (here Mesa's software) beside those on the processor.
+// The steps of a rig on a GPU (here Mesa's software) beside those on the processor.
 
 #include <gtest/gtest.h>
 
@@ -164,29 +164,29 @@ TEST_F(GpuRigTest, ManyFacesOfAHeadAreMovedInOneCall) {
 TEST_F(GpuRigTest, APictureOfAHeadMovedOnTheCardIsThatOfTheProcessor) {
   const auto head = MakeHead("galatea");
   const auto context = RenderContext::MakeHeadless(200, 240);
-  const auto picture = [&](RigOn rig) {
+  const auto picture = [&](RigDevice rig) {
     const auto renderer = Renderer::Make(*context, 2, Appearance::BuiltIn(), rig);
     std::vector<Image> images;
     for (const FaceState& state : Wilds(4)) {
       renderer->Draw(*head, state, {}, {});
       renderer->Read(images.emplace_back());
     }
-    // Vertices of the processor's after those of the card.
+    // Vertices of the processor's after those of the GPU.
     HeadVertices rest;
     head->Evaluate({}, rest);
     renderer->DrawVertices(*head, rest, {}, {});
     renderer->Read(images.emplace_back());
     return images;
   };
-  const auto card = picture(RigOn::kGpu), processor = picture(RigOn::kProcessor);
-  for (std::size_t k = 0; k < card.size(); ++k) {
+  const auto gpu = picture(RigDevice::kGpu), processor = picture(RigDevice::kProcessor);
+  for (std::size_t k = 0; k < gpu.size(); ++k) {
     std::size_t differ = 0;
-    for (std::size_t i = 0; i < card[k].rgba.size(); ++i)
-      differ += std::abs(card[k].rgba[i] - processor[k].rgba[i]) > 8 ? 1 : 0;
-    EXPECT_LT(differ, card[k].rgba.size() / 2000) << "picture " << k;
+    for (std::size_t i = 0; i < gpu[k].rgba.size(); ++i)
+      differ += std::abs(gpu[k].rgba[i] - processor[k].rgba[i]) > 8 ? 1 : 0;
+    EXPECT_LT(differ, gpu[k].rgba.size() / 2000) << "picture " << k;
   }
-  EXPECT_EQ(card.back().rgba, processor.back().rgba);
-  EXPECT_NE(card[0].rgba, card[1].rgba);
+  EXPECT_EQ(gpu.back().rgba, processor.back().rgba);
+  EXPECT_NE(gpu[0].rgba, gpu[1].rgba);
 }
 
 TEST_F(GpuRigTest, AFaceThatIsAskedForAgainIsTheSame) {

@@ -68,8 +68,8 @@ TEST(ManyHeadsTest, FacesDrawnInOneCallLookAsOneByOne) {
                                           {photo.get(), &states[3], &scene, {0, 0, 40, 64}},
                                           {&ball, &states[4], &scene, {0, 0, 40, 64}},
                                           {plain.get(), &states[5], &scene, {0, 0, 40, 64}}};
-  for (const RigOn rig : {RigOn::kProcessor, RigOn::kGpu}) {
-    if (rig == RigOn::kGpu && !RigPrograms::Supported(GlFunctions::Load(*context))) continue;
+  for (const RigDevice rig : {RigDevice::kProcessor, RigDevice::kGpu}) {
+    if (rig == RigDevice::kGpu && !RigPrograms::Supported(GlFunctions::Load(*context))) continue;
     const auto renderer = Renderer::Make(*context, 2, Appearance::BuiltIn(), rig);
     std::vector<Image> expected, drawn;
     for (const Renderer::Pane& pane : panes) {

@@ -40,29 +40,29 @@ std::unique_ptr<RenderContext> Try(Make make, std::string& why) {
 
 TEST(OffScreenTest, SoftwareIsWhatIsMadeWhenNothingIsSaid) {
   const auto context = RenderContext::MakeHeadless(kWide, kHigh);
-  const std::string way = context->reached_by();
+  const std::string way = context->description();
   EXPECT_TRUE(way == "OSMesa" || way.ends_with(", software")) << way;
-  EXPECT_NE(DescribeOffScreen(OffScreen::kOsMesa).find("by " + way), std::string::npos);
-  EXPECT_NE(DescribeOffScreen(OffScreen::kOsMesa).find("OpenGL "), std::string::npos);
+  EXPECT_NE(DescribeOffScreen(OffScreenDriver::kOsMesa).find("by " + way), std::string::npos);
+  EXPECT_NE(DescribeOffScreen(OffScreenDriver::kOsMesa).find("OpenGL "), std::string::npos);
 }
 
 TEST(OffScreenTest, EglIsGraphicsCardsFirstAndThenMesaWithoutASurface) {
-  std::string why, no_card;
-  const auto card = Try([] { return MakeEglDeviceContext(kWide, kHigh, false); }, no_card);
+  std::string why, no_gpu;
+  const auto gpu = Try([] { return MakeEglDeviceContext(kWide, kHigh, false); }, no_gpu);
   const auto chosen =
-      Try([] { return RenderContext::MakeHeadless(kWide, kHigh, OffScreen::kEgl); }, why);
+      Try([] { return RenderContext::MakeHeadless(kWide, kHigh, OffScreenDriver::kEgl); }, why);
   if (!chosen) GTEST_SKIP() << "needs EGL (Debian: libegl1, libegl-dev): " << why;
-  EXPECT_EQ(chosen->reached_by(), card ? card->reached_by() : "EGL, Mesa without a surface");
-  EXPECT_TRUE(card || no_card.starts_with("EGL: ")) << no_card;
-  const auto any = RenderContext::MakeHeadless(kWide, kHigh, OffScreen::kAny);
-  EXPECT_EQ(any->reached_by(), chosen->reached_by());
+  EXPECT_EQ(chosen->description(), gpu ? gpu->description() : "EGL, Mesa without a surface");
+  EXPECT_TRUE(gpu || no_gpu.starts_with("EGL: ")) << no_gpu;
+  const auto any = RenderContext::MakeHeadless(kWide, kHigh, OffScreenDriver::kAny);
+  EXPECT_EQ(any->description(), chosen->description());
 }
 
 TEST(OffScreenTest, MesasSoftwareDeviceDrawsWhatOsMesaDraws) {
   std::string why;
   const auto device = Try([] { return MakeEglDeviceContext(kWide, kHigh, true); }, why);
   if (!device) GTEST_SKIP() << "needs Mesa's EGL (Debian: libegl-mesa0): " << why;
-  EXPECT_TRUE(device->reached_by().ends_with(", software")) << device->reached_by();
+  EXPECT_TRUE(device->description().ends_with(", software")) << device->description();
   const Image by_device = Drawn(*device);
   const auto software = RenderContext::MakeHeadless(kWide, kHigh);
   const Image image = Drawn(*software);
@@ -74,8 +74,8 @@ TEST(OffScreenTest, MesasSoftwareDeviceDrawsWhatOsMesaDraws) {
 }
 
 TEST(OffScreenTest, SizesThatNoPictureHasAreRefusedByEveryWay) {
-  EXPECT_THROW(RenderContext::MakeHeadless(0, 4, OffScreen::kAny), std::runtime_error);
-  EXPECT_THROW(RenderContext::MakeHeadless(4, kMaxImageSide + 1, OffScreen::kEgl),
+  EXPECT_THROW(RenderContext::MakeHeadless(0, 4, OffScreenDriver::kAny), std::runtime_error);
+  EXPECT_THROW(RenderContext::MakeHeadless(4, kMaxImageSide + 1, OffScreenDriver::kEgl),
                std::runtime_error);
 }
 

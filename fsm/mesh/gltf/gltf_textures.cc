@@ -167,7 +167,7 @@ std::optional<Image> GltfTextures::Decode(std::int64_t image) {
     return std::nullopt;
   };
   try {
-    auto picture = DecodePicture(BytesOf(document_.ImageBytes(image)));
+    auto picture = DecodePngOrJpeg(BytesOf(document_.ImageBytes(image)));
     if (!picture) return left_out(picture.error().text);
     Shrink(*picture, TextureAtlas::kMaxSide);
     return std::move(*picture);

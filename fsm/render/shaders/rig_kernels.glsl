@@ -1,4 +1,4 @@
-// The steps of a rig (RigStep) on a graphics card, one program for each. gpu_rig.cc prepends the version, the name of
+// The steps of a rig (RigStep) on a GPU, one program for each. gpu_rig.cc prepends the version, the name of
 // the step, RigPrograms::Binding and fsm/rig/steps.glsl, which has the arithmetic. One invocation moves one vertex of one
 // face. `records` holds a step's data about its vertices. If several things act on a vertex, its record gives the
 // range of `entries` that lists them.
