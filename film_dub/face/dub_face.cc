@@ -18,7 +18,7 @@ constexpr int kLeastSide = 384, kMostSide = 1536;
 
 fsm::Scene OnNothing() {
   fsm::Scene scene;
-  scene.show_background = false;
+  scene.background = fsm::Transparent{};
   return scene;
 }
 

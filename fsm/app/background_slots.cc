@@ -72,25 +72,23 @@ void BackgroundSlots::Declare() {
        .help = "Whether the background is drawn; without it pictures are transparent there.",
        .on_set = core_.Command([this](const vm::SetValue& value) {
          enabled_ = value.word(0) == "ENABLE";
-         Show(transparent_);
+         Show();
        })});
 }
 
 vm::Result<void> BackgroundSlots::Set(const std::string& name) {
-  const auto show_colour = [this](glm::vec3 colour, bool studio = false) {
-    core_.scene.background = colour;
-    core_.scene.studio = studio;
-    core_.scene.background_image = nullptr;
-    Show(false);
-    return vm::Result<void>{};
-  };
-  if (name == kTransparent) {
-    Show(true);
-    return {};
-  }
-  if (name == kPlain) return show_colour(Scene{}.background);
-  if (name == kStudio) return show_colour(Scene{}.background, true);
-  if (const auto colour = ParseColour(name)) return show_colour(*colour);
+  auto background = Find(name);
+  if (!background) return std::unexpected(background.error());
+  background_ = std::move(*background);
+  Show();
+  return {};
+}
+
+vm::Result<Background> BackgroundSlots::Find(const std::string& name) const {
+  if (name == kTransparent) return Transparent{};
+  if (name == kPlain) return kPlainBackground;
+  if (name == kStudio) return StudioWall{};
+  if (const auto colour = ParseColour(name)) return *colour;
   const auto named =
       std::ranges::find(backgrounds_, name, &std::pair<std::string, std::string>::first);
   if (named == backgrounds_.end() && !IsPictureName(name)) {
@@ -100,22 +98,17 @@ vm::Result<void> BackgroundSlots::Set(const std::string& name) {
   }
   auto picture = core_.files.read_image(named == backgrounds_.end() ? name : named->second);
   if (!picture) return std::unexpected(picture.error());
-  core_.scene.background_image = std::make_shared<const Image>(std::move(*picture));
-  Show(false);
-  return {};
+  return std::make_shared<const Image>(std::move(*picture));
 }
 
 void BackgroundSlots::StorePlain() {
   for (const char* slot : {"Background", "NowBackground"}) core_.slots.Store(slot, kPlain);
 }
 
-void BackgroundSlots::Show(bool transparent) {
-  transparent_ = transparent;
-  core_.scene.show_background = enabled_ && !transparent_;
-}
+void BackgroundSlots::Show() { core_.scene.background = enabled_ ? background_ : Transparent{}; }
 
 void BackgroundSlots::Reset() {
-  transparent_ = false;
+  background_ = kPlainBackground;
   enabled_ = true;
   if (auto set = Set(first_); !set) {
     core_.slots.ReportError("Background", set.error());

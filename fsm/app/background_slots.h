@@ -22,12 +22,14 @@ class BackgroundSlots final : public Activity {
   void Declare();
   vm::Result<void> Set(const std::string& name);
   void StorePlain();  // if the first background could not be shown
-  void Show(bool transparent);
+  /// Returns the background of a name, a picture file or a colour.
+  vm::Result<Background> Find(const std::string& name) const;
+  void Show();
 
   FsmCore& core_;
   std::vector<std::pair<std::string, std::string>> backgrounds_;
   std::string first_;  // the initial background
-  bool transparent_ = false;
+  Background background_ = kPlainBackground;
   bool enabled_ = true;
 };
 

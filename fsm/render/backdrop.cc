@@ -1,6 +1,7 @@
 #include "fsm/render/backdrop.h"
 
 #include <cassert>
+#include <glm/vec4.hpp>
 
 #include "embedded/backdrop_fragment.h"
 #include "embedded/backdrop_vertex.h"
@@ -8,10 +9,7 @@
 namespace fsm {
 namespace {
 
-/// Tells whether a scene shows a picture behind the figure.
-bool IsPictured(const Scene& scene) {
-  return scene.show_background && scene.background_image && !scene.background_image->rgba.empty();
-}
+using Picture = std::shared_ptr<const Image>;
 
 }  // namespace
 
@@ -29,50 +27,50 @@ Backdrop::~Backdrop() {
   gl_.DeleteVertexArrays(1, &array_);
 }
 
-void Backdrop::Draw(const Scene& scene, int width, int height) {
-  if (!scene.show_background) {
-    gl_.ClearColor(0, 0, 0, 0);
+void Backdrop::Draw(const Background& background, int width, int height) {
+  wide_ = static_cast<float>(width) / static_cast<float>(height);
+  const auto* const colour = std::get_if<glm::vec3>(&background);
+  if (colour || std::holds_alternative<Transparent>(background)) {
+    const glm::vec4 clear = colour ? glm::vec4(*colour, 1) : glm::vec4(0);
+    gl_.ClearColor(clear.r, clear.g, clear.b, clear.a);
     gl_.Clear(GL_COLOR_BUFFER_BIT);
     return;
   }
-  wide_ = static_cast<float>(width) / static_cast<float>(height);
-  if (IsPictured(scene)) {
+  if (const auto* const picture = std::get_if<Picture>(&background)) {
     gl_.ActiveTexture(GlUnit(TextureUnit::kPass));
     gl_.BindTexture(GL_TEXTURE_2D, texture_);
-    Upload(scene.background_image);
+    Upload(*picture);
     // A picture of the view's own size is shown without filtering, pixel by pixel.
     const bool same = uploaded_->width == width && uploaded_->height == height;
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
                       same ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, same ? GL_NEAREST : GL_LINEAR);
-  } else if (!scene.studio) {
-    gl_.ClearColor(scene.background.r, scene.background.g, scene.background.b, 1);
-    gl_.Clear(GL_COLOR_BUFFER_BIT);
-    return;
   }
-  Cover(scene, 1);
+  DrawFullScreen(background, 1);
 }
 
-void Backdrop::Veil(const Scene& scene, float opacity) {
-  if (IsPictured(scene)) {
+void Backdrop::BlendOver(const Background& background, float opacity) {
+  if (std::holds_alternative<Picture>(background)) {
     gl_.ActiveTexture(GlUnit(TextureUnit::kPass));
     gl_.BindTexture(GL_TEXTURE_2D, texture_);
   }
   gl_.Enable(GL_BLEND);
   // Without a background nothing is added; colours and opacity only decrease.
-  gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA,
-                        scene.show_background ? GL_ONE : GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
-  Cover(scene, opacity);
+  const bool transparent = std::holds_alternative<Transparent>(background);
+  gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, transparent ? GL_ZERO : GL_ONE,
+                        GL_ONE_MINUS_SRC_ALPHA);
+  DrawFullScreen(background, opacity);
   gl_.Disable(GL_BLEND);
 }
 
-void Backdrop::Cover(const Scene& scene, float opacity) {
+void Backdrop::DrawFullScreen(const Background& background, float opacity) {
+  const auto* const colour = std::get_if<glm::vec3>(&background);
   program_.Use();
   program_.Set("picture", TextureUnit::kPass);
-  program_.Set("pictured", IsPictured(scene));
-  program_.Set("studio", scene.show_background && scene.studio);
+  program_.Set("pictured", std::holds_alternative<Picture>(background));
+  program_.Set("studio", std::holds_alternative<StudioWall>(background));
   program_.Set("wide", wide_);
-  program_.Set("plain", scene.show_background ? scene.background : glm::vec3(0));
+  program_.Set("plain", colour ? *colour : glm::vec3(0));
   program_.Set("opacity", opacity);
   gl_.BindVertexArray(array_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);

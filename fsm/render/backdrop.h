@@ -19,14 +19,14 @@ class Backdrop {
 
   /// Draws the background over the bound target, which is a picture of `width` x `height` pixels.
   /// The background's picture is uploaded only if it has changed.
-  void Draw(const Scene& scene, int width, int height);
+  void Draw(const Background& background, int width, int height);
   /// Blends the background over what was drawn before, which thereby fades; `opacity` 1 hides it
   /// fully. Without a background the premultiplied colours fade with the opacity. REQUIRES: the
-  /// last Draw was of this scene into the target that is bound now; depth test off.
-  void Veil(const Scene& scene, float opacity);
+  /// last Draw was of this background into the target that is bound now; depth test off.
+  void BlendOver(const Background& background, float opacity);
 
  private:
-  void Cover(const Scene& scene, float opacity);
+  void DrawFullScreen(const Background& background, float opacity);
   void Upload(const std::shared_ptr<const Image>& image);
 
   const GlFunctions& gl_;

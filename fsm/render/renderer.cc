@@ -19,14 +19,11 @@
 namespace fsm {
 namespace {
 
-/// Returns the scene whose background is drawn behind the figure.
-Scene Behind(const Scene& scene) {
-  Scene behind = scene;
-  if (scene.view_mode == ViewMode::kWireframe && scene.wire_on_black) {
-    behind.background = glm::vec3(0);
-    behind.background_image = nullptr;
-  }
-  return behind;
+/// Returns what is drawn behind the figure.
+Background Behind(const Scene& scene) {
+  const bool black = scene.view_mode == ViewMode::kWireframe && scene.wire_on_black;
+  const bool transparent = std::holds_alternative<Transparent>(scene.background);
+  return black && !transparent ? glm::vec3(0) : scene.background;
 }
 
 /// Tells whether the processor draws, through one of Mesa's software drivers.
@@ -128,8 +125,8 @@ class GlRenderer : public Renderer {
     // A photo is soft, so hard edges beside it would stand out. Single hairs are thinner than a
     // pixel and would become rows of dots.
     soft_ = HasBlendedLayers(head.surface()) || !head.surface().strands.empty();
-    transparent_ = !scene.show_background;
-    const Scene behind = Behind(scene);
+    transparent_ = std::holds_alternative<Transparent>(scene.background);
+    const Background behind = Behind(scene);
     backdrop_.Draw(behind, width, height);
     const float alpha = std::clamp(figure.alpha, 0.0F, 1.0F);
     if (figure.enabled && alpha > 0) {
@@ -140,7 +137,7 @@ class GlRenderer : public Renderer {
                     form_error_, *target_);
       // The figure fades as one picture; blending each of its layers would show what is behind
       // them.
-      if (alpha < 1) backdrop_.Veil(behind, 1 - alpha);
+      if (alpha < 1) backdrop_.BlendOver(behind, 1 - alpha);
     }
     if (context_.is_window()) {
       gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);

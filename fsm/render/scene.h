@@ -3,6 +3,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <variant>
 
 #include "fsm/image/image.h"
 #include "fsm/rig/head_asset.h"
@@ -32,13 +33,19 @@ struct Camera {
   bool moves_by_half_views = false;
 };
 
+/// What is behind the figure.
+struct Transparent {};
+struct StudioWall {};                       ///< brighter behind the head
+using Background = std::variant<glm::vec3,  ///< a colour, sRGB 0..1
+                                Transparent, StudioWall,
+                                /// Stretched over the view. Not null; a changed picture must be
+                                /// another object.
+                                std::shared_ptr<const Image>>;
+inline constexpr glm::vec3 kPlainBackground{0.35F, 0.42F, 0.48F};
+
 /// Everything in a picture except the head.
 struct Scene {
-  glm::vec3 background{0.35F, 0.42F, 0.48F};  ///< sRGB 0..1, used without a picture
-  bool studio = false;  ///< replaces `background` by a wall that is brighter behind the head
-  /// Stretched over the view. A changed picture must be another object.
-  std::shared_ptr<const Image> background_image = {};
-  bool show_background = true;  ///< false: transparent black
+  Background background = kPlainBackground;
   ViewMode view_mode = ViewMode::kTexture;
   Camera camera;
   glm::vec3 wire{0.10F, 0.55F, 0.42F};  ///< sRGB, line colour of ViewMode::kWireframe

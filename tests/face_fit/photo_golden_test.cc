@@ -53,7 +53,8 @@ TEST_F(PhotoGoldenTest, APhotoIsFittedAndWornAsKept) {
   scene.camera.distance = 0.65F;
   constexpr int kSide = 176;
   fsm::ExpectGolden(Drawn(*head, state, scene, kSide, kSide),
-                    GALATEA_SOURCE_DIR "/tests/face_fit/data/golden/photo.png", scene.background);
+                    GALATEA_SOURCE_DIR "/tests/face_fit/data/golden/photo.png",
+                    fsm::kPlainBackground);
 }
 
 }  // namespace

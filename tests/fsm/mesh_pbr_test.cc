@@ -163,7 +163,7 @@ glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0
   const auto context = RenderContext::MakeHeadless(kSide, kSide);
   const auto renderer = Renderer::Make(*context);
   Scene scene;
-  scene.background = {0, 0, 1};
+  scene.background = glm::vec3(0, 0, 1);
   scene.key.direction = key;
   scene.key.strength = key_strength;
   scene.fill.strength = scene.rim.strength = 0;

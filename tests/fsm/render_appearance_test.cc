@@ -175,7 +175,7 @@ TEST(AppearanceTest, PoresAreLeftOutOnlyWhereTheyAreNotSeen) {
     return image;
   };
   const auto missed = [&](const Appearance& appearance) {
-    return CompareFigures(drawn(always), drawn(appearance), scene.background).mean;
+    return CompareFigures(drawn(always), drawn(appearance), kPlainBackground).mean;
   };
   const double far = missed(Appearance::BuiltIn());
   EXPECT_GT(far, 0);

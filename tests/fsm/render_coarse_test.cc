@@ -61,7 +61,7 @@ TEST_P(SmallFaceTest, LooksAsWithAllOfItsTriangles) {
     Easel easel(side);
     for (const FaceState& state : States()) {
       const FigureDifference off = CompareFigures(
-          easel.Draw(*head, state, true), easel.Draw(*head, state, false), Scene{}.background);
+          easel.Draw(*head, state, true), easel.Draw(*head, state, false), kPlainBackground);
       EXPECT_GT(off.mean, 0) << "none was left out";
       // Frayed ends of hair differ most: other hairs of the same pattern are gone.
       EXPECT_LT(off.mean, 4) << "at " << side;

@@ -58,9 +58,9 @@ struct FadeTest : ::testing::Test {
 
 TEST_F(FadeTest, AHeadThatWearsAPhotoDoesNotTear) {
   const auto head = WearingPhoto();
-  scene_.background = {0, 0, 1};
+  scene_.background = glm::vec3(0, 0, 1);
   ExpectOnePicture(*head, "before a colour");
-  scene_.show_background = false;
+  scene_.background = Transparent{};
   ExpectOnePicture(*head, "before nothing");
 }
 
@@ -74,7 +74,7 @@ TEST_F(FadeTest, BuiltInHeadsDoNotShowTheirInside) {
 TEST_F(FadeTest, WhatIsBehindMayBeAPictureOfAnySize) {
   const auto head = WearingPhoto();
   for (const int width : {kWidth, 37, 500}) {
-    scene_.background_image = std::make_shared<const Image>(Pattern(width, kHeight));
+    scene_.background = std::make_shared<const Image>(Pattern(width, kHeight));
     ExpectOnePicture(*head, std::to_string(width) + " wide");
   }
 }

@@ -53,7 +53,7 @@ class FrameTest : public ::testing::Test {
       : context_(RenderContext::MakeHeadless(kFrameWidth, kFrameHeight)),
         renderer_(Renderer::Make(*context_)) {
     head_.Evaluate(state_, vertices_);
-    scene_.background = {0.2F, 0.4F, 0.6F};
+    scene_.background = glm::vec3(0.2F, 0.4F, 0.6F);
   }
 
   Image Draw() {
@@ -146,18 +146,18 @@ TEST_F(FrameTest, AlphaLiesBetweenFigureAndBackground) {
 }
 
 TEST_F(FrameTest, WithoutBackgroundTheFigureAloneIsOpaque) {
-  scene_.show_background = false;
+  scene_.background = Transparent{};
   const Image image = Draw();
   EXPECT_EQ(At(image, 0, 0), (Pixel{0, 0, 0, 0}));
   EXPECT_EQ(At(image, kFrameWidth / 2, kFrameHeight / 2)[3], 255);
-  scene_.show_background = true;
+  scene_.background = glm::vec3(0.2F, 0.4F, 0.6F);
   const Image before = Draw();
   EXPECT_EQ(At(before, kFrameWidth / 2, kFrameHeight / 2),
             At(image, kFrameWidth / 2, kFrameHeight / 2));
 }
 
 TEST_F(FrameTest, FadedFigureWithoutBackgroundKeepsItsColours) {
-  scene_.show_background = false;
+  scene_.background = Transparent{};
   const Image whole = Draw();
   state_.figure.alpha = 0.25F;
   const Pixel faded = At(Draw(), kFrameWidth / 2, kFrameHeight / 2);
@@ -167,7 +167,7 @@ TEST_F(FrameTest, FadedFigureWithoutBackgroundKeepsItsColours) {
 }
 
 TEST_F(FrameTest, TheStudiosWallIsBrightestBehindTheHeadAndEndsNowhere) {
-  scene_.studio = true;
+  scene_.background = StudioWall{};
   state_.figure.enabled = false;
   const Image wall = Draw();
   const Pixel middle = At(wall, kFrameWidth / 2, kFrameHeight * 2 / 5);
@@ -183,14 +183,15 @@ TEST_F(FrameTest, TheStudiosWallIsBrightestBehindTheHeadAndEndsNowhere) {
 }
 
 TEST_F(FrameTest, PictureOfTheSameSizeIsShownPixelByPixel) {
-  scene_.background_image = std::make_shared<const Image>(Pattern(kFrameWidth, kFrameHeight));
+  const auto picture = std::make_shared<const Image>(Pattern(kFrameWidth, kFrameHeight));
+  scene_.background = picture;
   state_.figure.enabled = false;
-  EXPECT_EQ(Draw().rgba, scene_.background_image->rgba);
+  EXPECT_EQ(Draw().rgba, picture->rgba);
 }
 
 TEST_F(FrameTest, PictureIsStretchedAndUpright) {
   const auto show = [this](std::array<int, 3> top) {
-    scene_.background_image = std::make_shared<const Image>(MakePicture(top, {0, 0, 255}));
+    scene_.background = std::make_shared<const Image>(MakePicture(top, {0, 0, 255}));
   };
   show({255, 0, 0});
   state_.figure.enabled = false;
@@ -216,7 +217,7 @@ TEST_F(FrameTest, ViewModesDiffer) {
 }
 
 TEST_F(FrameTest, FigureIsPlacedAsAsked) {
-  scene_.show_background = false;
+  scene_.background = Transparent{};
   const auto middle = [this] {
     const Image image = Draw();
     double x_sum = 0;

@@ -109,7 +109,7 @@ TEST_P(GoldenTest, LooksAsKept) {
   const Golden& golden = GetParam();
   ExpectGolden(Draw(*golden.make_head(), StateOf(golden), golden.camera),
                std::string(GALATEA_SOURCE_DIR "/tests/fsm/data/golden/") + golden.name + ".png",
-               Scene{}.background);
+               kPlainBackground);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GoldenTest, ::testing::ValuesIn(kGoldens),

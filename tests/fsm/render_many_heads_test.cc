@@ -60,7 +60,7 @@ TEST(ManyHeadsTest, FacesDrawnInOneCallLookAsOneByOne) {
     states[k].au.left[12] = states[k].au.right[26] = 0.2F * static_cast<float>(k);
   }
   Scene scene;
-  scene.background = {0.1F, 0.4F, 0.7F};
+  scene.background = glm::vec3(0.1F, 0.4F, 0.7F);
   // The second of the two runs of one head has fewer faces, and a head comes twice.
   const std::vector<Renderer::Pane> panes{{plain.get(), &states[0], &scene, {0, 0, 40, 64}},
                                           {plain.get(), &states[1], &scene, {40, 0, 40, 64}},
@@ -109,7 +109,7 @@ void Draw(Renderer& renderer, const Frame& frame) {
   HeadVertices vertices;
   frame.head.Evaluate(state, vertices);
   Scene scene;
-  scene.show_background = !frame.transparent;
+  if (frame.transparent) scene.background = Transparent{};
   renderer.SetViewport({0, 0, frame.size, frame.size});
   renderer.DrawVertices(frame.head, vertices, state.figure, scene);
 }
@@ -157,10 +157,9 @@ TEST(FrameReaderTest, BuffersHandOutWhatIsReadAtOnce) {
   std::vector<std::array<std::uint64_t, 2>> begun;
   std::vector<Image> expected;
   for (int i = 0; i < 5; ++i) {
-    Scene scene;  // the picture is stretched, so that every sample is another
-    scene.background_image = std::make_shared<const Image>(Pattern(53, 37, 11 * i));
     target.Bind();
-    backdrop.Draw(scene, 40, 30);
+    // The picture is stretched, so that every sample is another.
+    backdrop.Draw(std::make_shared<const Image>(Pattern(53, 37, 11 * i)), 40, 30);
     const bool soft = i % 2 == 1;
     target.Read(expected.emplace_back(), soft);
     begun.push_back({buffered.Begin(target, soft, false), at_once.Begin(target, soft, false)});

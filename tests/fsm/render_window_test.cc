@@ -127,8 +127,8 @@ TEST(WindowTest, SeveralFacesShareAWindow) {
   HeadVertices vertices;
   head.Evaluate({}, vertices);
   Scene left_scene, right_scene;
-  left_scene.background = {1, 0, 0};
-  right_scene.background = {0, 0, 1};
+  left_scene.background = glm::vec3(1, 0, 0);
+  right_scene.background = glm::vec3(0, 0, 1);
   auto left = Renderer::Make(*context);
   auto right = Renderer::Make(*context);
   left->SetViewport({0, 0, 32, 40});
