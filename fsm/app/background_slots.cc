@@ -107,7 +107,7 @@ void BackgroundSlots::StorePlain() {
 
 void BackgroundSlots::Show() { core_.scene.background = enabled_ ? background_ : Transparent{}; }
 
-void BackgroundSlots::Reset() {
+void BackgroundSlots::RestoreInitial() {
   background_ = kPlainBackground;
   enabled_ = true;
   if (auto set = Set(first_); !set) {

@@ -16,7 +16,7 @@ class BackgroundSlots final : public Activity {
   /// shown. `core` outlives this.
   BackgroundSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds,
                   const std::string& first);
-  void Reset() override;
+  void RestoreInitial() override;
 
  private:
   void Declare();

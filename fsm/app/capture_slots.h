@@ -12,7 +12,7 @@ class CaptureSlots final : public Activity {
  public:
   /// Declares the slot. `core` outlives this.
   explicit CaptureSlots(FsmCore& core);
-  void End() override { capture_.Cancel(); }
+  void StopActivity() override { capture_.Cancel(); }
   void OnSpeechBegin(vm::Time start) override { capture_.Begin(start); }
   void OnSpeechEnd() override;
   bool Busy() const override { return capture_.running(); }

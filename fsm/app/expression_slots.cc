@@ -49,13 +49,13 @@ ExpressionSlots::ExpressionSlots(FsmCore& core) : core_(core) {
             message.command == vm::Command::kDef && message.relation == vm::Relation::kAssign;
         if (!defines && message.command != vm::Command::kDel) return false;
         const auto done = defines ? Define(*name, message.value) : Forget(name->expression);
-        core_.changed();
+        core_.notify_changed();
         done ? reply.Ok(*done) : reply.Fail(done.error());
         return true;
       });
 }
 
-void ExpressionSlots::Reset() {
+void ExpressionSlots::RestoreInitial() {
   for (const std::string& slot : own_) core_.slots.Remove(slot);
   own_.clear();
 }

@@ -21,7 +21,7 @@ class ExpressionSlots final : public Activity {
   };
   /// Declares the slots. `core` outlives this.
   explicit ExpressionSlots(FsmCore& core);
-  void Reset() override;
+  void RestoreInitial() override;
 
  private:
   void Declare(const Name& name, const std::string& look);

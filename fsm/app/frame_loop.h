@@ -8,11 +8,11 @@
 
 namespace fsm {
 
-/// Decides when a frame of the face is shown that belongs to no film, and knows when all is at
-/// rest. Frames are on a fixed grid of the clock, so that the same commands give the same reports:
-/// each of the grid while something moves, and the next one after a command. A window is also shown
-/// every kWindowEvents. A timer is pending only while frames are wanted and due, and until all is
-/// at rest. Lifetime: the clock outlives this. Thread: the scheduler's.
+/// Schedules the frames that are shown in the window or reported outside films. Frames are on a
+/// fixed grid of the clock, so that the same commands give the same reports: each of the grid while
+/// something moves, and the next one after a command. A window is also shown every kWindowEvents. A
+/// timer is pending only while frames are wanted and due, and until all is at rest. Lifetime: the
+/// clock outlives this. Thread: the scheduler's.
 class FrameLoop {
  public:
   static constexpr vm::Time kWindowEvents{200'000};

@@ -82,7 +82,7 @@ void FrameSlots::Report(long number, vm::Time at) {
                                           mouth->gap_mm, mouth->width_mm));
 }
 
-void FrameSlots::Reset() {
+void FrameSlots::RestoreInitial() {
   shown_ = 0;
   unmeasured_face_.reset();
   to_.clear();

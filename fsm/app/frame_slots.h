@@ -14,7 +14,7 @@ class FrameSlots final : public Activity {
  public:
   /// Declares the slots. `core` and `record` outlive this.
   FrameSlots(FsmCore& core, const RecordSlots& record);
-  void Reset() override;
+  void RestoreInitial() override;
 
   void OnFilmFrame(long number, vm::Time at) override { Report(number, at); }
   /// Tells whether frames that belong to no film are reported. In a film its own are.

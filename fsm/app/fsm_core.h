@@ -23,12 +23,12 @@ namespace fsm {
 class Activity {
  public:
   virtual ~Activity() = default;
-  /// Ends activities such as films. Called for `Run = INIT`, before the motion is replaced, and at
-  /// the end of the module.
-  virtual void End() {}
+  /// Stops what is under way, such as films. Called for `Run = INIT`, before the motion is
+  /// replaced, and at the end of the module.
+  virtual void StopActivity() {}
   /// Restores the initial state. Called for `Run = INIT`, after the motion has been replaced and
   /// all slots have their initial values.
-  virtual void Reset() {}
+  virtual void RestoreInitial() {}
   /// Called after every command, because the face may now move or look different.
   virtual void OnChange() {}
   /// Called when an utterance has begun at `start`, now or just before.
@@ -64,7 +64,7 @@ struct FsmCore {
   Scene scene{};
   bool simulates = true;  ///< whether springs move
   /// Called after every command, by all that Command and the like below make.
-  std::function<void()> changed = [] {};
+  std::function<void()> notify_changed = [] {};
   std::vector<std::unique_ptr<Activity>> activities{};
 
   vm::Time Now() const { return clock.Now(); }
@@ -85,13 +85,15 @@ struct FsmCore {
 
   /// SlotSpec::on_set.
   using OnSet = std::function<vm::Result<std::string>(const vm::SetValue&)>;
+  /// SlotSpec::on_set_later.
+  using OnSetLater = std::function<void(const vm::SetValue&, vm::Reply)>;
   /// Makes an on_set that executes `act(value)`, which returns what is stored (nothing or
   /// vm::Result<void>: the value unchanged), or its error.
   template <typename Act>
   OnSet Command(Act act) {
     return [this, act](const vm::SetValue& value) -> vm::Result<std::string> {
       auto done = ResultOf(act, value);
-      changed();
+      notify_changed();
       if constexpr (std::is_same_v<decltype(done), vm::Result<std::string>>) {
         return done;
       } else {
@@ -102,7 +104,7 @@ struct FsmCore {
   }
   /// Makes an on_set_later: the same, but what `act` returns is answered and not stored.
   template <typename Act>
-  auto CommandLater(Act act) {
+  OnSetLater CommandLater(Act act) {
     return [command = Command(act)](const vm::SetValue& value, const vm::Reply& reply) {
       const auto done = command(value);
       done ? reply.Ok(*done) : reply.Fail(done.error());
@@ -129,10 +131,10 @@ struct FsmCore {
   }
   /// Makes an action for a timer that concludes a command.
   template <typename Act>
-  auto Timed(Act act) {
+  std::function<void()> Timed(Act act) {
     return [this, act] {
       act();
-      changed();
+      notify_changed();
     };
   }
 

@@ -58,7 +58,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, FaceView& view, FaceLibrary& library,
   core_.Add<PictureSlots>();
   core_.Add<CaptureSlots>();
   MakeFrameLoop(record, core_.Add<FrameSlots>(record));
-  core_.changed = [this] { Changed(); };
+  core_.notify_changed = [this] { Changed(); };
   Changed();
 }
 
@@ -82,11 +82,11 @@ void FsmModule::MakeMotion() {
 void FsmModule::Initialise() {
   core_.slots.Store("Error", "");
   // Films end first, with the face and the sound file from before INIT.
-  for (const auto& activity : core_.activities) activity->End();
+  for (const auto& activity : core_.activities) activity->StopActivity();
   MakeMotion();
   ResetScene(core_);
   core_.slots.StoreInitialValues();
-  for (const auto& activity : core_.activities) activity->Reset();
+  for (const auto& activity : core_.activities) activity->RestoreInitial();
   Changed();
 }
 
@@ -152,7 +152,7 @@ bool FsmModule::Busy() const {
 void FsmModule::Shutdown() {
   // The runtime runs due timers before it ends. If drawing takes longer than the interval between
   // pictures, a capture would always have another one due.
-  for (const auto& activity : core_.activities) activity->End();
+  for (const auto& activity : core_.activities) activity->StopActivity();
   frame_loop_->Stop();
 }
 

@@ -60,7 +60,7 @@ vm::Result<void> MaskSlots::Select(const std::string& face) {
   return {};
 }
 
-void MaskSlots::Reset() {
+void MaskSlots::RestoreInitial() {
   if (auto selected = Select(initial_); !selected) {
     core_.slots.ReportError("Mask", selected.error());
     core_.motion->expression.SetPerson(HashOf(current_));

@@ -15,7 +15,7 @@ class MaskSlots final : public Activity {
   /// are reported. Every face of the library can be selected, listed or not. Throws
   /// std::runtime_error if the library has no face `initial`. `core` outlives this.
   MaskSlots(FsmCore& core, std::string initial, const std::vector<std::string>& listed = {});
-  void Reset() override;
+  void RestoreInitial() override;
 
  private:
   vm::Result<void> Select(const std::string& face);

@@ -10,8 +10,8 @@ class PictureSlots final : public Activity {
  public:
   /// Declares the slots. `core` outlives this.
   explicit PictureSlots(FsmCore& core);
-  void End() override { static_cast<void>(pictures_.SendTo("NONE", 1)); }
-  void Reset() override { per_second_ = kPerSecond; }
+  void StopActivity() override { static_cast<void>(pictures_.SendTo("NONE", 1)); }
+  void RestoreInitial() override { per_second_ = kPerSecond; }
   void OnChange() override { pictures_.Touch(); }
 
  private:

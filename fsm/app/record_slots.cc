@@ -63,7 +63,7 @@ vm::Result<std::string> RecordSlots::Stop() {
   return "STOP";
 }
 
-void RecordSlots::End() {
+void RecordSlots::StopActivity() {
   if (!film_.recording()) return;
   if (auto stopped = Stop(); !stopped) core_.slots.ReportError("Record", stopped.error());
 }

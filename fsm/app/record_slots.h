@@ -13,8 +13,8 @@ class RecordSlots final : public Activity {
   /// Declares the slots. `core` outlives this.
   explicit RecordSlots(FsmCore& core);
   /// Ends the film, if there is one; an error is reported as of the slot.
-  void End() override;
-  void Reset() override { frames_per_second_ = kFramesPerSecond; }
+  void StopActivity() override;
+  void RestoreInitial() override { frames_per_second_ = kFramesPerSecond; }
 
   bool recording() const { return film_.recording(); }
   int frames_per_second() const { return frames_per_second_; }

@@ -249,7 +249,7 @@ void SpeechSlots::EndSpeech(vm::PhonemeList spoken) {
   for (const auto& activity : core_.activities) activity->OnSpeechEnd();
 }
 
-void SpeechSlots::Reset() {
+void SpeechSlots::RestoreInitial() {
   timer_.Cancel();
   const bool was_busy = state_ == State::kSpeaking;
   state_ = State::kIdle;

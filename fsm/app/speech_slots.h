@@ -25,7 +25,7 @@ class SpeechSlots final : public Activity {
   bool Busy() const override {
     return state_ == State::kSpeaking || (state_ == State::kReady && start_asked_);
   }
-  void Reset() override;
+  void RestoreInitial() override;
 
  private:
   enum class State { kIdle, kProcessing, kReady, kSpeaking };

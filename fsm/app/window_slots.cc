@@ -31,7 +31,7 @@ vm::Result<void> WindowSlots::FillScreen(bool fill) {
   return {};
 }
 
-void WindowSlots::Reset() {
+void WindowSlots::RestoreInitial() {
   vm::Result<void> done;
   if (fills_screen_) done = FillScreen(false);
   if (done) done = core_.view.Resize(start_width_, start_height_);

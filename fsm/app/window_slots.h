@@ -9,7 +9,7 @@ class WindowSlots final : public Activity {
  public:
   /// Declares the slot. The size stays while `record` makes a film. Both outlive this.
   WindowSlots(FsmCore& core, const RecordSlots& record);
-  void Reset() override;
+  void RestoreInitial() override;
 
  private:
   vm::Result<void> FillScreen(bool fill);
