@@ -112,7 +112,7 @@ void TableRow::EndsAt(std::size_t count) const {
 
 Table::Table(std::string name, std::string_view text) : name_(std::move(name)) {
   for (int line = 1; !text.empty(); ++line) {
-    const auto words = WordsOf(TakeUntil("\n", text));
+    const auto words = WordsOf(ReadUntil("\n", text));
     const auto comment =
         std::ranges::find_if(words, [](std::string_view word) { return word[0] == '#'; });
     if (comment == words.begin()) continue;

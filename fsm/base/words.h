@@ -24,7 +24,7 @@ inline std::vector<std::string_view> WordsOf(std::string_view line, std::size_t 
 
 /// Removes from `text` its part before the first character of `endings`, and that character; or all
 /// of it if there is none. Returns the removed part. Lifetime: of `text`.
-inline std::string_view TakeUntil(std::string_view endings, std::string_view& text) {
+inline std::string_view ReadUntil(std::string_view endings, std::string_view& text) {
   const std::string_view taken = text.substr(0, text.find_first_of(endings));
   text.remove_prefix(std::min(taken.size() + 1, text.size()));
   return taken;

@@ -55,7 +55,7 @@ struct Ingredients {
   /// Those of the built-in face that a photo is warped from, in the photo's colours.
   explicit Ingredients(const PhotoHead& photo) : Ingredients(BuiltInIdentity(photo.base)) {
     identity.features = photo.features;
-    TakeColours(photo, identity.palette);
+    CopyColours(photo, identity.palette);
     eye.ScaleIris(photo.iris_size);
   }
 
@@ -120,8 +120,8 @@ struct FormedHead {
 };
 
 /// Warps the base face to the person in a photo.
-FormedHead TakeForm(const Ingredients& from, const PhotoHead& photo, const BaseSkin& skin,
-                    const HeadMesh& base) {
+FormedHead WarpToPhoto(const Ingredients& from, const PhotoHead& photo, const BaseSkin& skin,
+                       const HeadMesh& base) {
   const Warp warp(photo.points, photo.smooth);
   FormedHead head(HeadForm(from.eye, from.mouth, from.sliders, &warp, photo.eyes, base), base);
   LeaveOutUnseen(photo, skin.fine.tag, head.mesh);
@@ -267,7 +267,7 @@ std::unique_ptr<Head> MakeHead(const PhotoHead& photo) {
   // The photo shows the lashes of open eyes, so only those of shut lids are added.
   BuildLashes(from.eye, from.identity, true, parts.mesh);
   AddEyesAndMouth(from, parts.mesh);
-  const FormedHead head = TakeForm(from, photo, skin, parts.mesh);
+  const FormedHead head = WarpToPhoto(from, photo, skin, parts.mesh);
   HeadAsset asset = AssetOf(from, skin, parts, head, true);
   asset.rig.creases.depth = photo.lined;
   Wear(photo, from, skin, head, asset);
@@ -278,7 +278,7 @@ Rig MakeSkinRig(const PhotoHead& photo) {
   const Ingredients from(photo);
   const BaseSkin skin = MakeSkin(from);
   const BaseParts alone{skin.mesh, {}};
-  const FormedHead head = TakeForm(from, photo, skin, skin.mesh);
+  const FormedHead head = WarpToPhoto(from, photo, skin, skin.mesh);
   return Rig(RigOf(from, skin, head, SurfaceOf(from, alone, head), true));
 }
 

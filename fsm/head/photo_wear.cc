@@ -136,7 +136,7 @@ float SeenSkin(const PhotoHead& head, glm::vec3 p, glm::vec3 normal) {
 
 }  // namespace
 
-void TakeColours(const PhotoHead& head, Palette& palette) {
+void CopyColours(const PhotoHead& head, Palette& palette) {
   const auto& mouth = head.features->photo.mouth;
   palette.iris = head.iris_colour;
   palette.sclera = head.white_colour;

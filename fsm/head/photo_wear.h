@@ -14,7 +14,7 @@
 namespace fsm {
 
 /// Takes the colours of parts that the photo does not show from `head`.
-void TakeColours(const PhotoHead& head, Palette& palette);
+void CopyColours(const PhotoHead& head, Palette& palette);
 
 /// Adds the sheet with hair, neck and clothes of a photo. It turns with the head as skin does.
 void AddPhotoSheet(const PhotoHead& head, HeadMesh& mesh);

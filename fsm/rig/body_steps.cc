@@ -28,7 +28,7 @@ step::LipPair LipsAt(float x, const MouthLandmarks& mouth, std::span<const glm::
                            pair(right == mouth.seam.end() ? right - 1 : right), x);
 }
 
-void TakeTongue(const RigData& data, const MovedVertices& moved, StepWork& work) {
+void ApplyTongue(const RigData& data, const MovedVertices& moved, StepWork& work) {
   const step::Mouth& mouth = work.state.mouth;
   step::TonguePath path = step::PathPastTeeth(mouth);
   for (const auto& [upper, lower] : data.mouth.seam)
@@ -65,7 +65,7 @@ void PackTongue(const RigData& data, const char* kernel, KernelRecords& out) {
   out.Add(kernel, records, seam);
 }
 
-void TakeBones(const RigData& data, const MovedVertices& moved, StepWork& work) {
+void ApplyBones(const RigData& data, const MovedVertices& moved, StepWork& work) {
   for (const std::uint32_t i : moved.rigid) {
     glm::vec3& p = work.position[i];
     glm::vec3& n = work.normal[i];
@@ -96,7 +96,7 @@ void PackBones(const RigData& data, const char* kernel, KernelRecords& out) {
   out.Add(kernel, records);
 }
 
-void TakeNeck(const RigData& data, const MovedVertices& moved, StepWork& work) {
+void ApplyNeck(const RigData& data, const MovedVertices& moved, StepWork& work) {
   const step::Neck& neck = work.state.neck;
   for (std::size_t i = 0; i < work.position.size(); ++i)
     work.position[i] = step::WithNeck(neck, work.position[i], data.weights[i].neck);
@@ -111,7 +111,7 @@ void PackNeck(const RigData& data, const char* kernel, KernelRecords& out) {
   out.Add(kernel, records);
 }
 
-void TakeSprings(const RigData& data, const MovedVertices&, StepWork& work) {
+void ApplySprings(const RigData& data, const MovedVertices&, StepWork& work) {
   if (work.spring_offsets.empty()) return;
   for (const auto& [vertex, spring, weight] : data.spring_rig.weights)
     work.position[vertex] += weight * work.spring_offsets[spring];
@@ -151,7 +151,7 @@ void PackSprings(const RigData& data, const char* kernel, KernelRecords& out) {
   lists.AddTo(out, kernel);
 }
 
-void TakeNormals(const RigData& data, const MovedVertices& moved, StepWork& work) {
+void ApplyNormals(const RigData& data, const MovedVertices& moved, StepWork& work) {
   FindNormals(data.normals, moved.soft, work.position, work.normal);
 }
 
@@ -177,11 +177,11 @@ void PackNormals(const RigData& data, const char* kernel, KernelRecords& out) {
 }
 
 constexpr std::array kBodyTable{
-    StepDefinition{RigStep::kTongue, "tongue", TakeTongue, CheckTongue, PackTongue},
-    StepDefinition{RigStep::kBones, "bones", TakeBones, CheckBones, PackBones},
-    StepDefinition{RigStep::kNeck, "neck", TakeNeck, nullptr, PackNeck},
-    StepDefinition{RigStep::kSprings, "springs", TakeSprings, CheckSprings, PackSprings},
-    StepDefinition{RigStep::kNormals, "normals", TakeNormals, CheckNormals, PackNormals}};
+    StepDefinition{RigStep::kTongue, "tongue", ApplyTongue, CheckTongue, PackTongue},
+    StepDefinition{RigStep::kBones, "bones", ApplyBones, CheckBones, PackBones},
+    StepDefinition{RigStep::kNeck, "neck", ApplyNeck, nullptr, PackNeck},
+    StepDefinition{RigStep::kSprings, "springs", ApplySprings, CheckSprings, PackSprings},
+    StepDefinition{RigStep::kNormals, "normals", ApplyNormals, CheckNormals, PackNormals}};
 static_assert(AreInOrder(kBodyTable, RigStep::kTongue) &&
               kBodyTable.size() == kRigSteps - kSkinSteps);
 

@@ -69,7 +69,7 @@ void Rig::Evaluate(const FaceState& state, HeadVertices& out,
   out.normal = data_.rest_normal;
   StepWork work{inputs.state, inputs.strengths, spring_offsets,
                 out.position, out.normal,       inputs.lip_gaps};
-  for (const RigStep step : data_.steps) DefinitionOf(step).take(data_, moved_, work);
+  for (const RigStep step : data_.steps) DefinitionOf(step).apply(data_, moved_, work);
   FindCreasesAndLids(inputs.pose, out);
 }
 
@@ -99,7 +99,7 @@ MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
   StepWork work{inputs.state, inputs.strengths, {}, position, {}, inputs.lip_gaps};
   for (const RigStep step : data_.steps) {
     if (!ShapesSkin(step)) break;  // the later steps do not change the mouth's shape
-    DefinitionOf(step).take(data_, moved_, work);
+    DefinitionOf(step).apply(data_, moved_, work);
   }
   const auto [upper, lower] = data_.mouth.Middle();
   const auto [right, left] = *data_.mouth.corners;

@@ -30,7 +30,7 @@ class KernelRecords {
     if (records.empty()) return;
     all_.push_back({kernel, records.size(), BytesOf(records), BytesOf(entries)});
   }
-  std::vector<RigRecords> Take() { return std::move(all_); }
+  std::vector<RigRecords> Release() { return std::move(all_); }
 
  private:
   template <typename T>

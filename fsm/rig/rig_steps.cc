@@ -75,7 +75,7 @@ std::vector<RigRecords> PackRig(const RigData& data) {
     const StepDefinition& definition = DefinitionOf(step);
     definition.pack(data, definition.name, out);
   }
-  return out.Take();
+  return out.Release();
 }
 
 }  // namespace fsm

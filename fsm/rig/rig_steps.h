@@ -28,7 +28,7 @@ struct StepWork {
   std::span<const float> strengths;  ///< by channel
   std::span<const glm::vec3> spring_offsets;
   std::span<glm::vec3> position;
-  std::span<glm::vec3> normal;  ///< empty if only steps that shape the skin are taken
+  std::span<glm::vec3> normal;  ///< empty if only steps that shape the skin are applied
   std::vector<glm::vec3>& lip_gaps;
 };
 
@@ -38,7 +38,7 @@ struct StepDefinition {
   /// As `fsm --describe` shows it; rig_kernels.glsl has the step's kernel after STEP_ and this.
   const char* name;
   /// Takes the step on the processor.
-  void (*take)(const RigData& data, const MovedVertices& moved, StepWork& work);
+  void (*apply)(const RigData& data, const MovedVertices& moved, StepWork& work);
   /// Refuses data that lack what the step needs (VertexChecker); null: it needs nothing.
   void (*check)(const RigData& data, const VertexChecker& checker);
   /// Packs what the step's kernel reads of a rig; its name is that of the step.

@@ -64,7 +64,7 @@ void Simulation::RunTo(Time now, const StateAt& state_at) {
   if (!taken_ || *taken_ > last || *taken_ < StepAt(now - kMemory)) {
     Begin(std::max<std::int64_t>(StepAt(now - kMemory), 0), state_at);
   }
-  while (*taken_ < last) TakeStep(*taken_ + 1, state_at);
+  while (*taken_ < last) Advance(*taken_ + 1, state_at);
   const double ahead = static_cast<double>(now.count()) / 1e6 -
                        static_cast<double>(last) / Simulation::kStepsPerSecond;
   FindOffsets(state_at(now), static_cast<float>(ahead));
@@ -73,13 +73,13 @@ void Simulation::RunTo(Time now, const StateAt& state_at) {
 void Simulation::Begin(std::int64_t step, const StateAt& state_at) {
   std::ranges::fill(motions_, SpringMotion{});
   taken_ = step - 1;
-  TakeStep(step, state_at);
+  Advance(step, state_at);
   for (SpringMotion& motion : motions_) {
     motion.away = motion.speed = motion.goal_speed = glm::vec3(0);
   }
 }
 
-void Simulation::TakeStep(std::int64_t step, const StateAt& state_at) {
+void Simulation::Advance(std::int64_t step, const StateAt& state_at) {
   const Carrier carrier(state_at(Time(step * 1'000'000 / kStepsPerSecond)));
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     SpringMotion& motion = motions_[i];

@@ -53,7 +53,7 @@ class Simulation {
   };
   static Propagator PropagatorOf(const Spring& spring, float seconds);
   void Begin(std::int64_t step, const StateAt& state_at);
-  void TakeStep(std::int64_t step, const StateAt& state_at);
+  void Advance(std::int64_t step, const StateAt& state_at);
   void FindOffsets(const FaceState& state, float ahead_s);
 
   std::vector<Spring> springs_;

@@ -14,7 +14,7 @@ namespace {
 
 using step::PointAt;
 
-void TakeChannels(const RigData& data, const MovedVertices&, StepWork& work) {
+void ApplyChannels(const RigData& data, const MovedVertices&, StepWork& work) {
   for (std::size_t k = 0; k < data.channels.size(); ++k) {
     const float strength = work.strengths[k];
     if (strength == 0) continue;
@@ -67,7 +67,7 @@ void PackChannels(const RigData& data, const char* kernel, KernelRecords& out) {
   lists.AddTo(out, kernel);
 }
 
-void TakeLids(const RigData& data, const MovedVertices&, StepWork& work) {
+void ApplyLids(const RigData& data, const MovedVertices&, StepWork& work) {
   for (const LidRig::Vertex& lid : data.lids.vertices) {
     const step::Eye& eye = work.state.eyes[static_cast<std::size_t>(lid.side)];
     glm::vec3& p = work.position[lid.vertex];
@@ -89,7 +89,7 @@ void PackLids(const RigData& data, const char* kernel, KernelRecords& out) {
   out.Add(kernel, records);
 }
 
-void TakeLidsOnBalls(const RigData& data, const MovedVertices&, StepWork& work) {
+void ApplyLidsOnBalls(const RigData& data, const MovedVertices&, StepWork& work) {
   for (const auto& [vertex, side, min_radius] : data.ball_lids) {
     glm::vec3& p = work.position[vertex];
     p = step::OutOfBall(data.eyes.centre[side], min_radius, p);
@@ -107,7 +107,7 @@ void PackLidsOnBalls(const RigData& data, const char* kernel, KernelRecords& out
   out.Add(kernel, records);
 }
 
-void TakeJaw(const RigData& data, const MovedVertices& moved, StepWork& work) {
+void ApplyJaw(const RigData& data, const MovedVertices& moved, StepWork& work) {
   const step::Jaw& jaw = work.state.mouth.jaw;
   if (jaw.open == 0 && jaw.slide == 0 && jaw.sway == 0) return;
   for (const std::uint32_t i : moved.jawed)
@@ -121,7 +121,7 @@ void PackJaw(const RigData& data, const char* kernel, KernelRecords& out) {
   out.Add(kernel, records);
 }
 
-void TakeJawByChin(const RigData& data, const MovedVertices&, StepWork& work) {
+void ApplyJawByChin(const RigData& data, const MovedVertices&, StepWork& work) {
   step::Jaw& jaw = work.state.mouth.jaw;
   jaw = step::JawByChin(jaw, data.rest[data.jaw.chin], work.position[data.jaw.chin]);
 }
@@ -135,7 +135,7 @@ void PackJawByChin(const RigData& data, const char* kernel, KernelRecords& out) 
   out.Add(kernel, std::vector<step::ChinRecord>{{chin, PointAt(data.rest[chin])}});
 }
 
-void TakeTeeth(const RigData& data, const MovedVertices&, StepWork& work) {
+void ApplyTeeth(const RigData& data, const MovedVertices&, StepWork& work) {
   for (const auto& [vertex, upper_gap, lower_gap] : data.teeth.contacts) {
     glm::vec3& p = work.position[vertex];
     p = step::OffTeeth(work.state.mouth, p, upper_gap, lower_gap);
@@ -156,7 +156,7 @@ void PackTeeth(const RigData& data, const char* kernel, KernelRecords& out) {
   out.Add(kernel, records);
 }
 
-void TakeLips(const RigData& data, const MovedVertices&, StepWork& work) {
+void ApplyLips(const RigData& data, const MovedVertices&, StepWork& work) {
   const LipRig& rig = data.lips;
   work.lip_gaps.clear();
   for (std::size_t k = 0; k < data.mouth.seam.size(); ++k) {
@@ -195,7 +195,7 @@ void PackLips(const RigData& data, const char* kernel, KernelRecords& out) {
   lists.AddTo(out, kernel);
 }
 
-void TakeOwnForm(const RigData& data, const MovedVertices&, StepWork& work) {
+void ApplyOwnForm(const RigData& data, const MovedVertices&, StepWork& work) {
   const std::vector<glm::vec3>& to_own = data.proxy.to_own;
   for (std::size_t i = 0; i < to_own.size(); ++i) work.position[i] += to_own[i];
 }
@@ -211,16 +211,16 @@ void PackOwnForm(const RigData& data, const char* kernel, KernelRecords& out) {
 }
 
 constexpr std::array kSkinTable{
-    StepDefinition{RigStep::kChannels, "channels", TakeChannels, CheckChannels, PackChannels},
-    StepDefinition{RigStep::kLids, "lids", TakeLids, CheckLids, PackLids},
-    StepDefinition{RigStep::kLidsOnBalls, "lids_on_balls", TakeLidsOnBalls, CheckLidsOnBalls,
+    StepDefinition{RigStep::kChannels, "channels", ApplyChannels, CheckChannels, PackChannels},
+    StepDefinition{RigStep::kLids, "lids", ApplyLids, CheckLids, PackLids},
+    StepDefinition{RigStep::kLidsOnBalls, "lids_on_balls", ApplyLidsOnBalls, CheckLidsOnBalls,
                    PackLidsOnBalls},
-    StepDefinition{RigStep::kJaw, "jaw", TakeJaw, nullptr, PackJaw},
-    StepDefinition{RigStep::kJawByChin, "jaw_by_chin", TakeJawByChin, CheckJawByChin,
+    StepDefinition{RigStep::kJaw, "jaw", ApplyJaw, nullptr, PackJaw},
+    StepDefinition{RigStep::kJawByChin, "jaw_by_chin", ApplyJawByChin, CheckJawByChin,
                    PackJawByChin},
-    StepDefinition{RigStep::kTeeth, "teeth", TakeTeeth, CheckTeeth, PackTeeth},
-    StepDefinition{RigStep::kLips, "lips", TakeLips, CheckLips, PackLips},
-    StepDefinition{RigStep::kOwnForm, "own_form", TakeOwnForm, CheckOwnForm, PackOwnForm}};
+    StepDefinition{RigStep::kTeeth, "teeth", ApplyTeeth, CheckTeeth, PackTeeth},
+    StepDefinition{RigStep::kLips, "lips", ApplyLips, CheckLips, PackLips},
+    StepDefinition{RigStep::kOwnForm, "own_form", ApplyOwnForm, CheckOwnForm, PackOwnForm}};
 
 static_assert(AreInOrder(kSkinTable, RigStep::kChannels) && kSkinTable.size() == kSkinSteps);
 

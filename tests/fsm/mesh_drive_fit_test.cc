@@ -37,7 +37,7 @@ TEST(DriveFitTest, ASidedNumberIsMetOnEitherSideAndOnBoth) {
     const float r = right ? 1 : 0, l = left ? 1 : 0;
     return DriveFit::Weights{r, 0.5F * (r + l), std::max(r, l), std::max(r - l, 0.0F)};
   });
-  const auto head = HeadOf(fit.TakeDrivers());
+  const auto head = HeadOf(fit.ReleaseDrivers());
   for (const float right : {0.0F, 0.4F, 1.0F}) {
     for (const float left : {0.0F, 0.7F, 1.0F}) {
       FaceState state;
@@ -62,7 +62,7 @@ TEST(MouthFitTest, VisemesComeOutAsTheyAreGivenAndPartsOfThemInPart) {
   mouth.AddViseme(spread.mouth, {0, 0, 1});
   DriveFit fit(3);
   mouth.AddTo(fit, Drive::Kind::kSpokenMouth);
-  const auto head = HeadOf(fit.TakeDrivers());
+  const auto head = HeadOf(fit.ReleaseDrivers());
   const FaceState* const states[] = {&open, &round, &spread};
   for (std::size_t i = 0; i < 3; ++i) {
     for (const float part : {0.5F, 1.0F}) {

@@ -40,7 +40,7 @@ class ObjReader {
 
   vm::Result<ObjFile> Read() {
     while (!text_.empty()) {
-      const auto words = WordsOf(TakeUntil("\n", text_), kMaxCorners + 2);
+      const auto words = WordsOf(ReadUntil("\n", text_), kMaxCorners + 2);
       ++line_;
       if (words.empty()) continue;
       if (auto read = Line(words); !read) return std::unexpected(read.error());
@@ -151,7 +151,7 @@ std::map<std::string, ObjMaterial> ParseMtl(std::string_view text) {
   std::map<std::string, ObjMaterial> all;
   ObjMaterial* open = nullptr;
   while (!text.empty()) {
-    const auto words = WordsOf(TakeUntil("\n", text), kMaxCorners + 2);
+    const auto words = WordsOf(ReadUntil("\n", text), kMaxCorners + 2);
     if (words.size() < 2) continue;
     if (words[0] == "newmtl") {
       if (all.size() >= 1000) break;

@@ -141,7 +141,7 @@ vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes) 
 
 vm::Result<glm::vec3> ParseTeethDef(const std::string& name, std::string_view text) {
   glm::vec3 colour;
-  const auto words = WordsOf(TakeUntil("\n", text), 3);
+  const auto words = WordsOf(ReadUntil("\n", text), 3);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto number = i < words.size() ? ParseNumber<float>(words[i]) : std::nullopt;
     if (!number || !(*number >= 0 && *number <= 1)) {

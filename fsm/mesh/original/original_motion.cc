@@ -123,7 +123,7 @@ class OriginalRigBaker {
     }
     DriveFit fit(count);
     mouth.AddTo(fit, Drive::Kind::kSpokenMouth);
-    const auto drivers = fit.TakeDrivers();
+    const auto drivers = fit.ReleaseDrivers();
     for (std::size_t k = 0; k < count; ++k) {
       Channel& channel = Add(Moves(face_.visemes[k], glm::vec3(own_.mm())), drivers[k]);
       channel.min = 0;

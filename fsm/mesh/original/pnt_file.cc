@@ -59,7 +59,7 @@ class NumberLines {
     while (words.empty() && !text_.empty()) {
       ++line_;
       const char* const begin = text_.data();
-      words = WordsOf(TakeUntil("\r\n", text_), kMaxWords);
+      words = WordsOf(ReadUntil("\r\n", text_), kMaxWords);
       const bool ended_by_cr = text_.data() != begin && text_.data()[-1] == '\r';
       if (ended_by_cr && text_.starts_with('\n')) text_.remove_prefix(1);
     }

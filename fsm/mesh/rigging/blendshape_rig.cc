@@ -74,7 +74,7 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
     mouth.AddViseme(state.mouth, solve(state));
   }
   mouth.AddTo(fit, Drive::Kind::kMouth);
-  return fit.TakeDrivers();
+  return fit.ReleaseDrivers();
 }
 
 /// Adds drivers of shapes that move the eyes: one shape moves both eyes, so each eye's gaze drives

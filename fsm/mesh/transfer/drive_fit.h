@@ -27,7 +27,7 @@ class DriveFit {
   void Add(std::size_t target, const Drive& drive, float gain);
 
   /// Moves out the drivers of every target.
-  std::vector<std::vector<Channel::Driver>> TakeDrivers() { return std::move(drivers_); }
+  std::vector<std::vector<Channel::Driver>> ReleaseDrivers() { return std::move(drivers_); }
 
  private:
   std::vector<std::vector<Channel::Driver>> drivers_;

@@ -38,8 +38,8 @@ void SetUnit(FaceLook& look, const UnitSetting& unit) {
 }
 
 bool SetGaze(FaceLook& look, std::string_view word) {
-  const std::string_view key = TakeUntil(":", word);
-  const auto down = ParseNumber(TakeUntil(",", word)), right = ParseNumber(word);
+  const std::string_view key = ReadUntil(":", word);
+  const auto down = ParseNumber(ReadUntil(",", word)), right = ParseNumber(word);
   if ((key != "gaze" && key != "gazeL" && key != "gazeR") || !down || !right) return false;
   const EyeAngles angles{static_cast<float>(*down), static_cast<float>(*right)};
   if (key != "gazeR") look.gaze.left = angles;

@@ -32,7 +32,7 @@ std::vector<Word> UnitWordsOf(std::string_view text) {
     }
   };
   for (std::string_view word : WordsOf(text)) {
-    while (!word.starts_with("gaze") && word.contains(':')) add(TakeUntil(":", word));
+    while (!word.starts_with("gaze") && word.contains(':')) add(ReadUntil(":", word));
     add(word);
   }
   return words;
@@ -175,7 +175,7 @@ std::unexpected<vm::Error> FailEmpty() {
 
 /// Takes a unit from the front of the words, and its strength if its own word does not have it.
 /// REQUIRES: there are words.
-vm::Result<ParsedUnit> TakeUnit(std::span<const Word>& words, const UnitNames& names) {
+vm::Result<ParsedUnit> ReadUnit(std::span<const Word>& words, const UnitNames& names) {
   auto unit = ParseUnit(words[0], names);
   if (!unit) return unit;
   if (!unit->strength_given) {
@@ -272,7 +272,7 @@ vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames&
       out.ms = *ms;
       break;
     }
-    const auto taken = TakeUnit(words, names);
+    const auto taken = ReadUnit(words, names);
     if (!taken) return std::unexpected(taken.error());
     lettered = taken->strength_given;
     out.settings.push_back(taken->unit);
@@ -315,7 +315,7 @@ vm::Result<FaceLook> ParseLook(std::string_view text, const UnitNames& names) {
       words = words.subspan(1);
       continue;
     }
-    const auto taken = TakeUnit(words, names);
+    const auto taken = ReadUnit(words, names);
     if (!taken) return std::unexpected(taken.error());
     if (!names.IsUnit(taken->unit.number)) {
       return vm::Fail(vm::Errc::kBadValue,

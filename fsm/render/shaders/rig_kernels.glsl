@@ -23,7 +23,7 @@ void SetNormal(uint vertex, vec3 n) { normals[OfFace(vertex)] = PointAt(n); }
 
 #ifdef STEP_begin  // one record for each vertex
 RECORDS(RestRecord);
-void Take(uint vertex) {
+void Apply(uint vertex) {
   SetPosition(vertex, Vec(records[vertex].position));
   SetNormal(vertex, Vec(records[vertex].normal));
 }
@@ -32,7 +32,7 @@ void Take(uint vertex) {
 #ifdef STEP_channels
 RECORDS(ListRecord);
 ENTRIES(ChannelEntry);
-void Take(uint record) {
+void Apply(uint record) {
   ListRecord list = records[record];
   vec3 p = Position(list.vertex);
   for (uint i = list.from; i < list.to; ++i)
@@ -43,7 +43,7 @@ void Take(uint record) {
 
 #ifdef STEP_lids
 RECORDS(LidRecord);
-void Take(uint record) {
+void Apply(uint record) {
   LidRecord lid = records[record];
   Eye eye = states[Face()].eyes[lid.side];
   vec3 p = WithLids(lid.at, eye, Position(lid.vertex));
@@ -53,7 +53,7 @@ void Take(uint record) {
 
 #ifdef STEP_lids_on_balls
 RECORDS(BallLidRecord);
-void Take(uint record) {
+void Apply(uint record) {
   BallLidRecord lid = records[record];
   vec3 ball = Vec(states[Face()].eyes[lid.side].ball);
   SetPosition(lid.vertex, OutOfBall(ball, lid.min_radius, Position(lid.vertex)));
@@ -62,7 +62,7 @@ void Take(uint record) {
 
 #ifdef STEP_jaw
 RECORDS(JawRecord);
-void Take(uint record) {
+void Apply(uint record) {
   JawRecord skin = records[record];
   SetPosition(skin.vertex, WithJaw(states[Face()].mouth.jaw, Position(skin.vertex), skin.weight));
 }
@@ -70,7 +70,7 @@ void Take(uint record) {
 
 #ifdef STEP_jaw_by_chin  // one record
 RECORDS(ChinRecord);
-void Take(uint record) {
+void Apply(uint record) {
   ChinRecord chin = records[record];
   states[Face()].mouth.jaw = JawByChin(states[Face()].mouth.jaw, Vec(chin.rest), Position(chin.vertex));
 }
@@ -78,7 +78,7 @@ void Take(uint record) {
 
 #ifdef STEP_teeth
 RECORDS(ContactRecord);
-void Take(uint record) {
+void Apply(uint record) {
   ContactRecord lip = records[record];
   vec3 p = Position(lip.vertex);
   SetPosition(lip.vertex, OffTeeth(states[Face()].mouth, p, lip.upper_gap, lip.lower_gap));
@@ -87,7 +87,7 @@ void Take(uint record) {
 
 #ifdef STEP_lip_gaps  // comes before STEP_lips
 RECORDS(GapRecord);
-void Take(uint record) {
+void Apply(uint record) {
   GapRecord pair = records[record];
   gaps[Face() * uint(seam_count) + record] =
       PointAt(LipGap(states[Face()].mouth.seal, Position(pair.upper), Position(pair.lower),
@@ -98,7 +98,7 @@ void Take(uint record) {
 #ifdef STEP_lips
 RECORDS(ListRecord);
 ENTRIES(LipEntry);
-void Take(uint record) {
+void Apply(uint record) {
   ListRecord list = records[record];
   vec3 p = Position(list.vertex);
   for (uint i = list.from; i < list.to; ++i)
@@ -109,7 +109,7 @@ void Take(uint record) {
 
 #ifdef STEP_own_form  // one record for each vertex
 RECORDS(Point);
-void Take(uint vertex) { SetPosition(vertex, Position(vertex) + Vec(records[vertex])); }
+void Apply(uint vertex) { SetPosition(vertex, Position(vertex) + Vec(records[vertex])); }
 #endif
 
 #ifdef STEP_tongue  // entries: the pairs of the lips, from -x to +x
@@ -122,7 +122,7 @@ LipPair LipsAt(float x) {
   while (right <= last && Position(entries[right].upper).x < x) ++right;
   return LipsBetween(Lips(right == 0u ? 0u : right - 1u), Lips(min(right, last)), x);
 }
-void Take(uint record) {
+void Apply(uint record) {
   TongueRecord tongue = records[record];
   Mouth mouth = states[Face()].mouth;
   TonguePath path = PathPastTeeth(mouth);
@@ -140,7 +140,7 @@ void Take(uint record) {
 
 #ifdef STEP_bones
 RECORDS(BoneRecord);
-void Take(uint record) {
+void Apply(uint record) {
   uint vertex = records[record].vertex;
   uint bone = records[record].bone;
   vec3 p = Position(vertex);
@@ -159,7 +159,7 @@ void Take(uint record) {
 
 #ifdef STEP_neck  // one record for each vertex
 RECORDS(NeckRecord);
-void Take(uint vertex) {
+void Apply(uint vertex) {
   Neck neck = states[Face()].neck;
   SetPosition(vertex, WithNeck(neck, Position(vertex), records[vertex].weight));
   if (records[vertex].turns_normal != 0u) SetNormal(vertex, Rotated(neck.rotation, Normal(vertex)));
@@ -169,7 +169,7 @@ void Take(uint vertex) {
 #ifdef STEP_springs
 RECORDS(ListRecord);
 ENTRIES(SpringEntry);
-void Take(uint record) {
+void Apply(uint record) {
   ListRecord list = records[record];
   vec3 p = Position(list.vertex);
   for (uint i = list.from; i < list.to; ++i)
@@ -181,7 +181,7 @@ void Take(uint record) {
 #ifdef STEP_normals
 RECORDS(ListRecord);
 ENTRIES(TriangleEntry);
-void Take(uint record) {
+void Apply(uint record) {
   ListRecord list = records[record];
   vec3 sum = vec3(0.0);
   for (uint i = list.from; i < list.to; ++i)
@@ -191,5 +191,5 @@ void Take(uint record) {
 #endif
 
 void main() {
-  if (gl_GlobalInvocationID.x < uint(records.length())) Take(gl_GlobalInvocationID.x);
+  if (gl_GlobalInvocationID.x < uint(records.length())) Apply(gl_GlobalInvocationID.x);
 }
