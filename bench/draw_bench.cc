@@ -216,7 +216,7 @@ void PrintMany(const std::string& name, const Options& options, int count, int a
   fsm::Image image;
   const fsm::Scene scene;
   std::vector<fsm::FaceState> states(static_cast<std::size_t>(count));
-  std::vector<fsm::Renderer::Pane> panes;
+  std::vector<fsm::Pane> panes;
   for (int k = 0; k < count; ++k)
     panes.push_back({&head,
                      &states[static_cast<std::size_t>(k)],

@@ -14,15 +14,14 @@ bool IsDrawnFromBothSides(const HeadSurface::Part& part) {
 void FigurePainter::Draw(const Head& head, GpuHead& on_gpu, const HeadVertices& vertices,
                          const View& view, const Scene& scene, float error_pixels,
                          GlTarget& target) {
-  HeadBuffers& buffers = on_gpu.buffers;
   gl_.Enable(GL_DEPTH_TEST);
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
-  materials_.BeginFrame(view, buffers, on_gpu.textures, vertices, scene);
+  materials_.BeginFrame(view, on_gpu, vertices, scene);
   const bool lines = scene.view_mode != ViewMode::kTexture;
   const float error_mm = error_pixels * kSamplesAlong / view.samples_per_mm;
-  const auto& parts = buffers.PartsWithin(head, lines ? 0 : error_mm);
-  if (buffers.skin().painting()) WarmUp(parts, target);
-  on_gpu.textures.Load(buffers.skin(), buffers, view.samples_per_mm);
+  const auto& parts = on_gpu.arrays.PartsWithin(head, lines ? 0 : error_mm);
+  if (on_gpu.description.skin.painting()) WarmUp(parts, target);
+  on_gpu.textures.Load(on_gpu.description, view.samples_per_mm);
   if (scene.view_mode == ViewMode::kTextureWithWireframe) {
     gl_.Enable(GL_POLYGON_OFFSET_FILL);
     gl_.PolygonOffset(1.5F, 2.0F);

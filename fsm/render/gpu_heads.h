@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "fsm/render/gpu_rig.h"
-#include "fsm/render/head_buffers.h"
 #include "fsm/render/head_textures.h"
-#include "fsm/render/renderer.h"
+#include "fsm/render/head_vertex_arrays.h"
+#include "fsm/render/pane.h"
 #include "fsm/rig/partial_rig.h"
 
 namespace fsm {
@@ -23,9 +23,9 @@ class GpuHeadRig {
   GpuHeadRig(const GlFunctions& gl, RigPrograms& programs, const Head& head,
              std::vector<std::uint32_t> measured)
       : rig_(gl, programs, head.rig()), partial_(head.rig(), std::move(measured)) {}
-  void Move(const Head& head, std::span<const Renderer::Pane> panes);
-  /// Binds `buffers` to one of the faces moved last; returns the positions that are measured.
-  const HeadVertices& Use(std::size_t face, HeadBuffers& buffers);
+  void Move(const Head& head, std::span<const Pane> panes);
+  /// Binds `arrays` to one of the faces moved last; returns the positions that are measured.
+  const HeadVertices& Use(std::size_t face, HeadVertexArrays& arrays);
 
  private:
   GpuRig rig_;
@@ -34,27 +34,32 @@ class GpuHeadRig {
   HeadVertices measured_;
 };
 
-/// What the GPU holds for one head.
+/// What drawing keeps of one head.
 struct GpuHead {
-  GpuHead(const GlFunctions& gl, const Head& head, const Appearance& appearance)
-      : buffers(gl, head, appearance), textures(gl, head.surface()) {}
-  HeadBuffers buffers;
+  /// `rest`: the head's vertices at rest. `gl` and `appearance` must outlive it.
+  GpuHead(const GlFunctions& gl, const Head& head, const HeadVertices& rest,
+          const Appearance& appearance)
+      : description(head, rest, appearance),
+        arrays(gl, description, rest),
+        textures(gl, head.surface()) {}
+  HeadDescription description;
+  HeadVertexArrays arrays;
   HeadTextures textures;
   std::optional<GpuHeadRig> rig;  ///< once GpuHeads::Move was called for it
-  std::uint64_t drawn = 0;        ///< number of the last frame that showed it
+  std::uint64_t last_use = 0;     ///< GpuHeads' count of uses at the last one
 };
 
 /// The heads drawn last. Destroy while its context is current.
 class GpuHeads {
  public:
-  /// Keeps at most `most` heads; the next replaces the one that has not been drawn for the longest
+  /// Keeps at most `most` heads; the next replaces the one that has not been used for the longest
   /// time. `gl` and `appearance` must outlive it.
   GpuHeads(const GlFunctions& gl, const Appearance& appearance, std::size_t max)
       : gl_(gl), appearance_(appearance), max_(max), rig_programs_(gl) {}
   /// Returns a head for a frame, uploaded if it is new. Valid until the next call.
-  GpuHead& Find(const Head& head);
+  GpuHead& Acquire(const Head& head);
   /// Moves faces of a head on the GPU, for GpuHead::rig. REQUIRES: RigPrograms::Supported.
-  void Move(const Head& head, std::span<const Renderer::Pane> panes);
+  void Move(const Head& head, std::span<const Pane> panes);
 
  private:
   const GlFunctions& gl_;
@@ -62,7 +67,7 @@ class GpuHeads {
   const std::size_t max_;
   RigPrograms rig_programs_;
   std::map<std::uint64_t, std::unique_ptr<GpuHead>> heads_;  // by Head::serial
-  std::uint64_t frames_ = 0;
+  std::uint64_t use_count_ = 0;
 };
 
 }  // namespace fsm

@@ -60,9 +60,9 @@ HeadTextures::~HeadTextures() { gl_.DeleteTextures(kTextures, textures_); }
 // Pictures are scaled until a texel is about as large as a sample, and the nearest texel is used:
 // with four samples to a pixel that is smooth, while in software a filtered fetch costs as much as
 // the rest of a pixel. Close to a face, where texels would be visible, they are filtered.
-void HeadTextures::Load(SkinPainting& skin, const HeadBuffers& head, float samples_per_mm) {
+void HeadTextures::Load(HeadDescription& head, float samples_per_mm) {
   samples_per_mm = std::max(samples_per_mm, 1e-3F);
-  if (const SkinTexture* texture = skin.Texture()) LoadSkin(*texture, samples_per_mm);
+  if (const SkinTexture* texture = head.skin.Texture()) LoadSkin(*texture, samples_per_mm);
   if (head.base_colour()) LoadBaseColour(head, samples_per_mm);
 }
 
@@ -94,10 +94,10 @@ HeadTextures::Sampling HeadTextures::SamplingOf(const Image& base_colour, float 
   return {0, GL_LINEAR};
 }
 
-void HeadTextures::LoadBaseColour(const HeadBuffers& head, float samples_per_mm) {
+void HeadTextures::LoadBaseColour(const HeadDescription& head, float samples_per_mm) {
   const Image& base_colour = *head.base_colour();
   const Sampling sampling =
-      SamplingOf(base_colour, head.measures().photo_texels_per_mm / samples_per_mm);
+      SamplingOf(base_colour, head.measures.photo_texels_per_mm / samples_per_mm);
   if (base_colour_ == sampling) return;
   base_colour_ = sampling;
   const auto halved = [&sampling](int side) { return std::max(side >> sampling.level, 1); };

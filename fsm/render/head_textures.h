@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "fsm/render/gl_functions.h"
-#include "fsm/render/head_buffers.h"
+#include "fsm/render/head_description.h"
 
 namespace fsm {
 
@@ -18,7 +18,7 @@ class HeadTextures {
 
   /// Fills the textures of skin and base colour, where the head has them, at the samples'
   /// resolution. Blocks until the skin is painted; before this call it is drawn plain.
-  void Load(SkinPainting& skin, const HeadBuffers& head, float samples_per_mm);
+  void Load(HeadDescription& head, float samples_per_mm);
 
   /// GL names; 0 for a texture that the head does not have.
   GLuint tint() const { return skin_ ? textures_[kTint] : 0; }
@@ -38,7 +38,7 @@ class HeadTextures {
   };
   void LoadSkin(const SkinTexture& skin, float samples_per_mm);
   static Sampling SamplingOf(const Image& base_colour, float texels_per_sample);
-  void LoadBaseColour(const HeadBuffers& head, float samples_per_mm);
+  void LoadBaseColour(const HeadDescription& head, float samples_per_mm);
 
   const GlFunctions& gl_;
   GLuint textures_[kTextures] = {};

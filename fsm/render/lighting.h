@@ -11,7 +11,7 @@
 #include "fsm/render/appearance.h"
 #include "fsm/render/camera.h"
 #include "fsm/render/gl_objects.h"
-#include "fsm/render/head_buffers.h"
+#include "fsm/render/head_description.h"
 #include "fsm/render/scene.h"
 #include "fsm/rig/head.h"
 
@@ -25,7 +25,7 @@ struct Lamps {
 /// What the materials of a head know about the frame being drawn. Borrowed for the frame.
 struct MaterialFrame {
   const View& view;
-  const HeadBuffers& head;
+  const HeadDescription& head;
   const HeadVertices& vertices;  ///< in the head's own frame
   Lamps lamps;
   ShadowFinder::Occluders shadows;
@@ -35,7 +35,7 @@ struct MaterialFrame {
   Sided<glm::vec4> creases;  ///< depth of each Crease but the nose's, 0..1
   Sided<float> nose_creases;
 };
-MaterialFrame FrameOf(const Appearance& appearance, const View& view, const HeadBuffers& head,
+MaterialFrame FrameOf(const Appearance& appearance, const View& view, const HeadDescription& head,
                       const HeadVertices& vertices, const Scene& scene);
 
 /// Compiles a program from its own sources and the code that all programs share to transform and

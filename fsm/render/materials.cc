@@ -13,6 +13,7 @@
 #include "embedded/surface_common.h"
 #include "embedded/surface_fragment.h"
 #include "embedded/surface_vertex.h"
+#include "fsm/render/gpu_heads.h"
 #include "fsm/render/noise_tile.h"
 
 namespace fsm {
@@ -62,15 +63,14 @@ void Materials::BindOrPlain(GLuint texture, TextureUnit unit) {
   Bind(texture != 0 ? texture : shared_textures_[kPlain], unit);
 }
 
-void Materials::BeginFrame(const View& view, const HeadBuffers& head, const HeadTextures& textures,
-                           const HeadVertices& vertices, const Scene& scene) {
+void Materials::BeginFrame(const View& view, const GpuHead& head, const HeadVertices& vertices,
+                           const Scene& scene) {
   head_ = &head;
-  head_textures_ = &textures;
-  const MaterialFrame frame = FrameOf(appearance_, view, head, vertices, scene);
+  const MaterialFrame frame = FrameOf(appearance_, view, head.description, vertices, scene);
   creased_ = frame.creases != Sided<glm::vec4>{} || frame.nose_creases != Sided<float>{};
   pores_ = view.samples_per_mm >= appearance_.pores_from;
-  photo_.Prepare(head);
-  if (!head.surface().pbr_materials.empty() && !pbr_) {
+  photo_.Prepare(head.description, head.arrays.FinestParts());
+  if (!head.description.surface->pbr_materials.empty() && !pbr_) {
     pbr_.emplace(
         CompileLit(gl_, appearance_, "pbr", {embedded::pbr_vertex()}, embedded::pbr_fragment()));
   }
@@ -121,18 +121,18 @@ bool Materials::IsHidden(const DrawnPart& drawn) const {
 void Materials::Use(const DrawnPart& drawn) {
   const HeadSurface::Part& part = drawn.part;
   if (part.pbr >= 0) {
-    return UsePbr(head_->surface().pbr_materials[static_cast<std::size_t>(part.pbr)]);
+    return UsePbr(head_->description.surface->pbr_materials[static_cast<std::size_t>(part.pbr)]);
   }
-  if (PhotoMaterial::Draws(part.material, *head_)) {
-    photo_.Use(drawn, *head_, creased_);
-    BindOrPlain(head_textures_->base_colour(), TextureUnit::kBaseColour);
-    return BindOrPlain(head_textures_->skin_relief(), TextureUnit::kRelief);
+  if (PhotoMaterial::Draws(part.material, head_->description)) {
+    photo_.Use(drawn, head_->description, creased_);
+    BindOrPlain(head_->textures.base_colour(), TextureUnit::kBaseColour);
+    return BindOrPlain(head_->textures.skin_relief(), TextureUnit::kRelief);
   }
   switch (part.material) {
     case Material::kSclera:
     case Material::kIris:
     case Material::kPupil:
-      BindOrPlain(head_textures_->base_colour(), TextureUnit::kBaseColour);
+      BindOrPlain(head_->textures.base_colour(), TextureUnit::kBaseColour);
       return eye_.program().Use();
     case Material::kHair:
       return UseHair(1.0F, 1.0F);
@@ -165,9 +165,9 @@ void Materials::UseSurface(const DrawnPart& drawn) {
   program.Set("saturation", surface.saturation);
   program.Set("bump", surface.bump);
   program.Set("detail_per_mm", surface.detail_per_mm);
-  program.Set("chroma", head_->surface().portrait.saturation);
-  BindOrPlain(threads ? 0 : head_textures_->tint(), TextureUnit::kTint);
-  BindOrPlain(threads ? shared_textures_[kWeave] : head_textures_->skin_relief(),
+  program.Set("chroma", head_->description.surface->portrait.saturation);
+  BindOrPlain(threads ? 0 : head_->textures.tint(), TextureUnit::kTint);
+  BindOrPlain(threads ? shared_textures_[kWeave] : head_->textures.skin_relief(),
               TextureUnit::kRelief);
 }
 
@@ -181,9 +181,9 @@ void Materials::UsePbr(const PbrMaterial& pbr) {
   pbr_->Set("light_from", pbr.light_from);
   pbr_->Set("emissive", pbr.emissive);
   pbr_->Set("shade_colour", pbr.shade_colour);
-  BindOrPlain(head_textures_->base_colour(), TextureUnit::kBaseColour);
-  Bind(head_textures_->normal_roughness_metal(), TextureUnit::kNormalMap);
-  Bind(head_textures_->emission_openness(), TextureUnit::kEmissiveMap);
+  BindOrPlain(head_->textures.base_colour(), TextureUnit::kBaseColour);
+  Bind(head_->textures.normal_roughness_metal(), TextureUnit::kNormalMap);
+  Bind(head_->textures.emission_openness(), TextureUnit::kEmissiveMap);
 }
 
 void Materials::UseHair(float streaks, float shine) {

@@ -3,10 +3,11 @@
 #include <optional>
 
 #include "fsm/render/eye_material.h"
-#include "fsm/render/head_textures.h"
 #include "fsm/render/photo_material.h"
 
 namespace fsm {
+
+struct GpuHead;
 
 /// Selects shader program, uniforms and textures for each material; shared by all heads of a
 /// context. Destroy while its context is current.
@@ -19,9 +20,9 @@ class Materials {
   Materials& operator=(const Materials&) = delete;
 
   /// Sets the uniforms of every program for a frame. `vertices` are in the head's own frame; `head`
-  /// and `textures` belong to that head and stay in use until the next call.
-  void BeginFrame(const View& view, const HeadBuffers& head, const HeadTextures& textures,
-                  const HeadVertices& vertices, const Scene& scene);
+  /// stays in use until the next call.
+  void BeginFrame(const View& view, const GpuHead& head, const HeadVertices& vertices,
+                  const Scene& scene);
   /// Tells whether nothing of a part is visible in this frame: teeth, gums and tongue behind closed
   /// lips.
   bool IsHidden(const DrawnPart& drawn) const;
@@ -54,10 +55,9 @@ class Materials {
   EyeMaterial eye_;
   PhotoMaterial photo_;
   GLuint shared_textures_[kTextures] = {};
-  const HeadBuffers* head_ = nullptr;  // that of the last BeginFrame
-  const HeadTextures* head_textures_ = nullptr;
-  bool creased_ = false;  // whether any skin creases in this frame
-  bool pores_ = false;    // whether pores are visible
+  const GpuHead* head_ = nullptr;  // that of the last BeginFrame
+  bool creased_ = false;           // whether any skin creases in this frame
+  bool pores_ = false;             // whether pores are visible
 };
 
 }  // namespace fsm

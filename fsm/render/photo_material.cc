@@ -8,13 +8,13 @@
 
 namespace fsm {
 
-bool PhotoMaterial::Draws(Material material, const HeadBuffers& head) {
+bool PhotoMaterial::Draws(Material material, const HeadDescription& head) {
   return material == Material::kTextured || material == Material::kShutLash ||
          (head.base_colour() && (material == Material::kSkin || material == Material::kLip));
 }
 
-void PhotoMaterial::Prepare(const HeadBuffers& head) {
-  for (const DrawnPart& drawn : head.FinestParts()) {
+void PhotoMaterial::Prepare(const HeadDescription& head, std::span<const DrawnPart> parts) {
+  for (const DrawnPart& drawn : parts) {
     auto& program = programs_[static_cast<std::size_t>(drawn.detail)];
     if (program || !Draws(drawn.part.material, head)) continue;
     const std::string constants =
@@ -34,19 +34,19 @@ void PhotoMaterial::Begin(const MaterialFrame& frame, const MouthMaterial& mouth
     program->Set("lids_shut", frame.vertices.lids_shut.InOrder());
     program->Set("base_colour", TextureUnit::kBaseColour);
     program->Set("relief", TextureUnit::kRelief);
-    program->Set("blends", HasBlendedLayers(frame.head.surface()));
+    program->Set("blends", HasBlendedLayers(*frame.head.surface));
     program->Set("brightness", frame.lamp_brightness);
     program->Set("rest_to_world", frame.rest_to_world);
-    program->Set("photo_light", frame.head.surface().portrait.light);
+    program->Set("photo_light", frame.head.surface->portrait.light);
     program->Set("lips_apart", glm::smoothstep(0.4F, 2.5F, mouth.gap_mm()));
     // The photo is darkened below the chin; without one, nothing lies below it.
     constexpr float kBelowAll = -1e4F;  // millimetres
-    program->Set("chin_y", frame.head.measures().chin_y.value_or(kBelowAll));
+    program->Set("chin_y", frame.head.measures.chin_y.value_or(kBelowAll));
     program->Set("chin_drop", mouth.jaw_drop_mm());
   }
 }
 
-void PhotoMaterial::Use(const DrawnPart& drawn, const HeadBuffers& head, bool creased) const {
+void PhotoMaterial::Use(const DrawnPart& drawn, const HeadDescription& head, bool creased) const {
   // Skin that does not crease in this frame shows the plain photo.
   const bool plain = drawn.detail == SkinDetail::kCreased && !creased && programs_[0];
   std::size_t detail = plain ? 0 : static_cast<std::size_t>(drawn.detail);
@@ -61,7 +61,7 @@ void PhotoMaterial::Use(const DrawnPart& drawn, const HeadBuffers& head, bool cr
   program.Set("lashes", drawn.part.material == Material::kShutLash);
   program.Set("cut_out", cut_out);
   program.Set("depth_offset_mm",
-              cut_out && HasBlendedLayers(head.surface()) ? kDepthOffsetMm : 0.0F);
+              cut_out && HasBlendedLayers(*head.surface) ? kDepthOffsetMm : 0.0F);
 }
 
 }  // namespace fsm

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <optional>
+#include <span>
 
+#include "fsm/render/draw_order.h"
 #include "fsm/render/mouth_material.h"
 
 namespace fsm {
@@ -16,13 +18,13 @@ class PhotoMaterial {
   PhotoMaterial(const GlFunctions& gl, const Appearance& appearance)
       : gl_(gl), appearance_(appearance) {}
   /// Tells whether it draws this material of a head.
-  static bool Draws(Material material, const HeadBuffers& head);
-  void Prepare(const HeadBuffers& head);
+  static bool Draws(Material material, const HeadDescription& head);
+  void Prepare(const HeadDescription& head, std::span<const DrawnPart> parts);
   /// The programs compiled so far, by SkinDetail.
   const std::array<std::optional<GlProgram>, 3>& programs() const { return programs_; }
   /// REQUIRES: Prepare was called for the frame's head.
   void Begin(const MaterialFrame& frame, const MouthMaterial& mouth) const;
-  void Use(const DrawnPart& drawn, const HeadBuffers& head, bool creased) const;
+  void Use(const DrawnPart& drawn, const HeadDescription& head, bool creased) const;
 
  private:
   const GlFunctions& gl_;

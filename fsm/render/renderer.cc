@@ -52,12 +52,12 @@ class GlRenderer : public Renderer {
   }
 
   void SetViewport(const Viewport& viewport) override { viewport_ = viewport; }
-  void SetFormError(float pixels) override { form_error_ = pixels; }
+  void SetFormError(float pixels) override { max_error_pixels_ = pixels; }
 
   void DrawVertices(const Head& head, const HeadVertices& vertices, const Figure& figure,
                     const Scene& scene) override {
     DrawFrame(head, figure, scene, [&vertices](GpuHead& on_gpu) -> const HeadVertices& {
-      on_gpu.buffers.Upload(vertices);
+      on_gpu.arrays.Upload(vertices);
       return vertices;
     });
   }
@@ -112,7 +112,7 @@ class GlRenderer : public Renderer {
     }
     DrawFrame(head, pane.state->figure, *pane.scene,
               [moved](GpuHead& on_gpu) -> const HeadVertices& {
-                return on_gpu.rig->Use(moved, on_gpu.buffers);
+                return on_gpu.rig->Use(moved, on_gpu.arrays);
               });
   }
 
@@ -130,11 +130,11 @@ class GlRenderer : public Renderer {
     backdrop_.Draw(behind, width, height);
     const float alpha = std::clamp(figure.alpha, 0.0F, 1.0F);
     if (figure.enabled && alpha > 0) {
-      GpuHead& on_gpu = heads_.Find(head);
+      GpuHead& on_gpu = heads_.Acquire(head);
       const HeadVertices& vertices = move(on_gpu);
       painter_.Draw(head, on_gpu, vertices,
                     ViewOfPortrait(figure, scene.camera, width, height, head.view()), scene,
-                    form_error_, *target_);
+                    max_error_pixels_, *target_);
       // The figure fades as one picture; blending each of its layers would show what is behind
       // them.
       if (alpha < 1) backdrop_.BlendOver(behind, 1 - alpha);
@@ -164,7 +164,7 @@ class GlRenderer : public Renderer {
 
   RenderContext& context_;
   Viewport viewport_;
-  float form_error_ = 0;  // pixels
+  float max_error_pixels_ = 0;
   GlFunctions gl_;
   const bool draws_on_gpu_;
   FigurePainter painter_;

@@ -8,8 +8,8 @@
 #include <span>
 
 #include "fsm/image/image.h"
+#include "fsm/render/pane.h"
 #include "fsm/render/render_context.h"
-#include "fsm/render/scene.h"
 #include "fsm/rig/face_state.h"
 #include "fsm/rig/head.h"
 
@@ -22,12 +22,6 @@ enum class RigDevice {
   kBest,  ///< the GPU if one draws and has compute shaders (OpenGL 4.3)
   kProcessor,
   kGpu  ///< even if the "GPU" is a software driver
-};
-
-/// A rectangle of the context's drawable in pixels from its upper left corner; width 0: all of it.
-struct Viewport {
-  int x = 0, y = 0;
-  int width = 0, height = 0;
 };
 
 /// Draws any number of heads one after the other, each in the current viewport, so that one window
@@ -58,14 +52,6 @@ class Renderer {
   /// (Rig::Evaluate). A GPU computes them itself (GpuRig), with the accuracy stated there.
   virtual void Draw(const Head& head, const FaceState& state,
                     std::span<const glm::vec3> spring_offsets, const Scene& scene) = 0;
-  /// One face of many; its pointers are borrowed for the call.
-  struct Pane {
-    const Head* head;
-    const FaceState* state;
-    const Scene* scene;
-    Viewport viewport = {};
-    std::span<const glm::vec3> spring_offsets = {};
-  };
   /// Draws each pane in its viewport and then calls `drawn` with its index, which may read the
   /// frame but not draw. A GPU moves consecutive faces of one head in one call. Afterwards the
   /// viewport is the previous one again.

@@ -62,17 +62,17 @@ TEST(ManyHeadsTest, FacesDrawnInOneCallLookAsOneByOne) {
   Scene scene;
   scene.background = glm::vec3(0.1F, 0.4F, 0.7F);
   // The second of the two runs of one head has fewer faces, and a head comes twice.
-  const std::vector<Renderer::Pane> panes{{plain.get(), &states[0], &scene, {0, 0, 40, 64}},
-                                          {plain.get(), &states[1], &scene, {40, 0, 40, 64}},
-                                          {plain.get(), &states[2], &scene, {}},
-                                          {photo.get(), &states[3], &scene, {0, 0, 40, 64}},
-                                          {&ball, &states[4], &scene, {0, 0, 40, 64}},
-                                          {plain.get(), &states[5], &scene, {0, 0, 40, 64}}};
+  const std::vector<Pane> panes{{plain.get(), &states[0], &scene, {0, 0, 40, 64}},
+                                {plain.get(), &states[1], &scene, {40, 0, 40, 64}},
+                                {plain.get(), &states[2], &scene, {}},
+                                {photo.get(), &states[3], &scene, {0, 0, 40, 64}},
+                                {&ball, &states[4], &scene, {0, 0, 40, 64}},
+                                {plain.get(), &states[5], &scene, {0, 0, 40, 64}}};
   for (const RigDevice rig : {RigDevice::kProcessor, RigDevice::kGpu}) {
     if (rig == RigDevice::kGpu && !RigPrograms::Supported(GlFunctions::Load(*context))) continue;
     const auto renderer = Renderer::Make(*context, 2, Appearance::BuiltIn(), rig);
     std::vector<Image> expected, drawn;
-    for (const Renderer::Pane& pane : panes) {
+    for (const Pane& pane : panes) {
       renderer->SetViewport(pane.viewport);
       renderer->Draw(*pane.head, *pane.state, pane.spring_offsets, *pane.scene);
       renderer->Read(expected.emplace_back());

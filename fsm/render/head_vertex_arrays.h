@@ -4,28 +4,26 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <map>
-#include <memory>
 #include <vector>
 
 #include "fsm/render/draw_order.h"
 #include "fsm/render/gl_functions.h"
-#include "fsm/render/head_measures.h"
-#include "fsm/render/skin_creases.h"
-#include "fsm/render/skin_painting.h"
+#include "fsm/render/head_description.h"
 #include "fsm/render/vertex_attributes.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
 
-/// One head on the GL side: constant data is uploaded on construction, vertices every frame.
-/// Destroy while its context is current.
-class HeadBuffers {
+/// The vertices and triangles of one head in GL: constant data is uploaded on construction,
+/// positions and normals every frame. Destroy while its context is current.
+class HeadVertexArrays {
  public:
-  /// `gl` and `appearance` must outlive it.
-  HeadBuffers(const GlFunctions& gl, const Head& head, const Appearance& appearance);
-  ~HeadBuffers();
-  HeadBuffers(const HeadBuffers&) = delete;
-  HeadBuffers& operator=(const HeadBuffers&) = delete;
+  /// `rest`: the head's vertices at rest. `gl` and `description` must outlive it.
+  HeadVertexArrays(const GlFunctions& gl, const HeadDescription& description,
+                   const HeadVertices& rest);
+  ~HeadVertexArrays();
+  HeadVertexArrays(const HeadVertexArrays&) = delete;
+  HeadVertexArrays& operator=(const HeadVertexArrays&) = delete;
 
   /// Uploads these vertices of the head and binds its vertex array.
   void Upload(const HeadVertices& vertices);
@@ -34,16 +32,10 @@ class HeadBuffers {
   void Use(GLuint positions, GLuint normals, std::size_t from = 0);
   /// Returns the head's parts in drawing order, best occluders first. `error_mm`: the largest error
   /// that simplification may cause (CoarseTriangles); a level for each factor of sqrt(2) is made on
-  /// first use and kept. `head` is that of the constructor.
+  /// first use and kept. `head` is the one described.
   const std::vector<DrawnPart>& PartsWithin(const Head& head, float error_mm);
   /// Returns the parts with all triangles.
   const std::vector<DrawnPart>& FinestParts() const { return finest_; }
-  const HeadMeasures& measures() const { return measures_; }
-  /// The detail of this head's skin; there is none if the head lacks landmarks of its features.
-  SkinPainting& skin() { return skin_; }
-  const HeadSurface& surface() const { return *surface_; }
-  /// TextureMaps::image; null if the skin is painted.
-  const Image* base_colour() const { return surface_->textures.base_colour.get(); }
 
  private:
   /// The buffers that the vertex array points to, and the byte at which the head begins in them.
@@ -58,7 +50,7 @@ class HeadBuffers {
   std::vector<DrawnPart> AddParts(const HeadTriangles& triangles, std::span<const glm::vec3> rest);
 
   const GlFunctions& gl_;
-  const std::shared_ptr<const HeadSurface> surface_;
+  const HeadDescription& description_;
   GLuint array_ = 0;
   std::array<GLuint, VertexAttribute::kCount> buffers_{};
   GLuint index_buffer_ = 0;
@@ -66,10 +58,7 @@ class HeadBuffers {
   std::vector<DrawnPart> finest_;                 // with all triangles
   std::map<int, std::vector<DrawnPart>> levels_;  // coarser; key k means an error of 2^(k / 2) mm
   std::vector<std::uint32_t> indices_;            // of all these parts
-  CreaseWeights creases_;
-  std::vector<SkinDetail> skin_detail_;  // by vertex
-  HeadMeasures measures_;
-  SkinPainting skin_;
+  std::vector<SkinDetail> skin_detail_;           // by vertex
 };
 
 }  // namespace fsm

@@ -1,4 +1,4 @@
-#include "fsm/render/head_buffers.h"
+#include "fsm/render/head_vertex_arrays.h"
 
 #include <array>
 #include <cassert>
@@ -79,33 +79,27 @@ std::vector<SkinDetail> SkinDetailOf(const PaintAttributes& paint, const DetailA
 
 }  // namespace
 
-HeadBuffers::HeadBuffers(const GlFunctions& gl, const Head& head, const Appearance& appearance)
-    : gl_(gl), surface_(head.shared_surface()) {
-  HeadVertices rest;
-  head.Evaluate(FaceState{}, rest);
-  assert(surface().openness.size() == surface().albedo.size());
-  assert(rest.position.size() == surface().albedo.size());
-  const auto landmarks = FaceLandmarks::Of(head);
-  if (landmarks && surface().uv.size() == rest.position.size()) {
-    creases_ = WeighCreases(rest, *landmarks, appearance);
-    skin_ = SkinPainting(surface_, rest, *landmarks, appearance);
-  }
+HeadVertexArrays::HeadVertexArrays(const GlFunctions& gl, const HeadDescription& description,
+                                   const HeadVertices& rest)
+    : gl_(gl), description_(description) {
+  const HeadSurface& surface = *description_.surface;
+  assert(surface.openness.size() == surface.albedo.size());
+  assert(rest.position.size() == surface.albedo.size());
   UploadAttributes(rest);
   gl_.GenBuffers(1, &index_buffer_);
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_);
-  finest_ = AddParts({surface().parts, surface().indices}, rest.position);
-  measures_ = HeadMeasures(head, rest, landmarks);
+  finest_ = AddParts({surface.parts, surface.indices}, rest.position);
 }
 
-HeadBuffers::~HeadBuffers() {
+HeadVertexArrays::~HeadVertexArrays() {
   gl_.DeleteVertexArrays(1, &array_);
   gl_.DeleteBuffers(VertexAttribute::kCount, buffers_.data());
   gl_.DeleteBuffers(1, &index_buffer_);
 }
 
-void HeadBuffers::Upload(const HeadVertices& vertices) {
+void HeadVertexArrays::Upload(const HeadVertices& vertices) {
   gl_.BindVertexArray(array_);
-  assert(vertices.position.size() == surface().albedo.size());
+  assert(vertices.position.size() == description_.surface->albedo.size());
   assert(vertices.normal.size() == vertices.position.size());
   const GLuint positions = buffers_[VertexAttribute::kPosition];
   const GLuint normals = buffers_[VertexAttribute::kNormal];
@@ -117,7 +111,7 @@ void HeadBuffers::Upload(const HeadVertices& vertices) {
   Use(positions, normals);
 }
 
-void HeadBuffers::Use(GLuint positions, GLuint normals, std::size_t from) {
+void HeadVertexArrays::Use(GLuint positions, GLuint normals, std::size_t from) {
   gl_.BindVertexArray(array_);
   const UsedBuffers wanted{positions, normals, from};
   if (std::exchange(used_, wanted) == wanted) return;
@@ -130,7 +124,7 @@ void HeadBuffers::Use(GLuint positions, GLuint normals, std::size_t from) {
   point(VertexAttribute::kNormal, normals);
 }
 
-void HeadBuffers::UploadAttributes(const HeadVertices& rest) {
+void HeadVertexArrays::UploadAttributes(const HeadVertices& rest) {
   gl_.GenVertexArrays(1, &array_);
   gl_.GenBuffers(VertexAttribute::kCount, buffers_.data());
   gl_.BindVertexArray(array_);
@@ -144,11 +138,12 @@ void HeadBuffers::UploadAttributes(const HeadVertices& rest) {
     gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size() * sizeof(items[0])),
                    items.data(), GL_STATIC_DRAW);
   };
-  const DetailAttributes detail = DetailOf(surface(), creases_, rest.position.size());
-  const PaintAttributes paint = PaintOf(surface());
+  const HeadSurface& surface = *description_.surface;
+  const DetailAttributes detail = DetailOf(surface, description_.creases, rest.position.size());
+  const PaintAttributes paint = PaintOf(surface);
   std::vector<glm::vec3> relit_normal = rest.normal;
   for (std::size_t i = 0; i < relit_normal.size(); ++i) {
-    relit_normal[i] *= i < surface().portrait.relit.size() ? surface().portrait.relit[i] : 0.0F;
+    relit_normal[i] *= i < surface.portrait.relit.size() ? surface.portrait.relit[i] : 0.0F;
   }
   upload(VertexAttribute::kRestPosition, rest.position);
   upload(VertexAttribute::kAlbedoOpenness, paint.colour);
@@ -163,9 +158,9 @@ void HeadBuffers::UploadAttributes(const HeadVertices& rest) {
   skin_detail_ = SkinDetailOf(paint, detail);
 }
 
-std::vector<DrawnPart> HeadBuffers::AddParts(const HeadTriangles& triangles,
-                                             std::span<const glm::vec3> rest) {
-  DrawOrder order = OrderToDraw(surface(), triangles, rest, skin_detail_);
+std::vector<DrawnPart> HeadVertexArrays::AddParts(const HeadTriangles& triangles,
+                                                  std::span<const glm::vec3> rest) {
+  DrawOrder order = OrderToDraw(*description_.surface, triangles, rest, skin_detail_);
   for (DrawnPart& drawn : order.parts) {
     drawn.part.first_index += static_cast<std::uint32_t>(indices_.size());
   }
@@ -177,7 +172,7 @@ std::vector<DrawnPart> HeadBuffers::AddParts(const HeadTriangles& triangles,
   return std::move(order.parts);
 }
 
-const std::vector<DrawnPart>& HeadBuffers::PartsWithin(const Head& head, float error_mm) {
+const std::vector<DrawnPart>& HeadVertexArrays::PartsWithin(const Head& head, float error_mm) {
   // Below kFirst nothing is removed; above kLast skin shows through short hair.
   constexpr int kFirst = -6, kLast = -1;
   const auto error_of = [](int level) { return std::exp2(0.5F * static_cast<float>(level)); };
@@ -186,8 +181,8 @@ const std::vector<DrawnPart>& HeadBuffers::PartsWithin(const Head& head, float e
   while (level < kLast && error_of(level + 1) <= error_mm) ++level;
   const auto [found, missing] = levels_.try_emplace(level);
   if (missing) {
-    found->second =
-        AddParts(CoarseTriangles(head, creases_, error_of(level)), head.rig().data().rest);
+    found->second = AddParts(CoarseTriangles(head, description_.creases, error_of(level)),
+                             head.rig().data().rest);
   }
   return found->second;
 }
